@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# make            build/softworld (host program) and build/softworld/core.so
+# make spec       all tests            make lint     house rules and checkers
+# make asan       all tests under AddressSanitizer and UBSan
+# make bench      speed and accuracy   make chart    draw them
+# make stability  largest stable steps make examples run every example
+# make install PREFIX=/usr/local
+PREFIX = /usr/local
+BUILD = build
+CC = gcc
+PKG = lua5.4 gsl ccd assimp
+
+# Value-safe speed only: no -ffast-math, NaN checks and reproducible bits need IEEE rules.
+OPT = -O3 -fno-math-errno -fno-trapping-math -ffp-contract=fast
+WARN = -Wall -Wextra -Wshadow -Wmissing-prototypes -Wstrict-prototypes -Wdouble-promotion \
+  -Wpointer-arith -Wwrite-strings -Wvla
+CPPFLAGS = -Icsrc -D_GNU_SOURCE $(shell pkg-config --cflags $(PKG))
+CFLAGS = -std=c11 -g $(OPT) $(WARN) $(SAN) -fPIC
+LIBS = $(shell pkg-config --libs gsl ccd assimp) -lqhull_r -lm
+LUALIB = $(shell pkg-config --libs lua5.4)
+
+SRC = $(filter-out $(wildcard csrc/host/*.c),$(wildcard csrc/*/*.c))
+HOST = $(wildcard csrc/host/*.c)
+OBJ = $(SRC:csrc/%.c=$(BUILD)/obj/%.o)
+HOSTOBJ = $(HOST:csrc/%.c=$(BUILD)/obj/%.o)
+
+all: $(BUILD)/softworld $(BUILD)/lib/softworld/core.so
+
+$(BUILD)/softworld: $(OBJ) $(HOSTOBJ)
+	$(CC) $(SAN) -Wl,-E -o $@ $^ $(LIBS) $(LUALIB) -lreadline
+
+$(BUILD)/lib/softworld/core.so: $(OBJ)
+	@mkdir -p $(@D)
+	$(CC) $(SAN) -shared -o $@ $^ $(LIBS)
+
+$(BUILD)/obj/%.o: csrc/%.c Makefile
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
+
+-include $(OBJ:.o=.d) $(HOSTOBJ:.o=.d)
+
+clean:
+	rm -rf $(BUILD)
+
+.PHONY: all clean

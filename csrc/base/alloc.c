@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/alloc.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ALIGNMENT = 64 }; /* one cache line and the widest vector [B] */
+
+/* Stored in the line before the block, so that sw_free knows its size. */
+typedef struct header {
+  size_t bytes; /* of the user's part [B] */
+} header;
+
+static long fail_countdown;
+static size_t live_bytes;
+static size_t requests;
+
+void sw_alloc_fail_at(long n) { fail_countdown = n > 0 ? n : 0; }
+size_t sw_alloc_live(void) { return live_bytes; }
+size_t sw_alloc_count(void) { return requests; }
+
+void *sw_alloc(size_t count, size_t size) {
+  requests++;
+  if (fail_countdown > 0 && --fail_countdown == 0) return NULL;
+  if (size != 0 && count > (SIZE_MAX / 2) / size) return NULL;
+  const size_t bytes = count * size;
+  const size_t total = ALIGNMENT + (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+  char *raw = aligned_alloc(ALIGNMENT, total);
+  if (!raw) return NULL;
+  memset(raw, 0, total);
+  ((header *)(void *)raw)->bytes = bytes;
+  live_bytes += bytes;
+  return raw + ALIGNMENT;
+}
+
+void sw_free(void *p) {
+  if (!p) return;
+  char *raw = (char *)p - ALIGNMENT;
+  live_bytes -= ((header *)(void *)raw)->bytes;
+  free(raw);
+}
+
+sw_status sw_grow(void **p, size_t *capacity, size_t need, size_t size) {
+  if (need <= *capacity) return SW_OK;
+  size_t wanted = *capacity ? *capacity : 8;
+  while (wanted < need) {
+    if (wanted > SIZE_MAX / 4) return SW_ENOMEM;
+    wanted *= 2;
+  }
+  void *bigger = sw_alloc(wanted, size);
+  if (!bigger) return SW_ENOMEM;
+  if (*p) memcpy(bigger, *p, *capacity * size);
+  sw_free(*p);
+  *p = bigger;
+  *capacity = wanted;
+  return SW_OK;
+}

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The core's allocator: zeroed, overflow-checked, counted, and able to fail
+ * the n-th request so that specs can walk every out-of-memory path. */
+#ifndef SW_BASE_ALLOC_H
+#define SW_BASE_ALLOC_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+
+/* count * size zeroed bytes, 64-byte aligned; NULL when memory runs out, when
+ * the product overflows or when this is the request chosen to fail. A request
+ * of 0 bytes gives a pointer that may be freed. Free with sw_free. */
+void *sw_alloc(size_t count, size_t size);
+
+/* NULL is allowed. */
+void sw_free(void *p);
+
+/* Grow *p (count *capacity of size) so that it holds at least need items,
+ * doubling; old content is kept, new content is zero. SW_ENOMEM leaves both
+ * untouched. */
+sw_status sw_grow(void **p, size_t *capacity, size_t need, size_t size);
+
+/* Fail the n-th request from now (1 = the next one); 0 switches this off. */
+void sw_alloc_fail_at(long n);
+
+size_t sw_alloc_live(void);  /* bytes in use [B] */
+size_t sw_alloc_count(void); /* requests made since start [-] */
+
+#endif

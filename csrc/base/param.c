@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/param.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/vec.h"
+
+void sw_param_store(const sw_param *row, void *args, double value) {
+  char *place = (char *)args + row->offset;
+  switch (row->type) {
+    case SW_PARAM_NUMBER: memcpy(place, &value, sizeof value); break;
+    case SW_PARAM_INTEGER: {
+      const long whole = isfinite(value) ? (long)value : 0;
+      memcpy(place, &whole, sizeof whole);
+      break;
+    }
+    case SW_PARAM_BOOLEAN:
+    case SW_PARAM_CHOICE: {
+      const int whole = isfinite(value) ? (int)value : 0;
+      memcpy(place, &whole, sizeof whole);
+      break;
+    }
+    case SW_PARAM_TEXT: place[0] = '\0'; break;
+    case SW_PARAM_VECTOR: {
+      const sw_vec all = {value, value, value};
+      memcpy(place, &all, sizeof all);
+      break;
+    }
+    case SW_PARAM_ROTATION: {
+      const sw_quat none = sw_quat_identity();
+      memcpy(place, &none, sizeof none);
+      break;
+    }
+    case SW_PARAM_OTHER: break;
+  }
+}
+
+void sw_params_default(const sw_params *params, void *args) {
+  for (size_t i = 0; i < params->count; i++)
+    sw_param_store(&params->rows[i], args, params->rows[i].def);
+}
+
+const sw_param *sw_params_find(const sw_params *params, const char *name) {
+  for (size_t i = 0; i < params->count; i++)
+    if (strcmp(params->rows[i].name, name) == 0) return &params->rows[i];
+  return NULL;
+}
+
+void sw_param_range_text(const sw_param *row, char *buffer, size_t n) {
+  const char *unit = strcmp(row->unit, "-") == 0 ? "" : row->unit;
+  const char *space = *unit ? " " : "";
+  const int low = isfinite(row->min), high = isfinite(row->max);
+  const char *open = (row->flags & SW_PARAM_ABOVE_MIN) ? "(" : "[";
+  const char *close = (row->flags & SW_PARAM_BELOW_MAX) ? ")" : "]";
+  if (low && high)
+    snprintf(buffer, n, "in %s%g, %g%s%s%s", open, row->min, row->max, close, space, unit);
+  else if (low)
+    snprintf(buffer, n, "%s %g%s%s", *open == '(' ? "above" : "at least", row->min, space, unit);
+  else if (high)
+    snprintf(buffer, n, "%s %g%s%s", *close == ')' ? "below" : "at most", row->max, space, unit);
+  else
+    snprintf(buffer, n, "a finite number%s%s", *unit ? " of " : "", unit);
+}
+
+sw_status sw_param_check(const char *object, const sw_param *row, double value, sw_error *err) {
+  char range[96];
+  const char *unit = strcmp(row->unit, "-") == 0 ? "" : row->unit;
+  int fine = isfinite(value) && value >= row->min && value <= row->max;
+  if ((row->flags & SW_PARAM_ABOVE_MIN) && !(value > row->min)) fine = 0;
+  if ((row->flags & SW_PARAM_BELOW_MAX) && !(value < row->max)) fine = 0;
+  if (fine && row->type == SW_PARAM_INTEGER && value != floor(value))
+    return sw_fail(err, SW_EINVAL, "%s: %s = %.6g must be a whole number", object, row->name,
+                   value);
+  if (fine) return SW_OK;
+  sw_param_range_text(row, range, sizeof range);
+  return sw_fail(err, SW_EINVAL, "%s: %s = %.6g%s%s is not allowed; it must be %s", object,
+                 row->name, value, *unit ? " " : "", unit, range);
+}
+
+enum { LONGEST_WORD = 32 }; /* longer names are not compared [B] */
+
+/* Optimal string alignment distance (insert, delete, replace, swap), without
+ * regard to case. */
+static int edit_distance(const char *a, const char *b) {
+  const int n = (int)strlen(a), m = (int)strlen(b);
+  int d[LONGEST_WORD + 1][LONGEST_WORD + 1];
+  if (n > LONGEST_WORD || m > LONGEST_WORD) return LONGEST_WORD;
+  for (int i = 0; i <= n; i++) d[i][0] = i;
+  for (int j = 0; j <= m; j++) d[0][j] = j;
+  for (int i = 1; i <= n; i++)
+    for (int j = 1; j <= m; j++) {
+      const int x = tolower((unsigned char)a[i - 1]), y = tolower((unsigned char)b[j - 1]);
+      int best = d[i - 1][j - 1] + (x != y);
+      if (d[i - 1][j] + 1 < best) best = d[i - 1][j] + 1;
+      if (d[i][j - 1] + 1 < best) best = d[i][j - 1] + 1;
+      if (i > 1 && j > 1 && x == tolower((unsigned char)b[j - 2]) &&
+          tolower((unsigned char)a[i - 2]) == y && d[i - 2][j - 2] + 1 < best)
+        best = d[i - 2][j - 2] + 1;
+      d[i][j] = best;
+    }
+  return d[n][m];
+}
+
+const char *sw_nearest_name(const char *word, const char *const *names, size_t stride,
+                            size_t count) {
+  const char *nearest = NULL;
+  const int length = (int)strlen(word);
+  int limit = length <= 3 ? 1 : length <= 6 ? 2 : length / 3; /* further is no typo */
+  for (size_t i = 0; i < count; i++) {
+    const char *name = *(const char *const *)(const void *)((const char *)names + i * stride);
+    const int distance = edit_distance(word, name);
+    if (distance <= limit) nearest = name, limit = distance - 1;
+  }
+  return nearest;
+}

@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parameter rows: one table per kind of object says name, type, unit, default,
+ * range and meaning of everything that can be given to it. Construction,
+ * checks, get/set, help(), the reference pages and tuning bounds all read the
+ * same rows. */
+#ifndef SW_BASE_PARAM_H
+#define SW_BASE_PARAM_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+
+enum { SW_NAME_SIZE = 64 }; /* longest user-given name, with its end [B] */
+
+/* What the row's place in the argument struct holds. */
+typedef enum sw_param_type {
+  SW_PARAM_NUMBER,   /* double */
+  SW_PARAM_INTEGER,  /* long */
+  SW_PARAM_BOOLEAN,  /* int */
+  SW_PARAM_CHOICE,   /* int, the index into choices */
+  SW_PARAM_TEXT,     /* char[SW_NAME_SIZE] */
+  SW_PARAM_VECTOR,   /* sw_vec */
+  SW_PARAM_ROTATION, /* sw_quat; in Lua { axis = {x,y,z}, angle = rad } or {w,x,y,z} */
+  SW_PARAM_OTHER     /* known name, read by the binding itself; nothing stored */
+} sw_param_type;
+
+enum {
+  SW_PARAM_REQUIRED = 1, /* must be given */
+  SW_PARAM_ABOVE_MIN = 2, /* min itself is not allowed */
+  SW_PARAM_BELOW_MAX = 4  /* max itself is not allowed */
+};
+
+typedef struct sw_param {
+  const char *name;
+  sw_param_type type;
+  const char *unit; /* "m", "N m2", ...; "-" when it has none; never NULL */
+  double def;       /* default; NAN = none (reads as NAN, or as all-NAN vector) */
+  double min, max;  /* allowed range, each component of a vector [unit] */
+  unsigned flags;
+  const char *const *choices; /* NULL-terminated names of a choice, else NULL */
+  size_t offset;              /* of the value in the argument struct [B] */
+  const char *doc;            /* one sentence without a full stop; never NULL */
+} sw_param;
+
+/* A table of rows and the object it builds ("obstacle box"). */
+typedef struct sw_params {
+  const char *object;
+  const sw_param *rows;
+  size_t count;
+} sw_params;
+
+#define SW_PARAMS(object_name, table) \
+  { object_name, table, sizeof(table) / sizeof((table)[0]) }
+
+/* Write every row's default into args. */
+void sw_params_default(const sw_params *params, void *args);
+
+/* The row called name, or NULL. */
+const sw_param *sw_params_find(const sw_params *params, const char *name);
+
+/* Check one number against the row: finite, whole where it must be, in range.
+ * SW_EINVAL with a text that names object, parameter, value, unit and range. */
+sw_status sw_param_check(const char *object, const sw_param *row, double value, sw_error *err);
+
+/* Store a checked number (NUMBER, INTEGER, BOOLEAN, CHOICE rows). */
+void sw_param_store(const sw_param *row, void *args, double value);
+
+/* "in (0, 1] m" for messages, into a buffer of size n. */
+void sw_param_range_text(const sw_param *row, char *buffer, size_t n);
+
+/* The candidate (of count names, each found at names + i * stride) nearest to
+ * word by edit distance, or NULL when none is near enough to be a typo. */
+const char *sw_nearest_name(const char *word, const char *const *names, size_t stride, size_t count);
+
+#endif

@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Argument tables read by parameter rows. */
+#include <string.h>
+
+#include "bind/class.h"
+
+static int unknown_key(lua_State *L, const char *object, const lsw_section *sections, int count,
+                       const char *key) {
+  for (int k = 0; k < count; k++) {
+    const sw_params *params = sections[k].params;
+    const char *near =
+        sw_nearest_name(key, &params->rows[0].name, sizeof params->rows[0], params->count);
+    if (near)
+      return luaL_error(L, "%s: there is no parameter '%s'; did you mean '%s'?", object, key,
+                        near);
+  }
+  luaL_Buffer b;
+  luaL_buffinit(L, &b);
+  for (int k = 0; k < count; k++)
+    for (size_t i = 0; i < sections[k].params->count; i++) {
+      luaL_addstring(&b, sections[k].params->rows[i].name);
+      luaL_addchar(&b, ' ');
+    }
+  luaL_pushresult(&b);
+  return luaL_error(L, "%s: there is no parameter '%s'; known are: %s", object, key,
+                    lua_tostring(L, -1));
+}
+
+static int read_choice(lua_State *L, const char *object, const sw_param *row) {
+  size_t count = 0;
+  while (row->choices[count]) count++;
+  const char *word = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
+  for (size_t i = 0; word && i < count; i++)
+    if (strcmp(word, row->choices[i]) == 0) return (int)i;
+  luaL_Buffer b;
+  const char *shown = word ? lua_pushfstring(L, "'%s'", word) : luaL_typename(L, -1);
+  const char *near = word ? sw_nearest_name(word, row->choices, sizeof row->choices[0], count) : NULL;
+  const char *hint = near ? lua_pushfstring(L, "; did you mean '%s'?", near) : "";
+  luaL_buffinit(L, &b);
+  for (size_t i = 0; i < count; i++) {
+    if (i) luaL_addstring(&b, ", ");
+    luaL_addstring(&b, row->choices[i]);
+  }
+  luaL_pushresult(&b);
+  return luaL_error(L, "%s: %s = %s is not one of: %s%s", object, row->name, shown,
+                    lua_tostring(L, -1), hint);
+}
+
+static void read_text(lua_State *L, const char *object, const sw_param *row, char *place) {
+  size_t length = 0;
+  if (lua_type(L, -1) != LUA_TSTRING)
+    luaL_error(L, "%s: %s must be a string, got %s", object, row->name, luaL_typename(L, -1));
+  const char *text = lua_tolstring(L, -1, &length);
+  if (length >= SW_NAME_SIZE || strlen(text) != length)
+    luaL_error(L, "%s: %s is too long; at most %d bytes without zeros", object, row->name,
+               SW_NAME_SIZE - 1);
+  memcpy(place, text, length + 1);
+}
+
+static void read_vector(lua_State *L, const char *object, const sw_param *row, char *place) {
+  sw_error err;
+  const sw_vec a = lsw_vector(L, -1, lua_pushfstring(L, "%s: %s", object, row->name), row->unit);
+  lua_pop(L, 1);
+  const double parts[3] = {a.x, a.y, a.z};
+  for (int i = 0; i < 3; i++)
+    if (sw_param_check(object, row, parts[i], &err) != SW_OK) luaL_error(L, "%s", err.text);
+  memcpy(place, &a, sizeof a);
+}
+
+/* The value is on top of the stack; leaves the stack as it was. */
+static void read_value(lua_State *L, const char *object, const sw_param *row, void *args) {
+  sw_error err;
+  char *place = (char *)args + row->offset;
+  switch (row->type) {
+    case SW_PARAM_NUMBER:
+    case SW_PARAM_INTEGER: {
+      if (lua_type(L, -1) != LUA_TNUMBER)
+        luaL_error(L, "%s: %s must be a number [%s], got %s", object, row->name, row->unit,
+                   luaL_typename(L, -1));
+      const double value = lua_tonumber(L, -1);
+      if (sw_param_check(object, row, value, &err) != SW_OK) luaL_error(L, "%s", err.text);
+      sw_param_store(row, args, value);
+      break;
+    }
+    case SW_PARAM_BOOLEAN:
+      if (!lua_isboolean(L, -1))
+        luaL_error(L, "%s: %s must be true or false, got %s", object, row->name,
+                   luaL_typename(L, -1));
+      sw_param_store(row, args, lua_toboolean(L, -1));
+      break;
+    case SW_PARAM_CHOICE: sw_param_store(row, args, read_choice(L, object, row)); break;
+    case SW_PARAM_TEXT: read_text(L, object, row, place); break;
+    case SW_PARAM_VECTOR: read_vector(L, object, row, place); break;
+    case SW_PARAM_ROTATION: {
+      const sw_quat q = lsw_rotation(L, -1, lua_pushfstring(L, "%s: %s", object, row->name));
+      lua_pop(L, 1);
+      memcpy(place, &q, sizeof q);
+      break;
+    }
+    case SW_PARAM_OTHER: break;
+  }
+}
+
+static void read_key(lua_State *L, const char *object, const lsw_section *sections, int count) {
+  const int top = lua_gettop(L);
+  if (lua_type(L, -2) != LUA_TSTRING) {
+    const char *shown = luaL_tolstring(L, -2, NULL);
+    luaL_error(L, "%s: parameters have names; [%s] is not one", object, shown);
+  }
+  const char *key = lua_tostring(L, -2);
+  for (int k = 0; k < count; k++) {
+    const sw_param *row = sw_params_find(sections[k].params, key);
+    if (!row) continue;
+    read_value(L, object, row, sections[k].args);
+    lua_settop(L, top);
+    return;
+  }
+  unknown_key(L, object, sections, count, key);
+}
+
+static void require_keys(lua_State *L, int index, const char *object, const sw_params *params) {
+  for (size_t i = 0; i < params->count; i++) {
+    const sw_param *row = &params->rows[i];
+    if (!(row->flags & SW_PARAM_REQUIRED)) continue;
+    if (index == 0 || lua_getfield(L, index, row->name) == LUA_TNIL)
+      luaL_error(L, "%s: %s is required [%s]: %s", object, row->name, row->unit, row->doc);
+    lua_pop(L, 1);
+  }
+}
+
+void lsw_sections(lua_State *L, int index, const char *object, const lsw_section *sections,
+                  int count) {
+  for (int k = 0; k < count; k++) sw_params_default(sections[k].params, sections[k].args);
+  const int given = !lua_isnoneornil(L, index);
+  index = given ? lua_absindex(L, index) : 0;
+  if (given && !lua_istable(L, index))
+    luaL_error(L, "%s takes one table of parameters, got %s", object, luaL_typename(L, index));
+  if (given) {
+    lua_pushnil(L);
+    while (lua_next(L, index)) {
+      read_key(L, object, sections, count);
+      lua_pop(L, 1);
+    }
+  }
+  for (int k = 0; k < count; k++) require_keys(L, index, object, sections[k].params);
+}
+
+void lsw_arguments(lua_State *L, int index, const char *object, const sw_params *params,
+                   void *args) {
+  const lsw_section one = {params, args};
+  lsw_sections(L, index, object, &one, 1);
+}
+
+static const char *const type_names[] = {"number", "integer", "boolean",  "choice",
+                                         "text",   "vector",  "rotation", "other"};
+
+void lsw_push_params(lua_State *L, const sw_params *params) {
+  lua_createtable(L, (int)params->count, 0);
+  for (size_t i = 0; i < params->count; i++) {
+    const sw_param *row = &params->rows[i];
+    lua_createtable(L, 0, 8);
+    lua_pushstring(L, row->name), lua_setfield(L, -2, "name");
+    lua_pushstring(L, type_names[row->type]), lua_setfield(L, -2, "type");
+    lua_pushstring(L, row->unit), lua_setfield(L, -2, "unit");
+    lua_pushstring(L, row->doc), lua_setfield(L, -2, "doc");
+    lua_pushboolean(L, (row->flags & SW_PARAM_REQUIRED) != 0), lua_setfield(L, -2, "required");
+    if (!isnan(row->def)) lua_pushnumber(L, row->def), lua_setfield(L, -2, "default");
+    if (isfinite(row->min)) lua_pushnumber(L, row->min), lua_setfield(L, -2, "min");
+    if (isfinite(row->max)) lua_pushnumber(L, row->max), lua_setfield(L, -2, "max");
+    if (row->choices) {
+      lua_newtable(L);
+      for (int k = 0; row->choices[k]; k++)
+        lua_pushstring(L, row->choices[k]), lua_rawseti(L, -2, k + 1);
+      lua_setfield(L, -2, "choices");
+    }
+    lua_rawseti(L, -2, (int)i + 1);
+  }
+}

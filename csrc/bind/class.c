@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "bind/class.h"
+
+#include <string.h>
+
+#define X(name) extern const lsw_class lsw_class_##name;
+#include "bind/classes.def"
+#undef X
+
+static const lsw_class *const classes[] = {
+#define X(name) &lsw_class_##name,
+#include "bind/classes.def"
+#undef X
+};
+
+void *lsw_new(lua_State *L, const lsw_class *c, int user_values) {
+  lsw_handle *h = lua_newuserdatauv(L, c->size, user_values);
+  memset(h, 0, c->size);
+  lua_rawgetp(L, LUA_REGISTRYINDEX, c);
+  lua_setmetatable(L, -2);
+  return h;
+}
+
+void *lsw_test(lua_State *L, int index, const lsw_class *c) {
+  void *h = lua_touserdata(L, index);
+  if (!h || !lua_getmetatable(L, index)) return NULL;
+  lua_rawgetp(L, LUA_REGISTRYINDEX, c);
+  const int same = lua_rawequal(L, -1, -2);
+  lua_pop(L, 2);
+  return same ? h : NULL;
+}
+
+/* "number 3", "scene", "table": what a wrong argument was, for messages. */
+static const char *describe(lua_State *L, int index) {
+  const int type = lua_type(L, index);
+  if (type == LUA_TNUMBER || type == LUA_TBOOLEAN)
+    return lua_pushfstring(L, "%s %s", luaL_typename(L, index), luaL_tolstring(L, index, NULL));
+  if (type == LUA_TUSERDATA && luaL_getmetafield(L, index, "__name") == LUA_TSTRING)
+    return lua_tostring(L, -1);
+  if (type == LUA_TNONE) return "nothing";
+  return luaL_typename(L, index);
+}
+
+void *lsw_check(lua_State *L, int index, const lsw_class *c) {
+  lsw_handle *h = lsw_test(L, index, c);
+  if (!h) {
+    luaL_argerror(L, index,
+                  lua_pushfstring(L, "%s expected, got %s", c->name, describe(L, index)));
+    return NULL;
+  }
+  if (!h->object) luaL_error(L, "%s", c->gone);
+  return h;
+}
+
+/* --- life cycle ----------------------------------------------------------- */
+
+static const lsw_class *class_of(lua_State *L) {
+  return lua_touserdata(L, lua_upvalueindex(1));
+}
+
+static int meta_gc(lua_State *L) {
+  const lsw_class *c = class_of(L);
+  lsw_handle *h = lsw_test(L, 1, c);
+  if (h && h->object) {
+    c->close(h);
+    h->object = NULL;
+  }
+  return 0;
+}
+
+static int meta_tostring(lua_State *L) {
+  const lsw_class *c = class_of(L);
+  lsw_handle *h = lsw_test(L, 1, c);
+  if (h && h->object) {
+    luaL_getmetafield(L, 1, "__describe");
+    if (lua_isfunction(L, -1)) {
+      lua_pushvalue(L, 1);
+      lua_call(L, 1, 1);
+      return 1;
+    }
+    lua_pushfstring(L, "%s: %p", c->name, h->object);
+  } else {
+    lua_pushfstring(L, "%s (closed)", c->name);
+  }
+  return 1;
+}
+
+static int meta_eq(lua_State *L) {
+  const lsw_class *c = class_of(L);
+  lsw_handle *a = lsw_test(L, 1, c), *b = lsw_test(L, 2, c);
+  lua_pushboolean(L, a && b && (a == b || (a->object && a->object == b->object)));
+  return 1;
+}
+
+static void open_class(lua_State *L, const lsw_class *c) {
+  const struct {
+    const char *name;
+    lua_CFunction function;
+  } life[] = {{"__gc", meta_gc},
+              {"__close", meta_gc},
+              {"__tostring", meta_tostring},
+              {"__eq", meta_eq}};
+  lua_newtable(L);
+  for (size_t i = 0; i < sizeof life / sizeof life[0]; i++) {
+    lua_pushlightuserdata(L, (void *)c);
+    lua_pushcclosure(L, life[i].function, 1);
+    lua_setfield(L, -2, life[i].name);
+  }
+  lua_pushstring(L, c->name);
+  lua_setfield(L, -2, "__name");
+  lua_newtable(L);
+  luaL_setfuncs(L, c->methods, 0);
+  lua_pushlightuserdata(L, (void *)c);
+  lua_pushcclosure(L, meta_gc, 1);
+  lua_setfield(L, -2, "close");
+  lua_pushvalue(L, -1);
+  lua_setfield(L, -3, "__index");
+  lua_insert(L, -2);
+  if (c->meta) luaL_setfuncs(L, c->meta, 0);
+  lua_rawsetp(L, LUA_REGISTRYINDEX, c);
+}
+
+void lsw_open_classes(lua_State *L) {
+  lua_newtable(L);
+  for (size_t i = 0; i < sizeof classes / sizeof classes[0]; i++) {
+    open_class(L, classes[i]);
+    lua_setfield(L, -2, classes[i]->name);
+  }
+}
+
+int lsw_raise(lua_State *L, sw_status status, const sw_error *err) {
+  return luaL_error(L, "%s", err && err->text[0] ? err->text : sw_status_text(status));
+}
+
+/* --- values --------------------------------------------------------------- */
+
+double lsw_number(lua_State *L, int index, const char *what, const char *unit) {
+  const char *space = strcmp(unit, "-") == 0 ? "" : " ";
+  const char *shown = *space ? unit : "";
+  if (lua_type(L, index) != LUA_TNUMBER)
+    return luaL_error(L, "%s must be a number%s%s%s, got %s", what, *space ? " [" : "", shown,
+                      *space ? "]" : "", describe(L, index));
+  const double value = lua_tonumber(L, index);
+  if (!isfinite(value))
+    return luaL_error(L, "%s = %f%s%s is not allowed; it must be a finite number", what, value,
+                      space, shown);
+  return value;
+}
+
+/* Item i of the array at table, or its field name; pushed. */
+static void push_item(lua_State *L, int table, int i, const char *name) {
+  if (lua_geti(L, table, i) == LUA_TNIL) {
+    lua_pop(L, 1);
+    lua_getfield(L, table, name);
+  }
+}
+
+static void numbers(lua_State *L, int index, const char *what, const char *unit, int count,
+                    const char *const *names, double *out) {
+  index = lua_absindex(L, index);
+  if (!lua_istable(L, index)) {
+    luaL_error(L, "%s must be a table of %d numbers [%s], got %s", what, count, unit,
+               describe(L, index));
+    return;
+  }
+  if (lua_rawlen(L, index) > (size_t)count)
+    luaL_error(L, "%s must have %d numbers, got %d", what, count, (int)lua_rawlen(L, index));
+  for (int i = 0; i < count; i++) {
+    push_item(L, index, i + 1, names[i]);
+    out[i] = lsw_number(L, -1, lua_pushfstring(L, "%s, item %d,", what, i + 1), unit);
+    lua_pop(L, 2);
+  }
+}
+
+sw_vec lsw_vector(lua_State *L, int index, const char *what, const char *unit) {
+  static const char *const names[] = {"x", "y", "z"};
+  double v[3] = {0, 0, 0};
+  numbers(L, index, what, unit, 3, names, v);
+  return sw_v(v[0], v[1], v[2]);
+}
+
+sw_quat lsw_rotation(lua_State *L, int index, const char *what) {
+  static const char *const names[] = {"w", "x", "y", "z"};
+  double q[4] = {1, 0, 0, 0};
+  index = lua_absindex(L, index);
+  if (lua_isnoneornil(L, index)) return sw_quat_identity();
+  if (lua_istable(L, index) && lua_getfield(L, index, "axis") != LUA_TNIL) {
+    const sw_vec axis = lsw_vector(L, -1, lua_pushfstring(L, "%s.axis", what), "-");
+    lua_getfield(L, index, "angle");
+    const double angle = lsw_number(L, -1, lua_pushfstring(L, "%s.angle", what), "rad");
+    if (sw_norm(axis) == 0) luaL_error(L, "%s.axis must not be the zero vector", what);
+    lua_settop(L, lua_gettop(L) - 4);
+    return sw_quat_exp(sw_scale(sw_unit_or(axis, sw_v(0, 0, 1)), angle));
+  }
+  if (lua_istable(L, index)) lua_pop(L, 1);
+  numbers(L, index, what, "-", 4, names, q);
+  if (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] == 0)
+    luaL_error(L, "%s must not be the zero quaternion", what);
+  return sw_quat_unit((sw_quat){q[0], q[1], q[2], q[3]});
+}
+
+void lsw_push_vector(lua_State *L, sw_vec a) {
+  lua_createtable(L, 3, 0);
+  lua_pushnumber(L, a.x), lua_rawseti(L, -2, 1);
+  lua_pushnumber(L, a.y), lua_rawseti(L, -2, 2);
+  lua_pushnumber(L, a.z), lua_rawseti(L, -2, 3);
+}
+
+void lsw_push_quaternion(lua_State *L, sw_quat q) {
+  lua_createtable(L, 4, 0);
+  lua_pushnumber(L, q.w), lua_rawseti(L, -2, 1);
+  lua_pushnumber(L, q.x), lua_rawseti(L, -2, 2);
+  lua_pushnumber(L, q.y), lua_rawseti(L, -2, 3);
+  lua_pushnumber(L, q.z), lua_rawseti(L, -2, 4);
+}

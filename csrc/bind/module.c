@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The Lua module softworld.core. */
+#include "bind/module.h"
+
+#include "bind/class.h"
+
+static int mod_allocated(lua_State *L) {
+  lua_pushinteger(L, (lua_Integer)sw_alloc_live());
+  lua_pushinteger(L, (lua_Integer)sw_alloc_count());
+  return 2;
+}
+
+static int mod_fail_allocation(lua_State *L) {
+  sw_alloc_fail_at((long)luaL_checkinteger(L, 1));
+  return 0;
+}
+
+static const luaL_Reg functions[] = {
+    {"allocated", mod_allocated},             /* bytes in use, requests so far */
+    {"fail_allocation", mod_fail_allocation}, /* let the n-th request fail (specs) */
+    {NULL, NULL}};
+
+int luaopen_softworld_core(lua_State *L) {
+  luaL_checkversion(L);
+  luaL_newlib(L, functions);
+  lua_pushliteral(L, SW_VERSION);
+  lua_setfield(L, -2, "version");
+  lsw_open_classes(L);
+  lua_setfield(L, -2, "class");
+#define X(name) lsw_open_##name(L);
+#include "bind/modules.def"
+#undef X
+  return 1;
+}

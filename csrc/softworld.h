@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The core as the binding and other C programs see it. */
+#ifndef SOFTWORLD_H
+#define SOFTWORLD_H
+
+#define SW_VERSION "0.1.0"
+
+#include "base/alloc.h"
+#include "base/param.h"
+#include "base/status.h"
+#include "base/vec.h"
+#include "motion/motion.h"
+#include "shape/shape.h"
+
+#endif
