@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Wide vectors without giving up the portable build: a hot loop marked SW_HOT
+ * is compiled for several instruction sets, and the loader picks one. */
+#ifndef SW_BASE_SIMD_H
+#define SW_BASE_SIMD_H
+
+#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(SW_NO_CLONES)
+#define SW_HOT __attribute__((target_clones("default", "arch=haswell")))
+#else
+#define SW_HOT
+#endif
+
+#endif

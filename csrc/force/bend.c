@@ -1,0 +1,257 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Isotropic bending of a straight wire. Hinge i turns by the angle phi between
+ * the unit tangents t1, t2 of its edges: E = 1/2 (EI/w_i) phi^2, w_i the hinge
+ * length of the plan. Exact gradient and second derivative with s = phi/sin phi
+ * and w = -ds/dcos phi, both analytic in u = sin^2(phi/2) (Bergou et al. 2008
+ * use 2 tan(phi/2) instead; the angle goes with the corrected clamp, see
+ * plan.c). Valid below about 1 rad a hinge; at pi the direction is undefined. */
+#include <math.h>
+
+#include "base/simd.h"
+#include "force/force.h"
+
+/* Chebyshev fits on u in [0, 1/4] (phi <= 60 degrees), error below 5e-16. */
+static const double FIT_LIMIT = 0.25; /* largest u of the fits [-] */
+#define FIT(u, c) \
+  ((c##0) + u * ((c##1) + u * ((c##2) + u * ((c##3) + u * ((c##4) + u * ((c##5) + u * ((c##6) + \
+  u * ((c##7) + u * ((c##8) + u * ((c##9) + u * ((c##10) + u * ((c##11) + u * ((c##12) + \
+  u * (c##13))))))))))))))
+#define S0 1.0
+#define S1 0.66666666666673224
+#define S2 0.53333333331635013
+#define S3 0.45714285887196332
+#define S4 0.40634911476368524
+#define S5 0.36941126493138032
+#define S6 0.3409332932493519
+#define S7 0.31907228762239243
+#define S8 0.29180058074110277
+#define S9 0.33511256175349097
+#define S10 0.035139155368524883
+#define S11 0.97765555800227311
+#define S12 -1.1132861271784307
+#define S13 1.5537792943093436
+#define W0 0.33333333333333298
+#define W1 0.53333333333387734
+#define W2 0.6857142855733187
+#define W3 0.81269842704561113
+#define W4 0.92352016399108761
+#define W5 1.0230010184700724
+#define W6 1.1134194540041413
+#define W7 1.204873841758062
+#define W8 1.2131077477347334
+#define W9 1.7741216298827196
+#define W10 -0.50853150242764933
+#define W11 7.3660905082461881
+#define W12 -9.4903230920523001
+#define W13 12.120085660545596
+
+/* sin^2 of half the largest angle the formula is used for: 0.98 * pi. Beyond
+ * it s and w grow without bound; a hinge so sharp is out of the model's range. */
+static const double SHARPEST = 0.999;
+
+/* phi/sin(phi) and its derivative's negative, for any u. */
+static void exact_factors(double u, double *s, double *w) {
+  const double v = u < SHARPEST ? u : SHARPEST;
+  if (v <= FIT_LIMIT) {
+    *s = FIT(v, S);
+    *w = FIT(v, W);
+    return;
+  }
+  const double c = 1.0 - 2.0 * v, sine2 = 4.0 * v * (1.0 - v);
+  *s = acos(c) / sqrt(sine2);
+  *w = (1.0 - *s * c) / sine2;
+}
+
+/* scratch: 0 cos phi, 1 k s, 2 k w for hinges 1..n-2 */
+SW_HOT
+static double hinge_factors(size_t n, double EI, const double *restrict hinge,
+                            const double *restrict tx, const double *restrict ty,
+                            const double *restrict tz, double *restrict cosine,
+                            double *restrict ks, double *restrict kw) {
+  double largest = 0.0;
+  for (size_t i = 1; i + 1 < n; i++) {
+    const double dx = tx[i] - tx[i - 1], dy = ty[i] - ty[i - 1], dz = tz[i] - tz[i - 1];
+    const double u = 0.25 * (dx * dx + dy * dy + dz * dz);
+    const double k = hinge[i] > 0 ? EI / hinge[i] : 0.0;
+    largest = largest > u ? largest : u;
+    cosine[i] = 1.0 - 2.0 * u;
+    ks[i] = k * FIT(u, S);
+    kw[i] = k * FIT(u, W);
+  }
+  return largest;
+}
+
+static void sharp_hinges(size_t n, double EI, const double *hinge, const double *cosine,
+                         double *ks, double *kw) {
+  for (size_t i = 1; i + 1 < n; i++) {
+    const double u = 0.5 * (1.0 - cosine[i]);
+    if (u <= FIT_LIMIT || !(hinge[i] > 0)) continue;
+    double s, w;
+    exact_factors(u, &s, &w);
+    ks[i] = EI / hinge[i] * s;
+    kw[i] = EI / hinge[i] * w;
+  }
+}
+
+SW_HOT
+static void add_gradient(size_t n, const double *restrict c, const double *restrict ks,
+                         const double *restrict rl, const double *restrict tx,
+                         const double *restrict ty, const double *restrict tz,
+                         double *restrict gx, double *restrict gy, double *restrict gz) {
+  for (size_t i = 1; i + 1 < n; i++) { /* second edge of each hinge */
+    const double f = -ks[i] * rl[i];
+    gx[i] += f * (tx[i - 1] - c[i] * tx[i]);
+    gy[i] += f * (ty[i - 1] - c[i] * ty[i]);
+    gz[i] += f * (tz[i - 1] - c[i] * tz[i]);
+  }
+  for (size_t i = 1; i + 1 < n; i++) { /* first edge */
+    const double f = -ks[i] * rl[i - 1];
+    gx[i - 1] += f * (tx[i] - c[i] * tx[i - 1]);
+    gy[i - 1] += f * (ty[i] - c[i] * ty[i - 1]);
+    gz[i - 1] += f * (tz[i] - c[i] * tz[i - 1]);
+  }
+}
+
+/* own += [kw p p' + ks (c (I - t t') + t p' + p t')] / l^2 for the edge at
+ * shift (0: second edge of the hinge, -1: first) */
+SW_HOT
+static void add_own(size_t n, long shift, const double *restrict c, const double *restrict ks,
+                    const double *restrict kw, const double *restrict rl,
+                    const double *restrict tx, const double *restrict ty,
+                    const double *restrict tz, double *restrict o0, double *restrict o1,
+                    double *restrict o2, double *restrict o3, double *restrict o4,
+                    double *restrict o5) {
+  for (long i = 1; i + 1 < (long)n; i++) {
+    const long e = i + shift, o = i - 1 - shift; /* this edge, the other one */
+    const double r2 = rl[e] * rl[e], a = ks[i] * r2, b = kw[i] * r2;
+    const double px = tx[o] - c[i] * tx[e], py = ty[o] - c[i] * ty[e], pz = tz[o] - c[i] * tz[e];
+    /* t p' + p t' - c t t' = t q' + p t' with q = p - c t */
+    const double qx = px - c[i] * tx[e], qy = py - c[i] * ty[e], qz = pz - c[i] * tz[e];
+    const double ac = a * c[i];
+    o0[e] += b * px * px + a * (tx[e] * qx + px * tx[e]) + ac;
+    o1[e] += b * px * py + a * (tx[e] * qy + px * ty[e]);
+    o2[e] += b * px * pz + a * (tx[e] * qz + px * tz[e]);
+    o3[e] += b * py * py + a * (ty[e] * qy + py * ty[e]) + ac;
+    o4[e] += b * py * pz + a * (ty[e] * qz + py * tz[e]);
+    o5[e] += b * pz * pz + a * (tz[e] * qz + pz * tz[e]) + ac;
+  }
+}
+
+/* next += [kw p1 p2' - ks (I - t1 t1')(I - t2 t2')] / (l1 l2) */
+SW_HOT
+static void add_next(size_t n, const double *restrict c, const double *restrict ks,
+                     const double *restrict kw, const double *restrict rl,
+                     const double *restrict tx, const double *restrict ty,
+                     const double *restrict tz, double *restrict n0, double *restrict n1,
+                     double *restrict n2, double *restrict n3, double *restrict n4,
+                     double *restrict n5, double *restrict n6, double *restrict n7,
+                     double *restrict n8) {
+  for (size_t i = 1; i + 1 < n; i++) {
+    const double rr = rl[i - 1] * rl[i], a = ks[i] * rr, b = kw[i] * rr, ci = c[i];
+    const double ax = tx[i - 1], ay = ty[i - 1], az = tz[i - 1];
+    const double bx = tx[i], by = ty[i], bz = tz[i];
+    const double px = b * (bx - ci * ax), py = b * (by - ci * ay), pz = b * (bz - ci * az);
+    const double qx = ax - ci * bx, qy = ay - ci * by, qz = az - ci * bz;
+    /* -(I - t1 t1' - t2 t2' + c t1 t2') = -I + t1 q' + t2 t2' */
+    n0[i] += px * qx + a * (ax * qx + bx * bx - 1.0);
+    n1[i] += px * qy + a * (ax * qy + bx * by);
+    n2[i] += px * qz + a * (ax * qz + bx * bz);
+    n3[i] += py * qx + a * (ay * qx + by * bx);
+    n4[i] += py * qy + a * (ay * qy + by * by - 1.0);
+    n5[i] += py * qz + a * (ay * qz + by * bz);
+    n6[i] += pz * qx + a * (az * qx + bz * bx);
+    n7[i] += pz * qy + a * (az * qy + bz * by);
+    n8[i] += pz * qz + a * (az * qz + bz * bz - 1.0);
+  }
+}
+
+/* The hinge between a held director d and one edge: the same energy with one
+ * tangent fixed. side -1: the edge arrives, its tangent counts reversed. */
+static void clamp_hinge(const sw_clamp_hinge *h, double EI, sw_field *field) {
+  const size_t e = h->edge;
+  const double *d0 = field->hold_directors + 3 * (2 * (size_t)h->hold + (h->side > 0 ? 1 : 0));
+  const double t[3] = {field->tangent[0][e], field->tangent[1][e], field->tangent[2][e]};
+  double u = 0, s, w, p[3];
+  for (int k = 0; k < 3; k++) u += 0.25 * (t[k] - d0[k]) * (t[k] - d0[k]);
+  exact_factors(u, &s, &w);
+  const double k0 = EI / h->length, c = 1.0 - 2.0 * u, rl = field->reciprocal[e];
+  for (int k = 0; k < 3; k++) p[k] = d0[k] - c * t[k];
+  if (field->want & SW_WANT_ENERGY) {
+    const double phi = s * sqrt(4.0 * u * (1.0 - (u < SHARPEST ? u : SHARPEST)));
+    field->energy += 0.5 * k0 * phi * phi;
+  }
+  if (field->want & SW_WANT_FORCE)
+    for (int k = 0; k < 3; k++) field->gradient[k][e] -= k0 * s * p[k] * rl;
+  if (!(field->want & SW_WANT_STIFFNESS)) return;
+  const double a = k0 * s * rl * rl, b = k0 * w * rl * rl;
+  for (int i = 0, at = 0; i < 3; i++)
+    for (int j = i; j < 3; j++, at++)
+      field->own[at][e] += b * p[i] * p[j] + a * (t[i] * p[j] + p[i] * t[j] - c * t[i] * t[j]) +
+                           (i == j ? a * c : 0.0);
+}
+
+static double hinge_energy(const sw_field *field, double EI) {
+  double sum = 0;
+  for (size_t i = 1; i + 1 < field->plan->nodes; i++) {
+    const double length = field->plan->hinge[i];
+    if (!(length > 0)) continue;
+    const double phi = 2.0 * asin(sqrt(fmin(1.0, 0.5 * (1.0 - field->scratch[0][i]))));
+    sum += 0.5 * EI / length * phi * phi;
+  }
+  return sum;
+}
+
+static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+  const double EI = ((const sw_bend_args *)args)->EI;
+  const sw_plan *p = f->plan;
+  double *c = f->scratch[0], *ks = f->scratch[1], *kw = f->scratch[2];
+  double *const *t = f->tangent;
+  (void)err;
+  const double largest = hinge_factors(p->nodes, EI, p->hinge, t[0], t[1], t[2], c, ks, kw);
+  if (!(largest <= FIT_LIMIT)) sharp_hinges(p->nodes, EI, p->hinge, c, ks, kw);
+  if (f->want & SW_WANT_FORCE)
+    add_gradient(p->nodes, c, ks, f->reciprocal, t[0], t[1], t[2], f->gradient[0],
+                 f->gradient[1], f->gradient[2]);
+  if (f->want & SW_WANT_STIFFNESS) {
+    for (long shift = -1; shift <= 0; shift++)
+      add_own(p->nodes, shift, c, ks, kw, f->reciprocal, t[0], t[1], t[2], f->own[0], f->own[1],
+              f->own[2], f->own[3], f->own[4], f->own[5]);
+    add_next(p->nodes, c, ks, kw, f->reciprocal, t[0], t[1], t[2], f->next[0], f->next[1],
+             f->next[2], f->next[3], f->next[4], f->next[5], f->next[6], f->next[7], f->next[8]);
+  }
+  if (f->want & SW_WANT_ENERGY) f->energy += hinge_energy(f, EI);
+  for (size_t k = 0; k < p->clamp_count; k++) clamp_hinge(&p->clamps[k], EI, f);
+  return SW_OK;
+}
+
+/* omega_max <= 4 sqrt(EI/mu) / l^2 for equal edges and lumped masses. */
+static double stable_dt(const void *args, const sw_plan *plan) {
+  const double EI = ((const sw_bend_args *)args)->EI;
+  double smallest = HUGE_VAL;
+  for (size_t e = 0; EI > 0 && e < plan->edges; e++) {
+    const double dt = 0.5 * plan->rest[e] * plan->rest[e] * sqrt(plan->beam.mass / EI);
+    if (dt < smallest) smallest = dt;
+  }
+  return smallest;
+}
+
+/* k phi about t x d: turns the edge towards the director. */
+static sw_vec clamp_moment(const void *args, const sw_field *field, const sw_clamp_hinge *h) {
+  const size_t e = h->edge;
+  const sw_vec d =
+      sw_load(field->hold_directors + 3 * (2 * (size_t)h->hold + (h->side > 0 ? 1 : 0)));
+  const sw_vec t = sw_v(field->tangent[0][e], field->tangent[1][e], field->tangent[2][e]);
+  double s, w;
+  exact_factors(0.25 * sw_norm2(sw_sub(t, d)), &s, &w);
+  return sw_scale(sw_cross(t, d), ((const sw_bend_args *)args)->EI / h->length * s);
+}
+
+const sw_force_class sw_force_bend = {
+    .name = "bend",
+    .summary = "bending by the angle of each hinge, straight isotropic wire",
+    .flags = SW_FORCE_INNER,
+    .params = {"force bend", NULL, 0},
+    .eval = eval,
+    .stable_dt = stable_dt,
+    .clamp_moment = clamp_moment,
+};

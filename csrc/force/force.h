@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The force registry. A force answers for its whole element list at once; each
+ * is one file ending in one sw_force_class and one X(name) line in list.def. */
+#ifndef SW_FORCE_FORCE_H
+#define SW_FORCE_FORCE_H
+
+#include <stddef.h>
+
+#include "base/param.h"
+#include "base/status.h"
+#include "state/field.h"
+
+enum {
+  SW_FORCE_INNER = 1,    /* part of a wire model's recipe; not made by scene:force */
+  SW_FORCE_EXPLICIT = 2, /* has no stiffness: iterated to a fixed point instead */
+  SW_FORCE_AT_PLACE = 4  /* acts at one arc length: takes s */
+};
+
+enum { SW_FORCE_ARGS_MAX = 128 }; /* room for any force's arguments [B] */
+
+typedef struct sw_force_class {
+  const char *name;
+  const char *summary; /* one line for help() */
+  unsigned flags;
+  sw_params params; /* rows of its argument struct */
+
+  /* Add what field->want asks for. args is the argument struct. Statuses: SW_OK;
+   * SW_ECALLBACK from user code (err filled). */
+  sw_status (*eval)(const void *args, sw_field *field, sw_error *err);
+
+  /* Largest stable step of undamped leapfrog due to this force alone on this
+   * plan, with lumped masses [s]; NULL = no limit. */
+  double (*stable_dt)(const void *args, const sw_plan *plan);
+
+  /* Moment that a clamp hinge puts on the wire [N m]; NULL = none. */
+  sw_vec (*clamp_moment)(const void *args, const sw_field *field, const sw_clamp_hinge *hinge);
+} sw_force_class;
+
+/* The class called name, or NULL. */
+const sw_force_class *sw_force_find(const char *name);
+
+/* All classes, NULL-terminated. */
+const sw_force_class *const *sw_force_all(void);
+
+/* Arguments of the inner forces, which recipes fill. */
+typedef struct sw_stretch_args {
+  double EA;        /* [N] */
+  double tension_only; /* 1: no answer to compression (repel gives it) [-] */
+} sw_stretch_args;
+
+typedef struct sw_repel_args {
+  double EA; /* [N] */
+} sw_repel_args;
+
+typedef struct sw_bend_args {
+  double EI; /* [N m2] */
+} sw_bend_args;
+
+/* Arguments of a Lua function as a force: called with the field, adds to
+ * field->force. */
+typedef struct sw_callback_args {
+  sw_status (*function)(void *user, sw_field *field, sw_error *err);
+  void *user;
+} sw_callback_args;
+
+#endif

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A dead force at one arc length: fixed direction and size, shared between the
+ * edge's two nodes by its place between them. */
+#include <math.h>
+#include <stddef.h>
+
+#include "force/force.h"
+
+typedef struct point_args {
+  double s;     /* [m] */
+  sw_vec force; /* [N] */
+} point_args;
+
+static const sw_param rows[] = {
+    {"s", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
+     offsetof(point_args, s), "arc length where the force acts"},
+    {"force", SW_PARAM_VECTOR, "N", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
+     offsetof(point_args, force), "the force, fixed in world axes"},
+};
+
+static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+  const point_args *a = args;
+  double fraction;
+  (void)err;
+  const size_t e = sw_plan_locate(f->plan, a->s, &fraction);
+  double *first = f->force + 3 * e;
+  if (f->want & SW_WANT_FORCE) {
+    sw_accumulate(first, sw_scale(a->force, 1.0 - fraction));
+    sw_accumulate(first + 3, sw_scale(a->force, fraction));
+  }
+  if (f->want & SW_WANT_ENERGY)
+    f->energy -= sw_dot(a->force, sw_lerp(sw_load(f->x + 3 * e), sw_load(f->x + 3 * e + 3),
+                                          fraction));
+  return SW_OK;
+}
+
+const sw_force_class sw_force_point = {
+    .name = "point",
+    .summary = "a force of fixed direction at one place of the wire",
+    .flags = SW_FORCE_AT_PLACE,
+    .params = SW_PARAMS("force point", rows),
+    .eval = eval,
+};

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Implicit midpoint: second order, no damping at all; conserves quadratic
+ * invariants, gains energy in contact. */
+#include "integrate/integrate.h"
+
+const sw_integrator sw_integrator_implicit_midpoint = {
+    .name = "implicit-midpoint",
+    .summary = "second order, undamped; not for contact",
+    .order = 2,
+    .flags = SW_INTEGRATOR_IMPLICIT | SW_INTEGRATOR_SECOND_HALF | SW_INTEGRATOR_NO_CONTACT,
+    .stages = 1,
+    .rows = {{.time = 0.5, .hbar = 0.5, .xn = 1}},
+};

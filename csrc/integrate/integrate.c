@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "integrate/integrate.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+
+#define X(name) extern const sw_integrator sw_integrator_##name;
+#include "integrate/list.def"
+#undef X
+
+static const sw_integrator *const all[] = {
+#define X(name) &sw_integrator_##name,
+#include "integrate/list.def"
+#undef X
+    NULL};
+
+const sw_integrator *const *sw_integrator_all(void) { return all; }
+
+const sw_integrator *sw_integrator_find(const char *name) {
+  for (size_t i = 0; all[i]; i++)
+    if (strcmp(all[i]->name, name) == 0) return all[i];
+  return NULL;
+}
+
+static const sw_newton DYNAMIC_NEWTON = {
+    .max_iterations = 16,
+    .accept_rotation = 0.02, /* the linearised axial law's error stays below theta^2/2 */
+    .limit_rotation = 0.5,
+};
+
+sw_status sw_stepper_new(sw_stepper *p, const sw_integrator *method, const sw_system *system) {
+  memset(p, 0, sizeof *p);
+  p->method = method;
+  p->start = method->start ? sw_integrator_find(method->start) : method;
+  p->n = 3 * system->nodes;
+  p->restart = 1;
+  p->newton = DYNAMIC_NEWTON;
+  const int explicit_ = !(method->flags & SW_INTEGRATOR_IMPLICIT);
+  const size_t arrays = explicit_ ? 3 + SW_EXTRA : 9;
+  double *w = sw_alloc(arrays * p->n + system->edges, sizeof *w);
+  if (!w) return SW_ENOMEM;
+  p->work = w;
+  double **const implicit_arrays[] = {&p->xhat, &p->vhat, &p->y[0], &p->w[0], &p->y[1],
+                                      &p->w[1], &p->xp,   &p->vp,   &p->a};
+  if (explicit_) {
+    p->extra = sw_alloc(SW_EXTRA, sizeof *p->extra);
+    if (!p->extra) {
+      sw_free(w);
+      p->work = NULL;
+      return SW_ENOMEM;
+    }
+    p->y[0] = w, p->w[0] = w + p->n, p->a = w + 2 * p->n;
+    for (size_t k = 0; k < SW_EXTRA; k++) p->extra[k] = w + (3 + k) * p->n;
+  } else {
+    for (size_t k = 0; k < 9; k++) *implicit_arrays[k] = w + k * p->n;
+  }
+  p->tension = w + arrays * p->n;
+  return SW_OK;
+}
+
+void sw_stepper_free(sw_stepper *p) {
+  if (p->outside && p->free_outside) p->free_outside(p->outside);
+  sw_free(p->extra);
+  sw_free(p->work);
+  memset(p, 0, sizeof *p);
+}
+
+static void prepare_stage(const sw_stepper *p, const sw_stage_row *row, const sw_system *s,
+                          double hbar) {
+  const double xn = row->xn, x1 = row->x1, xp = row->xp, xv = row->xv * hbar;
+  for (size_t i = 0; i < p->n; i++) {
+    p->xhat[i] = xn * s->x[i] + xv * s->v[i];
+    p->vhat[i] = xn * s->v[i] + xv * s->a[i];
+  }
+  if (x1 != 0)
+    for (size_t i = 0; i < p->n; i++) {
+      p->xhat[i] += x1 * p->y[0][i];
+      p->vhat[i] += x1 * p->w[0][i];
+    }
+  if (xp != 0)
+    for (size_t i = 0; i < p->n; i++) {
+      p->xhat[i] += xp * p->xp[i];
+      p->vhat[i] += xp * p->vp[i];
+    }
+}
+
+static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system *s, double t,
+                                double h, sw_error *err) {
+  for (size_t k = 0; k < m->stages; k++) {
+    const sw_stage_row *row = &m->rows[k];
+    const double hbar = row->hbar * h;
+    sw_stage_report report;
+    prepare_stage(p, row, s, hbar);
+    const sw_stage stage = {.time = t + row->time * h,
+                            .hbar = hbar,
+                            .xhat = p->xhat,
+                            .vhat = p->vhat,
+                            .y = p->y[k],
+                            .v = p->w[k],
+                            .a = p->a};
+    const sw_status status = sw_system_stage(s, &stage, &p->newton, &report, err);
+    p->iterations += (size_t)report.iterations;
+    p->rotation = report.rotation;
+    if (status != SW_OK) return status;
+  }
+  const size_t last = m->stages - 1;
+  if (m->flags & SW_INTEGRATOR_SECOND_HALF) {
+    for (size_t i = 0; i < p->n; i++) {
+      p->y[last][i] = 2.0 * p->y[last][i] - s->x[i];
+      p->w[last][i] = 2.0 * p->w[last][i] - s->v[i];
+    }
+    SW_TRY(sw_system_place_holds(s, t + h, p->y[last], p->w[last], NULL, err));
+  }
+  p->trial_x = p->y[last];
+  p->trial_v = p->w[last];
+  p->trial_a = p->a;
+  return SW_OK;
+}
+
+/* Bank et al. 1985: error of the trapezoid-BDF2 pair from the three velocities,
+ * largest over nodes. */
+static double embedded_error(const sw_stepper *p, const sw_system *s, double h) {
+  const double g = 2.0 - sqrt(2.0);
+  const double k = (-3.0 * g * g + 4.0 * g - 2.0) / (12.0 * (2.0 - g));
+  const double c0 = 1.0 / g, c1 = -1.0 / (g * (1.0 - g)), c2 = 1.0 / (1.0 - g);
+  double largest = 0;
+  for (size_t i = 0; i < p->n; i += 3) {
+    double sum = 0;
+    for (size_t c = i; c < i + 3; c++) {
+      const double e = c0 * s->v[c] + c1 * p->w[0][c] + c2 * p->w[1][c];
+      sum += e * e;
+    }
+    largest = fmax(largest, sum);
+  }
+  return 2.0 * fabs(k) * h * sqrt(largest);
+}
+
+sw_status sw_stepper_trial(sw_stepper *p, sw_system *s, double t, double h, sw_error *err) {
+  memcpy(p->tension, s->tension, s->edges * sizeof(double));
+  p->iterations = 0;
+  p->rotation = 0;
+  p->error = 0;
+  if (!(p->method->flags & SW_INTEGRATOR_IMPLICIT)) {
+    memcpy(p->y[0], s->x, p->n * sizeof(double));
+    memcpy(p->w[0], s->v, p->n * sizeof(double));
+    SW_TRY(p->method->advance(p, s, t, h, p->y[0], p->w[0], err));
+    p->trial_x = p->y[0], p->trial_v = p->w[0], p->trial_a = NULL;
+    return SW_OK;
+  }
+  const int uneven = (p->method->flags & SW_INTEGRATOR_HISTORY) &&
+                     !(fabs(h - p->last_h) <= 1e-9 * h);
+  const sw_integrator *m = p->restart || uneven ? p->start : p->method;
+  SW_TRY(implicit_trial(p, m, s, t, h, err));
+  if (m->flags & SW_INTEGRATOR_EMBEDDED) p->error = embedded_error(p, s, h);
+  return SW_OK;
+}
+
+void sw_stepper_reject(sw_stepper *p, sw_system *s) {
+  memcpy(s->tension, p->tension, s->edges * sizeof(double));
+}
+
+void sw_stepper_accept(sw_stepper *p, sw_system *s, double h) {
+  if (p->xp && (p->method->flags & SW_INTEGRATOR_HISTORY)) {
+    memcpy(p->xp, s->x, p->n * sizeof(double));
+    memcpy(p->vp, s->v, p->n * sizeof(double));
+  }
+  memcpy(s->x, p->trial_x, p->n * sizeof(double));
+  memcpy(s->v, p->trial_v, p->n * sizeof(double));
+  if (p->trial_a) memcpy(s->a, p->trial_a, p->n * sizeof(double));
+  p->last_h = h;
+  p->restart = 0;
+}
+
+double sw_stepper_next_h(const sw_stepper *p, double h, double tolerance) {
+  const double safety = 0.9, most = 2.0, least = 0.2; /* of the last step [-] */
+  if (!(p->error > 0)) return h;
+  const double factor = safety * cbrt(tolerance / p->error);
+  return h * fmin(most, fmax(least, factor));
+}

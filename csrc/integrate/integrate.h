@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Time integrators. A member is one file ending in one sw_integrator and one
+ * X(name) line in list.def. Implicit members are rows of stages solved by
+ * sw_system_stage; explicit ones use lumped masses and accelerations. An
+ * integrator knows a system, never a force or a wire. */
+#ifndef SW_INTEGRATE_INTEGRATE_H
+#define SW_INTEGRATE_INTEGRATE_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+#include "system/system.h"
+
+enum {
+  SW_INTEGRATOR_IMPLICIT = 1,
+  SW_INTEGRATOR_HISTORY = 2, /* uses the state before last: equal steps only */
+  SW_INTEGRATOR_EMBEDDED = 4, /* gives an error estimate */
+  SW_INTEGRATOR_NO_CONTACT = 8, /* gains energy in contact */
+  SW_INTEGRATOR_SECOND_HALF = 16 /* result is 2 y - x_n of the only stage */
+};
+
+enum { SW_STAGES_MAX = 2 };
+
+/* One stage of an implicit method; shares of the step h and of the states at
+ * the step's start (n), after the first stage (1) and before the start (p):
+ * xhat = xn x_n + x1 x_1 + xp x_p + xv hbar v_n,
+ * vhat = xn v_n + x1 v_1 + xp v_p + xv hbar a_n. */
+typedef struct sw_stage_row {
+  double time; /* of the step, 0..1 */
+  double hbar; /* of the step */
+  double xn, x1, xp, xv;
+} sw_stage_row;
+
+typedef struct sw_stepper sw_stepper;
+
+typedef struct sw_integrator {
+  const char *name;
+  const char *summary;
+  int order;
+  unsigned flags;
+  size_t stages; /* implicit members */
+  sw_stage_row rows[SW_STAGES_MAX];
+  const char *start; /* implicit: method for the first step after a
+                        discontinuity; NULL = itself */
+  double leapfrog_limit; /* explicit: stable while h omega_max is below; 0 = unknown [-] */
+  /* explicit: advance (x, v) by h in place from time t; stepper's work arrays
+   * are free to use. */
+  sw_status (*advance)(sw_stepper *stepper, sw_system *system, double t, double h, double *x,
+                       double *v, sw_error *err);
+} sw_integrator;
+
+const sw_integrator *sw_integrator_find(const char *name);
+const sw_integrator *const *sw_integrator_all(void); /* NULL-terminated */
+
+struct sw_stepper {
+  const sw_integrator *method, *start;
+  size_t n;       /* 3 x nodes */
+  double *work;   /* one block for all of the following (n each) */
+  double *xhat, *vhat;
+  double *y[SW_STAGES_MAX], *w[SW_STAGES_MAX]; /* stage positions and velocities */
+  double *a;                                   /* acceleration of the last stage */
+  double *xp, *vp;                             /* state before last */
+  double *tension;                             /* saved for a rejected step (edges) */
+  double last_h;                               /* of the last accepted step; 0 = none [s] */
+  int restart;                                 /* next step starts anew: a_n is stale */
+  double error;    /* estimate of the last trial; 0 without one [m] */
+  double **extra;  /* explicit methods' work arrays (SW_EXTRA of n) */
+  void *outside;   /* an outside library's stepper */
+  void (*free_outside)(void *outside);
+  sw_newton newton;
+  size_t iterations; /* of the last trial, all stages */
+  double rotation;   /* largest edge rotation of the last update [rad] */
+  const double *trial_x, *trial_v, *trial_a;
+};
+
+enum { SW_EXTRA = 6 };
+
+/* Work space for a system of this size. SW_ENOMEM. */
+sw_status sw_stepper_new(sw_stepper *stepper, const sw_integrator *method,
+                         const sw_system *system);
+void sw_stepper_free(sw_stepper *stepper);
+
+/* Compute a trial step from the system's state at t; the state stays untouched
+ * apart from the tension, which sw_stepper_reject puts back. */
+sw_status sw_stepper_trial(sw_stepper *stepper, sw_system *system, double t, double h,
+                           sw_error *err);
+void sw_stepper_reject(sw_stepper *stepper, sw_system *system);
+/* Make the trial the system's state. */
+void sw_stepper_accept(sw_stepper *stepper, sw_system *system, double h);
+
+/* The next step size for a tolerance on the step error [s]. */
+double sw_stepper_next_h(const sw_stepper *stepper, double h, double tolerance);
+
+#endif

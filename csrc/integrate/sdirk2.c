@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Two-stage singly diagonally implicit Runge-Kutta method with
+ * gamma = 1 - 1/sqrt 2 (Alexander 1977): second order, L-stable, needs no
+ * acceleration at the start, so it takes the steps after discontinuities. */
+#include "integrate/integrate.h"
+
+#define GAMMA 0.29289321881345248 /* 1 - 1/sqrt 2 */
+#define K ((1.0 - GAMMA) / GAMMA)
+
+const sw_integrator sw_integrator_sdirk2 = {
+    .name = "sdirk2",
+    .summary = "two equal implicit stages: second order, L-stable, starts from rest or shocks",
+    .order = 2,
+    .flags = SW_INTEGRATOR_IMPLICIT,
+    .stages = 2,
+    .rows = {{.time = GAMMA, .hbar = GAMMA, .xn = 1},
+             {.time = 1, .hbar = GAMMA, .xn = 1.0 - K, .x1 = K}},
+};

@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the forces of one wire see and fill during one evaluation. Forces that
+ * depend only on the edges (stretch, bend) write gradients and second
+ * derivatives with respect to edge vectors; the system turns those into node
+ * forces and matrix blocks once for all of them. Forces on nodes (gravity,
+ * drag, contact) write node forces and node blocks.
+ *
+ * Edge arrays are one array per component, so that loops over edges vectorise;
+ * each has zeros before index 0 and after its last item, so that gathering to
+ * nodes needs no special case at the ends. */
+#ifndef SW_STATE_FIELD_H
+#define SW_STATE_FIELD_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+#include "state/plan.h"
+
+/* What an evaluation must compute. */
+enum {
+  SW_WANT_FORCE = 1,     /* gradients and node forces */
+  SW_WANT_STIFFNESS = 2, /* second derivatives, with velocity_rate times damping */
+  SW_WANT_ENERGY = 4     /* add to energy */
+};
+
+enum { SW_LANES = 8 }; /* zeros around each edge array [-] */
+
+typedef struct sw_field {
+  const sw_plan *plan;
+  unsigned want;
+  double time;          /* [s] */
+  double velocity_rate; /* d velocity / d position of the stage: 1/hbar, 0 in statics [1/s] */
+  int statics;          /* stored tension may be negative in the stiffness */
+  const double *x;      /* (n x 3) node positions [m] */
+  const double *v;      /* (n x 3) node velocities [m/s] */
+  const double *tension; /* (m) stored axial force of the mixed Newton, or NULL [N] */
+  const double *gravity; /* (3) [m/s2] */
+  const double *hold_directors; /* (holds x 2 x 3) directors of the holds [-] */
+
+  /* geometry of the edges, filled by sw_field_geometry */
+  double *length;     /* (m) [m] */
+  double *reciprocal; /* (m) 1 / length [1/m] */
+  double *tangent[3]; /* (m) each component [-] */
+
+  /* to be added to */
+  double *gradient[3]; /* (m) d energy / d edge vector [N] */
+  double *own[6];      /* (m) second derivative, upper half xx xy xz yy yz zz [N/m] */
+  double *next[9];     /* (n) at node i: block edge i-1 with edge i, row by row [N/m] */
+  double *force;       /* (n x 3) forces on nodes [N] */
+  double *rows;        /* (n x SW_ROW_SIZE) node blocks of the matrix [N/m] */
+  double energy;       /* [J] */
+
+  /* per-hinge scratch */
+  double *scratch[4]; /* (n) */
+} sw_field;
+
+/* Edge lengths and tangents from positions x. */
+void sw_field_geometry(sw_field *field);
+
+/* Zero everything that is added to. */
+void sw_field_clear(sw_field *field);
+
+/* Allocate all arrays of a field for a plan with n nodes, in one block that is
+ * returned through *block (free with sw_free). SW_ENOMEM. */
+sw_status sw_field_new(sw_field *field, size_t nodes, void **block);
+
+#endif

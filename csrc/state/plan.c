@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "state/plan.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+
+sw_plan *sw_plan_retain(sw_plan *plan) {
+  if (plan) plan->references++;
+  return plan;
+}
+
+void sw_plan_release(sw_plan *plan) {
+  if (!plan || --plan->references > 0) return;
+  sw_free(plan->s);
+  sw_free(plan->rest);
+  sw_free(plan->lumped);
+  sw_free(plan->mass_own);
+  sw_free(plan->mass_next);
+  sw_free(plan->hinge);
+  sw_free(plan->held);
+  sw_free(plan->clamps);
+  sw_free(plan);
+}
+
+/* Hinge lengths near a clamp whose first edge has length b * l, the second l:
+ * an end-point quadrature exact for curvature moments 0, 1 and 2, so that the
+ * clamp acts at its arc length and not half a cell inside. Valid for
+ * b in [0.5, 1.5); b = 1 gives 5/12 and 13/12. */
+static double clamp_hinge_length(double b) { return 0.5 * b - 1.0 / (12.0 * b); }
+static double next_hinge_length(double b) { return 0.5 * (1.0 + b) + 1.0 / (12.0 * b); }
+
+/* A clamp with a single edge behind it (a short free stub): exact for a load at
+ * the stub's end. */
+static const double STUB_HINGE = 1.0 / 3.0; /* of the edge's length [-] */
+static const double SMALLEST_RATIO = 0.45;  /* below this b the quadrature fails [-] */
+
+/* Edges that a clamp sees on one side before the wire ends or is held again. */
+static size_t run_of_edges(const sw_plan *p, size_t node, int side) {
+  size_t count = 0;
+  long i = (long)node;
+  while (i + side >= 0 && i + side < (long)p->nodes) {
+    i += side;
+    count++;
+    if (p->held[i] != SW_FREE) break;
+  }
+  return count;
+}
+
+static void add_clamp(sw_plan *p, size_t node, int side, int hold) {
+  const size_t run = run_of_edges(p, node, side);
+  if (run == 0) return;
+  const size_t edge = side > 0 ? node : node - 1;
+  const size_t next = side > 0 ? node + 1 : node - 1;
+  if (p->held[next] != SW_FREE) return; /* a rigid edge inside the grasped region */
+  sw_clamp_hinge *c = &p->clamps[p->clamp_count++];
+  *c = (sw_clamp_hinge){.node = node, .edge = edge, .side = side, .hold = hold};
+  if (run < 2) {
+    c->length = STUB_HINGE * p->rest[edge];
+    return;
+  }
+  const double l = p->rest[side > 0 ? edge + 1 : edge - 1];
+  const double b = p->rest[edge] / l;
+  if (b < SMALLEST_RATIO) { /* plain half cell, second order only for the average */
+    c->length = 0.5 * p->rest[edge];
+    return;
+  }
+  c->length = clamp_hinge_length(b) * l;
+  p->hinge[next] += next_hinge_length(b) * l - 0.5 * (p->rest[edge] + l);
+}
+
+static void set_masses(sw_plan *p) {
+  for (size_t e = 0; e < p->edges; e++) {
+    const double m = p->beam.mass * p->rest[e];
+    p->lumped[e] += 0.5 * m;
+    p->lumped[e + 1] += 0.5 * m;
+    p->mass_own[e] += m / 3.0;
+    p->mass_own[e + 1] += m / 3.0;
+    p->mass_next[e] = m / 6.0;
+  }
+}
+
+static void set_holds(sw_plan *p, const sw_hold_place *holds, size_t count) {
+  for (size_t k = 0; k < count; k++)
+    for (size_t i = 0; i < p->nodes; i++)
+      if (p->s[i] >= holds[k].s1 && p->s[i] <= holds[k].s2) p->held[i] = SW_HELD;
+  for (size_t i = 1; i + 1 < p->nodes; i++) p->hinge[i] = 0.5 * (p->rest[i - 1] + p->rest[i]);
+  for (size_t k = 0; k < count; k++) {
+    if (!holds[k].clamped) continue;
+    for (size_t i = 0; i < p->nodes; i++) {
+      if (!(p->s[i] >= holds[k].s1 && p->s[i] <= holds[k].s2)) continue;
+      p->hinge[i] = 0.0;
+      if (p->s[i] == holds[k].s1) add_clamp(p, i, -1, holds[k].hold);
+      if (p->s[i] == holds[k].s2) add_clamp(p, i, +1, holds[k].hold);
+    }
+  }
+}
+
+sw_status sw_plan_new(const sw_beam *beam, const double *s, size_t n, const sw_hold_place *holds,
+                      size_t hold_count, sw_plan **out) {
+  sw_plan *p = sw_alloc(1, sizeof *p);
+  if (!p) return SW_ENOMEM;
+  *p = (sw_plan){.references = 1, .nodes = n, .edges = n - 1, .beam = *beam, .length = s[n - 1]};
+  p->s = sw_alloc(n, sizeof *p->s);
+  p->rest = sw_alloc(n, sizeof *p->rest);
+  p->lumped = sw_alloc(n, sizeof *p->lumped);
+  p->mass_own = sw_alloc(n, sizeof *p->mass_own);
+  p->mass_next = sw_alloc(n, sizeof *p->mass_next);
+  p->hinge = sw_alloc(n, sizeof *p->hinge);
+  p->held = sw_alloc(n, sizeof *p->held);
+  p->clamps = sw_alloc(2 * hold_count + 1, sizeof *p->clamps);
+  if (!p->s || !p->rest || !p->lumped || !p->mass_own || !p->mass_next || !p->hinge || !p->held ||
+      !p->clamps) {
+    sw_plan_release(p);
+    return SW_ENOMEM;
+  }
+  memcpy(p->s, s, n * sizeof *s);
+  for (size_t e = 0; e < p->edges; e++) p->rest[e] = s[e + 1] - s[e];
+  set_masses(p);
+  set_holds(p, holds, hold_count);
+  *out = p;
+  return SW_OK;
+}
+
+size_t sw_plan_locate(const sw_plan *plan, double s, double *fraction) {
+  size_t low = 0, high = plan->edges;
+  while (high - low > 1) {
+    const size_t middle = (low + high) / 2;
+    if (plan->s[middle] <= s) low = middle;
+    else high = middle;
+  }
+  double f = (s - plan->s[low]) / plan->rest[low];
+  if (f < 0) f = 0;
+  if (f > 1) f = 1;
+  *fraction = f;
+  return low;
+}

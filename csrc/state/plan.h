@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The plan of a wire: everything that does not change during a step. Node and
+ * edge lists, masses, which nodes are held, where the bending hinges sit. A
+ * plan is immutable and reference-counted; a clamp put on or taken off makes a
+ * new plan between two steps. */
+#ifndef SW_STATE_PLAN_H
+#define SW_STATE_PLAN_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+#include "base/vec.h"
+
+/* What a section is made of, in beam terms. */
+typedef struct sw_beam {
+  double EA;     /* axial stiffness [N] */
+  double EI;     /* bending stiffness [N m2] */
+  double GJ;     /* twist stiffness [N m2] */
+  double mass;   /* mass per length [kg/m] */
+  double radius; /* outer radius [m] */
+} sw_beam;
+
+/* How a node is held. */
+enum { SW_FREE = 0, SW_HELD = 1 };
+
+/* A place where a hold fixes the wire's direction: the hinge between the held
+ * director and one edge. */
+typedef struct sw_clamp_hinge {
+  size_t node;   /* held node */
+  size_t edge;   /* edge that starts or ends there */
+  int side;      /* +1: the edge leaves the node, -1: it arrives there */
+  int hold;      /* index of the hold that owns the director */
+  double length; /* hinge length: angle = curvature * length [m] */
+} sw_clamp_hinge;
+
+typedef struct sw_plan {
+  int references;
+  size_t nodes;        /* n */
+  size_t edges;        /* m = n - 1 */
+  sw_beam beam;
+  double length;       /* unstressed wire length [m] */
+  double *s;           /* (n) arc length of each node [m] */
+  double *rest;        /* (m) unstressed edge lengths [m] */
+  double *lumped;      /* (n) lumped node masses [kg] */
+  double *mass_own;    /* (n) consistent mass, diagonal [kg] */
+  double *mass_next;   /* (n) consistent mass, node i with i+1 [kg] */
+  double *hinge;       /* (n) hinge lengths; 0 = no hinge at this node [m] */
+  int *held;           /* (n) SW_FREE or SW_HELD */
+  sw_clamp_hinge *clamps; /* (clamp_count) */
+  size_t clamp_count;
+} sw_plan;
+
+/* What a hold wants of the mesh: nodes at s1 and s2 (equal for a point) and
+ * every node between them held; direction fixed too when clamped. */
+typedef struct sw_hold_place {
+  double s1, s2; /* [m] */
+  int clamped;
+  int hold;      /* the owner's index */
+} sw_hold_place;
+
+/* Build a plan for nodes at arc lengths s (n values, increasing, first 0) under
+ * the given holds; every s1 and s2 must be one of the nodes (see
+ * sw_mesh_place). The result has one reference. SW_ENOMEM. */
+sw_status sw_plan_new(const sw_beam *beam, const double *s, size_t n, const sw_hold_place *holds,
+                      size_t hold_count, sw_plan **out);
+
+sw_plan *sw_plan_retain(sw_plan *plan);
+void sw_plan_release(sw_plan *plan); /* NULL is allowed */
+
+/* The edge that contains arc length s, and the place within it in [0, 1]. */
+size_t sw_plan_locate(const sw_plan *plan, double s, double *fraction);
+
+#endif

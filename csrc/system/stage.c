@@ -1,0 +1,330 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One implicit stage by the mixed Newton: the axial force of each edge is an
+ * independent unknown. It appears in the geometric stiffness as stored, the
+ * residual takes the displacements' own, and after each solve it is advanced by
+ * the linearised axial law. Large axial stiffness then costs no iterations. */
+#include <math.h>
+#include <string.h>
+
+#include "base/simd.h"
+#include "solve/band3.h"
+#include "system/system.h"
+
+static void gather_row(const sw_field *f, size_t i, double *restrict row) {
+  double *const *own = f->own, *const *next = f->next;
+  const double *const *o = (const double *const *)own;
+  const double *const *x = (const double *const *)next;
+  row[0] += o[0][i] + *(o[0] + i - 1) - 2.0 * x[0][i];
+  row[1] += o[1][i] + *(o[1] + i - 1) - x[1][i] - x[3][i];
+  row[2] += o[2][i] + *(o[2] + i - 1) - x[2][i] - x[6][i];
+  row[3] += o[3][i] + *(o[3] + i - 1) - 2.0 * x[4][i];
+  row[4] += o[4][i] + *(o[4] + i - 1) - x[5][i] - x[7][i];
+  row[5] += o[5][i] + *(o[5] + i - 1) - 2.0 * x[8][i];
+  static const int upper[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+  for (int k = 0; k < 9; k++) {
+    row[SW_ROW_NEXT + k] += x[k][i] + x[k][i + 1] - o[upper[k]][i];
+    row[SW_ROW_SECOND + k] -= x[k][i + 1];
+  }
+}
+
+/* rows = stiffness + mass / hbar^2 */
+SW_HOT
+static void gather_rows(const sw_field *f, double rate2) {
+  const sw_plan *p = f->plan;
+  for (size_t i = 0; i < p->nodes; i++) {
+    double *row = f->rows + SW_ROW_SIZE * i;
+    gather_row(f, i, row);
+    const double own = p->mass_own[i] * rate2, next = p->mass_next[i] * rate2;
+    row[0] += own, row[3] += own, row[5] += own;
+    row[SW_ROW_NEXT] += next, row[SW_ROW_NEXT + 4] += next, row[SW_ROW_NEXT + 8] += next;
+  }
+}
+
+/* right = forces - M (y - yhat) / hbar^2 */
+SW_HOT
+static void gather_residual(const sw_field *f, double rate2, const double *restrict y,
+                            const double *restrict yhat, double *restrict right) {
+  const sw_plan *p = f->plan;
+  const size_t n = p->nodes;
+  double before[3] = {0, 0, 0}; /* M_next of the edge before times its shift */
+  for (size_t i = 0; i < n; i++) {
+    const double own = p->mass_own[i] * rate2, next = i + 1 < n ? p->mass_next[i] * rate2 : 0.0;
+    const size_t j = i + 1 < n ? i + 1 : i;
+    for (size_t k = 0; k < 3; k++) {
+      const double shift = y[3 * i + k] - yhat[3 * i + k];
+      const double after = next * (y[3 * j + k] - yhat[3 * j + k]);
+      right[3 * i + k] = f->force[3 * i + k] + f->gradient[k][i] - *(f->gradient[k] + i - 1) -
+                         own * shift - before[k] - after;
+      before[k] = next * shift;
+    }
+  }
+}
+
+static void transpose(const double *u, double *out) {
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) out[3 * i + j] = u[3 * j + i];
+}
+
+/* Take a held node out of the equations, keeping its couplings for the
+ * reaction. */
+static void hold_row(sw_held_node *h, double *rows, size_t n, size_t i, double *right) {
+  double *row = rows + SW_ROW_SIZE * i;
+  memset(h->saved, 0, sizeof h->saved);
+  if (i >= 2) {
+    double *u = rows + SW_ROW_SIZE * (i - 2) + SW_ROW_SECOND;
+    transpose(u, h->saved);
+    memset(u, 0, 9 * sizeof *u);
+  }
+  if (i >= 1) {
+    double *u = rows + SW_ROW_SIZE * (i - 1) + SW_ROW_NEXT;
+    transpose(u, h->saved + 9);
+    memset(u, 0, 9 * sizeof *u);
+  }
+  if (i + 1 < n) memcpy(h->saved + 18, row + SW_ROW_NEXT, 9 * sizeof *row);
+  if (i + 2 < n) memcpy(h->saved + 27, row + SW_ROW_SECOND, 9 * sizeof *row);
+  memset(row, 0, SW_ROW_SIZE * sizeof *row);
+  row[0] = row[3] = row[5] = 1.0;
+  h->own_force = sw_neg(sw_load(right + 3 * i));
+  sw_store(right + 3 * i, sw_v(0, 0, 0));
+}
+
+static void add_block(sw_vec *f, const double *u, const double *d) {
+  f->x += u[0] * d[0] + u[1] * d[1] + u[2] * d[2];
+  f->y += u[3] * d[0] + u[4] * d[1] + u[5] * d[2];
+  f->z += u[6] * d[0] + u[7] * d[1] + u[8] * d[2];
+}
+
+/* Reaction after the update delta, linearised as the solve was. */
+static void update_reaction(sw_held_node *h, const sw_body *b, const double *delta) {
+  const size_t i = h->node - b->first_node, n = b->plan->nodes;
+  const double *d = delta + 3 * h->node;
+  sw_vec f = h->own_force;
+  if (i >= 2) add_block(&f, h->saved, d - 6);
+  if (i >= 1) add_block(&f, h->saved + 9, d - 3);
+  if (i + 1 < n) add_block(&f, h->saved + 18, d + 3);
+  if (i + 2 < n) add_block(&f, h->saved + 27, d + 6);
+  h->reaction = f;
+}
+
+/* Axial forces after delta by the linearised law, and the square of the largest
+ * rotation of an edge. */
+SW_HOT
+static double advance_tension(size_t m, const double *restrict delta, const double *restrict rest,
+                              const double *restrict l, const double *restrict rl,
+                              const double *restrict tx, const double *restrict ty,
+                              const double *restrict tz, double EA, double EA_push,
+                              double *restrict tension) {
+  double largest = 0.0;
+  for (size_t e = 0; e < m; e++) {
+    const double dx = delta[3 * e + 3] - delta[3 * e];
+    const double dy = delta[3 * e + 4] - delta[3 * e + 1];
+    const double dz = delta[3 * e + 5] - delta[3 * e + 2];
+    const double along = dx * tx[e] + dy * ty[e] + dz * tz[e];
+    const double across2 = (dx * dx + dy * dy + dz * dz - along * along) * rl[e] * rl[e];
+    const double strain = (l[e] + along) / rest[e] - 1.0;
+    const double stiffness = strain >= 0 ? EA : EA_push;
+    tension[e] = stiffness * strain;
+    largest = largest > across2 ? largest : across2;
+  }
+  return largest;
+}
+
+static sw_status evaluate(sw_system *s, sw_body *b, double time, double hbar, const double *y,
+                          const double *v, int statics, sw_error *err) {
+  sw_field *f = &b->field;
+  f->want = SW_WANT_FORCE | SW_WANT_STIFFNESS;
+  f->time = time;
+  f->velocity_rate = statics ? 0.0 : 1.0 / hbar;
+  f->statics = statics;
+  f->x = y + 3 * b->first_node;
+  f->v = v + 3 * b->first_node;
+  f->tension = s->tension + b->first_edge;
+  f->gravity = s->gravity;
+  f->hold_directors = s->directors_now;
+  sw_field_clear(f);
+  sw_field_geometry(f);
+  for (size_t k = 0; k < b->term_count; k++)
+    SW_TRY(b->terms[k].cls->eval(b->terms[k].args, f, err));
+  return SW_OK;
+}
+
+static void stage_velocity(const sw_system *s, const sw_stage *stage, int statics) {
+  const double rate = statics ? 0.0 : 1.0 / stage->hbar;
+  for (size_t i = 0; i < 3 * s->nodes; i++)
+    s->velocity[i] = (stage->y[i] - stage->xhat[i]) * rate;
+}
+
+/* Assemble and solve once; delta is the full update. */
+static sw_status solve_once(sw_system *s, const sw_stage *stage, int statics,
+                            sw_stage_report *report, sw_error *err) {
+  const double rate2 = isfinite(stage->hbar) ? 1.0 / (stage->hbar * stage->hbar) : 0.0;
+  int velocity = 0;
+  for (size_t b = 0; b < s->body_count; b++) velocity |= s->bodies[b].needs_velocity;
+  if (velocity) stage_velocity(s, stage, statics);
+  for (size_t b = 0; b < s->body_count; b++)
+    SW_TRY(evaluate(s, &s->bodies[b], stage->time, stage->hbar, stage->y, s->velocity, statics,
+                    err));
+  if (s->coupling.eval)
+    SW_TRY(s->coupling.eval(s->coupling.user, s, stage->time, stage->hbar, stage->y,
+                            SW_WANT_FORCE | SW_WANT_STIFFNESS, err));
+  for (size_t b = 0; b < s->body_count; b++) {
+    sw_field *f = &s->bodies[b].field;
+    const size_t at = 3 * s->bodies[b].first_node;
+    gather_rows(f, rate2);
+    gather_residual(f, rate2, f->x, s->yhat + at, s->delta + at);
+  }
+  for (size_t i = 0; i < s->held_count; i++) {
+    const sw_body *b = &s->bodies[s->held[i].body];
+    hold_row(&s->held[i], b->field.rows, b->plan->nodes, s->held[i].node - b->first_node,
+             s->delta + 3 * b->first_node);
+  }
+  report->negative = 0;
+  for (size_t b = 0; b < s->body_count; b++) {
+    sw_body *body = &s->bodies[b];
+    size_t negative = 0;
+    SW_TRY(sw_band3_factor(body->field.rows, body->plan->nodes, body->field.rows, &negative));
+    sw_band3_solve(body->field.rows, body->plan->nodes, s->delta + 3 * body->first_node);
+    report->negative += negative;
+  }
+  s->counters.newton++;
+  s->counters.evaluations++;
+  return SW_OK;
+}
+
+/* Apply the update, shortened when an edge would turn too far. Returns the
+ * share applied, or -1 when the update is not finite. */
+static double apply(sw_system *s, const sw_stage *stage, const sw_newton *newton,
+                    sw_stage_report *report) {
+  double largest = 0;
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_body *body = &s->bodies[b];
+    const sw_field *f = &body->field;
+    const double turn2 = advance_tension(
+        body->plan->edges, s->delta + 3 * body->first_node, body->plan->rest, f->length,
+        f->reciprocal, f->tangent[0], f->tangent[1], f->tangent[2], body->EA, body->EA_push,
+        s->tension_new + body->first_edge);
+    if (!(turn2 <= largest)) largest = turn2;
+  }
+  if (!isfinite(largest)) return -1;
+  report->rotation = sqrt(fmax(largest, 0.0));
+  const double share = report->rotation > newton->limit_rotation
+                           ? newton->limit_rotation / report->rotation
+                           : 1.0;
+  for (size_t i = 0; i < 3 * s->nodes; i++) stage->y[i] += share * s->delta[i];
+  if (share == 1.0)
+    memcpy(s->tension, s->tension_new, s->edges * sizeof(double));
+  else
+    for (size_t e = 0; e < s->edges; e++)
+      s->tension[e] += share * (s->tension_new[e] - s->tension[e]);
+  return share;
+}
+
+static double largest_shift(const sw_system *s) {
+  double largest = 0;
+  for (size_t i = 0; i < 3 * s->nodes; i++) largest = fmax(largest, fabs(s->delta[i]));
+  return largest;
+}
+
+/* A force without stiffness is at its fixed point when nodes move less than
+ * this share of the wire in an iteration [-]. */
+static const double FIXED_POINT = 1e-9;
+
+static int converged(sw_system *s, const sw_stage *stage, const sw_newton *newton,
+                     const sw_stage_report *report, double share) {
+  if (share < 1.0 || report->rotation > newton->accept_rotation) return 0;
+  if (newton->statics && largest_shift(s) > newton->accept_shift) return 0;
+  for (size_t b = 0; b < s->body_count; b++)
+    if (s->bodies[b].is_explicit &&
+        largest_shift(s) > FIXED_POINT * s->bodies[b].plan->length)
+      return 0;
+  return !s->coupling.settled ||
+         s->coupling.settled(s->coupling.user, s, stage->y, s->delta);
+}
+
+static sw_status begin(sw_system *s, const sw_stage *stage, int statics, sw_error *err) {
+  const double h = statics ? 0.0 : stage->hbar;
+  for (size_t i = 0; i < 3 * s->nodes; i++)
+    stage->y[i] = s->yhat[i] = stage->xhat[i] + h * stage->vhat[i];
+  SW_TRY(sw_system_place_holds(s, stage->time, stage->y, stage->v, stage->a, err));
+  for (size_t k = 0; k < s->held_count; k++)
+    for (size_t c = 0; c < 3; c++) {
+      const size_t i = 3 * s->held[k].node + c;
+      s->yhat[i] = stage->y[i] - h * h * (stage->a ? stage->a[i] : 0.0);
+    }
+  if (s->coupling.begin_stage)
+    SW_TRY(s->coupling.begin_stage(s->coupling.user, s, stage->time, stage->hbar, stage->y, err));
+  return SW_OK;
+}
+
+static void finish(sw_system *s, const sw_stage *stage, int statics) {
+  const double rate = statics || !isfinite(stage->hbar) ? 0.0 : 1.0 / stage->hbar;
+  for (size_t i = 0; i < 3 * s->nodes; i++) stage->v[i] = (stage->y[i] - stage->xhat[i]) * rate;
+  if (stage->a)
+    for (size_t i = 0; i < 3 * s->nodes; i++)
+      stage->a[i] = (stage->y[i] - s->yhat[i]) * rate * rate;
+  for (size_t k = 0; k < s->held_count; k++) {
+    sw_held_node *h = &s->held[k];
+    update_reaction(h, &s->bodies[h->body], s->delta);
+    sw_system_held_velocity(s, h, stage->v + 3 * h->node);
+  }
+}
+
+sw_status sw_system_stage(sw_system *s, const sw_stage *stage, const sw_newton *newton,
+                          sw_stage_report *report, sw_error *err) {
+  *report = (sw_stage_report){0};
+  SW_TRY(begin(s, stage, newton->statics, err));
+  for (int i = 1; i <= newton->max_iterations; i++) {
+    report->iterations = i;
+    SW_TRY(solve_once(s, stage, newton->statics, report, err));
+    const double share = apply(s, stage, newton, report);
+    if (share < 0) return sw_fail(err, SW_EDIVERGED, "the positions left the finite numbers");
+    if (converged(s, stage, newton, report, share)) {
+      finish(s, stage, newton->statics);
+      return SW_OK;
+    }
+  }
+  return sw_fail(err, SW_ENOCONV, "no convergence in %d iterations", newton->max_iterations);
+}
+
+sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const double *v,
+                                 double *a, sw_error *err) {
+  SW_TRY(sw_system_place_holds(s, t, NULL, NULL, a, err));
+  for (size_t b = 0; b < s->body_count; b++) {
+    sw_body *body = &s->bodies[b];
+    sw_field *f = &body->field;
+    f->want = SW_WANT_FORCE;
+    f->time = t;
+    f->velocity_rate = 0;
+    f->tension = NULL;
+    f->gravity = s->gravity;
+    f->hold_directors = s->directors_now;
+    f->x = x + 3 * body->first_node;
+    f->v = v + 3 * body->first_node;
+    sw_field_clear(f);
+    sw_field_geometry(f);
+    for (size_t k = 0; k < body->term_count; k++)
+      SW_TRY(body->terms[k].cls->eval(body->terms[k].args, f, err));
+  }
+  if (s->coupling.eval)
+    SW_TRY(s->coupling.eval(s->coupling.user, s, t, HUGE_VAL, x, SW_WANT_FORCE, err));
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_body *body = &s->bodies[b];
+    const sw_field *f = &body->field;
+    for (size_t i = 0; i < body->plan->nodes; i++)
+      for (size_t k = 0; k < 3; k++) {
+        const double force =
+            f->force[3 * i + k] + f->gradient[k][i] - *(f->gradient[k] + i - 1);
+        s->delta[3 * (body->first_node + i) + k] = force;
+        if (body->plan->held[i] == SW_FREE)
+          a[3 * (body->first_node + i) + k] = force / body->plan->lumped[i];
+      }
+  }
+  for (size_t k = 0; k < s->held_count; k++) {
+    sw_held_node *h = &s->held[k];
+    const sw_body *body = &s->bodies[h->body];
+    const double m = body->plan->lumped[h->node - body->first_node];
+    h->reaction = sw_sub(sw_scale(sw_load(a + 3 * h->node), m), sw_load(s->delta + 3 * h->node));
+  }
+  s->counters.evaluations++;
+  return SW_OK;
+}

@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "system/system.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+
+void sw_system_free(sw_system *system) {
+  for (size_t b = 0; system->bodies && b < system->body_count; b++) {
+    sw_plan_release(system->bodies[b].plan);
+    sw_free(system->bodies[b].field_block);
+    sw_free(system->bodies[b].terms);
+  }
+  sw_free(system->bodies);
+  sw_free(system->held);
+  sw_free(system->directors);
+  sw_free(system->hold_states);
+  sw_free(system->state);
+  sw_free(system->work);
+  memset(system, 0, sizeof *system);
+}
+
+static sw_status new_bodies(sw_system *s, sw_plan *const *plans, size_t count) {
+  s->bodies = sw_alloc(count + 1, sizeof *s->bodies);
+  if (!s->bodies) return SW_ENOMEM;
+  for (size_t b = 0; b < count; b++) {
+    sw_body *body = &s->bodies[b];
+    SW_TRY(sw_field_new(&body->field, plans[b]->nodes, &body->field_block));
+    body->plan = sw_plan_retain(plans[b]);
+    s->body_count = b + 1;
+    body->field.plan = plans[b];
+    body->first_node = s->nodes;
+    body->first_edge = s->edges;
+    s->nodes += plans[b]->nodes;
+    s->edges += plans[b]->edges;
+  }
+  return SW_OK;
+}
+
+static sw_status new_arrays(sw_system *s, size_t hold_count) {
+  size_t held = 0;
+  for (size_t b = 0; b < s->body_count; b++)
+    for (size_t i = 0; i < s->bodies[b].plan->nodes; i++)
+      held += s->bodies[b].plan->held[i] != SW_FREE;
+  s->hold_count = hold_count;
+  s->held = sw_alloc(held, sizeof *s->held);
+  s->directors = sw_alloc(12 * hold_count, sizeof(double));
+  s->hold_states = sw_alloc(hold_count, sizeof *s->hold_states);
+  s->state_size = 9 * s->nodes + s->edges;
+  s->state = sw_alloc(s->state_size, sizeof(double));
+  double *w = sw_alloc(9 * s->nodes + s->edges, sizeof(double));
+  s->work = w;
+  if (!s->held || !s->directors || !s->hold_states || !s->state || !w) return SW_ENOMEM;
+  s->directors_now = s->directors + 6 * hold_count;
+  s->x = s->state;
+  s->v = s->x + 3 * s->nodes;
+  s->a = s->v + 3 * s->nodes;
+  s->tension = s->a + 3 * s->nodes;
+  s->yhat = w;
+  s->delta = s->yhat + 3 * s->nodes;
+  s->velocity = s->delta + 3 * s->nodes;
+  s->tension_new = s->velocity + 3 * s->nodes;
+  return SW_OK;
+}
+
+sw_status sw_system_new(sw_system *system, sw_plan *const *plans, size_t body_count,
+                        size_t hold_count) {
+  memset(system, 0, sizeof *system);
+  sw_status status = new_bodies(system, plans, body_count);
+  if (status == SW_OK) status = new_arrays(system, hold_count);
+  if (status != SW_OK) sw_system_free(system);
+  return status;
+}
+
+sw_status sw_system_add_term(sw_system *system, size_t body, const sw_force_class *cls,
+                             const void *args, size_t args_size, int id) {
+  sw_body *b = &system->bodies[body];
+  sw_term *more = sw_alloc(b->term_count + 1, sizeof *more);
+  if (!more) return SW_ENOMEM;
+  if (b->term_count) memcpy(more, b->terms, b->term_count * sizeof *more);
+  sw_term *term = &more[b->term_count];
+  term->cls = cls;
+  term->id = id;
+  if (args_size) memcpy(term->args, args, args_size);
+  sw_free(b->terms);
+  b->terms = more;
+  b->term_count++;
+  if (cls->flags & SW_FORCE_EXPLICIT) b->is_explicit = 1;
+  if (!(cls->flags & SW_FORCE_INNER) || (cls->flags & SW_FORCE_EXPLICIT)) b->needs_velocity = 1;
+  return SW_OK;
+}
+
+/* --- holds ------------------------------------------------------------------ */
+
+static void place_node(const sw_hold_state *h, sw_vec local, double *x, double *v, double *a) {
+  const sw_vec arm = sw_rotate(h->pose.q, local);
+  if (x) sw_store(x, sw_add(h->pose.p, arm));
+  const sw_vec spin = sw_cross(h->omega, arm);
+  if (v) sw_store(v, sw_add(h->v, spin));
+  if (a)
+    sw_store(a, sw_add(h->a, sw_add(sw_cross(h->alpha, arm), sw_cross(h->omega, spin))));
+}
+
+sw_status sw_system_place_holds(sw_system *s, double t, double *x, double *v, double *a,
+                                sw_error *err) {
+  for (size_t k = 0; k < s->hold_count; k++) {
+    SW_TRY(s->coupling.place(s->coupling.user, (int)k, t, &s->hold_states[k], err));
+    for (size_t side = 0; side < 2; side++)
+      sw_store(s->directors_now + 3 * (2 * k + side),
+               sw_rotate(s->hold_states[k].pose.q, sw_load(s->directors + 3 * (2 * k + side))));
+  }
+  for (size_t i = 0; i < s->held_count; i++) {
+    const sw_held_node *h = &s->held[i];
+    place_node(&s->hold_states[h->hold], h->local, x ? x + 3 * h->node : NULL,
+               v ? v + 3 * h->node : NULL, a ? a + 3 * h->node : NULL);
+  }
+  return SW_OK;
+}
+
+void sw_system_held_velocity(const sw_system *s, const sw_held_node *held, double *v) {
+  place_node(&s->hold_states[held->hold], held->local, NULL, v, NULL);
+}
+
+void sw_system_reaction(const sw_system *s, int hold, sw_vec point, sw_vec *force,
+                        sw_vec *moment) {
+  sw_vec f = sw_v(0, 0, 0), m = sw_v(0, 0, 0);
+  for (size_t i = 0; i < s->held_count; i++) {
+    const sw_held_node *h = &s->held[i];
+    if (h->hold != hold) continue;
+    f = sw_add(f, h->reaction);
+    m = sw_add(m, sw_cross(sw_sub(sw_load(s->x + 3 * h->node), point), h->reaction));
+  }
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_body *body = &s->bodies[b];
+    for (size_t c = 0; c < body->plan->clamp_count; c++) {
+      if (body->plan->clamps[c].hold != hold) continue;
+      for (size_t k = 0; k < body->term_count; k++)
+        if (body->terms[k].cls->clamp_moment)
+          m = sw_add(m, body->terms[k].cls->clamp_moment(body->terms[k].args, &body->field,
+                                                         &body->plan->clamps[c]));
+    }
+  }
+  *force = f;
+  *moment = m;
+}
+
+/* --- read-outs of the state -------------------------------------------------- */
+
+static void aim(sw_system *s, sw_body *b, const double *x, const double *v) {
+  sw_field *f = &b->field;
+  f->x = x + 3 * b->first_node;
+  f->v = v + 3 * b->first_node;
+  f->gravity = s->gravity;
+  f->hold_directors = s->directors_now;
+}
+
+void sw_system_refresh(sw_system *s) {
+  for (size_t b = 0; b < s->body_count; b++) {
+    sw_body *body = &s->bodies[b];
+    aim(s, body, s->x, s->v);
+    sw_field_geometry(&body->field);
+  }
+}
+
+double sw_system_kinetic(const sw_system *s, int lumped) {
+  double sum = 0;
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_plan *p = s->bodies[b].plan;
+    const double *v = s->v + 3 * s->bodies[b].first_node;
+    for (size_t i = 0; i < p->nodes; i++) {
+      const sw_vec vi = sw_load(v + 3 * i);
+      sum += 0.5 * (lumped ? p->lumped[i] : p->mass_own[i]) * sw_norm2(vi);
+      if (!lumped && i + 1 < p->nodes) sum += p->mass_next[i] * sw_dot(vi, sw_load(v + 3 * i + 3));
+    }
+  }
+  return sum;
+}
+
+double sw_system_term_energy(sw_system *s, size_t body, size_t term) {
+  sw_body *b = &s->bodies[body];
+  sw_field *f = &b->field;
+  sw_error err;
+  aim(s, b, s->x, s->v);
+  sw_field_geometry(f);
+  f->want = SW_WANT_ENERGY;
+  f->tension = s->tension + b->first_edge;
+  f->energy = 0;
+  /* hinge cosines for the bending energy come with the force evaluation */
+  b->terms[term].cls->eval(b->terms[term].args, f, &err);
+  return f->energy;
+}
+
+double sw_system_stable_dt(const sw_system *s) {
+  double smallest = HUGE_VAL;
+  for (size_t b = 0; b < s->body_count; b++)
+    for (size_t k = 0; k < s->bodies[b].term_count; k++) {
+      const sw_term *t = &s->bodies[b].terms[k];
+      if (!t->cls->stable_dt) continue;
+      const double dt = t->cls->stable_dt(t->args, s->bodies[b].plan);
+      if (dt < smallest) smallest = dt;
+    }
+  return smallest;
+}

@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The mechanical system that integrators advance: all wires' nodes in flat
+ * arrays, the forces on them, the holds, and whatever couples them to the
+ * outside (contact). It offers two views: an implicit stage
+ * M (y - yhat)/hbar^2 = f(y, (y - xhat)/hbar, t), solved by the mixed Newton,
+ * and plain accelerations with lumped masses for explicit schemes. */
+#ifndef SW_SYSTEM_SYSTEM_H
+#define SW_SYSTEM_SYSTEM_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+#include "force/force.h"
+#include "state/field.h"
+#include "state/plan.h"
+
+/* One force acting on one wire. */
+typedef struct sw_term {
+  const sw_force_class *cls;
+  double args[SW_FORCE_ARGS_MAX / sizeof(double)];
+  int id; /* for the owner; -1 for a recipe's own forces */
+} sw_term;
+
+typedef struct sw_body {
+  sw_plan *plan;
+  size_t first_node, first_edge; /* place in the system's arrays */
+  double EA, EA_push;            /* axial stiffness pulled and pushed [N] */
+  sw_term *terms;
+  size_t term_count;
+  sw_field field;
+  void *field_block;
+  int needs_velocity; /* some force depends on it */
+  int is_explicit;    /* some force has no stiffness */
+} sw_body;
+
+/* Where a hold is, for all nodes it holds. */
+typedef struct sw_hold_state {
+  sw_pose pose;                       /* [m], [-] */
+  sw_vec v, a, omega, alpha;          /* [m/s], [m/s2], [rad/s], [rad/s2] */
+} sw_hold_state;
+
+/* A node that follows a hold: x = pose * local. */
+typedef struct sw_held_node {
+  size_t node; /* in the system's arrays */
+  size_t body;
+  int hold;
+  sw_vec local;       /* [m] */
+  double saved[36];   /* its matrix couplings to the nodes -2 -1 +1 +2 [N/m] */
+  sw_vec own_force;   /* inertia minus forces before the last solve [N] */
+  sw_vec reaction;    /* force on the wire needed to hold it [N] */
+} sw_held_node;
+
+typedef struct sw_system sw_system;
+
+/* What acts besides the wires' own forces. Every function may be NULL. All get
+ * user first. */
+typedef struct sw_coupling {
+  void *user;
+  /* Pose of hold number k at a time. */
+  sw_status (*place)(void *user, int hold, double time, sw_hold_state *out, sw_error *err);
+  /* A stage begins at y (predicted); hbar is infinite in statics. */
+  sw_status (*begin_stage)(void *user, sw_system *system, double time, double hbar,
+                           const double *y, sw_error *err);
+  /* Add forces and matrix rows at y to the bodies' fields. */
+  sw_status (*eval)(void *user, sw_system *system, double time, double hbar, const double *y,
+                    unsigned want, sw_error *err);
+  /* After an update y was reached by the solved delta: 1 = converged. */
+  int (*settled)(void *user, sw_system *system, const double *y, const double *delta);
+} sw_coupling;
+
+typedef struct sw_counters {
+  size_t newton;      /* matrix solves since start [-] */
+  size_t evaluations; /* force evaluations since start [-] */
+} sw_counters;
+
+struct sw_system {
+  size_t nodes, edges;
+  sw_body *bodies;
+  size_t body_count;
+  sw_held_node *held;
+  size_t held_count;
+  double *directors; /* (holds x 2 x 3) in hold coordinates: arriving, leaving */
+  double *directors_now; /* the same in world coordinates at the stage */
+  sw_hold_state *hold_states; /* (hold_count) at the last stage */
+  size_t hold_count;
+  double gravity[3]; /* [m/s2] */
+  sw_coupling coupling;
+  sw_counters counters;
+
+  /* the state, one block: x v a (nodes x 3 each), tension (edges) */
+  double *state;
+  size_t state_size; /* in doubles */
+  double *x, *v, *a, *tension;
+
+  /* work space of a stage (nodes x 3) */
+  double *yhat, *delta, *velocity;
+  double *tension_new; /* (edges) */
+  void *work;
+};
+
+/* Newton controls, all [-] unless said. */
+typedef struct sw_newton {
+  int max_iterations;
+  double accept_rotation; /* largest edge rotation of the last update [rad] */
+  double limit_rotation;  /* larger updates are shortened to this [rad] */
+  int statics;            /* 1: no inertia */
+  double accept_shift;    /* statics: largest node shift of the last update [m] */
+} sw_newton;
+
+typedef struct sw_stage {
+  double time;        /* at the stage's end [s] */
+  double hbar;        /* [s] */
+  const double *xhat; /* (nodes x 3): velocity = (y - xhat)/hbar [m] */
+  const double *vhat; /* (nodes x 3): acceleration = (velocity - vhat)/hbar [m/s] */
+  double *y;          /* out: positions [m] */
+  double *v;          /* out: velocities [m/s] */
+  double *a;          /* out: accelerations, or NULL [m/s2] */
+} sw_stage;
+
+typedef struct sw_stage_report {
+  int iterations;
+  double rotation;  /* of the last update [rad] */
+  size_t negative;  /* negative pivots of the last matrix */
+} sw_stage_report;
+
+/* Make arrays for bodies whose plans are set (takes over a retained plan each).
+ * The caller fills x, v and terms. SW_ENOMEM leaves nothing behind. */
+sw_status sw_system_new(sw_system *system, sw_plan *const *plans, size_t body_count,
+                        size_t hold_count);
+void sw_system_free(sw_system *system);
+
+/* Add a force to a body. inner terms: id -1. SW_ENOMEM. */
+sw_status sw_system_add_term(sw_system *system, size_t body, const sw_force_class *cls,
+                             const void *args, size_t args_size, int id);
+
+/* Solve an implicit stage. system->tension is read and updated. Statuses:
+ * SW_OK, SW_ENOCONV, SW_ESINGULAR, SW_EDIVERGED, SW_ECALLBACK. */
+sw_status sw_system_stage(sw_system *system, const sw_stage *stage, const sw_newton *newton,
+                          sw_stage_report *report, sw_error *err);
+
+/* Accelerations with lumped masses at (t, x, v); held nodes get their hold's. */
+sw_status sw_system_acceleration(sw_system *system, double t, const double *x, const double *v,
+                                 double *a, sw_error *err);
+
+/* Place the holds at time t: overwrite held nodes' entries of x, v, a (each may
+ * be NULL) and set directors. */
+sw_status sw_system_place_holds(sw_system *system, double t, double *x, double *v, double *a,
+                                sw_error *err);
+
+/* Velocity of a held node from its hold's state at the last stage [m/s]. */
+void sw_system_held_velocity(const sw_system *system, const sw_held_node *held, double *v);
+
+/* Bring every field's geometry up to the state (system->x). */
+void sw_system_refresh(sw_system *system);
+
+/* Force and moment about point that hold k puts on its wire, from the last
+ * solved stage [N], [N m]. */
+void sw_system_reaction(const sw_system *system, int hold, sw_vec point, sw_vec *force,
+                        sw_vec *moment);
+
+/* Kinetic energy of the state with consistent (implicit) masses [J]. */
+double sw_system_kinetic(const sw_system *system, int lumped);
+
+/* Energy of one term of one body at the state [J]. */
+double sw_system_term_energy(sw_system *system, size_t body, size_t term);
+
+/* Smallest stable leapfrog step over all bodies and forces [s]. */
+double sw_system_stable_dt(const sw_system *system);
+
+#endif

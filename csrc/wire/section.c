@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Section and material to beam stiffness: solid circle A = pi r^2,
+ * I = pi r^4/4, J = 2 I, G = E/(2 (1 + nu)). */
+#include <math.h>
+#include <stddef.h>
+
+#include "wire/wire.h"
+
+#define POSITIVE(name, unit, doc)                                                        \
+  {#name, SW_PARAM_NUMBER, unit, NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,             \
+   offsetof(sw_section, name), doc}
+
+static const sw_param rows[] = {
+    POSITIVE(EA, "N", "axial stiffness"),
+    {"EI", SW_PARAM_NUMBER, "N m2", NAN, 0, HUGE_VAL, 0, NULL, offsetof(sw_section, EI),
+     "bending stiffness; 0 only with model = 'string'"},
+    POSITIVE(GJ, "N m2", "twist stiffness"),
+    POSITIVE(mass_per_length, "kg/m", "mass per length"),
+    POSITIVE(radius, "m", "outer radius"),
+    POSITIVE(E, "Pa", "Young's modulus of a solid round wire"),
+    {"nu", SW_PARAM_NUMBER, "-", NAN, -1, 0.5, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(sw_section, nu), "Poisson's ratio of a solid round wire (0.35 when not given)"},
+    POSITIVE(density, "kg/m3", "density of a solid round wire"),
+};
+
+const sw_params sw_section_params = SW_PARAMS("wire", rows);
+
+static const double PI = 3.14159265358979323846;
+static const double USUAL_POISSON = 0.35; /* cable polymers lie between 0.3 and 0.45 [-] */
+
+sw_status sw_section_beam(const char *object, const sw_section *c, sw_beam *out, sw_error *err) {
+  if (isnan(c->radius))
+    return sw_fail(err, SW_EINVAL, "%s: radius is required [m]: outer radius of the wire", object);
+  const double area = PI * c->radius * c->radius;
+  const double I = 0.25 * area * c->radius * c->radius;
+  const double nu = isnan(c->nu) ? USUAL_POISSON : c->nu;
+  *out = (sw_beam){.radius = c->radius};
+  out->EA = isnan(c->EA) ? c->E * area : c->EA;
+  out->EI = isnan(c->EI) ? c->E * I : c->EI;
+  out->GJ = !isnan(c->GJ) ? c->GJ : !isnan(c->E) ? c->E * I / (1 + nu) : out->EI / (1 + nu);
+  out->mass = isnan(c->mass_per_length) ? c->density * area : c->mass_per_length;
+  if (isnan(out->EA))
+    return sw_fail(err, SW_EINVAL, "%s: give EA [N], or E [Pa] for a solid round wire", object);
+  if (isnan(out->EI))
+    return sw_fail(err, SW_EINVAL, "%s: give EI [N m2], or E [Pa] for a solid round wire", object);
+  if (isnan(out->mass))
+    return sw_fail(err, SW_EINVAL,
+                   "%s: give mass_per_length [kg/m], or density [kg/m3] for a solid round wire",
+                   object);
+  return SW_OK;
+}

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "wire/wire.h"
+
+#include <string.h>
+
+#define X(name) extern const sw_wire_class sw_wire_##name;
+#include "wire/list.def"
+#undef X
+
+static const sw_wire_class *const all[] = {
+#define X(name) &sw_wire_##name,
+#include "wire/list.def"
+#undef X
+    NULL};
+
+const sw_wire_class *const *sw_wire_all(void) { return all; }
+
+const sw_wire_class *sw_wire_find(const char *name) {
+  for (size_t i = 0; all[i]; i++)
+    if (strcmp(all[i]->name, name) == 0) return all[i];
+  return NULL;
+}

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Wire models. A model is a recipe: which inner forces with which values, and
+ * how masses are spread. The scene looks the forces up by name. */
+#ifndef SW_WIRE_WIRE_H
+#define SW_WIRE_WIRE_H
+
+#include <stddef.h>
+
+#include "base/param.h"
+#include "base/status.h"
+#include "state/plan.h"
+
+enum { SW_RECIPE_MAX = 8, SW_RECIPE_ARGS = 4 };
+
+typedef struct sw_recipe_term {
+  const char *force;           /* a name of the force registry */
+  double args[SW_RECIPE_ARGS]; /* its argument struct, as its header lists it */
+} sw_recipe_term;
+
+typedef struct sw_recipe {
+  size_t count;
+  sw_recipe_term terms[SW_RECIPE_MAX];
+  int push;              /* 1: edges carry compression */
+} sw_recipe;
+
+typedef struct sw_wire_class {
+  const char *name;
+  const char *summary;
+  void (*recipe)(const sw_beam *beam, sw_recipe *out);
+} sw_wire_class;
+
+const sw_wire_class *sw_wire_find(const char *name);
+const sw_wire_class *const *sw_wire_all(void); /* NULL-terminated */
+
+/* What a user may say about a wire's section; NAN = not given. */
+typedef struct sw_section {
+  double EA;              /* [N] */
+  double EI;              /* [N m2] */
+  double GJ;              /* [N m2] */
+  double mass_per_length; /* [kg/m] */
+  double radius;          /* [m] */
+  double E;               /* Young's modulus [Pa] */
+  double nu;              /* Poisson's ratio [-] */
+  double density;         /* [kg/m3] */
+} sw_section;
+
+extern const sw_params sw_section_params; /* rows of sw_section */
+
+/* Beam values from what was given: E, nu, density, radius of a solid circle,
+ * overridden by EA, EI, GJ, mass_per_length. SW_EINVAL naming what is missing
+ * or inconsistent. object names the wire in messages. */
+sw_status sw_section_beam(const char *object, const sw_section *section, sw_beam *out,
+                          sw_error *err);
+
+#endif
