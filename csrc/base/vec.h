@@ -24,6 +24,8 @@ typedef struct sw_pose {
 
 static inline sw_vec sw_v(double x, double y, double z) { return (sw_vec){x, y, z}; }
 static inline sw_vec sw_load(const double *p) { return (sw_vec){p[0], p[1], p[2]}; }
+/* Vector i of a flat array. */
+static inline sw_vec sw_vec_at(const double *p, unsigned long i) { return sw_load(p + 3 * i); }
 static inline void sw_store(double *p, sw_vec a) { p[0] = a.x, p[1] = a.y, p[2] = a.z; }
 static inline void sw_accumulate(double *p, sw_vec a) { p[0] += a.x, p[1] += a.y, p[2] += a.z; }
 static inline sw_vec sw_add(sw_vec a, sw_vec b) { return sw_v(a.x + b.x, a.y + b.y, a.z + b.z); }

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Holds position and direction at one arc length, exactly there whatever the
+ * mesh (the corrected clamp of state/plan.c). */
+#include <math.h>
+
+#include "constraint/constraint.h"
+
+static const sw_param rows[] = {
+    {"s", SW_PARAM_NUMBER, "m", 0, 0, HUGE_VAL, 0, NULL, offsetof(sw_hold_args, s),
+     "arc length of the held point"},
+    {"direction", SW_PARAM_VECTOR, "-", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL,
+     offsetof(sw_hold_args, direction), "held tangent (default: the wire's present one)"},
+    {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_hold_args, name),
+     "name used in messages and series"},
+};
+
+const sw_hold_class sw_hold_clamp = {
+    .name = "clamp",
+    .summary = "holds position and direction at one arc length",
+    .clamped = 1,
+    .params = SW_PARAMS("clamp", rows),
+};

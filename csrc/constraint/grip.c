@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The grasped region of a gripper: the interval of width around s is rigid in
+ * the shape it had when grasped; each face is a corrected clamp. */
+#include <math.h>
+
+#include "constraint/constraint.h"
+
+static const sw_param rows[] = {
+    {"s", SW_PARAM_NUMBER, "m", 0, 0, HUGE_VAL, 0, NULL, offsetof(sw_hold_args, s),
+     "arc length of the region's middle, also the tool centre"},
+    {"width", SW_PARAM_NUMBER, "m", 0, 0, HUGE_VAL, 0, NULL, offsetof(sw_hold_args, width),
+     "length of wire between the pads"},
+    {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_hold_args, name),
+     "name used in messages and series"},
+};
+
+const sw_hold_class sw_hold_grip = {
+    .name = "grip",
+    .summary = "holds an interval of the wire rigidly",
+    .clamped = 1,
+    .params = SW_PARAMS("grip", rows),
+};

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Holds the position at one arc length; the wire turns freely there. */
+#include <math.h>
+
+#include "constraint/constraint.h"
+
+static const sw_param rows[] = {
+    {"s", SW_PARAM_NUMBER, "m", 0, 0, HUGE_VAL, 0, NULL, offsetof(sw_hold_args, s),
+     "arc length of the held point"},
+    {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_hold_args, name),
+     "name used in messages and series"},
+};
+
+const sw_hold_class sw_hold_pin = {
+    .name = "pin",
+    .summary = "holds the position at one arc length",
+    .clamped = 0,
+    .params = SW_PARAMS("pin", rows),
+};

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A wire's nodes while nothing runs: a growable list that can be edited (node
+ * moved to a given arc length, node inserted) and is turned into a plan before
+ * the next step. */
+#ifndef SW_STATE_MESH_H
+#define SW_STATE_MESH_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+#include "base/vec.h"
+
+typedef struct sw_mesh {
+  size_t n, capacity;
+  double *s;       /* (n) arc length [m] */
+  double *x, *v;   /* (n x 3) [m], [m/s] */
+  double *tension; /* (n) of the edge that starts at each node; last unused [N] */
+  double EA;       /* to keep edge strains when nodes move [N] */
+} sw_mesh;
+
+/* Even nodes along the polyline through points (count x 3): segments + 1 nodes,
+ * at rest, unstressed: the arc length of each edge is its chord. SW_ENOMEM. */
+sw_status sw_mesh_along(sw_mesh *mesh, const double *points, size_t count, size_t segments);
+void sw_mesh_free(sw_mesh *mesh);
+
+/* Make s a node: take the nearest node when it may be moved (not an end, not in
+ * keep), else insert one. keep: arc lengths (count) of nodes that must stay.
+ * SW_ENOMEM leaves the mesh as it was. */
+sw_status sw_mesh_place(sw_mesh *mesh, double s, const double *keep, size_t keep_count,
+                        double *placed);
+
+/* The node at arc length s exactly; the mesh must have one. */
+size_t sw_mesh_node(const sw_mesh *mesh, double s);
+
+/* Unit tangent of the wire at node i, second-order in the spacing. */
+sw_vec sw_mesh_tangent(const sw_mesh *mesh, size_t i);
+
+#endif
