@@ -75,7 +75,7 @@ condensed() {
 give_up() {
   echo
   echo "$1"
-  echo "Install these packages, then start this again:"
+  echo "Install these packages as root, then start this again:"
   echo
   echo "  ${2}apt-get update && ${2}apt-get install -y --no-install-recommends $3"
   exit 1
@@ -96,10 +96,13 @@ need() {
 with their counterparts installed, set SOFTWORLD_SKIP_SETUP=1." "" "$(echo $wanted)"
   fi
   if [ -z "$lacking" ]; then return 0; fi
-  # Alone, lua-busted is content with any Lua; with 5.4 in the same call it takes 5.4.
-  case $lacking in *lua-*) lacking=$(printf '%s\n' $lacking lua5.4 | sort -u) ;; esac
   # shellcheck disable=SC2086
   lacking=$(echo $lacking)
+  # Alone, lua-busted is content with any Lua; with 5.4 in the same call it takes 5.4.
+  case " $lacking " in
+    *" lua5.4 "*) ;;
+    *" lua-"*) lacking="$lacking lua5.4" ;;
+  esac
 
   if [ "$(id -u)" = 0 ]; then
     as_root=
