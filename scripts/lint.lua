@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- The house rules (see "Rooms" below) and the outside checkers.
 --   lua5.4 scripts/lint.lua [--only CHECK,CHECK] [tree]
--- Checks: spdx includes calls headers length luacheck tidy. A finding is "file:line: what is
+-- Checks: layout spdx includes calls headers length luacheck tidy. A finding is "file:line: what is
 -- wrong; what to do". Exit status 0 when there is none; long files only get a warning.
 
 -- Rooms ----------------------------------------------------------------------
@@ -62,6 +62,9 @@ for word in ("malloc calloc realloc aligned_alloc strdup"):gmatch "%S+" do
   CALLS[word] = "use sw_alloc (base/alloc.h), so that specs can make it fail"
 end
 local CALLS_ALLOWED = { ["base/alloc.c"] = { aligned_alloc = true } }
+
+-- What the top level may hold, besides dot-files and what make and the examples leave there.
+local TOP = "Makefile csrc lua scripts spec examples README.md"
 
 local LICENCE = "SPDX-License-Identifier: GPL-3.0-or-later"
 local LONGEST = 600 -- lines; longer files are hard to find one's way in
@@ -142,6 +145,15 @@ end
 -- Checks ---------------------------------------------------------------------
 
 local check = {}
+
+function check.layout()
+  for entry in output_of("ls"):gmatch "[^\n]+" do
+    if not (" " .. TOP .. " build out "):find(" " .. entry .. " ", 1, true)
+      and not entry:find "^build%-" then
+      finding(entry, 1, "does not belong on the top level (%s)", TOP)
+    end
+  end
+end
 
 function check.spdx()
   local all = files("Makefile csrc lua scripts spec examples .ci", "*.c", "*.h", "*.def", "*.lua",
@@ -306,7 +318,7 @@ end
 
 -- Main -----------------------------------------------------------------------
 
-local ORDER = { "spdx", "includes", "calls", "headers", "length", "luacheck", "tidy" }
+local ORDER = { "layout", "spdx", "includes", "calls", "headers", "length", "luacheck", "tidy" }
 local wanted, tree = nil, nil
 local i = 1
 while arg[i] do

@@ -87,8 +87,9 @@ need() {
   wanted=$(packages | while read -r set package _; do
     for s in "$@"; do [ "$s" = "$set" ] && echo "$package"; done
   done)
-  # Names contain no blanks: splitting into words is meant, here and below.
-  # shellcheck disable=SC2086
+  # Names contain no blanks: splitting into words is meant, here and below; so is the echo
+  # that makes one line of many.
+  # shellcheck disable=SC2086,SC2116
   if command -v dpkg-query >/dev/null 2>&1; then
     lacking=$(missing $wanted)
   else
@@ -96,7 +97,7 @@ need() {
 with their counterparts installed, set SOFTWORLD_SKIP_SETUP=1." "" "$(echo $wanted)"
   fi
   if [ -z "$lacking" ]; then return 0; fi
-  # shellcheck disable=SC2086
+  # shellcheck disable=SC2086,SC2116
   lacking=$(echo $lacking)
   # Alone, lua-busted is content with any Lua; with 5.4 in the same call it takes 5.4.
   case " $lacking " in

@@ -93,7 +93,7 @@ local function run_child(file, sink, name, list)
     message = type(message) == "string" and message or "no message"
     -- The line of the test itself, when the message names one of a helper or of other code.
     local outermost
-    for at in (trace and trace.traceback or ""):gmatch(file:gsub("%p", "%%%0") .. ":%d+") do
+    for at in (trace and trace.traceback or ""):gmatch("\n%s*(" .. file:gsub("%p", "%%%0") .. ":%d+): in ") do
       outermost = at
     end
     if outermost and not message:find(outermost .. ":", 1, true) then

@@ -26,6 +26,14 @@ local function clean(only, files)
   assert.equal(0, status)
 end
 
+describe("lint: layout", function()
+  it("keeps the top level short", function()
+    finds("layout", { ["notes.txt"] = "" }, "notes.txt:1:", "top level")
+    clean("layout", { ["README.md"] = "", ["csrc/a/b.c"] = "", [".ci/run"] = "", ["out/a"] = "",
+      ["build-asan/a"] = "" })
+  end)
+end)
+
 describe("lint: licence line", function()
   it("is missed in C, Lua, shell and Makefile", function()
     finds("spdx", { ["csrc/base/a.c"] = "int a;\n" }, "csrc/base/a.c:1:", "no licence line")

@@ -37,6 +37,13 @@ describe("spec runner", function()
     fails(LUA .. 'it("differs", function() print "seen" assert.equal(1, 2) end)',
       "its output:\n    seen", "0 passed, 1 failed")
   end)
+  it("names the line of the test when a helper failed", function()
+    fails(LUA .. 'local function same(a, b)\n  assert.equal(a, b)\nend\n'
+        .. 'it("x", function()\n  same(1, 2)\nend)',
+      "(called from spec/room/a_spec.lua:6)", "0 passed, 1 failed")
+    local text = spec { a = LUA .. 'it("x", function()\n  assert.equal(1, 2)\nend)' }
+    assert.falsy(text:find("called from", 1, true), text)
+  end)
   it("counts errors inside and outside of tests", function()
     fails(GOOD .. 'it("x", function() error "oh" end)', "oh", "2 passed, 1 failed")
     fails(GOOD .. 'describe("d", function() error "oh" end)', "error in describe", "2 passed, 1 failed")
@@ -80,6 +87,16 @@ describe("spec runner", function()
   it("shows the slowest tests", function()
     local text = spec({ a = GOOD }, "--slow 1")
     assert.truthy(text:find "slowest tests:\n +[%d.]+ s  spec/a_spec.lua:%d: %a+\n2 passed", text)
+  end)
+  it("runs under stock lua5.4 too, with the module for it", function()
+    local folder = tree.make { ["spec/a_spec.lua"] = GOOD
+      .. 'it("loads", function() assert.is_string(require "softworld.core".version) end)\n' }
+    -- A module built with sanitizers needs their library loaded first.
+    local text, status = tree.run(("cp -r %s/scripts %s && LD_PRELOAD=$SOFTWORLD_PRELOAD lua5.4 %s")
+      :format(tree.quote(tree.root), tree.quote(folder), tree.quote(folder .. "/scripts/spec.lua")))
+    tree.remove(folder)
+    assert.truthy(text:find "\n3 passed, 0 failed\n$", text)
+    assert.equal(0, status)
   end)
   it("refuses unknown options", function()
     assert.equal(2, select(2, spec({ a = GOOD }, "--nonsense")))

@@ -3,12 +3,13 @@
 local tree = require "house.tree"
 
 -- What the scripts may use: all of it is in a bare Debian.
-local BASE = "sh dirname date cat sort tail mktemp awk sed env rm mkdir nproc tr"
+local BASE = "sh dirname date cat sort tail mktemp awk sed env rm mkdir nproc"
 
 describe("set-up", function()
   local folder
 
-  -- options: uid, installed ("all" or a list of names), update and install (exit statuses)
+  -- options: uid, installed ("all" or a list of names), sudo ("works" or "refuses"),
+  -- update and install (exit statuses of apt-get)
   local function machine(options)
     folder = tree.make {
       ["bin/id"] = "#!/bin/sh\necho " .. options.uid .. "\n",
@@ -31,6 +32,11 @@ esac
       installed = (options.installed or "") .. "\n",
       calls = "",
     }
+    if options.sudo == "works" then
+      tree.write(folder .. "/bin/sudo", '#!/bin/sh\n[ "$1" = -n ] && exit 0\nexec "$@"\n')
+    elseif options.sudo == "refuses" then
+      tree.write(folder .. "/bin/sudo", "#!/bin/sh\nexit 1\n")
+    end
     tree.run(([[cd %s && cp -r %s/scripts . && chmod +x bin/*
       for tool in %s grep; do ln -s "$(command -v $tool)" bin/; done]]):format(tree.quote(folder),
       tree.quote(tree.root), BASE))
@@ -62,6 +68,19 @@ esac
       assert.equal("", calls())
     end)
   end
+  it("uses sudo when it may", function()
+    machine { uid = 1000, sudo = "works" }
+    local text, status = run "setup.sh"
+    assert.equal(0, status, text)
+    assert.truthy(calls():find("noninteractive .* install"), calls())
+  end)
+  it("names the command with sudo when sudo wants a password and nobody is there", function()
+    machine { uid = 1000, sudo = "refuses" }
+    local text, status = run "setup.sh"
+    assert.equal(1, status)
+    assert.truthy(text:find("\n  sudo apt-get update && sudo apt-get install", 1, true), text)
+    assert.equal("", calls())
+  end)
   it("calls nothing when nothing is missing", function()
     machine { uid = 1000, installed = "all" }
     local text, status = run "setup.sh --lint"
