@@ -2,6 +2,7 @@
 # make            build/softworld (host program) and build/softworld/core.so
 # make spec       all tests            make lint     house rules and checkers
 # make asan       all tests under AddressSanitizer and UBSan
+# make format     clang-format over csrc
 # make bench      speed and accuracy   make chart    draw them
 # make stability  largest stable steps make examples run every example
 # make install PREFIX=/usr/local
@@ -40,6 +41,26 @@ $(BUILD)/obj/%.o: csrc/%.c Makefile
 -include $(OBJ:.o=.d) $(HOSTOBJ:.o=.d)
 
 clean:
-	rm -rf $(BUILD)
+	rm -rf $(BUILD) build-asan
 
-.PHONY: all clean
+# make spec ARGS="--name catenary": options of scripts/spec.lua
+spec: all
+	@$(BUILD)/softworld scripts/spec.lua $(ARGS)
+
+lint:
+	@lua5.4 scripts/lint.lua
+
+format:
+	clang-format -i $(wildcard csrc/*.[ch] csrc/*/*.[ch])
+
+# Stock lua5.4 needs $$SOFTWORLD_PRELOAD as LD_PRELOAD to load this core.so.
+asan:
+	@$(MAKE) BUILD=build-asan OPT="-O1 -fno-omit-frame-pointer" \
+	  SAN="-fsanitize=address,undefined -fno-sanitize-recover=all" all
+	@ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1:detect_stack_use_after_return=1 \
+	  UBSAN_OPTIONS=print_stacktrace=1 \
+	  LSAN_OPTIONS=suppressions=$(CURDIR)/scripts/lsan.supp:print_suppressions=0 \
+	  SOFTWORLD_PRELOAD="$$($(CC) -print-file-name=libasan.so)" \
+	  build-asan/softworld scripts/spec.lua --timeout 3000 $(ARGS)
+
+.PHONY: all clean spec lint format asan

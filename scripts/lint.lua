@@ -1,0 +1,356 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- The house rules (see "Rooms" below) and the outside checkers.
+--   lua5.4 scripts/lint.lua [--only CHECK,CHECK] [tree]
+-- Checks: layout spdx includes calls headers length luacheck tidy. A finding is "file:line: what is
+-- wrong; what to do". Exit status 0 when there is none; long files only get a warning.
+
+-- Rooms ----------------------------------------------------------------------
+-- A file in csrc/<room> may include its own room's headers and those of the rooms in its row,
+-- nothing else from csrc. Rows are complete: nothing is inherited.
+local ROOMS = {
+  base = {},
+  motion = { "base" },
+  shape = { "base", "motion" },
+  state = { "base" },
+  wire = { "base", "state" },
+  force = { "base", "state" },
+  solve = { "base" }, -- matrices only
+  system = { "base", "state", "solve" },
+  integrate = { "base", "state", "solve", "system" }, -- a system, never a force or a wire
+  contact = { "base", "state", "shape", "motion" },
+  constraint = { "base", "state", "shape", "motion", "contact" },
+  calibrate = { "base", "wire", "force", "solve" },
+  scene = { "base", "motion", "shape", "state", "wire", "force", "solve", "system", "integrate",
+    "contact", "constraint", "calibrate" },
+  bind = {}, -- the core through softworld.h
+  host = { "bind" },
+}
+
+-- Headers other rooms may see: <room>/<room>.h, unless listed here (true = all of them).
+local OPEN = { base = true, bind = true }
+
+-- May include softworld.h.
+local USES_CORE = { bind = true, host = true }
+
+-- One file per member (X(name) in the room's list.def): members do not include one another.
+local FAMILIES = { wire = true, force = true, shape = true, integrate = true, constraint = true }
+
+-- Outside headers and the only files that may include them (patterns on the path in csrc).
+local OUTSIDE = {
+  { "^lua%.h$", "^bind/", "^host/" },
+  { "^lauxlib%.h$", "^bind/", "^host/" },
+  { "^lualib%.h$", "^host/" },
+  { "^gsl/", "_gsl%.c$" },
+  { "^ccd/", "^shape/ccd_adapter%.c$" },
+  { "^assimp/", "^shape/mesh_assimp%.c$" },
+  { "^libqhull", "^shape/hull_qhull%.c$" },
+  { "^suitesparse/", "^solve/cholmod_adapter%.c$" },
+  { "^cholmod", "^solve/cholmod_adapter%.c$" },
+  { "^readline/", "^host/" },
+}
+
+-- Words a file outside csrc/host may not use, with what to do instead.
+local CALLS = {}
+for word in ([[fopen freopen fdopen tmpfile popen open openat creat printf vprintf fprintf
+    vfprintf dprintf puts fputs putchar fputc putc fwrite perror unlink remove rename]]):gmatch "%S+" do
+  CALLS[word] = "the core opens no file and prints nothing; write through a sink or return a status"
+end
+for word in ("exit _exit abort system"):gmatch "%S+" do
+  CALLS[word] = "the core never ends or leaves the process; return an sw_status"
+end
+for word in ("malloc calloc realloc aligned_alloc strdup"):gmatch "%S+" do
+  CALLS[word] = "use sw_alloc (base/alloc.h), so that specs can make it fail"
+end
+local CALLS_ALLOWED = { ["base/alloc.c"] = { aligned_alloc = true } }
+
+-- What the top level may hold, besides dot-files and what make and the examples leave there.
+local TOP = "Makefile csrc lua scripts spec examples README.md"
+
+local LICENCE = "SPDX-License-Identifier: GPL-3.0-or-later"
+local LONGEST = 600 -- lines; longer files are hard to find one's way in
+
+-- Tools ----------------------------------------------------------------------
+
+local findings = 0
+local function finding(file, line, text, ...)
+  findings = findings + 1
+  print(("%s:%d: %s"):format(file, line, text:format(...)))
+end
+
+local function quote(text) return "'" .. text:gsub("'", "'\\''") .. "'" end
+
+local function output_of(command)
+  local pipe = assert(io.popen(command))
+  local text = pipe:read "a"
+  return text, pipe:close()
+end
+
+local function lines_of(path)
+  local lines = {}
+  for line in io.lines(path) do lines[#lines + 1] = line end
+  return lines
+end
+
+-- Files below the given places (those that exist), by name pattern of find, sorted.
+local function files(places, ...)
+  local names = {}
+  for _, name in ipairs { ... } do names[#names + 1] = "-name " .. quote(name) end
+  local text = output_of(("find %s -type f \\( %s \\) 2>/dev/null | LC_ALL=C sort"):format(places,
+    table.concat(names, " -o ")))
+  local list = {}
+  for file in text:gmatch "[^\n]+" do list[#list + 1] = file end
+  return list
+end
+
+-- Run a checker that prints its own findings; nothing is printed when it is content.
+local function checker(name, command)
+  if not os.execute("command -v " .. name .. " >/dev/null 2>&1") then
+    finding("scripts/lint.lua", 1, "%s is not installed; sh scripts/setup.sh --lint", name)
+    return
+  end
+  local text, ok = output_of(command .. " 2>&1")
+  if ok then return end
+  findings = findings + 1
+  print(text)
+end
+
+-- Code without comments and the insides of texts; line ends stay.
+local function bare_code(text)
+  local out, i = {}, 1
+  local function blank(part) out[#out + 1] = part:gsub("[^\n]", " ") end
+  while i <= #text do
+    local two, one = text:sub(i, i + 1), text:sub(i, i)
+    local stop
+    if two == "/*" then
+      stop = select(2, text:find("*/", i + 2, true)) or #text
+      blank(text:sub(i, stop))
+    elseif two == "//" then
+      stop = (text:find("\n", i, true) or #text + 1) - 1
+      blank(text:sub(i, stop))
+    elseif one == '"' or one == "'" then
+      stop = i + 1
+      while stop <= #text and text:sub(stop, stop) ~= one and text:sub(stop, stop) ~= "\n" do
+        stop = stop + (text:sub(stop, stop) == "\\" and 2 or 1)
+      end
+      blank(text:sub(i, stop))
+    else
+      stop = (text:find("[/\"']", i + 1) or #text + 1) - 1
+      out[#out + 1] = text:sub(i, stop)
+    end
+    i = stop + 1
+  end
+  return table.concat(out)
+end
+
+-- Checks ---------------------------------------------------------------------
+
+local check = {}
+
+function check.layout()
+  for entry in output_of("ls"):gmatch "[^\n]+" do
+    if not (" " .. TOP .. " build out "):find(" " .. entry .. " ", 1, true)
+      and not entry:find "^build%-" then
+      finding(entry, 1, "does not belong on the top level (%s)", TOP)
+    end
+  end
+end
+
+function check.spdx()
+  local all = files("Makefile csrc lua scripts spec examples .ci", "*.c", "*.h", "*.def", "*.lua",
+    "*.sh", "Makefile", "run", "*.supp")
+  for _, file in ipairs(all) do
+    local first, second = table.unpack(lines_of(file))
+    local line = first and first:sub(1, 2) == "#!" and second or first
+    if not (line or ""):find(LICENCE, 1, true) then
+      finding(file, 1, "no licence line; begin the file with a comment \"%s\"", LICENCE)
+    end
+  end
+end
+
+local function set_of(list)
+  local set = {}
+  for _, item in ipairs(list) do set[item] = true end
+  return set
+end
+
+local function members_of(room)
+  local set = {}
+  for _, list in ipairs(files("csrc/" .. room, "*.def")) do
+    for _, line in ipairs(lines_of(list)) do
+      local name = line:match "^%s*X%(%s*([%w_]+)"
+      if name then set[name] = true end
+    end
+  end
+  return set
+end
+
+-- A header of csrc, as seen from file (csrc/room/stem.ext).
+local function check_own_include(file, number, room, stem, included, members)
+  local other, name = included:match "^([%w_]+)/(.+)$"
+  local say = function(...) finding(file, number, ...) end
+  if included:find "%.c$" then
+    say("%s is included; share code through a header", included)
+  elseif included == "softworld.h" then
+    if not USES_CORE[room] then
+      say("%s includes softworld.h; include the headers of the rooms it needs", room)
+    end
+  elseif not other then
+    say("\"%s\" names no room; write \"room/%s\"", included, included)
+  elseif other == room then
+    local base = name:match "^(.*)%.h$"
+    if FAMILIES[room] and base and members[room][base] and base ~= stem then
+      say("member %s includes member %s of %s; what both need belongs into %s/%s.h or a helper file",
+        stem, base, room, room, room)
+    end
+  elseif not ROOMS[other] then
+    say("%s is no room of csrc (rooms are listed in scripts/lint.lua)", other)
+  elseif USES_CORE[room] and other ~= "bind" then
+    say("%s includes %s; it sees the core through softworld.h only", room, included)
+  elseif not set_of(ROOMS[room])[other] then
+    say("%s may not include %s (it may: %s); move the code or pass the data in", room, included,
+      #ROOMS[room] > 0 and table.concat(ROOMS[room], " ") or "nothing else")
+  elseif not (OPEN[other] == true or name == other .. ".h" or set_of(OPEN[other] or {})[name]) then
+    say("%s is private to %s; use %s/%s.h", included, other, other, other)
+  end
+end
+
+local function outside_rule(included)
+  for _, rule in ipairs(OUTSIDE) do
+    if included:find(rule[1]) then return rule end
+  end
+end
+
+local function check_outside_include(file, number, path, included)
+  local rule = outside_rule(included)
+  if not rule then return end
+  for i = 2, #rule do
+    if path:find(rule[i]) then return end
+  end
+  local where = table.concat(rule, " ", 2):gsub("[%%^$]", "")
+  finding(file, number, "<%s> may be included only in: %s; call that adapter", included, where)
+end
+
+function check.includes()
+  local members = {}
+  for room in pairs(FAMILIES) do members[room] = members_of(room) end
+  for _, file in ipairs(files("csrc", "*.c", "*.h", "*.def")) do
+    local path = file:match "^csrc/(.*)$"
+    local room, stem = path:match "^([%w_]+)/(.*)%.%w+$"
+    if room and not ROOMS[room] then
+      finding(file, 1, "csrc/%s is no room; add it to ROOMS in scripts/lint.lua", room)
+      room = nil
+    end
+    for number, line in ipairs(lines_of(file)) do
+      local bracket, included = line:match "^%s*#%s*include%s*([<\"])([^>\"]+)[>\"]"
+      if included then
+        local own = bracket == '"' and not outside_rule(included)
+        if not own then check_outside_include(file, number, path, included)
+        elseif room then check_own_include(file, number, room, stem, included, members)
+        elseif path == "softworld.h" and (included:find "^bind/" or included:find "^host/") then
+          finding(file, number, "softworld.h knows neither bind nor host")
+        end
+      end
+    end
+  end
+end
+
+function check.calls()
+  for _, file in ipairs(files("csrc", "*.c", "*.h")) do
+    local path = file:match "^csrc/(.*)$"
+    if not path:find "^host/" then
+      local allowed, number = CALLS_ALLOWED[path] or {}, 0
+      for line in (bare_code(table.concat(lines_of(file), "\n")) .. "\n"):gmatch "([^\n]*)\n" do
+        number = number + 1
+        for before, word in line:gmatch "(.?)%f[%w_]([%a_][%w_]*)%s*%(" do
+          -- x->open(...) and x.open(...) are members of our own structs.
+          if CALLS[word] and not allowed[word] and not before:find "[.>]" then
+            finding(file, number, "calls %s; %s", word, CALLS[word])
+          end
+        end
+        for word in line:gmatch "%f[%w_](std[oe][ur][tr])%f[^%w_]" do
+          finding(file, number, "uses %s; %s", word, CALLS.printf)
+        end
+      end
+    end
+  end
+end
+
+function check.headers()
+  local list = {}
+  for _, file in ipairs(files("csrc", "*.h")) do list[#list + 1] = quote(file) end
+  if #list == 0 then return end
+  local text, ok = output_of(
+    "gcc -std=c11 -D_GNU_SOURCE -Wall -Wextra -Werror -fsyntax-only -Icsrc $(pkg-config --cflags lua5.4) "
+      .. "-x c " .. table.concat(list, " ") .. " 2>&1")
+  if ok then return end
+  findings = findings + 1
+  print(text .. "a header must compile alone: let it include what it uses")
+end
+
+function check.length()
+  for _, file in ipairs(files("csrc lua scripts spec examples", "*.c", "*.h", "*.lua", "*.sh")) do
+    local count = #lines_of(file)
+    if count > LONGEST then
+      print(("%s:%d: warning: %d lines; look for a part that can stand alone"):format(file, LONGEST, count))
+    end
+  end
+end
+
+function check.luacheck()
+  local places = {}
+  for _, place in ipairs { "lua", "scripts", "spec", "examples" } do
+    if #files(place, "*.lua") > 0 then places[#places + 1] = place end
+  end
+  if #places == 0 then return end
+  checker("luacheck", "luacheck --no-color -q " .. table.concat(places, " "))
+end
+
+-- The checks are chosen in .clang-tidy; one process per file, as many at a time as processors.
+function check.tidy()
+  if #files("csrc", "*.c") == 0 then return end
+  checker("clang-tidy", [[
+    flags="-std=c11 -D_GNU_SOURCE -Icsrc $(pkg-config --cflags lua5.4 gsl ccd assimp)"
+    find csrc -name '*.c' -print0 | LC_ALL=C sort -z | xargs -0 -n 1 -P "$(nproc)" sh -c '
+      out=$(clang-tidy --quiet --warnings-as-errors="*" "$1" -- $0 2>&1) && exit 0
+      printf "%s\n" "$out" | grep -v -e "warnings\{0,1\} generated" -e "warnings treated as errors"
+      exit 1' "$flags"]])
+end
+
+-- Main -----------------------------------------------------------------------
+
+local ORDER = { "layout", "spdx", "includes", "calls", "headers", "length", "luacheck", "tidy" }
+local wanted, tree = nil, nil
+local i = 1
+while arg[i] do
+  if arg[i] == "--only" then
+    wanted = set_of {}
+    for name in (arg[i + 1] or ""):gmatch "[^,]+" do wanted[name] = true end
+    i = i + 1
+  else
+    tree = arg[i]
+  end
+  i = i + 1
+end
+for name in pairs(wanted or {}) do
+  if not check[name] then
+    io.stderr:write("no check named ", name, "; there are: ", table.concat(ORDER, " "), "\n")
+    os.exit(2)
+  end
+end
+
+-- Plain Lua cannot change the directory: start again in the tree.
+if tree then
+  local script = arg[0]:sub(1, 1) == "/" and quote(arg[0]) or '"$OLDPWD"/' .. quote(arg[0])
+  local only = {}
+  for name in pairs(wanted or {}) do only[#only + 1] = name end
+  local _, _, status = os.execute(("cd %s && lua5.4 %s %s"):format(quote(tree), script,
+    wanted and "--only " .. table.concat(only, ",") or ""))
+  os.exit(status)
+end
+for _, name in ipairs(ORDER) do
+  if not wanted or wanted[name] then check[name]() end
+end
+if findings > 0 then
+  print(("lint: %d finding%s"):format(findings, findings == 1 and "" or "s"))
+  os.exit(1)
+end

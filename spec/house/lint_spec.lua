@@ -1,0 +1,164 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Each rule of scripts/lint.lua finds the mistake it is for, and only that.
+local tree = require "house.tree"
+
+local C = "/* SPDX-License-Identifier: GPL-3.0-or-later */\n"
+local LUA = "-- SPDX-License-Identifier: GPL-3.0-or-later\n"
+
+local function lint(only, files)
+  local folder = tree.make(files)
+  local text, status = tree.run(("lua5.4 %s --only %s %s"):format(
+    tree.quote(tree.root .. "/scripts/lint.lua"), only, tree.quote(folder)))
+  tree.remove(folder)
+  return text, status
+end
+
+local function finds(only, files, where, words)
+  local text, status = lint(only, files)
+  assert.truthy(text:find(where, 1, true), "no finding at " .. where .. " in:\n" .. text)
+  assert.truthy(text:find(words, 1, true), "no '" .. words .. "' in:\n" .. text)
+  assert.equal(1, status)
+end
+
+local function clean(only, files)
+  local text, status = lint(only, files)
+  assert.equal("", text)
+  assert.equal(0, status)
+end
+
+describe("lint: layout", function()
+  it("keeps the top level short", function()
+    finds("layout", { ["notes.txt"] = "" }, "notes.txt:1:", "top level")
+    clean("layout", { ["README.md"] = "", ["csrc/a/b.c"] = "", [".ci/run"] = "", ["out/a"] = "",
+      ["build-asan/a"] = "" })
+  end)
+end)
+
+describe("lint: licence line", function()
+  it("is missed in C, Lua, shell and Makefile", function()
+    finds("spdx", { ["csrc/base/a.c"] = "int a;\n" }, "csrc/base/a.c:1:", "no licence line")
+    finds("spdx", { ["csrc/base/a.def"] = "X(a)\n" }, "csrc/base/a.def:1:", "no licence line")
+    finds("spdx", { ["scripts/a.lua"] = "print(1)\n" }, "scripts/a.lua:1:", "no licence line")
+    finds("spdx", { ["scripts/a.sh"] = "#!/bin/sh\nls\n" }, "scripts/a.sh:1:", "no licence line")
+    finds("spdx", { Makefile = "" }, "Makefile:1:", "no licence line")
+  end)
+  it("may follow a #! line", function()
+    clean("spdx", { [".ci/run"] = "#!/bin/sh\n# SPDX-License-Identifier: GPL-3.0-or-later\n" })
+  end)
+end)
+
+describe("lint: rooms", function()
+  local function includes(path, line, words)
+    finds("includes", { [path] = C .. "\n" .. line .. "\n" }, path .. ":3:", words)
+  end
+  it("sees a room reaching into one it may not know", function()
+    includes("csrc/integrate/newmark.c", '#include "force/force.h"', "integrate may not include")
+    includes("csrc/solve/band.c", '#include "state/state.h"', "solve may not include")
+    includes("csrc/base/vec.h", '#include "state/state.h"', "nothing else")
+  end)
+  it("sees another room's private header", function()
+    includes("csrc/force/bend.c", '#include "state/slots.h"', "private to state")
+  end)
+  it("sees a member including another member", function()
+    finds("includes", { ["csrc/force/list.def"] = C .. "X(bend)\nX(twist)\n",
+      ["csrc/force/twist.c"] = C .. '#include "force/bend.h"\n' }, "csrc/force/twist.c:2:",
+      "member twist includes member bend")
+  end)
+  it("sees the core's insides used by the binding", function()
+    includes("csrc/bind/scene.c", '#include "scene/scene.h"', "through softworld.h only")
+    includes("csrc/scene/scene.c", '#include "softworld.h"', "headers of the rooms")
+  end)
+  it("sees included C files, unknown rooms and includes without a room", function()
+    includes("csrc/base/a.c", '#include "base/b.c"', "is included")
+    finds("includes", { ["csrc/kitchen/a.c"] = C }, "csrc/kitchen/a.c:1:", "csrc/kitchen is no room")
+    includes("csrc/base/a.c", '#include "vec.h"', "names no room")
+  end)
+  it("lets good includes pass", function()
+    clean("includes", { ["csrc/force/list.def"] = C .. "X(bend)\n",
+      ["csrc/force/bend.c"] = C .. '#include "force/bend.h"\n#include "force/force.h"\n'
+        .. '#include "base/vec.h"\n#include "state/state.h"\n#include <math.h>\n'
+        .. '#include "force/list.def"\n#include "force/helper.h"\n',
+      ["csrc/bind/a.c"] = C .. '#include <lua.h>\n#include "softworld.h"\n#include "bind/class.h"\n',
+      ["csrc/softworld.h"] = C .. '#include "force/force.h"\n' })
+  end)
+end)
+
+describe("lint: outside libraries", function()
+  local function outside(path, line)
+    finds("includes", { [path] = C .. line .. "\n" }, path .. ":2:", "may be included only in")
+  end
+  it("stay in their adapters", function()
+    outside("csrc/force/bend.c", "#include <lua.h>")
+    outside("csrc/scene/scene.c", '#include "lauxlib.h"')
+    outside("csrc/solve/band.c", "#include <gsl/gsl_linalg.h>")
+    outside("csrc/shape/hull.c", "#include <ccd/ccd.h>")
+    outside("csrc/shape/mesh.c", "#include <assimp/cimport.h>")
+    outside("csrc/shape/mesh_assimp.c", "#include <libqhull_r/qhull_ra.h>")
+    outside("csrc/solve/sparse.c", "#include <suitesparse/cholmod.h>")
+    outside("csrc/bind/a.c", "#include <readline/readline.h>")
+  end)
+  it("may be used there", function()
+    clean("includes", { ["csrc/shape/ccd_adapter.c"] = C .. "#include <ccd/ccd.h>\n",
+      ["csrc/calibrate/fit_gsl.c"] = C .. "#include <gsl/gsl_vector.h>\n",
+      ["csrc/shape/hull_qhull.c"] = C .. "#include <libqhull_r/qhull_ra.h>\n" })
+  end)
+end)
+
+describe("lint: calls", function()
+  local function calls(body, words)
+    finds("calls", { ["csrc/scene/a.c"] = C .. "void a(void) {\n  " .. body .. "\n}\n" },
+      "csrc/scene/a.c:3:", words)
+  end
+  it("of files, prints, exits and plain allocation are seen", function()
+    calls('FILE *f = fopen("a", "r");', "calls fopen")
+    calls('printf("%d", 1);', "calls printf")
+    calls("puts (text);", "calls puts")
+    calls("f(g, stderr);", "uses stderr")
+    calls("exit(1);", "calls exit")
+    calls("double *x = malloc(8);", "calls malloc")
+  end)
+  it("in comments, texts, longer names and members are not", function()
+    clean("calls", { ["csrc/scene/a.c"] = C .. [[
+/* printf("x") and fopen(
+   malloc(3) */
+// puts("x")
+const char *a = "exit(1) \" puts(2)"; char c = '"';
+int b = snprintf(buffer, n, "printf(") + sink->open(1) + my_malloc(2) + sink.rename(3);
+]], ["csrc/host/main.c"] = C .. 'int main(void) { puts("x"); return 0; }\n' })
+  end)
+end)
+
+describe("lint: headers", function()
+  it("must compile alone", function()
+    finds("headers", { ["csrc/base/a.h"] = C .. "size_t a(void);\n" }, "csrc/base/a.h:2:",
+      "must compile alone")
+    clean("headers", { ["csrc/base/a.h"] = C .. "#include <stddef.h>\nsize_t a(void);\n" })
+  end)
+end)
+
+describe("lint: checkers", function()
+  it("warns of long files without failing", function()
+    local text, status = lint("length", { ["lua/a.lua"] = LUA .. ("\n"):rep(700) })
+    assert.truthy(text:find("lua/a.lua:600: warning: 701 lines", 1, true), text)
+    assert.equal(0, status)
+  end)
+  it("passes on what luacheck says", function()
+    finds("luacheck", { ["lua/a.lua"] = LUA .. "undefined_thing()\n" }, "lua/a.lua:2", "undefined_thing")
+    clean("luacheck", { ["lua/a.lua"] = LUA .. "print(1)\n" })
+  end)
+  it("says what to install when a checker is missing", function()
+    local folder = tree.make { ["csrc/base/a.c"] = C, ["bin/none"] = "" }
+    local text, status = tree.run(([[
+      cd %s && for tool in sh find sort lua5.4; do ln -s "$(command -v $tool)" bin/; done
+      PATH=bin lua5.4 %s --only tidy]]):format(tree.quote(folder),
+      tree.quote(tree.root .. "/scripts/lint.lua")))
+    tree.remove(folder)
+    assert.truthy(text:find("clang-tidy is not installed; sh scripts/setup.sh --lint", 1, true), text)
+    assert.equal(1, status)
+  end)
+  it("refuses an unknown check", function()
+    local text, status = lint("nonsense", {})
+    assert.truthy(text:find("no check named nonsense", 1, true), text)
+    assert.equal(2, status)
+  end)
+end)
