@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Contact of wires with rigid obstacles: unilateral normal force, anchored
+ * Coulomb friction, impacts, and the swept test that keeps fast wires from
+ * passing thin walls. It is one sw_coupling of the system. */
+#ifndef SW_CONTACT_CONTACT_H
+#define SW_CONTACT_CONTACT_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+#include "motion/motion.h"
+#include "shape/shape.h"
+#include "system/system.h"
+
+typedef struct sw_contact sw_contact;
+
+/* One obstacle as contact sees it. */
+typedef struct sw_contact_obstacle {
+  const sw_shape *shape;
+  double friction;    /* [-] */
+  double restitution; /* [-] */
+  int id;             /* the owner's number; part of the memory's key */
+} sw_contact_obstacle;
+
+/* Where obstacle number o is at a time. */
+typedef sw_status (*sw_contact_place)(void *user, int o, double time, sw_motion_state *out,
+                                      sw_error *err);
+
+/* Takes copies. SW_ENOMEM. */
+sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count,
+                         sw_contact_place place, void *user, sw_contact **out);
+void sw_contact_free(sw_contact *contact);
+
+/* A step of size h from time t begins at the system's state: candidates. nominal
+ * is the run's full step, from which the stiffness is derived; 0 in statics. */
+sw_status sw_contact_begin_step(sw_contact *contact, sw_system *system, double t, double h,
+                                double nominal, sw_error *err);
+
+/* The system's coupling functions (see sw_coupling), user = the contact. */
+sw_status sw_contact_begin_stage(void *contact, sw_system *system, double time, double hbar,
+                                 const double *y, sw_error *err);
+sw_status sw_contact_eval(void *contact, sw_system *system, double time, double hbar,
+                          const double *y, unsigned want, sw_error *err);
+int sw_contact_settled(void *contact, sw_system *system, const double *y, const double *delta);
+
+/* After a trial step to positions x1: were there impacts or crossings that the
+ * step did not know of? 0 = none, the step may be accepted; 1 = the system's
+ * starting velocities were changed (and contacts added): redo the step from a
+ * restart. */
+int sw_contact_review(sw_contact *contact, sw_system *system, const double *x1, double h);
+
+/* The trial was accepted: keep friction anchors and sides for the next step. */
+void sw_contact_commit(sw_contact *contact, sw_system *system);
+
+/* Total force on obstacle o and its moment about a point [N], [N m]. */
+void sw_contact_force(const sw_contact *contact, int o, sw_vec about, sw_vec *force,
+                      sw_vec *moment);
+/* Deepest penetration of the accepted state, with the system's node nearest to
+ * it [m]. */
+double sw_contact_penetration(const sw_contact *contact, size_t *node);
+size_t sw_contact_count(const sw_contact *contact); /* touches with a force */
+double sw_contact_energy(const sw_contact *contact); /* stored in the springs [J] */
+
+/* Memory kept between steps (anchors and sides), for snapshots: a block to copy
+ * and to give back. */
+const void *sw_contact_memory(const sw_contact *contact, size_t *bytes);
+sw_status sw_contact_set_memory(sw_contact *contact, const void *memory, size_t bytes);
+
+#endif

@@ -1,0 +1,254 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Running: steps to a given time, with retries, contact review, observation. */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "scene/world.h"
+
+static const char *const *integrator_names(void) {
+  static const char *names[32];
+  for (size_t i = 0; i + 1 < sizeof names / sizeof names[0] && sw_integrator_all()[i]; i++)
+    names[i] = sw_integrator_all()[i]->name;
+  return names;
+}
+
+static sw_param run_rows[] = {
+    {"duration", SW_PARAM_NUMBER, "s", NAN, 0, 1e9, 0, NULL, offsetof(sw_run_args, duration),
+     "simulated time; without it until the processes end"},
+    {"dt", SW_PARAM_NUMBER, "s", 0.01, 0, 1e3, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(sw_run_args, dt), "time step; with tolerance the largest one"},
+    {"tolerance", SW_PARAM_NUMBER, "m", NAN, 0, 1e3, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(sw_run_args, tolerance), "error allowed in one step; controls the step size"},
+    {"integrator", SW_PARAM_CHOICE, "-", 0, 0, 0, 0, NULL, offsetof(sw_run_args, integrator),
+     "time integration method"},
+    {"frame", SW_PARAM_NUMBER, "s", NAN, 0, 1e9, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(sw_run_args, frame), "time between stored frames (default 1/30 s)"},
+    {"max_steps", SW_PARAM_INTEGER, "-", 1e15, 1, 1e15, 0, NULL,
+     offsetof(sw_run_args, max_steps), "most steps to take"},
+    {"progress", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
+     "true shows a progress bar (default: when on a terminal and longer than a second)"},
+};
+const sw_params sw_run_params = SW_PARAMS("scene:run", run_rows);
+
+/* The choice row takes its names from the registry when first needed. */
+__attribute__((constructor)) static void fill_choices(void) {
+  for (size_t i = 0; i < sizeof run_rows / sizeof run_rows[0]; i++)
+    if (run_rows[i].type == SW_PARAM_CHOICE) run_rows[i].choices = integrator_names();
+}
+
+enum { MOST_REDOS = 40 };        /* impacts found one after another in one step [-] */
+static const double SMALLEST_SHARE = 1.0 / 4096; /* of a step, before giving up [-] */
+static const double LARGEST_STRAIN = 10.0;       /* beyond it a run has diverged [-] */
+
+typedef struct loop {
+  sw_scene *s;
+  const sw_run_args *args;
+  sw_run_report *report;
+  double *v_start; /* velocities at the step's start, which impacts change */
+} loop;
+
+static sw_status use_integrator(sw_scene *s, const sw_run_args *args, sw_error *err) {
+  const sw_integrator *m = sw_integrator_all()[args->integrator];
+  if (s->has_stepper && s->method == m) return SW_OK;
+  sw_stepper_free(&s->stepper);
+  s->has_stepper = 0;
+  if (sw_stepper_new(&s->stepper, m, &s->system) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
+  s->has_stepper = 1;
+  s->method = m;
+  return SW_OK;
+}
+
+/* Nodes must stay at finite places and edges at believable lengths. */
+static sw_status check_trial(const sw_scene *s, sw_error *err) {
+  const double *x = s->stepper.trial_x;
+  for (size_t b = 0; b < s->system.body_count; b++) {
+    const sw_body *body = &s->system.bodies[b];
+    for (size_t e = 0; e < body->plan->edges; e++) {
+      const double *a = x + 3 * (body->first_node + e);
+      const double l2 = sw_norm2(sw_sub(sw_load(a + 3), sw_load(a)));
+      const double most = (1.0 + LARGEST_STRAIN) * body->plan->rest[e];
+      if (!(l2 <= most * most))
+        return sw_fail(err, SW_EDIVERGED, "wire '%s' is torn apart near s = %.4g m",
+                       s->wires[b].name, body->plan->s[e]);
+    }
+  }
+  return SW_OK;
+}
+
+static sw_status trial(loop *p, double h, sw_error *err) {
+  sw_scene *s = p->s;
+  sw_status status = sw_stepper_trial(&s->stepper, &s->system, s->time, h, err);
+  p->report->iterations += s->stepper.iterations;
+  if (status == SW_OK) status = check_trial(s, err);
+  if (status != SW_OK) sw_stepper_reject(&s->stepper, &s->system);
+  return status;
+}
+
+/* One step of size h, redone as long as contact finds impacts. */
+static sw_status attempt(loop *p, double h, sw_error *err) {
+  sw_scene *s = p->s;
+  if (s->discontinuous) s->stepper.restart = 1;
+  if (!s->contact) return trial(p, h, err);
+  memcpy(p->v_start, s->system.v, 3 * s->system.nodes * sizeof(double));
+  sw_status status =
+      sw_contact_begin_step(s->contact, &s->system, s->time, h, p->args->dt, err);
+  for (int redo = 0; status == SW_OK && redo < MOST_REDOS; redo++) {
+    status = trial(p, h, err);
+    if (status != SW_OK) break;
+    if (!sw_contact_review(s->contact, &s->system, s->stepper.trial_x, h)) return SW_OK;
+    sw_stepper_reject(&s->stepper, &s->system);
+    s->stepper.restart = 1;
+  }
+  memcpy(s->system.v, p->v_start, 3 * s->system.nodes * sizeof(double));
+  return status != SW_OK ? status
+                         : sw_fail(err, SW_ENOCONV, "impacts do not come to an end in one step");
+}
+
+static void accept(loop *p, double h) {
+  sw_scene *s = p->s;
+  sw_stepper_accept(&s->stepper, &s->system, h);
+  if (s->contact) sw_contact_commit(s->contact, &s->system);
+  s->discontinuous = 0;
+  p->report->steps++;
+  if (h < p->report->smallest_dt) p->report->smallest_dt = h;
+}
+
+/* Errors that a smaller step cannot mend. */
+static int hopeless(sw_status status) {
+  return status == SW_ECALLBACK || status == SW_ENOMEM || status == SW_EINVAL;
+}
+
+/* Advance by h, in smaller parts where needed. t1 is the exact end time. */
+static sw_status step(loop *p, double h, double t1, sw_error *err) {
+  sw_scene *s = p->s;
+  const double t0 = s->time;
+  double done = 0, part = h;
+  while (done < h) {
+    const double left = h - done;
+    if (part > left * (1 - 1e-12)) part = left;
+    const sw_status status = attempt(p, part, err);
+    if (status == SW_OK) {
+      done += part;
+      accept(p, part);
+      s->time = done < h ? t0 + done : t1;
+      SW_TRY(sw_scene_observe(s, err));
+      part *= 2;
+      continue;
+    }
+    if (hopeless(status)) return status;
+    p->report->rejected++;
+    s->discontinuous = 1;
+    part *= 0.5;
+    if (part < SMALLEST_SHARE * h) return status;
+  }
+  return SW_OK;
+}
+
+/* An adaptive step of at most `left`; refuses steps whose error is too large. */
+static sw_status controlled_step(loop *p, double left, double t1, sw_error *err) {
+  sw_scene *s = p->s;
+  const double tolerance = p->args->tolerance, most = fmin(p->args->dt, left);
+  double h = s->next_dt > 0 ? fmin(s->next_dt, most) : 0.1 * most;
+  for (;;) {
+    const int last = h >= left * (1 - 1e-9);
+    const sw_status status = attempt(p, h, err);
+    if (hopeless(status)) return status;
+    const int fine = status == SW_OK && s->stepper.error <= tolerance;
+    const double next = status == SW_OK ? sw_stepper_next_h(&s->stepper, h, tolerance) : 0.25 * h;
+    if (fine) {
+      const int unknown = !(s->stepper.error > 0); /* a starting step gives no estimate */
+      accept(p, h);
+      s->time = last ? t1 : s->time + h;
+      s->next_dt = unknown ? h : last && next > h ? fmax(next, s->next_dt) : next;
+      return sw_scene_observe(s, err);
+    }
+    if (status == SW_OK) {
+      sw_stepper_reject(&s->stepper, &s->system);
+      if (s->contact) memcpy(s->system.v, p->v_start, 3 * s->system.nodes * sizeof(double));
+    }
+    p->report->rejected++;
+    h = fmin(next, 0.9 * h);
+    if (h < SMALLEST_SHARE * SMALLEST_SHARE * p->args->dt)
+      return status != SW_OK ? status
+                             : sw_fail(err, SW_ENOCONV, "the tolerance needs steps below %g s", h);
+  }
+}
+
+static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_error *err) {
+  sw_scene *s = p->s;
+  const double t0 = s->time, span = until - t0;
+  const double count = fmax(1.0, ceil(span / p->args->dt - 1e-9));
+  const int adaptive = isfinite(p->args->tolerance);
+  const double slack = 1e-12 * fmax(fabs(until), span);
+  const size_t first = p->report->steps;
+  for (double k = 1; s->time < until - slack; k++) {
+    if (interrupted && interrupted()) return SW_EINTR;
+    if ((double)(p->report->steps - first) >= (double)p->args->max_steps) return SW_OK;
+    const double t1 = k >= count ? until : t0 + span * (k / count);
+    SW_TRY(adaptive ? controlled_step(p, until - s->time, until, err)
+                    : step(p, t1 - s->time, t1, err));
+    if (isfinite(p->args->frame) && s->time >= s->next_frame - slack)
+      SW_TRY(sw_scene_store_frame(s, err));
+    while (isfinite(p->args->frame) && s->next_frame <= s->time + slack)
+      s->next_frame += p->args->frame;
+  }
+  return SW_OK;
+}
+
+static sw_status check_run(const sw_scene *s, const sw_run_args *args, sw_error *err) {
+  const sw_integrator *m = sw_integrator_all()[args->integrator];
+  if (!s->wire_count) return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", s->name);
+  if (isfinite(args->tolerance) && !(m->flags & SW_INTEGRATOR_EMBEDDED))
+    return sw_fail(err, SW_EINVAL,
+                   "scene:run: integrator '%s' has no error estimate; give dt instead of "
+                   "tolerance, or integrator = 'tr-bdf2'",
+                   m->name);
+  return SW_OK;
+}
+
+static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const sw_error *why) {
+  report->status = status;
+  report->time = s->time;
+  if (status == SW_OK || status == SW_EINTR || status == SW_ECALLBACK) return;
+  report->status = status == SW_ENOMEM ? SW_ENOMEM : SW_EDIVERGED;
+  sw_fail(&report->reason, status, "at t = %.6g s: %.400s", s->time,
+          why->text[0] ? why->text : sw_status_text(status));
+  if (report->status != SW_EDIVERGED) return;
+  s->diverged = 1;
+  s->why = report->reason;
+}
+
+sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
+                           int (*interrupted)(void), sw_run_report *report, sw_error *err) {
+  sw_error why = {""};
+  *report = (sw_run_report){.smallest_dt = HUGE_VAL, .time = s->time};
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(check_run(s, args, err));
+  SW_TRY(sw_scene_build(s, err));
+  SW_TRY(use_integrator(s, args, err));
+  const size_t before = s->system.counters.evaluations;
+  loop p = {.s = s, .args = args, .report = report};
+  p.v_start = sw_alloc(s->contact ? 3 * s->system.nodes : 1, sizeof(double));
+  if (!p.v_start) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
+  s->running = 1;
+  if (isfinite(args->frame) && s->frame_count == 0) {
+    sw_scene_store_frame(s, &why);
+    s->next_frame = s->time + args->frame;
+  }
+  const sw_status status = run_loop(&p, until, interrupted, &why);
+  s->running = 0;
+  sw_free(p.v_start);
+  report->evaluations = s->system.counters.evaluations - before;
+  conclude(s, status, report, &why);
+  if (status == SW_ECALLBACK) s->discontinuous = 1;
+  return SW_OK;
+}
+
+double sw_scene_stable_dt(sw_scene *s) {
+  sw_error err;
+  if (sw_scene_build(s, &err) != SW_OK) return 0;
+  return sw_system_stable_dt(&s->system);
+}

@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From the edited scene to a system that can be advanced, and back. */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "scene/world.h"
+
+static void drop(sw_scene *s) {
+  sw_stepper_free(&s->stepper);
+  s->has_stepper = 0;
+  s->method = NULL;
+  sw_system_free(&s->system);
+  sw_contact_free(s->contact);
+  s->contact = NULL;
+  sw_free(s->hold_slot);
+  s->hold_slot = NULL;
+  s->built = 0;
+}
+
+sw_status sw_scene_thaw(sw_scene *s) {
+  if (!s->built) return SW_OK;
+  for (size_t w = 0; w < s->wire_count; w++) {
+    const sw_body *b = &s->system.bodies[w];
+    sw_mesh *m = &s->wires[w].mesh;
+    memcpy(m->x, s->system.x + 3 * b->first_node, 3 * m->n * sizeof *m->x);
+    memcpy(m->v, s->system.v + 3 * b->first_node, 3 * m->n * sizeof *m->v);
+    memcpy(m->tension, s->system.tension + b->first_edge, (m->n - 1) * sizeof *m->tension);
+  }
+  drop(s);
+  s->discontinuous = 1;
+  return SW_OK;
+}
+
+static sw_status new_plans(sw_scene *s, sw_plan **plans) {
+  sw_hold_place *places = sw_alloc(s->hold_count, sizeof *places);
+  if (!places) return SW_ENOMEM;
+  sw_status status = SW_OK;
+  for (size_t w = 0; w < s->wire_count && status == SW_OK; w++) {
+    const sw_scene_wire *wire = &s->wires[w];
+    size_t n = 0;
+    int number = 0;
+    for (size_t k = 0; k < s->hold_count; k++) {
+      const sw_scene_hold *h = &s->holds[k];
+      if (!h->alive) continue;
+      if (h->wire == w)
+        places[n++] = (sw_hold_place){h->s1, h->s2, h->cls->clamped, number};
+      number++;
+    }
+    status = sw_plan_new(&wire->beam, wire->mesh.s, wire->mesh.n, places, n, &plans[w]);
+  }
+  sw_free(places);
+  return status;
+}
+
+static sw_status add_terms(sw_scene *s, size_t w) {
+  sw_recipe recipe;
+  sw_body *b = &s->system.bodies[w];
+  s->wires[w].cls->recipe(&s->wires[w].beam, &recipe);
+  for (size_t k = 0; k < recipe.count; k++)
+    SW_TRY(sw_system_add_term(&s->system, w, sw_force_find(recipe.terms[k].force),
+                              recipe.terms[k].args, sizeof recipe.terms[k].args, -1));
+  b->EA = s->wires[w].beam.EA;
+  b->EA_push = recipe.push ? b->EA : 0.0;
+  for (size_t k = 0; k < s->force_count; k++) {
+    const sw_scene_force *f = &s->forces[k];
+    if (f->alive && (f->wire < 0 || f->wire == (long)w))
+      SW_TRY(sw_system_add_term(&s->system, w, f->cls, f->args, sizeof f->args, (int)k));
+  }
+  return SW_OK;
+}
+
+/* Place of arc length s in the hold's frame. */
+static sw_vec local_of(const sw_scene_hold *h, double s) {
+  size_t i = 0;
+  while (i + 2 < h->count && h->s[i + 1] <= s) i++;
+  if (h->count == 1) return sw_load(h->local);
+  const double f = (s - h->s[i]) / (h->s[i + 1] - h->s[i]);
+  return sw_lerp(sw_vec_at(h->local, i), sw_vec_at(h->local, i + 1), f);
+}
+
+static sw_status add_holds(sw_scene *s, size_t alive) {
+  s->hold_slot = sw_alloc(alive, sizeof *s->hold_slot);
+  if (!s->hold_slot) return SW_ENOMEM;
+  int number = 0;
+  for (size_t k = 0; k < s->hold_count; k++) {
+    const sw_scene_hold *h = &s->holds[k];
+    if (!h->alive) continue;
+    const sw_body *b = &s->system.bodies[h->wire];
+    for (size_t side = 0; side < 2; side++)
+      sw_store(s->system.directors + 3 * (2 * (size_t)number + side), h->director[side]);
+    for (size_t i = 0; i < b->plan->nodes; i++) {
+      if (!(b->plan->s[i] >= h->s1 && b->plan->s[i] <= h->s2)) continue;
+      s->system.held[s->system.held_count++] =
+          (sw_held_node){.node = b->first_node + i,
+                         .body = h->wire,
+                         .hold = number,
+                         .local = local_of(h, b->plan->s[i])};
+    }
+    s->hold_slot[number++] = (int)k;
+  }
+  return SW_OK;
+}
+
+static sw_status place_hold(void *user, int hold, double t, sw_hold_state *out, sw_error *err) {
+  const sw_scene *s = user;
+  sw_motion_state m;
+  SW_TRY(sw_drive_eval(&s->holds[s->hold_slot[hold]].drive, t, &m, err));
+  *out = (sw_hold_state){m.pose, m.v, m.a, m.omega, m.alpha};
+  return SW_OK;
+}
+
+static sw_status place_obstacle(void *user, int o, double t, sw_motion_state *out,
+                                sw_error *err) {
+  const sw_scene *s = user;
+  return sw_drive_eval(&s->obstacles[o].drive, t, out, err);
+}
+
+static sw_status add_contact(sw_scene *s) {
+  size_t n = 0;
+  sw_contact_obstacle *list = sw_alloc(s->obstacle_count, sizeof *list);
+  if (!list) return SW_ENOMEM;
+  for (size_t k = 0; k < s->obstacle_count; k++) {
+    const sw_scene_obstacle *o = &s->obstacles[k];
+    if (o->alive)
+      list[n++] = (sw_contact_obstacle){o->shape, o->friction, o->restitution, (int)k};
+  }
+  sw_status status =
+      n ? sw_contact_new(list, n, place_obstacle, s, &s->contact) : SW_OK;
+  sw_free(list);
+  return status;
+}
+
+/* The coupling's user is the scene; these pass on to the contact. */
+static sw_status begin_stage(void *user, sw_system *system, double t, double hbar,
+                             const double *y, sw_error *err) {
+  return sw_contact_begin_stage(((sw_scene *)user)->contact, system, t, hbar, y, err);
+}
+static sw_status eval(void *user, sw_system *system, double t, double hbar, const double *y,
+                      unsigned want, sw_error *err) {
+  return sw_contact_eval(((sw_scene *)user)->contact, system, t, hbar, y, want, err);
+}
+static int settled(void *user, sw_system *system, const double *y, const double *delta) {
+  return sw_contact_settled(((sw_scene *)user)->contact, system, y, delta);
+}
+
+static sw_status fill(sw_scene *s, size_t alive) {
+  for (size_t w = 0; w < s->wire_count; w++) {
+    const sw_body *b = &s->system.bodies[w];
+    const sw_mesh *m = &s->wires[w].mesh;
+    memcpy(s->system.x + 3 * b->first_node, m->x, 3 * m->n * sizeof *m->x);
+    memcpy(s->system.v + 3 * b->first_node, m->v, 3 * m->n * sizeof *m->v);
+    memcpy(s->system.tension + b->first_edge, m->tension, (m->n - 1) * sizeof *m->tension);
+    SW_TRY(add_terms(s, w));
+  }
+  SW_TRY(add_holds(s, alive));
+  SW_TRY(add_contact(s));
+  s->system.coupling = (sw_coupling){.user = s, .place = place_hold};
+  if (s->contact) {
+    s->system.coupling.begin_stage = begin_stage;
+    s->system.coupling.eval = eval;
+    s->system.coupling.settled = settled;
+  }
+  return SW_OK;
+}
+
+sw_status sw_scene_build(sw_scene *s, sw_error *err) {
+  if (!s->built) {
+    size_t alive = 0;
+    for (size_t k = 0; k < s->hold_count; k++) alive += s->holds[k].alive != 0;
+    sw_plan **plans = sw_alloc(s->wire_count, sizeof *plans);
+    sw_status status = plans ? new_plans(s, plans) : SW_ENOMEM;
+    if (status == SW_OK) status = sw_system_new(&s->system, plans, s->wire_count, alive);
+    if (status == SW_OK) status = fill(s, alive);
+    for (size_t w = 0; plans && w < s->wire_count; w++) sw_plan_release(plans[w]);
+    sw_free(plans);
+    if (status != SW_OK) {
+      drop(s);
+      return sw_fail(err, status, "scene '%s': out of memory", s->name);
+    }
+    s->built = 1;
+    s->discontinuous = 1;
+  }
+  s->system.gravity[0] = s->gravity.x;
+  s->system.gravity[1] = s->gravity.y;
+  s->system.gravity[2] = s->gravity.z;
+  return SW_OK;
+}

@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Frames: what a picture or a player needs, stored at even times of a run. One
+ * block a frame: energies, obstacle poses, hold poses with a held flag, then
+ * for each wire its node count and positions. */
+#include <string.h>
+
+#include "base/alloc.h"
+#include "scene/world.h"
+
+void sw_scene_frame_energies(sw_scene *s, double out[SW_FRAME_ENERGIES]);
+
+enum { POSE = 7, HOLD = POSE + 1 };
+
+void sw_scene_drop_frames(sw_scene *s) {
+  for (size_t i = 0; i < s->frame_count; i++) sw_free(s->frames[i].data);
+  s->frame_count = 0;
+}
+
+void sw_scene_clear_frames(sw_scene *s) { sw_scene_drop_frames(s); }
+
+static void store_pose(double *out, sw_pose pose) {
+  sw_store(out, pose.p);
+  out[3] = pose.q.w, out[4] = pose.q.x, out[5] = pose.q.y, out[6] = pose.q.z;
+}
+
+static sw_status fill(sw_scene *s, double *p, sw_error *err) {
+  sw_motion_state at;
+  sw_scene_frame_energies(s, p);
+  p += SW_FRAME_ENERGIES;
+  for (size_t k = 0; k < s->obstacle_count; k++, p += POSE) {
+    SW_TRY(sw_drive_eval(&s->obstacles[k].drive, s->time, &at, err));
+    store_pose(p, at.pose);
+  }
+  for (size_t k = 0; k < s->hold_count; k++, p += HOLD) {
+    at.pose = s->holds[k].last_pose;
+    if (s->holds[k].alive) SW_TRY(sw_drive_eval(&s->holds[k].drive, s->time, &at, err));
+    store_pose(p, at.pose);
+    p[POSE] = s->holds[k].alive;
+  }
+  for (size_t w = 0; w < s->wire_count; w++) {
+    const sw_body *b = &s->system.bodies[w];
+    *p++ = (double)b->plan->nodes;
+    memcpy(p, s->system.x + 3 * b->first_node, 3 * b->plan->nodes * sizeof *p);
+    p += 3 * b->plan->nodes;
+  }
+  return SW_OK;
+}
+
+sw_status sw_scene_store_frame(sw_scene *s, sw_error *err) {
+  const size_t size = SW_FRAME_ENERGIES + POSE * s->obstacle_count + HOLD * s->hold_count +
+                      s->wire_count + 3 * s->system.nodes;
+  if (sw_grow((void **)&s->frames, &s->frame_capacity, s->frame_count + 1, sizeof *s->frames) !=
+      SW_OK)
+    return sw_fail(err, SW_ENOMEM, "out of memory for frames");
+  double *data = sw_alloc(size, sizeof *data);
+  if (!data) return sw_fail(err, SW_ENOMEM, "out of memory for frames");
+  const sw_status status = fill(s, data, err);
+  if (status != SW_OK) {
+    sw_free(data);
+    return status;
+  }
+  s->frames[s->frame_count++] =
+      (sw_frame){s->time, data, s->wire_count, s->obstacle_count, s->hold_count};
+  return SW_OK;
+}
+
+size_t sw_scene_frames(const sw_scene *s) { return s->frame_count; }
+double sw_scene_frame_time(const sw_scene *s, size_t frame) { return s->frames[frame].time; }
+const double *sw_scene_frame_energy(const sw_scene *s, size_t frame) {
+  return s->frames[frame].data;
+}
+
+const double *sw_scene_frame_obstacle(const sw_scene *s, size_t frame, size_t o) {
+  const sw_frame *f = &s->frames[frame];
+  return o < f->obstacles ? f->data + SW_FRAME_ENERGIES + POSE * o : NULL;
+}
+
+const double *sw_scene_frame_hold(const sw_scene *s, size_t frame, size_t h, int *held) {
+  const sw_frame *f = &s->frames[frame];
+  if (h >= f->holds) return NULL;
+  const double *p = f->data + SW_FRAME_ENERGIES + POSE * f->obstacles + HOLD * h;
+  *held = p[POSE] > 0;
+  return p;
+}
+
+const double *sw_scene_frame_wire(const sw_scene *s, size_t frame, size_t w, size_t *count) {
+  const sw_frame *f = &s->frames[frame];
+  if (w >= f->wires) return NULL;
+  const double *p = f->data + SW_FRAME_ENERGIES + POSE * f->obstacles + HOLD * f->holds;
+  for (size_t k = 0; k < w; k++) p += 1 + 3 * (size_t)*p;
+  *count = (size_t)*p;
+  return p + 1;
+}

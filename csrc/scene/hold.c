@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Holds of the scene: taking hold of a wire, driving, releasing. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "scene/world.h"
+
+/* All arc lengths of a wire that other holds need as nodes. */
+static size_t kept_places(const sw_scene *s, size_t wire, double *out) {
+  size_t n = 0;
+  for (size_t k = 0; k < s->hold_count; k++) {
+    if (!s->holds[k].alive || s->holds[k].wire != wire) continue;
+    out[n++] = s->holds[k].s1;
+    out[n++] = s->holds[k].s2;
+  }
+  return n;
+}
+
+static sw_status check_place(const sw_scene *s, const sw_hold_class *cls, size_t wire,
+                             const sw_hold_args *a, sw_error *err) {
+  const sw_scene_wire *w = &s->wires[wire];
+  const double length = w->mesh.s[w->mesh.n - 1];
+  if (a->s > length * (1 + 1e-9))
+    return sw_fail(err, SW_EINVAL, "%s: s = %.6g m is not on wire '%s', which ends at %.6g m",
+                   cls->name, a->s, w->name, length);
+  const double s1 = fmax(0, a->s - 0.5 * a->width), s2 = fmin(length, a->s + 0.5 * a->width);
+  for (size_t k = 0; k < s->hold_count; k++) {
+    const sw_scene_hold *h = &s->holds[k];
+    if (!h->alive || h->wire != wire) continue;
+    if (s1 <= h->s2 + 1e-9 * length && s2 >= h->s1 - 1e-9 * length)
+      return sw_fail(err, SW_EINVAL,
+                     "%s: wire '%s' is already held by '%s' between s = %.6g and %.6g m",
+                     cls->name, w->name, h->name, h->s1, h->s2);
+  }
+  return SW_OK;
+}
+
+static sw_status place_nodes(sw_scene *s, size_t wire, sw_scene_hold *h, const sw_hold_args *a) {
+  sw_mesh *m = &s->wires[wire].mesh;
+  const double length = m->s[m->n - 1];
+  double *keep = sw_alloc(2 * s->hold_count + 2, sizeof *keep);
+  if (!keep) return SW_ENOMEM;
+  size_t n = kept_places(s, wire, keep);
+  const double s1 = fmax(0, a->s - 0.5 * a->width), s2 = fmin(length, a->s + 0.5 * a->width);
+  sw_status status = sw_mesh_place(m, s1, keep, n, &h->s1);
+  h->s2 = h->s1;
+  if (status == SW_OK && a->width > 0) {
+    keep[n++] = h->s1;
+    status = sw_mesh_place(m, s2, keep, n, &h->s2);
+  }
+  sw_free(keep);
+  return status;
+}
+
+/* Where the held places are in the hold's frame, whose origin is the point at
+ * s and whose axes are the world's at this moment. */
+static sw_status take_hold(const sw_mesh *m, sw_scene_hold *h, const sw_hold_args *a) {
+  const size_t first = sw_mesh_node(m, h->s1), last = sw_mesh_node(m, h->s2);
+  h->count = last - first + 1;
+  h->s = sw_alloc(h->count, sizeof *h->s);
+  h->local = sw_alloc(3 * h->count, sizeof *h->local);
+  if (!h->s || !h->local) return SW_ENOMEM;
+  sw_vec origin = sw_vec_at(m->x, first);
+  for (size_t i = first; i < last; i++)
+    if (m->s[i + 1] >= a->s && m->s[i] <= a->s)
+      origin = sw_lerp(sw_vec_at(m->x, i), sw_vec_at(m->x, i + 1),
+                       (a->s - m->s[i]) / (m->s[i + 1] - m->s[i]));
+  for (size_t i = first; i <= last; i++) {
+    h->s[i - first] = m->s[i];
+    sw_store(h->local + 3 * (i - first), sw_sub(sw_vec_at(m->x, i), origin));
+  }
+  h->drive.pose = (sw_pose){origin, sw_quat_identity()};
+  h->last_pose = h->drive.pose;
+  const int given = isfinite(a->direction.x) && sw_norm(a->direction) > 0;
+  h->director[0] = given ? sw_unit_or(a->direction, sw_v(1, 0, 0)) : sw_mesh_tangent(m, first);
+  h->director[1] = given ? h->director[0] : sw_mesh_tangent(m, last);
+  return SW_OK;
+}
+
+sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wire,
+                            const sw_hold_args *args, sw_handle *out, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_readable(s, err));
+  if (!sw_scene_find_wire(s, wire, err)) return SW_EDEAD;
+  SW_TRY(check_place(s, cls, wire.slot, args, err));
+  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_grow((void **)&s->holds, &s->hold_capacity, s->hold_count + 1, sizeof *s->holds));
+  sw_scene_hold h = {.generation = 1, .alive = 1, .cls = cls, .wire = wire.slot};
+  if (args->name[0]) memcpy(h.name, args->name, sizeof h.name);
+  else snprintf(h.name, sizeof h.name, "%s%zu", cls->name, s->hold_count + 1);
+  sw_status status = place_nodes(s, wire.slot, &h, args);
+  if (status == SW_OK) status = take_hold(&s->wires[wire.slot].mesh, &h, args);
+  if (status != SW_OK) {
+    sw_free(h.s);
+    sw_free(h.local);
+    return sw_fail(err, status, "%s: out of memory", cls->name);
+  }
+  *out = (sw_handle){(uint32_t)s->hold_count, 1};
+  s->holds[s->hold_count++] = h;
+  return SW_OK;
+}
+
+static sw_scene_hold *living(sw_scene *s, sw_handle hold, sw_error *err) {
+  sw_scene_hold *h = sw_scene_find_hold(s, hold, err);
+  if (h && !h->alive) {
+    sw_fail(err, SW_EDEAD, "%s '%s' has been released", h->cls->name, h->name);
+    return NULL;
+  }
+  return h;
+}
+
+sw_status sw_scene_release_hold(sw_scene *s, sw_handle hold, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  sw_scene_hold *h = sw_scene_find_hold(s, hold, err);
+  if (!h) return SW_EDEAD;
+  if (!h->alive) return SW_OK;
+  sw_motion_state now;
+  SW_TRY(sw_drive_eval(&h->drive, s->time, &now, err));
+  SW_TRY(sw_scene_thaw(s));
+  h->last_pose = now.pose;
+  h->alive = 0;
+  sw_drive_free(&h->drive);
+  return SW_OK;
+}
+
+sw_status sw_scene_follow(sw_scene *s, sw_handle hold, sw_motion *motion, int relative,
+                          sw_error *err) {
+  sw_scene_hold *h = living(s, hold, err);
+  if (!h) return SW_EDEAD;
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_drive_follow(&h->drive, h->name, s->time, motion, relative, err));
+  s->discontinuous = 1;
+  return SW_OK;
+}
+
+sw_status sw_scene_set_pose(sw_scene *s, sw_handle hold, sw_pose pose, sw_error *err) {
+  sw_scene_hold *h = living(s, hold, err);
+  if (!h) return SW_EDEAD;
+  SW_TRY(sw_scene_editable(s, err));
+  sw_drive_free(&h->drive);
+  h->drive = (sw_drive){.pose = pose};
+  s->discontinuous = 1;
+  return SW_OK;
+}
+
+sw_status sw_scene_hold_pose(sw_scene *s, sw_handle hold, sw_pose *out, sw_error *err) {
+  sw_motion_state now;
+  sw_scene_hold *h = sw_scene_find_hold(s, hold, err);
+  if (!h) return SW_EDEAD;
+  *out = h->last_pose;
+  if (!h->alive) return SW_OK;
+  SW_TRY(sw_drive_eval(&h->drive, s->time, &now, err));
+  *out = now.pose;
+  return SW_OK;
+}
+
+sw_status sw_scene_hold_force(sw_scene *s, sw_handle hold, const sw_vec *about, sw_vec *force,
+                              sw_vec *moment, sw_error *err) {
+  sw_pose pose;
+  SW_TRY(sw_scene_readable(s, err));
+  sw_scene_hold *h = living(s, hold, err);
+  if (!h) return SW_EDEAD;
+  SW_TRY(sw_scene_hold_pose(s, hold, &pose, err));
+  *force = h->force;
+  *moment = about ? sw_add(h->moment, sw_cross(sw_sub(pose.p, *about), h->force)) : h->moment;
+  return SW_OK;
+}
+
+sw_status sw_scene_hold_log(sw_scene *s, sw_handle hold, const double **rows, size_t *count,
+                            sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  const sw_scene_hold *h = sw_scene_find_hold(s, hold, err);
+  if (!h) return SW_EDEAD;
+  *rows = h->log.rows;
+  *count = h->log.count / SW_LOG_SIZE;
+  return SW_OK;
+}
+
+sw_status sw_scene_obstacle_log(sw_scene *s, sw_handle obstacle, const double **rows,
+                                size_t *count, sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  const sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
+  if (!o) return SW_EDEAD;
+  *rows = o->log.rows;
+  *count = o->log.count / SW_LOG_OBSTACLE_SIZE;
+  return SW_OK;
+}
+
+sw_status sw_log_add(sw_log *log, const double *row, size_t n) {
+  SW_TRY(sw_grow((void **)&log->rows, &log->capacity, log->count + n, sizeof *log->rows));
+  memcpy(log->rows + log->count, row, n * sizeof *row);
+  log->count += n;
+  return SW_OK;
+}

@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Read-outs of wires and of the whole scene. */
+#include <math.h>
+#include <string.h>
+
+#include "scene/world.h"
+
+void sw_scene_wire_now(sw_scene *s, size_t w, sw_extreme *curvature, sw_extreme *tension);
+
+/* The wire of a handle, in a scene that is built, readable and refreshed. */
+static sw_status open_wire(sw_scene *s, sw_handle h, sw_scene_wire **wire, sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  *wire = sw_scene_find_wire(s, h, err);
+  if (!*wire) return SW_EDEAD;
+  if (s->running) return sw_scene_editable(s, err);
+  SW_TRY(sw_scene_build(s, err));
+  SW_TRY(sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err));
+  sw_system_refresh(&s->system);
+  return SW_OK;
+}
+
+sw_status sw_scene_wire_length(sw_scene *s, sw_handle h, double *length, sw_error *err) {
+  const sw_scene_wire *w = sw_scene_find_wire(s, h, err);
+  if (!w) return SW_EDEAD;
+  *length = w->mesh.s[w->mesh.n - 1];
+  return SW_OK;
+}
+
+sw_status sw_scene_wire_nodes(sw_scene *s, sw_handle h, size_t *nodes, sw_error *err) {
+  const sw_scene_wire *w = sw_scene_find_wire(s, h, err);
+  if (!w) return SW_EDEAD;
+  *nodes = w->mesh.n;
+  return SW_OK;
+}
+
+sw_status sw_scene_wire_beam(sw_scene *s, sw_handle h, sw_beam *out, sw_error *err) {
+  const sw_scene_wire *w = sw_scene_find_wire(s, h, err);
+  if (!w) return SW_EDEAD;
+  *out = w->beam;
+  return SW_OK;
+}
+
+/* The clamp hinge at a node that looks along edge, or NULL. */
+static const sw_clamp_hinge *clamp_at(const sw_plan *p, size_t node, size_t edge) {
+  for (size_t c = 0; c < p->clamp_count; c++)
+    if (p->clamps[c].node == node && p->clamps[c].edge == edge) return &p->clamps[c];
+  return NULL;
+}
+
+static sw_vec director(const sw_system *s, const sw_clamp_hinge *h) {
+  return sw_load(s->directors_now + 3 * (2 * (size_t)h->hold + (h->side > 0 ? 1 : 0)));
+}
+
+static sw_vec tangent_of(const sw_field *f, size_t e) {
+  return sw_v(f->tangent[0][e], f->tangent[1][e], f->tangent[2][e]);
+}
+
+static double angle_between(sw_vec a, sw_vec b) {
+  return 2.0 * asin(fmin(1.0, 0.5 * sw_dist(a, b)));
+}
+
+/* Tangent and curvature at a node as seen from one of its edges. */
+static void node_state(const sw_system *s, const sw_body *b, size_t node, size_t edge,
+                       sw_vec *tangent, double *curvature) {
+  const sw_plan *p = b->plan;
+  const sw_field *f = &b->field;
+  const sw_clamp_hinge *c = clamp_at(p, node, edge);
+  const sw_vec own = tangent_of(f, edge);
+  *curvature = 0.0;
+  *tangent = own;
+  if (c) {
+    *tangent = director(s, c);
+    *curvature = angle_between(*tangent, own) / c->length;
+  } else if (node > 0 && node + 1 < p->nodes) {
+    const sw_vec t1 = tangent_of(f, node - 1), t2 = tangent_of(f, node);
+    const double l1 = p->rest[node - 1], l2 = p->rest[node];
+    *tangent = sw_unit_or(sw_add(sw_scale(t1, l2), sw_scale(t2, l1)), own);
+    if (p->hinge[node] > 0) *curvature = angle_between(t1, t2) / p->hinge[node];
+  } else if (p->edges > 1) { /* free or pinned end: no moment, so no further bend */
+    const size_t inner = node == 0 ? 1 : p->edges - 2;
+    const sw_vec t2 = tangent_of(f, inner);
+    const double share = 0.25 * 2.0 * p->rest[edge] / (p->rest[edge] + p->rest[inner]);
+    *tangent = sw_unit_or(sw_madd(own, sw_sub(own, t2), share), own);
+  }
+}
+
+/* Tension at a place, linear between edge middles. */
+static double tension_at(const sw_system *s, const sw_body *b, double at) {
+  const sw_plan *p = b->plan;
+  const double *T = s->tension + b->first_edge;
+  double fraction;
+  const size_t e = sw_plan_locate(p, at, &fraction);
+  if (p->edges == 1) return T[0];
+  size_t k = fraction < 0.5 ? (e > 0 ? e - 1 : 0) : e;
+  if (k + 1 >= p->edges) k = p->edges - 2;
+  const double m0 = 0.5 * (p->s[k] + p->s[k + 1]), m1 = 0.5 * (p->s[k + 1] + p->s[k + 2]);
+  return T[k] + (T[k + 1] - T[k]) * (at - m0) / (m1 - m0);
+}
+
+sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double at, sw_point_state *out,
+                           sw_error *err) {
+  sw_scene_wire *w;
+  sw_vec t0, t1;
+  double k0, k1, f;
+  SW_TRY(open_wire(s, h, &w, err));
+  const double length = w->mesh.s[w->mesh.n - 1];
+  if (!(at >= 0 && at <= length * (1 + 1e-12)))
+    return sw_fail(err, SW_EINVAL, "wire '%s': s = %.6g m is not on the wire; it must be in [0, %.6g] m",
+                   w->name, at, length);
+  const sw_body *b = &s->system.bodies[h.slot];
+  const size_t e = sw_plan_locate(b->plan, at, &f);
+  const double *x = s->system.x + 3 * (b->first_node + e);
+  const double *v = s->system.v + 3 * (b->first_node + e);
+  node_state(&s->system, b, e, e, &t0, &k0);
+  node_state(&s->system, b, e + 1, e, &t1, &k1);
+  /* cubic through both ends with their tangents; the chord keeps its length */
+  const double l = b->field.length[e], h00 = (1 + 2 * f) * (1 - f) * (1 - f);
+  const double h10 = f * (1 - f) * (1 - f), h01 = f * f * (3 - 2 * f), h11 = f * f * (f - 1);
+  out->position = sw_add(sw_add(sw_scale(sw_load(x), h00), sw_scale(t0, l * h10)),
+                         sw_add(sw_scale(sw_load(x + 3), h01), sw_scale(t1, l * h11)));
+  out->velocity = sw_lerp(sw_load(v), sw_load(v + 3), f);
+  out->tangent = sw_unit_or(sw_lerp(t0, t1, f), t0);
+  out->curvature = k0 + f * (k1 - k0);
+  out->tension = tension_at(&s->system, b, at);
+  return SW_OK;
+}
+
+sw_status sw_scene_wire_copy(sw_scene *s, sw_handle h, double *positions, double *arc,
+                             double *velocities, sw_error *err) {
+  sw_scene_wire *w;
+  SW_TRY(open_wire(s, h, &w, err));
+  const sw_body *b = &s->system.bodies[h.slot];
+  const size_t n = b->plan->nodes;
+  if (positions) memcpy(positions, s->system.x + 3 * b->first_node, 3 * n * sizeof(double));
+  if (velocities) memcpy(velocities, s->system.v + 3 * b->first_node, 3 * n * sizeof(double));
+  if (arc) memcpy(arc, b->plan->s, n * sizeof(double));
+  return SW_OK;
+}
+
+sw_status sw_scene_wire_set_velocity(sw_scene *s, sw_handle h, sw_vec v, sw_vec omega,
+                                     sw_vec about, sw_error *err) {
+  sw_scene_wire *w;
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(open_wire(s, h, &w, err));
+  const sw_body *b = &s->system.bodies[h.slot];
+  for (size_t i = 0; i < b->plan->nodes; i++) {
+    const size_t k = 3 * (b->first_node + i);
+    if (b->plan->held[i] != SW_FREE) continue;
+    const sw_vec arm = sw_sub(sw_load(s->system.x + k), about);
+    sw_store(s->system.v + k, sw_add(v, sw_cross(omega, arm)));
+  }
+  s->discontinuous = 1;
+  return SW_OK;
+}
+
+sw_status sw_scene_wire_extremes(sw_scene *s, sw_handle h, sw_extreme *curvature_now,
+                                 sw_extreme *tension_now, sw_extreme *curvature,
+                                 sw_extreme *tension, sw_error *err) {
+  sw_scene_wire *w;
+  SW_TRY(open_wire(s, h, &w, err));
+  sw_scene_wire_now(s, h.slot, curvature_now, tension_now);
+  *curvature = w->curvature.value >= curvature_now->value ? w->curvature : *curvature_now;
+  *tension = w->tension.value >= tension_now->value ? w->tension : *tension_now;
+  return SW_OK;
+}
+
+static void add_energy(sw_energy *out, const char *kind, double value) {
+  for (size_t i = 0; i < out->count; i++)
+    if (strcmp(out->kind[i], kind) == 0) {
+      out->value[i] += value;
+      return;
+    }
+  if (out->count == SW_ENERGY_KINDS) return;
+  out->kind[out->count] = kind;
+  out->value[out->count++] = value;
+}
+
+/* Explicit methods have lumped masses. */
+static int lumped(const sw_scene *s) {
+  return s->has_stepper && !(s->method->flags & SW_INTEGRATOR_IMPLICIT);
+}
+
+static void collect_energy(sw_scene *s, sw_energy *out) {
+  out->count = 0;
+  add_energy(out, "kinetic", sw_system_kinetic(&s->system, lumped(s)));
+  for (size_t b = 0; b < s->system.body_count; b++)
+    for (size_t k = 0; k < s->system.bodies[b].term_count; k++) {
+      const sw_term *term = &s->system.bodies[b].terms[k];
+      add_energy(out, term->cls->name, sw_system_term_energy(&s->system, b, k));
+    }
+  if (s->contact) add_energy(out, "contact", sw_contact_energy(s->contact));
+}
+
+sw_status sw_scene_energy(sw_scene *s, sw_energy *out, sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_build(s, err));
+  SW_TRY(sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err));
+  collect_energy(s, out);
+  return SW_OK;
+}
+
+sw_status sw_scene_penetration(sw_scene *s, double *now, sw_extreme *deepest, sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  *now = s->built && s->contact ? sw_contact_penetration(s->contact, NULL) : 0.0;
+  *deepest = s->deepest;
+  return SW_OK;
+}
+
+size_t sw_scene_touches(sw_scene *s) {
+  return s->built && s->contact ? sw_contact_count(s->contact) : 0;
+}
+
+/* --- frames ------------------------------------------------------------------ */
+
+void sw_scene_frame_energies(sw_scene *s, double out[SW_FRAME_ENERGIES]);
+void sw_scene_frame_energies(sw_scene *s, double out[SW_FRAME_ENERGIES]) {
+  sw_energy e;
+  collect_energy(s, &e);
+  memset(out, 0, SW_FRAME_ENERGIES * sizeof *out);
+  for (size_t i = 0; i < e.count; i++) {
+    const int kind = strcmp(e.kind[i], "kinetic") == 0   ? 0
+                     : strcmp(e.kind[i], "gravity") == 0 ? 2
+                                                         : 1;
+    out[kind] += e.value[i];
+  }
+}

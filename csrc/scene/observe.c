@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is kept of every accepted state: extremes, forces, frames. */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/simd.h"
+#include "scene/world.h"
+
+/* The largest of |t2 - t1| / hinge length, squared: the curvature to second
+ * order in the hinge angle; the exact angle is taken at the place found. */
+SW_HOT
+static double largest_curvature2(size_t n, const double *restrict hinge,
+                                 const double *restrict tx, const double *restrict ty,
+                                 const double *restrict tz) {
+  double largest = 0;
+  for (size_t i = 1; i + 1 < n; i++) {
+    const double dx = tx[i] - tx[i - 1], dy = ty[i] - ty[i - 1], dz = tz[i] - tz[i - 1];
+    const double k2 =
+        hinge[i] > 0 ? (dx * dx + dy * dy + dz * dz) / (hinge[i] * hinge[i]) : 0.0;
+    largest = largest > k2 ? largest : k2;
+  }
+  return largest;
+}
+
+static double angle_of_chord(double chord) { return 2.0 * asin(fmin(1.0, 0.5 * chord)); }
+
+static double hinge_chord(const sw_field *f, size_t i) {
+  double d2 = 0;
+  for (int k = 0; k < 3; k++) {
+    const double d = f->tangent[k][i] - f->tangent[k][i - 1];
+    d2 += d * d;
+  }
+  return sqrt(d2);
+}
+
+static void curvature_extreme(const sw_body *b, const double *directors, sw_extreme *out) {
+  const sw_plan *p = b->plan;
+  const sw_field *f = &b->field;
+  const double bound2 = largest_curvature2(p->nodes, p->hinge, f->tangent[0], f->tangent[1],
+                                           f->tangent[2]);
+  *out = (sw_extreme){0};
+  for (size_t i = 1; i + 1 < p->nodes; i++) {
+    if (!(p->hinge[i] > 0)) continue;
+    const double chord = hinge_chord(f, i);
+    if (chord * chord < (1 - 1e-12) * bound2 * p->hinge[i] * p->hinge[i]) continue;
+    *out = (sw_extreme){.value = angle_of_chord(chord) / p->hinge[i], .s = p->s[i]};
+    break;
+  }
+  for (size_t c = 0; c < p->clamp_count; c++) {
+    const sw_clamp_hinge *h = &p->clamps[c];
+    const double *d = directors + 3 * (2 * (size_t)h->hold + (h->side > 0 ? 1 : 0));
+    double d2 = 0;
+    for (int k = 0; k < 3; k++) {
+      const double e = f->tangent[k][h->edge] - d[k];
+      d2 += e * e;
+    }
+    const double value = angle_of_chord(sqrt(d2)) / h->length;
+    if (value > out->value) *out = (sw_extreme){.value = value, .s = p->s[h->node]};
+  }
+}
+
+static void tension_extreme(const sw_system *s, const sw_body *b, sw_extreme *out) {
+  const double *T = s->tension + b->first_edge;
+  *out = (sw_extreme){.value = -HUGE_VAL};
+  for (size_t e = 0; e < b->plan->edges; e++)
+    if (T[e] > out->value)
+      *out = (sw_extreme){.value = T[e], .s = 0.5 * (b->plan->s[e] + b->plan->s[e + 1])};
+}
+
+void sw_scene_wire_now(sw_scene *s, size_t w, sw_extreme *curvature, sw_extreme *tension) {
+  curvature_extreme(&s->system.bodies[w], s->system.directors_now, curvature);
+  tension_extreme(&s->system, &s->system.bodies[w], tension);
+  curvature->time = tension->time = s->time;
+}
+
+static void keep_largest(sw_extreme *kept, const sw_extreme *now) {
+  if (now->value > kept->value) *kept = *now;
+}
+
+static sw_status log_holds(sw_scene *s, sw_error *err) {
+  for (size_t k = 0; k < s->system.hold_count; k++) {
+    sw_scene_hold *h = &s->holds[s->hold_slot[k]];
+    const sw_hold_state *at = &s->system.hold_states[k];
+    double row[SW_LOG_SIZE];
+    sw_system_reaction(&s->system, (int)k, at->pose.p, &h->force, &h->moment);
+    row[SW_LOG_TIME] = s->time;
+    sw_store(row + SW_LOG_FORCE, h->force);
+    sw_store(row + SW_LOG_MOMENT, h->moment);
+    sw_store(row + SW_LOG_POINT, at->pose.p);
+    if (sw_log_add(&h->log, row, SW_LOG_SIZE) != SW_OK)
+      return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", h->name);
+  }
+  return SW_OK;
+}
+
+static sw_status observe_contact(sw_scene *s, sw_error *err) {
+  size_t node = 0;
+  const double depth = sw_contact_penetration(s->contact, &node);
+  if (depth > s->deepest.value) {
+    size_t b = 0;
+    while (b + 1 < s->system.body_count && s->system.bodies[b + 1].first_node <= node) b++;
+    const sw_body *body = &s->system.bodies[b];
+    s->deepest = (sw_extreme){depth, body->plan->s[node - body->first_node], s->time};
+  }
+  for (size_t k = 0; k < s->obstacle_count; k++) {
+    sw_scene_obstacle *o = &s->obstacles[k];
+    sw_vec force, moment;
+    double row[SW_LOG_OBSTACLE_SIZE];
+    if (!o->alive) continue;
+    sw_contact_force(s->contact, (int)k, sw_v(0, 0, 0), &force, &moment);
+    row[0] = s->time;
+    sw_store(row + 1, force);
+    if (sw_log_add(&o->log, row, SW_LOG_OBSTACLE_SIZE) != SW_OK)
+      return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", o->name);
+  }
+  return SW_OK;
+}
+
+sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
+  SW_TRY(sw_system_place_holds(&s->system, s->time, s->system.x, NULL, NULL, err));
+  sw_system_refresh(&s->system);
+  for (size_t w = 0; w < s->wire_count; w++) {
+    sw_extreme curvature, tension;
+    sw_scene_wire_now(s, w, &curvature, &tension);
+    keep_largest(&s->wires[w].curvature, &curvature);
+    keep_largest(&s->wires[w].tension, &tension);
+  }
+  SW_TRY(log_holds(s, err));
+  return s->contact ? observe_contact(s, err) : SW_OK;
+}
+
+void sw_scene_reset_extremes(sw_scene *s) {
+  for (size_t w = 0; w < s->wire_count; w++) {
+    s->wires[w].curvature = (sw_extreme){.value = -HUGE_VAL};
+    s->wires[w].tension = (sw_extreme){.value = -HUGE_VAL};
+  }
+  s->deepest = (sw_extreme){0};
+}

@@ -1,0 +1,283 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Life of a scene and of what is in it. */
+#include "scene/scene.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "scene/world.h"
+
+static const sw_param scene_rows[] = {
+    {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_scene_args, name),
+     "name used in messages and files"},
+    {"gravity", SW_PARAM_VECTOR, "m/s2", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL,
+     offsetof(sw_scene_args, gravity), "gravity (default {0, 0, -9.81})"},
+};
+const sw_params sw_scene_params = SW_PARAMS("scene", scene_rows);
+
+static const double STANDARD_GRAVITY = 9.81; /* [m/s2] */
+
+sw_status sw_scene_new(const sw_scene_args *args, sw_scene **out, sw_error *err) {
+  sw_scene *s = sw_alloc(1, sizeof *s);
+  if (!s) return sw_fail(err, SW_ENOMEM, "scene: out of memory");
+  memcpy(s->name, args->name[0] ? args->name : "scene", args->name[0] ? sizeof s->name : 6);
+  s->gravity = isnan(args->gravity.x) ? sw_v(0, 0, -STANDARD_GRAVITY) : args->gravity;
+  *out = s;
+  return SW_OK;
+}
+
+static void free_hold(sw_scene_hold *h) {
+  sw_free(h->s);
+  sw_free(h->local);
+  sw_free(h->log.rows);
+  sw_drive_free(&h->drive);
+}
+
+void sw_scene_free(sw_scene *s) {
+  if (!s) return;
+  for (size_t i = 0; i < s->wire_count; i++) sw_mesh_free(&s->wires[i].mesh);
+  for (size_t i = 0; i < s->hold_count; i++) free_hold(&s->holds[i]);
+  for (size_t i = 0; i < s->obstacle_count; i++) {
+    sw_shape_release(s->obstacles[i].shape);
+    sw_drive_free(&s->obstacles[i].drive);
+    sw_free(s->obstacles[i].log.rows);
+  }
+  sw_stepper_free(&s->stepper);
+  sw_contact_free(s->contact);
+  sw_system_free(&s->system);
+  sw_scene_drop_frames(s);
+  sw_free(s->frames);
+  sw_free(s->hold_slot);
+  sw_free(s->wires);
+  sw_free(s->holds);
+  sw_free(s->obstacles);
+  sw_free(s->forces);
+  sw_free(s);
+}
+
+const char *sw_scene_name(const sw_scene *s) { return s->name; }
+double sw_scene_time(const sw_scene *s) { return s->time; }
+sw_vec sw_scene_gravity(const sw_scene *s) { return s->gravity; }
+
+void sw_scene_set_gravity(sw_scene *s, sw_vec gravity) {
+  s->gravity = gravity;
+  s->discontinuous = 1;
+}
+
+sw_status sw_scene_readable(const sw_scene *s, sw_error *err) {
+  if (!s->diverged) return SW_OK;
+  return sw_fail(err, SW_EDIVERGED,
+                 "scene '%s': the last run diverged (%.300s); its numbers mean nothing, restore a "
+                 "snapshot or build the scene anew",
+                 s->name, s->why.text);
+}
+
+sw_status sw_scene_editable(const sw_scene *s, sw_error *err) {
+  if (s->running)
+    return sw_fail(err, SW_EBUSY, "scene '%s': cannot be changed from inside a step", s->name);
+  return SW_OK;
+}
+
+sw_scene_wire *sw_scene_find_wire(const sw_scene *s, sw_handle h, sw_error *err) {
+  if (h.slot < s->wire_count && s->wires[h.slot].generation == h.generation)
+    return &s->wires[h.slot];
+  sw_fail(err, SW_EDEAD, "this wire is not of scene '%s' any more", s->name);
+  return NULL;
+}
+
+sw_scene_hold *sw_scene_find_hold(const sw_scene *s, sw_handle h, sw_error *err) {
+  if (h.slot < s->hold_count && s->holds[h.slot].generation == h.generation)
+    return &s->holds[h.slot];
+  sw_fail(err, SW_EDEAD, "this clamp is not of scene '%s' any more", s->name);
+  return NULL;
+}
+
+sw_scene_obstacle *sw_scene_find_obstacle(const sw_scene *s, sw_handle h, sw_error *err) {
+  if (h.slot < s->obstacle_count && s->obstacles[h.slot].generation == h.generation &&
+      s->obstacles[h.slot].alive)
+    return &s->obstacles[h.slot];
+  sw_fail(err, SW_EDEAD, "this obstacle is not of scene '%s' any more", s->name);
+  return NULL;
+}
+
+/* A name for an unnamed object: "wire1", "box2", ... */
+static void give_name(char *out, const char *wanted, const char *kind, size_t number) {
+  if (wanted[0]) memcpy(out, wanted, SW_NAME_SIZE);
+  else snprintf(out, SW_NAME_SIZE, "%s%zu", kind, number + 1);
+}
+
+/* --- wires ------------------------------------------------------------------ */
+
+static const sw_param wire_rows[] = {
+    {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_wire_args, name),
+     "name used in messages and series"},
+    {"model", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
+     "wire model: 'rod' (default) or 'string'"},
+    {"from", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL,
+     offsetof(sw_wire_args, from), "start of a straight wire (s = 0)"},
+    {"to", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(sw_wire_args, to),
+     "end of a straight wire"},
+    {"path", SW_PARAM_OTHER, "m", 0, 0, 0, 0, NULL, 0,
+     "list of points the wire lies along, instead of from and to"},
+    {"segments", SW_PARAM_INTEGER, "-", 50, 2, 1e7, 0, NULL, offsetof(sw_wire_args, segments),
+     "number of segments"},
+};
+const sw_params sw_wire_params = SW_PARAMS("wire", wire_rows);
+
+static const double SHORTEST_SEGMENT = 1e-9; /* of the wire's length [-] */
+
+static sw_status check_mesh(const char *name, const sw_mesh *m, sw_error *err) {
+  const double total = m->s[m->n - 1];
+  if (!(total > 0) || !isfinite(total))
+    return sw_fail(err, SW_EINVAL, "wire '%s': its points give a length of %g m", name, total);
+  for (size_t i = 0; i + 1 < m->n; i++)
+    if (!(m->s[i + 1] - m->s[i] > SHORTEST_SEGMENT * total))
+      return sw_fail(err, SW_EINVAL, "wire '%s': the path turns back on itself near s = %g m",
+                     name, m->s[i]);
+  return SW_OK;
+}
+
+sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam *beam,
+                            const double *points, size_t count, sw_handle *out, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  const double straight[6] = {args->from.x, args->from.y, args->from.z,
+                              args->to.x,   args->to.y,   args->to.z};
+  sw_scene_wire w = {.generation = 1, .cls = sw_wire_all()[args->model], .beam = *beam};
+  give_name(w.name, args->name, "wire", s->wire_count);
+  if (!points && (isnan(args->from.x) || isnan(args->to.x)))
+    return sw_fail(err, SW_EINVAL, "wire '%s': give from and to, or path [m]", w.name);
+  if (points && count < 2)
+    return sw_fail(err, SW_EINVAL, "wire '%s': path needs at least two points", w.name);
+  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_grow((void **)&s->wires, &s->wire_capacity, s->wire_count + 1, sizeof *s->wires));
+  sw_status status = sw_mesh_along(&w.mesh, points ? points : straight, points ? count : 2,
+                                   (size_t)args->segments);
+  if (status == SW_OK) status = check_mesh(w.name, &w.mesh, err);
+  if (status != SW_OK) {
+    sw_mesh_free(&w.mesh);
+    return status;
+  }
+  w.mesh.EA = beam->EA;
+  *out = (sw_handle){(uint32_t)s->wire_count, 1};
+  s->wires[s->wire_count++] = w;
+  return SW_OK;
+}
+
+/* --- obstacles -------------------------------------------------------------- */
+
+static const sw_param obstacle_rows[] = {
+    {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_obstacle_args, name),
+     "name used in messages and series"},
+    {"at", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, 0, NULL,
+     offsetof(sw_obstacle_args, at), "place of the shape's origin"},
+    {"rotation", SW_PARAM_ROTATION, "rad", 0, 0, 0, 0, NULL, offsetof(sw_obstacle_args, rotation),
+     "turn of the shape: { axis = {x, y, z}, angle = } or quaternion {w, x, y, z}"},
+    {"friction", SW_PARAM_NUMBER, "-", 0.3, 0, 100, 0, NULL, offsetof(sw_obstacle_args, friction),
+     "Coulomb friction coefficient"},
+    {"restitution", SW_PARAM_NUMBER, "-", 0, 0, 1, 0, NULL,
+     offsetof(sw_obstacle_args, restitution), "share of the approach speed kept in an impact"},
+};
+const sw_params sw_obstacle_params = SW_PARAMS("obstacle", obstacle_rows);
+
+sw_status sw_scene_add_obstacle(sw_scene *s, sw_shape *shape, const sw_obstacle_args *args,
+                                sw_handle *out, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_grow((void **)&s->obstacles, &s->obstacle_capacity, s->obstacle_count + 1,
+                 sizeof *s->obstacles));
+  sw_scene_obstacle *o = &s->obstacles[s->obstacle_count];
+  *o = (sw_scene_obstacle){.generation = 1,
+                           .alive = 1,
+                           .drive = {.pose = {args->at, args->rotation}},
+                           .friction = args->friction,
+                           .restitution = args->restitution};
+  give_name(o->name, args->name, sw_shape_kind(shape), s->obstacle_count);
+  o->shape = sw_shape_retain(shape);
+  *out = (sw_handle){(uint32_t)s->obstacle_count++, 1};
+  return SW_OK;
+}
+
+sw_status sw_scene_remove_obstacle(sw_scene *s, sw_handle obstacle, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
+  if (!o) return SW_EDEAD;
+  SW_TRY(sw_scene_thaw(s));
+  o->alive = 0;
+  return SW_OK;
+}
+
+sw_status sw_scene_obstacle_follow(sw_scene *s, sw_handle obstacle, sw_motion *motion,
+                                   int relative, sw_error *err) {
+  sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
+  if (!o) return SW_EDEAD;
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_drive_follow(&o->drive, o->name, s->time, motion, relative, err));
+  s->discontinuous = 1;
+  return SW_OK;
+}
+
+sw_status sw_scene_obstacle_pose(sw_scene *s, sw_handle obstacle, sw_pose *out, sw_error *err) {
+  sw_motion_state now;
+  const sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
+  if (!o) return SW_EDEAD;
+  SW_TRY(sw_drive_eval(&o->drive, s->time, &now, err));
+  *out = now.pose;
+  return SW_OK;
+}
+
+sw_status sw_scene_obstacle_set_pose(sw_scene *s, sw_handle obstacle, sw_pose pose,
+                                     sw_error *err) {
+  sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
+  if (!o) return SW_EDEAD;
+  SW_TRY(sw_scene_editable(s, err));
+  sw_drive_free(&o->drive);
+  o->drive.pose = pose;
+  s->discontinuous = 1;
+  return SW_OK;
+}
+
+sw_status sw_scene_obstacle_force(sw_scene *s, sw_handle obstacle, sw_vec about, sw_vec *force,
+                                  sw_vec *moment, sw_error *err) {
+  if (!sw_scene_find_obstacle(s, obstacle, err)) return SW_EDEAD;
+  SW_TRY(sw_scene_readable(s, err));
+  *force = *moment = sw_v(0, 0, 0);
+  if (s->contact) sw_contact_force(s->contact, (int)obstacle.slot, about, force, moment);
+  return SW_OK;
+}
+
+/* --- forces ----------------------------------------------------------------- */
+
+sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle wire,
+                             const void *args, size_t args_size, sw_handle *out, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  const sw_scene_wire *w = wire.generation ? sw_scene_find_wire(s, wire, err) : NULL;
+  if (wire.generation && !w) return SW_EDEAD;
+  if (args_size > SW_FORCE_ARGS_MAX) return sw_fail(err, SW_ELIMIT, "force: too many arguments");
+  if (cls->flags & SW_FORCE_AT_PLACE) {
+    double at;
+    memcpy(&at, args, sizeof at); /* by contract the first member is s */
+    if (!w) return sw_fail(err, SW_EINVAL, "force %s: on is required: the wire", cls->name);
+    if (at > w->mesh.s[w->mesh.n - 1] * (1 + 1e-12))
+      return sw_fail(err, SW_EINVAL, "force %s: s = %g m is beyond the end of wire '%s' at %g m",
+                     cls->name, at, w->name, w->mesh.s[w->mesh.n - 1]);
+  }
+  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_grow((void **)&s->forces, &s->force_capacity, s->force_count + 1, sizeof *s->forces));
+  sw_scene_force *f = &s->forces[s->force_count];
+  *f = (sw_scene_force){
+      .generation = 1, .alive = 1, .cls = cls, .wire = wire.generation ? (long)wire.slot : -1};
+  if (args_size) memcpy(f->args, args, args_size);
+  *out = (sw_handle){(uint32_t)s->force_count++, 1};
+  return SW_OK;
+}
+
+sw_status sw_scene_remove_force(sw_scene *s, sw_handle force, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  if (force.slot >= s->force_count || !s->forces[force.slot].alive)
+    return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
+  SW_TRY(sw_scene_thaw(s));
+  s->forces[force.slot].alive = 0;
+  return SW_OK;
+}

@@ -1,0 +1,232 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The scene owns everything: wires, holds, obstacles, forces, time. It is
+ * edited between runs, made into a system when something moves, and read.
+ * Objects are named by handles (slot and generation), so that a stale handle is
+ * found out, not followed. Not thread-safe; scenes are independent. */
+#ifndef SW_SCENE_SCENE_H
+#define SW_SCENE_SCENE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/param.h"
+#include "base/status.h"
+#include "base/vec.h"
+#include "constraint/constraint.h"
+#include "force/force.h"
+#include "integrate/integrate.h"
+#include "motion/motion.h"
+#include "shape/shape.h"
+#include "wire/wire.h"
+
+typedef struct sw_scene sw_scene;
+
+typedef struct sw_handle {
+  uint32_t slot, generation; /* generation 0 = no object */
+} sw_handle;
+
+typedef struct sw_scene_args {
+  char name[SW_NAME_SIZE];
+  sw_vec gravity; /* [m/s2] */
+} sw_scene_args;
+extern const sw_params sw_scene_params;
+
+sw_status sw_scene_new(const sw_scene_args *args, sw_scene **out, sw_error *err);
+void sw_scene_free(sw_scene *scene); /* NULL is allowed */
+
+const char *sw_scene_name(const sw_scene *scene);
+double sw_scene_time(const sw_scene *scene); /* [s] */
+sw_vec sw_scene_gravity(const sw_scene *scene);
+void sw_scene_set_gravity(sw_scene *scene, sw_vec gravity);
+
+/* SW_EDIVERGED with the reason when the last run diverged: nothing may be read
+ * until a snapshot is restored. */
+sw_status sw_scene_readable(const sw_scene *scene, sw_error *err);
+
+/* --- wires ------------------------------------------------------------------ */
+
+typedef struct sw_wire_args {
+  char name[SW_NAME_SIZE];
+  int model;     /* index into sw_wire_all() */
+  sw_vec from, to; /* straight wire; NAN = not given [m] */
+  long segments; /* [-] */
+} sw_wire_args;
+extern const sw_params sw_wire_params; /* model, path, segments, ... */
+
+/* points (count x 3): the polyline the wire lies along; NULL takes from and to.
+ * SW_EINVAL for fewer than two different points. */
+sw_status sw_scene_add_wire(sw_scene *scene, const sw_wire_args *args, const sw_beam *beam,
+                            const double *points, size_t count, sw_handle *out, sw_error *err);
+
+/* --- holds ------------------------------------------------------------------ */
+
+sw_status sw_scene_add_hold(sw_scene *scene, const sw_hold_class *cls, sw_handle wire,
+                            const sw_hold_args *args, sw_handle *out, sw_error *err);
+sw_status sw_scene_release_hold(sw_scene *scene, sw_handle hold, sw_error *err);
+
+/* Let the hold follow a motion from now on (retains it); relative: on top of
+ * its present pose. An absolute motion that does not start at the present pose
+ * is refused. NULL stops it where it is. */
+sw_status sw_scene_follow(sw_scene *scene, sw_handle hold, sw_motion *motion, int relative,
+                          sw_error *err);
+sw_status sw_scene_set_pose(sw_scene *scene, sw_handle hold, sw_pose pose, sw_error *err);
+sw_status sw_scene_hold_pose(sw_scene *scene, sw_handle hold, sw_pose *out, sw_error *err);
+
+/* Force and moment on the wire about the held point, or about *about [N, N m]. */
+sw_status sw_scene_hold_force(sw_scene *scene, sw_handle hold, const sw_vec *about, sw_vec *force,
+                              sw_vec *moment, sw_error *err);
+
+/* --- obstacles -------------------------------------------------------------- */
+
+typedef struct sw_obstacle_args {
+  char name[SW_NAME_SIZE];
+  sw_vec at;          /* [m] */
+  sw_quat rotation;   /* [-] */
+  double friction;    /* Coulomb coefficient [-] */
+  double restitution; /* share of the approach speed kept in an impact [-] */
+} sw_obstacle_args;
+extern const sw_params sw_obstacle_params;
+
+/* Retains the shape. */
+sw_status sw_scene_add_obstacle(sw_scene *scene, sw_shape *shape, const sw_obstacle_args *args,
+                                sw_handle *out, sw_error *err);
+sw_status sw_scene_obstacle_follow(sw_scene *scene, sw_handle obstacle, sw_motion *motion,
+                                   int relative, sw_error *err);
+sw_status sw_scene_obstacle_pose(sw_scene *scene, sw_handle obstacle, sw_pose *out,
+                                 sw_error *err);
+sw_status sw_scene_obstacle_set_pose(sw_scene *scene, sw_handle obstacle, sw_pose pose,
+                                     sw_error *err);
+/* Total contact force and its moment about a point, on the obstacle [N, N m]. */
+sw_status sw_scene_obstacle_force(sw_scene *scene, sw_handle obstacle, sw_vec about,
+                                  sw_vec *force, sw_vec *moment, sw_error *err);
+sw_status sw_scene_remove_obstacle(sw_scene *scene, sw_handle obstacle, sw_error *err);
+
+/* --- forces ----------------------------------------------------------------- */
+
+/* A force on one wire, or on all (handle of generation 0). args: the class's
+ * argument struct. */
+sw_status sw_scene_add_force(sw_scene *scene, const sw_force_class *cls, sw_handle wire,
+                             const void *args, size_t args_size, sw_handle *out, sw_error *err);
+sw_status sw_scene_remove_force(sw_scene *scene, sw_handle force, sw_error *err);
+
+/* --- running ---------------------------------------------------------------- */
+
+typedef struct sw_run_args {
+  double duration;  /* [s] */
+  double dt;        /* step, or largest step with a tolerance [s] */
+  double tolerance; /* on the step error; NAN = fixed steps [m] */
+  int integrator;   /* index into sw_integrator_all() */
+  double frame;     /* time between stored frames; NAN = none [s] */
+  long max_steps;   /* stop after this many [-] */
+} sw_run_args;
+extern const sw_params sw_run_params;
+
+typedef struct sw_run_report {
+  sw_status status;  /* SW_OK, SW_EDIVERGED, SW_EINTR, SW_ECALLBACK, ... */
+  double time;       /* reached [s] */
+  size_t steps, rejected, iterations, evaluations; /* [-] */
+  double smallest_dt; /* [s] */
+  sw_error reason;   /* why it stopped, when not SW_OK */
+} sw_run_report;
+
+/* Advance to time until. interrupted (may be NULL) is polled between steps. A
+ * divergence is told in the report and the function returns SW_OK; a returned
+ * error means that nothing was done. */
+sw_status sw_scene_advance(sw_scene *scene, const sw_run_args *args, double until,
+                           int (*interrupted)(void), sw_run_report *report, sw_error *err);
+
+typedef struct sw_settle_args {
+  double tolerance;    /* largest node shift of the last iteration [m] */
+  long max_iterations; /* [-] */
+} sw_settle_args;
+extern const sw_params sw_settle_params;
+
+typedef struct sw_settle_report {
+  int ok;
+  size_t iterations;   /* matrix solves [-] */
+  size_t negative;     /* unstable directions of the equilibrium found [-] */
+  int transient;       /* 1: pseudo-transient continuation was needed */
+  double residual;     /* largest node shift of the last iteration [m] */
+  sw_error reason;
+} sw_settle_report;
+
+sw_status sw_scene_settle(sw_scene *scene, const sw_settle_args *args, int (*interrupted)(void),
+                          sw_settle_report *report, sw_error *err);
+
+/* --- reading ---------------------------------------------------------------- */
+
+typedef struct sw_point_state {
+  sw_vec position, tangent, velocity; /* [m], [-], [m/s] */
+  double curvature;                   /* [1/m] */
+  double tension;                     /* [N] */
+} sw_point_state;
+
+typedef struct sw_extreme {
+  double value; /* [its unit] */
+  double s;     /* where [m] */
+  double time;  /* when [s] */
+} sw_extreme;
+
+sw_status sw_scene_wire_length(sw_scene *scene, sw_handle wire, double *length, sw_error *err);
+sw_status sw_scene_wire_nodes(sw_scene *scene, sw_handle wire, size_t *nodes, sw_error *err);
+sw_status sw_scene_wire_beam(sw_scene *scene, sw_handle wire, sw_beam *out, sw_error *err);
+sw_status sw_scene_wire_at(sw_scene *scene, sw_handle wire, double s, sw_point_state *out,
+                           sw_error *err);
+/* Node positions (n x 3) and arc lengths (n); each may be NULL. */
+sw_status sw_scene_wire_copy(sw_scene *scene, sw_handle wire, double *positions, double *s,
+                             double *velocities, sw_error *err);
+/* Give every node a velocity: linear field v + omega x (x - about). */
+sw_status sw_scene_wire_set_velocity(sw_scene *scene, sw_handle wire, sw_vec v, sw_vec omega,
+                                     sw_vec about, sw_error *err);
+/* Largest curvature [1/m] and tension [N] of the wire: now, and since the last
+ * run or settle began. */
+sw_status sw_scene_wire_extremes(sw_scene *scene, sw_handle wire, sw_extreme *curvature_now,
+                                 sw_extreme *tension_now, sw_extreme *curvature,
+                                 sw_extreme *tension, sw_error *err);
+
+enum { SW_ENERGY_KINDS = 24 };
+typedef struct sw_energy {
+  size_t count;
+  const char *kind[SW_ENERGY_KINDS];
+  double value[SW_ENERGY_KINDS]; /* [J] */
+} sw_energy;
+sw_status sw_scene_energy(sw_scene *scene, sw_energy *out, sw_error *err);
+
+/* Deepest penetration of a wire's surface into an obstacle now and since the
+ * last run began [m]. */
+sw_status sw_scene_penetration(sw_scene *scene, double *now, sw_extreme *deepest, sw_error *err);
+/* Number of contact points with a force now. */
+size_t sw_scene_touches(sw_scene *scene);
+
+double sw_scene_stable_dt(sw_scene *scene); /* leapfrog limit, 0 on failure [s] */
+
+/* One recorded row per step of a hold: time, force, moment, held point. */
+enum { SW_LOG_TIME = 0, SW_LOG_FORCE = 1, SW_LOG_MOMENT = 4, SW_LOG_POINT = 7, SW_LOG_SIZE = 10 };
+sw_status sw_scene_hold_log(sw_scene *scene, sw_handle hold, const double **rows, size_t *count,
+                            sw_error *err);
+/* One recorded row per step of an obstacle: time, force on it. */
+enum { SW_LOG_OBSTACLE_SIZE = 4 };
+sw_status sw_scene_obstacle_log(sw_scene *scene, sw_handle obstacle, const double **rows,
+                                size_t *count, sw_error *err);
+
+/* Frames stored while running. */
+size_t sw_scene_frames(const sw_scene *scene);
+double sw_scene_frame_time(const sw_scene *scene, size_t frame);
+/* Node positions of wire number w in that frame; count = nodes. NULL when the
+ * wire did not exist. */
+const double *sw_scene_frame_wire(const sw_scene *scene, size_t frame, size_t w, size_t *count);
+/* Poses: 7 doubles (x y z, qw qx qy qz) per obstacle and per hold slot. */
+const double *sw_scene_frame_obstacle(const sw_scene *scene, size_t frame, size_t o);
+const double *sw_scene_frame_hold(const sw_scene *scene, size_t frame, size_t h, int *held);
+enum { SW_FRAME_ENERGIES = 3 }; /* kinetic, elastic, gravity [J] */
+const double *sw_scene_frame_energy(const sw_scene *scene, size_t frame);
+void sw_scene_clear_frames(sw_scene *scene);
+
+/* --- snapshots -------------------------------------------------------------- */
+
+typedef struct sw_snapshot sw_snapshot;
+sw_status sw_scene_snapshot(sw_scene *scene, sw_snapshot **out, sw_error *err);
+sw_status sw_scene_restore(sw_scene *scene, const sw_snapshot *snapshot, sw_error *err);
+void sw_snapshot_free(sw_snapshot *snapshot);
+
+#endif

@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Static equilibrium: the mixed Newton from where the scene is; when that fails
+ * (mechanisms, snap-through, sliding contact) pseudo-transient continuation,
+ * which is implicit Euler with velocities forgotten and a growing step. */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "scene/world.h"
+
+static const sw_param rows[] = {
+    {"tolerance", SW_PARAM_NUMBER, "m", 1e-9, 0, 1, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(sw_settle_args, tolerance), "largest shift of a node in the last iteration"},
+    {"max_iterations", SW_PARAM_INTEGER, "-", 4000, 1, 1e9, 0, NULL,
+     offsetof(sw_settle_args, max_iterations), "most matrix solves"},
+};
+const sw_params sw_settle_params = SW_PARAMS("scene:settle", rows);
+
+enum { NEWTON_ITERATIONS = 60 };
+static const double FIRST_PSEUDO_STEP = 0.02; /* of sqrt(length/g) [-] */
+static const double LARGEST_GROWTH = 1e6;     /* of the first pseudo step [-] */
+static const double STATIC_TURN = 1e-7;       /* last rotation of a converged solve [rad] */
+
+typedef struct statics {
+  sw_scene *s;
+  const sw_settle_args *args;
+  sw_settle_report *report;
+  int (*interrupted)(void);
+  double *zero, *from, *y, *v; /* (nodes x 3) */
+  double *tension;             /* (edges) at the start of an attempt */
+} statics;
+
+static double longest(const sw_scene *s) {
+  double length = 0;
+  for (size_t w = 0; w < s->wire_count; w++)
+    length = fmax(length, s->wires[w].mesh.s[s->wires[w].mesh.n - 1]);
+  return length;
+}
+
+static sw_status solve(statics *p, double hbar, const sw_newton *newton, sw_error *err) {
+  sw_scene *s = p->s;
+  sw_stage_report r;
+  const sw_stage stage = {
+      .time = s->time, .hbar = hbar, .xhat = p->from, .vhat = p->zero, .y = p->y, .v = p->v};
+  memcpy(p->from, s->system.x, 3 * s->system.nodes * sizeof(double));
+  memcpy(p->tension, s->system.tension, s->system.edges * sizeof(double));
+  sw_status status = SW_OK;
+  if (s->contact) status = sw_contact_begin_step(s->contact, &s->system, s->time, 0, 0, err);
+  if (status == SW_OK) status = sw_system_stage(&s->system, &stage, newton, &r, err);
+  p->report->iterations += (size_t)r.iterations;
+  p->report->negative = r.negative;
+  if (status != SW_OK)
+    memcpy(s->system.tension, p->tension, s->system.edges * sizeof(double));
+  return status;
+}
+
+/* Make y the state. Returns the largest shift [m]. */
+static double take(statics *p) {
+  sw_scene *s = p->s;
+  double shift = 0;
+  for (size_t i = 0; i < 3 * s->system.nodes; i++)
+    shift = fmax(shift, fabs(p->y[i] - s->system.x[i]));
+  memcpy(s->system.x, p->y, 3 * s->system.nodes * sizeof(double));
+  memset(s->system.v, 0, 3 * s->system.nodes * sizeof(double));
+  memset(s->system.a, 0, 3 * s->system.nodes * sizeof(double));
+  if (s->contact) sw_contact_commit(s->contact, &s->system);
+  return shift;
+}
+
+static sw_status newton_attempt(statics *p, sw_error *err) {
+  const sw_newton newton = {.max_iterations = NEWTON_ITERATIONS,
+                            .accept_rotation = STATIC_TURN,
+                            .limit_rotation = 1.0,
+                            .statics = 1,
+                            .accept_shift = p->args->tolerance};
+  SW_TRY(solve(p, HUGE_VAL, &newton, err));
+  p->report->residual = p->args->tolerance;
+  take(p);
+  return SW_OK;
+}
+
+static sw_status transient(statics *p, sw_error *err) {
+  sw_scene *s = p->s;
+  const double g = fmax(sw_norm(s->gravity), 1.0); /* weightless scenes: any scale will do */
+  const double first = FIRST_PSEUDO_STEP * sqrt(longest(s) / g);
+  const sw_newton newton = {
+      .max_iterations = 30, .accept_rotation = 0.01, .limit_rotation = 0.3, .statics = 0};
+  double tau = first;
+  p->report->transient = 1;
+  while (p->report->iterations < (size_t)p->args->max_iterations) {
+    if (p->interrupted && p->interrupted()) return SW_EINTR;
+    const sw_status status = solve(p, tau, &newton, err);
+    if (status == SW_ECALLBACK || status == SW_ENOMEM) return status;
+    if (status != SW_OK) {
+      tau *= 0.25;
+      if (tau < 1e-9 * first) return status;
+      continue;
+    }
+    p->report->residual = take(p);
+    if (p->report->residual <= p->args->tolerance && tau >= first) return SW_OK;
+    tau = fmin(tau * 1.6, LARGEST_GROWTH * first);
+  }
+  return sw_fail(err, SW_ENOCONV,
+                 "not at rest after %zu iterations: the last step still moved %.3g m",
+                 p->report->iterations, p->report->residual);
+}
+
+static sw_status find_rest(statics *p, sw_error *err) {
+  sw_status status = newton_attempt(p, err);
+  if (status == SW_OK || status == SW_ECALLBACK || status == SW_ENOMEM) return status;
+  SW_TRY(transient(p, err));
+  sw_error ignored;
+  newton_attempt(p, &ignored); /* polish; fails where the equilibrium is not isolated */
+  return SW_OK;
+}
+
+static void conclude(sw_scene *s, sw_status status, sw_settle_report *report,
+                     const sw_error *why) {
+  report->ok = status == SW_OK;
+  if (status != SW_OK)
+    sw_fail(&report->reason, status, "%.400s",
+            why->text[0] ? why->text : sw_status_text(status));
+  s->discontinuous = 1;
+}
+
+sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
+                          sw_settle_report *report, sw_error *err) {
+  sw_error why = {""};
+  *report = (sw_settle_report){0};
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_readable(s, err));
+  if (!s->wire_count) return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", s->name);
+  SW_TRY(sw_scene_build(s, err));
+  const size_t n = 3 * s->system.nodes;
+  double *block = sw_alloc(4 * n + s->system.edges, sizeof *block);
+  if (!block) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
+  statics p = {s,         args,          report, interrupted, block, block + n, block + 2 * n,
+               block + 3 * n, block + 4 * n};
+  s->running = 1;
+  sw_status status = find_rest(&p, &why);
+  s->running = 0;
+  sw_scene_reset_extremes(s);
+  if (status == SW_OK) status = sw_scene_observe(s, &why);
+  sw_free(block);
+  conclude(s, status, report, &why);
+  return status == SW_ECALLBACK || status == SW_ENOMEM ? sw_fail(err, status, "%s", why.text)
+                                                       : SW_OK;
+}

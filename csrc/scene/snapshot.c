@@ -1,0 +1,270 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Snapshots: everything that a run changes, exactly. Restoring gives the same
+ * bits as if nothing had happened in between. */
+#include <string.h>
+
+#include "base/alloc.h"
+#include "scene/world.h"
+
+typedef struct saved_hold {
+  int alive;
+  sw_drive drive;
+  sw_vec force, moment;
+  sw_pose last_pose;
+  size_t log_count;
+} saved_hold;
+
+typedef struct saved_obstacle {
+  int alive;
+  sw_drive drive;
+  size_t log_count;
+} saved_obstacle;
+
+struct sw_snapshot {
+  double time, next_dt, next_frame;
+  sw_vec gravity;
+  size_t wires, holds, obstacles, forces, frames;
+  sw_mesh *meshes;
+  sw_extreme *extremes; /* (2 x wires) */
+  saved_hold *hold;
+  saved_obstacle *obstacle;
+  int *force_alive;
+  double *state; /* x v a tension of the built system */
+  size_t state_size;
+  double *history; /* xp, vp of a method with history, or NULL */
+  size_t history_size;
+  const sw_integrator *method;
+  double last_h;
+  int restart, discontinuous, diverged;
+  sw_error why;
+  sw_extreme deepest;
+  void *memory; /* contact anchors */
+  size_t memory_size;
+};
+
+void sw_snapshot_free(sw_snapshot *p) {
+  if (!p) return;
+  for (size_t w = 0; p->meshes && w < p->wires; w++) sw_mesh_free(&p->meshes[w]);
+  for (size_t k = 0; p->hold && k < p->holds; k++) sw_drive_free(&p->hold[k].drive);
+  for (size_t k = 0; p->obstacle && k < p->obstacles; k++) sw_drive_free(&p->obstacle[k].drive);
+  sw_free(p->meshes);
+  sw_free(p->extremes);
+  sw_free(p->hold);
+  sw_free(p->obstacle);
+  sw_free(p->force_alive);
+  sw_free(p->state);
+  sw_free(p->history);
+  sw_free(p->memory);
+  sw_free(p);
+}
+
+static sw_status copy_mesh(const sw_mesh *from, sw_mesh *to) {
+  *to = (sw_mesh){.n = from->n, .capacity = from->n, .EA = from->EA};
+  to->s = sw_alloc(from->n, sizeof(double));
+  to->x = sw_alloc(3 * from->n, sizeof(double));
+  to->v = sw_alloc(3 * from->n, sizeof(double));
+  to->tension = sw_alloc(from->n, sizeof(double));
+  if (!to->s || !to->x || !to->v || !to->tension) {
+    sw_mesh_free(to);
+    return SW_ENOMEM;
+  }
+  memcpy(to->s, from->s, from->n * sizeof(double));
+  memcpy(to->x, from->x, 3 * from->n * sizeof(double));
+  memcpy(to->v, from->v, 3 * from->n * sizeof(double));
+  memcpy(to->tension, from->tension, from->n * sizeof(double));
+  return SW_OK;
+}
+
+static sw_status copy_block(const void *from, size_t bytes, void *to_pointer) {
+  void *copy = sw_alloc(bytes, 1);
+  if (!copy) return SW_ENOMEM;
+  if (bytes) memcpy(copy, from, bytes);
+  *(void **)to_pointer = copy;
+  return SW_OK;
+}
+
+static sw_drive copy_drive(const sw_drive *d) {
+  sw_drive copy = *d;
+  sw_motion_retain(copy.motion);
+  return copy;
+}
+
+static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
+  p->meshes = sw_alloc(s->wire_count, sizeof *p->meshes);
+  p->extremes = sw_alloc(2 * s->wire_count, sizeof *p->extremes);
+  p->hold = sw_alloc(s->hold_count, sizeof *p->hold);
+  p->obstacle = sw_alloc(s->obstacle_count, sizeof *p->obstacle);
+  p->force_alive = sw_alloc(s->force_count, sizeof *p->force_alive);
+  if (!p->meshes || !p->extremes || !p->hold || !p->obstacle || !p->force_alive) return SW_ENOMEM;
+  for (size_t w = 0; w < s->wire_count; w++) {
+    SW_TRY(copy_mesh(&s->wires[w].mesh, &p->meshes[w]));
+    p->wires = w + 1;
+    p->extremes[2 * w] = s->wires[w].curvature;
+    p->extremes[2 * w + 1] = s->wires[w].tension;
+  }
+  for (; p->holds < s->hold_count; p->holds++) {
+    const sw_scene_hold *h = &s->holds[p->holds];
+    p->hold[p->holds] = (saved_hold){h->alive,  copy_drive(&h->drive), h->force,
+                                     h->moment, h->last_pose,          h->log.count};
+  }
+  for (; p->obstacles < s->obstacle_count; p->obstacles++) {
+    const sw_scene_obstacle *o = &s->obstacles[p->obstacles];
+    p->obstacle[p->obstacles] = (saved_obstacle){o->alive, copy_drive(&o->drive), o->log.count};
+  }
+  for (; p->forces < s->force_count; p->forces++)
+    p->force_alive[p->forces] = s->forces[p->forces].alive;
+  return SW_OK;
+}
+
+static sw_status copy_state(const sw_scene *s, sw_snapshot *p) {
+  p->state_size = s->system.state_size;
+  SW_TRY(copy_block(s->system.state, p->state_size * sizeof(double), &p->state));
+  if (s->contact) {
+    const void *memory = sw_contact_memory(s->contact, &p->memory_size);
+    SW_TRY(copy_block(memory, p->memory_size, &p->memory));
+  }
+  if (!s->has_stepper) return SW_OK;
+  p->method = s->method;
+  p->last_h = s->stepper.last_h;
+  p->restart = s->stepper.restart;
+  if (!(s->method->flags & SW_INTEGRATOR_HISTORY)) return SW_OK;
+  p->history_size = 2 * s->stepper.n;
+  return copy_block(s->stepper.xp, p->history_size * sizeof(double), &p->history);
+}
+
+sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_build(s, err));
+  sw_snapshot *p = sw_alloc(1, sizeof *p);
+  if (!p) return sw_fail(err, SW_ENOMEM, "snapshot: out of memory");
+  p->time = s->time, p->next_dt = s->next_dt, p->next_frame = s->next_frame;
+  p->gravity = s->gravity;
+  p->discontinuous = s->discontinuous;
+  p->deepest = s->deepest;
+  p->frames = s->frame_count;
+  sw_status status = copy_objects(s, p);
+  if (status == SW_OK) status = copy_state(s, p);
+  if (status != SW_OK) {
+    sw_snapshot_free(p);
+    return sw_fail(err, status, "snapshot: out of memory");
+  }
+  *out = p;
+  return SW_OK;
+}
+
+/* Is the built system of the same plan as the snapshot's? */
+static int same_plan(const sw_scene *s, const sw_snapshot *p) {
+  if (!s->built || s->wire_count != p->wires || s->hold_count != p->holds ||
+      s->obstacle_count != p->obstacles || s->force_count != p->forces)
+    return 0;
+  for (size_t w = 0; w < p->wires; w++)
+    if (s->wires[w].mesh.n != p->meshes[w].n ||
+        memcmp(s->wires[w].mesh.s, p->meshes[w].s, p->meshes[w].n * sizeof(double)) != 0)
+      return 0;
+  for (size_t k = 0; k < p->holds; k++)
+    if (s->holds[k].alive != p->hold[k].alive) return 0;
+  for (size_t k = 0; k < p->obstacles; k++)
+    if (s->obstacles[k].alive != p->obstacle[k].alive) return 0;
+  for (size_t k = 0; k < p->forces; k++)
+    if (s->forces[k].alive != p->force_alive[k]) return 0;
+  return 1;
+}
+
+static void put_drive(sw_drive *to, const sw_drive *from) {
+  sw_drive copy = copy_drive(from);
+  sw_drive_free(to);
+  *to = copy;
+}
+
+/* Objects made after the snapshot go away; the others get their old state. */
+static void put_objects(sw_scene *s, const sw_snapshot *p) {
+  for (size_t k = 0; k < s->hold_count; k++) {
+    sw_scene_hold *h = &s->holds[k];
+    if (k >= p->holds) {
+      h->alive = 0;
+      continue;
+    }
+    h->alive = p->hold[k].alive;
+    h->force = p->hold[k].force, h->moment = p->hold[k].moment;
+    h->last_pose = p->hold[k].last_pose;
+    if (h->log.count > p->hold[k].log_count) h->log.count = p->hold[k].log_count;
+    put_drive(&h->drive, &p->hold[k].drive);
+  }
+  for (size_t k = 0; k < s->obstacle_count; k++) {
+    sw_scene_obstacle *o = &s->obstacles[k];
+    o->alive = k < p->obstacles && p->obstacle[k].alive;
+    if (k >= p->obstacles) continue;
+    if (o->log.count > p->obstacle[k].log_count) o->log.count = p->obstacle[k].log_count;
+    put_drive(&o->drive, &p->obstacle[k].drive);
+  }
+  for (size_t k = 0; k < s->force_count; k++)
+    s->forces[k].alive = k < p->forces && p->force_alive[k];
+  for (size_t w = 0; w < p->wires; w++) {
+    s->wires[w].curvature = p->extremes[2 * w];
+    s->wires[w].tension = p->extremes[2 * w + 1];
+  }
+}
+
+static sw_status put_meshes(sw_scene *s, const sw_snapshot *p) {
+  sw_mesh *copies = sw_alloc(p->wires, sizeof *copies);
+  sw_status status = copies ? SW_OK : SW_ENOMEM;
+  for (size_t w = 0; status == SW_OK && w < p->wires; w++)
+    status = copy_mesh(&p->meshes[w], &copies[w]);
+  for (size_t w = 0; copies && w < p->wires; w++) {
+    if (status == SW_OK) {
+      sw_mesh_free(&s->wires[w].mesh);
+      s->wires[w].mesh = copies[w];
+    } else {
+      sw_mesh_free(&copies[w]);
+    }
+  }
+  sw_free(copies);
+  return status;
+}
+
+static sw_status put_state(sw_scene *s, const sw_snapshot *p, sw_error *err) {
+  memcpy(s->system.state, p->state, p->state_size * sizeof(double));
+  if (s->contact) SW_TRY(sw_contact_set_memory(s->contact, p->memory, p->memory_size));
+  if (p->method && (!s->has_stepper || s->method != p->method)) {
+    sw_stepper_free(&s->stepper);
+    s->has_stepper = 0;
+    SW_TRY(sw_stepper_new(&s->stepper, p->method, &s->system));
+    s->has_stepper = 1;
+    s->method = p->method;
+  }
+  if (p->method) {
+    s->stepper.last_h = p->last_h;
+    s->stepper.restart = p->restart;
+    if (p->history)
+      memcpy(s->stepper.xp, p->history, p->history_size * sizeof(double));
+  } else if (s->has_stepper) {
+    s->stepper.restart = 1;
+    s->stepper.last_h = 0;
+  }
+  return sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err);
+}
+
+sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  if (s->wire_count < p->wires || s->hold_count < p->holds || s->obstacle_count < p->obstacles)
+    return sw_fail(err, SW_EINVAL, "restore: the snapshot is of another scene");
+  if (s->wire_count > p->wires)
+    return sw_fail(err, SW_EINVAL,
+                   "restore: wire '%s' was added after the snapshot; wires cannot be taken away",
+                   s->wires[p->wires].name);
+  if (!same_plan(s, p)) {
+    SW_TRY(sw_scene_thaw(s));
+    if (put_meshes(s, p) != SW_OK) return sw_fail(err, SW_ENOMEM, "restore: out of memory");
+  }
+  put_objects(s, p);
+  s->time = p->time, s->next_dt = p->next_dt, s->next_frame = p->next_frame;
+  s->gravity = p->gravity;
+  s->deepest = p->deepest;
+  SW_TRY(sw_scene_build(s, err));
+  SW_TRY(put_state(s, p, err));
+  s->discontinuous = p->discontinuous;
+  s->diverged = 0;
+  while (s->frame_count > p->frames) sw_free(s->frames[--s->frame_count].data);
+  return SW_OK;
+}

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The scene's inside, shared by the files of this room only. */
+#ifndef SW_SCENE_WORLD_H
+#define SW_SCENE_WORLD_H
+
+#include "contact/contact.h"
+#include "scene/scene.h"
+#include "state/mesh.h"
+#include "system/system.h"
+
+typedef struct sw_scene_wire {
+  uint32_t generation;
+  char name[SW_NAME_SIZE];
+  const sw_wire_class *cls;
+  sw_beam beam;
+  sw_mesh mesh; /* authoritative while the scene is not built */
+  sw_extreme curvature, tension;
+} sw_scene_wire;
+
+/* A log: rows of a fixed number of doubles, growing. */
+typedef struct sw_log {
+  double *rows;
+  size_t count, capacity; /* in doubles */
+} sw_log;
+
+/* Where something driven is: at rest at a pose or following a motion. */
+typedef struct sw_drive {
+  sw_pose pose;      /* at rest, or base of a relative motion */
+  sw_motion *motion; /* NULL = at rest */
+  double start;      /* scene time of the motion's zero [s] */
+  int relative;
+} sw_drive;
+
+typedef struct sw_scene_hold {
+  uint32_t generation;
+  int alive;
+  char name[SW_NAME_SIZE];
+  const sw_hold_class *cls;
+  size_t wire;
+  double s1, s2;       /* held interval, nodes of the mesh [m] */
+  sw_drive drive;
+  size_t count;        /* held places */
+  double *s;           /* (count) arc lengths when taken hold of [m] */
+  double *local;       /* (count x 3) in the hold's frame [m] */
+  sw_vec director[2];  /* arriving, leaving; in the hold's frame [-] */
+  sw_vec force, moment; /* last, kept after release [N], [N m] */
+  sw_pose last_pose;
+  sw_log log;
+} sw_scene_hold;
+
+typedef struct sw_scene_obstacle {
+  uint32_t generation;
+  int alive;
+  char name[SW_NAME_SIZE];
+  sw_shape *shape;
+  sw_drive drive;
+  double friction, restitution;
+  sw_log log;
+} sw_scene_obstacle;
+
+typedef struct sw_scene_force {
+  uint32_t generation;
+  int alive;
+  const sw_force_class *cls;
+  long wire; /* -1 = all */
+  double args[SW_FORCE_ARGS_MAX / sizeof(double)];
+} sw_scene_force;
+
+typedef struct sw_frame {
+  double time;
+  double *data; /* one block */
+  size_t wires, obstacles, holds;
+} sw_frame;
+
+struct sw_scene {
+  char name[SW_NAME_SIZE];
+  sw_vec gravity;
+  double time;
+  sw_scene_wire *wires;
+  size_t wire_count, wire_capacity;
+  sw_scene_hold *holds;
+  size_t hold_count, hold_capacity;
+  sw_scene_obstacle *obstacles;
+  size_t obstacle_count, obstacle_capacity;
+  sw_scene_force *forces;
+  size_t force_count, force_capacity;
+
+  int built;        /* system is valid and holds the state */
+  int running;      /* inside advance or settle: edits are refused */
+  sw_system system;
+  int *hold_slot;   /* (system.hold_count) scene slot of each system hold */
+  sw_contact *contact;
+  const sw_integrator *method; /* of stepper */
+  sw_stepper stepper;
+  int has_stepper;
+  int discontinuous; /* the acceleration is stale: restart the integrator */
+  double next_dt;    /* of an adaptive run; 0 = not known [s] */
+
+  int diverged;
+  sw_error why;
+  sw_extreme deepest; /* penetration */
+  sw_frame *frames;
+  size_t frame_count, frame_capacity;
+  double next_frame; /* [s] */
+};
+
+/* Leave the built state: the meshes become authoritative again. */
+sw_status sw_scene_thaw(sw_scene *scene);
+/* Make the system from the meshes and holds, if it is not. */
+sw_status sw_scene_build(sw_scene *scene, sw_error *err);
+
+sw_status sw_drive_eval(const sw_drive *drive, double t, sw_motion_state *out, sw_error *err);
+sw_status sw_drive_follow(sw_drive *drive, const char *object, double now, sw_motion *motion,
+                          int relative, sw_error *err);
+void sw_drive_free(sw_drive *drive);
+
+sw_status sw_log_add(sw_log *log, const double *row, size_t n);
+
+/* The object of a handle, or NULL with err set. */
+sw_scene_wire *sw_scene_find_wire(const sw_scene *scene, sw_handle h, sw_error *err);
+sw_scene_hold *sw_scene_find_hold(const sw_scene *scene, sw_handle h, sw_error *err);
+sw_scene_obstacle *sw_scene_find_obstacle(const sw_scene *scene, sw_handle h, sw_error *err);
+
+sw_status sw_scene_editable(const sw_scene *scene, sw_error *err);
+
+/* After an accepted state: extremes, logs. */
+sw_status sw_scene_observe(sw_scene *scene, sw_error *err);
+void sw_scene_reset_extremes(sw_scene *scene);
+sw_status sw_scene_store_frame(sw_scene *scene, sw_error *err);
+void sw_scene_drop_frames(sw_scene *scene);
+
+#endif
