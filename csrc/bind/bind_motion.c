@@ -78,8 +78,7 @@ static int m_starts(lua_State *L) {
 }
 
 static int m_ends(lua_State *L) {
-  const sw_motion *motion = check(L);
-  lua_pushnumber(L, sw_motion_start(motion) + sw_motion_duration(motion));
+  lua_pushnumber(L, sw_motion_end(check(L)));
   return 1;
 }
 
@@ -168,10 +167,8 @@ static int m_sample(lua_State *L) {
   if (!(count >= 2 && count <= 1e7) || count != floor(count))
     return luaL_error(L, "trajectory: sample(%f): the number must be whole and in [2, 1e7]", count);
   const int n = (int)count;
-  const double start = sw_motion_start(motion);
-  const double from = sample_end(L, 3, start, "trajectory: the first time");
-  const double to =
-      sample_end(L, 4, start + sw_motion_duration(motion), "trajectory: the last time");
+  const double from = sample_end(L, 3, sw_motion_start(motion), "trajectory: the first time");
+  const double to = sample_end(L, 4, sw_motion_end(motion), "trajectory: the last time");
   lua_settop(L, 4);
   lua_createtable(L, n, 0);
   for (int k = 0; k < COLUMNS; k++) lua_createtable(L, n * columns[k].width, 0);

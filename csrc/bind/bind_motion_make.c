@@ -157,9 +157,19 @@ static void push_points(lua_State *L, int table, const char *what) {
   lua_call(L, 3, 1);
 }
 
+static void has_no_use(lua_State *L, int table, const char *what, const char *key,
+                       const char *without) {
+  if (lua_getfield(L, table, key) != LUA_TNIL)
+    luaL_error(L, "%s: %s has no use without %s", what, key, without);
+  lua_pop(L, 1);
+}
+
 static sw_status make_path(lua_State *L, int table, const char *what, const lsw_motion_args *args,
                            sw_motion **out, sw_error *err) {
   sw_motion_plan plan = sw_motion_plan_empty();
+  if (lua_getfield(L, table, "path") != LUA_TSTRING)
+    has_no_use(L, table, what, "scale", "a path that names a file");
+  has_no_use(L, table, what, "step", "func");
   push_points(L, table, what);
   const int array = lua_gettop(L);
   if (!lua_istable(L, array) && !lua_isnil(L, array))

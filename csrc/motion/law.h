@@ -80,7 +80,6 @@ struct sw_motion {
   int relative;
   void *body;       /* the law's own */
   sw_motion *inner; /* of a view: what is looked at, else NULL */
-  double delay;     /* of a view [s] */
   sw_pose base;     /* of a view: what is displaced */
 };
 

@@ -101,7 +101,6 @@ static sw_motion *view(sw_motion *motion) {
     seen->inner = sw_motion_retain(motion->inner);
   } else {
     seen->inner = sw_motion_retain(motion);
-    seen->delay = 0;
     seen->base = sw_pose_identity();
   }
   seen->body = NULL;
@@ -120,35 +119,31 @@ sw_status sw_motion_relative(sw_motion *motion, sw_pose base, sw_motion **out) {
 sw_status sw_motion_shifted(sw_motion *motion, double delay, sw_motion **out) {
   *out = view(motion);
   if (!*out) return SW_ENOMEM;
-  (*out)->delay += delay;
   (*out)->start += delay;
   return SW_OK;
 }
 
 /* --- reading ---------------------------------------------------------------- */
 
-static sw_status eval_law(const sw_motion *motion, double t, sw_motion_state *out, sw_error *err) {
-  double since = t - motion->start;
-  const int rests = !(since >= 0 && since < motion->duration);
-  if (rests) since = since < 0 ? 0 : motion->duration;
-  SW_TRY(motion->law->eval(motion, since, out, err));
-  if (rests) out->v = out->a = out->omega = out->alpha = sw_v(0, 0, 0);
-  return SW_OK;
-}
-
 sw_status sw_motion_eval(const sw_motion *motion, double t, sw_motion_state *out, sw_error *err) {
   if (isnan(t)) return sw_fail(err, SW_EINVAL, "trajectory: the time is not a number");
   if (t == HUGE_VAL && motion->duration == HUGE_VAL)
     return sw_fail(err, SW_EINVAL, "trajectory: this motion has no end");
-  if (!motion->inner) return eval_law(motion, t, out, err);
-  SW_TRY(eval_law(motion->inner, t - motion->delay, out, err));
-  out->pose.p = sw_add(motion->base.p, out->pose.p);
-  out->pose.q = sw_quat_mul(out->pose.q, motion->base.q);
+  const int early = t < motion->start, late = t >= sw_motion_end(motion);
+  const double since = early ? 0 : t - motion->start;
+  const sw_motion *law = motion->inner ? motion->inner : motion;
+  SW_TRY(law->law->eval(law, late || since > law->duration ? law->duration : since, out, err));
+  if (early || late) out->v = out->a = out->omega = out->alpha = sw_v(0, 0, 0);
+  if (motion->inner) {
+    out->pose.p = sw_add(motion->base.p, out->pose.p);
+    out->pose.q = sw_quat_mul(out->pose.q, motion->base.q);
+  }
   return SW_OK;
 }
 
 double sw_motion_start(const sw_motion *motion) { return motion->start; }
 double sw_motion_duration(const sw_motion *motion) { return motion->duration; }
+double sw_motion_end(const sw_motion *motion) { return motion->start + motion->duration; }
 double sw_motion_length(const sw_motion *motion) { return motion->length; }
 size_t sw_motion_count(const sw_motion *motion) { return motion->count; }
 const char *sw_motion_law_name(const sw_motion *motion) { return motion->law->name; }

@@ -105,6 +105,7 @@ sw_status sw_motion_shifted(sw_motion *motion, double delay, sw_motion **out);
 sw_status sw_motion_eval(const sw_motion *motion, double t, sw_motion_state *out, sw_error *err);
 
 double sw_motion_start(const sw_motion *motion);    /* [s] */
+double sw_motion_end(const sw_motion *motion);      /* start + duration [s] */
 double sw_motion_duration(const sw_motion *motion); /* [s]; INFINITY for an endless callback */
 double sw_motion_length(const sw_motion *motion);   /* of the path; NAN for a callback [m] */
 size_t sw_motion_count(const sw_motion *motion);    /* way-points; 0 for a callback [-] */
