@@ -69,6 +69,7 @@ local function unknown(prefix)
     table.sort(names)
     for _, other in ipairs(names) do
       local steps = distance(tostring(name), other)
+      if other:sub(1, 1) ~= tostring(name):sub(1, 1) then steps = steps + 0.5 end
       if steps < least and steps < #other then nearest, least = other, steps end
     end
     local hint = nearest and ("did you mean '%s'?"):format(nearest)
