@@ -19,7 +19,7 @@ local known = {
   h = { "s", 3600, 1 },
   rad = { "rad", 1, 1 }, deg = { "rad", math.pi, 180 }, turns = { "rad", 2 * math.pi, 1 },
   rad_per_s = { "rad/s", 1, 1 }, deg_per_s = { "rad/s", math.pi, 180 },
-  rpm = { "rad/s", math.pi, 30 },
+  rpm = { "rad/s", 2 * math.pi, 60 },
   m_per_s = { "m/s", 1, 1 }, mm_per_s = { "m/s", 1, 1000 }, m_per_min = { "m/s", 1, 60 },
   mm_per_s2 = { "m/s2", 1, 1000 }, gravities = { "m/s2", 980665, 100000 },
   N = { "N", 1, 1 }, kN = { "N", 1000, 1 }, mN = { "N", 1, 1000 },

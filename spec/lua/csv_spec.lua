@@ -19,7 +19,8 @@ end
 
 describe("csv.read", function()
   it("takes commas, semicolons, tabs, comments, quotes, BOM and CRLF", function()
-    for _, text in ipairs { "a,b\n1,2\n3,4\n", "\239\187\191a;b\r\n1;2\r\n\r\n3;4", "# note\na\tb\n 1 \t2\n#x\n3\t4e0\n",
+    for _, text in ipairs { "a,b\n1,2\n3,4\n", "\239\187\191a;b\r\n1;2\r\n\r\n3;4",
+      "# note\na\tb\n 1 \t2\n#x\n3\t4e0\n",
       '"a","b"\n1,2\n"3",+4.\n' } do
       local data = csv.parse(text)
       assert.are.same({ "a", "b" }, data.names)
@@ -29,11 +30,13 @@ describe("csv.read", function()
 
   it("says where and what is wrong", function()
     local path = file_with "t,x\n0,1\n1, abc\n"
-    assert.are.equal(path .. ":3:4: 'abc' in column 'x' is not a number; expected a number with a decimal point",
+    assert.are.equal(path
+      .. ":3:4: 'abc' in column 'x' is not a number; expected a number with a decimal point",
       message(csv.read, path))
     assert.matches("^text:2:1: 'nan' in column 'a'", message(csv.read, "a,b\nnan,2\n"))
     assert.matches("^text:2:3: the cell of column 'b' is empty", message(csv.read, "a,b\n1,\n"))
-    assert.matches("^text:2:3: '0,5' in column 'b' has a decimal comma.*: 0%.5$", message(csv.read, "a;b\n1;0,5\n"))
+    assert.matches("^text:2:3: '0,5' in column 'b' has a decimal comma.*: 0%.5$", message(csv.read,
+      "a;b\n1;0,5\n"))
     assert.matches("^text:3:5: 3 cells in this row, but 2 columns", message(csv.read, "a,b\n1,2\n1,2,3\n"))
     assert.matches("^text:3:1: 1 cells in this row, but 2 columns", message(csv.read, "a,b\n1,2\n7\n"))
     assert.matches("^text:1:3: there are two columns named 'a'", message(csv.read, "a,a\n1,2\n"))
@@ -58,7 +61,8 @@ describe("csv.write", function()
   end)
 
   it("says why it cannot, and leaves nothing", function()
-    assert.matches("cannot write /nowhere/a.csv", message(csv.write, "/nowhere/a.csv", { "a" }, { a = { 1 } }))
+    assert.matches("cannot write /nowhere/a.csv", message(csv.write, "/nowhere/a.csv", { "a" }, { a = {
+      1 } }))
     assert.matches("no column 'b'", message(csv.write, "/tmp/never.csv", { "b" }, { a = { 1 } }))
     assert.is_nil(io.open "/tmp/never.csv")
   end)
@@ -70,8 +74,10 @@ describe("a trajectory from a CSV file", function()
   end
 
   it("knows units, scale and files without names", function()
-    for _, case in ipairs { { "x_mm,y_mm,z\n0,0,0\n300,0,0.1\n" }, { "X [mm];y [mm];z [m]\n0;0;0\n300;0;0.1\n" },
-      { "x,y,z\n0,0,0\n300,0,100\n", 1e-3 }, { "0\t0\t0\n0.3\t0\t0.1\n" }, { "x_cm,y,z_m\n0,0,0\n30,0,0.1\n", 7 } } do
+    for _, case in ipairs { { "x_mm,y_mm,z\n0,0,0\n300,0,0.1\n" }, {
+      "X [mm];y [mm];z [m]\n0;0;0\n300;0;0.1\n" },
+      { "x,y,z\n0,0,0\n300,0,100\n", 1e-3 }, { "0\t0\t0\n0.3\t0\t0.1\n" }, { "x_cm,y,z_m\n0,0,0\n30,0,0.1\n",
+        7 } } do
       local first, last = ends(trajectory { path = file_with(case[1]), scale = case[2], speed = 0.1 })
       assert.are.same({ 0, 0, 0 }, first)
       assert.is_true(math.abs(last[1] - 0.3) + math.abs(last[2]) + math.abs(last[3] - 0.1) < 1e-15)
@@ -79,7 +85,8 @@ describe("a trajectory from a CSV file", function()
   end)
 
   it("takes times and orientations", function()
-    local m = trajectory { path = file_with "t_ms,x,y,z,rz_deg,rx,ry,_force\n500,0,0,0,0,0,0,7\n1500,1,0,0,90,0,0,9\n" }
+    local m = trajectory {
+      path = file_with "t_ms,x,y,z,rz_deg,rx,ry,_force\n500,0,0,0,0,0,0,7\n1500,1,0,0,90,0,0,9\n" }
     assert.are.equal(0.5, m:starts())
     assert.are.equal(1.5, m:ends())
     assert.is_true(math.abs(m:rotation(1)[1] - math.cos(math.pi / 8)) < 1e-15)
@@ -91,14 +98,16 @@ describe("a trajectory from a CSV file", function()
     local function wrong(text, scale)
       return message(trajectory.new, { path = text, speed = 1, scale = scale })
     end
-    assert.matches("^text:3:1: t = 0.5 s does not come after 1 s in line 2", wrong "t,x,y,z\n1,0,0,0\n0.5,1,0,0\n")
+    assert.matches("^text:3:1: t = 0.5 s does not come after 1 s in line 2",
+      wrong "t,x,y,z\n1,0,0,0\n0.5,1,0,0\n")
     assert.matches("^text:3:1: way%-point %(1, 2, 3%) m repeats line 2", wrong "x,y,z\n1,2,3\n1,2,3\n")
     assert.matches("^text: a path needs at least 2 way%-points, got 1", wrong "x,y,z\n1,2,3\n")
     assert.matches("^text: no way%-points", wrong "# nothing\n")
     assert.matches("^text:1:3: column 'yy' is not known; expected t x y z", wrong "x,yy,z\n1,2,3\n")
     assert.matches("^text:1:1: there is no column 'z'", wrong "x,y\n1,2\n")
     assert.matches("^text:1:1: there is no column 'qz'", wrong "x,y,z,qw,qx,qy\n1,2,3,1,0,0\n")
-    assert.matches("^text:1:1: column 'x_kg': 'kg' is not a unit for x, which is in %[m%]", wrong "x_kg,y,z\n1,2,3\n")
+    assert.matches("^text:1:1: column 'x_kg': 'kg' is not a unit for x, which is in %[m%]",
+      wrong "x_kg,y,z\n1,2,3\n")
     assert.matches("^text:1:5: 'x' and 'x_mm' are the same column", wrong "x,y,x_mm,z\n1,2,3,4\n")
     assert.matches("^text:2:7: the quaternion .* has length 0.5; expected 1",
       wrong "x,y,z,qw,qx,qy,qz\n1,2,3,0.5,0,0,0\n")
@@ -111,7 +120,8 @@ describe("a trajectory from a CSV file", function()
 
   it("comes back from a file it was saved to", function()
     local path = file_with ""
-    local m = trajectory { path = { { 0, 0, 0 }, { 1, 2, 3 } }, turn = { axis = { 1, 1, 0 }, angle = 2 }, duration = 2 }
+    local m = trajectory { path = { { 0, 0, 0 }, { 1, 2, 3 } }, turn = { axis = { 1, 1, 0 }, angle = 2 },
+      duration = 2 }
     m:save(path, 401)
     local again = trajectory { path = path }
     for i = 0, 20 do

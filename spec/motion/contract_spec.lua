@@ -30,16 +30,19 @@ local cases = {
   ["corners, speed"] = { points = corners, speed = 0.3 },
   ["corners, both speeds"] = { points = corners, speed = 0.3, angular_speed = 0.8 },
   ["corners, times"] = { points = corners, times = { 0.5, 1.5, 2.25, 4 } },
-  ["turning on the spot"] = { points = { { 1, 2, 3 } }, turn = { axis = { 1, 2, 2 }, angle = 3 }, angular_speed = 2 },
+  ["turning on the spot"] = { points = { { 1, 2, 3 } }, turn = { axis = { 1, 2, 2 }, angle = 3 },
+    angular_speed = 2 },
   ["displacement"] = { points = { { 0.1, 0, 0.2 } }, relative = true, duration = 0.8 },
 }
 local resting = {
   ["corners, duration, blend"] = { points = corners, duration = 3, blend = 0.08 },
   ["corners, speed, stop"] = { points = corners, speed = 0.3, stop = true },
-  ["corners, accelerations"] = { points = corners, speed = 0.3, acceleration = 0.5, angular_acceleration = 3 },
+  ["corners, accelerations"] = { points = corners, speed = 0.3, acceleration = 0.5,
+    angular_acceleration = 3 },
   ["there and back"] = { points = { { 0, 0, 0 }, { 0.2, 0, 0 }, { 0, 0.01, 0 } }, speed = 0.3 },
   ["seven turns"] = {
-    points = { { 0, 0, 0 }, { 0.1, 0, 0 }, { 0.1, 0.2, 0 } }, turn = { axis = { 0, 1, 1 }, angle = 44 }, speed = 0.1 },
+    points = { { 0, 0, 0 }, { 0.1, 0, 0 }, { 0.1, 0.2, 0 } }, turn = { axis = { 0, 1, 1 }, angle = 44 },
+      speed = 0.1 },
 }
 
 local function check_derivatives(trajectory, t, h, tolerance)

@@ -22,7 +22,8 @@ describe("linear", function()
   end)
 
   it("passes through timed way-points", function()
-    local m = make { points = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 } }, times = { 1, 3, 3.5 }, law = "linear" }
+    local m = make { points = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 } }, times = { 1, 3, 3.5 },
+      law = "linear" }
     near(0.5, m:velocity(2.9)[1])
     near(2, m:velocity(3.1)[2])
     near(0.2, m:position(3.1)[2])
@@ -93,7 +94,8 @@ describe("minimum-jerk", function()
   end)
 
   it("rests at every timed way-point", function()
-    local m = make { points = { { 0, 0, 0, t = 0 }, { 1, 0, 0, t = 1 }, { 1, 1, 0, t = 3 } }, law = "minimum-jerk" }
+    local m = make { points = { { 0, 0, 0, t = 0 }, { 1, 0, 0, t = 1 }, { 1, 1, 0, t = 3 } },
+      law = "minimum-jerk" }
     near(0, d.norm(m:velocity(1)))
     near(0.5, m:position(0.5)[1])
     near(0.5, m:position(2)[2])
@@ -192,7 +194,8 @@ describe("turning", function()
       for _, u in ipairs { 0, 0.3, 0.75, 1 } do
         local q, same = m:rotation(2 * u), 0
         for i = 1, 4 do
-          same = same + q[i] * (math.sin((1 - u) * half) * a[i] + math.sin(u * half) * sign * b[i]) / math.sin(half)
+          local mix = math.sin((1 - u) * half) * a[i] + math.sin(u * half) * sign * b[i]
+          same = same + q[i] * mix / math.sin(half)
         end
         near(1, math.abs(same), 1e-14)
       end
@@ -201,7 +204,8 @@ describe("turning", function()
   end)
 
   it("goes round as often as it is told", function()
-    local m = make { points = { { 0, 0, 0 }, { 0, 0, 1 } }, turn = { axis = { 0, 0, 2 }, angle = 9 * math.pi },
+    local m = make { points = { { 0, 0, 0 }, { 0, 0, 1 } }, turn = { axis = { 0, 0, 2 },
+      angle = 9 * math.pi },
       speed = 0.5, law = "linear" }
     near(4.5 * math.pi, m:angular_velocity(1)[3])
     near(1, math.abs(m:rotation(2)[4]))
@@ -244,7 +248,8 @@ end)
 
 describe("bulk samples", function()
   it("are the single ones", function()
-    local m = make { points = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 } }, turn = { axis = { 1, 0, 0 }, angle = 2 },
+    local m = make { points = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 } }, turn = { axis = { 1, 0, 0 },
+      angle = 2 },
       duration = 2, start = 1 }
     local s = m:sample(11)
     assert.are.equal(11, #s.t)
