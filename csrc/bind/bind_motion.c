@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The class `trajectory`. */
 #include "bind/bind_motion.h"
-#include "bind/module.h"
 
 #include <stdio.h>
 #include <string.h>
+
+#include "bind/module.h"
 
 typedef struct trajectory {
   lsw_handle handle; /* object: sw_motion, one reference */
@@ -15,7 +16,9 @@ static sw_motion *check(lua_State *L) {
   return self->handle.object;
 }
 
-static void close_trajectory(lsw_handle *h) { sw_motion_release(h->object); }
+static void close_trajectory(lsw_handle *h) {
+  sw_motion_release(h->object);
+}
 
 /* --- at a time ------------------------------------------------------------------ */
 
@@ -222,9 +225,9 @@ static const luaL_Reg methods[] = {{"position", m_position},
                                    {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", describe}, {NULL, NULL}};
 
-const lsw_class lsw_class_trajectory = {
-    "trajectory", sizeof(trajectory), methods, meta, close_trajectory,
-    "the trajectory has been closed"};
+const lsw_class lsw_class_trajectory = {"trajectory",     sizeof(trajectory),
+                                        methods,          meta,
+                                        close_trajectory, "the trajectory has been closed"};
 
 /* --- the module's functions --------------------------------------------------------- */
 

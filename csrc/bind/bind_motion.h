@@ -17,7 +17,7 @@ sw_motion *lsw_motion_from(lua_State *L, int index, const char *what);
  * into an lsw_section). Keys whose values stay in the table (points, func, ...)
  * are fetched from there by lsw_motion_make. */
 typedef struct lsw_motion_args {
-  int law; /* index among the laws, -1 = not given [-] */
+  int law;                                   /* index among the laws, -1 = not given [-] */
   double speed, angular_speed;               /* [m/s], [rad/s] */
   double acceleration, angular_acceleration; /* [m/s2], [rad/s2] */
   double duration, blend, start, step;       /* [s], [m], [s], [s] */

@@ -10,7 +10,7 @@ static const char thread_key = 0; /* registry: the thread they run on */
 static const char error_key = 0;  /* registry: {value, true when there is one} */
 
 typedef struct function {
-  lua_State *L; /* the thread */
+  lua_State *L;  /* the thread */
   int reference; /* of the function in the registry [-] */
 } function;
 
@@ -65,9 +65,13 @@ sw_status lsw_motion_function(lua_State *L, int index, const lsw_motion_args *ar
   sw_status status = f ? SW_OK : sw_fail(err, SW_ENOMEM, "trajectory: out of memory");
   if (f) {
     *f = (function){thread, reference};
-    const sw_motion_callback callback = {
-        call,         f, release, args->step, isnan(args->duration) ? HUGE_VAL : args->duration,
-        args->start, args->relative};
+    const sw_motion_callback callback = {call,
+                                         f,
+                                         release,
+                                         args->step,
+                                         isnan(args->duration) ? HUGE_VAL : args->duration,
+                                         args->start,
+                                         args->relative};
     status = sw_motion_create_callback(&callback, out, err);
   }
   if (status != SW_OK) {

@@ -4,16 +4,14 @@
 
 #include "bind/bind_motion.h"
 
-static const char reader_key = 0;       /* registry: what reads `path` */
+static const char reader_key = 0;          /* registry: what reads `path` */
 static const char *law_names[16] = {NULL}; /* filled when the module is opened */
 
 #define AT(field) offsetof(lsw_motion_args, field)
 #define OTHER(name, unit, doc) \
   { name, SW_PARAM_OTHER, unit, NAN, -INFINITY, INFINITY, 0, NULL, 0, doc }
-#define POSITIVE(name, field, unit, doc)                                             \
-  {                                                                                  \
-    name, SW_PARAM_NUMBER, unit, NAN, 0, INFINITY, SW_PARAM_ABOVE_MIN, NULL, AT(field), doc \
-  }
+#define POSITIVE(name, field, unit, doc) \
+  { name, SW_PARAM_NUMBER, unit, NAN, 0, INFINITY, SW_PARAM_ABOVE_MIN, NULL, AT(field), doc }
 
 static const sw_param rows[] = {
     OTHER("points", "m",
@@ -21,7 +19,8 @@ static const sw_param rows[] = {
     OTHER("times", "s", "a time for every way-point, instead of t in each"),
     OTHER("path", "-", "a CSV file of way-points, or the way-points themselves"),
     OTHER("scale", "m", "size of the length unit in a CSV file whose columns name no unit"),
-    OTHER("func", "-", "function(t) returning position [m] and optionally rotation, instead of points"),
+    OTHER("func", "-",
+          "function(t) returning position [m] and optionally rotation, instead of points"),
     OTHER("turn", "rad", "{axis=, angle=} turned over the whole path, any number of revolutions"),
     {"law", SW_PARAM_CHOICE, "-", -1, -INFINITY, INFINITY, 0, law_names, AT(law),
      "how progress grows; default minimum-jerk, for three and more timed way-points spline"},
@@ -54,7 +53,9 @@ void lsw_motion_open_arguments(lua_State *L) {
   for (size_t i = 0; i < most; i++) law_names[i] = sw_motion_law_at(i);
 }
 
-void lsw_motion_keep_reader(lua_State *L) { lua_rawsetp(L, LUA_REGISTRYINDEX, &reader_key); }
+void lsw_motion_keep_reader(lua_State *L) {
+  lua_rawsetp(L, LUA_REGISTRYINDEX, &reader_key);
+}
 
 /* --- way-points --------------------------------------------------------------- */
 
@@ -68,8 +69,8 @@ static void check_keys(lua_State *L, int index, const char *what) {
     for (int i = 0; i < KNOWN && !fine; i++) fine = strcmp(key, known[i]) == 0;
     if (!fine) {
       const char *near = sw_nearest_name(key, known, sizeof known[0], KNOWN);
-      const char *hint = near ? lua_pushfstring(L, "did you mean '%s'?", near)
-                              : "known are x y z t rotation turn";
+      const char *hint =
+          near ? lua_pushfstring(L, "did you mean '%s'?", near) : "known are x y z t rotation turn";
       luaL_error(L, "%s has no field '%s'; %s", what, key, hint);
     }
     lua_pop(L, 1);
@@ -199,8 +200,9 @@ static sw_status make_path(lua_State *L, int table, const char *what, const lsw_
 /* With a func nothing may be given that belongs to way-points. */
 static void check_func(lua_State *L, int table, const char *what) {
   static const char *const theirs[] = {
-      "points", "path", "times", "scale", "turn", "law", "speed", "angular_speed", "acceleration",
-      "angular_acceleration", "blend", "stop"};
+      "points", "path",  "times",         "scale",        "turn",
+      "law",    "speed", "angular_speed", "acceleration", "angular_acceleration",
+      "blend",  "stop"};
   if (!lua_isfunction(L, -1))
     luaL_error(L, "%s: func must be a function of time [s], got %s", what, luaL_typename(L, -1));
   for (size_t i = 0; i < sizeof theirs / sizeof theirs[0]; i++) {

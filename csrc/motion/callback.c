@@ -10,8 +10,8 @@ static sw_status ask(const sw_motion_callback *c, double t, sw_pose *out, sw_err
   SW_TRY(c->function(c->user, t, out, err));
   out->q = sw_quat_unit(out->q);
   if (!sw_finite(out->p))
-    return sw_fail(err, SW_ECALLBACK, "trajectory: the function gave no finite position at t = %g s",
-                   t);
+    return sw_fail(err, SW_ECALLBACK,
+                   "trajectory: the function gave no finite position at t = %g s", t);
   return SW_OK;
 }
 

@@ -53,8 +53,7 @@ static sw_status check_plan(const sw_motion_plan *plan, const char *name, sw_err
   SW_TRY(check_number(name, "blend", plan->blend, "m", 1, err));
   if (!isfinite(plan->start))
     return sw_fail(err, SW_EINVAL, "%s: start = %g s must be a finite number", name, plan->start);
-  if (!sw_finite(plan->turn))
-    return sw_fail(err, SW_EINVAL, "%s: turn must be finite [rad]", name);
+  if (!sw_finite(plan->turn)) return sw_fail(err, SW_EINVAL, "%s: turn must be finite [rad]", name);
   return SW_OK;
 }
 
@@ -141,13 +140,27 @@ sw_status sw_motion_eval(const sw_motion *motion, double t, sw_motion_state *out
   return SW_OK;
 }
 
-double sw_motion_start(const sw_motion *motion) { return motion->start; }
-double sw_motion_duration(const sw_motion *motion) { return motion->duration; }
-double sw_motion_end(const sw_motion *motion) { return motion->start + motion->duration; }
-double sw_motion_length(const sw_motion *motion) { return motion->length; }
-size_t sw_motion_count(const sw_motion *motion) { return motion->count; }
-const char *sw_motion_law_name(const sw_motion *motion) { return motion->law->name; }
-int sw_motion_is_relative(const sw_motion *motion) { return motion->relative; }
+double sw_motion_start(const sw_motion *motion) {
+  return motion->start;
+}
+double sw_motion_duration(const sw_motion *motion) {
+  return motion->duration;
+}
+double sw_motion_end(const sw_motion *motion) {
+  return motion->start + motion->duration;
+}
+double sw_motion_length(const sw_motion *motion) {
+  return motion->length;
+}
+size_t sw_motion_count(const sw_motion *motion) {
+  return motion->count;
+}
+const char *sw_motion_law_name(const sw_motion *motion) {
+  return motion->law->name;
+}
+int sw_motion_is_relative(const sw_motion *motion) {
+  return motion->relative;
+}
 
 sw_motion *sw_motion_retain(sw_motion *motion) {
   if (motion) motion->references++;

@@ -26,11 +26,11 @@
 typedef struct sw_motion sw_motion;
 
 typedef struct sw_motion_state {
-  sw_pose pose;  /* position [m] and orientation [-] */
-  sw_vec v;      /* velocity of the frame's origin [m/s] */
-  sw_vec a;      /* its acceleration [m/s2] */
-  sw_vec omega;  /* angular velocity, world axes [rad/s] */
-  sw_vec alpha;  /* angular acceleration, world axes [rad/s2] */
+  sw_pose pose; /* position [m] and orientation [-] */
+  sw_vec v;     /* velocity of the frame's origin [m/s] */
+  sw_vec a;     /* its acceleration [m/s2] */
+  sw_vec omega; /* angular velocity, world axes [rad/s] */
+  sw_vec alpha; /* angular acceleration, world axes [rad/s2] */
 } sw_motion_state;
 
 typedef enum sw_facing {
@@ -104,11 +104,11 @@ sw_status sw_motion_shifted(sw_motion *motion, double delay, sw_motion **out);
  * its first and last pose. Fails only when a user callback does. */
 sw_status sw_motion_eval(const sw_motion *motion, double t, sw_motion_state *out, sw_error *err);
 
-double sw_motion_start(const sw_motion *motion);    /* [s] */
-double sw_motion_end(const sw_motion *motion);      /* start + duration [s] */
-double sw_motion_duration(const sw_motion *motion); /* [s]; INFINITY for an endless callback */
-double sw_motion_length(const sw_motion *motion);   /* of the path; NAN for a callback [m] */
-size_t sw_motion_count(const sw_motion *motion);    /* way-points; 0 for a callback [-] */
+double sw_motion_start(const sw_motion *motion);         /* [s] */
+double sw_motion_end(const sw_motion *motion);           /* start + duration [s] */
+double sw_motion_duration(const sw_motion *motion);      /* [s]; INFINITY for an endless callback */
+double sw_motion_length(const sw_motion *motion);        /* of the path; NAN for a callback [m] */
+size_t sw_motion_count(const sw_motion *motion);         /* way-points; 0 for a callback [-] */
 const char *sw_motion_law_name(const sw_motion *motion); /* "minimum-jerk", ... */
 int sw_motion_is_relative(const sw_motion *motion); /* still to be placed by sw_motion_relative */
 

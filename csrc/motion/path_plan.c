@@ -22,8 +22,8 @@ static sw_status check(const sw_motion_law *law, const sw_motion_plan *plan, con
   if (!rests) return SW_OK;
   if ((route->timed || plan->stop > 0) && plan->blend > 0)
     return sw_fail(err, SW_EINVAL,
-                   "%s: blend = %g m has no use where law '%s' rests at every way-point", route->name,
-                   plan->blend, law->name);
+                   "%s: blend = %g m has no use where law '%s' rests at every way-point",
+                   route->name, plan->blend, law->name);
   if (route->timed && plan->stop == 0)
     return sw_fail(err, SW_EINVAL,
                    "%s: with a time for every way-point law '%s' rests at each; use 'spline' to "

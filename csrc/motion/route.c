@@ -47,8 +47,8 @@ static sw_status check_point(const sw_route *route, size_t i, const sw_waypoint 
     return sw_fail(err, SW_EINVAL, "%s: way-point %zu has no finite position [m]", route->name,
                    i + 1);
   if (!isnan(point->t) && !isfinite(point->t))
-    return sw_fail(err, SW_EINVAL, "%s: way-point %zu: t = %g s must be finite", route->name,
-                   i + 1, point->t);
+    return sw_fail(err, SW_EINVAL, "%s: way-point %zu: t = %g s must be finite", route->name, i + 1,
+                   point->t);
   const sw_quat *q = &point->q;
   if ((point->facing == SW_FACING_GIVEN && !isfinite(q->w + q->x + q->y + q->z)) ||
       (point->facing == SW_FACING_TURNED && !sw_finite(point->turn)))

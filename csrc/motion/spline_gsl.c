@@ -51,8 +51,12 @@ static const knot *find(const spline *s, double t) {
   return &s->knots[low];
 }
 
-static sw_quat quat_at(const double *p) { return (sw_quat){p[0], p[1], p[2], p[3]}; }
-static sw_vec imaginary(sw_quat q) { return sw_v(q.x, q.y, q.z); }
+static sw_quat quat_at(const double *p) {
+  return (sw_quat){p[0], p[1], p[2], p[3]};
+}
+static sw_vec imaginary(sw_quat q) {
+  return sw_v(q.x, q.y, q.z);
+}
 
 /* With N = |Q|^2: omega = 2 Im(Q' Q*) / N, alpha = 2 Im(Q'' Q*) / N - omega N' / N. */
 static void turn_at(const knot *k, double t, sw_motion_state *out) {
@@ -210,8 +214,7 @@ static sw_status keep_limits(spline *s, const sw_motion_plan *plan, const sw_rou
   double most = 0;
   if (!isnan(plan->duration)) slow_down(s, plan->duration / s->knots[s->count - 1].t);
   if (!free && !limited) return SW_OK;
-  for (size_t i = 0; i + 1 < s->count; i++)
-    most = fmax(most, leg_excess(s, plan, &s->knots[i]));
+  for (size_t i = 0; i + 1 < s->count; i++) most = fmax(most, leg_excess(s, plan, &s->knots[i]));
   if (free) slow_down(s, most * (1 + 1e-12));
   if (!free && most > 1 + 1e-9)
     return sw_fail(err, SW_EINVAL,
