@@ -1,7 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Motion laws: where a moving frame (grip, clamp, obstacle) is at time t, with
  * its exact first and second derivatives. Immutable and reference-counted, so
- * that one law may drive several things. */
+ * that one law may drive several things.
+ *
+ * Legs join the way-points by straight lines and shortest turns. How they are
+ * travelled, by the law and by what was given:
+ *
+ *                  speed or duration                 a time per way-point
+ *   linear         constant speed, corners jump      passes every way-point
+ *   trapezoidal    at rest at both ends only         at rest at every one
+ *   minimum-jerk   at rest at both ends only         at rest at every one
+ *   spline         smooth curve, at rest at the ends, through every way-point
+ *
+ * Speeds and accelerations that are given are never exceeded along the path;
+ * what a blended corner adds sideways follows from speed and blend. */
 #ifndef SW_MOTION_MOTION_H
 #define SW_MOTION_MOTION_H
 
@@ -14,18 +26,94 @@
 typedef struct sw_motion sw_motion;
 
 typedef struct sw_motion_state {
-  sw_pose pose;  /* position [m] and orientation [-] */
-  sw_vec v;      /* velocity of the frame's origin [m/s] */
-  sw_vec a;      /* its acceleration [m/s2] */
-  sw_vec omega;  /* angular velocity, world axes [rad/s] */
-  sw_vec alpha;  /* angular acceleration, world axes [rad/s2] */
+  sw_pose pose; /* position [m] and orientation [-] */
+  sw_vec v;     /* velocity of the frame's origin [m/s] */
+  sw_vec a;     /* its acceleration [m/s2] */
+  sw_vec omega; /* angular velocity, world axes [rad/s] */
+  sw_vec alpha; /* angular acceleration, world axes [rad/s2] */
 } sw_motion_state;
 
-/* Evaluate at time t [s]; before the start and after the end the law rests at
+typedef enum sw_facing {
+  SW_FACING_KEPT,  /* as at the way-point before; the first: unrotated */
+  SW_FACING_GIVEN, /* to q by the shortest turn */
+  SW_FACING_TURNED /* by turn from the way-point before, any number of revolutions */
+} sw_facing;
+
+typedef struct sw_waypoint {
+  sw_vec p;         /* position [m] */
+  sw_facing facing; /* which of q and turn counts */
+  sw_quat q;        /* orientation [-] */
+  sw_vec turn;      /* axis times angle, world axes [rad] */
+  double t;         /* time; NAN = not given [s] */
+} sw_waypoint;
+
+/* What a motion through way-points is made from. NAN = not given. */
+typedef struct sw_motion_plan {
+  const char *name; /* for messages; NULL = "trajectory" */
+  const char *law;  /* NULL: "spline" for three and more timed way-points, else "minimum-jerk" */
+  const sw_waypoint *points;
+  size_t count;                /* way-points [-] */
+  sw_vec turn;                 /* spread over the whole path, world axes; 0 = none [rad] */
+  double speed;                /* highest [m/s] */
+  double angular_speed;        /* highest [rad/s] */
+  double acceleration;         /* highest along the path [m/s2] */
+  double angular_acceleration; /* highest along the path [rad/s2] */
+  double duration;             /* of the whole path, instead of speeds [s] */
+  double blend;                /* corners are left this far before them; NAN: a tenth of the
+                                  shorter leg (linear: 0) [m] */
+  int stop;                    /* rest at every way-point: 1 yes, 0 no, -1 where the path turns
+                                  back by more than 120 deg and no blend is given [-] */
+  double start;                /* when the move begins; added to the way-points' times [s] */
+  int relative;                /* way-points are displacements; begins at none [-] */
+} sw_motion_plan;
+
+/* A plan with nothing given. */
+sw_motion_plan sw_motion_plan_empty(void);
+
+/* SW_EINVAL with a text naming way-point, parameter, value and unit. */
+sw_status sw_motion_create(const sw_motion_plan *plan, sw_motion **out, sw_error *err);
+
+/* Pose at time t [s] after the start. */
+typedef sw_status (*sw_motion_function)(void *user, double t, sw_pose *out, sw_error *err);
+
+/* A motion given by a function, asked for times in [0, duration] only (duration
+ * may be INFINITY). Derivatives are symmetric differences over +-step [s]; next
+ * to the ends the parabola through the three nearest times is used. release
+ * (NULL is allowed) is called with user when the motion goes; when creation
+ * fails it is not. */
+typedef struct sw_motion_callback {
+  sw_motion_function function;
+  void *user;
+  void (*release)(void *user);
+  double step;     /* of the differences [s] */
+  double duration; /* [s] */
+  double start;    /* [s] */
+  int relative;    /* poses are displacements [-] */
+} sw_motion_callback;
+sw_status sw_motion_create_callback(const sw_motion_callback *callback, sw_motion **out,
+                                    sw_error *err);
+
+/* The motion applied as a displacement of base, in world axes: position base.p +
+ * p(t), orientation q(t) * base.q. Shares the way-points of motion. */
+sw_status sw_motion_relative(sw_motion *motion, sw_pose base, sw_motion **out);
+
+/* The same motion later by delay [s]. Shares the way-points of motion. */
+sw_status sw_motion_shifted(sw_motion *motion, double delay, sw_motion **out);
+
+/* Evaluate at time t [s]; before the start and from the end on the law rests at
  * its first and last pose. Fails only when a user callback does. */
 sw_status sw_motion_eval(const sw_motion *motion, double t, sw_motion_state *out, sw_error *err);
 
-double sw_motion_duration(const sw_motion *motion); /* [s]; INFINITY for a callback law */
+double sw_motion_start(const sw_motion *motion);         /* [s] */
+double sw_motion_end(const sw_motion *motion);           /* start + duration [s] */
+double sw_motion_duration(const sw_motion *motion);      /* [s]; INFINITY for an endless callback */
+double sw_motion_length(const sw_motion *motion);        /* of the path; NAN for a callback [m] */
+size_t sw_motion_count(const sw_motion *motion);         /* way-points; 0 for a callback [-] */
+const char *sw_motion_law_name(const sw_motion *motion); /* "minimum-jerk", ... */
+int sw_motion_is_relative(const sw_motion *motion); /* still to be placed by sw_motion_relative */
+
+/* Names of the laws for way-points by number, NULL after the last. */
+const char *sw_motion_law_at(size_t i);
 
 sw_motion *sw_motion_retain(sw_motion *motion); /* NULL gives NULL */
 void sw_motion_release(sw_motion *motion);      /* NULL is allowed */

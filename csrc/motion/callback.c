@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A motion given by a function of time. Velocity and acceleration are those of
+ * the parabola through three poses, one step apart: error step^2/6 times the
+ * third and step^2/12 times the fourth derivative. */
+#include "base/alloc.h"
+#include "motion/law.h"
+
+static sw_status ask(const sw_motion_callback *c, double t, sw_pose *out, sw_error *err) {
+  *out = sw_pose_identity();
+  SW_TRY(c->function(c->user, t, out, err));
+  out->q = sw_quat_unit(out->q);
+  if (!sw_finite(out->p))
+    return sw_fail(err, SW_ECALLBACK,
+                   "trajectory: the function gave no finite position at t = %g s", t);
+  return SW_OK;
+}
+
+/* q or -q, whichever is nearer to like. */
+static sw_quat alike(sw_quat q, sw_quat like) {
+  const double dot = q.w * like.w + q.x * like.x + q.y * like.y + q.z * like.z;
+  return dot < 0 ? (sw_quat){-q.w, -q.x, -q.y, -q.z} : q;
+}
+
+/* Turn from middle to q as a vector in world axes [rad]. */
+static sw_vec turned(sw_quat q, sw_quat middle) {
+  return sw_quat_log(sw_quat_mul(alike(q, middle), sw_quat_conj(middle)));
+}
+
+static sw_status eval(const sw_motion *motion, double t, sw_motion_state *out, sw_error *err) {
+  const sw_motion_callback *c = motion->body;
+  sw_pose before, middle, after;
+  double centre = t < c->step ? c->step : t;
+  if (centre > motion->duration - c->step) centre = motion->duration - c->step;
+  SW_TRY(ask(c, t, &out->pose, err));
+  middle = out->pose;
+  if (centre != t) SW_TRY(ask(c, centre, &middle, err));
+  SW_TRY(ask(c, centre - c->step, &before, err));
+  SW_TRY(ask(c, centre + c->step, &after, err));
+  const double h = c->step, off = t - centre;
+  const sw_vec plus = sw_sub(after.p, middle.p), minus = sw_sub(before.p, middle.p);
+  out->a = sw_scale(sw_add(plus, minus), 1 / (h * h));
+  out->v = sw_madd(sw_scale(sw_sub(plus, minus), 0.5 / h), out->a, off);
+  const sw_vec wp = turned(after.q, middle.q), wm = turned(before.q, middle.q);
+  out->alpha = sw_scale(sw_add(wp, wm), 1 / (h * h));
+  out->omega = sw_madd(sw_scale(sw_sub(wp, wm), 0.5 / h), out->alpha, off);
+  return SW_OK;
+}
+
+static void destroy(void *body) {
+  sw_motion_callback *c = body;
+  if (c && c->release) c->release(c->user);
+  sw_free(c);
+}
+
+const sw_motion_law sw_motion_law_callback = {"callback", NULL, NULL, eval, destroy};
+
+sw_status sw_motion_create_callback(const sw_motion_callback *callback, sw_motion **out,
+                                    sw_error *err) {
+  *out = NULL;
+  if (!callback->function || !(callback->step > 0) || !(callback->duration >= 2 * callback->step))
+    return sw_fail(err, SW_EINVAL,
+                   "trajectory: a function needs a step above 0 s and a duration (%g s) of at "
+                   "least two steps (of %g s)",
+                   callback->duration, callback->step);
+  sw_motion *motion = sw_alloc(1, sizeof *motion);
+  sw_motion_callback *body = sw_alloc(1, sizeof *body);
+  if (!motion || !body) {
+    sw_free(motion);
+    sw_free(body);
+    return sw_fail(err, SW_ENOMEM, "trajectory: out of memory");
+  }
+  *body = *callback;
+  motion->law = &sw_motion_law_callback;
+  motion->references = 1;
+  motion->start = callback->start;
+  motion->duration = callback->duration;
+  motion->length = NAN;
+  motion->relative = callback->relative;
+  motion->body = body;
+  *out = motion;
+  return SW_OK;
+}

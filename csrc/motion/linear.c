@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Constant speed along the legs: no ramps, the speed jumps at both ends, and at
+ * corners that are not blended its direction does. */
+#include "motion/law.h"
+
+static double least_time(double span, double growth) {
+  (void)growth;
+  return span;
+}
+
+static int fit(sw_run *run, double growth) {
+  (void)growth;
+  run->ramp = 0;
+  return 1;
+}
+
+static void progress(const sw_run *run, double t, double s[3]) {
+  s[1] = run->span / run->time;
+  s[0] = s[1] * t;
+  s[2] = 0;
+}
+
+static const sw_profile profile = {0, least_time, fit, progress};
+
+const sw_motion_law sw_motion_law_linear = {"linear", &profile, sw_path_plan, sw_path_eval,
+                                            sw_path_destroy};
