@@ -59,7 +59,7 @@ static void read_text(lua_State *L, const char *object, const sw_param *row, cha
 
 static void read_vector(lua_State *L, const char *object, const sw_param *row, char *place) {
   sw_error err;
-  const sw_vec a = lsw_vector(L, -1, lua_pushfstring(L, "%s: %s", object, row->name), row->unit);
+  const sw_vec a = lsw_vector(L, -2, lua_pushfstring(L, "%s: %s", object, row->name), row->unit);
   lua_pop(L, 1);
   const double parts[3] = {a.x, a.y, a.z};
   for (int i = 0; i < 3; i++)
@@ -92,7 +92,7 @@ static void read_value(lua_State *L, const char *object, const sw_param *row, vo
     case SW_PARAM_TEXT: read_text(L, object, row, place); break;
     case SW_PARAM_VECTOR: read_vector(L, object, row, place); break;
     case SW_PARAM_ROTATION: {
-      const sw_quat q = lsw_rotation(L, -1, lua_pushfstring(L, "%s: %s", object, row->name));
+      const sw_quat q = lsw_rotation(L, -2, lua_pushfstring(L, "%s: %s", object, row->name));
       lua_pop(L, 1);
       memcpy(place, &q, sizeof q);
       break;

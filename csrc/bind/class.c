@@ -167,7 +167,7 @@ static void numbers(lua_State *L, int index, const char *what, const char *unit,
     luaL_error(L, "%s must have %d numbers, got %d", what, count, (int)lua_rawlen(L, index));
   for (int i = 0; i < count; i++) {
     push_item(L, index, i + 1, names[i]);
-    out[i] = lsw_number(L, -1, lua_pushfstring(L, "%s, item %d,", what, i + 1), unit);
+    out[i] = lsw_number(L, -2, lua_pushfstring(L, "%s, item %d,", what, i + 1), unit);
     lua_pop(L, 2);
   }
 }
@@ -185,9 +185,9 @@ sw_quat lsw_rotation(lua_State *L, int index, const char *what) {
   index = lua_absindex(L, index);
   if (lua_isnoneornil(L, index)) return sw_quat_identity();
   if (lua_istable(L, index) && lua_getfield(L, index, "axis") != LUA_TNIL) {
-    const sw_vec axis = lsw_vector(L, -1, lua_pushfstring(L, "%s.axis", what), "-");
+    const sw_vec axis = lsw_vector(L, -2, lua_pushfstring(L, "%s.axis", what), "-");
     lua_getfield(L, index, "angle");
-    const double angle = lsw_number(L, -1, lua_pushfstring(L, "%s.angle", what), "rad");
+    const double angle = lsw_number(L, -2, lua_pushfstring(L, "%s.angle", what), "rad");
     if (sw_norm(axis) == 0) luaL_error(L, "%s.axis must not be the zero vector", what);
     lua_settop(L, lua_gettop(L) - 4);
     return sw_quat_exp(sw_scale(sw_unit_or(axis, sw_v(0, 0, 1)), angle));
