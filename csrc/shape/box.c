@@ -82,7 +82,7 @@ static int bridge(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_cl
   const double nearly_flat = 0.05; /* tilt up to which both edges count [rad] */
   const sw_vec half = ((const box *)shape)->half, d = sw_sub(b, a), n = out[0].normal;
   const double most = fmax(fmax(fabs(n.x), fabs(n.y)), fabs(n.z)), length = sw_norm(d);
-  if (most < cos(nearly_flat)) return 1;
+  if (most < cos(nearly_flat) || fabs(sw_dot(n, d)) > nearly_flat * length) return 1;
   double part[2] = {0, 1};
   if (most != fabs(n.x)) clip(a.x, d.x, half.x, &part[0], &part[1]);
   if (most != fabs(n.y)) clip(a.y, d.y, half.y, &part[0], &part[1]);
@@ -91,7 +91,8 @@ static int bridge(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_cl
   const double same = 2 * nearly_flat * fabs(out[0].gap) + 1e-6 * length; /* [m] */
   const double off = same / length; /* [-] */
   const sw_closest lone = out[0];
-  const int flat = lone.at > part[0] + off && lone.at < part[1] - off; /* exactly level */
+  const int level = fabs(sw_dot(n, d)) <= 1e-9 * length; /* else the segment pierces the box */
+  const int flat = level && lone.at > part[0] + off && lone.at < part[1] - off;
   int count = flat ? 0 : 1;
   sw_closest ends[2], found;
   distance(shape, a, INFINITY, &ends[0]), distance(shape, b, INFINITY, &ends[1]);

@@ -1,4 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Only the intersection test is used. Depths were measured against the exact
+ * distance for capsules of radius 0.05 touching a unit cube (450 shallow cases):
+ * MPR is off by more than 1 % of the radius in 10 % of them and by 41 % at worst
+ * whatever its tolerance; EPA is in 35 % of them at its usual tolerance 1e-4, in
+ * none at 1e-7, but then takes 2.3 us and allocates on every call, where the
+ * exact search over the hull's triangles takes 0.1 to 0.3 us. */
 #include "shape/ccd_adapter.h"
 
 #include <ccd/ccd.h>

@@ -36,7 +36,8 @@ void sw_triangle_nearest(const void *triangle, sw_vec a, sw_vec b, sw_closest *o
   for (int end = 0; end < 2; end++) {
     int part = SW_ON_FACE;
     const sw_vec p = end ? b : a;
-    offer(&found, p, sw_pair_triangle(tri, p, &part), end, part);
+    const sw_vec q = sw_pair_triangle(tri, p, &part);
+    offer(&found, p, q, end, part);
   }
   for (int k = 0; k < 3; k++) {
     const sw_vec side = sw_sub(tri->v[(k + 1) % 3], tri->v[k]);

@@ -71,6 +71,7 @@ static int narrow(const line *on, probe *left, probe *right, double reach) {
 /* The contact between two probes that close in on the minimum. */
 static void settle(const line *on, const probe *left, const probe *right, sw_closest *out) {
   const double opposed = 1e-6; /* mixed normal shorter than this: faces back to back [-] */
+  const double smooth = 1e-6;  /* squared difference of normals that is no kink [-] */
   const double rise = right->slope - left->slope;
   *out = left->c.gap <= right->c.gap ? left->c : right->c;
   if (!(rise > 0)) return;
@@ -78,7 +79,10 @@ static void settle(const line *on, const probe *left, const probe *right, sw_clo
   const sw_vec mixed = sw_lerp(right->c.normal, left->c.normal, share);
   if (!(sw_norm2(mixed) > opposed)) return;
   const sw_vec n = sw_unit_or(mixed, out->normal);
-  const double at = right->c.at + share * (left->c.at - right->c.at);
+  double at;
+  meet(left, right, &at); /* exact at a kink, however far apart the probes are */
+  if (sw_norm2(sw_sub(left->c.normal, right->c.normal)) < smooth)
+    at = right->c.at + share * (left->c.at - right->c.at);
   const sw_vec p = sw_madd(on->a, on->d, at);
   const double gap = sw_dot(n, sw_sub(p, on->shape->class->support(on->shape, n)));
   *out = (sw_closest){gap, at, n, sw_madd(p, n, -gap), out->feature};

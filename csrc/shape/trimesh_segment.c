@@ -87,17 +87,23 @@ static void insert(query *q, const sw_closest *c) {
   q->out[place] = *c;
 }
 
-static void offer(query *q, double at, sw_vec on_edge, sw_vec n, double gap, int feature) {
-  if (!(fabs(gap) < q->reach)) return;
-  const sw_closest c = {gap, at, n, on_edge, feature};
-  if (gap < 0) { /* cut by this edge, or only seen through the solid? */
-    sw_closest there;
-    if (!sw_trimesh_distance(q->mesh, sw_lerp(q->a, q->b, at), HUGE_VAL, &there)) return;
-    if (there.gap >= 0) return;
-  }
+/* Is the segment cut by this edge, or does it only see it through the solid?
+ * In a wedge the way out past the edge is at most 1 / sharpness times as long
+ * as the way out through the nearest face. */
+static int cut(const query *q, const sw_closest *c, double sharpness) {
+  const double slack = 1e-6; /* for rounding [-] */
+  sw_closest there;
+  const sw_vec p = sw_lerp(q->a, q->b, c->at);
+  if (!sw_trimesh_distance(q->mesh, p, HUGE_VAL, &there)) return 0;
+  return there.gap < 0 && c->gap * sharpness >= there.gap * (1 + slack);
+}
+
+static void offer(query *q, const sw_closest *c, double sharpness) {
+  if (!(fabs(c->gap) < q->reach)) return;
+  if (c->gap < 0 && !cut(q, c, sharpness)) return;
   look_at_ends(q);
-  if (sw_no_better(gap, q->gap_a, q->gap_b, at, q->length) || known(q, &c)) return;
-  insert(q, &c);
+  if (sw_no_better(c->gap, q->gap_a, q->gap_b, c->at, q->length) || known(q, c)) return;
+  insert(q, c);
 }
 
 static int in_edge_cone(const sw_trimesh_edge *edge, sw_vec n) {
@@ -107,7 +113,8 @@ static int in_edge_cone(const sw_trimesh_edge *edge, sw_vec n) {
 }
 
 static void try_edge(query *q, int number) {
-  const double parallel = 1e-6, ends = 1e-9; /* sine; slack in parts of the edge [-] */
+  const double parallel = 1e-6; /* sine of the angle taken as 0 [-] */
+  const double ends = 1e-9;     /* slack in parts of the edge [-] */
   const sw_trimesh_edge *edge = &q->mesh->edges[number];
   const sw_vec p = sw_trimesh_vertex(q->mesh, edge->v[0]);
   const sw_vec v = sw_sub(sw_trimesh_vertex(q->mesh, edge->v[1]), p);
@@ -116,13 +123,18 @@ static void try_edge(query *q, int number) {
   if (!(size2 > parallel * parallel * q->length * q->length * vv)) return;
   const double dd = q->length * q->length, dw = sw_dot(q->d, w), vw = sw_dot(v, w);
   const double at = (dv * vw - vv * dw) / size2, t = (dd * vw - dv * dw) / size2;
-  if (!(at > inside && at < 1 - inside && t >= -ends && t <= 1 + ends)) return;
+  if (!(at > inside && at < 1 - inside)) return;
   sw_vec n = sw_scale(across, 1 / sqrt(size2));
   double gap = sw_dot(n, w);
   if (edge->tri[1] < 0 ? gap < 0 : sw_dot(n, edge->normal) < 0) n = sw_neg(n), gap = -gap;
   if (!in_edge_cone(edge, n)) n = sw_neg(n), gap = -gap;
   if (!in_edge_cone(edge, n)) return;
-  offer(q, at, sw_madd(p, v, t), n, gap, sw_trimesh_edge_feature(q->mesh, number));
+  /* A cutting edge is the way out even when its end is passed by the depth. */
+  const double past = ends + (gap < 0 ? -2 * gap / sqrt(vv) : 0);
+  if (!(t >= -past && t <= 1 + past)) return;
+  const sw_closest c = {gap, at, n, sw_madd(p, v, t), sw_trimesh_edge_feature(q->mesh, number)};
+  /* The sine of half the angle between the faces, seen from inside. */
+  offer(q, &c, sqrt(fmax(0, (1 - sw_dot(edge->into[0], edge->into[1])) / 2)));
 }
 
 static int in_corner_cone(const sw_trimesh *mesh, int v, sw_vec n) {
@@ -139,6 +151,7 @@ static int in_corner_cone(const sw_trimesh *mesh, int v, sw_vec n) {
 
 static void try_corner(query *q, int v) {
   const double touching = 1e-11; /* part of the size in which w has no direction [-] */
+  const double sharpest = 0.25;  /* sine of the half angle of the sharpest corner seen to [-] */
   const sw_vec p = sw_trimesh_vertex(q->mesh, v);
   const double at = sw_dot(q->d, sw_sub(p, q->a)) / (q->length * q->length);
   if (!(at > inside && at < 1 - inside)) return;
@@ -150,7 +163,8 @@ static void try_corner(query *q, int v) {
   if (gap > touching * q->mesh->size) n = sw_scale(w, 1 / gap);
   if (!in_corner_cone(q->mesh, v, n)) n = sw_neg(n), gap = -gap;
   if (!in_corner_cone(q->mesh, v, n)) return;
-  offer(q, at, p, n, gap, sw_trimesh_corner_feature(q->mesh, v));
+  const sw_closest c = {gap, at, n, p, sw_trimesh_corner_feature(q->mesh, v)};
+  offer(q, &c, sharpest);
 }
 
 /* Try the edges and corners that this triangle speaks for. */
