@@ -12,6 +12,7 @@
 #include "base/vec.h"
 
 typedef struct sw_shape sw_shape;
+typedef struct sw_shape_class sw_shape_class;
 
 enum { SW_CLOSEST_MAX = 8 }; /* most contacts one segment can have with one shape [-] */
 
@@ -29,21 +30,62 @@ typedef struct sw_bounds {
   sw_vec min, max; /* corners; +-INFINITY for unbounded shapes [m] */
 } sw_bounds;
 
+/* What a shape is built from besides its rows: a hull's points, a mesh's file.
+ * Only read while the shape is made. */
+typedef struct sw_shape_source {
+  const double *points; /* n x 3 [m] */
+  size_t point_count;   /* n [-] */
+  const char *bytes;    /* content of a mesh file */
+  size_t byte_count;    /* its length [B] */
+} sw_shape_source;
+
+/* Kinds of shape. Names are NULL-terminated, in the order of list.def. */
+const char *const *sw_shape_kinds(void);
+const sw_shape_class *sw_shape_class_find(const char *kind);         /* NULL when unknown */
+const sw_params *sw_shape_class_params(const sw_shape_class *class); /* "obstacle box" */
+
+/* Room for any kind's argument struct: fill it by the kind's rows. */
+typedef union sw_shape_args {
+  double align;
+  char bytes[64];
+} sw_shape_args;
+
+/* Make a shape of the class from checked arguments; source may be NULL for
+ * kinds that need none. *out holds one reference, or NULL on failure. */
+sw_status sw_shape_new(const sw_shape_class *class, const sw_shape_args *args,
+                       const sw_shape_source *source, sw_shape **out, sw_error *err);
+
+/* Coordinates beyond SW_SHAPE_FAR and NaN are near nothing: the three queries
+ * return 0 for them. For all others every number they return is finite. */
+#define SW_SHAPE_FAR 1e100    /* [m] */
+#define SW_SHAPE_LARGEST 1e6  /* largest size of a shape [m] */
+
 /* The nearest surface place to the point p. Returns 1 and fills out when the
  * gap is below reach, else 0 (out is then undefined). */
 int sw_shape_point(const sw_shape *shape, sw_vec p, double reach, sw_closest *out);
 
-/* Nearest places to the segment a-b that lie strictly between its ends and are
- * nearer than both ends would be by interpolation (a segment lying flat on a
- * face has none): the contacts that points at the ends would miss. Fills up to
- * SW_CLOSEST_MAX with gap below reach and returns their number. */
+/* Contacts of the segment a-b strictly between its ends, which points at the
+ * ends would miss: local minima of the distance along it. A contact is dropped
+ * when its gap is not below the line between the two end gaps, so a segment
+ * lying flat on a face has none; one that bridges a flat face has one contact
+ * at each of the face's two edges, which fade into one another as it tilts.
+ * normal is perpendicular to the segment except for the second edge of such a
+ * bridge; for a segment cut by an edge, gap is minus the way out along normal.
+ * A mesh finds places with |gap| below reach, the others gap below reach.
+ * Fills up to SW_CLOSEST_MAX, nearest first, and returns their number. */
 int sw_shape_segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach,
                      sw_closest out[SW_CLOSEST_MAX]);
 
-/* A segment moving from (a0, b0) to (a1, b1), each end on a straight line, that
- * starts outside: does any of its points come closer than margin (>= 0) to the
- * surface on the way, having been further away? Returns 1, with the place at
- * the moment of first touch and that moment in [0, 1] in *when. */
+/* A segment moving from (a0, b0) to (a1, b1) in the time 0 to 1, each end on a
+ * straight line. With g(t) the smallest gap of all its points and
+ * level = min(margin, g(0)): is g(t) < level - tolerance at some t in (0, 1]?
+ * So one that starts further away than margin (>= 0) is reported when it comes
+ * as near as margin; one that starts nearer, when it gets deeper or crosses.
+ * Returns 1 with the place at the first such moment and the moment in *when.
+ * The tolerance is 1e-10 of the largest coordinate. A crossing is never missed;
+ * when the iterations run out (grazing), the moment reached is reported. For a
+ * mesh that the segment already pierces at the start, the pierced triangles
+ * are left out. */
 int sw_shape_sweep(const sw_shape *shape, sw_vec a0, sw_vec b0, sw_vec a1, sw_vec b1,
                    double margin, sw_closest *out, double *when);
 

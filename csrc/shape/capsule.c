@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* All places within radius of a segment on the z axis. */
+#include "shape/pairs.h"
+
+typedef struct capsule {
+  sw_shape base;
+  double radius; /* [m] */
+  double half;   /* half of the length between the centres [m] */
+} capsule;
+
+typedef struct capsule_args {
+  double radius, length;
+} capsule_args;
+
+static sw_status create(sw_shape *shape, const void *args, const sw_shape_source *source,
+                        sw_error *err) {
+  const capsule_args *given = args;
+  capsule *self = (capsule *)shape;
+  (void)source, (void)err;
+  self->radius = given->radius;
+  self->half = given->length / 2;
+  const double r = self->radius, z = self->half + r;
+  shape->bounds = (sw_bounds){{-r, -r, -z}, {r, r, z}};
+  return SW_OK;
+}
+
+/* Which part a place on the axis belongs to: side, top ball, bottom ball. */
+static inline int part_of(double z, double half) { return z >= half ? 1 : z <= -half ? 2 : 0; }
+
+static int distance(const sw_shape *shape, sw_vec p, double reach, sw_closest *out) {
+  const capsule *self = (const capsule *)shape;
+  const double z = sw_limit(p.z, -self->half, self->half);
+  const sw_vec w = sw_v(p.x, p.y, p.z - z);
+  const double r = sw_norm(w), gap = r - self->radius;
+  if (!(gap < reach)) return 0;
+  const sw_vec n = sw_unit_or(w, sw_v(1, 0, 0));
+  *out = (sw_closest){gap, 0, n, sw_madd(sw_v(0, 0, z), n, self->radius), part_of(z, self->half)};
+  return 1;
+}
+
+static sw_vec support(const sw_shape *shape, sw_vec n) {
+  const capsule *self = (const capsule *)shape;
+  return sw_madd(sw_v(0, 0, n.z >= 0 ? self->half : -self->half), n, self->radius);
+}
+
+/* The direction away from the axis for a segment that crosses it: across both,
+ * to the side where the segment's ends are. */
+static sw_vec across(sw_vec a, sw_vec b, sw_vec d) {
+  const sw_vec z = sw_v(0, 0, 1);
+  const sw_vec n = sw_unit_or(sw_cross(d, z), sw_perpendicular(sw_unit_or(d, z)));
+  return sw_dot(n, sw_add(a, b)) >= 0 ? n : sw_neg(n);
+}
+
+static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out) {
+  const capsule *self = (const capsule *)shape;
+  const sw_vec low = sw_v(0, 0, -self->half), axis = sw_v(0, 0, 2 * self->half);
+  const sw_vec d = sw_sub(b, a);
+  const double length = sw_norm(d), touching = 1e-12; /* part of the size taken as 0 [-] */
+  double at, t;
+  sw_pair_segments(a, d, low, axis, &at, &t);
+  if (!(at > 0 && at < 1)) return 0;
+  const sw_vec q = sw_madd(low, axis, t), w = sw_sub(sw_madd(a, d, at), q);
+  const double r = sw_norm(w), gap = r - self->radius;
+  if (!(gap < reach)) return 0;
+  sw_closest end;
+  distance(shape, a, INFINITY, &end);
+  const double gap_a = end.gap;
+  distance(shape, b, INFINITY, &end);
+  if (sw_no_better(gap, gap_a, end.gap, at, length)) return 0;
+  const sw_vec n = r > touching * (length + self->half) ? sw_scale(w, 1 / r) : across(a, b, d);
+  *out = (sw_closest){gap, at, n, sw_madd(q, n, self->radius), part_of(q.z, self->half)};
+  return 1;
+}
+
+static const sw_param rows[] = {
+    SW_LENGTH_ROW(capsule_args, radius, "distance of the surface from the axis"),
+    SW_LENGTH_ROW(capsule_args, length, "distance between the two ball centres, along z"),
+};
+
+const sw_shape_class sw_shape_class_capsule = {.kind = "capsule",
+                                               .params = SW_PARAMS("obstacle capsule", rows),
+                                               .args_size = sizeof(capsule_args),
+                                               .size = sizeof(capsule),
+                                               .create = create,
+                                               .distance = distance,
+                                               .support = support,
+                                               .segment = segment};

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Solid cylinder with flat ends, along z and centred: a rectangle in the half
+ * plane of (distance from the axis, z). */
+#include "shape/shape_class.h"
+
+typedef struct cylinder {
+  sw_shape base;
+  double radius; /* [m] */
+  double half;   /* half of the length [m] */
+} cylinder;
+
+typedef struct cylinder_args {
+  double radius, length;
+} cylinder_args;
+
+enum { SIDE, TOP, BOTTOM, TOP_RIM, BOTTOM_RIM };
+
+static sw_status create(sw_shape *shape, const void *args, const sw_shape_source *source,
+                        sw_error *err) {
+  const cylinder_args *given = args;
+  cylinder *self = (cylinder *)shape;
+  (void)source, (void)err;
+  self->radius = given->radius;
+  self->half = given->length / 2;
+  const double r = self->radius, z = self->half;
+  shape->bounds = (sw_bounds){{-r, -r, -z}, {r, r, z}};
+  return SW_OK;
+}
+
+static int distance(const sw_shape *shape, sw_vec p, double reach, sw_closest *out) {
+  const cylinder *self = (const cylinder *)shape;
+  const double r = sqrt(p.x * p.x + p.y * p.y);
+  const double side = r - self->radius, cap = fabs(p.z) - self->half;
+  const double gap = side > 0 && cap > 0 ? sqrt(side * side + cap * cap) : fmax(side, cap);
+  if (!(gap < reach)) return 0;
+  const sw_vec away = r > 0 ? sw_v(p.x / r, p.y / r, 0) : sw_v(1, 0, 0);
+  const double up = copysign(1, p.z);
+  sw_vec n = away;
+  int part = SIDE;
+  if (side > 0 && cap > 0 && gap > 0) {
+    n = sw_v(away.x * side / gap, away.y * side / gap, up * cap / gap);
+    part = up > 0 ? TOP_RIM : BOTTOM_RIM;
+  } else if (cap >= side) {
+    n = sw_v(0, 0, up);
+    part = up > 0 ? TOP : BOTTOM;
+  }
+  *out = (sw_closest){gap, 0, n, sw_madd(p, n, -gap), part};
+  return 1;
+}
+
+static sw_vec support(const sw_shape *shape, sw_vec n) {
+  const cylinder *self = (const cylinder *)shape;
+  const sw_vec away = sw_unit_or(sw_v(n.x, n.y, 0), sw_v(0, 0, 0));
+  return sw_v(self->radius * away.x, self->radius * away.y, copysign(self->half, n.z));
+}
+
+static const sw_param rows[] = {
+    SW_LENGTH_ROW(cylinder_args, radius, "radius of the round side"),
+    SW_LENGTH_ROW(cylinder_args, length, "distance between the flat ends, along z"),
+};
+
+const sw_shape_class sw_shape_class_cylinder = {.kind = "cylinder",
+                                                .params = SW_PARAMS("obstacle cylinder", rows),
+                                                .args_size = sizeof(cylinder_args),
+                                                .size = sizeof(cylinder),
+                                                .create = create,
+                                                .distance = distance,
+                                                .support = support,
+                                                .segment = sw_convex_segment};

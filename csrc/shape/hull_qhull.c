@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "shape/hull_qhull.h"
+
+#include <libqhull_r/libqhull_r.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+
+enum { MESSAGE_SIZE = 4096 }; /* of qhull's text, of which the first line is used [B] */
+
+static sw_vec centre_of(const double *points, size_t n) {
+  sw_vec sum = {0, 0, 0};
+  for (size_t i = 0; i < n; i++) sum = sw_madd(sum, sw_load(points + 3 * i), 1.0 / (double)n);
+  return sum;
+}
+
+/* The points around their centre with the largest coordinate 1: qhull's
+ * tolerances and ours do not depend on the units then. */
+static void to_unit(const double *points, size_t n, double *unit) {
+  const sw_vec centre = centre_of(points, n);
+  double largest = 0;
+  for (size_t i = 0; i < n; i++) {
+    const sw_vec p = sw_sub(sw_load(points + 3 * i), centre);
+    largest = fmax(largest, fmax(fabs(p.x), fmax(fabs(p.y), fabs(p.z))));
+  }
+  for (size_t i = 0; i < n && largest > 0; i++)
+    sw_store(unit + 3 * i, sw_scale(sw_sub(sw_load(points + 3 * i), centre), 1 / largest));
+}
+
+/* Point numbers of a triangular facet, counter-clockwise seen from outside. */
+static int facet_corners(qhT *qh, facetT *facet, const double *unit, int corner[3]) {
+  vertexT *vertex, **vertexp;
+  int k = 0;
+  FOREACHvertex_(facet->vertices) {
+    if (k == 3) return 0;
+    corner[k++] = qh_pointid(qh, vertex->point);
+  }
+  if (k != 3) return 0;
+  const sw_vec a = sw_load(unit + 3 * (size_t)corner[0]);
+  const sw_vec b = sw_load(unit + 3 * (size_t)corner[1]);
+  const sw_vec c = sw_load(unit + 3 * (size_t)corner[2]);
+  const sw_vec n = sw_cross(sw_sub(b, a), sw_sub(c, a));
+  if (sw_dot(n, sw_load(facet->normal)) < 0) {
+    const int kept = corner[1];
+    corner[1] = corner[2], corner[2] = kept;
+  }
+  return 1;
+}
+
+static sw_status collect(qhT *qh, const double *unit, int **indices, size_t *triangle_count) {
+  facetT *facet;
+  size_t count = 0, room = 0;
+  FORALLfacets room++;
+  *indices = sw_alloc(3 * room, sizeof **indices);
+  if (!*indices) return SW_ENOMEM;
+  FORALLfacets {
+    int corner[3];
+    if (!facet_corners(qh, facet, unit, corner)) continue;
+    memcpy(*indices + 3 * count, corner, sizeof corner);
+    count++;
+  }
+  *triangle_count = count;
+  return SW_OK;
+}
+
+static sw_status refused(const char *object, int code, char *message, sw_error *err) {
+  if (code == qh_ERRsingular || code == qh_ERRprec)
+    return sw_fail(err, SW_EINVAL,
+                   "%s: the points lie in one plane or on one line; a hull needs four that do not",
+                   object);
+  if (code == qh_ERRmem) return sw_fail(err, SW_ENOMEM, "%s: out of memory", object);
+  message[strcspn(message, "\n")] = '\0';
+  return sw_fail(err, SW_EINVAL, "%s: no hull could be made (%s)", object, message);
+}
+
+static sw_status run(const char *object, double *unit, size_t n, int **indices,
+                     size_t *triangle_count, sw_error *err) {
+  char message[MESSAGE_SIZE] = "", command[] = "qhull Qt";
+  qhT state, *qh = &state;
+  int left = 0, total = 0;
+  FILE *text = fmemopen(message, sizeof message, "w");
+  if (!text) return sw_fail(err, SW_ENOMEM, "%s: out of memory", object);
+  qh_zero(qh, text);
+  const int code = qh_new_qhull(qh, 3, (int)n, unit, 0, command, NULL, text);
+  fflush(text);
+  message[MESSAGE_SIZE - 1] = '\0';
+  const sw_status status =
+      code ? refused(object, code, message, err) : collect(qh, unit, indices, triangle_count);
+  qh_freeqhull(qh, !qh_ALL);
+  qh_memfreeshort(qh, &left, &total);
+  fclose(text);
+  if (status == SW_ENOMEM) sw_fail(err, status, "%s: out of memory", object);
+  return status;
+}
+
+sw_status sw_hull_triangles(const char *object, const double *points, size_t n, int **indices,
+                            size_t *triangle_count, sw_error *err) {
+  *indices = NULL;
+  *triangle_count = 0;
+  double *unit = sw_alloc(3 * n, sizeof *unit);
+  if (!unit) return sw_fail(err, SW_ENOMEM, "%s: out of memory", object);
+  to_unit(points, n, unit);
+  const sw_status status = run(object, unit, n, indices, triangle_count, err);
+  sw_free(unit);
+  return status;
+}

@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Triangle mesh. A closed one is solid inside; an open one is a sheet whose
+ * back counts as inside for places nearer to its triangles than to its border,
+ * and within its bounds or within reach. */
+#include "shape/mesh_assimp.h"
+
+#include "base/alloc.h"
+#include "shape/trimesh.h"
+
+typedef struct mesh {
+  sw_shape base;
+  sw_trimesh mesh;
+} mesh;
+
+typedef struct mesh_args {
+  int format;   /* index into formats */
+  double scale; /* [-] */
+} mesh_args;
+
+static const char object[] = "obstacle mesh";
+static const char *const formats[] = {"stl", "obj", "ply", "off", "glb", "gltf", NULL};
+
+static sw_status create(sw_shape *shape, const void *args, const sw_shape_source *source,
+                        sw_error *err) {
+  mesh *self = (mesh *)shape;
+  const mesh_args *given = args;
+  sw_mesh_data data;
+  if (!source->bytes || source->byte_count == 0)
+    return sw_fail(err, SW_EINVAL, "%s: data is empty", object);
+  SW_TRY(sw_mesh_read(object, source->bytes, source->byte_count, formats[given->format], &data,
+                      err));
+  for (size_t i = 0; i < 3 * data.vertex_count; i++) data.vertices[i] *= given->scale;
+  const sw_status status = sw_trimesh_build(&self->mesh, object, data.vertices, data.vertex_count,
+                                            data.indices, data.triangle_count, err);
+  sw_free(data.vertices), sw_free(data.indices);
+  shape->bounds = self->mesh.bounds;
+  return status;
+}
+
+static void destroy(sw_shape *shape) { sw_trimesh_free(&((mesh *)shape)->mesh); }
+
+static int distance(const sw_shape *shape, sw_vec p, double reach, sw_closest *out) {
+  return sw_trimesh_distance(&((const mesh *)shape)->mesh, p, reach, out);
+}
+
+static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out) {
+  return sw_trimesh_segment(&((const mesh *)shape)->mesh, a, b, reach, out);
+}
+
+static int sweep(const sw_shape *shape, const sw_sweep *path, sw_closest *out, double *when) {
+  return sw_trimesh_sweep(&((const mesh *)shape)->mesh, path, out, when);
+}
+
+static void triangles(const sw_shape *shape, const double **vertices, size_t *vertex_count,
+                      const int **indices, size_t *triangle_count) {
+  const sw_trimesh *self = &((const mesh *)shape)->mesh;
+  *vertices = self->vertices, *vertex_count = self->vertex_count;
+  *indices = self->indices, *triangle_count = self->triangle_count;
+}
+
+static const sw_param rows[] = {
+    {"data", SW_PARAM_OTHER, "-", NAN, -INFINITY, INFINITY, SW_PARAM_REQUIRED, NULL, 0,
+     "content of a mesh file, as meshfile.read gives it"},
+    {"format", SW_PARAM_CHOICE, "-", NAN, -INFINITY, INFINITY, SW_PARAM_REQUIRED, formats,
+     offsetof(mesh_args, format), "kind of file the data comes from"},
+    {"scale", SW_PARAM_NUMBER, "-", 1, 0, SW_SHAPE_LARGEST, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(mesh_args, scale), "metres per unit of the file, 0.001 for millimetres"},
+};
+
+const sw_shape_class sw_shape_class_mesh = {.kind = "mesh",
+                                            .params = SW_PARAMS(object, rows),
+                                            .args_size = sizeof(mesh_args),
+                                            .size = sizeof(mesh),
+                                            .create = create,
+                                            .destroy = destroy,
+                                            .distance = distance,
+                                            .segment = segment,
+                                            .sweep = sweep,
+                                            .triangles = triangles};

@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a kind of shape provides; only files of this room include it. */
+#ifndef SW_SHAPE_SHAPE_CLASS_H
+#define SW_SHAPE_SHAPE_CLASS_H
+
+#include "shape/shape.h"
+
+/* Every kind's struct starts with this. */
+struct sw_shape {
+  const sw_shape_class *class;
+  long references; /* [-] */
+  sw_bounds bounds;
+};
+
+/* A segment on the way from a0-b0 to a1-b1. */
+typedef struct sw_sweep {
+  sw_vec a0, b0, a1, b1; /* [m] */
+  double margin;         /* [m] */
+  double tolerance;      /* of all distances on the way [m] */
+} sw_sweep;
+
+struct sw_shape_class {
+  const char *kind;
+  sw_params params;
+  size_t args_size; /* of the struct the rows fill [B] */
+  size_t size;      /* of the kind's struct [B] */
+
+  /* Fill the zeroed struct, bounds included. On failure destroy is called. */
+  sw_status (*create)(sw_shape *shape, const void *args, const sw_shape_source *source,
+                      sw_error *err);
+  void (*destroy)(sw_shape *shape); /* frees what create took; NULL when nothing */
+
+  /* As sw_shape_point; exact, and reach may be INFINITY. */
+  int (*distance)(const sw_shape *shape, sw_vec p, double reach, sw_closest *out);
+  /* The furthest place along the unit vector n; NULL when not convex and bounded. */
+  sw_vec (*support)(const sw_shape *shape, sw_vec n);
+  /* As sw_shape_segment. */
+  int (*segment)(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out);
+  /* As sw_shape_sweep; NULL = sw_convex_sweep. */
+  int (*sweep)(const sw_shape *shape, const sw_sweep *path, sw_closest *out, double *when);
+  /* As sw_shape_triangles; NULL = none. */
+  void (*triangles)(const sw_shape *shape, const double **vertices, size_t *vertex_count,
+                    const int **indices, size_t *triangle_count);
+};
+
+#define X(name) extern const sw_shape_class sw_shape_class_##name;
+#include "shape/list.def"
+#undef X
+
+/* A row for a length that must be positive. */
+#define SW_LENGTH_ROW(struct_name, field, text)                                       \
+  {                                                                                   \
+    #field, SW_PARAM_NUMBER, "m", NAN, 0, SW_SHAPE_LARGEST,                           \
+        SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN, NULL, offsetof(struct_name, field), text \
+  }
+
+/* For convex kinds: the segment query by the minimum of the distance, which is
+ * convex along the segment. */
+int sw_convex_segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out);
+
+/* The nearest place of the whole segment, ends included. */
+void sw_convex_nearest(const sw_shape *shape, sw_vec a, sw_vec b, sw_closest *out);
+
+int sw_convex_sweep(const sw_shape *shape, const sw_sweep *path, sw_closest *out, double *when);
+
+/* The nearest place of the segment a-b to a convex thing; exact. */
+typedef void (*sw_nearest_function)(const void *thing, sw_vec a, sw_vec b, sw_closest *out);
+
+/* Move along the path until the gap to the convex thing, which is start at time
+ * 0, comes down to level + tolerance; 0 when that does not happen before limit. */
+int sw_sweep_advance(sw_nearest_function nearest, const void *thing, const sw_sweep *path,
+                     const sw_closest *start, double level, double limit, sw_closest *out,
+                     double *when);
+
+/* Is this gap at place `at` no better than the line between the end gaps says? */
+static inline int sw_no_better(double gap, double gap_a, double gap_b, double at, double length) {
+  const double flat = 1e-9; /* closer to the line than this part of the length is flat [-] */
+  return gap >= gap_a + at * (gap_b - gap_a) - flat * length;
+}
+
+static inline sw_bounds sw_bounds_of(sw_vec a, sw_vec b, double margin) {
+  return (sw_bounds){
+      {fmin(a.x, b.x) - margin, fmin(a.y, b.y) - margin, fmin(a.z, b.z) - margin},
+      {fmax(a.x, b.x) + margin, fmax(a.y, b.y) + margin, fmax(a.z, b.z) + margin}};
+}
+static inline int sw_bounds_meet(const sw_bounds *a, const sw_bounds *b) {
+  return a->min.x <= b->max.x && b->min.x <= a->max.x && a->min.y <= b->max.y &&
+         b->min.y <= a->max.y && a->min.z <= b->max.z && b->min.z <= a->max.z;
+}
+static inline double sw_limit(double x, double low, double high) {
+  return x < low ? low : x > high ? high : x;
+}
+
+#endif

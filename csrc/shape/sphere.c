@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Ball around the origin: gap = |p| - radius. */
+#include "shape/shape_class.h"
+
+typedef struct sphere {
+  sw_shape base;
+  double radius; /* [m] */
+} sphere;
+
+typedef struct sphere_args {
+  double radius;
+} sphere_args;
+
+static sw_status create(sw_shape *shape, const void *args, const sw_shape_source *source,
+                        sw_error *err) {
+  const double r = ((const sphere_args *)args)->radius;
+  (void)source, (void)err;
+  ((sphere *)shape)->radius = r;
+  shape->bounds = (sw_bounds){{-r, -r, -r}, {r, r, r}};
+  return SW_OK;
+}
+
+static inline int place(double radius, sw_vec p, sw_vec fallback, double at, double reach,
+                        sw_closest *out) {
+  const double gap = sw_norm(p) - radius;
+  if (!(gap < reach)) return 0;
+  const sw_vec n = sw_unit_or(p, fallback);
+  *out = (sw_closest){gap, at, n, sw_scale(n, radius), 0};
+  return 1;
+}
+
+static int distance(const sw_shape *shape, sw_vec p, double reach, sw_closest *out) {
+  return place(((const sphere *)shape)->radius, p, sw_v(0, 0, 1), 0, reach, out);
+}
+
+static sw_vec support(const sw_shape *shape, sw_vec n) {
+  return sw_scale(n, ((const sphere *)shape)->radius);
+}
+
+static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out) {
+  const double radius = ((const sphere *)shape)->radius;
+  const sw_vec d = sw_sub(b, a);
+  const double length2 = sw_norm2(d);
+  const double at = -sw_dot(a, d) / length2;
+  if (!(at > 0 && at < 1)) return 0;
+  const sw_vec across = sw_perpendicular(sw_unit_or(d, sw_v(0, 0, 1)));
+  if (!place(radius, sw_lerp(a, b, at), across, at, reach, out)) return 0;
+  return !sw_no_better(out->gap, sw_norm(a) - radius, sw_norm(b) - radius, at, sqrt(length2));
+}
+
+static const sw_param rows[] = {
+    SW_LENGTH_ROW(sphere_args, radius, "radius of the ball"),
+};
+
+const sw_shape_class sw_shape_class_sphere = {.kind = "sphere",
+                                              .params = SW_PARAMS("obstacle sphere", rows),
+                                              .args_size = sizeof(sphere_args),
+                                              .size = sizeof(sphere),
+                                              .create = create,
+                                              .distance = distance,
+                                              .support = support,
+                                              .segment = segment};

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* When a moving segment first comes near a convex thing, by conservative
+ * advancement: from the gap now follows a time before which nothing can happen;
+ * go there, look again. Two such times are known and the later one is taken:
+ * no point moves faster than the faster end, and the thing stays behind the
+ * plane through its nearest place, which the segment cannot reach before one of
+ * its ends does. */
+#include "shape/shape_class.h"
+
+/* Time at which an end, now at p and moving by v per unit of time, gets within
+ * level of the plane. */
+static double end_arrival(double now, sw_vec p, sw_vec v, sw_vec normal, double plane,
+                          double level) {
+  const double speed = -sw_dot(normal, v);
+  if (!(speed > 0)) return INFINITY;
+  return now + (sw_dot(normal, p) - plane - level) / speed;
+}
+
+int sw_sweep_advance(sw_nearest_function nearest, const void *thing, const sw_sweep *path,
+                     const sw_closest *start, double level, double limit, sw_closest *out,
+                     double *when) {
+  const int most = 300; /* looks before a graze is called a touch [-] */
+  const sw_vec va = sw_sub(path->a1, path->a0), vb = sw_sub(path->b1, path->b0);
+  const double speed = fmax(sw_norm(va), sw_norm(vb));
+  sw_vec a = path->a0, b = path->b0;
+  double now = 0;
+  *out = *start;
+  for (int look = 0; look < most && out->gap - level > path->tolerance; look++) {
+    const sw_vec p = sw_lerp(a, b, out->at);
+    const double plane = sw_dot(out->normal, p) - out->gap;
+    const double fastest = now + (out->gap - level) / speed;
+    const double first = fmin(end_arrival(now, a, va, out->normal, plane, level),
+                              end_arrival(now, b, vb, out->normal, plane, level));
+    now = fmax(fastest, first);
+    if (!(now < limit)) return 0;
+    a = sw_madd(path->a0, va, now), b = sw_madd(path->b0, vb, now);
+    nearest(thing, a, b, out);
+  }
+  *when = now;
+  return 1;
+}
+
+static void shape_nearest(const void *thing, sw_vec a, sw_vec b, sw_closest *out) {
+  sw_convex_nearest(thing, a, b, out);
+}
+
+int sw_convex_sweep(const sw_shape *shape, const sw_sweep *path, sw_closest *out, double *when) {
+  const double end = 1 + 1e-12; /* the last moment still counts */
+  sw_closest start;
+  sw_convex_nearest(shape, path->a0, path->b0, &start);
+  const double level = fmin(path->margin, start.gap) - 2 * path->tolerance;
+  if (!sw_sweep_advance(shape_nearest, shape, path, &start, level, end, out, when)) return 0;
+  *when = fmin(*when, 1);
+  return 1;
+}

@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Edges and corners of a mesh: which triangles meet there, the normals that
+ * tell inside from outside (the sum over the faces, at corners weighted by
+ * their angle), and which of them stick out. */
+#include <stdlib.h>
+
+#include "base/alloc.h"
+#include "shape/trimesh.h"
+
+typedef struct half_edge {
+  int low, high; /* vertices */
+  int tri, side; /* whose side it is */
+} half_edge;
+
+static int compare(const void *one, const void *two) {
+  const half_edge *a = one, *b = two;
+  if (a->low != b->low) return a->low < b->low ? -1 : 1;
+  if (a->high != b->high) return a->high < b->high ? -1 : 1;
+  if (a->tri != b->tri) return a->tri < b->tri ? -1 : 1;
+  return (a->side > b->side) - (a->side < b->side);
+}
+
+static void list_sides(const sw_trimesh *mesh, half_edge *halves) {
+  for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
+    const size_t tri = i / 3, k = i % 3;
+    const int from = mesh->indices[i], to = mesh->indices[3 * tri + (k + 1) % 3];
+    halves[i] = (half_edge){from < to ? from : to, from < to ? to : from, (int)tri, (int)k};
+  }
+  qsort(halves, 3 * mesh->triangle_count, sizeof *halves, compare);
+}
+
+/* Across the edge from v into the triangle whose side it is. */
+static sw_vec into_triangle(const sw_trimesh *mesh, int tri, int side) {
+  const sw_triangle t = sw_trimesh_triangle(mesh, tri);
+  const sw_vec along = sw_sub(t.v[(side + 1) % 3], t.v[side]);
+  return sw_unit_or(sw_cross(t.n, along), sw_perpendicular(t.n));
+}
+
+static int runs_up(const sw_trimesh *mesh, const half_edge *h) {
+  return mesh->indices[3 * (size_t)h->tri + (size_t)h->side] == h->low;
+}
+
+/* One edge from the count sides that lie on it. Returns 1 when two triangles
+ * run along it in the same direction. */
+static int make_edge(sw_trimesh *mesh, const half_edge *h, int count) {
+  const double bent = 1e-6; /* sine of the angle below which faces are level [-] */
+  const int number = (int)mesh->edge_count++;
+  sw_trimesh_edge *edge = &mesh->edges[number];
+  *edge = (sw_trimesh_edge){.v = {h->low, h->high}, .tri = {h[0].tri, -1}};
+  sw_vec sum = {0, 0, 0};
+  for (int i = 0; i < count; i++) {
+    sum = sw_add(sum, sw_load(mesh->normals + 3 * (size_t)h[i].tri));
+    mesh->sides[3 * (size_t)h[i].tri + (size_t)h[i].side] = number;
+    if (i < 2) edge->into[i] = into_triangle(mesh, h[i].tri, h[i].side);
+  }
+  const sw_vec first = sw_load(mesh->normals + 3 * (size_t)h->tri);
+  edge->normal = sw_unit_or(sum, first);
+  edge->sine = 1;
+  edge->flags = SW_CONVEX | SW_RIM;
+  if (count == 1) return 0;
+  const sw_vec second = sw_load(mesh->normals + 3 * (size_t)h[1].tri);
+  edge->tri[1] = h[1].tri;
+  edge->sine = fmin(1, sw_norm(sw_cross(first, second)));
+  if (sw_dot(first, second) < 0) edge->sine = 1;
+  edge->flags = count > 2 || sw_dot(edge->into[1], first) < -bent ? SW_CONVEX : 0;
+  return count == 2 && runs_up(mesh, &h[0]) == runs_up(mesh, &h[1]);
+}
+
+static size_t make_edges(sw_trimesh *mesh, const half_edge *halves) {
+  const size_t all = 3 * mesh->triangle_count;
+  size_t twisted = 0;
+  for (size_t i = 0, next; i < all; i = next) {
+    for (next = i + 1; next < all && halves[next].low == halves[i].low &&
+                       halves[next].high == halves[i].high;)
+      next++;
+    twisted += (size_t)make_edge(mesh, halves + i, (int)(next - i));
+  }
+  return twisted;
+}
+
+static void add_corner_normals(sw_trimesh *mesh) {
+  for (size_t v = 0; v < mesh->vertex_count; v++) mesh->corners[v].owner = -1;
+  for (size_t tri = 0; tri < mesh->triangle_count; tri++) {
+    const sw_triangle t = sw_trimesh_triangle(mesh, (int)tri);
+    for (int k = 0; k < 3; k++) {
+      sw_trimesh_corner *corner = &mesh->corners[mesh->indices[3 * tri + (size_t)k]];
+      const sw_vec one = sw_unit_or(sw_sub(t.v[(k + 1) % 3], t.v[k]), t.n);
+      const sw_vec two = sw_unit_or(sw_sub(t.v[(k + 2) % 3], t.v[k]), t.n);
+      const double angle = atan2(sw_norm(sw_cross(one, two)), sw_dot(one, two));
+      corner->normal = sw_madd(corner->normal, t.n, angle);
+      corner->into = sw_add(corner->into, sw_unit_or(sw_add(one, two), one));
+      if (corner->owner < 0) corner->owner = (int)tri;
+    }
+  }
+}
+
+/* The edges at every corner, one list after the other. */
+static void list_corner_edges(sw_trimesh *mesh) {
+  for (size_t e = 0; e < mesh->edge_count; e++)
+    for (int k = 0; k < 2; k++) mesh->corners[mesh->edges[e].v[k]].count++;
+  int first = 0;
+  for (size_t v = 0; v < mesh->vertex_count; v++) {
+    mesh->corners[v].first = first;
+    first += mesh->corners[v].count;
+    mesh->corners[v].count = 0;
+  }
+  for (size_t e = 0; e < mesh->edge_count; e++)
+    for (int k = 0; k < 2; k++) {
+      sw_trimesh_corner *corner = &mesh->corners[mesh->edges[e].v[k]];
+      mesh->corner_edges[corner->first + corner->count++] = (int)e;
+    }
+}
+
+/* A corner sticks out when all its edges fall away from its normal. */
+static void finish_corner(sw_trimesh *mesh, int v) {
+  const double bent = 1e-6; /* sine of the slope below which an edge is level [-] */
+  sw_trimesh_corner *corner = &mesh->corners[v];
+  const sw_vec fallback = corner->owner < 0
+                              ? sw_v(0, 0, 1)
+                              : sw_load(mesh->normals + 3 * (size_t)corner->owner);
+  corner->normal = sw_unit_or(corner->normal, fallback);
+  corner->into = sw_unit_or(corner->into, sw_perpendicular(corner->normal));
+  corner->flags = corner->count > 0 ? SW_CONVEX : 0;
+  for (int i = 0; i < corner->count; i++) {
+    const sw_trimesh_edge *edge = &mesh->edges[mesh->corner_edges[corner->first + i]];
+    const int other = edge->v[0] == v ? edge->v[1] : edge->v[0];
+    const sw_vec along = sw_sub(sw_trimesh_vertex(mesh, other), sw_trimesh_vertex(mesh, v));
+    if (edge->flags & SW_RIM) corner->flags |= SW_RIM;
+    const sw_vec out = corner->flags & SW_RIM ? sw_neg(corner->into) : corner->normal;
+    if (sw_dot(along, out) > -bent * sw_norm(along)) corner->flags &= ~SW_CONVEX;
+  }
+}
+
+sw_status sw_trimesh_topology(sw_trimesh *mesh, const char *object, sw_error *err) {
+  const size_t sides = 3 * mesh->triangle_count;
+  half_edge *halves = sw_alloc(sides, sizeof *halves);
+  mesh->sides = sw_alloc(sides, sizeof *mesh->sides);
+  mesh->edges = sw_alloc(sides, sizeof *mesh->edges);
+  mesh->corner_edges = sw_alloc(2 * sides, sizeof *mesh->corner_edges);
+  mesh->corners = sw_alloc(mesh->vertex_count, sizeof *mesh->corners);
+  size_t twisted = 0;
+  const int fine = halves && mesh->sides && mesh->edges && mesh->corner_edges && mesh->corners;
+  if (fine) {
+    list_sides(mesh, halves);
+    twisted = make_edges(mesh, halves);
+    add_corner_normals(mesh);
+    list_corner_edges(mesh);
+    for (size_t v = 0; v < mesh->vertex_count; v++) finish_corner(mesh, (int)v);
+  }
+  sw_free(halves);
+  if (!fine) return SW_ENOMEM;
+  if (twisted > 0)
+    return sw_fail(err, SW_EINVAL,
+                   "%s: at %zu of %zu edges the two triangles face opposite ways; give all "
+                   "triangles the same winding",
+                   object, twisted, mesh->edge_count);
+  return SW_OK;
+}

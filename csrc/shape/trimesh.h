@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A triangle surface with what exact signed queries need: neighbours, normals
+ * of faces, edges and corners, and a tree of bounding boxes. Flat arrays, built
+ * once; queries allocate nothing. Meshes and hulls share it. */
+#ifndef SW_SHAPE_TRIMESH_H
+#define SW_SHAPE_TRIMESH_H
+
+#include "shape/pairs.h"
+
+enum {
+  SW_TRIMESH_MOST = 1 << 24, /* most triangles or vertices [-] */
+  SW_TREE_LEAF = 4,          /* most triangles in a leaf [-] */
+  SW_TREE_DEPTH = 64         /* more than any tree's depth [-] */
+};
+
+typedef struct sw_tree_node {
+  sw_bounds bounds;
+  int first; /* leaf: first triangle; else the right child (the left one follows) */
+  int count; /* triangles of a leaf; 0 for an inner node */
+} sw_tree_node;
+
+/* Kinds of edges and corners, as flags. */
+enum {
+  SW_CONVEX = 1, /* sticks out: may touch a segment's inside */
+  SW_RIM = 2     /* on the border of an open surface */
+};
+
+typedef struct sw_trimesh_edge {
+  int v[2];      /* vertices, the smaller number first */
+  int tri[2];    /* triangles on it; the second is -1 on a border */
+  int flags;
+  double sine;   /* of the angle between its faces [-] */
+  sw_vec normal; /* unit mean of its faces' normals [-] */
+  sw_vec into[2]; /* unit vectors across the edge into both faces [-] */
+} sw_trimesh_edge;
+
+typedef struct sw_trimesh_corner {
+  sw_vec normal; /* mean of the face normals, weighted by angle [-] */
+  sw_vec into;   /* unit mean direction into the surface [-] */
+  int owner;     /* the triangle that speaks for it */
+  int flags;
+  int first;     /* its edges start here in corner_edges */
+  int count;
+} sw_trimesh_corner;
+
+typedef struct sw_trimesh {
+  size_t vertex_count, triangle_count, edge_count, node_count;
+  double *vertices;            /* vertex_count x 3 [m] */
+  int *indices;                /* triangle_count x 3, in the order of the tree's leaves */
+  int *sides;                  /* triangle_count x 3: the edge from corner k to k + 1 */
+  double *normals;             /* triangle_count x 3, unit [-] */
+  sw_trimesh_edge *edges;      /* edge_count */
+  sw_trimesh_corner *corners;  /* vertex_count */
+  int *corner_edges;           /* 2 x edge_count */
+  sw_tree_node *nodes;         /* node_count, the root first */
+  sw_bounds bounds;
+  double size; /* largest extent [m] */
+} sw_trimesh;
+
+/* Take over cleaned copies of the triangles: vertices that coincide are joined,
+ * triangles without area dropped. object is for error texts. */
+sw_status sw_trimesh_build(sw_trimesh *mesh, const char *object, const double *vertices,
+                           size_t vertex_count, const int *indices, size_t triangle_count,
+                           sw_error *err);
+void sw_trimesh_free(sw_trimesh *mesh);
+
+/* Parts of the build, one per file. */
+sw_status sw_trimesh_clean(sw_trimesh *mesh, const char *object, const double *vertices,
+                           size_t vertex_count, const int *indices, size_t triangle_count,
+                           sw_error *err);
+sw_status sw_trimesh_tree(sw_trimesh *mesh);
+sw_status sw_trimesh_topology(sw_trimesh *mesh, const char *object, sw_error *err);
+
+/* Call visit for every triangle in leaves whose box the segment a-b, widened by
+ * reach on all sides, meets. */
+typedef void (*sw_trimesh_visit)(void *context, int tri);
+void sw_trimesh_near(const sw_trimesh *mesh, sw_vec a, sw_vec b, double reach,
+                     sw_trimesh_visit visit, void *context);
+
+/* The queries of shape.h. */
+int sw_trimesh_distance(const sw_trimesh *mesh, sw_vec p, double reach, sw_closest *out);
+int sw_trimesh_segment(const sw_trimesh *mesh, sw_vec a, sw_vec b, double reach, sw_closest *out);
+int sw_trimesh_sweep(const sw_trimesh *mesh, const sw_sweep *path, sw_closest *out, double *when);
+
+/* Features are numbered triangles first, then edges, then corners. */
+static inline int sw_trimesh_edge_feature(const sw_trimesh *mesh, int edge) {
+  return (int)mesh->triangle_count + edge;
+}
+static inline int sw_trimesh_corner_feature(const sw_trimesh *mesh, int corner) {
+  return (int)(mesh->triangle_count + mesh->edge_count) + corner;
+}
+static inline sw_vec sw_trimesh_vertex(const sw_trimesh *mesh, int v) {
+  return sw_load(mesh->vertices + 3 * (size_t)v);
+}
+static inline sw_triangle sw_trimesh_triangle(const sw_trimesh *mesh, int tri) {
+  const int *at = mesh->indices + 3 * (size_t)tri;
+  return (sw_triangle){{sw_trimesh_vertex(mesh, at[0]), sw_trimesh_vertex(mesh, at[1]),
+                        sw_trimesh_vertex(mesh, at[2])},
+                       sw_load(mesh->normals + 3 * (size_t)tri)};
+}
+
+#endif

@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Contacts of a segment's inside with the convex edges and corners of a mesh:
+ * pairs of nearest places whose direction lies in the edge's or corner's cone of
+ * normals, i.e. points away from everything that meets there. */
+#include "shape/trimesh.h"
+
+typedef struct query {
+  const sw_trimesh *mesh;
+  sw_vec a, b, d; /* [m] */
+  double length, reach;
+  int have_ends;
+  double gap_a, gap_b; /* [m] */
+  int count;
+  sw_closest *out;
+} query;
+
+/* Tilt out of the cone, in parts of the angle between the faces, up to which an
+ * edge still counts: the two edges of a bridged face hand over smoothly [-] */
+static const double hand_over = 0.05;
+/* The same for corners, as a cosine [-] */
+static const double corner_slack = 1e-6;
+/* Places nearer to the segment's ends than this are the ends' business [-] */
+static const double inside = 1e-9;
+
+/* --- which triangles ------------------------------------------------------ */
+
+/* Shorten [*from, *to] to where x + t d is in [low, high]. */
+static inline void slab(double x, double d, double low, double high, double *from, double *to) {
+  if (d == 0) {
+    if (x < low || x > high) *to = -1;
+    return;
+  }
+  const double one = (low - x) / d, two = (high - x) / d;
+  *from = fmax(*from, fmin(one, two));
+  *to = fmin(*to, fmax(one, two));
+}
+
+static int passes(const sw_bounds *box, sw_vec a, sw_vec d, double reach) {
+  double from = 0, to = 1;
+  slab(a.x, d.x, box->min.x - reach, box->max.x + reach, &from, &to);
+  slab(a.y, d.y, box->min.y - reach, box->max.y + reach, &from, &to);
+  slab(a.z, d.z, box->min.z - reach, box->max.z + reach, &from, &to);
+  return from <= to;
+}
+
+void sw_trimesh_near(const sw_trimesh *mesh, sw_vec a, sw_vec b, double reach,
+                     sw_trimesh_visit visit, void *context) {
+  int stack[SW_TREE_DEPTH], top = 0;
+  const sw_vec d = sw_sub(b, a);
+  stack[top++] = 0;
+  while (top > 0) {
+    const int number = stack[--top];
+    const sw_tree_node *node = &mesh->nodes[number];
+    if (!passes(&node->bounds, a, d, reach)) continue;
+    for (int i = 0; i < node->count; i++) visit(context, node->first + i);
+    if (node->count > 0) continue;
+    stack[top++] = node->first;
+    stack[top++] = number + 1;
+  }
+}
+
+/* --- collecting contacts -------------------------------------------------- */
+
+/* The gaps at the segment's ends, looked up when first needed. */
+static void look_at_ends(query *q) {
+  sw_closest end;
+  if (q->have_ends) return;
+  q->have_ends = 1;
+  q->gap_a = sw_trimesh_distance(q->mesh, q->a, HUGE_VAL, &end) ? end.gap : HUGE_VAL;
+  q->gap_b = sw_trimesh_distance(q->mesh, q->b, HUGE_VAL, &end) ? end.gap : HUGE_VAL;
+}
+
+static int known(const query *q, const sw_closest *c) {
+  const double same_place = 1e-6, same_way = 1e-6; /* of the length; of the cosine [-] */
+  for (int i = 0; i < q->count; i++)
+    if (fabs(q->out[i].at - c->at) < same_place &&
+        sw_dot(q->out[i].normal, c->normal) > 1 - same_way)
+      return 1;
+  return 0;
+}
+
+/* Keep the SW_CLOSEST_MAX nearest, in order. */
+static void insert(query *q, const sw_closest *c) {
+  if (q->count == SW_CLOSEST_MAX && q->out[SW_CLOSEST_MAX - 1].gap <= c->gap) return;
+  int place = q->count < SW_CLOSEST_MAX ? q->count++ : SW_CLOSEST_MAX - 1;
+  for (; place > 0 && q->out[place - 1].gap > c->gap; place--) q->out[place] = q->out[place - 1];
+  q->out[place] = *c;
+}
+
+/* Is the segment cut by this edge, or does it only see it through the solid?
+ * In a wedge the way out past the edge is at most 1 / sharpness times as long
+ * as the way out through the nearest face. */
+static int cut(const query *q, const sw_closest *c, double sharpness) {
+  const double slack = 1e-6; /* for rounding [-] */
+  sw_closest there;
+  const sw_vec p = sw_lerp(q->a, q->b, c->at);
+  if (!sw_trimesh_distance(q->mesh, p, HUGE_VAL, &there)) return 0;
+  return there.gap < 0 && c->gap * sharpness >= there.gap * (1 + slack);
+}
+
+static void offer(query *q, const sw_closest *c, double sharpness) {
+  if (!(fabs(c->gap) < q->reach)) return;
+  if (c->gap < 0 && !cut(q, c, sharpness)) return;
+  look_at_ends(q);
+  if (sw_no_better(c->gap, q->gap_a, q->gap_b, c->at, q->length) || known(q, c)) return;
+  insert(q, c);
+}
+
+static int in_edge_cone(const sw_trimesh_edge *edge, sw_vec n) {
+  const double slack = hand_over * edge->sine;
+  if (sw_dot(n, edge->into[0]) > slack) return 0;
+  return edge->tri[1] < 0 || sw_dot(n, edge->into[1]) <= slack;
+}
+
+static void try_edge(query *q, int number) {
+  const double parallel = 1e-6; /* sine of the angle taken as 0 [-] */
+  const double ends = 1e-9;     /* slack in parts of the edge [-] */
+  const sw_trimesh_edge *edge = &q->mesh->edges[number];
+  const sw_vec p = sw_trimesh_vertex(q->mesh, edge->v[0]);
+  const sw_vec v = sw_sub(sw_trimesh_vertex(q->mesh, edge->v[1]), p);
+  const sw_vec across = sw_cross(q->d, v), w = sw_sub(q->a, p);
+  const double size2 = sw_norm2(across), vv = sw_norm2(v), dv = sw_dot(q->d, v);
+  if (!(size2 > parallel * parallel * q->length * q->length * vv)) return;
+  const double dd = q->length * q->length, dw = sw_dot(q->d, w), vw = sw_dot(v, w);
+  const double at = (dv * vw - vv * dw) / size2, t = (dd * vw - dv * dw) / size2;
+  if (!(at > inside && at < 1 - inside)) return;
+  sw_vec n = sw_scale(across, 1 / sqrt(size2));
+  double gap = sw_dot(n, w);
+  if (edge->tri[1] < 0 ? gap < 0 : sw_dot(n, edge->normal) < 0) n = sw_neg(n), gap = -gap;
+  if (!in_edge_cone(edge, n)) n = sw_neg(n), gap = -gap;
+  if (!in_edge_cone(edge, n)) return;
+  /* A cutting edge is the way out even when its end is passed by the depth. */
+  const double past = ends + (gap < 0 ? -2 * gap / sqrt(vv) : 0);
+  if (!(t >= -past && t <= 1 + past)) return;
+  const sw_closest c = {gap, at, n, sw_madd(p, v, t), sw_trimesh_edge_feature(q->mesh, number)};
+  /* The sine of half the angle between the faces, seen from inside. */
+  offer(q, &c, sqrt(fmax(0, (1 - sw_dot(edge->into[0], edge->into[1])) / 2)));
+}
+
+static int in_corner_cone(const sw_trimesh *mesh, int v, sw_vec n) {
+  const sw_trimesh_corner *corner = &mesh->corners[v];
+  const sw_vec p = sw_trimesh_vertex(mesh, v);
+  for (int i = 0; i < corner->count; i++) {
+    const sw_trimesh_edge *edge = &mesh->edges[mesh->corner_edges[corner->first + i]];
+    const int other = edge->v[0] == v ? edge->v[1] : edge->v[0];
+    const sw_vec along = sw_sub(sw_trimesh_vertex(mesh, other), p);
+    if (sw_dot(n, along) > corner_slack * sw_norm(along)) return 0;
+  }
+  return 1;
+}
+
+static void try_corner(query *q, int v) {
+  const double touching = 1e-11; /* part of the size in which w has no direction [-] */
+  const double sharpest = 0.25;  /* sine of the half angle of the sharpest corner seen to [-] */
+  const sw_vec p = sw_trimesh_vertex(q->mesh, v);
+  const double at = sw_dot(q->d, sw_sub(p, q->a)) / (q->length * q->length);
+  if (!(at > inside && at < 1 - inside)) return;
+  const sw_vec w = sw_sub(sw_madd(q->a, q->d, at), p);
+  double gap = sw_norm(w);
+  if (!(gap < q->reach)) return;
+  const sw_vec along = sw_scale(q->d, 1 / q->length), up = q->mesh->corners[v].normal;
+  sw_vec n = sw_unit_or(sw_madd(up, along, -sw_dot(up, along)), sw_perpendicular(along));
+  if (gap > touching * q->mesh->size) n = sw_scale(w, 1 / gap);
+  if (!in_corner_cone(q->mesh, v, n)) n = sw_neg(n), gap = -gap;
+  if (!in_corner_cone(q->mesh, v, n)) return;
+  const sw_closest c = {gap, at, n, p, sw_trimesh_corner_feature(q->mesh, v)};
+  offer(q, &c, sharpest);
+}
+
+/* Try the edges and corners that this triangle speaks for. */
+static void try_triangle(void *context, int tri) {
+  query *q = context;
+  const sw_trimesh *mesh = q->mesh;
+  for (size_t i = 3 * (size_t)tri; i < 3 * (size_t)tri + 3; i++) {
+    const int edge = mesh->sides[i], v = mesh->indices[i];
+    if (mesh->edges[edge].tri[0] == tri && (mesh->edges[edge].flags & SW_CONVEX))
+      try_edge(q, edge);
+    if (mesh->corners[v].owner == tri && (mesh->corners[v].flags & SW_CONVEX)) try_corner(q, v);
+  }
+}
+
+int sw_trimesh_segment(const sw_trimesh *mesh, sw_vec a, sw_vec b, double reach, sw_closest *out) {
+  const sw_vec d = sw_sub(b, a);
+  const double length = sw_norm(d);
+  if (!(reach > 0) || !(length > 0)) return 0;
+  query q = {mesh, a, b, d, length, reach, 0, 0, 0, 0, out};
+  sw_trimesh_near(mesh, a, b, reach, try_triangle, &q);
+  return q.count;
+}
