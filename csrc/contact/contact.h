@@ -31,10 +31,15 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count,
                          sw_contact_place place, void *user, sw_contact **out);
 void sw_contact_free(sw_contact *contact);
 
+/* How the coming steps are computed: decides the normal stiffness. */
+typedef enum sw_contact_regime { SW_CONTACT_STATIC, SW_CONTACT_IMPLICIT, SW_CONTACT_EXPLICIT }
+    sw_contact_regime;
+
 /* A step of size h from time t begins at the system's state: candidates. nominal
- * is the run's full step, from which the stiffness is derived; 0 in statics. */
-sw_status sw_contact_begin_step(sw_contact *contact, sw_system *system, double t, double h,
-                                double nominal, sw_error *err);
+ * is the run's full step, from which the stiffness is derived; unused in
+ * statics. */
+sw_status sw_contact_begin_step(sw_contact *contact, sw_system *system, sw_contact_regime regime,
+                                double t, double h, double nominal, sw_error *err);
 
 /* The system's coupling functions (see sw_coupling), user = the contact. */
 sw_status sw_contact_begin_stage(void *contact, sw_system *system, double time, double hbar,

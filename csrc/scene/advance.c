@@ -93,7 +93,10 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
   if (!s->contact) return trial(p, h, err);
   memcpy(p->v_start, s->system.v, 3 * s->system.nodes * sizeof(double));
   sw_status status =
-      sw_contact_begin_step(s->contact, &s->system, s->time, h, p->args->dt, err);
+      sw_contact_begin_step(s->contact, &s->system,
+                            s->method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT
+                                                                      : SW_CONTACT_EXPLICIT,
+                            s->time, h, p->args->dt, err);
   for (int redo = 0; status == SW_OK && redo < MOST_REDOS; redo++) {
     status = trial(p, h, err);
     if (status != SW_OK) break;

@@ -45,7 +45,9 @@ static sw_status solve(statics *p, double hbar, const sw_newton *newton, sw_erro
   memcpy(p->from, s->system.x, 3 * s->system.nodes * sizeof(double));
   memcpy(p->tension, s->system.tension, s->system.edges * sizeof(double));
   sw_status status = SW_OK;
-  if (s->contact) status = sw_contact_begin_step(s->contact, &s->system, s->time, 0, 0, err);
+  if (s->contact)
+    status =
+      sw_contact_begin_step(s->contact, &s->system, SW_CONTACT_STATIC, s->time, 0, 0, err);
   if (status == SW_OK) status = sw_system_stage(&s->system, &stage, newton, &r, err);
   p->report->iterations += (size_t)r.iterations;
   p->report->negative = r.negative;

@@ -25,10 +25,9 @@ typedef struct sw_log {
 
 /* Where something driven is: at rest at a pose or following a motion. */
 typedef struct sw_drive {
-  sw_pose pose;      /* at rest, or base of a relative motion */
+  sw_pose pose;      /* at rest */
   sw_motion *motion; /* NULL = at rest */
   double start;      /* scene time of the motion's zero [s] */
-  int relative;
 } sw_drive;
 
 typedef struct sw_scene_hold {

@@ -1,0 +1,302 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Life of the contact, candidates of a step, memory between steps, read-outs. */
+#include "contact/contact.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "contact/touch.h"
+
+/* A wire at rest sinks in by this much when a single touch carries its whole
+ * weight [m]. */
+static const double ALLOWED_PENETRATION = 20e-6;
+/* Stiffness over mass/hbar^2 in implicit steps: far above what the step
+ * resolves, so that the gap closes to a thousandth of the free fall [-]. */
+static const double IMPLICIT_SHARE = 1000.0;
+/* An explicit step is stable while k h^2 / m stays below 4 [-]. */
+static const double EXPLICIT_SHARE = 0.2;
+static const double STAGE_SHARE = 0.3; /* hbar of the default method over the step [-] */
+
+sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count,
+                         sw_contact_place place, void *user, sw_contact **out) {
+  sw_contact *c = sw_alloc(1, sizeof *c);
+  if (!c) return SW_ENOMEM;
+  c->obstacles = sw_alloc(count, sizeof *c->obstacles);
+  c->start = sw_alloc(count, sizeof *c->start);
+  c->now = sw_alloc(count, sizeof *c->now);
+  c->flat = sw_alloc(count, sizeof *c->flat);
+  if (!c->obstacles || !c->start || !c->now || !c->flat) {
+    sw_contact_free(c);
+    return SW_ENOMEM;
+  }
+  memcpy(c->obstacles, obstacles, count * sizeof *obstacles);
+  for (size_t o = 0; o < count; o++)
+    c->flat[o] = strcmp(sw_shape_kind(obstacles[o].shape), "plane") == 0;
+  c->count = count;
+  c->place = place;
+  c->user = user;
+  *out = c;
+  return SW_OK;
+}
+
+void sw_contact_free(sw_contact *c) {
+  if (!c) return;
+  sw_free(c->obstacles);
+  sw_free(c->start);
+  sw_free(c->now);
+  sw_free(c->flat);
+  sw_free(c->candidates);
+  sw_free(c->touches);
+  sw_free(c->last);
+  sw_free(c->memory);
+  sw_free(c->next_memory);
+  sw_free(c->barriers);
+  sw_free(c->impacts);
+  sw_free(c);
+}
+
+/* --- candidates --------------------------------------------------------------- */
+
+static sw_status place_all(sw_contact *c, double t, sw_contact_at *out, sw_error *err) {
+  for (size_t o = 0; o < c->count; o++) {
+    sw_motion_state m;
+    SW_TRY(c->place(c->user, c->obstacles[o].id, t, &m, err));
+    out[o] = (sw_contact_at){m.pose, m.v, m.omega};
+  }
+  return SW_OK;
+}
+
+/* Axis-parallel box around a turned box. */
+static sw_bounds world_bounds(const sw_shape *shape, const sw_pose *pose) {
+  const sw_bounds b = sw_shape_bounds(shape);
+  if (!isfinite(b.min.x + b.max.x + b.min.y + b.max.y + b.min.z + b.max.z))
+    return (sw_bounds){{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
+  const sw_vec half = sw_scale(sw_sub(b.max, b.min), 0.5);
+  const sw_vec middle = sw_pose_point(*pose, sw_scale(sw_add(b.max, b.min), 0.5));
+  const sw_vec ex = sw_rotate(pose->q, sw_v(half.x, 0, 0));
+  const sw_vec ey = sw_rotate(pose->q, sw_v(0, half.y, 0));
+  const sw_vec ez = sw_rotate(pose->q, sw_v(0, 0, half.z));
+  const sw_vec reach = sw_v(fabs(ex.x) + fabs(ey.x) + fabs(ez.x),
+                            fabs(ex.y) + fabs(ey.y) + fabs(ez.y),
+                            fabs(ex.z) + fabs(ey.z) + fabs(ez.z));
+  return (sw_bounds){sw_sub(middle, reach), sw_add(middle, reach)};
+}
+
+static int outside(const sw_bounds *b, sw_vec low, sw_vec high) {
+  return low.x > b->max.x || high.x < b->min.x || low.y > b->max.y || high.y < b->min.y ||
+         low.z > b->max.z || high.z < b->min.z;
+}
+
+static sw_vec low_of(sw_vec a, sw_vec b) {
+  return sw_v(fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z));
+}
+static sw_vec high_of(sw_vec a, sw_vec b) {
+  return sw_v(fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z));
+}
+
+/* Widest gap at the step's start that can close within it, with reserve. */
+static double reach_of(const sw_contact *c, const sw_system *s, const sw_body *b, size_t node,
+                       size_t o) {
+  if (c->regime == SW_CONTACT_STATIC) return b->plan->length;
+  const double g = sw_norm(sw_load(s->gravity));
+  const sw_vec x = sw_load(s->x + 3 * node);
+  const sw_vec v = sw_sub(sw_load(s->v + 3 * node), sw_obstacle_velocity(&c->start[o], x));
+  const double reserve = 1.5, least = 0.5; /* of the flight, of the radius [-] */
+  return b->plan->beam.radius * (1.0 + least) + reserve * c->h * (sw_norm(v) + g * c->h);
+}
+
+static sw_status add_candidate(sw_contact *c, const sw_body *b, size_t body, size_t node, int o,
+                               int segment) {
+  SW_TRY(sw_grow((void **)&c->candidates, &c->candidate_capacity, c->candidate_count + 1,
+                 sizeof *c->candidates));
+  c->candidates[c->candidate_count++] =
+      (sw_candidate){.obstacle = o,
+                     .segment = segment,
+                     .node = node,
+                     .body = body,
+                     .radius = b->plan->beam.radius,
+                     .mass = b->plan->lumped[node - b->first_node]};
+  return SW_OK;
+}
+
+static sw_status node_candidates(sw_contact *c, const sw_system *s, size_t body, size_t i,
+                                 const sw_bounds *bounds) {
+  const sw_body *b = &s->bodies[body];
+  const size_t node = b->first_node + i;
+  const sw_vec x = sw_load(s->x + 3 * node);
+  const int more = i + 1 < b->plan->nodes;
+  const sw_vec y = more ? sw_load(s->x + 3 * node + 3) : x;
+  for (size_t o = 0; o < c->count; o++) {
+    const double reach = reach_of(c, s, b, node, o);
+    const sw_vec r = sw_v(reach, reach, reach);
+    sw_closest near;
+    if (!outside(&bounds[o], sw_sub(x, r), sw_add(x, r)) &&
+        sw_shape_point(c->obstacles[o].shape, sw_pose_local(c->start[o].pose, x), reach, &near))
+      SW_TRY(add_candidate(c, b, body, node, (int)o, 0));
+    if (!more || c->flat[o]) continue;
+    const double wide = fmax(reach, reach_of(c, s, b, node + 1, o));
+    const sw_vec w = sw_v(wide, wide, wide);
+    if (!outside(&bounds[o], sw_sub(low_of(x, y), w), sw_add(high_of(x, y), w)))
+      SW_TRY(add_candidate(c, b, body, node, (int)o, 1));
+  }
+  return SW_OK;
+}
+
+/* Order of candidates and memory: node, then obstacle, then inside of segment. */
+static int before(const sw_contact *c, const sw_memory *m, const sw_candidate *k) {
+  if (m->node != k->node) return m->node < k->node;
+  const int id = c->obstacles[k->obstacle].id;
+  if (m->obstacle != id) return m->obstacle < id;
+  return m->segment < k->segment;
+}
+
+static void match_memory(sw_contact *c) {
+  size_t m = 0;
+  for (size_t i = 0; i < c->candidate_count; i++) {
+    sw_candidate *k = &c->candidates[i];
+    while (m < c->memory_count && before(c, &c->memory[m], k)) m++;
+    k->memory = m;
+    const int id = c->obstacles[k->obstacle].id;
+    while (m < c->memory_count && c->memory[m].node == k->node && c->memory[m].obstacle == id &&
+           c->memory[m].segment == k->segment)
+      m++;
+    k->memory_end = m;
+    k->last = k->last_end = 0;
+  }
+}
+
+static void set_stiffness(sw_contact *c, const sw_system *s, double nominal) {
+  double force = 0;
+  const double g = sw_norm(sw_load(s->gravity));
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_plan *p = s->bodies[b].plan;
+    const double L = p->length;
+    force = fmax(force, fmax(p->beam.mass * L * g, p->beam.EI / (L * L)));
+  }
+  c->base_stiffness = force / ALLOWED_PENETRATION;
+  c->rate2 = 0;
+  if (c->regime == SW_CONTACT_IMPLICIT)
+    c->rate2 = IMPLICIT_SHARE / (STAGE_SHARE * STAGE_SHARE * nominal * nominal);
+  if (c->regime == SW_CONTACT_EXPLICIT) {
+    c->base_stiffness = 0;
+    c->rate2 = EXPLICIT_SHARE / (nominal * nominal);
+  }
+}
+
+sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime regime, double t,
+                                double h, double nominal, sw_error *err) {
+  c->time = t;
+  c->h = h;
+  c->regime = regime;
+  c->candidate_count = c->touch_count = c->last_count = 0;
+  c->barrier_count = c->impact_count = 0;
+  c->first_iterate = 1;
+  set_stiffness(c, s, nominal);
+  SW_TRY(place_all(c, t, c->start, err));
+  sw_bounds *bounds = (sw_bounds *)sw_alloc(c->count, sizeof *bounds);
+  if (!bounds) return sw_fail(err, SW_ENOMEM, "contact: out of memory");
+  sw_status status = SW_OK;
+  for (size_t o = 0; o < c->count; o++)
+    bounds[o] = world_bounds(c->obstacles[o].shape, &c->start[o].pose);
+  for (size_t b = 0; b < s->body_count && status == SW_OK; b++)
+    for (size_t i = 0; i < s->bodies[b].plan->nodes && status == SW_OK; i++)
+      status = node_candidates(c, s, b, i, bounds);
+  sw_free(bounds);
+  if (status != SW_OK) return sw_fail(err, status, "contact: out of memory");
+  match_memory(c);
+  return SW_OK;
+}
+
+sw_status sw_contact_begin_stage(void *contact, sw_system *s, double time, double hbar,
+                                 const double *y, sw_error *err) {
+  sw_contact *c = contact;
+  (void)s, (void)hbar, (void)y;
+  return place_all(c, time, c->now, err);
+}
+
+/* --- memory ------------------------------------------------------------------- */
+
+static sw_status remember(sw_contact *c, const sw_touch *t) {
+  const sw_contact_at *o = &c->now[t->obstacle];
+  const sw_quat back = sw_quat_conj(o->pose.q);
+  SW_TRY(sw_grow((void **)&c->next_memory, &c->next_capacity, c->next_count + 1,
+                 sizeof *c->next_memory));
+  sw_memory *m = &c->next_memory[c->next_count++];
+  *m = (sw_memory){.obstacle = c->obstacles[t->obstacle].id,
+                   .segment = t->segment,
+                   .node = t->node,
+                   .feature = t->feature,
+                   .at = t->at,
+                   .normal_force = t->normal_force,
+                   .normal = sw_rotate(back, t->normal),
+                   .point = sw_pose_local(o->pose, t->point)};
+  if (t->normal_force > 0)
+    m->elastic = sw_rotate(back, sw_scale(t->tangential, -1.0 / t->k));
+  return SW_OK;
+}
+
+void sw_contact_commit(sw_contact *c, sw_system *s) {
+  (void)s;
+  c->next_count = 0;
+  for (size_t i = 0; i < c->touch_count; i++)
+    if (remember(c, &c->touches[i]) != SW_OK) break; /* a lost anchor only starts anew */
+  sw_memory *swap = c->memory;
+  const size_t capacity = c->memory_capacity;
+  c->memory = c->next_memory, c->memory_capacity = c->next_capacity;
+  c->next_memory = swap, c->next_capacity = capacity;
+  c->memory_count = c->next_count;
+}
+
+const void *sw_contact_memory(const sw_contact *c, size_t *bytes) {
+  *bytes = c->memory_count * sizeof *c->memory;
+  return c->memory;
+}
+
+sw_status sw_contact_set_memory(sw_contact *c, const void *memory, size_t bytes) {
+  const size_t n = bytes / sizeof *c->memory;
+  SW_TRY(sw_grow((void **)&c->memory, &c->memory_capacity, n, sizeof *c->memory));
+  if (n) memcpy(c->memory, memory, bytes);
+  c->memory_count = n;
+  c->touch_count = 0;
+  return SW_OK;
+}
+
+/* --- read-outs ---------------------------------------------------------------- */
+
+void sw_contact_force(const sw_contact *c, int id, sw_vec about, sw_vec *force, sw_vec *moment) {
+  *force = *moment = sw_v(0, 0, 0);
+  for (size_t i = 0; i < c->touch_count; i++) {
+    const sw_touch *t = &c->touches[i];
+    if (c->obstacles[t->obstacle].id != id || !(t->normal_force > 0)) continue;
+    const sw_vec f = sw_neg(sw_madd(t->tangential, t->normal, t->normal_force));
+    *force = sw_add(*force, f);
+    *moment = sw_add(*moment, sw_cross(sw_sub(t->point, about), f));
+  }
+}
+
+double sw_contact_penetration(const sw_contact *c, size_t *node) {
+  double deepest = 0;
+  for (size_t i = 0; i < c->touch_count; i++) {
+    if (-c->touches[i].gap_after <= deepest) continue;
+    deepest = -c->touches[i].gap_after;
+    if (node) *node = c->touches[i].node;
+  }
+  return deepest;
+}
+
+size_t sw_contact_count(const sw_contact *c) {
+  size_t n = 0;
+  for (size_t i = 0; i < c->touch_count; i++) n += c->touches[i].normal_force > 0;
+  return n;
+}
+
+double sw_contact_energy(const sw_contact *c) {
+  double sum = 0;
+  for (size_t i = 0; i < c->touch_count; i++) {
+    const sw_touch *t = &c->touches[i];
+    if (!(t->normal_force > 0)) continue;
+    sum += 0.5 * (t->normal_force * t->normal_force + sw_norm2(t->tangential)) / t->k;
+  }
+  return sum;
+}

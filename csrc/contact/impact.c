@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Impacts and crossings. A step that meets an obstacle it did not touch before
+ * is redone with the approach speed cut to what just reaches the surface (or
+ * turned round by the restitution): the impulse acts at the step's start, and
+ * the integrator never sees the shock that would make it bounce. A swept test
+ * finds segments that passed through an obstacle unseen. */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "contact/touch.h"
+
+/* Slower approaches are left to the integrator; their energy does not matter
+ * [m/s]. */
+static const double SLOWEST_IMPACT = 5e-4;
+/* A segment that moves less than this share of its radius cannot get through
+ * anything unseen [-]. */
+static const double SAFE_SHIFT = 0.5;
+
+static int dealt_with(const sw_contact *c, int obstacle, size_t node, int segment, double at) {
+  for (size_t i = 0; i < c->impact_count; i++) {
+    const sw_memory *m = &c->impacts[i];
+    if (m->obstacle == obstacle && m->node == node && m->segment == segment &&
+        fabs(m->at - at) < 0.25)
+      return 1;
+  }
+  return 0;
+}
+
+/* Share of the momentum that each end of a segment takes; held ends take none. */
+static void shares(const sw_system *s, const sw_touch *t, double out[2]) {
+  const sw_body *b = &s->bodies[t->body];
+  const size_t i = t->node - b->first_node;
+  double w[2] = {t->segment ? 1.0 - t->at : 1.0, t->segment ? t->at : 0.0};
+  for (size_t e = 0; e < 2; e++)
+    if (w[e] > 0 && b->plan->held[i + e] != SW_FREE) w[e] = 0;
+  const double sum = w[0] * w[0] + w[1] * w[1];
+  for (size_t e = 0; e < 2; e++) out[e] = sum > 0 ? w[e] / sum : 0.0;
+}
+
+/* Change the starting velocities so that the touch is reached, not passed.
+ * Returns 1 when something was changed. */
+static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
+  const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
+  const sw_vec x = sw_touch_place(s->x, t->node, t->segment, t->at);
+  const sw_vec v = sw_sub(sw_touch_place(s->v, t->node, t->segment, t->at),
+                          sw_obstacle_velocity(&c->start[t->obstacle], x));
+  const sw_vec local_point = sw_pose_local(c->now[t->obstacle].pose, t->point);
+  const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, local_point);
+  const double radius = s->bodies[t->body].plan->beam.radius;
+  const double gap = fmax(0.0, sw_dot(t->normal, sw_sub(x, plane)) - radius);
+  const double approach = -sw_dot(v, t->normal);
+  const double allowed = gap / h;
+  if (!(approach > allowed + SLOWEST_IMPACT)) return 0;
+  const double change = o->restitution > 0 ? approach * (1.0 + o->restitution) : approach - allowed;
+  const sw_vec along = sw_madd(v, t->normal, approach);
+  const double slide = sw_norm(along), brake = fmin(slide, o->friction * change);
+  sw_vec dv = sw_scale(t->normal, change);
+  if (slide > 0) dv = sw_madd(dv, along, -brake / slide);
+  double w[2];
+  shares(s, t, w);
+  for (size_t e = 0; e < 2; e++)
+    if (w[e] > 0) sw_accumulate(s->v + 3 * (t->node + e), sw_scale(dv, w[e]));
+  if (sw_grow((void **)&c->impacts, &c->impact_capacity, c->impact_count + 1,
+              sizeof *c->impacts) == SW_OK)
+    c->impacts[c->impact_count++] = (sw_memory){
+        .obstacle = t->obstacle, .node = t->node, .segment = t->segment, .at = t->at};
+  return 1;
+}
+
+static int review_touches(sw_contact *c, sw_system *s, double h) {
+  int changed = 0;
+  for (size_t i = 0; i < c->touch_count; i++) {
+    const sw_touch *t = &c->touches[i];
+    if (t->known || t->held || !(t->normal_force > 0 || t->gap_after < 0)) continue;
+    if (dealt_with(c, t->obstacle, t->node, t->segment, t->at)) continue;
+    changed |= strike(c, s, t, h);
+  }
+  return changed;
+}
+
+static int has_barrier(const sw_contact *c, int obstacle, size_t node, sw_vec normal) {
+  for (size_t i = 0; i < c->barrier_count; i++) {
+    const sw_barrier *b = &c->barriers[i];
+    if (b->obstacle == obstacle && b->node == node && sw_dot(b->normal, normal) > 0.99) return 1;
+  }
+  return 0;
+}
+
+/* Keep a segment on its side for the rest of the step. */
+static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k,
+                         const sw_closest *hit, double h) {
+  if (has_barrier(c, k->obstacle, k->node, hit->normal)) return 0;
+  if (sw_grow((void **)&c->barriers, &c->barrier_capacity, c->barrier_count + 1,
+              sizeof *c->barriers) != SW_OK)
+    return 0;
+  c->barriers[c->barrier_count++] =
+      (sw_barrier){k->obstacle, k->node, hit->at, hit->normal, hit->point};
+  const sw_pose *pose = &c->now[k->obstacle].pose;
+  const sw_touch t = {.obstacle = k->obstacle,
+                      .segment = 1,
+                      .node = k->node,
+                      .body = k->body,
+                      .at = hit->at,
+                      .normal = sw_rotate(pose->q, hit->normal),
+                      .point = sw_pose_point(*pose, hit->point)};
+  strike(c, s, &t, h);
+  return 1;
+}
+
+static int review_crossings(sw_contact *c, sw_system *s, const double *x1, double h) {
+  int changed = 0;
+  for (size_t i = 0; i < c->candidate_count; i++) {
+    const sw_candidate *k = &c->candidates[i];
+    if (!k->segment) continue;
+    const sw_pose *p0 = &c->start[k->obstacle].pose, *p1 = &c->now[k->obstacle].pose;
+    const sw_vec a0 = sw_pose_local(*p0, sw_load(s->x + 3 * k->node));
+    const sw_vec b0 = sw_pose_local(*p0, sw_load(s->x + 3 * k->node + 3));
+    const sw_vec a1 = sw_pose_local(*p1, sw_load(x1 + 3 * k->node));
+    const sw_vec b1 = sw_pose_local(*p1, sw_load(x1 + 3 * k->node + 3));
+    const double shift2 = fmax(sw_norm2(sw_sub(a1, a0)), sw_norm2(sw_sub(b1, b0)));
+    if (shift2 < SAFE_SHIFT * SAFE_SHIFT * k->radius * k->radius) continue;
+    sw_closest hit;
+    double when;
+    if (sw_shape_sweep(c->obstacles[k->obstacle].shape, a0, b0, a1, b1, 0.0, &hit, &when))
+      changed |= raise_barrier(c, s, k, &hit, h);
+  }
+  return changed;
+}
+
+int sw_contact_review(sw_contact *c, sw_system *s, const double *x1, double h) {
+  const int crossed = review_crossings(c, s, x1, h);
+  return crossed | review_touches(c, s, h);
+}

@@ -1,0 +1,284 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The contact law. Normal: N = k max(0, -gap). Friction: an anchored spring
+ * with return mapping, f = -k u while k |u| <= mu N, else mu N against u and
+ * the anchor follows; u is the elastic displacement kept from the last step
+ * plus the material displacement since. Within an iteration friction takes the
+ * normal force of the iterate before, which keeps the matrix symmetric and the
+ * sub-problem convex. */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "contact/touch.h"
+
+/* Changes of the gap below this do not keep an iteration going [m]. */
+static const double GAP_TOLERANCE = 2e-8;
+/* Nor do changes of a sliding touch's normal force below this share [-]. */
+static const double FORCE_TOLERANCE = 0.01;
+
+enum { OWN = 0, NEXT = 6, ROW = 24 }; /* layout of the system's block rows */
+
+static sw_status push(sw_contact *c, const sw_touch *t) {
+  SW_TRY(sw_grow((void **)&c->touches, &c->touch_capacity, c->touch_count + 1,
+                 sizeof *c->touches));
+  c->touches[c->touch_count++] = *t;
+  return SW_OK;
+}
+
+static const sw_memory *memory_for(const sw_contact *c, const sw_candidate *k, double at) {
+  const sw_memory *best = NULL;
+  for (size_t i = k->memory; i < k->memory_end; i++)
+    if (!best || fabs(c->memory[i].at - at) < fabs(best->at - at)) best = &c->memory[i];
+  return best;
+}
+
+/* A touch that slid off one segment onto its neighbour, or onto the node
+ * between them, keeps its friction spring: look at the entries around. */
+static const sw_memory *inherited(const sw_contact *c, const sw_candidate *k, double at) {
+  const int id = c->obstacles[k->obstacle].id;
+  const double place = (double)k->node + at;
+  const sw_memory *best = NULL;
+  double nearest = 1.0; /* at most one segment away */
+  for (size_t i = k->memory; i-- > 0 && c->memory[i].node + 2 >= k->node;) {
+    const double d = fabs((double)c->memory[i].node + c->memory[i].at - place);
+    if (c->memory[i].obstacle == id && c->memory[i].normal_force > 0 && d < nearest)
+      best = &c->memory[i], nearest = d;
+  }
+  for (size_t i = k->memory_end; i < c->memory_count && c->memory[i].node <= k->node + 1; i++) {
+    const double d = fabs((double)c->memory[i].node + c->memory[i].at - place);
+    if (c->memory[i].obstacle == id && c->memory[i].normal_force > 0 && d < nearest)
+      best = &c->memory[i], nearest = d;
+  }
+  return best;
+}
+
+static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, double at) {
+  const sw_touch *best = NULL;
+  for (size_t i = k->last; i < k->last_end; i++)
+    if (!best || fabs(c->last[i].at - at) < fabs(best->at - at)) best = &c->last[i];
+  return best;
+}
+
+/* Displacement of the wire's material at the touch since the step's start,
+ * relative to the obstacle's. */
+static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_touch *t,
+                             const double *y) {
+  const sw_vec from = sw_touch_place(s->x, t->node, t->segment, t->at);
+  const sw_vec to = sw_touch_place(y, t->node, t->segment, t->at);
+  const sw_vec carried =
+      sw_pose_point(c->now[t->obstacle].pose, sw_pose_local(c->start[t->obstacle].pose, from));
+  return sw_sub(to, carried);
+}
+
+static void set_friction_state(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                               const double *y, sw_touch *t) {
+  const sw_memory *own = memory_for(c, k, t->at);
+  const sw_memory *m = own && own->normal_force > 0 ? own : inherited(c, k, t->at);
+  const sw_touch *last = last_for(c, k, t->at);
+  sw_vec u = relative_shift(c, s, t, y);
+  t->known = m != NULL;
+  if (m) u = sw_add(u, sw_rotate(c->now[t->obstacle].pose.q, m->elastic));
+  else u = sw_scale(u, t->gap < 0 ? 1.0 : 0.0);
+  t->trial = sw_madd(u, t->normal, -sw_dot(u, t->normal));
+  t->lag = last ? last->normal_force : m ? m->normal_force : t->k * fmax(0.0, -t->gap);
+  const double most = c->obstacles[t->obstacle].friction * t->lag;
+  t->sliding = t->k * sw_norm(t->trial) > most;
+}
+
+static double stiffness(const sw_contact *c, const sw_candidate *k) {
+  return fmax(c->base_stiffness, c->rate2 * k->mass);
+}
+
+static int is_held(const sw_system *s, const sw_candidate *k) {
+  const sw_body *b = &s->bodies[k->body];
+  const size_t i = k->node - b->first_node;
+  return b->plan->held[i] != SW_FREE && (!k->segment || b->plan->held[i + 1] != SW_FREE);
+}
+
+static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
+                           const double *y, const sw_closest *near) {
+  const sw_pose *pose = &c->now[k->obstacle].pose;
+  sw_touch t = {.obstacle = k->obstacle,
+                .segment = k->segment,
+                .node = k->node,
+                .body = k->body,
+                .feature = near->feature,
+                .at = k->segment ? near->at : 0.0,
+                .normal = sw_rotate(pose->q, near->normal),
+                .point = sw_pose_point(*pose, near->point),
+                .gap = near->gap - k->radius,
+                .k = stiffness(c, k),
+                .held = is_held(s, k)};
+  t.gap_after = t.gap;
+  set_friction_state(c, s, k, y, &t);
+  return push(c, &t);
+}
+
+/* Inside the obstacle the nearest face may be the wrong one: stay with the side
+ * that is remembered from the last accepted step. */
+static void keep_side(const sw_contact *c, const sw_candidate *k, sw_vec local,
+                      sw_closest *near) {
+  if (near->gap >= 0) return;
+  const sw_memory *m = memory_for(c, k, near->at);
+  if (!m || sw_dot(m->normal, near->normal) > 0.7) return; /* within 45 degrees: the same face */
+  const double gap = sw_dot(m->normal, sw_sub(local, m->point));
+  near->gap = gap;
+  near->normal = m->normal;
+  near->point = sw_madd(local, m->normal, -gap);
+  near->feature = m->feature;
+}
+
+static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k,
+                       const double *y) {
+  const sw_shape *shape = c->obstacles[k->obstacle].shape;
+  const sw_pose *pose = &c->now[k->obstacle].pose;
+  const sw_vec a = sw_pose_local(*pose, sw_load(y + 3 * k->node));
+  const double reach = 2.0 * k->radius; /* keeps what may begin to touch in the list */
+  sw_closest near[SW_CLOSEST_MAX];
+  if (!k->segment) {
+    if (!sw_shape_point(shape, a, reach, &near[0])) return SW_OK;
+    near[0].at = 0;
+    keep_side(c, k, a, &near[0]);
+    return add_touch(c, s, k, y, &near[0]);
+  }
+  const sw_vec b = sw_pose_local(*pose, sw_load(y + 3 * k->node + 3));
+  const int n = sw_shape_segment(shape, a, b, reach, near);
+  for (int i = 0; i < n; i++) {
+    keep_side(c, k, sw_lerp(a, b, near[i].at), &near[i]);
+    SW_TRY(add_touch(c, s, k, y, &near[i]));
+  }
+  return SW_OK;
+}
+
+static sw_status barrier_touches(sw_contact *c, const sw_system *s, const double *y) {
+  for (size_t i = 0; i < c->barrier_count; i++) {
+    const sw_barrier *b = &c->barriers[i];
+    sw_candidate k = {.obstacle = b->obstacle, .segment = 1, .node = b->node};
+    for (size_t j = 0; j < s->body_count; j++)
+      if (s->bodies[j].first_node <= b->node) k.body = j;
+    k.radius = s->bodies[k.body].plan->beam.radius;
+    k.mass = s->bodies[k.body].plan->lumped[b->node - s->bodies[k.body].first_node];
+    const sw_vec local =
+        sw_pose_local(c->now[b->obstacle].pose, sw_touch_place(y, b->node, 1, b->at));
+    const double gap = sw_dot(b->normal, sw_sub(local, b->point));
+    const sw_closest near = {.gap = gap,
+                             .at = b->at,
+                             .normal = b->normal,
+                             .point = sw_madd(local, b->normal, -gap),
+                             .feature = -1};
+    SW_TRY(add_touch(c, s, &k, y, &near));
+  }
+  return SW_OK;
+}
+
+static void swap_lists(sw_contact *c) {
+  sw_touch *list = c->last;
+  const size_t capacity = c->last_capacity;
+  c->last = c->touches, c->last_capacity = c->touch_capacity, c->last_count = c->touch_count;
+  c->touches = list, c->touch_capacity = capacity, c->touch_count = 0;
+  size_t i = 0; /* both lists are in the candidates' order, barriers last */
+  for (size_t n = 0; n < c->candidate_count; n++) {
+    sw_candidate *k = &c->candidates[n];
+    k->last = i;
+    while (i < c->last_count && c->last[i].node == k->node && c->last[i].feature != -1 &&
+           c->last[i].obstacle == k->obstacle && c->last[i].segment == k->segment)
+      i++;
+    k->last_end = i;
+  }
+}
+
+/* Add force f and symmetric stiffness K (upper half) at a touch. */
+static void add_to_field(sw_system *s, const sw_touch *t, sw_vec f, const double K[6],
+                         unsigned want) {
+  sw_body *b = &s->bodies[t->body];
+  const size_t i = t->node - b->first_node;
+  const double w[2] = {1.0 - t->at, t->at};
+  for (size_t e = 0; e < (t->segment ? 2u : 1u); e++) {
+    sw_accumulate(b->field.force + 3 * (i + e), sw_scale(f, w[e]));
+    if (want & SW_WANT_STIFFNESS)
+      for (size_t k = 0; k < 6; k++) b->field.rows[ROW * (i + e) + OWN + k] += w[e] * w[e] * K[k];
+  }
+  if (!t->segment || !(want & SW_WANT_STIFFNESS)) return;
+  static const size_t full[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+  for (size_t k = 0; k < 9; k++) b->field.rows[ROW * i + NEXT + k] += w[0] * w[1] * K[full[k]];
+}
+
+/* K = kn n n' + kt (I - n n') - ks d d' */
+static void stiffness_matrix(double kn, double kt, double ks, sw_vec n, sw_vec d, double K[6]) {
+  const double v[3] = {n.x, n.y, n.z}, u[3] = {d.x, d.y, d.z};
+  for (int i = 0, at = 0; i < 3; i++)
+    for (int j = i; j < 3; j++, at++)
+      K[at] = (kn - kt) * v[i] * v[j] + (i == j ? kt : 0.0) - ks * u[i] * u[j];
+}
+
+static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
+  const double mu = c->obstacles[t->obstacle].friction;
+  double K[6];
+  t->normal_force = 0;
+  t->tangential = sw_v(0, 0, 0);
+  if (!(t->gap < 0) || t->held) return;
+  t->normal_force = -t->k * t->gap;
+  if (c->regime == SW_CONTACT_EXPLICIT) t->lag = t->normal_force;
+  const double most = mu * t->lag, length = sw_norm(t->trial);
+  if (c->regime == SW_CONTACT_EXPLICIT) t->sliding = t->k * length > most;
+  const sw_vec d = length > 0 ? sw_scale(t->trial, 1.0 / length) : sw_v(0, 0, 0);
+  t->tangential = sw_scale(d, t->sliding ? -most : -t->k * length);
+  if (t->sliding) {
+    const double kt = length > 0 ? most / length : 0.0;
+    stiffness_matrix(t->k, kt, kt, t->normal, d, K);
+  } else {
+    stiffness_matrix(t->k, mu > 0 ? t->k : 0.0, 0, t->normal, d, K);
+    if (!(mu > 0)) t->tangential = sw_v(0, 0, 0);
+  }
+  add_to_field(s, t, sw_madd(t->tangential, t->normal, t->normal_force), K, want);
+}
+
+sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar, const double *y,
+                          unsigned want, sw_error *err) {
+  sw_contact *c = contact;
+  (void)hbar;
+  sw_status status = SW_OK;
+  if (c->regime == SW_CONTACT_EXPLICIT) status = sw_contact_begin_stage(c, s, time, hbar, y, err);
+  if (status != SW_OK) return status;
+  swap_lists(c);
+  for (size_t i = 0; i < c->candidate_count && status == SW_OK; i++)
+    status = query(c, s, &c->candidates[i], y);
+  if (status == SW_OK) status = barrier_touches(c, s, y);
+  if (status != SW_OK) return sw_fail(err, status, "contact: out of memory");
+  for (size_t i = 0; i < c->touch_count; i++) apply(c, s, &c->touches[i], want);
+  return SW_OK;
+}
+
+/* Bring a touch's forces up to the solved update; 1 = it agrees with what the
+ * solve assumed. */
+static int update(const sw_contact *c, sw_touch *t, const double *delta) {
+  const double mu = c->obstacles[t->obstacle].friction;
+  const sw_vec shift = t->segment ? sw_lerp(sw_load(delta + 3 * t->node),
+                                            sw_load(delta + 3 * t->node + 3), t->at)
+                                  : sw_load(delta + 3 * t->node);
+  const int active = t->gap < 0;
+  t->gap_after = t->gap + sw_dot(t->normal, shift);
+  if (t->held) return 1;
+  const double before = t->normal_force;
+  t->normal_force = active ? fmax(0.0, -t->k * t->gap_after) : 0.0;
+  if (active ? t->gap_after > GAP_TOLERANCE : t->gap_after < -GAP_TOLERANCE) return 0;
+  if (!active || !(mu > 0)) return 1;
+  const sw_vec u = sw_madd(sw_add(t->trial, shift), t->normal, -sw_dot(shift, t->normal));
+  const double length = sw_norm(u), most = mu * t->normal_force;
+  const int sliding = t->k * length > most;
+  const double share = length > 0 ? (sliding ? most / length : t->k) : 0.0;
+  t->tangential = sw_scale(u, -share);
+  (void)before;
+  const double small = t->k * GAP_TOLERANCE;
+  if (t->sliding != sliding) /* a change of state matters when the force does */
+    return fabs(t->k * length - most) <= small + FORCE_TOLERANCE * most;
+  return !sliding || fabs(t->normal_force - t->lag) <= FORCE_TOLERANCE * t->normal_force + small;
+}
+
+int sw_contact_settled(void *contact, sw_system *s, const double *y, const double *delta) {
+  sw_contact *c = contact;
+  int fine = 1;
+  (void)s, (void)y;
+  for (size_t i = 0; i < c->touch_count; i++) fine &= update(c, &c->touches[i], delta);
+  return fine;
+}

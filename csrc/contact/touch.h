@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The inside of the contact room. */
+#ifndef SW_CONTACT_TOUCH_H
+#define SW_CONTACT_TOUCH_H
+
+#include "contact/contact.h"
+
+/* A node, or the inside of the segment that starts there, and an obstacle that
+ * it may touch in this step. */
+typedef struct sw_candidate {
+  int obstacle;
+  int segment; /* 1: the inside of the segment node..node+1 */
+  size_t node; /* in the system's arrays */
+  size_t body;
+  double radius, mass; /* of the wire there [m], [kg] */
+  size_t memory, memory_end; /* matching range of the memory */
+  size_t last, last_end;     /* matching range of the last iterate's touches */
+} sw_candidate;
+
+/* One place where a wire's surface is near an obstacle. */
+typedef struct sw_touch {
+  int obstacle, segment;
+  size_t node, body;
+  int feature;
+  double at;      /* along the segment [-] */
+  sw_vec normal;  /* world, outward [-] */
+  sw_vec point;   /* on the obstacle, world [m] */
+  double gap;     /* of the surfaces at this iterate [m] */
+  double k;       /* stiffness, normal and tangential [N/m] */
+  double lag;     /* normal force that friction takes as given [N] */
+  double normal_force; /* after the last solve [N] */
+  sw_vec trial;   /* tangential displacement from the anchor at this iterate [m] */
+  sw_vec tangential; /* friction force after the last solve [N] */
+  double gap_after;  /* after the last solve [m] */
+  int sliding;
+  int known;      /* it touched at the step's start */
+  int held;       /* both ends are held: no force */
+} sw_touch;
+
+/* What is kept of a touch between steps; in the obstacle's coordinates. */
+typedef struct sw_memory {
+  int obstacle, segment; /* obstacle: the owner's id */
+  size_t node;
+  int feature;
+  double at;
+  double normal_force; /* 0: near, but without force [N] */
+  sw_vec normal, point; /* the side: local [-], [m] */
+  sw_vec elastic;       /* displacement of the friction spring, local [m] */
+} sw_memory;
+
+/* A crossing found by the swept test: the segment is kept on its side of a
+ * plane for the rest of the step. */
+typedef struct sw_barrier {
+  int obstacle;
+  size_t node;
+  double at;
+  sw_vec normal, point; /* local [-], [m] */
+} sw_barrier;
+
+typedef struct sw_contact_at {
+  sw_pose pose;
+  sw_vec v, omega; /* [m/s], [rad/s] */
+} sw_contact_at;
+
+struct sw_contact {
+  sw_contact_obstacle *obstacles;
+  size_t count;
+  sw_contact_place place;
+  void *user;
+  sw_contact_at *start, *now; /* (count) at the step's start and at the stage */
+  int *flat;                  /* (count) 1: a half space, no segment contacts */
+  sw_candidate *candidates;
+  size_t candidate_count, candidate_capacity;
+  sw_touch *touches, *last; /* of this iterate and of the one before */
+  size_t touch_count, touch_capacity, last_count, last_capacity;
+  sw_memory *memory, *next_memory;
+  size_t memory_count, memory_capacity, next_count, next_capacity;
+  sw_barrier *barriers;
+  size_t barrier_count, barrier_capacity;
+  sw_memory *impacts; /* keys of touches whose impact was dealt with in this step */
+  size_t impact_count, impact_capacity;
+  double time, h; /* of the step [s] */
+  double base_stiffness; /* from the expected forces [N/m] */
+  double rate2;          /* stiffness per mass [1/s2] */
+  sw_contact_regime regime;
+  int first_iterate; /* of a step */
+};
+
+/* The place of a candidate on its segment. */
+static inline sw_vec sw_touch_place(const double *x, size_t node, int segment, double at) {
+  return segment ? sw_lerp(sw_load(x + 3 * node), sw_load(x + 3 * node + 3), at)
+                 : sw_load(x + 3 * node);
+}
+
+/* Velocity of the obstacle's material at world point p [m/s]. */
+static inline sw_vec sw_obstacle_velocity(const sw_contact_at *o, sw_vec p) {
+  return sw_add(o->v, sw_cross(o->omega, sw_sub(p, o->pose.p)));
+}
+
+#endif
