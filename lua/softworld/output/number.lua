@@ -4,7 +4,9 @@
 
 local number = {}
 
-local prefixes = { [-12] = "p", [-9] = "n", [-6] = "u", [-3] = "m", [0] = "", [3] = "k", [6] = "M", [9] = "G" }
+local prefixes = {
+  [-12] = "p", [-9] = "n", [-6] = "u", [-3] = "m", [0] = "", [3] = "k", [6] = "M", [9] = "G",
+}
 
 -- Units whose first symbol takes a prefix, and how far up it may go.
 local scalable = {

@@ -153,7 +153,8 @@ function progress:clear()
     self.stream:write("\r\27[K")
     self.stream:flush()
   end
-  self.drawn, self.shown = false, self.terminal and nil or self.shown
+  self.drawn = false
+  if self.terminal then self.shown = nil end
 end
 
 local function last_line(self, format, ...)

@@ -14,7 +14,8 @@ end
 local function status(run)
   local time = number.text(run.time or 0 / 0, "s")
   if run.ok then
-    local line = string.format("%s: ok, %s after %s", plain(run.name or "run"), plain(run.reason or "ended"), time)
+    local line = string.format("%s: ok, %s after %s",
+      plain(run.name or "run"), plain(run.reason or "ended"), time)
     if run.steps then line = line .. string.format(", %d steps", run.steps) end
     if run.wall then line = line .. ", took " .. number.duration(run.wall) end
     return line
