@@ -25,7 +25,7 @@ function gnuplot.number(x)
 end
 
 local terminals = {
-  svg = 'svg enhanced size %g,%g background "#ffffff" font "Arial,13"',
+  svg = 'svg enhanced size %g,%g background "#ffffff" font "Arial,13" name "%s"',
   png = 'pngcairo enhanced size %g,%g background "#ffffff" font "Sans,11"',
   pdf = 'pdfcairo enhanced size %g,%g background "#ffffff" font "Sans,11"',
   dumb = "dumb enhanced size %g,%g noattributes",
@@ -77,15 +77,16 @@ function gnuplot.script()
   return script
 end
 
-local function run(kind, size, script, output)
+-- The id puts its mark on names within an SVG, so that several fit one page.
+local function run(kind, size, script, output, id)
   local name = os.tmpname()
   local ok, text, code = pcall(function()
     sink.write_file(name, table.concat({
-      "set terminal " .. string.format(terminals[kind], size[1], size[2]),
+      "set terminal " .. string.format(terminals[kind], size[1], size[2], id),
       "set output " .. gnuplot.quote(output), kind == "dumb" and dumb_style or style,
       table.concat(script.lines, "\n"), "unset output\n",
     }, "\n"))
-    local fine, said, exit = sink.run("exec gnuplot " .. sink.quote(name))
+    local fine, said, exit = sink.run("exec gnuplot -d " .. sink.quote(name))
     if not fine then return said, exit end
   end)
   os.remove(name)
@@ -94,14 +95,6 @@ local function run(kind, size, script, output)
   if text then
     sink.fail("gnuplot failed (exit code %d): %s", code, complaint(text, name:gsub("%p", "%%%0")))
   end
-end
-
-local function check_folder(path)
-  local probe = sink.temporary(path)
-  local file, why = io.open(probe, "wb")
-  if not file then sink.fail("cannot write %s: %s", path, (why:gsub("^.*: ", ""))) end
-  file:close()
-  return probe
 end
 
 --- Draw a script into a file, or as characters.
@@ -123,8 +116,8 @@ function gnuplot.draw(script, path, size)
   if not terminals[kind] or kind == "dumb" then
     sink.fail("a chart: %s ends in none of .svg .png .pdf", path)
   end
-  local output = check_folder(path)
-  run(kind, size, script, output)
+  local output = sink.reserve(path)
+  run(kind, size, script, output, "c_" .. sink.base(path):gsub("[^%w]", "_"))
   sink.commit(output, path)
   return path
 end

@@ -37,6 +37,9 @@ end
 local encode
 
 local function encode_array(value, write, path)
+  local count = 0
+  for _ in pairs(value) do count = count + 1 end
+  if count > #value then sink.fail("JSON: a table with both a sequence and named fields") end
   write "["
   for i = 1, #value do
     if i > 1 then write "," end

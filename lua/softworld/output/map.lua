@@ -60,9 +60,10 @@ local function cell_text(x)
   return number.digits(x + 0.0, 3)
 end
 
+-- Names of tics are formats to gnuplot, unlike all other texts.
 local function tics(names)
   local list = {}
-  for i, name in ipairs(names) do list[i] = gnuplot.quote(name) .. " " .. i end
+  for i, name in ipairs(names) do list[i] = gnuplot.quote((tostring(name):gsub("%%", "%%%%"))) .. " " .. i end
   return "(" .. table.concat(list, ", ") .. ")"
 end
 

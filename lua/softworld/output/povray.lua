@@ -27,7 +27,7 @@ end
 -- POV-Ray may be told to touch its working folder only, so it runs there.
 local function trace(folder, name, width, height, extra)
   local command = string.format(
-    "cd %s && exec povray +I%s.pov +O%s.png +FN8 +W%d +H%d -D -GD -GR -GS -P +WT%d %s",
+    "cd -- %s && exec povray +I%s.pov +O%s.png +FN8 +W%d +H%d -D -GD -GR -GS -P +WT%d %s",
     sink.quote(folder), name, name, width, height, extra.threads, extra.aa)
   local ok, text, code = sink.run(command)
   if not ok then sink.fail("povray failed (exit code %d): %s", code, complaint(text)) end
@@ -144,12 +144,13 @@ local function check(options, purpose)
     sink.fail("%s: path %s does not end in .png", purpose, tostring(options.path))
   end
   sink.need("povray", "povray", purpose)
-  return run
+  return solid.finite_run(run)
 end
 
 local function render(sheet, run, frames, look, options)
   local path = options.path
-  local folder, names = sink.temporary(path) .. ".d", { "sheet.pov", "sheet.png" }
+  local folder, names = sink.reserve(path), { "sheet.pov", "sheet.png" }
+  os.remove(folder) -- a file of that name could be made: so can a folder
   sink.make_folder(folder)
   local settings = { threads = options.threads or 2, aa = options.draft and "-A" or "+A0.15 +AM2 +R3 -J" }
   local ok, why = pcall(function()

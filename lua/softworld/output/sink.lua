@@ -139,6 +139,17 @@ function sink.write_file(path, content)
   return sink.fail("cannot write %s: %s", path, reason_of(ok and close_why or failure.sink_reason, temporary))
 end
 
+--- Make an empty temporary file beside a path for another program to fill.
+-- @tparam string path the final path
+-- @treturn string the temporary path; raises if the folder cannot be written
+function sink.reserve(path)
+  local temporary = sink.temporary(path)
+  local file, why = io.open(temporary, "wb")
+  if not file then sink.fail("cannot write %s: %s", path, reason_of(why, temporary)) end
+  file:close()
+  return temporary
+end
+
 --- Read a whole file.
 -- @tparam string path
 -- @treturn string

@@ -185,6 +185,18 @@ function solid.plane_piece(obstacle, pose, centre, half)
   return { vertices = vertices, indices = { 0, 1, 2, 0, 2, 3 } }
 end
 
+--- Whether two poses are the same, number by number.
+-- @tparam ?table a
+-- @tparam ?table b
+-- @treturn boolean
+function solid.same_pose(a, b)
+  local pa, qa = solid.pose(a)
+  local pb, qb = solid.pose(b)
+  for i = 1, 3 do if pa[i] ~= pb[i] then return false end end
+  for i = 1, 4 do if qa[i] ~= qb[i] then return false end end
+  return true
+end
+
 local function widen(bounds, points)
   for i = 1, #points, 3 do
     for c = 1, 3 do
@@ -199,7 +211,8 @@ end
 --- The smallest box along the axes around all wires, obstacles other than
 -- planes, and grips of a run.
 -- @tparam table run
--- @tparam[opt] function visit called with each flat list of points as well
+-- @tparam[opt] function visit called with each flat list of points as well;
+-- an obstacle at rest is visited once
 -- @treturn table `{ low = {x,y,z}, high = {x,y,z}, centre = {x,y,z}, size = diagonal }` [m]
 function solid.bounds(run, visit)
   local bounds = { low = { math.huge, math.huge, math.huge }, high = { -math.huge, -math.huge, -math.huge } }
@@ -207,12 +220,16 @@ function solid.bounds(run, visit)
     widen(bounds, points)
     if visit then visit(points) end
   end
-  local shapes = {}
+  local shapes, before = {}, {}
   for i, o in ipairs(run.obstacles or {}) do shapes[i] = o.shape ~= "plane" and solid.triangles(o, 8) end
-  for _, frame in ipairs(run.frames) do
+  for f, frame in ipairs(run.frames) do
     for _, points in ipairs(frame.wires or {}) do see(points) end
     for i, shape in ipairs(shapes) do
-      if shape then see(solid.place(shape.vertices, (frame.obstacles or {})[i])) end
+      local pose = (frame.obstacles or {})[i]
+      if shape and (f == 1 or not solid.same_pose(pose, before[i])) then
+        see(solid.place(shape.vertices, pose))
+      end
+      before[i] = pose
     end
     for _, grip in ipairs(frame.grips or {}) do see((solid.pose(grip))) end
   end
@@ -227,16 +244,29 @@ function solid.bounds(run, visit)
   return bounds
 end
 
---- Whether two poses are the same, number by number.
--- @tparam ?table a
--- @tparam ?table b
--- @treturn boolean
-function solid.same_pose(a, b)
-  local pa, qa = solid.pose(a)
-  local pb, qb = solid.pose(b)
-  for i = 1, 3 do if pa[i] ~= pb[i] then return false end end
-  for i = 1, 4 do if qa[i] ~= qb[i] then return false end end
+local function all_finite(points)
+  for i = 1, #points do
+    local x = points[i]
+    if x ~= x or x == math.huge or x == -math.huge then return false end
+  end
   return true
+end
+
+--- A run without the frames that cannot be drawn, as a run that diverged has.
+-- @tparam table run
+-- @treturn table the run itself, or a copy with fewer frames; raises if none is left
+function solid.finite_run(run)
+  local frames = {}
+  for _, frame in ipairs(run.frames) do
+    local fine = true
+    for _, points in ipairs(frame.wires or {}) do fine = fine and all_finite(points) end
+    for _, pose in ipairs(frame.obstacles or {}) do fine = fine and all_finite((solid.pose(pose))) end
+    for _, pose in ipairs(frame.grips or {}) do fine = fine and all_finite((solid.pose(pose))) end
+    if fine then frames[#frames + 1] = frame end
+  end
+  if #frames == #run.frames and #frames > 0 then return run end
+  if #frames == 0 then sink.fail("%s: no frame with finite coordinates", run.name or "run") end
+  return setmetatable({ frames = frames }, { __index = run })
 end
 
 return solid

@@ -54,7 +54,24 @@ local function longest(points, up)
   return dot(best, e1) < -1e-9 and combine(-1, best, 0, best, 0, best) or best
 end
 
--- At most about 60 frames and 50 points a list: a camera needs no more.
+-- About 50 points of a list, and those furthest along each axis.
+local function sample(flat, points)
+  local low, high = { 1, 2, 3 }, { 1, 2, 3 }
+  local function put(i) points[#points + 1] = { flat[i], flat[i + 1], flat[i + 2] } end
+  for i = 1, #flat, 3 * math.max(1, #flat // 150) do put(i) end
+  for i = 1, #flat, 3 do
+    for c = 0, 2 do
+      if flat[i + c] < flat[low[c + 1]] then low[c + 1] = i + c end
+      if flat[i + c] > flat[high[c + 1]] then high[c + 1] = i + c end
+    end
+  end
+  for c = 0, 2 do
+    put(low[c + 1] - c)
+    put(high[c + 1] - c)
+  end
+end
+
+-- About 60 frames: a camera needs no more.
 local function fit_points(run, extra)
   local frames, points = {}, extra or {}
   local total = #run.frames
@@ -63,10 +80,7 @@ local function fit_points(run, extra)
     frames[k + 1] = run.frames[count > 1 and 1 + k * (total - 1) // (count - 1) or total]
   end
   solid.bounds(setmetatable({ frames = frames }, { __index = run }), function(flat)
-    local stride = 3 * math.max(1, #flat // 150)
-    for i = 1, #flat, stride do points[#points + 1] = { flat[i], flat[i + 1], flat[i + 2] } end
-    local n = #flat
-    if n >= 3 then points[#points + 1] = { flat[n - 2], flat[n - 1], flat[n] } end
+    if #flat >= 3 then sample(flat, points) end
   end)
   if #points == 0 then points[1] = { 0, 0, 0 } end
   return points

@@ -175,7 +175,8 @@ local function write_frames(run, folder, folder_name, bounds)
   return entries
 end
 
---- Write a run as a ParaView series.
+--- Write a run as a ParaView series; frames with coordinates that are not
+-- finite, which VTK cannot read, are left out.
 -- @tparam table run with wires, obstacles and frames
 -- @tparam string path of the collection, ending in .pvd; the .vtp files go
 -- into a folder of the same name ending in .vtk, made if it is not there
@@ -185,7 +186,7 @@ function vtk.write(run, path)
     sink.fail("vtk: a run with frames is expected")
   end
   if sink.extension(path) ~= "pvd" then sink.fail("vtk: %s does not end in .pvd", path) end
-  run = setmetatable({ obstacles = run.obstacles or {} }, { __index = run })
+  run = setmetatable({ obstacles = run.obstacles or {} }, { __index = solid.finite_run(run) })
   local folder_name = sink.base(path):sub(1, -5) .. ".vtk"
   local folder = sink.folder(path) .. "/" .. folder_name
   sink.make_folder(folder)
