@@ -147,7 +147,7 @@ end
 -- Of the views across the longest side, turned and raised a little, the one
 -- that brings the run nearest.
 local function best_direction(camera, options, up, side, points)
-  local turns = options.turn and { options.turn } or { 15, 20, 25, 30, 35, 40 }
+  local turns = options.turn and { options.turn } or { 15, 22, 29, 36, 43, 50 }
   local rises = options.elevation and { options.elevation } or { 24, 28, 32, 36 }
   local best, best_scale
   for _, turn in ipairs(turns) do
