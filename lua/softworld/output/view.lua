@@ -144,11 +144,24 @@ local function aim(camera, forward, up, side, points)
   camera.at = fit(points, camera.right, camera.up, camera.forward, camera.tx * margin, camera.ty * margin)
 end
 
+-- Whether the points hardly reach across a direction, so that a view turned
+-- or raised much would only distort them.
+local function thin(points, side, up)
+  local ahead = cross(up, side)
+  local low, high, near, far = math.huge, -math.huge, math.huge, -math.huge
+  for _, p in ipairs(points) do
+    local x, y = dot(p, side), dot(p, ahead)
+    low, high, near, far = math.min(low, x), math.max(high, x), math.min(near, y), math.max(far, y)
+  end
+  return far - near < 0.2 * (high - low)
+end
+
 -- Of the views across the longest side, turned and raised a little, the one
 -- that brings the run nearest.
 local function best_direction(camera, options, up, side, points)
-  local turns = options.turn and { options.turn } or { 15, 22, 29, 36, 43, 50 }
-  local rises = options.elevation and { options.elevation } or { 24, 28, 32, 36 }
+  local flat = thin(points, side, up)
+  local turns = options.turn and { options.turn } or flat and { 12 } or { 15, 22, 29, 36, 43, 50 }
+  local rises = options.elevation and { options.elevation } or flat and { 14 } or { 24, 28, 32, 36 }
   local best, best_scale
   for _, turn in ipairs(turns) do
     for _, rise in ipairs(rises) do
