@@ -1,0 +1,321 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Charts through gnuplot: SVG, PNG or PDF files, or characters for the terminal.
+-- Without a path each function returns the drawing as text. Sizes are in px
+-- ({900, 480} unless told), in inches for .pdf, in characters without a path.
+-- Names are drawn as they are, whatever the characters in them.
+-- @module softworld.output.chart
+
+local gnuplot = require "softworld.output.gnuplot"
+local map = require "softworld.output.map"
+local number = require "softworld.output.number"
+local series = require "softworld.output.series"
+local sink = require "softworld.output.sink"
+
+local chart = {}
+
+local quote = gnuplot.quote
+local most_points = 4000 -- in one curve; more are thinned, keeping the peaks
+
+local function size_of(options, width, height)
+  if options.size then return options.size end
+  if not options.path then return { 79, 24 } end
+  if sink.extension(options.path) == "pdf" then return { 7, math.max(4, height / 130) } end
+  return { width, height }
+end
+
+local function finite(x)
+  return x ~= nil and x == x and x ~= math.huge and x ~= -math.huge
+end
+
+-- The lowest and the highest sample of each stretch, in their order.
+local function thinned(time, values)
+  local rows, stretch = {}, math.max(1, math.ceil(2 * #time / most_points))
+  local function put(i) rows[#rows + 1] = gnuplot.number(time[i]) .. " " .. gnuplot.number(values[i]) end
+  for first = 1, #time, stretch do
+    local low, high = first, first
+    for i = first, math.min(first + stretch - 1, #time) do
+      if not finite(values[low]) or values[i] < values[low] then low = i end
+      if not finite(values[high]) or values[i] > values[high] then high = i end
+    end
+    put(math.min(low, high))
+    if low ~= high then put(math.max(low, high)) end
+  end
+  return rows
+end
+
+local function wanted_columns(data, names)
+  if not names then return data.columns end
+  local list = {}
+  for i, name in ipairs(names) do
+    for _, column in ipairs(data.columns) do
+      if column.name == name then list[i] = column end
+    end
+    if not list[i] then sink.fail("a chart: the run has no series named %s", tostring(name)) end
+  end
+  return list
+end
+
+local function has_values(column)
+  for _, x in ipairs(column.values) do
+    if finite(x) then return true end
+  end
+  return false
+end
+
+-- One panel for each unit, in the order of first use.
+local function panels_of(columns)
+  local panels, by_unit = {}, {}
+  for _, column in ipairs(columns) do
+    if has_values(column) then
+      local unit = column.unit or ""
+      if not by_unit[unit] then
+        by_unit[unit] = { unit = unit }
+        panels[#panels + 1] = by_unit[unit]
+      end
+      table.insert(by_unit[unit], column)
+    end
+  end
+  if #panels == 0 then sink.fail("a chart: no series with a finite value to draw") end
+  return panels
+end
+
+local function curve(script, time, column, k, title)
+  local block = script.data(thinned(time, column.values))
+  local colours = gnuplot.colours
+  return string.format("%s using 1:2 with lines lw 1.6 lc rgb %s dt %d %s", block,
+    quote(colours[(k - 1) % #colours + 1]), (k - 1) // #colours % 5 + 1, title)
+end
+
+-- 1, 2 or 5 times a power of ten, so that about five fit into the span.
+local function nice_step(span)
+  local power = 10.0 ^ math.floor(math.log(span / 5, 10))
+  local lead = span / 5 / power
+  return power * (lead < 1.5 and 1 or lead < 3.5 and 2 or lead < 7.5 and 5 or 10)
+end
+
+local function value_axis(script, panel)
+  local low, high = math.huge, -math.huge
+  for _, column in ipairs(panel) do
+    for _, x in ipairs(column.values) do
+      if finite(x) then low, high = math.min(low, x), math.max(high, x) end
+    end
+  end
+  if high - low <= 1e-12 * math.max(math.abs(low), math.abs(high)) then
+    script.add "set yrange [*:*]\nset ytics autofreq"
+    return
+  end
+  local step = nice_step(high - low)
+  script.add("set yrange [%s:%s]\nset ytics %s", gnuplot.number(math.floor(low / step) * step),
+    gnuplot.number(math.ceil(high / step) * step), gnuplot.number(step))
+end
+
+-- A single curve is named on its axis, several in the key; characters have no
+-- room beside the axis, so that there the key tells all.
+local function panel_plot(script, time, panel, first, text)
+  local curves, single = {}, #panel == 1
+  for k, column in ipairs(panel) do
+    local title = single and "notitle" or "title " .. quote(column.name)
+    if text then title = "title " .. quote(series.head(column.name, panel.unit)) end
+    curves[k] = curve(script, time, column, first + k, title)
+  end
+  if not text then value_axis(script, panel) end
+  local axis = text and "" or series.head(single and panel[1].name or "", panel.unit)
+  script.add("set ylabel %s noenhanced", quote(axis))
+  script.add("plot " .. table.concat(curves, ", "))
+  return first + #panel
+end
+
+local function time_range(time)
+  local low, high = math.huge, -math.huge
+  for _, t in ipairs(time) do low, high = math.min(low, t), math.max(high, t) end
+  if low >= high then low, high = low - 0.5, low + 0.5 end
+  return low, high
+end
+
+-- Room for the longest name in a key, at the right of all panels alike [px].
+local function key_room(panels)
+  local longest = 0
+  for _, panel in ipairs(panels) do
+    for _, column in ipairs(#panel > 1 and panel or {}) do
+      longest = math.max(longest, number.columns(column.name))
+    end
+  end
+  return longest > 0 and 60 + 8.2 * longest or 26
+end
+
+-- Panels of one width and height, with room for the title and their keys.
+local function stack(script, panels, title, size, path)
+  local dot = sink.extension(path) == "pdf" and 1 / 96 or 1
+  local wide, high = dot / size[1], dot / size[2]
+  script.add("set multiplot layout %d,1%s margins %.4f,%.4f,%.4f,%.4f spacing 0,%.4f", #panels,
+    title and " title " .. quote(title) .. " noenhanced" or "", 116 * wide,
+    math.max(0.5, 1 - key_room(panels) * wide), 66 * high, 1 - (title and 44 or 20) * high, 36 * high)
+  script.add "set format x ''\nset key at graph 1.02,graph 1 left top vertical"
+end
+
+--- Time series: one panel for each unit, a common time axis.
+-- @tparam table options `run` (or `series`, see series.of); `columns`, names
+-- of the series wanted (default all); `title` (default the run's name);
+-- `path`; `size`
+-- @treturn string the path, or the drawing
+function chart.series(options)
+  local source = options.run or options.series
+  local data = series.of(source)
+  local panels = panels_of(wanted_columns(data, options.columns))
+  local script, title = gnuplot.script(), options.title or source.name
+  local size = size_of(options, 900, #panels > 1 and 100 + 220 * #panels or 420)
+  local low, high = time_range(data.time)
+  script.add("set xrange [%s:%s]", gnuplot.number(low), gnuplot.number(high))
+  local text = not options.path
+  if not text then
+    stack(script, panels, title, size, options.path)
+  elseif title then
+    script.add("set title %s noenhanced", quote(title))
+  end
+  local used = 0
+  for i, panel in ipairs(panels) do
+    if i == #panels or text then script.add "set format x '%g'\nset xlabel 't [s]'" end
+    used = panel_plot(script, data.time, panel, used, text)
+    if i == 1 and text then script.add "unset title" end
+  end
+  if not text then script.add "unset multiplot" end
+  return gnuplot.draw(script, options.path, size)
+end
+
+local function check_points(points)
+  if type(points) ~= "table" or #points == 0 then sink.fail("a chart: points are expected") end
+  for i, p in ipairs(points) do
+    local function positive(key)
+      if not finite(p[key]) or p[key] <= 0 then
+        sink.fail("a chart: point %d: %s = %s cannot stand on a logarithmic axis", i, key, tostring(p[key]))
+      end
+    end
+    positive "x"
+    if not p.failed then positive "y" end
+  end
+end
+
+--- The points that no other beats in both x and y, by rising x.
+-- Failed points take no part.
+-- @tparam table points see chart.front
+-- @treturn table
+function chart.pareto(points)
+  local order, front = {}, {}
+  for _, p in ipairs(points) do
+    if not p.failed then order[#order + 1] = p end
+  end
+  table.sort(order, function(a, b)
+    if a.x ~= b.x then return a.x < b.x end
+    return a.y < b.y
+  end)
+  local best = math.huge
+  for _, p in ipairs(order) do
+    if p.y < best then
+      front[#front + 1], best = p, p.y
+    end
+  end
+  return front
+end
+
+local function log_range(points, key, below, above)
+  local low, high = math.huge, 0
+  for _, p in ipairs(points) do
+    if finite(p[key]) and p[key] > 0 and not (key == "y" and p.failed) then
+      low, high = math.min(low, p[key]), math.max(high, p[key])
+    end
+  end
+  if high == 0 then low, high = 1, 1 end
+  return low / below, high * above
+end
+
+local function by_series(points)
+  local groups, index = {}, {}
+  for _, p in ipairs(points) do
+    local name = p.series or ""
+    if not index[name] then
+      index[name] = { name = name, good = {}, failed = {}, labels = {} }
+      groups[#groups + 1] = index[name]
+    end
+    local list = p.failed and index[name].failed or index[name].good
+    list[#list + 1] = p
+  end
+  return groups
+end
+
+local function rows_of(points, y)
+  local rows = {}
+  for i, p in ipairs(points) do rows[i] = gnuplot.number(p.x) .. " " .. gnuplot.number(y or p.y) end
+  return rows
+end
+
+local point_types = { 7, 5, 9, 11, 13, 6, 4, 8, 10, 12 }
+
+local function group_plots(script, groups, top, size)
+  local plots = {}
+  for k, group in ipairs(groups) do
+    local colour = quote(gnuplot.colours[(k - 1) % #gnuplot.colours + 1])
+    -- a series of failures only still gets its line in the key
+    local block = script.data(#group.good > 0 and rows_of(group.good) or { "NaN NaN" })
+    plots[#plots + 1] = string.format("%s using 1:2 with points pt %d ps %g lc rgb %s %s", block,
+      point_types[(k - 1) % #point_types + 1], size, colour,
+      group.name ~= "" and "title " .. quote(group.name) or "notitle")
+    if #group.failed > 0 then
+      plots[#plots + 1] = string.format("%s using 1:2 with points pt 2 ps %g lw 2 lc rgb %s notitle",
+        script.data(rows_of(group.failed, top)), 1.2 * size, colour)
+    end
+  end
+  return plots
+end
+
+local function point_labels(script, points, top)
+  for _, p in ipairs(points) do
+    if p.label then
+      script.add("set label %s at %s,%s left offset 0.8,%s noenhanced font ',9' textcolor rgb '#555555'",
+        quote(p.label), gnuplot.number(p.x), gnuplot.number(p.failed and top or p.y),
+        p.failed and "-0.8" or "0.4")
+    end
+  end
+end
+
+--- A log-log chart of cost against error, or the like.
+-- The Pareto front is marked by a line; failures stand as crosses at the top edge.
+-- @tparam table options `points = { { x=, y=, series=name, failed=bool, label= }, ... }`
+-- with positive x and y (y is not needed for a failure); `xlabel`, `ylabel`,
+-- `title`; `path`; `size`
+-- @treturn string the path, or the drawing
+function chart.front(options)
+  check_points(options.points)
+  local points, script = options.points, gnuplot.script()
+  local any_failed = false
+  for _, p in ipairs(points) do any_failed = any_failed or p.failed end
+  local x1, x2 = log_range(points, "x", 1.6, 1.6)
+  local y1, y2 = log_range(points, "y", 2, any_failed and 6 or 2)
+  local top = y2 / 1.5
+  script.add "set logscale xy\nset mxtics 10\nset mytics 10"
+  if options.path then script.add "set key outside right center vertical" end
+  script.add(options.path and "set format xy '10^{%L}'\nset tics enhanced" or "set format xy '%.0e'")
+  script.add("set xrange [%s:%s]\nset yrange [%s:%s]", gnuplot.number(x1), gnuplot.number(x2),
+    gnuplot.number(y1), gnuplot.number(y2))
+  script.add("set xlabel %s noenhanced\nset ylabel %s noenhanced", quote(options.xlabel or "x"),
+    quote(options.ylabel or "y"))
+  if options.title then script.add("set title %s noenhanced", quote(options.title)) end
+  if options.path then point_labels(script, points, top) end
+  local plots, front = {}, chart.pareto(points)
+  local dot = options.path and sink.extension(options.path) == "svg" and 0.75 or 1.1 -- the same to the eye
+  if #front > 0 then
+    plots[1] = script.data(rows_of(front))
+      .. " using 1:2 with lines lw 5 lc rgb '#c8c8c8' title 'Pareto front'"
+  end
+  table.move(group_plots(script, by_series(points), top, dot), 1, #points * 2, #plots + 1, plots)
+  if any_failed then
+    plots[#plots + 1] = string.format("NaN with points pt 2 ps %g lw 2 lc rgb '#666666' title 'failed'", dot)
+  end
+  script.add("plot " .. table.concat(plots, ", "))
+  return gnuplot.draw(script, options.path, size_of(options, 900, 600))
+end
+
+--- A map of coloured cells; see softworld.output.map.
+-- @function chart.map
+chart.map = map.draw
+
+return chart

@@ -1,0 +1,125 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Gnuplot in a separate process, fed by a temporary script with its data.
+-- @module softworld.output.gnuplot
+
+local sink = require "softworld.output.sink"
+
+local gnuplot = {}
+
+--- Colours that stay apart with the common colour blindnesses (Okabe and Ito).
+gnuplot.colours = { "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000" }
+
+--- A text as a gnuplot string: nothing in it has a meaning.
+-- @tparam string text
+-- @treturn string in single quotes, on one line
+function gnuplot.quote(text)
+  return "'" .. tostring(text):gsub("%c", " "):gsub("'", "''") .. "'"
+end
+
+--- A number for gnuplot; what is not finite leaves a gap.
+-- @tparam ?number x
+-- @treturn string
+function gnuplot.number(x)
+  if x == nil or x ~= x or x == math.huge or x == -math.huge then return "NaN" end
+  return sink.number(x)
+end
+
+local terminals = {
+  svg = 'svg enhanced size %g,%g background "#ffffff" font "Arial,13" name "%s"',
+  png = 'pngcairo enhanced size %g,%g background "#ffffff" font "Sans,11"',
+  pdf = 'pdfcairo enhanced size %g,%g background "#ffffff" font "Sans,11"',
+  dumb = "dumb enhanced size %g,%g noattributes",
+}
+
+-- Style common to all charts; the grid lies behind and is light.
+local style = [[
+set encoding utf8
+set border 3 lc rgb "#444444"
+set tics nomirror out scale 0.6 textcolor rgb "#222222" noenhanced
+set grid back lt 1 lc rgb "#dedede" lw 0.8
+set key noenhanced above left horizontal Left reverse samplen 1.8 textcolor rgb "#222222"
+set bmargin
+]]
+
+-- Boxes of characters read better without a grid.
+local dumb_style = [[
+set encoding utf8
+set tics nomirror noenhanced
+set key noenhanced above left horizontal
+]]
+
+local function complaint(text, script)
+  local kept = {}
+  for line in text:gmatch("[^\n]+") do
+    if line:find("%S") and not line:find("^%s*%^%s*$") then
+      kept[#kept + 1] = line:gsub(script, "script", 1)
+    end
+  end
+  return table.concat(kept, " ", math.max(1, #kept - 1))
+end
+
+--- A new script: a table with add(format, ...), which appends a line, and
+-- data(rows), which appends a data block and gives its name.
+-- @treturn table
+function gnuplot.script()
+  local script = { lines = {}, blocks = 0 }
+  function script.add(text, ...)
+    script.lines[#script.lines + 1] = select("#", ...) > 0 and string.format(text, ...) or text
+  end
+  function script.data(rows)
+    script.blocks = script.blocks + 1
+    local name = "$data" .. script.blocks
+    script.add(name .. " << END_OF_DATA")
+    for _, row in ipairs(rows) do script.lines[#script.lines + 1] = row end
+    script.add "END_OF_DATA"
+    return name
+  end
+  return script
+end
+
+-- The id puts its mark on names within an SVG, so that several fit one page.
+local function run(kind, size, script, output, id)
+  local name = os.tmpname()
+  local ok, text, code = pcall(function()
+    sink.write_file(name, table.concat({
+      "set terminal " .. string.format(terminals[kind], size[1], size[2], id),
+      "set output " .. gnuplot.quote(output), kind == "dumb" and dumb_style or style,
+      table.concat(script.lines, "\n"), "unset output\n",
+    }, "\n"))
+    local fine, said, exit = sink.run("exec gnuplot -d " .. sink.quote(name))
+    if not fine then return said, exit end
+  end)
+  os.remove(name)
+  if text then os.remove(output) end
+  if not ok then error(text, 0) end
+  if text then
+    sink.fail("gnuplot failed (exit code %d): %s", code, complaint(text, name:gsub("%p", "%%%0")))
+  end
+end
+
+--- Draw a script into a file, or as characters.
+-- @tparam table script from gnuplot.script
+-- @tparam ?string path ending in .svg, .png or .pdf; nil for characters
+-- @tparam {width,height} size [px], inches for .pdf, characters without a path
+-- @treturn string the path, or the drawing as text without a path
+-- @raise if gnuplot is missing or fails, or the path cannot be written
+function gnuplot.draw(script, path, size)
+  sink.need("gnuplot", "gnuplot-nox", "a chart")
+  if not path then
+    local output = os.tmpname()
+    run("dumb", size, script, output)
+    local text = sink.read_file(output)
+    os.remove(output)
+    return (text:gsub("\f", ""):gsub("[ \t]+\n", "\n"):gsub("^\n+", ""):gsub("\n+$", "\n"))
+  end
+  local kind = sink.extension(path)
+  if not terminals[kind] or kind == "dumb" then
+    sink.fail("a chart: %s ends in none of .svg .png .pdf", path)
+  end
+  local output = sink.reserve(path)
+  run(kind, size, script, output, "c_" .. sink.base(path):gsub("[^%w]", "_"))
+  sink.commit(output, path)
+  return path
+end
+
+return gnuplot

@@ -1,0 +1,213 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- One frame of a run as a POV-Ray 3.7 scene.
+-- The camera's axes are given outright, which settles POV-Ray's left-handed
+-- habit; colours are srgb. Wires are unions of spheres and cylinders.
+-- @module softworld.output.povscene
+
+local solid = require "softworld.output.solid"
+local view = require "softworld.output.view"
+
+local povscene = {}
+
+--- How far a gripper is drawn along z of its pose, in widths.
+povscene.grip_reach = 4.2
+
+local format = string.format
+
+local function numbers(v)
+  return format("%.9g,%.9g,%.9g", v[1], v[2], v[3])
+end
+
+local function vector(v)
+  return "<" .. numbers(v) .. ">"
+end
+
+-- Orange, blue-green, ... : told apart with the common colour blindnesses.
+local wire_colours = {
+  { 0.90, 0.33, 0.05 }, { 0.00, 0.62, 0.45 }, { 0.80, 0.47, 0.65 },
+  { 0.94, 0.89, 0.26 }, { 0.00, 0.45, 0.70 },
+}
+local obstacle_colour = { 0.52, 0.69, 0.87 }
+local table_colour = { 0.82, 0.80, 0.765 }
+local jaw_colour, palm_colour = { 0.33, 0.37, 0.43 }, { 0.70, 0.73, 0.77 }
+
+-- Finishes: how much of the light of all around, of the lamps, and which gloss.
+local matt = "finish { ambient 0.13 diffuse 0.72 }"
+local satin = "finish { ambient 0.16 diffuse 0.75 specular 0.15 roughness 0.05 }"
+local glossy = "finish { ambient 0.16 diffuse 0.75 specular 0.45 roughness 0.02 }"
+
+local function colour(c)
+  return format("srgb %s", vector(c))
+end
+
+local function matrix(pose)
+  local p, q = solid.pose(pose)
+  local m = {}
+  for _, axis in ipairs { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } do
+    for _, x in ipairs { solid.rotate(q, axis[1], axis[2], axis[3]) } do m[#m + 1] = format("%.9g", x) end
+  end
+  return format("matrix <%s,%.9g,%.9g,%.9g>", table.concat(m, ","), p[1], p[2], p[3])
+end
+
+local function head(add, camera)
+  add "#version 3.7;\nglobal_settings { assumed_gamma 1.0 max_trace_level 8 }\n"
+  add "background { srgb <0.965,0.97,0.98> }\n"
+  add(format("camera { perspective location %s direction %s right %s up %s }\n", vector(camera.at),
+    vector(camera.forward), vector { camera.right[1] * 2 * camera.tx, camera.right[2] * 2 * camera.tx,
+      camera.right[3] * 2 * camera.tx },
+    vector { camera.up[1] * 2 * camera.ty, camera.up[2] * 2 * camera.ty, camera.up[3] * 2 * camera.ty }))
+end
+
+-- A broad key light from behind the viewer's left shoulder and a weak one
+-- from the right that casts no shadow.
+local function lights(add, camera, up, size)
+  local function place(right, rise, back)
+    local p = {}
+    for i = 1, 3 do
+      p[i] = camera.middle[i] + size * (right * camera.right[i] + rise * up[i] - back * camera.forward[i])
+    end
+    return vector(p)
+  end
+  local spread = format("%.9g", 0.35 * size)
+  add(format("light_source { %s srgb 1.04 area_light <%s,0,0>, <0,%s,0>, 5, 5",
+    place(-1.4, 2.0, 0.9), spread, spread))
+  add " adaptive 1 jitter circular orient }\n"
+  add(format("light_source { %s srgb 0.5 shadowless }\n", place(1.6, 1.2, 1.4)))
+end
+
+--- The side of the table's squares: 1, 2 or 5 times a power of ten.
+-- @tparam number size of the scene [m]
+-- @treturn number [m]
+function povscene.square(size)
+  local wanted = size / 16
+  local power = 10.0 ^ math.floor(math.log(wanted, 10))
+  local lead = wanted / power
+  return power * (lead < 1.5 and 1 or lead < 3.5 and 2 or lead < 7.5 and 5 or 10)
+end
+
+local function plane(add, obstacle, pose, camera, size)
+  local n, p = solid.normal(obstacle, pose), solid.pose(pose)
+  local height = 0
+  for i = 1, 3 do height = height + n[i] * (camera.at[i] - p[i]) end
+  if height <= 0 then return end -- seen from behind it would hide everything
+  local v = solid.plane_piece(obstacle, pose, p, 0.5).vertices
+  local u = { v[4] - v[1], v[5] - v[2], v[6] - v[3] }
+  local w = { v[10] - v[1], v[11] - v[2], v[12] - v[3] }
+  local square = povscene.square(size)
+  local c = obstacle.color or table_colour
+  local light = { c[1] + 0.22 * (1 - c[1]), c[2] + 0.22 * (1 - c[2]), c[3] + 0.22 * (1 - c[3]) }
+  add(format("plane { z, 0 texture { pigment { checker color %s color %s scale %.9g translate z*%.9g }\n",
+    colour(c), colour(light), square, square / 2))
+  add(format("%s }\nmatrix <%s,%s,%s,%s> }\n", matt, numbers(u), numbers(w), numbers(n), numbers(p)))
+end
+
+local function mesh(add, shape)
+  local v = {}
+  for i = 1, #shape.vertices, 3 do
+    v[#v + 1] = vector { shape.vertices[i], shape.vertices[i + 1], shape.vertices[i + 2] }
+  end
+  add(format("mesh2 { vertex_vectors { %d,\n%s }\n", #v, table.concat(v, ",\n")))
+  local f = {}
+  for i = 1, #shape.indices, 3 do
+    f[#f + 1] = format("<%d,%d,%d>", shape.indices[i], shape.indices[i + 1], shape.indices[i + 2])
+  end
+  add(format("face_indices { %d,\n%s }\n", #f, table.concat(f, ",\n")))
+end
+
+local openers = {
+  box = function(add, o)
+    local s = o.size
+    local half = { s[1] / 2, s[2] / 2, s[3] / 2 }
+    add(format("box { -%s, %s\n", vector(half), vector(half)))
+  end,
+  sphere = function(add, o) add(format("sphere { 0, %.9g\n", o.radius)) end,
+  cylinder = function(add, o)
+    add(format("cylinder { z*%.9g, z*%.9g, %.9g\n", -o.length / 2, o.length / 2, o.radius))
+  end,
+  capsule = function(add, o)
+    local h, r = o.length / 2, o.radius
+    add(format("merge { cylinder { z*%.9g, z*%.9g, %.9g } sphere { z*%.9g, %.9g } sphere { z*%.9g, %.9g }\n",
+      -h, h, r, -h, r, h, r))
+  end,
+  mesh = mesh, hull = mesh,
+}
+
+local function obstacle(add, o, pose, camera, size)
+  solid.check(o)
+  if o.shape == "plane" then return plane(add, o, pose, camera, size) end
+  local c = o.color or obstacle_colour
+  openers[o.shape](add, o)
+  add(format("texture { pigment { %s transmit %.3g } %s }\n%s }\n", colour(c), o.transparency or 0.1, satin,
+    matrix(pose)))
+end
+
+-- Neighbours closer than a tenth of the radius are left out of the union.
+local function wire(add, points, radius, c)
+  add "union {\n"
+  local last
+  for i = 1, #points, 3 do
+    local p = { points[i], points[i + 1], points[i + 2] }
+    local away = last and math.sqrt((p[1] - last[1]) ^ 2 + (p[2] - last[2]) ^ 2 + (p[3] - last[3]) ^ 2)
+    if not last or away > 0.1 * radius then
+      add(format("sphere { %s, %.9g }", vector(p), radius))
+      if last then add(format(" cylinder { %s, %s, %.9g }", vector(last), vector(p), radius)) end
+      add "\n"
+      last = p
+    end
+  end
+  add(format("texture { pigment { %s } %s } }\n", colour(c), glossy))
+end
+
+local function jaw(add, w, from, to)
+  add(format("box { <%.9g,%.9g,%.9g>, <%.9g,%.9g,%.9g> }\n", -w / 2, from, -0.6 * w, w / 2, to, 2 * w))
+end
+
+local function painted(c)
+  return format("texture { pigment { %s } %s }", colour(c), satin)
+end
+
+-- Two jaws at +-y of the grip's pose, wire along x, the palm and stem at +z.
+local function grip(add, pose, w, gap)
+  local reach = gap + 0.45 * w
+  add "union { union {\n"
+  jaw(add, w, gap, reach)
+  jaw(add, w, -reach, -gap)
+  add(painted(jaw_colour) .. " }\nunion {\n")
+  local half = { 0.65 * w, 1.4 * w, 0.3 * w }
+  add(format("box { -%s, %s translate z*%.9g }\n", vector(half), vector(half), 2.2 * w))
+  add(format("cylinder { z*%.9g, z*%.9g, %.9g }\n", 2.5 * w, povscene.grip_reach * w, 0.4 * w))
+  add(format("%s }\n%s }\n", painted(palm_colour), matrix(pose)))
+end
+
+local function grips(add, run, frame, look)
+  local radius = run.wires[1] and run.wires[1].radius or 0
+  for i, pose in ipairs(frame.grips or {}) do
+    local w = math.max((run.grips and run.grips[i] or {}).width or 0, look.smallest_grip)
+    local closed = math.min(radius * look.thickness, 0.4 * w)
+    grip(add, pose, w, pose.held and closed or closed + 0.5 * w)
+  end
+end
+
+--- The scene of one frame.
+-- @tparam table run
+-- @tparam table frame one of run.frames
+-- @tparam table look `camera` (see view.camera), `size` of the scene [m],
+-- `thickness` factor on the wires' radius, `smallest_grip` width [m]
+-- @treturn string POV-Ray text
+function povscene.text(run, frame, look)
+  local parts = {}
+  local function add(text) parts[#parts + 1] = text end
+  head(add, look.camera)
+  lights(add, look.camera, view.up(run), look.size)
+  for i, o in ipairs(run.obstacles or {}) do
+    obstacle(add, o, (frame.obstacles or {})[i], look.camera, look.size)
+  end
+  for i, points in ipairs(frame.wires) do
+    local w = run.wires[i]
+    wire(add, points, w.radius * look.thickness, w.color or wire_colours[(i - 1) % #wire_colours + 1])
+  end
+  grips(add, run, frame, look)
+  return table.concat(parts)
+end
+
+return povscene

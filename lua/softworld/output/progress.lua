@@ -1,0 +1,193 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Progress of a run: a bar on a terminal, plain lines elsewhere.
+--
+--    local bar <close> = progress.new{ total = 5.0 }   -- [s] simulated
+--    bar:update(t, steps)                              -- as often as you like
+--    bar:finish()
+--
+-- Leaving the block by an error clears the bar through the close metamethod.
+-- @module softworld.output.progress
+
+local number = require "softworld.output.number"
+local sink = require "softworld.output.sink"
+
+local progress = {}
+progress.__index = progress
+progress.__name = "softworld progress"
+
+local redraw_gap = 0.1 -- [s] between two drawings of the bar
+local line_gap = 3.0   -- [s] between two plain lines
+local width_gap = 2.0  -- [s] between two looks at the terminal's width
+
+-- Plain Lua has whole seconds of real time and fine processor time; together
+-- they never run ahead of the clock on the wall in a single thread.
+local function fallback_clock()
+  local wall, cpu = os.time(), os.clock()
+  return function() return math.max(os.clock() - cpu, os.difftime(os.time(), wall) - 1) end
+end
+
+local function is_terminal()
+  return os.getenv("TERM") ~= "dumb" and os.execute("test -t 2") == true
+end
+
+local function terminal_width()
+  local pipe = io.popen("stty size <&2 2>/dev/null", "r")
+  local text = pipe and pipe:read("a") or ""
+  if pipe then pipe:close() end
+  local columns = tonumber(text:match("%d+%s+(%d+)")) or tonumber(os.getenv("COLUMNS"))
+  return columns and columns > 0 and columns or 80
+end
+
+--- Start showing progress.
+-- @tparam[opt] table options
+-- `total` simulated time to reach [s], nil if the processes decide;
+-- `name` shown in front; `quiet = true` shows nothing;
+-- `stream` (default io.stderr); `terminal` true or false (default: asked of
+-- the system for stderr, false for another stream);
+-- `width` columns or a function giving them; `clock` a function giving real time [s]
+-- @treturn table with update, finish, fail
+function progress.new(options)
+  options = options or {}
+  if options.total ~= nil and not (type(options.total) == "number" and options.total > 0) then
+    sink.fail("progress: total must be a positive time [s], got %s", tostring(options.total))
+  end
+  local self = setmetatable({}, progress)
+  self.total, self.name, self.quiet = options.total, options.name, options.quiet or false
+  self.stream = options.stream or io.stderr
+  self.clock = options.clock or fallback_clock()
+  self.start, self.time, self.steps = self.clock(), 0.0, 0
+  self.terminal = options.terminal
+  if self.terminal == nil and not self.quiet then
+    self.terminal = self.stream == io.stderr and is_terminal()
+  end
+  self.width = options.width or terminal_width
+  return self
+end
+
+local function columns_of(self, now)
+  if type(self.width) == "number" then return self.width end
+  if not self.columns or now - self.columns_at >= width_gap then
+    self.columns, self.columns_at = self.width(), now
+  end
+  return self.columns
+end
+
+-- A share that is a percentage only when it is known to be true.
+local function share_of(self)
+  return self.total and math.max(0, math.min(1, self.time / self.total))
+end
+
+local function facts(self, now)
+  local elapsed = now - self.start
+  local parts = { number.text(self.time, "s") }
+  if self.total then parts[1] = string.format("t = %s of %s", parts[1], number.text(self.total, "s"))
+  else parts[1] = "t = " .. parts[1] end
+  parts[#parts + 1] = string.format("%d steps", self.steps)
+  if elapsed > 0 and self.time > 0 then
+    parts[#parts + 1] = number.digits(self.time / elapsed, 3) .. " x real time"
+    local share = share_of(self)
+    if share and share < 1 then
+      parts[#parts + 1] = "left " .. number.duration(elapsed * (1 - share) / share)
+    end
+  end
+  return parts
+end
+
+local spin = { "|", "/", "-", "\\" }
+
+local function front(self)
+  local share = share_of(self)
+  local label = self.name and self.name:gsub("%c", " ") .. " " or ""
+  if share then return label .. string.format("%3d %%", math.floor(share * 100)) end
+  self.turn = (self.turn or 0) % #spin + 1
+  return label .. spin[self.turn]
+end
+
+-- As many facts as fit; the bar takes what remains, from 10 to 40 columns.
+local function bar_line(self, now, columns)
+  local room = columns - 1
+  local head, parts = front(self), facts(self, now)
+  local tail = table.concat(parts, ", ")
+  while #parts > 1 and number.columns(head .. tail) + (self.total and 15 or 2) > room do
+    table.remove(parts)
+    tail = table.concat(parts, ", ")
+  end
+  local length = math.min(40, room - number.columns(head .. tail) - 5)
+  if self.total and length >= 5 then
+    local filled = math.floor(share_of(self) * length)
+    head = head .. " [" .. string.rep("#", filled) .. string.rep("-", length - filled) .. "]"
+  end
+  local line = head .. "  " .. tail
+  if number.columns(line) <= room then return line end
+  return line:sub(1, (utf8.offset(line, math.max(room, 0) + 1) or #line + 1) - 1)
+end
+
+local function draw(self, now)
+  self.stream:write("\r", bar_line(self, now, columns_of(self, now)), "\27[K")
+  self.stream:flush()
+  self.drawn = true
+end
+
+local function say(self, now)
+  self.stream:write(front(self), "  ", table.concat(facts(self, now), ", "), "\n")
+  self.stream:flush()
+end
+
+--- Tell how far the run is. Cheap: draws at most ten times a second on a
+-- terminal and prints at most one line every few seconds elsewhere.
+-- @tparam number time simulated so far [s]
+-- @tparam ?integer steps so far
+function progress:update(time, steps)
+  if self.quiet or self.ended then return end
+  self.time, self.steps = time, math.tointeger(steps) or self.steps
+  local now = self.clock()
+  if self.shown and now - self.shown < (self.terminal and redraw_gap or line_gap) then return end
+  self.shown = now
+  if self.terminal then draw(self, now) else say(self, now) end
+end
+
+--- Remove the bar from the terminal, so that something else can be printed;
+-- the next update draws it again.
+function progress:clear()
+  if self.drawn then
+    self.stream:write("\r\27[K")
+    self.stream:flush()
+  end
+  self.drawn = false
+  if self.terminal then self.shown = nil end
+end
+
+local function last_line(self, format, ...)
+  if self.quiet or self.ended then return end
+  self:clear()
+  local label = self.name and self.name:gsub("%c", " ") .. ": " or ""
+  self.stream:write(label, string.format(format, ...), "\n")
+  self.stream:flush()
+  self.ended = true
+end
+
+--- The run has ended well: clears the bar and prints one last line.
+function progress:finish()
+  last_line(self, "t = %s, %d steps in %s", number.text(self.time, "s"), self.steps,
+    number.duration(self.clock() - self.start))
+end
+
+--- The run has ended badly: clears the bar and prints why.
+-- @tparam string reason
+function progress:fail(reason)
+  last_line(self, "stopped at t = %s after %d steps: %s", number.text(self.time, "s"), self.steps,
+    (tostring(reason):gsub("%c", " ")))
+end
+
+--- Leaving the block: an error clears the bar without a word (the error
+-- speaks for itself), an ordinary end finishes it.
+function progress:__close(failure)
+  if failure ~= nil then
+    if not self.quiet then self:clear() end
+    self.ended = true
+  else
+    self:finish()
+  end
+end
+
+return progress

@@ -1,0 +1,272 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Obstacles as triangles, and poses: what the writers of scenes share.
+-- Lengths in m; triangles wind so that their normals point outwards.
+-- A solid is `{ vertices = flat {x,y,z,...}, indices = flat 0-based {i,j,k,...} }`.
+-- @module softworld.output.solid
+
+local sink = require "softworld.output.sink"
+
+local solid = {}
+
+--- Rotate a vector by a unit quaternion.
+-- @tparam {w,x,y,z} q
+-- @tparam number x
+-- @tparam number y
+-- @tparam number z
+-- @treturn number,number,number
+function solid.rotate(q, x, y, z)
+  local w, a, b, c = q[1], q[2], q[3], q[4]
+  local tx, ty, tz = 2 * (b * z - c * y), 2 * (c * x - a * z), 2 * (a * y - b * x)
+  return x + w * tx + b * tz - c * ty, y + w * ty + c * tx - a * tz, z + w * tz + a * ty - b * tx
+end
+
+local identity = { 1, 0, 0, 0 }
+local origin = { 0, 0, 0 }
+
+--- The position and rotation of a pose, with the identity for what is absent.
+-- @tparam ?table pose `{ position = {x,y,z} [m], rotation = {w,x,y,z} }`
+-- @treturn table position
+-- @treturn table rotation, of unit length
+function solid.pose(pose)
+  if not pose then return origin, identity end
+  local q = pose.rotation or identity
+  local norm = math.sqrt(q[1] ^ 2 + q[2] ^ 2 + q[3] ^ 2 + q[4] ^ 2)
+  if norm == 0 or norm ~= norm then q, norm = identity, 1 end
+  return pose.position or origin, { q[1] / norm, q[2] / norm, q[3] / norm, q[4] / norm }
+end
+
+--- Points moved from the body's axes to the world's.
+-- @tparam table vertices flat
+-- @tparam ?table pose
+-- @treturn table flat, new
+function solid.place(vertices, pose)
+  local p, q = solid.pose(pose)
+  local out = {}
+  for i = 1, #vertices, 3 do
+    local x, y, z = solid.rotate(q, vertices[i], vertices[i + 1], vertices[i + 2])
+    out[i], out[i + 1], out[i + 2] = x + p[1], y + p[2], z + p[3]
+  end
+  return out
+end
+
+--- The direction a plane's normal has in the world, of unit length.
+-- @tparam table obstacle with `normal` (default z)
+-- @tparam ?table pose
+-- @treturn table {x,y,z}
+function solid.normal(obstacle, pose)
+  local n = obstacle.normal or { 0, 0, 1 }
+  local _, q = solid.pose(pose)
+  local length = math.sqrt(n[1] ^ 2 + n[2] ^ 2 + n[3] ^ 2)
+  return { solid.rotate(q, n[1] / length, n[2] / length, n[3] / length) }
+end
+
+local function box(size)
+  local a, b, c = size[1] / 2, size[2] / 2, size[3] / 2
+  return {
+    vertices = { -a, -b, -c, a, -b, -c, a, b, -c, -a, b, -c, -a, -b, c, a, -b, c, a, b, c, -a, b, c },
+    indices = {
+      0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
+      1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7,
+    },
+  }
+end
+
+-- A body of revolution about z: rings of `around` points between two poles.
+-- profile = { {radius, z}, ... } from bottom to top, without the poles.
+local function revolve(profile, bottom, top, around)
+  local v, f = { 0, 0, bottom }, {}
+  for _, ring in ipairs(profile) do
+    for k = 0, around - 1 do
+      local angle = 2 * math.pi * k / around
+      v[#v + 1], v[#v + 2], v[#v + 3] = ring[1] * math.cos(angle), ring[1] * math.sin(angle), ring[2]
+    end
+  end
+  v[#v + 1], v[#v + 2], v[#v + 3] = 0, 0, top
+  local function face(a, b, c) f[#f + 1], f[#f + 2], f[#f + 3] = a, b, c end
+  local last, rings = #v // 3 - 1, #profile
+  for k = 0, around - 1 do
+    local n = (k + 1) % around
+    face(0, 1 + n, 1 + k)
+    for r = 0, rings - 2 do
+      local low, high = 1 + r * around, 1 + (r + 1) * around
+      face(low + k, low + n, high + n)
+      face(low + k, high + n, high + k)
+    end
+    local ring = 1 + (rings - 1) * around
+    face(ring + k, ring + n, last)
+  end
+  return { vertices = v, indices = f }
+end
+
+local function arc(profile, radius, z, from, to, steps)
+  for i = 0, steps do
+    local angle = from + (to - from) * i / steps
+    profile[#profile + 1] = { radius * math.cos(angle), z + radius * math.sin(angle) }
+  end
+end
+
+local half_pi = math.pi / 2
+
+local function sphere(r, around)
+  local profile, steps = {}, around // 2
+  local step = math.pi / steps
+  arc(profile, r, 0, step - half_pi, half_pi - step, steps - 2)
+  return revolve(profile, -r, r, around)
+end
+
+local function capsule(r, length, around)
+  local profile, steps, h = {}, around // 4, length / 2
+  local step = half_pi / steps
+  arc(profile, r, -h, step - half_pi, 0, steps - 1)
+  arc(profile, r, h, 0, half_pi - step, steps - 1)
+  return revolve(profile, -h - r, h + r, around)
+end
+
+local function cylinder(r, length, around)
+  return revolve({ { r, -length / 2 }, { r, length / 2 } }, -length / 2, length / 2, around)
+end
+
+local makers = {
+  box = function(o) return box(o.size) end,
+  sphere = function(o, around) return sphere(o.radius, around) end,
+  capsule = function(o, around) return capsule(o.radius, o.length, around) end,
+  cylinder = function(o, around) return cylinder(o.radius, o.length, around) end,
+  mesh = function(o) return o end,
+  hull = function(o) return o end,
+}
+
+local needs = {
+  box = { "size" }, sphere = { "radius" }, capsule = { "radius", "length" },
+  cylinder = { "radius", "length" }, mesh = { "vertices", "indices" }, hull = { "vertices", "indices" },
+}
+
+--- Complain about an obstacle whose shape or measures are missing.
+-- @tparam table obstacle
+function solid.check(obstacle)
+  local name = obstacle.name or "obstacle"
+  if obstacle.shape == "plane" then return end
+  local needed = needs[obstacle.shape]
+  if not needed then sink.fail("%s: unknown shape %s", name, tostring(obstacle.shape)) end
+  for _, key in ipairs(needed) do
+    if not obstacle[key] then sink.fail("%s: a %s needs %s", name, obstacle.shape, key) end
+  end
+end
+
+--- An obstacle as triangles in its own axes (cylinder and capsule along z).
+-- @tparam table obstacle any shape but plane
+-- @tparam[opt=32] integer around points around a round shape, a multiple of 4
+-- @treturn table solid
+function solid.triangles(obstacle, around)
+  solid.check(obstacle)
+  return makers[obstacle.shape](obstacle, around or 32)
+end
+
+--- A square piece of a plane, in the world's axes.
+-- @tparam table obstacle a plane
+-- @tparam ?table pose
+-- @tparam {x,y,z} centre a point near which the piece is wanted [m]
+-- @tparam number half half its side [m]
+-- @treturn table solid
+function solid.plane_piece(obstacle, pose, centre, half)
+  local n, p = solid.normal(obstacle, pose), solid.pose(pose)
+  local away = 0
+  for i = 1, 3 do away = away + n[i] * (centre[i] - p[i]) end
+  local u = math.abs(n[1]) < 0.9 and { 1 - n[1] * n[1], -n[1] * n[2], -n[1] * n[3] }
+    or { -n[2] * n[1], 1 - n[2] * n[2], -n[2] * n[3] }
+  local length = math.sqrt(u[1] ^ 2 + u[2] ^ 2 + u[3] ^ 2)
+  for i = 1, 3 do u[i] = u[i] / length end
+  local w = { n[2] * u[3] - n[3] * u[2], n[3] * u[1] - n[1] * u[3], n[1] * u[2] - n[2] * u[1] }
+  local vertices = {}
+  for _, corner in ipairs { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } } do
+    for i = 1, 3 do
+      vertices[#vertices + 1] = centre[i] - away * n[i] + half * (corner[1] * u[i] + corner[2] * w[i])
+    end
+  end
+  return { vertices = vertices, indices = { 0, 1, 2, 0, 2, 3 } }
+end
+
+--- Whether two poses are the same, number by number.
+-- @tparam ?table a
+-- @tparam ?table b
+-- @treturn boolean
+function solid.same_pose(a, b)
+  local pa, qa = solid.pose(a)
+  local pb, qb = solid.pose(b)
+  for i = 1, 3 do if pa[i] ~= pb[i] then return false end end
+  for i = 1, 4 do if qa[i] ~= qb[i] then return false end end
+  return true
+end
+
+local function widen(bounds, points)
+  for i = 1, #points, 3 do
+    for c = 1, 3 do
+      local x = points[i + c - 1]
+      if x == x and math.abs(x) < math.huge then
+        bounds.low[c], bounds.high[c] = math.min(bounds.low[c], x), math.max(bounds.high[c], x)
+      end
+    end
+  end
+end
+
+--- The smallest box along the axes around all wires, obstacles other than
+-- planes, and grips of a run.
+-- @tparam table run
+-- @tparam[opt] function visit called with each flat list of points as well;
+-- an obstacle at rest is visited once
+-- @treturn table `{ low = {x,y,z}, high = {x,y,z}, centre = {x,y,z}, size = diagonal }` [m]
+function solid.bounds(run, visit)
+  local bounds = { low = { math.huge, math.huge, math.huge }, high = { -math.huge, -math.huge, -math.huge } }
+  local function see(points)
+    widen(bounds, points)
+    if visit then visit(points) end
+  end
+  local shapes, before = {}, {}
+  for i, o in ipairs(run.obstacles or {}) do shapes[i] = o.shape ~= "plane" and solid.triangles(o, 8) end
+  for f, frame in ipairs(run.frames) do
+    for _, points in ipairs(frame.wires or {}) do see(points) end
+    for i, shape in ipairs(shapes) do
+      local pose = (frame.obstacles or {})[i]
+      if shape and (f == 1 or not solid.same_pose(pose, before[i])) then
+        see(solid.place(shape.vertices, pose))
+      end
+      before[i] = pose
+    end
+    for _, grip in ipairs(frame.grips or {}) do see((solid.pose(grip))) end
+  end
+  if bounds.low[1] > bounds.high[1] then bounds.low, bounds.high = { -1, -1, -1 }, { 1, 1, 1 } end
+  local low, high, square = bounds.low, bounds.high, 0
+  bounds.centre = {}
+  for c = 1, 3 do
+    bounds.centre[c] = (low[c] + high[c]) / 2
+    square = square + (high[c] - low[c]) ^ 2
+  end
+  bounds.size = math.max(math.sqrt(square), 1e-6)
+  return bounds
+end
+
+local function all_finite(points)
+  for i = 1, #points do
+    local x = points[i]
+    if x ~= x or x == math.huge or x == -math.huge then return false end
+  end
+  return true
+end
+
+--- A run without the frames that cannot be drawn, as a run that diverged has.
+-- @tparam table run
+-- @treturn table the run itself, or a copy with fewer frames; raises if none is left
+function solid.finite_run(run)
+  local frames = {}
+  for _, frame in ipairs(run.frames) do
+    local fine = true
+    for _, points in ipairs(frame.wires or {}) do fine = fine and all_finite(points) end
+    for _, pose in ipairs(frame.obstacles or {}) do fine = fine and all_finite((solid.pose(pose))) end
+    for _, pose in ipairs(frame.grips or {}) do fine = fine and all_finite((solid.pose(pose))) end
+    if fine then frames[#frames + 1] = frame end
+  end
+  if #frames == #run.frames and #frames > 0 then return run end
+  if #frames == 0 then sink.fail("%s: no frame with finite coordinates", run.name or "run") end
+  return setmetatable({ frames = frames }, { __index = run })
+end
+
+return solid

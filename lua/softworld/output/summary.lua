@@ -1,0 +1,81 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- The summary of a run for the terminal.
+-- @module softworld.output.summary
+
+local number = require "softworld.output.number"
+local sink = require "softworld.output.sink"
+
+local summary = {}
+
+local function plain(text)
+  return (tostring(text):gsub("%c", " "))
+end
+
+local function status(run)
+  local time = number.text(run.time or 0 / 0, "s")
+  if run.ok then
+    local line = string.format("%s: ok, %s after %s",
+      plain(run.name or "run"), plain(run.reason or "ended"), time)
+    if run.steps then line = line .. string.format(", %d steps", run.steps) end
+    if run.wall then line = line .. ", took " .. number.duration(run.wall) end
+    return line
+  end
+  return string.format("%s: DIVERGED at t = %s: %s", plain(run.name or "run"), time,
+    plain(run.reason or "no reason given"))
+end
+
+local function cells(entry)
+  local value, unit = number.engineering(entry.value, entry.unit)
+  return {
+    plain(entry.label), value, unit, plain(entry.where or ""),
+    entry.when and "t = " .. number.text(entry.when, "s") or "",
+  }
+end
+
+local function pad(text, width, right)
+  local gap = string.rep(" ", width - number.columns(text))
+  return right and gap .. text or text .. gap
+end
+
+local function widths_of(rows)
+  local widths = { 0, 0, 0, 0, 0 }
+  for _, row in ipairs(rows) do
+    for c, text in ipairs(row) do widths[c] = math.max(widths[c], number.columns(text)) end
+  end
+  return widths
+end
+
+--- The summary as text.
+-- First the state of the run, then one aligned row per entry: label, value
+-- with four significant digits, unit, place and time. A run that diverged
+-- gives its reason and no numbers.
+-- @tparam table run with `name, ok, reason, time [s], steps, wall [s]` and
+-- `summary = { { label=, value=, unit=, where=, when= [s] }, ... }`
+-- @treturn string lines, each ended by a newline
+function summary.text(run)
+  if type(run) ~= "table" or run.ok == nil then sink.fail("summary: a run is expected") end
+  local lines = { status(run) }
+  if run.ok then
+    local rows = {}
+    for i, entry in ipairs(run.summary or {}) do rows[i] = cells(entry) end
+    local widths = widths_of(rows)
+    for _, row in ipairs(rows) do
+      local padded = {}
+      for c, text in ipairs(row) do padded[c] = pad(text, widths[c], c == 2) end
+      padded[2] = padded[2] .. " " .. table.remove(padded, 3)
+      lines[#lines + 1] = ("  " .. table.concat(padded, "  ")):gsub("%s+$", "")
+    end
+  else
+    lines[#lines + 1] = "  no results are given for a run that diverged"
+  end
+  return table.concat(lines, "\n") .. "\n"
+end
+
+--- Print the summary.
+-- @tparam table run see summary.text
+-- @param[opt=io.stdout] stream an open file
+function summary.print(run, stream)
+  (stream or io.stdout):write(summary.text(run))
+end
+
+return summary

@@ -1,0 +1,225 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Where to look from: a perspective camera that just holds a whole run.
+-- @module softworld.output.view
+
+local sink = require "softworld.output.sink"
+local solid = require "softworld.output.solid"
+
+local view = {}
+
+local function dot(a, b) return a[1] * b[1] + a[2] * b[2] + a[3] * b[3] end
+
+local function cross(a, b)
+  return { a[2] * b[3] - a[3] * b[2], a[3] * b[1] - a[1] * b[3], a[1] * b[2] - a[2] * b[1] }
+end
+
+local function unit(a, what)
+  local length = math.sqrt(dot(a, a))
+  if length == 0 or length ~= length then sink.fail("camera: %s has no direction", what) end
+  return { a[1] / length, a[2] / length, a[3] / length }
+end
+
+local function combine(a, x, b, y, c, z)
+  local out = {}
+  for i = 1, 3 do out[i] = a * x[i] + b * y[i] + c * z[i] end
+  return out
+end
+
+--- Up: against gravity, or z without gravity.
+-- @tparam table run
+-- @treturn {x,y,z} of unit length
+function view.up(run)
+  local g = run.gravity
+  if not g or dot(g, g) == 0 then return { 0, 0, 1 } end
+  return unit({ -g[1], -g[2], -g[3] }, "gravity")
+end
+
+-- The horizontal direction in which the points reach furthest, pointing to
+-- the side of +x (or of +y where there is no x), by trial every 7.5 degrees.
+local function longest(points, up)
+  local seed = math.abs(up[1]) < 0.9 and { 1, 0, 0 } or { 0, 1, 0 }
+  local e1 = unit(combine(1, seed, -dot(seed, up), up, 0, up))
+  local e2 = cross(up, e1)
+  local best, best_reach = e1, -1
+  for k = 0, 23 do
+    local angle = math.rad(7.5 * k)
+    local e = combine(math.cos(angle), e1, math.sin(angle), e2, 0, up)
+    local low, high = math.huge, -math.huge
+    for i = 1, #points do
+      local x = dot(points[i], e)
+      low, high = math.min(low, x), math.max(high, x)
+    end
+    if high - low > 1.02 * best_reach then best, best_reach = e, high - low end
+  end
+  return dot(best, e1) < -1e-9 and combine(-1, best, 0, best, 0, best) or best
+end
+
+-- About 50 points of a list, and those furthest along each axis.
+local function sample(flat, points)
+  local low, high = { 1, 2, 3 }, { 1, 2, 3 }
+  local function put(i) points[#points + 1] = { flat[i], flat[i + 1], flat[i + 2] } end
+  for i = 1, #flat, 3 * math.max(1, #flat // 150) do put(i) end
+  for i = 1, #flat, 3 do
+    for c = 0, 2 do
+      if flat[i + c] < flat[low[c + 1]] then low[c + 1] = i + c end
+      if flat[i + c] > flat[high[c + 1]] then high[c + 1] = i + c end
+    end
+  end
+  for c = 0, 2 do
+    put(low[c + 1] - c)
+    put(high[c + 1] - c)
+  end
+end
+
+-- About 60 frames: a camera needs no more.
+local function fit_points(run, extra)
+  local frames, points = {}, extra or {}
+  local total = #run.frames
+  local count = math.min(total, 60)
+  for k = 0, count - 1 do
+    frames[k + 1] = run.frames[count > 1 and 1 + k * (total - 1) // (count - 1) or total]
+  end
+  solid.bounds(setmetatable({ frames = frames }, { __index = run }), function(flat)
+    if #flat >= 3 then sample(flat, points) end
+  end)
+  if #points == 0 then points[1] = { 0, 0, 0 } end
+  return points
+end
+
+-- The nearest camera that sees every point within +-tx, +-ty (tangents of the
+-- half angles): each bound is linear in the camera's coordinates.
+local function fit(points, right, up, forward, tx, ty)
+  local ax, bx, ay, by = -math.huge, math.huge, -math.huge, math.huge
+  for _, p in ipairs(points) do
+    local x, y, z = dot(p, right), dot(p, up), dot(p, forward)
+    ax, bx = math.max(ax, x - z * tx), math.min(bx, x + z * tx)
+    ay, by = math.max(ay, y - z * ty), math.min(by, y + z * ty)
+  end
+  local z = math.min((bx - ax) / (2 * tx), (by - ay) / (2 * ty))
+  return combine((ax + bx) / 2, right, (ay + by) / 2, up, z, forward)
+end
+
+-- Shift the camera sideways until what it sees is in the middle.
+local function centre(camera, points)
+  for _ = 1, 6 do
+    local low, high, depth = { 1, 1 }, { -1, -1 }, 0
+    for _, p in ipairs(points) do
+      local x, y, z = view.project(camera, p)
+      low[1], high[1] = math.min(low[1], x), math.max(high[1], x)
+      low[2], high[2] = math.min(low[2], y), math.max(high[2], y)
+      depth = depth + z / #points
+    end
+    camera.filled = (high[2] - low[2]) / 2
+    camera.at = combine(1, camera.at, (low[1] + high[1]) / 2 * camera.tx * depth, camera.right,
+      (low[2] + high[2]) / 2 * camera.ty * depth, camera.up)
+  end
+end
+
+local function mean(points)
+  local sum = { 0, 0, 0 }
+  for _, p in ipairs(points) do sum = combine(1, sum, 1, p, 0, p) end
+  return combine(1 / #points, sum, 0, sum, 0, sum)
+end
+
+-- Axes of the camera; looking straight up or down keeps the old right.
+local function axes(forward, up, side)
+  local right = cross(forward, up)
+  if dot(right, right) < 1e-8 then right = side end
+  right = unit(right, "camera")
+  return right, cross(right, forward)
+end
+
+local function direction(turn, elevation, side, up)
+  turn, elevation = math.rad(turn), math.rad(elevation)
+  local ahead = cross(up, side)
+  local level = combine(math.cos(turn), ahead, -math.sin(turn), side, 0, up)
+  return combine(math.cos(elevation), level, -math.sin(elevation), up, 0, up)
+end
+
+local margin = 0.94
+
+local function aim(camera, forward, up, side, points)
+  camera.forward = unit(forward, "the view")
+  camera.right, camera.up = axes(camera.forward, up, side)
+  camera.at = fit(points, camera.right, camera.up, camera.forward, camera.tx * margin, camera.ty * margin)
+end
+
+-- Whether the points hardly reach across a direction, so that a view turned
+-- or raised much would only distort them.
+local function thin(points, side, up)
+  local ahead = cross(up, side)
+  local low, high, near, far = math.huge, -math.huge, math.huge, -math.huge
+  for _, p in ipairs(points) do
+    local x, y = dot(p, side), dot(p, ahead)
+    low, high, near, far = math.min(low, x), math.max(high, x), math.min(near, y), math.max(far, y)
+  end
+  return far - near < 0.2 * (high - low)
+end
+
+-- Of the views across the longest side, turned and raised a little, the one
+-- that brings the run nearest.
+local function best_direction(camera, options, up, side, points)
+  local flat = thin(points, side, up)
+  local turns = options.turn and { options.turn } or flat and { 12 } or { 15, 22, 29, 36, 43, 50 }
+  local rises = options.elevation and { options.elevation } or flat and { 14 } or { 24, 28, 32, 36 }
+  local best, best_scale
+  for _, turn in ipairs(turns) do
+    for _, rise in ipairs(rises) do
+      local forward = direction(turn, rise, side, up)
+      aim(camera, forward, up, side, points)
+      local scale = view.scale(camera, 1)
+      if not best or scale > 1.01 * best_scale then best, best_scale = forward, scale end
+    end
+  end
+  return best
+end
+
+--- A camera for a run, the same for all its frames.
+-- @tparam table run
+-- @tparam number aspect width over height of the picture
+-- @tparam[opt] table options `from` and `to` (points [m]: a fixed camera), or
+-- `direction` (looking along it), or `turn` and `elevation` [deg] off the
+-- level view across the longest side; `angle` of the picture's width [deg]
+-- @tparam[opt] {{x,y,z},...} extra points to hold as well [m]
+-- @treturn table `at [m], forward, right, up` (unit vectors), `tx, ty`
+-- (tangents of the half angles), `middle` (mean of what is seen [m]), `filled`
+-- (the share of the picture's height that the run takes)
+function view.camera(run, aspect, options, extra)
+  options = options or {}
+  local up = view.up(run)
+  local points = fit_points(run, extra)
+  local side = longest(points, up)
+  local tx = math.tan(math.rad((options.angle or 30) / 2))
+  local camera = { tx = tx, ty = tx / aspect, middle = mean(points) }
+  if options.from then
+    aim(camera, combine(1, options.to or camera.middle, -1, options.from, 0, up), up, side, points)
+    camera.at = options.from
+    return camera
+  end
+  aim(camera, options.direction or best_direction(camera, options, up, side, points), up, side, points)
+  centre(camera, points)
+  return camera
+end
+
+--- How many pixels a metre takes in the middle of the picture.
+-- @tparam table camera
+-- @tparam number width of the picture [px]
+-- @treturn number [px/m]
+function view.scale(camera, width)
+  local away = dot(combine(1, camera.middle, -1, camera.at, 0, camera.at), camera.forward)
+  return width / (2 * camera.tx * math.max(away, 1e-9))
+end
+
+--- Where a point falls in the picture.
+-- @tparam table camera
+-- @tparam {x,y,z} point [m]
+-- @treturn number -1 left edge to 1 right edge
+-- @treturn number -1 lower edge to 1 upper edge
+-- @treturn number how far it is ahead [m]
+function view.project(camera, point)
+  local d = combine(1, point, -1, camera.at, 0, point)
+  local z = dot(d, camera.forward)
+  return dot(d, camera.right) / (z * camera.tx), dot(d, camera.up) / (z * camera.ty), z
+end
+
+return view

@@ -1,0 +1,209 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- A run as a ParaView series: `laying.pvd` and a folder `laying.vtk` of `.vtp` files.
+-- Part 0 holds the wires as polylines with point data radius [m] and s (arc
+-- length [m]); part 1 holds obstacles as triangles. Cell data object counts
+-- wires or obstacles from 0. Obstacles that rest share one file.
+-- @module softworld.output.vtk
+
+local json = require "softworld.output.json"
+local sink = require "softworld.output.sink"
+local solid = require "softworld.output.solid"
+
+local vtk = {}
+
+local per_line = 12
+
+local function write_numbers(write, values)
+  local number = sink.number
+  for i = 1, #values, per_line do
+    local line = {}
+    for k = i, math.min(i + per_line - 1, #values) do line[#line + 1] = number(values[k]) end
+    write(table.concat(line, " ") .. "\n")
+  end
+end
+
+local function write_array(write, kind, name, values, components)
+  write(string.format('<DataArray type="%s" Name="%s" format="ascii"%s>\n', kind, name,
+    components and ' NumberOfComponents="' .. components .. '"' or ""))
+  write_numbers(write, values)
+  write "</DataArray>\n"
+end
+
+local function write_cells(write, tag, cells)
+  write("<" .. tag .. ">\n")
+  write_array(write, "Int64", "connectivity", cells.connectivity)
+  write_array(write, "Int64", "offsets", cells.offsets)
+  write("</" .. tag .. ">\n")
+end
+
+local function write_poly(write, data)
+  local empty = { connectivity = {}, offsets = {} }
+  local lines, polys = data.lines or empty, data.polys or empty
+  write '<?xml version="1.0"?>\n'
+  write '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<PolyData>\n'
+  write(string.format('<Piece NumberOfPoints="%d" NumberOfVerts="0" NumberOfLines="%d" '
+    .. 'NumberOfStrips="0" NumberOfPolys="%d">\n', #data.points // 3, #lines.offsets, #polys.offsets))
+  write "<PointData>\n"
+  for _, array in ipairs(data.point_data or {}) do write_array(write, "Float64", array.name, array.values) end
+  write "</PointData>\n<CellData>\n"
+  write_array(write, "Int32", "object", data.object)
+  write "</CellData>\n<Points>\n"
+  write_array(write, "Float64", "Points", data.points, 3)
+  write "</Points>\n"
+  write_cells(write, "Lines", lines)
+  write_cells(write, "Polys", polys)
+  write "</Piece>\n</PolyData>\n</VTKFile>\n"
+end
+
+-- Arc length of the nodes: wire.s if given, else the chords of the first
+-- frame, scaled to the wire's length.
+local function arc_lengths(wire, points)
+  if wire.s and #wire.s == #points // 3 then return wire.s end
+  local s, sum = { 0.0 }, 0.0
+  for i = 4, #points, 3 do
+    local dx, dy, dz = points[i] - points[i - 3], points[i + 1] - points[i - 2], points[i + 2] - points[i - 1]
+    sum = sum + math.sqrt(dx * dx + dy * dy + dz * dz)
+    s[#s + 1] = sum
+  end
+  local scale = wire.length and sum > 0 and wire.length / sum or 1
+  for i = 1, #s do s[i] = s[i] * scale end
+  return s
+end
+
+local function add_wire(data, index, points, s, radius)
+  local first = #data.points // 3
+  for i = 1, #points do data.points[#data.points + 1] = points[i] end
+  local lines = data.lines
+  for k = 0, #points // 3 - 1 do
+    lines.connectivity[#lines.connectivity + 1] = first + k
+    data.point_data[1].values[first + k + 1] = radius
+    data.point_data[2].values[first + k + 1] = s[k + 1] or 0 / 0
+  end
+  lines.offsets[#lines.offsets + 1] = #lines.connectivity
+  data.object[#data.object + 1] = index - 1
+end
+
+local function wires_data(run, frame, lengths)
+  local data = {
+    points = {}, lines = { connectivity = {}, offsets = {} }, object = {},
+    point_data = { { name = "radius", values = {} }, { name = "s", values = {} } },
+  }
+  for i, points in ipairs(frame.wires) do
+    local wire = run.wires[i]
+    if #points % 3 ~= 0 then sink.fail("vtk: wire %d has %d coordinates, not threes", i, #points) end
+    lengths[i] = lengths[i] or arc_lengths(wire, points)
+    add_wire(data, i, points, lengths[i], wire.radius or 0.0)
+  end
+  return data
+end
+
+local function add_solid(data, index, vertices, indices)
+  local first = #data.points // 3
+  for i = 1, #vertices do data.points[#data.points + 1] = vertices[i] end
+  local polys = data.polys
+  for i = 1, #indices do
+    local corner = indices[i]
+    if corner < 0 or corner >= #vertices // 3 then
+      sink.fail("vtk: obstacle %d: vertex index %d out of range", index, corner)
+    end
+    polys.connectivity[#polys.connectivity + 1] = first + corner
+    if i % 3 == 0 then
+      polys.offsets[#polys.offsets + 1] = #polys.connectivity
+      data.object[#data.object + 1] = index - 1
+    end
+  end
+end
+
+local function obstacles_data(run, frame, bounds)
+  local data = { points = {}, polys = { connectivity = {}, offsets = {} }, object = {} }
+  for i, obstacle in ipairs(run.obstacles) do
+    local pose = (frame.obstacles or {})[i]
+    if obstacle.shape == "plane" then
+      local piece = solid.plane_piece(obstacle, pose, bounds.centre, bounds.size)
+      add_solid(data, i, piece.vertices, piece.indices)
+    else
+      local shape = solid.triangles(obstacle)
+      add_solid(data, i, solid.place(shape.vertices, pose), shape.indices)
+    end
+  end
+  return data
+end
+
+local function same_poses(count, a, b)
+  for i = 1, count do
+    if not solid.same_pose((a.obstacles or {})[i], (b.obstacles or {})[i]) then return false end
+  end
+  return true
+end
+
+local xml = { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;" }
+
+local function escape(text)
+  return (text:gsub('[&<>"]', xml))
+end
+
+local function write_collection(path, entries)
+  return sink.write_file(path, function(write)
+    write '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">\n'
+    write "<Collection>\n"
+    for _, entry in ipairs(entries) do
+      write(string.format('<DataSet timestep="%s" group="" part="%d" file="%s"/>\n',
+        sink.number(entry.t), entry.part, escape(entry.file)))
+    end
+    write "</Collection>\n</VTKFile>\n"
+  end)
+end
+
+local function write_frames(run, folder, folder_name, bounds)
+  local entries, lengths, rest, rest_file = {}, {}, nil, nil
+  for f, frame in ipairs(run.frames) do
+    local function save(kind, part, data)
+      local name = data and string.format("%s_%05d.vtp", kind, f - 1) or rest_file
+      if data then
+        sink.write_file(folder .. "/" .. name, function(write) write_poly(write, data) end)
+      end
+      entries[#entries + 1] = { t = frame.t, part = part, file = folder_name .. "/" .. name }
+      return name
+    end
+    save("wires", 0, wires_data(run, frame, lengths))
+    if #run.obstacles > 0 then
+      local moved = not rest or not same_poses(#run.obstacles, rest, frame)
+      rest_file = save("obstacles", 1, moved and obstacles_data(run, frame, bounds) or nil)
+      rest = frame
+    end
+  end
+  return entries
+end
+
+--- Write a run as a ParaView series; frames with coordinates that are not
+-- finite, which VTK cannot read, are left out.
+-- @tparam table run with wires, obstacles and frames
+-- @tparam string path of the collection, ending in .pvd; the .vtp files go
+-- into a folder of the same name ending in .vtk, made if it is not there
+-- @treturn string the path
+function vtk.write(run, path)
+  if type(run) ~= "table" or not run.frames or not run.wires then
+    sink.fail("vtk: a run with frames is expected")
+  end
+  if sink.extension(path) ~= "pvd" then sink.fail("vtk: %s does not end in .pvd", path) end
+  run = setmetatable({ obstacles = run.obstacles or {} }, { __index = solid.finite_run(run) })
+  local folder_name = sink.base(path):sub(1, -5) .. ".vtk"
+  local folder = sink.folder(path) .. "/" .. folder_name
+  sink.make_folder(folder)
+  local entries = write_frames(run, folder, folder_name, solid.bounds(run))
+  sink.write_file(folder .. "/objects.json", vtk.objects(run) .. "\n")
+  return write_collection(path, entries)
+end
+
+--- The names behind the numbers of the cell data object, as JSON.
+-- @tparam table run
+-- @treturn string `{"obstacles":[names],"wires":[names]}`
+function vtk.objects(run)
+  local names = { wires = {}, obstacles = {} }
+  for kind, list in pairs(names) do
+    for i, item in ipairs(run[kind]) do list[i] = item.name or kind:sub(1, -2) .. " " .. i end
+  end
+  return json.encode(names)
+end
+
+return vtk

@@ -1,0 +1,155 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+local files = require "spec.output.files"
+local scene = require "spec.output.scene"
+local sink = require "softworld.output.sink"
+local solid = require "softworld.output.solid"
+local vtk = require "softworld.output.vtk"
+
+local tetrahedron = {
+  name = 'odd <&"> name', shape = "mesh", vertices = { 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1 },
+  indices = { 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2 },
+}
+
+-- The arrays of a .vtp file by name, and the counts of its piece.
+local function read_vtp(path)
+  local arrays, piece = {}, nil
+  for _, element in ipairs(files.xml(sink.read_file(path))) do
+    if element.tag == "Piece" then piece = element.at end
+    if element.tag == "Lines" or element.tag == "Polys" then arrays.kind = element.tag end
+    if element.tag == "DataArray" then
+      arrays[(arrays.kind or "") .. element.at.Name] = files.numbers(element.text)
+    end
+  end
+  return arrays, piece
+end
+
+describe("vtk", function()
+  local folder
+
+  before_each(function() folder = files.folder() end)
+  after_each(function() files.remove(folder) end)
+
+  it("writes a collection whose files and counts agree", function()
+    local run = scene.run { frames = 4 }
+    vtk.write(run, folder .. "/lay & co.pvd")
+    local sets = {}
+    for _, element in ipairs(files.xml(sink.read_file(folder .. "/lay & co.pvd"))) do
+      if element.tag == "DataSet" then sets[#sets + 1] = element.at end
+    end
+    assert.equal(8, #sets) -- wires and obstacles of 4 frames
+    for i, set in ipairs(sets) do
+      assert.equal(run.frames[(i + 1) // 2].t, tonumber(set.timestep))
+      local file = set.file:gsub("&amp;", "&")
+      local arrays, piece = read_vtp(folder .. "/" .. file)
+      assert.equal(tonumber(piece.NumberOfPoints) * 3, #arrays.Points)
+      assert.equal(tonumber(piece.NumberOfLines), #arrays.Linesoffsets)
+      assert.equal(tonumber(piece.NumberOfPolys), #arrays.Polysoffsets)
+      assert.equal(#arrays.Linesoffsets + #arrays.Polysoffsets, #arrays.object)
+      assert.equal(arrays.Linesoffsets[#arrays.Linesoffsets] or 0, #arrays.Linesconnectivity)
+      assert.equal(arrays.Polysoffsets[#arrays.Polysoffsets] or 0, #arrays.Polysconnectivity)
+    end
+    -- obstacles at rest: one file for all frames, and no temporary file
+    assert.same({ "objects.json", "obstacles_00000.vtp", "wires_00000.vtp", "wires_00001.vtp",
+      "wires_00002.vtp", "wires_00003.vtp" }, files.list(folder .. "/lay & co.vtk"))
+  end)
+
+  it("gives positions unchanged, radius and arc length", function()
+    local run = scene.run { frames = 2 }
+    vtk.write(run, folder .. "/a.pvd")
+    local arrays = read_vtp(folder .. "/a.vtk/wires_00001.vtp")
+    assert.same(run.frames[2].wires[1], arrays.Points)
+    assert.equal(0.0025, arrays.radius[50])
+    assert.equal(0, arrays.s[1])
+    assert.near(run.wires[1].length, arrays.s[101], 1e-12)
+  end)
+
+  it("moves obstacles by their pose and writes them again when they move", function()
+    local run = scene.run { frames = 3 }
+    local half = math.sqrt(0.5)
+    run.obstacles = { tetrahedron }
+    for f, frame in ipairs(run.frames) do
+      -- turned by 90 deg about z
+      frame.obstacles = { { position = { f < 3 and 1 or 2, 0, 0 }, rotation = { half, 0, 0, half } } }
+    end
+    vtk.write(run, folder .. "/a.pvd")
+    local first = read_vtp(folder .. "/a.vtk/obstacles_00000.vtp")
+    local expected = { 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 1 }
+    for i, x in ipairs(expected) do assert.near(x, first.Points[i], 1e-15) end
+    assert.same(tetrahedron.indices, first.Polysconnectivity)
+    assert.equal(2, read_vtp(folder .. "/a.vtk/obstacles_00002.vtp").Points[1])
+    assert.is_nil(io.open(folder .. "/a.vtk/obstacles_00001.vtp"))
+    assert.equal('{"obstacles":["odd <&\\"> name"],"wires":["wire"]}\n',
+      sink.read_file(folder .. "/a.vtk/objects.json"))
+  end)
+
+  it("leaves out frames that are not finite", function()
+    local run = scene.run { frames = 3 }
+    run.frames[3].wires[1][7] = 0 / 0
+    vtk.write(run, folder .. "/a.pvd")
+    assert.is_nil(io.open(folder .. "/a.vtk/wires_00002.vtp"))
+    run.frames = { run.frames[3] }
+    assert.error_matches(function() vtk.write(run, folder .. "/b.pvd") end, "no frame with finite")
+  end)
+
+  it("names what is wrong", function()
+    local run = scene.run { frames = 1 }
+    assert.error_matches(function() vtk.write(run, folder .. "/a.vtu") end, "does not end in .pvd")
+    assert.error_matches(function() vtk.write({}, folder .. "/a.pvd") end, "a run with frames")
+    sink.write_file(folder .. "/file", "")
+    assert.error_matches(function() vtk.write(run, folder .. "/file/a.pvd") end, "cannot make folder")
+    run.obstacles = { { name = "cone1", shape = "cone" } }
+    assert.has_error(function() vtk.write(run, folder .. "/a.pvd") end, "cone1: unknown shape cone")
+  end)
+end)
+
+describe("solid", function()
+  -- Volume by the divergence theorem: right only if closed and wound outwards.
+  local function volume(shape)
+    local v, sum = shape.vertices, 0
+    local function corner(i)
+      return v[3 * i + 1], v[3 * i + 2], v[3 * i + 3]
+    end
+    for k = 1, #shape.indices, 3 do
+      local ax, ay, az = corner(shape.indices[k])
+      local bx, by, bz = corner(shape.indices[k + 1])
+      local cx, cy, cz = corner(shape.indices[k + 2])
+      sum = sum + (ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)) / 6
+    end
+    return sum
+  end
+
+  it("makes closed solids of the right volume", function()
+    local ball, tube = 4 / 3 * math.pi * 0.1 ^ 3, math.pi * 0.1 ^ 2 * 0.5
+    local expected = {
+      { { shape = "box", size = { 1, 2, 3 } }, 6, 1e-12 },
+      { { shape = "sphere", radius = 0.1 }, ball, 2e-3 },
+      { { shape = "capsule", radius = 0.1, length = 0.5 }, ball + tube, 2e-3 },
+      { { shape = "cylinder", radius = 0.1, length = 0.5 }, tube, 1e-3 },
+      { tetrahedron, 1 / 6, 1e-12 },
+    }
+    for _, case in ipairs(expected) do
+      local shape = solid.triangles(case[1], 128)
+      assert.near(case[2], volume(shape), case[2] * case[3])
+      local edges = {}
+      for k = 1, #shape.indices, 3 do
+        for c = 0, 2 do
+          local a, b = shape.indices[k + c], shape.indices[k + (c + 1) % 3]
+          edges[a .. " " .. b] = (edges[a .. " " .. b] or 0) + 1
+        end
+      end
+      for edge, n in pairs(edges) do
+        assert.equal(1, n)
+        assert.equal(1, edges[edge:gsub("(%d+) (%d+)", "%2 %1")])
+      end
+    end
+  end)
+
+  it("cuts a piece of a plane that lies in it", function()
+    local pose = { position = { 0, 0, 2 }, rotation = { 1, 0, 0, 0 } }
+    local piece = solid.plane_piece({ shape = "plane", normal = { 1, 2, 3 } }, pose, { 5, 6, 7 }, 3)
+    for i = 1, 12, 3 do
+      local v = piece.vertices
+      assert.near(6, v[i] + 2 * v[i + 1] + 3 * v[i + 2], 1e-12)
+    end
+  end)
+end)
