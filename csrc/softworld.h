@@ -10,6 +10,7 @@
 #include "base/status.h"
 #include "base/vec.h"
 #include "motion/motion.h"
+#include "scene/scene.h"
 #include "shape/shape.h"
 
 #endif

@@ -92,6 +92,58 @@ static int meta_eq(lua_State *L) {
   return 1;
 }
 
+/* Method or property by name; a name that is neither is an error with a hint.
+ * Upvalues: the class, its methods, its properties. */
+static int meta_index(lua_State *L) {
+  lua_settop(L, 2);
+  lua_pushvalue(L, 2);
+  if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) return 1;
+  lua_pushvalue(L, 2);
+  if (lua_rawget(L, lua_upvalueindex(3)) != LUA_TNIL) {
+    lua_pushvalue(L, 1);
+    lua_call(L, 1, 1);
+    return 1;
+  }
+  if (lua_type(L, 2) != LUA_TSTRING) return luaL_error(L, "%s has no such field", class_of(L)->name);
+  const char *names[64];
+  size_t count = 0;
+  for (int up = 2; up <= 3; up++) {
+    lua_pushnil(L);
+    while (count < 64 && lua_next(L, lua_upvalueindex(up))) {
+      lua_pop(L, 1);
+      names[count++] = lua_tostring(L, -1);
+    }
+    lua_settop(L, 2);
+  }
+  const char *word = lua_tostring(L, 2);
+  const char *near = sw_nearest_name(word, names, sizeof names[0], count);
+  if (near)
+    return luaL_error(L, "%s has no '%s'; did you mean '%s'?", class_of(L)->name, word, near);
+  return luaL_error(L, "%s has no '%s'", class_of(L)->name, word);
+}
+
+/* Names of all methods and properties, for completion at the prompt. */
+static int meta_names(lua_State *L) {
+  lua_newtable(L);
+  for (int up = 2; up <= 3; up++) {
+    lua_pushnil(L);
+    while (lua_next(L, lua_upvalueindex(up))) {
+      lua_pop(L, 1);
+      lua_pushvalue(L, -1);
+      lua_rawseti(L, -3, (lua_Integer)lua_rawlen(L, -3) + 1);
+    }
+  }
+  return 1;
+}
+
+static void push_indexer(lua_State *L, const lsw_class *c, int methods, lua_CFunction f) {
+  lua_pushlightuserdata(L, (void *)c);
+  lua_pushvalue(L, methods);
+  lua_newtable(L);
+  if (c->properties) luaL_setfuncs(L, c->properties, 0);
+  lua_pushcclosure(L, f, 3);
+}
+
 static void open_class(lua_State *L, const lsw_class *c) {
   const struct {
     const char *name;
@@ -113,8 +165,11 @@ static void open_class(lua_State *L, const lsw_class *c) {
   lua_pushlightuserdata(L, (void *)c);
   lua_pushcclosure(L, meta_gc, 1);
   lua_setfield(L, -2, "close");
-  lua_pushvalue(L, -1);
-  lua_setfield(L, -3, "__index");
+  const int methods = lua_gettop(L);
+  push_indexer(L, c, methods, meta_index);
+  lua_setfield(L, methods - 1, "__index");
+  push_indexer(L, c, methods, meta_names);
+  lua_setfield(L, methods - 1, "__names");
   lua_insert(L, -2);
   if (c->meta) luaL_setfuncs(L, c->meta, 0);
   lua_rawsetp(L, LUA_REGISTRYINDEX, c);

@@ -21,6 +21,7 @@ typedef struct lsw_class {
   size_t size;      /* of the userdata; starts with an lsw_handle [B] */
   const luaL_Reg *methods;
   const luaL_Reg *meta;         /* more metamethods, or NULL */
+  const luaL_Reg *properties;   /* getters called as f(object), or NULL */
   void (*close)(lsw_handle *h); /* frees h->object; never called with NULL there */
   const char *gone;             /* message for a closed handle: "the scene has been closed" */
 } lsw_class;

@@ -7,7 +7,6 @@
 #include "base/alloc.h"
 #include "scene/world.h"
 
-void sw_scene_frame_energies(sw_scene *s, double out[SW_FRAME_ENERGIES]);
 
 enum { POSE = 7, HOLD = POSE + 1 };
 

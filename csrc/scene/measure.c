@@ -5,8 +5,6 @@
 
 #include "scene/world.h"
 
-void sw_scene_wire_now(sw_scene *s, size_t w, sw_extreme *curvature, sw_extreme *tension);
-
 /* The wire of a handle, in a scene that is built, readable and refreshed. */
 static sw_status open_wire(sw_scene *s, sw_handle h, sw_scene_wire **wire, sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
@@ -213,7 +211,6 @@ size_t sw_scene_touches(sw_scene *s) {
 
 /* --- frames ------------------------------------------------------------------ */
 
-void sw_scene_frame_energies(sw_scene *s, double out[SW_FRAME_ENERGIES]);
 void sw_scene_frame_energies(sw_scene *s, double out[SW_FRAME_ENERGIES]) {
   sw_energy e;
   collect_energy(s, &e);

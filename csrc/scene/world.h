@@ -124,6 +124,10 @@ sw_status sw_scene_editable(const sw_scene *scene, sw_error *err);
 
 /* After an accepted state: extremes, logs. */
 sw_status sw_scene_observe(sw_scene *scene, sw_error *err);
+/* Largest curvature and tension of wire w at the refreshed state. */
+void sw_scene_wire_now(sw_scene *scene, size_t w, sw_extreme *curvature, sw_extreme *tension);
+/* Kinetic, elastic, gravity energy of the state [J]. */
+void sw_scene_frame_energies(sw_scene *scene, double out[SW_FRAME_ENERGIES]);
 void sw_scene_reset_extremes(sw_scene *scene);
 sw_status sw_scene_store_frame(sw_scene *scene, sw_error *err);
 void sw_scene_drop_frames(sw_scene *scene);

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lua class clamp (clamps, pins and grips) and scene:clamp, pin, grip. */
+#include "bind/bind_motion.h"
+#include "bind/child.h"
+
+static int new_hold(lua_State *L, const char *kind) {
+  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  const sw_hold_class *cls = sw_hold_find(kind);
+  sw_hold_args args = {.s = 0, .direction = {NAN, NAN, NAN}};
+  sw_error err = {""};
+  const char *what = lua_pushfstring(L, "scene:%s", kind);
+  const lsw_child *wire = lsw_check_child_of(L, 2, &lsw_class_wire, owner->h.object, what);
+  lsw_arguments(L, 3, what, &cls->params, &args);
+  lsw_child *child = lsw_new_child(L, 1, &lsw_class_clamp);
+  lsw_must(L, sw_scene_add_hold(owner->h.object, cls, wire->id, &args, &child->id, &err), &err);
+  child->h.object = owner;
+  return 1;
+}
+
+int lsw_scene_clamp(lua_State *L) { return new_hold(L, "clamp"); }
+int lsw_scene_pin(lua_State *L) { return new_hold(L, "pin"); }
+int lsw_scene_grip(lua_State *L) { return new_hold(L, "grip"); }
+
+static void read_force(lua_State *L, int with_point, sw_vec *force, sw_vec *moment) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_vec point = sw_v(NAN, NAN, NAN);
+  static const sw_param rows[] = {{"at", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL,
+                                   0, "point the moment is about (default: the held point)"}};
+  static const sw_params params = SW_PARAMS("clamp", rows);
+  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
+  if (with_point) lsw_arguments(L, 2, "clamp:moment", &params, &point);
+  lsw_must(L,
+           sw_scene_hold_force(scene, c->id, isnan(point.x) ? NULL : &point, force, moment, &err),
+           &err);
+}
+
+/* Force on the wire [N]. */
+static int meth_force(lua_State *L) {
+  sw_vec force, moment;
+  read_force(L, 0, &force, &moment);
+  lsw_push_vector(L, force);
+  return 1;
+}
+
+/* Moment on the wire about the held point or { at = point } [N m]. */
+static int meth_moment(lua_State *L) {
+  sw_vec force, moment;
+  read_force(L, 1, &force, &moment);
+  lsw_push_vector(L, moment);
+  return 1;
+}
+
+/* clamp:pose() -> position, rotation; clamp:pose(position [, rotation]) sets. */
+static int meth_pose(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_pose pose;
+  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
+  if (lua_gettop(L) > 1) {
+    pose.p = lsw_vector(L, 2, "clamp:pose: position", "m");
+    pose.q = lsw_rotation(L, 3, "clamp:pose: rotation");
+    lsw_must(L, sw_scene_set_pose(scene, c->id, pose, &err), &err);
+    return 0;
+  }
+  lsw_must(L, sw_scene_hold_pose(scene, c->id, &pose, &err), &err);
+  lsw_push_vector(L, pose.p);
+  lsw_push_quaternion(L, pose.q);
+  return 2;
+}
+
+/* clamp:follow(trajectory or its table); clamp:follow(nil) stops it there. */
+static int meth_follow(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
+  luaL_checkany(L, 2);
+  sw_motion *motion = lua_isnil(L, 2) ? NULL : lsw_motion_from(L, 2, "clamp:follow");
+  const sw_status status = sw_scene_follow(scene, c->id, motion, 0, &err);
+  lua_pushnumber(L, motion ? sw_motion_end(motion) : 0.0);
+  sw_motion_release(motion);
+  lsw_must(L, status, &err);
+  return 1;
+}
+
+static int meth_release(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
+  lsw_must(L, sw_scene_release_hold(scene, c->id, &err), &err);
+  return 0;
+}
+
+/* clamp:log() -> flat rows of 10: t, force, moment, point [s, N, N m, m] and the
+ * number of rows. clamp:log(first) starts at that row. */
+static int meth_log(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const double *rows;
+  size_t count;
+  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
+  const lua_Integer first = luaL_optinteger(L, 2, 1);
+  lsw_must(L, sw_scene_hold_log(scene, c->id, &rows, &count, &err), &err);
+  const size_t skip = first > 1 ? (size_t)(first - 1) : 0;
+  const size_t n = count > skip ? count - skip : 0;
+  lua_createtable(L, (int)(n * SW_LOG_SIZE), 0);
+  for (size_t i = 0; i < n * SW_LOG_SIZE; i++) {
+    lua_pushnumber(L, rows[skip * SW_LOG_SIZE + i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  lua_pushinteger(L, (lua_Integer)n);
+  return 2;
+}
+
+static const luaL_Reg methods[] = {{"force", meth_force},     {"moment", meth_moment},
+                                   {"pose", meth_pose},       {"follow", meth_follow},
+                                   {"release", meth_release}, {"log", meth_log},
+                                   {NULL, NULL}};
+
+const lsw_class lsw_class_clamp = {"clamp", sizeof(lsw_child), methods, NULL, NULL,
+                                   lsw_close_child, "this clamp handle has been closed"};

@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lua class obstacle and scene:obstacle. */
+#include "bind/bind_motion.h"
+#include "bind/bind_shape.h"
+#include "bind/child.h"
+
+int lsw_scene_obstacle(lua_State *L) {
+  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  sw_obstacle_args args;
+  sw_error err = {""};
+  const lsw_section extra = {&sw_obstacle_params, &args};
+  lua_settop(L, 2);
+  lsw_child *child = lsw_new_child(L, 1, &lsw_class_obstacle);
+  sw_shape *shape = lsw_shape_from_table(L, 2, &extra, 1);
+  const sw_status status =
+      sw_scene_add_obstacle(owner->h.object, shape, &args, &child->id, &err);
+  if (status == SW_OK) {
+    child->h.object = owner;
+    lua_pushvalue(L, 3);
+    sw_shape_release(shape);
+    return 1;
+  }
+  sw_shape_release(shape);
+  lsw_must(L, status, &err);
+  return 0;
+}
+
+static lsw_child *check(lua_State *L, sw_scene **scene) {
+  return lsw_check_child(L, 1, &lsw_class_obstacle, scene);
+}
+
+/* Contact force on the obstacle [N]; its moment { at = point } [N m]. */
+static int meth_force(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_vec force, moment;
+  const lsw_child *o = check(L, &scene);
+  lsw_must(L, sw_scene_obstacle_force(scene, o->id, sw_v(0, 0, 0), &force, &moment, &err), &err);
+  lsw_push_vector(L, force);
+  return 1;
+}
+
+static int meth_moment(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_vec force, moment, about;
+  static const sw_param rows[] = {{"at", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, 0, NULL, 0,
+                                   "point the moment is about (default: the world's origin)"}};
+  static const sw_params params = SW_PARAMS("obstacle:moment", rows);
+  const lsw_child *o = check(L, &scene);
+  lsw_arguments(L, 2, "obstacle:moment", &params, &about);
+  lsw_must(L, sw_scene_obstacle_force(scene, o->id, about, &force, &moment, &err), &err);
+  lsw_push_vector(L, moment);
+  return 1;
+}
+
+static int meth_pose(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_pose pose;
+  const lsw_child *o = check(L, &scene);
+  if (lua_gettop(L) > 1) {
+    pose.p = lsw_vector(L, 2, "obstacle:pose: position", "m");
+    pose.q = lsw_rotation(L, 3, "obstacle:pose: rotation");
+    lsw_must(L, sw_scene_obstacle_set_pose(scene, o->id, pose, &err), &err);
+    return 0;
+  }
+  lsw_must(L, sw_scene_obstacle_pose(scene, o->id, &pose, &err), &err);
+  lsw_push_vector(L, pose.p);
+  lsw_push_quaternion(L, pose.q);
+  return 2;
+}
+
+static int meth_follow(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const lsw_child *o = check(L, &scene);
+  luaL_checkany(L, 2);
+  sw_motion *motion = lua_isnil(L, 2) ? NULL : lsw_motion_from(L, 2, "obstacle:follow");
+  const sw_status status = sw_scene_obstacle_follow(scene, o->id, motion, 0, &err);
+  lua_pushnumber(L, motion ? sw_motion_end(motion) : 0.0);
+  sw_motion_release(motion);
+  lsw_must(L, status, &err);
+  return 1;
+}
+
+static int meth_remove(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  lsw_child *o = check(L, &scene);
+  lsw_must(L, sw_scene_remove_obstacle(scene, o->id, &err), &err);
+  return 0;
+}
+
+/* obstacle:log() -> flat rows of 4: t, force [s, N]; number of rows. */
+static int meth_log(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const double *rows;
+  size_t count;
+  const lsw_child *o = check(L, &scene);
+  lsw_must(L, sw_scene_obstacle_log(scene, o->id, &rows, &count, &err), &err);
+  lua_createtable(L, (int)(count * SW_LOG_OBSTACLE_SIZE), 0);
+  for (size_t i = 0; i < count * SW_LOG_OBSTACLE_SIZE; i++) {
+    lua_pushnumber(L, rows[i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  lua_pushinteger(L, (lua_Integer)count);
+  return 2;
+}
+
+static const luaL_Reg methods[] = {{"force", meth_force},   {"moment", meth_moment},
+                                   {"pose", meth_pose},     {"follow", meth_follow},
+                                   {"remove", meth_remove}, {"log", meth_log},
+                                   {NULL, NULL}};
+
+const lsw_class lsw_class_obstacle = {"obstacle", sizeof(lsw_child), methods, NULL, NULL,
+                                      lsw_close_child, "this obstacle handle has been closed"};

@@ -1,0 +1,255 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lua class wire and scene:wire. */
+#include <string.h>
+
+#include "bind/child.h"
+
+/* The points under key `path` as a flat array owned by a new userdata on the
+ * stack (so that errors free it), or NULL without the key. */
+static double *read_path(lua_State *L, int table, size_t *count) {
+  *count = 0;
+  if (lua_getfield(L, table, "path") == LUA_TNIL) return NULL;
+  luaL_argcheck(L, lua_istable(L, -1), table, "wire: path must be a list of points {x, y, z}");
+  const size_t n = lua_rawlen(L, -1);
+  if (n > 10000000) luaL_error(L, "wire: path has %d points; at most 10000000", (int)n);
+  double *points = lua_newuserdatauv(L, (3 * n + 1) * sizeof *points, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_geti(L, -2, (lua_Integer)i + 1);
+    const char *what = lua_pushfstring(L, "wire: path, point %d", (int)i + 1);
+    sw_store(points + 3 * i, lsw_vector(L, -2, what, "m"));
+    lua_pop(L, 2);
+  }
+  *count = n;
+  return points;
+}
+
+static int read_model(lua_State *L, int table) {
+  const char *names[32];
+  size_t count = 0;
+  while (count < 32 && sw_wire_all()[count]) names[count] = sw_wire_all()[count]->name, count++;
+  if (lua_getfield(L, table, "model") == LUA_TNIL) {
+    for (size_t i = 0; i < count; i++)
+      if (strcmp(names[i], "rod") == 0) return (int)i;
+    return 0;
+  }
+  const char *word = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : luaL_typename(L, -1);
+  for (size_t i = 0; i < count; i++)
+    if (strcmp(names[i], word) == 0) return (int)i;
+  const char *near = sw_nearest_name(word, names, sizeof names[0], count);
+  if (near) return luaL_error(L, "wire: there is no model '%s'; did you mean '%s'?", word, near);
+  lua_pushliteral(L, "");
+  for (size_t i = 0; i < count; i++) {
+    lua_pushfstring(L, "%s%s", i ? ", " : "", names[i]);
+    lua_concat(L, 2);
+  }
+  return luaL_error(L, "wire: there is no model '%s'; known are: %s", word, lua_tostring(L, -1));
+}
+
+int lsw_scene_wire(lua_State *L) {
+  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  sw_wire_args args;
+  sw_section section;
+  sw_beam beam;
+  sw_error err = {""};
+  size_t count;
+  const lsw_section sections[] = {{&sw_wire_params, &args}, {&sw_section_params, &section}};
+  lua_settop(L, 2);
+  luaL_checktype(L, 2, LUA_TTABLE);
+  lsw_sections(L, 2, "wire", sections, 2);
+  args.model = read_model(L, 2);
+  const char *object = args.name[0] ? lua_pushfstring(L, "wire '%s'", args.name) : "wire";
+  lsw_must(L, sw_section_beam(object, &section, &beam, &err), &err);
+  if (beam.EI == 0 && strcmp(sw_wire_all()[args.model]->name, "string") != 0)
+    luaL_error(L, "%s: EI = 0 N m2 is allowed with model = 'string' only", object);
+  const double *points = read_path(L, 2, &count);
+  lsw_child *child = lsw_new_child(L, 1, &lsw_class_wire);
+  lsw_must(L,
+           sw_scene_add_wire(owner->h.object, &args, &beam, points, count, &child->id, &err),
+           &err);
+  child->h.object = owner;
+  return 1;
+}
+
+/* --- read-outs ---------------------------------------------------------------- */
+
+static sw_point_state at(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_point_state p;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const double s = lsw_number(L, 2, "wire: s", "m");
+  lsw_must(L, sw_scene_wire_at(scene, w->id, s, &p, &err), &err);
+  return p;
+}
+
+static int meth_position(lua_State *L) { return lsw_push_vector(L, at(L).position), 1; }
+static int meth_tangent(lua_State *L) { return lsw_push_vector(L, at(L).tangent), 1; }
+static int meth_velocity(lua_State *L) { return lsw_push_vector(L, at(L).velocity), 1; }
+static int meth_curvature(lua_State *L) { return lua_pushnumber(L, at(L).curvature), 1; }
+static int meth_tension(lua_State *L) { return lua_pushnumber(L, at(L).tension), 1; }
+
+static size_t node_count(lua_State *L, sw_scene *scene, const lsw_child *w) {
+  size_t n;
+  sw_error err = {""};
+  lsw_must(L, sw_scene_wire_nodes(scene, w->id, &n, &err), &err);
+  return n;
+}
+
+static void push_flat(lua_State *L, const double *values, size_t n) {
+  lua_createtable(L, (int)n, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_pushnumber(L, values[i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+}
+
+/* Flat {x1, y1, z1, x2, ...} of all nodes [m], and their arc lengths [m]. */
+static int meth_positions(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const size_t n = node_count(L, scene, w);
+  double *x = lua_newuserdatauv(L, 4 * n * sizeof *x, 0);
+  lsw_must(L, sw_scene_wire_copy(scene, w->id, x, x + 3 * n, NULL, &err), &err);
+  push_flat(L, x, 3 * n);
+  push_flat(L, x + 3 * n, n);
+  return 2;
+}
+
+static int meth_velocities(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const size_t n = node_count(L, scene, w);
+  double *v = lua_newuserdatauv(L, 3 * n * sizeof *v, 0);
+  lsw_must(L, sw_scene_wire_copy(scene, w->id, NULL, NULL, v, &err), &err);
+  push_flat(L, v, 3 * n);
+  return 1;
+}
+
+/* wire:set_velocity(v [, omega [, about]]) */
+static int meth_set_velocity(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const sw_vec zero = sw_v(0, 0, 0);
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const sw_vec v = lsw_vector(L, 2, "wire:set_velocity: velocity", "m/s");
+  const sw_vec omega =
+      lua_isnoneornil(L, 3) ? zero : lsw_vector(L, 3, "wire:set_velocity: omega", "rad/s");
+  const sw_vec about =
+      lua_isnoneornil(L, 4) ? zero : lsw_vector(L, 4, "wire:set_velocity: about", "m");
+  lsw_must(L, sw_scene_wire_set_velocity(scene, w->id, v, omega, about, &err), &err);
+  return 0;
+}
+
+
+typedef struct extremes {
+  sw_extreme curvature_now, tension_now, curvature, tension;
+} extremes;
+
+/* The options table { now = true } asks for the present value. */
+static int read_extremes(lua_State *L, extremes *e) {
+  sw_scene *scene;
+  sw_error err = {""};
+  int now = 0;
+  static const sw_param rows[] = {{"now", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, 0,
+                                   "present value instead of the run's extreme"}};
+  static const sw_params params = SW_PARAMS("wire", rows);
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  lsw_arguments(L, 2, "wire", &params, &now);
+  lsw_must(L,
+           sw_scene_wire_extremes(scene, w->id, &e->curvature_now, &e->tension_now,
+                                  &e->curvature, &e->tension, &err),
+           &err);
+  return now;
+}
+
+static int push_extreme(lua_State *L, double value, const sw_extreme *e) {
+  lua_pushnumber(L, value);
+  lua_pushnumber(L, e->s);
+  lua_pushnumber(L, e->time);
+  return 3;
+}
+
+/* Smallest bend radius [m], where [m], when [s]; math.huge for a straight wire. */
+static int meth_min_bend_radius(lua_State *L) {
+  extremes e;
+  const sw_extreme *x = read_extremes(L, &e) ? &e.curvature_now : &e.curvature;
+  return push_extreme(L, x->value > 0 ? 1.0 / x->value : HUGE_VAL, x);
+}
+
+/* Largest tension [N], where [m], when [s]. */
+static int meth_max_tension(lua_State *L) {
+  extremes e;
+  const sw_extreme *x = read_extremes(L, &e) ? &e.tension_now : &e.tension;
+  return push_extreme(L, x->value, x);
+}
+
+static int prop_length(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  double length;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  lsw_must(L, sw_scene_wire_length(scene, w->id, &length, &err), &err);
+  lua_pushnumber(L, length);
+  return 1;
+}
+
+static int prop_segments(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  lua_pushinteger(L, (lua_Integer)node_count(L, scene, w) - 1);
+  return 1;
+}
+
+static int push_beam(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_beam b;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  lsw_must(L, sw_scene_wire_beam(scene, w->id, &b, &err), &err);
+  lua_createtable(L, 0, 5);
+  lsw_set_number(L, "EA", b.EA);
+  lsw_set_number(L, "EI", b.EI);
+  lsw_set_number(L, "GJ", b.GJ);
+  lsw_set_number(L, "mass_per_length", b.mass);
+  lsw_set_number(L, "radius", b.radius);
+  return 1;
+}
+
+static int prop_radius(lua_State *L) {
+  push_beam(L);
+  lua_getfield(L, -1, "radius");
+  return 1;
+}
+
+static int meta_describe(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  prop_length(L);
+  lua_pushfstring(L, "wire: %f m, %d segments, t = %f s", lua_tonumber(L, -1),
+                  (int)node_count(L, scene, w) - 1, sw_scene_time(scene));
+  return 1;
+}
+
+static const luaL_Reg methods[] = {{"position", meth_position},
+                                   {"tangent", meth_tangent},
+                                   {"velocity", meth_velocity},
+                                   {"curvature", meth_curvature},
+                                   {"tension", meth_tension},
+                                   {"positions", meth_positions},
+                                   {"velocities", meth_velocities},
+                                   {"set_velocity", meth_set_velocity},
+                                   {"min_bend_radius", meth_min_bend_radius},
+                                   {"max_tension", meth_max_tension},
+                                   {NULL, NULL}};
+static const luaL_Reg properties[] = {{"length", prop_length},
+                                      {"segments", prop_segments},
+                                      {"beam", push_beam},
+                                      {"radius", prop_radius},
+                                      {NULL, NULL}};
+static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
+
+const lsw_class lsw_class_wire = {
+    "wire", sizeof(lsw_child), methods, meta, properties, lsw_close_child,
+    "this wire handle has been closed"};

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "bind/child.h"
+
+#include "bind/bind_motion.h"
+
+lsw_child *lsw_new_child(lua_State *L, int scene, const lsw_class *c) {
+  scene = lua_absindex(L, scene);
+  lsw_child *child = lsw_new(L, c, 2);
+  lua_pushvalue(L, scene);
+  lua_setiuservalue(L, -2, 1);
+  return child;
+}
+
+lsw_child *lsw_check_child(lua_State *L, int index, const lsw_class *c, sw_scene **scene) {
+  lsw_child *child = lsw_check(L, index, c);
+  lsw_scene_handle *owner = child->h.object;
+  if (!owner->h.object) luaL_error(L, "the scene of this %s has been closed", c->name);
+  *scene = owner->h.object;
+  return child;
+}
+
+lsw_child *lsw_check_child_of(lua_State *L, int index, const lsw_class *c, const sw_scene *scene,
+                              const char *what) {
+  sw_scene *owner;
+  if (!lsw_test(L, index, c))
+    luaL_error(L, "%s expects a %s of the scene, got %s", what, c->name,
+               lua_isnoneornil(L, index) ? "nothing" : luaL_typename(L, index));
+  lsw_child *child = lsw_check_child(L, index, c, &owner);
+  if (owner != scene) luaL_error(L, "%s: this %s belongs to another scene", what, c->name);
+  return child;
+}
+
+void lsw_close_child(lsw_handle *h) { (void)h; }
+
+void lsw_must(lua_State *L, sw_status status, const sw_error *err) {
+  if (status != SW_OK) lsw_motion_rethrow(L, status, err);
+}
+
+void lsw_set_number(lua_State *L, const char *name, double value) {
+  lua_pushnumber(L, value);
+  lua_setfield(L, -2, name);
+}
+
+void lsw_set_integer(lua_State *L, const char *name, size_t value) {
+  lua_pushinteger(L, (lua_Integer)value);
+  lua_setfield(L, -2, name);
+}
+
+void lsw_set_vector(lua_State *L, const char *name, sw_vec value) {
+  lsw_push_vector(L, value);
+  lua_setfield(L, -2, name);
+}

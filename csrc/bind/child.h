@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Objects that belong to a scene: wire, clamp, obstacle, force. They keep the
+ * scene alive (user value 1) and find out when it was closed. */
+#ifndef LSW_CHILD_H
+#define LSW_CHILD_H
+
+#include "bind/class.h"
+
+typedef struct lsw_scene_handle {
+  lsw_handle h; /* object: sw_scene */
+  int forces;   /* functions kept as forces so far */
+} lsw_scene_handle;
+
+typedef struct lsw_child {
+  lsw_handle h; /* object: the lsw_scene_handle it belongs to */
+  sw_handle id;
+} lsw_child;
+
+extern const lsw_class lsw_class_scene, lsw_class_wire, lsw_class_clamp, lsw_class_obstacle,
+    lsw_class_force, lsw_class_snapshot;
+
+/* Push a child of the scene userdata at index scene. */
+lsw_child *lsw_new_child(lua_State *L, int scene, const lsw_class *c);
+
+/* The child at index and its scene; raises when either is gone. */
+lsw_child *lsw_check_child(lua_State *L, int index, const lsw_class *c, sw_scene **scene);
+
+/* The same when it must belong to the given scene. */
+lsw_child *lsw_check_child_of(lua_State *L, int index, const lsw_class *c, const sw_scene *scene,
+                              const char *what);
+
+void lsw_close_child(lsw_handle *h); /* nothing to free: the scene owns it */
+
+/* Raise unless status is SW_OK; callback errors keep their value. */
+void lsw_must(lua_State *L, sw_status status, const sw_error *err);
+
+/* scene:<kind>(wire, {...}) for holds; scene:obstacle{...}; scene:force{...} */
+int lsw_scene_clamp(lua_State *L);
+int lsw_scene_pin(lua_State *L);
+int lsw_scene_grip(lua_State *L);
+int lsw_scene_wire(lua_State *L);
+int lsw_scene_obstacle(lua_State *L);
+int lsw_scene_force(lua_State *L);
+
+/* Set fields of the table on top of the stack. */
+void lsw_set_number(lua_State *L, const char *name, double value);
+void lsw_set_integer(lua_State *L, const char *name, size_t value);
+void lsw_set_vector(lua_State *L, const char *name, sw_vec value);
+
+#endif
