@@ -17,6 +17,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "host/host.h"
 #include "softworld.h"
 
 enum { EXIT_INTERRUPTED = 130 };
@@ -105,6 +106,14 @@ static int transfer(lua_State *L, lua_State *co, int count) {
   return results;
 }
 
+/* Move the error value from the top of co to L. Its calls are still known
+ * here, and nowhere later, so the position is put right now. */
+static void take_error(lua_State *L, lua_State *co) {
+  const int dead = lua_status(co) != LUA_OK && lua_status(co) != LUA_YIELD;
+  lua_xmove(co, L, 1);
+  if (dead && lua_type(L, -1) == LUA_TSTRING) host_move_position(L, co, 0);
+}
+
 static int co_resume(lua_State *L) {
   lua_State *co = lua_tothread(L, 1);
   luaL_argexpected(L, co, 1, "coroutine");
@@ -115,9 +124,12 @@ static int co_resume(lua_State *L) {
     lua_insert(L, -2);
     return 2;
   }
-  const int moved = results >= 0 ? results : 1;
-  lua_xmove(co, L, moved);
-  return moved + 1;
+  if (results < 0) {
+    take_error(L, co);
+    return 2;
+  }
+  lua_xmove(co, L, results);
+  return results + 1;
 }
 
 static int wrap_call(lua_State *L) {
@@ -128,13 +140,16 @@ static int wrap_call(lua_State *L) {
     return results;
   }
   const int status = lua_status(co);
+  take_error(L, co);
   if (status != LUA_OK && status != LUA_YIELD) { /* it died: close its variables */
     frame f;
+    lua_pushvalue(L, -1);
+    lua_xmove(L, co, 1);
     enter(&f, co);
     lua_resetthread(co);
     leave(&f);
+    lua_xmove(co, L, 1); /* the same error, or that of a variable's __close */
   }
-  lua_xmove(co, L, 1);
   if (status != LUA_ERRMEM && lua_type(L, -1) == LUA_TSTRING) {
     luaL_where(L, 1);
     lua_insert(L, -2);

@@ -45,6 +45,11 @@ int host_is_library(lua_State *L, const char *source);
  * user's line, then the calls of the user's that led there. */
 int host_traceback(lua_State *L);
 
+/* When the text on top of L is positioned in a library file that is among the
+ * calls of co from level on, move it to the line of the user's that called the
+ * library. */
+void host_move_position(lua_State *L, lua_State *co, int level);
+
 /* --- run.c ----------------------------------------------------------------- */
 
 /* Call the function below count arguments with host_traceback, keep results

@@ -8,12 +8,19 @@
 
 #include "host/ctrl_c.h"
 #include "host/host.h"
+#include "softworld.h"
 
 int host_call(lua_State *L, int count, int results) {
   const int place = lua_gettop(L) - count;
   lua_pushcfunction(L, host_traceback);
   lua_insert(L, place);
-  const int status = lua_pcall(L, count, results, place);
+  int status = lua_pcall(L, count, results, place);
+  if (status == LUA_OK && sw_interrupted()) { /* it came too late for a hook to fire */
+    sw_interrupt_clear();
+    lua_settop(L, place);
+    lua_pushliteral(L, "interrupted");
+    status = LUA_ERRRUN;
+  }
   lua_remove(L, place);
   return status;
 }

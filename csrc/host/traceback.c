@@ -47,13 +47,11 @@ static size_t position_length(const char *text, const lua_Debug *ar) {
   return p[0] == ':' && p[1] == ' ' ? (size_t)(p + 2 - text) : 0;
 }
 
-/* When the text on top is positioned in the library, move it to the line of
- * the user's that called the library. */
-static void move_position(lua_State *L) {
+void host_move_position(lua_State *L, lua_State *co, int level) {
   lua_Debug ar;
   size_t length, skip = 0;
   const char *text = lua_tolstring(L, -1, &length);
-  for (int level = 1; level < SCANNED && get_level(L, level, &ar); level++) {
+  for (const int end = level + SCANNED; level < end && get_level(co, level, &ar); level++) {
     const kind k = kind_of(L, &ar);
     if (k == LIBRARY && !skip) skip = position_length(text, &ar);
     if (k != USER) continue;
@@ -132,27 +130,45 @@ static int value_text(lua_State *L) {
   return 1;
 }
 
-/* Replace the error value at index 1 by a text. Gives 0 when it was one. */
+static int shown_value(lua_State *L) {
+  lua_getglobal(L, "require");
+  lua_pushliteral(L, "softworld.pretty");
+  lua_call(L, 1, 1);
+  lua_pushvalue(L, 1);
+  lua_call(L, 1, 1);
+  luaL_checktype(L, -1, LUA_TSTRING);
+  return 1;
+}
+
+/* Push what the function makes of the value at index 1; 0 and nothing when it
+ * fails: an error on the way to an error. */
+static int push_text(lua_State *L, lua_CFunction function) {
+  lua_pushcfunction(L, function);
+  lua_pushvalue(L, 1);
+  if (lua_pcall(L, 1, 1, 0) == LUA_OK) return 1;
+  lua_pop(L, 1);
+  return 0;
+}
+
+/* Replace the error value at index 1 by a text. */
 static void make_text(lua_State *L) {
-  const int type = lua_type(L, 1);
-  if (type == LUA_TSTRING || type == LUA_TNUMBER) {
-    lua_tostring(L, 1);
-  } else if (luaL_getmetafield(L, 1, "__tostring") != LUA_TNIL) {
-    lua_pop(L, 1);
-    lua_pushcfunction(L, value_text);
-    lua_pushvalue(L, 1);
-    if (lua_pcall(L, 1, 1, 0) != LUA_OK) { /* an error on the way to an error */
-      lua_pop(L, 1);
-      lua_pushfstring(L, "(the error value is a %s whose __tostring fails)", luaL_typename(L, 1));
-    }
-    lua_replace(L, 1);
-  } else {
-    if (type == LUA_TNIL || type == LUA_TBOOLEAN)
-      lua_pushfstring(L, "(the error value is %s)", luaL_tolstring(L, 1, NULL));
-    else
-      lua_pushfstring(L, "(the error value is a %s)", luaL_typename(L, 1));
-    lua_replace(L, 1);
+  const char *type = luaL_typename(L, 1);
+  if (lua_isstring(L, 1)) {
+    lua_tostring(L, 1); /* a number becomes a string in place */
+    return;
   }
+  if (luaL_getmetafield(L, 1, "__tostring") != LUA_TNIL) {
+    lua_pop(L, 1);
+    if (!push_text(L, value_text))
+      lua_pushfstring(L, "(the error value is a %s whose __tostring fails)", type);
+  } else if (lua_isnoneornil(L, 1)) {
+    lua_pushliteral(L, "(the error value is nil)");
+  } else if (push_text(L, shown_value)) {
+    lua_pushfstring(L, "(the error value is a %s: %s)", type, lua_tostring(L, -1));
+  } else {
+    lua_pushfstring(L, "(the error value is a %s)", type);
+  }
+  lua_replace(L, 1);
 }
 
 int host_traceback(lua_State *L) {
@@ -169,7 +185,7 @@ int host_traceback(lua_State *L) {
     lua_concat(L, 3);
     return 1;
   }
-  move_position(L);
+  host_move_position(L, L, 1);
   add_calls(L);
   return 1;
 }
