@@ -20,8 +20,6 @@
 #include "host/host.h"
 #include "softworld.h"
 
-enum { EXIT_INTERRUPTED = 130 };
-
 typedef struct frame {
   lua_State *L;
   struct frame *outer;
@@ -44,15 +42,26 @@ static void stop(lua_State *L, lua_Debug *ar) {
   lua_error(L);
 }
 
-/* Twice within a second: code that swallows errors or never polls. */
-static int is_second(void) {
+/* Time since the Ctrl-C before [s]. */
+static double since_last(void) {
   struct timespec now = {0, 0};
   clock_gettime(CLOCK_MONOTONIC, &now);
   const double since =
       (double)(now.tv_sec - last.tv_sec) + 1e-9 * (double)(now.tv_nsec - last.tv_nsec);
-  const int second = last.tv_sec != 0 && since < 1.0;
+  const int first = last.tv_sec == 0;
   last = now;
-  return second;
+  return first ? 1e9 : since;
+}
+
+/* Twice within a second ends what swallows errors or never polls. Programs
+ * like timeout(1) send the signal twice at once, which no finger can do. */
+static void stop_running(void) {
+  const double since = since_last();
+  if (since < 0.03) return;
+  if (since < 1.0) _exit(HOST_INTERRUPTED);
+  seen = 1;
+  sw_interrupt_raise();
+  for (frame *f = running; f; f = f->outer) lua_sethook(f->L, stop, LUA_MASKCOUNT, 1);
 }
 
 static void on_sigint(int number) {
@@ -61,12 +70,8 @@ static void on_sigint(int number) {
     pthread_kill(owner, number); /* hooks may be set by the thread of Lua only */
   } else if (prompt) {
     cancelled = 1;
-  } else if (is_second()) {
-    _exit(EXIT_INTERRUPTED);
   } else {
-    seen = 1;
-    sw_interrupt_raise();
-    for (frame *f = running; f; f = f->outer) lua_sethook(f->L, stop, LUA_MASKCOUNT, 1);
+    stop_running();
   }
   errno = kept;
 }

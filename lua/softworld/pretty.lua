@@ -75,7 +75,8 @@ local compact
 
 local function summary(t)
   local count, keys = keys_of(t)
-  return ("{ %d items }"):format(count + #keys)
+  local total = count + #keys
+  return ("{ %d item%s }"):format(total, total == 1 and "" or "s")
 end
 
 local function key_text(key, room, path)
