@@ -101,6 +101,17 @@ static void give_up_line(void) {
   rl_callback_handler_remove();
 }
 
+/* A new window size, a stop (Ctrl-Z), an end: readline's, but after a stop it
+ * leaves the line to be drawn anew. */
+static void handle_signal(void) {
+  const int number = rl_pending_signal();
+  if (!number) return;
+  rl_check_signals();
+  if (number != SIGTSTP) return;
+  rl_on_new_line();
+  rl_redisplay();
+}
+
 /* Feed keys to readline until the line is done; 0 when it was given up. */
 static int feed(void) {
   struct pollfd input = {STDIN_FILENO, POLLIN, 0};
@@ -110,8 +121,8 @@ static int feed(void) {
     } else if (host_ctrl_c_cancelled()) {
       give_up_line();
       return 0;
-    } else if (rl_pending_signal()) {
-      rl_check_signals(); /* a new window size, a stop, an end */
+    } else {
+      handle_signal();
     }
   }
   return 1;
@@ -165,6 +176,7 @@ void host_line_open(lua_State *L) {
   setlocale(LC_CTYPE, ""); /* wide characters in the editor; numbers stay as they are */
   state = L;
   rl_readline_name = "softworld"; /* for $if softworld in ~/.inputrc */
+  rl_persistent_signal_handlers = 1; /* else they are gone while waiting for a key */
   rl_outstream = isatty(STDOUT_FILENO) ? stdout : stderr;
   rl_completion_word_break_hook = word_breaks;
   if (completes) rl_attempted_completion_function = complete;

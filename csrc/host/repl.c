@@ -54,8 +54,9 @@ static int set_tools(lua_State *L) {
 static void set_up(lua_State *L) {
   lua_CFunction parts[] = {set_tools, set_globals};
   if (isatty(STDIN_FILENO))
-    puts("SoftWorld " SW_VERSION " (" LUA_RELEASE
-         ")  Tab completes, Ctrl-C stops, Ctrl-D leaves");
+    fputs("SoftWorld " SW_VERSION " (" LUA_RELEASE
+          ")  Tab completes, Ctrl-C stops, Ctrl-D leaves\n",
+          isatty(STDOUT_FILENO) ? stdout : stderr);
   for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
     host_ctrl_c_reset();
     lua_pushcfunction(L, parts[i]);
