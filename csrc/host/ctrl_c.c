@@ -57,7 +57,7 @@ static double since_last(void) {
  * like timeout(1) send the signal twice at once, which no finger can do. */
 static void stop_running(void) {
   const double since = since_last();
-  if (since < 0.03) return;
+  if (since < 0.05) return;
   if (since < 1.0) _exit(HOST_INTERRUPTED);
   seen = 1;
   sw_interrupt_raise();
@@ -85,7 +85,9 @@ static void enter(frame *f, lua_State *co) {
   running = f;
 }
 
-static void leave(const frame *f) { running = f->outer; }
+static void leave(const frame *f) {
+  running = f->outer;
+}
 
 /* Move count arguments from L's top into co and run it. Gives the number of
  * results, left on top of co, or -1 with the error value there. Never raises,
@@ -207,9 +209,13 @@ void host_ctrl_c_reset(void) {
   sw_interrupt_clear();
 }
 
-int host_ctrl_c_seen(void) { return seen; }
+int host_ctrl_c_seen(void) {
+  return seen;
+}
 
-void host_ctrl_c_at_prompt(int on) { prompt = on; }
+void host_ctrl_c_at_prompt(int on) {
+  prompt = on;
+}
 
 int host_ctrl_c_cancelled(void) {
   const int was = cancelled;

@@ -3,13 +3,12 @@
  * there is no history, which is no reason to bother anybody. */
 #include <fcntl.h>
 #include <limits.h>
+#include <readline/history.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <readline/history.h>
 
 #include "host/host.h"
 

@@ -4,17 +4,15 @@
  * key by key; SIGINT is let through only while waiting for a key, where no
  * Ctrl-C can be missed. */
 #include <errno.h>
+#include <lauxlib.h>
 #include <locale.h>
 #include <poll.h>
+#include <readline/readline.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#include <readline/readline.h>
-
-#include <lauxlib.h>
 
 #include "host/ctrl_c.h"
 #include "host/host.h"
@@ -32,10 +30,14 @@ static int in_string(void) {
   char quote = 0;
   for (int i = 0; i < rl_point; i++) {
     const char c = rl_line_buffer[i];
-    if (quote && c == '\\') i++;
-    else if (quote && c == quote) quote = 0;
-    else if (!quote && (c == '"' || c == '\'')) quote = c;
-    else if (!quote && c == '-' && rl_line_buffer[i + 1] == '-') return 0;
+    if (quote && c == '\\')
+      i++;
+    else if (quote && c == quote)
+      quote = 0;
+    else if (!quote && (c == '"' || c == '\''))
+      quote = c;
+    else if (!quote && c == '-' && rl_line_buffer[i + 1] == '-')
+      return 0;
   }
   return quote != 0;
 }
@@ -65,11 +67,16 @@ static int ask_completer(const char *word, int start) {
   lua_pushlstring(state, rl_line_buffer, (size_t)start);
   lua_pushstring(state, word);
   host_ctrl_c_reset();
-  host_ctrl_c_at_prompt(0); /* the user's metamethods may run: Ctrl-C stops them */
+  /* The user's metamethods may run. Ctrl-C must stop them, and a closed window
+   * the program: readline's handlers would only take notes until they end. */
+  rl_clear_signals();
+  host_ctrl_c_at_prompt(0);
   sigprocmask(SIG_SETMASK, &open_mask, &kept);
   const int status = lua_pcall(state, 2, 1, 0);
   sigprocmask(SIG_SETMASK, &kept, NULL);
   host_ctrl_c_at_prompt(1);
+  rl_set_signals();
+  host_ctrl_c_install();
   host_ctrl_c_reset();
   return status == LUA_OK && lua_istable(state, -1);
 }
@@ -175,7 +182,7 @@ void host_line_open(lua_State *L) {
   if (!isatty(STDIN_FILENO)) return;
   setlocale(LC_CTYPE, ""); /* wide characters in the editor; numbers stay as they are */
   state = L;
-  rl_readline_name = "softworld"; /* for $if softworld in ~/.inputrc */
+  rl_readline_name = "softworld";    /* for $if softworld in ~/.inputrc */
   rl_persistent_signal_handlers = 1; /* else they are gone while waiting for a key */
   rl_outstream = isatty(STDOUT_FILENO) ? stdout : stderr;
   rl_completion_word_break_hook = word_breaks;

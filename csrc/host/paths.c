@@ -19,8 +19,7 @@ static int push_runnable(lua_State *L, const char *path) {
   struct stat info;
   char *real = realpath(path, NULL);
   if (!real) return 0;
-  const int good =
-      stat(real, &info) == 0 && S_ISREG(info.st_mode) && access(real, X_OK) == 0;
+  const int good = stat(real, &info) == 0 && S_ISREG(info.st_mode) && access(real, X_OK) == 0;
   if (good) lua_pushstring(L, real);
   free(real);
   return good;

@@ -91,8 +91,10 @@ static int count_levels(lua_State *L) {
   while (lua_getstack(L, high, &ar)) low = high, high *= 2;
   while (high - low > 1) {
     const int middle = low + (high - low) / 2;
-    if (lua_getstack(L, middle, &ar)) low = middle;
-    else high = middle;
+    if (lua_getstack(L, middle, &ar))
+      low = middle;
+    else
+      high = middle;
   }
   return low + 1;
 }

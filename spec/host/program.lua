@@ -54,10 +54,13 @@ end
 -- Run it in the background, send SIGINT after each of the times [s], and KILL
 -- (code 137) should it go on for long. Its own number stays taken until wait, so
 -- no other process can be hit.
+-- A time of 0 is some milliseconds: two signals that are not merged into one.
+local MOMENT = "i=0; while [ $i -lt 3000 ]; do i=$((i+1)); done"
+
 local function with_signals(command, times)
   local steps = {}
   for i, time in ipairs(times) do
-    steps[i] = (time > 0 and "sleep " .. time .. "; " or "") .. "kill -INT $p 2>/dev/null; "
+    steps[i] = (time > 0 and "sleep " .. time or MOMENT) .. "; kill -INT $p 2>/dev/null; "
   end
   return ("%s & p=$!; (sleep 5; kill -KILL $p) >/dev/null 2>&1 & w=$!; %swait $p; c=$?; kill $w; exit $c")
     :format(command, table.concat(steps))
