@@ -46,6 +46,15 @@ describe("Ctrl-C", function()
     assert.equal(130, code)
   end)
 
+  it("is not lost when it comes in the last call of all", function()
+    local pipe = program.folder() .. "/pipe"
+    os.execute("mkfifo " .. pipe)
+    local _, err, code = program.run({ "-e", "return io.read()" },
+      { before = NORMAL, signals = { 0.3 }, input = "<>" .. pipe })
+    assert.equal("interrupted\n", err)
+    assert.equal(130, code)
+  end)
+
   it("is one error, which a script may catch", function()
     local out, err, code = script([[
       local ok, message = pcall(function() while true do end end)

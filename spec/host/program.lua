@@ -51,12 +51,12 @@ function program.shell(command)
   return texts[1], texts[2], how == "exit" and code or how .. code
 end
 
+-- A time of 0 is some milliseconds: two signals that are not merged into one.
+local MOMENT = "i=0; while [ $i -lt 10000 ]; do i=$((i+1)); done"
+
 -- Run it in the background, send SIGINT after each of the times [s], and KILL
 -- (code 137) should it go on for long. Its own number stays taken until wait, so
 -- no other process can be hit.
--- A time of 0 is some milliseconds: two signals that are not merged into one.
-local MOMENT = "i=0; while [ $i -lt 3000 ]; do i=$((i+1)); done"
-
 local function with_signals(command, times)
   local steps = {}
   for i, time in ipairs(times) do
