@@ -40,6 +40,15 @@ $(BUILD)/obj/%.o: csrc/%.c Makefile
 
 -include $(OBJ:.o=.d) $(HOSTOBJ:.o=.d)
 
+# The host finds share/lua/5.4 beside its own bin; stock lua5.4 has both folders
+# on its default paths when PREFIX is /usr/local or /usr.
+DEST = $(DESTDIR)$(PREFIX)
+install: all
+	install -D $(BUILD)/softworld $(DEST)/bin/softworld
+	install -D -m 644 $(BUILD)/lib/softworld/core.so $(DEST)/lib/lua/5.4/softworld/core.so
+	find lua/softworld -name '*.lua' | while read -r f; do \
+	  install -D -m 644 "$$f" "$(DEST)/share/lua/5.4/$${f#lua/}" || exit 1; done
+
 clean:
 	rm -rf $(BUILD) build-asan
 
@@ -63,4 +72,5 @@ asan:
 	  SOFTWORLD_PRELOAD="$$($(CC) -print-file-name=libasan.so)" \
 	  build-asan/softworld scripts/spec.lua --timeout 3000 $(ARGS)
 
-.PHONY: all clean spec lint format asan
+
+.PHONY: all clean spec lint format asan install

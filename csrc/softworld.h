@@ -6,6 +6,7 @@
 #define SW_VERSION "0.1.0"
 
 #include "base/alloc.h"
+#include "base/interrupt.h"
 #include "base/param.h"
 #include "base/status.h"
 #include "base/vec.h"

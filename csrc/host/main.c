@@ -1,22 +1,74 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The host program `softworld`. */
+/* The host program `softworld`: a Lua interpreter with the core built in. */
+#include <errno.h>
 #include <lauxlib.h>
 #include <lua.h>
 #include <lualib.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "bind/module.h"
+#include "host/ctrl_c.h"
+#include "host/host.h"
+#include "softworld.h"
 
-int main(int argc, char **argv) {
-  lua_State *L = luaL_newstate();
-  if (!L) return 1;
+static void open_libraries(lua_State *L) {
   luaL_openlibs(L);
   luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);
   lua_pushcfunction(L, luaopen_softworld_core);
   lua_setfield(L, -2, "softworld.core");
   lua_pop(L, 1);
-  int failed = argc > 1 && luaL_dofile(L, argv[1]);
-  if (failed) fprintf(stderr, "%s\n", lua_tostring(L, -1));
+}
+
+/* -e codes, then the script, then the prompt: as far as asked for. */
+static int run_all(lua_State *L, const host_options *o) {
+  int status = HOST_OK, at = 1;
+  const char *code;
+  while (status == HOST_OK && (code = host_options_code(o, &at))) status = host_run_code(L, code);
+  const int nothing = !o->codes && !o->version && !o->interactive;
+  if (status == HOST_OK && (o->script || nothing)) status = host_run_script(L, o);
+  if (!o->interactive) return status;
+  /* the prompt also follows a failure: its globals are what one wants to see */
+  const int left = host_repl(L);
+  return left == HOST_OK ? status : left;
+}
+
+/* In protected mode: even running out of memory ends with a message. */
+static int protected_main(lua_State *L) {
+  const host_options *o = lua_touserdata(L, 1);
+  open_libraries(L);
+  host_ctrl_c_open(L);
+  host_push_arg(L, o);
+  host_paths_open(L, o);
+  lua_pushinteger(L, run_all(L, o));
+  return 1;
+}
+
+/* Output that could not be written (a full disk) is a failure too. */
+static int flush_output(int status) {
+  if (fflush(stdout) == 0 && !ferror(stdout)) return status;
+  fprintf(stderr, "softworld: cannot write the output: %s\n", strerror(errno));
+  return status == HOST_OK ? HOST_FAILED : status;
+}
+
+int main(int argc, char **argv) {
+  host_options o;
+  int status = host_options_read(&o, argc, argv);
+  if (status != HOST_OK) return status;
+  if (o.help) {
+    host_options_help();
+    return flush_output(HOST_OK);
+  }
+  if (o.version) puts("SoftWorld " SW_VERSION " (" LUA_RELEASE ")");
+  lua_State *L = luaL_newstate();
+  if (!L) {
+    fputs("softworld: out of memory\n", stderr);
+    return HOST_FAILED;
+  }
+  lua_pushcfunction(L, protected_main);
+  lua_pushlightuserdata(L, &o);
+  status = lua_pcall(L, 1, 1, 0) == LUA_OK ? (int)lua_tointeger(L, -1) : host_report(L);
+  host_ctrl_c_close();
   lua_close(L);
-  return failed;
+  return flush_output(status);
 }

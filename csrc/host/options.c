@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The command line. */
+#include <lauxlib.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "host/host.h"
+
+static const char help_text[] =
+    "usage: softworld [options] [script [arguments]]\n"
+    "  script       run this Lua file; '-' reads it from standard input\n"
+    "  -e code      run this Lua code first (may be repeated)\n"
+    "  -i           go on at the prompt afterwards\n"
+    "  -v           show the version (also --version)\n"
+    "  -h           show this text (also --help)\n"
+    "  --           end of the options\n"
+    "Without script and options: the prompt on a terminal, else standard input is run.\n"
+    "Exit codes: 0 done, 1 an error in the script, 2 wrong usage, 130 stopped by Ctrl-C.\n"
+    "SOFTWORLD_TRACEBACK=full shows every call of a traceback.\n";
+
+void host_options_help(void) {
+  fputs(help_text, stdout);
+}
+
+static int usage(const char *what, const char *word) {
+  fprintf(stderr, "softworld: %s '%s'\n", what, word);
+  fputs("usage: softworld [-e code] [-i] [-v] [script [arguments]]; softworld --help tells more\n",
+        stderr);
+  return HOST_USAGE;
+}
+
+/* Read the option at argv[*at]; *at ends on its last word. */
+static int read_option(host_options *o, int *at) {
+  const char *word = o->argv[*at];
+  if (strncmp(word, "-e", 2) == 0) {
+    if (!word[2] && ++*at >= o->argc) return usage("code is missing after", "-e");
+    o->codes++;
+  } else if (strcmp(word, "-i") == 0) {
+    o->interactive = 1;
+  } else if (strcmp(word, "-v") == 0 || strcmp(word, "--version") == 0) {
+    o->version = 1;
+  } else if (strcmp(word, "-h") == 0 || strcmp(word, "--help") == 0) {
+    o->help = 1;
+  } else {
+    return usage("there is no option", word);
+  }
+  return HOST_OK;
+}
+
+int host_options_read(host_options *o, int argc, char **argv) {
+  *o = (host_options){.argc = argc, .argv = argv};
+  int i = 1;
+  for (; i < argc && argv[i][0] == '-' && argv[i][1]; i++) {
+    if (strcmp(argv[i], "--") == 0) {
+      i++;
+      break;
+    }
+    const int status = read_option(o, &i);
+    if (status != HOST_OK) return status;
+  }
+  o->script = i < argc ? i : 0;
+  if (!o->script && !o->codes && !o->version) o->interactive |= isatty(STDIN_FILENO);
+  return HOST_OK;
+}
+
+const char *host_options_code(const host_options *o, int *at) {
+  const int end = o->script ? o->script : o->argc;
+  for (int i = *at; i < end; i++) {
+    if (strcmp(o->argv[i], "--") == 0) break;
+    if (strncmp(o->argv[i], "-e", 2) != 0) continue;
+    const char *code = o->argv[i][2] ? o->argv[i] + 2 : o->argv[++i];
+    *at = i + 1;
+    return code;
+  }
+  *at = end;
+  return NULL;
+}
+
+void host_push_arg(lua_State *L, const host_options *o) {
+  lua_createtable(L, o->argc, o->script + 1);
+  for (int i = 0; i < o->argc; i++) {
+    lua_pushstring(L, o->argv[i]);
+    lua_rawseti(L, -2, i - o->script);
+  }
+  lua_setglobal(L, "arg");
+}

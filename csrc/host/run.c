@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Running chunks and telling what went wrong. */
+#include <errno.h>
+#include <lauxlib.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "host/ctrl_c.h"
+#include "host/host.h"
+#include "softworld.h"
+
+int host_call(lua_State *L, int count, int results) {
+  const int place = lua_gettop(L) - count;
+  lua_pushcfunction(L, host_traceback);
+  lua_insert(L, place);
+  int status = lua_pcall(L, count, results, place);
+  if (status == LUA_OK && sw_interrupted()) { /* it came too late for a hook to fire */
+    sw_interrupt_clear();
+    lua_settop(L, place);
+    lua_pushliteral(L, "interrupted");
+    status = LUA_ERRRUN;
+  }
+  lua_remove(L, place);
+  return status;
+}
+
+int host_report(lua_State *L) {
+  size_t length = 0;
+  const char *text = lua_tolstring(L, -1, &length);
+  fflush(stdout); /* what the script printed comes before */
+  fwrite(text ? text : "(no message)", 1, text ? length : 12, stderr);
+  fputc('\n', stderr);
+  const int stopped = host_ctrl_c_seen() && text && strstr(text, "interrupted");
+  lua_pop(L, 1);
+  return stopped ? HOST_INTERRUPTED : HOST_FAILED;
+}
+
+/* A message of the program's own, in place of a chunk. */
+static int refuse(const char *name, const char *why) {
+  fprintf(stderr, "softworld: cannot run '%s': %s\n", name, why);
+  return HOST_FAILED;
+}
+
+/* Push the script's arguments (arg[1], ...), give their number. */
+static int push_arguments(lua_State *L, const host_options *o) {
+  const int count = o->script ? o->argc - o->script - 1 : 0;
+  luaL_checkstack(L, count, "too many arguments to the script");
+  for (int i = 0; i < count; i++) lua_pushstring(L, o->argv[o->script + 1 + i]);
+  return count;
+}
+
+int host_run_code(lua_State *L, const char *code) {
+  host_ctrl_c_reset();
+  int status = luaL_loadbufferx(L, code, strlen(code), "=-e", "t");
+  if (status == LUA_OK) status = host_call(L, 0, 0);
+  return status == LUA_OK ? HOST_OK : host_report(L);
+}
+
+int host_run_script(lua_State *L, const host_options *o) {
+  struct stat info;
+  const char *name = o->script ? o->argv[o->script] : "-";
+  const char *file = strcmp(name, "-") == 0 ? NULL : name;
+  host_ctrl_c_reset();
+  if (file && stat(file, &info) != 0) return refuse(name, strerror(errno));
+  if (file && S_ISDIR(info.st_mode)) return refuse(name, "it is a directory");
+  int status = luaL_loadfilex(L, file, "t");
+  if (status == LUA_ERRFILE) {
+    lua_pop(L, 1);
+    return refuse(name, host_ctrl_c_seen() ? "interrupted" : strerror(errno));
+  }
+  if (status == LUA_OK) status = host_call(L, push_arguments(L, o), 0);
+  return status == LUA_OK ? HOST_OK : host_report(L);
+}

@@ -1,0 +1,180 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Scripts, options, arguments and exit codes.
+
+local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec/host"
+local program = dofile(here .. "/program.lua")
+local run, script = program.run, program.script
+
+describe("softworld script.lua", function()
+  after_each(program.clean)
+
+  it("gives the script its arguments", function()
+    local out, err, code = script("print(..., #arg, arg[2], arg[-1] ~= nil)", { "a b", "c" })
+    assert.equal("a b\t2\tc\ttrue\n", out)
+    assert.equal("", err)
+    assert.equal(0, code)
+  end)
+
+  it("numbers arg as the stock interpreter does", function()
+    local name = program.folder() .. "/s.lua"
+    program.write(name, "print(arg[0], arg[1], arg[-1], arg[-2], arg[-3])")
+    local out = run({ "-e", "x = 1", name, "one" })
+    assert.equal(("%s\tone\tx = 1\t-e\t%s\n"):format(name, program.path), out)
+  end)
+
+  it("skips a first line with #!", function()
+    local out, err, code = script "#!/usr/bin/env softworld\nprint 'here' error 'there'"
+    assert.equal("here\n", out)
+    assert.equal("script.lua:2: there\n", err)
+    assert.equal(1, code)
+  end)
+
+  it("finds modules beside the script", function()
+    local folder = program.folder()
+    program.write(folder .. "/beside.lua", "return 'found'")
+    local name = program.write(folder .. "/s.lua", "print((require 'beside'))")
+    assert.equal("found\n", (run { name }))
+  end)
+
+  it("finds its own library before one beside the script", function()
+    local folder = program.folder()
+    os.execute("mkdir " .. folder .. "/softworld")
+    program.write(folder .. "/softworld/pretty.lua", "return 'wrong'")
+    local name = program.write(folder .. "/s.lua", "print(type(require 'softworld.pretty'))")
+    assert.equal("function\n", (run { name }))
+  end)
+
+  it("copes with very long lines and zero bytes", function()
+    local text = ("x"):rep(300000)
+    local out, _, code = script("local s = '" .. text .. "\0'  print(#s)")
+    assert.equal("300001\n", out)
+    assert.equal(0, code)
+  end)
+
+  it("reports a missing file, a folder and binary code", function()
+    local _, err, code = run { "/no/such.lua" }
+    assert.equal("softworld: cannot run '/no/such.lua': No such file or directory\n", err)
+    assert.equal(1, code)
+    _, err, code = run { "/" }
+    assert.equal("softworld: cannot run '/': it is a directory\n", err)
+    assert.equal(1, code)
+    _, err, code = script(string.dump(function() return 1 end))
+    assert.matches("attempt to load a binary chunk", err)
+    assert.equal(1, code)
+  end)
+
+  it("ends with the code given to os.exit", function()
+    local _, _, code = script "os.exit(7)"
+    assert.equal(7, code)
+    _, _, code = script "os.exit(9, true)"
+    assert.equal(9, code)
+    _, _, code = script "os.exit(true, true)"
+    assert.equal(0, code)
+  end)
+
+  it("fails when its output cannot be written", function()
+    local _, err, code = program.shell(program.quote(program.path) .. " -e 'print(1)' >/dev/full")
+    assert.equal("softworld: cannot write the output: No space left on device\n", err)
+    assert.equal(1, code)
+  end)
+end)
+
+describe("softworld options", function()
+  after_each(program.clean)
+
+  it("run -e codes in order, then the script", function()
+    local name = program.write(program.folder() .. "/s.lua", "print(x, ...)")
+    local out, _, code = run { "-e", "x = 1", "-ex = x + 1", name, "-e" }
+    assert.equal("2\t-e\n", out)
+    assert.equal(0, code)
+  end)
+
+  it("stop at the first -e that fails", function()
+    local out, err, code = run { "-e", "error 'no'", "-e", "print 'never'" }
+    assert.equal("", out)
+    assert.equal("-e:1: no\n", err)
+    assert.equal(1, code)
+  end)
+
+  it("read a script from standard input", function()
+    local source = "print('in', ...)"
+    assert.equal("in\n", (run({}, { stdin = source })))
+    assert.equal("in\ta\n", (run({ "-", "a" }, { stdin = source })))
+    local _, err, code = run({}, { stdin = "\n\nx = = 1" })
+    assert.equal("stdin:3: unexpected symbol near '='\n", err)
+    assert.equal(1, code)
+  end)
+
+  it("end at --", function()
+    local folder = program.folder()
+    program.write(folder .. "/-e", "print 'a file called -e'")
+    local out = program.shell(("cd %s && %s -- -e"):format(folder,
+      program.path:find "^/" and program.path or '"$OLDPWD"/' .. program.path))
+    assert.equal("a file called -e\n", out)
+  end)
+
+  it("tell version and usage", function()
+    local out, _, code = run { "-v" }
+    assert.matches("^SoftWorld %d+%.%d+%.%d+ %(Lua 5%.4%.%d+%)\n$", out)
+    assert.equal(0, code)
+    assert.equal(out, (run { "--version" }))
+    assert.matches("^usage: softworld", (run { "--help" }))
+    assert.equal("1\n", (run({ "-v", "-" }, { stdin = "print(1)" })):match "\n(.*)")
+  end)
+
+  it("are refused with code 2 when wrong", function()
+    for _, arguments in ipairs { { "-x" }, { "--verbose" }, { "-e" }, { "-i", "-e" } } do
+      local out, err, code = run(arguments)
+      assert.equal("", out)
+      assert.matches("^softworld: .*'%-.*usage: ", err)
+      assert.equal(2, code)
+    end
+  end)
+end)
+
+describe("softworld.host", function()
+  after_each(program.clean)
+
+  it("tells how the program runs", function()
+    local out = script [[
+      local host = package.loaded["softworld.host"]
+      print(host.executable:match "[^/]*$", host.interactive, host.terminal, host.columns())
+    ]]
+    assert.equal(program.path:match "[^/]*$" .. "\tfalse\tfalse\t80\n", out)
+    out = run({ "-e", "print(package.loaded['softworld.host'].columns())" }, { before = "COLUMNS=123" })
+    assert.equal("123\n", out)
+  end)
+
+  it("is found beside share/lua/5.4 when installed", function()
+    local folder = program.folder()
+    program.shell(("cd %s && mkdir -p bin share/lua/5.4/softworld"):format(folder))
+    program.write(folder .. "/share/lua/5.4/softworld/here.lua", "return 'installed'")
+    program.shell(("cp %s %s/bin/softworld"):format(program.quote(program.path), folder))
+    local out = run({ "-e", "print((require 'softworld.here'))" }, { path = folder .. "/bin/softworld" })
+    assert.equal("installed\n", out)
+    out = run({ "-e", "print(package.loaded['softworld.host'].executable)" },
+      { before = "PATH=" .. folder .. "/bin:$PATH", path = "softworld" })
+    assert.equal(folder .. "/bin/softworld\n", out)
+  end)
+
+  it("has the core built in", function()
+    local out = run { "-e", "print(type(require('softworld.core').version))" }
+    assert.equal("string\n", out)
+  end)
+end)
+
+describe("softworld.core for the stock interpreter", function()
+  local folder = program.path:match "^(.*)/" or "."
+  local sanitized = os.execute("grep -q __asan_init " .. program.quote(program.path))
+  local possible = program.has "lua5.4" and not sanitized
+    and io.open(folder .. "/lib/softworld/core.so") ~= nil
+
+  it("loads, of the same version", function()
+    if not possible then return pending "no lua5.4, no core.so beside the program, or a sanitizer" end
+    local code = "print(require('softworld.core').version)"
+    local out, err = program.shell(("LUA_CPATH=%s lua5.4 -e %s"):format(
+      program.quote(folder .. "/lib/?.so"), program.quote(code)))
+    assert.equal("", err)
+    assert.equal(run { "-e", code }, out)
+  end)
+end)
