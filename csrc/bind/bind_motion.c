@@ -225,9 +225,12 @@ static const luaL_Reg methods[] = {{"position", m_position},
                                    {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", describe}, {NULL, NULL}};
 
-const lsw_class lsw_class_trajectory = {"trajectory",     sizeof(trajectory),
-                                        methods,          meta,
-                                        close_trajectory, "the trajectory has been closed"};
+const lsw_class lsw_class_trajectory = {.name = "trajectory",
+                                        .size = sizeof(trajectory),
+                                        .methods = methods,
+                                        .meta = meta,
+                                        .close = close_trajectory,
+                                        .gone = "the trajectory has been closed"};
 
 /* --- the module's functions --------------------------------------------------------- */
 

@@ -245,8 +245,12 @@ static const luaL_Reg methods[] = {{"kind", meth_kind},       {"distance", meth_
                                    {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
-const lsw_class lsw_class_shape = {"shape", sizeof(shape_handle), methods,
-                                   meta,    close,                "the shape has been closed"};
+const lsw_class lsw_class_shape = {.name = "shape",
+                                   .size = sizeof(shape_handle),
+                                   .methods = methods,
+                                   .meta = meta,
+                                   .close = close,
+                                   .gone = "the shape has been closed"};
 
 void lsw_open_shape(lua_State *L) {
   static const luaL_Reg functions[] = {

@@ -1,0 +1,375 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lua class scene: making, running, settling, snapshots, frames. */
+#include <string.h>
+
+#include "bind/bind_motion.h"
+#include "bind/child.h"
+#include "bind/module.h"
+
+/* The state whose run or settle is under way, for Lua forces; NULL otherwise. */
+static lua_State *running;
+lua_State **lsw_running(void);
+lua_State **lsw_running(void) { return &running; }
+
+static int mod_scene(lua_State *L) {
+  sw_scene_args args;
+  sw_error err = {""};
+  sw_scene *scene = NULL;
+  lua_settop(L, 1);
+  lsw_arguments(L, 1, "scene", &sw_scene_params, &args);
+  lsw_scene_handle *h = lsw_new(L, &lsw_class_scene, 2);
+  lua_newtable(L); /* functions kept as forces */
+  lua_setiuservalue(L, -2, 1);
+  lua_newtable(L); /* what the Lua side keeps about the scene */
+  lua_setiuservalue(L, -2, 2);
+  lsw_must(L, sw_scene_new(&args, &scene, &err), &err);
+  h->h.object = scene;
+  return 1;
+}
+
+static void close_scene(lsw_handle *h) { sw_scene_free(h->object); }
+
+static sw_scene *check(lua_State *L) {
+  return ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
+}
+
+/* Any object -> the table in which the Lua side keeps what belongs to it. */
+static int mod_data(lua_State *L) {
+  luaL_checktype(L, 1, LUA_TUSERDATA);
+  if (lua_getiuservalue(L, 1, 2) == LUA_TTABLE) return 1;
+  lua_pop(L, 1);
+  lua_newtable(L);
+  lua_pushvalue(L, -1);
+  if (!lua_setiuservalue(L, 1, 2)) return luaL_error(L, "this object keeps no data");
+  return 1;
+}
+
+static int mod_interrupted(lua_State *L) {
+  lua_pushboolean(L, sw_interrupted());
+  return 1;
+}
+
+/* --- running ------------------------------------------------------------------- */
+
+/* scene:advance({...}, until) -> report. The clock's exact end is `until` [s]. */
+static int meth_advance(lua_State *L) {
+  sw_scene *scene = check(L);
+  sw_run_args args;
+  sw_run_report r;
+  sw_error err = {""};
+  lsw_arguments(L, 2, "scene:run", &sw_run_params, &args);
+  const double until = lsw_number(L, 3, "scene:advance: until", "s");
+  lua_State *outer = running;
+  running = L;
+  const sw_status status = sw_scene_advance(scene, &args, until, sw_interrupted, &r, &err);
+  running = outer;
+  lsw_must(L, status, &err);
+  if (r.status == SW_EINTR || r.status == SW_ECALLBACK || r.status == SW_ENOMEM)
+    lsw_must(L, r.status, &r.reason);
+  lua_createtable(L, 0, 9);
+  lua_pushboolean(L, r.status == SW_OK);
+  lua_setfield(L, -2, "ok");
+  lua_pushstring(L, r.reason.text);
+  lua_setfield(L, -2, "reason");
+  lsw_set_number(L, "time", r.time);
+  lsw_set_integer(L, "steps", r.steps);
+  lsw_set_integer(L, "rejected", r.rejected);
+  lsw_set_integer(L, "iterations", r.iterations);
+  lsw_set_integer(L, "evaluations", r.evaluations);
+  lsw_set_number(L, "smallest_dt", r.smallest_dt);
+  return 1;
+}
+
+/* scene:settle{ tolerance =, max_iterations = } -> result */
+static int meth_settle(lua_State *L) {
+  sw_scene *scene = check(L);
+  sw_settle_args args;
+  sw_settle_report r;
+  sw_error err = {""};
+  lsw_arguments(L, 2, "scene:settle", &sw_settle_params, &args);
+  lua_State *outer = running;
+  running = L;
+  const sw_status status = sw_scene_settle(scene, &args, sw_interrupted, &r, &err);
+  running = outer;
+  lsw_must(L, status, &err);
+  if (sw_interrupted()) lsw_must(L, SW_EINTR, &err);
+  lua_createtable(L, 0, 6);
+  lua_pushboolean(L, r.ok);
+  lua_setfield(L, -2, "ok");
+  lua_pushstring(L, r.ok ? "at rest" : r.reason.text);
+  lua_setfield(L, -2, "reason");
+  lsw_set_integer(L, "iterations", r.iterations);
+  lsw_set_number(L, "residual", r.residual);
+  lsw_set_integer(L, "unstable", r.negative);
+  lua_pushboolean(L, r.transient);
+  lua_setfield(L, -2, "transient");
+  return 1;
+}
+
+/* --- reading ------------------------------------------------------------------- */
+
+static int meth_energy(lua_State *L) {
+  sw_energy e;
+  sw_error err = {""};
+  double total = 0;
+  lsw_must(L, sw_scene_energy(check(L), &e, &err), &err);
+  lua_createtable(L, 0, (int)e.count + 1);
+  for (size_t i = 0; i < e.count; i++) {
+    lsw_set_number(L, e.kind[i], e.value[i]);
+    total += e.value[i];
+  }
+  lsw_set_number(L, "total", total);
+  return 1;
+}
+
+/* Deepest penetration of the run so far [m], where [m], when [s]; then now [m]. */
+static int meth_penetration(lua_State *L) {
+  double now;
+  sw_extreme deepest;
+  sw_error err = {""};
+  lsw_must(L, sw_scene_penetration(check(L), &now, &deepest, &err), &err);
+  lua_pushnumber(L, deepest.value);
+  lua_pushnumber(L, deepest.s);
+  lua_pushnumber(L, deepest.time);
+  lua_pushnumber(L, now);
+  return 4;
+}
+
+static int meth_contacts(lua_State *L) {
+  lua_pushinteger(L, (lua_Integer)sw_scene_touches(check(L)));
+  return 1;
+}
+
+static int meth_stable_dt(lua_State *L) {
+  lua_pushnumber(L, sw_scene_stable_dt(check(L)));
+  return 1;
+}
+
+/* scene:gravity() -> vector; scene:gravity(vector) sets [m/s2] */
+static int meth_gravity(lua_State *L) {
+  sw_scene *scene = check(L);
+  if (lua_gettop(L) > 1) {
+    sw_scene_set_gravity(scene, lsw_vector(L, 2, "scene:gravity", "m/s2"));
+    return 0;
+  }
+  lsw_push_vector(L, sw_scene_gravity(scene));
+  return 1;
+}
+
+static int prop_time(lua_State *L) {
+  lua_pushnumber(L, sw_scene_time(check(L)));
+  return 1;
+}
+
+static int prop_name(lua_State *L) {
+  lua_pushstring(L, sw_scene_name(check(L)));
+  return 1;
+}
+
+/* --- frames -------------------------------------------------------------------- */
+
+static void push_pose(lua_State *L, const double *p) {
+  lua_createtable(L, 0, 3);
+  lsw_set_vector(L, "position", sw_load(p));
+  lsw_push_quaternion(L, (sw_quat){p[3], p[4], p[5], p[6]});
+  lua_setfield(L, -2, "rotation");
+}
+
+static void push_frame_wires(lua_State *L, const sw_scene *scene, size_t frame) {
+  size_t count;
+  const double *x;
+  lua_newtable(L);
+  for (size_t w = 0; (x = sw_scene_frame_wire(scene, frame, w, &count)) != NULL; w++) {
+    lua_createtable(L, (int)(3 * count), 0);
+    for (size_t i = 0; i < 3 * count; i++) {
+      lua_pushnumber(L, x[i]);
+      lua_rawseti(L, -2, (lua_Integer)i + 1);
+    }
+    lua_rawseti(L, -2, (lua_Integer)w + 1);
+  }
+}
+
+/* scene:frame(i) -> { t, wires, obstacles, holds, energy }, or nil past the end. */
+static int meth_frame(lua_State *L) {
+  const sw_scene *scene = check(L);
+  const lua_Integer i = luaL_checkinteger(L, 2);
+  const double *p;
+  int held;
+  if (i < 1 || (size_t)i > sw_scene_frames(scene)) return 0;
+  const size_t frame = (size_t)i - 1;
+  lua_createtable(L, 0, 5);
+  lsw_set_number(L, "t", sw_scene_frame_time(scene, frame));
+  push_frame_wires(L, scene, frame);
+  lua_setfield(L, -2, "wires");
+  lua_newtable(L);
+  for (size_t o = 0; (p = sw_scene_frame_obstacle(scene, frame, o)) != NULL; o++) {
+    push_pose(L, p);
+    lua_rawseti(L, -2, (lua_Integer)o + 1);
+  }
+  lua_setfield(L, -2, "obstacles");
+  lua_newtable(L);
+  for (size_t h = 0; (p = sw_scene_frame_hold(scene, frame, h, &held)) != NULL; h++) {
+    push_pose(L, p);
+    lua_pushboolean(L, held);
+    lua_setfield(L, -2, "held");
+    lua_rawseti(L, -2, (lua_Integer)h + 1);
+  }
+  lua_setfield(L, -2, "holds");
+  const double *e = sw_scene_frame_energy(scene, frame);
+  lua_createtable(L, 0, SW_FRAME_ENERGIES);
+  lsw_set_number(L, "kinetic", e[0]);
+  lsw_set_number(L, "elastic", e[1]);
+  lsw_set_number(L, "gravity", e[2]);
+  lua_setfield(L, -2, "energy");
+  return 1;
+}
+
+static int meth_frame_count(lua_State *L) {
+  lua_pushinteger(L, (lua_Integer)sw_scene_frames(check(L)));
+  return 1;
+}
+
+static int meth_clear_frames(lua_State *L) {
+  sw_scene_clear_frames(check(L));
+  return 0;
+}
+
+/* --- snapshots ------------------------------------------------------------------ */
+
+static int meth_snapshot(lua_State *L) {
+  sw_scene *scene = check(L);
+  sw_snapshot *snapshot = NULL;
+  sw_error err = {""};
+  lsw_handle *h = lsw_new(L, &lsw_class_snapshot, 2);
+  lua_pushvalue(L, 1);
+  lua_setiuservalue(L, -2, 1);
+  lsw_must(L, sw_scene_snapshot(scene, &snapshot, &err), &err);
+  h->object = snapshot;
+  return 1;
+}
+
+static int meth_restore(lua_State *L) {
+  sw_scene *scene = check(L);
+  sw_error err = {""};
+  const lsw_handle *h = lsw_check(L, 2, &lsw_class_snapshot);
+  lua_getiuservalue(L, 2, 1);
+  if (!lua_rawequal(L, -1, 1)) return luaL_error(L, "restore: the snapshot is of another scene");
+  lsw_must(L, sw_scene_restore(scene, h->object, &err), &err);
+  return 0;
+}
+
+static void close_snapshot(lsw_handle *h) { sw_snapshot_free(h->object); }
+
+static int meta_describe(lua_State *L) {
+  const sw_scene *scene = check(L);
+  lua_pushfstring(L, "scene '%s' at t = %f s", sw_scene_name(scene), sw_scene_time(scene));
+  return 1;
+}
+
+static const luaL_Reg methods[] = {{"wire", lsw_scene_wire},
+                                   {"clamp", lsw_scene_clamp},
+                                   {"pin", lsw_scene_pin},
+                                   {"grip", lsw_scene_grip},
+                                   {"obstacle", lsw_scene_obstacle},
+                                   {"force", lsw_scene_force},
+                                   {"advance", meth_advance},
+                                   {"settle", meth_settle},
+                                   {"energy", meth_energy},
+                                   {"penetration", meth_penetration},
+                                   {"contacts", meth_contacts},
+                                   {"stable_dt", meth_stable_dt},
+                                   {"gravity", meth_gravity},
+                                   {"frame", meth_frame},
+                                   {"frame_count", meth_frame_count},
+                                   {"clear_frames", meth_clear_frames},
+                                   {"snapshot", meth_snapshot},
+                                   {"restore", meth_restore},
+                                   {NULL, NULL}};
+static const luaL_Reg properties[] = {{"time", prop_time}, {"name", prop_name}, {NULL, NULL}};
+static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
+
+const lsw_class lsw_class_scene = {"scene",    sizeof(lsw_scene_handle), methods, meta,
+                                   properties, close_scene,              "the scene has been closed"};
+
+static const luaL_Reg none[] = {{NULL, NULL}};
+const lsw_class lsw_class_snapshot = {"snapshot", sizeof(lsw_handle),
+                                      none,       NULL,
+                                      NULL,       close_snapshot,
+                                      "the snapshot has been closed"};
+
+/* --- registries as tables ------------------------------------------------------- */
+
+static int mod_registry(lua_State *L) {
+  lua_newtable(L);
+  lua_newtable(L);
+  for (int i = 0; sw_integrator_all()[i]; i++) {
+    const sw_integrator *m = sw_integrator_all()[i];
+    lua_createtable(L, 0, 6);
+    lua_pushstring(L, m->name), lua_setfield(L, -2, "name");
+    lua_pushstring(L, m->summary), lua_setfield(L, -2, "summary");
+    lua_pushinteger(L, m->order), lua_setfield(L, -2, "order");
+    lua_pushboolean(L, (m->flags & SW_INTEGRATOR_IMPLICIT) != 0), lua_setfield(L, -2, "implicit");
+    lua_pushboolean(L, (m->flags & SW_INTEGRATOR_EMBEDDED) != 0), lua_setfield(L, -2, "adaptive");
+    lsw_set_number(L, "leapfrog_limit", m->leapfrog_limit);
+    lua_rawseti(L, -2, i + 1);
+  }
+  lua_setfield(L, -2, "integrators");
+  lua_newtable(L);
+  for (int i = 0; sw_force_all()[i]; i++) {
+    const sw_force_class *f = sw_force_all()[i];
+    lua_createtable(L, 0, 4);
+    lua_pushstring(L, f->name), lua_setfield(L, -2, "name");
+    lua_pushstring(L, f->summary), lua_setfield(L, -2, "summary");
+    lua_pushboolean(L, (f->flags & SW_FORCE_INNER) != 0), lua_setfield(L, -2, "inner");
+    lsw_push_params(L, &f->params), lua_setfield(L, -2, "params");
+    lua_rawseti(L, -2, i + 1);
+  }
+  lua_setfield(L, -2, "forces");
+  lua_newtable(L);
+  for (int i = 0; sw_wire_all()[i]; i++) {
+    lua_createtable(L, 0, 2);
+    lua_pushstring(L, sw_wire_all()[i]->name), lua_setfield(L, -2, "name");
+    lua_pushstring(L, sw_wire_all()[i]->summary), lua_setfield(L, -2, "summary");
+    lua_rawseti(L, -2, i + 1);
+  }
+  lua_setfield(L, -2, "models");
+  lua_newtable(L);
+  for (int i = 0; sw_hold_all()[i]; i++) {
+    lua_createtable(L, 0, 3);
+    lua_pushstring(L, sw_hold_all()[i]->name), lua_setfield(L, -2, "name");
+    lua_pushstring(L, sw_hold_all()[i]->summary), lua_setfield(L, -2, "summary");
+    lsw_push_params(L, &sw_hold_all()[i]->params), lua_setfield(L, -2, "params");
+    lua_rawseti(L, -2, i + 1);
+  }
+  lua_setfield(L, -2, "holds");
+  lua_newtable(L);
+  for (int i = 0; sw_shape_kinds()[i]; i++) {
+    const sw_shape_class *c = sw_shape_class_find(sw_shape_kinds()[i]);
+    lua_createtable(L, 0, 2);
+    lua_pushstring(L, sw_shape_kinds()[i]), lua_setfield(L, -2, "name");
+    lsw_push_params(L, sw_shape_class_params(c)), lua_setfield(L, -2, "params");
+    lua_rawseti(L, -2, i + 1);
+  }
+  lua_setfield(L, -2, "shapes");
+  const struct {
+    const char *name;
+    const sw_params *params;
+  } tables[] = {{"scene", &sw_scene_params},       {"wire", &sw_wire_params},
+                {"section", &sw_section_params},   {"obstacle", &sw_obstacle_params},
+                {"run", &sw_run_params},           {"settle", &sw_settle_params}};
+  lua_newtable(L);
+  for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++) {
+    lsw_push_params(L, tables[i].params);
+    lua_setfield(L, -2, tables[i].name);
+  }
+  lua_setfield(L, -2, "params");
+  return 1;
+}
+
+static const luaL_Reg functions[] = {{"scene", mod_scene},
+                                     {"data", mod_data},
+                                     {"interrupted", mod_interrupted},
+                                     {"registry", mod_registry},
+                                     {NULL, NULL}};
+
+void lsw_open_scene(lua_State *L) { luaL_setfuncs(L, functions, 0); }
