@@ -54,7 +54,7 @@ static int distance(const sw_shape *shape, sw_vec p, double reach, sw_closest *o
   const sw_vec w = sw_v(beyond(p.x, half.x), beyond(p.y, half.y), beyond(p.z, half.z));
   const double gap = sw_norm(w);
   if (!(gap < reach)) return 0;
-  if (gap == 0) return on_face(p, half, axis, most, out); /* squares too small for a number */
+  if (gap <= SW_SHAPE_TINY) return on_face(p, half, axis, most, out);
   const int digits = X_DIGIT * sign_of(w.x) + Y_DIGIT * sign_of(w.y) + Z_DIGIT * sign_of(w.z);
   *out = (sw_closest){gap, 0, sw_scale(w, 1 / gap), sw_sub(p, w), MIDDLE + digits};
   return 1;

@@ -33,7 +33,7 @@ static int distance(const sw_shape *shape, sw_vec p, double reach, sw_closest *o
   const sw_vec w = sw_v(p.x, p.y, p.z - z);
   const double r = sw_norm(w), gap = r - self->radius;
   if (!(gap < reach)) return 0;
-  const sw_vec n = sw_unit_or(w, sw_v(1, 0, 0));
+  const sw_vec n = sw_direction(w, r, sw_v(1, 0, 0));
   *out = (sw_closest){gap, 0, n, sw_madd(sw_v(0, 0, z), n, self->radius), part_of(z, self->half)};
   return 1;
 }

@@ -33,11 +33,11 @@ static int distance(const sw_shape *shape, sw_vec p, double reach, sw_closest *o
   const double side = r - self->radius, cap = fabs(p.z) - self->half;
   const double gap = side > 0 && cap > 0 ? sqrt(side * side + cap * cap) : fmax(side, cap);
   if (!(gap < reach)) return 0;
-  const sw_vec away = r > 0 ? sw_v(p.x / r, p.y / r, 0) : sw_v(1, 0, 0);
+  const sw_vec away = sw_direction(sw_v(p.x, p.y, 0), r, sw_v(1, 0, 0));
   const double up = copysign(1, p.z);
   sw_vec n = away;
   int part = SIDE;
-  if (side > 0 && cap > 0 && gap > 0) {
+  if (side > 0 && cap > 0 && gap > SW_SHAPE_TINY) {
     n = sw_v(away.x * side / gap, away.y * side / gap, up * cap / gap);
     part = up > 0 ? TOP_RIM : BOTTOM_RIM;
   } else if (cap >= side) {

@@ -87,6 +87,12 @@ static inline int sw_bounds_meet(const sw_bounds *a, const sw_bounds *b) {
   return a->min.x <= b->max.x && b->min.x <= a->max.x && a->min.y <= b->max.y &&
          b->min.y <= a->max.y && a->min.z <= b->max.z && b->min.z <= a->max.z;
 }
+/* Lengths below this have no direction: their squares lose digits [m] */
+#define SW_SHAPE_TINY 1e-150
+/* w / r where r = |w|, or the fallback. */
+static inline sw_vec sw_direction(sw_vec w, double r, sw_vec fallback) {
+  return r > SW_SHAPE_TINY ? sw_scale(w, 1 / r) : fallback;
+}
 static inline double sw_limit(double x, double low, double high) {
   return x < low ? low : x > high ? high : x;
 }
