@@ -54,6 +54,24 @@ struct sw_shape_class {
         SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN, NULL, offsetof(struct_name, field), text \
   }
 
+/* A segment nearly parallel to a face (or a straight side) under its one contact
+ * out[0], which it passes over between the places part[0] and part[1]: add the
+ * places where it enters and leaves as contacts. Returns how many there are. */
+int sw_convex_bridge(const sw_shape *shape, sw_vec a, sw_vec b, double reach,
+                     const double part[2], sw_closest *out);
+#define SW_NEARLY_FLAT 0.05 /* tilt up to which both ends of a bridge count [rad] */
+
+/* Shorten the part [*from, *to] of a line x + t d to where it is in [low, high]. */
+static inline void sw_clip(double x, double d, double low, double high, double *from, double *to) {
+  if (d == 0) {
+    if (x < low || x > high) *to = -1;
+    return;
+  }
+  const double one = (low - x) / d, two = (high - x) / d;
+  *from = fmax(*from, fmin(one, two));
+  *to = fmin(*to, fmax(one, two));
+}
+
 /* For convex kinds: the segment query by the minimum of the distance, which is
  * convex along the segment. */
 int sw_convex_segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out);
@@ -71,6 +89,13 @@ typedef void (*sw_nearest_function)(const void *thing, sw_vec a, sw_vec b, sw_cl
 int sw_sweep_advance(sw_nearest_function nearest, const void *thing, const sw_sweep *path,
                      const sw_closest *start, double level, double limit, sw_closest *out,
                      double *when);
+
+/* The gap a sweep may not come down to: the margin, or for one that starts
+ * within it a little less than the start's. */
+static inline double sw_sweep_level(const sw_sweep *path, double start_gap) {
+  const double noise = 2 * path->tolerance;
+  return start_gap > path->margin + noise ? path->margin : fmin(path->margin, start_gap) - noise;
+}
 
 /* Is this gap at place `at` no better than the line between the end gaps says? */
 static inline int sw_no_better(double gap, double gap_a, double gap_b, double at, double length) {

@@ -24,22 +24,11 @@ static const double inside = 1e-9;
 
 /* --- which triangles ------------------------------------------------------ */
 
-/* Shorten [*from, *to] to where x + t d is in [low, high]. */
-static inline void slab(double x, double d, double low, double high, double *from, double *to) {
-  if (d == 0) {
-    if (x < low || x > high) *to = -1;
-    return;
-  }
-  const double one = (low - x) / d, two = (high - x) / d;
-  *from = fmax(*from, fmin(one, two));
-  *to = fmin(*to, fmax(one, two));
-}
-
 static int passes(const sw_bounds *box, sw_vec a, sw_vec d, double reach) {
   double from = 0, to = 1;
-  slab(a.x, d.x, box->min.x - reach, box->max.x + reach, &from, &to);
-  slab(a.y, d.y, box->min.y - reach, box->max.y + reach, &from, &to);
-  slab(a.z, d.z, box->min.z - reach, box->max.z + reach, &from, &to);
+  sw_clip(a.x, d.x, box->min.x - reach, box->max.x + reach, &from, &to);
+  sw_clip(a.y, d.y, box->min.y - reach, box->max.y + reach, &from, &to);
+  sw_clip(a.z, d.z, box->min.z - reach, box->max.z + reach, &from, &to);
   return from <= to;
 }
 

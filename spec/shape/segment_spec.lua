@@ -95,6 +95,29 @@ describe("segment", function()
     end
   end)
 
+  it("touches both ends of a roller or peg that it lies along, and both rims of a disc", function()
+    local cases = {
+      { { shape = "cylinder", radius = 0.02, length = 0.01 }, { 0.021, 0, 0 }, { 0, 0, 1 } },
+      { { shape = "capsule", radius = 0.02, length = 0.01 }, { 0.021, 0, 0 }, { 0, 0, 1 } },
+      { { shape = "cylinder", radius = 0.005, length = 0.02 }, { 0, 0, 0.011 }, { 0.6, 0.8, 0 } },
+    }
+    for _, case in ipairs(cases) do
+      local shape = core.shape(case[1])
+      local a = tools.sub(case[2], tools.scale(case[3], 0.02))
+      local b = tools.add(case[2], tools.scale(case[3], 0.03))
+      local contacts = shape:segment(a, b, 0.005)
+      assert.equal(2, #contacts)
+      table.sort(contacts, function(one, two) return one.at < two.at end)
+      near(0.3, contacts[1].at, 1e-6)
+      near(0.5, contacts[2].at, 1e-6)
+      near(0.001, contacts[1].gap, 1e-12)
+      near(0.001, contacts[2].gap, 1e-12)
+    end
+    -- across the roller there is only one place
+    local roller = core.shape { shape = "cylinder", radius = 0.02, length = 0.01 }
+    assert.equal(1, #roller:segment({ 0.021, -0.02, 0.001 }, { 0.021, 0.03, 0.001 }, 0.005))
+  end)
+
   it("points outward with a negative gap when an edge cuts through the wire", function()
     local kinds = {
       core.shape { shape = "box", size = { 1, 1, 1 } },
