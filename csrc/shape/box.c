@@ -54,7 +54,7 @@ static int distance(const sw_shape *shape, sw_vec p, double reach, sw_closest *o
   const sw_vec w = sw_v(beyond(p.x, half.x), beyond(p.y, half.y), beyond(p.z, half.z));
   const double gap = sw_norm(w);
   if (!(gap < reach)) return 0;
-  if (gap == 0) return on_face(p, half, axis, most, out); /* squares too small for a number */
+  if (gap <= SW_SHAPE_TINY) return on_face(p, half, axis, most, out);
   const int digits = X_DIGIT * sign_of(w.x) + Y_DIGIT * sign_of(w.y) + Z_DIGIT * sign_of(w.z);
   *out = (sw_closest){gap, 0, sw_scale(w, 1 / gap), sw_sub(p, w), MIDDLE + digits};
   return 1;
@@ -65,50 +65,17 @@ static sw_vec support(const sw_shape *shape, sw_vec n) {
   return sw_v(copysign(half.x, n.x), copysign(half.y, n.y), copysign(half.z, n.z));
 }
 
-/* Shorten the part [*from, *to] of a line x + t d to where it is within half. */
-static void clip(double x, double d, double half, double *from, double *to) {
-  if (d == 0) {
-    if (fabs(x) > half) *to = -1;
-    return;
-  }
-  const double one = (-half - x) / d, two = (half - x) / d;
-  *from = fmax(*from, fmin(one, two));
-  *to = fmin(*to, fmax(one, two));
-}
-
-/* A segment that bridges the face under its one contact touches it at both
- * edges: add the ones that are not the contact already. */
-static int bridge(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out) {
-  const double nearly_flat = 0.05; /* tilt up to which both edges count [rad] */
-  const sw_vec half = ((const box *)shape)->half, d = sw_sub(b, a), n = out[0].normal;
-  const double most = fmax(fmax(fabs(n.x), fabs(n.y)), fabs(n.z)), length = sw_norm(d);
-  if (most < cos(nearly_flat) || fabs(sw_dot(n, d)) > nearly_flat * length) return 1;
-  double part[2] = {0, 1};
-  if (most != fabs(n.x)) clip(a.x, d.x, half.x, &part[0], &part[1]);
-  if (most != fabs(n.y)) clip(a.y, d.y, half.y, &part[0], &part[1]);
-  if (most != fabs(n.z)) clip(a.z, d.z, half.z, &part[0], &part[1]);
-  if (!(part[0] < part[1])) return 1;
-  const double same = 2 * nearly_flat * fabs(out[0].gap) + 1e-6 * length; /* [m] */
-  const double off = same / length; /* [-] */
-  const sw_closest lone = out[0];
-  const int level = fabs(sw_dot(n, d)) <= 1e-9 * length; /* else the segment pierces the box */
-  const int flat = level && lone.at > part[0] + off && lone.at < part[1] - off;
-  int count = flat ? 0 : 1;
-  sw_closest ends[2], found;
-  distance(shape, a, INFINITY, &ends[0]), distance(shape, b, INFINITY, &ends[1]);
-  for (int i = 0; i < 2; i++) {
-    if (!(part[i] > 0 && part[i] < 1)) continue;
-    if (!flat && fabs(part[i] - lone.at) <= off) continue;
-    if (!distance(shape, sw_lerp(a, b, part[i]), reach, &found)) continue;
-    found.at = part[i];
-    if (sw_no_better(found.gap, ends[0].gap, ends[1].gap, found.at, length)) continue;
-    out[count++] = found;
-  }
-  return count > 0 ? count : 1;
-}
-
 static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out) {
-  return sw_convex_segment(shape, a, b, reach, out) ? bridge(shape, a, b, reach, out) : 0;
+  if (!sw_convex_segment(shape, a, b, reach, out)) return 0;
+  const sw_vec half = ((const box *)shape)->half, d = sw_sub(b, a), n = out[0].normal;
+  const double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);
+  const double most = fmax(fmax(x, y), z);
+  double part[2] = {0, 1};
+  if (most < cos(SW_NEARLY_FLAT)) return 1;
+  if (most != x) sw_clip(a.x, d.x, -half.x, half.x, &part[0], &part[1]);
+  if (most != y) sw_clip(a.y, d.y, -half.y, half.y, &part[0], &part[1]);
+  if (most != z) sw_clip(a.z, d.z, -half.z, half.z, &part[0], &part[1]);
+  return sw_convex_bridge(shape, a, b, reach, part, out);
 }
 
 static const sw_param rows[] = {

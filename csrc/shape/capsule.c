@@ -33,7 +33,7 @@ static int distance(const sw_shape *shape, sw_vec p, double reach, sw_closest *o
   const sw_vec w = sw_v(p.x, p.y, p.z - z);
   const double r = sw_norm(w), gap = r - self->radius;
   if (!(gap < reach)) return 0;
-  const sw_vec n = sw_unit_or(w, sw_v(1, 0, 0));
+  const sw_vec n = sw_direction(w, r, sw_v(1, 0, 0));
   *out = (sw_closest){gap, 0, n, sw_madd(sw_v(0, 0, z), n, self->radius), part_of(z, self->half)};
   return 1;
 }
@@ -69,7 +69,10 @@ static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_c
   if (sw_no_better(gap, gap_a, end.gap, at, length)) return 0;
   const sw_vec n = r > touching * (length + self->half) ? sw_scale(w, 1 / r) : across(a, b, d);
   *out = (sw_closest){gap, at, n, sw_madd(q, n, self->radius), part_of(q.z, self->half)};
-  return 1;
+  if (fabs(d.z) < cos(SW_NEARLY_FLAT) * length) return 1;
+  double part[2] = {0, 1};
+  sw_clip(a.z, d.z, -self->half, self->half, &part[0], &part[1]);
+  return sw_convex_bridge(shape, a, b, reach, part, out);
 }
 
 static const sw_param rows[] = {

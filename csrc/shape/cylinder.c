@@ -33,11 +33,11 @@ static int distance(const sw_shape *shape, sw_vec p, double reach, sw_closest *o
   const double side = r - self->radius, cap = fabs(p.z) - self->half;
   const double gap = side > 0 && cap > 0 ? sqrt(side * side + cap * cap) : fmax(side, cap);
   if (!(gap < reach)) return 0;
-  const sw_vec away = r > 0 ? sw_v(p.x / r, p.y / r, 0) : sw_v(1, 0, 0);
+  const sw_vec away = sw_direction(sw_v(p.x, p.y, 0), r, sw_v(1, 0, 0));
   const double up = copysign(1, p.z);
   sw_vec n = away;
   int part = SIDE;
-  if (side > 0 && cap > 0 && gap > 0) {
+  if (side > 0 && cap > 0 && gap > SW_SHAPE_TINY) {
     n = sw_v(away.x * side / gap, away.y * side / gap, up * cap / gap);
     part = up > 0 ? TOP_RIM : BOTTOM_RIM;
   } else if (cap >= side) {
@@ -54,6 +54,32 @@ static sw_vec support(const sw_shape *shape, sw_vec n) {
   return sw_v(self->radius * away.x, self->radius * away.y, copysign(self->half, n.z));
 }
 
+/* Shorten the part to where the line is within the round side. */
+static void clip_round(double radius, sw_vec a, sw_vec d, double part[2]) {
+  const double dd = d.x * d.x + d.y * d.y, ad = a.x * d.x + a.y * d.y;
+  const double inside = ad * ad - dd * (a.x * a.x + a.y * a.y - radius * radius);
+  if (!(dd > 0 && inside > 0)) {
+    part[1] = -1;
+    return;
+  }
+  part[0] = fmax(part[0], (-ad - sqrt(inside)) / dd);
+  part[1] = fmin(part[1], (-ad + sqrt(inside)) / dd);
+}
+
+static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out) {
+  const cylinder *self = (const cylinder *)shape;
+  if (!sw_convex_segment(shape, a, b, reach, out)) return 0;
+  const sw_vec d = sw_sub(b, a);
+  double part[2] = {0, 1};
+  if (fabs(out[0].normal.z) >= cos(SW_NEARLY_FLAT))
+    clip_round(self->radius, a, d, part);
+  else if (fabs(d.z) >= cos(SW_NEARLY_FLAT) * sw_norm(d))
+    sw_clip(a.z, d.z, -self->half, self->half, &part[0], &part[1]);
+  else
+    return 1;
+  return sw_convex_bridge(shape, a, b, reach, part, out);
+}
+
 static const sw_param rows[] = {
     SW_LENGTH_ROW(cylinder_args, radius, "radius of the round side"),
     SW_LENGTH_ROW(cylinder_args, length, "distance between the flat ends, along z"),
@@ -66,4 +92,4 @@ const sw_shape_class sw_shape_class_cylinder = {.kind = "cylinder",
                                                 .create = create,
                                                 .distance = distance,
                                                 .support = support,
-                                                .segment = sw_convex_segment};
+                                                .segment = segment};

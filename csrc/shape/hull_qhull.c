@@ -16,8 +16,9 @@ static sw_vec centre_of(const double *points, size_t n) {
 }
 
 /* The points around their centre with the largest coordinate 1: qhull's
- * tolerances and ours do not depend on the units then. */
-static void to_unit(const double *points, size_t n, double *unit) {
+ * tolerances and ours do not depend on the units then. Returns that largest
+ * coordinate [m]. */
+static double to_unit(const double *points, size_t n, double *unit) {
   const sw_vec centre = centre_of(points, n);
   double largest = 0;
   for (size_t i = 0; i < n; i++) {
@@ -26,6 +27,7 @@ static void to_unit(const double *points, size_t n, double *unit) {
   }
   for (size_t i = 0; i < n && largest > 0; i++)
     sw_store(unit + 3 * i, sw_scale(sw_sub(sw_load(points + 3 * i), centre), 1 / largest));
+  return largest;
 }
 
 /* Point numbers of a triangular facet, counter-clockwise seen from outside. */
@@ -64,11 +66,14 @@ static sw_status collect(qhT *qh, const double *unit, int **indices, size_t *tri
   return SW_OK;
 }
 
+static sw_status flat(const char *object, sw_error *err) {
+  return sw_fail(err, SW_EINVAL,
+                 "%s: the points lie in one plane or on one line; a hull needs four that do not",
+                 object);
+}
+
 static sw_status refused(const char *object, int code, char *message, sw_error *err) {
-  if (code == qh_ERRsingular || code == qh_ERRprec)
-    return sw_fail(err, SW_EINVAL,
-                   "%s: the points lie in one plane or on one line; a hull needs four that do not",
-                   object);
+  if (code == qh_ERRsingular || code == qh_ERRprec) return flat(object, err);
   if (code == qh_ERRmem) return sw_fail(err, SW_ENOMEM, "%s: out of memory", object);
   message[strcspn(message, "\n")] = '\0';
   return sw_fail(err, SW_EINVAL, "%s: no hull could be made (%s)", object, message);
@@ -100,8 +105,9 @@ sw_status sw_hull_triangles(const char *object, const double *points, size_t n, 
   *triangle_count = 0;
   double *unit = sw_alloc(3 * n, sizeof *unit);
   if (!unit) return sw_fail(err, SW_ENOMEM, "%s: out of memory", object);
-  to_unit(points, n, unit);
-  const sw_status status = run(object, unit, n, indices, triangle_count, err);
+  const double largest = to_unit(points, n, unit);
+  const sw_status status =
+      largest > 0 ? run(object, unit, n, indices, triangle_count, err) : flat(object, err);
   sw_free(unit);
   return status;
 }

@@ -109,6 +109,31 @@ int sw_convex_segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, s
   return !sw_no_better(out->gap, gap_a, gap_b, out->at, on.length);
 }
 
+int sw_convex_bridge(const sw_shape *shape, sw_vec a, sw_vec b, double reach,
+                     const double part[2], sw_closest *out) {
+  const double same_part = 1e-6, level = 1e-9; /* of the length [-] */
+  const sw_vec d = sw_sub(b, a);
+  const double length = sw_norm(d);
+  const sw_closest lone = out[0];
+  if (!(part[0] < part[1]) || fabs(sw_dot(lone.normal, d)) > SW_NEARLY_FLAT * length) return 1;
+  const double off = 2 * SW_NEARLY_FLAT * fabs(lone.gap) / length + same_part;
+  int count = 1, as_near = 0;
+  sw_closest ends[2], found;
+  shape->class->distance(shape, a, HUGE_VAL, &ends[0]);
+  shape->class->distance(shape, b, HUGE_VAL, &ends[1]);
+  for (int i = 0; i < 2; i++) {
+    if (!(part[i] > 0 && part[i] < 1) || fabs(part[i] - lone.at) <= off) continue;
+    if (!shape->class->distance(shape, sw_madd(a, d, part[i]), reach, &found)) continue;
+    found.at = part[i];
+    if (sw_no_better(found.gap, ends[0].gap, ends[1].gap, found.at, length)) continue;
+    as_near += found.gap <= lone.gap + level * length;
+    out[count++] = found;
+  }
+  if (as_near < 2) return count;
+  out[0] = out[2]; /* level: the lone contact was just any place between the two */
+  return 2;
+}
+
 void sw_convex_nearest(const sw_shape *shape, sw_vec a, sw_vec b, sw_closest *out) {
   const line on = line_of(shape, a, b);
   probe left, right;

@@ -57,8 +57,8 @@ sw_status sw_shape_new(const sw_shape_class *class, const sw_shape_args *args,
 
 /* Coordinates beyond SW_SHAPE_FAR and NaN are near nothing: the three queries
  * return 0 for them. For all others every number they return is finite. */
-#define SW_SHAPE_FAR 1e100    /* [m] */
-#define SW_SHAPE_LARGEST 1e6  /* largest size of a shape [m] */
+#define SW_SHAPE_FAR 1e50    /* [m] */
+#define SW_SHAPE_LARGEST 1e6 /* largest size of a shape [m] */
 
 /* The nearest surface place to the point p. Returns 1 and fills out when the
  * gap is below reach, else 0 (out is then undefined). */
@@ -67,8 +67,8 @@ int sw_shape_point(const sw_shape *shape, sw_vec p, double reach, sw_closest *ou
 /* Contacts of the segment a-b strictly between its ends, which points at the
  * ends would miss: local minima of the distance along it. A contact is dropped
  * when its gap is not below the line between the two end gaps, so a segment
- * lying flat on a face has none; one that bridges a flat face has one contact
- * at each of the face's two edges, which fade into one another as it tilts.
+ * lying flat on a face has none; one that bridges a flat face or a straight
+ * side has a contact at each end of it, of which one fades away as it tilts.
  * normal is perpendicular to the segment except for the second edge of such a
  * bridge; for a segment cut by an edge, gap is minus the way out along normal.
  * A mesh finds places with |gap| below reach, the others gap below reach.
@@ -80,7 +80,8 @@ int sw_shape_segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach,
  * straight line. With g(t) the smallest gap of all its points and
  * level = min(margin, g(0)): is g(t) < level - tolerance at some t in (0, 1]?
  * So one that starts further away than margin (>= 0) is reported when it comes
- * as near as margin; one that starts nearer, when it gets deeper or crosses.
+ * as near as margin, to within the tolerance; one that starts nearer, when it
+ * gets deeper or crosses.
  * Returns 1 with the place at the first such moment and the moment in *when.
  * The tolerance is 1e-10 of the largest coordinate. A crossing is never missed;
  * when the iterations run out (grazing), the moment reached is reported. For a

@@ -54,6 +54,24 @@ struct sw_shape_class {
         SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN, NULL, offsetof(struct_name, field), text \
   }
 
+/* A segment nearly parallel to a face (or a straight side) under its one contact
+ * out[0], which it passes over between the places part[0] and part[1]: add the
+ * places where it enters and leaves as contacts. Returns how many there are. */
+int sw_convex_bridge(const sw_shape *shape, sw_vec a, sw_vec b, double reach,
+                     const double part[2], sw_closest *out);
+#define SW_NEARLY_FLAT 0.05 /* tilt up to which both ends of a bridge count [rad] */
+
+/* Shorten the part [*from, *to] of a line x + t d to where it is in [low, high]. */
+static inline void sw_clip(double x, double d, double low, double high, double *from, double *to) {
+  if (d == 0) {
+    if (x < low || x > high) *to = -1;
+    return;
+  }
+  const double one = (low - x) / d, two = (high - x) / d;
+  *from = fmax(*from, fmin(one, two));
+  *to = fmin(*to, fmax(one, two));
+}
+
 /* For convex kinds: the segment query by the minimum of the distance, which is
  * convex along the segment. */
 int sw_convex_segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out);
@@ -72,6 +90,13 @@ int sw_sweep_advance(sw_nearest_function nearest, const void *thing, const sw_sw
                      const sw_closest *start, double level, double limit, sw_closest *out,
                      double *when);
 
+/* The gap a sweep may not come down to: the margin, or for one that starts
+ * within it a little less than the start's. */
+static inline double sw_sweep_level(const sw_sweep *path, double start_gap) {
+  const double noise = 2 * path->tolerance;
+  return start_gap > path->margin + noise ? path->margin : fmin(path->margin, start_gap) - noise;
+}
+
 /* Is this gap at place `at` no better than the line between the end gaps says? */
 static inline int sw_no_better(double gap, double gap_a, double gap_b, double at, double length) {
   const double flat = 1e-9; /* closer to the line than this part of the length is flat [-] */
@@ -86,6 +111,12 @@ static inline sw_bounds sw_bounds_of(sw_vec a, sw_vec b, double margin) {
 static inline int sw_bounds_meet(const sw_bounds *a, const sw_bounds *b) {
   return a->min.x <= b->max.x && b->min.x <= a->max.x && a->min.y <= b->max.y &&
          b->min.y <= a->max.y && a->min.z <= b->max.z && b->min.z <= a->max.z;
+}
+/* Lengths below this have no direction: their squares lose digits [m] */
+#define SW_SHAPE_TINY 1e-150
+/* w / r where r = |w|, or the fallback. */
+static inline sw_vec sw_direction(sw_vec w, double r, sw_vec fallback) {
+  return r > SW_SHAPE_TINY ? sw_scale(w, 1 / r) : fallback;
 }
 static inline double sw_limit(double x, double low, double high) {
   return x < low ? low : x > high ? high : x;

@@ -22,9 +22,9 @@ static sw_status create(sw_shape *shape, const void *args, const sw_shape_source
 
 static inline int place(double radius, sw_vec p, sw_vec fallback, double at, double reach,
                         sw_closest *out) {
-  const double gap = sw_norm(p) - radius;
+  const double r = sw_norm(p), gap = r - radius;
   if (!(gap < reach)) return 0;
-  const sw_vec n = sw_unit_or(p, fallback);
+  const sw_vec n = sw_direction(p, r, fallback);
   *out = (sw_closest){gap, at, n, sw_scale(n, radius), 0};
   return 1;
 }

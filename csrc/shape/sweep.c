@@ -48,7 +48,7 @@ int sw_convex_sweep(const sw_shape *shape, const sw_sweep *path, sw_closest *out
   const double end = 1 + 1e-12; /* the last moment still counts */
   sw_closest start;
   sw_convex_nearest(shape, path->a0, path->b0, &start);
-  const double level = fmin(path->margin, start.gap) - 2 * path->tolerance;
+  const double level = sw_sweep_level(path, start.gap);
   if (!sw_sweep_advance(shape_nearest, shape, path, &start, level, end, out, when)) return 0;
   *when = fmin(*when, 1);
   return 1;

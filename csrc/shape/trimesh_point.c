@@ -68,8 +68,8 @@ static void sign(const sw_trimesh *mesh, sw_vec p, const nearest *best, sw_close
   const size_t tri = (size_t)best->tri;
   const sw_vec w = sw_sub(p, best->q);
   const double d = sqrt(best->d2);
-  sw_vec n = sw_load(mesh->normals + 3 * tri), into = n;
-  int flags = 0, feature = best->tri;
+  sw_vec n = sw_load(mesh->normals + 3 * tri), into;
+  int flags, feature = best->tri;
   if (best->part == SW_ON_FACE) {
     *out = (sw_closest){sw_dot(n, w) < 0 ? -d : d, 0, n, best->q, feature};
     return;

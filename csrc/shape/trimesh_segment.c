@@ -24,22 +24,11 @@ static const double inside = 1e-9;
 
 /* --- which triangles ------------------------------------------------------ */
 
-/* Shorten [*from, *to] to where x + t d is in [low, high]. */
-static inline void slab(double x, double d, double low, double high, double *from, double *to) {
-  if (d == 0) {
-    if (x < low || x > high) *to = -1;
-    return;
-  }
-  const double one = (low - x) / d, two = (high - x) / d;
-  *from = fmax(*from, fmin(one, two));
-  *to = fmin(*to, fmax(one, two));
-}
-
 static int passes(const sw_bounds *box, sw_vec a, sw_vec d, double reach) {
   double from = 0, to = 1;
-  slab(a.x, d.x, box->min.x - reach, box->max.x + reach, &from, &to);
-  slab(a.y, d.y, box->min.y - reach, box->max.y + reach, &from, &to);
-  slab(a.z, d.z, box->min.z - reach, box->max.z + reach, &from, &to);
+  sw_clip(a.x, d.x, box->min.x - reach, box->max.x + reach, &from, &to);
+  sw_clip(a.y, d.y, box->min.y - reach, box->max.y + reach, &from, &to);
+  sw_clip(a.z, d.z, box->min.z - reach, box->max.z + reach, &from, &to);
   return from <= to;
 }
 
@@ -87,23 +76,39 @@ static void insert(query *q, const sw_closest *c) {
   q->out[place] = *c;
 }
 
-/* Is the segment cut by this edge, or does it only see it through the solid?
- * In a wedge the way out past the edge is at most 1 / sharpness times as long
- * as the way out through the nearest face. */
-static int cut(const query *q, const sw_closest *c, double sharpness) {
-  const double slack = 1e-6; /* for rounding [-] */
-  sw_closest there;
-  const sw_vec p = sw_lerp(q->a, q->b, c->at);
-  if (!sw_trimesh_distance(q->mesh, p, HUGE_VAL, &there)) return 0;
-  return there.gap < 0 && c->gap * sharpness >= there.gap * (1 + slack);
-}
-
-static void offer(query *q, const sw_closest *c, double sharpness) {
+static void offer(query *q, const sw_closest *c) {
   if (!(fabs(c->gap) < q->reach)) return;
-  if (c->gap < 0 && !cut(q, c, sharpness)) return;
   look_at_ends(q);
   if (sw_no_better(c->gap, q->gap_a, q->gap_b, c->at, q->length) || known(q, c)) return;
   insert(q, c);
+}
+
+/* Where the line x + t d is 0, else the given place; within the segment. */
+static double zero_of(double x, double d, double otherwise) {
+  return d != 0 ? sw_limit(-x / d, 0, 1) : otherwise;
+}
+
+/* Is the segment cut by this edge, or does it only see it through the solid?
+ * Half way between the planes of the edge's two faces these must be about as
+ * near as the surface is at all; a border cuts when the segment pierces its
+ * face. w leads from the edge to the segment's first end. */
+static int cut(const query *q, const sw_trimesh_edge *edge, sw_vec w, double at) {
+  const double nearest = 0.5;   /* allows for a third face near the edge's ends [-] */
+  const double touching = 1e-9; /* part of the size [-] */
+  const sw_vec one = sw_load(q->mesh->normals + 3 * (size_t)edge->tri[0]);
+  sw_closest there;
+  if (edge->tri[1] < 0) {
+    const double place = zero_of(sw_dot(one, w), sw_dot(one, q->d), at);
+    const double near = touching * q->mesh->size;
+    return sw_trimesh_distance(q->mesh, sw_lerp(q->a, q->b, place), HUGE_VAL, &there) &&
+           fabs(there.gap) <= near;
+  }
+  const sw_vec two = sw_load(q->mesh->normals + 3 * (size_t)edge->tri[1]);
+  const sw_vec split = sw_sub(one, two);
+  const double place = zero_of(sw_dot(split, w), sw_dot(split, q->d), at);
+  const double height = sw_dot(one, sw_madd(w, q->d, place));
+  if (!sw_trimesh_distance(q->mesh, sw_lerp(q->a, q->b, place), HUGE_VAL, &there)) return 0;
+  return there.gap < 0 && height < 0 && there.gap <= nearest * height;
 }
 
 static int in_edge_cone(const sw_trimesh_edge *edge, sw_vec n) {
@@ -133,8 +138,7 @@ static void try_edge(query *q, int number) {
   const double past = ends + (gap < 0 ? -2 * gap / sqrt(vv) : 0);
   if (!(t >= -past && t <= 1 + past)) return;
   const sw_closest c = {gap, at, n, sw_madd(p, v, t), sw_trimesh_edge_feature(q->mesh, number)};
-  /* The sine of half the angle between the faces, seen from inside. */
-  offer(q, &c, sqrt(fmax(0, (1 - sw_dot(edge->into[0], edge->into[1])) / 2)));
+  if (gap >= 0 || (gap > -q->reach && cut(q, edge, w, at))) offer(q, &c);
 }
 
 static int in_corner_cone(const sw_trimesh *mesh, int v, sw_vec n) {
@@ -151,20 +155,18 @@ static int in_corner_cone(const sw_trimesh *mesh, int v, sw_vec n) {
 
 static void try_corner(query *q, int v) {
   const double touching = 1e-11; /* part of the size in which w has no direction [-] */
-  const double sharpest = 0.25;  /* sine of the half angle of the sharpest corner seen to [-] */
   const sw_vec p = sw_trimesh_vertex(q->mesh, v);
   const double at = sw_dot(q->d, sw_sub(p, q->a)) / (q->length * q->length);
   if (!(at > inside && at < 1 - inside)) return;
   const sw_vec w = sw_sub(sw_madd(q->a, q->d, at), p);
-  double gap = sw_norm(w);
+  const double gap = sw_norm(w);
   if (!(gap < q->reach)) return;
   const sw_vec along = sw_scale(q->d, 1 / q->length), up = q->mesh->corners[v].normal;
   sw_vec n = sw_unit_or(sw_madd(up, along, -sw_dot(up, along)), sw_perpendicular(along));
   if (gap > touching * q->mesh->size) n = sw_scale(w, 1 / gap);
-  if (!in_corner_cone(q->mesh, v, n)) n = sw_neg(n), gap = -gap;
-  if (!in_corner_cone(q->mesh, v, n)) return;
+  if (!in_corner_cone(q->mesh, v, n)) return; /* what cuts in is an edge */
   const sw_closest c = {gap, at, n, p, sw_trimesh_corner_feature(q->mesh, v)};
-  offer(q, &c, sharpest);
+  offer(q, &c);
 }
 
 /* Try the edges and corners that this triangle speaks for. */

@@ -103,7 +103,7 @@ int sw_trimesh_sweep(const sw_trimesh *mesh, const sw_sweep *path, sw_closest *o
     step_off(mesh, s.tri, &moved);
     s = look(mesh, moved.a0, moved.b0, path->margin + touching * tolerance);
   }
-  const double level = fmax(fmin(path->margin, s.gap) - 2 * tolerance, 0);
+  const double level = fmax(sw_sweep_level(path, s.gap), 0);
   moving m = {mesh, &moved, swept_region(&moved, path->margin + tolerance), level, last, out, 0};
   visit_all(&m);
   if (m.found) *when = fmin(m.first, 1);

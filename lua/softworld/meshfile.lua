@@ -1,0 +1,46 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Reads mesh files into memory; the core makes triangles of them:
+--   local file = meshfile.read("clip.stl")
+--   scene:obstacle{ shape = "mesh", data = file.data, format = file.format, scale = 0.001 }
+local meshfile = {}
+
+-- Extensions that the core's `format` parameter of the mesh shape knows.
+meshfile.formats = { "stl", "obj", "ply", "off", "glb", "gltf" }
+
+local function fail(path, reason)
+  error(("mesh file '%s': %s"):format(path, reason), 3)
+end
+
+local function format_of(path)
+  local extension = path:match("%.([^./\\]+)$")
+  local known = table.concat(meshfile.formats, ", ")
+  if not extension then
+    return nil, "has no extension; known are " .. known
+  end
+  for _, format in ipairs(meshfile.formats) do
+    if extension:lower() == format then return format end
+  end
+  return nil, ("extension '%s' is not known; known are %s"):format(extension, known)
+end
+
+--- The content of the file at path as { data = string, format = extension }.
+-- Raises an error that names the path and the reason.
+function meshfile.read(path)
+  if type(path) ~= "string" or path == "" then
+    error("meshfile.read: path must be a non-empty string, got " .. type(path), 2)
+  end
+  local format, unknown = format_of(path)
+  if not format then fail(path, unknown) end
+  local file, why = io.open(path, "rb")
+  if not file then
+    -- io.open says "path: reason"
+    fail(path, (why:gsub("^" .. path:gsub("%p", "%%%0") .. ": ", "")))
+  end
+  local data, problem = file:read("a")
+  file:close()
+  if not data then fail(path, problem or "cannot be read") end
+  if data == "" then fail(path, "is empty") end
+  return { data = data, format = format }
+end
+
+return meshfile
