@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lua class scene: making, running, settling, snapshots, frames. */
 #include <string.h>
+#include <time.h>
 
 #include "bind/bind_motion.h"
 #include "bind/child.h"
@@ -47,6 +48,35 @@ static int mod_data(lua_State *L) {
 static int mod_interrupted(lua_State *L) {
   lua_pushboolean(L, sw_interrupted());
   return 1;
+}
+
+/* Monotonic wall clock [s]. */
+static int mod_clock(lua_State *L) {
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  lua_pushnumber(L, (double)t.tv_sec + 1e-9 * (double)t.tv_nsec);
+  return 1;
+}
+
+/* nearest(word, names) -> the name that word may be a typo of, or nil */
+static int mod_nearest(lua_State *L) {
+  const char *names[128];
+  size_t count = 0;
+  const char *word = luaL_checkstring(L, 1);
+  luaL_checktype(L, 2, LUA_TTABLE);
+  for (; count < 128 && lua_rawgeti(L, 2, (lua_Integer)count + 1) == LUA_TSTRING; count++) {
+    names[count] = lua_tostring(L, -1); /* the list keeps it alive */
+    lua_pop(L, 1);
+  }
+  lua_pushstring(L, sw_nearest_name(word, names, sizeof names[0], count));
+  return 1;
+}
+
+/* Raise unless the table holds valid run parameters. */
+static int mod_check_run(lua_State *L) {
+  sw_run_args args;
+  lsw_arguments(L, 1, "scene:run", &sw_run_params, &args);
+  return 0;
 }
 
 /* --- running ------------------------------------------------------------------- */
@@ -369,6 +399,9 @@ static int mod_registry(lua_State *L) {
 static const luaL_Reg functions[] = {{"scene", mod_scene},
                                      {"data", mod_data},
                                      {"interrupted", mod_interrupted},
+                                     {"clock", mod_clock},
+                                     {"nearest", mod_nearest},
+                                     {"check_run", mod_check_run},
                                      {"registry", mod_registry},
                                      {NULL, NULL}};
 

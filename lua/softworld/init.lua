@@ -1,0 +1,33 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- SoftWorld: simulation of the handling of wires, cables and flexible tubes.
+--
+--     local sw = require "softworld"
+--     local scene = sw.scene{ name = "first" }
+--     local wire = scene:wire{ E = 1e9, density = 1400, radius = 0.002,
+--                              from = {0, 0, 0}, to = {1, 0, 0} }
+--     scene:clamp(wire, { s = 0 })
+--     scene:settle()
+--     print(wire:position(wire.length)[3])
+--
+-- SI units throughout; sw.units converts. sw.help() lists what there is.
+-- @module softworld
+local core = require "softworld.core"
+
+local sw = {
+  version = core.version,
+  core = core,
+  units = require "softworld.units",
+  trajectory = require "softworld.trajectory",
+  shape = core.shape,
+  help = require "softworld.help",
+}
+
+require "softworld.build"    -- adds to the classes: names, files, drawing data
+require "softworld.process"  -- scene:process
+require "softworld.gripper"  -- scene:gripper
+require "softworld.run"      -- scene:run
+
+--- A new scene. { name =, gravity = {x, y, z} [m/s2] }
+function sw.scene(args) return core.scene(args) end
+
+return sw

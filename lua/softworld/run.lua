@@ -1,0 +1,297 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- scene:run and the run it returns.
+-- @module softworld.run
+local core = require "softworld.core"
+local build = require "softworld.build"
+local process = require "softworld.process"
+local progress = require "softworld.output.progress"
+
+local Run = { __name = "run" }
+local chunk = 64 -- steps between two looks at progress; fixed, so that results never depend on it
+local default_frame = 1 / 30 -- [s]
+
+local function merge(total, part)
+  for _, key in ipairs{ "steps", "rejected", "iterations", "evaluations" } do
+    total[key] = total[key] + part[key]
+  end
+  total.smallest_dt = math.min(total.smallest_dt, part.smallest_dt)
+  total.ok, total.reason, total.time = part.ok, part.reason, part.time
+end
+
+local function new_bar(args, scene)
+  local host = package.loaded["softworld.host"]
+  local wanted = args.progress
+  if wanted == nil then wanted = false end
+  return progress.new{ total = args.duration and args.duration > 0 and args.duration or nil,
+    name = scene.name, quiet = not wanted, terminal = host and host.terminal or nil,
+    clock = core.clock, width = host and host.columns or nil }
+end
+
+-- Advance until the end of time or of the processes.
+local function drive(scene, args, total, bar)
+  local start = scene.time
+  local stop = args.duration and start + args.duration or math.huge
+  local options = {}
+  for k, v in pairs(args) do options[k] = v end
+  options.progress, options.duration = nil, nil
+  options.frame = options.frame or default_frame
+  local left = args.max_steps or math.huge
+  while true do
+    local alive, wake, watching = process.step(scene)
+    if stop == math.huge and alive == 0 then return "all processes have ended" end
+    if scene.time >= stop then return ("%g s have passed"):format(args.duration) end
+    local target = math.min(stop, wake)
+    if target == math.huge then
+      -- a process that waits for a condition without an end: go on step by step
+      target = scene.time + (args.dt or 0.01)
+    end
+    options.max_steps = math.min(left, watching and 1 or chunk)
+    local part = scene:advance(options, target)
+    merge(total, part)
+    left = left - part.steps
+    bar:update(scene.time - start, total.steps)
+    if not part.ok then return part.reason end
+    if left <= 0 then return "the allowed number of steps was used" end
+  end
+end
+
+--- Advance the scene: { duration = [s], dt = [s] or tolerance = [m], integrator =,
+-- progress = true, frame = [s] }. Without duration until the processes end.
+-- Returns a run: ok, reason, time, steps, ... Errors of processes and callbacks
+-- are raised unchanged and leave the scene at its last good step.
+function core.class.scene.run(scene, args)
+  args = args or {}
+  if type(args) ~= "table" then
+    error("scene:run takes one table of parameters, got " .. type(args), 2)
+  end
+  core.check_run(args)
+  local data = build.data(scene)
+  if not args.duration and #data.processes == 0 then
+    error("scene:run: there is no process that could end; give duration [s]", 2)
+  end
+  local total = { steps = 0, rejected = 0, iterations = 0, evaluations = 0,
+    smallest_dt = math.huge, ok = true, reason = "", time = scene.time, start = scene.time }
+  local wall, cpu = core.clock(), os.clock()
+  local bar <close> = new_bar(args, scene)
+  local reason = drive(scene, args, total, bar)
+  total.wall, total.cpu = core.clock() - wall, os.clock() - cpu
+  total.reason, total.scene, total.name = reason, scene, scene.name
+  if total.ok then bar:finish() else bar:fail(reason) end
+  return setmetatable(total, Run)
+end
+
+local function readable(self, what)
+  if not self.ok then
+    error(("run of '%s' failed %s; it has no %s"):format(self.name, self.reason, what), 3)
+  end
+end
+
+local function column(name, unit) return { name = name, unit = unit, values = {} } end
+
+-- Force and moment columns of one hold on the common time axis of all.
+local function add_hold(series, index, name, rows, count)
+  local axes = { "x", "y", "z" }
+  local names = {}
+  for k, axis in ipairs(axes) do names[k] = column(name .. ".force_" .. axis, "N") end
+  for k, axis in ipairs(axes) do names[3 + k] = column(name .. ".moment_" .. axis, "N m") end
+  local force, moment = column(name .. ".force", "N"), column(name .. ".moment", "N m")
+  for i = 0, count - 1 do
+    local b, at = 10 * i, index[rows[10 * i + 1]]
+    for k = 1, 6 do names[k].values[at] = rows[b + 1 + k] end
+    force.values[at] = (rows[b + 2] ^ 2 + rows[b + 3] ^ 2 + rows[b + 4] ^ 2) ^ 0.5
+    moment.values[at] = (rows[b + 5] ^ 2 + rows[b + 6] ^ 2 + rows[b + 7] ^ 2) ^ 0.5
+  end
+  for _, c in ipairs{ force, moment } do series.columns[#series.columns + 1] = c end
+  for _, c in ipairs(names) do series.columns[#series.columns + 1] = c end
+end
+
+local function collect_times(self, logs)
+  local seen, times = {}, {}
+  for _, log in ipairs(logs) do
+    for i = 0, log.count - 1 do
+      local t = log.rows[log.width * i + 1]
+      if t >= self.start and not seen[t] then
+        seen[t] = true
+        times[#times + 1] = t
+      end
+    end
+  end
+  table.sort(times)
+  local index = {}
+  for i, t in ipairs(times) do index[t] = i end
+  return times, index
+end
+
+-- Rows of a log from the run's start on.
+local function cut(log, start)
+  local rows, first = {}, 0
+  while first < log.count and log.rows[log.width * first + 1] < start do first = first + 1 end
+  table.move(log.rows, log.width * first + 1, log.width * log.count, 1, rows)
+  return { name = log.name, width = log.width, rows = rows, count = log.count - first,
+    obstacle = log.obstacle }
+end
+
+local function all_logs(self)
+  local data, logs = build.data(self.scene), {}
+  for _, h in ipairs(data.holds) do
+    local rows, count = h.object:log()
+    if count > 0 then logs[#logs + 1] = { name = h.name, rows = rows, count = count, width = 10 } end
+  end
+  for _, o in ipairs(data.obstacles) do
+    if not o.removed then
+      local rows, count = o.object:log()
+      logs[#logs + 1] = { name = o.name, rows = rows, count = count, width = 4, obstacle = true }
+    end
+  end
+  for i, log in ipairs(logs) do logs[i] = cut(log, self.start) end
+  return logs
+end
+
+local function fill_gaps(series)
+  for _, c in ipairs(series.columns) do
+    for i = 1, #series.time do
+      if c.values[i] == nil then c.values[i] = 0 / 0 end
+    end
+  end
+end
+
+local function add_obstacle(series, index, log)
+  local c = column(log.name .. ".contact_force", "N")
+  for i = 0, log.count - 1 do
+    local b = 4 * i
+    c.values[index[log.rows[b + 1]]] =
+      (log.rows[b + 2] ^ 2 + log.rows[b + 3] ^ 2 + log.rows[b + 4] ^ 2) ^ 0.5
+  end
+  series.columns[#series.columns + 1] = c
+end
+
+--- Time series of the run: { time = {...} [s], columns = {{ name, unit, values }} }.
+function Run:series()
+  readable(self, "series")
+  local logs = all_logs(self)
+  local times, index = collect_times(self, logs)
+  local series = { time = times, columns = {} }
+  for _, log in ipairs(logs) do
+    if log.obstacle then add_obstacle(series, index, log)
+    else add_hold(series, index, log.name, log.rows, log.count) end
+  end
+  fill_gaps(series)
+  return series
+end
+
+--- Frames stored while running: { { t, wires = {flat positions}, obstacles, holds, energy } }.
+function Run:frames()
+  local list = {}
+  for i = 1, self.scene:frame_count() do list[i] = self.scene:frame(i) end
+  return list
+end
+
+local function summary_of(self)
+  local data, rows = build.data(self.scene), {}
+  local function add(label, value, unit, s, t)
+    rows[#rows + 1] = { label = label, value = value, unit = unit,
+      where = s and ("s = %.4g m"):format(s) or nil, when = t }
+  end
+  for _, g in ipairs(data.grippers) do
+    local m = g:over(self.start, self.time)
+    add(g.name .. ": peak force", m.peak_force, "N", nil, m.peak_force_time)
+    add(g.name .. ": mean force", m.mean_force, "N")
+    add(g.name .. ": peak moment", m.peak_moment, "N m", nil, m.peak_moment_time)
+    add(g.name .. ": mean moment", m.mean_moment, "N m")
+  end
+  for _, w in ipairs(data.wires) do
+    local radius, s, t = w.object:min_bend_radius()
+    add(w.name .. ": smallest bend radius", radius, "m", s, t)
+    local tension
+    tension, s, t = w.object:max_tension()
+    add(w.name .. ": largest tension", tension, "N", s, t)
+  end
+  if #data.obstacles > 0 then
+    local depth, s, t = self.scene:penetration()
+    add("deepest penetration", depth, "m", s, t)
+  end
+  return rows
+end
+
+--- Plain tables of everything that charts, pictures and files need.
+function Run:document()
+  local data = build.data(self.scene)
+  local doc = { name = self.name, ok = self.ok, reason = self.reason, time = self.time,
+    steps = self.steps, wall = self.wall, cpu = self.cpu, gravity = self.scene:gravity(),
+    wires = {}, obstacles = {}, grips = {}, frames = {} }
+  if not self.ok then return doc end
+  for i, w in ipairs(data.wires) do
+    doc.wires[i] = { name = w.name, radius = w.object.radius, length = w.object.length,
+      segments = w.object.segments }
+  end
+  for i, o in ipairs(data.obstacles) do
+    local entry = {}
+    for k, v in pairs(o) do entry[k] = v end
+    entry.object = nil
+    doc.obstacles[i] = entry
+  end
+  local shown = {}
+  for i, h in ipairs(data.holds) do
+    if h.kind == "grip" then
+      shown[#shown + 1] = i
+      doc.grips[#shown] = { name = h.name, width = h.width or 0.02 }
+    end
+  end
+  for i = 1, self.scene:frame_count() do
+    local f = self.scene:frame(i)
+    f.grips = {}
+    for k, h in ipairs(shown) do
+      f.grips[k] = f.holds[h] or
+        { position = { 0, 0, 0 }, rotation = { 1, 0, 0, 0 }, held = false }
+    end
+    doc.frames[i] = f
+  end
+  doc.series, doc.summary = self:series(), summary_of(self)
+  return doc
+end
+
+--- Table of results on the terminal.
+function Run:summary(stream)
+  require("softworld.output.summary").print(self:document(), stream or io.stdout)
+end
+
+--- Series as CSV or JSON, by the file's extension.
+function Run:save(path)
+  readable(self, "series")
+  require("softworld.output.series").write(self:document(), path)
+  return path
+end
+
+--- ParaView series (.pvd).
+function Run:vtk(path)
+  readable(self, "frames")
+  require("softworld.output.vtk").write(self:document(), path)
+  return path
+end
+
+--- Chart of series: { path = "x.svg", columns = { names }, title = }.
+function Run:chart(options)
+  readable(self, "series")
+  local o = {}
+  for k, v in pairs(options or {}) do o[k] = v end
+  o.run = self:document()
+  return require("softworld.output.chart").series(o)
+end
+
+--- A strip of ray-traced pictures: { path = "x.png", count = 6, ... }.
+function Run:pictures(options)
+  readable(self, "frames")
+  local o = {}
+  for k, v in pairs(options or {}) do o[k] = v end
+  o.run = self:document()
+  return require("softworld.output.povray").strip(o)
+end
+
+Run.__index = Run
+
+function Run:__tostring()
+  return ("run of '%s': %s (%s), t = %.6g s, %d steps, %.3g s of computing"):format(
+    self.name, self.ok and "ok" or "FAILED", self.reason, self.time, self.steps, self.cpu)
+end
+
+return Run
