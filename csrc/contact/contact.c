@@ -13,7 +13,7 @@
 static const double ALLOWED_PENETRATION = 20e-6;
 /* Stiffness over mass/hbar^2 in implicit steps: far above what the step
  * resolves, so that the gap closes to a thousandth of the free fall [-]. */
-static const double IMPLICIT_SHARE = 1000.0;
+static const double IMPLICIT_SHARE = 10000.0;
 /* An explicit step is stable while k h^2 / m stays below 4 [-]. */
 static const double EXPLICIT_SHARE = 0.2;
 static const double STAGE_SHARE = 0.3; /* hbar of the default method over the step [-] */
@@ -95,15 +95,21 @@ static sw_vec high_of(sw_vec a, sw_vec b) {
   return sw_v(fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z));
 }
 
+double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v) {
+  const double g = sw_norm(sw_load(s->gravity));
+  const double reserve = 1.5, least = 1e-4; /* [-], [m] */
+  return reserve * c->h * (sw_norm(v) + g * c->h) + least;
+}
+
 /* Widest gap at the step's start that can close within it, with reserve. */
 static double reach_of(const sw_contact *c, const sw_system *s, const sw_body *b, size_t node,
                        size_t o) {
   if (c->regime == SW_CONTACT_STATIC) return b->plan->length;
-  const double g = sw_norm(sw_load(s->gravity));
   const sw_vec x = sw_load(s->x + 3 * node);
-  const sw_vec v = sw_sub(sw_load(s->v + 3 * node), sw_obstacle_velocity(&c->start[o], x));
-  const double reserve = 1.5, least = 0.5; /* of the flight, of the radius [-] */
-  return b->plan->beam.radius * (1.0 + least) + reserve * c->h * (sw_norm(v) + g * c->h);
+  const double wall = sw_norm(sw_obstacle_velocity(&c->start[o], x)) * c->h;
+  const double skin = 1.5; /* of the radius: what is this near is always looked at [-] */
+  return b->plan->beam.radius * skin + wall +
+         c->widening * sw_flight_reserve(c, s, sw_load(s->v + 3 * node));
 }
 
 static sw_status add_candidate(sw_contact *c, const sw_body *b, size_t body, size_t node, int o,
@@ -184,19 +190,11 @@ static void set_stiffness(sw_contact *c, const sw_system *s, double nominal) {
   }
 }
 
-sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime regime, double t,
-                                double h, double nominal, sw_error *err) {
-  c->time = t;
-  c->h = h;
-  c->regime = regime;
-  c->candidate_count = c->touch_count = c->last_count = 0;
-  c->barrier_count = c->impact_count = 0;
-  c->first_iterate = 1;
-  set_stiffness(c, s, nominal);
-  SW_TRY(place_all(c, t, c->start, err));
+sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err) {
   sw_bounds *bounds = (sw_bounds *)sw_alloc(c->count, sizeof *bounds);
   if (!bounds) return sw_fail(err, SW_ENOMEM, "contact: out of memory");
   sw_status status = SW_OK;
+  c->candidate_count = c->touch_count = c->last_count = 0;
   for (size_t o = 0; o < c->count; o++)
     bounds[o] = world_bounds(c->obstacles[o].shape, &c->start[o].pose);
   for (size_t b = 0; b < s->body_count && status == SW_OK; b++)
@@ -206,6 +204,18 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
   if (status != SW_OK) return sw_fail(err, status, "contact: out of memory");
   match_memory(c);
   return SW_OK;
+}
+
+sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime regime, double t,
+                                double h, double nominal, sw_error *err) {
+  c->time = t;
+  c->h = h;
+  c->regime = regime;
+  c->barrier_count = c->impact_count = 0;
+  c->widening = 1.0;
+  set_stiffness(c, s, nominal);
+  SW_TRY(place_all(c, t, c->start, err));
+  return sw_contact_find_candidates(c, s, err);
 }
 
 sw_status sw_contact_begin_stage(void *contact, sw_system *s, double time, double hbar,

@@ -153,13 +153,13 @@ static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k,
 static sw_status barrier_touches(sw_contact *c, const sw_system *s, const double *y) {
   for (size_t i = 0; i < c->barrier_count; i++) {
     const sw_barrier *b = &c->barriers[i];
-    sw_candidate k = {.obstacle = b->obstacle, .segment = 1, .node = b->node};
+    sw_candidate k = {.obstacle = b->obstacle, .segment = b->segment, .node = b->node};
     for (size_t j = 0; j < s->body_count; j++)
       if (s->bodies[j].first_node <= b->node) k.body = j;
     k.radius = s->bodies[k.body].plan->beam.radius;
     k.mass = s->bodies[k.body].plan->lumped[b->node - s->bodies[k.body].first_node];
     const sw_vec local =
-        sw_pose_local(c->now[b->obstacle].pose, sw_touch_place(y, b->node, 1, b->at));
+        sw_pose_local(c->now[b->obstacle].pose, sw_touch_place(y, b->node, b->segment, b->at));
     const double gap = sw_dot(b->normal, sw_sub(local, b->point));
     const sw_closest near = {.gap = gap,
                              .at = b->at,
