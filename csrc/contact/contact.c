@@ -34,6 +34,7 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count,
   for (size_t o = 0; o < count; o++)
     c->flat[o] = strcmp(sw_shape_kind(obstacles[o].shape), "plane") == 0;
   c->count = count;
+  c->fresh = 1;
   c->place = place;
   c->user = user;
   *out = c;
@@ -51,6 +52,7 @@ void sw_contact_free(sw_contact *c) {
   sw_free(c->last);
   sw_free(c->memory);
   sw_free(c->next_memory);
+  sw_free(c->pressed);
   sw_free(c->barriers);
   sw_free(c->impacts);
   sw_free(c);
@@ -211,7 +213,7 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
   c->time = t;
   c->h = h;
   c->regime = regime;
-  c->barrier_count = c->impact_count = 0;
+  c->barrier_count = c->impact_count = c->pressed_count = 0;
   c->widening = 1.0;
   set_stiffness(c, s, nominal);
   SW_TRY(place_all(c, t, c->start, err));
@@ -249,6 +251,7 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
 void sw_contact_commit(sw_contact *c, sw_system *s) {
   (void)s;
   c->next_count = 0;
+  c->fresh = 0;
   for (size_t i = 0; i < c->touch_count; i++)
     if (remember(c, &c->touches[i]) != SW_OK) break; /* a lost anchor only starts anew */
   sw_memory *swap = c->memory;
@@ -268,6 +271,7 @@ sw_status sw_contact_set_memory(sw_contact *c, const void *memory, size_t bytes)
   SW_TRY(sw_grow((void **)&c->memory, &c->memory_capacity, n, sizeof *c->memory));
   if (n) memcpy(c->memory, memory, bytes);
   c->memory_count = n;
+  c->fresh = 0;
   c->touch_count = 0;
   return SW_OK;
 }

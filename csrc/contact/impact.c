@@ -70,9 +70,8 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
 
 static int review_touches(sw_contact *c, sw_system *s, double h) {
   int changed = 0;
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
-    if (t->held || !(t->normal_force > 0 || t->gap_after < 0)) continue;
+  for (size_t i = 0; i < c->pressed_count; i++) {
+    const sw_touch *t = &c->pressed[i];
     if (dealt_with(c, t->obstacle, t->node, t->segment, t->at)) continue;
     changed |= strike(c, s, t, h);
   }
@@ -89,6 +88,14 @@ static int has_barrier(const sw_contact *c, const sw_barrier *new) {
   return 0;
 }
 
+static int is_candidate(const sw_contact *c, int obstacle, size_t node) {
+  for (size_t i = 0; i < c->candidate_count; i++)
+    if (c->candidates[i].node == node && c->candidates[i].obstacle == obstacle &&
+        !c->candidates[i].segment)
+      return 1;
+  return 0;
+}
+
 /* A hit this near to a segment's end is the node's [-]. */
 static const double END_SHARE = 1e-6;
 
@@ -96,8 +103,9 @@ static const double END_SHARE = 1e-6;
 static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k,
                          const sw_closest *hit, double h) {
   sw_barrier b = {k->obstacle, 1, k->node, hit->at, hit->normal, hit->point};
-  if (hit->at < END_SHARE || hit->at > 1.0 - END_SHARE) {
-    b.node += hit->at > 0.5;
+  const size_t end = k->node + (hit->at > 0.5);
+  if ((hit->at < END_SHARE || hit->at > 1.0 - END_SHARE) && is_candidate(c, k->obstacle, end)) {
+    b.node = end;
     b.segment = 0;
     b.at = 0;
   }
@@ -154,7 +162,12 @@ static int went_too_far(sw_contact *c, const sw_system *s, const double *x1) {
 
 int sw_contact_review(sw_contact *c, sw_system *s, const double *x1, double h) {
   sw_error err;
-  if (went_too_far(c, s, x1)) return sw_contact_find_candidates(c, s, &err) == SW_OK;
+  if (went_too_far(c, s, x1)) {
+    c->pressed_count = 0;
+    return sw_contact_find_candidates(c, s, &err) == SW_OK;
+  }
   const int crossed = review_crossings(c, s, x1, h);
-  return crossed | review_touches(c, s, h);
+  const int struck = review_touches(c, s, h);
+  c->pressed_count = 0;
+  return crossed | struck;
 }

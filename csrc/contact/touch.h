@@ -73,6 +73,8 @@ struct sw_contact {
   size_t candidate_count, candidate_capacity;
   sw_touch *touches, *last; /* of this iterate and of the one before */
   size_t touch_count, touch_capacity, last_count, last_capacity;
+  sw_touch *pressed; /* touches with a force at the end of a stage of this trial */
+  size_t pressed_count, pressed_capacity;
   sw_memory *memory, *next_memory;
   size_t memory_count, memory_capacity, next_count, next_capacity;
   sw_barrier *barriers;
@@ -83,6 +85,7 @@ struct sw_contact {
   double base_stiffness; /* from the expected forces [N/m] */
   double rate2;          /* stiffness per mass [1/s2] */
   sw_contact_regime regime;
+  int fresh;       /* 1: no step was accepted yet, there is no memory */
   double widening; /* of the reserve for flight, when nodes went further [-] */
 };
 
