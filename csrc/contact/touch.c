@@ -16,6 +16,14 @@ static const double GAP_TOLERANCE = 2e-8;
 /* Nor do changes of a sliding touch's normal force below this share [-]. */
 static const double FORCE_TOLERANCE = 0.01;
 
+/* Shorter updates leave place and normal of a touch on a curved or edged shape
+ * as they are; of the radius [-]. */
+static const double SMALL_SHIFT = 0.05;
+
+/* A touch that sinks in deeper is made stiffer until it does not [m]. */
+static const double DEEPEST = 50e-6;
+static const double MOST_BOOST = 1e5; /* [-] */
+
 enum { OWN = 0, NEXT = 6, ROW = 24 }; /* layout of the system's block rows */
 
 static sw_status push(sw_contact *c, const sw_touch *t) {
@@ -86,13 +94,31 @@ static void set_friction_state(const sw_contact *c, const sw_system *s, const sw
 }
 
 static double stiffness(const sw_contact *c, const sw_candidate *k) {
-  return fmax(c->base_stiffness, c->rate2 * k->mass);
+  return k->boost * fmax(c->base_stiffness, c->rate2 * k->mass);
 }
 
 static int is_held(const sw_system *s, const sw_candidate *k) {
   const sw_body *b = &s->bodies[k->body];
   const size_t i = k->node - b->first_node;
   return b->plan->held[i] != SW_FREE && (!k->segment || b->plan->held[i + 1] != SW_FREE);
+}
+
+/* A wire that is deeper inside at the step's start than its force explains
+ * (after a barrier, or placed there) is let out slowly: without this the whole
+ * depth would turn into speed within one step. Returns the part of the depth
+ * that the step leaves alone [m]. */
+static const double RECOVERY_SPEED = 0.2; /* [m/s] */
+
+static double forgiven(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                       const sw_touch *t) {
+  if (c->regime == SW_CONTACT_STATIC || t->gap >= 0) return 0;
+  const sw_memory *m = memory_for(c, k, t->at);
+  const sw_vec local = sw_pose_local(c->now[t->obstacle].pose, t->point);
+  const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, local);
+  const sw_vec from = sw_touch_place(s->x, t->node, t->segment, t->at);
+  const double depth = k->radius - sw_dot(t->normal, sw_sub(from, plane));
+  const double explained = m ? m->depth : 0.0;
+  return fmax(0.0, depth - explained - RECOVERY_SPEED * c->h - GAP_TOLERANCE);
 }
 
 static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
@@ -108,7 +134,10 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
                 .point = sw_pose_point(*pose, near->point),
                 .gap = near->gap - k->radius,
                 .k = stiffness(c, k),
-                .held = is_held(s, k)};
+                .held = is_held(s, k),
+                .candidate = (size_t)(k - c->candidates)};
+  t.forgiven = forgiven(c, s, k, &t);
+  t.gap += t.forgiven;
   t.gap_after = t.gap;
   set_friction_state(c, s, k, y, &t);
   return push(c, &t);
@@ -255,7 +284,7 @@ sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar,
 
 /* Bring a touch's forces up to the solved update; 1 = it agrees with what the
  * solve assumed. */
-static int update(const sw_contact *c, sw_touch *t, const double *delta) {
+static int update(sw_contact *c, sw_touch *t, const double *delta) {
   const double mu = c->obstacles[t->obstacle].friction;
   const sw_vec shift = t->segment ? sw_lerp(sw_load(delta + 3 * t->node),
                                             sw_load(delta + 3 * t->node + 3), t->at)
@@ -263,16 +292,22 @@ static int update(const sw_contact *c, sw_touch *t, const double *delta) {
   const int active = t->gap < 0;
   t->gap_after = t->gap + sw_dot(t->normal, shift);
   if (t->held) return 1;
-  const double before = t->normal_force;
   t->normal_force = active ? fmax(0.0, -t->k * t->gap_after) : 0.0;
   if (active ? t->gap_after > GAP_TOLERANCE : t->gap_after < -GAP_TOLERANCE) return 0;
+  const double radius = c->candidates[t->candidate].radius;
+  if (!c->flat[t->obstacle] && t->gap_after < radius && sw_norm(shift) > SMALL_SHIFT * radius)
+    return 0; /* place and normal of the touch may have changed */
+  double *boost = &c->candidates[t->candidate].boost;
+  if (t->gap_after < -DEEPEST && *boost < MOST_BOOST && c->regime != SW_CONTACT_EXPLICIT) {
+    *boost *= fmin(100.0, 2.0 * t->gap_after / -DEEPEST);
+    return 0;
+  }
   if (!active || !(mu > 0)) return 1;
   const sw_vec u = sw_madd(sw_add(t->trial, shift), t->normal, -sw_dot(shift, t->normal));
   const double length = sw_norm(u), most = mu * t->normal_force;
   const int sliding = t->k * length > most;
   const double share = length > 0 ? (sliding ? most / length : t->k) : 0.0;
   t->tangential = sw_scale(u, -share);
-  (void)before;
   const double small = t->k * GAP_TOLERANCE;
   if (t->sliding != sliding) /* a change of state matters when the force does */
     return fabs(t->k * length - most) <= small + FORCE_TOLERANCE * most;
