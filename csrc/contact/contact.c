@@ -244,6 +244,7 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
                    .feature = t->feature,
                    .at = t->at,
                    .normal_force = t->normal_force,
+                   .sliding = t->next_sliding,
                    .depth = t->normal_force / t->k,
                    .boost = t->normal_force > 0 ? c->candidates[t->candidate].boost : 1.0,
                    .normal = sw_rotate(back, t->normal),

@@ -90,7 +90,11 @@ static void set_friction_state(const sw_contact *c, const sw_system *s, const sw
   t->trial = sw_madd(u, t->normal, -sw_dot(u, t->normal));
   t->lag = last ? last->normal_force : m ? m->normal_force : t->k * fmax(0.0, -t->gap);
   const double most = c->obstacles[t->obstacle].friction * t->lag;
-  t->sliding = t->k * sw_norm(t->trial) > most;
+  /* The predicted place says little about sticking: a spring this stiff calls
+   * every prediction a slide. Go on from the state that was found last. */
+  if (last) t->sliding = last->next_sliding;
+  else if (m) t->sliding = m->sliding;
+  else t->sliding = t->k * sw_norm(t->trial) > most;
 }
 
 static double stiffness(const sw_contact *c, const sw_candidate *k) {
@@ -258,7 +262,7 @@ static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
   const sw_vec d = length > 0 ? sw_scale(t->trial, 1.0 / length) : sw_v(0, 0, 0);
   t->tangential = sw_scale(d, t->sliding ? -most : -t->k * length);
   if (t->sliding) {
-    const double kt = length > 0 ? most / length : 0.0;
+    const double kt = length > 0 ? fmin(most / length, t->k) : 0.0;
     stiffness_matrix(t->k, kt, kt, t->normal, d, K);
   } else {
     stiffness_matrix(t->k, mu > 0 ? t->k : 0.0, 0, t->normal, d, K);
@@ -306,9 +310,12 @@ static int update(sw_contact *c, sw_touch *t, const double *delta) {
   const sw_vec u = sw_madd(sw_add(t->trial, shift), t->normal, -sw_dot(shift, t->normal));
   const double length = sw_norm(u), most = mu * t->normal_force;
   const int sliding = t->k * length > most;
+  const int reversed = t->sliding && sw_dot(u, t->trial) < 0;
+  t->next_sliding = sliding && !reversed;
   const double share = length > 0 ? (sliding ? most / length : t->k) : 0.0;
   t->tangential = sw_scale(u, -share);
   const double small = t->k * GAP_TOLERANCE;
+  if (reversed) return most <= small;
   if (t->sliding != sliding) /* a change of state matters when the force does */
     return fabs(t->k * length - most) <= small + FORCE_TOLERANCE * most;
   return !sliding || fabs(t->normal_force - t->lag) <= FORCE_TOLERANCE * t->normal_force + small;

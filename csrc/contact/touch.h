@@ -34,7 +34,8 @@ typedef struct sw_touch {
   sw_vec trial;   /* tangential displacement from the anchor at this iterate [m] */
   sw_vec tangential; /* friction force after the last solve [N] */
   double gap_after;  /* after the last solve [m] */
-  int sliding;
+  int sliding;      /* assumed in this iterate */
+  int next_sliding; /* as the last solve found it */
   int known;      /* it touched at the step's start */
   int held;       /* both ends are held: no force */
   size_t candidate; /* index of what it was made from */
@@ -50,6 +51,7 @@ typedef struct sw_memory {
   double depth;        /* that goes with normal_force [m] */
   double boost;        /* [-] */
   sw_vec normal, point; /* the side: local [-], [m] */
+  int sliding;
   sw_vec elastic;       /* displacement of the friction spring, local [m] */
 } sw_memory;
 
