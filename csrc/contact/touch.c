@@ -91,8 +91,9 @@ static void set_friction_state(const sw_contact *c, const sw_system *s, const sw
   t->lag = last ? last->normal_force : m ? m->normal_force : t->k * fmax(0.0, -t->gap);
   const double most = c->obstacles[t->obstacle].friction * t->lag;
   /* The predicted place says little about sticking: a spring this stiff calls
-   * every prediction a slide. Go on from the state that was found last. */
-  if (last) t->sliding = last->next_sliding;
+   * every prediction a slide. Go on from the state that was found last. What
+   * only now begins to touch has been moving freely: it slides first. */
+  if (last && last->gap < 0) t->sliding = last->next_sliding;
   else if (m) t->sliding = m->sliding;
   else t->sliding = t->k * sw_norm(t->trial) > most;
 }
@@ -286,10 +287,25 @@ sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar,
   return SW_OK;
 }
 
+/* Friction after the solved update; 1 = it agrees with what was assumed. */
+static int update_friction(const sw_contact *c, sw_touch *t, sw_vec shift) {
+  const double mu = c->obstacles[t->obstacle].friction;
+  const sw_vec u = sw_madd(sw_add(t->trial, shift), t->normal, -sw_dot(shift, t->normal));
+  const double length = sw_norm(u), most = mu * t->normal_force;
+  const double small = t->k * GAP_TOLERANCE;
+  const int beyond = t->k * length > most;
+  const int reversed = t->sliding && sw_dot(u, t->trial) < 0;
+  t->next_sliding = beyond && !reversed;
+  t->tangential = sw_scale(u, -(beyond && length > 0 ? most / length : t->k));
+  if (reversed) return most <= small;
+  if (t->sliding != beyond) /* a change of state matters when the force does */
+    return fabs(t->k * length - most) <= small + FORCE_TOLERANCE * most;
+  return !beyond || fabs(t->normal_force - t->lag) <= FORCE_TOLERANCE * t->normal_force + small;
+}
+
 /* Bring a touch's forces up to the solved update; 1 = it agrees with what the
  * solve assumed. */
 static int update(sw_contact *c, sw_touch *t, const double *delta) {
-  const double mu = c->obstacles[t->obstacle].friction;
   const sw_vec shift = t->segment ? sw_lerp(sw_load(delta + 3 * t->node),
                                             sw_load(delta + 3 * t->node + 3), t->at)
                                   : sw_load(delta + 3 * t->node);
@@ -297,6 +313,10 @@ static int update(sw_contact *c, sw_touch *t, const double *delta) {
   t->gap_after = t->gap + sw_dot(t->normal, shift);
   if (t->held) return 1;
   t->normal_force = active ? fmax(0.0, -t->k * t->gap_after) : 0.0;
+  t->next_sliding = 1; /* what does not touch moves freely */
+  const int agrees = active && c->obstacles[t->obstacle].friction > 0
+                         ? update_friction(c, t, shift)
+                         : 1;
   if (active ? t->gap_after > GAP_TOLERANCE : t->gap_after < -GAP_TOLERANCE) return 0;
   const double radius = c->candidates[t->candidate].radius;
   if (!c->flat[t->obstacle] && t->gap_after < radius && sw_norm(shift) > SMALL_SHIFT * radius)
@@ -306,19 +326,7 @@ static int update(sw_contact *c, sw_touch *t, const double *delta) {
     *boost *= fmin(100.0, 2.0 * t->gap_after / -DEEPEST);
     return 0;
   }
-  if (!active || !(mu > 0)) return 1;
-  const sw_vec u = sw_madd(sw_add(t->trial, shift), t->normal, -sw_dot(shift, t->normal));
-  const double length = sw_norm(u), most = mu * t->normal_force;
-  const int sliding = t->k * length > most;
-  const int reversed = t->sliding && sw_dot(u, t->trial) < 0;
-  t->next_sliding = sliding && !reversed;
-  const double share = length > 0 ? (sliding ? most / length : t->k) : 0.0;
-  t->tangential = sw_scale(u, -share);
-  const double small = t->k * GAP_TOLERANCE;
-  if (reversed) return most <= small;
-  if (t->sliding != sliding) /* a change of state matters when the force does */
-    return fabs(t->k * length - most) <= small + FORCE_TOLERANCE * most;
-  return !sliding || fabs(t->normal_force - t->lag) <= FORCE_TOLERANCE * t->normal_force + small;
+  return agrees;
 }
 
 int sw_contact_settled(void *contact, sw_system *s, const double *y, const double *delta) {
