@@ -14,7 +14,8 @@ local function random_rows(n, sign)
   local rows = {}
   for i = 0, n - 1 do
     for k = 1, 24 do rows[24 * i + k] = 0.4 * (math.random() - 0.5) end
-    for k = 1, 3 do rows[24 * i + upper[k][k]] = sign(i) * (4 + math.random()) end
+    local signed = sign(i)
+    for k = 1, 3 do rows[24 * i + upper[k][k]] = signed * (4 + math.random()) end
     for k = 1, 9 do
       if i + 1 >= n then rows[24 * i + 6 + k] = 0 end
       if i + 2 >= n then rows[24 * i + 15 + k] = 0 end
