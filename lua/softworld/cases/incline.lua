@@ -26,8 +26,12 @@ return function(options)
   function c.run(o)
     local p = { duration = 0.5, dt = 0.01 }
     for k, v in pairs(o or {}) do p[k] = v end
-    c.settled = scene:settle() -- lets it sink into the slope first
-    if not c.settled.ok and mu > 0 then return c.settled end
+    -- first it sinks into the slope under the part of gravity across it
+    local across = f.g * math.cos(angle)
+    scene:gravity(slope.vector(0, 0, -across))
+    c.settled = scene:settle()
+    if not c.settled.ok then return c.settled end
+    scene:gravity(f.gravity)
     c.before = slope.local_point(wire:position(wire.length / 2))
     c.duration = p.duration
     return scene:run(p)
