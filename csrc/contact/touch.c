@@ -15,6 +15,8 @@
 static const double GAP_TOLERANCE = 2e-8;
 /* Nor do changes of a sliding touch's normal force below this share [-]. */
 static const double FORCE_TOLERANCE = 0.01;
+/* Nor turns of the sliding direction with a cosine above this [-]. */
+static const double TURN_TOLERANCE = 0.98;
 
 enum { OWN = 0, NEXT = 6, ROW = 24 }; /* layout of the system's block rows */
 
@@ -82,7 +84,8 @@ static void set_friction_state(const sw_contact *c, const sw_system *s, const sw
   t->trial = sw_madd(u, t->normal, -sw_dot(u, t->normal));
   t->lag = last ? last->normal_force : m ? m->normal_force : t->k * fmax(0.0, -t->gap);
   const double most = c->obstacles[t->obstacle].friction * t->lag;
-  t->sliding = t->k * sw_norm(t->trial) > most;
+  /* the free flight may point away from where friction lets it end: then it sticks */
+  t->sliding = t->k * sw_norm(t->trial) > most && !(last && last->turned);
 }
 
 static double stiffness(const sw_contact *c, const sw_candidate *k) {
@@ -272,6 +275,9 @@ static int update(const sw_contact *c, sw_touch *t, const double *delta) {
   const int sliding = t->k * length > most;
   const double share = length > 0 ? (sliding ? most / length : t->k) : 0.0;
   t->tangential = sw_scale(u, -share);
+  const double along = sw_dot(u, t->trial), size = length * sw_norm(t->trial);
+  t->turned = t->sliding && sliding && along < 0;
+  if (t->sliding && sliding && along < TURN_TOLERANCE * size) return 0;
   (void)before;
   const double small = t->k * GAP_TOLERANCE;
   if (t->sliding != sliding) /* a change of state matters when the force does */

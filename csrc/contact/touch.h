@@ -33,6 +33,7 @@ typedef struct sw_touch {
   sw_vec tangential; /* friction force after the last solve [N] */
   double gap_after;  /* after the last solve [m] */
   int sliding;
+  int turned;     /* taken as sliding one way, it would have gone the other way */
   int known;      /* it touched at the step's start */
   int held;       /* both ends are held: no force */
 } sw_touch;
