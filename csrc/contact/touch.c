@@ -13,6 +13,9 @@
 
 /* Changes of the gap below this do not keep an iteration going [m]. */
 static const double GAP_TOLERANCE = 2e-8;
+/* Nor do errors of a friction spring's length below this: far below its length
+ * at the onset of sliding, however stiff it is [m]. */
+static const double SPRING_TOLERANCE = 1e-11;
 /* Nor do changes of a sliding touch's normal force below this share [-]. */
 static const double FORCE_TOLERANCE = 0.01;
 /* Nor turns of the sliding direction with a cosine above this [-]. */
@@ -279,7 +282,7 @@ static int update(const sw_contact *c, sw_touch *t, const double *delta) {
   t->turned = t->sliding && sliding && along < 0;
   if (t->sliding && sliding && along < TURN_TOLERANCE * size) return 0;
   (void)before;
-  const double small = t->k * GAP_TOLERANCE;
+  const double small = t->k * SPRING_TOLERANCE;
   if (t->sliding != sliding) /* a change of state matters when the force does */
     return fabs(t->k * length - most) <= small + FORCE_TOLERANCE * most;
   return !sliding || fabs(t->normal_force - t->lag) <= FORCE_TOLERANCE * t->normal_force + small;

@@ -31,9 +31,9 @@ return function(options)
     scene:gravity(slope.vector(0, 0, -across))
     c.settled = scene:settle()
     if not c.settled.ok then return c.settled end
+    scene:run{ duration = 10 * p.dt, dt = p.dt, integrator = p.integrator }
     scene:gravity(f.gravity)
-    c.before = slope.local_point(wire:position(wire.length / 2))
-    c.duration = p.duration
+    c.before, c.duration = slope.local_point(wire:position(wire.length / 2)), p.duration
     return scene:run(p)
   end
 

@@ -23,7 +23,9 @@ return function(options)
   function c.run(o)
     local p = { duration = 1, dt = 0.005 }
     for k, v in pairs(o or {}) do p[k] = v end
-    scene:settle()
+    local settled = scene:settle()
+    if not settled.ok then return settled end
+    scene:run{ duration = 10 * p.dt, dt = p.dt, integrator = p.integrator }
     scene:force{ kind = "line", on = wire, force = f.vector(share * f.g / wire.length, 0, 0) }
     c.before = f.local_point(wire:position(wire.length / 2))
     c.duration = p.duration
