@@ -15,7 +15,7 @@
 static const double GAP_TOLERANCE = 2e-8;
 /* Nor do errors of a friction spring's length below this: far below its length
  * at the onset of sliding, however stiff it is [m]. */
-static const double SPRING_TOLERANCE = 1e-10;
+static const double SPRING_TOLERANCE = 1e-11;
 /* Nor do changes of a sliding touch's normal force below this share [-]. */
 static const double FORCE_TOLERANCE = 0.01;
 /* Nor turns of the sliding direction with a cosine above this [-]. */
