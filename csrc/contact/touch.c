@@ -13,6 +13,11 @@
 
 /* Changes of the gap below this do not keep an iteration going [m]. */
 static const double GAP_TOLERANCE = 2e-8;
+/* Nor do errors of a friction spring's length below this: far below its length
+ * at the onset of sliding, however stiff it is [m]. */
+static const double SPRING_TOLERANCE = 1e-11;
+/* Nor turns of the sliding direction with a cosine above this [-]. */
+static const double TURN_TOLERANCE = 0.98;
 /* Nor do changes of a sliding touch's normal force below this share [-]. */
 static const double FORCE_TOLERANCE = 0.01;
 
@@ -292,12 +297,14 @@ static int update_friction(const sw_contact *c, sw_touch *t, sw_vec shift) {
   const double mu = c->obstacles[t->obstacle].friction;
   const sw_vec u = sw_madd(sw_add(t->trial, shift), t->normal, -sw_dot(shift, t->normal));
   const double length = sw_norm(u), most = mu * t->normal_force;
-  const double small = t->k * GAP_TOLERANCE;
+  const double small = t->k * SPRING_TOLERANCE;
+  const double along = sw_dot(u, t->trial);
   const int beyond = t->k * length > most;
-  const int reversed = t->sliding && sw_dot(u, t->trial) < 0;
+  const int reversed = t->sliding && along < 0;
   t->next_sliding = beyond && !reversed;
   t->tangential = sw_scale(u, -(beyond && length > 0 ? most / length : t->k));
   if (reversed) return most <= small;
+  if (t->sliding && beyond && along < TURN_TOLERANCE * length * sw_norm(t->trial)) return 0;
   if (t->sliding != beyond) /* a change of state matters when the force does */
     return fabs(t->k * length - most) <= small + FORCE_TOLERANCE * most;
   return !beyond || fabs(t->normal_force - t->lag) <= FORCE_TOLERANCE * t->normal_force + small;
