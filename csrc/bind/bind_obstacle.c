@@ -109,10 +109,23 @@ static int meth_log(lua_State *L) {
   return 2;
 }
 
+/* obstacle.shape: the shape at the origin, in its own axes. */
+static int prop_shape(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_shape *shape;
+  const lsw_child *o = check(L, &scene);
+  lsw_must(L, sw_scene_obstacle_shape(scene, o->id, &shape, &err), &err);
+  lsw_push_shape(L, shape);
+  return 1;
+}
+
 static const luaL_Reg methods[] = {{"force", meth_force},   {"moment", meth_moment},
                                    {"pose", meth_pose},     {"follow", meth_follow},
                                    {"remove", meth_remove}, {"log", meth_log},
                                    {NULL, NULL}};
 
-const lsw_class lsw_class_obstacle = {"obstacle", sizeof(lsw_child), methods, NULL, NULL,
+static const luaL_Reg properties[] = {{"shape", prop_shape}, {NULL, NULL}};
+
+const lsw_class lsw_class_obstacle = {"obstacle", sizeof(lsw_child), methods, NULL, properties,
                                       lsw_close_child, "this obstacle handle has been closed"};

@@ -227,6 +227,13 @@ sw_status sw_scene_obstacle_pose(sw_scene *s, sw_handle obstacle, sw_pose *out, 
   return SW_OK;
 }
 
+sw_status sw_scene_obstacle_shape(sw_scene *s, sw_handle obstacle, sw_shape **out, sw_error *err) {
+  const sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
+  if (!o) return SW_EDEAD;
+  *out = o->shape;
+  return SW_OK;
+}
+
 sw_status sw_scene_obstacle_set_pose(sw_scene *s, sw_handle obstacle, sw_pose pose,
                                      sw_error *err) {
   sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);

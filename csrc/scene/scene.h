@@ -100,6 +100,9 @@ sw_status sw_scene_obstacle_set_pose(sw_scene *scene, sw_handle obstacle, sw_pos
 sw_status sw_scene_obstacle_force(sw_scene *scene, sw_handle obstacle, sw_vec about,
                                   sw_vec *force, sw_vec *moment, sw_error *err);
 sw_status sw_scene_remove_obstacle(sw_scene *scene, sw_handle obstacle, sw_error *err);
+/* The shape, still the scene's: retain it to keep it. */
+sw_status sw_scene_obstacle_shape(sw_scene *scene, sw_handle obstacle, sw_shape **out,
+                                  sw_error *err);
 
 /* --- forces ----------------------------------------------------------------- */
 
