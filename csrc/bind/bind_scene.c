@@ -171,7 +171,10 @@ static int meth_contacts(lua_State *L) {
 }
 
 static int meth_stable_dt(lua_State *L) {
-  lua_pushnumber(L, sw_scene_stable_dt(check(L)));
+  double dt;
+  sw_error err = {""};
+  lsw_must(L, sw_scene_stable_dt(check(L), &dt, &err), &err);
+  lua_pushnumber(L, dt);
   return 1;
 }
 
@@ -179,7 +182,9 @@ static int meth_stable_dt(lua_State *L) {
 static int meth_gravity(lua_State *L) {
   sw_scene *scene = check(L);
   if (lua_gettop(L) > 1) {
-    sw_scene_set_gravity(scene, lsw_vector(L, 2, "scene:gravity", "m/s2"));
+    sw_error err = {""};
+    const sw_vec g = lsw_vector(L, 2, "scene:gravity", "m/s2");
+    lsw_must(L, sw_scene_set_gravity(scene, g, &err), &err);
     return 0;
   }
   lsw_push_vector(L, sw_scene_gravity(scene));
@@ -260,7 +265,8 @@ static int meth_frame_count(lua_State *L) {
 }
 
 static int meth_clear_frames(lua_State *L) {
-  sw_scene_clear_frames(check(L));
+  sw_error err = {""};
+  lsw_must(L, sw_scene_clear_frames(check(L), &err), &err);
   return 0;
 }
 

@@ -117,7 +117,7 @@ sw_status sw_scene_release_hold(sw_scene *s, sw_handle hold, sw_error *err) {
   if (!h) return SW_EDEAD;
   if (!h->alive) return SW_OK;
   sw_motion_state now;
-  SW_TRY(sw_drive_eval(&h->drive, s->time, &now, err));
+  SW_TRY(sw_drive_eval(s, &h->drive, s->time, &now, err));
   SW_TRY(sw_scene_thaw(s));
   h->last_pose = now.pose;
   h->alive = 0;
@@ -130,7 +130,7 @@ sw_status sw_scene_follow(sw_scene *s, sw_handle hold, sw_motion *motion, int re
   sw_scene_hold *h = living(s, hold, err);
   if (!h) return SW_EDEAD;
   SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_drive_follow(&h->drive, h->name, s->time, motion, relative, err));
+  SW_TRY(sw_drive_follow(s, &h->drive, h->name, motion, relative, err));
   s->discontinuous = 1;
   return SW_OK;
 }
@@ -151,7 +151,7 @@ sw_status sw_scene_hold_pose(sw_scene *s, sw_handle hold, sw_pose *out, sw_error
   if (!h) return SW_EDEAD;
   *out = h->last_pose;
   if (!h->alive) return SW_OK;
-  SW_TRY(sw_drive_eval(&h->drive, s->time, &now, err));
+  SW_TRY(sw_drive_eval(s, &h->drive, s->time, &now, err));
   *out = now.pose;
   return SW_OK;
 }

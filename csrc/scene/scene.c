@@ -61,9 +61,11 @@ const char *sw_scene_name(const sw_scene *s) { return s->name; }
 double sw_scene_time(const sw_scene *s) { return s->time; }
 sw_vec sw_scene_gravity(const sw_scene *s) { return s->gravity; }
 
-void sw_scene_set_gravity(sw_scene *s, sw_vec gravity) {
+sw_status sw_scene_set_gravity(sw_scene *s, sw_vec gravity, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
   s->gravity = gravity;
   s->discontinuous = 1;
+  return SW_OK;
 }
 
 sw_status sw_scene_readable(const sw_scene *s, sw_error *err) {
@@ -74,9 +76,13 @@ sw_status sw_scene_readable(const sw_scene *s, sw_error *err) {
                  s->name, s->why.text);
 }
 
+int sw_scene_busy(const sw_scene *s) { return s->running > 0; }
+
 sw_status sw_scene_editable(const sw_scene *s, sw_error *err) {
   if (s->running)
-    return sw_fail(err, SW_EBUSY, "scene '%s': cannot be changed from inside a step", s->name);
+    return sw_fail(err, SW_EBUSY, "scene '%s' cannot be changed or measured from inside a step or a function of "
+                   "time",
+                   s->name);
   return SW_OK;
 }
 
@@ -213,7 +219,7 @@ sw_status sw_scene_obstacle_follow(sw_scene *s, sw_handle obstacle, sw_motion *m
   sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
   if (!o) return SW_EDEAD;
   SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_drive_follow(&o->drive, o->name, s->time, motion, relative, err));
+  SW_TRY(sw_drive_follow(s, &o->drive, o->name, motion, relative, err));
   s->discontinuous = 1;
   return SW_OK;
 }
@@ -222,7 +228,7 @@ sw_status sw_scene_obstacle_pose(sw_scene *s, sw_handle obstacle, sw_pose *out, 
   sw_motion_state now;
   const sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
   if (!o) return SW_EDEAD;
-  SW_TRY(sw_drive_eval(&o->drive, s->time, &now, err));
+  SW_TRY(sw_drive_eval(s, &o->drive, s->time, &now, err));
   *out = now.pose;
   return SW_OK;
 }

@@ -37,7 +37,10 @@ void sw_scene_free(sw_scene *scene); /* NULL is allowed */
 const char *sw_scene_name(const sw_scene *scene);
 double sw_scene_time(const sw_scene *scene); /* [s] */
 sw_vec sw_scene_gravity(const sw_scene *scene);
-void sw_scene_set_gravity(sw_scene *scene, sw_vec gravity);
+sw_status sw_scene_set_gravity(sw_scene *scene, sw_vec gravity, sw_error *err);
+/* 1 inside a step or a user's function of the scene: every change is refused with
+ * SW_EBUSY, and the scene must not be freed. */
+int sw_scene_busy(const sw_scene *scene);
 
 /* SW_EDIVERGED with the reason when the last run diverged: nothing may be read
  * until a snapshot is restored. */
@@ -201,7 +204,8 @@ sw_status sw_scene_penetration(sw_scene *scene, double *now, sw_extreme *deepest
 /* Number of contact points with a force now. */
 size_t sw_scene_touches(sw_scene *scene);
 
-double sw_scene_stable_dt(sw_scene *scene); /* leapfrog limit, 0 on failure [s] */
+/* Largest stable step of leapfrog [s]. */
+sw_status sw_scene_stable_dt(sw_scene *scene, double *dt, sw_error *err);
 
 /* One recorded row per step of a hold: time, force, moment, held point. */
 enum { SW_LOG_TIME = 0, SW_LOG_FORCE = 1, SW_LOG_MOMENT = 4, SW_LOG_POINT = 7, SW_LOG_SIZE = 10 };
@@ -223,7 +227,7 @@ const double *sw_scene_frame_obstacle(const sw_scene *scene, size_t frame, size_
 const double *sw_scene_frame_hold(const sw_scene *scene, size_t frame, size_t h, int *held);
 enum { SW_FRAME_ENERGIES = 3 }; /* kinetic, elastic, gravity [J] */
 const double *sw_scene_frame_energy(const sw_scene *scene, size_t frame);
-void sw_scene_clear_frames(sw_scene *scene);
+sw_status sw_scene_clear_frames(sw_scene *scene, sw_error *err);
 
 /* --- snapshots -------------------------------------------------------------- */
 
