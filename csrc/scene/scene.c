@@ -28,22 +28,25 @@ sw_status sw_scene_new(const sw_scene_args *args, sw_scene **out, sw_error *err)
   return SW_OK;
 }
 
-static void free_hold(sw_scene_hold *h) {
+void sw_scene_clear_hold(sw_scene_hold *h) {
   sw_free(h->s);
   sw_free(h->local);
   sw_free(h->log.rows);
   sw_drive_free(&h->drive);
 }
 
+void sw_scene_clear_obstacle(sw_scene_obstacle *o) {
+  sw_shape_release(o->shape);
+  sw_drive_free(&o->drive);
+  sw_free(o->log.rows);
+}
+
 void sw_scene_free(sw_scene *s) {
   if (!s) return;
   for (size_t i = 0; i < s->wire_count; i++) sw_mesh_free(&s->wires[i].mesh);
-  for (size_t i = 0; i < s->hold_count; i++) free_hold(&s->holds[i]);
-  for (size_t i = 0; i < s->obstacle_count; i++) {
-    sw_shape_release(s->obstacles[i].shape);
-    sw_drive_free(&s->obstacles[i].drive);
-    sw_free(s->obstacles[i].log.rows);
-  }
+  for (size_t i = 0; i < s->hold_count; i++) sw_scene_clear_hold(&s->holds[i]);
+  for (size_t i = 0; i < s->obstacle_count; i++) sw_scene_clear_obstacle(&s->obstacles[i]);
+  sw_scene_orphan_snapshots(s);
   sw_stepper_free(&s->stepper);
   sw_contact_free(s->contact);
   sw_system_free(&s->system);
@@ -108,6 +111,27 @@ sw_scene_obstacle *sw_scene_find_obstacle(const sw_scene *s, sw_handle h, sw_err
   return NULL;
 }
 
+const char *sw_scene_wire_name(const sw_scene *s, sw_handle h) {
+  const sw_scene_wire *w = sw_scene_find_wire(s, h, NULL);
+  return w ? w->name : NULL;
+}
+
+const char *sw_scene_hold_name(const sw_scene *s, sw_handle h, const char **kind, int *held) {
+  const sw_scene_hold *hold = sw_scene_find_hold(s, h, NULL);
+  if (!hold) return NULL;
+  *kind = hold->cls->name;
+  *held = hold->alive;
+  return hold->name;
+}
+
+const char *sw_scene_obstacle_name(const sw_scene *s, sw_handle h, const char **kind,
+                                   int *present) {
+  if (h.slot >= s->obstacle_count || s->obstacles[h.slot].generation != h.generation) return NULL;
+  *kind = sw_shape_kind(s->obstacles[h.slot].shape);
+  *present = s->obstacles[h.slot].alive;
+  return s->obstacles[h.slot].name;
+}
+
 /* A name for an unnamed object: "wire1", "box2", ... */
 static void give_name(char *out, const char *wanted, const char *kind, size_t number) {
   if (wanted[0]) memcpy(out, wanted, SW_NAME_SIZE);
@@ -150,7 +174,7 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
   SW_TRY(sw_scene_editable(s, err));
   const double straight[6] = {args->from.x, args->from.y, args->from.z,
                               args->to.x,   args->to.y,   args->to.z};
-  sw_scene_wire w = {.generation = 1, .cls = sw_wire_all()[args->model], .beam = *beam};
+  sw_scene_wire w = {.generation = s->serial + 1, .cls = sw_wire_all()[args->model], .beam = *beam};
   give_name(w.name, args->name, "wire", s->wire_count);
   if (!points && (isnan(args->from.x) || isnan(args->to.x)))
     return sw_fail(err, SW_EINVAL, "wire '%s': give from and to, or path [m]", w.name);
@@ -166,7 +190,7 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
     return status;
   }
   w.mesh.EA = beam->EA;
-  *out = (sw_handle){(uint32_t)s->wire_count, 1};
+  *out = (sw_handle){(uint32_t)s->wire_count, ++s->serial};
   s->wires[s->wire_count++] = w;
   return SW_OK;
 }
@@ -194,14 +218,14 @@ sw_status sw_scene_add_obstacle(sw_scene *s, sw_shape *shape, const sw_obstacle_
   SW_TRY(sw_grow((void **)&s->obstacles, &s->obstacle_capacity, s->obstacle_count + 1,
                  sizeof *s->obstacles));
   sw_scene_obstacle *o = &s->obstacles[s->obstacle_count];
-  *o = (sw_scene_obstacle){.generation = 1,
+  *o = (sw_scene_obstacle){.generation = ++s->serial,
                            .alive = 1,
                            .drive = {.pose = {args->at, args->rotation}},
                            .friction = args->friction,
                            .restitution = args->restitution};
   give_name(o->name, args->name, sw_shape_kind(shape), s->obstacle_count);
   o->shape = sw_shape_retain(shape);
-  *out = (sw_handle){(uint32_t)s->obstacle_count++, 1};
+  *out = (sw_handle){(uint32_t)s->obstacle_count++, s->serial};
   return SW_OK;
 }
 
@@ -280,15 +304,20 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
   SW_TRY(sw_grow((void **)&s->forces, &s->force_capacity, s->force_count + 1, sizeof *s->forces));
   sw_scene_force *f = &s->forces[s->force_count];
   *f = (sw_scene_force){
-      .generation = 1, .alive = 1, .cls = cls, .wire = wire.generation ? (long)wire.slot : -1};
+      .generation = ++s->serial, .alive = 1, .cls = cls, .wire = wire.generation ? (long)wire.slot : -1};
   if (args_size) memcpy(f->args, args, args_size);
-  *out = (sw_handle){(uint32_t)s->force_count++, 1};
+  *out = (sw_handle){(uint32_t)s->force_count++, s->serial};
   return SW_OK;
+}
+
+const sw_force_class *sw_scene_force_class(const sw_scene *s, sw_handle h) {
+  const int known = h.slot < s->force_count && s->forces[h.slot].generation == h.generation;
+  return known ? s->forces[h.slot].cls : NULL;
 }
 
 sw_status sw_scene_remove_force(sw_scene *s, sw_handle force, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  if (force.slot >= s->force_count || !s->forces[force.slot].alive)
+  if (!sw_scene_force_class(s, force) || !s->forces[force.slot].alive)
     return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
   SW_TRY(sw_scene_thaw(s));
   s->forces[force.slot].alive = 0;

@@ -20,6 +20,7 @@
 #include "wire/wire.h"
 
 typedef struct sw_scene sw_scene;
+typedef struct sw_snapshot sw_snapshot;
 
 typedef struct sw_handle {
   uint32_t slot, generation; /* generation 0 = no object */
@@ -45,6 +46,18 @@ int sw_scene_busy(const sw_scene *scene);
 /* SW_EDIVERGED with the reason when the last run diverged: nothing may be read
  * until a snapshot is restored. */
 sw_status sw_scene_readable(const sw_scene *scene, sw_error *err);
+
+/* --- names ------------------------------------------------------------------ */
+
+/* NULL when the scene does not know the object any more. kind: "clamp", "box", ...;
+ * held, present: 0 once released or removed. */
+const char *sw_scene_wire_name(const sw_scene *scene, sw_handle wire);
+const char *sw_scene_hold_name(const sw_scene *scene, sw_handle hold, const char **kind,
+                               int *held);
+const char *sw_scene_obstacle_name(const sw_scene *scene, sw_handle obstacle, const char **kind,
+                                   int *present);
+/* The class of a force, released or not; NULL as above. */
+const sw_force_class *sw_scene_force_class(const sw_scene *scene, sw_handle force);
 
 /* --- wires ------------------------------------------------------------------ */
 
@@ -231,9 +244,11 @@ sw_status sw_scene_clear_frames(sw_scene *scene, sw_error *err);
 
 /* --- snapshots -------------------------------------------------------------- */
 
-typedef struct sw_snapshot sw_snapshot;
+/* Restoring takes back what was made after the snapshot: its handles are stale
+ * from then on, unless another living snapshot still knows it. */
 sw_status sw_scene_snapshot(sw_scene *scene, sw_snapshot **out, sw_error *err);
 sw_status sw_scene_restore(sw_scene *scene, const sw_snapshot *snapshot, sw_error *err);
-void sw_snapshot_free(sw_snapshot *snapshot);
+void sw_snapshot_free(sw_snapshot *snapshot); /* NULL is allowed */
+int sw_snapshot_busy(const sw_snapshot *snapshot); /* its scene is busy: do not free it */
 
 #endif

@@ -73,6 +73,8 @@ typedef struct sw_frame {
 
 struct sw_scene {
   char name[SW_NAME_SIZE];
+  uint32_t serial;        /* generation of the object made last */
+  sw_snapshot *snapshots; /* the living ones, a list */
   sw_vec gravity;
   double time;
   sw_scene_wire *wires;
@@ -125,6 +127,12 @@ sw_scene_hold *sw_scene_find_hold(const sw_scene *scene, sw_handle h, sw_error *
 sw_scene_obstacle *sw_scene_find_obstacle(const sw_scene *scene, sw_handle h, sw_error *err);
 
 sw_status sw_scene_editable(const sw_scene *scene, sw_error *err);
+
+/* Free what these slots own. */
+void sw_scene_clear_hold(sw_scene_hold *hold);
+void sw_scene_clear_obstacle(sw_scene_obstacle *obstacle);
+/* The scene goes away: its snapshots live on, good for nothing. */
+void sw_scene_orphan_snapshots(sw_scene *scene);
 
 /* After an accepted state: extremes, logs. */
 sw_status sw_scene_observe(sw_scene *scene, sw_error *err);
