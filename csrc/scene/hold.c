@@ -162,7 +162,7 @@ sw_status sw_scene_hold_force(sw_scene *s, sw_handle hold, const sw_vec *about, 
   SW_TRY(sw_scene_readable(s, err));
   sw_scene_hold *h = living(s, hold, err);
   if (!h) return SW_EDEAD;
-  SW_TRY(sw_scene_hold_pose(s, hold, &pose, err));
+  if (about) SW_TRY(sw_scene_hold_pose(s, hold, &pose, err));
   *force = h->force;
   *moment = about ? sw_add(h->moment, sw_cross(sw_sub(pose.p, *about), h->force)) : h->moment;
   return SW_OK;

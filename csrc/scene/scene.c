@@ -317,8 +317,9 @@ const sw_force_class *sw_scene_force_class(const sw_scene *s, sw_handle h) {
 
 sw_status sw_scene_remove_force(sw_scene *s, sw_handle force, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  if (!sw_scene_force_class(s, force) || !s->forces[force.slot].alive)
+  if (!sw_scene_force_class(s, force))
     return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
+  if (!s->forces[force.slot].alive) return SW_OK;
   SW_TRY(sw_scene_thaw(s));
   s->forces[force.slot].alive = 0;
   return SW_OK;

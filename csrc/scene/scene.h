@@ -56,6 +56,8 @@ const char *sw_scene_hold_name(const sw_scene *scene, sw_handle hold, const char
                                int *held);
 const char *sw_scene_obstacle_name(const sw_scene *scene, sw_handle obstacle, const char **kind,
                                    int *present);
+/* 0 when neither the scene nor a living snapshot of it will use the force again. */
+int sw_scene_force_needed(const sw_scene *scene, sw_handle force);
 /* The class of a force, released or not; NULL as above. */
 const sw_force_class *sw_scene_force_class(const sw_scene *scene, sw_handle force);
 
@@ -249,6 +251,7 @@ sw_status sw_scene_clear_frames(sw_scene *scene, sw_error *err);
 sw_status sw_scene_snapshot(sw_scene *scene, sw_snapshot **out, sw_error *err);
 sw_status sw_scene_restore(sw_scene *scene, const sw_snapshot *snapshot, sw_error *err);
 void sw_snapshot_free(sw_snapshot *snapshot); /* NULL is allowed */
+double sw_snapshot_time(const sw_snapshot *snapshot); /* [s] */
 int sw_snapshot_busy(const sw_snapshot *snapshot); /* its scene is busy: do not free it */
 
 #endif

@@ -46,6 +46,16 @@ struct sw_snapshot {
 
 int sw_snapshot_busy(const sw_snapshot *p) { return p->scene && sw_scene_busy(p->scene); }
 
+double sw_snapshot_time(const sw_snapshot *p) { return p->time; }
+
+int sw_scene_force_needed(const sw_scene *s, sw_handle h) {
+  if (!sw_scene_force_class(s, h)) return 0;
+  if (s->forces[h.slot].alive) return 1;
+  for (const sw_snapshot *p = s->snapshots; p; p = p->next)
+    if (h.slot < p->forces && p->force_alive[h.slot]) return 1;
+  return 0;
+}
+
 void sw_scene_orphan_snapshots(sw_scene *s) {
   for (; s->snapshots; s->snapshots = s->snapshots->next) s->snapshots->scene = NULL;
 }
