@@ -105,11 +105,7 @@ static int meth_log(lua_State *L) {
   lsw_must(L, sw_scene_hold_log(scene, c->id, &rows, &count, &err), &err);
   const size_t skip = first > 1 ? (size_t)(first - 1) : 0;
   const size_t n = count > skip ? count - skip : 0;
-  lua_createtable(L, (int)(n * SW_LOG_SIZE), 0);
-  for (size_t i = 0; i < n * SW_LOG_SIZE; i++) {
-    lua_pushnumber(L, rows[skip * SW_LOG_SIZE + i]);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
+  lsw_push_flat(L, n ? rows + skip * SW_LOG_SIZE : NULL, n * SW_LOG_SIZE);
   lua_pushinteger(L, (lua_Integer)n);
   return 2;
 }

@@ -102,11 +102,7 @@ static int meth_log(lua_State *L) {
   size_t count;
   const lsw_child *o = check(L, &scene);
   lsw_must(L, sw_scene_obstacle_log(scene, o->id, &rows, &count, &err), &err);
-  lua_createtable(L, (int)(count * SW_LOG_OBSTACLE_SIZE), 0);
-  for (size_t i = 0; i < count * SW_LOG_OBSTACLE_SIZE; i++) {
-    lua_pushnumber(L, rows[i]);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
+  lsw_push_flat(L, rows, count * SW_LOG_OBSTACLE_SIZE);
   lua_pushinteger(L, (lua_Integer)count);
   return 2;
 }

@@ -246,11 +246,7 @@ static void push_frame_wires(lua_State *L, const sw_scene *scene, size_t frame) 
   const double *x;
   lua_newtable(L);
   for (size_t w = 0; (x = sw_scene_frame_wire(scene, frame, w, &count)) != NULL; w++) {
-    lua_createtable(L, (int)(3 * count), 0);
-    for (size_t i = 0; i < 3 * count; i++) {
-      lua_pushnumber(L, x[i]);
-      lua_rawseti(L, -2, (lua_Integer)i + 1);
-    }
+    lsw_push_flat(L, x, 3 * count);
     lua_rawseti(L, -2, (lua_Integer)w + 1);
   }
 }
@@ -356,6 +352,7 @@ static const luaL_Reg methods[] = {{"wire", lsw_scene_wire},
                                    {"advance", meth_advance},
                                    {"settle", meth_settle},
                                    {"energy", meth_energy},
+                                   {"evaluate", lsw_scene_evaluate},
                                    {"penetration", meth_penetration},
                                    {"contacts", meth_contacts},
                                    {"stable_dt", meth_stable_dt},
@@ -388,75 +385,6 @@ const lsw_class lsw_class_snapshot = {.name = "snapshot",
                                       .gone = "the snapshot has been closed",
                                       .busy = snapshot_busy};
 
-/* --- registries as tables ------------------------------------------------------- */
-
-static int mod_registry(lua_State *L) {
-  lua_newtable(L);
-  lua_newtable(L);
-  for (int i = 0; sw_integrator_all()[i]; i++) {
-    const sw_integrator *m = sw_integrator_all()[i];
-    lua_createtable(L, 0, 6);
-    lua_pushstring(L, m->name), lua_setfield(L, -2, "name");
-    lua_pushstring(L, m->summary), lua_setfield(L, -2, "summary");
-    lua_pushinteger(L, m->order), lua_setfield(L, -2, "order");
-    lua_pushboolean(L, (m->flags & SW_INTEGRATOR_IMPLICIT) != 0), lua_setfield(L, -2, "implicit");
-    lua_pushboolean(L, (m->flags & SW_INTEGRATOR_EMBEDDED) != 0), lua_setfield(L, -2, "adaptive");
-    lsw_set_number(L, "leapfrog_limit", m->leapfrog_limit);
-    lua_rawseti(L, -2, i + 1);
-  }
-  lua_setfield(L, -2, "integrators");
-  lua_newtable(L);
-  for (int i = 0; sw_force_all()[i]; i++) {
-    const sw_force_class *f = sw_force_all()[i];
-    lua_createtable(L, 0, 4);
-    lua_pushstring(L, f->name), lua_setfield(L, -2, "name");
-    lua_pushstring(L, f->summary), lua_setfield(L, -2, "summary");
-    lua_pushboolean(L, (f->flags & SW_FORCE_INNER) != 0), lua_setfield(L, -2, "inner");
-    lsw_push_params(L, &f->params), lua_setfield(L, -2, "params");
-    lua_rawseti(L, -2, i + 1);
-  }
-  lua_setfield(L, -2, "forces");
-  lua_newtable(L);
-  for (int i = 0; sw_wire_all()[i]; i++) {
-    lua_createtable(L, 0, 2);
-    lua_pushstring(L, sw_wire_all()[i]->name), lua_setfield(L, -2, "name");
-    lua_pushstring(L, sw_wire_all()[i]->summary), lua_setfield(L, -2, "summary");
-    lua_rawseti(L, -2, i + 1);
-  }
-  lua_setfield(L, -2, "models");
-  lua_newtable(L);
-  for (int i = 0; sw_hold_all()[i]; i++) {
-    lua_createtable(L, 0, 3);
-    lua_pushstring(L, sw_hold_all()[i]->name), lua_setfield(L, -2, "name");
-    lua_pushstring(L, sw_hold_all()[i]->summary), lua_setfield(L, -2, "summary");
-    lsw_push_params(L, &sw_hold_all()[i]->params), lua_setfield(L, -2, "params");
-    lua_rawseti(L, -2, i + 1);
-  }
-  lua_setfield(L, -2, "holds");
-  lua_newtable(L);
-  for (int i = 0; sw_shape_kinds()[i]; i++) {
-    const sw_shape_class *c = sw_shape_class_find(sw_shape_kinds()[i]);
-    lua_createtable(L, 0, 2);
-    lua_pushstring(L, sw_shape_kinds()[i]), lua_setfield(L, -2, "name");
-    lsw_push_params(L, sw_shape_class_params(c)), lua_setfield(L, -2, "params");
-    lua_rawseti(L, -2, i + 1);
-  }
-  lua_setfield(L, -2, "shapes");
-  const struct {
-    const char *name;
-    const sw_params *params;
-  } tables[] = {{"scene", &sw_scene_params},       {"wire", &sw_wire_params},
-                {"section", &sw_section_params},   {"obstacle", &sw_obstacle_params},
-                {"run", &sw_run_params},           {"settle", &sw_settle_params}};
-  lua_newtable(L);
-  for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++) {
-    lsw_push_params(L, tables[i].params);
-    lua_setfield(L, -2, tables[i].name);
-  }
-  lua_setfield(L, -2, "params");
-  return 1;
-}
-
 static const luaL_Reg functions[] = {{"scene", mod_scene},
                                      {"data", mod_data},
                                      {"type", mod_type},
@@ -466,7 +394,6 @@ static const luaL_Reg functions[] = {{"scene", mod_scene},
                                      {"clock", mod_clock},
                                      {"nearest", mod_nearest},
                                      {"check_run", mod_check_run},
-                                     {"registry", mod_registry},
                                      {NULL, NULL}};
 
 void lsw_open_scene(lua_State *L) { luaL_setfuncs(L, functions, 0); }

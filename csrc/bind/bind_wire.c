@@ -98,14 +98,6 @@ static size_t node_count(lua_State *L, sw_scene *scene, const lsw_child *w) {
   return n;
 }
 
-static void push_flat(lua_State *L, const double *values, size_t n) {
-  lua_createtable(L, (int)n, 0);
-  for (size_t i = 0; i < n; i++) {
-    lua_pushnumber(L, values[i]);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
-}
-
 /* Flat {x1, y1, z1, x2, ...} of all nodes [m], and their arc lengths [m]. */
 static int meth_positions(lua_State *L) {
   sw_scene *scene;
@@ -114,8 +106,8 @@ static int meth_positions(lua_State *L) {
   const size_t n = node_count(L, scene, w);
   double *x = lua_newuserdatauv(L, 4 * n * sizeof *x, 0);
   lsw_must(L, sw_scene_wire_copy(scene, w->id, x, x + 3 * n, NULL, &err), &err);
-  push_flat(L, x, 3 * n);
-  push_flat(L, x + 3 * n, n);
+  lsw_push_flat(L, x, 3 * n);
+  lsw_push_flat(L, x + 3 * n, n);
   return 2;
 }
 
@@ -126,7 +118,7 @@ static int meth_velocities(lua_State *L) {
   const size_t n = node_count(L, scene, w);
   double *v = lua_newuserdatauv(L, 3 * n * sizeof *v, 0);
   lsw_must(L, sw_scene_wire_copy(scene, w->id, NULL, NULL, v, &err), &err);
-  push_flat(L, v, 3 * n);
+  lsw_push_flat(L, v, 3 * n);
   return 1;
 }
 

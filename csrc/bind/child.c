@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "bind/child.h"
 
+#include <limits.h>
+
 #include "bind/bind_motion.h"
 
 lsw_child *lsw_new_child(lua_State *L, int scene, const lsw_class *c) {
@@ -46,6 +48,14 @@ void lsw_check_table(lua_State *L, int index, const char *what) {
 
 void lsw_must(lua_State *L, sw_status status, const sw_error *err) {
   if (status != SW_OK) lsw_motion_rethrow(L, status, err);
+}
+
+void lsw_push_flat(lua_State *L, const double *values, size_t n) {
+  lua_createtable(L, n < INT_MAX ? (int)n : 0, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_pushnumber(L, values[i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
 }
 
 void lsw_set_number(lua_State *L, const char *name, double value) {

@@ -43,6 +43,7 @@ int lsw_scene_grip(lua_State *L);
 int lsw_scene_wire(lua_State *L);
 int lsw_scene_obstacle(lua_State *L);
 int lsw_scene_force(lua_State *L);
+int lsw_scene_evaluate(lua_State *L);
 
 /* While the core may call Lua functions as forces: they run on L, whose stack
  * index 1 is the scene. The value goes back to lsw_end_forces. */
@@ -53,6 +54,9 @@ void lsw_forget_forces(lua_State *L, int index, const sw_scene *scene);
 
 /* Raise unless the value at index is one table of parameters. */
 void lsw_check_table(lua_State *L, int index, const char *what);
+
+/* Push n numbers as a flat array. */
+void lsw_push_flat(lua_State *L, const double *values, size_t n);
 
 /* Set fields of the table on top of the stack. */
 void lsw_set_number(lua_State *L, const char *name, double value);

@@ -222,6 +222,26 @@ size_t sw_scene_touches(sw_scene *scene);
 /* Largest stable step of leapfrog [s]. */
 sw_status sw_scene_stable_dt(sw_scene *scene, double *dt, sw_error *err);
 
+/* Where a force is asked; NULL = the scene's own state. Arrays are (nodes x 3). */
+typedef struct sw_probe {
+  const double *positions;  /* [m] */
+  const double *velocities; /* [m/s] */
+  const double *direction;  /* to be multiplied by the stiffness; NULL = no product [m] */
+  double rate; /* adds rate times the damping to the stiffness, as a step of 1/rate does [1/s] */
+  int statics; /* 0: leave out the geometric stiffness of edges under pressure, as steps do */
+} sw_probe;
+
+typedef struct sw_probe_result {
+  size_t terms;    /* forces of this kind on the wire */
+  double energy;   /* [J] */
+  double *force;   /* (nodes x 3), the caller's; or NULL [N] */
+  double *product; /* (nodes x 3), the caller's; or NULL: stiffness times direction [N] */
+} sw_probe_result;
+
+/* What all forces of one class do to a wire. Changes nothing. */
+sw_status sw_scene_probe(sw_scene *scene, sw_handle wire, const sw_force_class *cls,
+                         const sw_probe *at, sw_probe_result *out, sw_error *err);
+
 /* One recorded row per step of a hold: time, force, moment, held point. */
 enum { SW_LOG_TIME = 0, SW_LOG_FORCE = 1, SW_LOG_MOMENT = 4, SW_LOG_POINT = 7, SW_LOG_SIZE = 10 };
 sw_status sw_scene_hold_log(sw_scene *scene, sw_handle hold, const double **rows, size_t *count,
