@@ -3,6 +3,7 @@
 #include "contact/contact.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -279,6 +280,20 @@ sw_status sw_contact_set_memory(sw_contact *c, const void *memory, size_t bytes)
   c->memory_count = n;
   c->fresh = 0;
   c->touch_count = 0;
+  return SW_OK;
+}
+
+sw_status sw_contact_inherit(sw_contact *c, const void *memory, size_t bytes,
+                             const size_t *new_node) {
+  size_t kept = 0;
+  SW_TRY(sw_contact_set_memory(c, memory, bytes));
+  for (size_t i = 0; i < c->memory_count; i++) {
+    const size_t node = new_node[c->memory[i].node];
+    if (node == SIZE_MAX) continue;
+    c->memory[kept] = c->memory[i];
+    c->memory[kept++].node = node;
+  }
+  c->memory_count = kept;
   return SW_OK;
 }
 

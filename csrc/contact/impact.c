@@ -122,10 +122,11 @@ static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k,
                       .at = b.at,
                       .normal = sw_rotate(pose->q, hit->normal),
                       .point = sw_pose_point(*pose, hit->point)};
-  strike(c, s, &t, h);
+  if (h > 0) strike(c, s, &t, h);
   return 1;
 }
 
+/* h = 0: statics, there are no speeds to change. */
 static int review_crossings(sw_contact *c, sw_system *s, const double *x1, double h) {
   int changed = 0;
   for (size_t i = 0; i < c->candidate_count; i++) {
@@ -170,4 +171,8 @@ int sw_contact_review(sw_contact *c, sw_system *s, const double *x1, double h) {
   const int struck = review_touches(c, s, h);
   c->pressed_count = 0;
   return crossed | struck;
+}
+
+int sw_contact_review_static(sw_contact *c, sw_system *s, const double *x1) {
+  return review_crossings(c, s, x1, 0.0);
 }
