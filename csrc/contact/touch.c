@@ -167,7 +167,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
  * inside (nothing accepted yet) is pushed out the nearest way. */
 static int keep_side(const sw_contact *c, const sw_candidate *k, sw_vec local,
                      sw_closest *near) {
-  if (near->gap >= 0) return 1;
+  if (near->gap >= 0 || c->flat[k->obstacle]) return 1; /* a half space has one side */
   const sw_memory *m = memory_for(c, k, near->at);
   if (!m) return c->fresh;
   if (sw_dot(m->normal, near->normal) > 0.7) return 1; /* within 45 degrees: the same face */
