@@ -6,24 +6,22 @@
 
 #include "base/simd.h"
 
-/* Inverse of a symmetric 3 x 3 block by cofactors. The leading minors tell the
- * signs of its pivots. Returns the determinant. */
+/* Inverse of a symmetric 3 x 3 block: the first row is eliminated, the rest is
+ * inverted by cofactors. (Cofactors of the whole block would lose the square of
+ * the ratio of axial to bending stiffness.) The leading minors tell the signs of
+ * the pivots. Returns the determinant. */
 static inline double invert(const double d[6], double inverse[6], size_t *negative) {
-  const double c00 = d[3] * d[5] - d[4] * d[4];
-  const double c01 = d[2] * d[4] - d[1] * d[5];
-  const double c02 = d[1] * d[4] - d[2] * d[3];
-  const double minor = d[0] * d[3] - d[1] * d[1];
-  const double det = d[0] * c00 + d[1] * c01 + d[2] * c02;
-  const double r = 1.0 / det;
-  inverse[0] = c00 * r;
-  inverse[1] = c01 * r;
-  inverse[2] = c02 * r;
-  inverse[3] = (d[0] * d[5] - d[2] * d[2]) * r;
-  inverse[4] = (d[1] * d[2] - d[0] * d[4]) * r;
-  inverse[5] = minor * r;
-  *negative += (size_t)(d[0] < 0) + (size_t)(d[0] < 0 ? minor > 0 : minor < 0) +
-               (size_t)(minor < 0 ? det > 0 : det < 0);
-  return det;
+  const double r0 = 1.0 / d[0], l1 = d[1] * r0, l2 = d[2] * r0;
+  const double s3 = d[3] - l1 * d[1], s4 = d[4] - l1 * d[2], s5 = d[5] - l2 * d[2];
+  const double minor = s3 * s5 - s4 * s4, r = 1.0 / minor;
+  inverse[3] = s5 * r;
+  inverse[4] = -s4 * r;
+  inverse[5] = s3 * r;
+  inverse[1] = -(l1 * inverse[3] + l2 * inverse[4]);
+  inverse[2] = -(l1 * inverse[4] + l2 * inverse[5]);
+  inverse[0] = r0 - (l1 * inverse[1] + l2 * inverse[2]);
+  *negative += (size_t)(d[0] < 0) + (size_t)(s3 < 0) + (size_t)(s3 < 0 ? minor > 0 : minor < 0);
+  return d[0] * minor;
 }
 
 /* w = S u for symmetric S. */
