@@ -8,7 +8,7 @@ local along, dot, norm, apart = samples.along, samples.dot, samples.norm, sample
 -- Central differences of step H lose about 1e-16/H to rounding and H^2 to the
 -- next derivative, which sharp hinges make large.
 local H = 1e-5
-local TOLERANCE = 2e-6
+local TOLERANCE = 2e-7
 local EXACT = 1e-11 -- sums and rotations: rounding only
 local SIZE = 1e-3 -- forces below this count as this when errors are compared [N]
 
