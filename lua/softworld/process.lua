@@ -70,7 +70,7 @@ local function timeout_of(options)
   end
   local timeout = options.timeout
   if timeout == nil or timeout == math.huge then return math.huge end
-  if type(timeout) ~= "number" or not (timeout >= 0) then
+  if type(timeout) ~= "number" or timeout ~= timeout or timeout < 0 then
     error(("p:wait_until: timeout = %s is not allowed; it must be at least 0 s")
       :format(tostring(timeout)), 3)
   end
