@@ -235,6 +235,12 @@ static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const
   s->why = report->reason;
 }
 
+sw_status sw_scene_begin_run(sw_scene *s, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  sw_scene_reset_extremes(s);
+  return SW_OK;
+}
+
 sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
                            int (*interrupted)(void), sw_run_report *report, sw_error *err) {
   sw_error why = {""};
