@@ -11,7 +11,7 @@ local bench = {}
 --- Columns of a row, in the order of the file.
 bench.columns = { "case", "model", "segments", "integrator", "dt", "tolerance", "error", "unit",
   "wall", "cpu", "runs", "steps", "rejected", "iterations", "evaluations", "penetration",
-  "crossings", "looked", "status", "reason" }
+  "crossings", "looked", "bytes", "status", "reason" }
 
 bench.batch = 0.02 -- shortest time that is averaged [s]
 bench.batches = 3  -- the best of this many counts
@@ -121,7 +121,7 @@ local function empty_row(case, config)
     integrator = config.integrator or "static", dt = config.dt or "",
     tolerance = config.tolerance or "", error = "", unit = case.unit or "% of L", wall = "", cpu = "",
     runs = 0, steps = 0, rejected = 0, iterations = 0, evaluations = 0, penetration = "",
-    crossings = "", looked = "", status = "ok", reason = "" }
+    crossings = "", looked = "", bytes = "", status = "ok", reason = "" }
 end
 
 -- The step of an explicit method from its share of the stable one.
@@ -134,6 +134,25 @@ local function fixed_step(state, config)
   return copy
 end
 
+local function in_use()
+  collectgarbage()
+  collectgarbage()
+  return (core.allocated())
+end
+
+-- Bytes of the core per node, of a scene that has made one step.
+local function weigh(case, config)
+  local before = in_use()
+  local state = case.make(config)
+  state.scene:advance(options_of(config), config.dt)
+  local bytes = in_use() - before
+  state.scene:close()
+  return bytes / (config.segments + 1)
+end
+
+-- One line of a message.
+local function line_of(text) return (tostring(text):match "[^\n]*") end
+
 --- Run one configuration { model =, segments =, integrator =, dt = or tolerance = or share = } of a
 -- case. `share` is the step in shares of an explicit method's stable one. Never raises for what
 -- the physics does: the row's status is ok, diverged (a run), failed (a rest), or refused (the
@@ -142,7 +161,7 @@ function bench.row(case, config, untimed)
   local fine, state = pcall(case.make, config)
   if not fine then
     local row = empty_row(case, config)
-    row.status, row.reason = "refused", tostring(state)
+    row.status, row.reason = "refused", line_of(state)
     return row
   end
   config = fixed_step(state, config)
@@ -151,11 +170,12 @@ function bench.row(case, config, untimed)
   local done, total, status, reason = pcall(examine, case, state, config)
   if not done then
     if core.interrupted() then error(total, 0) end
-    row.status, row.reason = "refused", tostring(total)
+    row.status, row.reason = "refused", line_of(total)
   else
     for key, value in pairs(total) do row[key] = value end
     row.status, row.reason = status, reason
   end
+  if case.weigh then row.bytes = weigh(case, config) end
   if row.status == "ok" then
     case.judge(state, row)
     if row.error ~= row.error then row.error, row.status, row.reason = "", "failed", "not a number" end

@@ -10,6 +10,7 @@ local cases = require "softworld.cases"
 local benchcases = {}
 
 local function known(name, title, static, options)
+  if not package.searchpath("softworld.cases." .. name, package.path) then return end
   benchcases[name] = { name = name, title = title, static = static,
     make = function(config)
       local all = { segments = config.segments, model = config.model }
@@ -86,5 +87,33 @@ function benchcases.walls.judge(state, row)
   row.penetration, row.crossings, row.looked = state.depth, state.crossings, state.looked
   row.error = 1e3 * state.depth
 end
+
+-- Cost of a node -----------------------------------------------------------------
+
+local edge, node_steps, least_steps = 0.01, 1e6, 20 -- [m], [-], [-]
+
+-- A wavy wire between two pins starts to fall: nothing of it is straight or at rest.
+benchcases.scale = { name = "scale", title = "Cost of a node, 10 mm edges", static = false,
+  unit = "", weigh = true }
+
+function benchcases.scale.make(config)
+  local sw = require "softworld"
+  local n, points = config.segments, {}
+  for i = 0, n do
+    local s = i * edge
+    points[i + 1] = { s * 0.99, 0, 0.02 * math.sin(4 * s) }
+  end
+  local scene = sw.scene{ name = "scale" }
+  local wire = scene:wire{ model = config.model, segments = n, E = 9.4176e8, density = 1500,
+    radius = 0.0025, path = points }
+  scene:pin(wire, { s = 0 })
+  scene:pin(wire, { s = wire.length })
+  local steps = math.min(1000, math.max(least_steps, node_steps / n))
+  return { scene = scene, wire = wire, duration = steps * config.dt }
+end
+
+function benchcases.scale.run(state, options) return state.scene:advance(options, state.duration) end
+
+function benchcases.scale.judge(_, row) row.error = "" end
 
 return benchcases
