@@ -61,18 +61,20 @@ local function amplification(tail, y)
   return (re * re + im * im) ^ 0.5
 end
 
---- The largest h omega [-] at which amplitudes grow less than a factor `growth` in `steps` steps,
--- for all omega up to it: the stability limit of a method without damping. Methods with a sharp
--- limit have it for any count; those of odd order grow slowly at every step.
-function bench.limit(name, steps, growth)
-  local tail = tails[name]
-  if not tail then
-    local limit = bench.integrator(name).leapfrog_limit
-    -- GSL's rk4 takes each step as two halves
-    return name == "gsl-rk4" and 2 * 8 ^ 0.5 or limit
+--- |R(i y)|: the growth of an undamped motion in one step of an explicit method, y = h omega [-].
+function bench.growth(name, y)
+  if name == "symplectic-euler" or name == "velocity-verlet" then -- both are leapfrog
+    return y <= 2 and 1 or y * y / 2 - 1 + y * (y * y / 4 - 1) ^ 0.5
   end
+  if name == "gsl-rk4" then return amplification({ order = 4 }, y / 2) ^ 2 end -- takes two halves
+  return amplification(tails[name] or { order = bench.integrator(name).order }, y)
+end
+
+--- The largest h omega [-] up to which amplitudes grow less than a factor `growth` in `steps` steps.
+-- Methods with a sharp limit have it for any count; some of odd order grow slowly at every step.
+function bench.limit(name, steps, growth)
   local allowed, y = growth ^ (1 / steps), 0
-  while y < 20 and amplification(tail, y + 1e-3) <= allowed do y = y + 1e-3 end
+  while y < 20 and bench.growth(name, y + 1e-3) <= allowed do y = y + 1e-3 end
   return y
 end
 
