@@ -33,6 +33,7 @@ typedef struct sw_touch {
   sw_vec tangential; /* friction force after the last solve [N] */
   double gap_after;  /* after the last solve [m] */
   int sliding;
+  int turned;     /* taken as sliding one way, it would have gone the other way */
   int known;      /* it touched at the step's start */
   int held;       /* both ends are held: no force */
 } sw_touch;
@@ -48,10 +49,10 @@ typedef struct sw_memory {
   sw_vec elastic;       /* displacement of the friction spring, local [m] */
 } sw_memory;
 
-/* A crossing found by the swept test: the segment is kept on its side of a
- * plane for the rest of the step. */
+/* A crossing found by the swept test: the place is kept on its side of a plane
+ * for the rest of the step. */
 typedef struct sw_barrier {
-  int obstacle;
+  int obstacle, segment;
   size_t node;
   double at;
   sw_vec normal, point; /* local [-], [m] */
@@ -73,6 +74,8 @@ struct sw_contact {
   size_t candidate_count, candidate_capacity;
   sw_touch *touches, *last; /* of this iterate and of the one before */
   size_t touch_count, touch_capacity, last_count, last_capacity;
+  sw_touch *pressed; /* touches with a force at the end of a stage of this trial */
+  size_t pressed_count, pressed_capacity;
   sw_memory *memory, *next_memory;
   size_t memory_count, memory_capacity, next_count, next_capacity;
   sw_barrier *barriers;
@@ -83,8 +86,15 @@ struct sw_contact {
   double base_stiffness; /* from the expected forces [N/m] */
   double rate2;          /* stiffness per mass [1/s2] */
   sw_contact_regime regime;
-  int first_iterate; /* of a step */
+  int fresh;       /* 1: no step was accepted yet, there is no memory */
+  double widening; /* of the reserve for flight, when nodes went further [-] */
 };
+
+/* How far a node of velocity v may go in the step unnoticed [m]. */
+double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v);
+
+/* Fill the list of candidates for the step. */
+sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err);
 
 /* The place of a candidate on its segment. */
 static inline sw_vec sw_touch_place(const double *x, size_t node, int segment, double at) {

@@ -41,6 +41,10 @@ enum { MOST_REDOS = 40 };        /* impacts found one after another in one step 
 static const double SMALLEST_SHARE = 1.0 / 4096; /* of a step, before giving up [-] */
 static const double LARGEST_STRAIN = 10.0;       /* beyond it a run has diverged [-] */
 
+/* An edge squeezed below this share of its length is beyond Hooke's law; a
+ * smaller step may avoid it [-]. */
+static const double LEAST_SHARE = 0.3;
+
 typedef struct loop {
   sw_scene *s;
   const sw_run_args *args;
@@ -69,6 +73,10 @@ static sw_status check_trial(const sw_scene *s, sw_error *err) {
       const double *a = x + 3 * (body->first_node + e);
       const double l2 = sw_norm2(sw_sub(sw_load(a + 3), sw_load(a)));
       const double most = (1.0 + LARGEST_STRAIN) * body->plan->rest[e];
+      const double least = LEAST_SHARE * body->plan->rest[e];
+      if (l2 < least * least)
+        return sw_fail(err, SW_ENOCONV, "wire '%s' is crushed near s = %.4g m", s->wires[b].name,
+                       body->plan->s[e]);
       if (!(l2 <= most * most))
         return sw_fail(err, SW_EDIVERGED, "wire '%s' is torn apart near s = %.4g m",
                        s->wires[b].name, body->plan->s[e]);

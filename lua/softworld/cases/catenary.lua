@@ -7,6 +7,7 @@
 -- @module softworld.cases.catenary
 local sw = require "softworld"
 local frame = require "softworld.cases.frame"
+local wires = require "softworld.cases.wire"
 
 -- Catenary, closed form: L/span, sag/L, H/(w L), end tension/(w L).
 local strings = {
@@ -47,11 +48,6 @@ local function chain(span, count)
   return points
 end
 
-local function move_ends(c, span)
-  local f = c.frame
-  c.right:pose(f.point(span, 0, 0))
-end
-
 return function(options)
   local f = frame.new(options)
   local model = options.model or "string"
@@ -69,9 +65,11 @@ return function(options)
       source = "boundary-value solution of the heavy elastica, error 1e-9" } or
       { sag = row[2], H = row[3] * w, T = row[4] * w, source = "catenary, closed form" }) }
   if rod then
-    p.from, p.to = f.point(0, 0, 0), f.point(1, 0, 0)
+    p.path = wires.arch(f, p.segments, span, function(u) return -math.sin(2 * math.pi * u) end)
     c.wire = scene:wire(p)
-    c.left, c.right = scene:clamp(c.wire, { s = 0 }), scene:clamp(c.wire, { s = c.wire.length })
+    local level = f.vector(1, 0, 0)
+    c.left = scene:clamp(c.wire, { s = 0, direction = level })
+    c.right = scene:clamp(c.wire, { s = c.wire.length, direction = level })
   else
     p.path = {}
     for i, q in ipairs(chain(span, p.segments)) do p.path[i] = f.point(q[1], q[2], q[3]) end
@@ -80,20 +78,7 @@ return function(options)
   end
   c.clamp = c.left
 
-  --- Rods are brought together from straight in some steps.
-  function c.run(o)
-    o = o or {}
-    if not rod then return scene:settle(o) end
-    local steps, total, result = options.steps or 40, 0, nil
-    for k = 1, steps do
-      move_ends(c, 1 - (1 - span) * k / steps)
-      result = scene:settle(o)
-      total = total + result.iterations
-      if not result.ok then return result end
-    end
-    result.iterations = total
-    return result
-  end
+  function c.run(o) return scene:settle(o or {}) end
 
   function c.measured()
     local middle = f.local_point(c.wire:position(c.wire.length / 2))

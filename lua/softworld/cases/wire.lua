@@ -24,8 +24,29 @@ function wire.straight(scene, frame, p, from, to)
   return scene:wire(p)
 end
 
---- Linear interpolation in log x of column k of rows { {x, y, ...}, ... }; exact rows
--- come back exactly, others as nil.
+--- Points of an inextensible curve of length 1 in the x-z plane from (0, 0, 0) to
+-- (span, 0, 0) whose slope is a multiple of shape(u), u = s/L, found by bisection.
+function wire.arch(frame, segments, span, shape)
+  local low, high = 0, 2.5
+  local function width(size)
+    local x = 0
+    for i = 1, segments do x = x + math.cos(size * shape((i - 0.5) / segments)) / segments end
+    return x
+  end
+  for _ = 1, 60 do
+    local middle = (low + high) / 2
+    if width(middle) > span then low = middle else high = middle end
+  end
+  local x, z, points = 0, 0, { frame.point(0, 0, 0) }
+  for i = 1, segments do
+    local slope = low * shape((i - 0.5) / segments)
+    x, z = x + math.cos(slope) / segments, z + math.sin(slope) / segments
+    points[i + 1] = frame.point(x, 0, z)
+  end
+  return points
+end
+
+--- The row that starts with key, or nil.
 function wire.row(rows, key)
   for _, row in ipairs(rows) do
     if math.abs(row[1] - key) <= 1e-6 * math.abs(key) then return row end
