@@ -153,6 +153,7 @@ end
 local function draw(map, name, title, xlabel)
   for _, extension in ipairs{ ".svg", ".png" } do
     map.path, map.title, map.xlabel = out .. "/" .. name .. extension, title, xlabel
+    map.size = { 280 + 130 * #map.columns, 140 + 42 * #map.rows }
     chart.map(map)
   end
 end

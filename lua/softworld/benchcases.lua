@@ -9,13 +9,11 @@ local cases = require "softworld.cases"
 
 local benchcases = {}
 
-local function known(name, title, static, options)
+local function known(name, title, static, unit)
   if not package.searchpath("softworld.cases." .. name, package.path) then return end
-  benchcases[name] = { name = name, title = title, static = static,
+  benchcases[name] = { name = name, title = title, static = static, unit = unit,
     make = function(config)
-      local all = { segments = config.segments, model = config.model }
-      for key, value in pairs(options or {}) do all[key] = value end
-      return cases[all.case or name](all)
+      return cases[name]{ segments = config.segments, model = config.model }
     end,
     run = function(state, run_options) return state.run(run_options) end,
     judge = function(state, row) row.error = 100 * state.error() end,
@@ -25,12 +23,12 @@ end
 known("droop", "S1: a cantilever's droop, Gamma = 10", true)
 known("release", "S2: release of a cantilever, Gamma = 10, 1 s", false)
 known("transport", "Transport of a hanging wire, 2 s", false)
-known("catenary", "Catenary, L/span = 1.5", true)
-known("lift", "One end lifted from a table", true)
+known("catenary", "Catenary, L/span = 1.5", true, "%")
+known("lift", "One end lifted from a table", true, "%")
 
 -- Laying over three walls -----------------------------------------------------
 
-local walls = { x = { 0.4, 0.9, 1.4 }, thick = 0.01, high = 0.1 } -- [m]
+local walls = { x = { 0.4, 0.9, 1.4 }, high = 0.1 } -- as in softworld.cases.laying [m]
 local looks = 50 -- per second
 
 -- Where the wire passes the walls' middle planes: passes, and those below the top.
@@ -52,19 +50,10 @@ benchcases.walls = { name = "walls", title = "S3: laying over three walls, 5 s",
   unit = "mm deep" }
 
 function benchcases.walls.make(config)
-  local sw = require "softworld"
-  local scene = sw.scene{ name = "walls" }
-  local wire = scene:wire{ model = config.model, segments = config.segments, E = 9.4176e8,
-    density = 1500, radius = 0.0025, from = { 0, 0, 0.15 }, to = { -1, 0, 0.15 } }
-  local clamp = scene:clamp(wire, { s = 0 })
-  scene:obstacle{ shape = "plane", friction = 0.3 }
-  for _, x in ipairs(walls.x) do
-    scene:obstacle{ shape = "box", size = { walls.thick, 1, walls.high },
-      at = { x, 0, walls.high / 2 }, friction = 0.3 }
-  end
-  clamp:follow{ points = { { 0, 0, 0.15 }, { 2, 0, 0.15 } }, duration = 5, law = "minimum-jerk" }
-  return { scene = scene, wire = wire, duration = config.duration or 5, depth = 0, crossings = 0,
-    looked = 0 }
+  local c = cases.laying{ segments = config.segments, model = config.model }
+  c.clamp:follow{ points = { { 0, 0, 0.15 }, { 2, 0, 0.15 } }, duration = 5, law = "minimum-jerk" }
+  return { scene = c.scene, wire = c.wire, duration = config.duration or c.duration, depth = 0,
+    crossings = 0, looked = 0 }
 end
 
 function benchcases.walls.run(state, options)
