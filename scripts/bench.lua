@@ -234,7 +234,8 @@ local function print_walls()
   for _, r in ipairs(rows) do
     if r.case == "walls" then
       if not head then
-        print "\nS3, laying over walls           dt ms     wall ms  penetration mm  below tops  solves  rejected"
+        print("\nS3, laying over walls           dt ms     wall ms  penetration mm  below tops  "
+          .. "solves  rejected")
       end
       head = true
       print(("  %-28s %7.3f  %10.2f  %14s  %10s  %6d  %8d  %s"):format(("%s N=%d %s"):format(r.model,
@@ -300,4 +301,5 @@ end
 local counts = {}
 for status, count in pairs(bad) do counts[#counts + 1] = count .. " " .. status end
 table.sort(counts)
-print(("\n%d rows in %s%s"):format(#rows, path, #counts > 0 and " (" .. table.concat(counts, ", ") .. ")" or ""))
+print(("\n%d rows in %s%s"):format(#rows, path,
+  #counts > 0 and " (" .. table.concat(counts, ", ") .. ")" or ""))

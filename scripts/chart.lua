@@ -152,8 +152,8 @@ set ylabel 'tip error, RMS, of the length' noenhanced]]
     end
   end
   if #failed > 0 then
-    plots[#plots + 1] = ("%s using 1:2 with points pt 2 ps %g lw 2 lc rgb '#aa2222' title 'step too large: diverges'")
-      :format(script.data(failed), dot)
+    plots[#plots + 1] = script.data(failed) .. (" using 1:2 with points pt 2 ps %g lw 2 "):format(dot)
+      .. "lc rgb '#aa2222' title 'step too large: diverges'"
   end
   script.add("plot " .. table.concat(plots, ", "))
   print(gnuplot.draw(script, path, { 880, 440 }))

@@ -57,7 +57,8 @@ end
 
 local function print_explicit()
   print "explicit methods: largest stable step, against theory (weightless, straight, clamped)\n"
-  print "  wire            N   model   integrator         dt measured   dt theory    ratio  own limit/theory"
+  print("  wire            N   model   integrator         dt measured   dt theory    ratio  "
+    .. "own limit/theory")
   for _, r in ipairs(rows) do
     if r.group == "explicit" then
       print(("  %-13s %4d   %-6s  %-17s %9.4g us  %9.4g us  %7.4f  %7.4f%s"):format(r.item, r.segments,
@@ -122,7 +123,8 @@ end
 
 local function print_limits()
   print "\nwhere methods fail: energy in % of m g L/2 (of what is stored or flies, where that is meant)\n"
-  print "  scene                            model   N     integrator         dt ms     gain   change  rejected"
+  print("  scene                            model   N     integrator         dt ms     gain   change  "
+    .. "rejected")
   for _, r in ipairs(rows) do
     if r.group == "limits" then
       local function percent(x) return x and ("%.2f"):format(100 * x) or "-" end
@@ -167,8 +169,8 @@ print_implicit()
 if not quick then print_limits() end
 draw(explicit_map, "stability_explicit", "Largest stable step times the highest natural frequency [-]")
 if not quick then
-  draw(energy_map "release 1 s", "energy_release", "Energy change of a released cantilever [% of m g L/2 per s]",
-    "time step")
+  draw(energy_map "release 1 s", "energy_release",
+    "Energy change of a released cantilever [% of m g L/2 per s]", "time step")
   draw(energy_map "falls on a floor", "energy_floor",
     "Energy change of a cantilever that falls on a floor [% of m g L/2 in 1 s]", "time step")
 end

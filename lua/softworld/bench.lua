@@ -88,6 +88,7 @@ local function examine(case, state, config)
   local total = { steps = 0, rejected = 0, iterations = 0, evaluations = 0 }
   local r = case.run(state, options_of(config))
   for key in pairs(total) do total[key] = r[key] or 0 end
+  if case.static then total.evaluations = total.iterations end -- one each
   return total, r.ok and "ok" or case.static and "failed" or "diverged", r.ok and "" or r.reason
 end
 
@@ -110,12 +111,23 @@ function bench.time(again, work)
   return wall, cpu, runs
 end
 
+-- Wall and cpu time of a run, number of runs, last report. A case with `remake` starts from a new
+-- scene each time instead of the snapshot.
 local function measure_time(case, state, snapshot, config)
-  local options = options_of(config)
-  return bench.time(function() state.scene:restore(snapshot) end, function()
-    if case.static then case.run(state, options)
-    else state.scene:advance(options, state.duration) end
-  end)
+  local options, report = options_of(config), nil
+  local function again()
+    if not case.remake then return state.scene:restore(snapshot) end
+    state.scene:close()
+    state = case.make(config)
+    state.scene:snapshot() -- makes the system, which is no part of the run
+  end
+  local function work()
+    if case.static then report = case.run(state, options)
+    else report = state.scene:advance(options, state.duration) end
+  end
+  local wall, cpu, runs = bench.time(again, work)
+  state.scene:close()
+  return wall, cpu, runs, report
 end
 
 local function empty_row(case, config)
@@ -157,8 +169,8 @@ local function line_of(text) return (tostring(text):match "[^\n]*") end
 
 --- Run one configuration { model =, segments =, integrator =, dt = or tolerance = or share = } of a
 -- case. `share` is the step in shares of an explicit method's stable one. Never raises for what
--- the physics does: the row's status is ok, diverged (a run), failed (a rest), or refused (the
--- arguments were), with the reason.
+-- the physics does: the row's status is ok, diverged (a run), failed (a rest), refused (the
+-- arguments were) or unrepeatable (a snapshot did not give the same rest), with the reason.
 function bench.row(case, config, untimed)
   local fine, state = pcall(case.make, config)
   if not fine then
@@ -182,10 +194,16 @@ function bench.row(case, config, untimed)
     case.judge(state, row)
     if row.error ~= row.error then row.error, row.status, row.reason = "", "failed", "not a number" end
   end
-  if done and not untimed then
-    row.wall, row.cpu, row.runs = measure_time(case, state, snapshot, config)
+  if not done or untimed then
+    state.scene:close()
+    return row
   end
-  state.scene:close()
+  local report
+  row.wall, row.cpu, row.runs, report = measure_time(case, state, snapshot, config)
+  if case.static and report.iterations ~= row.iterations then
+    row.status = "unrepeatable"
+    row.reason = ("%d iterations, then %d from a snapshot"):format(row.iterations, report.iterations)
+  end
   return row
 end
 

@@ -24,7 +24,7 @@ local function follow(scene, options, duration, unit)
     if k == looks then row.status, row.change = "ok", change end
   end
   row.wall = core.clock() - began
-  if row.status == "ok" and not (row.gain < 0.02) then row.status = "gains" end
+  if row.status == "ok" and (row.gain >= 0.02 or row.gain ~= row.gain) then row.status = "gains" end
   return row
 end
 
@@ -110,7 +110,8 @@ local function add_all(implicit)
       add(("one hinge of %g degrees opens"):format(degrees), folded, { angle = math.rad(degrees), dt = dt })
     end
   end
-  for _, way in ipairs{ { "flat", { 0, 1, 0 } }, { "endwise", { 1, 0, 0 } }, { "slanted", { 0.6, 0.8, 0 } } } do
+  local ways = { { "flat", { 0, 1, 0 } }, { "endwise", { 1, 0, 0 } }, { "slanted", { 0.6, 0.8, 0 } } }
+  for _, way in ipairs(ways) do
     for _, dt in ipairs{ 0.01, 0.002 } do
       add("30 m/s " .. way[1] .. " on a thin wall", flung, { along = way[2], dt = dt })
     end

@@ -171,7 +171,7 @@ function stable.measure(integrator, w, model, modes, rounds)
     return r.ok and r.rejected == 0 and scene:energy().total < blown * start
   end
   local found, how = stable.largest(bounded, expected / 1.5, expected * 1.5, rounds or 9)
-  local own = scene:stable_dt() 
+  local own = scene:stable_dt()
   scene:close()
   return found, expected, how, own
 end

@@ -289,7 +289,8 @@ local function narrow_tics(script, axis, low, high)
       end
     end
   end
-  if #tics > 0 then script.add("set m%stics default\nset %stics (%s)", axis, axis, table.concat(tics, ", ")) end
+  if #tics == 0 then return end
+  script.add("set m%stics default\nset %stics (%s)", axis, axis, table.concat(tics, ", "))
 end
 
 --- A log-log chart of cost against error, or the like.
