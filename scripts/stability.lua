@@ -79,9 +79,11 @@ local function climb(case, segments, integrator)
     integrator = integrator, status = "ok" }
   local clean = true
   for _, dt in ipairs(ladder) do
-    local r = bench.row(benchcases[case], { segments = segments, integrator = integrator, dt = dt }, true)
-    if r.status ~= "ok" then
-      row.status, row.reason = r.status, r.reason
+    local state = benchcases[case].make{ segments = segments }
+    local r = state.scene:advance({ dt = dt, integrator = integrator }, state.duration)
+    state.scene:close()
+    if not r.ok then
+      row.status, row.reason = "diverged", r.reason
       row.note = ("at %g ms"):format(1e3 * dt)
       break
     end
