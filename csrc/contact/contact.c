@@ -13,7 +13,7 @@
 static const double ALLOWED_PENETRATION = 20e-6;
 /* Stiffness over mass/hbar^2 in implicit steps: far above what the step
  * resolves, so that the gap closes to a thousandth of the free fall [-]. */
-static const double IMPLICIT_SHARE = 10000.0;
+static const double IMPLICIT_SHARE = 1000.0;
 /* An explicit step is stable while k h^2 / m stays below 4 [-]. */
 static const double EXPLICIT_SHARE = 0.2;
 static const double STAGE_SHARE = 0.3; /* hbar of the default method over the step [-] */
@@ -171,6 +171,9 @@ static void match_memory(sw_contact *c) {
       m++;
     k->memory_end = m;
     k->last = k->last_end = 0;
+    k->boost = 1.0;
+    for (size_t j = k->memory; j < k->memory_end; j++)
+      k->boost = fmax(k->boost, c->memory[j].boost);
   }
 }
 
@@ -241,6 +244,9 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
                    .feature = t->feature,
                    .at = t->at,
                    .normal_force = t->normal_force,
+                   .sliding = t->next_sliding,
+                   .depth = t->normal_force / t->k,
+                   .boost = t->normal_force > 0 ? c->candidates[t->candidate].boost : 1.0,
                    .normal = sw_rotate(back, t->normal),
                    .point = sw_pose_local(o->pose, t->point)};
   if (t->normal_force > 0)
@@ -292,8 +298,9 @@ void sw_contact_force(const sw_contact *c, int id, sw_vec about, sw_vec *force, 
 double sw_contact_penetration(const sw_contact *c, size_t *node) {
   double deepest = 0;
   for (size_t i = 0; i < c->touch_count; i++) {
-    if (-c->touches[i].gap_after <= deepest) continue;
-    deepest = -c->touches[i].gap_after;
+    const double depth = c->touches[i].forgiven - c->touches[i].gap_after;
+    if (depth <= deepest) continue;
+    deepest = depth;
     if (node) *node = c->touches[i].node;
   }
   return deepest;

@@ -15,6 +15,7 @@ typedef struct sw_candidate {
   double radius, mass; /* of the wire there [m], [kg] */
   size_t memory, memory_end; /* matching range of the memory */
   size_t last, last_end;     /* matching range of the last iterate's touches */
+  double boost; /* of the stiffness, where the penetration would be too deep [-] */
 } sw_candidate;
 
 /* One place where a wire's surface is near an obstacle. */
@@ -26,16 +27,18 @@ typedef struct sw_touch {
   sw_vec normal;  /* world, outward [-] */
   sw_vec point;   /* on the obstacle, world [m] */
   double gap;     /* of the surfaces at this iterate [m] */
+  double forgiven; /* part of the true depth left out of gap in this step [m] */
   double k;       /* stiffness, normal and tangential [N/m] */
   double lag;     /* normal force that friction takes as given [N] */
   double normal_force; /* after the last solve [N] */
   sw_vec trial;   /* tangential displacement from the anchor at this iterate [m] */
   sw_vec tangential; /* friction force after the last solve [N] */
   double gap_after;  /* after the last solve [m] */
-  int sliding;
-  int turned;     /* taken as sliding one way, it would have gone the other way */
+  int sliding;      /* assumed in this iterate */
+  int next_sliding; /* as the last solve found it */
   int known;      /* it touched at the step's start */
   int held;       /* both ends are held: no force */
+  size_t candidate; /* index of what it was made from */
 } sw_touch;
 
 /* What is kept of a touch between steps; in the obstacle's coordinates. */
@@ -45,7 +48,10 @@ typedef struct sw_memory {
   int feature;
   double at;
   double normal_force; /* 0: near, but without force [N] */
+  double depth;        /* that goes with normal_force [m] */
+  double boost;        /* [-] */
   sw_vec normal, point; /* the side: local [-], [m] */
+  int sliding;
   sw_vec elastic;       /* displacement of the friction spring, local [m] */
 } sw_memory;
 

@@ -244,13 +244,14 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   loop p = {.s = s, .args = args, .report = report};
   p.v_start = sw_alloc(s->contact ? 3 * s->system.nodes : 1, sizeof(double));
   if (!p.v_start) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
-  s->running = 1;
+  s->running++;
+  sw_status status = SW_OK;
   if (isfinite(args->frame) && s->frame_count == 0) {
-    sw_scene_store_frame(s, &why);
+    status = sw_scene_store_frame(s, &why);
     s->next_frame = s->time + args->frame;
   }
-  const sw_status status = run_loop(&p, until, interrupted, &why);
-  s->running = 0;
+  if (status == SW_OK) status = run_loop(&p, until, interrupted, &why);
+  s->running--;
   sw_free(p.v_start);
   report->evaluations = s->system.counters.evaluations - before;
   conclude(s, status, report, &why);
@@ -258,8 +259,9 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   return SW_OK;
 }
 
-double sw_scene_stable_dt(sw_scene *s) {
-  sw_error err;
-  if (sw_scene_build(s, &err) != SW_OK) return 0;
-  return sw_system_stable_dt(&s->system);
+sw_status sw_scene_stable_dt(sw_scene *s, double *dt, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_build(s, err));
+  *dt = sw_system_stable_dt(&s->system);
+  return SW_OK;
 }

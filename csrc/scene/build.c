@@ -103,17 +103,17 @@ static sw_status add_holds(sw_scene *s, size_t alive) {
 }
 
 static sw_status place_hold(void *user, int hold, double t, sw_hold_state *out, sw_error *err) {
-  const sw_scene *s = user;
+  sw_scene *s = user;
   sw_motion_state m;
-  SW_TRY(sw_drive_eval(&s->holds[s->hold_slot[hold]].drive, t, &m, err));
+  SW_TRY(sw_drive_eval(s, &s->holds[s->hold_slot[hold]].drive, t, &m, err));
   *out = (sw_hold_state){m.pose, m.v, m.a, m.omega, m.alpha};
   return SW_OK;
 }
 
 static sw_status place_obstacle(void *user, int o, double t, sw_motion_state *out,
                                 sw_error *err) {
-  const sw_scene *s = user;
-  return sw_drive_eval(&s->obstacles[o].drive, t, out, err);
+  sw_scene *s = user;
+  return sw_drive_eval(s, &s->obstacles[o].drive, t, out, err);
 }
 
 static sw_status add_contact(sw_scene *s) {

@@ -195,9 +195,9 @@ sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interru
   if (!block) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
   statics p = {s,         args,          report, interrupted, block, block + n, block + 2 * n,
                block + 3 * n, block + 5 * n, block + 4 * n, block + 5 * n + s->system.edges};
-  s->running = 1;
+  s->running++;
   sw_status status = find_rest(&p, &why);
-  s->running = 0;
+  s->running--;
   sw_scene_reset_extremes(s);
   if (status == SW_OK) status = sw_scene_observe(s, &why);
   sw_free(block);

@@ -74,7 +74,8 @@ function class.scene.obstacle(scene, args)
   local entry = copy(args)
   entry.object, entry.data = obstacle, nil
   if args.shape == "mesh" or args.shape == "hull" then
-    entry.vertices, entry.indices = obstacle:triangles()
+    entry.vertices, entry.indices = obstacle.shape:triangles()
+    for i, corner in ipairs(entry.indices) do entry.indices[i] = corner - 1 end
   end
   data.obstacles[#data.obstacles + 1] = entry
   core.data(obstacle).name = args.name
