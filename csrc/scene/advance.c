@@ -237,11 +237,13 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   p.v_start = sw_alloc(s->contact ? 3 * s->system.nodes : 1, sizeof(double));
   if (!p.v_start) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
   s->running = 1;
+  sw_status status = SW_OK;
   if (isfinite(args->frame) && s->frame_count == 0) {
-    sw_scene_store_frame(s, &why);
+    status = sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, &why); /* energies need it */
+    if (status == SW_OK) status = sw_scene_store_frame(s, &why);
     s->next_frame = s->time + args->frame;
   }
-  const sw_status status = run_loop(&p, until, interrupted, &why);
+  if (status == SW_OK) status = run_loop(&p, until, interrupted, &why);
   s->running = 0;
   sw_free(p.v_start);
   report->evaluations = s->system.counters.evaluations - before;
