@@ -30,4 +30,13 @@ require "softworld.run"      -- scene:run
 --- A new scene. { name =, gravity = {x, y, z} [m/s2] }
 function sw.scene(args) return core.scene(args) end
 
-return sw
+-- Loaded when first asked for.
+local lazy = { tune = "softworld.tune" }
+
+return setmetatable(sw, { __index = function(self, key)
+  local name = lazy[key]
+  if not name then return nil end
+  local module = require(name)
+  rawset(self, key, module)
+  return module
+end })
