@@ -14,6 +14,9 @@ local function droop(EI)
   return -cable:position(length)[3]
 end
 
-local found = sw.tune.minimise { from = 0.005, to = 0.2, f = function(EI) return (droop(EI) - measured) ^ 2 end }
+local function disagreement(EI) return (droop(EI) - measured) ^ 2 end
+
+local found = sw.tune.minimise { f = disagreement, from = 0.005, to = 0.2 }
 assert(found.ok, found.reason)
-print(("EI = %.5f N m2 after %d settles, droop %.5f m"):format(found.x, found.evaluations, droop(found.x)))
+print(("EI = %.5f N m2 after %d settles, droop %.5f m"):format(found.x, found.evaluations,
+  droop(found.x)))

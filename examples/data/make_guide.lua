@@ -5,7 +5,8 @@
 local path = ...
 
 -- Outline seen along x, and the triangles that fill it.
-local outline = { { -30, 0 }, { 30, 0 }, { 30, 60 }, { 20, 60 }, { 5, 30 }, { -5, 30 }, { -20, 60 }, { -30, 60 } }
+local outline = { { -30, 0 }, { 30, 0 }, { 30, 60 }, { 20, 60 }, { 5, 30 },
+  { -5, 30 }, { -20, 60 }, { -30, 60 } }
 local caps = { { 1, 2, 5 }, { 1, 5, 6 }, { 2, 3, 4 }, { 2, 4, 5 }, { 1, 6, 7 }, { 1, 7, 8 } }
 local half = 50
 

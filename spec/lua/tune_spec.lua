@@ -47,7 +47,8 @@ describe("tune.minimise", function()
     end }
     assert.are.equal(calls, r.evaluations)
     assert.is_true(r.iterations >= 1 and r.evaluations <= 60)
-    r = minimise { start = { 0, 0 }, max_iterations = 3, f = function(x) return x[1] ^ 2 + x[2] ^ 2 + x[1] end }
+    r = minimise { start = { 0, 0 }, max_iterations = 3,
+      f = function(x) return x[1] ^ 2 + x[2] ^ 2 + x[1] end }
     assert.are.equal(3, r.iterations)
     assert.is_false(r.ok)
     assert.are.equal("iterations used up", r.reason)
@@ -80,7 +81,7 @@ describe("tune.minimise", function()
   end)
 
   it("raises errors of the function unchanged, at the first one", function()
-    local mine, calls = setmetatable({}, {}), 0
+    local mine, calls = setmetatable({}, {})
     for _, args in ipairs { { from = 0, to = 1 }, { start = { 1, 2 } } } do
       calls = 0
       args.f = function()

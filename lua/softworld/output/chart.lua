@@ -122,7 +122,8 @@ local function panel_plot(script, time, panel, first, text)
     curves[k] = curve(script, time, column, first + k, title)
   end
   if not text then value_axis(script, panel) end
-  local axis = text and "" or series.head(single and panel[1].name or quantities[panel.unit] or "", panel.unit)
+  local name = single and panel[1].name or quantities[panel.unit] or ""
+  local axis = text and "" or series.head(name, panel.unit)
   script.add("set ylabel %s noenhanced", quote(axis))
   script.add("plot " .. table.concat(curves, ", "))
   return first + #panel
