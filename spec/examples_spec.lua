@@ -84,14 +84,13 @@ describe("example", function()
       core.class.scene.run = function(self, args)
         args.progress = nil
         scene, run = self, real(self, args)
+        rawset(run, "summary", function() end) -- the next test runs it aloud
         return run
       end
       local env = setmetatable({ arg = { [0] = name, "quick", folder }, print = function() end },
         { __index = _G })
-      local loud = io.stdout
-      io.stdout = { write = function() end }
       local ok, err = pcall(assert(loadfile(name, "t", env)))
-      io.stdout, core.class.scene.run = loud, real
+      core.class.scene.run = real
       assert(ok, err)
     end)
 
@@ -183,7 +182,8 @@ describe("example", function()
               if a * b <= 0 and a ~= b then
                 local z = x[k + 2] + (x[k + 5] - x[k + 2]) * a / (a - b)
                 -- The surface of the wire stays above the top, but for 0.1 mm.
-                assert.is_true(z - radius > 0.1 - 1e-4, ("t = %g s: z = %g m in wall %d"):format(frame.t, z, i))
+                assert.is_true(z - radius > 0.1 - 1e-4,
+                  ("t = %g s: z = %g m in wall %d"):format(frame.t, z, i))
                 over[i] = true
               end
             end

@@ -81,9 +81,9 @@ describe("tune.minimise", function()
   end)
 
   it("raises errors of the function unchanged, at the first one", function()
-    local mine, calls = setmetatable({}, {})
+    local mine = setmetatable({}, {})
     for _, args in ipairs { { from = 0, to = 1 }, { start = { 1, 2 } } } do
-      calls = 0
+      local calls = 0
       args.f = function()
         calls = calls + 1
         if calls == 3 then error(mine) end

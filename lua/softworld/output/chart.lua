@@ -50,7 +50,12 @@ local function wanted_columns(data, names)
     for _, column in ipairs(data.columns) do
       if column.name == name then list[i] = column end
     end
-    if not list[i] then sink.fail("a chart: the run has no series named %s", tostring(name)) end
+    if not list[i] then
+      local known = {}
+      for k, column in ipairs(data.columns) do known[k] = column.name end
+      sink.fail("a chart: the run has no series named %s; it has: %s", tostring(name),
+        table.concat(known, ", "))
+    end
   end
   return list
 end
