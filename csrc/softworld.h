@@ -14,5 +14,6 @@
 #include "motion/motion.h"
 #include "scene/scene.h"
 #include "shape/shape.h"
+#include "solve/band3.h"
 
 #endif

@@ -5,34 +5,50 @@
 #include "bind/bind_motion.h"
 #include "bind/child.h"
 
-/* A Lua function as a force. The function and its arrays live in the scene's
- * user value 1, so that the garbage collector sees them; while a run is under
- * way the scene is at stack index 1 of the state in lsw_running. */
-typedef struct lua_force {
-  int number; /* key in the scene's table */
-} lua_force;
+/* A Lua function as a force. The function and its arrays are an entry of a table
+ * in the scene's user value 1, so that the garbage collector sees them: { call =,
+ * x =, v =, f =, slot =, generation = }. Whatever evaluates forces is a method of
+ * the scene, so that the scene is at stack index 1 of the running state. */
+static lua_State *running;
 
-lua_State **lsw_running(void);
+lua_State *lsw_begin_forces(lua_State *L) {
+  lua_State *outer = running;
+  running = L;
+  return outer;
+}
 
+void lsw_end_forces(lua_State *outer) { running = outer; }
+
+/* Make the array under key hold n values (zeros for NULL) and nothing else. */
 static void push_flat(lua_State *L, int table, const char *key, const double *values, size_t n) {
   lua_getfield(L, table, key);
   for (size_t i = 0; i < n; i++) {
     lua_pushnumber(L, values ? values[i] : 0.0);
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }
+  /* one table serves all wires of the force, whose node counts may differ */
+  for (size_t i = lua_rawlen(L, -1); i > n; i--) {
+    lua_pushnil(L);
+    lua_rawseti(L, -2, (lua_Integer)i);
+  }
 }
 
-/* f of the table's array into the field; returns the index of a bad item or 0. */
-static size_t read_back(lua_State *L, int array, sw_field *field, size_t n) {
+/* Add the table's array to the field. */
+static void read_back(lua_State *L, int array, sw_field *field, size_t n) {
+  if (lua_rawlen(L, array) > n)
+    luaL_error(L, "force function: f has %d items; it must keep its %d, three for each node",
+               (int)lua_rawlen(L, array), (int)n);
   for (size_t i = 0; i < n; i++) {
-    int number;
     lua_rawgeti(L, array, (lua_Integer)i + 1);
-    const double f = lua_tonumberx(L, -1, &number);
+    const double f = lua_tonumber(L, -1);
+    if (lua_type(L, -1) != LUA_TNUMBER || !isfinite(f))
+      luaL_error(L,
+                 "force function: component %d of the force on node %d is %s; it must be a finite "
+                 "number [N]",
+                 (int)(i % 3) + 1, (int)(i / 3) + 1, lsw_describe(L, -1));
     lua_pop(L, 1);
-    if (!number || !isfinite(f)) return i + 1;
     field->force[i] += f;
   }
-  return 0;
 }
 
 /* Runs protected: table of the force, the field. */
@@ -46,21 +62,20 @@ static int call_function(lua_State *L) {
   push_flat(L, 1, "f", NULL, n);
   lua_call(L, 4, 0);
   lua_getfield(L, 1, "f");
-  const size_t bad = read_back(L, lua_gettop(L), field, n);
-  if (bad)
-    luaL_error(L, "force function: component %d of the force on node %d is not a finite number",
-               (int)((bad - 1) % 3) + 1, (int)((bad - 1) / 3) + 1);
+  read_back(L, lua_gettop(L), field, n);
   return 0;
 }
 
 static sw_status call_force(void *user, sw_field *field, sw_error *err) {
-  lua_State *L = *lsw_running();
-  if (!L) return SW_OK; /* only runs and settles evaluate forces */
+  lua_State *L = running;
+  if (!L) return sw_fail(err, SW_EBUSY, "force function: nobody to call it");
   const int number = (int)(size_t)user;
   if (!lua_checkstack(L, 16)) return sw_fail(err, SW_ENOMEM, "force function: out of stack");
   lua_pushcfunction(L, call_function);
-  lua_getiuservalue(L, 1, 1);
-  lua_rawgeti(L, -1, number);
+  if (lua_getiuservalue(L, 1, 1) != LUA_TTABLE || lua_rawgeti(L, -1, number) != LUA_TTABLE) {
+    lua_pop(L, 2);
+    return sw_fail(err, SW_EDEAD, "force function: it is gone");
+  }
   lua_remove(L, -2);
   lua_pushlightuserdata(L, field);
   if (lua_pcall(L, 2, 0, 0) == LUA_OK) return SW_OK;
@@ -70,18 +85,53 @@ static sw_status call_force(void *user, sw_field *field, sw_error *err) {
 /* Keep the function at index under a new number of the scene's table. */
 static int keep_function(lua_State *L, lsw_scene_handle *owner, int function) {
   static const char *const arrays[] = {"x", "v", "f"};
-  const int number = ++owner->forces;
   lua_getiuservalue(L, 1, 1);
-  lua_createtable(L, 0, 4);
+  lua_createtable(L, 0, 6);
   lua_pushvalue(L, function);
   lua_setfield(L, -2, "call");
   for (int i = 0; i < 3; i++) {
     lua_newtable(L);
     lua_setfield(L, -2, arrays[i]);
   }
+  const int number = ++owner->forces;
   lua_rawseti(L, -2, number);
   lua_pop(L, 1);
   return number;
+}
+
+/* Note which force the function belongs to, or forget it when there is none. */
+static void mark_function(lua_State *L, int number, const sw_handle *id) {
+  lua_getiuservalue(L, 1, 1);
+  if (id && lua_rawgeti(L, -1, number) == LUA_TTABLE) {
+    lsw_set_integer(L, "slot", id->slot);
+    lsw_set_integer(L, "generation", id->generation);
+    lua_pop(L, 1);
+  } else if (!id) {
+    lua_pushnil(L);
+    lua_rawseti(L, -2, number);
+  }
+  lua_pop(L, 1);
+}
+
+static uint32_t get_count(lua_State *L, const char *name) {
+  lua_getfield(L, -1, name);
+  const lua_Integer value = lua_tointeger(L, -1);
+  lua_pop(L, 1);
+  return (uint32_t)value;
+}
+
+void lsw_forget_forces(lua_State *L, int index, const sw_scene *scene) {
+  lua_getiuservalue(L, index, 1);
+  lua_pushnil(L);
+  while (lua_next(L, -2)) {
+    const sw_handle id = {get_count(L, "slot"), get_count(L, "generation")};
+    lua_pop(L, 1);
+    if (sw_scene_force_needed(scene, id)) continue;
+    lua_pushvalue(L, -1);
+    lua_pushnil(L);
+    lua_rawset(L, -4); /* taking away while walking is allowed */
+  }
+  lua_pop(L, 1);
 }
 
 enum { OWN_ROWS = 2 };
@@ -119,7 +169,7 @@ int lsw_scene_force(lua_State *L) {
   sw_handle wire = {0, 0};
   char none;
   lua_settop(L, 2);
-  luaL_checktype(L, 2, LUA_TTABLE);
+  lsw_check_table(L, 2, "scene:force");
   if (lua_getfield(L, 2, "on") != LUA_TNIL)
     wire = lsw_check_child_of(L, 3, &lsw_class_wire, owner->h.object, "scene:force: on")->id;
   lua_getfield(L, 2, "kind");
@@ -130,14 +180,16 @@ int lsw_scene_force(lua_State *L) {
   const lsw_section sections[] = {{&own_params, &none}, {&cls->params, args}};
   lsw_sections(L, 2, function ? "force" : lua_pushfstring(L, "force %s", cls->name), sections,
                cls->params.count ? 2 : 1);
+  lsw_child *child = lsw_new_child(L, 1, &lsw_class_force);
+  const int number = function ? keep_function(L, owner, 4) : 0;
   if (function) {
-    callback.user = (void *)(size_t)keep_function(L, owner, 4); /* a number, not an address */
+    callback.user = (void *)(size_t)number; /* a number, not an address */
     memcpy(args, &callback, sizeof callback);
   }
-  lsw_child *child = lsw_new_child(L, 1, &lsw_class_force);
-  lsw_must(L,
-           sw_scene_add_force(owner->h.object, cls, wire, args, sizeof args, &child->id, &err),
-           &err);
+  const sw_status status =
+      sw_scene_add_force(owner->h.object, cls, wire, args, sizeof args, &child->id, &err);
+  if (function) mark_function(L, number, status == SW_OK ? &child->id : NULL);
+  lsw_must(L, status, &err);
   child->h.object = owner;
   return 1;
 }
@@ -147,10 +199,37 @@ static int meth_release(lua_State *L) {
   sw_error err = {""};
   const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
   lsw_must(L, sw_scene_remove_force(scene, f->id, &err), &err);
+  lua_getiuservalue(L, 1, 1);
+  lsw_forget_forces(L, lua_gettop(L), scene);
   return 0;
 }
 
-static const luaL_Reg methods[] = {{"release", meth_release}, {NULL, NULL}};
+static int prop_kind(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
+  const sw_force_class *cls = sw_scene_force_class(scene, f->id);
+  if (!cls) return luaL_error(L, "this force is not of scene '%s' any more", sw_scene_name(scene));
+  lua_pushstring(L, cls->name);
+  return 1;
+}
 
-const lsw_class lsw_class_force = {"force", sizeof(lsw_child), methods, NULL, NULL,
-                                   lsw_close_child, "this force handle has been closed"};
+static int meta_describe(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *f = lsw_find_child(L, &lsw_class_force, &scene);
+  if (!f) return 1;
+  const sw_force_class *cls = sw_scene_force_class(scene, f->id);
+  if (!cls) lua_pushliteral(L, "force (taken back when a snapshot was restored)");
+  else lua_pushfstring(L, "force %s: %s", cls->name, cls->summary);
+  return 1;
+}
+
+static const luaL_Reg methods[] = {{"release", meth_release}, {NULL, NULL}};
+static const luaL_Reg properties[] = {{"kind", prop_kind}, {NULL, NULL}};
+static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
+
+const lsw_class lsw_class_force = {.name = "force",
+                                   .size = sizeof(lsw_child),
+                                   .methods = methods,
+                                   .meta = meta,
+                                   .properties = properties,
+                                   .gone = "this force was never made"};

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lua class clamp (clamps, pins and grips) and scene:clamp, pin, grip. */
+#include <stdio.h>
+
 #include "bind/bind_motion.h"
 #include "bind/child.h"
 
@@ -103,13 +105,65 @@ static int meth_log(lua_State *L) {
   lsw_must(L, sw_scene_hold_log(scene, c->id, &rows, &count, &err), &err);
   const size_t skip = first > 1 ? (size_t)(first - 1) : 0;
   const size_t n = count > skip ? count - skip : 0;
-  lua_createtable(L, (int)(n * SW_LOG_SIZE), 0);
-  for (size_t i = 0; i < n * SW_LOG_SIZE; i++) {
-    lua_pushnumber(L, rows[skip * SW_LOG_SIZE + i]);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
+  lsw_push_flat(L, n ? rows + skip * SW_LOG_SIZE : NULL, n * SW_LOG_SIZE);
   lua_pushinteger(L, (lua_Integer)n);
   return 2;
+}
+
+/* --- what it is ----------------------------------------------------------------- */
+
+static const char *identity(lua_State *L, const char **kind, int *held) {
+  sw_scene *scene;
+  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
+  const char *name = sw_scene_hold_name(scene, c->id, kind, held);
+  if (!name) luaL_error(L, "this clamp is not of scene '%s' any more", sw_scene_name(scene));
+  return name;
+}
+
+static int prop_name(lua_State *L) {
+  const char *kind;
+  int held;
+  lua_pushstring(L, identity(L, &kind, &held));
+  return 1;
+}
+
+static int prop_kind(lua_State *L) {
+  const char *kind;
+  int held;
+  identity(L, &kind, &held);
+  lua_pushstring(L, kind);
+  return 1;
+}
+
+static int prop_held(lua_State *L) {
+  const char *kind;
+  int held;
+  identity(L, &kind, &held);
+  lua_pushboolean(L, held);
+  return 1;
+}
+
+static int meta_describe(lua_State *L) {
+  sw_scene *scene;
+  sw_error err;
+  const char *kind;
+  sw_vec force, moment;
+  int held;
+  char text[SW_NAME_SIZE + 160];
+  const lsw_child *c = lsw_find_child(L, &lsw_class_clamp, &scene);
+  if (!c) return 1;
+  const char *name = sw_scene_hold_name(scene, c->id, &kind, &held);
+  if (!name)
+    snprintf(text, sizeof text, "clamp (taken back when a snapshot was restored)");
+  else if (!held)
+    snprintf(text, sizeof text, "%s '%s' (released)", kind, name);
+  else if (sw_scene_hold_force(scene, c->id, NULL, &force, &moment, &err) != SW_OK)
+    snprintf(text, sizeof text, "%s '%s'", kind, name);
+  else
+    snprintf(text, sizeof text, "%s '%s': force on the wire (%.4g, %.4g, %.4g) N", kind, name,
+             force.x, force.y, force.z);
+  lua_pushstring(L, text);
+  return 1;
 }
 
 static const luaL_Reg methods[] = {{"force", meth_force},     {"moment", meth_moment},
@@ -117,5 +171,13 @@ static const luaL_Reg methods[] = {{"force", meth_force},     {"moment", meth_mo
                                    {"release", meth_release}, {"log", meth_log},
                                    {NULL, NULL}};
 
-const lsw_class lsw_class_clamp = {"clamp", sizeof(lsw_child), methods, NULL, NULL,
-                                   lsw_close_child, "this clamp handle has been closed"};
+static const luaL_Reg properties[] = {
+    {"name", prop_name}, {"kind", prop_kind}, {"held", prop_held}, {NULL, NULL}};
+static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
+
+const lsw_class lsw_class_clamp = {.name = "clamp",
+                                   .size = sizeof(lsw_child),
+                                   .methods = methods,
+                                   .meta = meta,
+                                   .properties = properties,
+                                   .gone = "this clamp was never made"};

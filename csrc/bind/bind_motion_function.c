@@ -49,7 +49,7 @@ static sw_status call(void *user, double t, sw_pose *out, sw_error *err) {
 
 static void release(void *user) {
   function *f = user;
-  luaL_unref(f->L, LUA_REGISTRYINDEX, f->reference);
+  if (lua_checkstack(f->L, 4)) luaL_unref(f->L, LUA_REGISTRYINDEX, f->reference);
   sw_free(f);
 }
 

@@ -227,7 +227,7 @@ sw_motion *lsw_motion_make(lua_State *L, int index, const char *what, const lsw_
   } else {
     status = make_path(L, index, what, args, &motion, &err);
   }
-  if (status != SW_OK) lsw_raise(L, status, &err);
+  if (status != SW_OK) lsw_motion_rethrow(L, status, &err);
   h->object = motion;
   lua_settop(L, own);
   return motion;

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lua class obstacle and scene:obstacle. */
+#include <stdio.h>
+
 #include "bind/bind_motion.h"
 #include "bind/bind_shape.h"
 #include "bind/child.h"
@@ -100,11 +102,7 @@ static int meth_log(lua_State *L) {
   size_t count;
   const lsw_child *o = check(L, &scene);
   lsw_must(L, sw_scene_obstacle_log(scene, o->id, &rows, &count, &err), &err);
-  lua_createtable(L, (int)(count * SW_LOG_OBSTACLE_SIZE), 0);
-  for (size_t i = 0; i < count * SW_LOG_OBSTACLE_SIZE; i++) {
-    lua_pushnumber(L, rows[i]);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
+  lsw_push_flat(L, rows, count * SW_LOG_OBSTACLE_SIZE);
   lua_pushinteger(L, (lua_Integer)count);
   return 2;
 }
@@ -125,7 +123,48 @@ static const luaL_Reg methods[] = {{"force", meth_force},   {"moment", meth_mome
                                    {"remove", meth_remove}, {"log", meth_log},
                                    {NULL, NULL}};
 
-static const luaL_Reg properties[] = {{"shape", prop_shape}, {NULL, NULL}};
+static int prop_name(lua_State *L) {
+  sw_scene *scene;
+  const char *kind;
+  int present;
+  const lsw_child *o = check(L, &scene);
+  const char *name = sw_scene_obstacle_name(scene, o->id, &kind, &present);
+  if (!name)
+    return luaL_error(L, "this obstacle is not of scene '%s' any more", sw_scene_name(scene));
+  lua_pushstring(L, name);
+  return 1;
+}
 
-const lsw_class lsw_class_obstacle = {"obstacle", sizeof(lsw_child), methods, NULL, properties,
-                                      lsw_close_child, "this obstacle handle has been closed"};
+static int meta_describe(lua_State *L) {
+  sw_scene *scene;
+  sw_error err;
+  const char *kind;
+  sw_vec force, moment;
+  int present;
+  char text[SW_NAME_SIZE + 160];
+  const lsw_child *o = lsw_find_child(L, &lsw_class_obstacle, &scene);
+  if (!o) return 1;
+  const char *name = sw_scene_obstacle_name(scene, o->id, &kind, &present);
+  if (!name)
+    snprintf(text, sizeof text, "obstacle (taken back when a snapshot was restored)");
+  else if (!present)
+    snprintf(text, sizeof text, "%s '%s' (removed)", kind, name);
+  else if (sw_scene_obstacle_force(scene, o->id, sw_v(0, 0, 0), &force, &moment, &err) != SW_OK)
+    snprintf(text, sizeof text, "%s '%s'", kind, name);
+  else
+    snprintf(text, sizeof text, "%s '%s': force on it (%.4g, %.4g, %.4g) N", kind, name, force.x,
+             force.y, force.z);
+  lua_pushstring(L, text);
+  return 1;
+}
+
+static const luaL_Reg properties[] = {
+    {"shape", prop_shape}, {"name", prop_name}, {NULL, NULL}};
+static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
+
+const lsw_class lsw_class_obstacle = {.name = "obstacle",
+                                      .size = sizeof(lsw_child),
+                                      .methods = methods,
+                                      .meta = meta,
+                                      .properties = properties,
+                                      .gone = "this obstacle was never made"};

@@ -1,16 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lua class scene: making, running, settling, snapshots, frames. */
+#include <stdio.h>
 #include <string.h>
 #include <time.h>
 
 #include "bind/bind_motion.h"
 #include "bind/child.h"
 #include "bind/module.h"
-
-/* The state whose run or settle is under way, for Lua forces; NULL otherwise. */
-static lua_State *running;
-lua_State **lsw_running(void);
-lua_State **lsw_running(void) { return &running; }
 
 static int mod_scene(lua_State *L) {
   sw_scene_args args;
@@ -30,6 +26,8 @@ static int mod_scene(lua_State *L) {
 
 static void close_scene(lsw_handle *h) { sw_scene_free(h->object); }
 
+static int scene_busy(const lsw_handle *h) { return sw_scene_busy(h->object); }
+
 static sw_scene *check(lua_State *L) {
   return ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
 }
@@ -42,6 +40,41 @@ static int mod_data(lua_State *L) {
   lua_newtable(L);
   lua_pushvalue(L, -1);
   if (!lua_setiuservalue(L, 1, 2)) return luaL_error(L, "this object keeps no data");
+  return 1;
+}
+
+/* core.type(x) -> the class of one of our objects, or nil */
+static int mod_type(lua_State *L) {
+  luaL_checkany(L, 1);
+  const lsw_class *c = lsw_class_of(L, 1);
+  lua_pushstring(L, c ? c->name : NULL);
+  return 1;
+}
+
+/* core.busy(scene): is it inside a step or a function of time? */
+static int mod_busy(lua_State *L) {
+  lua_pushboolean(L, sw_scene_busy(check(L)));
+  return 1;
+}
+
+/* core.exists(object): does its scene still know it? */
+static int mod_exists(lua_State *L) {
+  const lsw_class *c = lsw_class_of(L, 1);
+  const lsw_handle *h = lua_touserdata(L, 1);
+  const char *kind;
+  int alive;
+  int known = c && h->object;
+  if (known && !c->close) { /* a child */
+    const lsw_child *child = lua_touserdata(L, 1);
+    const sw_scene *scene = ((lsw_scene_handle *)child->h.object)->h.object;
+    known = scene && (c == &lsw_class_wire    ? sw_scene_wire_name(scene, child->id) != NULL
+                      : c == &lsw_class_clamp ? sw_scene_hold_name(scene, child->id, &kind,
+                                                                   &alive) != NULL
+                      : c == &lsw_class_force
+                          ? sw_scene_force_class(scene, child->id) != NULL
+                          : sw_scene_obstacle_name(scene, child->id, &kind, &alive) != NULL);
+  }
+  lua_pushboolean(L, known);
   return 1;
 }
 
@@ -89,10 +122,9 @@ static int meth_advance(lua_State *L) {
   sw_error err = {""};
   lsw_arguments(L, 2, "scene:run", &sw_run_params, &args);
   const double until = lsw_number(L, 3, "scene:advance: until", "s");
-  lua_State *outer = running;
-  running = L;
+  lua_State *outer = lsw_begin_forces(L);
   const sw_status status = sw_scene_advance(scene, &args, until, sw_interrupted, &r, &err);
-  running = outer;
+  lsw_end_forces(outer);
   lsw_must(L, status, &err);
   if (r.status == SW_EINTR || r.status == SW_ECALLBACK || r.status == SW_ENOMEM)
     lsw_must(L, r.status, &r.reason);
@@ -117,10 +149,9 @@ static int meth_settle(lua_State *L) {
   sw_settle_report r;
   sw_error err = {""};
   lsw_arguments(L, 2, "scene:settle", &sw_settle_params, &args);
-  lua_State *outer = running;
-  running = L;
+  lua_State *outer = lsw_begin_forces(L);
   const sw_status status = sw_scene_settle(scene, &args, sw_interrupted, &r, &err);
-  running = outer;
+  lsw_end_forces(outer);
   lsw_must(L, status, &err);
   if (sw_interrupted()) lsw_must(L, SW_EINTR, &err);
   lua_createtable(L, 0, 6);
@@ -171,7 +202,10 @@ static int meth_contacts(lua_State *L) {
 }
 
 static int meth_stable_dt(lua_State *L) {
-  lua_pushnumber(L, sw_scene_stable_dt(check(L)));
+  double dt;
+  sw_error err = {""};
+  lsw_must(L, sw_scene_stable_dt(check(L), &dt, &err), &err);
+  lua_pushnumber(L, dt);
   return 1;
 }
 
@@ -179,7 +213,9 @@ static int meth_stable_dt(lua_State *L) {
 static int meth_gravity(lua_State *L) {
   sw_scene *scene = check(L);
   if (lua_gettop(L) > 1) {
-    sw_scene_set_gravity(scene, lsw_vector(L, 2, "scene:gravity", "m/s2"));
+    sw_error err = {""};
+    const sw_vec g = lsw_vector(L, 2, "scene:gravity", "m/s2");
+    lsw_must(L, sw_scene_set_gravity(scene, g, &err), &err);
     return 0;
   }
   lsw_push_vector(L, sw_scene_gravity(scene));
@@ -210,11 +246,7 @@ static void push_frame_wires(lua_State *L, const sw_scene *scene, size_t frame) 
   const double *x;
   lua_newtable(L);
   for (size_t w = 0; (x = sw_scene_frame_wire(scene, frame, w, &count)) != NULL; w++) {
-    lua_createtable(L, (int)(3 * count), 0);
-    for (size_t i = 0; i < 3 * count; i++) {
-      lua_pushnumber(L, x[i]);
-      lua_rawseti(L, -2, (lua_Integer)i + 1);
-    }
+    lsw_push_flat(L, x, 3 * count);
     lua_rawseti(L, -2, (lua_Integer)w + 1);
   }
 }
@@ -260,7 +292,8 @@ static int meth_frame_count(lua_State *L) {
 }
 
 static int meth_clear_frames(lua_State *L) {
-  sw_scene_clear_frames(check(L));
+  sw_error err = {""};
+  lsw_must(L, sw_scene_clear_frames(check(L), &err), &err);
   return 0;
 }
 
@@ -285,14 +318,28 @@ static int meth_restore(lua_State *L) {
   lua_getiuservalue(L, 2, 1);
   if (!lua_rawequal(L, -1, 1)) return luaL_error(L, "restore: the snapshot is of another scene");
   lsw_must(L, sw_scene_restore(scene, h->object, &err), &err);
+  lsw_forget_forces(L, 1, scene);
   return 0;
 }
 
 static void close_snapshot(lsw_handle *h) { sw_snapshot_free(h->object); }
 
+static int snapshot_busy(const lsw_handle *h) { return sw_snapshot_busy(h->object); }
+
+static int describe_snapshot(lua_State *L) {
+  char text[80];
+  const lsw_handle *h = lsw_check(L, 1, &lsw_class_snapshot);
+  snprintf(text, sizeof text, "snapshot at t = %.6g s", sw_snapshot_time(h->object));
+  lua_pushstring(L, text);
+  return 1;
+}
+
 static int meta_describe(lua_State *L) {
   const sw_scene *scene = check(L);
-  lua_pushfstring(L, "scene '%s' at t = %f s", sw_scene_name(scene), sw_scene_time(scene));
+  char text[SW_NAME_SIZE + 64];
+  snprintf(text, sizeof text, "scene '%s' at t = %.6g s", sw_scene_name(scene),
+           sw_scene_time(scene));
+  lua_pushstring(L, text);
   return 1;
 }
 
@@ -305,6 +352,7 @@ static const luaL_Reg methods[] = {{"wire", lsw_scene_wire},
                                    {"advance", meth_advance},
                                    {"settle", meth_settle},
                                    {"energy", meth_energy},
+                                   {"evaluate", lsw_scene_evaluate},
                                    {"penetration", meth_penetration},
                                    {"contacts", meth_contacts},
                                    {"stable_dt", meth_stable_dt},
@@ -318,91 +366,34 @@ static const luaL_Reg methods[] = {{"wire", lsw_scene_wire},
 static const luaL_Reg properties[] = {{"time", prop_time}, {"name", prop_name}, {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
-const lsw_class lsw_class_scene = {"scene",    sizeof(lsw_scene_handle), methods, meta,
-                                   properties, close_scene,              "the scene has been closed"};
+const lsw_class lsw_class_scene = {.name = "scene",
+                                   .size = sizeof(lsw_scene_handle),
+                                   .methods = methods,
+                                   .meta = meta,
+                                   .properties = properties,
+                                   .close = close_scene,
+                                   .gone = "the scene has been closed",
+                                   .busy = scene_busy};
 
 static const luaL_Reg none[] = {{NULL, NULL}};
-const lsw_class lsw_class_snapshot = {"snapshot", sizeof(lsw_handle),
-                                      none,       NULL,
-                                      NULL,       close_snapshot,
-                                      "the snapshot has been closed"};
-
-/* --- registries as tables ------------------------------------------------------- */
-
-static int mod_registry(lua_State *L) {
-  lua_newtable(L);
-  lua_newtable(L);
-  for (int i = 0; sw_integrator_all()[i]; i++) {
-    const sw_integrator *m = sw_integrator_all()[i];
-    lua_createtable(L, 0, 6);
-    lua_pushstring(L, m->name), lua_setfield(L, -2, "name");
-    lua_pushstring(L, m->summary), lua_setfield(L, -2, "summary");
-    lua_pushinteger(L, m->order), lua_setfield(L, -2, "order");
-    lua_pushboolean(L, (m->flags & SW_INTEGRATOR_IMPLICIT) != 0), lua_setfield(L, -2, "implicit");
-    lua_pushboolean(L, (m->flags & SW_INTEGRATOR_EMBEDDED) != 0), lua_setfield(L, -2, "adaptive");
-    lsw_set_number(L, "leapfrog_limit", m->leapfrog_limit);
-    lua_rawseti(L, -2, i + 1);
-  }
-  lua_setfield(L, -2, "integrators");
-  lua_newtable(L);
-  for (int i = 0; sw_force_all()[i]; i++) {
-    const sw_force_class *f = sw_force_all()[i];
-    lua_createtable(L, 0, 4);
-    lua_pushstring(L, f->name), lua_setfield(L, -2, "name");
-    lua_pushstring(L, f->summary), lua_setfield(L, -2, "summary");
-    lua_pushboolean(L, (f->flags & SW_FORCE_INNER) != 0), lua_setfield(L, -2, "inner");
-    lsw_push_params(L, &f->params), lua_setfield(L, -2, "params");
-    lua_rawseti(L, -2, i + 1);
-  }
-  lua_setfield(L, -2, "forces");
-  lua_newtable(L);
-  for (int i = 0; sw_wire_all()[i]; i++) {
-    lua_createtable(L, 0, 2);
-    lua_pushstring(L, sw_wire_all()[i]->name), lua_setfield(L, -2, "name");
-    lua_pushstring(L, sw_wire_all()[i]->summary), lua_setfield(L, -2, "summary");
-    lua_rawseti(L, -2, i + 1);
-  }
-  lua_setfield(L, -2, "models");
-  lua_newtable(L);
-  for (int i = 0; sw_hold_all()[i]; i++) {
-    lua_createtable(L, 0, 3);
-    lua_pushstring(L, sw_hold_all()[i]->name), lua_setfield(L, -2, "name");
-    lua_pushstring(L, sw_hold_all()[i]->summary), lua_setfield(L, -2, "summary");
-    lsw_push_params(L, &sw_hold_all()[i]->params), lua_setfield(L, -2, "params");
-    lua_rawseti(L, -2, i + 1);
-  }
-  lua_setfield(L, -2, "holds");
-  lua_newtable(L);
-  for (int i = 0; sw_shape_kinds()[i]; i++) {
-    const sw_shape_class *c = sw_shape_class_find(sw_shape_kinds()[i]);
-    lua_createtable(L, 0, 2);
-    lua_pushstring(L, sw_shape_kinds()[i]), lua_setfield(L, -2, "name");
-    lsw_push_params(L, sw_shape_class_params(c)), lua_setfield(L, -2, "params");
-    lua_rawseti(L, -2, i + 1);
-  }
-  lua_setfield(L, -2, "shapes");
-  const struct {
-    const char *name;
-    const sw_params *params;
-  } tables[] = {{"scene", &sw_scene_params},       {"wire", &sw_wire_params},
-                {"section", &sw_section_params},   {"obstacle", &sw_obstacle_params},
-                {"run", &sw_run_params},           {"settle", &sw_settle_params}};
-  lua_newtable(L);
-  for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++) {
-    lsw_push_params(L, tables[i].params);
-    lua_setfield(L, -2, tables[i].name);
-  }
-  lua_setfield(L, -2, "params");
-  return 1;
-}
+static const luaL_Reg snapshot_meta[] = {{"__describe", describe_snapshot}, {NULL, NULL}};
+const lsw_class lsw_class_snapshot = {.name = "snapshot",
+                                      .size = sizeof(lsw_handle),
+                                      .methods = none,
+                                      .meta = snapshot_meta,
+                                      .close = close_snapshot,
+                                      .gone = "the snapshot has been closed",
+                                      .busy = snapshot_busy};
 
 static const luaL_Reg functions[] = {{"scene", mod_scene},
                                      {"data", mod_data},
+                                     {"type", mod_type},
+                                     {"busy", mod_busy},
+                                     {"exists", mod_exists},
                                      {"interrupted", mod_interrupted},
                                      {"clock", mod_clock},
                                      {"nearest", mod_nearest},
                                      {"check_run", mod_check_run},
-                                     {"registry", mod_registry},
                                      {NULL, NULL}};
 
 void lsw_open_scene(lua_State *L) { luaL_setfuncs(L, functions, 0); }

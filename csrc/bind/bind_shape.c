@@ -48,13 +48,14 @@ static void read_points(lua_State *L, const char *object, sw_shape_source *sourc
   const size_t n = (size_t)(nested ? items : items / 3);
   double *to = lua_newuserdatauv(L, (3 * n + 1) * sizeof *to, 0);
   for (lua_Integer i = 1; i <= items; i++) {
-    const char *what = "";
     lua_rawgeti(L, table, i);
-    if (nested || lua_type(L, -1) != LUA_TNUMBER)
-      what = lua_pushfstring(L, "%s: points, item %I,", object, i), lua_insert(L, -2);
-    if (nested) sw_store(to + 3 * (i - 1), lsw_vector(L, -1, what, "m"));
-    else to[i - 1] = lua_isnumber(L, -1) && !*what ? lua_tonumber(L, -1)
-                                                   : lsw_number(L, -1, what, "m");
+    if (!nested && lua_type(L, -1) == LUA_TNUMBER) {
+      to[i - 1] = lua_tonumber(L, -1); /* the core checks that it is finite */
+    } else {
+      const char *what = lua_pushfstring(L, "%s: points, item %I,", object, i);
+      if (nested) sw_store(to + 3 * (i - 1), lsw_vector(L, -2, what, "m"));
+      else lsw_number(L, -2, what, "m"); /* raises */
+    }
     lua_settop(L, table + 1);
   }
   lua_replace(L, table);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lua class wire and scene:wire. */
+#include <stdio.h>
 #include <string.h>
 
 #include "bind/child.h"
@@ -9,7 +10,9 @@
 static double *read_path(lua_State *L, int table, size_t *count) {
   *count = 0;
   if (lua_getfield(L, table, "path") == LUA_TNIL) return NULL;
-  luaL_argcheck(L, lua_istable(L, -1), table, "wire: path must be a list of points {x, y, z}");
+  if (!lua_istable(L, -1))
+    luaL_error(L, "wire: path must be a list of points {x, y, z} [m], got %s",
+               lsw_describe(L, -1));
   const size_t n = lua_rawlen(L, -1);
   if (n > 10000000) luaL_error(L, "wire: path has %d points; at most 10000000", (int)n);
   double *points = lua_newuserdatauv(L, (3 * n + 1) * sizeof *points, 0);
@@ -54,7 +57,7 @@ int lsw_scene_wire(lua_State *L) {
   size_t count;
   const lsw_section sections[] = {{&sw_wire_params, &args}, {&sw_section_params, &section}};
   lua_settop(L, 2);
-  luaL_checktype(L, 2, LUA_TTABLE);
+  lsw_check_table(L, 2, "scene:wire");
   lsw_sections(L, 2, "wire", sections, 2);
   args.model = read_model(L, 2);
   const char *object = args.name[0] ? lua_pushfstring(L, "wire '%s'", args.name) : "wire";
@@ -95,14 +98,6 @@ static size_t node_count(lua_State *L, sw_scene *scene, const lsw_child *w) {
   return n;
 }
 
-static void push_flat(lua_State *L, const double *values, size_t n) {
-  lua_createtable(L, (int)n, 0);
-  for (size_t i = 0; i < n; i++) {
-    lua_pushnumber(L, values[i]);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
-}
-
 /* Flat {x1, y1, z1, x2, ...} of all nodes [m], and their arc lengths [m]. */
 static int meth_positions(lua_State *L) {
   sw_scene *scene;
@@ -111,8 +106,8 @@ static int meth_positions(lua_State *L) {
   const size_t n = node_count(L, scene, w);
   double *x = lua_newuserdatauv(L, 4 * n * sizeof *x, 0);
   lsw_must(L, sw_scene_wire_copy(scene, w->id, x, x + 3 * n, NULL, &err), &err);
-  push_flat(L, x, 3 * n);
-  push_flat(L, x + 3 * n, n);
+  lsw_push_flat(L, x, 3 * n);
+  lsw_push_flat(L, x + 3 * n, n);
   return 2;
 }
 
@@ -123,7 +118,7 @@ static int meth_velocities(lua_State *L) {
   const size_t n = node_count(L, scene, w);
   double *v = lua_newuserdatauv(L, 3 * n * sizeof *v, 0);
   lsw_must(L, sw_scene_wire_copy(scene, w->id, NULL, NULL, v, &err), &err);
-  push_flat(L, v, 3 * n);
+  lsw_push_flat(L, v, 3 * n);
   return 1;
 }
 
@@ -223,12 +218,28 @@ static int prop_radius(lua_State *L) {
   return 1;
 }
 
-static int meta_describe(lua_State *L) {
+static int prop_name(lua_State *L) {
   sw_scene *scene;
   const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  prop_length(L);
-  lua_pushfstring(L, "wire: %f m, %d segments, t = %f s", lua_tonumber(L, -1),
-                  (int)node_count(L, scene, w) - 1, sw_scene_time(scene));
+  lua_pushstring(L, sw_scene_wire_name(scene, w->id));
+  return 1;
+}
+
+static int meta_describe(lua_State *L) {
+  sw_scene *scene;
+  sw_error err;
+  double length = 0;
+  size_t nodes = 1;
+  char text[SW_NAME_SIZE + 96];
+  const lsw_child *w = lsw_find_child(L, &lsw_class_wire, &scene);
+  if (!w) return 1;
+  const char *name = sw_scene_wire_name(scene, w->id);
+  if (sw_scene_wire_length(scene, w->id, &length, &err) != SW_OK ||
+      sw_scene_wire_nodes(scene, w->id, &nodes, &err) != SW_OK)
+    return lua_pushliteral(L, "wire (gone)"), 1;
+  snprintf(text, sizeof text, "wire '%s': %.6g m, %zu segments, t = %.6g s", name, length,
+           nodes - 1, sw_scene_time(scene));
+  lua_pushstring(L, text);
   return 1;
 }
 
@@ -247,9 +258,13 @@ static const luaL_Reg properties[] = {{"length", prop_length},
                                       {"segments", prop_segments},
                                       {"beam", push_beam},
                                       {"radius", prop_radius},
+                                      {"name", prop_name},
                                       {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
-const lsw_class lsw_class_wire = {
-    "wire", sizeof(lsw_child), methods, meta, properties, lsw_close_child,
-    "this wire handle has been closed"};
+const lsw_class lsw_class_wire = {.name = "wire",
+                                  .size = sizeof(lsw_child),
+                                  .methods = methods,
+                                  .meta = meta,
+                                  .properties = properties,
+                                  .gone = "this wire was never made"};

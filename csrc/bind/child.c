@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "bind/child.h"
 
+#include <limits.h>
+
 #include "bind/bind_motion.h"
 
 lsw_child *lsw_new_child(lua_State *L, int scene, const lsw_class *c) {
@@ -24,16 +26,36 @@ lsw_child *lsw_check_child_of(lua_State *L, int index, const lsw_class *c, const
   sw_scene *owner;
   if (!lsw_test(L, index, c))
     luaL_error(L, "%s expects a %s of the scene, got %s", what, c->name,
-               lua_isnoneornil(L, index) ? "nothing" : luaL_typename(L, index));
+               lua_isnoneornil(L, index) ? "nothing" : lsw_describe(L, index));
   lsw_child *child = lsw_check_child(L, index, c, &owner);
   if (owner != scene) luaL_error(L, "%s: this %s belongs to another scene", what, c->name);
   return child;
 }
 
-void lsw_close_child(lsw_handle *h) { (void)h; }
+const lsw_child *lsw_find_child(lua_State *L, const lsw_class *c, sw_scene **scene) {
+  const lsw_child *child = lsw_test(L, 1, c);
+  const lsw_scene_handle *owner = child ? child->h.object : NULL;
+  *scene = owner ? owner->h.object : NULL;
+  if (*scene) return child;
+  lua_pushfstring(L, "%s (its scene has been closed)", c->name);
+  return NULL;
+}
+
+void lsw_check_table(lua_State *L, int index, const char *what) {
+  if (!lua_istable(L, index))
+    luaL_error(L, "%s takes one table of parameters, got %s", what, lsw_describe(L, index));
+}
 
 void lsw_must(lua_State *L, sw_status status, const sw_error *err) {
   if (status != SW_OK) lsw_motion_rethrow(L, status, err);
+}
+
+void lsw_push_flat(lua_State *L, const double *values, size_t n) {
+  lua_createtable(L, n < INT_MAX ? (int)n : 0, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_pushnumber(L, values[i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
 }
 
 void lsw_set_number(lua_State *L, const char *name, double value) {

@@ -29,7 +29,9 @@ lsw_child *lsw_check_child(lua_State *L, int index, const lsw_class *c, sw_scene
 lsw_child *lsw_check_child_of(lua_State *L, int index, const lsw_class *c, const sw_scene *scene,
                               const char *what);
 
-void lsw_close_child(lsw_handle *h); /* nothing to free: the scene owns it */
+/* The child at index 1 without raising: when its scene is gone NULL, and what
+ * tostring may say is pushed. */
+const lsw_child *lsw_find_child(lua_State *L, const lsw_class *c, sw_scene **scene);
 
 /* Raise unless status is SW_OK; callback errors keep their value. */
 void lsw_must(lua_State *L, sw_status status, const sw_error *err);
@@ -41,6 +43,20 @@ int lsw_scene_grip(lua_State *L);
 int lsw_scene_wire(lua_State *L);
 int lsw_scene_obstacle(lua_State *L);
 int lsw_scene_force(lua_State *L);
+int lsw_scene_evaluate(lua_State *L);
+
+/* While the core may call Lua functions as forces: they run on L, whose stack
+ * index 1 is the scene. The value goes back to lsw_end_forces. */
+lua_State *lsw_begin_forces(lua_State *L);
+void lsw_end_forces(lua_State *outer);
+/* Let go of functions that no force of the scene userdata at index needs. */
+void lsw_forget_forces(lua_State *L, int index, const sw_scene *scene);
+
+/* Raise unless the value at index is one table of parameters. */
+void lsw_check_table(lua_State *L, int index, const char *what);
+
+/* Push n numbers as a flat array. */
+void lsw_push_flat(lua_State *L, const double *values, size_t n);
 
 /* Set fields of the table on top of the stack. */
 void lsw_set_number(lua_State *L, const char *name, double value);

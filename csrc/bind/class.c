@@ -30,11 +30,19 @@ void *lsw_test(lua_State *L, int index, const lsw_class *c) {
   return same ? h : NULL;
 }
 
-/* "number 3", "scene", "table": what a wrong argument was, for messages. */
-static const char *describe(lua_State *L, int index) {
+const lsw_class *lsw_class_of(lua_State *L, int index) {
+  for (size_t i = 0; i < sizeof classes / sizeof classes[0]; i++)
+    if (lsw_test(L, index, classes[i])) return classes[i];
+  return NULL;
+}
+
+const char *lsw_describe(lua_State *L, int index) {
+  index = lua_absindex(L, index);
   const int type = lua_type(L, index);
-  if (type == LUA_TNUMBER || type == LUA_TBOOLEAN)
-    return lua_pushfstring(L, "%s %s", luaL_typename(L, index), luaL_tolstring(L, index, NULL));
+  if (type == LUA_TNUMBER || type == LUA_TBOOLEAN) {
+    const char *text = luaL_tolstring(L, index, NULL);
+    return lua_pushfstring(L, "%s %s", luaL_typename(L, index), text);
+  }
   if (type == LUA_TUSERDATA && luaL_getmetafield(L, index, "__name") == LUA_TSTRING)
     return lua_tostring(L, -1);
   if (type == LUA_TNONE) return "nothing";
@@ -45,7 +53,7 @@ void *lsw_check(lua_State *L, int index, const lsw_class *c) {
   lsw_handle *h = lsw_test(L, index, c);
   if (!h) {
     luaL_argerror(L, index,
-                  lua_pushfstring(L, "%s expected, got %s", c->name, describe(L, index)));
+                  lua_pushfstring(L, "%s expected, got %s", c->name, lsw_describe(L, index)));
     return NULL;
   }
   if (!h->object) luaL_error(L, "%s", c->gone);
@@ -62,8 +70,13 @@ static int meta_gc(lua_State *L) {
   const lsw_class *c = class_of(L);
   lsw_handle *h = lsw_test(L, 1, c);
   if (h && h->object) {
-    c->close(h);
-    h->object = NULL;
+    if (c->busy && c->busy(h))
+      return luaL_error(L, "this %s cannot be closed from inside a step or a function of time",
+                        c->name);
+    void *object = h->object;
+    h->object = NULL; /* first: closing may run a finaliser that looks at it */
+    lsw_handle old = {object};
+    c->close(&old);
   }
   return 0;
 }
@@ -88,7 +101,8 @@ static int meta_tostring(lua_State *L) {
 static int meta_eq(lua_State *L) {
   const lsw_class *c = class_of(L);
   lsw_handle *a = lsw_test(L, 1, c), *b = lsw_test(L, 2, c);
-  lua_pushboolean(L, a && b && (a == b || (a->object && a->object == b->object)));
+  /* handles are zeroed when made, so that padding compares equal */
+  lua_pushboolean(L, a && b && (a == b || (a->object && memcmp(a, b, c->size) == 0)));
   return 1;
 }
 
@@ -111,7 +125,7 @@ static int meta_index(lua_State *L) {
     lua_pushnil(L);
     while (count < 64 && lua_next(L, lua_upvalueindex(up))) {
       lua_pop(L, 1);
-      names[count++] = lua_tostring(L, -1);
+      if (lua_type(L, -1) == LUA_TSTRING) names[count++] = lua_tostring(L, -1);
     }
     lua_settop(L, 2);
   }
@@ -148,12 +162,12 @@ static void open_class(lua_State *L, const lsw_class *c) {
   const struct {
     const char *name;
     lua_CFunction function;
-  } life[] = {{"__gc", meta_gc},
+  } life[] = {{"__gc", meta_gc}, /* the first two where there is something to close */
               {"__close", meta_gc},
               {"__tostring", meta_tostring},
               {"__eq", meta_eq}};
   lua_newtable(L);
-  for (size_t i = 0; i < sizeof life / sizeof life[0]; i++) {
+  for (size_t i = c->close ? 0 : 2; i < sizeof life / sizeof life[0]; i++) {
     lua_pushlightuserdata(L, (void *)c);
     lua_pushcclosure(L, life[i].function, 1);
     lua_setfield(L, -2, life[i].name);
@@ -162,9 +176,11 @@ static void open_class(lua_State *L, const lsw_class *c) {
   lua_setfield(L, -2, "__name");
   lua_newtable(L);
   luaL_setfuncs(L, c->methods, 0);
-  lua_pushlightuserdata(L, (void *)c);
-  lua_pushcclosure(L, meta_gc, 1);
-  lua_setfield(L, -2, "close");
+  if (c->close) {
+    lua_pushlightuserdata(L, (void *)c);
+    lua_pushcclosure(L, meta_gc, 1);
+    lua_setfield(L, -2, "close");
+  }
   const int methods = lua_gettop(L);
   push_indexer(L, c, methods, meta_index);
   lua_setfield(L, methods - 1, "__index");
@@ -195,7 +211,7 @@ double lsw_number(lua_State *L, int index, const char *what, const char *unit) {
   const char *shown = *space ? unit : "";
   if (lua_type(L, index) != LUA_TNUMBER)
     return luaL_error(L, "%s must be a number%s%s%s, got %s", what, *space ? " [" : "", shown,
-                      *space ? "]" : "", describe(L, index));
+                      *space ? "]" : "", lsw_describe(L, index));
   const double value = lua_tonumber(L, index);
   if (!isfinite(value))
     return luaL_error(L, "%s = %f%s%s is not allowed; it must be a finite number", what, value,
@@ -216,7 +232,7 @@ static void numbers(lua_State *L, int index, const char *what, const char *unit,
   index = lua_absindex(L, index);
   if (!lua_istable(L, index)) {
     luaL_error(L, "%s must be a table of %d numbers [%s], got %s", what, count, unit,
-               describe(L, index));
+               lsw_describe(L, index));
     return;
   }
   if (lua_rawlen(L, index) > (size_t)count)

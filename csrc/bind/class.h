@@ -22,8 +22,10 @@ typedef struct lsw_class {
   const luaL_Reg *methods;
   const luaL_Reg *meta;         /* more metamethods, or NULL */
   const luaL_Reg *properties;   /* getters called as f(object), or NULL */
-  void (*close)(lsw_handle *h); /* frees h->object; never called with NULL there */
+  void (*close)(lsw_handle *h); /* frees h->object; never called with NULL there. NULL: the
+                                 * object is another's, nothing to close */
   const char *gone;             /* message for a closed handle: "the scene has been closed" */
+  int (*busy)(const lsw_handle *h); /* 1: must not be closed now; NULL = always may */
 } lsw_class;
 
 /* Make a closed handle of the class with the given number of user values and
@@ -36,6 +38,12 @@ void *lsw_check(lua_State *L, int index, const lsw_class *c);
 /* The handle at index whether open or closed, or NULL when it is of another
  * type. */
 void *lsw_test(lua_State *L, int index, const lsw_class *c);
+
+/* The class of the userdata at index, or NULL for anything that is not ours. */
+const lsw_class *lsw_class_of(lua_State *L, int index);
+
+/* "number 3", "scene", "table": what a wrong argument is, for messages. Pushes. */
+const char *lsw_describe(lua_State *L, int index);
 
 /* Make the metatables of every class in classes.def and push a table of
  * method tables by class name (Lua files add methods to them). */

@@ -3,6 +3,7 @@
 #include "contact/contact.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -34,6 +35,7 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count,
   for (size_t o = 0; o < count; o++)
     c->flat[o] = strcmp(sw_shape_kind(obstacles[o].shape), "plane") == 0;
   c->count = count;
+  c->fresh = 1;
   c->place = place;
   c->user = user;
   *out = c;
@@ -51,6 +53,7 @@ void sw_contact_free(sw_contact *c) {
   sw_free(c->last);
   sw_free(c->memory);
   sw_free(c->next_memory);
+  sw_free(c->pressed);
   sw_free(c->barriers);
   sw_free(c->impacts);
   sw_free(c);
@@ -95,15 +98,21 @@ static sw_vec high_of(sw_vec a, sw_vec b) {
   return sw_v(fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z));
 }
 
+double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v) {
+  const double g = sw_norm(sw_load(s->gravity));
+  const double reserve = 1.5, least = 1e-4; /* [-], [m] */
+  return reserve * c->h * (sw_norm(v) + g * c->h) + least;
+}
+
 /* Widest gap at the step's start that can close within it, with reserve. */
 static double reach_of(const sw_contact *c, const sw_system *s, const sw_body *b, size_t node,
                        size_t o) {
   if (c->regime == SW_CONTACT_STATIC) return b->plan->length;
-  const double g = sw_norm(sw_load(s->gravity));
   const sw_vec x = sw_load(s->x + 3 * node);
-  const sw_vec v = sw_sub(sw_load(s->v + 3 * node), sw_obstacle_velocity(&c->start[o], x));
-  const double reserve = 1.5, least = 0.5; /* of the flight, of the radius [-] */
-  return b->plan->beam.radius * (1.0 + least) + reserve * c->h * (sw_norm(v) + g * c->h);
+  const double wall = sw_norm(sw_obstacle_velocity(&c->start[o], x)) * c->h;
+  const double skin = 1.5; /* of the radius: what is this near is always looked at [-] */
+  return b->plan->beam.radius * skin + wall +
+         c->widening * sw_flight_reserve(c, s, sw_load(s->v + 3 * node));
 }
 
 static sw_status add_candidate(sw_contact *c, const sw_body *b, size_t body, size_t node, int o,
@@ -163,6 +172,9 @@ static void match_memory(sw_contact *c) {
       m++;
     k->memory_end = m;
     k->last = k->last_end = 0;
+    k->boost = 1.0;
+    for (size_t j = k->memory; j < k->memory_end; j++)
+      k->boost = fmax(k->boost, c->memory[j].boost);
   }
 }
 
@@ -184,19 +196,11 @@ static void set_stiffness(sw_contact *c, const sw_system *s, double nominal) {
   }
 }
 
-sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime regime, double t,
-                                double h, double nominal, sw_error *err) {
-  c->time = t;
-  c->h = h;
-  c->regime = regime;
-  c->candidate_count = c->touch_count = c->last_count = 0;
-  c->barrier_count = c->impact_count = 0;
-  c->first_iterate = 1;
-  set_stiffness(c, s, nominal);
-  SW_TRY(place_all(c, t, c->start, err));
+sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err) {
   sw_bounds *bounds = (sw_bounds *)sw_alloc(c->count, sizeof *bounds);
   if (!bounds) return sw_fail(err, SW_ENOMEM, "contact: out of memory");
   sw_status status = SW_OK;
+  c->candidate_count = c->touch_count = c->last_count = 0;
   for (size_t o = 0; o < c->count; o++)
     bounds[o] = world_bounds(c->obstacles[o].shape, &c->start[o].pose);
   for (size_t b = 0; b < s->body_count && status == SW_OK; b++)
@@ -206,6 +210,18 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
   if (status != SW_OK) return sw_fail(err, status, "contact: out of memory");
   match_memory(c);
   return SW_OK;
+}
+
+sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime regime, double t,
+                                double h, double nominal, sw_error *err) {
+  c->time = t;
+  c->h = h;
+  c->regime = regime;
+  c->barrier_count = c->impact_count = c->pressed_count = 0;
+  c->widening = 1.0;
+  set_stiffness(c, s, nominal);
+  SW_TRY(place_all(c, t, c->start, err));
+  return sw_contact_find_candidates(c, s, err);
 }
 
 sw_status sw_contact_begin_stage(void *contact, sw_system *s, double time, double hbar,
@@ -229,6 +245,9 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
                    .feature = t->feature,
                    .at = t->at,
                    .normal_force = t->normal_force,
+                   .sliding = t->next_sliding,
+                   .depth = t->normal_force / t->k,
+                   .boost = t->normal_force > 0 ? c->candidates[t->candidate].boost : 1.0,
                    .normal = sw_rotate(back, t->normal),
                    .point = sw_pose_local(o->pose, t->point)};
   if (t->normal_force > 0)
@@ -239,6 +258,7 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
 void sw_contact_commit(sw_contact *c, sw_system *s) {
   (void)s;
   c->next_count = 0;
+  c->fresh = 0;
   for (size_t i = 0; i < c->touch_count; i++)
     if (remember(c, &c->touches[i]) != SW_OK) break; /* a lost anchor only starts anew */
   sw_memory *swap = c->memory;
@@ -258,7 +278,22 @@ sw_status sw_contact_set_memory(sw_contact *c, const void *memory, size_t bytes)
   SW_TRY(sw_grow((void **)&c->memory, &c->memory_capacity, n, sizeof *c->memory));
   if (n) memcpy(c->memory, memory, bytes);
   c->memory_count = n;
+  c->fresh = 0;
   c->touch_count = 0;
+  return SW_OK;
+}
+
+sw_status sw_contact_inherit(sw_contact *c, const void *memory, size_t bytes,
+                             const size_t *new_node) {
+  size_t kept = 0;
+  SW_TRY(sw_contact_set_memory(c, memory, bytes));
+  for (size_t i = 0; i < c->memory_count; i++) {
+    const size_t node = new_node[c->memory[i].node];
+    if (node == SIZE_MAX) continue;
+    c->memory[kept] = c->memory[i];
+    c->memory[kept++].node = node;
+  }
+  c->memory_count = kept;
   return SW_OK;
 }
 
@@ -278,8 +313,9 @@ void sw_contact_force(const sw_contact *c, int id, sw_vec about, sw_vec *force, 
 double sw_contact_penetration(const sw_contact *c, size_t *node) {
   double deepest = 0;
   for (size_t i = 0; i < c->touch_count; i++) {
-    if (-c->touches[i].gap_after <= deepest) continue;
-    deepest = -c->touches[i].gap_after;
+    const double depth = c->touches[i].forgiven - c->touches[i].gap_after;
+    if (depth <= deepest) continue;
+    deepest = depth;
     if (node) *node = c->touches[i].node;
   }
   return deepest;

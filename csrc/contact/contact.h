@@ -54,6 +54,10 @@ int sw_contact_settled(void *contact, sw_system *system, const double *y, const 
  * restart. */
 int sw_contact_review(sw_contact *contact, sw_system *system, const double *x1, double h);
 
+/* The same for statics: segments of a solution x1 that went through an obstacle
+ * are kept on their side from now on. 1 = there were some, solve again. */
+int sw_contact_review_static(sw_contact *contact, sw_system *system, const double *x1);
+
 /* The trial was accepted: keep friction anchors and sides for the next step. */
 void sw_contact_commit(sw_contact *contact, sw_system *system);
 
@@ -70,5 +74,9 @@ double sw_contact_energy(const sw_contact *contact); /* stored in the springs [J
  * and to give back. */
 const void *sw_contact_memory(const sw_contact *contact, size_t *bytes);
 sw_status sw_contact_set_memory(sw_contact *contact, const void *memory, size_t bytes);
+/* The same from a contact whose nodes had other numbers: new_node gives for each
+ * old number the new one, or SIZE_MAX when the node is gone. */
+sw_status sw_contact_inherit(sw_contact *contact, const void *memory, size_t bytes,
+                             const size_t *new_node);
 
 #endif

@@ -70,44 +70,63 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
 
 static int review_touches(sw_contact *c, sw_system *s, double h) {
   int changed = 0;
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
-    if (t->known || t->held || !(t->normal_force > 0 || t->gap_after < 0)) continue;
+  for (size_t i = 0; i < c->pressed_count; i++) {
+    const sw_touch *t = &c->pressed[i];
     if (dealt_with(c, t->obstacle, t->node, t->segment, t->at)) continue;
     changed |= strike(c, s, t, h);
   }
   return changed;
 }
 
-static int has_barrier(const sw_contact *c, int obstacle, size_t node, sw_vec normal) {
+static int has_barrier(const sw_contact *c, const sw_barrier *new) {
   for (size_t i = 0; i < c->barrier_count; i++) {
     const sw_barrier *b = &c->barriers[i];
-    if (b->obstacle == obstacle && b->node == node && sw_dot(b->normal, normal) > 0.99) return 1;
+    if (b->obstacle == new->obstacle && b->node == new->node && b->segment == new->segment &&
+        sw_dot(b->normal, new->normal) > 0.99)
+      return 1;
   }
   return 0;
 }
 
+static int is_candidate(const sw_contact *c, int obstacle, size_t node) {
+  for (size_t i = 0; i < c->candidate_count; i++)
+    if (c->candidates[i].node == node && c->candidates[i].obstacle == obstacle &&
+        !c->candidates[i].segment)
+      return 1;
+  return 0;
+}
+
+/* A hit this near to a segment's end is the node's [-]. */
+static const double END_SHARE = 1e-6;
+
 /* Keep a segment on its side for the rest of the step. */
 static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k,
                          const sw_closest *hit, double h) {
-  if (has_barrier(c, k->obstacle, k->node, hit->normal)) return 0;
+  sw_barrier b = {k->obstacle, 1, k->node, hit->at, hit->normal, hit->point};
+  const size_t end = k->node + (hit->at > 0.5);
+  if ((hit->at < END_SHARE || hit->at > 1.0 - END_SHARE) && is_candidate(c, k->obstacle, end)) {
+    b.node = end;
+    b.segment = 0;
+    b.at = 0;
+  }
+  if (has_barrier(c, &b)) return 0;
   if (sw_grow((void **)&c->barriers, &c->barrier_capacity, c->barrier_count + 1,
               sizeof *c->barriers) != SW_OK)
     return 0;
-  c->barriers[c->barrier_count++] =
-      (sw_barrier){k->obstacle, k->node, hit->at, hit->normal, hit->point};
+  c->barriers[c->barrier_count++] = b;
   const sw_pose *pose = &c->now[k->obstacle].pose;
   const sw_touch t = {.obstacle = k->obstacle,
-                      .segment = 1,
-                      .node = k->node,
+                      .segment = b.segment,
+                      .node = b.node,
                       .body = k->body,
-                      .at = hit->at,
+                      .at = b.at,
                       .normal = sw_rotate(pose->q, hit->normal),
                       .point = sw_pose_point(*pose, hit->point)};
-  strike(c, s, &t, h);
+  if (h > 0) strike(c, s, &t, h);
   return 1;
 }
 
+/* h = 0: statics, there are no speeds to change. */
 static int review_crossings(sw_contact *c, sw_system *s, const double *x1, double h) {
   int changed = 0;
   for (size_t i = 0; i < c->candidate_count; i++) {
@@ -128,7 +147,32 @@ static int review_crossings(sw_contact *c, sw_system *s, const double *x1, doubl
   return changed;
 }
 
+/* Did every node stay within the reach that its candidates were chosen for? */
+static int went_too_far(sw_contact *c, const sw_system *s, const double *x1) {
+  double wider = 1.0;
+  for (size_t i = 0; i < s->nodes; i++) {
+    const sw_vec v = sw_load(s->v + 3 * i);
+    const double flight = sw_flight_reserve(c, s, v);
+    const double shift = sw_dist(sw_load(x1 + 3 * i), sw_load(s->x + 3 * i));
+    if (shift > flight * c->widening) wider = fmax(wider, shift / flight);
+  }
+  if (wider <= 1.0) return 0;
+  c->widening = 1.5 * wider;
+  return 1;
+}
+
 int sw_contact_review(sw_contact *c, sw_system *s, const double *x1, double h) {
+  sw_error err;
+  if (went_too_far(c, s, x1)) {
+    c->pressed_count = 0;
+    return sw_contact_find_candidates(c, s, &err) == SW_OK;
+  }
   const int crossed = review_crossings(c, s, x1, h);
-  return crossed | review_touches(c, s, h);
+  const int struck = review_touches(c, s, h);
+  c->pressed_count = 0;
+  return crossed | struck;
+}
+
+int sw_contact_review_static(sw_contact *c, sw_system *s, const double *x1) {
+  return review_crossings(c, s, x1, 0.0);
 }

@@ -113,6 +113,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
 const sw_force_class sw_force_damping = {
     .name = "damping",
     .summary = "Rayleigh damping, by mass and by axial and bending stiffness",
+    .flags = SW_FORCE_DISSIPATIVE,
     .params = SW_PARAMS("force damping", rows),
     .eval = eval,
 };

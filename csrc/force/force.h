@@ -13,7 +13,9 @@
 enum {
   SW_FORCE_INNER = 1,    /* part of a wire model's recipe; not made by scene:force */
   SW_FORCE_EXPLICIT = 2, /* has no stiffness: iterated to a fixed point instead */
-  SW_FORCE_AT_PLACE = 4  /* acts at one arc length: takes s */
+  SW_FORCE_AT_PLACE = 4, /* acts at one arc length: takes s */
+  SW_FORCE_DISSIPATIVE = 8, /* has no energy; takes power from the motion, F.v <= 0 */
+  SW_FORCE_FROZEN = 16   /* its stiffness leaves a part out, which its file names */
 };
 
 enum { SW_FORCE_ARGS_MAX = 128 }; /* room for any force's arguments [B] */

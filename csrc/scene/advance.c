@@ -41,6 +41,10 @@ enum { MOST_REDOS = 40 };        /* impacts found one after another in one step 
 static const double SMALLEST_SHARE = 1.0 / 4096; /* of a step, before giving up [-] */
 static const double LARGEST_STRAIN = 10.0;       /* beyond it a run has diverged [-] */
 
+/* An edge squeezed below this share of its length is beyond Hooke's law; a
+ * smaller step may avoid it [-]. */
+static const double LEAST_SHARE = 0.3;
+
 typedef struct loop {
   sw_scene *s;
   const sw_run_args *args;
@@ -69,6 +73,10 @@ static sw_status check_trial(const sw_scene *s, sw_error *err) {
       const double *a = x + 3 * (body->first_node + e);
       const double l2 = sw_norm2(sw_sub(sw_load(a + 3), sw_load(a)));
       const double most = (1.0 + LARGEST_STRAIN) * body->plan->rest[e];
+      const double least = LEAST_SHARE * body->plan->rest[e];
+      if (l2 < least * least)
+        return sw_fail(err, SW_ENOCONV, "wire '%s' is crushed near s = %.4g m", s->wires[b].name,
+                       body->plan->s[e]);
       if (!(l2 <= most * most))
         return sw_fail(err, SW_EDIVERGED, "wire '%s' is torn apart near s = %.4g m",
                        s->wires[b].name, body->plan->s[e]);
@@ -236,7 +244,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   loop p = {.s = s, .args = args, .report = report};
   p.v_start = sw_alloc(s->contact ? 3 * s->system.nodes : 1, sizeof(double));
   if (!p.v_start) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
-  s->running = 1;
+  s->running++;
   sw_status status = SW_OK;
   if (isfinite(args->frame) && s->frame_count == 0) {
     status = sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, &why); /* energies need it */
@@ -244,7 +252,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
     s->next_frame = s->time + args->frame;
   }
   if (status == SW_OK) status = run_loop(&p, until, interrupted, &why);
-  s->running = 0;
+  s->running--;
   sw_free(p.v_start);
   report->evaluations = s->system.counters.evaluations - before;
   conclude(s, status, report, &why);
@@ -252,8 +260,9 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   return SW_OK;
 }
 
-double sw_scene_stable_dt(sw_scene *s) {
-  sw_error err;
-  if (sw_scene_build(s, &err) != SW_OK) return 0;
-  return sw_system_stable_dt(&s->system);
+sw_status sw_scene_stable_dt(sw_scene *s, double *dt, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_build(s, err));
+  *dt = sw_system_stable_dt(&s->system);
+  return SW_OK;
 }

@@ -10,22 +10,27 @@ void sw_drive_free(sw_drive *d) {
   d->motion = NULL;
 }
 
-sw_status sw_drive_eval(const sw_drive *d, double t, sw_motion_state *out, sw_error *err) {
+sw_status sw_drive_eval(sw_scene *s, const sw_drive *d, double t, sw_motion_state *out,
+                        sw_error *err) {
   if (!d->motion) {
     memset(out, 0, sizeof *out);
     out->pose = d->pose;
     return SW_OK;
   }
-  return sw_motion_eval(d->motion, t - d->start, out, err);
+  s->running++; /* a user's function may call anything: nothing may change meanwhile */
+  const sw_status status = sw_motion_eval(d->motion, t - d->start, out, err);
+  s->running--;
+  return status;
 }
 
 static const double LARGEST_JUMP = 1e-6; /* of position, taken as rounding [m] */
 static const double LARGEST_TURN = 1e-6; /* of orientation, taken as rounding [rad] */
 
-sw_status sw_drive_follow(sw_drive *d, const char *object, double now, sw_motion *motion,
+sw_status sw_drive_follow(sw_scene *s, sw_drive *d, const char *object, sw_motion *motion,
                           int relative, sw_error *err) {
+  const double now = s->time;
   sw_motion_state here, first;
-  SW_TRY(sw_drive_eval(d, now, &here, err));
+  SW_TRY(sw_drive_eval(s, d, now, &here, err));
   sw_drive next = {.pose = here.pose, .start = now};
   if (motion && (relative || sw_motion_is_relative(motion))) {
     if (sw_motion_relative(motion, here.pose, &next.motion) != SW_OK)
@@ -33,7 +38,7 @@ sw_status sw_drive_follow(sw_drive *d, const char *object, double now, sw_motion
   } else {
     next.motion = sw_motion_retain(motion);
   }
-  const sw_status status = sw_drive_eval(&next, now, &first, err);
+  const sw_status status = sw_drive_eval(s, &next, now, &first, err);
   const double jump = sw_dist(first.pose.p, here.pose.p);
   const double turn = sw_norm(sw_quat_log(sw_quat_mul(first.pose.q, sw_quat_conj(here.pose.q))));
   if (status != SW_OK || !(jump <= LARGEST_JUMP) || !(turn <= LARGEST_TURN)) {

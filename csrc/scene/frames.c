@@ -15,7 +15,11 @@ void sw_scene_drop_frames(sw_scene *s) {
   s->frame_count = 0;
 }
 
-void sw_scene_clear_frames(sw_scene *s) { sw_scene_drop_frames(s); }
+sw_status sw_scene_clear_frames(sw_scene *s, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  sw_scene_drop_frames(s);
+  return SW_OK;
+}
 
 static void store_pose(double *out, sw_pose pose) {
   sw_store(out, pose.p);
@@ -27,12 +31,12 @@ static sw_status fill(sw_scene *s, double *p, sw_error *err) {
   sw_scene_frame_energies(s, p);
   p += SW_FRAME_ENERGIES;
   for (size_t k = 0; k < s->obstacle_count; k++, p += POSE) {
-    SW_TRY(sw_drive_eval(&s->obstacles[k].drive, s->time, &at, err));
+    SW_TRY(sw_drive_eval(s, &s->obstacles[k].drive, s->time, &at, err));
     store_pose(p, at.pose);
   }
   for (size_t k = 0; k < s->hold_count; k++, p += HOLD) {
     at.pose = s->holds[k].last_pose;
-    if (s->holds[k].alive) SW_TRY(sw_drive_eval(&s->holds[k].drive, s->time, &at, err));
+    if (s->holds[k].alive) SW_TRY(sw_drive_eval(s, &s->holds[k].drive, s->time, &at, err));
     store_pose(p, at.pose);
     p[POSE] = s->holds[k].alive;
   }

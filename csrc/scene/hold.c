@@ -87,7 +87,7 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wir
   SW_TRY(check_place(s, cls, wire.slot, args, err));
   SW_TRY(sw_scene_thaw(s));
   SW_TRY(sw_grow((void **)&s->holds, &s->hold_capacity, s->hold_count + 1, sizeof *s->holds));
-  sw_scene_hold h = {.generation = 1, .alive = 1, .cls = cls, .wire = wire.slot};
+  sw_scene_hold h = {.generation = s->serial + 1, .alive = 1, .cls = cls, .wire = wire.slot};
   if (args->name[0]) memcpy(h.name, args->name, sizeof h.name);
   else snprintf(h.name, sizeof h.name, "%s%zu", cls->name, s->hold_count + 1);
   sw_status status = place_nodes(s, wire.slot, &h, args);
@@ -97,7 +97,7 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wir
     sw_free(h.local);
     return sw_fail(err, status, "%s: out of memory", cls->name);
   }
-  *out = (sw_handle){(uint32_t)s->hold_count, 1};
+  *out = (sw_handle){(uint32_t)s->hold_count, ++s->serial};
   s->holds[s->hold_count++] = h;
   return SW_OK;
 }
@@ -117,7 +117,7 @@ sw_status sw_scene_release_hold(sw_scene *s, sw_handle hold, sw_error *err) {
   if (!h) return SW_EDEAD;
   if (!h->alive) return SW_OK;
   sw_motion_state now;
-  SW_TRY(sw_drive_eval(&h->drive, s->time, &now, err));
+  SW_TRY(sw_drive_eval(s, &h->drive, s->time, &now, err));
   SW_TRY(sw_scene_thaw(s));
   h->last_pose = now.pose;
   h->alive = 0;
@@ -130,7 +130,7 @@ sw_status sw_scene_follow(sw_scene *s, sw_handle hold, sw_motion *motion, int re
   sw_scene_hold *h = living(s, hold, err);
   if (!h) return SW_EDEAD;
   SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_drive_follow(&h->drive, h->name, s->time, motion, relative, err));
+  SW_TRY(sw_drive_follow(s, &h->drive, h->name, motion, relative, err));
   s->discontinuous = 1;
   return SW_OK;
 }
@@ -151,7 +151,7 @@ sw_status sw_scene_hold_pose(sw_scene *s, sw_handle hold, sw_pose *out, sw_error
   if (!h) return SW_EDEAD;
   *out = h->last_pose;
   if (!h->alive) return SW_OK;
-  SW_TRY(sw_drive_eval(&h->drive, s->time, &now, err));
+  SW_TRY(sw_drive_eval(s, &h->drive, s->time, &now, err));
   *out = now.pose;
   return SW_OK;
 }
@@ -162,7 +162,7 @@ sw_status sw_scene_hold_force(sw_scene *s, sw_handle hold, const sw_vec *about, 
   SW_TRY(sw_scene_readable(s, err));
   sw_scene_hold *h = living(s, hold, err);
   if (!h) return SW_EDEAD;
-  SW_TRY(sw_scene_hold_pose(s, hold, &pose, err));
+  if (about) SW_TRY(sw_scene_hold_pose(s, hold, &pose, err));
   *force = h->force;
   *moment = about ? sw_add(h->moment, sw_cross(sw_sub(pose.p, *about), h->force)) : h->moment;
   return SW_OK;
@@ -181,8 +181,11 @@ sw_status sw_scene_hold_log(sw_scene *s, sw_handle hold, const double **rows, si
 sw_status sw_scene_obstacle_log(sw_scene *s, sw_handle obstacle, const double **rows,
                                 size_t *count, sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
-  const sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
-  if (!o) return SW_EDEAD;
+  const char *kind;
+  int present; /* a removed obstacle's series can still be read */
+  if (!sw_scene_obstacle_name(s, obstacle, &kind, &present))
+    return sw_fail(err, SW_EDEAD, "this obstacle is not of scene '%s' any more", s->name);
+  const sw_scene_obstacle *o = &s->obstacles[obstacle.slot];
   *rows = o->log.rows;
   *count = o->log.count / SW_LOG_OBSTACLE_SIZE;
   return SW_OK;

@@ -28,25 +28,29 @@ sw_status sw_scene_new(const sw_scene_args *args, sw_scene **out, sw_error *err)
   return SW_OK;
 }
 
-static void free_hold(sw_scene_hold *h) {
+void sw_scene_clear_hold(sw_scene_hold *h) {
   sw_free(h->s);
   sw_free(h->local);
   sw_free(h->log.rows);
   sw_drive_free(&h->drive);
 }
 
+void sw_scene_clear_obstacle(sw_scene_obstacle *o) {
+  sw_shape_release(o->shape);
+  sw_drive_free(&o->drive);
+  sw_free(o->log.rows);
+}
+
 void sw_scene_free(sw_scene *s) {
   if (!s) return;
   for (size_t i = 0; i < s->wire_count; i++) sw_mesh_free(&s->wires[i].mesh);
-  for (size_t i = 0; i < s->hold_count; i++) free_hold(&s->holds[i]);
-  for (size_t i = 0; i < s->obstacle_count; i++) {
-    sw_shape_release(s->obstacles[i].shape);
-    sw_drive_free(&s->obstacles[i].drive);
-    sw_free(s->obstacles[i].log.rows);
-  }
+  for (size_t i = 0; i < s->hold_count; i++) sw_scene_clear_hold(&s->holds[i]);
+  for (size_t i = 0; i < s->obstacle_count; i++) sw_scene_clear_obstacle(&s->obstacles[i]);
+  sw_scene_orphan_snapshots(s);
   sw_stepper_free(&s->stepper);
   sw_contact_free(s->contact);
   sw_system_free(&s->system);
+  sw_scene_forget_contact(s);
   sw_scene_drop_frames(s);
   sw_free(s->frames);
   sw_free(s->hold_slot);
@@ -61,9 +65,11 @@ const char *sw_scene_name(const sw_scene *s) { return s->name; }
 double sw_scene_time(const sw_scene *s) { return s->time; }
 sw_vec sw_scene_gravity(const sw_scene *s) { return s->gravity; }
 
-void sw_scene_set_gravity(sw_scene *s, sw_vec gravity) {
+sw_status sw_scene_set_gravity(sw_scene *s, sw_vec gravity, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
   s->gravity = gravity;
   s->discontinuous = 1;
+  return SW_OK;
 }
 
 sw_status sw_scene_readable(const sw_scene *s, sw_error *err) {
@@ -74,9 +80,13 @@ sw_status sw_scene_readable(const sw_scene *s, sw_error *err) {
                  s->name, s->why.text);
 }
 
+int sw_scene_busy(const sw_scene *s) { return s->running > 0; }
+
 sw_status sw_scene_editable(const sw_scene *s, sw_error *err) {
   if (s->running)
-    return sw_fail(err, SW_EBUSY, "scene '%s': cannot be changed from inside a step", s->name);
+    return sw_fail(err, SW_EBUSY, "scene '%s' cannot be changed or measured from inside a step or a function of "
+                   "time",
+                   s->name);
   return SW_OK;
 }
 
@@ -100,6 +110,27 @@ sw_scene_obstacle *sw_scene_find_obstacle(const sw_scene *s, sw_handle h, sw_err
     return &s->obstacles[h.slot];
   sw_fail(err, SW_EDEAD, "this obstacle is not of scene '%s' any more", s->name);
   return NULL;
+}
+
+const char *sw_scene_wire_name(const sw_scene *s, sw_handle h) {
+  const sw_scene_wire *w = sw_scene_find_wire(s, h, NULL);
+  return w ? w->name : NULL;
+}
+
+const char *sw_scene_hold_name(const sw_scene *s, sw_handle h, const char **kind, int *held) {
+  const sw_scene_hold *hold = sw_scene_find_hold(s, h, NULL);
+  if (!hold) return NULL;
+  *kind = hold->cls->name;
+  *held = hold->alive;
+  return hold->name;
+}
+
+const char *sw_scene_obstacle_name(const sw_scene *s, sw_handle h, const char **kind,
+                                   int *present) {
+  if (h.slot >= s->obstacle_count || s->obstacles[h.slot].generation != h.generation) return NULL;
+  *kind = sw_shape_kind(s->obstacles[h.slot].shape);
+  *present = s->obstacles[h.slot].alive;
+  return s->obstacles[h.slot].name;
 }
 
 /* A name for an unnamed object: "wire1", "box2", ... */
@@ -144,7 +175,7 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
   SW_TRY(sw_scene_editable(s, err));
   const double straight[6] = {args->from.x, args->from.y, args->from.z,
                               args->to.x,   args->to.y,   args->to.z};
-  sw_scene_wire w = {.generation = 1, .cls = sw_wire_all()[args->model], .beam = *beam};
+  sw_scene_wire w = {.generation = s->serial + 1, .cls = sw_wire_all()[args->model], .beam = *beam};
   give_name(w.name, args->name, "wire", s->wire_count);
   if (!points && (isnan(args->from.x) || isnan(args->to.x)))
     return sw_fail(err, SW_EINVAL, "wire '%s': give from and to, or path [m]", w.name);
@@ -160,7 +191,7 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
     return status;
   }
   w.mesh.EA = beam->EA;
-  *out = (sw_handle){(uint32_t)s->wire_count, 1};
+  *out = (sw_handle){(uint32_t)s->wire_count, ++s->serial};
   s->wires[s->wire_count++] = w;
   return SW_OK;
 }
@@ -188,14 +219,14 @@ sw_status sw_scene_add_obstacle(sw_scene *s, sw_shape *shape, const sw_obstacle_
   SW_TRY(sw_grow((void **)&s->obstacles, &s->obstacle_capacity, s->obstacle_count + 1,
                  sizeof *s->obstacles));
   sw_scene_obstacle *o = &s->obstacles[s->obstacle_count];
-  *o = (sw_scene_obstacle){.generation = 1,
+  *o = (sw_scene_obstacle){.generation = ++s->serial,
                            .alive = 1,
                            .drive = {.pose = {args->at, args->rotation}},
                            .friction = args->friction,
                            .restitution = args->restitution};
   give_name(o->name, args->name, sw_shape_kind(shape), s->obstacle_count);
   o->shape = sw_shape_retain(shape);
-  *out = (sw_handle){(uint32_t)s->obstacle_count++, 1};
+  *out = (sw_handle){(uint32_t)s->obstacle_count++, s->serial};
   return SW_OK;
 }
 
@@ -213,7 +244,7 @@ sw_status sw_scene_obstacle_follow(sw_scene *s, sw_handle obstacle, sw_motion *m
   sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
   if (!o) return SW_EDEAD;
   SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_drive_follow(&o->drive, o->name, s->time, motion, relative, err));
+  SW_TRY(sw_drive_follow(s, &o->drive, o->name, motion, relative, err));
   s->discontinuous = 1;
   return SW_OK;
 }
@@ -222,7 +253,7 @@ sw_status sw_scene_obstacle_pose(sw_scene *s, sw_handle obstacle, sw_pose *out, 
   sw_motion_state now;
   const sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
   if (!o) return SW_EDEAD;
-  SW_TRY(sw_drive_eval(&o->drive, s->time, &now, err));
+  SW_TRY(sw_drive_eval(s, &o->drive, s->time, &now, err));
   *out = now.pose;
   return SW_OK;
 }
@@ -274,16 +305,22 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
   SW_TRY(sw_grow((void **)&s->forces, &s->force_capacity, s->force_count + 1, sizeof *s->forces));
   sw_scene_force *f = &s->forces[s->force_count];
   *f = (sw_scene_force){
-      .generation = 1, .alive = 1, .cls = cls, .wire = wire.generation ? (long)wire.slot : -1};
+      .generation = ++s->serial, .alive = 1, .cls = cls, .wire = wire.generation ? (long)wire.slot : -1};
   if (args_size) memcpy(f->args, args, args_size);
-  *out = (sw_handle){(uint32_t)s->force_count++, 1};
+  *out = (sw_handle){(uint32_t)s->force_count++, s->serial};
   return SW_OK;
+}
+
+const sw_force_class *sw_scene_force_class(const sw_scene *s, sw_handle h) {
+  const int known = h.slot < s->force_count && s->forces[h.slot].generation == h.generation;
+  return known ? s->forces[h.slot].cls : NULL;
 }
 
 sw_status sw_scene_remove_force(sw_scene *s, sw_handle force, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  if (force.slot >= s->force_count || !s->forces[force.slot].alive)
+  if (!sw_scene_force_class(s, force))
     return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
+  if (!s->forces[force.slot].alive) return SW_OK;
   SW_TRY(sw_scene_thaw(s));
   s->forces[force.slot].alive = 0;
   return SW_OK;

@@ -20,6 +20,7 @@
 #include "wire/wire.h"
 
 typedef struct sw_scene sw_scene;
+typedef struct sw_snapshot sw_snapshot;
 
 typedef struct sw_handle {
   uint32_t slot, generation; /* generation 0 = no object */
@@ -37,11 +38,28 @@ void sw_scene_free(sw_scene *scene); /* NULL is allowed */
 const char *sw_scene_name(const sw_scene *scene);
 double sw_scene_time(const sw_scene *scene); /* [s] */
 sw_vec sw_scene_gravity(const sw_scene *scene);
-void sw_scene_set_gravity(sw_scene *scene, sw_vec gravity);
+sw_status sw_scene_set_gravity(sw_scene *scene, sw_vec gravity, sw_error *err);
+/* 1 inside a step or a user's function of the scene: every change is refused with
+ * SW_EBUSY, and the scene must not be freed. */
+int sw_scene_busy(const sw_scene *scene);
 
 /* SW_EDIVERGED with the reason when the last run diverged: nothing may be read
  * until a snapshot is restored. */
 sw_status sw_scene_readable(const sw_scene *scene, sw_error *err);
+
+/* --- names ------------------------------------------------------------------ */
+
+/* NULL when the scene does not know the object any more. kind: "clamp", "box", ...;
+ * held, present: 0 once released or removed. */
+const char *sw_scene_wire_name(const sw_scene *scene, sw_handle wire);
+const char *sw_scene_hold_name(const sw_scene *scene, sw_handle hold, const char **kind,
+                               int *held);
+const char *sw_scene_obstacle_name(const sw_scene *scene, sw_handle obstacle, const char **kind,
+                                   int *present);
+/* 0 when neither the scene nor a living snapshot of it will use the force again. */
+int sw_scene_force_needed(const sw_scene *scene, sw_handle force);
+/* The class of a force, released or not; NULL as above. */
+const sw_force_class *sw_scene_force_class(const sw_scene *scene, sw_handle force);
 
 /* --- wires ------------------------------------------------------------------ */
 
@@ -201,7 +219,28 @@ sw_status sw_scene_penetration(sw_scene *scene, double *now, sw_extreme *deepest
 /* Number of contact points with a force now. */
 size_t sw_scene_touches(sw_scene *scene);
 
-double sw_scene_stable_dt(sw_scene *scene); /* leapfrog limit, 0 on failure [s] */
+/* Largest stable step of leapfrog [s]. */
+sw_status sw_scene_stable_dt(sw_scene *scene, double *dt, sw_error *err);
+
+/* Where a force is asked; NULL = the scene's own state. Arrays are (nodes x 3). */
+typedef struct sw_probe {
+  const double *positions;  /* [m] */
+  const double *velocities; /* [m/s] */
+  const double *direction;  /* to be multiplied by the stiffness; NULL = no product [m] */
+  double rate; /* adds rate times the damping to the stiffness, as a step of 1/rate does [1/s] */
+  int statics; /* 0: leave out the geometric stiffness of edges under pressure, as steps do */
+} sw_probe;
+
+typedef struct sw_probe_result {
+  size_t terms;    /* forces of this kind on the wire */
+  double energy;   /* [J] */
+  double *force;   /* (nodes x 3), the caller's; or NULL [N] */
+  double *product; /* (nodes x 3), the caller's; or NULL: stiffness times direction [N] */
+} sw_probe_result;
+
+/* What all forces of one class do to a wire. Changes nothing. */
+sw_status sw_scene_probe(sw_scene *scene, sw_handle wire, const sw_force_class *cls,
+                         const sw_probe *at, sw_probe_result *out, sw_error *err);
 
 /* One recorded row per step of a hold: time, force, moment, held point. */
 enum { SW_LOG_TIME = 0, SW_LOG_FORCE = 1, SW_LOG_MOMENT = 4, SW_LOG_POINT = 7, SW_LOG_SIZE = 10 };
@@ -223,13 +262,16 @@ const double *sw_scene_frame_obstacle(const sw_scene *scene, size_t frame, size_
 const double *sw_scene_frame_hold(const sw_scene *scene, size_t frame, size_t h, int *held);
 enum { SW_FRAME_ENERGIES = 3 }; /* kinetic, elastic, gravity [J] */
 const double *sw_scene_frame_energy(const sw_scene *scene, size_t frame);
-void sw_scene_clear_frames(sw_scene *scene);
+sw_status sw_scene_clear_frames(sw_scene *scene, sw_error *err);
 
 /* --- snapshots -------------------------------------------------------------- */
 
-typedef struct sw_snapshot sw_snapshot;
+/* Restoring takes back what was made after the snapshot: its handles are stale
+ * from then on, unless another living snapshot still knows it. */
 sw_status sw_scene_snapshot(sw_scene *scene, sw_snapshot **out, sw_error *err);
 sw_status sw_scene_restore(sw_scene *scene, const sw_snapshot *snapshot, sw_error *err);
-void sw_snapshot_free(sw_snapshot *snapshot);
+void sw_snapshot_free(sw_snapshot *snapshot); /* NULL is allowed */
+double sw_snapshot_time(const sw_snapshot *snapshot); /* [s] */
+int sw_snapshot_busy(const sw_snapshot *snapshot); /* its scene is busy: do not free it */
 
 #endif

@@ -21,6 +21,8 @@ typedef struct saved_obstacle {
 } saved_obstacle;
 
 struct sw_snapshot {
+  sw_scene *scene; /* NULL once it is gone */
+  sw_snapshot *next;
   double time, next_dt, next_frame;
   sw_vec gravity;
   size_t wires, holds, obstacles, forces, frames;
@@ -42,8 +44,32 @@ struct sw_snapshot {
   size_t memory_size;
 };
 
+int sw_snapshot_busy(const sw_snapshot *p) { return p->scene && sw_scene_busy(p->scene); }
+
+double sw_snapshot_time(const sw_snapshot *p) { return p->time; }
+
+int sw_scene_force_needed(const sw_scene *s, sw_handle h) {
+  if (!sw_scene_force_class(s, h)) return 0;
+  if (s->forces[h.slot].alive) return 1;
+  for (const sw_snapshot *p = s->snapshots; p; p = p->next)
+    if (h.slot < p->forces && p->force_alive[h.slot]) return 1;
+  return 0;
+}
+
+void sw_scene_orphan_snapshots(sw_scene *s) {
+  for (; s->snapshots; s->snapshots = s->snapshots->next) s->snapshots->scene = NULL;
+}
+
+static void unlink_snapshot(sw_snapshot *p) {
+  if (!p->scene) return;
+  sw_snapshot **at = &p->scene->snapshots;
+  while (*at && *at != p) at = &(*at)->next;
+  if (*at) *at = p->next;
+}
+
 void sw_snapshot_free(sw_snapshot *p) {
   if (!p) return;
+  unlink_snapshot(p);
   for (size_t w = 0; p->meshes && w < p->wires; w++) sw_mesh_free(&p->meshes[w]);
   for (size_t k = 0; p->hold && k < p->holds; k++) sw_drive_free(&p->hold[k].drive);
   for (size_t k = 0; p->obstacle && k < p->obstacles; k++) sw_drive_free(&p->obstacle[k].drive);
@@ -149,25 +175,26 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
     sw_snapshot_free(p);
     return sw_fail(err, status, "snapshot: out of memory");
   }
+  p->scene = s;
+  p->next = s->snapshots;
+  s->snapshots = p;
   *out = p;
   return SW_OK;
 }
 
 /* Is the built system of the same plan as the snapshot's? */
 static int same_plan(const sw_scene *s, const sw_snapshot *p) {
-  if (!s->built || s->wire_count != p->wires || s->hold_count != p->holds ||
-      s->obstacle_count != p->obstacles || s->force_count != p->forces)
-    return 0;
+  if (!s->built || s->wire_count != p->wires) return 0;
   for (size_t w = 0; w < p->wires; w++)
     if (s->wires[w].mesh.n != p->meshes[w].n ||
         memcmp(s->wires[w].mesh.s, p->meshes[w].s, p->meshes[w].n * sizeof(double)) != 0)
       return 0;
-  for (size_t k = 0; k < p->holds; k++)
-    if (s->holds[k].alive != p->hold[k].alive) return 0;
-  for (size_t k = 0; k < p->obstacles; k++)
-    if (s->obstacles[k].alive != p->obstacle[k].alive) return 0;
-  for (size_t k = 0; k < p->forces; k++)
-    if (s->forces[k].alive != p->force_alive[k]) return 0;
+  for (size_t k = 0; k < s->hold_count; k++)
+    if (s->holds[k].alive != (k < p->holds && p->hold[k].alive)) return 0;
+  for (size_t k = 0; k < s->obstacle_count; k++)
+    if (s->obstacles[k].alive != (k < p->obstacles && p->obstacle[k].alive)) return 0;
+  for (size_t k = 0; k < s->force_count; k++)
+    if (s->forces[k].alive != (k < p->forces && p->force_alive[k])) return 0;
   return 1;
 }
 
@@ -204,6 +231,20 @@ static void put_objects(sw_scene *s, const sw_snapshot *p) {
     s->wires[w].curvature = p->extremes[2 * w];
     s->wires[w].tension = p->extremes[2 * w + 1];
   }
+}
+
+/* Slots beyond what any living snapshot knows are free again. */
+static void drop_newer(sw_scene *s) {
+  size_t holds = 0, obstacles = 0, forces = 0;
+  for (const sw_snapshot *q = s->snapshots; q; q = q->next) {
+    if (q->holds > holds) holds = q->holds;
+    if (q->obstacles > obstacles) obstacles = q->obstacles;
+    if (q->forces > forces) forces = q->forces;
+  }
+  while (s->hold_count > holds) sw_scene_clear_hold(&s->holds[--s->hold_count]);
+  while (s->obstacle_count > obstacles)
+    sw_scene_clear_obstacle(&s->obstacles[--s->obstacle_count]);
+  if (s->force_count > forces) s->force_count = forces;
 }
 
 static sw_status put_meshes(sw_scene *s, const sw_snapshot *p) {
@@ -247,7 +288,7 @@ static sw_status put_state(sw_scene *s, const sw_snapshot *p, sw_error *err) {
 
 sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  if (s->wire_count < p->wires || s->hold_count < p->holds || s->obstacle_count < p->obstacles)
+  if (p->scene != s)
     return sw_fail(err, SW_EINVAL, "restore: the snapshot is of another scene");
   if (s->wire_count > p->wires)
     return sw_fail(err, SW_EINVAL,
@@ -258,13 +299,14 @@ sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
     if (put_meshes(s, p) != SW_OK) return sw_fail(err, SW_ENOMEM, "restore: out of memory");
   }
   put_objects(s, p);
+  drop_newer(s);
   s->time = p->time, s->next_dt = p->next_dt, s->next_frame = p->next_frame;
   s->gravity = p->gravity;
   s->deepest = p->deepest;
   SW_TRY(sw_scene_build(s, err));
+  s->diverged = 0;
   SW_TRY(put_state(s, p, err));
   s->discontinuous = p->discontinuous;
-  s->diverged = 0;
   while (s->frame_count > p->frames) sw_free(s->frames[--s->frame_count].data);
   return SW_OK;
 }

@@ -73,6 +73,8 @@ typedef struct sw_frame {
 
 struct sw_scene {
   char name[SW_NAME_SIZE];
+  uint32_t serial;        /* generation of the object made last */
+  sw_snapshot *snapshots; /* the living ones, a list */
   sw_vec gravity;
   double time;
   sw_scene_wire *wires;
@@ -85,10 +87,17 @@ struct sw_scene {
   size_t force_count, force_capacity;
 
   int built;        /* system is valid and holds the state */
-  int running;      /* inside advance or settle: edits are refused */
+  int running;      /* above 0 inside a step or a user's function: edits are refused */
   sw_system system;
   int *hold_slot;   /* (system.hold_count) scene slot of each system hold */
   sw_contact *contact;
+  struct {            /* contact memory of the last built system, for the next one */
+    void *memory;     /* copy, or NULL */
+    size_t bytes;
+    double *s;        /* (nodes) arc lengths then [m] */
+    size_t *first;    /* (wires + 1) first node of each wire then */
+    size_t wires;
+  } kept;
   const sw_integrator *method; /* of stepper */
   sw_stepper stepper;
   int has_stepper;
@@ -105,12 +114,18 @@ struct sw_scene {
 
 /* Leave the built state: the meshes become authoritative again. */
 sw_status sw_scene_thaw(sw_scene *scene);
+/* Drop the contact memory kept for the next system. */
+void sw_scene_forget_contact(sw_scene *scene);
 /* Make the system from the meshes and holds, if it is not. */
 sw_status sw_scene_build(sw_scene *scene, sw_error *err);
 
-sw_status sw_drive_eval(const sw_drive *drive, double t, sw_motion_state *out, sw_error *err);
-sw_status sw_drive_follow(sw_drive *drive, const char *object, double now, sw_motion *motion,
-                          int relative, sw_error *err);
+/* Where the drive is at time t. The scene refuses to be changed meanwhile, for
+ * the motion may be a user's function. */
+sw_status sw_drive_eval(sw_scene *scene, const sw_drive *drive, double t, sw_motion_state *out,
+                        sw_error *err);
+/* Follow the motion from the scene's time on. */
+sw_status sw_drive_follow(sw_scene *scene, sw_drive *drive, const char *object,
+                          sw_motion *motion, int relative, sw_error *err);
 void sw_drive_free(sw_drive *drive);
 
 sw_status sw_log_add(sw_log *log, const double *row, size_t n);
@@ -121,6 +136,12 @@ sw_scene_hold *sw_scene_find_hold(const sw_scene *scene, sw_handle h, sw_error *
 sw_scene_obstacle *sw_scene_find_obstacle(const sw_scene *scene, sw_handle h, sw_error *err);
 
 sw_status sw_scene_editable(const sw_scene *scene, sw_error *err);
+
+/* Free what these slots own. */
+void sw_scene_clear_hold(sw_scene_hold *hold);
+void sw_scene_clear_obstacle(sw_scene_obstacle *obstacle);
+/* The scene goes away: its snapshots live on, good for nothing. */
+void sw_scene_orphan_snapshots(sw_scene *scene);
 
 /* After an accepted state: extremes, logs. */
 sw_status sw_scene_observe(sw_scene *scene, sw_error *err);

@@ -61,7 +61,9 @@ sw_status sw_shape_new(const sw_shape_class *class, const sw_shape_args *args,
 #define SW_SHAPE_LARGEST 1e6 /* largest size of a shape [m] */
 
 /* The nearest surface place to the point p. Returns 1 and fills out when the
- * gap is below reach, else 0 (out is then undefined). */
+ * gap is below reach, else 0 (out is then undefined). Of an open mesh, a sheet,
+ * the back counts as inside, but not beyond its border, and outside its bounds
+ * only within reach. */
 int sw_shape_point(const sw_shape *shape, sw_vec p, double reach, sw_closest *out);
 
 /* Contacts of the segment a-b strictly between its ends, which points at the

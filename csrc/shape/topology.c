@@ -66,13 +66,21 @@ static int make_edge(sw_trimesh *mesh, const half_edge *h, int count) {
   return count == 2 && runs_up(mesh, &h[0]) == runs_up(mesh, &h[1]);
 }
 
+static int same_edge(const half_edge *a, const half_edge *b) {
+  return a->low == b->low && a->high == b->high;
+}
+
+static size_t count_edges(const half_edge *halves, size_t sides) {
+  size_t count = 0;
+  for (size_t i = 0; i < sides; i++) count += i == 0 || !same_edge(&halves[i - 1], &halves[i]);
+  return count;
+}
+
 static size_t make_edges(sw_trimesh *mesh, const half_edge *halves) {
   const size_t all = 3 * mesh->triangle_count;
   size_t twisted = 0;
   for (size_t i = 0, next; i < all; i = next) {
-    for (next = i + 1; next < all && halves[next].low == halves[i].low &&
-                       halves[next].high == halves[i].high;)
-      next++;
+    for (next = i + 1; next < all && same_edge(&halves[next], &halves[i]);) next++;
     twisted += (size_t)make_edge(mesh, halves + i, (int)(next - i));
   }
   return twisted;
@@ -131,24 +139,32 @@ static void finish_corner(sw_trimesh *mesh, int v) {
   }
 }
 
+/* Everything once the sides are listed; *twisted counts edges of opposed faces. */
+static sw_status fill(sw_trimesh *mesh, const half_edge *halves, size_t *twisted) {
+  const size_t edges = count_edges(halves, 3 * mesh->triangle_count);
+  mesh->edges = sw_alloc(edges, sizeof *mesh->edges);
+  mesh->corner_edges = sw_alloc(2 * edges, sizeof *mesh->corner_edges);
+  mesh->corners = sw_alloc(mesh->vertex_count, sizeof *mesh->corners);
+  if (!mesh->edges || !mesh->corner_edges || !mesh->corners) return SW_ENOMEM;
+  *twisted = make_edges(mesh, halves);
+  add_corner_normals(mesh);
+  list_corner_edges(mesh);
+  for (size_t v = 0; v < mesh->vertex_count; v++) finish_corner(mesh, (int)v);
+  return SW_OK;
+}
+
 sw_status sw_trimesh_topology(sw_trimesh *mesh, const char *object, sw_error *err) {
   const size_t sides = 3 * mesh->triangle_count;
+  size_t twisted = 0;
+  sw_status status = SW_ENOMEM;
   half_edge *halves = sw_alloc(sides, sizeof *halves);
   mesh->sides = sw_alloc(sides, sizeof *mesh->sides);
-  mesh->edges = sw_alloc(sides, sizeof *mesh->edges);
-  mesh->corner_edges = sw_alloc(2 * sides, sizeof *mesh->corner_edges);
-  mesh->corners = sw_alloc(mesh->vertex_count, sizeof *mesh->corners);
-  size_t twisted = 0;
-  const int fine = halves && mesh->sides && mesh->edges && mesh->corner_edges && mesh->corners;
-  if (fine) {
+  if (halves && mesh->sides) {
     list_sides(mesh, halves);
-    twisted = make_edges(mesh, halves);
-    add_corner_normals(mesh);
-    list_corner_edges(mesh);
-    for (size_t v = 0; v < mesh->vertex_count; v++) finish_corner(mesh, (int)v);
+    status = fill(mesh, halves, &twisted);
   }
   sw_free(halves);
-  if (!fine) return SW_ENOMEM;
+  SW_TRY(status);
   if (twisted > 0)
     return sw_fail(err, SW_EINVAL,
                    "%s: at %zu of %zu edges the two triangles face opposite ways; give all "

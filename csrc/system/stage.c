@@ -241,6 +241,38 @@ static int converged(sw_system *s, const sw_stage *stage, const sw_newton *newto
          s->coupling.settled(s->coupling.user, s, stage->y, s->delta);
 }
 
+/* Newton starts from the free flight yhat. Where that turns an edge over or
+ * halves it, the start may lie on the wrong side of the edge's own length, and
+ * the solve could end in a wire folded through itself. Returns the
+ * smallest share of its length that an edge keeps along itself. */
+SW_HOT
+static double least_alignment(size_t m, const double *restrict x, const double *restrict y) {
+  double least = 1.0;
+  for (size_t e = 0; e < m; e++) {
+    double dot = 0, length2 = 0;
+    for (size_t k = 0; k < 3; k++) {
+      const double edge = x[3 * e + 3 + k] - x[3 * e + k];
+      length2 += edge * edge;
+      dot += edge * (y[3 * e + 3 + k] - y[3 * e + k]);
+    }
+    const double share = dot / length2;
+    least = least < share ? least : share;
+  }
+  return least;
+}
+
+static const double LEAST_ALIGNMENT = 0.4; /* of an edge at the start with itself before [-] */
+
+static sw_status check_start(const sw_system *s, const double *y, sw_error *err) {
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_body *body = &s->bodies[b];
+    const size_t at = 3 * body->first_node;
+    if (!(least_alignment(body->plan->edges, s->x + at, y + at) >= LEAST_ALIGNMENT))
+      return sw_fail(err, SW_ENOCONV, "an edge would turn over within the step");
+  }
+  return SW_OK;
+}
+
 static sw_status begin(sw_system *s, const sw_stage *stage, int statics, sw_error *err) {
   const double h = statics ? 0.0 : stage->hbar;
   for (size_t i = 0; i < 3 * s->nodes; i++)
@@ -251,6 +283,7 @@ static sw_status begin(sw_system *s, const sw_stage *stage, int statics, sw_erro
       const size_t i = 3 * s->held[k].node + c;
       s->yhat[i] = stage->y[i] - h * h * (stage->a ? stage->a[i] : 0.0);
     }
+  if (!statics) SW_TRY(check_start(s, stage->y, err));
   if (s->coupling.begin_stage)
     SW_TRY(s->coupling.begin_stage(s->coupling.user, s, stage->time, stage->hbar, stage->y, err));
   return SW_OK;

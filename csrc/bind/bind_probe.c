@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* scene:evaluate: what each kind of force does to a wire. */
+#include <stddef.h>
+
+#include "bind/child.h"
+
+typedef struct probe_args {
+  double rate;
+  int statics;
+} probe_args;
+
+#define FLAT(name, unit, doc) \
+  { name, SW_PARAM_OTHER, unit, 0, 0, 0, 0, NULL, 0, doc }
+
+static const sw_param rows[] = {
+    FLAT("positions", "m", "flat node positions (default: the wire's own)"),
+    FLAT("velocities", "m/s", "flat node velocities (default: the wire's own)"),
+    FLAT("direction", "m", "flat array to be multiplied by the stiffness"),
+    {"rate", SW_PARAM_NUMBER, "1/s", 0, 0, HUGE_VAL, 0, NULL, offsetof(probe_args, rate),
+     "adds rate times the damping to the stiffness, as a time step of 1/rate does"},
+    {"statics", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, offsetof(probe_args, statics),
+     "false leaves out the geometric stiffness of edges under pressure, as time steps do"},
+};
+static const sw_params params = SW_PARAMS("scene:evaluate", rows);
+
+/* The numbers under key as an array that a new userdata owns; NULL without the
+ * key. Leaves the userdata (or nil) on the stack. */
+static const double *read_flat(lua_State *L, int table, const char *key, size_t n) {
+  if (table == 0 || lua_getfield(L, table, key) == LUA_TNIL) return NULL;
+  if (!lua_istable(L, -1) || lua_rawlen(L, -1) != n)
+    luaL_error(L, "scene:evaluate: %s must be an array of %d numbers, three for each node", key,
+               (int)n);
+  double *values = lua_newuserdatauv(L, n * sizeof *values, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_rawgeti(L, -2, (lua_Integer)i + 1);
+    values[i] = lsw_number(L, -1, "scene:evaluate: an item", "-");
+    lua_pop(L, 1);
+  }
+  lua_remove(L, -2);
+  return values;
+}
+
+static void push_result(lua_State *L, const sw_probe *at, const sw_probe_result *r, size_t n) {
+  lua_createtable(L, 0, 4);
+  lsw_set_integer(L, "count", r->terms);
+  lsw_set_number(L, "energy", r->energy);
+  lsw_push_flat(L, r->force, n);
+  lua_setfield(L, -2, "force");
+  if (!at->direction) return;
+  lsw_push_flat(L, r->product, n);
+  lua_setfield(L, -2, "product");
+}
+
+/* scene:evaluate(wire, {...}) -> { kind = { count, energy [J], force [N],
+ * product [N] } } for every kind of force on the wire; changes nothing. */
+int lsw_scene_evaluate(lua_State *L) {
+  const lsw_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  sw_scene *scene = owner->object;
+  sw_error err = {""};
+  size_t nodes;
+  probe_args args;
+  lua_settop(L, 3);
+  const lsw_child *wire = lsw_check_child_of(L, 2, &lsw_class_wire, scene, "scene:evaluate");
+  lsw_arguments(L, 3, "scene:evaluate", &params, &args);
+  lsw_must(L, sw_scene_wire_nodes(scene, wire->id, &nodes, &err), &err);
+  const size_t n = 3 * nodes;
+  const int table = lua_isnil(L, 3) ? 0 : 3;
+  const sw_probe at = {.positions = read_flat(L, table, "positions", n),
+                       .velocities = read_flat(L, table, "velocities", n),
+                       .direction = read_flat(L, table, "direction", n),
+                       .rate = args.rate,
+                       .statics = args.statics};
+  sw_probe_result r = {.force = lua_newuserdatauv(L, 2 * n * sizeof *r.force, 0)};
+  r.product = r.force + n;
+  lua_newtable(L);
+  for (size_t i = 0; sw_force_all()[i]; i++) {
+    const sw_force_class *cls = sw_force_all()[i];
+    lua_State *outer = lsw_begin_forces(L);
+    const sw_status status = sw_scene_probe(scene, wire->id, cls, &at, &r, &err);
+    lsw_end_forces(outer);
+    lsw_must(L, status, &err);
+    if (r.terms == 0) continue;
+    push_result(L, &at, &r, n);
+    lua_setfield(L, -2, cls->name);
+  }
+  return 1;
+}

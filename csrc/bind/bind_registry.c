@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* core.registry(): every registry and parameter table as Lua tables, for help,
+ * the reference pages and the contract specs. */
+#include "bind/child.h"
+#include "bind/module.h"
+
+/* Each pushes one entry and leaves it on the stack. */
+
+static void set_text(lua_State *L, const char *name, const char *text) {
+  lua_pushstring(L, text);
+  lua_setfield(L, -2, name);
+}
+
+static void set_flag(lua_State *L, const char *name, int flag) {
+  lua_pushboolean(L, flag);
+  lua_setfield(L, -2, name);
+}
+
+static void set_params(lua_State *L, const sw_params *params) {
+  lsw_push_params(L, params);
+  lua_setfield(L, -2, "params");
+}
+
+static void push_entry(lua_State *L, const char *name, const char *summary) {
+  lua_createtable(L, 0, 8);
+  set_text(L, "name", name);
+  set_text(L, "summary", summary);
+}
+
+static void integrators(lua_State *L) {
+  for (int i = 0; sw_integrator_all()[i]; i++) {
+    const sw_integrator *m = sw_integrator_all()[i];
+    push_entry(L, m->name, m->summary);
+    lsw_set_integer(L, "order", (size_t)m->order);
+    set_flag(L, "implicit", (m->flags & SW_INTEGRATOR_IMPLICIT) != 0);
+    set_flag(L, "adaptive", (m->flags & SW_INTEGRATOR_EMBEDDED) != 0);
+    set_flag(L, "no_contact", (m->flags & SW_INTEGRATOR_NO_CONTACT) != 0);
+    lsw_set_number(L, "leapfrog_limit", m->leapfrog_limit);
+    lua_rawseti(L, -2, i + 1);
+  }
+}
+
+static void forces(lua_State *L) {
+  static const struct {
+    const char *name;
+    unsigned bit;
+  } flags[] = {{"inner", SW_FORCE_INNER},
+               {"explicit", SW_FORCE_EXPLICIT},
+               {"at_place", SW_FORCE_AT_PLACE},
+               {"dissipative", SW_FORCE_DISSIPATIVE},
+               {"frozen", SW_FORCE_FROZEN}};
+  for (int i = 0; sw_force_all()[i]; i++) {
+    const sw_force_class *f = sw_force_all()[i];
+    push_entry(L, f->name, f->summary);
+    for (size_t k = 0; k < sizeof flags / sizeof flags[0]; k++)
+      set_flag(L, flags[k].name, (f->flags & flags[k].bit) != 0);
+    set_params(L, &f->params);
+    lua_rawseti(L, -2, i + 1);
+  }
+}
+
+static void models(lua_State *L) {
+  for (int i = 0; sw_wire_all()[i]; i++) {
+    push_entry(L, sw_wire_all()[i]->name, sw_wire_all()[i]->summary);
+    lua_rawseti(L, -2, i + 1);
+  }
+}
+
+static void holds(lua_State *L) {
+  for (int i = 0; sw_hold_all()[i]; i++) {
+    push_entry(L, sw_hold_all()[i]->name, sw_hold_all()[i]->summary);
+    set_params(L, &sw_hold_all()[i]->params);
+    lua_rawseti(L, -2, i + 1);
+  }
+}
+
+static void shapes(lua_State *L) {
+  for (int i = 0; sw_shape_kinds()[i]; i++) {
+    const sw_shape_class *c = sw_shape_class_find(sw_shape_kinds()[i]);
+    push_entry(L, sw_shape_kinds()[i], NULL);
+    set_params(L, sw_shape_class_params(c));
+    lua_rawseti(L, -2, i + 1);
+  }
+}
+
+static void params(lua_State *L) {
+  const struct {
+    const char *name;
+    const sw_params *params;
+  } tables[] = {{"scene", &sw_scene_params},     {"wire", &sw_wire_params},
+                {"section", &sw_section_params}, {"obstacle", &sw_obstacle_params},
+                {"run", &sw_run_params},         {"settle", &sw_settle_params}};
+  for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++) {
+    lsw_push_params(L, tables[i].params);
+    lua_setfield(L, -2, tables[i].name);
+  }
+}
+
+static int mod_registry(lua_State *L) {
+  static const struct {
+    const char *name;
+    void (*fill)(lua_State *L);
+  } parts[] = {{"integrators", integrators}, {"forces", forces}, {"models", models},
+               {"holds", holds},             {"shapes", shapes}, {"params", params}};
+  lua_newtable(L);
+  for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+    lua_newtable(L);
+    parts[i].fill(L);
+    lua_setfield(L, -2, parts[i].name);
+  }
+  return 1;
+}
+
+void lsw_open_registry(lua_State *L) {
+  lua_pushcfunction(L, mod_registry);
+  lua_setfield(L, -2, "registry");
+}
