@@ -257,7 +257,8 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   s->running++;
   sw_status status = SW_OK;
   if (isfinite(args->frame) && s->frame_count == 0) {
-    status = sw_scene_store_frame(s, &why);
+    status = sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, &why); /* energies need it */
+    if (status == SW_OK) status = sw_scene_store_frame(s, &why);
     s->next_frame = s->time + args->frame;
   }
   if (status == SW_OK) status = run_loop(&p, until, interrupted, &why);
