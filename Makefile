@@ -73,4 +73,7 @@ asan:
 	  build-asan/softworld scripts/spec.lua --timeout 3000 $(ARGS)
 
 
-.PHONY: all clean spec lint format asan install
+examples: all
+	@for example in examples/*.lua; do echo "== $$example"; $(BUILD)/softworld $$example || exit 1; done
+
+.PHONY: all clean spec lint format asan install examples
