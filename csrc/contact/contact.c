@@ -186,6 +186,7 @@ static void set_stiffness(sw_contact *c, const sw_system *s, double nominal) {
     const double L = p->length;
     force = fmax(force, fmax(p->beam.mass * L * g, p->beam.EI / (L * L)));
   }
+  c->force_scale = force;
   c->base_stiffness = force / ALLOWED_PENETRATION;
   c->rate2 = 0;
   if (c->regime == SW_CONTACT_IMPLICIT)
@@ -216,6 +217,7 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
                                 double h, double nominal, sw_error *err) {
   c->time = t;
   c->h = h;
+  c->nominal = nominal;
   c->regime = regime;
   c->barrier_count = c->impact_count = c->pressed_count = 0;
   c->widening = 1.0;

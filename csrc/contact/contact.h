@@ -48,11 +48,16 @@ sw_status sw_contact_eval(void *contact, sw_system *system, double time, double 
                           const double *y, unsigned want, sw_error *err);
 int sw_contact_settled(void *contact, sw_system *system, const double *y, const double *delta);
 
-/* After a trial step to positions x1: were there impacts or crossings that the
- * step did not know of? 0 = none, the step may be accepted; 1 = the system's
- * starting velocities were changed (and contacts added): redo the step from a
- * restart. */
-int sw_contact_review(sw_contact *contact, sw_system *system, const double *x1, double h);
+/* What is to be done with a trial step to positions x1. */
+typedef enum sw_contact_verdict {
+  SW_CONTACT_ACCEPT,
+  SW_CONTACT_REDO,   /* impacts or crossings that the step did not know of: the
+                        system's starting velocities were changed, contacts added;
+                        redo the step from a restart */
+  SW_CONTACT_SMALLER /* edges or corners cut too deep: only a smaller step helps */
+} sw_contact_verdict;
+sw_contact_verdict sw_contact_review(sw_contact *contact, sw_system *system, const double *x1,
+                                     double h);
 
 /* The same for statics: segments of a solution x1 that went through an obstacle
  * are kept on their side from now on. 1 = there were some, solve again. */

@@ -108,8 +108,12 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
   for (int redo = 0; status == SW_OK && redo < MOST_REDOS; redo++) {
     status = trial(p, h, err);
     if (status != SW_OK) break;
-    if (!sw_contact_review(s->contact, &s->system, s->stepper.trial_x, h)) return SW_OK;
+    const sw_contact_verdict verdict =
+        sw_contact_review(s->contact, &s->system, s->stepper.trial_x, h);
+    if (verdict == SW_CONTACT_ACCEPT) return SW_OK;
     sw_stepper_reject(&s->stepper, &s->system);
+    if (verdict == SW_CONTACT_SMALLER)
+      status = sw_fail(err, SW_ENOCONV, "an edge or corner of an obstacle cuts too deep");
     s->stepper.restart = 1;
   }
   memcpy(s->system.v, p->v_start, 3 * s->system.nodes * sizeof(double));
@@ -229,6 +233,12 @@ static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const
   if (report->status != SW_EDIVERGED) return;
   s->diverged = 1;
   s->why = report->reason;
+}
+
+sw_status sw_scene_begin_run(sw_scene *s, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  sw_scene_reset_extremes(s);
+  return SW_OK;
 }
 
 sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,

@@ -36,24 +36,23 @@ static size_t odd_of(size_t n) { return n % 2; }
 
 static inline pair of(double a, double b) { return (pair){a, b}; }
 
-/* Inverse of symmetric blocks by cofactors; the leading minors tell the signs
- * of their pivots. */
+/* Inverse of symmetric blocks: the first row is eliminated, the rest is inverted
+ * by cofactors. (Cofactors of the whole block would lose the square of the ratio
+ * of axial to bending stiffness.) Signs of the pivots from the minors. */
 static inline void invert(const pair d[6], pair inverse[6], signs *s) {
-  const pair c00 = d[3] * d[5] - d[4] * d[4];
-  const pair c01 = d[2] * d[4] - d[1] * d[5];
-  const pair c02 = d[1] * d[4] - d[2] * d[3];
-  const pair minor = d[0] * d[3] - d[1] * d[1];
-  const pair det = d[0] * c00 + d[1] * c01 + d[2] * c02;
-  const pair r = 1.0 / det;
-  inverse[0] = c00 * r;
-  inverse[1] = c01 * r;
-  inverse[2] = c02 * r;
-  inverse[3] = (d[0] * d[5] - d[2] * d[2]) * r;
-  inverse[4] = (d[1] * d[2] - d[0] * d[4]) * r;
-  inverse[5] = minor * r;
-  const mask n0 = d[0] < 0.0, n1 = minor < 0.0, n2 = det < 0.0;
-  s->negative += n0 + (n0 ^ n1) + (n1 ^ n2);
-  s->bad |= ~(((r > 0.0) | (r < 0.0)) & (r < HUGE_VAL) & (r > -HUGE_VAL));
+  const pair r0 = 1.0 / d[0], l1 = d[1] * r0, l2 = d[2] * r0;
+  const pair s3 = d[3] - l1 * d[1], s4 = d[4] - l1 * d[2], s5 = d[5] - l2 * d[2];
+  const pair minor = s3 * s5 - s4 * s4, r = 1.0 / minor;
+  inverse[3] = s5 * r;
+  inverse[4] = -s4 * r;
+  inverse[5] = s3 * r;
+  inverse[1] = -(l1 * inverse[3] + l2 * inverse[4]);
+  inverse[2] = -(l1 * inverse[4] + l2 * inverse[5]);
+  inverse[0] = r0 - (l1 * inverse[1] + l2 * inverse[2]);
+  const mask n0 = d[0] < 0.0, n1 = s3 < 0.0, n2 = minor < 0.0;
+  s->negative += n0 + n1 + (n1 ^ n2);
+  const pair both = r0 * r;
+  s->bad |= ~(((both > 0.0) | (both < 0.0)) & (both < HUGE_VAL) & (both > -HUGE_VAL));
 }
 
 /* w = S u for symmetric S. */

@@ -31,21 +31,14 @@ local function find(rows, ratio, gamma)
   end
 end
 
--- Points of the hanging chain of length 1 over the given span.
-local function chain(span, count)
-  local u = 1 -- sinh(u)/u = 1/span
+-- Half of L/(2 a): sinh(u)/u = 1/span for the chain of length 1.
+local function parameter(span)
+  local u = 1
   for _ = 1, 60 do
     local s, c = (math.exp(u) - math.exp(-u)) / 2, (math.exp(u) + math.exp(-u)) / 2
     u = u - (s - u / span) / (c - 1 / span)
   end
-  local a, points = span / (2 * u), {}
-  local function cosh(x) return (math.exp(x) + math.exp(-x)) / 2 end
-  for i = 0, count do -- evenly in arc length: s = a sinh(x/a)
-    local s = i / count - 0.5
-    local x = a * math.log(s / a + ((s / a) ^ 2 + 1) ^ 0.5)
-    points[i + 1] = { x + span / 2, 0, a * (cosh(x / a) - cosh(span / (2 * a))) }
-  end
-  return points
+  return u
 end
 
 return function(options)
@@ -71,8 +64,8 @@ return function(options)
     c.left = scene:clamp(c.wire, { s = 0, direction = level })
     c.right = scene:clamp(c.wire, { s = c.wire.length, direction = level })
   else
-    p.path = {}
-    for i, q in ipairs(chain(span, p.segments)) do p.path[i] = f.point(q[1], q[2], q[3]) end
+    local a = span / (2 * parameter(span)) -- H/w
+    p.path = wires.arch(f, p.segments, span, function(u) return math.atan((u - 0.5) / a) end)
     c.wire = scene:wire(p)
     c.left, c.right = scene:pin(c.wire, { s = 0 }), scene:pin(c.wire, { s = c.wire.length })
   end

@@ -291,6 +291,22 @@ local function point_labels(script, points, top)
   end
 end
 
+-- An axis of less than two decades has few powers of ten: name 1, 2 and 5 of each.
+local function narrow_tics(script, axis, low, high)
+  if high / low >= 100 then return end
+  local tics = {}
+  for decade = math.floor(math.log(low, 10)), math.ceil(math.log(high, 10)) do
+    for _, digit in ipairs{ 1, 2, 5 } do
+      local x = digit * 10.0 ^ decade
+      if x >= low and x <= high then
+        tics[#tics + 1] = quote(("%g"):format(x)) .. " " .. gnuplot.number(x)
+      end
+    end
+  end
+  if #tics == 0 then return end
+  script.add("set m%stics default\nset %stics (%s)", axis, axis, table.concat(tics, ", "))
+end
+
 --- A log-log chart of cost against error, or the like.
 -- The Pareto front is marked by a line; failures stand as crosses at the top edge.
 -- @tparam table options `points = { { x=, y=, series=name, failed=bool, label= }, ... }`
@@ -310,6 +326,8 @@ function chart.front(options)
   script.add(options.path and "set format xy '10^{%L}'\nset tics enhanced" or "set format xy '%.0e'")
   script.add("set xrange [%s:%s]\nset yrange [%s:%s]", gnuplot.number(x1), gnuplot.number(x2),
     gnuplot.number(y1), gnuplot.number(y2))
+  narrow_tics(script, "x", x1, x2)
+  narrow_tics(script, "y", y1, y2)
   script.add("set xlabel %s noenhanced\nset ylabel %s noenhanced", quote(options.xlabel or "x"),
     quote(options.ylabel or "y"))
   if options.title then script.add("set title %s noenhanced", quote(options.title)) end
