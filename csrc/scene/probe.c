@@ -3,52 +3,12 @@
  * positions and velocities: energy, node forces, and its stiffness times a
  * direction. For specs, and for anyone who wants to look inside. */
 #include "scene/world.h"
-#include "solve/band3.h"
 
 /* Node forces out of what the terms have left in the field. */
 static void gather_force(const sw_field *f, double *out) {
   for (size_t i = 0; i < f->plan->nodes; i++)
     for (size_t k = 0; k < 3; k++)
       out[3 * i + k] = f->force[3 * i + k] + f->gradient[k][i] - *(f->gradient[k] + i - 1);
-}
-
-static sw_vec times(const double *u, sw_vec d) {
-  return sw_v(u[0] * d.x + u[1] * d.y + u[2] * d.z, u[3] * d.x + u[4] * d.y + u[5] * d.z,
-              u[6] * d.x + u[7] * d.y + u[8] * d.z);
-}
-
-static sw_vec transposed_times(const double *u, sw_vec d) {
-  return sw_v(u[0] * d.x + u[3] * d.y + u[6] * d.z, u[1] * d.x + u[4] * d.y + u[7] * d.z,
-              u[2] * d.x + u[5] * d.y + u[8] * d.z);
-}
-
-/* The symmetric block of an upper half xx xy xz yy yz zz. */
-static sw_vec symmetric_times(const double *h, sw_vec d) {
-  return sw_v(h[0] * d.x + h[1] * d.y + h[2] * d.z, h[1] * d.x + h[3] * d.y + h[4] * d.z,
-              h[2] * d.x + h[4] * d.y + h[5] * d.z);
-}
-
-static sw_vec edge_of(const double *d, size_t e) {
-  return sw_sub(sw_vec_at(d, e + 1), sw_vec_at(d, e));
-}
-
-/* Second derivatives with respect to edges, times the edges of d. */
-static void add_edges(const sw_field *f, const double *d, double *out) {
-  for (size_t e = 0; e < f->plan->edges; e++) {
-    double own[6], next[9];
-    for (int k = 0; k < 6; k++) own[k] = f->own[k][e];
-    sw_vec g = symmetric_times(own, edge_of(d, e));
-    if (e > 0) {
-      for (int k = 0; k < 9; k++) next[k] = f->next[k][e];
-      g = sw_add(g, transposed_times(next, edge_of(d, e - 1)));
-    }
-    if (e + 1 < f->plan->edges) {
-      for (int k = 0; k < 9; k++) next[k] = f->next[k][e + 1];
-      g = sw_add(g, times(next, edge_of(d, e + 1)));
-    }
-    sw_accumulate(out + 3 * e, sw_neg(g));
-    sw_accumulate(out + 3 * e + 3, g);
-  }
 }
 
 static sw_status add_terms(const sw_body *b, const sw_force_class *cls, sw_field *f,
@@ -91,10 +51,8 @@ sw_status sw_scene_probe(sw_scene *s, sw_handle wire, const sw_force_class *cls,
   s->running--;
   out->energy = b->field.energy;
   if (out->force) gather_force(&b->field, out->force);
-  if (at->direction && out->product) {
-    sw_band3_multiply(b->field.rows, b->plan->nodes, at->direction, out->product);
-    add_edges(&b->field, at->direction, out->product);
-  }
+  if (at->direction && out->product)
+    sw_field_stiffness_times(&b->field, at->direction, out->product);
   sw_system_refresh(&s->system);
   return status;
 }

@@ -8,6 +8,7 @@
 
 #include "base/simd.h"
 #include "solve/band3.h"
+#include "system/assemble.h"
 #include "system/system.h"
 
 static inline __attribute__((always_inline)) void gather_row(const sw_field *f, size_t i, double *restrict row) {
@@ -27,12 +28,11 @@ static inline __attribute__((always_inline)) void gather_row(const sw_field *f, 
   }
 }
 
-/* rows = stiffness + mass / hbar^2 */
 SW_HOT
-static void gather_rows(const sw_field *f, double rate2) {
+void sw_gather_rows(const sw_field *f, double rate2, double *rows) {
   const sw_plan *p = f->plan;
   for (size_t i = 0; i < p->nodes; i++) {
-    double *row = f->rows + SW_ROW_SIZE * i;
+    double *row = rows + SW_ROW_SIZE * i;
     gather_row(f, i, row);
     const double own = p->mass_own[i] * rate2, next = p->mass_next[i] * rate2;
     row[0] += own, row[3] += own, row[5] += own;
@@ -40,10 +40,9 @@ static void gather_rows(const sw_field *f, double rate2) {
   }
 }
 
-/* right = forces - M (y - yhat) / hbar^2 */
 SW_HOT
-static void gather_residual(const sw_field *f, double rate2, const double *restrict y,
-                            const double *restrict yhat, double *restrict right) {
+void sw_gather_residual(const sw_field *f, double rate2, const double *restrict y,
+                        const double *restrict yhat, double *restrict right) {
   const sw_plan *p = f->plan;
   const size_t n = p->nodes;
   double before[3] = {0, 0, 0}; /* M_next of the edge before times its shift */
@@ -60,6 +59,14 @@ static void gather_residual(const sw_field *f, double rate2, const double *restr
   }
 }
 
+void sw_drop_row(double *rows, size_t i) {
+  double *row = rows + SW_ROW_SIZE * i;
+  if (i >= 2) memset(row - 2 * SW_ROW_SIZE + SW_ROW_SECOND, 0, 9 * sizeof *row);
+  if (i >= 1) memset(row - SW_ROW_SIZE + SW_ROW_NEXT, 0, 9 * sizeof *row);
+  memset(row, 0, SW_ROW_SIZE * sizeof *row);
+  row[0] = row[3] = row[5] = 1.0;
+}
+
 static void transpose(const double *u, double *out) {
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) out[3 * i + j] = u[3 * j + i];
@@ -68,22 +75,13 @@ static void transpose(const double *u, double *out) {
 /* Take a held node out of the equations, keeping its couplings for the
  * reaction. */
 static void hold_row(sw_held_node *h, double *rows, size_t n, size_t i, double *right) {
-  double *row = rows + SW_ROW_SIZE * i;
+  const double *row = rows + SW_ROW_SIZE * i;
   memset(h->saved, 0, sizeof h->saved);
-  if (i >= 2) {
-    double *u = rows + SW_ROW_SIZE * (i - 2) + SW_ROW_SECOND;
-    transpose(u, h->saved);
-    memset(u, 0, 9 * sizeof *u);
-  }
-  if (i >= 1) {
-    double *u = rows + SW_ROW_SIZE * (i - 1) + SW_ROW_NEXT;
-    transpose(u, h->saved + 9);
-    memset(u, 0, 9 * sizeof *u);
-  }
+  if (i >= 2) transpose(rows + SW_ROW_SIZE * (i - 2) + SW_ROW_SECOND, h->saved);
+  if (i >= 1) transpose(rows + SW_ROW_SIZE * (i - 1) + SW_ROW_NEXT, h->saved + 9);
   if (i + 1 < n) memcpy(h->saved + 18, row + SW_ROW_NEXT, 9 * sizeof *row);
   if (i + 2 < n) memcpy(h->saved + 27, row + SW_ROW_SECOND, 9 * sizeof *row);
-  memset(row, 0, SW_ROW_SIZE * sizeof *row);
-  row[0] = row[3] = row[5] = 1.0;
+  sw_drop_row(rows, i);
   h->own_force = sw_neg(sw_load(right + 3 * i));
   sw_store(right + 3 * i, sw_v(0, 0, 0));
 }
@@ -129,8 +127,8 @@ static double advance_tension(size_t m, const double *restrict delta, const doub
   return largest;
 }
 
-static sw_status evaluate(sw_system *s, sw_body *b, double time, double hbar, const double *y,
-                          const double *v, int statics, sw_error *err) {
+sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, const double *y,
+                           const double *v, int statics, sw_error *err) {
   sw_field *f = &b->field;
   f->want = SW_WANT_FORCE | SW_WANT_STIFFNESS;
   f->time = time;
@@ -162,16 +160,16 @@ static sw_status solve_once(sw_system *s, const sw_stage *stage, int statics,
   for (size_t b = 0; b < s->body_count; b++) velocity |= s->bodies[b].needs_velocity;
   if (velocity) stage_velocity(s, stage, statics);
   for (size_t b = 0; b < s->body_count; b++)
-    SW_TRY(evaluate(s, &s->bodies[b], stage->time, stage->hbar, stage->y, s->velocity, statics,
-                    err));
+    SW_TRY(sw_body_evaluate(s, &s->bodies[b], stage->time, stage->hbar, stage->y, s->velocity,
+                            statics, err));
   if (s->coupling.eval)
     SW_TRY(s->coupling.eval(s->coupling.user, s, stage->time, stage->hbar, stage->y,
                             SW_WANT_FORCE | SW_WANT_STIFFNESS, err));
   for (size_t b = 0; b < s->body_count; b++) {
     sw_field *f = &s->bodies[b].field;
     const size_t at = 3 * s->bodies[b].first_node;
-    gather_rows(f, rate2);
-    gather_residual(f, rate2, f->x, s->yhat + at, s->delta + at);
+    sw_gather_rows(f, rate2, f->rows);
+    sw_gather_residual(f, rate2, f->x, s->yhat + at, s->delta + at);
   }
   for (size_t i = 0; i < s->held_count; i++) {
     const sw_body *b = &s->bodies[s->held[i].body];

@@ -171,4 +171,41 @@ double sw_system_term_energy(sw_system *system, size_t body, size_t term);
 /* Smallest stable leapfrog step over all bodies and forces [s]. */
 double sw_system_stable_dt(const sw_system *system);
 
+/* --- small motions about the state ------------------------------------------- */
+
+/* Forces and stiffness at the state, velocities taken as zero and axial forces as
+ * stored. What follows is valid until the next evaluation of any kind. Motions are
+ * (unknowns) values; in those given, held nodes must be zero. */
+sw_status sw_system_linearise(sw_system *system, double time, sw_error *err);
+
+size_t sw_system_unknowns(const sw_system *system, size_t body);
+size_t sw_system_free_unknowns(const sw_system *system, size_t body);
+size_t sw_system_factor_size(const sw_system *system, size_t body); /* in doubles */
+
+/* Forces that are out of balance, zero where held; (unknowns) [N]. */
+void sw_system_residual(const sw_system *system, size_t body, double *out);
+/* How far the nodes go in a motion: (nodes x 3) [m]. */
+void sw_system_shifts(const sw_system *system, size_t body, const double *motion, double *out);
+/* Zero a motion's held unknowns. */
+void sw_system_fix_held(const sw_system *system, size_t body, double *motion);
+
+/* Factorise K - shift M; below receives how many eigenvalues of K x = lambda M x
+ * are below the shift. Fails as sw_band3_factor. shift [rad2/s2] */
+sw_status sw_system_factor(const sw_system *system, size_t body, double shift, double *factor,
+                           size_t *below);
+void sw_system_factor_solve(const sw_system *system, size_t body, const double *factor,
+                            double *b);
+/* The largest diagonal term of K over that of M; work has a factor's size [rad2/s2]. */
+double sw_system_stiffest(const sw_system *system, size_t body, double *work);
+
+/* out = K motion, out = M motion */
+void sw_system_stiffness_times(const sw_system *system, size_t body, const double *motion,
+                               double *out);
+void sw_system_mass_times(const sw_system *system, size_t body, const double *motion,
+                          double *out);
+
+/* out = stiffness of a body's field times d, held nodes like all others; both
+ * (nodes x 3). */
+void sw_field_stiffness_times(const sw_field *field, const double *d, double *out);
+
 #endif

@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A body's small motions about the state: stiffness K, consistent mass M, and
+ * factors of K - shift M. Held nodes do not move.
+ *
+ * The product with K goes by edges, not by matrix rows: a row adds blocks that
+ * are larger than what a smooth motion feels by up to the fourth power of the
+ * number of segments, and that rounding would drown it. */
+#include <math.h>
+#include <string.h>
+
+#include "base/simd.h"
+#include "solve/band3.h"
+#include "system/assemble.h"
+#include "system/system.h"
+
+sw_status sw_system_linearise(sw_system *s, double time, sw_error *err) {
+  const sw_coupling *c = &s->coupling;
+  SW_TRY(sw_system_place_holds(s, time, NULL, NULL, NULL, err));
+  if (c->begin_stage) SW_TRY(c->begin_stage(c->user, s, time, HUGE_VAL, s->x, err));
+  memset(s->velocity, 0, 3 * s->nodes * sizeof *s->velocity);
+  for (size_t b = 0; b < s->body_count; b++)
+    SW_TRY(sw_body_evaluate(s, &s->bodies[b], time, HUGE_VAL, s->x, s->velocity, 1, err));
+  if (c->eval)
+    SW_TRY(c->eval(c->user, s, time, HUGE_VAL, s->x, SW_WANT_FORCE | SW_WANT_STIFFNESS, err));
+  for (size_t b = 0; b < s->body_count; b++) {
+    const size_t at = 3 * s->bodies[b].first_node;
+    sw_gather_residual(&s->bodies[b].field, 0.0, s->x + at, s->x + at, s->delta + at);
+  }
+  for (size_t i = 0; i < s->held_count; i++)
+    sw_store(s->delta + 3 * s->held[i].node, sw_v(0, 0, 0));
+  s->counters.evaluations++;
+  return SW_OK;
+}
+
+/* --- sizes and layout --------------------------------------------------------- */
+
+size_t sw_system_unknowns(const sw_system *s, size_t body) {
+  return 3 * s->bodies[body].plan->nodes;
+}
+
+size_t sw_system_free_unknowns(const sw_system *s, size_t body) {
+  size_t held = 0;
+  for (size_t i = 0; i < s->held_count; i++) held += s->held[i].body == body;
+  return sw_system_unknowns(s, body) - 3 * held;
+}
+
+size_t sw_system_factor_size(const sw_system *s, size_t body) {
+  return SW_ROW_SIZE * s->bodies[body].plan->nodes;
+}
+
+void sw_system_residual(const sw_system *s, size_t body, double *out) {
+  memcpy(out, s->delta + 3 * s->bodies[body].first_node,
+         sw_system_unknowns(s, body) * sizeof *out);
+}
+
+void sw_system_shifts(const sw_system *s, size_t body, const double *motion, double *out) {
+  memcpy(out, motion, 3 * s->bodies[body].plan->nodes * sizeof *out);
+}
+
+void sw_system_fix_held(const sw_system *s, size_t body, double *motion) {
+  for (size_t i = 0; i < s->held_count; i++)
+    if (s->held[i].body == body)
+      sw_store(motion + 3 * (s->held[i].node - s->bodies[body].first_node), sw_v(0, 0, 0));
+}
+
+/* --- factors ------------------------------------------------------------------ */
+
+static void shifted_rows(const sw_system *s, size_t body, double shift, double *rows) {
+  const sw_body *b = &s->bodies[body];
+  memcpy(rows, b->field.rows, sw_system_factor_size(s, body) * sizeof *rows);
+  sw_gather_rows(&b->field, -shift, rows);
+  for (size_t i = 0; i < s->held_count; i++)
+    if (s->held[i].body == body) sw_drop_row(rows, s->held[i].node - b->first_node);
+}
+
+sw_status sw_system_factor(const sw_system *s, size_t body, double shift, double *factor,
+                           size_t *below) {
+  const size_t n = s->bodies[body].plan->nodes;
+  shifted_rows(s, body, shift, factor);
+  return sw_band3_factor(factor, n, factor, below);
+}
+
+void sw_system_factor_solve(const sw_system *s, size_t body, const double *factor, double *b) {
+  sw_band3_solve(factor, s->bodies[body].plan->nodes, b);
+}
+
+double sw_system_stiffest(const sw_system *s, size_t body, double *work) {
+  static const int diagonal[3] = {0, 3, 5};
+  const sw_plan *p = s->bodies[body].plan;
+  double most = 0;
+  shifted_rows(s, body, 0.0, work);
+  for (size_t i = 0; i < p->nodes; i++)
+    for (int k = 0; k < 3 && p->held[i] == SW_FREE; k++)
+      most = fmax(most, fabs(work[SW_ROW_SIZE * i + (size_t)diagonal[k]]) / p->mass_own[i]);
+  return most;
+}
+
+/* --- products ----------------------------------------------------------------- */
+
+/* g = second derivatives with respect to edge e, times the edges of d */
+static inline void edge_gradient(const sw_field *f, size_t e, const double *restrict d,
+                                 double g[3]) {
+  static const int whole[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+  const double *at = d + 3 * e;
+  for (int i = 0; i < 3; i++) {
+    g[i] = 0;
+    for (int j = 0; j < 3; j++) g[i] += f->own[whole[3 * i + j]][e] * (at[3 + j] - at[j]);
+    for (int j = 0; e > 0 && j < 3; j++) g[i] += f->next[3 * j + i][e] * (at[j] - *(at + j - 3));
+    for (int j = 0; e + 1 < f->plan->edges && j < 3; j++)
+      g[i] += f->next[3 * i + j][e + 1] * (at[6 + j] - at[3 + j]);
+  }
+}
+
+void sw_field_stiffness_times(const sw_field *f, const double *d, double *out) {
+  sw_band3_multiply(f->rows, f->plan->nodes, d, out);
+  for (size_t e = 0; e < f->plan->edges; e++) {
+    double g[3];
+    edge_gradient(f, e, d, g);
+    for (size_t k = 0; k < 3; k++) {
+      out[3 * e + k] -= g[k];
+      out[3 * e + 3 + k] += g[k];
+    }
+  }
+}
+
+void sw_system_stiffness_times(const sw_system *s, size_t body, const double *motion,
+                               double *out) {
+  sw_field_stiffness_times(&s->bodies[body].field, motion, out);
+  sw_system_fix_held(s, body, out);
+}
+
+SW_HOT
+static void mass_times(size_t n, const double *restrict own, const double *restrict next,
+                       const double *restrict x, double *restrict y) {
+  for (size_t i = 0; i < n; i++)
+    for (size_t k = 0; k < 3; k++) y[3 * i + k] = own[i] * x[3 * i + k];
+  for (size_t i = 0; i + 1 < n; i++)
+    for (size_t k = 0; k < 3; k++) {
+      y[3 * i + k] += next[i] * x[3 * i + 3 + k];
+      y[3 * i + 3 + k] += next[i] * x[3 * i + k];
+    }
+}
+
+void sw_system_mass_times(const sw_system *s, size_t body, const double *motion, double *out) {
+  const sw_plan *p = s->bodies[body].plan;
+  mass_times(p->nodes, p->mass_own, p->mass_next, motion, out);
+  sw_system_fix_held(s, body, out);
+}
