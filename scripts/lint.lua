@@ -16,12 +16,13 @@ local ROOMS = {
   force = { "base", "state" },
   solve = { "base" }, -- matrices only
   system = { "base", "state", "solve" },
+  modal = { "base", "state", "solve", "system" },
   integrate = { "base", "state", "solve", "system" }, -- a system, never a force or a wire
   contact = { "base", "state", "shape", "motion" },
   constraint = { "base", "state", "shape", "motion", "contact" },
   calibrate = { "base", "wire", "force", "solve" },
   scene = { "base", "motion", "shape", "state", "wire", "force", "solve", "system", "integrate",
-    "contact", "constraint", "calibrate" },
+    "contact", "constraint", "calibrate", "modal" },
   bind = {}, -- the core through softworld.h
   host = { "bind" },
 }

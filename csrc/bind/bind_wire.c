@@ -253,6 +253,7 @@ static const luaL_Reg methods[] = {{"position", meth_position},
                                    {"set_velocity", meth_set_velocity},
                                    {"min_bend_radius", meth_min_bend_radius},
                                    {"max_tension", meth_max_tension},
+                                   {"frequencies", lsw_wire_frequencies},
                                    {NULL, NULL}};
 static const luaL_Reg properties[] = {{"length", prop_length},
                                       {"segments", prop_segments},

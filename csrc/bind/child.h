@@ -44,6 +44,7 @@ int lsw_scene_wire(lua_State *L);
 int lsw_scene_obstacle(lua_State *L);
 int lsw_scene_force(lua_State *L);
 int lsw_scene_evaluate(lua_State *L);
+int lsw_wire_frequencies(lua_State *L);
 
 /* While the core may call Lua functions as forces: they run on L, whose stack
  * index 1 is the scene. The value goes back to lsw_end_forces. */

@@ -42,6 +42,16 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count,
   return SW_OK;
 }
 
+sw_status sw_contact_copy(const sw_contact *c, sw_contact **out) {
+  const size_t bytes = c->memory_count * sizeof *c->memory;
+  SW_TRY(sw_contact_new(c->obstacles, c->count, c->place, c->user, out));
+  const sw_status status = sw_contact_set_memory(*out, c->memory, bytes, c->fresh);
+  if (status == SW_OK) return SW_OK;
+  sw_contact_free(*out);
+  *out = NULL;
+  return status;
+}
+
 void sw_contact_free(sw_contact *c) {
   if (!c) return;
   sw_free(c->obstacles);
@@ -224,6 +234,18 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
   set_stiffness(c, s, nominal);
   SW_TRY(place_all(c, t, c->start, err));
   return sw_contact_find_candidates(c, s, err);
+}
+
+sw_status sw_contact_begin_look(sw_contact *c, sw_system *s, double t, sw_error *err) {
+  SW_TRY(sw_contact_begin_step(c, s, SW_CONTACT_STATIC, t, 0, 0, err));
+  if (!(c->base_stiffness > 0)) c->base_stiffness = 1.0; /* nothing presses; no touch will do */
+  for (size_t i = 0; i < c->candidate_count; i++) {
+    sw_candidate *k = &c->candidates[i];
+    for (size_t j = k->memory; j < k->memory_end; j++)
+      if (c->memory[j].normal_force > 0)
+        k->boost = c->memory[j].normal_force / (c->memory[j].depth * c->base_stiffness);
+  }
+  return SW_OK;
 }
 
 sw_status sw_contact_begin_stage(void *contact, sw_system *s, double time, double hbar,

@@ -29,6 +29,9 @@ typedef sw_status (*sw_contact_place)(void *user, int o, double time, sw_motion_
 /* Takes copies. SW_ENOMEM. */
 sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count,
                          sw_contact_place place, void *user, sw_contact **out);
+/* Another one over the same obstacles with the same memory, to look ahead with: what
+ * it does leaves the first as it is. SW_ENOMEM. */
+sw_status sw_contact_copy(const sw_contact *contact, sw_contact **out);
 void sw_contact_free(sw_contact *contact);
 
 /* How the coming steps are computed: decides the normal stiffness. */
@@ -40,6 +43,10 @@ typedef enum sw_contact_regime { SW_CONTACT_STATIC, SW_CONTACT_IMPLICIT, SW_CONT
  * statics. */
 sw_status sw_contact_begin_step(sw_contact *contact, sw_system *system, sw_contact_regime regime,
                                 double t, double h, double nominal, sw_error *err);
+
+/* Evaluations at the accepted state begin, with every touch as stiff as its force
+ * was over its depth in the last step. */
+sw_status sw_contact_begin_look(sw_contact *contact, sw_system *system, double t, sw_error *err);
 
 /* The system's coupling functions (see sw_coupling), user = the contact. */
 sw_status sw_contact_begin_stage(void *contact, sw_system *system, double time, double hbar,

@@ -208,6 +208,26 @@ sw_status sw_scene_wire_extremes(sw_scene *scene, sw_handle wire, sw_extreme *cu
                                  sw_extreme *tension_now, sw_extreme *curvature,
                                  sw_extreme *tension, sw_error *err);
 
+typedef struct sw_modes_args {
+  long modes;       /* how many [-] */
+  double tolerance; /* how far from rest the wire may be, of its length [-] */
+  int shapes;       /* wanted? */
+} sw_modes_args;
+extern const sw_params sw_modes_params;
+
+typedef struct sw_modes_result {
+  size_t count;     /* frequencies found [-] */
+  size_t unstable;  /* motions that grow instead [-] */
+  double growth;    /* of the fastest of those [1/s] */
+  double *frequencies; /* (modes), the caller's [Hz] */
+  double *shapes;      /* (modes x nodes x 3), the caller's, or NULL [1/sqrt(kg)] */
+} sw_modes_result;
+
+/* Lowest natural frequencies of one wire about the present equilibrium, all else
+ * held as it is. Changes nothing. SW_EINVAL when the wire is not at rest. */
+sw_status sw_scene_wire_modes(sw_scene *scene, sw_handle wire, const sw_modes_args *args,
+                              int (*interrupted)(void), sw_modes_result *out, sw_error *err);
+
 enum { SW_ENERGY_KINDS = 24 };
 typedef struct sw_energy {
   size_t count;

@@ -12,6 +12,7 @@ local notes = {
   scene = "sw.scene{...}", wire = "scene:wire{...} (and a section, see help 'section')",
   section = "scene:wire{...}: what the wire is made of", obstacle = "scene:obstacle{ shape =, ... }",
   run = "scene:run{...}", settle = "scene:settle{...}",
+  frequencies = "wire:frequencies{...}: natural frequencies [Hz] about the present equilibrium",
   trajectory = "sw.trajectory{...}; clamps, obstacles and grippers take the table itself",
 }
 

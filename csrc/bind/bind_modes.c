@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* wire:frequencies. */
+#include "bind/child.h"
+
+static void push_shapes(lua_State *L, const sw_modes_result *r, size_t n) {
+  lua_createtable(L, (int)r->count, 0);
+  for (size_t i = 0; i < r->count; i++) {
+    lsw_push_flat(L, r->shapes + i * n, n);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  lua_setfield(L, -2, "shapes");
+}
+
+/* wire:frequencies{ modes =, shapes = } -> { f1, f2, ..., unstable =, growth =,
+ * shapes = } [Hz], [-], [1/s], [1/sqrt(kg)] */
+int lsw_wire_frequencies(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_modes_args args;
+  size_t nodes;
+  lua_settop(L, 2);
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  lsw_arguments(L, 2, "wire:frequencies", &sw_modes_params, &args);
+  lsw_must(L, sw_scene_wire_nodes(scene, w->id, &nodes, &err), &err);
+  const sw_handle id = w->id;
+  const size_t modes = (size_t)args.modes, n = 3 * nodes;
+  sw_modes_result r = {.frequencies = lua_newuserdatauv(L, modes * sizeof(double), 0)};
+  if (args.shapes) r.shapes = lua_newuserdatauv(L, modes * n * sizeof(double), 0);
+  lua_getiuservalue(L, 1, 1); /* functions as forces need their scene at index 1 */
+  lua_replace(L, 1);
+  lua_State *outer = lsw_begin_forces(L);
+  const sw_status status = sw_scene_wire_modes(scene, id, &args, sw_interrupted, &r, &err);
+  lsw_end_forces(outer);
+  lsw_must(L, status, &err);
+  lua_createtable(L, (int)r.count, 3);
+  for (size_t i = 0; i < r.count; i++) {
+    lua_pushnumber(L, r.frequencies[i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  lsw_set_integer(L, "unstable", r.unstable);
+  if (r.unstable) lsw_set_number(L, "growth", r.growth);
+  if (args.shapes) push_shapes(L, &r, n);
+  return 1;
+}

@@ -1,0 +1,311 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A shift below the lowest eigenvalue, a block Krylov space of the inverse around
+ * it until the wanted values stand still, a count of negative pivots to see that
+ * none was missed, and once more Rayleigh-Ritz with K itself: the factor's rounding
+ * then enters the values squared only. */
+#include "modal/modal.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "base/alloc.h"
+#include "modal/eigen.h"
+#include "modal/krylov.h"
+
+/* Residual of a Ritz pair of the inverse, of its value: the value itself is then
+ * exact to its square [-]. */
+static const double CONVERGED = 1e-7;
+/* A share of the span from the shift to the last wanted value, by which the count
+ * looks beyond it [-]. */
+static const double BEYOND = 1e-6;
+/* Values this small compared with the largest one computed are none [-]. */
+static const double NEUTRAL = 1e-9;
+/* The shift lies below zero by this share of the last wanted value [-]. */
+static const double BELOW_ZERO = 0.05;
+/* Values before and after the last Rayleigh-Ritz that differ by more are the work
+ * of rounding, of a value or of this share of the largest [-]. */
+static const double ROUNDING = 0.02, ROUNDING_FLOOR = 1e-5;
+enum { SPARE = 8, MOST_UNSTABLE = 100 };
+
+typedef struct job {
+  const sw_system *system;
+  size_t body, n, free_unknowns;
+  size_t target;   /* lowest values looked for, unstable ones included */
+  double floor;    /* eigenvalues below this are rounding [rad2/s2] */
+  double shift;    /* [rad2/s2] */
+  double *factor, *other; /* of K - shift M; for counting */
+  int (*interrupted)(void);
+  sw_krylov krylov;
+  double *values, *vectors, *scratch, *residuals; /* Ritz */
+  sw_error *err;
+} job;
+
+static sw_status out_of_memory(const job *p) {
+  return sw_fail(p->err, SW_ENOMEM, "frequencies: out of memory");
+}
+
+/* Number of eigenvalues below; an exactly singular place is stepped aside. */
+static sw_status count_below(const job *p, double at, double *factor, size_t *count) {
+  for (int k = 0; k < 4; k++, at += 1e-7 * fabs(at))
+    if (sw_system_factor(p->system, p->body, at, factor, count) == SW_OK) return SW_OK;
+  return sw_fail(p->err, SW_EDIVERGED, "frequencies: the stiffness is not a finite number");
+}
+
+/* A value below which there are at least `wanted` eigenvalues but not many times
+ * higher than the last of those. */
+static sw_status bracket(const job *p, size_t wanted, double *high) {
+  const double step = 16.0;
+  double low = p->floor;
+  size_t count;
+  for (*high = p->floor;; low = *high, *high *= step) {
+    SW_TRY(count_below(p, *high, p->other, &count));
+    if (count >= wanted || !isfinite(*high)) break;
+  }
+  while (*high > 2.0 * low) {
+    const double middle = sqrt(low * *high);
+    SW_TRY(count_below(p, middle, p->other, &count));
+    if (count >= wanted) *high = middle;
+    else low = middle;
+  }
+  return SW_OK;
+}
+
+static sw_status choose_shift(job *p, size_t modes) {
+  size_t unstable, below;
+  double high;
+  p->floor = 8 * DBL_EPSILON * sw_system_stiffest(p->system, p->body, p->other);
+  SW_TRY(count_below(p, -p->floor, p->other, &unstable));
+  if (unstable > MOST_UNSTABLE)
+    return sw_fail(p->err, SW_EDIVERGED,
+                   "frequencies: the state is unstable in %zu ways (slack, or pressed far beyond "
+                   "buckling); let it settle first", unstable);
+  p->target = modes + unstable;
+  if (p->target > p->free_unknowns) p->target = p->free_unknowns;
+  SW_TRY(bracket(p, p->target, &high));
+  p->shift = -fmax(BELOW_ZERO * high, 4 * p->floor);
+  for (;; p->shift *= 4) {
+    SW_TRY(count_below(p, p->shift, p->factor, &below));
+    if (below == 0) return SW_OK;
+    if (!isfinite(p->shift)) return sw_fail(p->err, SW_EDIVERGED, "frequencies: no lowest one");
+  }
+}
+
+/* --- Krylov space ------------------------------------------------------------- */
+
+/* The i-th lowest eigenvalue by the present Ritz values. */
+static double lowest(const job *p, size_t i) {
+  return p->shift + 1.0 / p->values[p->krylov.done - 1 - i];
+}
+
+static int settled(const job *p) {
+  const size_t m = p->krylov.done;
+  if (m < p->target) return 0;
+  for (size_t i = 0; i < p->target; i++) {
+    const double theta = p->values[m - 1 - i];
+    if (!(theta > 0) || p->residuals[m - 1 - i] > CONVERGED * theta) return 0;
+  }
+  return 1;
+}
+
+/* 1 when there are no more eigenvalues up to the last wanted one than were found.
+ * Neutral ones are not counted: there may be any number of them. */
+static sw_status complete(const job *p, int *yes) {
+  const double last = lowest(p, p->target - 1), at = last + BEYOND * (last - p->shift);
+  size_t found = 0, there = 0;
+  *yes = 1;
+  if (last <= p->floor) return SW_OK;
+  while (found < p->krylov.done && p->values[p->krylov.done - 1 - found] > 0 &&
+         lowest(p, found) <= at)
+    found++;
+  SW_TRY(count_below(p, at, p->other, &there));
+  *yes = there <= found;
+  return SW_OK;
+}
+
+static sw_status look(job *p, int *finished) {
+  *finished = 0;
+  const sw_status status =
+      sw_krylov_ritz(&p->krylov, p->scratch, p->values, p->vectors, p->residuals);
+  if (status == SW_ENOMEM) return out_of_memory(p);
+  if (status != SW_OK) return sw_fail(p->err, status, "frequencies: the numbers are not finite");
+  if (!settled(p)) return SW_OK;
+  SW_TRY(complete(p, finished));
+  if (*finished) return SW_OK;
+  return sw_krylov_add_random(&p->krylov, 1) == SW_ENOMEM ? out_of_memory(p) : SW_OK;
+}
+
+static sw_status iterate(job *p) {
+  sw_krylov *k = &p->krylov;
+  size_t next_look = p->target;
+  sw_status status = sw_krylov_add_random(k, SW_KRYLOV_BLOCK);
+  for (int finished = 0; status == SW_OK;) {
+    if (p->interrupted && p->interrupted()) return SW_EINTR;
+    status = sw_krylov_extend(k);
+    if (status == SW_ELIMIT)
+      return sw_fail(p->err, SW_ENOCONV, "frequencies: no convergence in %zu directions", k->count);
+    if (status != SW_OK) break;
+    const int exhausted = k->done == k->count;
+    if (k->done >= next_look || exhausted) {
+      SW_TRY(look(p, &finished));
+      if (finished || k->done == p->free_unknowns) return SW_OK;
+      next_look = k->done + k->done / 8 + 1;
+    }
+    if (exhausted) status = sw_krylov_add_random(k, SW_KRYLOV_BLOCK);
+    if (status == SW_OK && k->done == k->count) return look(p, &finished); /* nothing is left */
+  }
+  return status == SW_ENOMEM ? out_of_memory(p)
+                             : sw_fail(p->err, SW_EDIVERGED, "frequencies: numbers not finite");
+}
+
+/* --- last Rayleigh-Ritz --------------------------------------------------------- */
+
+/* Projections of K and M on q Ritz vectors x; w, w + n are scratch. */
+static void project(const job *p, double *const *x, size_t q, double *w, double *a, double *b) {
+  for (size_t j = 0; j < q; j++) {
+    sw_system_stiffness_times(p->system, p->body, x[j], w);
+    sw_system_mass_times(p->system, p->body, x[j], w + p->n);
+    for (size_t i = 0; i <= j; i++) {
+      a[i * q + j] = a[j * q + i] = sw_krylov_dot(x[i], w, p->n);
+      b[i * q + j] = b[j * q + i] = sw_krylov_dot(x[i], w + p->n, p->n);
+    }
+  }
+}
+
+static sw_status compare(const job *p, const double *before, const double *after, size_t q) {
+  const double scale = ROUNDING_FLOOR * fabs(after[q - 1]);
+  for (size_t i = 0; i < p->target; i++)
+    if (!(fabs(after[i] - before[i]) <= ROUNDING * fmax(fabs(after[i]), scale)))
+      return sw_fail(p->err, SW_EDIVERGED,
+                     "frequencies: rounding drowns the softest motions among %zu nodes; use fewer "
+                     "segments", p->n / 3);
+  return SW_OK;
+}
+
+/* The largest component is positive, so that the same scene gives the same signs. */
+static void set_sign(double *x, size_t n) {
+  double most = 0;
+  for (size_t i = 0; i < n; i++)
+    if (fabs(x[i]) > fabs(most)) most = x[i];
+  for (size_t i = 0; most < 0 && i < n; i++) x[i] = -x[i];
+}
+
+static void finish(const job *p, const double *values, const double *turn, double *const *x,
+                   size_t q, sw_modes *out) {
+  const double neutral = fmax(NEUTRAL * fabs(values[q - 1]), p->floor * DBL_EPSILON);
+  for (size_t r = 0; r < out->count; r++) {
+    double *shape = out->shapes + r * p->n;
+    for (size_t j = 0; j < q; j++)
+      for (size_t i = 0; i < p->n; i++) shape[i] += turn[r * q + j] * x[j][i];
+    set_sign(shape, p->n);
+    out->omega2[r] = fabs(values[r]) <= neutral ? 0.0 : values[r];
+    out->unstable += out->omega2[r] < 0;
+  }
+}
+
+static sw_status solve_again(const job *p, double *const *x, size_t q, double *dense, double *w,
+                             sw_modes *out) {
+  double *a = dense, *b = a + q * q, *turn = b + q * q, *values = turn + q * q;
+  double *before = values + q;
+  for (size_t r = 0; r < q; r++) {
+    before[r] = lowest(p, r);
+    sw_krylov_combine(&p->krylov, p->vectors + (p->krylov.done - 1 - r) * p->krylov.done, x[r]);
+  }
+  project(p, x, q, w, a, b);
+  const sw_status status = sw_eigen_dense(a, b, q, values, turn);
+  if (status == SW_ENOMEM) return out_of_memory(p);
+  if (status != SW_OK) return sw_fail(p->err, status, "frequencies: the numbers are not finite");
+  SW_TRY(compare(p, before, values, q));
+  out->count = p->target;
+  out->unknowns = p->n;
+  out->iterations = p->krylov.solves;
+  out->omega2 = sw_alloc(out->count, sizeof *out->omega2);
+  out->shapes = sw_alloc(out->count * p->n, sizeof *out->shapes);
+  if (!out->omega2 || !out->shapes) return out_of_memory(p);
+  finish(p, values, turn, x, q, out);
+  return SW_OK;
+}
+
+static sw_status polish(const job *p, sw_modes *out) {
+  const size_t m = p->krylov.done;
+  size_t q = 0;
+  while (q < m && q < p->target + SPARE && p->values[m - 1 - q] > 0) q++;
+  if (q < p->target) return sw_fail(p->err, SW_ENOCONV, "frequencies: only %zu were found", q);
+  double **x = sw_alloc(q, sizeof *x);
+  double *dense = sw_alloc(3 * q * q + 2 * q, sizeof *dense);
+  double *w = sw_alloc(2 * p->n, sizeof *w);
+  sw_status status = x && dense && w ? SW_OK : out_of_memory(p);
+  for (size_t r = 0; status == SW_OK && r < q; r++) {
+    x[r] = sw_alloc(p->n, sizeof *x[r]);
+    if (!x[r]) status = out_of_memory(p);
+  }
+  if (status == SW_OK) status = solve_again(p, x, q, dense, w, out);
+  for (size_t r = 0; x && r < q; r++) sw_free(x[r]);
+  sw_free(x);
+  sw_free(dense);
+  sw_free(w);
+  return status;
+}
+
+/* --- the whole ------------------------------------------------------------------ */
+
+static sw_status run(job *p, size_t modes, sw_modes *out) {
+  SW_TRY(choose_shift(p, modes));
+  size_t most = 6 * p->target + 150;
+  if (most > p->free_unknowns) most = p->free_unknowns;
+  most += 1; /* the vector beyond a full space is nothing, but room is asked for */
+  p->values = sw_alloc(2 * most, sizeof *p->values);
+  p->residuals = p->values ? p->values + most : NULL;
+  p->vectors = sw_alloc(most * most, sizeof *p->vectors);
+  p->scratch = sw_alloc(most * most, sizeof *p->scratch);
+  if (!p->values || !p->vectors || !p->scratch) return out_of_memory(p);
+  if (sw_krylov_new(&p->krylov, p->system, p->body, p->shift, p->factor, most) != SW_OK)
+    return out_of_memory(p);
+  SW_TRY(iterate(p));
+  return polish(p, out);
+}
+
+sw_status sw_modal_solve(const sw_system *system, size_t body, size_t modes,
+                         int (*interrupted)(void), sw_modes *out, sw_error *err) {
+  job p = {.system = system, .body = body, .n = sw_system_unknowns(system, body),
+           .free_unknowns = sw_system_free_unknowns(system, body), .interrupted = interrupted,
+           .err = err};
+  *out = (sw_modes){0};
+  if (modes > p.free_unknowns)
+    return sw_fail(err, SW_EINVAL, "frequencies: %zu modes are more than the %zu free unknowns",
+                   modes, p.free_unknowns);
+  const size_t size = sw_system_factor_size(system, body);
+  p.factor = sw_alloc(size, sizeof *p.factor);
+  p.other = sw_alloc(size, sizeof *p.other);
+  const sw_status status = p.factor && p.other ? run(&p, modes, out) : out_of_memory(&p);
+  sw_krylov_free(&p.krylov);
+  sw_free(p.values);
+  sw_free(p.vectors);
+  sw_free(p.scratch);
+  sw_free(p.factor);
+  sw_free(p.other);
+  if (status != SW_OK) sw_modes_free(out);
+  return status;
+}
+
+void sw_modes_free(sw_modes *modes) {
+  sw_free(modes->omega2);
+  sw_free(modes->shapes);
+  *modes = (sw_modes){0};
+}
+
+sw_status sw_modal_drift(const sw_system *system, size_t body, double tau, double *drift,
+                         sw_error *err) {
+  const size_t n = sw_system_unknowns(system, body);
+  double *factor = sw_alloc(sw_system_factor_size(system, body) + 2 * n, sizeof *factor);
+  if (!factor) return sw_fail(err, SW_ENOMEM, "frequencies: out of memory");
+  double *d = factor + sw_system_factor_size(system, body), *shifts = d + n;
+  *drift = 0;
+  sw_system_residual(system, body, d);
+  if (sw_system_factor(system, body, -1.0 / (tau * tau), factor, NULL) != SW_OK) d[0] = NAN;
+  sw_system_factor_solve(system, body, factor, d);
+  sw_system_shifts(system, body, d, shifts);
+  for (size_t i = 0; i < n && !isnan(*drift); i++)
+    if (!(fabs(shifts[i]) <= *drift)) *drift = fabs(shifts[i]);
+  sw_free(factor);
+  return SW_OK;
+}

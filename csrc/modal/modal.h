@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Natural frequencies and modes of one wire about the present state:
+ * K x = omega^2 M x with the lowest omega^2, those below zero included. */
+#ifndef SW_MODAL_MODAL_H
+#define SW_MODAL_MODAL_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+#include "system/system.h"
+
+typedef struct sw_modes {
+  size_t count;     /* of all below [-] */
+  size_t unstable;  /* of them with omega2 < 0: these come first [-] */
+  size_t unknowns;  /* per shape [-] */
+  double *omega2;   /* (count), ascending; neutral motions have 0 [rad2/s2] */
+  double *shapes;   /* (count x unknowns), x' M x = 1 [1/sqrt(kg)] */
+  size_t iterations; /* solves with a factorised matrix [-] */
+} sw_modes;
+
+/* The system must be linearised. Finds the `modes` lowest that are not unstable,
+ * after every unstable one. Statuses: SW_EINVAL (more than there are), SW_EDIVERGED
+ * (unstable in very many ways, or rounding leaves no digit), SW_ENOCONV, SW_EINTR,
+ * SW_ENOMEM; then out is empty. */
+sw_status sw_modal_solve(const sw_system *system, size_t body, size_t modes,
+                         int (*interrupted)(void), sw_modes *out, sw_error *err);
+void sw_modes_free(sw_modes *modes);
+
+/* How far the forces that are out of balance would move a node of the body within
+ * about the time tau [s]; NAN when that cannot be said [m]. */
+sw_status sw_modal_drift(const sw_system *system, size_t body, double tau, double *drift,
+                         sw_error *err);
+
+#endif

@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Natural frequencies of a wire about the present equilibrium. */
+#include <math.h>
+#include <string.h>
+
+#include "modal/modal.h"
+#include "scene/world.h"
+
+static const sw_param rows[] = {
+    {"modes", SW_PARAM_INTEGER, "-", 6, 1, 200, 0, NULL, offsetof(sw_modes_args, modes),
+     "number of frequencies, from the lowest"},
+    {"shapes", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_modes_args, shapes),
+     "true adds the shapes: flat node displacements of unit modal mass"},
+    {"tolerance", SW_PARAM_NUMBER, "-", 1e-4, 0, 1e9, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(sw_modes_args, tolerance),
+     "how far from rest the wire may be, as a share of its length"},
+};
+const sw_params sw_modes_params = SW_PARAMS("wire:frequencies", rows);
+
+/* What is out of balance is looked at over this many times sqrt(length/g) [-]. */
+static const double PATIENCE = 3.0;
+static const double TWO_PI = 6.283185307179586477;
+
+/* With contact as it presses now. */
+static sw_status linearise(sw_scene *s, sw_error *err) {
+  sw_contact *const own = s->contact;
+  if (own && sw_contact_copy(own, &s->contact) != SW_OK) {
+    s->contact = own;
+    return sw_fail(err, SW_ENOMEM, "frequencies: out of memory");
+  }
+  sw_status status = SW_OK;
+  if (own) status = sw_contact_begin_look(s->contact, &s->system, s->time, err);
+  if (status == SW_OK) status = sw_system_linearise(&s->system, s->time, err);
+  if (own) sw_contact_free(s->contact);
+  s->contact = own;
+  return status;
+}
+
+static sw_status check_rest(const sw_scene *s, size_t w, double tolerance, sw_error *err) {
+  const sw_body *b = &s->system.bodies[w];
+  const double most = tolerance * b->plan->length;
+  const double tau = sqrt(b->plan->length / fmax(sw_norm(s->gravity), 1.0));
+  double drift, fastest = 0;
+  for (size_t i = 0; i < b->plan->nodes; i++)
+    fastest = fmax(fastest, sw_norm(sw_load(s->system.v + 3 * (b->first_node + i))));
+  if (!(fastest * tau <= most))
+    return sw_fail(err, SW_EINVAL,
+                   "wire '%s' moves at up to %.3g m/s; frequencies are about an equilibrium: call "
+                   "scene:settle() first", s->wires[w].name, fastest);
+  SW_TRY(sw_modal_drift(&s->system, w, PATIENCE * tau, &drift, err));
+  if (!(drift <= most))
+    return sw_fail(err, SW_EINVAL,
+                   "wire '%s' is not at rest: its forces would move it by about %.3g m; frequencies "
+                   "are about an equilibrium: call scene:settle() first", s->wires[w].name, drift);
+  return SW_OK;
+}
+
+static void hand_over(const sw_scene *s, size_t w, const sw_modes *m, size_t wanted,
+                      sw_modes_result *out) {
+  const size_t n = 3 * s->system.bodies[w].plan->nodes;
+  out->unstable = m->unstable;
+  out->growth = m->unstable ? sqrt(-m->omega2[0]) : 0.0;
+  for (size_t i = m->unstable; i < m->count && out->count < wanted; i++, out->count++) {
+    out->frequencies[out->count] = sqrt(m->omega2[i]) / TWO_PI;
+    if (out->shapes)
+      sw_system_shifts(&s->system, w, m->shapes + i * m->unknowns, out->shapes + out->count * n);
+  }
+}
+
+static sw_status find(sw_scene *s, size_t w, const sw_modes_args *args, int (*interrupted)(void),
+                      sw_modes_result *out, sw_error *err) {
+  sw_modes modes;
+  sw_error why = {""};
+  SW_TRY(linearise(s, err));
+  SW_TRY(check_rest(s, w, args->tolerance, err));
+  const sw_status status =
+      sw_modal_solve(&s->system, w, (size_t)args->modes, interrupted, &modes, &why);
+  if (status == SW_OK) hand_over(s, w, &modes, (size_t)args->modes, out);
+  sw_modes_free(&modes);
+  return status == SW_OK ? status
+                         : sw_fail(err, status, "wire '%s': %.400s", s->wires[w].name,
+                                   why.text[0] ? why.text : sw_status_text(status));
+}
+
+sw_status sw_scene_wire_modes(sw_scene *s, sw_handle wire, const sw_modes_args *args,
+                              int (*interrupted)(void), sw_modes_result *out, sw_error *err) {
+  out->count = out->unstable = 0;
+  out->growth = 0;
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_readable(s, err));
+  if (!sw_scene_find_wire(s, wire, err)) return SW_EDEAD;
+  SW_TRY(sw_scene_build(s, err));
+  s->running++; /* a force may be a user's function */
+  const sw_status status = find(s, wire.slot, args, interrupted, out, err);
+  s->running--;
+  sw_system_refresh(&s->system);
+  return status;
+}
