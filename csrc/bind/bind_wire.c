@@ -91,6 +91,26 @@ static int meth_velocity(lua_State *L) { return lsw_push_vector(L, at(L).velocit
 static int meth_curvature(lua_State *L) { return lua_pushnumber(L, at(L).curvature), 1; }
 static int meth_tension(lua_State *L) { return lua_pushnumber(L, at(L).tension), 1; }
 
+static double modulus(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_beam b;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  lsw_must(L, sw_scene_wire_beam(scene, w->id, &b, &err), &err);
+  return b.E;
+}
+
+static int push_fibres(lua_State *L, double factor) {
+  const sw_point_state p = at(L);
+  lua_pushnumber(L, factor * p.strain);
+  lua_pushnumber(L, factor * p.least_strain);
+  return 2;
+}
+
+/* Of the fibres outside and inside the bend: strain [-], stress [Pa]. */
+static int meth_strain(lua_State *L) { return push_fibres(L, 1.0); }
+static int meth_stress(lua_State *L) { return push_fibres(L, modulus(L)); }
+
 static size_t node_count(lua_State *L, sw_scene *scene, const lsw_child *w) {
   size_t n;
   sw_error err = {""};
@@ -138,25 +158,19 @@ static int meth_set_velocity(lua_State *L) {
 }
 
 
-typedef struct extremes {
-  sw_extreme curvature_now, tension_now, curvature, tension;
-} extremes;
-
 /* The options table { now = true } asks for the present value. */
-static int read_extremes(lua_State *L, extremes *e) {
+static sw_wire_extremes read_extremes(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
+  sw_wire_extremes present, run;
   int now = 0;
   static const sw_param rows[] = {{"now", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, 0,
                                    "present value instead of the run's extreme"}};
   static const sw_params params = SW_PARAMS("wire", rows);
   const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
   lsw_arguments(L, 2, "wire", &params, &now);
-  lsw_must(L,
-           sw_scene_wire_extremes(scene, w->id, &e->curvature_now, &e->tension_now,
-                                  &e->curvature, &e->tension, &err),
-           &err);
-  return now;
+  lsw_must(L, sw_scene_wire_extremes(scene, w->id, &present, &run, &err), &err);
+  return now ? present : run;
 }
 
 static int push_extreme(lua_State *L, double value, const sw_extreme *e) {
@@ -168,16 +182,26 @@ static int push_extreme(lua_State *L, double value, const sw_extreme *e) {
 
 /* Smallest bend radius [m], where [m], when [s]; math.huge for a straight wire. */
 static int meth_min_bend_radius(lua_State *L) {
-  extremes e;
-  const sw_extreme *x = read_extremes(L, &e) ? &e.curvature_now : &e.curvature;
-  return push_extreme(L, x->value > 0 ? 1.0 / x->value : HUGE_VAL, x);
+  const sw_extreme x = read_extremes(L).curvature;
+  return push_extreme(L, x.value > 0 ? 1.0 / x.value : HUGE_VAL, &x);
 }
 
 /* Largest tension [N], where [m], when [s]. */
 static int meth_max_tension(lua_State *L) {
-  extremes e;
-  const sw_extreme *x = read_extremes(L, &e) ? &e.tension_now : &e.tension;
-  return push_extreme(L, x->value, x);
+  const sw_extreme x = read_extremes(L).tension;
+  return push_extreme(L, x.value, &x);
+}
+
+/* Largest strain of an outermost fibre [-], where [m], when [s]. */
+static int meth_max_strain(lua_State *L) {
+  const sw_extreme x = read_extremes(L).strain;
+  return push_extreme(L, x.value, &x);
+}
+
+/* Its stress [Pa], where [m], when [s]. */
+static int meth_max_stress(lua_State *L) {
+  const sw_extreme x = read_extremes(L).strain;
+  return push_extreme(L, x.value * modulus(L), &x);
 }
 
 static int prop_length(lua_State *L) {
@@ -253,6 +277,10 @@ static const luaL_Reg methods[] = {{"position", meth_position},
                                    {"set_velocity", meth_set_velocity},
                                    {"min_bend_radius", meth_min_bend_radius},
                                    {"max_tension", meth_max_tension},
+                                   {"strain", meth_strain},
+                                   {"stress", meth_stress},
+                                   {"max_strain", meth_max_strain},
+                                   {"max_stress", meth_max_stress},
                                    {"frequencies", lsw_wire_frequencies},
                                    {NULL, NULL}};
 static const luaL_Reg properties[] = {{"length", prop_length},

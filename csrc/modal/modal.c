@@ -293,8 +293,8 @@ void sw_modes_free(sw_modes *modes) {
   *modes = (sw_modes){0};
 }
 
-sw_status sw_modal_drift(const sw_system *system, size_t body, double tau, double *drift,
-                         sw_error *err) {
+sw_status sw_modal_unrest(const sw_system *system, size_t body, double tau, double *drift,
+                          double *axial, sw_error *err) {
   const size_t n = sw_system_unknowns(system, body);
   double *factor = sw_alloc(sw_system_factor_size(system, body) + 2 * n, sizeof *factor);
   if (!factor) return sw_fail(err, SW_ENOMEM, "frequencies: out of memory");
@@ -306,6 +306,7 @@ sw_status sw_modal_drift(const sw_system *system, size_t body, double tau, doubl
   sw_system_shifts(system, body, d, shifts);
   for (size_t i = 0; i < n && !isnan(*drift); i++)
     if (!(fabs(shifts[i]) <= *drift)) *drift = fabs(shifts[i]);
+  *axial = sw_system_axial_error(system, body, d);
   sw_free(factor);
   return SW_OK;
 }

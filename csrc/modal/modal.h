@@ -26,9 +26,10 @@ sw_status sw_modal_solve(const sw_system *system, size_t body, size_t modes,
                          int (*interrupted)(void), sw_modes *out, sw_error *err);
 void sw_modes_free(sw_modes *modes);
 
-/* How far the forces that are out of balance would move a node of the body within
- * about the time tau [s]; NAN when that cannot be said [m]. */
-sw_status sw_modal_drift(const sw_system *system, size_t body, double tau, double *drift,
-                         sw_error *err);
+/* What forces that are out of balance would do to the body within about the time tau
+ * [s]: drift, the largest shift of a node, NAN when that cannot be said [m]; axial,
+ * the largest change of an axial force as sw_system_axial_error [-]. */
+sw_status sw_modal_unrest(const sw_system *system, size_t body, double tau, double *drift,
+                          double *axial, sw_error *err);
 
 #endif

@@ -120,6 +120,8 @@ sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double at, sw_point_state *
   out->tangent = sw_unit_or(sw_lerp(t0, t1, f), t0);
   out->curvature = k0 + f * (k1 - k0);
   out->tension = tension_at(&s->system, b, at);
+  out->strain = out->tension / w->beam.EA + out->curvature * w->beam.radius;
+  out->least_strain = out->tension / w->beam.EA - out->curvature * w->beam.radius;
   return SW_OK;
 }
 
@@ -151,14 +153,13 @@ sw_status sw_scene_wire_set_velocity(sw_scene *s, sw_handle h, sw_vec v, sw_vec 
   return SW_OK;
 }
 
-sw_status sw_scene_wire_extremes(sw_scene *s, sw_handle h, sw_extreme *curvature_now,
-                                 sw_extreme *tension_now, sw_extreme *curvature,
-                                 sw_extreme *tension, sw_error *err) {
+sw_status sw_scene_wire_extremes(sw_scene *s, sw_handle h, sw_wire_extremes *now,
+                                 sw_wire_extremes *run, sw_error *err) {
   sw_scene_wire *w;
   SW_TRY(open_wire(s, h, &w, err));
-  sw_scene_wire_now(s, h.slot, curvature_now, tension_now);
-  *curvature = w->curvature.value >= curvature_now->value ? w->curvature : *curvature_now;
-  *tension = w->tension.value >= tension_now->value ? w->tension : *tension_now;
+  sw_scene_wire_now(s, h.slot, now);
+  *run = w->extremes;
+  sw_scene_keep_extremes(run, now);
   return SW_OK;
 }
 

@@ -19,6 +19,8 @@ const sw_params sw_modes_params = SW_PARAMS("wire:frequencies", rows);
 
 /* What is out of balance is looked at over this many times sqrt(length/g) [-]. */
 static const double PATIENCE = 3.0;
+/* Axial forces may be off by this times the tolerance [-]. */
+static const double FORCE_SHARE = 100.0;
 static const double TWO_PI = 6.283185307179586477;
 
 /* With contact as it presses now. */
@@ -40,18 +42,23 @@ static sw_status check_rest(const sw_scene *s, size_t w, double tolerance, sw_er
   const sw_body *b = &s->system.bodies[w];
   const double most = tolerance * b->plan->length;
   const double tau = sqrt(b->plan->length / fmax(sw_norm(s->gravity), 1.0));
-  double drift, fastest = 0;
+  double drift, axial, fastest = 0;
   for (size_t i = 0; i < b->plan->nodes; i++)
     fastest = fmax(fastest, sw_norm(sw_load(s->system.v + 3 * (b->first_node + i))));
   if (!(fastest * tau <= most))
     return sw_fail(err, SW_EINVAL,
                    "wire '%s' moves at up to %.3g m/s; frequencies are about an equilibrium: call "
                    "scene:settle() first", s->wires[w].name, fastest);
-  SW_TRY(sw_modal_drift(&s->system, w, PATIENCE * tau, &drift, err));
+  SW_TRY(sw_modal_unrest(&s->system, w, PATIENCE * tau, &drift, &axial, err));
   if (!(drift <= most))
     return sw_fail(err, SW_EINVAL,
                    "wire '%s' is not at rest: its forces would move it by about %.3g m; frequencies "
                    "are about an equilibrium: call scene:settle() first", s->wires[w].name, drift);
+  if (!(axial <= FORCE_SHARE * tolerance))
+    return sw_fail(err, SW_EINVAL,
+                   "wire '%s' is not at rest: its tension is still to change by %.3g of it; "
+                   "frequencies are about an equilibrium: call scene:settle() first",
+                   s->wires[w].name, axial);
   return SW_OK;
 }
 

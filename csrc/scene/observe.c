@@ -34,6 +34,16 @@ static double hinge_chord(const sw_field *f, size_t i) {
   return sqrt(d2);
 }
 
+static double clamp_chord(const sw_body *b, const double *directors, const sw_clamp_hinge *h) {
+  const double *d = directors + 3 * (2 * (size_t)h->hold + (h->side > 0 ? 1 : 0));
+  double d2 = 0;
+  for (int k = 0; k < 3; k++) {
+    const double e = b->field.tangent[k][h->edge] - d[k];
+    d2 += e * e;
+  }
+  return sqrt(d2);
+}
+
 static void curvature_extreme(const sw_body *b, const double *directors, sw_extreme *out) {
   const sw_plan *p = b->plan;
   const sw_field *f = &b->field;
@@ -49,13 +59,7 @@ static void curvature_extreme(const sw_body *b, const double *directors, sw_extr
   }
   for (size_t c = 0; c < p->clamp_count; c++) {
     const sw_clamp_hinge *h = &p->clamps[c];
-    const double *d = directors + 3 * (2 * (size_t)h->hold + (h->side > 0 ? 1 : 0));
-    double d2 = 0;
-    for (int k = 0; k < 3; k++) {
-      const double e = f->tangent[k][h->edge] - d[k];
-      d2 += e * e;
-    }
-    const double value = angle_of_chord(sqrt(d2)) / h->length;
+    const double value = angle_of_chord(clamp_chord(b, directors, h)) / h->length;
     if (value > out->value) *out = (sw_extreme){.value = value, .s = p->s[h->node]};
   }
 }
@@ -68,14 +72,61 @@ static void tension_extreme(const sw_system *s, const sw_body *b, sw_extreme *ou
       *out = (sw_extreme){.value = T[e], .s = 0.5 * (b->plan->s[e] + b->plan->s[e + 1])};
 }
 
-void sw_scene_wire_now(sw_scene *s, size_t w, sw_extreme *curvature, sw_extreme *tension) {
-  curvature_extreme(&s->system.bodies[w], s->system.directors_now, curvature);
-  tension_extreme(&s->system, &s->system.bodies[w], tension);
-  curvature->time = tension->time = s->time;
+/* Outermost fibres at hinges, by the mean axial force of both edges and the chord
+ * |t2 - t1| for the angle, exact to its third order. */
+SW_HOT
+static double largest_hinge_strain(size_t n, double half_compliance, double radius,
+                                   const double *restrict T, const double *restrict hinge,
+                                   const double *restrict tx, const double *restrict ty,
+                                   const double *restrict tz) {
+  double largest = -HUGE_VAL;
+  for (size_t i = 1; i + 1 < n; i++) {
+    const double dx = tx[i] - tx[i - 1], dy = ty[i] - ty[i - 1], dz = tz[i] - tz[i - 1];
+    const double chord = sqrt(dx * dx + dy * dy + dz * dz);
+    const double bent = hinge[i] > 0 ? radius * chord / hinge[i] : 0.0;
+    const double strain = half_compliance * (T[i] + T[i - 1]) + bent;
+    largest = largest > strain ? largest : strain;
+  }
+  return largest;
 }
 
 static void keep_largest(sw_extreme *kept, const sw_extreme *now) {
   if (now->value > kept->value) *kept = *now;
+}
+
+static void strain_extreme(const sw_system *s, const sw_body *b, sw_extreme *out) {
+  const sw_plan *p = b->plan;
+  const sw_field *f = &b->field;
+  const double *T = s->tension + b->first_edge, EA = p->beam.EA, radius = p->beam.radius;
+  const double bound = largest_hinge_strain(p->nodes, 0.5 / EA, radius, T, p->hinge, f->tangent[0],
+                                            f->tangent[1], f->tangent[2]);
+  *out = (sw_extreme){.value = T[0] / EA}; /* free and pinned ends are not bent */
+  keep_largest(out, &(sw_extreme){.value = T[p->edges - 1] / EA, .s = p->length});
+  for (size_t i = 1; i + 1 < p->nodes && bound > out->value; i++) {
+    const double chord = hinge_chord(f, i), mean = 0.5 * (T[i] + T[i - 1]) / EA;
+    const double per_length = p->hinge[i] > 0 ? radius / p->hinge[i] : 0.0;
+    if (mean + per_length * chord < bound - 1e-12 * fabs(bound)) continue;
+    *out = (sw_extreme){.value = mean + per_length * angle_of_chord(chord), .s = p->s[i]};
+    break;
+  }
+  for (size_t c = 0; c < p->clamp_count; c++) {
+    const sw_clamp_hinge *h = &p->clamps[c];
+    const double bent = radius * angle_of_chord(clamp_chord(b, s->directors_now, h)) / h->length;
+    keep_largest(out, &(sw_extreme){.value = T[h->edge] / EA + bent, .s = p->s[h->node]});
+  }
+}
+
+void sw_scene_wire_now(sw_scene *s, size_t w, sw_wire_extremes *now) {
+  curvature_extreme(&s->system.bodies[w], s->system.directors_now, &now->curvature);
+  tension_extreme(&s->system, &s->system.bodies[w], &now->tension);
+  strain_extreme(&s->system, &s->system.bodies[w], &now->strain);
+  now->curvature.time = now->tension.time = now->strain.time = s->time;
+}
+
+void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now) {
+  keep_largest(&kept->curvature, &now->curvature);
+  keep_largest(&kept->tension, &now->tension);
+  keep_largest(&kept->strain, &now->strain);
 }
 
 static sw_status log_holds(sw_scene *s, sw_error *err) {
@@ -121,10 +172,9 @@ sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
   SW_TRY(sw_system_place_holds(&s->system, s->time, s->system.x, NULL, NULL, err));
   sw_system_refresh(&s->system);
   for (size_t w = 0; w < s->wire_count; w++) {
-    sw_extreme curvature, tension;
-    sw_scene_wire_now(s, w, &curvature, &tension);
-    keep_largest(&s->wires[w].curvature, &curvature);
-    keep_largest(&s->wires[w].tension, &tension);
+    sw_wire_extremes now;
+    sw_scene_wire_now(s, w, &now);
+    sw_scene_keep_extremes(&s->wires[w].extremes, &now);
   }
   SW_TRY(log_holds(s, err));
   return s->contact ? observe_contact(s, err) : SW_OK;
@@ -132,8 +182,8 @@ sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
 
 void sw_scene_reset_extremes(sw_scene *s) {
   for (size_t w = 0; w < s->wire_count; w++) {
-    s->wires[w].curvature = (sw_extreme){.value = -HUGE_VAL};
-    s->wires[w].tension = (sw_extreme){.value = -HUGE_VAL};
+    const sw_extreme least = {.value = -HUGE_VAL};
+    s->wires[w].extremes = (sw_wire_extremes){least, least, least};
   }
   s->deepest = (sw_extreme){0};
 }

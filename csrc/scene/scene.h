@@ -183,6 +183,7 @@ typedef struct sw_point_state {
   sw_vec position, tangent, velocity; /* [m], [-], [m/s] */
   double curvature;                   /* [1/m] */
   double tension;                     /* [N] */
+  double strain, least_strain; /* of the fibres outside and inside the bend [-] */
 } sw_point_state;
 
 typedef struct sw_extreme {
@@ -202,11 +203,12 @@ sw_status sw_scene_wire_copy(sw_scene *scene, sw_handle wire, double *positions,
 /* Give every node a velocity: linear field v + omega x (x - about). */
 sw_status sw_scene_wire_set_velocity(sw_scene *scene, sw_handle wire, sw_vec v, sw_vec omega,
                                      sw_vec about, sw_error *err);
-/* Largest curvature [1/m] and tension [N] of the wire: now, and since the last
- * run or settle began. */
-sw_status sw_scene_wire_extremes(sw_scene *scene, sw_handle wire, sw_extreme *curvature_now,
-                                 sw_extreme *tension_now, sw_extreme *curvature,
-                                 sw_extreme *tension, sw_error *err);
+/* The wire's largest values: now, and since the last run or settle began. */
+typedef struct sw_wire_extremes {
+  sw_extreme curvature, tension, strain; /* [1/m], [N], outermost fibre [-] */
+} sw_wire_extremes;
+sw_status sw_scene_wire_extremes(sw_scene *scene, sw_handle wire, sw_wire_extremes *now,
+                                 sw_wire_extremes *run, sw_error *err);
 
 typedef struct sw_modes_args {
   long modes;       /* how many [-] */

@@ -27,7 +27,7 @@ struct sw_snapshot {
   sw_vec gravity;
   size_t wires, holds, obstacles, forces, frames;
   sw_mesh *meshes;
-  sw_extreme *extremes; /* (2 x wires) */
+  sw_wire_extremes *extremes; /* (wires) */
   saved_hold *hold;
   saved_obstacle *obstacle;
   int *force_alive;
@@ -118,7 +118,7 @@ static sw_drive copy_drive(const sw_drive *d) {
 
 static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
   p->meshes = sw_alloc(s->wire_count, sizeof *p->meshes);
-  p->extremes = sw_alloc(2 * s->wire_count, sizeof *p->extremes);
+  p->extremes = sw_alloc(s->wire_count, sizeof *p->extremes);
   p->hold = sw_alloc(s->hold_count, sizeof *p->hold);
   p->obstacle = sw_alloc(s->obstacle_count, sizeof *p->obstacle);
   p->force_alive = sw_alloc(s->force_count, sizeof *p->force_alive);
@@ -126,8 +126,7 @@ static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
   for (size_t w = 0; w < s->wire_count; w++) {
     SW_TRY(copy_mesh(&s->wires[w].mesh, &p->meshes[w]));
     p->wires = w + 1;
-    p->extremes[2 * w] = s->wires[w].curvature;
-    p->extremes[2 * w + 1] = s->wires[w].tension;
+    p->extremes[w] = s->wires[w].extremes;
   }
   for (; p->holds < s->hold_count; p->holds++) {
     const sw_scene_hold *h = &s->holds[p->holds];
@@ -230,8 +229,7 @@ static void put_objects(sw_scene *s, const sw_snapshot *p) {
   for (size_t k = 0; k < s->force_count; k++)
     s->forces[k].alive = k < p->forces && p->force_alive[k];
   for (size_t w = 0; w < p->wires; w++) {
-    s->wires[w].curvature = p->extremes[2 * w];
-    s->wires[w].tension = p->extremes[2 * w + 1];
+    s->wires[w].extremes = p->extremes[w];
   }
 }
 

@@ -14,7 +14,7 @@ typedef struct sw_scene_wire {
   const sw_wire_class *cls;
   sw_beam beam;
   sw_mesh mesh; /* authoritative while the scene is not built */
-  sw_extreme curvature, tension;
+  sw_wire_extremes extremes;
 } sw_scene_wire;
 
 /* A log: rows of a fixed number of doubles, growing. */
@@ -146,8 +146,10 @@ void sw_scene_orphan_snapshots(sw_scene *scene);
 
 /* After an accepted state: extremes, logs. */
 sw_status sw_scene_observe(sw_scene *scene, sw_error *err);
-/* Largest curvature and tension of wire w at the refreshed state. */
-void sw_scene_wire_now(sw_scene *scene, size_t w, sw_extreme *curvature, sw_extreme *tension);
+/* Extremes of wire w at the refreshed state. */
+void sw_scene_wire_now(sw_scene *scene, size_t w, sw_wire_extremes *now);
+/* Keep the larger ones. */
+void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now);
 /* Kinetic, elastic, gravity energy of the state [J]. */
 void sw_scene_frame_energies(sw_scene *scene, double out[SW_FRAME_ENERGIES]);
 void sw_scene_reset_extremes(sw_scene *scene);

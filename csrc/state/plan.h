@@ -18,6 +18,7 @@ typedef struct sw_beam {
   double GJ;     /* twist stiffness [N m2] */
   double mass;   /* mass per length [kg/m] */
   double radius; /* outer radius [m] */
+  double E;      /* of the material, for stresses [Pa] */
 } sw_beam;
 
 /* How a node is held. */

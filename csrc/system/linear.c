@@ -57,6 +57,23 @@ void sw_system_shifts(const sw_system *s, size_t body, const double *motion, dou
   memcpy(out, motion, 3 * s->bodies[body].plan->nodes * sizeof *out);
 }
 
+double sw_system_axial_error(const sw_system *s, size_t body, const double *motion) {
+  const sw_body *b = &s->bodies[body];
+  const sw_plan *p = b->plan;
+  const double *T = s->tension + b->first_edge;
+  const double weight = p->beam.mass * p->length * sw_norm(sw_load(s->gravity));
+  double most = fmax(weight, p->beam.EI / (p->length * p->length)), error = 0;
+  for (size_t e = 0; e < p->edges; e++) {
+    double length = b->field.length[e];
+    for (size_t k = 0; k < 3; k++)
+      length += b->field.tangent[k][e] * (motion[3 * e + 3 + k] - motion[3 * e + k]);
+    const double strain = length / p->rest[e] - 1.0;
+    most = fmax(most, fabs(T[e]));
+    error = fmax(error, fabs((strain >= 0 ? b->EA : b->EA_push) * strain - T[e]));
+  }
+  return error > 0 ? error / most : error;
+}
+
 void sw_system_fix_held(const sw_system *s, size_t body, double *motion) {
   for (size_t i = 0; i < s->held_count; i++)
     if (s->held[i].body == body)

@@ -186,6 +186,9 @@ size_t sw_system_factor_size(const sw_system *system, size_t body); /* in double
 void sw_system_residual(const sw_system *system, size_t body, double *out);
 /* How far the nodes go in a motion: (nodes x 3) [m]. */
 void sw_system_shifts(const sw_system *system, size_t body, const double *motion, double *out);
+/* How much the stored axial forces differ from those after the motion, of the largest of
+ * them, the wire's weight and its buckling force [-]. */
+double sw_system_axial_error(const sw_system *system, size_t body, const double *motion);
 /* Zero a motion's held unknowns. */
 void sw_system_fix_held(const sw_system *system, size_t body, double *motion);
 

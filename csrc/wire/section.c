@@ -39,6 +39,7 @@ sw_status sw_section_beam(const char *object, const sw_section *c, sw_beam *out,
   out->EI = isnan(c->EI) ? c->E * I : c->EI;
   out->GJ = !isnan(c->GJ) ? c->GJ : !isnan(c->E) ? c->E * I / (1 + nu) : out->EI / (1 + nu);
   out->mass = isnan(c->mass_per_length) ? c->density * area : c->mass_per_length;
+  out->E = isnan(c->E) ? out->EA / area : c->E;
   if (isnan(out->EA))
     return sw_fail(err, SW_EINVAL, "%s: give EA [N], or E [Pa] for a solid round wire", object);
   if (isnan(out->EI))
