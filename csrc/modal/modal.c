@@ -18,20 +18,28 @@ static const double CONVERGED = 1e-7;
 /* A share of the span from the shift to the last wanted value, by which the count
  * looks beyond it [-]. */
 static const double BEYOND = 1e-6;
-/* Values this small compared with the largest one computed are none [-]. */
+/* Values this small compared with the last wanted one are none [-]. */
 static const double NEUTRAL = 1e-9;
 /* The shift lies below zero by this share of the last wanted value [-]. */
 static const double BELOW_ZERO = 0.05;
-/* Values before and after the last Rayleigh-Ritz that differ by more are the work
- * of rounding, of a value or of this share of the largest [-]. */
-static const double ROUNDING = 0.02, ROUNDING_FLOOR = 1e-5;
-enum { SPARE = 8, MOST_UNSTABLE = 100 };
+/* Rounding shifts a value before the last Rayleigh-Ritz by d, and after it by about
+ * d^2 over the values left out: by at most this share of itself, or of the last value
+ * taken in [-]. */
+static const double ROUNDING = 1e-3, ROUNDING_FLOOR = 1e-9;
+/* More values than wanted are taken in when they are known so well [-]. */
+static const double NEARLY = 0.1;
+/* Of the largest entries of the matrix [-]. */
+static const double MATRIX_ROUNDING = 128 * DBL_EPSILON;
+enum { SPARE = 8, MOST_UNSTABLE = 100, MOST_NEUTRAL = 60 };
 
 typedef struct job {
   const sw_system *system;
   size_t body, n, free_unknowns;
   size_t target;   /* lowest values looked for, unstable ones included */
-  double floor;    /* eigenvalues below this are rounding [rad2/s2] */
+  double floor;    /* rounding of the matrix; what is below it is polished [rad2/s2] */
+  double scale;    /* of the last value looked for, or the floor [rad2/s2] */
+  double slow;     /* negative values of this size count as none [rad2/s2] */
+  double neutral;  /* values this small are none [rad2/s2] */
   double shift;    /* [rad2/s2] */
   double *factor, *other; /* of K - shift M; for counting */
   int (*interrupted)(void);
@@ -71,9 +79,8 @@ static sw_status bracket(const job *p, size_t wanted, double *high) {
 }
 
 static sw_status choose_shift(job *p, size_t modes) {
-  size_t unstable, below;
-  double high;
-  p->floor = 8 * DBL_EPSILON * sw_system_stiffest(p->system, p->body, p->other);
+  size_t unstable, below, soft;
+  p->floor = MATRIX_ROUNDING * sw_system_stiffest(p->system, p->body, p->other);
   SW_TRY(count_below(p, -p->floor, p->other, &unstable));
   if (unstable > MOST_UNSTABLE)
     return sw_fail(p->err, SW_EDIVERGED,
@@ -81,8 +88,13 @@ static sw_status choose_shift(job *p, size_t modes) {
                    "buckling); let it settle first", unstable);
   p->target = modes + unstable;
   if (p->target > p->free_unknowns) p->target = p->free_unknowns;
-  SW_TRY(bracket(p, p->target, &high));
-  p->shift = -fmax(BELOW_ZERO * high, 4 * p->floor);
+  SW_TRY(count_below(p, p->floor, p->other, &soft));
+  /* what is real among soft ones shows against the first that is not soft */
+  if (soft >= p->target && soft < p->target + MOST_NEUTRAL && soft < p->free_unknowns)
+    p->target = soft + 1;
+  SW_TRY(bracket(p, p->target, &p->scale));
+  p->neutral = soft >= p->target ? p->floor : NEUTRAL * p->scale;
+  p->shift = -fmax(BELOW_ZERO * p->scale, 4 * p->floor);
   for (;; p->shift *= 4) {
     SW_TRY(count_below(p, p->shift, p->factor, &below));
     if (below == 0) return SW_OK;
@@ -172,12 +184,14 @@ static void project(const job *p, double *const *x, size_t q, double *w, double 
 }
 
 static sw_status compare(const job *p, const double *before, const double *after, size_t q) {
-  const double scale = ROUNDING_FLOOR * fabs(after[q - 1]);
-  for (size_t i = 0; i < p->target; i++)
-    if (!(fabs(after[i] - before[i]) <= ROUNDING * fmax(fabs(after[i]), scale)))
+  const double beyond = before[q - 1], least = ROUNDING_FLOOR * beyond;
+  for (size_t i = 0; i < p->target && p->neutral < p->floor; i++) {
+    const double d = after[i] - before[i];
+    if (!(d * d / beyond <= fmax(ROUNDING * fabs(after[i]), least)))
       return sw_fail(p->err, SW_EDIVERGED,
                      "frequencies: rounding drowns the softest motions among %zu nodes; use fewer "
                      "segments", p->n / 3);
+  }
   return SW_OK;
 }
 
@@ -191,13 +205,13 @@ static void set_sign(double *x, size_t n) {
 
 static void finish(const job *p, const double *values, const double *turn, double *const *x,
                    size_t q, sw_modes *out) {
-  const double neutral = fmax(NEUTRAL * fabs(values[q - 1]), p->floor * DBL_EPSILON);
   for (size_t r = 0; r < out->count; r++) {
     double *shape = out->shapes + r * p->n;
     for (size_t j = 0; j < q; j++)
       for (size_t i = 0; i < p->n; i++) shape[i] += turn[r * q + j] * x[j][i];
     set_sign(shape, p->n);
-    out->omega2[r] = fabs(values[r]) <= neutral ? 0.0 : values[r];
+    const int none = fabs(values[r]) <= p->neutral || (values[r] < 0 && values[r] >= -p->slow);
+    out->omega2[r] = none ? 0.0 : values[r];
     out->unstable += out->omega2[r] < 0;
   }
 }
@@ -208,7 +222,11 @@ static sw_status solve_again(const job *p, double *const *x, size_t q, double *d
   double *before = values + q;
   for (size_t r = 0; r < q; r++) {
     before[r] = lowest(p, r);
-    sw_krylov_combine(&p->krylov, p->vectors + (p->krylov.done - 1 - r) * p->krylov.done, x[r]);
+    sw_krylov_combine(&p->krylov, p->vectors + (p->krylov.done - 1 - r) * p->krylov.done, w);
+    /* once more through the inverse: little errors along stiff directions go */
+    sw_system_mass_times(p->system, p->body, w, x[r]);
+    sw_system_factor_solve(p->system, p->body, p->factor, x[r]);
+    for (size_t i = 0; i < p->n; i++) x[r][i] *= before[r] - p->shift;
   }
   project(p, x, q, w, a, b);
   const sw_status status = sw_eigen_dense(a, b, q, values, turn);
@@ -228,7 +246,9 @@ static sw_status solve_again(const job *p, double *const *x, size_t q, double *d
 static sw_status polish(const job *p, sw_modes *out) {
   const size_t m = p->krylov.done;
   size_t q = 0;
-  while (q < m && q < p->target + SPARE && p->values[m - 1 - q] > 0) q++;
+  while (q < m && q < p->target + SPARE &&
+         p->residuals[m - 1 - q] <= NEARLY * p->values[m - 1 - q])
+    q++;
   if (q < p->target) return sw_fail(p->err, SW_ENOCONV, "frequencies: only %zu were found", q);
   double **x = sw_alloc(q, sizeof *x);
   double *dense = sw_alloc(3 * q * q + 2 * q, sizeof *dense);
@@ -264,11 +284,11 @@ static sw_status run(job *p, size_t modes, sw_modes *out) {
   return polish(p, out);
 }
 
-sw_status sw_modal_solve(const sw_system *system, size_t body, size_t modes,
+sw_status sw_modal_solve(const sw_system *system, size_t body, size_t modes, double slow,
                          int (*interrupted)(void), sw_modes *out, sw_error *err) {
   job p = {.system = system, .body = body, .n = sw_system_unknowns(system, body),
            .free_unknowns = sw_system_free_unknowns(system, body), .interrupted = interrupted,
-           .err = err};
+           .slow = slow, .err = err};
   *out = (sw_modes){0};
   if (modes > p.free_unknowns)
     return sw_fail(err, SW_EINVAL, "frequencies: %zu modes are more than the %zu free unknowns",

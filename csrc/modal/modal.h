@@ -19,10 +19,10 @@ typedef struct sw_modes {
 } sw_modes;
 
 /* The system must be linearised. Finds the `modes` lowest that are not unstable,
- * after every unstable one. Statuses: SW_EINVAL (more than there are), SW_EDIVERGED
+ * after every unstable one; what would grow slower than sqrt(slow) is neutral. Statuses: SW_EINVAL (more than there are), SW_EDIVERGED
  * (unstable in very many ways, or rounding leaves no digit), SW_ENOCONV, SW_EINTR,
  * SW_ENOMEM; then out is empty. */
-sw_status sw_modal_solve(const sw_system *system, size_t body, size_t modes,
+sw_status sw_modal_solve(const sw_system *system, size_t body, size_t modes, double slow,
                          int (*interrupted)(void), sw_modes *out, sw_error *err);
 void sw_modes_free(sw_modes *modes);
 

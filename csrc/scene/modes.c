@@ -19,9 +19,16 @@ const sw_params sw_modes_params = SW_PARAMS("wire:frequencies", rows);
 
 /* What is out of balance is looked at over this many times sqrt(length/g) [-]. */
 static const double PATIENCE = 3.0;
+/* What takes longer to grow than this is neutral, as when settling; of sqrt(length/g) [-]. */
+static const double SLOWEST_GROWTH = 30.0;
 /* Axial forces may be off by this times the tolerance [-]. */
 static const double FORCE_SHARE = 100.0;
 static const double TWO_PI = 6.283185307179586477;
+
+/* sqrt(length/g); weightless scenes: any scale will do. */
+static double time_scale(const sw_scene *s, size_t w) {
+  return sqrt(s->system.bodies[w].plan->length / fmax(sw_norm(s->gravity), 1.0));
+}
 
 /* With contact as it presses now. */
 static sw_status linearise(sw_scene *s, sw_error *err) {
@@ -41,7 +48,7 @@ static sw_status linearise(sw_scene *s, sw_error *err) {
 static sw_status check_rest(const sw_scene *s, size_t w, double tolerance, sw_error *err) {
   const sw_body *b = &s->system.bodies[w];
   const double most = tolerance * b->plan->length;
-  const double tau = sqrt(b->plan->length / fmax(sw_norm(s->gravity), 1.0));
+  const double tau = time_scale(s, w);
   double drift, axial, fastest = 0;
   for (size_t i = 0; i < b->plan->nodes; i++)
     fastest = fmax(fastest, sw_norm(sw_load(s->system.v + 3 * (b->first_node + i))));
@@ -80,8 +87,9 @@ static sw_status find(sw_scene *s, size_t w, const sw_modes_args *args, int (*in
   sw_error why = {""};
   SW_TRY(linearise(s, err));
   SW_TRY(check_rest(s, w, args->tolerance, err));
-  const sw_status status =
-      sw_modal_solve(&s->system, w, (size_t)args->modes, interrupted, &modes, &why);
+  const double rate = 1.0 / (SLOWEST_GROWTH * time_scale(s, w));
+  const sw_status status = sw_modal_solve(&s->system, w, (size_t)args->modes, rate * rate,
+                                          interrupted, &modes, &why);
   if (status == SW_OK) hand_over(s, w, &modes, (size_t)args->modes, out);
   sw_modes_free(&modes);
   return status == SW_OK ? status
