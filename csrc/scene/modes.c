@@ -45,27 +45,42 @@ static sw_status linearise(sw_scene *s, sw_error *err) {
   return status;
 }
 
-static sw_status check_rest(const sw_scene *s, size_t w, double tolerance, sw_error *err) {
-  const sw_body *b = &s->system.bodies[w];
-  const double most = tolerance * b->plan->length;
-  const double tau = time_scale(s, w);
-  double drift, axial, fastest = 0;
-  for (size_t i = 0; i < b->plan->nodes; i++)
-    fastest = fmax(fastest, sw_norm(sw_load(s->system.v + 3 * (b->first_node + i))));
-  if (!(fastest * tau <= most))
-    return sw_fail(err, SW_EINVAL,
-                   "wire '%s' moves at up to %.3g m/s; frequencies are about an equilibrium: call "
-                   "scene:settle() first", s->wires[w].name, fastest);
+/* Largest speed of a node, and how far nodes are from where their holds are now. */
+static sw_status look_at_nodes(sw_scene *s, size_t w, double *speed, double *away,
+                               sw_error *err) {
+  sw_system *system = &s->system;
+  const sw_body *b = &system->bodies[w];
+  memcpy(system->yhat, system->x, 3 * system->nodes * sizeof(double));
+  memcpy(system->velocity, system->v, 3 * system->nodes * sizeof(double));
+  SW_TRY(sw_system_place_holds(system, s->time, system->yhat, system->velocity, NULL, err));
+  *speed = *away = 0;
+  for (size_t i = 3 * b->first_node; i < 3 * (b->first_node + b->plan->nodes); i += 3) {
+    *speed = fmax(*speed, sw_norm(sw_load(system->velocity + i)));
+    *away = fmax(*away, sw_dist(sw_load(system->yhat + i), sw_load(system->x + i)));
+  }
+  return SW_OK;
+}
+
+static sw_status check_rest(sw_scene *s, size_t w, double tolerance, sw_error *err) {
+  static const char advice[] = "frequencies are about an equilibrium: call scene:settle() first";
+  const char *name = s->wires[w].name;
+  const double most = tolerance * s->system.bodies[w].plan->length, tau = time_scale(s, w);
+  double drift, axial, speed, away;
+  SW_TRY(look_at_nodes(s, w, &speed, &away, err));
+  if (!(speed * tau <= most))
+    return sw_fail(err, SW_EINVAL, "wire '%s' moves at up to %.3g m/s; %s", name, speed, advice);
+  if (!(away <= most))
+    return sw_fail(err, SW_EINVAL, "wire '%s' is not at rest: what holds it has gone %.3g m away; %s",
+                   name, away, advice);
   SW_TRY(sw_modal_unrest(&s->system, w, PATIENCE * tau, &drift, &axial, err));
   if (!(drift <= most))
     return sw_fail(err, SW_EINVAL,
-                   "wire '%s' is not at rest: its forces would move it by about %.3g m; frequencies "
-                   "are about an equilibrium: call scene:settle() first", s->wires[w].name, drift);
+                   "wire '%s' is not at rest: its forces would move it by about %.3g m; %s", name,
+                   drift, advice);
   if (!(axial <= FORCE_SHARE * tolerance))
     return sw_fail(err, SW_EINVAL,
-                   "wire '%s' is not at rest: its tension is still to change by %.3g of it; "
-                   "frequencies are about an equilibrium: call scene:settle() first",
-                   s->wires[w].name, axial);
+                   "wire '%s' is not at rest: its tension is still to change by %.3g of it; %s", name,
+                   axial, advice);
   return SW_OK;
 }
 

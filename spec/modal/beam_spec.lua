@@ -13,16 +13,16 @@ local beams = {
     3.516015269, 22.03449156, 61.69721441 },
   { "clamped at both ends", holds = "clamps", share = { 0.005, 0.01, 0.02 },
     22.37328545, 61.67282287, 120.9033917 },
-  { "hanging, load 1", holds = "clamp", weight = 1, meshes = { 10, 50, 100, 200 }, share = { 0.001, 0.005, 0.01 },
-    3.732625699, 22.22979694, 61.89903885 },
+  { "hanging, load 1", holds = "clamp", weight = 1, meshes = { 10, 50, 100, 200 },
+    share = { 0.001, 0.005, 0.01 }, 3.732625699, 22.22979694, 61.89903885 },
   { "hanging, load 100", holds = "clamp", weight = 100, meshes = fine, share = { 0.001, 0.005, 0.01 },
     12.86874191, 36.50916711, 78.98032862 },
   { "standing, load 4", holds = "clamp", weight = -4, share = { 0.001, 0.005, 0.01 },
     2.462967202, 21.23432813, 60.88200906 },
-  { "pulled, load 100", holds = "clamps", pull = 100, meshes = fine, share = { 0.005, 0.01, 0.02 },
-    40.993161, 91.2643111, 156.3954927 },
-  { "pulled, load 1000", holds = "clamps", pull = 1000, meshes = { 400, 800, 1600 }, share = { 0.005, 0.01, 0.02 },
-    106.5808807, 216.2878233, 332.0611423 },
+  { "pulled, load 100", holds = "clamps", pull = 100, meshes = fine,
+    share = { 0.005, 0.01, 0.02 }, 40.993161, 91.2643111, 156.3954927 },
+  { "pulled, load 1000", holds = "clamps", pull = 1000, meshes = { 400, 800, 1600 },
+    share = { 0.005, 0.01, 0.02 }, 106.5808807, 216.2878233, 332.0611423 },
 }
 
 local function of(case, segments)
