@@ -141,7 +141,7 @@ describe("shapes", function()
       for k = 4, #sum do
         largest = math.max(largest, math.abs(inertia[k]))
       end
-      for k = 4, #sum do t.near(inertia[k], sum[k] / omega2, 1e-4 * largest, "node " .. k) end
+      for k = 4, #sum do t.near(inertia[k], sum[k] / omega2, 1e-3 * largest, "node " .. k) end
     end
   end)
 
