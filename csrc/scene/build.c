@@ -73,6 +73,45 @@ static sw_status inherit_contact(sw_scene *s) {
   return status;
 }
 
+/* Twist by stretch of wire, for the spans of the next system. */
+static sw_status keep_twist(sw_scene *s) {
+  for (size_t w = 0; w < s->wire_count; w++) {
+    const sw_body *b = &s->system.bodies[w];
+    sw_scene_wire *wire = &s->wires[w];
+    const size_t count = b->has_twist ? b->plan->span_count : 0;
+    sw_twisted *list = sw_alloc(count, sizeof *list);
+    if (!list) return SW_ENOMEM;
+    for (size_t k = 0; k < count; k++) {
+      const sw_span *span = &b->plan->spans[k];
+      list[k] = (sw_twisted){b->plan->s[span->first], b->plan->s[span->last + 1],
+                             s->system.twist[b->first_span + k]};
+    }
+    sw_free(wire->twisted);
+    wire->twisted = list;
+    wire->twisted_count = count;
+  }
+  return SW_OK;
+}
+
+/* A new span takes over the twist of the stretches it covers; what lies outside
+ * of all spans has unwound through a free end. */
+static void inherit_twist(sw_scene *s) {
+  for (size_t w = 0; w < s->wire_count; w++) {
+    const sw_body *b = &s->system.bodies[w];
+    const sw_scene_wire *wire = &s->wires[w];
+    for (size_t k = 0; b->has_twist && k < b->plan->span_count; k++) {
+      const double s1 = b->plan->s[b->plan->spans[k].first];
+      const double s2 = b->plan->s[b->plan->spans[k].last + 1];
+      for (size_t j = 0; j < wire->twisted_count; j++) {
+        const sw_twisted *old = &wire->twisted[j];
+        const double common = fmin(s2, old->s2) - fmax(s1, old->s1);
+        if (common > 0)
+          s->system.twist[b->first_span + k] += old->twist * common / (old->s2 - old->s1);
+      }
+    }
+  }
+}
+
 sw_status sw_scene_thaw(sw_scene *s) {
   if (!s->built) return SW_OK;
   SW_TRY(keep_contact(s));
@@ -83,6 +122,7 @@ sw_status sw_scene_thaw(sw_scene *s) {
     memcpy(m->v, s->system.v + 3 * b->first_node, 3 * m->n * sizeof *m->v);
     memcpy(m->tension, s->system.tension + b->first_edge, (m->n - 1) * sizeof *m->tension);
   }
+  SW_TRY(keep_twist(s));
   drop(s);
   s->discontinuous = 1;
   return SW_OK;
@@ -118,6 +158,7 @@ static sw_status add_terms(sw_scene *s, size_t w) {
                               recipe.terms[k].args, sizeof recipe.terms[k].args, -1));
   b->EA = s->wires[w].beam.EA;
   b->EA_push = recipe.push ? b->EA : 0.0;
+  if (recipe.twist) SW_TRY(sw_system_enable_twist(&s->system, w));
   for (size_t k = 0; k < s->force_count; k++) {
     const sw_scene_force *f = &s->forces[k];
     if (f->alive && (f->wire < 0 || f->wire == (long)w))
@@ -235,6 +276,13 @@ sw_status sw_scene_build(sw_scene *s, sw_error *err) {
       drop(s);
       return sw_fail(err, status, "scene '%s': out of memory", s->name);
     }
+    status = sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err);
+    if (status != SW_OK) {
+      drop(s);
+      return status;
+    }
+    sw_system_take_turns(&s->system);
+    inherit_twist(s);
     s->built = 1;
     sw_scene_forget_contact(s);
     s->discontinuous = 1;

@@ -76,6 +76,7 @@ static double take(statics *p, int trial) {
   double shift = 0;
   for (size_t i = 0; i < 3 * s->system.nodes; i++)
     shift = fmax(shift, fabs(p->y[i] - s->system.x[i]));
+  sw_system_follow(&s->system, p->y);
   memcpy(s->system.x, p->y, 3 * s->system.nodes * sizeof(double));
   memset(s->system.v, 0, 3 * s->system.nodes * sizeof(double));
   memset(s->system.a, 0, 3 * s->system.nodes * sizeof(double));

@@ -8,6 +8,12 @@
 #include "state/mesh.h"
 #include "system/system.h"
 
+/* A twisted stretch of wire while the scene is not built. */
+typedef struct sw_twisted {
+  double s1, s2; /* [m] */
+  double twist;  /* total [rad] */
+} sw_twisted;
+
 typedef struct sw_scene_wire {
   uint32_t generation;
   char name[SW_NAME_SIZE];
@@ -15,6 +21,8 @@ typedef struct sw_scene_wire {
   sw_beam beam;
   sw_mesh mesh; /* authoritative while the scene is not built */
   sw_extreme curvature, tension;
+  sw_twisted *twisted;
+  size_t twisted_count;
 } sw_scene_wire;
 
 /* A log: rows of a fixed number of doubles, growing. */
