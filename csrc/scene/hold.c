@@ -73,10 +73,19 @@ static sw_status take_hold(const sw_mesh *m, sw_scene_hold *h, const sw_hold_arg
   }
   h->drive.pose = (sw_pose){origin, sw_quat_identity()};
   h->last_pose = h->drive.pose;
-  const int given = isfinite(a->direction.x) && sw_norm(a->direction) > 0;
-  h->director[0] = given ? sw_unit_or(a->direction, sw_v(1, 0, 0)) : sw_mesh_tangent(m, first);
-  h->director[1] = given ? h->director[0] : sw_mesh_tangent(m, last);
   return SW_OK;
+}
+
+/* The held directions, taken before nodes move: a moved node turns the edges
+ * beside it. */
+static void take_directions(const sw_mesh *m, sw_scene_hold *h, const sw_hold_args *a) {
+  const double length = m->s[m->n - 1], half = 0.5 * a->width;
+  const int given = isfinite(a->direction.x) && sw_norm(a->direction) > 0;
+  for (int side = 0; side < 2; side++) {
+    const double s = fmin(length, fmax(0, side ? a->s + half : a->s - half));
+    h->director[side] =
+        given ? sw_unit_or(a->direction, sw_v(1, 0, 0)) : sw_mesh_tangent_at(m, s);
+  }
 }
 
 sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wire,
@@ -90,6 +99,7 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wir
   sw_scene_hold h = {.generation = s->serial + 1, .alive = 1, .cls = cls, .wire = wire.slot};
   if (args->name[0]) memcpy(h.name, args->name, sizeof h.name);
   else snprintf(h.name, sizeof h.name, "%s%zu", cls->name, s->hold_count + 1);
+  take_directions(&s->wires[wire.slot].mesh, &h, args);
   sw_status status = place_nodes(s, wire.slot, &h, args);
   if (status == SW_OK) status = take_hold(&s->wires[wire.slot].mesh, &h, args);
   if (status != SW_OK) {
