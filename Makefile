@@ -73,4 +73,15 @@ asan:
 	  build-asan/softworld scripts/spec.lua --timeout 3000 $(ARGS)
 
 
-.PHONY: all clean spec lint format asan install
+# make bench ARGS="quick case=release model=rod"
+bench: all
+	@$(BUILD)/softworld scripts/bench.lua $(ARGS)
+
+# draws out/bench/*.csv and the README's chart
+chart: all
+	@$(BUILD)/softworld scripts/chart.lua $(ARGS)
+
+stability: all
+	@$(BUILD)/softworld scripts/stability.lua $(ARGS)
+
+.PHONY: bench chart stability all clean spec lint format asan install

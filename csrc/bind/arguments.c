@@ -154,19 +154,31 @@ void lsw_arguments(lua_State *L, int index, const char *object, const sw_params 
 static const char *const type_names[] = {"number", "integer", "boolean",  "choice",
                                          "text",   "vector",  "rotation", "other"};
 
+static int has_range(const sw_param *row) {
+  return row->type == SW_PARAM_NUMBER || row->type == SW_PARAM_INTEGER ||
+         row->type == SW_PARAM_VECTOR;
+}
+
+/* min and max where there are any; above, below: the limit itself is not allowed. */
+static void push_range(lua_State *L, const sw_param *row) {
+  if (isfinite(row->min)) lua_pushnumber(L, row->min), lua_setfield(L, -2, "min");
+  if (isfinite(row->max)) lua_pushnumber(L, row->max), lua_setfield(L, -2, "max");
+  lua_pushboolean(L, (row->flags & SW_PARAM_ABOVE_MIN) != 0), lua_setfield(L, -2, "above");
+  lua_pushboolean(L, (row->flags & SW_PARAM_BELOW_MAX) != 0), lua_setfield(L, -2, "below");
+}
+
 void lsw_push_params(lua_State *L, const sw_params *params) {
   lua_createtable(L, (int)params->count, 0);
   for (size_t i = 0; i < params->count; i++) {
     const sw_param *row = &params->rows[i];
-    lua_createtable(L, 0, 8);
+    lua_createtable(L, 0, 10);
     lua_pushstring(L, row->name), lua_setfield(L, -2, "name");
     lua_pushstring(L, type_names[row->type]), lua_setfield(L, -2, "type");
     lua_pushstring(L, row->unit), lua_setfield(L, -2, "unit");
     lua_pushstring(L, row->doc), lua_setfield(L, -2, "doc");
     lua_pushboolean(L, (row->flags & SW_PARAM_REQUIRED) != 0), lua_setfield(L, -2, "required");
     if (!isnan(row->def)) lua_pushnumber(L, row->def), lua_setfield(L, -2, "default");
-    if (isfinite(row->min)) lua_pushnumber(L, row->min), lua_setfield(L, -2, "min");
-    if (isfinite(row->max)) lua_pushnumber(L, row->max), lua_setfield(L, -2, "max");
+    if (has_range(row)) push_range(L, row);
     if (row->choices) {
       lua_newtable(L);
       for (int k = 0; row->choices[k]; k++)

@@ -112,6 +112,13 @@ static int mod_check_run(lua_State *L) {
   return 0;
 }
 
+/* core.begin_run(scene): extremes start anew. */
+static int mod_begin_run(lua_State *L) {
+  sw_error err = {""};
+  lsw_must(L, sw_scene_begin_run(check(L), &err), &err);
+  return 0;
+}
+
 /* --- running ------------------------------------------------------------------- */
 
 /* scene:advance({...}, until) -> report. The clock's exact end is `until` [s]. */
@@ -394,6 +401,7 @@ static const luaL_Reg functions[] = {{"scene", mod_scene},
                                      {"clock", mod_clock},
                                      {"nearest", mod_nearest},
                                      {"check_run", mod_check_run},
+                                     {"begin_run", mod_begin_run},
                                      {NULL, NULL}};
 
 void lsw_open_scene(lua_State *L) { luaL_setfuncs(L, functions, 0); }

@@ -3,6 +3,7 @@
 #include "contact/contact.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -185,6 +186,7 @@ static void set_stiffness(sw_contact *c, const sw_system *s, double nominal) {
     const double L = p->length;
     force = fmax(force, fmax(p->beam.mass * L * g, p->beam.EI / (L * L)));
   }
+  c->force_scale = force;
   c->base_stiffness = force / ALLOWED_PENETRATION;
   c->rate2 = 0;
   if (c->regime == SW_CONTACT_IMPLICIT)
@@ -215,6 +217,7 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
                                 double h, double nominal, sw_error *err) {
   c->time = t;
   c->h = h;
+  c->nominal = nominal;
   c->regime = regime;
   c->barrier_count = c->impact_count = c->pressed_count = 0;
   c->widening = 1.0;
@@ -279,6 +282,20 @@ sw_status sw_contact_set_memory(sw_contact *c, const void *memory, size_t bytes)
   c->memory_count = n;
   c->fresh = 0;
   c->touch_count = 0;
+  return SW_OK;
+}
+
+sw_status sw_contact_inherit(sw_contact *c, const void *memory, size_t bytes,
+                             const size_t *new_node) {
+  size_t kept = 0;
+  SW_TRY(sw_contact_set_memory(c, memory, bytes));
+  for (size_t i = 0; i < c->memory_count; i++) {
+    const size_t node = new_node[c->memory[i].node];
+    if (node == SIZE_MAX) continue;
+    c->memory[kept] = c->memory[i];
+    c->memory[kept++].node = node;
+  }
+  c->memory_count = kept;
   return SW_OK;
 }
 

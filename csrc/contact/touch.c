@@ -18,8 +18,10 @@ static const double GAP_TOLERANCE = 2e-8;
 static const double SPRING_TOLERANCE = 1e-11;
 /* Nor turns of the sliding direction with a cosine above this [-]. */
 static const double TURN_TOLERANCE = 0.98;
-/* Nor do changes of a sliding touch's normal force below this share [-]. */
+/* Nor do changes of a sliding touch's normal force below this share of it, or
+ * below this share of the whole wire's weight [-]. */
 static const double FORCE_TOLERANCE = 0.01;
+static const double WEIGHT_TOLERANCE = 1e-3;
 
 /* Shorter updates leave place and normal of a touch on a curved or edged shape
  * as they are; of the radius [-]. */
@@ -28,6 +30,10 @@ static const double SMALL_SHIFT = 0.05;
 /* A touch that sinks in deeper is made stiffer until it does not [m]. */
 static const double DEEPEST = 50e-6;
 static const double MOST_BOOST = 1e5; /* [-] */
+
+/* A spring stretched this many times over what friction can hold does not stick,
+ * whatever the prediction is worth [-]. */
+static const double SURELY_SLIDING = 20.0;
 
 enum { OWN = 0, NEXT = 6, ROW = 24 }; /* layout of the system's block rows */
 
@@ -101,13 +107,14 @@ static void set_friction_state(const sw_contact *c, const sw_system *s, const sw
   if (last && last->gap < 0) t->sliding = last->next_sliding;
   else if (m) t->sliding = m->sliding;
   else t->sliding = t->k * sw_norm(t->trial) > most;
+  if (t->k * sw_norm(t->trial) > SURELY_SLIDING * most) t->sliding = 1;
 }
 
 static double stiffness(const sw_contact *c, const sw_candidate *k) {
   return k->boost * fmax(c->base_stiffness, c->rate2 * k->mass);
 }
 
-static int is_held(const sw_system *s, const sw_candidate *k) {
+int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
   const sw_body *b = &s->bodies[k->body];
   const size_t i = k->node - b->first_node;
   return b->plan->held[i] != SW_FREE && (!k->segment || b->plan->held[i + 1] != SW_FREE);
@@ -144,7 +151,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
                 .point = sw_pose_point(*pose, near->point),
                 .gap = near->gap - k->radius,
                 .k = stiffness(c, k),
-                .held = is_held(s, k),
+                .held = sw_contact_is_held(s, k),
                 .candidate = (size_t)(k - c->candidates)};
   t.forgiven = forgiven(c, s, k, &t);
   t.gap += t.forgiven;
@@ -160,7 +167,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
  * inside (nothing accepted yet) is pushed out the nearest way. */
 static int keep_side(const sw_contact *c, const sw_candidate *k, sw_vec local,
                      sw_closest *near) {
-  if (near->gap >= 0) return 1;
+  if (near->gap >= 0 || c->flat[k->obstacle]) return 1; /* a half space has one side */
   const sw_memory *m = memory_for(c, k, near->at);
   if (!m) return c->fresh;
   if (sw_dot(m->normal, near->normal) > 0.7) return 1; /* within 45 degrees: the same face */
@@ -307,7 +314,8 @@ static int update_friction(const sw_contact *c, sw_touch *t, sw_vec shift) {
   if (t->sliding && beyond && along < TURN_TOLERANCE * length * sw_norm(t->trial)) return 0;
   if (t->sliding != beyond) /* a change of state matters when the force does */
     return fabs(t->k * length - most) <= small + FORCE_TOLERANCE * most;
-  return !beyond || fabs(t->normal_force - t->lag) <= FORCE_TOLERANCE * t->normal_force + small;
+  return !beyond || fabs(t->normal_force - t->lag) <=
+                        FORCE_TOLERANCE * t->normal_force + WEIGHT_TOLERANCE * c->force_scale;
 }
 
 /* Bring a touch's forces up to the solved update; 1 = it agrees with what the

@@ -89,7 +89,9 @@ struct sw_contact {
   sw_memory *impacts; /* keys of touches whose impact was dealt with in this step */
   size_t impact_count, impact_capacity;
   double time, h; /* of the step [s] */
+  double nominal; /* the run's full step [s] */
   double base_stiffness; /* from the expected forces [N/m] */
+  double force_scale;    /* weight of the heaviest wire, or its bending force [N] */
   double rate2;          /* stiffness per mass [1/s2] */
   sw_contact_regime regime;
   int fresh;       /* 1: no step was accepted yet, there is no memory */
@@ -101,6 +103,9 @@ double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v);
 
 /* Fill the list of candidates for the step. */
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err);
+
+/* 1: the candidate's node, or both ends of its segment, are held. */
+int sw_contact_is_held(const sw_system *s, const sw_candidate *k);
 
 /* The place of a candidate on its segment. */
 static inline sw_vec sw_touch_place(const double *x, size_t node, int segment, double at) {

@@ -142,6 +142,9 @@ typedef struct sw_run_args {
 } sw_run_args;
 extern const sw_params sw_run_params;
 
+/* A run begins: extremes of wires and of penetration start anew. */
+sw_status sw_scene_begin_run(sw_scene *scene, sw_error *err);
+
 typedef struct sw_run_report {
   sw_status status;  /* SW_OK, SW_EDIVERGED, SW_EINTR, SW_ECALLBACK, ... */
   double time;       /* reached [s] */

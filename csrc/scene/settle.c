@@ -17,7 +17,7 @@ static const sw_param rows[] = {
 };
 const sw_params sw_settle_params = SW_PARAMS("scene:settle", rows);
 
-enum { NEWTON_ITERATIONS = 60 };
+enum { NEWTON_ITERATIONS = 60, MOST_REDOS = 20 };
 static const double FIRST_PSEUDO_STEP = 0.02; /* of sqrt(length/g) [-] */
 static const double LARGEST_GROWTH = 1e6;     /* of the first pseudo step [-] */
 static const double STATIC_TURN = 1e-7;       /* last rotation of a converged solve [rad] */
@@ -54,9 +54,15 @@ static sw_status solve(statics *p, double hbar, const sw_newton *newton, sw_erro
   sw_status status = SW_OK;
   if (s->contact)
     status =
-      sw_contact_begin_step(s->contact, &s->system, SW_CONTACT_STATIC, s->time, 0, 0, err);
-  if (status == SW_OK) status = sw_system_stage(&s->system, &stage, newton, &r, err);
-  p->report->iterations += (size_t)r.iterations;
+        sw_contact_begin_step(s->contact, &s->system, SW_CONTACT_STATIC, s->time, 0, 0, err);
+  for (int redo = 0; status == SW_OK; redo++) {
+    status = sw_system_stage(&s->system, &stage, newton, &r, err);
+    p->report->iterations += (size_t)r.iterations;
+    if (status != SW_OK || !s->contact) break;
+    if (!sw_contact_review_static(s->contact, &s->system, p->y)) break;
+    if (newton->statics || redo == MOST_REDOS)
+      status = sw_fail(err, SW_ENOCONV, "the wire would pass through an obstacle");
+  }
   p->report->negative = r.negative;
   if (status != SW_OK)
     memcpy(s->system.tension, p->tension, s->system.edges * sizeof(double));

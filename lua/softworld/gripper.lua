@@ -22,48 +22,84 @@ local trajectory = require "softworld.trajectory"
 local Gripper = { __name = "gripper" }
 local approaches = { imposed = true }
 
-local function check_keys(what, args, known)
+local function check_keys(what, args, known, level)
+  if type(args) ~= "table" then
+    error(("%s takes one table of parameters, got %s"):format(what, type(args)), level)
+  end
   for key in pairs(args) do
     if not known[key] then
       local names = {}
       for name in pairs(known) do names[#names + 1] = name end
       table.sort(names)
       local near = core.nearest(tostring(key), names)
-      error(("%s: there is no parameter '%s'; %s"):format(what, tostring(key),
-        near and ("did you mean '" .. near .. "'?") or "known are: " .. table.concat(names, " ")), 3)
+      error(("%s: there is no parameter '%s'; %s"):format(what, tostring(key), near
+        and ("did you mean '" .. near .. "'?") or "known are: " .. table.concat(names, " ")), level)
     end
   end
 end
 
-local function number(what, value, low, unit)
-  if type(value) ~= "number" or value ~= value or value < low or value == math.huge then
-    error(("%s = %s%s is not allowed; it must be at least %g %s")
-      :format(what, tostring(value), type(value) == "number" and " " .. unit or "", low, unit), 3)
+local function number(what, value, low, unit, level)
+  if type(value) ~= "number" or not (value >= low and value < math.huge) then
+    error(("%s = %s%s is not allowed; it must be at least %g%s"):format(what, tostring(value),
+      type(value) == "number" and unit or "", low, unit), level)
   end
+end
+
+-- A copy of the vector {x, y, z}.
+local function vector(what, value, level)
+  local copy = {}
+  for k, axis in ipairs{ "x", "y", "z" } do
+    local v = type(value) == "table" and (value[k] or value[axis])
+    if type(v) ~= "number" or v - v ~= 0 then
+      error(("%s must be a table of 3 finite numbers [m]"):format(what), level)
+    end
+    copy[k] = v
+  end
+  return copy
 end
 
 --- scene:gripper{ name =, pads = { width = [m] }, at = {x, y, z} [m] }
 -- at is where the tool is while it holds nothing; grasp without s takes the
 -- place of the wire nearest to it.
 function core.class.scene.gripper(scene, args)
-  args = args or {}
-  if type(args) ~= "table" then
-    error("scene:gripper takes one table of parameters, got " .. type(args), 2)
+  build.check(scene, "scene:gripper", 3)
+  if args == nil then args = {} end
+  check_keys("scene:gripper", args, { name = true, pads = true, at = true }, 3)
+  local pads = args.pads or {}
+  check_keys("scene:gripper: pads", pads, { width = true, friction = true }, 3)
+  if pads.width ~= nil then number("scene:gripper: pads.width", pads.width, 0, " m", 3) end
+  if pads.friction ~= nil then number("scene:gripper: pads.friction", pads.friction, 0, "", 3) end
+  if args.name ~= nil and type(args.name) ~= "string" then
+    error("scene:gripper: name must be a string, got " .. type(args.name), 2)
   end
-  check_keys("scene:gripper", args, { name = true, pads = true, at = true })
   local data = build.data(scene)
   local self = setmetatable({}, Gripper)
-  local pads = args.pads or {}
-  check_keys("scene:gripper: pads", pads, { width = true, friction = true })
-  if pads.width ~= nil then number("scene:gripper: pads.width", pads.width, 0, "m") end
-  if pads.friction ~= nil then number("scene:gripper: pads.friction", pads.friction, 0, "-") end
-  rawset(self, "scene", scene)
-  rawset(self, "name", args.name or ("gripper" .. #data.grippers + 1))
-  rawset(self, "width", pads.width or 0.02)
-  rawset(self, "at", args.at)
-  rawset(self, "past", {}) -- clamps of earlier grasps, for the series
+  self.scene = scene
+  self.name = build.name(scene, args.name, "gripper", #data.grippers, 3)
+  self.width = pads.width or 0.02
+  self.at = args.at ~= nil and vector("scene:gripper: at", args.at, 3) or nil
+  self.past = {} -- clamps of earlier grasps, for the series
   data.grippers[#data.grippers + 1] = self
   return self
+end
+
+--- What a snapshot must know of the gripper, and the way back; recall(nil) for
+-- one that was made later.
+function Gripper:remember()
+  return { hold = self.hold, at = self.at, grasps = #self.past }
+end
+
+function Gripper:recall(state)
+  self.gone = state == nil or nil
+  self.hold, self.at = state and state.hold, state and state.at
+  for i = #self.past, (state and state.grasps or 0) + 1, -1 do self.past[i] = nil end
+end
+
+local function needs_scene(self)
+  if self.gone then
+    error(("gripper '%s' was made after the snapshot that was restored; make it anew")
+      :format(self.name), 3)
+  end
 end
 
 -- The arc length of the wire nearest to a point.
@@ -85,6 +121,9 @@ local function nearest_place(wire, at)
 end
 
 local function needs_hold(self, verb)
+  if getmetatable(self) ~= Gripper then
+    error(("gripper:%s is a method: call it with a colon"):format(verb), 3)
+  end
   if not self.hold then
     error(("gripper '%s' holds nothing; grasp a wire before you %s"):format(self.name, verb), 3)
   end
@@ -92,11 +131,17 @@ end
 
 --- Take hold of wire around arc length s [m].
 function Gripper:grasp(wire, args)
-  args = args or {}
-  check_keys("gripper:grasp", args, { s = true, approach = true })
+  if args == nil then args = {} end
+  if getmetatable(self) ~= Gripper then error("gripper:grasp: call it with a colon", 2) end
+  needs_scene(self)
+  if core.type(wire) ~= "wire" then
+    error("gripper:grasp expects a wire, got " .. (core.type(wire) or type(wire)), 2)
+  end
+  check_keys("gripper:grasp", args, { s = true, approach = true }, 3)
   local approach = args.approach or "imposed"
   if not approaches[approach] then
-    error(("gripper '%s': approach = '%s' is not one of: imposed"):format(self.name, approach), 2)
+    error(("gripper '%s': approach = '%s' is not one of: imposed"):format(self.name,
+      tostring(approach)), 2)
   end
   if self.hold then error(("gripper '%s' already holds a wire"):format(self.name), 2) end
   local s = args.s
@@ -107,7 +152,7 @@ function Gripper:grasp(wire, args)
     end
     s = nearest_place(wire, self.at)
   end
-  self.hold = self.scene:grip(wire, { s = s, width = self.width,
+  self.hold = build.call(3, self.scene.grip, self.scene, wire, { s = s, width = self.width,
     name = self.name .. (#self.past > 0 and "#" .. #self.past + 1 or "") })
   self.past[#self.past + 1] = self.hold
   return self
@@ -123,18 +168,27 @@ local function move_table(self, args)
   end
   local here, facing = self.hold:pose()
   here.rotation = facing
-  local points = args.points or (args.path and trajectory.read(args.path, args.scale))
+  local points = args.points or args.path
+  if type(points) == "string" then points = trajectory.read(points, args.scale) end
+  if args.rotation ~= nil and args.to == nil then
+    error("gripper:move: rotation goes with to; way-points have their own", 3)
+  end
   if args.to then
-    points = { here, { args.to[1], args.to[2], args.to[3], rotation = args.rotation } }
+    local to = vector("gripper:move: to", args.to, 4)
+    to.rotation = args.rotation
+    points = { here, to }
   elseif args.by then
-    points, t.relative = { { 0, 0, 0 }, args.by }, true
+    points, t.relative = { { 0, 0, 0 }, vector("gripper:move: by", args.by, 4) }, true
   elseif not points and t.turn then
     points, t.relative = { { 0, 0, 0 }, { 0, 0, 0 } }, true
-  elseif points and not t.relative then
+  elseif type(points) == "table" and type(points[1]) == "table" and not t.relative then
     local first = points[1]
     local x, y, z = first.x or first[1], first.y or first[2], first.z or first[3]
-    local gap = ((x - here[1]) ^ 2 + (y - here[2]) ^ 2 + (z - here[3]) ^ 2) ^ 0.5
-    if gap > 1e-9 and not (first.t or t.times) then table.insert(points, 1, here) end
+    local numbers = type(x) == "number" and type(y) == "number" and type(z) == "number"
+    local gap = numbers and ((x - here[1]) ^ 2 + (y - here[2]) ^ 2 + (z - here[3]) ^ 2) ^ 0.5 or 0
+    if gap > 1e-9 and not (first.t or t.times) then
+      points = table.move(points, 1, #points, 2, { here }) -- the caller's stays as it is
+    end
   end
   t.points = points
   return t
@@ -149,8 +203,8 @@ function Gripper:move(args)
   if not (args.path or args.points or args.to or args.by or args.turn) then
     error(("gripper '%s': move where? give path, points, to, by or turn"):format(self.name), 2)
   end
-  local motion = trajectory(move_table(self, args))
-  local duration = self.hold:follow(motion)
+  local motion = build.call(3, core.trajectory, move_table(self, args))
+  local duration = build.call(3, self.hold.follow, self.hold, motion)
   local p = process.current()
   if p then process.sleep_until(p, self.scene.time + duration) end
   return self
@@ -158,6 +212,7 @@ end
 
 --- Turn the tool about its centre by angle [rad] around axis.
 function Gripper:rotate(args)
+  if type(args) ~= "table" then error("gripper:rotate takes { axis =, angle = [rad] }", 2) end
   local t = {}
   for k, v in pairs(args) do t[k] = v end
   t.turn, t.axis, t.angle = { axis = args.axis, angle = args.angle }, nil, nil
@@ -167,7 +222,7 @@ end
 function Gripper:release()
   needs_hold(self, "release")
   self.at = self.hold:pose()
-  self.hold:release()
+  build.call(3, self.hold.release, self.hold)
   self.hold = nil
   return self
 end
@@ -241,9 +296,31 @@ end
 local measures = { peak_force = true, mean_force = true, peak_moment = true, mean_moment = true,
   impulse = true }
 
+-- Fields that may be nil.
+local fields = { hold = true, at = true, gone = true }
+
 function Gripper:__index(key)
   if measures[key] then return self:over()[key] end
-  return Gripper[key]
+  local value = Gripper[key]
+  if value ~= nil or fields[key] then return value end
+  local names = {}
+  for name in pairs(Gripper) do names[#names + 1] = name end
+  for name in pairs(measures) do names[#names + 1] = name end
+  local near = core.nearest(tostring(key), names)
+  error(("gripper has no '%s'%s"):format(tostring(key),
+    near and ("; did you mean '" .. near .. "'?") or ""), 2)
+end
+
+--- Names of methods and measures, for completion at the prompt.
+function Gripper.__names()
+  local names = { "name", "width" }
+  for name in pairs(Gripper) do
+    if name:sub(1, 2) ~= "__" and name ~= "remember" and name ~= "recall" then
+      names[#names + 1] = name
+    end
+  end
+  for name in pairs(measures) do names[#names + 1] = name end
+  return names
 end
 
 function Gripper:__tostring()

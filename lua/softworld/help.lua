@@ -12,18 +12,48 @@ local notes = {
   scene = "sw.scene{...}", wire = "scene:wire{...} (and a section, see help 'section')",
   section = "scene:wire{...}: what the wire is made of", obstacle = "scene:obstacle{ shape =, ... }",
   run = "scene:run{...}", settle = "scene:settle{...}",
+  trajectory = "sw.trajectory{...}; clamps, obstacles and grippers take the table itself",
+}
+
+-- What has no parameter rows.
+local texts = {
+  gripper = [[
+scene:gripper{ name =, pads = { width = [m] }, at = {x, y, z} [m] }
+  :grasp(wire, { s = [m] })       take hold of the wire around s
+  :move{ by =, to =, points =, path =, turn =, speed = [m/s], duration = [s], law = }
+  :rotate{ axis =, angle = [rad], duration = [s] }
+  :release()
+  :force() :moment{ at = } :position()          now [N], [N m], [m]
+  .peak_force .mean_force .impulse              over all grasps [N], [N s]
+  .peak_moment .mean_moment                     [N m]
+  :over(t1, t2) :series()]],
+  process = [[
+scene:process(function(p) ... end)
+  p:wait(seconds)
+  p:wait_until(function() return ... end, { timeout = [s] })   true, or false after the timeout
+  grippers' move and rotate return when they are done]],
+  snapshot = [[
+local before = scene:snapshot()   the scene as it is
+scene:restore(before)             back to it, bit by bit, as often as wanted]],
+  units = "sw.units.mm(5), sw.units.deg(30), ...: into SI units",
 }
 
 local function range_of(row)
   if row.choices then return "one of " .. table.concat(row.choices, ", ") end
-  if row.min and row.max then return ("%g .. %g"):format(row.min, row.max) end
-  if row.min then return (">= %g"):format(row.min) end
-  if row.max then return ("<= %g"):format(row.max) end
+  if row.min and row.max then
+    return ("%s%g, %g%s"):format(row.above and "(" or "[", row.min, row.max, row.below and ")" or "]")
+  end
+  if row.min then return (row.above and "> %g" or ">= %g"):format(row.min) end
+  if row.max then return (row.below and "< %g" or "<= %g"):format(row.max) end
   return ""
 end
 
 local function default_of(row)
   if row.required then return "required" end
+  if row.type == "choice" and row.choices then
+    local name = row.choices[(row.default or -1) + 1]
+    return name and "= " .. name or ""
+  end
   if row.default and (row.type == "number" or row.type == "integer") then
     return ("= %.6g"):format(row.default)
   end
@@ -34,39 +64,60 @@ local function show_rows(title, rows)
   print(title)
   for _, row in ipairs(rows) do
     print(("  %-16s %-9s %-12s %s%s"):format(row.name, row.unit == "-" and "" or "[" .. row.unit .. "]",
-      default_of(row), row.doc, range_of(row) ~= "" and " (" .. range_of(row) .. ")" or ""))
+      default_of(row), row.doc, range_of(row) ~= "" and "; " .. range_of(row) or ""))
   end
+  if #rows == 0 then print "  takes no parameters" end
 end
 
-local function named(list, name)
-  for _, entry in ipairs(list) do
-    if entry.name == name then return entry end
+local function outer(forces)
+  local list = {}
+  for _, f in ipairs(forces) do
+    if not f.inner then list[#list + 1] = f end
   end
+  return list
+end
+
+local function with_names(names)
+  local list = {}
+  for name in pairs(names) do list[#list + 1] = { name = name } end
+  table.sort(list, function(a, b) return a.name < b.name end)
+  return list
+end
+
+-- Families in the order in which they are shown: what one is called, its list,
+-- and how it is used.
+local function families(r)
+  return {
+    { "model", r.models, "scene:wire{ model = '%s', ... }" },
+    { "hold", r.holds, "scene:%s(wire, {...})" },
+    { "obstacle", r.shapes, "scene:obstacle{ shape = '%s', ... }" },
+    { "force", r.forces, "scene:force{ kind = '%s', on = wire, ... }" },
+    { "integrator", r.integrators, "scene:run{ integrator = '%s', ... }" },
+  }
+end
+
+local function names_of(list)
+  local names = {}
+  for _, e in ipairs(list) do names[#names + 1] = e.name end
+  return table.concat(names, " ")
 end
 
 local function overview(r)
   print "SoftWorld: help 'name' shows parameters, help(object) its methods."
-  local function line(title, list)
-    local names = {}
-    for _, e in ipairs(list) do names[#names + 1] = e.name end
-    print(("  %-12s %s"):format(title, table.concat(names, " ")))
-  end
-  local params = {}
-  for name in pairs(r.params) do params[#params + 1] = { name = name } end
-  table.sort(params, function(a, b) return a.name < b.name end)
-  line("make", params)
-  line("wires", r.models)
+  local function line(title, list) print(("  %-12s %s"):format(title, names_of(list))) end
+  line("make", with_names(r.params))
+  line("use", with_names(texts))
+  line("models", r.models)
   line("holds", r.holds)
   line("obstacles", r.shapes)
-  local forces = {}
-  for _, f in ipairs(r.forces) do if not f.inner then forces[#forces + 1] = f end end
-  line("forces", forces)
+  line("forces", outer(r.forces))
   line("integrators", r.integrators)
 end
 
 local function show_object(object)
-  local meta = getmetatable(object)
-  local names = meta and meta.__names and meta.__names(object) or {}
+  local meta = debug.getmetatable(object)
+  local list = type(meta) == "table" and rawget(meta, "__names")
+  local names = list and list(object) or {}
   if #names == 0 then
     for name, value in pairs(type(object) == "table" and object or {}) do
       if type(name) == "string" and type(value) == "function" then names[#names + 1] = name end
@@ -74,21 +125,80 @@ local function show_object(object)
   end
   table.sort(names)
   print(tostring(object))
-  print("  " .. table.concat(names, " "))
+  if #names > 0 then print("  " .. table.concat(names, " ")) end
+end
+
+local function show_integrator(entry)
+  print(("  order %d, %s%s"):format(entry.order, entry.implicit and "implicit" or "explicit",
+    entry.adaptive and ", steps by tolerance" or ""))
+  if not entry.implicit and entry.leapfrog_limit > 0 then
+    print(("  stable up to %.3g times scene:stable_dt()"):format(entry.leapfrog_limit / 2))
+  end
+end
+
+-- Every family that has the name; a name may stand in more than one.
+local function show_members(r, topic)
+  local found = false
+  for _, family in ipairs(families(r)) do
+    for _, entry in ipairs(family[2]) do
+      if entry.name == topic then
+        found = true
+        local title = ("%s %s%s"):format(family[1], topic, entry.summary and ": " .. entry.summary or "")
+        if entry.inner then
+          print(title .. "\n  part of the wire models that need it")
+        elseif family[1] == "integrator" then
+          print(title .. "\n  " .. family[3]:format(topic))
+          show_integrator(entry)
+        elseif family[1] == "model" then
+          print(title .. "\n  " .. family[3]:format(topic))
+        else
+          show_rows(title .. "\n  " .. family[3]:format(topic), entry.params or {})
+        end
+      end
+    end
+  end
+  return found
+end
+
+local plural = { models = "model", holds = "hold", obstacles = "obstacle", forces = "force",
+  integrators = "integrator", shapes = "obstacle", shape = "obstacle" }
+
+-- "force", "models", ...: every member with its summary.
+local function show_family(r, topic)
+  for _, family in ipairs(families(r)) do
+    if family[1] == (plural[topic] or topic) then
+      print(family[3]:format("..."))
+      for _, entry in ipairs(family[1] == "force" and outer(family[2]) or family[2]) do
+        print(("  %-18s %s"):format(entry.name, entry.summary or ""))
+      end
+      return true
+    end
+  end
+  return false
+end
+
+local function unknown(r, topic)
+  local names = {}
+  for _, list in ipairs{ with_names(r.params), with_names(texts), r.models, r.holds, r.shapes,
+    r.forces, r.integrators } do
+    for _, entry in ipairs(list) do names[#names + 1] = entry.name end
+  end
+  local near = core.nearest(topic, names)
+  print(("no help on '%s'; %s"):format(topic,
+    near and ("did you mean '%s'?"):format(near) or "help() lists the topics"))
 end
 
 return function(topic)
   local r = core.registry()
+  r.params.trajectory = core.trajectory_parameters()
   if topic == nil then return overview(r) end
   if type(topic) ~= "string" then return show_object(topic) end
-  if r.params[topic] then return show_rows(notes[topic] or topic, r.params[topic]) end
-  for kind, list in pairs{ hold = r.holds, obstacle = r.shapes, force = r.forces,
-    integrator = r.integrators, model = r.models } do
-    local entry = named(list, topic)
-    if entry then
-      local title = ("%s %s%s"):format(kind, topic, entry.summary and ": " .. entry.summary or "")
-      return show_rows(title, entry.params or {})
-    end
+  if r.params[topic] then show_rows(notes[topic] or topic, r.params[topic])
+  elseif texts[topic] then print(texts[topic]) end
+  if r.params[topic] or texts[topic] then
+    if topic == "obstacle" then print("  shapes: " .. names_of(r.shapes)) end
+    return
   end
-  print(("no help on '%s'; help() lists the topics"):format(topic))
+  local member = show_members(r, topic)
+  if not member and not show_family(r, topic) then unknown(r, topic) end
 end

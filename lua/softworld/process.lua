@@ -7,6 +7,8 @@
 --       p:wait(0.5)
 --       p:wait_until(function() return left:force()[3] > 0.2 end, { timeout = 2 })
 --     end)
+--
+-- A process that yields by itself goes on after the next step.
 -- @module softworld.process
 local core = require "softworld.core"
 local build = require "softworld.build"
@@ -16,11 +18,17 @@ local Process = { __name = "process" }
 Process.__index = Process
 
 local current = setmetatable({}, { __mode = "k" }) -- coroutine -> its process
+local SAME_TIME = 1e-12 -- of the time: the core's own rounding [-]
+
+--- Has the scene's time reached t, but for rounding?
+function process.reached(scene, t)
+  return scene.time >= t - SAME_TIME * math.max(1, math.abs(t))
+end
 
 local function check_time(what, seconds)
   if type(seconds) ~= "number" or not (seconds >= 0 and seconds < math.huge) then
-    error(("%s = %s is not allowed; it must be a time of at least 0 s")
-      :format(what, tostring(seconds)), 3)
+    error(("%s = %s%s is not allowed; it must be a time of at least 0 s"):format(what,
+      tostring(seconds), type(seconds) == "number" and " s" or ""), 3)
   end
 end
 
@@ -29,17 +37,44 @@ function process.current()
   return current[coroutine.running()]
 end
 
+local function check_inside(self, what)
+  if process.current() ~= self then
+    error(what .. " works only inside its own process, not in a function or coroutine beside it", 3)
+  end
+end
+
 -- Sleep until the scene's time reaches wake [s].
 function process.sleep_until(self, wake)
-  self.wake = wake
-  while self.scene.time < wake - 1e-12 * math.max(1, math.abs(wake)) do coroutine.yield() end
-  self.wake = nil
+  while not process.reached(self.scene, wake) do
+    self.wake = wake
+    coroutine.yield()
+  end
 end
 
 --- Let time pass [s].
 function Process:wait(seconds)
   check_time("p:wait: seconds", seconds)
+  check_inside(self, "p:wait")
   process.sleep_until(self, self.scene.time + seconds)
+end
+
+local function timeout_of(options)
+  if options == nil then return math.huge end
+  if type(options) ~= "table" then
+    error("p:wait_until takes a table of options, got " .. type(options), 3)
+  end
+  for key in pairs(options) do
+    if key ~= "timeout" then
+      error(("p:wait_until: there is no option '%s'; known is: timeout"):format(tostring(key)), 3)
+    end
+  end
+  local timeout = options.timeout
+  if timeout == nil or timeout == math.huge then return math.huge end
+  if type(timeout) ~= "number" or timeout ~= timeout or timeout < 0 then
+    error(("p:wait_until: timeout = %s is not allowed; it must be at least 0 s")
+      :format(tostring(timeout)), 3)
+  end
+  return timeout
 end
 
 --- Wait until condition() is true; asked once per step. Returns true, or false
@@ -48,63 +83,67 @@ function Process:wait_until(condition, options)
   if type(condition) ~= "function" then
     error("p:wait_until expects a function, got " .. type(condition), 2)
   end
-  local timeout = options and options.timeout or math.huge
-  if timeout ~= math.huge then check_time("p:wait_until: timeout", timeout) end
-  local last = self.scene.time + timeout
+  local last = self.scene.time + timeout_of(options)
+  check_inside(self, "p:wait_until")
   while not condition() do
-    if self.scene.time >= last - 1e-12 * math.max(1, math.abs(last)) then
-      self.watching, self.wake = nil, nil
-      return false
-    end
+    if process.reached(self.scene, last) then return false end
     self.watching, self.wake = true, last
     coroutine.yield()
   end
-  self.watching, self.wake = nil, nil
   return true
 end
 
+--- End the process where it waits.
+function Process:finish()
+  if coroutine.status(self.thread) == "suspended" then coroutine.close(self.thread) end
+end
+
 function Process:__tostring()
-  return ("process %d (%s)"):format(self.number, coroutine.status(self.thread))
+  return ("process %d (%s)"):format(self.number,
+    self.failed and "failed" or coroutine.status(self.thread))
 end
 
 --- scene:process(function(p) ... end) -> process
 function core.class.scene.process(scene, body)
+  build.check(scene, "scene:process", 3)
   if type(body) ~= "function" then
     error("scene:process expects a function, got " .. type(body), 2)
   end
-  local list = build.data(scene).processes
-  local self = setmetatable({ scene = scene, number = #list + 1 }, Process)
+  local data = build.data(scene)
+  data.process_count = (data.process_count or 0) + 1
+  local self = setmetatable({ scene = scene, number = data.process_count }, Process)
   self.thread = coroutine.create(body)
   current[self.thread] = self
-  list[#list + 1] = self
+  data.processes[#data.processes + 1] = self
   return self
 end
 
 local function resume(self)
+  self.wake, self.watching = nil, nil
   local ok, message = coroutine.resume(self.thread, self)
   if not ok then
-    self.failed = true
+    self.failed, self.traceback = true, debug.traceback(self.thread)
     error(message, 0)
   end
+  if not self.wake then self.watching, self.wake = true, math.huge end -- a plain yield
 end
 
 --- Let every process whose time has come go on. Returns the number of living
 -- processes, the next wake-up time [s] and whether one watches a condition.
 function process.step(scene)
-  local alive, wake, watching = 0, math.huge, false
-  for _, p in ipairs(build.data(scene).processes) do
-    if coroutine.status(p.thread) ~= "dead" then
-      local due = not p.wake or p.watching or
-        scene.time >= p.wake - 1e-12 * math.max(1, math.abs(p.wake))
-      if due then resume(p) end
-    end
-    if coroutine.status(p.thread) ~= "dead" then
-      alive = alive + 1
-      wake = math.min(wake, p.wake or scene.time)
+  local alive, wake, watching = {}, math.huge, false
+  local data = build.data(scene)
+  for _, p in ipairs(data.processes) do
+    local waits = coroutine.status(p.thread) == "suspended"
+    if waits and (not p.wake or p.watching or process.reached(scene, p.wake)) then resume(p) end
+    if coroutine.status(p.thread) == "suspended" then
+      alive[#alive + 1] = p
+      wake = math.min(wake, p.wake)
       watching = watching or p.watching or false
     end
   end
-  return alive, wake, watching
+  data.processes = alive
+  return #alive, wake, watching
 end
 
 return process

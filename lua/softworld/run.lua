@@ -27,6 +27,8 @@ local function new_bar(args, scene)
     clock = core.clock, width = host and host.columns or nil }
 end
 
+local advance = core.class.scene.advance
+
 -- Advance until the end of time or of the processes.
 local function drive(scene, args, total, bar)
   local start = scene.time
@@ -39,14 +41,14 @@ local function drive(scene, args, total, bar)
   while true do
     local alive, wake, watching = process.step(scene)
     if stop == math.huge and alive == 0 then return "all processes have ended" end
-    if scene.time >= stop then return ("%g s have passed"):format(args.duration) end
+    if process.reached(scene, stop) then return ("%g s have passed"):format(args.duration) end
     local target = math.min(stop, wake)
     if target == math.huge then
       -- a process that waits for a condition without an end: go on step by step
       target = scene.time + (args.dt or 0.01)
     end
     options.max_steps = math.min(left, watching and 1 or chunk)
-    local part = scene:advance(options, target)
+    local part = build.call(4, advance, scene, options, target)
     merge(total, part)
     left = left - part.steps
     bar:update(scene.time - start, total.steps)
@@ -60,22 +62,28 @@ end
 -- Returns a run: ok, reason, time, steps, ... Errors of processes and callbacks
 -- are raised unchanged and leave the scene at its last good step.
 function core.class.scene.run(scene, args)
-  args = args or {}
-  if type(args) ~= "table" then
-    error("scene:run takes one table of parameters, got " .. type(args), 2)
-  end
-  core.check_run(args)
+  build.check(scene, "scene:run", 3)
+  if args == nil then args = {} end
+  build.call(3, core.check_run, args)
   local data = build.data(scene)
+  if data.running then
+    error(("scene:run: a run of scene '%s' is under way; a process lets time pass by waiting")
+      :format(scene.name), 2)
+  end
   if not args.duration and #data.processes == 0 then
     error("scene:run: there is no process that could end; give duration [s]", 2)
   end
   local total = { steps = 0, rejected = 0, iterations = 0, evaluations = 0,
     smallest_dt = math.huge, ok = true, reason = "", time = scene.time, start = scene.time }
+  build.call(3, core.begin_run, scene)
   local wall, cpu = core.clock(), os.clock()
   local bar <close> = new_bar(args, scene)
+  local guard <close> = setmetatable({}, { __close = function() data.running = nil end })
+  data.running = guard
   local reason = drive(scene, args, total, bar)
   total.wall, total.cpu = core.clock() - wall, os.clock() - cpu
   total.reason, total.scene, total.name = reason, scene, scene.name
+  total.restores = data.restores
   if total.ok then bar:finish() else bar:fail(reason) end
   return setmetatable(total, Run)
 end
@@ -83,6 +91,10 @@ end
 local function readable(self, what)
   if not self.ok then
     error(("run of '%s' failed %s; it has no %s"):format(self.name, self.reason, what), 3)
+  end
+  if build.data(self.scene).restores ~= self.restores then
+    error(("run of '%s': its %s went when a snapshot was restored; read them before that")
+      :format(self.name, what), 3)
   end
 end
 
@@ -138,10 +150,8 @@ local function all_logs(self)
     if count > 0 then logs[#logs + 1] = { name = h.name, rows = rows, count = count, width = 10 } end
   end
   for _, o in ipairs(data.obstacles) do
-    if not o.removed then
-      local rows, count = o.object:log()
-      logs[#logs + 1] = { name = o.name, rows = rows, count = count, width = 4, obstacle = true }
-    end
+    local rows, count = o.object:log()
+    logs[#logs + 1] = { name = o.name, rows = rows, count = count, width = 4, obstacle = true }
   end
   for i, log in ipairs(logs) do logs[i] = cut(log, self.start) end
   return logs
@@ -181,6 +191,7 @@ end
 
 --- Frames stored while running: { { t, wires = {flat positions}, obstacles, holds, energy } }.
 function Run:frames()
+  readable(self, "frames")
   local list = {}
   for i = 1, self.scene:frame_count() do list[i] = self.scene:frame(i) end
   return list
@@ -215,6 +226,7 @@ end
 
 --- Plain tables of everything that charts, pictures and files need.
 function Run:document()
+  if self.ok then readable(self, "results") end
   local data = build.data(self.scene)
   local doc = { name = self.name, ok = self.ok, reason = self.reason, time = self.time,
     steps = self.steps, wall = self.wall, cpu = self.cpu, gravity = self.scene:gravity(),

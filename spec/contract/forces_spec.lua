@@ -1,0 +1,267 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- What every force must answer, over the whole registry: a new one is covered by
+-- its file and its line in list.def. Forces that users make get arguments from
+-- their rows; inner ones are met in the wire models that use them.
+local samples = require "contract.samples"
+local along, dot, norm, apart = samples.along, samples.dot, samples.norm, samples.apart
+
+-- Central differences of step H lose about 1e-16/H to rounding and H^2 to the
+-- next derivative, which sharp hinges make large.
+local H = 1e-5
+local TOLERANCE = 2e-7
+local EXACT = 1e-11 -- sums and rotations: rounding only
+local SIZE = 1e-3 -- forces below this count as this when errors are compared [N]
+
+local shapes = {
+  { name = "stretched", stretch = 1.15, turn = 0.3 },
+  { name = "slack", stretch = 0.8, turn = 0.5 },
+  { name = "sharp, beyond 60 degrees", stretch = 1.1, turn = math.rad(75) },
+  { name = "sharper, 120 degrees", stretch = 0.85, turn = math.rad(120) },
+}
+local counts = { 2, 3, 4, 7, 16 }
+
+-- Each way to meet a force: { name, kind, make = function(segments) -> scene, wire }.
+local function subjects()
+  local list, met = {}, {}
+  for _, model in ipairs(samples.registry.models) do
+    local scene, wire = samples.wire{ segments = 4, model = model.name }
+    for kind in pairs(scene:evaluate(wire)) do
+      met[kind] = true
+      list[#list + 1] = { name = kind .. " of " .. model.name, kind = kind, inner = true,
+        make = function(segments)
+          return samples.wire{ segments = segments, model = model.name, gravity = { 1, -2, -9 } }
+        end }
+    end
+  end
+  for index, force in ipairs(samples.registry.forces) do
+    if not force.inner then
+      met[force.name] = true
+      list[#list + 1] = { name = force.name, kind = force.name, make = function(segments)
+        local scene, wire = samples.wire{ segments = segments }
+        local args = samples.arguments(force.params, samples.random(index))
+        args.kind, args.on = force.name, wire
+        scene:force(args)
+        return scene, wire
+      end }
+    end
+  end
+  table.sort(list, function(a, b) return a.name < b.name end)
+  return list, met
+end
+
+local list, met = subjects()
+local declared = {}
+for _, f in ipairs(samples.registry.forces) do declared[f.name] = f end
+
+-- Call check(ask, x, v, random, what) on every shape and count; ask(x, v, more)
+-- is what the force answers there.
+local function everywhere(subject, check)
+  for _, shape in ipairs(shapes) do
+    for _, segments in ipairs(counts) do
+      local random = samples.random(segments * 100 + #shape.name)
+      local scene, wire = subject.make(segments)
+      local x = samples.shape(segments, shape.stretch, shape.turn, random)
+      local v = samples.flat(#x, 1, random)
+      local function ask(positions, velocities, more)
+        local q = { positions = positions, velocities = velocities }
+        for k, value in pairs(more or {}) do q[k] = value end
+        return scene:evaluate(wire, q)[subject.kind]
+      end
+      check(ask, x, v, random, ("%s, %d segments"):format(shape.name, segments))
+      scene:close()
+    end
+  end
+end
+
+local function small(value, limit, what)
+  assert.is_true(value <= limit, ("%s: %.3g is above %.3g"):format(what, value, limit))
+end
+
+describe("the force registry", function()
+  it("is met as a whole", function()
+    for name, force in pairs(declared) do
+      -- a user's function has a place of its own below
+      assert.is_true(met[name] or (force.inner and force.explicit),
+        name .. " is in no wire model and cannot be made by scene:force")
+    end
+  end)
+
+  it("says what it is", function()
+    for name, force in pairs(declared) do
+      assert.is_true(#force.summary > 10, name)
+      assert.is_false(force.dissipative and force.explicit)
+    end
+  end)
+end)
+
+for _, subject in ipairs(list) do
+  local force = declared[subject.kind]
+  describe("force " .. subject.name, function()
+    if not force.dissipative and not force.explicit then
+      it("is minus the derivative of its energy", function()
+        everywhere(subject, function(ask, x, v, random, what)
+          local f = ask(x, v).force
+          for _ = 1, 3 do
+            local d = samples.flat(#x, 1, random)
+            local slope = (ask(along(x, d, H), v).energy - ask(along(x, d, -H), v).energy) / (2 * H)
+            small(math.abs(slope + dot(f, d)) / math.max(norm(f) * norm(d), SIZE), TOLERANCE, what)
+          end
+        end)
+      end)
+
+      it("does not depend on velocities", function()
+        everywhere(subject, function(ask, x, v, _, what)
+          local a, b = ask(x, v), ask(x, samples.zeros(#x))
+          assert.are.same(a.force, b.force, what)
+          assert.are.equal(a.energy, b.energy)
+        end)
+      end)
+
+      if not force.frozen then
+        it("has the derivative of its force as stiffness", function()
+          everywhere(subject, function(ask, x, v, random, what)
+            local d = samples.flat(#x, 1, random)
+            local product = ask(x, v, { direction = d }).product
+            local plus, minus = ask(along(x, d, H), v).force, ask(along(x, d, -H), v).force
+            local slope = {}
+            for i = 1, #x do slope[i] = (minus[i] - plus[i]) / (2 * H) end
+            small(apart(product, slope, SIZE), TOLERANCE, what)
+          end)
+        end)
+      end
+    end
+
+    it("has a symmetric stiffness", function()
+      everywhere(subject, function(ask, x, v, random, what)
+        local a, b = samples.flat(#x, 1, random), samples.flat(#x, 1, random)
+        local ka = ask(x, v, { direction = a, rate = 10 }).product
+        local kb = ask(x, v, { direction = b, rate = 10 }).product
+        small(math.abs(dot(ka, b) - dot(kb, a)) / math.max(norm(ka) * norm(b), SIZE), EXACT, what)
+      end)
+    end)
+
+    if force.dissipative then
+      it("rests with the wire and takes power from it", function()
+        everywhere(subject, function(ask, x, v, _, what)
+          assert.are.equal(0, norm(ask(x, samples.zeros(#x)).force), what)
+          local still = ask(x, v)
+          assert.is_true(dot(still.force, v) < 0, what)
+          assert.are.equal(0, still.energy)
+        end)
+      end)
+
+      it("adds rate times its damping to the stiffness", function()
+        everywhere(subject, function(ask, x, v, random, what)
+          local d, rate = samples.flat(#x, 1, random), 50
+          local with = ask(x, v, { direction = d, rate = rate }).product
+          local without = ask(x, v, { direction = d }).product
+          local added = along(with, without, -1)
+          assert.is_true(dot(added, d) >= 0, what)
+          if force.frozen then return end
+          local plus, minus = ask(x, along(v, d, H)).force, ask(x, along(v, d, -H)).force
+          local slope = {}
+          for i = 1, #x do slope[i] = rate * (minus[i] - plus[i]) / (2 * H) end
+          small(apart(added, slope, SIZE), TOLERANCE, what)
+        end)
+      end)
+    end
+
+    if subject.inner then
+      it("is zero at rest", function()
+        for _, segments in ipairs(counts) do
+          local scene, wire = subject.make(segments)
+          scene:gravity{ 0, 0, 0 }
+          small(norm(scene:evaluate(wire)[subject.kind].force), 1e-12, segments .. " segments")
+        end
+      end)
+
+      -- gravity pulls from outside: only without it are all of them inner forces
+      it("adds up to no force and no moment", function()
+        everywhere({ kind = subject.kind, make = function(segments)
+          local scene, wire = subject.make(segments)
+          scene:gravity{ 0, 0, 0 }
+          return scene, wire
+        end }, function(ask, x, v, _, what)
+          local f = ask(x, v).force
+          local total, moment = samples.resultant(x, f)
+          small(norm(total) / math.max(norm(f), SIZE), EXACT, what)
+          small(norm(moment) / math.max(norm(f), SIZE), EXACT, what)
+        end)
+      end)
+
+      it("turns and moves with the wire", function()
+        everywhere({ kind = subject.kind, make = function(segments)
+          local scene, wire = subject.make(segments)
+          scene:gravity{ 0, 0, 0 }
+          return scene, wire
+        end }, function(ask, x, v, _, what)
+          local here, there = ask(x, v), ask(samples.turned(x, 0.7), v)
+          small(math.abs(here.energy - there.energy) / math.max(here.energy, SIZE), 1e-10, what)
+          small(apart(samples.turned(here.force, 0), there.force, SIZE), 1e-10, what)
+        end)
+      end)
+    end
+  end)
+end
+
+describe("bending at clamps", function()
+  for _, model in ipairs(samples.registry.models) do
+    it("is minus the derivative of its energy, model " .. model.name, function()
+      for _, turn in ipairs{ 0.3, math.rad(75), math.rad(120) } do
+        local scene, wire = samples.wire{ segments = 7, model = model.name }
+        scene:clamp(wire, { s = 0, direction = { 0.3, 1, 0.2 } })
+        scene:clamp(wire, { s = 0.52, direction = { -0.1, 0.2, 1 } })
+        local random = samples.random(5)
+        local n = wire.segments
+        local x = samples.shape(n, 0.9, turn, random)
+        for kind in pairs(scene:evaluate(wire)) do
+          local d = samples.flat(#x, 1, random)
+          local function ask(h, more)
+            local q = { positions = along(x, d, h) }
+            for k, value in pairs(more or {}) do q[k] = value end
+            return scene:evaluate(wire, q)[kind]
+          end
+          local here = ask(0, { direction = d })
+          local slope = (ask(H).energy - ask(-H).energy) / (2 * H)
+          small(math.abs(slope + dot(here.force, d)) / math.max(norm(here.force) * norm(d), SIZE),
+            TOLERANCE, kind)
+          local plus, minus, change = ask(H).force, ask(-H).force, {}
+          for i = 1, #x do change[i] = (minus[i] - plus[i]) / (2 * H) end
+          small(apart(here.product, change, SIZE), TOLERANCE, kind .. ": stiffness")
+        end
+      end
+    end)
+  end
+end)
+
+describe("the axial stiffness of time steps", function()
+  -- A step leaves the geometric part of pushed edges out: it would make the
+  -- matrix indefinite. Pulled edges keep theirs.
+  it("differs from the derivative where edges are pushed only", function()
+    for _, case in ipairs{ { stretch = 1.2, same = true }, { stretch = 0.8, same = false } } do
+      local scene, wire = samples.wire{ segments = 6, model = "rod" }
+      local random = samples.random(3)
+      local x = samples.shape(6, case.stretch, 0.4, random)
+      local d = samples.flat(#x, 1, random)
+      local function product(statics)
+        return scene:evaluate(wire, { positions = x, direction = d, statics = statics }).stretch.product
+      end
+      assert.are.equal(case.same, apart(product(true), product(false), SIZE) < 1e-14)
+      assert.is_true(dot(product(false), d) >= 0)
+    end
+  end)
+end)
+
+describe("a function as a force", function()
+  it("acts as it says, with no stiffness", function()
+    local scene, wire = samples.wire{ segments = 5 }
+    scene:force{ on = wire, kind = function(t, x, v, f)
+      for i = 1, #f do f[i] = f[i] - 3 * x[i] + 2 * v[i] + t end
+    end }
+    local random = samples.random(11)
+    local x, v = samples.flat(18, 1, random), samples.flat(18, 1, random)
+    local r = scene:evaluate(wire, { positions = x, velocities = v, direction = x }).callback
+    for i = 1, 18 do assert.is_true(math.abs(r.force[i] - (2 * v[i] - 3 * x[i])) < 1e-14) end
+    assert.are.equal(0, norm(r.product))
+  end)
+end)

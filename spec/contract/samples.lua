@@ -1,0 +1,133 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- What the contract specs share: arguments made from parameter rows, random
+-- shapes with fixed seeds, small vector tools.
+local sw = require "softworld"
+local core = sw.core
+
+local samples = {}
+
+-- A generator of its own: the same numbers whatever ran before (Park and Miller).
+function samples.random(seed)
+  local state = seed * 7919 % 2147483647 + 1
+  return function(low, high)
+    state = state * 48271 % 2147483647
+    return low + (high - low) * state / 2147483647
+  end
+end
+
+-- A value that the row allows, away from its limits where it can be.
+local function value_of(row, random)
+  if row.type == "vector" then return { random(-1, 1), random(-1, 1), random(-1, 1) } end
+  if row.type == "boolean" then return true end
+  if row.type == "choice" then return row.choices[1] end
+  if row.type == "number" or row.type == "integer" then
+    local low, high = row.min or -1, row.max or (row.min and row.min + 1) or 1
+    local value = low + (high - low) * random(0.3, 0.7)
+    if row.type == "integer" then return math.ceil(value) end
+    return value
+  end
+end
+
+--- Arguments for every row that has a value of its own kind (not texts and what
+-- the binding reads itself).
+function samples.arguments(rows, random)
+  local args = {}
+  for _, row in ipairs(rows) do args[row.name] = value_of(row, random) end
+  return args
+end
+
+--- One wire of 1 m along x in a scene, soft enough for differences of its energy.
+function samples.wire(options)
+  local scene = sw.scene{ gravity = options.gravity or { 0, 0, 0 } }
+  local wire = scene:wire{ EA = 60, EI = 0.02, mass_per_length = 0.1, radius = 0.005,
+    from = { 0, 0, 0 }, to = { 1, 0, 0 }, segments = options.segments, model = options.model }
+  return scene, wire
+end
+
+--- Node positions along edges of given stretch whose direction turns by up to
+-- `turn` [rad] at every node.
+function samples.shape(segments, stretch, turn, random)
+  local x, d = { 0.1, -0.2, 0.3 }, { 1, 0, 0 }
+  for _ = 1, segments do
+    local axis = { random(-1, 1), random(-1, 1), random(-1, 1) }
+    local along = axis[1] * d[1] + axis[2] * d[2] + axis[3] * d[3]
+    local across, size = {}, 0
+    for k = 1, 3 do
+      across[k] = axis[k] - along * d[k]
+      size = size + across[k] ^ 2
+    end
+    local angle = turn * random(0.9, 1)
+    local norm = 0
+    for k = 1, 3 do
+      d[k] = math.cos(angle) * d[k] + math.sin(angle) * across[k] / size ^ 0.5
+      norm = norm + d[k] ^ 2
+    end
+    local l = stretch * random(0.95, 1.05) / segments / norm ^ 0.5
+    for k = 1, 3 do
+      d[k] = d[k] / norm ^ 0.5
+      x[#x + 1] = x[#x - 2] + l * d[k]
+    end
+  end
+  return x
+end
+
+function samples.flat(n, size, random)
+  local list = {}
+  for i = 1, n do list[i] = random(-size, size) end
+  return list
+end
+
+function samples.along(x, d, h)
+  local y = {}
+  for i = 1, #x do y[i] = x[i] + h * d[i] end
+  return y
+end
+
+function samples.dot(a, b)
+  local sum = 0
+  for i = 1, #a do sum = sum + a[i] * b[i] end
+  return sum
+end
+
+function samples.norm(a) return samples.dot(a, a) ^ 0.5 end
+
+--- Largest difference of two arrays over the larger of their norms (or floor).
+function samples.apart(a, b, floor)
+  local largest = 0
+  for i = 1, #a do largest = math.max(largest, math.abs(a[i] - b[i])) end
+  return largest / math.max(samples.norm(a), samples.norm(b), floor)
+end
+
+--- Total force and moment about the origin of flat forces at flat positions.
+function samples.resultant(x, f)
+  local force, moment = { 0, 0, 0 }, { 0, 0, 0 }
+  for i = 1, #x, 3 do
+    for k = 1, 3 do
+      local j, l = k % 3 + 1, (k + 1) % 3 + 1
+      force[k] = force[k] + f[i + k - 1]
+      moment[k] = moment[k] + x[i + j - 1] * f[i + l - 1] - x[i + l - 1] * f[i + j - 1]
+    end
+  end
+  return force, moment
+end
+
+--- Every vector turned by a fixed rotation, then shifted.
+function samples.turned(x, shift)
+  local c, s, c2, s2 = math.cos(1.1), math.sin(1.1), math.cos(-0.6), math.sin(-0.6)
+  local y = {}
+  for i = 1, #x, 3 do
+    local a, b, z = c * x[i] - s * x[i + 1], s * x[i] + c * x[i + 1], x[i + 2]
+    y[i], y[i + 1], y[i + 2] = a + shift, c2 * b - s2 * z + shift, s2 * b + c2 * z - shift
+  end
+  return y
+end
+
+function samples.zeros(n)
+  local list = {}
+  for i = 1, n do list[i] = 0 end
+  return list
+end
+
+samples.registry = core.registry()
+
+return samples
