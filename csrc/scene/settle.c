@@ -19,6 +19,7 @@ const sw_params sw_settle_params = SW_PARAMS("scene:settle", rows);
 
 enum { NEWTON_ITERATIONS = 60, MOST_REDOS = 20 };
 static const double FIRST_PSEUDO_STEP = 0.02; /* of sqrt(length/g) [-] */
+static const double LONG_STEP = 1e4;          /* as good as static, in first steps [-] */
 static const double LARGEST_GROWTH = 1e6;     /* of the first pseudo step [-] */
 static const double STATIC_TURN = 1e-7;       /* last rotation of a converged solve [rad] */
 /* A direction in which a disturbance needs longer to grow than this counts as
@@ -166,7 +167,8 @@ static sw_status transient(statics *p, sw_error *err) {
       continue;
     }
     p->report->residual = take(p, 0);
-    if (p->report->residual <= enough && tau >= first) return SW_OK;
+    const double least = p->report->residual <= p->args->tolerance ? first : LONG_STEP * first;
+    if (p->report->residual <= enough && tau >= least) return SW_OK;
     tau = fmin(tau * 1.6, LARGEST_GROWTH * first);
   }
   return sw_fail(err, SW_ENOCONV,
