@@ -19,7 +19,6 @@ const sw_params sw_settle_params = SW_PARAMS("scene:settle", rows);
 
 enum { NEWTON_ITERATIONS = 60, MOST_REDOS = 20 };
 static const double FIRST_PSEUDO_STEP = 0.02; /* of sqrt(length/g) [-] */
-static const double LONG_STEP = 1e4;          /* as good as static, in first steps [-] */
 static const double LARGEST_GROWTH = 1e6;     /* of the first pseudo step [-] */
 static const double STATIC_TURN = 1e-7;       /* last rotation of a converged solve [rad] */
 /* A direction in which a disturbance needs longer to grow than this counts as
@@ -133,25 +132,8 @@ static void nudge(statics *p, int number) {
   }
 }
 
-/* Rounding of edge lengths times their stiffness moves a slack wire by about
- * this much [m]; no iteration can do better. */
-static double rounding(const sw_scene *s) {
-  const double epsilon = 2.2e-16, most = 1e-5; /* [-]; of the length [-] */
-  const double g = sw_norm(s->gravity);
-  double largest = 0;
-  for (size_t b = 0; b < s->system.body_count; b++) {
-    const sw_plan *p = s->system.bodies[b].plan;
-    const double L = p->length, force = p->beam.mass * L * g + p->beam.EI / (L * L);
-    if (force > 0)
-      largest = fmax(largest,
-                     L * fmin(most, epsilon * p->beam.EA / force * (double)p->edges));
-  }
-  return largest;
-}
-
 static sw_status transient(statics *p, sw_error *err) {
   sw_scene *s = p->s;
-  const double enough = fmax(p->args->tolerance, rounding(s));
   const double first = FIRST_PSEUDO_STEP * time_scale(s);
   const sw_newton newton = {
       .max_iterations = 30, .accept_rotation = 0.01, .limit_rotation = 0.3, .statics = 0};
@@ -167,8 +149,7 @@ static sw_status transient(statics *p, sw_error *err) {
       continue;
     }
     p->report->residual = take(p, 0);
-    const double least = p->report->residual <= p->args->tolerance ? first : LONG_STEP * first;
-    if (p->report->residual <= enough && tau >= least) return SW_OK;
+    if (p->report->residual <= p->args->tolerance && tau >= first) return SW_OK;
     tau = fmin(tau * 1.6, LARGEST_GROWTH * first);
   }
   return sw_fail(err, SW_ENOCONV,
