@@ -73,6 +73,9 @@ asan:
 	  build-asan/softworld scripts/spec.lua --timeout 3000 $(ARGS)
 
 
+examples: all
+	@for example in examples/*.lua; do echo "== $$example"; $(BUILD)/softworld $$example || exit 1; done
+
 # make bench ARGS="quick case=release model=rod"
 bench: all
 	@$(BUILD)/softworld scripts/bench.lua $(ARGS)
@@ -84,4 +87,4 @@ chart: all
 stability: all
 	@$(BUILD)/softworld scripts/stability.lua $(ARGS)
 
-.PHONY: bench chart stability all clean spec lint format asan install
+.PHONY: bench examples chart stability all clean spec lint format asan install

@@ -41,10 +41,12 @@ local run = scene:run { tolerance = 1e-5, dt = 0.002, progress = true }
 run:summary()
 run:save(out .. "/laying.csv")
 
-print(("peak force %.4g N, mean moment %.4g N m, smallest bend radius %.4g m, largest tension %.4g N, "
-  .. "deepest penetration %.2g m"):format(gripper.peak_force, gripper.mean_moment,
-  (wire:min_bend_radius()), (wire:max_tension()), (scene:penetration())))
-if quick then return end
+if quick then
+  print(("peak force %.4g N, mean moment %.4g N m"):format(gripper.peak_force, gripper.mean_moment))
+  print(("smallest bend radius %.4g m, largest tension %.4g N, deepest penetration %.2g m"):format(
+    (wire:min_bend_radius()), (wire:max_tension()), (scene:penetration())))
+  return
+end
 
 run:chart { path = out .. "/gripper.svg", title = "What the gripper bears",
   columns = { "gripper.force", "gripper.force_x", "gripper.force_z", "gripper.moment" } }

@@ -203,8 +203,10 @@ sw_status sw_minimise_simplex(sw_objective f, void *user, size_t n, double *x, c
   gsl_set_error_handler_off();
   double *work = sw_alloc(2 * n, sizeof *work);
   gsl_vector *u = gsl_vector_alloc(n), *size = gsl_vector_alloc(n);
-  sw_status status = work && u && size ? SW_OK : no_memory(err);
-  if (status == SW_OK) {
+  sw_status status = SW_OK;
+  if (!work || !u || !size) {
+    status = no_memory(err);
+  } else {
     for (size_t i = 0; i < n; i++) work[i] = x[i];
     bridge b = {f, user, n, work + n, work, step, NAN, interrupted, out, SW_OK, err};
     status = nelder_mead(&b, args, u, size, x);

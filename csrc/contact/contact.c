@@ -275,20 +275,22 @@ const void *sw_contact_memory(const sw_contact *c, size_t *bytes) {
   return c->memory;
 }
 
-sw_status sw_contact_set_memory(sw_contact *c, const void *memory, size_t bytes) {
+int sw_contact_is_fresh(const sw_contact *c) { return c->fresh; }
+
+sw_status sw_contact_set_memory(sw_contact *c, const void *memory, size_t bytes, int fresh) {
   const size_t n = bytes / sizeof *c->memory;
   SW_TRY(sw_grow((void **)&c->memory, &c->memory_capacity, n, sizeof *c->memory));
   if (n) memcpy(c->memory, memory, bytes);
   c->memory_count = n;
-  c->fresh = 0;
+  c->fresh = fresh;
   c->touch_count = 0;
   return SW_OK;
 }
 
-sw_status sw_contact_inherit(sw_contact *c, const void *memory, size_t bytes,
+sw_status sw_contact_inherit(sw_contact *c, const void *memory, size_t bytes, int fresh,
                              const size_t *new_node) {
   size_t kept = 0;
-  SW_TRY(sw_contact_set_memory(c, memory, bytes));
+  SW_TRY(sw_contact_set_memory(c, memory, bytes, fresh));
   for (size_t i = 0; i < c->memory_count; i++) {
     const size_t node = new_node[c->memory[i].node];
     if (node == SIZE_MAX) continue;

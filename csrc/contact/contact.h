@@ -78,10 +78,12 @@ double sw_contact_energy(const sw_contact *contact); /* stored in the springs [J
 /* Memory kept between steps (anchors and sides), for snapshots: a block to copy
  * and to give back. */
 const void *sw_contact_memory(const sw_contact *contact, size_t *bytes);
-sw_status sw_contact_set_memory(sw_contact *contact, const void *memory, size_t bytes);
+/* 1 while no step was accepted: there is nothing to remember yet. */
+int sw_contact_is_fresh(const sw_contact *contact);
+sw_status sw_contact_set_memory(sw_contact *contact, const void *memory, size_t bytes, int fresh);
 /* The same from a contact whose nodes had other numbers: new_node gives for each
  * old number the new one, or SIZE_MAX when the node is gone. */
-sw_status sw_contact_inherit(sw_contact *contact, const void *memory, size_t bytes,
+sw_status sw_contact_inherit(sw_contact *contact, const void *memory, size_t bytes, int fresh,
                              const size_t *new_node);
 
 #endif

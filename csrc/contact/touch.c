@@ -123,12 +123,13 @@ int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
 /* A wire that is deeper inside at the step's start than its force explains
  * (after a barrier, or placed there) is let out slowly: without this the whole
  * depth would turn into speed within one step. Returns the part of the depth
- * that the step leaves alone [m]. */
+ * that the step leaves alone [m]. In explicit steps force follows depth, so none
+ * is. */
 static const double RECOVERY_SPEED = 0.2; /* [m/s] */
 
 static double forgiven(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                        const sw_touch *t) {
-  if (c->regime == SW_CONTACT_STATIC || t->gap >= 0) return 0;
+  if (c->regime != SW_CONTACT_IMPLICIT || t->gap >= 0) return 0;
   const sw_memory *m = memory_for(c, k, t->at);
   const sw_vec local = sw_pose_local(c->now[t->obstacle].pose, t->point);
   const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, local);

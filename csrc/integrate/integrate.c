@@ -170,6 +170,7 @@ void sw_stepper_accept(sw_stepper *p, sw_system *s, double h) {
   memcpy(s->x, p->trial_x, p->n * sizeof(double));
   memcpy(s->v, p->trial_v, p->n * sizeof(double));
   if (p->trial_a) memcpy(s->a, p->trial_a, p->n * sizeof(double));
+  if (!(p->method->flags & SW_INTEGRATOR_IMPLICIT)) sw_system_axial_from_state(s);
   p->last_h = h;
   p->restart = 0;
 }

@@ -30,6 +30,7 @@ void sw_scene_forget_contact(sw_scene *s) {
 static sw_status keep_contact(sw_scene *s) {
   sw_scene_forget_contact(s);
   if (!s->contact) return SW_OK;
+  s->kept.fresh = sw_contact_is_fresh(s->contact);
   const void *memory = sw_contact_memory(s->contact, &s->kept.bytes);
   s->kept.memory = sw_alloc(s->kept.bytes, 1);
   s->kept.s = sw_alloc(s->system.nodes, sizeof *s->kept.s);
@@ -66,7 +67,8 @@ static sw_status inherit_contact(sw_scene *s) {
     }
   }
   const sw_status status =
-      sw_contact_inherit(s->contact, s->kept.memory, s->kept.bytes, new_node);
+      sw_contact_inherit(s->contact, s->kept.memory, s->kept.bytes, s->kept.fresh,
+                                            new_node);
   sw_free(new_node);
   return status;
 }

@@ -97,6 +97,7 @@ struct sw_scene {
     double *s;        /* (nodes) arc lengths then [m] */
     size_t *first;    /* (wires + 1) first node of each wire then */
     size_t wires;
+    int fresh;
   } kept;
   const sw_integrator *method; /* of stepper */
   sw_stepper stepper;

@@ -163,6 +163,19 @@ void sw_system_refresh(sw_system *s) {
   }
 }
 
+void sw_system_axial_from_state(sw_system *s) {
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_body *body = &s->bodies[b];
+    const double *x = s->x + 3 * body->first_node;
+    double *T = s->tension + body->first_edge;
+    for (size_t e = 0; e < body->plan->edges; e++) {
+      const double l = sw_dist(sw_vec_at(x, e), sw_vec_at(x, e + 1));
+      const double strain = l / body->plan->rest[e] - 1.0;
+      T[e] = (strain >= 0 ? body->EA : body->EA_push) * strain;
+    }
+  }
+}
+
 double sw_system_kinetic(const sw_system *s, int lumped) {
   double sum = 0;
   for (size_t b = 0; b < s->body_count; b++) {

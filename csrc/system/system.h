@@ -153,6 +153,10 @@ void sw_system_held_velocity(const sw_system *system, const sw_held_node *held, 
 /* Bring every field's geometry up to the state (system->x). */
 void sw_system_refresh(sw_system *system);
 
+/* Set the axial forces to what the state's edge lengths give: for explicit
+ * methods, which do not solve for them. */
+void sw_system_axial_from_state(sw_system *system);
+
 /* Force and moment about point that hold k puts on its wire, from the last
  * solved stage [N], [N m]. */
 void sw_system_reaction(const sw_system *system, int hold, sw_vec point, sw_vec *force,
