@@ -23,8 +23,8 @@ local function same(a, b)
 end
 
 for _, method in ipairs{ { "tr-bdf2", 0.01 }, { "bdf2", 0.01 }, { "sdirk2", 0.01 },
-  { "implicit-midpoint", 0.01 }, { "implicit-euler", 0.01 }, { "velocity-verlet", 1e-4 },
-  { "rk4", 1e-4 } } do
+  { "implicit-midpoint", 0.01 }, { "implicit-euler", 0.01 }, { "velocity-verlet", 5e-5 },
+  { "rk4", 5e-5 } } do
   describe("a snapshot under " .. method[1], function()
     local function go(c, duration)
       t.fine(c.scene:run{ duration = duration, dt = method[2], integrator = method[1] })
@@ -98,7 +98,7 @@ describe("a snapshot", function()
 
   it("keeps contact and friction", function()
     local c = cases.laying{ segments = 40, duration = 1, distance = 0.6 }
-    t.fine(c.run{ duration = 0.7 })
+    t.fine(c.run{ duration = 0.9 })
     assert.is_true(c.scene:contacts() > 0)
     local snapshot = c.scene:snapshot()
     t.fine(c.scene:run{ duration = 0.3 })
