@@ -99,7 +99,8 @@ static void bending_term(double beta, sw_field *f) {
   }
 }
 
-/* The hinge between a held director and an edge. */
+/* The hinge between a held director and an edge; not in statics, where nodes rest
+ * while the director may be under way. */
 static void clamp_term(double beta, sw_field *f, const sw_clamp_hinge *h) {
   const size_t e = h->edge, at = 3 * (2 * (size_t)h->hold + (h->side > 0 ? 1 : 0));
   const double k = beta * f->plan->beam.EI / h->length, r = f->reciprocal[e];
@@ -113,12 +114,11 @@ static void clamp_term(double beta, sw_field *f, const sw_clamp_hinge *h) {
 static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   const damping_args *a = args;
   (void)err;
-  if (f->statics) return SW_OK;
   if (a->mass > 0) mass_term(a->mass, f);
   if (a->stiffness > 0) {
     axial_term(a->stiffness, f);
     bending_term(a->stiffness, f);
-    for (size_t k = 0; k < f->plan->clamp_count; k++)
+    for (size_t k = 0; k < f->plan->clamp_count && !f->statics; k++)
       clamp_term(a->stiffness, f, &f->plan->clamps[k]);
   }
   return SW_OK;
