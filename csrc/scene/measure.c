@@ -57,6 +57,16 @@ static double angle_between(sw_vec a, sw_vec b) {
   return 2.0 * asin(fmin(1.0, 0.5 * sw_dist(a, b)));
 }
 
+static int is_rigid(const sw_plan *p, size_t e) {
+  return p->held[e] != SW_FREE && p->held[e + 1] != SW_FREE;
+}
+
+/* Is the edge the last rigid one of a grasped region, at this node? */
+static int ends_grip(const sw_plan *p, size_t node, size_t edge) {
+  if (p->hinge[node] > 0 || !is_rigid(p, edge) || node == 0 || node + 1 == p->nodes) return 0;
+  return !is_rigid(p, node == edge ? edge - 1 : edge + 1);
+}
+
 /* Tangent and curvature at a node as seen from one of its edges. */
 static void node_state(const sw_system *s, const sw_body *b, size_t node, size_t edge,
                        sw_vec *tangent, double *curvature) {
@@ -69,6 +79,8 @@ static void node_state(const sw_system *s, const sw_body *b, size_t node, size_t
   if (c) {
     *tangent = director(s, c);
     *curvature = angle_between(*tangent, own) / c->length;
+  } else if (ends_grip(p, node, edge)) {
+    return; /* the rigid part knows nothing of the wire beside it */
   } else if (node > 0 && node + 1 < p->nodes) {
     const sw_vec t1 = tangent_of(f, node - 1), t2 = tangent_of(f, node);
     const double l1 = p->rest[node - 1], l2 = p->rest[node];
