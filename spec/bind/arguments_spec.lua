@@ -297,7 +297,8 @@ describe("other calls", function()
   it("moves of grippers check theirs and leave the tables of the caller alone", function()
     local left = scene:gripper{ name = "left" }
     left:grasp(wire, { s = 0.5 })
-    for _, args in ipairs{ { to = 3 }, { to = { 0, 0 } }, { by = { 0, 0, nan } }, { by = { 0, 0, 1 }, sped = 1 },
+    for _, args in ipairs{ { to = 3 }, { to = { 0, 0 } }, { by = { 0, 0, nan } },
+      { by = { 0, 0, 1 }, sped = 1 },
       { points = 3 }, { points = { 1, 2 } }, { to = { 0, 0, 0 }, speed = -1 },
       { by = { 0, 0, 1 }, rotation = { 1, 0, 0, 0 } } } do
       assert.is_false(pcall(left.move, left, args))

@@ -88,7 +88,7 @@ describe("collecting garbage", function()
     collect()
     local before = core.allocated()
     local kinds = {
-      function(scene, wire) return wire, function(w) return w.length end end,
+      function(_, wire) return wire, function(w) return w.length end end,
       function(scene, wire) local c = scene:clamp(wire, { s = 0 }) return c, c.force end,
       function(scene) local o = scene:obstacle{ shape = "plane" } return o, o.force end,
       function(scene) local f = scene:force{ kind = "drag" } return f, f.release end,
@@ -100,15 +100,13 @@ describe("collecting garbage", function()
       end,
     }
     for _, kind in ipairs(kinds) do
-      local object, use
-      do
-        local scene, wire = make()
-        object, use = kind(scene, wire)
+      local function in_use()
+        local object, use = kind(make())
+        collect()
+        use(object)
+        assert.is_true(core.allocated() > before)
       end
-      collect()
-      use(object)
-      assert.is_true(core.allocated() > before)
-      object, use = nil, nil
+      in_use()
       collect()
       assert.are.equal(before, (core.allocated()))
     end
@@ -118,11 +116,13 @@ describe("collecting garbage", function()
     collect()
     local before = core.allocated()
     for order = 1, 24 do
-      local scene, wire = make()
-      local clamp = scene:clamp(wire, { s = 0 })
-      local all = { scene, wire, clamp, scene:snapshot(), scene:obstacle{ shape = "plane", at = { 0, 0, -1 } },
-        scene:force{ kind = function() collectgarbage "step" end } }
-      scene, wire, clamp = nil, nil, nil
+      local function everything()
+        local scene, wire = make()
+        return { scene, wire, scene:clamp(wire, { s = 0 }), scene:snapshot(),
+          scene:obstacle{ shape = "plane", at = { 0, 0, -1 } },
+          scene:force{ kind = function() collectgarbage "step" end } }
+      end
+      local all = everything()
       all[1]:run{ duration = 0.02 }
       local seed = order
       while next(all) do
@@ -256,8 +256,8 @@ describe("handles", function()
 
   it("survive odd uses of their metatables", function()
     local scene, wire = make()
-    for _, object in ipairs{ scene, wire, scene:snapshot(), sw.trajectory{ points = { { 0, 0, 0 }, { 1, 0, 0 } },
-      speed = 1 }, sw.shape{ shape = "plane" } } do
+    local line = sw.trajectory{ points = { { 0, 0, 0 }, { 1, 0, 0 } }, speed = 1 }
+    for _, object in ipairs{ scene, wire, scene:snapshot(), line, sw.shape{ shape = "plane" } } do
       local meta = getmetatable(object)
       for _, wrong in ipairs{ {}, 12, "x", io.stdout, wire } do
         for name, method in pairs(meta) do
