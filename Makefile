@@ -73,4 +73,18 @@ asan:
 	  build-asan/softworld scripts/spec.lua --timeout 3000 $(ARGS)
 
 
-.PHONY: all clean spec lint format asan install
+examples: all
+	@for example in examples/*.lua; do echo "== $$example"; $(BUILD)/softworld $$example || exit 1; done
+
+# make bench ARGS="quick case=release model=rod"
+bench: all
+	@$(BUILD)/softworld scripts/bench.lua $(ARGS)
+
+# draws out/bench/*.csv and the README's chart
+chart: all
+	@$(BUILD)/softworld scripts/chart.lua $(ARGS)
+
+stability: all
+	@$(BUILD)/softworld scripts/stability.lua $(ARGS)
+
+.PHONY: bench examples chart stability all clean spec lint format asan install

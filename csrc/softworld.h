@@ -10,8 +10,10 @@
 #include "base/param.h"
 #include "base/status.h"
 #include "base/vec.h"
+#include "calibrate/minimise.h"
 #include "motion/motion.h"
 #include "scene/scene.h"
 #include "shape/shape.h"
+#include "solve/band3.h"
 
 #endif

@@ -3,6 +3,7 @@
 #include "contact/contact.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -13,7 +14,7 @@
 static const double ALLOWED_PENETRATION = 20e-6;
 /* Stiffness over mass/hbar^2 in implicit steps: far above what the step
  * resolves, so that the gap closes to a thousandth of the free fall [-]. */
-static const double IMPLICIT_SHARE = 10000.0;
+static const double IMPLICIT_SHARE = 1000.0;
 /* An explicit step is stable while k h^2 / m stays below 4 [-]. */
 static const double EXPLICIT_SHARE = 0.2;
 static const double STAGE_SHARE = 0.3; /* hbar of the default method over the step [-] */
@@ -171,6 +172,9 @@ static void match_memory(sw_contact *c) {
       m++;
     k->memory_end = m;
     k->last = k->last_end = 0;
+    k->boost = 1.0;
+    for (size_t j = k->memory; j < k->memory_end; j++)
+      k->boost = fmax(k->boost, c->memory[j].boost);
   }
 }
 
@@ -182,6 +186,7 @@ static void set_stiffness(sw_contact *c, const sw_system *s, double nominal) {
     const double L = p->length;
     force = fmax(force, fmax(p->beam.mass * L * g, p->beam.EI / (L * L)));
   }
+  c->force_scale = force;
   c->base_stiffness = force / ALLOWED_PENETRATION;
   c->rate2 = 0;
   if (c->regime == SW_CONTACT_IMPLICIT)
@@ -212,6 +217,7 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
                                 double h, double nominal, sw_error *err) {
   c->time = t;
   c->h = h;
+  c->nominal = nominal;
   c->regime = regime;
   c->barrier_count = c->impact_count = c->pressed_count = 0;
   c->widening = 1.0;
@@ -241,6 +247,9 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
                    .feature = t->feature,
                    .at = t->at,
                    .normal_force = t->normal_force,
+                   .sliding = t->next_sliding,
+                   .depth = t->normal_force / t->k,
+                   .boost = t->normal_force > 0 ? c->candidates[t->candidate].boost : 1.0,
                    .normal = sw_rotate(back, t->normal),
                    .point = sw_pose_local(o->pose, t->point)};
   if (t->normal_force > 0)
@@ -266,13 +275,29 @@ const void *sw_contact_memory(const sw_contact *c, size_t *bytes) {
   return c->memory;
 }
 
-sw_status sw_contact_set_memory(sw_contact *c, const void *memory, size_t bytes) {
+int sw_contact_is_fresh(const sw_contact *c) { return c->fresh; }
+
+sw_status sw_contact_set_memory(sw_contact *c, const void *memory, size_t bytes, int fresh) {
   const size_t n = bytes / sizeof *c->memory;
   SW_TRY(sw_grow((void **)&c->memory, &c->memory_capacity, n, sizeof *c->memory));
   if (n) memcpy(c->memory, memory, bytes);
   c->memory_count = n;
-  c->fresh = 0;
+  c->fresh = fresh;
   c->touch_count = 0;
+  return SW_OK;
+}
+
+sw_status sw_contact_inherit(sw_contact *c, const void *memory, size_t bytes, int fresh,
+                             const size_t *new_node) {
+  size_t kept = 0;
+  SW_TRY(sw_contact_set_memory(c, memory, bytes, fresh));
+  for (size_t i = 0; i < c->memory_count; i++) {
+    const size_t node = new_node[c->memory[i].node];
+    if (node == SIZE_MAX) continue;
+    c->memory[kept] = c->memory[i];
+    c->memory[kept++].node = node;
+  }
+  c->memory_count = kept;
   return SW_OK;
 }
 
@@ -292,8 +317,9 @@ void sw_contact_force(const sw_contact *c, int id, sw_vec about, sw_vec *force, 
 double sw_contact_penetration(const sw_contact *c, size_t *node) {
   double deepest = 0;
   for (size_t i = 0; i < c->touch_count; i++) {
-    if (-c->touches[i].gap_after <= deepest) continue;
-    deepest = -c->touches[i].gap_after;
+    const double depth = c->touches[i].forgiven - c->touches[i].gap_after;
+    if (depth <= deepest) continue;
+    deepest = depth;
     if (node) *node = c->touches[i].node;
   }
   return deepest;

@@ -48,11 +48,20 @@ sw_status sw_contact_eval(void *contact, sw_system *system, double time, double 
                           const double *y, unsigned want, sw_error *err);
 int sw_contact_settled(void *contact, sw_system *system, const double *y, const double *delta);
 
-/* After a trial step to positions x1: were there impacts or crossings that the
- * step did not know of? 0 = none, the step may be accepted; 1 = the system's
- * starting velocities were changed (and contacts added): redo the step from a
- * restart. */
-int sw_contact_review(sw_contact *contact, sw_system *system, const double *x1, double h);
+/* What is to be done with a trial step to positions x1. */
+typedef enum sw_contact_verdict {
+  SW_CONTACT_ACCEPT,
+  SW_CONTACT_REDO,   /* impacts or crossings that the step did not know of: the
+                        system's starting velocities were changed, contacts added;
+                        redo the step from a restart */
+  SW_CONTACT_SMALLER /* edges or corners cut too deep: only a smaller step helps */
+} sw_contact_verdict;
+sw_contact_verdict sw_contact_review(sw_contact *contact, sw_system *system, const double *x1,
+                                     double h);
+
+/* The same for statics: segments of a solution x1 that went through an obstacle
+ * are kept on their side from now on. 1 = there were some, solve again. */
+int sw_contact_review_static(sw_contact *contact, sw_system *system, const double *x1);
 
 /* The trial was accepted: keep friction anchors and sides for the next step. */
 void sw_contact_commit(sw_contact *contact, sw_system *system);
@@ -69,6 +78,12 @@ double sw_contact_energy(const sw_contact *contact); /* stored in the springs [J
 /* Memory kept between steps (anchors and sides), for snapshots: a block to copy
  * and to give back. */
 const void *sw_contact_memory(const sw_contact *contact, size_t *bytes);
-sw_status sw_contact_set_memory(sw_contact *contact, const void *memory, size_t bytes);
+/* 1 while no step was accepted: there is nothing to remember yet. */
+int sw_contact_is_fresh(const sw_contact *contact);
+sw_status sw_contact_set_memory(sw_contact *contact, const void *memory, size_t bytes, int fresh);
+/* The same from a contact whose nodes had other numbers: new_node gives for each
+ * old number the new one, or SIZE_MAX when the node is gone. */
+sw_status sw_contact_inherit(sw_contact *contact, const void *memory, size_t bytes, int fresh,
+                             const size_t *new_node);
 
 #endif

@@ -122,10 +122,11 @@ static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k,
                       .at = b.at,
                       .normal = sw_rotate(pose->q, hit->normal),
                       .point = sw_pose_point(*pose, hit->point)};
-  strike(c, s, &t, h);
+  if (h > 0) strike(c, s, &t, h);
   return 1;
 }
 
+/* h = 0: statics, there are no speeds to change. */
 static int review_crossings(sw_contact *c, sw_system *s, const double *x1, double h) {
   int changed = 0;
   for (size_t i = 0; i < c->candidate_count; i++) {
@@ -160,14 +161,57 @@ static int went_too_far(sw_contact *c, const sw_system *s, const double *x1) {
   return 1;
 }
 
-int sw_contact_review(sw_contact *c, sw_system *s, const double *x1, double h) {
+/* A step may leave a touch this much deeper than it found it; the law's own
+ * depth is below half of that [m]. */
+static const double DEEPER = 1e-4;
+/* In steps below this share of the nominal one depth is taken as it comes [-]. */
+static const double SMALLEST_CARE = 1.0 / 64;
+
+/* How deep the candidate's wire is in its obstacle with positions x [m]. */
+static double depth_at(const sw_contact *c, const sw_candidate *k, const sw_contact_at *at,
+                       const double *x) {
+  const sw_shape *shape = c->obstacles[k->obstacle].shape;
+  const sw_pose *pose = &at[k->obstacle].pose;
+  const sw_vec a = sw_pose_local(*pose, sw_load(x + 3 * k->node));
+  sw_closest near[SW_CLOSEST_MAX];
+  if (!k->segment) {
+    const int found = sw_shape_point(shape, a, k->radius, &near[0]);
+    return found ? k->radius - near[0].gap : 0.0;
+  }
+  const sw_vec b = sw_pose_local(*pose, sw_load(x + 3 * k->node + 3));
+  double deepest = 0;
+  const int n = sw_shape_segment(shape, a, b, k->radius, near);
+  for (int i = 0; i < n; i++) deepest = fmax(deepest, k->radius - near[i].gap);
+  return deepest;
+}
+
+/* The law works with places and normals of the last iterate; on edges and
+ * corners these may be stale at the step's end. */
+static int cuts_deep(const sw_contact *c, const sw_system *s, const double *x1, double h) {
+  if (h < SMALLEST_CARE * c->nominal || c->regime == SW_CONTACT_EXPLICIT) return 0;
+  for (size_t i = 0; i < c->candidate_count; i++) {
+    const sw_candidate *k = &c->candidates[i];
+    if (c->flat[k->obstacle] || sw_contact_is_held(s, k)) continue;
+    const double depth = depth_at(c, k, c->now, x1);
+    if (depth > DEEPER && depth > depth_at(c, k, c->start, s->x) + DEEPER) return 1;
+  }
+  return 0;
+}
+
+sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *x1, double h) {
   sw_error err;
   if (went_too_far(c, s, x1)) {
     c->pressed_count = 0;
-    return sw_contact_find_candidates(c, s, &err) == SW_OK;
+    return sw_contact_find_candidates(c, s, &err) == SW_OK ? SW_CONTACT_REDO
+                                                           : SW_CONTACT_SMALLER;
   }
   const int crossed = review_crossings(c, s, x1, h);
   const int struck = review_touches(c, s, h);
   c->pressed_count = 0;
-  return crossed | struck;
+  if (crossed || struck) return SW_CONTACT_REDO;
+  return cuts_deep(c, s, x1, h) ? SW_CONTACT_SMALLER : SW_CONTACT_ACCEPT;
+}
+
+int sw_contact_review_static(sw_contact *c, sw_system *s, const double *x1) {
+  return review_crossings(c, s, x1, 0.0);
 }

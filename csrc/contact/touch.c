@@ -13,8 +13,27 @@
 
 /* Changes of the gap below this do not keep an iteration going [m]. */
 static const double GAP_TOLERANCE = 2e-8;
-/* Nor do changes of a sliding touch's normal force below this share [-]. */
+/* Nor do errors of a friction spring's length below this: far below its length
+ * at the onset of sliding, however stiff it is [m]. */
+static const double SPRING_TOLERANCE = 1e-11;
+/* Nor turns of the sliding direction with a cosine above this [-]. */
+static const double TURN_TOLERANCE = 0.98;
+/* Nor do changes of a sliding touch's normal force below this share of it, or
+ * below this share of the whole wire's weight [-]. */
 static const double FORCE_TOLERANCE = 0.01;
+static const double WEIGHT_TOLERANCE = 1e-3;
+
+/* Shorter updates leave place and normal of a touch on a curved or edged shape
+ * as they are; of the radius [-]. */
+static const double SMALL_SHIFT = 0.05;
+
+/* A touch that sinks in deeper is made stiffer until it does not [m]. */
+static const double DEEPEST = 50e-6;
+static const double MOST_BOOST = 1e5; /* [-] */
+
+/* A spring stretched this many times over what friction can hold does not stick,
+ * whatever the prediction is worth [-]. */
+static const double SURELY_SLIDING = 20.0;
 
 enum { OWN = 0, NEXT = 6, ROW = 24 }; /* layout of the system's block rows */
 
@@ -82,17 +101,42 @@ static void set_friction_state(const sw_contact *c, const sw_system *s, const sw
   t->trial = sw_madd(u, t->normal, -sw_dot(u, t->normal));
   t->lag = last ? last->normal_force : m ? m->normal_force : t->k * fmax(0.0, -t->gap);
   const double most = c->obstacles[t->obstacle].friction * t->lag;
-  t->sliding = t->k * sw_norm(t->trial) > most;
+  /* The predicted place says little about sticking: a spring this stiff calls
+   * every prediction a slide. Go on from the state that was found last. What
+   * only now begins to touch has been moving freely: it slides first. */
+  if (last && last->gap < 0) t->sliding = last->next_sliding;
+  else if (m) t->sliding = m->sliding;
+  else t->sliding = t->k * sw_norm(t->trial) > most;
+  if (t->k * sw_norm(t->trial) > SURELY_SLIDING * most) t->sliding = 1;
 }
 
 static double stiffness(const sw_contact *c, const sw_candidate *k) {
-  return fmax(c->base_stiffness, c->rate2 * k->mass);
+  return k->boost * fmax(c->base_stiffness, c->rate2 * k->mass);
 }
 
-static int is_held(const sw_system *s, const sw_candidate *k) {
+int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
   const sw_body *b = &s->bodies[k->body];
   const size_t i = k->node - b->first_node;
   return b->plan->held[i] != SW_FREE && (!k->segment || b->plan->held[i + 1] != SW_FREE);
+}
+
+/* A wire that is deeper inside at the step's start than its force explains
+ * (after a barrier, or placed there) is let out slowly: without this the whole
+ * depth would turn into speed within one step. Returns the part of the depth
+ * that the step leaves alone [m]. In explicit steps force follows depth, so none
+ * is. */
+static const double RECOVERY_SPEED = 0.2; /* [m/s] */
+
+static double forgiven(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                       const sw_touch *t) {
+  if (c->regime != SW_CONTACT_IMPLICIT || t->gap >= 0) return 0;
+  const sw_memory *m = memory_for(c, k, t->at);
+  const sw_vec local = sw_pose_local(c->now[t->obstacle].pose, t->point);
+  const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, local);
+  const sw_vec from = sw_touch_place(s->x, t->node, t->segment, t->at);
+  const double depth = k->radius - sw_dot(t->normal, sw_sub(from, plane));
+  const double explained = m ? m->depth : 0.0;
+  return fmax(0.0, depth - explained - RECOVERY_SPEED * c->h - GAP_TOLERANCE);
 }
 
 static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
@@ -108,7 +152,10 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
                 .point = sw_pose_point(*pose, near->point),
                 .gap = near->gap - k->radius,
                 .k = stiffness(c, k),
-                .held = is_held(s, k)};
+                .held = sw_contact_is_held(s, k),
+                .candidate = (size_t)(k - c->candidates)};
+  t.forgiven = forgiven(c, s, k, &t);
+  t.gap += t.forgiven;
   t.gap_after = t.gap;
   set_friction_state(c, s, k, y, &t);
   return push(c, &t);
@@ -121,7 +168,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
  * inside (nothing accepted yet) is pushed out the nearest way. */
 static int keep_side(const sw_contact *c, const sw_candidate *k, sw_vec local,
                      sw_closest *near) {
-  if (near->gap >= 0) return 1;
+  if (near->gap >= 0 || c->flat[k->obstacle]) return 1; /* a half space has one side */
   const sw_memory *m = memory_for(c, k, near->at);
   if (!m) return c->fresh;
   if (sw_dot(m->normal, near->normal) > 0.7) return 1; /* within 45 degrees: the same face */
@@ -229,7 +276,7 @@ static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
   const sw_vec d = length > 0 ? sw_scale(t->trial, 1.0 / length) : sw_v(0, 0, 0);
   t->tangential = sw_scale(d, t->sliding ? -most : -t->k * length);
   if (t->sliding) {
-    const double kt = length > 0 ? most / length : 0.0;
+    const double kt = length > 0 ? fmin(most / length, t->k) : 0.0;
     stiffness_matrix(t->k, kt, kt, t->normal, d, K);
   } else {
     stiffness_matrix(t->k, mu > 0 ? t->k : 0.0, 0, t->normal, d, K);
@@ -253,30 +300,49 @@ sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar,
   return SW_OK;
 }
 
+/* Friction after the solved update; 1 = it agrees with what was assumed. */
+static int update_friction(const sw_contact *c, sw_touch *t, sw_vec shift) {
+  const double mu = c->obstacles[t->obstacle].friction;
+  const sw_vec u = sw_madd(sw_add(t->trial, shift), t->normal, -sw_dot(shift, t->normal));
+  const double length = sw_norm(u), most = mu * t->normal_force;
+  const double small = t->k * SPRING_TOLERANCE;
+  const double along = sw_dot(u, t->trial);
+  const int beyond = t->k * length > most;
+  const int reversed = t->sliding && along < 0;
+  t->next_sliding = beyond && !reversed;
+  t->tangential = sw_scale(u, -(beyond && length > 0 ? most / length : t->k));
+  if (reversed) return most <= small;
+  if (t->sliding && beyond && along < TURN_TOLERANCE * length * sw_norm(t->trial)) return 0;
+  if (t->sliding != beyond) /* a change of state matters when the force does */
+    return fabs(t->k * length - most) <= small + FORCE_TOLERANCE * most;
+  return !beyond || fabs(t->normal_force - t->lag) <=
+                        FORCE_TOLERANCE * t->normal_force + WEIGHT_TOLERANCE * c->force_scale;
+}
+
 /* Bring a touch's forces up to the solved update; 1 = it agrees with what the
  * solve assumed. */
-static int update(const sw_contact *c, sw_touch *t, const double *delta) {
-  const double mu = c->obstacles[t->obstacle].friction;
+static int update(sw_contact *c, sw_touch *t, const double *delta) {
   const sw_vec shift = t->segment ? sw_lerp(sw_load(delta + 3 * t->node),
                                             sw_load(delta + 3 * t->node + 3), t->at)
                                   : sw_load(delta + 3 * t->node);
   const int active = t->gap < 0;
   t->gap_after = t->gap + sw_dot(t->normal, shift);
   if (t->held) return 1;
-  const double before = t->normal_force;
   t->normal_force = active ? fmax(0.0, -t->k * t->gap_after) : 0.0;
+  t->next_sliding = 1; /* what does not touch moves freely */
+  const int agrees = active && c->obstacles[t->obstacle].friction > 0
+                         ? update_friction(c, t, shift)
+                         : 1;
   if (active ? t->gap_after > GAP_TOLERANCE : t->gap_after < -GAP_TOLERANCE) return 0;
-  if (!active || !(mu > 0)) return 1;
-  const sw_vec u = sw_madd(sw_add(t->trial, shift), t->normal, -sw_dot(shift, t->normal));
-  const double length = sw_norm(u), most = mu * t->normal_force;
-  const int sliding = t->k * length > most;
-  const double share = length > 0 ? (sliding ? most / length : t->k) : 0.0;
-  t->tangential = sw_scale(u, -share);
-  (void)before;
-  const double small = t->k * GAP_TOLERANCE;
-  if (t->sliding != sliding) /* a change of state matters when the force does */
-    return fabs(t->k * length - most) <= small + FORCE_TOLERANCE * most;
-  return !sliding || fabs(t->normal_force - t->lag) <= FORCE_TOLERANCE * t->normal_force + small;
+  const double radius = c->candidates[t->candidate].radius;
+  if (!c->flat[t->obstacle] && t->gap_after < radius && sw_norm(shift) > SMALL_SHIFT * radius)
+    return 0; /* place and normal of the touch may have changed */
+  double *boost = &c->candidates[t->candidate].boost;
+  if (t->gap_after < -DEEPEST && *boost < MOST_BOOST && c->regime != SW_CONTACT_EXPLICIT) {
+    *boost *= fmin(100.0, 2.0 * t->gap_after / -DEEPEST);
+    return 0;
+  }
+  return agrees;
 }
 
 int sw_contact_settled(void *contact, sw_system *s, const double *y, const double *delta) {

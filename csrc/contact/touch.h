@@ -15,6 +15,7 @@ typedef struct sw_candidate {
   double radius, mass; /* of the wire there [m], [kg] */
   size_t memory, memory_end; /* matching range of the memory */
   size_t last, last_end;     /* matching range of the last iterate's touches */
+  double boost; /* of the stiffness, where the penetration would be too deep [-] */
 } sw_candidate;
 
 /* One place where a wire's surface is near an obstacle. */
@@ -26,15 +27,18 @@ typedef struct sw_touch {
   sw_vec normal;  /* world, outward [-] */
   sw_vec point;   /* on the obstacle, world [m] */
   double gap;     /* of the surfaces at this iterate [m] */
+  double forgiven; /* part of the true depth left out of gap in this step [m] */
   double k;       /* stiffness, normal and tangential [N/m] */
   double lag;     /* normal force that friction takes as given [N] */
   double normal_force; /* after the last solve [N] */
   sw_vec trial;   /* tangential displacement from the anchor at this iterate [m] */
   sw_vec tangential; /* friction force after the last solve [N] */
   double gap_after;  /* after the last solve [m] */
-  int sliding;
+  int sliding;      /* assumed in this iterate */
+  int next_sliding; /* as the last solve found it */
   int known;      /* it touched at the step's start */
   int held;       /* both ends are held: no force */
+  size_t candidate; /* index of what it was made from */
 } sw_touch;
 
 /* What is kept of a touch between steps; in the obstacle's coordinates. */
@@ -44,7 +48,10 @@ typedef struct sw_memory {
   int feature;
   double at;
   double normal_force; /* 0: near, but without force [N] */
+  double depth;        /* that goes with normal_force [m] */
+  double boost;        /* [-] */
   sw_vec normal, point; /* the side: local [-], [m] */
+  int sliding;
   sw_vec elastic;       /* displacement of the friction spring, local [m] */
 } sw_memory;
 
@@ -82,7 +89,9 @@ struct sw_contact {
   sw_memory *impacts; /* keys of touches whose impact was dealt with in this step */
   size_t impact_count, impact_capacity;
   double time, h; /* of the step [s] */
+  double nominal; /* the run's full step [s] */
   double base_stiffness; /* from the expected forces [N/m] */
+  double force_scale;    /* weight of the heaviest wire, or its bending force [N] */
   double rate2;          /* stiffness per mass [1/s2] */
   sw_contact_regime regime;
   int fresh;       /* 1: no step was accepted yet, there is no memory */
@@ -94,6 +103,9 @@ double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v);
 
 /* Fill the list of candidates for the step. */
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err);
+
+/* 1: the candidate's node, or both ends of its segment, are held. */
+int sw_contact_is_held(const sw_system *s, const sw_candidate *k);
 
 /* The place of a candidate on its segment. */
 static inline sw_vec sw_touch_place(const double *x, size_t node, int segment, double at) {

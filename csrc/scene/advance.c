@@ -108,8 +108,12 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
   for (int redo = 0; status == SW_OK && redo < MOST_REDOS; redo++) {
     status = trial(p, h, err);
     if (status != SW_OK) break;
-    if (!sw_contact_review(s->contact, &s->system, s->stepper.trial_x, h)) return SW_OK;
+    const sw_contact_verdict verdict =
+        sw_contact_review(s->contact, &s->system, s->stepper.trial_x, h);
+    if (verdict == SW_CONTACT_ACCEPT) return SW_OK;
     sw_stepper_reject(&s->stepper, &s->system);
+    if (verdict == SW_CONTACT_SMALLER)
+      status = sw_fail(err, SW_ENOCONV, "an edge or corner of an obstacle cuts too deep");
     s->stepper.restart = 1;
   }
   memcpy(s->system.v, p->v_start, 3 * s->system.nodes * sizeof(double));
@@ -253,7 +257,8 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   s->running++;
   sw_status status = SW_OK;
   if (isfinite(args->frame) && s->frame_count == 0) {
-    status = sw_scene_store_frame(s, &why);
+    status = sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, &why); /* energies need it */
+    if (status == SW_OK) status = sw_scene_store_frame(s, &why);
     s->next_frame = s->time + args->frame;
   }
   if (status == SW_OK) status = run_loop(&p, until, interrupted, &why);

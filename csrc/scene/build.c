@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From the edited scene to a system that can be advanced, and back. */
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -18,8 +19,63 @@ static void drop(sw_scene *s) {
   s->built = 0;
 }
 
+void sw_scene_forget_contact(sw_scene *s) {
+  sw_free(s->kept.memory);
+  sw_free(s->kept.s);
+  sw_free(s->kept.first);
+  memset(&s->kept, 0, sizeof s->kept);
+}
+
+/* Friction anchors and sides outlive a change of the system. */
+static sw_status keep_contact(sw_scene *s) {
+  sw_scene_forget_contact(s);
+  if (!s->contact) return SW_OK;
+  s->kept.fresh = sw_contact_is_fresh(s->contact);
+  const void *memory = sw_contact_memory(s->contact, &s->kept.bytes);
+  s->kept.memory = sw_alloc(s->kept.bytes, 1);
+  s->kept.s = sw_alloc(s->system.nodes, sizeof *s->kept.s);
+  s->kept.first = sw_alloc(s->wire_count + 1, sizeof *s->kept.first);
+  if (!s->kept.memory || !s->kept.s || !s->kept.first) {
+    sw_scene_forget_contact(s);
+    return SW_ENOMEM;
+  }
+  if (s->kept.bytes) memcpy(s->kept.memory, memory, s->kept.bytes);
+  s->kept.wires = s->system.body_count;
+  for (size_t w = 0; w < s->system.body_count; w++) {
+    const sw_body *b = &s->system.bodies[w];
+    memcpy(s->kept.s + b->first_node, b->plan->s, b->plan->nodes * sizeof(double));
+    s->kept.first[w] = b->first_node;
+  }
+  s->kept.first[s->kept.wires] = s->system.nodes;
+  return SW_OK;
+}
+
+/* Give the kept memory to the new system's contact: a node is the same when its
+ * arc length is; a node that was moved for a clamp starts anew. */
+static sw_status inherit_contact(sw_scene *s) {
+  if (!s->contact || !s->kept.memory) return SW_OK;
+  const size_t old_nodes = s->kept.first[s->kept.wires];
+  size_t *new_node = sw_alloc(old_nodes, sizeof *new_node);
+  if (!new_node) return SW_ENOMEM;
+  for (size_t w = 0; w < s->kept.wires; w++) {
+    const sw_body *b = &s->system.bodies[w];
+    size_t i = 0;
+    for (size_t k = s->kept.first[w]; k < s->kept.first[w + 1]; k++) {
+      while (i < b->plan->nodes && b->plan->s[i] < s->kept.s[k]) i++;
+      const int same = i < b->plan->nodes && b->plan->s[i] == s->kept.s[k];
+      new_node[k] = same ? b->first_node + i : SIZE_MAX;
+    }
+  }
+  const sw_status status =
+      sw_contact_inherit(s->contact, s->kept.memory, s->kept.bytes, s->kept.fresh,
+                                            new_node);
+  sw_free(new_node);
+  return status;
+}
+
 sw_status sw_scene_thaw(sw_scene *s) {
   if (!s->built) return SW_OK;
+  SW_TRY(keep_contact(s));
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_body *b = &s->system.bodies[w];
     sw_mesh *m = &s->wires[w].mesh;
@@ -155,6 +211,7 @@ static sw_status fill(sw_scene *s, size_t alive) {
   }
   SW_TRY(add_holds(s, alive));
   SW_TRY(add_contact(s));
+  SW_TRY(inherit_contact(s));
   s->system.coupling = (sw_coupling){.user = s, .place = place_hold};
   if (s->contact) {
     s->system.coupling.begin_stage = begin_stage;
@@ -179,6 +236,7 @@ sw_status sw_scene_build(sw_scene *s, sw_error *err) {
       return sw_fail(err, status, "scene '%s': out of memory", s->name);
     }
     s->built = 1;
+    sw_scene_forget_contact(s);
     s->discontinuous = 1;
   }
   s->system.gravity[0] = s->gravity.x;

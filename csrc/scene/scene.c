@@ -50,6 +50,7 @@ void sw_scene_free(sw_scene *s) {
   sw_stepper_free(&s->stepper);
   sw_contact_free(s->contact);
   sw_system_free(&s->system);
+  sw_scene_forget_contact(s);
   sw_scene_drop_frames(s);
   sw_free(s->frames);
   sw_free(s->hold_slot);

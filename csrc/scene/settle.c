@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Static equilibrium: the mixed Newton from where the scene is; when that fails
- * (mechanisms, snap-through, sliding contact) pseudo-transient continuation,
- * which is implicit Euler with velocities forgotten and a growing step. */
+ * (mechanisms, snap-through, sliding contact) or ends in an equilibrium that is
+ * not stable, pseudo-transient continuation from the start, which is implicit
+ * Euler with velocities forgotten and a growing step. */
 #include <math.h>
 #include <string.h>
 
@@ -16,10 +17,15 @@ static const sw_param rows[] = {
 };
 const sw_params sw_settle_params = SW_PARAMS("scene:settle", rows);
 
-enum { NEWTON_ITERATIONS = 60 };
+enum { NEWTON_ITERATIONS = 60, MOST_REDOS = 20 };
 static const double FIRST_PSEUDO_STEP = 0.02; /* of sqrt(length/g) [-] */
 static const double LARGEST_GROWTH = 1e6;     /* of the first pseudo step [-] */
 static const double STATIC_TURN = 1e-7;       /* last rotation of a converged solve [rad] */
+/* A direction in which a disturbance needs longer to grow than this counts as
+ * neutral, not as unstable. */
+static const double SLOWEST_GROWTH = 30.0; /* of sqrt(length/g) [-] */
+static const double NUDGE = 1e-4;          /* of the length, off an unstable place [-] */
+enum { MOST_NUDGES = 2 };
 
 typedef struct statics {
   sw_scene *s;
@@ -28,6 +34,7 @@ typedef struct statics {
   int (*interrupted)(void);
   double *zero, *from, *y, *v; /* (nodes x 3) */
   double *tension;             /* (edges) at the start of an attempt */
+  double *kept, *kept_tension; /* state put aside */
 } statics;
 
 static double longest(const sw_scene *s) {
@@ -47,17 +54,24 @@ static sw_status solve(statics *p, double hbar, const sw_newton *newton, sw_erro
   sw_status status = SW_OK;
   if (s->contact)
     status =
-      sw_contact_begin_step(s->contact, &s->system, SW_CONTACT_STATIC, s->time, 0, 0, err);
-  if (status == SW_OK) status = sw_system_stage(&s->system, &stage, newton, &r, err);
-  p->report->iterations += (size_t)r.iterations;
+        sw_contact_begin_step(s->contact, &s->system, SW_CONTACT_STATIC, s->time, 0, 0, err);
+  for (int redo = 0; status == SW_OK; redo++) {
+    status = sw_system_stage(&s->system, &stage, newton, &r, err);
+    p->report->iterations += (size_t)r.iterations;
+    if (status != SW_OK || !s->contact) break;
+    if (!sw_contact_review_static(s->contact, &s->system, p->y)) break;
+    if (newton->statics || redo == MOST_REDOS)
+      status = sw_fail(err, SW_ENOCONV, "the wire would pass through an obstacle");
+  }
   p->report->negative = r.negative;
   if (status != SW_OK)
     memcpy(s->system.tension, p->tension, s->system.edges * sizeof(double));
   return status;
 }
 
-/* Make y the state. Returns the largest shift [m]. */
-static double take(statics *p) {
+/* Make y the state, for contact too unless it is on trial. Returns the largest
+ * shift [m]. */
+static double take(statics *p, int trial) {
   sw_scene *s = p->s;
   double shift = 0;
   for (size_t i = 0; i < 3 * s->system.nodes; i++)
@@ -65,8 +79,13 @@ static double take(statics *p) {
   memcpy(s->system.x, p->y, 3 * s->system.nodes * sizeof(double));
   memset(s->system.v, 0, 3 * s->system.nodes * sizeof(double));
   memset(s->system.a, 0, 3 * s->system.nodes * sizeof(double));
-  if (s->contact) sw_contact_commit(s->contact, &s->system);
+  if (s->contact && !trial) sw_contact_commit(s->contact, &s->system);
   return shift;
+}
+
+/* sqrt(length/g); weightless scenes: any scale will do. */
+static double time_scale(const sw_scene *s) {
+  return sqrt(longest(s) / fmax(sw_norm(s->gravity), 1.0));
 }
 
 static sw_status newton_attempt(statics *p, sw_error *err) {
@@ -77,14 +96,62 @@ static sw_status newton_attempt(statics *p, sw_error *err) {
                             .accept_shift = p->args->tolerance};
   SW_TRY(solve(p, HUGE_VAL, &newton, err));
   p->report->residual = p->args->tolerance;
-  take(p);
+  take(p, p->report->negative > 0);
+  if (p->report->negative == 0) return SW_OK;
+  /* once more with a little mass: rounding in neutral directions drops out */
+  SW_TRY(solve(p, SLOWEST_GROWTH * time_scale(p->s), &newton, err));
+  take(p, p->report->negative > 0);
   return SW_OK;
+}
+
+static void put_aside(statics *p) {
+  memcpy(p->kept, p->s->system.x, 3 * p->s->system.nodes * sizeof(double));
+  memcpy(p->kept_tension, p->s->system.tension, p->s->system.edges * sizeof(double));
+}
+
+static void take_back(statics *p) {
+  memcpy(p->s->system.x, p->kept, 3 * p->s->system.nodes * sizeof(double));
+  memcpy(p->s->system.tension, p->kept_tension, p->s->system.edges * sizeof(double));
+}
+
+/* A smooth push to the sides, the same in every run, that no symmetry of a
+ * scene shares. */
+static void nudge(statics *p, int number) {
+  sw_system *s = &p->s->system;
+  const double size = NUDGE * longest(p->s);
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_body *body = &s->bodies[b];
+    for (size_t i = 0; i < body->plan->nodes; i++) {
+      if (body->plan->held[i] != SW_FREE) continue;
+      const double u = body->plan->s[i] / body->plan->length + 0.3 * number;
+      double *x = s->x + 3 * (body->first_node + i);
+      x[0] += size * sin(2.3 * u + 0.4);
+      x[1] += size * sin(3.1 * u + 0.9);
+      x[2] += size * sin(4.7 * u + 1.3);
+    }
+  }
+}
+
+/* Rounding of edge lengths times their stiffness moves a slack wire by about
+ * this much [m]; no iteration can do better. */
+static double rounding(const sw_scene *s) {
+  const double epsilon = 2.2e-16, most = 1e-5; /* [-]; of the length [-] */
+  const double g = sw_norm(s->gravity);
+  double largest = 0;
+  for (size_t b = 0; b < s->system.body_count; b++) {
+    const sw_plan *p = s->system.bodies[b].plan;
+    const double L = p->length, force = p->beam.mass * L * g + p->beam.EI / (L * L);
+    if (force > 0)
+      largest = fmax(largest,
+                     L * fmin(most, epsilon * p->beam.EA / force * (double)p->edges));
+  }
+  return largest;
 }
 
 static sw_status transient(statics *p, sw_error *err) {
   sw_scene *s = p->s;
-  const double g = fmax(sw_norm(s->gravity), 1.0); /* weightless scenes: any scale will do */
-  const double first = FIRST_PSEUDO_STEP * sqrt(longest(s) / g);
+  const double enough = fmax(p->args->tolerance, rounding(s));
+  const double first = FIRST_PSEUDO_STEP * time_scale(s);
   const sw_newton newton = {
       .max_iterations = 30, .accept_rotation = 0.01, .limit_rotation = 0.3, .statics = 0};
   double tau = first;
@@ -98,8 +165,8 @@ static sw_status transient(statics *p, sw_error *err) {
       if (tau < 1e-9 * first) return status;
       continue;
     }
-    p->report->residual = take(p);
-    if (p->report->residual <= p->args->tolerance && tau >= first) return SW_OK;
+    p->report->residual = take(p, 0);
+    if (p->report->residual <= enough && tau >= first) return SW_OK;
     tau = fmin(tau * 1.6, LARGEST_GROWTH * first);
   }
   return sw_fail(err, SW_ENOCONV,
@@ -107,13 +174,26 @@ static sw_status transient(statics *p, sw_error *err) {
                  p->report->iterations, p->report->residual);
 }
 
+static int stops(sw_status status) {
+  return status == SW_ECALLBACK || status == SW_ENOMEM || status == SW_EINTR;
+}
+
 static sw_status find_rest(statics *p, sw_error *err) {
+  put_aside(p);
   sw_status status = newton_attempt(p, err);
-  if (status == SW_OK || status == SW_ECALLBACK || status == SW_ENOMEM) return status;
-  SW_TRY(transient(p, err));
-  sw_error ignored;
-  newton_attempt(p, &ignored); /* polish; fails where the equilibrium is not isolated */
-  return SW_OK;
+  if ((status == SW_OK && p->report->negative == 0) || stops(status)) return status;
+  take_back(p);
+  for (int k = 0;; k++) {
+    sw_error ignored;
+    SW_TRY(transient(p, err));
+    put_aside(p);
+    status = newton_attempt(p, &ignored); /* fails where the equilibrium is not isolated */
+    if (status == SW_OK && p->report->negative == 0) return SW_OK;
+    if (stops(status)) return status;
+    take_back(p);
+    if (status != SW_OK || k == MOST_NUDGES) return SW_OK;
+    nudge(p, k);
+  }
 }
 
 static void conclude(sw_scene *s, sw_status status, sw_settle_report *report,
@@ -134,10 +214,10 @@ sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interru
   if (!s->wire_count) return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", s->name);
   SW_TRY(sw_scene_build(s, err));
   const size_t n = 3 * s->system.nodes;
-  double *block = sw_alloc(4 * n + s->system.edges, sizeof *block);
+  double *block = sw_alloc(5 * n + 2 * s->system.edges, sizeof *block);
   if (!block) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
   statics p = {s,         args,          report, interrupted, block, block + n, block + 2 * n,
-               block + 3 * n, block + 4 * n};
+               block + 3 * n, block + 5 * n, block + 4 * n, block + 5 * n + s->system.edges};
   s->running++;
   sw_status status = find_rest(&p, &why);
   s->running--;

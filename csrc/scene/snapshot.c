@@ -42,6 +42,7 @@ struct sw_snapshot {
   sw_extreme deepest;
   void *memory; /* contact anchors */
   size_t memory_size;
+  int fresh;
 };
 
 int sw_snapshot_busy(const sw_snapshot *p) { return p->scene && sw_scene_busy(p->scene); }
@@ -146,6 +147,7 @@ static sw_status copy_state(const sw_scene *s, sw_snapshot *p) {
   p->state_size = s->system.state_size;
   SW_TRY(copy_block(s->system.state, p->state_size * sizeof(double), &p->state));
   if (s->contact) {
+    p->fresh = sw_contact_is_fresh(s->contact);
     const void *memory = sw_contact_memory(s->contact, &p->memory_size);
     SW_TRY(copy_block(memory, p->memory_size, &p->memory));
   }
@@ -266,7 +268,7 @@ static sw_status put_meshes(sw_scene *s, const sw_snapshot *p) {
 
 static sw_status put_state(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   memcpy(s->system.state, p->state, p->state_size * sizeof(double));
-  if (s->contact) SW_TRY(sw_contact_set_memory(s->contact, p->memory, p->memory_size));
+  if (s->contact) SW_TRY(sw_contact_set_memory(s->contact, p->memory, p->memory_size, p->fresh));
   if (p->method && (!s->has_stepper || s->method != p->method)) {
     sw_stepper_free(&s->stepper);
     s->has_stepper = 0;

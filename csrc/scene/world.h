@@ -91,6 +91,14 @@ struct sw_scene {
   sw_system system;
   int *hold_slot;   /* (system.hold_count) scene slot of each system hold */
   sw_contact *contact;
+  struct {            /* contact memory of the last built system, for the next one */
+    void *memory;     /* copy, or NULL */
+    size_t bytes;
+    double *s;        /* (nodes) arc lengths then [m] */
+    size_t *first;    /* (wires + 1) first node of each wire then */
+    size_t wires;
+    int fresh;
+  } kept;
   const sw_integrator *method; /* of stepper */
   sw_stepper stepper;
   int has_stepper;
@@ -107,6 +115,8 @@ struct sw_scene {
 
 /* Leave the built state: the meshes become authoritative again. */
 sw_status sw_scene_thaw(sw_scene *scene);
+/* Drop the contact memory kept for the next system. */
+void sw_scene_forget_contact(sw_scene *scene);
 /* Make the system from the meshes and holds, if it is not. */
 sw_status sw_scene_build(sw_scene *scene, sw_error *err);
 

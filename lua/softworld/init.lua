@@ -30,4 +30,23 @@ require "softworld.run"      -- scene:run
 --- A new scene. { name =, gravity = {x, y, z} [m/s2] }
 function sw.scene(args) return core.scene(args) end
 
-return sw
+-- Loaded when first asked for.
+local lazy = { tune = "softworld.tune" }
+
+local function unknown(self, key)
+  local names = {}
+  for _, list in ipairs { self, lazy } do
+    for name in pairs(list) do names[#names + 1] = name end
+  end
+  table.sort(names)
+  local near = core.nearest(tostring(key), names)
+  error(("softworld has no '%s'; %s"):format(tostring(key), near and "did you mean '" .. near .. "'?"
+    or "it has: " .. table.concat(names, " ")), 3)
+end
+
+return setmetatable(sw, { __index = function(self, key)
+  if not lazy[key] then unknown(self, key) end
+  local module = require(lazy[key])
+  rawset(self, key, module)
+  return module
+end })

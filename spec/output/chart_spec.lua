@@ -27,6 +27,20 @@ describe("chart", function()
     { x = 0.1, y = 1e-3, series = "late" },
   }
 
+  it("draws energies of the frames, and running means under a title that says so", function()
+    local run = scene.run { frames = 5 }
+    for i, frame in ipairs(run.frames) do
+      frame.energy = { kinetic = i, elastic = 2 * i, gravity = -i }
+    end
+    chart.series { run = run, energy = true, path = folder .. "/e.svg" }
+    local text = shown(folder .. "/e.svg")
+    for _, expected in ipairs { "kinetic", "elastic", "gravity", "energy [J]" } do
+      assert.truthy(text:find(expected, 1, true), expected)
+    end
+    chart.series { run = run, mean = 0.05, title = "forces", path = folder .. "/m.svg" }
+    assert.truthy(shown(folder .. "/m.svg"):find("forces, means over 0.05 s", 1, true))
+  end)
+
   it("draws series as SVG with names, units and nothing left behind", function()
     local run = scene.run { frames = 2 }
     run.name = awkward

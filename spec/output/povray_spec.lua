@@ -136,6 +136,14 @@ describe("povray", function()
     assert.near(0.001, povscene.square(0.014), 1e-15)
   end)
 
+  it("takes the frames nearest to the times told, with their captions", function()
+    local run = scene.run { frames = 9 }
+    local shot = povray.strip { run = run, path = folder .. "/t.png", draft = true, width = 400,
+      columns = 2, times = { run.frames[1].t, run.frames[4].t, 1e9 }, captions = { "first", "then" } }
+    assert.equal(400 // 10, shot.width // 10)
+    assert.same({ "t.png" }, files.list(folder))
+  end)
+
   it("names the package if povray is missing", function()
     files.without_programs(function()
       local run = scene.run { frames = 2 }

@@ -82,6 +82,43 @@ describe("series", function()
   end)
 end)
 
+describe("series derived from others", function()
+  it("average over a time, whatever the steps, and keep gaps", function()
+    -- The mean of a straight line over a centred window is the line; that of a step is a ramp.
+    local time, line, jump = {}, {}, {}
+    for i = 1, 201 do
+      time[i] = ((i - 1) / 200) ^ 1.5 -- uneven steps
+      line[i], jump[i] = 3 * time[i] - 1, time[i] < 0.5 and 0 or 1
+    end
+    local smooth = series.mean({ time = time, columns = {
+      { name = "line", unit = "N", values = line }, { name = "jump", unit = "N", values = jump } } }, 0.1)
+    for i, t in ipairs(time) do
+      if t > 0.06 and t < 0.94 then
+        assert.is_true(math.abs(smooth.columns[1].values[i] - line[i]) < 0.02)
+        local ramp = math.max(0, math.min(1, (t - 0.45) / 0.1))
+        assert.is_true(math.abs(smooth.columns[2].values[i] - ramp) < 0.1)
+      end
+    end
+    local gap = series.mean({ time = { 0, 1, 2, 3, 4 }, columns = {
+      { name = "gap", unit = "N", values = { 1, 1, 0 / 0, 5, 5 } } } }, 2).columns[1].values
+    assert.equal(1, gap[1])
+    assert.is_true(gap[3] ~= gap[3])
+    assert.equal(5, gap[5])
+    assert.error_matches(function() series.mean({ time = {}, columns = {} }, 0) end,
+      "mean = 0 is not allowed")
+  end)
+
+  it("take the energies from the frames", function()
+    local data = series.energy { frames = {
+      { t = 0, energy = { kinetic = 1, elastic = 2, gravity = -3 } },
+      { t = 0.5, energy = { kinetic = 4, elastic = 5, gravity = -7 } } } }
+    assert.same({ 0, 0.5 }, data.time)
+    assert.same({ 1, 4 }, data.columns[1].values)
+    assert.same({ 4, 0 }, data.columns[3].values) -- from the lowest
+    assert.error_matches(function() series.energy { frames = { { t = 0 } } } end, "hold no energies")
+  end)
+end)
+
 describe("json", function()
   it("encodes values", function()
     assert.equal('{"a":[1,2.5,null,true],"b":{},"c":[],"d":null}',

@@ -50,7 +50,12 @@ local function wanted_columns(data, names)
     for _, column in ipairs(data.columns) do
       if column.name == name then list[i] = column end
     end
-    if not list[i] then sink.fail("a chart: the run has no series named %s", tostring(name)) end
+    if not list[i] then
+      local known = {}
+      for k, column in ipairs(data.columns) do known[k] = column.name end
+      sink.fail("a chart: the run has no series named %s; it has: %s", tostring(name),
+        table.concat(known, ", "))
+    end
   end
   return list
 end
@@ -109,6 +114,9 @@ local function value_axis(script, panel)
     gnuplot.number(math.ceil(high / step) * step), gnuplot.number(step))
 end
 
+local quantities = { N = "force", ["N m"] = "moment", J = "energy", m = "length", ["m/s"] = "speed",
+  Pa = "pressure", K = "temperature", Hz = "frequency" }
+
 -- A single curve is named on its axis, several in the key; characters have no
 -- room beside the axis, so that there the key tells all.
 local function panel_plot(script, time, panel, first, text)
@@ -119,7 +127,8 @@ local function panel_plot(script, time, panel, first, text)
     curves[k] = curve(script, time, column, first + k, title)
   end
   if not text then value_axis(script, panel) end
-  local axis = text and "" or series.head(single and panel[1].name or "", panel.unit)
+  local name = single and panel[1].name or quantities[panel.unit] or ""
+  local axis = text and "" or series.head(name, panel.unit)
   script.add("set ylabel %s noenhanced", quote(axis))
   script.add("plot " .. table.concat(curves, ", "))
   return first + #panel
@@ -155,14 +164,19 @@ end
 
 --- Time series: one panel for each unit, a common time axis.
 -- @tparam table options `run` (or `series`, see series.of); `columns`, names
--- of the series wanted (default all); `title` (default the run's name);
--- `path`; `size`
+-- of the series wanted (default all); `energy = true` draws the energies of
+-- the run's frames instead; `mean` draws running means over that time [s]
+-- instead of the samples, and the title says so; `title` (default the run's name); `path`; `size`
 -- @treturn string the path, or the drawing
 function chart.series(options)
   local source = options.run or options.series
-  local data = series.of(source)
-  local panels = panels_of(wanted_columns(data, options.columns))
+  local data = options.energy and series.energy(source) or series.of(source)
   local script, title = gnuplot.script(), options.title or source.name
+  if options.mean then
+    data = series.mean(data, options.mean)
+    title = (title and title .. ", " or "") .. ("means over %g s"):format(options.mean)
+  end
+  local panels = panels_of(wanted_columns(data, options.columns))
   local size = size_of(options, 900, #panels > 1 and 100 + 220 * #panels or 420)
   local low, high = time_range(data.time)
   script.add("set xrange [%s:%s]", gnuplot.number(low), gnuplot.number(high))
@@ -277,6 +291,22 @@ local function point_labels(script, points, top)
   end
 end
 
+-- An axis of less than two decades has few powers of ten: name 1, 2 and 5 of each.
+local function narrow_tics(script, axis, low, high)
+  if high / low >= 100 then return end
+  local tics = {}
+  for decade = math.floor(math.log(low, 10)), math.ceil(math.log(high, 10)) do
+    for _, digit in ipairs{ 1, 2, 5 } do
+      local x = digit * 10.0 ^ decade
+      if x >= low and x <= high then
+        tics[#tics + 1] = quote(("%g"):format(x)) .. " " .. gnuplot.number(x)
+      end
+    end
+  end
+  if #tics == 0 then return end
+  script.add("set m%stics default\nset %stics (%s)", axis, axis, table.concat(tics, ", "))
+end
+
 --- A log-log chart of cost against error, or the like.
 -- The Pareto front is marked by a line; failures stand as crosses at the top edge.
 -- @tparam table options `points = { { x=, y=, series=name, failed=bool, label= }, ... }`
@@ -296,6 +326,8 @@ function chart.front(options)
   script.add(options.path and "set format xy '10^{%L}'\nset tics enhanced" or "set format xy '%.0e'")
   script.add("set xrange [%s:%s]\nset yrange [%s:%s]", gnuplot.number(x1), gnuplot.number(x2),
     gnuplot.number(y1), gnuplot.number(y2))
+  narrow_tics(script, "x", x1, x2)
+  narrow_tics(script, "y", y1, y2)
   script.add("set xlabel %s noenhanced\nset ylabel %s noenhanced", quote(options.xlabel or "x"),
     quote(options.ylabel or "y"))
   if options.title then script.add("set title %s noenhanced", quote(options.title)) end

@@ -66,9 +66,15 @@ local function flat_scene(sheet)
   return table.concat(parts)
 end
 
--- Evenly spread over the frames, first and last included.
-local function chosen_frames(run, count)
+-- The frame nearest to each time, or count frames evenly spread, first and last included.
+local function chosen_frames(run, count, times)
   local total, list = #run.frames, {}
+  for k, t in ipairs(times or {}) do
+    for _, frame in ipairs(run.frames) do
+      if not list[k] or math.abs(frame.t - t) < math.abs(list[k].t - t) then list[k] = frame end
+    end
+  end
+  if times and #list > 0 then return list end
   count = math.min(count, total)
   for k = 0, count - 1 do
     list[k + 1] = run.frames[count > 1 and 1 + math.floor(k * (total - 1) / (count - 1) + 0.5) or total]
@@ -135,6 +141,11 @@ local function time_caption(run, frame)
   return string.format("t = %." .. digits .. "f s", frame.t)
 end
 
+local function caption_of(run, frame, i, options)
+  local words = options.captions and options.captions[i]
+  return options.caption or time_caption(run, frame) .. (words and ": " .. words or "")
+end
+
 local function check(options, purpose)
   local run = type(options) == "table" and options.run
   if type(run) ~= "table" or not run.frames or #run.frames == 0 then
@@ -159,7 +170,7 @@ local function render(sheet, run, frames, look, options)
       names[#names + 1], names[#names + 2] = name .. ".pov", name .. ".png"
       sink.write_file(folder .. "/" .. name .. ".pov", povscene.text(run, frame, look))
       trace(folder, name, sheet.panel_width, sheet.panel_height, settings)
-      sheet.panels[i] = { name = name, caption = options.caption or time_caption(run, frame) }
+      sheet.panels[i] = { name = name, caption = caption_of(run, frame, i, options) }
     end
     sink.write_file(folder .. "/sheet.pov", flat_scene(sheet))
     settings.aa = "+A0.1 +AM1 +R4 -J"
@@ -185,13 +196,14 @@ end
 -- A lower panel where the view would leave it empty above and below.
 local function trimmed(look, width, height)
   local used = look.camera.filled or 1
-  return math.floor(math.max(0.48 * width, math.min(height, height * used / 0.8)) + 0.5)
+  return math.floor(math.max(0.32 * width, math.min(height, height * used / 0.8)) + 0.5)
 end
 
 --- Several moments of a run in one picture, by default six in two rows.
 -- The camera is the same in all; captions give the time.
 -- @tparam table options `run`; `path` ending in .png; `count` (6) moments from
--- the first to the last frame; `columns` (3); `width` (1500) [px], roughly
+-- the first to the last frame, or `times = { ... }` [s]; `captions` (words after
+-- the times, in the same order); `columns` (3); `width` (1500) [px], roughly
 -- kept; `height` (as the view needs, at most 380 a row) [px]; `camera` "auto" or options of view.camera;
 -- `thickness` factor on the wires' radius (default: 1, more if the wire would
 -- be too thin to be seen, and the picture says so); `draft = true` for speed;
@@ -200,7 +212,7 @@ end
 -- @raise if povray is missing or fails, or the file cannot be written
 function povray.strip(options)
   local run = check(options, "a strip of pictures")
-  local frames = chosen_frames(run, options.count or 6)
+  local frames = chosen_frames(run, options.count or 6, options.times)
   local columns = math.min(options.columns or 3, #frames)
   local rows = (#frames + columns - 1) // columns
   local width, height = options.width or 1500, options.height or 380 * rows

@@ -28,6 +28,61 @@ function series.of(source)
   return data
 end
 
+--- The energies stored with the frames of a run, as a series.
+-- @tparam table run with `frames = { { t [s], energy = { kinetic, elastic, gravity } [J] } }`
+-- @treturn table see series.of; gravity is counted from its lowest value
+function series.energy(run)
+  local kinds = { "kinetic", "elastic", "gravity" }
+  local data, lowest = { time = {}, columns = {} }, math.huge
+  for c, kind in ipairs(kinds) do data.columns[c] = { name = kind, unit = "J", values = {} } end
+  for i, frame in ipairs(run.frames or {}) do
+    if not frame.energy then sink.fail("series: the run's frames hold no energies") end
+    data.time[i] = frame.t
+    for c, kind in ipairs(kinds) do data.columns[c].values[i] = frame.energy[kind] end
+    lowest = math.min(lowest, frame.energy.gravity)
+  end
+  for i, value in ipairs(data.columns[3].values) do data.columns[3].values[i] = value - lowest end
+  return data
+end
+
+-- The running mean of samples over width [s] of time, by trapezoids; a gap stays a gap.
+local function running_mean(time, values, width)
+  local out, first, last, sum, span = {}, 1, 1, 0.0, 0.0
+  local function piece(i) -- between samples i and i + 1
+    local h = time[i + 1] - time[i]
+    local area = 0.5 * h * (values[i] + values[i + 1])
+    if area ~= area then return 0.0, 0.0 end
+    return area, h
+  end
+  for i, t in ipairs(time) do
+    while last < #time and time[last + 1] <= t + width / 2 do
+      local area, h = piece(last)
+      sum, span, last = sum + area, span + h, last + 1
+    end
+    while first < last and time[first] < t - width / 2 do
+      local area, h = piece(first)
+      sum, span, first = sum - area, span - h, first + 1
+    end
+    out[i] = values[i] ~= values[i] and values[i] or span > 1e-12 and sum / span or values[i]
+  end
+  return out
+end
+
+--- The series with every column replaced by its running mean.
+-- @tparam table data see series.of
+-- @tparam number width of the window [s]
+-- @treturn table a series
+function series.mean(data, width)
+  if type(width) ~= "number" or not (width > 0 and width < math.huge) then
+    sink.fail("series: mean = %s is not allowed; it must be a time above 0 s", tostring(width))
+  end
+  local smooth = { time = data.time, columns = {} }
+  for i, c in ipairs(data.columns) do
+    smooth.columns[i] = { name = c.name, unit = c.unit, values = running_mean(data.time, c.values, width) }
+  end
+  return smooth
+end
+
 --- A name with its unit, as in column heads: `left.force [N]`.
 -- @tparam string name
 -- @tparam ?string unit nothing is added without one

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The band solver for specs: core.band3(rows, right) -> x, negative pivots,
+ * product. rows: flat, 24 numbers a node as in solve/band3.h; right: flat, 3 a
+ * node. product is rows times right. */
+#include "bind/class.h"
+#include "bind/module.h"
+
+static double *read_flat(lua_State *L, int index, size_t n) {
+  double *p = lua_newuserdatauv(L, (n + 1) * sizeof *p, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_geti(L, index, (lua_Integer)i + 1);
+    p[i] = luaL_checknumber(L, -1);
+    lua_pop(L, 1);
+  }
+  return p;
+}
+
+static void push_flat(lua_State *L, const double *p, size_t n) {
+  lua_createtable(L, (int)n, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_pushnumber(L, p[i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+}
+
+static int mod_band3(lua_State *L) {
+  sw_error err = {""};
+  size_t negative = 0;
+  luaL_checktype(L, 1, LUA_TTABLE);
+  luaL_checktype(L, 2, LUA_TTABLE);
+  const size_t n = lua_rawlen(L, 2) / 3;
+  luaL_argcheck(L, n >= 2 && lua_rawlen(L, 2) == 3 * n, 2, "3 numbers a node, at least 2 nodes");
+  luaL_argcheck(L, lua_rawlen(L, 1) == SW_ROW_SIZE * n, 1, "24 numbers a node");
+  double *rows = read_flat(L, 1, SW_ROW_SIZE * n), *x = read_flat(L, 2, 3 * n);
+  double *product = lua_newuserdatauv(L, 3 * n * sizeof *product, 0);
+  sw_band3_multiply(rows, n, x, product);
+  const sw_status status = sw_band3_factor(rows, n, rows, &negative);
+  if (status != SW_OK) return lsw_raise(L, status, &err);
+  sw_band3_solve(rows, n, x);
+  push_flat(L, x, 3 * n);
+  lua_pushinteger(L, (lua_Integer)negative);
+  push_flat(L, product, 3 * n);
+  return 3;
+}
+
+static const luaL_Reg functions[] = {{"band3", mod_band3}, {NULL, NULL}};
+
+void lsw_open_solve(lua_State *L) { luaL_setfuncs(L, functions, 0); }

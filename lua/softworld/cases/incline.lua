@@ -1,0 +1,51 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- A rod lies along the fall line of a rough slope and is let go.
+-- Options: angle [deg] (20), friction (0.3). run{ duration =, dt = }.
+-- exact.acceleration = max(0, g (sin - mu cos)) [m/s2]; exact.threshold = tan(angle).
+-- error(): of the distance gone, over g t^2/2 [-].
+-- @module softworld.cases.incline
+local sw = require "softworld"
+local frame = require "softworld.cases.frame"
+
+return function(options)
+  local f = frame.new(options)
+  local angle, mu = math.rad(options.angle or 20), options.friction or 0.3
+  local radius = 0.0025
+  local scene = sw.scene{ name = "incline", gravity = f.gravity }
+  local half = { math.cos(angle / 2), 0, math.sin(angle / 2), 0 } -- x axis goes downhill
+  local slope = frame.new{ rotation = frame.product(f.quaternion, half), at = options.at }
+  scene:obstacle{ shape = "plane", friction = mu, at = f.point(0, 0, 0),
+    rotation = slope.quaternion }
+  local wire = scene:wire{ E = options.E or 1e8, density = 1500, radius = radius,
+    segments = options.segments or 20, model = options.model,
+    from = slope.point(0, 0, radius), to = slope.point(0.5, 0, radius) }
+  local a = f.g * (math.sin(angle) - mu * math.cos(angle))
+  local c = { name = "incline", scene = scene, wire = wire, frame = slope,
+    exact = { acceleration = math.max(0, a), threshold = math.tan(angle), source = "closed form" } }
+
+  function c.run(o)
+    local p = { duration = 0.5, dt = 0.01 }
+    for k, v in pairs(o or {}) do p[k] = v end
+    -- first it sinks into the slope under the part of gravity across it
+    local across = f.g * math.cos(angle)
+    scene:gravity(slope.vector(0, 0, -across))
+    c.settled = scene:settle()
+    if not c.settled.ok then return c.settled end
+    scene:run{ duration = 10 * p.dt, dt = p.dt, integrator = p.integrator }
+    scene:gravity(f.gravity)
+    c.before, c.duration = slope.local_point(wire:position(wire.length / 2)), p.duration
+    return scene:run(p)
+  end
+
+  function c.measured()
+    local now = slope.local_point(wire:position(wire.length / 2))
+    local v = slope.local_vector(wire:velocity(wire.length / 2))
+    return { distance = now[1] - c.before[1], speed = v[1],
+      acceleration = 2 * (now[1] - c.before[1]) / c.duration ^ 2 }
+  end
+
+  function c.error()
+    return math.abs(c.measured().acceleration - c.exact.acceleration) / f.g
+  end
+  return c
+end

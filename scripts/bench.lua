@@ -1,0 +1,312 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Error against time of cases x models x resolutions x integrators x steps.
+--   build/softworld scripts/bench.lua [quick] [case=..] [model=..] [integrator=..] [n=..] [out=folder]
+-- One CSV row each in out/bench/bench.csv, a summary on the terminal. Values may be lists: case=droop,walls.
+-- Compare numbers of one run only: machines differ, and so do their loads.
+local bench = require "softworld.bench"
+local benchcases = require "softworld.benchcases"
+local sink = require "softworld.output.sink"
+
+-- What to run --------------------------------------------------------------------
+
+local plan = {} -- of { case, config }
+local function add(case, config)
+  if not benchcases[case] then return end
+  config.model = config.model or "rod"
+  plan[#plan + 1] = { case = benchcases[case], config = config }
+end
+
+-- A second-order step that keeps its error near the mesh's: 5 ms at 20 segments of the release.
+local matched = { { 5, 0.02 }, { 10, 0.01 }, { 12, 1 / 120 }, { 20, 0.005 }, { 40, 0.002 }, { 80, 0.001 },
+  { 160, 0.0005 } }
+
+local function add_statics(quick)
+  local many, few = { 10, 20, 50, 100, 200, 500, 1000 }, { 20, 50, 100, 200, 500 }
+  if quick then many, few = { 10, 100, 1000 }, { 50 } end
+  for case, counts in pairs{ droop = many, catenary = few, lift = few } do
+    for _, model in ipairs{ "rod", "string" } do
+      for _, n in ipairs(counts) do add(case, { model = model, segments = n }) end
+    end
+  end
+end
+
+local function add_implicit_release(quick)
+  for _, model in ipairs{ "rod", "string" } do
+    for _, pair in ipairs(matched) do
+      local n, dt = pair[1], pair[2]
+      for _, name in ipairs(bench.integrators(true)) do
+        for _, factor in ipairs(quick and { 1 } or { 0.5, 1, 2 }) do
+          add("release", { model = model, segments = n, integrator = name, dt = factor * dt })
+        end
+      end
+    end
+  end
+  if quick then return end
+  for _, n in ipairs{ 10, 20, 40 } do -- a first-order method wants steps of its own
+    for _, dt in ipairs{ 1e-3, 5e-4, 2e-4, 1e-4 } do
+      add("release", { segments = n, integrator = "implicit-euler", dt = dt })
+    end
+  end
+  for _, n in ipairs{ 10, 20, 40, 80 } do
+    for _, tolerance in ipairs{ 1e-3, 1e-4, 1e-5, 1e-6 } do
+      add("release", { segments = n, integrator = "tr-bdf2", dt = 0.05, tolerance = tolerance })
+    end
+  end
+end
+
+local function add_explicit_release(quick)
+  for _, name in ipairs(bench.integrators(false)) do
+    for _, n in ipairs(quick and { 5, 10 } or { 5, 10, 20, 40 }) do
+      if n < 40 or not name:find "^gsl" then
+        add("release", { segments = n, integrator = name, share = 0.9 })
+      end
+    end
+    if not quick then
+      add("release", { model = "string", segments = 10, integrator = name, share = 0.9 })
+      add("release", { segments = 10, integrator = name, share = 1.15 })
+    end
+  end
+end
+
+local function add_transport(quick)
+  for _, n in ipairs(quick and { 25 } or { 12, 25, 50, 100 }) do
+    for _, model in ipairs{ "rod", "string" } do
+      for _, name in ipairs(bench.integrators(true)) do
+        add("transport", { model = model, segments = n, integrator = name, dt = 0.1 / n })
+      end
+    end
+    if n <= 25 then
+      for _, name in ipairs(bench.integrators(false)) do
+        add("transport", { segments = n, integrator = name, share = 0.9 })
+      end
+    end
+  end
+end
+
+local function add_walls(quick)
+  for _, name in ipairs(bench.integrators(true)) do
+    for _, dt in ipairs(quick and { 0.01 } or { 0.02, 0.01, 0.005, 0.002, 0.001 }) do
+      add("walls", { segments = 100, integrator = name, dt = dt })
+    end
+  end
+  add("walls", { model = "string", segments = 100, integrator = "tr-bdf2", dt = 0.01 })
+  if quick then return end
+  for _, n in ipairs{ 20, 50, 200 } do
+    add("walls", { segments = n, integrator = "tr-bdf2", dt = 0.01 })
+  end
+  for _, name in ipairs{ "symplectic-euler", "velocity-verlet" } do
+    add("walls", { segments = 20, integrator = name, share = 0.9 })
+  end
+end
+
+local function add_scale(quick)
+  for _, n in ipairs(quick and { 100, 10000 } or { 100, 1000, 10000, 100000 }) do
+    add("scale", { segments = n, integrator = "tr-bdf2", dt = 1e-3 })
+  end
+  if quick then return end
+  for _, n in ipairs{ 100, 10000 } do
+    add("scale", { model = "string", segments = n, integrator = "tr-bdf2", dt = 1e-3 })
+    add("scale", { segments = n, integrator = "symplectic-euler", dt = 1e-6 })
+  end
+end
+
+-- Choosing -------------------------------------------------------------------------
+
+local wanted, quick, out = {}, false, "out/bench"
+for _, word in ipairs(arg) do
+  local key, value = word:match "^(%w+)=(.+)$"
+  if word == "quick" then
+    quick = true
+  elseif key == "out" then
+    out = value
+  elseif key == "case" or key == "model" or key == "integrator" or key == "n" then
+    wanted[key] = {}
+    for item in value:gmatch "[^,]+" do wanted[key][item] = true end
+  else
+    io.stderr:write("bench: '", word, "' is none of quick case= model= integrator= n= out=\n")
+    os.exit(2)
+  end
+end
+
+local function chosen(entry)
+  local c = entry.config
+  local function fits(key, value) return not wanted[key] or wanted[key][tostring(value)] end
+  return fits("case", entry.case.name) and fits("model", c.model) and fits("n", c.segments)
+    and fits("integrator", c.integrator or "static")
+end
+
+add_statics(quick)
+add_implicit_release(quick)
+add_explicit_release(quick)
+add_transport(quick)
+add_walls(quick)
+add_scale(quick)
+
+local order = { "droop", "catenary", "lift", "release", "transport", "walls", "scale" }
+local jobs = {}
+for _, name in ipairs(order) do
+  for _, entry in ipairs(plan) do
+    if entry.case.name == name and chosen(entry) then jobs[#jobs + 1] = entry end
+  end
+end
+if #jobs == 0 then
+  io.stderr:write("bench: nothing fits these options\n")
+  os.exit(2)
+end
+
+-- Running --------------------------------------------------------------------------
+
+sink.run("mkdir -p " .. sink.quote(out))
+local path, rows, last = out .. "/bench.csv", {}, nil
+for i, job in ipairs(jobs) do
+  if job.case.name ~= last then
+    last = job.case.name
+    io.stderr:write(("[%d/%d] %s\n"):format(i, #jobs, job.case.title))
+  end
+  rows[i] = bench.row(job.case, job.config)
+  local row = rows[i]
+  if row.status ~= "ok" then
+    io.stderr:write(("[%d/%d]   %s %s N=%d dt=%s: %s %s\n"):format(i, #jobs, row.model, row.integrator,
+      row.segments, row.dt == "" and "-" or ("%.3g"):format(row.dt), row.status, row.reason))
+  end
+end
+bench.write(path, rows)
+
+-- Summary --------------------------------------------------------------------------
+
+local function number(format, x) return x and x ~= "" and format:format(x) or "-" end
+
+local function step_of(row)
+  if row.tolerance ~= "" then return ("tol %g"):format(row.tolerance) end
+  return row.dt ~= "" and ("%.3g ms"):format(1e3 * row.dt) or ""
+end
+
+local function row_name(row)
+  return ("%s N=%d %s %s"):format(row.model, row.segments, row.integrator, step_of(row))
+end
+
+-- The quickest good row of a case that passes.
+local function quickest(case, passes)
+  local best
+  for _, row in ipairs(rows) do
+    if row.case == case and row.status == "ok" and passes(row)
+      and (not best or row.wall < best.wall) then best = row end
+  end
+  return best
+end
+
+local function aim(text, row, seconds, value)
+  if not row then return end
+  print(("  %-44s %9.3f ms %-16s %-5s %s"):format(text, 1e3 * row.wall, value or "",
+    row.wall <= seconds and "met" or ("%.1fx"):format(row.wall / seconds), row_name(row)))
+end
+
+local function most_accurate(case)
+  local best
+  for _, row in ipairs(rows) do
+    if row.case == case and row.status == "ok" and (not best or row.error < best.error) then best = row end
+  end
+  return best
+end
+
+local function print_aims()
+  print "aim                                              measured"
+  for _, t in ipairs{ { 1, nil }, { 0.3, nil }, { 0.2, 2e-4 }, { 0.1, nil }, { 0.05, 8e-4 },
+    { 0.03, nil }, { 0.01, 8e-3 } } do
+    local row = quickest("release", function(r) return r.error <= t[1] end)
+    local default = quickest("release", function(r)
+      return r.error <= t[1] and r.integrator == "tr-bdf2"
+    end)
+    local text = t[2] and ("S2 error <= %g %% in %g ms"):format(t[1], 1e3 * t[2])
+      or ("S2 error <= %g %%"):format(t[1])
+    if row and t[2] then aim(text, row, t[2], number("%.4f %%", row.error))
+    elseif row then
+      print(("  %-44s %9.3f ms %-16s       %s"):format(text, 1e3 * row.wall,
+        number("%.4f %%", row.error), row_name(row)))
+    end
+    if t[2] and default ~= row then
+      aim("   with tr-bdf2, the default", default, t[2], default and number("%.4f %%", default.error))
+    end
+  end
+  local s1 = quickest("droop", function(r) return r.segments == 100 and r.error <= 0.003 end)
+  aim("S1 N = 100, error <= 0.003 % in 0.15 ms", s1, 1.5e-4, s1 and number("%.5f %%", s1.error))
+  local s3 = quickest("walls", function(r)
+    return r.segments == 100 and r.penetration <= 1e-4 and r.crossings == 0
+  end)
+  aim("S3 N = 100, penetration <= 0.1 mm in 50 ms", s3, 0.05, s3 and number("%.4f mm", s3.error))
+end
+
+local function print_walls()
+  local head = false
+  for _, r in ipairs(rows) do
+    if r.case == "walls" then
+      if not head then
+        print("\nS3, laying over walls           dt ms     wall ms  penetration mm  below tops  "
+          .. "solves  rejected")
+      end
+      head = true
+      print(("  %-28s %7.3f  %10.2f  %14s  %10s  %6d  %8d  %s"):format(("%s N=%d %s"):format(r.model,
+        r.segments, r.integrator), 1e3 * r.dt, 1e3 * r.wall, number("%.4f", r.error),
+        r.crossings ~= "" and r.crossings .. "/" .. r.looked or "-", r.iterations, r.rejected,
+        r.status == "ok" and "" or r.status))
+    end
+  end
+end
+
+-- Cost per node and step: largest over smallest; bytes per node of the largest.
+local function scale_ratio()
+  local low, high, large = math.huge, 0, nil
+  for _, r in ipairs(rows) do
+    if r.case == "scale" and r.model == "rod" and r.integrator == "tr-bdf2" and r.status == "ok" then
+      local cost = r.wall / (r.steps * (r.segments + 1))
+      low, high = math.min(low, cost), math.max(high, cost)
+      if not large or r.segments > large.segments then large = r end
+    end
+  end
+  if not large then return end
+  print(("  %-44s %9.2f x  %s"):format("cost per node and step within 1.5x", high / low,
+    high / low <= 1.5 and "met" or "missed"))
+  print(("  %-44s %9.0f B  %s"):format("memory per node < 1 kB (N = " .. large.segments .. ")", large.bytes,
+    large.bytes < 1000 and "met" or "missed"))
+end
+
+local function print_scale()
+  local first = {}
+  for _, r in ipairs(rows) do
+    if r.case == "scale" and r.status == "ok" then
+      local cost = r.wall / (r.steps * (r.segments + 1))
+      local key = r.model .. " " .. r.integrator
+      if not next(first) then
+        print "\ncost of a node                  N   ns/node/step     ratio  evaluations/step  bytes/node"
+      end
+      first[key] = first[key] or cost
+      print(("  %-24s %8d  %12.1f  %8.2f  %16.2f  %10.0f"):format(key, r.segments, 1e9 * cost,
+        cost / first[key], r.evaluations / r.steps, r.bytes))
+    end
+  end
+end
+
+local function print_best()
+  print "\nmost accurate row of each case"
+  for _, name in ipairs{ "droop", "catenary", "lift", "release", "transport" } do
+    local row = most_accurate(name)
+    if row then
+      print(("  %-10s %10.6f %%  %10.3f ms  %s"):format(name, row.error, 1e3 * row.wall, row_name(row)))
+    end
+  end
+end
+
+print_aims()
+scale_ratio()
+print_best()
+print_walls()
+print_scale()
+local bad = {}
+for _, row in ipairs(rows) do
+  if row.status ~= "ok" then bad[row.status] = (bad[row.status] or 0) + 1 end
+end
+local counts = {}
+for status, count in pairs(bad) do counts[#counts + 1] = count .. " " .. status end
+table.sort(counts)
+print(("\n%d rows in %s%s"):format(#rows, path,
+  #counts > 0 and " (" .. table.concat(counts, ", ") .. ")" or ""))

@@ -1,0 +1,167 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Draws error against time from the rows of scripts/bench.lua.
+--   build/softworld scripts/chart.lua [from=out/bench/bench.csv] [out=out/bench] [readme=.readme]
+local bench = require "softworld.bench"
+local benchcases = require "softworld.benchcases"
+local chart = require "softworld.output.chart"
+local gnuplot = require "softworld.output.gnuplot"
+local sink = require "softworld.output.sink"
+
+local options = { from = "out/bench/bench.csv", out = "out/bench", readme = ".readme" }
+for _, word in ipairs(arg) do
+  local key, value = word:match "^(%w+)=(.+)$"
+  if not options[key] then
+    io.stderr:write("chart: '", word, "' is none of from= out= readme=\n")
+    os.exit(2)
+  end
+  options[key] = value
+end
+
+local file = io.open(options.from)
+if not file then
+  io.stderr:write("chart: there is no ", options.from, "; run make bench first\n")
+  os.exit(1)
+end
+file:close()
+local rows = bench.read(options.from)
+
+local useless = 20 -- an error above this is no result: drawn as failed [%]
+
+-- Points of a chart: name(row) gives a row's series, nil leaves it out;
+-- label(row) a text beside the point, or nil.
+local function points_of(case, name, most, label)
+  local points = {}
+  for _, r in ipairs(rows) do
+    local series = r.case == case and r.wall and name(r)
+    if series then
+      local failed = r.status ~= "ok" or not r.error or r.error > (most or math.huge)
+      points[#points + 1] = { x = 1e3 * r.wall, y = not failed and math.max(r.error, 1e-7) or nil,
+        series = series, failed = failed, label = label and label(r) or nil }
+    end
+  end
+  return points
+end
+
+local function draw(path, points, title, ylabel, xlabel, size)
+  if #points == 0 then return end
+  chart.front{ path = path, points = points, title = title, xlabel = xlabel or "computing time [ms]",
+    ylabel = ylabel, size = size or { 900, 560 } }
+  print(path)
+end
+
+local function both(name, ...)
+  for _, extension in ipairs{ ".svg", ".png" } do draw(options.out .. "/" .. name .. extension, ...) end
+end
+
+local function model_and_method(r)
+  local method = r.tolerance and r.integrator .. " adaptive" or r.integrator
+  return r.model == "rod" and method or r.model .. ", " .. method
+end
+
+local tip = "tip error, RMS [% of length]"
+
+-- The release: all methods with the rod; the string with the default one.
+local function release_series(r)
+  if r.model == "string" and r.integrator ~= "tr-bdf2" then return end
+  return model_and_method(r)
+end
+
+local function rest_of(case)
+  return function(r)
+    if case == "walls" then
+      return model_and_method(r) .. (r.dt < 1e-4 and (", N = %d"):format(r.segments) or "")
+    end
+    return r.model
+  end
+end
+
+sink.run("mkdir -p " .. sink.quote(options.out))
+both("release", points_of("release", release_series, useless), "Released cantilever, 1 s: all methods", tip)
+for _, case in ipairs{ "droop", "catenary", "lift" } do
+  if benchcases[case] then
+    both(case, points_of(case, rest_of(case)), benchcases[case].title, "error [%]")
+  end
+end
+both("transport", points_of("transport", release_series, useless), benchcases.transport.title, tip)
+both("walls", points_of("walls", rest_of "walls", nil, function(r)
+  return r.segments ~= 100 and r.integrator == "tr-bdf2" and ("N = %d"):format(r.segments) or nil
+end), "Laying over three thin walls, 5 s: contact depth",
+  "deepest penetration [mm]")
+
+-- The README's chart ----------------------------------------------------------------
+-- A line for each method through its best settings: few series, plain numbers on the axes.
+
+local shown = {
+  { "tr-bdf2", "TR-BDF2 (default)", "#0072B2", 7, 3 },
+  { "implicit-midpoint", "implicit midpoint", "#009E73", 9, 1.5 },
+  { "bdf2", "BDF2", "#CC79A7", 11, 1.5 },
+  { "implicit-euler", "implicit Euler", "#D55E00", 5, 1.5 },
+  { "string", "string model, TR-BDF2", "#888888", 13, 1.5 },
+  { "symplectic-euler", "symplectic Euler", "#E69F00", 6, 1.5 },
+  { "velocity-verlet", "velocity Verlet", "#56B4E9", 4, 1.5 },
+  { "rk4", "Runge-Kutta 4", "#000000", 8, 1.5 },
+}
+
+local is_shown = {}
+for _, s in ipairs(shown) do is_shown[s[1]] = true end
+
+local function readme_series(r)
+  if r.tolerance then return end
+  if r.model == "string" then return r.integrator == "tr-bdf2" and "string" or nil end
+  return is_shown[r.integrator] and r.integrator or nil
+end
+
+local function lines_of(points)
+  local lines = {}
+  for _, p in ipairs(chart.pareto(points)) do
+    lines[#lines + 1] = gnuplot.number(p.x) .. " " .. gnuplot.number(p.y)
+  end
+  return lines
+end
+
+local function group(points)
+  local groups, failed = {}, {}
+  for _, p in ipairs(points) do
+    groups[p.series] = groups[p.series] or {}
+    table.insert(groups[p.series], p)
+    if p.failed then failed[#failed + 1] = gnuplot.number(p.x) .. " 30" end
+  end
+  return groups, failed
+end
+
+local function draw_readme(path, points)
+  local script, groups, failed = gnuplot.script(), group(points)
+  local dot = path:find "svg$" and 0.7 or 1
+  script.add [[
+set logscale xy
+set xrange [0.02:200]
+set yrange [4e-4:50]
+set xtics ('0.1' 0.1, '1' 1, '10' 10, '100' 100)
+set ytics ('0.001 %%' 0.001, '0.01 %%' 0.01, '0.1 %%' 0.1, '1 %%' 1, '10 %%' 10)
+set mxtics default
+set key outside right center vertical spacing 1.25
+set title 'One second of a released 1 m wire: error against computing time' noenhanced
+set xlabel 'computing time on one core [ms]' noenhanced
+set ylabel 'tip error, RMS, of the length' noenhanced]]
+  local plots = {}
+  for _, s in ipairs(shown) do
+    local list = groups[s[1]] and lines_of(groups[s[1]]) or {}
+    if #list > 0 then
+      plots[#plots + 1] = ("%s using 1:2 with linespoints pt %d ps %g lw %g lc rgb '%s' title '%s'"):format(
+        script.data(list), s[4], dot, s[5], s[3], s[2])
+    end
+  end
+  if #failed > 0 then
+    plots[#plots + 1] = script.data(failed) .. (" using 1:2 with points pt 2 ps %g lw 2 "):format(dot)
+      .. "lc rgb '#aa2222' title 'step too large: diverges'"
+  end
+  script.add("plot " .. table.concat(plots, ", "))
+  print(gnuplot.draw(script, path, { 880, 440 }))
+end
+
+local release = points_of("release", readme_series, useless)
+if #release > 0 then
+  sink.run("mkdir -p " .. sink.quote(options.readme))
+  draw_readme(options.readme .. "/speed-accuracy.svg", release)
+  draw_readme(options.out .. "/speed-accuracy.png", release)
+end

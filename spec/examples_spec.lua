@@ -1,0 +1,247 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Every example runs as a user would run it, and the numbers it prints are those of
+-- independent solutions.
+local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec"
+local program = dofile(here .. "/host/program.lua")
+local core = require "softworld.core"
+require "softworld"
+
+local g = 9.81
+
+-- What an example prints, and all numbers in it in their order.
+local function example(name, ...)
+  local out, err, code = program.run { "examples/" .. name .. ".lua", ... }
+  assert(code == 0, name .. " failed: " .. err)
+  local numbers = {}
+  for word in out:gmatch "%f[%w+-][+-]?%d[%d.]*[eE]?[+-]?%d*" do
+    numbers[#numbers + 1] = tonumber(word)
+  end
+  return out, numbers
+end
+
+local function after(out, words)
+  local _, stop = out:find(words, 1, true)
+  assert(stop, "'" .. words .. "' was not printed:\n" .. out)
+  return tonumber(out:match("^%s*([+-]?%d[%d.]*[eE]?[+-]?%d*)", stop + 1))
+end
+
+local function near(expected, value, tolerance, what)
+  local off = math.abs(value / expected - 1)
+  assert(off <= tolerance, ("%s: %.6g instead of %.6g, off by %.2g, allowed %.2g"):format(what or "value",
+    value, expected, off, tolerance))
+end
+
+describe("example", function()
+  teardown(program.clean)
+
+  -- Stiff catenary with level clamps, L / span = 1.05, w L^3 / EI = 100. Independent solution of the
+  -- boundary value problem (collocation, error 7e-10): sag 0.1376655073 L, horizontal tension
+  -- 0.30120686 w L, clamp moment 5.631296552 EI / L. With 100 segments the rod is off by its mesh
+  -- error, which is below 1e-3 for all three; forces in z are statics and exact to the tolerance of settle.
+  it("01: sag and end forces of a hanging cable", function()
+    local out = example "01_hanging_cable"
+    local w, EI = 0.03 * g, 2.943e-3
+    near(0.1376655073, after(out, "sag"), 1e-3, "sag")
+    near(0.30120686 * w, after(out, "tension in the middle"), 2e-3, "tension")
+    local clamps = {}
+    for along, up, moment in out:gmatch "clamp: (%S+) N along, (%S+) N up, moment (%S+)" do
+      clamps[#clamps + 1] = { tonumber(along), tonumber(up), tonumber(moment) }
+    end
+    assert.are.equal(2, #clamps)
+    for i, clamp in ipairs(clamps) do
+      local side = i == 1 and -1 or 1
+      near(side * 0.30120686 * w, clamp[1], 2e-3, "pull of a clamp")
+      near(w / 2, clamp[2], 1e-4, "half the weight") -- five printed digits
+      near(side * 5.631296552 * EI, clamp[3], 2e-3, "moment of a clamp")
+    end
+  end)
+
+  -- Heavy cantilever. w L^3 / EI is 10 at 1 m: independent shooting solution, droop 0.7001997155 L.
+  -- It is 0.08 at 0.2 m, where the beam formula is right to about 1e-4 (at 0.1 shooting gives 0.999875
+  -- of it). 50 segments are off by 2.3e-4 L at most.
+  it("02: droop of a cable's end", function()
+    local out = example "02_cantilever"
+    local droop = {}
+    for length, value, formula in out:gmatch "(%S+) m%s+(%S+) m%s+(%S+) m" do
+      droop[tonumber(length)] = { tonumber(value), tonumber(formula) }
+    end
+    near(0.7001997155, droop[1][1], 5e-4, "droop at 1 m")
+    near(0.01 * 0.2, droop[0.2][1], 5e-3, "droop at 0.2 m") -- three digits are printed
+    assert.is_true(droop[0.5][1] < droop[0.5][2] and droop[0.5][1] > 0.97 * droop[0.5][2])
+    near(1.25, droop[1][2], 1e-5, "beam formula")
+  end)
+
+  describe("03, laying,", function()
+    local scene, run, folder
+    local EI, radius = 5e7 * math.pi * 0.0025 ^ 4 / 4, 0.0025
+    local w = 1500 * math.pi * 0.0025 ^ 2 * g
+    local weight, friction = w * 1.25, 0.3
+
+    -- Load it into this process, and keep the scene and the run that it makes.
+    setup(function()
+      folder = program.folder()
+      local name, real = "examples/03_laying.lua", core.class.scene.run
+      core.class.scene.run = function(self, args)
+        args.progress = nil
+        scene, run = self, real(self, args)
+        rawset(run, "summary", function() end) -- the next test runs it aloud
+        return run
+      end
+      local env = setmetatable({ arg = { [0] = name, "quick", folder }, print = function() end },
+        { __index = _G })
+      local ok, err = pcall(assert(loadfile(name, "t", env)))
+      core.class.scene.run = real
+      assert(ok, err)
+    end)
+
+    local function column(series, name)
+      for _, c in ipairs(series.columns) do
+        if c.name == name then return c.values end
+      end
+      error("no series " .. name)
+    end
+
+    -- Means over the time in which the gripper draws, up at about 160 mm, and no wall is touched yet.
+    -- moment_expected: see the test of the moment.
+    local function drawing()
+      local series = run:series()
+      local wall, fz = column(series, "wall 1.contact_force"), column(series, "gripper.force_z")
+      local fx, moment = column(series, "gripper.force_x"), column(series, "gripper.moment")
+      local load = column(series, "table.contact_force")
+      local rows = require("softworld.build").data(scene).grippers[1].past[1]:log()
+      local mean = { fx = 0, fz = 0, load = 0, moment = 0, moment_expected = 0 }
+      local time, pad, front, i = 0, 0.01, 0.02, 2
+      while wall[i] == 0 do
+        local at = 10 * (i - 1)
+        assert.are.equal(series.time[i], rows[at + 1])
+        if rows[at + 8] > 0.06 then -- past the first corner of its way
+          local step, h = series.time[i] - series.time[i - 1], rows[at + 10] - radius
+          local shear = fz[i] - w * (2 * pad + front)
+          local expected = (2 * w * h * EI) ^ 0.5 + pad * shear - w * front * (pad + front / 2)
+          for name, value in pairs { fx = fx[i], fz = fz[i], load = load[i], moment = moment[i],
+            moment_expected = expected } do
+            mean[name] = mean[name] + step * value
+          end
+          time = time + step
+        end
+        i = i + 1
+      end
+      assert.is_true(time > 1, "the time before the first wall is too short")
+      for name, sum in pairs(mean) do mean[name] = sum / time end
+      return mean
+    end
+
+    it("prints plausible numbers", function()
+      local out = example("03_laying", "quick", folder)
+      out = out:sub((out:find "peak force %d%S+ N,")) -- the summary comes first
+      local force, moment = after(out, "peak force"), after(out, "mean moment")
+      local bend, tension = after(out, "bend radius"), after(out, "largest tension")
+      -- More than drags it over the table, less than its whole weight: nothing jerks or jams.
+      assert.is_true(force > friction * weight and force < weight, "peak force " .. force)
+      assert.is_true(tension > 0.5 * friction * weight and tension < force, "tension " .. tension)
+      -- The wire bends most beside the pads, where the moment is smaller than at the tool centre by
+      -- the pull times half a pad.
+      local largest = 0
+      for _, m in ipairs(column(run:series(), "gripper.moment")) do
+        if m == m then largest = math.max(largest, m) end
+      end
+      assert.is_true(bend > EI / largest and bend < 1.25 * EI / largest, "bend radius " .. bend)
+      assert.is_true(moment > 0.2 * largest and moment < largest)
+      assert.is_true(after(out, "deepest penetration") < 1e-4)
+    end)
+
+    -- Forces balance: the table bears what the gripper does not, and friction pulls by mu times that.
+    -- The means are over two swings of the wire, which also gains speed: 70 mm/s2 of its 37 g are 2.6 mN,
+    -- 4 % of the drag.
+    it("drags the wire with friction times load", function()
+      local mean = drawing()
+      local normal = mean.load / (1 + friction ^ 2) ^ 0.5 -- the series has the magnitude of both
+      near(weight, normal + mean.fz, 0.005, "weight")
+      near(friction * normal, mean.fx, 0.05, "drag")
+    end)
+
+    -- The first integral EI k^2 / 2 + tension - w z of a heavy elastica between the lift-off point, where
+    -- k = 0, and the pad, both level with the same horizontal tension: M = sqrt(2 w h EI). The tool
+    -- centre adds half a pad times the shear force beside the pad, less the wire's end that hangs out in
+    -- front. 1 %: it swings, and segments of 10 mm follow the curve.
+    it("bears the moment of the lifted wire", function()
+      local mean = drawing()
+      near(mean.moment_expected, mean.moment, 0.01, "moment")
+    end)
+
+    it("never lets the wire into a wall, and leaves it over all three", function()
+      local frames, over = run:frames(), {}
+      assert.is_true(#frames > 100)
+      for _, frame in ipairs(frames) do
+        local x = frame.wires[1]
+        for i, wall in ipairs { 0.15, 0.45, 0.75 } do
+          over[i] = false
+          for k = 1, #x - 5, 3 do
+            for _, face in ipairs { wall - 0.005, wall, wall + 0.005 } do
+              local a, b = x[k] - face, x[k + 3] - face
+              if a * b <= 0 and a ~= b then
+                local z = x[k + 2] + (x[k + 5] - x[k + 2]) * a / (a - b)
+                -- The surface of the wire stays above the top, but for 0.1 mm.
+                assert.is_true(z - radius > 0.1 - 1e-4,
+                  ("t = %g s: z = %g m in wall %d"):format(frame.t, z, i))
+                over[i] = true
+              end
+            end
+          end
+        end
+      end
+      assert.are.same({ true, true, true }, over)
+      assert.is_true(scene:penetration() < 1e-4)
+    end)
+
+    it("writes its series and its guide", function()
+      local series = program.read(folder .. "/laying.csv")
+      assert.truthy(series:match "^t %[s%],gripper.force %[N%]")
+      assert.truthy(program.read(folder .. "/guide.stl"):match "^solid guide")
+    end)
+  end)
+
+  -- At rest the vertical forces add up to the weight. The scene is mirror-symmetric while both hold;
+  -- after the release the wire swings, damped, for 5 s.
+  it("04: two grippers share the weight, then one bears all", function()
+    local out = example "04_two_grippers"
+    local weight = 1500 * math.pi * 0.0025 ^ 2 * 0.8 * g
+    near(weight, after(out, "together"), 2e-3, "together")
+    near(weight / 2, after(out, "hold: left"), 5e-3, "half of it")
+    near(weight, after(out, "left alone:"), 1e-2, "left alone")
+    near(weight, after(out, "; weight"), 1e-3, "weight")
+  end)
+
+  -- Independent shooting solution of the heavy cantilever: w L^3 / EI = 4.641588834 droops by
+  -- 0.4721301176 L, which is 0.37770 m at 0.8 m. So EI = w L^3 / 4.641588834; 60 segments are off by
+  -- about 2e-4 in the droop, thus by about as much in EI.
+  it("05: finds the bending stiffness from a droop", function()
+    local out = example "05_tuning"
+    near(0.03 * g * 0.8 ^ 3 / 4.641588834, after(out, "EI ="), 1e-3, "EI")
+    near(0.3777, after(out, "droop"), 1e-4, "droop")
+    assert.is_true(after(out, "after") <= 40)
+  end)
+
+  -- The wire ends up hanging over the wall, pulled by its own friction: less than its weight, 0.289 N.
+  it("of the README runs as it stands", function()
+    local blocks = {}
+    for block in program.read "README.md":gmatch "```lua\n(.-)```" do blocks[#blocks + 1] = block end
+    local out, err, code = program.script(blocks[1])
+    assert.are.equal(0, code, err)
+    local force = tonumber(out:match "\n(%S+)%s+%S+%s+%S+%s+%S+%s+%S+\n$")
+    assert.is_true(force > 0.05 and force < 0.289, out)
+    local ending = '\nlocal r = scene:run { duration = 0.1 }\nprint(r.ok)'
+    out, err, code = program.script((blocks[1]:gsub("scene:process.*", "")) .. blocks[2] .. ending)
+    assert.are.equal(0, code, err)
+    assert.are.equal("true\n", out)
+  end)
+
+  it("of every number is tested here", function()
+    local names = io.popen "ls examples/*.lua"
+    local mine = program.read(here .. "/examples_spec.lua")
+    for name in names:lines() do
+      assert.truthy(mine:find(name:match "([^/]+)%.lua$", 1, true), name .. " has no spec")
+    end
+    names:close()
+  end)
+end)

@@ -1,0 +1,120 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- What the physics specs share: comparisons that tell their figures, orders, momentum.
+local tools = {}
+
+-- At level 3: the line of the spec that asked.
+local function check(good, format, ...)
+  if not good then error(format:format(...), 3) end
+end
+
+--- |actual - expected| <= tolerance, told with numbers.
+function tools.near(expected, actual, tolerance, what)
+  local off = math.abs(actual - expected)
+  check(off <= tolerance, "%s: expected %.10g, got %.10g: %.3g off, allowed %.3g",
+    what or "value", expected, actual, off, tolerance)
+end
+
+--- Relative to the expected value.
+function tools.share(expected, actual, tolerance, what)
+  local off = math.abs(actual / expected - 1)
+  check(off <= tolerance, "%s: expected %.10g, got %.10g: %.3g of it off, allowed %.3g",
+    what or "value", expected, actual, off, tolerance)
+end
+
+function tools.below(limit, value, what)
+  check(value <= limit, "%s is %.4g, allowed %.4g", what or "value", value, limit)
+end
+
+function tools.above(limit, value, what)
+  check(value >= limit, "%s is %.4g, wanted %.4g", what or "value", value, limit)
+end
+
+--- A settle or run went well.
+function tools.fine(result)
+  check(result.ok, "%s", result.reason)
+  return result
+end
+
+--- Slope of -log(error(n)) over log(n), least squares; and the errors as text.
+function tools.order(numbers, error_of)
+  local sx, sy, sxx, sxy, k, list = 0, 0, 0, 0, #numbers, {}
+  for i, n in ipairs(numbers) do
+    local e = error_of(n)
+    local x, y = math.log(n), math.log(e)
+    sx, sy, sxx, sxy = sx + x, sy + y, sxx + x * x, sxy + x * y
+    list[i] = ("%g: %.3g"):format(n, e)
+  end
+  return -(k * sxy - sx * sy) / (k * sxx - sx * sx), table.concat(list, ", ")
+end
+
+--- The order is at least this.
+function tools.order_at_least(least, numbers, error_of, what)
+  local slope, list = tools.order(numbers, error_of)
+  check(slope >= least, "%s: order %.2f, wanted %.2f (%s)", what or "error", slope, least, list)
+  return slope
+end
+
+function tools.distance(a, b)
+  return ((a[1] - b[1]) ^ 2 + (a[2] - b[2]) ^ 2 + (a[3] - b[3]) ^ 2) ^ 0.5
+end
+
+function tools.norm(a) return (a[1] ^ 2 + a[2] ^ 2 + a[3] ^ 2) ^ 0.5 end
+
+function tools.cross(a, b)
+  return { a[2] * b[3] - a[3] * b[2], a[3] * b[1] - a[1] * b[3], a[1] * b[2] - a[2] * b[1] }
+end
+
+-- Calls visit(mass, x, v) for points that carry the wire's momentum exactly: two Gauss
+-- points per edge of linear positions and velocities.
+local function material(wire, visit)
+  local x, s = wire:positions()
+  local v, m = wire:velocities(), wire.beam.mass_per_length
+  for i = 1, #s - 1 do
+    for _, f in ipairs{ 0.5 - 0.5 / 3 ^ 0.5, 0.5 + 0.5 / 3 ^ 0.5 } do
+      local p, q = {}, {}
+      for k = 1, 3 do
+        p[k] = x[3 * i - 3 + k] * (1 - f) + x[3 * i + k] * f
+        q[k] = v[3 * i - 3 + k] * (1 - f) + v[3 * i + k] * f
+      end
+      visit(0.5 * m * (s[i + 1] - s[i]), p, q)
+    end
+  end
+end
+
+--- Momentum [N s] and angular momentum about the origin [N m s] of a wire.
+function tools.momentum(wire)
+  local p, l = { 0, 0, 0 }, { 0, 0, 0 }
+  material(wire, function(m, x, v)
+    local c = tools.cross(x, v)
+    for k = 1, 3 do p[k], l[k] = p[k] + m * v[k], l[k] + m * c[k] end
+  end)
+  return p, l
+end
+
+--- A source of numbers in [-1, 1], the same on every machine.
+function tools.random(seed)
+  local state = seed
+  return function()
+    state = state * 6364136223846793005 + 1442695040888963407
+    return ((state >> 11) & 0x1fffffffffffff) / 0x10000000000000 - 1
+  end
+end
+
+--- A random unit quaternion.
+function tools.turn(random)
+  local q, n
+  repeat
+    q = { random(), random(), random(), random() }
+    n = (q[1] ^ 2 + q[2] ^ 2 + q[3] ^ 2 + q[4] ^ 2) ^ 0.5
+  until n > 0.1 and n < 1
+  return { q[1] / n, q[2] / n, q[3] / n, q[4] / n }
+end
+
+--- Largest difference of two flat lists.
+function tools.largest_difference(a, b)
+  local most = 0
+  for i = 1, math.max(#a, #b) do most = math.max(most, math.abs(a[i] - b[i])) end
+  return most
+end
+
+return tools
