@@ -75,6 +75,10 @@ static sw_status inherit_contact(sw_scene *s) {
 
 /* Twist by stretch of wire, for the spans of the next system. */
 static sw_status keep_twist(sw_scene *s) {
+  for (size_t k = 0; k < s->system.hold_count; k++) {
+    const double *q = s->system.turn + 4 * k;
+    s->holds[s->hold_slot[k]].turn = (sw_quat){q[0], q[1], q[2], q[3]};
+  }
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_body *b = &s->system.bodies[w];
     sw_scene_wire *wire = &s->wires[w];
@@ -93,9 +97,15 @@ static sw_status keep_twist(sw_scene *s) {
   return SW_OK;
 }
 
+static void store_turn(double *out, sw_quat q) {
+  out[0] = q.w, out[1] = q.x, out[2] = q.y, out[3] = q.z;
+}
+
 /* A new span takes over the twist of the stretches it covers; what lies outside
  * of all spans has unwound through a free end. */
 static void inherit_twist(sw_scene *s) {
+  for (size_t k = 0; k < s->system.hold_count; k++)
+    store_turn(s->system.turn + 4 * k, s->holds[s->hold_slot[k]].turn);
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_body *b = &s->system.bodies[w];
     const sw_scene_wire *wire = &s->wires[w];
@@ -281,7 +291,6 @@ sw_status sw_scene_build(sw_scene *s, sw_error *err) {
       drop(s);
       return status;
     }
-    sw_system_take_turns(&s->system);
     inherit_twist(s);
     s->built = 1;
     sw_scene_forget_contact(s);

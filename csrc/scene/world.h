@@ -50,6 +50,7 @@ typedef struct sw_scene_hold {
   double *s;           /* (count) arc lengths when taken hold of [m] */
   double *local;       /* (count x 3) in the hold's frame [m] */
   sw_vec director[2];  /* arriving, leaving; in the hold's frame [-] */
+  sw_quat turn;         /* orientation that goes with the wire's twist, while not built */
   sw_vec force, moment; /* last, kept after release [N], [N m] */
   sw_pose last_pose;
   sw_log log;
