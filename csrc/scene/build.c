@@ -209,11 +209,18 @@ static sw_status add_holds(sw_scene *s, size_t alive) {
   return SW_OK;
 }
 
+static sw_pose part_way(const sw_pose *from, const sw_pose *to, double share) {
+  const sw_vec turn = sw_quat_log(sw_quat_mul(to->q, sw_quat_conj(from->q)));
+  return (sw_pose){sw_lerp(from->p, to->p, share),
+                   sw_quat_unit(sw_quat_mul(sw_quat_exp(sw_scale(turn, share)), from->q))};
+}
+
 static sw_status place_hold(void *user, int hold, double t, sw_hold_state *out, sw_error *err) {
   sw_scene *s = user;
   sw_motion_state m;
   SW_TRY(sw_drive_eval(s, &s->holds[s->hold_slot[hold]].drive, t, &m, err));
   *out = (sw_hold_state){m.pose, m.v, m.a, m.omega, m.alpha};
+  if (s->part_from) out->pose = part_way(&s->part_from[hold], &m.pose, s->part);
   return SW_OK;
 }
 

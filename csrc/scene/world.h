@@ -95,6 +95,9 @@ struct sw_scene {
   sw_scene_force *forces;
   size_t force_count, force_capacity;
 
+  const sw_pose *part_from; /* settling: where the holds come from, or NULL */
+  double part;              /* share of their way [-] */
+
   int built;        /* system is valid and holds the state */
   int running;      /* above 0 inside a step or a user's function: edits are refused */
   sw_system system;
