@@ -46,7 +46,7 @@ static double longest(const sw_scene *s) {
 
 static sw_status solve(statics *p, double hbar, const sw_newton *newton, sw_error *err) {
   sw_scene *s = p->s;
-  sw_stage_report r;
+  sw_stage_report r = {0};
   const sw_stage stage = {
       .time = s->time, .hbar = hbar, .xhat = p->from, .vhat = p->zero, .y = p->y, .v = p->v};
   memcpy(p->from, s->system.x, 3 * s->system.nodes * sizeof(double));
