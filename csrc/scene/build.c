@@ -283,7 +283,7 @@ sw_status sw_scene_build(sw_scene *s, sw_error *err) {
   if (!s->built) {
     size_t alive = 0;
     for (size_t k = 0; k < s->hold_count; k++) alive += s->holds[k].alive != 0;
-    sw_plan **plans = sw_alloc(s->wire_count, sizeof *plans);
+    sw_plan **plans = sw_alloc(s->wire_count, sizeof(sw_plan *));
     sw_status status = plans ? new_plans(s, plans) : SW_ENOMEM;
     if (status == SW_OK) status = sw_system_new(&s->system, plans, s->wire_count, alive);
     if (status == SW_OK) status = fill(s, alive);

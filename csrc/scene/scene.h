@@ -276,6 +276,6 @@ sw_status sw_scene_snapshot(sw_scene *scene, sw_snapshot **out, sw_error *err);
 sw_status sw_scene_restore(sw_scene *scene, const sw_snapshot *snapshot, sw_error *err);
 void sw_snapshot_free(sw_snapshot *snapshot); /* NULL is allowed */
 double sw_snapshot_time(const sw_snapshot *snapshot); /* [s] */
-int sw_snapshot_busy(const sw_snapshot *snapshot); /* its scene is busy: do not free it */
+int sw_snapshot_busy(const sw_snapshot *snapshot); /* being restored: do not free it */
 
 #endif

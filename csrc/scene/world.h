@@ -84,6 +84,7 @@ struct sw_scene {
   char name[SW_NAME_SIZE];
   uint32_t serial;        /* generation of the object made last */
   sw_snapshot *snapshots; /* the living ones, a list */
+  const sw_snapshot *restoring; /* being restored now, or NULL */
   sw_vec gravity;
   double time;
   sw_scene_wire *wires;
