@@ -223,8 +223,8 @@ describe("example", function()
   end)
 
   -- Frequencies in the plane of the sag: an independent solution by Hermite elements for this wire,
-  -- 6.869191615 and 11.08168389 Hz. The response: its modes' damped oscillators, which base and damper drive, for
-  -- the same cable; 0.2 mm are small enough for that to 1 %.
+  -- 6.869191615 and 11.08168389 Hz. The response: its modes' damped oscillators, which base and damper
+  -- drive, for the same cable; 0.2 mm are small enough for that to 1 %.
   it("06: frequencies, and the answer to a shaking base", function()
     local out = example "06_vibration"
     local list = {}

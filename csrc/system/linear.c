@@ -12,6 +12,7 @@
 #include "solve/band3.h"
 #include "system/assemble.h"
 #include "system/system.h"
+#include "system/twist.h"
 
 sw_status sw_system_linearise(sw_system *s, double time, sw_error *err) {
   const sw_coupling *c = &s->coupling;
@@ -25,6 +26,7 @@ sw_status sw_system_linearise(sw_system *s, double time, sw_error *err) {
   for (size_t b = 0; b < s->body_count; b++) {
     const size_t at = 3 * s->bodies[b].first_node;
     sw_gather_residual(&s->bodies[b].field, 0.0, s->x + at, s->x + at, s->delta + at);
+    if (s->bodies[b].has_twist) sw_twist_gather(&s->bodies[b]);
   }
   for (size_t i = 0; i < s->held_count; i++)
     sw_store(s->delta + 3 * s->held[i].node, sw_v(0, 0, 0));
@@ -44,8 +46,12 @@ size_t sw_system_free_unknowns(const sw_system *s, size_t body) {
   return sw_system_unknowns(s, body) - 3 * held;
 }
 
+/* A factor: that of the band, then for twist its inverse times the slopes of the
+ * spans (nodes x 3), and each span's term of Sherman and Morrison. */
 size_t sw_system_factor_size(const sw_system *s, size_t body) {
-  return SW_ROW_SIZE * s->bodies[body].plan->nodes;
+  const sw_body *b = &s->bodies[body];
+  return SW_ROW_SIZE * b->plan->nodes +
+         (b->has_twist ? 3 * b->plan->nodes + b->plan->span_count : 0);
 }
 
 void sw_system_residual(const sw_system *s, size_t body, double *out) {
@@ -84,21 +90,48 @@ void sw_system_fix_held(const sw_system *s, size_t body, double *motion) {
 
 static void shifted_rows(const sw_system *s, size_t body, double shift, double *rows) {
   const sw_body *b = &s->bodies[body];
-  memcpy(rows, b->field.rows, sw_system_factor_size(s, body) * sizeof *rows);
+  memcpy(rows, b->field.rows, SW_ROW_SIZE * b->plan->nodes * sizeof *rows);
   sw_gather_rows(&b->field, -shift, rows);
   for (size_t i = 0; i < s->held_count; i++)
     if (s->held[i].body == body) sw_drop_row(rows, s->held[i].node - b->first_node);
 }
 
-sw_status sw_system_factor(const sw_system *s, size_t body, double shift, double *factor,
-                           size_t *below) {
-  const size_t n = s->bodies[body].plan->nodes;
-  shifted_rows(s, body, shift, factor);
-  return sw_band3_factor(factor, n, factor, below);
+/* Spans are apart in the matrix: a held node is between them. */
+static size_t factor_twist(const sw_system *s, size_t body, double *factor) {
+  const sw_body *b = &s->bodies[body];
+  double *solved = factor + SW_ROW_SIZE * b->plan->nodes, *self = solved + 3 * b->plan->nodes;
+  size_t negative = 0;
+  memcpy(solved, b->twist_rank, 3 * b->plan->nodes * sizeof *solved);
+  sw_system_fix_held(s, body, solved);
+  sw_band3_solve(factor, b->plan->nodes, solved);
+  for (size_t k = 0; k < b->plan->span_count; k++) {
+    self[k] = 1.0 + b->field.twist_stiffness[k] * sw_twist_dot(b, &b->plan->spans[k], solved);
+    negative += self[k] < 0;
+  }
+  return negative;
 }
 
-void sw_system_factor_solve(const sw_system *s, size_t body, const double *factor, double *b) {
-  sw_band3_solve(factor, s->bodies[body].plan->nodes, b);
+sw_status sw_system_factor(const sw_system *s, size_t body, double shift, double *factor,
+                           size_t *below) {
+  const sw_body *b = &s->bodies[body];
+  size_t negative = 0;
+  shifted_rows(s, body, shift, factor);
+  SW_TRY(sw_band3_factor(factor, b->plan->nodes, factor, &negative));
+  if (b->has_twist) negative -= factor_twist(s, body, factor);
+  if (below) *below = negative;
+  return SW_OK;
+}
+
+void sw_system_factor_solve(const sw_system *s, size_t body, const double *factor, double *x) {
+  const sw_body *b = &s->bodies[body];
+  const double *solved = factor + SW_ROW_SIZE * b->plan->nodes;
+  const double *self = solved + 3 * b->plan->nodes;
+  sw_band3_solve(factor, b->plan->nodes, x);
+  for (size_t k = 0; b->has_twist && k < b->plan->span_count; k++) {
+    const sw_span *span = &b->plan->spans[k];
+    const double share = b->field.twist_stiffness[k] * sw_twist_dot(b, span, x) / self[k];
+    for (size_t i = 3 * span->first; i < 3 * (span->last + 2); i++) x[i] -= share * solved[i];
+  }
 }
 
 double sw_system_stiffest(const sw_system *s, size_t body, double *work) {
@@ -142,7 +175,14 @@ void sw_field_stiffness_times(const sw_field *f, const double *d, double *out) {
 
 void sw_system_stiffness_times(const sw_system *s, size_t body, const double *motion,
                                double *out) {
-  sw_field_stiffness_times(&s->bodies[body].field, motion, out);
+  const sw_body *b = &s->bodies[body];
+  sw_field_stiffness_times(&b->field, motion, out);
+  for (size_t k = 0; b->has_twist && k < b->plan->span_count; k++) {
+    const sw_span *span = &b->plan->spans[k];
+    const double torque = b->field.twist_stiffness[k] * sw_twist_dot(b, span, motion);
+    for (size_t i = 3 * span->first; i < 3 * (span->last + 2); i++)
+      out[i] += torque * b->twist_rank[i];
+  }
   sw_system_fix_held(s, body, out);
 }
 

@@ -34,21 +34,15 @@ describe("wire:frequencies", function()
   end)
 
   it("has no more than the wire has free unknowns", function()
-    local wire = modal.wire("clamps", { segments = 3 })
-    local f = wire:frequencies{ modes = 6 }
-    assert.are.equal(6, #f)
-    for i = 2, 6 do assert.is_true(f[i] >= f[i - 1] and f[i] < math.huge) end
-    refused("7 modes are more than the 6 free unknowns", wire.frequencies, wire, { modes = 7 })
+    local wire = modal.wire("clamps", { segments = 5 })
+    local f = wire:frequencies{ modes = 12 }
+    assert.are.equal(12, #f)
+    for i = 2, 12 do assert.is_true(f[i] >= f[i - 1] and f[i] < math.huge) end
+    refused("13 modes are more than the 12 free unknowns", wire.frequencies, wire, { modes = 13 })
     for segments = 2, 7 do
       local w = modal.wire("clamp", { segments = segments })
       assert.are.equal(3 * segments, #w:frequencies{ modes = 3 * segments })
     end
-    local scene = sw.scene{}
-    local rigid = cable(scene, { segments = 2 })
-    scene:clamp(rigid, { s = 0 })
-    scene:clamp(rigid, { s = 1 })
-    scene:pin(rigid, { s = 0.5 })
-    refused("free unknowns", rigid.frequencies, rigid, { modes = 1 })
   end)
 
   it("refuses what is not at rest", function()
