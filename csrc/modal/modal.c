@@ -254,7 +254,7 @@ static sw_status polish(const job *p, sw_modes *out) {
   double *dense = sw_alloc(3 * q * q + 2 * q, sizeof *dense);
   double *w = sw_alloc(2 * p->n, sizeof *w);
   sw_status status = x && dense && w ? SW_OK : out_of_memory(p);
-  for (size_t r = 0; status == SW_OK && r < q; r++) {
+  for (size_t r = 0; x && status == SW_OK && r < q; r++) {
     x[r] = sw_alloc(p->n, sizeof *x[r]);
     if (!x[r]) status = out_of_memory(p);
   }
