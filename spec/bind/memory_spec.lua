@@ -151,8 +151,8 @@ describe("running out of memory", function()
         scene:restore(scene:snapshot())
         assert.are.equal("table", type(scene:settle()))
         scene:close()
-        assert.are.equal(before, in_use(), ("request %d of %s"):format(n, name))
       until not reached
+      assert.are.equal(before, in_use()) -- of all walks together: collecting takes long
       assert.is_true(failures > 0 or n == 1, "nothing ever failed")
     end)
   end
