@@ -111,6 +111,7 @@ static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system
       p->y[last][i] = 2.0 * p->y[last][i] - s->x[i];
       p->w[last][i] = 2.0 * p->w[last][i] - s->v[i];
     }
+    for (size_t e = 0; e < s->edges; e++) s->tension[e] = 2.0 * s->tension[e] - p->tension[e];
     SW_TRY(sw_system_place_holds(s, t + h, p->y[last], p->w[last], NULL, err));
   }
   p->trial_x = p->y[last];
@@ -166,9 +167,11 @@ void sw_stepper_accept(sw_stepper *p, sw_system *s, double h) {
     memcpy(p->xp, s->x, p->n * sizeof(double));
     memcpy(p->vp, s->v, p->n * sizeof(double));
   }
+  sw_system_follow(s, p->trial_x);
   memcpy(s->x, p->trial_x, p->n * sizeof(double));
   memcpy(s->v, p->trial_v, p->n * sizeof(double));
   if (p->trial_a) memcpy(s->a, p->trial_a, p->n * sizeof(double));
+  if (!(p->method->flags & SW_INTEGRATOR_IMPLICIT)) sw_system_axial_from_state(s);
   p->last_h = h;
   p->restart = 0;
 }

@@ -57,14 +57,11 @@ static double angle_between(sw_vec a, sw_vec b) {
   return 2.0 * asin(fmin(1.0, 0.5 * sw_dist(a, b)));
 }
 
-static int is_rigid(const sw_plan *p, size_t e) {
-  return p->held[e] != SW_FREE && p->held[e + 1] != SW_FREE;
-}
-
-/* Is the edge the last rigid one of a grasped region, at this node? */
-static int ends_grip(const sw_plan *p, size_t node, size_t edge) {
-  if (p->hinge[node] > 0 || !is_rigid(p, edge) || node == 0 || node + 1 == p->nodes) return 0;
-  return !is_rigid(p, node == edge ? edge - 1 : edge + 1);
+/* The clamp hinge at a node, whichever edge it looks along, or NULL. */
+static const sw_clamp_hinge *face_at(const sw_plan *p, size_t node) {
+  for (size_t c = 0; c < p->clamp_count; c++)
+    if (p->clamps[c].node == node) return &p->clamps[c];
+  return NULL;
 }
 
 /* Tangent and curvature at a node as seen from one of its edges. */
@@ -79,8 +76,9 @@ static void node_state(const sw_system *s, const sw_body *b, size_t node, size_t
   if (c) {
     *tangent = director(s, c);
     *curvature = angle_between(*tangent, own) / c->length;
-  } else if (ends_grip(p, node, edge)) {
-    return; /* the rigid part knows nothing of the wire beside it */
+  } else if (p->held[edge] != SW_FREE && p->held[edge + 1] != SW_FREE &&
+             (c = face_at(p, node)) != NULL) { /* from inside a grip, at its face */
+    *tangent = director(s, c);
   } else if (node > 0 && node + 1 < p->nodes) {
     const sw_vec t1 = tangent_of(f, node - 1), t2 = tangent_of(f, node);
     const double l1 = p->rest[node - 1], l2 = p->rest[node];
@@ -105,6 +103,16 @@ static double tension_at(const sw_system *s, const sw_body *b, double at) {
   if (k + 1 >= p->edges) k = p->edges - 2;
   const double m0 = 0.5 * (p->s[k] + p->s[k + 1]), m1 = 0.5 * (p->s[k + 1] + p->s[k + 2]);
   return T[k] + (T[k + 1] - T[k]) * (at - m0) / (m1 - m0);
+}
+
+/* Torque of the span that holds arc length at; 0 outside of spans. */
+static double torque_at(const sw_system *s, const sw_body *b, double at) {
+  for (size_t k = 0; b->has_twist && k < b->plan->span_count; k++) {
+    const sw_span *span = &b->plan->spans[k];
+    if (at >= b->plan->s[span->first] && at <= b->plan->s[span->last + 1])
+      return b->plan->beam.GJ / span->length * s->twist[b->first_span + k];
+  }
+  return 0.0;
 }
 
 sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double at, sw_point_state *out,
@@ -132,6 +140,7 @@ sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double at, sw_point_state *
   out->tangent = sw_unit_or(sw_lerp(t0, t1, f), t0);
   out->curvature = k0 + f * (k1 - k0);
   out->tension = tension_at(&s->system, b, at);
+  out->twist_moment = torque_at(&s->system, b, at);
   return SW_OK;
 }
 

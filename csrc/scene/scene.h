@@ -183,6 +183,7 @@ typedef struct sw_point_state {
   sw_vec position, tangent, velocity; /* [m], [-], [m/s] */
   double curvature;                   /* [1/m] */
   double tension;                     /* [N] */
+  double twist_moment;                /* [N m] */
 } sw_point_state;
 
 typedef struct sw_extreme {

@@ -11,6 +11,7 @@ void sw_system_free(sw_system *system) {
     sw_plan_release(system->bodies[b].plan);
     sw_free(system->bodies[b].field_block);
     sw_free(system->bodies[b].terms);
+    sw_free(system->bodies[b].twist_block);
   }
   sw_free(system->bodies);
   sw_free(system->held);
@@ -32,6 +33,8 @@ static sw_status new_bodies(sw_system *s, sw_plan *const *plans, size_t count) {
     body->field.plan = plans[b];
     body->first_node = s->nodes;
     body->first_edge = s->edges;
+    body->first_span = s->span_count;
+    s->span_count += plans[b]->span_count;
     s->nodes += plans[b]->nodes;
     s->edges += plans[b]->edges;
   }
@@ -45,18 +48,21 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
       held += s->bodies[b].plan->held[i] != SW_FREE;
   s->hold_count = hold_count;
   s->held = sw_alloc(held, sizeof *s->held);
-  s->directors = sw_alloc(12 * hold_count, sizeof(double));
+  s->directors = sw_alloc(18 * hold_count, sizeof(double));
   s->hold_states = sw_alloc(hold_count, sizeof *s->hold_states);
-  s->state_size = 9 * s->nodes + s->edges;
+  s->state_size = 9 * s->nodes + s->edges + s->span_count + 4 * hold_count;
   s->state = sw_alloc(s->state_size, sizeof(double));
   double *w = sw_alloc(9 * s->nodes + s->edges, sizeof(double));
   s->work = w;
   if (!s->held || !s->directors || !s->hold_states || !s->state || !w) return SW_ENOMEM;
   s->directors_now = s->directors + 6 * hold_count;
+  s->directors_rate = s->directors + 12 * hold_count;
   s->x = s->state;
   s->v = s->x + 3 * s->nodes;
   s->a = s->v + 3 * s->nodes;
   s->tension = s->a + 3 * s->nodes;
+  s->twist = s->tension + s->edges;
+  s->turn = s->twist + s->span_count;
   s->yhat = w;
   s->delta = s->yhat + 3 * s->nodes;
   s->velocity = s->delta + 3 * s->nodes;
@@ -106,9 +112,12 @@ sw_status sw_system_place_holds(sw_system *s, double t, double *x, double *v, do
                                 sw_error *err) {
   for (size_t k = 0; k < s->hold_count; k++) {
     SW_TRY(s->coupling.place(s->coupling.user, (int)k, t, &s->hold_states[k], err));
-    for (size_t side = 0; side < 2; side++)
-      sw_store(s->directors_now + 3 * (2 * k + side),
-               sw_rotate(s->hold_states[k].pose.q, sw_load(s->directors + 3 * (2 * k + side))));
+    for (size_t side = 0; side < 2; side++) {
+      const size_t at = 3 * (2 * k + side);
+      const sw_vec d = sw_rotate(s->hold_states[k].pose.q, sw_load(s->directors + at));
+      sw_store(s->directors_now + at, d);
+      sw_store(s->directors_rate + at, sw_cross(s->hold_states[k].omega, d));
+    }
   }
   for (size_t i = 0; i < s->held_count; i++) {
     const sw_held_node *h = &s->held[i];
@@ -153,6 +162,7 @@ static void aim(sw_system *s, sw_body *b, const double *x, const double *v) {
   f->v = v + 3 * b->first_node;
   f->gravity = s->gravity;
   f->hold_directors = s->directors_now;
+  f->hold_turns = s->directors_rate;
 }
 
 void sw_system_refresh(sw_system *s) {
@@ -160,6 +170,20 @@ void sw_system_refresh(sw_system *s) {
     sw_body *body = &s->bodies[b];
     aim(s, body, s->x, s->v);
     sw_field_geometry(&body->field);
+    body->field.twist = body->has_twist ? s->twist + body->first_span : NULL;
+  }
+}
+
+void sw_system_axial_from_state(sw_system *s) {
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_body *body = &s->bodies[b];
+    const double *x = s->x + 3 * body->first_node;
+    double *T = s->tension + body->first_edge;
+    for (size_t e = 0; e < body->plan->edges; e++) {
+      const double l = sw_dist(sw_vec_at(x, e), sw_vec_at(x, e + 1));
+      const double strain = l / body->plan->rest[e] - 1.0;
+      T[e] = (strain >= 0 ? body->EA : body->EA_push) * strain;
+    }
   }
 }
 
@@ -185,6 +209,7 @@ double sw_system_term_energy(sw_system *s, size_t body, size_t term) {
   sw_field_geometry(f);
   f->want = SW_WANT_ENERGY;
   f->tension = s->tension + b->first_edge;
+  f->twist = b->has_twist ? s->twist + b->first_span : NULL;
   f->energy = 0;
   /* hinge cosines for the bending energy come with the force evaluation */
   b->terms[term].cls->eval(b->terms[term].args, f, &err);
