@@ -74,7 +74,7 @@ local acts = {
       law = "spline" }
   end },
   { "a whole script", function()
-    local scene <close> = make()
+    local scene <close> = sw.scene{}
     local wire = scene:wire(WIRE)
     local left = scene:gripper{}
     scene:process(function(p)
