@@ -50,7 +50,8 @@ sw.cable.define{ name =, outer_diameter = [m], mass_per_length = [kg/m], EA = [N
   construction = { strands =, strand_diameter = [m], conductor = "copper", insulation = "PVC" },
   flag = "measured" | "computed" | "guessed", source = "...", spread = [share] }
   a value may have its own: { value =, low =, high =, flag =, source = }
-  what is missing is computed from the construction]],
+  what is missing is computed from the construction
+sw.material "copper"            .E .G [Pa] .density [kg/m3]; materials of constructions]],
   units = "sw.units.mm(5), sw.units.deg(30), ...: into SI units",
 }
 

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- GXL, SAE J1128: automotive wire, cross-linked polyethylene, general wall.
--- Sizes are trade sizes: their masses fit SAE strandings of the AWG size named, not
--- the full number of mm2 (GXL 10: 64 lb per 1000 ft with 8 AWG, 8.4 mm2, within 6 %).
+-- Sizes are trade sizes: the masses fit SAE strandings of the AWG size named within
+-- 6 %, not the full number of mm2 (GXL 4 with 4 mm2 would weigh a fifth more).
 local rows = {
   -- mm2, OD [mm], mass [g/m], AWG, strands, strand [mm] (AWG 28, 30, 29, 27, 25, 23, 21)
   { 0.5, 2.4, 10.4, 20, 7, 0.321 },
