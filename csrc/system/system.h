@@ -81,6 +81,7 @@ struct sw_system {
   size_t held_count;
   double *directors; /* (holds x 2 x 3) in hold coordinates: arriving, leaving */
   double *directors_now; /* the same in world coordinates at the stage */
+  double *directors_rate; /* and how fast they turn [1/s] */
   sw_hold_state *hold_states; /* (hold_count) at the last stage */
   size_t hold_count;
   double gravity[3]; /* [m/s2] */
