@@ -143,8 +143,14 @@ function class.scene.wire(scene, args)
   return wire
 end
 
+local function name_of(wire) return wire.name end
+
 --- The catalogue entry the wire was made from, or nil.
-function class.wire.cable(wire) return core.data(wire).cable end
+function class.wire.cable(wire)
+  if core.type(wire) ~= "wire" then error("wire:cable is a method: call it with a colon", 2) end
+  build.call(3, name_of, wire) -- raises when the scene has been closed
+  return core.data(wire).cable
+end
 
 local Limit = { __name = "bend limit" }
 
@@ -161,6 +167,7 @@ end
 -- the inside of the bend [m]), `use`
 function class.wire.bend_limit(wire, options)
   if core.type(wire) ~= "wire" then error("wire:bend_limit is a method: call it with a colon", 2) end
+  build.call(3, name_of, wire)
   options = table_of(options, "wire:bend_limit")
   for key in pairs(options) do
     if key ~= "use" and key ~= "now" then
