@@ -56,7 +56,7 @@ static sw_status add_terms(const sw_body *b, const sw_force_class *cls, sw_field
   out->terms = 0;
   for (size_t k = 0; k < b->term_count; k++) {
     if (b->terms[k].cls != cls) continue;
-    SW_TRY(cls->eval(b->terms[k].args, f, err));
+    SW_TRY(sw_term_eval(&b->terms[k], f, err));
     out->terms++;
   }
   return SW_OK;
@@ -73,6 +73,7 @@ static void aim(sw_scene *s, sw_body *b, const sw_probe *at) {
   f->tension = NULL; /* from the positions, not the solver's own unknown */
   f->gravity = s->system.gravity;
   f->hold_directors = s->system.directors_now;
+  f->hold_spins = s->system.spins_now;
   sw_field_clear(f);
   sw_field_geometry(f);
 }

@@ -51,6 +51,7 @@ void sw_scene_free(sw_scene *s) {
   sw_contact_free(s->contact);
   sw_system_free(&s->system);
   sw_scene_forget_contact(s);
+  sw_scene_forget_histories(s);
   sw_scene_drop_frames(s);
   sw_free(s->frames);
   sw_free(s->hold_slot);
@@ -287,6 +288,29 @@ sw_status sw_scene_obstacle_force(sw_scene *s, sw_handle obstacle, sw_vec about,
 
 /* --- forces ----------------------------------------------------------------- */
 
+/* Does its wire's bending have what the force corrects? */
+static int bends_by_angle(const sw_scene_wire *w) {
+  sw_recipe recipe;
+  w->cls->recipe(&w->beam, &recipe);
+  for (size_t k = 0; k < recipe.count; k++)
+    if (strcmp(recipe.terms[k].force, "bend") == 0) return 1;
+  return 0;
+}
+
+static sw_status check_force(const sw_scene *s, const sw_force_class *cls, sw_handle wire,
+                             const void *args, sw_error *err) {
+  for (size_t w = 0; w < s->wire_count; w++) {
+    if (wire.generation && w != wire.slot) continue;
+    if ((cls->flags & SW_FORCE_BY_ANGLE) && !bends_by_angle(&s->wires[w]))
+      return sw_fail(err, SW_EINVAL,
+                     "force %s: wire '%s' is a %s, whose bending it cannot correct; it goes with "
+                     "model = 'rod'",
+                     cls->name, s->wires[w].name, s->wires[w].cls->name);
+    if (cls->check) SW_TRY(cls->check(args, &s->wires[w].beam, err));
+  }
+  return SW_OK;
+}
+
 sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle wire,
                              const void *args, size_t args_size, sw_handle *out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
@@ -301,6 +325,7 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
       return sw_fail(err, SW_EINVAL, "force %s: s = %g m is beyond the end of wire '%s' at %g m",
                      cls->name, at, w->name, w->mesh.s[w->mesh.n - 1]);
   }
+  SW_TRY(check_force(s, cls, wire, args, err));
   SW_TRY(sw_scene_thaw(s));
   SW_TRY(sw_grow((void **)&s->forces, &s->force_capacity, s->force_count + 1, sizeof *s->forces));
   sw_scene_force *f = &s->forces[s->force_count];

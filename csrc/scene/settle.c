@@ -219,7 +219,9 @@ sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interru
   statics p = {s,         args,          report, interrupted, block, block + n, block + 2 * n,
                block + 3 * n, block + 5 * n, block + 4 * n, block + 5 * n + s->system.edges};
   s->running++;
+  s->system.still = 1;
   sw_status status = find_rest(&p, &why);
+  s->system.still = 0;
   s->running--;
   sw_scene_reset_extremes(s);
   if (status == SW_OK) status = sw_scene_observe(s, &why);

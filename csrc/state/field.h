@@ -36,6 +36,8 @@ typedef struct sw_field {
   const double *tension; /* (m) stored axial force of the mixed Newton, or NULL [N] */
   const double *gravity; /* (3) [m/s2] */
   const double *hold_directors; /* (holds x 2 x 3) directors of the holds [-] */
+  const double *hold_spins;     /* (holds x 3) how they turn [rad/s] */
+  const double *history;        /* of the force that is evaluated, or NULL */
 
   /* geometry of the edges, filled by sw_field_geometry */
   double *length;     /* (m) [m] */
@@ -49,6 +51,7 @@ typedef struct sw_field {
   double *force;       /* (n x 3) forces on nodes [N] */
   double *rows;        /* (n x SW_ROW_SIZE) node blocks of the matrix [N/m] */
   double energy;       /* [J] */
+  double bending;      /* part of energy that corrects the wire's own bending [J] */
 
   /* per-hinge scratch */
   double *scratch[4]; /* (n) */

@@ -141,10 +141,11 @@ static sw_status evaluate(sw_system *s, sw_body *b, double time, double hbar, co
   f->tension = s->tension + b->first_edge;
   f->gravity = s->gravity;
   f->hold_directors = s->directors_now;
+  f->hold_spins = s->spins_now;
   sw_field_clear(f);
   sw_field_geometry(f);
   for (size_t k = 0; k < b->term_count; k++)
-    SW_TRY(b->terms[k].cls->eval(b->terms[k].args, f, err));
+    SW_TRY(sw_term_eval(&b->terms[k], f, err));
   return SW_OK;
 }
 
@@ -360,12 +361,13 @@ sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const 
     f->tension = NULL;
     f->gravity = s->gravity;
     f->hold_directors = s->directors_now;
+    f->hold_spins = s->spins_now;
     f->x = x + 3 * body->first_node;
     f->v = v + 3 * body->first_node;
     sw_field_clear(f);
     sw_field_geometry(f);
     for (size_t k = 0; k < body->term_count; k++)
-      SW_TRY(body->terms[k].cls->eval(body->terms[k].args, f, err));
+      SW_TRY(sw_term_eval(&body->terms[k], f, err));
   }
   if (s->coupling.eval)
     SW_TRY(s->coupling.eval(s->coupling.user, s, t, HUGE_VAL, x, SW_WANT_FORCE, err));

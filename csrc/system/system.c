@@ -38,6 +38,13 @@ static sw_status new_bodies(sw_system *s, sw_plan *const *plans, size_t count) {
   return SW_OK;
 }
 
+static void lay_out(sw_system *s) {
+  s->x = s->state;
+  s->v = s->x + 3 * s->nodes;
+  s->a = s->v + 3 * s->nodes;
+  s->tension = s->a + 3 * s->nodes;
+}
+
 static sw_status new_arrays(sw_system *s, size_t hold_count) {
   size_t held = 0;
   for (size_t b = 0; b < s->body_count; b++)
@@ -45,7 +52,7 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
       held += s->bodies[b].plan->held[i] != SW_FREE;
   s->hold_count = hold_count;
   s->held = sw_alloc(held, sizeof *s->held);
-  s->directors = sw_alloc(12 * hold_count, sizeof(double));
+  s->directors = sw_alloc(15 * hold_count, sizeof(double));
   s->hold_states = sw_alloc(hold_count, sizeof *s->hold_states);
   s->state_size = 9 * s->nodes + s->edges;
   s->state = sw_alloc(s->state_size, sizeof(double));
@@ -53,10 +60,8 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
   s->work = w;
   if (!s->held || !s->directors || !s->hold_states || !s->state || !w) return SW_ENOMEM;
   s->directors_now = s->directors + 6 * hold_count;
-  s->x = s->state;
-  s->v = s->x + 3 * s->nodes;
-  s->a = s->v + 3 * s->nodes;
-  s->tension = s->a + 3 * s->nodes;
+  s->spins_now = s->directors_now + 6 * hold_count;
+  lay_out(s);
   s->yhat = w;
   s->delta = s->yhat + 3 * s->nodes;
   s->velocity = s->delta + 3 * s->nodes;
@@ -91,6 +96,54 @@ sw_status sw_system_add_term(sw_system *system, size_t body, const sw_force_clas
   return SW_OK;
 }
 
+/* --- histories -------------------------------------------------------------- */
+
+sw_status sw_system_add_histories(sw_system *s) {
+  size_t size = s->state_size;
+  for (size_t b = 0; b < s->body_count; b++)
+    for (size_t k = 0; k < s->bodies[b].term_count; k++)
+      if (s->bodies[b].terms[k].cls->state_size)
+        size += s->bodies[b].terms[k].cls->state_size(s->bodies[b].plan);
+  if (size == s->state_size) return SW_OK;
+  double *state = sw_alloc(size, sizeof *state); /* zeros */
+  if (!state) return SW_ENOMEM;
+  memcpy(state, s->state, s->state_size * sizeof *state);
+  double *next = state + s->state_size;
+  for (size_t b = 0; b < s->body_count; b++)
+    for (size_t k = 0; k < s->bodies[b].term_count; k++) {
+      sw_term *term = &s->bodies[b].terms[k];
+      if (!term->cls->state_size) continue;
+      term->history = next;
+      next += term->cls->state_size(s->bodies[b].plan);
+    }
+  sw_free(s->state);
+  s->state = state;
+  s->state_size = size;
+  lay_out(s);
+  return SW_OK;
+}
+
+void sw_system_commit(sw_system *s) {
+  for (size_t b = 0; b < s->body_count; b++)
+    for (size_t k = 0; k < s->bodies[b].term_count; k++) {
+      const sw_term *term = &s->bodies[b].terms[k];
+      if (term->cls->commit) term->cls->commit(term->args, &s->bodies[b].field, term->history);
+    }
+}
+
+double sw_system_dissipated(const sw_system *s, int *any) {
+  double sum = 0;
+  *any = 0;
+  for (size_t b = 0; b < s->body_count; b++)
+    for (size_t k = 0; k < s->bodies[b].term_count; k++) {
+      const double *history = s->bodies[b].terms[k].history;
+      if (!history) continue;
+      sum += history[0];
+      *any = 1;
+    }
+  return sum;
+}
+
 /* --- holds ------------------------------------------------------------------ */
 
 static void place_node(const sw_hold_state *h, sw_vec local, double *x, double *v, double *a) {
@@ -109,6 +162,7 @@ sw_status sw_system_place_holds(sw_system *s, double t, double *x, double *v, do
     for (size_t side = 0; side < 2; side++)
       sw_store(s->directors_now + 3 * (2 * k + side),
                sw_rotate(s->hold_states[k].pose.q, sw_load(s->directors + 3 * (2 * k + side))));
+    sw_store(s->spins_now + 3 * k, s->still ? sw_v(0, 0, 0) : s->hold_states[k].omega);
   }
   for (size_t i = 0; i < s->held_count; i++) {
     const sw_held_node *h = &s->held[i];
@@ -135,10 +189,12 @@ void sw_system_reaction(const sw_system *s, int hold, sw_vec point, sw_vec *forc
     const sw_body *body = &s->bodies[b];
     for (size_t c = 0; c < body->plan->clamp_count; c++) {
       if (body->plan->clamps[c].hold != hold) continue;
-      for (size_t k = 0; k < body->term_count; k++)
-        if (body->terms[k].cls->clamp_moment)
-          m = sw_add(m, body->terms[k].cls->clamp_moment(body->terms[k].args, &body->field,
-                                                         &body->plan->clamps[c]));
+      for (size_t k = 0; k < body->term_count; k++) {
+        const sw_term *term = &body->terms[k];
+        if (!term->cls->clamp_moment) continue;
+        s->bodies[b].field.history = term->history;
+        m = sw_add(m, term->cls->clamp_moment(term->args, &body->field, &body->plan->clamps[c]));
+      }
     }
   }
   *force = f;
@@ -153,6 +209,7 @@ static void aim(sw_system *s, sw_body *b, const double *x, const double *v) {
   f->v = v + 3 * b->first_node;
   f->gravity = s->gravity;
   f->hold_directors = s->directors_now;
+  f->hold_spins = s->spins_now;
 }
 
 void sw_system_refresh(sw_system *s) {
@@ -190,7 +247,7 @@ double sw_system_kinetic(const sw_system *s, int lumped) {
   return sum;
 }
 
-double sw_system_term_energy(sw_system *s, size_t body, size_t term) {
+double sw_system_term_energy(sw_system *s, size_t body, size_t term, double *bending) {
   sw_body *b = &s->bodies[body];
   sw_field *f = &b->field;
   sw_error err;
@@ -198,9 +255,10 @@ double sw_system_term_energy(sw_system *s, size_t body, size_t term) {
   sw_field_geometry(f);
   f->want = SW_WANT_ENERGY;
   f->tension = s->tension + b->first_edge;
-  f->energy = 0;
+  f->energy = f->bending = 0;
   /* hinge cosines for the bending energy come with the force evaluation */
-  b->terms[term].cls->eval(b->terms[term].args, f, &err);
+  sw_term_eval(&b->terms[term], f, &err);
+  *bending = f->bending;
   return f->energy;
 }
 
