@@ -39,6 +39,15 @@ enum { TERMS = sizeof SERIES / sizeof SERIES[0] };
 static const double SERIES_LIMIT = 0.04; /* of u: error below 1e-16 [-] */
 static const double SHARPEST = 0.999;    /* of u, as for bending [-] */
 
+/* An accepted hinge that slipped lies on the limit but for rounding: from there it
+ * may go either way, and solving starts with the elastic one. */
+static const double ON_LIMIT = 1e-10; /* of the limit [-] */
+
+static double excess(const sw_slip_law *law, double xi) {
+  const double over = xi - law->limit;
+  return over > ON_LIMIT * law->limit ? over : 0.0;
+}
+
 /* s and its first and second derivative with respect to c = 1 - 2 u. */
 static void angle_factors(double u, double s[3]) {
   if (u < SERIES_LIMIT) {
@@ -102,7 +111,7 @@ static void differentiate(const double s[3], double c, const double z[SCALARS], 
 /* First and second derivatives of W with respect to the scalars. */
 static void potential(const sw_slip_law *law, const double s[3], double xi, const product *p,
                       double w1[SCALARS], double w2[SCALARS][SCALARS]) {
-  const double K = law->k + law->harden, over = fmax(0.0, xi - law->limit);
+  const double K = law->k + law->harden, over = excess(law, xi);
   const double rho = over > 0 ? over / (K * xi) : 0.0;
   const double sigma = over > 0 ? law->limit / (K * xi * xi * xi) : 0.0;
   const double wq = law->own - rho * law->k * law->k, wd = -law->k * (1.0 - rho * K);
@@ -212,7 +221,7 @@ void sw_slip_eval(const sw_slip_law *law, const sw_slip_memory *memory, const sw
   const sw_vec carried = sw_slip_carry(p, b, sw_unit_or(sum, b));
   const sw_vec beta = sw_scale(normal, s[0]);
   const double xi = sw_norm(sw_sub(sw_scale(beta, law->k), sw_scale(carried, K)));
-  const double over = fmax(0.0, xi - law->limit), p2 = sw_norm2(p);
+  const double over = excess(law, xi), p2 = sw_norm2(p);
   out->elastic = law->own > 0 ? 0.0 : 0.5 * law->k * p2 - law->k * d.value;
   out->energy = 0.5 * law->own * sw_norm2(beta) - law->k * d.value + 0.5 * K * p2 -
                 0.5 * over * over / K;

@@ -192,6 +192,16 @@ static sw_status solve_once(sw_system *s, const sw_stage *stage, int statics,
   return SW_OK;
 }
 
+/* Where the stiffness jumps, full steps may go to and fro between two sides of a
+ * kink: every other one is halved once there have been enough to converge. */
+static int is_cycling(const sw_system *s, const sw_stage_report *report) {
+  enum { ENOUGH = 4 };
+  if (report->iterations <= ENOUGH || report->iterations % 2 == 0) return 0;
+  for (size_t b = 0; b < s->body_count; b++)
+    if (s->bodies[b].is_kinked) return 1;
+  return 0;
+}
+
 /* Apply the update, shortened when an edge would turn too far. Returns the
  * share applied, or -1 when the update is not finite. */
 static double apply(sw_system *s, const sw_stage *stage, const sw_newton *newton,
@@ -210,7 +220,8 @@ static double apply(sw_system *s, const sw_stage *stage, const sw_newton *newton
   report->rotation = sqrt(fmax(largest, 0.0));
   const double share = report->rotation > newton->limit_rotation
                            ? newton->limit_rotation / report->rotation
-                           : 1.0;
+                       : is_cycling(s, report) ? 0.5
+                                               : 1.0;
   for (size_t i = 0; i < 3 * s->nodes; i++) stage->y[i] += share * s->delta[i];
   if (share == 1.0)
     memcpy(s->tension, s->tension_new, s->edges * sizeof(double));
@@ -226,7 +237,8 @@ static double largest_shift(const sw_system *s) {
   return largest;
 }
 
-/* A force without stiffness is at its fixed point when nodes move less than
+/* A force without stiffness is at its fixed point, one with jumps of its stiffness
+ * on the right side of them, when nodes move less than
  * this share of the wire in an iteration [-]. */
 static const double FIXED_POINT = 1e-9;
 
@@ -264,7 +276,7 @@ static int converged(sw_system *s, const sw_stage *stage, const sw_newton *newto
   if (newton->statics && largest_shift(s) > newton->accept_shift) return 0;
   if (drowned_in_rounding(s, stage, newton->statics)) return 0;
   for (size_t b = 0; b < s->body_count; b++)
-    if (s->bodies[b].is_explicit &&
+    if ((s->bodies[b].is_explicit || s->bodies[b].is_kinked) &&
         largest_shift(s) > FIXED_POINT * s->bodies[b].plan->length)
       return 0;
   return !s->coupling.settled ||

@@ -92,6 +92,7 @@ sw_status sw_system_add_term(sw_system *system, size_t body, const sw_force_clas
   b->terms = more;
   b->term_count++;
   if (cls->flags & SW_FORCE_EXPLICIT) b->is_explicit = 1;
+  if (cls->commit) b->is_kinked = 1;
   if (!(cls->flags & SW_FORCE_INNER) || (cls->flags & SW_FORCE_EXPLICIT)) b->needs_velocity = 1;
   return SW_OK;
 }

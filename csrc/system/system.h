@@ -32,6 +32,7 @@ typedef struct sw_body {
   void *field_block;
   int needs_velocity; /* some force depends on it */
   int is_explicit;    /* some force has no stiffness */
+  int is_kinked;      /* some force has a history: its stiffness jumps */
 } sw_body;
 
 /* Where a hold is, for all nodes it holds. */
