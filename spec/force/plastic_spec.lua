@@ -36,12 +36,12 @@ end
 
 describe("plastic bending", function()
   it("follows the piecewise linear loop", function()
-    for _, N in ipairs{ 4, 11, 30 } do
+    for _, N in ipairs{ 4, 11, 16 } do
       local bent, exact = metal{ N = N }, law()
       local function compare(kappa, moment)
         tools.near(exact(kappa), moment, 1e-10, ("N = %d, kappa = %g"):format(N, kappa))
       end
-      for _, kappa in ipairs{ 2, -2, 1.5, 1.2, 2, -2 } do bent:sweep(kappa, 10, compare) end
+      for _, kappa in ipairs{ 2, -2, 1.5, 1.2, 2, -2 } do bent:sweep(kappa, 20, compare) end
     end
   end)
 
@@ -63,20 +63,22 @@ describe("plastic bending", function()
     for _, kappa in ipairs{ 0.3, -0.45, 0.2 } do
       plain:sweep(kappa, 3)
       bent:sweep(kappa, 3)
-      assert.are.same(plain.wire:positions(), bent.wire:positions())
+      tools.near(0, tools.largest_difference(plain.wire:positions(), bent.wire:positions()),
+        1e-12, "shape")
     end
     assert.are.equal(0, bent.scene:energy().dissipated)
   end)
 
   -- Laid round a mandrel of radius 1/kappa and let go: the wire keeps the curvature
-  -- (EI kappa - M_y) / (EI + H). A free end has no hinge in its last half edge.
+  -- (EI kappa - M_y) / (EI + H), but what hardening holds back, H times it, can be no more
+  -- than M_y. A free end has no hinge in its last half edge.
   it("springs back to the permanent curvature", function()
     for _, hardening in ipairs{ 0.002, H, 0.05 } do
       local bent = metal{ hardening = hardening }
       bent:sweep(3, 6)
       bent.last:release()
       tools.fine(bent.scene:settle{ tolerance = 1e-12 })
-      local kept = (arc.EI * 3 - M_Y) / (arc.EI + hardening)
+      local kept = math.min((arc.EI * 3 - M_Y) / (arc.EI + hardening), M_Y / hardening)
       tools.share(kept, bent.wire:curvature(arc.L / 2), 1e-8, "curvature")
       local x = bent.wire:positions()
       local n = #x
@@ -91,7 +93,8 @@ describe("plastic bending", function()
     local F, hardening = 0.08, 50
     local a = 1 - 0.05 / F -- how far the wire yields
     local exact = (F / hardening) * (a - a ^ 2 + a ^ 3 / 3) - 0.05 / hardening * (a - a ^ 2 / 2)
-    tools.order_at_least(1.7, { 10, 20, 40, 80 }, function(N)
+    -- the wire yields up to a node, so that meshes differ in their size only
+    tools.order_at_least(1.9, { 8, 16, 32, 64 }, function(N)
       local scene, wire, pull = loaded(N, { 0, 0, F }, hardening)
       pull:release()
       tools.fine(scene:settle{ tolerance = 1e-13 })
