@@ -99,6 +99,18 @@ static void bending_term(double beta, sw_field *f) {
   }
 }
 
+/* The hinge between a held director and an edge; not in statics, where nodes rest
+ * while the director may be under way. */
+static void clamp_term(double beta, sw_field *f, const sw_clamp_hinge *h) {
+  const size_t e = h->edge, at = 3 * (2 * (size_t)h->hold + (h->side > 0 ? 1 : 0));
+  const double k = beta * f->plan->beam.EI / h->length, r = f->reciprocal[e];
+  if (f->want & SW_WANT_FORCE) {
+    const sw_vec d = sw_scale(sw_sub(tangent_rate(f, e), sw_load(f->hold_turns + at)), k);
+    add_gradient(f, e, sw_scale(across(f, e, d), r));
+  }
+  if (f->want & SW_WANT_STIFFNESS) add_own(f, e, 0.0, k * f->velocity_rate * r * r);
+}
+
 static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   const damping_args *a = args;
   (void)err;
@@ -106,6 +118,8 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   if (a->stiffness > 0) {
     axial_term(a->stiffness, f);
     bending_term(a->stiffness, f);
+    for (size_t k = 0; k < f->plan->clamp_count && !f->statics; k++)
+      clamp_term(a->stiffness, f, &f->plan->clamps[k]);
   }
   return SW_OK;
 }

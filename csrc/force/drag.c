@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Resistance of the surrounding air or liquid, at rest: f = -(c1 + c2 |v|) v
  * per length of wire, the same along and across (Morison's drag term with one
- * coefficient). The derivative leaves |v| frozen, which keeps it symmetric. */
+ * coefficient). */
 #include <math.h>
 #include <stddef.h>
 
@@ -29,11 +29,14 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
     const double length = p->lumped[i] / p->beam.mass;
     const double c = length * (a->linear + a->quadratic * sw_norm(v));
     if (f->want & SW_WANT_FORCE) sw_accumulate(f->force + 3 * i, sw_scale(v, -c));
-    if (f->want & SW_WANT_STIFFNESS) {
+    if (f->want & SW_WANT_STIFFNESS) { /* c I + c2 l v v'/|v| */
+      const double speed = sw_norm(v), rate = f->velocity_rate;
+      const double along = speed > 0 ? length * a->quadratic / speed * rate : 0.0;
+      const double u[3] = {v.x, v.y, v.z};
       double *row = f->rows + 24 * i;
-      row[0] += c * f->velocity_rate;
-      row[3] += c * f->velocity_rate;
-      row[5] += c * f->velocity_rate;
+      for (int k = 0, at = 0; k < 3; k++)
+        for (int j = k; j < 3; j++, at++)
+          row[at] += along * u[k] * u[j] + (k == j ? c * rate : 0.0);
     }
   }
   return SW_OK;
@@ -42,7 +45,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
 const sw_force_class sw_force_drag = {
     .name = "drag",
     .summary = "resistance of still air or liquid",
-    .flags = SW_FORCE_DISSIPATIVE | SW_FORCE_FROZEN,
+    .flags = SW_FORCE_DISSIPATIVE,
     .params = SW_PARAMS("force drag", rows),
     .eval = eval,
 };

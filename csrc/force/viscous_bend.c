@@ -65,9 +65,8 @@ static void node_hinge(double k, sw_field *f, size_t i) {
 /* Moment of the hinge on its edge against what the edge turns past the hold. */
 static sw_vec clamp_moment(const void *args, const sw_field *f, const sw_clamp_hinge *h) {
   const double k = ((const viscous_args *)args)->eta / h->length;
-  const sw_vec d = sw_load(f->hold_directors + 3 * (2 * (size_t)h->hold + (h->side > 0 ? 1 : 0)));
-  const sw_vec spin = sw_load(f->hold_spins + 3 * h->hold);
-  const sw_vec held = sw_madd(spin, d, -sw_dot(spin, d));
+  const size_t at = 3 * (2 * (size_t)h->hold + (h->side > 0 ? 1 : 0));
+  const sw_vec held = sw_cross(sw_load(f->hold_directors + at), sw_load(f->hold_turns + at));
   const sw_vec m = sw_scale(sw_sub(held, rotation_of(f, h->edge)), k);
   const sw_vec t = tangent_of(f, h->edge);
   return sw_madd(m, t, -sw_dot(m, t));

@@ -111,6 +111,7 @@ static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system
       p->y[last][i] = 2.0 * p->y[last][i] - s->x[i];
       p->w[last][i] = 2.0 * p->w[last][i] - s->v[i];
     }
+    for (size_t e = 0; e < s->edges; e++) s->tension[e] = 2.0 * s->tension[e] - p->tension[e];
     SW_TRY(sw_system_place_holds(s, t + h, p->y[last], p->w[last], NULL, err));
   }
   p->trial_x = p->y[last];

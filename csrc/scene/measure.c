@@ -57,6 +57,13 @@ static double angle_between(sw_vec a, sw_vec b) {
   return 2.0 * asin(fmin(1.0, 0.5 * sw_dist(a, b)));
 }
 
+/* The clamp hinge at a node, whichever edge it looks along, or NULL. */
+static const sw_clamp_hinge *face_at(const sw_plan *p, size_t node) {
+  for (size_t c = 0; c < p->clamp_count; c++)
+    if (p->clamps[c].node == node) return &p->clamps[c];
+  return NULL;
+}
+
 /* Tangent and curvature at a node as seen from one of its edges. */
 static void node_state(const sw_system *s, const sw_body *b, size_t node, size_t edge,
                        sw_vec *tangent, double *curvature) {
@@ -69,6 +76,9 @@ static void node_state(const sw_system *s, const sw_body *b, size_t node, size_t
   if (c) {
     *tangent = director(s, c);
     *curvature = angle_between(*tangent, own) / c->length;
+  } else if (p->held[edge] != SW_FREE && p->held[edge + 1] != SW_FREE &&
+             (c = face_at(p, node)) != NULL) { /* from inside a grip, at its face */
+    *tangent = director(s, c);
   } else if (node > 0 && node + 1 < p->nodes) {
     const sw_vec t1 = tangent_of(f, node - 1), t2 = tangent_of(f, node);
     const double l1 = p->rest[node - 1], l2 = p->rest[node];

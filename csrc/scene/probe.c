@@ -73,7 +73,7 @@ static void aim(sw_scene *s, sw_body *b, const sw_probe *at) {
   f->tension = NULL; /* from the positions, not the solver's own unknown */
   f->gravity = s->system.gravity;
   f->hold_directors = s->system.directors_now;
-  f->hold_spins = s->system.spins_now;
+  f->hold_turns = s->system.directors_rate;
   sw_field_clear(f);
   sw_field_geometry(f);
 }

@@ -281,9 +281,10 @@ static sw_status put_state(sw_scene *s, const sw_snapshot *p, sw_error *err) {
     s->stepper.restart = p->restart;
     if (p->history)
       memcpy(s->stepper.xp, p->history, p->history_size * sizeof(double));
-  } else if (s->has_stepper) {
-    s->stepper.restart = 1;
-    s->stepper.last_h = 0;
+  } else if (s->has_stepper) { /* taken before the first run */
+    sw_stepper_free(&s->stepper);
+    s->has_stepper = 0;
+    s->method = NULL;
   }
   return sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err);
 }

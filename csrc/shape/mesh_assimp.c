@@ -20,6 +20,7 @@ typedef struct memory_file {
   const char *bytes;
   size_t size, at; /* [B] */
   char name[32];
+  int starved; /* memory ran out while opening */
 } memory_file;
 
 static size_t file_read(struct aiFile *file, char *out, size_t size, size_t count) {
@@ -55,6 +56,7 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *name, const cha
   (void)mode;
   if (strcmp(name, f->name) != 0) return NULL;
   struct aiFile *file = sw_alloc(1, sizeof *file);
+  f->starved = !file;
   if (!file) return NULL;
   f->at = 0;
   *file = (struct aiFile){file_read, file_write, file_tell, file_size,
@@ -112,7 +114,7 @@ sw_status sw_mesh_read(const char *object, const char *bytes, size_t byte_count,
                        const char *format, sw_mesh_data *out, sw_error *err) {
   const unsigned steps =
       aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices;
-  memory_file file = {bytes, byte_count, 0, ""};
+  memory_file file = {bytes, byte_count, 0, "", 0};
   struct aiFileIO io = {open_file, close_file, (aiUserData)&file};
   *out = (sw_mesh_data){0};
   snprintf(file.name, sizeof file.name, "mesh.%s", format);
@@ -123,6 +125,7 @@ sw_status sw_mesh_read(const char *object, const char *bytes, size_t byte_count,
   const struct aiScene *scene =
       aiImportFileExWithProperties(file.name, steps, &io, settings);
   aiReleasePropertyStore(settings);
+  if (!scene && file.starved) return sw_fail(err, SW_ENOMEM, "%s: out of memory", object);
   if (!scene)
     return sw_fail(err, SW_EFORMAT, "%s: data is not readable as %s (%s)", object, format,
                    aiGetErrorString());

@@ -36,7 +36,7 @@ typedef struct sw_field {
   const double *tension; /* (m) stored axial force of the mixed Newton, or NULL [N] */
   const double *gravity; /* (3) [m/s2] */
   const double *hold_directors; /* (holds x 2 x 3) directors of the holds [-] */
-  const double *hold_spins;     /* (holds x 3) how they turn [rad/s] */
+  const double *hold_turns;     /* the same size: rates of the directors [1/s] */
   const double *history;        /* of the force that is evaluated, or NULL */
 
   /* geometry of the edges, filled by sw_field_geometry */

@@ -85,6 +85,13 @@ sw_vec sw_mesh_tangent(const sw_mesh *m, size_t i) {
   return sw_unit_or(sw_add(sw_scale(t1, l2), sw_scale(t2, l1)), t1);
 }
 
+sw_vec sw_mesh_tangent_at(const sw_mesh *m, double s) {
+  const size_t i = sw_mesh_node(m, s);
+  if (i == 0 || m->s[i] <= s) return sw_mesh_tangent(m, i);
+  const sw_vec a = sw_mesh_tangent(m, i - 1), b = sw_mesh_tangent(m, i);
+  return sw_unit_or(sw_lerp(a, b, (s - m->s[i - 1]) / (m->s[i] - m->s[i - 1])), a);
+}
+
 /* Chord of an edge of rest length l under its tension. */
 static double chord(const sw_mesh *m, size_t edge, double l) {
   return l * (1.0 + m->tension[edge] / m->EA);

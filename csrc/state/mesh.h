@@ -35,4 +35,7 @@ size_t sw_mesh_node(const sw_mesh *mesh, double s);
 /* Unit tangent of the wire at node i, second-order in the spacing. */
 sw_vec sw_mesh_tangent(const sw_mesh *mesh, size_t i);
 
+/* The same at arc length s, between nodes too. */
+sw_vec sw_mesh_tangent_at(const sw_mesh *mesh, double s);
+
 #endif

@@ -141,7 +141,7 @@ static sw_status evaluate(sw_system *s, sw_body *b, double time, double hbar, co
   f->tension = s->tension + b->first_edge;
   f->gravity = s->gravity;
   f->hold_directors = s->directors_now;
-  f->hold_spins = s->spins_now;
+  f->hold_turns = s->directors_rate;
   sw_field_clear(f);
   sw_field_geometry(f);
   for (size_t k = 0; k < b->term_count; k++)
@@ -373,7 +373,7 @@ sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const 
     f->tension = NULL;
     f->gravity = s->gravity;
     f->hold_directors = s->directors_now;
-    f->hold_spins = s->spins_now;
+    f->hold_turns = s->directors_rate;
     f->x = x + 3 * body->first_node;
     f->v = v + 3 * body->first_node;
     sw_field_clear(f);

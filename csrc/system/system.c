@@ -52,7 +52,7 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
       held += s->bodies[b].plan->held[i] != SW_FREE;
   s->hold_count = hold_count;
   s->held = sw_alloc(held, sizeof *s->held);
-  s->directors = sw_alloc(15 * hold_count, sizeof(double));
+  s->directors = sw_alloc(18 * hold_count, sizeof(double));
   s->hold_states = sw_alloc(hold_count, sizeof *s->hold_states);
   s->state_size = 9 * s->nodes + s->edges;
   s->state = sw_alloc(s->state_size, sizeof(double));
@@ -60,7 +60,7 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
   s->work = w;
   if (!s->held || !s->directors || !s->hold_states || !s->state || !w) return SW_ENOMEM;
   s->directors_now = s->directors + 6 * hold_count;
-  s->spins_now = s->directors_now + 6 * hold_count;
+  s->directors_rate = s->directors + 12 * hold_count;
   lay_out(s);
   s->yhat = w;
   s->delta = s->yhat + 3 * s->nodes;
@@ -160,10 +160,12 @@ sw_status sw_system_place_holds(sw_system *s, double t, double *x, double *v, do
                                 sw_error *err) {
   for (size_t k = 0; k < s->hold_count; k++) {
     SW_TRY(s->coupling.place(s->coupling.user, (int)k, t, &s->hold_states[k], err));
-    for (size_t side = 0; side < 2; side++)
-      sw_store(s->directors_now + 3 * (2 * k + side),
-               sw_rotate(s->hold_states[k].pose.q, sw_load(s->directors + 3 * (2 * k + side))));
-    sw_store(s->spins_now + 3 * k, s->still ? sw_v(0, 0, 0) : s->hold_states[k].omega);
+    for (size_t side = 0; side < 2; side++) {
+      const size_t at = 3 * (2 * k + side);
+      const sw_vec d = sw_rotate(s->hold_states[k].pose.q, sw_load(s->directors + at));
+      sw_store(s->directors_now + at, d);
+      sw_store(s->directors_rate + at, s->still ? sw_v(0, 0, 0) : sw_cross(s->hold_states[k].omega, d));
+    }
   }
   for (size_t i = 0; i < s->held_count; i++) {
     const sw_held_node *h = &s->held[i];
@@ -210,7 +212,7 @@ static void aim(sw_system *s, sw_body *b, const double *x, const double *v) {
   f->v = v + 3 * b->first_node;
   f->gravity = s->gravity;
   f->hold_directors = s->directors_now;
-  f->hold_spins = s->spins_now;
+  f->hold_turns = s->directors_rate;
 }
 
 void sw_system_refresh(sw_system *s) {

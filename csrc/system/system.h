@@ -83,7 +83,7 @@ struct sw_system {
   size_t held_count;
   double *directors; /* (holds x 2 x 3) in hold coordinates: arriving, leaving */
   double *directors_now; /* the same in world coordinates at the stage */
-  double *spins_now;     /* (holds x 3) how holds turn at the stage [rad/s] */
+  double *directors_rate; /* and how fast they turn [1/s] */
   int still;             /* 1: holds count as standing, whatever they follow (statics) */
   sw_hold_state *hold_states; /* (hold_count) at the last stage */
   size_t hold_count;

@@ -48,7 +48,7 @@ local function drive(scene, args, total, bar)
       target = scene.time + (args.dt or 0.01)
     end
     options.max_steps = math.min(left, watching and 1 or chunk)
-    local part = build.call(4, advance, scene, options, target)
+    local part = build.call(5, advance, scene, options, target)
     merge(total, part)
     left = left - part.steps
     bar:update(scene.time - start, total.steps)
@@ -77,14 +77,18 @@ function core.class.scene.run(scene, args)
     smallest_dt = math.huge, ok = true, reason = "", time = scene.time, start = scene.time }
   build.call(3, core.begin_run, scene)
   local wall, cpu = core.clock(), os.clock()
-  local bar <close> = new_bar(args, scene)
-  local guard <close> = setmetatable({}, { __close = function() data.running = nil end })
-  data.running = guard
-  local reason = drive(scene, args, total, bar)
+  local fine, reason
+  do -- protected: a coroutine that dies by an error leaves its variables unclosed
+    local bar <close> = new_bar(args, scene)
+    data.running = true
+    fine, reason = pcall(drive, scene, args, total, bar)
+    data.running = nil
+    if fine and total.ok then bar:finish() elseif fine then bar:fail(reason) end
+  end
+  if not fine then error(reason, 0) end
   total.wall, total.cpu = core.clock() - wall, os.clock() - cpu
   total.reason, total.scene, total.name = reason, scene, scene.name
   total.restores = data.restores
-  if total.ok then bar:finish() else bar:fail(reason) end
   return setmetatable(total, Run)
 end
 

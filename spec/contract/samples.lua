@@ -22,6 +22,7 @@ local function value_of(row, random)
   if row.type == "choice" then return row.choices[1] end
   if row.type == "number" or row.type == "integer" then
     local low, high = row.min or -1, row.max or (row.min and row.min + 1) or 1
+    if high - low > 100 then high = low + 1 end -- sizes of everyday things, not of the limit
     local value = low + (high - low) * random(0.3, 0.7)
     if row.type == "integer" then return math.ceil(value) end
     return value

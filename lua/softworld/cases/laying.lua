@@ -15,17 +15,18 @@ return function(options)
     segments = options.segments or 100, model = options.model }
   local mu = options.friction or 0.3
   local scene = sw.scene{ name = "laying", gravity = f.gravity }
-  scene:obstacle{ name = "table", shape = "plane", friction = mu, at = f.point(0, 0, 0),
+  local obstacles = {}
+  obstacles[1] = scene:obstacle{ name = "table", shape = "plane", friction = mu, at = f.point(0, 0, 0),
     rotation = f.quaternion }
   for i, x in ipairs{ 0.4, 0.9, 1.4 } do
-    scene:obstacle{ name = "wall " .. i, shape = "box", size = { 0.01, 1, 0.1 },
+    obstacles[i + 1] = scene:obstacle{ name = "wall " .. i, shape = "box", size = { 0.01, 1, 0.1 },
       at = f.point(x, 0, 0.05), rotation = f.quaternion, friction = mu }
   end
   local wire = wires.straight(scene, f, p, { 0, 0, 0.15 }, { -1, 0, 0.15 })
   local clamp = scene:clamp(wire, { s = 0 })
   local duration = options.duration or 5
   local c = { name = "laying", scene = scene, wire = wire, clamp = clamp, frame = f,
-    parameters = p, duration = duration }
+    parameters = p, duration = duration, obstacles = obstacles }
 
   --- options of scene:run.
   function c.run(o)

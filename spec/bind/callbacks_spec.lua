@@ -1,0 +1,444 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Users' functions inside the core: forces, motions, conditions, processes. What
+-- they may not do is refused, what they raise comes out unchanged, and the scene
+-- goes on.
+local sw = require "softworld"
+local core = sw.core
+
+local function make(options)
+  local scene = sw.scene(options or {})
+  local wire = scene:wire{ EA = 60, EI = 0.02, mass_per_length = 0.1, radius = 0.005, segments = 6,
+    from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+  return scene, wire, scene:clamp(wire, { s = 0 })
+end
+
+-- Ways to have a function called from inside the core: each takes the scene and
+-- its things and a function, and returns what sets it off.
+local ways = {
+  ["a force in a run"] = function(scene, wire, _, f)
+    scene:force{ kind = f, on = wire }
+    return function() return scene:run{ duration = 0.02 } end
+  end,
+  ["a force in an explicit run"] = function(scene, wire, _, f)
+    scene:force{ kind = f, on = wire }
+    return function() return scene:run{ duration = 0.002, dt = 0.001, integrator = "rk4" } end
+  end,
+  ["a force in a run of GSL"] = function(scene, wire, _, f)
+    scene:force{ kind = f, on = wire }
+    return function() return scene:run{ duration = 0.002, dt = 0.001, integrator = "gsl-rkf45" } end
+  end,
+  ["a force while settling"] = function(scene, wire, _, f)
+    scene:force{ kind = f, on = wire }
+    return function() return scene:settle() end
+  end,
+  ["a force that is evaluated"] = function(scene, wire, _, f)
+    scene:force{ kind = f, on = wire }
+    return function() return scene:evaluate(wire) end
+  end,
+  ["the motion of a clamp"] = function(scene, _, clamp, f)
+    local asked = false
+    clamp:follow(function(t)
+      if asked then f(t) end
+      return { 0, 0, 0 }
+    end)
+    asked = true
+    return function() return scene:run{ duration = 0.02 } end
+  end,
+  ["the motion of an obstacle"] = function(scene, _, _, f)
+    local asked = false
+    local box = scene:obstacle{ shape = "box", size = { 1, 1, 1 }, at = { 0, 0, -5 } }
+    box:follow(function(t)
+      if asked then f(t) end
+      return { 0, 0, -5 }
+    end)
+    asked = true
+    return function() return scene:run{ duration = 0.02 } end
+  end,
+  ["a motion that is asked where it is"] = function(_, _, clamp, f)
+    local asked = false
+    clamp:follow(function(t)
+      if asked then f(t) end
+      return { 0, 0, 0 }
+    end)
+    asked = true
+    return function() return clamp:pose() end
+  end,
+  ["a motion while its clamp is released"] = function(_, _, clamp, f)
+    local asked = false
+    clamp:follow(function(t)
+      if asked then f(t) end
+      return { 0, 0, 0 }
+    end)
+    asked = true
+    return function() return clamp:release() end
+  end,
+  ["a motion while a snapshot is restored"] = function(scene, _, clamp, f)
+    local asked = false
+    clamp:follow(function(t)
+      if asked then f(t) end
+      return { 0, 0, 0 }
+    end)
+    local snapshot = scene:snapshot()
+    asked = true
+    return function() return scene:restore(snapshot) end
+  end,
+  ["a motion that begins"] = function(_, _, clamp, f)
+    return function()
+      return clamp:follow(function(t)
+        f(t)
+        return { 0, 0, 0 }
+      end)
+    end
+  end,
+}
+
+local names = {}
+for name in pairs(ways) do names[#names + 1] = name end
+table.sort(names)
+
+-- Everything that changes the scene, or needs its work space.
+local function changes(scene, wire, clamp)
+  local box = scene:obstacle{ shape = "sphere", radius = 0.1, at = { 0, 0, -9 } }
+  local drag, snapshot = scene:force{ kind = "drag" }, scene:snapshot()
+  local left = scene:gripper{ name = "left" }
+  return {
+    close = function() scene:close() end,
+    gc = function() getmetatable(scene).__gc(scene) end,
+    snapshot_close = function() snapshot:close() end,
+    wire = function()
+      scene:wire{ E = 1e8, density = 1e3, radius = 1e-3, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+    end,
+    clamp = function() scene:clamp(wire, { s = 0.7 }) end,
+    pin = function() scene:pin(wire, { s = 0.7 }) end,
+    grip = function() scene:grip(wire, { s = 0.7, width = 0.02 }) end,
+    release = function() clamp:release() end,
+    pose = function() clamp:pose{ 0, 0, 1 } end,
+    follow = function() clamp:follow(nil) end,
+    obstacle = function() scene:obstacle{ shape = "plane", at = { 0, 0, -9 } } end,
+    obstacle_pose = function() box:pose{ 0, 0, -8 } end,
+    obstacle_follow = function() box:follow(nil) end,
+    remove = function() box:remove() end,
+    force = function() scene:force{ kind = "drag" } end,
+    force_function = function() scene:force{ kind = print } end,
+    force_release = function() drag:release() end,
+    gravity = function() scene:gravity{ 0, 0, 0 } end,
+    run = function() scene:run{ duration = 0.1 } end,
+    advance = function() scene:advance({}, 10) end,
+    settle = function() scene:settle() end,
+    take_snapshot = function() scene:snapshot() end,
+    restore = function() scene:restore(snapshot) end,
+    clear_frames = function() scene:clear_frames() end,
+    set_velocity = function() wire:set_velocity{ 1, 0, 0 } end,
+    process = function() scene:process(print) end,
+    gripper = function() scene:gripper{} end,
+    grasp = function() left:grasp(wire, { s = 0.7 }) end,
+    evaluate = function() scene:evaluate(wire) end,
+    energy = function() scene:energy() end,
+    position = function() wire:position(0.5) end,
+    positions = function() wire:positions() end,
+    max_tension = function() wire:max_tension() end,
+    stable_dt = function() scene:stable_dt() end,
+  }
+end
+
+-- What may be asked at any time.
+local function questions(scene, wire, clamp)
+  return { function() return scene.time end, function() return scene.name end,
+    function() return tostring(scene) end, function() return wire.length end,
+    function() return wire.segments end, function() return tostring(wire) end,
+    function() return clamp:force() end, function() return tostring(clamp) end,
+    function() return clamp:log() end, function() return scene:gravity() end,
+    function() return scene:contacts() end, function() return scene:penetration() end,
+    function() return scene:frame_count() end, function() return scene:frame(1) end,
+    function() return clamp.held end, function() return wire.name end }
+end
+
+for _, name in ipairs(names) do
+  describe(name, function()
+    it("refuses every change and comes through", function()
+      local things = changes(make())
+      for change in pairs(things) do
+        local scene, wire, clamp = make()
+        local act = changes(scene, wire, clamp)[change]
+        local ok, message, calls = true, nil, 0
+        local go = ways[name](scene, wire, clamp, function()
+          calls = calls + 1
+          if calls == 2 or name:find "asked where" then ok, message = pcall(act) end
+        end)
+        go()
+        if calls >= 2 or name:find "asked where" then
+          assert.is_false(ok, change .. " was allowed")
+          assert.is_truthy(message:find("from inside a step", 1, true), change .. ": " .. message)
+        end
+        assert.is_true(scene:run{ duration = 0.01 }.ok)
+        scene:close()
+      end
+    end)
+
+    it("may be asked what is known", function()
+      local scene, wire, clamp = make()
+      local ok, message
+      local go = ways[name](scene, wire, clamp, function()
+        for _, ask in ipairs(questions(scene, wire, clamp)) do
+          ok, message = pcall(ask)
+          assert.is_true(ok, message)
+        end
+      end)
+      go()
+    end)
+
+    it("passes errors on unchanged and leaves a scene that works", function()
+      local values = { { code = 7 }, "text", 42, print, true, setmetatable({}, { __tostring = error }) }
+      for _, value in ipairs(values) do
+        for call = 1, 3 do
+          local scene, wire, clamp = make()
+          local count, failing = 0, true
+          local go = ways[name](scene, wire, clamp, function()
+            count = count + 1
+            if failing and count == call then error(value, 0) end
+          end)
+          local ok, got = pcall(go)
+          if not ok then assert.is_true(rawequal(value, got)) end
+          assert.is_true(count < call or not ok)
+          failing = false
+          clamp:follow(nil)
+          assert.is_true(scene:run{ duration = 0.01 }.ok)
+          scene:close()
+        end
+      end
+    end)
+
+    it("gives the line of the function that failed", function()
+      local scene, wire, clamp = make()
+      local line
+      local go = ways[name](scene, wire, clamp, function()
+        line = debug.getinfo(1, "l").currentline + 1
+        return nil + 1
+      end)
+      local ok, message = pcall(go)
+      assert.is_false(ok)
+      assert.is_truthy(message:find("callbacks_spec.lua:" .. line .. ":", 1, true), message)
+    end)
+
+    it("cannot yield", function()
+      local scene, wire, clamp = make()
+      local yield = true
+      local go = ways[name](scene, wire, clamp, function()
+        if yield then coroutine.yield() end
+      end)
+      local thread = coroutine.create(go)
+      local ok, message = coroutine.resume(thread)
+      assert.is_false(ok)
+      assert.is_truthy(tostring(message):find "yield")
+      yield = false
+      assert.is_true(scene:run{ duration = 0.01 }.ok)
+    end)
+
+    it("may run another scene", function()
+      local scene, wire, clamp = make()
+      local inner, inner_wire = make()
+      inner:force{ kind = function(_, _, _, f) f[3] = f[3] + 0.01 end, on = inner_wire }
+      local busy = false
+      local go = ways[name](scene, wire, clamp, function()
+        if busy then return end
+        busy = true
+        assert.is_true(inner:run{ duration = 0.02 }.ok)
+        busy = false
+      end)
+      go()
+      assert.is_true(inner.time > 0)
+      assert.is_true(scene:run{ duration = 0.01 }.ok)
+    end)
+  end)
+end
+
+describe("a function as a force", function()
+  local function fails(force, text)
+    for _, run in ipairs{ function(s) return s:run{ duration = 0.02 } end, function(s) return s:settle() end,
+      function(s) return s:run{ duration = 0.001, dt = 0.001, integrator = "velocity-verlet" } end } do
+      local scene, wire = make()
+      local handle = scene:force{ kind = force, on = wire }
+      local ok, message = pcall(run, scene)
+      assert.is_false(ok)
+      assert.is_truthy(message:find(text, 1, true), message)
+      handle:release()
+      assert.is_true(scene:run{ duration = 0.01 }.ok)
+    end
+  end
+
+  it("must leave numbers", function()
+    fails(function(_, _, _, f) f[4] = 0 / 0 end, "component 1 of the force on node 2")
+    fails(function(_, _, _, f) f[6] = math.huge end, "component 3 of the force on node 2")
+    fails(function(_, _, _, f) f[5] = "12" end, "component 2 of the force on node 2")
+    fails(function(_, _, _, f) f[5] = nil end, "component 2 of the force on node 2")
+    fails(function(_, _, _, f) f[22] = 1 end, "f has 22 items")
+    fails(function(_, x) x[1].y = 1 end, "index a number value")
+  end)
+
+  it("may push so hard that the run diverges", function()
+    local scene, wire = make()
+    scene:force{ kind = function(_, _, _, f) for i = 1, #f do f[i] = 1e300 end end, on = wire }
+    local before = scene:snapshot()
+    local run = scene:run{ duration = 1 }
+    assert.is_false(run.ok)
+    assert.has_error(function() wire:position(0) end)
+    scene:restore(before)
+    assert.are.same({ 0, 0, 0 }, wire:position(0))
+  end)
+
+  it("sees each wire with its own nodes", function()
+    local scene = make()
+    scene:wire{ EA = 60, EI = 0.02, mass_per_length = 0.1, radius = 0.005, segments = 2,
+      from = { 0, 1, 0 }, to = { 1, 1, 0 } }
+    local sizes = {}
+    scene:force{ kind = function(_, x, v, f)
+      sizes[#x] = true
+      assert(#x == #v and #x == #f)
+    end }
+    local before = scene:snapshot()
+    scene:clamp(core.data(scene).wires[1].object, { s = 0.9123 })
+    scene:run{ duration = 0.02 }
+    scene:restore(before)
+    scene:run{ duration = 0.02 }
+    assert.is_true(sizes[9])
+    assert.is_true(sizes[21])
+  end)
+end)
+
+describe("runs, processes and coroutines", function()
+  it("may be started in a coroutine", function()
+    local scene, wire = make()
+    local calls = 0
+    scene:force{ kind = function() calls = calls + 1 end, on = wire }
+    local run = coroutine.wrap(function() return scene:run{ duration = 0.02 } end)()
+    assert.is_true(run.ok)
+    assert.is_true(calls > 0)
+    local settled = coroutine.wrap(function() return scene:settle() end)()
+    assert.is_true(settled.ok)
+  end)
+
+  it("cannot be nested in one scene", function()
+    local scene = make()
+    scene:process(function() scene:run{ duration = 1 } end)
+    local ok, message = pcall(scene.run, scene, { duration = 1 })
+    assert.is_false(ok)
+    assert.is_truthy(message:find("under way", 1, true), message)
+    local snapshot = scene:snapshot()
+    scene:process(function() scene:restore(snapshot) end)
+    ok, message = pcall(scene.run, scene, { duration = 1 })
+    assert.is_false(ok)
+    assert.is_truthy(message:find("under way", 1, true), message)
+    assert.is_true(scene:run{ duration = 0.01 }.ok)
+  end)
+
+  it("may settle, hold and release between steps", function()
+    local scene, wire, clamp = make()
+    scene:process(function(p)
+      p:wait(0.05)
+      scene:settle()
+      local other = scene:clamp(wire, { s = 1 })
+      clamp:release()
+      p:wait(0.05)
+      other:release()
+    end)
+    local run = scene:run()
+    assert.is_true(run.ok)
+    assert.is_true(math.abs(scene.time - 0.1) < 1e-12)
+  end)
+
+  it("pass errors of processes and conditions on unchanged", function()
+    for _, value in ipairs{ { 1 }, "text", 42, print } do
+      for _, body in ipairs{
+        function() error(value, 0) end,
+        function(p)
+          p:wait(0.02)
+          error(value, 0)
+        end,
+        function(p) p:wait_until(function() error(value, 0) end) end,
+        function(p)
+          p:wait_until(function()
+            if p.scene.time > 0.02 then error(value, 0) end
+          end)
+        end,
+      } do
+        local scene = make()
+        local process = scene:process(body)
+        local ok, got = pcall(scene.run, scene)
+        assert.is_false(ok)
+        assert.is_true(rawequal(value, got))
+        assert.is_truthy(tostring(process):find "failed")
+        assert.is_truthy(process.traceback:find "callbacks_spec.lua")
+        local run = scene:run{ duration = 0.01 }
+        assert.is_true(run.ok)
+      end
+    end
+  end)
+
+  it("check their waits", function()
+    for _, body in ipairs{
+      function(p) p:wait(-1) end, function(p) p:wait(0 / 0) end, function(p) p:wait() end,
+      function(p) p:wait(math.huge) end, function(p) p:wait_until(3) end,
+      function(p) p:wait_until(print, 3) end, function(p) p:wait_until(print, { timeuot = 3 }) end,
+      function(p) p:wait_until(print, { timeout = -3 }) end,
+      function(p) coroutine.wrap(function() p:wait(1) end)() end,
+    } do
+      local scene = make()
+      scene:process(body)
+      local ok, message = pcall(scene.run, scene)
+      assert.is_false(ok)
+      assert.is_truthy(message:find("p:wait", 1, true), message)
+    end
+    local scene = make()
+    local p = scene:process(function() end)
+    assert.has_error(function() p:wait(1) end)
+  end)
+
+  it("go on step by step when a process yields by itself", function()
+    local scene = make()
+    local times = {}
+    scene:process(function()
+      for _ = 1, 3 do
+        times[#times + 1] = scene.time
+        coroutine.yield()
+      end
+    end)
+    scene:run{ dt = 0.01 }
+    assert.are.equal(3, #times)
+    assert.is_true(math.abs(times[3] - 0.02) < 1e-12)
+  end)
+
+  it("end at times that rounding would blur", function()
+    local scene = make()
+    scene:process(function(p) p:wait(1 - 5e-13) end)
+    assert.is_true(scene:run{ duration = 1, dt = 0.5 }.ok)
+    scene:process(function(p) for _ = 1, 30 do p:wait(0.1) end end)
+    assert.is_true(scene:run{ duration = 3, dt = 0.5 }.ok)
+  end)
+
+  it("start new processes from processes", function()
+    local scene = make()
+    local seen = {}
+    scene:process(function(p)
+      p:wait(0.02)
+      scene:process(function(q)
+        q:wait(0.02)
+        seen[#seen + 1] = scene.time
+      end)
+    end)
+    scene:run()
+    assert.is_true(math.abs(seen[1] - 0.04) < 1e-12)
+  end)
+
+  it("wait for conditions with and without an end", function()
+    local scene = make()
+    local answers = {}
+    scene:process(function(p)
+      answers[1] = p:wait_until(function() return scene.time > 0.035 end)
+      answers[2] = p:wait_until(function() return false end, { timeout = 0.05 })
+      answers[3] = p:wait_until(function() return true end, { timeout = 0 })
+    end)
+    scene:run{ dt = 0.01 }
+    assert.are.same({ true, false, true }, answers)
+    assert.is_true(math.abs(scene.time - 0.09) < 1e-9)
+  end)
+end)

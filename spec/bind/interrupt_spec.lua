@@ -1,0 +1,75 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Ctrl-C inside the core: one error each time, and a scene that goes on.
+local program = require "host.program"
+
+-- Shells start background jobs with SIGINT ignored; env undoes that.
+local NORMAL = "env --default-signal=INT"
+local ONCE = { before = NORMAL, signals = { 0.4 } }
+local TWICE = { before = NORMAL, signals = { 0.4, 1.2 } } -- further apart than "I mean it"
+
+local SCENE = [[
+local sw = require "softworld"
+local scene = sw.scene{}
+local wire = scene:wire{ EA = 6000, EI = 0.02, mass_per_length = 0.1, radius = 0.005,
+  segments = 40, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+local clamp = scene:clamp(wire, { s = 0 })
+local function try(f)
+  local ok, message = pcall(f)
+  print(ok, (tostring(message):match "interrupted"))
+end
+local function works()
+  local t = scene.time
+  local run = scene:run{ duration = 0.1 }
+  assert(run.ok and math.abs(scene.time - t - 0.1) < 1e-9)
+  assert(#wire:positions() == 123 and wire:max_tension() > 0)
+  scene:restore(scene:snapshot())
+  scene:pin(wire, { s = 0.5 }):release()
+  print "works"
+end
+]]
+
+local RUNS = {
+  ["a run"] = "scene:run{ duration = 1e6, dt = 1e-4 }",
+  ["an explicit run"] = "scene:run{ duration = 1e6, dt = scene:stable_dt() / 2, integrator = 'rk4' }",
+  ["one call of the core"] = "scene:advance({ dt = 1e-4 }, 1e6)",
+  ["an adaptive run"] = "scene:run{ duration = 1e6, tolerance = 1e-9, dt = 1e-3 }",
+  ["a run with a process"] = [[
+    scene:process(function(p) while true do p:wait(0.001) end end)
+    scene:run()]],
+  ["a run with a function as a force"] = [[
+    local force <close> = setmetatable({ scene:force{ kind = function(_, _, v, f)
+      for i = 1, #f do f[i] = -0.01 * v[i] end end, on = wire } },
+      { __close = function(t) t[1]:release() end })
+    scene:run{ duration = 1e6, dt = 1e-3 }]],
+  ["a settling without end"] = [[
+    local k = 0
+    local force <close> = setmetatable({ scene:force{ kind = function(_, _, _, f)
+      k = k + 1
+      f[#f] = k % 7 end, on = wire } }, { __close = function(t) t[1]:release() end })
+    scene:settle{ max_iterations = 1e9 }]],
+}
+
+local names = {}
+for name in pairs(RUNS) do names[#names + 1] = name end
+table.sort(names)
+
+describe("Ctrl-C", function()
+  after_each(program.clean)
+
+  for _, name in ipairs(names) do
+    it("ends " .. name .. ", again and again", function()
+      local body = "try(function() " .. RUNS[name] .. " end)\nworks()\n"
+      local out, err, code = program.script(SCENE .. body .. body, nil, TWICE)
+      assert.equal("", err)
+      assert.equal(("false\tinterrupted\nworks\n"):rep(2), out)
+      assert.equal(0, code)
+    end)
+  end
+
+  it("names the line that ran when nobody catches it", function()
+    local _, err, code = program.script(SCENE .. "scene:run{ duration = 1e6, dt = 1e-4 }", nil, ONCE)
+    local line = select(2, SCENE:gsub("\n", "")) + 1
+    assert.equal(130, code)
+    assert.matches("script.lua:" .. line .. ": interrupted", err:match "[^\n]*")
+  end)
+end)

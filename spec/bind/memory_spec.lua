@@ -1,0 +1,214 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Memory: every request that can fail fails once, in everything there is; loops
+-- of tuning do not grow.
+local sw = require "softworld"
+local samples = require "contract.samples"
+local core = sw.core
+
+local function collect()
+  collectgarbage()
+  collectgarbage()
+end
+
+local function in_use()
+  collect()
+  return (core.allocated())
+end
+
+local WIRE = { EA = 60, EI = 0.02, mass_per_length = 0.1, radius = 0.005, segments = 6,
+  from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+local mesh = "v 0 0 -3\nv 1 0 -3\nv 0 1 -3\nv 0 0 -2\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+
+-- A scene with one of everything, that can go through anything.
+local function make()
+  local scene = sw.scene{}
+  local wire = scene:wire(WIRE)
+  local clamp = scene:clamp(wire, { s = 0 })
+  scene:obstacle{ shape = "plane", at = { 0, 0, -0.05 } }
+  scene:force{ kind = "drag", linear = 0.1 }
+  scene:force{ kind = function(_, _, v, f) for i = 1, #f do f[i] = -0.01 * v[i] end end, on = wire }
+  return scene, wire, clamp
+end
+
+local function new_shape(kind, seed)
+  for _, shape in ipairs(samples.registry.shapes) do
+    if shape.name == kind then
+      local args = samples.arguments(shape.params, samples.random(seed))
+      for _, row in ipairs(shape.params) do
+        if row.type == "vector" then args[row.name] = { 0.3, 0.4, 0.5 } end
+        if row.name == "points" then args.points = { 0, 0, -3, 1, 0, -3, 0, 1, -3, 0, 0, -2 } end
+        if row.name == "data" then args.data, args.format, args.scale = mesh, "obj", 1 end
+      end
+      args.shape, args.at = kind, { 0, 0, -5 }
+      return args
+    end
+  end
+end
+
+-- { name, act(scene, wire, clamp) }: what is tried with every request failing.
+local acts = {
+  { "making a scene", function() return sw.scene{} end },
+  { "making a wire", function(scene) return scene:wire(WIRE) end },
+  { "making a wire on a path", function(scene)
+    return scene:wire{ E = 1e8, density = 1e3, radius = 1e-3,
+      path = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 } } }
+  end },
+  { "settling", function(scene) return scene:settle() end },
+  { "reading a wire", function(_, wire) return wire:positions() end },
+  { "reading energies", function(scene) return scene:energy() end },
+  { "evaluating forces", function(scene, wire) return scene:evaluate(wire) end },
+  { "taking a snapshot", function(scene) return scene:snapshot() end },
+  { "restoring after a change", function(scene, wire)
+    local snapshot = scene:snapshot()
+    scene:pin(wire, { s = 0.77 })
+    scene:run{ duration = 0.02, integrator = "bdf2" }
+    scene:restore(snapshot)
+    scene:run{ duration = 0.02 }
+  end },
+  { "following a path", function(_, _, clamp)
+    clamp:follow{ points = { { 0, 0, 0 }, { 0, 0, 0.1 }, { 0.1, 0, 0.1 } }, speed = 1, relative = true }
+  end },
+  { "following a function", function(_, _, clamp) clamp:follow(function() return { 0, 0, 0 } end) end },
+  { "following a spline", function(_, _, clamp)
+    clamp:follow{ points = { { 0, 0, 0, t = 0 }, { 0, 0, 0.1, t = 1 }, { 0.1, 0, 0.1, t = 2 } },
+      law = "spline" }
+  end },
+  { "a whole script", function()
+    local scene <close> = make()
+    local wire = scene:wire(WIRE)
+    local left = scene:gripper{}
+    scene:process(function(p)
+      left:grasp(wire, { s = 0.5 })
+      left:move{ by = { 0, 0, 0.05 }, speed = 0.5 }
+      p:wait(0.02)
+      left:release()
+    end)
+    local run = scene:run{}
+    return run:document(), scene:snapshot()
+  end },
+}
+for _, hold in ipairs(samples.registry.holds) do
+  acts[#acts + 1] = { "making a " .. hold.name, function(scene, wire)
+    return scene[hold.name](scene, wire, { s = 0.6123 })
+  end }
+end
+for i, shape in ipairs(samples.registry.shapes) do
+  acts[#acts + 1] = { "making an obstacle " .. shape.name, function(scene)
+    return scene:obstacle(new_shape(shape.name, i))
+  end }
+end
+for i, force in ipairs(samples.registry.forces) do
+  if not force.inner then
+    acts[#acts + 1] = { "making a force " .. force.name, function(scene, wire)
+      local args = samples.arguments(force.params, samples.random(i))
+      args.kind, args.on = force.name, wire
+      return scene:force(args)
+    end }
+  end
+end
+for _, method in ipairs(samples.registry.integrators) do
+  acts[#acts + 1] = { "running with " .. method.name, function(scene)
+    local dt = method.implicit and 0.01 or 0.0005
+    return scene:run{ duration = 4 * dt, dt = dt, frame = dt, integrator = method.name }
+  end }
+end
+
+-- The error's text, or nil; what was made is forgotten.
+local function attempt(act, ...)
+  local ok, message = pcall(act, ...)
+  return not ok and tostring(message) or nil
+end
+
+describe("running out of memory", function()
+  after_each(function() core.fail_allocation(0) end)
+
+  for _, entry in ipairs(acts) do
+    local name, act = entry[1], entry[2]
+    it(name .. " leaves nothing behind and a scene that works", function()
+      pcall(function()
+        local scene <close>, wire, clamp = make()
+        act(scene, wire, clamp)
+      end)
+      local before = in_use()
+      local n, failures = 0, 0
+      repeat
+        n = n + 1
+        local scene, wire, clamp = make()
+        core.fail_allocation(n)
+        local _, asked = core.allocated()
+        local message = attempt(act, scene, wire, clamp)
+        core.fail_allocation(0)
+        local _, now = core.allocated()
+        local reached = now - asked >= n
+        if message then
+          failures = failures + 1
+          assert.is_true(reached)
+          assert.is_truthy(message:find "memory", message)
+        end
+        local run = scene:run{ duration = 0.02 }
+        assert.is_true(run.ok, ("request %d: %s"):format(n, run.reason))
+        scene:pin(wire, { s = 0.3 })
+        scene:restore(scene:snapshot())
+        assert.are.equal("table", type(scene:settle()))
+        scene:close()
+        assert.are.equal(before, in_use(), ("request %d of %s"):format(n, name))
+      until not reached
+      assert.is_true(failures > 0 or n == 1, "nothing ever failed")
+    end)
+  end
+end)
+
+describe("tuning loops", function()
+  -- The core's own memory exactly; Lua's may breathe, but not by the loop.
+  local function loop(count, body)
+    for _ = 1, 50 do body() end
+    local bytes = in_use()
+    local lua = collectgarbage "count"
+    for _ = 1, count do body() end
+    assert.are.equal(bytes, in_use())
+    collect()
+    assert.is_true(collectgarbage "count" < lua + 64, "Lua's memory grew") -- [KiB]
+  end
+
+  it("of restoring and settling do not grow", function()
+    local scene, wire, clamp = make()
+    local snapshot = scene:snapshot()
+    loop(2000, function()
+      scene:restore(snapshot)
+      clamp:pose{ 0, 0, 0.01 }
+      assert.is_true(scene:settle().ok)
+    end)
+    assert.is_truthy(wire)
+  end)
+
+  it("of restoring, holding, laying obstacles and running do not grow", function()
+    local scene, wire = make()
+    local left = scene:gripper{ name = "left" }
+    local snapshot = scene:snapshot()
+    local peak
+    loop(300, function()
+      scene:restore(snapshot)
+      scene:obstacle{ shape = "sphere", radius = 0.1, at = { 0, 0, -1 } }
+      scene:force{ kind = function() end, on = wire }
+      scene:process(function()
+        left:grasp(wire, { s = 0.9 })
+        left:move{ by = { 0, 0, 0.02 }, duration = 0.05 }
+      end)
+      scene:run()
+      assert.are.equal(peak or left.peak_force, left.peak_force)
+      peak = left.peak_force
+    end)
+  end)
+
+  it("of making and closing scenes do not grow", function()
+    loop(2000, function()
+      local scene <close>, wire = make()
+      assert.are.equal(6, wire.segments)
+      assert.are.equal(0, scene.time)
+    end)
+  end)
+
+  it("of making scenes and forgetting them do not grow", function()
+    loop(500, function() make() end)
+  end)
+end)

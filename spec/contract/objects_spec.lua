@@ -1,0 +1,220 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Wire models, holds and shapes: what every member owes, over the registries.
+local sw = require "softworld"
+local samples = require "contract.samples"
+
+local G = 9.81
+local MASS = 0.1 -- [kg], of 1 m of the sample wire
+
+local function near(expected, value, tolerance, what)
+  local size = math.max(1, math.abs(expected))
+  assert.is_true(math.abs(value - expected) <= tolerance * size,
+    ("%s%.12g instead of %.12g"):format(what and what .. ": " or "", value, expected))
+end
+
+for _, model in ipairs(samples.registry.models) do
+  describe("wire model " .. model.name, function()
+    it("rests where it was made", function()
+      local scene, wire = samples.wire{ segments = 9, model = model.name }
+      local before = wire:positions()
+      local run = scene:run{ duration = 0.1 }
+      assert.is_true(run.ok)
+      near(0, samples.norm(samples.along(before, wire:positions(), -1)), 1e-12)
+      near(0, scene:energy().total, 1e-15)
+    end)
+
+    it("has the mass it was given", function()
+      local scene, wire = samples.wire{ segments = 9, model = model.name }
+      wire:set_velocity{ 3, 0, 4 }
+      near(0.5 * MASS * 25, scene:energy().kinetic, 1e-12)
+      scene:gravity{ 0, 0, -G }
+      scene:run{ duration = 0.2 } -- falls freely, as a whole
+      near(4 - 0.2 * G, wire:velocity(0.41)[3], 1e-9)
+      near(0, wire:max_tension(), 1e-9)
+    end)
+
+    it("hangs with its weight on the clamp", function()
+      local scene, wire = samples.wire{ segments = 9, model = model.name, gravity = { 0, 0, -G } }
+      local clamp = scene:clamp(wire, { s = 0, direction = { 0, 0, -1 } })
+      assert.is_true(scene:settle().ok)
+      local force = clamp:force()
+      near(0, force[1], 1e-7)
+      near(MASS * G, force[3], 1e-7)
+      assert.is_true(wire:position(1)[3] < -0.9)
+    end)
+
+    it("tells its length, ends and energies", function()
+      local scene, wire = samples.wire{ segments = 9, model = model.name }
+      assert.are.equal(9, wire.segments)
+      near(1, wire.length, 1e-15)
+      assert.are.same({ 0, 0, 0 }, wire:position(0))
+      near(1, wire:position(wire.length)[1], 1e-15)
+      near(1, wire:tangent(0.5)[1], 1e-15)
+      local sum, energy = 0, scene:energy()
+      for kind, value in pairs(energy) do
+        if kind ~= "total" then sum = sum + value end
+      end
+      near(energy.total, sum, 1e-15)
+      assert.has_error(function() wire:position(-0.001) end)
+      assert.has_error(function() wire:position(1.001) end)
+      assert.has_error(function() wire:position(0 / 0) end)
+    end)
+
+    it("keeps its length of arc on a bent path", function()
+      local scene = sw.scene{ gravity = { 0, 0, 0 } }
+      local points = {}
+      for i = 0, 60 do
+        points[#points + 1] = { math.sin(i / 30), 1 - math.cos(i / 30), 0 }
+      end
+      local wire = scene:wire{ EA = 60, EI = 0.02, mass_per_length = 0.1, radius = 0.005,
+        path = points, segments = 20, model = model.name }
+      near(2, wire.length, 1e-3)
+      near(0, wire:tension(1), 1e-12) -- its edges are unstressed
+      near(1, wire:curvature(1), 2e-2) -- bent by force: the path is not its rest shape
+    end)
+  end)
+end
+
+local function hold_arguments(hold)
+  local args = { s = 0.37 }
+  for _, row in ipairs(hold.params) do
+    if row.name == "width" then args.width = 0.1 end
+  end
+  return args
+end
+
+for _, hold in ipairs(samples.registry.holds) do
+  describe("hold " .. hold.name, function()
+    local function make(segments)
+      local scene, wire = samples.wire{ segments = segments or 10, gravity = { 0, 0, -G } }
+      return scene, wire, scene[hold.name](scene, wire, hold_arguments(hold))
+    end
+
+    it("holds its place exactly, on any mesh", function()
+      for _, segments in ipairs{ 2, 3, 7, 10, 31 } do
+        local scene, wire, handle = make(segments)
+        near(0.37, handle:pose()[1], 1e-12)
+        local run = scene:run{ duration = 0.2 }
+        assert.is_true(run.ok, run.reason)
+        local p = wire:position(0.37)
+        near(0.37, p[1], 1e-9, segments .. " segments")
+        near(0, p[3], 1e-9)
+        assert.are.equal(hold.name, handle.kind)
+        assert.is_true(handle.held)
+      end
+    end)
+
+    it("carries the weight at rest", function()
+      local scene, _, handle = make()
+      scene:force{ kind = "damping", mass = 6 }
+      local run = scene:run{ duration = 6, dt = 0.02 }
+      assert.is_true(run.ok, run.reason)
+      near(MASS * G, handle:force()[3], 1e-3)
+    end)
+
+    it("follows a motion and stops", function()
+      local scene, wire, handle = make()
+      local duration = handle:follow{ points = { { 0, 0, 0 }, { 0.05, 0, 0.1 } }, speed = 0.5,
+        relative = true }
+      scene:run{ duration = duration }
+      local p = wire:position(0.37)
+      near(0.42, p[1], 1e-9)
+      near(0.1, p[3], 1e-9)
+      handle:follow(nil)
+      scene:run{ duration = 0.1 }
+      near(0.1, wire:position(0.37)[3], 1e-9)
+    end)
+
+    it("lets go once, for good", function()
+      local scene, wire, handle = make()
+      handle:release()
+      handle:release()
+      assert.is_false(handle.held)
+      assert.has_error(function() handle:force() end)
+      assert.has_error(function() handle:pose{ 0, 0, 0 } end)
+      assert.has_error(function() handle:follow(nil) end)
+      assert.are.equal("table", type(handle:pose()))
+      assert.is_truthy(tostring(handle):find "released")
+      scene:run{ duration = 0.1 }
+      near(-0.5 * G * 0.01, wire:position(0.37)[3], 1e-2)
+    end)
+
+    it("refuses places that are held or not on the wire", function()
+      local scene, wire = make()
+      for _, s in ipairs{ 0.37, 1.01, -0.1, 1 / 0, 0 / 0 } do
+        local args = hold_arguments(hold)
+        args.s = s
+        assert.has_error(function() scene[hold.name](scene, wire, args) end)
+      end
+      assert.are.equal(1, #sw.core.data(scene).holds)
+    end)
+
+    it("tells who it is", function()
+      local scene, wire = make()
+      local args = hold_arguments(hold)
+      args.s, args.name = 0.8, "the other"
+      local other = scene[hold.name](scene, wire, args)
+      assert.are.equal("the other", other.name)
+      assert.is_truthy(tostring(other):find "'the other'")
+      assert.has_error(function() other.nonsense = 1 end)
+    end)
+  end)
+end
+
+local corners = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 1, 1 } }
+local tetrahedron = [[
+v 0 0 0
+v 1 0 0
+v 0 1 0
+v 0 0 1
+f 1 3 2
+f 1 2 4
+f 1 4 3
+f 2 3 4
+]]
+
+local function shape_arguments(shape, seed)
+  local args = samples.arguments(shape.params, samples.random(seed))
+  for _, row in ipairs(shape.params) do
+    if row.type == "vector" then args[row.name] = { 0.3, 0.4, 0.5 } end
+    if row.name == "points" then args.points = corners end
+    if row.name == "data" then args.data, args.format, args.scale = tetrahedron, "obj", 1 end
+  end
+  args.shape = shape.name
+  return args
+end
+
+for index, shape in ipairs(samples.registry.shapes) do
+  describe("obstacle " .. shape.name, function()
+    local function make()
+      local scene = samples.wire{ segments = 5 }
+      local args = shape_arguments(shape, index)
+      args.at = { 1, 2, 30 }
+      return scene, scene:obstacle(args)
+    end
+
+    it("is made from its rows, placed, moved and taken away", function()
+      local scene, obstacle = make()
+      assert.are.same({ 1, 2, 30 }, obstacle:pose())
+      assert.are.same({ 0, 0, 0 }, obstacle:force())
+      obstacle:pose({ 3, 2, 40 }, { axis = { 0, 0, 1 }, angle = 0.5 })
+      local place, rotation = obstacle:pose()
+      assert.are.same({ 3, 2, 40 }, place)
+      near(math.cos(0.25), rotation[1], 1e-15)
+      assert.is_true(scene:run{ duration = 0.02 }.ok)
+      obstacle:remove()
+      assert.has_error(function() obstacle:pose() end)
+      assert.is_truthy(tostring(obstacle):find "removed")
+      local run = scene:run{ duration = 0.02 }
+      assert.is_true(run.ok)
+      run:document() -- the series of what was removed are still there
+    end)
+
+    it("tells who it is", function()
+      local _, obstacle = make()
+      assert.are.equal(shape.name .. "1", obstacle.name)
+      assert.is_truthy(tostring(obstacle):find(shape.name, 1, true))
+      assert.are.equal(shape.name, obstacle.shape:kind())
+    end)
+  end)
+end

@@ -1,0 +1,207 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Clamps anywhere on a wire, put on and taken off while it moves, grips with a width.
+package.path = "./?.lua;" .. package.path
+local sw = require "softworld"
+local cases = require "softworld.cases"
+local wires = require "softworld.cases.wire"
+local t = require "spec.physics.tools"
+
+local exact = cases.droop{}.exact -- gamma 10, free length 1 m
+
+-- A wire of `before` + 1 m along x with segments of about 1/n; its last metre is free.
+local function long(before, n)
+  local p = wires.parameters{ gamma = 10, g = 9.81, axial = 1e8 }
+  p.segments = math.floor(n * (1 + before) + 0.5)
+  p.from, p.to = { -before, 0, 0 }, { 1, 0, 0 }
+  local scene = sw.scene{}
+  return scene, scene:wire(p), p
+end
+
+local function tip_error(wire)
+  return t.distance({ exact.x, 0, exact.z }, wire:position(wire.length))
+end
+
+describe("a clamp", function()
+  it("in mid-wire is as good as one at the end", function()
+    for _, n in ipairs{ 50, 100 } do
+      local c = cases.droop{ segments = n, axial = 1e8 }
+      t.fine(c.run())
+      local usual = c.error()
+      for _, before in ipairs{ 0.5, 0.5 + 0.3 / n, 0.5 + 0.45 / n, 0.1234, 0.3 / n, 1 / n, 1.5 / n,
+        0.005 } do
+        local scene, wire, p = long(before, n)
+        local clamp = scene:clamp(wire, { s = before })
+        t.fine(scene:settle())
+        -- the segments differ a little in length from those of the droop
+        t.below(1.3 * usual, tip_error(wire), ("tip error, clamp at %g m"):format(before))
+        t.share(p.mass_per_length * 9.81 * (1 + before), clamp:force()[3], 1e-9, "weight")
+      end
+    end
+  end)
+
+  it("is where it is told to be, whatever the mesh", function()
+    for _, s in ipairs{ 0.0031, 0.2, 0.2077, 0.5, 0.9999 } do
+      local scene, wire = long(0, 50)
+      local clamp = scene:clamp(wire, { s = s })
+      t.fine(scene:settle())
+      t.below(1e-12, t.distance({ s, 0, 0 }, wire:position(s)), "held point off by")
+      t.below(1e-12, t.distance({ s, 0, 0 }, (clamp:pose())), "pose off by")
+      t.below(1e-9, t.distance({ 1, 0, 0 }, wire:tangent(s)), "tangent off by")
+    end
+  end)
+
+  it("near the free end bears the moment of both sides", function()
+    local scene, wire, p = long(0.5, 50)
+    local clamp = scene:clamp(wire, { s = 1.497 })
+    t.fine(scene:settle())
+    local w, x = p.mass_per_length * 9.81, wire:position(0)
+    t.share(w * 1.5, clamp:force()[3], 1e-9, "force")
+    assert.is_true(x[3] < -0.9)
+  end)
+
+  it("holds a grip's interval rigid and is exact from its faces on", function()
+    for _, width in ipairs{ 0.005, 0.02, 0.1 } do
+      local scene, wire, p = long(0.3, 50)
+      local grip = scene:grip(wire, { s = 0.3 - width / 2, width = width })
+      t.fine(scene:settle())
+      t.below(5e-5, tip_error(wire), ("tip error, width %g"):format(width))
+      t.share(p.mass_per_length * 9.81 * 1.3, grip:force()[3], 1e-9, "weight")
+      for _, s in ipairs{ 0.3 - width, 0.3 - width / 2, 0.3 } do
+        t.below(1e-9, t.distance({ s - 0.3, 0, 0 }, wire:position(s)), "held place off by")
+      end
+    end
+  end)
+
+  it("turns the wire with it: the stiffness of a beam between two clamps", function()
+    for _, gap in ipairs{ 0.08, 0.1, 0.2, 0.5, 0.007, 0.019, 0.04, 0.06 } do
+      local scene, wire, p = long(0.5, 50)
+      scene:gravity{ 0, 0, 0 }
+      local a, b = scene:clamp(wire, { s = 0.5 - gap }), scene:clamp(wire, { s = 0.5 })
+      local angle = 1e-6
+      b:pose((b:pose()), { math.cos(angle / 2), 0, math.sin(angle / 2), 0 })
+      t.fine(scene:settle{ tolerance = 1e-15 })
+      -- second order in the number of edges between, which is at least four: 2.3 %
+      local tolerance = 0.025
+      t.share(4 * p.EI / gap * angle, b:moment()[2], tolerance, ("near moment, gap %g"):format(gap))
+      t.share(2 * p.EI / gap * angle, a:moment()[2], 2 * tolerance, ("far moment, %g"):format(gap))
+      t.share(6 * p.EI / gap ^ 2 * angle, math.abs(b:force()[3]), 2 * tolerance, ("force, %g"):format(gap))
+    end
+  end)
+
+  it("of two close together leaves the free side alone", function()
+    for _, gap in ipairs{ 0.006, 0.016, 0.02, 0.03, 0.05 } do
+      local scene, wire, p = long(0.5, 50)
+      local a, b = scene:clamp(wire, { s = 0.5 - gap }), scene:clamp(wire, { s = 0.5 })
+      t.fine(scene:settle())
+      t.below(6e-5, tip_error(wire), ("tip error, gap %g"):format(gap))
+      t.share(p.mass_per_length * 9.81 * 1.5, a:force()[3] + b:force()[3], 1e-9, "weight")
+    end
+  end)
+
+  it("at both ends shares the weight and the moments evenly", function()
+    local scene, wire, p = long(0.5, 40)
+    local width = 0.03
+    local a = scene:grip(wire, { s = width / 2, width = width })
+    local b = scene:grip(wire, { s = wire.length - width / 2, width = width })
+    t.fine(scene:settle())
+    local w = p.mass_per_length * 9.81 * 1.5
+    t.share(w / 2, a:force()[3], 1e-7, "left force")
+    t.share(w / 2, b:force()[3], 1e-7, "right force")
+    t.share(-a:moment()[2], b:moment()[2], 1e-7, "moments")
+    -- moments about one point add up to the weight's
+    local left, right = a:moment{ at = { 0, 0, 0 } }, b:moment{ at = { 0, 0, 0 } }
+    t.near(-w * 0.25, left[2] + right[2], 1e-7 * w, "sum of moments")
+  end)
+
+  it("follows a turn: the wire's weight stays, its moment goes round", function()
+    local c = cases.droop{ segments = 40 }
+    t.fine(c.run())
+    local before = c.measured()
+    c.clamp:pose({ 0, 0, 0 }, { math.cos(0.4), 0, 0, math.sin(0.4) }) -- about the vertical
+    t.fine(c.scene:settle())
+    local M = c.clamp:moment()
+    t.near(before.moment[2] * math.cos(0.8), M[2], 1e-8, "moment")
+    t.near(-before.moment[2] * math.sin(0.8), M[1], 1e-8, "moment")
+  end)
+end)
+
+describe("a clamp put on in mid-run", function()
+  -- The swinging cantilever at 0.3 s.
+  local function swinging(n)
+    local c = cases.release{ segments = n or 50 }
+    t.fine(c.scene:run{ duration = 0.3, dt = 1e-3 })
+    return c, c.parameters.mass_per_length * 9.81 / 2
+  end
+
+  it("leaves positions, velocities and energy alone", function()
+    for _, s in ipairs{ 0.5, 0.503, 0.5077, 0.51, 0.9 } do
+      local c, scale = swinging()
+      local e, before = c.scene:energy(), {}
+      local places = { 0.1, 0.3, 0.49, 0.7, 0.9, 1 }
+      for i, u in ipairs(places) do before[i] = { c.wire:position(u), c.wire:velocity(u) } end
+      c.scene:clamp(c.wire, { s = s })
+      for i, u in ipairs(places) do
+        -- a node that moves along the curve: the cubic between nodes differs by h^3 = 8e-6
+        -- times the change of curvature, 1 or so
+        t.below(1e-5, t.distance(before[i][1], c.wire:position(u)), "position changed by")
+        t.below(2e-3, t.distance(before[i][2], c.wire:velocity(u)), "velocity changed by")
+      end
+      local now = c.scene:energy()
+      t.near(e.kinetic, now.kinetic, 1e-4 * scale, "kinetic energy")
+      t.near(e.stretch, now.stretch, 1e-5 * scale, "stretch energy")
+      t.near(e.gravity, now.gravity, 1e-5 * scale, "gravity energy")
+      t.near(e.total, now.total, 1e-3 * scale, "total energy")
+    end
+  end)
+
+  it("stops the held point, and only it", function()
+    local c = swinging()
+    local tip = c.wire:velocity(1)
+    local clamp = c.scene:clamp(c.wire, { s = 0.503 })
+    local place = c.wire:position(0.503)
+    -- before the axial wave, at 792 m/s, is there to tell the tip
+    t.fine(c.scene:run{ duration = 2e-4, dt = 2e-5 })
+    t.below(1e-9, t.distance(place, c.wire:position(0.503)), "held point moved by")
+    t.below(0.05, t.distance(tip, c.wire:velocity(1)), "tip's velocity changed by")
+    t.fine(c.scene:run{ duration = 0.2, dt = 1e-3 })
+    t.below(1e-9, t.distance(place, c.wire:position(0.503)), "held point moved by")
+    assert.is_true(t.norm(clamp:force()) > 0)
+  end)
+
+  it("never gives energy, and less and less is lost in stopping with finer meshes", function()
+    local losses = {}
+    for i, n in ipairs{ 25, 100 } do
+      local c, scale = swinging(n)
+      local e = c.scene:energy().total
+      local clamp = c.scene:clamp(c.wire, { s = 0.5 })
+      t.fine(c.scene:run{ duration = 1e-3, dt = 1e-3 })
+      losses[i] = (e - c.scene:energy().total) / scale
+      t.above(0, losses[i], "loss")
+      clamp:release()
+      local released = c.scene:energy().total
+      t.fine(c.scene:run{ duration = 0.3, dt = 1e-3 })
+      t.below(released + 1e-4 * scale, c.scene:energy().total, "energy after the release")
+    end
+    t.below(losses[1], losses[2], "loss at 100 segments")
+  end)
+
+  it("at rest changes nothing but by the mesh's second order", function()
+    for _, s in ipairs{ 0.5, 0.5063, 0.991 } do
+      local shifts = {}
+      for i, n in ipairs{ 50, 200 } do
+        local c = cases.droop{ segments = n }
+        t.fine(c.run())
+        local tip = c.wire:position(1)
+        local clamp = c.scene:clamp(c.wire, { s = s })
+        t.fine(c.scene:settle())
+        shifts[i] = t.distance(tip, c.wire:position(1))
+        clamp:release()
+        t.fine(c.scene:settle())
+        -- what is left: a node that has moved
+        t.below(1e-5, t.distance(tip, c.wire:position(1)), "tip moved by, after the release")
+      end
+      t.below(1.5e-4, shifts[1], "tip moved by, 50 segments")
+      t.below(1e-5, shifts[2], "tip moved by, 200 segments")
+    end
+  end)
+end)
