@@ -6,7 +6,7 @@
 #define SW_FORCE_SLIP_H
 
 #include "base/vec.h"
-#include "state/field.h"
+#include "force/force.h"
 
 /* Values of one hinge. */
 typedef struct sw_slip_law {

@@ -8,7 +8,8 @@ arc.L, arc.EI = 0.5, 0.02
 
 --- A weightless wire along x under two clamps. options: N, force (arguments).
 function arc.new(options)
-  local bent = setmetatable({ N = options.N or 12, scene = sw.scene{ gravity = { 0, 0, 0 } } }, { __index = arc })
+  local bent = setmetatable({ N = options.N or 12 }, { __index = arc })
+  bent.scene = sw.scene{ gravity = { 0, 0, 0 } }
   bent.wire = bent.scene:wire{ EA = 1e4, EI = arc.EI, mass_per_length = 0.05, radius = 0.002,
     from = { 0, 0, 0 }, to = { arc.L, 0, 0 }, segments = bent.N }
   local args = { on = bent.wire }

@@ -129,7 +129,7 @@ describe("plastic bending", function()
     local function bent(turn)
       local scene, wire, pull = loaded(12, turn{ 0.01, 0.06, 0.08 }, 20)
       pull:release()
-      pull = scene:force{ kind = "point", on = wire, s = 1, force = turn{ 0, -0.09, 0.03 } }
+      scene:force{ kind = "point", on = wire, s = 1, force = turn{ 0, -0.09, 0.03 } }
       tools.fine(scene:settle{ tolerance = 1e-13 })
       return wire:position(1), scene:energy().dissipated
     end
