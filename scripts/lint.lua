@@ -15,9 +15,9 @@ local ROOMS = {
   wire = { "base", "state" },
   force = { "base", "state" },
   solve = { "base" }, -- matrices only
-  system = { "base", "state", "solve" },
+  system = { "base", "state", "solve", "force" }, -- it evaluates the wires' forces
   integrate = { "base", "state", "solve", "system" }, -- a system, never a force or a wire
-  contact = { "base", "state", "shape", "motion" },
+  contact = { "base", "state", "shape", "motion", "system" }, -- a coupling of the system
   constraint = { "base", "state", "shape", "motion", "contact" },
   calibrate = { "base", "wire", "force", "solve" },
   scene = { "base", "motion", "shape", "state", "wire", "force", "solve", "system", "integrate",
@@ -27,7 +27,9 @@ local ROOMS = {
 }
 
 -- Headers other rooms may see: <room>/<room>.h, unless listed here (true = all of them).
-local OPEN = { base = true, bind = true }
+-- state and solve have no single header: their parts have different users.
+local OPEN = { base = true, bind = true, state = { "field.h", "mesh.h", "plan.h" },
+  solve = { "band3.h" } }
 
 -- May include softworld.h.
 local USES_CORE = { bind = true, host = true }

@@ -90,6 +90,7 @@ static int meth_tangent(lua_State *L) { return lsw_push_vector(L, at(L).tangent)
 static int meth_velocity(lua_State *L) { return lsw_push_vector(L, at(L).velocity), 1; }
 static int meth_curvature(lua_State *L) { return lua_pushnumber(L, at(L).curvature), 1; }
 static int meth_tension(lua_State *L) { return lua_pushnumber(L, at(L).tension), 1; }
+static int meth_twist_moment(lua_State *L) { return lua_pushnumber(L, at(L).twist_moment), 1; }
 
 static size_t node_count(lua_State *L, sw_scene *scene, const lsw_child *w) {
   size_t n;
@@ -248,6 +249,7 @@ static const luaL_Reg methods[] = {{"position", meth_position},
                                    {"velocity", meth_velocity},
                                    {"curvature", meth_curvature},
                                    {"tension", meth_tension},
+                                   {"twist_moment", meth_twist_moment},
                                    {"positions", meth_positions},
                                    {"velocities", meth_velocities},
                                    {"set_velocity", meth_set_velocity},

@@ -27,7 +27,8 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count,
   c->start = sw_alloc(count, sizeof *c->start);
   c->now = sw_alloc(count, sizeof *c->now);
   c->flat = sw_alloc(count, sizeof *c->flat);
-  if (!c->obstacles || !c->start || !c->now || !c->flat) {
+  c->bounds = (sw_bounds *)sw_alloc(count, sizeof *c->bounds);
+  if (!c->obstacles || !c->start || !c->now || !c->flat || !c->bounds) {
     sw_contact_free(c);
     return SW_ENOMEM;
   }
@@ -48,6 +49,7 @@ void sw_contact_free(sw_contact *c) {
   sw_free(c->start);
   sw_free(c->now);
   sw_free(c->flat);
+  sw_free(c->bounds);
   sw_free(c->candidates);
   sw_free(c->touches);
   sw_free(c->last);
@@ -198,8 +200,7 @@ static void set_stiffness(sw_contact *c, const sw_system *s, double nominal) {
 }
 
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err) {
-  sw_bounds *bounds = (sw_bounds *)sw_alloc(c->count, sizeof *bounds);
-  if (!bounds) return sw_fail(err, SW_ENOMEM, "contact: out of memory");
+  sw_bounds *bounds = c->bounds;
   sw_status status = SW_OK;
   c->candidate_count = c->touch_count = c->last_count = 0;
   for (size_t o = 0; o < c->count; o++)
@@ -207,7 +208,6 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
   for (size_t b = 0; b < s->body_count && status == SW_OK; b++)
     for (size_t i = 0; i < s->bodies[b].plan->nodes && status == SW_OK; i++)
       status = node_candidates(c, s, b, i, bounds);
-  sw_free(bounds);
   if (status != SW_OK) return sw_fail(err, status, "contact: out of memory");
   match_memory(c);
   return SW_OK;

@@ -47,7 +47,8 @@ static sw_status push(sw_contact *c, const sw_touch *t) {
 static const sw_memory *memory_for(const sw_contact *c, const sw_candidate *k, double at) {
   const sw_memory *best = NULL;
   for (size_t i = k->memory; i < k->memory_end; i++)
-    if (!best || fabs(c->memory[i].at - at) < fabs(best->at - at)) best = &c->memory[i];
+    if (c->memory && (!best || fabs(c->memory[i].at - at) < fabs(best->at - at)))
+      best = &c->memory[i];
   return best;
 }
 

@@ -12,10 +12,12 @@
 
 /* Chebyshev fits on u in [0, 1/4] (phi <= 60 degrees), error below 5e-16. */
 static const double FIT_LIMIT = 0.25; /* largest u of the fits [-] */
-#define FIT(u, c) \
-  ((c##0) + u * ((c##1) + u * ((c##2) + u * ((c##3) + u * ((c##4) + u * ((c##5) + u * ((c##6) + \
-  u * ((c##7) + u * ((c##8) + u * ((c##9) + u * ((c##10) + u * ((c##11) + u * ((c##12) + \
-  u * (c##13))))))))))))))
+/* Horner's scheme for the coefficients c0 .. c13. */
+#define STEP(u, c, rest) ((c) + (u) * (rest))
+#define FIT(u, c)                                                                              \
+  STEP(u, c##0, STEP(u, c##1, STEP(u, c##2, STEP(u, c##3, STEP(u, c##4, STEP(u, c##5,          \
+  STEP(u, c##6, STEP(u, c##7, STEP(u, c##8, STEP(u, c##9, STEP(u, c##10, STEP(u, c##11,        \
+  STEP(u, c##12, c##13)))))))))))))
 #define S0 1.0
 #define S1 0.66666666666673224
 #define S2 0.53333333331635013
@@ -28,7 +30,7 @@ static const double FIT_LIMIT = 0.25; /* largest u of the fits [-] */
 #define S9 0.33511256175349097
 #define S10 0.035139155368524883
 #define S11 0.97765555800227311
-#define S12 -1.1132861271784307
+#define S12 (-1.1132861271784307)
 #define S13 1.5537792943093436
 #define W0 0.33333333333333298
 #define W1 0.53333333333387734
@@ -40,9 +42,9 @@ static const double FIT_LIMIT = 0.25; /* largest u of the fits [-] */
 #define W7 1.204873841758062
 #define W8 1.2131077477347334
 #define W9 1.7741216298827196
-#define W10 -0.50853150242764933
+#define W10 (-0.50853150242764933)
 #define W11 7.3660905082461881
-#define W12 -9.4903230920523001
+#define W12 (-9.4903230920523001)
 #define W13 12.120085660545596
 
 /* sin^2 of half the largest angle the formula is used for: 0.98 * pi. Beyond

@@ -167,6 +167,7 @@ void sw_stepper_accept(sw_stepper *p, sw_system *s, double h) {
     memcpy(p->xp, s->x, p->n * sizeof(double));
     memcpy(p->vp, s->v, p->n * sizeof(double));
   }
+  sw_system_follow(s, p->trial_x);
   memcpy(s->x, p->trial_x, p->n * sizeof(double));
   memcpy(s->v, p->trial_v, p->n * sizeof(double));
   if (p->trial_a) memcpy(s->a, p->trial_a, p->n * sizeof(double));

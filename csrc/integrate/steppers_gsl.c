@@ -60,8 +60,8 @@ static sw_status advance(sw_stepper *p, sw_system *s, double t, double h, double
   const sw_integrator sw_integrator_gsl_##id = {                                             \
       .name = "gsl-" label,                                                                  \
       .summary = "GSL's " label " with fixed steps",                                         \
-      .order = p_order,                                                                      \
-      .leapfrog_limit = limit,                                                               \
+      .order = (p_order),                                                                    \
+      .leapfrog_limit = (limit),                                                             \
       .advance = advance_##id,                                                               \
   };
 

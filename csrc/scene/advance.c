@@ -198,10 +198,10 @@ static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_er
   const int adaptive = isfinite(p->args->tolerance);
   const double slack = 1e-12 * fmax(fabs(until), span);
   const size_t first = p->report->steps;
-  for (double k = 1; s->time < until - slack; k++) {
+  for (size_t k = 1; s->time < until - slack; k++) {
     if (interrupted && interrupted()) return SW_EINTR;
     if ((double)(p->report->steps - first) >= (double)p->args->max_steps) return SW_OK;
-    const double t1 = k >= count ? until : t0 + span * (k / count);
+    const double t1 = (double)k >= count ? until : t0 + span * ((double)k / count);
     SW_TRY(adaptive ? controlled_step(p, until - s->time, until, err)
                     : step(p, t1 - s->time, t1, err));
     if (isfinite(p->args->frame) && s->time >= s->next_frame - slack)

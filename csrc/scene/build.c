@@ -73,6 +73,55 @@ static sw_status inherit_contact(sw_scene *s) {
   return status;
 }
 
+/* Twist by stretch of wire, for the spans of the next system. */
+static sw_status keep_twist(sw_scene *s) {
+  for (size_t k = 0; k < s->system.hold_count; k++) {
+    const double *q = s->system.turn + 4 * k;
+    s->holds[s->hold_slot[k]].turn = (sw_quat){q[0], q[1], q[2], q[3]};
+  }
+  for (size_t w = 0; w < s->wire_count; w++) {
+    const sw_body *b = &s->system.bodies[w];
+    sw_scene_wire *wire = &s->wires[w];
+    const size_t count = b->has_twist ? b->plan->span_count : 0;
+    sw_twisted *list = sw_alloc(count, sizeof *list);
+    if (!list) return SW_ENOMEM;
+    for (size_t k = 0; k < count; k++) {
+      const sw_span *span = &b->plan->spans[k];
+      list[k] = (sw_twisted){b->plan->s[span->first], b->plan->s[span->last + 1],
+                             s->system.twist[b->first_span + k]};
+    }
+    sw_free(wire->twisted);
+    wire->twisted = list;
+    wire->twisted_count = count;
+  }
+  return SW_OK;
+}
+
+static void store_turn(double *out, sw_quat q) {
+  out[0] = q.w, out[1] = q.x, out[2] = q.y, out[3] = q.z;
+}
+
+/* A new span takes over the twist of the stretches it covers; what lies outside
+ * of all spans has unwound through a free end. */
+static void inherit_twist(sw_scene *s) {
+  for (size_t k = 0; k < s->system.hold_count; k++)
+    store_turn(s->system.turn + 4 * k, s->holds[s->hold_slot[k]].turn);
+  for (size_t w = 0; w < s->wire_count; w++) {
+    const sw_body *b = &s->system.bodies[w];
+    const sw_scene_wire *wire = &s->wires[w];
+    for (size_t k = 0; b->has_twist && k < b->plan->span_count; k++) {
+      const double s1 = b->plan->s[b->plan->spans[k].first];
+      const double s2 = b->plan->s[b->plan->spans[k].last + 1];
+      for (size_t j = 0; j < wire->twisted_count; j++) {
+        const sw_twisted *old = &wire->twisted[j];
+        const double common = fmin(s2, old->s2) - fmax(s1, old->s1);
+        if (common > 0)
+          s->system.twist[b->first_span + k] += old->twist * common / (old->s2 - old->s1);
+      }
+    }
+  }
+}
+
 sw_status sw_scene_thaw(sw_scene *s) {
   if (!s->built) return SW_OK;
   SW_TRY(keep_contact(s));
@@ -84,6 +133,7 @@ sw_status sw_scene_thaw(sw_scene *s) {
     memcpy(m->v, s->system.v + 3 * b->first_node, 3 * m->n * sizeof *m->v);
     memcpy(m->tension, s->system.tension + b->first_edge, (m->n - 1) * sizeof *m->tension);
   }
+  SW_TRY(keep_twist(s));
   drop(s);
   s->discontinuous = 1;
   return SW_OK;
@@ -119,6 +169,7 @@ static sw_status add_terms(sw_scene *s, size_t w) {
                               recipe.terms[k].args, sizeof recipe.terms[k].args, -1));
   b->EA = s->wires[w].beam.EA;
   b->EA_push = recipe.push ? b->EA : 0.0;
+  if (recipe.twist) SW_TRY(sw_system_enable_twist(&s->system, w));
   for (size_t k = 0; k < s->force_count; k++) {
     const sw_scene_force *f = &s->forces[k];
     if (f->alive && (f->wire < 0 || f->wire == (long)w))
@@ -159,11 +210,18 @@ static sw_status add_holds(sw_scene *s, size_t alive) {
   return SW_OK;
 }
 
+static sw_pose part_way(const sw_pose *from, const sw_pose *to, double share) {
+  const sw_vec turn = sw_quat_log(sw_quat_mul(to->q, sw_quat_conj(from->q)));
+  return (sw_pose){sw_lerp(from->p, to->p, share),
+                   sw_quat_unit(sw_quat_mul(sw_quat_exp(sw_scale(turn, share)), from->q))};
+}
+
 static sw_status place_hold(void *user, int hold, double t, sw_hold_state *out, sw_error *err) {
   sw_scene *s = user;
   sw_motion_state m;
   SW_TRY(sw_drive_eval(s, &s->holds[s->hold_slot[hold]].drive, t, &m, err));
   *out = (sw_hold_state){m.pose, m.v, m.a, m.omega, m.alpha};
+  if (s->part_from) out->pose = part_way(&s->part_from[hold], &m.pose, s->part);
   return SW_OK;
 }
 
@@ -227,7 +285,7 @@ sw_status sw_scene_build(sw_scene *s, sw_error *err) {
   if (!s->built) {
     size_t alive = 0;
     for (size_t k = 0; k < s->hold_count; k++) alive += s->holds[k].alive != 0;
-    sw_plan **plans = sw_alloc(s->wire_count, sizeof *plans);
+    sw_plan **plans = sw_alloc(s->wire_count, sizeof(sw_plan *));
     sw_status status = plans ? new_plans(s, plans) : SW_ENOMEM;
     if (status == SW_OK) status = sw_system_new(&s->system, plans, s->wire_count, alive);
     if (status == SW_OK) status = fill(s, alive);
@@ -237,6 +295,12 @@ sw_status sw_scene_build(sw_scene *s, sw_error *err) {
       drop(s);
       return sw_fail(err, status, "scene '%s': out of memory", s->name);
     }
+    status = sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err);
+    if (status != SW_OK) {
+      drop(s);
+      return status;
+    }
+    inherit_twist(s);
     s->built = 1;
     sw_scene_forget_contact(s);
     sw_scene_inherit_histories(s);

@@ -104,6 +104,7 @@ static sw_status take_hold(const sw_mesh *m, sw_scene_hold *h, const sw_hold_arg
   }
   h->drive.pose = (sw_pose){origin, sw_quat_identity()};
   h->last_pose = h->drive.pose;
+  h->turn = h->drive.pose.q;
   return SW_OK;
 }
 

@@ -105,6 +105,16 @@ static double tension_at(const sw_system *s, const sw_body *b, double at) {
   return T[k] + (T[k + 1] - T[k]) * (at - m0) / (m1 - m0);
 }
 
+/* Torque of the span that holds arc length at; 0 outside of spans. */
+static double torque_at(const sw_system *s, const sw_body *b, double at) {
+  for (size_t k = 0; b->has_twist && k < b->plan->span_count; k++) {
+    const sw_span *span = &b->plan->spans[k];
+    if (at >= b->plan->s[span->first] && at <= b->plan->s[span->last + 1])
+      return b->plan->beam.GJ / span->length * s->twist[b->first_span + k];
+  }
+  return 0.0;
+}
+
 sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double at, sw_point_state *out,
                            sw_error *err) {
   sw_scene_wire *w;
@@ -130,6 +140,7 @@ sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double at, sw_point_state *
   out->tangent = sw_unit_or(sw_lerp(t0, t1, f), t0);
   out->curvature = k0 + f * (k1 - k0);
   out->tension = tension_at(&s->system, b, at);
+  out->twist_moment = torque_at(&s->system, b, at);
   return SW_OK;
 }
 

@@ -43,7 +43,10 @@ void sw_scene_clear_obstacle(sw_scene_obstacle *o) {
 
 void sw_scene_free(sw_scene *s) {
   if (!s) return;
-  for (size_t i = 0; i < s->wire_count; i++) sw_mesh_free(&s->wires[i].mesh);
+  for (size_t i = 0; i < s->wire_count; i++) {
+    sw_mesh_free(&s->wires[i].mesh);
+    sw_free(s->wires[i].twisted);
+  }
   for (size_t i = 0; i < s->hold_count; i++) sw_scene_clear_hold(&s->holds[i]);
   for (size_t i = 0; i < s->obstacle_count; i++) sw_scene_clear_obstacle(&s->obstacles[i]);
   sw_scene_orphan_snapshots(s);

@@ -183,6 +183,7 @@ typedef struct sw_point_state {
   sw_vec position, tangent, velocity; /* [m], [-], [m/s] */
   double curvature;                   /* [1/m] */
   double tension;                     /* [N] */
+  double twist_moment;                /* [N m] */
 } sw_point_state;
 
 typedef struct sw_extreme {
@@ -277,6 +278,6 @@ sw_status sw_scene_snapshot(sw_scene *scene, sw_snapshot **out, sw_error *err);
 sw_status sw_scene_restore(sw_scene *scene, const sw_snapshot *snapshot, sw_error *err);
 void sw_snapshot_free(sw_snapshot *snapshot); /* NULL is allowed */
 double sw_snapshot_time(const sw_snapshot *snapshot); /* [s] */
-int sw_snapshot_busy(const sw_snapshot *snapshot); /* its scene is busy: do not free it */
+int sw_snapshot_busy(const sw_snapshot *snapshot); /* being restored: do not free it */
 
 #endif

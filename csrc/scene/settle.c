@@ -26,6 +26,10 @@ static const double STATIC_TURN = 1e-7;       /* last rotation of a converged so
 static const double SLOWEST_GROWTH = 30.0; /* of sqrt(length/g) [-] */
 static const double NUDGE = 1e-4;          /* of the length, off an unstable place [-] */
 enum { MOST_NUDGES = 2 };
+/* Parts of a hold's way from where it was to where it is to be. */
+static const double LONGEST_PART = 0.4; /* of the shortest edge [-] */
+static const double WIDEST_PART = 0.5;  /* [rad] */
+static const double MOST_PARTS = 2000;
 
 typedef struct statics {
   sw_scene *s;
@@ -34,7 +38,8 @@ typedef struct statics {
   int (*interrupted)(void);
   double *zero, *from, *y, *v; /* (nodes x 3) */
   double *tension;             /* (edges) at the start of an attempt */
-  double *kept, *kept_tension; /* state put aside */
+  double *kept, *begun;        /* (state) put aside; as settling found it */
+  sw_pose *from_poses;         /* (holds) where the holds were */
 } statics;
 
 static double longest(const sw_scene *s) {
@@ -76,6 +81,7 @@ static double take(statics *p, int trial) {
   double shift = 0;
   for (size_t i = 0; i < 3 * s->system.nodes; i++)
     shift = fmax(shift, fabs(p->y[i] - s->system.x[i]));
+  sw_system_follow(&s->system, p->y);
   memcpy(s->system.x, p->y, 3 * s->system.nodes * sizeof(double));
   memset(s->system.v, 0, 3 * s->system.nodes * sizeof(double));
   memset(s->system.a, 0, 3 * s->system.nodes * sizeof(double));
@@ -104,14 +110,12 @@ static sw_status newton_attempt(statics *p, sw_error *err) {
   return SW_OK;
 }
 
-static void put_aside(statics *p) {
-  memcpy(p->kept, p->s->system.x, 3 * p->s->system.nodes * sizeof(double));
-  memcpy(p->kept_tension, p->s->system.tension, p->s->system.edges * sizeof(double));
+static void put_aside(const sw_scene *s, double *kept) {
+  memcpy(kept, s->system.state, s->system.state_size * sizeof(double));
 }
 
-static void take_back(statics *p) {
-  memcpy(p->s->system.x, p->kept, 3 * p->s->system.nodes * sizeof(double));
-  memcpy(p->s->system.tension, p->kept_tension, p->s->system.edges * sizeof(double));
+static void take_back(sw_scene *s, const double *kept) {
+  memcpy(s->system.state, kept, s->system.state_size * sizeof(double));
 }
 
 /* A smooth push to the sides, the same in every run, that no symmetry of a
@@ -162,21 +166,72 @@ static int stops(sw_status status) {
 }
 
 static sw_status find_rest(statics *p, sw_error *err) {
-  put_aside(p);
+  put_aside(p->s, p->kept);
   sw_status status = newton_attempt(p, err);
   if ((status == SW_OK && p->report->negative == 0) || stops(status)) return status;
-  take_back(p);
+  take_back(p->s, p->kept);
   for (int k = 0;; k++) {
     sw_error ignored;
     SW_TRY(transient(p, err));
-    put_aside(p);
+    put_aside(p->s, p->kept);
     status = newton_attempt(p, &ignored); /* fails where the equilibrium is not isolated */
     if (status == SW_OK && p->report->negative == 0) return SW_OK;
     if (stops(status)) return status;
-    take_back(p);
+    take_back(p->s, p->kept);
     if (status != SW_OK || k == MOST_NUDGES) return SW_OK;
     nudge(p, k);
   }
+}
+
+/* Where the holds are as the state's wires know them. */
+static void find_from_poses(statics *p) {
+  const sw_system *s = &p->s->system;
+  for (size_t i = s->held_count; i-- > 0;) {
+    const sw_held_node *h = &s->held[i];
+    const double *q = s->turn + 4 * h->hold;
+    const sw_quat turn = {q[0], q[1], q[2], q[3]};
+    p->from_poses[h->hold] =
+        (sw_pose){sw_sub(sw_vec_at(s->x, h->node), sw_rotate(turn, h->local)), turn};
+  }
+}
+
+static double shortest_edge(const sw_system *s) {
+  double shortest = HUGE_VAL;
+  for (size_t b = 0; b < s->body_count; b++)
+    for (size_t e = 0; e < s->bodies[b].plan->edges; e++)
+      shortest = fmin(shortest, s->bodies[b].plan->rest[e]);
+  return shortest;
+}
+
+/* Into how many parts the way of the holds to their places is to be cut, so that
+ * no part shifts a hold by much of an edge or turns it far. */
+static sw_status count_parts(statics *p, size_t *parts, sw_error *err) {
+  sw_system *s = &p->s->system;
+  double most = 0;
+  SW_TRY(sw_system_place_holds(s, p->s->time, NULL, NULL, NULL, err));
+  for (size_t k = 0; k < s->hold_count; k++) {
+    const sw_pose *from = &p->from_poses[k], *to = &s->hold_states[k].pose;
+    const double shift = sw_dist(from->p, to->p) / (LONGEST_PART * shortest_edge(s));
+    const double turn = sw_norm(sw_quat_log(sw_quat_mul(to->q, sw_quat_conj(from->q))));
+    most = fmax(most, fmax(shift, turn / WIDEST_PART));
+  }
+  *parts = most <= 1 ? 1 : (size_t)fmin(ceil(most), MOST_PARTS);
+  return SW_OK;
+}
+
+/* Settle at every part of the holds' way. The parts are only for convergence: what
+ * forces remember is brought up to the last one alone. */
+static sw_status follow_holds(statics *p, sw_error *err) {
+  size_t parts;
+  sw_status status = count_parts(p, &parts, err);
+  for (size_t i = 1; status == SW_OK && i <= parts; i++) {
+    p->s->part_from = i < parts ? p->from_poses : NULL;
+    p->s->part = (double)i / (double)parts;
+    status = find_rest(p, err);
+    if (status == SW_OK && p->interrupted && p->interrupted()) status = SW_EINTR;
+  }
+  p->s->part_from = NULL;
+  return status;
 }
 
 static void conclude(sw_scene *s, sw_status status, sw_settle_report *report,
@@ -196,19 +251,31 @@ sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interru
   SW_TRY(sw_scene_readable(s, err));
   if (!s->wire_count) return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", s->name);
   SW_TRY(sw_scene_build(s, err));
-  const size_t n = 3 * s->system.nodes;
-  double *block = sw_alloc(5 * n + 2 * s->system.edges, sizeof *block);
-  if (!block) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
-  statics p = {s,         args,          report, interrupted, block, block + n, block + 2 * n,
-               block + 3 * n, block + 5 * n, block + 4 * n, block + 5 * n + s->system.edges};
+  const size_t n = 3 * s->system.nodes, size = s->system.state_size;
+  double *block = sw_alloc(4 * n + s->system.edges + 2 * size, sizeof *block);
+  sw_pose *poses = sw_alloc(s->system.hold_count, sizeof *poses);
+  if (!block || !poses) {
+    sw_free(block);
+    sw_free(poses);
+    return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
+  }
+  statics p = {.s = s, .args = args, .report = report, .interrupted = interrupted};
+  p.zero = block, p.from = block + n, p.y = block + 2 * n, p.v = block + 3 * n;
+  p.tension = block + 4 * n;
+  p.kept = p.tension + s->system.edges, p.begun = p.kept + size;
+  p.from_poses = poses;
   s->running++;
+  find_from_poses(&p);
+  put_aside(s, p.begun);
   s->system.still = 1;
-  sw_status status = find_rest(&p, &why);
+  sw_status status = follow_holds(&p, &why);
   s->system.still = 0;
+  if (status != SW_OK && status != SW_EINTR) take_back(s, p.begun);
   s->running--;
   sw_scene_reset_extremes(s);
   if (status == SW_OK) status = sw_scene_observe(s, &why);
   sw_free(block);
+  sw_free(poses);
   conclude(s, status, report, &why);
   return status == SW_ECALLBACK || status == SW_ENOMEM ? sw_fail(err, status, "%s", why.text)
                                                        : SW_OK;

@@ -45,7 +45,7 @@ struct sw_snapshot {
   int fresh;
 };
 
-int sw_snapshot_busy(const sw_snapshot *p) { return p->scene && sw_scene_busy(p->scene); }
+int sw_snapshot_busy(const sw_snapshot *p) { return p->scene && p->scene->restoring == p; }
 
 double sw_snapshot_time(const sw_snapshot *p) { return p->time; }
 
@@ -308,7 +308,10 @@ sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   s->deepest = p->deepest;
   SW_TRY(sw_scene_build(s, err));
   s->diverged = 0;
-  SW_TRY(put_state(s, p, err));
+  s->restoring = p; /* placing the holds may call a user's function */
+  const sw_status status = put_state(s, p, err);
+  s->restoring = NULL;
+  if (status != SW_OK) return status;
   s->discontinuous = p->discontinuous;
   while (s->frame_count > p->frames) sw_free(s->frames[--s->frame_count].data);
   return SW_OK;

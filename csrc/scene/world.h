@@ -8,6 +8,12 @@
 #include "state/mesh.h"
 #include "system/system.h"
 
+/* A twisted stretch of wire while the scene is not built. */
+typedef struct sw_twisted {
+  double s1, s2; /* [m] */
+  double twist;  /* total [rad] */
+} sw_twisted;
+
 typedef struct sw_scene_wire {
   uint32_t generation;
   char name[SW_NAME_SIZE];
@@ -15,6 +21,8 @@ typedef struct sw_scene_wire {
   sw_beam beam;
   sw_mesh mesh; /* authoritative while the scene is not built */
   sw_extreme curvature, tension;
+  sw_twisted *twisted;
+  size_t twisted_count;
 } sw_scene_wire;
 
 /* A log: rows of a fixed number of doubles, growing. */
@@ -42,6 +50,7 @@ typedef struct sw_scene_hold {
   double *s;           /* (count) arc lengths when taken hold of [m] */
   double *local;       /* (count x 3) in the hold's frame [m] */
   sw_vec director[2];  /* arriving, leaving; in the hold's frame [-] */
+  sw_quat turn;         /* orientation that goes with the wire's twist, while not built */
   sw_vec force, moment; /* last, kept after release [N], [N m] */
   sw_pose last_pose;
   sw_log log;
@@ -83,6 +92,7 @@ struct sw_scene {
   char name[SW_NAME_SIZE];
   uint32_t serial;        /* generation of the object made last */
   sw_snapshot *snapshots; /* the living ones, a list */
+  const sw_snapshot *restoring; /* being restored now, or NULL */
   sw_vec gravity;
   double time;
   sw_scene_wire *wires;
@@ -93,6 +103,9 @@ struct sw_scene {
   size_t obstacle_count, obstacle_capacity;
   sw_scene_force *forces;
   size_t force_count, force_capacity;
+
+  const sw_pose *part_from; /* settling: where the holds come from, or NULL */
+  double part;              /* share of their way [-] */
 
   int built;        /* system is valid and holds the state */
   int running;      /* above 0 inside a step or a user's function: edits are refused */

@@ -39,6 +39,11 @@ typedef struct sw_field {
   const double *hold_turns;     /* the same size: rates of the directors [1/s] */
   const double *history;        /* of the force that is evaluated, or NULL */
 
+  /* twist of the plan's spans; NULL when there is none */
+  const double *twist;     /* (spans) total twist at this evaluation [rad] */
+  double *twist_slope;     /* (edges + 1 x 3) d twist / d edge vector, to be filled [rad/m] */
+  double *twist_stiffness; /* (spans) second derivative along the slope, added to [N m] */
+
   /* geometry of the edges, filled by sw_field_geometry */
   double *length;     /* (m) [m] */
   double *reciprocal; /* (m) 1 / length [1/m] */

@@ -21,6 +21,7 @@ void sw_plan_release(sw_plan *plan) {
   sw_free(plan->hinge);
   sw_free(plan->held);
   sw_free(plan->clamps);
+  sw_free(plan->spans);
   sw_free(plan);
 }
 
@@ -97,6 +98,28 @@ static void set_holds(sw_plan *p, const sw_hold_place *holds, size_t count) {
   }
 }
 
+/* The nearest clamp hinge after edge `from` that ends an edge, or clamp_count. */
+static size_t next_arriving(const sw_plan *p, size_t from) {
+  size_t best = p->clamp_count;
+  for (size_t c = 0; c < p->clamp_count; c++) {
+    if (p->clamps[c].side > 0 || p->clamps[c].edge < from) continue;
+    if (best == p->clamp_count || p->clamps[c].edge < p->clamps[best].edge) best = c;
+  }
+  return best;
+}
+
+static void set_spans(sw_plan *p) {
+  for (size_t e = 0; e < p->edges; e++)
+    for (size_t c = 0; c < p->clamp_count; c++) {
+      if (p->clamps[c].side < 0 || p->clamps[c].edge != e) continue;
+      const size_t right = next_arriving(p, e);
+      if (right == p->clamp_count) continue;
+      const size_t last = p->clamps[right].edge;
+      p->spans[p->span_count++] =
+          (sw_span){e, last, c, right, p->s[last + 1] - p->s[e]};
+    }
+}
+
 sw_status sw_plan_new(const sw_beam *beam, const double *s, size_t n, const sw_hold_place *holds,
                       size_t hold_count, sw_plan **out) {
   sw_plan *p = sw_alloc(1, sizeof *p);
@@ -110,8 +133,9 @@ sw_status sw_plan_new(const sw_beam *beam, const double *s, size_t n, const sw_h
   p->hinge = sw_alloc(n, sizeof *p->hinge);
   p->held = sw_alloc(n, sizeof *p->held);
   p->clamps = sw_alloc(2 * hold_count + 1, sizeof *p->clamps);
+  p->spans = sw_alloc(hold_count + 1, sizeof *p->spans);
   if (!p->s || !p->rest || !p->lumped || !p->mass_own || !p->mass_next || !p->hinge || !p->held ||
-      !p->clamps) {
+      !p->clamps || !p->spans) {
     sw_plan_release(p);
     return SW_ENOMEM;
   }
@@ -119,6 +143,7 @@ sw_status sw_plan_new(const sw_beam *beam, const double *s, size_t n, const sw_h
   for (size_t e = 0; e < p->edges; e++) p->rest[e] = s[e + 1] - s[e];
   set_masses(p);
   set_holds(p, holds, hold_count);
+  set_spans(p);
   *out = p;
   return SW_OK;
 }

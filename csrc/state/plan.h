@@ -33,6 +33,15 @@ typedef struct sw_clamp_hinge {
   double length; /* hinge length: angle = curvature * length [m] */
 } sw_clamp_hinge;
 
+/* A stretch of wire between two holds that both keep it from turning about its
+ * axis: the only place where a straight wire of equal bending stiffness can be
+ * twisted, since anywhere else it unwinds through a free end. */
+typedef struct sw_span {
+  size_t first, last;   /* its edges, both included */
+  size_t left, right;   /* its clamp hinges, indices into clamps */
+  double length;        /* [m] */
+} sw_span;
+
 typedef struct sw_plan {
   int references;
   size_t nodes;        /* n */
@@ -48,6 +57,8 @@ typedef struct sw_plan {
   int *held;           /* (n) SW_FREE or SW_HELD */
   sw_clamp_hinge *clamps; /* (clamp_count) */
   size_t clamp_count;
+  sw_span *spans;         /* (span_count) from the wire's start on */
+  size_t span_count;
 } sw_plan;
 
 /* What a hold wants of the mesh: nodes at s1 and s2 (equal for a point) and

@@ -9,6 +9,7 @@
 #include "base/simd.h"
 #include "solve/band3.h"
 #include "system/system.h"
+#include "system/twist.h"
 
 static inline __attribute__((always_inline)) void gather_row(const sw_field *f, size_t i, double *restrict row) {
   double *const *own = f->own, *const *next = f->next;
@@ -144,6 +145,7 @@ static sw_status evaluate(sw_system *s, sw_body *b, double time, double hbar, co
   f->hold_turns = s->directors_rate;
   sw_field_clear(f);
   sw_field_geometry(f);
+  if (b->has_twist) sw_twist_measure(s, b);
   for (size_t k = 0; k < b->term_count; k++)
     SW_TRY(sw_term_eval(&b->terms[k], f, err));
   return SW_OK;
@@ -185,6 +187,8 @@ static sw_status solve_once(sw_system *s, const sw_stage *stage, int statics,
     size_t negative = 0;
     SW_TRY(sw_band3_factor(body->field.rows, body->plan->nodes, body->field.rows, &negative));
     sw_band3_solve(body->field.rows, body->plan->nodes, s->delta + 3 * body->first_node);
+    if (body->has_twist)
+      negative -= sw_twist_correct(body, s->delta + 3 * body->first_node);
     report->negative += negative;
   }
   s->counters.newton++;
@@ -340,6 +344,7 @@ static void finish(sw_system *s, const sw_stage *stage, int statics) {
   for (size_t k = 0; k < s->held_count; k++) {
     sw_held_node *h = &s->held[k];
     update_reaction(h, &s->bodies[h->body], s->delta);
+    if (s->bodies[h->body].has_twist) sw_twist_react(h, &s->bodies[h->body]);
     sw_system_held_velocity(s, h, stage->v + 3 * h->node);
   }
 }
@@ -378,6 +383,7 @@ sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const 
     f->v = v + 3 * body->first_node;
     sw_field_clear(f);
     sw_field_geometry(f);
+    if (body->has_twist) sw_twist_measure(s, body);
     for (size_t k = 0; k < body->term_count; k++)
       SW_TRY(sw_term_eval(&body->terms[k], f, err));
   }

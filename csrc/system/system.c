@@ -11,6 +11,7 @@ void sw_system_free(sw_system *system) {
     sw_plan_release(system->bodies[b].plan);
     sw_free(system->bodies[b].field_block);
     sw_free(system->bodies[b].terms);
+    sw_free(system->bodies[b].twist_block);
   }
   sw_free(system->bodies);
   sw_free(system->held);
@@ -32,6 +33,8 @@ static sw_status new_bodies(sw_system *s, sw_plan *const *plans, size_t count) {
     body->field.plan = plans[b];
     body->first_node = s->nodes;
     body->first_edge = s->edges;
+    body->first_span = s->span_count;
+    s->span_count += plans[b]->span_count;
     s->nodes += plans[b]->nodes;
     s->edges += plans[b]->edges;
   }
@@ -43,6 +46,8 @@ static void lay_out(sw_system *s) {
   s->v = s->x + 3 * s->nodes;
   s->a = s->v + 3 * s->nodes;
   s->tension = s->a + 3 * s->nodes;
+  s->twist = s->tension + s->edges;
+  s->turn = s->twist + s->span_count;
 }
 
 static sw_status new_arrays(sw_system *s, size_t hold_count) {
@@ -54,7 +59,7 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
   s->held = sw_alloc(held, sizeof *s->held);
   s->directors = sw_alloc(18 * hold_count, sizeof(double));
   s->hold_states = sw_alloc(hold_count, sizeof *s->hold_states);
-  s->state_size = 9 * s->nodes + s->edges;
+  s->state_size = 9 * s->nodes + s->edges + s->span_count + 4 * hold_count;
   s->state = sw_alloc(s->state_size, sizeof(double));
   double *w = sw_alloc(9 * s->nodes + s->edges, sizeof(double));
   s->work = w;
@@ -220,6 +225,7 @@ void sw_system_refresh(sw_system *s) {
     sw_body *body = &s->bodies[b];
     aim(s, body, s->x, s->v);
     sw_field_geometry(&body->field);
+    body->field.twist = body->has_twist ? s->twist + body->first_span : NULL;
   }
 }
 
@@ -258,6 +264,7 @@ double sw_system_term_energy(sw_system *s, size_t body, size_t term, double *ben
   sw_field_geometry(f);
   f->want = SW_WANT_ENERGY;
   f->tension = s->tension + b->first_edge;
+  f->twist = b->has_twist ? s->twist + b->first_span : NULL;
   f->energy = f->bending = 0;
   /* hinge cosines for the bending energy come with the force evaluation */
   sw_term_eval(&b->terms[term], f, &err);

@@ -30,6 +30,13 @@ typedef struct sw_body {
   size_t term_count;
   sw_field field;
   void *field_block;
+  size_t first_span;  /* place of the plan's spans in the system's twist */
+  int has_twist;      /* the wire resists twist and is held against it somewhere */
+  double *twist_now;  /* (spans) at this evaluation [rad] */
+  double *twist_rank; /* (nodes x 3) slope of the twist, held nodes included [rad/m] */
+  double *twist_solved; /* (nodes x 3) the matrix' inverse times it */
+  double *twist_gain; /* (spans) added to the torque by the last update [N m] */
+  void *twist_block;
   int needs_velocity; /* some force depends on it */
   int is_explicit;    /* some force has no stiffness */
   int is_kinked;      /* some force has a history: its stiffness jumps */
@@ -91,10 +98,13 @@ struct sw_system {
   sw_coupling coupling;
   sw_counters counters;
 
-  /* the state, one block: x v a (nodes x 3 each), tension (edges), forces' histories */
+  /* the state, one block: x v a (nodes x 3 each), tension (edges), twist
+   * (spans) [rad], turn (holds x 4: the holds' orientations that go with it), forces'
+   * histories */
   double *state;
   size_t state_size; /* in doubles */
-  double *x, *v, *a, *tension;
+  double *x, *v, *a, *tension, *twist, *turn;
+  size_t span_count;
 
   /* work space of a stage (nodes x 3) */
   double *yhat, *delta, *velocity;
@@ -170,6 +180,17 @@ sw_status sw_system_place_holds(sw_system *system, double t, double *x, double *
 
 /* Velocity of a held node from its hold's state at the last stage [m/s]. */
 void sw_system_held_velocity(const sw_system *system, const sw_held_node *held, double *v);
+
+/* Let the wires of body b resist twist: makes work space. SW_ENOMEM. */
+sw_status sw_system_enable_twist(sw_system *system, size_t body);
+
+/* The state is about to become positions x, with the holds as last placed: take
+ * over what has to be followed from step to step (twist). Call before copying x
+ * to the state. */
+void sw_system_follow(sw_system *system, const double *x);
+
+/* The holds' present orientations (as last placed) go with the state's twist. */
+void sw_system_take_turns(sw_system *system);
 
 /* Bring every field's geometry up to the state (system->x). */
 void sw_system_refresh(sw_system *system);

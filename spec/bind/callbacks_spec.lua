@@ -104,7 +104,6 @@ local function changes(scene, wire, clamp)
   return {
     close = function() scene:close() end,
     gc = function() getmetatable(scene).__gc(scene) end,
-    snapshot_close = function() snapshot:close() end,
     wire = function()
       scene:wire{ E = 1e8, density = 1e3, radius = 1e-3, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
     end,
@@ -251,6 +250,27 @@ for _, name in ipairs(names) do
     end)
   end)
 end
+
+describe("a snapshot", function()
+  it("may be forgotten in a step, but not closed while it is restored", function()
+    local scene, _, clamp = make()
+    local before = scene:snapshot()
+    local message
+    clamp:follow(function()
+      if before then message = select(2, pcall(before.close, before)) end
+      collectgarbage()
+      return { 0, 0, 0 }
+    end)
+    local after = scene:snapshot()
+    before:close()
+    before = after
+    scene:restore(after)
+    assert.is_truthy(tostring(message):find "cannot be closed")
+    before = nil
+    for _ = 1, 3 do scene:snapshot() end
+    assert.is_true(scene:run{ duration = 0.02 }.ok)
+  end)
+end)
 
 describe("a function as a force", function()
   local function fails(force, text)

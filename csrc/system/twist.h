@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The twist of spans inside a stage. Private to this room. */
+#ifndef SW_SYSTEM_TWIST_H
+#define SW_SYSTEM_TWIST_H
+
+#include "system/system.h"
+
+/* Total twist of the body's spans with the field's present tangents. */
+void sw_twist_measure(sw_system *system, sw_body *body);
+
+/* Add the rank-one part of the twist's stiffness to a solved update (nodes x 3).
+ * Returns by how much the number of negative directions falls. */
+size_t sw_twist_correct(sw_body *body, double *delta);
+
+/* Add the same part to the reaction of a held node. */
+void sw_twist_react(sw_held_node *held, const sw_body *body);
+
+#endif
