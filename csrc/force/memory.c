@@ -7,6 +7,7 @@
 #include "force/slip.h"
 
 enum { SLOT = 6, FIRST = 1 };
+static const double CAUTIOUS_SHARE = 0.5; /* steps then overshoot a kink no more than twofold [-] */
 static const double PI = 3.14159265358979323846;
 
 size_t sw_memory_size(const sw_plan *p) { return FIRST + SLOT * (p->nodes + p->clamp_count); }
@@ -70,6 +71,7 @@ static int is_idle(const sw_slip_law *law, const sw_slip_memory *m, const sw_sli
 
 void sw_memory_eval(const sw_memory_law *law, sw_field *f) {
   const sw_plan *p = f->plan;
+  const double share = f->cautious ? CAUTIOUS_SHARE : 1.0;
   sw_slip_answer a;
   for (size_t i = 1; i + 1 < p->nodes; i++) {
     if (!(p->hinge[i] > 0)) continue;
@@ -77,7 +79,7 @@ void sw_memory_eval(const sw_memory_law *law, sw_field *f) {
     const sw_slip_memory m = load(f->history, i);
     const sw_slip_hinge h = node_hinge(f, i);
     if (is_idle(&one, &m, &h)) continue;
-    sw_slip_eval(&one, &m, &h, f->want, &a);
+    sw_slip_eval(&one, &m, &h, f->want, share, &a);
     add_edge(f, i - 1, &a, 0);
     add_edge(f, i, &a, 1);
     add_energy(f, &a);
@@ -88,7 +90,7 @@ void sw_memory_eval(const sw_memory_law *law, sw_field *f) {
     const sw_slip_law one = law_of(law, p->clamps[c].length);
     const sw_slip_memory m = load(f->history, p->nodes + c);
     const sw_slip_hinge h = clamp_hinge(f, &p->clamps[c]);
-    sw_slip_eval(&one, &m, &h, f->want, &a);
+    sw_slip_eval(&one, &m, &h, f->want, share, &a);
     add_edge(f, p->clamps[c].edge, &a, p->clamps[c].side > 0);
     add_energy(f, &a);
   }
@@ -116,7 +118,7 @@ sw_vec sw_memory_clamp_moment(const sw_memory_law *law, const sw_field *f,
   const sw_slip_memory m = load(f->history, f->plan->nodes + (size_t)(c - f->plan->clamps));
   const sw_slip_hinge h = clamp_hinge(f, c);
   sw_slip_answer a;
-  sw_slip_eval(&one, &m, &h, SW_WANT_FORCE, &a);
+  sw_slip_eval(&one, &m, &h, SW_WANT_FORCE, 1.0, &a);
   const sw_vec edge = sw_scale(tangent_of(f, c->edge), f->length[c->edge]);
   return sw_cross(a.gradient[c->side > 0], edge);
 }

@@ -108,12 +108,13 @@ static void differentiate(const double s[3], double c, const double z[SCALARS], 
   }
 }
 
-/* First and second derivatives of W with respect to the scalars. */
-static void potential(const sw_slip_law *law, const double s[3], double xi, const product *p,
-                      double w1[SCALARS], double w2[SCALARS][SCALARS]) {
-  const double K = law->k + law->harden, over = excess(law, xi);
+/* First and second derivatives of W with respect to the scalars; share = 1, or
+ * less to count what slipping takes off by that much only. */
+static void potential(const sw_slip_law *law, const double s[3], double xi, double share,
+                      const product *p, double w1[SCALARS], double w2[SCALARS][SCALARS]) {
+  const double K = law->k + law->harden, over = share * excess(law, xi);
   const double rho = over > 0 ? over / (K * xi) : 0.0;
-  const double sigma = over > 0 ? law->limit / (K * xi * xi * xi) : 0.0;
+  const double sigma = over > 0 ? share * law->limit / (K * xi * xi * xi) : 0.0;
   const double wq = law->own - rho * law->k * law->k, wd = -law->k * (1.0 - rho * K);
   double turn[SCALARS]; /* half the derivative of xi^2, over k */
   for (int i = 0; i < SCALARS; i++) {
@@ -187,9 +188,8 @@ static void mixed_stiffness(const sw_slip_hinge *h, double w, sw_vec q, sw_slip_
   }
 }
 
-static void derivatives(const sw_slip_hinge *h, const sw_slip_memory *m, unsigned want,
-                        const double w1[SCALARS], double w2[SCALARS][SCALARS],
-                        sw_slip_answer *out) {
+static void stiffness(const sw_slip_hinge *h, const sw_slip_memory *m, const double w1[SCALARS],
+                      double w2[SCALARS][SCALARS], sw_slip_answer *out) {
   sw_vec g[2][SCALARS], total[2];
   for (int side = 0; side < 2; side++) {
     scalar_gradients(h, m->slipped, m->along, side, g[side]);
@@ -198,16 +198,24 @@ static void derivatives(const sw_slip_hinge *h, const sw_slip_memory *m, unsigne
       total[side] = sw_madd(total[side], g[side][i], w1[i]);
       g[side][i] = sw_scale(across(g[side][i], h->t[side]), h->r[side]);
     }
-    out->gradient[side] = sw_scale(across(total[side], h->t[side]), h->r[side]);
   }
-  if (!(want & SW_WANT_STIFFNESS)) return;
   for (int side = 0; side < 2; side++) edge_stiffness(h, side, g, total[side], w2, out);
   const sw_vec q = sw_madd(sw_scale(m->slipped, w1[N]), m->along, w1[G]);
   mixed_stiffness(h, w1[C], q, out);
 }
 
+static void gradients(const sw_slip_hinge *h, const sw_slip_memory *m, const double w1[SCALARS],
+                      sw_slip_answer *out) {
+  for (int side = 0; side < 2; side++) {
+    sw_vec g[SCALARS], total = sw_v(0, 0, 0);
+    scalar_gradients(h, m->slipped, m->along, side, g);
+    for (int i = 0; i < SCALARS; i++) total = sw_madd(total, g[i], w1[i]);
+    out->gradient[side] = sw_scale(across(total, h->t[side]), h->r[side]);
+  }
+}
+
 void sw_slip_eval(const sw_slip_law *law, const sw_slip_memory *memory, const sw_slip_hinge *hinge,
-                  unsigned want, sw_slip_answer *out) {
+                  unsigned want, double share, sw_slip_answer *out) {
   const double u = half_angle2(hinge), K = law->k + law->harden;
   const sw_vec normal = sw_cross(hinge->t[0], hinge->t[1]), sum = sw_add(hinge->t[0], hinge->t[1]);
   const sw_vec p = memory->slipped, b = memory->along;
@@ -225,8 +233,11 @@ void sw_slip_eval(const sw_slip_law *law, const sw_slip_memory *memory, const sw
   out->elastic = law->own > 0 ? 0.0 : 0.5 * law->k * p2 - law->k * d.value;
   out->energy = 0.5 * law->own * sw_norm2(beta) - law->k * d.value + 0.5 * K * p2 -
                 0.5 * over * over / K;
-  potential(law, s, xi, &d, w1, w2);
-  derivatives(hinge, memory, want, w1, w2, out);
+  potential(law, s, xi, 1.0, &d, w1, w2);
+  gradients(hinge, memory, w1, out);
+  if (!(want & SW_WANT_STIFFNESS)) return;
+  if (share < 1.0) potential(law, s, xi, share, &d, w1, w2);
+  stiffness(hinge, memory, w1, w2, out);
 }
 
 double sw_slip_commit(const sw_slip_law *law, const sw_slip_hinge *hinge, sw_slip_memory *memory) {

@@ -40,8 +40,10 @@ typedef struct sw_slip_answer {
   double next[9];      /* edge 0 with edge 1, row by row [N/m] */
 } sw_slip_answer;
 
+/* share below 1: the stiffness counts slipping by that much only, which keeps
+ * iterations from going to and fro between slipping and not. */
 void sw_slip_eval(const sw_slip_law *law, const sw_slip_memory *memory, const sw_slip_hinge *hinge,
-                  unsigned want, sw_slip_answer *out);
+                  unsigned want, double share, sw_slip_answer *out);
 
 /* The memory after the step to this hinge; returns the work dissipated [J].
  * law NULL: nothing slips, the memory only turns with the wire. */

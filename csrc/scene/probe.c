@@ -74,6 +74,7 @@ static void aim(sw_scene *s, sw_body *b, const sw_probe *at) {
   f->gravity = s->system.gravity;
   f->hold_directors = s->system.directors_now;
   f->hold_turns = s->system.directors_rate;
+  f->cautious = 0;
   sw_field_clear(f);
   sw_field_geometry(f);
 }

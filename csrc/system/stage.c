@@ -130,13 +130,18 @@ static double advance_tension(size_t m, const double *restrict delta, const doub
   return largest;
 }
 
+/* Where the stiffness jumps, Newton may go to and fro between both sides: every
+ * other iteration after this many is a cautious one. */
+enum { QUICK = 4 };
+
 static sw_status evaluate(sw_system *s, sw_body *b, double time, double hbar, const double *y,
-                          const double *v, int statics, sw_error *err) {
+                          const double *v, int statics, int iteration, sw_error *err) {
   sw_field *f = &b->field;
   f->want = SW_WANT_FORCE | SW_WANT_STIFFNESS;
   f->time = time;
   f->velocity_rate = statics ? 0.0 : 1.0 / hbar;
   f->statics = statics;
+  f->cautious = iteration > QUICK && iteration % 2;
   f->x = y + 3 * b->first_node;
   f->v = v + 3 * b->first_node;
   f->tension = s->tension + b->first_edge;
@@ -166,7 +171,7 @@ static sw_status solve_once(sw_system *s, const sw_stage *stage, int statics,
   if (velocity) stage_velocity(s, stage, statics);
   for (size_t b = 0; b < s->body_count; b++)
     SW_TRY(evaluate(s, &s->bodies[b], stage->time, stage->hbar, stage->y, s->velocity, statics,
-                    err));
+                    report->iterations, err));
   if (s->coupling.eval)
     SW_TRY(s->coupling.eval(s->coupling.user, s, stage->time, stage->hbar, stage->y,
                             SW_WANT_FORCE | SW_WANT_STIFFNESS, err));
@@ -196,16 +201,6 @@ static sw_status solve_once(sw_system *s, const sw_stage *stage, int statics,
   return SW_OK;
 }
 
-/* Where the stiffness jumps, full steps may go to and fro between two sides of a
- * kink: every other one is halved once there have been enough to converge. */
-static int is_cycling(const sw_system *s, const sw_stage_report *report) {
-  enum { ENOUGH = 4 };
-  if (report->iterations <= ENOUGH || report->iterations % 2 == 0) return 0;
-  for (size_t b = 0; b < s->body_count; b++)
-    if (s->bodies[b].is_kinked) return 1;
-  return 0;
-}
-
 /* Apply the update, shortened when an edge would turn too far. Returns the
  * share applied, or -1 when the update is not finite. */
 static double apply(sw_system *s, const sw_stage *stage, const sw_newton *newton,
@@ -224,8 +219,7 @@ static double apply(sw_system *s, const sw_stage *stage, const sw_newton *newton
   report->rotation = sqrt(fmax(largest, 0.0));
   const double share = report->rotation > newton->limit_rotation
                            ? newton->limit_rotation / report->rotation
-                       : is_cycling(s, report) ? 0.5
-                                               : 1.0;
+                           : 1.0;
   for (size_t i = 0; i < 3 * s->nodes; i++) stage->y[i] += share * s->delta[i];
   if (share == 1.0)
     memcpy(s->tension, s->tension_new, s->edges * sizeof(double));

@@ -75,7 +75,7 @@ describe("plastic bending", function()
   it("springs back to the permanent curvature", function()
     for _, hardening in ipairs{ 0.002, H, 0.05 } do
       local bent = metal{ hardening = hardening }
-      bent:sweep(3, 6)
+      bent:sweep(3, 12)
       bent.last:release()
       tools.fine(bent.scene:settle{ tolerance = 1e-12 })
       local kept = math.min((arc.EI * 3 - M_Y) / (arc.EI + hardening), M_Y / hardening)
