@@ -174,9 +174,10 @@ static void match_memory(sw_contact *c) {
       m++;
     k->memory_end = m;
     k->last = k->last_end = 0;
-    k->boost = 1.0;
+    k->k = k->usual = fmax(c->base_stiffness, c->rate2 * k->mass);
     for (size_t j = k->memory; j < k->memory_end; j++)
-      k->boost = fmax(k->boost, c->memory[j].boost);
+      if (c->memory[j].normal_force > 0 && c->regime != SW_CONTACT_EXPLICIT)
+        k->k = c->memory[j].k; /* a change would be a kick */
   }
 }
 
@@ -249,7 +250,7 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
                    .normal_force = t->normal_force,
                    .sliding = t->next_sliding,
                    .depth = t->normal_force / t->k,
-                   .boost = t->normal_force > 0 ? c->candidates[t->candidate].boost : 1.0,
+                   .k = c->candidates[t->candidate].k,
                    .normal = sw_rotate(back, t->normal),
                    .point = sw_pose_local(o->pose, t->point)};
   if (t->normal_force > 0)

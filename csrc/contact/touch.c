@@ -111,10 +111,6 @@ static void set_friction_state(const sw_contact *c, const sw_system *s, const sw
   if (t->k * sw_norm(t->trial) > SURELY_SLIDING * most) t->sliding = 1;
 }
 
-static double stiffness(const sw_contact *c, const sw_candidate *k) {
-  return k->boost * fmax(c->base_stiffness, c->rate2 * k->mass);
-}
-
 int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
   const sw_body *b = &s->bodies[k->body];
   const size_t i = k->node - b->first_node;
@@ -152,7 +148,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
                 .normal = sw_rotate(pose->q, near->normal),
                 .point = sw_pose_point(*pose, near->point),
                 .gap = near->gap - k->radius,
-                .k = stiffness(c, k),
+                .k = k->k,
                 .held = sw_contact_is_held(s, k),
                 .candidate = (size_t)(k - c->candidates)};
   t.forgiven = forgiven(c, s, k, &t);
@@ -338,9 +334,10 @@ static int update(sw_contact *c, sw_touch *t, const double *delta) {
   const double radius = c->candidates[t->candidate].radius;
   if (!c->flat[t->obstacle] && t->gap_after < radius && sw_norm(shift) > SMALL_SHIFT * radius)
     return 0; /* place and normal of the touch may have changed */
-  double *boost = &c->candidates[t->candidate].boost;
-  if (t->gap_after < -DEEPEST && *boost < MOST_BOOST && c->regime != SW_CONTACT_EXPLICIT) {
-    *boost *= fmin(100.0, 2.0 * t->gap_after / -DEEPEST);
+  sw_candidate *k = &c->candidates[t->candidate];
+  if (t->gap_after < -DEEPEST && k->k < MOST_BOOST * k->usual &&
+      c->regime != SW_CONTACT_EXPLICIT) {
+    k->k *= fmin(100.0, 2.0 * t->gap_after / -DEEPEST);
     return 0;
   }
   return agrees;

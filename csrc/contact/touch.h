@@ -15,7 +15,9 @@ typedef struct sw_candidate {
   double radius, mass; /* of the wire there [m], [kg] */
   size_t memory, memory_end; /* matching range of the memory */
   size_t last, last_end;     /* matching range of the last iterate's touches */
-  double boost; /* of the stiffness, where the penetration would be too deep [-] */
+  double k;     /* stiffness: kept from step to step while it touches, raised where
+                   the wire would sink in too deep [N/m] */
+  double usual; /* stiffness of a new touch [N/m] */
 } sw_candidate;
 
 /* One place where a wire's surface is near an obstacle. */
@@ -49,7 +51,7 @@ typedef struct sw_memory {
   double at;
   double normal_force; /* 0: near, but without force [N] */
   double depth;        /* that goes with normal_force [m] */
-  double boost;        /* [-] */
+  double k;            /* [N/m] */
   sw_vec normal, point; /* the side: local [-], [m] */
   int sliding;
   sw_vec elastic;       /* displacement of the friction spring, local [m] */

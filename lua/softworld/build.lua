@@ -3,6 +3,7 @@
 -- descriptions that pictures and series need, and what snapshots must know of it.
 -- @module softworld.build
 local core = require "softworld.core"
+local cable = require "softworld.cable"
 local meshfile = require "softworld.meshfile"
 
 local build = {}
@@ -78,16 +79,110 @@ function build.name(scene, given, kind, count, level)
   return given
 end
 
+local cable_words, wire_words = { "cable", "stiffness", "use" }, nil
+
+-- The core tells what it does not know, but cannot know these words.
+local function check_cable_words(args)
+  if not wire_words then
+    wire_words = { from = true, to = true, path = true }
+    local rows = core.registry().params
+    for _, list in ipairs{ rows.wire, rows.section } do
+      for _, row in ipairs(list) do wire_words[row.name] = true end
+    end
+    for _, word in ipairs(cable_words) do wire_words[word] = true end
+  end
+  for key in pairs(args) do
+    local near = type(key) == "string" and not wire_words[key] and core.nearest(key, cable_words)
+    if near then error(("wire: there is no parameter '%s'; did you mean '%s'?"):format(key, near), 0) end
+  end
+end
+
+-- Replaces cable, stiffness and use by the section they stand for; what is given
+-- besides stays. Returns the entry and the use.
+local function take_cable(args)
+  check_cable_words(args)
+  local entry = args.cable
+  if entry == nil then
+    for _, key in ipairs{ "stiffness", "use" } do
+      if args[key] ~= nil then error(("wire: %s goes with cable = 'name'"):format(key), 0) end
+    end
+    return nil
+  end
+  entry = cable.get(entry)
+  for _, key in ipairs{ "E", "nu", "density" } do
+    if args[key] ~= nil then
+      error(("wire: %s is of a solid round wire and does not go with cable = '%s'; give EA, EI, GJ or "
+        .. "mass_per_length to override"):format(key, entry.name), 0)
+    end
+  end
+  local _, _, use = cable.bend_limit(entry, args.use)
+  for key, value in pairs(cable.section(entry, args.stiffness)) do
+    if args[key] == nil then args[key] = value end
+  end
+  args.cable, args.stiffness, args.use = nil, nil, nil
+  return entry, use
+end
+
 local new_wire = class.scene.wire
---- scene:wire{...}: see help "wire" for the parameters.
+--- scene:wire{...}: see help "wire" for the parameters. `cable`, a name or entry of
+-- the catalogue, gives EA, EI, GJ, mass_per_length and radius that are not given;
+-- `stiffness` = "default", "slip" or "stick" chooses among its EI and GJ; `use` is
+-- what its bend radius is judged by. See help "cable".
 function class.scene.wire(scene, args)
   build.check(scene, "scene:wire", 3)
   args = table_of(args, "scene:wire")
   local data = build.data(scene)
+  local entry, use = build.call(3, take_cable, args)
   args.name = build.name(scene, args.name, "wire", #data.wires, 3)
   local wire = build.call(3, new_wire, scene, args)
   data.wires[#data.wires + 1] = { object = wire, name = args.name }
+  if entry then
+    local kept = core.data(wire)
+    kept.cable, kept.use = entry, use
+  end
   return wire
+end
+
+local function name_of(wire) return wire.name end
+
+--- The catalogue entry the wire was made from, or nil.
+function class.wire.cable(wire)
+  if core.type(wire) ~= "wire" then error("wire:cable is a method: call it with a colon", 2) end
+  build.call(3, name_of, wire) -- raises when the scene has been closed
+  return core.data(wire).cable
+end
+
+local Limit = { __name = "bend limit" }
+
+function Limit.__tostring(l)
+  return ("%s: smallest bend radius %.4g m, limit %.4g m (%s): %s"):format(l.name, l.radius, l.limit,
+    l.use, l.ok and "kept" or "NOT kept")
+end
+
+--- Is the wire bent more tightly than its cable allows?
+-- @tparam[opt] table options `use` (default: that of the wire), `now` = true for the
+-- present shape instead of the tightest of the run
+-- @treturn table `ok`, `radius` (smallest radius of the centre line [m]) at `s` [m]
+-- and `t` [s], `limit` (of the centre line [m]), `inside` (the rule's own radius, of
+-- the inside of the bend [m]), `use`
+function class.wire.bend_limit(wire, options)
+  if core.type(wire) ~= "wire" then error("wire:bend_limit is a method: call it with a colon", 2) end
+  build.call(3, name_of, wire)
+  options = table_of(options, "wire:bend_limit")
+  for key in pairs(options) do
+    if key ~= "use" and key ~= "now" then
+      error(("wire:bend_limit has no parameter '%s'; known are: now use"):format(tostring(key)), 2)
+    end
+  end
+  local kept = core.data(wire)
+  if not kept.cable then
+    error(("wire '%s' was not made from a cable of the catalogue: it has no bend limit"):format(wire.name), 2)
+  end
+  local inside, limit, use = build.call(3, cable.bend_limit, kept.cable, options.use or kept.use,
+    2 * wire.radius)
+  local radius, s, t = wire:min_bend_radius{ now = options.now }
+  return setmetatable({ name = wire.name, ok = radius >= limit, radius = radius, s = s, t = t,
+    limit = limit, inside = inside, use = use }, Limit)
 end
 
 local new_obstacle = class.scene.obstacle

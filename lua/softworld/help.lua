@@ -9,7 +9,8 @@
 local core = require "softworld.core"
 
 local notes = {
-  scene = "sw.scene{...}", wire = "scene:wire{...} (and a section, see help 'section')",
+  scene = "sw.scene{...}",
+  wire = "scene:wire{...} (and a section, see help 'section', or a cable, see help 'cable')",
   section = "scene:wire{...}: what the wire is made of", obstacle = "scene:obstacle{ shape =, ... }",
   run = "scene:run{...}", settle = "scene:settle{...}",
   trajectory = "sw.trajectory{...}; clamps, obstacles and grippers take the table itself",
@@ -35,6 +36,22 @@ scene:process(function(p) ... end)
   snapshot = [[
 local before = scene:snapshot()   the scene as it is
 scene:restore(before)             back to it, bit by bit, as often as wanted]],
+  cable = [[
+print(sw.cables())              names of the catalogue, with size, mass, EI
+print(sw.cable "GXL 1.5")       its sheet: values, units, spread, how known, source
+scene:wire{ cable = "GXL 1.5", from =, to =, ... }
+  EA, EI, GJ, mass_per_length, radius     of the entry where not given
+  stiffness                               "default", or bounds: "slip", "stick"
+  use             what bends are judged by: fixed termination movement load reeling pulleys
+wire:bend_limit{ use =, now = true }      .ok .radius .limit [m] .s [m] .t [s]
+wire:cable()                              the entry
+sw.cable.define{ name =, outer_diameter = [m], mass_per_length = [kg/m], EA = [N], EI =, GJ = [N m2],
+  friction =, temperature = { low =, high = } [degC], bend = { rule = "IEC 62440", use = "fixed" },
+  construction = { strands =, strand_diameter = [m], conductor = "copper", insulation = "PVC" },
+  flag = "measured" | "computed" | "guessed", source = "...", spread = [share] }
+  a value may have its own: { value =, low =, high =, flag =, source = }
+  what is missing is computed from the construction
+sw.material "copper"            .E .G [Pa] .density [kg/m3]; materials of constructions]],
   units = "sw.units.mm(5), sw.units.deg(30), ...: into SI units",
 }
 

@@ -18,6 +18,7 @@ local sw = {
   core = core,
   units = require "softworld.units",
   trajectory = require "softworld.trajectory",
+  cable = require "softworld.cable",
   shape = core.shape,
   help = require "softworld.help",
 }
@@ -30,8 +31,11 @@ require "softworld.run"      -- scene:run
 --- A new scene. { name =, gravity = {x, y, z} [m/s2] }
 function sw.scene(args) return core.scene(args) end
 
+--- The names of all cables of the catalogue; print shows them as a table.
+function sw.cables() return sw.cable.list() end
+
 -- Loaded when first asked for.
-local lazy = { tune = "softworld.tune" }
+local lazy = { tune = "softworld.tune", material = "softworld.material" }
 
 local function unknown(self, key)
   local names = {}

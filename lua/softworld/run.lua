@@ -4,6 +4,7 @@
 local core = require "softworld.core"
 local build = require "softworld.build"
 local process = require "softworld.process"
+local number = require "softworld.output.number"
 local progress = require "softworld.output.progress"
 
 local Run = { __name = "run" }
@@ -216,7 +217,13 @@ local function summary_of(self)
   end
   for _, w in ipairs(data.wires) do
     local radius, s, t = w.object:min_bend_radius()
-    add(w.name .. ": smallest bend radius", radius, "m", s, t)
+    local label = w.name .. ": smallest bend radius"
+    if w.object:cable() then
+      local allowed = w.object:bend_limit()
+      label = ("%s (limit %s, %s%s)"):format(label, number.text(allowed.limit, "m"), allowed.use,
+        allowed.ok and "" or ", EXCEEDED")
+    end
+    add(label, radius, "m", s, t)
     local tension
     tension, s, t = w.object:max_tension()
     add(w.name .. ": largest tension", tension, "N", s, t)

@@ -74,7 +74,7 @@ local acts = {
       law = "spline" }
   end },
   { "a whole script", function()
-    local scene <close> = make()
+    local scene <close> = sw.scene{}
     local wire = scene:wire(WIRE)
     local left = scene:gripper{}
     scene:process(function(p)
@@ -151,8 +151,8 @@ describe("running out of memory", function()
         scene:restore(scene:snapshot())
         assert.are.equal("table", type(scene:settle()))
         scene:close()
-        assert.are.equal(before, in_use(), ("request %d of %s"):format(n, name))
       until not reached
+      assert.are.equal(before, in_use()) -- of all walks together: collecting takes long
       assert.is_true(failures > 0 or n == 1, "nothing ever failed")
     end)
   end

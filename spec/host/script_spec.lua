@@ -165,14 +165,16 @@ end)
 
 describe("softworld.core for the stock interpreter", function()
   local folder = program.path:match "^(.*)/" or "."
-  local sanitized = os.execute("grep -q __asan_init " .. program.quote(program.path))
-  local possible = program.has "lua5.4" and not sanitized
-    and io.open(folder .. "/lib/softworld/core.so") ~= nil
 
   it("loads, of the same version", function()
-    if not possible then return pending "no lua5.4, no core.so beside the program, or a sanitizer" end
+    assert.is_true(program.has "lua5.4", "the package lua5.4 is missing")
     local code = "print(require('softworld.core').version)"
-    local out, err = program.shell(("LUA_CPATH=%s lua5.4 -e %s"):format(
+    -- a core with sanitizers needs their library first in a program without;
+    -- leaks of the stock interpreter are not ours
+    local sanitizer = os.getenv "SOFTWORLD_PRELOAD"
+    local preload = sanitizer and ("LD_PRELOAD=%s ASAN_OPTIONS=detect_leaks=0 ")
+      :format(program.quote(sanitizer)) or ""
+    local out, err = program.shell((preload .. "LUA_CPATH=%s lua5.4 -e %s"):format(
       program.quote(folder .. "/lib/?.so"), program.quote(code)))
     assert.equal("", err)
     assert.equal(run { "-e", code }, out)

@@ -1,0 +1,437 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- The catalogue of cables, and cables of your own.
+--
+--     print(sw.cables())                    -- what there is
+--     print(sw.cable "GXL 1.5")             -- its sheet: values, spread, source
+--     print(sw.cable "GXL 1.5".EI.value)    -- [N m2]
+--     scene:wire{ cable = "GXL 1.5", from = {0, 0, 0}, to = {1, 0, 0} }
+--
+-- Every value is a table { value =, low =, high =, unit =, flag =, source = }. flag
+-- says how far to trust it: "measured" (or given by the named standard or maker),
+-- "computed" (by the formulas of softworld.stranding) or "guessed". Where the
+-- construction is known, EI and GJ carry two bounds besides: `slip`, when the
+-- strands slide on one another, and `stick`, when they do not. The stick bound is
+-- seldom reached: a power cable's EI falls about tenfold while its strands begin to
+-- slide, and the bounds of many thin strands lie up to a hundredfold apart.
+--
+-- Where nothing is measured, EI is the slip bound: handling bends wires far beyond
+-- where strands begin to slide, and the three wires in the catalogue whose EI was
+-- measured lie below the slip bound of a GXL of their mass. GJ is then EI times
+-- 1.25, the geometric mean of GJ/EI of those three, kept between its own bounds;
+-- it never follows from E and nu, which a bundle of strands does not have.
+-- @module softworld.cable
+local core = require "softworld.core"
+local bendrule = require "softworld.bendrule"
+local material = require "softworld.material"
+local stranding = require "softworld.stranding"
+
+local cable = { flags = { "measured", "computed", "guessed" }, twist_ratio = 1.25 }
+local Entry = { __name = "cable" }
+Entry.__index = Entry
+
+local files = { "gxl", "flry", "h07v", "identified" }
+local by_name, names
+
+-- Values of an entry in the order of its sheet; those with limits [unit] that no
+-- cable exceeds, so that mm taken for m and the like are told.
+local quantities = {
+  { key = "outer_diameter", unit = "m", least = 1e-4, most = 0.2 },
+  { key = "mass_per_length", unit = "kg/m", least = 1e-6, most = 200 },
+  { key = "EA", unit = "N", least = 0, most = 1e10 },
+  { key = "EI", unit = "N m2", least = 0, most = 1e6 },
+  { key = "GJ", unit = "N m2", least = 0, most = 1e6 },
+  { key = "friction", unit = "-", least = 0, most = 3 },
+}
+local densities = { 300, 12000 } -- mean over the section: foam, lead [kg/m3]
+
+local function set(...)
+  local s = {}
+  for _, list in ipairs { ... } do
+    for _, key in ipairs(list) do s[key] = true end
+  end
+  return s
+end
+
+local function fail(name, format, ...)
+  error(("cable '%s': %s"):format(name, format:format(...)), 0)
+end
+
+local function did_you_mean(word, list)
+  local near = type(word) == "string" and core.nearest(word, list)
+  return near and ("did you mean '%s'?"):format(near) or "known are " .. table.concat(list, " ")
+end
+
+local function check_keys(name, what, t, known)
+  local known_set = set(known)
+  for key in pairs(t) do
+    if not known_set[key] then
+      fail(name, "%s has no field '%s'; %s", what, tostring(key), did_you_mean(key, known))
+    end
+  end
+end
+
+local function is_number(x) return type(x) == "number" and x - x == 0 end
+
+local function flag_of(name, key, flag)
+  if flag == nil then fail(name, "%s has no flag (%s)", key, table.concat(cable.flags, ", ")) end
+  if not set(cable.flags)[flag] then
+    fail(name, "%s: there is no flag '%s'; %s", key, tostring(flag), did_you_mean(flag, cable.flags))
+  end
+  return flag
+end
+
+local function source_of(name, key, source)
+  if type(source) ~= "string" or source == "" then
+    fail(name, "%s has no source: a text that says where the value is from", key)
+  end
+  return source
+end
+
+-- A value as the user wrote it (a number or a table), with what the entry says for all.
+local function read_quantity(name, spec, given, entry)
+  local key, unit = spec.key, spec.unit
+  if type(given) == "number" then given = { value = given } end
+  if type(given) ~= "table" then
+    fail(name, "%s [%s] must be a number or { value =, low =, high =, flag =, source = }, got %s", key,
+      unit, type(given))
+  end
+  check_keys(name, key, given, { "value", "low", "high", "spread", "unit", "flag", "source" })
+  if given.unit ~= nil and given.unit ~= unit then
+    fail(name, "%s is in %s, not in %s", key, unit, tostring(given.unit))
+  end
+  local value, spread = given.value, given.spread or entry.spread
+  if not is_number(value) then fail(name, "%s: its value [%s] is missing", key, unit) end
+  if spread ~= nil and not (is_number(spread) and spread >= 0 and spread < 1) then
+    fail(name, "%s: spread is a share of the value, from 0 to below 1, got %s", key, tostring(spread))
+  end
+  local low = given.low or spread and value * (1 - spread)
+  local high = given.high or spread and value * (1 + spread)
+  if not (is_number(low) and is_number(high)) then
+    fail(name, "%s has no spread: give low and high [%s], or spread, a share of the value", key, unit)
+  end
+  return { value = value, low = low, high = high, unit = unit,
+    flag = flag_of(name, key, given.flag or entry.flag),
+    source = source_of(name, key, given.source or entry.source) }
+end
+
+local function check_range(name, spec, q)
+  local limit = "%s = %g %s is not allowed; it must be %s %g %s"
+  if q.value <= spec.least and not (spec.key == "friction" and q.value == 0) then
+    fail(name, limit, spec.key, q.value, spec.unit, "above", spec.least, spec.unit)
+  end
+  if q.value > spec.most then
+    fail(name, limit, spec.key, q.value, spec.unit, "at most", spec.most, spec.unit)
+  end
+  if not (q.low <= q.value and q.value <= q.high) then
+    fail(name, "%s = %g %s lies outside its spread, %g to %g", spec.key, q.value, spec.unit, q.low,
+      q.high)
+  end
+  if q.low < 0 then fail(name, "%s: its spread goes below 0 (%g %s)", spec.key, q.low, spec.unit) end
+end
+
+local function read_construction(name, given, entry, diameter)
+  if type(given) ~= "table" then fail(name, "construction must be a table, got %s", type(given)) end
+  check_keys(name, "construction", given,
+    { "strands", "strand_diameter", "conductor", "insulation", "source" })
+  local c = {}
+  for key, value in pairs(given) do c[key] = value end
+  c.source = source_of(name, "construction", c.source or entry.source)
+  if math.type(c.strands) ~= "integer" or c.strands < 1 then
+    fail(name, "construction: strands must be a whole number from 1, got %s", tostring(c.strands))
+  end
+  if not (is_number(c.strand_diameter) and c.strand_diameter > 0) then
+    fail(name, "construction: strand_diameter [m] must be above 0, got %s", tostring(c.strand_diameter))
+  end
+  for _, part in ipairs { "conductor", "insulation" } do
+    local found, why = material.find(c[part])
+    if not found then fail(name, "construction: %s: %s", part, why) end
+    local kind = part == "conductor" and "metal" or "polymer"
+    if found.kind ~= kind then fail(name, "construction: %s must be a %s, not %s", part, kind, c[part]) end
+  end
+  local inner = stranding.conductor_diameter(c)
+  if inner > diameter.value then
+    fail(name, "construction: %d strands of %g m make a conductor of %.3g m, thicker than "
+      .. "outer_diameter = %g m", c.strands, c.strand_diameter, inner, diameter.value)
+  end
+  return c
+end
+
+-- EI and GJ of the construction: the spread is from strands that slip, of the
+-- softest materials, to strands that stick, of the stiffest.
+local function computed(entry, key, by_parts)
+  local c = entry.construction
+  local value, source = by_parts.value, ("%d strands of %.3g mm %s, %s"):format(c.strands,
+    1000 * c.strand_diameter, c.conductor, c.insulation)
+  if key == "EI" then
+    value, source = by_parts.slip, "strands that slip: " .. source
+  elseif key == "GJ" then
+    value = math.min(math.max(cable.twist_ratio * entry.EI.value, by_parts.slip), by_parts.stick)
+    source = ("EI times %g as of three measured wires, within the bounds of its strands")
+      :format(cable.twist_ratio)
+  end
+  return { value = value, low = math.min(by_parts.low, value), high = math.max(by_parts.high, value),
+    flag = "computed", source = source }
+end
+
+local function add_bounds(name, entry, by_parts)
+  for _, key in ipairs { "EI", "GJ" } do
+    local q, parts = entry[key], by_parts[key]
+    q.slip, q.stick = parts.slip, parts.stick
+    if q.flag ~= "measured" and not (q.value >= parts.low and q.value <= parts.high) then
+      fail(name, "%s = %g N m2 is outside the bounds of its construction, %.3g N m2 (strands slip) to "
+        .. "%.3g N m2 (strands stick)", key, q.value, parts.low, parts.high)
+    end
+  end
+  local mass, parts = entry.mass_per_length, by_parts.mass_per_length
+  if mass.high < 0.8 * parts.low or mass.low > 1.25 * parts.high then
+    fail(name, "mass_per_length = %g kg/m does not fit its construction, %.3g to %.3g kg/m", mass.value,
+      parts.low, parts.high)
+  end
+end
+
+-- What no cable can be, whatever it is made of.
+local function check_consistency(name, e)
+  local R = e.outer_diameter.value / 2
+  local density = e.mass_per_length.value / (math.pi * R ^ 2)
+  if density < densities[1] or density > densities[2] then
+    fail(name, "mass_per_length = %g kg/m in outer_diameter = %g m is %.3g kg/m3, and cables have %g to "
+      .. "%g kg/m3; are the units right?", e.mass_per_length.value, 2 * R, density,
+      table.unpack(densities))
+  end
+  -- EI is largest for a given EA when all material is at the rim of the section
+  if e.EI.value > e.EA.value * R ^ 2 then
+    fail(name, "EI = %g N m2 is more than EA R^2 = %.3g N m2, which no section has; are the units right?",
+      e.EI.value, e.EA.value * R ^ 2)
+  end
+  if e.GJ.value > 10 * e.EI.value or e.GJ.value < 0.05 * e.EI.value then
+    fail(name, "GJ = %g N m2 is %.3g times EI; cables have 0.05 to 10 (three measured ones 0.82 to 1.64)",
+      e.GJ.value, e.GJ.value / e.EI.value)
+  end
+end
+
+local function read_temperature(name, given, entry)
+  if type(given) ~= "table" then fail(name, "temperature is missing: { low =, high = } [degC]") end
+  check_keys(name, "temperature", given, { "low", "high", "unit", "flag", "source" })
+  local low, high = given.low, given.high
+  if not (is_number(low) and is_number(high) and low < high and low > -273.15) then
+    fail(name, "temperature: low and high [degC] must be numbers with low below high, got %s and %s",
+      tostring(low), tostring(high))
+  end
+  return { low = low, high = high, unit = "degC",
+    flag = flag_of(name, "temperature", given.flag or entry.flag),
+    source = source_of(name, "temperature", given.source or entry.source) }
+end
+
+local function read_bend(name, given, entry)
+  if type(given) ~= "table" then
+    fail(name, "bend is missing: { rule = 'IEC 62440', use = 'fixed' }, or multiples of the outer "
+      .. "diameter, { fixed = 4, movement = 5, use = 'fixed' }")
+  end
+  local keys = { "rule", "use", "flag", "source" }
+  for _, use in ipairs(bendrule.uses) do keys[#keys + 1] = use end
+  check_keys(name, "bend", given, keys)
+  local bend = { rule = given.rule, use = given.use or "fixed",
+    flag = flag_of(name, "bend", given.flag or entry.flag),
+    source = source_of(name, "bend", given.source or entry.source) }
+  local count = 0
+  for _, use in ipairs(bendrule.uses) do
+    local factor = given[use]
+    if factor ~= nil and not (is_number(factor) and factor > 0) then
+      fail(name, "bend: %s must be a multiple of the outer diameter above 0, got %s", use, tostring(factor))
+    end
+    bend[use], count = factor, count + (factor and 1 or 0)
+  end
+  if bend.rule ~= nil and bend.rule ~= "IEC 62440" then
+    fail(name, "bend: there is no rule '%s'; known is IEC 62440", tostring(bend.rule))
+  end
+  if not bend.rule and count == 0 then fail(name, "bend says neither a rule nor a multiple") end
+  local wrong = bendrule.unknown(bend.use)
+  if wrong then fail(name, "bend: %s", wrong) end
+  if not bend.rule and not bend[bend.use] then
+    fail(name, "bend has no multiple for its use '%s'", bend.use)
+  end
+  return bend
+end
+
+local fields = { "name", "description", "outer_diameter", "mass_per_length", "EA", "EI", "GJ", "friction",
+  "temperature", "bend", "construction", "source", "flag", "spread" }
+
+-- A checked entry, or an error without a place.
+local function read(given)
+  if type(given) ~= "table" then
+    error(("cable.define takes one table of fields, got %s"):format(type(given)), 0)
+  end
+  local name = given.name
+  if type(name) ~= "string" or not name:find "%S" then error("cable.define: name is missing (a text)", 0) end
+  check_keys(name, "a cable", given, fields)
+  local entry = setmetatable({ name = name, description = given.description or "" }, Entry)
+  local diameter = quantities[1]
+  if given.outer_diameter == nil then fail(name, "outer_diameter [m] is missing") end
+  entry.outer_diameter = read_quantity(name, diameter, given.outer_diameter, given)
+  check_range(name, diameter, entry.outer_diameter)
+  local by_parts
+  if given.construction ~= nil then
+    entry.construction = read_construction(name, given.construction, given, entry.outer_diameter)
+    by_parts = stranding.compute(entry.construction, entry.outer_diameter)
+  end
+  for i = 2, #quantities do
+    local spec = quantities[i]
+    local key, value = spec.key, given[spec.key]
+    if value == nil and by_parts then
+      value = by_parts[key] and computed(entry, key, by_parts[key])
+        or material(entry.construction.insulation).friction
+    end
+    if value == nil then
+      fail(name, "%s [%s] is missing; %s", key, spec.unit, key == "GJ"
+        and "for a cable it does not follow from E and nu: measure it, or give the construction"
+        or "give it, or the construction")
+    end
+    entry[key] = read_quantity(name, spec, value, given)
+    check_range(name, spec, entry[key])
+  end
+  check_consistency(name, entry)
+  if by_parts then add_bounds(name, entry, by_parts) end
+  entry.temperature = read_temperature(name, given.temperature, given)
+  entry.bend = read_bend(name, given.bend, given)
+  return entry
+end
+
+local function load_all()
+  if by_name then return end
+  by_name, names = {}, {}
+  for _, file in ipairs(files) do
+    for _, given in ipairs(require("softworld.cables." .. file)) do
+      local entry = read(given)
+      by_name[entry.name], names[#names + 1] = entry, entry.name
+    end
+  end
+end
+
+--- The entry by its name; an entry is returned as it is. Errors have no place.
+function cable.get(name)
+  load_all()
+  if getmetatable(name) == Entry then return name end
+  if type(name) ~= "string" then
+    error(("a cable is named by a text or given as an entry, got %s"):format(type(name)), 0)
+  end
+  if by_name[name] then return by_name[name] end
+  local near = core.nearest(name, names)
+  error(("there is no cable '%s'; %s"):format(name, near and ("did you mean '%s'?"):format(near)
+    or "sw.cables() lists them"), 0)
+end
+
+local function placed(level, ok, ...)
+  if not ok then error(..., level) end
+  return ...
+end
+
+--- An own entry, from then on known by its name. Fields: `name`; `outer_diameter`
+-- [m], `mass_per_length` [kg/m], `EA` [N], `EI`, `GJ` [N m2], `friction` [-], each
+-- { value =, low =, high =, flag =, source = } (or spread, a share, instead of low
+-- and high); `temperature` { low =, high = } [degC]; `bend` { rule = "IEC 62440",
+-- use = "fixed" } or multiples of the outer diameter by use; `construction`
+-- { strands =, strand_diameter = [m], conductor = "copper", insulation = "PVC" },
+-- from which what is missing is computed. `flag`, `source` and `spread` of the
+-- entry hold for all values that are given without, even as plain numbers.
+-- Errors name the cable and the field that is missing or does not fit.
+function cable.define(given)
+  load_all()
+  local entry = placed(3, pcall(read, given))
+  if by_name[entry.name] then
+    error(("cable '%s': the catalogue has one of this name; take another"):format(entry.name), 2)
+  end
+  by_name[entry.name], names[#names + 1] = entry, entry.name
+  return entry
+end
+
+local List = { __name = "cables" }
+
+--- All names, in the catalogue's order; print shows a table.
+function cable.list()
+  load_all()
+  return setmetatable(table.move(names, 1, #names, 1, {}), List)
+end
+
+function List.__tostring(list)
+  local lines = { ("%-18s %9s %9s %-31s %s"):format("", "OD [mm]", "[g/m]", "EI [N m2] (slip .. stick)", "") }
+  for _, name in ipairs(list) do
+    local e = by_name[name]
+    local EI = e.EI.slip and ("%.3g (%.3g .. %.3g)"):format(e.EI.value, e.EI.slip, e.EI.stick)
+      or ("%.3g (%s)"):format(e.EI.value, e.EI.flag)
+    lines[#lines + 1] = ("%-18s %9.3g %9.3g %-31s %s"):format(name, 1000 * e.outer_diameter.value,
+      1000 * e.mass_per_length.value, EI, e.description)
+  end
+  return table.concat(lines, "\n")
+end
+
+-- --- entries --------------------------------------------------------------------
+
+local stiffnesses = { "default", "slip", "stick" }
+
+local function section(self, stiffness)
+  stiffness = stiffness or "default"
+  if not set(stiffnesses)[stiffness] then
+    fail(self.name, "there is no stiffness '%s'; %s", tostring(stiffness),
+      did_you_mean(stiffness, stiffnesses))
+  end
+  local which = stiffness == "default" and "value" or stiffness
+  if not self.EI[which] then
+    fail(self.name, "its construction is not known, so there is no bound '%s'; EI is %s", stiffness,
+      self.EI.flag)
+  end
+  return { EA = self.EA.value, EI = self.EI[which], GJ = self.GJ[which],
+    mass_per_length = self.mass_per_length.value, radius = self.outer_diameter.value / 2 }
+end
+
+local function bend_limit(self, use, diameter)
+  use, diameter = use or self.bend.use, diameter or self.outer_diameter.value
+  local wrong = bendrule.unknown(use)
+  if wrong then fail(self.name, "%s", wrong) end
+  local factor = self.bend[use] or self.bend.rule and bendrule.factor(use, diameter)
+  if not factor then fail(self.name, "it has no bend limit for the use '%s'", use) end
+  return factor * diameter, (factor + 0.5) * diameter, use
+end
+
+-- For other modules: errors without a place.
+cable.section, cable.bend_limit = section, bend_limit
+
+--- Parameters of scene:wire: EA [N], EI, GJ [N m2], mass_per_length [kg/m], radius
+-- [m]. stiffness: "default", or "slip" or "stick" for a bound of EI and GJ.
+function Entry:section(stiffness) return (placed(3, pcall(section, self, stiffness))) end
+
+--- Smallest radius that a use allows: of the inside of the bend [m], of the centre
+-- line [m], and the use: "fixed", "termination", "movement", "load", "reeling" or
+-- "pulleys", default that of the entry. diameter [m]: default that of the entry.
+function Entry:bend_limit(use, diameter)
+  local inside, centre
+  inside, centre, use = placed(3, pcall(bend_limit, self, use, diameter))
+  return inside, centre, use
+end
+
+local function row(lines, title, value, unit, spread, flag, source)
+  lines[#lines + 1] = ("  %-16s %-11s %-6s %-22s %-9s %s"):format(title, value, unit, spread, flag, source)
+end
+
+function Entry:__tostring()
+  local lines = { ("%s: %s"):format(self.name, self.description) }
+  for _, spec in ipairs(quantities) do
+    local q = self[spec.key]
+    row(lines, spec.key, ("%.4g"):format(q.value), spec.unit == "-" and "" or spec.unit,
+      ("%.3g .. %.3g"):format(q.low, q.high), q.flag, q.source)
+    if q.slip then
+      row(lines, "  bounds", "", spec.unit, ("%.3g .. %.3g"):format(q.slip, q.stick), "computed",
+        "strands slip .. strands stick")
+    end
+  end
+  local t, b = self.temperature, self.bend
+  row(lines, "temperature", "", "degC", ("%g .. %g"):format(t.low, t.high), t.flag, t.source)
+  row(lines, "bend radius", "", "m", "inside, by use:", b.flag, b.source)
+  local limits = {}
+  for _, use in ipairs(bendrule.uses) do
+    if b[use] or b.rule then limits[#limits + 1] = ("%s %.3g"):format(use, (self:bend_limit(use))) end
+  end
+  lines[#lines + 1] = "    " .. table.concat(limits, ", ")
+  return table.concat(lines, "\n")
+end
+
+return setmetatable(cable, { __call = function(_, name) return (placed(3, pcall(cable.get, name))) end })
