@@ -29,8 +29,8 @@ local ROOMS = {
 
 -- Headers other rooms may see: <room>/<room>.h, unless listed here (true = all of them).
 -- state and solve have no single header: their parts have different users.
-local OPEN = { base = true, bind = true, state = { "field.h", "mesh.h", "plan.h" },
-  solve = { "band3.h" } }
+local OPEN = { base = true, bind = true, state = { "angle.h", "field.h", "hinge.h", "mesh.h", "plan.h" },
+  solve = { "band3.h", "band4.h" } }
 
 -- May include softworld.h.
 local USES_CORE = { bind = true, host = true }

@@ -48,6 +48,34 @@ static int read_model(lua_State *L, int table) {
   return luaL_error(L, "wire: there is no model '%s'; known are: %s", word, lua_tostring(L, -1));
 }
 
+/* EI = {EI1, EI2}: takes the second one and puts, as the arguments, a copy of the
+ * table with the first one. NAN when EI is one number. */
+static double split_stiffness(lua_State *L) {
+  if (lua_getfield(L, 2, "EI") != LUA_TTABLE) {
+    lua_settop(L, 2);
+    return NAN;
+  }
+  double EI[2] = {0, 0};
+  for (int k = 0; k < 2 && lua_rawlen(L, 3) == 2; k++) {
+    lua_geti(L, 3, k + 1);
+    EI[k] = lua_type(L, -1) == LUA_TNUMBER ? lua_tonumber(L, -1) : 0;
+    lua_pop(L, 1);
+  }
+  for (int k = 0; k < 2; k++)
+    if (!(EI[k] > 0) || !(EI[k] < HUGE_VAL))
+      luaL_error(L, "wire: EI must be a number [N m2] or {EI1, EI2}, both above 0, got table");
+  lua_newtable(L);
+  for (lua_pushnil(L); lua_next(L, 2);) {
+    lua_pushvalue(L, -2);
+    lua_insert(L, -2);
+    lua_rawset(L, 4);
+  }
+  lsw_set_number(L, "EI", EI[0]);
+  lua_replace(L, 2);
+  lua_settop(L, 2);
+  return EI[1];
+}
+
 int lsw_scene_wire(lua_State *L) {
   lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
   sw_wire_args args;
@@ -58,8 +86,10 @@ int lsw_scene_wire(lua_State *L) {
   const lsw_section sections[] = {{&sw_wire_params, &args}, {&sw_section_params, &section}};
   lua_settop(L, 2);
   lsw_check_table(L, 2, "scene:wire");
+  const double EI2 = split_stiffness(L);
   lsw_sections(L, 2, "wire", sections, 2);
   args.model = read_model(L, 2);
+  section.EI2 = EI2;
   const char *object = args.name[0] ? lua_pushfstring(L, "wire '%s'", args.name) : "wire";
   lsw_must(L, sw_section_beam(object, &section, &beam, &err), &err);
   if (beam.EI == 0 && strcmp(sw_wire_all()[args.model]->name, "string") != 0)
@@ -231,6 +261,14 @@ static int push_beam(lua_State *L) {
   lua_createtable(L, 0, 5);
   lsw_set_number(L, "EA", b.EA);
   lsw_set_number(L, "EI", b.EI);
+  if (b.EI_axis[0] != b.EI_axis[1]) {
+    lua_createtable(L, 2, 0);
+    for (int k = 0; k < 2; k++) {
+      lua_pushnumber(L, b.EI_axis[k]);
+      lua_rawseti(L, -2, k + 1);
+    }
+    lua_setfield(L, -2, "EI");
+  }
   lsw_set_number(L, "GJ", b.GJ);
   lsw_set_number(L, "mass_per_length", b.mass);
   lsw_set_number(L, "radius", b.radius);

@@ -9,60 +9,7 @@
 
 #include "base/simd.h"
 #include "force/force.h"
-
-/* Chebyshev fits on u in [0, 1/4] (phi <= 60 degrees), error below 5e-16. */
-static const double FIT_LIMIT = 0.25; /* largest u of the fits [-] */
-/* Horner's scheme for the coefficients c0 .. c13. */
-#define STEP(u, c, rest) ((c) + (u) * (rest))
-#define FIT(u, c)                                                                              \
-  STEP(u, c##0, STEP(u, c##1, STEP(u, c##2, STEP(u, c##3, STEP(u, c##4, STEP(u, c##5,          \
-  STEP(u, c##6, STEP(u, c##7, STEP(u, c##8, STEP(u, c##9, STEP(u, c##10, STEP(u, c##11,        \
-  STEP(u, c##12, c##13)))))))))))))
-#define S0 1.0
-#define S1 0.66666666666673224
-#define S2 0.53333333331635013
-#define S3 0.45714285887196332
-#define S4 0.40634911476368524
-#define S5 0.36941126493138032
-#define S6 0.3409332932493519
-#define S7 0.31907228762239243
-#define S8 0.29180058074110277
-#define S9 0.33511256175349097
-#define S10 0.035139155368524883
-#define S11 0.97765555800227311
-#define S12 (-1.1132861271784307)
-#define S13 1.5537792943093436
-#define W0 0.33333333333333298
-#define W1 0.53333333333387734
-#define W2 0.6857142855733187
-#define W3 0.81269842704561113
-#define W4 0.92352016399108761
-#define W5 1.0230010184700724
-#define W6 1.1134194540041413
-#define W7 1.204873841758062
-#define W8 1.2131077477347334
-#define W9 1.7741216298827196
-#define W10 (-0.50853150242764933)
-#define W11 7.3660905082461881
-#define W12 (-9.4903230920523001)
-#define W13 12.120085660545596
-
-/* sin^2 of half the largest angle the formula is used for: 0.98 * pi. Beyond
- * it s and w grow without bound; a hinge so sharp is out of the model's range. */
-static const double SHARPEST = 0.999;
-
-/* phi/sin(phi) and its derivative's negative, for any u. */
-static void exact_factors(double u, double *s, double *w) {
-  const double v = u < SHARPEST ? u : SHARPEST;
-  if (v <= FIT_LIMIT) {
-    *s = FIT(v, S);
-    *w = FIT(v, W);
-    return;
-  }
-  const double c = 1.0 - 2.0 * v, sine2 = 4.0 * v * (1.0 - v);
-  *s = acos(c) / sqrt(sine2);
-  *w = (1.0 - *s * c) / sine2;
-}
+#include "state/angle.h"
 
 /* scratch: 0 cos phi, 1 k s, 2 k w for hinges 1..n-2 */
 SW_HOT
@@ -77,8 +24,8 @@ static double hinge_factors(size_t n, double EI, const double *restrict hinge,
     const double k = hinge[i] > 0 ? EI / hinge[i] : 0.0;
     largest = largest > u ? largest : u;
     cosine[i] = 1.0 - 2.0 * u;
-    ks[i] = k * FIT(u, S);
-    kw[i] = k * FIT(u, W);
+    ks[i] = k * SW_FIT(u, SW_FIT_S);
+    kw[i] = k * SW_FIT(u, SW_FIT_W);
   }
   return largest;
 }
@@ -87,9 +34,9 @@ static void sharp_hinges(size_t n, double EI, const double *hinge, const double 
                          double *ks, double *kw) {
   for (size_t i = 1; i + 1 < n; i++) {
     const double u = 0.5 * (1.0 - cosine[i]);
-    if (u <= FIT_LIMIT || !(hinge[i] > 0)) continue;
+    if (u <= SW_ANGLE_FIT || !(hinge[i] > 0)) continue;
     double s, w;
-    exact_factors(u, &s, &w);
+    sw_angle_factors(u, &s, &w);
     ks[i] = EI / hinge[i] * s;
     kw[i] = EI / hinge[i] * w;
   }
@@ -175,11 +122,11 @@ static void clamp_hinge(const sw_clamp_hinge *h, double EI, sw_field *field) {
   const double t[3] = {field->tangent[0][e], field->tangent[1][e], field->tangent[2][e]};
   double u = 0, s, w, p[3];
   for (int k = 0; k < 3; k++) u += 0.25 * (t[k] - d0[k]) * (t[k] - d0[k]);
-  exact_factors(u, &s, &w);
+  sw_angle_factors(u, &s, &w);
   const double k0 = EI / h->length, c = 1.0 - 2.0 * u, rl = field->reciprocal[e];
   for (int k = 0; k < 3; k++) p[k] = d0[k] - c * t[k];
   if (field->want & SW_WANT_ENERGY) {
-    const double phi = s * sqrt(4.0 * u * (1.0 - (u < SHARPEST ? u : SHARPEST)));
+    const double phi = s * sqrt(4.0 * u * (1.0 - (u < SW_ANGLE_SHARPEST ? u : SW_ANGLE_SHARPEST)));
     field->energy += 0.5 * k0 * phi * phi;
   }
   if (field->want & SW_WANT_FORCE)
@@ -210,7 +157,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   double *const *t = f->tangent;
   (void)err;
   const double largest = hinge_factors(p->nodes, EI, p->hinge, t[0], t[1], t[2], c, ks, kw);
-  if (!(largest <= FIT_LIMIT)) sharp_hinges(p->nodes, EI, p->hinge, c, ks, kw);
+  if (!(largest <= SW_ANGLE_FIT)) sharp_hinges(p->nodes, EI, p->hinge, c, ks, kw);
   if (f->want & SW_WANT_FORCE)
     add_gradient(p->nodes, c, ks, f->reciprocal, t[0], t[1], t[2], f->gradient[0],
                  f->gradient[1], f->gradient[2]);
@@ -244,7 +191,7 @@ static sw_vec clamp_moment(const void *args, const sw_field *field, const sw_cla
       sw_load(field->hold_directors + 3 * (2 * (size_t)h->hold + (h->side > 0 ? 1 : 0)));
   const sw_vec t = sw_v(field->tangent[0][e], field->tangent[1][e], field->tangent[2][e]);
   double s, w;
-  exact_factors(0.25 * sw_norm2(sw_sub(t, d)), &s, &w);
+  sw_angle_factors(0.25 * sw_norm2(sw_sub(t, d)), &s, &w);
   return sw_scale(sw_cross(t, d), ((const sw_bend_args *)args)->EI / h->length * s);
 }
 

@@ -140,6 +140,7 @@ static double embedded_error(const sw_stepper *p, const sw_system *s, double h) 
 
 sw_status sw_stepper_trial(sw_stepper *p, sw_system *s, double t, double h, sw_error *err) {
   memcpy(p->tension, s->tension, s->edges * sizeof(double));
+  sw_system_begin_step(s);
   p->iterations = 0;
   p->rotation = 0;
   p->error = 0;

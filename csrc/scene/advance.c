@@ -215,6 +215,12 @@ static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_er
 static sw_status check_run(const sw_scene *s, const sw_run_args *args, sw_error *err) {
   const sw_integrator *m = sw_integrator_all()[args->integrator];
   if (!s->wire_count) return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", s->name);
+  for (size_t w = 0; w < s->wire_count; w++)
+    if (s->wires[w].beam.framed && !(m->flags & SW_INTEGRATOR_IMPLICIT))
+      return sw_fail(err, SW_EINVAL,
+                     "scene:run: integrator '%s' is explicit; wire '%s', which is curved at rest or "
+                     "has two values of EI, needs an implicit one",
+                     m->name, s->wires[w].name);
   if (isfinite(args->tolerance) && !(m->flags & SW_INTEGRATOR_EMBEDDED))
     return sw_fail(err, SW_EINVAL,
                    "scene:run: integrator '%s' has no error estimate; give dt instead of "

@@ -132,6 +132,7 @@ sw_status sw_scene_thaw(sw_scene *s) {
     memcpy(m->x, s->system.x + 3 * b->first_node, 3 * m->n * sizeof *m->x);
     memcpy(m->v, s->system.v + 3 * b->first_node, 3 * m->n * sizeof *m->v);
     memcpy(m->tension, s->system.tension + b->first_edge, (m->n - 1) * sizeof *m->tension);
+    if (b->spin_block) sw_scene_frame_out(s, w);
   }
   SW_TRY(keep_twist(s));
   drop(s);
@@ -155,6 +156,7 @@ static sw_status new_plans(sw_scene *s, sw_plan **plans) {
       number++;
     }
     status = sw_plan_new(&wire->beam, wire->mesh.s, wire->mesh.n, places, n, &plans[w]);
+    if (status == SW_OK && wire->mesh.rest) status = sw_scene_rest(s, w, plans[w]);
   }
   sw_free(places);
   return status;
@@ -169,7 +171,7 @@ static sw_status add_terms(sw_scene *s, size_t w) {
                               recipe.terms[k].args, sizeof recipe.terms[k].args, -1));
   b->EA = s->wires[w].beam.EA;
   b->EA_push = recipe.push ? b->EA : 0.0;
-  if (recipe.twist) SW_TRY(sw_system_enable_twist(&s->system, w));
+  if (recipe.twist && !b->spin_block) SW_TRY(sw_system_enable_twist(&s->system, w));
   for (size_t k = 0; k < s->force_count; k++) {
     const sw_scene_force *f = &s->forces[k];
     if (f->alive && (f->wire < 0 || f->wire == (long)w))
@@ -195,8 +197,11 @@ static sw_status add_holds(sw_scene *s, size_t alive) {
     const sw_scene_hold *h = &s->holds[k];
     if (!h->alive) continue;
     const sw_body *b = &s->system.bodies[h->wire];
-    for (size_t side = 0; side < 2; side++)
-      sw_store(s->system.directors + 3 * (2 * (size_t)number + side), h->director[side]);
+    for (size_t side = 0; side < 2; side++) {
+      const size_t at = 3 * (2 * (size_t)number + side);
+      sw_store(s->system.directors + at, h->director[side]);
+      sw_store(s->system.normals + at, h->frame[side].normal);
+    }
     for (size_t i = 0; i < b->plan->nodes; i++) {
       if (!(b->plan->s[i] >= h->s1 && b->plan->s[i] <= h->s2)) continue;
       s->system.held[s->system.held_count++] =
@@ -301,6 +306,7 @@ sw_status sw_scene_build(sw_scene *s, sw_error *err) {
       return status;
     }
     inherit_twist(s);
+    sw_scene_frame_in(s);
     s->built = 1;
     sw_scene_forget_contact(s);
     sw_scene_inherit_histories(s);

@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "scene/world.h"
+#include "state/hinge.h"
 
 /* All arc lengths of a wire that other holds need as nodes. */
 static size_t kept_places(const sw_scene *s, size_t wire, double *out) {
@@ -117,6 +118,11 @@ static void take_directions(const sw_mesh *m, sw_scene_hold *h, const sw_hold_ar
     const double s = fmin(length, fmax(0, side ? a->s + half : a->s - half));
     h->director[side] =
         given ? sw_unit_or(a->direction, sw_v(1, 0, 0)) : sw_mesh_tangent_at(m, s);
+    if (!m->rest) continue;
+    sw_mesh_frame *f = &h->frame[side];
+    *f = sw_mesh_frame_at(m, s);
+    f->normal = sw_carry_unit(f->normal, f->tangent, h->director[side]);
+    f->tangent = h->director[side];
   }
 }
 

@@ -105,8 +105,26 @@ static double tension_at(const sw_system *s, const sw_body *b, double at) {
   return T[k] + (T[k + 1] - T[k]) * (at - m0) / (m1 - m0);
 }
 
+/* Torque of hinge number k, of the plan's list with clamps after nodes. */
+static double hinge_torque(const sw_body *b, size_t number, double length) {
+  const double off = b->field.hinge_twist[number] - b->plan->rest_twist[number];
+  return length > 0 ? b->plan->beam.GJ / length * off : 0.0;
+}
+
+/* The torque at a node of a wire with frames as seen from one of its edges. */
+static double node_torque(const sw_body *b, size_t node, size_t edge) {
+  const sw_clamp_hinge *c = clamp_at(b->plan, node, edge);
+  if (!c) return hinge_torque(b, node, b->plan->hinge[node]);
+  return hinge_torque(b, b->plan->nodes + (size_t)(c - b->plan->clamps), c->length);
+}
+
 /* Torque of the span that holds arc length at; 0 outside of spans. */
 static double torque_at(const sw_system *s, const sw_body *b, double at) {
+  if (b->spin_block) {
+    double f;
+    const size_t e = sw_plan_locate(b->plan, at, &f);
+    return (1 - f) * node_torque(b, e, e) + f * node_torque(b, e + 1, e);
+  }
   for (size_t k = 0; b->has_twist && k < b->plan->span_count; k++) {
     const sw_span *span = &b->plan->spans[k];
     if (at >= b->plan->s[span->first] && at <= b->plan->s[span->last + 1])

@@ -37,6 +37,10 @@ static void aim(sw_scene *s, sw_body *b, const sw_probe *at) {
   f->cautious = 0;
   sw_field_clear(f);
   sw_field_geometry(f);
+  if (b->spin_block) {
+    sw_system_begin_step(&s->system);
+    sw_system_measure(&s->system, b);
+  }
 }
 
 sw_status sw_scene_probe(sw_scene *s, sw_handle wire, const sw_force_class *cls,

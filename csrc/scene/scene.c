@@ -145,6 +145,8 @@ static void give_name(char *out, const char *wanted, const char *kind, size_t nu
 
 /* --- wires ------------------------------------------------------------------ */
 
+static const char *const rest_names[] = {"straight", "path", NULL};
+
 static const sw_param wire_rows[] = {
     {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_wire_args, name),
      "name used in messages and series"},
@@ -158,6 +160,11 @@ static const sw_param wire_rows[] = {
      "list of points the wire lies along, instead of from and to"},
     {"segments", SW_PARAM_INTEGER, "-", 50, 2, 1e7, 0, NULL, offsetof(sw_wire_args, segments),
      "number of segments"},
+    {"rest", SW_PARAM_CHOICE, "-", 0, 0, 0, 0, rest_names, offsetof(sw_wire_args, rest),
+     "shape without load: 'straight' or as 'path' has it"},
+    {"normal", SW_PARAM_VECTOR, "-", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL,
+     offsetof(sw_wire_args, normal),
+     "with EI = {EI1, EI2}: bending in the plane of the wire and this has EI1"},
 };
 const sw_params sw_wire_params = SW_PARAMS("wire", wire_rows);
 
@@ -174,6 +181,30 @@ static sw_status check_mesh(const char *name, const sw_mesh *m, sw_error *err) {
   return SW_OK;
 }
 
+/* The normal must be across the wire where it starts. */
+static const double LEAST_SINE = 1e-3; /* of the angle between both [-] */
+
+static sw_status add_frames(sw_scene_wire *w, const sw_wire_args *a, sw_error *err) {
+  const int two = w->beam.EI_axis[0] != w->beam.EI_axis[1];
+  const sw_vec along = sw_unit_or(sw_sub(sw_load(w->mesh.x + 3), sw_load(w->mesh.x)), sw_v(1, 0, 0));
+  const int given = isfinite(a->normal.x);
+  if (!w->beam.framed && !given && a->rest == SW_REST_STRAIGHT) return SW_OK;
+  if (strcmp(w->cls->name, "rod") != 0)
+    return sw_fail(err, SW_EINVAL,
+                   "wire '%s': rest, normal and two values of EI go with model = 'rod'", w->name);
+  if (two && !given)
+    return sw_fail(err, SW_EINVAL, "wire '%s': two values of EI need normal = {x, y, z}, the "
+                   "direction in which the first one bends", w->name);
+  if (given && !(sw_norm(sw_cross(sw_unit_or(a->normal, along), along)) > LEAST_SINE))
+    return sw_fail(err, SW_EINVAL, "wire '%s': normal must not be along the wire's start", w->name);
+  w->beam.framed = w->beam.framed || a->rest == SW_REST_PATH;
+  if (!w->beam.framed) return SW_OK; /* a normal that makes no difference */
+  if (sw_mesh_add_frames(&w->mesh, given ? a->normal : sw_perpendicular(along),
+                         a->rest == SW_REST_STRAIGHT) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", w->name);
+  return SW_OK;
+}
+
 /* Can the force act on the wire? */
 static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, const void *args,
                             sw_error *err) {
@@ -187,6 +218,11 @@ static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, c
                    "force %s: wire '%s' is a %s, whose bending it cannot correct; it goes with "
                    "model = 'rod'",
                    cls->name, w->name, w->cls->name);
+  if (cls->commit && w->beam.framed)
+    return sw_fail(err, SW_EINVAL,
+                   "force %s: wire '%s' is curved at rest or has two values of EI, which it does "
+                   "not know",
+                   cls->name, w->name);
   return cls->check ? cls->check(args, &w->beam, err) : SW_OK;
 }
 
@@ -201,14 +237,15 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
     return sw_fail(err, SW_EINVAL, "wire '%s': give from and to, or path [m]", w.name);
   if (points && count < 2)
     return sw_fail(err, SW_EINVAL, "wire '%s': path needs at least two points", w.name);
-  for (size_t k = 0; k < s->force_count; k++)
-    if (s->forces[k].alive && s->forces[k].wire < 0)
-      SW_TRY(check_wire(s->forces[k].cls, &w, s->forces[k].args, err));
   SW_TRY(sw_scene_thaw(s));
   SW_TRY(sw_grow((void **)&s->wires, &s->wire_capacity, s->wire_count + 1, sizeof *s->wires));
   sw_status status = sw_mesh_along(&w.mesh, points ? points : straight, points ? count : 2,
                                    (size_t)args->segments);
   if (status == SW_OK) status = check_mesh(w.name, &w.mesh, err);
+  if (status == SW_OK) status = add_frames(&w, args, err);
+  for (size_t k = 0; status == SW_OK && k < s->force_count; k++)
+    if (s->forces[k].alive && s->forces[k].wire < 0)
+      status = check_wire(s->forces[k].cls, &w, s->forces[k].args, err);
   if (status != SW_OK) {
     sw_mesh_free(&w.mesh);
     return status;

@@ -68,7 +68,10 @@ typedef struct sw_wire_args {
   int model;     /* index into sw_wire_all() */
   sw_vec from, to; /* straight wire; NAN = not given [m] */
   long segments; /* [-] */
+  int rest;      /* shape without load: SW_REST_STRAIGHT, SW_REST_PATH */
+  sw_vec normal; /* first axis of the section; NAN = not given [-] */
 } sw_wire_args;
+enum { SW_REST_STRAIGHT = 0, SW_REST_PATH = 1 };
 extern const sw_params sw_wire_params; /* model, path, segments, ... */
 
 /* points (count x 3): the polyline the wire lies along; NULL takes from and to.

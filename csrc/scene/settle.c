@@ -56,6 +56,7 @@ static sw_status solve(statics *p, double hbar, const sw_newton *newton, sw_erro
       .time = s->time, .hbar = hbar, .xhat = p->from, .vhat = p->zero, .y = p->y, .v = p->v};
   memcpy(p->from, s->system.x, 3 * s->system.nodes * sizeof(double));
   memcpy(p->tension, s->system.tension, s->system.edges * sizeof(double));
+  sw_system_begin_step(&s->system);
   sw_status status = SW_OK;
   if (s->contact)
     status =

@@ -85,23 +85,6 @@ void sw_snapshot_free(sw_snapshot *p) {
   sw_free(p);
 }
 
-static sw_status copy_mesh(const sw_mesh *from, sw_mesh *to) {
-  *to = (sw_mesh){.n = from->n, .capacity = from->n, .EA = from->EA};
-  to->s = sw_alloc(from->n, sizeof(double));
-  to->x = sw_alloc(3 * from->n, sizeof(double));
-  to->v = sw_alloc(3 * from->n, sizeof(double));
-  to->tension = sw_alloc(from->n, sizeof(double));
-  if (!to->s || !to->x || !to->v || !to->tension) {
-    sw_mesh_free(to);
-    return SW_ENOMEM;
-  }
-  memcpy(to->s, from->s, from->n * sizeof(double));
-  memcpy(to->x, from->x, 3 * from->n * sizeof(double));
-  memcpy(to->v, from->v, 3 * from->n * sizeof(double));
-  memcpy(to->tension, from->tension, from->n * sizeof(double));
-  return SW_OK;
-}
-
 static sw_status copy_block(const void *from, size_t bytes, void *to_pointer) {
   void *copy = sw_alloc(bytes, 1);
   if (!copy) return SW_ENOMEM;
@@ -124,7 +107,7 @@ static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
   p->force_alive = sw_alloc(s->force_count, sizeof *p->force_alive);
   if (!p->meshes || !p->extremes || !p->hold || !p->obstacle || !p->force_alive) return SW_ENOMEM;
   for (size_t w = 0; w < s->wire_count; w++) {
-    SW_TRY(copy_mesh(&s->wires[w].mesh, &p->meshes[w]));
+    SW_TRY(sw_mesh_copy(&s->wires[w].mesh, &p->meshes[w]));
     p->wires = w + 1;
     p->extremes[w] = s->wires[w].extremes;
   }
@@ -251,7 +234,7 @@ static sw_status put_meshes(sw_scene *s, const sw_snapshot *p) {
   sw_mesh *copies = sw_alloc(p->wires, sizeof *copies);
   sw_status status = copies ? SW_OK : SW_ENOMEM;
   for (size_t w = 0; status == SW_OK && w < p->wires; w++)
-    status = copy_mesh(&p->meshes[w], &copies[w]);
+    status = sw_mesh_copy(&p->meshes[w], &copies[w]);
   for (size_t w = 0; copies && w < p->wires; w++) {
     if (status == SW_OK) {
       sw_mesh_free(&s->wires[w].mesh);

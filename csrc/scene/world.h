@@ -50,6 +50,7 @@ typedef struct sw_scene_hold {
   double *s;           /* (count) arc lengths when taken hold of [m] */
   double *local;       /* (count x 3) in the hold's frame [m] */
   sw_vec director[2];  /* arriving, leaving; in the hold's frame [-] */
+  sw_mesh_frame frame[2]; /* the wire's there, with directions as held; if it has frames */
   sw_quat turn;         /* orientation that goes with the wire's twist, while not built */
   sw_vec force, moment; /* last, kept after release [N], [N m] */
   sw_pose last_pose;
@@ -144,6 +145,11 @@ void sw_scene_forget_contact(sw_scene *scene);
 sw_status sw_scene_keep_histories(sw_scene *scene);
 void sw_scene_inherit_histories(sw_scene *scene);
 void sw_scene_forget_histories(sw_scene *scene);
+/* What the frames of wires are when unloaded, into the plan; their present ones into
+ * the system's state and back into the meshes. */
+sw_status sw_scene_rest(const sw_scene *scene, size_t wire, sw_plan *plan);
+void sw_scene_frame_in(sw_scene *scene);
+void sw_scene_frame_out(sw_scene *scene, size_t wire);
 /* Make the system from the meshes and holds, if it is not. */
 sw_status sw_scene_build(sw_scene *scene, sw_error *err);
 

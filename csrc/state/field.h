@@ -45,6 +45,16 @@ typedef struct sw_field {
   double *twist_slope;     /* (edges + 1 x 3) d twist / d edge vector, to be filled [rad/m] */
   double *twist_stiffness; /* (spans) second derivative along the slope, added to [N m] */
 
+  /* material frames; NULL for a wire without them */
+  const double *normals;      /* (m x 3) first material axis of each edge [-] */
+  const double *hinge_twist;  /* (n + clamps) turn from edge to edge, then at clamps [rad] */
+  const double *hold_normals; /* (holds x 2 x 3) first material axis at the holds [-] */
+  double *spin;         /* (m) d energy / d turn of an edge about itself, to be added to [N m] */
+  double *spin_own;     /* (m) second derivative [N m] */
+  double *spin_next;    /* (n) at node i: spins of edges i-1 and i [N m] */
+  double *spin_edge[3]; /* (m x 3) edge e with its own spin, (n x 3) at node i: edge i with
+                           spin i-1, edge i-1 with spin i [N] */
+
   /* geometry of the edges, filled by sw_field_geometry */
   double *length;     /* (m) [m] */
   double *reciprocal; /* (m) 1 / length [1/m] */

@@ -5,31 +5,65 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "state/hinge.h"
+
+enum { ARRAYS = 8, PLAIN = 4 }; /* the later ones with frames only */
+
+/* The arrays and their doubles per node. */
+static void arrays(sw_mesh *m, double **out[ARRAYS], size_t width[ARRAYS]) {
+  double **const all[ARRAYS] = {&m->s,    &m->tension, &m->x,      &m->v,
+                                &m->rest, &m->normal,  &m->rest_normal, &m->twist};
+  static const size_t widths[ARRAYS] = {1, 1, 3, 3, 3, 3, 3, 1};
+  memcpy(out, all, sizeof all);
+  memcpy(width, widths, sizeof widths);
+}
+
+/* Room for need nodes in the first count arrays, keeping what is there. */
+static sw_status make_room(sw_mesh *m, size_t need, size_t count) {
+  double **at[ARRAYS], *more[ARRAYS] = {NULL};
+  size_t width[ARRAYS];
+  int good = 1;
+  arrays(m, at, width);
+  for (size_t k = 0; k < count; k++) {
+    more[k] = sw_alloc(width[k] * need, sizeof(double));
+    good &= more[k] != NULL;
+  }
+  for (size_t k = 0; k < count; k++) {
+    if (good && *at[k] && m->n) memcpy(more[k], *at[k], width[k] * m->n * sizeof(double));
+    sw_free(good ? *at[k] : more[k]);
+    if (good) *at[k] = more[k];
+  }
+  if (good) m->capacity = need;
+  return good ? SW_OK : SW_ENOMEM;
+}
 
 static sw_status reserve(sw_mesh *m, size_t need) {
   if (need <= m->capacity) return SW_OK;
-  const size_t capacity = need + need / 8 + 8;
-  double *s = sw_alloc(capacity, sizeof *s), *x = sw_alloc(3 * capacity, sizeof *x);
-  double *v = sw_alloc(3 * capacity, sizeof *v), *t = sw_alloc(capacity, sizeof *t);
-  if (!s || !x || !v || !t) {
-    sw_free(s), sw_free(x), sw_free(v), sw_free(t);
-    return SW_ENOMEM;
-  }
-  if (m->n) {
-    memcpy(s, m->s, m->n * sizeof *s);
-    memcpy(x, m->x, 3 * m->n * sizeof *x);
-    memcpy(v, m->v, 3 * m->n * sizeof *v);
-    memcpy(t, m->tension, m->n * sizeof *t);
-  }
-  sw_free(m->s), sw_free(m->x), sw_free(m->v), sw_free(m->tension);
-  m->s = s, m->x = x, m->v = v, m->tension = t;
-  m->capacity = capacity;
-  return SW_OK;
+  return make_room(m, need + need / 8 + 8, m->rest ? ARRAYS : PLAIN);
 }
 
 void sw_mesh_free(sw_mesh *m) {
-  sw_free(m->s), sw_free(m->x), sw_free(m->v), sw_free(m->tension);
+  double **at[ARRAYS];
+  size_t width[ARRAYS];
+  arrays(m, at, width);
+  for (size_t k = 0; k < ARRAYS; k++) sw_free(*at[k]);
   memset(m, 0, sizeof *m);
+}
+
+sw_status sw_mesh_copy(const sw_mesh *from, sw_mesh *to) {
+  sw_mesh copy = *from; /* its arrays are replaced by copies of them */
+  double **source[ARRAYS], **at[ARRAYS];
+  size_t width[ARRAYS];
+  sw_mesh keep = *from;
+  arrays(&keep, source, width);
+  arrays(&copy, at, width);
+  for (size_t k = 0; k < ARRAYS; k++) *at[k] = NULL;
+  *to = (sw_mesh){0};
+  if (make_room(&copy, from->n, from->rest ? ARRAYS : PLAIN) != SW_OK) return SW_ENOMEM;
+  for (size_t k = 0; k < ARRAYS; k++)
+    if (*at[k]) memcpy(*at[k], *source[k], width[k] * from->n * sizeof(double));
+  *to = copy;
+  return SW_OK;
 }
 
 sw_status sw_mesh_along(sw_mesh *m, const double *points, size_t count, size_t segments) {
@@ -67,41 +101,94 @@ size_t sw_mesh_node(const sw_mesh *m, double s) {
   return low;
 }
 
-sw_vec sw_mesh_tangent(const sw_mesh *m, size_t i) {
-  const sw_vec x = sw_vec_at(m->x, i), fallback = sw_v(1, 0, 0);
-  if (m->n == 2) return sw_unit_or(sw_sub(sw_vec_at(m->x, 1), sw_vec_at(m->x, 0)), fallback);
+static sw_vec tangent_of(const sw_mesh *m, const double *nodes, size_t i) {
+  const sw_vec x = sw_vec_at(nodes, i), fallback = sw_v(1, 0, 0);
+  if (m->n == 2) return sw_unit_or(sw_sub(sw_vec_at(nodes, 1), sw_vec_at(nodes, 0)), fallback);
   if (i == 0 || i == m->n - 1) { /* straight on from the two last edges */
     const size_t j = i == 0 ? 1 : i - 1, k = i == 0 ? 2 : i - 2;
     const double sign = i == 0 ? 1.0 : -1.0;
     const double l1 = fabs(m->s[j] - m->s[i]), l2 = fabs(m->s[k] - m->s[j]);
-    const sw_vec t1 = sw_scale(sw_unit_or(sw_sub(sw_vec_at(m->x, j), x), fallback), sign);
+    const sw_vec t1 = sw_scale(sw_unit_or(sw_sub(sw_vec_at(nodes, j), x), fallback), sign);
     const sw_vec t2 = sw_scale(
-        sw_unit_or(sw_sub(sw_vec_at(m->x, k), sw_vec_at(m->x, j)), fallback), sign);
+        sw_unit_or(sw_sub(sw_vec_at(nodes, k), sw_vec_at(nodes, j)), fallback), sign);
     return sw_unit_or(sw_madd(t1, sw_sub(t1, t2), l1 / (l1 + l2)), t1);
   }
   const double l1 = m->s[i] - m->s[i - 1], l2 = m->s[i + 1] - m->s[i];
-  const sw_vec t1 = sw_unit_or(sw_sub(x, sw_vec_at(m->x, i - 1)), fallback);
-  const sw_vec t2 = sw_unit_or(sw_sub(sw_vec_at(m->x, i + 1), x), fallback);
+  const sw_vec t1 = sw_unit_or(sw_sub(x, sw_vec_at(nodes, i - 1)), fallback);
+  const sw_vec t2 = sw_unit_or(sw_sub(sw_vec_at(nodes, i + 1), x), fallback);
   return sw_unit_or(sw_add(sw_scale(t1, l2), sw_scale(t2, l1)), t1);
 }
 
-sw_vec sw_mesh_tangent_at(const sw_mesh *m, double s) {
+sw_vec sw_mesh_tangent(const sw_mesh *m, size_t i) { return tangent_of(m, m->x, i); }
+
+static sw_vec tangent_between(const sw_mesh *m, const double *nodes, double s) {
   const size_t i = sw_mesh_node(m, s);
-  if (i == 0 || m->s[i] <= s) return sw_mesh_tangent(m, i);
-  const sw_vec a = sw_mesh_tangent(m, i - 1), b = sw_mesh_tangent(m, i);
+  if (i == 0 || m->s[i] <= s) return tangent_of(m, nodes, i);
+  const sw_vec a = tangent_of(m, nodes, i - 1), b = tangent_of(m, nodes, i);
   return sw_unit_or(sw_lerp(a, b, (s - m->s[i - 1]) / (m->s[i] - m->s[i - 1])), a);
 }
+
+sw_vec sw_mesh_tangent_at(const sw_mesh *m, double s) { return tangent_between(m, m->x, s); }
+
+/* --- frames ------------------------------------------------------------------- */
+
+static sw_vec edge_of(const double *nodes, size_t e) {
+  return sw_unit_or(sw_sub(sw_vec_at(nodes, e + 1), sw_vec_at(nodes, e)), sw_v(1, 0, 0));
+}
+
+/* Frames without twist along the nodes, from normal at the first edge on. */
+static void frames_along(const double *nodes, size_t n, sw_vec normal, double *out) {
+  sw_vec before = edge_of(nodes, 0);
+  sw_vec m = sw_unit_or(sw_madd(normal, before, -sw_dot(normal, before)), sw_perpendicular(before));
+  for (size_t e = 0; e + 1 < n; e++) {
+    const sw_vec t = edge_of(nodes, e);
+    m = sw_carry_unit(m, before, t);
+    sw_store(out + 3 * e, m);
+    before = t;
+  }
+}
+
+sw_status sw_mesh_add_frames(sw_mesh *m, sw_vec normal, int straight) {
+  SW_TRY(make_room(m, m->capacity, ARRAYS));
+  const sw_vec along = edge_of(m->x, 0);
+  for (size_t i = 0; i < m->n; i++)
+    sw_store(m->rest + 3 * i, straight ? sw_scale(along, m->s[i]) : sw_vec_at(m->x, i));
+  frames_along(m->x, m->n, normal, m->normal);
+  frames_along(m->rest, m->n, normal, m->rest_normal);
+  return SW_OK;
+}
+
+/* The normal at arc length s, half-way between those of the edges beside a node. */
+static sw_vec normal_at(const sw_mesh *m, const double *nodes, const double *normals, double s,
+                        sw_vec tangent) {
+  const size_t i = sw_mesh_node(m, s), last = m->n - 2;
+  const size_t b = i > last ? last : i, a = i > 0 ? i - 1 : 0;
+  const sw_vec before = sw_carry_unit(sw_vec_at(normals, a), edge_of(nodes, a), tangent);
+  if (m->s[i] != s) return before; /* inside edge a */
+  const sw_vec after = sw_carry_unit(sw_vec_at(normals, b), edge_of(nodes, b), tangent);
+  return sw_unit_or(sw_add(before, after), before);
+}
+
+sw_mesh_frame sw_mesh_frame_at(const sw_mesh *m, double s) {
+  sw_mesh_frame f = {.tangent = tangent_between(m, m->x, s),
+                     .rest_tangent = tangent_between(m, m->rest, s)};
+  f.normal = normal_at(m, m->x, m->normal, s, f.tangent);
+  f.rest_normal = normal_at(m, m->rest, m->rest_normal, s, f.rest_tangent);
+  return f;
+}
+
+/* --- editing ------------------------------------------------------------------ */
 
 /* Chord of an edge of rest length l under its tension. */
 static double chord(const sw_mesh *m, size_t edge, double l) {
   return l * (1.0 + m->tension[edge] / m->EA);
 }
 
-/* Move node i to arc length s keeping both edges' strains: the node goes to the
- * point of its bending plane at the right distances from its neighbours. */
-static void move_node(sw_mesh *m, size_t i, double s) {
-  const sw_vec a = sw_vec_at(m->x, i - 1), b = sw_vec_at(m->x, i), c = sw_vec_at(m->x, i + 1);
-  const double la = chord(m, i - 1, s - m->s[i - 1]), lc = chord(m, i, m->s[i + 1] - s);
+/* Move node i to the point of its bending plane at distances la and lc from its
+ * neighbours; normals (may be NULL) go with the edges. */
+static void bend_node(double *nodes, double *normals, size_t i, double la, double lc) {
+  const sw_vec a = sw_vec_at(nodes, i - 1), b = sw_vec_at(nodes, i), c = sw_vec_at(nodes, i + 1);
+  const sw_vec before[2] = {edge_of(nodes, i - 1), edge_of(nodes, i)};
   const sw_vec ac = sw_sub(c, a);
   const double d = sw_norm(ac);
   const sw_vec t = sw_unit_or(ac, sw_v(1, 0, 0));
@@ -109,28 +196,50 @@ static void move_node(sw_mesh *m, size_t i, double s) {
   const sw_vec across = sw_unit_or(sw_madd(ab, t, -sw_dot(ab, t)), sw_perpendicular(t));
   const double along = d > 0 ? (d * d + la * la - lc * lc) / (2.0 * d) : 0.0;
   const double height = sqrt(fmax(0.0, la * la - along * along));
+  sw_store(nodes + 3 * i, sw_madd(sw_madd(a, t, along), across, height));
+  for (size_t k = 0; normals && k < 2; k++) {
+    double *normal = normals + 3 * (i - 1 + k);
+    sw_store(normal, sw_carry_unit(sw_load(normal), before[k], edge_of(nodes, i - 1 + k)));
+  }
+}
+
+/* Move node i to arc length s keeping both edges' strains. */
+static void move_node(sw_mesh *m, size_t i, double s) {
+  const double rest_a = s - m->s[i - 1], rest_c = m->s[i + 1] - s;
+  bend_node(m->x, m->normal, i, chord(m, i - 1, rest_a), chord(m, i, rest_c));
+  if (m->rest) bend_node(m->rest, m->rest_normal, i, rest_a, rest_c);
   const double share = (s - m->s[i]) / (s > m->s[i] ? m->s[i + 1] - m->s[i] : m->s[i] - m->s[i - 1]);
   const sw_vec vi = sw_vec_at(m->v, i);
   const sw_vec vj = sw_vec_at(m->v, share > 0 ? i + 1 : i - 1);
   sw_store(m->v + 3 * i, sw_lerp(vi, vj, fabs(share)));
-  sw_store(m->x + 3 * i, sw_madd(sw_madd(a, t, along), across, height));
   m->s[i] = s;
 }
 
 static sw_status insert_node(sw_mesh *m, size_t edge, double s) {
+  double **at[ARRAYS];
+  size_t width[ARRAYS];
   SW_TRY(reserve(m, m->n + 1));
+  arrays(m, at, width);
   const size_t i = edge + 1, tail = m->n - i;
   const double f = (s - m->s[edge]) / (m->s[i] - m->s[edge]);
   const sw_vec x = sw_lerp(sw_vec_at(m->x, edge), sw_vec_at(m->x, i), f);
   const sw_vec v = sw_lerp(sw_vec_at(m->v, edge), sw_vec_at(m->v, i), f);
-  memmove(m->s + i + 1, m->s + i, tail * sizeof *m->s);
-  memmove(m->x + 3 * i + 3, m->x + 3 * i, 3 * tail * sizeof *m->x);
-  memmove(m->v + 3 * i + 3, m->v + 3 * i, 3 * tail * sizeof *m->v);
-  memmove(m->tension + i + 1, m->tension + i, tail * sizeof *m->tension);
+  const sw_vec rest =
+      m->rest ? sw_lerp(sw_vec_at(m->rest, edge), sw_vec_at(m->rest, i), f) : sw_v(0, 0, 0);
+  for (size_t k = 0; k < ARRAYS; k++)
+    if (*at[k])
+      memmove(*at[k] + width[k] * (i + 1), *at[k] + width[k] * i,
+              width[k] * tail * sizeof(double));
   m->s[i] = s;
   m->tension[i] = m->tension[edge];
   sw_store(m->x + 3 * i, x);
   sw_store(m->v + 3 * i, v);
+  if (m->rest) {
+    sw_store(m->rest + 3 * i, rest);
+    memcpy(m->normal + 3 * i, m->normal + 3 * edge, 3 * sizeof(double));
+    memcpy(m->rest_normal + 3 * i, m->rest_normal + 3 * edge, 3 * sizeof(double));
+    m->twist[i] = 0;
+  }
   m->n++;
   return SW_OK;
 }

@@ -16,12 +16,35 @@ typedef struct sw_mesh {
   double *x, *v;   /* (n x 3) [m], [m/s] */
   double *tension; /* (n) of the edge that starts at each node; last unused [N] */
   double EA;       /* to keep edge strains when nodes move [N] */
+
+  /* of a wire with material frames; NULL without */
+  double *rest;        /* (n x 3) nodes of the unloaded wire, somewhere in space [m] */
+  double *normal;      /* (n x 3) first material axis of the edge that starts there [-] */
+  double *rest_normal; /* (n x 3) the same when unloaded [-] */
+  double *twist;       /* (n) of the hinge at each node, both sides of a clamp [rad] */
 } sw_mesh;
+
+/* What frames have at one arc length. */
+typedef struct sw_mesh_frame {
+  sw_vec tangent, normal;           /* [-] */
+  sw_vec rest_tangent, rest_normal; /* of the unloaded wire [-] */
+} sw_mesh_frame;
 
 /* Even nodes along the polyline through points (count x 3): segments + 1 nodes,
  * at rest, unstressed: the arc length of each edge is its chord. SW_ENOMEM. */
 sw_status sw_mesh_along(sw_mesh *mesh, const double *points, size_t count, size_t segments);
 void sw_mesh_free(sw_mesh *mesh);
+
+/* A copy of its own. SW_ENOMEM. */
+sw_status sw_mesh_copy(const sw_mesh *from, sw_mesh *to);
+
+/* Give the wire frames that are not twisted, as it lies: their first axis is that
+ * of normal across the wire's start. straight: unloaded it is straight, else as it
+ * lies. SW_ENOMEM. */
+sw_status sw_mesh_add_frames(sw_mesh *mesh, sw_vec normal, int straight);
+
+/* The frames at arc length s of a mesh that has them. */
+sw_mesh_frame sw_mesh_frame_at(const sw_mesh *mesh, double s);
 
 /* Make s a node: take the nearest node when it may be moved (not an end, not in
  * keep), else insert one. keep: arc lengths (count) of nodes that must stay.

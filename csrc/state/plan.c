@@ -22,6 +22,8 @@ void sw_plan_release(sw_plan *plan) {
   sw_free(plan->held);
   sw_free(plan->clamps);
   sw_free(plan->spans);
+  sw_free(plan->rest_bend);
+  sw_free(plan->rest_twist);
   sw_free(plan);
 }
 
@@ -146,6 +148,13 @@ sw_status sw_plan_new(const sw_beam *beam, const double *s, size_t n, const sw_h
   set_spans(p);
   *out = p;
   return SW_OK;
+}
+
+sw_status sw_plan_add_rest(sw_plan *plan) {
+  const size_t n = plan->nodes + plan->clamp_count;
+  plan->rest_bend = sw_alloc(2 * n, sizeof *plan->rest_bend);
+  plan->rest_twist = sw_alloc(n, sizeof *plan->rest_twist);
+  return plan->rest_bend && plan->rest_twist ? SW_OK : SW_ENOMEM;
 }
 
 size_t sw_plan_locate(const sw_plan *plan, double s, double *fraction) {

@@ -14,11 +14,13 @@
 /* What a section is made of, in beam terms. */
 typedef struct sw_beam {
   double EA;     /* axial stiffness [N] */
-  double EI;     /* bending stiffness [N m2] */
+  double EI;     /* bending stiffness, the smaller of two [N m2] */
   double GJ;     /* twist stiffness [N m2] */
   double mass;   /* mass per length [kg/m] */
   double radius; /* outer radius [m] */
   double E;      /* of the material, for stresses [Pa] */
+  double EI_axis[2]; /* in the plane of the normal and across it [N m2] */
+  int framed;        /* 1: needs material frames (two stiffnesses, or curved at rest) */
 } sw_beam;
 
 /* How a node is held. */
@@ -60,6 +62,8 @@ typedef struct sw_plan {
   size_t clamp_count;
   sw_span *spans;         /* (span_count) from the wire's start on */
   size_t span_count;
+  double *rest_bend;  /* (n + clamps x 2) what a hinge is bent when unloaded, or NULL [rad] */
+  double *rest_twist; /* (n + clamps) and twisted [rad] */
 } sw_plan;
 
 /* What a hold wants of the mesh: nodes at s1 and s2 (equal for a point) and
@@ -75,6 +79,9 @@ typedef struct sw_hold_place {
  * sw_mesh_place). The result has one reference. SW_ENOMEM. */
 sw_status sw_plan_new(const sw_beam *beam, const double *s, size_t n, const sw_hold_place *holds,
                       size_t hold_count, sw_plan **out);
+
+/* Make room for the unloaded shape of a wire with material frames. SW_ENOMEM. */
+sw_status sw_plan_add_rest(sw_plan *plan);
 
 sw_plan *sw_plan_retain(sw_plan *plan);
 void sw_plan_release(sw_plan *plan); /* NULL is allowed */

@@ -9,64 +9,9 @@
 #include "base/simd.h"
 #include "solve/band3.h"
 #include "system/assemble.h"
+#include "system/spin.h"
 #include "system/system.h"
 #include "system/twist.h"
-
-static inline __attribute__((always_inline)) void gather_row(const sw_field *f, size_t i, double *restrict row) {
-  double *const *own = f->own, *const *next = f->next;
-  const double *const *o = (const double *const *)own;
-  const double *const *x = (const double *const *)next;
-  row[0] += o[0][i] + *(o[0] + i - 1) - 2.0 * x[0][i];
-  row[1] += o[1][i] + *(o[1] + i - 1) - x[1][i] - x[3][i];
-  row[2] += o[2][i] + *(o[2] + i - 1) - x[2][i] - x[6][i];
-  row[3] += o[3][i] + *(o[3] + i - 1) - 2.0 * x[4][i];
-  row[4] += o[4][i] + *(o[4] + i - 1) - x[5][i] - x[7][i];
-  row[5] += o[5][i] + *(o[5] + i - 1) - 2.0 * x[8][i];
-  static const int upper[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
-  for (int k = 0; k < 9; k++) {
-    row[SW_ROW_NEXT + k] += x[k][i] + x[k][i + 1] - o[upper[k]][i];
-    row[SW_ROW_SECOND + k] -= x[k][i + 1];
-  }
-}
-
-SW_HOT
-void sw_gather_rows(const sw_field *f, double rate2, double *rows) {
-  const sw_plan *p = f->plan;
-  for (size_t i = 0; i < p->nodes; i++) {
-    double *row = rows + SW_ROW_SIZE * i;
-    gather_row(f, i, row);
-    const double own = p->mass_own[i] * rate2, next = p->mass_next[i] * rate2;
-    row[0] += own, row[3] += own, row[5] += own;
-    row[SW_ROW_NEXT] += next, row[SW_ROW_NEXT + 4] += next, row[SW_ROW_NEXT + 8] += next;
-  }
-}
-
-SW_HOT
-void sw_gather_residual(const sw_field *f, double rate2, const double *restrict y,
-                        const double *restrict yhat, double *restrict right) {
-  const sw_plan *p = f->plan;
-  const size_t n = p->nodes;
-  double before[3] = {0, 0, 0}; /* M_next of the edge before times its shift */
-  for (size_t i = 0; i < n; i++) {
-    const double own = p->mass_own[i] * rate2, next = i + 1 < n ? p->mass_next[i] * rate2 : 0.0;
-    const size_t j = i + 1 < n ? i + 1 : i;
-    for (size_t k = 0; k < 3; k++) {
-      const double shift = y[3 * i + k] - yhat[3 * i + k];
-      const double after = next * (y[3 * j + k] - yhat[3 * j + k]);
-      right[3 * i + k] = f->force[3 * i + k] + f->gradient[k][i] - *(f->gradient[k] + i - 1) -
-                         own * shift - before[k] - after;
-      before[k] = next * shift;
-    }
-  }
-}
-
-void sw_drop_row(double *rows, size_t i) {
-  double *row = rows + SW_ROW_SIZE * i;
-  if (i >= 2) memset(row - 2 * SW_ROW_SIZE + SW_ROW_SECOND, 0, 9 * sizeof *row);
-  if (i >= 1) memset(row - SW_ROW_SIZE + SW_ROW_NEXT, 0, 9 * sizeof *row);
-  memset(row, 0, SW_ROW_SIZE * sizeof *row);
-  row[0] = row[3] = row[5] = 1.0;
-}
 
 static void transpose(const double *u, double *out) {
   for (int i = 0; i < 3; i++)
@@ -148,7 +93,7 @@ sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, c
   f->hold_turns = s->directors_rate;
   sw_field_clear(f);
   sw_field_geometry(f);
-  if (b->has_twist) sw_twist_measure(s, b);
+  if (b->has_twist || b->spin_block) sw_system_measure(s, b);
   for (size_t k = 0; k < b->term_count; k++)
     SW_TRY(sw_term_eval(&b->terms[k], f, err));
   return SW_OK;
@@ -188,6 +133,11 @@ static sw_status solve_once(sw_system *s, const sw_stage *stage, int statics,
   for (size_t b = 0; b < s->body_count; b++) {
     sw_body *body = &s->bodies[b];
     size_t negative = 0;
+    if (body->spin_block) {
+      SW_TRY(sw_spin_solve(body, s->delta + 3 * body->first_node, &negative));
+      report->negative += negative;
+      continue;
+    }
     SW_TRY(sw_band3_factor(body->field.rows, body->plan->nodes, body->field.rows, &negative));
     sw_band3_solve(body->field.rows, body->plan->nodes, s->delta + 3 * body->first_node);
     if (body->has_twist)
@@ -212,6 +162,9 @@ static double apply(sw_system *s, const sw_stage *stage, const sw_newton *newton
         f->reciprocal, f->tangent[0], f->tangent[1], f->tangent[2], body->EA, body->EA_push,
         s->tension_new + body->first_edge);
     if (!(turn2 <= largest)) largest = turn2;
+    if (!body->spin_block) continue;
+    const double spin = sw_spin_largest(body);
+    if (!(spin * spin <= largest)) largest = spin * spin;
   }
   if (!isfinite(largest)) return -1;
   report->rotation = sqrt(fmax(largest, 0.0));
@@ -219,6 +172,8 @@ static double apply(sw_system *s, const sw_stage *stage, const sw_newton *newton
                            ? newton->limit_rotation / report->rotation
                            : 1.0;
   for (size_t i = 0; i < 3 * s->nodes; i++) stage->y[i] += share * s->delta[i];
+  for (size_t b = 0; b < s->body_count; b++)
+    if (s->bodies[b].spin_block) sw_spin_turn(&s->bodies[b], share);
   if (share == 1.0)
     memcpy(s->tension, s->tension_new, s->edges * sizeof(double));
   else
@@ -337,6 +292,7 @@ static void finish(sw_system *s, const sw_stage *stage, int statics) {
     sw_held_node *h = &s->held[k];
     update_reaction(h, &s->bodies[h->body], s->delta);
     if (s->bodies[h->body].has_twist) sw_twist_react(h, &s->bodies[h->body]);
+    if (s->bodies[h->body].spin_block) sw_spin_react(h, &s->bodies[h->body]);
     sw_system_held_velocity(s, h, stage->v + 3 * h->node);
   }
 }
@@ -375,7 +331,7 @@ sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const 
     f->v = v + 3 * body->first_node;
     sw_field_clear(f);
     sw_field_geometry(f);
-    if (body->has_twist) sw_twist_measure(s, body);
+    if (body->has_twist || body->spin_block) sw_system_measure(s, body);
     for (size_t k = 0; k < body->term_count; k++)
       SW_TRY(sw_term_eval(&body->terms[k], f, err));
   }

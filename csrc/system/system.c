@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "system/spin.h"
+#include "system/twist.h"
 
 void sw_system_free(sw_system *system) {
   for (size_t b = 0; system->bodies && b < system->body_count; b++) {
@@ -12,6 +14,7 @@ void sw_system_free(sw_system *system) {
     sw_free(system->bodies[b].field_block);
     sw_free(system->bodies[b].terms);
     sw_free(system->bodies[b].twist_block);
+    sw_free(system->bodies[b].spin_block);
   }
   sw_free(system->bodies);
   sw_free(system->held);
@@ -35,6 +38,7 @@ static sw_status new_bodies(sw_system *s, sw_plan *const *plans, size_t count) {
     body->first_edge = s->edges;
     body->first_span = s->span_count;
     s->span_count += plans[b]->span_count;
+    SW_TRY(sw_spin_new(body));
     s->nodes += plans[b]->nodes;
     s->edges += plans[b]->edges;
   }
@@ -48,6 +52,7 @@ static void lay_out(sw_system *s) {
   s->tension = s->a + 3 * s->nodes;
   s->twist = s->tension + s->edges;
   s->turn = s->twist + s->span_count;
+  s->frames = s->turn + 4 * s->hold_count;
 }
 
 static sw_status new_arrays(sw_system *s, size_t hold_count) {
@@ -57,15 +62,22 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
       held += s->bodies[b].plan->held[i] != SW_FREE;
   s->hold_count = hold_count;
   s->held = sw_alloc(held, sizeof *s->held);
-  s->directors = sw_alloc(18 * hold_count, sizeof(double));
+  s->directors = sw_alloc(30 * hold_count, sizeof(double));
   s->hold_states = sw_alloc(hold_count, sizeof *s->hold_states);
   s->state_size = 9 * s->nodes + s->edges + s->span_count + 4 * hold_count;
+  const size_t frames = s->state_size;
+  for (size_t b = 0; b < s->body_count; b++) {
+    s->bodies[b].first_frame = s->state_size - frames;
+    s->state_size += sw_spin_state_size(s->bodies[b].plan);
+  }
   s->state = sw_alloc(s->state_size, sizeof(double));
   double *w = sw_alloc(9 * s->nodes + s->edges, sizeof(double));
   s->work = w;
   if (!s->held || !s->directors || !s->hold_states || !s->state || !w) return SW_ENOMEM;
   s->directors_now = s->directors + 6 * hold_count;
   s->directors_rate = s->directors + 12 * hold_count;
+  s->normals = s->directors + 18 * hold_count;
+  s->normals_now = s->directors + 24 * hold_count;
   lay_out(s);
   s->yhat = w;
   s->delta = s->yhat + 3 * s->nodes;
@@ -169,6 +181,8 @@ sw_status sw_system_place_holds(sw_system *s, double t, double *x, double *v, do
       const size_t at = 3 * (2 * k + side);
       const sw_vec d = sw_rotate(s->hold_states[k].pose.q, sw_load(s->directors + at));
       sw_store(s->directors_now + at, d);
+      sw_store(s->normals_now + at,
+               sw_rotate(s->hold_states[k].pose.q, sw_load(s->normals + at)));
       sw_store(s->directors_rate + at, s->still ? sw_v(0, 0, 0) : sw_cross(s->hold_states[k].omega, d));
     }
   }
@@ -226,7 +240,24 @@ void sw_system_refresh(sw_system *s) {
     aim(s, body, s->x, s->v);
     sw_field_geometry(&body->field);
     body->field.twist = body->has_twist ? s->twist + body->first_span : NULL;
+    if (body->spin_block) sw_spin_show(s, body);
   }
+}
+
+void sw_system_begin_step(sw_system *s) {
+  for (size_t b = 0; b < s->body_count; b++)
+    if (s->bodies[b].spin_block) sw_spin_begin(s, &s->bodies[b]);
+}
+
+void sw_system_measure_frames(sw_system *s, size_t body) {
+  sw_body *b = &s->bodies[body];
+  sw_spin_begin(s, b);
+  sw_spin_take(s, b, s->x + 3 * b->first_node);
+}
+
+void sw_system_measure(sw_system *s, sw_body *b) {
+  if (b->has_twist) sw_twist_measure(s, b);
+  if (b->spin_block) sw_spin_carry(s, b);
 }
 
 void sw_system_axial_from_state(sw_system *s) {
@@ -265,6 +296,7 @@ double sw_system_term_energy(sw_system *s, size_t body, size_t term, double *ben
   f->want = SW_WANT_ENERGY;
   f->tension = s->tension + b->first_edge;
   f->twist = b->has_twist ? s->twist + b->first_span : NULL;
+  if (b->spin_block) sw_spin_show(s, b);
   f->energy = f->bending = 0;
   /* hinge cosines for the bending energy come with the force evaluation */
   sw_term_eval(&b->terms[term], f, &err);

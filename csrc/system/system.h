@@ -37,6 +37,12 @@ typedef struct sw_body {
   double *twist_solved; /* (nodes x 3) the matrix' inverse times it */
   double *twist_gain; /* (spans) added to the torque by the last update [N m] */
   void *twist_block;
+  size_t first_frame; /* place of its frames in the system's */
+  double *spin_normal, *spin_tangent; /* (edges x 3) at the iterate; NULL without frames */
+  double *spin_twist; /* (nodes + clamps) of the hinges there [rad] */
+  double *spin_delta; /* (nodes x 4) last update: nodes and turns of edges [m], [rad] */
+  double *spin_rows;  /* (nodes x SW_ROW4_SIZE) */
+  void *spin_block;
   int needs_velocity; /* some force depends on it */
   int is_explicit;    /* some force has no stiffness */
   int is_kinked;      /* some force has a history: its stiffness jumps */
@@ -91,6 +97,7 @@ struct sw_system {
   double *directors; /* (holds x 2 x 3) in hold coordinates: arriving, leaving */
   double *directors_now; /* the same in world coordinates at the stage */
   double *directors_rate; /* and how fast they turn [1/s] */
+  double *normals, *normals_now; /* the same: the wire's normals at the holds */
   int still;             /* 1: holds count as standing, whatever they follow (statics) */
   sw_hold_state *hold_states; /* (hold_count) at the last stage */
   size_t hold_count;
@@ -99,11 +106,12 @@ struct sw_system {
   sw_counters counters;
 
   /* the state, one block: x v a (nodes x 3 each), tension (edges), twist
-   * (spans) [rad], turn (holds x 4: the holds' orientations that go with it), forces'
-   * histories */
+   * (spans) [rad], turn (holds x 4: the holds' orientations that go with it), frames
+   * of each body that has them (edges x 3, then hinges' and clamps' twist [rad]),
+   * forces' histories */
   double *state;
   size_t state_size; /* in doubles */
-  double *x, *v, *a, *tension, *twist, *turn;
+  double *x, *v, *a, *tension, *twist, *turn, *frames;
   size_t span_count;
 
   /* work space of a stage (nodes x 3) */
@@ -164,6 +172,15 @@ void sw_system_commit(sw_system *system);
 /* Work dissipated by the forces with a history [J]; *any: there are such. */
 double sw_system_dissipated(const sw_system *system, int *any);
 
+/* A step begins at the state: frames start from there. */
+void sw_system_begin_step(sw_system *system);
+
+/* The state's frames were given: make them fit its tangents and measure their twist. */
+void sw_system_measure_frames(sw_system *system, size_t body);
+
+/* Bring a body's twist or frames up to its field's tangents. */
+void sw_system_measure(sw_system *system, sw_body *body);
+
 /* Solve an implicit stage. system->tension is read and updated. Statuses:
  * SW_OK, SW_ENOCONV, SW_ESINGULAR, SW_EDIVERGED, SW_ECALLBACK. */
 sw_status sw_system_stage(sw_system *system, const sw_stage *stage, const sw_newton *newton,
@@ -185,7 +202,7 @@ void sw_system_held_velocity(const sw_system *system, const sw_held_node *held, 
 sw_status sw_system_enable_twist(sw_system *system, size_t body);
 
 /* The state is about to become positions x, with the holds as last placed: take
- * over what has to be followed from step to step (twist). Call before copying x
+ * over what has to be followed from step to step (twist, frames). Call before copying x
  * to the state. */
 void sw_system_follow(sw_system *system, const double *x);
 

@@ -13,7 +13,7 @@
 static const sw_param rows[] = {
     POSITIVE(EA, "N", "axial stiffness"),
     {"EI", SW_PARAM_NUMBER, "N m2", NAN, 0, HUGE_VAL, 0, NULL, offsetof(sw_section, EI),
-     "bending stiffness; 0 only with model = 'string'"},
+     "bending stiffness, or {EI1, EI2} with normal; 0 only with model = 'string'"},
     POSITIVE(GJ, "N m2", "twist stiffness"),
     POSITIVE(mass_per_length, "kg/m", "mass per length"),
     POSITIVE(radius, "m", "outer radius"),
@@ -48,5 +48,11 @@ sw_status sw_section_beam(const char *object, const sw_section *c, sw_beam *out,
     return sw_fail(err, SW_EINVAL,
                    "%s: give mass_per_length [kg/m], or density [kg/m3] for a solid round wire",
                    object);
+  out->EI_axis[0] = out->EI;
+  out->EI_axis[1] = c->EI2 > 0 ? c->EI2 : out->EI;
+  out->framed = c->EI2 > 0;
+  if (out->framed && isnan(c->GJ))
+    return sw_fail(err, SW_EINVAL, "%s: two values of EI need GJ too [N m2]", object);
+  out->EI = fmin(out->EI_axis[0], out->EI_axis[1]);
   return SW_OK;
 }

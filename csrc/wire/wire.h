@@ -37,6 +37,7 @@ const sw_wire_class *const *sw_wire_all(void); /* NULL-terminated */
 typedef struct sw_section {
   double EA;              /* [N] */
   double EI;              /* [N m2] */
+  double EI2;             /* across the normal, when it differs [N m2] */
   double GJ;              /* [N m2] */
   double mass_per_length; /* [kg/m] */
   double radius;          /* [m] */

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Material frames between the meshes and the system. */
+#include <string.h>
+
+#include "scene/world.h"
+#include "state/hinge.h"
+
+static sw_edge_frame edge_frame(const double *nodes, const double *normals, size_t e) {
+  const sw_vec t =
+      sw_unit_or(sw_sub(sw_vec_at(nodes, e + 1), sw_vec_at(nodes, e)), sw_v(1, 0, 0));
+  return (sw_edge_frame){t, sw_vec_at(normals, e)};
+}
+
+/* The scene's hold with this number among the living. */
+static const sw_scene_hold *hold_number(const sw_scene *s, int number) {
+  for (size_t k = 0; k < s->hold_count; k++)
+    if (s->holds[k].alive && number-- == 0) return &s->holds[k];
+  return NULL;
+}
+
+static void set_rest(sw_plan *p, size_t number, const sw_edge_frame *a, const sw_edge_frame *b) {
+  sw_hinge_bend(a, b, p->rest_bend + 2 * number);
+  p->rest_twist[number] = sw_hinge_twist(a, b, 0.0);
+}
+
+sw_status sw_scene_rest(const sw_scene *s, size_t wire, sw_plan *p) {
+  const sw_mesh *m = &s->wires[wire].mesh;
+  SW_TRY(sw_plan_add_rest(p));
+  for (size_t i = 1; i + 1 < p->nodes; i++) {
+    const sw_edge_frame a = edge_frame(m->rest, m->rest_normal, i - 1);
+    const sw_edge_frame b = edge_frame(m->rest, m->rest_normal, i);
+    set_rest(p, i, &a, &b);
+  }
+  for (size_t c = 0; c < p->clamp_count; c++) {
+    const int leaves = p->clamps[c].side > 0;
+    const sw_mesh_frame *f = &hold_number(s, p->clamps[c].hold)->frame[leaves];
+    const sw_edge_frame held = {f->rest_tangent, f->rest_normal};
+    const sw_edge_frame edge = edge_frame(m->rest, m->rest_normal, p->clamps[c].edge);
+    set_rest(p, p->nodes + c, leaves ? &held : &edge, leaves ? &edge : &held);
+  }
+  return SW_OK;
+}
+
+void sw_scene_frame_out(sw_scene *s, size_t wire) {
+  const sw_body *b = &s->system.bodies[wire];
+  const sw_plan *p = b->plan;
+  const double *state = s->system.frames + b->first_frame, *twist = state + 3 * p->edges;
+  sw_mesh *m = &s->wires[wire].mesh;
+  memcpy(m->normal, state, 3 * p->edges * sizeof *state);
+  memcpy(m->twist, twist, p->nodes * sizeof *twist);
+  for (size_t i = 0; i < p->nodes; i++)
+    if (p->held[i] != SW_FREE && !(p->hinge[i] > 0)) m->twist[i] = 0;
+  for (size_t c = 0; c < p->clamp_count; c++)
+    m->twist[p->clamps[c].node] += twist[p->nodes + c];
+}
+
+/* The mesh's twist of a node: a clamp hinge has half of it where both its sides
+ * have one. */
+static double twist_before(const sw_plan *p, const sw_mesh *m, size_t clamp) {
+  int sides = 0;
+  for (size_t c = 0; c < p->clamp_count; c++) sides += p->clamps[c].node == p->clamps[clamp].node;
+  return m->twist[p->clamps[clamp].node] / sides;
+}
+
+void sw_scene_frame_in(sw_scene *s) {
+  for (size_t w = 0; w < s->wire_count; w++) {
+    const sw_body *b = &s->system.bodies[w];
+    const sw_plan *p = b->plan;
+    const sw_mesh *m = &s->wires[w].mesh;
+    if (!b->spin_block) continue;
+    double *state = s->system.frames + b->first_frame, *twist = state + 3 * p->edges;
+    memcpy(state, m->normal, 3 * p->edges * sizeof *state);
+    memcpy(twist, m->twist, p->nodes * sizeof *twist);
+    for (size_t c = 0; c < p->clamp_count; c++) twist[p->nodes + c] = twist_before(p, m, c);
+    sw_system_measure_frames(&s->system, w);
+  }
+}

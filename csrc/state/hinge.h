@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How a hinge between two edges with material frames is bent and twisted. An edge
+ * has the unit tangent t and, across it, the material axes m1 (its normal) and
+ * m2 = t x m1. */
+#ifndef SW_STATE_HINGE_H
+#define SW_STATE_HINGE_H
+
+#include "base/vec.h"
+#include "state/angle.h"
+
+typedef struct sw_edge_frame {
+  sw_vec t, m1;
+} sw_edge_frame;
+
+/* Bend towards the edges' mean axes, in proportion to the angle: the hinge's
+ * rotation vector phi/sin(phi) t1 x t2 seen in both frames and averaged, as in
+ * Bergou et al. 2008, who take 2 tan(phi/2). */
+static inline void sw_hinge_bend(const sw_edge_frame *a, const sw_edge_frame *b, double out[2]) {
+  double s, w;
+  sw_angle_factors(0.25 * sw_norm2(sw_sub(a->t, b->t)), &s, &w);
+  out[0] = 0.5 * s * (sw_dot(a->m1, b->t) - sw_dot(b->m1, a->t));
+  out[1] = 0.5 * s * (sw_dot(sw_cross(a->t, a->m1), b->t) - sw_dot(sw_cross(b->t, b->m1), a->t));
+}
+
+/* Carry a vector that is across `from` along the great circle to `to`. */
+static inline sw_vec sw_carry(sw_vec v, sw_vec from, sw_vec to) {
+  const double share = sw_dot(v, to) / fmax(1e-9, 1.0 + sw_dot(from, to));
+  return sw_madd(v, sw_add(from, to), -share);
+}
+
+/* The same, kept exactly across `to` and of unit length. */
+static inline sw_vec sw_carry_unit(sw_vec v, sw_vec from, sw_vec to) {
+  const sw_vec u = sw_carry(v, from, to);
+  return sw_unit_or(sw_madd(u, to, -sw_dot(u, to)), sw_perpendicular(to));
+}
+
+/* Turn of the second frame against the first one carried to it, the value nearest
+ * to `before` [rad]. */
+static inline double sw_hinge_twist(const sw_edge_frame *a, const sw_edge_frame *b,
+                                    double before) {
+  const sw_vec u = sw_carry(a->m1, a->t, b->t);
+  const double turn = atan2(sw_dot(sw_cross(u, b->m1), b->t), sw_dot(u, b->m1));
+  return before + remainder(turn - before, 6.283185307179586477);
+}
+
+#endif

@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Frames are kept as one vector per edge, not as angles against a reference: an
+ * update carries it along with the tangent and turns it about the tangent, so
+ * that many turns have no branch and no drift. Only the twist of hinges needs its
+ * last value, to tell which of the equal angles is meant; valid while an
+ * iteration turns no hinge by more than pi. Spins have no inertia: torsional waves
+ * are much faster than what a wire does in handling. */
+#include "system/spin.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/simd.h"
+#include "solve/band3.h"
+#include "solve/band4.h"
+#include "state/hinge.h"
+
+/* Stiffness against spin where nothing else holds it, of an edge's own [-]. It is
+ * in the matrix only, so that equilibria stay exact. */
+static const double LEAST_STIFFNESS = 1e-9;
+
+size_t sw_spin_state_size(const sw_plan *p) {
+  return p->rest_bend ? 3 * p->edges + p->nodes + p->clamp_count : 0;
+}
+
+sw_status sw_spin_new(sw_body *b) {
+  const sw_plan *p = b->plan;
+  const size_t n = p->nodes;
+  if (!p->rest_bend) return SW_OK;
+  double *w = sw_alloc(6 * n + n + p->clamp_count + 12 * n + (4 + SW_ROW4_SIZE) * n, sizeof *w);
+  if (!w) return SW_ENOMEM;
+  b->spin_block = w;
+  b->spin_normal = w;
+  b->spin_tangent = w + 3 * n;
+  b->spin_twist = w + 6 * n;
+  w += 7 * n + p->clamp_count;
+  b->field.spin = w;
+  b->field.spin_own = w + n;
+  b->field.spin_next = w + 2 * n;
+  for (size_t k = 0; k < 3; k++) b->field.spin_edge[k] = w + (3 + 3 * k) * n;
+  b->spin_delta = w + 12 * n;
+  b->spin_rows = w + 16 * n;
+  b->field.normals = b->spin_normal;
+  return SW_OK;
+}
+
+static sw_vec direction(const double *x, size_t e) {
+  return sw_unit_or(sw_sub(sw_vec_at(x, e + 1), sw_vec_at(x, e)), sw_v(1, 0, 0));
+}
+
+static double *state_of(const sw_system *s, const sw_body *b) { return s->frames + b->first_frame; }
+
+void sw_spin_begin(sw_system *s, sw_body *b) {
+  const sw_plan *p = b->plan;
+  const double *state = state_of(s, b), *x = s->x + 3 * b->first_node;
+  memcpy(b->spin_normal, state, 3 * p->edges * sizeof *state);
+  memcpy(b->spin_twist, state + 3 * p->edges, (p->nodes + p->clamp_count) * sizeof *state);
+  for (size_t e = 0; e < p->edges; e++) sw_store(b->spin_tangent + 3 * e, direction(x, e));
+}
+
+static sw_edge_frame edge_frame(const sw_body *b, size_t e) {
+  return (sw_edge_frame){sw_vec_at(b->spin_tangent, e), sw_vec_at(b->spin_normal, e)};
+}
+
+static void measure_twist(const sw_system *s, sw_body *b) {
+  const sw_plan *p = b->plan;
+  for (size_t i = 1; i + 1 < p->nodes; i++) {
+    const sw_edge_frame before = edge_frame(b, i - 1), after = edge_frame(b, i);
+    if (p->hinge[i] > 0)
+      b->spin_twist[i] = sw_hinge_twist(&before, &after, b->spin_twist[i]);
+  }
+  for (size_t c = 0; c < p->clamp_count; c++) {
+    const sw_clamp_hinge *h = &p->clamps[c];
+    const size_t at = 2 * (size_t)h->hold + (h->side > 0 ? 1 : 0);
+    const sw_edge_frame held = {sw_vec_at(s->directors_now, at), sw_vec_at(s->normals_now, at)};
+    const sw_edge_frame edge = edge_frame(b, h->edge);
+    double *twist = &b->spin_twist[p->nodes + c];
+    *twist = h->side > 0 ? sw_hinge_twist(&held, &edge, *twist)
+                         : sw_hinge_twist(&edge, &held, *twist);
+  }
+}
+
+/* Edges between two nodes of one hold turn with it. */
+static void turn_held_edges(const sw_system *s, sw_body *b) {
+  for (size_t i = 0; i + 1 < s->held_count; i++) {
+    const sw_held_node *h = &s->held[i];
+    if (&s->bodies[h->body] != b || s->held[i + 1].hold != h->hold ||
+        s->held[i + 1].node != h->node + 1)
+      continue;
+    const size_t e = h->node - b->first_node;
+    const double *q = s->turn + 4 * h->hold;
+    const sw_quat before = {q[0], q[1], q[2], q[3]};
+    const sw_vec n = sw_rotate(s->hold_states[h->hold].pose.q,
+                               sw_unrotate(before, sw_vec_at(state_of(s, b), e)));
+    const sw_vec t = sw_vec_at(b->spin_tangent, e);
+    sw_store(b->spin_normal + 3 * e, sw_unit_or(sw_madd(n, t, -sw_dot(n, t)), sw_perpendicular(t)));
+  }
+}
+
+static void carry_edge(sw_body *b, size_t e, sw_vec t) {
+  const sw_vec before = sw_vec_at(b->spin_tangent, e), n = sw_vec_at(b->spin_normal, e);
+  sw_store(b->spin_normal + 3 * e, sw_carry_unit(n, before, t));
+  sw_store(b->spin_tangent + 3 * e, t);
+}
+
+static void point_field(const sw_system *s, sw_body *b, const double *normals,
+                        const double *twist) {
+  b->field.normals = normals;
+  b->field.hinge_twist = twist;
+  b->field.hold_normals = s->normals_now;
+}
+
+void sw_spin_carry(sw_system *s, sw_body *b) {
+  double *const *t = b->field.tangent;
+  for (size_t e = 0; e < b->plan->edges; e++) carry_edge(b, e, sw_v(t[0][e], t[1][e], t[2][e]));
+  turn_held_edges(s, b);
+  measure_twist(s, b);
+  point_field(s, b, b->spin_normal, b->spin_twist);
+}
+
+void sw_spin_take(sw_system *s, sw_body *b, const double *x) {
+  const sw_plan *p = b->plan;
+  double *state = state_of(s, b);
+  for (size_t e = 0; e < p->edges; e++) carry_edge(b, e, direction(x, e));
+  measure_twist(s, b);
+  memcpy(state, b->spin_normal, 3 * p->edges * sizeof *state);
+  memcpy(state + 3 * p->edges, b->spin_twist, (p->nodes + p->clamp_count) * sizeof *state);
+}
+
+void sw_spin_follow(sw_system *s, sw_body *b, const double *x) {
+  for (size_t e = 0; e < b->plan->edges; e++) carry_edge(b, e, direction(x, e));
+  turn_held_edges(s, b);
+  sw_spin_take(s, b, x);
+}
+
+void sw_spin_show(sw_system *s, sw_body *b) {
+  point_field(s, b, state_of(s, b), state_of(s, b) + 3 * b->plan->edges);
+}
+
+/* --- the matrix ----------------------------------------------------------------- */
+
+/* Rows of three become rows of four. */
+static void widen(const double *restrict row, double *restrict out) {
+  static const int whole[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+  memset(out, 0, SW_ROW4_SIZE * sizeof *out);
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) {
+      out[4 * i + j] = row[whole[3 * i + j]];
+      out[SW_ROW4_NEXT + 4 * i + j] = row[SW_ROW_NEXT + 3 * i + j];
+      out[SW_ROW4_SECOND + 4 * i + j] = row[SW_ROW_SECOND + 3 * i + j];
+    }
+}
+
+/* The couplings of edge e to the spins of edges e, e - 1, e + 1, at both its nodes. */
+static void add_couplings(const sw_body *b, size_t e) {
+  const sw_field *f = &b->field;
+  double *row = b->spin_rows + SW_ROW4_SIZE * e, *after = row + SW_ROW4_SIZE;
+  const double *own = f->spin_edge[0] + 3 * e, *back = f->spin_edge[1] + 3 * e;
+  const double *ahead = f->spin_edge[2] + 3 * e + 3;
+  const int first = b->plan->held[e] == SW_FREE, last = b->plan->held[e + 1] == SW_FREE;
+  for (int k = 0; k < 3; k++) {
+    if (first) {
+      row[4 * k + 3] -= own[k], row[12 + k] -= own[k];
+      if (e > 0) (row - SW_ROW4_SIZE)[SW_ROW4_NEXT + 12 + k] -= back[k];
+      row[SW_ROW4_NEXT + 4 * k + 3] -= ahead[k];
+    }
+    if (last) {
+      row[SW_ROW4_NEXT + 12 + k] += own[k];
+      if (e > 0) (row - SW_ROW4_SIZE)[SW_ROW4_SECOND + 12 + k] += back[k];
+      after[4 * k + 3] += ahead[k], after[12 + k] += ahead[k];
+    }
+  }
+}
+
+SW_HOT
+static void assemble(const sw_body *b) {
+  const sw_field *f = &b->field;
+  const sw_plan *p = b->plan;
+  for (size_t i = 0; i < p->nodes; i++)
+    widen(f->rows + SW_ROW_SIZE * i, b->spin_rows + SW_ROW4_SIZE * i);
+  for (size_t e = 0; e < p->edges; e++) {
+    double *row = b->spin_rows + SW_ROW4_SIZE * e;
+    add_couplings(b, e);
+    row[15] = f->spin_own[e] + LEAST_STIFFNESS * p->beam.GJ / p->rest[e];
+    row[SW_ROW4_NEXT + 15] = e + 1 < p->edges ? f->spin_next[e + 1] : 0.0;
+  }
+  b->spin_rows[SW_ROW4_SIZE * p->edges + 15] = 1.0; /* no edge starts at the last node */
+}
+
+sw_status sw_spin_solve(sw_body *b, double *delta, size_t *negative) {
+  const size_t n = b->plan->nodes;
+  double *d = b->spin_delta;
+  assemble(b);
+  for (size_t i = 0; i < n; i++) {
+    for (size_t k = 0; k < 3; k++) d[4 * i + k] = delta[3 * i + k];
+    d[4 * i + 3] = i + 1 < n ? -b->field.spin[i] : 0.0;
+  }
+  SW_TRY(sw_band4_factor(b->spin_rows, n, negative));
+  sw_band4_solve(b->spin_rows, n, d);
+  for (size_t i = 0; i < n; i++)
+    for (size_t k = 0; k < 3; k++) delta[3 * i + k] = d[4 * i + k];
+  return SW_OK;
+}
+
+double sw_spin_largest(const sw_body *b) {
+  double most = 0;
+  for (size_t e = 0; e < b->plan->edges; e++) {
+    const double turn = fabs(b->spin_delta[4 * e + 3]);
+    if (!(turn <= most)) most = turn;
+  }
+  return most;
+}
+
+void sw_spin_turn(sw_body *b, double share) {
+  for (size_t e = 0; e < b->plan->edges; e++) {
+    const double angle = share * b->spin_delta[4 * e + 3];
+    const sw_vec n = sw_vec_at(b->spin_normal, e), t = sw_vec_at(b->spin_tangent, e);
+    sw_store(b->spin_normal + 3 * e,
+             sw_add(sw_scale(n, cos(angle)), sw_scale(sw_cross(t, n), sin(angle))));
+  }
+}
+
+/* Change of the gradient of edge e by the spins of the last solve. */
+static sw_vec spin_push(const sw_body *b, size_t e) {
+  const sw_field *f = &b->field;
+  const double *d = b->spin_delta + 4 * e;
+  sw_vec sum = sw_scale(sw_vec_at(f->spin_edge[0], e), d[3]);
+  if (e > 0) sum = sw_madd(sum, sw_vec_at(f->spin_edge[1], e), *(d - 1));
+  if (e + 1 < b->plan->edges) sum = sw_madd(sum, sw_vec_at(f->spin_edge[2], e + 1), d[7]);
+  return sum;
+}
+
+void sw_spin_react(sw_held_node *h, const sw_body *b) {
+  const size_t i = h->node - b->first_node;
+  if (i > 0) h->reaction = sw_add(h->reaction, spin_push(b, i - 1));
+  if (i < b->plan->edges) h->reaction = sw_sub(h->reaction, spin_push(b, i));
+}

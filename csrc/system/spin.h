@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Bodies with material frames: the turn of each edge about itself is a fourth
+ * unknown of the node where it starts, always in equilibrium. Private to this
+ * room. */
+#ifndef SW_SYSTEM_SPIN_H
+#define SW_SYSTEM_SPIN_H
+
+#include "system/system.h"
+
+/* Doubles in the state of a body of this plan; 0 without frames. */
+size_t sw_spin_state_size(const sw_plan *plan);
+
+/* Make work space, if the plan asks for frames. SW_ENOMEM. */
+sw_status sw_spin_new(sw_body *body);
+
+/* Frames and twist of the iterate start from those of the state. */
+void sw_spin_begin(sw_system *system, sw_body *body);
+
+/* Carry the iterate's frames on to the field's present tangents. */
+void sw_spin_carry(sw_system *system, sw_body *body);
+
+/* Solve for the update of nodes (delta, nodes x 3, in place) and spins with the
+ * field's rows, whose held nodes are out. Fails as sw_band4_factor. */
+sw_status sw_spin_solve(sw_body *body, double *delta, size_t *negative);
+
+/* The largest turn of the last solve [rad]; let the frames turn by a share of it. */
+double sw_spin_largest(const sw_body *body);
+void sw_spin_turn(sw_body *body, double share);
+
+/* Add what the spins of the last solve do to the reaction of a held node. */
+void sw_spin_react(sw_held_node *held, const sw_body *body);
+
+/* The state takes over the iterate's frames, carried on to positions x; follow: those
+ * of held edges too. */
+void sw_spin_take(sw_system *system, sw_body *body, const double *x);
+void sw_spin_follow(sw_system *system, sw_body *body, const double *x);
+
+/* The field sees the state's own frames. */
+void sw_spin_show(sw_system *system, sw_body *body);
+
+#endif
