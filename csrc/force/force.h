@@ -24,6 +24,7 @@ enum { SW_FORCE_ARGS_MAX = 128 }; /* room for any force's arguments [B] */
 typedef struct sw_force_class {
   const char *name;
   const char *summary; /* one line for help() */
+  const char *stores;  /* what its energy is called; NULL = as the force */
   unsigned flags;
   sw_params params; /* rows of its argument struct */
 

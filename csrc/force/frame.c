@@ -8,7 +8,7 @@
  * Derivatives are with respect to the edge vectors, frames being carried along
  * without turning about themselves, and to that turn. They are exact; the second
  * ones are made symmetric, which they are where no spin is out of balance. Each
- * part of b is phi/sin(phi) q with q = (m_a . t_b - m_b . t_a)/2. */
+ * part of b is g phi/sin(phi) q with q = (m_a . t_b - m_b . t_a)/2, g the gain. */
 #include <math.h>
 
 #include "force/force.h"
@@ -32,10 +32,11 @@ typedef struct hinge {
   double excess[2], twist_stiffness; /* over bend's; [N m] */
   double push[2], torque; /* d energy / d bend, d energy / d twist [N m] */
   double cosine, s, w, u;
+  sw_hinge_gain gain;
   sw_vec ma[2], mb[2]; /* material axes */
   sw_vec across_a, across_b; /* the other tangent's part across this one */
   double q[2];
-  slope gq[2], gc, gb[2], gm;
+  slope gq[2], gc, gb[2], gm; /* of q, cosine, bend without gain, twist */
 } hinge;
 
 typedef struct blocks {
@@ -74,6 +75,11 @@ static void set_slopes(hinge *h) {
   h->gm = (slope){sw_scale(kb, h->ra), sw_scale(kb, h->rb), -1.0, 1.0};
 }
 
+/* Sum of push times bend without gain: what the gain's derivatives come with. */
+static double pushed(const hinge *h) {
+  return h->s * (h->push[0] * h->q[0] + h->push[1] * h->q[1]);
+}
+
 /* number: of the hinge in the plan's lists */
 static double set_hinge(hinge *h, const frame_args *args, const sw_plan *p, size_t number,
                         double length, double twist, double *bending) {
@@ -82,12 +88,13 @@ static double set_hinge(hinge *h, const frame_args *args, const sw_plan *p, size
   h->cosine = 1.0 - 0.5 * sw_norm2(sw_sub(h->a.t, h->b.t));
   h->u = 0.5 * (1.0 - h->cosine);
   sw_angle_factors(h->u, &h->s, &h->w);
+  h->gain = sw_hinge_gain_of(twist);
   h->ma[0] = h->a.m1, h->ma[1] = sw_cross(h->a.t, h->a.m1);
   h->mb[0] = h->b.m1, h->mb[1] = sw_cross(h->b.t, h->b.m1);
   for (int j = 0; j < 2; j++) {
     const double k = args->EI_axis[j] / length;
     h->q[j] = 0.5 * (sw_dot(h->ma[j], h->b.t) - sw_dot(h->mb[j], h->a.t));
-    const double bend = h->s * h->q[j];
+    const double bend = h->gain.g * h->s * h->q[j];
     h->excess[j] = (args->EI_axis[j] - args->EI) / length;
     h->push[j] = h->excess[j] * bend - k * rest[j];
     energy += 0.5 * h->excess[j] * bend * bend + k * rest[j] * (0.5 * rest[j] - bend);
@@ -101,7 +108,7 @@ static double set_hinge(hinge *h, const frame_args *args, const sw_plan *p, size
 
 static slope gradient(const hinge *h) {
   const slope bend = add_slopes(&h->gb[0], h->push[0], &h->gb[1], h->push[1]);
-  return add_slopes(&bend, 1.0, &h->gm, h->torque);
+  return add_slopes(&bend, h->gain.g, &h->gm, h->torque + h->gain.slope * pushed(h));
 }
 
 /* --- second derivatives -------------------------------------------------------- */
@@ -162,8 +169,8 @@ static void add_cosine(blocks *o, const hinge *h, double f) {
   add_product(o->next, b, sw_scale(b, -f3));
 }
 
-/* s times the second derivative of push1 q1 + push2 q2; ma, mb: the axes summed with
- * those factors */
+/* s times the second derivative of f1 q1 + f2 q2; ma, mb: the axes summed with those
+ * factors */
 static void add_q(blocks *o, const hinge *h, sw_vec ma, sw_vec mb) {
   const sw_vec a = h->a.t, b = h->b.t;
   const double c = h->cosine, f = 0.5 * h->s, ab = sw_dot(a, mb), ba = sw_dot(b, ma);
@@ -200,20 +207,31 @@ static void add_twist(blocks *o, const hinge *h, double f) {
 }
 
 static void second(const hinge *h, blocks *o) {
+  const double all = pushed(h), f0 = h->push[0] * h->gain.g, f1 = h->push[1] * h->gain.g;
   *o = (blocks){0};
-  add_square(o, &h->gm, h->twist_stiffness);
-  if (h->torque != 0) add_twist(o, h, h->torque);
-  for (int j = 0; j < 2; j++)
-    if (h->excess[j] != 0) add_square(o, &h->gb[j], h->excess[j]);
-  if (h->push[0] == 0 && h->push[1] == 0) return;
-  const double sum = h->push[0] * h->q[0] + h->push[1] * h->q[1];
-  const slope g = add_slopes(&h->gq[0], h->push[0], &h->gq[1], h->push[1]);
+  add_square(o, &h->gm, h->twist_stiffness + all * h->gain.curve);
+  const double torque = h->torque + all * h->gain.slope;
+  if (torque != 0) add_twist(o, h, torque);
+  for (int j = 0; j < 2; j++) {
+    if (h->excess[j] == 0) continue;
+    const slope whole =
+        add_slopes(&h->gb[j], h->gain.g, &h->gm, h->gain.slope * h->s * h->q[j]);
+    add_square(o, &whole, h->excess[j]);
+  }
+  if (f0 == 0 && f1 == 0) return;
+  if (h->gain.slope != 0) {
+    const slope bend = add_slopes(&h->gb[0], h->push[0], &h->gb[1], h->push[1]);
+    const slope part = add_slopes(&bend, h->gain.slope, &bend, 0.0);
+    add_slope_pair(o, &part, &h->gm);
+  }
+  const double sum = f0 * h->q[0] + f1 * h->q[1];
+  const slope g = add_slopes(&h->gq[0], f0, &h->gq[1], f1);
   const double third = sw_angle_third(h->u, h->s, h->w);
   const slope mix = add_slopes(&g, -h->w, &h->gc, 0.5 * sum * third);
   add_slope_pair(o, &mix, &h->gc);
   add_cosine(o, h, -h->w * sum);
-  add_q(o, h, sw_madd(sw_scale(h->ma[0], h->push[0]), h->ma[1], h->push[1]),
-        sw_madd(sw_scale(h->mb[0], h->push[0]), h->mb[1], h->push[1]));
+  add_q(o, h, sw_madd(sw_scale(h->ma[0], f0), h->ma[1], f1),
+        sw_madd(sw_scale(h->mb[0], f0), h->mb[1], f1));
 }
 
 /* --- into the field ------------------------------------------------------------ */
@@ -316,6 +334,7 @@ static sw_vec clamp_moment(const void *args, const sw_field *f, const sw_clamp_h
 const sw_force_class sw_force_frame = {
     .name = "frame",
     .summary = "two bending stiffnesses, natural curvature and local twist",
+    .stores = "twist", /* beside what counts as bend */
     .flags = SW_FORCE_INNER,
     .params = {"force frame", NULL, 0},
     .eval = eval,

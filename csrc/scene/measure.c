@@ -226,7 +226,7 @@ static void collect_energy(sw_scene *s, sw_energy *out) {
       const sw_term *term = &s->system.bodies[b].terms[k];
       double bending;
       const double energy = sw_system_term_energy(&s->system, b, k, &bending);
-      add_energy(out, term->cls->name, energy - bending);
+      add_energy(out, term->cls->stores ? term->cls->stores : term->cls->name, energy - bending);
       if (bending != 0) add_energy(out, "bend", bending);
     }
   out->dissipated = sw_system_dissipated(&s->system, &out->has_dissipated);

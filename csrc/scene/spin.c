@@ -19,8 +19,8 @@ static const sw_scene_hold *hold_number(const sw_scene *s, int number) {
 }
 
 static void set_rest(sw_plan *p, size_t number, const sw_edge_frame *a, const sw_edge_frame *b) {
-  sw_hinge_bend(a, b, p->rest_bend + 2 * number);
   p->rest_twist[number] = sw_hinge_twist(a, b, 0.0);
+  sw_hinge_bend(a, b, p->rest_twist[number], p->rest_bend + 2 * number);
 }
 
 sw_status sw_scene_rest(const sw_scene *s, size_t wire, sw_plan *p) {

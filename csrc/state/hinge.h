@@ -12,12 +12,27 @@ typedef struct sw_edge_frame {
   sw_vec t, m1;
 } sw_edge_frame;
 
-/* Bend towards the edges' mean axes, in proportion to the angle: the hinge's
- * rotation vector phi/sin(phi) t1 x t2 seen in both frames and averaged, as in
- * Bergou et al. 2008, who take 2 tan(phi/2). */
-static inline void sw_hinge_bend(const sw_edge_frame *a, const sw_edge_frame *b, double out[2]) {
+/* Averaging the axes of two edges that are twisted by m makes them shorter by
+ * cos(m/2): g makes up for that; with its first and second derivative. */
+typedef struct sw_hinge_gain {
+  double g, slope, curve;
+} sw_hinge_gain;
+
+static inline sw_hinge_gain sw_hinge_gain_of(double twist) {
+  const double c = cos(0.5 * twist), least = 0.1; /* about 169 degrees */
+  if (fabs(c) < least) return (sw_hinge_gain){c < 0 ? -1.0 / least : 1.0 / least, 0, 0};
+  const double g = 1.0 / c, t2 = g * g - 1.0;
+  return (sw_hinge_gain){g, 0.5 * g * g * sin(0.5 * twist), 0.25 * g * (1.0 + 2.0 * t2)};
+}
+
+/* Bend towards the edges' mean axes [rad]: the hinge's rotation vector
+ * phi/sin(phi) t1 x t2 seen in both frames and averaged, as in Bergou et al. 2008,
+ * who take 2 tan(phi/2); times the gain, so that the squares add up to phi^2. */
+static inline void sw_hinge_bend(const sw_edge_frame *a, const sw_edge_frame *b, double twist,
+                                 double out[2]) {
   double s, w;
   sw_angle_factors(0.25 * sw_norm2(sw_sub(a->t, b->t)), &s, &w);
+  s *= sw_hinge_gain_of(twist).g;
   out[0] = 0.5 * s * (sw_dot(a->m1, b->t) - sw_dot(b->m1, a->t));
   out[1] = 0.5 * s * (sw_dot(sw_cross(a->t, a->m1), b->t) - sw_dot(sw_cross(b->t, b->m1), a->t));
 }
