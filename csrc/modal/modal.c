@@ -253,12 +253,13 @@ static sw_status polish(const job *p, sw_modes *out) {
   double **x = sw_alloc(q, sizeof *x);
   double *dense = sw_alloc(3 * q * q + 2 * q, sizeof *dense);
   double *w = sw_alloc(2 * p->n, sizeof *w);
-  sw_status status = x && dense && w ? SW_OK : out_of_memory(p);
-  for (size_t r = 0; x && status == SW_OK && r < q; r++) {
+  sw_status status = x && dense && w ? SW_OK : SW_ENOMEM;
+  for (size_t r = 0; status == SW_OK && r < q; r++) {
     x[r] = sw_alloc(p->n, sizeof *x[r]);
-    if (!x[r]) status = out_of_memory(p);
+    if (!x[r]) status = SW_ENOMEM;
   }
   if (status == SW_OK) status = solve_again(p, x, q, dense, w, out);
+  else out_of_memory(p);
   for (size_t r = 0; x && r < q; r++) sw_free(x[r]);
   sw_free(x);
   sw_free(dense);
