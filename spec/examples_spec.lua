@@ -245,6 +245,21 @@ describe("example", function()
     assert.is_true(after(out, "at rest") > 3.1 and after(out, "at rest") < 3.3)
   end)
 
+  -- Piecewise linear law: over the length L = 60 mm bent to kappa remains
+  -- (EI kappa - M_y) / (EI + H) of curvature, at the cost of M_y times that.
+  it("07: what remains of a bend", function()
+    local out = example "07_springback"
+    local EI, yield, hardening, L = 0.02, 0.2, 0.002, 0.06
+    local lines = 0
+    for angle, remains, work in out:gmatch "(%d+)%s+([%d.]+)%s+([%d.]+) J" do
+      local kept = math.max(0, (EI * math.rad(angle) / L - yield) / (EI + hardening))
+      assert.is_true(math.abs(tonumber(remains) - math.deg(kept * L)) <= 0.02, out)
+      assert.is_true(math.abs(tonumber(work) - yield * kept * L) <= 2e-4, out)
+      lines = lines + 1
+    end
+    assert.are.equal(4, lines)
+  end)
+
   -- The wire ends up hanging over the wall, pulled by its own friction: less than its weight, 0.289 N.
   it("of the README runs as it stands", function()
     local blocks = {}

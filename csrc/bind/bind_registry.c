@@ -54,6 +54,7 @@ static void forces(lua_State *L) {
     push_entry(L, f->name, f->summary);
     for (size_t k = 0; k < sizeof flags / sizeof flags[0]; k++)
       set_flag(L, flags[k].name, (f->flags & flags[k].bit) != 0);
+    set_flag(L, "history", f->state_size != NULL);
     set_params(L, &f->params);
     lua_rawseti(L, -2, i + 1);
   }

@@ -187,6 +187,7 @@ static int meth_energy(lua_State *L) {
     total += e.value[i];
   }
   lsw_set_number(L, "total", total);
+  if (e.has_dissipated) lsw_set_number(L, "dissipated", e.dissipated); /* not in total */
   return 1;
 }
 

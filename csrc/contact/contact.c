@@ -244,7 +244,7 @@ sw_status sw_contact_begin_look(sw_contact *c, sw_system *s, double t, sw_error 
     sw_candidate *k = &c->candidates[i];
     for (size_t j = k->memory; j < k->memory_end; j++)
       if (c->memory[j].normal_force > 0)
-        k->boost = c->memory[j].normal_force / (c->memory[j].depth * c->base_stiffness);
+        k->k = c->memory[j].normal_force / c->memory[j].depth;
   }
   return SW_OK;
 }

@@ -15,7 +15,8 @@ enum {
   SW_FORCE_EXPLICIT = 2, /* has no stiffness: iterated to a fixed point instead */
   SW_FORCE_AT_PLACE = 4, /* acts at one arc length: takes s */
   SW_FORCE_DISSIPATIVE = 8, /* has no energy; takes power from the motion, F.v <= 0 */
-  SW_FORCE_FROZEN = 16   /* its stiffness leaves a part out, which its file names */
+  SW_FORCE_FROZEN = 16,  /* its stiffness leaves a part out, which its file names */
+  SW_FORCE_BY_ANGLE = 32 /* corrects bend: only for wires whose bending is by angles */
 };
 
 enum { SW_FORCE_ARGS_MAX = 128 }; /* room for any force's arguments [B] */
@@ -36,6 +37,20 @@ typedef struct sw_force_class {
 
   /* Moment that a clamp hinge puts on the wire [N m]; NULL = none. */
   sw_vec (*clamp_moment)(const void *args, const sw_field *field, const sw_clamp_hinge *hinge);
+
+  /* Does it go with a wire of these values? NULL = always. SW_EINVAL with a text. */
+  sw_status (*check)(const void *args, const sw_beam *beam, sw_error *err);
+
+  /* History: doubles that live in the system's state, zero at first, number 0 the
+   * work dissipated so far [J]. eval finds those of the last accepted state in
+   * field->history and only reads them; commit, once for each accepted state,
+   * brings them up to it. So a rejected step leaves nothing behind. inherit fills
+   * them for field->plan (geometry is up to date, directors are not) from those of
+   * an older plan of the same wire. All three NULL = no history. */
+  size_t (*state_size)(const sw_plan *plan);
+  void (*commit)(const void *args, const sw_field *field, double *history);
+  void (*inherit)(const sw_plan *old, const double *from, const sw_field *field,
+                  double *history);
 } sw_force_class;
 
 /* The class called name, or NULL. */

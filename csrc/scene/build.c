@@ -125,6 +125,7 @@ static void inherit_twist(sw_scene *s) {
 sw_status sw_scene_thaw(sw_scene *s) {
   if (!s->built) return SW_OK;
   SW_TRY(keep_contact(s));
+  SW_TRY(sw_scene_keep_histories(s));
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_body *b = &s->system.bodies[w];
     sw_mesh *m = &s->wires[w].mesh;
@@ -267,6 +268,7 @@ static sw_status fill(sw_scene *s, size_t alive) {
     memcpy(s->system.tension + b->first_edge, m->tension, (m->n - 1) * sizeof *m->tension);
     SW_TRY(add_terms(s, w));
   }
+  SW_TRY(sw_system_add_histories(&s->system));
   SW_TRY(add_holds(s, alive));
   SW_TRY(add_contact(s));
   SW_TRY(inherit_contact(s));
@@ -301,6 +303,8 @@ sw_status sw_scene_build(sw_scene *s, sw_error *err) {
     inherit_twist(s);
     s->built = 1;
     sw_scene_forget_contact(s);
+    sw_scene_inherit_histories(s);
+    sw_scene_forget_histories(s);
     s->discontinuous = 1;
   }
   s->system.gravity[0] = s->gravity.x;

@@ -206,8 +206,12 @@ static void collect_energy(sw_scene *s, sw_energy *out) {
   for (size_t b = 0; b < s->system.body_count; b++)
     for (size_t k = 0; k < s->system.bodies[b].term_count; k++) {
       const sw_term *term = &s->system.bodies[b].terms[k];
-      add_energy(out, term->cls->name, sw_system_term_energy(&s->system, b, k));
+      double bending;
+      const double energy = sw_system_term_energy(&s->system, b, k, &bending);
+      add_energy(out, term->cls->name, energy - bending);
+      if (bending != 0) add_energy(out, "bend", bending);
     }
+  out->dissipated = sw_system_dissipated(&s->system, &out->has_dissipated);
   if (s->contact) add_energy(out, "contact", sw_contact_energy(s->contact));
 }
 

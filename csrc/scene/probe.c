@@ -16,7 +16,7 @@ static sw_status add_terms(const sw_body *b, const sw_force_class *cls, sw_field
   out->terms = 0;
   for (size_t k = 0; k < b->term_count; k++) {
     if (b->terms[k].cls != cls) continue;
-    SW_TRY(cls->eval(b->terms[k].args, f, err));
+    SW_TRY(sw_term_eval(&b->terms[k], f, err));
     out->terms++;
   }
   return SW_OK;
@@ -34,6 +34,7 @@ static void aim(sw_scene *s, sw_body *b, const sw_probe *at) {
   f->gravity = s->system.gravity;
   f->hold_directors = s->system.directors_now;
   f->hold_turns = s->system.directors_rate;
+  f->cautious = 0;
   sw_field_clear(f);
   sw_field_geometry(f);
 }

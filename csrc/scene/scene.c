@@ -54,6 +54,7 @@ void sw_scene_free(sw_scene *s) {
   sw_contact_free(s->contact);
   sw_system_free(&s->system);
   sw_scene_forget_contact(s);
+  sw_scene_forget_histories(s);
   sw_scene_drop_frames(s);
   sw_free(s->frames);
   sw_free(s->hold_slot);
@@ -173,6 +174,22 @@ static sw_status check_mesh(const char *name, const sw_mesh *m, sw_error *err) {
   return SW_OK;
 }
 
+/* Can the force act on the wire? */
+static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, const void *args,
+                            sw_error *err) {
+  sw_recipe recipe;
+  int by_angle = 0;
+  w->cls->recipe(&w->beam, &recipe);
+  for (size_t k = 0; k < recipe.count; k++)
+    by_angle |= strcmp(recipe.terms[k].force, "bend") == 0;
+  if ((cls->flags & SW_FORCE_BY_ANGLE) && !by_angle)
+    return sw_fail(err, SW_EINVAL,
+                   "force %s: wire '%s' is a %s, whose bending it cannot correct; it goes with "
+                   "model = 'rod'",
+                   cls->name, w->name, w->cls->name);
+  return cls->check ? cls->check(args, &w->beam, err) : SW_OK;
+}
+
 sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam *beam,
                             const double *points, size_t count, sw_handle *out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
@@ -184,6 +201,9 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
     return sw_fail(err, SW_EINVAL, "wire '%s': give from and to, or path [m]", w.name);
   if (points && count < 2)
     return sw_fail(err, SW_EINVAL, "wire '%s': path needs at least two points", w.name);
+  for (size_t k = 0; k < s->force_count; k++)
+    if (s->forces[k].alive && s->forces[k].wire < 0)
+      SW_TRY(check_wire(s->forces[k].cls, &w, s->forces[k].args, err));
   SW_TRY(sw_scene_thaw(s));
   SW_TRY(sw_grow((void **)&s->wires, &s->wire_capacity, s->wire_count + 1, sizeof *s->wires));
   sw_status status = sw_mesh_along(&w.mesh, points ? points : straight, points ? count : 2,
@@ -290,6 +310,13 @@ sw_status sw_scene_obstacle_force(sw_scene *s, sw_handle obstacle, sw_vec about,
 
 /* --- forces ----------------------------------------------------------------- */
 
+static sw_status check_force(const sw_scene *s, const sw_force_class *cls, sw_handle wire,
+                             const void *args, sw_error *err) {
+  for (size_t w = 0; w < s->wire_count; w++)
+    if (!wire.generation || w == wire.slot) SW_TRY(check_wire(cls, &s->wires[w], args, err));
+  return SW_OK;
+}
+
 sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle wire,
                              const void *args, size_t args_size, sw_handle *out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
@@ -304,6 +331,7 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
       return sw_fail(err, SW_EINVAL, "force %s: s = %g m is beyond the end of wire '%s' at %g m",
                      cls->name, at, w->name, w->mesh.s[w->mesh.n - 1]);
   }
+  SW_TRY(check_force(s, cls, wire, args, err));
   SW_TRY(sw_scene_thaw(s));
   SW_TRY(sw_grow((void **)&s->forces, &s->force_capacity, s->force_count + 1, sizeof *s->forces));
   sw_scene_force *f = &s->forces[s->force_count];

@@ -236,6 +236,8 @@ typedef struct sw_energy {
   size_t count;
   const char *kind[SW_ENERGY_KINDS];
   double value[SW_ENERGY_KINDS]; /* [J] */
+  double dissipated;             /* by forces with a history so far, not stored [J] */
+  int has_dissipated;            /* there are such forces */
 } sw_energy;
 sw_status sw_scene_energy(sw_scene *scene, sw_energy *out, sw_error *err);
 

@@ -219,7 +219,8 @@ static sw_status count_parts(statics *p, size_t *parts, sw_error *err) {
   return SW_OK;
 }
 
-/* Settle at every part of the holds' way. */
+/* Settle at every part of the holds' way. The parts are only for convergence: what
+ * forces remember is brought up to the last one alone. */
 static sw_status follow_holds(statics *p, sw_error *err) {
   size_t parts;
   sw_status status = count_parts(p, &parts, err);
@@ -266,7 +267,9 @@ sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interru
   s->running++;
   find_from_poses(&p);
   put_aside(s, p.begun);
+  s->system.still = 1;
   sw_status status = follow_holds(&p, &why);
+  s->system.still = 0;
   if (status != SW_OK && status != SW_EINTR) take_back(s, p.begun);
   s->running--;
   sw_scene_reset_extremes(s);

@@ -80,6 +80,14 @@ typedef struct sw_frame {
   size_t wires, obstacles, holds;
 } sw_frame;
 
+/* What a force on a wire remembers between two systems. */
+typedef struct sw_kept_history {
+  size_t force, wire;
+  uint32_t generation; /* of the force */
+  sw_plan *plan;       /* retained */
+  double *data;
+} sw_kept_history;
+
 struct sw_scene {
   char name[SW_NAME_SIZE];
   uint32_t serial;        /* generation of the object made last */
@@ -112,6 +120,8 @@ struct sw_scene {
     size_t wires;
     int fresh;
   } kept;
+  sw_kept_history *kept_histories; /* of the last built system, for the next one */
+  size_t kept_history_count;
   const sw_integrator *method; /* of stepper */
   sw_stepper stepper;
   int has_stepper;
@@ -130,6 +140,10 @@ struct sw_scene {
 sw_status sw_scene_thaw(sw_scene *scene);
 /* Drop the contact memory kept for the next system. */
 void sw_scene_forget_contact(sw_scene *scene);
+/* Put the forces' histories aside, give them to the new system, forget them. */
+sw_status sw_scene_keep_histories(sw_scene *scene);
+void sw_scene_inherit_histories(sw_scene *scene);
+void sw_scene_forget_histories(sw_scene *scene);
 /* Make the system from the meshes and holds, if it is not. */
 sw_status sw_scene_build(sw_scene *scene, sw_error *err);
 
@@ -157,7 +171,7 @@ void sw_scene_clear_obstacle(sw_scene_obstacle *obstacle);
 /* The scene goes away: its snapshots live on, good for nothing. */
 void sw_scene_orphan_snapshots(sw_scene *scene);
 
-/* After an accepted state: extremes, logs. */
+/* After an accepted state: histories, extremes, logs. */
 sw_status sw_scene_observe(sw_scene *scene, sw_error *err);
 /* Extremes of wire w at the refreshed state. */
 void sw_scene_wire_now(sw_scene *scene, size_t w, sw_wire_extremes *now);

@@ -54,7 +54,7 @@ void sw_field_geometry(sw_field *field) {
 
 void sw_field_clear(sw_field *field) {
   const size_t n = field->plan->nodes, m = field->plan->edges;
-  field->energy = 0;
+  field->energy = field->bending = 0;
   if (field->want & SW_WANT_FORCE) {
     for (int k = 0; k < 3; k++) memset(field->gradient[k], 0, m * sizeof(double));
     memset(field->force, 0, 3 * n * sizeof(double));

@@ -37,6 +37,8 @@ typedef struct sw_field {
   const double *gravity; /* (3) [m/s2] */
   const double *hold_directors; /* (holds x 2 x 3) directors of the holds [-] */
   const double *hold_turns;     /* the same size: rates of the directors [1/s] */
+  int cautious;         /* iterations do not converge: overestimate stiffness that jumps */
+  const double *history;        /* of the force that is evaluated, or NULL */
 
   /* twist of the plan's spans; NULL when there is none */
   const double *twist;     /* (spans) total twist at this evaluation [rad] */
@@ -55,6 +57,7 @@ typedef struct sw_field {
   double *force;       /* (n x 3) forces on nodes [N] */
   double *rows;        /* (n x SW_ROW_SIZE) node blocks of the matrix [N/m] */
   double energy;       /* [J] */
+  double bending;      /* part of energy that corrects the wire's own bending [J] */
 
   /* per-hinge scratch */
   double *scratch[4]; /* (n) */

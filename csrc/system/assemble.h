@@ -8,7 +8,7 @@
 /* Forces and stiffness of a body's own terms at y, into its field. hbar infinite
  * with statics: no damping, and edges under pressure have their geometric part. */
 sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, const double *y,
-                           const double *v, int statics, sw_error *err);
+                           const double *v, int statics, int iteration, sw_error *err);
 
 /* rows += what the field's edges add to the stiffness + mass * rate2. */
 void sw_gather_rows(const sw_field *f, double rate2, double *rows);

@@ -128,13 +128,18 @@ static double advance_tension(size_t m, const double *restrict delta, const doub
   return largest;
 }
 
+/* Where the stiffness jumps, Newton may go to and fro between both sides: every
+ * other iteration after this many is a cautious one. */
+enum { QUICK = 4 };
+
 sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, const double *y,
-                           const double *v, int statics, sw_error *err) {
+                           const double *v, int statics, int iteration, sw_error *err) {
   sw_field *f = &b->field;
   f->want = SW_WANT_FORCE | SW_WANT_STIFFNESS;
   f->time = time;
   f->velocity_rate = statics ? 0.0 : 1.0 / hbar;
   f->statics = statics;
+  f->cautious = iteration > QUICK && iteration % 2;
   f->x = y + 3 * b->first_node;
   f->v = v + 3 * b->first_node;
   f->tension = s->tension + b->first_edge;
@@ -145,7 +150,7 @@ sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, c
   sw_field_geometry(f);
   if (b->has_twist) sw_twist_measure(s, b);
   for (size_t k = 0; k < b->term_count; k++)
-    SW_TRY(b->terms[k].cls->eval(b->terms[k].args, f, err));
+    SW_TRY(sw_term_eval(&b->terms[k], f, err));
   return SW_OK;
 }
 
@@ -164,7 +169,7 @@ static sw_status solve_once(sw_system *s, const sw_stage *stage, int statics,
   if (velocity) stage_velocity(s, stage, statics);
   for (size_t b = 0; b < s->body_count; b++)
     SW_TRY(sw_body_evaluate(s, &s->bodies[b], stage->time, stage->hbar, stage->y, s->velocity,
-                            statics, err));
+                            statics, report->iterations, err));
   if (s->coupling.eval)
     SW_TRY(s->coupling.eval(s->coupling.user, s, stage->time, stage->hbar, stage->y,
                             SW_WANT_FORCE | SW_WANT_STIFFNESS, err));
@@ -228,7 +233,8 @@ static double largest_shift(const sw_system *s) {
   return largest;
 }
 
-/* A force without stiffness is at its fixed point when nodes move less than
+/* A force without stiffness is at its fixed point, one with jumps of its stiffness
+ * on the right side of them, when nodes move less than
  * this share of the wire in an iteration [-]. */
 static const double FIXED_POINT = 1e-9;
 
@@ -266,7 +272,7 @@ static int converged(sw_system *s, const sw_stage *stage, const sw_newton *newto
   if (newton->statics && largest_shift(s) > newton->accept_shift) return 0;
   if (drowned_in_rounding(s, stage, newton->statics)) return 0;
   for (size_t b = 0; b < s->body_count; b++)
-    if (s->bodies[b].is_explicit &&
+    if ((s->bodies[b].is_explicit || s->bodies[b].is_kinked) &&
         largest_shift(s) > FIXED_POINT * s->bodies[b].plan->length)
       return 0;
   return !s->coupling.settled ||
@@ -371,7 +377,7 @@ sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const 
     sw_field_geometry(f);
     if (body->has_twist) sw_twist_measure(s, body);
     for (size_t k = 0; k < body->term_count; k++)
-      SW_TRY(body->terms[k].cls->eval(body->terms[k].args, f, err));
+      SW_TRY(sw_term_eval(&body->terms[k], f, err));
   }
   if (s->coupling.eval)
     SW_TRY(s->coupling.eval(s->coupling.user, s, t, HUGE_VAL, x, SW_WANT_FORCE, err));

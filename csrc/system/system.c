@@ -41,6 +41,15 @@ static sw_status new_bodies(sw_system *s, sw_plan *const *plans, size_t count) {
   return SW_OK;
 }
 
+static void lay_out(sw_system *s) {
+  s->x = s->state;
+  s->v = s->x + 3 * s->nodes;
+  s->a = s->v + 3 * s->nodes;
+  s->tension = s->a + 3 * s->nodes;
+  s->twist = s->tension + s->edges;
+  s->turn = s->twist + s->span_count;
+}
+
 static sw_status new_arrays(sw_system *s, size_t hold_count) {
   size_t held = 0;
   for (size_t b = 0; b < s->body_count; b++)
@@ -57,12 +66,7 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
   if (!s->held || !s->directors || !s->hold_states || !s->state || !w) return SW_ENOMEM;
   s->directors_now = s->directors + 6 * hold_count;
   s->directors_rate = s->directors + 12 * hold_count;
-  s->x = s->state;
-  s->v = s->x + 3 * s->nodes;
-  s->a = s->v + 3 * s->nodes;
-  s->tension = s->a + 3 * s->nodes;
-  s->twist = s->tension + s->edges;
-  s->turn = s->twist + s->span_count;
+  lay_out(s);
   s->yhat = w;
   s->delta = s->yhat + 3 * s->nodes;
   s->velocity = s->delta + 3 * s->nodes;
@@ -93,8 +97,57 @@ sw_status sw_system_add_term(sw_system *system, size_t body, const sw_force_clas
   b->terms = more;
   b->term_count++;
   if (cls->flags & SW_FORCE_EXPLICIT) b->is_explicit = 1;
+  if (cls->commit) b->is_kinked = 1;
   if (!(cls->flags & SW_FORCE_INNER) || (cls->flags & SW_FORCE_EXPLICIT)) b->needs_velocity = 1;
   return SW_OK;
+}
+
+/* --- histories -------------------------------------------------------------- */
+
+sw_status sw_system_add_histories(sw_system *s) {
+  size_t size = s->state_size;
+  for (size_t b = 0; b < s->body_count; b++)
+    for (size_t k = 0; k < s->bodies[b].term_count; k++)
+      if (s->bodies[b].terms[k].cls->state_size)
+        size += s->bodies[b].terms[k].cls->state_size(s->bodies[b].plan);
+  if (size == s->state_size) return SW_OK;
+  double *state = sw_alloc(size, sizeof *state); /* zeros */
+  if (!state) return SW_ENOMEM;
+  memcpy(state, s->state, s->state_size * sizeof *state);
+  double *next = state + s->state_size;
+  for (size_t b = 0; b < s->body_count; b++)
+    for (size_t k = 0; k < s->bodies[b].term_count; k++) {
+      sw_term *term = &s->bodies[b].terms[k];
+      if (!term->cls->state_size) continue;
+      term->history = next;
+      next += term->cls->state_size(s->bodies[b].plan);
+    }
+  sw_free(s->state);
+  s->state = state;
+  s->state_size = size;
+  lay_out(s);
+  return SW_OK;
+}
+
+void sw_system_commit(sw_system *s) {
+  for (size_t b = 0; b < s->body_count; b++)
+    for (size_t k = 0; k < s->bodies[b].term_count; k++) {
+      const sw_term *term = &s->bodies[b].terms[k];
+      if (term->cls->commit) term->cls->commit(term->args, &s->bodies[b].field, term->history);
+    }
+}
+
+double sw_system_dissipated(const sw_system *s, int *any) {
+  double sum = 0;
+  *any = 0;
+  for (size_t b = 0; b < s->body_count; b++)
+    for (size_t k = 0; k < s->bodies[b].term_count; k++) {
+      const double *history = s->bodies[b].terms[k].history;
+      if (!history) continue;
+      sum += history[0];
+      *any = 1;
+    }
+  return sum;
 }
 
 /* --- holds ------------------------------------------------------------------ */
@@ -116,7 +169,7 @@ sw_status sw_system_place_holds(sw_system *s, double t, double *x, double *v, do
       const size_t at = 3 * (2 * k + side);
       const sw_vec d = sw_rotate(s->hold_states[k].pose.q, sw_load(s->directors + at));
       sw_store(s->directors_now + at, d);
-      sw_store(s->directors_rate + at, sw_cross(s->hold_states[k].omega, d));
+      sw_store(s->directors_rate + at, s->still ? sw_v(0, 0, 0) : sw_cross(s->hold_states[k].omega, d));
     }
   }
   for (size_t i = 0; i < s->held_count; i++) {
@@ -144,10 +197,12 @@ void sw_system_reaction(const sw_system *s, int hold, sw_vec point, sw_vec *forc
     const sw_body *body = &s->bodies[b];
     for (size_t c = 0; c < body->plan->clamp_count; c++) {
       if (body->plan->clamps[c].hold != hold) continue;
-      for (size_t k = 0; k < body->term_count; k++)
-        if (body->terms[k].cls->clamp_moment)
-          m = sw_add(m, body->terms[k].cls->clamp_moment(body->terms[k].args, &body->field,
-                                                         &body->plan->clamps[c]));
+      for (size_t k = 0; k < body->term_count; k++) {
+        const sw_term *term = &body->terms[k];
+        if (!term->cls->clamp_moment) continue;
+        s->bodies[b].field.history = term->history;
+        m = sw_add(m, term->cls->clamp_moment(term->args, &body->field, &body->plan->clamps[c]));
+      }
     }
   }
   *force = f;
@@ -201,7 +256,7 @@ double sw_system_kinetic(const sw_system *s, int lumped) {
   return sum;
 }
 
-double sw_system_term_energy(sw_system *s, size_t body, size_t term) {
+double sw_system_term_energy(sw_system *s, size_t body, size_t term, double *bending) {
   sw_body *b = &s->bodies[body];
   sw_field *f = &b->field;
   sw_error err;
@@ -210,9 +265,10 @@ double sw_system_term_energy(sw_system *s, size_t body, size_t term) {
   f->want = SW_WANT_ENERGY;
   f->tension = s->tension + b->first_edge;
   f->twist = b->has_twist ? s->twist + b->first_span : NULL;
-  f->energy = 0;
+  f->energy = f->bending = 0;
   /* hinge cosines for the bending energy come with the force evaluation */
-  b->terms[term].cls->eval(b->terms[term].args, f, &err);
+  sw_term_eval(&b->terms[term], f, &err);
+  *bending = f->bending;
   return f->energy;
 }
 

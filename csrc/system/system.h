@@ -19,6 +19,7 @@ typedef struct sw_term {
   const sw_force_class *cls;
   double args[SW_FORCE_ARGS_MAX / sizeof(double)];
   int id; /* for the owner; -1 for a recipe's own forces */
+  double *history; /* its part of the system's state, or NULL */
 } sw_term;
 
 typedef struct sw_body {
@@ -38,6 +39,7 @@ typedef struct sw_body {
   void *twist_block;
   int needs_velocity; /* some force depends on it */
   int is_explicit;    /* some force has no stiffness */
+  int is_kinked;      /* some force has a history: its stiffness jumps */
 } sw_body;
 
 /* Where a hold is, for all nodes it holds. */
@@ -89,6 +91,7 @@ struct sw_system {
   double *directors; /* (holds x 2 x 3) in hold coordinates: arriving, leaving */
   double *directors_now; /* the same in world coordinates at the stage */
   double *directors_rate; /* and how fast they turn [1/s] */
+  int still;             /* 1: holds count as standing, whatever they follow (statics) */
   sw_hold_state *hold_states; /* (hold_count) at the last stage */
   size_t hold_count;
   double gravity[3]; /* [m/s2] */
@@ -96,7 +99,8 @@ struct sw_system {
   sw_counters counters;
 
   /* the state, one block: x v a (nodes x 3 each), tension (edges), twist
-   * (spans) [rad], turn (holds x 4: the holds' orientations that go with it) */
+   * (spans) [rad], turn (holds x 4: the holds' orientations that go with it), forces'
+   * histories */
   double *state;
   size_t state_size; /* in doubles */
   double *x, *v, *a, *tension, *twist, *turn;
@@ -143,6 +147,23 @@ void sw_system_free(sw_system *system);
 sw_status sw_system_add_term(sw_system *system, size_t body, const sw_force_class *cls,
                              const void *args, size_t args_size, int id);
 
+/* After the last term: make room in the state for the histories, all zero.
+ * SW_ENOMEM. */
+sw_status sw_system_add_histories(sw_system *system);
+
+/* Add what a term gives to its body's field. */
+static inline sw_status sw_term_eval(const sw_term *term, sw_field *field, sw_error *err) {
+  field->history = term->history;
+  return term->cls->eval(term->args, field, err);
+}
+
+/* The state is accepted and the fields are fresh (sw_system_refresh): bring the
+ * histories up to it. */
+void sw_system_commit(sw_system *system);
+
+/* Work dissipated by the forces with a history [J]; *any: there are such. */
+double sw_system_dissipated(const sw_system *system, int *any);
+
 /* Solve an implicit stage. system->tension is read and updated. Statuses:
  * SW_OK, SW_ENOCONV, SW_ESINGULAR, SW_EDIVERGED, SW_ECALLBACK. */
 sw_status sw_system_stage(sw_system *system, const sw_stage *stage, const sw_newton *newton,
@@ -186,8 +207,9 @@ void sw_system_reaction(const sw_system *system, int hold, sw_vec point, sw_vec 
 /* Kinetic energy of the state with consistent (implicit) masses [J]. */
 double sw_system_kinetic(const sw_system *system, int lumped);
 
-/* Energy of one term of one body at the state [J]. */
-double sw_system_term_energy(sw_system *system, size_t body, size_t term);
+/* Energy of one term of one body at the state; *bending is the part of it that
+ * corrects the wire's own bending [J]. */
+double sw_system_term_energy(sw_system *system, size_t body, size_t term, double *bending);
 
 /* Smallest stable leapfrog step over all bodies and forces [s]. */
 double sw_system_stable_dt(const sw_system *system);

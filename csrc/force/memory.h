@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The slipping hinges of a whole wire: where they are in a history, how they are
+ * evaluated, committed and carried over to another plan. Shared by plastic and
+ * stick_slip. A history is the work dissipated so far [J], then six numbers for
+ * each node and for each clamp hinge: slipped angle [rad] and tangent [-]. Held
+ * nodes and ends have no hinge but remember what was slipped there. */
+#ifndef SW_FORCE_MEMORY_H
+#define SW_FORCE_MEMORY_H
+
+#include "force/force.h"
+
+/* The law of a wire; a hinge of length w has k = stiffness / w and so on. */
+typedef struct sw_memory_law {
+  double stiffness; /* [N m2] */
+  double own;       /* the same when the spring itself is meant, else 0 [N m2] */
+  double hardening; /* [N m2] */
+  double limit;     /* [N m] */
+} sw_memory_law;
+
+size_t sw_memory_size(const sw_plan *plan); /* in doubles */
+void sw_memory_eval(const sw_memory_law *law, sw_field *field);
+void sw_memory_commit(const sw_memory_law *law, const sw_field *field, double *history);
+sw_vec sw_memory_clamp_moment(const sw_memory_law *law, const sw_field *field,
+                              const sw_clamp_hinge *hinge);
+/* Fill history for field's plan from one of an older plan of the same wire: the
+ * slipped angle per length is kept at its arc lengths, so that its sum stays. */
+void sw_memory_inherit(const sw_plan *old, const double *from, const sw_field *field,
+                       double *history);
+
+#endif

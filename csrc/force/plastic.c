@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Elastic-plastic bending with a yield moment and linear kinematic hardening
+ * (Prager), in both planes: the moment is EI (kappa - kappa_p), and
+ * |EI (kappa - kappa_p) - hardening kappa_p| stays within the yield moment. The
+ * wire's own bend gives 1/2 k phi^2; this force adds the difference, so that an
+ * elastic wire pays nothing and `bend` needs no history (see slip.c). The plastic
+ * curvature turns with the tangent but not about it: where a bent wire is spun
+ * about its own axis, it stays behind. The section yields as one hinge, without
+ * the gradual transition of a real section, and without regard to tension. */
+#include <math.h>
+#include <stddef.h>
+
+#include "force/force.h"
+#include "force/memory.h"
+
+typedef struct plastic_args {
+  double yield_moment; /* [N m] */
+  double hardening;    /* [N m2] */
+} plastic_args;
+
+static const sw_param rows[] = {
+    {"yield_moment", SW_PARAM_NUMBER, "N m", 0, 0, HUGE_VAL,
+     SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN, NULL, offsetof(plastic_args, yield_moment),
+     "bending moment above which the wire stays bent"},
+    {"hardening", SW_PARAM_NUMBER, "N m2", 0, 0, HUGE_VAL, 0, NULL,
+     offsetof(plastic_args, hardening),
+     "yield moment gained per plastic curvature, lost in the other direction"},
+};
+
+static sw_memory_law law_of(const void *args, const sw_plan *plan) {
+  const plastic_args *a = args;
+  return (sw_memory_law){plan->beam.EI, 0.0, a->hardening, a->yield_moment};
+}
+
+static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+  const sw_memory_law law = law_of(args, f->plan);
+  (void)err;
+  sw_memory_eval(&law, f);
+  return SW_OK;
+}
+
+static void commit(const void *args, const sw_field *f, double *history) {
+  const sw_memory_law law = law_of(args, f->plan);
+  sw_memory_commit(&law, f, history);
+}
+
+static sw_vec clamp_moment(const void *args, const sw_field *f, const sw_clamp_hinge *hinge) {
+  const sw_memory_law law = law_of(args, f->plan);
+  return sw_memory_clamp_moment(&law, f, hinge);
+}
+
+const sw_force_class sw_force_plastic = {
+    .name = "plastic",
+    .summary = "bending beyond a yield moment stays, with hardening",
+    .flags = SW_FORCE_BY_ANGLE,
+    .params = SW_PARAMS("force plastic", rows),
+    .eval = eval,
+    .clamp_moment = clamp_moment,
+    .state_size = sw_memory_size,
+    .commit = commit,
+    .inherit = sw_memory_inherit,
+};

@@ -1,0 +1,38 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- How far must a wire be bent to stay bent? A gripper bends 60 mm of it to an arc and lets go; what
+-- springs back is the moment that it carried, over EI.
+local sw = require "softworld"
+local mm, deg = sw.units.mm, sw.units.deg
+
+local length, EI = mm(60), 0.02     -- of the part that is bent [m]; [N m2]
+local yield, hardening = 0.2, 0.002 -- [N m], [N m2]
+
+-- Bend by the angle [rad]; returns what remains of it.
+local function springback(angle)
+  local scene = sw.scene { name = "springback", gravity = { 0, 0, 0 } }
+  local wire = scene:wire { EA = 2e4, EI = EI, mass_per_length = 0.02, radius = mm(1),
+    from = { 0, 0, 0 }, to = { length + mm(30), 0, 0 }, segments = 45 }
+  scene:force { kind = "plastic", on = wire, yield_moment = yield, hardening = hardening }
+  scene:force { kind = "damping", on = wire, stiffness = sw.units.ms(1) }
+  scene:clamp(wire, { s = 0 })
+  local gripper = scene:clamp(wire, { s = length })
+  -- the end of an arc of this length, as it closes
+  gripper:follow { func = function(t)
+    local a = math.max(angle * math.min(t, 1), 1e-9)
+    return { length * math.sin(a) / a, 0, length * (1 - math.cos(a)) / a },
+      { axis = { 0, -1, 0 }, angle = a }
+  end }
+  local run = scene:run { duration = 1, dt = 0.01 }
+  assert(run.ok, run.reason)
+  gripper:release()
+  local rest = scene:settle()
+  assert(rest.ok, rest.reason)
+  local t = wire:tangent(wire.length)
+  return math.atan(t[3], t[1]), scene:energy().dissipated
+end
+
+print "bent by   remains   dissipated"
+for _, angle in ipairs { 30, 60, 90, 120 } do
+  local remains, work = springback(deg(angle))
+  print(("%5.0f     %6.2f    %.4f J"):format(angle, math.deg(remains), work))
+end
