@@ -95,11 +95,12 @@ static sw_status choose_shift(job *p, size_t modes) {
   SW_TRY(bracket(p, p->target, &p->scale));
   p->neutral = soft >= p->target ? p->floor : NEUTRAL * p->scale;
   p->shift = -fmax(BELOW_ZERO * p->scale, 4 * p->floor);
-  for (;; p->shift *= 4) {
+  do {
     SW_TRY(count_below(p, p->shift, p->factor, &below));
     if (below == 0) return SW_OK;
-    if (!isfinite(p->shift)) return sw_fail(p->err, SW_EDIVERGED, "frequencies: no lowest one");
-  }
+    p->shift *= 4;
+  } while (isfinite(p->shift));
+  return sw_fail(p->err, SW_EDIVERGED, "frequencies: there is no lowest one");
 }
 
 /* --- Krylov space ------------------------------------------------------------- */
