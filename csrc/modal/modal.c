@@ -54,8 +54,10 @@ static sw_status out_of_memory(const job *p) {
 
 /* Number of eigenvalues below; an exactly singular place is stepped aside. */
 static sw_status count_below(const job *p, double at, double *factor, size_t *count) {
-  for (int k = 0; k < 4; k++, at += 1e-7 * fabs(at))
+  for (int k = 0; k < 4; k++) {
     if (sw_system_factor(p->system, p->body, at, factor, count) == SW_OK) return SW_OK;
+    at += 1e-7 * fabs(at);
+  }
   return sw_fail(p->err, SW_EDIVERGED, "frequencies: the stiffness is not a finite number");
 }
 
@@ -65,9 +67,12 @@ static sw_status bracket(const job *p, size_t wanted, double *high) {
   const double step = 16.0;
   double low = p->floor;
   size_t count;
-  for (*high = p->floor;; low = *high, *high *= step) {
+  *high = p->floor;
+  SW_TRY(count_below(p, *high, p->other, &count));
+  while (count < wanted && isfinite(*high)) {
+    low = *high;
+    *high *= step;
     SW_TRY(count_below(p, *high, p->other, &count));
-    if (count >= wanted || !isfinite(*high)) break;
   }
   while (*high > 2.0 * low) {
     const double middle = sqrt(low * *high);
