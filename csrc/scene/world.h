@@ -171,6 +171,11 @@ void sw_scene_clear_obstacle(sw_scene_obstacle *obstacle);
 /* The scene goes away: its snapshots live on, good for nothing. */
 void sw_scene_orphan_snapshots(sw_scene *scene);
 
+/* Equilibrium of the built scene at its time; nothing is observed. On failure the
+ * state is as before. */
+sw_status sw_scene_rest(sw_scene *scene, const sw_settle_args *args, int (*interrupted)(void),
+                        sw_settle_report *report, sw_error *why);
+
 /* After an accepted state: histories, extremes, logs. */
 sw_status sw_scene_observe(sw_scene *scene, sw_error *err);
 /* Extremes of wire w at the refreshed state. */
