@@ -146,6 +146,8 @@ static int meth_advance(lua_State *L) {
   lsw_set_integer(L, "iterations", r.iterations);
   lsw_set_integer(L, "evaluations", r.evaluations);
   lsw_set_number(L, "smallest_dt", r.smallest_dt);
+  lsw_set_integer(L, "jumps", r.jumps);
+  if (r.jumps) lsw_set_number(L, "last_jump", r.last_jump);
   return 1;
 }
 
@@ -171,6 +173,8 @@ static int meth_settle(lua_State *L) {
   lsw_set_integer(L, "unstable", r.negative);
   lua_pushboolean(L, r.transient);
   lua_setfield(L, -2, "transient");
+  lua_pushboolean(L, r.jumped);
+  lua_setfield(L, -2, "jumped");
   return 1;
 }
 

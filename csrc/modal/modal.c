@@ -54,8 +54,10 @@ static sw_status out_of_memory(const job *p) {
 
 /* Number of eigenvalues below; an exactly singular place is stepped aside. */
 static sw_status count_below(const job *p, double at, double *factor, size_t *count) {
-  for (int k = 0; k < 4; k++, at += 1e-7 * fabs(at))
+  for (int k = 0; k < 4; k++) {
     if (sw_system_factor(p->system, p->body, at, factor, count) == SW_OK) return SW_OK;
+    at += 1e-7 * fabs(at);
+  }
   return sw_fail(p->err, SW_EDIVERGED, "frequencies: the stiffness is not a finite number");
 }
 
@@ -65,9 +67,12 @@ static sw_status bracket(const job *p, size_t wanted, double *high) {
   const double step = 16.0;
   double low = p->floor;
   size_t count;
-  for (*high = p->floor;; low = *high, *high *= step) {
+  *high = p->floor;
+  SW_TRY(count_below(p, *high, p->other, &count));
+  while (count < wanted && isfinite(*high)) {
+    low = *high;
+    *high *= step;
     SW_TRY(count_below(p, *high, p->other, &count));
-    if (count >= wanted || !isfinite(*high)) break;
   }
   while (*high > 2.0 * low) {
     const double middle = sqrt(low * *high);
@@ -95,11 +100,12 @@ static sw_status choose_shift(job *p, size_t modes) {
   SW_TRY(bracket(p, p->target, &p->scale));
   p->neutral = soft >= p->target ? p->floor : NEUTRAL * p->scale;
   p->shift = -fmax(BELOW_ZERO * p->scale, 4 * p->floor);
-  for (;; p->shift *= 4) {
+  do {
     SW_TRY(count_below(p, p->shift, p->factor, &below));
     if (below == 0) return SW_OK;
-    if (!isfinite(p->shift)) return sw_fail(p->err, SW_EDIVERGED, "frequencies: no lowest one");
-  }
+    p->shift *= 4;
+  } while (isfinite(p->shift));
+  return sw_fail(p->err, SW_EDIVERGED, "frequencies: there is no lowest one");
 }
 
 /* --- Krylov space ------------------------------------------------------------- */
@@ -253,12 +259,13 @@ static sw_status polish(const job *p, sw_modes *out) {
   double **x = sw_alloc(q, sizeof *x);
   double *dense = sw_alloc(3 * q * q + 2 * q, sizeof *dense);
   double *w = sw_alloc(2 * p->n, sizeof *w);
-  sw_status status = x && dense && w ? SW_OK : out_of_memory(p);
-  for (size_t r = 0; x && status == SW_OK && r < q; r++) {
+  sw_status status = x && dense && w ? SW_OK : SW_ENOMEM;
+  for (size_t r = 0; status == SW_OK && r < q; r++) {
     x[r] = sw_alloc(p->n, sizeof *x[r]);
-    if (!x[r]) status = out_of_memory(p);
+    if (!x[r]) status = SW_ENOMEM;
   }
   if (status == SW_OK) status = solve_again(p, x, q, dense, w, out);
+  else out_of_memory(p);
   for (size_t r = 0; x && r < q; r++) sw_free(x[r]);
   sw_free(x);
   sw_free(dense);

@@ -24,6 +24,8 @@ static sw_param run_rows[] = {
      "time integration method"},
     {"frame", SW_PARAM_NUMBER, "s", NAN, 0, 1e9, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(sw_run_args, frame), "time between stored frames (default 1/30 s)"},
+    {"quasistatic", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_run_args, quasistatic),
+     "true: equilibrium at every step instead of motion; dt is then the pose step"},
     {"max_steps", SW_PARAM_INTEGER, "-", 1e15, 1, 1e15, 0, NULL,
      offsetof(sw_run_args, max_steps), "most steps to take"},
     {"progress", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
@@ -191,6 +193,30 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
   }
 }
 
+/* Slow handling: what drives the wires goes on by a step, the wires to their
+ * equilibrium. Without friction the pose step does not matter; with friction it
+ * does, and halving it shows how much. */
+static sw_status pose_step(loop *p, double t1, int (*interrupted)(void), sw_error *err) {
+  static const sw_settle_args rest = {.tolerance = 1e-9, .max_iterations = 4000};
+  sw_scene *s = p->s;
+  sw_settle_report report = {0};
+  const double t0 = s->time;
+  s->time = t1;
+  const sw_status status = sw_scene_rest(s, &rest, interrupted, &report, err);
+  p->report->iterations += report.iterations;
+  if (status != SW_OK) {
+    s->time = t0;
+    return status;
+  }
+  p->report->steps++;
+  p->report->smallest_dt = fmin(p->report->smallest_dt, t1 - t0);
+  if (report.jumped) {
+    p->report->jumps++;
+    p->report->last_jump = t1;
+  }
+  return sw_scene_observe(s, err);
+}
+
 static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_error *err) {
   sw_scene *s = p->s;
   const double t0 = s->time, span = until - t0;
@@ -202,8 +228,9 @@ static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_er
     if (interrupted && interrupted()) return SW_EINTR;
     if ((double)(p->report->steps - first) >= (double)p->args->max_steps) return SW_OK;
     const double t1 = (double)k >= count ? until : t0 + span * ((double)k / count);
-    SW_TRY(adaptive ? controlled_step(p, until - s->time, until, err)
-                    : step(p, t1 - s->time, t1, err));
+    SW_TRY(p->args->quasistatic ? pose_step(p, t1, interrupted, err)
+           : adaptive           ? controlled_step(p, until - s->time, until, err)
+                                : step(p, t1 - s->time, t1, err));
     if (isfinite(p->args->frame) && s->time >= s->next_frame - slack)
       SW_TRY(sw_scene_store_frame(s, err));
     while (isfinite(p->args->frame) && s->next_frame <= s->time + slack)
@@ -216,11 +243,15 @@ static sw_status check_run(const sw_scene *s, const sw_run_args *args, sw_error 
   const sw_integrator *m = sw_integrator_all()[args->integrator];
   if (!s->wire_count) return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", s->name);
   for (size_t w = 0; w < s->wire_count; w++)
-    if (s->wires[w].beam.framed && !(m->flags & SW_INTEGRATOR_IMPLICIT))
+    if (s->wires[w].beam.framed && !args->quasistatic && !(m->flags & SW_INTEGRATOR_IMPLICIT))
       return sw_fail(err, SW_EINVAL,
                      "scene:run: integrator '%s' is explicit; wire '%s', which is curved at rest or "
                      "has two values of EI, needs an implicit one",
                      m->name, s->wires[w].name);
+  if (args->quasistatic && isfinite(args->tolerance))
+    return sw_fail(err, SW_EINVAL,
+                   "scene:run: tolerance controls the time step of motion; a quasi-static run "
+                   "takes dt, the time between two poses");
   if (isfinite(args->tolerance) && !(m->flags & SW_INTEGRATOR_EMBEDDED))
     return sw_fail(err, SW_EINVAL,
                    "scene:run: integrator '%s' has no error estimate; give dt instead of "

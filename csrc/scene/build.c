@@ -156,7 +156,7 @@ static sw_status new_plans(sw_scene *s, sw_plan **plans) {
       number++;
     }
     status = sw_plan_new(&wire->beam, wire->mesh.s, wire->mesh.n, places, n, &plans[w]);
-    if (status == SW_OK && wire->mesh.rest) status = sw_scene_rest(s, w, plans[w]);
+    if (status == SW_OK && wire->mesh.rest) status = sw_scene_unloaded(s, w, plans[w]);
   }
   sw_free(places);
   return status;

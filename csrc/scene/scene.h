@@ -141,6 +141,7 @@ typedef struct sw_run_args {
   double tolerance; /* on the step error; NAN = fixed steps [m] */
   int integrator;   /* index into sw_integrator_all() */
   double frame;     /* time between stored frames; NAN = none [s] */
+  int quasistatic;  /* 1: equilibrium at every step's end instead of motion */
   long max_steps;   /* stop after this many [-] */
 } sw_run_args;
 extern const sw_params sw_run_params;
@@ -153,6 +154,8 @@ typedef struct sw_run_report {
   double time;       /* reached [s] */
   size_t steps, rejected, iterations, evaluations; /* [-] */
   double smallest_dt; /* [s] */
+  size_t jumps;       /* quasi-static steps in which wires jumped [-] */
+  double last_jump;   /* time of the last one [s] */
   sw_error reason;   /* why it stopped, when not SW_OK */
 } sw_run_report;
 
@@ -174,6 +177,7 @@ typedef struct sw_settle_report {
   size_t negative;     /* unstable directions of the equilibrium found [-] */
   int transient;       /* 1: pseudo-transient continuation was needed */
   double residual;     /* largest node shift of the last iteration [m] */
+  int jumped;          /* 1: the wires moved much further than what drives them */
   sw_error reason;
 } sw_settle_report;
 

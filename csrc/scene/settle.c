@@ -244,6 +244,64 @@ static void conclude(sw_scene *s, sw_status status, sw_settle_report *report,
   s->discontinuous = 1;
 }
 
+/* Did the wires move much further than what drives them? Then they have left one
+ * equilibrium for another. */
+static const double JUMP = 4.0;           /* largest shift over the drives' own [-] */
+static const double SMALLEST_JUMP = 0.01; /* of the longest wire [-] */
+
+static double largest_shift_since(const statics *p) {
+  const sw_system *s = &p->s->system;
+  double largest = 0;
+  for (size_t i = 0; i < s->nodes; i++)
+    largest = fmax(largest, sw_dist(sw_vec_at(s->x, i), sw_vec_at(p->begun, i)));
+  return largest;
+}
+
+/* How far the holds went, a turn counting as what it does to half a wire. */
+static double drive_shift(const statics *p) {
+  const sw_system *s = &p->s->system;
+  double largest = 0;
+  for (size_t k = 0; k < s->hold_count; k++) {
+    const sw_pose *from = &p->from_poses[k], *to = &s->hold_states[k].pose;
+    const double turn = sw_norm(sw_quat_log(sw_quat_mul(to->q, sw_quat_conj(from->q))));
+    largest = fmax(largest, sw_dist(from->p, to->p) + 0.5 * longest(p->s) * turn);
+  }
+  return largest;
+}
+
+sw_status sw_scene_rest(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
+                        sw_settle_report *report, sw_error *why) {
+  const size_t n = 3 * s->system.nodes, size = s->system.state_size;
+  double *block = sw_alloc(4 * n + s->system.edges + 2 * size, sizeof *block);
+  sw_pose *poses = sw_alloc(s->system.hold_count, sizeof *poses);
+  if (!block || !poses) {
+    sw_free(block);
+    sw_free(poses);
+    return sw_fail(why, SW_ENOMEM, "scene '%s': out of memory", s->name);
+  }
+  statics p = {.s = s, .args = args, .report = report, .interrupted = interrupted};
+  p.zero = block, p.from = block + n, p.y = block + 2 * n, p.v = block + 3 * n;
+  p.tension = block + 4 * n;
+  p.kept = p.tension + s->system.edges, p.begun = p.kept + size;
+  p.from_poses = poses;
+  find_from_poses(&p);
+  put_aside(s, p.begun);
+  s->system.still = 1;
+  const sw_status status = follow_holds(&p, why);
+  s->system.still = 0;
+  if (status == SW_OK) {
+    const double shift = largest_shift_since(&p);
+    report->jumped = report->transient && shift > SMALLEST_JUMP * longest(s) &&
+                     shift > JUMP * drive_shift(&p);
+  } else if (status != SW_EINTR) {
+    take_back(s, p.begun);
+  }
+  s->discontinuous = 1;
+  sw_free(block);
+  sw_free(poses);
+  return status;
+}
+
 sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
                           sw_settle_report *report, sw_error *err) {
   sw_error why = {""};
@@ -252,31 +310,11 @@ sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interru
   SW_TRY(sw_scene_readable(s, err));
   if (!s->wire_count) return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", s->name);
   SW_TRY(sw_scene_build(s, err));
-  const size_t n = 3 * s->system.nodes, size = s->system.state_size;
-  double *block = sw_alloc(4 * n + s->system.edges + 2 * size, sizeof *block);
-  sw_pose *poses = sw_alloc(s->system.hold_count, sizeof *poses);
-  if (!block || !poses) {
-    sw_free(block);
-    sw_free(poses);
-    return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
-  }
-  statics p = {.s = s, .args = args, .report = report, .interrupted = interrupted};
-  p.zero = block, p.from = block + n, p.y = block + 2 * n, p.v = block + 3 * n;
-  p.tension = block + 4 * n;
-  p.kept = p.tension + s->system.edges, p.begun = p.kept + size;
-  p.from_poses = poses;
   s->running++;
-  find_from_poses(&p);
-  put_aside(s, p.begun);
-  s->system.still = 1;
-  sw_status status = follow_holds(&p, &why);
-  s->system.still = 0;
-  if (status != SW_OK && status != SW_EINTR) take_back(s, p.begun);
+  sw_status status = sw_scene_rest(s, args, interrupted, report, &why);
   s->running--;
   sw_scene_reset_extremes(s);
   if (status == SW_OK) status = sw_scene_observe(s, &why);
-  sw_free(block);
-  sw_free(poses);
   conclude(s, status, report, &why);
   return status == SW_ECALLBACK || status == SW_ENOMEM ? sw_fail(err, status, "%s", why.text)
                                                        : SW_OK;

@@ -23,7 +23,7 @@ static void set_rest(sw_plan *p, size_t number, const sw_edge_frame *a, const sw
   sw_hinge_bend(a, b, p->rest_twist[number], p->rest_bend + 2 * number);
 }
 
-sw_status sw_scene_rest(const sw_scene *s, size_t wire, sw_plan *p) {
+sw_status sw_scene_unloaded(const sw_scene *s, size_t wire, sw_plan *p) {
   const sw_mesh *m = &s->wires[wire].mesh;
   SW_TRY(sw_plan_add_rest(p));
   for (size_t i = 1; i + 1 < p->nodes; i++) {

@@ -147,7 +147,7 @@ void sw_scene_inherit_histories(sw_scene *scene);
 void sw_scene_forget_histories(sw_scene *scene);
 /* What the frames of wires are when unloaded, into the plan; their present ones into
  * the system's state and back into the meshes. */
-sw_status sw_scene_rest(const sw_scene *scene, size_t wire, sw_plan *plan);
+sw_status sw_scene_unloaded(const sw_scene *scene, size_t wire, sw_plan *plan);
 void sw_scene_frame_in(sw_scene *scene);
 void sw_scene_frame_out(sw_scene *scene, size_t wire);
 /* Make the system from the meshes and holds, if it is not. */
@@ -176,6 +176,11 @@ void sw_scene_clear_hold(sw_scene_hold *hold);
 void sw_scene_clear_obstacle(sw_scene_obstacle *obstacle);
 /* The scene goes away: its snapshots live on, good for nothing. */
 void sw_scene_orphan_snapshots(sw_scene *scene);
+
+/* Equilibrium of the built scene at its time; nothing is observed. On failure the
+ * state is as before. */
+sw_status sw_scene_rest(sw_scene *scene, const sw_settle_args *args, int (*interrupted)(void),
+                        sw_settle_report *report, sw_error *why);
 
 /* After an accepted state: histories, extremes, logs. */
 sw_status sw_scene_observe(sw_scene *scene, sw_error *err);

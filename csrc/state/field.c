@@ -65,6 +65,6 @@ void sw_field_clear(sw_field *field) {
     memset(field->rows, 0, n * ROW * sizeof(double));
   }
   if (field->normals) { /* one block, see sw_spin_new */
-    memset(field->spin, 0, (12 * n) * sizeof(double));
+    memset(field->spin, 0, 12 * (n + SW_LANES) * sizeof(double));
   }
 }

@@ -52,8 +52,8 @@ typedef struct sw_field {
   double *spin;         /* (m) d energy / d turn of an edge about itself, to be added to [N m] */
   double *spin_own;     /* (m) second derivative [N m] */
   double *spin_next;    /* (n) at node i: spins of edges i-1 and i [N m] */
-  double *spin_edge[3]; /* (m x 3) edge e with its own spin, (n x 3) at node i: edge i with
-                           spin i-1, edge i-1 with spin i [N] */
+  double *spin_edge[9]; /* three times 3 components: (m) edge e with its own spin, (n) at node
+                           i: edge i with spin i-1, edge i-1 with spin i [N] */
 
   /* geometry of the edges, filled by sw_field_geometry */
   double *length;     /* (m) [m] */

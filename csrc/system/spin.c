@@ -26,9 +26,9 @@ size_t sw_spin_state_size(const sw_plan *p) {
 
 sw_status sw_spin_new(sw_body *b) {
   const sw_plan *p = b->plan;
-  const size_t n = p->nodes;
+  const size_t n = p->nodes, stride = n + SW_LANES;
   if (!p->rest_bend) return SW_OK;
-  double *w = sw_alloc(6 * n + n + p->clamp_count + 12 * n + (4 + SW_ROW4_SIZE) * n, sizeof *w);
+  double *w = sw_alloc(7 * n + p->clamp_count + 12 * stride + (4 + SW_ROW4_SIZE) * n, sizeof *w);
   if (!w) return SW_ENOMEM;
   b->spin_block = w;
   b->spin_normal = w;
@@ -36,11 +36,11 @@ sw_status sw_spin_new(sw_body *b) {
   b->spin_twist = w + 6 * n;
   w += 7 * n + p->clamp_count;
   b->field.spin = w;
-  b->field.spin_own = w + n;
-  b->field.spin_next = w + 2 * n;
-  for (size_t k = 0; k < 3; k++) b->field.spin_edge[k] = w + (3 + 3 * k) * n;
-  b->spin_delta = w + 12 * n;
-  b->spin_rows = w + 16 * n;
+  b->field.spin_own = w + stride;
+  b->field.spin_next = w + 2 * stride;
+  for (size_t k = 0; k < 9; k++) b->field.spin_edge[k] = w + (3 + k) * stride;
+  b->spin_delta = w + 12 * stride;
+  b->spin_rows = b->spin_delta + 4 * n;
   b->field.normals = b->spin_normal;
   return SW_OK;
 }
@@ -156,8 +156,9 @@ static void widen(const double *restrict row, double *restrict out) {
 static void add_couplings(const sw_body *b, size_t e) {
   const sw_field *f = &b->field;
   double *row = b->spin_rows + SW_ROW4_SIZE * e, *after = row + SW_ROW4_SIZE;
-  const double *own = f->spin_edge[0] + 3 * e, *back = f->spin_edge[1] + 3 * e;
-  const double *ahead = f->spin_edge[2] + 3 * e + 3;
+  double *const *c = f->spin_edge;
+  const double own[3] = {c[0][e], c[1][e], c[2][e]}, back[3] = {c[3][e], c[4][e], c[5][e]};
+  const double ahead[3] = {c[6][e + 1], c[7][e + 1], c[8][e + 1]};
   const int first = b->plan->held[e] == SW_FREE, last = b->plan->held[e + 1] == SW_FREE;
   for (int k = 0; k < 3; k++) {
     if (first) {
@@ -221,13 +222,18 @@ void sw_spin_turn(sw_body *b, double share) {
   }
 }
 
+static sw_vec coupling(const sw_field *f, int kind, size_t at) {
+  double *const *c = f->spin_edge + 3 * kind;
+  return sw_v(c[0][at], c[1][at], c[2][at]);
+}
+
 /* Change of the gradient of edge e by the spins of the last solve. */
 static sw_vec spin_push(const sw_body *b, size_t e) {
   const sw_field *f = &b->field;
   const double *d = b->spin_delta + 4 * e;
-  sw_vec sum = sw_scale(sw_vec_at(f->spin_edge[0], e), d[3]);
-  if (e > 0) sum = sw_madd(sum, sw_vec_at(f->spin_edge[1], e), *(d - 1));
-  if (e + 1 < b->plan->edges) sum = sw_madd(sum, sw_vec_at(f->spin_edge[2], e + 1), d[7]);
+  sw_vec sum = sw_scale(coupling(f, 0, e), d[3]);
+  if (e > 0) sum = sw_madd(sum, coupling(f, 1, e), *(d - 1));
+  if (e + 1 < b->plan->edges) sum = sw_madd(sum, coupling(f, 2, e + 1), d[7]);
   return sum;
 }
 

@@ -118,11 +118,34 @@ function core.class.scene.process(scene, body)
   return self
 end
 
+local library = debug.getinfo(1, "S").short_src:match "^(.*)process%.lua$" or "softworld/"
+
+-- Where in the user's script the library was called that failed a process:
+-- "file:line: "; "" when the script's own code failed, whose errors stay as they are.
+local function place_in(thread)
+  local inside = false
+  for level = 0, 50 do
+    local info = debug.getinfo(thread, level, "Sl")
+    if not info then break end
+    if info.currentline > 0 then
+      local ours = info.short_src:sub(1, #library) == library
+      if not ours then
+        return inside and ("%s:%d: "):format(info.short_src, info.currentline) or ""
+      end
+      inside = true
+    end
+  end
+  return ""
+end
+
 local function resume(self)
   self.wake, self.watching = nil, nil
   local ok, message = coroutine.resume(self.thread, self)
   if not ok then
     self.failed, self.traceback = true, debug.traceback(self.thread)
+    if type(message) == "string" and not message:find "^[^\n:]+:%d+: " then
+      message = place_in(self.thread) .. message
+    end
     error(message, 0)
   end
   if not self.wake then self.watching, self.wake = true, math.huge end -- a plain yield

@@ -12,11 +12,12 @@ local chunk = 64 -- steps between two looks at progress; fixed, so that results 
 local default_frame = 1 / 30 -- [s]
 
 local function merge(total, part)
-  for _, key in ipairs{ "steps", "rejected", "iterations", "evaluations" } do
+  for _, key in ipairs{ "steps", "rejected", "iterations", "evaluations", "jumps" } do
     total[key] = total[key] + part[key]
   end
   total.smallest_dt = math.min(total.smallest_dt, part.smallest_dt)
   total.ok, total.reason, total.time = part.ok, part.reason, part.time
+  total.last_jump = part.last_jump or total.last_jump
 end
 
 local function new_bar(args, scene)
@@ -74,7 +75,7 @@ function core.class.scene.run(scene, args)
   if not args.duration and #data.processes == 0 then
     error("scene:run: there is no process that could end; give duration [s]", 2)
   end
-  local total = { steps = 0, rejected = 0, iterations = 0, evaluations = 0,
+  local total = { steps = 0, rejected = 0, iterations = 0, evaluations = 0, jumps = 0,
     smallest_dt = math.huge, ok = true, reason = "", time = scene.time, start = scene.time }
   build.call(3, core.begin_run, scene)
   local wall, cpu = core.clock(), os.clock()

@@ -461,4 +461,21 @@ describe("runs, processes and coroutines", function()
     assert.are.same({ true, false, true }, answers)
     assert.is_true(math.abs(scene.time - 0.09) < 1e-9)
   end)
+
+  it("tells the line of a process that called the library wrongly", function()
+    local sw = require "softworld"
+    local scene = sw.scene{}
+    local wire = scene:wire{ E = 1e8, density = 1400, radius = 0.002, from = { 0, 0, 0 },
+      to = { 1, 0, 0 } }
+    local gripper = scene:gripper{ name = "g" }
+    local line
+    scene:process(function()
+      gripper:grasp(wire, { s = 0.1 })
+      line = debug.getinfo(1, "l").currentline + 1
+      gripper:move{ path = "there is no such file.csv", speed = 0.1 }
+    end)
+    local _, message = pcall(scene.run, scene)
+    assert.matches("callbacks_spec%.lua:" .. line .. ": ", message)
+    assert.matches("there is no such file%.csv", message)
+  end)
 end)

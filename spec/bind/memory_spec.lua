@@ -57,6 +57,9 @@ local acts = {
   { "reading a wire", function(_, wire) return wire:positions() end },
   { "reading energies", function(scene) return scene:energy() end },
   { "evaluating forces", function(scene, wire) return scene:evaluate(wire) end },
+  { "finding frequencies", function(_, wire)
+    return wire:frequencies{ modes = 3, shapes = true, tolerance = 1e9 }
+  end },
   { "taking a snapshot", function(scene) return scene:snapshot() end },
   { "restoring after a change", function(scene, wire)
     local snapshot = scene:snapshot()

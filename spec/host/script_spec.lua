@@ -109,7 +109,8 @@ describe("softworld options", function()
     local folder = program.folder()
     program.write(folder .. "/-e", "print 'a file called -e'")
     local out = program.shell(("cd %s && %s -- -e"):format(folder,
-      program.path:find "^/" and program.path or '"$OLDPWD"/' .. program.path))
+      program.path:find "^/" and program.quote(program.path)
+        or '"$OLDPWD"/' .. program.quote(program.path)))
     assert.equal("a file called -e\n", out)
   end)
 

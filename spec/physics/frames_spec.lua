@@ -209,8 +209,8 @@ describe("a wire that is curved at rest", function()
   it("does not care which way the world lies", function()
     local q = { 0.5, -0.5, 0.1, (1 - 0.51) ^ 0.5 }
     local function turned(a)
-      local u, t = { q[2], q[3], q[4] }, nil
-      t = tools.cross(u, a)
+      local u = { q[2], q[3], q[4] }
+      local t = tools.cross(u, a)
       local v = tools.cross(u, t)
       return { a[1] + 2 * (q[1] * t[1] + v[1]), a[2] + 2 * (q[1] * t[2] + v[2]),
         a[3] + 2 * (q[1] * t[3] + v[3]) }

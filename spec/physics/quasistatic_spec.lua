@@ -1,0 +1,90 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Quasi-static runs: equilibrium at every pose of what drives the wires.
+local sw = require "softworld"
+
+local function lift(options)
+  local s = sw.scene{}
+  s:obstacle{ shape = "plane", friction = options.friction }
+  local w = s:wire{ E = 1e8, density = 1400, radius = 0.0025, from = { 0, 0, 0.0025 },
+    to = { 2, 0, 0.0025 }, segments = 100 }
+  local c = s:clamp(w, { s = 2 })
+  s:settle()
+  c:follow{ points = { { 0, 0, 0 }, { -0.1, 0, 0.1 } }, relative = true, duration = 1,
+    law = "linear" }
+  local run = s:run{ duration = 1, dt = options.dt, quasistatic = true }
+  assert.is_true(run.ok, run.reason)
+  return { moment = c:moment()[2], force = c:force(), middle = w:position(1), scene = s, run = run,
+    beam = w.beam }
+end
+
+describe("a quasi-static run", function()
+  it("does not depend on the pose step without friction", function()
+    local coarse = lift{ dt = 0.25, friction = 0 }
+    for _, dt in ipairs{ 0.1, 0.02 } do
+      local fine = lift{ dt = dt, friction = 0 }
+      -- both are equilibria to 1e-9 m
+      for k = 1, 3 do
+        assert.is_true(math.abs(fine.middle[k] - coarse.middle[k]) < 1e-7)
+        assert.is_true(math.abs(fine.force[k] - coarse.force[k]) < 1e-6)
+      end
+    end
+  end)
+
+  it("lifts with the moment sqrt(2 w h EI), with and without friction", function()
+    for _, mu in ipairs{ 0, 0.3 } do
+      local r = lift{ dt = 0.1, friction = mu }
+      local w = r.beam.mass_per_length * 9.81
+      local expected = math.sqrt(2 * w * 0.1 * r.beam.EI)
+      assert.is_true(math.abs(r.moment - expected) < 0.005 * expected) -- 100 segments
+      assert.is_true(mu == 0 or r.force[1] < -0.05) -- friction holds the wire back
+    end
+  end)
+
+  it("keeps time, frames and series as a run in motion does, and nothing moves", function()
+    local r = lift{ dt = 0.05, friction = 0.3 }
+    assert.are.equal(20, r.run.steps)
+    assert.is_true(math.abs(r.scene.time - 1) < 1e-12)
+    assert.are.equal(0, r.scene:energy().kinetic)
+    assert.are.equal(21, #r.run:series().time) -- and the settled start
+  end)
+
+  -- Its weight holds the strip on a smooth floor; else it would swing round.
+  local function snap(dt)
+    local s = sw.scene{ gravity = { 0, 0, -200 } }
+    s:obstacle{ shape = "plane", at = { 0, 0, -0.001 }, friction = 0 }
+    local w = s:wire{ EA = 1e6, EI = 1, mass_per_length = 1, radius = 0.001, from = { 0, 0, 0 },
+      to = { 1, 0, 0 }, segments = 40 }
+    local a, b = s:clamp(w, { s = 0 }), s:clamp(w, { s = 1 })
+    local side = s:force{ kind = "line", on = w, force = { 0, 1, 0 } }
+    b:pose{ 0.95, 0, 0 }
+    assert.is_true(s:settle().ok)
+    side:release()
+    s:settle()
+    local before = w:position(0.5)[2]
+    assert.is_true(math.abs(before) > 0.1)
+    local way = { duration = 1, law = "linear", relative = true, points = { { 0, 0, 0 }, { 0, 0, 0 } } }
+    local angle = before < 0 and 1.4 or -1.4
+    way.turn = { axis = { 0, 0, 1 }, angle = angle }
+    a:follow(way)
+    way.turn = { axis = { 0, 0, 1 }, angle = -angle }
+    b:follow(way)
+    local run = s:run{ duration = 1, dt = dt, quasistatic = true }
+    assert.is_true(run.ok, run.reason)
+    assert.is_true(w:position(0.5)[2] * before < 0, "still on its side")
+    assert.are.equal(1, run.jumps)
+    return run.last_jump
+  end
+
+  it("tells when a wire jumps: a buckled strip whose ends are turned", function()
+    local coarse, fine = snap(0.05), snap(0.01)
+    assert.is_true(math.abs(coarse - fine) <= 0.05, coarse .. " and " .. fine)
+  end)
+
+  it("refuses a tolerance, which is about motion", function()
+    local s = sw.scene{}
+    s:wire{ E = 1e8, density = 1400, radius = 0.0025, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+    local ok, message = pcall(function() s:run{ duration = 1, tolerance = 1e-4, quasistatic = true } end)
+    assert.is_false(ok)
+    assert.matches("quasi%-static run takes dt", message)
+  end)
+end)
