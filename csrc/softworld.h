@@ -15,5 +15,6 @@
 #include "scene/scene.h"
 #include "shape/shape.h"
 #include "solve/band3.h"
+#include "solve/band4.h"
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The band solver for specs: core.band3(rows, right) -> x, negative pivots,
+/* The band solvers for specs: core.band3(rows, right) -> x, negative pivots,
  * product. rows: flat, 24 numbers a node as in solve/band3.h; right: flat, 3 a
  * node. product is rows times right. */
 #include "bind/class.h"
@@ -43,6 +43,24 @@ static int mod_band3(lua_State *L) {
   return 3;
 }
 
-static const luaL_Reg functions[] = {{"band3", mod_band3}, {NULL, NULL}};
+/* core.band4(rows, right) -> x, negative pivots. rows: flat, 48 numbers a node. */
+static int mod_band4(lua_State *L) {
+  sw_error err = {""};
+  size_t negative = 0;
+  luaL_checktype(L, 1, LUA_TTABLE);
+  luaL_checktype(L, 2, LUA_TTABLE);
+  const size_t n = lua_rawlen(L, 2) / 4;
+  luaL_argcheck(L, n >= 2 && lua_rawlen(L, 2) == 4 * n, 2, "4 numbers a node, at least 2 nodes");
+  luaL_argcheck(L, lua_rawlen(L, 1) == SW_ROW4_SIZE * n, 1, "48 numbers a node");
+  double *rows = read_flat(L, 1, SW_ROW4_SIZE * n), *x = read_flat(L, 2, 4 * n);
+  const sw_status status = sw_band4_factor(rows, n, &negative);
+  if (status != SW_OK) return lsw_raise(L, status, &err);
+  sw_band4_solve(rows, n, x);
+  push_flat(L, x, 4 * n);
+  lua_pushinteger(L, (lua_Integer)negative);
+  return 2;
+}
+
+static const luaL_Reg functions[] = {{"band3", mod_band3}, {"band4", mod_band4}, {NULL, NULL}};
 
 void lsw_open_solve(lua_State *L) { luaL_setfuncs(L, functions, 0); }

@@ -45,8 +45,10 @@ static inline sw_vec sw_carry(sw_vec v, sw_vec from, sw_vec to) {
 
 /* The same, kept exactly across `to` and of unit length. */
 static inline sw_vec sw_carry_unit(sw_vec v, sw_vec from, sw_vec to) {
-  const sw_vec u = sw_carry(v, from, to);
-  return sw_unit_or(sw_madd(u, to, -sw_dot(u, to)), sw_perpendicular(to));
+  const sw_vec u = sw_carry(v, from, to), w = sw_madd(u, to, -sw_dot(u, to));
+  const double off = sw_norm2(w) - 1.0;
+  if (fabs(off) < 1e-8) return sw_scale(w, 1.0 - 0.5 * off); /* the usual case, no root */
+  return sw_unit_or(w, sw_perpendicular(to));
 }
 
 /* Turn of the second frame against the first one carried to it, the value nearest
@@ -54,7 +56,13 @@ static inline sw_vec sw_carry_unit(sw_vec v, sw_vec from, sw_vec to) {
 static inline double sw_hinge_twist(const sw_edge_frame *a, const sw_edge_frame *b,
                                     double before) {
   const sw_vec u = sw_carry(a->m1, a->t, b->t);
-  const double turn = atan2(sw_dot(sw_cross(u, b->m1), b->t), sw_dot(u, b->m1));
+  const double sine = sw_dot(sw_cross(u, b->m1), b->t), cosine = sw_dot(u, b->m1);
+  const double half = sine / (1.0 + cosine), y = half * half; /* tan of half the turn */
+  if (y < 0.01 && fabs(before) < 1.0)                         /* the usual case, by series */
+    return 2.0 * half *
+           (1.0 - y * (1.0 / 3 - y * (1.0 / 5 - y * (1.0 / 7 - y * (1.0 / 9 - y * (1.0 / 11 -
+            y * (1.0 / 13 - y / 15)))))));
+  const double turn = atan2(sine, cosine);
   return before + remainder(turn - before, 6.283185307179586477);
 }
 

@@ -140,20 +140,23 @@ void sw_spin_show(sw_system *s, sw_body *b) {
 
 /* --- the matrix ----------------------------------------------------------------- */
 
-/* Rows of three become rows of four. */
-static void widen(const double *restrict row, double *restrict out) {
-  static const int whole[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
-  memset(out, 0, SW_ROW4_SIZE * sizeof *out);
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) {
-      out[4 * i + j] = row[whole[3 * i + j]];
-      out[SW_ROW4_NEXT + 4 * i + j] = row[SW_ROW_NEXT + 3 * i + j];
-      out[SW_ROW4_SECOND + 4 * i + j] = row[SW_ROW_SECOND + 3 * i + j];
-    }
+/* A block of three by three becomes one of four by four. */
+static inline void widen_block(const double *restrict u, double *restrict out) {
+  out[0] = u[0], out[1] = u[1], out[2] = u[2], out[3] = 0;
+  out[4] = u[3], out[5] = u[4], out[6] = u[5], out[7] = 0;
+  out[8] = u[6], out[9] = u[7], out[10] = u[8], out[11] = 0;
+  out[12] = out[13] = out[14] = out[15] = 0;
+}
+
+static inline void widen(const double *restrict row, double *restrict out) {
+  const double own[9] = {row[0], row[1], row[2], row[1], row[3], row[4], row[2], row[4], row[5]};
+  widen_block(own, out);
+  widen_block(row + SW_ROW_NEXT, out + SW_ROW4_NEXT);
+  widen_block(row + SW_ROW_SECOND, out + SW_ROW4_SECOND);
 }
 
 /* The couplings of edge e to the spins of edges e, e - 1, e + 1, at both its nodes. */
-static void add_couplings(const sw_body *b, size_t e) {
+static inline void add_couplings(const sw_body *b, size_t e) {
   const sw_field *f = &b->field;
   double *row = b->spin_rows + SW_ROW4_SIZE * e, *after = row + SW_ROW4_SIZE;
   double *const *c = f->spin_edge;
@@ -216,9 +219,13 @@ double sw_spin_largest(const sw_body *b) {
 void sw_spin_turn(sw_body *b, double share) {
   for (size_t e = 0; e < b->plan->edges; e++) {
     const double angle = share * b->spin_delta[4 * e + 3];
+    if (angle == 0) continue;
     const sw_vec n = sw_vec_at(b->spin_normal, e), t = sw_vec_at(b->spin_tangent, e);
-    sw_store(b->spin_normal + 3 * e,
-             sw_add(sw_scale(n, cos(angle)), sw_scale(sw_cross(t, n), sin(angle))));
+    const double a2 = angle * angle;
+    const int small = a2 < 1e-4; /* series to rounding */
+    const double c = small ? 1.0 - a2 * (0.5 - a2 * (1.0 / 24 - a2 / 720)) : cos(angle);
+    const double sine = small ? angle * (1.0 - a2 * (1.0 / 6 - a2 * (1.0 / 120 - a2 / 5040))) : sin(angle);
+    sw_store(b->spin_normal + 3 * e, sw_madd(sw_scale(n, c), sw_cross(t, n), sine));
   }
 }
 

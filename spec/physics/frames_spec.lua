@@ -125,6 +125,30 @@ describe("a strip on edge", function()
   end)
 end)
 
+-- Wire from a spool, of natural angle phi, hung from a clamp that points down: does it
+-- stay in its plane? Lambda = (weight/(EI curvature^3))^(1/3) at which it does.
+describe("a curl that hangs down", function()
+  local function out_of_plane(nu, phi, lambda)
+    local s, path = core.scene{ gravity = { 0, 0, -1 } }, {}
+    for i, p in ipairs(arc(1, phi)) do path[i] = { p[2], 0, -p[1] } end
+    local w = s:wire{ EA = 1e7, EI = 1, GJ = 1 / (1 + nu), mass_per_length = (lambda * phi) ^ 3,
+      radius = 0.001, path = path, segments = 50, rest = "path" }
+    s:clamp(w, { s = 0, direction = { 0, 0, -1 } })
+    assert.are.equal(0, fine(s:settle()).unstable)
+    local x, most = w:positions(), 0
+    for i = 2, #x, 3 do most = math.max(most, math.abs(x[i])) end
+    return most
+  end
+
+  for _, case in ipairs{ { 0.5, 2, 0.5789202249 }, { 0.5, 4, 0.6206878392 }, { 0, 4, 0.5165085683 } } do
+    it(("leaves its plane at the weight it should, +-3 %%: nu %g, %g pi"):format(case[1], case[2]),
+      function()
+        below(1e-6, out_of_plane(case[1], case[2] * PI, 1.03 * case[3]), "heavier")
+        tools.above(0.02, out_of_plane(case[1], case[2] * PI, 0.97 * case[3]), "lighter")
+      end)
+  end
+end)
+
 -- Tip of a quarter circle of 1 m that is let go: radius 2.5 mm, nu = 0.3, weight 10.
 describe("a quarter circle that is let go", function()
   local tip = { { 0.25, 0.6039620852, 0.5746864788, -0.3925761022 },

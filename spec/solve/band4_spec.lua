@@ -1,0 +1,66 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- The band solver with four unknowns a node: solutions against the product, pivot
+-- signs against those of dominant diagonals.
+local core = require "softworld.core"
+
+-- A random symmetric matrix as dense rows, and as the solver wants it.
+local function random_matrix(n, sign)
+  local size, dense, rows = 4 * n, {}, {}
+  for i = 1, size do dense[i] = {} end
+  for i = 1, size do
+    for j = i, size do
+      local apart = (j - 1) // 4 - (i - 1) // 4
+      local value = apart > 2 and 0 or 0.4 * (math.random() - 0.5)
+      if i == j then value = sign((i - 1) // 4) * (4 + math.random()) end
+      dense[i][j], dense[j][i] = value, value
+    end
+  end
+  for node = 0, n - 1 do
+    for block = 0, 2 do
+      for i = 1, 4 do
+        for j = 1, 4 do
+          local row = dense[4 * node + i]
+          rows[48 * node + 16 * block + 4 * (i - 1) + j] = row[4 * (node + block) + j] or 0
+        end
+      end
+    end
+  end
+  return dense, rows
+end
+
+local function check(n, sign, wanted)
+  local dense, rows = random_matrix(n, sign)
+  local x, right = {}, {}
+  for i = 1, 4 * n do x[i] = math.random() - 0.5 end
+  for i = 1, 4 * n do
+    right[i] = 0
+    for j = 1, 4 * n do right[i] = right[i] + dense[i][j] * x[j] end
+  end
+  local solved, negative = core.band4(rows, right)
+  for i = 1, 4 * n do assert.is_true(math.abs(solved[i] - x[i]) < 1e-11, "n = " .. n) end
+  assert.are.equal(wanted, negative)
+end
+
+describe("band4", function()
+  it("solves", function()
+    math.randomseed(7)
+    for _, n in ipairs{ 2, 3, 4, 5, 10, 33 } do check(n, function() return 1 end, 0) end
+  end)
+
+  it("counts negative directions", function()
+    math.randomseed(11)
+    for _, n in ipairs{ 2, 3, 7, 10 } do
+      check(n, function(node) return node % 2 == 0 and -1 or 1 end, 4 * ((n + 1) // 2))
+    end
+  end)
+
+  it("refuses a singular matrix and one that is not finite", function()
+    local rows, right = {}, { 1, 1, 1, 1, 1, 1, 1, 1 }
+    for i = 1, 96 do rows[i] = 0 end
+    assert.has_error(function() core.band4(rows, right) end)
+    for i = 0, 1 do for k = 0, 3 do rows[48 * i + 5 * k + 1] = 1 end end
+    core.band4(rows, right)
+    rows[1] = 0 / 0
+    assert.has_error(function() core.band4(rows, right) end)
+  end)
+end)
