@@ -54,9 +54,28 @@ static double *state_of(const sw_system *s, const sw_body *b) { return s->frames
 void sw_spin_begin(sw_system *s, sw_body *b) {
   const sw_plan *p = b->plan;
   const double *state = state_of(s, b), *x = s->x + 3 * b->first_node;
+  b->spin_inertia = 0;
   memcpy(b->spin_normal, state, 3 * p->edges * sizeof *state);
   memcpy(b->spin_twist, state + 3 * p->edges, (p->nodes + p->clamp_count) * sizeof *state);
   for (size_t e = 0; e < p->edges; e++) sw_store(b->spin_tangent + 3 * e, direction(x, e));
+}
+
+void sw_spin_slow_down(sw_system *s, double rate2) {
+  for (size_t k = 0; k < s->body_count; k++) {
+    sw_body *b = &s->bodies[k];
+    const sw_beam *beam = &b->plan->beam;
+    if (!b->spin_block) continue;
+    sw_spin_begin(s, b);
+    b->spin_inertia = 0.5 * beam->mass * beam->radius * beam->radius * rate2;
+  }
+}
+
+/* How far edge e has turned about itself since the state. */
+static double turned(const sw_system *s, const sw_body *b, size_t e) {
+  const sw_vec before = direction(s->x + 3 * b->first_node, e), t = sw_vec_at(b->spin_tangent, e);
+  const sw_vec n = sw_carry_unit(sw_vec_at(state_of(s, b), e), before, t);
+  const sw_vec now = sw_vec_at(b->spin_normal, e);
+  return atan2(sw_dot(sw_cross(n, now), t), sw_dot(n, now));
 }
 
 static sw_edge_frame edge_frame(const sw_body *b, size_t e) {
@@ -192,13 +211,18 @@ static void assemble(const sw_body *b) {
   b->spin_rows[SW_ROW4_SIZE * p->edges + 15] = 1.0; /* no edge starts at the last node */
 }
 
-sw_status sw_spin_solve(sw_body *b, double *delta, size_t *negative) {
+sw_status sw_spin_solve(const sw_system *s, sw_body *b, double *delta, size_t *negative) {
   const size_t n = b->plan->nodes;
   double *d = b->spin_delta;
   assemble(b);
   for (size_t i = 0; i < n; i++) {
     for (size_t k = 0; k < 3; k++) d[4 * i + k] = delta[3 * i + k];
     d[4 * i + 3] = i + 1 < n ? -b->field.spin[i] : 0.0;
+  }
+  for (size_t e = 0; b->spin_inertia > 0 && e + 1 < n; e++) {
+    const double inertia = b->spin_inertia * b->plan->rest[e];
+    b->spin_rows[SW_ROW4_SIZE * e + 15] += inertia;
+    d[4 * e + 3] -= inertia * turned(s, b, e);
   }
   SW_TRY(sw_band4_factor(b->spin_rows, n, negative));
   sw_band4_solve(b->spin_rows, n, d);

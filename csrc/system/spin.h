@@ -16,12 +16,17 @@ sw_status sw_spin_new(sw_body *body);
 /* Frames and twist of the iterate start from those of the state. */
 void sw_spin_begin(sw_system *system, sw_body *body);
 
+/* Spins do not come to rest: start again, with the section's inertia over hbar^2 against
+ * turning away from the state's frames; rate2 = 1/hbar^2. */
+void sw_spin_slow_down(sw_system *system, double rate2);
+
 /* Carry the iterate's frames on to the field's present tangents. */
 void sw_spin_carry(sw_system *system, sw_body *body);
 
 /* Solve for the update of nodes (delta, nodes x 3, in place) and spins with the
  * field's rows, whose held nodes are out. Fails as sw_band4_factor. */
-sw_status sw_spin_solve(sw_body *body, double *delta, size_t *negative);
+sw_status sw_spin_solve(const sw_system *system, sw_body *body, double *delta,
+                        size_t *negative);
 
 /* The largest turn of the last solve [rad]; let the frames turn by a share of it. */
 double sw_spin_largest(const sw_body *body);

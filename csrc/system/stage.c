@@ -134,7 +134,7 @@ static sw_status solve_once(sw_system *s, const sw_stage *stage, int statics,
     sw_body *body = &s->bodies[b];
     size_t negative = 0;
     if (body->spin_block) {
-      SW_TRY(sw_spin_solve(body, s->delta + 3 * body->first_node, &negative));
+      SW_TRY(sw_spin_solve(s, body, s->delta + 3 * body->first_node, &negative));
       report->negative += negative;
       continue;
     }
@@ -297,12 +297,17 @@ static void finish(sw_system *s, const sw_stage *stage, int statics) {
   }
 }
 
+/* Spins without inertia may have no equilibrium near by, as when a flat wire on edge is
+ * let go. From this iteration on they have it. */
+enum { STEADY = 7 };
+
 sw_status sw_system_stage(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                           sw_stage_report *report, sw_error *err) {
   *report = (sw_stage_report){0};
   SW_TRY(begin(s, stage, newton->statics, err));
   for (int i = 1; i <= newton->max_iterations; i++) {
     report->iterations = i;
+    if (i == STEADY && !newton->statics) sw_spin_slow_down(s, 1.0 / (stage->hbar * stage->hbar));
     SW_TRY(solve_once(s, stage, newton->statics, report, err));
     const double share = apply(s, stage, newton, report);
     if (share < 0) return sw_fail(err, SW_EDIVERGED, "the positions left the finite numbers");

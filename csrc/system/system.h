@@ -43,6 +43,7 @@ typedef struct sw_body {
   double *spin_delta; /* (nodes x 4) last update: nodes and turns of edges [m], [rad] */
   double *spin_rows;  /* (nodes x SW_ROW4_SIZE) */
   void *spin_block;
+  double spin_inertia; /* of an edge per length over hbar^2, where spins find no rest [N] */
   int needs_velocity; /* some force depends on it */
   int is_explicit;    /* some force has no stiffness */
   int is_kinked;      /* some force has a history: its stiffness jumps */
