@@ -133,7 +133,8 @@ static int meta_index(lua_State *L) {
   const char *near = sw_nearest_name(word, names, sizeof names[0], count);
   if (near)
     return luaL_error(L, "%s has no '%s'; did you mean '%s'?", class_of(L)->name, word, near);
-  return luaL_error(L, "%s has no '%s'", class_of(L)->name, word);
+  return luaL_error(L, "%s has no '%s'; help(it) at the prompt lists what it has",
+                    class_of(L)->name, word);
 }
 
 /* Names of all methods and properties, for completion at the prompt. */

@@ -11,23 +11,24 @@
 #include "force/force.h"
 #include "state/angle.h"
 
-/* scratch: 0 cos phi, 1 k s, 2 k w for hinges 1..n-2 */
+/* scratch: 0 cos phi, 1 k s, 2 k w for hinges 1..n-2. Returns how many hinges are
+ * beyond the fit (a count, because a largest angle would not go into vectors). */
 SW_HOT
-static double hinge_factors(size_t n, double EI, const double *restrict hinge,
+static long hinge_factors(size_t n, double EI, const double *restrict hinge,
                             const double *restrict tx, const double *restrict ty,
                             const double *restrict tz, double *restrict cosine,
                             double *restrict ks, double *restrict kw) {
-  double largest = 0.0;
+  long sharp = 0;
   for (size_t i = 1; i + 1 < n; i++) {
     const double dx = tx[i] - tx[i - 1], dy = ty[i] - ty[i - 1], dz = tz[i] - tz[i - 1];
     const double u = 0.25 * (dx * dx + dy * dy + dz * dz);
     const double k = hinge[i] > 0 ? EI / hinge[i] : 0.0;
-    largest = largest > u ? largest : u;
+    sharp += !(u <= SW_ANGLE_FIT);
     cosine[i] = 1.0 - 2.0 * u;
     ks[i] = k * SW_FIT(u, SW_FIT_S);
     kw[i] = k * SW_FIT(u, SW_FIT_W);
   }
-  return largest;
+  return sharp;
 }
 
 static void sharp_hinges(size_t n, double EI, const double *hinge, const double *cosine,
@@ -156,8 +157,8 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   double *c = f->scratch[0], *ks = f->scratch[1], *kw = f->scratch[2];
   double *const *t = f->tangent;
   (void)err;
-  const double largest = hinge_factors(p->nodes, EI, p->hinge, t[0], t[1], t[2], c, ks, kw);
-  if (!(largest <= SW_ANGLE_FIT)) sharp_hinges(p->nodes, EI, p->hinge, c, ks, kw);
+  if (hinge_factors(p->nodes, EI, p->hinge, t[0], t[1], t[2], c, ks, kw))
+    sharp_hinges(p->nodes, EI, p->hinge, c, ks, kw);
   if (f->want & SW_WANT_FORCE)
     add_gradient(p->nodes, c, ks, f->reciprocal, t[0], t[1], t[2], f->gradient[0],
                  f->gradient[1], f->gradient[2]);

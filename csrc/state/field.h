@@ -42,7 +42,7 @@ typedef struct sw_field {
 
   /* twist of the plan's spans; NULL when there is none */
   const double *twist;     /* (spans) total twist at this evaluation [rad] */
-  double *twist_slope;     /* (edges + 1 x 3) d twist / d edge vector, to be filled [rad/m] */
+  double *twist_slope[3];  /* (edges) d twist / d edge vector, to be filled [rad/m] */
   double *twist_stiffness; /* (spans) second derivative along the slope, added to [N m] */
 
   /* material frames; NULL for a wire without them */

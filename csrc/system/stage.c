@@ -236,31 +236,28 @@ static int converged(sw_system *s, const sw_stage *stage, const sw_newton *newto
 
 /* Newton starts from the free flight yhat. Where that turns an edge over or
  * halves it, the start may lie on the wrong side of the edge's own length, and
- * the solve could end in a wire folded through itself. Returns the
- * smallest share of its length that an edge keeps along itself. */
-SW_HOT
-static double least_alignment(size_t m, const double *restrict x, const double *restrict y) {
-  double least = 1.0;
-  for (size_t e = 0; e < m; e++) {
-    double dot = 0, length2 = 0;
-    for (size_t k = 0; k < 3; k++) {
-      const double edge = x[3 * e + 3 + k] - x[3 * e + k];
-      length2 += edge * edge;
-      dot += edge * (y[3 * e + 3 + k] - y[3 * e + k]);
-    }
-    const double share = dot / length2;
-    least = least < share ? least : share;
-  }
-  return least;
-}
+ * the solve could end in a wire folded through itself. Counts
+ * the edges that keep less than this share of their length along themselves [-]. */
+static const double LEAST_ALIGNMENT = 0.4;
 
-static const double LEAST_ALIGNMENT = 0.4; /* of an edge at the start with itself before [-] */
+SW_HOT
+static long count_turned(size_t m, const double *restrict x, const double *restrict y) {
+  long turned = 0;
+  for (size_t e = 0; e < m; e++) {
+    const double ex = x[3 * e + 3] - x[3 * e], ey = x[3 * e + 4] - x[3 * e + 1];
+    const double ez = x[3 * e + 5] - x[3 * e + 2];
+    const double along = ex * (y[3 * e + 3] - y[3 * e]) + ey * (y[3 * e + 4] - y[3 * e + 1]) +
+                         ez * (y[3 * e + 5] - y[3 * e + 2]);
+    turned += !(along >= LEAST_ALIGNMENT * (ex * ex + ey * ey + ez * ez));
+  }
+  return turned;
+}
 
 static sw_status check_start(const sw_system *s, const double *y, sw_error *err) {
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
     const size_t at = 3 * body->first_node;
-    if (!(least_alignment(body->plan->edges, s->x + at, y + at) >= LEAST_ALIGNMENT))
+    if (count_turned(body->plan->edges, s->x + at, y + at))
       return sw_fail(err, SW_ENOCONV, "an edge would turn over within the step");
   }
   return SW_OK;

@@ -33,7 +33,8 @@ typedef struct sw_body {
   size_t first_span;  /* place of the plan's spans in the system's twist */
   int has_twist;      /* the wire resists twist and is held against it somewhere */
   double *twist_now;  /* (spans) at this evaluation [rad] */
-  double *twist_rank; /* (nodes x 3) slope of the twist, held nodes included [rad/m] */
+  double *twist_rank; /* (nodes x 3) slope of the twist, held nodes included [rad/m]; both
+                       * serve as room while the twist is measured */
   double *twist_solved; /* (nodes x 3) the matrix' inverse times it */
   double *twist_gain; /* (spans) added to the torque by the last update [N m] */
   void *twist_block;

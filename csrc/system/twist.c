@@ -6,10 +6,12 @@
  * formula, so many turns add up without error. */
 #include "system/twist.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/simd.h"
 #include "solve/band3.h"
 #include "system/spin.h"
 
@@ -22,7 +24,7 @@ sw_status sw_system_enable_twist(sw_system *s, size_t body) {
   b->twist_block = p;
   b->twist_rank = p;
   b->twist_solved = p + 3 * n;
-  b->field.twist_slope = p + 6 * n;
+  for (size_t k = 0; k < 3; k++) b->field.twist_slope[k] = p + (6 + k) * n;
   b->twist_now = p + 9 * n;
   b->twist_gain = b->twist_now + spans;
   b->field.twist_stiffness = b->twist_gain + spans;
@@ -47,9 +49,8 @@ static double own_turn(sw_quat before, sw_quat now, sw_vec local) {
   const sw_vec axis = sw_cross(d0, d);
   const double dot = sw_dot(d0, d);
   /* u0 carried from d0 to d along the great circle */
-  const sw_vec carried =
-      sw_add(sw_add(sw_scale(u0, dot), sw_cross(axis, u0)),
-             sw_scale(axis, sw_dot(axis, u0) / fmax(1e-12, 1.0 + dot)));
+  const sw_vec carried = sw_add(sw_add(sw_scale(u0, dot), sw_cross(axis, u0)),
+                                sw_scale(axis, sw_dot(axis, u0) / fmax(1e-12, 1.0 + dot)));
   return atan2(sw_dot(sw_cross(carried, u), d), sw_dot(carried, u));
 }
 
@@ -73,24 +74,73 @@ static clamp_change change_of(const sw_system *s, const sw_clamp_hinge *h) {
   return c;
 }
 
-static sw_vec edge_direction(const double *x, size_t e) {
-  return sw_unit_or(sw_sub(sw_vec_at(x, e + 1), sw_vec_at(x, e)), sw_v(1, 0, 0));
+/* Unit edge vectors of positions x. */
+SW_HOT
+static void directions(size_t first, size_t last, const double *restrict x, double *restrict tx,
+                       double *restrict ty, double *restrict tz) {
+  for (size_t e = first; e <= last; e++) {
+    const double dx = x[3 * e + 3] - x[3 * e], dy = x[3 * e + 4] - x[3 * e + 1];
+    const double dz = x[3 * e + 5] - x[3 * e + 2];
+    const double r = 1.0 / sqrt(dx * dx + dy * dy + dz * dz + DBL_MIN);
+    tx[e] = dx * r, ty[e] = dy * r, tz[e] = dz * r;
+  }
 }
 
-/* Change of a span's twist from the state to positions x (of the body). */
+/* tan of half the areas of (a0, a, b) and (a0, b, b0) at hinges first + 1 .. last,
+ * then 2 atan by its series, whose error is below 1e-16 for |tan| < SMALL. Returns
+ * how many hinges turned too much for that. */
+static const double SMALL = 0.03;
+
+SW_HOT
+static long small_areas(size_t first, size_t last, const double *restrict ox,
+                        const double *restrict oy, const double *restrict oz,
+                        const double *restrict nx, const double *restrict ny,
+                        const double *restrict nz, double *restrict area) {
+  long large = 0;
+  for (size_t i = first + 1; i <= last; i++) {
+    const double ax = nx[i - 1], ay = ny[i - 1], az = nz[i - 1], bx = nx[i], by = ny[i], bz = nz[i];
+    const double px = ox[i - 1], py = oy[i - 1], pz = oz[i - 1], qx = ox[i], qy = oy[i], qz = oz[i];
+    const double pb = px * bx + py * by + pz * bz; /* a0 . b */
+    const double pa = px * ax + py * ay + pz * az, ab = ax * bx + ay * by + az * bz;
+    const double pq = px * qx + py * qy + pz * qz, bq = bx * qx + by * qy + bz * qz;
+    /* a0 . (a x b) and a0 . (b x b0) = (a0 x b) . b0 */
+    const double one =
+        px * (ay * bz - az * by) + py * (az * bx - ax * bz) + pz * (ax * by - ay * bx);
+    const double two =
+        px * (by * qz - bz * qy) + py * (bz * qx - bx * qz) + pz * (bx * qy - by * qx);
+    const double d1 = 1.0 + pa + ab + pb, d2 = 1.0 + pb + bq + pq;
+    const double z1 = one / d1, z2 = two / d2, s1 = z1 * z1, s2 = z2 * z2;
+    large += !((s1 < SMALL * SMALL) & (s2 < SMALL * SMALL) & (d1 > 0) & (d2 > 0));
+    const double f1 = 1.0 - s1 * (1.0 / 3 - s1 * (1.0 / 5 - s1 * (1.0 / 7 - s1 * (1.0 / 9))));
+    const double f2 = 1.0 - s2 * (1.0 / 3 - s2 * (1.0 / 5 - s2 * (1.0 / 7 - s2 * (1.0 / 9))));
+    area[i] = 2.0 * (z1 * f1 + z2 * f2);
+  }
+  return large;
+}
+
+static sw_vec column(double *const t[3], size_t e) {
+  return sw_v(t[0][e], t[1][e], t[2][e]);
+}
+
+/* Change of a span's twist from the state to positions x (of the body). Works in
+ * twist_rank and twist_solved, which sw_twist_gather fills anew. */
 static double span_change(const sw_system *s, const sw_body *b, const sw_span *span,
                           const double *x) {
-  const double *x0 = s->x + 3 * b->first_node;
+  const size_t n = b->plan->nodes, first = span->first, last = span->last;
+  double *const w = b->twist_rank, *const v = b->twist_solved, *const area = b->field.scratch[3];
+  double *const old[3] = {w, w + n, w + 2 * n}, *const now[3] = {v, v + n, v + 2 * n};
+  directions(first, last, s->x + 3 * b->first_node, old[0], old[1], old[2]);
+  directions(first, last, x, now[0], now[1], now[2]);
+  const long large = small_areas(first, last, old[0], old[1], old[2], now[0], now[1], now[2], area);
   const clamp_change left = change_of(s, &b->plan->clamps[span->left]);
   const clamp_change right = change_of(s, &b->plan->clamps[span->right]);
   double sum = right.turn - left.turn;
-  sw_vec a0 = left.before, a = left.now;
-  for (size_t e = span->first; e <= span->last; e++) {
-    const sw_vec b0 = edge_direction(x0, e), t = edge_direction(x, e);
-    sum += hinge_change(a0, b0, a, t);
-    a0 = b0, a = t;
-  }
-  return sum + hinge_change(a0, right.before, a, right.now);
+  sum += hinge_change(left.before, column(old, first), left.now, column(now, first));
+  for (size_t i = first + 1; i <= last; i++)
+    sum +=
+        large ? hinge_change(column(old, i - 1), column(old, i), column(now, i - 1), column(now, i))
+              : -area[i];
+  return sum + hinge_change(column(old, last), right.before, column(now, last), right.now);
 }
 
 void sw_twist_measure(sw_system *s, sw_body *b) {
@@ -104,18 +154,17 @@ void sw_twist_measure(sw_system *s, sw_body *b) {
 
 void sw_twist_gather(sw_body *b) {
   const size_t n = b->plan->nodes;
-  const double *slope = b->field.twist_slope;
+  double *const *slope = b->field.twist_slope;
   memset(b->twist_rank, 0, 3 * n * sizeof(double));
   for (size_t k = 0; k < b->plan->span_count; k++)
     for (size_t e = b->plan->spans[k].first; e <= b->plan->spans[k].last; e++)
       for (size_t c = 0; c < 3; c++) {
-        b->twist_rank[3 * e + c] -= slope[3 * e + c];
-        b->twist_rank[3 * e + 3 + c] += slope[3 * e + c];
+        b->twist_rank[3 * e + c] -= slope[c][e];
+        b->twist_rank[3 * e + 3 + c] += slope[c][e];
       }
   memcpy(b->twist_solved, b->twist_rank, 3 * n * sizeof(double));
   for (size_t i = 0; i < n; i++)
-    if (b->plan->held[i] != SW_FREE)
-      sw_store(b->twist_solved + 3 * i, sw_v(0, 0, 0));
+    if (b->plan->held[i] != SW_FREE) sw_store(b->twist_solved + 3 * i, sw_v(0, 0, 0));
 }
 
 double sw_twist_dot(const sw_body *b, const sw_span *span, const double *x) {
@@ -146,14 +195,19 @@ size_t sw_twist_correct(sw_body *b, double *delta) {
   return fewer;
 }
 
+static sw_vec slope_at(const sw_body *b, size_t e) {
+  double *const *slope = b->field.twist_slope;
+  return sw_v(slope[0][e], slope[1][e], slope[2][e]);
+}
+
 void sw_twist_react(sw_held_node *h, const sw_body *b) {
   const size_t i = h->node - b->first_node;
   for (size_t k = 0; k < b->plan->span_count; k++) {
     const sw_span *span = &b->plan->spans[k];
     if (i < span->first || i > span->last + 1) continue;
     sw_vec slope = sw_v(0, 0, 0); /* of this span alone */
-    if (i > span->first) slope = sw_add(slope, sw_vec_at(b->field.twist_slope, i - 1));
-    if (i <= span->last) slope = sw_sub(slope, sw_vec_at(b->field.twist_slope, i));
+    if (i > span->first) slope = sw_add(slope, slope_at(b, i - 1));
+    if (i <= span->last) slope = sw_sub(slope, slope_at(b, i));
     h->reaction = sw_madd(h->reaction, slope, b->twist_gain[k]);
   }
 }

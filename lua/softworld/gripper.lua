@@ -308,7 +308,8 @@ function Gripper:__index(key)
   for name in pairs(measures) do names[#names + 1] = name end
   local near = core.nearest(tostring(key), names)
   error(("gripper has no '%s'%s"):format(tostring(key),
-    near and ("; did you mean '" .. near .. "'?") or ""), 2)
+    near and ("; did you mean '" .. near .. "'?")
+      or "; help 'gripper' at the prompt lists what it has"), 2)
 end
 
 --- Names of methods and measures, for completion at the prompt.

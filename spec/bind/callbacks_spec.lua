@@ -463,7 +463,6 @@ describe("runs, processes and coroutines", function()
   end)
 
   it("tells the line of a process that called the library wrongly", function()
-    local sw = require "softworld"
     local scene = sw.scene{}
     local wire = scene:wire{ E = 1e8, density = 1400, radius = 0.002, from = { 0, 0, 0 },
       to = { 1, 0, 0 } }
