@@ -289,11 +289,11 @@ FLAT void gather(const sw_field *f, size_t i, hinge *h) {
   h->a.t = (vec){load(t[0] + i - 1), load(t[1] + i - 1), load(t[2] + i - 1)};
   h->b.t = (vec){load(t[0] + i), load(t[1] + i), load(t[2] + i)};
   h->ra = load(f->reciprocal + i - 1), h->rb = load(f->reciprocal + i);
+  const double *const *m = f->normals;
+  h->a.m1 = (vec){load(m[0] + i - 1), load(m[1] + i - 1), load(m[2] + i - 1)};
+  h->b.m1 = (vec){load(m[0] + i), load(m[1] + i), load(m[2] + i)};
   for (size_t k = 0; k < LANES; k++) {
-    const size_t last = p->edges - 1, at = i + k < last ? i + k : last; /* hinge and edge */
-    const double *before = f->normals + 3 * (at - 1), *after = before + 3;
-    h->a.m1.x[k] = before[0], h->a.m1.y[k] = before[1], h->a.m1.z[k] = before[2];
-    h->b.m1.x[k] = after[0], h->b.m1.y[k] = after[1], h->b.m1.z[k] = after[2];
+    const size_t last = p->edges - 1, at = i + k < last ? i + k : last;
     h->over_length[k] = i + k <= last && p->hinge[at] > 0 ? 1.0 / p->hinge[at] : 0.0;
     h->twist[k] = f->hinge_twist[at];
     h->rest[0][k] = p->rest_bend[2 * at], h->rest[1][k] = p->rest_bend[2 * at + 1];
@@ -342,10 +342,10 @@ static void between_edges(const frame_args *args, sw_field *f) {
 
 /* --- clamps, one in all lanes ----------------------------------------------------- */
 
-static void spread(vec *out, sw_vec v) { *out = (vec){all(v.x), all(v.y), all(v.z)}; }
+FLAT void spread(vec *out, sw_vec v) { *out = (vec){all(v.x), all(v.y), all(v.z)}; }
 
 /* The hinge between a held frame, as an edge of length 1, and an edge. */
-static void clamp_hinge(const frame_args *args, const sw_field *f, size_t c, hinge *h) {
+FLAT void clamp_hinge(const frame_args *args, const sw_field *f, size_t c, hinge *h) {
   const sw_plan *p = f->plan;
   const sw_clamp_hinge *at = &p->clamps[c];
   const size_t number = p->nodes + c, place = 2 * (size_t)at->hold + (at->side > 0 ? 1 : 0);
@@ -355,7 +355,7 @@ static void clamp_hinge(const frame_args *args, const sw_field *f, size_t c, hin
   spread(&held->t, sw_vec_at(f->hold_directors, place));
   spread(&held->m1, sw_vec_at(f->hold_normals, place));
   spread(&edge->t, sw_v(f->tangent[0][e], f->tangent[1][e], f->tangent[2][e]));
-  spread(&edge->m1, sw_vec_at(f->normals, e));
+  spread(&edge->m1, sw_v(f->normals[0][e], f->normals[1][e], f->normals[2][e]));
   h->ra = all(leaves ? 1.0 : f->reciprocal[e]);
   h->rb = all(leaves ? f->reciprocal[e] : 1.0);
   h->over_length = all(1.0 / at->length);
@@ -366,9 +366,9 @@ static void clamp_hinge(const frame_args *args, const sw_field *f, size_t c, hin
   set_slopes(h);
 }
 
-static sw_vec first_lane(vec v) { return sw_v(v.x[0], v.y[0], v.z[0]); }
+FLAT sw_vec first_lane(vec v) { return sw_v(v.x[0], v.y[0], v.z[0]); }
 
-static void put_clamp(sw_field *f, size_t e, int leaves, const hinge *h) {
+FLAT void put_clamp(sw_field *f, size_t e, int leaves, const hinge *h) {
   if (f->want & SW_WANT_ENERGY) f->energy += h->energy[0], f->bending += h->bending[0];
   if (f->want & SW_WANT_FORCE) {
     const slope g = gradient(h);
@@ -387,18 +387,24 @@ static void put_clamp(sw_field *f, size_t e, int leaves, const hinge *h) {
   for (int k = 0; k < 3; k++) f->spin_edge[k][e] += edge[k];
 }
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
-  (void)err;
-  between_edges(args, f);
+SW_HOT
+static void at_clamps(const frame_args *args, sw_field *f) {
   for (size_t c = 0; c < f->plan->clamp_count; c++) {
     hinge h;
     clamp_hinge(args, f, c, &h);
     put_clamp(f, f->plan->clamps[c].edge, f->plan->clamps[c].side > 0, &h);
   }
+}
+
+static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+  (void)err;
+  between_edges(args, f);
+  at_clamps(args, f);
   return SW_OK;
 }
 
 /* What turning the held frame would cost: the moment on the wire. */
+SW_HOT
 static sw_vec clamp_moment(const void *args, const sw_field *f, const sw_clamp_hinge *at) {
   hinge h;
   clamp_hinge(args, f, (size_t)(at - f->plan->clamps), &h);

@@ -46,7 +46,8 @@ void sw_scene_frame_out(sw_scene *s, size_t wire) {
   const sw_plan *p = b->plan;
   const double *state = s->system.frames + b->first_frame, *twist = state + 3 * p->edges;
   sw_mesh *m = &s->wires[wire].mesh;
-  memcpy(m->normal, state, 3 * p->edges * sizeof *state);
+  for (size_t e = 0; e < p->edges; e++)
+    sw_store(m->normal + 3 * e, sw_v(state[e], state[p->edges + e], state[2 * p->edges + e]));
   memcpy(m->twist, twist, p->nodes * sizeof *twist);
   for (size_t i = 0; i < p->nodes; i++)
     if (p->held[i] != SW_FREE && !(p->hinge[i] > 0)) m->twist[i] = 0;
@@ -69,7 +70,8 @@ void sw_scene_frame_in(sw_scene *s) {
     const sw_mesh *m = &s->wires[w].mesh;
     if (!b->spin_block) continue;
     double *state = s->system.frames + b->first_frame, *twist = state + 3 * p->edges;
-    memcpy(state, m->normal, 3 * p->edges * sizeof *state);
+    for (size_t e = 0; e < p->edges; e++)
+      for (size_t k = 0; k < 3; k++) state[k * p->edges + e] = m->normal[3 * e + k];
     memcpy(twist, m->twist, p->nodes * sizeof *twist);
     for (size_t c = 0; c < p->clamp_count; c++) twist[p->nodes + c] = twist_before(p, m, c);
     sw_system_measure_frames(&s->system, w);

@@ -64,7 +64,7 @@ void sw_field_clear(sw_field *field) {
     for (int k = 0; k < 9; k++) memset(field->next[k], 0, n * sizeof(double));
     memset(field->rows, 0, n * ROW * sizeof(double));
   }
-  if (field->normals) { /* one block, see sw_spin_new */
+  if (field->normals[0]) { /* one block, see sw_spin_new */
     memset(field->spin, 0, 12 * (n + SW_LANES) * sizeof(double));
   }
 }

@@ -46,7 +46,8 @@ typedef struct sw_field {
   double *twist_stiffness; /* (spans) second derivative along the slope, added to [N m] */
 
   /* material frames; NULL for a wire without them */
-  const double *normals;      /* (m x 3) first material axis of each edge [-] */
+  const double *normals[3];   /* (m) first material axis of each edge, each component; the arrays
+                                 may be read, as garbage, three items beyond their ends [-] */
   const double *hinge_twist;  /* (n + clamps) turn from edge to edge, then at clamps [rad] */
   const double *hold_normals; /* (holds x 2 x 3) first material axis at the holds [-] */
   double *spin;         /* (m) d energy / d turn of an edge about itself, to be added to [N m] */

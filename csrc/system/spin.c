@@ -28,20 +28,22 @@ sw_status sw_spin_new(sw_body *b) {
   const sw_plan *p = b->plan;
   const size_t n = p->nodes, stride = n + SW_LANES;
   if (!p->rest_bend) return SW_OK;
-  double *w = sw_alloc(7 * n + p->clamp_count + 12 * stride + (4 + SW_ROW4_SIZE) * n, sizeof *w);
+  double *w = sw_alloc(n + p->clamp_count + 18 * stride + (4 + SW_ROW4_SIZE) * n, sizeof *w);
   if (!w) return SW_ENOMEM;
   b->spin_block = w;
-  b->spin_normal = w;
-  b->spin_tangent = w + 3 * n;
-  b->spin_twist = w + 6 * n;
-  w += 7 * n + p->clamp_count;
+  for (size_t k = 0; k < 3; k++, w += 2 * stride) {
+    b->spin_normal[k] = w;
+    b->spin_tangent[k] = w + stride;
+  }
+  b->spin_twist = w;
+  w += n + p->clamp_count;
   b->field.spin = w;
   b->field.spin_own = w + stride;
   b->field.spin_next = w + 2 * stride;
   for (size_t k = 0; k < 9; k++) b->field.spin_edge[k] = w + (3 + k) * stride;
   b->spin_delta = w + 12 * stride;
   b->spin_rows = b->spin_delta + 4 * n;
-  b->field.normals = b->spin_normal;
+  for (size_t k = 0; k < 3; k++) b->field.normals[k] = b->spin_normal[k];
   return SW_OK;
 }
 
@@ -49,15 +51,19 @@ static sw_vec direction(const double *x, size_t e) {
   return sw_unit_or(sw_sub(sw_vec_at(x, e + 1), sw_vec_at(x, e)), sw_v(1, 0, 0));
 }
 
+static sw_vec get(double *const *a, size_t e) { return sw_v(a[0][e], a[1][e], a[2][e]); }
+static void set(double *const *a, size_t e, sw_vec v) { a[0][e] = v.x, a[1][e] = v.y, a[2][e] = v.z; }
+
 static double *state_of(const sw_system *s, const sw_body *b) { return s->frames + b->first_frame; }
 
 void sw_spin_begin(sw_system *s, sw_body *b) {
   const sw_plan *p = b->plan;
   const double *state = state_of(s, b), *x = s->x + 3 * b->first_node;
   b->spin_inertia = 0;
-  memcpy(b->spin_normal, state, 3 * p->edges * sizeof *state);
+  for (size_t k = 0; k < 3; k++)
+    memcpy(b->spin_normal[k], state + k * p->edges, p->edges * sizeof *state);
   memcpy(b->spin_twist, state + 3 * p->edges, (p->nodes + p->clamp_count) * sizeof *state);
-  for (size_t e = 0; e < p->edges; e++) sw_store(b->spin_tangent + 3 * e, direction(x, e));
+  for (size_t e = 0; e < p->edges; e++) set(b->spin_tangent, e, direction(x, e));
 }
 
 void sw_spin_slow_down(sw_system *s, double rate2) {
@@ -70,25 +76,56 @@ void sw_spin_slow_down(sw_system *s, double rate2) {
   }
 }
 
+static sw_vec state_normal(const sw_system *s, const sw_body *b, size_t e) {
+  const double *state = state_of(s, b) + e;
+  return sw_v(state[0], state[b->plan->edges], state[2 * b->plan->edges]);
+}
+
 /* How far edge e has turned about itself since the state. */
 static double turned(const sw_system *s, const sw_body *b, size_t e) {
-  const sw_vec before = direction(s->x + 3 * b->first_node, e), t = sw_vec_at(b->spin_tangent, e);
-  const sw_vec n = sw_carry_unit(sw_vec_at(state_of(s, b), e), before, t);
-  const sw_vec now = sw_vec_at(b->spin_normal, e);
+  const sw_vec before = direction(s->x + 3 * b->first_node, e), t = get(b->spin_tangent, e);
+  const sw_vec n = sw_carry_unit(state_normal(s, b, e), before, t);
+  const sw_vec now = get(b->spin_normal, e);
   return atan2(sw_dot(sw_cross(n, now), t), sw_dot(n, now));
 }
 
 static sw_edge_frame edge_frame(const sw_body *b, size_t e) {
-  return (sw_edge_frame){sw_vec_at(b->spin_tangent, e), sw_vec_at(b->spin_normal, e)};
+  return (sw_edge_frame){get(b->spin_tangent, e), get(b->spin_normal, e)};
+}
+
+/* sw_hinge_twist between all edges, with its usual case only. Counts the others. */
+SW_HOT
+static long small_twists(size_t n, const double *restrict tx, const double *restrict ty,
+                         const double *restrict tz, const double *restrict nx,
+                         const double *restrict ny, const double *restrict nz,
+                         const double *restrict before, double *restrict out) {
+  long others = 0;
+  for (size_t i = 1; i + 1 < n; i++) {
+    const size_t h = i - 1;
+    const double dot = tx[h] * tx[i] + ty[h] * ty[i] + tz[h] * tz[i];
+    const double share = (nx[h] * tx[i] + ny[h] * ty[i] + nz[h] * tz[i]) / (1.0 + dot);
+    const double ux = nx[h] - share * (tx[h] + tx[i]), uy = ny[h] - share * (ty[h] + ty[i]);
+    const double uz = nz[h] - share * (tz[h] + tz[i]);
+    const double cx = uy * nz[i] - uz * ny[i], cy = uz * nx[i] - ux * nz[i];
+    const double cz = ux * ny[i] - uy * nx[i];
+    const double sine = cx * tx[i] + cy * ty[i] + cz * tz[i];
+    const double half = sine / (1.0 + ux * nx[i] + uy * ny[i] + uz * nz[i]), y = half * half;
+    others += !(y < 0.01) | !(before[i] * before[i] < 1.0);
+    out[i] = SW_TWICE_ATAN(half, y);
+  }
+  return others;
 }
 
 static void measure_twist(const sw_system *s, sw_body *b) {
   const sw_plan *p = b->plan;
-  for (size_t i = 1; i + 1 < p->nodes; i++) {
-    const sw_edge_frame before = edge_frame(b, i - 1), after = edge_frame(b, i);
-    if (p->hinge[i] > 0)
-      b->spin_twist[i] = sw_hinge_twist(&before, &after, b->spin_twist[i]);
-  }
+  double *const *t = b->spin_tangent, *const *n = b->spin_normal, *measured = b->field.scratch[3];
+  if (small_twists(p->nodes, t[0], t[1], t[2], n[0], n[1], n[2], b->spin_twist, measured))
+    for (size_t i = 1; i + 1 < p->nodes; i++) {
+      const sw_edge_frame before = edge_frame(b, i - 1), after = edge_frame(b, i);
+      if (p->hinge[i] > 0) measured[i] = sw_hinge_twist(&before, &after, b->spin_twist[i]);
+    }
+  if (p->nodes > 2)
+    memcpy(b->spin_twist + 1, measured + 1, (p->nodes - 2) * sizeof *measured);
   for (size_t c = 0; c < p->clamp_count; c++) {
     const sw_clamp_hinge *h = &p->clamps[c];
     const size_t at = 2 * (size_t)h->hold + (h->side > 0 ? 1 : 0);
@@ -111,31 +148,60 @@ static void turn_held_edges(const sw_system *s, sw_body *b) {
     const double *q = s->turn + 4 * h->hold;
     const sw_quat before = {q[0], q[1], q[2], q[3]};
     const sw_vec n = sw_rotate(s->hold_states[h->hold].pose.q,
-                               sw_unrotate(before, sw_vec_at(state_of(s, b), e)));
-    const sw_vec t = sw_vec_at(b->spin_tangent, e);
-    sw_store(b->spin_normal + 3 * e, sw_unit_or(sw_madd(n, t, -sw_dot(n, t)), sw_perpendicular(t)));
+                               sw_unrotate(before, state_normal(s, b, e)));
+    const sw_vec t = get(b->spin_tangent, e);
+    set(b->spin_normal, e, sw_unit_or(sw_madd(n, t, -sw_dot(n, t)), sw_perpendicular(t)));
   }
 }
 
-static void carry_edge(sw_body *b, size_t e, sw_vec t) {
-  const sw_vec before = sw_vec_at(b->spin_tangent, e), n = sw_vec_at(b->spin_normal, e);
-  sw_store(b->spin_normal + 3 * e, sw_carry_unit(n, before, t));
-  sw_store(b->spin_tangent + 3 * e, t);
+static sw_vec square_up(sw_vec n, sw_vec t) {
+  return sw_unit_or(sw_madd(n, t, -sw_dot(n, t)), sw_perpendicular(t));
 }
 
-static void point_field(const sw_system *s, sw_body *b, const double *normals,
+static void carry_edge(sw_body *b, size_t e, sw_vec t) {
+  const sw_vec before = get(b->spin_tangent, e), n = get(b->spin_normal, e);
+  set(b->spin_normal, e, sw_carry_unit(n, before, t));
+  set(b->spin_tangent, e, t);
+}
+
+/* sw_carry_unit for all edges, with its usual case only. Counts the others. */
+SW_HOT
+static long carry_all(size_t m, const double *restrict tx, const double *restrict ty,
+                      const double *restrict tz, const double *restrict bx,
+                      const double *restrict by, const double *restrict bz, double *restrict nx,
+                      double *restrict ny, double *restrict nz) {
+  long others = 0;
+  for (size_t e = 0; e < m; e++) {
+    const double dot = bx[e] * tx[e] + by[e] * ty[e] + bz[e] * tz[e];
+    const double share = (nx[e] * tx[e] + ny[e] * ty[e] + nz[e] * tz[e]) / (1.0 + dot);
+    const double ux = nx[e] - share * (bx[e] + tx[e]), uy = ny[e] - share * (by[e] + ty[e]);
+    const double uz = nz[e] - share * (bz[e] + tz[e]);
+    const double along = ux * tx[e] + uy * ty[e] + uz * tz[e];
+    const double wx = ux - along * tx[e], wy = uy - along * ty[e], wz = uz - along * tz[e];
+    const double off = wx * wx + wy * wy + wz * wz - 1.0, f = 1.0 - 0.5 * off;
+    others += !(off * off < 1e-16);
+    nx[e] = f * wx, ny[e] = f * wy, nz[e] = f * wz;
+  }
+  return others;
+}
+
+static void point_field(const sw_system *s, sw_body *b, const double *normals, long stride,
                         const double *twist) {
-  b->field.normals = normals;
+  for (long k = 0; k < 3; k++) b->field.normals[k] = normals + k * stride;
   b->field.hinge_twist = twist;
   b->field.hold_normals = s->normals_now;
 }
 
 void sw_spin_carry(sw_system *s, sw_body *b) {
-  double *const *t = b->field.tangent;
-  for (size_t e = 0; e < b->plan->edges; e++) carry_edge(b, e, sw_v(t[0][e], t[1][e], t[2][e]));
+  double *const *t = b->field.tangent, *const *o = b->spin_tangent, *const *n = b->spin_normal;
+  const size_t m = b->plan->edges;
+  if (carry_all(m, t[0], t[1], t[2], o[0], o[1], o[2], n[0], n[1], n[2]))
+    for (size_t e = 0; e < m; e++) /* what was not quite a frame becomes one */
+      set(n, e, square_up(get(n, e), get(t, e)));
+  for (size_t k = 0; k < 3; k++) memcpy(o[k], t[k], m * sizeof(double));
   turn_held_edges(s, b);
   measure_twist(s, b);
-  point_field(s, b, b->spin_normal, b->spin_twist);
+  point_field(s, b, b->spin_normal[0], b->spin_normal[1] - b->spin_normal[0], b->spin_twist);
 }
 
 void sw_spin_take(sw_system *s, sw_body *b, const double *x) {
@@ -143,7 +209,8 @@ void sw_spin_take(sw_system *s, sw_body *b, const double *x) {
   double *state = state_of(s, b);
   for (size_t e = 0; e < p->edges; e++) carry_edge(b, e, direction(x, e));
   measure_twist(s, b);
-  memcpy(state, b->spin_normal, 3 * p->edges * sizeof *state);
+  for (size_t k = 0; k < 3; k++)
+    memcpy(state + k * p->edges, b->spin_normal[k], p->edges * sizeof *state);
   memcpy(state + 3 * p->edges, b->spin_twist, (p->nodes + p->clamp_count) * sizeof *state);
 }
 
@@ -154,7 +221,8 @@ void sw_spin_follow(sw_system *s, sw_body *b, const double *x) {
 }
 
 void sw_spin_show(sw_system *s, sw_body *b) {
-  point_field(s, b, state_of(s, b), state_of(s, b) + 3 * b->plan->edges);
+  const size_t m = b->plan->edges;
+  point_field(s, b, state_of(s, b), (long)m, state_of(s, b) + 3 * m);
 }
 
 /* --- the matrix ----------------------------------------------------------------- */
@@ -244,12 +312,12 @@ void sw_spin_turn(sw_body *b, double share) {
   for (size_t e = 0; e < b->plan->edges; e++) {
     const double angle = share * b->spin_delta[4 * e + 3];
     if (angle == 0) continue;
-    const sw_vec n = sw_vec_at(b->spin_normal, e), t = sw_vec_at(b->spin_tangent, e);
+    const sw_vec n = get(b->spin_normal, e), t = get(b->spin_tangent, e);
     const double a2 = angle * angle;
     const int small = a2 < 1e-4; /* series to rounding */
     const double c = small ? 1.0 - a2 * (0.5 - a2 * (1.0 / 24 - a2 / 720)) : cos(angle);
     const double sine = small ? angle * (1.0 - a2 * (1.0 / 6 - a2 * (1.0 / 120 - a2 / 5040))) : sin(angle);
-    sw_store(b->spin_normal + 3 * e, sw_madd(sw_scale(n, c), sw_cross(t, n), sine));
+    set(b->spin_normal, e, sw_madd(sw_scale(n, c), sw_cross(t, n), sine));
   }
 }
 

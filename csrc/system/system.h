@@ -39,7 +39,7 @@ typedef struct sw_body {
   double *twist_gain; /* (spans) added to the torque by the last update [N m] */
   void *twist_block;
   size_t first_frame; /* place of its frames in the system's */
-  double *spin_normal, *spin_tangent; /* (edges x 3) at the iterate; NULL without frames */
+  double *spin_normal[3], *spin_tangent[3]; /* (edges) components at the iterate */
   double *spin_twist; /* (nodes + clamps) of the hinges there [rad] */
   double *spin_delta; /* (nodes x 4) last update: nodes and turns of edges [m], [rad] */
   double *spin_rows;  /* (nodes x SW_ROW4_SIZE) */
@@ -109,7 +109,7 @@ struct sw_system {
 
   /* the state, one block: x v a (nodes x 3 each), tension (edges), twist
    * (spans) [rad], turn (holds x 4: the holds' orientations that go with it), frames
-   * of each body that has them (edges x 3, then hinges' and clamps' twist [rad]),
+   * of each body that has them (3 components of all edges, then hinges' and clamps' twist [rad]),
    * forces' histories */
   double *state;
   size_t state_size; /* in doubles */
