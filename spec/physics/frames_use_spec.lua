@@ -109,6 +109,42 @@ describe("a free strip in flight", function()
   end)
 end)
 
+describe("a gripped strip", function()
+  local function strip()
+    local s = core.scene{ gravity = { 0, 0, 0 } }
+    local w = s:wire{ EA = 1e4, EI = { 4, 1 }, normal = { 0, 0, 1 }, GJ = 0.3, mass_per_length = 1,
+      radius = 0.001, from = { 0, 0, 0 }, to = { 1, 0, 0 }, segments = 40 }
+    return s, w, s:grip(w, { s = 0.5, width = 0.11 })
+  end
+
+  it("turns with the grip, all of it", function()
+    local s, w, grip = strip()
+    for k = 1, 3 do
+      grip:pose({ 0.5, 0, 0 }, { axis = { 1, 0, 0 }, angle = k * PI / 6 })
+      fine(s:settle())
+    end
+    near(0, s:energy().total, 1e-12, "energy turned")
+    grip:release()
+    s:clamp(w, { s = 0.5 })
+    near(0, s:energy().total, 1e-12, "energy let go")
+    -- now on edge: the first stiffness is the one across z
+    local f = s:force{ kind = "point", on = w, s = 1, force = { 0, 0, 1e-3 } }
+    fine(s:settle())
+    near(1e-3 * 0.5 ^ 3 / 3, w:position(1)[3], 1e-3 * 1e-3 * 0.5 ^ 3 / 3, "droop")
+    f:release()
+  end)
+
+  it("is turned over and over by a trajectory", function()
+    local s, w, grip = strip()
+    s:clamp(w, { s = 0 })
+    grip:follow{ points = { { 0, 0, 0 }, { 0, 0, 0 } }, relative = true, duration = 4,
+      turn = { axis = { 1, 0, 0 }, angle = 4 * PI } }
+    s:force{ kind = "damping", mass = 20 }
+    fine(s:advance({ dt = 0.01 }, 6))
+    near(0.3 * 4 * PI / 0.445, w:twist_moment(0.2), 1e-3, "twist moment")
+  end)
+end)
+
 describe("a wire with frames", function()
   local function bad(text, change)
     local args = { EA = 1e5, EI = { 1, 2 }, normal = { 0, 0, 1 }, GJ = 1, mass_per_length = 1,
