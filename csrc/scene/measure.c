@@ -118,6 +118,12 @@ static double node_torque(const sw_body *b, size_t node, size_t edge) {
   return hinge_torque(b, b->plan->nodes + (size_t)(c - b->plan->clamps), c->length);
 }
 
+/* Bend beyond that at rest, at a node as seen from one of its edges. */
+static double node_flexure(const sw_system *s, const sw_body *b, size_t node, size_t edge) {
+  const sw_clamp_hinge *c = clamp_at(b->plan, node, edge);
+  return sw_scene_flexure(s, b, c ? b->plan->nodes + (size_t)(c - b->plan->clamps) : node);
+}
+
 /* Torque of the span that holds arc length at; 0 outside of spans. */
 static double torque_at(const sw_system *s, const sw_body *b, double at) {
   if (b->spin_block) {
@@ -158,8 +164,13 @@ sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double at, sw_point_state *
   out->tangent = sw_unit_or(sw_lerp(t0, t1, f), t0);
   out->curvature = k0 + f * (k1 - k0);
   out->tension = tension_at(&s->system, b, at);
-  out->strain = out->tension / w->beam.EA + out->curvature * w->beam.radius;
-  out->least_strain = out->tension / w->beam.EA - out->curvature * w->beam.radius;
+  if (b->spin_block) {
+    k0 = node_flexure(&s->system, b, e, e);
+    k1 = node_flexure(&s->system, b, e + 1, e);
+  }
+  const double bent = (k0 + f * (k1 - k0)) * w->beam.radius;
+  out->strain = out->tension / w->beam.EA + bent;
+  out->least_strain = out->tension / w->beam.EA - bent;
   out->twist_moment = torque_at(&s->system, b, at);
   return SW_OK;
 }

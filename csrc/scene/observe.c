@@ -94,7 +94,28 @@ static void keep_largest(sw_extreme *kept, const sw_extreme *now) {
   if (now->value > kept->value) *kept = *now;
 }
 
+/* The same where the wire has frames: without the bend that it has at rest. */
+static void framed_strain(const sw_system *s, const sw_body *b, sw_extreme *out) {
+  const sw_plan *p = b->plan;
+  const double *T = s->tension + b->first_edge, EA = p->beam.EA, radius = p->beam.radius;
+  *out = (sw_extreme){.value = T[0] / EA};
+  keep_largest(out, &(sw_extreme){.value = T[p->edges - 1] / EA, .s = p->length});
+  for (size_t i = 1; i + 1 < p->nodes; i++) {
+    const double bent = radius * sw_scene_flexure(s, b, i), mean = 0.5 * (T[i] + T[i - 1]) / EA;
+    keep_largest(out, &(sw_extreme){.value = mean + bent, .s = p->s[i]});
+  }
+  for (size_t c = 0; c < p->clamp_count; c++) {
+    const double bent = radius * sw_scene_flexure(s, b, p->nodes + c);
+    keep_largest(out, &(sw_extreme){.value = T[p->clamps[c].edge] / EA + bent,
+                                    .s = p->s[p->clamps[c].node]});
+  }
+}
+
 static void strain_extreme(const sw_system *s, const sw_body *b, sw_extreme *out) {
+  if (b->spin_block) {
+    framed_strain(s, b, out);
+    return;
+  }
   const sw_plan *p = b->plan;
   const sw_field *f = &b->field;
   const double *T = s->tension + b->first_edge, EA = p->beam.EA, radius = p->beam.radius;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Material frames between the meshes and the system. */
+#include <math.h>
 #include <string.h>
 
 #include "scene/world.h"
@@ -39,6 +40,32 @@ sw_status sw_scene_unloaded(const sw_scene *s, size_t wire, sw_plan *p) {
     set_rest(p, p->nodes + c, leaves ? &held : &edge, leaves ? &edge : &held);
   }
   return SW_OK;
+}
+
+static sw_edge_frame present(const sw_field *f, size_t e) {
+  return (sw_edge_frame){sw_v(f->tangent[0][e], f->tangent[1][e], f->tangent[2][e]),
+                         sw_v(f->normals[0][e], f->normals[1][e], f->normals[2][e])};
+}
+
+double sw_scene_flexure(const sw_system *s, const sw_body *body, size_t number) {
+  const sw_plan *p = body->plan;
+  const sw_field *f = &body->field;
+  sw_edge_frame a, b;
+  double length, bend[2];
+  if (number < p->nodes) {
+    length = p->hinge[number];
+    if (!(length > 0) || number == 0 || number + 1 == p->nodes) return 0;
+    a = present(f, number - 1), b = present(f, number);
+  } else {
+    const sw_clamp_hinge *c = &p->clamps[number - p->nodes];
+    const size_t at = 2 * (size_t)c->hold + (c->side > 0 ? 1 : 0);
+    const sw_edge_frame held = {sw_vec_at(s->directors_now, at), sw_vec_at(s->normals_now, at)};
+    length = c->length;
+    a = c->side > 0 ? held : present(f, c->edge);
+    b = c->side > 0 ? present(f, c->edge) : held;
+  }
+  sw_hinge_bend(&a, &b, f->hinge_twist[number], bend);
+  return hypot(bend[0] - p->rest_bend[2 * number], bend[1] - p->rest_bend[2 * number + 1]) / length;
 }
 
 void sw_scene_frame_out(sw_scene *s, size_t wire) {

@@ -150,6 +150,9 @@ void sw_scene_forget_histories(sw_scene *scene);
 sw_status sw_scene_unloaded(const sw_scene *scene, size_t wire, sw_plan *plan);
 void sw_scene_frame_in(sw_scene *scene);
 void sw_scene_frame_out(sw_scene *scene, size_t wire);
+/* Bend of a hinge beyond that at rest, over its length [1/m]; number: of the plan's
+ * list with clamps after nodes. For refreshed bodies with frames. */
+double sw_scene_flexure(const sw_system *system, const sw_body *body, size_t number);
 /* Make the system from the meshes and holds, if it is not. */
 sw_status sw_scene_build(sw_scene *scene, sw_error *err);
 

@@ -189,6 +189,8 @@ describe("a wire that is curved at rest", function()
     end
     for _, f in ipairs(sum) do near(0, f, 1e-8, "force" .. what) end
     near(0, before.total, 1e-11, "energy" .. what)
+    near(0, (w:max_strain{ now = true }), 1e-12, "strain" .. what)
+    near(0, (w:strain(0.37)), 1e-12, "strain in the middle" .. what)
   end
 
   for name, path in pairs(shapes) do
