@@ -204,20 +204,24 @@ void sw_spin_carry(sw_system *s, sw_body *b) {
   point_field(s, b, b->spin_normal[0], b->spin_normal[1] - b->spin_normal[0], b->spin_twist);
 }
 
-void sw_spin_take(sw_system *s, sw_body *b, const double *x) {
+static void store(sw_system *s, sw_body *b) {
   const sw_plan *p = b->plan;
   double *state = state_of(s, b);
-  for (size_t e = 0; e < p->edges; e++) carry_edge(b, e, direction(x, e));
   measure_twist(s, b);
   for (size_t k = 0; k < 3; k++)
     memcpy(state + k * p->edges, b->spin_normal[k], p->edges * sizeof *state);
   memcpy(state + 3 * p->edges, b->spin_twist, (p->nodes + p->clamp_count) * sizeof *state);
 }
 
+void sw_spin_take(sw_system *s, sw_body *b, const double *x) {
+  for (size_t e = 0; e < b->plan->edges; e++) carry_edge(b, e, direction(x, e));
+  store(s, b);
+}
+
 void sw_spin_follow(sw_system *s, sw_body *b, const double *x) {
   for (size_t e = 0; e < b->plan->edges; e++) carry_edge(b, e, direction(x, e));
   turn_held_edges(s, b);
-  sw_spin_take(s, b, x);
+  store(s, b);
 }
 
 void sw_spin_show(sw_system *s, sw_body *b) {

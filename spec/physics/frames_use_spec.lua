@@ -109,6 +109,24 @@ describe("a free strip in flight", function()
   end)
 end)
 
+describe("a soft coil of ten turns", function()
+  it("hangs down many times its length at rest, and its clamp bears it", function()
+    local path = {}
+    for i = 0, 2000 do
+      local u = PI * i / 100
+      path[i + 1] = { 0.02 * math.sin(u), 0.02 * (1 - math.cos(u)), -0.0005 * u }
+    end
+    local s = core.scene{}
+    local w = s:wire{ E = 2e7, nu = 0.3, density = 1500, radius = 0.001, path = path,
+      segments = 200, rest = "path" }
+    local c = s:clamp(w, { s = 0 })
+    assert.are.equal(0, fine(s:settle()).unstable)
+    below(-0.7, w:position(w.length)[3], "lower end")
+    local weight = w.beam.mass_per_length * w.length * 9.81
+    near(weight, c:force()[3], 1e-6 * weight, "weight")
+  end)
+end)
+
 describe("a gripped strip", function()
   local function strip()
     local s = core.scene{ gravity = { 0, 0, 0 } }
