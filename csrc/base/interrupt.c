@@ -5,14 +5,8 @@
 
 static volatile sig_atomic_t raised;
 
-int sw_interrupted(void) {
-  return raised;
-}
+int sw_interrupted(void) { return raised; }
 
-void sw_interrupt_clear(void) {
-  raised = 0;
-}
+void sw_interrupt_clear(void) { raised = 0; }
 
-void sw_interrupt_raise(void) {
-  raised = 1;
-}
+void sw_interrupt_raise(void) { raised = 1; }

@@ -25,7 +25,7 @@ typedef enum sw_param_type {
 } sw_param_type;
 
 enum {
-  SW_PARAM_REQUIRED = 1, /* must be given */
+  SW_PARAM_REQUIRED = 1,  /* must be given */
   SW_PARAM_ABOVE_MIN = 2, /* min itself is not allowed */
   SW_PARAM_BELOW_MAX = 4  /* max itself is not allowed */
 };
@@ -70,6 +70,7 @@ void sw_param_range_text(const sw_param *row, char *buffer, size_t n);
 
 /* The candidate (of count names, each found at names + i * stride) nearest to
  * word by edit distance, or NULL when none is near enough to be a typo. */
-const char *sw_nearest_name(const char *word, const char *const *names, size_t stride, size_t count);
+const char *sw_nearest_name(const char *word, const char *const *names, size_t stride,
+                            size_t count);
 
 #endif

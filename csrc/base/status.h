@@ -37,10 +37,10 @@ __attribute__((format(printf, 3, 4)))
 sw_status
 sw_fail(sw_error *err, sw_status status, const char *format, ...);
 
-#define SW_TRY(call)                            \
-  do {                                          \
-    const sw_status sw_try_ = (call);           \
-    if (sw_try_ != SW_OK) return sw_try_;       \
+#define SW_TRY(call)                      \
+  do {                                    \
+    const sw_status sw_try_ = (call);     \
+    if (sw_try_ != SW_OK) return sw_try_; \
   } while (0)
 
 #endif

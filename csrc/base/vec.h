@@ -18,7 +18,7 @@ typedef struct sw_quat {
 
 /* A rigid placement: world point = q * body point + p. */
 typedef struct sw_pose {
-  sw_vec p; /* [m] */
+  sw_vec p;  /* [m] */
   sw_quat q; /* [-] */
 } sw_pose;
 
@@ -60,10 +60,9 @@ static inline sw_vec sw_perpendicular(sw_vec t) {
 static inline sw_quat sw_quat_identity(void) { return (sw_quat){1, 0, 0, 0}; }
 static inline sw_quat sw_quat_conj(sw_quat q) { return (sw_quat){q.w, -q.x, -q.y, -q.z}; }
 static inline sw_quat sw_quat_mul(sw_quat a, sw_quat b) {
-  return (sw_quat){a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
-                   a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
-                   a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-                   a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+  return (sw_quat){
+      a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 /* Unit length again; the identity when q is 0 or not finite. */
 static inline sw_quat sw_quat_unit(sw_quat q) {

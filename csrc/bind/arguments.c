@@ -11,8 +11,7 @@ static int unknown_key(lua_State *L, const char *object, const lsw_section *sect
     const char *near =
         sw_nearest_name(key, &params->rows[0].name, sizeof params->rows[0], params->count);
     if (near)
-      return luaL_error(L, "%s: there is no parameter '%s'; did you mean '%s'?", object, key,
-                        near);
+      return luaL_error(L, "%s: there is no parameter '%s'; did you mean '%s'?", object, key, near);
   }
   luaL_Buffer b;
   luaL_buffinit(L, &b);
@@ -34,7 +33,8 @@ static int read_choice(lua_State *L, const char *object, const sw_param *row) {
     if (strcmp(word, row->choices[i]) == 0) return (int)i;
   luaL_Buffer b;
   const char *shown = word ? lua_pushfstring(L, "'%s'", word) : luaL_typename(L, -1);
-  const char *near = word ? sw_nearest_name(word, row->choices, sizeof row->choices[0], count) : NULL;
+  const char *near =
+      word ? sw_nearest_name(word, row->choices, sizeof row->choices[0], count) : NULL;
   const char *hint = near ? lua_pushfstring(L, "; did you mean '%s'?", near) : "";
   luaL_buffinit(L, &b);
   for (size_t i = 0; i < count; i++) {

@@ -218,8 +218,10 @@ static int meta_describe(lua_State *L) {
   const lsw_child *f = lsw_find_child(L, &lsw_class_force, &scene);
   if (!f) return 1;
   const sw_force_class *cls = sw_scene_force_class(scene, f->id);
-  if (!cls) lua_pushliteral(L, "force (taken back when a snapshot was restored)");
-  else lua_pushfstring(L, "force %s: %s", cls->name, cls->summary);
+  if (!cls)
+    lua_pushliteral(L, "force (taken back when a snapshot was restored)");
+  else
+    lua_pushfstring(L, "force %s: %s", cls->name, cls->summary);
   return 1;
 }
 

@@ -27,8 +27,8 @@ static void read_force(lua_State *L, int with_point, sw_vec *force, sw_vec *mome
   sw_scene *scene;
   sw_error err = {""};
   sw_vec point = sw_v(NAN, NAN, NAN);
-  static const sw_param rows[] = {{"at", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL,
-                                   0, "point the moment is about (default: the held point)"}};
+  static const sw_param rows[] = {{"at", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, 0,
+                                   "point the moment is about (default: the held point)"}};
   static const sw_params params = SW_PARAMS("clamp", rows);
   const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
   if (with_point) lsw_arguments(L, 2, "clamp:moment", &params, &point);
@@ -166,9 +166,12 @@ static int meta_describe(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg methods[] = {{"force", meth_force},     {"moment", meth_moment},
-                                   {"pose", meth_pose},       {"follow", meth_follow},
-                                   {"release", meth_release}, {"log", meth_log},
+static const luaL_Reg methods[] = {{"force", meth_force},
+                                   {"moment", meth_moment},
+                                   {"pose", meth_pose},
+                                   {"follow", meth_follow},
+                                   {"release", meth_release},
+                                   {"log", meth_log},
                                    {NULL, NULL}};
 
 static const luaL_Reg properties[] = {

@@ -16,9 +16,7 @@ static sw_motion *check(lua_State *L) {
   return self->handle.object;
 }
 
-static void close_trajectory(lsw_handle *h) {
-  sw_motion_release(h->object);
-}
+static void close_trajectory(lsw_handle *h) { sw_motion_release(h->object); }
 
 /* --- at a time ------------------------------------------------------------------ */
 

@@ -53,9 +53,7 @@ void lsw_motion_open_arguments(lua_State *L) {
   for (size_t i = 0; i < most; i++) law_names[i] = sw_motion_law_at(i);
 }
 
-void lsw_motion_keep_reader(lua_State *L) {
-  lua_rawsetp(L, LUA_REGISTRYINDEX, &reader_key);
-}
+void lsw_motion_keep_reader(lua_State *L) { lua_rawsetp(L, LUA_REGISTRYINDEX, &reader_key); }
 
 /* --- way-points --------------------------------------------------------------- */
 

@@ -14,8 +14,7 @@ int lsw_scene_obstacle(lua_State *L) {
   lua_settop(L, 2);
   lsw_child *child = lsw_new_child(L, 1, &lsw_class_obstacle);
   sw_shape *shape = lsw_shape_from_table(L, 2, &extra, 1);
-  const sw_status status =
-      sw_scene_add_obstacle(owner->h.object, shape, &args, &child->id, &err);
+  const sw_status status = sw_scene_add_obstacle(owner->h.object, shape, &args, &child->id, &err);
   if (status == SW_OK) {
     child->h.object = owner;
     lua_pushvalue(L, 3);
@@ -118,10 +117,9 @@ static int prop_shape(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg methods[] = {{"force", meth_force},   {"moment", meth_moment},
-                                   {"pose", meth_pose},     {"follow", meth_follow},
-                                   {"remove", meth_remove}, {"log", meth_log},
-                                   {NULL, NULL}};
+static const luaL_Reg methods[] = {
+    {"force", meth_force},   {"moment", meth_moment}, {"pose", meth_pose}, {"follow", meth_follow},
+    {"remove", meth_remove}, {"log", meth_log},       {NULL, NULL}};
 
 static int prop_name(lua_State *L) {
   sw_scene *scene;
@@ -158,8 +156,7 @@ static int meta_describe(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg properties[] = {
-    {"shape", prop_shape}, {"name", prop_name}, {NULL, NULL}};
+static const luaL_Reg properties[] = {{"shape", prop_shape}, {"name", prop_name}, {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
 const lsw_class lsw_class_obstacle = {.name = "obstacle",

@@ -88,9 +88,9 @@ static void params(lua_State *L) {
   const struct {
     const char *name;
     const sw_params *params;
-  } tables[] = {{"scene", &sw_scene_params},     {"wire", &sw_wire_params},
-                {"section", &sw_section_params}, {"obstacle", &sw_obstacle_params},
-                {"run", &sw_run_params},         {"settle", &sw_settle_params},
+  } tables[] = {{"scene", &sw_scene_params},      {"wire", &sw_wire_params},
+                {"section", &sw_section_params},  {"obstacle", &sw_obstacle_params},
+                {"run", &sw_run_params},          {"settle", &sw_settle_params},
                 {"frequencies", &sw_modes_params}};
   for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++) {
     lsw_push_params(L, tables[i].params);
@@ -102,8 +102,9 @@ static int mod_registry(lua_State *L) {
   static const struct {
     const char *name;
     void (*fill)(lua_State *L);
-  } parts[] = {{"integrators", integrators}, {"forces", forces}, {"models", models},
-               {"holds", holds},             {"shapes", shapes}, {"params", params}};
+  } parts[] = {{"integrators", integrators}, {"forces", forces},
+               {"models", models},           {"holds", holds},
+               {"shapes", shapes},           {"params", params}};
   lua_newtable(L);
   for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
     lua_newtable(L);

@@ -67,12 +67,12 @@ static int mod_exists(lua_State *L) {
   if (known && !c->close) { /* a child */
     const lsw_child *child = lua_touserdata(L, 1);
     const sw_scene *scene = ((lsw_scene_handle *)child->h.object)->h.object;
-    known = scene && (c == &lsw_class_wire    ? sw_scene_wire_name(scene, child->id) != NULL
-                      : c == &lsw_class_clamp ? sw_scene_hold_name(scene, child->id, &kind,
-                                                                   &alive) != NULL
-                      : c == &lsw_class_force
-                          ? sw_scene_force_class(scene, child->id) != NULL
-                          : sw_scene_obstacle_name(scene, child->id, &kind, &alive) != NULL);
+    known =
+        scene &&
+        (c == &lsw_class_wire    ? sw_scene_wire_name(scene, child->id) != NULL
+         : c == &lsw_class_clamp ? sw_scene_hold_name(scene, child->id, &kind, &alive) != NULL
+         : c == &lsw_class_force ? sw_scene_force_class(scene, child->id) != NULL
+                                 : sw_scene_obstacle_name(scene, child->id, &kind, &alive) != NULL);
   }
   lua_pushboolean(L, known);
   return 1;

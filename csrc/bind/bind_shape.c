@@ -53,8 +53,10 @@ static void read_points(lua_State *L, const char *object, sw_shape_source *sourc
       to[i - 1] = lua_tonumber(L, -1); /* the core checks that it is finite */
     } else {
       const char *what = lua_pushfstring(L, "%s: points, item %I,", object, i);
-      if (nested) sw_store(to + 3 * (i - 1), lsw_vector(L, -2, what, "m"));
-      else lsw_number(L, -2, what, "m"); /* raises */
+      if (nested)
+        sw_store(to + 3 * (i - 1), lsw_vector(L, -2, what, "m"));
+      else
+        lsw_number(L, -2, what, "m"); /* raises */
     }
     lua_settop(L, table + 1);
   }
@@ -71,8 +73,7 @@ static void read_bytes(lua_State *L, const char *object, sw_shape_source *source
 }
 
 /* What the rows leave to the binding; one value stays on the stack. */
-static void read_source(lua_State *L, int index, const sw_params *params,
-                        sw_shape_source *source) {
+static void read_source(lua_State *L, int index, const sw_params *params, sw_shape_source *source) {
   *source = (sw_shape_source){0};
   if (sw_params_find(params, "points")) {
     lua_getfield(L, index, "points");
@@ -85,10 +86,16 @@ static void read_source(lua_State *L, int index, const sw_params *params,
   }
 }
 
-sw_shape *lsw_shape_from_table(lua_State *L, int index, const lsw_section *extra,
-                               int extra_count) {
-  const sw_param kind_row = {"shape", SW_PARAM_CHOICE, "-", NAN, -INFINITY, INFINITY,
-                             SW_PARAM_REQUIRED, sw_shape_kinds(), offsetof(kind_args, kind),
+sw_shape *lsw_shape_from_table(lua_State *L, int index, const lsw_section *extra, int extra_count) {
+  const sw_param kind_row = {"shape",
+                             SW_PARAM_CHOICE,
+                             "-",
+                             NAN,
+                             -INFINITY,
+                             INFINITY,
+                             SW_PARAM_REQUIRED,
+                             sw_shape_kinds(),
+                             offsetof(kind_args, kind),
                              "kind of shape"};
   const sw_params kind_params = {"obstacle", &kind_row, 1};
   lsw_section sections[MOST_SECTIONS];
@@ -240,10 +247,10 @@ static int meta_describe(lua_State *L) {
 
 static void close(lsw_handle *h) { sw_shape_release(h->object); }
 
-static const luaL_Reg methods[] = {{"kind", meth_kind},       {"distance", meth_distance},
-                                   {"segment", meth_segment}, {"sweep", meth_sweep},
-                                   {"bounds", meth_bounds},   {"triangles", meth_triangles},
-                                   {NULL, NULL}};
+static const luaL_Reg methods[] = {
+    {"kind", meth_kind},   {"distance", meth_distance}, {"segment", meth_segment},
+    {"sweep", meth_sweep}, {"bounds", meth_bounds},     {"triangles", meth_triangles},
+    {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
 const lsw_class lsw_class_shape = {.name = "shape",

@@ -11,8 +11,7 @@ static double *read_path(lua_State *L, int table, size_t *count) {
   *count = 0;
   if (lua_getfield(L, table, "path") == LUA_TNIL) return NULL;
   if (!lua_istable(L, -1))
-    luaL_error(L, "wire: path must be a list of points {x, y, z} [m], got %s",
-               lsw_describe(L, -1));
+    luaL_error(L, "wire: path must be a list of points {x, y, z} [m], got %s", lsw_describe(L, -1));
   const size_t n = lua_rawlen(L, -1);
   if (n > 10000000) luaL_error(L, "wire: path has %d points; at most 10000000", (int)n);
   double *points = lua_newuserdatauv(L, (3 * n + 1) * sizeof *points, 0);
@@ -96,8 +95,7 @@ int lsw_scene_wire(lua_State *L) {
     luaL_error(L, "%s: EI = 0 N m2 is allowed with model = 'string' only", object);
   const double *points = read_path(L, 2, &count);
   lsw_child *child = lsw_new_child(L, 1, &lsw_class_wire);
-  lsw_must(L,
-           sw_scene_add_wire(owner->h.object, &args, &beam, points, count, &child->id, &err),
+  lsw_must(L, sw_scene_add_wire(owner->h.object, &args, &beam, points, count, &child->id, &err),
            &err);
   child->h.object = owner;
   return 1;
@@ -187,7 +185,6 @@ static int meth_set_velocity(lua_State *L) {
   lsw_must(L, sw_scene_wire_set_velocity(scene, w->id, v, omega, about, &err), &err);
   return 0;
 }
-
 
 /* The options table { now = true } asks for the present value. */
 static sw_wire_extremes read_extremes(lua_State *L) {
@@ -323,12 +320,9 @@ static const luaL_Reg methods[] = {{"position", meth_position},
                                    {"max_stress", meth_max_stress},
                                    {"frequencies", lsw_wire_frequencies},
                                    {NULL, NULL}};
-static const luaL_Reg properties[] = {{"length", prop_length},
-                                      {"segments", prop_segments},
-                                      {"beam", push_beam},
-                                      {"radius", prop_radius},
-                                      {"name", prop_name},
-                                      {NULL, NULL}};
+static const luaL_Reg properties[] = {{"length", prop_length}, {"segments", prop_segments},
+                                      {"beam", push_beam},     {"radius", prop_radius},
+                                      {"name", prop_name},     {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
 const lsw_class lsw_class_wire = {.name = "wire",

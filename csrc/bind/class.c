@@ -62,9 +62,7 @@ void *lsw_check(lua_State *L, int index, const lsw_class *c) {
 
 /* --- life cycle ----------------------------------------------------------- */
 
-static const lsw_class *class_of(lua_State *L) {
-  return lua_touserdata(L, lua_upvalueindex(1));
-}
+static const lsw_class *class_of(lua_State *L) { return lua_touserdata(L, lua_upvalueindex(1)); }
 
 static int meta_gc(lua_State *L) {
   const lsw_class *c = class_of(L);
@@ -118,7 +116,8 @@ static int meta_index(lua_State *L) {
     lua_call(L, 1, 1);
     return 1;
   }
-  if (lua_type(L, 2) != LUA_TSTRING) return luaL_error(L, "%s has no such field", class_of(L)->name);
+  if (lua_type(L, 2) != LUA_TSTRING)
+    return luaL_error(L, "%s has no such field", class_of(L)->name);
   const char *names[64];
   size_t count = 0;
   for (int up = 2; up <= 3; up++) {

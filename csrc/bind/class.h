@@ -20,11 +20,11 @@ typedef struct lsw_class {
   const char *name; /* "scene": the word used in messages, type() and tostring */
   size_t size;      /* of the userdata; starts with an lsw_handle [B] */
   const luaL_Reg *methods;
-  const luaL_Reg *meta;         /* more metamethods, or NULL */
-  const luaL_Reg *properties;   /* getters called as f(object), or NULL */
-  void (*close)(lsw_handle *h); /* frees h->object; never called with NULL there. NULL: the
-                                 * object is another's, nothing to close */
-  const char *gone;             /* message for a closed handle: "the scene has been closed" */
+  const luaL_Reg *meta;             /* more metamethods, or NULL */
+  const luaL_Reg *properties;       /* getters called as f(object), or NULL */
+  void (*close)(lsw_handle *h);     /* frees h->object; never called with NULL there. NULL: the
+                                     * object is another's, nothing to close */
+  const char *gone;                 /* message for a closed handle: "the scene has been closed" */
   int (*busy)(const lsw_handle *h); /* 1: must not be closed now; NULL = always may */
 } lsw_class;
 
@@ -77,7 +77,7 @@ sw_quat lsw_rotation(lua_State *L, int index, const char *what);
 /* A finite number at index, named in the error. */
 double lsw_number(lua_State *L, int index, const char *what, const char *unit);
 
-void lsw_push_vector(lua_State *L, sw_vec a);     /* {x, y, z} */
+void lsw_push_vector(lua_State *L, sw_vec a);      /* {x, y, z} */
 void lsw_push_quaternion(lua_State *L, sw_quat q); /* {w, x, y, z} */
 
 /* Push the rows as a Lua array of tables (name, type, unit, default, min, max,

@@ -19,8 +19,8 @@ static const double IMPLICIT_SHARE = 1000.0;
 static const double EXPLICIT_SHARE = 0.2;
 static const double STAGE_SHARE = 0.3; /* hbar of the default method over the step [-] */
 
-sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count,
-                         sw_contact_place place, void *user, sw_contact **out) {
+sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_contact_place place,
+                         void *user, sw_contact **out) {
   sw_contact *c = sw_alloc(1, sizeof *c);
   if (!c) return SW_ENOMEM;
   c->obstacles = sw_alloc(count, sizeof *c->obstacles);
@@ -92,9 +92,9 @@ static sw_bounds world_bounds(const sw_shape *shape, const sw_pose *pose) {
   const sw_vec ex = sw_rotate(pose->q, sw_v(half.x, 0, 0));
   const sw_vec ey = sw_rotate(pose->q, sw_v(0, half.y, 0));
   const sw_vec ez = sw_rotate(pose->q, sw_v(0, 0, half.z));
-  const sw_vec reach = sw_v(fabs(ex.x) + fabs(ey.x) + fabs(ez.x),
-                            fabs(ex.y) + fabs(ey.y) + fabs(ez.y),
-                            fabs(ex.z) + fabs(ey.z) + fabs(ez.z));
+  const sw_vec reach =
+      sw_v(fabs(ex.x) + fabs(ey.x) + fabs(ez.x), fabs(ex.y) + fabs(ey.y) + fabs(ez.y),
+           fabs(ex.z) + fabs(ey.z) + fabs(ez.z));
   return (sw_bounds){sw_sub(middle, reach), sw_add(middle, reach)};
 }
 
@@ -243,8 +243,7 @@ sw_status sw_contact_begin_look(sw_contact *c, sw_system *s, double t, sw_error 
   for (size_t i = 0; i < c->candidate_count; i++) {
     sw_candidate *k = &c->candidates[i];
     for (size_t j = k->memory; j < k->memory_end; j++)
-      if (c->memory[j].normal_force > 0)
-        k->k = c->memory[j].normal_force / c->memory[j].depth;
+      if (c->memory[j].normal_force > 0) k->k = c->memory[j].normal_force / c->memory[j].depth;
   }
   return SW_OK;
 }
@@ -275,8 +274,7 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
                    .k = c->candidates[t->candidate].k,
                    .normal = sw_rotate(back, t->normal),
                    .point = sw_pose_local(o->pose, t->point)};
-  if (t->normal_force > 0)
-    m->elastic = sw_rotate(back, sw_scale(t->tangential, -1.0 / t->k));
+  if (t->normal_force > 0) m->elastic = sw_rotate(back, sw_scale(t->tangential, -1.0 / t->k));
   return SW_OK;
 }
 

@@ -27,16 +27,19 @@ typedef sw_status (*sw_contact_place)(void *user, int o, double time, sw_motion_
                                       sw_error *err);
 
 /* Takes copies. SW_ENOMEM. */
-sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count,
-                         sw_contact_place place, void *user, sw_contact **out);
+sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_contact_place place,
+                         void *user, sw_contact **out);
 /* Another one over the same obstacles with the same memory, to look ahead with: what
  * it does leaves the first as it is. SW_ENOMEM. */
 sw_status sw_contact_copy(const sw_contact *contact, sw_contact **out);
 void sw_contact_free(sw_contact *contact);
 
 /* How the coming steps are computed: decides the normal stiffness. */
-typedef enum sw_contact_regime { SW_CONTACT_STATIC, SW_CONTACT_IMPLICIT, SW_CONTACT_EXPLICIT }
-    sw_contact_regime;
+typedef enum sw_contact_regime {
+  SW_CONTACT_STATIC,
+  SW_CONTACT_IMPLICIT,
+  SW_CONTACT_EXPLICIT
+} sw_contact_regime;
 
 /* A step of size h from time t begins at the system's state: candidates. nominal
  * is the run's full step, from which the stiffness is derived; unused in
@@ -79,7 +82,7 @@ void sw_contact_force(const sw_contact *contact, int o, sw_vec about, sw_vec *fo
 /* Deepest penetration of the accepted state, with the system's node nearest to
  * it [m]. */
 double sw_contact_penetration(const sw_contact *contact, size_t *node);
-size_t sw_contact_count(const sw_contact *contact); /* touches with a force */
+size_t sw_contact_count(const sw_contact *contact);  /* touches with a force */
 double sw_contact_energy(const sw_contact *contact); /* stored in the springs [J] */
 
 /* Memory kept between steps (anchors and sides), for snapshots: a block to copy

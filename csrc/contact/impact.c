@@ -61,10 +61,10 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   shares(s, t, w);
   for (size_t e = 0; e < 2; e++)
     if (w[e] > 0) sw_accumulate(s->v + 3 * (t->node + e), sw_scale(dv, w[e]));
-  if (sw_grow((void **)&c->impacts, &c->impact_capacity, c->impact_count + 1,
-              sizeof *c->impacts) == SW_OK)
-    c->impacts[c->impact_count++] = (sw_memory){
-        .obstacle = t->obstacle, .node = t->node, .segment = t->segment, .at = t->at};
+  if (sw_grow((void **)&c->impacts, &c->impact_capacity, c->impact_count + 1, sizeof *c->impacts) ==
+      SW_OK)
+    c->impacts[c->impact_count++] =
+        (sw_memory){.obstacle = t->obstacle, .node = t->node, .segment = t->segment, .at = t->at};
   return 1;
 }
 
@@ -81,8 +81,8 @@ static int review_touches(sw_contact *c, sw_system *s, double h) {
 static int has_barrier(const sw_contact *c, const sw_barrier *new) {
   for (size_t i = 0; i < c->barrier_count; i++) {
     const sw_barrier *b = &c->barriers[i];
-    if (b->obstacle == new->obstacle && b->node == new->node && b->segment == new->segment &&
-        sw_dot(b->normal, new->normal) > 0.99)
+    if (b->obstacle == new->obstacle && b->node == new->node &&
+        b->segment == new->segment &&sw_dot(b->normal, new->normal) > 0.99)
       return 1;
   }
   return 0;
@@ -100,8 +100,8 @@ static int is_candidate(const sw_contact *c, int obstacle, size_t node) {
 static const double END_SHARE = 1e-6;
 
 /* Keep a segment on its side for the rest of the step. */
-static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k,
-                         const sw_closest *hit, double h) {
+static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k, const sw_closest *hit,
+                         double h) {
   sw_barrier b = {k->obstacle, 1, k->node, hit->at, hit->normal, hit->point};
   const size_t end = k->node + (hit->at > 0.5);
   if ((hit->at < END_SHARE || hit->at > 1.0 - END_SHARE) && is_candidate(c, k->obstacle, end)) {
@@ -202,8 +202,7 @@ sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *
   sw_error err;
   if (went_too_far(c, s, x1)) {
     c->pressed_count = 0;
-    return sw_contact_find_candidates(c, s, &err) == SW_OK ? SW_CONTACT_REDO
-                                                           : SW_CONTACT_SMALLER;
+    return sw_contact_find_candidates(c, s, &err) == SW_OK ? SW_CONTACT_REDO : SW_CONTACT_SMALLER;
   }
   const int crossed = review_crossings(c, s, x1, h);
   const int struck = review_touches(c, s, h);

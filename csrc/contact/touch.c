@@ -5,11 +5,12 @@
  * plus the material displacement since. Within an iteration friction takes the
  * normal force of the iterate before, which keeps the matrix symmetric and the
  * sub-problem convex. */
+#include "contact/touch.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
-#include "contact/touch.h"
 
 /* Changes of the gap below this do not keep an iteration going [m]. */
 static const double GAP_TOLERANCE = 2e-8;
@@ -38,8 +39,7 @@ static const double SURELY_SLIDING = 20.0;
 enum { OWN = 0, NEXT = 6, ROW = 24 }; /* layout of the system's block rows */
 
 static sw_status push(sw_contact *c, const sw_touch *t) {
-  SW_TRY(sw_grow((void **)&c->touches, &c->touch_capacity, c->touch_count + 1,
-                 sizeof *c->touches));
+  SW_TRY(sw_grow((void **)&c->touches, &c->touch_capacity, c->touch_count + 1, sizeof *c->touches));
   c->touches[c->touch_count++] = *t;
   return SW_OK;
 }
@@ -97,17 +97,22 @@ static void set_friction_state(const sw_contact *c, const sw_system *s, const sw
   const sw_touch *last = last_for(c, k, t->at);
   sw_vec u = relative_shift(c, s, t, y);
   t->known = m != NULL;
-  if (m) u = sw_add(u, sw_rotate(c->now[t->obstacle].pose.q, m->elastic));
-  else u = sw_scale(u, t->gap < 0 ? 1.0 : 0.0);
+  if (m)
+    u = sw_add(u, sw_rotate(c->now[t->obstacle].pose.q, m->elastic));
+  else
+    u = sw_scale(u, t->gap < 0 ? 1.0 : 0.0);
   t->trial = sw_madd(u, t->normal, -sw_dot(u, t->normal));
   t->lag = last ? last->normal_force : m ? m->normal_force : t->k * fmax(0.0, -t->gap);
   const double most = c->obstacles[t->obstacle].friction * t->lag;
   /* The predicted place says little about sticking: a spring this stiff calls
    * every prediction a slide. Go on from the state that was found last. What
    * only now begins to touch has been moving freely: it slides first. */
-  if (last && last->gap < 0) t->sliding = last->next_sliding;
-  else if (m) t->sliding = m->sliding;
-  else t->sliding = t->k * sw_norm(t->trial) > most;
+  if (last && last->gap < 0)
+    t->sliding = last->next_sliding;
+  else if (m)
+    t->sliding = m->sliding;
+  else
+    t->sliding = t->k * sw_norm(t->trial) > most;
   if (t->k * sw_norm(t->trial) > SURELY_SLIDING * most) t->sliding = 1;
 }
 
@@ -163,8 +168,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
  * Without a memory the axis got there unseen within this step; the swept test
  * will tell from which side, so the touch is left out: 0. A wire that starts
  * inside (nothing accepted yet) is pushed out the nearest way. */
-static int keep_side(const sw_contact *c, const sw_candidate *k, sw_vec local,
-                     sw_closest *near) {
+static int keep_side(const sw_contact *c, const sw_candidate *k, sw_vec local, sw_closest *near) {
   if (near->gap >= 0 || c->flat[k->obstacle]) return 1; /* a half space has one side */
   const sw_memory *m = memory_for(c, k, near->at);
   if (!m) return c->fresh;
@@ -197,15 +201,13 @@ static int behind_barrier(const sw_contact *c, const sw_candidate *k, const doub
   return 0;
 }
 
-static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k,
-                       const double *y) {
+static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k, const double *y) {
   const sw_shape *shape = c->obstacles[k->obstacle].shape;
   const sw_pose *pose = &c->now[k->obstacle].pose;
   const sw_vec a = sw_pose_local(*pose, sw_load(y + 3 * k->node));
   const double reach = 2.0 * k->radius; /* keeps what may begin to touch in the list */
   sw_closest near[SW_CLOSEST_MAX];
-  if (c->barrier_count && behind_barrier(c, k, y, &near[0]))
-    return add_touch(c, s, k, y, &near[0]);
+  if (c->barrier_count && behind_barrier(c, k, y, &near[0])) return add_touch(c, s, k, y, &near[0]);
   if (!k->segment) {
     if (!sw_shape_point(shape, a, reach, &near[0])) return SW_OK;
     near[0].at = 0;
@@ -229,8 +231,8 @@ static void swap_lists(sw_contact *c) {
   for (size_t n = 0; n < c->candidate_count; n++) {
     sw_candidate *k = &c->candidates[n];
     k->last = i;
-    while (i < c->last_count && c->last[i].node == k->node &&
-           c->last[i].obstacle == k->obstacle && c->last[i].segment == k->segment)
+    while (i < c->last_count && c->last[i].node == k->node && c->last[i].obstacle == k->obstacle &&
+           c->last[i].segment == k->segment)
       i++;
     k->last_end = i;
   }
@@ -319,24 +321,22 @@ static int update_friction(const sw_contact *c, sw_touch *t, sw_vec shift) {
 /* Bring a touch's forces up to the solved update; 1 = it agrees with what the
  * solve assumed. */
 static int update(sw_contact *c, sw_touch *t, const double *delta) {
-  const sw_vec shift = t->segment ? sw_lerp(sw_load(delta + 3 * t->node),
-                                            sw_load(delta + 3 * t->node + 3), t->at)
-                                  : sw_load(delta + 3 * t->node);
+  const sw_vec shift =
+      t->segment ? sw_lerp(sw_load(delta + 3 * t->node), sw_load(delta + 3 * t->node + 3), t->at)
+                 : sw_load(delta + 3 * t->node);
   const int active = t->gap < 0;
   t->gap_after = t->gap + sw_dot(t->normal, shift);
   if (t->held) return 1;
   t->normal_force = active ? fmax(0.0, -t->k * t->gap_after) : 0.0;
   t->next_sliding = 1; /* what does not touch moves freely */
-  const int agrees = active && c->obstacles[t->obstacle].friction > 0
-                         ? update_friction(c, t, shift)
-                         : 1;
+  const int agrees =
+      active && c->obstacles[t->obstacle].friction > 0 ? update_friction(c, t, shift) : 1;
   if (active ? t->gap_after > GAP_TOLERANCE : t->gap_after < -GAP_TOLERANCE) return 0;
   const double radius = c->candidates[t->candidate].radius;
   if (!c->flat[t->obstacle] && t->gap_after < radius && sw_norm(shift) > SMALL_SHIFT * radius)
     return 0; /* place and normal of the touch may have changed */
   sw_candidate *k = &c->candidates[t->candidate];
-  if (t->gap_after < -DEEPEST && k->k < MOST_BOOST * k->usual &&
-      c->regime != SW_CONTACT_EXPLICIT) {
+  if (t->gap_after < -DEEPEST && k->k < MOST_BOOST * k->usual && c->regime != SW_CONTACT_EXPLICIT) {
     k->k *= fmin(100.0, 2.0 * t->gap_after / -DEEPEST);
     return 0;
   }

@@ -12,12 +12,12 @@ typedef struct sw_candidate {
   int segment; /* 1: the inside of the segment node..node+1 */
   size_t node; /* in the system's arrays */
   size_t body;
-  double radius, mass; /* of the wire there [m], [kg] */
+  double radius, mass;       /* of the wire there [m], [kg] */
   size_t memory, memory_end; /* matching range of the memory */
   size_t last, last_end;     /* matching range of the last iterate's touches */
-  double k;     /* stiffness: kept from step to step while it touches, raised where
-                   the wire would sink in too deep [N/m] */
-  double usual; /* stiffness of a new touch [N/m] */
+  double k;                  /* stiffness: kept from step to step while it touches, raised where
+                                the wire would sink in too deep [N/m] */
+  double usual;              /* stiffness of a new touch [N/m] */
 } sw_candidate;
 
 /* One place where a wire's surface is near an obstacle. */
@@ -25,22 +25,22 @@ typedef struct sw_touch {
   int obstacle, segment;
   size_t node, body;
   int feature;
-  double at;      /* along the segment [-] */
-  sw_vec normal;  /* world, outward [-] */
-  sw_vec point;   /* on the obstacle, world [m] */
-  double gap;     /* of the surfaces at this iterate [m] */
-  double forgiven; /* part of the true depth left out of gap in this step [m] */
-  double k;       /* stiffness, normal and tangential [N/m] */
-  double lag;     /* normal force that friction takes as given [N] */
+  double at;           /* along the segment [-] */
+  sw_vec normal;       /* world, outward [-] */
+  sw_vec point;        /* on the obstacle, world [m] */
+  double gap;          /* of the surfaces at this iterate [m] */
+  double forgiven;     /* part of the true depth left out of gap in this step [m] */
+  double k;            /* stiffness, normal and tangential [N/m] */
+  double lag;          /* normal force that friction takes as given [N] */
   double normal_force; /* after the last solve [N] */
-  sw_vec trial;   /* tangential displacement from the anchor at this iterate [m] */
-  sw_vec tangential; /* friction force after the last solve [N] */
-  double gap_after;  /* after the last solve [m] */
-  int sliding;      /* assumed in this iterate */
-  int next_sliding; /* as the last solve found it */
-  int known;      /* it touched at the step's start */
-  int held;       /* both ends are held: no force */
-  size_t candidate; /* index of what it was made from */
+  sw_vec trial;        /* tangential displacement from the anchor at this iterate [m] */
+  sw_vec tangential;   /* friction force after the last solve [N] */
+  double gap_after;    /* after the last solve [m] */
+  int sliding;         /* assumed in this iterate */
+  int next_sliding;    /* as the last solve found it */
+  int known;           /* it touched at the step's start */
+  int held;            /* both ends are held: no force */
+  size_t candidate;    /* index of what it was made from */
 } sw_touch;
 
 /* What is kept of a touch between steps; in the obstacle's coordinates. */
@@ -49,12 +49,12 @@ typedef struct sw_memory {
   size_t node;
   int feature;
   double at;
-  double normal_force; /* 0: near, but without force [N] */
-  double depth;        /* that goes with normal_force [m] */
-  double k;            /* [N/m] */
+  double normal_force;  /* 0: near, but without force [N] */
+  double depth;         /* that goes with normal_force [m] */
+  double k;             /* [N/m] */
   sw_vec normal, point; /* the side: local [-], [m] */
   int sliding;
-  sw_vec elastic;       /* displacement of the friction spring, local [m] */
+  sw_vec elastic; /* displacement of the friction spring, local [m] */
 } sw_memory;
 
 /* A crossing found by the swept test: the place is kept on its side of a plane
@@ -91,8 +91,8 @@ struct sw_contact {
   size_t barrier_count, barrier_capacity;
   sw_memory *impacts; /* keys of touches whose impact was dealt with in this step */
   size_t impact_count, impact_capacity;
-  double time, h; /* of the step [s] */
-  double nominal; /* the run's full step [s] */
+  double time, h;        /* of the step [s] */
+  double nominal;        /* the run's full step [s] */
   double base_stiffness; /* from the expected forces [N/m] */
   double force_scale;    /* weight of the heaviest wire, or its bending force [N] */
   double rate2;          /* stiffness per mass [1/s2] */

@@ -15,8 +15,8 @@ static inline double axial_force(double EA, int signs, double l, double rest) {
 SW_HOT
 static void add_gradient(double EA, int signs, size_t m, const double *restrict rest,
                          const double *restrict l, const double *restrict tx,
-                         const double *restrict ty, const double *restrict tz,
-                         double *restrict gx, double *restrict gy, double *restrict gz) {
+                         const double *restrict ty, const double *restrict tz, double *restrict gx,
+                         double *restrict gy, double *restrict gz) {
   const double tension = (signs & SW_AXIAL_TENSION) ? 1.0 : 0.0;
   const double compression = (signs & SW_AXIAL_COMPRESSION) ? 1.0 : 0.0;
   for (size_t e = 0; e < m; e++) {
@@ -30,13 +30,12 @@ static void add_gradient(double EA, int signs, size_t m, const double *restrict 
 
 /* own += (EA/l0) t t' + (T/l)(I - t t') */
 SW_HOT
-static void add_stiffness(double EA, int signs, int statics, size_t m,
-                          const double *restrict rest, const double *restrict l,
-                          const double *restrict rl, const double *restrict stored,
-                          const double *restrict tx, const double *restrict ty,
-                          const double *restrict tz, double *restrict o0, double *restrict o1,
-                          double *restrict o2, double *restrict o3, double *restrict o4,
-                          double *restrict o5) {
+static void add_stiffness(double EA, int signs, int statics, size_t m, const double *restrict rest,
+                          const double *restrict l, const double *restrict rl,
+                          const double *restrict stored, const double *restrict tx,
+                          const double *restrict ty, const double *restrict tz, double *restrict o0,
+                          double *restrict o1, double *restrict o2, double *restrict o3,
+                          double *restrict o4, double *restrict o5) {
   const double tension = (signs & SW_AXIAL_TENSION) ? 1.0 : 0.0;
   const double compression = (signs & SW_AXIAL_COMPRESSION) ? 1.0 : 0.0;
   const double pushing = statics ? compression : 0.0; /* geometric part of a push */
@@ -57,9 +56,8 @@ static void add_stiffness(double EA, int signs, int statics, size_t m,
 sw_status sw_axial_eval(double EA, int signs, sw_field *field) {
   const sw_plan *p = field->plan;
   if (field->want & SW_WANT_FORCE)
-    add_gradient(EA, signs, p->edges, p->rest, field->length, field->tangent[0],
-                 field->tangent[1], field->tangent[2], field->gradient[0], field->gradient[1],
-                 field->gradient[2]);
+    add_gradient(EA, signs, p->edges, p->rest, field->length, field->tangent[0], field->tangent[1],
+                 field->tangent[2], field->gradient[0], field->gradient[1], field->gradient[2]);
   if (field->want & SW_WANT_STIFFNESS)
     add_stiffness(EA, signs, field->statics, p->edges, p->rest, field->length, field->reciprocal,
                   field->tension, field->tangent[0], field->tangent[1], field->tangent[2],
@@ -67,8 +65,8 @@ sw_status sw_axial_eval(double EA, int signs, sw_field *field) {
                   field->own[5]);
   if (field->want & SW_WANT_ENERGY)
     for (size_t e = 0; e < p->edges; e++) {
-      const double T = field->tension ? field->tension[e]
-                                      : axial_force(EA, signs, field->length[e], p->rest[e]);
+      const double T =
+          field->tension ? field->tension[e] : axial_force(EA, signs, field->length[e], p->rest[e]);
       const int mine = T >= 0 ? (signs & SW_AXIAL_TENSION) : (signs & SW_AXIAL_COMPRESSION);
       if (mine && EA > 0) field->energy += 0.5 * T * T * p->rest[e] / EA;
     }

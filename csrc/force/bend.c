@@ -15,9 +15,9 @@
  * beyond the fit (a count, because a largest angle would not go into vectors). */
 SW_HOT
 static long hinge_factors(size_t n, double EI, const double *restrict hinge,
-                            const double *restrict tx, const double *restrict ty,
-                            const double *restrict tz, double *restrict cosine,
-                            double *restrict ks, double *restrict kw) {
+                          const double *restrict tx, const double *restrict ty,
+                          const double *restrict tz, double *restrict cosine, double *restrict ks,
+                          double *restrict kw) {
   long sharp = 0;
   for (size_t i = 1; i + 1 < n; i++) {
     const double dx = tx[i] - tx[i - 1], dy = ty[i] - ty[i - 1], dz = tz[i] - tz[i - 1];
@@ -31,8 +31,8 @@ static long hinge_factors(size_t n, double EI, const double *restrict hinge,
   return sharp;
 }
 
-static void sharp_hinges(size_t n, double EI, const double *hinge, const double *cosine,
-                         double *ks, double *kw) {
+static void sharp_hinges(size_t n, double EI, const double *hinge, const double *cosine, double *ks,
+                         double *kw) {
   for (size_t i = 1; i + 1 < n; i++) {
     const double u = 0.5 * (1.0 - cosine[i]);
     if (u <= SW_ANGLE_FIT || !(hinge[i] > 0)) continue;
@@ -46,8 +46,8 @@ static void sharp_hinges(size_t n, double EI, const double *hinge, const double 
 SW_HOT
 static void add_gradient(size_t n, const double *restrict c, const double *restrict ks,
                          const double *restrict rl, const double *restrict tx,
-                         const double *restrict ty, const double *restrict tz,
-                         double *restrict gx, double *restrict gy, double *restrict gz) {
+                         const double *restrict ty, const double *restrict tz, double *restrict gx,
+                         double *restrict gy, double *restrict gz) {
   for (size_t i = 1; i + 1 < n; i++) { /* second edge of each hinge */
     const double f = -ks[i] * rl[i];
     gx[i] += f * (tx[i - 1] - c[i] * tx[i]);
@@ -66,11 +66,10 @@ static void add_gradient(size_t n, const double *restrict c, const double *restr
  * shift (0: second edge of the hinge, -1: first) */
 SW_HOT
 static void add_own(size_t n, long shift, const double *restrict c, const double *restrict ks,
-                    const double *restrict kw, const double *restrict rl,
-                    const double *restrict tx, const double *restrict ty,
-                    const double *restrict tz, double *restrict o0, double *restrict o1,
-                    double *restrict o2, double *restrict o3, double *restrict o4,
-                    double *restrict o5) {
+                    const double *restrict kw, const double *restrict rl, const double *restrict tx,
+                    const double *restrict ty, const double *restrict tz, double *restrict o0,
+                    double *restrict o1, double *restrict o2, double *restrict o3,
+                    double *restrict o4, double *restrict o5) {
   for (long i = 1; i + 1 < (long)n; i++) {
     const long e = i + shift, o = i - 1 - shift; /* this edge, the other one */
     const double r2 = rl[e] * rl[e], a = ks[i] * r2, b = kw[i] * r2;
@@ -160,8 +159,8 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   if (hinge_factors(p->nodes, EI, p->hinge, t[0], t[1], t[2], c, ks, kw))
     sharp_hinges(p->nodes, EI, p->hinge, c, ks, kw);
   if (f->want & SW_WANT_FORCE)
-    add_gradient(p->nodes, c, ks, f->reciprocal, t[0], t[1], t[2], f->gradient[0],
-                 f->gradient[1], f->gradient[2]);
+    add_gradient(p->nodes, c, ks, f->reciprocal, t[0], t[1], t[2], f->gradient[0], f->gradient[1],
+                 f->gradient[2]);
   if (f->want & SW_WANT_STIFFNESS) {
     for (long shift = -1; shift <= 0; shift++)
       add_own(p->nodes, shift, c, ks, kw, f->reciprocal, t[0], t[1], t[2], f->own[0], f->own[1],

@@ -17,8 +17,7 @@ typedef struct damping_args {
 static const sw_param rows[] = {
     {"mass", SW_PARAM_NUMBER, "1/s", 0, 0, HUGE_VAL, 0, NULL, offsetof(damping_args, mass),
      "damping proportional to mass (Rayleigh's alpha)"},
-    {"stiffness", SW_PARAM_NUMBER, "s", 0, 0, HUGE_VAL, 0, NULL,
-     offsetof(damping_args, stiffness),
+    {"stiffness", SW_PARAM_NUMBER, "s", 0, 0, HUGE_VAL, 0, NULL, offsetof(damping_args, stiffness),
      "damping proportional to stiffness (Rayleigh's beta)"},
 };
 
@@ -51,8 +50,7 @@ static void add_gradient(sw_field *f, size_t e, sw_vec g) {
 static void add_own(sw_field *f, size_t e, double a, double b) {
   const double t[3] = {f->tangent[0][e], f->tangent[1][e], f->tangent[2][e]};
   for (int i = 0, at = 0; i < 3; i++)
-    for (int j = i; j < 3; j++, at++)
-      f->own[at][e] += (a - b) * t[i] * t[j] + (i == j ? b : 0.0);
+    for (int j = i; j < 3; j++, at++) f->own[at][e] += (a - b) * t[i] * t[j] + (i == j ? b : 0.0);
 }
 
 static void axial_term(double beta, sw_field *f) {

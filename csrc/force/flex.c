@@ -14,8 +14,7 @@ static void add_gradient(const sw_plan *p, double EI, const double *restrict x,
   for (size_t i = 1; i + 1 < p->nodes; i++) {
     const double k = p->hinge[i] > 0 ? EI / p->hinge[i] : 0.0;
     const double r1 = 1.0 / p->rest[i - 1], r2 = 1.0 / p->rest[i];
-    const double d =
-        (x[3 * i + 3] - x[3 * i]) * r2 - (x[3 * i] - x[3 * i - 3]) * r1;
+    const double d = (x[3 * i + 3] - x[3 * i]) * r2 - (x[3 * i] - x[3 * i - 3]) * r1;
     g[i - 1] -= k * r1 * d;
     g[i] += k * r2 * d;
   }

@@ -11,12 +11,12 @@
 #include "state/field.h"
 
 enum {
-  SW_FORCE_INNER = 1,    /* part of a wire model's recipe; not made by scene:force */
-  SW_FORCE_EXPLICIT = 2, /* has no stiffness: iterated to a fixed point instead */
-  SW_FORCE_AT_PLACE = 4, /* acts at one arc length: takes s */
+  SW_FORCE_INNER = 1,       /* part of a wire model's recipe; not made by scene:force */
+  SW_FORCE_EXPLICIT = 2,    /* has no stiffness: iterated to a fixed point instead */
+  SW_FORCE_AT_PLACE = 4,    /* acts at one arc length: takes s */
   SW_FORCE_DISSIPATIVE = 8, /* has no energy; takes power from the motion, F.v <= 0 */
-  SW_FORCE_FROZEN = 16,  /* its stiffness leaves a part out, which its file names */
-  SW_FORCE_BY_ANGLE = 32 /* corrects bend: only for wires whose bending is by angles */
+  SW_FORCE_FROZEN = 16,     /* its stiffness leaves a part out, which its file names */
+  SW_FORCE_BY_ANGLE = 32    /* corrects bend: only for wires whose bending is by angles */
 };
 
 enum { SW_FORCE_ARGS_MAX = 128 }; /* room for any force's arguments [B] */
@@ -50,8 +50,7 @@ typedef struct sw_force_class {
    * an older plan of the same wire. All three NULL = no history. */
   size_t (*state_size)(const sw_plan *plan);
   void (*commit)(const void *args, const sw_field *field, double *history);
-  void (*inherit)(const sw_plan *old, const double *from, const sw_field *field,
-                  double *history);
+  void (*inherit)(const sw_plan *old, const double *from, const sw_field *field, double *history);
 } sw_force_class;
 
 /* The class called name, or NULL. */
@@ -62,7 +61,7 @@ const sw_force_class *const *sw_force_all(void);
 
 /* Arguments of the inner forces, which recipes fill. */
 typedef struct sw_stretch_args {
-  double EA;        /* [N] */
+  double EA;           /* [N] */
   double tension_only; /* 1: no answer to compression (repel gives it) [-] */
 } sw_stretch_args;
 

@@ -38,12 +38,12 @@ typedef struct hinge {
   lane over_length, twist;
   lane rest[2], rest_twist;
   lane excess[2], twist_stiffness; /* over bend's; [N m] */
-  lane push[2], torque; /* d energy / d bend, d energy / d twist [N m] */
+  lane push[2], torque;            /* d energy / d bend, d energy / d twist [N m] */
   lane cosine, s, w, third;
   lane gain, gain_slope, gain_curve;
-  vec ma[2], mb[2]; /* material axes */
+  vec ma[2], mb[2];       /* material axes */
   vec across_a, across_b; /* the other tangent's part across this one */
-  lane over; /* 1/(1 + cosine) */
+  lane over;              /* 1/(1 + cosine) */
   lane q[2], energy, bending;
   slope gq[2], gc, gb[2], gm; /* of q, cosine, bend without gain, twist */
 } hinge;
@@ -61,11 +61,27 @@ FLAT slope add_slopes(const slope *g, lane f, const slope *h, lane k) {
 
 /* --- functions of the angle and of the twist ------------------------------------ */
 
-#define SLOPE_OF_W(u)                                                                          \
-  (SW_FIT_W1 + (u) * (2 * SW_FIT_W2 + (u) * (3 * SW_FIT_W3 + (u) * (4 * SW_FIT_W4 +            \
-  (u) * (5 * SW_FIT_W5 + (u) * (6 * SW_FIT_W6 + (u) * (7 * SW_FIT_W7 + (u) * (8 * SW_FIT_W8 +  \
-  (u) * (9 * SW_FIT_W9 + (u) * (10 * SW_FIT_W10 + (u) * (11 * SW_FIT_W11 +                     \
-  (u) * (12 * SW_FIT_W12 + (u) * (13 * SW_FIT_W13)))))))))))))
+#define SLOPE_OF_W(u)                                                                 \
+  (SW_FIT_W1 +                                                                        \
+   (u) *                                                                              \
+       (2 * SW_FIT_W2 +                                                               \
+        (u) *                                                                         \
+            (3 * SW_FIT_W3 +                                                          \
+             (u) *                                                                    \
+                 (4 * SW_FIT_W4 +                                                     \
+                  (u) *                                                               \
+                      (5 * SW_FIT_W5 +                                                \
+                       (u) *                                                          \
+                           (6 * SW_FIT_W6 +                                           \
+                            (u) *                                                     \
+                                (7 * SW_FIT_W7 +                                      \
+                                 (u) * (8 * SW_FIT_W8 +                               \
+                                        (u) * (9 * SW_FIT_W9 +                        \
+                                               (u) * (10 * SW_FIT_W10 +               \
+                                                      (u) * (11 * SW_FIT_W11 +        \
+                                                             (u) * (12 * SW_FIT_W12 + \
+                                                                    (u) * (13 *       \
+                                                                           SW_FIT_W13)))))))))))))
 
 FLAT void set_angle(hinge *h) {
   const vec d = madd(h->a.t, h->b.t, all(-1.0));
@@ -91,10 +107,13 @@ static const double SMALL_TWIST = 0.5;
 
 FLAT void set_gain(hinge *h) {
   const lane x = 0.5 * h->twist, y = x * x;
-  const lane c = 1.0 + y * (-1.0 / 2 + y * (1.0 / 24 + y * (-1.0 / 720 + y * (1.0 / 40320 +
-                 y * (-1.0 / 3628800)))));
-  const lane sine = x * (1.0 + y * (-1.0 / 6 + y * (1.0 / 120 + y * (-1.0 / 5040 +
-                    y * (1.0 / 362880 + y * (-1.0 / 39916800))))));
+  const lane c =
+      1.0 +
+      y * (-1.0 / 2 + y * (1.0 / 24 + y * (-1.0 / 720 + y * (1.0 / 40320 + y * (-1.0 / 3628800)))));
+  const lane sine =
+      x * (1.0 +
+           y * (-1.0 / 6 +
+                y * (1.0 / 120 + y * (-1.0 / 5040 + y * (1.0 / 362880 + y * (-1.0 / 39916800))))));
   h->gain = 1.0 / c;
   h->gain_slope = 0.5 * h->gain * h->gain * sine;
   h->gain_curve = 0.25 * h->gain * (2.0 * h->gain * h->gain - 1.0);
@@ -150,9 +169,7 @@ FLAT void set_slopes(hinge *h) {
 }
 
 /* Sum of push times bend without gain: what the gain's derivatives come with. */
-FLAT lane pushed(const hinge *h) {
-  return h->s * (h->push[0] * h->q[0] + h->push[1] * h->q[1]);
-}
+FLAT lane pushed(const hinge *h) { return h->s * (h->push[0] * h->q[0] + h->push[1] * h->q[1]); }
 
 FLAT slope gradient(const hinge *h) {
   const slope bend = add_slopes(&h->gb[0], h->push[0], &h->gb[1], h->push[1]);

@@ -13,7 +13,8 @@ static sw_status eval(const void *args, sw_field *field, sw_error *err) {
       for (int k = 0; k < 3; k++) field->force[3 * i + (size_t)k] += p->lumped[i] * g[k];
   if (field->want & SW_WANT_ENERGY)
     for (size_t i = 0; i < p->nodes; i++)
-      for (int k = 0; k < 3; k++) field->energy -= p->lumped[i] * g[k] * field->x[3 * i + (size_t)k];
+      for (int k = 0; k < 3; k++)
+        field->energy -= p->lumped[i] * g[k] * field->x[3 * i + (size_t)k];
   return SW_OK;
 }
 

@@ -172,8 +172,7 @@ static sw_slip_memory collect(const sw_plan *old, const double *history, double 
   return sum;
 }
 
-void sw_memory_inherit(const sw_plan *old, const double *from, const sw_field *f,
-                       double *history) {
+void sw_memory_inherit(const sw_plan *old, const double *from, const sw_field *f, double *history) {
   const sw_plan *p = f->plan;
   history[0] = from[0];
   for (size_t i = 0; i < p->nodes + p->clamp_count; i++) {

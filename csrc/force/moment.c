@@ -16,8 +16,8 @@ typedef struct moment_args {
 } moment_args;
 
 static const sw_param rows[] = {
-    {"s", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
-     offsetof(moment_args, s), "arc length where the couple acts"},
+    {"s", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_REQUIRED, NULL, offsetof(moment_args, s),
+     "arc length where the couple acts"},
     {"moment", SW_PARAM_VECTOR, "N m", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
      offsetof(moment_args, moment), "the couple, fixed in world axes; it bends, it does not twist"},
 };
@@ -41,8 +41,7 @@ static void on_edge(const sw_vec *axis, double M, size_t e, sw_field *f) {
     if (f->want & SW_WANT_FORCE) f->gradient[k][e] -= M * q[k] / r2;
   if (!(f->want & SW_WANT_STIFFNESS)) return;
   for (int i = 0, at = 0; i < 3; i++) /* d2 theta = -(p q' + q p')/r^4 */
-    for (int j = i; j < 3; j++, at++)
-      f->own[at][e] += M * (p[i] * q[j] + q[i] * p[j]) / (r2 * r2);
+    for (int j = i; j < 3; j++, at++) f->own[at][e] += M * (p[i] * q[j] + q[i] * p[j]) / (r2 * r2);
 }
 
 /* The edges whose middles s lies between share the couple by their distance. */

@@ -19,9 +19,8 @@ typedef struct plastic_args {
 } plastic_args;
 
 static const sw_param rows[] = {
-    {"yield_moment", SW_PARAM_NUMBER, "N m", 0, 0, HUGE_VAL,
-     SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN, NULL, offsetof(plastic_args, yield_moment),
-     "bending moment above which the wire stays bent"},
+    {"yield_moment", SW_PARAM_NUMBER, "N m", 0, 0, HUGE_VAL, SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN,
+     NULL, offsetof(plastic_args, yield_moment), "bending moment above which the wire stays bent"},
     {"hardening", SW_PARAM_NUMBER, "N m2", 0, 0, HUGE_VAL, 0, NULL,
      offsetof(plastic_args, hardening),
      "yield moment gained per plastic curvature, lost in the other direction"},

@@ -12,8 +12,8 @@ typedef struct point_args {
 } point_args;
 
 static const sw_param rows[] = {
-    {"s", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
-     offsetof(point_args, s), "arc length where the force acts"},
+    {"s", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_REQUIRED, NULL, offsetof(point_args, s),
+     "arc length where the force acts"},
     {"force", SW_PARAM_VECTOR, "N", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
      offsetof(point_args, force), "the force, fixed in world axes"},
 };
@@ -29,8 +29,8 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
     sw_accumulate(first + 3, sw_scale(a->force, fraction));
   }
   if (f->want & SW_WANT_ENERGY)
-    f->energy -= sw_dot(a->force, sw_lerp(sw_load(f->x + 3 * e), sw_load(f->x + 3 * e + 3),
-                                          fraction));
+    f->energy -=
+        sw_dot(a->force, sw_lerp(sw_load(f->x + 3 * e), sw_load(f->x + 3 * e + 3), fraction));
   return SW_OK;
 }
 

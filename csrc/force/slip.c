@@ -219,8 +219,11 @@ void sw_slip_eval(const sw_slip_law *law, const sw_slip_memory *memory, const sw
   const double u = half_angle2(hinge), K = law->k + law->harden;
   const sw_vec normal = sw_cross(hinge->t[0], hinge->t[1]), sum = sw_add(hinge->t[0], hinge->t[1]);
   const sw_vec p = memory->slipped, b = memory->along;
-  const double z[SCALARS] = {[C] = 1.0 - 2.0 * u, [N] = sw_dot(normal, p),
-                             [G] = sw_dot(normal, b), [A] = sw_dot(sum, p), [B] = sw_dot(sum, b)};
+  const double z[SCALARS] = {[C] = 1.0 - 2.0 * u,
+                             [N] = sw_dot(normal, p),
+                             [G] = sw_dot(normal, b),
+                             [A] = sw_dot(sum, p),
+                             [B] = sw_dot(sum, b)};
   double s[3], w1[SCALARS], w2[SCALARS][SCALARS];
   product d;
   memset(out, 0, sizeof *out);
@@ -231,8 +234,8 @@ void sw_slip_eval(const sw_slip_law *law, const sw_slip_memory *memory, const sw
   const double xi = sw_norm(sw_sub(sw_scale(beta, law->k), sw_scale(carried, K)));
   const double over = excess(law, xi), p2 = sw_norm2(p);
   out->elastic = law->own > 0 ? 0.0 : 0.5 * law->k * p2 - law->k * d.value;
-  out->energy = 0.5 * law->own * sw_norm2(beta) - law->k * d.value + 0.5 * K * p2 -
-                0.5 * over * over / K;
+  out->energy =
+      0.5 * law->own * sw_norm2(beta) - law->k * d.value + 0.5 * K * p2 - 0.5 * over * over / K;
   potential(law, s, xi, 1.0, &d, w1, w2);
   gradients(hinge, memory, w1, out);
   if (!(want & SW_WANT_STIFFNESS)) return;

@@ -26,18 +26,18 @@ typedef struct sw_slip_memory {
 
 /* Two edges (or a director and an edge) that meet in the hinge. */
 typedef struct sw_slip_hinge {
-  sw_vec t[2];  /* unit tangents [-] */
-  double r[2];  /* 1 / edge length; 0 for a director [1/m] */
+  sw_vec t[2]; /* unit tangents [-] */
+  double r[2]; /* 1 / edge length; 0 for a director [1/m] */
 } sw_slip_hinge;
 
 /* Potential of the step from the memory, its derivatives with respect to the
  * edge vectors: all zero-filled first. */
 typedef struct sw_slip_answer {
-  double energy;    /* [J] */
-  double elastic;   /* part of it that corrects the other force's [J] */
-  sw_vec gradient[2];  /* [N] */
-  double own[2][6];    /* upper half xx xy xz yy yz zz [N/m] */
-  double next[9];      /* edge 0 with edge 1, row by row [N/m] */
+  double energy;      /* [J] */
+  double elastic;     /* part of it that corrects the other force's [J] */
+  sw_vec gradient[2]; /* [N] */
+  double own[2][6];   /* upper half xx xy xz yy yz zz [N/m] */
+  double next[9];     /* edge 0 with edge 1, row by row [N/m] */
 } sw_slip_answer;
 
 /* share below 1: the stiffness counts slipping by that much only, which keeps

@@ -85,9 +85,7 @@ static void enter(frame *f, lua_State *co) {
   running = f;
 }
 
-static void leave(const frame *f) {
-  running = f->outer;
-}
+static void leave(const frame *f) { running = f->outer; }
 
 /* Move count arguments from L's top into co and run it. Gives the number of
  * results, left on top of co, or -1 with the error value there. Never raises,
@@ -209,13 +207,9 @@ void host_ctrl_c_reset(void) {
   sw_interrupt_clear();
 }
 
-int host_ctrl_c_seen(void) {
-  return seen;
-}
+int host_ctrl_c_seen(void) { return seen; }
 
-void host_ctrl_c_at_prompt(int on) {
-  prompt = on;
-}
+void host_ctrl_c_at_prompt(int on) { prompt = on; }
 
 int host_ctrl_c_cancelled(void) {
   const int was = cancelled;

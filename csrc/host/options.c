@@ -19,9 +19,7 @@ static const char help_text[] =
     "Exit codes: 0 done, 1 an error in the script, 2 wrong usage, 130 stopped by Ctrl-C.\n"
     "SOFTWORLD_TRACEBACK=full shows every call of a traceback.\n";
 
-void host_options_help(void) {
-  fputs(help_text, stdout);
-}
+void host_options_help(void) { fputs(help_text, stdout); }
 
 static int usage(const char *what, const char *word) {
   fprintf(stderr, "softworld: %s '%s'\n", what, word);

@@ -151,8 +151,8 @@ sw_status sw_stepper_trial(sw_stepper *p, sw_system *s, double t, double h, sw_e
     p->trial_x = p->y[0], p->trial_v = p->w[0], p->trial_a = NULL;
     return SW_OK;
   }
-  const int uneven = (p->method->flags & SW_INTEGRATOR_HISTORY) &&
-                     !(fabs(h - p->last_h) <= 1e-9 * h);
+  const int uneven =
+      (p->method->flags & SW_INTEGRATOR_HISTORY) && !(fabs(h - p->last_h) <= 1e-9 * h);
   const sw_integrator *m = p->restart || uneven ? p->start : p->method;
   SW_TRY(implicit_trial(p, m, s, t, h, err));
   if (m->flags & SW_INTEGRATOR_EMBEDDED) p->error = embedded_error(p, s, h);

@@ -13,9 +13,9 @@
 
 enum {
   SW_INTEGRATOR_IMPLICIT = 1,
-  SW_INTEGRATOR_HISTORY = 2, /* uses the state before last: equal steps only */
-  SW_INTEGRATOR_EMBEDDED = 4, /* gives an error estimate */
-  SW_INTEGRATOR_NO_CONTACT = 8, /* gains energy in contact */
+  SW_INTEGRATOR_HISTORY = 2,     /* uses the state before last: equal steps only */
+  SW_INTEGRATOR_EMBEDDED = 4,    /* gives an error estimate */
+  SW_INTEGRATOR_NO_CONTACT = 8,  /* gains energy in contact */
   SW_INTEGRATOR_SECOND_HALF = 16 /* result is 2 y - x_n of the only stage */
 };
 
@@ -40,8 +40,8 @@ typedef struct sw_integrator {
   unsigned flags;
   size_t stages; /* implicit members */
   sw_stage_row rows[SW_STAGES_MAX];
-  const char *start; /* implicit: method for the first step after a
-                        discontinuity; NULL = itself */
+  const char *start;     /* implicit: method for the first step after a
+                            discontinuity; NULL = itself */
   double leapfrog_limit; /* explicit: stable while h omega_max is below; 0 = unknown [-] */
   /* explicit: advance (x, v) by h in place from time t; stepper's work arrays
    * are free to use. */
@@ -54,8 +54,8 @@ const sw_integrator *const *sw_integrator_all(void); /* NULL-terminated */
 
 struct sw_stepper {
   const sw_integrator *method, *start;
-  size_t n;       /* 3 x nodes */
-  double *work;   /* one block for all of the following (n each) */
+  size_t n;     /* 3 x nodes */
+  double *work; /* one block for all of the following (n each) */
   double *xhat, *vhat;
   double *y[SW_STAGES_MAX], *w[SW_STAGES_MAX]; /* stage positions and velocities */
   double *a;                                   /* acceleration of the last stage */
@@ -63,9 +63,9 @@ struct sw_stepper {
   double *tension;                             /* saved for a rejected step (edges) */
   double last_h;                               /* of the last accepted step; 0 = none [s] */
   int restart;                                 /* next step starts anew: a_n is stale */
-  double error;    /* estimate of the last trial; 0 without one [m] */
-  double **extra;  /* explicit methods' work arrays (SW_EXTRA of n) */
-  void *outside;   /* an outside library's stepper */
+  double error;                                /* estimate of the last trial; 0 without one [m] */
+  double **extra;                              /* explicit methods' work arrays (SW_EXTRA of n) */
+  void *outside;                               /* an outside library's stepper */
   void (*free_outside)(void *outside);
   sw_newton newton;
   size_t iterations; /* of the last trial, all stages */
@@ -76,8 +76,7 @@ struct sw_stepper {
 enum { SW_EXTRA = 6 };
 
 /* Work space for a system of this size. SW_ENOMEM. */
-sw_status sw_stepper_new(sw_stepper *stepper, const sw_integrator *method,
-                         const sw_system *system);
+sw_status sw_stepper_new(sw_stepper *stepper, const sw_integrator *method, const sw_system *system);
 void sw_stepper_free(sw_stepper *stepper);
 
 /* Compute a trial step from the system's state at t; the state stays untouched

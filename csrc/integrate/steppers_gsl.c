@@ -23,8 +23,7 @@ static int derivative(double t, const double y[], double dydt[], void *user) {
   memcpy(x, y, n * sizeof *x);
   memcpy(v, y + n, n * sizeof *v);
   b->status = sw_system_place_holds(b->system, t, x, v, NULL, b->err);
-  if (b->status == SW_OK)
-    b->status = sw_system_acceleration(b->system, t, x, v, dydt + n, b->err);
+  if (b->status == SW_OK) b->status = sw_system_acceleration(b->system, t, x, v, dydt + n, b->err);
   memcpy(dydt, v, n * sizeof *v);
   return b->status == SW_OK ? GSL_SUCCESS : GSL_EBADFUNC;
 }
@@ -52,17 +51,17 @@ static sw_status advance(sw_stepper *p, sw_system *s, double t, double h, double
   return sw_system_place_holds(s, t + h, x, v, NULL, err);
 }
 
-#define MEMBER(id, label, type, p_order, limit)                                              \
-  static sw_status advance_##id(sw_stepper *p, sw_system *s, double t, double h, double *x,  \
-                                double *v, sw_error *err) {                                  \
-    return advance(p, s, t, h, x, v, err, type);                                             \
-  }                                                                                          \
-  const sw_integrator sw_integrator_gsl_##id = {                                             \
-      .name = "gsl-" label,                                                                  \
-      .summary = "GSL's " label " with fixed steps",                                         \
-      .order = (p_order),                                                                    \
-      .leapfrog_limit = (limit),                                                             \
-      .advance = advance_##id,                                                               \
+#define MEMBER(id, label, type, p_order, limit)                                             \
+  static sw_status advance_##id(sw_stepper *p, sw_system *s, double t, double h, double *x, \
+                                double *v, sw_error *err) {                                 \
+    return advance(p, s, t, h, x, v, err, type);                                            \
+  }                                                                                         \
+  const sw_integrator sw_integrator_gsl_##id = {                                            \
+      .name = "gsl-" label,                                                                 \
+      .summary = "GSL's " label " with fixed steps",                                        \
+      .order = (p_order),                                                                   \
+      .leapfrog_limit = (limit),                                                            \
+      .advance = advance_##id,                                                              \
   };
 
 MEMBER(rk2, "rk2", gsl_odeiv2_step_rk2, 3, 1.73)

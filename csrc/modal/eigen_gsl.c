@@ -52,8 +52,10 @@ static sw_status solve(dense *d, const double *a, const double *b, size_t n, dou
   const int failed = b ? gsl_eigen_gensymmv(d->a, d->b, d->w, d->z, d->general)
                        : gsl_eigen_symmv(d->a, d->w, d->z, d->plain);
   if (failed) return SW_EDIVERGED;
-  if (b) gsl_eigen_gensymmv_sort(d->w, d->z, GSL_EIGEN_SORT_VAL_ASC);
-  else gsl_eigen_symmv_sort(d->w, d->z, GSL_EIGEN_SORT_VAL_ASC);
+  if (b)
+    gsl_eigen_gensymmv_sort(d->w, d->z, GSL_EIGEN_SORT_VAL_ASC);
+  else
+    gsl_eigen_symmv_sort(d->w, d->z, GSL_EIGEN_SORT_VAL_ASC);
   for (size_t k = 0; k < n; k++) {
     double norm2 = 0; /* GSL's general vectors have length 1, not z' B z = 1 */
     for (size_t i = 0; b && i < n; i++)

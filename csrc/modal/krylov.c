@@ -15,8 +15,13 @@ enum { PASSES = 2 };
 sw_status sw_krylov_new(sw_krylov *k, const sw_system *system, size_t body, double shift,
                         double *factor, size_t most) {
   const size_t n = sw_system_unknowns(system, body);
-  *k = (sw_krylov){.system = system, .body = body, .n = n, .shift = shift, .factor = factor,
-                   .capacity = most, .seed = 20};
+  *k = (sw_krylov){.system = system,
+                   .body = body,
+                   .n = n,
+                   .shift = shift,
+                   .factor = factor,
+                   .capacity = most,
+                   .seed = 20};
   k->projected = sw_alloc(most * most, sizeof *k->projected);
   k->coefficients = sw_alloc(most, sizeof *k->coefficients);
   k->work = sw_alloc(n, sizeof *k->work);
@@ -135,6 +140,5 @@ sw_status sw_krylov_ritz(const sw_krylov *k, double *scratch, double *values, do
 
 void sw_krylov_combine(const sw_krylov *k, const double *coefficients, double *out) {
   memset(out, 0, k->n * sizeof *out);
-  for (size_t j = 0; j < k->done; j++)
-    subtract(out, k->vectors[j], -coefficients[j], k->n);
+  for (size_t j = 0; j < k->done; j++) subtract(out, k->vectors[j], -coefficients[j], k->n);
 }

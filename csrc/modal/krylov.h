@@ -10,12 +10,12 @@ enum { SW_KRYLOV_BLOCK = 6 }; /* a free wire has six motions without stiffness [
 
 typedef struct sw_krylov {
   const sw_system *system;
-  size_t body, n;       /* unknowns */
-  double shift;         /* [rad2/s2] */
-  double *factor;       /* of K - shift M */
-  double **vectors;     /* (capacity) of (n) each, made when needed */
-  size_t count;         /* basis vectors */
-  size_t done;          /* of them, the operator was applied to these */
+  size_t body, n;   /* unknowns */
+  double shift;     /* [rad2/s2] */
+  double *factor;   /* of K - shift M */
+  double **vectors; /* (capacity) of (n) each, made when needed */
+  size_t count;     /* basis vectors */
+  size_t done;      /* of them, the operator was applied to these */
   size_t capacity;
   double *projected;    /* (capacity x capacity): row j = operator on vector j */
   double *work, *image; /* (n) */

@@ -35,12 +35,12 @@ enum { SPARE = 8, MOST_UNSTABLE = 100, MOST_NEUTRAL = 60 };
 typedef struct job {
   const sw_system *system;
   size_t body, n, free_unknowns;
-  size_t target;   /* lowest values looked for, unstable ones included */
-  double floor;    /* rounding of the matrix; what is below it is polished [rad2/s2] */
-  double scale;    /* of the last value looked for, or the floor [rad2/s2] */
-  double slow;     /* negative values of this size count as none [rad2/s2] */
-  double neutral;  /* values this small are none [rad2/s2] */
-  double shift;    /* [rad2/s2] */
+  size_t target;          /* lowest values looked for, unstable ones included */
+  double floor;           /* rounding of the matrix; what is below it is polished [rad2/s2] */
+  double scale;           /* of the last value looked for, or the floor [rad2/s2] */
+  double slow;            /* negative values of this size count as none [rad2/s2] */
+  double neutral;         /* values this small are none [rad2/s2] */
+  double shift;           /* [rad2/s2] */
   double *factor, *other; /* of K - shift M; for counting */
   int (*interrupted)(void);
   sw_krylov krylov;
@@ -77,8 +77,10 @@ static sw_status bracket(const job *p, size_t wanted, double *high) {
   while (*high > 2.0 * low) {
     const double middle = sqrt(low * *high);
     SW_TRY(count_below(p, middle, p->other, &count));
-    if (count >= wanted) *high = middle;
-    else low = middle;
+    if (count >= wanted)
+      *high = middle;
+    else
+      low = middle;
   }
   return SW_OK;
 }
@@ -90,7 +92,8 @@ static sw_status choose_shift(job *p, size_t modes) {
   if (unstable > MOST_UNSTABLE)
     return sw_fail(p->err, SW_EDIVERGED,
                    "frequencies: the state is unstable in %zu ways (slack, or pressed far beyond "
-                   "buckling); let it settle first", unstable);
+                   "buckling); let it settle first",
+                   unstable);
   p->target = modes + unstable;
   if (p->target > p->free_unknowns) p->target = p->free_unknowns;
   SW_TRY(count_below(p, p->floor, p->other, &soft));
@@ -196,7 +199,8 @@ static sw_status compare(const job *p, const double *before, const double *after
     if (!(d * d / beyond <= fmax(ROUNDING * fabs(after[i]), least)))
       return sw_fail(p->err, SW_EDIVERGED,
                      "frequencies: rounding drowns the softest motions among %zu nodes; use fewer "
-                     "segments", p->n / 3);
+                     "segments",
+                     p->n / 3);
   }
   return SW_OK;
 }
@@ -252,8 +256,7 @@ static sw_status solve_again(const job *p, double *const *x, size_t q, double *d
 static sw_status polish(const job *p, sw_modes *out) {
   const size_t m = p->krylov.done;
   size_t q = 0;
-  while (q < m && q < p->target + SPARE &&
-         p->residuals[m - 1 - q] <= NEARLY * p->values[m - 1 - q])
+  while (q < m && q < p->target + SPARE && p->residuals[m - 1 - q] <= NEARLY * p->values[m - 1 - q])
     q++;
   if (q < p->target) return sw_fail(p->err, SW_ENOCONV, "frequencies: only %zu were found", q);
   double **x = sw_alloc(q, sizeof *x);
@@ -264,8 +267,10 @@ static sw_status polish(const job *p, sw_modes *out) {
     x[r] = sw_alloc(p->n, sizeof *x[r]);
     if (!x[r]) status = SW_ENOMEM;
   }
-  if (status == SW_OK) status = solve_again(p, x, q, dense, w, out);
-  else out_of_memory(p);
+  if (status == SW_OK)
+    status = solve_again(p, x, q, dense, w, out);
+  else
+    out_of_memory(p);
   for (size_t r = 0; x && r < q; r++) sw_free(x[r]);
   sw_free(x);
   sw_free(dense);
@@ -293,9 +298,13 @@ static sw_status run(job *p, size_t modes, sw_modes *out) {
 
 sw_status sw_modal_solve(const sw_system *system, size_t body, size_t modes, double slow,
                          int (*interrupted)(void), sw_modes *out, sw_error *err) {
-  job p = {.system = system, .body = body, .n = sw_system_unknowns(system, body),
-           .free_unknowns = sw_system_free_unknowns(system, body), .interrupted = interrupted,
-           .slow = slow, .err = err};
+  job p = {.system = system,
+           .body = body,
+           .n = sw_system_unknowns(system, body),
+           .free_unknowns = sw_system_free_unknowns(system, body),
+           .interrupted = interrupted,
+           .slow = slow,
+           .err = err};
   *out = (sw_modes){0};
   if (modes > p.free_unknowns)
     return sw_fail(err, SW_EINVAL, "frequencies: %zu modes are more than the %zu free unknowns",

@@ -10,18 +10,18 @@
 #include "system/system.h"
 
 typedef struct sw_modes {
-  size_t count;     /* of all below [-] */
-  size_t unstable;  /* of them with omega2 < 0: these come first [-] */
-  size_t unknowns;  /* per shape [-] */
-  double *omega2;   /* (count), ascending; neutral motions have 0 [rad2/s2] */
-  double *shapes;   /* (count x unknowns), x' M x = 1 [1/sqrt(kg)] */
+  size_t count;      /* of all below [-] */
+  size_t unstable;   /* of them with omega2 < 0: these come first [-] */
+  size_t unknowns;   /* per shape [-] */
+  double *omega2;    /* (count), ascending; neutral motions have 0 [rad2/s2] */
+  double *shapes;    /* (count x unknowns), x' M x = 1 [1/sqrt(kg)] */
   size_t iterations; /* solves with a factorised matrix [-] */
 } sw_modes;
 
 /* The system must be linearised. Finds the `modes` lowest that are not unstable,
- * after every unstable one; what would grow slower than sqrt(slow) is neutral. Statuses: SW_EINVAL (more than there are), SW_EDIVERGED
- * (unstable in very many ways, or rounding leaves no digit), SW_ENOCONV, SW_EINTR,
- * SW_ENOMEM; then out is empty. */
+ * after every unstable one; what would grow slower than sqrt(slow) is neutral. Statuses: SW_EINVAL
+ * (more than there are), SW_EDIVERGED (unstable in very many ways, or rounding leaves no digit),
+ * SW_ENOCONV, SW_EINTR, SW_ENOMEM; then out is empty. */
 sw_status sw_modal_solve(const sw_system *system, size_t body, size_t modes, double slow,
                          int (*interrupted)(void), sw_modes *out, sw_error *err);
 void sw_modes_free(sw_modes *modes);

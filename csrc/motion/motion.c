@@ -140,27 +140,13 @@ sw_status sw_motion_eval(const sw_motion *motion, double t, sw_motion_state *out
   return SW_OK;
 }
 
-double sw_motion_start(const sw_motion *motion) {
-  return motion->start;
-}
-double sw_motion_duration(const sw_motion *motion) {
-  return motion->duration;
-}
-double sw_motion_end(const sw_motion *motion) {
-  return motion->start + motion->duration;
-}
-double sw_motion_length(const sw_motion *motion) {
-  return motion->length;
-}
-size_t sw_motion_count(const sw_motion *motion) {
-  return motion->count;
-}
-const char *sw_motion_law_name(const sw_motion *motion) {
-  return motion->law->name;
-}
-int sw_motion_is_relative(const sw_motion *motion) {
-  return motion->relative;
-}
+double sw_motion_start(const sw_motion *motion) { return motion->start; }
+double sw_motion_duration(const sw_motion *motion) { return motion->duration; }
+double sw_motion_end(const sw_motion *motion) { return motion->start + motion->duration; }
+double sw_motion_length(const sw_motion *motion) { return motion->length; }
+size_t sw_motion_count(const sw_motion *motion) { return motion->count; }
+const char *sw_motion_law_name(const sw_motion *motion) { return motion->law->name; }
+int sw_motion_is_relative(const sw_motion *motion) { return motion->relative; }
 
 sw_motion *sw_motion_retain(sw_motion *motion) {
   if (motion) motion->references++;

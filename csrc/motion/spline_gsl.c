@@ -51,12 +51,8 @@ static const knot *find(const spline *s, double t) {
   return &s->knots[low];
 }
 
-static sw_quat quat_at(const double *p) {
-  return (sw_quat){p[0], p[1], p[2], p[3]};
-}
-static sw_vec imaginary(sw_quat q) {
-  return sw_v(q.x, q.y, q.z);
-}
+static sw_quat quat_at(const double *p) { return (sw_quat){p[0], p[1], p[2], p[3]}; }
+static sw_vec imaginary(sw_quat q) { return sw_v(q.x, q.y, q.z); }
 
 /* With N = |Q|^2: omega = 2 Im(Q' Q*) / N, alpha = 2 Im(Q'' Q*) / N - omega N' / N. */
 static void turn_at(const knot *k, double t, sw_motion_state *out) {

@@ -2,9 +2,7 @@
 /* How long each leg takes at the highest speeds, and which limits hold. */
 #include "motion/law.h"
 
-static double most(double a, double b) {
-  return a > b ? a : b;
-}
+static double most(double a, double b) { return a > b ? a : b; }
 
 static sw_status untimed_leg(const sw_route *route, size_t k, double speed, sw_error *err) {
   const int straight = route->legs[k].length > 0;

@@ -16,8 +16,8 @@ static const char *const *integrator_names(void) {
 static sw_param run_rows[] = {
     {"duration", SW_PARAM_NUMBER, "s", NAN, 0, 1e9, 0, NULL, offsetof(sw_run_args, duration),
      "simulated time; without it until the processes end"},
-    {"dt", SW_PARAM_NUMBER, "s", 0.01, 0, 1e3, SW_PARAM_ABOVE_MIN, NULL,
-     offsetof(sw_run_args, dt), "time step; with tolerance the largest one"},
+    {"dt", SW_PARAM_NUMBER, "s", 0.01, 0, 1e3, SW_PARAM_ABOVE_MIN, NULL, offsetof(sw_run_args, dt),
+     "time step; with tolerance the largest one"},
     {"tolerance", SW_PARAM_NUMBER, "m", NAN, 0, 1e3, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(sw_run_args, tolerance), "error allowed in one step; controls the step size"},
     {"integrator", SW_PARAM_CHOICE, "-", 0, 0, 0, 0, NULL, offsetof(sw_run_args, integrator),
@@ -26,8 +26,8 @@ static sw_param run_rows[] = {
      offsetof(sw_run_args, frame), "time between stored frames (default 1/30 s)"},
     {"quasistatic", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_run_args, quasistatic),
      "true: equilibrium at every step instead of motion; dt is then the pose step"},
-    {"max_steps", SW_PARAM_INTEGER, "-", 1e15, 1, 1e15, 0, NULL,
-     offsetof(sw_run_args, max_steps), "most steps to take"},
+    {"max_steps", SW_PARAM_INTEGER, "-", 1e15, 1, 1e15, 0, NULL, offsetof(sw_run_args, max_steps),
+     "most steps to take"},
     {"progress", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
      "true shows a progress bar (default: when on a terminal and longer than a second)"},
 };
@@ -39,7 +39,7 @@ __attribute__((constructor)) static void fill_choices(void) {
     if (run_rows[i].type == SW_PARAM_CHOICE) run_rows[i].choices = integrator_names();
 }
 
-enum { MOST_REDOS = 40 };        /* impacts found one after another in one step [-] */
+enum { MOST_REDOS = 40 }; /* impacts found one after another in one step [-] */
 static const double SMALLEST_SHARE = 1.0 / 4096; /* of a step, before giving up [-] */
 static const double LARGEST_STRAIN = 10.0;       /* beyond it a run has diverged [-] */
 
@@ -102,11 +102,10 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
   if (s->discontinuous) s->stepper.restart = 1;
   if (!s->contact) return trial(p, h, err);
   memcpy(p->v_start, s->system.v, 3 * s->system.nodes * sizeof(double));
-  sw_status status =
-      sw_contact_begin_step(s->contact, &s->system,
-                            s->method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT
-                                                                      : SW_CONTACT_EXPLICIT,
-                            s->time, h, p->args->dt, err);
+  sw_status status = sw_contact_begin_step(
+      s->contact, &s->system,
+      s->method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
+      s->time, h, p->args->dt, err);
   for (int redo = 0; status == SW_OK && redo < MOST_REDOS; redo++) {
     status = trial(p, h, err);
     if (status != SW_OK) break;
@@ -244,10 +243,11 @@ static sw_status check_run(const sw_scene *s, const sw_run_args *args, sw_error 
   if (!s->wire_count) return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", s->name);
   for (size_t w = 0; w < s->wire_count; w++)
     if (s->wires[w].beam.framed && !args->quasistatic && !(m->flags & SW_INTEGRATOR_IMPLICIT))
-      return sw_fail(err, SW_EINVAL,
-                     "scene:run: integrator '%s' is explicit; wire '%s', which is curved at rest or "
-                     "has two values of EI, needs an implicit one",
-                     m->name, s->wires[w].name);
+      return sw_fail(
+          err, SW_EINVAL,
+          "scene:run: integrator '%s' is explicit; wire '%s', which is curved at rest or "
+          "has two values of EI, needs an implicit one",
+          m->name, s->wires[w].name);
   if (args->quasistatic && isfinite(args->tolerance))
     return sw_fail(err, SW_EINVAL,
                    "scene:run: tolerance controls the time step of motion; a quasi-static run "
@@ -294,7 +294,8 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   s->running++;
   sw_status status = SW_OK;
   if (isfinite(args->frame) && s->frame_count == 0) {
-    status = sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, &why); /* energies need it */
+    status =
+        sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, &why); /* energies need it */
     if (status == SW_OK) status = sw_scene_store_frame(s, &why);
     s->next_frame = s->time + args->frame;
   }

@@ -67,8 +67,7 @@ static sw_status inherit_contact(sw_scene *s) {
     }
   }
   const sw_status status =
-      sw_contact_inherit(s->contact, s->kept.memory, s->kept.bytes, s->kept.fresh,
-                                            new_node);
+      sw_contact_inherit(s->contact, s->kept.memory, s->kept.bytes, s->kept.fresh, new_node);
   sw_free(new_node);
   return status;
 }
@@ -151,8 +150,7 @@ static sw_status new_plans(sw_scene *s, sw_plan **plans) {
     for (size_t k = 0; k < s->hold_count; k++) {
       const sw_scene_hold *h = &s->holds[k];
       if (!h->alive) continue;
-      if (h->wire == w)
-        places[n++] = (sw_hold_place){h->s1, h->s2, h->cls->clamped, number};
+      if (h->wire == w) places[n++] = (sw_hold_place){h->s1, h->s2, h->cls->clamped, number};
       number++;
     }
     status = sw_plan_new(&wire->beam, wire->mesh.s, wire->mesh.n, places, n, &plans[w]);
@@ -204,11 +202,10 @@ static sw_status add_holds(sw_scene *s, size_t alive) {
     }
     for (size_t i = 0; i < b->plan->nodes; i++) {
       if (!(b->plan->s[i] >= h->s1 && b->plan->s[i] <= h->s2)) continue;
-      s->system.held[s->system.held_count++] =
-          (sw_held_node){.node = b->first_node + i,
-                         .body = h->wire,
-                         .hold = number,
-                         .local = local_of(h, b->plan->s[i])};
+      s->system.held[s->system.held_count++] = (sw_held_node){.node = b->first_node + i,
+                                                              .body = h->wire,
+                                                              .hold = number,
+                                                              .local = local_of(h, b->plan->s[i])};
     }
     s->hold_slot[number++] = (int)k;
   }
@@ -230,8 +227,7 @@ static sw_status place_hold(void *user, int hold, double t, sw_hold_state *out, 
   return SW_OK;
 }
 
-static sw_status place_obstacle(void *user, int o, double t, sw_motion_state *out,
-                                sw_error *err) {
+static sw_status place_obstacle(void *user, int o, double t, sw_motion_state *out, sw_error *err) {
   sw_scene *s = user;
   return sw_drive_eval(s, &s->obstacles[o].drive, t, out, err);
 }
@@ -242,18 +238,16 @@ static sw_status add_contact(sw_scene *s) {
   if (!list) return SW_ENOMEM;
   for (size_t k = 0; k < s->obstacle_count; k++) {
     const sw_scene_obstacle *o = &s->obstacles[k];
-    if (o->alive)
-      list[n++] = (sw_contact_obstacle){o->shape, o->friction, o->restitution, (int)k};
+    if (o->alive) list[n++] = (sw_contact_obstacle){o->shape, o->friction, o->restitution, (int)k};
   }
-  sw_status status =
-      n ? sw_contact_new(list, n, place_obstacle, s, &s->contact) : SW_OK;
+  sw_status status = n ? sw_contact_new(list, n, place_obstacle, s, &s->contact) : SW_OK;
   sw_free(list);
   return status;
 }
 
 /* The coupling's user is the scene; these pass on to the contact. */
-static sw_status begin_stage(void *user, sw_system *system, double t, double hbar,
-                             const double *y, sw_error *err) {
+static sw_status begin_stage(void *user, sw_system *system, double t, double hbar, const double *y,
+                             sw_error *err) {
   return sw_contact_begin_stage(((sw_scene *)user)->contact, system, t, hbar, y, err);
 }
 static sw_status eval(void *user, sw_system *system, double t, double hbar, const double *y,

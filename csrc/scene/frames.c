@@ -7,7 +7,6 @@
 #include "base/alloc.h"
 #include "scene/world.h"
 
-
 enum { POSE = 7, HOLD = POSE + 1 };
 
 void sw_scene_drop_frames(sw_scene *s) {

@@ -32,8 +32,8 @@ static sw_status check_place(const sw_scene *s, const sw_hold_class *cls, size_t
     if (!h->alive || h->wire != wire) continue;
     if (s1 <= h->s2 + 1e-9 * length && s2 >= h->s1 - 1e-9 * length)
       return sw_fail(err, SW_EINVAL,
-                     "%s: wire '%s' is already held by '%s' between s = %.6g and %.6g m",
-                     cls->name, w->name, h->name, h->s1, h->s2);
+                     "%s: wire '%s' is already held by '%s' between s = %.6g and %.6g m", cls->name,
+                     w->name, h->name, h->s1, h->s2);
   }
   return SW_OK;
 }
@@ -116,8 +116,7 @@ static void take_directions(const sw_mesh *m, sw_scene_hold *h, const sw_hold_ar
   const int given = isfinite(a->direction.x) && sw_norm(a->direction) > 0;
   for (int side = 0; side < 2; side++) {
     const double s = fmin(length, fmax(0, side ? a->s + half : a->s - half));
-    h->director[side] =
-        given ? sw_unit_or(a->direction, sw_v(1, 0, 0)) : sw_mesh_tangent_at(m, s);
+    h->director[side] = given ? sw_unit_or(a->direction, sw_v(1, 0, 0)) : sw_mesh_tangent_at(m, s);
     if (!m->rest) continue;
     sw_mesh_frame *f = &h->frame[side];
     *f = sw_mesh_frame_at(m, s);
@@ -135,8 +134,10 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wir
   SW_TRY(sw_scene_thaw(s));
   SW_TRY(sw_grow((void **)&s->holds, &s->hold_capacity, s->hold_count + 1, sizeof *s->holds));
   sw_scene_hold h = {.generation = s->serial + 1, .alive = 1, .cls = cls, .wire = wire.slot};
-  if (args->name[0]) memcpy(h.name, args->name, sizeof h.name);
-  else snprintf(h.name, sizeof h.name, "%s%zu", cls->name, s->hold_count + 1);
+  if (args->name[0])
+    memcpy(h.name, args->name, sizeof h.name);
+  else
+    snprintf(h.name, sizeof h.name, "%s%zu", cls->name, s->hold_count + 1);
   take_directions(&s->wires[wire.slot].mesh, &h, args);
   sw_status status = place_nodes(s, wire.slot, &h, args);
   if (status == SW_OK) status = take_hold(&s->wires[wire.slot].mesh, &h, args);
@@ -227,8 +228,8 @@ sw_status sw_scene_hold_log(sw_scene *s, sw_handle hold, const double **rows, si
   return SW_OK;
 }
 
-sw_status sw_scene_obstacle_log(sw_scene *s, sw_handle obstacle, const double **rows,
-                                size_t *count, sw_error *err) {
+sw_status sw_scene_obstacle_log(sw_scene *s, sw_handle obstacle, const double **rows, size_t *count,
+                                sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
   const char *kind;
   int present; /* a removed obstacle's series can still be read */

@@ -147,8 +147,9 @@ sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double at, sw_point_state *
   SW_TRY(open_wire(s, h, &w, err));
   const double length = w->mesh.s[w->mesh.n - 1];
   if (!(at >= 0 && at <= length * (1 + 1e-12)))
-    return sw_fail(err, SW_EINVAL, "wire '%s': s = %.6g m is not on the wire; it must be in [0, %.6g] m",
-                   w->name, at, length);
+    return sw_fail(err, SW_EINVAL,
+                   "wire '%s': s = %.6g m is not on the wire; it must be in [0, %.6g] m", w->name,
+                   at, length);
   const sw_body *b = &s->system.bodies[h.slot];
   const size_t e = sw_plan_locate(b->plan, at, &f);
   const double *x = s->system.x + 3 * (b->first_node + e);
@@ -187,8 +188,8 @@ sw_status sw_scene_wire_copy(sw_scene *s, sw_handle h, double *positions, double
   return SW_OK;
 }
 
-sw_status sw_scene_wire_set_velocity(sw_scene *s, sw_handle h, sw_vec v, sw_vec omega,
-                                     sw_vec about, sw_error *err) {
+sw_status sw_scene_wire_set_velocity(sw_scene *s, sw_handle h, sw_vec v, sw_vec omega, sw_vec about,
+                                     sw_error *err) {
   sw_scene_wire *w;
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(open_wire(s, h, &w, err));

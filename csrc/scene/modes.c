@@ -46,8 +46,7 @@ static sw_status linearise(sw_scene *s, sw_error *err) {
 }
 
 /* Largest speed of a node, and how far nodes are from where their holds are now. */
-static sw_status look_at_nodes(sw_scene *s, size_t w, double *speed, double *away,
-                               sw_error *err) {
+static sw_status look_at_nodes(sw_scene *s, size_t w, double *speed, double *away, sw_error *err) {
   sw_system *system = &s->system;
   const sw_body *b = &system->bodies[w];
   memcpy(system->yhat, system->x, 3 * system->nodes * sizeof(double));
@@ -70,8 +69,9 @@ static sw_status check_rest(sw_scene *s, size_t w, double tolerance, sw_error *e
   if (!(speed * tau <= most))
     return sw_fail(err, SW_EINVAL, "wire '%s' moves at up to %.3g m/s; %s", name, speed, advice);
   if (!(away <= most))
-    return sw_fail(err, SW_EINVAL, "wire '%s' is not at rest: what holds it has gone %.3g m away; %s",
-                   name, away, advice);
+    return sw_fail(err, SW_EINVAL,
+                   "wire '%s' is not at rest: what holds it has gone %.3g m away; %s", name, away,
+                   advice);
   SW_TRY(sw_modal_unrest(&s->system, w, PATIENCE * tau, &drift, &axial, err));
   if (!(drift <= most))
     return sw_fail(err, SW_EINVAL,
@@ -79,8 +79,8 @@ static sw_status check_rest(sw_scene *s, size_t w, double tolerance, sw_error *e
                    drift, advice);
   if (!(axial <= FORCE_SHARE * tolerance))
     return sw_fail(err, SW_EINVAL,
-                   "wire '%s' is not at rest: its tension is still to change by %.3g of it; %s", name,
-                   axial, advice);
+                   "wire '%s' is not at rest: its tension is still to change by %.3g of it; %s",
+                   name, axial, advice);
   return SW_OK;
 }
 
@@ -103,8 +103,8 @@ static sw_status find(sw_scene *s, size_t w, const sw_modes_args *args, int (*in
   SW_TRY(linearise(s, err));
   SW_TRY(check_rest(s, w, args->tolerance, err));
   const double rate = 1.0 / (SLOWEST_GROWTH * time_scale(s, w));
-  const sw_status status = sw_modal_solve(&s->system, w, (size_t)args->modes, rate * rate,
-                                          interrupted, &modes, &why);
+  const sw_status status =
+      sw_modal_solve(&s->system, w, (size_t)args->modes, rate * rate, interrupted, &modes, &why);
   if (status == SW_OK) hand_over(s, w, &modes, (size_t)args->modes, out);
   sw_modes_free(&modes);
   return status == SW_OK ? status

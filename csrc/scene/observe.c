@@ -10,14 +10,12 @@
 /* The largest of |t2 - t1| / hinge length, squared: the curvature to second
  * order in the hinge angle; the exact angle is taken at the place found. */
 SW_HOT
-static double largest_curvature2(size_t n, const double *restrict hinge,
-                                 const double *restrict tx, const double *restrict ty,
-                                 const double *restrict tz) {
+static double largest_curvature2(size_t n, const double *restrict hinge, const double *restrict tx,
+                                 const double *restrict ty, const double *restrict tz) {
   double largest = 0;
   for (size_t i = 1; i + 1 < n; i++) {
     const double dx = tx[i] - tx[i - 1], dy = ty[i] - ty[i - 1], dz = tz[i] - tz[i - 1];
-    const double k2 =
-        hinge[i] > 0 ? (dx * dx + dy * dy + dz * dz) / (hinge[i] * hinge[i]) : 0.0;
+    const double k2 = hinge[i] > 0 ? (dx * dx + dy * dy + dz * dz) / (hinge[i] * hinge[i]) : 0.0;
     largest = largest > k2 ? largest : k2;
   }
   return largest;
@@ -47,8 +45,8 @@ static double clamp_chord(const sw_body *b, const double *directors, const sw_cl
 static void curvature_extreme(const sw_body *b, const double *directors, sw_extreme *out) {
   const sw_plan *p = b->plan;
   const sw_field *f = &b->field;
-  const double bound2 = largest_curvature2(p->nodes, p->hinge, f->tangent[0], f->tangent[1],
-                                           f->tangent[2]);
+  const double bound2 =
+      largest_curvature2(p->nodes, p->hinge, f->tangent[0], f->tangent[1], f->tangent[2]);
   *out = (sw_extreme){0};
   for (size_t i = 1; i + 1 < p->nodes; i++) {
     if (!(p->hinge[i] > 0)) continue;

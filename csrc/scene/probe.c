@@ -43,8 +43,8 @@ static void aim(sw_scene *s, sw_body *b, const sw_probe *at) {
   }
 }
 
-sw_status sw_scene_probe(sw_scene *s, sw_handle wire, const sw_force_class *cls,
-                         const sw_probe *at, sw_probe_result *out, sw_error *err) {
+sw_status sw_scene_probe(sw_scene *s, sw_handle wire, const sw_force_class *cls, const sw_probe *at,
+                         sw_probe_result *out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
   if (!sw_scene_find_wire(s, wire, err)) return SW_EDEAD;

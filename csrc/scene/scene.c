@@ -88,7 +88,8 @@ int sw_scene_busy(const sw_scene *s) { return s->running > 0; }
 
 sw_status sw_scene_editable(const sw_scene *s, sw_error *err) {
   if (s->running)
-    return sw_fail(err, SW_EBUSY, "scene '%s' cannot be changed or measured from inside a step or a function of "
+    return sw_fail(err, SW_EBUSY,
+                   "scene '%s' cannot be changed or measured from inside a step or a function of "
                    "time",
                    s->name);
   return SW_OK;
@@ -139,8 +140,10 @@ const char *sw_scene_obstacle_name(const sw_scene *s, sw_handle h, const char **
 
 /* A name for an unnamed object: "wire1", "box2", ... */
 static void give_name(char *out, const char *wanted, const char *kind, size_t number) {
-  if (wanted[0]) memcpy(out, wanted, SW_NAME_SIZE);
-  else snprintf(out, SW_NAME_SIZE, "%s%zu", kind, number + 1);
+  if (wanted[0])
+    memcpy(out, wanted, SW_NAME_SIZE);
+  else
+    snprintf(out, SW_NAME_SIZE, "%s%zu", kind, number + 1);
 }
 
 /* --- wires ------------------------------------------------------------------ */
@@ -150,10 +153,9 @@ static const char *const rest_names[] = {"straight", "path", NULL};
 static const sw_param wire_rows[] = {
     {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_wire_args, name),
      "name used in messages and series"},
-    {"model", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
-     "wire model: 'rod' (default) or 'string'"},
-    {"from", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL,
-     offsetof(sw_wire_args, from), "start of a straight wire (s = 0)"},
+    {"model", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0, "wire model: 'rod' (default) or 'string'"},
+    {"from", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(sw_wire_args, from),
+     "start of a straight wire (s = 0)"},
     {"to", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(sw_wire_args, to),
      "end of a straight wire"},
     {"path", SW_PARAM_OTHER, "m", 0, 0, 0, 0, NULL, 0,
@@ -176,8 +178,8 @@ static sw_status check_mesh(const char *name, const sw_mesh *m, sw_error *err) {
     return sw_fail(err, SW_EINVAL, "wire '%s': its points give a length of %g m", name, total);
   for (size_t i = 0; i + 1 < m->n; i++)
     if (!(m->s[i + 1] - m->s[i] > SHORTEST_SEGMENT * total))
-      return sw_fail(err, SW_EINVAL, "wire '%s': the path turns back on itself near s = %g m",
-                     name, m->s[i]);
+      return sw_fail(err, SW_EINVAL, "wire '%s': the path turns back on itself near s = %g m", name,
+                     m->s[i]);
   return SW_OK;
 }
 
@@ -186,15 +188,18 @@ static const double LEAST_SINE = 1e-3; /* of the angle between both [-] */
 
 static sw_status add_frames(sw_scene_wire *w, const sw_wire_args *a, sw_error *err) {
   const int two = w->beam.EI_axis[0] != w->beam.EI_axis[1];
-  const sw_vec along = sw_unit_or(sw_sub(sw_load(w->mesh.x + 3), sw_load(w->mesh.x)), sw_v(1, 0, 0));
+  const sw_vec along =
+      sw_unit_or(sw_sub(sw_load(w->mesh.x + 3), sw_load(w->mesh.x)), sw_v(1, 0, 0));
   const int given = isfinite(a->normal.x);
   if (!w->beam.framed && !given && a->rest == SW_REST_STRAIGHT) return SW_OK;
   if (strcmp(w->cls->name, "rod") != 0)
     return sw_fail(err, SW_EINVAL,
                    "wire '%s': rest, normal and two values of EI go with model = 'rod'", w->name);
   if (two && !given)
-    return sw_fail(err, SW_EINVAL, "wire '%s': two values of EI need normal = {x, y, z}, the "
-                   "direction in which the first one bends", w->name);
+    return sw_fail(err, SW_EINVAL,
+                   "wire '%s': two values of EI need normal = {x, y, z}, the "
+                   "direction in which the first one bends",
+                   w->name);
   if (given && !(sw_norm(sw_cross(sw_unit_or(a->normal, along), along)) > LEAST_SINE))
     return sw_fail(err, SW_EINVAL, "wire '%s': normal must not be along the wire's start", w->name);
   w->beam.framed = w->beam.framed || a->rest == SW_REST_PATH;
@@ -211,8 +216,7 @@ static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, c
   sw_recipe recipe;
   int by_angle = 0;
   w->cls->recipe(&w->beam, &recipe);
-  for (size_t k = 0; k < recipe.count; k++)
-    by_angle |= strcmp(recipe.terms[k].force, "bend") == 0;
+  for (size_t k = 0; k < recipe.count; k++) by_angle |= strcmp(recipe.terms[k].force, "bend") == 0;
   if ((cls->flags & SW_FORCE_BY_ANGLE) && !by_angle)
     return sw_fail(err, SW_EINVAL,
                    "force %s: wire '%s' is a %s, whose bending it cannot correct; it goes with "
@@ -261,14 +265,14 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
 static const sw_param obstacle_rows[] = {
     {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_obstacle_args, name),
      "name used in messages and series"},
-    {"at", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, 0, NULL,
-     offsetof(sw_obstacle_args, at), "place of the shape's origin"},
+    {"at", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(sw_obstacle_args, at),
+     "place of the shape's origin"},
     {"rotation", SW_PARAM_ROTATION, "rad", 0, 0, 0, 0, NULL, offsetof(sw_obstacle_args, rotation),
      "turn of the shape: { axis = {x, y, z}, angle = } or quaternion {w, x, y, z}"},
     {"friction", SW_PARAM_NUMBER, "-", 0.3, 0, 100, 0, NULL, offsetof(sw_obstacle_args, friction),
      "Coulomb friction coefficient"},
-    {"restitution", SW_PARAM_NUMBER, "-", 0, 0, 1, 0, NULL,
-     offsetof(sw_obstacle_args, restitution), "share of the approach speed kept in an impact"},
+    {"restitution", SW_PARAM_NUMBER, "-", 0, 0, 1, 0, NULL, offsetof(sw_obstacle_args, restitution),
+     "share of the approach speed kept in an impact"},
 };
 const sw_params sw_obstacle_params = SW_PARAMS("obstacle", obstacle_rows);
 
@@ -299,8 +303,8 @@ sw_status sw_scene_remove_obstacle(sw_scene *s, sw_handle obstacle, sw_error *er
   return SW_OK;
 }
 
-sw_status sw_scene_obstacle_follow(sw_scene *s, sw_handle obstacle, sw_motion *motion,
-                                   int relative, sw_error *err) {
+sw_status sw_scene_obstacle_follow(sw_scene *s, sw_handle obstacle, sw_motion *motion, int relative,
+                                   sw_error *err) {
   sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
   if (!o) return SW_EDEAD;
   SW_TRY(sw_scene_editable(s, err));
@@ -325,8 +329,7 @@ sw_status sw_scene_obstacle_shape(sw_scene *s, sw_handle obstacle, sw_shape **ou
   return SW_OK;
 }
 
-sw_status sw_scene_obstacle_set_pose(sw_scene *s, sw_handle obstacle, sw_pose pose,
-                                     sw_error *err) {
+sw_status sw_scene_obstacle_set_pose(sw_scene *s, sw_handle obstacle, sw_pose pose, sw_error *err) {
   sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
   if (!o) return SW_EDEAD;
   SW_TRY(sw_scene_editable(s, err));
@@ -372,8 +375,10 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
   SW_TRY(sw_scene_thaw(s));
   SW_TRY(sw_grow((void **)&s->forces, &s->force_capacity, s->force_count + 1, sizeof *s->forces));
   sw_scene_force *f = &s->forces[s->force_count];
-  *f = (sw_scene_force){
-      .generation = ++s->serial, .alive = 1, .cls = cls, .wire = wire.generation ? (long)wire.slot : -1};
+  *f = (sw_scene_force){.generation = ++s->serial,
+                        .alive = 1,
+                        .cls = cls,
+                        .wire = wire.generation ? (long)wire.slot : -1};
   if (args_size) memcpy(f->args, args, args_size);
   *out = (sw_handle){(uint32_t)s->force_count++, s->serial};
   return SW_OK;

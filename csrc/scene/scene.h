@@ -52,8 +52,7 @@ sw_status sw_scene_readable(const sw_scene *scene, sw_error *err);
 /* NULL when the scene does not know the object any more. kind: "clamp", "box", ...;
  * held, present: 0 once released or removed. */
 const char *sw_scene_wire_name(const sw_scene *scene, sw_handle wire);
-const char *sw_scene_hold_name(const sw_scene *scene, sw_handle hold, const char **kind,
-                               int *held);
+const char *sw_scene_hold_name(const sw_scene *scene, sw_handle hold, const char **kind, int *held);
 const char *sw_scene_obstacle_name(const sw_scene *scene, sw_handle obstacle, const char **kind,
                                    int *present);
 /* 0 when neither the scene nor a living snapshot of it will use the force again. */
@@ -65,11 +64,11 @@ const sw_force_class *sw_scene_force_class(const sw_scene *scene, sw_handle forc
 
 typedef struct sw_wire_args {
   char name[SW_NAME_SIZE];
-  int model;     /* index into sw_wire_all() */
+  int model;       /* index into sw_wire_all() */
   sw_vec from, to; /* straight wire; NAN = not given [m] */
-  long segments; /* [-] */
-  int rest;      /* shape without load: SW_REST_STRAIGHT, SW_REST_PATH */
-  sw_vec normal; /* first axis of the section; NAN = not given [-] */
+  long segments;   /* [-] */
+  int rest;        /* shape without load: SW_REST_STRAIGHT, SW_REST_PATH */
+  sw_vec normal;   /* first axis of the section; NAN = not given [-] */
 } sw_wire_args;
 enum { SW_REST_STRAIGHT = 0, SW_REST_PATH = 1 };
 extern const sw_params sw_wire_params; /* model, path, segments, ... */
@@ -113,13 +112,12 @@ sw_status sw_scene_add_obstacle(sw_scene *scene, sw_shape *shape, const sw_obsta
                                 sw_handle *out, sw_error *err);
 sw_status sw_scene_obstacle_follow(sw_scene *scene, sw_handle obstacle, sw_motion *motion,
                                    int relative, sw_error *err);
-sw_status sw_scene_obstacle_pose(sw_scene *scene, sw_handle obstacle, sw_pose *out,
-                                 sw_error *err);
+sw_status sw_scene_obstacle_pose(sw_scene *scene, sw_handle obstacle, sw_pose *out, sw_error *err);
 sw_status sw_scene_obstacle_set_pose(sw_scene *scene, sw_handle obstacle, sw_pose pose,
                                      sw_error *err);
 /* Total contact force and its moment about a point, on the obstacle [N, N m]. */
-sw_status sw_scene_obstacle_force(sw_scene *scene, sw_handle obstacle, sw_vec about,
-                                  sw_vec *force, sw_vec *moment, sw_error *err);
+sw_status sw_scene_obstacle_force(sw_scene *scene, sw_handle obstacle, sw_vec about, sw_vec *force,
+                                  sw_vec *moment, sw_error *err);
 sw_status sw_scene_remove_obstacle(sw_scene *scene, sw_handle obstacle, sw_error *err);
 /* The shape, still the scene's: retain it to keep it. */
 sw_status sw_scene_obstacle_shape(sw_scene *scene, sw_handle obstacle, sw_shape **out,
@@ -150,13 +148,13 @@ extern const sw_params sw_run_params;
 sw_status sw_scene_begin_run(sw_scene *scene, sw_error *err);
 
 typedef struct sw_run_report {
-  sw_status status;  /* SW_OK, SW_EDIVERGED, SW_EINTR, SW_ECALLBACK, ... */
-  double time;       /* reached [s] */
+  sw_status status; /* SW_OK, SW_EDIVERGED, SW_EINTR, SW_ECALLBACK, ... */
+  double time;      /* reached [s] */
   size_t steps, rejected, iterations, evaluations; /* [-] */
-  double smallest_dt; /* [s] */
-  size_t jumps;       /* quasi-static steps in which wires jumped [-] */
-  double last_jump;   /* time of the last one [s] */
-  sw_error reason;   /* why it stopped, when not SW_OK */
+  double smallest_dt;                              /* [s] */
+  size_t jumps;     /* quasi-static steps in which wires jumped [-] */
+  double last_jump; /* time of the last one [s] */
+  sw_error reason;  /* why it stopped, when not SW_OK */
 } sw_run_report;
 
 /* Advance to time until. interrupted (may be NULL) is polled between steps. A
@@ -173,11 +171,11 @@ extern const sw_params sw_settle_params;
 
 typedef struct sw_settle_report {
   int ok;
-  size_t iterations;   /* matrix solves [-] */
-  size_t negative;     /* unstable directions of the equilibrium found [-] */
-  int transient;       /* 1: pseudo-transient continuation was needed */
-  double residual;     /* largest node shift of the last iteration [m] */
-  int jumped;          /* 1: the wires moved much further than what drives them */
+  size_t iterations; /* matrix solves [-] */
+  size_t negative;   /* unstable directions of the equilibrium found [-] */
+  int transient;     /* 1: pseudo-transient continuation was needed */
+  double residual;   /* largest node shift of the last iteration [m] */
+  int jumped;        /* 1: the wires moved much further than what drives them */
   sw_error reason;
 } sw_settle_report;
 
@@ -191,7 +189,7 @@ typedef struct sw_point_state {
   double curvature;                   /* [1/m] */
   double tension;                     /* [N] */
   double twist_moment;                /* [N m] */
-  double strain, least_strain; /* of the fibres outside and inside the bend [-] */
+  double strain, least_strain;        /* of the fibres outside and inside the bend [-] */
 } sw_point_state;
 
 typedef struct sw_extreme {
@@ -226,9 +224,9 @@ typedef struct sw_modes_args {
 extern const sw_params sw_modes_params;
 
 typedef struct sw_modes_result {
-  size_t count;     /* frequencies found [-] */
-  size_t unstable;  /* motions that grow instead [-] */
-  double growth;    /* of the fastest of those [1/s] */
+  size_t count;        /* frequencies found [-] */
+  size_t unstable;     /* motions that grow instead [-] */
+  double growth;       /* of the fastest of those [1/s] */
   double *frequencies; /* (modes), the caller's [Hz] */
   double *shapes;      /* (modes x nodes x 3), the caller's, or NULL [1/sqrt(kg)] */
 } sw_modes_result;
@@ -305,8 +303,8 @@ sw_status sw_scene_clear_frames(sw_scene *scene, sw_error *err);
  * from then on, unless another living snapshot still knows it. */
 sw_status sw_scene_snapshot(sw_scene *scene, sw_snapshot **out, sw_error *err);
 sw_status sw_scene_restore(sw_scene *scene, const sw_snapshot *snapshot, sw_error *err);
-void sw_snapshot_free(sw_snapshot *snapshot); /* NULL is allowed */
+void sw_snapshot_free(sw_snapshot *snapshot);         /* NULL is allowed */
 double sw_snapshot_time(const sw_snapshot *snapshot); /* [s] */
-int sw_snapshot_busy(const sw_snapshot *snapshot); /* being restored: do not free it */
+int sw_snapshot_busy(const sw_snapshot *snapshot);    /* being restored: do not free it */
 
 #endif

@@ -59,8 +59,7 @@ static sw_status solve(statics *p, double hbar, const sw_newton *newton, sw_erro
   sw_system_begin_step(&s->system);
   sw_status status = SW_OK;
   if (s->contact)
-    status =
-        sw_contact_begin_step(s->contact, &s->system, SW_CONTACT_STATIC, s->time, 0, 0, err);
+    status = sw_contact_begin_step(s->contact, &s->system, SW_CONTACT_STATIC, s->time, 0, 0, err);
   for (int redo = 0; status == SW_OK; redo++) {
     status = sw_system_stage(&s->system, &stage, newton, &r, err);
     p->report->iterations += (size_t)r.iterations;
@@ -70,8 +69,7 @@ static sw_status solve(statics *p, double hbar, const sw_newton *newton, sw_erro
       status = sw_fail(err, SW_ENOCONV, "the wire would pass through an obstacle");
   }
   p->report->negative = r.negative;
-  if (status != SW_OK)
-    memcpy(s->system.tension, p->tension, s->system.edges * sizeof(double));
+  if (status != SW_OK) memcpy(s->system.tension, p->tension, s->system.edges * sizeof(double));
   return status;
 }
 
@@ -235,12 +233,10 @@ static sw_status follow_holds(statics *p, sw_error *err) {
   return status;
 }
 
-static void conclude(sw_scene *s, sw_status status, sw_settle_report *report,
-                     const sw_error *why) {
+static void conclude(sw_scene *s, sw_status status, sw_settle_report *report, const sw_error *why) {
   report->ok = status == SW_OK;
   if (status != SW_OK)
-    sw_fail(&report->reason, status, "%.400s",
-            why->text[0] ? why->text : sw_status_text(status));
+    sw_fail(&report->reason, status, "%.400s", why->text[0] ? why->text : sw_status_text(status));
   s->discontinuous = 1;
 }
 
@@ -291,8 +287,8 @@ sw_status sw_scene_rest(sw_scene *s, const sw_settle_args *args, int (*interrupt
   s->system.still = 0;
   if (status == SW_OK) {
     const double shift = largest_shift_since(&p);
-    report->jumped = report->transient && shift > SMALLEST_JUMP * longest(s) &&
-                     shift > JUMP * drive_shift(&p);
+    report->jumped =
+        report->transient && shift > SMALLEST_JUMP * longest(s) && shift > JUMP * drive_shift(&p);
   } else if (status != SW_EINTR) {
     take_back(s, p.begun);
   }

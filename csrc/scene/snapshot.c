@@ -225,8 +225,7 @@ static void drop_newer(sw_scene *s) {
     if (q->forces > forces) forces = q->forces;
   }
   while (s->hold_count > holds) sw_scene_clear_hold(&s->holds[--s->hold_count]);
-  while (s->obstacle_count > obstacles)
-    sw_scene_clear_obstacle(&s->obstacles[--s->obstacle_count]);
+  while (s->obstacle_count > obstacles) sw_scene_clear_obstacle(&s->obstacles[--s->obstacle_count]);
   if (s->force_count > forces) s->force_count = forces;
 }
 
@@ -260,8 +259,7 @@ static sw_status put_state(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   if (p->method) {
     s->stepper.last_h = p->last_h;
     s->stepper.restart = p->restart;
-    if (p->history)
-      memcpy(s->stepper.xp, p->history, p->history_size * sizeof(double));
+    if (p->history) memcpy(s->stepper.xp, p->history, p->history_size * sizeof(double));
   } else if (s->has_stepper) { /* taken before the first run */
     sw_stepper_free(&s->stepper);
     s->has_stepper = 0;
@@ -272,8 +270,7 @@ static sw_status put_state(sw_scene *s, const sw_snapshot *p, sw_error *err) {
 
 sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  if (p->scene != s)
-    return sw_fail(err, SW_EINVAL, "restore: the snapshot is of another scene");
+  if (p->scene != s) return sw_fail(err, SW_EINVAL, "restore: the snapshot is of another scene");
   if (s->wire_count > p->wires)
     return sw_fail(err, SW_EINVAL,
                    "restore: wire '%s' was added after the snapshot; wires cannot be taken away",

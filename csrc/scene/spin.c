@@ -7,8 +7,7 @@
 #include "state/hinge.h"
 
 static sw_edge_frame edge_frame(const double *nodes, const double *normals, size_t e) {
-  const sw_vec t =
-      sw_unit_or(sw_sub(sw_vec_at(nodes, e + 1), sw_vec_at(nodes, e)), sw_v(1, 0, 0));
+  const sw_vec t = sw_unit_or(sw_sub(sw_vec_at(nodes, e + 1), sw_vec_at(nodes, e)), sw_v(1, 0, 0));
   return (sw_edge_frame){t, sw_vec_at(normals, e)};
 }
 
@@ -78,8 +77,7 @@ void sw_scene_frame_out(sw_scene *s, size_t wire) {
   memcpy(m->twist, twist, p->nodes * sizeof *twist);
   for (size_t i = 0; i < p->nodes; i++)
     if (p->held[i] != SW_FREE && !(p->hinge[i] > 0)) m->twist[i] = 0;
-  for (size_t c = 0; c < p->clamp_count; c++)
-    m->twist[p->clamps[c].node] += twist[p->nodes + c];
+  for (size_t c = 0; c < p->clamp_count; c++) m->twist[p->clamps[c].node] += twist[p->nodes + c];
 }
 
 /* The mesh's twist of a node: a clamp hinge has half of it where both its sides

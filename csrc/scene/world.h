@@ -44,15 +44,15 @@ typedef struct sw_scene_hold {
   char name[SW_NAME_SIZE];
   const sw_hold_class *cls;
   size_t wire;
-  double s1, s2;       /* held interval, nodes of the mesh [m] */
+  double s1, s2; /* held interval, nodes of the mesh [m] */
   sw_drive drive;
-  size_t count;        /* held places */
-  double *s;           /* (count) arc lengths when taken hold of [m] */
-  double *local;       /* (count x 3) in the hold's frame [m] */
-  sw_vec director[2];  /* arriving, leaving; in the hold's frame [-] */
+  size_t count;           /* held places */
+  double *s;              /* (count) arc lengths when taken hold of [m] */
+  double *local;          /* (count x 3) in the hold's frame [m] */
+  sw_vec director[2];     /* arriving, leaving; in the hold's frame [-] */
   sw_mesh_frame frame[2]; /* the wire's there, with directions as held; if it has frames */
-  sw_quat turn;         /* orientation that goes with the wire's twist, while not built */
-  sw_vec force, moment; /* last, kept after release [N], [N m] */
+  sw_quat turn;           /* orientation that goes with the wire's twist, while not built */
+  sw_vec force, moment;   /* last, kept after release [N], [N m] */
   sw_pose last_pose;
   sw_log log;
 } sw_scene_hold;
@@ -91,8 +91,8 @@ typedef struct sw_kept_history {
 
 struct sw_scene {
   char name[SW_NAME_SIZE];
-  uint32_t serial;        /* generation of the object made last */
-  sw_snapshot *snapshots; /* the living ones, a list */
+  uint32_t serial;              /* generation of the object made last */
+  sw_snapshot *snapshots;       /* the living ones, a list */
   const sw_snapshot *restoring; /* being restored now, or NULL */
   sw_vec gravity;
   double time;
@@ -108,16 +108,16 @@ struct sw_scene {
   const sw_pose *part_from; /* settling: where the holds come from, or NULL */
   double part;              /* share of their way [-] */
 
-  int built;        /* system is valid and holds the state */
-  int running;      /* above 0 inside a step or a user's function: edits are refused */
+  int built;   /* system is valid and holds the state */
+  int running; /* above 0 inside a step or a user's function: edits are refused */
   sw_system system;
-  int *hold_slot;   /* (system.hold_count) scene slot of each system hold */
+  int *hold_slot; /* (system.hold_count) scene slot of each system hold */
   sw_contact *contact;
-  struct {            /* contact memory of the last built system, for the next one */
-    void *memory;     /* copy, or NULL */
+  struct {        /* contact memory of the last built system, for the next one */
+    void *memory; /* copy, or NULL */
     size_t bytes;
-    double *s;        /* (nodes) arc lengths then [m] */
-    size_t *first;    /* (wires + 1) first node of each wire then */
+    double *s;     /* (nodes) arc lengths then [m] */
+    size_t *first; /* (wires + 1) first node of each wire then */
     size_t wires;
     int fresh;
   } kept;
@@ -161,8 +161,8 @@ sw_status sw_scene_build(sw_scene *scene, sw_error *err);
 sw_status sw_drive_eval(sw_scene *scene, const sw_drive *drive, double t, sw_motion_state *out,
                         sw_error *err);
 /* Follow the motion from the scene's time on. */
-sw_status sw_drive_follow(sw_scene *scene, sw_drive *drive, const char *object,
-                          sw_motion *motion, int relative, sw_error *err);
+sw_status sw_drive_follow(sw_scene *scene, sw_drive *drive, const char *object, sw_motion *motion,
+                          int relative, sw_error *err);
 void sw_drive_free(sw_drive *drive);
 
 sw_status sw_log_add(sw_log *log, const double *row, size_t n);

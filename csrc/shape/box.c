@@ -79,9 +79,8 @@ static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_c
 }
 
 static const sw_param rows[] = {
-    {"size", SW_PARAM_VECTOR, "m", NAN, 0, SW_SHAPE_LARGEST,
-     SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN, NULL, offsetof(box_args, size),
-     "lengths of the edges along x, y and z"},
+    {"size", SW_PARAM_VECTOR, "m", NAN, 0, SW_SHAPE_LARGEST, SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN,
+     NULL, offsetof(box_args, size), "lengths of the edges along x, y and z"},
 };
 
 const sw_shape_class sw_shape_class_box = {.kind = "box",

@@ -36,7 +36,7 @@ static void furthest(const void *thing, const ccd_vec3_t *way, ccd_vec3_t *out) 
 int sw_ccd_apart(const double *vertices, size_t n, sw_vec centre, double size,
                  const sw_vec *corners, int corner_count, double reach) {
   enum { MOST_CORNERS = 4 };
-  const double slack = 1e-3;     /* grown by this part of the size against false "apart" [-] */
+  const double slack = 1e-3;      /* grown by this part of the size against false "apart" [-] */
   const unsigned long most = 100; /* iterations; polytopes need about 10 [-] */
   double flat[3 * MOST_CORNERS];
   ccd_t setup;

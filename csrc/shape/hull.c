@@ -68,8 +68,8 @@ static sw_status create(sw_shape *shape, const void *args, const sw_shape_source
   SW_TRY(status);
   if (keep_corners(self) != SW_OK) return sw_fail(err, SW_ENOMEM, "%s: out of memory", object);
   for (size_t i = 0; i < self->corner_count; i++)
-    self->centre = sw_madd(self->centre, sw_load(self->corners + 3 * i),
-                           1.0 / (double)self->corner_count);
+    self->centre =
+        sw_madd(self->centre, sw_load(self->corners + 3 * i), 1.0 / (double)self->corner_count);
   shape->bounds = self->mesh.bounds;
   return SW_OK;
 }

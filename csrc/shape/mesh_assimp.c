@@ -35,9 +35,7 @@ static size_t file_write(struct aiFile *file, const char *bytes, size_t size, si
   (void)file, (void)bytes, (void)size, (void)count;
   return 0;
 }
-static size_t file_tell(struct aiFile *file) {
-  return ((memory_file *)(void *)file->UserData)->at;
-}
+static size_t file_tell(struct aiFile *file) { return ((memory_file *)(void *)file->UserData)->at; }
 static size_t file_size(struct aiFile *file) {
   return ((memory_file *)(void *)file->UserData)->size;
 }
@@ -59,7 +57,7 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *name, const cha
   f->starved = !file;
   if (!file) return NULL;
   f->at = 0;
-  *file = (struct aiFile){file_read, file_write, file_tell, file_size,
+  *file = (struct aiFile){file_read, file_write, file_tell,    file_size,
                           file_seek, file_flush, (aiUserData)f};
   return file;
 }
@@ -82,8 +80,7 @@ static void add_mesh(const struct aiMesh *mesh, sw_mesh_data *out) {
   const int first = (int)out->vertex_count;
   for (unsigned v = 0; v < mesh->mNumVertices; v++) {
     const struct aiVector3D p = mesh->mVertices[v];
-    sw_store(out->vertices + 3 * out->vertex_count++,
-             sw_v((double)p.x, (double)p.y, (double)p.z));
+    sw_store(out->vertices + 3 * out->vertex_count++, sw_v((double)p.x, (double)p.y, (double)p.z));
   }
   for (unsigned f = 0; f < mesh->mNumFaces; f++) {
     const struct aiFace face = mesh->mFaces[f];
@@ -110,8 +107,8 @@ static sw_status copy(const char *object, const struct aiScene *scene, sw_mesh_d
   return SW_OK;
 }
 
-sw_status sw_mesh_read(const char *object, const char *bytes, size_t byte_count,
-                       const char *format, sw_mesh_data *out, sw_error *err) {
+sw_status sw_mesh_read(const char *object, const char *bytes, size_t byte_count, const char *format,
+                       sw_mesh_data *out, sw_error *err) {
   const unsigned steps =
       aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices;
   memory_file file = {bytes, byte_count, 0, "", 0};
@@ -122,8 +119,7 @@ sw_status sw_mesh_read(const char *object, const char *bytes, size_t byte_count,
   if (!settings) return sw_fail(err, SW_ENOMEM, "%s: out of memory", object);
   aiSetImportPropertyInteger(settings, AI_CONFIG_PP_SBP_REMOVE,
                              aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  const struct aiScene *scene =
-      aiImportFileExWithProperties(file.name, steps, &io, settings);
+  const struct aiScene *scene = aiImportFileExWithProperties(file.name, steps, &io, settings);
   aiReleasePropertyStore(settings);
   if (!scene && file.starved) return sw_fail(err, SW_ENOMEM, "%s: out of memory", object);
   if (!scene)

@@ -13,7 +13,7 @@ typedef struct sw_mesh_data {
 
 /* Read a file's content; nothing else is opened, whatever it refers to. format
  * is a file extension without the dot. On failure nothing is held. */
-sw_status sw_mesh_read(const char *object, const char *bytes, size_t byte_count,
-                       const char *format, sw_mesh_data *out, sw_error *err);
+sw_status sw_mesh_read(const char *object, const char *bytes, size_t byte_count, const char *format,
+                       sw_mesh_data *out, sw_error *err);
 
 #endif

@@ -48,9 +48,9 @@ static double next_place(const probe *left, const probe *right, double where_met
 /* Narrow the interval whose ends have slopes below and above zero. Returns 0
  * when no place in it can be nearer than reach. */
 static int narrow(const line *on, probe *left, probe *right, double reach) {
-  const int most = 60;          /* a third of them halve: below 1e-6 even then */
-  const double sharp = 1e-15;   /* of the length: gap known as well as numbers allow [-] */
-  const double width = 1e-13;   /* narrowest interval [-] */
+  const int most = 60;        /* a third of them halve: below 1e-6 even then */
+  const double sharp = 1e-15; /* of the length: gap known as well as numbers allow [-] */
+  const double width = 1e-13; /* narrowest interval [-] */
   for (int turn = 0; turn < most; turn++) {
     double at;
     const double least = meet(left, right, &at);
@@ -109,8 +109,8 @@ int sw_convex_segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, s
   return !sw_no_better(out->gap, gap_a, gap_b, out->at, on.length);
 }
 
-int sw_convex_bridge(const sw_shape *shape, sw_vec a, sw_vec b, double reach,
-                     const double part[2], sw_closest *out) {
+int sw_convex_bridge(const sw_shape *shape, sw_vec a, sw_vec b, double reach, const double part[2],
+                     sw_closest *out) {
   const double same_part = 1e-6, level = 1e-9; /* of the length [-] */
   const sw_vec d = sw_sub(b, a);
   const double length = sw_norm(d);

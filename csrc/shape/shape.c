@@ -87,8 +87,8 @@ int sw_shape_segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach,
   return shape->class->segment(shape, a, b, reach, out);
 }
 
-int sw_shape_sweep(const sw_shape *shape, sw_vec a0, sw_vec b0, sw_vec a1, sw_vec b1,
-                   double margin, sw_closest *out, double *when) {
+int sw_shape_sweep(const sw_shape *shape, sw_vec a0, sw_vec b0, sw_vec a1, sw_vec b1, double margin,
+                   sw_closest *out, double *when) {
   const double relative = 1e-10; /* tolerance in parts of the largest coordinate [-] */
   const double size = fmax(fmax(size_of(a0), size_of(b0)), fmax(size_of(a1), size_of(b1)));
   const double all = size_of(a0) + size_of(b0) + size_of(a1) + size_of(b1);

@@ -89,8 +89,8 @@ int sw_shape_segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach,
  * when the iterations run out (grazing), the moment reached is reported. For a
  * mesh that the segment already pierces at the start, the pierced triangles
  * are left out. */
-int sw_shape_sweep(const sw_shape *shape, sw_vec a0, sw_vec b0, sw_vec a1, sw_vec b1,
-                   double margin, sw_closest *out, double *when);
+int sw_shape_sweep(const sw_shape *shape, sw_vec a0, sw_vec b0, sw_vec a1, sw_vec b1, double margin,
+                   sw_closest *out, double *when);
 
 sw_bounds sw_shape_bounds(const sw_shape *shape);
 const char *sw_shape_kind(const sw_shape *shape); /* "box", "mesh", ... */

@@ -48,17 +48,17 @@ struct sw_shape_class {
 #undef X
 
 /* A row for a length that must be positive. */
-#define SW_LENGTH_ROW(struct_name, field, text)                                       \
-  {                                                                                   \
-    #field, SW_PARAM_NUMBER, "m", NAN, 0, SW_SHAPE_LARGEST,                           \
+#define SW_LENGTH_ROW(struct_name, field, text)                                          \
+  {                                                                                      \
+#field, SW_PARAM_NUMBER, "m", NAN, 0, SW_SHAPE_LARGEST,                              \
         SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN, NULL, offsetof(struct_name, field), text \
   }
 
 /* A segment nearly parallel to a face (or a straight side) under its one contact
  * out[0], which it passes over between the places part[0] and part[1]: add the
  * places where it enters and leaves as contacts. Returns how many there are. */
-int sw_convex_bridge(const sw_shape *shape, sw_vec a, sw_vec b, double reach,
-                     const double part[2], sw_closest *out);
+int sw_convex_bridge(const sw_shape *shape, sw_vec a, sw_vec b, double reach, const double part[2],
+                     sw_closest *out);
 #define SW_NEARLY_FLAT 0.05 /* tilt up to which both ends of a bridge count [rad] */
 
 /* Shorten the part [*from, *to] of a line x + t d to where it is in [low, high]. */
@@ -104,9 +104,8 @@ static inline int sw_no_better(double gap, double gap_a, double gap_b, double at
 }
 
 static inline sw_bounds sw_bounds_of(sw_vec a, sw_vec b, double margin) {
-  return (sw_bounds){
-      {fmin(a.x, b.x) - margin, fmin(a.y, b.y) - margin, fmin(a.z, b.z) - margin},
-      {fmax(a.x, b.x) + margin, fmax(a.y, b.y) + margin, fmax(a.z, b.z) + margin}};
+  return (sw_bounds){{fmin(a.x, b.x) - margin, fmin(a.y, b.y) - margin, fmin(a.z, b.z) - margin},
+                     {fmax(a.x, b.x) + margin, fmax(a.y, b.y) + margin, fmax(a.z, b.z) + margin}};
 }
 static inline int sw_bounds_meet(const sw_bounds *a, const sw_bounds *b) {
   return a->min.x <= b->max.x && b->min.x <= a->max.x && a->min.y <= b->max.y &&

@@ -123,9 +123,8 @@ static void list_corner_edges(sw_trimesh *mesh) {
 static void finish_corner(sw_trimesh *mesh, int v) {
   const double bent = 1e-6; /* sine of the slope below which an edge is level [-] */
   sw_trimesh_corner *corner = &mesh->corners[v];
-  const sw_vec fallback = corner->owner < 0
-                              ? sw_v(0, 0, 1)
-                              : sw_load(mesh->normals + 3 * (size_t)corner->owner);
+  const sw_vec fallback =
+      corner->owner < 0 ? sw_v(0, 0, 1) : sw_load(mesh->normals + 3 * (size_t)corner->owner);
   corner->normal = sw_unit_or(corner->normal, fallback);
   corner->into = sw_unit_or(corner->into, sw_perpendicular(corner->normal));
   corner->flags = corner->count > 0 ? SW_CONVEX : 0;

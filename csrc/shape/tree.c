@@ -31,9 +31,12 @@ static void select_middle(const builder *b, int low, int high, int middle, int a
       while (key(b, j, axis) > pivot) j--;
       if (i <= j) swap(b->order, i++, j--);
     }
-    if (middle <= j) high = j;
-    else if (middle >= i) low = i;
-    else return;
+    if (middle <= j)
+      high = j;
+    else if (middle >= i)
+      low = i;
+    else
+      return;
   }
 }
 
@@ -56,7 +59,8 @@ static sw_bounds bounds_of(const builder *b, int low, int high) {
   sw_bounds box = nothing;
   for (int i = low; i <= high; i++)
     for (int k = 0; k < 3; k++)
-      widen(&box, sw_trimesh_vertex(b->mesh, b->mesh->indices[3 * (size_t)b->order[i] + (size_t)k]));
+      widen(&box,
+            sw_trimesh_vertex(b->mesh, b->mesh->indices[3 * (size_t)b->order[i] + (size_t)k]));
   return box;
 }
 

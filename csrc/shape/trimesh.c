@@ -92,8 +92,7 @@ static void keep_triangle(sw_trimesh *mesh, const int corner[3]) {
   sw_vec v[3];
   double longest2 = 0;
   for (int k = 0; k < 3; k++) v[k] = sw_trimesh_vertex(mesh, corner[k]);
-  for (int k = 0; k < 3; k++)
-    longest2 = fmax(longest2, sw_norm2(sw_sub(v[(k + 1) % 3], v[k])));
+  for (int k = 0; k < 3; k++) longest2 = fmax(longest2, sw_norm2(sw_sub(v[(k + 1) % 3], v[k])));
   const sw_vec n = sw_cross(sw_sub(v[1], v[0]), sw_sub(v[2], v[0]));
   if (!(sw_norm(n) > flat_part * longest2)) return;
   memcpy(mesh->indices + 3 * mesh->triangle_count, corner, 3 * sizeof(int));

@@ -26,11 +26,11 @@ enum {
 };
 
 typedef struct sw_trimesh_edge {
-  int v[2];      /* vertices, the smaller number first */
-  int tri[2];    /* triangles on it; the second is -1 on a border */
+  int v[2];   /* vertices, the smaller number first */
+  int tri[2]; /* triangles on it; the second is -1 on a border */
   int flags;
-  double sine;   /* of the angle between its faces [-] */
-  sw_vec normal; /* unit mean of its faces' normals [-] */
+  double sine;    /* of the angle between its faces [-] */
+  sw_vec normal;  /* unit mean of its faces' normals [-] */
   sw_vec into[2]; /* unit vectors across the edge into both faces [-] */
 } sw_trimesh_edge;
 
@@ -39,20 +39,20 @@ typedef struct sw_trimesh_corner {
   sw_vec into;   /* unit mean direction into the surface [-] */
   int owner;     /* the triangle that speaks for it */
   int flags;
-  int first;     /* its edges start here in corner_edges */
+  int first; /* its edges start here in corner_edges */
   int count;
 } sw_trimesh_corner;
 
 typedef struct sw_trimesh {
   size_t vertex_count, triangle_count, edge_count, node_count;
-  double *vertices;            /* vertex_count x 3 [m] */
-  int *indices;                /* triangle_count x 3, in the order of the tree's leaves */
-  int *sides;                  /* triangle_count x 3: the edge from corner k to k + 1 */
-  double *normals;             /* triangle_count x 3, unit [-] */
-  sw_trimesh_edge *edges;      /* edge_count */
-  sw_trimesh_corner *corners;  /* vertex_count */
-  int *corner_edges;           /* 2 x edge_count */
-  sw_tree_node *nodes;         /* node_count, the root first */
+  double *vertices;           /* vertex_count x 3 [m] */
+  int *indices;               /* triangle_count x 3, in the order of the tree's leaves */
+  int *sides;                 /* triangle_count x 3: the edge from corner k to k + 1 */
+  double *normals;            /* triangle_count x 3, unit [-] */
+  sw_trimesh_edge *edges;     /* edge_count */
+  sw_trimesh_corner *corners; /* vertex_count */
+  int *corner_edges;          /* 2 x edge_count */
+  sw_tree_node *nodes;        /* node_count, the root first */
   sw_bounds bounds;
   double size; /* largest extent [m] */
 } sw_trimesh;

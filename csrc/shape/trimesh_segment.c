@@ -175,8 +175,7 @@ static void try_triangle(void *context, int tri) {
   const sw_trimesh *mesh = q->mesh;
   for (size_t i = 3 * (size_t)tri; i < 3 * (size_t)tri + 3; i++) {
     const int edge = mesh->sides[i], v = mesh->indices[i];
-    if (mesh->edges[edge].tri[0] == tri && (mesh->edges[edge].flags & SW_CONVEX))
-      try_edge(q, edge);
+    if (mesh->edges[edge].tri[0] == tri && (mesh->edges[edge].flags & SW_CONVEX)) try_edge(q, edge);
     if (mesh->corners[v].owner == tri && (mesh->corners[v].flags & SW_CONVEX)) try_corner(q, v);
   }
 }

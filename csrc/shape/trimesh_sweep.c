@@ -94,7 +94,7 @@ static void step_off(const sw_trimesh *mesh, int tri, sw_sweep *path) {
 }
 
 int sw_trimesh_sweep(const sw_trimesh *mesh, const sw_sweep *path, sw_closest *out, double *when) {
-  const double touching = 4; /* start gaps below this many tolerances are none [-] */
+  const double touching = 4;     /* start gaps below this many tolerances are none [-] */
   const double last = 1 + 1e-12; /* the last moment still counts */
   sw_sweep moved = *path;
   const double tolerance = path->tolerance;

@@ -10,10 +10,31 @@
 static const double SW_ANGLE_FIT = 0.25; /* largest u of the fits [-] */
 /* Horner's scheme for the coefficients c0 .. c13. */
 #define SW_FIT_STEP(u, c, rest) ((c) + (u) * (rest))
-#define SW_FIT(u, c)                                                                              \
-  SW_FIT_STEP(u, c##0, SW_FIT_STEP(u, c##1, SW_FIT_STEP(u, c##2, SW_FIT_STEP(u, c##3, SW_FIT_STEP(u, c##4, SW_FIT_STEP(u, c##5,          \
-  SW_FIT_STEP(u, c##6, SW_FIT_STEP(u, c##7, SW_FIT_STEP(u, c##8, SW_FIT_STEP(u, c##9, SW_FIT_STEP(u, c##10, SW_FIT_STEP(u, c##11,        \
-  SW_FIT_STEP(u, c##12, c##13)))))))))))))
+#define SW_FIT(u, c)                                                \
+  SW_FIT_STEP(                                                      \
+      u, c##0,                                                      \
+      SW_FIT_STEP(                                                  \
+          u, c##1,                                                  \
+          SW_FIT_STEP(                                              \
+              u, c##2,                                              \
+              SW_FIT_STEP(                                          \
+                  u, c##3,                                          \
+                  SW_FIT_STEP(                                      \
+                      u, c##4,                                      \
+                      SW_FIT_STEP(                                  \
+                          u, c##5,                                  \
+                          SW_FIT_STEP(                              \
+                              u, c##6,                              \
+                              SW_FIT_STEP(                          \
+                                  u, c##7,                          \
+                                  SW_FIT_STEP(                      \
+                                      u, c##8,                      \
+                                      SW_FIT_STEP(                  \
+                                          u, c##9,                  \
+                                          SW_FIT_STEP(              \
+                                              u, c##10,             \
+                                              SW_FIT_STEP(u, c##11, \
+                                                          SW_FIT_STEP(u, c##12, c##13)))))))))))))
 #define SW_FIT_S0 1.0
 #define SW_FIT_S1 0.66666666666673224
 #define SW_FIT_S2 0.53333333331635013

@@ -28,16 +28,16 @@ enum { SW_LANES = 8 }; /* zeros around each edge array [-] */
 typedef struct sw_field {
   const sw_plan *plan;
   unsigned want;
-  double time;          /* [s] */
-  double velocity_rate; /* d velocity / d position of the stage: 1/hbar, 0 in statics [1/s] */
-  int statics;          /* stored tension may be negative in the stiffness */
-  const double *x;      /* (n x 3) node positions [m] */
-  const double *v;      /* (n x 3) node velocities [m/s] */
+  double time;           /* [s] */
+  double velocity_rate;  /* d velocity / d position of the stage: 1/hbar, 0 in statics [1/s] */
+  int statics;           /* stored tension may be negative in the stiffness */
+  const double *x;       /* (n x 3) node positions [m] */
+  const double *v;       /* (n x 3) node velocities [m/s] */
   const double *tension; /* (m) stored axial force of the mixed Newton, or NULL [N] */
   const double *gravity; /* (3) [m/s2] */
   const double *hold_directors; /* (holds x 2 x 3) directors of the holds [-] */
   const double *hold_turns;     /* the same size: rates of the directors [1/s] */
-  int cautious;         /* iterations do not converge: overestimate stiffness that jumps */
+  int cautious;                 /* iterations do not converge: overestimate stiffness that jumps */
   const double *history;        /* of the force that is evaluated, or NULL */
 
   /* twist of the plan's spans; NULL when there is none */

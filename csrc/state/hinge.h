@@ -52,15 +52,17 @@ static inline sw_vec sw_carry_unit(sw_vec v, sw_vec from, sw_vec to) {
 }
 
 /* 2 atan(h) for y = h^2 below 0.01, to rounding. */
-#define SW_TWICE_ATAN(h, y)                                                                    \
-  (2.0 * (h) *                                                                                 \
-   (1.0 - (y) * (1.0 / 3 - (y) * (1.0 / 5 - (y) * (1.0 / 7 - (y) * (1.0 / 9 - (y) *            \
-   (1.0 / 11 - (y) * (1.0 / 13 - (y) / 15))))))))
+#define SW_TWICE_ATAN(h, y)        \
+  (2.0 * (h) *                     \
+   (1.0 -                          \
+    (y) * (1.0 / 3 -               \
+           (y) * (1.0 / 5 -        \
+                  (y) * (1.0 / 7 - \
+                         (y) * (1.0 / 9 - (y) * (1.0 / 11 - (y) * (1.0 / 13 - (y) / 15))))))))
 
 /* Turn of the second frame against the first one carried to it, the value nearest
  * to `before` [rad]. */
-static inline double sw_hinge_twist(const sw_edge_frame *a, const sw_edge_frame *b,
-                                    double before) {
+static inline double sw_hinge_twist(const sw_edge_frame *a, const sw_edge_frame *b, double before) {
   const sw_vec u = sw_carry(a->m1, a->t, b->t);
   const double sine = sw_dot(sw_cross(u, b->m1), b->t), cosine = sw_dot(u, b->m1);
   const double half = sine / (1.0 + cosine), y = half * half; /* tan of half the turn */

@@ -11,7 +11,7 @@ enum { ARRAYS = 8, PLAIN = 4 }; /* the later ones with frames only */
 
 /* The arrays and their doubles per node. */
 static void arrays(sw_mesh *m, double **out[ARRAYS], size_t width[ARRAYS]) {
-  double **const all[ARRAYS] = {&m->s,    &m->tension, &m->x,      &m->v,
+  double **const all[ARRAYS] = {&m->s,    &m->tension, &m->x,           &m->v,
                                 &m->rest, &m->normal,  &m->rest_normal, &m->twist};
   static const size_t widths[ARRAYS] = {1, 1, 3, 3, 3, 3, 3, 1};
   memcpy(out, all, sizeof all);
@@ -95,8 +95,10 @@ size_t sw_mesh_node(const sw_mesh *m, double s) {
   size_t low = 0, high = m->n - 1;
   while (low < high) {
     const size_t middle = (low + high) / 2;
-    if (m->s[middle] < s) low = middle + 1;
-    else high = middle;
+    if (m->s[middle] < s)
+      low = middle + 1;
+    else
+      high = middle;
   }
   return low;
 }
@@ -109,8 +111,8 @@ static sw_vec tangent_of(const sw_mesh *m, const double *nodes, size_t i) {
     const double sign = i == 0 ? 1.0 : -1.0;
     const double l1 = fabs(m->s[j] - m->s[i]), l2 = fabs(m->s[k] - m->s[j]);
     const sw_vec t1 = sw_scale(sw_unit_or(sw_sub(sw_vec_at(nodes, j), x), fallback), sign);
-    const sw_vec t2 = sw_scale(
-        sw_unit_or(sw_sub(sw_vec_at(nodes, k), sw_vec_at(nodes, j)), fallback), sign);
+    const sw_vec t2 =
+        sw_scale(sw_unit_or(sw_sub(sw_vec_at(nodes, k), sw_vec_at(nodes, j)), fallback), sign);
     return sw_unit_or(sw_madd(t1, sw_sub(t1, t2), l1 / (l1 + l2)), t1);
   }
   const double l1 = m->s[i] - m->s[i - 1], l2 = m->s[i + 1] - m->s[i];
@@ -208,7 +210,8 @@ static void move_node(sw_mesh *m, size_t i, double s) {
   const double rest_a = s - m->s[i - 1], rest_c = m->s[i + 1] - s;
   bend_node(m->x, m->normal, i, chord(m, i - 1, rest_a), chord(m, i, rest_c));
   if (m->rest) bend_node(m->rest, m->rest_normal, i, rest_a, rest_c);
-  const double share = (s - m->s[i]) / (s > m->s[i] ? m->s[i + 1] - m->s[i] : m->s[i] - m->s[i - 1]);
+  const double share =
+      (s - m->s[i]) / (s > m->s[i] ? m->s[i + 1] - m->s[i] : m->s[i] - m->s[i - 1]);
   const sw_vec vi = sw_vec_at(m->v, i);
   const sw_vec vj = sw_vec_at(m->v, share > 0 ? i + 1 : i - 1);
   sw_store(m->v + 3 * i, sw_lerp(vi, vj, fabs(share)));
@@ -228,8 +231,7 @@ static sw_status insert_node(sw_mesh *m, size_t edge, double s) {
       m->rest ? sw_lerp(sw_vec_at(m->rest, edge), sw_vec_at(m->rest, i), f) : sw_v(0, 0, 0);
   for (size_t k = 0; k < ARRAYS; k++)
     if (*at[k])
-      memmove(*at[k] + width[k] * (i + 1), *at[k] + width[k] * i,
-              width[k] * tail * sizeof(double));
+      memmove(*at[k] + width[k] * (i + 1), *at[k] + width[k] * i, width[k] * tail * sizeof(double));
   m->s[i] = s;
   m->tension[i] = m->tension[edge];
   sw_store(m->x + 3 * i, x);

@@ -117,8 +117,7 @@ static void set_spans(sw_plan *p) {
       const size_t right = next_arriving(p, e);
       if (right == p->clamp_count) continue;
       const size_t last = p->clamps[right].edge;
-      p->spans[p->span_count++] =
-          (sw_span){e, last, c, right, p->s[last + 1] - p->s[e]};
+      p->spans[p->span_count++] = (sw_span){e, last, c, right, p->s[last + 1] - p->s[e]};
     }
 }
 
@@ -161,8 +160,10 @@ size_t sw_plan_locate(const sw_plan *plan, double s, double *fraction) {
   size_t low = 0, high = plan->edges;
   while (high - low > 1) {
     const size_t middle = (low + high) / 2;
-    if (plan->s[middle] <= s) low = middle;
-    else high = middle;
+    if (plan->s[middle] <= s)
+      low = middle;
+    else
+      high = middle;
   }
   double f = (s - plan->s[low]) / plan->rest[low];
   if (f < 0) f = 0;

@@ -13,12 +13,12 @@
 
 /* What a section is made of, in beam terms. */
 typedef struct sw_beam {
-  double EA;     /* axial stiffness [N] */
-  double EI;     /* bending stiffness, the smaller of two [N m2] */
-  double GJ;     /* twist stiffness [N m2] */
-  double mass;   /* mass per length [kg/m] */
-  double radius; /* outer radius [m] */
-  double E;      /* of the material, for stresses [Pa] */
+  double EA;         /* axial stiffness [N] */
+  double EI;         /* bending stiffness, the smaller of two [N m2] */
+  double GJ;         /* twist stiffness [N m2] */
+  double mass;       /* mass per length [kg/m] */
+  double radius;     /* outer radius [m] */
+  double E;          /* of the material, for stresses [Pa] */
   double EI_axis[2]; /* in the plane of the normal and across it [N m2] */
   int framed;        /* 1: needs material frames (two stiffnesses, or curved at rest) */
 } sw_beam;
@@ -40,27 +40,27 @@ typedef struct sw_clamp_hinge {
  * axis: the only place where a straight wire of equal bending stiffness can be
  * twisted, since anywhere else it unwinds through a free end. */
 typedef struct sw_span {
-  size_t first, last;   /* its edges, both included */
-  size_t left, right;   /* its clamp hinges, indices into clamps */
-  double length;        /* [m] */
+  size_t first, last; /* its edges, both included */
+  size_t left, right; /* its clamp hinges, indices into clamps */
+  double length;      /* [m] */
 } sw_span;
 
 typedef struct sw_plan {
   int references;
-  size_t nodes;        /* n */
-  size_t edges;        /* m = n - 1 */
+  size_t nodes; /* n */
+  size_t edges; /* m = n - 1 */
   sw_beam beam;
-  double length;       /* unstressed wire length [m] */
-  double *s;           /* (n) arc length of each node [m] */
-  double *rest;        /* (m) unstressed edge lengths [m] */
-  double *lumped;      /* (n) lumped node masses [kg] */
-  double *mass_own;    /* (n) consistent mass, diagonal [kg] */
-  double *mass_next;   /* (n) consistent mass, node i with i+1 [kg] */
-  double *hinge;       /* (n) hinge lengths; 0 = no hinge at this node [m] */
-  int *held;           /* (n) SW_FREE or SW_HELD */
+  double length;          /* unstressed wire length [m] */
+  double *s;              /* (n) arc length of each node [m] */
+  double *rest;           /* (m) unstressed edge lengths [m] */
+  double *lumped;         /* (n) lumped node masses [kg] */
+  double *mass_own;       /* (n) consistent mass, diagonal [kg] */
+  double *mass_next;      /* (n) consistent mass, node i with i+1 [kg] */
+  double *hinge;          /* (n) hinge lengths; 0 = no hinge at this node [m] */
+  int *held;              /* (n) SW_FREE or SW_HELD */
   sw_clamp_hinge *clamps; /* (clamp_count) */
   size_t clamp_count;
-  sw_span *spans;         /* (span_count) from the wire's start on */
+  sw_span *spans; /* (span_count) from the wire's start on */
   size_t span_count;
   double *rest_bend;  /* (n + clamps x 2) what a hinge is bent when unloaded, or NULL [rad] */
   double *rest_twist; /* (n + clamps) and twisted [rad] */
@@ -71,7 +71,7 @@ typedef struct sw_plan {
 typedef struct sw_hold_place {
   double s1, s2; /* [m] */
   int clamped;
-  int hold;      /* the owner's index */
+  int hold; /* the owner's index */
 } sw_hold_place;
 
 /* Build a plan for nodes at arc lengths s (n values, increasing, first 0) under

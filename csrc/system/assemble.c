@@ -6,7 +6,8 @@
 #include "base/simd.h"
 #include "solve/band3.h"
 
-static inline __attribute__((always_inline)) void gather_row(const sw_field *f, size_t i, double *restrict row) {
+static inline __attribute__((always_inline)) void gather_row(const sw_field *f, size_t i,
+                                                             double *restrict row) {
   double *const *own = f->own, *const *next = f->next;
   const double *const *o = (const double *const *)own;
   const double *const *x = (const double *const *)next;

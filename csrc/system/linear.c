@@ -55,8 +55,7 @@ size_t sw_system_factor_size(const sw_system *s, size_t body) {
 }
 
 void sw_system_residual(const sw_system *s, size_t body, double *out) {
-  memcpy(out, s->delta + 3 * s->bodies[body].first_node,
-         sw_system_unknowns(s, body) * sizeof *out);
+  memcpy(out, s->delta + 3 * s->bodies[body].first_node, sw_system_unknowns(s, body) * sizeof *out);
 }
 
 void sw_system_shifts(const sw_system *s, size_t body, const double *motion, double *out) {
@@ -173,8 +172,7 @@ void sw_field_stiffness_times(const sw_field *f, const double *d, double *out) {
   }
 }
 
-void sw_system_stiffness_times(const sw_system *s, size_t body, const double *motion,
-                               double *out) {
+void sw_system_stiffness_times(const sw_system *s, size_t body, const double *motion, double *out) {
   const sw_body *b = &s->bodies[body];
   sw_field_stiffness_times(&b->field, motion, out);
   for (size_t k = 0; b->has_twist && k < b->plan->span_count; k++) {

@@ -52,7 +52,9 @@ static sw_vec direction(const double *x, size_t e) {
 }
 
 static sw_vec get(double *const *a, size_t e) { return sw_v(a[0][e], a[1][e], a[2][e]); }
-static void set(double *const *a, size_t e, sw_vec v) { a[0][e] = v.x, a[1][e] = v.y, a[2][e] = v.z; }
+static void set(double *const *a, size_t e, sw_vec v) {
+  a[0][e] = v.x, a[1][e] = v.y, a[2][e] = v.z;
+}
 
 static double *state_of(const sw_system *s, const sw_body *b) { return s->frames + b->first_frame; }
 
@@ -124,16 +126,15 @@ static void measure_twist(const sw_system *s, sw_body *b) {
       const sw_edge_frame before = edge_frame(b, i - 1), after = edge_frame(b, i);
       if (p->hinge[i] > 0) measured[i] = sw_hinge_twist(&before, &after, b->spin_twist[i]);
     }
-  if (p->nodes > 2)
-    memcpy(b->spin_twist + 1, measured + 1, (p->nodes - 2) * sizeof *measured);
+  if (p->nodes > 2) memcpy(b->spin_twist + 1, measured + 1, (p->nodes - 2) * sizeof *measured);
   for (size_t c = 0; c < p->clamp_count; c++) {
     const sw_clamp_hinge *h = &p->clamps[c];
     const size_t at = 2 * (size_t)h->hold + (h->side > 0 ? 1 : 0);
     const sw_edge_frame held = {sw_vec_at(s->directors_now, at), sw_vec_at(s->normals_now, at)};
     const sw_edge_frame edge = edge_frame(b, h->edge);
     double *twist = &b->spin_twist[p->nodes + c];
-    *twist = h->side > 0 ? sw_hinge_twist(&held, &edge, *twist)
-                         : sw_hinge_twist(&edge, &held, *twist);
+    *twist =
+        h->side > 0 ? sw_hinge_twist(&held, &edge, *twist) : sw_hinge_twist(&edge, &held, *twist);
   }
 }
 
@@ -147,8 +148,8 @@ static void turn_held_edges(const sw_system *s, sw_body *b) {
     const size_t e = h->node - b->first_node;
     const double *q = s->turn + 4 * h->hold;
     const sw_quat before = {q[0], q[1], q[2], q[3]};
-    const sw_vec n = sw_rotate(s->hold_states[h->hold].pose.q,
-                               sw_unrotate(before, state_normal(s, b, e)));
+    const sw_vec n =
+        sw_rotate(s->hold_states[h->hold].pose.q, sw_unrotate(before, state_normal(s, b, e)));
     const sw_vec t = get(b->spin_tangent, e);
     set(b->spin_normal, e, sw_unit_or(sw_madd(n, t, -sw_dot(n, t)), sw_perpendicular(t)));
   }
@@ -320,7 +321,8 @@ void sw_spin_turn(sw_body *b, double share) {
     const double a2 = angle * angle;
     const int small = a2 < 1e-4; /* series to rounding */
     const double c = small ? 1.0 - a2 * (0.5 - a2 * (1.0 / 24 - a2 / 720)) : cos(angle);
-    const double sine = small ? angle * (1.0 - a2 * (1.0 / 6 - a2 * (1.0 / 120 - a2 / 5040))) : sin(angle);
+    const double sine =
+        small ? angle * (1.0 - a2 * (1.0 / 6 - a2 * (1.0 / 120 - a2 / 5040))) : sin(angle);
     set(b->spin_normal, e, sw_madd(sw_scale(n, c), sw_cross(t, n), sine));
   }
 }

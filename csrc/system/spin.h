@@ -25,8 +25,7 @@ void sw_spin_carry(sw_system *system, sw_body *body);
 
 /* Solve for the update of nodes (delta, nodes x 3, in place) and spins with the
  * field's rows, whose held nodes are out. Fails as sw_band4_factor. */
-sw_status sw_spin_solve(const sw_system *system, sw_body *body, double *delta,
-                        size_t *negative);
+sw_status sw_spin_solve(const sw_system *system, sw_body *body, double *delta, size_t *negative);
 
 /* The largest turn of the last solve [rad]; let the frames turn by a share of it. */
 double sw_spin_largest(const sw_body *body);

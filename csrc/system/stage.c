@@ -94,15 +94,13 @@ sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, c
   sw_field_clear(f);
   sw_field_geometry(f);
   if (b->has_twist || b->spin_block) sw_system_measure(s, b);
-  for (size_t k = 0; k < b->term_count; k++)
-    SW_TRY(sw_term_eval(&b->terms[k], f, err));
+  for (size_t k = 0; k < b->term_count; k++) SW_TRY(sw_term_eval(&b->terms[k], f, err));
   return SW_OK;
 }
 
 static void stage_velocity(const sw_system *s, const sw_stage *stage, int statics) {
   const double rate = statics ? 0.0 : 1.0 / stage->hbar;
-  for (size_t i = 0; i < 3 * s->nodes; i++)
-    s->velocity[i] = (stage->y[i] - stage->xhat[i]) * rate;
+  for (size_t i = 0; i < 3 * s->nodes; i++) s->velocity[i] = (stage->y[i] - stage->xhat[i]) * rate;
 }
 
 /* Assemble and solve once; delta is the full update. */
@@ -140,8 +138,7 @@ static sw_status solve_once(sw_system *s, const sw_stage *stage, int statics,
     }
     SW_TRY(sw_band3_factor(body->field.rows, body->plan->nodes, body->field.rows, &negative));
     sw_band3_solve(body->field.rows, body->plan->nodes, s->delta + 3 * body->first_node);
-    if (body->has_twist)
-      negative -= sw_twist_correct(body, s->delta + 3 * body->first_node);
+    if (body->has_twist) negative -= sw_twist_correct(body, s->delta + 3 * body->first_node);
     report->negative += negative;
   }
   s->counters.newton++;
@@ -157,10 +154,10 @@ static double apply(sw_system *s, const sw_stage *stage, const sw_newton *newton
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
     const sw_field *f = &body->field;
-    const double turn2 = advance_tension(
-        body->plan->edges, s->delta + 3 * body->first_node, body->plan->rest, f->length,
-        f->reciprocal, f->tangent[0], f->tangent[1], f->tangent[2], body->EA, body->EA_push,
-        s->tension_new + body->first_edge);
+    const double turn2 =
+        advance_tension(body->plan->edges, s->delta + 3 * body->first_node, body->plan->rest,
+                        f->length, f->reciprocal, f->tangent[0], f->tangent[1], f->tangent[2],
+                        body->EA, body->EA_push, s->tension_new + body->first_edge);
     if (!(turn2 <= largest)) largest = turn2;
     if (!body->spin_block) continue;
     const double spin = sw_spin_largest(body);
@@ -168,9 +165,8 @@ static double apply(sw_system *s, const sw_stage *stage, const sw_newton *newton
   }
   if (!isfinite(largest)) return -1;
   report->rotation = sqrt(fmax(largest, 0.0));
-  const double share = report->rotation > newton->limit_rotation
-                           ? newton->limit_rotation / report->rotation
-                           : 1.0;
+  const double share =
+      report->rotation > newton->limit_rotation ? newton->limit_rotation / report->rotation : 1.0;
   for (size_t i = 0; i < 3 * s->nodes; i++) stage->y[i] += share * s->delta[i];
   for (size_t b = 0; b < s->body_count; b++)
     if (s->bodies[b].spin_block) sw_spin_turn(&s->bodies[b], share);
@@ -207,8 +203,7 @@ static double trusted_shift(const sw_system *s, const sw_body *b, double hbar, i
   const double ka = b->EA / l;
   const double inertia = statics || !isfinite(hbar) ? 0.0 : p->beam.mass * l / (hbar * hbar);
   const double kb = 12.0 * p->beam.EI / (l * l * l) + inertia;
-  const double force = fmax(p->beam.mass * L * sw_norm(sw_load(s->gravity)),
-                            p->beam.EI / (L * L));
+  const double force = fmax(p->beam.mass * L * sw_norm(sw_load(s->gravity)), p->beam.EI / (L * L));
   return FORCE_NOISE * force * kb / (ROUNDING * ka * ka);
 }
 
@@ -230,8 +225,7 @@ static int converged(sw_system *s, const sw_stage *stage, const sw_newton *newto
     if ((s->bodies[b].is_explicit || s->bodies[b].is_kinked) &&
         largest_shift(s) > FIXED_POINT * s->bodies[b].plan->length)
       return 0;
-  return !s->coupling.settled ||
-         s->coupling.settled(s->coupling.user, s, stage->y, s->delta);
+  return !s->coupling.settled || s->coupling.settled(s->coupling.user, s, stage->y, s->delta);
 }
 
 /* Newton starts from the free flight yhat. Where that turns an edge over or
@@ -334,8 +328,7 @@ sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const 
     sw_field_clear(f);
     sw_field_geometry(f);
     if (body->has_twist || body->spin_block) sw_system_measure(s, body);
-    for (size_t k = 0; k < body->term_count; k++)
-      SW_TRY(sw_term_eval(&body->terms[k], f, err));
+    for (size_t k = 0; k < body->term_count; k++) SW_TRY(sw_term_eval(&body->terms[k], f, err));
   }
   if (s->coupling.eval)
     SW_TRY(s->coupling.eval(s->coupling.user, s, t, HUGE_VAL, x, SW_WANT_FORCE, err));
@@ -344,8 +337,7 @@ sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const 
     const sw_field *f = &body->field;
     for (size_t i = 0; i < body->plan->nodes; i++)
       for (size_t k = 0; k < 3; k++) {
-        const double force =
-            f->force[3 * i + k] + f->gradient[k][i] - *(f->gradient[k] + i - 1);
+        const double force = f->force[3 * i + k] + f->gradient[k][i] - *(f->gradient[k] + i - 1);
         s->delta[3 * (body->first_node + i) + k] = force;
         if (body->plan->held[i] == SW_FREE)
           a[3 * (body->first_node + i) + k] = force / body->plan->lumped[i];

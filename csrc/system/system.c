@@ -169,8 +169,7 @@ static void place_node(const sw_hold_state *h, sw_vec local, double *x, double *
   if (x) sw_store(x, sw_add(h->pose.p, arm));
   const sw_vec spin = sw_cross(h->omega, arm);
   if (v) sw_store(v, sw_add(h->v, spin));
-  if (a)
-    sw_store(a, sw_add(h->a, sw_add(sw_cross(h->alpha, arm), sw_cross(h->omega, spin))));
+  if (a) sw_store(a, sw_add(h->a, sw_add(sw_cross(h->alpha, arm), sw_cross(h->omega, spin))));
 }
 
 sw_status sw_system_place_holds(sw_system *s, double t, double *x, double *v, double *a,
@@ -181,9 +180,9 @@ sw_status sw_system_place_holds(sw_system *s, double t, double *x, double *v, do
       const size_t at = 3 * (2 * k + side);
       const sw_vec d = sw_rotate(s->hold_states[k].pose.q, sw_load(s->directors + at));
       sw_store(s->directors_now + at, d);
-      sw_store(s->normals_now + at,
-               sw_rotate(s->hold_states[k].pose.q, sw_load(s->normals + at)));
-      sw_store(s->directors_rate + at, s->still ? sw_v(0, 0, 0) : sw_cross(s->hold_states[k].omega, d));
+      sw_store(s->normals_now + at, sw_rotate(s->hold_states[k].pose.q, sw_load(s->normals + at)));
+      sw_store(s->directors_rate + at,
+               s->still ? sw_v(0, 0, 0) : sw_cross(s->hold_states[k].omega, d));
     }
   }
   for (size_t i = 0; i < s->held_count; i++) {
@@ -198,8 +197,7 @@ void sw_system_held_velocity(const sw_system *s, const sw_held_node *held, doubl
   place_node(&s->hold_states[held->hold], held->local, NULL, v, NULL);
 }
 
-void sw_system_reaction(const sw_system *s, int hold, sw_vec point, sw_vec *force,
-                        sw_vec *moment) {
+void sw_system_reaction(const sw_system *s, int hold, sw_vec point, sw_vec *force, sw_vec *moment) {
   sw_vec f = sw_v(0, 0, 0), m = sw_v(0, 0, 0);
   for (size_t i = 0; i < s->held_count; i++) {
     const sw_held_node *h = &s->held[i];

@@ -18,7 +18,7 @@
 typedef struct sw_term {
   const sw_force_class *cls;
   double args[SW_FORCE_ARGS_MAX / sizeof(double)];
-  int id; /* for the owner; -1 for a recipe's own forces */
+  int id;          /* for the owner; -1 for a recipe's own forces */
   double *history; /* its part of the system's state, or NULL */
 } sw_term;
 
@@ -30,30 +30,30 @@ typedef struct sw_body {
   size_t term_count;
   sw_field field;
   void *field_block;
-  size_t first_span;  /* place of the plan's spans in the system's twist */
-  int has_twist;      /* the wire resists twist and is held against it somewhere */
-  double *twist_now;  /* (spans) at this evaluation [rad] */
-  double *twist_rank; /* (nodes x 3) slope of the twist, held nodes included [rad/m]; both
-                       * serve as room while the twist is measured */
+  size_t first_span;    /* place of the plan's spans in the system's twist */
+  int has_twist;        /* the wire resists twist and is held against it somewhere */
+  double *twist_now;    /* (spans) at this evaluation [rad] */
+  double *twist_rank;   /* (nodes x 3) slope of the twist, held nodes included [rad/m]; both
+                         * serve as room while the twist is measured */
   double *twist_solved; /* (nodes x 3) the matrix' inverse times it */
-  double *twist_gain; /* (spans) added to the torque by the last update [N m] */
+  double *twist_gain;   /* (spans) added to the torque by the last update [N m] */
   void *twist_block;
-  size_t first_frame; /* place of its frames in the system's */
+  size_t first_frame;                       /* place of its frames in the system's */
   double *spin_normal[3], *spin_tangent[3]; /* (edges) components at the iterate */
-  double *spin_twist; /* (nodes + clamps) of the hinges there [rad] */
+  double *spin_twist;                       /* (nodes + clamps) of the hinges there [rad] */
   double *spin_delta; /* (nodes x 4) last update: nodes and turns of edges [m], [rad] */
   double *spin_rows;  /* (nodes x SW_ROW4_SIZE) */
   void *spin_block;
   double spin_inertia; /* of an edge per length over hbar^2, where spins find no rest [N] */
-  int needs_velocity; /* some force depends on it */
-  int is_explicit;    /* some force has no stiffness */
-  int is_kinked;      /* some force has a history: its stiffness jumps */
+  int needs_velocity;  /* some force depends on it */
+  int is_explicit;     /* some force has no stiffness */
+  int is_kinked;       /* some force has a history: its stiffness jumps */
 } sw_body;
 
 /* Where a hold is, for all nodes it holds. */
 typedef struct sw_hold_state {
-  sw_pose pose;                       /* [m], [-] */
-  sw_vec v, a, omega, alpha;          /* [m/s], [m/s2], [rad/s], [rad/s2] */
+  sw_pose pose;              /* [m], [-] */
+  sw_vec v, a, omega, alpha; /* [m/s], [m/s2], [rad/s], [rad/s2] */
 } sw_hold_state;
 
 /* A node that follows a hold: x = pose * local. */
@@ -61,10 +61,10 @@ typedef struct sw_held_node {
   size_t node; /* in the system's arrays */
   size_t body;
   int hold;
-  sw_vec local;       /* [m] */
-  double saved[36];   /* its matrix couplings to the nodes -2 -1 +1 +2 [N/m] */
-  sw_vec own_force;   /* inertia minus forces before the last solve [N] */
-  sw_vec reaction;    /* force on the wire needed to hold it [N] */
+  sw_vec local;     /* [m] */
+  double saved[36]; /* its matrix couplings to the nodes -2 -1 +1 +2 [N/m] */
+  sw_vec own_force; /* inertia minus forces before the last solve [N] */
+  sw_vec reaction;  /* force on the wire needed to hold it [N] */
 } sw_held_node;
 
 typedef struct sw_system sw_system;
@@ -76,8 +76,8 @@ typedef struct sw_coupling {
   /* Pose of hold number k at a time. */
   sw_status (*place)(void *user, int hold, double time, sw_hold_state *out, sw_error *err);
   /* A stage begins at y (predicted); hbar is infinite in statics. */
-  sw_status (*begin_stage)(void *user, sw_system *system, double time, double hbar,
-                           const double *y, sw_error *err);
+  sw_status (*begin_stage)(void *user, sw_system *system, double time, double hbar, const double *y,
+                           sw_error *err);
   /* Add forces and matrix rows at y to the bodies' fields. */
   sw_status (*eval)(void *user, sw_system *system, double time, double hbar, const double *y,
                     unsigned want, sw_error *err);
@@ -96,12 +96,12 @@ struct sw_system {
   size_t body_count;
   sw_held_node *held;
   size_t held_count;
-  double *directors; /* (holds x 2 x 3) in hold coordinates: arriving, leaving */
-  double *directors_now; /* the same in world coordinates at the stage */
-  double *directors_rate; /* and how fast they turn [1/s] */
+  double *directors;             /* (holds x 2 x 3) in hold coordinates: arriving, leaving */
+  double *directors_now;         /* the same in world coordinates at the stage */
+  double *directors_rate;        /* and how fast they turn [1/s] */
   double *normals, *normals_now; /* the same: the wire's normals at the holds */
-  int still;             /* 1: holds count as standing, whatever they follow (statics) */
-  sw_hold_state *hold_states; /* (hold_count) at the last stage */
+  int still;                     /* 1: holds count as standing, whatever they follow (statics) */
+  sw_hold_state *hold_states;    /* (hold_count) at the last stage */
   size_t hold_count;
   double gravity[3]; /* [m/s2] */
   sw_coupling coupling;
@@ -143,8 +143,8 @@ typedef struct sw_stage {
 
 typedef struct sw_stage_report {
   int iterations;
-  double rotation;  /* of the last update [rad] */
-  size_t negative;  /* negative pivots of the last matrix */
+  double rotation; /* of the last update [rad] */
+  size_t negative; /* negative pivots of the last matrix */
 } sw_stage_report;
 
 /* Make arrays for bodies whose plans are set (takes over a retained plan each).
@@ -258,16 +258,14 @@ void sw_system_fix_held(const sw_system *system, size_t body, double *motion);
  * are below the shift. Fails as sw_band3_factor. shift [rad2/s2] */
 sw_status sw_system_factor(const sw_system *system, size_t body, double shift, double *factor,
                            size_t *below);
-void sw_system_factor_solve(const sw_system *system, size_t body, const double *factor,
-                            double *x);
+void sw_system_factor_solve(const sw_system *system, size_t body, const double *factor, double *x);
 /* The largest diagonal term of K over that of M; work has a factor's size [rad2/s2]. */
 double sw_system_stiffest(const sw_system *system, size_t body, double *work);
 
 /* out = K motion, out = M motion */
 void sw_system_stiffness_times(const sw_system *system, size_t body, const double *motion,
                                double *out);
-void sw_system_mass_times(const sw_system *system, size_t body, const double *motion,
-                          double *out);
+void sw_system_mass_times(const sw_system *system, size_t body, const double *motion, double *out);
 
 /* out = stiffness of a body's field times d, held nodes like all others; both
  * (nodes x 3). */

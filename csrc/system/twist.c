@@ -118,9 +118,7 @@ static long small_areas(size_t first, size_t last, const double *restrict ox,
   return large;
 }
 
-static sw_vec column(double *const t[3], size_t e) {
-  return sw_v(t[0][e], t[1][e], t[2][e]);
-}
+static sw_vec column(double *const t[3], size_t e) { return sw_v(t[0][e], t[1][e], t[2][e]); }
 
 /* Change of a span's twist from the state to positions x (of the body). Works in
  * twist_rank and twist_solved, which sw_twist_gather fills anew. */

@@ -11,8 +11,8 @@ static void recipe(const sw_beam *beam, sw_recipe *out) {
                      .push = 1,
                      .twist = 1};
   if (beam->framed)
-    out->terms[3] = (sw_recipe_term){
-        "frame", {beam->EI, beam->EI_axis[0], beam->EI_axis[1], beam->GJ}};
+    out->terms[3] =
+        (sw_recipe_term){"frame", {beam->EI, beam->EI_axis[0], beam->EI_axis[1], beam->GJ}};
 }
 
 const sw_wire_class sw_wire_rod = {

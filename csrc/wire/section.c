@@ -6,9 +6,11 @@
 
 #include "wire/wire.h"
 
-#define POSITIVE(name, unit, doc)                                                        \
-  {#name, SW_PARAM_NUMBER, unit, NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,             \
-   offsetof(sw_section, name), doc}
+#define POSITIVE(name, unit, doc)                                             \
+  {                                                                           \
+#name, SW_PARAM_NUMBER, unit, NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, \
+        offsetof(sw_section, name), doc                                       \
+  }
 
 static const sw_param rows[] = {
     POSITIVE(EA, "N", "axial stiffness"),
@@ -18,8 +20,8 @@ static const sw_param rows[] = {
     POSITIVE(mass_per_length, "kg/m", "mass per length"),
     POSITIVE(radius, "m", "outer radius"),
     POSITIVE(E, "Pa", "Young's modulus of a solid round wire"),
-    {"nu", SW_PARAM_NUMBER, "-", NAN, -1, 0.5, SW_PARAM_ABOVE_MIN, NULL,
-     offsetof(sw_section, nu), "Poisson's ratio of a solid round wire (0.35 when not given)"},
+    {"nu", SW_PARAM_NUMBER, "-", NAN, -1, 0.5, SW_PARAM_ABOVE_MIN, NULL, offsetof(sw_section, nu),
+     "Poisson's ratio of a solid round wire (0.35 when not given)"},
     POSITIVE(density, "kg/m3", "density of a solid round wire"),
 };
 

@@ -20,8 +20,8 @@ typedef struct sw_recipe_term {
 typedef struct sw_recipe {
   size_t count;
   sw_recipe_term terms[SW_RECIPE_MAX];
-  int push;              /* 1: edges carry compression */
-  int twist;             /* 1: the wire resists twist between two holds */
+  int push;  /* 1: edges carry compression */
+  int twist; /* 1: the wire resists twist between two holds */
 } sw_recipe;
 
 typedef struct sw_wire_class {
