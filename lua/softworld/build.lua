@@ -192,7 +192,7 @@ function class.scene.obstacle(scene, args)
   args = table_of(args, "scene:obstacle")
   local data = build.data(scene)
   if args.file ~= nil then
-    local mesh = meshfile.read(args.file)
+    local mesh = build.call(3, meshfile.read, args.file)
     args.data, args.format, args.file = mesh.data, args.format or mesh.format, nil
   end
   local kind = type(args.shape) == "string" and args.shape or "obstacle"

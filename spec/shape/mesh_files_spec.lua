@@ -223,6 +223,16 @@ describe("meshfile.read", function()
       "meshfile.read: path must be a non-empty string, got nil")
   end)
 
+  it("names the line of the script that asked for the obstacle", function()
+    local sw = require "softworld"
+    local scene = sw.scene{}
+    local line = debug.getinfo(1, "l").currentline + 1
+    local fine, message = pcall(function() scene:obstacle{ shape = "mesh", file = "/no/clip.stl" } end)
+    assert.is_false(fine)
+    assert.is_truthy(message:find("mesh_files_spec.lua:" .. line .. ": mesh file '/no/clip.stl'", 1,
+      true), message)
+  end)
+
   it("knows the formats that the core knows", function()
     for _, row in ipairs(core.shape_params "mesh") do
       if row.name == "format" then assert.same(row.choices, meshfile.formats) end
