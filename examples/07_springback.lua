@@ -27,8 +27,8 @@ local function springback(angle)
   gripper:release()
   local rest = scene:settle()
   assert(rest.ok, rest.reason)
-  local t = wire:tangent(wire.length)
-  return math.atan(t[3], t[1]), scene:energy().dissipated
+  local along = wire:tangent(wire.length)[1] -- cosine of the angle that is left
+  return math.acos(math.min(along, 1)), scene:energy().dissipated
 end
 
 print "bent by   remains   dissipated"

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/simd.h"
 
 #define X(name) extern const sw_integrator sw_integrator_##name;
 #include "integrate/list.def"
@@ -67,23 +68,41 @@ void sw_stepper_free(sw_stepper *p) {
   memset(p, 0, sizeof *p);
 }
 
+/* out = a x + b y */
+SW_HOT
+static void combine(size_t n, double a, const double *restrict x, double b,
+                    const double *restrict y, double *restrict out) {
+  for (size_t i = 0; i < n; i++) out[i] = a * x[i] + b * y[i];
+}
+
+SW_HOT
+static void add(size_t n, double a, const double *restrict x, double *restrict out) {
+  for (size_t i = 0; i < n; i++) out[i] += a * x[i];
+}
+
+/* Reads only what the row uses; two sources, the usual number, take one pass. */
 static void prepare_stage(const sw_stepper *p, const sw_stage_row *row, const sw_system *s,
                           double hbar) {
-  const double xn = row->xn, x1 = row->x1, xp = row->xp, xv = row->xv * hbar;
-  for (size_t i = 0; i < p->n; i++) {
-    p->xhat[i] = xn * s->x[i] + xv * s->v[i];
-    p->vhat[i] = xn * s->v[i] + xv * s->a[i];
+  const struct {
+    double share;
+    const double *x, *v;
+  } sources[] = {
+      {row->xv * hbar, s->v, s->a}, {row->x1, p->y[0], p->w[0]}, {row->xp, p->xp, p->vp}};
+  size_t used = 0;
+  for (size_t k = 0; k < 3; k++) {
+    const double share = sources[k].share;
+    if (share == 0) continue;
+    if (used++) {
+      add(p->n, share, sources[k].x, p->xhat);
+      add(p->n, share, sources[k].v, p->vhat);
+    } else {
+      combine(p->n, row->xn, s->x, share, sources[k].x, p->xhat);
+      combine(p->n, row->xn, s->v, share, sources[k].v, p->vhat);
+    }
   }
-  if (x1 != 0)
-    for (size_t i = 0; i < p->n; i++) {
-      p->xhat[i] += x1 * p->y[0][i];
-      p->vhat[i] += x1 * p->w[0][i];
-    }
-  if (xp != 0)
-    for (size_t i = 0; i < p->n; i++) {
-      p->xhat[i] += xp * p->xp[i];
-      p->vhat[i] += xp * p->vp[i];
-    }
+  if (used) return;
+  combine(p->n, row->xn, s->x, 0, s->x, p->xhat);
+  combine(p->n, row->xn, s->v, 0, s->v, p->vhat);
 }
 
 static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system *s, double t,
@@ -155,7 +174,7 @@ sw_status sw_stepper_trial(sw_stepper *p, sw_system *s, double t, double h, sw_e
       (p->method->flags & SW_INTEGRATOR_HISTORY) && !(fabs(h - p->last_h) <= 1e-9 * h);
   const sw_integrator *m = p->restart || uneven ? p->start : p->method;
   SW_TRY(implicit_trial(p, m, s, t, h, err));
-  if (m->flags & SW_INTEGRATOR_EMBEDDED) p->error = embedded_error(p, s, h);
+  if (p->wants_error && m->flags & SW_INTEGRATOR_EMBEDDED) p->error = embedded_error(p, s, h);
   return SW_OK;
 }
 

@@ -64,6 +64,7 @@ struct sw_stepper {
   double last_h;                               /* of the last accepted step; 0 = none [s] */
   int restart;                                 /* next step starts anew: a_n is stale */
   double error;                                /* estimate of the last trial; 0 without one [m] */
+  int wants_error;                             /* the step size follows the error */
   double **extra;                              /* explicit methods' work arrays (SW_EXTRA of n) */
   void *outside;                               /* an outside library's stepper */
   void (*free_outside)(void *outside);

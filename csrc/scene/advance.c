@@ -221,6 +221,7 @@ static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_er
   const double t0 = s->time, span = until - t0;
   const double count = fmax(1.0, ceil(span / p->args->dt - 1e-9));
   const int adaptive = isfinite(p->args->tolerance);
+  s->stepper.wants_error = adaptive;
   const double slack = 1e-12 * fmax(fabs(until), span);
   const size_t first = p->report->steps;
   for (size_t k = 1; s->time < until - slack; k++) {

@@ -273,12 +273,23 @@ static sw_status begin(sw_system *s, const sw_stage *stage, int statics, sw_erro
   return SW_OK;
 }
 
+/* Velocity and acceleration of the solved stage. */
+SW_HOT
+static void stage_rates(size_t n, double rate, const double *restrict y,
+                        const double *restrict xhat, const double *restrict yhat,
+                        double *restrict v, double *restrict a) {
+  for (size_t i = 0; i < n; i++) {
+    v[i] = (y[i] - xhat[i]) * rate;
+    a[i] = (y[i] - yhat[i]) * rate * rate;
+  }
+}
+
 static void finish(sw_system *s, const sw_stage *stage, int statics) {
   const double rate = statics || !isfinite(stage->hbar) ? 0.0 : 1.0 / stage->hbar;
-  for (size_t i = 0; i < 3 * s->nodes; i++) stage->v[i] = (stage->y[i] - stage->xhat[i]) * rate;
   if (stage->a)
-    for (size_t i = 0; i < 3 * s->nodes; i++)
-      stage->a[i] = (stage->y[i] - s->yhat[i]) * rate * rate;
+    stage_rates(3 * s->nodes, rate, stage->y, stage->xhat, s->yhat, stage->v, stage->a);
+  else
+    for (size_t i = 0; i < 3 * s->nodes; i++) stage->v[i] = (stage->y[i] - stage->xhat[i]) * rate;
   for (size_t k = 0; k < s->held_count; k++) {
     sw_held_node *h = &s->held[k];
     update_reaction(h, &s->bodies[h->body], s->delta);
