@@ -12,6 +12,17 @@ local function make(options)
   return scene, wire, scene:clamp(wire, { s = 0 })
 end
 
+-- Give a hold or an obstacle a motion that rests at a place and calls f, from the
+-- call of the returned function on.
+local function ask_later(moved, place, f)
+  local asking = false
+  moved:follow(function(t)
+    if asking then f(t) end
+    return place
+  end)
+  return function() asking = true end
+end
+
 -- Ways to have a function called from inside the core: each takes the scene and
 -- its things and a function, and returns what sets it off.
 local ways = {
@@ -36,50 +47,30 @@ local ways = {
     return function() return scene:evaluate(wire) end
   end,
   ["the motion of a clamp"] = function(scene, _, clamp, f)
-    local asked = false
-    clamp:follow(function(t)
-      if asked then f(t) end
-      return { 0, 0, 0 }
-    end)
-    asked = true
+    local ask = ask_later(clamp, { 0, 0, 0 }, f)
+    ask()
     return function() return scene:run{ duration = 0.02 } end
   end,
   ["the motion of an obstacle"] = function(scene, _, _, f)
-    local asked = false
     local box = scene:obstacle{ shape = "box", size = { 1, 1, 1 }, at = { 0, 0, -5 } }
-    box:follow(function(t)
-      if asked then f(t) end
-      return { 0, 0, -5 }
-    end)
-    asked = true
+    local ask = ask_later(box, { 0, 0, -5 }, f)
+    ask()
     return function() return scene:run{ duration = 0.02 } end
   end,
   ["a motion that is asked where it is"] = function(_, _, clamp, f)
-    local asked = false
-    clamp:follow(function(t)
-      if asked then f(t) end
-      return { 0, 0, 0 }
-    end)
-    asked = true
+    local ask = ask_later(clamp, { 0, 0, 0 }, f)
+    ask()
     return function() return clamp:pose() end
   end,
   ["a motion while its clamp is released"] = function(_, _, clamp, f)
-    local asked = false
-    clamp:follow(function(t)
-      if asked then f(t) end
-      return { 0, 0, 0 }
-    end)
-    asked = true
+    local ask = ask_later(clamp, { 0, 0, 0 }, f)
+    ask()
     return function() return clamp:release() end
   end,
   ["a motion while a snapshot is restored"] = function(scene, _, clamp, f)
-    local asked = false
-    clamp:follow(function(t)
-      if asked then f(t) end
-      return { 0, 0, 0 }
-    end)
+    local ask = ask_later(clamp, { 0, 0, 0 }, f)
     local snapshot = scene:snapshot()
-    asked = true
+    ask()
     return function() return scene:restore(snapshot) end
   end,
   ["a motion that begins"] = function(_, _, clamp, f)
