@@ -80,7 +80,8 @@ static int mod_sparse(lua_State *L) {
   sw_sparse_pair *at = lua_newuserdatauv(L, (pairs + 1) * sizeof *at, 0);
   for (size_t k = 0; k < pairs; k++) {
     const double i = list[2 * k], j = list[2 * k + 1];
-    luaL_argcheck(L, i >= 0 && i < (double)n && j >= 0 && j < (double)n && i != j, 3, "no such node");
+    luaL_argcheck(L, i >= 0 && i < (double)n && j >= 0 && j < (double)n && i != j, 3,
+                  "no such node");
     at[k] = (sw_sparse_pair){(uint32_t)i, (uint32_t)j};
   }
   sw_status status = sw_sparse_new(n, b, at, pairs, &s);

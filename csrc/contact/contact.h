@@ -41,6 +41,11 @@ typedef enum sw_contact_regime {
   SW_CONTACT_EXPLICIT
 } sw_contact_regime;
 
+/* Stiffness of a touch that is to carry up to force, plus rate2 times the mass behind it
+ * [N/m], [1/s2]. */
+void sw_contact_stiffness(sw_contact_regime regime, double force, double nominal, double *base,
+                          double *rate2);
+
 /* A step of size h from time t begins at the system's state: candidates. nominal
  * is the run's full step, from which the stiffness is derived; unused in
  * statics. */

@@ -12,13 +12,13 @@
 
 struct sw_sparse {
   size_t n, block, pairs;
-  uint32_t *place;          /* (n) node -> its number in the elimination */
-  uint32_t *start, *row;    /* (n + 1), (fill): rows of each column of L, ascending */
-  uint32_t *slot;           /* (pairs) block of L, times 2, + 1 when given transposed */
-  uint32_t *target;         /* blocks that products of two rows of a column go to */
+  uint32_t *place;       /* (n) node -> its number in the elimination */
+  uint32_t *start, *row; /* (n + 1), (fill): rows of each column of L, ascending */
+  uint32_t *slot;        /* (pairs) block of L, times 2, + 1 when given transposed */
+  uint32_t *target;      /* blocks that products of two rows of a column go to */
   size_t targets, fill, widest;
-  double *own, *off;        /* (n), (fill) blocks */
-  double *column, *x;       /* (widest) blocks, (n x block) */
+  double *own, *off;  /* (n), (fill) blocks */
+  double *column, *x; /* (widest) blocks, (n x block) */
 };
 
 void sw_sparse_free(sw_sparse *s) {
@@ -73,7 +73,8 @@ typedef struct analysis {
 static sw_status find_column(sw_sparse *s, analysis *a, uint32_t k) {
   const uint32_t none = (uint32_t)s->n, node = (uint32_t)a->order[k];
   size_t most = (size_t)(a->first[node + 1] - a->first[node]);
-  for (uint32_t c = a->child[k]; c != none; c = a->sibling[c]) most += s->start[c + 1] - s->start[c];
+  for (uint32_t c = a->child[k]; c != none; c = a->sibling[c])
+    most += s->start[c + 1] - s->start[c];
   SW_TRY(sw_grow((void **)&s->row, &a->row_capacity, s->fill + most + 1, sizeof *s->row));
   uint32_t *rows = s->row + s->fill;
   size_t count = 0;
@@ -158,9 +159,8 @@ sw_status sw_sparse_new(size_t nodes, size_t block, const sw_sparse_pair *pairs,
   sw_sparse *s = sw_alloc(1, sizeof *s);
   if (!s) return SW_ENOMEM;
   s->n = nodes, s->block = block, s->pairs = count;
-  sw_status status = nodes < INT32_MAX / 4 && count < INT32_MAX / 4
-                         ? analyse(s, pairs, count, &a)
-                         : SW_ENOMEM;
+  sw_status status =
+      nodes < INT32_MAX / 4 && count < INT32_MAX / 4 ? analyse(s, pairs, count, &a) : SW_ENOMEM;
   sw_free(a.first);
   sw_free(a.next);
   sw_free(a.order);
@@ -313,12 +313,10 @@ static void solve4(const sw_sparse *s, double *x) { solve(s, x, 4); }
 
 void sw_sparse_solve(sw_sparse *s, double *b) {
   const size_t m = s->block;
-  for (size_t i = 0; i < s->n; i++)
-    memcpy(s->x + m * s->place[i], b + m * i, m * sizeof *b);
+  for (size_t i = 0; i < s->n; i++) memcpy(s->x + m * s->place[i], b + m * i, m * sizeof *b);
   if (m == 3)
     solve3(s, s->x);
   else
     solve4(s, s->x);
-  for (size_t i = 0; i < s->n; i++)
-    memcpy(b + m * i, s->x + m * s->place[i], m * sizeof *b);
+  for (size_t i = 0; i < s->n; i++) memcpy(b + m * i, s->x + m * s->place[i], m * sizeof *b);
 }

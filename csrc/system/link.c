@@ -277,12 +277,11 @@ static size_t solve_dense(double *S, size_t m, double *z) {
 }
 
 /* A span's slope among the matrix' unknowns, held nodes zero. */
-static void put_slope(const struct sw_links *l, const sw_body *b, size_t first,
-                      const sw_span *span, double *out) {
+static void put_slope(const struct sw_links *l, const sw_body *b, size_t first, const sw_span *span,
+                      double *out) {
   memset(out, 0, 3 * l->nodes * sizeof *out);
   for (size_t i = span->first; i <= span->last + 1; i++)
-    if (b->plan->held[i] == SW_FREE)
-      sw_store(out + 3 * (first + i), sw_vec_at(b->twist_rank, i));
+    if (b->plan->held[i] == SW_FREE) sw_store(out + 3 * (first + i), sw_vec_at(b->twist_rank, i));
 }
 
 /* Each span adds stiffness g g' to the matrix K: with the compliances C^-1 and the
@@ -365,8 +364,7 @@ static sw_held_node *held_at(sw_system *s, uint32_t node) {
   return NULL;
 }
 
-static void react(sw_system *s, uint32_t node, const double k[9], int transposed,
-                  const double *d) {
+static void react(sw_system *s, uint32_t node, const double k[9], int transposed, const double *d) {
   sw_held_node *h = held_at(s, node);
   if (!h) return;
   sw_vec f = h->reaction;

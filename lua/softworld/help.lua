@@ -14,6 +14,7 @@ local notes = {
   section = "scene:wire{...}: what the wire is made of", obstacle = "scene:obstacle{ shape =, ... }",
   run = "scene:run{...}", settle = "scene:settle{...}",
   frequencies = "wire:frequencies{...}: natural frequencies [Hz] about the present equilibrium",
+  wire_contact = "scene:wire_contact{...}: wires that touch each other and themselves",
   trajectory = "sw.trajectory{...}; clamps, obstacles and grippers take the table itself",
 }
 
