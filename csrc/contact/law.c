@@ -17,6 +17,10 @@ static const double WEIGHT_TOLERANCE = 1e-3;
  * whatever the prediction is worth [-]. */
 static const double SURELY_SLIDING = 20.0;
 
+void sw_press_activate(sw_press *p, const sw_press *last) {
+  p->active = p->gap < 0 || (last && last->active && last->normal_force > 0);
+}
+
 void sw_press_begin(sw_press *p, double friction, int known) {
   const double most = friction * p->lag, pull = p->k * sw_norm(p->trial);
   if (!known) p->sliding = pull > most;
@@ -66,7 +70,7 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
 }
 
 int sw_press_update(sw_press *p, double friction, sw_vec shift, double force_scale) {
-  const int active = p->gap < 0;
+  const int active = p->active;
   p->gap_after = p->gap + sw_dot(p->normal, shift);
   p->normal_force = active ? fmax(0.0, -p->k * p->gap_after) : 0.0;
   p->next_sliding = 1; /* what does not touch moves freely */

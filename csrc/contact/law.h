@@ -18,6 +18,7 @@ typedef struct sw_press {
   sw_vec normal;       /* of the push [-] */
   sw_vec trial;        /* tangential displacement from the anchor at this iterate [m] */
   sw_vec tangential;   /* friction force after the last solve [N] */
+  int active;          /* pushes in this iterate */
   int sliding;         /* assumed in this iterate */
   int next_sliding;    /* as the last solve found it */
 } sw_press;
@@ -27,6 +28,11 @@ typedef struct sw_press {
 /* A touch that sinks in deeper is made stiffer until it does not [m]. */
 #define SW_DEEPEST 50e-6
 #define SW_MOST_BOOST 1e5 /* of that stiffness [-] */
+
+/* A touch that pushed after the last solve goes on in this iterate even if turning normals
+ * have opened its gap a little: letting go of it would let the wires fall into each other.
+ * The next solve tells. last: the same touch in the iterate before, or NULL. */
+void sw_press_activate(sw_press *press, const sw_press *last);
 
 /* Friction begins at an iterate: k, lag and trial are set. known: 1 = it slides as sliding
  * says, 0 = find out. A predicted place says little about sticking, as a spring this stiff

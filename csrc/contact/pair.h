@@ -29,6 +29,8 @@ typedef struct sw_pair {
 typedef struct sw_pair_touch {
   uint32_t pair;   /* number in the list of pairs */
   double at[2];    /* along the segments [-] */
+  int slides[2];   /* 1: the place along that segment follows the nearest points */
+  int barred;      /* kept on its side by a barrier */
   double forgiven; /* part of the true depth left out of the gap in this step [m] */
   sw_press press;  /* its normal is towards segment one */
 } sw_pair_touch;
@@ -88,6 +90,13 @@ sw_status sw_pairs_list(sw_pairs *pairs, const sw_system *system, double reach);
 
 /* Choose those that may touch in the step. */
 sw_status sw_pairs_choose(sw_pairs *pairs, sw_system *system);
+
+/* Add a touch's force on segment one, and its opposite on segment two, at positions y; K
+ * (upper half) is its stiffness, NULL = no stiffness wanted. */
+sw_status sw_pair_add(sw_system *system, const sw_pair *pair, const sw_pair_touch *touch,
+                      const double *y, sw_vec force, const double *K);
+/* Keep places in the matrix for a touch that may come. */
+sw_status sw_pair_reserve(sw_system *system, const sw_pair *pair);
 
 /* Of a place on two wires: the nearest one remembered, within a segment on both, or NULL. */
 const sw_pair_memory *sw_pair_recall(const sw_pairs *pairs, const sw_pair *pair,

@@ -61,16 +61,18 @@ static double forgiven(const sw_pairs *p, const sw_system *s, const sw_pair *k,
 }
 
 static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
-                           const double at[2], double gap, sw_vec normal) {
+                           sw_pair_touch t, double gap, sw_vec normal) {
+  const double *at = t.at;
   const sw_pair_memory *m = sw_pair_recall(p, k, at);
   const sw_pair_touch *last = last_for(p, k, at);
   const double friction = sw_pair_rule_of(p, k->body)->friction;
-  sw_pair_touch t = {.pair = (uint32_t)(k - p->pairs), .at = {at[0], at[1]}};
+  t.pair = (uint32_t)(k - p->pairs);
   sw_press *press = &t.press;
   press->gap = gap, press->normal = normal, press->k = k->k;
   t.forgiven = forgiven(p, s, k, &t, m);
   press->gap += t.forgiven;
   press->gap_after = press->gap;
+  sw_press_activate(press, last && p->regime != SW_CONTACT_EXPLICIT ? &last->press : NULL);
   const int pressed = m && m->normal_force > 0;
   sw_vec u = sw_sub(sw_pair_apart(y, k->one, k->two, at), sw_pair_apart(s->x, k->one, k->two, at));
   if (pressed)
@@ -81,8 +83,8 @@ static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, co
   press->lag = last      ? last->press.normal_force
                : pressed ? m->normal_force
                          : press->k * fmax(0.0, -press->gap);
-  const int known = (last && last->press.gap < 0) || pressed;
-  if (known) press->sliding = last && last->press.gap < 0 ? last->press.next_sliding : m->sliding;
+  const int known = (last && last->press.active) || pressed;
+  if (known) press->sliding = last && last->press.active ? last->press.next_sliding : m->sliding;
   sw_press_begin(press, friction, known);
   SW_TRY(sw_grow((void **)&p->touches, &p->touch_capacity, p->touch_count + 1, sizeof *p->touches));
   p->touches[p->touch_count++] = t;
@@ -96,14 +98,15 @@ static const double LISTED_GAP = 0.25;
 /* The touch at given places, unless the wires are apart there. Axes that have got
  * through each other within the iteration are told by the remembered normal. */
 static sw_status touch_at(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
-                          const double at[2]) {
+                          const double at[2], int slides_one, int slides_two) {
   const sw_vec d = sw_pair_apart(y, k->one, k->two, at);
   double distance = sw_norm(d);
   if (!(distance < (1.0 + LISTED_GAP) * k->reach)) return SW_OK;
   const sw_pair_memory *m = sw_pair_recall(p, k, at);
   sw_vec normal = sw_unit_or(d, m ? m->normal : sw_v(0, 0, 1));
   if (m && sw_dot(normal, m->normal) < 0) normal = sw_neg(normal), distance = -distance;
-  return add_touch(p, s, k, y, at, distance - k->reach, normal);
+  const sw_pair_touch t = {.at = {at[0], at[1]}, .slides = {slides_one, slides_two}};
+  return add_touch(p, s, k, y, t, distance - k->reach, normal);
 }
 
 static sw_status behind_barrier(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
@@ -113,7 +116,8 @@ static sw_status behind_barrier(sw_pairs *p, const sw_system *s, const sw_pair *
     if (b->one != k->one || b->two != k->two) continue;
     const sw_vec d = sw_pair_apart(y, b->one, b->two, b->at);
     *found = 1;
-    SW_TRY(add_touch(p, s, k, y, b->at, sw_dot(b->normal, d) - k->reach, b->normal));
+    const sw_pair_touch t = {.at = {b->at[0], b->at[1]}, .barred = 1};
+    SW_TRY(add_touch(p, s, k, y, t, sw_dot(b->normal, d) - k->reach, b->normal));
   }
   return SW_OK;
 }
@@ -145,7 +149,7 @@ static sw_status touch_crossing(sw_pairs *p, const sw_system *s, const sw_pair *
   if (!owns_end(s, k->body[0], k->one, at[0], away, y) ||
       !owns_end(s, k->body[1], k->two, at[1], sw_neg(away), y))
     return SW_OK;
-  return touch_at(p, s, k, y, at);
+  return touch_at(p, s, k, y, at, at[0] > 0 && at[0]<1, at[1]> 0 && at[1] < 1);
 }
 
 /* Place of point q along segment e; 1 when it is beside it. */
@@ -162,11 +166,11 @@ static sw_status touch_parallel(sw_pairs *p, const sw_system *s, const sw_pair *
   for (uint32_t end = 0; end < 2; end++) {
     double at[2] = {end, 0};
     if ((!end || last[0]) && beside(y, k->two, last[1], sw_vec_at(y, k->one + end), &at[1]))
-      SW_TRY(touch_at(p, s, k, y, at));
+      SW_TRY(touch_at(p, s, k, y, at, 0, at[1] > 0 && at[1] < 1));
     at[1] = end;
     if ((!end || last[1]) && beside(y, k->one, last[0], sw_vec_at(y, k->two + end), &at[0]) &&
         !(at[0] == 0 || at[0] == 1)) /* node on node came first */
-      SW_TRY(touch_at(p, s, k, y, at));
+      SW_TRY(touch_at(p, s, k, y, at, 1, 0));
   }
   return SW_OK;
 }
@@ -198,53 +202,23 @@ static sw_status find_touches(sw_pairs *p, const sw_system *s, const double *y) 
 
 /* --- forces ---------------------------------------------------------------------- */
 
-enum { OWN = 0, NEXT = 6, ROW = 24 }; /* layout of the system's block rows */
-static const size_t FULL[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
-
-/* Force and own stiffness on one of the two segments. */
-static void add_to_segment(sw_body *b, size_t i, double at, sw_vec f, const double *K) {
-  const double w[2] = {1.0 - at, at};
-  for (size_t e = 0; e < 2; e++) {
-    if (w[e] == 0) continue;
-    sw_accumulate(b->field.force + 3 * (i + e), sw_scale(f, w[e]));
-    for (size_t k = 0; K && k < 6; k++)
-      b->field.rows[ROW * (i + e) + OWN + k] += w[e] * w[e] * K[k];
-  }
-  for (size_t k = 0; K && k < 9; k++) b->field.rows[ROW * i + NEXT + k] += w[0] * w[1] * K[FULL[k]];
-}
-
-/* K couples the segments' nodes with the opposite sign; NULL keeps places only. */
-static sw_status link_segments(sw_system *s, const sw_pair *k, const double at[2],
-                               const double *K) {
-  const double one[2] = {1.0 - at[0], at[0]}, two[2] = {1.0 - at[1], at[1]};
-  for (uint32_t i = 0; i < 2; i++)
-    for (uint32_t j = 0; j < 2; j++) {
-      double block[9] = {0};
-      for (int n = 0; K && n < 9; n++) block[n] = -one[i] * two[j] * K[FULL[n]];
-      SW_TRY(sw_system_add_link(s, k->one + i, k->two + j, block));
-    }
-  return SW_OK;
-}
-
-static sw_status apply(sw_pairs *p, sw_system *s, sw_pair_touch *t, unsigned want) {
+static sw_status apply(sw_pairs *p, sw_system *s, sw_pair_touch *t, const double *y,
+                       unsigned want) {
   const sw_pair *k = &p->pairs[t->pair];
-  sw_body *a = &s->bodies[k->body[0]], *b = &s->bodies[k->body[1]];
   const int stiff = (want & SW_WANT_STIFFNESS) != 0;
   double K[6];
   t->press.normal_force = 0;
   t->press.tangential = sw_v(0, 0, 0);
-  if (!(t->press.gap < 0)) return stiff ? link_segments(s, k, t->at, NULL) : SW_OK;
+  if (!t->press.active) return stiff ? sw_pair_reserve(s, k) : SW_OK;
   const sw_vec f = sw_press_eval(&t->press, sw_pair_rule_of(p, k->body)->friction,
                                  p->regime != SW_CONTACT_EXPLICIT, K);
-  add_to_segment(a, k->one - a->first_node, t->at[0], f, stiff ? K : NULL);
-  add_to_segment(b, k->two - b->first_node, t->at[1], sw_neg(f), stiff ? K : NULL);
-  return stiff ? link_segments(s, k, t->at, K) : SW_OK;
+  return sw_pair_add(s, k, t, y, f, stiff ? K : NULL);
 }
 
 sw_status sw_pairs_eval(sw_pairs *p, sw_system *s, const double *y, unsigned want, sw_error *err) {
   sw_status status = find_touches(p, s, y);
   for (size_t i = 0; i < p->touch_count && status == SW_OK; i++)
-    status = apply(p, s, &p->touches[i], want);
+    status = apply(p, s, &p->touches[i], y, want);
   return status == SW_OK ? SW_OK : sw_fail(err, status, "contact of wires: out of memory");
 }
 
