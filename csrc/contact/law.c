@@ -21,6 +21,15 @@ void sw_press_activate(sw_press *p, const sw_press *last) {
   p->active = p->gap < 0 || (last && last->active && last->normal_force > 0);
 }
 
+void sw_press_take_lag(sw_press *p, const sw_press *last) {
+  const double step = last->lag - last->lag_before;
+  p->lag_before = last->lag, p->force_before = last->normal_force;
+  p->lag = last->normal_force;
+  if (!(last->lag_before > 0) || step == 0) return;
+  const double slope = (last->normal_force - last->force_before) / step;
+  if (slope < 0) p->lag = (last->normal_force - slope * last->lag) / (1.0 - slope);
+}
+
 void sw_press_begin(sw_press *p, double friction, int known) {
   const double most = friction * p->lag, pull = p->k * sw_norm(p->trial);
   if (!known) p->sliding = pull > most;

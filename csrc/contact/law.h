@@ -10,17 +10,18 @@
 #include "base/vec.h"
 
 typedef struct sw_press {
-  double gap;          /* of the surfaces at this iterate [m] */
-  double gap_after;    /* after the last solve [m] */
-  double k;            /* stiffness, normal and tangential [N/m] */
-  double lag;          /* normal force that friction takes as given [N] */
-  double normal_force; /* after the last solve [N] */
-  sw_vec normal;       /* of the push [-] */
-  sw_vec trial;        /* tangential displacement from the anchor at this iterate [m] */
-  sw_vec tangential;   /* friction force after the last solve [N] */
-  int active;          /* pushes in this iterate */
-  int sliding;         /* assumed in this iterate */
-  int next_sliding;    /* as the last solve found it */
+  double gap;                      /* of the surfaces at this iterate [m] */
+  double gap_after;                /* after the last solve [m] */
+  double k;                        /* stiffness, normal and tangential [N/m] */
+  double lag;                      /* normal force that friction takes as given [N] */
+  double normal_force;             /* after the last solve [N] */
+  double lag_before, force_before; /* both, one iterate earlier; 0 = not known [N] */
+  sw_vec normal;                   /* of the push [-] */
+  sw_vec trial;                    /* tangential displacement from the anchor at this iterate [m] */
+  sw_vec tangential;               /* friction force after the last solve [N] */
+  int active;                      /* pushes in this iterate */
+  int sliding;                     /* assumed in this iterate */
+  int next_sliding;                /* as the last solve found it */
 } sw_press;
 
 /* Changes of the gap below this do not keep an iteration going [m]. */
@@ -33,6 +34,11 @@ typedef struct sw_press {
  * have opened its gap a little: letting go of it would let the wires fall into each other.
  * The next solve tells. last: the same touch in the iterate before, or NULL. */
 void sw_press_activate(sw_press *press, const sw_press *last);
+
+/* The normal force for friction to take as given, from the same touch in the iterate
+ * before. Taking just its force may go to and fro for ever, more at each turn where friction
+ * presses the touch: then by the secant through the last two. */
+void sw_press_take_lag(sw_press *press, const sw_press *last);
 
 /* Friction begins at an iterate: k, lag and trial are set. known: 1 = it slides as sliding
  * says, 0 = find out. A predicted place says little about sticking, as a spring this stiff

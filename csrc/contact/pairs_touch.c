@@ -80,9 +80,8 @@ static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, co
   else if (press->gap >= 0)
     u = sw_v(0, 0, 0);
   press->trial = sw_madd(u, normal, -sw_dot(u, normal));
-  press->lag = last      ? last->press.normal_force
-               : pressed ? m->normal_force
-                         : press->k * fmax(0.0, -press->gap);
+  press->lag = pressed ? m->normal_force : press->k * fmax(0.0, -press->gap);
+  if (last) sw_press_take_lag(press, &last->press);
   const int known = (last && last->press.active) || pressed;
   if (known) press->sliding = last && last->press.active ? last->press.next_sliding : m->sliding;
   sw_press_begin(press, friction, known);
