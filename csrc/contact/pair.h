@@ -12,7 +12,9 @@
 typedef struct sw_near {
   uint32_t one, two;
   uint32_t body[2];
-  double distance; /* of the axes at the step's start [m] */
+  double distance; /* of the axes at the step's start, or less [m] */
+  double known;    /* when it was last measured [m] */
+  double travel;   /* of the four nodes together until then [m] */
 } sw_near;
 
 /* Segments that may touch in this step. */
@@ -67,6 +69,8 @@ struct sw_pairs {
   double *listed_at; /* (nodes x 3) positions that the list was made for [m] */
   size_t listed_nodes, listed_capacity;
   double listed_reach; /* gap up to which it is complete there [m] */
+  double *before;      /* (nodes x 3) positions at the last step's start [m] */
+  double *travel;      /* (nodes) length of the way since the list was made [m] */
   void *grid;          /* work of the search */
   size_t grid_capacity;
 
@@ -95,8 +99,6 @@ sw_status sw_pairs_choose(sw_pairs *pairs, sw_system *system);
  * (upper half) is its stiffness, NULL = no stiffness wanted. */
 sw_status sw_pair_add(sw_system *system, const sw_pair *pair, const sw_pair_touch *touch,
                       const double *y, sw_vec force, const double *K);
-/* Keep places in the matrix for a touch that may come. */
-sw_status sw_pair_reserve(sw_system *system, const sw_pair *pair);
 
 /* Of a place on two wires: the nearest one remembered, within a segment on both, or NULL. */
 const sw_pair_memory *sw_pair_recall(const sw_pairs *pairs, const sw_pair *pair,

@@ -111,8 +111,3 @@ sw_status sw_pair_add(sw_system *s, const sw_pair *k, const sw_pair_touch *t, co
   add_to_rows(two, j, b.k, 2);
   return link_nodes(s, k, b.k);
 }
-
-sw_status sw_pair_reserve(sw_system *s, const sw_pair *k) {
-  blocks none = {0};
-  return link_nodes(s, k, none.k);
-}

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/simd.h"
 #include "contact/pair.h"
 
 static double clamp01(double t) { return t < 0 ? 0 : t > 1 ? 1 : t; }
@@ -125,7 +126,7 @@ static sw_status look_at(sw_pairs *p, const sw_system *s, const grid *g, size_t 
   sw_near n = {.one = g->node[k], .two = g->node[m], .body = {g->body[k], g->body[m]}};
   double at[2];
   if (!sw_pair_rule_of(p, n.body)->on || !apart_along(s, &n)) return SW_OK;
-  n.distance = sw_segments_nearest(sw_vec_at(s->x, n.one), sw_vec_at(s->x, n.one + 1u),
+  n.known = n.distance = sw_segments_nearest(sw_vec_at(s->x, n.one), sw_vec_at(s->x, n.one + 1u),
                                    sw_vec_at(s->x, n.two), sw_vec_at(s->x, n.two + 1u), at);
   if (!(n.distance - radii(s, n.body) < p->listed_reach)) return SW_OK;
   SW_TRY(sw_grow((void **)&p->near, &p->near_capacity, p->near_count + 1, sizeof *p->near));
@@ -168,18 +169,38 @@ static sw_status search(sw_pairs *p, const sw_system *s, double reach) {
   p->listed_reach = reach;
   p->listed_nodes = 0;
   for (size_t k = 0; k < g.count; k++) SW_TRY(look_around(p, s, &g, k));
-  SW_TRY(sw_grow((void **)&p->listed_at, &p->listed_capacity, 3 * s->nodes, sizeof(double)));
+  SW_TRY(sw_grow((void **)&p->listed_at, &p->listed_capacity, 7 * s->nodes, sizeof(double)));
+  p->before = p->listed_at + 3 * s->nodes;
+  p->travel = p->before + 3 * s->nodes;
   p->listed_nodes = s->nodes;
   memcpy(p->listed_at, s->x, 3 * s->nodes * sizeof *s->x);
+  memcpy(p->before, s->x, 3 * s->nodes * sizeof *s->x);
+  memset(p->travel, 0, s->nodes * sizeof *p->travel);
   return SW_OK;
 }
 
-/* How far any node is from where the list was made. */
-static double moved(const sw_pairs *p, const sw_system *s) {
+/* The square of the largest distance between two sets of positions. */
+SW_HOT
+static double largest_distance2(size_t n, const double *restrict a, const double *restrict b) {
   double most = 0;
-  for (size_t i = 0; i < s->nodes; i++)
-    most = fmax(most, sw_norm2(sw_sub(sw_vec_at(s->x, i), sw_vec_at(p->listed_at, i))));
-  return sqrt(most);
+  for (size_t i = 0; i < n; i++) {
+    const double x = a[3 * i] - b[3 * i], y = a[3 * i + 1] - b[3 * i + 1];
+    const double z = a[3 * i + 2] - b[3 * i + 2], d2 = x * x + y * y + z * z;
+    most = most > d2 ? most : d2;
+  }
+  return most;
+}
+
+/* Lengths of the nodes' ways, straight from step to step. */
+SW_HOT
+static void add_travel(size_t n, const double *restrict x, double *restrict before,
+                       double *restrict travel) {
+  for (size_t i = 0; i < n; i++) {
+    const double dx = x[3 * i] - before[3 * i], dy = x[3 * i + 1] - before[3 * i + 1];
+    const double dz = x[3 * i + 2] - before[3 * i + 2];
+    travel[i] += sqrt(dx * dx + dy * dy + dz * dz);
+  }
+  for (size_t i = 0; i < 3 * n; i++) before[i] = x[i];
 }
 
 /* The list reaches this much further than asked for, to be of use for longer. */
@@ -187,7 +208,11 @@ static const double GENEROSITY = 2.0;  /* [-] */
 static const double LEAST_SPARE = 2.0; /* of the largest radius [-] */
 
 sw_status sw_pairs_list(sw_pairs *p, const sw_system *s, double reach) {
-  if (p->listed_nodes == s->nodes && p->listed_reach - 2.0 * moved(p, s) >= reach) return SW_OK;
+  if (p->listed_nodes == s->nodes) {
+    add_travel(s->nodes, s->x, p->before, p->travel);
+    if (p->listed_reach - 2.0 * sqrt(largest_distance2(s->nodes, s->x, p->listed_at)) >= reach)
+      return SW_OK;
+  }
   return search(p, s, GENEROSITY * reach + LEAST_SPARE * widest_radius(p, s));
 }
 
@@ -233,10 +258,15 @@ static double always_within(const sw_pairs *p, const sw_system *s, double reach)
   return 0.25 * reach + RESERVE * g * p->h * p->h;
 }
 
-static double reserve_of(const sw_pairs *p, const sw_system *s, const sw_near *n, double reach) {
+/* Gap up to which a pair is chosen; fast: at a speed, that of the pair or a larger one. */
+static double reserve_of(const sw_pairs *p, const sw_system *s, double reach, double fast) {
   double reserve = always_within(p, s, reach);
-  if (p->regime != SW_CONTACT_STATIC) reserve += RESERVE * p->h * speed_between(s, n);
-  return fmax(reserve, p->least_reserve);
+  if (p->regime != SW_CONTACT_STATIC) reserve += RESERVE * p->h * fast;
+  return reserve > p->least_reserve ? reserve : p->least_reserve;
+}
+
+static double travel_of(const sw_pairs *p, const sw_near *n) {
+  return p->travel[n->one] + p->travel[n->one + 1] + p->travel[n->two] + p->travel[n->two + 1];
 }
 
 static double fastest(const sw_system *s) {
@@ -253,29 +283,40 @@ static void keep_stiffness(const sw_pairs *p, sw_pair *k) {
   if (m && m->normal_force > 0) k->k = m->k;
 }
 
+static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double sum) {
+  SW_TRY(sw_grow((void **)&p->pairs, &p->pair_capacity, p->pair_count + 1, sizeof *p->pairs));
+  const double usual = fmax(p->base_stiffness, p->rate2 * lighter_mass(s, n));
+  sw_pair *k = &p->pairs[p->pair_count++];
+  *k = (sw_pair){.one = n->one,
+                 .two = n->two,
+                 .body = {n->body[0], n->body[1]},
+                 .parallel = is_parallel(s->x, n),
+                 .held = all_held(s, n),
+                 .reach = sum,
+                 .k = usual,
+                 .usual = usual};
+  keep_stiffness(p, k);
+  for (uint32_t i = 0; i < 2 && !k->held; i++)
+    for (uint32_t j = 0; j < 2; j++) SW_TRY(sw_system_plan_link(s, k->one + i, k->two + j));
+  return SW_OK;
+}
+
 sw_status sw_pairs_choose(sw_pairs *p, sw_system *s) {
-  double reach = always_within(p, s, 2.0 * widest_radius(p, s));
-  if (p->regime != SW_CONTACT_STATIC) reach += 2.0 * RESERVE * p->h * fastest(s);
-  SW_TRY(sw_pairs_list(p, s, fmax(reach, p->least_reserve)));
+  const double fast = p->regime == SW_CONTACT_STATIC ? 0.0 : 2.0 * fastest(s);
+  SW_TRY(sw_pairs_list(p, s, reserve_of(p, s, 2.0 * widest_radius(p, s), fast)));
   p->pair_count = p->touch_count = p->last_count = 0;
+  sw_system_begin_plan(s);
   for (size_t k = 0; k < p->near_count; k++) {
     sw_near *n = &p->near[k];
     double at[2];
     const double sum = radii(s, n->body);
+    n->distance = n->known - (travel_of(p, n) - n->travel); /* at least */
+    if (n->distance - sum >= reserve_of(p, s, sum, fast)) continue;
     n->distance = sw_segments_nearest(sw_vec_at(s->x, n->one), sw_vec_at(s->x, n->one + 1u),
                                       sw_vec_at(s->x, n->two), sw_vec_at(s->x, n->two + 1u), at);
-    if (!(n->distance - sum < reserve_of(p, s, n, sum))) continue;
-    SW_TRY(sw_grow((void **)&p->pairs, &p->pair_capacity, p->pair_count + 1, sizeof *p->pairs));
-    const double usual = fmax(p->base_stiffness, p->rate2 * lighter_mass(s, n));
-    p->pairs[p->pair_count++] = (sw_pair){.one = n->one,
-                                          .two = n->two,
-                                          .body = {n->body[0], n->body[1]},
-                                          .parallel = is_parallel(s->x, n),
-                                          .held = all_held(s, n),
-                                          .reach = sum,
-                                          .k = usual,
-                                          .usual = usual};
-    keep_stiffness(p, &p->pairs[p->pair_count - 1]);
+    n->known = n->distance, n->travel = travel_of(p, n);
+    if (n->distance - sum < reserve_of(p, s, sum, speed_between(s, n)))
+      SW_TRY(add_pair(p, s, n, sum));
   }
   return SW_OK;
 }

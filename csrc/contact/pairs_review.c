@@ -90,7 +90,8 @@ static double approach_bound(const double *x0, const double *x1, uint32_t one, u
     const sw_vec a = sw_sub(sw_vec_at(x1, one + i), sw_vec_at(x0, one + i));
     for (uint32_t j = 0; j < 2; j++) {
       const sw_vec b = sw_sub(sw_vec_at(x1, two + j), sw_vec_at(x0, two + j));
-      most = fmax(most, sw_norm2(sw_sub(a, b)));
+      const double d2 = sw_norm2(sw_sub(a, b));
+      most = most > d2 ? most : d2;
     }
   }
   return sqrt(most);
@@ -143,6 +144,15 @@ static int review_crossings(sw_pairs *p, sw_system *s, const double *x1, double 
   return changed;
 }
 
+static double largest_move(const double *x0, const double *x1, size_t nodes) {
+  double most = 0;
+  for (size_t i = 0; i < nodes; i++) {
+    const double d2 = sw_norm2(sw_sub(sw_vec_at(x1, i), sw_vec_at(x0, i)));
+    most = most > d2 ? most : d2;
+  }
+  return sqrt(most);
+}
+
 static double distance_at(const double *x, const sw_near *n) {
   double at[2];
   return sw_segments_nearest(sw_vec_at(x, n->one), sw_vec_at(x, n->one + 1u), sw_vec_at(x, n->two),
@@ -152,6 +162,7 @@ static double distance_at(const double *x, const sw_near *n) {
 /* Did segments that were not chosen touch or pass each other? Their largest gap at the
  * step's start, or -1 when none did [m]. */
 static double missed_gap(const sw_pairs *p, const sw_system *s, const double *x1) {
+  const double farthest = 2.0 * largest_move(s->x, x1, s->nodes);
   double gap = -1;
   size_t k = 0;
   for (size_t i = 0; i < p->near_count; i++) {
@@ -162,7 +173,7 @@ static double missed_gap(const sw_pairs *p, const sw_system *s, const double *x1
     }
     const double radii =
         s->bodies[n->body[0]].plan->beam.radius + s->bodies[n->body[1]].plan->beam.radius;
-    if (n->distance - radii <= gap) continue;
+    if (n->distance - radii <= gap || n->distance - farthest >= radii) continue;
     if (n->distance - approach_bound(s->x, x1, n->one, n->two) >= radii) continue;
     const sw_pair as = {.one = n->one, .two = n->two, .reach = radii};
     double at[2];
@@ -170,13 +181,6 @@ static double missed_gap(const sw_pairs *p, const sw_system *s, const double *x1
     if (distance_at(x1, n) < radii || sweep(s->x, x1, &as, at, &normal)) gap = n->distance - radii;
   }
   return gap;
-}
-
-static double largest_move(const double *x0, const double *x1, size_t nodes) {
-  double most = 0;
-  for (size_t i = 0; i < nodes; i++)
-    most = fmax(most, sw_norm2(sw_sub(sw_vec_at(x1, i), sw_vec_at(x0, i))));
-  return sqrt(most);
 }
 
 /* Choose among more segments when some were missed: 1 = the step is to be redone, -1 =

@@ -208,7 +208,7 @@ static sw_status apply(sw_pairs *p, sw_system *s, sw_pair_touch *t, const double
   double K[6];
   t->press.normal_force = 0;
   t->press.tangential = sw_v(0, 0, 0);
-  if (!t->press.active) return stiff ? sw_pair_reserve(s, k) : SW_OK;
+  if (!t->press.active) return SW_OK;
   const sw_vec f = sw_press_eval(&t->press, sw_pair_rule_of(p, k->body)->friction,
                                  p->regime != SW_CONTACT_EXPLICIT, K);
   return sw_pair_add(s, k, t, y, f, stiff ? K : NULL);

@@ -22,10 +22,10 @@ struct sw_links {
   sw_sparse *matrix;
   sw_sparse_pair *pairs; /* of the bodies' chains, then links; in the matrix' numbers */
   size_t pair_capacity, chain_pairs, pair_count;
-  link *known; /* links of the pattern, k unused */
+  sw_sparse_pair *known; /* links of the pattern: those planned, then what came besides */
   size_t known_count, known_capacity;
-  unsigned char *used; /* (known) since the analysis */
-  size_t used_capacity;
+  sw_sparse_pair *planned, *taken; /* for the present step; for the pattern */
+  size_t planned_count, planned_capacity, taken_count, taken_capacity;
   uint32_t *table; /* hash: number in known + 1, 0 = empty */
   size_t table_capacity, table_size;
   uint32_t *number; /* (system's nodes) in the matrix, or NONE */
@@ -46,7 +46,8 @@ void sw_links_free(sw_system *s) {
   sw_free(l->list);
   sw_free(l->pairs);
   sw_free(l->known);
-  sw_free(l->used);
+  sw_free(l->planned);
+  sw_free(l->taken);
   sw_free(l->table);
   sw_free(l->number);
   sw_free(l->first);
@@ -62,9 +63,27 @@ void sw_links_begin(sw_system *s) {
 
 int sw_links_any(const sw_system *s) { return s->links && s->links->count > 0; }
 
-sw_status sw_system_add_link(sw_system *s, size_t i, size_t j, const double k[9]) {
+static struct sw_links *links_of(sw_system *s) {
   if (!s->links) s->links = sw_alloc(1, sizeof *s->links);
-  struct sw_links *l = s->links;
+  return s->links;
+}
+
+void sw_system_begin_plan(sw_system *s) {
+  if (s->links) s->links->planned_count = 0;
+}
+
+sw_status sw_system_plan_link(sw_system *s, size_t i, size_t j) {
+  struct sw_links *l = links_of(s);
+  if (!l) return SW_ENOMEM;
+  SW_TRY(sw_grow((void **)&l->planned, &l->planned_capacity, l->planned_count + 1,
+                 sizeof *l->planned));
+  l->planned[l->planned_count++] = (sw_sparse_pair){(uint32_t)(i < j ? i : j),
+                                                    (uint32_t)(i < j ? j : i)};
+  return SW_OK;
+}
+
+sw_status sw_system_add_link(sw_system *s, size_t i, size_t j, const double k[9]) {
+  struct sw_links *l = links_of(s);
   if (!l) return SW_ENOMEM;
   SW_TRY(sw_grow((void **)&l->list, &l->capacity, l->count + 1, sizeof *l->list));
   link *at = &l->list[l->count++];
@@ -90,14 +109,14 @@ static size_t hash_of(const struct sw_links *l, uint32_t i, uint32_t j) {
 static uint32_t find(const struct sw_links *l, uint32_t i, uint32_t j) {
   if (!l->table_size) return NONE;
   for (size_t h = hash_of(l, i, j); l->table[h]; h = (h + 1) & (l->table_size - 1)) {
-    const link *k = &l->known[l->table[h] - 1];
+    const sw_sparse_pair *k = &l->known[l->table[h] - 1];
     if (k->i == i && k->j == j) return l->table[h] - 1;
   }
   return NONE;
 }
 
 static void enter(struct sw_links *l, uint32_t number) {
-  const link *k = &l->known[number];
+  const sw_sparse_pair *k = &l->known[number];
   size_t h = hash_of(l, k->i, k->j);
   while (l->table[h]) h = (h + 1) & (l->table_size - 1);
   l->table[h] = number + 1;
@@ -114,22 +133,29 @@ static sw_status make_table(struct sw_links *l, size_t count) {
   return SW_OK;
 }
 
-/* The pattern's links become those used since the last analysis and this evaluation's.
- * pruned: only the latter. */
-static sw_status gather_known(struct sw_links *l, int pruned) {
-  size_t kept = 0;
-  for (size_t k = 0; k < l->known_count && !pruned; k++)
-    if (l->used[k]) l->known[kept++] = l->known[k];
-  l->known_count = kept;
-  SW_TRY(sw_grow((void **)&l->known, &l->known_capacity, kept + l->count, sizeof *l->known));
-  SW_TRY(make_table(l, kept + l->count));
-  for (size_t k = 0; k < l->count; k++) {
-    if (find(l, l->list[k].i, l->list[k].j) != NONE) continue;
-    l->known[l->known_count] = l->list[k];
-    enter(l, (uint32_t)l->known_count++);
-  }
-  SW_TRY(sw_grow((void **)&l->used, &l->used_capacity, l->known_count, 1));
-  memset(l->used, 0, l->known_count);
+/* One more link for the pattern. */
+static sw_status add_known(struct sw_links *l, uint32_t i, uint32_t j) {
+  if (find(l, i, j) != NONE) return SW_OK;
+  SW_TRY(sw_grow((void **)&l->known, &l->known_capacity, l->known_count + 1, sizeof *l->known));
+  if (2 * l->known_count >= l->table_size) SW_TRY(make_table(l, 2 * l->known_count + 1));
+  l->known[l->known_count] = (sw_sparse_pair){i, j};
+  enter(l, (uint32_t)l->known_count++);
+  return SW_OK;
+}
+
+/* The pattern that was planned, unless it is the present one. */
+static sw_status take_plan(struct sw_links *l) {
+  const size_t n = l->planned_count;
+  if (n == l->taken_count && (!n || !memcmp(l->planned, l->taken, n * sizeof *l->planned)))
+    return SW_OK;
+  SW_TRY(sw_grow((void **)&l->taken, &l->taken_capacity, n, sizeof *l->taken));
+  if (n) memcpy(l->taken, l->planned, n * sizeof *l->taken);
+  l->taken_count = n;
+  l->known_count = 0;
+  if (l->table_size) memset(l->table, 0, l->table_size * sizeof *l->table);
+  for (size_t k = 0; k < n; k++) SW_TRY(add_known(l, l->planned[k].i, l->planned[k].j));
+  sw_sparse_free(l->matrix);
+  l->matrix = NULL;
   return SW_OK;
 }
 
@@ -192,22 +218,14 @@ static sw_status list_pairs(sw_system *s) {
   return SW_OK;
 }
 
-/* A pattern this much larger than what is used is made anew. */
-enum { MOST_WASTE = 4, FEW = 64 };
-
 static sw_status prepare_pattern(sw_system *s) {
   struct sw_links *l = s->links;
-  const int pruned = l->known_count > MOST_WASTE * l->count + FEW;
-  int missing = pruned || !l->matrix;
-  for (size_t k = 0; k < l->count && !missing; k++) {
-    const uint32_t at = find(l, l->list[k].i, l->list[k].j);
-    missing = at == NONE;
-    if (!missing) l->used[at] = 1;
-  }
-  if (!missing) return SW_OK;
+  SW_TRY(take_plan(l));
+  const size_t before = l->known_count;
+  for (size_t k = 0; k < l->count; k++) SW_TRY(add_known(l, l->list[k].i, l->list[k].j));
+  if (l->matrix && l->known_count == before) return SW_OK;
   sw_sparse_free(l->matrix);
   l->matrix = NULL;
-  SW_TRY(gather_known(l, pruned));
   SW_TRY(number_nodes(s));
   SW_TRY(list_pairs(s));
   return sw_sparse_new(l->nodes, 3, l->pairs, l->pair_count, &l->matrix);

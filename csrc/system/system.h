@@ -164,9 +164,14 @@ sw_status sw_system_add_term(sw_system *system, size_t body, const sw_force_clas
 sw_status sw_system_add_histories(sw_system *system);
 
 /* While the coupling evaluates: stiffness between nodes i and j that are not neighbours,
- * i != j, row by row with i's rows [N/m]; the nodes' own parts go to their bodies' rows. A
- * zero block keeps a place for a link that may come. SW_ENOMEM. */
+ * i != j, row by row with i's rows [N/m]; the nodes' own parts go to their bodies' rows.
+ * SW_ENOMEM. */
 sw_status sw_system_add_link(sw_system *system, size_t i, size_t j, const double k[9]);
+
+/* Before a step: between which nodes there may be links in it, anew from begin_plan on, so
+ * that the matrix is made for them and that its order does not depend on earlier steps. */
+void sw_system_begin_plan(sw_system *system);
+sw_status sw_system_plan_link(sw_system *system, size_t i, size_t j);
 
 /* Add what a term gives to its body's field. */
 static inline sw_status sw_term_eval(const sw_term *term, sw_field *field, sw_error *err) {
