@@ -73,7 +73,8 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
   if (reversed) return most <= small;
   if (p->sliding && beyond && along < TURN_TOLERANCE * length * sw_norm(p->trial)) return 0;
   if (p->sliding != beyond) /* a change of state matters when the force does */
-    return fabs(p->k * length - most) <= small + FORCE_TOLERANCE * most;
+    return fabs(p->k * length - most) <=
+           small + FORCE_TOLERANCE * most + WEIGHT_TOLERANCE * force_scale;
   return !beyond || fabs(p->normal_force - p->lag) <=
                         FORCE_TOLERANCE * p->normal_force + WEIGHT_TOLERANCE * force_scale;
 }

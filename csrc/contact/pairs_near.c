@@ -126,8 +126,9 @@ static sw_status look_at(sw_pairs *p, const sw_system *s, const grid *g, size_t 
   sw_near n = {.one = g->node[k], .two = g->node[m], .body = {g->body[k], g->body[m]}};
   double at[2];
   if (!sw_pair_rule_of(p, n.body)->on || !apart_along(s, &n)) return SW_OK;
-  n.known = n.distance = sw_segments_nearest(sw_vec_at(s->x, n.one), sw_vec_at(s->x, n.one + 1u),
-                                   sw_vec_at(s->x, n.two), sw_vec_at(s->x, n.two + 1u), at);
+  n.known = n.distance =
+      sw_segments_nearest(sw_vec_at(s->x, n.one), sw_vec_at(s->x, n.one + 1u),
+                          sw_vec_at(s->x, n.two), sw_vec_at(s->x, n.two + 1u), at);
   if (!(n.distance - radii(s, n.body) < p->listed_reach)) return SW_OK;
   SW_TRY(sw_grow((void **)&p->near, &p->near_capacity, p->near_count + 1, sizeof *p->near));
   p->near[p->near_count++] = n;
@@ -275,12 +276,17 @@ static double fastest(const sw_system *s) {
   return sqrt(most);
 }
 
-/* A touch goes on as stiff as it was: a change would be a kick. */
+/* A touch goes on as stiff as it was: a change would be a kick. One that was made stiffer
+ * than it has to be gives way slowly. */
+static const double NEEDLESS = 0.1; /* of the allowed depth [-] */
+static const double EASING = 0.8;   /* per step [-] */
+
 static void keep_stiffness(const sw_pairs *p, sw_pair *k) {
   static const double middle[2] = {0.5, 0.5};
   if (!p->memory_count || p->regime == SW_CONTACT_EXPLICIT) return;
   const sw_pair_memory *m = sw_pair_recall(p, k, middle);
-  if (m && m->normal_force > 0) k->k = m->k;
+  if (!m || !(m->normal_force > 0)) return;
+  k->k = m->depth < NEEDLESS * SW_DEEPEST ? fmax(k->usual, EASING * m->k) : m->k;
 }
 
 static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double sum) {

@@ -226,24 +226,42 @@ sw_status sw_pairs_eval(sw_pairs *p, sw_system *s, const double *y, unsigned wan
 /* Shorter updates leave place and normal of a touch as they are; of the radii [-]. */
 static const double SMALL_SHIFT = 0.05;
 
-static int update(sw_pairs *p, sw_pair_touch *t, const double *delta) {
-  sw_pair *k = &p->pairs[t->pair];
+static int update(const sw_pairs *p, sw_pair_touch *t, const double *delta, double scale) {
+  const sw_pair *k = &p->pairs[t->pair];
   const sw_vec shift = sw_pair_apart(delta, k->one, k->two, t->at);
   const int agrees =
-      sw_press_update(&t->press, sw_pair_rule_of(p, k->body)->friction, shift, p->force_scale);
+      sw_press_update(&t->press, sw_pair_rule_of(p, k->body)->friction, shift, scale);
   if (t->press.gap_after < 0.5 * k->reach && sw_norm(shift) > SMALL_SHIFT * k->reach) return 0;
-  if (t->press.gap_after < -SW_DEEPEST && k->k < SW_MOST_BOOST * k->usual &&
-      p->regime != SW_CONTACT_EXPLICIT) {
-    k->k *= fmin(100.0, 2.0 * t->press.gap_after / -SW_DEEPEST);
-    return 0;
-  }
   return agrees;
 }
 
+/* Make touches that sink in too deep stiffer; 1 = there were some. */
+static int stiffen(sw_pairs *p) {
+  int any = 0;
+  if (p->regime == SW_CONTACT_EXPLICIT) return 0;
+  for (size_t i = 0; i < p->touch_count; i++) {
+    const sw_press *t = &p->touches[i].press;
+    sw_pair *k = &p->pairs[p->touches[i].pair];
+    if (t->gap_after >= -SW_DEEPEST || k->k >= SW_MOST_BOOST * k->usual) continue;
+    k->k = t->k * fmin(10.0, 2.0 * t->gap_after / -SW_DEEPEST);
+    any = 1;
+  }
+  return any;
+}
+
+/* Forces far below the largest one here do not matter. */
+static double scale_of(const sw_pairs *p) {
+  double scale = p->force_scale;
+  for (size_t i = 0; i < p->touch_count; i++) scale = fmax(scale, p->touches[i].press.lag);
+  return scale;
+}
+
 int sw_pairs_settled(sw_pairs *p, sw_system *s, const double *delta) {
+  const double scale = scale_of(p);
   int fine = 1;
   (void)s;
-  for (size_t i = 0; i < p->touch_count; i++) fine &= update(p, &p->touches[i], delta);
+  for (size_t i = 0; i < p->touch_count; i++) fine &= update(p, &p->touches[i], delta, scale);
+  if (fine && stiffen(p)) return 0;
   for (size_t i = 0; fine && i < p->touch_count; i++) {
     const sw_pair_touch *t = &p->touches[i];
     if (!(t->press.normal_force > 0 || t->press.gap_after < 0)) continue;

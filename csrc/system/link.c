@@ -77,8 +77,8 @@ sw_status sw_system_plan_link(sw_system *s, size_t i, size_t j) {
   if (!l) return SW_ENOMEM;
   SW_TRY(sw_grow((void **)&l->planned, &l->planned_capacity, l->planned_count + 1,
                  sizeof *l->planned));
-  l->planned[l->planned_count++] = (sw_sparse_pair){(uint32_t)(i < j ? i : j),
-                                                    (uint32_t)(i < j ? j : i)};
+  l->planned[l->planned_count++] =
+      (sw_sparse_pair){(uint32_t)(i < j ? i : j), (uint32_t)(i < j ? j : i)};
   return SW_OK;
 }
 
