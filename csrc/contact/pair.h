@@ -24,7 +24,7 @@ typedef struct sw_pair {
   int parallel;          /* nearly, at the step's start */
   int held;              /* all four nodes are: no force */
   double reach;          /* sum of the radii [m] */
-  double k, usual;       /* stiffness, and that of a new touch [N/m] */
+  double usual;          /* stiffness of a new touch [N/m] */
   size_t last, last_end; /* its touches of the iterate before */
 } sw_pair;
 
@@ -33,6 +33,7 @@ typedef struct sw_pair_touch {
   double at[2];    /* along the segments [-] */
   int slides[2];   /* 1: the place along that segment follows the nearest points */
   int barred;      /* kept on its side by a barrier */
+  double stiffer;  /* its stiffness from the next iterate on [N/m] */
   double forgiven; /* part of the true depth left out of the gap in this step [m] */
   sw_press press;  /* its normal is towards segment one */
 } sw_pair_touch;
@@ -60,7 +61,6 @@ struct sw_pairs {
   sw_contact_regime regime;
   double h, nominal;     /* [s] */
   double base_stiffness; /* [N/m] */
-  double force_scale;    /* [N] */
   double rate2;          /* stiffness per mass [1/s2] */
 
   /* segments near each other, for many steps */

@@ -72,7 +72,6 @@ sw_status sw_pairs_begin_step(sw_pairs *p, sw_system *s, sw_contact_regime regim
   p->barrier_count = p->impact_count = p->pressed_count = 0;
   p->least_reserve = 0;
   sw_contact_stiffness(regime, force, nominal, &p->base_stiffness, &p->rate2);
-  p->force_scale = force;
   const sw_status status = sw_pairs_choose(p, s);
   return status == SW_OK ? SW_OK : sw_fail(err, status, "contact of wires: out of memory");
 }
@@ -104,7 +103,7 @@ void sw_pairs_commit(sw_pairs *p, sw_system *s) {
                           .at = {t->at[0], t->at[1]},
                           .normal_force = t->press.normal_force,
                           .depth = t->press.normal_force / t->press.k,
-                          .k = k->k,
+                          .k = t->stiffer,
                           .normal = t->press.normal,
                           .sliding = t->press.next_sliding};
     if (m->normal_force > 0) m->elastic = sw_scale(t->press.tangential, -1.0 / t->press.k);

@@ -246,9 +246,13 @@ static int is_parallel(const double *x, const sw_near *n) {
   return sw_norm2(sw_cross(u, v)) < PARALLEL_SINE2 * sw_norm2(u) * sw_norm2(v);
 }
 
+static double segment_mass(const sw_body *b, size_t node) {
+  return b->plan->beam.mass * b->plan->rest[node - b->first_node];
+}
+
 static double lighter_mass(const sw_system *s, const sw_near *n) {
-  const sw_body *a = &s->bodies[n->body[0]], *b = &s->bodies[n->body[1]];
-  return fmin(a->plan->lumped[n->one - a->first_node], b->plan->lumped[n->two - b->first_node]);
+  return fmin(segment_mass(&s->bodies[n->body[0]], n->one),
+              segment_mass(&s->bodies[n->body[1]], n->two));
 }
 
 static const double RESERVE = 1.5; /* [-] */
@@ -276,22 +280,8 @@ static double fastest(const sw_system *s) {
   return sqrt(most);
 }
 
-/* A touch goes on as stiff as it was: a change would be a kick. One that was made stiffer
- * than it has to be gives way slowly. */
-static const double NEEDLESS = 0.1; /* of the allowed depth [-] */
-static const double EASING = 0.8;   /* per step [-] */
-
-static void keep_stiffness(const sw_pairs *p, sw_pair *k) {
-  static const double middle[2] = {0.5, 0.5};
-  if (!p->memory_count || p->regime == SW_CONTACT_EXPLICIT) return;
-  const sw_pair_memory *m = sw_pair_recall(p, k, middle);
-  if (!m || !(m->normal_force > 0)) return;
-  k->k = m->depth < NEEDLESS * SW_DEEPEST ? fmax(k->usual, EASING * m->k) : m->k;
-}
-
 static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double sum) {
   SW_TRY(sw_grow((void **)&p->pairs, &p->pair_capacity, p->pair_count + 1, sizeof *p->pairs));
-  const double usual = fmax(p->base_stiffness, p->rate2 * lighter_mass(s, n));
   sw_pair *k = &p->pairs[p->pair_count++];
   *k = (sw_pair){.one = n->one,
                  .two = n->two,
@@ -299,9 +289,7 @@ static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double su
                  .parallel = is_parallel(s->x, n),
                  .held = all_held(s, n),
                  .reach = sum,
-                 .k = usual,
-                 .usual = usual};
-  keep_stiffness(p, k);
+                 .usual = fmax(p->base_stiffness, p->rate2 * lighter_mass(s, n))};
   for (uint32_t i = 0; i < 2 && !k->held; i++)
     for (uint32_t j = 0; j < 2; j++) SW_TRY(sw_system_plan_link(s, k->one + i, k->two + j));
   return SW_OK;

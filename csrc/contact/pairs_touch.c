@@ -60,6 +60,19 @@ static double forgiven(const sw_pairs *p, const sw_system *s, const sw_pair *k,
   return fmax(0.0, depth - explained - RECOVERY_SPEED * p->h - SW_GAP_TOLERANCE);
 }
 
+/* A touch goes on as stiff as it was, wherever it has slid to: a change would be a kick.
+ * One that was made stiffer than it has to be gives way slowly. */
+static const double NEEDLESS = 0.1; /* of the allowed depth [-] */
+static const double EASING = 0.8;   /* per step [-] */
+
+static double stiffness_of(const sw_pairs *p, const sw_pair *k, const sw_pair_memory *m,
+                           const sw_pair_touch *last) {
+  if (p->regime == SW_CONTACT_EXPLICIT) return k->usual;
+  if (last) return last->stiffer;
+  if (!m || !(m->normal_force > 0)) return k->usual;
+  return m->depth < NEEDLESS * SW_DEEPEST && m->k > k->usual ? fmax(k->usual, EASING * m->k) : m->k;
+}
+
 static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
                            sw_pair_touch t, double gap, sw_vec normal) {
   const double *at = t.at;
@@ -68,7 +81,8 @@ static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, co
   const double friction = sw_pair_rule_of(p, k->body)->friction;
   t.pair = (uint32_t)(k - p->pairs);
   sw_press *press = &t.press;
-  press->gap = gap, press->normal = normal, press->k = k->k;
+  press->gap = gap, press->normal = normal;
+  press->k = t.stiffer = stiffness_of(p, k, m, last);
   t.forgiven = forgiven(p, s, k, &t, m);
   press->gap += t.forgiven;
   press->gap_after = press->gap;
@@ -240,10 +254,10 @@ static int stiffen(sw_pairs *p) {
   int any = 0;
   if (p->regime == SW_CONTACT_EXPLICIT) return 0;
   for (size_t i = 0; i < p->touch_count; i++) {
-    const sw_press *t = &p->touches[i].press;
-    sw_pair *k = &p->pairs[p->touches[i].pair];
-    if (t->gap_after >= -SW_DEEPEST || k->k >= SW_MOST_BOOST * k->usual) continue;
-    k->k = t->k * fmin(10.0, 2.0 * t->gap_after / -SW_DEEPEST);
+    sw_pair_touch *t = &p->touches[i];
+    const double usual = p->pairs[t->pair].usual;
+    if (t->press.gap_after >= -SW_DEEPEST || t->press.k >= SW_MOST_BOOST * usual) continue;
+    t->stiffer = t->press.k * fmin(10.0, 2.0 * t->press.gap_after / -SW_DEEPEST);
     any = 1;
   }
   return any;
@@ -251,7 +265,7 @@ static int stiffen(sw_pairs *p) {
 
 /* Forces far below the largest one here do not matter. */
 static double scale_of(const sw_pairs *p) {
-  double scale = p->force_scale;
+  double scale = 0;
   for (size_t i = 0; i < p->touch_count; i++) scale = fmax(scale, p->touches[i].press.lag);
   return scale;
 }
