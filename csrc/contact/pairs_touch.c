@@ -146,11 +146,14 @@ static int is_last(const sw_system *s, uint32_t body, uint32_t e) {
 /* A nearest point at a segment's end counts once: for the segment that starts there, and
  * only when the one before it does not come nearer still. away: from the other wire to
  * here, along the outward normal. */
+static const double ROUNDING = 1e-9; /* [-] */
+
 static int owns_end(const sw_system *s, uint32_t body, uint32_t e, double at, sw_vec away,
                     const double *y) {
   if (at >= 1.0) return is_last(s, body, e);
   if (at > 0.0 || e == s->bodies[body].first_node) return 1;
-  return sw_dot(away, edge(y, e - 1)) <= 0;
+  const sw_vec before = edge(y, e - 1); /* rounding must not make both leave it to the other */
+  return sw_dot(away, before) <= ROUNDING * sw_norm(away) * sw_norm(before);
 }
 
 static sw_status touch_crossing(sw_pairs *p, const sw_system *s, const sw_pair *k,
