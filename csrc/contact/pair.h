@@ -60,7 +60,7 @@ struct sw_pairs {
   size_t bodies;
   sw_contact_regime regime;
   double h, nominal;     /* [s] */
-  double base_stiffness; /* [N/m] */
+  double *base_stiffness; /* (bodies) for the forces of each [N/m] */
   double rate2;          /* stiffness per mass [1/s2] */
 
   /* segments near each other, for many steps */

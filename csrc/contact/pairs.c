@@ -12,8 +12,9 @@ sw_status sw_pairs_new(const sw_pair_rule *rules, size_t count, sw_pairs **out) 
   sw_pairs *p = sw_alloc(1, sizeof *p);
   if (!p) return SW_ENOMEM;
   p->rules = sw_alloc(count * count, sizeof *p->rules);
-  if (!p->rules) {
-    sw_free(p);
+  p->base_stiffness = sw_alloc(count, sizeof *p->base_stiffness);
+  if (!p->rules || !p->base_stiffness) {
+    sw_pairs_free(p);
     return SW_ENOMEM;
   }
   memcpy(p->rules, rules, count * count * sizeof *rules);
@@ -35,6 +36,7 @@ sw_status sw_pairs_copy(const sw_pairs *p, sw_pairs **out) {
 void sw_pairs_free(sw_pairs *p) {
   if (!p) return;
   sw_free(p->rules);
+  sw_free(p->base_stiffness);
   sw_free(p->near);
   sw_free(p->listed_at);
   sw_free(p->grid);
@@ -57,21 +59,25 @@ static int takes_part(const sw_pairs *p, size_t body) {
   return 0;
 }
 
+/* What forces the wire may press with: its weight, that of bending it, its tension. */
+static double force_of(const sw_system *s, const sw_body *b) {
+  const sw_plan *p = b->plan;
+  const double weight = p->beam.mass * p->length * sw_norm(sw_load(s->gravity));
+  double force = fmax(weight, p->beam.EI / (p->length * p->length));
+  for (size_t e = 0; e < p->edges; e++) force = fmax(force, fabs(s->tension[b->first_edge + e]));
+  return force;
+}
+
 sw_status sw_pairs_begin_step(sw_pairs *p, sw_system *s, sw_contact_regime regime, double h,
                               double nominal, sw_error *err) {
-  double force = 0;
-  const double g = sw_norm(sw_load(s->gravity));
-  for (size_t b = 0; b < s->body_count; b++) {
-    const sw_plan *plan = s->bodies[b].plan;
-    if (!takes_part(p, b)) continue;
-    force = fmax(force, fmax(plan->beam.mass * plan->length * g,
-                             plan->beam.EI / (plan->length * plan->length)));
-  }
   p->regime = regime;
   p->h = h, p->nominal = nominal;
   p->barrier_count = p->impact_count = p->pressed_count = 0;
   p->least_reserve = 0;
-  sw_contact_stiffness(regime, force, nominal, &p->base_stiffness, &p->rate2);
+  for (size_t b = 0; b < s->body_count; b++)
+    if (takes_part(p, b))
+      sw_contact_stiffness(regime, force_of(s, &s->bodies[b]), nominal, &p->base_stiffness[b],
+                           &p->rate2);
   const sw_status status = sw_pairs_choose(p, s);
   return status == SW_OK ? SW_OK : sw_fail(err, status, "contact of wires: out of memory");
 }

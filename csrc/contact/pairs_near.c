@@ -289,7 +289,8 @@ static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double su
                  .parallel = is_parallel(s->x, n),
                  .held = all_held(s, n),
                  .reach = sum,
-                 .usual = fmax(p->base_stiffness, p->rate2 * lighter_mass(s, n))};
+                 .usual = fmax(fmin(p->base_stiffness[n->body[0]], p->base_stiffness[n->body[1]]),
+                               p->rate2 * lighter_mass(s, n))};
   for (uint32_t i = 0; i < 2 && !k->held; i++)
     for (uint32_t j = 0; j < 2; j++) SW_TRY(sw_system_plan_link(s, k->one + i, k->two + j));
   return SW_OK;
