@@ -69,6 +69,7 @@ typedef enum sw_contact_verdict {
   SW_CONTACT_REDO,   /* impacts or crossings that the step did not know of: the
                         system's starting velocities were changed, contacts added;
                         redo the step from a restart */
+  SW_CONTACT_STRIKE, /* something struck: redo the step without bouncing */
   SW_CONTACT_SMALLER /* edges or corners cut too deep: only a smaller step helps */
 } sw_contact_verdict;
 sw_contact_verdict sw_contact_review(sw_contact *contact, sw_system *system, const double *x1,

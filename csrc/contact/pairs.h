@@ -16,9 +16,8 @@ typedef struct sw_pairs sw_pairs;
 
 /* How two wires touch. */
 typedef struct sw_pair_rule {
-  int on;             /* 0: they pass through each other */
-  double friction;    /* [-] */
-  double restitution; /* [-] */
+  int on;          /* 0: they pass through each other */
+  double friction; /* [-] */
 } sw_pair_rule;
 
 /* Contact of bodies (count) by rules (count x count, symmetric), copied. SW_ENOMEM. */

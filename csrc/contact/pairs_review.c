@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Impacts and crossings between wires, as between wires and obstacles: a step that meets
- * what it did not touch before is redone with the approach cut to what just reaches it,
- * and segments whose axes come much nearer than their radii allow are kept apart. */
+/* Impacts and crossings between wires. A step that meets what it did not touch before is
+ * redone by implicit Euler: the wires reach each other within it and go on together, whatever
+ * their stiffness, and the integrator never sees the shock that would make it bounce. Wires
+ * do not rebound. Segments whose axes come much nearer than their radii allow are kept on
+ * their sides of each other. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -26,61 +28,29 @@ static int list(sw_pair_barrier **to, size_t *count, size_t *capacity, const sw_
   return 1;
 }
 
-static int is_free(const sw_body *b, size_t node) {
-  return b->plan->held[node - b->first_node] == SW_FREE;
+/* How fast a touch is passed through in the step, beyond just being reached [m/s]. */
+static double excess(const sw_system *s, const sw_pair *k, const double at[2], sw_vec normal,
+                     double h) {
+  const double gap = sw_dot(normal, sw_pair_apart(s->x, k->one, k->two, at)) - k->reach;
+  const double approach = -sw_dot(sw_pair_apart(s->v, k->one, k->two, at), normal);
+  return approach - (gap > 0 ? gap : 0.0) / h;
 }
 
-/* The four nodes of a touch: weights with the sign of their wire, and inverse masses, 0
- * where held. Returns the touch's inverse mass [1/kg]. */
-static double lightness(const sw_system *s, const sw_pair *k, const double at[2], double w[4],
-                        double inverse[4]) {
-  const uint32_t first[2] = {k->one, k->two};
-  double sum = 0;
-  for (uint32_t n = 0; n < 4; n++) {
-    const uint32_t wire = n / 2, end = n % 2;
-    const sw_body *b = &s->bodies[k->body[wire]];
-    const uint32_t node = first[wire] + end;
-    w[n] = (wire ? -1.0 : 1.0) * (end ? at[wire] : 1.0 - at[wire]);
-    inverse[n] = is_free(b, node) ? 1.0 / b->plan->lumped[node - b->first_node] : 0.0;
-    sum += w[n] * w[n] * inverse[n];
-  }
-  return sum;
+/* Deal with an impact once: 1 = the step is to be one that does not bounce. */
+static int strike(sw_pairs *p, const sw_system *s, const sw_pair *k, const double at[2],
+                  sw_vec normal, double h) {
+  if (is_listed(p->impacts, p->impact_count, k, at, 0.25)) return 0;
+  if (!(excess(s, k, at, normal, h) > SLOWEST_IMPACT)) return 0;
+  return list(&p->impacts, &p->impact_count, &p->impact_capacity, k, at, normal);
 }
 
-/* Change the starting velocities so that the touch is reached, not passed; the impulse is
- * equal and opposite on both wires. Returns 1 when something was changed. */
-static int strike(sw_pairs *p, sw_system *s, const sw_pair *k, const double at[2], sw_vec normal,
-                  double h) {
-  const sw_pair_rule *rule = sw_pair_rule_of(p, k->body);
-  const sw_vec x = sw_pair_apart(s->x, k->one, k->two, at);
-  const sw_vec v = sw_pair_apart(s->v, k->one, k->two, at);
-  const double gap = fmax(0.0, sw_dot(normal, x) - k->reach);
-  const double approach = -sw_dot(v, normal), allowed = gap / h;
-  double w[4], inverse[4];
-  const double total = lightness(s, k, at, w, inverse);
-  if (!(approach > allowed + SLOWEST_IMPACT) || !(total > 0)) return 0;
-  const double change =
-      rule->restitution > 0 ? approach * (1.0 + rule->restitution) : approach - allowed;
-  const sw_vec along = sw_madd(v, normal, approach);
-  const double slide = sw_norm(along), brake = fmin(slide, rule->friction * change);
-  sw_vec dv = sw_scale(normal, change);
-  if (slide > 0) dv = sw_madd(dv, along, -brake / slide);
-  const uint32_t node[4] = {k->one, k->one + 1, k->two, k->two + 1};
-  for (size_t n = 0; n < 4; n++)
-    sw_accumulate(s->v + 3 * node[n], sw_scale(dv, w[n] * inverse[n] / total));
-  list(&p->impacts, &p->impact_count, &p->impact_capacity, k, at, normal);
-  return 1;
-}
-
-static int review_touches(sw_pairs *p, sw_system *s, double h) {
-  int changed = 0;
+static int review_touches(sw_pairs *p, const sw_system *s, double h) {
+  int struck = 0;
   for (size_t i = 0; i < p->pressed_count; i++) {
     const sw_pair_touch *t = &p->pressed[i];
-    const sw_pair *k = &p->pairs[t->pair];
-    if (is_listed(p->impacts, p->impact_count, k, t->at, 0.25)) continue;
-    changed |= strike(p, s, k, t->at, t->press.normal, h);
+    struck |= strike(p, s, &p->pairs[t->pair], t->at, t->press.normal, h);
   }
-  return changed;
+  return struck;
 }
 
 /* The largest change of the distance between two segments from positions x0 to x1. */
@@ -128,7 +98,7 @@ static int sweep(const double *x0, const double *x1, const sw_pair *k, double at
   return 0;
 }
 
-static int review_crossings(sw_pairs *p, sw_system *s, const double *x1, double h) {
+static int review_crossings(sw_pairs *p, const sw_system *s, const double *x1) {
   int changed = 0;
   for (size_t i = 0; i < p->pair_count; i++) {
     const sw_pair *k = &p->pairs[i];
@@ -138,7 +108,6 @@ static int review_crossings(sw_pairs *p, sw_system *s, const double *x1, double 
     if (!sweep(s->x, x1, k, at, &normal)) continue;
     if (is_listed(p->barriers, p->barrier_count, k, at, 0.1)) continue;
     if (!list(&p->barriers, &p->barrier_count, &p->barrier_capacity, k, at, normal)) continue;
-    if (h > 0) strike(p, s, k, at, normal, h);
     changed = 1;
   }
   return changed;
@@ -201,13 +170,13 @@ sw_contact_verdict sw_pairs_review(sw_pairs *p, sw_system *s, const double *x1, 
     p->pressed_count = 0;
     return wider > 0 ? SW_CONTACT_REDO : SW_CONTACT_SMALLER;
   }
-  const int crossed = review_crossings(p, s, x1, h);
+  const int crossed = review_crossings(p, s, x1);
   const int struck = review_touches(p, s, h);
   p->pressed_count = 0;
-  return crossed || struck ? SW_CONTACT_REDO : SW_CONTACT_ACCEPT;
+  return crossed || struck ? SW_CONTACT_STRIKE : SW_CONTACT_ACCEPT;
 }
 
 int sw_pairs_review_static(sw_pairs *p, sw_system *s, const double *x1) {
   if (widen(p, s, x1)) return 1;
-  return review_crossings(p, s, x1, 0.0);
+  return review_crossings(p, s, x1);
 }

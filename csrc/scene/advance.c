@@ -102,6 +102,7 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
   if (s->discontinuous) s->stepper.restart = 1;
   if (!sw_scene_has_contact(s)) return trial(p, h, err);
   memcpy(p->v_start, s->system.v, 3 * s->system.nodes * sizeof(double));
+  s->stepper.plastic = 0;
   sw_status status = sw_scene_begin_contact(
       s, s->method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT, h,
       p->args->dt, err);
@@ -110,6 +111,7 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
     if (status != SW_OK) break;
     const sw_contact_verdict verdict = sw_scene_review_contact(s, s->stepper.trial_x, h);
     if (verdict == SW_CONTACT_ACCEPT) return SW_OK;
+    if (verdict == SW_CONTACT_STRIKE) s->stepper.plastic = 1;
     sw_stepper_reject(&s->stepper, &s->system);
     if (verdict == SW_CONTACT_SMALLER)
       status = sw_fail(err, SW_ENOCONV, "an edge or corner of an obstacle cuts too deep");

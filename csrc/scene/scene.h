@@ -126,8 +126,7 @@ sw_status sw_scene_obstacle_shape(sw_scene *scene, sw_handle obstacle, sw_shape 
 /* --- wires that touch each other ------------------------------------------------ */
 
 typedef struct sw_wire_contact_args {
-  double friction;    /* [-] */
-  double restitution; /* [-] */
+  double friction; /* [-] */
   int self, on;
 } sw_wire_contact_args;
 extern const sw_params sw_wire_contact_params;

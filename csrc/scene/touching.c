@@ -12,8 +12,6 @@ static const sw_param rows[] = {
      "a wire or a list of wires (default: every wire, those to come too)"},
     {"friction", SW_PARAM_NUMBER, "-", 0.3, 0, 100, 0, NULL,
      offsetof(sw_wire_contact_args, friction), "Coulomb friction coefficient"},
-    {"restitution", SW_PARAM_NUMBER, "-", 0, 0, 1, 0, NULL,
-     offsetof(sw_wire_contact_args, restitution), "share of the approach speed kept in an impact"},
     {"self", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, offsetof(sw_wire_contact_args, self),
      "false: not of a wire with itself"},
     {"on", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, offsetof(sw_wire_contact_args, on),
@@ -38,7 +36,7 @@ sw_status sw_scene_wire_contact(sw_scene *s, const sw_wire_contact_args *args,
       .wires = slots,
       .count = count,
       .self = args->self,
-      .rule = {.on = args->on, .friction = args->friction, .restitution = args->restitution}};
+      .rule = {.on = args->on, .friction = args->friction}};
   return SW_OK;
 }
 

@@ -134,49 +134,58 @@ describe("a wire over a thick one", function()
 end)
 
 describe("an impact of two wires", function()
-  local function crash(restitution, friction)
+  -- As good as rigid, or soft: what they go on with is their common speed at the place.
+  local function crash(EI, friction)
     local s = core.scene{ gravity = { 0, 0, 0 } }
-    -- stiff: they move as rigid bodies
-    local one = { EA = 1e6, EI = 1e3, radius = 0.002, segments = 9 }
     local function wire(from, to, mass, speed)
-      local t = { from = from, to = to, mass_per_length = mass }
-      for k, v in pairs(one) do t[k] = v end
-      local w = s:wire(t)
-      local pull = s:force{ kind = "line", on = w, force = { mass * speed[1] / 0.01,
-        mass * speed[2] / 0.01, mass * speed[3] / 0.01 } }
-      return w, pull
+      local w = s:wire{ from = from, to = to, mass_per_length = mass, EA = 1e6, EI = EI,
+        radius = 0.002, segments = 9 }
+      local k = mass / 0.01
+      return w, s:force{ kind = "line", on = w,
+        force = { k * speed[1], k * speed[2], k * speed[3] } }
     end
     local a, fa = wire({ -0.1, 0, 0 }, { 0.1, 0, 0 }, 0.1, { 0, 0, 0.5 })
     local b, fb = wire({ 0.01, -0.05, 0.05 }, { 0.01, 0.07, 0.05 }, 0.05, { 0.2, 0, -1.5 })
-    s:wire_contact{ friction = friction, restitution = restitution }
+    s:wire_contact{ friction = friction }
     s:advance({ dt = 0.001, integrator = "sdirk2" }, 0.01)
     fa:release()
     fb:release()
     local before, energy = momentum({ a, b }, { 0.1, 0.05 }), s:energy().kinetic
-    assert.is_true(s:advance({ dt = 0.001 }, 0.05).ok)
-    return before, momentum({ a, b }, { 0.1, 0.05 }), energy, s:energy().total, a, b
+    assert.is_true(s:advance({ dt = 0.001 }, 0.033).ok) -- they touch at 0.033 s
+    local last, gain = s:energy().total, 0
+    for i = 1, 20 do
+      assert.is_true(s:advance({ dt = 0.001 }, 0.033 + 0.001 * i).ok)
+      local total = s:energy().total
+      last, gain = total, math.max(gain, total - last)
+    end
+    return { before = before, after = momentum({ a, b }, { 0.1, 0.05 }), energy = energy,
+      left = last, gain = gain, a = a, b = b }
   end
 
-  it("keeps the momentum", function()
-    for _, case in ipairs{ { 0, 0 }, { 0, 0.4 }, { 1, 0 }, { 0.5, 0.3 } } do
-      local before, after = crash(case[1], case[2])
+  it("keeps the momentum and gains no energy", function()
+    for _, case in ipairs{ { 1e-2, 0 }, { 1, 0.4 }, { 1e3, 0 }, { 1e3, 0.3 } } do
+      local r = crash(case[1], case[2])
       for k = 1, 3 do
-        assert.is_true(math.abs(after[k] - before[k]) < 1e-9, after[k] .. " from " .. before[k])
+        assert.is_true(math.abs(r.after[k] - r.before[k]) < 1e-9, r.after[k] .. " from " .. r.before[k])
       end
-      assert.is_true(math.abs(before[3]) > 1e-3)
+      assert.is_true(math.abs(r.before[3]) > 1e-3)
+      assert.is_true(r.gain < 1e-4 * r.energy, r.gain)
+      assert.is_true(r.left < 0.8 * r.energy)
     end
   end)
 
-  it("loses the energy of the approach without restitution, and little with it", function()
-    local _, _, plastic0, plastic1, a, b = crash(0, 0)
-    -- they go on together at the place of contact
-    local away = b:velocity(0.05)[3] - a:velocity(0.11)[3]
-    assert.is_true(math.abs(away) < 0.02, away)
-    local _, _, elastic0, elastic1 = crash(1, 0)
-    -- the change of speeds acts on single nodes: some of it goes into vibration that the
-    -- integrator damps
-    assert.is_true(elastic1 > 0.8 * elastic0 and elastic1 < 1.0001 * elastic0)
-    assert.is_true(plastic1 < 0.75 * plastic0)
+  it("leaves rigid wires going on together, with what the centre of mass keeps", function()
+    local r = crash(1e3, 0)
+    local away = r.b:velocity(0.05)[3] - r.a:velocity(0.11)[3]
+    assert.is_true(math.abs(away) < 0.05, away)
+    -- plastic impact of two rigid rods touching at offsets d from their centres: the
+    -- effective mass there is m/(1 + 12 d^2/L^2), the loss half of the reduced one's
+    -- times the square of the approach of 2 m/s
+    local function effective(m, L, d) return m / (1 + 12 * d * d / (L * L)) end
+    local ma, mb = effective(0.02, 0.2, 0.01), effective(0.006, 0.12, 0.01)
+    local loss = 0.5 * ma * mb / (ma + mb) * 4
+    -- implicit Euler's own loss in the step of the impact comes on top: 2 %
+    assert.is_true(math.abs((r.energy - r.left) / loss - 1) < 0.03, (r.energy - r.left) / loss)
   end)
 end)
 
@@ -238,24 +247,27 @@ describe("wires driven into each other at 30 m/s with 10 ms steps", function()
 end)
 
 describe("wire_contact", function()
+  -- Three wires on top of one another, the lowest held at both ends.
   local function crossing(options)
-    local s = core.scene{ gravity = { 0, 0, 0 } }
+    local s = core.scene{}
     local w = {}
     for k = 0, 2 do
-      w[k + 1] = s:wire{ EA = 1e3, EI = 1e-3, mass_per_length = 0.02, radius = 0.002,
-        from = { -0.1, 0, 0.0035 * k }, to = { 0.1, 0.02 * k, 0.0035 * k }, segments = 10 }
+      w[k + 1] = s:wire{ EA = 1e3, EI = 1e-1, mass_per_length = 0.02, radius = 0.002,
+        from = { -0.1, -0.05 * k, 0.004 * k }, to = { 0.1, 0.05 * k, 0.004 * k }, segments = 10 }
     end
+    s:clamp(w[1], { s = 0 })
+    s:clamp(w[1], { s = w[1].length })
     if options then s:wire_contact(options(w)) end
-    s:advance({ dt = 0.001 }, 0.001)
+    s:advance({ dt = 0.002 }, 0.02)
     return s, w
   end
 
   it("is off unless asked for, and can be switched off again", function()
-    assert.are.equal(0, crossing():contacts())
-    assert.is_true(crossing(function() return nil end):contacts() > 0)
+    assert.are.equal(0, (crossing()):contacts())
+    assert.is_true((crossing(function() return nil end)):contacts() > 0)
     local s = crossing(function() return {} end)
     s:wire_contact{ on = false }
-    s:advance({ dt = 0.001 }, 0.004)
+    s:advance({ dt = 0.002 }, 0.024)
     assert.are.equal(0, s:contacts())
   end)
 
@@ -277,15 +289,16 @@ describe("wire_contact", function()
       return list
     end
     local s, w = crossing(function() return { friction = 0.4 } end)
-    local c = s:clamp(w[1], { s = 0 })
-    c:follow{ points = { { 0, 0, 0 }, { 0, 0, 0.01 } }, relative = true, duration = 0.05 }
-    s:advance({ dt = 0.001 }, 0.02)
+    local c = s:clamp(w[3], { s = 0 })
+    c:follow{ points = { { 0, 0, 0 }, { 0, 0, -0.01 } }, relative = true, duration = 0.05 }
+    s:advance({ dt = 0.002 }, 0.04)
     local before = s:snapshot()
-    s:advance({ dt = 0.001 }, 0.06)
+    s:advance({ dt = 0.002 }, 0.08)
     local once = places(s, w)
-    s:advance({ dt = 0.001 }, 0.08)
+    assert.is_true(s:contacts() > 0)
+    s:advance({ dt = 0.002 }, 0.1)
     s:restore(before)
-    s:advance({ dt = 0.001 }, 0.06)
+    s:advance({ dt = 0.002 }, 0.08)
     assert.are.same(once, places(s, w))
   end)
 
@@ -300,7 +313,7 @@ describe("wire_contact", function()
     for _, case in ipairs{
       { { friction = -1 }, "friction = %-1 is not allowed" },
       { { frictoin = 1 }, "did you mean 'friction'" },
-      { { restitution = 2 }, "restitution = 2 is not allowed" },
+      { { self = 2 }, "self must be" },
       { { between = 3 }, "a wire or a list of wires, got" },
       { { between = {} }, "lists no wire" },
       { { between = { w, 3 } }, "between" },
