@@ -59,9 +59,9 @@ struct sw_pairs {
   sw_pair_rule *rules;
   size_t bodies;
   sw_contact_regime regime;
-  double h, nominal;     /* [s] */
+  double h, nominal;      /* [s] */
   double *base_stiffness; /* (bodies) for the forces of each [N/m] */
-  double rate2;          /* stiffness per mass [1/s2] */
+  double rate2;           /* stiffness per mass [1/s2] */
 
   /* segments near each other, for many steps */
   sw_near *near;

@@ -252,14 +252,27 @@ static int update(const sw_pairs *p, sw_pair_touch *t, const double *delta, doub
   return agrees;
 }
 
+/* In steps below this share of the nominal one, depth that was there before is taken as
+ * it comes: inertia alone would keep it [-]. */
+static const double SMALL_STEP = 0.25;
+static const double DEEPER = 5e-6; /* [m] */
+
+static int is_old_depth(const sw_pairs *p, const sw_system *s, const sw_pair_touch *t) {
+  const sw_pair *k = &p->pairs[t->pair];
+  if (p->regime != SW_CONTACT_IMPLICIT || p->h >= SMALL_STEP * p->nominal) return 0;
+  const double apart = sw_dot(t->press.normal, sw_pair_apart(s->x, k->one, k->two, t->at));
+  return t->forgiven - t->press.gap_after < k->reach - apart + DEEPER;
+}
+
 /* Make touches that sink in too deep stiffer; 1 = there were some. */
-static int stiffen(sw_pairs *p) {
+static int stiffen(sw_pairs *p, const sw_system *s) {
   int any = 0;
   if (p->regime == SW_CONTACT_EXPLICIT) return 0;
   for (size_t i = 0; i < p->touch_count; i++) {
     sw_pair_touch *t = &p->touches[i];
     const double usual = p->pairs[t->pair].usual;
     if (t->press.gap_after >= -SW_DEEPEST || t->press.k >= SW_MOST_BOOST * usual) continue;
+    if (is_old_depth(p, s, t)) continue;
     t->stiffer = t->press.k * fmin(10.0, 2.0 * t->press.gap_after / -SW_DEEPEST);
     any = 1;
   }
@@ -276,9 +289,8 @@ static double scale_of(const sw_pairs *p) {
 int sw_pairs_settled(sw_pairs *p, sw_system *s, const double *delta) {
   const double scale = scale_of(p);
   int fine = 1;
-  (void)s;
   for (size_t i = 0; i < p->touch_count; i++) fine &= update(p, &p->touches[i], delta, scale);
-  if (fine && stiffen(p)) return 0;
+  if (fine && stiffen(p, s)) return 0;
   for (size_t i = 0; fine && i < p->touch_count; i++) {
     const sw_pair_touch *t = &p->touches[i];
     if (!(t->press.normal_force > 0 || t->press.gap_after < 0)) continue;

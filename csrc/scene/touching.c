@@ -32,11 +32,10 @@ sw_status sw_scene_wire_contact(sw_scene *s, const sw_wire_contact_args *args,
     return sw_fail(err, SW_ENOMEM, "scene:wire_contact: out of memory");
   }
   for (size_t k = 0; k < count; k++) slots[k] = wires[k].slot;
-  s->rules[s->rule_count++] = (sw_scene_rule){
-      .wires = slots,
-      .count = count,
-      .self = args->self,
-      .rule = {.on = args->on, .friction = args->friction}};
+  s->rules[s->rule_count++] = (sw_scene_rule){.wires = slots,
+                                              .count = count,
+                                              .self = args->self,
+                                              .rule = {.on = args->on, .friction = args->friction}};
   return SW_OK;
 }
 
