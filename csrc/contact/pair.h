@@ -86,6 +86,7 @@ struct sw_pairs {
   size_t barrier_count, barrier_capacity;
   sw_pair_barrier *impacts; /* places whose impact was dealt with in this step */
   size_t impact_count, impact_capacity;
+  double fall;          /* that gravity closes in the step, with reserve [m] */
   double least_reserve; /* gap up to which all are chosen in this step [m] */
 };
 

@@ -257,16 +257,10 @@ static double lighter_mass(const sw_system *s, const sw_near *n) {
 
 static const double RESERVE = 1.5; /* [-] */
 
-/* Of gaps, in which segments are chosen whatever their speeds [m]. */
-static double always_within(const sw_pairs *p, const sw_system *s, double reach) {
-  const double g = sw_norm(sw_load(s->gravity));
-  return 0.25 * reach + RESERVE * g * p->h * p->h;
-}
-
-/* Gap up to which a pair is chosen; fast: at a speed, that of the pair or a larger one. */
-static double reserve_of(const sw_pairs *p, const sw_system *s, double reach, double fast) {
-  double reserve = always_within(p, s, reach);
-  if (p->regime != SW_CONTACT_STATIC) reserve += RESERVE * p->h * fast;
+/* Gap up to which a pair is chosen: a share of its radii, what gravity and its speed (or a
+ * larger one) can close in the step. */
+static double reserve_of(const sw_pairs *p, double reach, double fast) {
+  const double reserve = 0.25 * reach + p->fall + RESERVE * p->h * fast;
   return reserve > p->least_reserve ? reserve : p->least_reserve;
 }
 
@@ -276,7 +270,10 @@ static double travel_of(const sw_pairs *p, const sw_near *n) {
 
 static double fastest(const sw_system *s) {
   double most = 0;
-  for (size_t i = 0; i < s->nodes; i++) most = fmax(most, sw_norm2(sw_vec_at(s->v, i)));
+  for (size_t i = 0; i < s->nodes; i++) {
+    const double v2 = sw_norm2(sw_vec_at(s->v, i));
+    most = most > v2 ? most : v2;
+  }
   return sqrt(most);
 }
 
@@ -297,8 +294,10 @@ static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double su
 }
 
 sw_status sw_pairs_choose(sw_pairs *p, sw_system *s) {
-  const double fast = p->regime == SW_CONTACT_STATIC ? 0.0 : 2.0 * fastest(s);
-  SW_TRY(sw_pairs_list(p, s, reserve_of(p, s, 2.0 * widest_radius(p, s), fast)));
+  const int still = p->regime == SW_CONTACT_STATIC;
+  const double fast = still ? 0.0 : 2.0 * fastest(s);
+  p->fall = still ? 0.0 : RESERVE * sw_norm(sw_load(s->gravity)) * p->h * p->h;
+  SW_TRY(sw_pairs_list(p, s, reserve_of(p, 2.0 * widest_radius(p, s), fast)));
   p->pair_count = p->touch_count = p->last_count = 0;
   sw_system_begin_plan(s);
   for (size_t k = 0; k < p->near_count; k++) {
@@ -306,11 +305,11 @@ sw_status sw_pairs_choose(sw_pairs *p, sw_system *s) {
     double at[2];
     const double sum = radii(s, n->body);
     n->distance = n->known - (travel_of(p, n) - n->travel); /* at least */
-    if (n->distance - sum >= reserve_of(p, s, sum, fast)) continue;
+    if (n->distance - sum >= reserve_of(p, sum, fast)) continue;
     n->distance = sw_segments_nearest(sw_vec_at(s->x, n->one), sw_vec_at(s->x, n->one + 1u),
                                       sw_vec_at(s->x, n->two), sw_vec_at(s->x, n->two + 1u), at);
     n->known = n->distance, n->travel = travel_of(p, n);
-    if (n->distance - sum < reserve_of(p, s, sum, speed_between(s, n)))
+    if (n->distance - sum < reserve_of(p, sum, still ? 0.0 : speed_between(s, n)))
       SW_TRY(add_pair(p, s, n, sum));
   }
   return SW_OK;

@@ -206,25 +206,25 @@ void sw_sparse_add(sw_sparse *s, size_t pair, const double *values) {
 
 #define ALWAYS static inline __attribute__((always_inline))
 
-/* Inverse of a symmetric block, its first unknown eliminated on its own (in a wire it
- * may be a thousand million times as stiff as the others) and the next like it; counts
- * negative pivots. 0 when a pivot vanishes or is not finite. */
+/* Inverse of a symmetric block in place, pivot by pivot (in a wire the first may be a
+ * thousand million times as stiff as the others); counts negative pivots. 0 when a pivot
+ * vanishes or is not finite. */
 ALWAYS int invert(double *m, const int b, size_t *negative) {
+  double product = 1.0;
   for (int k = 0; k < b; k++) { /* sweeps: after all of them m is minus its inverse */
-    const double pivot = m[b * k + k];
-    if (!(fabs(pivot) > 0 && fabs(pivot) < HUGE_VAL)) return 0;
+    const double pivot = m[b * k + k], r = 1.0 / pivot;
     *negative += pivot < 0;
-    const double r = 1.0 / pivot;
+    product *= r * pivot; /* not a number when a pivot is no good */
     double column[SW_SPARSE_BLOCK_MAX];
-    for (int i = 0; i < b; i++) column[i] = m[b * i + k];
+    for (int i = 0; i < b; i++) column[i] = m[b * i + k] * r;
     for (int i = 0; i < b; i++)
       for (int j = 0; j < b; j++)
-        if (i != k && j != k) m[b * i + j] -= column[i] * r * column[j];
-    for (int i = 0; i < b; i++) m[b * i + k] = m[b * k + i] = column[i] * r;
+        if (i != k && j != k) m[b * i + j] -= column[i] * m[b * k + j];
+    for (int i = 0; i < b; i++) m[b * i + k] = m[b * k + i] = column[i];
     m[b * k + k] = -r;
   }
   for (int k = 0; k < b * b; k++) m[k] = -m[k];
-  return isfinite(m[0]);
+  return product > 0;
 }
 
 /* w = a d */
