@@ -12,6 +12,9 @@
 /* Slower approaches are left to the integrator [m/s]. */
 static const double SLOWEST_IMPACT = 5e-4;
 
+/* Places this near to each other along both segments are one [-]. */
+static const double BESIDE = 0.25;
+
 static int is_listed(const sw_pair_barrier *list, size_t count, const sw_pair *k,
                      const double at[2], double within) {
   for (size_t i = 0; i < count; i++)
@@ -39,7 +42,7 @@ static double excess(const sw_system *s, const sw_pair *k, const double at[2], s
 /* Deal with an impact once: 1 = the step is to be one that does not bounce. */
 static int strike(sw_pairs *p, const sw_system *s, const sw_pair *k, const double at[2],
                   sw_vec normal, double h) {
-  if (is_listed(p->impacts, p->impact_count, k, at, 0.25)) return 0;
+  if (is_listed(p->impacts, p->impact_count, k, at, BESIDE)) return 0;
   if (!(excess(s, k, at, normal, h) > SLOWEST_IMPACT)) return 0;
   return list(&p->impacts, &p->impact_count, &p->impact_capacity, k, at, normal);
 }
@@ -98,6 +101,8 @@ static int sweep(const double *x0, const double *x1, const sw_pair *k, double at
   return 0;
 }
 
+/* 1 = segments would pass through each other and are kept on their sides from now on; -1 =
+ * they would although they were: only a smaller step helps. */
 static int review_crossings(sw_pairs *p, const sw_system *s, const double *x1) {
   int changed = 0;
   for (size_t i = 0; i < p->pair_count; i++) {
@@ -106,9 +111,8 @@ static int review_crossings(sw_pairs *p, const sw_system *s, const double *x1) {
     sw_vec normal;
     if (k->held || approach_bound(s->x, x1, k->one, k->two) < TOO_NEAR * k->reach) continue;
     if (!sweep(s->x, x1, k, at, &normal)) continue;
-    if (is_listed(p->barriers, p->barrier_count, k, at, 0.1)) continue;
-    if (!list(&p->barriers, &p->barrier_count, &p->barrier_capacity, k, at, normal)) continue;
-    changed = 1;
+    if (is_listed(p->barriers, p->barrier_count, k, at, BESIDE)) return -1;
+    if (list(&p->barriers, &p->barrier_count, &p->barrier_capacity, k, at, normal)) changed = 1;
   }
   return changed;
 }
@@ -171,6 +175,10 @@ sw_contact_verdict sw_pairs_review(sw_pairs *p, sw_system *s, const double *x1, 
     return wider > 0 ? SW_CONTACT_REDO : SW_CONTACT_SMALLER;
   }
   const int crossed = review_crossings(p, s, x1);
+  if (crossed < 0) {
+    p->pressed_count = 0;
+    return SW_CONTACT_SMALLER;
+  }
   const int struck = review_touches(p, s, h);
   p->pressed_count = 0;
   return crossed || struck ? SW_CONTACT_STRIKE : SW_CONTACT_ACCEPT;
@@ -178,5 +186,5 @@ sw_contact_verdict sw_pairs_review(sw_pairs *p, sw_system *s, const double *x1, 
 
 int sw_pairs_review_static(sw_pairs *p, sw_system *s, const double *x1) {
   if (widen(p, s, x1)) return 1;
-  return review_crossings(p, s, x1);
+  return review_crossings(p, s, x1) != 0;
 }

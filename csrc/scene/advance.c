@@ -114,7 +114,7 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
     if (verdict == SW_CONTACT_STRIKE) s->stepper.plastic = 1;
     sw_stepper_reject(&s->stepper, &s->system);
     if (verdict == SW_CONTACT_SMALLER)
-      status = sw_fail(err, SW_ENOCONV, "an edge or corner of an obstacle cuts too deep");
+      status = sw_fail(err, SW_ENOCONV, "what the wire touches cuts too deep into it");
     s->stepper.restart = 1;
   }
   memcpy(s->system.v, p->v_start, 3 * s->system.nodes * sizeof(double));
