@@ -17,12 +17,11 @@ local cable = scene:wire { EA = 700, EI = 4e-4, GJ = 3e-4, mass_per_length = 0.0
 scene:wire_contact { friction = 0.1 }
 scene:force { kind = "damping", mass = 3 }
 scene:clamp(cable, { s = 0 })
-local hand = scene:clamp(cable, { s = length })
+local hand = scene:clamp(cable, { s = cable.length })
 
 hand:follow { points = { { 0, 0, 0 }, { 0, 0, 0 } }, duration = 4, relative = true,
   turn = { axis = { 1, 0, 0 }, angle = 2 * math.pi * turns } }
 assert(scene:run { duration = 4, dt = 0.01 }.ok)
-print(hand:force()[1],hand:force()[2], cable:min_bend_radius{now=true}, #scene:touches(), hand:pose())
 print(("taut: torque %.6f N m"):format(math.abs(hand:moment()[1])))
 
 print "slack    pull       torque      bend radius  places touching"

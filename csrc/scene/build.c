@@ -45,8 +45,8 @@ static sw_status keep_contact(sw_scene *s) {
     sw_scene_forget_contact(s);
     return SW_ENOMEM;
   }
-  if (s->kept.bytes) memcpy(s->kept.memory, memory, s->kept.bytes);
-  if (s->kept.pair_bytes) memcpy(s->kept.pairs, pairs, s->kept.pair_bytes);
+  if (memory && s->kept.bytes) memcpy(s->kept.memory, memory, s->kept.bytes);
+  if (pairs && s->kept.pair_bytes) memcpy(s->kept.pairs, pairs, s->kept.pair_bytes);
   s->kept.wires = s->system.body_count;
   for (size_t w = 0; w < s->system.body_count; w++) {
     const sw_body *b = &s->system.bodies[w];

@@ -250,7 +250,7 @@ ALWAYS void subtract(const double *restrict w, const double *restrict a, double 
 }
 
 ALWAYS sw_status factor(sw_sparse *s, size_t *negative, const int b) {
-  const size_t bb = (size_t)(b * b);
+  const size_t bb = (size_t)b * (size_t)b;
   const uint32_t *target = s->target;
   for (size_t k = 0; k < s->n; k++) {
     double *own = s->own + bb * k;
@@ -282,7 +282,7 @@ sw_status sw_sparse_factor(sw_sparse *s, size_t *negative) {
 }
 
 ALWAYS void solve(const sw_sparse *s, double *restrict x, const int b) {
-  const size_t bb = (size_t)(b * b), bs = (size_t)b;
+  const size_t bb = (size_t)b * (size_t)b, bs = (size_t)b;
   for (size_t k = 0; k < s->n; k++) {
     const double *xk = x + bs * k;
     for (uint32_t e = s->start[k]; e < s->start[k + 1]; e++) {
