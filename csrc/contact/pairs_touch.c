@@ -108,6 +108,10 @@ static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, co
  * what begins to touch finds its state of the iterate before [-]. */
 static const double LISTED_GAP = 0.25;
 
+/* Axes further apart than this have not just passed each other: in a knot, normals turn by
+ * more than a right angle within two segments. Of the radii's sum [-]. */
+static const double PASSED = 0.5;
+
 /* The touch at given places, unless the wires are apart there. Axes that have got
  * through each other within the iteration are told by the remembered normal. */
 static sw_status touch_at(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
@@ -117,7 +121,8 @@ static sw_status touch_at(sw_pairs *p, const sw_system *s, const sw_pair *k, con
   if (!(distance < (1.0 + LISTED_GAP) * k->reach)) return SW_OK;
   const sw_pair_memory *m = sw_pair_recall(p, k, at);
   sw_vec normal = sw_unit_or(d, m ? m->normal : sw_v(0, 0, 1));
-  if (m && sw_dot(normal, m->normal) < 0) normal = sw_neg(normal), distance = -distance;
+  if (m && distance < PASSED * k->reach && sw_dot(normal, m->normal) < 0)
+    normal = sw_neg(normal), distance = -distance;
   const sw_pair_touch t = {.at = {at[0], at[1]}, .slides = {slides_one, slides_two}};
   return add_touch(p, s, k, y, t, distance - k->reach, normal);
 }
@@ -129,8 +134,10 @@ static sw_status behind_barrier(sw_pairs *p, const sw_system *s, const sw_pair *
     if (b->one != k->one || b->two != k->two) continue;
     const sw_vec d = sw_pair_apart(y, b->one, b->two, b->at);
     *found = 1;
-    const sw_pair_touch t = {.at = {b->at[0], b->at[1]}, .barred = 1};
-    SW_TRY(add_touch(p, s, k, y, t, sw_dot(b->normal, d) - k->reach, b->normal));
+    const double gap = sw_dot(b->normal, d) - k->reach;
+    const sw_pair_touch t = {
+        .at = {b->at[0], b->at[1]}, .barred = 1, .aslant = sw_norm(d) - k->reach - gap};
+    SW_TRY(add_touch(p, s, k, y, t, gap, b->normal));
   }
   return SW_OK;
 }
