@@ -80,14 +80,21 @@ static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, doub
 }
 
 /* Displacement of the wire's material at the touch since the step's start,
- * relative to the obstacle's. */
+ * relative to the obstacle's. Of a wire that rolls: of its surface, relative to the
+ * obstacle's material there. */
 static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_touch *t,
                              const double *y) {
   const sw_vec from = sw_touch_place(s->x, t->node, t->segment, t->at);
   const sw_vec to = sw_touch_place(y, t->node, t->segment, t->at);
   const sw_vec carried =
       sw_pose_point(c->now[t->obstacle].pose, sw_pose_local(c->start[t->obstacle].pose, from));
-  return sw_sub(to, carried);
+  if (!t->levers) return sw_sub(to, carried);
+  const sw_body *b = &s->bodies[t->body];
+  const sw_vec before =
+      sw_rotate(c->start[t->obstacle].pose.q, sw_unrotate(c->now[t->obstacle].pose.q, t->normal));
+  const sw_vec arm = sw_scale(sw_sub(t->normal, before), b->plan->beam.radius);
+  const sw_vec rolled = sw_touch_surface_shift(t, b->roll_turn, 1);
+  return sw_add(sw_add(sw_sub(to, carried), arm), rolled);
 }
 
 static void set_friction_state(const sw_contact *c, const sw_system *s, const sw_candidate *k,
@@ -159,6 +166,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
   t.forgiven = forgiven(c, s, k, &t);
   t.gap += t.forgiven;
   t.gap_after = t.gap;
+  sw_touch_take_levers(s, &t);
   set_friction_state(c, s, k, y, &t);
   return push(c, &t);
 }
@@ -282,6 +290,7 @@ static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
     if (!(mu > 0)) t->tangential = sw_v(0, 0, 0);
   }
   add_to_field(s, t, sw_madd(t->tangential, t->normal, t->normal_force), K, want);
+  if (t->levers) sw_touch_push_surface(s, t, K, want);
 }
 
 sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar, const double *y,
@@ -320,7 +329,7 @@ static int update_friction(const sw_contact *c, sw_touch *t, sw_vec shift) {
 
 /* Bring a touch's forces up to the solved update; 1 = it agrees with what the
  * solve assumed. */
-static int update(sw_contact *c, sw_touch *t, const double *delta) {
+static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *delta) {
   const sw_vec shift =
       t->segment ? sw_lerp(sw_load(delta + 3 * t->node), sw_load(delta + 3 * t->node + 3), t->at)
                  : sw_load(delta + 3 * t->node);
@@ -329,8 +338,11 @@ static int update(sw_contact *c, sw_touch *t, const double *delta) {
   if (t->held) return 1;
   t->normal_force = active ? fmax(0.0, -t->k * t->gap_after) : 0.0;
   t->next_sliding = 1; /* what does not touch moves freely */
+  const sw_vec surface =
+      t->levers ? sw_add(shift, sw_touch_surface_shift(t, s->bodies[t->body].spin_delta + 3, 4))
+                : shift;
   const int agrees =
-      active && c->obstacles[t->obstacle].friction > 0 ? update_friction(c, t, shift) : 1;
+      active && c->obstacles[t->obstacle].friction > 0 ? update_friction(c, t, surface) : 1;
   if (active ? t->gap_after > GAP_TOLERANCE : t->gap_after < -GAP_TOLERANCE) return 0;
   const double radius = c->candidates[t->candidate].radius;
   if (!c->flat[t->obstacle] && t->gap_after < radius && sw_norm(shift) > SMALL_SHIFT * radius)
@@ -346,8 +358,8 @@ static int update(sw_contact *c, sw_touch *t, const double *delta) {
 int sw_contact_settled(void *contact, sw_system *s, const double *y, const double *delta) {
   sw_contact *c = contact;
   int fine = 1;
-  (void)s, (void)y;
-  for (size_t i = 0; i < c->touch_count; i++) fine &= update(c, &c->touches[i], delta);
+  (void)y;
+  for (size_t i = 0; i < c->touch_count; i++) fine &= update(c, s, &c->touches[i], delta);
   for (size_t i = 0; fine && i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
     if (t->held || !(t->normal_force > 0 || t->gap_after < 0)) continue;

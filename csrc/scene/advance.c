@@ -101,7 +101,7 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
   sw_scene *s = p->s;
   if (s->discontinuous) s->stepper.restart = 1;
   if (!s->contact) return trial(p, h, err);
-  memcpy(p->v_start, s->system.v, 3 * s->system.nodes * sizeof(double));
+  memcpy(p->v_start, s->system.v, s->system.freedoms * sizeof(double));
   sw_status status = sw_contact_begin_step(
       s->contact, &s->system,
       s->method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
@@ -117,7 +117,7 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
       status = sw_fail(err, SW_ENOCONV, "an edge or corner of an obstacle cuts too deep");
     s->stepper.restart = 1;
   }
-  memcpy(s->system.v, p->v_start, 3 * s->system.nodes * sizeof(double));
+  memcpy(s->system.v, p->v_start, s->system.freedoms * sizeof(double));
   return status != SW_OK ? status
                          : sw_fail(err, SW_ENOCONV, "impacts do not come to an end in one step");
 }
@@ -182,7 +182,7 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
     }
     if (status == SW_OK) {
       sw_stepper_reject(&s->stepper, &s->system);
-      if (s->contact) memcpy(s->system.v, p->v_start, 3 * s->system.nodes * sizeof(double));
+      if (s->contact) memcpy(s->system.v, p->v_start, s->system.freedoms * sizeof(double));
     }
     p->report->rejected++;
     h = fmin(next, 0.9 * h);
@@ -246,8 +246,8 @@ static sw_status check_run(const sw_scene *s, const sw_run_args *args, sw_error 
     if (s->wires[w].beam.framed && !args->quasistatic && !(m->flags & SW_INTEGRATOR_IMPLICIT))
       return sw_fail(
           err, SW_EINVAL,
-          "scene:run: integrator '%s' is explicit; wire '%s', which is curved at rest or "
-          "has two values of EI, needs an implicit one",
+          "scene:run: integrator '%s' is explicit; wire '%s', which is curved at rest, has two "
+          "values of EI or rolls, needs an implicit one",
           m->name, s->wires[w].name);
   if (args->quasistatic && isfinite(args->tolerance))
     return sw_fail(err, SW_EINVAL,
@@ -290,7 +290,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   SW_TRY(use_integrator(s, args, err));
   const size_t before = s->system.counters.evaluations;
   loop p = {.s = s, .args = args, .report = report};
-  p.v_start = sw_alloc(s->contact ? 3 * s->system.nodes : 1, sizeof(double));
+  p.v_start = sw_alloc(s->contact ? s->system.freedoms : 1, sizeof(double));
   if (!p.v_start) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
   s->running++;
   sw_status status = SW_OK;

@@ -122,8 +122,8 @@ sw_status sw_scene_wire_modes(sw_scene *s, sw_handle wire, const sw_modes_args *
   SW_TRY(sw_scene_build(s, err));
   if (s->wires[wire.slot].beam.framed)
     return sw_fail(err, SW_EINVAL,
-                   "wire '%s': frequencies are for wires that are straight at rest and have one "
-                   "value of EI",
+                   "wire '%s': frequencies are for wires that are straight at rest, have one "
+                   "value of EI and do not roll",
                    s->wires[wire.slot].name);
   s->running++; /* a force may be a user's function */
   const sw_status status = find(s, wire.slot, args, interrupted, out, err);

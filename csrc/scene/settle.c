@@ -36,7 +36,7 @@ typedef struct statics {
   const sw_settle_args *args;
   sw_settle_report *report;
   int (*interrupted)(void);
-  double *zero, *from, *y, *v; /* (nodes x 3) */
+  double *zero, *from, *y, *v; /* (freedoms) */
   double *tension;             /* (edges) at the start of an attempt */
   double *kept, *begun;        /* (state) put aside; as settling found it */
   sw_pose *from_poses;         /* (holds) where the holds were */
@@ -54,7 +54,7 @@ static sw_status solve(statics *p, double hbar, const sw_newton *newton, sw_erro
   sw_stage_report r = {0};
   const sw_stage stage = {
       .time = s->time, .hbar = hbar, .xhat = p->from, .vhat = p->zero, .y = p->y, .v = p->v};
-  memcpy(p->from, s->system.x, 3 * s->system.nodes * sizeof(double));
+  memcpy(p->from, s->system.x, s->system.freedoms * sizeof(double));
   memcpy(p->tension, s->system.tension, s->system.edges * sizeof(double));
   sw_system_begin_step(&s->system);
   sw_status status = SW_OK;
@@ -81,9 +81,9 @@ static double take(statics *p, int trial) {
   for (size_t i = 0; i < 3 * s->system.nodes; i++)
     shift = fmax(shift, fabs(p->y[i] - s->system.x[i]));
   sw_system_follow(&s->system, p->y);
-  memcpy(s->system.x, p->y, 3 * s->system.nodes * sizeof(double));
-  memset(s->system.v, 0, 3 * s->system.nodes * sizeof(double));
-  memset(s->system.a, 0, 3 * s->system.nodes * sizeof(double));
+  memcpy(s->system.x, p->y, s->system.freedoms * sizeof(double));
+  memset(s->system.v, 0, s->system.freedoms * sizeof(double));
+  memset(s->system.a, 0, s->system.freedoms * sizeof(double));
   if (s->contact && !trial) sw_contact_commit(s->contact, &s->system);
   return shift;
 }
@@ -267,7 +267,7 @@ static double drive_shift(const statics *p) {
 
 sw_status sw_scene_rest(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
                         sw_settle_report *report, sw_error *why) {
-  const size_t n = 3 * s->system.nodes, size = s->system.state_size;
+  const size_t n = s->system.freedoms, size = s->system.state_size;
   double *block = sw_alloc(4 * n + s->system.edges + 2 * size, sizeof *block);
   sw_pose *poses = sw_alloc(s->system.hold_count, sizeof *poses);
   if (!block || !poses) {

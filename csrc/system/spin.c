@@ -3,8 +3,8 @@
  * update carries it along with the tangent and turns it about the tangent, so
  * that many turns have no branch and no drift. Only the twist of hinges needs its
  * last value, to tell which of the equal angles is meant; valid while an
- * iteration turns no hinge by more than pi. Spins have no inertia: torsional waves
- * are much faster than what a wire does in handling. */
+ * iteration turns no hinge by more than pi. Spins have no inertia, torsional waves
+ * being much faster than what a wire does in handling, unless it rolls (roll.h). */
 #include "system/spin.h"
 
 #include <math.h>
@@ -15,6 +15,7 @@
 #include "solve/band3.h"
 #include "solve/band4.h"
 #include "state/hinge.h"
+#include "system/roll.h"
 
 /* Stiffness against spin where nothing else holds it, of an edge's own [-]. It is
  * in the matrix only, so that equilibria stay exact. */
@@ -44,7 +45,7 @@ sw_status sw_spin_new(sw_body *b) {
   b->spin_delta = w + 12 * stride;
   b->spin_rows = b->spin_delta + 4 * n;
   for (size_t k = 0; k < 3; k++) b->field.normals[k] = b->spin_normal[k];
-  return SW_OK;
+  return sw_roll_new(b);
 }
 
 static sw_vec direction(const double *x, size_t e) {
@@ -66,13 +67,14 @@ void sw_spin_begin(sw_system *s, sw_body *b) {
     memcpy(b->spin_normal[k], state + k * p->edges, p->edges * sizeof *state);
   memcpy(b->spin_twist, state + 3 * p->edges, (p->nodes + p->clamp_count) * sizeof *state);
   for (size_t e = 0; e < p->edges; e++) set(b->spin_tangent, e, direction(x, e));
+  sw_roll_begin(s, b);
 }
 
 void sw_spin_slow_down(sw_system *s, double rate2) {
   for (size_t k = 0; k < s->body_count; k++) {
     sw_body *b = &s->bodies[k];
     const sw_beam *beam = &b->plan->beam;
-    if (!b->spin_block) continue;
+    if (!b->spin_block || b->roll_block) continue;
     sw_spin_begin(s, b);
     b->spin_inertia = 0.5 * beam->mass * beam->radius * beam->radius * rate2;
   }
@@ -138,20 +140,28 @@ static void measure_twist(const sw_system *s, sw_body *b) {
   }
 }
 
+long sw_spin_held_edge(const sw_system *s, const sw_body *b, size_t number) {
+  if (number + 1 >= s->held_count) return -1;
+  const sw_held_node *h = &s->held[number], *next = h + 1;
+  if (&s->bodies[h->body] != b || next->hold != h->hold || next->node != h->node + 1) return -1;
+  return (long)(h->node - b->first_node);
+}
+
 /* Edges between two nodes of one hold turn with it. */
 static void turn_held_edges(const sw_system *s, sw_body *b) {
   for (size_t i = 0; i + 1 < s->held_count; i++) {
+    const long held = sw_spin_held_edge(s, b, i);
+    if (held < 0) continue;
+    const size_t e = (size_t)held;
     const sw_held_node *h = &s->held[i];
-    if (&s->bodies[h->body] != b || s->held[i + 1].hold != h->hold ||
-        s->held[i + 1].node != h->node + 1)
-      continue;
-    const size_t e = h->node - b->first_node;
     const double *q = s->turn + 4 * h->hold;
     const sw_quat before = {q[0], q[1], q[2], q[3]};
     const sw_vec n =
         sw_rotate(s->hold_states[h->hold].pose.q, sw_unrotate(before, state_normal(s, b, e)));
     const sw_vec t = get(b->spin_tangent, e);
     set(b->spin_normal, e, sw_unit_or(sw_madd(n, t, -sw_dot(n, t)), sw_perpendicular(t)));
+    if (b->roll_block)
+      b->roll_turn[e] += remainder(turned(s, b, e) - b->roll_turn[e], 6.283185307179586477);
   }
 }
 
@@ -196,6 +206,7 @@ static void point_field(const sw_system *s, sw_body *b, const double *normals, l
 void sw_spin_carry(sw_system *s, sw_body *b) {
   double *const *t = b->field.tangent, *const *o = b->spin_tangent, *const *n = b->spin_normal;
   const size_t m = b->plan->edges;
+  sw_roll_carry(b, t);
   if (carry_all(m, t[0], t[1], t[2], o[0], o[1], o[2], n[0], n[1], n[2]))
     for (size_t e = 0; e < m; e++) /* what was not quite a frame becomes one */
       set(n, e, square_up(get(n, e), get(t, e)));
@@ -214,15 +225,41 @@ static void store(sw_system *s, sw_body *b) {
   memcpy(state + 3 * p->edges, b->spin_twist, (p->nodes + p->clamp_count) * sizeof *state);
 }
 
+/* Carry all frames on to positions x of the body. */
+static void carry_to(sw_body *b, const double *x) {
+  double *const *t = b->field.scratch;
+  for (size_t e = 0; e < b->plan->edges; e++) set(t, e, direction(x, e));
+  sw_roll_carry(b, t);
+  for (size_t e = 0; e < b->plan->edges; e++) carry_edge(b, e, get(t, e));
+}
+
 void sw_spin_take(sw_system *s, sw_body *b, const double *x) {
-  for (size_t e = 0; e < b->plan->edges; e++) carry_edge(b, e, direction(x, e));
+  carry_to(b, x);
   store(s, b);
 }
 
 void sw_spin_follow(sw_system *s, sw_body *b, const double *x) {
-  for (size_t e = 0; e < b->plan->edges; e++) carry_edge(b, e, direction(x, e));
+  carry_to(b, x + 3 * b->first_node);
+  if (b->roll_block) { /* where a method's result is not its last stage */
+    sw_roll_rest(s, b, x, b->field.scratch[0]);
+    sw_spin_turn_by(b, b->field.scratch[0], 1, 1.0);
+  }
   turn_held_edges(s, b);
   store(s, b);
+}
+
+void sw_spin_begin_stage(sw_system *s, double rate2) {
+  for (size_t k = 0; k < s->body_count; k++) sw_roll_predict(s, &s->bodies[k], rate2);
+}
+
+void sw_spin_end_stage(sw_system *s, double *y) {
+  for (size_t k = 0; k < s->body_count; k++) {
+    sw_body *b = &s->bodies[k];
+    if (!b->roll_block) continue;
+    carry_to(b, y + 3 * b->first_node);
+    turn_held_edges(s, b);
+    sw_roll_store(s, b, y);
+  }
 }
 
 void sw_spin_show(sw_system *s, sw_body *b) {
@@ -269,6 +306,16 @@ static inline void add_couplings(const sw_body *b, size_t e) {
   }
 }
 
+/* The couplings of node i to the spins of both its edges. */
+static inline void add_node_couplings(const sw_body *b, size_t i) {
+  double *row = b->spin_rows + SW_ROW4_SIZE * i, *const *c = b->field.spin_node;
+  if (b->plan->held[i] != SW_FREE) return;
+  for (int k = 0; k < 3; k++) {
+    if (i > 0) (row - SW_ROW4_SIZE)[SW_ROW4_NEXT + 12 + k] += c[k][i];
+    row[4 * k + 3] += c[3 + k][i], row[12 + k] += c[3 + k][i];
+  }
+}
+
 SW_HOT
 static void assemble(const sw_body *b) {
   const sw_field *f = &b->field;
@@ -281,6 +328,8 @@ static void assemble(const sw_body *b) {
     row[15] = f->spin_own[e] + LEAST_STIFFNESS * p->beam.GJ / p->rest[e];
     row[SW_ROW4_NEXT + 15] = e + 1 < p->edges ? f->spin_next[e + 1] : 0.0;
   }
+  if (b->roll_block)
+    for (size_t i = 0; i < p->nodes; i++) add_node_couplings(b, i);
   b->spin_rows[SW_ROW4_SIZE * p->edges + 15] = 1.0; /* no edge starts at the last node */
 }
 
@@ -292,7 +341,8 @@ sw_status sw_spin_solve(const sw_system *s, sw_body *b, double *delta, size_t *n
     for (size_t k = 0; k < 3; k++) d[4 * i + k] = delta[3 * i + k];
     d[4 * i + 3] = i + 1 < n ? -b->field.spin[i] : 0.0;
   }
-  for (size_t e = 0; b->spin_inertia > 0 && e + 1 < n; e++) {
+  sw_roll_load(s, b, d);
+  for (size_t e = 0; b->spin_inertia > 0 && !b->roll_block && e + 1 < n; e++) {
     const double inertia = b->spin_inertia * b->plan->rest[e];
     b->spin_rows[SW_ROW4_SIZE * e + 15] += inertia;
     d[4 * e + 3] -= inertia * turned(s, b, e);
@@ -313,9 +363,12 @@ double sw_spin_largest(const sw_body *b) {
   return most;
 }
 
-void sw_spin_turn(sw_body *b, double share) {
+void sw_spin_turn(sw_body *b, double share) { sw_spin_turn_by(b, b->spin_delta + 3, 4, share); }
+
+void sw_spin_turn_by(sw_body *b, const double *turns, size_t stride, double share) {
+  sw_roll_add(b, turns, stride, share);
   for (size_t e = 0; e < b->plan->edges; e++) {
-    const double angle = share * b->spin_delta[4 * e + 3];
+    const double angle = share * turns[stride * e];
     if (angle == 0) continue;
     const sw_vec n = get(b->spin_normal, e), t = get(b->spin_tangent, e);
     const double a2 = angle * angle;
@@ -346,4 +399,8 @@ void sw_spin_react(sw_held_node *h, const sw_body *b) {
   const size_t i = h->node - b->first_node;
   if (i > 0) h->reaction = sw_add(h->reaction, spin_push(b, i - 1));
   if (i < b->plan->edges) h->reaction = sw_sub(h->reaction, spin_push(b, i));
+  if (!b->roll_block) return;
+  const double *d = b->spin_delta + 4 * i;
+  if (i > 0) h->reaction = sw_madd(h->reaction, get(b->field.spin_node, i), *(d - 1));
+  h->reaction = sw_madd(h->reaction, get(b->field.spin_node + 3, i), d[3]);
 }

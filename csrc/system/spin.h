@@ -13,6 +13,10 @@ size_t sw_spin_state_size(const sw_plan *plan);
 /* Make work space, if the plan asks for frames. SW_ENOMEM. */
 sw_status sw_spin_new(sw_body *body);
 
+/* The edge between held nodes number number and number + 1, if one hold has both and
+ * they are the body's, or -1. */
+long sw_spin_held_edge(const sw_system *system, const sw_body *body, size_t number);
+
 /* Frames and twist of the iterate start from those of the state. */
 void sw_spin_begin(sw_system *system, sw_body *body);
 
@@ -30,6 +34,14 @@ sw_status sw_spin_solve(const sw_system *system, sw_body *body, double *delta, s
 /* The largest turn of the last solve [rad]; let the frames turn by a share of it. */
 double sw_spin_largest(const sw_body *body);
 void sw_spin_turn(sw_body *body, double share);
+
+/* Turn the iterate's frames by share times angle[edge stride]. */
+void sw_spin_turn_by(sw_body *body, const double *angle, size_t stride, double share);
+
+/* A stage begins, at the system's yhat; rate2 = 1/hbar^2, 0 without inertia. It ends at
+ * y (freedoms): turns of edges that roll are put in. */
+void sw_spin_begin_stage(sw_system *system, double rate2);
+void sw_spin_end_stage(sw_system *system, double *y);
 
 /* Add what the spins of the last solve do to the reaction of a held node. */
 void sw_spin_react(sw_held_node *held, const sw_body *body);
