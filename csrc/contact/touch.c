@@ -33,7 +33,8 @@ static const double DEEPEST = 50e-6;
 static const double MOST_BOOST = 1e5; /* [-] */
 
 /* A spring stretched this many times over what friction can hold does not stick,
- * whatever the prediction is worth [-]. */
+ * whatever the prediction is worth [-]. Not so where a wire has been rolling: on a curved
+ * surface both its shift and its turn are predicted less exactly than that. */
 static const double SURELY_SLIDING = 20.0;
 
 enum { OWN = 0, NEXT = 6, ROW = 24 }; /* layout of the system's block rows */
@@ -120,7 +121,9 @@ static void set_friction_state(const sw_contact *c, const sw_system *s, const sw
     t->sliding = m->sliding;
   else
     t->sliding = t->k * sw_norm(t->trial) > most;
-  if (t->k * sw_norm(t->trial) > SURELY_SLIDING * most) t->sliding = 1;
+
+  if (!(t->levers && m && !m->sliding) && t->k * sw_norm(t->trial) > SURELY_SLIDING * most)
+    t->sliding = 1;
 }
 
 int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
