@@ -194,6 +194,7 @@ static sw_status add_frames(sw_scene_wire *w, const sw_wire_args *a, sw_error *e
       sw_unit_or(sw_sub(sw_load(w->mesh.x + 3), sw_load(w->mesh.x)), sw_v(1, 0, 0));
   const int given = isfinite(a->normal.x);
   w->beam.rolls = a->rolls;
+  w->beam.curved = a->rest == SW_REST_PATH;
   if (!w->beam.framed && !given && a->rest == SW_REST_STRAIGHT && !a->rolls) return SW_OK;
   if (strcmp(w->cls->name, "rod") != 0)
     return sw_fail(err, SW_EINVAL,

@@ -14,7 +14,7 @@
 #pragma GCC diagnostic ignored "-Wpsabi" /* vectors stay inside this file */
 typedef double quad __attribute__((vector_size(32), aligned(8)));
 typedef long long lanes __attribute__((vector_size(32)));
-#define MIX(a, b, i, j, k, l) __builtin_shuffle(a, b, (lanes){i, j, k, l})
+#define MIX __builtin_shufflevector
 
 static inline quad *at(double *p) { return (quad *)(void *)p; }
 static inline const quad *look(const double *p) { return (const quad *)(const void *)p; }
@@ -63,7 +63,8 @@ static inline void invert(quad d[4], signs *s) {
     inverses = either(inverses, only(own, ONE[p]));
   }
   s->negative += inverses < 0.0;
-  s->bad |= ~(((inverses > 0.0) | (inverses < 0.0)) & (inverses < HUGE_VAL) & (inverses > -HUGE_VAL));
+  s->bad |=
+      ~(((inverses > 0.0) | (inverses < 0.0)) & (inverses < HUGE_VAL) & (inverses > -HUGE_VAL));
   mirror(d);
 }
 
@@ -217,8 +218,8 @@ void sw_band4_solve(const double *factor, size_t n, double *b) {
   for (size_t k = middle; k-- > 0;) {
     const double *up = factor + SW_ROW4_SIZE * k;
     double *to = b + 4 * k;
-    *at(to) = combine(up, to) -
-              apply(up + SW_ROW4_NEXT, *at(to + 4), up + SW_ROW4_SECOND, *at(to + 8));
+    *at(to) =
+        combine(up, to) - apply(up + SW_ROW4_NEXT, *at(to + 4), up + SW_ROW4_SECOND, *at(to + 8));
     if (k < odd) continue;
     const double *down = factor + SW_ROW4_SIZE * (n - 1 - (k - odd));
     to = b + 4 * (n - 1 - (k - odd));

@@ -22,6 +22,7 @@ typedef struct sw_beam {
   double EI_axis[2];   /* in the plane of the normal and across it [N m2] */
   double spin_inertia; /* of turning about the axis, per length [kg m] */
   int rolls;           /* 1: it has that inertia, and contact takes hold of its surface */
+  int curved;          /* 1: not straight when unloaded */
   int framed;          /* 1: needs material frames (two stiffnesses, curved at rest, rolls) */
 } sw_beam;
 

@@ -12,14 +12,9 @@
 
 #include "base/alloc.h"
 #include "base/simd.h"
-#include "solve/band3.h"
 #include "solve/band4.h"
 #include "state/hinge.h"
 #include "system/roll.h"
-
-/* Stiffness against spin where nothing else holds it, of an edge's own [-]. It is
- * in the matrix only, so that equilibria stay exact. */
-static const double LEAST_STIFFNESS = 1e-9;
 
 size_t sw_spin_state_size(const sw_plan *p) {
   return p->rest_bend ? 3 * p->edges + p->nodes + p->clamp_count : 0;
@@ -85,8 +80,7 @@ static sw_vec state_normal(const sw_system *s, const sw_body *b, size_t e) {
   return sw_v(state[0], state[b->plan->edges], state[2 * b->plan->edges]);
 }
 
-/* How far edge e has turned about itself since the state. */
-static double turned(const sw_system *s, const sw_body *b, size_t e) {
+double sw_spin_turned(const sw_system *s, const sw_body *b, size_t e) {
   const sw_vec before = direction(s->x + 3 * b->first_node, e), t = get(b->spin_tangent, e);
   const sw_vec n = sw_carry_unit(state_normal(s, b, e), before, t);
   const sw_vec now = get(b->spin_normal, e);
@@ -161,18 +155,12 @@ static void turn_held_edges(const sw_system *s, sw_body *b) {
     const sw_vec t = get(b->spin_tangent, e);
     set(b->spin_normal, e, sw_unit_or(sw_madd(n, t, -sw_dot(n, t)), sw_perpendicular(t)));
     if (b->roll_block)
-      b->roll_turn[e] += remainder(turned(s, b, e) - b->roll_turn[e], 6.283185307179586477);
+      b->roll_turn[e] += remainder(sw_spin_turned(s, b, e) - b->roll_turn[e], 6.283185307179586477);
   }
 }
 
 static sw_vec square_up(sw_vec n, sw_vec t) {
   return sw_unit_or(sw_madd(n, t, -sw_dot(n, t)), sw_perpendicular(t));
-}
-
-static void carry_edge(sw_body *b, size_t e, sw_vec t) {
-  const sw_vec before = get(b->spin_tangent, e), n = get(b->spin_normal, e);
-  set(b->spin_normal, e, sw_carry_unit(n, before, t));
-  set(b->spin_tangent, e, t);
 }
 
 /* sw_carry_unit for all edges, with its usual case only. Counts the others. */
@@ -196,6 +184,36 @@ static long carry_all(size_t m, const double *restrict tx, const double *restric
   return others;
 }
 
+/* Directions of all edges. */
+SW_HOT
+static void directions(size_t m, const double *restrict x, double *restrict tx, double *restrict ty,
+                       double *restrict tz) {
+  for (size_t e = 0; e < m; e++) {
+    const double dx = x[3 * e + 3] - x[3 * e], dy = x[3 * e + 4] - x[3 * e + 1];
+    const double dz = x[3 * e + 5] - x[3 * e + 2];
+    const double r = 1.0 / sqrt(dx * dx + dy * dy + dz * dz);
+    tx[e] = dx * r, ty[e] = dy * r, tz[e] = dz * r;
+  }
+}
+
+/* Carry all frames on to tangents t. */
+static void carry_on(sw_body *b, double *const t[3]) {
+  double *const *o = b->spin_tangent, *const *n = b->spin_normal;
+  const size_t m = b->plan->edges;
+  sw_roll_carry(b, t);
+  if (carry_all(m, t[0], t[1], t[2], o[0], o[1], o[2], n[0], n[1], n[2]))
+    for (size_t e = 0; e < m; e++) /* what was not quite a frame becomes one */
+      set(n, e, square_up(get(n, e), get(t, e)));
+  for (size_t k = 0; k < 3; k++) memcpy(o[k], t[k], m * sizeof(double));
+}
+
+/* The same to positions x of the body. */
+static void carry_to(sw_body *b, const double *x) {
+  double *const *t = b->field.scratch;
+  directions(b->plan->edges, x, t[0], t[1], t[2]);
+  carry_on(b, t);
+}
+
 static void point_field(const sw_system *s, sw_body *b, const double *normals, long stride,
                         const double *twist) {
   for (long k = 0; k < 3; k++) b->field.normals[k] = normals + k * stride;
@@ -204,13 +222,7 @@ static void point_field(const sw_system *s, sw_body *b, const double *normals, l
 }
 
 void sw_spin_carry(sw_system *s, sw_body *b) {
-  double *const *t = b->field.tangent, *const *o = b->spin_tangent, *const *n = b->spin_normal;
-  const size_t m = b->plan->edges;
-  sw_roll_carry(b, t);
-  if (carry_all(m, t[0], t[1], t[2], o[0], o[1], o[2], n[0], n[1], n[2]))
-    for (size_t e = 0; e < m; e++) /* what was not quite a frame becomes one */
-      set(n, e, square_up(get(n, e), get(t, e)));
-  for (size_t k = 0; k < 3; k++) memcpy(o[k], t[k], m * sizeof(double));
+  carry_on(b, b->field.tangent);
   turn_held_edges(s, b);
   measure_twist(s, b);
   point_field(s, b, b->spin_normal[0], b->spin_normal[1] - b->spin_normal[0], b->spin_twist);
@@ -223,14 +235,6 @@ static void store(sw_system *s, sw_body *b) {
   for (size_t k = 0; k < 3; k++)
     memcpy(state + k * p->edges, b->spin_normal[k], p->edges * sizeof *state);
   memcpy(state + 3 * p->edges, b->spin_twist, (p->nodes + p->clamp_count) * sizeof *state);
-}
-
-/* Carry all frames on to positions x of the body. */
-static void carry_to(sw_body *b, const double *x) {
-  double *const *t = b->field.scratch;
-  for (size_t e = 0; e < b->plan->edges; e++) set(t, e, direction(x, e));
-  sw_roll_carry(b, t);
-  for (size_t e = 0; e < b->plan->edges; e++) carry_edge(b, e, get(t, e));
 }
 
 void sw_spin_take(sw_system *s, sw_body *b, const double *x) {
@@ -267,102 +271,6 @@ void sw_spin_show(sw_system *s, sw_body *b) {
   point_field(s, b, state_of(s, b), (long)m, state_of(s, b) + 3 * m);
 }
 
-/* --- the matrix ----------------------------------------------------------------- */
-
-/* A block of three by three becomes one of four by four. */
-static inline void widen_block(const double *restrict u, double *restrict out) {
-  out[0] = u[0], out[1] = u[1], out[2] = u[2], out[3] = 0;
-  out[4] = u[3], out[5] = u[4], out[6] = u[5], out[7] = 0;
-  out[8] = u[6], out[9] = u[7], out[10] = u[8], out[11] = 0;
-  out[12] = out[13] = out[14] = out[15] = 0;
-}
-
-static inline void widen(const double *restrict row, double *restrict out) {
-  const double own[9] = {row[0], row[1], row[2], row[1], row[3], row[4], row[2], row[4], row[5]};
-  widen_block(own, out);
-  widen_block(row + SW_ROW_NEXT, out + SW_ROW4_NEXT);
-  widen_block(row + SW_ROW_SECOND, out + SW_ROW4_SECOND);
-}
-
-/* The couplings of edge e to the spins of edges e, e - 1, e + 1, at both its nodes. */
-static inline void add_couplings(const sw_body *b, size_t e) {
-  const sw_field *f = &b->field;
-  double *row = b->spin_rows + SW_ROW4_SIZE * e, *after = row + SW_ROW4_SIZE;
-  double *const *c = f->spin_edge;
-  const double own[3] = {c[0][e], c[1][e], c[2][e]}, back[3] = {c[3][e], c[4][e], c[5][e]};
-  const double ahead[3] = {c[6][e + 1], c[7][e + 1], c[8][e + 1]};
-  const int first = b->plan->held[e] == SW_FREE, last = b->plan->held[e + 1] == SW_FREE;
-  for (int k = 0; k < 3; k++) {
-    if (first) {
-      row[4 * k + 3] -= own[k], row[12 + k] -= own[k];
-      if (e > 0) (row - SW_ROW4_SIZE)[SW_ROW4_NEXT + 12 + k] -= back[k];
-      row[SW_ROW4_NEXT + 4 * k + 3] -= ahead[k];
-    }
-    if (last) {
-      row[SW_ROW4_NEXT + 12 + k] += own[k];
-      if (e > 0) (row - SW_ROW4_SIZE)[SW_ROW4_SECOND + 12 + k] += back[k];
-      after[4 * k + 3] += ahead[k], after[12 + k] += ahead[k];
-    }
-  }
-}
-
-/* The couplings of node i to the spins of both its edges. */
-static inline void add_node_couplings(const sw_body *b, size_t i) {
-  double *row = b->spin_rows + SW_ROW4_SIZE * i, *const *c = b->field.spin_node;
-  if (b->plan->held[i] != SW_FREE) return;
-  for (int k = 0; k < 3; k++) {
-    if (i > 0) (row - SW_ROW4_SIZE)[SW_ROW4_NEXT + 12 + k] += c[k][i];
-    row[4 * k + 3] += c[3 + k][i], row[12 + k] += c[3 + k][i];
-  }
-}
-
-SW_HOT
-static void assemble(const sw_body *b) {
-  const sw_field *f = &b->field;
-  const sw_plan *p = b->plan;
-  for (size_t i = 0; i < p->nodes; i++)
-    widen(f->rows + SW_ROW_SIZE * i, b->spin_rows + SW_ROW4_SIZE * i);
-  for (size_t e = 0; e < p->edges; e++) {
-    double *row = b->spin_rows + SW_ROW4_SIZE * e;
-    add_couplings(b, e);
-    row[15] = f->spin_own[e] + LEAST_STIFFNESS * p->beam.GJ / p->rest[e];
-    row[SW_ROW4_NEXT + 15] = e + 1 < p->edges ? f->spin_next[e + 1] : 0.0;
-  }
-  if (b->roll_block)
-    for (size_t i = 0; i < p->nodes; i++) add_node_couplings(b, i);
-  b->spin_rows[SW_ROW4_SIZE * p->edges + 15] = 1.0; /* no edge starts at the last node */
-}
-
-sw_status sw_spin_solve(const sw_system *s, sw_body *b, double *delta, size_t *negative) {
-  const size_t n = b->plan->nodes;
-  double *d = b->spin_delta;
-  assemble(b);
-  for (size_t i = 0; i < n; i++) {
-    for (size_t k = 0; k < 3; k++) d[4 * i + k] = delta[3 * i + k];
-    d[4 * i + 3] = i + 1 < n ? -b->field.spin[i] : 0.0;
-  }
-  sw_roll_load(s, b, d);
-  for (size_t e = 0; b->spin_inertia > 0 && !b->roll_block && e + 1 < n; e++) {
-    const double inertia = b->spin_inertia * b->plan->rest[e];
-    b->spin_rows[SW_ROW4_SIZE * e + 15] += inertia;
-    d[4 * e + 3] -= inertia * turned(s, b, e);
-  }
-  SW_TRY(sw_band4_factor(b->spin_rows, n, negative));
-  sw_band4_solve(b->spin_rows, n, d);
-  for (size_t i = 0; i < n; i++)
-    for (size_t k = 0; k < 3; k++) delta[3 * i + k] = d[4 * i + k];
-  return SW_OK;
-}
-
-double sw_spin_largest(const sw_body *b) {
-  double most = 0;
-  for (size_t e = 0; e < b->plan->edges; e++) {
-    const double turn = fabs(b->spin_delta[4 * e + 3]);
-    if (!(turn <= most)) most = turn;
-  }
-  return most;
-}
-
 void sw_spin_turn(sw_body *b, double share) { sw_spin_turn_by(b, b->spin_delta + 3, 4, share); }
 
 void sw_spin_turn_by(sw_body *b, const double *turns, size_t stride, double share) {
@@ -378,29 +286,4 @@ void sw_spin_turn_by(sw_body *b, const double *turns, size_t stride, double shar
         small ? angle * (1.0 - a2 * (1.0 / 6 - a2 * (1.0 / 120 - a2 / 5040))) : sin(angle);
     set(b->spin_normal, e, sw_madd(sw_scale(n, c), sw_cross(t, n), sine));
   }
-}
-
-static sw_vec coupling(const sw_field *f, int kind, size_t at) {
-  double *const *c = f->spin_edge + 3 * kind;
-  return sw_v(c[0][at], c[1][at], c[2][at]);
-}
-
-/* Change of the gradient of edge e by the spins of the last solve. */
-static sw_vec spin_push(const sw_body *b, size_t e) {
-  const sw_field *f = &b->field;
-  const double *d = b->spin_delta + 4 * e;
-  sw_vec sum = sw_scale(coupling(f, 0, e), d[3]);
-  if (e > 0) sum = sw_madd(sum, coupling(f, 1, e), *(d - 1));
-  if (e + 1 < b->plan->edges) sum = sw_madd(sum, coupling(f, 2, e + 1), d[7]);
-  return sum;
-}
-
-void sw_spin_react(sw_held_node *h, const sw_body *b) {
-  const size_t i = h->node - b->first_node;
-  if (i > 0) h->reaction = sw_add(h->reaction, spin_push(b, i - 1));
-  if (i < b->plan->edges) h->reaction = sw_sub(h->reaction, spin_push(b, i));
-  if (!b->roll_block) return;
-  const double *d = b->spin_delta + 4 * i;
-  if (i > 0) h->reaction = sw_madd(h->reaction, get(b->field.spin_node, i), *(d - 1));
-  h->reaction = sw_madd(h->reaction, get(b->field.spin_node + 3, i), d[3]);
 }

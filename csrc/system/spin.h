@@ -31,6 +31,9 @@ void sw_spin_carry(sw_system *system, sw_body *body);
  * field's rows, whose held nodes are out. Fails as sw_band4_factor. */
 sw_status sw_spin_solve(const sw_system *system, sw_body *body, double *delta, size_t *negative);
 
+/* How far edge e has turned about itself since the state, by the frames [rad]. */
+double sw_spin_turned(const sw_system *system, const sw_body *body, size_t e);
+
 /* The largest turn of the last solve [rad]; let the frames turn by a share of it. */
 double sw_spin_largest(const sw_body *body);
 void sw_spin_turn(sw_body *body, double share);
