@@ -45,7 +45,8 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_vec x = sw_touch_place(s->x, t->node, t->segment, t->at);
   const sw_body *b = &s->bodies[t->body];
   const double radius = b->plan->beam.radius;
-  const sw_vec at = t->levers ? sw_madd(x, t->normal, -radius) : x;
+  const sw_levers levers = sw_touch_levers(s, t);
+  const sw_vec at = levers.count ? sw_madd(x, t->normal, -radius) : x;
   sw_vec v = sw_sub(sw_touch_place(s->v, t->node, t->segment, t->at),
                     sw_obstacle_velocity(&c->start[t->obstacle], at));
   const sw_vec local_point = sw_pose_local(c->now[t->obstacle].pose, t->point);
@@ -55,9 +56,9 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const double allowed = gap / h;
   if (!(approach > allowed + SLOWEST_IMPACT)) return 0;
   const double change = o->restitution > 0 ? approach * (1.0 + o->restitution) : approach - allowed;
-  if (t->levers) v = sw_add(v, sw_touch_surface_shift(t, s->v + 3 * s->nodes + b->first_roll, 1));
+  if (levers.count) v = sw_add(v, sw_levers_shift(&levers, s->v + 3 * s->nodes + b->first_roll, 1));
   const sw_vec along = sw_madd(v, t->normal, -sw_dot(v, t->normal));
-  const sw_vec brake = sw_touch_brake(s, t, along, o->friction * change);
+  const sw_vec brake = sw_levers_brake(&b->plan->beam, &levers, along, o->friction * change);
   const sw_vec dv = sw_madd(brake, t->normal, change);
   double w[2], mass = 0;
   shares(s, t, w);
@@ -66,8 +67,9 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
     mass += w[e] * b->plan->lumped[t->node + e - b->first_node];
     sw_accumulate(s->v + 3 * (t->node + e), sw_scale(dv, w[e]));
   }
-  if (t->levers)
-    sw_touch_kick(s, t, sw_scale(brake, mass), s->delta + 3 * s->nodes + b->first_roll);
+  if (levers.count)
+    sw_levers_kick(b->plan, &levers, sw_scale(brake, mass),
+                   s->delta + 3 * s->nodes + b->first_roll);
   if (sw_grow((void **)&c->impacts, &c->impact_capacity, c->impact_count + 1, sizeof *c->impacts) ==
       SW_OK)
     c->impacts[c->impact_count++] =
@@ -122,14 +124,13 @@ static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k, con
     return 0;
   c->barriers[c->barrier_count++] = b;
   const sw_pose *pose = &c->now[k->obstacle].pose;
-  sw_touch t = {.obstacle = k->obstacle,
-                .segment = b.segment,
-                .node = b.node,
-                .body = k->body,
-                .at = b.at,
-                .normal = sw_rotate(pose->q, hit->normal),
-                .point = sw_pose_point(*pose, hit->point)};
-  sw_touch_take_levers(s, &t);
+  const sw_touch t = {.obstacle = k->obstacle,
+                      .segment = b.segment,
+                      .node = b.node,
+                      .body = k->body,
+                      .at = b.at,
+                      .normal = sw_rotate(pose->q, hit->normal),
+                      .point = sw_pose_point(*pose, hit->point)};
   if (h > 0) strike(c, s, &t, h);
   return 1;
 }

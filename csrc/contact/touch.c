@@ -89,12 +89,13 @@ static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_t
   const sw_vec to = sw_touch_place(y, t->node, t->segment, t->at);
   const sw_vec carried =
       sw_pose_point(c->now[t->obstacle].pose, sw_pose_local(c->start[t->obstacle].pose, from));
-  if (!t->levers) return sw_sub(to, carried);
   const sw_body *b = &s->bodies[t->body];
+  if (!b->roll_block) return sw_sub(to, carried);
+  const sw_levers levers = sw_touch_levers(s, t);
   const sw_vec before =
       sw_rotate(c->start[t->obstacle].pose.q, sw_unrotate(c->now[t->obstacle].pose.q, t->normal));
   const sw_vec arm = sw_scale(sw_sub(t->normal, before), b->plan->beam.radius);
-  const sw_vec rolled = sw_touch_surface_shift(t, b->roll_turn, 1);
+  const sw_vec rolled = sw_levers_shift(&levers, b->roll_turn, 1);
   return sw_add(sw_add(sw_sub(to, carried), arm), rolled);
 }
 
@@ -122,7 +123,8 @@ static void set_friction_state(const sw_contact *c, const sw_system *s, const sw
   else
     t->sliding = t->k * sw_norm(t->trial) > most;
 
-  if (!(t->levers && m && !m->sliding) && t->k * sw_norm(t->trial) > SURELY_SLIDING * most)
+  if (!(m && !m->sliding && s->bodies[t->body].roll_block) &&
+      t->k * sw_norm(t->trial) > SURELY_SLIDING * most)
     t->sliding = 1;
 }
 
@@ -169,7 +171,6 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
   t.forgiven = forgiven(c, s, k, &t);
   t.gap += t.forgiven;
   t.gap_after = t.gap;
-  sw_touch_take_levers(s, &t);
   set_friction_state(c, s, k, y, &t);
   return push(c, &t);
 }
@@ -293,7 +294,7 @@ static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
     if (!(mu > 0)) t->tangential = sw_v(0, 0, 0);
   }
   add_to_field(s, t, sw_madd(t->tangential, t->normal, t->normal_force), K, want);
-  if (t->levers) sw_touch_push_surface(s, t, K, want);
+  if (s->rolls) sw_levers_push(s, t, K, want);
 }
 
 sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar, const double *y,
@@ -330,6 +331,13 @@ static int update_friction(const sw_contact *c, sw_touch *t, sw_vec shift) {
                         FORCE_TOLERANCE * t->normal_force + WEIGHT_TOLERANCE * c->force_scale;
 }
 
+/* A touch's shift by the solved update, with that of the surface. */
+static sw_vec surface_shift(const sw_system *s, const sw_touch *t, sw_vec shift) {
+  const sw_levers levers = sw_touch_levers(s, t);
+  if (!levers.count) return shift;
+  return sw_add(shift, sw_levers_shift(&levers, s->bodies[t->body].spin_delta + 3, 4));
+}
+
 /* Bring a touch's forces up to the solved update; 1 = it agrees with what the
  * solve assumed. */
 static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *delta) {
@@ -341,9 +349,7 @@ static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *
   if (t->held) return 1;
   t->normal_force = active ? fmax(0.0, -t->k * t->gap_after) : 0.0;
   t->next_sliding = 1; /* what does not touch moves freely */
-  const sw_vec surface =
-      t->levers ? sw_add(shift, sw_touch_surface_shift(t, s->bodies[t->body].spin_delta + 3, 4))
-                : shift;
+  const sw_vec surface = s->rolls ? surface_shift(s, t, shift) : shift;
   const int agrees =
       active && c->obstacles[t->obstacle].friction > 0 ? update_friction(c, t, surface) : 1;
   if (active ? t->gap_after > GAP_TOLERANCE : t->gap_after < -GAP_TOLERANCE) return 0;

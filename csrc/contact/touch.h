@@ -41,9 +41,6 @@ typedef struct sw_touch {
   int known;           /* it touched at the step's start */
   int held;            /* both ends are held: no force */
   size_t candidate;    /* index of what it was made from */
-  size_t levers;       /* edges whose turns shift the surface: 0 unless the wire rolls, to 2 */
-  size_t edge;         /* the first of them, in its body */
-  sw_vec lever[2];     /* shift of the surface per turn [m] */
 } sw_touch;
 
 /* What is kept of a touch between steps; in the obstacle's coordinates. */
@@ -113,17 +110,23 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
 /* 1: the candidate's node, or both ends of its segment, are held. */
 int sw_contact_is_held(const sw_system *s, const sw_candidate *k);
 
-/* What the turns of edges do at a touch whose node, place and normal are set. */
-void sw_touch_take_levers(const sw_system *s, sw_touch *t);
+/* How turns of edges shift a wire's surface at a touch. */
+typedef struct sw_levers {
+  size_t count, edge; /* 0 unless the wire rolls, to 2; the first of them, in its body */
+  sw_vec arm[2];      /* shift per turn [m] */
+} sw_levers;
+
+/* With the tangents of the last evaluation. */
+sw_levers sw_touch_levers(const sw_system *s, const sw_touch *t);
 /* Shift of the surface by turn[edge stride] [m], or its speed by rates. */
-sw_vec sw_touch_surface_shift(const sw_touch *t, const double *turn, size_t stride);
+sw_vec sw_levers_shift(const sw_levers *l, const double *turn, size_t stride);
 /* The touch's friction and stiffness (upper half of K) on the turns. */
-void sw_touch_push_surface(sw_system *s, const sw_touch *t, const double K[6], unsigned want);
+void sw_levers_push(sw_system *s, const sw_touch *t, const double K[6], unsigned want);
 /* Change of the axis' velocity by an impulse that stops the surface's sliding, of at most
  * this size [m/s]. */
-sw_vec sw_touch_brake(const sw_system *s, const sw_touch *t, sw_vec slide, double most);
+sw_vec sw_levers_brake(const sw_beam *beam, const sw_levers *l, sw_vec slide, double most);
 /* Add the change of the edges' rates (edges) by an impulse at the touch [N s]. */
-void sw_touch_kick(const sw_system *s, const sw_touch *t, sw_vec impulse, double *rates);
+void sw_levers_kick(const sw_plan *p, const sw_levers *l, sw_vec impulse, double *rates);
 
 /* The place of a candidate on its segment. */
 static inline sw_vec sw_touch_place(const double *x, size_t node, int segment, double at) {
