@@ -38,8 +38,8 @@ static inline void couple(const sw_body *b, size_t i, double *restrict row) {
 }
 
 /* The couplings of node i to the spins of both its edges. */
-static inline void add_node_couplings(const sw_body *b, size_t i) {
-  double *row = b->spin_rows + SW_ROW4_SIZE * i, *const *c = b->field.spin_node;
+static inline void add_node_couplings(const sw_body *b, size_t i, double *rows) {
+  double *row = rows + SW_ROW4_SIZE * i, *const *c = b->field.spin_node;
   if (b->plan->held[i] != SW_FREE) return;
   for (int k = 0; k < 3; k++) {
     if (i > 0) (row - SW_ROW4_SIZE)[SW_ROW4_NEXT + 12 + k] += c[k][i];
@@ -48,15 +48,15 @@ static inline void add_node_couplings(const sw_body *b, size_t i) {
 }
 
 SW_HOT
-static void assemble(const sw_body *b) {
+void sw_spin_assemble(const sw_body *b, const double *rows, double *out) {
   const sw_field *f = &b->field;
   const sw_plan *p = b->plan;
   for (size_t i = 0; i < p->nodes; i++) {
-    const double *from = f->rows + SW_ROW_SIZE * i, *next = from + SW_ROW_NEXT;
+    const double *from = rows + SW_ROW_SIZE * i, *next = from + SW_ROW_NEXT;
     const double *second = from + SW_ROW_SECOND;
     const double own[9] = {from[0], from[1], from[2], from[1], from[3],
                            from[4], from[2], from[4], from[5]};
-    double *row = b->spin_rows + SW_ROW4_SIZE * i;
+    double *row = out + SW_ROW4_SIZE * i;
     for (int k = 0; k < 3; k++) {
       widen(own + 3 * k, 0, row + 4 * k);
       widen(next + 3 * k, 0, row + SW_ROW4_NEXT + 4 * k);
@@ -68,13 +68,13 @@ static void assemble(const sw_body *b) {
     row[SW_ROW4_SECOND + 15] = 0;
   }
   if (b->roll_block)
-    for (size_t i = 0; i < p->nodes; i++) add_node_couplings(b, i);
+    for (size_t i = 0; i < p->nodes; i++) add_node_couplings(b, i, out);
 }
 
 sw_status sw_spin_solve(const sw_system *s, sw_body *b, double *delta, size_t *negative) {
   const size_t n = b->plan->nodes;
   double *d = b->spin_delta;
-  assemble(b);
+  sw_spin_assemble(b, b->field.rows, b->spin_rows);
   for (size_t i = 0; i < n; i++) {
     for (size_t k = 0; k < 3; k++) d[4 * i + k] = delta[3 * i + k];
     d[4 * i + 3] = i + 1 < n ? -b->field.spin[i] : 0.0;
