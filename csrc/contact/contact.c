@@ -252,7 +252,14 @@ sw_status sw_contact_begin_stage(void *contact, sw_system *s, double time, doubl
                                  const double *y, sw_error *err) {
   sw_contact *c = contact;
   (void)s, (void)hbar, (void)y;
+  c->pressed_before = c->pressed_count;
   return place_all(c, time, c->now, err);
+}
+
+int sw_contact_moves(const sw_contact *c) {
+  for (size_t o = 0; o < c->count; o++)
+    if (memcmp(&c->start[o].pose, &c->now[o].pose, sizeof c->now[o].pose) != 0) return 1;
+  return 0;
 }
 
 /* --- memory ------------------------------------------------------------------- */

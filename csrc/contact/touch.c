@@ -123,9 +123,9 @@ static void set_friction_state(const sw_contact *c, const sw_system *s, const sw
   else
     t->sliding = t->k * sw_norm(t->trial) > most;
 
-  if (!(m && !m->sliding && s->bodies[t->body].roll_block) &&
-      t->k * sw_norm(t->trial) > SURELY_SLIDING * most)
-    t->sliding = 1;
+  const int held = m && !m->sliding &&
+                   (s->bodies[t->body].roll_block || (!last && c->regime == SW_CONTACT_STATIC));
+  if (!held && t->k * sw_norm(t->trial) > SURELY_SLIDING * most) t->sliding = 1;
 }
 
 int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
@@ -357,7 +357,8 @@ static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *
   if (!c->flat[t->obstacle] && t->gap_after < radius && sw_norm(shift) > SMALL_SHIFT * radius)
     return 0; /* place and normal of the touch may have changed */
   sw_candidate *k = &c->candidates[t->candidate];
-  if (t->gap_after < -DEEPEST && k->k < MOST_BOOST * k->usual && c->regime != SW_CONTACT_EXPLICIT) {
+  if (!s->rough && t->gap_after < -DEEPEST && k->k < MOST_BOOST * k->usual &&
+      c->regime != SW_CONTACT_EXPLICIT) {
     k->k *= fmin(100.0, 2.0 * t->gap_after / -DEEPEST);
     return 0;
   }
@@ -368,6 +369,7 @@ int sw_contact_settled(void *contact, sw_system *s, const double *y, const doubl
   sw_contact *c = contact;
   int fine = 1;
   (void)y;
+  c->pressed_count = c->pressed_before;
   for (size_t i = 0; i < c->touch_count; i++) fine &= update(c, s, &c->touches[i], delta);
   for (size_t i = 0; fine && i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];

@@ -84,7 +84,7 @@ struct sw_contact {
   sw_touch *touches, *last; /* of this iterate and of the one before */
   size_t touch_count, touch_capacity, last_count, last_capacity;
   sw_touch *pressed; /* touches with a force at the end of a stage of this trial */
-  size_t pressed_count, pressed_capacity;
+  size_t pressed_count, pressed_capacity, pressed_before; /* of earlier stages */
   sw_memory *memory, *next_memory;
   size_t memory_count, memory_capacity, next_count, next_capacity;
   sw_barrier *barriers;

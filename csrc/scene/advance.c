@@ -39,7 +39,8 @@ __attribute__((constructor)) static void fill_choices(void) {
     if (run_rows[i].type == SW_PARAM_CHOICE) run_rows[i].choices = integrator_names();
 }
 
-enum { MOST_REDOS = 40 }; /* impacts found one after another in one step [-] */
+enum { MOST_HALVINGS = 6 }; /* of a pose step [-] */
+enum { MOST_REDOS = 40 };   /* impacts found one after another in one step [-] */
 static const double SMALLEST_SHARE = 1.0 / 4096; /* of a step, before giving up [-] */
 static const double LARGEST_STRAIN = 10.0;       /* beyond it a run has diverged [-] */
 
@@ -195,25 +196,35 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
 /* Slow handling: what drives the wires goes on by a step, the wires to their
  * equilibrium. Without friction the pose step does not matter; with friction it
  * does, and halving it shows how much. */
-static sw_status pose_step(loop *p, double t1, int (*interrupted)(void), sw_error *err) {
+static sw_status pose_step(loop *p, double t1, int halvings, int (*interrupted)(void),
+                           sw_error *err) {
   static const sw_settle_args rest = {.tolerance = 1e-9, .max_iterations = 4000};
   sw_scene *s = p->s;
   sw_settle_report report = {0};
   const double t0 = s->time;
+  int too_far = 0;
   s->time = t1;
-  const sw_status status = sw_scene_rest(s, &rest, interrupted, &report, err);
+  const sw_status status =
+      sw_scene_rest(s, t0, halvings ? &too_far : NULL, &rest, interrupted, &report, err);
   p->report->iterations += report.iterations;
   if (status != SW_OK) {
     s->time = t0;
-    return status;
+    if (!too_far) return status;
+    SW_TRY(pose_step(p, 0.5 * (t0 + t1), halvings - 1, interrupted, err));
+    return pose_step(p, t1, halvings - 1, interrupted, err);
   }
-  p->report->steps++;
   p->report->smallest_dt = fmin(p->report->smallest_dt, t1 - t0);
   if (report.jumped) {
     p->report->jumps++;
     p->report->last_jump = t1;
   }
-  return sw_scene_observe(s, err);
+  return SW_OK;
+}
+
+static sw_status whole_pose_step(loop *p, double t1, int (*interrupted)(void), sw_error *err) {
+  SW_TRY(pose_step(p, t1, MOST_HALVINGS, interrupted, err));
+  p->report->steps++;
+  return sw_scene_observe(p->s, err);
 }
 
 static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_error *err) {
@@ -228,7 +239,7 @@ static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_er
     if (interrupted && interrupted()) return SW_EINTR;
     if ((double)(p->report->steps - first) >= (double)p->args->max_steps) return SW_OK;
     const double t1 = (double)k >= count ? until : t0 + span * ((double)k / count);
-    SW_TRY(p->args->quasistatic ? pose_step(p, t1, interrupted, err)
+    SW_TRY(p->args->quasistatic ? whole_pose_step(p, t1, interrupted, err)
            : adaptive           ? controlled_step(p, until - s->time, until, err)
                                 : step(p, t1 - s->time, t1, err));
     if (isfinite(p->args->frame) && s->time >= s->next_frame - slack)

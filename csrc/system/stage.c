@@ -218,14 +218,21 @@ static int drowned_in_rounding(const sw_system *s, const sw_stage *stage, int st
 
 static int converged(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                      const sw_stage_report *report, double share) {
-  if (share < 1.0 || report->rotation > newton->accept_rotation) return 0;
+  if (share < 1.0) return 0;
+  /* contact is told of rough updates too where these are usual, at rest and when rolling:
+   * the next iteration goes on from what it finds */
+  s->rough = report->rotation > newton->accept_rotation;
+  if (s->rough && !newton->statics && !s->rolls) return 0;
+  const int settled =
+      !s->coupling.settled || s->coupling.settled(s->coupling.user, s, stage->y, s->delta);
+  if (!settled || s->rough) return 0;
   if (newton->statics && largest_shift(s) > newton->accept_shift) return 0;
   if (drowned_in_rounding(s, stage, newton->statics)) return 0;
   for (size_t b = 0; b < s->body_count; b++)
     if ((s->bodies[b].is_explicit || s->bodies[b].is_kinked) &&
         largest_shift(s) > FIXED_POINT * s->bodies[b].plan->length)
       return 0;
-  return !s->coupling.settled || s->coupling.settled(s->coupling.user, s, stage->y, s->delta);
+  return 1;
 }
 
 /* Newton starts from the free flight yhat. Where that turns an edge over or

@@ -108,7 +108,8 @@ struct sw_system {
   double *directors_rate;        /* and how fast they turn [1/s] */
   double *normals, *normals_now; /* the same: the wire's normals at the holds */
   int still;                     /* 1: holds count as standing, whatever they follow (statics) */
-  sw_hold_state *hold_states;    /* (hold_count) at the last stage */
+  int rough; /* 1: the last update turned edges by too much to be the stage's last */
+  sw_hold_state *hold_states; /* (hold_count) at the last stage */
   size_t hold_count;
   double gravity[3]; /* [m/s2] */
   sw_coupling coupling;
