@@ -1,7 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Wires that spin about their own axis: rolling, and friction that twists. The figures are
 -- those of rigid cylinders and of torque balance along a wire, all closed forms.
+package.path = "./?.lua;" .. package.path
 local core = require "softworld.core"
+local cases = require "softworld.cases"
 local tools = require "spec.physics.tools"
 
 local near, share, below, fine = tools.near, tools.share, tools.below, tools.fine
@@ -45,6 +47,10 @@ describe("a wire across a slope", function()
   it("rolls and slides as reference case 10a has it", function()
     for _, row in ipairs{ { 0.3, 20, 2.236811737 }, { 0.1, 30, 4.055429079 } } do
       share(row[3], (acceleration{ friction = row[1], angle = row[2] }), 1e-3, "acceleration")
+      local c = cases.incline{ across = true, friction = row[1], angle = row[2] }
+      fine(c.run())
+      share(row[3], c.exact.acceleration, 1e-9, "exact one of the case")
+      share(row[3], c.measured().acceleration, 1e-3, "acceleration of the case")
     end
   end)
 
@@ -434,6 +440,31 @@ describe("spin without friction", function()
     below(1e-7, tools.largest_difference(found[1][1], found[2][1]), "difference [m]")
     share(found[1][2], found[2][2], 1e-5, "torque")
     for k = 1, 3 do near(found[1][3][k], found[2][3][k], 1e-8, "moment") end
+  end)
+end)
+
+-- Without inertia against spin, a wire that is led through space between two clamps is one whose
+-- twist is taken as a whole.
+describe("a wire led between two clamps", function()
+  it("moves like one that does not roll", function()
+    local found = {}
+    for k, rolls in ipairs{ false, true } do
+      local s = core.scene{}
+      local w = s:wire{ E = 5e7, density = 1500, radius = 0.0025, segments = 30, rolls = rolls,
+        spin_inertia = rolls and 1e-11 or nil, from = { 0, 0, 0.5 }, to = { 0.5, 0, 0.5 } }
+      s:clamp(w, { s = 0, direction = { 1, 0, 0 } })
+      local clamp = s:clamp(w, { s = 0.5, direction = { 1, 0, 0 } })
+      fine(s:settle())
+      clamp:follow{ points = { { 0, 0, 0 }, { -0.25, 0.1, 0.1 } }, duration = 1, relative = true,
+        turn = { axis = { 1, 0.3, 0.2 }, angle = 5.5 } }
+      fine(s:advance({ dt = 0.005 }, 1.2))
+      found[k] = { w:positions(), w:twist_moment(0.25), s:energy() }
+    end
+    below(1e-7, tools.largest_difference(found[1][1], found[2][1]), "difference [m]")
+    share(found[1][2], found[2][2], 1e-5, "torque")
+    for _, kind in ipairs{ "twist", "bend", "kinetic" } do
+      share(found[1][3][kind], found[2][3][kind], 1e-4, kind)
+    end
   end)
 end)
 
