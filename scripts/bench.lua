@@ -99,9 +99,14 @@ local function add_walls(quick)
   end
 end
 
+local with_frames = { "curved", "flat", "rolling" }
+
 local function add_scale(quick)
-  for _, n in ipairs(quick and { 100, 10000 } or { 100, 1000, 10000, 100000 }) do
+  for _, n in ipairs(quick and { 100, 1000, 10000 } or { 100, 1000, 10000, 100000 }) do
     add("scale", { segments = n, integrator = "tr-bdf2", dt = 1e-3 })
+  end
+  for _, case in ipairs(with_frames) do
+    add(case, { segments = 1000, integrator = "tr-bdf2", dt = 1e-3 })
   end
   if quick then return end
   for _, n in ipairs{ 100, 10000 } do
@@ -142,7 +147,8 @@ add_transport(quick)
 add_walls(quick)
 add_scale(quick)
 
-local order = { "droop", "catenary", "lift", "release", "transport", "walls", "scale" }
+local order = { "droop", "catenary", "lift", "release", "transport", "walls", "scale", "curved", "flat",
+  "rolling" }
 local jobs = {}
 for _, name in ipairs(order) do
   for _, entry in ipairs(plan) do
@@ -270,6 +276,21 @@ local function scale_ratio()
     large.bytes < 1000 and "met" or "missed"))
 end
 
+-- What frames cost, over the same wire without.
+local function frames_ratio()
+  local plain = quickest("scale", function(r)
+    return r.segments == 1000 and r.model == "rod" and r.integrator == "tr-bdf2"
+  end)
+  for _, case in ipairs(plain and with_frames or {}) do
+    local row = quickest(case, function(r) return r.segments == 1000 and r.model == "rod" end)
+    local ratio = row and row.wall / row.steps / (plain.wall / plain.steps)
+    if row then
+      print(("  %-44s %9.2f x  %s"):format("frames within 2.5x: " .. case, ratio,
+        ratio <= 2.5 and "met" or "missed"))
+    end
+  end
+end
+
 local function print_scale()
   local first = {}
   for _, r in ipairs(rows) do
@@ -298,6 +319,7 @@ end
 
 print_aims()
 scale_ratio()
+frames_ratio()
 print_best()
 print_walls()
 print_scale()

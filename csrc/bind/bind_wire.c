@@ -90,6 +90,8 @@ int lsw_scene_wire(lua_State *L) {
   args.model = read_model(L, 2);
   section.EI2 = EI2;
   const char *object = args.name[0] ? lua_pushfstring(L, "wire '%s'", args.name) : "wire";
+  if (section.spin_inertia > 0 && !args.rolls)
+    luaL_error(L, "%s: spin_inertia goes with rolls = true", object);
   lsw_must(L, sw_section_beam(object, &section, &beam, &err), &err);
   if (beam.EI == 0 && strcmp(sw_wire_all()[args.model]->name, "string") != 0)
     luaL_error(L, "%s: EI = 0 N m2 is allowed with model = 'string' only", object);
@@ -119,6 +121,19 @@ static int meth_velocity(lua_State *L) { return lsw_push_vector(L, at(L).velocit
 static int meth_curvature(lua_State *L) { return lua_pushnumber(L, at(L).curvature), 1; }
 static int meth_tension(lua_State *L) { return lua_pushnumber(L, at(L).tension), 1; }
 static int meth_twist_moment(lua_State *L) { return lua_pushnumber(L, at(L).twist_moment), 1; }
+
+/* Of a wire made with rolls = true, about its tangent [rad/s]. */
+static int meth_spin(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_beam b;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  lsw_must(L, sw_scene_wire_beam(scene, w->id, &b, &err), &err);
+  if (!b.rolls)
+    return luaL_error(L, "wire '%s': spin is known of wires made with rolls = true only",
+                      sw_scene_wire_name(scene, w->id));
+  return lua_pushnumber(L, at(L).spin), 1;
+}
 
 static double modulus(lua_State *L) {
   sw_scene *scene;
@@ -269,6 +284,7 @@ static int push_beam(lua_State *L) {
   lsw_set_number(L, "GJ", b.GJ);
   lsw_set_number(L, "mass_per_length", b.mass);
   lsw_set_number(L, "radius", b.radius);
+  if (b.rolls) lsw_set_number(L, "spin_inertia", b.spin_inertia);
   return 1;
 }
 
@@ -309,6 +325,7 @@ static const luaL_Reg methods[] = {{"position", meth_position},
                                    {"curvature", meth_curvature},
                                    {"tension", meth_tension},
                                    {"twist_moment", meth_twist_moment},
+                                   {"spin", meth_spin},
                                    {"positions", meth_positions},
                                    {"velocities", meth_velocities},
                                    {"set_velocity", meth_set_velocity},

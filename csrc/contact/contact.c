@@ -257,7 +257,17 @@ sw_status sw_contact_begin_stage(void *contact, sw_system *s, double time, doubl
                                  const double *y, sw_error *err) {
   sw_contact *c = contact;
   (void)s, (void)hbar, (void)y;
+  c->pressed_before = c->pressed_count;
   return place_all(c, time, c->now, err);
+}
+
+int sw_contact_moves(const sw_contact *c) {
+  for (size_t o = 0; o < c->count; o++) {
+    const sw_pose *a = &c->start[o].pose, *b = &c->now[o].pose;
+    const sw_quat p = a->q, q = b->q;
+    if (sw_dist(a->p, b->p) > 0 || p.w != q.w || p.x != q.x || p.y != q.y || p.z != q.z) return 1;
+  }
+  return 0;
 }
 
 /* --- memory ------------------------------------------------------------------- */

@@ -63,6 +63,9 @@ sw_status sw_contact_eval(void *contact, sw_system *system, double time, double 
                           const double *y, unsigned want, sw_error *err);
 int sw_contact_settled(void *contact, sw_system *system, const double *y, const double *delta);
 
+/* 1: an obstacle is not where it was at the step's start, as last placed. */
+int sw_contact_moves(const sw_contact *contact);
+
 /* What is to be done with a trial step to positions x1. */
 typedef enum sw_contact_verdict {
   SW_CONTACT_ACCEPT,

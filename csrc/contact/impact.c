@@ -43,24 +43,33 @@ static void shares(const sw_system *s, const sw_touch *t, double out[2]) {
 static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
   const sw_vec x = sw_touch_place(s->x, t->node, t->segment, t->at);
-  const sw_vec v = sw_sub(sw_touch_place(s->v, t->node, t->segment, t->at),
-                          sw_obstacle_velocity(&c->start[t->obstacle], x));
+  const sw_body *b = &s->bodies[t->body];
+  const double radius = b->plan->beam.radius;
+  const sw_levers levers = sw_touch_levers(s, t);
+  const sw_vec at = levers.count ? sw_madd(x, t->normal, -radius) : x;
+  sw_vec v = sw_sub(sw_touch_place(s->v, t->node, t->segment, t->at),
+                    sw_obstacle_velocity(&c->start[t->obstacle], at));
   const sw_vec local_point = sw_pose_local(c->now[t->obstacle].pose, t->point);
   const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, local_point);
-  const double radius = s->bodies[t->body].plan->beam.radius;
   const double gap = fmax(0.0, sw_dot(t->normal, sw_sub(x, plane)) - radius);
   const double approach = -sw_dot(v, t->normal);
   const double allowed = gap / h;
   if (!(approach > allowed + SLOWEST_IMPACT)) return 0;
   const double change = o->restitution > 0 ? approach * (1.0 + o->restitution) : approach - allowed;
-  const sw_vec along = sw_madd(v, t->normal, approach);
-  const double slide = sw_norm(along), brake = fmin(slide, o->friction * change);
-  sw_vec dv = sw_scale(t->normal, change);
-  if (slide > 0) dv = sw_madd(dv, along, -brake / slide);
-  double w[2];
+  if (levers.count) v = sw_add(v, sw_levers_shift(&levers, s->v + 3 * s->nodes + b->first_roll, 1));
+  const sw_vec along = sw_madd(v, t->normal, -sw_dot(v, t->normal));
+  const sw_vec brake = sw_levers_brake(&b->plan->beam, &levers, along, o->friction * change);
+  const sw_vec dv = sw_madd(brake, t->normal, change);
+  double w[2], mass = 0;
   shares(s, t, w);
-  for (size_t e = 0; e < 2; e++)
-    if (w[e] > 0) sw_accumulate(s->v + 3 * (t->node + e), sw_scale(dv, w[e]));
+  for (size_t e = 0; e < 2; e++) {
+    if (!(w[e] > 0)) continue;
+    mass += w[e] * b->plan->lumped[t->node + e - b->first_node];
+    sw_accumulate(s->v + 3 * (t->node + e), sw_scale(dv, w[e]));
+  }
+  if (levers.count)
+    sw_levers_kick(b->plan, &levers, sw_scale(brake, mass),
+                   s->delta + 3 * s->nodes + b->first_roll);
   if (sw_grow((void **)&c->impacts, &c->impact_capacity, c->impact_count + 1, sizeof *c->impacts) ==
       SW_OK)
     c->impacts[c->impact_count++] =
@@ -204,8 +213,12 @@ sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *
     c->pressed_count = 0;
     return sw_contact_find_candidates(c, s, &err) == SW_OK ? SW_CONTACT_REDO : SW_CONTACT_SMALLER;
   }
+  /* impulses must not see what their neighbours did to the edges between them */
+  double *kicks = s->delta + 3 * s->nodes, *rates = s->v + 3 * s->nodes;
+  for (size_t e = 0; e < s->rolls; e++) kicks[e] = 0;
   const int crossed = review_crossings(c, s, x1, h);
   const int struck = review_touches(c, s, h);
+  for (size_t e = 0; e < s->rolls; e++) rates[e] += kicks[e];
   c->pressed_count = 0;
   if (crossed || struck) return SW_CONTACT_REDO;
   return cuts_deep(c, s, x1, h) ? SW_CONTACT_SMALLER : SW_CONTACT_ACCEPT;

@@ -33,7 +33,8 @@ static const double DEEPEST = 50e-6;
 static const double MOST_BOOST = 1e5; /* [-] */
 
 /* A spring stretched this many times over what friction can hold does not stick,
- * whatever the prediction is worth [-]. */
+ * whatever the prediction is worth [-]. Not so where a wire has been rolling: on a curved
+ * surface both its shift and its turn are predicted less exactly than that. */
 static const double SURELY_SLIDING = 20.0;
 
 enum { OWN = 0, NEXT = 6, ROW = 24 }; /* layout of the system's block rows */
@@ -80,14 +81,22 @@ static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, doub
 }
 
 /* Displacement of the wire's material at the touch since the step's start,
- * relative to the obstacle's. */
+ * relative to the obstacle's. Of a wire that rolls: of its surface, relative to the
+ * obstacle's material there. */
 static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_touch *t,
                              const double *y) {
   const sw_vec from = sw_touch_place(s->x, t->node, t->segment, t->at);
   const sw_vec to = sw_touch_place(y, t->node, t->segment, t->at);
   const sw_vec carried =
       sw_pose_point(c->now[t->obstacle].pose, sw_pose_local(c->start[t->obstacle].pose, from));
-  return sw_sub(to, carried);
+  const sw_body *b = &s->bodies[t->body];
+  if (!b->roll_block) return sw_sub(to, carried);
+  const sw_levers levers = sw_touch_levers(s, t);
+  const sw_vec before =
+      sw_rotate(c->start[t->obstacle].pose.q, sw_unrotate(c->now[t->obstacle].pose.q, t->normal));
+  const sw_vec arm = sw_scale(sw_sub(t->normal, before), b->plan->beam.radius);
+  const sw_vec rolled = sw_levers_shift(&levers, b->roll_turn, 1);
+  return sw_add(sw_add(sw_sub(to, carried), arm), rolled);
 }
 
 static void set_friction_state(const sw_contact *c, const sw_system *s, const sw_candidate *k,
@@ -113,7 +122,10 @@ static void set_friction_state(const sw_contact *c, const sw_system *s, const sw
     t->sliding = m->sliding;
   else
     t->sliding = t->k * sw_norm(t->trial) > most;
-  if (t->k * sw_norm(t->trial) > SURELY_SLIDING * most) t->sliding = 1;
+
+  const int held = m && !m->sliding &&
+                   (s->bodies[t->body].roll_block || (!last && c->regime == SW_CONTACT_STATIC));
+  if (!held && t->k * sw_norm(t->trial) > SURELY_SLIDING * most) t->sliding = 1;
 }
 
 int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
@@ -282,6 +294,7 @@ static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
     if (!(mu > 0)) t->tangential = sw_v(0, 0, 0);
   }
   add_to_field(s, t, sw_madd(t->tangential, t->normal, t->normal_force), K, want);
+  if (s->rolls) sw_levers_push(s, t, K, want);
 }
 
 sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar, const double *y,
@@ -318,9 +331,16 @@ static int update_friction(const sw_contact *c, sw_touch *t, sw_vec shift) {
                         FORCE_TOLERANCE * t->normal_force + WEIGHT_TOLERANCE * c->force_scale;
 }
 
+/* A touch's shift by the solved update, with that of the surface. */
+static sw_vec surface_shift(const sw_system *s, const sw_touch *t, sw_vec shift) {
+  const sw_levers levers = sw_touch_levers(s, t);
+  if (!levers.count) return shift;
+  return sw_add(shift, sw_levers_shift(&levers, s->bodies[t->body].spin_delta + 3, 4));
+}
+
 /* Bring a touch's forces up to the solved update; 1 = it agrees with what the
  * solve assumed. */
-static int update(sw_contact *c, sw_touch *t, const double *delta) {
+static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *delta) {
   const sw_vec shift =
       t->segment ? sw_lerp(sw_load(delta + 3 * t->node), sw_load(delta + 3 * t->node + 3), t->at)
                  : sw_load(delta + 3 * t->node);
@@ -329,14 +349,16 @@ static int update(sw_contact *c, sw_touch *t, const double *delta) {
   if (t->held) return 1;
   t->normal_force = active ? fmax(0.0, -t->k * t->gap_after) : 0.0;
   t->next_sliding = 1; /* what does not touch moves freely */
+  const sw_vec surface = s->rolls ? surface_shift(s, t, shift) : shift;
   const int agrees =
-      active && c->obstacles[t->obstacle].friction > 0 ? update_friction(c, t, shift) : 1;
+      active && c->obstacles[t->obstacle].friction > 0 ? update_friction(c, t, surface) : 1;
   if (active ? t->gap_after > GAP_TOLERANCE : t->gap_after < -GAP_TOLERANCE) return 0;
   const double radius = c->candidates[t->candidate].radius;
   if (!c->flat[t->obstacle] && t->gap_after < radius && sw_norm(shift) > SMALL_SHIFT * radius)
     return 0; /* place and normal of the touch may have changed */
   sw_candidate *k = &c->candidates[t->candidate];
-  if (t->gap_after < -DEEPEST && k->k < MOST_BOOST * k->usual && c->regime != SW_CONTACT_EXPLICIT) {
+  if (!s->rough && t->gap_after < -DEEPEST && k->k < MOST_BOOST * k->usual &&
+      c->regime != SW_CONTACT_EXPLICIT) {
     k->k *= fmin(100.0, 2.0 * t->gap_after / -DEEPEST);
     return 0;
   }
@@ -346,8 +368,9 @@ static int update(sw_contact *c, sw_touch *t, const double *delta) {
 int sw_contact_settled(void *contact, sw_system *s, const double *y, const double *delta) {
   sw_contact *c = contact;
   int fine = 1;
-  (void)s, (void)y;
-  for (size_t i = 0; i < c->touch_count; i++) fine &= update(c, &c->touches[i], delta);
+  (void)y;
+  c->pressed_count = c->pressed_before;
+  for (size_t i = 0; i < c->touch_count; i++) fine &= update(c, s, &c->touches[i], delta);
   for (size_t i = 0; fine && i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
     if (t->held || !(t->normal_force > 0 || t->gap_after < 0)) continue;

@@ -84,7 +84,7 @@ struct sw_contact {
   sw_touch *touches, *last; /* of this iterate and of the one before */
   size_t touch_count, touch_capacity, last_count, last_capacity;
   sw_touch *pressed; /* touches with a force at the end of a stage of this trial */
-  size_t pressed_count, pressed_capacity;
+  size_t pressed_count, pressed_capacity, pressed_before; /* of earlier stages */
   sw_memory *memory, *next_memory;
   size_t memory_count, memory_capacity, next_count, next_capacity;
   sw_barrier *barriers;
@@ -109,6 +109,24 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
 
 /* 1: the candidate's node, or both ends of its segment, are held. */
 int sw_contact_is_held(const sw_system *s, const sw_candidate *k);
+
+/* How turns of edges shift a wire's surface at a touch. */
+typedef struct sw_levers {
+  size_t count, edge; /* 0 unless the wire rolls, to 2; the first of them, in its body */
+  sw_vec arm[2];      /* shift per turn [m] */
+} sw_levers;
+
+/* With the tangents of the last evaluation. */
+sw_levers sw_touch_levers(const sw_system *s, const sw_touch *t);
+/* Shift of the surface by turn[edge stride] [m], or its speed by rates. */
+sw_vec sw_levers_shift(const sw_levers *l, const double *turn, size_t stride);
+/* The touch's friction and stiffness (upper half of K) on the turns. */
+void sw_levers_push(sw_system *s, const sw_touch *t, const double K[6], unsigned want);
+/* Change of the axis' velocity by an impulse that stops the surface's sliding, of at most
+ * this size [m/s]. */
+sw_vec sw_levers_brake(const sw_beam *beam, const sw_levers *l, sw_vec slide, double most);
+/* Add the change of the edges' rates (edges) by an impulse at the touch [N s]. */
+void sw_levers_kick(const sw_plan *p, const sw_levers *l, sw_vec impulse, double *rates);
 
 /* The place of a candidate on its segment. */
 static inline sw_vec sw_touch_place(const double *x, size_t node, int segment, double at) {

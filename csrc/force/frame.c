@@ -3,293 +3,13 @@
  * twist with a value at every hinge (discrete elastic rods, Bergou et al. 2008 and
  * 2010). Of the bending energy 1/2 k1 (b1 - b1')^2 + 1/2 k2 (b2 - b2')^2, b as in
  * state/hinge.h and b' its unloaded value, bend.c has 1/2 k (b1^2 + b2^2), k the
- * smaller stiffness; here is the rest.
- *
- * Derivatives are with respect to the edge vectors, frames being carried along
- * without turning about themselves, and to that turn. They are exact; the second
- * ones are made symmetric, which they are where no spin is out of balance. Each
- * part of b is g phi/sin(phi) q with q = (m_a . t_b - m_b . t_a)/2, g the gain. */
+ * smaller stiffness; here is the rest. */
+#include "force/frame.h"
+
 #include <math.h>
 
 #include "base/simd.h"
 #include "force/force.h"
-#include "force/lane.h"
-#include "state/hinge.h"
-
-typedef struct frame {
-  vec t, m1;
-} frame;
-
-typedef struct frame_args {
-  double EI; /* what bend has [N m2] */
-  double EI_axis[2];
-  double GJ; /* [N m2] */
-} frame_args;
-
-/* A derivative with respect to both edges and both spins. */
-typedef struct slope {
-  vec e1, e2;
-  lane s1, s2;
-} slope;
-
-typedef struct hinge {
-  frame a, b;
-  lane ra, rb; /* 1/length of the edges [1/m] */
-  lane over_length, twist;
-  lane rest[2], rest_twist;
-  lane excess[2], twist_stiffness; /* over bend's; [N m] */
-  lane push[2], torque;            /* d energy / d bend, d energy / d twist [N m] */
-  lane cosine, s, w, third;
-  lane gain, gain_slope, gain_curve;
-  vec ma[2], mb[2];       /* material axes */
-  vec across_a, across_b; /* the other tangent's part across this one */
-  lane over;              /* 1/(1 + cosine) */
-  lane q[2], energy, bending;
-  slope gq[2], gc, gb[2], gm; /* of q, cosine, bend without gain, twist */
-} hinge;
-
-typedef struct blocks {
-  lane own1[6], own2[6], next[9];
-  lane spin1, spin2, both;
-  vec e1s1, e1s2, e2s1, e2s2;
-} blocks;
-
-FLAT slope add_slopes(const slope *g, lane f, const slope *h, lane k) {
-  return (slope){madd(scale(g->e1, f), h->e1, k), madd(scale(g->e2, f), h->e2, k),
-                 f * g->s1 + k * h->s1, f * g->s2 + k * h->s2};
-}
-
-/* --- functions of the angle and of the twist ------------------------------------ */
-
-#define SLOPE_OF_W(u)                                                                 \
-  (SW_FIT_W1 +                                                                        \
-   (u) *                                                                              \
-       (2 * SW_FIT_W2 +                                                               \
-        (u) *                                                                         \
-            (3 * SW_FIT_W3 +                                                          \
-             (u) *                                                                    \
-                 (4 * SW_FIT_W4 +                                                     \
-                  (u) *                                                               \
-                      (5 * SW_FIT_W5 +                                                \
-                       (u) *                                                          \
-                           (6 * SW_FIT_W6 +                                           \
-                            (u) *                                                     \
-                                (7 * SW_FIT_W7 +                                      \
-                                 (u) * (8 * SW_FIT_W8 +                               \
-                                        (u) * (9 * SW_FIT_W9 +                        \
-                                               (u) * (10 * SW_FIT_W10 +               \
-                                                      (u) * (11 * SW_FIT_W11 +        \
-                                                             (u) * (12 * SW_FIT_W12 + \
-                                                                    (u) * (13 *       \
-                                                                           SW_FIT_W13)))))))))))))
-
-FLAT void set_angle(hinge *h) {
-  const vec d = madd(h->a.t, h->b.t, all(-1.0));
-  const lane u = 0.25 * dot(d, d);
-  h->cosine = 1.0 - 2.0 * u;
-  h->s = SW_FIT(u, SW_FIT_S);
-  h->w = SW_FIT(u, SW_FIT_W);
-  h->third = 0.5 * SLOPE_OF_W(u);
-  h->over = 1.0 / (1.0 + h->cosine);
-  for (int k = 0; k < LANES; k++) { /* sharp ones */
-    if (u[k] <= SW_ANGLE_FIT) continue;
-    double s, w;
-    sw_angle_factors(u[k], &s, &w);
-    h->s[k] = s;
-    h->w[k] = w;
-    h->third[k] = sw_angle_third(u[k], s, w);
-    h->over[k] = 1.0 / fmax(1e-3, 1.0 + h->cosine[k]);
-  }
-}
-
-/* The gain by series below this [rad]. */
-static const double SMALL_TWIST = 0.5;
-
-FLAT void set_gain(hinge *h) {
-  const lane x = 0.5 * h->twist, y = x * x;
-  const lane c =
-      1.0 +
-      y * (-1.0 / 2 + y * (1.0 / 24 + y * (-1.0 / 720 + y * (1.0 / 40320 + y * (-1.0 / 3628800)))));
-  const lane sine =
-      x * (1.0 +
-           y * (-1.0 / 6 +
-                y * (1.0 / 120 + y * (-1.0 / 5040 + y * (1.0 / 362880 + y * (-1.0 / 39916800))))));
-  h->gain = 1.0 / c;
-  h->gain_slope = 0.5 * h->gain * h->gain * sine;
-  h->gain_curve = 0.25 * h->gain * (2.0 * h->gain * h->gain - 1.0);
-  for (int k = 0; k < LANES; k++) {
-    if (fabs(h->twist[k]) <= SMALL_TWIST) continue;
-    const sw_hinge_gain gain = sw_hinge_gain_of(h->twist[k]);
-    h->gain[k] = gain.g;
-    h->gain_slope[k] = gain.slope;
-    h->gain_curve[k] = gain.curve;
-  }
-}
-
-/* --- energy and first derivatives ----------------------------------------------- */
-
-/* From frames, lengths, twist and rest to energy and what pushes. */
-FLAT void set_hinge(hinge *h, const frame_args *args) {
-  set_angle(h);
-  set_gain(h);
-  h->ma[0] = h->a.m1, h->ma[1] = cross(h->a.t, h->a.m1);
-  h->mb[0] = h->b.m1, h->mb[1] = cross(h->b.t, h->b.m1);
-  h->bending = all(0.0);
-  for (int j = 0; j < 2; j++) {
-    const lane k = args->EI_axis[j] * h->over_length, rest = h->rest[j];
-    h->q[j] = 0.5 * (dot(h->ma[j], h->b.t) - dot(h->mb[j], h->a.t));
-    const lane bend = h->gain * h->s * h->q[j];
-    h->excess[j] = (args->EI_axis[j] - args->EI) * h->over_length;
-    h->push[j] = h->excess[j] * bend - k * rest;
-    h->bending += 0.5 * h->excess[j] * bend * bend + k * rest * (0.5 * rest - bend);
-  }
-  const lane off = h->twist - h->rest_twist;
-  h->twist_stiffness = args->GJ * h->over_length;
-  h->torque = h->twist_stiffness * off;
-  h->energy = h->bending + 0.5 * h->torque * off;
-}
-
-/* Slopes of the cosine, of q and of the twist. */
-FLAT void set_slopes(hinge *h) {
-  const vec a = h->a.t, b = h->b.t;
-  const lane c = h->cosine, zero = all(0.0);
-  h->across_a = madd(b, a, -c);
-  h->across_b = madd(a, b, -c);
-  h->gc = (slope){scale(h->across_a, h->ra), scale(h->across_b, h->rb), zero, zero};
-  for (int j = 0; j < 2; j++) {
-    const vec ma = h->ma[j], mb = h->mb[j];
-    const vec pa = madd(mb, a, -dot(mb, a)), pb = madd(ma, b, -dot(ma, b));
-    const double sign = j == 0 ? 0.5 : -0.5; /* turning takes m1 to m2, m2 to -m1 */
-    h->gq[j] = (slope){scale(madd(pa, ma, c), -0.5 * h->ra), scale(madd(pb, mb, c), 0.5 * h->rb),
-                       sign * dot(h->ma[1 - j], b), -sign * dot(h->mb[1 - j], a)};
-    h->gb[j] = add_slopes(&h->gq[j], h->s, &h->gc, -h->w * h->q[j]);
-  }
-  const vec kb = scale(cross(a, b), h->over);
-  h->gm = (slope){scale(kb, h->ra), scale(kb, h->rb), all(-1.0), all(1.0)};
-}
-
-/* Sum of push times bend without gain: what the gain's derivatives come with. */
-FLAT lane pushed(const hinge *h) { return h->s * (h->push[0] * h->q[0] + h->push[1] * h->q[1]); }
-
-FLAT slope gradient(const hinge *h) {
-  const slope bend = add_slopes(&h->gb[0], h->push[0], &h->gb[1], h->push[1]);
-  return add_slopes(&bend, h->gain, &h->gm, h->torque + h->gain_slope * pushed(h));
-}
-
-/* --- second derivatives -------------------------------------------------------- */
-
-/* out += x y' + y x' */
-FLAT void add_pair(lane out[6], vec x, vec y) {
-  out[0] += 2.0 * x.x * y.x;
-  out[1] += x.x * y.y + y.x * x.y;
-  out[2] += x.x * y.z + y.x * x.z;
-  out[3] += 2.0 * x.y * y.y;
-  out[4] += x.y * y.z + y.y * x.z;
-  out[5] += 2.0 * x.z * y.z;
-}
-
-/* out += x y' */
-FLAT void add_product(lane out[9], vec x, vec y) {
-  out[0] += x.x * y.x, out[1] += x.x * y.y, out[2] += x.x * y.z;
-  out[3] += x.y * y.x, out[4] += x.y * y.y, out[5] += x.y * y.z;
-  out[6] += x.z * y.x, out[7] += x.z * y.y, out[8] += x.z * y.z;
-}
-
-/* g k' + k g' over all unknowns */
-FLAT void add_slope_pair(blocks *o, const slope *g, const slope *k) {
-  add_pair(o->own1, g->e1, k->e1);
-  add_pair(o->own2, g->e2, k->e2);
-  add_product(o->next, g->e1, k->e2);
-  add_product(o->next, k->e1, g->e2);
-  o->e1s1 = madd(madd(o->e1s1, g->e1, k->s1), k->e1, g->s1);
-  o->e1s2 = madd(madd(o->e1s2, g->e1, k->s2), k->e1, g->s2);
-  o->e2s1 = madd(madd(o->e2s1, g->e2, k->s1), k->e2, g->s1);
-  o->e2s2 = madd(madd(o->e2s2, g->e2, k->s2), k->e2, g->s2);
-  o->spin1 += 2.0 * g->s1 * k->s1;
-  o->spin2 += 2.0 * g->s2 * k->s2;
-  o->both += g->s1 * k->s2 + k->s1 * g->s2;
-}
-
-FLAT void add_square(blocks *o, const slope *g, lane factor) {
-  const slope half = add_slopes(g, 0.5 * factor, g, all(0.0));
-  add_slope_pair(o, &half, g);
-}
-
-/* out += f (I - t t') */
-FLAT void add_across(lane out[6], vec t, lane f) {
-  out[0] += f, out[3] += f, out[5] += f;
-  add_pair(out, t, scale(t, -0.5 * f));
-}
-
-/* f times the second derivative of the cosine */
-FLAT void add_cosine(blocks *o, const hinge *h, lane f) {
-  const vec a = h->a.t, b = h->b.t;
-  const lane f1 = -f * h->ra * h->ra, f2 = -f * h->rb * h->rb, f3 = f * h->ra * h->rb;
-  add_across(o->own1, a, f1 * h->cosine);
-  add_pair(o->own1, a, scale(h->across_a, f1));
-  add_across(o->own2, b, f2 * h->cosine);
-  add_pair(o->own2, b, scale(h->across_b, f2));
-  o->next[0] += f3, o->next[4] += f3, o->next[8] += f3;
-  add_product(o->next, a, scale(h->across_b, -f3));
-  add_product(o->next, b, scale(b, -f3));
-}
-
-/* s times the second derivative of f1 q1 + f2 q2; ma, mb: the axes summed with those
- * factors */
-FLAT void add_q(blocks *o, const hinge *h, vec ma, vec mb) {
-  const vec a = h->a.t, b = h->b.t;
-  const lane c = h->cosine, f = 0.5 * h->s, ab = dot(a, mb), ba = dot(b, ma);
-  const lane f1 = f * h->ra * h->ra, f2 = -f * h->rb * h->rb, f3 = -f * h->ra * h->rb;
-  const vec va = madd(madd(mb, a, -ab), ma, c), vb = madd(madd(ma, b, -ba), mb, c);
-  add_pair(o->own1, va, scale(a, f1));
-  add_across(o->own1, a, f1 * ab);
-  add_pair(o->own1, ma, scale(h->across_a, -0.5 * f1));
-  add_pair(o->own2, vb, scale(b, f2));
-  add_across(o->own2, b, f2 * ba);
-  add_pair(o->own2, mb, scale(h->across_b, -0.5 * f2));
-  add_product(o->next, ma, scale(h->across_b, f3));
-  add_product(o->next, h->across_a, scale(mb, -f3));
-  const vec ta = cross(a, ma), tb = cross(b, mb); /* turned by a right angle */
-  o->e1s1 = madd(o->e1s1, ta, -f * h->ra * c);
-  o->e1s2 = madd(o->e1s2, madd(tb, a, -dot(tb, a)), -f * h->ra);
-  o->e2s1 = madd(o->e2s1, madd(ta, b, -dot(ta, b)), f * h->rb);
-  o->e2s2 = madd(o->e2s2, tb, f * h->rb * c);
-  o->spin1 -= f * ba;
-  o->spin2 += f * ab;
-}
-
-/* f times the second derivative of the twist */
-FLAT void add_twist(blocks *o, const hinge *h, lane f) {
-  const vec a = h->a.t, b = h->b.t;
-  const lane over = h->over, f3 = 0.5 * f * h->ra * h->rb;
-  const vec kb = scale(cross(a, b), 2.0 * over), mean = scale(add(a, b), over);
-  add_pair(o->own1, kb, scale(add(a, mean), -0.25 * f * h->ra * h->ra));
-  add_pair(o->own2, kb, scale(add(b, mean), -0.25 * f * h->rb * h->rb));
-  add_product(o->next, kb, scale(mean, -f3));
-  const lane x = 2.0 * over * f3;
-  o->next[1] -= x * a.z, o->next[2] += x * a.y, o->next[3] += x * a.z;
-  o->next[5] -= x * a.x, o->next[6] -= x * a.y, o->next[7] += x * a.x;
-}
-
-FLAT void second(const hinge *h, blocks *o) {
-  const lane whole = pushed(h), f0 = h->push[0] * h->gain, f1 = h->push[1] * h->gain;
-  *o = (blocks){0};
-  add_square(o, &h->gm, h->twist_stiffness + whole * h->gain_curve);
-  add_twist(o, h, h->torque + whole * h->gain_slope);
-  for (int j = 0; j < 2; j++) {
-    const slope g = add_slopes(&h->gb[j], h->gain, &h->gm, h->gain_slope * h->s * h->q[j]);
-    add_square(o, &g, h->excess[j]);
-  }
-  const slope bend = add_slopes(&h->gb[0], h->push[0], &h->gb[1], h->push[1]);
-  const slope part = add_slopes(&bend, h->gain_slope, &bend, all(0.0));
-  add_slope_pair(o, &part, &h->gm);
-  const lane sum = f0 * h->q[0] + f1 * h->q[1];
-  const slope g = add_slopes(&h->gq[0], f0, &h->gq[1], f1);
-  const slope mix = add_slopes(&g, -h->w, &h->gc, 0.5 * sum * h->third);
-  add_slope_pair(o, &mix, &h->gc);
-  add_cosine(o, h, -h->w * sum);
-  add_q(o, h, madd(scale(h->ma[0], f0), h->ma[1], f1), madd(scale(h->mb[0], f0), h->mb[1], f1));
-}
 
 /* --- into the field ------------------------------------------------------------- */
 
@@ -300,22 +20,34 @@ FLAT void put(double *const *arrays, size_t at, vec v) {
 }
 
 /* Hinges i .. i + 3; lanes beyond the last hinge have no stiffness. */
-FLAT void gather(const sw_field *f, size_t i, hinge *h) {
+FLAT void gather(const sw_field *f, size_t i, hinge *h, kind what) {
   const sw_plan *p = f->plan;
   double *const *t = f->tangent;
   h->a.t = (vec){load(t[0] + i - 1), load(t[1] + i - 1), load(t[2] + i - 1)};
   h->b.t = (vec){load(t[0] + i), load(t[1] + i), load(t[2] + i)};
   h->ra = load(f->reciprocal + i - 1), h->rb = load(f->reciprocal + i);
   const double *const *m = f->normals;
-  h->a.m1 = (vec){load(m[0] + i - 1), load(m[1] + i - 1), load(m[2] + i - 1)};
-  h->b.m1 = (vec){load(m[0] + i), load(m[1] + i), load(m[2] + i)};
-  for (size_t k = 0; k < LANES; k++) {
-    const size_t last = p->edges - 1, at = i + k < last ? i + k : last;
-    h->over_length[k] = i + k <= last && p->hinge[at] > 0 ? 1.0 / p->hinge[at] : 0.0;
-    h->twist[k] = f->hinge_twist[at];
-    h->rest[0][k] = p->rest_bend[2 * at], h->rest[1][k] = p->rest_bend[2 * at + 1];
-    h->rest_twist[k] = p->rest_twist[at];
+  if (what != TWISTED) {
+    h->a.m1 = (vec){load(m[0] + i - 1), load(m[1] + i - 1), load(m[2] + i - 1)};
+    h->b.m1 = (vec){load(m[0] + i), load(m[1] + i), load(m[2] + i)};
   }
+  double end[4][2 * LANES]; /* the last hinges, and what lanes beyond them get */
+  const double *length = p->hinge + i, *twist = f->hinge_twist + i, *rest_twist = p->rest_twist + i;
+  const double *bend = p->rest_bend + 2 * i;
+  if (i + LANES > p->edges) {
+    for (size_t k = 0; k < LANES; k++) {
+      const size_t at = i + k < p->edges ? i + k : i;
+      end[0][k] = i + k < p->edges ? p->hinge[at] : 0.0;
+      end[1][k] = f->hinge_twist[at], end[2][k] = p->rest_twist[at];
+      end[3][2 * k] = p->rest_bend[2 * at], end[3][2 * k + 1] = p->rest_bend[2 * at + 1];
+    }
+    length = end[0], twist = end[1], rest_twist = end[2], bend = end[3];
+  }
+  h->over_length = (lane)((wide)(1.0 / load(length)) & (load(length) > 0.0));
+  h->twist = load(twist), h->rest_twist = load(rest_twist);
+  if (what == TWISTED) return;
+  h->rest[0] = __builtin_shufflevector(load(bend), load(bend + LANES), 0, 2, 4, 6);
+  h->rest[1] = __builtin_shufflevector(load(bend), load(bend + LANES), 1, 3, 5, 7);
 }
 
 FLAT void scatter(sw_field *f, size_t i, const blocks *o) {
@@ -333,18 +65,17 @@ FLAT void scatter(sw_field *f, size_t i, const blocks *o) {
   put(f->spin_edge + 6, i, o->e1s2);
 }
 
-SW_HOT
-static void between_edges(const frame_args *args, sw_field *f) {
+FLAT void between_edges(const frame_args *args, sw_field *f, kind what) {
   for (size_t i = 1; i + 1 < f->plan->nodes; i += LANES) {
     hinge h;
-    gather(f, i, &h);
-    set_hinge(&h, args);
+    gather(f, i, &h, what);
+    set_hinge(&h, args, what);
     if (f->want & SW_WANT_ENERGY)
       for (int k = 0; k < LANES; k++) f->energy += h.energy[k], f->bending += h.bending[k];
     if (!(f->want & (SW_WANT_FORCE | SW_WANT_STIFFNESS))) continue;
-    set_slopes(&h);
+    set_slopes(&h, what);
     if (f->want & SW_WANT_FORCE) {
-      const slope g = gradient(&h);
+      const slope g = gradient(&h, what);
       put(f->gradient, i - 1, g.e1);
       put(f->gradient, i, g.e2);
       accumulate(f->spin + i - 1, g.s1);
@@ -352,10 +83,19 @@ static void between_edges(const frame_args *args, sw_field *f) {
     }
     if (!(f->want & SW_WANT_STIFFNESS)) continue;
     blocks o;
-    second(&h, &o);
+    second(&h, &o, args, what);
     scatter(f, i, &o);
   }
 }
+
+SW_HOT
+static void twisted(const frame_args *args, sw_field *f) { between_edges(args, f, TWISTED); }
+
+SW_HOT
+static void curved(const frame_args *args, sw_field *f) { between_edges(args, f, CURVED); }
+
+SW_HOT
+static void two(const frame_args *args, sw_field *f) { between_edges(args, f, TWO); }
 
 /* --- clamps, one in all lanes ----------------------------------------------------- */
 
@@ -379,16 +119,16 @@ FLAT void clamp_hinge(const frame_args *args, const sw_field *f, size_t c, hinge
   h->twist = all(f->hinge_twist[number]);
   h->rest[0] = all(p->rest_bend[2 * number]), h->rest[1] = all(p->rest_bend[2 * number + 1]);
   h->rest_twist = all(p->rest_twist[number]);
-  set_hinge(h, args);
-  set_slopes(h);
+  set_hinge(h, args, TWO);
+  set_slopes(h, TWO);
 }
 
 FLAT sw_vec first_lane(vec v) { return sw_v(v.x[0], v.y[0], v.z[0]); }
 
-FLAT void put_clamp(sw_field *f, size_t e, int leaves, const hinge *h) {
+FLAT void put_clamp(const frame_args *args, sw_field *f, size_t e, int leaves, const hinge *h) {
   if (f->want & SW_WANT_ENERGY) f->energy += h->energy[0], f->bending += h->bending[0];
   if (f->want & SW_WANT_FORCE) {
-    const slope g = gradient(h);
+    const slope g = gradient(h, TWO);
     double force[3];
     sw_store(force, first_lane(leaves ? g.e2 : g.e1));
     for (int k = 0; k < 3; k++) f->gradient[k][e] += force[k];
@@ -397,7 +137,7 @@ FLAT void put_clamp(sw_field *f, size_t e, int leaves, const hinge *h) {
   if (!(f->want & SW_WANT_STIFFNESS)) return;
   blocks o;
   double edge[3];
-  second(h, &o);
+  second(h, &o, args, TWO);
   for (int k = 0; k < 6; k++) f->own[k][e] += leaves ? o.own2[k][0] : o.own1[k][0];
   f->spin_own[e] += leaves ? o.spin2[0] : o.spin1[0];
   sw_store(edge, first_lane(leaves ? o.e2s2 : o.e1s1));
@@ -409,13 +149,19 @@ static void at_clamps(const frame_args *args, sw_field *f) {
   for (size_t c = 0; c < f->plan->clamp_count; c++) {
     hinge h;
     clamp_hinge(args, f, c, &h);
-    put_clamp(f, f->plan->clamps[c].edge, f->plan->clamps[c].side > 0, &h);
+    put_clamp(args, f, f->plan->clamps[c].edge, f->plan->clamps[c].side > 0, &h);
   }
 }
 
 static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+  const frame_args *a = args;
   (void)err;
-  between_edges(args, f);
+  if (a->EI_axis[0] != a->EI_axis[1])
+    two(a, f);
+  else if (f->plan->beam.curved)
+    curved(a, f);
+  else
+    twisted(a, f);
   at_clamps(args, f);
   return SW_OK;
 }
@@ -425,7 +171,7 @@ SW_HOT
 static sw_vec clamp_moment(const void *args, const sw_field *f, const sw_clamp_hinge *at) {
   hinge h;
   clamp_hinge(args, f, (size_t)(at - f->plan->clamps), &h);
-  const slope g = gradient(&h);
+  const slope g = gradient(&h, TWO);
   const sw_vec t = first_lane(at->side > 0 ? h.a.t : h.b.t);
   const sw_vec push = first_lane(at->side > 0 ? g.e1 : g.e2);
   return sw_madd(sw_cross(t, push), t, at->side > 0 ? g.s1[0] : g.s2[0]);

@@ -54,7 +54,7 @@ const sw_integrator *const *sw_integrator_all(void); /* NULL-terminated */
 
 struct sw_stepper {
   const sw_integrator *method, *start;
-  size_t n;     /* 3 x nodes */
+  size_t n;     /* the system's freedoms */
   double *work; /* one block for all of the following (n each) */
   double *xhat, *vhat;
   double *y[SW_STAGES_MAX], *w[SW_STAGES_MAX]; /* stage positions and velocities */

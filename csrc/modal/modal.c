@@ -200,7 +200,7 @@ static sw_status compare(const job *p, const double *before, const double *after
       return sw_fail(p->err, SW_EDIVERGED,
                      "frequencies: rounding drowns the softest motions among %zu nodes; use fewer "
                      "segments",
-                     p->n / 3);
+                     p->system->bodies[p->body].plan->nodes);
   }
   return SW_OK;
 }

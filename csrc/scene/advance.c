@@ -39,7 +39,8 @@ __attribute__((constructor)) static void fill_choices(void) {
     if (run_rows[i].type == SW_PARAM_CHOICE) run_rows[i].choices = integrator_names();
 }
 
-enum { MOST_REDOS = 40 }; /* impacts found one after another in one step [-] */
+enum { MOST_HALVINGS = 6 }; /* of a pose step [-] */
+enum { MOST_REDOS = 40 };   /* impacts found one after another in one step [-] */
 static const double SMALLEST_SHARE = 1.0 / 4096; /* of a step, before giving up [-] */
 static const double LARGEST_STRAIN = 10.0;       /* beyond it a run has diverged [-] */
 
@@ -107,11 +108,11 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
   sw_scene *s = p->s;
   if (s->discontinuous) s->stepper.restart = 1;
   if (!sw_scene_has_contact(s)) return trial(p, h, err);
-  memcpy(p->v_start, s->system.v, 3 * s->system.nodes * sizeof(double));
+  memcpy(p->v_start, s->system.v, s->system.freedoms * sizeof(double));
   s->stepper.plastic = 0;
   sw_status status = sw_scene_begin_contact(
-      s, s->method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT, h,
-      p->args->dt, err);
+      s, s->method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
+      s->time, h, p->args->dt, err);
   for (int redo = 0; status == SW_OK && redo < MOST_REDOS; redo++) {
     status = trial(p, h, err);
     if (status != SW_OK) break;
@@ -123,7 +124,7 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
       status = sw_fail(err, SW_ENOCONV, "what the wire touches cuts too deep into it");
     s->stepper.restart = 1;
   }
-  memcpy(s->system.v, p->v_start, 3 * s->system.nodes * sizeof(double));
+  memcpy(s->system.v, p->v_start, s->system.freedoms * sizeof(double));
   return status != SW_OK ? status
                          : sw_fail(err, SW_ENOCONV, "impacts do not come to an end in one step");
 }
@@ -189,7 +190,7 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
     if (status == SW_OK) {
       sw_stepper_reject(&s->stepper, &s->system);
       if (sw_scene_has_contact(s))
-        memcpy(s->system.v, p->v_start, 3 * s->system.nodes * sizeof(double));
+        memcpy(s->system.v, p->v_start, s->system.freedoms * sizeof(double));
     }
     p->report->rejected++;
     h = fmin(next, 0.9 * h);
@@ -202,38 +203,48 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
 /* Slow handling: what drives the wires goes on by a step, the wires to their
  * equilibrium. Without friction the pose step does not matter; with friction it
  * does, and halving it shows how much. */
-static const double MOST_TURN_PARTS = 1e4;
-
-static sw_status pose_step(loop *p, double t1, int (*interrupted)(void), sw_error *err) {
+static sw_status pose_step(loop *p, double t1, int halvings, int (*interrupted)(void),
+                           sw_error *err) {
   static const sw_settle_args rest = {.tolerance = 1e-9, .max_iterations = 4000};
   sw_scene *s = p->s;
   sw_settle_report report = {0};
   const double t0 = s->time;
-  s->system.fastest_turn = 0;
-  SW_TRY(sw_system_place_holds(&s->system, 0.5 * (t0 + t1), NULL, NULL, NULL, err));
-  SW_TRY(sw_system_place_holds(&s->system, t1, NULL, NULL, NULL, err));
-  const double turn = s->system.fastest_turn * (t1 - t0), parts = ceil(turn / WIDEST_TURN);
-  if (parts > MOST_TURN_PARTS)
-    return sw_fail(err, SW_EDIVERGED, "what holds a wire turns by %g rad between two poses", turn);
-  sw_status status = SW_OK;
-  for (double part = 1; part < parts && status == SW_OK; part++) {
-    s->time = t0 + (t1 - t0) * part / parts;
-    status = sw_scene_rest(s, &rest, interrupted, &report, err);
-  }
+  int too_far = 0;
   s->time = t1;
-  if (status == SW_OK) status = sw_scene_rest(s, &rest, interrupted, &report, err);
+  const sw_status status =
+      sw_scene_rest(s, t0, halvings ? &too_far : NULL, &rest, interrupted, &report, err);
   p->report->iterations += report.iterations;
   if (status != SW_OK) {
     s->time = t0;
-    return status;
+    if (!too_far) return status;
+    SW_TRY(pose_step(p, 0.5 * (t0 + t1), halvings - 1, interrupted, err));
+    return pose_step(p, t1, halvings - 1, interrupted, err);
   }
-  p->report->steps++;
   p->report->smallest_dt = fmin(p->report->smallest_dt, t1 - t0);
   if (report.jumped) {
     p->report->jumps++;
     p->report->last_jump = t1;
   }
-  return sw_scene_observe(s, err);
+  return SW_OK;
+}
+
+static const double MOST_TURN_PARTS = 1e4;
+
+static sw_status whole_pose_step(loop *p, double t1, int (*interrupted)(void), sw_error *err) {
+  sw_system *system = &p->s->system;
+  const double t0 = p->s->time;
+  system->fastest_turn = 0;
+  SW_TRY(sw_system_place_holds(system, 0.5 * (t0 + t1), NULL, NULL, NULL, err));
+  SW_TRY(sw_system_place_holds(system, t1, NULL, NULL, NULL, err));
+  const double turn = system->fastest_turn * (t1 - t0), parts = fmax(1, ceil(turn / WIDEST_TURN));
+  if (parts > MOST_TURN_PARTS)
+    return sw_fail(err, SW_EDIVERGED, "what holds a wire turns by %g rad between two poses", turn);
+  for (double part = 1; part <= parts; part++) {
+    const double t = part < parts ? t0 + (t1 - t0) * part / parts : t1;
+    SW_TRY(pose_step(p, t, MOST_HALVINGS, interrupted, err));
+  }
+  p->report->steps++;
+  return sw_scene_observe(p->s, err);
 }
 
 static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_error *err) {
@@ -248,7 +259,7 @@ static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_er
     if (interrupted && interrupted()) return SW_EINTR;
     if ((double)(p->report->steps - first) >= (double)p->args->max_steps) return SW_OK;
     const double t1 = (double)k >= count ? until : t0 + span * ((double)k / count);
-    SW_TRY(p->args->quasistatic ? pose_step(p, t1, interrupted, err)
+    SW_TRY(p->args->quasistatic ? whole_pose_step(p, t1, interrupted, err)
            : adaptive           ? controlled_step(p, until - s->time, until, err)
                                 : step(p, t1 - s->time, t1, err));
     if (isfinite(p->args->frame) && s->time >= s->next_frame - slack)
@@ -266,8 +277,8 @@ static sw_status check_run(const sw_scene *s, const sw_run_args *args, sw_error 
     if (s->wires[w].beam.framed && !args->quasistatic && !(m->flags & SW_INTEGRATOR_IMPLICIT))
       return sw_fail(
           err, SW_EINVAL,
-          "scene:run: integrator '%s' is explicit; wire '%s', which is curved at rest or "
-          "has two values of EI, needs an implicit one",
+          "scene:run: integrator '%s' is explicit; wire '%s', which is curved at rest, has two "
+          "values of EI or rolls, needs an implicit one",
           m->name, s->wires[w].name);
   if (args->quasistatic && isfinite(args->tolerance))
     return sw_fail(err, SW_EINVAL,
@@ -310,7 +321,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   SW_TRY(use_integrator(s, args, err));
   const size_t before = s->system.counters.evaluations;
   loop p = {.s = s, .args = args, .report = report};
-  p.v_start = sw_alloc(sw_scene_has_contact(s) ? 3 * s->system.nodes : 1, sizeof(double));
+  p.v_start = sw_alloc(sw_scene_has_contact(s) ? s->system.freedoms : 1, sizeof(double));
   if (!p.v_start) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
   s->running++;
   sw_status status = SW_OK;

@@ -92,10 +92,8 @@ static void node_state(const sw_system *s, const sw_body *b, size_t node, size_t
   }
 }
 
-/* Tension at a place, linear between edge middles. */
-static double tension_at(const sw_system *s, const sw_body *b, double at) {
-  const sw_plan *p = b->plan;
-  const double *T = s->tension + b->first_edge;
+/* What edges have at a place, linear between their middles. */
+static double between_middles(const sw_plan *p, const double *T, double at) {
   double fraction;
   const size_t e = sw_plan_locate(p, at, &fraction);
   if (p->edges == 1) return T[0];
@@ -103,6 +101,13 @@ static double tension_at(const sw_system *s, const sw_body *b, double at) {
   if (k + 1 >= p->edges) k = p->edges - 2;
   const double m0 = 0.5 * (p->s[k] + p->s[k + 1]), m1 = 0.5 * (p->s[k + 1] + p->s[k + 2]);
   return T[k] + (T[k + 1] - T[k]) * (at - m0) / (m1 - m0);
+}
+
+/* Rate at which a wire that rolls turns about its axis, linear between edge middles. */
+static double spin_at(const sw_system *s, const sw_body *b, double at) {
+  if (!b->roll_block) return 0.0;
+  const double *rate = s->v + 3 * s->nodes + b->first_roll;
+  return between_middles(b->plan, rate, at);
 }
 
 /* Torque of hinge number k, of the plan's list with clamps after nodes. */
@@ -164,7 +169,8 @@ sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double at, sw_point_state *
   out->velocity = sw_lerp(sw_load(v), sw_load(v + 3), f);
   out->tangent = sw_unit_or(sw_lerp(t0, t1, f), t0);
   out->curvature = k0 + f * (k1 - k0);
-  out->tension = tension_at(&s->system, b, at);
+  out->tension = between_middles(b->plan, s->system.tension + b->first_edge, at);
+  out->spin = spin_at(&s->system, b, at);
   if (b->spin_block) {
     k0 = node_flexure(&s->system, b, e, e);
     k1 = node_flexure(&s->system, b, e + 1, e);
@@ -200,6 +206,8 @@ sw_status sw_scene_wire_set_velocity(sw_scene *s, sw_handle h, sw_vec v, sw_vec 
     const sw_vec arm = sw_sub(sw_load(s->system.x + k), about);
     sw_store(s->system.v + k, sw_add(v, sw_cross(omega, arm)));
   }
+  for (size_t e = 0; b->roll_block && e < b->plan->edges; e++)
+    s->system.v[3 * s->system.nodes + b->first_roll + e] = sw_dot(omega, tangent_of(&b->field, e));
   s->discontinuous = 1;
   return SW_OK;
 }

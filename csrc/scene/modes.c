@@ -60,6 +60,9 @@ static sw_status look_at_nodes(sw_scene *s, size_t w, double *speed, double *awa
     *speed = fmax(*speed, sw_norm(sw_load(system->velocity + i)));
     *away = fmax(*away, sw_dist(sw_load(system->yhat + i), sw_load(system->x + i)));
   }
+  for (size_t e = 0; b->roll_block && e < b->plan->edges; e++)
+    *speed =
+        fmax(*speed, b->plan->beam.radius * fabs(system->v[3 * system->nodes + b->first_roll + e]));
   return SW_OK;
 }
 
@@ -123,11 +126,6 @@ sw_status sw_scene_wire_modes(sw_scene *s, sw_handle wire, const sw_modes_args *
   SW_TRY(sw_scene_readable(s, err));
   if (!sw_scene_find_wire(s, wire, err)) return SW_EDEAD;
   SW_TRY(sw_scene_build(s, err));
-  if (s->wires[wire.slot].beam.framed)
-    return sw_fail(err, SW_EINVAL,
-                   "wire '%s': frequencies are for wires that are straight at rest and have one "
-                   "value of EI",
-                   s->wires[wire.slot].name);
   s->running++; /* a force may be a user's function */
   const sw_status status = find(s, wire.slot, args, interrupted, out, err);
   s->running--;

@@ -92,7 +92,7 @@ static void keep_largest(sw_extreme *kept, const sw_extreme *now) {
   if (now->value > kept->value) *kept = *now;
 }
 
-/* The same where the wire has frames: without the bend that it has at rest. */
+/* The same of a wire that is not straight at rest: without the bend that it has then. */
 static void framed_strain(const sw_system *s, const sw_body *b, sw_extreme *out) {
   const sw_plan *p = b->plan;
   const double *T = s->tension + b->first_edge, EA = p->beam.EA, radius = p->beam.radius;
@@ -110,7 +110,7 @@ static void framed_strain(const sw_system *s, const sw_body *b, sw_extreme *out)
 }
 
 static void strain_extreme(const sw_system *s, const sw_body *b, sw_extreme *out) {
-  if (b->spin_block) {
+  if (b->plan->beam.curved) {
     framed_strain(s, b, out);
     return;
   }

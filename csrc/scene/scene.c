@@ -170,6 +170,8 @@ static const sw_param wire_rows[] = {
     {"normal", SW_PARAM_VECTOR, "-", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL,
      offsetof(sw_wire_args, normal),
      "with EI = {EI1, EI2}: bending in the plane of the wire and this has EI1"},
+    {"rolls", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_wire_args, rolls),
+     "true: friction also turns the wire about its axis, so that it rolls and is twisted"},
 };
 const sw_params sw_wire_params = SW_PARAMS("wire", wire_rows);
 
@@ -194,10 +196,13 @@ static sw_status add_frames(sw_scene_wire *w, const sw_wire_args *a, sw_error *e
   const sw_vec along =
       sw_unit_or(sw_sub(sw_load(w->mesh.x + 3), sw_load(w->mesh.x)), sw_v(1, 0, 0));
   const int given = isfinite(a->normal.x);
-  if (!w->beam.framed && !given && a->rest == SW_REST_STRAIGHT) return SW_OK;
+  w->beam.rolls = a->rolls;
+  w->beam.curved = a->rest == SW_REST_PATH;
+  if (!w->beam.framed && !given && a->rest == SW_REST_STRAIGHT && !a->rolls) return SW_OK;
   if (strcmp(w->cls->name, "rod") != 0)
     return sw_fail(err, SW_EINVAL,
-                   "wire '%s': rest, normal and two values of EI go with model = 'rod'", w->name);
+                   "wire '%s': rest, normal, rolls and two values of EI go with model = 'rod'",
+                   w->name);
   if (two && !given)
     return sw_fail(err, SW_EINVAL,
                    "wire '%s': two values of EI need normal = {x, y, z}, the "
@@ -205,7 +210,7 @@ static sw_status add_frames(sw_scene_wire *w, const sw_wire_args *a, sw_error *e
                    w->name);
   if (given && !(sw_norm(sw_cross(sw_unit_or(a->normal, along), along)) > LEAST_SINE))
     return sw_fail(err, SW_EINVAL, "wire '%s': normal must not be along the wire's start", w->name);
-  w->beam.framed = w->beam.framed || a->rest == SW_REST_PATH;
+  w->beam.framed = w->beam.framed || a->rest == SW_REST_PATH || a->rolls;
   if (!w->beam.framed) return SW_OK; /* a normal that makes no difference */
   if (sw_mesh_add_frames(&w->mesh, given ? a->normal : sw_perpendicular(along),
                          a->rest == SW_REST_STRAIGHT) != SW_OK)
@@ -227,8 +232,8 @@ static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, c
                    cls->name, w->name, w->cls->name);
   if (cls->commit && w->beam.framed)
     return sw_fail(err, SW_EINVAL,
-                   "force %s: wire '%s' is curved at rest or has two values of EI, which it does "
-                   "not know",
+                   "force %s: wire '%s' is curved at rest, has two values of EI or rolls, which it "
+                   "does not know",
                    cls->name, w->name);
   return cls->check ? cls->check(args, &w->beam, err) : SW_OK;
 }

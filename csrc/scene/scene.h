@@ -69,6 +69,7 @@ typedef struct sw_wire_args {
   long segments;   /* [-] */
   int rest;        /* shape without load: SW_REST_STRAIGHT, SW_REST_PATH */
   sw_vec normal;   /* first axis of the section; NAN = not given [-] */
+  int rolls;       /* 1: spins about its axis, with inertia, under friction */
 } sw_wire_args;
 enum { SW_REST_STRAIGHT = 0, SW_REST_PATH = 1 };
 extern const sw_params sw_wire_params; /* model, path, segments, ... */
@@ -215,6 +216,7 @@ typedef struct sw_point_state {
   double curvature;                   /* [1/m] */
   double tension;                     /* [N] */
   double twist_moment;                /* [N m] */
+  double spin;                        /* about the tangent, of a wire that rolls [rad/s] */
   double strain, least_strain;        /* of the fibres outside and inside the bend [-] */
 } sw_point_state;
 

@@ -17,7 +17,7 @@ static const sw_param rows[] = {
 };
 const sw_params sw_settle_params = SW_PARAMS("scene:settle", rows);
 
-enum { NEWTON_ITERATIONS = 60, MOST_REDOS = 20 };
+enum { NEWTON_ITERATIONS = 60, SLIDES = 8, MOST_REDOS = 20 };
 static const double FIRST_PSEUDO_STEP = 0.02; /* of sqrt(length/g) [-] */
 static const double LARGEST_GROWTH = 1e6;     /* of the first pseudo step [-] */
 static const double STATIC_TURN = 1e-7;       /* last rotation of a converged solve [rad] */
@@ -36,7 +36,9 @@ typedef struct statics {
   const sw_settle_args *args;
   sw_settle_report *report;
   int (*interrupted)(void);
-  double *zero, *from, *y, *v; /* (nodes x 3) */
+  double touched;              /* time up to which contact has followed the obstacles [s] */
+  int *too_far;                /* see sw_scene_rest; or NULL */
+  double *zero, *from, *y, *v; /* (freedoms) */
   double *tension;             /* (edges) at the start of an attempt */
   double *kept, *begun;        /* (state) put aside; as settling found it */
   sw_pose *from_poses;         /* (holds) where the holds were */
@@ -54,11 +56,11 @@ static sw_status solve(statics *p, double hbar, const sw_newton *newton, sw_erro
   sw_stage_report r = {0};
   const sw_stage stage = {
       .time = s->time, .hbar = hbar, .xhat = p->from, .vhat = p->zero, .y = p->y, .v = p->v};
-  memcpy(p->from, s->system.x, 3 * s->system.nodes * sizeof(double));
+  memcpy(p->from, s->system.x, s->system.freedoms * sizeof(double));
   memcpy(p->tension, s->system.tension, s->system.edges * sizeof(double));
   sw_system_begin_step(&s->system);
   sw_status status = SW_OK;
-  status = sw_scene_begin_contact(s, SW_CONTACT_STATIC, 0, 0, err);
+  status = sw_scene_begin_contact(s, SW_CONTACT_STATIC, p->touched, 0, 0, err);
   for (int redo = 0; status == SW_OK; redo++) {
     status = sw_system_stage(&s->system, &stage, newton, &r, err);
     p->report->iterations += (size_t)r.iterations;
@@ -79,10 +81,12 @@ static double take(statics *p, int trial) {
   for (size_t i = 0; i < 3 * s->system.nodes; i++)
     shift = fmax(shift, fabs(p->y[i] - s->system.x[i]));
   sw_system_follow(&s->system, p->y);
-  memcpy(s->system.x, p->y, 3 * s->system.nodes * sizeof(double));
-  memset(s->system.v, 0, 3 * s->system.nodes * sizeof(double));
-  memset(s->system.a, 0, 3 * s->system.nodes * sizeof(double));
-  if (!trial) sw_scene_commit_contact(s);
+  memcpy(s->system.x, p->y, s->system.freedoms * sizeof(double));
+  memset(s->system.v, 0, s->system.freedoms * sizeof(double));
+  memset(s->system.a, 0, s->system.freedoms * sizeof(double));
+  if (trial) return shift;
+  sw_scene_commit_contact(s);
+  p->touched = s->time;
   return shift;
 }
 
@@ -91,8 +95,13 @@ static double time_scale(const sw_scene *s) {
   return sqrt(longest(s) / fmax(sw_norm(s->gravity), 1.0));
 }
 
-static sw_status newton_attempt(statics *p, sw_error *err) {
-  const sw_newton newton = {.max_iterations = NEWTON_ITERATIONS,
+/* Have obstacles moved since contact knew them? Then friction drags the wires. */
+static int dragged(const statics *p) {
+  return p->s->contact && p->touched != p->s->time && sw_contact_moves(p->s->contact);
+}
+
+static sw_status newton_attempt(statics *p, int iterations, sw_error *err) {
+  const sw_newton newton = {.max_iterations = iterations,
                             .accept_rotation = STATIC_TURN,
                             .limit_rotation = 1.0,
                             .statics = 1,
@@ -138,7 +147,8 @@ static sw_status transient(statics *p, sw_error *err) {
   const double first = FIRST_PSEUDO_STEP * time_scale(s);
   const sw_newton newton = {
       .max_iterations = 30, .accept_rotation = 0.01, .limit_rotation = 0.3, .statics = 0};
-  double tau = first;
+  /* what is dragged along must not be kept from it by inertia */
+  double tau = dragged(p) ? SLOWEST_GROWTH * time_scale(s) : first;
   p->report->transient = 1;
   while (p->report->iterations < (size_t)p->args->max_iterations) {
     if (p->interrupted && p->interrupted()) return SW_EINTR;
@@ -146,6 +156,10 @@ static sw_status transient(statics *p, sw_error *err) {
     if (status == SW_ECALLBACK || status == SW_ENOMEM) return status;
     if (status != SW_OK) {
       tau *= 0.25;
+      if (p->too_far && tau < time_scale(s) && dragged(p)) {
+        *p->too_far = 1;
+        return sw_fail(err, SW_ENOCONV, "obstacles drag the wires too far in one step");
+      }
       if (tau < 1e-9 * first) return status;
       continue;
     }
@@ -164,14 +178,19 @@ static int stops(sw_status status) {
 
 static sw_status find_rest(statics *p, sw_error *err) {
   put_aside(p->s, p->kept);
-  sw_status status = newton_attempt(p, err);
+  sw_status status = newton_attempt(p, NEWTON_ITERATIONS, err);
+  if (status == SW_ENOCONV && dragged(p)) { /* touches may begin to slide one by one */
+    take_back(p->s, p->kept);
+    status = newton_attempt(p, NEWTON_ITERATIONS + SLIDES * (int)p->s->system.nodes, err);
+  }
   if ((status == SW_OK && p->report->negative == 0) || stops(status)) return status;
   take_back(p->s, p->kept);
   for (int k = 0;; k++) {
     sw_error ignored;
     SW_TRY(transient(p, err));
     put_aside(p->s, p->kept);
-    status = newton_attempt(p, &ignored); /* fails where the equilibrium is not isolated */
+    status = newton_attempt(p, NEWTON_ITERATIONS,
+                            &ignored); /* fails where the equilibrium is not isolated */
     if (status == SW_OK && p->report->negative == 0) return SW_OK;
     if (stops(status)) return status;
     take_back(p->s, p->kept);
@@ -263,9 +282,9 @@ static double drive_shift(const statics *p) {
   return largest;
 }
 
-sw_status sw_scene_rest(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
-                        sw_settle_report *report, sw_error *why) {
-  const size_t n = 3 * s->system.nodes, size = s->system.state_size;
+sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle_args *args,
+                        int (*interrupted)(void), sw_settle_report *report, sw_error *why) {
+  const size_t n = s->system.freedoms, size = s->system.state_size;
   double *block = sw_alloc(4 * n + s->system.edges + 2 * size, sizeof *block);
   sw_pose *poses = sw_alloc(s->system.hold_count, sizeof *poses);
   if (!block || !poses) {
@@ -273,7 +292,12 @@ sw_status sw_scene_rest(sw_scene *s, const sw_settle_args *args, int (*interrupt
     sw_free(poses);
     return sw_fail(why, SW_ENOMEM, "scene '%s': out of memory", s->name);
   }
-  statics p = {.s = s, .args = args, .report = report, .interrupted = interrupted};
+  statics p = {.s = s,
+               .args = args,
+               .report = report,
+               .interrupted = interrupted,
+               .touched = since,
+               .too_far = too_far};
   p.zero = block, p.from = block + n, p.y = block + 2 * n, p.v = block + 3 * n;
   p.tension = block + 4 * n;
   p.kept = p.tension + s->system.edges, p.begun = p.kept + size;
@@ -305,7 +329,7 @@ sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interru
   if (!s->wire_count) return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", s->name);
   SW_TRY(sw_scene_build(s, err));
   s->running++;
-  sw_status status = sw_scene_rest(s, args, interrupted, report, &why);
+  sw_status status = sw_scene_rest(s, s->time, NULL, args, interrupted, report, &why);
   s->running--;
   sw_scene_reset_extremes(s);
   if (status == SW_OK) status = sw_scene_observe(s, &why);

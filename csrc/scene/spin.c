@@ -78,6 +78,10 @@ void sw_scene_frame_out(sw_scene *s, size_t wire) {
   for (size_t i = 0; i < p->nodes; i++)
     if (p->held[i] != SW_FREE && !(p->hinge[i] > 0)) m->twist[i] = 0;
   for (size_t c = 0; c < p->clamp_count; c++) m->twist[p->clamps[c].node] += twist[p->nodes + c];
+  if (!b->roll_block) return;
+  const size_t at = 3 * s->system.nodes + b->first_roll;
+  memcpy(m->turn, s->system.x + at, p->edges * sizeof *m->turn);
+  memcpy(m->spin, s->system.v + at, p->edges * sizeof *m->spin);
 }
 
 /* The mesh's twist of a node: a clamp hinge has half of it where both its sides
@@ -99,6 +103,11 @@ void sw_scene_frame_in(sw_scene *s) {
       for (size_t k = 0; k < 3; k++) state[k * p->edges + e] = m->normal[3 * e + k];
     memcpy(twist, m->twist, p->nodes * sizeof *twist);
     for (size_t c = 0; c < p->clamp_count; c++) twist[p->nodes + c] = twist_before(p, m, c);
+    if (b->roll_block) {
+      const size_t at = 3 * s->system.nodes + b->first_roll;
+      memcpy(s->system.x + at, m->turn, p->edges * sizeof *m->turn);
+      memcpy(s->system.v + at, m->spin, p->edges * sizeof *m->spin);
+    }
     sw_system_measure_frames(&s->system, w);
   }
 }

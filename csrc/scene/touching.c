@@ -95,10 +95,9 @@ void sw_scene_couple(sw_scene *s) {
 
 int sw_scene_has_contact(const sw_scene *s) { return s->contact || s->pairs; }
 
-sw_status sw_scene_begin_contact(sw_scene *s, sw_contact_regime regime, double h, double nominal,
-                                 sw_error *err) {
-  if (s->contact)
-    SW_TRY(sw_contact_begin_step(s->contact, &s->system, regime, s->time, h, nominal, err));
+sw_status sw_scene_begin_contact(sw_scene *s, sw_contact_regime regime, double t, double h,
+                                 double nominal, sw_error *err) {
+  if (s->contact) SW_TRY(sw_contact_begin_step(s->contact, &s->system, regime, t, h, nominal, err));
   return s->pairs ? sw_pairs_begin_step(s->pairs, &s->system, regime, h, nominal, err) : SW_OK;
 }
 

@@ -160,7 +160,7 @@ sw_status sw_scene_new_pairs(sw_scene *scene);
 void sw_scene_drop_rules(sw_scene *scene, size_t keep);
 void sw_scene_couple(sw_scene *scene);
 int sw_scene_has_contact(const sw_scene *scene);
-sw_status sw_scene_begin_contact(sw_scene *scene, sw_contact_regime regime, double h,
+sw_status sw_scene_begin_contact(sw_scene *scene, sw_contact_regime regime, double t, double h,
                                  double nominal, sw_error *err);
 sw_contact_verdict sw_scene_review_contact(sw_scene *scene, const double *x1, double h);
 int sw_scene_review_static(sw_scene *scene, const double *x1);
@@ -206,10 +206,11 @@ void sw_scene_clear_obstacle(sw_scene_obstacle *obstacle);
 /* The scene goes away: its snapshots live on, good for nothing. */
 void sw_scene_orphan_snapshots(sw_scene *scene);
 
-/* Equilibrium of the built scene at its time; nothing is observed. On failure the
- * state is as before. */
-sw_status sw_scene_rest(sw_scene *scene, const sw_settle_args *args, int (*interrupted)(void),
-                        sw_settle_report *report, sw_error *why);
+/* Equilibrium of the built scene at its time, obstacles having moved since a time before;
+ * nothing is observed. On failure the state is as before. too_far (may be NULL) is set when
+ * it failed because obstacles drag wires along that a shorter way might show how. */
+sw_status sw_scene_rest(sw_scene *scene, double since, int *too_far, const sw_settle_args *args,
+                        int (*interrupted)(void), sw_settle_report *report, sw_error *why);
 
 /* After an accepted state: histories, extremes, logs. */
 sw_status sw_scene_observe(sw_scene *scene, sw_error *err);

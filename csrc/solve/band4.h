@@ -12,7 +12,7 @@
  * the node after it, each row by row. */
 enum { SW_ROW4_NEXT = 16, SW_ROW4_SECOND = 32, SW_ROW4_SIZE = 48 };
 
-/* Factorise n block rows a (n x SW_ROW4_SIZE) in place. negative (may be NULL)
+/* Factorise n >= 2 block rows a (n x SW_ROW4_SIZE) in place. negative (may be NULL)
  * receives the number of negative pivots. SW_ESINGULAR when a pivot vanishes or is
  * not finite. */
 sw_status sw_band4_factor(double *a, size_t n, size_t *negative);

@@ -66,5 +66,6 @@ void sw_field_clear(sw_field *field) {
   }
   if (field->normals[0]) { /* one block, see sw_spin_new */
     memset(field->spin, 0, 12 * (n + SW_LANES) * sizeof(double));
+    if (field->spin_node[0]) memset(field->spin_node[0], 0, 6 * (n + SW_LANES) * sizeof(double));
   }
 }

@@ -55,6 +55,8 @@ typedef struct sw_field {
   double *spin_next;    /* (n) at node i: spins of edges i-1 and i [N m] */
   double *spin_edge[9]; /* three times 3 components: (m) edge e with its own spin, (n) at node
                            i: edge i with spin i-1, edge i-1 with spin i [N] */
+  double *spin_node[6]; /* of a wire that rolls: twice 3 components (n) of node i with the spins
+                           of edges i-1 and i; NULL for others [N] */
 
   /* geometry of the edges, filled by sw_field_geometry */
   double *length;     /* (m) [m] */

@@ -7,13 +7,13 @@
 #include "base/alloc.h"
 #include "state/hinge.h"
 
-enum { ARRAYS = 8, PLAIN = 4 }; /* the later ones with frames only */
+enum { ARRAYS = 10, PLAIN = 4 }; /* the later ones with frames only */
 
 /* The arrays and their doubles per node. */
 static void arrays(sw_mesh *m, double **out[ARRAYS], size_t width[ARRAYS]) {
-  double **const all[ARRAYS] = {&m->s,    &m->tension, &m->x,           &m->v,
-                                &m->rest, &m->normal,  &m->rest_normal, &m->twist};
-  static const size_t widths[ARRAYS] = {1, 1, 3, 3, 3, 3, 3, 1};
+  double **const all[ARRAYS] = {&m->s,      &m->tension,     &m->x,     &m->v,    &m->rest,
+                                &m->normal, &m->rest_normal, &m->twist, &m->turn, &m->spin};
+  static const size_t widths[ARRAYS] = {1, 1, 3, 3, 3, 3, 3, 1, 1, 1};
   memcpy(out, all, sizeof all);
   memcpy(width, widths, sizeof widths);
 }
@@ -241,6 +241,7 @@ static sw_status insert_node(sw_mesh *m, size_t edge, double s) {
     memcpy(m->normal + 3 * i, m->normal + 3 * edge, 3 * sizeof(double));
     memcpy(m->rest_normal + 3 * i, m->rest_normal + 3 * edge, 3 * sizeof(double));
     m->twist[i] = 0;
+    m->turn[i] = m->turn[edge], m->spin[i] = m->spin[edge];
   }
   m->n++;
   return SW_OK;

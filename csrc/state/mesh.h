@@ -22,6 +22,8 @@ typedef struct sw_mesh {
   double *normal;      /* (n x 3) first material axis of the edge that starts there [-] */
   double *rest_normal; /* (n x 3) the same when unloaded [-] */
   double *twist;       /* (n) of the hinge at each node, both sides of a clamp [rad] */
+  double *turn, *spin; /* (n) how far the edge that starts there has turned about itself, and how
+                          fast it does, if it rolls [rad], [rad/s] */
 } sw_mesh;
 
 /* What frames have at one arc length. */

@@ -13,14 +13,17 @@
 
 /* What a section is made of, in beam terms. */
 typedef struct sw_beam {
-  double EA;         /* axial stiffness [N] */
-  double EI;         /* bending stiffness, the smaller of two [N m2] */
-  double GJ;         /* twist stiffness [N m2] */
-  double mass;       /* mass per length [kg/m] */
-  double radius;     /* outer radius [m] */
-  double E;          /* of the material, for stresses [Pa] */
-  double EI_axis[2]; /* in the plane of the normal and across it [N m2] */
-  int framed;        /* 1: needs material frames (two stiffnesses, or curved at rest) */
+  double EA;           /* axial stiffness [N] */
+  double EI;           /* bending stiffness, the smaller of two [N m2] */
+  double GJ;           /* twist stiffness [N m2] */
+  double mass;         /* mass per length [kg/m] */
+  double radius;       /* outer radius [m] */
+  double E;            /* of the material, for stresses [Pa] */
+  double EI_axis[2];   /* in the plane of the normal and across it [N m2] */
+  double spin_inertia; /* of turning about the axis, per length [kg m] */
+  int rolls;           /* 1: it has that inertia, and contact takes hold of its surface */
+  int curved;          /* 1: not straight when unloaded */
+  int framed;          /* 1: needs material frames (two stiffnesses, curved at rest, rolls) */
 } sw_beam;
 
 /* How a node is held. */

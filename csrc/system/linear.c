@@ -10,8 +10,10 @@
 
 #include "base/simd.h"
 #include "solve/band3.h"
+#include "solve/band4.h"
 #include "system/assemble.h"
 #include "system/link.h"
+#include "system/spin.h"
 #include "system/system.h"
 #include "system/twist.h"
 
@@ -20,6 +22,7 @@ sw_status sw_system_linearise(sw_system *s, double time, sw_error *err) {
   SW_TRY(sw_system_place_holds(s, time, NULL, NULL, NULL, err));
   if (c->begin_stage) SW_TRY(c->begin_stage(c->user, s, time, HUGE_VAL, s->x, err));
   memset(s->velocity, 0, 3 * s->nodes * sizeof *s->velocity);
+  sw_system_begin_step(s);
   for (size_t b = 0; b < s->body_count; b++)
     SW_TRY(sw_body_evaluate(s, &s->bodies[b], time, HUGE_VAL, s->x, s->velocity, 1, 0, err));
   sw_links_begin(s);
@@ -38,42 +41,57 @@ sw_status sw_system_linearise(sw_system *s, double time, sw_error *err) {
 
 /* --- sizes and layout --------------------------------------------------------- */
 
+/* Unknowns of a node. */
+static size_t width_of(const sw_body *b) { return b->spin_block ? 4 : 3; }
+
 size_t sw_system_unknowns(const sw_system *s, size_t body) {
-  return 3 * s->bodies[body].plan->nodes;
+  return width_of(&s->bodies[body]) * s->bodies[body].plan->nodes;
 }
 
 size_t sw_system_free_unknowns(const sw_system *s, size_t body) {
+  const sw_body *b = &s->bodies[body];
   size_t held = 0;
   for (size_t i = 0; i < s->held_count; i++) held += s->held[i].body == body;
-  return sw_system_unknowns(s, body) - 3 * held;
+  return 3 * (b->plan->nodes - held) + (b->spin_block ? sw_spin_free_turns(s, b) : 0);
 }
 
 /* A factor: that of the band, then for twist its inverse times the slopes of the
- * spans (nodes x 3), and each span's term of Sherman and Morrison. */
+ * spans (nodes x 3), and each span's term of Sherman and Morrison. With frames: the band of
+ * four, and room for that of three. */
 size_t sw_system_factor_size(const sw_system *s, size_t body) {
   const sw_body *b = &s->bodies[body];
+  if (b->spin_block) return (SW_ROW4_SIZE + SW_ROW_SIZE) * b->plan->nodes;
   return SW_ROW_SIZE * b->plan->nodes +
          (b->has_twist ? 3 * b->plan->nodes + b->plan->span_count : 0);
 }
 
 void sw_system_residual(const sw_system *s, size_t body, double *out) {
-  memcpy(out, s->delta + 3 * s->bodies[body].first_node, sw_system_unknowns(s, body) * sizeof *out);
+  const sw_body *b = &s->bodies[body];
+  const size_t w = width_of(b), n = b->plan->nodes;
+  for (size_t i = 0; i < n; i++) {
+    memcpy(out + w * i, s->delta + 3 * (b->first_node + i), 3 * sizeof *out);
+    if (w > 3) out[w * i + 3] = i + 1 < n ? -b->field.spin[i] : 0.0;
+  }
+  if (b->spin_block) sw_spin_fix_held(s, b, out);
 }
 
 void sw_system_shifts(const sw_system *s, size_t body, const double *motion, double *out) {
-  memcpy(out, motion, 3 * s->bodies[body].plan->nodes * sizeof *out);
+  const size_t w = width_of(&s->bodies[body]);
+  for (size_t i = 0; i < s->bodies[body].plan->nodes; i++)
+    memcpy(out + 3 * i, motion + w * i, 3 * sizeof *out);
 }
 
 double sw_system_axial_error(const sw_system *s, size_t body, const double *motion) {
   const sw_body *b = &s->bodies[body];
   const sw_plan *p = b->plan;
   const double *T = s->tension + b->first_edge;
+  const size_t w = width_of(b);
   const double weight = p->beam.mass * p->length * sw_norm(sw_load(s->gravity));
   double most = fmax(weight, p->beam.EI / (p->length * p->length)), error = 0;
   for (size_t e = 0; e < p->edges; e++) {
     double length = b->field.length[e];
     for (size_t k = 0; k < 3; k++)
-      length += b->field.tangent[k][e] * (motion[3 * e + 3 + k] - motion[3 * e + k]);
+      length += b->field.tangent[k][e] * (motion[w * (e + 1) + k] - motion[w * e + k]);
     const double strain = length / p->rest[e] - 1.0;
     most = fmax(most, fabs(T[e]));
     error = fmax(error, fabs((strain >= 0 ? b->EA : b->EA_push) * strain - T[e]));
@@ -82,9 +100,11 @@ double sw_system_axial_error(const sw_system *s, size_t body, const double *moti
 }
 
 void sw_system_fix_held(const sw_system *s, size_t body, double *motion) {
+  const sw_body *b = &s->bodies[body];
   for (size_t i = 0; i < s->held_count; i++)
     if (s->held[i].body == body)
-      sw_store(motion + 3 * (s->held[i].node - s->bodies[body].first_node), sw_v(0, 0, 0));
+      sw_store(motion + width_of(b) * (s->held[i].node - b->first_node), sw_v(0, 0, 0));
+  if (b->spin_block) sw_spin_fix_held(s, b, motion);
 }
 
 /* --- factors ------------------------------------------------------------------ */
@@ -116,6 +136,13 @@ sw_status sw_system_factor(const sw_system *s, size_t body, double shift, double
                            size_t *below) {
   const sw_body *b = &s->bodies[body];
   size_t negative = 0;
+  if (b->spin_block) {
+    double *rows = factor + SW_ROW4_SIZE * b->plan->nodes;
+    shifted_rows(s, body, shift, rows);
+    sw_spin_assemble(b, rows, factor);
+    sw_spin_shift_rows(s, b, shift, factor);
+    return sw_band4_factor(factor, b->plan->nodes, below);
+  }
   shifted_rows(s, body, shift, factor);
   SW_TRY(sw_band3_factor(factor, b->plan->nodes, factor, &negative));
   if (b->has_twist) negative -= factor_twist(s, body, factor);
@@ -127,6 +154,10 @@ void sw_system_factor_solve(const sw_system *s, size_t body, const double *facto
   const sw_body *b = &s->bodies[body];
   const double *solved = factor + SW_ROW_SIZE * b->plan->nodes;
   const double *self = solved + 3 * b->plan->nodes;
+  if (b->spin_block) {
+    sw_band4_solve(factor, b->plan->nodes, x);
+    return;
+  }
   sw_band3_solve(factor, b->plan->nodes, x);
   for (size_t k = 0; b->has_twist && k < b->plan->span_count; k++) {
     const sw_span *span = &b->plan->spans[k];
@@ -174,9 +205,34 @@ void sw_field_stiffness_times(const sw_field *f, const double *d, double *out) {
   }
 }
 
+/* The nodes of a motion (unknowns), and back. */
+static void take_nodes(size_t n, const double *motion, double *out) {
+  for (size_t i = 0; i < n; i++) memcpy(out + 3 * i, motion + 4 * i, 3 * sizeof *out);
+}
+
+static void put_nodes(size_t n, const double *nodes, double *out) {
+  for (size_t i = 0; i < n; i++) {
+    memcpy(out + 4 * i, nodes + 3 * i, 3 * sizeof *out);
+    out[4 * i + 3] = 0;
+  }
+}
+
+/* With frames, in the room of the last update. */
+static void framed_stiffness_times(const sw_body *b, const double *motion, double *out) {
+  const size_t n = b->plan->nodes;
+  double *nodes = b->spin_delta, *pushes = b->spin_rows;
+  take_nodes(n, motion, nodes);
+  sw_field_stiffness_times(&b->field, nodes, pushes);
+  put_nodes(n, pushes, out);
+  sw_spin_stiffness_times(b, motion, out);
+}
+
 void sw_system_stiffness_times(const sw_system *s, size_t body, const double *motion, double *out) {
   const sw_body *b = &s->bodies[body];
-  sw_field_stiffness_times(&b->field, motion, out);
+  if (b->spin_block)
+    framed_stiffness_times(b, motion, out);
+  else
+    sw_field_stiffness_times(&b->field, motion, out);
   for (size_t k = 0; b->has_twist && k < b->plan->span_count; k++) {
     const sw_span *span = &b->plan->spans[k];
     const double torque = b->field.twist_stiffness[k] * sw_twist_dot(b, span, motion);
@@ -187,19 +243,21 @@ void sw_system_stiffness_times(const sw_system *s, size_t body, const double *mo
 }
 
 SW_HOT
-static void mass_times(size_t n, const double *restrict own, const double *restrict next,
+static void mass_times(size_t n, size_t w, const double *restrict own, const double *restrict next,
                        const double *restrict x, double *restrict y) {
   for (size_t i = 0; i < n; i++)
-    for (size_t k = 0; k < 3; k++) y[3 * i + k] = own[i] * x[3 * i + k];
+    for (size_t k = 0; k < 3; k++) y[w * i + k] = own[i] * x[w * i + k];
   for (size_t i = 0; i + 1 < n; i++)
     for (size_t k = 0; k < 3; k++) {
-      y[3 * i + k] += next[i] * x[3 * i + 3 + k];
-      y[3 * i + 3 + k] += next[i] * x[3 * i + k];
+      y[w * i + k] += next[i] * x[w * (i + 1) + k];
+      y[w * (i + 1) + k] += next[i] * x[w * i + k];
     }
 }
 
 void sw_system_mass_times(const sw_system *s, size_t body, const double *motion, double *out) {
-  const sw_plan *p = s->bodies[body].plan;
-  mass_times(p->nodes, p->mass_own, p->mass_next, motion, out);
+  const sw_body *b = &s->bodies[body];
+  const sw_plan *p = b->plan;
+  mass_times(p->nodes, width_of(b), p->mass_own, p->mass_next, motion, out);
+  if (b->spin_block) sw_spin_mass_times(b, motion, out);
   sw_system_fix_held(s, body, out);
 }

@@ -3,8 +3,8 @@
  * update carries it along with the tangent and turns it about the tangent, so
  * that many turns have no branch and no drift. Only the twist of hinges needs its
  * last value, to tell which of the equal angles is meant; valid while an
- * iteration turns no hinge by more than pi. Spins have no inertia: torsional waves
- * are much faster than what a wire does in handling. */
+ * iteration turns no hinge by more than pi. Spins have no inertia, torsional waves
+ * being much faster than what a wire does in handling, unless it rolls (roll.h). */
 #include "system/spin.h"
 
 #include <math.h>
@@ -12,13 +12,9 @@
 
 #include "base/alloc.h"
 #include "base/simd.h"
-#include "solve/band3.h"
 #include "solve/band4.h"
 #include "state/hinge.h"
-
-/* Stiffness against spin where nothing else holds it, of an edge's own [-]. It is
- * in the matrix only, so that equilibria stay exact. */
-static const double LEAST_STIFFNESS = 1e-9;
+#include "system/roll.h"
 
 size_t sw_spin_state_size(const sw_plan *p) {
   return p->rest_bend ? 3 * p->edges + p->nodes + p->clamp_count : 0;
@@ -44,7 +40,7 @@ sw_status sw_spin_new(sw_body *b) {
   b->spin_delta = w + 12 * stride;
   b->spin_rows = b->spin_delta + 4 * n;
   for (size_t k = 0; k < 3; k++) b->field.normals[k] = b->spin_normal[k];
-  return SW_OK;
+  return sw_roll_new(b);
 }
 
 static sw_vec direction(const double *x, size_t e) {
@@ -66,13 +62,14 @@ void sw_spin_begin(sw_system *s, sw_body *b) {
     memcpy(b->spin_normal[k], state + k * p->edges, p->edges * sizeof *state);
   memcpy(b->spin_twist, state + 3 * p->edges, (p->nodes + p->clamp_count) * sizeof *state);
   for (size_t e = 0; e < p->edges; e++) set(b->spin_tangent, e, direction(x, e));
+  sw_roll_begin(s, b);
 }
 
 void sw_spin_slow_down(sw_system *s, double rate2) {
   for (size_t k = 0; k < s->body_count; k++) {
     sw_body *b = &s->bodies[k];
     const sw_beam *beam = &b->plan->beam;
-    if (!b->spin_block) continue;
+    if (!b->spin_block || b->roll_block) continue;
     sw_spin_begin(s, b);
     b->spin_inertia = 0.5 * beam->mass * beam->radius * beam->radius * rate2;
   }
@@ -83,8 +80,7 @@ static sw_vec state_normal(const sw_system *s, const sw_body *b, size_t e) {
   return sw_v(state[0], state[b->plan->edges], state[2 * b->plan->edges]);
 }
 
-/* How far edge e has turned about itself since the state. */
-static double turned(const sw_system *s, const sw_body *b, size_t e) {
+double sw_spin_turned(const sw_system *s, const sw_body *b, size_t e) {
   const sw_vec before = direction(s->x + 3 * b->first_node, e), t = get(b->spin_tangent, e);
   const sw_vec n = sw_carry_unit(state_normal(s, b, e), before, t);
   const sw_vec now = get(b->spin_normal, e);
@@ -138,31 +134,33 @@ static void measure_twist(const sw_system *s, sw_body *b) {
   }
 }
 
+long sw_spin_held_edge(const sw_system *s, const sw_body *b, size_t number) {
+  if (number + 1 >= s->held_count) return -1;
+  const sw_held_node *h = &s->held[number], *next = h + 1;
+  if (&s->bodies[h->body] != b || next->hold != h->hold || next->node != h->node + 1) return -1;
+  return (long)(h->node - b->first_node);
+}
+
 /* Edges between two nodes of one hold turn with it. */
 static void turn_held_edges(const sw_system *s, sw_body *b) {
   for (size_t i = 0; i + 1 < s->held_count; i++) {
+    const long held = sw_spin_held_edge(s, b, i);
+    if (held < 0) continue;
+    const size_t e = (size_t)held;
     const sw_held_node *h = &s->held[i];
-    if (&s->bodies[h->body] != b || s->held[i + 1].hold != h->hold ||
-        s->held[i + 1].node != h->node + 1)
-      continue;
-    const size_t e = h->node - b->first_node;
     const double *q = s->turn + 4 * h->hold;
     const sw_quat before = {q[0], q[1], q[2], q[3]};
     const sw_vec n =
         sw_rotate(s->hold_states[h->hold].pose.q, sw_unrotate(before, state_normal(s, b, e)));
     const sw_vec t = get(b->spin_tangent, e);
     set(b->spin_normal, e, sw_unit_or(sw_madd(n, t, -sw_dot(n, t)), sw_perpendicular(t)));
+    if (b->roll_block)
+      b->roll_turn[e] += remainder(sw_spin_turned(s, b, e) - b->roll_turn[e], 6.283185307179586477);
   }
 }
 
 static sw_vec square_up(sw_vec n, sw_vec t) {
   return sw_unit_or(sw_madd(n, t, -sw_dot(n, t)), sw_perpendicular(t));
-}
-
-static void carry_edge(sw_body *b, size_t e, sw_vec t) {
-  const sw_vec before = get(b->spin_tangent, e), n = get(b->spin_normal, e);
-  set(b->spin_normal, e, sw_carry_unit(n, before, t));
-  set(b->spin_tangent, e, t);
 }
 
 /* sw_carry_unit for all edges, with its usual case only. Counts the others. */
@@ -186,6 +184,36 @@ static long carry_all(size_t m, const double *restrict tx, const double *restric
   return others;
 }
 
+/* Directions of all edges. */
+SW_HOT
+static void directions(size_t m, const double *restrict x, double *restrict tx, double *restrict ty,
+                       double *restrict tz) {
+  for (size_t e = 0; e < m; e++) {
+    const double dx = x[3 * e + 3] - x[3 * e], dy = x[3 * e + 4] - x[3 * e + 1];
+    const double dz = x[3 * e + 5] - x[3 * e + 2];
+    const double r = 1.0 / sqrt(dx * dx + dy * dy + dz * dz);
+    tx[e] = dx * r, ty[e] = dy * r, tz[e] = dz * r;
+  }
+}
+
+/* Carry all frames on to tangents t. */
+static void carry_on(sw_body *b, double *const t[3]) {
+  double *const *o = b->spin_tangent, *const *n = b->spin_normal;
+  const size_t m = b->plan->edges;
+  sw_roll_carry(b, t);
+  if (carry_all(m, t[0], t[1], t[2], o[0], o[1], o[2], n[0], n[1], n[2]))
+    for (size_t e = 0; e < m; e++) /* what was not quite a frame becomes one */
+      set(n, e, square_up(get(n, e), get(t, e)));
+  for (size_t k = 0; k < 3; k++) memcpy(o[k], t[k], m * sizeof(double));
+}
+
+/* The same to positions x of the body. */
+static void carry_to(sw_body *b, const double *x) {
+  double *const *t = b->field.scratch;
+  directions(b->plan->edges, x, t[0], t[1], t[2]);
+  carry_on(b, t);
+}
+
 static void point_field(const sw_system *s, sw_body *b, const double *normals, long stride,
                         const double *twist) {
   for (long k = 0; k < 3; k++) b->field.normals[k] = normals + k * stride;
@@ -194,12 +222,7 @@ static void point_field(const sw_system *s, sw_body *b, const double *normals, l
 }
 
 void sw_spin_carry(sw_system *s, sw_body *b) {
-  double *const *t = b->field.tangent, *const *o = b->spin_tangent, *const *n = b->spin_normal;
-  const size_t m = b->plan->edges;
-  if (carry_all(m, t[0], t[1], t[2], o[0], o[1], o[2], n[0], n[1], n[2]))
-    for (size_t e = 0; e < m; e++) /* what was not quite a frame becomes one */
-      set(n, e, square_up(get(n, e), get(t, e)));
-  for (size_t k = 0; k < 3; k++) memcpy(o[k], t[k], m * sizeof(double));
+  carry_on(b, b->field.tangent);
   turn_held_edges(s, b);
   measure_twist(s, b);
   point_field(s, b, b->spin_normal[0], b->spin_normal[1] - b->spin_normal[0], b->spin_twist);
@@ -215,14 +238,32 @@ static void store(sw_system *s, sw_body *b) {
 }
 
 void sw_spin_take(sw_system *s, sw_body *b, const double *x) {
-  for (size_t e = 0; e < b->plan->edges; e++) carry_edge(b, e, direction(x, e));
+  carry_to(b, x);
   store(s, b);
 }
 
 void sw_spin_follow(sw_system *s, sw_body *b, const double *x) {
-  for (size_t e = 0; e < b->plan->edges; e++) carry_edge(b, e, direction(x, e));
+  carry_to(b, x + 3 * b->first_node);
+  if (b->roll_block) { /* where a method's result is not its last stage */
+    sw_roll_rest(s, b, x, b->field.scratch[0]);
+    sw_spin_turn_by(b, b->field.scratch[0], 1, 1.0);
+  }
   turn_held_edges(s, b);
   store(s, b);
+}
+
+void sw_spin_begin_stage(sw_system *s, double rate2) {
+  for (size_t k = 0; k < s->body_count; k++) sw_roll_predict(s, &s->bodies[k], rate2);
+}
+
+void sw_spin_end_stage(sw_system *s, double *y) {
+  for (size_t k = 0; k < s->body_count; k++) {
+    sw_body *b = &s->bodies[k];
+    if (!b->roll_block) continue;
+    carry_to(b, y + 3 * b->first_node);
+    turn_held_edges(s, b);
+    sw_roll_store(s, b, y);
+  }
 }
 
 void sw_spin_show(sw_system *s, sw_body *b) {
@@ -230,92 +271,12 @@ void sw_spin_show(sw_system *s, sw_body *b) {
   point_field(s, b, state_of(s, b), (long)m, state_of(s, b) + 3 * m);
 }
 
-/* --- the matrix ----------------------------------------------------------------- */
+void sw_spin_turn(sw_body *b, double share) { sw_spin_turn_by(b, b->spin_delta + 3, 4, share); }
 
-/* A block of three by three becomes one of four by four. */
-static inline void widen_block(const double *restrict u, double *restrict out) {
-  out[0] = u[0], out[1] = u[1], out[2] = u[2], out[3] = 0;
-  out[4] = u[3], out[5] = u[4], out[6] = u[5], out[7] = 0;
-  out[8] = u[6], out[9] = u[7], out[10] = u[8], out[11] = 0;
-  out[12] = out[13] = out[14] = out[15] = 0;
-}
-
-static inline void widen(const double *restrict row, double *restrict out) {
-  const double own[9] = {row[0], row[1], row[2], row[1], row[3], row[4], row[2], row[4], row[5]};
-  widen_block(own, out);
-  widen_block(row + SW_ROW_NEXT, out + SW_ROW4_NEXT);
-  widen_block(row + SW_ROW_SECOND, out + SW_ROW4_SECOND);
-}
-
-/* The couplings of edge e to the spins of edges e, e - 1, e + 1, at both its nodes. */
-static inline void add_couplings(const sw_body *b, size_t e) {
-  const sw_field *f = &b->field;
-  double *row = b->spin_rows + SW_ROW4_SIZE * e, *after = row + SW_ROW4_SIZE;
-  double *const *c = f->spin_edge;
-  const double own[3] = {c[0][e], c[1][e], c[2][e]}, back[3] = {c[3][e], c[4][e], c[5][e]};
-  const double ahead[3] = {c[6][e + 1], c[7][e + 1], c[8][e + 1]};
-  const int first = b->plan->held[e] == SW_FREE, last = b->plan->held[e + 1] == SW_FREE;
-  for (int k = 0; k < 3; k++) {
-    if (first) {
-      row[4 * k + 3] -= own[k], row[12 + k] -= own[k];
-      if (e > 0) (row - SW_ROW4_SIZE)[SW_ROW4_NEXT + 12 + k] -= back[k];
-      row[SW_ROW4_NEXT + 4 * k + 3] -= ahead[k];
-    }
-    if (last) {
-      row[SW_ROW4_NEXT + 12 + k] += own[k];
-      if (e > 0) (row - SW_ROW4_SIZE)[SW_ROW4_SECOND + 12 + k] += back[k];
-      after[4 * k + 3] += ahead[k], after[12 + k] += ahead[k];
-    }
-  }
-}
-
-SW_HOT
-static void assemble(const sw_body *b) {
-  const sw_field *f = &b->field;
-  const sw_plan *p = b->plan;
-  for (size_t i = 0; i < p->nodes; i++)
-    widen(f->rows + SW_ROW_SIZE * i, b->spin_rows + SW_ROW4_SIZE * i);
-  for (size_t e = 0; e < p->edges; e++) {
-    double *row = b->spin_rows + SW_ROW4_SIZE * e;
-    add_couplings(b, e);
-    row[15] = f->spin_own[e] + LEAST_STIFFNESS * p->beam.GJ / p->rest[e];
-    row[SW_ROW4_NEXT + 15] = e + 1 < p->edges ? f->spin_next[e + 1] : 0.0;
-  }
-  b->spin_rows[SW_ROW4_SIZE * p->edges + 15] = 1.0; /* no edge starts at the last node */
-}
-
-sw_status sw_spin_solve(const sw_system *s, sw_body *b, double *delta, size_t *negative) {
-  const size_t n = b->plan->nodes;
-  double *d = b->spin_delta;
-  assemble(b);
-  for (size_t i = 0; i < n; i++) {
-    for (size_t k = 0; k < 3; k++) d[4 * i + k] = delta[3 * i + k];
-    d[4 * i + 3] = i + 1 < n ? -b->field.spin[i] : 0.0;
-  }
-  for (size_t e = 0; b->spin_inertia > 0 && e + 1 < n; e++) {
-    const double inertia = b->spin_inertia * b->plan->rest[e];
-    b->spin_rows[SW_ROW4_SIZE * e + 15] += inertia;
-    d[4 * e + 3] -= inertia * turned(s, b, e);
-  }
-  SW_TRY(sw_band4_factor(b->spin_rows, n, negative));
-  sw_band4_solve(b->spin_rows, n, d);
-  for (size_t i = 0; i < n; i++)
-    for (size_t k = 0; k < 3; k++) delta[3 * i + k] = d[4 * i + k];
-  return SW_OK;
-}
-
-double sw_spin_largest(const sw_body *b) {
-  double most = 0;
+void sw_spin_turn_by(sw_body *b, const double *turns, size_t stride, double share) {
+  sw_roll_add(b, turns, stride, share);
   for (size_t e = 0; e < b->plan->edges; e++) {
-    const double turn = fabs(b->spin_delta[4 * e + 3]);
-    if (!(turn <= most)) most = turn;
-  }
-  return most;
-}
-
-void sw_spin_turn(sw_body *b, double share) {
-  for (size_t e = 0; e < b->plan->edges; e++) {
-    const double angle = share * b->spin_delta[4 * e + 3];
+    const double angle = share * turns[stride * e];
     if (angle == 0) continue;
     const sw_vec n = get(b->spin_normal, e), t = get(b->spin_tangent, e);
     const double a2 = angle * angle;
@@ -325,25 +286,4 @@ void sw_spin_turn(sw_body *b, double share) {
         small ? angle * (1.0 - a2 * (1.0 / 6 - a2 * (1.0 / 120 - a2 / 5040))) : sin(angle);
     set(b->spin_normal, e, sw_madd(sw_scale(n, c), sw_cross(t, n), sine));
   }
-}
-
-static sw_vec coupling(const sw_field *f, int kind, size_t at) {
-  double *const *c = f->spin_edge + 3 * kind;
-  return sw_v(c[0][at], c[1][at], c[2][at]);
-}
-
-/* Change of the gradient of edge e by the spins of the last solve. */
-static sw_vec spin_push(const sw_body *b, size_t e) {
-  const sw_field *f = &b->field;
-  const double *d = b->spin_delta + 4 * e;
-  sw_vec sum = sw_scale(coupling(f, 0, e), d[3]);
-  if (e > 0) sum = sw_madd(sum, coupling(f, 1, e), *(d - 1));
-  if (e + 1 < b->plan->edges) sum = sw_madd(sum, coupling(f, 2, e + 1), d[7]);
-  return sum;
-}
-
-void sw_spin_react(sw_held_node *h, const sw_body *b) {
-  const size_t i = h->node - b->first_node;
-  if (i > 0) h->reaction = sw_add(h->reaction, spin_push(b, i - 1));
-  if (i < b->plan->edges) h->reaction = sw_sub(h->reaction, spin_push(b, i));
 }

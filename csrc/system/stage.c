@@ -225,14 +225,21 @@ static int drowned_in_rounding(const sw_system *s, const sw_stage *stage, int st
 
 static int converged(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                      const sw_stage_report *report, double share) {
-  if (share < 1.0 || report->rotation > newton->accept_rotation) return 0;
+  if (share < 1.0) return 0;
+  /* contact is told of rough updates too where these are usual, at rest and when rolling:
+   * the next iteration goes on from what it finds */
+  s->rough = report->rotation > newton->accept_rotation;
+  if (s->rough && !newton->statics && !s->rolls) return 0;
+  const int settled =
+      !s->coupling.settled || s->coupling.settled(s->coupling.user, s, stage->y, s->delta);
+  if (!settled || s->rough) return 0;
   if (newton->statics && largest_shift(s) > newton->accept_shift) return 0;
   if (drowned_in_rounding(s, stage, newton->statics)) return 0;
   for (size_t b = 0; b < s->body_count; b++)
     if ((s->bodies[b].is_explicit || s->bodies[b].is_kinked) &&
         largest_shift(s) > FIXED_POINT * s->bodies[b].plan->length)
       return 0;
-  return !s->coupling.settled || s->coupling.settled(s->coupling.user, s, stage->y, s->delta);
+  return 1;
 }
 
 /* Newton starts from the free flight yhat. Where that turns an edge over or
@@ -266,7 +273,7 @@ static sw_status check_start(const sw_system *s, const double *y, sw_error *err)
 
 static sw_status begin(sw_system *s, const sw_stage *stage, int statics, sw_error *err) {
   const double h = statics ? 0.0 : stage->hbar;
-  for (size_t i = 0; i < 3 * s->nodes; i++)
+  for (size_t i = 0; i < s->freedoms; i++)
     stage->y[i] = s->yhat[i] = stage->xhat[i] + h * stage->vhat[i];
   SW_TRY(sw_system_place_holds(s, stage->time, stage->y, stage->v, stage->a, err));
   for (size_t k = 0; k < s->held_count; k++)
@@ -275,6 +282,7 @@ static sw_status begin(sw_system *s, const sw_stage *stage, int statics, sw_erro
       s->yhat[i] = stage->y[i] - h * h * (stage->a ? stage->a[i] : 0.0);
     }
   if (!statics) SW_TRY(check_start(s, stage->y, err));
+  sw_spin_begin_stage(s, isfinite(stage->hbar) ? 1.0 / (stage->hbar * stage->hbar) : 0.0);
   if (s->coupling.begin_stage)
     SW_TRY(s->coupling.begin_stage(s->coupling.user, s, stage->time, stage->hbar, stage->y, err));
   return SW_OK;
@@ -293,10 +301,11 @@ static void stage_rates(size_t n, double rate, const double *restrict y,
 
 static void finish(sw_system *s, const sw_stage *stage, int statics) {
   const double rate = statics || !isfinite(stage->hbar) ? 0.0 : 1.0 / stage->hbar;
+  sw_spin_end_stage(s, stage->y);
   if (stage->a)
-    stage_rates(3 * s->nodes, rate, stage->y, stage->xhat, s->yhat, stage->v, stage->a);
+    stage_rates(s->freedoms, rate, stage->y, stage->xhat, s->yhat, stage->v, stage->a);
   else
-    for (size_t i = 0; i < 3 * s->nodes; i++) stage->v[i] = (stage->y[i] - stage->xhat[i]) * rate;
+    for (size_t i = 0; i < s->freedoms; i++) stage->v[i] = (stage->y[i] - stage->xhat[i]) * rate;
   for (size_t k = 0; k < s->held_count; k++) {
     sw_held_node *h = &s->held[k];
     update_reaction(h, &s->bodies[h->body], s->delta);

@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "system/link.h"
+#include "system/roll.h"
 #include "system/spin.h"
 #include "system/twist.h"
 
@@ -16,6 +17,7 @@ void sw_system_free(sw_system *system) {
     sw_free(system->bodies[b].terms);
     sw_free(system->bodies[b].twist_block);
     sw_free(system->bodies[b].spin_block);
+    sw_free(system->bodies[b].roll_block);
   }
   sw_links_free(system);
   sw_free(system->bodies);
@@ -41,17 +43,20 @@ static sw_status new_bodies(sw_system *s, sw_plan *const *plans, size_t count) {
     body->first_span = s->span_count;
     s->span_count += plans[b]->span_count;
     SW_TRY(sw_spin_new(body));
+    body->first_roll = s->rolls;
+    if (body->roll_block) s->rolls += plans[b]->edges;
     s->nodes += plans[b]->nodes;
     s->edges += plans[b]->edges;
   }
+  s->freedoms = 3 * s->nodes + s->rolls;
   return SW_OK;
 }
 
 static void lay_out(sw_system *s) {
   s->x = s->state;
-  s->v = s->x + 3 * s->nodes;
-  s->a = s->v + 3 * s->nodes;
-  s->tension = s->a + 3 * s->nodes;
+  s->v = s->x + s->freedoms;
+  s->a = s->v + s->freedoms;
+  s->tension = s->a + s->freedoms;
   s->twist = s->tension + s->edges;
   s->turn = s->twist + s->span_count;
   s->frames = s->turn + 4 * s->hold_count;
@@ -66,14 +71,14 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
   s->held = sw_alloc(held, sizeof *s->held);
   s->directors = sw_alloc(30 * hold_count, sizeof(double));
   s->hold_states = sw_alloc(hold_count, sizeof *s->hold_states);
-  s->state_size = 9 * s->nodes + s->edges + s->span_count + 4 * hold_count;
+  s->state_size = 3 * s->freedoms + s->edges + s->span_count + 4 * hold_count;
   const size_t frames = s->state_size;
   for (size_t b = 0; b < s->body_count; b++) {
     s->bodies[b].first_frame = s->state_size - frames;
     s->state_size += sw_spin_state_size(s->bodies[b].plan);
   }
   s->state = sw_alloc(s->state_size, sizeof(double));
-  double *w = sw_alloc(9 * s->nodes + s->edges, sizeof(double));
+  double *w = sw_alloc(3 * s->freedoms + s->edges, sizeof(double));
   s->work = w;
   if (!s->held || !s->directors || !s->hold_states || !s->state || !w) return SW_ENOMEM;
   s->directors_now = s->directors + 6 * hold_count;
@@ -82,9 +87,9 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
   s->normals_now = s->directors + 24 * hold_count;
   lay_out(s);
   s->yhat = w;
-  s->delta = s->yhat + 3 * s->nodes;
-  s->velocity = s->delta + 3 * s->nodes;
-  s->tension_new = s->velocity + 3 * s->nodes;
+  s->delta = s->yhat + s->freedoms;
+  s->velocity = s->delta + s->freedoms;
+  s->tension_new = s->velocity + s->freedoms;
   return SW_OK;
 }
 
@@ -280,6 +285,7 @@ double sw_system_kinetic(const sw_system *s, int lumped) {
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_plan *p = s->bodies[b].plan;
     const double *v = s->v + 3 * s->bodies[b].first_node;
+    sum += sw_roll_kinetic(s, &s->bodies[b]);
     for (size_t i = 0; i < p->nodes; i++) {
       const sw_vec vi = sw_load(v + 3 * i);
       sum += 0.5 * (lumped ? p->lumped[i] : p->mass_own[i]) * sw_norm2(vi);

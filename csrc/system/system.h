@@ -44,11 +44,16 @@ typedef struct sw_body {
   double *spin_delta; /* (nodes x 4) last update: nodes and turns of edges [m], [rad] */
   double *spin_rows;  /* (nodes x SW_ROW4_SIZE) */
   void *spin_block;
-  double spin_inertia; /* of an edge per length over hbar^2, where spins find no rest [N] */
-  int needs_velocity;  /* some force depends on it */
-  int is_explicit;     /* some force has no stiffness */
-  int is_kinked;       /* some force has a history: its stiffness jumps */
-  int linked;          /* its matrix is part of the links' (see system/link.h) */
+  double spin_inertia;  /* of an edge per length over hbar^2, of a wire that rolls or where spins
+                         * find no rest [N] */
+  size_t first_roll;    /* a wire that rolls: place of its edges' turns in the system's, */
+  double *roll_turn;    /* (edges) turn since the state, along the way straight from there [rad]; */
+  double *roll_from[3]; /* (edges) the state's tangents; NULL for other wires [-] */
+  void *roll_block;
+  int needs_velocity; /* some force depends on it */
+  int is_explicit;    /* some force has no stiffness */
+  int is_kinked;      /* some force has a history: its stiffness jumps */
+  int linked;         /* its matrix is part of the links' (see system/link.h) */
 } sw_body;
 
 /* Where a hold is, for all nodes it holds. */
@@ -93,6 +98,8 @@ typedef struct sw_counters {
 
 struct sw_system {
   size_t nodes, edges;
+  size_t rolls;    /* edges of wires that roll */
+  size_t freedoms; /* values in each of x, v, a: 3 x nodes + rolls */
   sw_body *bodies;
   size_t body_count;
   sw_held_node *held;
@@ -103,23 +110,24 @@ struct sw_system {
   double *normals, *normals_now; /* the same: the wire's normals at the holds */
   double fastest_turn;           /* of a hold in this step so far [rad/s] */
   int still;                     /* 1: holds count as standing, whatever they follow (statics) */
-  sw_hold_state *hold_states;    /* (hold_count) at the last stage */
+  int rough; /* 1: the last update turned edges by too much to be the stage's last */
+  sw_hold_state *hold_states; /* (hold_count) at the last stage */
   size_t hold_count;
   double gravity[3]; /* [m/s2] */
   sw_coupling coupling;
   struct sw_links *links; /* between bodies, or NULL while there never were any */
   sw_counters counters;
 
-  /* the state, one block: x v a (nodes x 3 each), tension (edges), twist
-   * (spans) [rad], turn (holds x 4: the holds' orientations that go with it), frames
-   * of each body that has them (3 components of all edges, then hinges' and clamps' twist [rad]),
-   * forces' histories */
+  /* the state, one block: x v a (nodes x 3, then turns of edges that roll, each), tension (edges),
+   * twist (spans) [rad], turn (holds x 4: the holds' orientations that go with it), frames of each
+   * body that has them (3 components of all edges, then hinges' and clamps' twist [rad]), forces'
+   * histories */
   double *state;
   size_t state_size; /* in doubles */
   double *x, *v, *a, *tension, *twist, *turn, *frames;
   size_t span_count;
 
-  /* work space of a stage (nodes x 3) */
+  /* work space of a stage (freedoms) */
   double *yhat, *delta, *velocity;
   double *tension_new; /* (edges) */
   void *work;
@@ -137,7 +145,7 @@ typedef struct sw_newton {
 typedef struct sw_stage {
   double time;        /* at the stage's end [s] */
   double hbar;        /* [s] */
-  const double *xhat; /* (nodes x 3): velocity = (y - xhat)/hbar [m] */
+  const double *xhat; /* (freedoms): velocity = (y - xhat)/hbar [m], [rad] */
   const double *vhat; /* (nodes x 3): acceleration = (velocity - vhat)/hbar [m/s] */
   double *y;          /* out: positions [m] */
   double *v;          /* out: velocities [m/s] */

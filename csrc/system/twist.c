@@ -221,7 +221,7 @@ void sw_system_take_turns(sw_system *s) {
 void sw_system_follow(sw_system *s, const double *x) {
   for (size_t b = 0; b < s->body_count; b++) {
     sw_body *body = &s->bodies[b];
-    if (body->spin_block) sw_spin_follow(s, body, x + 3 * body->first_node);
+    if (body->spin_block) sw_spin_follow(s, body, x);
     for (size_t k = 0; body->has_twist && k < body->plan->span_count; k++)
       s->twist[body->first_span + k] +=
           span_change(s, body, &body->plan->spans[k], x + 3 * body->first_node);

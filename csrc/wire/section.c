@@ -23,12 +23,27 @@ static const sw_param rows[] = {
     {"nu", SW_PARAM_NUMBER, "-", NAN, -1, 0.5, SW_PARAM_ABOVE_MIN, NULL, offsetof(sw_section, nu),
      "Poisson's ratio of a solid round wire (0.35 when not given)"},
     POSITIVE(density, "kg/m3", "density of a solid round wire"),
+    POSITIVE(spin_inertia, "kg m",
+             "with rolls: inertia per length against turning about the axis (that of a solid wire, "
+             "mass_per_length radius^2/2, when not given)"),
 };
 
 const sw_params sw_section_params = SW_PARAMS("wire", rows);
 
 static const double PI = 3.14159265358979323846;
 static const double USUAL_POISSON = 0.35; /* cable polymers lie between 0.3 and 0.45 [-] */
+
+/* No part of the section is outside of the radius. */
+static sw_status set_spin_inertia(const char *object, const sw_section *c, sw_beam *out,
+                                  sw_error *err) {
+  const double most = out->mass * c->radius * c->radius;
+  out->spin_inertia = isnan(c->spin_inertia) ? 0.5 * most : c->spin_inertia;
+  if (out->spin_inertia <= most * (1 + 1e-9)) return SW_OK;
+  return sw_fail(err, SW_EINVAL,
+                 "%s: spin_inertia = %.6g kg m must be in (0, %.6g] kg m, mass_per_length times "
+                 "radius^2",
+                 object, out->spin_inertia, most);
+}
 
 sw_status sw_section_beam(const char *object, const sw_section *c, sw_beam *out, sw_error *err) {
   if (isnan(c->radius))
@@ -56,5 +71,5 @@ sw_status sw_section_beam(const char *object, const sw_section *c, sw_beam *out,
   if (out->framed && isnan(c->GJ))
     return sw_fail(err, SW_EINVAL, "%s: two values of EI need GJ too [N m2]", object);
   out->EI = fmin(out->EI_axis[0], out->EI_axis[1]);
-  return SW_OK;
+  return set_spin_inertia(object, c, out, err);
 }

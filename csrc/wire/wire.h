@@ -44,6 +44,7 @@ typedef struct sw_section {
   double E;               /* Young's modulus [Pa] */
   double nu;              /* Poisson's ratio [-] */
   double density;         /* [kg/m3] */
+  double spin_inertia;    /* of turning about the axis, per length [kg m] */
 } sw_section;
 
 extern const sw_params sw_section_params; /* rows of sw_section */

@@ -84,10 +84,7 @@ end
 local edge, node_steps, least_steps = 0.01, 1e6, 20 -- [m], [-], [-]
 
 -- A wavy wire between two pins starts to fall: nothing of it is straight or at rest.
-benchcases.scale = { name = "scale", title = "Cost of a node, 10 mm edges", static = false,
-  unit = "", weigh = true }
-
-function benchcases.scale.make(config)
+local function wavy(config, changes)
   local sw = require "softworld"
   local n, points = config.segments, {}
   for i = 0, n do
@@ -95,16 +92,28 @@ function benchcases.scale.make(config)
     points[i + 1] = { s * 0.99, 0, 0.02 * math.sin(4 * s) }
   end
   local scene = sw.scene{ name = "scale" }
-  local wire = scene:wire{ model = config.model, segments = n, E = 9.4176e8, density = 1500,
-    radius = 0.0025, path = points }
+  local wanted = { model = config.model, segments = n, E = 9.4176e8, density = 1500, radius = 0.0025,
+    path = points }
+  for key, value in pairs(changes) do wanted[key] = value end
+  local wire = scene:wire(wanted)
   scene:pin(wire, { s = 0 })
   scene:pin(wire, { s = wire.length })
   local steps = math.min(1000, math.max(least_steps, node_steps / n))
   return { scene = scene, wire = wire, duration = steps * config.dt }
 end
 
-function benchcases.scale.run(state, options) return state.scene:advance(options, state.duration) end
+local function weighed(name, title, changes)
+  benchcases[name] = { name = name, title = "Cost of a node, 10 mm edges" .. title, static = false,
+    unit = "", weigh = true,
+    make = function(config) return wavy(config, changes) end,
+    run = function(state, options) return state.scene:advance(options, state.duration) end,
+    judge = function(_, row) row.error = "" end,
+  }
+end
 
-function benchcases.scale.judge(_, row) row.error = "" end
+weighed("scale", "", {})
+weighed("curved", ", curved at rest", { rest = "path" })
+weighed("flat", ", two values of EI", { EI = { 0.0289, 0.0280 }, GJ = 0.02, normal = { 0, 1, 0 } })
+weighed("rolling", ", that rolls", { rolls = true })
 
 return benchcases

@@ -76,6 +76,18 @@ local acts = {
     clamp:follow{ points = { { 0, 0, 0, t = 0 }, { 0, 0, 0.1, t = 1 }, { 0.1, 0, 0.1, t = 2 } },
       law = "spline" }
   end },
+  { "rolling, with a clamp put on", function()
+    local scene <close> = sw.scene{}
+    scene:obstacle{ shape = "plane", rotation = { axis = { 1, 0, 0 }, angle = 0.3 } }
+    local wire = scene:wire{ E = 1e8, density = 1e3, radius = 1e-3, from = { 0, 0, 0.0011 },
+      to = { 0.2, 0, 0.0011 }, segments = 5, rolls = true }
+    scene:run{ duration = 0.02, dt = 0.01 }
+    local snapshot = scene:snapshot()
+    scene:clamp(wire, { s = 0.11 })
+    scene:run{ duration = 0.02, dt = 0.01 }
+    scene:restore(snapshot)
+    return wire:spin(0.1)
+  end },
   { "a whole script", function()
     local scene <close> = sw.scene{}
     local wire = scene:wire(WIRE)

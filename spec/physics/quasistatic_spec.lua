@@ -80,6 +80,40 @@ describe("a quasi-static run", function()
     assert.is_true(math.abs(coarse - fine) <= 0.05, coarse .. " and " .. fine)
   end)
 
+  local function on_belt(held, way, dt)
+    local s, mu = sw.scene{}, 0.3
+    local belt = s:obstacle{ shape = "box", size = { 4, 4, 0.1 }, at = { 0, 0, -0.05 }, friction = mu }
+    local w = s:wire{ EA = 1e3, EI = 1e-3, mass_per_length = 0.03, radius = 0.0025,
+      from = { 0, 0, 0.0025 }, to = { 1, 0, 0.0025 }, segments = 40 }
+    assert.is_true(s:settle().ok)
+    local clamp = held and s:clamp(w, { s = 0 })
+    belt:follow{ points = { { 0, 0, 0 }, way }, relative = true, duration = 1 }
+    local run = s:run{ duration = 1, dt = dt, quasistatic = true }
+    assert.is_true(run.ok, run.reason)
+    return w, clamp, mu * 0.03 * 9.81
+  end
+
+  it("lets a table that moves carry what lies on it", function()
+    for _, dt in ipairs{ 0.5, 0.05 } do
+      local w = on_belt(false, { 0.1, 0.2, 0 }, dt)
+      for _, at in ipairs{ 0, 0.5, 1 } do
+        local p = w:position(at)
+        assert.is_true(math.abs(p[1] - at - 0.1) < 1e-6 and math.abs(p[2] - 0.2) < 1e-6)
+      end
+    end
+  end)
+
+  it("lets it pull at what is held, with friction up to the end", function()
+    for _, dt in ipairs{ 0.5, 0.05 } do
+      local w, clamp, friction = on_belt(true, { 0.01, 0, 0 }, dt)
+      for at = 0.1, 0.9, 0.1 do
+        local exact = friction * (1 - at)
+        assert.is_true(math.abs(w:tension(at) - exact) < 0.02 * friction, "tension at " .. at)
+      end
+      assert.is_true(math.abs(clamp:force()[1] / -friction - 1) < 0.03, "force " .. clamp:force()[1])
+    end
+  end)
+
   it("refuses a tolerance, which is about motion", function()
     local s = sw.scene{}
     s:wire{ E = 1e8, density = 1400, radius = 0.0025, from = { 0, 0, 0 }, to = { 1, 0, 0 } }

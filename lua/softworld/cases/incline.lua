@@ -1,7 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- A rod lies along the fall line of a rough slope and is let go.
--- Options: angle [deg] (20), friction (0.3). run{ duration =, dt = }.
--- exact.acceleration = max(0, g (sin - mu cos)) [m/s2]; exact.threshold = tan(angle).
+-- Options: angle [deg] (20), friction (0.3), across (false): it lies across the slope and rolls.
+-- run{ duration =, dt = }.
+-- exact.acceleration = max(0, g (sin - mu cos)) [m/s2]; exact.threshold = tan(angle). Across:
+-- 2/3 g sin above the threshold tan(angle)/3, below it as above.
 -- error(): of the distance gone, over g t^2/2 [-].
 -- @module softworld.cases.incline
 local sw = require "softworld"
@@ -18,10 +20,13 @@ return function(options)
     rotation = slope.quaternion }
   local wire = scene:wire{ E = options.E or 1e8, density = 1500, radius = radius,
     segments = options.segments or 20, model = options.model,
-    from = slope.point(0, 0, radius), to = slope.point(0.5, 0, radius) }
-  local a = f.g * (math.sin(angle) - mu * math.cos(angle))
+    rolls = options.across, from = slope.point(0, 0, radius),
+    to = options.across and slope.point(0, 0.5, radius) or slope.point(0.5, 0, radius) }
+  local a = math.max(0, f.g * (math.sin(angle) - mu * math.cos(angle)))
+  local threshold = math.tan(angle) / (options.across and 3 or 1)
+  if options.across and mu >= threshold then a = 2 / 3 * f.g * math.sin(angle) end
   local c = { name = "incline", scene = scene, wire = wire, frame = slope,
-    exact = { acceleration = math.max(0, a), threshold = math.tan(angle), source = "closed form" } }
+    exact = { acceleration = a, threshold = threshold, source = "closed form" } }
 
   function c.run(o)
     local p = { duration = 0.5, dt = 0.01 }
