@@ -119,6 +119,34 @@ static int mod_begin_run(lua_State *L) {
   return 0;
 }
 
+/* core.remesh(scene, { segments of each wire }) */
+static int mod_remesh(lua_State *L) {
+  sw_scene *scene = check(L);
+  sw_error err = {""};
+  luaL_checktype(L, 2, LUA_TTABLE);
+  const size_t count = lua_rawlen(L, 2);
+  size_t *segments = lua_newuserdatauv(L, (count + 1) * sizeof *segments, 0);
+  for (size_t w = 0; w < count; w++) {
+    lua_rawgeti(L, 2, (lua_Integer)w + 1);
+    const lua_Integer n = luaL_checkinteger(L, -1);
+    segments[w] = n > 0 ? (size_t)n : 0;
+    lua_pop(L, 1);
+  }
+  lsw_must(L, sw_scene_remesh(scene, segments, count, &err), &err);
+  return 0;
+}
+
+/* core.segments(wire): even ones of its mesh, before holds added nodes. */
+static int mod_segments(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  size_t n;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  lsw_must(L, sw_scene_wire_segments(scene, w->id, &n, &err), &err);
+  lua_pushinteger(L, (lua_Integer)n);
+  return 1;
+}
+
 /* --- running ------------------------------------------------------------------- */
 
 /* scene:advance({...}, until) -> report. The clock's exact end is `until` [s]. */
@@ -407,6 +435,8 @@ static const luaL_Reg functions[] = {{"scene", mod_scene},
                                      {"nearest", mod_nearest},
                                      {"check_run", mod_check_run},
                                      {"begin_run", mod_begin_run},
+                                     {"remesh", mod_remesh},
+                                     {"segments", mod_segments},
                                      {NULL, NULL}};
 
 void lsw_open_scene(lua_State *L) { luaL_setfuncs(L, functions, 0); }

@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Other meshes for the wires of a scene: as they would have been made, where nothing has
+ * moved yet, else carried over. */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "scene/world.h"
+
+static const double SAME_PLACE = 1e-9; /* of the wire's length [-] */
+
+/* --- as drawn ---------------------------------------------------------------------- */
+
+typedef struct kept_hold {
+  size_t slot;
+  sw_scene_hold shape;
+} kept_hold;
+
+/* The wire's living holds, with copies of where they hold. */
+static sw_status keep_holds(const sw_scene *s, size_t wire, kept_hold **out, size_t *count) {
+  *count = 0;
+  *out = sw_alloc(s->hold_count, sizeof **out);
+  if (!*out) return SW_ENOMEM;
+  for (size_t k = 0; k < s->hold_count; k++) {
+    if (!s->holds[k].alive || s->holds[k].wire != wire) continue;
+    SW_TRY(sw_scene_copy_shape(&s->holds[k], &(*out)[*count].shape));
+    (*out)[(*count)++].slot = k;
+  }
+  return SW_OK;
+}
+
+/* Each hold takes the new mesh in the order in which they were made. */
+static sw_status retake_holds(sw_scene *s, const kept_hold *kept, size_t count) {
+  for (size_t k = 0; k < count; k++) s->holds[kept[k].slot].alive = 0;
+  for (size_t k = 0; k < count; k++) SW_TRY(sw_scene_retake_hold(s, &s->holds[kept[k].slot]));
+  return SW_OK;
+}
+
+static void put_back(sw_scene *s, kept_hold *kept, size_t count) {
+  for (size_t k = 0; k < count; k++) {
+    sw_scene_hold *h = &s->holds[kept[k].slot];
+    sw_scene_hold *old = &kept[k].shape;
+    double *arrays[2] = {h->s, h->local};
+    h->alive = 1;
+    h->shape = old->shape, h->s1 = old->s1, h->s2 = old->s2, h->count = old->count;
+    memcpy(h->director, old->director, sizeof h->director);
+    memcpy(h->frame, old->frame, sizeof h->frame);
+    h->s = old->s, h->local = old->local;
+    old->s = arrays[0], old->local = arrays[1];
+  }
+}
+
+static sw_status redraw(sw_scene *s, size_t wire, size_t segments, sw_error *err) {
+  sw_scene_wire *w = &s->wires[wire];
+  const sw_mesh before = w->mesh;
+  kept_hold *kept;
+  size_t count;
+  sw_mesh fresh = {0};
+  sw_status status = keep_holds(s, wire, &kept, &count);
+  if (status == SW_OK) status = sw_scene_draw(w, segments, &fresh, err);
+  if (status == SW_OK) {
+    w->mesh = fresh;
+    status = retake_holds(s, kept, count);
+    if (status != SW_OK) {
+      sw_mesh_free(&w->mesh);
+      w->mesh = before;
+      put_back(s, kept, count);
+    } else {
+      const double ratio = fresh.scale / before.scale;
+      for (size_t k = 0; k < w->twisted_count; k++)
+        w->twisted[k].s1 *= ratio, w->twisted[k].s2 *= ratio;
+      sw_mesh old = before;
+      sw_mesh_free(&old);
+    }
+  }
+  for (size_t k = 0; kept && k < count; k++) sw_scene_clear_hold(&kept[k].shape);
+  sw_free(kept);
+  return status;
+}
+
+/* --- as it is now ------------------------------------------------------------------- */
+
+/* An even mesh of the wire's length, whose nodes are the old ones where they can be, and
+ * the places its holds need: arc lengths only. */
+static sw_status new_places(const sw_scene *s, size_t wire, size_t segments, sw_mesh *out) {
+  const sw_mesh *old = &s->wires[wire].mesh;
+  const double length = old->s[old->n - 1], ends[6] = {0, 0, 0, length, 0, 0};
+  SW_TRY(sw_mesh_along(out, ends, 2, segments));
+  out->EA = 1;
+  for (size_t i = 1; i <= segments; i++) {
+    double at = i == segments ? length : length * ((double)i / (double)segments);
+    const size_t k = sw_mesh_node(old, at);
+    if (fabs(old->s[k] - at) <= SAME_PLACE * length) at = old->s[k];
+    if (k > 0 && fabs(old->s[k - 1] - at) <= SAME_PLACE * length) at = old->s[k - 1];
+    out->s[i] = at;
+  }
+  return sw_scene_make_places(s, wire, out);
+}
+
+static sw_status carry_over(sw_scene *s, size_t wire, size_t segments) {
+  sw_scene_wire *w = &s->wires[wire];
+  sw_mesh places = {0}, fresh = {0};
+  size_t count = 0;
+  double *held = sw_alloc(2 * s->hold_count, sizeof *held);
+  if (!held) return SW_ENOMEM;
+  for (size_t k = 0; k < s->hold_count; k++) {
+    if (!s->holds[k].alive || s->holds[k].wire != wire) continue;
+    held[2 * count] = s->holds[k].s1;
+    held[2 * count++ + 1] = s->holds[k].s2;
+  }
+  sw_status status = new_places(s, wire, segments, &places);
+  if (status == SW_OK) status = sw_mesh_resample(&w->mesh, places.s, places.n, held, count, &fresh);
+  if (status == SW_OK) {
+    sw_mesh_free(&w->mesh);
+    w->mesh = fresh;
+    w->mesh.segments = segments;
+  }
+  sw_mesh_free(&places);
+  sw_free(held);
+  return status;
+}
+
+sw_status sw_scene_remesh(sw_scene *s, const size_t *segments, size_t count, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_readable(s, err));
+  if (count != s->wire_count)
+    return sw_fail(err, SW_EINVAL, "scene '%s': %zu wires, but %zu numbers of segments", s->name,
+                   s->wire_count, count);
+  for (size_t w = 0; w < count; w++)
+    if (segments[w] < 2 || segments[w] > 10000000)
+      return sw_fail(err, SW_EINVAL,
+                     "wire '%s': segments = %zu is not allowed; it must be from 2 to 10000000",
+                     s->wires[w].name, segments[w]);
+  SW_TRY(sw_scene_thaw(s));
+  for (size_t w = 0; w < count; w++) {
+    const sw_status status =
+        s->wires[w].mesh.drawn ? redraw(s, w, segments[w], err) : carry_over(s, w, segments[w]);
+    if (status == SW_ENOMEM) return sw_fail(err, status, "scene '%s': out of memory", s->name);
+    if (status != SW_OK) return status;
+  }
+  return SW_OK;
+}
+
+sw_status sw_scene_wire_segments(sw_scene *s, sw_handle h, size_t *segments, sw_error *err) {
+  const sw_scene_wire *w = sw_scene_find_wire(s, h, err);
+  if (!w) return SW_EDEAD;
+  *segments = w->mesh.segments;
+  return SW_OK;
+}
+
+size_t sw_scene_wires(const sw_scene *s) { return s->wire_count; }
