@@ -112,6 +112,13 @@ static int mod_check_run(lua_State *L) {
   return 0;
 }
 
+/* Raise unless the table holds valid parameters of scene:settle. */
+static int mod_check_settle(lua_State *L) {
+  sw_settle_args args;
+  lsw_arguments(L, 1, "scene:settle", &sw_settle_params, &args);
+  return 0;
+}
+
 /* core.begin_run(scene): extremes start anew. */
 static int mod_begin_run(lua_State *L) {
   sw_error err = {""};
@@ -434,6 +441,7 @@ static const luaL_Reg functions[] = {{"scene", mod_scene},
                                      {"clock", mod_clock},
                                      {"nearest", mod_nearest},
                                      {"check_run", mod_check_run},
+                                     {"check_settle", mod_check_settle},
                                      {"begin_run", mod_begin_run},
                                      {"remesh", mod_remesh},
                                      {"segments", mod_segments},

@@ -1,0 +1,46 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- scene:settle with error bars.
+-- @module softworld.settle
+local core = require "softworld.core"
+local build = require "softworld.build"
+local trust = require "softworld.trust"
+
+local Settled = { __name = "settled" }
+
+function Settled.__index(result, key)
+  if key == "error_bars" then return trust.error_bars end
+  return trust.refuse(result, key)
+end
+
+function Settled:__tostring()
+  if not self.ok then return ("not settled: %s"):format(self.reason) end
+  return ("settled on %d levels\n%s"):format(#self.levels, tostring(self:error_bars()))
+end
+
+local settle = core.class.scene.settle
+
+local function with_bars(scene, given)
+  local args = {}
+  for k, v in pairs(given) do args[k] = v end
+  local job = trust.job(scene, "scene:settle", args)
+  core.check_settle(args)
+  local iterations = 0
+  local result = trust.work(job, function()
+    local r = settle(scene, args)
+    iterations = iterations + r.iterations
+    r.start = scene.time
+    return r
+  end, function() end)
+  result.iterations = iterations
+  return setmetatable(result, Settled)
+end
+
+--- Static equilibrium: { tolerance = [m], max_iterations = }. With a table of
+-- quantities as tolerance the result has error bars, see help "tolerance".
+function core.class.scene.settle(scene, args)
+  if not trust.wanted(args) then return settle(scene, args) end
+  build.check(scene, "scene:settle", 3)
+  return build.call(3, with_bars, scene, args)
+end
+
+return settle
