@@ -432,19 +432,13 @@ const lsw_class lsw_class_snapshot = {.name = "snapshot",
                                       .gone = "the snapshot has been closed",
                                       .busy = snapshot_busy};
 
-static const luaL_Reg functions[] = {{"scene", mod_scene},
-                                     {"data", mod_data},
-                                     {"type", mod_type},
-                                     {"busy", mod_busy},
-                                     {"exists", mod_exists},
-                                     {"interrupted", mod_interrupted},
-                                     {"clock", mod_clock},
-                                     {"nearest", mod_nearest},
-                                     {"check_run", mod_check_run},
-                                     {"check_settle", mod_check_settle},
-                                     {"begin_run", mod_begin_run},
-                                     {"remesh", mod_remesh},
-                                     {"segments", mod_segments},
-                                     {NULL, NULL}};
+static const luaL_Reg functions[] = {
+    {"scene", mod_scene},         {"data", mod_data},
+    {"type", mod_type},           {"busy", mod_busy},
+    {"exists", mod_exists},       {"interrupted", mod_interrupted},
+    {"clock", mod_clock},         {"nearest", mod_nearest},
+    {"check_run", mod_check_run}, {"check_settle", mod_check_settle},
+    {"begin_run", mod_begin_run}, {"remesh", mod_remesh},
+    {"segments", mod_segments},   {NULL, NULL}};
 
 void lsw_open_scene(lua_State *L) { luaL_setfuncs(L, functions, 0); }

@@ -62,7 +62,7 @@ quantity.known = {
 local function objects_of(scene)
   local data, list, theirs = build.data(scene), {}, {}
   local function add(kind, entry)
-    list[#list + 1] = { kind = kind, name = entry.name, object = entry.object or entry }
+    list[#list + 1] = { kind = kind, name = entry.name, object = rawget(entry, "object") or entry }
   end
   for _, w in ipairs(data.wires) do add("wire", w) end
   for _, g in ipairs(data.grippers) do
@@ -214,12 +214,12 @@ end
 
 --- Read it now: { value, s = where [m], t = when [s] }. start: when the run began [s].
 function quantity.read(q, start)
-  local value, s, t = q.of(start)
+  local value, s, t
+  if q.own then value = q.of() else value, s, t = q.of(start) end
   if not is_value(value) then
     error(("quantity '%s': its function must return a number or a list of numbers, got %s")
       :format(q.name, type(value) == "number" and tostring(value) or core.type(value) or type(value)), 0)
   end
-  if q.own then s, t = nil, nil end
   return { value = value, s = s, t = t }
 end
 

@@ -57,21 +57,15 @@ local function moves(scene)
 end
 
 -- Is the scene in the equilibrium that settling finds? Then so is each level to begin.
--- Leaves the scene as it was.
 local function is_at_rest(scene)
   if moves(scene) then return false end
   local before, wires = positions_of(scene), build.data(scene).wires
-  local snapshot <close> = scene:snapshot()
   local settled = scene:settle{ max_iterations = 100 }
   local rest = settled.ok
   for i, now in ipairs(rest and positions_of(scene) or {}) do
     local limit = at_rest * wires[i].object.length
     for k, x in ipairs(now) do rest = rest and math.abs(x - before[i][k]) <= limit end
   end
-  local data = build.data(scene)
-  local restores = data.restores
-  scene:restore(snapshot)
-  data.restores = restores
   return rest
 end
 
@@ -95,6 +89,9 @@ function refine.job(scene, given, check)
   for key, value in pairs(given) do args[key] = value end
   local job = trust.job(scene, "scene:run", args)
   check(scene, args)
+  if args.max_steps then
+    error("scene:run: max_steps does not go with error bars: finer levels need more steps", 0)
+  end
   local bodies, under_way = process.bodies(scene)
   if not bodies then
     error(("scene:run: %s is under way and cannot begin again, as error bars need; run the scene "
@@ -112,34 +109,33 @@ end
 
 --- The run of the finest level, with quantities.
 function refine.run(job, steps, run_once)
-  local scene, total = job.scene, { wall = 0, cpu = 0 }
-  local data = build.data(scene)
-  local count = data.process_count
+  local scene, data = job.scene, build.data(job.scene)
+  local count, wall, cpu, rests = data.process_count or 0, 0, 0, false
   local function renew()
+    data.process_count = count - #job.bodies -- the same numbers again
     process.renew(scene, job.bodies)
-    data.process_count = count
   end
-  local rest
+  function job.prepare(start)
+    if steps(1).quasistatic then return end
+    rests = is_at_rest(scene)
+    job.restore(start)
+  end
   local function compute(k, name)
-    if rest == nil then rest = job.rests end
-    process.renew(scene, {})
-    if rest then
+    process.renew(scene, {}) -- settling is not for them
+    if rests then
       local settled = scene:settle()
-      if not settled.ok then return { ok = false, reason = "no equilibrium to begin with: " .. settled.reason } end
+      if not settled.ok then
+        return { ok = false, reason = "no equilibrium to begin with: " .. settled.reason }
+      end
     end
-    data.process_count = 0
-    process.renew(scene, job.bodies)
+    renew()
     sample(job)
     local r = run_once(scene, steps(k), name)
-    total.wall, total.cpu = total.wall + r.wall, total.cpu + r.cpu
+    wall, cpu = wall + r.wall, cpu + r.cpu
     return r
   end
-  local options = steps(1)
-  job.rests = not options.quasistatic and is_at_rest(scene)
-  job.advice = options.tolerance and "more segments, a smaller dt [s] or a gentler motion may help"
-    or "a smaller dt [s] or more segments may help"
   local result = trust.work(job, compute, renew)
-  result.wall, result.cpu = total.wall, total.cpu
+  result.wall, result.cpu = wall, cpu
   return result
 end
 

@@ -105,7 +105,7 @@ function core.class.scene.run(scene, args)
   if args == nil then args = {} end
   if trust.wanted(args) then
     local job, steps = build.call(3, refine.job, scene, args, check_start)
-    return refine.run(job, steps, run_once)
+    return build.call(3, refine.run, job, steps, run_once)
   end
   build.call(3, check_start, scene, args)
   return run_once(scene, args)
@@ -250,6 +250,11 @@ local function summary_of(self)
     local depth, s, t = self.scene:penetration()
     add("deepest penetration", depth, "m", s, t)
   end
+  for _, q in ipairs(self.quantities and self:error_bars() or {}) do
+    rows[#rows + 1] = { label = q.name, value = type(q.value) == "number" and q.value or q:text(),
+      unit = type(q.value) == "number" and q.unit or "",
+      where = ("+- %s%s"):format(number.text(q.error, q.unit), q.met and "" or " (NOT as asked)") }
+  end
   return rows
 end
 
@@ -288,6 +293,11 @@ function Run:document()
     doc.frames[i] = f
   end
   doc.series, doc.summary = self:series(), summary_of(self)
+  for i, q in ipairs(self.quantities and self:error_bars() or {}) do
+    doc.quantities = doc.quantities or {}
+    doc.quantities[i] = { name = q.name, value = q.value, error = q.error, unit = q.unit,
+      asked = q.tolerance, met = q.met, s = q.s, t = q.t }
+  end
   return doc
 end
 

@@ -22,7 +22,8 @@ local trust = {}
 local first_share = 1 / 4 -- of the segments asked for, on the coarsest level
 local fewest = 6          -- segments of the coarsest level, if so many were asked for
 local least_levels = 3    -- to see how fast the quantities converge
-local most_levels = 6     -- default
+local most_levels = { ["scene:settle"] = 7, ["scene:run"] = 5 } -- default
+local hoped = 8           -- bars get no smaller than by this from level to level
 local failures = 3        -- levels that may fail before giving up
 local safety = 1.5
 local second_order = 4    -- error of a level over that of the next one
@@ -51,17 +52,21 @@ function trust.estimate(q, values, contact)
     return safety * last / (rate - 1) + floor, rate
   end
   local before = quantity.distance(values[n - 2], values[n - 1])
+  local first = n > 3 and quantity.distance(values[n - 3], values[n - 2]) or math.huge
   local turns = quantity.agreement(values[n - 2], values[n - 1], values[n]) < 0
   local rate = last > 0 and math.min(second_order, before / last) or second_order
   local off
-  if contact then -- touching places jump from node to node: the plain difference
+  if before > first then -- peaks of blows, for instance: no more than what they change by
+    off = math.max(last, before)
+    rate = 1
+  elseif contact then -- touching places jump from node to node: the plain difference
     off = math.max(last, before / 4)
   elseif turns or rate < slowest then
     off = math.max(last, before / 2)
   else -- a small last change may be chance, where the one before was large
     off = math.max(last / (rate - 1), before / (second_order * (second_order - 1)))
   end
-  return safety * off + floor, math.max(rate, slowest)
+  return safety * off + floor, math.max(rate, 1)
 end
 
 -- --- results ----------------------------------------------------------------------------
@@ -81,6 +86,9 @@ function Quantity:__tostring()
   return ("%s +- %s"):format(text_of(self.value, self.unit), number.text(self.error, self.unit))
 end
 
+--- The value for people: a vector as one text.
+function Quantity:text() return text_of(self.value, self.unit) end
+
 local Bars = { __name = "error bars" }
 Bars.__index = Bars
 
@@ -97,7 +105,10 @@ end
 
 --- result:error_bars(): the quantities in the order asked for; prints as lines.
 function trust.error_bars(result)
-  local asked = result.quantities -- raises for a refused result
+  if rawget(result, "refused") then
+    error(("there are no numbers: %s (%s)"):format(result.reason, result.advice), 2)
+  end
+  local asked = result.quantities
   if not asked then
     error("no error bars were asked for: give tolerance = { quantity = value }", 2)
   end
@@ -109,7 +120,7 @@ end
 --- For the __index of results: raises when the quantities of a refused one are read.
 function trust.refuse(result, key)
   if key == "quantities" and rawget(result, "refused") then
-    error(("there are no numbers: %s (%s)"):format(result.reason, result.advice), 3)
+    error(("there are no numbers: %s (%s)"):format(result.reason, result.advice), 2)
   end
 end
 
@@ -140,7 +151,7 @@ end
 local function take_levels(what, args)
   local levels = args.levels
   args.levels = nil
-  if levels == nil then return most_levels end
+  if levels == nil then return most_levels[what] end
   if math.type(levels) ~= "integer" or levels < least_levels or levels > 12 then
     error(("%s: levels = %s is not allowed; it must be a whole number from %d to 12"):format(what,
       tostring(levels), least_levels), 0)
@@ -177,9 +188,10 @@ local function touches(scene)
   return false
 end
 
--- What the quantities are on the level just computed; true when all bars are met.
+-- What the quantities are on the level just computed. Returns the largest bar over what
+-- was asked for: all are met when it is no more than 1.
 local function judge(job, result)
-  local met = true
+  local worst = 0
   job.contact = job.contact or touches(job.scene)
   job.read = {}
   for _, q in ipairs(job.quantities) do
@@ -188,9 +200,9 @@ local function judge(job, result)
     values[#values + 1] = now.value
     now.error, now.rate = trust.estimate(q, values, job.contact)
     job.read[q.name] = now
-    met = met and now.error <= q.tolerance
+    worst = math.max(worst, now.error / q.tolerance)
   end
-  return met
+  return worst
 end
 
 local function describe(job, k)
@@ -202,6 +214,7 @@ end
 -- Compute level after level until the bars are met. Returns the last result.
 local function climb(job, start, compute)
   local good, bad, result = 0, 0, nil
+  if job.prepare then job.prepare(start) end
   for k = 1, job.most do
     if k > 1 then job.restore(start) end
     core.remesh(job.scene, counts_of(job, k))
@@ -209,9 +222,10 @@ local function climb(job, start, compute)
     job.levels[#job.levels + 1] = { segments = counts_of(job, k), ok = result.ok, reason = result.reason }
     if result.ok then
       good, bad, job.finest = good + 1, 0, k
-      if judge(job, result) and good >= least_levels then break end
+      local worst = judge(job, result)
+      if good >= least_levels and (worst <= 1 or worst > hoped ^ (job.most - k)) then break end
     else
-      good, bad = 0, bad + 1
+      good, bad, job.failure = 0, bad + 1, result.reason
       for name in pairs(job.values) do job.values[name] = {} end
       if bad == failures then break end
     end
@@ -243,6 +257,7 @@ local function conclude(job, result)
   result.asked, result.levels = {}, job.levels
   for i, q in ipairs(job.quantities) do result.asked[i] = q.name end
   if not result.ok or #job.values[job.quantities[1].name] < 2 then
+    if result.ok then result.reason = "all levels but the last failed: " .. job.failure end
     result.ok, result.refused = false, true
     result.where = ("%s: %s"):format(describe(job, #job.levels), result.reason)
     result.advice = job.advice or "smaller steps (dt), more segments, or a gentler motion may help"
