@@ -114,7 +114,8 @@ end
 for _, hold in ipairs{ "pinned", "horizontal" } do
   for _, h in ipairs{ 0.1, 0.5, 2, 8 } do
     settle_set(("lift %s %g"):format(hold, h), function(segments)
-      local c = cases.lift{ hold = hold, h = h, segments = segments, total = math.max(6, 1.6 * h + 4) }
+      local c = cases.lift{ hold = hold, h = h, segments = segments, axial = 1e10,
+        total = math.max(6, 1.6 * h + 4) }
       local set = { scene = c.scene, wire = c.wire }
       assert(c.run().ok) -- raised to its height, on the first mesh
       local rows = { { name = "P", unit = "N", scale = c.exact.P, exact = c.exact.P,
