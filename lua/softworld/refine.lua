@@ -92,29 +92,18 @@ function refine.job(scene, given, check)
   if args.max_steps then
     error("scene:run: max_steps does not go with error bars: finer levels need more steps", 0)
   end
-  local bodies, under_way = process.bodies(scene)
-  if not bodies then
-    error(("scene:run: %s is under way and cannot begin again, as error bars need; run the scene "
-      .. "without them until it has ended, or ask for them from the start"):format(tostring(under_way)), 0)
-  end
   for _, q in ipairs(job.quantities) do
     if q.at and args.duration and q.at > args.duration then
       error(("scene:run: tolerance: quantity '%s': at = %g s is after the end of the run, %g s")
         :format(q.name, q.at, args.duration), 0)
     end
   end
-  job.bodies = bodies
   return job, steps_of(job, args)
 end
 
 --- The run of the finest level, with quantities.
 function refine.run(job, steps, run_once)
-  local scene, data = job.scene, build.data(job.scene)
-  local count, wall, cpu, rests = data.process_count or 0, 0, 0, false
-  local function renew()
-    data.process_count = count - #job.bodies -- the same numbers again
-    process.renew(scene, job.bodies)
-  end
+  local scene, wall, cpu, rests = job.scene, 0, 0, false
   function job.prepare(start)
     if steps(1).quasistatic then return end
     rests = is_at_rest(scene)
@@ -128,13 +117,13 @@ function refine.run(job, steps, run_once)
         return { ok = false, reason = "no equilibrium to begin with: " .. settled.reason }
       end
     end
-    renew()
+    job.begin_processes()
     sample(job)
     local r = run_once(scene, steps(k), name)
     wall, cpu = wall + r.wall, cpu + r.cpu
     return r
   end
-  local result = trust.work(job, compute, renew)
+  local result = trust.work(job, compute)
   result.wall, result.cpu = wall, cpu
   return result
 end

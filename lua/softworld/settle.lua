@@ -30,7 +30,8 @@ local function with_bars(scene, given)
     iterations = iterations + r.iterations
     r.start = scene.time
     return r
-  end, function() end)
+  end)
+  job.begin_processes() -- none of them had begun
   result.iterations = iterations
   return setmetatable(result, Settled)
 end

@@ -15,6 +15,7 @@
 local core = require "softworld.core"
 local build = require "softworld.build"
 local number = require "softworld.output.number"
+local process = require "softworld.process"
 local quantity = require "softworld.quantity"
 
 local trust = {}
@@ -167,8 +168,18 @@ function trust.job(scene, what, args)
     error(("%s: a run of scene '%s' is under way; error bars need computations from their start: ask "
       .. "for them outside of processes"):format(what, scene.name), 0)
   end
+  local bodies, under_way = process.bodies(scene)
+  if not bodies then
+    error(("%s: %s is under way and cannot begin again, as error bars need; run the scene without them "
+      .. "until it has ended, or ask for them from the start"):format(what, tostring(under_way)), 0)
+  end
   if #data.wires == 0 then error(("%s: scene '%s': there is no wire"):format(what, scene.name), 0) end
   local job = setmetatable({ scene = scene, what = what, values = {}, levels = {} }, Job)
+  local count = (data.process_count or 0) - #bodies
+  function job.begin_processes()
+    data.process_count = count -- the same numbers again
+    process.renew(scene, bodies)
+  end
   job.quantities = quantity.list(scene, args.tolerance, what)
   args.tolerance = nil
   job.most = take_levels(what, args)
@@ -278,7 +289,7 @@ end
 
 --- Do the job: compute(level, name) gives a result with ok and reason. After an error or
 -- a refusal the scene is as it was before; else at the finest level's end.
-function trust.work(job, compute, put_back)
+function trust.work(job, compute)
   local scene, data = job.scene, build.data(job.scene)
   local restores = data.restores
   local start = scene:snapshot()
@@ -291,7 +302,7 @@ function trust.work(job, compute, put_back)
   local tidy, why = true, nil
   if not fine or result.refused then
     tidy, why = pcall(job.restore, start)
-    put_back()
+    job.begin_processes()
   end
   start:close()
   if not fine then error(result, 0) end
