@@ -27,7 +27,8 @@ local function new_bar(args, scene, level)
   local wanted = args.progress
   if wanted == nil then wanted = false end
   return progress.new{ total = args.duration and args.duration > 0 and args.duration or nil,
-    name = level and ("%s, %s"):format(scene.name, level) or scene.name, quiet = not wanted, terminal = host and host.terminal or nil,
+    name = level and ("%s, %s"):format(scene.name, level) or scene.name, quiet = not wanted,
+    terminal = host and host.terminal or nil,
     clock = core.clock, width = host and host.columns or nil }
 end
 

@@ -47,7 +47,8 @@ function trust.estimate(q, values, contact)
   local n = #values
   if n < 2 then return math.huge, second_order end
   local last = quantity.distance(values[n - 1], values[n])
-  local floor = rounding * quantity.size(values[n])
+  local size = quantity.size(values[n]) -- infinite: the bend radius of a straight wire
+  local floor = size < math.huge and rounding * size or 0
   if n == 2 then
     local rate = (q.plain or q.own or contact) and 2 or second_order
     return safety * last / (rate - 1) + floor, rate
@@ -61,7 +62,7 @@ function trust.estimate(q, values, contact)
     off = math.max(last, before)
     rate = 1
   elseif contact then -- touching places jump from node to node: the plain difference
-    off = math.max(last, before / 4)
+    off = math.max(last, before / 4, n > 3 and first / 16 or 0)
   elseif turns or rate < slowest then
     off = math.max(last, before / 2)
   else -- a small last change may be chance, where the one before was large

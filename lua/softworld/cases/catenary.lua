@@ -57,15 +57,16 @@ return function(options)
     exact = row and (rod and { sag = row[3], H = row[4] * w, M0 = row[5] * EI,
       source = "boundary-value solution of the heavy elastica, error 1e-9" } or
       { sag = row[2], H = row[3] * w, T = row[4] * w, source = "catenary, closed form" }) }
+  local points = options.points or p.segments
   if rod then
-    p.path = wires.arch(f, options.points or p.segments, span, function(u) return -math.sin(2 * math.pi * u) end)
+    p.path = wires.arch(f, points, span, function(u) return -math.sin(2 * math.pi * u) end)
     c.wire = scene:wire(p)
     local level = f.vector(1, 0, 0)
     c.left = scene:clamp(c.wire, { s = 0, direction = level })
     c.right = scene:clamp(c.wire, { s = c.wire.length, direction = level })
   else
     local a = span / (2 * parameter(span)) -- H/w
-    p.path = wires.arch(f, options.points or p.segments, span, function(u) return math.atan((u - 0.5) / a) end)
+    p.path = wires.arch(f, points, span, function(u) return math.atan((u - 0.5) / a) end)
     c.wire = scene:wire(p)
     c.left, c.right = scene:pin(c.wire, { s = 0 }), scene:pin(c.wire, { s = c.wire.length })
   end
