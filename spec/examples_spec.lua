@@ -292,7 +292,7 @@ describe("example", function()
     assert.are.equal("true\n", out)
     out, err, code = program.script((blocks[1]:gsub("local run.*", "")) .. blocks[2])
     assert.are.equal(0, code, err)
-    assert.matches("^sag = .* %(asked for 1.000 mm: met%)\ngripper.mean_moment = .*: met%)\nmin_bend", out)
+    assert.matches("^sag = .* %(asked for 2.000 mm: met%)\ngripper.mean_moment = .*: met%)\nmin_bend", out)
   end)
 
   it("of every number is tested here", function()

@@ -230,8 +230,10 @@ local function climb(job, start, compute)
   for k = 1, job.most do
     if k > 1 then job.restore(start) end
     core.remesh(job.scene, counts_of(job, k))
+    local begun = os.clock()
     result = compute(k, describe(job, k))
-    job.levels[#job.levels + 1] = { segments = counts_of(job, k), ok = result.ok, reason = result.reason }
+    job.levels[#job.levels + 1] = { segments = counts_of(job, k), ok = result.ok, reason = result.reason,
+      cpu = os.clock() - begun }
     if result.ok then
       good, bad, job.finest = good + 1, 0, k
       local worst = judge(job, result)
