@@ -209,16 +209,7 @@ local function most_accurate(case)
   return best
 end
 
-local function -- What it costs to know how far off a result is.
-local function print_bars()
-  print "\nerror bars of the tip, N = 50    levels    wall ms  over the finest alone       bar"
-  for _, r in ipairs(bench.error_bars()) do
-    print(("  %-30s %6d  %9.3f  %20.2f x  %6.3f mm  %s"):format(r.case, r.levels, 1e3 * r.wall, r.ratio,
-      1e3 * r.error, r.ok and "as asked" or "NOT as asked"))
-  end
-end
-
-print_aims()
+local function print_aims()
   print "aim                                              measured"
   for _, t in ipairs{ { 1, nil }, { 0.3, nil }, { 0.2, 2e-4 }, { 0.1, nil }, { 0.05, 8e-4 },
     { 0.03, nil }, { 0.01, 8e-3 } } do
@@ -302,6 +293,15 @@ local function print_best()
     if row then
       print(("  %-10s %10.6f %%  %10.3f ms  %s"):format(name, row.error, 1e3 * row.wall, row_name(row)))
     end
+  end
+end
+
+-- What it costs to know how far off a result is.
+local function print_bars()
+  print "\nerror bars of the tip, N = 50    levels    wall ms  over the finest alone       bar"
+  for _, r in ipairs(bench.error_bars()) do
+    print(("  %-30s %6d  %9.3f  %20.2f x  %6.3f mm  %s"):format(r.case, r.levels, 1e3 * r.wall, r.ratio,
+      1e3 * r.error, r.ok and "as asked" or "NOT as asked"))
   end
 end
 
