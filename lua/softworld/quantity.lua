@@ -195,8 +195,8 @@ function quantity.list(scene, tolerance, what)
     taken[q.name] = true
   end
   if #list == 0 then
-    error(what .. ": tolerance names no quantity, such as { tip = 1e-3 }; a number is the error of "
-      .. "one step [m]", 0)
+    error(what .. ": tolerance is a table that names no quantity, such as { tip = 1e-3 }; help 'tolerance' "
+      .. "lists them", 0)
   end
   return list
 end

@@ -223,12 +223,24 @@ local function describe(job, k)
   return ("level %d, %d segments"):format(k, most)
 end
 
+-- Wires cannot be taken away, so that a run that makes some cannot be repeated.
+local function check_wires(job)
+  local wires = build.data(job.scene).wires
+  local new = wires[#job.first + 1]
+  if not new then return end
+  error(("%s: wire '%s' was made on the way, so that the computation cannot be repeated for error bars; "
+    .. "make it before"):format(job.what, new.name), 0)
+end
+
 -- Compute level after level until the bars are met. Returns the last result.
 local function climb(job, start, compute)
   local good, bad, result = 0, 0, nil
   if job.prepare then job.prepare(start) end
   for k = 1, job.most do
-    if k > 1 then job.restore(start) end
+    if k > 1 then
+      check_wires(job)
+      job.restore(start)
+    end
     core.remesh(job.scene, counts_of(job, k))
     local begun = os.clock()
     result = compute(k, describe(job, k))
