@@ -147,5 +147,3 @@ sw_status sw_scene_wire_segments(sw_scene *s, sw_handle h, size_t *segments, sw_
   *segments = w->mesh.segments;
   return SW_OK;
 }
-
-size_t sw_scene_wires(const sw_scene *s) { return s->wire_count; }

@@ -85,7 +85,6 @@ sw_status sw_scene_add_wire(sw_scene *scene, const sw_wire_args *args, const sw_
 sw_status sw_scene_remesh(sw_scene *scene, const size_t *segments, size_t count, sw_error *err);
 /* Even segments of a wire's mesh, before holds added nodes. */
 sw_status sw_scene_wire_segments(sw_scene *scene, sw_handle wire, size_t *segments, sw_error *err);
-size_t sw_scene_wires(const sw_scene *scene);
 
 /* --- holds ------------------------------------------------------------------ */
 

@@ -288,7 +288,7 @@ static sw_status put_meshes(sw_scene *s, const sw_snapshot *p) {
   return status;
 }
 
-/* The same plan: only what tells whether a wire is as it was drawn. */
+/* The same plan: only what tells, at the next thaw, whether a wire is as it was drawn. */
 static void put_drawn(sw_scene *s, const sw_snapshot *p) {
   for (size_t w = 0; w < p->wires; w++) {
     sw_mesh *m = &s->wires[w].mesh;
@@ -296,6 +296,9 @@ static void put_drawn(sw_scene *s, const sw_snapshot *p) {
     m->drawn = old->drawn;
     memcpy(m->x, old->x, 3 * m->n * sizeof *m->x);
     memcpy(m->v, old->v, 3 * m->n * sizeof *m->v);
+    if (!m->rest) continue;
+    memcpy(m->normal, old->normal, 3 * m->n * sizeof *m->normal);
+    memcpy(m->twist, old->twist, m->n * sizeof *m->twist);
   }
 }
 

@@ -63,7 +63,7 @@ scene:settle{ tolerance = { ... } }
   force, moment                            of a clamp, pin, gripper; force on an obstacle [N], [N m]
   peak_force, mean_force, impulse          of a gripper [N], [N s]
   peak_moment, mean_moment                 [N m]
-  energy                                   stored and of motion [J]
+  energy, penetration                      of the scene [J]; deepest into an obstacle [m]
   ["left.force"] = 0.05                    the object's name in front where several have it
   { name = "sag", value = 1e-4, unit = "m", of = function() return -wire:position(0.5)[3] end }
                                            your own, a number or a list; at = [s] after the start

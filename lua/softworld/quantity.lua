@@ -55,6 +55,10 @@ quantity.known = {
   },
   scene = {
     energy = { unit = "J", of = function(s) return s:energy().total end },
+    penetration = { unit = "m", plain = true, of = function(s)
+      local depth, at, time = s:penetration()
+      return depth, at, time
+    end },
   },
 }
 

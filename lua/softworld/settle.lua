@@ -23,10 +23,18 @@ local function with_bars(scene, given)
   local args = {}
   for k, v in pairs(given) do args[k] = v end
   local job = trust.job(scene, "scene:settle", args)
+  local shown = args.progress
+  if shown ~= nil and type(shown) ~= "boolean" then
+    error("scene:settle: progress must be true or false, got " .. type(shown), 0)
+  end
+  args.progress = nil
   core.check_settle(args)
   local iterations = 0
-  local result = trust.work(job, function()
+  local result = trust.work(job, function(_, level)
     local r = settle(scene, args)
+    if shown then
+      io.stderr:write(("%s, %s: %s, %d iterations\n"):format(scene.name, level, r.reason, r.iterations))
+    end
     iterations = iterations + r.iterations
     r.start = scene.time
     return r
@@ -37,7 +45,8 @@ local function with_bars(scene, given)
 end
 
 --- Static equilibrium: { tolerance = [m], max_iterations = }. With a table of
--- quantities as tolerance the result has error bars, see help "tolerance".
+-- quantities as tolerance the result has error bars, see help "tolerance"; progress =
+-- true then tells every level.
 function core.class.scene.settle(scene, args)
   if not trust.wanted(args) then return settle(scene, args) end
   build.check(scene, "scene:settle", 3)

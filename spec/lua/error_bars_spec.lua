@@ -3,6 +3,7 @@
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local trust = require "softworld.trust"
+local program = require "spec.host.program"
 local t = require "spec.physics.tools"
 local core = sw.core
 
@@ -71,13 +72,30 @@ describe("an equilibrium with error bars", function()
     local list = {}
     for _, name in ipairs{ "tip", "position", "max_tension", "min_bend_radius", "max_strain", "max_stress",
       "wire1.tip", "clamp1.force", "clamp1.moment", "left.force", "left.moment", "peak_force",
-      "mean_force", "peak_moment", "mean_moment", "impulse", "table.force", "energy" } do
+      "mean_force", "peak_moment", "mean_moment", "impulse", "table.force", "energy", "penetration" } do
       list[name] = 1e3
     end
     local r = t.fine(scene:settle{ tolerance = list })
     assert.is_true(r.met)
     for name in pairs(list) do assert.is_true(r.quantities[name].error < 1e3, name) end
     assert.are.equal(41, #r.quantities.position.value)
+  end)
+
+  it("tells its progress when asked", function()
+    local script = [[
+      local scene = require "softworld".scene { name = "mine" }
+      scene:clamp(scene:wire { E = 1e8, density = 1e3, radius = 1e-3, from = { 0, 0, 0 }, to = { 1, 0, 0 },
+        segments = 24 }, { s = 0 })
+      scene:settle { tolerance = { tip = 1 }, progress = %s }
+      scene:run { duration = 0.01, tolerance = { tip = 1 }, progress = %s }]]
+    local _, err, code = program.script(script:format("true", "true"))
+    assert.are.equal(0, code, err)
+    assert.matches("^mine, level 1, 6 segments: at rest, %d+ iterations\nmine, level 2, 12", err)
+    assert.matches("mine, level 3, 24 segments: t = 10.00 ms, %d+ steps in", err)
+    _, err = program.script(script:format("nil", "nil"))
+    assert.are.equal("", err)
+    program.clean()
+    assert.has_error(function() make():settle{ tolerance = { tip = 1 }, progress = 3 } end)
   end)
 
   it("refuses to give numbers where there is no equilibrium", function()

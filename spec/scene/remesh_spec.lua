@@ -97,6 +97,16 @@ describe("a wire that has not moved", function()
       t.below(1e-14, t.largest_difference((wire:positions()), (fresh:positions())), "nodes off")
       scene:restore(snapshot)
     end
+    -- the same, where the mesh was not changed in between
+    scene:clamp(wire, { s = wire.length }):release() -- makes the system anew
+    t.fine(scene:settle())
+    scene:gravity{ 0, 0, -1 }
+    scene:pin(wire, { s = wire.length }):release()
+    scene:restore(snapshot)
+    core.remesh(scene, { 40 })
+    local _, fresh = make(40, "path")
+    t.below(1e-14, t.largest_difference((wire:positions()), (fresh:positions())), "nodes off")
+    scene:restore(snapshot)
     t.fine(scene:settle())
     local settled = state(scene, wire)
     local other, other_wire = make(20, "path")
