@@ -248,3 +248,49 @@ describe("core.remesh", function()
     assert.are.equal(10, c.wire.segments)
   end)
 end)
+
+describe("any mesh after any other", function()
+  -- Holds at any places, moved and not, framed and not, coarser and finer: everything stays in
+  -- its place, and the scene works.
+  it("keeps what is held and what is long", function()
+    local random = t.random(17)
+    local function pick(n) return 1 + math.floor((random() + 1) / 2 * n * 0.999999) end
+    for round = 1, 40 do
+      local scene = sw.scene{}
+      local framed, moved = pick(2) == 1, pick(2) == 1
+      local wire = scene:wire{ EA = 1e4, EI = 0.02, GJ = 0.015, mass_per_length = 0.05, radius = 0.002,
+        path = moved and { { 0, 0, 0 }, { 1, 0, 0 } } or arc(0.6, 1 + random() / 2, 100), segments = 3 + pick(40),
+        rest = framed and "path" or "straight" }
+      local length, holds, at = wire.length, {}, 0
+      for k = 1, pick(4) do
+        at = at + (0.02 + 0.2 * (random() + 1) / 2) * length
+        if at > 0.97 * length then break end
+        local kind = ({ "clamp", "pin", "grip" })[pick(3)]
+        local width = kind == "grip" and 0.03 * length or nil
+        holds[k] = scene[kind](scene, wire, { s = at, width = width })
+        at = at + 0.04 * length
+      end
+      if moved then t.fine(scene:run{ duration = 0.05, dt = 0.005 }) end
+      local snapshot = scene:snapshot()
+      local before = state(scene, wire)
+      local forces = {}
+      for k, hold in ipairs(holds) do forces[k] = hold:pose() end
+      for _ = 1, 3 do
+        core.remesh(scene, { 1 + pick(60) })
+        if moved then assert.are.equal(length, wire.length) end
+        local _, s = wire:positions()
+        for i = 2, #s do assert.is_true(s[i] > s[i - 1], "arc lengths in order, round " .. round) end
+        for k, hold in ipairs(holds) do
+          t.below(1e-12, t.distance(forces[k], hold:pose()), "hold moved by")
+        end
+        if pick(3) == 1 then
+          local r = scene:run{ duration = 0.01, dt = 0.002 }
+          assert.is_true(r.ok, ("round %d: %s"):format(round, r.reason))
+        end
+      end
+      scene:restore(snapshot)
+      assert.are.same(before, state(scene, wire))
+      scene:close()
+    end
+  end)
+end)
