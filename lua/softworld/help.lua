@@ -70,7 +70,7 @@ scene:settle{ tolerance = { ... } }
   beside it: levels = 5                    at most so many computations, 3 to 12 (settle: 7)
 The scene is computed several times from where it is, with edges (and in a run steps) halved each
 time, until no quantity changes by more than asked for. A process's function runs each time anew.
-  result.quantities.tip                    .value .error .unit .met, .s [m] and .t [s] of extremes
+  result.quantities.tip                    .value .error .unit .met, .where [m] and .when [s]
   print(result:error_bars())
   result.met                               all as asked for? if not, result.advice
   result.ok = false                        no level could be computed: .reason .where .advice, no numbers

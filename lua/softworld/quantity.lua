@@ -216,7 +216,7 @@ local function is_value(v)
   return true
 end
 
---- Read it now: { value, s = where [m], t = when [s] }. start: when the run began [s].
+--- Read it now: { value, where [m], when [s] }. start: when the run began [s].
 function quantity.read(q, start)
   local value, s, t
   if q.own then value = q.of() else value, s, t = q.of(start) end
@@ -224,14 +224,13 @@ function quantity.read(q, start)
     error(("quantity '%s': its function must return a number or a list of numbers, got %s")
       :format(q.name, type(value) == "number" and tostring(value) or core.type(value) or type(value)), 0)
   end
-  return { value = value, s = s, t = t }
+  return { value = value, where = s, when = t }
 end
 
 local function is_vector(v) return type(v) == "table" and type(v[1]) == "number" end
 
---- How far two values are apart: numbers, vectors (norm), lists of vectors (largest).
+--- How far two values of the same shape are apart: numbers, vectors (norm), lists of vectors (largest).
 function quantity.distance(a, b)
-  if type(a) ~= type(b) or type(a) == "table" and #a ~= #b then return math.huge end
   if type(a) == "number" then return a == b and 0 or math.abs(a - b) end
   local sum, most = 0, 0
   for i, x in ipairs(a) do
@@ -239,6 +238,17 @@ function quantity.distance(a, b)
     sum, most = sum + d * d, math.max(most, d)
   end
   return is_vector(a) and sum ^ 0.5 or most
+end
+
+--- Have both values the same shape?
+function quantity.alike(a, b)
+  if type(a) ~= type(b) then return false end
+  if type(a) == "number" then return true end
+  if #a ~= #b then return false end
+  for i, x in ipairs(a) do
+    if not quantity.alike(x, b[i]) then return false end
+  end
+  return true
 end
 
 --- The size of a value, as distance measures it.
@@ -255,7 +265,6 @@ end
 --- The sum of products of the changes a to b and b to c: below 0 when they turn back.
 function quantity.agreement(a, b, c)
   if type(a) == "number" then return (b - a) * (c - b) end
-  if type(a) ~= type(b) or type(b) ~= type(c) or #a ~= #b or #b ~= #c then return -1 end
   local sum = 0
   for i = 1, #a do sum = sum + quantity.agreement(a[i], b[i], c[i]) end
   return sum

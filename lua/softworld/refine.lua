@@ -16,18 +16,17 @@ local step_share = 0.02
 local longest_step = 0.01 -- default dt [s]
 local at_rest = 1e-6      -- what settling may move a wire that is at rest [of its length]
 
-local function is_adaptive(name)
-  if name == nil then return true end
+-- The registry's entry of an integrator.
+local function method_of(name)
   for _, m in ipairs(core.registry().integrators) do
-    if m.name == name then return m.adaptive end
+    if m.name == (name or "tr-bdf2") then return m end
   end
-  return false
 end
 
 -- What the steps of level k are made of: options of a run.
 local function steps_of(job, args)
   local dt = args.dt or longest_step
-  local adaptive = not args.quasistatic and is_adaptive(args.integrator)
+  local adaptive = not args.quasistatic and method_of(args.integrator).adaptive
   local error_of_step = math.huge
   for i, w in ipairs(build.data(job.scene).wires) do
     error_of_step = math.min(error_of_step, step_share * w.object.length / job.first[i] ^ 3)
@@ -77,7 +76,7 @@ local function sample(job)
       job.scene:process(function(p)
         p:wait(q.at)
         q.sample = quantity.read(q, p.scene.time - q.at)
-        q.sample.t = p.scene.time
+        q.sample.when = p.scene.time
       end)
     end
   end
@@ -98,6 +97,9 @@ function refine.job(scene, given, check)
         :format(q.name, q.at, args.duration), 0)
     end
   end
+  job.advice = method_of(args.integrator).implicit
+    and "a smaller dt [s], more segments or a gentler motion may help"
+    or "a dt [s] below scene:stable_dt() or an implicit integrator may help"
   return job, steps_of(job, args)
 end
 

@@ -297,7 +297,7 @@ function Run:document()
   for i, q in ipairs(self.quantities and self:error_bars() or {}) do
     doc.quantities = doc.quantities or {}
     doc.quantities[i] = { name = q.name, value = q.value, error = q.error, unit = q.unit,
-      asked = q.tolerance, met = q.met, s = q.s, t = q.t }
+      asked = q.tolerance, met = q.met, where = q.where, when = q.when }
   end
   return doc
 end

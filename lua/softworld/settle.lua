@@ -28,6 +28,12 @@ local function with_bars(scene, given)
     error("scene:settle: progress must be true or false, got " .. type(shown), 0)
   end
   args.progress = nil
+  for _, q in ipairs(job.quantities) do
+    if q.at then
+      error(("scene:settle: tolerance: quantity '%s': at is a time in a run"):format(q.name), 0)
+    end
+  end
+  job.advice = "hold what moves freely, come nearer in smaller moves, or allow more max_iterations"
   core.check_settle(args)
   local iterations = 0
   local result = trust.work(job, function(_, level)

@@ -24,6 +24,7 @@ local first_share = 1 / 4 -- of the segments asked for, on the coarsest level
 local fewest = 6          -- segments of the coarsest level, if so many were asked for
 local least_levels = 3    -- to see how fast the quantities converge
 local most_levels = { ["scene:settle"] = 7, ["scene:run"] = 5 } -- default
+local finest_level = 12   -- edges of 1/512 of those asked for
 local hoped = 8           -- bars get no smaller than by this from level to level
 local failures = 3        -- levels that may fail before giving up
 local safety = 1.5
@@ -97,8 +98,8 @@ Bars.__index = Bars
 function Bars:__tostring()
   local lines = {}
   for i, q in ipairs(self) do
-    local place = (q.s and (", s = %.4g m"):format(q.s) or "")
-      .. (q.t and (", t = %.4g s"):format(q.t) or "")
+    local place = (q.where and (", s = %.4g m"):format(q.where) or "")
+      .. (q.when and (", t = %.4g s"):format(q.when) or "")
     lines[i] = ("%s = %s (asked for %s: %s)%s"):format(q.name, tostring(q),
       number.text(q.tolerance, q.unit), q.met and "met" or "NOT met", place)
   end
@@ -128,9 +129,6 @@ end
 
 -- --- levels -----------------------------------------------------------------------------
 
-local Job = {}
-Job.__index = Job
-
 -- Even segments of every wire on level k, counted from 1.
 local function counts_of(job, k)
   local list = {}
@@ -154,15 +152,17 @@ local function take_levels(what, args)
   local levels = args.levels
   args.levels = nil
   if levels == nil then return most_levels[what] end
-  if math.type(levels) ~= "integer" or levels < least_levels or levels > 12 then
-    error(("%s: levels = %s is not allowed; it must be a whole number from %d to 12"):format(what,
-      tostring(levels), least_levels), 0)
+  if math.type(levels) ~= "integer" or levels < least_levels
+    or levels > finest_level then
+    error(("%s: levels = %s is not allowed; it must be a whole number from %d to %d"):format(what,
+      tostring(levels), least_levels, finest_level), 0)
   end
   return levels
 end
 
 --- A computation to be done level by level.
 -- @tparam table args a copy of the caller's, from which tolerance and levels are taken
+-- @treturn table a job; its advice, for when nothing can be computed, is the caller's to set
 function trust.job(scene, what, args)
   local data = build.data(scene)
   if data.running then
@@ -175,7 +175,7 @@ function trust.job(scene, what, args)
       .. "until it has ended, or ask for them from the start"):format(what, tostring(under_way)), 0)
   end
   if #data.wires == 0 then error(("%s: scene '%s': there is no wire"):format(what, scene.name), 0) end
-  local job = setmetatable({ scene = scene, what = what, values = {}, levels = {} }, Job)
+  local job = { scene = scene, what = what, values = {}, levels = {} }
   local count = (data.process_count or 0) - #bodies
   function job.begin_processes()
     data.process_count = count -- the same numbers again
@@ -209,6 +209,10 @@ local function judge(job, result)
   for _, q in ipairs(job.quantities) do
     local now = q.sample or quantity.read(q, result.start)
     local values = job.values[q.name]
+    if #values > 0 and not quantity.alike(values[#values], now.value) then
+      error(("quantity '%s': its list is not as long on every mesh; compare at the same places"):format(
+        q.name), 0)
+    end
     values[#values + 1] = now.value
     now.error, now.rate = trust.estimate(q, values, job.contact)
     job.read[q.name] = now
@@ -261,22 +265,25 @@ end
 
 -- What to do about bars that are too long.
 local function advice_of(job)
-  local worst, name = 0, nil
+  local worst, slow = 0, nil
   for _, q in ipairs(job.quantities) do
     local now = job.read[q.name]
     local levels = math.log(now.error / q.tolerance) / math.log(now.rate)
-    if levels > worst then worst, name = levels, q end
+    if levels > worst then worst, slow = levels, q end
   end
-  if not name then return nil end
-  local now, more = job.read[name.name], math.ceil(worst)
+  if not slow then return nil end
+  local now, more = job.read[slow.name], math.ceil(worst)
   local k = job.finest + more
-  if more > 12 or k > 12 then
-    return ("%s does not converge: its bar is %s on %s; look at what jumps there, or ask for less"):format(
-      name.name, number.text(now.error, name.unit), describe(job, job.finest))
+  local reached = ("%s has a bar of %s on %s; "):format(slow.name, number.text(now.error, slow.unit),
+    describe(job, job.finest))
+  if now.rate <= 1 then
+    return reached .. "it does not converge: look at what jumps there, or ask for less"
   end
-  return ("%s has a bar of %s on %s; %s needs about levels = %d (%s)"):format(name.name,
-    number.text(now.error, name.unit), describe(job, job.finest),
-    number.text(name.tolerance, name.unit), k, describe(job, k))
+  local asked = number.text(slow.tolerance, slow.unit)
+  if k > finest_level then
+    return reached .. ("%s needs more than levels = %d: ask for less"):format(asked, finest_level)
+  end
+  return reached .. ("%s needs about levels = %d (%s)"):format(asked, k, describe(job, k))
 end
 
 local function conclude(job, result)
@@ -286,7 +293,7 @@ local function conclude(job, result)
     if result.ok then result.reason = "all levels but the last failed: " .. job.failure end
     result.ok, result.refused = false, true
     result.where = ("%s: %s"):format(describe(job, #job.levels), result.reason)
-    result.advice = job.advice or "smaller steps (dt), more segments, or a gentler motion may help"
+    result.advice = job.advice
     return result
   end
   result.quantities, result.met = {}, true
@@ -295,7 +302,7 @@ local function conclude(job, result)
     local met = now.error <= q.tolerance
     result.met = result.met and met
     result.quantities[q.name] = setmetatable({ name = q.name, value = now.value, error = now.error,
-      unit = q.unit, tolerance = q.tolerance, met = met, s = now.s, t = now.t,
+      unit = q.unit, tolerance = q.tolerance, met = met, where = now.where, when = now.when,
       levels = job.values[q.name] }, Quantity)
   end
   if not result.met then result.advice = advice_of(job) end
