@@ -259,7 +259,8 @@ describe("any mesh after any other", function()
       local scene = sw.scene{}
       local framed, moved = pick(2) == 1, pick(2) == 1
       local wire = scene:wire{ EA = 1e4, EI = 0.02, GJ = 0.015, mass_per_length = 0.05, radius = 0.002,
-        path = moved and { { 0, 0, 0 }, { 1, 0, 0 } } or arc(0.6, 1 + random() / 2, 100), segments = 3 + pick(40),
+        path = moved and { { 0, 0, 0 }, { 1, 0, 0 } } or arc(0.6, 1 + random() / 2, 100),
+        segments = 3 + pick(40),
         rest = framed and "path" or "straight" }
       local length, holds, at = wire.length, {}, 0
       for k = 1, pick(4) do
