@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "scene/world.h"
+#include "state/hinge.h"
 
 static const double SAME_PLACE = 1e-9; /* of the wire's length [-] */
 
@@ -97,6 +98,46 @@ static sw_status new_places(const sw_scene *s, size_t wire, size_t segments, sw_
   return sw_scene_make_places(s, wire, out);
 }
 
+/* Where a vector across `from`, the direction held at node a, comes to when it is carried
+ * along the edges to `to`, the direction held at node b. */
+static sw_vec carry_along(const sw_mesh *m, size_t a, size_t b, sw_vec from, sw_vec to) {
+  sw_vec u = sw_perpendicular(from), before = from;
+  for (size_t i = a; i < b; i++) {
+    const sw_vec t = sw_unit_or(sw_sub(sw_vec_at(m->x, i + 1), sw_vec_at(m->x, i)), sw_v(1, 0, 0));
+    u = sw_carry_unit(u, before, t);
+    before = t;
+  }
+  return sw_carry_unit(u, before, to);
+}
+
+/* The wire's direction at the end s of a living hold, which leaves or arrives there. */
+static sw_vec held_direction(const sw_scene *s, size_t wire, double at, int leaves) {
+  for (size_t k = 0; k < s->hold_count; k++) {
+    const sw_scene_hold *h = &s->holds[k];
+    if (h->alive && h->wire == wire && h->cls->clamped && (leaves ? h->s2 : h->s1) == at)
+      return sw_rotate(h->turn, h->director[leaves]);
+  }
+  return sw_v(0, 0, 0);
+}
+
+/* How far the holds are turned against one another stays. A curve through the nodes turns a
+ * carried vector a little less or more than the chords did, which is the twist's to make up. */
+static void correct_twist(sw_scene *s, size_t wire, const sw_mesh *fresh) {
+  const sw_scene_wire *w = &s->wires[wire];
+  for (size_t k = 0; k < w->twisted_count; k++) {
+    sw_twisted *span = &w->twisted[k];
+    const sw_vec from = held_direction(s, wire, span->s1, 1);
+    const sw_vec to = held_direction(s, wire, span->s2, 0);
+    if (!(sw_norm(from) > 0) || !(sw_norm(to) > 0)) continue; /* a hold has just gone */
+    const sw_mesh *old = &w->mesh;
+    const sw_vec u =
+        carry_along(old, sw_mesh_node(old, span->s1), sw_mesh_node(old, span->s2), from, to);
+    const sw_vec v =
+        carry_along(fresh, sw_mesh_node(fresh, span->s1), sw_mesh_node(fresh, span->s2), from, to);
+    span->twist -= atan2(sw_dot(sw_cross(u, v), to), sw_dot(u, v));
+  }
+}
+
 static sw_status carry_over(sw_scene *s, size_t wire, size_t segments) {
   sw_scene_wire *w = &s->wires[wire];
   sw_mesh places = {0}, fresh = {0};
@@ -111,6 +152,7 @@ static sw_status carry_over(sw_scene *s, size_t wire, size_t segments) {
   sw_status status = new_places(s, wire, segments, &places);
   if (status == SW_OK) status = sw_mesh_resample(&w->mesh, places.s, places.n, held, count, &fresh);
   if (status == SW_OK) {
+    correct_twist(s, wire, &fresh);
     sw_mesh_free(&w->mesh);
     w->mesh = fresh;
     w->mesh.segments = segments;
