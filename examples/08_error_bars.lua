@@ -17,7 +17,7 @@ end
 
 local settled = scene:settle { tolerance = {
   ["gripper.force"] = 0.5e-3, ["gripper.moment"] = 0.02e-3, -- what objects have, by name
-  { name = "height at 0.7 m", value = mm(0.1), unit = "m", -- and whatever else you want to know
+  { name = "height at 0.7 m", value = mm(1), unit = "m", -- and whatever else you want to know
     of = function() return cable:position(0.7)[3] end } } }
 assert(settled.ok, settled.reason)
 print(settled:error_bars())

@@ -63,7 +63,7 @@ function trust.estimate(q, values, contact)
     off = math.max(last, before)
     rate = 1
   elseif contact then -- touching places jump from node to node: the plain difference
-    off = math.max(last, before / 4, n > 3 and first / 16 or 0)
+    off = math.max(last, before / 8)
   elseif turns or rate < slowest then
     off = math.max(last, before / 2)
   else -- a small last change may be chance, where the one before was large

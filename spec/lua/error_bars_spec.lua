@@ -465,7 +465,7 @@ describe("the estimate", function()
   it("does not trust a small last change", function()
     for _, last in ipairs{ 0, 1e-9, -1e-9 } do
       assert.is_true(trust.estimate(smooth, { 5, 6, 6 + last }, false) > 0.1)
-      assert.is_true(trust.estimate(smooth, { 5, 6, 6 + last }, true) > 0.3)
+      assert.is_true(trust.estimate(smooth, { 5, 6, 6 + last }, true) > 0.15)
     end
   end)
 

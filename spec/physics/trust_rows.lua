@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Rows with independent reference values for the specs of error bars. A set is one
--- scene: { name, share (of each row's scale that is asked for), start(tolerance) -> result,
--- rows = { { name, unit, scale, exact, of [, at] } } }; see the cases for the sources.
+-- scene: { name, make(segments) -> case, rows [, duration and options of a run] }, rows a
+-- list of { name, unit, scale, exact, of [, at] }; see the cases for the sources.
 local cases = require "softworld.cases"
 local core = require "softworld.core"
 
@@ -140,21 +140,33 @@ for _, rest in ipairs{ "straight", "path" } do -- without and with frames
   end
 end
 
+local function lift_rows(c, hold)
+  local rows = { { name = "P", unit = "N", scale = c.exact.P, exact = c.exact.P,
+    of = function() return c.measured().P end } }
+  if hold == "horizontal" then
+    rows[2] = { name = "M", unit = "N m", scale = math.abs(c.exact.M), exact = math.abs(c.exact.M),
+      of = function() return math.abs(c.measured().M) end }
+  end
+  return rows
+end
+
 for _, hold in ipairs{ "pinned", "horizontal" } do
   for _, h in ipairs{ 0.1, 0.5, 2, 8 } do
     settle_set(("lift %s %g"):format(hold, h), function(segments)
       local c = cases.lift{ hold = hold, h = h, segments = segments, axial = 1e10,
         total = math.max(6, 1.6 * h + 4) }
-      local set = { scene = c.scene, wire = c.wire }
       assert(c.run().ok) -- raised to its height, on the first mesh
-      local rows = { { name = "P", unit = "N", scale = c.exact.P, exact = c.exact.P,
-        of = function() return c.measured().P end } }
-      if hold == "horizontal" then
-        rows[2] = { name = "M", unit = "N m", scale = math.abs(c.exact.M), exact = math.abs(c.exact.M),
-          of = function() return math.abs(c.measured().M) end }
-      end
-      return set, rows
+      return c, lift_rows(c, hold)
     end)
+    if h <= 2 then -- and raised pose by pose on every level
+      sets[#sets + 1] = { name = ("slow lift %s %g"):format(hold, h), duration = 1, options =
+        { quasistatic = true, dt = 0.1 }, make = function(segments)
+        local c = cases.lift{ hold = hold, h = h, segments = segments, axial = 1e8,
+          total = math.max(6, 1.6 * h + 4) }
+        c.clamp:follow{ points = { { 0, 0, 0 }, { 0, 0, c.h } }, duration = 1, relative = true }
+        return c, lift_rows(c, hold)
+      end }
+    end
   end
 end
 
