@@ -155,11 +155,17 @@ static sw_status carry_over(sw_scene *s, size_t wire, size_t segments) {
     correct_twist(s, wire, &fresh);
     sw_mesh_free(&w->mesh);
     w->mesh = fresh;
-    w->mesh.segments = segments;
+    w->mesh.spacing = places.spacing;
   }
   sw_mesh_free(&places);
   sw_free(held);
   return status;
+}
+
+/* As it was drawn, of the whole length that was drawn? */
+static int is_drawn(const sw_scene_wire *w) {
+  const double drawn = w->drawing.length * w->mesh.scale;
+  return w->mesh.drawn && fabs(w->mesh.s[w->mesh.n - 1] - drawn) <= SAME_PLACE * drawn;
 }
 
 sw_status sw_scene_remesh(sw_scene *s, const size_t *segments, size_t count, sw_error *err) {
@@ -176,7 +182,7 @@ sw_status sw_scene_remesh(sw_scene *s, const size_t *segments, size_t count, sw_
   SW_TRY(sw_scene_thaw(s));
   for (size_t w = 0; w < count; w++) {
     const sw_status status =
-        s->wires[w].mesh.drawn ? redraw(s, w, segments[w], err) : carry_over(s, w, segments[w]);
+        is_drawn(&s->wires[w]) ? redraw(s, w, segments[w], err) : carry_over(s, w, segments[w]);
     if (status == SW_ENOMEM) return sw_fail(err, status, "scene '%s': out of memory", s->name);
     if (status != SW_OK) return status;
   }
@@ -186,6 +192,6 @@ sw_status sw_scene_remesh(sw_scene *s, const size_t *segments, size_t count, sw_
 sw_status sw_scene_wire_segments(sw_scene *s, sw_handle h, size_t *segments, sw_error *err) {
   const sw_scene_wire *w = sw_scene_find_wire(s, h, err);
   if (!w) return SW_EDEAD;
-  *segments = w->mesh.segments;
+  *segments = (size_t)fmax(1.0, round(w->mesh.s[w->mesh.n - 1] / w->mesh.spacing));
   return SW_OK;
 }

@@ -83,7 +83,7 @@ sw_status sw_scene_add_wire(sw_scene *scene, const sw_wire_args *args, const sw_
  * any other keeps its length, shape, motion, strains and twist. After SW_ENOMEM some
  * wires may have the new mesh. */
 sw_status sw_scene_remesh(sw_scene *scene, const size_t *segments, size_t count, sw_error *err);
-/* Even segments of a wire's mesh, before holds added nodes. */
+/* Even segments that a wire's mesh stands for, holds' own nodes left out. */
 sw_status sw_scene_wire_segments(sw_scene *scene, sw_handle wire, size_t *segments, sw_error *err);
 
 /* --- holds ------------------------------------------------------------------ */

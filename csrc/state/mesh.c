@@ -82,7 +82,7 @@ sw_status sw_mesh_along(sw_mesh *m, const double *points, size_t count, size_t s
   for (size_t k = 0; k + 1 < count; k++)
     total += sw_dist(sw_load(points + 3 * k), sw_load(points + 3 * k + 3));
   m->n = segments + 1;
-  m->segments = segments, m->drawn = 1, m->scale = 1;
+  m->drawn = 1, m->scale = 1;
   size_t k = 0;
   double before = 0, span = sw_dist(sw_load(points), sw_load(points + 3));
   for (size_t i = 0; i <= segments; i++) {
@@ -98,6 +98,7 @@ sw_status sw_mesh_along(sw_mesh *m, const double *points, size_t count, size_t s
   sw_store(m->x + 3 * segments, sw_load(points + 3 * (count - 1)));
   for (size_t i = 0; i < segments; i++) /* chords: the wire is unstressed as drawn */
     m->s[i + 1] = m->s[i] + sw_dist(sw_load(m->x + 3 * i), sw_load(m->x + 3 * i + 3));
+  m->spacing = m->s[segments] / (double)segments;
   return SW_OK;
 }
 

@@ -16,7 +16,7 @@ typedef struct sw_mesh {
   double *x, *v;   /* (n x 3) [m], [m/s] */
   double *tension; /* (n) of the edge that starts at each node; last unused [N] */
   double EA;       /* to keep edge strains when nodes move [N] */
-  size_t segments; /* even ones it was made of, before holds moved and added nodes */
+  double spacing;  /* of the even nodes it was made of, before holds moved and added some [m] */
   int drawn;       /* 1: as it was drawn, nothing has moved yet */
   double scale;    /* its length over that of the first mesh of the wire [-] */
 
