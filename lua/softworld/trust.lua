@@ -190,7 +190,7 @@ function trust.job(scene, what, args)
 end
 
 local function touches(scene)
-  if scene:contacts() > 0 then return true end
+  if scene:contacts() > 0 or build.data(scene).touching then return true end
   for _, o in ipairs(build.data(scene).obstacles) do
     local rows, count = o.object:log()
     for i = 0, count - 1 do

@@ -99,6 +99,22 @@ describe("an equilibrium with error bars", function()
     assert.has_error(function() make():settle{ tolerance = { tip = 1 }, progress = 3 } end)
   end)
 
+  it("takes wires that touch each other for contact", function()
+    local scene = sw.scene{}
+    local lower = scene:wire{ name = "lower", EA = 1e3, EI = 1e-3, mass_per_length = 0.03, radius = 0.002,
+      from = { -0.2, 0, 0 }, to = { 0.2, 0, 0 }, segments = 24 }
+    scene:wire{ name = "upper", EA = 1e3, EI = 1e-3, mass_per_length = 0.03, radius = 0.002,
+      from = { 0, -0.1, 0.005 }, to = { 0, 0.1, 0.005 }, segments = 24 }
+    scene:clamp(lower, { s = 0 })
+    scene:clamp(lower, { s = lower.length })
+    scene:wire_contact{ friction = 0.3 }
+    scene:force{ kind = "damping", mass = 5 }
+    local r = t.fine(scene:run{ duration = 0.5, tolerance = { ["lower.max_tension"] = 0.1,
+      ["upper.position"] = 0.02 } })
+    assert.is_true(r.met and #scene:touches() > 0)
+    assert.is_true(r.quantities["lower.max_tension"].value > 0.5)
+  end)
+
   it("refuses to give numbers where there is no equilibrium", function()
     local scene, wire = make()
     local clamp_free = sw.scene{}
