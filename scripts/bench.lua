@@ -317,12 +317,22 @@ local function print_best()
   end
 end
 
+-- What it costs to know how far off a result is.
+local function print_bars()
+  print "\nerror bars of the tip, N = 50    levels    wall ms  over the finest alone       bar"
+  for _, r in ipairs(bench.error_bars()) do
+    print(("  %-30s %6d  %9.3f  %20.2f x  %6.3f mm  %s"):format(r.case, r.levels, 1e3 * r.wall, r.ratio,
+      1e3 * r.error, r.ok and "as asked" or "NOT as asked"))
+  end
+end
+
 print_aims()
 scale_ratio()
 frames_ratio()
 print_best()
 print_walls()
 print_scale()
+if not next(wanted) then print_bars() end
 local bad = {}
 for _, row in ipairs(rows) do
   if row.status ~= "ok" then bad[row.status] = (bad[row.status] or 0) + 1 end

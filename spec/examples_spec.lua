@@ -260,6 +260,24 @@ describe("example", function()
     assert.are.equal(4, lines)
   end)
 
+  -- Lifted from a table: boundary-value solution of the heavy elastica for h = l / 2, l = (EI / w)^(1/3):
+  -- force 1.66280521 w l, moment w l^2; error 3e-9. Let go: elements, error 5e-6 m.
+  it("08: error bars that hold", function()
+    local out = example "08_error_bars"
+    local w, l = 0.03 * g, 0.1
+    local function holds(expected, value, bar, asked)
+      value, bar = tonumber(value), tonumber(bar)
+      assert.is_true(math.abs(value - expected) <= bar and bar > 0 and bar <= asked, out)
+    end
+    local force, bar = out:match "force (%S+) %+%- (%S+) mN, moment"
+    holds(1e3 * 1.66280521 * w * l, force, bar, 0.5)
+    force, bar = out:match "moment (%S+) %+%- (%S+) mN m\n"
+    holds(1e3 * w * l * l, force, bar, 0.02)
+    local x, z, tip = out:match "end at x = (%S+), z = (%S+) %+%- (%S+) m"
+    holds(0, ((x - 0.2179142026) ^ 2 + (z + 0.8720748006) ^ 2) ^ 0.5, tip, 5e-4)
+    assert.truthy(out:find("height at 0.7 m = ", 1, true))
+  end)
+
   -- The wire ends up hanging over the wall, pulled by its own friction: less than its weight, 0.289 N.
   it("of the README runs as it stands", function()
     local blocks = {}
@@ -269,9 +287,12 @@ describe("example", function()
     local force = tonumber(out:match "\n(%S+)%s+%S+%s+%S+%s+%S+%s+%S+\n$")
     assert.is_true(force > 0.05 and force < 0.289, out)
     local ending = '\nlocal r = scene:run { duration = 0.1 }\nprint(r.ok)'
-    out, err, code = program.script((blocks[1]:gsub("scene:process.*", "")) .. blocks[2] .. ending)
+    out, err, code = program.script((blocks[1]:gsub("scene:process.*", "")) .. blocks[3] .. ending)
     assert.are.equal(0, code, err)
     assert.are.equal("true\n", out)
+    out, err, code = program.script((blocks[1]:gsub("local run.*", "")) .. blocks[2])
+    assert.are.equal(0, code, err)
+    assert.matches("^sag = .* %(asked for 2.000 mm: met%)\ngripper.mean_moment = .*: met%)\nmin_bend", out)
   end)
 
   it("of every number is tested here", function()

@@ -112,11 +112,46 @@ static int mod_check_run(lua_State *L) {
   return 0;
 }
 
+/* Raise unless the table holds valid parameters of scene:settle. */
+static int mod_check_settle(lua_State *L) {
+  sw_settle_args args;
+  lsw_arguments(L, 1, "scene:settle", &sw_settle_params, &args);
+  return 0;
+}
+
 /* core.begin_run(scene): extremes start anew. */
 static int mod_begin_run(lua_State *L) {
   sw_error err = {""};
   lsw_must(L, sw_scene_begin_run(check(L), &err), &err);
   return 0;
+}
+
+/* core.remesh(scene, { segments of each wire }) */
+static int mod_remesh(lua_State *L) {
+  sw_scene *scene = check(L);
+  sw_error err = {""};
+  luaL_checktype(L, 2, LUA_TTABLE);
+  const size_t count = lua_rawlen(L, 2);
+  size_t *segments = lua_newuserdatauv(L, (count + 1) * sizeof *segments, 0);
+  for (size_t w = 0; w < count; w++) {
+    lua_rawgeti(L, 2, (lua_Integer)w + 1);
+    const lua_Integer n = luaL_checkinteger(L, -1);
+    segments[w] = n > 0 ? (size_t)n : 0;
+    lua_pop(L, 1);
+  }
+  lsw_must(L, sw_scene_remesh(scene, segments, count, &err), &err);
+  return 0;
+}
+
+/* core.segments(wire): even ones of its mesh, before holds added nodes. */
+static int mod_segments(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  size_t n;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  lsw_must(L, sw_scene_wire_segments(scene, w->id, &n, &err), &err);
+  lua_pushinteger(L, (lua_Integer)n);
+  return 1;
 }
 
 /* --- running ------------------------------------------------------------------- */
@@ -381,16 +416,13 @@ const lsw_class lsw_class_snapshot = {.name = "snapshot",
                                       .gone = "the snapshot has been closed",
                                       .busy = snapshot_busy};
 
-static const luaL_Reg functions[] = {{"scene", mod_scene},
-                                     {"data", mod_data},
-                                     {"type", mod_type},
-                                     {"busy", mod_busy},
-                                     {"exists", mod_exists},
-                                     {"interrupted", mod_interrupted},
-                                     {"clock", mod_clock},
-                                     {"nearest", mod_nearest},
-                                     {"check_run", mod_check_run},
-                                     {"begin_run", mod_begin_run},
-                                     {NULL, NULL}};
+static const luaL_Reg functions[] = {
+    {"scene", mod_scene},         {"data", mod_data},
+    {"type", mod_type},           {"busy", mod_busy},
+    {"exists", mod_exists},       {"interrupted", mod_interrupted},
+    {"clock", mod_clock},         {"nearest", mod_nearest},
+    {"check_run", mod_check_run}, {"check_settle", mod_check_settle},
+    {"begin_run", mod_begin_run}, {"remesh", mod_remesh},
+    {"segments", mod_segments},   {NULL, NULL}};
 
 void lsw_open_scene(lua_State *L) { luaL_setfuncs(L, functions, 0); }

@@ -138,6 +138,9 @@ sw_status sw_scene_thaw(sw_scene *s) {
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_body *b = &s->system.bodies[w];
     sw_mesh *m = &s->wires[w].mesh;
+    m->drawn = m->drawn &&
+               memcmp(m->x, s->system.x + 3 * b->first_node, 3 * m->n * sizeof *m->x) == 0 &&
+               memcmp(m->v, s->system.v + 3 * b->first_node, 3 * m->n * sizeof *m->v) == 0;
     memcpy(m->x, s->system.x + 3 * b->first_node, 3 * m->n * sizeof *m->x);
     memcpy(m->v, s->system.v + 3 * b->first_node, 3 * m->n * sizeof *m->v);
     memcpy(m->tension, s->system.tension + b->first_edge, (m->n - 1) * sizeof *m->tension);
@@ -182,8 +185,11 @@ static sw_status add_terms(sw_scene *s, size_t w) {
   if (recipe.twist && !b->spin_block) SW_TRY(sw_system_enable_twist(&s->system, w));
   for (size_t k = 0; k < s->force_count; k++) {
     const sw_scene_force *f = &s->forces[k];
-    if (f->alive && (f->wire < 0 || f->wire == (long)w))
-      SW_TRY(sw_system_add_term(&s->system, w, f->cls, f->args, sizeof f->args, (int)k));
+    double args[SW_FORCE_ARGS_MAX / sizeof(double)];
+    if (!f->alive || (f->wire >= 0 && f->wire != (long)w)) continue;
+    memcpy(args, f->args, sizeof args);
+    if (f->cls->flags & SW_FORCE_AT_PLACE) args[0] *= s->wires[w].mesh.scale / f->scale;
+    SW_TRY(sw_system_add_term(&s->system, w, f->cls, args, sizeof args, (int)k));
   }
   return SW_OK;
 }

@@ -57,11 +57,10 @@ static sw_status halve_edges(sw_mesh *m, double low, double high) {
 }
 
 /* Enough edges between h and the holds beside it. */
-static sw_status refine_gaps(sw_scene *s, size_t wire, const sw_scene_hold *h) {
-  sw_mesh *m = &s->wires[wire].mesh;
+static sw_status refine_gaps(const sw_scene *s, size_t wire, const sw_scene_hold *h, sw_mesh *m) {
   for (size_t k = 0; k < s->hold_count; k++) {
     const sw_scene_hold *o = &s->holds[k];
-    if (!o->alive || o->wire != wire) continue;
+    if (!o->alive || o->wire != wire || o == h) continue;
     const double low = o->s2 < h->s1 ? o->s2 : h->s2, high = o->s2 < h->s1 ? h->s1 : o->s1;
     while (sw_mesh_node(m, high) - sw_mesh_node(m, low) < LEAST_EDGES)
       SW_TRY(halve_edges(m, low, high));
@@ -134,6 +133,7 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wir
   SW_TRY(sw_scene_thaw(s));
   SW_TRY(sw_grow((void **)&s->holds, &s->hold_capacity, s->hold_count + 1, sizeof *s->holds));
   sw_scene_hold h = {.generation = s->serial + 1, .alive = 1, .cls = cls, .wire = wire.slot};
+  h.args = *args, h.scale = s->wires[wire.slot].mesh.scale, h.shape = s->serial + 1;
   if (args->name[0])
     memcpy(h.name, args->name, sizeof h.name);
   else
@@ -141,7 +141,7 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wir
   take_directions(&s->wires[wire.slot].mesh, &h, args);
   sw_status status = place_nodes(s, wire.slot, &h, args);
   if (status == SW_OK) status = take_hold(&s->wires[wire.slot].mesh, &h, args);
-  if (status == SW_OK) status = refine_gaps(s, wire.slot, &h);
+  if (status == SW_OK) status = refine_gaps(s, wire.slot, &h, &s->wires[wire.slot].mesh);
   if (status != SW_OK) {
     sw_free(h.s);
     sw_free(h.local);
@@ -150,6 +150,68 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wir
   *out = (sw_handle){(uint32_t)s->hold_count, ++s->serial};
   s->holds[s->hold_count++] = h;
   return SW_OK;
+}
+
+/* --- another mesh ------------------------------------------------------------------ */
+
+sw_status sw_scene_copy_shape(const sw_scene_hold *from, sw_scene_hold *to) {
+  double *s = sw_alloc(from->count, sizeof *s), *local = sw_alloc(3 * from->count, sizeof *local);
+  if (!s || !local) {
+    sw_free(s);
+    sw_free(local);
+    return SW_ENOMEM;
+  }
+  memcpy(s, from->s, from->count * sizeof *s);
+  memcpy(local, from->local, 3 * from->count * sizeof *local);
+  to->shape = from->shape, to->s1 = from->s1, to->s2 = from->s2, to->count = from->count;
+  memcpy(to->director, from->director, sizeof to->director);
+  memcpy(to->frame, from->frame, sizeof to->frame);
+  to->s = s, to->local = local;
+  return SW_OK;
+}
+
+sw_status sw_scene_retake_hold(sw_scene *s, sw_scene_hold *h) {
+  sw_mesh *m = &s->wires[h->wire].mesh;
+  sw_hold_args a = h->args;
+  sw_scene_hold new = *h;
+  a.s = fmin(a.s * m->scale / h->scale, m->s[m->n - 1]);
+  new.s = new.local = NULL;
+  take_directions(m, &new, &a);
+  sw_status status = place_nodes(s, h->wire, &new, &a);
+  if (status == SW_OK) status = take_hold(m, &new, &a);
+  if (status == SW_OK) status = refine_gaps(s, h->wire, &new, m);
+  if (status != SW_OK) {
+    sw_free(new.s);
+    sw_free(new.local);
+    return status;
+  }
+  new.drive = h->drive, new.last_pose = h->last_pose, new.turn = h->turn;
+  new.alive = 1, new.shape = ++s->serial;
+  sw_free(h->s);
+  sw_free(h->local);
+  *h = new;
+  return SW_OK;
+}
+
+/* Make s a node of the mesh, of exactly this arc length. */
+static sw_status place_exactly(sw_mesh *m, double s, const double *keep, size_t count) {
+  double placed;
+  SW_TRY(sw_mesh_place(m, s, keep, count, &placed));
+  m->s[sw_mesh_node(m, placed)] = s;
+  return SW_OK;
+}
+
+sw_status sw_scene_make_places(const sw_scene *s, size_t wire, sw_mesh *m) {
+  double *keep = sw_alloc(2 * s->hold_count + 1, sizeof *keep);
+  if (!keep) return SW_ENOMEM;
+  const size_t n = kept_places(s, wire, keep);
+  sw_status status = SW_OK;
+  for (size_t k = 0; k < n && status == SW_OK; k++) status = place_exactly(m, keep[k], keep, n);
+  sw_free(keep);
+  for (size_t k = 0; k < s->hold_count && status == SW_OK; k++)
+    if (s->holds[k].alive && s->holds[k].wire == wire)
+      status = refine_gaps(s, wire, &s->holds[k], m);
+  return status;
 }
 
 static sw_scene_hold *living(sw_scene *s, sw_handle hold, sw_error *err) {

@@ -46,6 +46,7 @@ void sw_scene_free(sw_scene *s) {
   for (size_t i = 0; i < s->wire_count; i++) {
     sw_mesh_free(&s->wires[i].mesh);
     sw_free(s->wires[i].twisted);
+    sw_free(s->wires[i].drawing.points);
   }
   for (size_t i = 0; i < s->hold_count; i++) sw_scene_clear_hold(&s->holds[i]);
   for (size_t i = 0; i < s->obstacle_count; i++) sw_scene_clear_obstacle(&s->obstacles[i]);
@@ -191,10 +192,10 @@ static sw_status check_mesh(const char *name, const sw_mesh *m, sw_error *err) {
 /* The normal must be across the wire where it starts. */
 static const double LEAST_SINE = 1e-3; /* of the angle between both [-] */
 
-static sw_status add_frames(sw_scene_wire *w, const sw_wire_args *a, sw_error *err) {
+static sw_status add_frames(sw_scene_wire *w, sw_mesh *m, sw_error *err) {
   const int two = w->beam.EI_axis[0] != w->beam.EI_axis[1];
-  const sw_vec along =
-      sw_unit_or(sw_sub(sw_load(w->mesh.x + 3), sw_load(w->mesh.x)), sw_v(1, 0, 0));
+  const sw_drawing *a = &w->drawing;
+  const sw_vec along = sw_unit_or(sw_sub(sw_load(m->x + 3), sw_load(m->x)), sw_v(1, 0, 0));
   const int given = isfinite(a->normal.x);
   w->beam.rolls = a->rolls;
   w->beam.curved = a->rest == SW_REST_PATH;
@@ -212,9 +213,34 @@ static sw_status add_frames(sw_scene_wire *w, const sw_wire_args *a, sw_error *e
     return sw_fail(err, SW_EINVAL, "wire '%s': normal must not be along the wire's start", w->name);
   w->beam.framed = w->beam.framed || a->rest == SW_REST_PATH || a->rolls;
   if (!w->beam.framed) return SW_OK; /* a normal that makes no difference */
-  if (sw_mesh_add_frames(&w->mesh, given ? a->normal : sw_perpendicular(along),
+  if (sw_mesh_add_frames(m, given ? a->normal : sw_perpendicular(along),
                          a->rest == SW_REST_STRAIGHT) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", w->name);
+  return SW_OK;
+}
+
+sw_status sw_scene_draw(sw_scene_wire *w, size_t segments, sw_mesh *out, sw_error *err) {
+  const sw_drawing *d = &w->drawing;
+  sw_status status = sw_mesh_along(out, d->points, d->count, segments);
+  if (status == SW_OK) status = check_mesh(w->name, out, err);
+  if (status == SW_OK) status = add_frames(w, out, err);
+  if (status != SW_OK) {
+    sw_mesh_free(out);
+    return status;
+  }
+  out->EA = w->beam.EA;
+  if (d->length > 0) out->scale = out->s[out->n - 1] / d->length;
+  return SW_OK;
+}
+
+/* Keep what the wire is drawn along; frees nothing on failure. */
+static sw_status keep_drawing(sw_scene_wire *w, const sw_wire_args *args, const double *points,
+                              size_t count) {
+  w->drawing = (sw_drawing){
+      .count = count, .normal = args->normal, .rest = args->rest, .rolls = args->rolls};
+  w->drawing.points = sw_alloc(3 * count, sizeof *points);
+  if (!w->drawing.points) return SW_ENOMEM;
+  memcpy(w->drawing.points, points, 3 * count * sizeof *points);
   return SW_OK;
 }
 
@@ -251,18 +277,17 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
     return sw_fail(err, SW_EINVAL, "wire '%s': path needs at least two points", w.name);
   SW_TRY(sw_scene_thaw(s));
   SW_TRY(sw_grow((void **)&s->wires, &s->wire_capacity, s->wire_count + 1, sizeof *s->wires));
-  sw_status status = sw_mesh_along(&w.mesh, points ? points : straight, points ? count : 2,
-                                   (size_t)args->segments);
-  if (status == SW_OK) status = check_mesh(w.name, &w.mesh, err);
-  if (status == SW_OK) status = add_frames(&w, args, err);
+  sw_status status = keep_drawing(&w, args, points ? points : straight, points ? count : 2);
+  if (status == SW_OK) status = sw_scene_draw(&w, (size_t)args->segments, &w.mesh, err);
   for (size_t k = 0; status == SW_OK && k < s->force_count; k++)
     if (s->forces[k].alive && s->forces[k].wire < 0)
       status = check_wire(s->forces[k].cls, &w, s->forces[k].args, err);
   if (status != SW_OK) {
     sw_mesh_free(&w.mesh);
+    sw_free(w.drawing.points);
     return status;
   }
-  w.mesh.EA = beam->EA;
+  w.drawing.length = w.mesh.s[w.mesh.n - 1];
   *out = (sw_handle){(uint32_t)s->wire_count, ++s->serial};
   s->wires[s->wire_count++] = w;
   return SW_OK;
@@ -386,7 +411,8 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
   *f = (sw_scene_force){.generation = ++s->serial,
                         .alive = 1,
                         .cls = cls,
-                        .wire = wire.generation ? (long)wire.slot : -1};
+                        .wire = wire.generation ? (long)wire.slot : -1,
+                        .scale = w ? w->mesh.scale : 1.0};
   if (args_size) memcpy(f->args, args, args_size);
   *out = (sw_handle){(uint32_t)s->force_count++, s->serial};
   return SW_OK;

@@ -79,6 +79,14 @@ extern const sw_params sw_wire_params; /* model, path, segments, ... */
 sw_status sw_scene_add_wire(sw_scene *scene, const sw_wire_args *args, const sw_beam *beam,
                             const double *points, size_t count, sw_handle *out, sw_error *err);
 
+/* Give every wire a mesh of so many even segments (count: one number per wire), with
+ * the nodes its holds need. A wire that has not moved since it was drawn is drawn anew;
+ * any other keeps its length, shape, motion, strains and twist. After SW_ENOMEM some
+ * wires may have the new mesh. */
+sw_status sw_scene_remesh(sw_scene *scene, const size_t *segments, size_t count, sw_error *err);
+/* Even segments that a wire's mesh stands for, holds' own nodes left out. */
+sw_status sw_scene_wire_segments(sw_scene *scene, sw_handle wire, size_t *segments, sw_error *err);
+
 /* --- holds ------------------------------------------------------------------ */
 
 sw_status sw_scene_add_hold(sw_scene *scene, const sw_hold_class *cls, sw_handle wire,

@@ -11,7 +11,8 @@
 
 static const sw_param rows[] = {
     {"tolerance", SW_PARAM_NUMBER, "m", 1e-9, 0, 1, SW_PARAM_ABOVE_MIN, NULL,
-     offsetof(sw_settle_args, tolerance), "largest shift of a node in the last iteration"},
+     offsetof(sw_settle_args, tolerance),
+     "largest shift of a node in the last iteration (or quantities, see help 'tolerance')"},
     {"max_iterations", SW_PARAM_INTEGER, "-", 4000, 1, 1e9, 0, NULL,
      offsetof(sw_settle_args, max_iterations), "most matrix solves"},
 };

@@ -12,6 +12,7 @@ typedef struct saved_hold {
   sw_vec force, moment;
   sw_pose last_pose;
   size_t log_count;
+  sw_scene_hold shape; /* where and how it holds, nothing else of it */
 } saved_hold;
 
 typedef struct saved_obstacle {
@@ -75,7 +76,10 @@ void sw_snapshot_free(sw_snapshot *p) {
   if (!p) return;
   unlink_snapshot(p);
   for (size_t w = 0; p->meshes && w < p->wires; w++) sw_mesh_free(&p->meshes[w]);
-  for (size_t k = 0; p->hold && k < p->holds; k++) sw_drive_free(&p->hold[k].drive);
+  for (size_t k = 0; p->hold && k < p->holds; k++) {
+    sw_drive_free(&p->hold[k].drive);
+    sw_scene_clear_hold(&p->hold[k].shape);
+  }
   for (size_t k = 0; p->obstacle && k < p->obstacles; k++) sw_drive_free(&p->obstacle[k].drive);
   sw_free(p->meshes);
   sw_free(p->extremes);
@@ -117,8 +121,11 @@ static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
   }
   for (; p->holds < s->hold_count; p->holds++) {
     const sw_scene_hold *h = &s->holds[p->holds];
-    p->hold[p->holds] = (saved_hold){h->alive,  copy_drive(&h->drive), h->force,
-                                     h->moment, h->last_pose,          h->log.count};
+    saved_hold *kept = &p->hold[p->holds];
+    SW_TRY(sw_scene_copy_shape(h, &kept->shape));
+    kept->alive = h->alive, kept->drive = copy_drive(&h->drive);
+    kept->force = h->force, kept->moment = h->moment;
+    kept->last_pose = h->last_pose, kept->log_count = h->log.count;
   }
   for (; p->obstacles < s->obstacle_count; p->obstacles++) {
     const sw_scene_obstacle *o = &s->obstacles[p->obstacles];
@@ -179,11 +186,13 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
 static int same_plan(const sw_scene *s, const sw_snapshot *p) {
   if (!s->built || s->wire_count != p->wires || s->rule_count != p->rules) return 0;
   for (size_t w = 0; w < p->wires; w++)
-    if (s->wires[w].mesh.n != p->meshes[w].n ||
+    if (s->wires[w].mesh.n != p->meshes[w].n || s->wires[w].mesh.scale != p->meshes[w].scale ||
         memcmp(s->wires[w].mesh.s, p->meshes[w].s, p->meshes[w].n * sizeof(double)) != 0)
       return 0;
   for (size_t k = 0; k < s->hold_count; k++)
-    if (s->holds[k].alive != (k < p->holds && p->hold[k].alive)) return 0;
+    if (s->holds[k].alive != (k < p->holds && p->hold[k].alive) ||
+        (k < p->holds && s->holds[k].shape != p->hold[k].shape.shape))
+      return 0;
   for (size_t k = 0; k < s->obstacle_count; k++)
     if (s->obstacles[k].alive != (k < p->obstacles && p->obstacle[k].alive)) return 0;
   for (size_t k = 0; k < s->force_count; k++)
@@ -238,21 +247,68 @@ static void drop_newer(sw_scene *s) {
   if (s->force_count > forces) s->force_count = forces;
 }
 
+/* What the scene's meshes and holds were, allocated before anything is changed. */
+typedef struct copies {
+  sw_mesh *meshes;      /* (wires) */
+  sw_scene_hold *holds; /* (holds): shapes of those that were taken anew since */
+} copies;
+
+static sw_status make_copies(const sw_scene *s, const sw_snapshot *p, copies *c) {
+  c->meshes = sw_alloc(p->wires, sizeof *c->meshes);
+  c->holds = sw_alloc(p->holds, sizeof *c->holds);
+  if (!c->meshes || !c->holds) return SW_ENOMEM;
+  for (size_t w = 0; w < p->wires; w++) SW_TRY(sw_mesh_copy(&p->meshes[w], &c->meshes[w]));
+  for (size_t k = 0; k < p->holds; k++)
+    if (s->holds[k].shape != p->hold[k].shape.shape)
+      SW_TRY(sw_scene_copy_shape(&p->hold[k].shape, &c->holds[k]));
+  return SW_OK;
+}
+
+static void free_copies(const sw_snapshot *p, copies *c) {
+  for (size_t w = 0; c->meshes && w < p->wires; w++) sw_mesh_free(&c->meshes[w]);
+  for (size_t k = 0; c->holds && k < p->holds; k++) sw_scene_clear_hold(&c->holds[k]);
+  sw_free(c->meshes);
+  sw_free(c->holds);
+}
+
+static void swap_shape(sw_scene_hold *h, sw_scene_hold *copy) {
+  double *s = h->s, *local = h->local;
+  h->shape = copy->shape, h->s1 = copy->s1, h->s2 = copy->s2, h->count = copy->count;
+  memcpy(h->director, copy->director, sizeof h->director);
+  memcpy(h->frame, copy->frame, sizeof h->frame);
+  h->s = copy->s, h->local = copy->local;
+  copy->s = s, copy->local = local;
+}
+
+/* Meshes and holds as they were, in a scene that is not built. */
 static sw_status put_meshes(sw_scene *s, const sw_snapshot *p) {
-  sw_mesh *copies = sw_alloc(p->wires, sizeof *copies);
-  sw_status status = copies ? SW_OK : SW_ENOMEM;
-  for (size_t w = 0; status == SW_OK && w < p->wires; w++)
-    status = sw_mesh_copy(&p->meshes[w], &copies[w]);
-  for (size_t w = 0; copies && w < p->wires; w++) {
-    if (status == SW_OK) {
-      sw_mesh_free(&s->wires[w].mesh);
-      s->wires[w].mesh = copies[w];
-    } else {
-      sw_mesh_free(&copies[w]);
+  copies c = {0};
+  const sw_status status = make_copies(s, p, &c);
+  if (status == SW_OK) {
+    for (size_t w = 0; w < p->wires; w++) {
+      const sw_mesh now = s->wires[w].mesh;
+      s->wires[w].mesh = c.meshes[w];
+      c.meshes[w] = now;
     }
+    for (size_t k = 0; k < p->holds; k++)
+      if (c.holds[k].s) swap_shape(&s->holds[k], &c.holds[k]);
   }
-  sw_free(copies);
+  free_copies(p, &c);
   return status;
+}
+
+/* The same plan: only what tells, at the next thaw, whether a wire is as it was drawn. */
+static void put_drawn(sw_scene *s, const sw_snapshot *p) {
+  for (size_t w = 0; w < p->wires; w++) {
+    sw_mesh *m = &s->wires[w].mesh;
+    const sw_mesh *old = &p->meshes[w];
+    m->drawn = old->drawn;
+    memcpy(m->x, old->x, 3 * m->n * sizeof *m->x);
+    memcpy(m->v, old->v, 3 * m->n * sizeof *m->v);
+    if (!m->rest) continue;
+    memcpy(m->normal, old->normal, 3 * m->n * sizeof *m->normal);
+    memcpy(m->twist, old->twist, m->n * sizeof *m->twist);
+  }
 }
 
 static sw_status put_state(sw_scene *s, const sw_snapshot *p, sw_error *err) {
@@ -288,6 +344,8 @@ sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   if (!same_plan(s, p)) {
     SW_TRY(sw_scene_thaw(s));
     if (put_meshes(s, p) != SW_OK) return sw_fail(err, SW_ENOMEM, "restore: out of memory");
+  } else {
+    put_drawn(s, p);
   }
   put_objects(s, p);
   drop_newer(s);

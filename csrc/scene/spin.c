@@ -67,17 +67,24 @@ double sw_scene_flexure(const sw_system *s, const sw_body *body, size_t number) 
   return hypot(bend[0] - p->rest_bend[2 * number], bend[1] - p->rest_bend[2 * number + 1]) / length;
 }
 
+static const double AS_DRAWN = 1e-9; /* what rounding does to normals and twists [-], [rad] */
+
 void sw_scene_frame_out(sw_scene *s, size_t wire) {
   const sw_body *b = &s->system.bodies[wire];
   const sw_plan *p = b->plan;
   const double *state = s->system.frames + b->first_frame, *twist = state + 3 * p->edges;
   sw_mesh *m = &s->wires[wire].mesh;
-  for (size_t e = 0; e < p->edges; e++)
-    sw_store(m->normal + 3 * e, sw_v(state[e], state[p->edges + e], state[2 * p->edges + e]));
+  for (size_t e = 0; e < p->edges; e++) {
+    const sw_vec now = sw_v(state[e], state[p->edges + e], state[2 * p->edges + e]);
+    if (sw_dist(now, sw_vec_at(m->normal, e)) > AS_DRAWN) m->drawn = 0;
+    sw_store(m->normal + 3 * e, now);
+  }
   memcpy(m->twist, twist, p->nodes * sizeof *twist);
   for (size_t i = 0; i < p->nodes; i++)
     if (p->held[i] != SW_FREE && !(p->hinge[i] > 0)) m->twist[i] = 0;
   for (size_t c = 0; c < p->clamp_count; c++) m->twist[p->clamps[c].node] += twist[p->nodes + c];
+  for (size_t i = 0; i < p->nodes; i++)
+    if (fabs(m->twist[i]) > AS_DRAWN) m->drawn = 0; /* it is drawn without twist */
   if (!b->roll_block) return;
   const size_t at = 3 * s->system.nodes + b->first_roll;
   memcpy(m->turn, s->system.x + at, p->edges * sizeof *m->turn);

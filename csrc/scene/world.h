@@ -15,12 +15,23 @@ typedef struct sw_twisted {
   double twist;  /* total [rad] */
 } sw_twisted;
 
+/* What a wire was drawn along, to be meshed again as if it were made now. */
+typedef struct sw_drawing {
+  double *points; /* (count x 3) [m] */
+  size_t count;
+  double length; /* of the first mesh [m] */
+  sw_vec normal; /* of the section; NAN = not given [-] */
+  int rest;      /* SW_REST_STRAIGHT, SW_REST_PATH */
+  int rolls;     /* 1: it turns about itself with inertia */
+} sw_drawing;
+
 typedef struct sw_scene_wire {
   uint32_t generation;
   char name[SW_NAME_SIZE];
   const sw_wire_class *cls;
   sw_beam beam;
   sw_mesh mesh; /* authoritative while the scene is not built */
+  sw_drawing drawing;
   sw_wire_extremes extremes;
   sw_twisted *twisted;
   size_t twisted_count;
@@ -45,7 +56,10 @@ typedef struct sw_scene_hold {
   char name[SW_NAME_SIZE];
   const sw_hold_class *cls;
   size_t wire;
-  double s1, s2; /* held interval, nodes of the mesh [m] */
+  sw_hold_args args; /* as asked for */
+  double scale;      /* of the wire's mesh when it was asked for [-] */
+  uint32_t shape;    /* another number when s1 .. frame are others */
+  double s1, s2;     /* held interval, nodes of the mesh [m] */
   sw_drive drive;
   size_t count;           /* held places */
   double *s;              /* (count) arc lengths when taken hold of [m] */
@@ -72,7 +86,8 @@ typedef struct sw_scene_force {
   uint32_t generation;
   int alive;
   const sw_force_class *cls;
-  long wire; /* -1 = all */
+  long wire;    /* -1 = all */
+  double scale; /* of the wire's mesh when it was made [-] */
   double args[SW_FORCE_ARGS_MAX / sizeof(double)];
 } sw_scene_force;
 
@@ -199,6 +214,16 @@ sw_scene_hold *sw_scene_find_hold(const sw_scene *scene, sw_handle h, sw_error *
 sw_scene_obstacle *sw_scene_find_obstacle(const sw_scene *scene, sw_handle h, sw_error *err);
 
 sw_status sw_scene_editable(const sw_scene *scene, sw_error *err);
+
+/* A wire's mesh as drawn, of some segments; frames too. SW_ENOMEM. */
+sw_status sw_scene_draw(sw_scene_wire *wire, size_t segments, sw_mesh *out, sw_error *err);
+/* Take hold of the redrawn mesh anew. The hold is not alive; those that are were there
+ * before it. What drives it stays. SW_ENOMEM. */
+sw_status sw_scene_retake_hold(sw_scene *scene, sw_scene_hold *hold);
+/* Nodes for the wire's living holds in another mesh of the same length. SW_ENOMEM. */
+sw_status sw_scene_make_places(const sw_scene *scene, size_t wire, sw_mesh *mesh);
+/* Where and how a hold holds, into another slot that owns nothing. SW_ENOMEM. */
+sw_status sw_scene_copy_shape(const sw_scene_hold *from, sw_scene_hold *to);
 
 /* Free what these slots own. */
 void sw_scene_clear_hold(sw_scene_hold *hold);

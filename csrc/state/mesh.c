@@ -50,19 +50,28 @@ void sw_mesh_free(sw_mesh *m) {
   memset(m, 0, sizeof *m);
 }
 
-sw_status sw_mesh_copy(const sw_mesh *from, sw_mesh *to) {
-  sw_mesh copy = *from; /* its arrays are replaced by copies of them */
-  double **source[ARRAYS], **at[ARRAYS];
+sw_status sw_mesh_like(const sw_mesh *other, size_t n, sw_mesh *to) {
+  sw_mesh copy = *other; /* its arrays are replaced by empty ones */
+  double **at[ARRAYS];
   size_t width[ARRAYS];
-  sw_mesh keep = *from;
-  arrays(&keep, source, width);
   arrays(&copy, at, width);
   for (size_t k = 0; k < ARRAYS; k++) *at[k] = NULL;
   *to = (sw_mesh){0};
-  if (make_room(&copy, from->n, from->rest ? ARRAYS : PLAIN) != SW_OK) return SW_ENOMEM;
+  SW_TRY(make_room(&copy, n, other->rest ? ARRAYS : PLAIN));
+  copy.n = n;
+  *to = copy;
+  return SW_OK;
+}
+
+sw_status sw_mesh_copy(const sw_mesh *from, sw_mesh *to) {
+  double **source[ARRAYS], **at[ARRAYS];
+  size_t width[ARRAYS];
+  sw_mesh keep = *from;
+  SW_TRY(sw_mesh_like(from, from->n, to));
+  arrays(&keep, source, width);
+  arrays(to, at, width);
   for (size_t k = 0; k < ARRAYS; k++)
     if (*at[k]) memcpy(*at[k], *source[k], width[k] * from->n * sizeof(double));
-  *to = copy;
   return SW_OK;
 }
 
@@ -73,6 +82,7 @@ sw_status sw_mesh_along(sw_mesh *m, const double *points, size_t count, size_t s
   for (size_t k = 0; k + 1 < count; k++)
     total += sw_dist(sw_load(points + 3 * k), sw_load(points + 3 * k + 3));
   m->n = segments + 1;
+  m->drawn = 1, m->scale = 1;
   size_t k = 0;
   double before = 0, span = sw_dist(sw_load(points), sw_load(points + 3));
   for (size_t i = 0; i <= segments; i++) {
@@ -88,6 +98,7 @@ sw_status sw_mesh_along(sw_mesh *m, const double *points, size_t count, size_t s
   sw_store(m->x + 3 * segments, sw_load(points + 3 * (count - 1)));
   for (size_t i = 0; i < segments; i++) /* chords: the wire is unstressed as drawn */
     m->s[i + 1] = m->s[i] + sw_dist(sw_load(m->x + 3 * i), sw_load(m->x + 3 * i + 3));
+  m->spacing = m->s[segments] / (double)segments;
   return SW_OK;
 }
 

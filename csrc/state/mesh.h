@@ -16,6 +16,9 @@ typedef struct sw_mesh {
   double *x, *v;   /* (n x 3) [m], [m/s] */
   double *tension; /* (n) of the edge that starts at each node; last unused [N] */
   double EA;       /* to keep edge strains when nodes move [N] */
+  double spacing;  /* of the even nodes it was made of, before holds moved and added some [m] */
+  int drawn;       /* 1: as it was drawn, nothing has moved yet */
+  double scale;    /* its length over that of the first mesh of the wire [-] */
 
   /* of a wire with material frames; NULL without */
   double *rest;        /* (n x 3) nodes of the unloaded wire, somewhere in space [m] */
@@ -39,6 +42,15 @@ void sw_mesh_free(sw_mesh *mesh);
 
 /* A copy of its own. SW_ENOMEM. */
 sw_status sw_mesh_copy(const sw_mesh *from, sw_mesh *to);
+
+/* An empty mesh of n nodes with what else the other one has. SW_ENOMEM. */
+sw_status sw_mesh_like(const sw_mesh *other, size_t n, sw_mesh *to);
+
+/* The same wire with nodes at other arc lengths s (count; from 0 to its length), with
+ * its shape, motion, strains, frames. held: stretches (held_count x 2: from, to) that
+ * stay as they are; both meshes have nodes at their ends. SW_ENOMEM. */
+sw_status sw_mesh_resample(const sw_mesh *from, const double *s, size_t count, const double *held,
+                           size_t held_count, sw_mesh *out);
 
 /* Give the wire frames that are not twisted, as it lies: their first axis is that
  * of normal across the wire's start. straight: unloaded it is straight, else as it

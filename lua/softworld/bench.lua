@@ -17,6 +17,36 @@ bench.batch = 0.02 -- shortest time that is averaged [s]
 bench.batches = 3  -- the best of this many counts
 bench.patience = 1 -- a run longer than this is not repeated [s]
 
+-- What error bars are asked for: case, error of the tip [m], and how it is computed.
+local bars = {
+  { "droop", 1e-4, function(c, tolerance) return c.scene:settle{ tolerance = tolerance } end },
+  { "release", 1e-3, function(c, tolerance)
+    return c.scene:run{ duration = 0.5, tolerance = tolerance, frame = 1e9 }
+  end },
+}
+
+--- What error bars cost: one row per case with its levels, the time of all of them
+-- and of the finest alone, their ratio, the bar and what was asked for [s], [m].
+function bench.error_bars()
+  local cases, rows = require "softworld.cases", {}
+  for i, entry in ipairs(bars) do
+    local best
+    for _ = 1, bench.batches do
+      local c = cases[entry[1]]{ segments = 50 }
+      local t = core.clock()
+      local r = entry[3](c, { tip = entry[2] })
+      t = core.clock() - t
+      local row = { case = entry[1], ok = r.ok and r.met, levels = #r.levels, wall = t,
+        finest = r.levels[#r.levels].cpu, asked = entry[2], error = r.ok and r.quantities.tip.error }
+      row.ratio = row.wall / math.max(row.finest, 1e-6) -- the clock's own step [s]
+      if not best or row.wall < best.wall then best = row end
+      c.scene:close()
+    end
+    rows[i] = best
+  end
+  return rows
+end
+
 local function by_name(list, name)
   for _, entry in ipairs(list) do
     if entry.name == name then return entry end

@@ -231,6 +231,7 @@ local new_contact = class.scene.wire_contact
 function class.scene.wire_contact(scene, args)
   build.check(scene, "scene:wire_contact", 3)
   build.call(3, new_contact, scene, args)
+  build.data(scene).touching = true
 end
 
 local new_force = class.scene.force

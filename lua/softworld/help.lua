@@ -54,6 +54,28 @@ sw.cable.define{ name =, outer_diameter = [m], mass_per_length = [kg/m], EA = [N
   a value may have its own: { value =, low =, high =, flag =, source = }
   what is missing is computed from the construction
 sw.material "copper"            .E .G [Pa] .density [kg/m3]; materials of constructions]],
+  tolerance = [[
+scene:run{ tolerance = 1e-5, ... }         a number: error of one step [m], which chooses the steps
+scene:run{ tolerance = { ... }, ... }      quantities: how far off each may be, in its unit
+scene:settle{ tolerance = { ... } }
+  tip = 1e-3, position = 1e-3              end, or whole shape, of the wire [m]
+  max_tension, max_stress, max_strain      of the run [N], [Pa]
+  min_bend_radius                          [m]
+  force, moment                            of a clamp, pin, gripper; force on an obstacle [N], [N m]
+  peak_force, mean_force, impulse          of a gripper [N], [N s]
+  peak_moment, mean_moment                 [N m]
+  energy, penetration                      of the scene [J]; deepest into an obstacle [m]
+  ["left.force"] = 0.05                    the object's name in front where several have it
+  { name = "sag", value = 1e-4, unit = "m", of = function() return -wire:position(0.5)[3] end }
+                                           your own, a number or a list; at = [s] after the start
+  beside it: levels = 5                    at most so many computations, 3 to 12 (settle: 7)
+The scene is computed several times from where it is, with edges (and in a run steps) halved each
+time, until no quantity changes by more than asked for. A process's function runs each time anew.
+  result.quantities.tip                    .value .error .unit .met, .where [m] and .when [s]
+  print(result:error_bars())
+  result.met                               all as asked for? if not, result.advice
+  result.ok = false                        no level could be computed: .reason .where .advice, no numbers
+Afterwards the scene is at the end of the finest computation; after an error as it was before.]],
   touches = [[
 scene:wire_contact{ between = {a, b}, friction = 0.3 }   help "wire_contact"
 for _, t in ipairs(scene:touches()) do ... end

@@ -27,6 +27,7 @@ require "softworld.build"    -- adds to the classes: names, files, drawing data
 require "softworld.process"  -- scene:process
 require "softworld.gripper"  -- scene:gripper
 require "softworld.run"      -- scene:run
+require "softworld.settle"   -- scene:settle with error bars
 
 --- A new scene. { name =, gravity = {x, y, z} [m/s2] }
 function sw.scene(args) return core.scene(args) end

@@ -111,11 +111,30 @@ function core.class.scene.process(scene, body)
   end
   local data = build.data(scene)
   data.process_count = (data.process_count or 0) + 1
-  local self = setmetatable({ scene = scene, number = data.process_count }, Process)
+  local self = setmetatable({ scene = scene, number = data.process_count, body = body }, Process)
   self.thread = coroutine.create(body)
   current[self.thread] = self
   data.processes[#data.processes + 1] = self
   return self
+end
+
+--- The functions of the scene's processes, to be begun again later by process.renew. A
+-- process that is under way has no way back: nil and it.
+function process.bodies(scene)
+  local bodies = {}
+  for i, p in ipairs(build.data(scene).processes) do
+    if p.begun then return nil, p end
+    bodies[i] = p.body
+  end
+  return bodies
+end
+
+--- Put these processes in place of those that there are.
+function process.renew(scene, bodies)
+  local data = build.data(scene)
+  for _, p in ipairs(data.processes) do p:finish() end
+  data.processes = {}
+  for _, body in ipairs(bodies) do scene:process(body) end
 end
 
 local library = debug.getinfo(1, "S").short_src:match "^(.*)process%.lua$" or "softworld/"
@@ -139,7 +158,7 @@ local function place_in(thread)
 end
 
 local function resume(self)
-  self.wake, self.watching = nil, nil
+  self.wake, self.watching, self.begun = nil, nil, true
   local ok, message = coroutine.resume(self.thread, self)
   if not ok then
     self.failed, self.traceback = true, debug.traceback(self.thread)

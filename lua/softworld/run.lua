@@ -5,6 +5,8 @@ local core = require "softworld.core"
 local build = require "softworld.build"
 local process = require "softworld.process"
 local number = require "softworld.output.number"
+local refine = require "softworld.refine"
+local trust = require "softworld.trust"
 local progress = require "softworld.output.progress"
 
 local Run = { __name = "run" }
@@ -20,12 +22,13 @@ local function merge(total, part)
   total.last_jump = part.last_jump or total.last_jump
 end
 
-local function new_bar(args, scene)
+local function new_bar(args, scene, level)
   local host = package.loaded["softworld.host"]
   local wanted = args.progress
   if wanted == nil then wanted = false end
   return progress.new{ total = args.duration and args.duration > 0 and args.duration or nil,
-    name = scene.name, quiet = not wanted, terminal = host and host.terminal or nil,
+    name = level and ("%s, %s"):format(scene.name, level) or scene.name, quiet = not wanted,
+    terminal = host and host.terminal or nil,
     clock = core.clock, width = host and host.columns or nil }
 end
 
@@ -59,29 +62,16 @@ local function drive(scene, args, total, bar)
   end
 end
 
---- Advance the scene: { duration = [s], dt = [s] or tolerance = [m], integrator =,
--- progress = true, frame = [s] }. Without duration until the processes end.
--- Returns a run: ok, reason, time, steps, ... Errors of processes and callbacks
--- are raised unchanged and leave the scene at its last good step.
-function core.class.scene.run(scene, args)
-  build.check(scene, "scene:run", 3)
-  if args == nil then args = {} end
-  build.call(3, core.check_run, args)
+-- One run; level names it where it is one of several.
+local function run_once(scene, args, level)
   local data = build.data(scene)
-  if data.running then
-    error(("scene:run: a run of scene '%s' is under way; a process lets time pass by waiting")
-      :format(scene.name), 2)
-  end
-  if not args.duration and #data.processes == 0 then
-    error("scene:run: there is no process that could end; give duration [s]", 2)
-  end
   local total = { steps = 0, rejected = 0, iterations = 0, evaluations = 0, jumps = 0,
     smallest_dt = math.huge, ok = true, reason = "", time = scene.time, start = scene.time }
-  build.call(3, core.begin_run, scene)
+  core.begin_run(scene)
   local wall, cpu = core.clock(), os.clock()
   local fine, reason
   do -- protected: a coroutine that dies by an error leaves its variables unclosed
-    local bar <close> = new_bar(args, scene)
+    local bar <close> = new_bar(args, scene, level)
     data.running = true
     fine, reason = pcall(drive, scene, args, total, bar)
     data.running = nil
@@ -92,6 +82,34 @@ function core.class.scene.run(scene, args)
   total.reason, total.scene, total.name = reason, scene, scene.name
   total.restores = data.restores
   return setmetatable(total, Run)
+end
+
+local function check_start(scene, args)
+  core.check_run(args)
+  local data = build.data(scene)
+  if data.running then
+    error(("scene:run: a run of scene '%s' is under way; a process lets time pass by waiting")
+      :format(scene.name), 0)
+  end
+  if not args.duration and #data.processes == 0 then
+    error("scene:run: there is no process that could end; give duration [s]", 0)
+  end
+end
+
+--- Advance the scene: { duration = [s], dt = [s] or tolerance = [m], integrator =,
+-- progress = true, frame = [s] }. Without duration until the processes end. With a
+-- table of quantities as tolerance the run has error bars, see help "tolerance".
+-- Returns a run: ok, reason, time, steps, ... Errors of processes and callbacks
+-- are raised unchanged and leave the scene at its last good step.
+function core.class.scene.run(scene, args)
+  build.check(scene, "scene:run", 3)
+  if args == nil then args = {} end
+  if trust.wanted(args) then
+    local job, steps = build.call(3, refine.job, scene, args, check_start)
+    return build.call(3, refine.run, job, steps, run_once)
+  end
+  build.call(3, check_start, scene, args)
+  return run_once(scene, args)
 end
 
 local function readable(self, what)
@@ -233,6 +251,11 @@ local function summary_of(self)
     local depth, s, t = self.scene:penetration()
     add("deepest penetration", depth, "m", s, t)
   end
+  for _, q in ipairs(self.quantities and self:error_bars() or {}) do
+    rows[#rows + 1] = { label = q.name, value = type(q.value) == "number" and q.value or q:text(),
+      unit = type(q.value) == "number" and q.unit or "",
+      where = ("+- %s%s"):format(number.text(q.error, q.unit), q.met and "" or " (NOT as asked)") }
+  end
   return rows
 end
 
@@ -271,6 +294,11 @@ function Run:document()
     doc.frames[i] = f
   end
   doc.series, doc.summary = self:series(), summary_of(self)
+  for i, q in ipairs(self.quantities and self:error_bars() or {}) do
+    doc.quantities = doc.quantities or {}
+    doc.quantities[i] = { name = q.name, value = q.value, error = q.error, unit = q.unit,
+      asked = q.tolerance, met = q.met, where = q.where, when = q.when }
+  end
   return doc
 end
 
@@ -311,9 +339,19 @@ function Run:pictures(options)
   return require("softworld.output.povray").strip(o)
 end
 
-Run.__index = Run
+Run.error_bars = trust.error_bars
+
+function Run.__index(self, key)
+  local value = Run[key]
+  if value ~= nil then return value end
+  return trust.refuse(self, key)
+end
 
 function Run:__tostring()
+  if self.ok and self.quantities then
+    return ("run of '%s': ok (%s), t = %.6g s, %d levels, %.3g s of computing\n%s"):format(self.name,
+      self.reason, self.time, #self.levels, self.cpu, tostring(self:error_bars()))
+  end
   return ("run of '%s': %s (%s), t = %.6g s, %d steps, %.3g s of computing"):format(
     self.name, self.ok and "ok" or "FAILED", self.reason, self.time, self.steps, self.cpu)
 end

@@ -161,3 +161,15 @@ describe("scripts/bench.lua and scripts/chart.lua", function()
     assert.truthy(text:find("run make bench first", 1, true))
   end)
 end)
+
+describe("bench.error_bars", function()
+  it("has bars as asked for, and compares all levels with the finest", function()
+    local rows = bench.error_bars()
+    assert.equal(2, #rows)
+    for _, row in ipairs(rows) do
+      assert.is_true(row.ok, row.case)
+      assert.is_true(row.error > 0 and row.error <= row.asked, row.case)
+      assert.is_true(row.levels >= 3 and row.ratio > 0 and row.ratio < math.huge, row.case)
+    end
+  end)
+end)

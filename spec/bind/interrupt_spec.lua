@@ -33,6 +33,12 @@ local RUNS = {
   ["an explicit run"] = "scene:run{ duration = 1e6, dt = scene:stable_dt() / 2, integrator = 'rk4' }",
   ["one call of the core"] = "scene:advance({ dt = 1e-4 }, 1e6)",
   ["an adaptive run"] = "scene:run{ duration = 1e6, tolerance = 1e-9, dt = 1e-3 }",
+  ["a run with error bars"] = "scene:run{ duration = 1e6, dt = 1e-4, tolerance = { tip = 1e-9 } }",
+  ["a settling with error bars"] = [[
+    scene:settle{ levels = 12, tolerance = { { name = 'slow', value = 1, of = function()
+      local stop = os.clock() + 0.2
+      while os.clock() < stop do end
+      return math.random() * 1e3 end } } }]],
   ["a run with a process"] = [[
     scene:process(function(p) while true do p:wait(0.001) end end)
     scene:run()]],

@@ -68,6 +68,31 @@ local acts = {
     scene:restore(snapshot)
     scene:run{ duration = 0.02 }
   end },
+  { "meshing anew as drawn", function(scene) core.remesh(scene, { 9 }) end },
+  { "meshing anew what has moved", function(scene, wire)
+    scene:grip(wire, { s = 0.5, width = 0.1 })
+    scene:run{ duration = 0.02 }
+    core.remesh(scene, { 9 })
+  end },
+  { "restoring another mesh", function(scene, wire)
+    scene:pin(wire, { s = 0.77 })
+    local snapshot = scene:snapshot()
+    core.remesh(scene, { 9 })
+    scene:restore(snapshot)
+  end },
+  { "settling with error bars", function()
+    local scene <close> = sw.scene{}
+    scene:clamp(scene:wire(WIRE), { s = 0 })
+    return scene:settle{ tolerance = { tip = 1e3 } }
+  end },
+  { "running with error bars", function(scene, wire)
+    local left = scene:gripper{}
+    scene:process(function(p)
+      left:grasp(wire, { s = 0.5 })
+      p:wait(0.002)
+    end)
+    return scene:run{ tolerance = { tip = 1e3 } }
+  end },
   { "following a path", function(_, _, clamp)
     clamp:follow{ points = { { 0, 0, 0 }, { 0, 0, 0.1 }, { 0.1, 0, 0.1 } }, speed = 1, relative = true }
   end },

@@ -40,8 +40,8 @@ describe("wires that cross", function()
     local touches, up = s:touches(), { 0, 0 }
     for _, t in ipairs(touches) do -- one or two a crossing: a bent wire has corners
       assert.are.equal("wire3", t.wires[2])
-      local rail = t.wires[1] == "wire1" and 1 or 2
-      up[rail] = up[rail] - t.force[3]
+      local under = t.wires[1] == "wire1" and 1 or 2
+      up[under] = up[under] - t.force[3]
       assert.is_true(math.abs(t.point[3] - 0.004) < 2e-4)
     end
     assert.are.equal(#touches, s:contacts())

@@ -2,7 +2,7 @@
 --- A wire between two points at equal height, static. string: pinned ends and no
 -- bending stiffness, the exact catenary. rod: clamped level at both ends.
 -- Options: ratio = L/span (1.5 or 1.05), model ("string"), gamma (rod: 10, 100, 1000),
--- EI (string, default 0), axial = EA/(w L) (1e6).
+-- EI (string, default 0), axial = EA/(w L) (1e6), points of the path (segments).
 -- error(): string: largest relative error of sag and end forces [-]; rod: of the sag.
 -- @module softworld.cases.catenary
 local sw = require "softworld"
@@ -57,15 +57,16 @@ return function(options)
     exact = row and (rod and { sag = row[3], H = row[4] * w, M0 = row[5] * EI,
       source = "boundary-value solution of the heavy elastica, error 1e-9" } or
       { sag = row[2], H = row[3] * w, T = row[4] * w, source = "catenary, closed form" }) }
+  local points = options.points or p.segments
   if rod then
-    p.path = wires.arch(f, p.segments, span, function(u) return -math.sin(2 * math.pi * u) end)
+    p.path = wires.arch(f, points, span, function(u) return -math.sin(2 * math.pi * u) end)
     c.wire = scene:wire(p)
     local level = f.vector(1, 0, 0)
     c.left = scene:clamp(c.wire, { s = 0, direction = level })
     c.right = scene:clamp(c.wire, { s = c.wire.length, direction = level })
   else
     local a = span / (2 * parameter(span)) -- H/w
-    p.path = wires.arch(f, p.segments, span, function(u) return math.atan((u - 0.5) / a) end)
+    p.path = wires.arch(f, points, span, function(u) return math.atan((u - 0.5) / a) end)
     c.wire = scene:wire(p)
     c.left, c.right = scene:pin(c.wire, { s = 0 }), scene:pin(c.wire, { s = c.wire.length })
   end

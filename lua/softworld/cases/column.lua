@@ -2,7 +2,7 @@
 --- A weightless column whose ends are pushed together by d L: post-buckled elastica,
 -- started from a bow of the right length.
 -- Options: ends = "pinned" | "clamped", d (0.2; 0.01, 0.05, 0.2 have exact values),
--- axial (EA L^2/EI, 1e8).
+-- axial (EA L^2/EI, 1e8), points of the path (segments).
 -- error(): relative error of the end force.
 -- @module softworld.cases.column
 local sw = require "softworld"
@@ -34,7 +34,7 @@ return function(options)
   local p = wires.parameters{ gamma = 10, g = 9.81, segments = options.segments,
     model = options.model, axial = options.axial or 1e8 }
   local scene = sw.scene{ name = "column", gravity = { 0, 0, 0 } }
-  p.path = wires.arch(f, p.segments, 1 - d, function(u)
+  p.path = wires.arch(f, options.points or p.segments, 1 - d, function(u)
     return kind == "pinned" and math.cos(math.pi * u) or math.sin(2 * math.pi * u)
   end)
   local wire = scene:wire(p)

@@ -127,7 +127,7 @@ end
 
 --- The series as a plain table in the shape of the JSON file.
 -- @tparam table source see series.of
--- @treturn table `name, ok, reason` of the run where known, `time` and
+-- @treturn table `name, ok, reason, quantities` of the run where known, `time` and
 -- `columns`, each with `name, unit, values`
 function series.document(source)
   local data = series.of(source)
@@ -138,6 +138,7 @@ function series.document(source)
   local document = { time = { name = "t", unit = "s", values = data.time }, columns = columns }
   if source ~= data then
     document.name, document.ok, document.reason = source.name, source.ok, source.reason
+    document.quantities = source.quantities -- with their error bars
   end
   return json.object(document)
 end

@@ -25,7 +25,8 @@ local function status(run)
 end
 
 local function cells(entry)
-  local value, unit = number.engineering(entry.value, entry.unit)
+  local value, unit = entry.value, ""
+  if type(value) == "number" then value, unit = number.engineering(value, entry.unit) end
   return {
     plain(entry.label), value, unit, plain(entry.where or ""),
     entry.when and "t = " .. number.text(entry.when, "s") or "",
@@ -50,7 +51,7 @@ end
 -- with four significant digits, unit, place and time. A run that diverged
 -- gives its reason and no numbers.
 -- @tparam table run with `name, ok, reason, time [s], steps, wall [s]` and
--- `summary = { { label=, value=, unit=, where=, when= [s] }, ... }`
+-- `summary = { { label=, value= number or text, unit=, where=, when= [s] }, ... }`
 -- @treturn string lines, each ended by a newline
 function summary.text(run)
   if type(run) ~= "table" or run.ok == nil then sink.fail("summary: a run is expected") end

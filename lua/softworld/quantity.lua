@@ -1,0 +1,273 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- What an error bar can be asked for: the quantities that objects of a scene have, by
+-- name, and the user's own as functions.
+-- @module softworld.quantity
+local core = require "softworld.core"
+local build = require "softworld.build"
+
+local quantity = {}
+
+local places = 40 -- stretches of a wire at whose ends positions are compared
+
+local function positions(wire)
+  local list, length = {}, wire.length
+  for i = 0, places do list[i + 1] = wire:position(length * (i / places)) end
+  return list
+end
+
+local function over(name)
+  return function(gripper, start) return gripper:over(start)[name] end
+end
+
+local function over_at(name)
+  return function(gripper, start)
+    local m = gripper:over(start)
+    return m[name], nil, m[name .. "_time"]
+  end
+end
+
+-- Kind of object -> name -> unit and how to read it: value, where [m], when [s].
+-- plain: values of edges and the like, whose errors do not halve twice with the edge.
+quantity.known = {
+  wire = {
+    tip = { unit = "m", of = function(w) return w:position(w.length) end },
+    position = { unit = "m", of = positions },
+    max_tension = { unit = "N", plain = true, of = function(w) return w:max_tension() end },
+    min_bend_radius = { unit = "m", plain = true, of = function(w) return w:min_bend_radius() end },
+    max_strain = { unit = "", plain = true, of = function(w) return w:max_strain() end },
+    max_stress = { unit = "Pa", plain = true, of = function(w) return w:max_stress() end },
+  },
+  hold = {
+    force = { unit = "N", of = function(h) return h:force() end },
+    moment = { unit = "N m", of = function(h) return h:moment() end },
+  },
+  gripper = {
+    force = { unit = "N", of = function(g) return g:force() end },
+    moment = { unit = "N m", of = function(g) return g:moment() end },
+    peak_force = { unit = "N", plain = true, of = over_at "peak_force" },
+    mean_force = { unit = "N", of = over "mean_force" },
+    peak_moment = { unit = "N m", plain = true, of = over_at "peak_moment" },
+    mean_moment = { unit = "N m", of = over "mean_moment" },
+    impulse = { unit = "N s", of = over "impulse" },
+  },
+  obstacle = {
+    force = { unit = "N", of = function(o) return o:force() end },
+  },
+  scene = {
+    energy = { unit = "J", of = function(s) return s:energy().total end },
+    penetration = { unit = "m", plain = true, of = function(s)
+      local depth, at, time = s:penetration()
+      return depth, at, time
+    end },
+  },
+}
+
+-- { object =, name =, kind = } of everything in the scene that has quantities.
+local function objects_of(scene)
+  local data, list, theirs = build.data(scene), {}, {}
+  local function add(kind, entry)
+    list[#list + 1] = { kind = kind, name = entry.name, object = rawget(entry, "object") or entry }
+  end
+  for _, w in ipairs(data.wires) do add("wire", w) end
+  for _, g in ipairs(data.grippers) do
+    add("gripper", g)
+    for _, hold in ipairs(g.past) do theirs[hold] = true end
+  end
+  for _, h in ipairs(data.holds) do
+    if not theirs[h.object] then add("hold", h) end
+  end
+  for _, o in ipairs(data.obstacles) do add("obstacle", o) end
+  list[#list + 1] = { kind = "scene", object = scene }
+  return list
+end
+
+-- Name -> quantities that it may mean; "left.force" is one, "force" may be several.
+local function directory(scene)
+  local found, names = {}, {}
+  local function add(name, entry)
+    if not found[name] then
+      found[name] = {}
+      names[#names + 1] = name
+    end
+    table.insert(found[name], entry)
+  end
+  for _, o in ipairs(objects_of(scene)) do
+    for key, def in pairs(quantity.known[o.kind]) do
+      local full = o.name and o.name .. "." .. key or key
+      local entry = { full = full, unit = def.unit, plain = def.plain,
+        of = function(start) return def.of(o.object, start) end }
+      add(full, entry)
+      if o.name then add(key, entry) end
+    end
+  end
+  table.sort(names)
+  return found, names
+end
+
+-- The keys alone, which is what most errors are made of.
+local function short_names(names)
+  local list = {}
+  for _, name in ipairs(names) do
+    if not name:find(".", 1, true) then list[#list + 1] = name end
+  end
+  return list
+end
+
+local function find(name, found, names, what)
+  local list = found[name]
+  if not list then
+    local near = core.nearest(name, short_names(names)) or core.nearest(name, names)
+    error(("%s: tolerance: there is no quantity '%s'; %s"):format(what, name, near
+      and ("did you mean '%s'?"):format(near)
+      or "known are: " .. table.concat(short_names(names), " ")
+        .. ", with the object's name and a dot in front, or { name =, value =, unit =, of = function }"), 0)
+  end
+  if #list > 1 then
+    local full = {}
+    for i, entry in ipairs(list) do full[i] = entry.full end
+    error(("%s: tolerance: '%s' may be any of: %s"):format(what, name, table.concat(full, " ")), 0)
+  end
+  return list[1]
+end
+
+local function check_value(what, name, value, unit)
+  if type(value) ~= "number" or not (value > 0 and value < math.huge) then
+    local is_number = type(value) == "number" and unit ~= ""
+    error(("%s: tolerance: %s = %s%s is not allowed; it must be a number above 0%s"):format(what, name,
+      tostring(value), is_number and " " .. unit or "", unit ~= "" and " " .. unit or ""), 0)
+  end
+end
+
+local own_keys = { name = "string", value = "number", unit = "string", of = "function", at = "number" }
+local own_names = { "name", "value", "unit", "of", "at" }
+
+-- The user's own: { name =, value =, unit =, of = function, at = [s] }.
+local function own(what, number, given)
+  local label = ("%s: tolerance: quantity %d"):format(what, number)
+  if type(given) ~= "table" then
+    error(("%s must be a table { name =, value =, unit =, of = function }, got %s"):format(label,
+      type(given)), 0)
+  end
+  for key, value in pairs(given) do
+    if not own_keys[key] then
+      local near = core.nearest(tostring(key), own_names)
+      error(("%s: there is no parameter '%s'; %s"):format(label, tostring(key), near
+        and ("did you mean '%s'?"):format(near) or "known are: " .. table.concat(own_names, " ")), 0)
+    end
+    if type(value) ~= own_keys[key] then
+      error(("%s: %s must be a %s, got %s"):format(label, key, own_keys[key], type(value)), 0)
+    end
+  end
+  for _, key in ipairs{ "name", "value", "of" } do
+    if given[key] == nil then error(("%s: %s is missing"):format(label, key), 0) end
+  end
+  if given.at and not (given.at >= 0 and given.at < math.huge) then
+    error(("%s: at = %s s is not allowed; it must be a time of at least 0 s after the start")
+      :format(label, tostring(given.at)), 0)
+  end
+  check_value(what, given.name, given.value, given.unit or "")
+  return { name = given.name, unit = given.unit or "", tolerance = given.value, of = given.of,
+    at = given.at, own = true }
+end
+
+--- The quantities that tolerance = {...} asks for, in order; raises what is wrong with
+-- them, without a place.
+-- @treturn table list of { name, unit, tolerance, of, at, plain }
+function quantity.list(scene, tolerance, what)
+  local found, names = directory(scene)
+  local list, taken, words = {}, {}, {}
+  for key, value in pairs(tolerance) do
+    if type(key) == "string" then
+      words[#words + 1] = key
+    elseif math.type(key) ~= "integer" or key < 1 or key > #tolerance then
+      error(("%s: tolerance: the key %s names no quantity"):format(what, tostring(key)), 0)
+    else
+      list[key] = own(what, key, value)
+    end
+  end
+  table.sort(words)
+  for _, word in ipairs(words) do
+    local entry = find(word, found, names, what)
+    check_value(what, word, tolerance[word], entry.unit)
+    list[#list + 1] = { name = word, unit = entry.unit, tolerance = tolerance[word], of = entry.of,
+      plain = entry.plain }
+  end
+  for _, q in ipairs(list) do
+    if taken[q.name] then
+      error(("%s: tolerance: '%s' is asked for twice"):format(what, q.name), 0)
+    end
+    taken[q.name] = true
+  end
+  if #list == 0 then
+    error(what .. ": tolerance is a table that names no quantity, such as { tip = 1e-3 }; help 'tolerance' "
+      .. "lists them", 0)
+  end
+  return list
+end
+
+-- --- values ---------------------------------------------------------------------------
+
+local function is_value(v)
+  if type(v) == "number" then return v == v end
+  if type(v) ~= "table" or #v == 0 then return false end
+  for _, x in ipairs(v) do
+    if not is_value(x) then return false end
+  end
+  return true
+end
+
+--- Read it now: { value, where [m], when [s] }. start: when the run began [s].
+function quantity.read(q, start)
+  local value, s, t
+  if q.own then value = q.of() else value, s, t = q.of(start) end
+  if not is_value(value) then
+    error(("quantity '%s': its function must return a number or a list of numbers, got %s")
+      :format(q.name, type(value) == "number" and tostring(value) or core.type(value) or type(value)), 0)
+  end
+  return { value = value, where = s, when = t }
+end
+
+local function is_vector(v) return type(v) == "table" and type(v[1]) == "number" end
+
+--- How far two values of the same shape are apart: numbers, vectors (norm), lists of vectors (largest).
+function quantity.distance(a, b)
+  if type(a) == "number" then return a == b and 0 or math.abs(a - b) end
+  local sum, most = 0, 0
+  for i, x in ipairs(a) do
+    local d = quantity.distance(x, b[i])
+    sum, most = sum + d * d, math.max(most, d)
+  end
+  return is_vector(a) and sum ^ 0.5 or most
+end
+
+--- Have both values the same shape?
+function quantity.alike(a, b)
+  if type(a) ~= type(b) then return false end
+  if type(a) == "number" then return true end
+  if #a ~= #b then return false end
+  for i, x in ipairs(a) do
+    if not quantity.alike(x, b[i]) then return false end
+  end
+  return true
+end
+
+--- The size of a value, as distance measures it.
+function quantity.size(a)
+  if type(a) == "number" then return math.abs(a) end
+  local sum, most = 0, 0
+  for _, x in ipairs(a) do
+    local d = quantity.size(x)
+    sum, most = sum + d * d, math.max(most, d)
+  end
+  return is_vector(a) and sum ^ 0.5 or most
+end
+
+--- The sum of products of the changes a to b and b to c: below 0 when they turn back.
+function quantity.agreement(a, b, c)
+  if type(a) == "number" then return (b - a) * (c - b) end
+  local sum = 0
+  for i = 1, #a do sum = sum + quantity.agreement(a[i], b[i], c[i]) end
+  return sum
+end
+
+return quantity

@@ -1,0 +1,62 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- scene:settle with error bars.
+-- @module softworld.settle
+local core = require "softworld.core"
+local build = require "softworld.build"
+local trust = require "softworld.trust"
+
+local Settled = { __name = "settled" }
+
+function Settled.__index(result, key)
+  if key == "error_bars" then return trust.error_bars end
+  return trust.refuse(result, key)
+end
+
+function Settled:__tostring()
+  if not self.ok then return ("not settled: %s"):format(self.reason) end
+  return ("settled on %d levels\n%s"):format(#self.levels, tostring(self:error_bars()))
+end
+
+local settle = core.class.scene.settle
+
+local function with_bars(scene, given)
+  local args = {}
+  for k, v in pairs(given) do args[k] = v end
+  local job = trust.job(scene, "scene:settle", args)
+  local shown = args.progress
+  if shown ~= nil and type(shown) ~= "boolean" then
+    error("scene:settle: progress must be true or false, got " .. type(shown), 0)
+  end
+  args.progress = nil
+  for _, q in ipairs(job.quantities) do
+    if q.at then
+      error(("scene:settle: tolerance: quantity '%s': at is a time in a run"):format(q.name), 0)
+    end
+  end
+  job.advice = "hold what moves freely, come nearer in smaller moves, or allow more max_iterations"
+  core.check_settle(args)
+  local iterations = 0
+  local result = trust.work(job, function(_, level)
+    local r = settle(scene, args)
+    if shown then
+      io.stderr:write(("%s, %s: %s, %d iterations\n"):format(scene.name, level, r.reason, r.iterations))
+    end
+    iterations = iterations + r.iterations
+    r.start = scene.time
+    return r
+  end)
+  job.begin_processes() -- none of them had begun
+  result.iterations = iterations
+  return setmetatable(result, Settled)
+end
+
+--- Static equilibrium: { tolerance = [m], max_iterations = }. With a table of
+-- quantities as tolerance the result has error bars, see help "tolerance"; progress =
+-- true then tells every level.
+function core.class.scene.settle(scene, args)
+  if not trust.wanted(args) then return settle(scene, args) end
+  build.check(scene, "scene:settle", 3)
+  return build.call(3, with_bars, scene, args)
+end
+
+return settle

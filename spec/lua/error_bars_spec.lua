@@ -1,0 +1,525 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Asking for error bars: names, answers, refusals, and a scene that is never left half done.
+package.path = "./?.lua;" .. package.path
+local sw = require "softworld"
+local trust = require "softworld.trust"
+local program = require "spec.host.program"
+local t = require "spec.physics.tools"
+local core = sw.core
+
+local function make(segments)
+  local scene = sw.scene{ name = "bench" }
+  local wire = scene:wire{ EA = 600, EI = 0.02, mass_per_length = 0.1, radius = 0.005,
+    segments = segments or 12, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+  local clamp = scene:clamp(wire, { s = 0 })
+  return scene, wire, clamp
+end
+
+local function state(scene, wire)
+  local x, s = wire:positions()
+  return { x = x, s = s, v = wire:velocities(), e = scene:energy().total, t = scene.time }
+end
+
+describe("an equilibrium with error bars", function()
+  it("answers with value, error, unit, and is at its finest mesh", function()
+    local scene, wire, clamp = make()
+    local r = t.fine(scene:settle{ tolerance = { tip = 1e-4, ["clamp1.moment"] = 1e-3, max_tension = 0.01,
+      { name = "sag", value = 1e-4, unit = "m", of = function() return -wire:position(0.5)[3] end } } })
+    assert.is_true(r.met)
+    local q = r.quantities
+    assert.are.same({ "sag", "clamp1.moment", "max_tension", "tip" }, r.asked)
+    assert.are.same({ "m", "N m", "N", "m" }, { q.sag.unit, q["clamp1.moment"].unit, q.max_tension.unit,
+      q.tip.unit })
+    assert.are.same(wire:position(1), q.tip.value)
+    assert.are.equal(-wire:position(0.5)[3], q.sag.value)
+    assert.are.same(clamp:moment(), q["clamp1.moment"].value)
+    local tension, s = wire:max_tension()
+    assert.are.same({ tension, s }, { q.max_tension.value, q.max_tension.where })
+    for _, one in pairs(q) do
+      assert.is_true(one.error > 0 and one.error <= one.tolerance and one.met, one.name)
+      assert.are.equal(#r.levels, #one.levels)
+    end
+    assert.are.equal(r.levels[#r.levels].segments[1], wire.segments)
+    assert.is_true(wire.segments >= 12)
+    assert.matches("sag = .* mm %+%- .* um %(asked for 100.0 um: met%)", tostring(r:error_bars()))
+    assert.matches("tip = %(0%.", tostring(r))
+  end)
+
+  it("says what it could not reach, and what it would need", function()
+    local scene = make()
+    local r = t.fine(scene:settle{ tolerance = { tip = 1e-6 }, levels = 4 })
+    assert.is_false(r.met)
+    assert.is_false(r.quantities.tip.met)
+    local least = r.quantities.tip.error
+    assert.is_true(least > 1e-6 and least < 1e-2)
+    local levels = tonumber(r.advice:match "levels = (%d+)")
+    assert.is_true(levels > 4, r.advice)
+    scene = make()
+    local better = t.fine(scene:settle{ tolerance = { tip = 1e-6 }, levels = levels + 1 })
+    assert.is_true(better.met, better.advice)
+    -- far out of reach: not worth the finer levels
+    scene = make()
+    local hopeless = t.fine(scene:settle{ tolerance = { tip = 1e-14 } })
+    assert.is_false(hopeless.met)
+    assert.are.equal(3, #hopeless.levels)
+    assert.matches("needs more than levels = 12: ask for less", hopeless.advice)
+  end)
+
+  it("has all the quantities that objects have", function()
+    local scene, wire = make()
+    scene:obstacle{ shape = "plane", at = { 0, 0, -0.3 }, friction = 0.3, name = "table" }
+    local left = scene:gripper{ name = "left" }
+    left:grasp(wire, { s = 0.6 })
+    local list = {}
+    for _, name in ipairs{ "tip", "position", "max_tension", "min_bend_radius", "max_strain", "max_stress",
+      "wire1.tip", "clamp1.force", "clamp1.moment", "left.force", "left.moment", "peak_force",
+      "mean_force", "peak_moment", "mean_moment", "impulse", "table.force", "energy", "penetration" } do
+      list[name] = 1e3
+    end
+    local r = t.fine(scene:settle{ tolerance = list })
+    assert.is_true(r.met)
+    for name in pairs(list) do assert.is_true(r.quantities[name].error < 1e3, name) end
+    assert.are.equal(41, #r.quantities.position.value)
+  end)
+
+  it("tells its progress when asked", function()
+    local script = [[
+      local scene = require "softworld".scene { name = "mine" }
+      scene:clamp(scene:wire { E = 1e8, density = 1e3, radius = 1e-3, from = { 0, 0, 0 }, to = { 1, 0, 0 },
+        segments = 24 }, { s = 0 })
+      scene:settle { tolerance = { tip = 1 }, progress = %s }
+      scene:run { duration = 0.01, tolerance = { tip = 1 }, progress = %s }]]
+    local _, err, code = program.script(script:format("true", "true"))
+    assert.are.equal(0, code, err)
+    assert.matches("^mine, level 1, 6 segments: at rest, %d+ iterations\nmine, level 2, 12", err)
+    assert.matches("mine, level 3, 24 segments: t = 10.00 ms, %d+ steps in", err)
+    _, err = program.script(script:format("nil", "nil"))
+    assert.are.equal("", err)
+    program.clean()
+    assert.has_error(function() make():settle{ tolerance = { tip = 1 }, progress = 3 } end)
+  end)
+
+  it("takes wires that touch each other for contact", function()
+    local scene = sw.scene{}
+    local lower = scene:wire{ name = "lower", EA = 1e3, EI = 1e-3, mass_per_length = 0.03, radius = 0.002,
+      from = { -0.2, 0, 0 }, to = { 0.2, 0, 0 }, segments = 24 }
+    scene:wire{ name = "upper", EA = 1e3, EI = 1e-3, mass_per_length = 0.03, radius = 0.002,
+      from = { 0, -0.1, 0.005 }, to = { 0, 0.1, 0.005 }, segments = 24 }
+    scene:clamp(lower, { s = 0 })
+    scene:clamp(lower, { s = lower.length })
+    scene:wire_contact{ friction = 0.3 }
+    scene:force{ kind = "damping", mass = 5 }
+    local r = t.fine(scene:run{ duration = 0.5, tolerance = { ["lower.max_tension"] = 0.1,
+      ["upper.position"] = 0.02 } })
+    assert.is_true(r.met and #scene:touches() > 0)
+    assert.is_true(r.quantities["lower.max_tension"].value > 0.5)
+  end)
+
+  it("refuses to give numbers where there is no equilibrium", function()
+    local scene, wire = make()
+    local clamp_free = sw.scene{}
+    local loose = clamp_free:wire{ E = 1e8, density = 1e3, radius = 1e-3, from = { 0, 0, 0 },
+      to = { 1, 0, 0 }, segments = 8 }
+    local before = state(clamp_free, loose)
+    local r = clamp_free:settle{ tolerance = { tip = 1e-3 }, max_iterations = 50 }
+    assert.is_false(r.ok)
+    assert.matches("level 3, 24 segments: ", r.where)
+    assert.is_truthy(r.advice)
+    assert.has_error(function() return r.quantities end)
+    assert.has_error(function() return r:error_bars() end)
+    assert.matches("there are no numbers: ", select(2, pcall(function() return r.quantities.tip end)))
+    assert.matches("not settled", tostring(r))
+    assert.are.same(before, state(clamp_free, loose))
+    assert.is_true(scene:settle().ok and wire.segments == 12)
+  end)
+end)
+
+describe("a run with error bars", function()
+  it("is its finest level: a plain run with that mesh and step, bit by bit", function()
+    local function build_scene(segments)
+      local scene, wire = make(segments)
+      local left, log = scene:gripper{ name = "left" }, {}
+      scene:process(function(p)
+        log[#log + 1] = wire.segments
+        left:grasp(wire, { s = 0.9 })
+        left:move{ by = { 0, 0, 0.1 }, duration = 0.2 }
+        p:wait(0.1)
+        left:release()
+        p:wait(0.1)
+      end)
+      return scene, wire, left, log
+    end
+    local scene, wire, left, log = build_scene(24)
+    local r = t.fine(scene:run{ dt = 0.01, integrator = "sdirk2",
+      tolerance = { ["left.peak_force"] = 0.5, tip = 3e-3 } })
+    local k = #r.levels
+    assert.are.equal(k, #log) -- the function ran once per level
+    local plain, plain_wire, plain_left = build_scene(6 << (k - 1))
+    t.fine(plain:run{ dt = 0.01 / 2 ^ (k - 3), integrator = "sdirk2" })
+    assert.are.same(state(plain, plain_wire), state(scene, wire))
+    assert.are.equal(plain_left.peak_force, left.peak_force)
+    assert.are.equal(left.peak_force, r.quantities["left.peak_force"].value)
+    assert.is_true(r.quantities["left.peak_force"].when > 0)
+    assert.are.equal(scene.time, r.time)
+    assert.is_true(#r:series().time > 10 and #r:frames() > 5)
+  end)
+
+  it("reads quantities at times of their own", function()
+    local scene, wire = make(24)
+    local seen = {}
+    local function tip() return wire:position(1) end
+    local r = t.fine(scene:run{ duration = 0.2, tolerance = {
+      { name = "a", value = 1e-3, unit = "m", at = 0.05, of = tip },
+      { name = "b", value = 1e-3, unit = "m", at = 0.2, of = tip },
+      { name = "c", value = 1e-3, unit = "m", of = tip },
+      { name = "t", value = 1, unit = "s", at = 0.125, of = function()
+        seen[#seen + 1] = scene.time
+        return scene.time + 1
+      end } } })
+    assert.are.same(r.quantities.b.value, r.quantities.c.value)
+    assert.is_true(t.distance(r.quantities.a.value, r.quantities.c.value) > 0.01)
+    t.near(0.05, r.quantities.a.when, 1e-12, "time of a")
+    for _, time in ipairs(seen) do t.near(0.125, time, 1e-12, "time of t") end
+    assert.are.equal(#r.levels, #seen)
+  end)
+
+  it("starts each level from its own equilibrium where the scene is at rest", function()
+    -- hanging still after settling: nothing may begin to swing on any level
+    local scene, wire = make(24)
+    t.fine(scene:settle())
+    local r = t.fine(scene:run{ duration = 0.1, tolerance = { tip = 1e-3 } })
+    for _, v in ipairs(wire:velocities()) do t.below(1e-6, math.abs(v), "speed") end
+    assert.is_true(#r.levels >= 3)
+    -- but not what was only just let go
+    local pin_scene, pin_wire = make(24)
+    local pin = pin_scene:pin(pin_wire, { s = 1 })
+    t.fine(pin_scene:settle())
+    pin:release()
+    t.fine(pin_scene:run{ duration = 0.1, tolerance = { tip = 1e-2 } })
+    t.above(0.1, t.norm(pin_wire:velocity(1)), "speed of the end")
+  end)
+
+  it("leaves out a level that fails, and refuses when the finest one does", function()
+    local function with_limit(low, high)
+      local scene, wire = make(24)
+      scene:force{ on = wire, kind = function(_, x, _, f)
+        local n = #x / 3 - 1
+        if n >= low and n <= high then f[#f] = f[#f] + 1e9 end
+      end }
+      return scene, wire
+    end
+    local scene = with_limit(0, 8)
+    local r = t.fine(scene:run{ duration = 0.1, tolerance = { tip = 1e-3 } })
+    assert.is_false(r.levels[1].ok)
+    assert.are.equal(#r.levels - 1, #r.quantities.tip.levels)
+    local wire
+    scene, wire = with_limit(0, 1e9)
+    local before = state(scene, wire)
+    r = scene:run{ duration = 0.1, tolerance = { tip = 1e-3 } }
+    assert.is_false(r.ok)
+    assert.are.equal(3, #r.levels)
+    assert.matches("^level 3, 24 segments: at t = ", r.where)
+    assert.matches("^run of 'bench': FAILED", tostring(r))
+    assert.matches("smaller dt", r.advice)
+    r = scene:run{ duration = 0.1, tolerance = { tip = 1e-3 }, integrator = "rk4", dt = 1 }
+    assert.is_false(r.ok)
+    assert.matches("stable_dt", r.advice)
+    assert.has_error(function() return r.quantities end)
+    assert.has_error(function() return r:error_bars() end)
+    assert.has_error(function() return r:series() end)
+    assert.are.same(before, state(scene, wire))
+  end)
+
+  it("shows its bars in the summary and the document", function()
+    local scene = make(24)
+    local earlier = t.fine(scene:run{ duration = 0.05 })
+    local r = t.fine(scene:run{ duration = 0.05, tolerance = { tip = 1e-2, max_tension = 1e-9 } })
+    local text = {}
+    r:summary{ write = function(_, line) text[#text + 1] = line end }
+    text = table.concat(text)
+    assert.matches("max_tension .* %+%- .* %(NOT as asked%)", text)
+    assert.matches("tip +%(0%..-%) m +%+%- .* um", text)
+    assert.matches("ok .* levels, .*\nmax_tension = ", tostring(r))
+    local doc = r:document()
+    assert.are.equal("max_tension", doc.quantities[1].name)
+    assert.is_false(doc.quantities[1].met)
+    assert.are.equal(r.quantities.tip.error, doc.quantities[2].error)
+    local path = os.tmpname()
+    os.remove(path)
+    r:save(path .. ".json")
+    local file <close> = assert(io.open(path .. ".json"))
+    os.remove(path .. ".json")
+    assert.matches('"quantities":%[{.-"name":"max_tension"', (file:read "a"))
+    assert.is_true(#earlier:series().time > 0) -- what came before is still there
+    assert.has_error(function() return earlier:error_bars() end)
+    assert.is_nil(earlier.quantities)
+  end)
+
+  it("goes on from there, again with error bars", function()
+    local scene, wire = make(12)
+    local first = t.fine(scene:run{ duration = 0.1, tolerance = { tip = 1e-3 } })
+    local second = t.fine(scene:run{ duration = 0.1, tolerance = { tip = 1e-3 } })
+    t.near(0.2, scene.time, 1e-12, "time")
+    assert.is_true(first.met and second.met)
+    local whole, whole_wire = make(48)
+    t.fine(whole:run{ duration = 0.2, dt = 1e-3 })
+    t.below(first.quantities.tip.error + second.quantities.tip.error + 1e-3,
+      t.distance(wire:position(1), whole_wire:position(1)), "tip off")
+  end)
+end)
+
+describe("an error in a computation with error bars", function()
+  -- The scene after it is the scene before it: it runs to the same bits as one never asked.
+  local function check(disturb, message)
+    local function build_scene()
+      local scene, wire, clamp = make(16)
+      t.fine(scene:run{ duration = 0.02 })
+      local left = scene:gripper{ name = "left" }
+      local calls = { count = 0 }
+      scene:process(function(p)
+        calls.count = calls.count + 1
+        if calls.fail == calls.count then error(calls.message, 0) end
+        left:grasp(wire, { s = 0.7 })
+        left:move{ by = { 0, 0, 0.02 }, duration = 0.05 }
+        p:wait(0.01)
+      end)
+      return scene, wire, left, calls, clamp
+    end
+    local scene, wire, left, calls = build_scene()
+    local before, live = state(scene, wire), core.allocated()
+    local ok, value = pcall(disturb, scene, wire, calls)
+    assert.is_false(ok)
+    if type(message) == "string" then assert.matches(message, tostring(value))
+    else assert.are.equal(message, value) end
+    assert.are.same(before, state(scene, wire))
+    assert.is_nil(left.hold)
+    assert.are.equal(0, left.peak_force)
+    calls.fail = nil
+    local plain, plain_wire, plain_left = build_scene()
+    t.fine(plain:run())
+    t.fine(scene:run())
+    assert.are.same(state(plain, plain_wire), state(scene, wire))
+    assert.are.equal(plain_left.peak_force, left.peak_force)
+    assert.is_true(live > 0)
+  end
+
+  it("of a quantity leaves everything as it was", function()
+    local mine = {}
+    for level = 1, 3 do
+      check(function(scene)
+        local n = 0
+        scene:run{ tolerance = { { name = "q", value = 1, of = function()
+          n = n + 1
+          if n == level then error(mine) end
+          return n
+        end } } }
+      end, mine)
+    end
+  end)
+
+  it("of a quantity that is none leaves everything as it was", function()
+    for value, text in pairs{ [0 / 1] = false, [{}] = "table", [{ "a" }] = "table", x = "string" } do
+      if text then
+        check(function(scene)
+          scene:run{ tolerance = { { name = "q", value = 1, of = function() return value end } } }
+        end, "quantity 'q': its function must return a number or a list of numbers, got " .. text)
+      end
+    end
+    check(function(scene)
+      scene:run{ tolerance = { { name = "q", value = 1, of = function() return 0 / 0 end } } }
+    end, "got %-?nan")
+  end)
+
+  it("of a list that changes its length with the mesh leaves everything as it was", function()
+    check(function(scene, wire)
+      scene:run{ tolerance = { { name = "all", value = 1, of = function() return wire:positions() end } } }
+    end, "quantity 'all': its list is not as long on every mesh")
+  end)
+
+  it("of a process leaves everything as it was", function()
+    check(function(scene, _, calls)
+      calls.fail, calls.message = 2, "broken"
+      scene:run{ tolerance = { tip = 1e-3 } }
+    end, "broken")
+  end)
+
+  it("of settling leaves everything as it was", function()
+    check(function(scene)
+      scene:settle{ tolerance = { { name = "q", value = 1, of = function() error "no" end } } }
+    end, "no")
+  end)
+end)
+
+describe("asking for error bars wrongly", function()
+  local function refused(method, args, ...)
+    local scene, wire = make()
+    local before = state(scene, wire)
+    local ok, message = pcall(scene[method], scene, args)
+    assert.is_false(ok)
+    for _, word in ipairs{ ... } do
+      assert.is_truthy(message:find(word, 1, true), ("'%s' is not in: %s"):format(word, message))
+    end
+    assert.are.same(before, state(scene, wire))
+  end
+
+  local function value() return 1 end
+
+  it("is told with names, values, units and the nearest word", function()
+    for _, method in ipairs{ "settle", "run" } do
+      local what = "scene:" .. method .. ": tolerance"
+      local function bad(tolerance, ...) refused(method, { tolerance = tolerance, duration =
+        method == "run" and 0.1 or nil }, what, ...) end
+      bad({}, "names no quantity")
+      bad({ tipp = 1 }, "'tipp'", "did you mean 'tip'?")
+      bad({ ["wire1.max_tensoin"] = 1 }, "did you mean 'wire1.max_tension'?")
+      bad({ elephant = 1 }, "known are:", "min_bend_radius")
+      bad({ tip = -1 }, "tip = -1 m", "above 0 m")
+      bad({ tip = 0 }, "tip = 0")
+      bad({ tip = 0 / 0 }, "tip = ", "nan")
+      bad({ tip = 1 / 0 }, "tip = inf")
+      bad({ tip = "small" }, "tip = small", "number")
+      bad({ max_tension = {} }, "above 0 N")
+      bad({ [1.5] = 1 }, "1.5")
+      bad({ [true] = 1 }, "true")
+      bad({ 7 }, "quantity 1", "got number")
+      bad({ { name = "q", value = 1 } }, "quantity 1", "of is missing")
+      bad({ { value = 1, of = value } }, "name is missing")
+      bad({ { name = "q", of = value } }, "value is missing")
+      bad({ { name = "q", value = 1, of = value, units = "m" } }, "'units'", "did you mean 'unit'?")
+      bad({ { name = "q", value = 1, of = 3 } }, "of must be a function, got number")
+      bad({ { name = 1, value = 1, of = value } }, "name must be a string")
+      bad({ { name = "q", value = 1, of = value, at = -1 } }, "at = -1 s")
+      bad({ { name = "tip", value = 1, of = value }, tip = 1 }, "'tip' is asked for twice")
+    end
+    refused("settle", { tolerance = { tip = 1 }, levels = 2 }, "levels = 2", "from 3 to 12")
+    refused("settle", { tolerance = { tip = 1 }, levels = 3.5 }, "levels = 3.5")
+    refused("settle", { tolerance = { { name = "q", value = 1, of = value, at = 1 } } }, "'q'", "in a run")
+    refused("settle", { tolerance = { tip = 1 }, iterations = 3 }, "'iterations'")
+    refused("run", { tolerance = { tip = 1 }, duration = 0.1, levels = 100 }, "levels = 100")
+    refused("run", { tolerance = { tip = 1 } }, "no process that could end")
+    refused("run", { tolerance = { tip = 1 }, duration = -1 }, "duration = -1")
+    refused("run", { tolerance = { tip = 1 }, duration = 1, max_steps = 3 }, "max_steps")
+    refused("run", { tolerance = { { name = "q", value = 1, of = value, at = 2 } }, duration = 1 },
+      "at = 2 s", "after the end of the run, 1 s")
+    refused("run", { tolerance = { peak_force = 1 }, duration = 0.1 }, "no quantity 'peak_force'")
+  end)
+
+  it("names the line that asked", function()
+    local scene = make()
+    local ok, message = pcall(function() return scene:settle{ tolerance = { tipp = 1 } } end)
+    assert.is_false(ok)
+    assert.matches("error_bars_spec.lua:%d+: scene:settle: tolerance: there is no", message)
+  end)
+
+  it("tells which of several is meant", function()
+    local scene, wire = make()
+    scene:pin(wire, { s = 1 })
+    local ok, message = pcall(scene.settle, scene, { tolerance = { force = 1 } })
+    assert.is_false(ok)
+    assert.matches("'force' may be any of: clamp1.force pin2.force", message)
+    assert.is_true(scene:settle{ tolerance = { ["clamp1.force"] = 1 } }.ok)
+  end)
+
+  it("is refused while processes are under way, and inside of them", function()
+    local scene = make()
+    local inner
+    scene:process(function(p)
+      inner = { pcall(scene.settle, scene, { tolerance = { tip = 1e-3 } }) }
+      p:wait(0.1)
+    end)
+    t.fine(scene:run{ duration = 0.05 })
+    assert.is_false(inner[1])
+    assert.matches("is under way", inner[2])
+    local ok, message = pcall(scene.run, scene, { tolerance = { tip = 1e-3 } })
+    assert.is_false(ok)
+    assert.matches("process 1 .* is under way and cannot begin again", message)
+    t.fine(scene:run())
+    assert.is_true(scene:run{ duration = 0.05, tolerance = { tip = 1e-2 } }.ok)
+  end)
+
+  it("cannot repeat what makes wires", function()
+    local scene, wire = make()
+    scene:process(function(p)
+      scene:wire{ EA = 1, EI = 1, mass_per_length = 1, radius = 0.1, from = { 0, 0, 1 }, to = { 1, 0, 1 },
+        segments = 4 }
+      p:wait(0.01)
+    end)
+    local ok, message = pcall(scene.run, scene, { tolerance = { ["wire1.tip"] = 1 } })
+    assert.is_false(ok)
+    assert.matches("wire 'wire2' was made on the way", message)
+    assert.are.equal(1, wire.length)
+  end)
+
+  it("needs a wire", function()
+    assert.has_error(function() sw.scene{}:settle{ tolerance = { energy = 1 } } end)
+  end)
+
+  it("leaves a number what it was: the error of one step", function()
+    local scene = make()
+    local r = t.fine(scene:run{ duration = 0.05, tolerance = 1e-5 })
+    assert.is_nil(r.quantities)
+    assert.is_true(scene:settle{ tolerance = 1e-8 }.ok)
+  end)
+end)
+
+describe("the estimate", function()
+  local plain, smooth = { plain = true }, {}
+
+  it("is within 1.5 of a second-order error, and covers a first-order one", function()
+    for _, order in ipairs{ 1, 2 } do
+      for n = 3, 6 do
+        local values = {}
+        for k = 1, n do values[k] = 5 + 2 ^ (-order * k) end
+        local bar = trust.estimate(smooth, values, false)
+        t.near(1.5, bar / (values[n] - 5), 0.01, "bar over error")
+      end
+    end
+    t.near(1.5, trust.estimate(smooth, { 5.25, 5.0625 }, false) / 0.0625, 0.01, "two levels")
+    t.near(1.5, trust.estimate(plain, { 5.25, 5.125 }, false) / 0.125, 0.01, "two levels, first order")
+  end)
+
+  it("does not trust a small last change", function()
+    for _, last in ipairs{ 0, 1e-9, -1e-9 } do
+      assert.is_true(trust.estimate(smooth, { 5, 6, 6 + last }, false) > 0.1)
+      assert.is_true(trust.estimate(smooth, { 5, 6, 6 + last }, true) > 0.15)
+    end
+  end)
+
+  it("takes what jumps about for what it is", function()
+    local values = { 1, 1.1, 1.6, 1.65 }
+    assert.is_true(trust.estimate(plain, values, true) >= 0.5)
+    assert.is_true(trust.estimate(smooth, { 1, 1.2, 1.1 }, false) >= 0.1)
+    assert.is_true(trust.estimate(smooth, { { 1, 0 }, { 1, 1 }, { 0, 1 } }, false) >= 1)
+  end)
+
+  it("has no bar for a single level, and none of nothing", function()
+    assert.are.equal(math.huge, (trust.estimate(smooth, { 1 }, false)))
+    assert.is_true(trust.estimate(smooth, { 1, 1, 1 }, false) > 0)
+    local straight = { math.huge, math.huge, math.huge } -- its bend radius
+    assert.are.equal(0, (trust.estimate(smooth, straight, false)))
+    assert.are.equal(math.huge, (trust.estimate(smooth, { 1, 2, math.huge }, false)))
+  end)
+end)
+
+describe("memory", function()
+  it("does not grow with error bars", function()
+    local scene, wire = make(8)
+    local snapshot = scene:snapshot()
+    local function loop(count)
+      for _ = 1, count do
+        scene:restore(snapshot)
+        assert.is_true(scene:settle{ tolerance = { tip = 1 } }.ok)
+        scene:process(function(p) p:wait(0.02) end)
+        assert.is_true(scene:run{ tolerance = { tip = 1 }, frame = 1 }.ok)
+      end
+      scene:restore(snapshot)
+      collectgarbage()
+      collectgarbage()
+      return (core.allocated())
+    end
+    loop(3)
+    local bytes = loop(3)
+    assert.are.equal(bytes, loop(100))
+    assert.are.equal(8, wire.segments)
+  end)
+end)
