@@ -4,38 +4,6 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "solve/band3.h"
-#include "solve/sparse.h"
-#include "system/twist.h"
-
-/* One block, rows of node i, columns of node j, i < j. */
-typedef struct link {
-  uint32_t i, j; /* in the system's arrays */
-  double k[9];   /* [N/m] */
-} link;
-
-struct sw_links {
-  link *list; /* of this evaluation */
-  size_t count, capacity;
-
-  /* the pattern: what the sparse matrix was analysed for */
-  sw_sparse *matrix;
-  sw_sparse_pair *pairs; /* of the bodies' chains, then links; in the matrix' numbers */
-  size_t pair_capacity, chain_pairs, pair_count;
-  sw_sparse_pair *known; /* links of the pattern: those planned, then what came besides */
-  size_t known_count, known_capacity;
-  sw_sparse_pair *planned, *taken; /* for the present step; for the pattern */
-  size_t planned_count, planned_capacity, taken_count, taken_capacity;
-  uint32_t *table; /* hash: number in known + 1, 0 = empty */
-  size_t table_capacity, table_size;
-  uint32_t *number; /* (system's nodes) in the matrix, or NONE */
-  size_t *first;    /* (bodies) first node in the matrix */
-  size_t nodes;     /* of the matrix */
-  double *x;        /* (nodes x 3) */
-  size_t x_capacity;
-  double *spans; /* work for twist */
-  size_t span_capacity;
-};
 
 static const uint32_t NONE = UINT32_MAX;
 
@@ -86,12 +54,12 @@ sw_status sw_system_add_link(sw_system *s, size_t i, size_t j, const double k[9]
   struct sw_links *l = links_of(s);
   if (!l) return SW_ENOMEM;
   SW_TRY(sw_grow((void **)&l->list, &l->capacity, l->count + 1, sizeof *l->list));
-  link *at = &l->list[l->count++];
+  sw_link *at = &l->list[l->count++];
   if (i < j) {
-    *at = (link){(uint32_t)i, (uint32_t)j, {0}};
+    *at = (sw_link){(uint32_t)i, (uint32_t)j, {0}};
     memcpy(at->k, k, sizeof at->k);
   } else {
-    *at = (link){(uint32_t)j, (uint32_t)i, {0}};
+    *at = (sw_link){(uint32_t)j, (uint32_t)i, {0}};
     for (int r = 0; r < 3; r++)
       for (int c = 0; c < 3; c++) at->k[3 * r + c] = k[3 * c + r];
   }
@@ -106,7 +74,7 @@ static size_t hash_of(const struct sw_links *l, uint32_t i, uint32_t j) {
 }
 
 /* Number of the pair in the pattern, or NONE. */
-static uint32_t find(const struct sw_links *l, uint32_t i, uint32_t j) {
+uint32_t sw_links_find(const struct sw_links *l, uint32_t i, uint32_t j) {
   if (!l->table_size) return NONE;
   for (size_t h = hash_of(l, i, j); l->table[h]; h = (h + 1) & (l->table_size - 1)) {
     const sw_sparse_pair *k = &l->known[l->table[h] - 1];
@@ -135,7 +103,7 @@ static sw_status make_table(struct sw_links *l, size_t count) {
 
 /* One more link for the pattern. */
 static sw_status add_known(struct sw_links *l, uint32_t i, uint32_t j) {
-  if (find(l, i, j) != NONE) return SW_OK;
+  if (sw_links_find(l, i, j) != NONE) return SW_OK;
   SW_TRY(sw_grow((void **)&l->known, &l->known_capacity, l->known_count + 1, sizeof *l->known));
   if (2 * l->known_count >= l->table_size) SW_TRY(make_table(l, 2 * l->known_count + 1));
   l->known[l->known_count] = (sw_sparse_pair){i, j};
@@ -187,13 +155,15 @@ static sw_status number_nodes(sw_system *s) {
     s->bodies[b].linked = 1;
   }
   l->nodes = 0;
+  l->block = 3;
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
     l->first[b] = l->nodes;
+    if (body->linked && body->spin_block) l->block = 4;
     for (size_t i = 0; i < body->plan->nodes; i++)
       l->number[body->first_node + i] = body->linked ? (uint32_t)l->nodes++ : NONE;
   }
-  return sw_grow((void **)&l->x, &l->x_capacity, 3 * l->nodes, sizeof *l->x);
+  return sw_grow((void **)&l->x, &l->x_capacity, l->block * l->nodes, sizeof *l->x);
 }
 
 /* All pairs of the matrix: two along each chain's node, then the links. */
@@ -218,7 +188,7 @@ static sw_status list_pairs(sw_system *s) {
   return SW_OK;
 }
 
-static sw_status prepare_pattern(sw_system *s) {
+sw_status sw_links_prepare(sw_system *s) {
   struct sw_links *l = s->links;
   SW_TRY(take_plan(l));
   const size_t before = l->known_count;
@@ -228,176 +198,5 @@ static sw_status prepare_pattern(sw_system *s) {
   l->matrix = NULL;
   SW_TRY(number_nodes(s));
   SW_TRY(list_pairs(s));
-  return sw_sparse_new(l->nodes, 3, l->pairs, l->pair_count, &l->matrix);
-}
-
-/* --- values --------------------------------------------------------------------- */
-
-static void load_chain(struct sw_links *l, const sw_body *b, size_t first, size_t *pair) {
-  static const int full[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
-  const size_t n = b->plan->nodes;
-  for (size_t i = 0; i < n; i++) {
-    const double *row = b->field.rows + SW_ROW_SIZE * i;
-    double *own = sw_sparse_own(l->matrix, first + i);
-    for (int k = 0; k < 9; k++) own[k] = row[full[k]];
-    if (i + 1 < n) sw_sparse_add(l->matrix, (*pair)++, row + SW_ROW_NEXT);
-    if (i + 2 < n) sw_sparse_add(l->matrix, (*pair)++, row + SW_ROW_SECOND);
-  }
-}
-
-static int is_held(const sw_system *s, uint32_t node) {
-  size_t b;
-  const sw_body *body = body_of(s, node, &b);
-  return body->plan->held[node - body->first_node] != SW_FREE;
-}
-
-static void load(sw_system *s) {
-  struct sw_links *l = s->links;
-  size_t pair = 0;
-  sw_sparse_clear(l->matrix);
-  for (size_t b = 0; b < s->body_count; b++)
-    if (s->bodies[b].linked) load_chain(l, &s->bodies[b], l->first[b], &pair);
-  for (size_t k = 0; k < l->count; k++) {
-    const link *at = &l->list[k];
-    if (is_held(s, at->i) || is_held(s, at->j)) continue;
-    sw_sparse_add(l->matrix, l->chain_pairs + find(l, at->i, at->j), at->k);
-  }
-}
-
-/* --- twist ---------------------------------------------------------------------- */
-
-/* The linked bodies' spans, one after another. */
-static size_t count_spans(const sw_system *s) {
-  size_t count = 0;
-  for (size_t b = 0; b < s->body_count; b++)
-    if (s->bodies[b].linked && s->bodies[b].has_twist) count += s->bodies[b].plan->span_count;
-  return count;
-}
-
-/* Solve S z = z in place for symmetric S (m x m) by elimination; counts negative
- * pivots. S has the spans' compliances on its diagonal. */
-static size_t solve_dense(double *S, size_t m, double *z) {
-  size_t negative = 0;
-  for (size_t k = 0; k < m; k++) {
-    const double pivot = S[m * k + k];
-    negative += pivot < 0;
-    for (size_t i = k + 1; i < m; i++) {
-      const double f = S[m * i + k] / pivot;
-      for (size_t j = k; j < m; j++) S[m * i + j] -= f * S[m * k + j];
-      z[i] -= f * z[k];
-    }
-  }
-  for (size_t k = m; k-- > 0;) {
-    for (size_t j = k + 1; j < m; j++) z[k] -= S[m * k + j] * z[j];
-    z[k] /= S[m * k + k];
-  }
-  return negative;
-}
-
-/* A span's slope among the matrix' unknowns, held nodes zero. */
-static void put_slope(const struct sw_links *l, const sw_body *b, size_t first, const sw_span *span,
-                      double *out) {
-  memset(out, 0, 3 * l->nodes * sizeof *out);
-  for (size_t i = span->first; i <= span->last + 1; i++)
-    if (b->plan->held[i] == SW_FREE) sw_store(out + 3 * (first + i), sw_vec_at(b->twist_rank, i));
-}
-
-/* Each span adds stiffness g g' to the matrix K: with the compliances C^-1 and the
- * solved slopes K^-1 g, Sherman, Morrison and Woodbury's formula for all at once, as
- * links carry the twist of one wire to the next. Returns how many directions are not
- * negative any more. */
-static sw_status correct_twist(sw_system *s, size_t *fewer) {
-  struct sw_links *l = s->links;
-  const size_t m = count_spans(s), n = 3 * l->nodes;
-  size_t k = 0;
-  *fewer = 0;
-  if (!m) return SW_OK;
-  SW_TRY(sw_grow((void **)&l->spans, &l->span_capacity, m * (n + m + 1), sizeof *l->spans));
-  double *S = l->spans + m * n, *z = S + m * m;
-  for (size_t b = 0; b < s->body_count; b++) {
-    sw_body *body = &s->bodies[b];
-    if (!body->linked || !body->has_twist) continue;
-    sw_twist_gather(body);
-    for (size_t j = 0; j < body->plan->span_count; j++, k++) {
-      put_slope(l, body, l->first[b], &body->plan->spans[j], l->spans + n * k);
-      sw_sparse_solve(l->matrix, l->spans + n * k);
-    }
-  }
-  k = 0;
-  for (size_t b = 0; b < s->body_count; b++) {
-    const sw_body *body = &s->bodies[b];
-    for (size_t j = 0; body->linked && body->has_twist && j < body->plan->span_count; j++, k++) {
-      const sw_span *span = &body->plan->spans[j];
-      for (size_t i = 0; i < m; i++)
-        S[m * k + i] = sw_twist_dot(body, span, l->spans + n * i + 3 * l->first[b]);
-      S[m * k + k] += 1.0 / body->field.twist_stiffness[j];
-      z[k] = sw_twist_dot(body, span, l->x + 3 * l->first[b]);
-    }
-  }
-  *fewer = solve_dense(S, m, z);
-  for (k = 0; k < m; k++)
-    for (size_t i = 0; i < n; i++) l->x[i] -= z[k] * l->spans[n * k + i];
-  return SW_OK;
-}
-
-static void keep_gains(sw_system *s) {
-  for (size_t b = 0; b < s->body_count; b++) {
-    sw_body *body = &s->bodies[b];
-    for (size_t j = 0; body->linked && body->has_twist && j < body->plan->span_count; j++)
-      body->twist_gain[j] =
-          body->field.twist_stiffness[j] *
-          sw_twist_dot(body, &body->plan->spans[j], s->links->x + 3 * s->links->first[b]);
-  }
-}
-
-/* --- solution ------------------------------------------------------------------- */
-
-sw_status sw_links_solve(sw_system *s, size_t *negative) {
-  struct sw_links *l = s->links;
-  size_t found = 0, fewer = 0;
-  SW_TRY(prepare_pattern(s));
-  load(s);
-  SW_TRY(sw_sparse_factor(l->matrix, &found));
-  for (size_t b = 0; b < s->body_count; b++)
-    if (s->bodies[b].linked)
-      memcpy(l->x + 3 * l->first[b], s->delta + 3 * s->bodies[b].first_node,
-             3 * s->bodies[b].plan->nodes * sizeof *l->x);
-  sw_sparse_solve(l->matrix, l->x);
-  SW_TRY(correct_twist(s, &fewer));
-  keep_gains(s);
-  for (size_t b = 0; b < s->body_count; b++)
-    if (s->bodies[b].linked)
-      memcpy(s->delta + 3 * s->bodies[b].first_node, l->x + 3 * l->first[b],
-             3 * s->bodies[b].plan->nodes * sizeof *l->x);
-  *negative += found - fewer;
-  return SW_OK;
-}
-
-/* --- reactions ------------------------------------------------------------------ */
-
-static sw_held_node *held_at(sw_system *s, uint32_t node) {
-  size_t low = 0, high = s->held_count; /* a hold's nodes ascend, holds may not */
-  for (; low < high; low++)
-    if (s->held[low].node == node) return &s->held[low];
-  return NULL;
-}
-
-static void react(sw_system *s, uint32_t node, const double k[9], int transposed, const double *d) {
-  sw_held_node *h = held_at(s, node);
-  if (!h) return;
-  sw_vec f = h->reaction;
-  const int row = transposed ? 1 : 3, column = transposed ? 3 : 1;
-  f.x += k[0] * d[0] + k[column] * d[1] + k[2 * column] * d[2];
-  f.y += k[row] * d[0] + k[row + column] * d[1] + k[row + 2 * column] * d[2];
-  f.z += k[2 * row] * d[0] + k[2 * row + column] * d[1] + k[2 * row + 2 * column] * d[2];
-  h->reaction = f;
-}
-
-void sw_links_react(sw_system *s) {
-  const struct sw_links *l = s->links;
-  for (size_t k = 0; l && k < l->count; k++) {
-    const link *at = &l->list[k];
-    if (is_held(s, at->i)) react(s, at->i, at->k, 0, s->delta + 3 * at->j);
-    if (is_held(s, at->j)) react(s, at->j, at->k, 1, s->delta + 3 * at->i);
-  }
+  return sw_sparse_new(l->nodes, l->block, l->pairs, l->pair_count, &l->matrix);
 }

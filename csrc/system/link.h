@@ -4,7 +4,45 @@
 #ifndef SW_SYSTEM_LINK_H
 #define SW_SYSTEM_LINK_H
 
+#include <stdint.h>
+
+#include "solve/sparse.h"
 #include "system/system.h"
+
+/* One block, rows of node i, columns of node j, i < j. */
+typedef struct sw_link {
+  uint32_t i, j; /* in the system's arrays */
+  double k[9];   /* [N/m] */
+} sw_link;
+
+struct sw_links {
+  sw_link *list; /* of this evaluation */
+  size_t count, capacity;
+
+  /* the pattern: what the sparse matrix was analysed for */
+  sw_sparse *matrix;
+  sw_sparse_pair *pairs; /* of the bodies' chains, then links; in the matrix' numbers */
+  size_t pair_capacity, chain_pairs, pair_count;
+  sw_sparse_pair *known; /* links of the pattern: those planned, then what came besides */
+  size_t known_count, known_capacity;
+  sw_sparse_pair *planned, *taken; /* for the present step; for the pattern */
+  size_t planned_count, planned_capacity, taken_count, taken_capacity;
+  uint32_t *table; /* hash: number in known + 1, 0 = empty */
+  size_t table_capacity, table_size;
+  uint32_t *number; /* (system's nodes) in the matrix, or NONE */
+  size_t *first;    /* (bodies) first node in the matrix */
+  size_t nodes;     /* of the matrix */
+  size_t block;     /* unknowns a node: 3, or 4 with spins where a linked body has frames */
+  double *x;        /* (nodes x block) */
+  size_t x_capacity;
+  double *spans; /* work for twist */
+  size_t span_capacity;
+};
+
+/* Make the matrix for this evaluation's links: the planned pattern, and what came besides. */
+sw_status sw_links_prepare(sw_system *system);
+/* Number of a link of nodes i < j in the pattern. */
+uint32_t sw_links_find(const struct sw_links *links, uint32_t i, uint32_t j);
 
 /* An evaluation begins: no links. */
 void sw_links_begin(sw_system *system);

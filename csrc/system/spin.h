@@ -31,6 +31,10 @@ void sw_spin_carry(sw_system *system, sw_body *body);
  * spins (nodes x SW_ROW4_SIZE). */
 void sw_spin_assemble(const sw_body *body, const double *rows, double *out);
 
+/* The matrix into spin_rows, and the right-hand side, of which nodes have theirs in delta
+ * (nodes x 3), into spin_delta. */
+void sw_spin_load(const sw_system *system, sw_body *body, const double *delta);
+
 /* Solve for the update of nodes (delta, nodes x 3, in place) and spins with the
  * field's rows, whose held nodes are out. Fails as sw_band4_factor. */
 sw_status sw_spin_solve(const sw_system *system, sw_body *body, double *delta, size_t *negative);

@@ -71,7 +71,7 @@ void sw_spin_assemble(const sw_body *b, const double *rows, double *out) {
     for (size_t i = 0; i < p->nodes; i++) add_node_couplings(b, i, out);
 }
 
-sw_status sw_spin_solve(const sw_system *s, sw_body *b, double *delta, size_t *negative) {
+void sw_spin_load(const sw_system *s, sw_body *b, const double *delta) {
   const size_t n = b->plan->nodes;
   double *d = b->spin_delta;
   sw_spin_assemble(b, b->field.rows, b->spin_rows);
@@ -85,6 +85,12 @@ sw_status sw_spin_solve(const sw_system *s, sw_body *b, double *delta, size_t *n
     b->spin_rows[SW_ROW4_SIZE * e + 15] += inertia;
     d[4 * e + 3] -= inertia * sw_spin_turned(s, b, e);
   }
+}
+
+sw_status sw_spin_solve(const sw_system *s, sw_body *b, double *delta, size_t *negative) {
+  const size_t n = b->plan->nodes;
+  double *d = b->spin_delta;
+  sw_spin_load(s, b, delta);
   SW_TRY(sw_band4_factor(b->spin_rows, n, negative));
   sw_band4_solve(b->spin_rows, n, d);
   for (size_t i = 0; i < n; i++)

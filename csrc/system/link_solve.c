@@ -1,0 +1,260 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The equations of bodies that links tie together: values of their matrix, twist, solution,
+ * reactions. */
+#include <string.h>
+
+#include "base/alloc.h"
+#include "solve/band3.h"
+#include "solve/band4.h"
+#include "system/link.h"
+#include "system/spin.h"
+#include "system/twist.h"
+
+/* The body that has the node. */
+static const sw_body *body_of(const sw_system *s, uint32_t node) {
+  size_t low = 0, high = s->body_count;
+  while (high - low > 1) {
+    const size_t middle = (low + high) / 2;
+    if (s->bodies[middle].first_node <= node)
+      low = middle;
+    else
+      high = middle;
+  }
+  return &s->bodies[low];
+}
+
+/* --- values --------------------------------------------------------------------- */
+
+/* A block of three unknowns among those of the matrix. */
+static void widen(const struct sw_links *l, const double *from, double *to) {
+  for (size_t i = 0; i < 3; i++)
+    for (size_t j = 0; j < 3; j++) to[l->block * i + j] = from[3 * i + j];
+}
+
+static void add_pair(struct sw_links *l, size_t pair, const double *from) {
+  double block[SW_SPARSE_BLOCK_MAX * SW_SPARSE_BLOCK_MAX] = {0};
+  if (l->block > 3) widen(l, from, block);
+  sw_sparse_add(l->matrix, pair, l->block > 3 ? block : from);
+}
+
+static void load_chain(struct sw_links *l, const sw_body *b, size_t first, size_t *pair) {
+  static const int full[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+  const size_t n = b->plan->nodes;
+  for (size_t i = 0; i < n; i++) {
+    const double *row = b->field.rows + SW_ROW_SIZE * i;
+    double own[9], *to = sw_sparse_own(l->matrix, first + i);
+    for (int k = 0; k < 9; k++) own[k] = row[full[k]];
+    widen(l, own, to);
+    if (l->block > 3) to[15] = 1.0;
+    if (i + 1 < n) add_pair(l, (*pair)++, row + SW_ROW_NEXT);
+    if (i + 2 < n) add_pair(l, (*pair)++, row + SW_ROW_SECOND);
+  }
+}
+
+/* The same of a body with frames, whose rows have spins already. */
+static void load_spinning(struct sw_links *l, const sw_body *b, size_t first, size_t *pair) {
+  const size_t n = b->plan->nodes;
+  for (size_t i = 0; i < n; i++) {
+    const double *row = b->spin_rows + SW_ROW4_SIZE * i;
+    memcpy(sw_sparse_own(l->matrix, first + i), row, 16 * sizeof *row);
+    if (i + 1 < n) sw_sparse_add(l->matrix, (*pair)++, row + SW_ROW4_NEXT);
+    if (i + 2 < n) sw_sparse_add(l->matrix, (*pair)++, row + SW_ROW4_SECOND);
+  }
+}
+
+static int is_held(const sw_system *s, uint32_t node) {
+  const sw_body *body = body_of(s, node);
+  return body->plan->held[node - body->first_node] != SW_FREE;
+}
+
+static void load(sw_system *s) {
+  struct sw_links *l = s->links;
+  size_t pair = 0;
+  sw_sparse_clear(l->matrix);
+  for (size_t b = 0; b < s->body_count; b++) {
+    sw_body *body = &s->bodies[b];
+    if (!body->linked) continue;
+    if (body->spin_block) sw_spin_load(s, body, s->delta + 3 * body->first_node);
+    (body->spin_block ? load_spinning : load_chain)(l, body, l->first[b], &pair);
+  }
+  for (size_t k = 0; k < l->count; k++) {
+    const sw_link *at = &l->list[k];
+    if (is_held(s, at->i) || is_held(s, at->j)) continue;
+    add_pair(l, l->chain_pairs + sw_links_find(l, at->i, at->j), at->k);
+  }
+}
+
+/* The linked bodies' right-hand sides, from delta or with spins, into x. */
+static void load_right(const sw_system *s) {
+  struct sw_links *l = s->links;
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_body *body = &s->bodies[b];
+    double *x = l->x + l->block * l->first[b];
+    const double *delta = s->delta + 3 * body->first_node;
+    if (!body->linked) continue;
+    if (body->spin_block)
+      memcpy(x, body->spin_delta, 4 * body->plan->nodes * sizeof *x);
+    else
+      for (size_t i = 0; i < body->plan->nodes; i++, x += l->block, delta += 3) {
+        memcpy(x, delta, 3 * sizeof *x);
+        if (l->block == 4) x[3] = 0;
+      }
+  }
+}
+
+/* And the solution back. */
+static void take_solution(sw_system *s) {
+  const struct sw_links *l = s->links;
+  for (size_t b = 0; b < s->body_count; b++) {
+    sw_body *body = &s->bodies[b];
+    const double *x = l->x + l->block * l->first[b];
+    double *delta = s->delta + 3 * body->first_node;
+    if (!body->linked) continue;
+    if (body->spin_block) memcpy(body->spin_delta, x, 4 * body->plan->nodes * sizeof *x);
+    for (size_t i = 0; i < body->plan->nodes; i++)
+      memcpy(delta + 3 * i, x + l->block * i, 3 * sizeof *x);
+  }
+}
+
+/* --- twist ---------------------------------------------------------------------- */
+
+/* The linked bodies' spans, one after another. */
+static size_t count_spans(const sw_system *s) {
+  size_t count = 0;
+  for (size_t b = 0; b < s->body_count; b++)
+    if (s->bodies[b].linked && s->bodies[b].has_twist) count += s->bodies[b].plan->span_count;
+  return count;
+}
+
+/* Solve S z = z in place for symmetric S (m x m) by elimination; counts negative
+ * pivots. S has the spans' compliances on its diagonal. */
+static size_t solve_dense(double *S, size_t m, double *z) {
+  size_t negative = 0;
+  for (size_t k = 0; k < m; k++) {
+    const double pivot = S[m * k + k];
+    negative += pivot < 0;
+    for (size_t i = k + 1; i < m; i++) {
+      const double f = S[m * i + k] / pivot;
+      for (size_t j = k; j < m; j++) S[m * i + j] -= f * S[m * k + j];
+      z[i] -= f * z[k];
+    }
+  }
+  for (size_t k = m; k-- > 0;) {
+    for (size_t j = k + 1; j < m; j++) z[k] -= S[m * k + j] * z[j];
+    z[k] /= S[m * k + k];
+  }
+  return negative;
+}
+
+/* A span's slope among the matrix' unknowns, held nodes zero. */
+static void put_slope(const struct sw_links *l, const sw_body *b, size_t first, const sw_span *span,
+                      double *out) {
+  memset(out, 0, l->block * l->nodes * sizeof *out);
+  for (size_t i = span->first; i <= span->last + 1; i++)
+    if (b->plan->held[i] == SW_FREE)
+      sw_store(out + l->block * (first + i), sw_vec_at(b->twist_rank, i));
+}
+
+/* The slope times x, of the matrix' unknowns. */
+static double slope_dot(const struct sw_links *l, const sw_body *b, size_t first,
+                        const sw_span *span, const double *x) {
+  double sum = 0;
+  for (size_t i = span->first; i <= span->last + 1; i++)
+    if (b->plan->held[i] == SW_FREE)
+      sum += sw_dot(sw_vec_at(b->twist_rank, i), sw_load(x + l->block * (first + i)));
+  return sum;
+}
+
+/* Each span adds stiffness g g' to the matrix K: with the compliances C^-1 and the
+ * solved slopes K^-1 g, Sherman, Morrison and Woodbury's formula for all at once, as
+ * links carry the twist of one wire to the next. Returns how many directions are not
+ * negative any more. */
+static sw_status correct_twist(sw_system *s, size_t *fewer) {
+  struct sw_links *l = s->links;
+  const size_t m = count_spans(s), n = l->block * l->nodes;
+  size_t k = 0;
+  *fewer = 0;
+  if (!m) return SW_OK;
+  SW_TRY(sw_grow((void **)&l->spans, &l->span_capacity, m * (n + m + 1), sizeof *l->spans));
+  double *S = l->spans + m * n, *z = S + m * m;
+  for (size_t b = 0; b < s->body_count; b++) {
+    sw_body *body = &s->bodies[b];
+    if (!body->linked || !body->has_twist) continue;
+    sw_twist_gather(body);
+    for (size_t j = 0; j < body->plan->span_count; j++, k++) {
+      put_slope(l, body, l->first[b], &body->plan->spans[j], l->spans + n * k);
+      sw_sparse_solve(l->matrix, l->spans + n * k);
+    }
+  }
+  k = 0;
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_body *body = &s->bodies[b];
+    for (size_t j = 0; body->linked && body->has_twist && j < body->plan->span_count; j++, k++) {
+      const sw_span *span = &body->plan->spans[j];
+      for (size_t i = 0; i < m; i++)
+        S[m * k + i] = slope_dot(l, body, l->first[b], span, l->spans + n * i);
+      S[m * k + k] += 1.0 / body->field.twist_stiffness[j];
+      z[k] = slope_dot(l, body, l->first[b], span, l->x);
+    }
+  }
+  *fewer = solve_dense(S, m, z);
+  for (k = 0; k < m; k++)
+    for (size_t i = 0; i < n; i++) l->x[i] -= z[k] * l->spans[n * k + i];
+  return SW_OK;
+}
+
+static void keep_gains(sw_system *s) {
+  for (size_t b = 0; b < s->body_count; b++) {
+    sw_body *body = &s->bodies[b];
+    for (size_t j = 0; body->linked && body->has_twist && j < body->plan->span_count; j++)
+      body->twist_gain[j] =
+          body->field.twist_stiffness[j] *
+          slope_dot(s->links, body, s->links->first[b], &body->plan->spans[j], s->links->x);
+  }
+}
+
+/* --- solution ------------------------------------------------------------------- */
+
+sw_status sw_links_solve(sw_system *s, size_t *negative) {
+  struct sw_links *l = s->links;
+  size_t found = 0, fewer = 0;
+  SW_TRY(sw_links_prepare(s));
+  load(s);
+  SW_TRY(sw_sparse_factor(l->matrix, &found));
+  load_right(s);
+  sw_sparse_solve(l->matrix, l->x);
+  SW_TRY(correct_twist(s, &fewer));
+  keep_gains(s);
+  take_solution(s);
+  *negative += found - fewer;
+  return SW_OK;
+}
+
+/* --- reactions ------------------------------------------------------------------ */
+
+static sw_held_node *held_at(sw_system *s, uint32_t node) {
+  size_t low = 0, high = s->held_count; /* a hold's nodes ascend, holds may not */
+  for (; low < high; low++)
+    if (s->held[low].node == node) return &s->held[low];
+  return NULL;
+}
+
+static void react(sw_system *s, uint32_t node, const double k[9], int transposed, const double *d) {
+  sw_held_node *h = held_at(s, node);
+  if (!h) return;
+  sw_vec f = h->reaction;
+  const int row = transposed ? 1 : 3, column = transposed ? 3 : 1;
+  f.x += k[0] * d[0] + k[column] * d[1] + k[2 * column] * d[2];
+  f.y += k[row] * d[0] + k[row + column] * d[1] + k[row + 2 * column] * d[2];
+  f.z += k[2 * row] * d[0] + k[2 * row + column] * d[1] + k[2 * row + 2 * column] * d[2];
+  h->reaction = f;
+}
+
+void sw_links_react(sw_system *s) {
+  const struct sw_links *l = s->links;
+  for (size_t k = 0; l && k < l->count; k++) {
+    const sw_link *at = &l->list[k];
+    if (is_held(s, at->i)) react(s, at->i, at->k, 0, s->delta + 3 * at->j);
+    if (is_held(s, at->j)) react(s, at->j, at->k, 1, s->delta + 3 * at->i);
+  }
+}
