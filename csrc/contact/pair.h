@@ -88,6 +88,7 @@ struct sw_pairs {
   sw_pair_barrier *impacts; /* places whose impact was dealt with in this step */
   size_t impact_count, impact_capacity;
   double fall;          /* that gravity closes in the step, with reserve [m] */
+  double least_left;    /* minus the least gap of segments not chosen [m] */
   double least_reserve; /* gap up to which all are chosen in this step [m] */
 };
 

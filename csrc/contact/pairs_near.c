@@ -270,6 +270,8 @@ static double travel_of(const sw_pairs *p, const sw_near *n) {
   return p->travel[n->one] + p->travel[n->one + 1] + p->travel[n->two] + p->travel[n->two + 1];
 }
 
+static double larger(double a, double b) { return a > b ? a : b; }
+
 static double fastest(const sw_system *s) {
   double most = 0;
   for (size_t i = 0; i < s->nodes; i++) {
@@ -301,18 +303,24 @@ sw_status sw_pairs_choose(sw_pairs *p, sw_system *s) {
   p->fall = still ? 0.0 : RESERVE * sw_norm(sw_load(s->gravity)) * p->h * p->h;
   SW_TRY(sw_pairs_list(p, s, reserve_of(p, 2.0 * widest_radius(p, s), fast)));
   p->pair_count = p->touch_count = p->last_count = 0;
+  p->least_left = -HUGE_VAL;
   sw_system_begin_plan(s);
   for (size_t k = 0; k < p->near_count; k++) {
     sw_near *n = &p->near[k];
     double at[2];
     const double sum = radii(s, n->body);
     n->distance = n->known - (travel_of(p, n) - n->travel); /* at least */
-    if (n->distance - sum >= reserve_of(p, sum, fast)) continue;
+    if (n->distance - sum >= reserve_of(p, sum, fast)) {
+      p->least_left = larger(p->least_left, sum - n->distance);
+      continue;
+    }
     n->distance = sw_segments_nearest(sw_vec_at(s->x, n->one), sw_vec_at(s->x, n->one + 1u),
                                       sw_vec_at(s->x, n->two), sw_vec_at(s->x, n->two + 1u), at);
     n->known = n->distance, n->travel = travel_of(p, n);
     if (n->distance - sum < reserve_of(p, sum, still ? 0.0 : speed_between(s, n)))
       SW_TRY(add_pair(p, s, n, sum));
+    else
+      p->least_left = larger(p->least_left, sum - n->distance);
   }
   return SW_OK;
 }

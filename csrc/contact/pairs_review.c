@@ -138,6 +138,7 @@ static double missed_gap(const sw_pairs *p, const sw_system *s, const double *x1
   const double farthest = 2.0 * largest_move(s->x, x1, s->nodes);
   double gap = -1;
   size_t k = 0;
+  if (farthest <= -p->least_left) return gap;
   for (size_t i = 0; i < p->near_count; i++) {
     const sw_near *n = &p->near[i];
     if (k < p->pair_count && p->pairs[k].one == n->one && p->pairs[k].two == n->two) {

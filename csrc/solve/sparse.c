@@ -194,7 +194,13 @@ double *sw_sparse_own(sw_sparse *s, size_t node) {
 void sw_sparse_add(sw_sparse *s, size_t pair, const double *values) {
   const size_t b = s->block;
   double *to = s->off + b * b * (s->slot[pair] / 2);
-  if (s->slot[pair] % 2) {
+  const int turned = s->slot[pair] % 2;
+  if (b == 3 && turned) { /* the usual ones, unrolled */
+    static const int column[9] = {0, 3, 6, 1, 4, 7, 2, 5, 8};
+    for (int k = 0; k < 9; k++) to[k] += values[column[k]];
+  } else if (b == 3) {
+    for (int k = 0; k < 9; k++) to[k] += values[k];
+  } else if (turned) {
     for (size_t i = 0; i < b; i++)
       for (size_t j = 0; j < b; j++) to[b * j + i] += values[b * i + j];
   } else {

@@ -42,9 +42,8 @@ static void load_chain(struct sw_links *l, const sw_body *b, size_t first, size_
   const size_t n = b->plan->nodes;
   for (size_t i = 0; i < n; i++) {
     const double *row = b->field.rows + SW_ROW_SIZE * i;
-    double own[9], *to = sw_sparse_own(l->matrix, first + i);
-    for (int k = 0; k < 9; k++) own[k] = row[full[k]];
-    widen(l, own, to);
+    double *to = sw_sparse_own(l->matrix, first + i);
+    for (int k = 0; k < 9; k++) to[l->block > 3 ? k + k / 3 : k] = row[full[k]];
     if (l->block > 3) to[15] = 1.0;
     if (i + 1 < n) add_pair(l, (*pair)++, row + SW_ROW_NEXT);
     if (i + 2 < n) add_pair(l, (*pair)++, row + SW_ROW_SECOND);
