@@ -78,10 +78,10 @@ static sw_status check_trial(const sw_scene *s, sw_error *err) {
       const double least = LEAST_SHARE * body->plan->rest[e];
       if (l2 < least * least)
         return sw_fail(err, SW_ENOCONV, "wire '%s' is crushed near s = %.4g m", s->wires[b].name,
-                       body->plan->s[e]);
+                       body->plan->s[e] - body->plan->s[0]);
       if (!(l2 <= most * most))
         return sw_fail(err, SW_EDIVERGED, "wire '%s' is torn apart near s = %.4g m",
-                       s->wires[b].name, body->plan->s[e]);
+                       s->wires[b].name, body->plan->s[e] - body->plan->s[0]);
     }
   }
   return SW_OK;
@@ -122,6 +122,58 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
                          : sw_fail(err, SW_ENOCONV, "impacts do not come to an end in one step");
 }
 
+/* Forget a trial that went well. */
+static void undo(loop *p) {
+  sw_scene *s = p->s;
+  sw_stepper_reject(&s->stepper, &s->system);
+  if (s->contact) memcpy(s->system.v, p->v_start, 3 * s->system.nodes * sizeof(double));
+}
+
+/* --- feeds that yield to a force --------------------------------------------------
+ * Each step finds the constant slip with which the drive's force at its end is the one
+ * wanted, by the secant of the last two trials: the force is nearly linear in it. */
+enum { MOST_SLIP_TRIALS = 25 };
+static const double SLIP_PRECISION = 1e-7; /* of the force, the wire's weight or EI/L2 [-] */
+
+/* Correct one feed's slip after a trial; returns 1 when it was good. */
+static int correct_slip(sw_scene *s, sw_scene_hold *h, double step, int first) {
+  sw_feed *f = &h->feed;
+  const sw_plan *p = s->system.bodies[h->wire].plan;
+  const double drive = sw_feed_drive(s, h, s->stepper.trial_x), L = p->length;
+  const double weight = p->beam.mass * L * sw_norm(s->gravity);
+  if (first) f->slip_way = isfinite(f->push) || fabs(drive) > f->limit ? copysign(1.0, drive) : 0;
+  if (!isfinite(f->push) && f->slip_way == 0) return 1;
+  const double want = isfinite(f->push) ? f->push : copysign(f->limit, f->slip_way);
+  const double off = drive - want, scale = fmax(fabs(want), fmax(weight, p->beam.EI / (L * L)));
+  if (fabs(off) <= SLIP_PRECISION * scale) return 1;
+  if (!first && f->slip_rate != f->slip_tried) {
+    const double slope = (off - f->slip_off) / (f->slip_rate - f->slip_tried);
+    if (slope > 0) f->slope = slope;
+  }
+  if (!(f->slope > 0)) f->slope = p->beam.mass * L / step; /* all of the wire is pushed along */
+  f->slip_tried = f->slip_rate, f->slip_off = off;
+  f->slip_rate -= off / f->slope;
+  return 0;
+}
+
+/* One step of size h with all slips right. */
+static sw_status yielding_attempt(loop *p, double h, sw_error *err) {
+  sw_scene *s = p->s;
+  if (!sw_feed_any_soft(s)) return attempt(p, h, err);
+  for (size_t k = 0; k < s->hold_count; k++) /* a limit is first tried without slip */
+    if (sw_feed_is_soft(&s->holds[k]) && !isfinite(s->holds[k].feed.push))
+      s->holds[k].feed.slip_rate = 0;
+  for (int i = 0; i < MOST_SLIP_TRIALS; i++) {
+    int good = 1;
+    SW_TRY(attempt(p, h, err));
+    for (size_t k = 0; k < s->hold_count; k++)
+      if (sw_feed_is_soft(&s->holds[k])) good &= correct_slip(s, &s->holds[k], h, i == 0);
+    if (good) return SW_OK;
+    undo(p);
+  }
+  return sw_fail(err, SW_ENOCONV, "the speed at which a feed slips was not found");
+}
+
 static void accept(loop *p, double h) {
   sw_scene *s = p->s;
   sw_stepper_accept(&s->stepper, &s->system, h);
@@ -133,7 +185,25 @@ static void accept(loop *p, double h) {
 
 /* Errors that a smaller step cannot mend. */
 static int hopeless(sw_status status) {
-  return status == SW_ECALLBACK || status == SW_ENOMEM || status == SW_EINVAL;
+  return status == SW_ECALLBACK || status == SW_ENOMEM || status == SW_EINVAL ||
+         status == SW_EEMPTY;
+}
+
+/* Nodes for the wire that a step up to h feeds; shortens the step to what nodes can
+ * follow. The system may be a new one afterwards. */
+static sw_status make_room(loop *p, double *h, sw_error *err) {
+  sw_scene *s = p->s;
+  int changed;
+  const size_t before = s->system.counters.evaluations;
+  *h = sw_feed_step(s, *h);
+  SW_TRY(sw_feed_make_room(s, s->time + *h, &changed, err));
+  if (!changed) return SW_OK;
+  s->system.counters.evaluations = before;
+  SW_TRY(use_integrator(s, p->args, err));
+  s->stepper.wants_error = isfinite(p->args->tolerance);
+  sw_free(p->v_start);
+  p->v_start = sw_alloc(s->contact ? 3 * s->system.nodes : 1, sizeof(double));
+  return p->v_start ? SW_OK : sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
 }
 
 /* Advance by h, in smaller parts where needed. t1 is the exact end time. */
@@ -144,7 +214,8 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
   while (done < h) {
     const double left = h - done;
     if (part > left * (1 - 1e-12)) part = left;
-    const sw_status status = attempt(p, part, err);
+    SW_TRY(make_room(p, &part, err));
+    const sw_status status = yielding_attempt(p, part, err);
     if (status == SW_OK) {
       done += part;
       accept(p, part);
@@ -167,9 +238,10 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
   sw_scene *s = p->s;
   const double tolerance = p->args->tolerance, most = fmin(p->args->dt, left);
   double h = s->next_dt > 0 ? fmin(s->next_dt, most) : 0.1 * most;
+  SW_TRY(make_room(p, &h, err));
   for (;;) {
     const int last = h >= left * (1 - 1e-9);
-    const sw_status status = attempt(p, h, err);
+    const sw_status status = yielding_attempt(p, h, err);
     if (hopeless(status)) return status;
     const int fine = status == SW_OK && s->stepper.error <= tolerance;
     const double next = status == SW_OK ? sw_stepper_next_h(&s->stepper, h, tolerance) : 0.25 * h;
@@ -180,10 +252,7 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
       s->next_dt = unknown ? h : last && next > h ? fmax(next, s->next_dt) : next;
       return sw_scene_observe(s, err);
     }
-    if (status == SW_OK) {
-      sw_stepper_reject(&s->stepper, &s->system);
-      if (s->contact) memcpy(s->system.v, p->v_start, 3 * s->system.nodes * sizeof(double));
-    }
+    if (status == SW_OK) undo(p);
     p->report->rejected++;
     h = fmin(next, 0.9 * h);
     if (h < SMALLEST_SHARE * SMALLEST_SHARE * p->args->dt)
@@ -216,6 +285,18 @@ static sw_status pose_step(loop *p, double t1, int (*interrupted)(void), sw_erro
   return sw_scene_observe(s, err);
 }
 
+/* The same in parts that nodes can follow where wire is fed. */
+static sw_status pose_steps(loop *p, double t1, int (*interrupted)(void), sw_error *err) {
+  sw_scene *s = p->s;
+  while (s->time < t1) {
+    double h = t1 - s->time;
+    if (interrupted && interrupted()) return SW_EINTR;
+    SW_TRY(make_room(p, &h, err));
+    SW_TRY(pose_step(p, h < (t1 - s->time) * (1 - 1e-9) ? s->time + h : t1, interrupted, err));
+  }
+  return SW_OK;
+}
+
 static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_error *err) {
   sw_scene *s = p->s;
   const double t0 = s->time, span = until - t0;
@@ -228,7 +309,7 @@ static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_er
     if (interrupted && interrupted()) return SW_EINTR;
     if ((double)(p->report->steps - first) >= (double)p->args->max_steps) return SW_OK;
     const double t1 = (double)k >= count ? until : t0 + span * ((double)k / count);
-    SW_TRY(p->args->quasistatic ? pose_step(p, t1, interrupted, err)
+    SW_TRY(p->args->quasistatic ? pose_steps(p, t1, interrupted, err)
            : adaptive           ? controlled_step(p, until - s->time, until, err)
                                 : step(p, t1 - s->time, t1, err));
     if (isfinite(p->args->frame) && s->time >= s->next_frame - slack)
@@ -249,6 +330,11 @@ static sw_status check_run(const sw_scene *s, const sw_run_args *args, sw_error 
           "scene:run: integrator '%s' is explicit; wire '%s', which is curved at rest or "
           "has two values of EI, needs an implicit one",
           m->name, s->wires[w].name);
+  if (args->quasistatic && sw_feed_any_soft(s))
+    return sw_fail(
+        err, SW_EINVAL,
+        "scene:run: a feed with force or force_limit needs motion; give it a speed for a "
+        "quasi-static run");
   if (args->quasistatic && isfinite(args->tolerance))
     return sw_fail(err, SW_EINVAL,
                    "scene:run: tolerance controls the time step of motion; a quasi-static run "
@@ -265,6 +351,8 @@ static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const
   report->status = status;
   report->time = s->time;
   if (status == SW_OK || status == SW_EINTR || status == SW_ECALLBACK) return;
+  if (status == SW_EEMPTY) report->reason = *why; /* all is well up to here */
+  if (status == SW_EEMPTY) return;
   report->status = status == SW_ENOMEM ? SW_ENOMEM : SW_EDIVERGED;
   sw_fail(&report->reason, status, "at t = %.6g s: %.400s", s->time,
           why->text[0] ? why->text : sw_status_text(status));

@@ -123,6 +123,7 @@ static void inherit_twist(sw_scene *s) {
 
 sw_status sw_scene_thaw(sw_scene *s) {
   if (!s->built) return SW_OK;
+  sw_feed_undo(s);
   SW_TRY(keep_contact(s));
   SW_TRY(sw_scene_keep_histories(s));
   for (size_t w = 0; w < s->wire_count; w++) {
@@ -192,9 +193,11 @@ static sw_status add_holds(sw_scene *s, size_t alive) {
   if (!s->hold_slot) return SW_ENOMEM;
   int number = 0;
   for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_scene_hold *h = &s->holds[k];
+    sw_scene_hold *h = &s->holds[k];
     if (!h->alive) continue;
     const sw_body *b = &s->system.bodies[h->wire];
+    h->feed.node = sw_mesh_node(&s->wires[h->wire].mesh, h->s1);
+    h->feed.number = (size_t)number;
     for (size_t side = 0; side < 2; side++) {
       const size_t at = 3 * (2 * (size_t)number + side);
       sw_store(s->system.directors + at, h->director[side]);
@@ -221,8 +224,10 @@ static sw_pose part_way(const sw_pose *from, const sw_pose *to, double share) {
 static sw_status place_hold(void *user, int hold, double t, sw_hold_state *out, sw_error *err) {
   sw_scene *s = user;
   sw_motion_state m;
-  SW_TRY(sw_drive_eval(s, &s->holds[s->hold_slot[hold]].drive, t, &m, err));
+  sw_scene_hold *h = &s->holds[s->hold_slot[hold]];
+  SW_TRY(sw_drive_eval(s, &h->drive, t, &m, err));
   *out = (sw_hold_state){m.pose, m.v, m.a, m.omega, m.alpha};
+  if (h->cls->feeds) sw_feed_place(s, h, t, out);
   if (s->part_from) out->pose = part_way(&s->part_from[hold], &m.pose, s->part);
   return SW_OK;
 }

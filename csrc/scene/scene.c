@@ -33,6 +33,8 @@ void sw_scene_clear_hold(sw_scene_hold *h) {
   sw_free(h->local);
   sw_free(h->log.rows);
   sw_drive_free(&h->drive);
+  sw_motion_release(h->feed.motion);
+  sw_mesh_free(&h->feed.shape);
 }
 
 void sw_scene_clear_obstacle(sw_scene_obstacle *o) {
@@ -364,12 +366,13 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
   if (wire.generation && !w) return SW_EDEAD;
   if (args_size > SW_FORCE_ARGS_MAX) return sw_fail(err, SW_ELIMIT, "force: too many arguments");
   if (cls->flags & SW_FORCE_AT_PLACE) {
-    double at;
+    double at, length;
     memcpy(&at, args, sizeof at); /* by contract the first member is s */
     if (!w) return sw_fail(err, SW_EINVAL, "force %s: on is required: the wire", cls->name);
-    if (at > w->mesh.s[w->mesh.n - 1] * (1 + 1e-12))
+    SW_TRY(sw_scene_wire_length(s, wire, &length, err));
+    if (at > length * (1 + 1e-12))
       return sw_fail(err, SW_EINVAL, "force %s: s = %g m is beyond the end of wire '%s' at %g m",
-                     cls->name, at, w->name, w->mesh.s[w->mesh.n - 1]);
+                     cls->name, at, w->name, length);
   }
   SW_TRY(check_force(s, cls, wire, args, err));
   SW_TRY(sw_scene_thaw(s));
@@ -380,6 +383,7 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
                         .cls = cls,
                         .wire = wire.generation ? (long)wire.slot : -1};
   if (args_size) memcpy(f->args, args, args_size);
+  if (cls->flags & SW_FORCE_AT_PLACE) f->args[0] += w->mesh.s[0]; /* it stays there on the wire */
   *out = (sw_handle){(uint32_t)s->force_count++, s->serial};
   return SW_OK;
 }

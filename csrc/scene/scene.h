@@ -96,6 +96,26 @@ sw_status sw_scene_hold_pose(sw_scene *scene, sw_handle hold, sw_pose *out, sw_e
 sw_status sw_scene_hold_force(sw_scene *scene, sw_handle hold, const sw_vec *about, sw_vec *force,
                               sw_vec *moment, sw_error *err);
 
+/* --- feeds ------------------------------------------------------------------- */
+
+/* From now on the wire is paid out at this speed; negative: drawn in [m/s]. */
+sw_status sw_scene_feed_speed(sw_scene *scene, sw_handle hold, double speed, sw_error *err);
+/* From now on it is pushed out with this force [N]. */
+sw_status sw_scene_feed_push(sw_scene *scene, sw_handle hold, double force, sw_error *err);
+/* It slips where more force than this would be needed; NAN: never [N]. */
+sw_status sw_scene_feed_limit(sw_scene *scene, sw_handle hold, double force, sw_error *err);
+/* Stop, and pay out a length: its motion is the motion's x (retains it). Negative lengths that
+ * are not there are refused. */
+sw_status sw_scene_feed_length(sw_scene *scene, sw_handle hold, sw_motion *motion, double length,
+                               sw_error *err);
+typedef struct sw_feed_state {
+  double fed;   /* paid out so far [m] */
+  double speed; /* now [m/s] */
+  double drive; /* force that moves the wire, outwards; not that of the guide's walls [N] */
+  double limit; /* NAN = none [N] */
+} sw_feed_state;
+sw_status sw_scene_feed_state(sw_scene *scene, sw_handle hold, sw_feed_state *out, sw_error *err);
+
 /* --- obstacles -------------------------------------------------------------- */
 
 typedef struct sw_obstacle_args {

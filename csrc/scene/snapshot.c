@@ -12,6 +12,8 @@ typedef struct saved_hold {
   sw_vec force, moment;
   sw_pose last_pose;
   size_t log_count;
+  double s1, s2; /* of a hold that feeds they change [m] */
+  sw_feed feed;  /* its motion retained, its shape not owned */
 } saved_hold;
 
 typedef struct saved_obstacle {
@@ -72,7 +74,10 @@ void sw_snapshot_free(sw_snapshot *p) {
   if (!p) return;
   unlink_snapshot(p);
   for (size_t w = 0; p->meshes && w < p->wires; w++) sw_mesh_free(&p->meshes[w]);
-  for (size_t k = 0; p->hold && k < p->holds; k++) sw_drive_free(&p->hold[k].drive);
+  for (size_t k = 0; p->hold && k < p->holds; k++) {
+    sw_drive_free(&p->hold[k].drive);
+    sw_motion_release(p->hold[k].feed.motion);
+  }
   for (size_t k = 0; p->obstacle && k < p->obstacles; k++) sw_drive_free(&p->obstacle[k].drive);
   sw_free(p->meshes);
   sw_free(p->extremes);
@@ -113,8 +118,10 @@ static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
   }
   for (; p->holds < s->hold_count; p->holds++) {
     const sw_scene_hold *h = &s->holds[p->holds];
-    p->hold[p->holds] = (saved_hold){h->alive,  copy_drive(&h->drive), h->force,
-                                     h->moment, h->last_pose,          h->log.count};
+    p->hold[p->holds] = (saved_hold){h->alive,     copy_drive(&h->drive), h->force, h->moment,
+                                     h->last_pose, h->log.count,          h->s1,    h->s2,
+                                     h->feed};
+    sw_motion_retain(h->feed.motion);
   }
   for (; p->obstacles < s->obstacle_count; p->obstacles++) {
     const sw_scene_obstacle *o = &s->obstacles[p->obstacles];
@@ -146,6 +153,7 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
   SW_TRY(sw_scene_build(s, err));
+  sw_feed_undo(s);
   sw_snapshot *p = sw_alloc(1, sizeof *p);
   if (!p) return sw_fail(err, SW_ENOMEM, "snapshot: out of memory");
   p->time = s->time, p->next_dt = s->next_dt, p->next_frame = s->next_frame;
@@ -188,6 +196,20 @@ static void put_drive(sw_drive *to, const sw_drive *from) {
   *to = copy;
 }
 
+static void put_feed(sw_scene_hold *h, const saved_hold *saved) {
+  const sw_mesh shape = h->feed.shape; /* never changes */
+  const size_t node = h->feed.node, number = h->feed.number;
+  if (!h->cls->feeds) return;
+  sw_motion_retain(saved->feed.motion);
+  sw_motion_release(h->feed.motion);
+  h->feed = saved->feed;
+  h->feed.shape = shape;
+  h->feed.node = node, h->feed.number = number;
+  h->s1 = saved->s1, h->s2 = saved->s2;
+  h->s[0] = h->s1;
+  if (shape.rest) sw_feed_rest(h, h->s1);
+}
+
 /* Objects made after the snapshot go away; the others get their old state. */
 static void put_objects(sw_scene *s, const sw_snapshot *p) {
   for (size_t k = 0; k < s->hold_count; k++) {
@@ -201,6 +223,7 @@ static void put_objects(sw_scene *s, const sw_snapshot *p) {
     h->last_pose = p->hold[k].last_pose;
     if (h->log.count > p->hold[k].log_count) h->log.count = p->hold[k].log_count;
     put_drive(&h->drive, &p->hold[k].drive);
+    put_feed(h, &p->hold[k]);
   }
   for (size_t k = 0; k < s->obstacle_count; k++) {
     sw_scene_obstacle *o = &s->obstacles[k];

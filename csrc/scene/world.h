@@ -38,6 +38,29 @@ typedef struct sw_drive {
   double start;      /* scene time of the motion's zero [s] */
 } sw_drive;
 
+/* A hold through which the wire slides. The length paid out at time t is
+ * fed + speed (t - since) + motion's x at t - start + slip + slip_rate (t - slip_since). */
+typedef struct sw_feed {
+  int outward;         /* where paid-out wire goes: +1 along the arc length, -1 against it [-] */
+  double label;        /* the mesh's arc length at the guide when nothing was fed [m] */
+  double fed, since;   /* [m], [s] */
+  double speed;        /* [m/s] */
+  sw_motion *motion;   /* a given length to be fed, or NULL */
+  double start;        /* [s] */
+  double slip;         /* beyond what was asked for [m] */
+  double slip_since;   /* [s] */
+  double slip_rate;    /* of this step; the last one's between steps [m/s] */
+  double push, limit;  /* force on the wire, the largest one; NAN = none [N] */
+  double slip_way;     /* sign of the force that makes it slip in this step; 0 = it does not [-] */
+  double slip_tried;   /* slip_rate of the last trial [m/s] */
+  double slip_off;     /* how far its force was off [N] */
+  double slope;        /* of the force over slip_rate, last found; 0 = not known [N s/m] */
+  double size;         /* edges beside the guide are made this long [m] */
+  double drive;        /* force that moves the wire, outwards, last [N] */
+  size_t node, number; /* in the wire's plan; among the system's holds; while built */
+  sw_mesh shape;       /* the wire with its unloaded shape, if it has frames */
+} sw_feed;
+
 typedef struct sw_scene_hold {
   uint32_t generation;
   int alive;
@@ -52,6 +75,7 @@ typedef struct sw_scene_hold {
   sw_vec director[2];     /* arriving, leaving; in the hold's frame [-] */
   sw_mesh_frame frame[2]; /* the wire's there, with directions as held; if it has frames */
   sw_quat turn;           /* orientation that goes with the wire's twist, while not built */
+  sw_feed feed;           /* of a class that feeds */
   sw_vec force, moment;   /* last, kept after release [N], [N m] */
   sw_pose last_pose;
   sw_log log;
@@ -148,6 +172,8 @@ void sw_scene_forget_histories(sw_scene *scene);
 /* What the frames of wires are when unloaded, into the plan; their present ones into
  * the system's state and back into the meshes. */
 sw_status sw_scene_unloaded(const sw_scene *scene, size_t wire, sw_plan *plan);
+/* The same for what depends on the edges beside one node. */
+void sw_scene_unloaded_near(const sw_scene *scene, size_t wire, sw_plan *plan, size_t node);
 void sw_scene_frame_in(sw_scene *scene);
 void sw_scene_frame_out(sw_scene *scene, size_t wire);
 /* Bend of a hinge beyond that at rest, over its length [1/m]; number: of the plan's
@@ -165,11 +191,45 @@ sw_status sw_drive_follow(sw_scene *scene, sw_drive *drive, const char *object, 
                           int relative, sw_error *err);
 void sw_drive_free(sw_drive *drive);
 
+/* --- feeds ------------------------------------------------------------------- */
+
+/* Which way wire goes that is paid out at arc length s of the mesh: see sw_feed. */
+int sw_feed_outward(const sw_mesh *mesh, double s);
+/* A new hold, its nodes in place, begins to feed. SW_ENOMEM. */
+sw_status sw_feed_begin(sw_scene *scene, sw_scene_hold *hold, const sw_hold_args *args);
+/* Length paid out at a time, its speed and acceleration. */
+typedef struct sw_feed_now {
+  double fed, speed, acceleration; /* [m], [m/s], [m/s2] */
+} sw_feed_now;
+sw_feed_now sw_feed_at(const sw_scene_hold *hold, double t);
+/* Slide the wire to where it is at time t; adds its velocity to the hold's state. */
+void sw_feed_place(sw_scene *scene, sw_scene_hold *hold, double t, sw_hold_state *state);
+/* The scene's time is that of an accepted state: meshes and holds follow. */
+void sw_feed_follow(sw_scene *scene);
+/* Plans back to the meshes, before these are read. */
+void sw_feed_undo(sw_scene *scene);
+/* Unloaded place and frame of the node at the guide, for its present arc length. */
+void sw_feed_shape(sw_scene *scene, sw_scene_hold *hold);
+/* What the hold knows of the unloaded frame at arc length s of the mesh. */
+void sw_feed_rest(sw_scene_hold *hold, double s);
+/* The largest step up to h that nodes can follow [s]. */
+double sw_feed_step(const sw_scene *scene, double h);
+/* Insert and remove nodes beside guides as a step to time t needs. changed: the system was
+ * made anew. SW_EEMPTY: no wire left to draw in. */
+sw_status sw_feed_make_room(sw_scene *scene, double t, int *changed, sw_error *err);
+/* Force that moves the wire outwards, with nodes at x and the last reaction [N]. */
+double sw_feed_drive(const sw_scene *scene, const sw_scene_hold *hold, const double *x);
+/* Is there one that yields to a force? */
+int sw_feed_any_soft(const sw_scene *scene);
+int sw_feed_is_soft(const sw_scene_hold *hold);
+
 sw_status sw_log_add(sw_log *log, const double *row, size_t n);
 
 /* The object of a handle, or NULL with err set. */
 sw_scene_wire *sw_scene_find_wire(const sw_scene *scene, sw_handle h, sw_error *err);
 sw_scene_hold *sw_scene_find_hold(const sw_scene *scene, sw_handle h, sw_error *err);
+/* The same of a hold that has not been released. */
+sw_scene_hold *sw_scene_living_hold(const sw_scene *s, sw_handle hold, sw_error *err);
 sw_scene_obstacle *sw_scene_find_obstacle(const sw_scene *scene, sw_handle h, sw_error *err);
 
 sw_status sw_scene_editable(const sw_scene *scene, sw_error *err);

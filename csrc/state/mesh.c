@@ -218,7 +218,7 @@ static void move_node(sw_mesh *m, size_t i, double s) {
   m->s[i] = s;
 }
 
-static sw_status insert_node(sw_mesh *m, size_t edge, double s) {
+sw_status sw_mesh_insert(sw_mesh *m, size_t edge, double s) {
   double **at[ARRAYS];
   size_t width[ARRAYS];
   SW_TRY(reserve(m, m->n + 1));
@@ -246,6 +246,29 @@ static sw_status insert_node(sw_mesh *m, size_t edge, double s) {
   return SW_OK;
 }
 
+/* The unit mean of vectors i - 1 and i, put at i - 1; weights a, b. */
+static void merge_units(double *list, size_t i, double a, double b) {
+  const sw_vec u = sw_vec_at(list, i - 1), v = sw_vec_at(list, i);
+  sw_store(list + 3 * (i - 1), sw_unit_or(sw_add(sw_scale(u, a), sw_scale(v, b)), u));
+}
+
+void sw_mesh_remove(sw_mesh *m, size_t i) {
+  double **at[ARRAYS];
+  size_t width[ARRAYS];
+  const double a = m->s[i] - m->s[i - 1], b = m->s[i + 1] - m->s[i];
+  m->tension[i - 1] = (a * m->tension[i - 1] + b * m->tension[i]) / (a + b);
+  if (m->rest) {
+    merge_units(m->normal, i, a, b);
+    merge_units(m->rest_normal, i, a, b);
+  }
+  arrays(m, at, width);
+  for (size_t k = 0; k < ARRAYS; k++)
+    if (*at[k])
+      memmove(*at[k] + width[k] * i, *at[k] + width[k] * (i + 1),
+              width[k] * (m->n - i - 1) * sizeof(double));
+  m->n--;
+}
+
 static int may_move(const sw_mesh *m, size_t i, double s, const double *keep, size_t count) {
   if (i == 0 || i == m->n - 1) return 0;
   for (size_t k = 0; k < count; k++)
@@ -257,7 +280,7 @@ static int may_move(const sw_mesh *m, size_t i, double s, const double *keep, si
 
 sw_status sw_mesh_place(sw_mesh *m, double s, const double *keep, size_t keep_count,
                         double *placed) {
-  const double total = m->s[m->n - 1];
+  const double total = m->s[m->n - 1] - m->s[0];
   const double same = 1e-9 * total; /* closer is the same node [m] */
   size_t i = sw_mesh_node(m, s);
   if (i > 0 && s - m->s[i - 1] < m->s[i] - s) i--;
@@ -270,5 +293,5 @@ sw_status sw_mesh_place(sw_mesh *m, double s, const double *keep, size_t keep_co
     move_node(m, i, s);
     return SW_OK;
   }
-  return insert_node(m, m->s[i] < s ? i : i - 1, s);
+  return sw_mesh_insert(m, m->s[i] < s ? i : i - 1, s);
 }

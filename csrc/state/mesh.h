@@ -12,7 +12,8 @@
 
 typedef struct sw_mesh {
   size_t n, capacity;
-  double *s;       /* (n) arc length [m] */
+  double *s;       /* (n) arc length, from the wire's start as it was made; below 0 where wire
+                      was fed at the start [m] */
   double *x, *v;   /* (n x 3) [m], [m/s] */
   double *tension; /* (n) of the edge that starts at each node; last unused [N] */
   double EA;       /* to keep edge strains when nodes move [N] */
@@ -51,6 +52,11 @@ sw_mesh_frame sw_mesh_frame_at(const sw_mesh *mesh, double s);
  * SW_ENOMEM leaves the mesh as it was. */
 sw_status sw_mesh_place(sw_mesh *mesh, double s, const double *keep, size_t keep_count,
                         double *placed);
+
+/* A new node inside an edge, on its chord. SW_ENOMEM leaves the mesh as it was. */
+sw_status sw_mesh_insert(sw_mesh *mesh, size_t edge, double s);
+/* Make one edge of the two beside an inner node. */
+void sw_mesh_remove(sw_mesh *mesh, size_t node);
 
 /* The node at arc length s exactly; the mesh must have one. */
 size_t sw_mesh_node(const sw_mesh *mesh, double s);
