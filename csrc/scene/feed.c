@@ -46,15 +46,29 @@ sw_feed_now sw_feed_at(const sw_scene_hold *h, double t) {
 
 static double arc_at(const sw_feed *f, double fed) { return f->label - f->outward * fed; }
 
+void sw_feed_spare(const sw_feed *f, double fed, double spare[2]) {
+  for (int k = 0; k < 2; k++)
+    spare[k] = f->spare[k] * fmax(0, 1 - fabs(fed - f->spare_fed[k]) / f->size);
+}
+
+/* The plan for a length fed. */
+static void slide(sw_scene *s, sw_scene_hold *h, double arc, double fed) {
+  sw_plan *p = s->system.bodies[h->wire].plan;
+  const size_t node = h->feed.node;
+  double spare[2];
+  sw_feed_spare(&h->feed, fed, spare);
+  const int same = p->s[node] == arc;
+  if (same && (node == 0 || p->rest[node - 1] == arc - p->s[node - 1] + spare[0]) &&
+      (node == p->edges || p->rest[node] == p->s[node + 1] - arc + spare[1]))
+    return;
+  sw_plan_slide(p, node, arc, spare);
+  if (!same) sw_feed_shape(s, h);
+}
+
 void sw_feed_place(sw_scene *s, sw_scene_hold *h, double t, sw_hold_state *state) {
   const sw_feed *f = &h->feed;
   const sw_feed_now now = sw_feed_at(h, t);
-  sw_plan *p = s->system.bodies[h->wire].plan;
-  const double arc = arc_at(f, now.fed);
-  if (p->s[f->node] != arc) {
-    sw_plan_slide(p, f->node, arc);
-    sw_feed_shape(s, h);
-  }
+  slide(s, h, arc_at(f, now.fed), now.fed);
   const sw_vec along = sw_scale(sw_rotate(state->pose.q, h->director[1]), f->outward);
   state->v = sw_madd(state->v, along, now.speed);
   state->a = sw_madd(state->a, along, now.acceleration);
@@ -80,10 +94,7 @@ void sw_feed_undo(sw_scene *s) {
   for (size_t k = 0; k < s->hold_count; k++) {
     sw_scene_hold *h = &s->holds[k];
     if (!h->alive || !h->cls->feeds) continue;
-    sw_plan *p = s->system.bodies[h->wire].plan;
-    if (p->s[h->feed.node] == h->s1) continue;
-    sw_plan_slide(p, h->feed.node, h->s1);
-    sw_feed_shape(s, h);
+    slide(s, h, h->s1, (h->feed.label - h->s1) * h->feed.outward);
   }
 }
 

@@ -127,8 +127,8 @@ double sw_feed_step(const sw_scene *s, double h) {
     if (!o->alive || !o->cls->feeds) continue;
     const double most = LARGEST_SHARE * o->feed.size, now = sw_feed_at(o, s->time).fed;
     double way = fabs(sw_feed_at(o, s->time + h).fed - now);
-    for (int i = 0; way > most && i < 60; i++) {
-      h *= fmax(0.25, 0.99 * most / way);
+    for (int i = 0; way > most && i < 60; i++) { /* in even parts: a tiny one would be a kick */
+      h /= fmin(64, ceil(way / most));
       way = fabs(sw_feed_at(o, s->time + h).fed - now);
     }
   }
@@ -204,18 +204,39 @@ static void put_normal(const guide *g, size_t e, sw_quat q) {
   sw_store(g->m->normal + 3 * e, sw_carry_unit(normal_of(q), tangent_of(q), t));
 }
 
+/* Unstressed length of the first edge with its spare, and the place that holds it. */
+static double *spare_of(const guide *g) { return &g->h->feed.spare[g->side > 0]; }
+
+static double fed_length(const guide *g) { return (g->h->feed.label - g->h->s1) * g->h->feed.outward; }
+
+static double true_length(const guide *g) {
+  double spare[2];
+  sw_feed_spare(&g->h->feed, fed_length(g), spare);
+  return edge_length(g, 0) + spare[g->side > 0];
+}
+
+static void set_length(guide *g, double length) {
+  *spare_of(g) = length - edge_length(g, 0);
+  g->h->feed.spare_fed[g->side > 0] = fed_length(g);
+}
+
+static sw_vec node_at(const guide *g, long k) { return sw_vec_at(g->m->x, (size_t)inner(g, k)); }
+
 /* A node comes out of the guide, a usual length before the first one: on the curve for
- * which bending moment and torque at the guide stay as they are. */
+ * which bending moment and torque at the guide stay as they are. The way over the new
+ * node is longer than the chord that was there by what the feed then holds back again. */
 static sw_status add_node(guide *g) {
   sw_mesh *m = g->m;
   const double first = edge_length(g, 0), size = g->h->feed.size;
+  const sw_vec from = node_at(g, 0), to = node_at(g, 1);
+  const double stretch = sw_dist(from, to) / true_length(g);
   const size_t face = (size_t)inner(g, 0), edge = g->side > 0 ? face : face - 1;
   double w0, next, v0, v1;
   sw_plan_clamp_lengths(first, edge_length(g, 1), &w0, &next);
   sw_plan_clamp_lengths(first - size, size, &v0, &v1);
   const sw_vec turn = turn_between(frame_turn(g->director, g->normal), edge_turn(g, edge));
   const sw_vec bend = sw_sub(turn, rest_between(g, edge));
-  const double T = m->tension[edge], arc = m->s[inner(g, 1)] - g->side * size;
+  const double arc = m->s[inner(g, 1)] - g->side * size;
   SW_TRY(sw_mesh_insert(m, edge, arc));
   const size_t node = edge + 1, at = g->side > 0 ? edge : edge + 1, beyond = 2 * edge + 1 - at;
   if (m->rest) {
@@ -223,9 +244,12 @@ static sw_status add_node(guide *g) {
     m->twist[node] = 0;
   }
   const sw_quat q = bent_turn(g, at, sw_scale(bend, v0 / w0));
-  const sw_vec from = sw_vec_at(m->x, (size_t)inner(g, 0));
-  const double chord = (first - size) * (1 + T / m->EA) * g->side;
-  sw_store(m->x + 3 * node, sw_madd(from, tangent_of(q), chord));
+  const sw_vec out = sw_scale(tangent_of(q), g->side), way = sw_sub(to, from);
+  const double along = sw_dot(out, way), rest = stretch * size;
+  const double root2 = along * along - sw_norm2(way) + rest * rest;
+  const double chord = along - sqrt(fmax(0, root2)); /* leaves `rest` to the next node */
+  sw_store(m->x + 3 * node, sw_madd(from, out, chord));
+  set_length(g, chord / stretch);
   if (!m->rest) return SW_OK;
   put_normal(g, at, q);
   put_normal(g, beyond, bent_turn(g, beyond, sw_scale(bend, (v0 + v1) / w0)));
@@ -234,7 +258,10 @@ static sw_status add_node(guide *g) {
 
 static void take_node(guide *g) {
   const size_t node = (size_t)inner(g, 1);
+  const sw_vec a = node_at(g, 0), b = node_at(g, 1), c = node_at(g, 2);
+  const double stretch = (sw_dist(a, b) + sw_dist(b, c)) / (true_length(g) + edge_length(g, 1));
   sw_mesh_remove(g->m, node);
+  set_length(g, sw_dist(a, c) / stretch);
   if (g->m->rest) shape_node(g->m, &g->h->feed.shape, (size_t)inner(g, 0));
 }
 

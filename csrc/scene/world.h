@@ -55,6 +55,9 @@ typedef struct sw_feed {
   double slip_tried;   /* slip_rate of the last trial [m/s] */
   double slip_off;     /* how far its force was off [N] */
   double slope;        /* of the force over slip_rate, last found; 0 = not known [N s/m] */
+  double spare[2];     /* length given to the edge before and after the guide when nodes came
+                          and went, so that no axial force jumps [m] */
+  double spare_fed[2]; /* fed at that time; the spare goes back to 0 over one edge's length [m] */
   double size;         /* edges beside the guide are made this long [m] */
   double drive;        /* force that moves the wire, outwards, last [N] */
   size_t node, number; /* in the wire's plan; among the system's holds; while built */
@@ -202,6 +205,8 @@ typedef struct sw_feed_now {
   double fed, speed, acceleration; /* [m], [m/s], [m/s2] */
 } sw_feed_now;
 sw_feed_now sw_feed_at(const sw_scene_hold *hold, double t);
+/* What is left of the spare lengths when so much is fed [m]. */
+void sw_feed_spare(const sw_feed *feed, double fed, double spare[2]);
 /* Slide the wire to where it is at time t; adds its velocity to the hold's state. */
 void sw_feed_place(sw_scene *scene, sw_scene_hold *hold, double t, sw_hold_state *state);
 /* The scene's time is that of an accepted state: meshes and holds follow. */

@@ -148,11 +148,11 @@ sw_status sw_plan_new(const sw_beam *beam, const double *s, size_t n, const sw_h
   return SW_OK;
 }
 
-void sw_plan_slide(sw_plan *p, size_t node, double s) {
+void sw_plan_slide(sw_plan *p, size_t node, double s, const double spare[2]) {
   const size_t from = node > 0 ? node - 1 : 0, to = node + 1 < p->nodes ? node + 1 : node;
   p->s[node] = s;
   p->length = p->s[p->nodes - 1] - p->s[0];
-  for (size_t e = from; e < to; e++) p->rest[e] = p->s[e + 1] - p->s[e];
+  for (size_t e = from; e < to; e++) p->rest[e] = p->s[e + 1] - p->s[e] + spare[e == node];
   for (size_t i = from; i <= to; i++) {
     set_mass(p, i);
     if (i > 0 && i < p->edges && p->held[i] == SW_FREE)

@@ -83,8 +83,9 @@ sw_status sw_plan_new(const sw_beam *beam, const double *s, size_t n, const sw_h
                       size_t hold_count, sw_plan **out);
 
 /* Let the wire slide through a held node until its arc length there is s: changes all
- * that depends on the edges beside it, to the bits of a new plan. */
-void sw_plan_slide(sw_plan *plan, size_t node, double s);
+ * that depends on the edges beside it. spare: how much longer than by their arc lengths the
+ * edges before and after are [m]. */
+void sw_plan_slide(sw_plan *plan, size_t node, double s, const double spare[2]);
 
 /* Lengths of a clamp's hinge and the one after it, whose first two edges are first and
  * second long; second 0: the wire ends after the first [m]. */
