@@ -129,48 +129,23 @@ static void undo(loop *p) {
   if (s->contact) memcpy(s->system.v, p->v_start, 3 * s->system.nodes * sizeof(double));
 }
 
-/* --- feeds that yield to a force --------------------------------------------------
- * Each step finds the constant slip with which the drive's force at its end is the one
- * wanted, by the secant of the last two trials: the force is nearly linear in it. */
 enum { MOST_SLIP_TRIALS = 25 };
-static const double SLIP_PRECISION = 1e-7; /* of the force, the wire's weight or EI/L2 [-] */
 
-/* Correct one feed's slip after a trial; returns 1 when it was good. */
-static int correct_slip(sw_scene *s, sw_scene_hold *h, double step, int first) {
-  sw_feed *f = &h->feed;
-  const sw_plan *p = s->system.bodies[h->wire].plan;
-  const double drive = sw_feed_drive(s, h, s->stepper.trial_x), L = p->length;
-  const double weight = p->beam.mass * L * sw_norm(s->gravity);
-  if (first) f->slip_way = isfinite(f->push) || fabs(drive) > f->limit ? copysign(1.0, drive) : 0;
-  if (!isfinite(f->push) && f->slip_way == 0) return 1;
-  const double want = isfinite(f->push) ? f->push : copysign(f->limit, f->slip_way);
-  const double off = drive - want, scale = fmax(fabs(want), fmax(weight, p->beam.EI / (L * L)));
-  if (fabs(off) <= SLIP_PRECISION * scale) return 1;
-  if (!first && f->slip_rate != f->slip_tried) {
-    const double slope = (off - f->slip_off) / (f->slip_rate - f->slip_tried);
-    if (slope > 0) f->slope = slope;
-  }
-  if (!(f->slope > 0)) f->slope = p->beam.mass * L / step; /* all of the wire is pushed along */
-  f->slip_tried = f->slip_rate, f->slip_off = off;
-  f->slip_rate -= off / f->slope;
-  return 0;
-}
-
-/* One step of size h with all slips right. */
+/* One step of size h in which feeds slip that yield to a force. */
 static sw_status yielding_attempt(loop *p, double h, sw_error *err) {
   sw_scene *s = p->s;
-  if (!sw_feed_any_soft(s)) return attempt(p, h, err);
-  for (size_t k = 0; k < s->hold_count; k++) /* a limit is first tried without slip */
-    if (sw_feed_is_soft(&s->holds[k]) && !isfinite(s->holds[k].feed.push))
-      s->holds[k].feed.slip_rate = 0;
+  if (!sw_slip_begin(s)) return attempt(p, h, err);
   for (int i = 0; i < MOST_SLIP_TRIALS; i++) {
-    int good = 1;
-    SW_TRY(attempt(p, h, err));
-    for (size_t k = 0; k < s->hold_count; k++)
-      if (sw_feed_is_soft(&s->holds[k])) good &= correct_slip(s, &s->holds[k], h, i == 0);
-    if (good) return SW_OK;
+    const sw_status status = attempt(p, h, err);
+    if (status != SW_OK) {
+      sw_slip_give_up(s);
+      return status;
+    }
+    if (sw_slip_correct(s, h, i == 0)) return SW_OK;
     undo(p);
+    if (sw_feed_step(s, h) < h) break; /* further than nodes can follow */
   }
+  sw_slip_give_up(s);
   return sw_fail(err, SW_ENOCONV, "the speed at which a feed slips was not found");
 }
 
@@ -215,6 +190,8 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
     const double left = h - done;
     if (part > left * (1 - 1e-12)) part = left;
     SW_TRY(make_room(p, &part, err));
+    if (!(part >= SMALLEST_SHARE * SMALLEST_SHARE * h))
+      return sw_fail(err, SW_ENOCONV, "wire is fed too fast to follow it");
     const sw_status status = yielding_attempt(p, part, err);
     if (status == SW_OK) {
       done += part;
@@ -330,7 +307,7 @@ static sw_status check_run(const sw_scene *s, const sw_run_args *args, sw_error 
           "scene:run: integrator '%s' is explicit; wire '%s', which is curved at rest or "
           "has two values of EI, needs an implicit one",
           m->name, s->wires[w].name);
-  if (args->quasistatic && sw_feed_any_soft(s))
+  if (args->quasistatic && sw_slip_any(s))
     return sw_fail(
         err, SW_EINVAL,
         "scene:run: a feed with force or force_limit needs motion; give it a speed for a "

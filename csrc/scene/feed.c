@@ -31,15 +31,18 @@ sw_status sw_feed_begin(sw_scene *s, sw_scene_hold *h, const sw_hold_args *a) {
 
 sw_feed_now sw_feed_at(const sw_scene_hold *h, double t) {
   const sw_feed *f = &h->feed;
-  sw_feed_now now = {.fed = f->fed + f->slip, .speed = f->speed + f->slip_rate};
-  now.fed += f->speed * (t - f->since) + f->slip_rate * (t - f->slip_since);
+  const double u = t - f->slip_since;
+  sw_feed_now now = {.fed = f->fed + f->slip,
+                     .speed = f->speed + f->slip_speed + f->slip_growth * u,
+                     .acceleration = f->slip_growth};
+  now.fed += f->speed * (t - f->since) + (f->slip_speed + 0.5 * f->slip_growth * u) * u;
   if (f->motion) {
     sw_motion_state m;
     sw_error ignored; /* a motion between two points calls no function */
     if (sw_motion_eval(f->motion, t - f->start, &m, &ignored) != SW_OK) return now;
     now.fed += m.pose.p.x;
     now.speed += m.v.x;
-    now.acceleration = m.a.x;
+    now.acceleration += m.a.x;
   }
   return now;
 }
@@ -84,9 +87,12 @@ void sw_feed_follow(sw_scene *s) {
   for (size_t k = 0; k < s->hold_count; k++) {
     sw_scene_hold *h = &s->holds[k];
     if (!h->alive || !h->cls->feeds) continue;
-    h->feed.slip += h->feed.slip_rate * (s->time - h->feed.slip_since);
-    h->feed.slip_since = s->time;
-    put_arc(s, h, arc_at(&h->feed, sw_feed_at(h, s->time).fed));
+    sw_feed *f = &h->feed;
+    const double u = s->time - f->slip_since;
+    f->slip += (f->slip_speed + 0.5 * f->slip_growth * u) * u;
+    f->slip_speed += f->slip_growth * u;
+    f->slip_since = s->time;
+    put_arc(s, h, arc_at(f, sw_feed_at(h, s->time).fed));
   }
 }
 
@@ -99,16 +105,6 @@ void sw_feed_undo(sw_scene *s) {
 }
 
 /* --- forces ------------------------------------------------------------------- */
-
-int sw_feed_is_soft(const sw_scene_hold *h) {
-  return h->alive && h->cls->feeds && (isfinite(h->feed.push) || isfinite(h->feed.limit));
-}
-
-int sw_feed_any_soft(const sw_scene *s) {
-  for (size_t k = 0; k < s->hold_count; k++)
-    if (sw_feed_is_soft(&s->holds[k])) return 1;
-  return 0;
-}
 
 /* Curvature where the wire leaves the guide on the clamp's side, squared and times EI. Of a
  * wire with frames it is that at rest and what bends it besides. */
@@ -192,7 +188,7 @@ static sw_status open_feed(sw_scene *s, sw_handle hold, sw_scene_hold **h, sw_er
 static void stop(sw_scene *s, sw_feed *f, const sw_feed_now *now) {
   f->fed = now->fed - f->slip;
   f->since = s->time;
-  f->speed = f->slip_rate = 0;
+  f->speed = f->slip_speed = f->slip_growth = f->slip_way = 0;
   f->push = NAN;
   sw_motion_release(f->motion);
   f->motion = NULL;
@@ -214,7 +210,7 @@ sw_status sw_scene_feed_push(sw_scene *s, sw_handle hold, double force, sw_error
   const sw_feed_now now = sw_feed_at(h, s->time);
   stop(s, &h->feed, &now);
   h->feed.push = force;
-  h->feed.slip_rate = now.speed;
+  h->feed.slip_speed = now.speed;
   return SW_OK;
 }
 
@@ -222,7 +218,8 @@ sw_status sw_scene_feed_limit(sw_scene *s, sw_handle hold, double force, sw_erro
   sw_scene_hold *h;
   SW_TRY(open_feed(s, hold, &h, err));
   h->feed.limit = force;
-  if (isnan(force) && isnan(h->feed.push)) h->feed.slip_rate = 0;
+  if (isnan(force) && isnan(h->feed.push))
+    h->feed.slip_speed = h->feed.slip_growth = h->feed.slip_way = 0;
   return SW_OK;
 }
 

@@ -207,7 +207,9 @@ static void put_normal(const guide *g, size_t e, sw_quat q) {
 /* Unstressed length of the first edge with its spare, and the place that holds it. */
 static double *spare_of(const guide *g) { return &g->h->feed.spare[g->side > 0]; }
 
-static double fed_length(const guide *g) { return (g->h->feed.label - g->h->s1) * g->h->feed.outward; }
+static double fed_length(const guide *g) {
+  return (g->h->feed.label - g->h->s1) * g->h->feed.outward;
+}
 
 static double true_length(const guide *g) {
   double spare[2];

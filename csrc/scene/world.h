@@ -38,8 +38,9 @@ typedef struct sw_drive {
   double start;      /* scene time of the motion's zero [s] */
 } sw_drive;
 
-/* A hold through which the wire slides. The length paid out at time t is
- * fed + speed (t - since) + motion's x at t - start + slip + slip_rate (t - slip_since). */
+/* A hold through which the wire slides. The length paid out at time t is fed + speed
+ * (t - since) + motion's x at t - start + slip + slip_speed u + slip_growth u^2 / 2, with
+ * u = t - slip_since. */
 typedef struct sw_feed {
   int outward;         /* where paid-out wire goes: +1 along the arc length, -1 against it [-] */
   double label;        /* the mesh's arc length at the guide when nothing was fed [m] */
@@ -49,12 +50,15 @@ typedef struct sw_feed {
   double start;        /* [s] */
   double slip;         /* beyond what was asked for [m] */
   double slip_since;   /* [s] */
-  double slip_rate;    /* of this step; the last one's between steps [m/s] */
+  double slip_speed;   /* [m/s] */
+  double slip_growth;  /* of this step; between steps that of the last one [m/s2] */
+  double slip_before;  /* slip_growth of the step before [m/s2] */
   double push, limit;  /* force on the wire, the largest one; NAN = none [N] */
-  double slip_way;     /* sign of the force that makes it slip in this step; 0 = it does not [-] */
-  double slip_tried;   /* slip_rate of the last trial [m/s] */
+  double slip_way;     /* sign of the force against which it slips; 0 = it does not [-] */
+  double way_before;   /* that of the step before [-] */
+  double slip_tried;   /* slip_growth of the last trial [m/s2] */
   double slip_off;     /* how far its force was off [N] */
-  double slope;        /* of the force over slip_rate, last found; 0 = not known [N s/m] */
+  double slope;        /* of the force over slip_growth, last found; 0 = not known [kg] */
   double spare[2];     /* length given to the edge before and after the guide when nodes came
                           and went, so that no axial force jumps [m] */
   double spare_fed[2]; /* fed at that time; the spare goes back to 0 over one edge's length [m] */
@@ -224,9 +228,13 @@ double sw_feed_step(const sw_scene *scene, double h);
 sw_status sw_feed_make_room(sw_scene *scene, double t, int *changed, sw_error *err);
 /* Force that moves the wire outwards, with nodes at x and the last reaction [N]. */
 double sw_feed_drive(const sw_scene *scene, const sw_scene_hold *hold, const double *x);
-/* Is there one that yields to a force? */
-int sw_feed_any_soft(const sw_scene *scene);
-int sw_feed_is_soft(const sw_scene_hold *hold);
+
+/* Steps of feeds that yield to a force: begin one (0: there are none), correct the slips
+ * after a trial (1: they were right), or put them back. */
+int sw_slip_any(const sw_scene *scene);
+int sw_slip_begin(sw_scene *scene);
+int sw_slip_correct(sw_scene *scene, double h, int first);
+void sw_slip_give_up(sw_scene *scene);
 
 sw_status sw_log_add(sw_log *log, const double *row, size_t n);
 
