@@ -170,12 +170,14 @@ static sw_status make_room(loop *p, double *h, sw_error *err) {
   sw_scene *s = p->s;
   int changed;
   const size_t before = s->system.counters.evaluations;
+  const int fresh = s->discontinuous || s->stepper.restart; /* nodes alone are no jump */
   *h = sw_feed_step(s, *h);
   SW_TRY(sw_feed_make_room(s, s->time + *h, &changed, err));
   if (!changed) return SW_OK;
   s->system.counters.evaluations = before;
   SW_TRY(use_integrator(s, p->args, err));
   s->stepper.wants_error = isfinite(p->args->tolerance);
+  s->discontinuous = s->stepper.restart = fresh;
   sw_free(p->v_start);
   p->v_start = sw_alloc(s->contact ? 3 * s->system.nodes : 1, sizeof(double));
   return p->v_start ? SW_OK : sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);

@@ -131,6 +131,7 @@ sw_status sw_scene_thaw(sw_scene *s) {
     sw_mesh *m = &s->wires[w].mesh;
     memcpy(m->x, s->system.x + 3 * b->first_node, 3 * m->n * sizeof *m->x);
     memcpy(m->v, s->system.v + 3 * b->first_node, 3 * m->n * sizeof *m->v);
+    memcpy(m->a, s->system.a + 3 * b->first_node, 3 * m->n * sizeof *m->a);
     memcpy(m->tension, s->system.tension + b->first_edge, (m->n - 1) * sizeof *m->tension);
     if (b->spin_block) sw_scene_frame_out(s, w);
   }
@@ -269,6 +270,7 @@ static sw_status fill(sw_scene *s, size_t alive) {
     const sw_mesh *m = &s->wires[w].mesh;
     memcpy(s->system.x + 3 * b->first_node, m->x, 3 * m->n * sizeof *m->x);
     memcpy(s->system.v + 3 * b->first_node, m->v, 3 * m->n * sizeof *m->v);
+    memcpy(s->system.a + 3 * b->first_node, m->a, 3 * m->n * sizeof *m->a);
     memcpy(s->system.tension + b->first_edge, m->tension, (m->n - 1) * sizeof *m->tension);
     SW_TRY(add_terms(s, w));
   }

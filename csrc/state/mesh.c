@@ -7,13 +7,13 @@
 #include "base/alloc.h"
 #include "state/hinge.h"
 
-enum { ARRAYS = 8, PLAIN = 4 }; /* the later ones with frames only */
+enum { ARRAYS = 9, PLAIN = 5 }; /* the later ones with frames only */
 
 /* The arrays and their doubles per node. */
 static void arrays(sw_mesh *m, double **out[ARRAYS], size_t width[ARRAYS]) {
-  double **const all[ARRAYS] = {&m->s,    &m->tension, &m->x,           &m->v,
+  double **const all[ARRAYS] = {&m->s,    &m->tension, &m->x,           &m->v,    &m->a,
                                 &m->rest, &m->normal,  &m->rest_normal, &m->twist};
-  static const size_t widths[ARRAYS] = {1, 1, 3, 3, 3, 3, 3, 1};
+  static const size_t widths[ARRAYS] = {1, 1, 3, 3, 3, 3, 3, 3, 1};
   memcpy(out, all, sizeof all);
   memcpy(width, widths, sizeof widths);
 }
@@ -227,6 +227,7 @@ sw_status sw_mesh_insert(sw_mesh *m, size_t edge, double s) {
   const double f = (s - m->s[edge]) / (m->s[i] - m->s[edge]);
   const sw_vec x = sw_lerp(sw_vec_at(m->x, edge), sw_vec_at(m->x, i), f);
   const sw_vec v = sw_lerp(sw_vec_at(m->v, edge), sw_vec_at(m->v, i), f);
+  const sw_vec a = sw_lerp(sw_vec_at(m->a, edge), sw_vec_at(m->a, i), f);
   const sw_vec rest =
       m->rest ? sw_lerp(sw_vec_at(m->rest, edge), sw_vec_at(m->rest, i), f) : sw_v(0, 0, 0);
   for (size_t k = 0; k < ARRAYS; k++)
@@ -236,6 +237,7 @@ sw_status sw_mesh_insert(sw_mesh *m, size_t edge, double s) {
   m->tension[i] = m->tension[edge];
   sw_store(m->x + 3 * i, x);
   sw_store(m->v + 3 * i, v);
+  sw_store(m->a + 3 * i, a);
   if (m->rest) {
     sw_store(m->rest + 3 * i, rest);
     memcpy(m->normal + 3 * i, m->normal + 3 * edge, 3 * sizeof(double));

@@ -15,6 +15,7 @@ typedef struct sw_mesh {
   double *s;       /* (n) arc length, from the wire's start as it was made; below 0 where wire
                       was fed at the start [m] */
   double *x, *v;   /* (n x 3) [m], [m/s] */
+  double *a;       /* (n x 3) of the last step, good while nothing jumps [m/s2] */
   double *tension; /* (n) of the edge that starts at each node; last unused [N] */
   double EA;       /* to keep edge strains when nodes move [N] */
 
