@@ -209,6 +209,7 @@ static sw_status add_holds(sw_scene *s, size_t alive) {
       s->system.held[s->system.held_count++] = (sw_held_node){.node = b->first_node + i,
                                                               .body = h->wire,
                                                               .hold = number,
+                                                              .slides = h->cls->feeds,
                                                               .local = local_of(h, b->plan->s[i])};
     }
     s->hold_slot[number++] = (int)k;

@@ -45,10 +45,8 @@ void sw_scene_clear_obstacle(sw_scene_obstacle *o) {
 
 void sw_scene_free(sw_scene *s) {
   if (!s) return;
-  for (size_t i = 0; i < s->wire_count; i++) {
-    sw_mesh_free(&s->wires[i].mesh);
-    sw_free(s->wires[i].twisted);
-  }
+  for (size_t i = 0; i < s->wire_count; i++) sw_mesh_free(&s->wires[i].mesh);
+  for (size_t i = 0; i < s->wire_count; i++) sw_free(s->wires[i].twisted);
   for (size_t i = 0; i < s->hold_count; i++) sw_scene_clear_hold(&s->holds[i]);
   for (size_t i = 0; i < s->obstacle_count; i++) sw_scene_clear_obstacle(&s->obstacles[i]);
   sw_scene_orphan_snapshots(s);
@@ -70,7 +68,6 @@ void sw_scene_free(sw_scene *s) {
 const char *sw_scene_name(const sw_scene *s) { return s->name; }
 double sw_scene_time(const sw_scene *s) { return s->time; }
 sw_vec sw_scene_gravity(const sw_scene *s) { return s->gravity; }
-
 sw_status sw_scene_set_gravity(sw_scene *s, sw_vec gravity, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   s->gravity = gravity;
@@ -366,10 +363,10 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
   if (wire.generation && !w) return SW_EDEAD;
   if (args_size > SW_FORCE_ARGS_MAX) return sw_fail(err, SW_ELIMIT, "force: too many arguments");
   if (cls->flags & SW_FORCE_AT_PLACE) {
-    double at, length;
+    double at;
     memcpy(&at, args, sizeof at); /* by contract the first member is s */
     if (!w) return sw_fail(err, SW_EINVAL, "force %s: on is required: the wire", cls->name);
-    SW_TRY(sw_scene_wire_length(s, wire, &length, err));
+    const double length = w->mesh.s[w->mesh.n - 1] - w->mesh.s[0];
     if (at > length * (1 + 1e-12))
       return sw_fail(err, SW_EINVAL, "force %s: s = %g m is beyond the end of wire '%s' at %g m",
                      cls->name, at, w->name, length);
@@ -383,7 +380,7 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
                         .cls = cls,
                         .wire = wire.generation ? (long)wire.slot : -1};
   if (args_size) memcpy(f->args, args, args_size);
-  if (cls->flags & SW_FORCE_AT_PLACE) f->args[0] += w->mesh.s[0]; /* it stays there on the wire */
+  if (w && cls->flags & SW_FORCE_AT_PLACE) f->args[0] += w->mesh.s[0]; /* stays with the wire */
   *out = (sw_handle){(uint32_t)s->force_count++, s->serial};
   return SW_OK;
 }

@@ -75,8 +75,8 @@ static void add_clamp(sw_plan *p, size_t node, int side, int hold) {
 }
 
 static void set_mass(sw_plan *p, size_t i) {
-  const double before = i > 0 ? p->beam.mass * p->rest[i - 1] : 0.0;
-  const double after = i < p->edges ? p->beam.mass * p->rest[i] : 0.0;
+  const double before = i > 0 ? p->beam.mass * (p->s[i] - p->s[i - 1]) : 0.0;
+  const double after = i < p->edges ? p->beam.mass * (p->s[i + 1] - p->s[i]) : 0.0;
   p->lumped[i] = 0.5 * before + 0.5 * after;
   p->mass_own[i] = before / 3.0 + after / 3.0;
   if (i < p->edges) p->mass_next[i] = after / 6.0;
