@@ -148,35 +148,30 @@ static double feed_argument(lua_State *L, const char *name) {
   return value;
 }
 
-static int set_feed(lua_State *L, const char *name,
+/* may_be_nil: that is none. */
+static int set_feed(lua_State *L, const char *name, int may_be_nil,
                     sw_status (*set)(sw_scene *, sw_handle, double, sw_error *)) {
   sw_scene *scene;
   sw_error err = {""};
   const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
-  const double value = lua_isnoneornil(L, 2) ? (double)NAN : feed_argument(L, name);
+  const double value = may_be_nil && lua_isnil(L, 2) ? (double)NAN : feed_argument(L, name);
   lsw_must(L, set(scene, c->id, value, &err), &err);
   return 0;
 }
 
 /* feed:speed() -> now; feed:speed(v) sets it [m/s]. */
 static int meth_speed(lua_State *L) {
-  if (lua_gettop(L) > 1) {
-    luaL_checknumber(L, 2);
-    return set_feed(L, "speed", sw_scene_feed_speed);
-  }
+  if (lua_gettop(L) > 1) return set_feed(L, "speed", 0, sw_scene_feed_speed);
   lua_pushnumber(L, feed_state(L).speed);
   return 1;
 }
 
 /* feed:push(force): that force instead of a speed [N]. */
-static int meth_push(lua_State *L) {
-  luaL_checknumber(L, 2);
-  return set_feed(L, "force", sw_scene_feed_push);
-}
+static int meth_push(lua_State *L) { return set_feed(L, "force", 0, sw_scene_feed_push); }
 
 /* feed:force_limit() -> the limit or nil; feed:force_limit(force), (nil) for none [N]. */
 static int meth_force_limit(lua_State *L) {
-  if (lua_gettop(L) > 1) return set_feed(L, "force_limit", sw_scene_feed_limit);
+  if (lua_gettop(L) > 1) return set_feed(L, "force_limit", 1, sw_scene_feed_limit);
   const double limit = feed_state(L).limit;
   if (isnan(limit))
     lua_pushnil(L);

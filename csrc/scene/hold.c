@@ -141,6 +141,8 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wir
   if (!sw_scene_find_wire(s, wire, err)) return SW_EDEAD;
   own.s += s->wires[wire.slot].mesh.s[0];
   SW_TRY(check_place(s, cls, wire.slot, args, err));
+  if (cls->feeds && isfinite(args->speed) && isfinite(args->force))
+    return sw_fail(err, SW_EINVAL, "feed: give speed or force, not both; the other one follows");
   if (cls->feeds && sw_feed_outward(&s->wires[wire.slot].mesh, args->s) < 0)
     own.direction = sw_neg(own.direction); /* it points out of the guide */
   SW_TRY(sw_scene_thaw(s));
