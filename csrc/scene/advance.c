@@ -52,6 +52,7 @@ typedef struct loop {
   const sw_run_args *args;
   sw_run_report *report;
   double *v_start; /* velocities at the step's start, which impacts change */
+  int (*interrupted)(void);
 } loop;
 
 static sw_status use_integrator(sw_scene *s, const sw_run_args *args, sw_error *err) {
@@ -197,6 +198,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
   while (done < h) {
     const double left = h - done;
     if (part > left * (1 - 1e-12)) part = left;
+    if (done > 0 && p->interrupted && p->interrupted()) return SW_EINTR; /* there may be many */
     SW_TRY(make_room(p, &part, err));
     if (!(part >= SMALLEST_SHARE * SMALLEST_SHARE * h))
       return sw_fail(err, SW_ENOCONV, "wire is fed too fast to follow it");
@@ -362,7 +364,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   SW_TRY(sw_scene_build(s, err));
   SW_TRY(use_integrator(s, args, err));
   const size_t before = s->system.counters.evaluations;
-  loop p = {.s = s, .args = args, .report = report};
+  loop p = {.s = s, .args = args, .report = report, .interrupted = interrupted};
   p.v_start = sw_alloc(s->contact ? 3 * s->system.nodes : 1, sizeof(double));
   if (!p.v_start) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
   s->running++;

@@ -81,6 +81,7 @@ static sw_status keep_twist(sw_scene *s) {
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_body *b = &s->system.bodies[w];
     sw_scene_wire *wire = &s->wires[w];
+    if (wire->drawn) continue; /* nothing has moved yet */
     const size_t count = b->has_twist ? b->plan->span_count : 0;
     sw_twisted *list = sw_alloc(count, sizeof *list);
     if (!list) return SW_ENOMEM;
@@ -96,12 +97,23 @@ static sw_status keep_twist(sw_scene *s) {
   return SW_OK;
 }
 
+sw_status sw_scene_draw_untwisted(sw_scene_wire *w) {
+  sw_twisted *list = sw_alloc(1, sizeof *list);
+  if (!list) return SW_ENOMEM;
+  *list = (sw_twisted){w->mesh.s[0], w->mesh.s[w->mesh.n - 1], 0};
+  sw_free(w->twisted);
+  w->twisted = list;
+  w->twisted_count = 1;
+  w->drawn = 1;
+  return SW_OK;
+}
+
 static void store_turn(double *out, sw_quat q) {
   out[0] = q.w, out[1] = q.x, out[2] = q.y, out[3] = q.z;
 }
 
 /* A new span takes over the twist of the stretches it covers; what lies outside
- * of all spans has unwound through a free end. */
+ * of all spans has unwound through a free end to its unloaded twist. */
 static void inherit_twist(sw_scene *s) {
   for (size_t k = 0; k < s->system.hold_count; k++)
     store_turn(s->system.turn + 4 * k, s->holds[s->hold_slot[k]].turn);
@@ -111,12 +123,15 @@ static void inherit_twist(sw_scene *s) {
     for (size_t k = 0; b->has_twist && k < b->plan->span_count; k++) {
       const double s1 = b->plan->s[b->plan->spans[k].first];
       const double s2 = b->plan->s[b->plan->spans[k].last + 1];
+      double *twist = &s->system.twist[b->first_span + k], unwound = s2 - s1;
       for (size_t j = 0; j < wire->twisted_count; j++) {
         const sw_twisted *old = &wire->twisted[j];
         const double common = fmin(s2, old->s2) - fmax(s1, old->s1);
-        if (common > 0)
-          s->system.twist[b->first_span + k] += old->twist * common / (old->s2 - old->s1);
+        if (!(common > 0)) continue;
+        *twist += old->twist * common / (old->s2 - old->s1);
+        unwound -= common;
       }
+      *twist += b->plan->beam.rest_twist * unwound;
     }
   }
 }

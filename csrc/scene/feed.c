@@ -137,7 +137,9 @@ static double bent(const sw_system *s, const sw_body *b, size_t clamp, const dou
 static double twisted(const sw_system *s, const sw_body *b, size_t clamp) {
   const sw_plan *p = b->plan;
   if (b->spin_block) {
-    const double twist = b->field.hinge_twist[p->nodes + clamp] / p->clamps[clamp].length;
+    const double rest = p->rest_twist[p->nodes + clamp];
+    const double strain = (b->field.hinge_twist[p->nodes + clamp] - rest) / p->clamps[clamp].length;
+    const double twist = strain + 2.0 * rest / p->rest[p->clamps[clamp].edge];
     return p->beam.GJ * twist * twist;
   }
   for (size_t k = 0; b->has_twist && k < p->span_count; k++) {

@@ -191,6 +191,7 @@ static sw_status observe_contact(sw_scene *s, sw_error *err) {
 
 sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
   sw_feed_follow(s);
+  for (size_t w = 0; w < s->wire_count; w++) s->wires[w].drawn = 0;
   SW_TRY(sw_system_place_holds(&s->system, s->time, s->system.x, NULL, NULL, err));
   sw_system_refresh(&s->system);
   sw_system_commit(&s->system);

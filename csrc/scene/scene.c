@@ -166,6 +166,8 @@ static const sw_param wire_rows[] = {
     {"normal", SW_PARAM_VECTOR, "-", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL,
      offsetof(sw_wire_args, normal),
      "with EI = {EI1, EI2}: bending in the plane of the wire and this has EI1"},
+    {"rest_twist", SW_PARAM_NUMBER, "rad/m", 0, -1e6, 1e6, 0, NULL,
+     offsetof(sw_wire_args, rest_twist), "twist without load; it is drawn untwisted"},
 };
 const sw_params sw_wire_params = SW_PARAMS("wire", wire_rows);
 
@@ -185,15 +187,18 @@ static sw_status check_mesh(const char *name, const sw_mesh *m, sw_error *err) {
 /* The normal must be across the wire where it starts. */
 static const double LEAST_SINE = 1e-3; /* of the angle between both [-] */
 
+static const double LARGEST_TWIST = 1.5;  /* of a segment at rest, with frames [rad] */
+
 static sw_status add_frames(sw_scene_wire *w, const sw_wire_args *a, sw_error *err) {
   const int two = w->beam.EI_axis[0] != w->beam.EI_axis[1];
   const sw_vec along =
       sw_unit_or(sw_sub(sw_load(w->mesh.x + 3), sw_load(w->mesh.x)), sw_v(1, 0, 0));
   const int given = isfinite(a->normal.x);
-  if (!w->beam.framed && !given && a->rest == SW_REST_STRAIGHT) return SW_OK;
+  if (!w->beam.framed && !given && a->rest == SW_REST_STRAIGHT && a->rest_twist == 0) return SW_OK;
   if (strcmp(w->cls->name, "rod") != 0)
     return sw_fail(err, SW_EINVAL,
-                   "wire '%s': rest, normal and two values of EI go with model = 'rod'", w->name);
+                   "wire '%s': rest, rest_twist, normal and two values of EI go with model = 'rod'",
+                   w->name);
   if (two && !given)
     return sw_fail(err, SW_EINVAL,
                    "wire '%s': two values of EI need normal = {x, y, z}, the "
@@ -203,8 +208,14 @@ static sw_status add_frames(sw_scene_wire *w, const sw_wire_args *a, sw_error *e
     return sw_fail(err, SW_EINVAL, "wire '%s': normal must not be along the wire's start", w->name);
   w->beam.framed = w->beam.framed || a->rest == SW_REST_PATH;
   if (!w->beam.framed) return SW_OK; /* a normal that makes no difference */
+  const double segment = w->mesh.s[w->mesh.n - 1] / (double)(w->mesh.n - 1);
+  if (!(fabs(a->rest_twist) * segment < LARGEST_TWIST))
+    return sw_fail(err, SW_EINVAL,
+                   "wire '%s': rest_twist = %g rad/m turns a segment of %.4g m by more than %g rad; "
+                   "it needs more segments",
+                   w->name, a->rest_twist, segment, LARGEST_TWIST);
   if (sw_mesh_add_frames(&w->mesh, given ? a->normal : sw_perpendicular(along),
-                         a->rest == SW_REST_STRAIGHT) != SW_OK)
+                         a->rest == SW_REST_STRAIGHT, a->rest_twist) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", w->name);
   return SW_OK;
 }
@@ -245,12 +256,16 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
   sw_status status = sw_mesh_along(&w.mesh, points ? points : straight, points ? count : 2,
                                    (size_t)args->segments);
   if (status == SW_OK) status = check_mesh(w.name, &w.mesh, err);
+  w.beam.rest_twist = args->rest_twist;
   if (status == SW_OK) status = add_frames(&w, args, err);
+  if (status == SW_OK && args->rest_twist != 0 && sw_scene_draw_untwisted(&w) != SW_OK)
+    status = sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", w.name);
   for (size_t k = 0; status == SW_OK && k < s->force_count; k++)
     if (s->forces[k].alive && s->forces[k].wire < 0)
       status = check_wire(s->forces[k].cls, &w, s->forces[k].args, err);
   if (status != SW_OK) {
     sw_mesh_free(&w.mesh);
+    sw_free(w.twisted);
     return status;
   }
   w.mesh.EA = beam->EA;

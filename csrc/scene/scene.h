@@ -64,11 +64,12 @@ const sw_force_class *sw_scene_force_class(const sw_scene *scene, sw_handle forc
 
 typedef struct sw_wire_args {
   char name[SW_NAME_SIZE];
-  int model;       /* index into sw_wire_all() */
-  sw_vec from, to; /* straight wire; NAN = not given [m] */
-  long segments;   /* [-] */
-  int rest;        /* shape without load: SW_REST_STRAIGHT, SW_REST_PATH */
-  sw_vec normal;   /* first axis of the section; NAN = not given [-] */
+  int model;         /* index into sw_wire_all() */
+  sw_vec from, to;   /* straight wire; NAN = not given [m] */
+  long segments;     /* [-] */
+  int rest;          /* shape without load: SW_REST_STRAIGHT, SW_REST_PATH */
+  sw_vec normal;     /* first axis of the section; NAN = not given [-] */
+  double rest_twist; /* without load [rad/m] */
 } sw_wire_args;
 enum { SW_REST_STRAIGHT = 0, SW_REST_PATH = 1 };
 extern const sw_params sw_wire_params; /* model, path, segments, ... */

@@ -30,6 +30,7 @@ struct sw_snapshot {
   size_t wires, holds, obstacles, forces, frames;
   sw_mesh *meshes;
   sw_wire_extremes *extremes; /* (wires) */
+  int *drawn;                 /* (wires) */
   saved_hold *hold;
   saved_obstacle *obstacle;
   int *force_alive;
@@ -81,6 +82,7 @@ void sw_snapshot_free(sw_snapshot *p) {
   for (size_t k = 0; p->obstacle && k < p->obstacles; k++) sw_drive_free(&p->obstacle[k].drive);
   sw_free(p->meshes);
   sw_free(p->extremes);
+  sw_free(p->drawn);
   sw_free(p->hold);
   sw_free(p->obstacle);
   sw_free(p->force_alive);
@@ -107,14 +109,17 @@ static sw_drive copy_drive(const sw_drive *d) {
 static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
   p->meshes = sw_alloc(s->wire_count, sizeof *p->meshes);
   p->extremes = sw_alloc(s->wire_count, sizeof *p->extremes);
+  p->drawn = sw_alloc(s->wire_count, sizeof *p->drawn);
   p->hold = sw_alloc(s->hold_count, sizeof *p->hold);
   p->obstacle = sw_alloc(s->obstacle_count, sizeof *p->obstacle);
   p->force_alive = sw_alloc(s->force_count, sizeof *p->force_alive);
-  if (!p->meshes || !p->extremes || !p->hold || !p->obstacle || !p->force_alive) return SW_ENOMEM;
+  if (!p->meshes || !p->extremes || !p->drawn || !p->hold || !p->obstacle || !p->force_alive)
+    return SW_ENOMEM;
   for (size_t w = 0; w < s->wire_count; w++) {
     SW_TRY(sw_mesh_copy(&s->wires[w].mesh, &p->meshes[w]));
     p->wires = w + 1;
     p->extremes[w] = s->wires[w].extremes;
+    p->drawn[w] = s->wires[w].drawn;
   }
   for (; p->holds < s->hold_count; p->holds++) {
     const sw_scene_hold *h = &s->holds[p->holds];
@@ -269,6 +274,13 @@ static sw_status put_meshes(sw_scene *s, const sw_snapshot *p) {
   return status;
 }
 
+/* Wires that had not moved yet lie as drawn again. */
+static sw_status put_drawn(sw_scene *s, const sw_snapshot *p) {
+  for (size_t w = 0; w < p->wires; w++)
+    if (p->drawn[w]) SW_TRY(sw_scene_draw_untwisted(&s->wires[w]));
+  return SW_OK;
+}
+
 static sw_status put_state(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   memcpy(s->system.state, p->state, p->state_size * sizeof(double));
   if (s->contact) SW_TRY(sw_contact_set_memory(s->contact, p->memory, p->memory_size, p->fresh));
@@ -302,6 +314,7 @@ sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
     SW_TRY(sw_scene_thaw(s));
     if (put_meshes(s, p) != SW_OK) return sw_fail(err, SW_ENOMEM, "restore: out of memory");
   }
+  if (put_drawn(s, p) != SW_OK) return sw_fail(err, SW_ENOMEM, "restore: out of memory");
   put_objects(s, p);
   drop_newer(s);
   s->time = p->time, s->next_dt = p->next_dt, s->next_frame = p->next_frame;

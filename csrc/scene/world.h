@@ -23,7 +23,11 @@ typedef struct sw_scene_wire {
   sw_wire_extremes extremes;
   sw_twisted *twisted;
   size_t twisted_count;
+  int drawn; /* 1: lies as it was drawn, without the twist it has unloaded; nothing has moved */
 } sw_scene_wire;
+
+/* The wire is as drawn: not twisted anywhere. SW_ENOMEM. */
+sw_status sw_scene_draw_untwisted(sw_scene_wire *wire);
 
 /* A log: rows of a fixed number of doubles, growing. */
 typedef struct sw_log {

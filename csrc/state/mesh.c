@@ -138,6 +138,12 @@ static sw_vec edge_of(const double *nodes, size_t e) {
   return sw_unit_or(sw_sub(sw_vec_at(nodes, e + 1), sw_vec_at(nodes, e)), sw_v(1, 0, 0));
 }
 
+static sw_vec turned_about(sw_vec n, sw_vec t, double angle) {
+  return sw_add(sw_scale(n, cos(angle)), sw_scale(sw_cross(t, n), sin(angle)));
+}
+
+static double middle(const sw_mesh *m, size_t e) { return 0.5 * (m->s[e] + m->s[e + 1]); }
+
 /* Frames without twist along the nodes, from normal at the first edge on. */
 static void frames_along(const double *nodes, size_t n, sw_vec normal, double *out) {
   sw_vec before = edge_of(nodes, 0);
@@ -150,25 +156,33 @@ static void frames_along(const double *nodes, size_t n, sw_vec normal, double *o
   }
 }
 
-sw_status sw_mesh_add_frames(sw_mesh *m, sw_vec normal, int straight) {
+sw_status sw_mesh_add_frames(sw_mesh *m, sw_vec normal, int straight, double rest_twist) {
   SW_TRY(make_room(m, m->capacity, ARRAYS));
   const sw_vec along = edge_of(m->x, 0);
   for (size_t i = 0; i < m->n; i++)
     sw_store(m->rest + 3 * i, straight ? sw_scale(along, m->s[i]) : sw_vec_at(m->x, i));
   frames_along(m->x, m->n, normal, m->normal);
   frames_along(m->rest, m->n, normal, m->rest_normal);
+  for (size_t e = 0; rest_twist != 0 && e + 1 < m->n; e++)
+    sw_store(m->rest_normal + 3 * e, turned_about(sw_vec_at(m->rest_normal, e), edge_of(m->rest, e),
+                                                  rest_twist * middle(m, e)));
   return SW_OK;
 }
 
-/* The normal at arc length s, half-way between those of the edges beside a node. */
+/* The normal at arc length s: the twist goes evenly from edge middle to edge middle, and on
+ * to the ends. */
 static sw_vec normal_at(const sw_mesh *m, const double *nodes, const double *normals, double s,
                         sw_vec tangent) {
   const size_t i = sw_mesh_node(m, s), last = m->n - 2;
-  const size_t b = i > last ? last : i, a = i > 0 ? i - 1 : 0;
-  const sw_vec before = sw_carry_unit(sw_vec_at(normals, a), edge_of(nodes, a), tangent);
-  if (m->s[i] != s) return before; /* inside edge a */
-  const sw_vec after = sw_carry_unit(sw_vec_at(normals, b), edge_of(nodes, b), tangent);
-  return sw_unit_or(sw_add(before, after), before);
+  size_t e = i > 0 ? i - 1 : 0;
+  if (e > 0 && s < middle(m, e)) e--;
+  if (e == last && e > 0) e--;
+  const sw_edge_frame a = {edge_of(nodes, e), sw_vec_at(normals, e)};
+  const sw_vec n = sw_carry_unit(a.m1, a.t, tangent);
+  if (last == 0) return n;
+  const sw_edge_frame b = {edge_of(nodes, e + 1), sw_vec_at(normals, e + 1)};
+  const double share = (s - middle(m, e)) / (middle(m, e + 1) - middle(m, e));
+  return turned_about(n, tangent, share * sw_hinge_twist(&a, &b, 0.0));
 }
 
 sw_mesh_frame sw_mesh_frame_at(const sw_mesh *m, double s) {

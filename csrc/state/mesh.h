@@ -42,8 +42,8 @@ sw_status sw_mesh_copy(const sw_mesh *from, sw_mesh *to);
 
 /* Give the wire frames that are not twisted, as it lies: their first axis is that
  * of normal across the wire's start. straight: unloaded it is straight, else as it
- * lies. SW_ENOMEM. */
-sw_status sw_mesh_add_frames(sw_mesh *mesh, sw_vec normal, int straight);
+ * lies; rest_twist: and twisted [rad/m]. SW_ENOMEM. */
+sw_status sw_mesh_add_frames(sw_mesh *mesh, sw_vec normal, int straight, double rest_twist);
 
 /* The frames at arc length s of a mesh that has them. */
 sw_mesh_frame sw_mesh_frame_at(const sw_mesh *mesh, double s);

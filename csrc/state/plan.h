@@ -20,6 +20,7 @@ typedef struct sw_beam {
   double mass;       /* mass per length [kg/m] */
   double radius;     /* outer radius [m] */
   double E;          /* of the material, for stresses [Pa] */
+  double rest_twist; /* of the unloaded wire [rad/m] */
   double EI_axis[2]; /* in the plane of the normal and across it [N m2] */
   int framed;        /* 1: needs material frames (two stiffnesses, or curved at rest) */
 } sw_beam;
@@ -93,6 +94,11 @@ void sw_plan_clamp_lengths(double first, double second, double *clamp, double *n
 
 /* Make room for the unloaded shape of a wire with material frames. SW_ENOMEM. */
 sw_status sw_plan_add_rest(sw_plan *plan);
+
+/* Twist per length of a span beyond that of the unloaded wire [rad/m]. */
+static inline double sw_span_strain(const sw_plan *plan, const sw_span *span, double twist) {
+  return twist / span->length - plan->beam.rest_twist;
+}
 
 sw_plan *sw_plan_retain(sw_plan *plan);
 void sw_plan_release(sw_plan *plan); /* NULL is allowed */
