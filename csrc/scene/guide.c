@@ -1,99 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The mesh beside guides: nodes that come out of them and go into them, and the
- * unloaded shape of the wire behind them. */
+/* The mesh beside guides: nodes that come out of them and go into them. */
 #include <math.h>
 
 #include "base/alloc.h"
+#include "scene/spool.h"
 #include "scene/world.h"
 #include "state/hinge.h"
 
-/* --- unloaded shape -------------------------------------------------------------- */
-
-static sw_quat frame_turn(sw_vec t, sw_vec m1) {
-  const sw_vec m2 = sw_cross(t, m1); /* the quaternion of the matrix (t m1 m2) */
-  const double trace = t.x + m1.y + m2.z;
-  if (trace > 0) return sw_quat_unit((sw_quat){1 + trace, m1.z - m2.y, m2.x - t.z, t.y - m1.x});
-  if (t.x >= m1.y && t.x >= m2.z)
-    return sw_quat_unit((sw_quat){m1.z - m2.y, 1 + t.x - m1.y - m2.z, m1.x + t.y, m2.x + t.z});
-  if (m1.y >= m2.z)
-    return sw_quat_unit((sw_quat){m2.x - t.z, m1.x + t.y, 1 + m1.y - t.x - m2.z, m2.y + m1.z});
-  return sw_quat_unit((sw_quat){t.y - m1.x, m2.x + t.z, m2.y + m1.z, 1 + m2.z - t.x - m1.y});
-}
-
-static sw_vec tangent_of(sw_quat q) { return sw_rotate(q, sw_v(1, 0, 0)); }
-static sw_vec normal_of(sw_quat q) { return sw_rotate(q, sw_v(0, 1, 0)); }
-
-static sw_quat rest_turn(const sw_mesh *m, double s) {
-  const sw_mesh_frame f = sw_mesh_frame_at(m, s);
-  return frame_turn(f.rest_tangent, f.rest_normal);
-}
-
-typedef struct rest_place {
-  sw_vec x;  /* [m] */
-  sw_quat q; /* its tangent and normal are the first two axes */
-} rest_place;
-
-/* A curve that goes on from (x, q) by a length u with the body rate w per length. */
-static rest_place go_on(sw_vec x, sw_quat q, sw_vec w, double u) {
-  const double rate = sw_norm(w), angle = rate * u;
-  sw_vec way = sw_v(u, 0, 0);
-  if (fabs(angle) > 1e-9) {
-    const sw_vec a = sw_scale(w, 1 / rate);
-    way = sw_scale(a, a.x * (u - sin(angle) / rate));
-    way.x += sin(angle) / rate;
-    way = sw_madd(way, sw_cross(a, sw_v(1, 0, 0)), (1 - cos(angle)) / rate);
-  }
-  return (rest_place){sw_add(x, sw_rotate(q, way)),
-                      sw_quat_unit(sw_quat_mul(q, sw_quat_exp(sw_scale(w, u))))};
-}
-
-/* The unloaded wire at arc length s. Beyond its ends it goes on with the curvature and twist
- * that it has there: what is on the spool is like what has come from it. */
-static rest_place shape_at(const sw_mesh *m, double s) {
-  const size_t last = m->n - 1;
-  if (s < m->s[0] || s > m->s[last]) {
-    const int before = s < m->s[0];
-    const size_t end = before ? 0 : last, i = before ? 1 : last - 1;
-    const size_t j = last < 4 ? i : before ? 3 : last - 3;
-    sw_vec w = sw_v(0, 0, 0);
-    if (i != j) {
-      const sw_quat a = rest_turn(m, m->s[i]), b = rest_turn(m, m->s[j]);
-      w = sw_scale(sw_quat_log(sw_quat_mul(sw_quat_conj(a), b)), 1 / (m->s[j] - m->s[i]));
-    }
-    return go_on(sw_vec_at(m->rest, end), rest_turn(m, m->s[end]), w, s - m->s[end]);
-  }
-  const size_t i = sw_mesh_node(m, s), e = i > 0 ? i - 1 : 0;
-  const double l = m->s[e + 1] - m->s[e], f = (s - m->s[e]) / l;
-  const sw_vec a = sw_vec_at(m->rest, e), b = sw_vec_at(m->rest, e + 1);
-  const double chord = sw_dist(a, b);
-  const sw_vec ta = tangent_of(rest_turn(m, m->s[e])), tb = tangent_of(rest_turn(m, m->s[e + 1]));
-  const sw_vec near =
-      sw_add(sw_scale(a, (1 + 2 * f) * (1 - f) * (1 - f)), sw_scale(b, f * f * (3 - 2 * f)));
-  return (rest_place){sw_add(near, sw_add(sw_scale(ta, chord * f * (1 - f) * (1 - f)),
-                                          sw_scale(tb, -chord * f * f * (1 - f)))),
-                      rest_turn(m, s)};
-}
-
-/* The unloaded frame of an edge, from that of the curve at its middle. */
-static void shape_edge(sw_mesh *m, const sw_mesh *shape, size_t e) {
-  const sw_quat q = shape_at(shape, 0.5 * (m->s[e] + m->s[e + 1])).q;
-  const sw_vec along = sw_sub(sw_vec_at(m->rest, e + 1), sw_vec_at(m->rest, e));
-  const sw_vec t = sw_unit_or(along, tangent_of(q));
-  sw_store(m->rest_normal + 3 * e, sw_carry_unit(normal_of(q), tangent_of(q), t));
-}
-
-/* The node's unloaded place and the edges beside it, for its arc length in the mesh. */
-static void shape_node(sw_mesh *m, const sw_mesh *shape, size_t node) {
-  sw_store(m->rest + 3 * node, shape_at(shape, m->s[node]).x);
-  if (node > 0) shape_edge(m, shape, node - 1);
-  if (node + 1 < m->n) shape_edge(m, shape, node);
-}
-
 void sw_feed_rest(sw_scene_hold *h, double s) {
-  const sw_quat q = shape_at(&h->feed.shape, s).q;
+  const sw_quat q = sw_spool_at(&h->feed.shape, s).q;
   for (int side = 0; side < 2; side++) {
-    h->frame[side].rest_tangent = tangent_of(q);
-    h->frame[side].rest_normal = normal_of(q);
+    h->frame[side].rest_tangent = sw_spool_tangent(q);
+    h->frame[side].rest_normal = sw_spool_normal(q);
   }
 }
 
@@ -104,13 +22,11 @@ void sw_feed_shape(sw_scene *s, sw_scene_hold *h) {
   if (!m->rest) return;
   const double kept = m->s[node];
   m->s[node] = p->s[node];
-  shape_node(m, &h->feed.shape, node);
+  sw_spool_node(m, &h->feed.shape, node);
   m->s[node] = kept;
   sw_feed_rest(h, p->s[node]);
   sw_scene_unloaded_near(s, h->wire, p, node);
 }
-
-/* --- nodes ------------------------------------------------------------------------ */
 
 /* First edges between these shares of the second one keep the clamp's quadrature good; beyond
  * that nodes are made and removed. Apart by more than one, so that a feed that goes to and fro
@@ -119,6 +35,7 @@ static const double SHORTEST = 0.47, LONGEST = 1.5; /* [-] */
 /* Without a node to be removed: of the usual length [-]. */
 static const double LEAST_LEFT = 0.2;
 static const double LARGEST_SHARE = 0.4; /* of an edge, fed in one step [-] */
+static const double PI = 3.14159265358979323846;
 enum { LEAST_FREE = 2, LEAST_HELD = 3 }; /* edges to keep before a free end and another hold */
 
 double sw_feed_step(const sw_scene *s, double h) {
@@ -141,6 +58,7 @@ typedef struct guide {
   sw_mesh *m;
   int side;
   sw_vec director, normal; /* of the wire in the guide [-] */
+  size_t left;             /* edges up to the wire's end or the next hold */
 } guide;
 
 static long inner(const guide *g, long k) {
@@ -180,28 +98,28 @@ static sw_quat edge_turn(const guide *g, size_t e) {
   const sw_vec along = sw_sub(sw_vec_at(g->m->x, e + 1), sw_vec_at(g->m->x, e));
   const sw_vec t = sw_unit_or(along, g->director);
   const sw_vec n = g->m->normal ? sw_vec_at(g->m->normal, e) : g->normal;
-  return frame_turn(t, sw_carry_unit(n, g->m->normal ? t : g->director, t));
+  return sw_spool_turn(t, sw_carry_unit(n, g->m->normal ? t : g->director, t));
 }
 
 static sw_vec rest_between(const guide *g, size_t e) {
   if (!g->m->rest) return sw_v(0, 0, 0);
   const sw_vec along = sw_sub(sw_vec_at(g->m->rest, e + 1), sw_vec_at(g->m->rest, e));
-  const sw_quat held = shape_at(&g->h->feed.shape, g->h->s1).q;
+  const sw_quat held = sw_spool_at(&g->h->feed.shape, g->h->s1).q;
   const sw_quat edge =
-      frame_turn(sw_unit_or(along, tangent_of(held)), sw_vec_at(g->m->rest_normal, e));
+      sw_spool_turn(sw_unit_or(along, sw_spool_tangent(held)), sw_vec_at(g->m->rest_normal, e));
   return turn_between(held, edge);
 }
 
 /* The frame of an edge that is turned from the guide's by what rests and what bends it. */
 static sw_quat bent_turn(const guide *g, size_t e, sw_vec bend) {
-  const sw_quat held = frame_turn(g->director, g->normal);
+  const sw_quat held = sw_spool_turn(g->director, g->normal);
   return sw_quat_unit(sw_quat_mul(held, sw_quat_exp(sw_add(rest_between(g, e), bend))));
 }
 
 static void put_normal(const guide *g, size_t e, sw_quat q) {
   const sw_vec along = sw_sub(sw_vec_at(g->m->x, e + 1), sw_vec_at(g->m->x, e));
-  const sw_vec t = sw_unit_or(along, tangent_of(q));
-  sw_store(g->m->normal + 3 * e, sw_carry_unit(normal_of(q), tangent_of(q), t));
+  const sw_vec t = sw_unit_or(along, sw_spool_tangent(q));
+  sw_store(g->m->normal + 3 * e, sw_carry_unit(sw_spool_normal(q), sw_spool_tangent(q), t));
 }
 
 /* Unstressed length of the first edge with its spare, and the place that holds it. */
@@ -224,47 +142,117 @@ static void set_length(guide *g, double length) {
 
 static sw_vec node_at(const guide *g, long k) { return sw_vec_at(g->m->x, (size_t)inner(g, k)); }
 
-/* A node comes out of the guide, a usual length before the first one: on the curve for
- * which bending moment and torque at the guide stay as they are. The way over the new
+/* --- nodes come and go ------------------------------------------------------------- */
+
+static sw_vec face_bend(const guide *g, size_t e) {
+  const sw_vec turn = turn_between(sw_spool_turn(g->director, g->normal), edge_turn(g, e));
+  return sw_sub(turn, rest_between(g, e));
+}
+
+/* Nodes that share in a shift, and the largest shift of an edge's length: more is not the
+ * small matter that it should be. */
+enum { REACH = 8, LEAST_REACH = 3 };
+static const double LARGEST_SHIFT = 0.1;
+
+/* Shift node `first` across the wire by delta, and those after it by less and less, with
+ * all edges keeping their lengths. */
+static void shift_nodes(const guide *g, long first, sw_vec delta) {
+  sw_mesh *m = g->m;
+  const long reach = (long)fmin(REACH, (double)g->left - (double)first);
+  if (reach < LEAST_REACH || !(sw_norm(delta) < LARGEST_SHIFT * g->h->feed.size)) return;
+  sw_vec old = node_at(g, first + reach), now = old;
+  for (long k = first + reach - 1; k >= first; k--) {
+    const size_t i = (size_t)inner(g, k), e = g->side > 0 ? i : i - 1;
+    const sw_vec x = sw_vec_at(m->x, i);
+    const double share = 0.5 + 0.5 * cos(PI * (double)(k - first) / (double)reach);
+    const sw_vec before = sw_unit_or(sw_sub(x, old), g->director);
+    const sw_vec way = sw_unit_or(sw_sub(sw_madd(x, delta, share), now), before);
+    now = sw_madd(now, way, sw_dist(x, old));
+    old = x;
+    sw_store(m->x + 3 * i, now);
+    if (m->rest) sw_store(m->normal + 3 * e, sw_carry_unit(sw_vec_at(m->normal, e), before, way));
+  }
+}
+
+/* A guide's first edges before and after a change: what bends them, in the guide's axes. */
+typedef struct beside {
+  double first, second; /* lengths [m] */
+  double clamp, next;   /* of hinges [m] */
+  sw_vec bend, change;  /* curvature in the guide, and its change to the first node [1/m] */
+} beside;
+
+static beside look(const guide *g) {
+  const size_t face = (size_t)inner(g, 0), edge = g->side > 0 ? face : face - 1;
+  beside b = {.first = edge_length(g, 0), .second = edge_length(g, 1)};
+  sw_plan_clamp_lengths(b.first, b.second, &b.clamp, &b.next);
+  const sw_vec turn = face_bend(g, edge);
+  b.bend = sw_scale(turn, 1 / b.clamp);
+  if (b.second > 0) {
+    const sw_vec beyond = sw_sub(face_bend(g, g->side > 0 ? edge + 1 : edge - 1), turn);
+    b.change = sw_sub(sw_scale(beyond, 1 / b.next), b.bend);
+  }
+  return b;
+}
+
+/* A node comes out of the guide, a usual length before the first one. Bending moment and
+ * torque at the guide stay as they are, and so do those at the nodes, which takes a small
+ * shift of them: the hinges stand for other stretches of wire now. The way over the new
  * node is longer than the chord that was there by what the feed then holds back again. */
 static sw_status add_node(guide *g) {
   sw_mesh *m = g->m;
-  const double first = edge_length(g, 0), size = g->h->feed.size;
-  const sw_vec from = node_at(g, 0), to = node_at(g, 1);
-  const double stretch = sw_dist(from, to) / true_length(g);
+  const double size = g->h->feed.size;
+  const beside b = look(g);
+  const sw_vec from = node_at(g, 0);
+  const double stretch = sw_dist(from, node_at(g, 1)) / true_length(g);
   const size_t face = (size_t)inner(g, 0), edge = g->side > 0 ? face : face - 1;
-  double w0, next, v0, v1;
-  sw_plan_clamp_lengths(first, edge_length(g, 1), &w0, &next);
-  sw_plan_clamp_lengths(first - size, size, &v0, &v1);
-  const sw_vec turn = turn_between(frame_turn(g->director, g->normal), edge_turn(g, edge));
-  const sw_vec bend = sw_sub(turn, rest_between(g, edge));
-  const double arc = m->s[inner(g, 1)] - g->side * size;
-  SW_TRY(sw_mesh_insert(m, edge, arc));
+  double v0, v1;
+  sw_plan_clamp_lengths(b.first - size, size, &v0, &v1);
+  SW_TRY(sw_mesh_insert(m, edge, m->s[inner(g, 1)] - g->side * size));
+  g->left++;
   const size_t node = edge + 1, at = g->side > 0 ? edge : edge + 1, beyond = 2 * edge + 1 - at;
   if (m->rest) {
-    shape_node(m, &g->h->feed.shape, node);
+    sw_spool_node(m, &g->h->feed.shape, node);
     m->twist[node] = 0;
   }
-  const sw_quat q = bent_turn(g, at, sw_scale(bend, v0 / w0));
-  const sw_vec out = sw_scale(tangent_of(q), g->side), way = sw_sub(to, from);
-  const double along = sw_dot(out, way), rest = stretch * size;
+  const sw_vec here = sw_madd(b.bend, b.change, (b.first - size) / b.first);
+  const sw_quat q0 = bent_turn(g, at, sw_scale(b.bend, v0));
+  const sw_quat q1 = bent_turn(g, beyond, sw_madd(sw_scale(b.bend, v0), here, v1));
+  const sw_vec t0 = sw_scale(sw_spool_tangent(q0), g->side);
+  const sw_vec t1 = sw_scale(sw_spool_tangent(q1), g->side);
+  const sw_vec wanted = sw_madd(sw_madd(from, t0, stretch * (b.first - size)), t1, stretch * size);
+  const sw_vec delta = sw_sub(wanted, node_at(g, 2));
+  if (b.second > 0) shift_nodes(g, 2, sw_madd(delta, t1, -sw_dot(delta, t1)));
+  const sw_vec way = sw_sub(node_at(g, 2), from);
+  const double along = sw_dot(t0, way), rest = stretch * size;
   const double root2 = along * along - sw_norm2(way) + rest * rest;
   const double chord = along - sqrt(fmax(0, root2)); /* leaves `rest` to the next node */
-  sw_store(m->x + 3 * node, sw_madd(from, out, chord));
+  sw_store(m->x + 3 * node, sw_madd(from, t0, chord));
   set_length(g, chord / stretch);
   if (!m->rest) return SW_OK;
-  put_normal(g, at, q);
-  put_normal(g, beyond, bent_turn(g, beyond, sw_scale(bend, (v0 + v1) / w0)));
+  put_normal(g, at, q0);
+  put_normal(g, beyond, q1);
   return SW_OK;
 }
 
+/* The first node goes into the guide. */
 static void take_node(guide *g) {
-  const size_t node = (size_t)inner(g, 1);
-  const sw_vec a = node_at(g, 0), b = node_at(g, 1), c = node_at(g, 2);
-  const double stretch = (sw_dist(a, b) + sw_dist(b, c)) / (true_length(g) + edge_length(g, 1));
-  sw_mesh_remove(g->m, node);
-  set_length(g, sw_dist(a, c) / stretch);
-  if (g->m->rest) shape_node(g->m, &g->h->feed.shape, (size_t)inner(g, 0));
+  sw_mesh *m = g->m;
+  const beside b = look(g);
+  const sw_vec from = node_at(g, 0), mid = node_at(g, 1), to = node_at(g, 2);
+  const double way = sw_dist(from, mid) + sw_dist(mid, to);
+  const double stretch = way / (true_length(g) + b.second);
+  double v0, v1;
+  sw_mesh_remove(m, (size_t)inner(g, 1));
+  g->left--;
+  const size_t face = (size_t)inner(g, 0), edge = g->side > 0 ? face : face - 1;
+  if (m->rest) sw_spool_node(m, &g->h->feed.shape, face);
+  sw_plan_clamp_lengths(b.first + b.second, edge_length(g, 1), &v0, &v1);
+  const sw_quat q = bent_turn(g, edge, sw_scale(b.bend, v0));
+  const sw_vec t = sw_scale(sw_spool_tangent(q), g->side);
+  const sw_vec delta = sw_sub(sw_madd(from, t, way), to);
+  if (edge_length(g, 1) > 0) shift_nodes(g, 1, sw_madd(delta, t, -sw_dot(delta, t)));
+  set_length(g, sw_dist(from, node_at(g, 1)) / stretch);
+  if (m->rest) put_normal(g, edge, q);
 }
 
 enum { FINE = 0, ADD = 1, TAKE = 2, EMPTY = 3 };
@@ -312,6 +300,8 @@ static sw_status tend(sw_scene *s, sw_scene_hold *h, double fed, int edit, const
       if (need == EMPTY) return say_empty(s, &g, err);
       *wanted = 1;
       if (!edit) break;
+      const sw_scene_hold *next;
+      g.left = edges_left(s, &g, &next);
       if (need == TAKE)
         take_node(&g);
       else if (add_node(&g) != SW_OK)

@@ -187,7 +187,7 @@ static sw_status check_mesh(const char *name, const sw_mesh *m, sw_error *err) {
 /* The normal must be across the wire where it starts. */
 static const double LEAST_SINE = 1e-3; /* of the angle between both [-] */
 
-static const double LARGEST_TWIST = 1.5;  /* of a segment at rest, with frames [rad] */
+static const double LARGEST_TWIST = 1.5; /* of a segment at rest, with frames [rad] */
 
 static sw_status add_frames(sw_scene_wire *w, const sw_wire_args *a, sw_error *err) {
   const int two = w->beam.EI_axis[0] != w->beam.EI_axis[1];
@@ -210,10 +210,11 @@ static sw_status add_frames(sw_scene_wire *w, const sw_wire_args *a, sw_error *e
   if (!w->beam.framed) return SW_OK; /* a normal that makes no difference */
   const double segment = w->mesh.s[w->mesh.n - 1] / (double)(w->mesh.n - 1);
   if (!(fabs(a->rest_twist) * segment < LARGEST_TWIST))
-    return sw_fail(err, SW_EINVAL,
-                   "wire '%s': rest_twist = %g rad/m turns a segment of %.4g m by more than %g rad; "
-                   "it needs more segments",
-                   w->name, a->rest_twist, segment, LARGEST_TWIST);
+    return sw_fail(
+        err, SW_EINVAL,
+        "wire '%s': rest_twist = %g rad/m turns a segment of %.4g m by more than %g rad; "
+        "it needs more segments",
+        w->name, a->rest_twist, segment, LARGEST_TWIST);
   if (sw_mesh_add_frames(&w->mesh, given ? a->normal : sw_perpendicular(along),
                          a->rest == SW_REST_STRAIGHT, a->rest_twist) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", w->name);
