@@ -225,6 +225,28 @@ describe("wire fed in motion", function()
     t.below(1e-9, t.norm(feed:force()), "force")
   end)
 
+  -- A stiff wire that comes out of a guide which turns at omega: every bit of it is accelerated
+  -- across by 2 v omega, and inwards by omega^2 r.
+  it("bears Coriolis' force in a turning guide", function()
+    local v, omega = 0.3, 2
+    local scene = sw.scene { gravity = { 0, 0, 0 } }
+    local wire = scene:wire { EA = 1e6, EI = 30, mass_per_length = mass, radius = 0.002,
+      from = { 0, 0, 0 }, to = { 0.2, 0, 0 }, segments = 20 }
+    local feed = scene:feed(wire, { speed = v })
+    wire:set_velocity({ v, 0, 0 }, { 0, 0, omega }, { 0, 0, 0 })
+    feed:follow { points = { { 0, 0, 0 }, { 0, 0, 0 } }, turn = { axis = { 0, 0, 1 }, angle = omega },
+      duration = 1, law = "linear" }
+    for _ = 1, 5 do
+      t.fine(scene:run { duration = 0.1, dt = 0.0025 })
+      local force, angle, L = feed:force(), omega * scene.time, wire.length
+      local along = force[1] * math.cos(angle) + force[2] * math.sin(angle)
+      local across = force[2] * math.cos(angle) - force[1] * math.sin(angle)
+      t.share(2 * mass * v * omega * L, across, 1e-3, "across")
+      -- of first order in the step where the acceleration changes, as all reactions of stiff wires
+      t.share(-mass * omega ^ 2 * L ^ 2 / 2, along, 0.01, "inwards")
+    end
+  end)
+
   -- Steady drag on a straight wire that comes out at v: linear b v per length.
   it("feels drag at the speed with which it leaves", function()
     local scene, wire, feed = sleeve(0.4, 10, { gravity = { 0, 0, 0 } })
