@@ -16,5 +16,6 @@
 #include "shape/shape.h"
 #include "solve/band3.h"
 #include "solve/band4.h"
+#include "solve/sparse.h"
 
 #endif

@@ -29,8 +29,8 @@ local ROOMS = {
 
 -- Headers other rooms may see: <room>/<room>.h, unless listed here (true = all of them).
 -- state and solve have no single header: their parts have different users.
-local OPEN = { base = true, bind = true, state = { "angle.h", "field.h", "hinge.h", "mesh.h", "plan.h" },
-  solve = { "band3.h", "band4.h" } }
+local OPEN = { base = true, bind = true, contact = { "contact.h", "pairs.h" }, state = { "angle.h", "field.h", "hinge.h", "mesh.h", "plan.h" },
+  solve = { "band3.h", "band4.h", "sparse.h" } }
 
 -- May include softworld.h.
 local USES_CORE = { bind = true, host = true }
@@ -47,6 +47,7 @@ local OUTSIDE = {
   { "^ccd/", "^shape/ccd_adapter%.c$" },
   { "^assimp/", "^shape/mesh_assimp%.c$" },
   { "^libqhull", "^shape/hull_qhull%.c$" },
+  { "^suitesparse/amd", "^solve/order_amd%.c$" },
   { "^suitesparse/", "^solve/cholmod_adapter%.c$" },
   { "^cholmod", "^solve/cholmod_adapter%.c$" },
   { "^readline/", "^host/" },

@@ -296,4 +296,29 @@ describe("example", function()
     end
     names:close()
   end)
+
+  -- Taut it holds GJ times its twist per length. With 20 cm of slack it has coiled up: tension and
+  -- torque go together as in a plectoneme of radius r, T = (B/r^2) sin^4 a (1/2 + 1/cos 2a),
+  -- M = 2 B sin^3 a cos a / (r cos 2a); friction holds it back from that by a quarter.
+  it("10: a twisted cable kinks when it is given slack", function()
+    local out = example "10_kink"
+    near(3e-4 * 12 * math.pi, after(out, "taut: torque"), 1e-4, "torque")
+    local rows = {}
+    for slack, pull, torque, bend, places in
+      out:gmatch "(%S+) m +(%S+) N +(%S+) N m +(%S+) m +(%d+)" do
+      rows[#rows + 1] = { tonumber(slack), tonumber(pull), tonumber(torque), tonumber(bend),
+        tonumber(places) }
+    end
+    assert.are.equal(8, #rows)
+    local first, last = rows[1], rows[8]
+    assert.are.equal(0, first[5])
+    assert.is_true(last[5] > 4 and last[4] < 0.02 and first[4] > 0.1)
+    local low, high, B, r = 1e-6, math.pi / 4 - 1e-6, 4e-4, 1.5e-3
+    for _ = 1, 60 do
+      local a = (low + high) / 2
+      local M = 2 * B * math.sin(a) ^ 3 * math.cos(a) / (r * math.cos(2 * a))
+      if M < last[3] then low = a else high = a end
+    end
+    near(B / r ^ 2 * math.sin(low) ^ 4 * (0.5 + 1 / math.cos(2 * low)), last[2], 0.35, "pull")
+  end)
 end)

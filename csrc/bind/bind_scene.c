@@ -196,24 +196,6 @@ static int meth_energy(lua_State *L) {
   return 1;
 }
 
-/* Deepest penetration of the run so far [m], where [m], when [s]; then now [m]. */
-static int meth_penetration(lua_State *L) {
-  double now;
-  sw_extreme deepest;
-  sw_error err = {""};
-  lsw_must(L, sw_scene_penetration(check(L), &now, &deepest, &err), &err);
-  lua_pushnumber(L, deepest.value);
-  lua_pushnumber(L, deepest.s);
-  lua_pushnumber(L, deepest.time);
-  lua_pushnumber(L, now);
-  return 4;
-}
-
-static int meth_contacts(lua_State *L) {
-  lua_pushinteger(L, (lua_Integer)sw_scene_touches(check(L)));
-  return 1;
-}
-
 static int meth_stable_dt(lua_State *L) {
   double dt;
   sw_error err = {""};
@@ -367,8 +349,10 @@ static const luaL_Reg methods[] = {{"wire", lsw_scene_wire},
                                    {"settle", meth_settle},
                                    {"energy", meth_energy},
                                    {"evaluate", lsw_scene_evaluate},
-                                   {"penetration", meth_penetration},
-                                   {"contacts", meth_contacts},
+                                   {"wire_contact", lsw_scene_wire_contact},
+                                   {"touches", lsw_scene_touches},
+                                   {"penetration", lsw_scene_penetration},
+                                   {"contacts", lsw_scene_contacts},
                                    {"stable_dt", meth_stable_dt},
                                    {"gravity", meth_gravity},
                                    {"frame", meth_frame},

@@ -2,6 +2,8 @@
 /* The band solvers for specs: core.band3(rows, right) -> x, negative pivots,
  * product. rows: flat, 24 numbers a node as in solve/band3.h; right: flat, 3 a
  * node. product is rows times right. */
+#include <string.h>
+
 #include "bind/class.h"
 #include "bind/module.h"
 
@@ -61,6 +63,44 @@ static int mod_band4(lua_State *L) {
   return 2;
 }
 
-static const luaL_Reg functions[] = {{"band3", mod_band3}, {"band4", mod_band4}, {NULL, NULL}};
+/* core.sparse(block, own, pairs, values, right) -> x, negative pivots, fill. own: flat,
+ * block * block numbers a node; pairs: flat, two node numbers from 0 each; values: flat,
+ * block * block numbers a pair; right: flat, block numbers a node. */
+static int mod_sparse(lua_State *L) {
+  sw_error err = {""};
+  sw_sparse *s = NULL;
+  size_t negative = 0;
+  const size_t b = (size_t)luaL_checkinteger(L, 1);
+  luaL_argcheck(L, b == 3 || b == SW_SPARSE_BLOCK_MAX, 1, "3 or 4");
+  for (int k = 2; k <= 5; k++) luaL_checktype(L, k, LUA_TTABLE);
+  const size_t n = lua_rawlen(L, 5) / b, pairs = lua_rawlen(L, 3) / 2, bb = b * b;
+  luaL_argcheck(L, lua_rawlen(L, 2) == bb * n && lua_rawlen(L, 4) == bb * pairs, 4, "sizes differ");
+  double *own = read_flat(L, 2, bb * n), *list = read_flat(L, 3, 2 * pairs);
+  double *values = read_flat(L, 4, bb * pairs), *x = read_flat(L, 5, b * n);
+  sw_sparse_pair *at = lua_newuserdatauv(L, (pairs + 1) * sizeof *at, 0);
+  for (size_t k = 0; k < pairs; k++) {
+    const double i = list[2 * k], j = list[2 * k + 1];
+    luaL_argcheck(L, i >= 0 && i < (double)n && j >= 0 && j < (double)n && i != j, 3,
+                  "no such node");
+    at[k] = (sw_sparse_pair){(uint32_t)i, (uint32_t)j};
+  }
+  sw_status status = sw_sparse_new(n, b, at, pairs, &s);
+  if (status != SW_OK) return lsw_raise(L, status, &err);
+  sw_sparse_clear(s);
+  for (size_t i = 0; i < n; i++) memcpy(sw_sparse_own(s, i), own + bb * i, bb * sizeof *own);
+  for (size_t k = 0; k < pairs; k++) sw_sparse_add(s, k, values + bb * k);
+  const size_t fill = sw_sparse_fill(s);
+  status = sw_sparse_factor(s, &negative);
+  if (status == SW_OK) sw_sparse_solve(s, x);
+  sw_sparse_free(s);
+  if (status != SW_OK) return lsw_raise(L, status, &err);
+  push_flat(L, x, b * n);
+  lua_pushinteger(L, (lua_Integer)negative);
+  lua_pushinteger(L, (lua_Integer)fill);
+  return 3;
+}
+
+static const luaL_Reg functions[] = {
+    {"band3", mod_band3}, {"band4", mod_band4}, {"sparse", mod_sparse}, {NULL, NULL}};
 
 void lsw_open_solve(lua_State *L) { luaL_setfuncs(L, functions, 0); }

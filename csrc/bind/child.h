@@ -45,6 +45,13 @@ int lsw_scene_wire(lua_State *L);
 int lsw_scene_obstacle(lua_State *L);
 int lsw_scene_force(lua_State *L);
 int lsw_scene_evaluate(lua_State *L);
+/* scene:wire_contact{...}; scene:touches() -> places where wires press on each other;
+ * scene:penetration() -> deepest of the run so far [m], where [m], when [s], now [m];
+ * scene:contacts() -> number of places with a force */
+int lsw_scene_wire_contact(lua_State *L);
+int lsw_scene_touches(lua_State *L);
+int lsw_scene_penetration(lua_State *L);
+int lsw_scene_contacts(lua_State *L);
 int lsw_wire_frequencies(lua_State *L);
 
 /* While the core may call Lua functions as forces: they run on L, whose stack

@@ -191,6 +191,18 @@ static void match_memory(sw_contact *c) {
   }
 }
 
+void sw_contact_stiffness(sw_contact_regime regime, double force, double nominal, double *base,
+                          double *rate2) {
+  *base = force / ALLOWED_PENETRATION;
+  *rate2 = 0;
+  if (regime == SW_CONTACT_IMPLICIT)
+    *rate2 = IMPLICIT_SHARE / (STAGE_SHARE * STAGE_SHARE * nominal * nominal);
+  if (regime == SW_CONTACT_EXPLICIT) {
+    *base = 0;
+    *rate2 = EXPLICIT_SHARE / (nominal * nominal);
+  }
+}
+
 static void set_stiffness(sw_contact *c, const sw_system *s, double nominal) {
   double force = 0;
   const double g = sw_norm(sw_load(s->gravity));
@@ -200,14 +212,7 @@ static void set_stiffness(sw_contact *c, const sw_system *s, double nominal) {
     force = fmax(force, fmax(p->beam.mass * L * g, p->beam.EI / (L * L)));
   }
   c->force_scale = force;
-  c->base_stiffness = force / ALLOWED_PENETRATION;
-  c->rate2 = 0;
-  if (c->regime == SW_CONTACT_IMPLICIT)
-    c->rate2 = IMPLICIT_SHARE / (STAGE_SHARE * STAGE_SHARE * nominal * nominal);
-  if (c->regime == SW_CONTACT_EXPLICIT) {
-    c->base_stiffness = 0;
-    c->rate2 = EXPLICIT_SHARE / (nominal * nominal);
-  }
+  sw_contact_stiffness(c->regime, force, nominal, &c->base_stiffness, &c->rate2);
 }
 
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err) {

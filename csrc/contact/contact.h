@@ -41,6 +41,11 @@ typedef enum sw_contact_regime {
   SW_CONTACT_EXPLICIT
 } sw_contact_regime;
 
+/* Stiffness of a touch that is to carry up to force, plus rate2 times the mass behind it
+ * [N/m], [1/s2]. */
+void sw_contact_stiffness(sw_contact_regime regime, double force, double nominal, double *base,
+                          double *rate2);
+
 /* A step of size h from time t begins at the system's state: candidates. nominal
  * is the run's full step, from which the stiffness is derived; unused in
  * statics. */
@@ -64,6 +69,7 @@ typedef enum sw_contact_verdict {
   SW_CONTACT_REDO,   /* impacts or crossings that the step did not know of: the
                         system's starting velocities were changed, contacts added;
                         redo the step from a restart */
+  SW_CONTACT_STRIKE, /* something struck: redo the step without bouncing */
   SW_CONTACT_SMALLER /* edges or corners cut too deep: only a smaller step helps */
 } sw_contact_verdict;
 sw_contact_verdict sw_contact_review(sw_contact *contact, sw_system *system, const double *x1,

@@ -172,7 +172,9 @@ sw_status sw_stepper_trial(sw_stepper *p, sw_system *s, double t, double h, sw_e
   }
   const int uneven =
       (p->method->flags & SW_INTEGRATOR_HISTORY) && !(fabs(h - p->last_h) <= 1e-9 * h);
-  const sw_integrator *m = p->restart || uneven ? p->start : p->method;
+  const sw_integrator *m = p->plastic             ? sw_integrator_find("implicit-euler")
+                           : p->restart || uneven ? p->start
+                                                  : p->method;
   SW_TRY(implicit_trial(p, m, s, t, h, err));
   if (p->wants_error && m->flags & SW_INTEGRATOR_EMBEDDED) p->error = embedded_error(p, s, h);
   return SW_OK;
@@ -193,7 +195,8 @@ void sw_stepper_accept(sw_stepper *p, sw_system *s, double h) {
   if (p->trial_a) memcpy(s->a, p->trial_a, p->n * sizeof(double));
   if (!(p->method->flags & SW_INTEGRATOR_IMPLICIT)) sw_system_axial_from_state(s);
   p->last_h = h;
-  p->restart = 0;
+  p->restart = p->plastic;
+  p->plastic = 0;
 }
 
 double sw_stepper_next_h(const sw_stepper *p, double h, double tolerance) {

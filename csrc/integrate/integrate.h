@@ -63,10 +63,11 @@ struct sw_stepper {
   double *tension;                             /* saved for a rejected step (edges) */
   double last_h;                               /* of the last accepted step; 0 = none [s] */
   int restart;                                 /* next step starts anew: a_n is stale */
-  double error;                                /* estimate of the last trial; 0 without one [m] */
-  int wants_error;                             /* the step size follows the error */
-  double **extra;                              /* explicit methods' work arrays (SW_EXTRA of n) */
-  void *outside;                               /* an outside library's stepper */
+  int plastic;     /* the next trials are of implicit Euler: what strikes does not bounce */
+  double error;    /* estimate of the last trial; 0 without one [m] */
+  int wants_error; /* the step size follows the error */
+  double **extra;  /* explicit methods' work arrays (SW_EXTRA of n) */
+  void *outside;   /* an outside library's stepper */
   void (*free_outside)(void *outside);
   sw_newton newton;
   size_t iterations; /* of the last trial, all stages */

@@ -101,21 +101,21 @@ static sw_status trial(loop *p, double h, sw_error *err) {
 static sw_status attempt(loop *p, double h, sw_error *err) {
   sw_scene *s = p->s;
   if (s->discontinuous) s->stepper.restart = 1;
-  if (!s->contact) return trial(p, h, err);
+  if (!sw_scene_has_contact(s)) return trial(p, h, err);
   memcpy(p->v_start, s->system.v, 3 * s->system.nodes * sizeof(double));
-  sw_status status = sw_contact_begin_step(
-      s->contact, &s->system,
-      s->method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
-      s->time, h, p->args->dt, err);
+  s->stepper.plastic = 0;
+  sw_status status = sw_scene_begin_contact(
+      s, s->method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT, h,
+      p->args->dt, err);
   for (int redo = 0; status == SW_OK && redo < MOST_REDOS; redo++) {
     status = trial(p, h, err);
     if (status != SW_OK) break;
-    const sw_contact_verdict verdict =
-        sw_contact_review(s->contact, &s->system, s->stepper.trial_x, h);
+    const sw_contact_verdict verdict = sw_scene_review_contact(s, s->stepper.trial_x, h);
     if (verdict == SW_CONTACT_ACCEPT) return SW_OK;
+    if (verdict == SW_CONTACT_STRIKE) s->stepper.plastic = 1;
     sw_stepper_reject(&s->stepper, &s->system);
     if (verdict == SW_CONTACT_SMALLER)
-      status = sw_fail(err, SW_ENOCONV, "an edge or corner of an obstacle cuts too deep");
+      status = sw_fail(err, SW_ENOCONV, "what the wire touches cuts too deep into it");
     s->stepper.restart = 1;
   }
   memcpy(s->system.v, p->v_start, 3 * s->system.nodes * sizeof(double));
@@ -127,7 +127,8 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
 static void undo(loop *p) {
   sw_scene *s = p->s;
   sw_stepper_reject(&s->stepper, &s->system);
-  if (s->contact) memcpy(s->system.v, p->v_start, 3 * s->system.nodes * sizeof(double));
+  if (sw_scene_has_contact(s))
+    memcpy(s->system.v, p->v_start, 3 * s->system.nodes * sizeof(double));
 }
 
 enum { MOST_SLIP_TRIALS = 25 };
@@ -157,7 +158,7 @@ static sw_status yielding_attempt(loop *p, double h, sw_error *err) {
 static void accept(loop *p, double h) {
   sw_scene *s = p->s;
   sw_stepper_accept(&s->stepper, &s->system, h);
-  if (s->contact) sw_contact_commit(s->contact, &s->system);
+  sw_scene_commit_contact(s);
   s->discontinuous = 0;
   p->report->steps++;
   if (h < p->report->smallest_dt) p->report->smallest_dt = h;
@@ -184,7 +185,7 @@ static sw_status make_room(loop *p, double *h, sw_error *err) {
   s->stepper.wants_error = isfinite(p->args->tolerance);
   s->discontinuous = s->stepper.restart = fresh;
   sw_free(p->v_start);
-  p->v_start = sw_alloc(s->contact ? 3 * s->system.nodes : 1, sizeof(double));
+  p->v_start = sw_alloc(sw_scene_has_contact(s) ? 3 * s->system.nodes : 1, sizeof(double));
   return p->v_start ? SW_OK : sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
 }
 
@@ -365,7 +366,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   SW_TRY(use_integrator(s, args, err));
   const size_t before = s->system.counters.evaluations;
   loop p = {.s = s, .args = args, .report = report, .interrupted = interrupted};
-  p.v_start = sw_alloc(s->contact ? 3 * s->system.nodes : 1, sizeof(double));
+  p.v_start = sw_alloc(sw_scene_has_contact(s) ? 3 * s->system.nodes : 1, sizeof(double));
   if (!p.v_start) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
   s->running++;
   sw_status status = SW_OK;

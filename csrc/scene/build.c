@@ -14,6 +14,8 @@ static void drop(sw_scene *s) {
   sw_system_free(&s->system);
   sw_contact_free(s->contact);
   s->contact = NULL;
+  sw_pairs_free(s->pairs);
+  s->pairs = NULL;
   sw_free(s->hold_slot);
   s->hold_slot = NULL;
   s->built = 0;
@@ -21,6 +23,7 @@ static void drop(sw_scene *s) {
 
 void sw_scene_forget_contact(sw_scene *s) {
   sw_free(s->kept.memory);
+  sw_free(s->kept.pairs);
   sw_free(s->kept.s);
   sw_free(s->kept.first);
   memset(&s->kept, 0, sizeof s->kept);
@@ -29,17 +32,21 @@ void sw_scene_forget_contact(sw_scene *s) {
 /* Friction anchors and sides outlive a change of the system. */
 static sw_status keep_contact(sw_scene *s) {
   sw_scene_forget_contact(s);
-  if (!s->contact) return SW_OK;
-  s->kept.fresh = sw_contact_is_fresh(s->contact);
-  const void *memory = sw_contact_memory(s->contact, &s->kept.bytes);
+  if (!sw_scene_has_contact(s)) return SW_OK;
+  const void *memory = NULL, *pairs = NULL;
+  s->kept.fresh = !s->contact || sw_contact_is_fresh(s->contact);
+  if (s->contact) memory = sw_contact_memory(s->contact, &s->kept.bytes);
+  if (s->pairs) pairs = sw_pairs_memory(s->pairs, &s->kept.pair_bytes);
   s->kept.memory = sw_alloc(s->kept.bytes, 1);
+  s->kept.pairs = sw_alloc(s->kept.pair_bytes, 1);
   s->kept.s = sw_alloc(s->system.nodes, sizeof *s->kept.s);
   s->kept.first = sw_alloc(s->wire_count + 1, sizeof *s->kept.first);
-  if (!s->kept.memory || !s->kept.s || !s->kept.first) {
+  if (!s->kept.memory || !s->kept.pairs || !s->kept.s || !s->kept.first) {
     sw_scene_forget_contact(s);
     return SW_ENOMEM;
   }
-  if (s->kept.bytes) memcpy(s->kept.memory, memory, s->kept.bytes);
+  if (memory && s->kept.bytes) memcpy(s->kept.memory, memory, s->kept.bytes);
+  if (pairs && s->kept.pair_bytes) memcpy(s->kept.pairs, pairs, s->kept.pair_bytes);
   s->kept.wires = s->system.body_count;
   for (size_t w = 0; w < s->system.body_count; w++) {
     const sw_body *b = &s->system.bodies[w];
@@ -53,7 +60,7 @@ static sw_status keep_contact(sw_scene *s) {
 /* Give the kept memory to the new system's contact: a node is the same when its
  * arc length is; a node that was moved for a clamp starts anew. */
 static sw_status inherit_contact(sw_scene *s) {
-  if (!s->contact || !s->kept.memory) return SW_OK;
+  if (!sw_scene_has_contact(s) || !s->kept.memory) return SW_OK;
   const size_t old_nodes = s->kept.first[s->kept.wires];
   size_t *new_node = sw_alloc(old_nodes, sizeof *new_node);
   if (!new_node) return SW_ENOMEM;
@@ -66,8 +73,11 @@ static sw_status inherit_contact(sw_scene *s) {
       new_node[k] = same ? b->first_node + i : SIZE_MAX;
     }
   }
-  const sw_status status =
-      sw_contact_inherit(s->contact, s->kept.memory, s->kept.bytes, s->kept.fresh, new_node);
+  sw_status status = SW_OK;
+  if (s->contact)
+    status = sw_contact_inherit(s->contact, s->kept.memory, s->kept.bytes, s->kept.fresh, new_node);
+  if (s->pairs && status == SW_OK)
+    status = sw_pairs_inherit(s->pairs, s->kept.pairs, s->kept.pair_bytes, new_node);
   sw_free(new_node);
   return status;
 }
@@ -267,19 +277,6 @@ static sw_status add_contact(sw_scene *s) {
   return status;
 }
 
-/* The coupling's user is the scene; these pass on to the contact. */
-static sw_status begin_stage(void *user, sw_system *system, double t, double hbar, const double *y,
-                             sw_error *err) {
-  return sw_contact_begin_stage(((sw_scene *)user)->contact, system, t, hbar, y, err);
-}
-static sw_status eval(void *user, sw_system *system, double t, double hbar, const double *y,
-                      unsigned want, sw_error *err) {
-  return sw_contact_eval(((sw_scene *)user)->contact, system, t, hbar, y, want, err);
-}
-static int settled(void *user, sw_system *system, const double *y, const double *delta) {
-  return sw_contact_settled(((sw_scene *)user)->contact, system, y, delta);
-}
-
 static sw_status fill(sw_scene *s, size_t alive) {
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_body *b = &s->system.bodies[w];
@@ -293,13 +290,10 @@ static sw_status fill(sw_scene *s, size_t alive) {
   SW_TRY(sw_system_add_histories(&s->system));
   SW_TRY(add_holds(s, alive));
   SW_TRY(add_contact(s));
+  SW_TRY(sw_scene_new_pairs(s));
   SW_TRY(inherit_contact(s));
   s->system.coupling = (sw_coupling){.user = s, .place = place_hold};
-  if (s->contact) {
-    s->system.coupling.begin_stage = begin_stage;
-    s->system.coupling.eval = eval;
-    s->system.coupling.settled = settled;
-  }
+  sw_scene_couple(s);
   return SW_OK;
 }
 

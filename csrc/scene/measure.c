@@ -252,7 +252,7 @@ static void collect_energy(sw_scene *s, sw_energy *out) {
       if (bending != 0) add_energy(out, "bend", bending);
     }
   out->dissipated = sw_system_dissipated(&s->system, &out->has_dissipated);
-  if (s->contact) add_energy(out, "contact", sw_contact_energy(s->contact));
+  if (sw_scene_has_contact(s)) add_energy(out, "contact", sw_scene_contact_energy(s));
 }
 
 sw_status sw_scene_energy(sw_scene *s, sw_energy *out, sw_error *err) {
@@ -266,13 +266,9 @@ sw_status sw_scene_energy(sw_scene *s, sw_energy *out, sw_error *err) {
 
 sw_status sw_scene_penetration(sw_scene *s, double *now, sw_extreme *deepest, sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
-  *now = s->built && s->contact ? sw_contact_penetration(s->contact, NULL) : 0.0;
+  *now = s->built ? sw_scene_deepest(s, NULL) : 0.0;
   *deepest = s->deepest;
   return SW_OK;
-}
-
-size_t sw_scene_touches(sw_scene *s) {
-  return s->built && s->contact ? sw_contact_count(s->contact) : 0;
 }
 
 /* --- frames ------------------------------------------------------------------ */

@@ -30,18 +30,21 @@ static double time_scale(const sw_scene *s, size_t w) {
   return sqrt(s->system.bodies[w].plan->length / fmax(sw_norm(s->gravity), 1.0));
 }
 
-/* With contact as it presses now. */
+/* With contact as it presses now; other wires stay where they are. */
 static sw_status linearise(sw_scene *s, sw_error *err) {
   sw_contact *const own = s->contact;
-  if (own && sw_contact_copy(own, &s->contact) != SW_OK) {
-    s->contact = own;
-    return sw_fail(err, SW_ENOMEM, "frequencies: out of memory");
-  }
+  sw_pairs *const pairs = s->pairs;
   sw_status status = SW_OK;
-  if (own) status = sw_contact_begin_look(s->contact, &s->system, s->time, err);
+  s->contact = NULL, s->pairs = NULL;
+  if (own) status = sw_contact_copy(own, &s->contact);
+  if (pairs && status == SW_OK) status = sw_pairs_copy(pairs, &s->pairs);
+  if (status != SW_OK) sw_fail(err, status, "frequencies: out of memory");
+  if (own && status == SW_OK) status = sw_contact_begin_look(s->contact, &s->system, s->time, err);
+  if (pairs && status == SW_OK) status = sw_pairs_begin_look(s->pairs, &s->system, err);
   if (status == SW_OK) status = sw_system_linearise(&s->system, s->time, err);
-  if (own) sw_contact_free(s->contact);
-  s->contact = own;
+  sw_contact_free(s->contact);
+  sw_pairs_free(s->pairs);
+  s->contact = own, s->pairs = pairs;
   return status;
 }
 

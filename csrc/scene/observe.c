@@ -167,7 +167,7 @@ static sw_status log_holds(sw_scene *s, sw_error *err) {
 
 static sw_status observe_contact(sw_scene *s, sw_error *err) {
   size_t node = 0;
-  const double depth = sw_contact_penetration(s->contact, &node);
+  const double depth = sw_scene_deepest(s, &node);
   if (depth > s->deepest.value) {
     size_t b = 0;
     while (b + 1 < s->system.body_count && s->system.bodies[b + 1].first_node <= node) b++;
@@ -179,7 +179,7 @@ static sw_status observe_contact(sw_scene *s, sw_error *err) {
     sw_scene_obstacle *o = &s->obstacles[k];
     sw_vec force, moment;
     double row[SW_LOG_OBSTACLE_SIZE];
-    if (!o->alive) continue;
+    if (!o->alive || !s->contact) continue;
     sw_contact_force(s->contact, (int)k, sw_v(0, 0, 0), &force, &moment);
     row[0] = s->time;
     sw_store(row + 1, force);
@@ -201,7 +201,7 @@ sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
     sw_scene_keep_extremes(&s->wires[w].extremes, &now);
   }
   SW_TRY(log_holds(s, err));
-  return s->contact ? observe_contact(s, err) : SW_OK;
+  return sw_scene_has_contact(s) ? observe_contact(s, err) : SW_OK;
 }
 
 void sw_scene_reset_extremes(sw_scene *s) {

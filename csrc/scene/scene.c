@@ -52,6 +52,9 @@ void sw_scene_free(sw_scene *s) {
   sw_scene_orphan_snapshots(s);
   sw_stepper_free(&s->stepper);
   sw_contact_free(s->contact);
+  sw_pairs_free(s->pairs);
+  sw_scene_drop_rules(s, 0);
+  sw_free(s->rules);
   sw_system_free(&s->system);
   sw_scene_forget_contact(s);
   sw_scene_forget_histories(s);

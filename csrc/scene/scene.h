@@ -144,6 +144,32 @@ sw_status sw_scene_remove_obstacle(sw_scene *scene, sw_handle obstacle, sw_error
 sw_status sw_scene_obstacle_shape(sw_scene *scene, sw_handle obstacle, sw_shape **out,
                                   sw_error *err);
 
+/* --- wires that touch each other ------------------------------------------------ */
+
+typedef struct sw_wire_contact_args {
+  double friction; /* [-] */
+  int self, on;
+} sw_wire_contact_args;
+extern const sw_params sw_wire_contact_params;
+
+/* From now on these wires (none = all, later ones too) touch each other. */
+sw_status sw_scene_wire_contact(sw_scene *scene, const sw_wire_contact_args *args,
+                                const sw_handle *wires, size_t count, sw_error *err);
+
+/* A place where two wires press on each other. */
+typedef struct sw_wire_touch {
+  char wire[2][SW_NAME_SIZE];
+  double s[2];          /* arc lengths [m] */
+  sw_vec point, normal; /* between the surfaces [m]; towards the first wire [-] */
+  sw_vec force;         /* on the first wire [N] */
+  sw_vec friction;      /* part of it across the normal [N] */
+  double normal_force;  /* [N] */
+} sw_wire_touch;
+
+/* How many such places the accepted state has; number k of them. */
+sw_status sw_scene_wire_touch_count(sw_scene *scene, size_t *count, sw_error *err);
+void sw_scene_wire_touch(sw_scene *scene, size_t k, sw_wire_touch *out);
+
 /* --- forces ----------------------------------------------------------------- */
 
 /* A force on one wire, or on all (handle of generation 0). args: the class's

@@ -60,13 +60,11 @@ static sw_status solve(statics *p, double hbar, const sw_newton *newton, sw_erro
   memcpy(p->tension, s->system.tension, s->system.edges * sizeof(double));
   sw_system_begin_step(&s->system);
   sw_status status = SW_OK;
-  if (s->contact)
-    status = sw_contact_begin_step(s->contact, &s->system, SW_CONTACT_STATIC, s->time, 0, 0, err);
+  status = sw_scene_begin_contact(s, SW_CONTACT_STATIC, 0, 0, err);
   for (int redo = 0; status == SW_OK; redo++) {
     status = sw_system_stage(&s->system, &stage, newton, &r, err);
     p->report->iterations += (size_t)r.iterations;
-    if (status != SW_OK || !s->contact) break;
-    if (!sw_contact_review_static(s->contact, &s->system, p->y)) break;
+    if (status != SW_OK || !sw_scene_review_static(s, p->y)) break;
     if (newton->statics || redo == MOST_REDOS)
       status = sw_fail(err, SW_ENOCONV, "the wire would pass through an obstacle");
   }
@@ -86,7 +84,7 @@ static double take(statics *p, int trial) {
   memcpy(s->system.x, p->y, 3 * s->system.nodes * sizeof(double));
   memset(s->system.v, 0, 3 * s->system.nodes * sizeof(double));
   memset(s->system.a, 0, 3 * s->system.nodes * sizeof(double));
-  if (s->contact && !trial) sw_contact_commit(s->contact, &s->system);
+  if (!trial) sw_scene_commit_contact(s);
   return shift;
 }
 

@@ -45,6 +45,9 @@ struct sw_snapshot {
   sw_extreme deepest;
   void *memory; /* contact anchors */
   size_t memory_size;
+  void *pairs; /* the same between wires */
+  size_t pairs_size;
+  size_t rules;
   int fresh;
 };
 
@@ -89,6 +92,7 @@ void sw_snapshot_free(sw_snapshot *p) {
   sw_free(p->state);
   sw_free(p->history);
   sw_free(p->memory);
+  sw_free(p->pairs);
   sw_free(p);
 }
 
@@ -145,6 +149,10 @@ static sw_status copy_state(const sw_scene *s, sw_snapshot *p) {
     const void *memory = sw_contact_memory(s->contact, &p->memory_size);
     SW_TRY(copy_block(memory, p->memory_size, &p->memory));
   }
+  if (s->pairs) {
+    const void *memory = sw_pairs_memory(s->pairs, &p->pairs_size);
+    SW_TRY(copy_block(memory, p->pairs_size, &p->pairs));
+  }
   if (!s->has_stepper) return SW_OK;
   p->method = s->method;
   p->last_h = s->stepper.last_h;
@@ -166,6 +174,7 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
   p->discontinuous = s->discontinuous;
   p->deepest = s->deepest;
   p->frames = s->frame_count;
+  p->rules = s->rule_count;
   sw_status status = copy_objects(s, p);
   if (status == SW_OK) status = copy_state(s, p);
   if (status != SW_OK) {
@@ -181,7 +190,7 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
 
 /* Is the built system of the same plan as the snapshot's? */
 static int same_plan(const sw_scene *s, const sw_snapshot *p) {
-  if (!s->built || s->wire_count != p->wires) return 0;
+  if (!s->built || s->wire_count != p->wires || s->rule_count != p->rules) return 0;
   for (size_t w = 0; w < p->wires; w++)
     if (s->wires[w].mesh.n != p->meshes[w].n ||
         memcmp(s->wires[w].mesh.s, p->meshes[w].s, p->meshes[w].n * sizeof(double)) != 0)
@@ -284,6 +293,7 @@ static sw_status put_drawn(sw_scene *s, const sw_snapshot *p) {
 static sw_status put_state(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   memcpy(s->system.state, p->state, p->state_size * sizeof(double));
   if (s->contact) SW_TRY(sw_contact_set_memory(s->contact, p->memory, p->memory_size, p->fresh));
+  if (s->pairs) SW_TRY(sw_pairs_set_memory(s->pairs, p->pairs, p->pairs_size));
   if (p->method && (!s->has_stepper || s->method != p->method)) {
     sw_stepper_free(&s->stepper);
     s->has_stepper = 0;
@@ -317,6 +327,7 @@ sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   if (put_drawn(s, p) != SW_OK) return sw_fail(err, SW_ENOMEM, "restore: out of memory");
   put_objects(s, p);
   drop_newer(s);
+  sw_scene_drop_rules(s, p->rules);
   s->time = p->time, s->next_dt = p->next_dt, s->next_frame = p->next_frame;
   s->gravity = p->gravity;
   s->deepest = p->deepest;

@@ -4,6 +4,7 @@
 #define SW_SCENE_WORLD_H
 
 #include "contact/contact.h"
+#include "contact/pairs.h"
 #include "scene/scene.h"
 #include "state/mesh.h"
 #include "system/system.h"
@@ -111,6 +112,14 @@ typedef struct sw_scene_force {
   double args[SW_FORCE_ARGS_MAX / sizeof(double)];
 } sw_scene_force;
 
+/* Which wires touch each other, as stated. */
+typedef struct sw_scene_rule {
+  uint32_t *wires; /* (count) slots; count 0 = all */
+  size_t count;
+  int self; /* each with itself too */
+  sw_pair_rule rule;
+} sw_scene_rule;
+
 typedef struct sw_frame {
   double time;
   double *data; /* one block */
@@ -147,11 +156,16 @@ struct sw_scene {
   int built;   /* system is valid and holds the state */
   int running; /* above 0 inside a step or a user's function: edits are refused */
   sw_system system;
-  int *hold_slot; /* (system.hold_count) scene slot of each system hold */
-  sw_contact *contact;
+  int *hold_slot;       /* (system.hold_count) scene slot of each system hold */
+  sw_contact *contact;  /* with obstacles, or NULL */
+  sw_pairs *pairs;      /* between wires, or NULL */
+  sw_scene_rule *rules; /* that pairs are made by */
+  size_t rule_count, rule_capacity;
   struct {        /* contact memory of the last built system, for the next one */
     void *memory; /* copy, or NULL */
     size_t bytes;
+    void *pairs; /* the same of contact between wires */
+    size_t pair_bytes;
     double *s;     /* (nodes) arc lengths then [m] */
     size_t *first; /* (wires + 1) first node of each wire then */
     size_t wires;
@@ -177,6 +191,18 @@ struct sw_scene {
 sw_status sw_scene_thaw(sw_scene *scene);
 /* Drop the contact memory kept for the next system. */
 void sw_scene_forget_contact(sw_scene *scene);
+/* What the wires touch: obstacles and wires in one (see sw_contact and sw_pairs). */
+sw_status sw_scene_new_pairs(sw_scene *scene);
+void sw_scene_drop_rules(sw_scene *scene, size_t keep);
+void sw_scene_couple(sw_scene *scene);
+int sw_scene_has_contact(const sw_scene *scene);
+sw_status sw_scene_begin_contact(sw_scene *scene, sw_contact_regime regime, double h,
+                                 double nominal, sw_error *err);
+sw_contact_verdict sw_scene_review_contact(sw_scene *scene, const double *x1, double h);
+int sw_scene_review_static(sw_scene *scene, const double *x1);
+void sw_scene_commit_contact(sw_scene *scene);
+double sw_scene_deepest(const sw_scene *scene, size_t *node); /* [m] */
+double sw_scene_contact_energy(const sw_scene *scene);        /* [J] */
 /* Put the forces' histories aside, give them to the new system, forget them. */
 sw_status sw_scene_keep_histories(sw_scene *scene);
 void sw_scene_inherit_histories(sw_scene *scene);

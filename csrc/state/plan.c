@@ -56,12 +56,20 @@ static long node_from(const sw_plan *p, const sw_clamp_hinge *c, long k) {
 
 /* The clamp's own hinge, and what it adds to the next one. */
 static void size_clamp(sw_plan *p, sw_clamp_hinge *c) {
-  double next;
   const long near = node_from(p, c, 1), far = node_from(p, c, 2);
   const double first = p->rest[c->edge];
-  const double second = far < 0 ? 0 : p->rest[c->side > 0 ? c->edge + 1 : c->edge - 1];
-  sw_plan_clamp_lengths(first, second, &c->length, &next);
-  if (second > 0) p->hinge[near] += next - 0.5 * (first + second);
+  if (far < 0) {
+    c->length = STUB_HINGE * first;
+    return;
+  }
+  const double l = p->rest[c->side > 0 ? c->edge + 1 : c->edge - 1];
+  const double b = first / l;
+  if (b < SMALLEST_RATIO) { /* plain half cell, second order only for the average */
+    c->length = 0.5 * first;
+    return;
+  }
+  c->length = clamp_hinge_length(b) * l;
+  p->hinge[near] += next_hinge_length(b) * l - 0.5 * (first + l);
 }
 
 static void add_clamp(sw_plan *p, size_t node, int side, int hold) {

@@ -11,6 +11,7 @@
 #include "base/simd.h"
 #include "solve/band3.h"
 #include "system/assemble.h"
+#include "system/link.h"
 #include "system/system.h"
 #include "system/twist.h"
 
@@ -21,6 +22,7 @@ sw_status sw_system_linearise(sw_system *s, double time, sw_error *err) {
   memset(s->velocity, 0, 3 * s->nodes * sizeof *s->velocity);
   for (size_t b = 0; b < s->body_count; b++)
     SW_TRY(sw_body_evaluate(s, &s->bodies[b], time, HUGE_VAL, s->x, s->velocity, 1, 0, err));
+  sw_links_begin(s);
   if (c->eval)
     SW_TRY(c->eval(c->user, s, time, HUGE_VAL, s->x, SW_WANT_FORCE | SW_WANT_STIFFNESS, err));
   for (size_t b = 0; b < s->body_count; b++) {

@@ -9,6 +9,7 @@
 #include "base/simd.h"
 #include "solve/band3.h"
 #include "system/assemble.h"
+#include "system/link.h"
 #include "system/spin.h"
 #include "system/system.h"
 #include "system/twist.h"
@@ -106,6 +107,16 @@ static void stage_velocity(const sw_system *s, const sw_stage *stage, int static
       sw_system_held_velocity(s, &s->held[k], s->velocity + 3 * s->held[k].node);
 }
 
+/* The update of a body that no link ties to others. */
+static sw_status solve_body(const sw_system *s, sw_body *body, size_t *negative) {
+  double *delta = s->delta + 3 * body->first_node;
+  if (body->spin_block) return sw_spin_solve(s, body, delta, negative);
+  SW_TRY(sw_band3_factor(body->field.rows, body->plan->nodes, body->field.rows, negative));
+  sw_band3_solve(body->field.rows, body->plan->nodes, delta);
+  if (body->has_twist) *negative -= sw_twist_correct(body, delta);
+  return SW_OK;
+}
+
 /* Assemble and solve once; delta is the full update. */
 static sw_status solve_once(sw_system *s, const sw_stage *stage, int statics,
                             sw_stage_report *report, sw_error *err) {
@@ -116,6 +127,7 @@ static sw_status solve_once(sw_system *s, const sw_stage *stage, int statics,
   for (size_t b = 0; b < s->body_count; b++)
     SW_TRY(sw_body_evaluate(s, &s->bodies[b], stage->time, stage->hbar, stage->y, s->velocity,
                             statics, report->iterations, err));
+  sw_links_begin(s);
   if (s->coupling.eval)
     SW_TRY(s->coupling.eval(s->coupling.user, s, stage->time, stage->hbar, stage->y,
                             SW_WANT_FORCE | SW_WANT_STIFFNESS, err));
@@ -131,17 +143,12 @@ static sw_status solve_once(sw_system *s, const sw_stage *stage, int statics,
              s->delta + 3 * b->first_node);
   }
   report->negative = 0;
+  if (sw_links_any(s)) SW_TRY(sw_links_solve(s, &report->negative));
   for (size_t b = 0; b < s->body_count; b++) {
     sw_body *body = &s->bodies[b];
+    if (body->linked && sw_links_any(s)) continue;
     size_t negative = 0;
-    if (body->spin_block) {
-      SW_TRY(sw_spin_solve(s, body, s->delta + 3 * body->first_node, &negative));
-      report->negative += negative;
-      continue;
-    }
-    SW_TRY(sw_band3_factor(body->field.rows, body->plan->nodes, body->field.rows, &negative));
-    sw_band3_solve(body->field.rows, body->plan->nodes, s->delta + 3 * body->first_node);
-    if (body->has_twist) negative -= sw_twist_correct(body, s->delta + 3 * body->first_node);
+    SW_TRY(solve_body(s, body, &negative));
     report->negative += negative;
   }
   s->counters.newton++;
@@ -300,6 +307,7 @@ static void finish(sw_system *s, const sw_stage *stage, int statics) {
     if (s->bodies[h->body].spin_block) sw_spin_react(h, &s->bodies[h->body]);
     sw_system_held_velocity(s, h, stage->v + 3 * h->node);
   }
+  sw_links_react(s);
 }
 
 /* Spins without inertia may have no equilibrium near by, as when a flat wire on edge is

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "system/link.h"
 #include "system/spin.h"
 #include "system/twist.h"
 
@@ -16,6 +17,7 @@ void sw_system_free(sw_system *system) {
     sw_free(system->bodies[b].twist_block);
     sw_free(system->bodies[b].spin_block);
   }
+  sw_links_free(system);
   sw_free(system->bodies);
   sw_free(system->held);
   sw_free(system->directors);

@@ -48,6 +48,7 @@ typedef struct sw_body {
   int needs_velocity;  /* some force depends on it */
   int is_explicit;     /* some force has no stiffness */
   int is_kinked;       /* some force has a history: its stiffness jumps */
+  int linked;          /* its matrix is part of the links' (see system/link.h) */
 } sw_body;
 
 /* Where a hold is, for all nodes it holds. */
@@ -106,6 +107,7 @@ struct sw_system {
   size_t hold_count;
   double gravity[3]; /* [m/s2] */
   sw_coupling coupling;
+  struct sw_links *links; /* between bodies, or NULL while there never were any */
   sw_counters counters;
 
   /* the state, one block: x v a (nodes x 3 each), tension (edges), twist
@@ -161,6 +163,16 @@ sw_status sw_system_add_term(sw_system *system, size_t body, const sw_force_clas
 /* After the last term: make room in the state for the histories, all zero.
  * SW_ENOMEM. */
 sw_status sw_system_add_histories(sw_system *system);
+
+/* While the coupling evaluates: stiffness between nodes i and j that are not neighbours,
+ * i != j, row by row with i's rows [N/m]; the nodes' own parts go to their bodies' rows.
+ * SW_ENOMEM. */
+sw_status sw_system_add_link(sw_system *system, size_t i, size_t j, const double k[9]);
+
+/* Before a step: between which nodes there may be links in it, anew from begin_plan on, so
+ * that the matrix is made for them and that its order does not depend on earlier steps. */
+void sw_system_begin_plan(sw_system *system);
+sw_status sw_system_plan_link(sw_system *system, size_t i, size_t j);
 
 /* Add what a term gives to its body's field. */
 static inline sw_status sw_term_eval(const sw_term *term, sw_field *field, sw_error *err) {

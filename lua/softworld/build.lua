@@ -225,6 +225,14 @@ for _, kind in ipairs{ "clamp", "pin", "grip", "feed" } do
   end
 end
 
+local new_contact = class.scene.wire_contact
+--- scene:wire_contact{ between = wires, friction =, ... }: wires touch each other and
+-- themselves from now on; see help "wire_contact".
+function class.scene.wire_contact(scene, args)
+  build.check(scene, "scene:wire_contact", 3)
+  build.call(3, new_contact, scene, args)
+end
+
 local new_force = class.scene.force
 --- scene:force{ kind =, on =, ... }: see help "force".
 function class.scene.force(scene, args)

@@ -14,6 +14,7 @@ local notes = {
   section = "scene:wire{...}: what the wire is made of", obstacle = "scene:obstacle{ shape =, ... }",
   run = "scene:run{...}", settle = "scene:settle{...}",
   frequencies = "wire:frequencies{...}: natural frequencies [Hz] about the present equilibrium",
+  wire_contact = "scene:wire_contact{...}: wires that touch each other and themselves",
   trajectory = "sw.trajectory{...}; clamps, obstacles and grippers take the table itself",
 }
 
@@ -54,6 +55,13 @@ sw.cable.define{ name =, outer_diameter = [m], mass_per_length = [kg/m], EA = [N
   a value may have its own: { value =, low =, high =, flag =, source = }
   what is missing is computed from the construction
 sw.material "copper"            .E .G [Pa] .density [kg/m3]; materials of constructions]],
+  touches = [[
+scene:wire_contact{ between = {a, b}, friction = 0.3 }   help "wire_contact"
+for _, t in ipairs(scene:touches()) do ... end
+  t.wires = {"a", "b"}  t.s = {s1, s2} [m]  t.point [m]
+  t.normal, t.force, t.friction   towards and on the first wire [-], [N], [N]
+  t.normal_force                  [N]
+]],
   units = "sw.units.mm(5), sw.units.deg(30), ...: into SI units",
 }
 

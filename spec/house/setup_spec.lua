@@ -89,7 +89,7 @@ esac
   end)
   it("installs exactly what is missing, in one call, asking nothing", function()
     machine { uid = 0, installed = "gcc\nmake\nlibc6-dev\npkg-config\nliblua5.4-dev\nlibgsl-dev\n"
-      .. "libccd-dev\nlibassimp-dev\nlibqhull-dev\nlibreadline-dev\ngnuplot-nox\npovray\nlua5.4" }
+      .. "libccd-dev\nlibassimp-dev\nlibqhull-dev\nlibsuitesparse-dev\nlibreadline-dev\ngnuplot-nox\npovray\nlua5.4" }
     local text, status = run "setup.sh --test"
     assert.equal(0, status, text)
     local update, install, rest = calls():match "^([^\n]*)\n([^\n]*)\n(.*)$"

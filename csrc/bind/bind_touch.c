@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What touches: scene:wire_contact, scene:touches, scene:contacts, scene:penetration. */
+#include "bind/child.h"
+
+static sw_scene *check(lua_State *L) {
+  return ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
+}
+
+/* One wire or a list of them, at the top -> handles (in a userdata) and their number. */
+static sw_handle *read_wires(lua_State *L, const sw_scene *scene, size_t *count) {
+  static const char what[] = "scene:wire_contact: between";
+  const int at = lua_gettop(L), single = lsw_test(L, at, &lsw_class_wire) != NULL;
+  if (!single && !lua_istable(L, at))
+    luaL_error(L, "%s is a wire or a list of wires, got %s", what, lsw_describe(L, at));
+  *count = single ? 1 : lua_rawlen(L, at);
+  if (!*count) luaL_error(L, "%s lists no wire; leave it out for all wires", what);
+  sw_handle *wires = lua_newuserdatauv(L, *count * sizeof *wires, 0);
+  for (size_t k = 0; k < *count; k++) {
+    if (single)
+      lua_pushvalue(L, at);
+    else
+      lua_rawgeti(L, at, (lua_Integer)k + 1);
+    wires[k] = lsw_check_child_of(L, lua_gettop(L), &lsw_class_wire, scene, what)->id;
+    lua_pop(L, 1);
+  }
+  return wires;
+}
+
+int lsw_scene_wire_contact(lua_State *L) {
+  sw_scene *scene = check(L);
+  sw_wire_contact_args args;
+  sw_error err = {""};
+  sw_handle *wires = NULL;
+  size_t count = 0;
+  lua_settop(L, 2);
+  lsw_arguments(L, 2, "scene:wire_contact", &sw_wire_contact_params, &args);
+  if (lua_istable(L, 2) && lua_getfield(L, 2, "between") != LUA_TNIL)
+    wires = read_wires(L, scene, &count);
+  lsw_must(L, sw_scene_wire_contact(scene, &args, wires, count, &err), &err);
+  return 0;
+}
+
+static void set_pair(lua_State *L, const char *name, double first, double second) {
+  lua_createtable(L, 2, 0);
+  lua_pushnumber(L, first);
+  lua_rawseti(L, -2, 1);
+  lua_pushnumber(L, second);
+  lua_rawseti(L, -2, 2);
+  lua_setfield(L, -2, name);
+}
+
+int lsw_scene_touches(lua_State *L) {
+  sw_scene *scene = check(L);
+  sw_error err = {""};
+  size_t count = 0;
+  lsw_must(L, sw_scene_wire_touch_count(scene, &count, &err), &err);
+  lua_createtable(L, (int)count, 0);
+  for (size_t k = 0; k < count; k++) {
+    sw_wire_touch t;
+    sw_scene_wire_touch(scene, k, &t);
+    lua_createtable(L, 0, 7);
+    lua_createtable(L, 2, 0);
+    for (int i = 0; i < 2; i++) {
+      lua_pushstring(L, t.wire[i]);
+      lua_rawseti(L, -2, i + 1);
+    }
+    lua_setfield(L, -2, "wires");
+    set_pair(L, "s", t.s[0], t.s[1]);
+    lsw_set_vector(L, "point", t.point);
+    lsw_set_vector(L, "normal", t.normal);
+    lsw_set_vector(L, "force", t.force);
+    lsw_set_vector(L, "friction", t.friction);
+    lsw_set_number(L, "normal_force", t.normal_force);
+    lua_rawseti(L, -2, (lua_Integer)k + 1);
+  }
+  return 1;
+}
+
+int lsw_scene_penetration(lua_State *L) {
+  double now;
+  sw_extreme deepest;
+  sw_error err = {""};
+  lsw_must(L, sw_scene_penetration(check(L), &now, &deepest, &err), &err);
+  lua_pushnumber(L, deepest.value);
+  lua_pushnumber(L, deepest.s);
+  lua_pushnumber(L, deepest.time);
+  lua_pushnumber(L, now);
+  return 4;
+}
+
+int lsw_scene_contacts(lua_State *L) {
+  lua_pushinteger(L, (lua_Integer)sw_scene_touches(check(L)));
+  return 1;
+}

@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "contact/law.h"
+
+#include <math.h>
+
+/* Errors of a friction spring's length below this do not keep an iteration going: far
+ * below its length at the onset of sliding, however stiff it is [m]. */
+static const double SPRING_TOLERANCE = 1e-11;
+/* Nor turns of the sliding direction with a cosine above this [-]. */
+static const double TURN_TOLERANCE = 0.98;
+/* Nor do changes of a sliding touch's normal force below this share of it, or
+ * below this share of the scene's forces [-]. */
+static const double FORCE_TOLERANCE = 0.01;
+static const double WEIGHT_TOLERANCE = 1e-3;
+
+/* A spring stretched this many times over what friction can hold does not stick,
+ * whatever the prediction is worth [-]. */
+static const double SURELY_SLIDING = 20.0;
+
+void sw_press_activate(sw_press *p, const sw_press *last) {
+  p->active = p->gap < 0 || (last && last->active && last->normal_force > 0);
+}
+
+void sw_press_take_lag(sw_press *p, const sw_press *last) {
+  const double step = last->lag - last->lag_before;
+  p->lag_before = last->lag, p->force_before = last->normal_force;
+  p->lag = last->normal_force;
+  if (!(last->lag_before > 0) || step == 0) return;
+  const double slope = (last->normal_force - last->force_before) / step;
+  if (slope < 0) p->lag = (last->normal_force - slope * last->lag) / (1.0 - slope);
+}
+
+void sw_press_begin(sw_press *p, double friction, int known) {
+  const double most = friction * p->lag, pull = p->k * sw_norm(p->trial);
+  if (!known) p->sliding = pull > most;
+  if (pull > SURELY_SLIDING * most) p->sliding = 1;
+}
+
+/* K = kn n n' + kt (I - n n') - ks d d' */
+static void stiffness_matrix(double kn, double kt, double ks, sw_vec n, sw_vec d, double K[6]) {
+  const double v[3] = {n.x, n.y, n.z}, u[3] = {d.x, d.y, d.z};
+  for (int i = 0, at = 0; i < 3; i++)
+    for (int j = i; j < 3; j++, at++)
+      K[at] = (kn - kt) * v[i] * v[j] + (i == j ? kt : 0.0) - ks * u[i] * u[j];
+}
+
+sw_vec sw_press_eval(sw_press *p, double friction, int lagged, double K[6]) {
+  p->normal_force = -p->k * p->gap;
+  if (!lagged) p->lag = p->normal_force;
+  const double most = friction * p->lag, length = sw_norm(p->trial);
+  if (!lagged) p->sliding = p->k * length > most;
+  const sw_vec d = length > 0 ? sw_scale(p->trial, 1.0 / length) : sw_v(0, 0, 0);
+  p->tangential = sw_scale(d, p->sliding ? -most : -p->k * length);
+  if (p->sliding) {
+    const double kt = length > 0 ? fmin(most / length, p->k) : 0.0;
+    stiffness_matrix(p->k, kt, kt, p->normal, d, K);
+  } else {
+    stiffness_matrix(p->k, friction > 0 ? p->k : 0.0, 0, p->normal, d, K);
+    if (!(friction > 0)) p->tangential = sw_v(0, 0, 0);
+  }
+  return sw_madd(p->tangential, p->normal, p->normal_force);
+}
+
+static int update_friction(sw_press *p, double friction, sw_vec shift, double force_scale) {
+  const sw_vec u = sw_madd(sw_add(p->trial, shift), p->normal, -sw_dot(shift, p->normal));
+  const double length = sw_norm(u), most = friction * p->normal_force;
+  const double small = p->k * SPRING_TOLERANCE;
+  const double along = sw_dot(u, p->trial);
+  const int beyond = p->k * length > most;
+  const int reversed = p->sliding && along < 0;
+  p->next_sliding = beyond && !reversed;
+  p->tangential = sw_scale(u, -(beyond && length > 0 ? most / length : p->k));
+  if (reversed) return most <= small;
+  if (p->sliding && beyond && along < TURN_TOLERANCE * length * sw_norm(p->trial)) return 0;
+  if (p->sliding != beyond) /* a change of state matters when the force does */
+    return fabs(p->k * length - most) <=
+           small + FORCE_TOLERANCE * most + WEIGHT_TOLERANCE * force_scale;
+  return !beyond || fabs(p->normal_force - p->lag) <=
+                        FORCE_TOLERANCE * p->normal_force + WEIGHT_TOLERANCE * force_scale;
+}
+
+int sw_press_update(sw_press *p, double friction, sw_vec shift, double force_scale) {
+  const int active = p->active;
+  p->gap_after = p->gap + sw_dot(p->normal, shift);
+  p->normal_force = active ? fmax(0.0, -p->k * p->gap_after) : 0.0;
+  p->next_sliding = 1; /* what does not touch moves freely */
+  const int agrees = active && friction > 0 ? update_friction(p, friction, shift, force_scale) : 1;
+  if (active ? p->gap_after > SW_GAP_TOLERANCE : p->gap_after < -SW_GAP_TOLERANCE) return 0;
+  return agrees;
+}

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The law of one touch, whatever touches: normal force and anchored friction. Normal:
+ * N = k max(0, -gap). Friction: a spring with return mapping, f = -k u while
+ * k |u| <= mu N, else mu N against u and the anchor follows. Within an iteration friction
+ * takes the normal force of the iterate before (lag), which keeps the matrix symmetric and
+ * the sub-problem convex. */
+#ifndef SW_CONTACT_LAW_H
+#define SW_CONTACT_LAW_H
+
+#include "base/vec.h"
+
+typedef struct sw_press {
+  double gap;                      /* of the surfaces at this iterate [m] */
+  double gap_after;                /* after the last solve [m] */
+  double k;                        /* stiffness, normal and tangential [N/m] */
+  double lag;                      /* normal force that friction takes as given [N] */
+  double normal_force;             /* after the last solve [N] */
+  double lag_before, force_before; /* both, one iterate earlier; 0 = not known [N] */
+  sw_vec normal;                   /* of the push [-] */
+  sw_vec trial;                    /* tangential displacement from the anchor at this iterate [m] */
+  sw_vec tangential;               /* friction force after the last solve [N] */
+  int active;                      /* pushes in this iterate */
+  int sliding;                     /* assumed in this iterate */
+  int next_sliding;                /* as the last solve found it */
+} sw_press;
+
+/* Changes of the gap below this do not keep an iteration going [m]. */
+#define SW_GAP_TOLERANCE 2e-8
+/* A touch that sinks in deeper is made stiffer until it does not [m]. */
+#define SW_DEEPEST 50e-6
+#define SW_MOST_BOOST 1e5 /* of that stiffness [-] */
+
+/* A touch that pushed after the last solve goes on in this iterate even if turning normals
+ * have opened its gap a little: letting go of it would let the wires fall into each other.
+ * The next solve tells. last: the same touch in the iterate before, or NULL. */
+void sw_press_activate(sw_press *press, const sw_press *last);
+
+/* The normal force for friction to take as given, from the same touch in the iterate
+ * before. Taking just its force may go to and fro for ever, more at each turn where friction
+ * presses the touch: then by the secant through the last two. */
+void sw_press_take_lag(sw_press *press, const sw_press *last);
+
+/* Friction begins at an iterate: k, lag and trial are set. known: 1 = it slides as sliding
+ * says, 0 = find out. A predicted place says little about sticking, as a spring this stiff
+ * calls every prediction a slide; but one stretched far beyond its limit does slide. */
+void sw_press_begin(sw_press *press, double friction, int known);
+
+/* Forces at this iterate. Returns the force, and its stiffness (upper half). lagged: 0 =
+ * explicit methods, which take all from this iterate. */
+sw_vec sw_press_eval(sw_press *press, double friction, int lagged, double K[6]);
+
+/* Forces after an update that shifted the touch; 1 = they agree with what the solve
+ * assumed. force_scale: of the scene, forces far below which do not matter [N]. */
+int sw_press_update(sw_press *press, double friction, sw_vec shift, double force_scale);
+
+#endif

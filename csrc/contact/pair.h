@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The inside of contact between wires. */
+#ifndef SW_CONTACT_PAIR_H
+#define SW_CONTACT_PAIR_H
+
+#include <stdint.h>
+
+#include "contact/law.h"
+#include "contact/pairs.h"
+
+/* Two segments, by their first nodes in the system's arrays; one < two. */
+typedef struct sw_near {
+  uint32_t one, two;
+  uint32_t body[2];
+  double distance; /* of the axes at the step's start, or less [m] */
+  double known;    /* when it was last measured [m] */
+  double travel;   /* of the four nodes together until then [m] */
+} sw_near;
+
+/* Segments that may touch in this step. */
+typedef struct sw_pair {
+  uint32_t one, two;
+  uint32_t body[2];
+  int parallel;          /* nearly, at the step's start */
+  int held;              /* all four nodes are: no force */
+  double reach;          /* sum of the radii [m] */
+  double usual;          /* stiffness of a new touch [N/m] */
+  size_t last, last_end; /* its touches of the iterate before */
+} sw_pair;
+
+typedef struct sw_pair_touch {
+  uint32_t pair;   /* number in the list of pairs */
+  double at[2];    /* along the segments [-] */
+  int slides[2];   /* 1: the place along that segment follows the nearest points */
+  int barred;      /* kept on its side by a barrier */
+  double stiffer;  /* its stiffness from the next iterate on [N/m] */
+  double forgiven; /* part of the true depth left out of the gap in this step [m] */
+  sw_press press;  /* its normal is towards segment one */
+} sw_pair_touch;
+
+/* Kept between steps. */
+typedef struct sw_pair_memory {
+  uint32_t one, two;
+  double at[2];
+  double normal_force, depth, k; /* [N], [m], [N/m] */
+  sw_vec normal;                 /* [-] */
+  sw_vec elastic;                /* displacement of the friction spring [m] */
+  int sliding;
+} sw_pair_memory;
+
+/* Segments kept on one side of each other for the rest of the step. */
+typedef struct sw_pair_barrier {
+  uint32_t one, two;
+  double at[2];
+  sw_vec normal;
+} sw_pair_barrier;
+
+struct sw_pairs {
+  sw_pair_rule *rules;
+  size_t bodies;
+  sw_contact_regime regime;
+  double h, nominal;      /* [s] */
+  double *base_stiffness; /* (bodies) for the forces of each [N/m] */
+  double rate2;           /* stiffness per mass [1/s2] */
+
+  /* segments near each other, for many steps */
+  sw_near *near;
+  size_t near_count, near_capacity;
+  double *listed_at; /* (nodes x 3) positions that the list was made for [m] */
+  size_t listed_nodes, listed_capacity;
+  double listed_reach; /* gap up to which it is complete there [m] */
+  double *before;      /* (nodes x 3) positions at the last step's start [m] */
+  double *travel;      /* (nodes) length of the way since the list was made [m] */
+  void *grid;          /* work of the search */
+  size_t grid_capacity;
+
+  sw_pair *pairs;
+  size_t pair_count, pair_capacity;
+  sw_pair_touch *touches, *last; /* of this iterate and of the one before */
+  size_t touch_count, touch_capacity, last_count, last_capacity;
+  sw_pair_touch *pressed; /* with a force at the end of a stage of this trial */
+  size_t pressed_count, pressed_capacity;
+  sw_pair_memory *memory, *next_memory;
+  size_t memory_count, memory_capacity, next_count, next_capacity;
+  sw_pair_barrier *barriers;
+  size_t barrier_count, barrier_capacity;
+  sw_pair_barrier *impacts; /* places whose impact was dealt with in this step */
+  size_t impact_count, impact_capacity;
+  double fall;          /* that gravity closes in the step, with reserve [m] */
+  double least_reserve; /* gap up to which all are chosen in this step [m] */
+};
+
+/* Make the list of near segments anew when it does not cover gaps up to reach. */
+sw_status sw_pairs_list(sw_pairs *pairs, const sw_system *system, double reach);
+
+/* Choose those that may touch in the step. */
+sw_status sw_pairs_choose(sw_pairs *pairs, sw_system *system);
+
+/* Add a touch's force on segment one, and its opposite on segment two, at positions y; K
+ * (upper half) is its stiffness, NULL = no stiffness wanted. */
+sw_status sw_pair_add(sw_system *system, const sw_pair *pair, const sw_pair_touch *touch,
+                      const double *y, sw_vec force, const double *K);
+
+/* Of a place on two wires: the nearest one remembered, within a segment on both, or NULL. */
+const sw_pair_memory *sw_pair_recall(const sw_pairs *pairs, const sw_pair *pair,
+                                     const double at[2]);
+
+/* Nearest points of two segments: places along them, distance returned [m]. */
+double sw_segments_nearest(sw_vec a0, sw_vec a1, sw_vec b0, sw_vec b1, double at[2]);
+
+static inline const sw_pair_rule *sw_pair_rule_of(const sw_pairs *p, const uint32_t body[2]) {
+  return &p->rules[p->bodies * body[0] + body[1]];
+}
+
+/* The material at a touch: place on segment one minus that on two. */
+static inline sw_vec sw_pair_apart(const double *x, uint32_t one, uint32_t two,
+                                   const double at[2]) {
+  return sw_sub(sw_lerp(sw_vec_at(x, one), sw_vec_at(x, one + 1u), at[0]),
+                sw_lerp(sw_vec_at(x, two), sw_vec_at(x, two + 1u), at[1]));
+}
+
+#endif

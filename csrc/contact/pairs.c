@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Life of the contact between wires, memory between steps, read-outs. */
+#include "contact/pairs.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "contact/pair.h"
+
+sw_status sw_pairs_new(const sw_pair_rule *rules, size_t count, sw_pairs **out) {
+  sw_pairs *p = sw_alloc(1, sizeof *p);
+  if (!p) return SW_ENOMEM;
+  p->rules = sw_alloc(count * count, sizeof *p->rules);
+  p->base_stiffness = sw_alloc(count, sizeof *p->base_stiffness);
+  if (!p->rules || !p->base_stiffness) {
+    sw_pairs_free(p);
+    return SW_ENOMEM;
+  }
+  memcpy(p->rules, rules, count * count * sizeof *rules);
+  p->bodies = count;
+  *out = p;
+  return SW_OK;
+}
+
+sw_status sw_pairs_copy(const sw_pairs *p, sw_pairs **out) {
+  SW_TRY(sw_pairs_new(p->rules, p->bodies, out));
+  const sw_status status =
+      sw_pairs_set_memory(*out, p->memory, p->memory_count * sizeof *p->memory);
+  if (status == SW_OK) return SW_OK;
+  sw_pairs_free(*out);
+  *out = NULL;
+  return status;
+}
+
+void sw_pairs_free(sw_pairs *p) {
+  if (!p) return;
+  sw_free(p->rules);
+  sw_free(p->base_stiffness);
+  sw_free(p->near);
+  sw_free(p->listed_at);
+  sw_free(p->grid);
+  sw_free(p->pairs);
+  sw_free(p->touches);
+  sw_free(p->last);
+  sw_free(p->pressed);
+  sw_free(p->memory);
+  sw_free(p->next_memory);
+  sw_free(p->barriers);
+  sw_free(p->impacts);
+  sw_free(p);
+}
+
+/* --- steps ----------------------------------------------------------------------- */
+
+static int takes_part(const sw_pairs *p, size_t body) {
+  for (size_t k = 0; k < p->bodies; k++)
+    if (p->rules[p->bodies * body + k].on) return 1;
+  return 0;
+}
+
+/* What forces the wire may press with: its weight, that of bending it, its tension. */
+static double force_of(const sw_system *s, const sw_body *b) {
+  const sw_plan *p = b->plan;
+  const double weight = p->beam.mass * p->length * sw_norm(sw_load(s->gravity));
+  double force = fmax(weight, p->beam.EI / (p->length * p->length));
+  for (size_t e = 0; e < p->edges; e++) force = fmax(force, fabs(s->tension[b->first_edge + e]));
+  return force;
+}
+
+sw_status sw_pairs_begin_step(sw_pairs *p, sw_system *s, sw_contact_regime regime, double h,
+                              double nominal, sw_error *err) {
+  p->regime = regime;
+  p->h = h, p->nominal = nominal;
+  p->barrier_count = p->impact_count = p->pressed_count = 0;
+  p->least_reserve = 0;
+  for (size_t b = 0; b < s->body_count; b++)
+    if (takes_part(p, b))
+      sw_contact_stiffness(regime, force_of(s, &s->bodies[b]), nominal, &p->base_stiffness[b],
+                           &p->rate2);
+  const sw_status status = sw_pairs_choose(p, s);
+  return status == SW_OK ? SW_OK : sw_fail(err, status, "contact of wires: out of memory");
+}
+
+sw_status sw_pairs_begin_look(sw_pairs *p, sw_system *s, sw_error *err) {
+  SW_TRY(sw_pairs_begin_step(p, s, SW_CONTACT_STATIC, 0, 0, err));
+  for (size_t i = 0; i < p->memory_count; i++) {
+    sw_pair_memory *m = &p->memory[i];
+    if (m->normal_force > 0 && m->depth > 0) m->k = m->normal_force / m->depth;
+  }
+  const sw_status status = sw_pairs_choose(p, s);
+  return status == SW_OK ? SW_OK : sw_fail(err, status, "contact of wires: out of memory");
+}
+
+/* --- memory ---------------------------------------------------------------------- */
+
+void sw_pairs_commit(sw_pairs *p, sw_system *s) {
+  (void)s;
+  p->next_count = 0;
+  for (size_t i = 0; i < p->touch_count; i++) {
+    const sw_pair_touch *t = &p->touches[i];
+    const sw_pair *k = &p->pairs[t->pair];
+    if (sw_grow((void **)&p->next_memory, &p->next_capacity, p->next_count + 1,
+                sizeof *p->next_memory) != SW_OK)
+      break; /* a lost anchor only starts anew */
+    sw_pair_memory *m = &p->next_memory[p->next_count++];
+    *m = (sw_pair_memory){.one = k->one,
+                          .two = k->two,
+                          .at = {t->at[0], t->at[1]},
+                          .normal_force = t->press.normal_force,
+                          .depth = t->press.normal_force / t->press.k,
+                          .k = t->stiffer,
+                          .normal = t->press.normal,
+                          .sliding = t->press.next_sliding};
+    if (m->normal_force > 0) m->elastic = sw_scale(t->press.tangential, -1.0 / t->press.k);
+  }
+  sw_pair_memory *swap = p->memory;
+  const size_t capacity = p->memory_capacity;
+  p->memory = p->next_memory, p->memory_capacity = p->next_capacity;
+  p->next_memory = swap, p->next_capacity = capacity;
+  p->memory_count = p->next_count;
+}
+
+const void *sw_pairs_memory(const sw_pairs *p, size_t *bytes) {
+  *bytes = p->memory_count * sizeof *p->memory;
+  return p->memory;
+}
+
+sw_status sw_pairs_set_memory(sw_pairs *p, const void *memory, size_t bytes) {
+  const size_t n = bytes / sizeof *p->memory;
+  SW_TRY(sw_grow((void **)&p->memory, &p->memory_capacity, n, sizeof *p->memory));
+  if (n) memcpy(p->memory, memory, bytes);
+  p->memory_count = n;
+  p->touch_count = p->listed_nodes = 0; /* the list depends on what came before */
+  return SW_OK;
+}
+
+sw_status sw_pairs_inherit(sw_pairs *p, const void *memory, size_t bytes, const size_t *new_node) {
+  size_t kept = 0;
+  SW_TRY(sw_pairs_set_memory(p, memory, bytes));
+  for (size_t i = 0; i < p->memory_count; i++) {
+    sw_pair_memory m = p->memory[i];
+    const size_t one = new_node[m.one], two = new_node[m.two];
+    if (one == SIZE_MAX || two == SIZE_MAX) continue;
+    m.one = (uint32_t)one, m.two = (uint32_t)two;
+    p->memory[kept++] = m;
+  }
+  p->memory_count = kept;
+  return SW_OK;
+}
+
+/* --- read-outs ------------------------------------------------------------------- */
+
+size_t sw_pairs_count(const sw_pairs *p) {
+  size_t n = 0;
+  for (size_t i = 0; i < p->touch_count; i++) n += p->touches[i].press.normal_force > 0;
+  return n;
+}
+
+sw_pair_place sw_pairs_place(const sw_pairs *p, size_t number) {
+  size_t i = 0;
+  for (size_t left = number + 1; i < p->touch_count; i++)
+    if (p->touches[i].press.normal_force > 0 && --left == 0) break;
+  const sw_pair_touch *t = &p->touches[i];
+  const sw_pair *k = &p->pairs[t->pair];
+  return (sw_pair_place){.body = {k->body[0], k->body[1]},
+                         .node = {k->one, k->two},
+                         .at = {t->at[0], t->at[1]},
+                         .normal = t->press.normal,
+                         .normal_force = t->press.normal_force,
+                         .friction = t->press.tangential,
+                         .gap = t->press.gap_after - t->forgiven};
+}
+
+double sw_pairs_penetration(const sw_pairs *p, size_t *node) {
+  double deepest = 0;
+  for (size_t i = 0; i < p->touch_count; i++) {
+    const double depth = p->touches[i].forgiven - p->touches[i].press.gap_after;
+    if (depth <= deepest) continue;
+    deepest = depth;
+    if (node) *node = p->pairs[p->touches[i].pair].one;
+  }
+  return deepest;
+}
+
+double sw_pairs_energy(const sw_pairs *p) {
+  double sum = 0;
+  for (size_t i = 0; i < p->touch_count; i++) {
+    const sw_press *t = &p->touches[i].press;
+    if (!(t->normal_force > 0)) continue;
+    sum += 0.5 * (t->normal_force * t->normal_force + sw_norm2(t->tangential)) / t->k;
+  }
+  return sum;
+}

@@ -1,0 +1,316 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which segments are near each other. A list of all pairs within a generous reach is kept
+ * as long as no node has moved by half of what the reach has to spare; it is found with
+ * a grid of cells in which only neighbours are compared. */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/simd.h"
+#include "contact/pair.h"
+
+static double clamp01(double t) { return t < 0 ? 0 : t > 1 ? 1 : t; }
+
+double sw_segments_nearest(sw_vec a0, sw_vec a1, sw_vec b0, sw_vec b1, double at[2]) {
+  const sw_vec u = sw_sub(a1, a0), v = sw_sub(b1, b0), w = sw_sub(a0, b0);
+  const double uu = sw_norm2(u), vv = sw_norm2(v), uv = sw_dot(u, v), uw = sw_dot(u, w),
+               vw = sw_dot(v, w);
+  const double det = uu * vv - uv * uv;
+  double s = 0.5, t;
+  if (det > 1e-12 * uu * vv) s = clamp01((uv * vw - vv * uw) / det);
+  t = vv > 0 ? (uv * s + vw) / vv : 0.0;
+  if (t < 0 || t > 1) {
+    t = clamp01(t);
+    s = uu > 0 ? clamp01((uv * t - uw) / uu) : 0.0;
+  }
+  at[0] = s, at[1] = t;
+  return sw_dist(sw_madd(a0, u, s), sw_madd(b0, v, t));
+}
+
+/* --- grid ------------------------------------------------------------------------ */
+
+typedef struct cell {
+  int32_t x, y, z;
+} cell;
+
+/* Work of one search: segments by cell, in a hash table of lists. */
+typedef struct grid {
+  size_t size;           /* of the table, a power of two */
+  uint32_t *head, *next; /* (size) first segment + 1; (segments) the one after + 1 */
+  uint32_t *node, *body; /* (segments) */
+  cell *cells;           /* (segments) */
+  size_t count;
+  double width; /* of a cell [m] */
+} grid;
+
+static cell cell_of(const grid *g, sw_vec p) {
+  const double r = 1.0 / g->width;
+  return (cell){(int32_t)floor(p.x * r), (int32_t)floor(p.y * r), (int32_t)floor(p.z * r)};
+}
+
+static size_t bucket_of(const grid *g, cell c) {
+  const uint32_t h =
+      (uint32_t)c.x * 73856093u ^ (uint32_t)c.y * 19349663u ^ (uint32_t)c.z * 83492791u;
+  return (h * 2654435761u) >> 7 & (g->size - 1);
+}
+
+static sw_vec middle_of(const double *x, uint32_t node) {
+  return sw_lerp(sw_vec_at(x, node), sw_vec_at(x, node + 1u), 0.5);
+}
+
+/* 1: some wire of the rules takes part. */
+static int takes_part(const sw_pairs *p, size_t body) {
+  for (size_t k = 0; k < p->bodies; k++)
+    if (p->rules[p->bodies * body + k].on) return 1;
+  return 0;
+}
+
+static double longest_segment(const sw_pairs *p, const sw_system *s) {
+  double longest = 0;
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_body *body = &s->bodies[b];
+    for (size_t e = 0; takes_part(p, b) && e < body->plan->edges; e++) {
+      const double *x = s->x + 3 * (body->first_node + e);
+      longest = fmax(longest, sw_norm2(sw_sub(sw_load(x + 3), sw_load(x))));
+    }
+  }
+  return sqrt(longest);
+}
+
+static double widest_radius(const sw_pairs *p, const sw_system *s) {
+  double widest = 0;
+  for (size_t b = 0; b < s->body_count; b++)
+    if (takes_part(p, b)) widest = fmax(widest, s->bodies[b].plan->beam.radius);
+  return widest;
+}
+
+static sw_status fill_grid(sw_pairs *p, const sw_system *s, double width, grid *g) {
+  *g = (grid){.size = 64, .width = width};
+  while (g->size < 2 * s->nodes) g->size *= 2;
+  const size_t words = g->size + 6 * s->nodes;
+  SW_TRY(sw_grow(&p->grid, &p->grid_capacity, words, sizeof(uint32_t)));
+  g->head = p->grid;
+  g->next = g->head + g->size;
+  g->node = g->next + s->nodes, g->body = g->node + s->nodes;
+  g->cells = (cell *)(g->body + s->nodes);
+  memset(g->head, 0, g->size * sizeof *g->head);
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_body *body = &s->bodies[b];
+    if (!takes_part(p, b)) continue;
+    for (size_t e = 0; e < body->plan->edges; e++) {
+      const size_t k = g->count++;
+      g->node[k] = (uint32_t)(body->first_node + e), g->body[k] = (uint32_t)b;
+      g->cells[k] = cell_of(g, middle_of(s->x, g->node[k]));
+      uint32_t *head = &g->head[bucket_of(g, g->cells[k])];
+      g->next[k] = *head;
+      *head = (uint32_t)k + 1;
+    }
+  }
+  return SW_OK;
+}
+
+/* A wire bent as tightly as its radius allows meets itself after pi radii of its length;
+ * what is nearer along it is not looked at, nor are neighbours. */
+static int apart_along(const sw_system *s, const sw_near *n) {
+  if (n->body[0] != n->body[1]) return 1;
+  const sw_body *b = &s->bodies[n->body[0]];
+  const size_t i = n->one - b->first_node, j = n->two - b->first_node;
+  return j > i + 1 && b->plan->s[j] - b->plan->s[i + 1] >= 3.141592653589793 * b->plan->beam.radius;
+}
+
+static double radii(const sw_system *s, const uint32_t body[2]) {
+  return s->bodies[body[0]].plan->beam.radius + s->bodies[body[1]].plan->beam.radius;
+}
+
+static sw_status look_at(sw_pairs *p, const sw_system *s, const grid *g, size_t k, size_t m) {
+  sw_near n = {.one = g->node[k], .two = g->node[m], .body = {g->body[k], g->body[m]}};
+  double at[2];
+  if (!sw_pair_rule_of(p, n.body)->on || !apart_along(s, &n)) return SW_OK;
+  n.known = n.distance =
+      sw_segments_nearest(sw_vec_at(s->x, n.one), sw_vec_at(s->x, n.one + 1u),
+                          sw_vec_at(s->x, n.two), sw_vec_at(s->x, n.two + 1u), at);
+  if (!(n.distance - radii(s, n.body) < p->listed_reach)) return SW_OK;
+  SW_TRY(sw_grow((void **)&p->near, &p->near_capacity, p->near_count + 1, sizeof *p->near));
+  p->near[p->near_count++] = n;
+  return SW_OK;
+}
+
+static void sort_from(sw_near *a, size_t n) {
+  for (size_t i = 1; i < n; i++) {
+    const sw_near v = a[i];
+    size_t j = i;
+    for (; j > 0 && a[j - 1].two > v.two; j--) a[j] = a[j - 1];
+    a[j] = v;
+  }
+}
+
+/* All later segments in the 27 cells around segment k, in ascending order. */
+static sw_status look_around(sw_pairs *p, const sw_system *s, const grid *g, size_t k) {
+  const cell c = g->cells[k];
+  const size_t first = p->near_count;
+  for (int32_t d = 0; d < 27; d++) {
+    const cell at = {c.x + d % 3 - 1, c.y + d / 3 % 3 - 1, c.z + d / 9 - 1};
+    for (uint32_t m = g->head[bucket_of(g, at)]; m; m = g->next[m - 1]) {
+      const cell *own = &g->cells[m - 1];
+      if (m - 1 > k && own->x == at.x && own->y == at.y && own->z == at.z)
+        SW_TRY(look_at(p, s, g, k, m - 1));
+    }
+  }
+  sort_from(p->near + first, p->near_count - first);
+  return SW_OK;
+}
+
+static sw_status search(sw_pairs *p, const sw_system *s, double reach) {
+  grid g;
+  const double width = longest_segment(p, s) + reach + 2.0 * widest_radius(p, s);
+  double far = 0; /* cell numbers must stay far below overflow */
+  for (size_t i = 0; i < 3 * s->nodes; i++) far = fmax(far, fabs(s->x[i]));
+  SW_TRY(fill_grid(p, s, fmax(width, far * 1e-8), &g));
+  p->near_count = 0;
+  p->listed_reach = reach;
+  p->listed_nodes = 0;
+  for (size_t k = 0; k < g.count; k++) SW_TRY(look_around(p, s, &g, k));
+  SW_TRY(sw_grow((void **)&p->listed_at, &p->listed_capacity, 7 * s->nodes, sizeof(double)));
+  p->before = p->listed_at + 3 * s->nodes;
+  p->travel = p->before + 3 * s->nodes;
+  p->listed_nodes = s->nodes;
+  memcpy(p->listed_at, s->x, 3 * s->nodes * sizeof *s->x);
+  memcpy(p->before, s->x, 3 * s->nodes * sizeof *s->x);
+  memset(p->travel, 0, s->nodes * sizeof *p->travel);
+  return SW_OK;
+}
+
+/* The square of the largest distance between two sets of positions. */
+SW_HOT
+static double largest_distance2(size_t n, const double *restrict a, const double *restrict b) {
+  double most = 0;
+  for (size_t i = 0; i < n; i++) {
+    const double x = a[3 * i] - b[3 * i], y = a[3 * i + 1] - b[3 * i + 1];
+    const double z = a[3 * i + 2] - b[3 * i + 2], d2 = x * x + y * y + z * z;
+    most = most > d2 ? most : d2;
+  }
+  return most;
+}
+
+/* Lengths of the nodes' ways, straight from step to step. */
+SW_HOT
+static void add_travel(size_t n, const double *restrict x, double *restrict before,
+                       double *restrict travel) {
+  for (size_t i = 0; i < n; i++) {
+    const double dx = x[3 * i] - before[3 * i], dy = x[3 * i + 1] - before[3 * i + 1];
+    const double dz = x[3 * i + 2] - before[3 * i + 2];
+    travel[i] += sqrt(dx * dx + dy * dy + dz * dz);
+  }
+  for (size_t i = 0; i < 3 * n; i++) before[i] = x[i];
+}
+
+/* The list reaches this much further than asked for, to be of use for longer. */
+static const double GENEROSITY = 2.0;  /* [-] */
+static const double LEAST_SPARE = 2.0; /* of the largest radius [-] */
+
+sw_status sw_pairs_list(sw_pairs *p, const sw_system *s, double reach) {
+  if (p->listed_nodes == s->nodes) {
+    add_travel(s->nodes, s->x, p->before, p->travel);
+    if (p->listed_reach - 2.0 * sqrt(largest_distance2(s->nodes, s->x, p->listed_at)) >= reach)
+      return SW_OK;
+  }
+  return search(p, s, GENEROSITY * reach + LEAST_SPARE * widest_radius(p, s));
+}
+
+/* --- pairs of a step --------------------------------------------------------------- */
+
+static double speed_between(const sw_system *s, const sw_near *n) {
+  double most = 0;
+  for (uint32_t i = 0; i < 2; i++)
+    for (uint32_t j = 0; j < 2; j++)
+      most = fmax(most, sw_norm2(sw_sub(sw_vec_at(s->v, n->one + i), sw_vec_at(s->v, n->two + j))));
+  return sqrt(most);
+}
+
+static int all_held(const sw_system *s, const sw_near *n) {
+  const uint32_t nodes[2] = {n->one, n->two};
+  for (size_t k = 0; k < 2; k++) {
+    const sw_body *b = &s->bodies[n->body[k]];
+    const size_t i = nodes[k] - b->first_node;
+    if (b->plan->held[i] == SW_FREE || b->plan->held[i + 1] == SW_FREE) return 0;
+  }
+  return 1;
+}
+
+/* Segments at a smaller angle touch along their length, not in a point. */
+static const double PARALLEL_SINE2 = 0.03; /* [-] */
+
+static int is_parallel(const double *x, const sw_near *n) {
+  const sw_vec u = sw_sub(sw_vec_at(x, n->one + 1u), sw_vec_at(x, n->one));
+  const sw_vec v = sw_sub(sw_vec_at(x, n->two + 1u), sw_vec_at(x, n->two));
+  return sw_norm2(sw_cross(u, v)) < PARALLEL_SINE2 * sw_norm2(u) * sw_norm2(v);
+}
+
+static double segment_mass(const sw_body *b, size_t node) {
+  return b->plan->beam.mass * b->plan->rest[node - b->first_node];
+}
+
+static double lighter_mass(const sw_system *s, const sw_near *n) {
+  return fmin(segment_mass(&s->bodies[n->body[0]], n->one),
+              segment_mass(&s->bodies[n->body[1]], n->two));
+}
+
+static const double RESERVE = 1.5; /* [-] */
+
+/* Gap up to which a pair is chosen: a share of its radii, what gravity and its speed (or a
+ * larger one) can close in the step. */
+static double reserve_of(const sw_pairs *p, double reach, double fast) {
+  const double reserve = 0.25 * reach + p->fall + RESERVE * p->h * fast;
+  return reserve > p->least_reserve ? reserve : p->least_reserve;
+}
+
+static double travel_of(const sw_pairs *p, const sw_near *n) {
+  return p->travel[n->one] + p->travel[n->one + 1] + p->travel[n->two] + p->travel[n->two + 1];
+}
+
+static double fastest(const sw_system *s) {
+  double most = 0;
+  for (size_t i = 0; i < s->nodes; i++) {
+    const double v2 = sw_norm2(sw_vec_at(s->v, i));
+    most = most > v2 ? most : v2;
+  }
+  return sqrt(most);
+}
+
+static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double sum) {
+  SW_TRY(sw_grow((void **)&p->pairs, &p->pair_capacity, p->pair_count + 1, sizeof *p->pairs));
+  sw_pair *k = &p->pairs[p->pair_count++];
+  *k = (sw_pair){.one = n->one,
+                 .two = n->two,
+                 .body = {n->body[0], n->body[1]},
+                 .parallel = is_parallel(s->x, n),
+                 .held = all_held(s, n),
+                 .reach = sum,
+                 .usual = fmax(fmin(p->base_stiffness[n->body[0]], p->base_stiffness[n->body[1]]),
+                               p->rate2 * lighter_mass(s, n))};
+  for (uint32_t i = 0; i < 2 && !k->held; i++)
+    for (uint32_t j = 0; j < 2; j++) SW_TRY(sw_system_plan_link(s, k->one + i, k->two + j));
+  return SW_OK;
+}
+
+sw_status sw_pairs_choose(sw_pairs *p, sw_system *s) {
+  const int still = p->regime == SW_CONTACT_STATIC;
+  const double fast = still ? 0.0 : 2.0 * fastest(s);
+  p->fall = still ? 0.0 : RESERVE * sw_norm(sw_load(s->gravity)) * p->h * p->h;
+  SW_TRY(sw_pairs_list(p, s, reserve_of(p, 2.0 * widest_radius(p, s), fast)));
+  p->pair_count = p->touch_count = p->last_count = 0;
+  sw_system_begin_plan(s);
+  for (size_t k = 0; k < p->near_count; k++) {
+    sw_near *n = &p->near[k];
+    double at[2];
+    const double sum = radii(s, n->body);
+    n->distance = n->known - (travel_of(p, n) - n->travel); /* at least */
+    if (n->distance - sum >= reserve_of(p, sum, fast)) continue;
+    n->distance = sw_segments_nearest(sw_vec_at(s->x, n->one), sw_vec_at(s->x, n->one + 1u),
+                                      sw_vec_at(s->x, n->two), sw_vec_at(s->x, n->two + 1u), at);
+    n->known = n->distance, n->travel = travel_of(p, n);
+    if (n->distance - sum < reserve_of(p, sum, still ? 0.0 : speed_between(s, n)))
+      SW_TRY(add_pair(p, s, n, sum));
+  }
+  return SW_OK;
+}

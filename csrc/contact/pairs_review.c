@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Impacts and crossings between wires. A step that meets what it did not touch before is
+ * redone by implicit Euler: the wires reach each other within it and go on together, whatever
+ * their stiffness, and the integrator never sees the shock that would make it bounce. Wires
+ * do not rebound. Segments whose axes come much nearer than their radii allow are kept on
+ * their sides of each other. */
+#include <math.h>
+
+#include "base/alloc.h"
+#include "contact/pair.h"
+
+/* Slower approaches are left to the integrator [m/s]. */
+static const double SLOWEST_IMPACT = 5e-4;
+
+/* Places this near to each other along both segments are one [-]. */
+static const double BESIDE = 0.25;
+
+static int is_listed(const sw_pair_barrier *list, size_t count, const sw_pair *k,
+                     const double at[2], double within) {
+  for (size_t i = 0; i < count; i++)
+    if (list[i].one == k->one && list[i].two == k->two && fabs(list[i].at[0] - at[0]) < within &&
+        fabs(list[i].at[1] - at[1]) < within)
+      return 1;
+  return 0;
+}
+
+static int list(sw_pair_barrier **to, size_t *count, size_t *capacity, const sw_pair *k,
+                const double at[2], sw_vec normal) {
+  if (sw_grow((void **)to, capacity, *count + 1, sizeof **to) != SW_OK) return 0;
+  (*to)[(*count)++] = (sw_pair_barrier){k->one, k->two, {at[0], at[1]}, normal};
+  return 1;
+}
+
+/* How fast a touch is passed through in the step, beyond just being reached [m/s]. */
+static double excess(const sw_system *s, const sw_pair *k, const double at[2], sw_vec normal,
+                     double h) {
+  const double gap = sw_dot(normal, sw_pair_apart(s->x, k->one, k->two, at)) - k->reach;
+  const double approach = -sw_dot(sw_pair_apart(s->v, k->one, k->two, at), normal);
+  return approach - (gap > 0 ? gap : 0.0) / h;
+}
+
+/* Deal with an impact once: 1 = the step is to be one that does not bounce. */
+static int strike(sw_pairs *p, const sw_system *s, const sw_pair *k, const double at[2],
+                  sw_vec normal, double h) {
+  if (is_listed(p->impacts, p->impact_count, k, at, BESIDE)) return 0;
+  if (!(excess(s, k, at, normal, h) > SLOWEST_IMPACT)) return 0;
+  return list(&p->impacts, &p->impact_count, &p->impact_capacity, k, at, normal);
+}
+
+static int review_touches(sw_pairs *p, const sw_system *s, double h) {
+  int struck = 0;
+  for (size_t i = 0; i < p->pressed_count; i++) {
+    const sw_pair_touch *t = &p->pressed[i];
+    struck |= strike(p, s, &p->pairs[t->pair], t->at, t->press.normal, h);
+  }
+  return struck;
+}
+
+/* The largest change of the distance between two segments from positions x0 to x1. */
+static double approach_bound(const double *x0, const double *x1, uint32_t one, uint32_t two) {
+  double most = 0;
+  for (uint32_t i = 0; i < 2; i++) {
+    const sw_vec a = sw_sub(sw_vec_at(x1, one + i), sw_vec_at(x0, one + i));
+    for (uint32_t j = 0; j < 2; j++) {
+      const sw_vec b = sw_sub(sw_vec_at(x1, two + j), sw_vec_at(x0, two + j));
+      const double d2 = sw_norm2(sw_sub(a, b));
+      most = most > d2 ? most : d2;
+    }
+  }
+  return sqrt(most);
+}
+
+static sw_vec part_way(const double *x0, const double *x1, uint32_t node, double t) {
+  return sw_lerp(sw_vec_at(x0, node), sw_vec_at(x1, node), t);
+}
+
+/* Axes nearer than this share of the radii's sum are about to pass through each other;
+ * contact alone never lets them [-]. */
+static const double TOO_NEAR = 0.25;
+enum { MOST_ADVANCES = 200 };
+
+/* Do the axes come too near on the straight way from x0 to x1? Goes on by what they
+ * cannot have approached in the meantime, so that nothing is missed. 1 with the place and
+ * the direction from segment two to one just before. */
+static int sweep(const double *x0, const double *x1, const sw_pair *k, double at[2],
+                 sw_vec *normal) {
+  const double speed = approach_bound(x0, x1, k->one, k->two), near = TOO_NEAR * k->reach;
+  double t = 0;
+  for (int i = 0; i < MOST_ADVANCES; i++) {
+    const sw_vec a0 = part_way(x0, x1, k->one, t), a1 = part_way(x0, x1, k->one + 1, t);
+    const sw_vec b0 = part_way(x0, x1, k->two, t), b1 = part_way(x0, x1, k->two + 1, t);
+    const double d = sw_segments_nearest(a0, a1, b0, b1, at);
+    if (i == 0 && d <= near) return 0; /* they start like that */
+    if (d <= 1.01 * near) {
+      *normal = sw_unit_or(sw_sub(sw_lerp(a0, a1, at[0]), sw_lerp(b0, b1, at[1])), sw_v(0, 0, 1));
+      return 1;
+    }
+    t += (d - near) / speed;
+    if (t >= 1) return 0;
+  }
+  return 0;
+}
+
+/* 1 = segments would pass through each other and are kept on their sides from now on; -1 =
+ * they would although they were: only a smaller step helps. */
+static int review_crossings(sw_pairs *p, const sw_system *s, const double *x1) {
+  int changed = 0;
+  for (size_t i = 0; i < p->pair_count; i++) {
+    const sw_pair *k = &p->pairs[i];
+    double at[2];
+    sw_vec normal;
+    if (k->held || approach_bound(s->x, x1, k->one, k->two) < TOO_NEAR * k->reach) continue;
+    if (!sweep(s->x, x1, k, at, &normal)) continue;
+    if (is_listed(p->barriers, p->barrier_count, k, at, BESIDE)) return -1;
+    if (list(&p->barriers, &p->barrier_count, &p->barrier_capacity, k, at, normal)) changed = 1;
+  }
+  return changed;
+}
+
+static double largest_move(const double *x0, const double *x1, size_t nodes) {
+  double most = 0;
+  for (size_t i = 0; i < nodes; i++) {
+    const double d2 = sw_norm2(sw_sub(sw_vec_at(x1, i), sw_vec_at(x0, i)));
+    most = most > d2 ? most : d2;
+  }
+  return sqrt(most);
+}
+
+static double distance_at(const double *x, const sw_near *n) {
+  double at[2];
+  return sw_segments_nearest(sw_vec_at(x, n->one), sw_vec_at(x, n->one + 1u), sw_vec_at(x, n->two),
+                             sw_vec_at(x, n->two + 1u), at);
+}
+
+/* Did segments that were not chosen touch or pass each other? Their largest gap at the
+ * step's start, or -1 when none did [m]. */
+static double missed_gap(const sw_pairs *p, const sw_system *s, const double *x1) {
+  const double farthest = 2.0 * largest_move(s->x, x1, s->nodes);
+  double gap = -1;
+  size_t k = 0;
+  for (size_t i = 0; i < p->near_count; i++) {
+    const sw_near *n = &p->near[i];
+    if (k < p->pair_count && p->pairs[k].one == n->one && p->pairs[k].two == n->two) {
+      k++;
+      continue;
+    }
+    const double radii =
+        s->bodies[n->body[0]].plan->beam.radius + s->bodies[n->body[1]].plan->beam.radius;
+    if (n->distance - radii <= gap || n->distance - farthest >= radii) continue;
+    if (n->distance - approach_bound(s->x, x1, n->one, n->two) >= radii) continue;
+    const sw_pair as = {.one = n->one, .two = n->two, .reach = radii};
+    double at[2];
+    sw_vec normal;
+    if (distance_at(x1, n) < radii || sweep(s->x, x1, &as, at, &normal)) gap = n->distance - radii;
+  }
+  return gap;
+}
+
+/* Choose among more segments when some were missed: 1 = the step is to be redone, -1 =
+ * out of memory. */
+static int widen(sw_pairs *p, sw_system *s, const double *x1) {
+  if (2.0 * largest_move(p->listed_at, x1, s->nodes) > p->listed_reach &&
+      sw_pairs_list(p, s, 2.0 * largest_move(s->x, x1, s->nodes)) != SW_OK)
+    return -1;
+  const double gap = missed_gap(p, s, x1);
+  if (gap < 0) return 0;
+  p->least_reserve = 1.01 * gap;
+  return sw_pairs_choose(p, s) == SW_OK ? 1 : -1;
+}
+
+sw_contact_verdict sw_pairs_review(sw_pairs *p, sw_system *s, const double *x1, double h) {
+  const int wider = widen(p, s, x1);
+  if (wider) {
+    p->pressed_count = 0;
+    return wider > 0 ? SW_CONTACT_REDO : SW_CONTACT_SMALLER;
+  }
+  const int crossed = review_crossings(p, s, x1);
+  if (crossed < 0) {
+    p->pressed_count = 0;
+    return SW_CONTACT_SMALLER;
+  }
+  const int struck = review_touches(p, s, h);
+  p->pressed_count = 0;
+  return crossed || struck ? SW_CONTACT_STRIKE : SW_CONTACT_ACCEPT;
+}
+
+int sw_pairs_review_static(sw_pairs *p, sw_system *s, const double *x1) {
+  if (widen(p, s, x1)) return 1;
+  return review_crossings(p, s, x1) != 0;
+}

@@ -1,0 +1,303 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Touches of an iterate, their forces and stiffness. */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "contact/pair.h"
+
+/* --- memory ---------------------------------------------------------------------- */
+
+const sw_pair_memory *sw_pair_recall(const sw_pairs *p, const sw_pair *k, const double at[2]) {
+  size_t low = 0, high = p->memory_count;
+  while (low < high) { /* the first that starts at the segment before */
+    const size_t middle = (low + high) / 2;
+    if (p->memory[middle].one + 1 < k->one)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  const sw_pair_memory *best = NULL;
+  const double one = k->one + at[0], two = k->two + at[1];
+  double nearest = 1.0;
+  for (; low < p->memory_count && p->memory[low].one <= k->one + 1; low++) {
+    const sw_pair_memory *m = &p->memory[low];
+    const double d = fmax(fabs(m->one + m->at[0] - one), fabs(m->two + m->at[1] - two));
+    if (d < nearest) best = m, nearest = d;
+  }
+  return best;
+}
+
+static const sw_pair_touch *last_for(const sw_pairs *p, const sw_pair *k, const double at[2]) {
+  const sw_pair_touch *best = NULL;
+  double nearest = HUGE_VAL;
+  for (size_t i = k->last; i < k->last_end; i++) {
+    const sw_pair_touch *t = &p->last[i];
+    const double d = fabs(t->at[0] - at[0]) + fabs(t->at[1] - at[1]);
+    if (d < nearest) best = t, nearest = d;
+  }
+  return best;
+}
+
+/* A tangential vector that went with normal from, taken along to normal to. */
+static sw_vec carry(sw_vec v, sw_vec from, sw_vec to) {
+  const double share = sw_dot(to, v) / fmax(1.0 + sw_dot(from, to), 1e-12);
+  return sw_madd(v, sw_add(from, to), -share);
+}
+
+/* --- touches --------------------------------------------------------------------- */
+
+/* Wires that are deeper in each other at the step's start than their force explains are
+ * let out at this speed: see contact with obstacles [m/s]. */
+static const double RECOVERY_SPEED = 0.2;
+
+static double forgiven(const sw_pairs *p, const sw_system *s, const sw_pair *k,
+                       const sw_pair_touch *t, const sw_pair_memory *m) {
+  if (p->regime != SW_CONTACT_IMPLICIT || t->press.gap >= 0) return 0;
+  const sw_vec from = sw_pair_apart(s->x, k->one, k->two, t->at);
+  const double depth = k->reach - sw_dot(t->press.normal, from);
+  const double explained = m ? m->depth : 0.0;
+  return fmax(0.0, depth - explained - RECOVERY_SPEED * p->h - SW_GAP_TOLERANCE);
+}
+
+/* A touch goes on as stiff as it was, wherever it has slid to: a change would be a kick.
+ * One that was made stiffer than it has to be gives way slowly. */
+static const double NEEDLESS = 0.1; /* of the allowed depth [-] */
+static const double EASING = 0.8;   /* per step [-] */
+
+static double stiffness_of(const sw_pairs *p, const sw_pair *k, const sw_pair_memory *m,
+                           const sw_pair_touch *last) {
+  if (p->regime == SW_CONTACT_EXPLICIT) return k->usual;
+  if (last) return last->stiffer;
+  if (!m || !(m->normal_force > 0)) return k->usual;
+  return m->depth < NEEDLESS * SW_DEEPEST && m->k > k->usual ? fmax(k->usual, EASING * m->k) : m->k;
+}
+
+static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
+                           sw_pair_touch t, double gap, sw_vec normal) {
+  const double *at = t.at;
+  const sw_pair_memory *m = sw_pair_recall(p, k, at);
+  const sw_pair_touch *last = last_for(p, k, at);
+  const double friction = sw_pair_rule_of(p, k->body)->friction;
+  t.pair = (uint32_t)(k - p->pairs);
+  sw_press *press = &t.press;
+  press->gap = gap, press->normal = normal;
+  press->k = t.stiffer = stiffness_of(p, k, m, last);
+  t.forgiven = forgiven(p, s, k, &t, m);
+  press->gap += t.forgiven;
+  press->gap_after = press->gap;
+  sw_press_activate(press, last && p->regime != SW_CONTACT_EXPLICIT ? &last->press : NULL);
+  const int pressed = m && m->normal_force > 0;
+  sw_vec u = sw_sub(sw_pair_apart(y, k->one, k->two, at), sw_pair_apart(s->x, k->one, k->two, at));
+  if (pressed)
+    u = sw_add(u, carry(m->elastic, m->normal, normal));
+  else if (press->gap >= 0)
+    u = sw_v(0, 0, 0);
+  press->trial = sw_madd(u, normal, -sw_dot(u, normal));
+  press->lag = pressed ? m->normal_force : press->k * fmax(0.0, -press->gap);
+  if (last) sw_press_take_lag(press, &last->press);
+  const int known = (last && last->press.active) || pressed;
+  if (known) press->sliding = last && last->press.active ? last->press.next_sliding : m->sliding;
+  sw_press_begin(press, friction, known);
+  SW_TRY(sw_grow((void **)&p->touches, &p->touch_capacity, p->touch_count + 1, sizeof *p->touches));
+  p->touches[p->touch_count++] = t;
+  return SW_OK;
+}
+
+/* Places nearer than this share of the radii's sum are in the list of touches, so that
+ * what begins to touch finds its state of the iterate before [-]. */
+static const double LISTED_GAP = 0.25;
+
+/* The touch at given places, unless the wires are apart there. Axes that have got
+ * through each other within the iteration are told by the remembered normal. */
+static sw_status touch_at(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
+                          const double at[2], int slides_one, int slides_two) {
+  const sw_vec d = sw_pair_apart(y, k->one, k->two, at);
+  double distance = sw_norm(d);
+  if (!(distance < (1.0 + LISTED_GAP) * k->reach)) return SW_OK;
+  const sw_pair_memory *m = sw_pair_recall(p, k, at);
+  sw_vec normal = sw_unit_or(d, m ? m->normal : sw_v(0, 0, 1));
+  if (m && sw_dot(normal, m->normal) < 0) normal = sw_neg(normal), distance = -distance;
+  const sw_pair_touch t = {.at = {at[0], at[1]}, .slides = {slides_one, slides_two}};
+  return add_touch(p, s, k, y, t, distance - k->reach, normal);
+}
+
+static sw_status behind_barrier(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
+                                int *found) {
+  for (size_t i = 0; i < p->barrier_count; i++) {
+    const sw_pair_barrier *b = &p->barriers[i];
+    if (b->one != k->one || b->two != k->two) continue;
+    const sw_vec d = sw_pair_apart(y, b->one, b->two, b->at);
+    *found = 1;
+    const sw_pair_touch t = {.at = {b->at[0], b->at[1]}, .barred = 1};
+    SW_TRY(add_touch(p, s, k, y, t, sw_dot(b->normal, d) - k->reach, b->normal));
+  }
+  return SW_OK;
+}
+
+static sw_vec edge(const double *y, uint32_t e) {
+  return sw_sub(sw_vec_at(y, e + 1u), sw_vec_at(y, e));
+}
+
+static int is_last(const sw_system *s, uint32_t body, uint32_t e) {
+  return e + 2 == s->bodies[body].first_node + s->bodies[body].plan->nodes;
+}
+
+/* A nearest point at a segment's end counts once: for the segment that starts there, and
+ * only when the one before it does not come nearer still. away: from the other wire to
+ * here, along the outward normal. */
+static const double ROUNDING = 1e-9; /* [-] */
+
+static int owns_end(const sw_system *s, uint32_t body, uint32_t e, double at, sw_vec away,
+                    const double *y) {
+  if (at >= 1.0) return is_last(s, body, e);
+  if (at > 0.0 || e == s->bodies[body].first_node) return 1;
+  const sw_vec before = edge(y, e - 1); /* rounding must not make both leave it to the other */
+  return sw_dot(away, before) <= ROUNDING * sw_norm(away) * sw_norm(before);
+}
+
+static sw_status touch_crossing(sw_pairs *p, const sw_system *s, const sw_pair *k,
+                                const double *y) {
+  double at[2];
+  sw_segments_nearest(sw_vec_at(y, k->one), sw_vec_at(y, k->one + 1u), sw_vec_at(y, k->two),
+                      sw_vec_at(y, k->two + 1u), at);
+  const sw_vec away = sw_pair_apart(y, k->one, k->two, at);
+  if (!owns_end(s, k->body[0], k->one, at[0], away, y) ||
+      !owns_end(s, k->body[1], k->two, at[1], sw_neg(away), y))
+    return SW_OK;
+  return touch_at(p, s, k, y, at, at[0] > 0 && at[0]<1, at[1]> 0 && at[1] < 1);
+}
+
+/* Place of point q along segment e; 1 when it is beside it. */
+static int beside(const double *y, uint32_t e, int last, sw_vec q, double *at) {
+  const sw_vec u = edge(y, e);
+  *at = sw_dot(u, sw_sub(q, sw_vec_at(y, e))) / fmax(sw_norm2(u), 1e-300);
+  return *at >= 0 && (*at < 1 || (last && *at <= 1));
+}
+
+/* Each segment's first node against the other; at a wire's end its last node too. */
+static sw_status touch_parallel(sw_pairs *p, const sw_system *s, const sw_pair *k,
+                                const double *y) {
+  const int last[2] = {is_last(s, k->body[0], k->one), is_last(s, k->body[1], k->two)};
+  for (uint32_t end = 0; end < 2; end++) {
+    double at[2] = {end, 0};
+    if ((!end || last[0]) && beside(y, k->two, last[1], sw_vec_at(y, k->one + end), &at[1]))
+      SW_TRY(touch_at(p, s, k, y, at, 0, at[1] > 0 && at[1] < 1));
+    at[1] = end;
+    if ((!end || last[1]) && beside(y, k->one, last[0], sw_vec_at(y, k->two + end), &at[0]) &&
+        !(at[0] == 0 || at[0] == 1)) /* node on node came first */
+      SW_TRY(touch_at(p, s, k, y, at, 1, 0));
+  }
+  return SW_OK;
+}
+
+static void swap_lists(sw_pairs *p) {
+  sw_pair_touch *list = p->last;
+  const size_t capacity = p->last_capacity;
+  p->last = p->touches, p->last_capacity = p->touch_capacity, p->last_count = p->touch_count;
+  p->touches = list, p->touch_capacity = capacity, p->touch_count = 0;
+  size_t i = 0; /* both lists are in the pairs' order */
+  for (size_t k = 0; k < p->pair_count; k++) {
+    p->pairs[k].last = i;
+    while (i < p->last_count && p->last[i].pair == k) i++;
+    p->pairs[k].last_end = i;
+  }
+}
+
+static sw_status find_touches(sw_pairs *p, const sw_system *s, const double *y) {
+  swap_lists(p);
+  for (size_t i = 0; i < p->pair_count; i++) {
+    const sw_pair *k = &p->pairs[i];
+    int found = 0;
+    if (k->held) continue;
+    if (p->barrier_count) SW_TRY(behind_barrier(p, s, k, y, &found));
+    if (!found) SW_TRY((k->parallel ? touch_parallel : touch_crossing)(p, s, k, y));
+  }
+  return SW_OK;
+}
+
+/* --- forces ---------------------------------------------------------------------- */
+
+static sw_status apply(sw_pairs *p, sw_system *s, sw_pair_touch *t, const double *y,
+                       unsigned want) {
+  const sw_pair *k = &p->pairs[t->pair];
+  const int stiff = (want & SW_WANT_STIFFNESS) != 0;
+  double K[6];
+  t->press.normal_force = 0;
+  t->press.tangential = sw_v(0, 0, 0);
+  if (!t->press.active) return SW_OK;
+  const sw_vec f = sw_press_eval(&t->press, sw_pair_rule_of(p, k->body)->friction,
+                                 p->regime != SW_CONTACT_EXPLICIT, K);
+  return sw_pair_add(s, k, t, y, f, stiff ? K : NULL);
+}
+
+sw_status sw_pairs_eval(sw_pairs *p, sw_system *s, const double *y, unsigned want, sw_error *err) {
+  sw_status status = find_touches(p, s, y);
+  for (size_t i = 0; i < p->touch_count && status == SW_OK; i++)
+    status = apply(p, s, &p->touches[i], y, want);
+  return status == SW_OK ? SW_OK : sw_fail(err, status, "contact of wires: out of memory");
+}
+
+/* --- after the solve -------------------------------------------------------------- */
+
+/* Shorter updates leave place and normal of a touch as they are; of the radii [-]. */
+static const double SMALL_SHIFT = 0.05;
+
+static int update(const sw_pairs *p, sw_pair_touch *t, const double *delta, double scale) {
+  const sw_pair *k = &p->pairs[t->pair];
+  const sw_vec shift = sw_pair_apart(delta, k->one, k->two, t->at);
+  const int agrees =
+      sw_press_update(&t->press, sw_pair_rule_of(p, k->body)->friction, shift, scale);
+  if (t->press.gap_after < 0.5 * k->reach && sw_norm(shift) > SMALL_SHIFT * k->reach) return 0;
+  return agrees;
+}
+
+/* In steps below this share of the nominal one, depth that was there before is taken as
+ * it comes: inertia alone would keep it [-]. */
+static const double SMALL_STEP = 0.25;
+static const double DEEPER = 5e-6; /* [m] */
+
+static int is_old_depth(const sw_pairs *p, const sw_system *s, const sw_pair_touch *t) {
+  const sw_pair *k = &p->pairs[t->pair];
+  if (p->regime != SW_CONTACT_IMPLICIT || p->h >= SMALL_STEP * p->nominal) return 0;
+  const double apart = sw_dot(t->press.normal, sw_pair_apart(s->x, k->one, k->two, t->at));
+  return t->forgiven - t->press.gap_after < k->reach - apart + DEEPER;
+}
+
+/* Make touches that sink in too deep stiffer; 1 = there were some. */
+static int stiffen(sw_pairs *p, const sw_system *s) {
+  int any = 0;
+  if (p->regime == SW_CONTACT_EXPLICIT) return 0;
+  for (size_t i = 0; i < p->touch_count; i++) {
+    sw_pair_touch *t = &p->touches[i];
+    const double usual = p->pairs[t->pair].usual;
+    if (t->press.gap_after >= -SW_DEEPEST || t->press.k >= SW_MOST_BOOST * usual) continue;
+    if (is_old_depth(p, s, t)) continue;
+    t->stiffer = t->press.k * fmin(10.0, 2.0 * t->press.gap_after / -SW_DEEPEST);
+    any = 1;
+  }
+  return any;
+}
+
+/* Forces far below the largest one here do not matter. */
+static double scale_of(const sw_pairs *p) {
+  double scale = 0;
+  for (size_t i = 0; i < p->touch_count; i++) scale = fmax(scale, p->touches[i].press.lag);
+  return scale;
+}
+
+int sw_pairs_settled(sw_pairs *p, sw_system *s, const double *delta) {
+  const double scale = scale_of(p);
+  int fine = 1;
+  for (size_t i = 0; i < p->touch_count; i++) fine &= update(p, &p->touches[i], delta, scale);
+  if (fine && stiffen(p, s)) return 0;
+  for (size_t i = 0; fine && i < p->touch_count; i++) {
+    const sw_pair_touch *t = &p->touches[i];
+    if (!(t->press.normal_force > 0 || t->press.gap_after < 0)) continue;
+    if (sw_grow((void **)&p->pressed, &p->pressed_capacity, p->pressed_count + 1,
+                sizeof *p->pressed) != SW_OK)
+      break; /* an impact is then dealt with in the next step */
+    p->pressed[p->pressed_count++] = *t;
+  }
+  return fine;
+}

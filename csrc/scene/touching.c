@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What wires touch: obstacles, each other, themselves. Which wires touch each other is a
+ * list of statements, the later ones overruling the earlier; the system gets a table. */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "scene/world.h"
+
+static const sw_param rows[] = {
+    {"between", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
+     "a wire or a list of wires (default: every wire, those to come too)"},
+    {"friction", SW_PARAM_NUMBER, "-", 0.3, 0, 100, 0, NULL,
+     offsetof(sw_wire_contact_args, friction), "Coulomb friction coefficient"},
+    {"self", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, offsetof(sw_wire_contact_args, self),
+     "false: not of a wire with itself"},
+    {"on", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, offsetof(sw_wire_contact_args, on),
+     "false: from now on they pass through each other"},
+};
+const sw_params sw_wire_contact_params = SW_PARAMS("scene:wire_contact", rows);
+
+sw_status sw_scene_wire_contact(sw_scene *s, const sw_wire_contact_args *args,
+                                const sw_handle *wires, size_t count, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  for (size_t k = 0; k < count; k++)
+    if (!sw_scene_find_wire(s, wires[k], err)) return SW_EDEAD;
+  SW_TRY(sw_scene_thaw(s));
+  uint32_t *slots = sw_alloc(count, sizeof *slots);
+  if (!slots || sw_grow((void **)&s->rules, &s->rule_capacity, s->rule_count + 1,
+                        sizeof *s->rules) != SW_OK) {
+    sw_free(slots);
+    return sw_fail(err, SW_ENOMEM, "scene:wire_contact: out of memory");
+  }
+  for (size_t k = 0; k < count; k++) slots[k] = wires[k].slot;
+  s->rules[s->rule_count++] = (sw_scene_rule){.wires = slots,
+                                              .count = count,
+                                              .self = args->self,
+                                              .rule = {.on = args->on, .friction = args->friction}};
+  return SW_OK;
+}
+
+void sw_scene_drop_rules(sw_scene *s, size_t keep) {
+  while (s->rule_count > keep) sw_free(s->rules[--s->rule_count].wires);
+}
+
+static void state_rule(const sw_scene_rule *r, size_t wires, sw_pair_rule *table) {
+  const size_t count = r->count ? r->count : wires;
+  for (size_t i = 0; i < count; i++)
+    for (size_t j = 0; j < count; j++) {
+      const size_t a = r->count ? r->wires[i] : i, b = r->count ? r->wires[j] : j;
+      if (a != b || r->self) table[wires * a + b] = r->rule;
+    }
+}
+
+sw_status sw_scene_new_pairs(sw_scene *s) {
+  int any = 0;
+  const size_t n = s->wire_count;
+  if (!s->rule_count) return SW_OK;
+  sw_pair_rule *table = sw_alloc(n * n, sizeof *table);
+  if (!table) return SW_ENOMEM;
+  for (size_t k = 0; k < s->rule_count; k++) state_rule(&s->rules[k], n, table);
+  for (size_t k = 0; k < n * n; k++) any |= table[k].on;
+  const sw_status status = any ? sw_pairs_new(table, n, &s->pairs) : SW_OK;
+  sw_free(table);
+  return status;
+}
+
+/* --- the system's coupling ------------------------------------------------------- */
+
+static sw_status begin_stage(void *user, sw_system *system, double t, double hbar, const double *y,
+                             sw_error *err) {
+  return sw_contact_begin_stage(((sw_scene *)user)->contact, system, t, hbar, y, err);
+}
+
+static sw_status eval(void *user, sw_system *system, double t, double hbar, const double *y,
+                      unsigned want, sw_error *err) {
+  const sw_scene *s = user;
+  if (s->contact) SW_TRY(sw_contact_eval(s->contact, system, t, hbar, y, want, err));
+  return s->pairs ? sw_pairs_eval(s->pairs, system, y, want, err) : SW_OK;
+}
+
+static int settled(void *user, sw_system *system, const double *y, const double *delta) {
+  const sw_scene *s = user;
+  int fine = !s->contact || sw_contact_settled(s->contact, system, y, delta);
+  if (s->pairs) fine &= sw_pairs_settled(s->pairs, system, delta);
+  return fine;
+}
+
+void sw_scene_couple(sw_scene *s) {
+  if (s->contact) s->system.coupling.begin_stage = begin_stage;
+  if (!sw_scene_has_contact(s)) return;
+  s->system.coupling.eval = eval;
+  s->system.coupling.settled = settled;
+}
+
+int sw_scene_has_contact(const sw_scene *s) { return s->contact || s->pairs; }
+
+sw_status sw_scene_begin_contact(sw_scene *s, sw_contact_regime regime, double h, double nominal,
+                                 sw_error *err) {
+  if (s->contact)
+    SW_TRY(sw_contact_begin_step(s->contact, &s->system, regime, s->time, h, nominal, err));
+  return s->pairs ? sw_pairs_begin_step(s->pairs, &s->system, regime, h, nominal, err) : SW_OK;
+}
+
+sw_contact_verdict sw_scene_review_contact(sw_scene *s, const double *x1, double h) {
+  sw_contact_verdict verdict = SW_CONTACT_ACCEPT;
+  if (s->contact) verdict = sw_contact_review(s->contact, &s->system, x1, h);
+  if (!s->pairs || verdict == SW_CONTACT_SMALLER) return verdict;
+  const sw_contact_verdict other = sw_pairs_review(s->pairs, &s->system, x1, h);
+  return other == SW_CONTACT_ACCEPT ? verdict : other;
+}
+
+int sw_scene_review_static(sw_scene *s, const double *x1) {
+  int again = s->contact && sw_contact_review_static(s->contact, &s->system, x1);
+  if (s->pairs) again |= sw_pairs_review_static(s->pairs, &s->system, x1);
+  return again;
+}
+
+void sw_scene_commit_contact(sw_scene *s) {
+  if (s->contact) sw_contact_commit(s->contact, &s->system);
+  if (s->pairs) sw_pairs_commit(s->pairs, &s->system);
+}
+
+/* --- read-outs ------------------------------------------------------------------- */
+
+size_t sw_scene_touches(sw_scene *s) {
+  if (!s->built) return 0;
+  return (s->contact ? sw_contact_count(s->contact) : 0) +
+         (s->pairs ? sw_pairs_count(s->pairs) : 0);
+}
+
+double sw_scene_deepest(const sw_scene *s, size_t *node) {
+  size_t other = 0;
+  const double obstacle = s->contact ? sw_contact_penetration(s->contact, node) : 0.0;
+  const double wire = s->pairs ? sw_pairs_penetration(s->pairs, &other) : 0.0;
+  if (wire > obstacle && node) *node = other;
+  return fmax(obstacle, wire);
+}
+
+double sw_scene_contact_energy(const sw_scene *s) {
+  return (s->contact ? sw_contact_energy(s->contact) : 0.0) +
+         (s->pairs ? sw_pairs_energy(s->pairs) : 0.0);
+}
+
+sw_status sw_scene_wire_touch_count(sw_scene *s, size_t *count, sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_editable(s, err));
+  *count = s->built && s->pairs ? sw_pairs_count(s->pairs) : 0;
+  return SW_OK;
+}
+
+void sw_scene_wire_touch(sw_scene *s, size_t number, sw_wire_touch *out) {
+  const sw_pair_place p = sw_pairs_place(s->pairs, number);
+  sw_vec at[2];
+  for (size_t k = 0; k < 2; k++) {
+    const sw_body *b = &s->system.bodies[p.body[k]];
+    const size_t i = p.node[k] - b->first_node;
+    const double *x = s->system.x + 3 * p.node[k];
+    at[k] = sw_lerp(sw_load(x), sw_load(x + 3), p.at[k]);
+    memcpy(out->wire[k], s->wires[p.body[k]].name, SW_NAME_SIZE);
+    out->s[k] = b->plan->s[i] - b->plan->s[0] + p.at[k] * b->plan->rest[i];
+  }
+  const double r1 = s->wires[p.body[0]].beam.radius, r2 = s->wires[p.body[1]].beam.radius;
+  out->point = sw_lerp(at[1], at[0], r2 / (r1 + r2));
+  out->normal = p.normal;
+  out->force = sw_madd(p.friction, p.normal, p.normal_force);
+  out->normal_force = p.normal_force;
+  out->friction = p.friction;
+}

@@ -1,0 +1,322 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Analysis finds the order, the pattern of L, and for every product of the
+ * elimination the block it is subtracted from; the factorisation then only runs
+ * through these lists. */
+#include "solve/sparse.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/simd.h"
+
+struct sw_sparse {
+  size_t n, block, pairs;
+  uint32_t *place;       /* (n) node -> its number in the elimination */
+  uint32_t *start, *row; /* (n + 1), (fill): rows of each column of L, ascending */
+  uint32_t *slot;        /* (pairs) block of L, times 2, + 1 when given transposed */
+  uint32_t *target;      /* blocks that products of two rows of a column go to */
+  size_t targets, fill, widest;
+  double *own, *off;  /* (n), (fill) blocks */
+  double *column, *x; /* (widest) blocks, (n x block) */
+};
+
+void sw_sparse_free(sw_sparse *s) {
+  if (!s) return;
+  sw_free(s->place);
+  sw_free(s->start);
+  sw_free(s->row);
+  sw_free(s->slot);
+  sw_free(s->target);
+  sw_free(s->own);
+  sw_free(s);
+}
+
+size_t sw_sparse_fill(const sw_sparse *s) { return s->fill; }
+
+/* --- analysis ------------------------------------------------------------------- */
+
+/* Lists of neighbours, both directions; repeated pairs stay repeated. */
+static sw_status neighbours(size_t n, const sw_sparse_pair *pairs, size_t count, int32_t **first,
+                            int32_t **next) {
+  *first = sw_alloc(n + 2, sizeof **first);
+  *next = sw_alloc(2 * count + 1, sizeof **next);
+  if (!*first || !*next) return SW_ENOMEM;
+  int32_t *at = *first + 1; /* becomes first: filled one place further on */
+  for (size_t k = 0; k < count; k++) at[pairs[k].i + 1]++, at[pairs[k].j + 1]++;
+  for (size_t i = 1; i < n; i++) at[i] += at[i - 1];
+  for (size_t k = 0; k < count; k++) {
+    (*next)[at[pairs[k].i]++] = (int32_t)pairs[k].j;
+    (*next)[at[pairs[k].j]++] = (int32_t)pairs[k].i;
+  }
+  return SW_OK;
+}
+
+static void sort(uint32_t *a, size_t n) {
+  for (size_t i = 1; i < n; i++) {
+    const uint32_t v = a[i];
+    size_t j = i;
+    for (; j > 0 && a[j - 1] > v; j--) a[j] = a[j - 1];
+    a[j] = v;
+  }
+}
+
+/* Work of the analysis, each (n) or (n + 1). */
+typedef struct analysis {
+  int32_t *first, *next, *order;
+  uint32_t *seen, *child, *sibling;
+  size_t row_capacity;
+} analysis;
+
+/* Rows of column k of L: those of the matrix and those of the columns whose first
+ * row is k. */
+static sw_status find_column(sw_sparse *s, analysis *a, uint32_t k) {
+  const uint32_t none = (uint32_t)s->n, node = (uint32_t)a->order[k];
+  size_t most = (size_t)(a->first[node + 1] - a->first[node]);
+  for (uint32_t c = a->child[k]; c != none; c = a->sibling[c])
+    most += s->start[c + 1] - s->start[c];
+  SW_TRY(sw_grow((void **)&s->row, &a->row_capacity, s->fill + most + 1, sizeof *s->row));
+  uint32_t *rows = s->row + s->fill;
+  size_t count = 0;
+  a->seen[k] = k;
+  for (int32_t e = a->first[node]; e < a->first[node + 1]; e++) {
+    const uint32_t r = s->place[a->next[e]];
+    if (r > k && a->seen[r] != k) a->seen[r] = k, rows[count++] = r;
+  }
+  for (uint32_t c = a->child[k]; c != none; c = a->sibling[c])
+    for (uint32_t e = s->start[c]; e < s->start[c + 1]; e++) {
+      const uint32_t r = s->row[e];
+      if (a->seen[r] != k) a->seen[r] = k, rows[count++] = r;
+    }
+  sort(rows, count);
+  if (count) {
+    a->sibling[k] = a->child[rows[0]];
+    a->child[rows[0]] = k;
+  }
+  s->fill += count;
+  s->start[k + 1] = (uint32_t)s->fill;
+  if (count > s->widest) s->widest = count;
+  return SW_OK;
+}
+
+static uint32_t find_slot(const sw_sparse *s, uint32_t column, uint32_t row) {
+  uint32_t low = s->start[column], high = s->start[column + 1];
+  while (high - low > 1) {
+    const uint32_t middle = low + (high - low) / 2;
+    if (s->row[middle] <= row)
+      low = middle;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+/* Where the product of rows a < b of each column goes, in the order in which the
+ * factorisation makes them. */
+static sw_status find_targets(sw_sparse *s) {
+  size_t total = 0;
+  for (size_t k = 0; k < s->n; k++) {
+    const size_t p = s->start[k + 1] - s->start[k];
+    total += p * (p - (p > 0)) / 2;
+  }
+  s->target = sw_alloc(total, sizeof *s->target);
+  if (!s->target) return SW_ENOMEM;
+  for (size_t k = 0; k < s->n; k++)
+    for (uint32_t a = s->start[k]; a < s->start[k + 1]; a++) {
+      uint32_t at = s->start[s->row[a]];
+      for (uint32_t b = a + 1; b < s->start[k + 1]; b++) {
+        while (s->row[at] != s->row[b]) at++; /* both lists ascend */
+        s->target[s->targets++] = at;
+      }
+    }
+  return SW_OK;
+}
+
+static sw_status analyse(sw_sparse *s, const sw_sparse_pair *pairs, size_t count, analysis *a) {
+  const size_t n = s->n;
+  a->order = sw_alloc(n, sizeof *a->order);
+  a->seen = sw_alloc(3 * (n + 1), sizeof *a->seen);
+  s->place = sw_alloc(n, sizeof *s->place);
+  s->start = sw_alloc(n + 1, sizeof *s->start);
+  s->slot = sw_alloc(count, sizeof *s->slot);
+  if (!a->order || !a->seen || !s->place || !s->start || !s->slot) return SW_ENOMEM;
+  a->child = a->seen + n + 1, a->sibling = a->child + n + 1;
+  SW_TRY(neighbours(n, pairs, count, &a->first, &a->next));
+  SW_TRY(sw_sparse_order(n, a->first, a->next, a->order));
+  for (size_t k = 0; k < n; k++) s->place[a->order[k]] = (uint32_t)k;
+  for (size_t k = 0; k <= n; k++) a->seen[k] = a->child[k] = a->sibling[k] = (uint32_t)n;
+  for (size_t k = 0; k < n; k++) SW_TRY(find_column(s, a, (uint32_t)k));
+  for (size_t k = 0; k < count; k++) {
+    const uint32_t pi = s->place[pairs[k].i], pj = s->place[pairs[k].j];
+    s->slot[k] = pi < pj ? 2 * find_slot(s, pi, pj) + 1 : 2 * find_slot(s, pj, pi);
+  }
+  return find_targets(s);
+}
+
+sw_status sw_sparse_new(size_t nodes, size_t block, const sw_sparse_pair *pairs, size_t count,
+                        sw_sparse **out) {
+  analysis a = {0};
+  sw_sparse *s = sw_alloc(1, sizeof *s);
+  if (!s) return SW_ENOMEM;
+  s->n = nodes, s->block = block, s->pairs = count;
+  sw_status status =
+      nodes < INT32_MAX / 4 && count < INT32_MAX / 4 ? analyse(s, pairs, count, &a) : SW_ENOMEM;
+  sw_free(a.first);
+  sw_free(a.next);
+  sw_free(a.order);
+  sw_free(a.seen);
+  const size_t bb = block * block;
+  if (status == SW_OK) {
+    s->own = sw_alloc(bb * (s->n + s->fill + s->widest) + block * s->n, sizeof *s->own);
+    if (!s->own) status = SW_ENOMEM;
+  }
+  if (status != SW_OK) {
+    sw_sparse_free(s);
+    return status;
+  }
+  s->off = s->own + bb * s->n;
+  s->column = s->off + bb * s->fill;
+  s->x = s->column + bb * s->widest;
+  *out = s;
+  return SW_OK;
+}
+
+/* --- values --------------------------------------------------------------------- */
+
+void sw_sparse_clear(sw_sparse *s) {
+  memset(s->own, 0, s->block * s->block * (s->n + s->fill) * sizeof *s->own);
+}
+
+double *sw_sparse_own(sw_sparse *s, size_t node) {
+  return s->own + s->block * s->block * s->place[node];
+}
+
+void sw_sparse_add(sw_sparse *s, size_t pair, const double *values) {
+  const size_t b = s->block;
+  double *to = s->off + b * b * (s->slot[pair] / 2);
+  if (s->slot[pair] % 2) {
+    for (size_t i = 0; i < b; i++)
+      for (size_t j = 0; j < b; j++) to[b * j + i] += values[b * i + j];
+  } else {
+    for (size_t k = 0; k < b * b; k++) to[k] += values[k];
+  }
+}
+
+/* --- factorisation --------------------------------------------------------------- */
+
+#define ALWAYS static inline __attribute__((always_inline))
+
+/* Inverse of a symmetric block in place, pivot by pivot (in a wire the first may be a
+ * thousand million times as stiff as the others); counts negative pivots. 0 when a pivot
+ * vanishes or is not finite. */
+ALWAYS int invert(double *m, const int b, size_t *negative) {
+  double product = 1.0;
+  for (int k = 0; k < b; k++) { /* sweeps: after all of them m is minus its inverse */
+    const double pivot = m[b * k + k], r = 1.0 / pivot;
+    *negative += pivot < 0;
+    product *= r * pivot; /* not a number when a pivot is no good */
+    double column[SW_SPARSE_BLOCK_MAX];
+    for (int i = 0; i < b; i++) column[i] = m[b * i + k] * r;
+    for (int i = 0; i < b; i++)
+      for (int j = 0; j < b; j++)
+        if (i != k && j != k) m[b * i + j] -= column[i] * m[b * k + j];
+    for (int i = 0; i < b; i++) m[b * i + k] = m[b * k + i] = column[i];
+    m[b * k + k] = -r;
+  }
+  for (int k = 0; k < b * b; k++) m[k] = -m[k];
+  return product > 0;
+}
+
+/* w = a d */
+ALWAYS void times(const double *restrict a, const double *restrict d, double *restrict w,
+                  const int b) {
+  for (int i = 0; i < b; i++)
+    for (int j = 0; j < b; j++) {
+      double sum = a[b * i] * d[j];
+      for (int k = 1; k < b; k++) sum += a[b * i + k] * d[b * k + j];
+      w[b * i + j] = sum;
+    }
+}
+
+/* to -= w a' */
+ALWAYS void subtract(const double *restrict w, const double *restrict a, double *restrict to,
+                     const int b) {
+  for (int i = 0; i < b; i++)
+    for (int j = 0; j < b; j++) {
+      double sum = to[b * i + j];
+      for (int k = 0; k < b; k++) sum -= w[b * i + k] * a[b * j + k];
+      to[b * i + j] = sum;
+    }
+}
+
+ALWAYS sw_status factor(sw_sparse *s, size_t *negative, const int b) {
+  const size_t bb = (size_t)b * (size_t)b;
+  const uint32_t *target = s->target;
+  for (size_t k = 0; k < s->n; k++) {
+    double *own = s->own + bb * k;
+    if (!invert(own, b, negative)) return SW_ESINGULAR;
+    const uint32_t begin = s->start[k], p = s->start[k + 1] - begin;
+    double *off = s->off + bb * begin;
+    for (uint32_t a = 0; a < p; a++) times(off + bb * a, own, s->column + bb * a, b);
+    for (uint32_t a = 0; a < p; a++) {
+      const double *pivot = off + bb * a;
+      subtract(s->column + bb * a, pivot, s->own + bb * s->row[begin + a], b);
+      for (uint32_t r = a + 1; r < p; r++)
+        subtract(s->column + bb * r, pivot, s->off + bb * *target++, b);
+    }
+    memcpy(off, s->column, bb * p * sizeof *off);
+  }
+  return SW_OK;
+}
+
+SW_HOT
+static sw_status factor3(sw_sparse *s, size_t *negative) { return factor(s, negative, 3); }
+SW_HOT
+static sw_status factor4(sw_sparse *s, size_t *negative) { return factor(s, negative, 4); }
+
+sw_status sw_sparse_factor(sw_sparse *s, size_t *negative) {
+  size_t count = 0;
+  const sw_status status = s->block == 3 ? factor3(s, &count) : factor4(s, &count);
+  if (negative) *negative = count;
+  return status;
+}
+
+ALWAYS void solve(const sw_sparse *s, double *restrict x, const int b) {
+  const size_t bb = (size_t)b * (size_t)b, bs = (size_t)b;
+  for (size_t k = 0; k < s->n; k++) {
+    const double *xk = x + bs * k;
+    for (uint32_t e = s->start[k]; e < s->start[k + 1]; e++) {
+      const double *l = s->off + bb * e;
+      double *to = x + bs * s->row[e];
+      for (int i = 0; i < b; i++)
+        for (int j = 0; j < b; j++) to[i] -= l[b * i + j] * xk[j];
+    }
+  }
+  for (size_t k = s->n; k-- > 0;) {
+    const double *d = s->own + bb * k;
+    double *xk = x + bs * k, sum[SW_SPARSE_BLOCK_MAX] = {0};
+    for (int i = 0; i < b; i++)
+      for (int j = 0; j < b; j++) sum[i] += d[b * i + j] * xk[j];
+    for (uint32_t e = s->start[k]; e < s->start[k + 1]; e++) {
+      const double *l = s->off + bb * e, *from = x + bs * s->row[e];
+      for (int i = 0; i < b; i++)
+        for (int j = 0; j < b; j++) sum[j] -= l[b * i + j] * from[i];
+    }
+    for (int i = 0; i < b; i++) xk[i] = sum[i];
+  }
+}
+
+SW_HOT
+static void solve3(const sw_sparse *s, double *x) { solve(s, x, 3); }
+SW_HOT
+static void solve4(const sw_sparse *s, double *x) { solve(s, x, 4); }
+
+void sw_sparse_solve(sw_sparse *s, double *b) {
+  const size_t m = s->block;
+  for (size_t i = 0; i < s->n; i++) memcpy(s->x + m * s->place[i], b + m * i, m * sizeof *b);
+  if (m == 3)
+    solve3(s, s->x);
+  else
+    solve4(s, s->x);
+  for (size_t i = 0; i < s->n; i++) memcpy(b + m * i, s->x + m * s->place[i], m * sizeof *b);
+}

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Symmetric matrices of square blocks with any pattern: chains of nodes that are
+ * linked to one another, by contact or at branches. Factorised without pivoting as
+ * L D L' in an order that keeps L sparse, so that the signs of the pivots count
+ * negative directions. The pattern is analysed once; values come anew each time. */
+#ifndef SW_SOLVE_SPARSE_H
+#define SW_SOLVE_SPARSE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/status.h"
+
+typedef struct sw_sparse sw_sparse;
+
+/* Nodes i and j, i != j, whose block is not zero. */
+typedef struct sw_sparse_pair {
+  uint32_t i, j;
+} sw_sparse_pair;
+
+enum { SW_SPARSE_BLOCK_MAX = 4 };
+
+/* A matrix of nodes x nodes blocks of block x block values (3 or 4), zero apart from
+ * the diagonal and the given pairs, which may repeat. SW_ENOMEM. */
+sw_status sw_sparse_new(size_t nodes, size_t block, const sw_sparse_pair *pairs, size_t count,
+                        sw_sparse **out);
+void sw_sparse_free(sw_sparse *sparse); /* NULL is allowed */
+
+/* All values to zero. */
+void sw_sparse_clear(sw_sparse *sparse);
+
+/* Where to add the values of a node's own block (block x block, row by row). */
+double *sw_sparse_own(sw_sparse *sparse, size_t node);
+
+/* Add a block, row by row with i's rows, to pair number k of the list. */
+void sw_sparse_add(sw_sparse *sparse, size_t pair, const double *values);
+
+/* Factorise in place. negative (may be NULL) receives the number of negative pivots.
+ * SW_ESINGULAR when a pivot block vanishes or is not finite. */
+sw_status sw_sparse_factor(sw_sparse *sparse, size_t *negative);
+
+/* Solve in place for b (nodes x block). */
+void sw_sparse_solve(sw_sparse *sparse, double *b);
+
+/* Blocks below the diagonal of the factor. */
+size_t sw_sparse_fill(const sw_sparse *sparse);
+
+/* An order of n nodes in which few zeros fill: neighbours of node i are
+ * next[first[i]] .. next[first[i + 1] - 1], with both directions listed. order[k] is
+ * the node to eliminate as number k. SW_ENOMEM. */
+sw_status sw_sparse_order(size_t n, const int32_t *first, const int32_t *next, int32_t *order);
+
+#endif
