@@ -34,6 +34,7 @@ typedef struct sw_pair_touch {
   int slides[2];   /* 1: the place along that segment follows the nearest points */
   int barred;      /* kept on its side by a barrier */
   double stiffer;  /* its stiffness from the next iterate on [N/m] */
+  double aslant;   /* what a barrier's fixed normal takes off the distance [m] */
   double forgiven; /* part of the true depth left out of the gap in this step [m] */
   sw_press press;  /* its normal is towards segment one */
 } sw_pair_touch;

@@ -175,7 +175,8 @@ sw_pair_place sw_pairs_place(const sw_pairs *p, size_t number) {
 double sw_pairs_penetration(const sw_pairs *p, size_t *node) {
   double deepest = 0;
   for (size_t i = 0; i < p->touch_count; i++) {
-    const double depth = p->touches[i].forgiven - p->touches[i].press.gap_after;
+    const sw_pair_touch *t = &p->touches[i];
+    const double depth = t->forgiven - t->press.gap_after - t->aslant;
     if (depth <= deepest) continue;
     deepest = depth;
     if (node) *node = p->pairs[p->touches[i].pair].one;

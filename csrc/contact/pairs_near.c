@@ -237,13 +237,15 @@ static int all_held(const sw_system *s, const sw_near *n) {
   return 1;
 }
 
-/* Segments at a smaller angle touch along their length, not in a point. */
-static const double PARALLEL_SINE2 = 0.03; /* [-] */
+/* Segments that part by less than this along the shorter of them touch along their length,
+ * not in a point; of the radii's sum [-]. */
+static const double PARALLEL_SPREAD = 0.25;
 
-static int is_parallel(const double *x, const sw_near *n) {
+static int is_parallel(const double *x, const sw_near *n, double reach) {
   const sw_vec u = sw_sub(sw_vec_at(x, n->one + 1u), sw_vec_at(x, n->one));
   const sw_vec v = sw_sub(sw_vec_at(x, n->two + 1u), sw_vec_at(x, n->two));
-  return sw_norm2(sw_cross(u, v)) < PARALLEL_SINE2 * sw_norm2(u) * sw_norm2(v);
+  const double most = PARALLEL_SPREAD * reach;
+  return sw_norm2(sw_cross(u, v)) < most * most * fmax(sw_norm2(u), sw_norm2(v));
 }
 
 static double segment_mass(const sw_body *b, size_t node) {
@@ -283,7 +285,7 @@ static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double su
   *k = (sw_pair){.one = n->one,
                  .two = n->two,
                  .body = {n->body[0], n->body[1]},
-                 .parallel = is_parallel(s->x, n),
+                 .parallel = is_parallel(s->x, n, sum),
                  .held = all_held(s, n),
                  .reach = sum,
                  .usual = fmax(fmin(p->base_stiffness[n->body[0]], p->base_stiffness[n->body[1]]),

@@ -168,6 +168,25 @@ static int widen(sw_pairs *p, sw_system *s, const double *x1) {
   return sw_pairs_choose(p, s) == SW_OK ? 1 : -1;
 }
 
+/* A step may leave segments this much deeper in each other than it found them: of the
+ * radii's sum, and at most [-], [m]. */
+static const double DEEPER_SHARE = 0.05, DEEPER = 1e-4;
+/* In steps below this share of the nominal one depth is taken as it comes [-]. */
+static const double SMALLEST_CARE = 1.0 / 64;
+
+static int cuts_deep(const sw_pairs *p, const sw_system *s, const double *x1, double h) {
+  if (h < SMALLEST_CARE * p->nominal || p->regime == SW_CONTACT_EXPLICIT) return 0;
+  for (size_t i = 0; i < p->pair_count; i++) {
+    const sw_pair *k = &p->pairs[i];
+    const double deeper = fmin(DEEPER, DEEPER_SHARE * k->reach);
+    if (k->held || approach_bound(s->x, x1, k->one, k->two) < deeper) continue;
+    const sw_near n = {.one = k->one, .two = k->two};
+    const double after = distance_at(x1, &n);
+    if (after < k->reach - deeper && after < distance_at(s->x, &n) - deeper) return 1;
+  }
+  return 0;
+}
+
 sw_contact_verdict sw_pairs_review(sw_pairs *p, sw_system *s, const double *x1, double h) {
   const int wider = widen(p, s, x1);
   if (wider) {
@@ -181,7 +200,8 @@ sw_contact_verdict sw_pairs_review(sw_pairs *p, sw_system *s, const double *x1, 
   }
   const int struck = review_touches(p, s, h);
   p->pressed_count = 0;
-  return crossed || struck ? SW_CONTACT_STRIKE : SW_CONTACT_ACCEPT;
+  if (crossed || struck) return SW_CONTACT_STRIKE;
+  return cuts_deep(p, s, x1, h) ? SW_CONTACT_SMALLER : SW_CONTACT_ACCEPT;
 }
 
 int sw_pairs_review_static(sw_pairs *p, sw_system *s, const double *x1) {

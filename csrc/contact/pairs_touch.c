@@ -108,6 +108,10 @@ static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, co
  * what begins to touch finds its state of the iterate before [-]. */
 static const double LISTED_GAP = 0.25;
 
+/* Axes further apart than this have not just passed each other: in a knot, normals turn by
+ * more than a right angle within two segments. Of the radii's sum [-]. */
+static const double PASSED = 0.5;
+
 /* The touch at given places, unless the wires are apart there. Axes that have got
  * through each other within the iteration are told by the remembered normal. */
 static sw_status touch_at(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
@@ -117,7 +121,8 @@ static sw_status touch_at(sw_pairs *p, const sw_system *s, const sw_pair *k, con
   if (!(distance < (1.0 + LISTED_GAP) * k->reach)) return SW_OK;
   const sw_pair_memory *m = sw_pair_recall(p, k, at);
   sw_vec normal = sw_unit_or(d, m ? m->normal : sw_v(0, 0, 1));
-  if (m && sw_dot(normal, m->normal) < 0) normal = sw_neg(normal), distance = -distance;
+  if (m && distance < PASSED * k->reach && sw_dot(normal, m->normal) < 0)
+    normal = sw_neg(normal), distance = -distance;
   const sw_pair_touch t = {.at = {at[0], at[1]}, .slides = {slides_one, slides_two}};
   return add_touch(p, s, k, y, t, distance - k->reach, normal);
 }
@@ -129,8 +134,10 @@ static sw_status behind_barrier(sw_pairs *p, const sw_system *s, const sw_pair *
     if (b->one != k->one || b->two != k->two) continue;
     const sw_vec d = sw_pair_apart(y, b->one, b->two, b->at);
     *found = 1;
-    const sw_pair_touch t = {.at = {b->at[0], b->at[1]}, .barred = 1};
-    SW_TRY(add_touch(p, s, k, y, t, sw_dot(b->normal, d) - k->reach, b->normal));
+    const double gap = sw_dot(b->normal, d) - k->reach;
+    const sw_pair_touch t = {
+        .at = {b->at[0], b->at[1]}, .barred = 1, .aslant = sw_norm(d) - k->reach - gap};
+    SW_TRY(add_touch(p, s, k, y, t, gap, b->normal));
   }
   return SW_OK;
 }
@@ -168,11 +175,24 @@ static sw_status touch_crossing(sw_pairs *p, const sw_system *s, const sw_pair *
   return touch_at(p, s, k, y, at, at[0] > 0 && at[0]<1, at[1]> 0 && at[1] < 1);
 }
 
-/* Place of point q along segment e; 1 when it is beside it. */
-static int beside(const double *y, uint32_t e, int last, sw_vec q, double *at) {
+static double along(const double *y, uint32_t e, sw_vec q) {
   const sw_vec u = edge(y, e);
-  *at = sw_dot(u, sw_sub(q, sw_vec_at(y, e))) / fmax(sw_norm2(u), 1e-300);
-  return *at >= 0 && (*at < 1 || (last && *at <= 1));
+  return sw_dot(u, sw_sub(q, sw_vec_at(y, e))) / fmax(sw_norm2(u), 1e-300);
+}
+
+/* The place along segment e of a wire that is nearest to point q, when it is this segment's:
+ * beside it, or at its first node where the one before does not reach, or beyond the wire's
+ * end. */
+static int beside(const sw_system *s, uint32_t body, uint32_t e, const double *y, sw_vec q,
+                  double *at) {
+  *at = along(y, e, q);
+  if (*at >= 1) {
+    *at = 1;
+    return is_last(s, body, e);
+  }
+  if (*at > 0) return 1;
+  *at = 0;
+  return e == s->bodies[body].first_node || along(y, e - 1, q) >= 1;
 }
 
 /* Each segment's first node against the other; at a wire's end its last node too. */
@@ -181,11 +201,11 @@ static sw_status touch_parallel(sw_pairs *p, const sw_system *s, const sw_pair *
   const int last[2] = {is_last(s, k->body[0], k->one), is_last(s, k->body[1], k->two)};
   for (uint32_t end = 0; end < 2; end++) {
     double at[2] = {end, 0};
-    if ((!end || last[0]) && beside(y, k->two, last[1], sw_vec_at(y, k->one + end), &at[1]))
+    if ((!end || last[0]) && beside(s, k->body[1], k->two, y, sw_vec_at(y, k->one + end), &at[1]))
       SW_TRY(touch_at(p, s, k, y, at, 0, at[1] > 0 && at[1] < 1));
     at[1] = end;
-    if ((!end || last[1]) && beside(y, k->one, last[0], sw_vec_at(y, k->two + end), &at[0]) &&
-        !(at[0] == 0 || at[0] == 1)) /* node on node came first */
+    if ((!end || last[1]) && beside(s, k->body[0], k->one, y, sw_vec_at(y, k->two + end), &at[0]) &&
+        at[0] > 0 && at[0] < 1) /* node on node came first */
       SW_TRY(touch_at(p, s, k, y, at, 1, 0));
   }
   return SW_OK;
