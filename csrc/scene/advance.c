@@ -194,7 +194,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
   sw_scene *s = p->s;
   const double t0 = s->time;
   double done = 0, part = h;
-  const int starts = s->discontinuous && sw_slip_any(s);
+  int starts = s->discontinuous && sw_slip_any(s);
   if (starts) part = FIRST_SLIP * h;
   while (done < h) {
     const double left = h - done;
@@ -209,7 +209,8 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
       accept(p, part);
       s->time = done < h ? t0 + done : t1;
       SW_TRY(sw_scene_observe(s, err));
-      part = part < FIRST_SLIP * h * (1 + 1e-9) ? h : 2 * part;
+      part = starts ? h : 2 * part;
+      starts = 0;
       continue;
     }
     if (hopeless(status)) return status;

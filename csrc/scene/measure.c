@@ -134,7 +134,7 @@ static double torque_at(const sw_system *s, const sw_body *b, double at) {
   for (size_t k = 0; b->has_twist && k < b->plan->span_count; k++) {
     const sw_span *span = &b->plan->spans[k];
     if (at >= b->plan->s[span->first] && at <= b->plan->s[span->last + 1])
-      return b->plan->beam.GJ * sw_span_strain(b->plan, span, s->twist[b->first_span + k]);
+      return sw_span_torque(b->plan, span, b->plan->beam.GJ, s->twist[b->first_span + k]);
   }
   return 0.0;
 }

@@ -95,9 +95,11 @@ void sw_plan_clamp_lengths(double first, double second, double *clamp, double *n
 /* Make room for the unloaded shape of a wire with material frames. SW_ENOMEM. */
 sw_status sw_plan_add_rest(sw_plan *plan);
 
-/* Twist per length of a span beyond that of the unloaded wire [rad/m]. */
-static inline double sw_span_strain(const sw_plan *plan, const sw_span *span, double twist) {
-  return twist / span->length - plan->beam.rest_twist;
+/* Torque of a span for twist stiffness GJ: of its twist beyond that of the unloaded wire
+ * [N m]. */
+static inline double sw_span_torque(const sw_plan *plan, const sw_span *span, double GJ,
+                                    double twist) {
+  return GJ / span->length * twist - GJ * plan->beam.rest_twist;
 }
 
 sw_plan *sw_plan_retain(sw_plan *plan);
