@@ -273,27 +273,27 @@ static int update(const sw_pairs *p, sw_pair_touch *t, const double *delta, doub
 }
 
 /* In steps below this share of the nominal one, depth that was there before is taken as
- * it comes: inertia alone would keep it [-]. */
+ * it comes, for inertia alone would keep it; and what strikes in them gets there fast [-]. */
 static const double SMALL_STEP = 0.25;
 static const double DEEPER = 5e-6; /* [m] */
 
-static int is_old_depth(const sw_pairs *p, const sw_system *s, const sw_pair_touch *t) {
-  const sw_pair *k = &p->pairs[t->pair];
-  if (p->regime != SW_CONTACT_IMPLICIT || p->h >= SMALL_STEP * p->nominal) return 0;
+static int is_old_depth(const sw_system *s, const sw_pair *k, const sw_pair_touch *t) {
   const double apart = sw_dot(t->press.normal, sw_pair_apart(s->x, k->one, k->two, t->at));
   return t->forgiven - t->press.gap_after < k->reach - apart + DEEPER;
 }
 
 /* Make touches that sink in too deep stiffer; 1 = there were some. */
 static int stiffen(sw_pairs *p, const sw_system *s) {
+  const int small = p->regime == SW_CONTACT_IMPLICIT && p->h < SMALL_STEP * p->nominal;
   int any = 0;
   if (p->regime == SW_CONTACT_EXPLICIT) return 0;
   for (size_t i = 0; i < p->touch_count; i++) {
     sw_pair_touch *t = &p->touches[i];
-    const double usual = p->pairs[t->pair].usual;
-    if (t->press.gap_after >= -SW_DEEPEST || t->press.k >= SW_MOST_BOOST * usual) continue;
-    if (is_old_depth(p, s, t)) continue;
-    t->stiffer = t->press.k * fmin(10.0, 2.0 * t->press.gap_after / -SW_DEEPEST);
+    const sw_pair *k = &p->pairs[t->pair];
+    const double over = t->press.gap_after / -SW_DEEPEST;
+    if (over <= 1.0 || t->press.k >= SW_MOST_BOOST * k->usual) continue;
+    if (small && is_old_depth(s, k, t)) continue;
+    t->stiffer = t->press.k * (small ? 10.0 : fmin(10.0, 2.0 * over));
     any = 1;
   }
   return any;

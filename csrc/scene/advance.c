@@ -88,11 +88,17 @@ static sw_status check_trial(const sw_scene *s, sw_error *err) {
   return SW_OK;
 }
 
+/* A hold may turn by this much in a step: at half a turn and more its wire would not know
+ * which way [rad]. */
+static const double WIDEST_TURN = 2.5;
+
 static sw_status trial(loop *p, double h, sw_error *err) {
   sw_scene *s = p->s;
   sw_status status = sw_stepper_trial(&s->stepper, &s->system, s->time, h, err);
   p->report->iterations += s->stepper.iterations;
   if (status == SW_OK) status = check_trial(s, err);
+  if (status == SW_OK && s->system.fastest_turn * h > WIDEST_TURN)
+    status = sw_fail(err, SW_ENOCONV, "what holds a wire turns too far in one step");
   if (status != SW_OK) sw_stepper_reject(&s->stepper, &s->system);
   return status;
 }
@@ -253,13 +259,26 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
 /* Slow handling: what drives the wires goes on by a step, the wires to their
  * equilibrium. Without friction the pose step does not matter; with friction it
  * does, and halving it shows how much. */
+static const double MOST_TURN_PARTS = 1e4;
+
 static sw_status pose_step(loop *p, double t1, int (*interrupted)(void), sw_error *err) {
   static const sw_settle_args rest = {.tolerance = 1e-9, .max_iterations = 4000};
   sw_scene *s = p->s;
   sw_settle_report report = {0};
   const double t0 = s->time;
+  s->system.fastest_turn = 0;
+  SW_TRY(sw_system_place_holds(&s->system, 0.5 * (t0 + t1), NULL, NULL, NULL, err));
+  SW_TRY(sw_system_place_holds(&s->system, t1, NULL, NULL, NULL, err));
+  const double turn = s->system.fastest_turn * (t1 - t0), parts = ceil(turn / WIDEST_TURN);
+  if (parts > MOST_TURN_PARTS)
+    return sw_fail(err, SW_EDIVERGED, "what holds a wire turns by %g rad between two poses", turn);
+  sw_status status = SW_OK;
+  for (double part = 1; part < parts && status == SW_OK; part++) {
+    s->time = t0 + (t1 - t0) * part / parts;
+    status = sw_scene_rest(s, &rest, interrupted, &report, err);
+  }
   s->time = t1;
-  const sw_status status = sw_scene_rest(s, &rest, interrupted, &report, err);
+  if (status == SW_OK) status = sw_scene_rest(s, &rest, interrupted, &report, err);
   p->report->iterations += report.iterations;
   if (status != SW_OK) {
     s->time = t0;

@@ -178,6 +178,7 @@ sw_status sw_system_place_holds(sw_system *s, double t, double *x, double *v, do
                                 sw_error *err) {
   for (size_t k = 0; k < s->hold_count; k++) {
     SW_TRY(s->coupling.place(s->coupling.user, (int)k, t, &s->hold_states[k], err));
+    s->fastest_turn = fmax(s->fastest_turn, sw_norm(s->hold_states[k].omega));
     for (size_t side = 0; side < 2; side++) {
       const size_t at = 3 * (2 * k + side);
       const sw_vec d = sw_rotate(s->hold_states[k].pose.q, sw_load(s->directors + at));
@@ -245,6 +246,7 @@ void sw_system_refresh(sw_system *s) {
 }
 
 void sw_system_begin_step(sw_system *s) {
+  s->fastest_turn = 0;
   for (size_t b = 0; b < s->body_count; b++)
     if (s->bodies[b].spin_block) sw_spin_begin(s, &s->bodies[b]);
 }

@@ -102,6 +102,7 @@ struct sw_system {
   double *directors_now;         /* the same in world coordinates at the stage */
   double *directors_rate;        /* and how fast they turn [1/s] */
   double *normals, *normals_now; /* the same: the wire's normals at the holds */
+  double fastest_turn;           /* of a hold in this step so far [rad/s] */
   int still;                     /* 1: holds count as standing, whatever they follow (statics) */
   sw_hold_state *hold_states;    /* (hold_count) at the last stage */
   size_t hold_count;

@@ -129,6 +129,7 @@ local function add_all(implicit)
     add("edges of 1 mm", release, { segments = 1000, dt = 0.005, model = model })
   end
   add("N = 900", release, { segments = 900, dt = 0.01, integrator = "implicit-midpoint" })
+  require("softworld.benchtwists").add_all(add)
 end
 
 --- All rows, in order. progress(k, count, item) is called before each.

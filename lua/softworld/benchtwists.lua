@@ -92,7 +92,10 @@ end
 local function snap(o)
   local sw = require "softworld"
   local scene, path = sw.scene{ name = "snap", gravity = { 0, 0, 0 } }, {}
-  for i = 0, 100 do path[#path + 1] = { 0.8 * i / 100, 0, 0.3 * math.sin(math.pi * i / 100) } end
+  for i = 0, 100 do -- not quite symmetric, or it would stand on its middle for ever
+    local a = math.pi * i / 100
+    path[#path + 1] = { 0.8 * i / 100, 0, 0.3 * math.sin(a) + 0.003 * math.sin(2 * a) }
+  end
   local wire = scene:wire{ EA = 1e4, EI = 1e-3, mass_per_length = 0.02, radius = 1e-3, path = path,
     segments = o.segments }
   scene:force{ kind = "damping", mass = 1 }

@@ -71,6 +71,23 @@ describe("a straight wire turned at one end", function()
     assert.is_true(math.abs(w:twist_moment(0.5) - 1e-3 * 6 * PI) < 1e-6)
   end)
 
+  it("counts turns of more than half a one a step, moving and from pose to pose", function()
+    for _, quasistatic in ipairs{ false, true } do
+      for _, rest in ipairs{ "straight", "path" } do
+        local s = core.scene{ gravity = { 0, 0, 0 } }
+        local w = s:wire{ EA = 1e4, EI = 1e-3, GJ = 7e-4, mass_per_length = 0.02, radius = 1e-3,
+          from = { 0, 0, 0 }, to = { 1, 0, 0 }, rest = rest, segments = 20 }
+        s:clamp(w, { s = 0 })
+        local hand = s:clamp(w, { s = 1 })
+        hand:follow{ points = { { 0, 0, 0 }, { 0, 0, 0 } }, duration = 0.2, relative = true,
+          law = "linear", turn = { axis = { 1, 0, 0 }, angle = 20 * PI } }
+        assert.is_true(s:advance({ dt = 0.02, quasistatic = quasistatic }, 0.2).ok)
+        local M = hand:moment()
+        assert.is_true(math.abs(math.abs(M[1]) / (7e-4 * 20 * PI) - 1) < 1e-4, M[1])
+      end
+    end
+  end)
+
   it("shares its twist when it is grasped in the middle, and again when let go", function()
     local s, w, _, b = twisted()
     for _, angle in ipairs{ 2, 4 } do
