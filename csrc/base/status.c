@@ -18,6 +18,7 @@ const char *sw_status_text(sw_status status) {
     case SW_EFORMAT: return "bad format";
     case SW_ELIMIT: return "beyond a limit";
     case SW_EBUSY: return "busy";
+    case SW_EEMPTY: return "no wire left";
   }
   return "unknown status";
 }

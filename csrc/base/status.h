@@ -16,7 +16,8 @@ typedef enum sw_status {
   SW_EDEAD,     /* a handle whose object is gone */
   SW_EFORMAT,   /* a file's content could not be understood */
   SW_ELIMIT,    /* a count is beyond what this build supports */
-  SW_EBUSY      /* refused while a run is under way */
+  SW_EBUSY,     /* refused while a run is under way */
+  SW_EEMPTY     /* no wire is left where it was to be drawn in */
 } sw_status;
 
 enum { SW_ERROR_TEXT = 512 };

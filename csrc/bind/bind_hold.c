@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lua class clamp (clamps, pins and grips) and scene:clamp, pin, grip. */
+/* Lua class clamp (clamps, pins, grips and feeds) and scene:clamp, pin, grip, feed. */
 #include <stdio.h>
+#include <string.h>
 
 #include "bind/bind_motion.h"
 #include "bind/child.h"
@@ -8,7 +9,8 @@
 static int new_hold(lua_State *L, const char *kind) {
   lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
   const sw_hold_class *cls = sw_hold_find(kind);
-  sw_hold_args args = {.s = 0, .direction = {NAN, NAN, NAN}};
+  sw_hold_args args = {
+      .s = 0, .direction = {NAN, NAN, NAN}, .speed = NAN, .force = NAN, .force_limit = NAN};
   sw_error err = {""};
   const char *what = lua_pushfstring(L, "scene:%s", kind);
   const lsw_child *wire = lsw_check_child_of(L, 2, &lsw_class_wire, owner->h.object, what);
@@ -22,6 +24,7 @@ static int new_hold(lua_State *L, const char *kind) {
 int lsw_scene_clamp(lua_State *L) { return new_hold(L, "clamp"); }
 int lsw_scene_pin(lua_State *L) { return new_hold(L, "pin"); }
 int lsw_scene_grip(lua_State *L) { return new_hold(L, "grip"); }
+int lsw_scene_feed(lua_State *L) { return new_hold(L, "feed"); }
 
 static void read_force(lua_State *L, int with_point, sw_vec *force, sw_vec *moment) {
   sw_scene *scene;
@@ -110,6 +113,114 @@ static int meth_log(lua_State *L) {
   return 2;
 }
 
+/* --- feeds ---------------------------------------------------------------------- */
+
+static sw_feed_state feed_state(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_feed_state state;
+  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
+  lsw_must(L, sw_scene_feed_state(scene, c->id, &state, &err), &err);
+  return state;
+}
+
+/* Length of wire paid out so far, unstressed [m]. */
+static int meth_fed(lua_State *L) {
+  lua_pushnumber(L, feed_state(L).fed);
+  return 1;
+}
+
+/* Force that moves the wire outwards [N]; the guide's walls bear the rest of force(). */
+static int meth_drive_force(lua_State *L) {
+  lua_pushnumber(L, feed_state(L).drive);
+  return 1;
+}
+
+/* The argument at 2, checked as the parameter of that name of scene:feed is. */
+static double feed_argument(lua_State *L, const char *name) {
+  sw_error err;
+  const sw_params *rows = &sw_hold_find("feed")->params;
+  size_t i = 0;
+  while (i + 1 < rows->count && strcmp(rows->rows[i].name, name) != 0) i++;
+  const sw_param *row = &rows->rows[i];
+  const double value = lsw_number(L, 2, lua_pushfstring(L, "feed:%s", name), row->unit);
+  if (sw_param_check("feed", row, value, &err) != SW_OK) luaL_error(L, "%s", err.text);
+  return value;
+}
+
+/* may_be_nil: that is none. */
+static int set_feed(lua_State *L, const char *name, int may_be_nil,
+                    sw_status (*set)(sw_scene *, sw_handle, double, sw_error *)) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
+  const double value = may_be_nil && lua_isnil(L, 2) ? (double)NAN : feed_argument(L, name);
+  lsw_must(L, set(scene, c->id, value, &err), &err);
+  return 0;
+}
+
+/* feed:speed() -> now; feed:speed(v) sets it [m/s]. */
+static int meth_speed(lua_State *L) {
+  if (lua_gettop(L) > 1) return set_feed(L, "speed", 0, sw_scene_feed_speed);
+  lua_pushnumber(L, feed_state(L).speed);
+  return 1;
+}
+
+/* feed:push(force): that force instead of a speed [N]. */
+static int meth_push(lua_State *L) { return set_feed(L, "force", 0, sw_scene_feed_push); }
+
+/* feed:force_limit() -> the limit or nil; feed:force_limit(force), (nil) for none [N]. */
+static int meth_force_limit(lua_State *L) {
+  if (lua_gettop(L) > 1) return set_feed(L, "force_limit", 1, sw_scene_feed_limit);
+  const double limit = feed_state(L).limit;
+  if (isnan(limit))
+    lua_pushnil(L);
+  else
+    lua_pushnumber(L, limit);
+  return 1;
+}
+
+typedef struct length_args {
+  double length;                        /* [m] */
+  double speed, duration, acceleration; /* NAN = not given [m/s], [s], [m/s2] */
+  char law[SW_NAME_SIZE];
+} length_args;
+
+static const sw_param length_rows[] = {
+    {"length", SW_PARAM_NUMBER, "m", NAN, -1e6, 1e6, SW_PARAM_REQUIRED, NULL,
+     offsetof(length_args, length), "to be paid out; negative: drawn in"},
+    {"speed", SW_PARAM_NUMBER, "m/s", NAN, 0, 1e4, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(length_args, speed), "highest speed"},
+    {"duration", SW_PARAM_NUMBER, "s", NAN, 0, 1e9, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(length_args, duration), "instead of the speed"},
+    {"acceleration", SW_PARAM_NUMBER, "m/s2", NAN, 0, 1e6, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(length_args, acceleration), "highest acceleration"},
+    {"law", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(length_args, law),
+     "of motion, as of a trajectory (default 'minimum-jerk')"},
+};
+static const sw_params length_params = SW_PARAMS("feed:feed", length_rows);
+
+/* feed:feed{ length =, speed = or duration = } -> seconds it will take. */
+static int meth_feed(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_motion *motion = NULL;
+  length_args a = {.speed = NAN, .duration = NAN, .acceleration = NAN};
+  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
+  lsw_arguments(L, 2, "feed:feed", &length_params, &a);
+  const sw_waypoint points[2] = {{.t = NAN}, {.p = {a.length, 0, 0}, .t = NAN}};
+  sw_motion_plan plan = sw_motion_plan_empty();
+  plan.name = "feed:feed", plan.law = a.law[0] ? a.law : NULL;
+  plan.points = points, plan.count = 2;
+  plan.speed = a.speed, plan.duration = a.duration, plan.acceleration = a.acceleration;
+  if (a.length != 0) lsw_must(L, sw_motion_create(&plan, &motion, &err), &err);
+  const sw_status status = sw_scene_feed_length(scene, c->id, motion, a.length, &err);
+  lua_pushnumber(L, motion ? sw_motion_end(motion) : 0.0);
+  sw_motion_release(motion);
+  lsw_must(L, status, &err);
+  return 1;
+}
+
 /* --- what it is ----------------------------------------------------------------- */
 
 static const char *identity(lua_State *L, const char **kind, int *held) {
@@ -172,6 +283,12 @@ static const luaL_Reg methods[] = {{"force", meth_force},
                                    {"follow", meth_follow},
                                    {"release", meth_release},
                                    {"log", meth_log},
+                                   {"fed", meth_fed},
+                                   {"feed", meth_feed},
+                                   {"speed", meth_speed},
+                                   {"push", meth_push},
+                                   {"force_limit", meth_force_limit},
+                                   {"drive_force", meth_drive_force},
                                    {NULL, NULL}};
 
 static const luaL_Reg properties[] = {

@@ -168,7 +168,8 @@ static int meth_advance(lua_State *L) {
   const sw_status status = sw_scene_advance(scene, &args, until, sw_interrupted, &r, &err);
   lsw_end_forces(outer);
   lsw_must(L, status, &err);
-  if (r.status == SW_EINTR || r.status == SW_ECALLBACK || r.status == SW_ENOMEM)
+  if (r.status == SW_EINTR || r.status == SW_ECALLBACK || r.status == SW_ENOMEM ||
+      r.status == SW_EEMPTY)
     lsw_must(L, r.status, &r.reason);
   lua_createtable(L, 0, 9);
   lua_pushboolean(L, r.status == SW_OK);
@@ -376,6 +377,7 @@ static const luaL_Reg methods[] = {{"wire", lsw_scene_wire},
                                    {"clamp", lsw_scene_clamp},
                                    {"pin", lsw_scene_pin},
                                    {"grip", lsw_scene_grip},
+                                   {"feed", lsw_scene_feed},
                                    {"obstacle", lsw_scene_obstacle},
                                    {"force", lsw_scene_force},
                                    {"advance", meth_advance},

@@ -40,6 +40,7 @@ void lsw_must(lua_State *L, sw_status status, const sw_error *err);
 int lsw_scene_clamp(lua_State *L);
 int lsw_scene_pin(lua_State *L);
 int lsw_scene_grip(lua_State *L);
+int lsw_scene_feed(lua_State *L);
 int lsw_scene_wire(lua_State *L);
 int lsw_scene_obstacle(lua_State *L);
 int lsw_scene_force(lua_State *L);

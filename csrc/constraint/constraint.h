@@ -16,12 +16,18 @@ typedef struct sw_hold_args {
   double width;     /* of the held interval around s; 0 = a point [m] */
   sw_vec direction; /* held tangent; NAN = as the wire is [-] */
   char name[SW_NAME_SIZE];
+
+  /* of a hold that feeds */
+  double speed;       /* wire paid out per time; NAN = not given [m/s] */
+  double force;       /* pushing the wire out; NAN = not given [N] */
+  double force_limit; /* beyond it the wire slips; NAN = none [N] */
 } sw_hold_args;
 
 typedef struct sw_hold_class {
   const char *name;
   const char *summary;
   int clamped; /* 1: direction held too */
+  int feeds;   /* 1: the wire slides through */
   sw_params params;
 } sw_hold_class;
 

@@ -162,8 +162,9 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   if (!f->twist) return SW_OK;
   for (size_t k = 0; k < f->plan->span_count; k++) {
     const sw_span *span = &f->plan->spans[k];
-    const double stiffness = GJ / span->length, torque = stiffness * f->twist[k];
-    if (f->want & SW_WANT_ENERGY) f->energy += 0.5 * torque * f->twist[k];
+    const double stiffness = GJ / span->length;
+    const double torque = sw_span_torque(f->plan, span, GJ, f->twist[k]);
+    if (f->want & SW_WANT_ENERGY) f->energy += 0.5 * torque * torque / stiffness;
     if (!(f->want & (SW_WANT_FORCE | SW_WANT_STIFFNESS))) continue;
     span_part(span, torque, f);
     for (int c = 0; c < 3; c++)
@@ -184,7 +185,7 @@ static sw_vec clamp_moment(const void *args, const sw_field *f, const sw_clamp_h
     double t[3];
     tangent(f, h->edge, t);
     const corner c = corner_of(director(f, h), t);
-    const double torque = GJ / span->length * f->twist[k] * (starts ? -1.0 : 1.0);
+    const double torque = sw_span_torque(f->plan, span, GJ, f->twist[k]) * (starts ? -1.0 : 1.0);
     return sw_scale(sw_load(c.mean), torque);
   }
   return sw_v(0, 0, 0);

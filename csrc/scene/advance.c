@@ -54,6 +54,7 @@ typedef struct loop {
   const sw_run_args *args;
   sw_run_report *report;
   double *v_start; /* velocities at the step's start, which impacts change */
+  int (*interrupted)(void);
 } loop;
 
 static sw_status use_integrator(sw_scene *s, const sw_run_args *args, sw_error *err) {
@@ -80,10 +81,10 @@ static sw_status check_trial(const sw_scene *s, sw_error *err) {
       const double least = LEAST_SHARE * body->plan->rest[e];
       if (l2 < least * least)
         return sw_fail(err, SW_ENOCONV, "wire '%s' is crushed near s = %.4g m", s->wires[b].name,
-                       body->plan->s[e]);
+                       body->plan->s[e] - body->plan->s[0]);
       if (!(l2 <= most * most))
         return sw_fail(err, SW_EDIVERGED, "wire '%s' is torn apart near s = %.4g m",
-                       s->wires[b].name, body->plan->s[e]);
+                       s->wires[b].name, body->plan->s[e] - body->plan->s[0]);
     }
   }
   return SW_OK;
@@ -130,6 +131,37 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
                          : sw_fail(err, SW_ENOCONV, "impacts do not come to an end in one step");
 }
 
+/* Forget a trial that went well. */
+static void undo(loop *p) {
+  sw_scene *s = p->s;
+  sw_stepper_reject(&s->stepper, &s->system);
+  if (sw_scene_has_contact(s)) memcpy(s->system.v, p->v_start, s->system.freedoms * sizeof(double));
+}
+
+enum { MOST_SLIP_TRIALS = 25 };
+
+/* A first step after a jump knows no accelerations, and its reactions are off by their own
+ * size, by which slips would be wrong: it is kept to this share [-]. */
+static const double FIRST_SLIP = 1e-3;
+
+/* One step of size h in which feeds slip that yield to a force. */
+static sw_status yielding_attempt(loop *p, double h, sw_error *err) {
+  sw_scene *s = p->s;
+  if (!sw_slip_begin(s)) return attempt(p, h, err);
+  for (int i = 0; i < MOST_SLIP_TRIALS; i++) {
+    const sw_status status = attempt(p, h, err);
+    if (status != SW_OK) {
+      sw_slip_give_up(s);
+      return status;
+    }
+    if (sw_slip_correct(s, h, i == 0)) return SW_OK;
+    undo(p);
+    if (sw_feed_step(s, h) < h) break; /* further than nodes can follow */
+  }
+  sw_slip_give_up(s);
+  return sw_fail(err, SW_ENOCONV, "the speed at which a feed slips was not found");
+}
+
 static void accept(loop *p, double h) {
   sw_scene *s = p->s;
   sw_stepper_accept(&s->stepper, &s->system, h);
@@ -141,7 +173,27 @@ static void accept(loop *p, double h) {
 
 /* Errors that a smaller step cannot mend. */
 static int hopeless(sw_status status) {
-  return status == SW_ECALLBACK || status == SW_ENOMEM || status == SW_EINVAL;
+  return status == SW_ECALLBACK || status == SW_ENOMEM || status == SW_EINVAL ||
+         status == SW_EEMPTY;
+}
+
+/* Nodes for the wire that a step up to h feeds; shortens the step to what nodes can
+ * follow. The system may be a new one afterwards. */
+static sw_status make_room(loop *p, double *h, sw_error *err) {
+  sw_scene *s = p->s;
+  int changed;
+  const size_t before = s->system.counters.evaluations;
+  const int fresh = s->discontinuous || s->stepper.restart; /* nodes alone are no jump */
+  *h = sw_feed_step(s, *h);
+  SW_TRY(sw_feed_make_room(s, s->time + *h, &changed, err));
+  if (!changed) return SW_OK;
+  s->system.counters.evaluations = before;
+  SW_TRY(use_integrator(s, p->args, err));
+  s->stepper.wants_error = isfinite(p->args->tolerance);
+  s->discontinuous = s->stepper.restart = fresh;
+  sw_free(p->v_start);
+  p->v_start = sw_alloc(sw_scene_has_contact(s) ? s->system.freedoms : 1, sizeof(double));
+  return p->v_start ? SW_OK : sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
 }
 
 /* Advance by h, in smaller parts where needed. t1 is the exact end time. */
@@ -149,16 +201,23 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
   sw_scene *s = p->s;
   const double t0 = s->time;
   double done = 0, part = h;
+  int starts = s->discontinuous && sw_slip_any(s);
+  if (starts) part = FIRST_SLIP * h;
   while (done < h) {
     const double left = h - done;
     if (part > left * (1 - 1e-12)) part = left;
-    const sw_status status = attempt(p, part, err);
+    if (done > 0 && p->interrupted && p->interrupted()) return SW_EINTR; /* there may be many */
+    SW_TRY(make_room(p, &part, err));
+    if (!(part >= SMALLEST_SHARE * SMALLEST_SHARE * h))
+      return sw_fail(err, SW_ENOCONV, "wire is fed too fast to follow it");
+    const sw_status status = yielding_attempt(p, part, err);
     if (status == SW_OK) {
       done += part;
       accept(p, part);
       s->time = done < h ? t0 + done : t1;
       SW_TRY(sw_scene_observe(s, err));
-      part *= 2;
+      part = starts ? h : 2 * part;
+      starts = 0;
       continue;
     }
     if (hopeless(status)) return status;
@@ -175,9 +234,10 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
   sw_scene *s = p->s;
   const double tolerance = p->args->tolerance, most = fmin(p->args->dt, left);
   double h = s->next_dt > 0 ? fmin(s->next_dt, most) : 0.1 * most;
+  SW_TRY(make_room(p, &h, err));
   for (;;) {
     const int last = h >= left * (1 - 1e-9);
-    const sw_status status = attempt(p, h, err);
+    const sw_status status = yielding_attempt(p, h, err);
     if (hopeless(status)) return status;
     const int fine = status == SW_OK && s->stepper.error <= tolerance;
     const double next = status == SW_OK ? sw_stepper_next_h(&s->stepper, h, tolerance) : 0.25 * h;
@@ -188,11 +248,7 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
       s->next_dt = unknown ? h : last && next > h ? fmax(next, s->next_dt) : next;
       return sw_scene_observe(s, err);
     }
-    if (status == SW_OK) {
-      sw_stepper_reject(&s->stepper, &s->system);
-      if (sw_scene_has_contact(s))
-        memcpy(s->system.v, p->v_start, s->system.freedoms * sizeof(double));
-    }
+    if (status == SW_OK) undo(p);
     p->report->rejected++;
     h = fmin(next, 0.9 * h);
     if (h < SMALLEST_SHARE * SMALLEST_SHARE * p->args->dt)
@@ -229,23 +285,37 @@ static sw_status pose_step(loop *p, double t1, int halvings, int (*interrupted)(
   return SW_OK;
 }
 
+/* The same to time t, in parts that nodes can follow where wire is fed. */
+static sw_status pose_steps(loop *p, double t, int (*interrupted)(void), sw_error *err) {
+  sw_scene *s = p->s;
+  while (s->time < t) {
+    double h = t - s->time;
+    if (interrupted && interrupted()) return SW_EINTR;
+    SW_TRY(make_room(p, &h, err));
+    const double part = h < (t - s->time) * (1 - 1e-9) ? s->time + h : t;
+    SW_TRY(pose_step(p, part, MOST_HALVINGS, interrupted, err));
+    SW_TRY(sw_scene_observe(s, err));
+  }
+  return SW_OK;
+}
+
 static const double MOST_TURN_PARTS = 1e4;
 
+/* And in parts in which holds turn by less than half a turn. */
 static sw_status whole_pose_step(loop *p, double t1, int (*interrupted)(void), sw_error *err) {
   sw_system *system = &p->s->system;
   const double t0 = p->s->time;
   system->fastest_turn = 0;
   SW_TRY(sw_system_place_holds(system, 0.5 * (t0 + t1), NULL, NULL, NULL, err));
   SW_TRY(sw_system_place_holds(system, t1, NULL, NULL, NULL, err));
-  const double turn = system->fastest_turn * (t1 - t0), parts = fmax(1, ceil(turn / WIDEST_TURN));
-  if (parts > MOST_TURN_PARTS)
+  const double turn = system->fastest_turn * (t1 - t0);
+  if (turn > MOST_TURN_PARTS * WIDEST_TURN)
     return sw_fail(err, SW_EDIVERGED, "what holds a wire turns by %g rad between two poses", turn);
-  for (double part = 1; part <= parts; part++) {
-    const double t = part < parts ? t0 + (t1 - t0) * part / parts : t1;
-    SW_TRY(pose_step(p, t, MOST_HALVINGS, interrupted, err));
-  }
+  const int parts = 1 + (int)(turn / WIDEST_TURN);
+  for (int part = 1; part <= parts; part++)
+    SW_TRY(pose_steps(p, part < parts ? t0 + (t1 - t0) * part / parts : t1, interrupted, err));
   p->report->steps++;
-  return sw_scene_observe(p->s, err);
+  return SW_OK;
 }
 
 static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_error *err) {
@@ -281,6 +351,11 @@ static sw_status check_run(const sw_scene *s, const sw_run_args *args, sw_error 
           "scene:run: integrator '%s' is explicit; wire '%s', which is curved at rest, has two "
           "values of EI or rolls, needs an implicit one",
           m->name, s->wires[w].name);
+  if (args->quasistatic && sw_slip_any(s))
+    return sw_fail(
+        err, SW_EINVAL,
+        "scene:run: a feed with force or force_limit needs motion; give it a speed for a "
+        "quasi-static run");
   if (args->quasistatic && isfinite(args->tolerance))
     return sw_fail(err, SW_EINVAL,
                    "scene:run: tolerance controls the time step of motion; a quasi-static run "
@@ -297,6 +372,8 @@ static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const
   report->status = status;
   report->time = s->time;
   if (status == SW_OK || status == SW_EINTR || status == SW_ECALLBACK) return;
+  if (status == SW_EEMPTY) report->reason = *why; /* all is well up to here */
+  if (status == SW_EEMPTY) return;
   report->status = status == SW_ENOMEM ? SW_ENOMEM : SW_EDIVERGED;
   sw_fail(&report->reason, status, "at t = %.6g s: %.400s", s->time,
           why->text[0] ? why->text : sw_status_text(status));
@@ -321,7 +398,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   SW_TRY(sw_scene_build(s, err));
   SW_TRY(use_integrator(s, args, err));
   const size_t before = s->system.counters.evaluations;
-  loop p = {.s = s, .args = args, .report = report};
+  loop p = {.s = s, .args = args, .report = report, .interrupted = interrupted};
   p.v_start = sw_alloc(sw_scene_has_contact(s) ? s->system.freedoms : 1, sizeof(double));
   if (!p.v_start) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
   s->running++;

@@ -91,6 +91,7 @@ static sw_status keep_twist(sw_scene *s) {
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_body *b = &s->system.bodies[w];
     sw_scene_wire *wire = &s->wires[w];
+    if (wire->untwisted) continue; /* nothing has moved yet */
     const size_t count = b->has_twist ? b->plan->span_count : 0;
     sw_twisted *list = sw_alloc(count, sizeof *list);
     if (!list) return SW_ENOMEM;
@@ -106,12 +107,23 @@ static sw_status keep_twist(sw_scene *s) {
   return SW_OK;
 }
 
+sw_status sw_scene_draw_untwisted(sw_scene_wire *w) {
+  sw_twisted *list = sw_alloc(1, sizeof *list);
+  if (!list) return SW_ENOMEM;
+  *list = (sw_twisted){w->mesh.s[0], w->mesh.s[w->mesh.n - 1], 0};
+  sw_free(w->twisted);
+  w->twisted = list;
+  w->twisted_count = 1;
+  w->untwisted = 1;
+  return SW_OK;
+}
+
 static void store_turn(double *out, sw_quat q) {
   out[0] = q.w, out[1] = q.x, out[2] = q.y, out[3] = q.z;
 }
 
 /* A new span takes over the twist of the stretches it covers; what lies outside
- * of all spans has unwound through a free end. */
+ * of all spans has unwound through a free end to its unloaded twist. */
 static void inherit_twist(sw_scene *s) {
   for (size_t k = 0; k < s->system.hold_count; k++)
     store_turn(s->system.turn + 4 * k, s->holds[s->hold_slot[k]].turn);
@@ -121,18 +133,22 @@ static void inherit_twist(sw_scene *s) {
     for (size_t k = 0; b->has_twist && k < b->plan->span_count; k++) {
       const double s1 = b->plan->s[b->plan->spans[k].first];
       const double s2 = b->plan->s[b->plan->spans[k].last + 1];
+      double *twist = &s->system.twist[b->first_span + k], unwound = s2 - s1;
       for (size_t j = 0; j < wire->twisted_count; j++) {
         const sw_twisted *old = &wire->twisted[j];
         const double common = fmin(s2, old->s2) - fmax(s1, old->s1);
-        if (common > 0)
-          s->system.twist[b->first_span + k] += old->twist * common / (old->s2 - old->s1);
+        if (!(common > 0)) continue;
+        *twist += old->twist * common / (old->s2 - old->s1);
+        unwound -= common;
       }
+      *twist += b->plan->beam.rest_twist * unwound;
     }
   }
 }
 
 sw_status sw_scene_thaw(sw_scene *s) {
   if (!s->built) return SW_OK;
+  sw_feed_undo(s);
   SW_TRY(keep_contact(s));
   SW_TRY(sw_scene_keep_histories(s));
   for (size_t w = 0; w < s->wire_count; w++) {
@@ -143,6 +159,7 @@ sw_status sw_scene_thaw(sw_scene *s) {
                memcmp(m->v, s->system.v + 3 * b->first_node, 3 * m->n * sizeof *m->v) == 0;
     memcpy(m->x, s->system.x + 3 * b->first_node, 3 * m->n * sizeof *m->x);
     memcpy(m->v, s->system.v + 3 * b->first_node, 3 * m->n * sizeof *m->v);
+    memcpy(m->a, s->system.a + 3 * b->first_node, 3 * m->n * sizeof *m->a);
     memcpy(m->tension, s->system.tension + b->first_edge, (m->n - 1) * sizeof *m->tension);
     if (b->spin_block) sw_scene_frame_out(s, w);
   }
@@ -208,9 +225,11 @@ static sw_status add_holds(sw_scene *s, size_t alive) {
   if (!s->hold_slot) return SW_ENOMEM;
   int number = 0;
   for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_scene_hold *h = &s->holds[k];
+    sw_scene_hold *h = &s->holds[k];
     if (!h->alive) continue;
     const sw_body *b = &s->system.bodies[h->wire];
+    h->feed.node = sw_mesh_node(&s->wires[h->wire].mesh, h->s1);
+    h->feed.number = (size_t)number;
     for (size_t side = 0; side < 2; side++) {
       const size_t at = 3 * (2 * (size_t)number + side);
       sw_store(s->system.directors + at, h->director[side]);
@@ -221,6 +240,7 @@ static sw_status add_holds(sw_scene *s, size_t alive) {
       s->system.held[s->system.held_count++] = (sw_held_node){.node = b->first_node + i,
                                                               .body = h->wire,
                                                               .hold = number,
+                                                              .slides = h->cls->feeds,
                                                               .local = local_of(h, b->plan->s[i])};
     }
     s->hold_slot[number++] = (int)k;
@@ -237,8 +257,10 @@ static sw_pose part_way(const sw_pose *from, const sw_pose *to, double share) {
 static sw_status place_hold(void *user, int hold, double t, sw_hold_state *out, sw_error *err) {
   sw_scene *s = user;
   sw_motion_state m;
-  SW_TRY(sw_drive_eval(s, &s->holds[s->hold_slot[hold]].drive, t, &m, err));
+  sw_scene_hold *h = &s->holds[s->hold_slot[hold]];
+  SW_TRY(sw_drive_eval(s, &h->drive, t, &m, err));
   *out = (sw_hold_state){m.pose, m.v, m.a, m.omega, m.alpha};
+  if (h->cls->feeds) sw_feed_place(s, h, t, out);
   if (s->part_from) out->pose = part_way(&s->part_from[hold], &m.pose, s->part);
   return SW_OK;
 }
@@ -267,6 +289,7 @@ static sw_status fill(sw_scene *s, size_t alive) {
     const sw_mesh *m = &s->wires[w].mesh;
     memcpy(s->system.x + 3 * b->first_node, m->x, 3 * m->n * sizeof *m->x);
     memcpy(s->system.v + 3 * b->first_node, m->v, 3 * m->n * sizeof *m->v);
+    memcpy(s->system.a + 3 * b->first_node, m->a, 3 * m->n * sizeof *m->a);
     memcpy(s->system.tension + b->first_edge, m->tension, (m->n - 1) * sizeof *m->tension);
     SW_TRY(add_terms(s, w));
   }

@@ -19,21 +19,28 @@ static size_t kept_places(const sw_scene *s, size_t wire, double *out) {
   return n;
 }
 
+/* The interval a hold takes, in the mesh's arc lengths. */
+static void held_interval(const sw_mesh *m, const sw_hold_args *a, double *s1, double *s2) {
+  *s1 = fmax(m->s[0], a->s - 0.5 * a->width);
+  *s2 = fmin(m->s[m->n - 1], a->s + 0.5 * a->width);
+}
+
 static sw_status check_place(const sw_scene *s, const sw_hold_class *cls, size_t wire,
                              const sw_hold_args *a, sw_error *err) {
   const sw_scene_wire *w = &s->wires[wire];
-  const double length = w->mesh.s[w->mesh.n - 1];
-  if (a->s > length * (1 + 1e-9))
+  const double start = w->mesh.s[0], length = w->mesh.s[w->mesh.n - 1] - start;
+  if (a->s - start > length * (1 + 1e-9))
     return sw_fail(err, SW_EINVAL, "%s: s = %.6g m is not on wire '%s', which ends at %.6g m",
-                   cls->name, a->s, w->name, length);
-  const double s1 = fmax(0, a->s - 0.5 * a->width), s2 = fmin(length, a->s + 0.5 * a->width);
+                   cls->name, a->s - start, w->name, length);
+  double s1, s2;
+  held_interval(&w->mesh, a, &s1, &s2);
   for (size_t k = 0; k < s->hold_count; k++) {
     const sw_scene_hold *h = &s->holds[k];
     if (!h->alive || h->wire != wire) continue;
     if (s1 <= h->s2 + 1e-9 * length && s2 >= h->s1 - 1e-9 * length)
       return sw_fail(err, SW_EINVAL,
                      "%s: wire '%s' is already held by '%s' between s = %.6g and %.6g m", cls->name,
-                     w->name, h->name, h->s1, h->s2);
+                     w->name, h->name, h->s1 - start, h->s2 - start);
   }
   return SW_OK;
 }
@@ -70,11 +77,10 @@ static sw_status refine_gaps(const sw_scene *s, size_t wire, const sw_scene_hold
 
 static sw_status place_nodes(sw_scene *s, size_t wire, sw_scene_hold *h, const sw_hold_args *a) {
   sw_mesh *m = &s->wires[wire].mesh;
-  const double length = m->s[m->n - 1];
-  double *keep = sw_alloc(2 * s->hold_count + 2, sizeof *keep);
+  double s1, s2, *keep = sw_alloc(2 * s->hold_count + 2, sizeof *keep);
   if (!keep) return SW_ENOMEM;
   size_t n = kept_places(s, wire, keep);
-  const double s1 = fmax(0, a->s - 0.5 * a->width), s2 = fmin(length, a->s + 0.5 * a->width);
+  held_interval(m, a, &s1, &s2);
   sw_status status = sw_mesh_place(m, s1, keep, n, &h->s1);
   h->s2 = h->s1;
   if (status == SW_OK && a->width > 0) {
@@ -111,25 +117,33 @@ static sw_status take_hold(const sw_mesh *m, sw_scene_hold *h, const sw_hold_arg
 /* The held directions, taken before nodes move: a moved node turns the edges
  * beside it. */
 static void take_directions(const sw_mesh *m, sw_scene_hold *h, const sw_hold_args *a) {
-  const double length = m->s[m->n - 1], half = 0.5 * a->width;
+  double s[2];
+  held_interval(m, a, &s[0], &s[1]);
   const int given = isfinite(a->direction.x) && sw_norm(a->direction) > 0;
   for (int side = 0; side < 2; side++) {
-    const double s = fmin(length, fmax(0, side ? a->s + half : a->s - half));
-    h->director[side] = given ? sw_unit_or(a->direction, sw_v(1, 0, 0)) : sw_mesh_tangent_at(m, s);
+    h->director[side] =
+        given ? sw_unit_or(a->direction, sw_v(1, 0, 0)) : sw_mesh_tangent_at(m, s[side]);
     if (!m->rest) continue;
     sw_mesh_frame *f = &h->frame[side];
-    *f = sw_mesh_frame_at(m, s);
+    *f = sw_mesh_frame_at(m, s[side]);
     f->normal = sw_carry_unit(f->normal, f->tangent, h->director[side]);
     f->tangent = h->director[side];
   }
 }
 
 sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wire,
-                            const sw_hold_args *args, sw_handle *out, sw_error *err) {
+                            const sw_hold_args *given, sw_handle *out, sw_error *err) {
+  sw_hold_args own = *given;
+  const sw_hold_args *args = &own;
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
   if (!sw_scene_find_wire(s, wire, err)) return SW_EDEAD;
+  own.s += s->wires[wire.slot].mesh.s[0];
   SW_TRY(check_place(s, cls, wire.slot, args, err));
+  if (cls->feeds && isfinite(args->speed) && isfinite(args->force))
+    return sw_fail(err, SW_EINVAL, "feed: give speed or force, not both; the other one follows");
+  if (cls->feeds && sw_feed_outward(&s->wires[wire.slot].mesh, args->s) < 0)
+    own.direction = sw_neg(own.direction); /* it points out of the guide */
   SW_TRY(sw_scene_thaw(s));
   SW_TRY(sw_grow((void **)&s->holds, &s->hold_capacity, s->hold_count + 1, sizeof *s->holds));
   sw_scene_hold h = {.generation = s->serial + 1, .alive = 1, .cls = cls, .wire = wire.slot};
@@ -142,9 +156,9 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wir
   sw_status status = place_nodes(s, wire.slot, &h, args);
   if (status == SW_OK) status = take_hold(&s->wires[wire.slot].mesh, &h, args);
   if (status == SW_OK) status = refine_gaps(s, wire.slot, &h, &s->wires[wire.slot].mesh);
+  if (status == SW_OK && cls->feeds) status = sw_feed_begin(s, &h, args);
   if (status != SW_OK) {
-    sw_free(h.s);
-    sw_free(h.local);
+    sw_scene_clear_hold(&h);
     return sw_fail(err, status, "%s: out of memory", cls->name);
   }
   *out = (sw_handle){(uint32_t)s->hold_count, ++s->serial};
@@ -214,7 +228,7 @@ sw_status sw_scene_make_places(const sw_scene *s, size_t wire, sw_mesh *m) {
   return status;
 }
 
-static sw_scene_hold *living(sw_scene *s, sw_handle hold, sw_error *err) {
+sw_scene_hold *sw_scene_living_hold(const sw_scene *s, sw_handle hold, sw_error *err) {
   sw_scene_hold *h = sw_scene_find_hold(s, hold, err);
   if (h && !h->alive) {
     sw_fail(err, SW_EDEAD, "%s '%s' has been released", h->cls->name, h->name);
@@ -239,7 +253,7 @@ sw_status sw_scene_release_hold(sw_scene *s, sw_handle hold, sw_error *err) {
 
 sw_status sw_scene_follow(sw_scene *s, sw_handle hold, sw_motion *motion, int relative,
                           sw_error *err) {
-  sw_scene_hold *h = living(s, hold, err);
+  sw_scene_hold *h = sw_scene_living_hold(s, hold, err);
   if (!h) return SW_EDEAD;
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_drive_follow(s, &h->drive, h->name, motion, relative, err));
@@ -248,7 +262,7 @@ sw_status sw_scene_follow(sw_scene *s, sw_handle hold, sw_motion *motion, int re
 }
 
 sw_status sw_scene_set_pose(sw_scene *s, sw_handle hold, sw_pose pose, sw_error *err) {
-  sw_scene_hold *h = living(s, hold, err);
+  sw_scene_hold *h = sw_scene_living_hold(s, hold, err);
   if (!h) return SW_EDEAD;
   SW_TRY(sw_scene_editable(s, err));
   sw_drive_free(&h->drive);
@@ -272,7 +286,7 @@ sw_status sw_scene_hold_force(sw_scene *s, sw_handle hold, const sw_vec *about, 
                               sw_vec *moment, sw_error *err) {
   sw_pose pose;
   SW_TRY(sw_scene_readable(s, err));
-  sw_scene_hold *h = living(s, hold, err);
+  sw_scene_hold *h = sw_scene_living_hold(s, hold, err);
   if (!h) return SW_EDEAD;
   if (about) SW_TRY(sw_scene_hold_pose(s, hold, &pose, err));
   *force = h->force;

@@ -20,7 +20,7 @@ static sw_status open_wire(sw_scene *s, sw_handle h, sw_scene_wire **wire, sw_er
 sw_status sw_scene_wire_length(sw_scene *s, sw_handle h, double *length, sw_error *err) {
   const sw_scene_wire *w = sw_scene_find_wire(s, h, err);
   if (!w) return SW_EDEAD;
-  *length = w->mesh.s[w->mesh.n - 1];
+  *length = w->mesh.s[w->mesh.n - 1] - w->mesh.s[0];
   return SW_OK;
 }
 
@@ -139,22 +139,23 @@ static double torque_at(const sw_system *s, const sw_body *b, double at) {
   for (size_t k = 0; b->has_twist && k < b->plan->span_count; k++) {
     const sw_span *span = &b->plan->spans[k];
     if (at >= b->plan->s[span->first] && at <= b->plan->s[span->last + 1])
-      return b->plan->beam.GJ / span->length * s->twist[b->first_span + k];
+      return sw_span_torque(b->plan, span, b->plan->beam.GJ, s->twist[b->first_span + k]);
   }
   return 0.0;
 }
 
-sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double at, sw_point_state *out,
+sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double place, sw_point_state *out,
                            sw_error *err) {
   sw_scene_wire *w;
   sw_vec t0, t1;
   double k0, k1, f;
   SW_TRY(open_wire(s, h, &w, err));
-  const double length = w->mesh.s[w->mesh.n - 1];
-  if (!(at >= 0 && at <= length * (1 + 1e-12)))
+  const double start = w->mesh.s[0], length = w->mesh.s[w->mesh.n - 1] - start;
+  if (!(place >= 0 && place <= length * (1 + 1e-12)))
     return sw_fail(err, SW_EINVAL,
                    "wire '%s': s = %.6g m is not on the wire; it must be in [0, %.6g] m", w->name,
-                   at, length);
+                   place, length);
+  const double at = place + start;
   const sw_body *b = &s->system.bodies[h.slot];
   const size_t e = sw_plan_locate(b->plan, at, &f);
   const double *x = s->system.x + 3 * (b->first_node + e);
@@ -190,7 +191,7 @@ sw_status sw_scene_wire_copy(sw_scene *s, sw_handle h, double *positions, double
   const size_t n = b->plan->nodes;
   if (positions) memcpy(positions, s->system.x + 3 * b->first_node, 3 * n * sizeof(double));
   if (velocities) memcpy(velocities, s->system.v + 3 * b->first_node, 3 * n * sizeof(double));
-  if (arc) memcpy(arc, b->plan->s, n * sizeof(double));
+  for (size_t i = 0; arc && i < n; i++) arc[i] = b->plan->s[i] - b->plan->s[0];
   return SW_OK;
 }
 
@@ -212,6 +213,13 @@ sw_status sw_scene_wire_set_velocity(sw_scene *s, sw_handle h, sw_vec v, sw_vec 
   return SW_OK;
 }
 
+/* Places on the mesh become distances from where the wire starts now. */
+static void measure_from_start(sw_wire_extremes *e, double start) {
+  e->curvature.s -= start;
+  e->tension.s -= start;
+  e->strain.s -= start;
+}
+
 sw_status sw_scene_wire_extremes(sw_scene *s, sw_handle h, sw_wire_extremes *now,
                                  sw_wire_extremes *run, sw_error *err) {
   sw_scene_wire *w;
@@ -219,6 +227,8 @@ sw_status sw_scene_wire_extremes(sw_scene *s, sw_handle h, sw_wire_extremes *now
   sw_scene_wire_now(s, h.slot, now);
   *run = w->extremes;
   sw_scene_keep_extremes(run, now);
+  measure_from_start(now, w->mesh.s[0]);
+  measure_from_start(run, w->mesh.s[0]);
   return SW_OK;
 }
 

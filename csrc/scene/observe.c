@@ -47,7 +47,7 @@ static void curvature_extreme(const sw_body *b, const double *directors, sw_extr
   const sw_field *f = &b->field;
   const double bound2 =
       largest_curvature2(p->nodes, p->hinge, f->tangent[0], f->tangent[1], f->tangent[2]);
-  *out = (sw_extreme){0};
+  *out = (sw_extreme){.s = p->s[0]};
   for (size_t i = 1; i + 1 < p->nodes; i++) {
     if (!(p->hinge[i] > 0)) continue;
     const double chord = hinge_chord(f, i);
@@ -96,8 +96,8 @@ static void keep_largest(sw_extreme *kept, const sw_extreme *now) {
 static void framed_strain(const sw_system *s, const sw_body *b, sw_extreme *out) {
   const sw_plan *p = b->plan;
   const double *T = s->tension + b->first_edge, EA = p->beam.EA, radius = p->beam.radius;
-  *out = (sw_extreme){.value = T[0] / EA};
-  keep_largest(out, &(sw_extreme){.value = T[p->edges - 1] / EA, .s = p->length});
+  *out = (sw_extreme){.value = T[0] / EA, .s = p->s[0]};
+  keep_largest(out, &(sw_extreme){.value = T[p->edges - 1] / EA, .s = p->s[p->edges]});
   for (size_t i = 1; i + 1 < p->nodes; i++) {
     const double bent = radius * sw_scene_flexure(s, b, i), mean = 0.5 * (T[i] + T[i - 1]) / EA;
     keep_largest(out, &(sw_extreme){.value = mean + bent, .s = p->s[i]});
@@ -119,8 +119,8 @@ static void strain_extreme(const sw_system *s, const sw_body *b, sw_extreme *out
   const double *T = s->tension + b->first_edge, EA = p->beam.EA, radius = p->beam.radius;
   const double bound = largest_hinge_strain(p->nodes, 0.5 / EA, radius, T, p->hinge, f->tangent[0],
                                             f->tangent[1], f->tangent[2]);
-  *out = (sw_extreme){.value = T[0] / EA}; /* free and pinned ends are not bent */
-  keep_largest(out, &(sw_extreme){.value = T[p->edges - 1] / EA, .s = p->length});
+  *out = (sw_extreme){.value = T[0] / EA, .s = p->s[0]}; /* free and pinned ends are not bent */
+  keep_largest(out, &(sw_extreme){.value = T[p->edges - 1] / EA, .s = p->s[p->edges]});
   for (size_t i = 1; i + 1 < p->nodes && bound > out->value; i++) {
     const double chord = hinge_chord(f, i), mean = 0.5 * (T[i] + T[i - 1]) / EA;
     const double per_length = p->hinge[i] > 0 ? radius / p->hinge[i] : 0.0;
@@ -158,6 +158,7 @@ static sw_status log_holds(sw_scene *s, sw_error *err) {
     sw_store(row + SW_LOG_FORCE, h->force);
     sw_store(row + SW_LOG_MOMENT, h->moment);
     sw_store(row + SW_LOG_POINT, at->pose.p);
+    if (h->cls->feeds) h->feed.drive = sw_feed_drive(s, h, s->system.x);
     if (sw_log_add(&h->log, row, SW_LOG_SIZE) != SW_OK)
       return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", h->name);
   }
@@ -171,7 +172,8 @@ static sw_status observe_contact(sw_scene *s, sw_error *err) {
     size_t b = 0;
     while (b + 1 < s->system.body_count && s->system.bodies[b + 1].first_node <= node) b++;
     const sw_body *body = &s->system.bodies[b];
-    s->deepest = (sw_extreme){depth, body->plan->s[node - body->first_node], s->time};
+    const double *arc = body->plan->s;
+    s->deepest = (sw_extreme){depth, arc[node - body->first_node] - arc[0], s->time};
   }
   for (size_t k = 0; k < s->obstacle_count; k++) {
     sw_scene_obstacle *o = &s->obstacles[k];
@@ -188,6 +190,8 @@ static sw_status observe_contact(sw_scene *s, sw_error *err) {
 }
 
 sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
+  sw_feed_follow(s);
+  for (size_t w = 0; w < s->wire_count; w++) s->wires[w].untwisted = 0;
   SW_TRY(sw_system_place_holds(&s->system, s->time, s->system.x, NULL, NULL, err));
   sw_system_refresh(&s->system);
   sw_system_commit(&s->system);

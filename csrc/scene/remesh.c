@@ -168,6 +168,19 @@ static int is_drawn(const sw_scene_wire *w) {
   return w->mesh.drawn && fabs(w->mesh.s[w->mesh.n - 1] - drawn) <= SAME_PLACE * drawn;
 }
 
+/* Feeding makes and takes nodes of its own, at places that another mesh would not know. */
+static sw_status check_fed(const sw_scene *s, sw_error *err) {
+  for (size_t k = 0; k < s->hold_count; k++)
+    if (s->holds[k].alive && s->holds[k].cls->feeds)
+      return sw_fail(err, SW_EINVAL, "wire '%s' is fed by '%s': it cannot be meshed anew",
+                     s->wires[s->holds[k].wire].name, s->holds[k].name);
+  for (size_t w = 0; w < s->wire_count; w++)
+    if (s->wires[w].mesh.s[0] != 0)
+      return sw_fail(err, SW_EINVAL, "wire '%s' has been fed: it cannot be meshed anew",
+                     s->wires[w].name);
+  return SW_OK;
+}
+
 sw_status sw_scene_remesh(sw_scene *s, const size_t *segments, size_t count, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
@@ -179,6 +192,7 @@ sw_status sw_scene_remesh(sw_scene *s, const size_t *segments, size_t count, sw_
       return sw_fail(err, SW_EINVAL,
                      "wire '%s': segments = %zu is not allowed; it must be from 2 to 10000000",
                      s->wires[w].name, segments[w]);
+  SW_TRY(check_fed(s, err));
   SW_TRY(sw_scene_thaw(s));
   for (size_t w = 0; w < count; w++) {
     const sw_status status =
@@ -192,6 +206,6 @@ sw_status sw_scene_remesh(sw_scene *s, const size_t *segments, size_t count, sw_
 sw_status sw_scene_wire_segments(sw_scene *s, sw_handle h, size_t *segments, sw_error *err) {
   const sw_scene_wire *w = sw_scene_find_wire(s, h, err);
   if (!w) return SW_EDEAD;
-  *segments = (size_t)fmax(1.0, round(w->mesh.s[w->mesh.n - 1] / w->mesh.spacing));
+  *segments = (size_t)fmax(1.0, round((w->mesh.s[w->mesh.n - 1] - w->mesh.s[0]) / w->mesh.spacing));
   return SW_OK;
 }

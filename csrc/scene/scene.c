@@ -33,6 +33,8 @@ void sw_scene_clear_hold(sw_scene_hold *h) {
   sw_free(h->local);
   sw_free(h->log.rows);
   sw_drive_free(&h->drive);
+  sw_motion_release(h->feed.motion);
+  sw_mesh_free(&h->feed.shape);
 }
 
 void sw_scene_clear_obstacle(sw_scene_obstacle *o) {
@@ -72,7 +74,6 @@ void sw_scene_free(sw_scene *s) {
 const char *sw_scene_name(const sw_scene *s) { return s->name; }
 double sw_scene_time(const sw_scene *s) { return s->time; }
 sw_vec sw_scene_gravity(const sw_scene *s) { return s->gravity; }
-
 sw_status sw_scene_set_gravity(sw_scene *s, sw_vec gravity, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   s->gravity = gravity;
@@ -173,6 +174,8 @@ static const sw_param wire_rows[] = {
      "with EI = {EI1, EI2}: bending in the plane of the wire and this has EI1"},
     {"rolls", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_wire_args, rolls),
      "true: friction also turns the wire about its axis, so that it rolls and is twisted"},
+    {"rest_twist", SW_PARAM_NUMBER, "rad/m", 0, -1e6, 1e6, 0, NULL,
+     offsetof(sw_wire_args, rest_twist), "twist without load; it is drawn untwisted"},
 };
 const sw_params sw_wire_params = SW_PARAMS("wire", wire_rows);
 
@@ -192,6 +195,8 @@ static sw_status check_mesh(const char *name, const sw_mesh *m, sw_error *err) {
 /* The normal must be across the wire where it starts. */
 static const double LEAST_SINE = 1e-3; /* of the angle between both [-] */
 
+static const double LARGEST_TWIST = 1.5; /* of a segment at rest, with frames [rad] */
+
 static sw_status add_frames(sw_scene_wire *w, sw_mesh *m, sw_error *err) {
   const int two = w->beam.EI_axis[0] != w->beam.EI_axis[1];
   const sw_drawing *a = &w->drawing;
@@ -199,10 +204,13 @@ static sw_status add_frames(sw_scene_wire *w, sw_mesh *m, sw_error *err) {
   const int given = isfinite(a->normal.x);
   w->beam.rolls = a->rolls;
   w->beam.curved = a->rest == SW_REST_PATH;
-  if (!w->beam.framed && !given && a->rest == SW_REST_STRAIGHT && !a->rolls) return SW_OK;
+  w->beam.rest_twist = a->rest_twist;
+  if (!w->beam.framed && !given && a->rest == SW_REST_STRAIGHT && a->rest_twist == 0 && !a->rolls)
+    return SW_OK;
   if (strcmp(w->cls->name, "rod") != 0)
     return sw_fail(err, SW_EINVAL,
-                   "wire '%s': rest, normal, rolls and two values of EI go with model = 'rod'",
+                   "wire '%s': rest, rest_twist, normal, rolls and two values of EI go with "
+                   "model = 'rod'",
                    w->name);
   if (two && !given)
     return sw_fail(err, SW_EINVAL,
@@ -213,8 +221,15 @@ static sw_status add_frames(sw_scene_wire *w, sw_mesh *m, sw_error *err) {
     return sw_fail(err, SW_EINVAL, "wire '%s': normal must not be along the wire's start", w->name);
   w->beam.framed = w->beam.framed || a->rest == SW_REST_PATH || a->rolls;
   if (!w->beam.framed) return SW_OK; /* a normal that makes no difference */
+  const double segment = m->s[m->n - 1] / (double)(m->n - 1);
+  if (!(fabs(a->rest_twist) * segment < LARGEST_TWIST))
+    return sw_fail(
+        err, SW_EINVAL,
+        "wire '%s': rest_twist = %g rad/m turns a segment of %.4g m by more than %g rad; "
+        "it needs more segments",
+        w->name, a->rest_twist, segment, LARGEST_TWIST);
   if (sw_mesh_add_frames(m, given ? a->normal : sw_perpendicular(along),
-                         a->rest == SW_REST_STRAIGHT) != SW_OK)
+                         a->rest == SW_REST_STRAIGHT, a->rest_twist) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", w->name);
   return SW_OK;
 }
@@ -236,8 +251,11 @@ sw_status sw_scene_draw(sw_scene_wire *w, size_t segments, sw_mesh *out, sw_erro
 /* Keep what the wire is drawn along; frees nothing on failure. */
 static sw_status keep_drawing(sw_scene_wire *w, const sw_wire_args *args, const double *points,
                               size_t count) {
-  w->drawing = (sw_drawing){
-      .count = count, .normal = args->normal, .rest = args->rest, .rolls = args->rolls};
+  w->drawing = (sw_drawing){.count = count,
+                            .normal = args->normal,
+                            .rest = args->rest,
+                            .rolls = args->rolls,
+                            .rest_twist = args->rest_twist};
   w->drawing.points = sw_alloc(3 * count, sizeof *points);
   if (!w->drawing.points) return SW_ENOMEM;
   memcpy(w->drawing.points, points, 3 * count * sizeof *points);
@@ -279,12 +297,15 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
   SW_TRY(sw_grow((void **)&s->wires, &s->wire_capacity, s->wire_count + 1, sizeof *s->wires));
   sw_status status = keep_drawing(&w, args, points ? points : straight, points ? count : 2);
   if (status == SW_OK) status = sw_scene_draw(&w, (size_t)args->segments, &w.mesh, err);
+  if (status == SW_OK && args->rest_twist != 0 && sw_scene_draw_untwisted(&w) != SW_OK)
+    status = sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", w.name);
   for (size_t k = 0; status == SW_OK && k < s->force_count; k++)
     if (s->forces[k].alive && s->forces[k].wire < 0)
       status = check_wire(s->forces[k].cls, &w, s->forces[k].args, err);
   if (status != SW_OK) {
     sw_mesh_free(&w.mesh);
     sw_free(w.drawing.points);
+    sw_free(w.twisted);
     return status;
   }
   w.drawing.length = w.mesh.s[w.mesh.n - 1];
@@ -400,9 +421,10 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
     double at;
     memcpy(&at, args, sizeof at); /* by contract the first member is s */
     if (!w) return sw_fail(err, SW_EINVAL, "force %s: on is required: the wire", cls->name);
-    if (at > w->mesh.s[w->mesh.n - 1] * (1 + 1e-12))
+    const double length = w->mesh.s[w->mesh.n - 1] - w->mesh.s[0];
+    if (at > length * (1 + 1e-12))
       return sw_fail(err, SW_EINVAL, "force %s: s = %g m is beyond the end of wire '%s' at %g m",
-                     cls->name, at, w->name, w->mesh.s[w->mesh.n - 1]);
+                     cls->name, at, w->name, length);
   }
   SW_TRY(check_force(s, cls, wire, args, err));
   SW_TRY(sw_scene_thaw(s));
@@ -414,6 +436,7 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
                         .wire = wire.generation ? (long)wire.slot : -1,
                         .scale = w ? w->mesh.scale : 1.0};
   if (args_size) memcpy(f->args, args, args_size);
+  if (w && cls->flags & SW_FORCE_AT_PLACE) f->args[0] += w->mesh.s[0]; /* stays with the wire */
   *out = (sw_handle){(uint32_t)s->force_count++, s->serial};
   return SW_OK;
 }

@@ -64,12 +64,13 @@ const sw_force_class *sw_scene_force_class(const sw_scene *scene, sw_handle forc
 
 typedef struct sw_wire_args {
   char name[SW_NAME_SIZE];
-  int model;       /* index into sw_wire_all() */
-  sw_vec from, to; /* straight wire; NAN = not given [m] */
-  long segments;   /* [-] */
-  int rest;        /* shape without load: SW_REST_STRAIGHT, SW_REST_PATH */
-  sw_vec normal;   /* first axis of the section; NAN = not given [-] */
-  int rolls;       /* 1: spins about its axis, with inertia, under friction */
+  int model;         /* index into sw_wire_all() */
+  sw_vec from, to;   /* straight wire; NAN = not given [m] */
+  long segments;     /* [-] */
+  int rest;          /* shape without load: SW_REST_STRAIGHT, SW_REST_PATH */
+  sw_vec normal;     /* first axis of the section; NAN = not given [-] */
+  double rest_twist; /* without load [rad/m] */
+  int rolls;         /* 1: spins about its axis, with inertia, under friction */
 } sw_wire_args;
 enum { SW_REST_STRAIGHT = 0, SW_REST_PATH = 1 };
 extern const sw_params sw_wire_params; /* model, path, segments, ... */
@@ -104,6 +105,26 @@ sw_status sw_scene_hold_pose(sw_scene *scene, sw_handle hold, sw_pose *out, sw_e
 /* Force and moment on the wire about the held point, or about *about [N, N m]. */
 sw_status sw_scene_hold_force(sw_scene *scene, sw_handle hold, const sw_vec *about, sw_vec *force,
                               sw_vec *moment, sw_error *err);
+
+/* --- feeds ------------------------------------------------------------------- */
+
+/* From now on the wire is paid out at this speed; negative: drawn in [m/s]. */
+sw_status sw_scene_feed_speed(sw_scene *scene, sw_handle hold, double speed, sw_error *err);
+/* From now on it is pushed out with this force [N]. */
+sw_status sw_scene_feed_push(sw_scene *scene, sw_handle hold, double force, sw_error *err);
+/* It slips where more force than this would be needed; NAN: never [N]. */
+sw_status sw_scene_feed_limit(sw_scene *scene, sw_handle hold, double force, sw_error *err);
+/* Stop, and pay out a length: its motion is the motion's x (retains it). Negative lengths that
+ * are not there are refused. */
+sw_status sw_scene_feed_length(sw_scene *scene, sw_handle hold, sw_motion *motion, double length,
+                               sw_error *err);
+typedef struct sw_feed_state {
+  double fed;   /* paid out so far [m] */
+  double speed; /* now [m/s] */
+  double drive; /* force that moves the wire, outwards; not that of the guide's walls [N] */
+  double limit; /* NAN = none [N] */
+} sw_feed_state;
+sw_status sw_scene_feed_state(sw_scene *scene, sw_handle hold, sw_feed_state *out, sw_error *err);
 
 /* --- obstacles -------------------------------------------------------------- */
 

@@ -47,8 +47,10 @@ typedef struct statics {
 
 static double longest(const sw_scene *s) {
   double length = 0;
-  for (size_t w = 0; w < s->wire_count; w++)
-    length = fmax(length, s->wires[w].mesh.s[s->wires[w].mesh.n - 1]);
+  for (size_t w = 0; w < s->wire_count; w++) {
+    const sw_mesh *m = &s->wires[w].mesh;
+    length = fmax(length, m->s[m->n - 1] - m->s[0]);
+  }
   return length;
 }
 

@@ -13,6 +13,8 @@ typedef struct saved_hold {
   sw_pose last_pose;
   size_t log_count;
   sw_scene_hold shape; /* where and how it holds, nothing else of it */
+  double s1, s2;       /* of a hold that feeds they change [m] */
+  sw_feed feed;        /* its motion retained, its shape not owned */
 } saved_hold;
 
 typedef struct saved_obstacle {
@@ -29,6 +31,7 @@ struct sw_snapshot {
   size_t wires, holds, obstacles, forces, frames;
   sw_mesh *meshes;
   sw_wire_extremes *extremes; /* (wires) */
+  int *untwisted;             /* (wires) */
   saved_hold *hold;
   saved_obstacle *obstacle;
   int *force_alive;
@@ -79,10 +82,12 @@ void sw_snapshot_free(sw_snapshot *p) {
   for (size_t k = 0; p->hold && k < p->holds; k++) {
     sw_drive_free(&p->hold[k].drive);
     sw_scene_clear_hold(&p->hold[k].shape);
+    sw_motion_release(p->hold[k].feed.motion);
   }
   for (size_t k = 0; p->obstacle && k < p->obstacles; k++) sw_drive_free(&p->obstacle[k].drive);
   sw_free(p->meshes);
   sw_free(p->extremes);
+  sw_free(p->untwisted);
   sw_free(p->hold);
   sw_free(p->obstacle);
   sw_free(p->force_alive);
@@ -110,14 +115,17 @@ static sw_drive copy_drive(const sw_drive *d) {
 static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
   p->meshes = sw_alloc(s->wire_count, sizeof *p->meshes);
   p->extremes = sw_alloc(s->wire_count, sizeof *p->extremes);
+  p->untwisted = sw_alloc(s->wire_count, sizeof *p->untwisted);
   p->hold = sw_alloc(s->hold_count, sizeof *p->hold);
   p->obstacle = sw_alloc(s->obstacle_count, sizeof *p->obstacle);
   p->force_alive = sw_alloc(s->force_count, sizeof *p->force_alive);
-  if (!p->meshes || !p->extremes || !p->hold || !p->obstacle || !p->force_alive) return SW_ENOMEM;
+  if (!p->meshes || !p->extremes || !p->untwisted || !p->hold || !p->obstacle || !p->force_alive)
+    return SW_ENOMEM;
   for (size_t w = 0; w < s->wire_count; w++) {
     SW_TRY(sw_mesh_copy(&s->wires[w].mesh, &p->meshes[w]));
     p->wires = w + 1;
     p->extremes[w] = s->wires[w].extremes;
+    p->untwisted[w] = s->wires[w].untwisted;
   }
   for (; p->holds < s->hold_count; p->holds++) {
     const sw_scene_hold *h = &s->holds[p->holds];
@@ -126,6 +134,8 @@ static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
     kept->alive = h->alive, kept->drive = copy_drive(&h->drive);
     kept->force = h->force, kept->moment = h->moment;
     kept->last_pose = h->last_pose, kept->log_count = h->log.count;
+    kept->s1 = h->s1, kept->s2 = h->s2, kept->feed = h->feed;
+    sw_motion_retain(h->feed.motion);
   }
   for (; p->obstacles < s->obstacle_count; p->obstacles++) {
     const sw_scene_obstacle *o = &s->obstacles[p->obstacles];
@@ -161,6 +171,7 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
   SW_TRY(sw_scene_build(s, err));
+  sw_feed_undo(s);
   sw_snapshot *p = sw_alloc(1, sizeof *p);
   if (!p) return sw_fail(err, SW_ENOMEM, "snapshot: out of memory");
   p->time = s->time, p->next_dt = s->next_dt, p->next_frame = s->next_frame;
@@ -206,6 +217,20 @@ static void put_drive(sw_drive *to, const sw_drive *from) {
   *to = copy;
 }
 
+static void put_feed(sw_scene_hold *h, const saved_hold *saved) {
+  const sw_mesh shape = h->feed.shape; /* never changes */
+  const size_t node = h->feed.node, number = h->feed.number;
+  if (!h->cls->feeds) return;
+  sw_motion_retain(saved->feed.motion);
+  sw_motion_release(h->feed.motion);
+  h->feed = saved->feed;
+  h->feed.shape = shape;
+  h->feed.node = node, h->feed.number = number;
+  h->s1 = saved->s1, h->s2 = saved->s2;
+  h->s[0] = h->s1;
+  if (shape.rest) sw_feed_rest(h, h->s1);
+}
+
 /* Objects made after the snapshot go away; the others get their old state. */
 static void put_objects(sw_scene *s, const sw_snapshot *p) {
   for (size_t k = 0; k < s->hold_count; k++) {
@@ -219,6 +244,7 @@ static void put_objects(sw_scene *s, const sw_snapshot *p) {
     h->last_pose = p->hold[k].last_pose;
     if (h->log.count > p->hold[k].log_count) h->log.count = p->hold[k].log_count;
     put_drive(&h->drive, &p->hold[k].drive);
+    put_feed(h, &p->hold[k]);
   }
   for (size_t k = 0; k < s->obstacle_count; k++) {
     sw_scene_obstacle *o = &s->obstacles[k];
@@ -311,6 +337,13 @@ static void put_drawn(sw_scene *s, const sw_snapshot *p) {
   }
 }
 
+/* Wires that had not moved yet lie untwisted again. */
+static sw_status put_untwisted(sw_scene *s, const sw_snapshot *p) {
+  for (size_t w = 0; w < p->wires; w++)
+    if (p->untwisted[w]) SW_TRY(sw_scene_draw_untwisted(&s->wires[w]));
+  return SW_OK;
+}
+
 static sw_status put_state(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   memcpy(s->system.state, p->state, p->state_size * sizeof(double));
   if (s->contact) SW_TRY(sw_contact_set_memory(s->contact, p->memory, p->memory_size, p->fresh));
@@ -347,6 +380,7 @@ sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   } else {
     put_drawn(s, p);
   }
+  if (put_untwisted(s, p) != SW_OK) return sw_fail(err, SW_ENOMEM, "restore: out of memory");
   put_objects(s, p);
   drop_newer(s);
   sw_scene_drop_rules(s, p->rules);

@@ -23,10 +23,10 @@ static void set_rest(sw_plan *p, size_t number, const sw_edge_frame *a, const sw
   sw_hinge_bend(a, b, p->rest_twist[number], p->rest_bend + 2 * number);
 }
 
-sw_status sw_scene_unloaded(const sw_scene *s, size_t wire, sw_plan *p) {
+/* Of hinges at nodes from .. to and of all clamps. */
+static void unloaded_between(const sw_scene *s, size_t wire, sw_plan *p, size_t from, size_t to) {
   const sw_mesh *m = &s->wires[wire].mesh;
-  SW_TRY(sw_plan_add_rest(p));
-  for (size_t i = 1; i + 1 < p->nodes; i++) {
+  for (size_t i = from; i <= to && i + 1 < p->nodes; i++) {
     const sw_edge_frame a = edge_frame(m->rest, m->rest_normal, i - 1);
     const sw_edge_frame b = edge_frame(m->rest, m->rest_normal, i);
     set_rest(p, i, &a, &b);
@@ -38,7 +38,16 @@ sw_status sw_scene_unloaded(const sw_scene *s, size_t wire, sw_plan *p) {
     const sw_edge_frame edge = edge_frame(m->rest, m->rest_normal, p->clamps[c].edge);
     set_rest(p, p->nodes + c, leaves ? &held : &edge, leaves ? &edge : &held);
   }
+}
+
+sw_status sw_scene_unloaded(const sw_scene *s, size_t wire, sw_plan *p) {
+  SW_TRY(sw_plan_add_rest(p));
+  unloaded_between(s, wire, p, 1, p->nodes);
   return SW_OK;
+}
+
+void sw_scene_unloaded_near(const sw_scene *s, size_t wire, sw_plan *p, size_t node) {
+  unloaded_between(s, wire, p, node > 1 ? node - 1 : 1, node + 1);
 }
 
 static sw_edge_frame present(const sw_field *f, size_t e) {

@@ -157,7 +157,7 @@ void sw_scene_wire_touch(sw_scene *s, size_t number, sw_wire_touch *out) {
     const double *x = s->system.x + 3 * p.node[k];
     at[k] = sw_lerp(sw_load(x), sw_load(x + 3), p.at[k]);
     memcpy(out->wire[k], s->wires[p.body[k]].name, SW_NAME_SIZE);
-    out->s[k] = b->plan->s[i] + p.at[k] * b->plan->rest[i];
+    out->s[k] = b->plan->s[i] - b->plan->s[0] + p.at[k] * b->plan->rest[i];
   }
   const double r1 = s->wires[p.body[0]].beam.radius, r2 = s->wires[p.body[1]].beam.radius;
   out->point = sw_lerp(at[1], at[0], r2 / (r1 + r2));

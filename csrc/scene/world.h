@@ -19,10 +19,11 @@ typedef struct sw_twisted {
 typedef struct sw_drawing {
   double *points; /* (count x 3) [m] */
   size_t count;
-  double length; /* of the first mesh [m] */
-  sw_vec normal; /* of the section; NAN = not given [-] */
-  int rest;      /* SW_REST_STRAIGHT, SW_REST_PATH */
-  int rolls;     /* 1: it turns about itself with inertia */
+  double length;     /* of the first mesh [m] */
+  sw_vec normal;     /* of the section; NAN = not given [-] */
+  int rest;          /* SW_REST_STRAIGHT, SW_REST_PATH */
+  int rolls;         /* 1: it turns about itself with inertia */
+  double rest_twist; /* [rad/m] */
 } sw_drawing;
 
 typedef struct sw_scene_wire {
@@ -35,7 +36,11 @@ typedef struct sw_scene_wire {
   sw_wire_extremes extremes;
   sw_twisted *twisted;
   size_t twisted_count;
+  int untwisted; /* 1: lies as it was drawn, without the twist it has unloaded; nothing has moved */
 } sw_scene_wire;
+
+/* The wire is as drawn: not twisted anywhere. SW_ENOMEM. */
+sw_status sw_scene_draw_untwisted(sw_scene_wire *wire);
 
 /* A log: rows of a fixed number of doubles, growing. */
 typedef struct sw_log {
@@ -49,6 +54,37 @@ typedef struct sw_drive {
   sw_motion *motion; /* NULL = at rest */
   double start;      /* scene time of the motion's zero [s] */
 } sw_drive;
+
+/* A hold through which the wire slides. The length paid out at time t is fed + speed
+ * (t - since) + motion's x at t - start + slip + slip_speed u + slip_growth u^2 / 2, with
+ * u = t - slip_since. */
+typedef struct sw_feed {
+  int outward;         /* where paid-out wire goes: +1 along the arc length, -1 against it [-] */
+  double label;        /* the mesh's arc length at the guide when nothing was fed [m] */
+  double fed, since;   /* [m], [s] */
+  double speed;        /* [m/s] */
+  sw_motion *motion;   /* a given length to be fed, or NULL */
+  double start;        /* [s] */
+  double slip;         /* beyond what was asked for [m] */
+  double slip_since;   /* [s] */
+  double slip_speed;   /* [m/s] */
+  double slip_growth;  /* of this step; between steps that of the last one [m/s2] */
+  double slip_before;  /* slip_growth of the step before [m/s2] */
+  double push, limit;  /* force on the wire, the largest one; NAN = none [N] */
+  double slip_way;     /* sign of the force against which it slips; 0 = it does not [-] */
+  double way_before;   /* that of the step before [-] */
+  double tried[2];     /* slip_growths with too little force and with too much [m/s2] */
+  double off[2];       /* how far their forces were off; NAN = not tried yet [N] */
+  int last_side;       /* which of both was tried last [-] */
+  double slope;        /* of the force over slip_growth, last found; 0 = not known [kg] */
+  double spare[2];     /* length given to the edge before and after the guide when nodes came
+                          and went, so that no axial force jumps [m] */
+  double spare_fed[2]; /* fed at that time; the spare goes back to 0 over one edge's length [m] */
+  double size;         /* edges beside the guide are made this long [m] */
+  double drive;        /* force that moves the wire, outwards, last [N] */
+  size_t node, number; /* in the wire's plan; among the system's holds; while built */
+  sw_mesh shape;       /* the wire with its unloaded shape, if it has frames */
+} sw_feed;
 
 typedef struct sw_scene_hold {
   uint32_t generation;
@@ -67,6 +103,7 @@ typedef struct sw_scene_hold {
   sw_vec director[2];     /* arriving, leaving; in the hold's frame [-] */
   sw_mesh_frame frame[2]; /* the wire's there, with directions as held; if it has frames */
   sw_quat turn;           /* orientation that goes with the wire's twist, while not built */
+  sw_feed feed;           /* of a class that feeds */
   sw_vec force, moment;   /* last, kept after release [N], [N m] */
   sw_pose last_pose;
   sw_log log;
@@ -189,6 +226,8 @@ void sw_scene_forget_histories(sw_scene *scene);
 /* What the frames of wires are when unloaded, into the plan; their present ones into
  * the system's state and back into the meshes. */
 sw_status sw_scene_unloaded(const sw_scene *scene, size_t wire, sw_plan *plan);
+/* The same for what depends on the edges beside one node. */
+void sw_scene_unloaded_near(const sw_scene *scene, size_t wire, sw_plan *plan, size_t node);
 void sw_scene_frame_in(sw_scene *scene);
 void sw_scene_frame_out(sw_scene *scene, size_t wire);
 /* Bend of a hinge beyond that at rest, over its length [1/m]; number: of the plan's
@@ -206,11 +245,51 @@ sw_status sw_drive_follow(sw_scene *scene, sw_drive *drive, const char *object, 
                           int relative, sw_error *err);
 void sw_drive_free(sw_drive *drive);
 
+/* --- feeds ------------------------------------------------------------------- */
+
+/* Which way wire goes that is paid out at arc length s of the mesh: see sw_feed. */
+int sw_feed_outward(const sw_mesh *mesh, double s);
+/* A new hold, its nodes in place, begins to feed. SW_ENOMEM. */
+sw_status sw_feed_begin(sw_scene *scene, sw_scene_hold *hold, const sw_hold_args *args);
+/* Length paid out at a time, its speed and acceleration. */
+typedef struct sw_feed_now {
+  double fed, speed, acceleration; /* [m], [m/s], [m/s2] */
+} sw_feed_now;
+sw_feed_now sw_feed_at(const sw_scene_hold *hold, double t);
+/* What is left of the spare lengths when so much is fed [m]. */
+void sw_feed_spare(const sw_feed *feed, double fed, double spare[2]);
+/* Slide the wire to where it is at time t; adds its velocity to the hold's state. */
+void sw_feed_place(sw_scene *scene, sw_scene_hold *hold, double t, sw_hold_state *state);
+/* The scene's time is that of an accepted state: meshes and holds follow. */
+void sw_feed_follow(sw_scene *scene);
+/* Plans back to the meshes, before these are read. */
+void sw_feed_undo(sw_scene *scene);
+/* Unloaded place and frame of the node at the guide, for its present arc length. */
+void sw_feed_shape(sw_scene *scene, sw_scene_hold *hold);
+/* What the hold knows of the unloaded frame at arc length s of the mesh. */
+void sw_feed_rest(sw_scene_hold *hold, double s);
+/* The largest step up to h that nodes can follow [s]. */
+double sw_feed_step(const sw_scene *scene, double h);
+/* Insert and remove nodes beside guides as a step to time t needs. changed: the system was
+ * made anew. SW_EEMPTY: no wire left to draw in. */
+sw_status sw_feed_make_room(sw_scene *scene, double t, int *changed, sw_error *err);
+/* Force that moves the wire outwards, with nodes at x and the last reaction [N]. */
+double sw_feed_drive(const sw_scene *scene, const sw_scene_hold *hold, const double *x);
+
+/* Steps of feeds that yield to a force: begin one (0: there are none), correct the slips
+ * after a trial (1: they were right), or put them back. */
+int sw_slip_any(const sw_scene *scene);
+int sw_slip_begin(sw_scene *scene);
+int sw_slip_correct(sw_scene *scene, double h, int first);
+void sw_slip_give_up(sw_scene *scene);
+
 sw_status sw_log_add(sw_log *log, const double *row, size_t n);
 
 /* The object of a handle, or NULL with err set. */
 sw_scene_wire *sw_scene_find_wire(const sw_scene *scene, sw_handle h, sw_error *err);
 sw_scene_hold *sw_scene_find_hold(const sw_scene *scene, sw_handle h, sw_error *err);
+/* The same of a hold that has not been released. */
+sw_scene_hold *sw_scene_living_hold(const sw_scene *s, sw_handle hold, sw_error *err);
 sw_scene_obstacle *sw_scene_find_obstacle(const sw_scene *scene, sw_handle h, sw_error *err);
 
 sw_status sw_scene_editable(const sw_scene *scene, sw_error *err);

@@ -7,13 +7,13 @@
 #include "base/alloc.h"
 #include "state/hinge.h"
 
-enum { ARRAYS = 10, PLAIN = 4 }; /* the later ones with frames only */
+enum { ARRAYS = 11, PLAIN = 5 }; /* the later ones with frames only */
 
 /* The arrays and their doubles per node. */
 static void arrays(sw_mesh *m, double **out[ARRAYS], size_t width[ARRAYS]) {
-  double **const all[ARRAYS] = {&m->s,      &m->tension,     &m->x,     &m->v,    &m->rest,
+  double **const all[ARRAYS] = {&m->s,      &m->tension,     &m->x,     &m->v,    &m->a,   &m->rest,
                                 &m->normal, &m->rest_normal, &m->twist, &m->turn, &m->spin};
-  static const size_t widths[ARRAYS] = {1, 1, 3, 3, 3, 3, 3, 1, 1, 1};
+  static const size_t widths[ARRAYS] = {1, 1, 3, 3, 3, 3, 3, 3, 1, 1, 1};
   memcpy(out, all, sizeof all);
   memcpy(width, widths, sizeof widths);
 }
@@ -149,6 +149,12 @@ static sw_vec edge_of(const double *nodes, size_t e) {
   return sw_unit_or(sw_sub(sw_vec_at(nodes, e + 1), sw_vec_at(nodes, e)), sw_v(1, 0, 0));
 }
 
+static sw_vec turned_about(sw_vec n, sw_vec t, double angle) {
+  return sw_add(sw_scale(n, cos(angle)), sw_scale(sw_cross(t, n), sin(angle)));
+}
+
+static double middle(const sw_mesh *m, size_t e) { return 0.5 * (m->s[e] + m->s[e + 1]); }
+
 /* Frames without twist along the nodes, from normal at the first edge on. */
 static void frames_along(const double *nodes, size_t n, sw_vec normal, double *out) {
   sw_vec before = edge_of(nodes, 0);
@@ -161,25 +167,33 @@ static void frames_along(const double *nodes, size_t n, sw_vec normal, double *o
   }
 }
 
-sw_status sw_mesh_add_frames(sw_mesh *m, sw_vec normal, int straight) {
+sw_status sw_mesh_add_frames(sw_mesh *m, sw_vec normal, int straight, double rest_twist) {
   SW_TRY(make_room(m, m->capacity, ARRAYS));
   const sw_vec along = edge_of(m->x, 0);
   for (size_t i = 0; i < m->n; i++)
     sw_store(m->rest + 3 * i, straight ? sw_scale(along, m->s[i]) : sw_vec_at(m->x, i));
   frames_along(m->x, m->n, normal, m->normal);
   frames_along(m->rest, m->n, normal, m->rest_normal);
+  for (size_t e = 0; rest_twist != 0 && e + 1 < m->n; e++)
+    sw_store(m->rest_normal + 3 * e, turned_about(sw_vec_at(m->rest_normal, e), edge_of(m->rest, e),
+                                                  rest_twist * middle(m, e)));
   return SW_OK;
 }
 
-/* The normal at arc length s, half-way between those of the edges beside a node. */
+/* The normal at arc length s: the twist goes evenly from edge middle to edge middle, and on
+ * to the ends. */
 static sw_vec normal_at(const sw_mesh *m, const double *nodes, const double *normals, double s,
                         sw_vec tangent) {
   const size_t i = sw_mesh_node(m, s), last = m->n - 2;
-  const size_t b = i > last ? last : i, a = i > 0 ? i - 1 : 0;
-  const sw_vec before = sw_carry_unit(sw_vec_at(normals, a), edge_of(nodes, a), tangent);
-  if (m->s[i] != s) return before; /* inside edge a */
-  const sw_vec after = sw_carry_unit(sw_vec_at(normals, b), edge_of(nodes, b), tangent);
-  return sw_unit_or(sw_add(before, after), before);
+  size_t e = i > 0 ? i - 1 : 0;
+  if (e > 0 && s < middle(m, e)) e--;
+  if (e == last && e > 0) e--;
+  const sw_edge_frame a = {edge_of(nodes, e), sw_vec_at(normals, e)};
+  const sw_vec n = sw_carry_unit(a.m1, a.t, tangent);
+  if (last == 0) return n;
+  const sw_edge_frame b = {edge_of(nodes, e + 1), sw_vec_at(normals, e + 1)};
+  const double share = (s - middle(m, e)) / (middle(m, e + 1) - middle(m, e));
+  return turned_about(n, tangent, share * sw_hinge_twist(&a, &b, 0.0));
 }
 
 sw_mesh_frame sw_mesh_frame_at(const sw_mesh *m, double s) {
@@ -229,7 +243,7 @@ static void move_node(sw_mesh *m, size_t i, double s) {
   m->s[i] = s;
 }
 
-static sw_status insert_node(sw_mesh *m, size_t edge, double s) {
+sw_status sw_mesh_insert(sw_mesh *m, size_t edge, double s) {
   double **at[ARRAYS];
   size_t width[ARRAYS];
   SW_TRY(reserve(m, m->n + 1));
@@ -238,6 +252,7 @@ static sw_status insert_node(sw_mesh *m, size_t edge, double s) {
   const double f = (s - m->s[edge]) / (m->s[i] - m->s[edge]);
   const sw_vec x = sw_lerp(sw_vec_at(m->x, edge), sw_vec_at(m->x, i), f);
   const sw_vec v = sw_lerp(sw_vec_at(m->v, edge), sw_vec_at(m->v, i), f);
+  const sw_vec a = sw_lerp(sw_vec_at(m->a, edge), sw_vec_at(m->a, i), f);
   const sw_vec rest =
       m->rest ? sw_lerp(sw_vec_at(m->rest, edge), sw_vec_at(m->rest, i), f) : sw_v(0, 0, 0);
   for (size_t k = 0; k < ARRAYS; k++)
@@ -247,6 +262,7 @@ static sw_status insert_node(sw_mesh *m, size_t edge, double s) {
   m->tension[i] = m->tension[edge];
   sw_store(m->x + 3 * i, x);
   sw_store(m->v + 3 * i, v);
+  sw_store(m->a + 3 * i, a);
   if (m->rest) {
     sw_store(m->rest + 3 * i, rest);
     memcpy(m->normal + 3 * i, m->normal + 3 * edge, 3 * sizeof(double));
@@ -256,6 +272,31 @@ static sw_status insert_node(sw_mesh *m, size_t edge, double s) {
   }
   m->n++;
   return SW_OK;
+}
+
+/* The unit mean of vectors i - 1 and i, put at i - 1; weights a, b. */
+static void merge_units(double *list, size_t i, double a, double b) {
+  const sw_vec u = sw_vec_at(list, i - 1), v = sw_vec_at(list, i);
+  sw_store(list + 3 * (i - 1), sw_unit_or(sw_add(sw_scale(u, a), sw_scale(v, b)), u));
+}
+
+void sw_mesh_remove(sw_mesh *m, size_t i) {
+  double **at[ARRAYS];
+  size_t width[ARRAYS];
+  const double a = m->s[i] - m->s[i - 1], b = m->s[i + 1] - m->s[i];
+  m->tension[i - 1] = (a * m->tension[i - 1] + b * m->tension[i]) / (a + b);
+  if (m->rest) {
+    merge_units(m->normal, i, a, b);
+    merge_units(m->rest_normal, i, a, b);
+    m->turn[i - 1] = (a * m->turn[i - 1] + b * m->turn[i]) / (a + b);
+    m->spin[i - 1] = (a * m->spin[i - 1] + b * m->spin[i]) / (a + b);
+  }
+  arrays(m, at, width);
+  for (size_t k = 0; k < ARRAYS; k++)
+    if (*at[k])
+      memmove(*at[k] + width[k] * i, *at[k] + width[k] * (i + 1),
+              width[k] * (m->n - i - 1) * sizeof(double));
+  m->n--;
 }
 
 static int may_move(const sw_mesh *m, size_t i, double s, const double *keep, size_t count) {
@@ -269,7 +310,7 @@ static int may_move(const sw_mesh *m, size_t i, double s, const double *keep, si
 
 sw_status sw_mesh_place(sw_mesh *m, double s, const double *keep, size_t keep_count,
                         double *placed) {
-  const double total = m->s[m->n - 1];
+  const double total = m->s[m->n - 1] - m->s[0];
   const double same = 1e-9 * total; /* closer is the same node [m] */
   size_t i = sw_mesh_node(m, s);
   if (i > 0 && s - m->s[i - 1] < m->s[i] - s) i--;
@@ -282,5 +323,5 @@ sw_status sw_mesh_place(sw_mesh *m, double s, const double *keep, size_t keep_co
     move_node(m, i, s);
     return SW_OK;
   }
-  return insert_node(m, m->s[i] < s ? i : i - 1, s);
+  return sw_mesh_insert(m, m->s[i] < s ? i : i - 1, s);
 }

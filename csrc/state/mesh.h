@@ -12,8 +12,10 @@
 
 typedef struct sw_mesh {
   size_t n, capacity;
-  double *s;       /* (n) arc length [m] */
+  double *s;       /* (n) arc length, from the wire's start as it was made; below 0 where wire
+                      was fed at the start [m] */
   double *x, *v;   /* (n x 3) [m], [m/s] */
+  double *a;       /* (n x 3) of the last step, good while nothing jumps [m/s2] */
   double *tension; /* (n) of the edge that starts at each node; last unused [N] */
   double EA;       /* to keep edge strains when nodes move [N] */
   double spacing;  /* of the even nodes it was made of, before holds moved and added some [m] */
@@ -54,8 +56,8 @@ sw_status sw_mesh_resample(const sw_mesh *from, const double *s, size_t count, c
 
 /* Give the wire frames that are not twisted, as it lies: their first axis is that
  * of normal across the wire's start. straight: unloaded it is straight, else as it
- * lies. SW_ENOMEM. */
-sw_status sw_mesh_add_frames(sw_mesh *mesh, sw_vec normal, int straight);
+ * lies; rest_twist: and twisted [rad/m]. SW_ENOMEM. */
+sw_status sw_mesh_add_frames(sw_mesh *mesh, sw_vec normal, int straight, double rest_twist);
 
 /* The frames at arc length s of a mesh that has them. */
 sw_mesh_frame sw_mesh_frame_at(const sw_mesh *mesh, double s);
@@ -65,6 +67,11 @@ sw_mesh_frame sw_mesh_frame_at(const sw_mesh *mesh, double s);
  * SW_ENOMEM leaves the mesh as it was. */
 sw_status sw_mesh_place(sw_mesh *mesh, double s, const double *keep, size_t keep_count,
                         double *placed);
+
+/* A new node inside an edge, on its chord. SW_ENOMEM leaves the mesh as it was. */
+sw_status sw_mesh_insert(sw_mesh *mesh, size_t edge, double s);
+/* Make one edge of the two beside an inner node. */
+void sw_mesh_remove(sw_mesh *mesh, size_t node);
 
 /* The node at arc length s exactly; the mesh must have one. */
 size_t sw_mesh_node(const sw_mesh *mesh, double s);

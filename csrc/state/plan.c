@@ -39,49 +39,55 @@ static double next_hinge_length(double b) { return 0.5 * (1.0 + b) + 1.0 / (12.0
 static const double STUB_HINGE = 1.0 / 3.0; /* of the edge's length [-] */
 static const double SMALLEST_RATIO = 0.45;  /* below this b the quadrature fails [-] */
 
-/* Edges that a clamp sees on one side before the wire ends or is held again. */
-static size_t run_of_edges(const sw_plan *p, size_t node, int side) {
-  size_t count = 0;
-  long i = (long)node;
-  while (i + side >= 0 && i + side < (long)p->nodes) {
-    i += side;
-    count++;
-    if (p->held[i] != SW_FREE) break;
+void sw_plan_clamp_lengths(double first, double second, double *clamp, double *next) {
+  const double b = second > 0 ? first / second : 0;
+  *next = 0.5 * (first + second);
+  *clamp = second > 0 ? 0.5 * first : STUB_HINGE * first;
+  if (b < SMALLEST_RATIO) return; /* plain half cell, second order only for the average */
+  *clamp = clamp_hinge_length(b) * second;
+  *next = next_hinge_length(b) * second;
+}
+
+/* Node k places from a clamp's own, to the side that it looks to; -1 beyond the wire. */
+static long node_from(const sw_plan *p, const sw_clamp_hinge *c, long k) {
+  const long i = (long)c->node + k * c->side;
+  return i < (long)p->nodes ? i : -1;
+}
+
+/* The clamp's own hinge, and what it adds to the next one. */
+static void size_clamp(sw_plan *p, sw_clamp_hinge *c) {
+  const long near = node_from(p, c, 1), far = node_from(p, c, 2);
+  const double first = p->rest[c->edge];
+  if (far < 0) {
+    c->length = STUB_HINGE * first;
+    return;
   }
-  return count;
+  const double l = p->rest[c->side > 0 ? c->edge + 1 : c->edge - 1];
+  const double b = first / l;
+  if (b < SMALLEST_RATIO) { /* plain half cell, second order only for the average */
+    c->length = 0.5 * first;
+    return;
+  }
+  c->length = clamp_hinge_length(b) * l;
+  p->hinge[near] += next_hinge_length(b) * l - 0.5 * (first + l);
 }
 
 static void add_clamp(sw_plan *p, size_t node, int side, int hold) {
-  const size_t run = run_of_edges(p, node, side);
-  if (run == 0) return;
+  if (side > 0 ? node + 1 == p->nodes : node == 0) return;
   const size_t edge = side > 0 ? node : node - 1;
   const size_t next = side > 0 ? node + 1 : node - 1;
   if (p->held[next] != SW_FREE) return; /* a rigid edge inside the grasped region */
   sw_clamp_hinge *c = &p->clamps[p->clamp_count++];
   *c = (sw_clamp_hinge){.node = node, .edge = edge, .side = side, .hold = hold};
-  if (run < 2) {
-    c->length = STUB_HINGE * p->rest[edge];
-    return;
-  }
-  const double l = p->rest[side > 0 ? edge + 1 : edge - 1];
-  const double b = p->rest[edge] / l;
-  if (b < SMALLEST_RATIO) { /* plain half cell, second order only for the average */
-    c->length = 0.5 * p->rest[edge];
-    return;
-  }
-  c->length = clamp_hinge_length(b) * l;
-  p->hinge[next] += next_hinge_length(b) * l - 0.5 * (p->rest[edge] + l);
+  size_clamp(p, c);
 }
 
-static void set_masses(sw_plan *p) {
-  for (size_t e = 0; e < p->edges; e++) {
-    const double m = p->beam.mass * p->rest[e];
-    p->lumped[e] += 0.5 * m;
-    p->lumped[e + 1] += 0.5 * m;
-    p->mass_own[e] += m / 3.0;
-    p->mass_own[e + 1] += m / 3.0;
-    p->mass_next[e] = m / 6.0;
-  }
+static void set_mass(sw_plan *p, size_t i) {
+  const double before = i > 0 ? p->beam.mass * (p->s[i] - p->s[i - 1]) : 0.0;
+  const double after = i < p->edges ? p->beam.mass * (p->s[i + 1] - p->s[i]) : 0.0;
+  p->lumped[i] = 0.5 * before + 0.5 * after;
+  p->mass_own[i] = before / 3.0 + after / 3.0;
+  if (i < p->edges) p->mass_next[i] = after / 6.0;
 }
 
 static void set_holds(sw_plan *p, const sw_hold_place *holds, size_t count) {
@@ -125,7 +131,8 @@ sw_status sw_plan_new(const sw_beam *beam, const double *s, size_t n, const sw_h
                       size_t hold_count, sw_plan **out) {
   sw_plan *p = sw_alloc(1, sizeof *p);
   if (!p) return SW_ENOMEM;
-  *p = (sw_plan){.references = 1, .nodes = n, .edges = n - 1, .beam = *beam, .length = s[n - 1]};
+  *p = (sw_plan){
+      .references = 1, .nodes = n, .edges = n - 1, .beam = *beam, .length = s[n - 1] - s[0]};
   p->s = sw_alloc(n, sizeof *p->s);
   p->rest = sw_alloc(n, sizeof *p->rest);
   p->lumped = sw_alloc(n, sizeof *p->lumped);
@@ -142,11 +149,29 @@ sw_status sw_plan_new(const sw_beam *beam, const double *s, size_t n, const sw_h
   }
   memcpy(p->s, s, n * sizeof *s);
   for (size_t e = 0; e < p->edges; e++) p->rest[e] = s[e + 1] - s[e];
-  set_masses(p);
+  for (size_t i = 0; i < n; i++) set_mass(p, i);
   set_holds(p, holds, hold_count);
   set_spans(p);
   *out = p;
   return SW_OK;
+}
+
+void sw_plan_slide(sw_plan *p, size_t node, double s, const double spare[2]) {
+  const size_t from = node > 0 ? node - 1 : 0, to = node + 1 < p->nodes ? node + 1 : node;
+  p->s[node] = s;
+  p->length = p->s[p->nodes - 1] - p->s[0];
+  for (size_t e = from; e < to; e++) p->rest[e] = p->s[e + 1] - p->s[e] + spare[e == node];
+  for (size_t i = from; i <= to; i++) {
+    set_mass(p, i);
+    if (i > 0 && i < p->edges && p->held[i] == SW_FREE)
+      p->hinge[i] = 0.5 * (p->rest[i - 1] + p->rest[i]);
+  }
+  for (size_t c = 0; c < p->clamp_count; c++) {
+    const long next = node_from(p, &p->clamps[c], 1);
+    if (next == (long)from || next == (long)to) size_clamp(p, &p->clamps[c]);
+  }
+  for (size_t k = 0; k < p->span_count; k++)
+    p->spans[k].length = p->s[p->spans[k].last + 1] - p->s[p->spans[k].first];
 }
 
 sw_status sw_plan_add_rest(sw_plan *plan) {

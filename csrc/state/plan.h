@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The plan of a wire: everything that does not change during a step. Node and
  * edge lists, masses, which nodes are held, where the bending hinges sit. A
- * plan is immutable and reference-counted; a clamp put on or taken off makes a
+ * plan is reference-counted and immutable but for one thing: through a node that is
+ * held by a guide the wire may slide. A clamp put on or taken off makes a
  * new plan between two steps. */
 #ifndef SW_STATE_PLAN_H
 #define SW_STATE_PLAN_H
@@ -19,6 +20,7 @@ typedef struct sw_beam {
   double mass;         /* mass per length [kg/m] */
   double radius;       /* outer radius [m] */
   double E;            /* of the material, for stresses [Pa] */
+  double rest_twist;   /* of the unloaded wire [rad/m] */
   double EI_axis[2];   /* in the plane of the normal and across it [N m2] */
   double spin_inertia; /* of turning about the axis, per length [kg m] */
   int rolls;           /* 1: it has that inertia, and contact takes hold of its surface */
@@ -77,14 +79,31 @@ typedef struct sw_hold_place {
   int hold; /* the owner's index */
 } sw_hold_place;
 
-/* Build a plan for nodes at arc lengths s (n values, increasing, first 0) under
+/* Build a plan for nodes at arc lengths s (n values, increasing; the first is 0 unless
+ * wire was fed at the start) under
  * the given holds; every s1 and s2 must be one of the nodes (see
  * sw_mesh_place). The result has one reference. SW_ENOMEM. */
 sw_status sw_plan_new(const sw_beam *beam, const double *s, size_t n, const sw_hold_place *holds,
                       size_t hold_count, sw_plan **out);
 
+/* Let the wire slide through a held node until its arc length there is s: changes all
+ * that depends on the edges beside it. spare: how much longer than by their arc lengths the
+ * edges before and after are [m]. */
+void sw_plan_slide(sw_plan *plan, size_t node, double s, const double spare[2]);
+
+/* Lengths of a clamp's hinge and the one after it, whose first two edges are first and
+ * second long; second 0: the wire ends after the first [m]. */
+void sw_plan_clamp_lengths(double first, double second, double *clamp, double *next);
+
 /* Make room for the unloaded shape of a wire with material frames. SW_ENOMEM. */
 sw_status sw_plan_add_rest(sw_plan *plan);
+
+/* Torque of a span for twist stiffness GJ: of its twist beyond that of the unloaded wire
+ * [N m]. */
+static inline double sw_span_torque(const sw_plan *plan, const sw_span *span, double GJ,
+                                    double twist) {
+  return GJ / span->length * twist - GJ * plan->beam.rest_twist;
+}
 
 sw_plan *sw_plan_retain(sw_plan *plan);
 void sw_plan_release(sw_plan *plan); /* NULL is allowed */

@@ -102,6 +102,9 @@ sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, c
 static void stage_velocity(const sw_system *s, const sw_stage *stage, int statics) {
   const double rate = statics ? 0.0 : 1.0 / stage->hbar;
   for (size_t i = 0; i < 3 * s->nodes; i++) s->velocity[i] = (stage->y[i] - stage->xhat[i]) * rate;
+  for (size_t k = 0; k < s->held_count && !statics; k++)
+    if (s->held[k].slides)
+      sw_system_held_velocity(s, &s->held[k], s->velocity + 3 * s->held[k].node);
 }
 
 /* The update of a body that no link ties to others. */

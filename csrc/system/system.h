@@ -67,6 +67,7 @@ typedef struct sw_held_node {
   size_t node; /* in the system's arrays */
   size_t body;
   int hold;
+  int slides;       /* wire slides through: its velocity is not how the node moves */
   sw_vec local;     /* [m] */
   double saved[36]; /* its matrix couplings to the nodes -2 -1 +1 +2 [N/m] */
   sw_vec own_force; /* inertia minus forces before the last solve [N] */

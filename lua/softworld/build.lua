@@ -208,8 +208,8 @@ function class.scene.obstacle(scene, args)
   return obstacle
 end
 
--- clamp, pin and grip
-for _, kind in ipairs{ "clamp", "pin", "grip" } do
+-- clamp, pin, grip and feed
+for _, kind in ipairs{ "clamp", "pin", "grip", "feed" } do
   local new_hold = class.scene[kind]
   class.scene[kind] = function(scene, wire, args)
     build.check(scene, "scene:" .. kind, 3)

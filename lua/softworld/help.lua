@@ -33,6 +33,7 @@ scene:gripper{ name =, pads = { width = [m] }, at = {x, y, z} [m] }
   process = [[
 scene:process(function(p) ... end)
   p:wait(seconds)
+  p:feed(feed, { length = [m], speed = [m/s] })
   p:wait_until(function() return ... end, { timeout = [s] })   true, or false after the timeout
   grippers' move and rotate return when they are done]],
   snapshot = [[
@@ -84,6 +85,21 @@ for _, t in ipairs(scene:touches()) do ... end
   t.normal_force                  [N]
 ]],
   units = "sw.units.mm(5), sw.units.deg(30), ...: into SI units",
+}
+
+-- What comes after the parameters of a member.
+local more = {
+  feed = [[
+  returns a clamp (:force() :moment() :pose() :follow() :release()) and
+  :fed()                         length paid out so far, unstressed [m]
+  :speed() :speed(v)             now; from now on [m/s]
+  :feed{ length = [m], speed = [m/s] or duration = [s], acceleration =, law = }   returns seconds
+  :push(force)                   a force instead of a speed [N]
+  :force_limit(force)            slip where more is needed; nil: never [N]
+  :drive_force()                 what moves the wire [N]; the guide's walls bear the rest
+  p:feed(feed, { length =, speed = })   inside a process: feeds and waits
+  arc lengths are measured from the wire's present start; holds and forces stay where
+  they are on the wire]],
 }
 
 local function range_of(row)
@@ -201,6 +217,7 @@ local function show_members(r, topic)
           print(title .. "\n  " .. family[3]:format(topic))
         else
           show_rows(title .. "\n  " .. family[3]:format(topic), entry.params or {})
+          if more[topic] then print(more[topic]) end
         end
       end
     end

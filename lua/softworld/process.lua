@@ -93,6 +93,16 @@ function Process:wait_until(condition, options)
   return true
 end
 
+--- Pay out (length > 0) or draw in (< 0) a length of wire through a feed and wait until it
+-- is done: { length = [m], speed = [m/s] or duration = [s], law = }.
+function Process:feed(feed, args)
+  if core.type(feed) ~= "clamp" then
+    error("p:feed expects what scene:feed returns, got " .. (core.type(feed) or type(feed)), 2)
+  end
+  check_inside(self, "p:feed")
+  process.sleep_until(self, self.scene.time + build.call(3, feed.feed, feed, args))
+end
+
 --- End the process where it waits.
 function Process:finish()
   if coroutine.status(self.thread) == "suspended" then coroutine.close(self.thread) end

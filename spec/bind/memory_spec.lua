@@ -113,6 +113,23 @@ local acts = {
     scene:restore(snapshot)
     return wire:spin(0.1)
   end },
+  { "feeding wire in and out", function(scene, wire)
+    local feed = scene:feed(wire, { s = 1, speed = 4 })
+    scene:run{ duration = 0.06, dt = 0.02 }
+    local snapshot = scene:snapshot()
+    feed:feed{ length = -0.2, duration = 0.05, law = "linear" }
+    scene:run{ duration = 0.05, dt = 0.02 }
+    scene:restore(snapshot)
+  end },
+  { "feeding curved wire", function()
+    local scene <close> = sw.scene{}
+    local args = { rest = "path", GJ = 0.01, path = { { 0, 1, 0 }, { 1, 1, 0 }, { 1, 2, 0 } } }
+    for k, v in pairs(WIRE) do if k ~= "from" and k ~= "to" then args[k] = v end end
+    local wire = scene:wire(args)
+    scene:feed(wire, { force_limit = 10 })
+    scene:feed(wire, { s = 2, speed = 4 })
+    scene:run{ duration = 0.08, dt = 0.02 }
+  end },
   { "a whole script", function()
     local scene <close> = sw.scene{}
     local wire = scene:wire(WIRE)

@@ -1,0 +1,344 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The mesh beside guides: nodes that come out of them and go into them. */
+#include <math.h>
+
+#include "base/alloc.h"
+#include "scene/spool.h"
+#include "scene/world.h"
+#include "state/hinge.h"
+
+void sw_feed_rest(sw_scene_hold *h, double s) {
+  const sw_quat q = sw_spool_at(&h->feed.shape, s).q;
+  for (int side = 0; side < 2; side++) {
+    h->frame[side].rest_tangent = sw_spool_tangent(q);
+    h->frame[side].rest_normal = sw_spool_normal(q);
+  }
+}
+
+void sw_feed_shape(sw_scene *s, sw_scene_hold *h) {
+  sw_mesh *m = &s->wires[h->wire].mesh;
+  sw_plan *p = s->system.bodies[h->wire].plan;
+  const size_t node = h->feed.node;
+  if (!m->rest) return;
+  const double kept = m->s[node];
+  m->s[node] = p->s[node];
+  sw_spool_node(m, &h->feed.shape, node);
+  m->s[node] = kept;
+  sw_feed_rest(h, p->s[node]);
+  sw_scene_unloaded_near(s, h->wire, p, node);
+}
+
+/* First edges between these shares of the second one keep the clamp's quadrature good; beyond
+ * that nodes are made and removed. Apart by more than one, so that a feed that goes to and fro
+ * does not do so all the time. */
+static const double SHORTEST = 0.47, LONGEST = 1.5; /* [-] */
+/* Without a node to be removed: of the usual length [-]. */
+static const double LEAST_LEFT = 0.2;
+static const double LARGEST_SHARE = 0.4; /* of an edge, fed in one step [-] */
+static const double PI = 3.14159265358979323846;
+enum { LEAST_FREE = 2, LEAST_HELD = 3 }; /* edges to keep before a free end and another hold */
+
+double sw_feed_step(const sw_scene *s, double h) {
+  for (size_t k = 0; k < s->hold_count; k++) {
+    const sw_scene_hold *o = &s->holds[k];
+    if (!o->alive || !o->cls->feeds) continue;
+    const double most = LARGEST_SHARE * o->feed.size, now = sw_feed_at(o, s->time).fed;
+    double way = fabs(sw_feed_at(o, s->time + h).fed - now);
+    for (int i = 0; way > most && i < 60; i++) { /* in even parts: a tiny one would be a kick */
+      h /= fmin(64, ceil(way / most));
+      way = fabs(sw_feed_at(o, s->time + h).fed - now);
+    }
+  }
+  return h;
+}
+
+/* One side of a guide. */
+typedef struct guide {
+  sw_scene_hold *h;
+  sw_mesh *m;
+  int side;
+  sw_vec director, normal; /* of the wire in the guide [-] */
+  size_t left;             /* edges up to the wire's end or the next hold */
+} guide;
+
+static long inner(const guide *g, long k) {
+  const long i = (long)sw_mesh_node(g->m, g->h->s1) + k * g->side;
+  return i < (long)g->m->n ? i : -1;
+}
+
+/* Unstressed length of edge k from the guide; 0 beyond the wire. */
+static double edge_length(const guide *g, long k) {
+  const long a = inner(g, k), b = inner(g, k + 1);
+  return a < 0 || b < 0 ? 0 : fabs(g->m->s[b] - g->m->s[a]);
+}
+
+/* Edges up to the wire's end or the next hold, and that hold. */
+static size_t edges_left(const sw_scene *s, const guide *g, const sw_scene_hold **next) {
+  const double from = g->h->s1;
+  double to = g->side > 0 ? g->m->s[g->m->n - 1] : g->m->s[0];
+  *next = NULL;
+  for (size_t k = 0; k < s->hold_count; k++) {
+    const sw_scene_hold *o = &s->holds[k];
+    if (!o->alive || o == g->h || o->wire != g->h->wire) continue;
+    const double near = g->side > 0 ? o->s1 : o->s2;
+    if ((near - from) * g->side < 0 || (near - to) * g->side > 0) continue;
+    to = near;
+    *next = o;
+  }
+  const size_t a = sw_mesh_node(g->m, from), b = sw_mesh_node(g->m, to);
+  return a < b ? b - a : a - b;
+}
+
+/* From the frame in the guide to that of the first edge, as a rotation in the former's axes. */
+static sw_vec turn_between(sw_quat held, sw_quat edge) {
+  return sw_quat_log(sw_quat_mul(sw_quat_conj(held), edge));
+}
+
+static sw_quat edge_turn(const guide *g, size_t e) {
+  const sw_vec along = sw_sub(sw_vec_at(g->m->x, e + 1), sw_vec_at(g->m->x, e));
+  const sw_vec t = sw_unit_or(along, g->director);
+  const sw_vec n = g->m->normal ? sw_vec_at(g->m->normal, e) : g->normal;
+  return sw_spool_turn(t, sw_carry_unit(n, g->m->normal ? t : g->director, t));
+}
+
+static sw_vec rest_between(const guide *g, size_t e) {
+  if (!g->m->rest) return sw_v(0, 0, 0);
+  const sw_vec along = sw_sub(sw_vec_at(g->m->rest, e + 1), sw_vec_at(g->m->rest, e));
+  const sw_quat held = sw_spool_at(&g->h->feed.shape, g->h->s1).q;
+  const sw_quat edge =
+      sw_spool_turn(sw_unit_or(along, sw_spool_tangent(held)), sw_vec_at(g->m->rest_normal, e));
+  return turn_between(held, edge);
+}
+
+/* The frame of an edge that is turned from the guide's by what rests and what bends it. */
+static sw_quat bent_turn(const guide *g, size_t e, sw_vec bend) {
+  const sw_quat held = sw_spool_turn(g->director, g->normal);
+  return sw_quat_unit(sw_quat_mul(held, sw_quat_exp(sw_add(rest_between(g, e), bend))));
+}
+
+static void put_normal(const guide *g, size_t e, sw_quat q) {
+  const sw_vec along = sw_sub(sw_vec_at(g->m->x, e + 1), sw_vec_at(g->m->x, e));
+  const sw_vec t = sw_unit_or(along, sw_spool_tangent(q));
+  sw_store(g->m->normal + 3 * e, sw_carry_unit(sw_spool_normal(q), sw_spool_tangent(q), t));
+}
+
+/* Unstressed length of the first edge with its spare, and the place that holds it. */
+static double *spare_of(const guide *g) { return &g->h->feed.spare[g->side > 0]; }
+
+static double fed_length(const guide *g) {
+  return (g->h->feed.label - g->h->s1) * g->h->feed.outward;
+}
+
+static double true_length(const guide *g) {
+  double spare[2];
+  sw_feed_spare(&g->h->feed, fed_length(g), spare);
+  return edge_length(g, 0) + spare[g->side > 0];
+}
+
+static void set_length(guide *g, double length) {
+  *spare_of(g) = length - edge_length(g, 0);
+  g->h->feed.spare_fed[g->side > 0] = fed_length(g);
+}
+
+static sw_vec node_at(const guide *g, long k) { return sw_vec_at(g->m->x, (size_t)inner(g, k)); }
+
+/* --- nodes come and go ------------------------------------------------------------- */
+
+static sw_vec face_bend(const guide *g, size_t e) {
+  const sw_vec turn = turn_between(sw_spool_turn(g->director, g->normal), edge_turn(g, e));
+  return sw_sub(turn, rest_between(g, e));
+}
+
+/* Nodes that share in a shift, and the largest shift of an edge's length: more is not the
+ * small matter that it should be. */
+enum { REACH = 8, LEAST_REACH = 3 };
+static const double LARGEST_SHIFT = 0.1;
+
+/* Shift node `first` across the wire by delta, and those after it by less and less, with
+ * all edges keeping their lengths. */
+static void shift_nodes(const guide *g, long first, sw_vec delta) {
+  sw_mesh *m = g->m;
+  const long reach = (long)fmin(REACH, (double)g->left - (double)first);
+  if (reach < LEAST_REACH || !(sw_norm(delta) < LARGEST_SHIFT * g->h->feed.size)) return;
+  sw_vec old = node_at(g, first + reach), now = old;
+  for (long k = first + reach - 1; k >= first; k--) {
+    const size_t i = (size_t)inner(g, k), e = g->side > 0 ? i : i - 1;
+    const sw_vec x = sw_vec_at(m->x, i);
+    const double share = 0.5 + 0.5 * cos(PI * (double)(k - first) / (double)reach);
+    const sw_vec before = sw_unit_or(sw_sub(x, old), g->director);
+    const sw_vec way = sw_unit_or(sw_sub(sw_madd(x, delta, share), now), before);
+    now = sw_madd(now, way, sw_dist(x, old));
+    old = x;
+    sw_store(m->x + 3 * i, now);
+    if (m->rest) sw_store(m->normal + 3 * e, sw_carry_unit(sw_vec_at(m->normal, e), before, way));
+  }
+}
+
+/* A guide's first edges before and after a change: what bends them, in the guide's axes. */
+typedef struct beside {
+  double first, second; /* lengths [m] */
+  double clamp, next;   /* of hinges [m] */
+  sw_vec bend, change;  /* curvature in the guide, and its change to the first node [1/m] */
+} beside;
+
+static beside look(const guide *g) {
+  const size_t face = (size_t)inner(g, 0), edge = g->side > 0 ? face : face - 1;
+  beside b = {.first = edge_length(g, 0), .second = edge_length(g, 1)};
+  sw_plan_clamp_lengths(b.first, b.second, &b.clamp, &b.next);
+  const sw_vec turn = face_bend(g, edge);
+  b.bend = sw_scale(turn, 1 / b.clamp);
+  if (b.second > 0) {
+    const sw_vec beyond = sw_sub(face_bend(g, g->side > 0 ? edge + 1 : edge - 1), turn);
+    b.change = sw_sub(sw_scale(beyond, 1 / b.next), b.bend);
+  }
+  return b;
+}
+
+/* A node comes out of the guide, a usual length before the first one. Bending moment and
+ * torque at the guide stay as they are, and so do those at the nodes, which takes a small
+ * shift of them: the hinges stand for other stretches of wire now. The way over the new
+ * node is longer than the chord that was there by what the feed then holds back again. */
+static sw_status add_node(guide *g) {
+  sw_mesh *m = g->m;
+  const double size = g->h->feed.size;
+  const beside b = look(g);
+  const sw_vec from = node_at(g, 0);
+  const double stretch = sw_dist(from, node_at(g, 1)) / true_length(g);
+  const size_t face = (size_t)inner(g, 0), edge = g->side > 0 ? face : face - 1;
+  double v0, v1;
+  sw_plan_clamp_lengths(b.first - size, size, &v0, &v1);
+  SW_TRY(sw_mesh_insert(m, edge, m->s[inner(g, 1)] - g->side * size));
+  g->left++;
+  const size_t node = edge + 1, at = g->side > 0 ? edge : edge + 1, beyond = 2 * edge + 1 - at;
+  if (m->rest) {
+    sw_spool_node(m, &g->h->feed.shape, node);
+    m->twist[node] = 0;
+  }
+  const sw_vec here = sw_madd(b.bend, b.change, (b.first - size) / b.first);
+  const sw_quat q0 = bent_turn(g, at, sw_scale(b.bend, v0));
+  const sw_quat q1 = bent_turn(g, beyond, sw_madd(sw_scale(b.bend, v0), here, v1));
+  const sw_vec t0 = sw_scale(sw_spool_tangent(q0), g->side);
+  const sw_vec t1 = sw_scale(sw_spool_tangent(q1), g->side);
+  const sw_vec wanted = sw_madd(sw_madd(from, t0, stretch * (b.first - size)), t1, stretch * size);
+  const sw_vec delta = sw_sub(wanted, node_at(g, 2));
+  if (b.second > 0) shift_nodes(g, 2, sw_madd(delta, t1, -sw_dot(delta, t1)));
+  const sw_vec way = sw_sub(node_at(g, 2), from);
+  const double along = sw_dot(t0, way), rest = stretch * size;
+  const double root2 = along * along - sw_norm2(way) + rest * rest;
+  const double chord = along - sqrt(fmax(0, root2)); /* leaves `rest` to the next node */
+  sw_store(m->x + 3 * node, sw_madd(from, t0, chord));
+  set_length(g, chord / stretch);
+  if (!m->rest) return SW_OK;
+  put_normal(g, at, q0);
+  put_normal(g, beyond, q1);
+  return SW_OK;
+}
+
+/* The first node goes into the guide. */
+static void take_node(guide *g) {
+  sw_mesh *m = g->m;
+  const beside b = look(g);
+  const sw_vec from = node_at(g, 0), mid = node_at(g, 1), to = node_at(g, 2);
+  const double way = sw_dist(from, mid) + sw_dist(mid, to);
+  const double stretch = way / (true_length(g) + b.second);
+  double v0, v1;
+  sw_mesh_remove(m, (size_t)inner(g, 1));
+  g->left--;
+  const size_t face = (size_t)inner(g, 0), edge = g->side > 0 ? face : face - 1;
+  if (m->rest) sw_spool_node(m, &g->h->feed.shape, face);
+  sw_plan_clamp_lengths(b.first + b.second, edge_length(g, 1), &v0, &v1);
+  const sw_quat q = bent_turn(g, edge, sw_scale(b.bend, v0));
+  const sw_vec t = sw_scale(sw_spool_tangent(q), g->side);
+  const sw_vec delta = sw_sub(sw_madd(from, t, way), to);
+  if (edge_length(g, 1) > 0) shift_nodes(g, 1, sw_madd(delta, t, -sw_dot(delta, t)));
+  set_length(g, sw_dist(from, node_at(g, 1)) / stretch);
+  if (m->rest) put_normal(g, edge, q);
+}
+
+enum { FINE = 0, ADD = 1, TAKE = 2, EMPTY = 3 };
+
+/* What a guide's side needs for first edges between two lengths; that now is one of them. */
+static int needs(const sw_scene *s, const guide *g, double change) {
+  const sw_scene_hold *next;
+  const double now = edge_length(g, 0), then = now + change, second = edge_length(g, 1);
+  if (!(now > 0)) return FINE; /* no wire there: the spool's side */
+  if (now > LONGEST * g->h->feed.size) return ADD;
+  if (!(then < SHORTEST * (second > 0 ? second : g->h->feed.size))) return FINE;
+  const size_t left = edges_left(s, g, &next);
+  if (left > (next ? LEAST_HELD : LEAST_FREE)) return TAKE;
+  return then < LEAST_LEFT * g->h->feed.size ? EMPTY : FINE;
+}
+
+static sw_status say_empty(const sw_scene *s, const guide *g, sw_error *err) {
+  const sw_scene_hold *next;
+  const double from = g->h->s1;
+  edges_left(s, g, &next);
+  const double end = g->side > 0 ? g->m->s[g->m->n - 1] : g->m->s[0];
+  const double to = !next ? end : g->side > 0 ? next->s1 : next->s2;
+  return sw_fail(err, SW_EEMPTY,
+                 "feed '%s': at t = %.6g s wire '%s' is drawn in up to %s%s%s, %.3g m are left; "
+                 "stop the feed before",
+                 g->h->name, s->time, s->wires[g->h->wire].name, next ? "'" : "its end",
+                 next ? next->name : "", next ? "'" : "", fabs(to - from));
+}
+
+/* The guide's side of hold h; directions are as the holds were last placed. */
+static guide guide_of(sw_scene *s, sw_scene_hold *h, int side, const sw_vec *axes) {
+  guide g = {.h = h, .m = &s->wires[h->wire].mesh, .side = side, .director = axes[0]};
+  g.normal = g.m->rest ? axes[1] : sw_perpendicular(axes[0]);
+  return g;
+}
+
+/* Work on one hold: side by side, as long as something is needed. With edit 0 only look. */
+static sw_status tend(sw_scene *s, sw_scene_hold *h, double fed, int edit, const sw_vec *axes,
+                      int *wanted, sw_error *err) {
+  for (int side = -1; side < 2; side += 2) {
+    guide g = guide_of(s, h, side, axes);
+    for (int i = 0; i < 8; i++) { /* a few where the mesh was uneven */
+      const int need = needs(s, &g, fed * side * h->feed.outward);
+      if (need == FINE) break;
+      if (need == EMPTY) return say_empty(s, &g, err);
+      *wanted = 1;
+      if (!edit) break;
+      const sw_scene_hold *next;
+      g.left = edges_left(s, &g, &next);
+      if (need == TAKE)
+        take_node(&g);
+      else if (add_node(&g) != SW_OK)
+        return sw_fail(err, SW_ENOMEM, "feed: out of memory");
+    }
+  }
+  return SW_OK;
+}
+
+/* Every hold's; axes: director and normal of each of the system's holds, or NULL to look. */
+static sw_status tend_all(sw_scene *s, double t, const sw_vec *axes, int *wanted, sw_error *err) {
+  static const sw_vec looking[2] = {{1, 0, 0}, {0, 1, 0}};
+  for (size_t k = 0; k < s->hold_count; k++) {
+    sw_scene_hold *h = &s->holds[k];
+    if (!h->alive || !h->cls->feeds) continue;
+    const double fed = sw_feed_at(h, t).fed - sw_feed_at(h, s->time).fed;
+    SW_TRY(tend(s, h, fed, axes != NULL, axes ? axes + 2 * h->feed.number : looking, wanted, err));
+  }
+  return SW_OK;
+}
+
+sw_status sw_feed_make_room(sw_scene *s, double t, int *changed, sw_error *err) {
+  *changed = 0;
+  SW_TRY(tend_all(s, t, NULL, changed, err));
+  if (!*changed) return SW_OK;
+  const size_t count = s->system.hold_count;
+  SW_TRY(sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err));
+  sw_vec *axes = sw_alloc(2 * count, sizeof *axes);
+  if (!axes) return sw_fail(err, SW_ENOMEM, "feed: out of memory");
+  for (size_t k = 0; k < count; k++) {
+    axes[2 * k] = sw_vec_at(s->system.directors_now, 2 * k + 1);
+    axes[2 * k + 1] = sw_vec_at(s->system.normals_now, 2 * k + 1);
+  }
+  sw_status status = sw_scene_thaw(s);
+  if (status == SW_OK) status = tend_all(s, t, axes, changed, err);
+  sw_free(axes);
+  if (status == SW_ENOMEM) return sw_fail(err, status, "feed: out of memory");
+  if (status != SW_OK) return status;
+  return sw_scene_build(s, err);
+}
