@@ -51,7 +51,7 @@ end
 -- An overhand knot drawn tight until its loop is as small as the wire allows.
 local function knot(o)
   local sw = require "softworld"
-  local path, last = {}, nil
+  local path = {}
   for i = 0, 400 do
     local t = -2.1 + 4.2 * i / 400
     path[#path + 1] = { 0.02 * (t ^ 3 - 3 * t), 0.012 * (t ^ 4 - 4 * t ^ 2), 0.0072 * (t ^ 5 / 5 - 2 * t) }
@@ -62,9 +62,8 @@ local function knot(o)
     for _ = 1, 60 do
       local n = (d[1] ^ 2 + d[2] ^ 2 + d[3] ^ 2) ^ 0.5
       for k = 1, 3 do d[k] = 0.94 * d[k] / n + (k == 1 and 0.06 * sign or 0) end
-      last = { at[1] + 0.003 * d[1], at[2] + 0.003 * d[2], at[3] + 0.003 * d[3] }
-      table.insert(path, sign < 0 and 1 or #path + 1, last)
-      at = last
+      at = { at[1] + 0.003 * d[1], at[2] + 0.003 * d[2], at[3] + 0.003 * d[3] }
+      table.insert(path, sign < 0 and 1 or #path + 1, at)
     end
   end
   local r, E = 0.002, 1e8
