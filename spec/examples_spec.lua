@@ -342,4 +342,21 @@ describe("example", function()
     end
     near(B / r ^ 2 * math.sin(low) ^ 4 * (0.5 + 1 / math.cos(2 * low)), last[2], 0.35, "pull")
   end)
+
+  it("joins a harness", function()
+    local out = example "11_harness"
+    local rows = {}
+    for x, y, z, bend in out:gmatch "joint on %a+ +(%S+) +(%S+) +(%S+) N%D+(%S+) mm" do
+      rows[#rows + 1] = { tonumber(x), tonumber(y), tonumber(z), tonumber(bend) }
+    end
+    assert.are.equal(3, #rows)
+    -- the joint weighs nothing; left and right are mirror images
+    for i = 1, 3 do assert.is_near(0, rows[1][i] + rows[2][i] + rows[3][i], 2e-4) end
+    assert.is_near(0, rows[1][2], 1e-3)
+    assert.is_near(rows[2][3], rows[3][3], 1e-3)
+    assert.is_near(rows[2][2], -rows[3][2], 1e-3)
+    -- the thin branches give way before the trunk
+    assert.is_true(rows[2][4] < rows[1][4])
+    assert.is_true(after(out, "the joint is") > 4)
+  end)
 end)

@@ -63,6 +63,7 @@ static int mod_exists(lua_State *L) {
   const lsw_handle *h = lua_touserdata(L, 1);
   const char *kind;
   int alive;
+  size_t ends;
   int known = c && h->object;
   if (known && !c->close) { /* a child */
     const lsw_child *child = lua_touserdata(L, 1);
@@ -71,6 +72,7 @@ static int mod_exists(lua_State *L) {
         scene &&
         (c == &lsw_class_wire    ? sw_scene_wire_name(scene, child->id) != NULL
          : c == &lsw_class_clamp ? sw_scene_hold_name(scene, child->id, &kind, &alive) != NULL
+         : c == &lsw_class_join  ? sw_scene_join_name(scene, child->id, &alive, &ends) != NULL
          : c == &lsw_class_force ? sw_scene_force_class(scene, child->id) != NULL
                                  : sw_scene_obstacle_name(scene, child->id, &kind, &alive) != NULL);
   }
@@ -378,6 +380,7 @@ static const luaL_Reg methods[] = {{"wire", lsw_scene_wire},
                                    {"pin", lsw_scene_pin},
                                    {"grip", lsw_scene_grip},
                                    {"feed", lsw_scene_feed},
+                                   {"join", lsw_scene_join},
                                    {"obstacle", lsw_scene_obstacle},
                                    {"force", lsw_scene_force},
                                    {"advance", meth_advance},

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Objects that belong to a scene: wire, clamp, obstacle, force. They keep the
+/* Objects that belong to a scene: wire, clamp, obstacle, force, join. They keep the
  * scene alive (user value 1) and find out when it was closed. */
 #ifndef LSW_CHILD_H
 #define LSW_CHILD_H
@@ -17,7 +17,7 @@ typedef struct lsw_child {
 } lsw_child;
 
 extern const lsw_class lsw_class_scene, lsw_class_wire, lsw_class_clamp, lsw_class_obstacle,
-    lsw_class_force, lsw_class_snapshot;
+    lsw_class_force, lsw_class_join, lsw_class_snapshot;
 
 /* Push a child of the scene userdata at index scene. */
 lsw_child *lsw_new_child(lua_State *L, int scene, const lsw_class *c);
@@ -42,6 +42,7 @@ int lsw_scene_pin(lua_State *L);
 int lsw_scene_grip(lua_State *L);
 int lsw_scene_feed(lua_State *L);
 int lsw_scene_wire(lua_State *L);
+int lsw_scene_join(lua_State *L);
 int lsw_scene_obstacle(lua_State *L);
 int lsw_scene_force(lua_State *L);
 int lsw_scene_evaluate(lua_State *L);

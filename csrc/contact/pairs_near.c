@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "base/simd.h"
 #include "contact/pair.h"
+#include "system/join.h"
 
 static double clamp01(double t) { return t < 0 ? 0 : t > 1 ? 1 : t; }
 
@@ -122,6 +123,9 @@ static double radii(const sw_system *s, const uint32_t body[2]) {
   return s->bodies[body[0]].plan->beam.radius + s->bodies[body[1]].plan->beam.radius;
 }
 
+/* So near a join wires do not touch each other; of the radii's sum along both [-]. */
+static const double AT_A_JOIN = 4.0;
+
 static sw_status look_at(sw_pairs *p, const sw_system *s, const grid *g, size_t k, size_t m) {
   sw_near n = {.one = g->node[k], .two = g->node[m], .body = {g->body[k], g->body[m]}};
   double at[2];
@@ -130,6 +134,7 @@ static sw_status look_at(sw_pairs *p, const sw_system *s, const grid *g, size_t 
       sw_segments_nearest(sw_vec_at(s->x, n.one), sw_vec_at(s->x, n.one + 1u),
                           sw_vec_at(s->x, n.two), sw_vec_at(s->x, n.two + 1u), at);
   if (!(n.distance - radii(s, n.body) < p->listed_reach)) return SW_OK;
+  if (sw_joins_near(s, n.one, n.two, AT_A_JOIN * radii(s, n.body))) return SW_OK;
   SW_TRY(sw_grow((void **)&p->near, &p->near_capacity, p->near_count + 1, sizeof *p->near));
   p->near[p->near_count++] = n;
   return SW_OK;
@@ -304,7 +309,7 @@ sw_status sw_pairs_choose(sw_pairs *p, sw_system *s) {
   SW_TRY(sw_pairs_list(p, s, reserve_of(p, 2.0 * widest_radius(p, s), fast)));
   p->pair_count = p->touch_count = p->last_count = 0;
   p->least_left = -HUGE_VAL;
-  sw_system_begin_plan(s);
+  SW_TRY(sw_system_begin_plan(s));
   for (size_t k = 0; k < p->near_count; k++) {
     sw_near *n = &p->near[k];
     double at[2];

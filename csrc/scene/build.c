@@ -295,6 +295,7 @@ static sw_status fill(sw_scene *s, size_t alive) {
   }
   SW_TRY(sw_system_add_histories(&s->system));
   SW_TRY(add_holds(s, alive));
+  SW_TRY(sw_scene_add_joins(s));
   SW_TRY(add_contact(s));
   SW_TRY(sw_scene_new_pairs(s));
   SW_TRY(inherit_contact(s));

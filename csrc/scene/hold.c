@@ -8,7 +8,7 @@
 #include "scene/world.h"
 #include "state/hinge.h"
 
-/* All arc lengths of a wire that other holds need as nodes. */
+/* All arc lengths of a wire that other holds and joins need as nodes. */
 static size_t kept_places(const sw_scene *s, size_t wire, double *out) {
   size_t n = 0;
   for (size_t k = 0; k < s->hold_count; k++) {
@@ -16,7 +16,12 @@ static size_t kept_places(const sw_scene *s, size_t wire, double *out) {
     out[n++] = s->holds[k].s1;
     out[n++] = s->holds[k].s2;
   }
-  return n;
+  return n + sw_scene_join_places(s, wire, out + n);
+}
+
+/* Room for them and one more, to be freed; NULL: out of memory. */
+static double *new_places(const sw_scene *s, size_t wire) {
+  return sw_alloc(2 * s->hold_count + sw_scene_join_places(s, wire, NULL) + 2, sizeof(double));
 }
 
 /* The interval a hold takes, in the mesh's arc lengths. */
@@ -77,7 +82,7 @@ static sw_status refine_gaps(const sw_scene *s, size_t wire, const sw_scene_hold
 
 static sw_status place_nodes(sw_scene *s, size_t wire, sw_scene_hold *h, const sw_hold_args *a) {
   sw_mesh *m = &s->wires[wire].mesh;
-  double s1, s2, *keep = sw_alloc(2 * s->hold_count + 2, sizeof *keep);
+  double s1, s2, *keep = new_places(s, wire);
   if (!keep) return SW_ENOMEM;
   size_t n = kept_places(s, wire, keep);
   held_interval(m, a, &s1, &s2);
@@ -142,6 +147,10 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wir
   SW_TRY(check_place(s, cls, wire.slot, args, err));
   if (cls->feeds && isfinite(args->speed) && isfinite(args->force))
     return sw_fail(err, SW_EINVAL, "feed: give speed or force, not both; the other one follows");
+  const sw_scene_join *join = cls->feeds ? sw_scene_joined(s, wire.slot) : NULL;
+  if (join)
+    return sw_fail(err, SW_EINVAL, "feed: wire '%s' is joined to others by '%s': it cannot be fed",
+                   s->wires[wire.slot].name, join->name);
   if (cls->feeds && sw_feed_outward(&s->wires[wire.slot].mesh, args->s) < 0)
     own.direction = sw_neg(own.direction); /* it points out of the guide */
   SW_TRY(sw_scene_thaw(s));
@@ -216,7 +225,7 @@ static sw_status place_exactly(sw_mesh *m, double s, const double *keep, size_t 
 }
 
 sw_status sw_scene_make_places(const sw_scene *s, size_t wire, sw_mesh *m) {
-  double *keep = sw_alloc(2 * s->hold_count + 1, sizeof *keep);
+  double *keep = new_places(s, wire);
   if (!keep) return SW_ENOMEM;
   const size_t n = kept_places(s, wire, keep);
   sw_status status = SW_OK;

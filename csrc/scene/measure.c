@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "scene/world.h"
+#include "system/join.h"
 
 /* The wire of a handle, in a scene that is built, readable and refreshed. */
 static sw_status open_wire(sw_scene *s, sw_handle h, sw_scene_wire **wire, sw_error *err) {
@@ -261,6 +262,7 @@ static void collect_energy(sw_scene *s, sw_energy *out) {
     }
   out->dissipated = sw_system_dissipated(&s->system, &out->has_dissipated);
   if (sw_scene_has_contact(s)) add_energy(out, "contact", sw_scene_contact_energy(s));
+  if (s->system.joins) add_energy(out, "join", sw_joins_energy(&s->system));
 }
 
 sw_status sw_scene_energy(sw_scene *s, sw_energy *out, sw_error *err) {

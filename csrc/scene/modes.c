@@ -90,6 +90,15 @@ static sw_status check_rest(sw_scene *s, size_t w, double tolerance, sw_error *e
   return SW_OK;
 }
 
+static sw_status check_joins(const sw_scene *s, size_t w, sw_error *err) {
+  const sw_scene_join *join = sw_scene_joined(s, w);
+  if (!join) return SW_OK;
+  return sw_fail(err, SW_EINVAL,
+                 "frequencies: wire '%s' is joined to others by '%s' and moves with them; only "
+                 "wires without joins are looked at",
+                 s->wires[w].name, join->name);
+}
+
 static void hand_over(const sw_scene *s, size_t w, const sw_modes *m, size_t wanted,
                       sw_modes_result *out) {
   const size_t n = 3 * s->system.bodies[w].plan->nodes;
@@ -106,6 +115,7 @@ static sw_status find(sw_scene *s, size_t w, const sw_modes_args *args, int (*in
                       sw_modes_result *out, sw_error *err) {
   sw_modes modes;
   sw_error why = {""};
+  SW_TRY(check_joins(s, w, err));
   SW_TRY(linearise(s, err));
   SW_TRY(check_rest(s, w, args->tolerance, err));
   const double rate = 1.0 / (SLOWEST_GROWTH * time_scale(s, w));

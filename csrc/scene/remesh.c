@@ -62,6 +62,7 @@ static sw_status redraw(sw_scene *s, size_t wire, size_t segments, sw_error *err
   if (status == SW_OK) {
     w->mesh = fresh;
     status = retake_holds(s, kept, count);
+    if (status == SW_OK) status = sw_scene_retake_joins(s, wire);
     if (status != SW_OK) {
       sw_mesh_free(&w->mesh);
       w->mesh = before;
@@ -200,6 +201,7 @@ sw_status sw_scene_remesh(sw_scene *s, const size_t *segments, size_t count, sw_
     if (status == SW_ENOMEM) return sw_fail(err, status, "scene '%s': out of memory", s->name);
     if (status != SW_OK) return status;
   }
+  sw_scene_measure_joins(s);
   return SW_OK;
 }
 

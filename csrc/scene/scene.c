@@ -68,6 +68,7 @@ void sw_scene_free(sw_scene *s) {
   sw_free(s->holds);
   sw_free(s->obstacles);
   sw_free(s->forces);
+  sw_free(s->joins);
   sw_free(s);
 }
 

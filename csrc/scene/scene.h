@@ -47,6 +47,31 @@ int sw_scene_busy(const sw_scene *scene);
  * until a snapshot is restored. */
 sw_status sw_scene_readable(const sw_scene *scene, sw_error *err);
 
+/* --- joins ------------------------------------------------------------------ */
+
+enum { SW_JOIN_ENDS = 8 }; /* most wires in a join */
+
+typedef struct sw_join_args {
+  int rigid; /* 1: angles between the wires are kept */
+  char name[SW_NAME_SIZE];
+} sw_join_args;
+extern const sw_params sw_join_params;
+
+typedef struct sw_join_end {
+  sw_handle wire;
+  double s; /* [m] */
+} sw_join_end;
+
+/* Join wires where they meet, at arc lengths of theirs, from now on. */
+sw_status sw_scene_add_join(sw_scene *scene, const sw_join_args *args, const sw_join_end *ends,
+                            size_t count, sw_handle *out, sw_error *err);
+sw_status sw_scene_release_join(sw_scene *scene, sw_handle join, sw_error *err);
+/* Force and moment about its place that a living join puts on its end number k [N], [N m]. */
+sw_status sw_scene_join_force(sw_scene *scene, sw_handle join, size_t k, sw_vec *force,
+                              sw_vec *moment, sw_error *err);
+/* NULL when the scene does not know it any more; held: 0 once released. */
+const char *sw_scene_join_name(const sw_scene *scene, sw_handle join, int *held, size_t *ends);
+
 /* --- names ------------------------------------------------------------------ */
 
 /* NULL when the scene does not know the object any more. kind: "clamp", "box", ...;

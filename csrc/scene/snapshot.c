@@ -35,6 +35,8 @@ struct sw_snapshot {
   saved_hold *hold;
   saved_obstacle *obstacle;
   int *force_alive;
+  sw_scene_join *join; /* (joins) */
+  size_t joins;
   double *state; /* x v a tension of the built system */
   size_t state_size;
   double *history; /* xp, vp of a method with history, or NULL */
@@ -91,6 +93,7 @@ void sw_snapshot_free(sw_snapshot *p) {
   sw_free(p->hold);
   sw_free(p->obstacle);
   sw_free(p->force_alive);
+  sw_free(p->join);
   sw_free(p->state);
   sw_free(p->history);
   sw_free(p->memory);
@@ -141,6 +144,8 @@ static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
     const sw_scene_obstacle *o = &s->obstacles[p->obstacles];
     p->obstacle[p->obstacles] = (saved_obstacle){o->alive, copy_drive(&o->drive), o->log.count};
   }
+  SW_TRY(copy_block(s->joins, s->join_count * sizeof *p->join, &p->join));
+  p->joins = s->join_count;
   for (; p->forces < s->force_count; p->forces++)
     p->force_alive[p->forces] = s->forces[p->forces].alive;
   return SW_OK;
@@ -208,6 +213,8 @@ static int same_plan(const sw_scene *s, const sw_snapshot *p) {
     if (s->obstacles[k].alive != (k < p->obstacles && p->obstacle[k].alive)) return 0;
   for (size_t k = 0; k < s->force_count; k++)
     if (s->forces[k].alive != (k < p->forces && p->force_alive[k])) return 0;
+  for (size_t k = 0; k < s->join_count; k++)
+    if (s->joins[k].alive != (k < p->joins && p->join[k].alive)) return 0;
   return 1;
 }
 
@@ -255,22 +262,28 @@ static void put_objects(sw_scene *s, const sw_snapshot *p) {
   }
   for (size_t k = 0; k < s->force_count; k++)
     s->forces[k].alive = k < p->forces && p->force_alive[k];
-  for (size_t w = 0; w < p->wires; w++) {
-    s->wires[w].extremes = p->extremes[w];
+  for (size_t k = 0; k < s->join_count; k++) {
+    if (k < p->joins)
+      s->joins[k] = p->join[k];
+    else
+      s->joins[k].alive = 0;
   }
+  for (size_t w = 0; w < p->wires; w++) s->wires[w].extremes = p->extremes[w];
 }
 
 /* Slots beyond what any living snapshot knows are free again. */
 static void drop_newer(sw_scene *s) {
-  size_t holds = 0, obstacles = 0, forces = 0;
+  size_t holds = 0, obstacles = 0, forces = 0, joins = 0;
   for (const sw_snapshot *q = s->snapshots; q; q = q->next) {
     if (q->holds > holds) holds = q->holds;
     if (q->obstacles > obstacles) obstacles = q->obstacles;
     if (q->forces > forces) forces = q->forces;
+    if (q->joins > joins) joins = q->joins;
   }
   while (s->hold_count > holds) sw_scene_clear_hold(&s->holds[--s->hold_count]);
   while (s->obstacle_count > obstacles) sw_scene_clear_obstacle(&s->obstacles[--s->obstacle_count]);
   if (s->force_count > forces) s->force_count = forces;
+  if (s->join_count > joins) s->join_count = joins;
 }
 
 /* What the scene's meshes and holds were, allocated before anything is changed. */

@@ -128,6 +128,22 @@ typedef struct sw_scene_force {
   double args[SW_FORCE_ARGS_MAX / sizeof(double)];
 } sw_scene_force;
 
+/* Wires joined at a point. */
+typedef struct sw_scene_join {
+  uint32_t generation;
+  int alive, rigid;
+  char name[SW_NAME_SIZE];
+  size_t count;
+  struct sw_scene_join_end {
+    size_t wire;
+    double s;      /* a node of its mesh [m] */
+    double asked;  /* where that was asked for, [m] */
+    double scale;  /* of the mesh then [-] */
+    sw_vec offset; /* of its node from that of the first end [m] */
+    sw_vec rest;   /* where the wire went there, see arm_of [-] */
+  } ends[SW_JOIN_ENDS];
+} sw_scene_join;
+
 /* Which wires touch each other, as stated. */
 typedef struct sw_scene_rule {
   uint32_t *wires; /* (count) slots; count 0 = all */
@@ -165,6 +181,8 @@ struct sw_scene {
   size_t obstacle_count, obstacle_capacity;
   sw_scene_force *forces;
   size_t force_count, force_capacity;
+  sw_scene_join *joins;
+  size_t join_count, join_capacity;
 
   const sw_pose *part_from; /* settling: where the holds come from, or NULL */
   double part;              /* share of their way [-] */
@@ -244,6 +262,19 @@ sw_status sw_drive_eval(sw_scene *scene, const sw_drive *drive, double t, sw_mot
 sw_status sw_drive_follow(sw_scene *scene, sw_drive *drive, const char *object, sw_motion *motion,
                           int relative, sw_error *err);
 void sw_drive_free(sw_drive *drive);
+
+/* --- joins ------------------------------------------------------------------- */
+
+/* The living join that has the wire, or NULL. */
+const sw_scene_join *sw_scene_joined(const sw_scene *scene, size_t wire);
+/* The arc lengths of a wire's living joins into out (may be NULL); their number. */
+size_t sw_scene_join_places(const sw_scene *scene, size_t wire, double *out);
+/* Make their nodes anew in a wire that was drawn again and has its holds. SW_ENOMEM. */
+sw_status sw_scene_retake_joins(sw_scene *scene, size_t wire);
+/* Meshes are others: joins of wires that lie as drawn keep what these have now. */
+void sw_scene_measure_joins(sw_scene *scene);
+/* Springs and hinges of the living joins for the new system. SW_ENOMEM. */
+sw_status sw_scene_add_joins(sw_scene *scene);
 
 /* --- feeds ------------------------------------------------------------------- */
 

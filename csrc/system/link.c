@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "system/join.h"
 
 static const uint32_t NONE = UINT32_MAX;
 
@@ -36,8 +37,9 @@ static struct sw_links *links_of(sw_system *s) {
   return s->links;
 }
 
-void sw_system_begin_plan(sw_system *s) {
+sw_status sw_system_begin_plan(sw_system *s) {
   if (s->links) s->links->planned_count = 0;
+  return sw_joins_plan(s);
 }
 
 sw_status sw_system_plan_link(sw_system *s, size_t i, size_t j) {

@@ -9,6 +9,7 @@
 #include "base/simd.h"
 #include "solve/band3.h"
 #include "system/assemble.h"
+#include "system/join.h"
 #include "system/link.h"
 #include "system/spin.h"
 #include "system/system.h"
@@ -131,6 +132,7 @@ static sw_status solve_once(sw_system *s, const sw_stage *stage, int statics,
   if (s->coupling.eval)
     SW_TRY(s->coupling.eval(s->coupling.user, s, stage->time, stage->hbar, stage->y,
                             SW_WANT_FORCE | SW_WANT_STIFFNESS, err));
+  SW_TRY(sw_joins_eval(s, stage->y));
   for (size_t b = 0; b < s->body_count; b++) {
     sw_field *f = &s->bodies[b].field;
     const size_t at = 3 * s->bodies[b].first_node;

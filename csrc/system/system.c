@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "system/join.h"
 #include "system/link.h"
 #include "system/roll.h"
 #include "system/spin.h"
@@ -20,6 +21,7 @@ void sw_system_free(sw_system *system) {
     sw_free(system->bodies[b].roll_block);
   }
   sw_links_free(system);
+  sw_joins_free(system);
   sw_free(system->bodies);
   sw_free(system->held);
   sw_free(system->directors);

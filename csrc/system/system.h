@@ -117,6 +117,7 @@ struct sw_system {
   double gravity[3]; /* [m/s2] */
   sw_coupling coupling;
   struct sw_links *links; /* between bodies, or NULL while there never were any */
+  struct sw_joins *joins; /* what holds wires together (see system/join.h), or NULL */
   sw_counters counters;
 
   /* the state, one block: x v a (nodes x 3, then turns of edges that roll, each), tension (edges),
@@ -180,7 +181,7 @@ sw_status sw_system_add_link(sw_system *system, size_t i, size_t j, const double
 
 /* Before a step: between which nodes there may be links in it, anew from begin_plan on, so
  * that the matrix is made for them and that its order does not depend on earlier steps. */
-void sw_system_begin_plan(sw_system *system);
+sw_status sw_system_begin_plan(sw_system *system);
 sw_status sw_system_plan_link(sw_system *system, size_t i, size_t j);
 
 /* Add what a term gives to its body's field. */

@@ -234,6 +234,14 @@ function class.scene.wire_contact(scene, args)
   build.data(scene).touching = true
 end
 
+local new_join = class.scene.join
+--- scene:join{ ends = { { wire, s = }, ... }, rigid =, name = }: wires fixed to each other
+-- where they meet; see help "join".
+function class.scene.join(scene, args)
+  build.check(scene, "scene:join", 3)
+  return (build.call(3, new_join, scene, args))
+end
+
 local new_force = class.scene.force
 --- scene:force{ kind =, on =, ... }: see help "force".
 function class.scene.force(scene, args)

@@ -15,6 +15,7 @@ local notes = {
   run = "scene:run{...}", settle = "scene:settle{...}",
   frequencies = "wire:frequencies{...}: natural frequencies [Hz] about the present equilibrium",
   wire_contact = "scene:wire_contact{...}: wires that touch each other and themselves",
+  join = "scene:join{...}: wires fixed to each other at a point, as in a harness",
   trajectory = "sw.trajectory{...}; clamps, obstacles and grippers take the table itself",
 }
 
@@ -89,6 +90,12 @@ for _, t in ipairs(scene:touches()) do ... end
 
 -- What comes after the parameters of a member.
 local more = {
+  join = [[
+  scene:join{ ends = { { trunk, s = 0.5 }, { branch, s = 0 } } }   2 to 8, which must meet there
+  returns a join: .name .held and
+  :force(k) :moment(k)           on end number k [N], about the point [N m]
+  :release()                     apart from now on
+  rigid carries bending on from wire to wire, not twist: a wire still turns about its own axis]],
   feed = [[
   returns a clamp (:force() :moment() :pose() :follow() :release()) and
   :fed()                         length paid out so far, unstressed [m]

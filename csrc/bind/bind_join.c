@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lua class join and scene:join. */
+#include <stdio.h>
+
+#include "bind/child.h"
+
+/* One of the ends at the top of the stack: { wire, s = }. Pops it. */
+static sw_join_end read_end(lua_State *L, const sw_scene *scene, size_t number) {
+  static const sw_param rows[] = {{"s", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_REQUIRED,
+                                   NULL, 0, "arc length at which the wire is joined"}};
+  static const sw_params params = SW_PARAMS("scene:join", rows);
+  const char *what = lua_pushfstring(L, "scene:join: ends[%d]", (int)number);
+  sw_join_end end;
+  lua_insert(L, -2);
+  const int at = lua_gettop(L);
+  if (!lua_istable(L, at))
+    luaL_error(L, "%s must be { wire, s = arc length }, got %s", what, lsw_describe(L, at));
+  lua_rawgeti(L, at, 1);
+  end.wire = lsw_check_child_of(L, at + 1, &lsw_class_wire, scene, what)->id;
+  lua_newtable(L); /* what else is there, to be checked */
+  lua_pushnil(L);
+  while (lua_next(L, at)) {
+    lua_pushvalue(L, -2);
+    lua_insert(L, -2);
+    if (lua_isinteger(L, -2) && lua_tointeger(L, -2) == 1)
+      lua_pop(L, 2);
+    else
+      lua_rawset(L, at + 2);
+  }
+  lsw_arguments(L, at + 2, what, &params, &end.s);
+  lua_settop(L, at - 2);
+  return end;
+}
+
+int lsw_scene_join(lua_State *L) {
+  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  const sw_scene *scene = owner->h.object;
+  sw_join_args args;
+  sw_join_end ends[SW_JOIN_ENDS];
+  sw_error err = {""};
+  lua_settop(L, 2);
+  lsw_arguments(L, 2, "scene:join", &sw_join_params, &args);
+  if (!lua_istable(L, 2) || lua_getfield(L, 2, "ends") != LUA_TTABLE)
+    return luaL_error(L, "scene:join: ends is required: a list of { wire, s = arc length }");
+  const size_t count = lua_rawlen(L, 3);
+  for (size_t k = 0; k < count && k < SW_JOIN_ENDS; k++) {
+    lua_rawgeti(L, 3, (lua_Integer)k + 1);
+    ends[k] = read_end(L, scene, k + 1);
+  }
+  lsw_child *child = lsw_new_child(L, 1, &lsw_class_join);
+  lsw_must(L, sw_scene_add_join(owner->h.object, &args, ends, count, &child->id, &err), &err);
+  child->h.object = owner;
+  return 1;
+}
+
+static void read_force(lua_State *L, sw_vec *force, sw_vec *moment) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const lsw_child *j = lsw_check_child(L, 1, &lsw_class_join, &scene);
+  const lua_Integer k = luaL_checkinteger(L, 2);
+  if (k < 1) luaL_error(L, "join: end %d is not one of its own; they count from 1", (int)k);
+  lsw_must(L, sw_scene_join_force(scene, j->id, (size_t)k - 1, force, moment, &err), &err);
+}
+
+/* join:force(k) on its end number k [N]; join:moment(k) about its point [N m]. */
+static int meth_force(lua_State *L) {
+  sw_vec force, moment;
+  read_force(L, &force, &moment);
+  lsw_push_vector(L, force);
+  return 1;
+}
+
+static int meth_moment(lua_State *L) {
+  sw_vec force, moment;
+  read_force(L, &force, &moment);
+  lsw_push_vector(L, moment);
+  return 1;
+}
+
+static int meth_release(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const lsw_child *j = lsw_check_child(L, 1, &lsw_class_join, &scene);
+  lsw_must(L, sw_scene_release_join(scene, j->id, &err), &err);
+  return 0;
+}
+
+static const char *identity(lua_State *L, int *held) {
+  sw_scene *scene;
+  size_t ends;
+  const lsw_child *j = lsw_check_child(L, 1, &lsw_class_join, &scene);
+  const char *name = sw_scene_join_name(scene, j->id, held, &ends);
+  if (!name) luaL_error(L, "this join is not of scene '%s' any more", sw_scene_name(scene));
+  return name;
+}
+
+static int prop_name(lua_State *L) {
+  int held;
+  lua_pushstring(L, identity(L, &held));
+  return 1;
+}
+
+static int prop_held(lua_State *L) {
+  int held;
+  identity(L, &held);
+  lua_pushboolean(L, held);
+  return 1;
+}
+
+static int meta_describe(lua_State *L) {
+  sw_scene *scene;
+  int held;
+  size_t ends;
+  char text[SW_NAME_SIZE + 80];
+  const lsw_child *j = lsw_find_child(L, &lsw_class_join, &scene);
+  if (!j) return 1;
+  const char *name = sw_scene_join_name(scene, j->id, &held, &ends);
+  if (!name)
+    snprintf(text, sizeof text, "join (taken back when a snapshot was restored)");
+  else
+    snprintf(text, sizeof text, "join '%s' of %zu wires%s", name, ends, held ? "" : " (released)");
+  lua_pushstring(L, text);
+  return 1;
+}
+
+static const luaL_Reg methods[] = {
+    {"force", meth_force}, {"moment", meth_moment}, {"release", meth_release}, {NULL, NULL}};
+static const luaL_Reg properties[] = {{"name", prop_name}, {"held", prop_held}, {NULL, NULL}};
+static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
+
+const lsw_class lsw_class_join = {.name = "join",
+                                  .size = sizeof(lsw_child),
+                                  .methods = methods,
+                                  .meta = meta,
+                                  .properties = properties,
+                                  .gone = "this join was never made"};

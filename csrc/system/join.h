@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What holds wires together at a point: springs that keep nodes at each other's place, and
+ * hubs that keep directions of edges
+ * to each other. */
+#ifndef SW_SYSTEM_JOIN_H
+#define SW_SYSTEM_JOIN_H
+
+#include <stdint.h>
+
+#include "system/system.h"
+
+/* Keeps x_i - x_j at offset. */
+typedef struct sw_join_spring {
+  uint32_t i, j; /* nodes */
+  double k;      /* [N/m] */
+  sw_vec offset; /* [m] */
+} sw_join_spring;
+
+enum { SW_HUB_ARMS = 8 };
+
+/* A rigid piece that wires stick in: with the directions p of their arms, given ones d and
+ * the rotation R that fits best, it has the energy sum k (1 - p . R d). */
+typedef struct sw_join_hub {
+  size_t count;
+  struct sw_join_arm {
+    uint32_t from, to; /* nodes that the arm's direction is between */
+    double k;          /* [N m] */
+    sw_vec rest;       /* d [-] */
+  } arms[SW_HUB_ARMS];
+} sw_join_hub;
+
+struct sw_joins {
+  sw_join_spring *springs;
+  size_t spring_count, spring_capacity;
+  sw_join_hub *hubs;
+  size_t hub_count, hub_capacity;
+};
+
+/* Add one, and plan the links it makes. SW_ENOMEM. */
+sw_status sw_system_add_spring(sw_system *system, const sw_join_spring *spring);
+sw_status sw_system_add_hub(sw_system *system, const sw_join_hub *hub);
+
+/* Plan all of them again. SW_ENOMEM. */
+sw_status sw_joins_plan(sw_system *system);
+
+/* Add forces and stiffness at y to the bodies' fields and to the links. SW_ENOMEM. */
+sw_status sw_joins_eval(sw_system *system, const double *y);
+
+/* Force of a spring on its node i at x [N]. */
+sw_vec sw_join_spring_force(const sw_join_spring *spring, const double *x);
+
+/* Moment of a hub on its arm at x, about any point [N m]. */
+sw_vec sw_join_hub_moment(const sw_join_hub *hub, size_t arm, const double *x);
+
+double sw_joins_energy(const sw_system *system); /* at the state [J] */
+
+/* 1: the edges that start at nodes one and two are so near a join of their wires that they
+ * are not told apart: within reach along both [m]. */
+int sw_joins_near(const sw_system *system, uint32_t one, uint32_t two, double reach);
+
+void sw_joins_free(sw_system *system);
+
+#endif
