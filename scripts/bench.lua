@@ -326,13 +326,29 @@ local function print_bars()
   end
 end
 
+-- What it costs that wires touch or are joined.
+local function print_links()
+  print "\nlinked nodes, N = 100            places   us/iteration  over the same without"
+  for _, r in ipairs(require "softworld.benchlinks".rows()) do
+    if r.ok then
+      print(("  %-30s %6d  %13.2f  %19.2f x  %s"):format(r.name, r.places, 1e6 * r.linked, r.ratio,
+        r.aim and ("within %gx: %s"):format(r.aim, r.ratio <= r.aim and "met" or "missed") or ""))
+    else
+      print(("  %-30s failed: %s"):format(r.name, r.reason))
+    end
+  end
+end
+
 print_aims()
 scale_ratio()
 frames_ratio()
 print_best()
 print_walls()
 print_scale()
-if not next(wanted) then print_bars() end
+if not next(wanted) then
+  print_bars()
+  print_links()
+end
 local bad = {}
 for _, row in ipairs(rows) do
   if row.status ~= "ok" then bad[row.status] = (bad[row.status] or 0) + 1 end

@@ -10,6 +10,9 @@
 #include "base/alloc.h"
 #include "base/simd.h"
 
+/* Two right-hand sides go through together: the way through a chain is one of waiting. */
+typedef double two __attribute__((vector_size(16)));
+
 struct sw_sparse {
   size_t n, block, pairs;
   uint32_t *place;       /* (n) node -> its number in the elimination */
@@ -17,8 +20,9 @@ struct sw_sparse {
   uint32_t *slot;        /* (pairs) block of L, times 2, + 1 when given transposed */
   uint32_t *target;      /* blocks that products of two rows of a column go to */
   size_t targets, fill, widest;
-  double *own, *off;  /* (n), (fill) blocks */
-  double *column, *x; /* (widest) blocks, (n x block) */
+  two *x;            /* (n x block) */
+  double *own, *off; /* (n), (fill) blocks */
+  double *column;    /* (widest) blocks */
 };
 
 void sw_sparse_free(sw_sparse *s) {
@@ -28,7 +32,7 @@ void sw_sparse_free(sw_sparse *s) {
   sw_free(s->row);
   sw_free(s->slot);
   sw_free(s->target);
-  sw_free(s->own);
+  sw_free(s->x);
   sw_free(s);
 }
 
@@ -167,16 +171,16 @@ sw_status sw_sparse_new(size_t nodes, size_t block, const sw_sparse_pair *pairs,
   sw_free(a.seen);
   const size_t bb = block * block;
   if (status == SW_OK) {
-    s->own = sw_alloc(bb * (s->n + s->fill + s->widest) + block * s->n, sizeof *s->own);
-    if (!s->own) status = SW_ENOMEM;
+    s->x = sw_alloc(bb * (s->n + s->fill + s->widest) + 2 * block * s->n, sizeof *s->own);
+    if (!s->x) status = SW_ENOMEM;
   }
   if (status != SW_OK) {
     sw_sparse_free(s);
     return status;
   }
+  s->own = (double *)(s->x + block * s->n);
   s->off = s->own + bb * s->n;
   s->column = s->off + bb * s->fill;
-  s->x = s->column + bb * s->widest;
   *out = s;
   return SW_OK;
 }
@@ -288,28 +292,35 @@ sw_status sw_sparse_factor(sw_sparse *s, size_t *negative) {
   return status;
 }
 
-ALWAYS void solve(const sw_sparse *s, double *restrict x, const int b) {
+ALWAYS void solve(const sw_sparse *s, two *restrict x, const int b) {
   const size_t bb = (size_t)b * (size_t)b, bs = (size_t)b;
   for (size_t k = 0; k < s->n; k++) {
     const double *d = s->own + bb * k;
-    double *xk = x + bs * k;
+    two *xk = x + bs * k;
     for (int i = 1; i < b; i++)
       for (int j = 0; j < i; j++) xk[i] -= d[b * i + j] * xk[j];
     for (uint32_t e = s->start[k]; e < s->start[k + 1]; e++) {
       const double *l = s->off + bb * e;
-      double *to = x + bs * s->row[e];
-      for (int i = 0; i < b; i++)
-        for (int j = 0; j < b; j++) to[i] -= l[b * i + j] * xk[j];
+      two *to = x + bs * s->row[e];
+      for (int i = 0; i < b; i++) {
+        two sum = l[b * i] * xk[0];
+        for (int j = 1; j < b; j++) sum += l[b * i + j] * xk[j];
+        to[i] -= sum;
+      }
     }
   }
   for (size_t k = s->n; k-- > 0;) {
     const double *d = s->own + bb * k;
-    double *xk = x + bs * k, sum[SW_SPARSE_BLOCK_MAX] = {0};
+    two *xk = x + bs * k, sum[SW_SPARSE_BLOCK_MAX];
     for (int i = 0; i < b; i++) sum[i] = d[b * i + i] * xk[i];
     for (uint32_t e = s->start[k]; e < s->start[k + 1]; e++) {
-      const double *l = s->off + bb * e, *from = x + bs * s->row[e];
-      for (int i = 0; i < b; i++)
-        for (int j = 0; j < b; j++) sum[j] -= l[b * i + j] * from[i];
+      const double *l = s->off + bb * e;
+      const two *from = x + bs * s->row[e];
+      for (int j = 0; j < b; j++) {
+        two part = l[j] * from[0];
+        for (int i = 1; i < b; i++) part += l[b * i + j] * from[i];
+        sum[j] -= part;
+      }
     }
     for (int i = b - 1; i >= 0; i--) {
       for (int j = i + 1; j < b; j++) sum[i] -= d[b * j + i] * xk[j];
@@ -319,16 +330,25 @@ ALWAYS void solve(const sw_sparse *s, double *restrict x, const int b) {
 }
 
 SW_HOT
-static void solve3(const sw_sparse *s, double *x) { solve(s, x, 3); }
+static void solve3(const sw_sparse *s, two *x) { solve(s, x, 3); }
 SW_HOT
-static void solve4(const sw_sparse *s, double *x) { solve(s, x, 4); }
+static void solve4(const sw_sparse *s, two *x) { solve(s, x, 4); }
 
-void sw_sparse_solve(sw_sparse *s, double *b) {
+void sw_sparse_solve_two(sw_sparse *s, double *one, double *other) {
   const size_t m = s->block;
-  for (size_t i = 0; i < s->n; i++) memcpy(s->x + m * s->place[i], b + m * i, m * sizeof *b);
+  for (size_t i = 0; i < s->n; i++)
+    for (size_t c = 0; c < m; c++)
+      s->x[m * s->place[i] + c] = (two){one[m * i + c], other ? other[m * i + c] : 0.0};
   if (m == 3)
     solve3(s, s->x);
   else
     solve4(s, s->x);
-  for (size_t i = 0; i < s->n; i++) memcpy(b + m * i, s->x + m * s->place[i], m * sizeof *b);
+  for (size_t i = 0; i < s->n; i++)
+    for (size_t c = 0; c < m; c++) {
+      const two v = s->x[m * s->place[i] + c];
+      one[m * i + c] = v[0];
+      if (other) other[m * i + c] = v[1];
+    }
 }
+
+void sw_sparse_solve(sw_sparse *s, double *b) { sw_sparse_solve_two(s, b, NULL); }

@@ -41,6 +41,8 @@ sw_status sw_sparse_factor(sw_sparse *sparse, size_t *negative);
 
 /* Solve in place for b (nodes x block). */
 void sw_sparse_solve(sw_sparse *sparse, double *b);
+/* The same for two at once, in little more time than one; other may be NULL. */
+void sw_sparse_solve_two(sw_sparse *sparse, double *one, double *other);
 
 /* Blocks below the diagonal of the factor. */
 size_t sw_sparse_fill(const sw_sparse *sparse);

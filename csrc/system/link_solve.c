@@ -164,28 +164,34 @@ static double slope_dot(const struct sw_links *l, const sw_body *b, size_t first
   return sum;
 }
 
-/* Each span adds stiffness g g' to the matrix K: with the compliances C^-1 and the
- * solved slopes K^-1 g, Sherman, Morrison and Woodbury's formula for all at once, as
- * links carry the twist of one wire to the next. Returns how many directions are not
- * negative any more. */
-static sw_status correct_twist(sw_system *s, size_t *fewer) {
+/* The right-hand sides l->x and, with them, the spans' slopes are solved for. */
+static sw_status solve_slopes(sw_system *s, size_t count) {
   struct sw_links *l = s->links;
-  const size_t m = count_spans(s), n = l->block * l->nodes;
+  const size_t n = l->block * l->nodes;
   size_t k = 0;
-  *fewer = 0;
-  if (!m) return SW_OK;
-  SW_TRY(sw_grow((void **)&l->spans, &l->span_capacity, m * (n + m + 1), sizeof *l->spans));
-  double *S = l->spans + m * n, *z = S + m * m;
+  SW_TRY(sw_grow((void **)&l->spans, &l->span_capacity, count * (n + count + 1), sizeof *l->spans));
   for (size_t b = 0; b < s->body_count; b++) {
     sw_body *body = &s->bodies[b];
     if (!body->linked || !body->has_twist) continue;
     sw_twist_gather(body);
-    for (size_t j = 0; j < body->plan->span_count; j++, k++) {
+    for (size_t j = 0; j < body->plan->span_count; j++, k++)
       put_slope(l, body, l->first[b], &body->plan->spans[j], l->spans + n * k);
-      sw_sparse_solve(l->matrix, l->spans + n * k);
-    }
   }
-  k = 0;
+  sw_sparse_solve_two(l->matrix, l->x, count ? l->spans : NULL);
+  for (k = 1; k < count; k += 2)
+    sw_sparse_solve_two(l->matrix, l->spans + n * k, k + 1 < count ? l->spans + n * (k + 1) : NULL);
+  return SW_OK;
+}
+
+/* Each span adds stiffness g g' to the matrix K: with the compliances C^-1 and the
+ * solved slopes K^-1 g, Sherman, Morrison and Woodbury's formula for all at once, as
+ * links carry the twist of one wire to the next. Returns how many directions are not
+ * negative any more. */
+static size_t correct_twist(sw_system *s, size_t m) {
+  struct sw_links *l = s->links;
+  const size_t n = l->block * l->nodes;
+  size_t k = 0;
+  double *S = l->spans + m * n, *z = S + m * m;
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
     for (size_t j = 0; body->linked && body->has_twist && j < body->plan->span_count; j++, k++) {
@@ -196,10 +202,10 @@ static sw_status correct_twist(sw_system *s, size_t *fewer) {
       z[k] = slope_dot(l, body, l->first[b], span, l->x);
     }
   }
-  *fewer = solve_dense(S, m, z);
+  const size_t fewer = solve_dense(S, m, z);
   for (k = 0; k < m; k++)
     for (size_t i = 0; i < n; i++) l->x[i] -= z[k] * l->spans[n * k + i];
-  return SW_OK;
+  return fewer;
 }
 
 static void keep_gains(sw_system *s) {
@@ -216,13 +222,14 @@ static void keep_gains(sw_system *s) {
 
 sw_status sw_links_solve(sw_system *s, size_t *negative) {
   struct sw_links *l = s->links;
-  size_t found = 0, fewer = 0;
+  size_t found = 0;
   SW_TRY(sw_links_prepare(s));
+  const size_t spans = count_spans(s);
   load(s);
   SW_TRY(sw_sparse_factor(l->matrix, &found));
   load_right(s);
-  sw_sparse_solve(l->matrix, l->x);
-  SW_TRY(correct_twist(s, &fewer));
+  SW_TRY(solve_slopes(s, spans));
+  const size_t fewer = spans ? correct_twist(s, spans) : 0;
   keep_gains(s);
   take_solution(s);
   *negative += found - fewer;

@@ -173,3 +173,20 @@ describe("bench.error_bars", function()
     end
   end)
 end)
+
+describe("benchlinks.rows", function()
+  it("compares a wire that touches itself and one in two pieces with plain ones", function()
+    local links = require "softworld.benchlinks"
+    local kept = links.batches
+    links.batches = 2
+    local rows = links.rows()
+    links.batches = kept
+    assert.equal(2, #rows)
+    for _, row in ipairs(rows) do
+      assert.is_true(row.ok, row.reason)
+      assert.is_true(row.plain > 0 and row.linked > 0)
+      assert.near(row.linked / row.plain, row.ratio, 1e-12)
+    end
+    assert.is_true(rows[1].places >= 5, rows[1].places)
+  end)
+end)
