@@ -26,8 +26,8 @@ static double *new_places(const sw_scene *s, size_t wire) {
 
 /* The interval a hold takes, in the mesh's arc lengths. */
 static void held_interval(const sw_mesh *m, const sw_hold_args *a, double *s1, double *s2) {
-  *s1 = fmax(m->s[0], a->s - 0.5 * a->width);
-  *s2 = fmin(m->s[m->n - 1], a->s + 0.5 * a->width);
+  *s1 = sw_mesh_snap(m, a->s - 0.5 * a->width);
+  *s2 = sw_mesh_snap(m, a->s + 0.5 * a->width);
 }
 
 static sw_status check_place(const sw_scene *s, const sw_hold_class *cls, size_t wire,

@@ -170,7 +170,7 @@ sw_status sw_scene_add_join(sw_scene *s, const sw_join_args *args, const sw_join
   for (size_t k = 0; k < count; k++) {
     const sw_mesh *m = &s->wires[ends[k].wire.slot].mesh;
     j.ends[k] = (end){.wire = ends[k].wire.slot,
-                      .asked = fmin(m->s[0] + ends[k].s, m->s[m->n - 1]),
+                      .asked = sw_mesh_snap(m, m->s[0] + ends[k].s),
                       .scale = m->scale};
   }
   if (args->name[0])
@@ -219,7 +219,7 @@ sw_status sw_scene_retake_joins(sw_scene *s, size_t wire) {
     for (size_t i = 0; s->joins[k].alive && i < s->joins[k].count && status == SW_OK; i++) {
       end *e = &s->joins[k].ends[i];
       if (e->wire != wire) continue;
-      const double at = fmin(e->asked * m->scale / e->scale, m->s[m->n - 1]);
+      const double at = sw_mesh_snap(m, e->asked * m->scale / e->scale);
       status = sw_mesh_place(m, at, keep, count, &e->s);
       keep[count++] = e->s;
     }

@@ -18,9 +18,10 @@ typedef struct pending {
   pair own[6], own_after[6], next[9];
 } pending;
 
-/* What is kept of an eliminated pair: inverse, inverse * next, inverse * second. */
+/* What is kept of an eliminated pair, whose own block is L D L': the inverse of D and L, in
+ * the places of the diagonal and of xy xz yz; then (L D)^-1 times next and second. */
 typedef struct kept {
-  pair inverse[6], w1[9], w2[9];
+  pair split[6], v1[9], v2[9];
 } kept;
 
 typedef struct signs {
@@ -36,49 +37,43 @@ static size_t odd_of(size_t n) { return n % 2; }
 
 static inline pair of(double a, double b) { return (pair){a, b}; }
 
-/* Inverse of symmetric blocks: the first row is eliminated, the rest is inverted
- * by cofactors. (Cofactors of the whole block would lose the square of the ratio
- * of axial to bending stiffness.) Signs of the pivots from the minors. */
-static inline void invert(const pair d[6], pair inverse[6], signs *s) {
+/* L D L' of symmetric blocks. (Their inverses would lose the square of the ratio of axial to
+ * bending stiffness in what is subtracted from the next blocks.) */
+static inline void split(const pair d[6], pair out[6], signs *s) {
   const pair r0 = 1.0 / d[0], l1 = d[1] * r0, l2 = d[2] * r0;
   const pair s3 = d[3] - l1 * d[1], s4 = d[4] - l1 * d[2], s5 = d[5] - l2 * d[2];
-  const pair minor = s3 * s5 - s4 * s4, r = 1.0 / minor;
-  inverse[3] = s5 * r;
-  inverse[4] = -s4 * r;
-  inverse[5] = s3 * r;
-  inverse[1] = -(l1 * inverse[3] + l2 * inverse[4]);
-  inverse[2] = -(l1 * inverse[4] + l2 * inverse[5]);
-  inverse[0] = r0 - (l1 * inverse[1] + l2 * inverse[2]);
-  const mask n0 = d[0] < 0.0, n1 = s3 < 0.0, n2 = minor < 0.0;
-  s->negative += n0 + n1 + (n1 ^ n2);
-  const pair both = r0 * r;
-  s->bad |= ~(((both > 0.0) | (both < 0.0)) & (both < HUGE_VAL) & (both > -HUGE_VAL));
+  const pair r1 = 1.0 / s3, l3 = s4 * r1, s6 = s5 - l3 * s4, r2 = 1.0 / s6;
+  out[0] = r0, out[1] = l1, out[2] = l2, out[3] = r1, out[4] = l3, out[5] = r2;
+  s->negative += (d[0] < 0.0) + (s3 < 0.0) + (s6 < 0.0);
+  const pair all = r0 * r1 * r2;
+  s->bad |= ~(((all > 0.0) | (all < 0.0)) & (all < HUGE_VAL) & (all > -HUGE_VAL));
 }
 
-/* w = S u for symmetric S. */
-static inline void symmetric_times(const pair s[6], const pair u[9], pair w[9]) {
+/* w = L^-1 u, v = D^-1 w. */
+static inline void divide(const pair s[6], const pair u[9], pair w[9], pair v[9]) {
   for (int j = 0; j < 3; j++) {
-    w[j] = s[0] * u[j] + s[1] * u[3 + j] + s[2] * u[6 + j];
-    w[3 + j] = s[1] * u[j] + s[3] * u[3 + j] + s[4] * u[6 + j];
-    w[6 + j] = s[2] * u[j] + s[4] * u[3 + j] + s[5] * u[6 + j];
+    w[j] = u[j];
+    w[3 + j] = u[3 + j] - s[1] * w[j];
+    w[6 + j] = u[6 + j] - s[2] * w[j] - s[4] * w[3 + j];
+    v[j] = s[0] * w[j], v[3 + j] = s[3] * w[3 + j], v[6 + j] = s[5] * w[6 + j];
   }
 }
 
-/* d -= u' w, upper half of a product known to be symmetric. */
-static inline void subtract_symmetric(pair d[6], const pair u[9], const pair w[9]) {
-  d[0] -= u[0] * w[0] + u[3] * w[3] + u[6] * w[6];
-  d[1] -= u[0] * w[1] + u[3] * w[4] + u[6] * w[7];
-  d[2] -= u[0] * w[2] + u[3] * w[5] + u[6] * w[8];
-  d[3] -= u[1] * w[1] + u[4] * w[4] + u[7] * w[7];
-  d[4] -= u[1] * w[2] + u[4] * w[5] + u[7] * w[8];
-  d[5] -= u[2] * w[2] + u[5] * w[5] + u[8] * w[8];
+/* d -= w' v, upper half of a product known to be symmetric. */
+static inline void subtract_symmetric(pair d[6], const pair w[9], const pair v[9]) {
+  d[0] -= w[0] * v[0] + w[3] * v[3] + w[6] * v[6];
+  d[1] -= w[0] * v[1] + w[3] * v[4] + w[6] * v[7];
+  d[2] -= w[0] * v[2] + w[3] * v[5] + w[6] * v[8];
+  d[3] -= w[1] * v[1] + w[4] * v[4] + w[7] * v[7];
+  d[4] -= w[1] * v[2] + w[4] * v[5] + w[7] * v[8];
+  d[5] -= w[2] * v[2] + w[5] * v[5] + w[8] * v[8];
 }
 
-/* m -= u' w. */
-static inline void subtract_product(pair m[9], const pair u[9], const pair w[9]) {
+/* m -= w' v. */
+static inline void subtract_product(pair m[9], const pair w[9], const pair v[9]) {
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
-      m[3 * i + j] -= u[i] * w[j] + u[3 + i] * w[3 + j] + u[6 + i] * w[6 + j];
+      m[3 * i + j] -= w[i] * v[j] + w[3 + i] * v[3 + j] + w[6 + i] * v[6 + j];
 }
 
 static const int TRANSPOSED[9] = {0, 3, 6, 1, 4, 7, 2, 5, 8};
@@ -100,7 +95,7 @@ static inline void load(const double *a, size_t n, size_t i, size_t j, pair own[
 
 /* A pair's factor goes where its two rows were: half to each. */
 static inline void store(double *factor, size_t n, size_t i, size_t j, const kept *f) {
-  const pair *p = f->inverse;
+  const pair *p = f->split;
   double *up = factor + SW_ROW_SIZE * i;
   if (j < n) {
     memcpy(up, p, SW_ROW_SIZE * sizeof(double));
@@ -111,7 +106,7 @@ static inline void store(double *factor, size_t n, size_t i, size_t j, const kep
 }
 
 static inline void recall(const double *factor, size_t n, size_t i, size_t j, kept *f) {
-  pair *p = f->inverse;
+  pair *p = f->split;
   const double *up = factor + SW_ROW_SIZE * i;
   if (j < n) {
     memcpy(p, up, SW_ROW_SIZE * sizeof(double));
@@ -126,20 +121,20 @@ static void factor_middle(const double *a, size_t p, const pending *left, double
                           signs *s) {
   const double *ra = a + SW_ROW_SIZE * p, *rb = ra + SW_ROW_SIZE;
   double *fa = factor + SW_ROW_SIZE * p, *fb = fa + SW_ROW_SIZE;
-  pair first[6], second[6], next[9], inverse[6], w[9];
+  pair first[6], second[6], next[9], d[6], w[9], v[9];
   for (int k = 0; k < 6; k++) {
     first[k] = of(ra[k] + left->own[k][0] + left->own_after[k][1], k == 0 || k == 3 || k == 5);
     second[k] = of(rb[k] + left->own_after[k][0] + left->own[k][1], k == 0 || k == 3 || k == 5);
   }
   for (int k = 0; k < 9; k++)
     next[k] = of(ra[SW_ROW_NEXT + k] + left->next[k][0] + left->next[TRANSPOSED[k]][1], 0.0);
-  invert(first, inverse, s);
-  symmetric_times(inverse, next, w);
-  subtract_symmetric(second, next, w);
-  for (int k = 0; k < 6; k++) fa[k] = inverse[k][0];
-  for (int k = 0; k < 9; k++) fa[SW_ROW_NEXT + k] = w[k][0];
-  invert(second, inverse, s);
-  for (int k = 0; k < 6; k++) fb[k] = inverse[k][0];
+  split(first, d, s);
+  divide(d, next, w, v);
+  subtract_symmetric(second, w, v);
+  for (int k = 0; k < 6; k++) fa[k] = d[k][0];
+  for (int k = 0; k < 9; k++) fa[SW_ROW_NEXT + k] = v[k][0];
+  split(second, d, s);
+  for (int k = 0; k < 6; k++) fb[k] = d[k][0];
 }
 
 SW_HOT
@@ -151,19 +146,19 @@ sw_status sw_band3_factor(const double *a, size_t n, double *factor, size_t *neg
   memset(&left, 0, sizeof left);
   for (size_t k = 0; k < count; k++) {
     const size_t j = odd && k == 0 ? n : n - 1 - (k - odd);
-    pair own[6], u1[9], u2[9];
+    pair own[6], u1[9], u2[9], w1[9], w2[9];
     load(a, n, k, j, own, u1, u2);
     for (int c = 0; c < 6; c++) own[c] += left.own[c];
     for (int c = 0; c < 9; c++) u1[c] += left.next[c];
-    invert(own, f.inverse, &s);
-    symmetric_times(f.inverse, u1, f.w1);
-    symmetric_times(f.inverse, u2, f.w2);
+    split(own, f.split, &s);
+    divide(f.split, u1, w1, f.v1);
+    divide(f.split, u2, w2, f.v2);
     memcpy(left.own, left.own_after, sizeof left.own);
-    subtract_symmetric(left.own, u1, f.w1);
+    subtract_symmetric(left.own, w1, f.v1);
     memset(left.own_after, 0, sizeof left.own_after);
-    subtract_symmetric(left.own_after, u2, f.w2);
+    subtract_symmetric(left.own_after, w2, f.v2);
     memset(left.next, 0, sizeof left.next);
-    subtract_product(left.next, u1, f.w2);
+    subtract_product(left.next, w1, f.v2);
     store(factor, n, k, j, &f);
   }
   factor_middle(a, count, &left, factor, &s);
@@ -179,28 +174,37 @@ static inline void subtract_times(pair b[3], const pair w[9], const pair z[3]) {
   for (int j = 0; j < 3; j++) b[j] -= w[3 * j] * z[0] + w[3 * j + 1] * z[1] + w[3 * j + 2] * z[2];
 }
 
-static inline void inverse_times(const pair s[6], const pair r[3], pair z[3]) {
-  z[0] = s[0] * r[0] + s[1] * r[1] + s[2] * r[2];
-  z[1] = s[1] * r[0] + s[3] * r[1] + s[4] * r[2];
-  z[2] = s[2] * r[0] + s[4] * r[1] + s[5] * r[2];
+/* z = L^-1 z */
+static inline void forward(const pair s[6], pair z[3]) {
+  z[1] -= s[1] * z[0];
+  z[2] -= s[2] * z[0] + s[4] * z[1];
+}
+
+/* z = L'^-1 z */
+static inline void backward(const pair s[6], pair z[3]) {
+  z[1] -= s[4] * z[2];
+  z[0] -= s[1] * z[1] + s[2] * z[2];
 }
 
 static void solve_middle(const double *factor, double *b, size_t p, const pair first[3],
                          const pair second[3]) {
-  const double *fa = factor + SW_ROW_SIZE * p, *fb = fa + SW_ROW_SIZE, *w = fa + SW_ROW_NEXT;
-  double *x = b + 3 * p, *y = x + 3, u[3], v[3];
+  const double *fa = factor + SW_ROW_SIZE * p, *fb = fa + SW_ROW_SIZE, *v = fa + SW_ROW_NEXT;
+  double *x = b + 3 * p, *y = x + 3;
   for (int k = 0; k < 3; k++) {
-    u[k] = x[k] + first[k][0] + second[k][1];
-    v[k] = y[k] + second[k][0] + first[k][1];
+    x[k] += first[k][0] + second[k][1];
+    y[k] += second[k][0] + first[k][1];
   }
-  for (int k = 0; k < 3; k++) v[k] -= w[k] * u[0] + w[3 + k] * u[1] + w[6 + k] * u[2];
-  y[0] = fb[0] * v[0] + fb[1] * v[1] + fb[2] * v[2];
-  y[1] = fb[1] * v[0] + fb[3] * v[1] + fb[4] * v[2];
-  y[2] = fb[2] * v[0] + fb[4] * v[1] + fb[5] * v[2];
-  x[0] = fa[0] * u[0] + fa[1] * u[1] + fa[2] * u[2];
-  x[1] = fa[1] * u[0] + fa[3] * u[1] + fa[4] * u[2];
-  x[2] = fa[2] * u[0] + fa[4] * u[1] + fa[5] * u[2];
-  for (int k = 0; k < 3; k++) x[k] -= w[3 * k] * y[0] + w[3 * k + 1] * y[1] + w[3 * k + 2] * y[2];
+  x[1] -= fa[1] * x[0];
+  x[2] -= fa[2] * x[0] + fa[4] * x[1];
+  for (int k = 0; k < 3; k++) y[k] -= v[k] * x[0] + v[3 + k] * x[1] + v[6 + k] * x[2];
+  y[1] -= fb[1] * y[0];
+  y[2] = fb[5] * (y[2] - fb[2] * y[0] - fb[4] * y[1]);
+  y[1] = fb[3] * y[1] - fb[4] * y[2];
+  y[0] = fb[0] * y[0] - fb[1] * y[1] - fb[2] * y[2];
+  x[0] *= fa[0], x[1] *= fa[3], x[2] *= fa[5];
+  for (int k = 0; k < 3; k++) x[k] -= v[3 * k] * y[0] + v[3 * k + 1] * y[1] + v[3 * k + 2] * y[2];
+  x[1] -= fa[4] * x[2];
+  x[0] -= fa[1] * x[1] + fa[2] * x[2];
 }
 
 SW_HOT
@@ -217,8 +221,9 @@ void sw_band3_solve(const double *factor, size_t n, double *b) {
     for (int c = 0; c < 3; c++) z[c] = of(up[c], alone ? 0.0 : down[c]) + first[c];
     memcpy(first, second, sizeof first);
     memset(second, 0, sizeof second);
-    subtract_transposed(first, f.w1, z);
-    subtract_transposed(second, f.w2, z);
+    forward(f.split, z);
+    subtract_transposed(first, f.v1, z);
+    subtract_transposed(second, f.v2, z);
     for (int c = 0; c < 3; c++) up[c] = z[c][0];
     for (int c = 0; c < 3 && !alone; c++) down[c] = z[c][1];
   }
@@ -232,12 +237,13 @@ void sw_band3_solve(const double *factor, size_t n, double *b) {
     const int alone = odd && k == 0;
     const size_t j = alone ? n : n - 1 - (k - odd);
     double *up = b + 3 * k, *down = alone ? NULL : b + 3 * j;
-    pair r[3], z[3];
+    pair z[3];
     recall(factor, n, k, j, &f);
-    for (int c = 0; c < 3; c++) r[c] = of(up[c], alone ? 0.0 : down[c]);
-    inverse_times(f.inverse, r, z);
-    subtract_times(z, f.w1, x1);
-    subtract_times(z, f.w2, x2);
+    for (int c = 0; c < 3; c++) z[c] = of(up[c], alone ? 0.0 : down[c]);
+    z[0] *= f.split[0], z[1] *= f.split[3], z[2] *= f.split[5];
+    subtract_times(z, f.v1, x1);
+    subtract_times(z, f.v2, x2);
+    backward(f.split, z);
     memcpy(x2, x1, sizeof x2);
     memcpy(x1, z, sizeof x1);
     for (int c = 0; c < 3; c++) up[c] = z[c][0];

@@ -299,6 +299,16 @@ void sw_mesh_remove(sw_mesh *m, size_t i) {
   m->n--;
 }
 
+/* [-] */
+static const double SHORTEST_STUB = 0.004;
+
+double sw_mesh_snap(const sw_mesh *m, double s) {
+  const double first = m->s[0], last = m->s[m->n - 1];
+  if (s < first + SHORTEST_STUB * (m->s[1] - first)) return first;
+  if (s > last - SHORTEST_STUB * (last - m->s[m->n - 2])) return last;
+  return s;
+}
+
 static int may_move(const sw_mesh *m, size_t i, double s, const double *keep, size_t count) {
   if (i == 0 || i == m->n - 1) return 0;
   for (size_t k = 0; k < count; k++)

@@ -62,6 +62,10 @@ sw_status sw_mesh_add_frames(sw_mesh *mesh, sw_vec normal, int straight, double 
 /* The frames at arc length s of a mesh that has them. */
 sw_mesh_frame sw_mesh_frame_at(const sw_mesh *mesh, double s);
 
+/* The wire's end where s is nearer to it than 0.4 % of the edge there, else s: a stub of no
+ * length would be stiffer than all else. */
+double sw_mesh_snap(const sw_mesh *mesh, double s);
+
 /* Make s a node: take the nearest node when it may be moved (not an end, not in
  * keep), else insert one. keep: arc lengths (count) of nodes that must stay.
  * SW_ENOMEM leaves the mesh as it was. */

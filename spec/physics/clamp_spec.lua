@@ -204,4 +204,19 @@ describe("a clamp put on in mid-run", function()
       t.below(1e-5, shifts[2], "tip moved by, 200 segments")
     end
   end)
+
+  -- A stub of a wire a hair longer than asked for must not stop the run.
+  it("holds the end where it is asked for a hair beside it", function()
+    for _, hair in ipairs{ 0, 1e-8, 1e-6, 7e-5, 2e-4, 1e-3 } do
+      local s = sw.scene{}
+      local w = s:wire{ EA = 1e5, EI = 1e-3, GJ = 1e-3, mass_per_length = 0.02, radius = 1e-3,
+        from = { 0, 0, 0 }, to = { 1 + hair, 0, 0 }, segments = 50 }
+      s:clamp(w, { s = 0 })
+      local hold = s:clamp(w, { s = 1 })
+      hold:follow{ points = { { 0, 0, 0 }, { -0.7, 0.3, 0.2 } }, duration = 0.5, relative = true,
+        turn = { axis = { 1, 0.3, 0 }, angle = 6 } }
+      t.fine(s:run{ duration = 1, dt = 5e-3 })
+      t.below(0.02, w.length - hold:pose()[1] - 0.7, "how far from the end it holds")
+    end
+  end)
 end)
