@@ -32,6 +32,25 @@ describe("settling from straight", function()
     end
   end)
 
+  it("lets strings hang that hardly stretch", function()
+    for _, ratio in ipairs{ 1e6, 1e8, 1e10 } do
+      local s = sw.scene{}
+      local w = s:wire{ model = "string", EA = ratio * 0.02 * 9.81, EI = 0, mass_per_length = 0.02,
+        radius = 1e-3, from = { 0, 0, 0 }, to = { 1, 0, 0 }, segments = 100 }
+      local other = s:pin(w, { s = 0 })
+      local hand = s:pin(w, { s = 1 })
+      hand:follow{ points = { { 0, 0, 0 }, { -0.3, 0, 0.1 } }, duration = 1, relative = true }
+      local run = s:run{ duration = 1, dt = 0.01 }
+      t.fine(run)
+      assert.equal(0, run.rejected)
+      local rest = s:settle()
+      t.fine(rest)
+      assert.is_true(rest.iterations < 20, rest.iterations)
+      -- both hands together bear the weight
+      t.share(0.02 * 9.81, hand:force()[3] + other:force()[3], 1e-6, "weight")
+    end
+  end)
+
   it("ends where many small steps of a damped motion end", function()
     local c = cases.droop{ segments = 20 }
     c.scene:force{ kind = "drag", on = c.wire, linear = 0.3 }
