@@ -67,19 +67,23 @@ static sw_status residuals(void *user, const double *x, double *r, double *jacob
 
 /* First guess of what is neither along the wire nor against twist: bars of the modulus of the
  * lines along the wire, whose stiffness is base. */
-static void guess_section(const search *s, double base) {
-  sw_calibration *c = s->c;
+static double bar(const search *s, const sw_cell_link *l, double base) {
   const double h = s->cell.spacing;
-  /* Preferably of links with weight 1, which small meshes may not have. */
-  for (size_t m = 0; m < 2 * s->cell.links; m++) {
-    const sw_cell_link *l = s->cell.link + m % s->cell.links;
-    const double length = l->bend ? h : sw_cell_length(&s->cell, l);
-    if (c->k[l->group] > 0 || (m < s->cell.links && l->weight < 1 - 1e-9)) continue;
-    c->k[l->group] = base * (h / length) * (h / length);
-    if (l->group == SW_GROUP_INCLINED) /* a tenth of the ring's EA between ring and core */
-      c->k[l->group] = LEAST * base * (length / h) * (length / h);
-    if (l->group == SW_GROUP_BEND) c->k[l->group] = LEAST * c->target[SW_TARGET_EI] / h;
-  }
+  if (l->group == SW_GROUP_BEND) return LEAST * s->c->target[SW_TARGET_EI] / h;
+  const double ratio = h / sw_cell_length(&s->cell, l);
+  /* a tenth of the ring's EA between ring and core */
+  if (l->group == SW_GROUP_INCLINED) return LEAST * base / (ratio * ratio);
+  return base * ratio * ratio;
+}
+
+/* By links with weight 1, and by any others where small meshes have none of these. */
+static void guess_section(const search *s, double base) {
+  for (int any = 0; any <= 1; any++)
+    for (size_t m = 0; m < s->cell.links; m++) {
+      const sw_cell_link *l = s->cell.link + m;
+      double *k = s->c->k + l->group;
+      if (!(*k > 0) && (any || l->weight > 1 - 1e-9)) *k = bar(s, l, base);
+    }
 }
 
 /* Closed forms: sections that stay plane and keep their shape, for which each target is linear
