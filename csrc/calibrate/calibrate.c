@@ -177,16 +177,23 @@ static void tube_advice(const sw_calibrate_args *args, const sw_tube_args *tube,
     snprintf(text, n, "try another spacing than %.4g m, more particles, or another radius", h);
 }
 
-static void cubic_advice(const sw_cubic_args *cubic, const sw_calibration *c, char *text,
+static void cubic_advice(const sw_cubic_args *cubic, const sw_calibration *c, int worst, char *text,
                          size_t n) {
+  const double ratio = c->target[SW_TARGET_EI] / c->target[SW_TARGET_EA];
   double most = 0;
   for (size_t i = 0; i < c->lattice.particles; i++) most = fmax(most, fabs(c->lattice.at[3 * i]));
-  snprintf(text, n,
-           "EI/EA = %.3g m2 of the wire must be below %.3g m2, which the outermost particles have"
-           "%s; make across = %ld more, and even",
-           c->target[SW_TARGET_EI] / c->target[SW_TARGET_EA], most * most,
-           cubic->section == SW_SECTION_RECTANGLE ? ", and EI/EI2 near (width/height)^2" : "",
-           cubic->across);
+  if (worst == SW_TARGET_SQUEEZE)
+    snprintf(text, n, "ask for another squeeze");
+  else if (ratio > 0.5 * most * most)
+    snprintf(text, n,
+             "EI/EA = %.3g m2 of the wire is too near to %.3g m2 of the outermost particles: make "
+             "the section larger",
+             ratio, most * most);
+  else if (cubic->section == SW_SECTION_RECTANGLE)
+    snprintf(text, n, "EI/EI2 must be near (width/height)^2 = %.4g",
+             cubic->width * cubic->width / (cubic->height * cubic->height));
+  else
+    snprintf(text, n, "make across = %ld more, and even", cubic->across);
 }
 
 /* Springs may have the targets only by letting go of the section's shape. With a squeeze
@@ -204,7 +211,7 @@ static sw_status check_reached(const sw_calibrate_args *args, const sw_lattice_a
   const int near = fabs(c->residual[worst]) <= args->tolerance;
   if (args->tolerance == 1 || (near && !is_gone(c))) return SW_OK;
   if (args->mesh == SW_LATTICE_CUBIC)
-    cubic_advice(&mesh->cubic, c, text, sizeof text);
+    cubic_advice(&mesh->cubic, c, worst, text, sizeof text);
   else
     tube_advice(args, &mesh->tube, c, worst, ring_limit(args, mesh, beam), text, sizeof text);
   if (near)

@@ -29,7 +29,7 @@ typedef struct sw_cell {
   const sw_cell_link *link;
 } sw_cell;
 
-enum { SW_CELL_PARTICLES = 1024 }; /* most of one slice [-] */
+enum { SW_CELL_PARTICLES = 512 }; /* most of one slice [-] */
 
 /* Strains of the beam, the order of rows of its stiffness. A curvature about x bends in the
  * plane of y and z. */

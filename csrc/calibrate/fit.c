@@ -6,12 +6,16 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/least_squares.h"
 
-static const double PULL = 0.03;  /* of the guess, per unit of log stiffness, first round [-] */
-static const double WEAKER = 0.1; /* from round to round [-] */
-static const double GOOD = 1e-10; /* residual that ends the rounds [-] */
+static const double PULL = 0.03;     /* of the guess, per unit of log stiffness, first round [-] */
+static const double WEAKER = 0.1;    /* from round to round [-] */
+static const double GOOD = 1e-10;    /* residual that ends the rounds [-] */
+static const double HOPELESS = 0.01; /* residual that more rounds do not mend [-] */
+static const double FAR = 50;     /* log of how far stiffnesses may go from the first guess [-] */
+static const double MOST = 1e150; /* stiffness whose products are finite [N/m] */
 static const double LEAST = 0.05; /* of the whole that a group begins with [-] */
 enum { ROUNDS = 6, ITERATIONS = 40, PART = SW_CELL_SIZE + 1 };
 
@@ -32,6 +36,7 @@ typedef struct search {
   sw_cell cell;
   size_t n;                /* groups that have links [-] */
   size_t group[SW_GROUPS]; /* their numbers */
+  double first[SW_GROUPS]; /* log stiffness to begin with */
   double guess[SW_GROUPS]; /* log stiffness the pull leads to */
   double pull;             /* [-] */
 } search;
@@ -41,11 +46,18 @@ static double log_ratio(double reached, double target) {
   return reached > DBL_MIN ? log(reached / target) : log(DBL_MIN / target);
 }
 
+/* A search that has lost its way must not leave the finite numbers. */
+static void set_stiffness(search *s, const double *x) {
+  for (size_t i = 0; i < s->n; i++)
+    s->c->k[s->group[i]] = exp(s->first[i] + fmax(-FAR, fmin(FAR, x[i] - s->first[i])));
+}
+
 static sw_status residuals(void *user, const double *x, double *r, double *jacobian,
                            sw_error *err) {
   search *s = user;
   double parts[SW_GROUPS * PART];
-  for (size_t i = 0; i < s->n; i++) s->c->k[s->group[i]] = exp(x[i]);
+  if (sw_interrupted()) return SW_EINTR;
+  set_stiffness(s, x);
   SW_TRY(sw_cell_stiffness(&s->cell, s->c->k, &s->c->reached, parts, err));
   memset(jacobian, 0, (SW_TARGETS + s->n) * s->n * sizeof *jacobian);
   for (int t = 0; t < SW_TARGETS; t++) {
@@ -124,34 +136,52 @@ static double worst(sw_calibration *c) {
   return most;
 }
 
-sw_status sw_calibrate_fit(sw_calibration *c, sw_error *err) {
-  search s = {.c = c, .cell = sw_lattice_cell(&c->lattice), .pull = PULL};
-  double x[SW_GROUPS], first[SW_GROUPS];
+/* The groups that have links, and where their search begins. */
+static sw_status begin(search *s, double *x, sw_error *err) {
+  sw_calibration *c = s->c;
   memset(c->links, 0, sizeof c->links);
-  for (size_t m = 0; m < s.cell.links; m++) c->links[s.cell.link[m].group]++;
-  guess(&s);
+  for (size_t m = 0; m < s->cell.links; m++) c->links[s->cell.link[m].group]++;
+  guess(s);
   for (size_t g = 0; g < SW_GROUPS; g++) {
     if (!c->links[g]) continue;
-    x[s.n] = s.guess[s.n] = first[s.n] = log(c->k[g]);
-    s.group[s.n++] = g;
+    if (!(c->k[g] > 1 / MOST) || !(c->k[g] < MOST))
+      return sw_fail(err, SW_EINVAL,
+                     "calibrate: EA = %g N, EI = %g N m2 and GJ = %g N m2 with slices every %g m "
+                     "ask for %s springs beyond what numbers can hold",
+                     c->target[SW_TARGET_EA], c->target[SW_TARGET_EI], c->target[SW_TARGET_GJ],
+                     s->cell.spacing, sw_group_names[g]);
+    x[s->n] = s->guess[s->n] = s->first[s->n] = log(c->k[g]);
+    s->group[s->n++] = g;
   }
-  for (int round = 0; round < ROUNDS; round++) {
-    SW_TRY(sw_least_squares(residuals, &s, s.n, SW_TARGETS + s.n, x, ITERATIONS, err));
-    for (size_t i = 0; i < s.n; i++) {
-      s.guess[i] = x[i];
-      c->k[s.group[i]] = exp(x[i]);
-    }
-    SW_TRY(sw_cell_stiffness(&s.cell, c->k, &c->reached, NULL, err));
-    const double now = worst(c);
-    if (now < GOOD) break;
-    s.pull *= WEAKER;
-  }
+  return SW_OK;
+}
+
+static void find_faded(const search *s) {
+  sw_calibration *c = s->c;
   c->faded = SW_GROUPS;
   c->fading = 1;
-  for (size_t i = 0; i < s.n; i++)
-    if (exp(x[i] - first[i]) < c->fading) {
-      c->faded = (int)s.group[i];
-      c->fading = exp(x[i] - first[i]);
-    }
+  for (size_t i = 0; i < s->n; i++) {
+    const double ratio = c->k[s->group[i]] / exp(s->first[i]);
+    if (ratio >= c->fading) continue;
+    c->faded = (int)s->group[i];
+    c->fading = ratio;
+  }
+}
+
+sw_status sw_calibrate_fit(sw_calibration *c, sw_error *err) {
+  search s = {.c = c, .cell = sw_lattice_cell(&c->lattice), .pull = PULL};
+  double x[SW_GROUPS] = {0}, before = HUGE_VAL;
+  SW_TRY(begin(&s, x, err));
+  for (int round = 0; round < ROUNDS; round++) {
+    SW_TRY(sw_least_squares(residuals, &s, s.n, SW_TARGETS + s.n, x, ITERATIONS, err));
+    memcpy(s.guess, x, sizeof x);
+    set_stiffness(&s, x);
+    SW_TRY(sw_cell_stiffness(&s.cell, c->k, &c->reached, NULL, err));
+    const double now = worst(c);
+    if (now < GOOD || (now > HOPELESS && now > 0.9 * before)) break;
+    before = now;
+    s.pull *= WEAKER;
+  }
+  find_faded(&s);
   return SW_OK;
 }
