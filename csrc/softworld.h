@@ -10,6 +10,7 @@
 #include "base/param.h"
 #include "base/status.h"
 #include "base/vec.h"
+#include "calibrate/calibrate.h"
 #include "calibrate/minimise.h"
 #include "motion/motion.h"
 #include "scene/scene.h"

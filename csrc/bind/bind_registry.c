@@ -88,11 +88,19 @@ static void params(lua_State *L) {
   const struct {
     const char *name;
     const sw_params *params;
-  } tables[] = {{"scene", &sw_scene_params},       {"wire", &sw_wire_params},
-                {"section", &sw_section_params},   {"obstacle", &sw_obstacle_params},
-                {"run", &sw_run_params},           {"settle", &sw_settle_params},
-                {"frequencies", &sw_modes_params}, {"wire_contact", &sw_wire_contact_params},
-                {"join", &sw_join_params}};
+  } tables[] = {{"scene", &sw_scene_params},
+                {"wire", &sw_wire_params},
+                {"section", &sw_section_params},
+                {"obstacle", &sw_obstacle_params},
+                {"run", &sw_run_params},
+                {"settle", &sw_settle_params},
+                {"frequencies", &sw_modes_params},
+                {"wire_contact", &sw_wire_contact_params},
+                {"join", &sw_join_params},
+                {"calibrate", &sw_calibrate_params},
+                {"calibrate_tube", &sw_tube_params},
+                {"calibrate_radial", &sw_radial_params},
+                {"calibrate_cubic", &sw_cubic_params}};
   for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++) {
     lsw_push_params(L, tables[i].params);
     lua_setfield(L, -2, tables[i].name);

@@ -16,6 +16,10 @@ local notes = {
   frequencies = "wire:frequencies{...}: natural frequencies [Hz] about the present equilibrium",
   wire_contact = "scene:wire_contact{...}: wires that touch each other and themselves",
   join = "scene:join{...}: wires fixed to each other at a point, as in a harness",
+  calibrate = "sw.calibrate{ mesh =, ... }: springs of a mesh of particles that is the given wire",
+  calibrate_tube = "sw.calibrate{ mesh = 'tube', ... }: rings, with or without a central line",
+  calibrate_radial = "sw.calibrate{ mesh = 'radial', ... }: layers and sectors around a line",
+  calibrate_cubic = "sw.calibrate{ mesh = 'cubic', ... }: voxels of a section",
   trajectory = "sw.trajectory{...}; clamps, obstacles and grippers take the table itself",
 }
 
@@ -88,7 +92,7 @@ for _, t in ipairs(scene:touches()) do ... end
   units = "sw.units.mm(5), sw.units.deg(30), ...: into SI units",
 }
 
--- What comes after the parameters of a member.
+-- What comes after the parameters of a topic or member.
 local more = {
   join = [[
   scene:join{ ends = { { trunk, s = 0.5 }, { branch, s = 0 } } }   2 to 8, which must meet there
@@ -96,6 +100,15 @@ local more = {
   :force(k) :moment(k)           on end number k [N], about the point [N m]
   :release()                     apart from now on
   rigid carries bending on from wire to wire, not twist: a wire still turns about its own axis]],
+  calibrate = [[
+  and a section (help "section") or cable = "name", and the mesh's own:
+  help "calibrate_tube", help "calibrate_radial", help "calibrate_cubic"
+  returns what print shows, and
+  .springs[group] [N/m]          stiffness, times the weight of each link
+  .links, .particles, .spacing   of one slice; the next is .spacing [m] further along z
+  .mass, .shares                 of each particle of a slice [kg], [-]
+  .EA .EI .EI2 .GJ .squeeze      reached [N], [N m2], [Pa]; .residuals: share of each that is off
+  sw.calibrate.cell{ spacing =, particles =, links =, stiffness = }   the beam that any mesh is]],
   feed = [[
   returns a clamp (:force() :moment() :pose() :follow() :release()) and
   :fed()                         length paid out so far, unstressed [m]
@@ -268,6 +281,7 @@ return function(topic)
   if r.params[topic] then show_rows(notes[topic] or topic, r.params[topic])
   elseif texts[topic] then print(texts[topic]) end
   if r.params[topic] or texts[topic] then
+    if more[topic] then print(more[topic]) end
     if topic == "obstacle" then print("  shapes: " .. names_of(r.shapes)) end
     return
   end

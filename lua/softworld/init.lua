@@ -36,7 +36,8 @@ function sw.scene(args) return core.scene(args) end
 function sw.cables() return sw.cable.list() end
 
 -- Loaded when first asked for.
-local lazy = { tune = "softworld.tune", material = "softworld.material" }
+local lazy = { tune = "softworld.tune", material = "softworld.material",
+  calibrate = "softworld.calibrate" }
 
 local function unknown(self, key)
   local names = {}

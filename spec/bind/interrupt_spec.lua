@@ -55,6 +55,11 @@ local RUNS = {
     scene:settle{ max_iterations = 1e9 }]],
 }
 
+-- No springs do that; finding out takes long.
+RUNS["a calibration"] = [[
+    sw.calibrate{ mesh = "cubic", section = "rectangle", width = 4e-3, height = 5e-2, across = 5, EA = 1e4,
+      EI = 1, EI2 = 1e-6, GJ = 1e-9 }]]
+
 local names = {}
 for name in pairs(RUNS) do names[#names + 1] = name end
 table.sort(names)

@@ -130,6 +130,10 @@ local acts = {
     scene:feed(wire, { s = 2, speed = 4 })
     scene:run{ duration = 0.08, dt = 0.02 }
   end },
+  { "calibrating springs", function()
+    sw.calibrate { mesh = "tube", particles = 3, EA = 1e4, EI = 0.05, GJ = 0.04, radius = 5e-3 }
+    return sw.calibrate { mesh = "cubic", across = 2, E = 1e8, radius = 5e-3, density = 1e3 }
+  end },
   { "a whole script", function()
     local scene <close> = sw.scene{}
     local wire = scene:wire(WIRE)

@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* core.calibrate: springs of a mesh that is, as a beam, a given wire. core.cell: the beam that
+ * a mesh with given springs is. */
+#include <math.h>
+#include <string.h>
+
+#include "bind/child.h"
+#include "bind/module.h"
+
+/* Numbers are pushed in a protected call, so that what the core allocated is freed when Lua
+ * runs out of memory. The function gets p as light userdata and returns one value. */
+static int push_protected(lua_State *L, lua_CFunction push, void *p) {
+  lua_pushcfunction(L, push);
+  lua_pushlightuserdata(L, p);
+  return lua_pcall(L, 1, 1, 0);
+}
+
+static void set_unless_nan(lua_State *L, const char *name, double value) {
+  if (!isnan(value)) lsw_set_number(L, name, value);
+}
+
+/* S as a list of rows, under the name matrix. */
+static void set_matrix(lua_State *L, const double S[SW_CELL_SIZE]) {
+  lua_createtable(L, SW_CELL_STRAINS, 0);
+  for (int i = 0; i < SW_CELL_STRAINS; i++) {
+    lsw_push_flat(L, S + i * SW_CELL_STRAINS, SW_CELL_STRAINS);
+    lua_rawseti(L, -2, i + 1);
+  }
+  lua_setfield(L, -2, "matrix");
+}
+
+static void set_beam(lua_State *L, const sw_cell_result *r) {
+  for (int t = 0; t < SW_TARGETS; t++) lsw_set_number(L, sw_target_names[t], sw_reached(r, t));
+  set_matrix(L, r->S);
+}
+
+static void set_links(lua_State *L, const sw_lattice *l) {
+  lua_createtable(L, (int)l->links, 0);
+  for (size_t m = 0; m < l->links; m++) {
+    const sw_cell_link *link = l->link + m;
+    lua_createtable(L, 0, 6);
+    lsw_set_integer(L, "from", link->from + 1);
+    lsw_set_integer(L, "to", link->to + 1);
+    lsw_set_integer(L, "slices", (size_t)link->slices);
+    lsw_set_number(L, "weight", link->weight);
+    lua_pushboolean(L, link->bend);
+    lua_setfield(L, -2, "bend");
+    lua_pushstring(L, sw_group_names[link->group]);
+    lua_setfield(L, -2, "group");
+    lua_rawseti(L, -2, (lua_Integer)m + 1);
+  }
+  lua_setfield(L, -2, "links");
+}
+
+static void set_particles(lua_State *L, const sw_calibration *c) {
+  const double mass = c->mass_per_length * c->lattice.spacing;
+  lua_createtable(L, (int)c->lattice.particles, 0);
+  for (size_t i = 0; i < c->lattice.particles; i++) {
+    lsw_push_vector(L, sw_vec_at(c->lattice.at, i));
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  lua_setfield(L, -2, "particles");
+  lsw_push_flat(L, c->lattice.share, c->lattice.particles);
+  lua_setfield(L, -2, "shares");
+  if (isnan(mass)) return;
+  lua_createtable(L, (int)c->lattice.particles, 0);
+  for (size_t i = 0; i < c->lattice.particles; i++) {
+    lua_pushnumber(L, mass * c->lattice.share[i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  lua_setfield(L, -2, "mass");
+}
+
+static int push_calibration(lua_State *L) {
+  const sw_calibration *c = lua_touserdata(L, 1);
+  lua_createtable(L, 0, 16);
+  set_beam(L, &c->reached);
+  set_links(L, &c->lattice);
+  set_particles(L, c);
+  lsw_set_number(L, "spacing", c->lattice.spacing);
+  lua_newtable(L);
+  for (int t = 0; t < SW_TARGETS; t++) set_unless_nan(L, sw_target_names[t], c->residual[t]);
+  lua_setfield(L, -2, "residuals");
+  lua_newtable(L);
+  for (int g = 0; g < SW_GROUPS; g++)
+    if (c->links[g]) lsw_set_number(L, sw_group_names[g], c->k[g]);
+  lua_setfield(L, -2, "springs");
+  lua_newtable(L);
+  for (int g = 0; g < SW_GROUPS; g++)
+    if (c->links[g]) lsw_set_integer(L, sw_group_names[g], c->links[g]);
+  lua_setfield(L, -2, "count");
+  return 1;
+}
+
+/* The word under mesh, before the other keys: they depend on it. */
+static int read_mesh(lua_State *L) {
+  const sw_param *row = sw_params_find(&sw_calibrate_params, "mesh");
+  if (lua_istable(L, 1)) {
+    lua_getfield(L, 1, "mesh");
+    const char *word = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "";
+    lua_pop(L, 1); /* the table keeps it */
+    for (int i = 0; row->choices[i]; i++)
+      if (strcmp(word, row->choices[i]) == 0) return i;
+  }
+  return SW_LATTICE_TUBE; /* what is wrong is told when the keys are read */
+}
+
+/* calibrate{ mesh =, EA =, EI =, GJ =, radius =, ... } -> springs, residuals, ... */
+static int mod_calibrate(lua_State *L) {
+  sw_calibrate_args args;
+  sw_section section;
+  sw_lattice_args mesh;
+  sw_calibration c;
+  sw_error err = {""};
+  lua_settop(L, 1);
+  const int kind = read_mesh(L);
+  const lsw_section sections[] = {{&sw_calibrate_params, &args},
+                                  {&sw_section_params, &section},
+                                  {sw_lattice_params(kind), sw_lattice_place(&mesh, kind)}};
+  sw_params_default(&sw_cubic_params, &mesh.cubic);
+  section.EI2 = (double)NAN; /* has no row */
+  lsw_sections(L, 1, "calibrate", sections, 3);
+  const sw_status status = sw_calibrate(&args, &section, &mesh, &c, &err);
+  const int failed = status == SW_OK && push_protected(L, push_calibration, &c) != LUA_OK;
+  sw_calibration_free(&c);
+  if (failed) return lua_error(L);
+  lsw_must(L, status, &err);
+  return 1;
+}
+
+/* --- core.cell ----------------------------------------------------------------------- */
+
+/* The flat numbers at index as scratch memory of Lua's. */
+static double *read_flat(lua_State *L, int index, size_t *n) {
+  luaL_checktype(L, index, LUA_TTABLE);
+  *n = lua_rawlen(L, index);
+  double *p = lua_newuserdatauv(L, (*n + 1) * sizeof *p, 0);
+  for (size_t i = 0; i < *n; i++) {
+    lua_geti(L, index, (lua_Integer)i + 1);
+    p[i] = luaL_checknumber(L, -1);
+    lua_pop(L, 1);
+  }
+  return p;
+}
+
+enum { LINK_NUMBERS = 6 };
+
+/* cell(spacing, particles, links, stiffness) -> EA, EI, EI2, GJ, squeeze, matrix in a table.
+ * particles: flat, 3 numbers each; links: flat, from and to (from 1), slices, group (from 1),
+ * weight, 1 for bending or 0; stiffness: one number a group. */
+static int mod_cell(lua_State *L) {
+  sw_error err = {""};
+  sw_cell_result result;
+  size_t places, numbers, groups;
+  const double spacing = luaL_checknumber(L, 1);
+  const double *at = read_flat(L, 2, &places), *list = read_flat(L, 3, &numbers);
+  const double *k = read_flat(L, 4, &groups);
+  luaL_argcheck(L, places % 3 == 0, 2, "3 numbers a particle");
+  luaL_argcheck(L, numbers % LINK_NUMBERS == 0, 3, "6 numbers a link");
+  const size_t links = numbers / LINK_NUMBERS;
+  sw_cell_link *link = lua_newuserdatauv(L, (links + 1) * sizeof *link, 0);
+  for (size_t m = 0; m < links; m++) {
+    const double *l = list + LINK_NUMBERS * m;
+    for (int i = 0; i < LINK_NUMBERS; i++)
+      luaL_argcheck(L, l[i] >= 0 && l[i] < 1e9 && (i == 2 || i > 3 || l[i] >= 1), 3,
+                    "a link's number is out of range");
+    link[m] = (sw_cell_link){(uint32_t)l[0] - 1, (uint32_t)l[1] - 1, (uint32_t)l[3] - 1,
+                             (int)l[2],          l[5] != 0,          l[4]};
+  }
+  const sw_cell cell = {spacing, places / 3, links, groups, at, link};
+  lsw_must(L, sw_cell_stiffness(&cell, k, &result, NULL, &err), &err);
+  lua_createtable(L, 0, SW_TARGETS + 1);
+  set_beam(L, &result);
+  return 1;
+}
+
+void lsw_open_calibrate(lua_State *L) {
+  static const luaL_Reg functions[] = {
+      {"calibrate", mod_calibrate}, {"cell", mod_cell}, {NULL, NULL}};
+  luaL_setfuncs(L, functions, 0);
+}

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Springs of a mesh for which it is, as a beam, exactly the wire: EA, EI, GJ, and the
+ * resistance against squeezing when that is asked for. */
+#ifndef SW_CALIBRATE_CALIBRATE_H
+#define SW_CALIBRATE_CALIBRATE_H
+
+#include "base/param.h"
+#include "calibrate/cell.h"
+#include "calibrate/lattice.h"
+#include "wire/wire.h"
+
+enum { SW_LATTICE_TUBE, SW_LATTICE_RADIAL, SW_LATTICE_CUBIC };
+
+typedef struct sw_calibrate_args {
+  int mesh;         /* [-] */
+  double squeeze;   /* NAN: not asked for [Pa] */
+  double spacing;   /* NAN: chosen [m] */
+  double tolerance; /* largest residual that is no error [-] */
+} sw_calibrate_args;
+extern const sw_params sw_calibrate_params;
+
+/* Arguments of the mesh that was chosen; the others are not looked at. */
+typedef struct sw_lattice_args {
+  sw_tube_args tube;
+  sw_radial_args radial;
+  sw_cubic_args cubic;
+} sw_lattice_args;
+const sw_params *sw_lattice_params(int mesh);
+void *sw_lattice_place(sw_lattice_args *args, int mesh); /* what the rows are read into */
+
+/* EI: bending in the plane of x and z; EI2: of y and z. */
+enum { SW_TARGET_EA, SW_TARGET_EI, SW_TARGET_EI2, SW_TARGET_GJ, SW_TARGET_SQUEEZE, SW_TARGETS };
+extern const char *const sw_target_names[SW_TARGETS];
+extern const char *const sw_target_units[SW_TARGETS];
+
+typedef struct sw_calibration {
+  sw_lattice lattice;
+  double k[SW_GROUPS];         /* of groups without links 0 [N/m, of bending N m] */
+  size_t links[SW_GROUPS];     /* of one slice [-] */
+  double target[SW_TARGETS];   /* NAN: not asked for */
+  double residual[SW_TARGETS]; /* reached / target - 1; NAN likewise [-] */
+  sw_cell_result reached;
+  int faded;              /* group that is softest by its first guess; SW_GROUPS: none is softer */
+  double fading;          /* its stiffness by that guess [-] */
+  double mass_per_length; /* NAN: not given [kg/m] */
+} sw_calibration;
+
+/* *out is to be freed with sw_calibration_free also after an error. section: as of a wire;
+ * EA, EI and GJ must come out of it. SW_EINVAL tells what is out of range, or which target
+ * no springs of the mesh can reach and what would help. */
+sw_status sw_calibrate(const sw_calibrate_args *args, const sw_section *section,
+                       sw_lattice_args *mesh, sw_calibration *out, sw_error *err);
+void sw_calibration_free(sw_calibration *calibration);
+
+/* Searches the springs of a lattice for the targets of out, from their first guesses. */
+sw_status sw_calibrate_fit(sw_calibration *out, sw_error *err);
+
+double sw_reached(const sw_cell_result *result, int target); /* [unit of the target] */
+
+#endif

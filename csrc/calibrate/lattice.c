@@ -1,0 +1,229 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What all meshes need, and the round ones. */
+#include "calibrate/lattice.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/vec.h"
+
+static const double PI = 3.14159265358979323846;
+
+const char *const sw_group_names[SW_GROUPS] = {"longitudinal", "inner", "core",  "diagonal",
+                                               "hoop",         "brace", "spoke", "inclined",
+                                               "edge",         "cross", "bend"};
+
+#define AT(member) offsetof(sw_tube_args, member)
+static const sw_param tube_rows[] = {
+    {"particles", SW_PARAM_INTEGER, "-", 8, 3, 64, 0, NULL, AT(particles), "particles of a ring"},
+    {"reach", SW_PARAM_INTEGER, "-", 0, 0, 31, 0, NULL, AT(reach),
+     "particles that a diagonal goes round, below half a ring; 0 chooses"},
+    {"brace", SW_PARAM_INTEGER, "-", -1, -1, 32, 0, NULL, AT(brace),
+     "chords from each particle of a ring to the one this many further, 2 to half a ring; 0 has "
+     "none; -1 chooses 2 where nothing else keeps the ring round"},
+    {"ring_radius", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
+     AT(ring_radius),
+     "of the particles' centres (not given: the wire's radius; without core, where EA and EI "
+     "agree)"},
+    {"core", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, AT(core),
+     "a central line of particles with spokes, which carries what the ring does not of EA"},
+    {"bend", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, AT(bend),
+     "springs against bending of the central line"},
+};
+const sw_params sw_tube_params = SW_PARAMS("calibrate", tube_rows);
+#undef AT
+
+static const sw_param radial_rows[] = {
+    {"particles", SW_PARAM_INTEGER, "-", 8, 3, 48, 0, NULL, offsetof(sw_radial_args, particles),
+     "particles of each layer"},
+    {"layers", SW_PARAM_INTEGER, "-", 2, 1, 6, 0, NULL, offsetof(sw_radial_args, layers),
+     "layers around the central line"},
+};
+const sw_params sw_radial_params = SW_PARAMS("calibrate", radial_rows);
+
+sw_status sw_lattice_room(sw_lattice *l, size_t particles, sw_error *err) {
+  *l = (sw_lattice){.particles = particles};
+  if (particles > SW_CELL_PARTICLES)
+    return sw_fail(err, SW_EINVAL, "calibrate: %zu particles in a slice; at most %d", particles,
+                   SW_CELL_PARTICLES);
+  l->at = sw_alloc(3 * particles, sizeof *l->at);
+  l->share = sw_alloc(particles, sizeof *l->share);
+  return l->at && l->share ? SW_OK : sw_fail(err, SW_ENOMEM, "calibrate: out of memory");
+}
+
+void sw_lattice_free(sw_lattice *l) {
+  sw_free(l->at);
+  sw_free(l->share);
+  sw_free(l->link);
+  *l = (sw_lattice){0};
+}
+
+sw_status sw_lattice_link(sw_lattice *l, sw_cell_link link, sw_error *err) {
+  void *p = l->link;
+  if (sw_grow(&p, &l->capacity, l->links + 1, sizeof link) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "calibrate: out of memory");
+  l->link = p;
+  l->link[l->links++] = link;
+  return SW_OK;
+}
+
+static double radius2(const sw_lattice *l, size_t i) {
+  return l->at[3 * i] * l->at[3 * i] + l->at[3 * i + 1] * l->at[3 * i + 1];
+}
+
+uint32_t sw_lattice_line(const sw_lattice *l, size_t i) {
+  double gyration2 = 0, least = HUGE_VAL;
+  for (size_t p = 0; p < l->particles; p++) {
+    gyration2 += l->share[p] * radius2(l, p);
+    least = fmin(least, radius2(l, p));
+  }
+  if (radius2(l, i) <= least * (1 + 1e-6) && least < 0.25 * gyration2) return SW_GROUP_CORE;
+  /* lines that are all equally far out are not inside */
+  return radius2(l, i) < (1 - 1e-6) * gyration2 ? SW_GROUP_INNER : SW_GROUP_LONGITUDINAL;
+}
+
+sw_cell sw_lattice_cell(const sw_lattice *l) {
+  return (sw_cell){l->spacing, l->particles, l->links, SW_GROUPS, l->at, l->link};
+}
+
+static void place(sw_lattice *l, size_t i, double r, double angle, double share) {
+  sw_store(l->at + 3 * i, sw_v(r * cos(angle), r * sin(angle), 0));
+  l->share[i] = share;
+}
+
+/* A link between particles i and j, and the one the other way round when it goes to the next
+ * slice and i is not j. */
+static sw_status join(sw_lattice *l, size_t i, size_t j, int slices, uint32_t group, double weight,
+                      sw_error *err) {
+  const uint32_t a = (uint32_t)i, b = (uint32_t)j;
+  SW_TRY(sw_lattice_link(l, (sw_cell_link){a, b, group, slices, 0, weight}, err));
+  if (slices == 0 || a == b) return SW_OK;
+  return sw_lattice_link(l, (sw_cell_link){b, a, group, slices, 0, weight}, err);
+}
+
+/* --- tube ----------------------------------------------------------------------- */
+
+long sw_tube_reach(const sw_tube_args *a) {
+  if (a->reach > 0) return a->reach;
+  return a->particles >= 12 ? a->particles / 6 : 1;
+}
+
+static sw_status check_tube(const sw_tube_args *a, sw_error *err) {
+  const long M = a->particles;
+  if (2 * sw_tube_reach(a) >= M)
+    return sw_fail(err, SW_EINVAL,
+                   "calibrate: reach = %ld must be below half of particles = %ld: across the axis "
+                   "a diagonal does not resist twist",
+                   a->reach, M);
+  if (a->brace == 1 || 2 * a->brace > M)
+    return sw_fail(err, SW_EINVAL, "calibrate: brace = %ld must be 0 or in [2, %ld] (-1 chooses)",
+                   a->brace, M / 2);
+  if (a->bend && !a->core)
+    return sw_fail(err, SW_EINVAL, "calibrate: bend = true needs the line of core = true");
+  return SW_OK;
+}
+
+/* Without spokes a ring of more than three particles flattens freely. */
+static size_t brace_of(const sw_tube_args *a) {
+  if (a->brace >= 0) return (size_t)a->brace;
+  return !a->core && a->particles > 3 ? 2 : 0;
+}
+
+static sw_status ring_links(const sw_tube_args *a, sw_lattice *l, size_t i, sw_error *err) {
+  const size_t M = (size_t)a->particles, brace = brace_of(a), reach = (size_t)sw_tube_reach(a);
+  SW_TRY(join(l, i, i, 1, SW_GROUP_LONGITUDINAL, 1, err));
+  SW_TRY(join(l, i, (i + 1) % M, 0, SW_GROUP_HOOP, 1, err));
+  SW_TRY(join(l, i, (i + reach) % M, 1, SW_GROUP_DIAGONAL, 1, err));
+  if (brace && !(2 * brace == M && i >= brace))
+    SW_TRY(join(l, i, (i + brace) % M, 0, SW_GROUP_BRACE, 1, err));
+  if (a->core) {
+    SW_TRY(join(l, M, i, 0, SW_GROUP_SPOKE, 1, err));
+    SW_TRY(join(l, M, i, 1, SW_GROUP_INCLINED, 1, err));
+  }
+  return SW_OK;
+}
+
+/* A wire that is solid has half its spin inertia mass_per_length r^2: a ring at r with half of
+ * the mass has it too. */
+sw_status sw_lattice_tube(const sw_tube_args *a, double spacing, sw_lattice *l, sw_error *err) {
+  *l = (sw_lattice){0};
+  SW_TRY(check_tube(a, err));
+  const size_t M = (size_t)a->particles;
+  SW_TRY(sw_lattice_room(l, M + (a->core != 0), err));
+  l->spacing = spacing;
+  for (size_t i = 0; i < M; i++)
+    place(l, i, a->ring_radius, 2 * PI * (double)i / (double)M, (a->core ? 0.5 : 1.0) / (double)M);
+  if (a->core) place(l, M, 0, 0, 0.5);
+  for (size_t i = 0; i < M; i++) SW_TRY(ring_links(a, l, i, err));
+  if (a->core) SW_TRY(join(l, M, M, 1, SW_GROUP_CORE, 1, err));
+  if (a->bend)
+    SW_TRY(
+        sw_lattice_link(l, (sw_cell_link){(uint32_t)M, (uint32_t)M, SW_GROUP_BEND, 1, 1, 1}, err));
+  return SW_OK;
+}
+
+/* --- radial --------------------------------------------------------------------- */
+
+typedef struct radial {
+  size_t M, L;
+  sw_lattice *l;
+} radial;
+
+static size_t node(const radial *r, size_t layer, size_t sector) {
+  return layer == 0 ? 0 : 1 + (layer - 1) * r->M + sector % r->M;
+}
+
+/* As a bar of the volume around it: stiffness goes with volume over the square of length. */
+static sw_status bar(const radial *r, size_t i, size_t j, int slices, uint32_t group,
+                     sw_error *err) {
+  const sw_cell cell = sw_lattice_cell(r->l);
+  const sw_cell_link link = {(uint32_t)i, (uint32_t)j, group, slices, 0, 1};
+  const double length = sw_cell_length(&cell, &link);
+  const double share = 0.5 * (r->l->share[i] + r->l->share[j]);
+  return join(r->l, i, j, slices, group, share / (length * length), err);
+}
+
+static sw_status radial_links(const radial *r, size_t layer, size_t sector, sw_error *err) {
+  const size_t p = node(r, layer, sector), q = node(r, layer, sector + 1);
+  const size_t in = node(r, layer - 1, sector), in2 = node(r, layer - 1, sector + 1);
+  SW_TRY(bar(r, p, p, 1, sw_lattice_line(r->l, p), err));
+  SW_TRY(bar(r, p, q, 0, SW_GROUP_HOOP, err));
+  SW_TRY(bar(r, p, q, 1, SW_GROUP_DIAGONAL, err));
+  SW_TRY(bar(r, in, p, 0, SW_GROUP_SPOKE, err));
+  SW_TRY(bar(r, in, p, 1, SW_GROUP_INCLINED, err));
+  if (layer == 1) return SW_OK;
+  SW_TRY(bar(r, in, q, 0, SW_GROUP_CROSS, err));
+  return bar(r, in2, p, 0, SW_GROUP_CROSS, err);
+}
+
+static void unit_weights(sw_lattice *l) {
+  double most[SW_GROUPS] = {0};
+  for (int pass = 0; pass < 2; pass++)
+    for (size_t m = 0; m < l->links; m++) {
+      sw_cell_link *link = l->link + m;
+      if (pass == 0)
+        most[link->group] = fmax(most[link->group], link->weight);
+      else
+        link->weight /= most[link->group];
+    }
+}
+
+sw_status sw_lattice_radial(const sw_radial_args *a, double radius, double spacing, sw_lattice *l,
+                            sw_error *err) {
+  const radial r = {(size_t)a->particles, (size_t)a->layers, l};
+  const double L = (double)r.L, M = (double)r.M;
+  SW_TRY(sw_lattice_room(l, 1 + r.M * r.L, err));
+  l->spacing = spacing;
+  place(l, 0, 0, 0, 0.25 / (L * L));
+  for (size_t k = 1; k <= r.L; k++) {
+    const double share = (k < r.L ? 2 * (double)k : L - 0.25) / (L * L * M); /* of the area */
+    for (size_t s = 0; s < r.M; s++)
+      place(l, node(&r, k, s), radius * (double)k / L, 2 * PI * (double)s / M, share);
+  }
+  SW_TRY(bar(&r, 0, 0, 1, SW_GROUP_CORE, err));
+  for (size_t k = 1; k <= r.L; k++)
+    for (size_t s = 0; s < r.M; s++) SW_TRY(radial_links(&r, k, s, err));
+  unit_weights(l);
+  return SW_OK;
+}

@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Meshes of particles and springs along z, as one slice that repeats: a tube of rings, layers
+ * and sectors around a line, voxels. Springs that one stiffness serves are a group. */
+#ifndef SW_CALIBRATE_LATTICE_H
+#define SW_CALIBRATE_LATTICE_H
+
+#include "base/param.h"
+#include "calibrate/cell.h"
+
+enum {
+  SW_GROUP_LONGITUDINAL, /* along the wire */
+  SW_GROUP_INNER,        /* along the wire, within the section's radius of gyration */
+  SW_GROUP_CORE,         /* along the wire, at its axis */
+  SW_GROUP_DIAGONAL,     /* to the next slice and round: these resist twist */
+  SW_GROUP_HOOP,         /* round, within a slice */
+  SW_GROUP_BRACE,        /* chords within a ring */
+  SW_GROUP_SPOKE,        /* inwards and outwards within a slice */
+  SW_GROUP_INCLINED,     /* inwards and outwards to the next slice */
+  SW_GROUP_EDGE,         /* edges of voxels within a slice */
+  SW_GROUP_CROSS,        /* diagonals within a slice */
+  SW_GROUP_BEND,         /* against angles of the central line [N m] */
+  SW_GROUPS
+};
+extern const char *const sw_group_names[SW_GROUPS];
+
+/* Links of a group have weight 1 where they are stiffest: in the outermost layer, and where
+ * voxels are on all sides. */
+typedef struct sw_lattice {
+  double spacing;          /* of slices [m] */
+  size_t particles, links; /* of one slice [-] */
+  double *at;              /* 3 numbers a particle [m] */
+  double *share;           /* of the slice's mass [-] */
+  sw_cell_link *link;
+  size_t capacity; /* of link [-] */
+} sw_lattice;
+
+typedef struct sw_tube_args {
+  long particles, reach, brace; /* [-] */
+  double ring_radius;           /* [m] */
+  int core, bend;               /* [-] */
+} sw_tube_args;
+extern const sw_params sw_tube_params;
+
+typedef struct sw_radial_args {
+  long particles, layers; /* [-] */
+} sw_radial_args;
+extern const sw_params sw_radial_params;
+
+enum { SW_SECTION_CIRCLE, SW_SECTION_ANNULUS, SW_SECTION_RECTANGLE };
+typedef struct sw_cubic_args {
+  int section;                 /* [-] */
+  long across;                 /* [-] */
+  double inner, width, height; /* [m] */
+  double EI2;                  /* of a rectangle, in the plane of y and z [N m2] */
+} sw_cubic_args;
+extern const sw_params sw_cubic_params;
+
+/* Each makes *out, to be freed with sw_lattice_free also after an error. Arguments are within
+ * their rows; what rows cannot tell is SW_EINVAL. */
+sw_status sw_lattice_tube(const sw_tube_args *args, double spacing, sw_lattice *out, sw_error *err);
+sw_status sw_lattice_radial(const sw_radial_args *args, double radius, double spacing,
+                            sw_lattice *out, sw_error *err);
+/* spacing NAN: the voxels are cubes. radius: of circle and annulus; the voxels' area is that of
+ * the section. */
+sw_status sw_lattice_cubic(const sw_cubic_args *args, double radius, double spacing,
+                           sw_lattice *out, sw_error *err);
+void sw_lattice_free(sw_lattice *lattice);
+
+/* The steps of a diagonal round the ring that were asked for, or chosen (0) [-]. */
+long sw_tube_reach(const sw_tube_args *args);
+
+sw_cell sw_lattice_cell(const sw_lattice *lattice); /* a view, while the lattice lives */
+
+/* For the makers: room for particles; one more link; the group of the line along the wire at
+ * particle i, once all particles have their place and share. The division lets EA and EI have
+ * any ratio that the section allows. */
+sw_status sw_lattice_room(sw_lattice *lattice, size_t particles, sw_error *err);
+sw_status sw_lattice_link(sw_lattice *lattice, sw_cell_link link, sw_error *err);
+uint32_t sw_lattice_line(const sw_lattice *lattice, size_t i);
+
+#endif

@@ -1,0 +1,167 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Springs for a mesh of particles that is to be a given wire.
+--
+--     local c = sw.calibrate { mesh = "tube", EA = 5000, EI = 0.05, GJ = 0.04, radius = 0.005 }
+--     print(c)                       -- springs, residuals
+--     print(c.springs.diagonal)      -- [N/m]
+--     for _, l in ipairs(c.links) do -- one slice; slice n is n * c.spacing further along z
+--       build(l.from, l.to, l.slices, l.weight * c.springs[l.group])
+--     end
+--
+-- The beam that an endless mesh of springs is, is known exactly (softworld.calibrate.cell):
+-- a slice that repeats is strained, bent and twisted, its particles go where they like, and
+-- what they resist with are EA, EI and GJ. The springs are searched until these are those of
+-- the wire. help "calibrate" lists the parameters.
+-- @module softworld.calibrate
+local core = require "softworld.core"
+local cable = require "softworld.cable"
+
+local calibrate = {}
+
+local order = { "longitudinal", "inner", "core", "diagonal", "hoop", "brace", "spoke", "inclined",
+  "edge", "cross", "bend" }
+local targets = { { "EA", "N" }, { "EI", "N m2" }, { "EI2", "N m2" }, { "GJ", "N m2" },
+  { "squeeze", "Pa" } }
+
+local Calibration = { __name = "calibration" }
+
+function Calibration.__tostring(c)
+  local lines = { ("calibration: %s of %d particles and %d links every %.6g m"):format(c.mesh,
+    #c.particles, #c.links, c.spacing) }
+  for _, t in ipairs(targets) do
+    local off = c.residuals[t[1]]
+    if off then
+      lines[#lines + 1] = ("  %-13s %12.6g %-5s %+.1e of it off"):format(t[1], c[t[1]], t[2], off)
+    end
+  end
+  for _, group in ipairs(order) do
+    if c.springs[group] then
+      lines[#lines + 1] = ("  %-13s %12.6g %-5s %d links"):format(group, c.springs[group],
+        group == "bend" and "N m" or "N/m", c.count[group])
+    end
+  end
+  return table.concat(lines, "\n")
+end
+
+-- A copy of the arguments with the cable's values for what is not given.
+local function with_cable(args)
+  local entry = cable.get(args.cable)
+  for _, key in ipairs { "E", "nu", "density" } do
+    if args[key] ~= nil then
+      error(("calibrate: %s is of a solid round wire and does not go with cable = '%s'"):format(key,
+        entry.name), 0)
+    end
+  end
+  local all = {}
+  for key, value in pairs(args) do all[key] = value end
+  for key, value in pairs(cable.section(entry, args.stiffness)) do
+    if all[key] == nil then all[key] = value end
+  end
+  all.cable, all.stiffness = nil, nil
+  return all
+end
+
+--- Springs of a mesh whose EA, EI and GJ, and squeeze stiffness when that is asked for, are
+-- those of a wire. An error tells what to change when no springs of the mesh are.
+-- @tparam table args `mesh` = "tube", "radial" or "cubic", EA, EI, GJ (or E, nu), radius, or
+-- `cable` = "name" for them, and what help "calibrate" lists
+-- @treturn table `springs` by group [N/m], which `weight` of a link multiplies; `links` {from,
+-- to, slices, group, weight, bend} and `particles` {x, y, z} [m] of one slice, `spacing` [m];
+-- `count` of links by group; `shares` of the slice's mass, and `mass` [kg] when a mass per length
+-- or density was given; EA, EI, EI2, GJ and `squeeze` reached, `residuals` (reached/wanted - 1),
+-- `matrix`, the stiffness against stretch, curvatures about x and y, and twist
+local function run(args)
+  if type(args) == "table" and args.cable ~= nil then args = with_cable(args) end
+  local c = core.calibrate(args)
+  c.mesh = args.mesh
+  return setmetatable(c, Calibration)
+end
+
+-- Errors name the line of the script.
+local function call(f, ...)
+  local result = table.pack(pcall(f, ...))
+  if result[1] then return table.unpack(result, 2, result.n) end
+  local text = result[2]
+  error(type(text) == "string" and text:gsub("^[^%s:]+%.lua:%d+: ", "") or text, 3)
+end
+
+local function number(what, value)
+  if type(value) == "number" then return value end
+  error(("cell: %s must be a number, got %s"):format(what, type(value)), 0)
+end
+
+local function sorted_groups(stiffness)
+  local names = {}
+  for name in pairs(stiffness) do
+    if type(name) ~= "string" then
+      error(("cell: groups of stiffness have names; [%s] is not one"):format(tostring(name)), 0)
+    end
+    names[#names + 1] = name
+  end
+  table.sort(names)
+  return names
+end
+
+local function flat_links(links, names)
+  local flat, index = {}, {}
+  for i, name in ipairs(names) do index[name] = i end
+  for i, l in ipairs(links) do
+    if type(l) ~= "table" then error(("cell: link %d must be a table"):format(i), 0) end
+    local group = index[l.group]
+    if not group then
+      local near = type(l.group) == "string" and core.nearest(l.group, names)
+      error(("cell: link %d: stiffness has no group '%s'%s"):format(i, tostring(l.group),
+        near and ("; did you mean '%s'?"):format(near) or ""), 0)
+    end
+    for k, value in ipairs { number("from of link " .. i, l.from), number("to of link " .. i, l.to),
+      number("slices of link " .. i, l.slices or 0), group,
+      number("weight of link " .. i, l.weight or 1), l.bend and 1 or 0 } do
+      flat[6 * (i - 1) + k] = value
+    end
+  end
+  return flat
+end
+
+local cell_keys = { "spacing", "particles", "links", "stiffness" }
+
+local function check_cell(args)
+  if type(args) ~= "table" then error("cell takes one table of parameters, got " .. type(args), 0) end
+  for key in pairs(args) do
+    local known = false
+    for _, name in ipairs(cell_keys) do known = known or key == name end
+    if not known then
+      local near = type(key) == "string" and core.nearest(key, cell_keys)
+      error(("cell: there is no parameter '%s'; %s"):format(tostring(key), near
+        and ("did you mean '%s'?"):format(near) or "known are: " .. table.concat(cell_keys, " ")), 0)
+    end
+  end
+  for _, key in ipairs { "particles", "links", "stiffness" } do
+    if type(args[key]) ~= "table" then
+      error(("cell: %s must be a table, got %s"):format(key, type(args[key])), 0)
+    end
+  end
+end
+
+local function cell(args)
+  check_cell(args)
+  local names, places, stiffness = sorted_groups(args.stiffness), {}, {}
+  for i, p in ipairs(args.particles) do
+    if type(p) ~= "table" then error(("cell: particle %d must be {x, y, z} [m]"):format(i), 0) end
+    for k = 1, 3 do places[3 * (i - 1) + k] = number(("particle %d, item %d,"):format(i, k), p[k]) end
+  end
+  for i, name in ipairs(names) do
+    stiffness[i] = number("stiffness of " .. name, args.stiffness[name])
+  end
+  return core.cell(number("spacing", args.spacing), places, flat_links(args.links, names), stiffness)
+end
+
+--- The beam that an endless mesh of springs is, exactly: any mesh whose slices repeat along z.
+-- @tparam table args `spacing` of slices [m]; `particles`, a list of {x, y, z} [m]; `links`, a
+-- list of { from =, to = particles' numbers, slices = how many slices further `to` is, group =,
+-- weight = 1 }, or { from = i, to = i, slices = 1, bend = true, group = } for a spring against the
+-- angle between slices; `stiffness` by group [N/m; bend N m]
+-- @treturn table EA [N], EI (plane of x and z), EI2 (y and z), GJ [N m2], squeeze [Pa], and
+-- `matrix`, 4 x 4: stretch, curvature about x, about y, twist
+function calibrate.cell(args) return call(cell, args) end
+
+return setmetatable(calibrate, { __call = function(_, args) return call(run, args) end })
