@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Elimination from both ends of the chain at once, as in band3: neither chain waits for
- * the other's divisions. A block's row of four is one vector. Each diagonal block is
- * inverted by Gauss-Jordan steps, whose pivots are those of the factorisation. An
- * eliminated node keeps its inverse and inverse times its blocks to the next two nodes
- * of its chain, which are downwards the two before it. */
+ * the other's divisions. A block's row of four is one vector. An eliminated node keeps its
+ * own block as L D L', in the first three rows L' beyond its diagonal of ones and in the
+ * last one the inverse of D, and (L D)^-1 times its blocks to the next two nodes of its
+ * chain, which are downwards the two before it. (Inverses of blocks would lose the square
+ * of the ratio of axial to bending stiffness.) */
 #include "solve/band4.h"
 
 #include <math.h>
@@ -28,66 +29,48 @@ static inline void transpose(const quad a[4], quad out[4]) {
   out[3] = MIX(odd0, odd2, 2, 3, 6, 7);
 }
 
-/* The lower half becomes the upper one's mirror image. Rounding that is not
- * symmetric would grow from node to node. */
-static inline void mirror(quad d[4]) {
-  quad t[4];
-  transpose(d, t);
-  d[1] = MIX(t[1], d[1], 0, 5, 6, 7);
-  d[2] = MIX(t[2], d[2], 0, 1, 6, 7);
-  d[3] = MIX(t[3], d[3], 0, 1, 2, 7);
-}
-
 typedef struct signs {
   lanes negative; /* minus the count of each step's pivots */
   lanes bad;      /* a pivot vanished or was no number */
 } signs;
 
-/* All lanes but one, and that one alone. */
-static const lanes BUT[4] = {{0, -1, -1, -1}, {-1, 0, -1, -1}, {-1, -1, 0, -1}, {-1, -1, -1, 0}};
-static const lanes ONE[4] = {{-1, 0, 0, 0}, {0, -1, 0, 0}, {0, 0, -1, 0}, {0, 0, 0, -1}};
+/* Lanes after one. */
+static const lanes AFTER[4] = {{0, -1, -1, -1}, {0, 0, -1, -1}, {0, 0, 0, -1}, {0, 0, 0, 0}};
 
 static inline quad only(quad x, lanes which) { return (quad)((lanes)x & which); }
-static inline quad either(quad x, quad y) { return (quad)((lanes)x | (lanes)y); }
 
-/* d = inverse of d */
-static inline void invert(quad d[4], signs *s) {
+/* A symmetric block's upper half as L D L'. */
+static inline void split(quad d[4], signs *s) {
   quad inverses = {0};
-  mirror(d);
   for (int p = 0; p < 4; p++) {
     const double r = 1.0 / d[p][p];
-    const quad own = {r, r, r, r}, row = either(only(d[p] * r, BUT[p]), only(own, ONE[p]));
-    for (int i = 0; i < 4; i++)
-      if (i != p) d[i] = only(d[i], BUT[p]) - d[i][p] * row;
-    d[p] = row;
-    inverses = either(inverses, only(own, ONE[p]));
+    const quad l = only(d[p] * r, AFTER[p]);
+    for (int i = p + 1; i < 4; i++) d[i] -= d[p][i] * l;
+    inverses[p] = r;
+    d[p] = l;
   }
+  d[3] = inverses;
   s->negative += inverses < 0.0;
   s->bad |=
       ~(((inverses > 0.0) | (inverses < 0.0)) & (inverses < HUGE_VAL) & (inverses > -HUGE_VAL));
-  mirror(d);
 }
 
 static size_t count_of(const lanes *minus) {
   return (size_t)(-(*minus)[0] - (*minus)[1] - (*minus)[2] - (*minus)[3]);
 }
 
-/* w = s u */
-static inline void times(const double *s, const quad u[4], quad w[4]) {
-  for (int i = 0; i < 4; i++)
-    w[i] = s[4 * i] * u[0] + s[4 * i + 1] * u[1] + s[4 * i + 2] * u[2] + s[4 * i + 3] * u[3];
+/* u to L^-1 u, and that times D^-1 to v. */
+static inline void divide(const double *s, quad u[4], quad v[4]) {
+  u[1] -= s[1] * u[0];
+  u[2] -= s[2] * u[0] + s[6] * u[1];
+  u[3] -= s[3] * u[0] + s[7] * u[1] + s[11] * u[2];
+  for (int i = 0; i < 4; i++) v[i] = s[12 + i] * u[i];
 }
 
 /* m -= u' w */
 static inline void subtract_transposed(double *m, const double *u, const quad w[4]) {
   for (int i = 0; i < 4; i++)
     at(m)[i] -= u[i] * w[0] + u[4 + i] * w[1] + u[8 + i] * w[2] + u[12 + i] * w[3];
-}
-
-/* m -= u w */
-static inline void subtract(double *m, const double *u, const quad w[4]) {
-  for (int i = 0; i < 4; i++)
-    at(m)[i] -= u[4 * i] * w[0] + u[4 * i + 1] * w[1] + u[4 * i + 2] * w[2] + u[4 * i + 3] * w[3];
 }
 
 static inline void put(double *out, const quad m[4]) {
@@ -98,37 +81,41 @@ static inline void get(const double *from, quad m[4]) {
   for (int k = 0; k < 4; k++) m[k] = look(from)[k];
 }
 
-/* Eliminate the node of this row upwards, after its inverse was put there. */
+/* Eliminate the node of this row upwards, after its own block was split. */
 static inline void go_up(double *row) {
   double *u1 = row + SW_ROW4_NEXT, *u2 = row + SW_ROW4_SECOND, *after = row + SW_ROW4_SIZE;
-  quad u[4], w1[4], w2[4];
-  get(u1, u);
-  times(row, u, w1);
-  get(u2, u);
-  times(row, u, w2);
-  subtract_transposed(after, u1, w1);
-  subtract_transposed(after + SW_ROW4_NEXT, u1, w2);
-  subtract_transposed(after + SW_ROW4_SIZE, u2, w2);
+  quad w1[4], w2[4], v1[4], v2[4];
+  get(u1, w1);
+  get(u2, w2);
+  divide(row, w1, v1);
+  divide(row, w2, v2);
   put(u1, w1);
   put(u2, w2);
+  subtract_transposed(after, u1, v1);
+  subtract_transposed(after + SW_ROW4_NEXT, u1, v2);
+  subtract_transposed(after + SW_ROW4_SIZE, u2, v2);
+  put(u1, v1);
+  put(u2, v2);
 }
 
 /* The same downwards: its blocks to the nodes before it stand in their rows. */
 static inline void go_down(double *row) {
-  double *before = row - SW_ROW4_SIZE, *u1 = before + SW_ROW4_NEXT;
-  double *first = before - SW_ROW4_SIZE, *u2 = first + SW_ROW4_SECOND;
-  quad u[4], t1[4], t2[4], w1[4], w2[4];
-  get(u1, u);
-  transpose(u, t1);
-  get(u2, u);
-  transpose(u, t2);
-  times(row, t1, w1);
-  times(row, t2, w2);
-  put(row + SW_ROW4_NEXT, w1);
-  put(row + SW_ROW4_SECOND, w2);
-  subtract(before, u1, w1);
-  subtract_transposed(first + SW_ROW4_NEXT, row + SW_ROW4_SECOND, t1);
-  subtract(first, u2, w2);
+  double *before = row - SW_ROW4_SIZE, *first = before - SW_ROW4_SIZE;
+  double *u1 = row + SW_ROW4_NEXT, *u2 = row + SW_ROW4_SECOND;
+  quad u[4], w1[4], w2[4], v1[4], v2[4];
+  get(before + SW_ROW4_NEXT, u);
+  transpose(u, w1);
+  get(first + SW_ROW4_SECOND, u);
+  transpose(u, w2);
+  divide(row, w1, v1);
+  divide(row, w2, v2);
+  put(u1, w1);
+  put(u2, w2);
+  subtract_transposed(before, u1, v1);
+  subtract_transposed(first + SW_ROW4_NEXT, u2, v1);
+  subtract_transposed(first, u2, v2);
+  put(u1, v1);
+  put(u2, v2);
 }
 
 /* How many nodes each chain has; what is left are two, and node 0 where n is odd. */
@@ -136,16 +123,18 @@ static size_t pairs_of(size_t n) { return (n - 2) / 2; }
 
 /* The two nodes in the middle. */
 static void factor_middle(double *row, signs *s) {
-  quad d[4], u[4], w[4];
+  double *next = row + SW_ROW4_NEXT;
+  quad d[4], w[4], v[4];
   get(row, d);
-  invert(d, s);
+  split(d, s);
   put(row, d);
-  get(row + SW_ROW4_NEXT, u);
-  times(row, u, w);
-  subtract_transposed(row + SW_ROW4_SIZE, row + SW_ROW4_NEXT, w);
-  put(row + SW_ROW4_NEXT, w);
+  get(next, w);
+  divide(row, w, v);
+  put(next, w);
+  subtract_transposed(row + SW_ROW4_SIZE, next, v);
+  put(next, v);
   get(row + SW_ROW4_SIZE, d);
-  invert(d, s);
+  split(d, s);
   put(row + SW_ROW4_SIZE, d);
 }
 
@@ -156,7 +145,7 @@ sw_status sw_band4_factor(double *a, size_t n, size_t *negative) {
   quad d[4], e[4];
   if (odd) {
     get(a, d);
-    invert(d, &s);
+    split(d, &s);
     put(a, d);
     go_up(a);
   }
@@ -164,8 +153,8 @@ sw_status sw_band4_factor(double *a, size_t n, size_t *negative) {
     double *up = a + SW_ROW4_SIZE * (k + odd), *down = a + SW_ROW4_SIZE * (n - 1 - k);
     get(up, d);
     get(down, e);
-    invert(d, &s);
-    invert(e, &t);
+    split(d, &s);
+    split(e, &t);
     put(up, d);
     put(down, e);
     go_up(up);
@@ -194,10 +183,31 @@ static inline quad apply(const double *m, quad x, const double *k, quad y) {
   return MIX(ab, cd, 0, 1, 4, 5) + MIX(ab, cd, 2, 3, 6, 7);
 }
 
+/* L^-1 x */
+static inline quad forward(const double *m, quad x) {
+  const quad *row = look(m);
+  x -= row[0] * x[0];
+  x -= row[1] * x[1];
+  return x - row[2] * x[2];
+}
+
+/* L'^-1 x */
+static inline quad backward(const double *m, quad x) {
+  const double z = x[2] - m[11] * x[3];
+  const double y = x[1] - m[7] * x[3] - m[6] * z;
+  return (quad){x[0] - m[3] * x[3] - m[2] * z - m[1] * y, y, z, x[3]};
+}
+
+/* D^-1 x */
+static inline quad scale(const double *m, quad x) { return look(m)[3] * x; }
+
 static void solve_middle(const double *row, double *b) {
-  *at(b + 4) -= combine(row + SW_ROW4_NEXT, b);
-  *at(b + 4) = combine(row + SW_ROW4_SIZE, b + 4);
-  *at(b) = combine(row, b) - apply(row + SW_ROW4_NEXT, *at(b + 4), row, (quad){0});
+  const double *next = row + SW_ROW4_NEXT, *last = row + SW_ROW4_SIZE;
+  const quad none = {0};
+  *at(b) = forward(row, *at(b));
+  *at(b + 4) -= combine(next, b);
+  *at(b + 4) = backward(last, scale(last, forward(last, *at(b + 4))));
+  *at(b) = backward(row, scale(row, *at(b)) - apply(next, *at(b + 4), next, none));
 }
 
 SW_HOT
@@ -206,11 +216,13 @@ void sw_band4_solve(const double *factor, size_t n, double *b) {
   for (size_t k = 0; k < middle; k++) {
     const double *up = factor + SW_ROW4_SIZE * k;
     double *to = b + 4 * k;
+    *at(to) = forward(up, *at(to));
     *at(to + 4) -= combine(up + SW_ROW4_NEXT, to);
     *at(to + 8) -= combine(up + SW_ROW4_SECOND, to);
     if (k < odd) continue;
     const double *down = factor + SW_ROW4_SIZE * (n - 1 - (k - odd));
     to = b + 4 * (n - 1 - (k - odd));
+    *at(to) = forward(down, *at(to));
     *at(to - 4) -= combine(down + SW_ROW4_NEXT, to);
     *at(to - 8) -= combine(down + SW_ROW4_SECOND, to);
   }
@@ -218,12 +230,12 @@ void sw_band4_solve(const double *factor, size_t n, double *b) {
   for (size_t k = middle; k-- > 0;) {
     const double *up = factor + SW_ROW4_SIZE * k;
     double *to = b + 4 * k;
-    *at(to) =
-        combine(up, to) - apply(up + SW_ROW4_NEXT, *at(to + 4), up + SW_ROW4_SECOND, *at(to + 8));
+    *at(to) = backward(up, scale(up, *at(to)) - apply(up + SW_ROW4_NEXT, *at(to + 4),
+                                                      up + SW_ROW4_SECOND, *at(to + 8)));
     if (k < odd) continue;
     const double *down = factor + SW_ROW4_SIZE * (n - 1 - (k - odd));
     to = b + 4 * (n - 1 - (k - odd));
-    *at(to) = combine(down, to) -
-              apply(down + SW_ROW4_NEXT, *at(to - 4), down + SW_ROW4_SECOND, *at(to - 8));
+    *at(to) = backward(down, scale(down, *at(to)) - apply(down + SW_ROW4_NEXT, *at(to - 4),
+                                                          down + SW_ROW4_SECOND, *at(to - 8)));
   }
 }
