@@ -46,20 +46,20 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_body *b = &s->bodies[t->body];
   const double radius = b->plan->beam.radius;
   const sw_levers levers = sw_touch_levers(s, t);
-  const sw_vec at = levers.count ? sw_madd(x, t->normal, -radius) : x;
+  const sw_vec at = levers.count ? sw_madd(x, t->press.normal, -radius) : x;
   sw_vec v = sw_sub(sw_touch_place(s->v, t->node, t->segment, t->at),
                     sw_obstacle_velocity(&c->start[t->obstacle], at));
   const sw_vec local_point = sw_pose_local(c->now[t->obstacle].pose, t->point);
   const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, local_point);
-  const double gap = fmax(0.0, sw_dot(t->normal, sw_sub(x, plane)) - radius);
-  const double approach = -sw_dot(v, t->normal);
+  const double gap = fmax(0.0, sw_dot(t->press.normal, sw_sub(x, plane)) - radius);
+  const double approach = -sw_dot(v, t->press.normal);
   const double allowed = gap / h;
   if (!(approach > allowed + SLOWEST_IMPACT)) return 0;
   const double change = o->restitution > 0 ? approach * (1.0 + o->restitution) : approach - allowed;
   if (levers.count) v = sw_add(v, sw_levers_shift(&levers, s->v + 3 * s->nodes + b->first_roll, 1));
-  const sw_vec along = sw_madd(v, t->normal, -sw_dot(v, t->normal));
+  const sw_vec along = sw_madd(v, t->press.normal, -sw_dot(v, t->press.normal));
   const sw_vec brake = sw_levers_brake(&b->plan->beam, &levers, along, o->friction * change);
-  const sw_vec dv = sw_madd(brake, t->normal, change);
+  const sw_vec dv = sw_madd(brake, t->press.normal, change);
   double w[2], mass = 0;
   shares(s, t, w);
   for (size_t e = 0; e < 2; e++) {
@@ -129,8 +129,8 @@ static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k, con
                       .node = b.node,
                       .body = k->body,
                       .at = b.at,
-                      .normal = sw_rotate(pose->q, hit->normal),
-                      .point = sw_pose_point(*pose, hit->point)};
+                      .point = sw_pose_point(*pose, hit->point),
+                      .press = {.normal = sw_rotate(pose->q, hit->normal)}};
   if (h > 0) strike(c, s, &t, h);
   return 1;
 }

@@ -109,7 +109,7 @@ void sw_pairs_commit(sw_pairs *p, sw_system *s) {
                           .at = {t->at[0], t->at[1]},
                           .normal_force = t->press.normal_force,
                           .depth = t->press.normal_force / t->press.k,
-                          .k = t->stiffer,
+                          .k = sw_press_eased(&t->press, k->usual, t->stiffer),
                           .normal = t->press.normal,
                           .sliding = t->press.next_sliding};
     if (m->normal_force > 0) m->elastic = sw_scale(t->press.tangential, -1.0 / t->press.k);

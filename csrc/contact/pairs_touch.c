@@ -47,30 +47,20 @@ static sw_vec carry(sw_vec v, sw_vec from, sw_vec to) {
 
 /* --- touches --------------------------------------------------------------------- */
 
-/* Wires that are deeper in each other at the step's start than their force explains are
- * let out at this speed: see contact with obstacles [m/s]. */
-static const double RECOVERY_SPEED = 0.2;
-
 static double forgiven(const sw_pairs *p, const sw_system *s, const sw_pair *k,
                        const sw_pair_touch *t, const sw_pair_memory *m) {
   if (p->regime != SW_CONTACT_IMPLICIT || t->press.gap >= 0) return 0;
   const sw_vec from = sw_pair_apart(s->x, k->one, k->two, t->at);
   const double depth = k->reach - sw_dot(t->press.normal, from);
-  const double explained = m ? m->depth : 0.0;
-  return fmax(0.0, depth - explained - RECOVERY_SPEED * p->h - SW_GAP_TOLERANCE);
+  return sw_press_forgiven(depth, m ? m->depth : 0.0, p->h);
 }
 
-/* A touch goes on as stiff as it was, wherever it has slid to: a change would be a kick.
- * One that was made stiffer than it has to be gives way slowly. */
-static const double NEEDLESS = 0.1; /* of the allowed depth [-] */
-static const double EASING = 0.8;   /* per step [-] */
-
+/* Wherever it has slid to. */
 static double stiffness_of(const sw_pairs *p, const sw_pair *k, const sw_pair_memory *m,
                            const sw_pair_touch *last) {
   if (p->regime == SW_CONTACT_EXPLICIT) return k->usual;
   if (last) return last->stiffer;
-  if (!m || !(m->normal_force > 0)) return k->usual;
-  return m->depth < NEEDLESS * SW_DEEPEST && m->k > k->usual ? fmax(k->usual, EASING * m->k) : m->k;
+  return m && m->normal_force > 0 ? m->k : k->usual;
 }
 
 static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
@@ -273,14 +263,8 @@ static int update(const sw_pairs *p, sw_pair_touch *t, const double *delta, doub
 }
 
 /* In steps below this share of the nominal one, depth that was there before is taken as
- * it comes, for inertia alone would keep it; and what strikes in them gets there fast [-]. */
+ * it comes [-]. */
 static const double SMALL_STEP = 0.25;
-static const double DEEPER = 5e-6; /* [m] */
-
-static int is_old_depth(const sw_system *s, const sw_pair *k, const sw_pair_touch *t) {
-  const double apart = sw_dot(t->press.normal, sw_pair_apart(s->x, k->one, k->two, t->at));
-  return t->forgiven - t->press.gap_after < k->reach - apart + DEEPER;
-}
 
 /* Make touches that sink in too deep stiffer; 1 = there were some. */
 static int stiffen(sw_pairs *p, const sw_system *s) {
@@ -290,11 +274,10 @@ static int stiffen(sw_pairs *p, const sw_system *s) {
   for (size_t i = 0; i < p->touch_count; i++) {
     sw_pair_touch *t = &p->touches[i];
     const sw_pair *k = &p->pairs[t->pair];
-    const double over = t->press.gap_after / -SW_DEEPEST;
-    if (over <= 1.0 || t->press.k >= SW_MOST_BOOST * k->usual) continue;
-    if (small && is_old_depth(s, k, t)) continue;
-    t->stiffer = t->press.k * (small ? 10.0 : fmin(10.0, 2.0 * over));
-    any = 1;
+    const sw_vec apart = sw_pair_apart(s->x, k->one, k->two, t->at);
+    const double before = fmax(0.0, k->reach - sw_dot(t->press.normal, apart));
+    t->stiffer = sw_press_stiffer(&t->press, k->usual, t->forgiven, small ? before : -1.0);
+    any |= t->stiffer > t->press.k;
   }
   return any;
 }
