@@ -34,13 +34,19 @@ void sw_press_activate(sw_press *p, const sw_press *last) {
   p->active = p->gap < 0 || (last && last->active && last->normal_force > 0);
 }
 
+/* After this many alternations friction's normal force is taken by secant: most die out by
+ * themselves, and among many touches the slope of one says little of the others [-]. */
+enum { ALTERNATIONS = 4 };
+
 void sw_press_take_lag(sw_press *p, const sw_press *last) {
-  const double step = last->lag - last->lag_before;
+  const double error = last->normal_force - last->lag;
+  const double error_before = last->force_before - last->lag_before;
   p->lag_before = last->lag, p->force_before = last->normal_force;
   p->lag = last->normal_force;
-  if (!(last->lag_before > 0) || step == 0) return;
-  const double slope = (last->normal_force - last->force_before) / step;
-  if (slope < 0) p->lag = (last->normal_force - slope * last->lag) / (1.0 - slope);
+  if (!(last->lag_before > 0) || !(error * error_before < 0)) return;
+  p->alternations = last->alternations + 1;
+  if (p->alternations >= ALTERNATIONS)
+    p->lag = last->lag + (last->lag_before - last->lag) * error / (error - error_before);
 }
 
 void sw_press_begin(sw_press *p, double friction, int known) {

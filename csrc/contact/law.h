@@ -19,6 +19,7 @@ typedef struct sw_press {
   sw_vec normal;                   /* of the push [-] */
   sw_vec trial;                    /* tangential displacement from the anchor at this iterate [m] */
   sw_vec tangential;               /* friction force after the last solve [N] */
+  int alternations;                /* of normal_force - lag until the last iterate [-] */
   int active;                      /* pushes in this iterate */
   int sliding;                     /* assumed in this iterate */
   int next_sliding;                /* as the last solve found it */

@@ -270,7 +270,7 @@ static const double SMALL_STEP = 0.25;
 static int stiffen(sw_pairs *p, const sw_system *s) {
   const int small = p->regime == SW_CONTACT_IMPLICIT && p->h < SMALL_STEP * p->nominal;
   int any = 0;
-  if (p->regime == SW_CONTACT_EXPLICIT) return 0;
+  if (p->regime == SW_CONTACT_EXPLICIT || s->rough) return 0;
   for (size_t i = 0; i < p->touch_count; i++) {
     sw_pair_touch *t = &p->touches[i];
     const sw_pair *k = &p->pairs[t->pair];
