@@ -28,9 +28,13 @@ const sw_pair_memory *sw_pair_recall(const sw_pairs *p, const sw_pair *k, const 
   return best;
 }
 
+/* A touch of the iterate before is the same one up to this far along the segments: others of
+ * the same two, which may come and go, have nothing to do with it [-]. */
+static const double SAME_PLACE = 0.25;
+
 static const sw_pair_touch *last_for(const sw_pairs *p, const sw_pair *k, const double at[2]) {
   const sw_pair_touch *best = NULL;
-  double nearest = HUGE_VAL;
+  double nearest = SAME_PLACE;
   for (size_t i = k->last; i < k->last_end; i++) {
     const sw_pair_touch *t = &p->last[i];
     const double d = fabs(t->at[0] - at[0]) + fabs(t->at[1] - at[1]);

@@ -52,10 +52,16 @@ static const sw_memory *inherited(const sw_contact *c, const sw_candidate *k, do
   return best;
 }
 
+/* A touch of the iterate before is the same one up to this far along the segment [-]. */
+static const double SAME_PLACE = 0.25;
+
 static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, double at) {
   const sw_touch *best = NULL;
-  for (size_t i = k->last; i < k->last_end; i++)
-    if (!best || fabs(c->last[i].at - at) < fabs(best->at - at)) best = &c->last[i];
+  double nearest = SAME_PLACE;
+  for (size_t i = k->last; i < k->last_end; i++) {
+    const double d = fabs(c->last[i].at - at);
+    if (d < nearest) best = &c->last[i], nearest = d;
+  }
   return best;
 }
 
