@@ -212,6 +212,27 @@ static int behind_barrier(const sw_contact *c, const sw_candidate *k, const doub
   return 0;
 }
 
+/* The nearest place of a segment that lies along an obstacle comes and goes with the last
+ * nanometre. One that pushed in the iterate before stays where it was. first: of the touches
+ * found in this iterate. */
+static sw_status keep_pushing(sw_contact *c, const sw_system *s, const sw_candidate *k,
+                              const double *y, size_t first) {
+  const sw_pose *pose = &c->now[k->obstacle].pose;
+  for (size_t i = k->last; i < k->last_end; i++) {
+    const sw_touch *last = &c->last[i];
+    if (!(last->press.normal_force > 0)) continue;
+    int found = 0;
+    for (size_t j = first; j < c->touch_count; j++)
+      found |= fabs(c->touches[j].at - last->at) < SAME_PLACE;
+    const sw_vec p = sw_pose_local(*pose, sw_touch_place(y, k->node, 1, last->at));
+    sw_closest near;
+    if (found || !sw_shape_point(c->obstacles[k->obstacle].shape, p, k->radius, &near)) continue;
+    near.at = last->at;
+    if (keep_side(c, k, p, &near)) SW_TRY(add_touch(c, s, k, y, &near));
+  }
+  return SW_OK;
+}
+
 static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k, const double *y) {
   const sw_shape *shape = c->obstacles[k->obstacle].shape;
   const sw_pose *pose = &c->now[k->obstacle].pose;
@@ -225,12 +246,13 @@ static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k,
     return keep_side(c, k, a, &near[0]) ? add_touch(c, s, k, y, &near[0]) : SW_OK;
   }
   const sw_vec b = sw_pose_local(*pose, sw_load(y + 3 * k->node + 3));
+  const size_t first = c->touch_count;
   const int n = sw_shape_segment(shape, a, b, reach, near);
   for (int i = 0; i < n; i++) {
     if (keep_side(c, k, sw_lerp(a, b, near[i].at), &near[i]))
       SW_TRY(add_touch(c, s, k, y, &near[i]));
   }
-  return SW_OK;
+  return c->regime == SW_CONTACT_EXPLICIT ? SW_OK : keep_pushing(c, s, k, y, first);
 }
 
 static void swap_lists(sw_contact *c) {
