@@ -252,6 +252,7 @@ sw_status sw_contact_begin_stage(void *contact, sw_system *s, double time, doubl
   sw_contact *c = contact;
   (void)s, (void)hbar, (void)y;
   c->pressed_before = c->pressed_count;
+  c->stage_time = time;
   return place_all(c, time, c->now, err);
 }
 
@@ -282,7 +283,7 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
                    .depth = t->press.normal_force / t->press.k,
                    .k = sw_press_eased(&t->press, c->candidates[t->candidate].usual, t->stiffer),
                    .normal = sw_rotate(back, t->press.normal),
-                   .point = sw_pose_local(o->pose, t->point)};
+                   .point = t->local};
   if (t->press.normal_force > 0)
     m->elastic = sw_rotate(back, sw_scale(t->press.tangential, -1.0 / t->press.k));
   return SW_OK;

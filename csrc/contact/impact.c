@@ -38,6 +38,20 @@ static void shares(const sw_system *s, const sw_touch *t, double out[2]) {
   for (size_t e = 0; e < 2; e++) out[e] = sum > 0 ? w[e] / sum : 0.0;
 }
 
+/* A gap this small is none: what touches takes on the obstacle's speed [m]. */
+static const double CLOSED = 1e-6;
+
+/* The obstacle's velocity at p that matters to an impact. What touches goes on with the speed
+ * it has at the step's start. A gap closes within the step, so there it is the mean one: with
+ * that of the start a wire would be struck late, by what an obstacle gains on the way, and
+ * leave again. */
+static sw_vec striking_velocity(const sw_contact *c, int obstacle, sw_vec p, double gap) {
+  const sw_contact_at *from = &c->start[obstacle], *to = &c->now[obstacle];
+  if (gap < CLOSED || !(c->stage_time > c->time)) return sw_obstacle_velocity(from, p);
+  const sw_vec after = sw_pose_point(to->pose, sw_pose_local(from->pose, p));
+  return sw_scale(sw_sub(after, p), 1.0 / (c->stage_time - c->time));
+}
+
 /* Change the starting velocities so that the touch is reached, not passed.
  * Returns 1 when something was changed. */
 static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
@@ -47,11 +61,10 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const double radius = b->plan->beam.radius;
   const sw_levers levers = sw_touch_levers(s, t);
   const sw_vec at = levers.count ? sw_madd(x, t->press.normal, -radius) : x;
-  sw_vec v = sw_sub(sw_touch_place(s->v, t->node, t->segment, t->at),
-                    sw_obstacle_velocity(&c->start[t->obstacle], at));
-  const sw_vec local_point = sw_pose_local(c->now[t->obstacle].pose, t->point);
-  const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, local_point);
+  const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
   const double gap = fmax(0.0, sw_dot(t->press.normal, sw_sub(x, plane)) - radius);
+  sw_vec v = sw_sub(sw_touch_place(s->v, t->node, t->segment, t->at),
+                    striking_velocity(c, t->obstacle, at, gap));
   const double approach = -sw_dot(v, t->press.normal);
   const double allowed = gap / h;
   if (!(approach > allowed + SLOWEST_IMPACT)) return 0;
@@ -129,7 +142,7 @@ static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k, con
                       .node = b.node,
                       .body = k->body,
                       .at = b.at,
-                      .point = sw_pose_point(*pose, hit->point),
+                      .local = hit->point,
                       .press = {.normal = sw_rotate(pose->q, hit->normal)}};
   if (h > 0) strike(c, s, &t, h);
   return 1;

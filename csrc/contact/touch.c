@@ -122,8 +122,7 @@ int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
 
 /* How deep the touch's place was at the step's start, below 0 when it was outside [m]. */
 static double depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t) {
-  const sw_vec local = sw_pose_local(c->now[t->obstacle].pose, t->point);
-  const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, local);
+  const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
   const sw_vec from = sw_touch_place(s->x, t->node, t->segment, t->at);
   return c->candidates[t->candidate].radius - sw_dot(t->press.normal, sw_sub(from, plane));
 }
@@ -156,6 +155,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
                 .feature = near->feature,
                 .at = at,
                 .point = sw_pose_point(*pose, near->point),
+                .local = near->point,
                 .stiffer = stiffness,
                 .held = sw_contact_is_held(s, k),
                 .candidate = (size_t)(k - c->candidates),

@@ -26,6 +26,7 @@ typedef struct sw_touch {
   int feature;
   double at;        /* along the segment [-] */
   sw_vec point;     /* on the obstacle, world [m] */
+  sw_vec local;     /* the same in the obstacle's coordinates [m] */
   double forgiven;  /* part of the true depth left out of the gap in this step [m] */
   double stiffer;   /* its stiffness from the next iterate on [N/m] */
   int held;         /* both ends are held: no force */
@@ -81,8 +82,9 @@ struct sw_contact {
   size_t barrier_count, barrier_capacity;
   sw_memory *impacts; /* keys of touches whose impact was dealt with in this step */
   size_t impact_count, impact_capacity;
-  double time, h; /* of the step [s] */
-  double nominal; /* the run's full step [s] */
+  double time, h;    /* of the step [s] */
+  double stage_time; /* that obstacles were last placed for [s] */
+  double nominal;    /* the run's full step [s] */
   sw_contact_regime regime;
   int fresh;       /* 1: no step was accepted yet, there is no memory */
   double widening; /* of the reserve for flight, when nodes went further [-] */
