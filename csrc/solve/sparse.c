@@ -212,35 +212,36 @@ void sw_sparse_add(sw_sparse *s, size_t pair, const double *values) {
 
 #define ALWAYS static inline __attribute__((always_inline))
 
-/* Inverse of a symmetric block in place, pivot by pivot (in a wire the first may be a
- * thousand million times as stiff as the others); counts negative pivots. 0 when a pivot
- * vanishes or is not finite. */
-ALWAYS int invert(double *m, const int b, size_t *negative) {
+/* L D L' of a symmetric block from its lower half: L below the diagonal, the inverse of D on
+ * it; counts negative pivots. 0 when a pivot vanishes or is not finite. (With the block's
+ * inverse instead, a wire aslant to the axes would lose the square of the ratio of its axial
+ * to its bending stiffness; with a block whose halves differ by rounding, everything.) */
+ALWAYS int split(double *m, const int b, size_t *negative) {
   double product = 1.0;
-  for (int k = 0; k < b; k++) { /* sweeps: after all of them m is minus its inverse */
+  for (int k = 0; k < b; k++) {
     const double pivot = m[b * k + k], r = 1.0 / pivot;
+    double below[SW_SPARSE_BLOCK_MAX];
     *negative += pivot < 0;
     product *= r * pivot; /* not a number when a pivot is no good */
-    double column[SW_SPARSE_BLOCK_MAX];
-    for (int i = 0; i < b; i++) column[i] = m[b * i + k] * r;
-    for (int i = 0; i < b; i++)
-      for (int j = 0; j < b; j++)
-        if (i != k && j != k) m[b * i + j] -= column[i] * m[b * k + j];
-    for (int i = 0; i < b; i++) m[b * i + k] = m[b * k + i] = column[i];
-    m[b * k + k] = -r;
+    for (int i = k + 1; i < b; i++) below[i] = m[b * i + k];
+    for (int i = k + 1; i < b; i++) {
+      const double l = below[i] * r;
+      for (int j = k + 1; j <= i; j++) m[b * i + j] -= l * below[j];
+      m[b * i + k] = l;
+    }
+    m[b * k + k] = r;
   }
-  for (int k = 0; k < b * b; k++) m[k] = -m[k];
   return product > 0;
 }
 
-/* w = a d */
-ALWAYS void times(const double *restrict a, const double *restrict d, double *restrict w,
-                  const int b) {
+/* a to a L'^-1, and that times D^-1 to w. */
+ALWAYS void divide(double *restrict a, const double *restrict d, double *restrict w, const int b) {
   for (int i = 0; i < b; i++)
     for (int j = 0; j < b; j++) {
-      double sum = a[b * i] * d[j];
-      for (int k = 1; k < b; k++) sum += a[b * i + k] * d[b * k + j];
-      w[b * i + j] = sum;
+      double sum = a[b * i + j];
+      for (int k = 0; k < j; k++) sum -= a[b * i + k] * d[b * j + k];
+      a[b * i + j] = sum;
+      w[b * i + j] = sum * d[b * j + j];
     }
 }
 
@@ -260,10 +261,10 @@ ALWAYS sw_status factor(sw_sparse *s, size_t *negative, const int b) {
   const uint32_t *target = s->target;
   for (size_t k = 0; k < s->n; k++) {
     double *own = s->own + bb * k;
-    if (!invert(own, b, negative)) return SW_ESINGULAR;
+    if (!split(own, b, negative)) return SW_ESINGULAR;
     const uint32_t begin = s->start[k], p = s->start[k + 1] - begin;
     double *off = s->off + bb * begin;
-    for (uint32_t a = 0; a < p; a++) times(off + bb * a, own, s->column + bb * a, b);
+    for (uint32_t a = 0; a < p; a++) divide(off + bb * a, own, s->column + bb * a, b);
     for (uint32_t a = 0; a < p; a++) {
       const double *pivot = off + bb * a;
       subtract(s->column + bb * a, pivot, s->own + bb * s->row[begin + a], b);
@@ -290,7 +291,10 @@ sw_status sw_sparse_factor(sw_sparse *s, size_t *negative) {
 ALWAYS void solve(const sw_sparse *s, double *restrict x, const int b) {
   const size_t bb = (size_t)b * (size_t)b, bs = (size_t)b;
   for (size_t k = 0; k < s->n; k++) {
-    const double *xk = x + bs * k;
+    const double *d = s->own + bb * k;
+    double *xk = x + bs * k;
+    for (int i = 1; i < b; i++)
+      for (int j = 0; j < i; j++) xk[i] -= d[b * i + j] * xk[j];
     for (uint32_t e = s->start[k]; e < s->start[k + 1]; e++) {
       const double *l = s->off + bb * e;
       double *to = x + bs * s->row[e];
@@ -301,14 +305,16 @@ ALWAYS void solve(const sw_sparse *s, double *restrict x, const int b) {
   for (size_t k = s->n; k-- > 0;) {
     const double *d = s->own + bb * k;
     double *xk = x + bs * k, sum[SW_SPARSE_BLOCK_MAX] = {0};
-    for (int i = 0; i < b; i++)
-      for (int j = 0; j < b; j++) sum[i] += d[b * i + j] * xk[j];
+    for (int i = 0; i < b; i++) sum[i] = d[b * i + i] * xk[i];
     for (uint32_t e = s->start[k]; e < s->start[k + 1]; e++) {
       const double *l = s->off + bb * e, *from = x + bs * s->row[e];
       for (int i = 0; i < b; i++)
         for (int j = 0; j < b; j++) sum[j] -= l[b * i + j] * from[i];
     }
-    for (int i = 0; i < b; i++) xk[i] = sum[i];
+    for (int i = b - 1; i >= 0; i--) {
+      for (int j = i + 1; j < b; j++) sum[i] -= d[b * j + i] * xk[j];
+      xk[i] = sum[i];
+    }
   }
 }
 
