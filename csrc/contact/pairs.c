@@ -13,7 +13,8 @@ sw_status sw_pairs_new(const sw_pair_rule *rules, size_t count, sw_pairs **out) 
   if (!p) return SW_ENOMEM;
   p->rules = sw_alloc(count * count, sizeof *p->rules);
   p->base_stiffness = sw_alloc(count, sizeof *p->base_stiffness);
-  if (!p->rules || !p->base_stiffness) {
+  p->largest = sw_alloc(count, sizeof *p->largest);
+  if (!p->rules || !p->base_stiffness || !p->largest) {
     sw_pairs_free(p);
     return SW_ENOMEM;
   }
@@ -37,6 +38,7 @@ void sw_pairs_free(sw_pairs *p) {
   if (!p) return;
   sw_free(p->rules);
   sw_free(p->base_stiffness);
+  sw_free(p->largest);
   sw_free(p->near);
   sw_free(p->listed_at);
   sw_free(p->grid);

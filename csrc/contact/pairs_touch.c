@@ -286,17 +286,27 @@ static int stiffen(sw_pairs *p, const sw_system *s) {
   return any;
 }
 
-/* Forces far below the largest one here do not matter. */
-static double scale_of(const sw_pairs *p) {
-  double scale = 0;
-  for (size_t i = 0; i < p->touch_count; i++) scale = fmax(scale, p->touches[i].press.lag);
-  return scale;
+/* Of a wire's touches, forces far below the largest one do not matter; of two wires, what
+ * does not matter to either. */
+static void find_scales(sw_pairs *p) {
+  for (size_t b = 0; b < p->bodies; b++) p->largest[b] = 0;
+  for (size_t i = 0; i < p->touch_count; i++)
+    for (size_t k = 0; k < 2; k++) {
+      double *largest = &p->largest[p->pairs[p->touches[i].pair].body[k]];
+      *largest = fmax(*largest, p->touches[i].press.lag);
+    }
+}
+
+static double scale_of(const sw_pairs *p, const sw_pair_touch *t) {
+  const uint32_t *body = p->pairs[t->pair].body;
+  return fmin(p->largest[body[0]], p->largest[body[1]]);
 }
 
 int sw_pairs_settled(sw_pairs *p, sw_system *s, const double *delta) {
-  const double scale = scale_of(p);
   int fine = 1;
-  for (size_t i = 0; i < p->touch_count; i++) fine &= update(p, &p->touches[i], delta, scale);
+  find_scales(p);
+  for (size_t i = 0; i < p->touch_count; i++)
+    fine &= update(p, &p->touches[i], delta, scale_of(p, &p->touches[i]));
   if (fine && stiffen(p, s)) return 0;
   for (size_t i = 0; fine && i < p->touch_count; i++) {
     const sw_pair_touch *t = &p->touches[i];
