@@ -233,6 +233,7 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
   c->nominal = nominal;
   c->regime = regime;
   c->barrier_count = c->impact_count = c->pressed_count = 0;
+  c->plastic = 0;
   c->widening = 1.0;
   SW_TRY(place_all(c, t, c->start, err));
   return sw_contact_find_candidates(c, s, err);

@@ -156,6 +156,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
                 .at = at,
                 .point = sw_pose_point(*pose, near->point),
                 .local = near->point,
+                .known = m != NULL,
                 .stiffer = stiffness,
                 .held = sw_contact_is_held(s, k),
                 .candidate = (size_t)(k - c->candidates),

@@ -29,6 +29,7 @@ typedef struct sw_touch {
   sw_vec local;     /* the same in the obstacle's coordinates [m] */
   double forgiven;  /* part of the true depth left out of the gap in this step [m] */
   double stiffer;   /* its stiffness from the next iterate on [N/m] */
+  int known;        /* it pressed at the step's start */
   int held;         /* both ends are held: no force */
   size_t candidate; /* index of what it was made from */
   sw_press press;   /* its normal is the obstacle's, outward, in the world */
@@ -86,6 +87,7 @@ struct sw_contact {
   double stage_time; /* that obstacles were last placed for [s] */
   double nominal;    /* the run's full step [s] */
   sw_contact_regime regime;
+  int plastic;     /* 1: the step is one that does not bounce */
   int fresh;       /* 1: no step was accepted yet, there is no memory */
   double widening; /* of the reserve for flight, when nodes went further [-] */
 };
