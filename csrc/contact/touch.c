@@ -14,7 +14,7 @@ static const double SMALL_SHIFT = 0.05;
 
 /* A touch goes on into the next iterate up to this gap, of the radius, and while its normal
  * turns by an angle with a cosine above this [-]. */
-static const double STILL_NEAR = 0.25, SAME_SIDE = 0.7;
+static const double STILL_NEAR = 0.5, SAME_SIDE = 0.7;
 
 enum { OWN = 0, NEXT = 6, ROW = 24 }; /* layout of the system's block rows */
 
