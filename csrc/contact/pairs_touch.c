@@ -272,7 +272,7 @@ static const double SMALL_STEP = 0.25;
 
 /* Make touches that sink in too deep stiffer; 1 = there were some. */
 static int stiffen(sw_pairs *p, const sw_system *s) {
-  const int small = p->regime == SW_CONTACT_IMPLICIT && p->h < SMALL_STEP * p->nominal;
+  const int small = p->h > 0 && p->h < SMALL_STEP * p->nominal;
   int any = 0;
   if (p->regime == SW_CONTACT_EXPLICIT || s->rough) return 0;
   for (size_t i = 0; i < p->touch_count; i++) {

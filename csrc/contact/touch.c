@@ -364,7 +364,7 @@ static const double SMALL_STEP = 0.25;
 
 /* Make touches that sink in too deep stiffer; 1 = there were some. */
 static int stiffen(sw_contact *c, const sw_system *s) {
-  const int small = c->regime == SW_CONTACT_IMPLICIT && c->h < SMALL_STEP * c->nominal;
+  const int small = c->h > 0 && c->h < SMALL_STEP * c->nominal;
   int any = 0;
   if (c->regime == SW_CONTACT_EXPLICIT || s->rough) return 0;
   for (size_t i = 0; i < c->touch_count; i++) {
