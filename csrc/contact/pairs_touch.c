@@ -205,6 +205,23 @@ static sw_status touch_parallel(sw_pairs *p, const sw_system *s, const sw_pair *
   return SW_OK;
 }
 
+/* Nearest places come and go where wires lie along each other, or are handed on from one
+ * segment to the next. One that pushed in the iterate before stays where it was. first: of the
+ * touches found in this iterate. */
+static sw_status keep_pushing(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
+                              size_t first) {
+  for (size_t i = k->last; i < k->last_end; i++) {
+    const sw_pair_touch *last = &p->last[i];
+    int found = 0;
+    if (!(last->press.normal_force > 0)) continue;
+    for (size_t j = first; j < p->touch_count; j++)
+      found |= fabs(p->touches[j].at[0] - last->at[0]) + fabs(p->touches[j].at[1] - last->at[1]) <
+               SAME_PLACE;
+    if (!found) SW_TRY(touch_at(p, s, k, y, last->at, 0, 0));
+  }
+  return SW_OK;
+}
+
 static void swap_lists(sw_pairs *p) {
   sw_pair_touch *list = p->last;
   const size_t capacity = p->last_capacity;
@@ -225,7 +242,10 @@ static sw_status find_touches(sw_pairs *p, const sw_system *s, const double *y) 
     int found = 0;
     if (k->held) continue;
     if (p->barrier_count) SW_TRY(behind_barrier(p, s, k, y, &found));
-    if (!found) SW_TRY((k->parallel ? touch_parallel : touch_crossing)(p, s, k, y));
+    if (found) continue;
+    const size_t first = p->touch_count;
+    SW_TRY((k->parallel ? touch_parallel : touch_crossing)(p, s, k, y));
+    if (!k->parallel && p->regime != SW_CONTACT_EXPLICIT) SW_TRY(keep_pushing(p, s, k, y, first));
   }
   return SW_OK;
 }
