@@ -47,8 +47,8 @@ void sw_contact_stiffness(sw_contact_regime regime, double force, double nominal
                           double *rate2);
 
 /* A step of size h from time t begins at the system's state: candidates. nominal
- * is the run's full step, from which the stiffness is derived; unused in
- * statics. */
+ * is the run's full step, from which the stiffness is derived; in statics both
+ * are of the pseudo step, h = 0 when there is none. */
 sw_status sw_contact_begin_step(sw_contact *contact, sw_system *system, sw_contact_regime regime,
                                 double t, double h, double nominal, sw_error *err);
 
