@@ -184,10 +184,6 @@ static void match_memory(sw_contact *c) {
       m++;
     k->memory_end = m;
     k->last = k->last_end = 0;
-    k->k = k->usual = fmax(c->base_stiffness, c->rate2 * k->mass);
-    for (size_t j = k->memory; j < k->memory_end; j++)
-      if (c->memory[j].normal_force > 0 && c->regime != SW_CONTACT_EXPLICIT)
-        k->k = c->memory[j].k; /* a change would be a kick */
   }
 }
 
@@ -203,16 +199,14 @@ void sw_contact_stiffness(sw_contact_regime regime, double force, double nominal
   }
 }
 
-static void set_stiffness(sw_contact *c, const sw_system *s, double nominal) {
-  double force = 0;
-  const double g = sw_norm(sw_load(s->gravity));
-  for (size_t b = 0; b < s->body_count; b++) {
-    const sw_plan *p = s->bodies[b].plan;
-    const double L = p->length;
-    force = fmax(force, fmax(p->beam.mass * L * g, p->beam.EI / (L * L)));
-  }
-  c->force_scale = force;
-  sw_contact_stiffness(c->regime, force, nominal, &c->base_stiffness, &c->rate2);
+/* Stiffness of a wire's new touches: for its weight or for what bends it. */
+static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t first) {
+  const sw_plan *p = s->bodies[body].plan;
+  const double L = p->length, weight = p->beam.mass * L * sw_norm(sw_load(s->gravity));
+  double base, rate2;
+  sw_contact_stiffness(c->regime, fmax(weight, p->beam.EI / (L * L)), c->nominal, &base, &rate2);
+  for (size_t i = first; i < c->candidate_count; i++)
+    c->candidates[i].usual = fmax(base, rate2 * c->candidates[i].mass);
 }
 
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err) {
@@ -221,9 +215,12 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
   c->candidate_count = c->touch_count = c->last_count = 0;
   for (size_t o = 0; o < c->count; o++)
     bounds[o] = world_bounds(c->obstacles[o].shape, &c->start[o].pose);
-  for (size_t b = 0; b < s->body_count && status == SW_OK; b++)
+  for (size_t b = 0; b < s->body_count && status == SW_OK; b++) {
+    const size_t first = c->candidate_count;
     for (size_t i = 0; i < s->bodies[b].plan->nodes && status == SW_OK; i++)
       status = node_candidates(c, s, b, i, bounds);
+    set_stiffness(c, s, b, first);
+  }
   if (status != SW_OK) return sw_fail(err, status, "contact: out of memory");
   match_memory(c);
   return SW_OK;
@@ -236,19 +233,17 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
   c->nominal = nominal;
   c->regime = regime;
   c->barrier_count = c->impact_count = c->pressed_count = 0;
+  c->plastic = 0;
   c->widening = 1.0;
-  set_stiffness(c, s, nominal);
   SW_TRY(place_all(c, t, c->start, err));
   return sw_contact_find_candidates(c, s, err);
 }
 
 sw_status sw_contact_begin_look(sw_contact *c, sw_system *s, double t, sw_error *err) {
   SW_TRY(sw_contact_begin_step(c, s, SW_CONTACT_STATIC, t, 0, 0, err));
-  if (!(c->base_stiffness > 0)) c->base_stiffness = 1.0; /* nothing presses; no touch will do */
-  for (size_t i = 0; i < c->candidate_count; i++) {
-    sw_candidate *k = &c->candidates[i];
-    for (size_t j = k->memory; j < k->memory_end; j++)
-      if (c->memory[j].normal_force > 0) k->k = c->memory[j].normal_force / c->memory[j].depth;
+  for (size_t i = 0; i < c->memory_count; i++) {
+    sw_memory *m = &c->memory[i];
+    if (m->normal_force > 0 && m->depth > 0) m->k = m->normal_force / m->depth;
   }
   return SW_OK;
 }
@@ -258,6 +253,7 @@ sw_status sw_contact_begin_stage(void *contact, sw_system *s, double time, doubl
   sw_contact *c = contact;
   (void)s, (void)hbar, (void)y;
   c->pressed_before = c->pressed_count;
+  c->stage_time = time;
   return place_all(c, time, c->now, err);
 }
 
@@ -283,13 +279,14 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
                    .node = t->node,
                    .feature = t->feature,
                    .at = t->at,
-                   .normal_force = t->normal_force,
-                   .sliding = t->next_sliding,
-                   .depth = t->normal_force / t->k,
-                   .k = c->candidates[t->candidate].k,
-                   .normal = sw_rotate(back, t->normal),
-                   .point = sw_pose_local(o->pose, t->point)};
-  if (t->normal_force > 0) m->elastic = sw_rotate(back, sw_scale(t->tangential, -1.0 / t->k));
+                   .normal_force = t->press.normal_force,
+                   .sliding = t->press.next_sliding,
+                   .depth = t->press.normal_force / t->press.k,
+                   .k = sw_press_eased(&t->press, c->candidates[t->candidate].usual, t->stiffer),
+                   .normal = sw_rotate(back, t->press.normal),
+                   .point = t->local};
+  if (t->press.normal_force > 0)
+    m->elastic = sw_rotate(back, sw_scale(t->press.tangential, -1.0 / t->press.k));
   return SW_OK;
 }
 
@@ -343,8 +340,8 @@ void sw_contact_force(const sw_contact *c, int id, sw_vec about, sw_vec *force, 
   *force = *moment = sw_v(0, 0, 0);
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
-    if (c->obstacles[t->obstacle].id != id || !(t->normal_force > 0)) continue;
-    const sw_vec f = sw_neg(sw_madd(t->tangential, t->normal, t->normal_force));
+    if (c->obstacles[t->obstacle].id != id || !(t->press.normal_force > 0)) continue;
+    const sw_vec f = sw_neg(sw_madd(t->press.tangential, t->press.normal, t->press.normal_force));
     *force = sw_add(*force, f);
     *moment = sw_add(*moment, sw_cross(sw_sub(t->point, about), f));
   }
@@ -353,7 +350,7 @@ void sw_contact_force(const sw_contact *c, int id, sw_vec about, sw_vec *force, 
 double sw_contact_penetration(const sw_contact *c, size_t *node) {
   double deepest = 0;
   for (size_t i = 0; i < c->touch_count; i++) {
-    const double depth = c->touches[i].forgiven - c->touches[i].gap_after;
+    const double depth = c->touches[i].forgiven - c->touches[i].press.gap_after;
     if (depth <= deepest) continue;
     deepest = depth;
     if (node) *node = c->touches[i].node;
@@ -363,7 +360,7 @@ double sw_contact_penetration(const sw_contact *c, size_t *node) {
 
 size_t sw_contact_count(const sw_contact *c) {
   size_t n = 0;
-  for (size_t i = 0; i < c->touch_count; i++) n += c->touches[i].normal_force > 0;
+  for (size_t i = 0; i < c->touch_count; i++) n += c->touches[i].press.normal_force > 0;
   return n;
 }
 
@@ -371,8 +368,9 @@ double sw_contact_energy(const sw_contact *c) {
   double sum = 0;
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
-    if (!(t->normal_force > 0)) continue;
-    sum += 0.5 * (t->normal_force * t->normal_force + sw_norm2(t->tangential)) / t->k;
+    if (!(t->press.normal_force > 0)) continue;
+    sum += 0.5 * (t->press.normal_force * t->press.normal_force + sw_norm2(t->press.tangential)) /
+           t->press.k;
   }
   return sum;
 }

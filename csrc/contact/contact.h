@@ -47,8 +47,8 @@ void sw_contact_stiffness(sw_contact_regime regime, double force, double nominal
                           double *rate2);
 
 /* A step of size h from time t begins at the system's state: candidates. nominal
- * is the run's full step, from which the stiffness is derived; unused in
- * statics. */
+ * is the run's full step, from which the stiffness is derived; in statics both
+ * are of the pseudo step, h = 0 when there is none. */
 sw_status sw_contact_begin_step(sw_contact *contact, sw_system *system, sw_contact_regime regime,
                                 double t, double h, double nominal, sw_error *err);
 
@@ -66,7 +66,7 @@ int sw_contact_settled(void *contact, sw_system *system, const double *y, const 
 /* 1: an obstacle is not where it was at the step's start, as last placed. */
 int sw_contact_moves(const sw_contact *contact);
 
-/* What is to be done with a trial step to positions x1. */
+/* What is to be done with a trial step to positions x1 and velocities v1. */
 typedef enum sw_contact_verdict {
   SW_CONTACT_ACCEPT,
   SW_CONTACT_REDO,   /* impacts or crossings that the step did not know of: the
@@ -76,7 +76,7 @@ typedef enum sw_contact_verdict {
   SW_CONTACT_SMALLER /* edges or corners cut too deep: only a smaller step helps */
 } sw_contact_verdict;
 sw_contact_verdict sw_contact_review(sw_contact *contact, sw_system *system, const double *x1,
-                                     double h);
+                                     const double *v1, double h);
 
 /* The same for statics: segments of a solution x1 that went through an obstacle
  * are kept on their side from now on. 1 = there were some, solve again. */

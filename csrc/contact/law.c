@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+/* Changes of the gap below this do not keep an iteration going [m]. */
+static const double GAP_TOLERANCE = 2e-8;
 /* Errors of a friction spring's length below this do not keep an iteration going: far
  * below its length at the onset of sliding, however stiff it is [m]. */
 static const double SPRING_TOLERANCE = 1e-11;
@@ -17,17 +19,34 @@ static const double WEIGHT_TOLERANCE = 1e-3;
  * whatever the prediction is worth [-]. */
 static const double SURELY_SLIDING = 20.0;
 
+/* Wires that are deeper inside than their force explains are let out at this speed [m/s]. */
+static const double RECOVERY_SPEED = 0.2;
+
+/* A touch that sinks in deeper is made stiffer until it does not [m]. */
+static const double DEEPEST = 50e-6;
+static const double MOST_BOOST = 1e5;    /* of that stiffness [-] */
+static const double LARGEST_STEP = 10.0; /* of it at once [-] */
+static const double DEEPER = 5e-6;       /* than before, in short steps [m] */
+static const double NEEDLESS = 0.1;      /* of the allowed depth [-] */
+static const double EASING = 0.8;        /* per step [-] */
+
 void sw_press_activate(sw_press *p, const sw_press *last) {
   p->active = p->gap < 0 || (last && last->active && last->normal_force > 0);
 }
 
+/* After this many alternations friction's normal force is taken by secant: most die out by
+ * themselves, and among many touches the slope of one says little of the others [-]. */
+enum { ALTERNATIONS = 4 };
+
 void sw_press_take_lag(sw_press *p, const sw_press *last) {
-  const double step = last->lag - last->lag_before;
+  const double error = last->normal_force - last->lag;
+  const double error_before = last->force_before - last->lag_before;
   p->lag_before = last->lag, p->force_before = last->normal_force;
   p->lag = last->normal_force;
-  if (!(last->lag_before > 0) || step == 0) return;
-  const double slope = (last->normal_force - last->force_before) / step;
-  if (slope < 0) p->lag = (last->normal_force - slope * last->lag) / (1.0 - slope);
+  if (!(last->lag_before > 0) || !(error * error_before < 0)) return;
+  p->alternations = last->alternations + 1;
+  if (p->alternations >= ALTERNATIONS)
+    p->lag = last->lag + (last->lag_before - last->lag) * error / (error - error_before);
 }
 
 void sw_press_begin(sw_press *p, double friction, int known) {
@@ -85,6 +104,24 @@ int sw_press_update(sw_press *p, double friction, sw_vec shift, double force_sca
   p->normal_force = active ? fmax(0.0, -p->k * p->gap_after) : 0.0;
   p->next_sliding = 1; /* what does not touch moves freely */
   const int agrees = active && friction > 0 ? update_friction(p, friction, shift, force_scale) : 1;
-  if (active ? p->gap_after > SW_GAP_TOLERANCE : p->gap_after < -SW_GAP_TOLERANCE) return 0;
+  if (active ? p->gap_after > GAP_TOLERANCE : p->gap_after < -GAP_TOLERANCE) return 0;
   return agrees;
+}
+
+double sw_press_forgiven(double depth, double explained, double h) {
+  return fmax(0.0, depth - explained - RECOVERY_SPEED * h - GAP_TOLERANCE);
+}
+
+double sw_press_stiffer(const sw_press *p, double usual, double forgiven, double before) {
+  const double over = p->gap_after / -DEEPEST;
+  if (over <= 1.0 || p->k >= MOST_BOOST * usual) return p->k;
+  if (before < 0) return p->k * fmin(LARGEST_STEP, 2.0 * over);
+  /* what strikes in a short step gets there fast */
+  return forgiven - p->gap_after < before + DEEPER ? p->k : p->k * LARGEST_STEP;
+}
+
+double sw_press_eased(const sw_press *p, double usual, double k) {
+  const double depth = p->normal_force / p->k;
+  if (!(k > usual) || !(depth < NEEDLESS * DEEPEST)) return k;
+  return fmax(usual, EASING * k);
 }

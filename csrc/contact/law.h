@@ -19,16 +19,11 @@ typedef struct sw_press {
   sw_vec normal;                   /* of the push [-] */
   sw_vec trial;                    /* tangential displacement from the anchor at this iterate [m] */
   sw_vec tangential;               /* friction force after the last solve [N] */
+  int alternations;                /* of normal_force - lag until the last iterate [-] */
   int active;                      /* pushes in this iterate */
   int sliding;                     /* assumed in this iterate */
   int next_sliding;                /* as the last solve found it */
 } sw_press;
-
-/* Changes of the gap below this do not keep an iteration going [m]. */
-#define SW_GAP_TOLERANCE 2e-8
-/* A touch that sinks in deeper is made stiffer until it does not [m]. */
-#define SW_DEEPEST 50e-6
-#define SW_MOST_BOOST 1e5 /* of that stiffness [-] */
 
 /* A touch that pushed after the last solve goes on in this iterate even if turning normals
  * have opened its gap a little: letting go of it would let the wires fall into each other.
@@ -49,8 +44,23 @@ void sw_press_begin(sw_press *press, double friction, int known);
  * explicit methods, which take all from this iterate. */
 sw_vec sw_press_eval(sw_press *press, double friction, int lagged, double K[6]);
 
+/* Part of a depth at the step's start that the step leaves alone, explained being what goes
+ * with the touch's force there: what was placed in each other, or comes out of a barrier, is
+ * let out slowly, for within one step the whole depth would turn into speed [m]. */
+double sw_press_forgiven(double depth, double explained, double h);
+
 /* Forces after an update that shifted the touch; 1 = they agree with what the solve
  * assumed. force_scale: of the scene, forces far below which do not matter [N]. */
 int sw_press_update(sw_press *press, double friction, sw_vec shift, double force_scale);
+
+/* A touch that sinks in too deep gets stiffer: its stiffness from the next iterate on, or the
+ * one it has [N/m]. usual: of a new touch. before: how deep the wire was at the step's start in
+ * a step so short that inertia alone keeps it there, else negative [m]. forgiven: see above. */
+double sw_press_stiffer(const sw_press *press, double usual, double forgiven, double before);
+
+/* The stiffness to begin the next step with, when k is what this one ended with: a touch goes
+ * on as stiff as it was, for a change would be a kick, but one that was made stiffer than it
+ * has to be gives way slowly [N/m]. */
+double sw_press_eased(const sw_press *press, double usual, double k);
 
 #endif

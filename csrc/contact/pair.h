@@ -62,6 +62,7 @@ struct sw_pairs {
   sw_contact_regime regime;
   double h, nominal;      /* [s] */
   double *base_stiffness; /* (bodies) for the forces of each [N/m] */
+  double *largest;        /* (bodies) normal force that its friction takes as given [N] */
   double rate2;           /* stiffness per mass [1/s2] */
 
   /* segments near each other, for many steps */

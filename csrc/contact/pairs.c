@@ -13,7 +13,8 @@ sw_status sw_pairs_new(const sw_pair_rule *rules, size_t count, sw_pairs **out) 
   if (!p) return SW_ENOMEM;
   p->rules = sw_alloc(count * count, sizeof *p->rules);
   p->base_stiffness = sw_alloc(count, sizeof *p->base_stiffness);
-  if (!p->rules || !p->base_stiffness) {
+  p->largest = sw_alloc(count, sizeof *p->largest);
+  if (!p->rules || !p->base_stiffness || !p->largest) {
     sw_pairs_free(p);
     return SW_ENOMEM;
   }
@@ -37,6 +38,7 @@ void sw_pairs_free(sw_pairs *p) {
   if (!p) return;
   sw_free(p->rules);
   sw_free(p->base_stiffness);
+  sw_free(p->largest);
   sw_free(p->near);
   sw_free(p->listed_at);
   sw_free(p->grid);
@@ -109,7 +111,7 @@ void sw_pairs_commit(sw_pairs *p, sw_system *s) {
                           .at = {t->at[0], t->at[1]},
                           .normal_force = t->press.normal_force,
                           .depth = t->press.normal_force / t->press.k,
-                          .k = t->stiffer,
+                          .k = sw_press_eased(&t->press, k->usual, t->stiffer),
                           .normal = t->press.normal,
                           .sliding = t->press.next_sliding};
     if (m->normal_force > 0) m->elastic = sw_scale(t->press.tangential, -1.0 / t->press.k);

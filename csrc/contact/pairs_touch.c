@@ -28,9 +28,13 @@ const sw_pair_memory *sw_pair_recall(const sw_pairs *p, const sw_pair *k, const 
   return best;
 }
 
+/* A touch of the iterate before is the same one up to this far along the segments: others of
+ * the same two, which may come and go, have nothing to do with it [-]. */
+static const double SAME_PLACE = 0.25;
+
 static const sw_pair_touch *last_for(const sw_pairs *p, const sw_pair *k, const double at[2]) {
   const sw_pair_touch *best = NULL;
-  double nearest = HUGE_VAL;
+  double nearest = SAME_PLACE;
   for (size_t i = k->last; i < k->last_end; i++) {
     const sw_pair_touch *t = &p->last[i];
     const double d = fabs(t->at[0] - at[0]) + fabs(t->at[1] - at[1]);
@@ -47,30 +51,20 @@ static sw_vec carry(sw_vec v, sw_vec from, sw_vec to) {
 
 /* --- touches --------------------------------------------------------------------- */
 
-/* Wires that are deeper in each other at the step's start than their force explains are
- * let out at this speed: see contact with obstacles [m/s]. */
-static const double RECOVERY_SPEED = 0.2;
-
 static double forgiven(const sw_pairs *p, const sw_system *s, const sw_pair *k,
                        const sw_pair_touch *t, const sw_pair_memory *m) {
   if (p->regime != SW_CONTACT_IMPLICIT || t->press.gap >= 0) return 0;
   const sw_vec from = sw_pair_apart(s->x, k->one, k->two, t->at);
   const double depth = k->reach - sw_dot(t->press.normal, from);
-  const double explained = m ? m->depth : 0.0;
-  return fmax(0.0, depth - explained - RECOVERY_SPEED * p->h - SW_GAP_TOLERANCE);
+  return sw_press_forgiven(depth, m ? m->depth : 0.0, p->h);
 }
 
-/* A touch goes on as stiff as it was, wherever it has slid to: a change would be a kick.
- * One that was made stiffer than it has to be gives way slowly. */
-static const double NEEDLESS = 0.1; /* of the allowed depth [-] */
-static const double EASING = 0.8;   /* per step [-] */
-
+/* Wherever it has slid to. */
 static double stiffness_of(const sw_pairs *p, const sw_pair *k, const sw_pair_memory *m,
                            const sw_pair_touch *last) {
   if (p->regime == SW_CONTACT_EXPLICIT) return k->usual;
   if (last) return last->stiffer;
-  if (!m || !(m->normal_force > 0)) return k->usual;
-  return m->depth < NEEDLESS * SW_DEEPEST && m->k > k->usual ? fmax(k->usual, EASING * m->k) : m->k;
+  return m && m->normal_force > 0 ? m->k : k->usual;
 }
 
 static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
@@ -211,6 +205,23 @@ static sw_status touch_parallel(sw_pairs *p, const sw_system *s, const sw_pair *
   return SW_OK;
 }
 
+/* Nearest places come and go where wires lie along each other, or are handed on from one
+ * segment to the next. One that pushed in the iterate before stays where it was. first: of the
+ * touches found in this iterate. */
+static sw_status keep_pushing(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
+                              size_t first) {
+  for (size_t i = k->last; i < k->last_end; i++) {
+    const sw_pair_touch *last = &p->last[i];
+    int found = 0;
+    if (!(last->press.normal_force > 0)) continue;
+    for (size_t j = first; j < p->touch_count; j++)
+      found |= fabs(p->touches[j].at[0] - last->at[0]) + fabs(p->touches[j].at[1] - last->at[1]) <
+               SAME_PLACE;
+    if (!found) SW_TRY(touch_at(p, s, k, y, last->at, 0, 0));
+  }
+  return SW_OK;
+}
+
 static void swap_lists(sw_pairs *p) {
   sw_pair_touch *list = p->last;
   const size_t capacity = p->last_capacity;
@@ -231,7 +242,10 @@ static sw_status find_touches(sw_pairs *p, const sw_system *s, const double *y) 
     int found = 0;
     if (k->held) continue;
     if (p->barrier_count) SW_TRY(behind_barrier(p, s, k, y, &found));
-    if (!found) SW_TRY((k->parallel ? touch_parallel : touch_crossing)(p, s, k, y));
+    if (found) continue;
+    const size_t first = p->touch_count;
+    SW_TRY((k->parallel ? touch_parallel : touch_crossing)(p, s, k, y));
+    if (!k->parallel && p->regime != SW_CONTACT_EXPLICIT) SW_TRY(keep_pushing(p, s, k, y, first));
   }
   return SW_OK;
 }
@@ -273,43 +287,46 @@ static int update(const sw_pairs *p, sw_pair_touch *t, const double *delta, doub
 }
 
 /* In steps below this share of the nominal one, depth that was there before is taken as
- * it comes, for inertia alone would keep it; and what strikes in them gets there fast [-]. */
+ * it comes [-]. */
 static const double SMALL_STEP = 0.25;
-static const double DEEPER = 5e-6; /* [m] */
-
-static int is_old_depth(const sw_system *s, const sw_pair *k, const sw_pair_touch *t) {
-  const double apart = sw_dot(t->press.normal, sw_pair_apart(s->x, k->one, k->two, t->at));
-  return t->forgiven - t->press.gap_after < k->reach - apart + DEEPER;
-}
 
 /* Make touches that sink in too deep stiffer; 1 = there were some. */
 static int stiffen(sw_pairs *p, const sw_system *s) {
-  const int small = p->regime == SW_CONTACT_IMPLICIT && p->h < SMALL_STEP * p->nominal;
+  const int small = p->h > 0 && p->h < SMALL_STEP * p->nominal;
   int any = 0;
-  if (p->regime == SW_CONTACT_EXPLICIT) return 0;
+  if (p->regime == SW_CONTACT_EXPLICIT || s->rough) return 0;
   for (size_t i = 0; i < p->touch_count; i++) {
     sw_pair_touch *t = &p->touches[i];
     const sw_pair *k = &p->pairs[t->pair];
-    const double over = t->press.gap_after / -SW_DEEPEST;
-    if (over <= 1.0 || t->press.k >= SW_MOST_BOOST * k->usual) continue;
-    if (small && is_old_depth(s, k, t)) continue;
-    t->stiffer = t->press.k * (small ? 10.0 : fmin(10.0, 2.0 * over));
-    any = 1;
+    const sw_vec apart = sw_pair_apart(s->x, k->one, k->two, t->at);
+    const double before = fmax(0.0, k->reach - sw_dot(t->press.normal, apart));
+    t->stiffer = sw_press_stiffer(&t->press, k->usual, t->forgiven, small ? before : -1.0);
+    any |= t->stiffer > t->press.k;
   }
   return any;
 }
 
-/* Forces far below the largest one here do not matter. */
-static double scale_of(const sw_pairs *p) {
-  double scale = 0;
-  for (size_t i = 0; i < p->touch_count; i++) scale = fmax(scale, p->touches[i].press.lag);
-  return scale;
+/* Of a wire's touches, forces far below the largest one do not matter; of two wires, what
+ * does not matter to either. */
+static void find_scales(sw_pairs *p) {
+  for (size_t b = 0; b < p->bodies; b++) p->largest[b] = 0;
+  for (size_t i = 0; i < p->touch_count; i++)
+    for (size_t k = 0; k < 2; k++) {
+      double *largest = &p->largest[p->pairs[p->touches[i].pair].body[k]];
+      *largest = fmax(*largest, p->touches[i].press.lag);
+    }
+}
+
+static double scale_of(const sw_pairs *p, const sw_pair_touch *t) {
+  const uint32_t *body = p->pairs[t->pair].body;
+  return fmin(p->largest[body[0]], p->largest[body[1]]);
 }
 
 int sw_pairs_settled(sw_pairs *p, sw_system *s, const double *delta) {
-  const double scale = scale_of(p);
   int fine = 1;
-  for (size_t i = 0; i < p->touch_count; i++) fine &= update(p, &p->touches[i], delta, scale);
+  find_scales(p);
+  for (size_t i = 0; i < p->touch_count; i++)
+    fine &= update(p, &p->touches[i], delta, scale_of(p, &p->touches[i]));
   if (fine && stiffen(p, s)) return 0;
   for (size_t i = 0; fine && i < p->touch_count; i++) {
     const sw_pair_touch *t = &p->touches[i];

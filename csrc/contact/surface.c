@@ -21,14 +21,14 @@ sw_levers sw_touch_levers(const sw_system *s, const sw_touch *t) {
   if (!b->roll_block) return l;
   if (t->segment || i == 0 || i == p->edges) {
     l.edge = i < p->edges ? i : i - 1;
-    l.arm[0] = arm(b, l.edge, t->normal, 1.0);
+    l.arm[0] = arm(b, l.edge, t->press.normal, 1.0);
     l.count = 1;
     return l;
   }
   const double after = p->rest[i] / (p->rest[i - 1] + p->rest[i]);
   l.edge = i - 1;
-  l.arm[0] = arm(b, i - 1, t->normal, 1.0 - after);
-  l.arm[1] = arm(b, i, t->normal, after);
+  l.arm[0] = arm(b, i - 1, t->press.normal, 1.0 - after);
+  l.arm[1] = arm(b, i, t->press.normal, after);
   l.count = 2;
   return l;
 }
@@ -65,7 +65,7 @@ void sw_levers_push(sw_system *s, const sw_touch *t, const double K[6], unsigned
   sw_body *b = &s->bodies[t->body];
   const sw_levers l = sw_touch_levers(s, t);
   for (size_t k = 0; k < l.count; k++) {
-    b->field.spin[l.edge + k] -= sw_dot(l.arm[k], t->tangential);
+    b->field.spin[l.edge + k] -= sw_dot(l.arm[k], t->press.tangential);
     if (want & SW_WANT_STIFFNESS) add_lever(b, t, &l, k, K);
   }
 }

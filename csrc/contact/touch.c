@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The contact law. Normal: N = k max(0, -gap). Friction: an anchored spring
- * with return mapping, f = -k u while k |u| <= mu N, else mu N against u and
- * the anchor follows; u is the elastic displacement kept from the last step
- * plus the material displacement since. Within an iteration friction takes the
- * normal force of the iterate before, which keeps the matrix symmetric and the
- * sub-problem convex. */
+/* Touches of an iterate: where wires are near obstacles, what the touches there remember,
+ * their forces by the common law, and whether these agree with the solve. */
 #include "contact/touch.h"
 
 #include <math.h>
@@ -12,30 +8,13 @@
 
 #include "base/alloc.h"
 
-/* Changes of the gap below this do not keep an iteration going [m]. */
-static const double GAP_TOLERANCE = 2e-8;
-/* Nor do errors of a friction spring's length below this: far below its length
- * at the onset of sliding, however stiff it is [m]. */
-static const double SPRING_TOLERANCE = 1e-11;
-/* Nor turns of the sliding direction with a cosine above this [-]. */
-static const double TURN_TOLERANCE = 0.98;
-/* Nor do changes of a sliding touch's normal force below this share of it, or
- * below this share of the whole wire's weight [-]. */
-static const double FORCE_TOLERANCE = 0.01;
-static const double WEIGHT_TOLERANCE = 1e-3;
-
 /* Shorter updates leave place and normal of a touch on a curved or edged shape
  * as they are; of the radius [-]. */
 static const double SMALL_SHIFT = 0.05;
 
-/* A touch that sinks in deeper is made stiffer until it does not [m]. */
-static const double DEEPEST = 50e-6;
-static const double MOST_BOOST = 1e5; /* [-] */
-
-/* A spring stretched this many times over what friction can hold does not stick,
- * whatever the prediction is worth [-]. Not so where a wire has been rolling: on a curved
- * surface both its shift and its turn are predicted less exactly than that. */
-static const double SURELY_SLIDING = 20.0;
+/* A touch goes on into the next iterate up to this gap, of the radius, and while its normal
+ * turns by an angle with a cosine above this [-]. */
+static const double STILL_NEAR = 0.5, SAME_SIDE = 0.7;
 
 enum { OWN = 0, NEXT = 6, ROW = 24 }; /* layout of the system's block rows */
 
@@ -73,10 +52,16 @@ static const sw_memory *inherited(const sw_contact *c, const sw_candidate *k, do
   return best;
 }
 
+/* A touch of the iterate before is the same one up to this far along the segment [-]. */
+static const double SAME_PLACE = 0.25;
+
 static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, double at) {
   const sw_touch *best = NULL;
-  for (size_t i = k->last; i < k->last_end; i++)
-    if (!best || fabs(c->last[i].at - at) < fabs(best->at - at)) best = &c->last[i];
+  double nearest = SAME_PLACE;
+  for (size_t i = k->last; i < k->last_end; i++) {
+    const double d = fabs(c->last[i].at - at);
+    if (d < nearest) best = &c->last[i], nearest = d;
+  }
   return best;
 }
 
@@ -92,40 +77,41 @@ static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_t
   const sw_body *b = &s->bodies[t->body];
   if (!b->roll_block) return sw_sub(to, carried);
   const sw_levers levers = sw_touch_levers(s, t);
-  const sw_vec before =
-      sw_rotate(c->start[t->obstacle].pose.q, sw_unrotate(c->now[t->obstacle].pose.q, t->normal));
-  const sw_vec arm = sw_scale(sw_sub(t->normal, before), b->plan->beam.radius);
+  const sw_vec before = sw_rotate(c->start[t->obstacle].pose.q,
+                                  sw_unrotate(c->now[t->obstacle].pose.q, t->press.normal));
+  const sw_vec arm = sw_scale(sw_sub(t->press.normal, before), b->plan->beam.radius);
   const sw_vec rolled = sw_levers_shift(&levers, b->roll_turn, 1);
   return sw_add(sw_add(sw_sub(to, carried), arm), rolled);
 }
 
-static void set_friction_state(const sw_contact *c, const sw_system *s, const sw_candidate *k,
-                               const double *y, sw_touch *t) {
-  const sw_memory *own = memory_for(c, k, t->at);
-  const sw_memory *m = own && own->normal_force > 0 ? own : inherited(c, k, t->at);
-  const sw_touch *last = last_for(c, k, t->at);
+/* The memory of a touch that pressed, on whatever part of the wire it was. */
+static const sw_memory *pressed_memory(const sw_contact *c, const sw_candidate *k, double at) {
+  const sw_memory *own = memory_for(c, k, at);
+  return own && own->normal_force > 0 ? own : inherited(c, k, at);
+}
+
+/* What only now begins to touch has been moving freely: it slides first. A wire that has been
+ * rolling is not called a slide for a long spring: on a curved surface both its shift and its
+ * turn are predicted less exactly than that. */
+static void begin_friction(const sw_contact *c, const sw_system *s, const sw_memory *m,
+                           const sw_touch *last, const double *y, sw_touch *t) {
+  sw_press *press = &t->press;
   sw_vec u = relative_shift(c, s, t, y);
-  t->known = m != NULL;
   if (m)
     u = sw_add(u, sw_rotate(c->now[t->obstacle].pose.q, m->elastic));
-  else
-    u = sw_scale(u, t->gap < 0 ? 1.0 : 0.0);
-  t->trial = sw_madd(u, t->normal, -sw_dot(u, t->normal));
-  t->lag = last ? last->normal_force : m ? m->normal_force : t->k * fmax(0.0, -t->gap);
-  const double most = c->obstacles[t->obstacle].friction * t->lag;
-  /* The predicted place says little about sticking: a spring this stiff calls
-   * every prediction a slide. Go on from the state that was found last. What
-   * only now begins to touch has been moving freely: it slides first. */
-  if (last && last->gap < 0)
-    t->sliding = last->next_sliding;
+  else if (press->gap >= 0)
+    u = sw_v(0, 0, 0);
+  press->trial = sw_madd(u, press->normal, -sw_dot(u, press->normal));
+  press->lag = m ? m->normal_force : press->k * fmax(0.0, -press->gap);
+  if (last) sw_press_take_lag(press, &last->press);
+  const int went_on = last && last->press.active;
+  if (went_on)
+    press->sliding = last->press.next_sliding;
   else if (m)
-    t->sliding = m->sliding;
-  else
-    t->sliding = t->k * sw_norm(t->trial) > most;
-
+    press->sliding = m->sliding;
   const int held = m && !m->sliding &&
                    (s->bodies[t->body].roll_block || (!last && c->regime == SW_CONTACT_STATIC));
-  if (!held && t->k * sw_norm(t->trial) > SURELY_SLIDING * most) t->sliding = 1;
+  if (!held) sw_press_begin(press, c->obstacles[t->obstacle].friction, went_on || m);
 }
 
 int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
@@ -134,44 +120,58 @@ int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
   return b->plan->held[i] != SW_FREE && (!k->segment || b->plan->held[i + 1] != SW_FREE);
 }
 
-/* A wire that is deeper inside at the step's start than its force explains
- * (after a barrier, or placed there) is let out slowly: without this the whole
- * depth would turn into speed within one step. Returns the part of the depth
- * that the step leaves alone [m]. In explicit steps force follows depth, so none
- * is. */
-static const double RECOVERY_SPEED = 0.2; /* [m/s] */
-
-static double forgiven(const sw_contact *c, const sw_system *s, const sw_candidate *k,
-                       const sw_touch *t) {
-  if (c->regime != SW_CONTACT_IMPLICIT || t->gap >= 0) return 0;
-  const sw_memory *m = memory_for(c, k, t->at);
-  const sw_vec local = sw_pose_local(c->now[t->obstacle].pose, t->point);
-  const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, local);
+/* How deep the touch's place was at the step's start, below 0 when it was outside [m]. */
+static double depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t) {
+  const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
   const sw_vec from = sw_touch_place(s->x, t->node, t->segment, t->at);
-  const double depth = k->radius - sw_dot(t->normal, sw_sub(from, plane));
-  const double explained = m ? m->depth : 0.0;
-  return fmax(0.0, depth - explained - RECOVERY_SPEED * c->h - GAP_TOLERANCE);
+  return c->candidates[t->candidate].radius - sw_dot(t->press.normal, sw_sub(from, plane));
+}
+
+static double stiffness_of(const sw_contact *c, const sw_candidate *k, const sw_memory *m,
+                           const sw_touch *last) {
+  if (c->regime == SW_CONTACT_EXPLICIT) return k->usual;
+  if (last) return last->stiffer;
+  return m ? m->k : k->usual;
+}
+
+/* Is a touch the one of the iterate before, moved a little? */
+static int goes_on(const sw_contact *c, const sw_candidate *k, const sw_press *press,
+                   const sw_touch *last) {
+  return last && c->regime != SW_CONTACT_EXPLICIT && press->gap < STILL_NEAR * k->radius &&
+         sw_dot(press->normal, last->press.normal) > SAME_SIDE;
 }
 
 static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
                            const double *y, const sw_closest *near) {
   const sw_pose *pose = &c->now[k->obstacle].pose;
+  const double at = k->segment ? near->at : 0.0;
+  const sw_memory *m = pressed_memory(c, k, at);
+  const sw_touch *last = last_for(c, k, at);
+  const double stiffness = stiffness_of(c, k, m, last);
   sw_touch t = {.obstacle = k->obstacle,
                 .segment = k->segment,
                 .node = k->node,
                 .body = k->body,
                 .feature = near->feature,
-                .at = k->segment ? near->at : 0.0,
-                .normal = sw_rotate(pose->q, near->normal),
+                .at = at,
                 .point = sw_pose_point(*pose, near->point),
-                .gap = near->gap - k->radius,
-                .k = k->k,
+                .local = near->point,
+                .known = m != NULL,
+                .stiffer = stiffness,
                 .held = sw_contact_is_held(s, k),
-                .candidate = (size_t)(k - c->candidates)};
-  t.forgiven = forgiven(c, s, k, &t);
-  t.gap += t.forgiven;
-  t.gap_after = t.gap;
-  set_friction_state(c, s, k, y, &t);
+                .candidate = (size_t)(k - c->candidates),
+                .press = {.normal = sw_rotate(pose->q, near->normal),
+                          .gap = near->gap - k->radius,
+                          .k = stiffness}};
+  sw_press *press = &t.press;
+  if (c->regime == SW_CONTACT_IMPLICIT &&
+      press->gap < 0) /* in explicit steps force follows depth */
+    t.forgiven = sw_press_forgiven(depth_before(c, s, &t), m ? m->depth : 0.0, c->h);
+  press->gap += t.forgiven;
+  press->gap_after = press->gap;
+  sw_press_activate(press, goes_on(c, k, press, last) ? &last->press : NULL);
+  begin_friction(c, s, m, last, y, &t);
+  if (t.held) press->active = 0;
   return push(c, &t);
 }
 
@@ -213,6 +213,27 @@ static int behind_barrier(const sw_contact *c, const sw_candidate *k, const doub
   return 0;
 }
 
+/* The nearest place of a segment that lies along an obstacle comes and goes with the last
+ * nanometre. One that pushed in the iterate before stays where it was. first: of the touches
+ * found in this iterate. */
+static sw_status keep_pushing(sw_contact *c, const sw_system *s, const sw_candidate *k,
+                              const double *y, size_t first) {
+  const sw_pose *pose = &c->now[k->obstacle].pose;
+  for (size_t i = k->last; i < k->last_end; i++) {
+    const sw_touch *last = &c->last[i];
+    if (!(last->press.normal_force > 0)) continue;
+    int found = 0;
+    for (size_t j = first; j < c->touch_count; j++)
+      found |= fabs(c->touches[j].at - last->at) < SAME_PLACE;
+    const sw_vec p = sw_pose_local(*pose, sw_touch_place(y, k->node, 1, last->at));
+    sw_closest near;
+    if (found || !sw_shape_point(c->obstacles[k->obstacle].shape, p, k->radius, &near)) continue;
+    near.at = last->at;
+    if (keep_side(c, k, p, &near)) SW_TRY(add_touch(c, s, k, y, &near));
+  }
+  return SW_OK;
+}
+
 static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k, const double *y) {
   const sw_shape *shape = c->obstacles[k->obstacle].shape;
   const sw_pose *pose = &c->now[k->obstacle].pose;
@@ -226,12 +247,13 @@ static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k,
     return keep_side(c, k, a, &near[0]) ? add_touch(c, s, k, y, &near[0]) : SW_OK;
   }
   const sw_vec b = sw_pose_local(*pose, sw_load(y + 3 * k->node + 3));
+  const size_t first = c->touch_count;
   const int n = sw_shape_segment(shape, a, b, reach, near);
   for (int i = 0; i < n; i++) {
     if (keep_side(c, k, sw_lerp(a, b, near[i].at), &near[i]))
       SW_TRY(add_touch(c, s, k, y, &near[i]));
   }
-  return SW_OK;
+  return c->regime == SW_CONTACT_EXPLICIT ? SW_OK : keep_pushing(c, s, k, y, first);
 }
 
 static void swap_lists(sw_contact *c) {
@@ -266,34 +288,14 @@ static void add_to_field(sw_system *s, const sw_touch *t, sw_vec f, const double
   for (size_t k = 0; k < 9; k++) b->field.rows[ROW * i + NEXT + k] += w[0] * w[1] * K[full[k]];
 }
 
-/* K = kn n n' + kt (I - n n') - ks d d' */
-static void stiffness_matrix(double kn, double kt, double ks, sw_vec n, sw_vec d, double K[6]) {
-  const double v[3] = {n.x, n.y, n.z}, u[3] = {d.x, d.y, d.z};
-  for (int i = 0, at = 0; i < 3; i++)
-    for (int j = i; j < 3; j++, at++)
-      K[at] = (kn - kt) * v[i] * v[j] + (i == j ? kt : 0.0) - ks * u[i] * u[j];
-}
-
 static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
-  const double mu = c->obstacles[t->obstacle].friction;
   double K[6];
-  t->normal_force = 0;
-  t->tangential = sw_v(0, 0, 0);
-  if (!(t->gap < 0) || t->held) return;
-  t->normal_force = -t->k * t->gap;
-  if (c->regime == SW_CONTACT_EXPLICIT) t->lag = t->normal_force;
-  const double most = mu * t->lag, length = sw_norm(t->trial);
-  if (c->regime == SW_CONTACT_EXPLICIT) t->sliding = t->k * length > most;
-  const sw_vec d = length > 0 ? sw_scale(t->trial, 1.0 / length) : sw_v(0, 0, 0);
-  t->tangential = sw_scale(d, t->sliding ? -most : -t->k * length);
-  if (t->sliding) {
-    const double kt = length > 0 ? fmin(most / length, t->k) : 0.0;
-    stiffness_matrix(t->k, kt, kt, t->normal, d, K);
-  } else {
-    stiffness_matrix(t->k, mu > 0 ? t->k : 0.0, 0, t->normal, d, K);
-    if (!(mu > 0)) t->tangential = sw_v(0, 0, 0);
-  }
-  add_to_field(s, t, sw_madd(t->tangential, t->normal, t->normal_force), K, want);
+  t->press.normal_force = 0;
+  t->press.tangential = sw_v(0, 0, 0);
+  if (!t->press.active) return;
+  const sw_vec f = sw_press_eval(&t->press, c->obstacles[t->obstacle].friction,
+                                 c->regime != SW_CONTACT_EXPLICIT, K);
+  add_to_field(s, t, f, K, want);
   if (s->rolls) sw_levers_push(s, t, K, want);
 }
 
@@ -312,25 +314,6 @@ sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar,
   return SW_OK;
 }
 
-/* Friction after the solved update; 1 = it agrees with what was assumed. */
-static int update_friction(const sw_contact *c, sw_touch *t, sw_vec shift) {
-  const double mu = c->obstacles[t->obstacle].friction;
-  const sw_vec u = sw_madd(sw_add(t->trial, shift), t->normal, -sw_dot(shift, t->normal));
-  const double length = sw_norm(u), most = mu * t->normal_force;
-  const double small = t->k * SPRING_TOLERANCE;
-  const double along = sw_dot(u, t->trial);
-  const int beyond = t->k * length > most;
-  const int reversed = t->sliding && along < 0;
-  t->next_sliding = beyond && !reversed;
-  t->tangential = sw_scale(u, -(beyond && length > 0 ? most / length : t->k));
-  if (reversed) return most <= small;
-  if (t->sliding && beyond && along < TURN_TOLERANCE * length * sw_norm(t->trial)) return 0;
-  if (t->sliding != beyond) /* a change of state matters when the force does */
-    return fabs(t->k * length - most) <= small + FORCE_TOLERANCE * most;
-  return !beyond || fabs(t->normal_force - t->lag) <=
-                        FORCE_TOLERANCE * t->normal_force + WEIGHT_TOLERANCE * c->force_scale;
-}
-
 /* A touch's shift by the solved update, with that of the surface. */
 static sw_vec surface_shift(const sw_system *s, const sw_touch *t, sw_vec shift) {
   const sw_levers levers = sw_touch_levers(s, t);
@@ -340,40 +323,70 @@ static sw_vec surface_shift(const sw_system *s, const sw_touch *t, sw_vec shift)
 
 /* Bring a touch's forces up to the solved update; 1 = it agrees with what the
  * solve assumed. */
-static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *delta) {
+static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *delta,
+                  double scale) {
   const sw_vec shift =
       t->segment ? sw_lerp(sw_load(delta + 3 * t->node), sw_load(delta + 3 * t->node + 3), t->at)
                  : sw_load(delta + 3 * t->node);
-  const int active = t->gap < 0;
-  t->gap_after = t->gap + sw_dot(t->normal, shift);
-  if (t->held) return 1;
-  t->normal_force = active ? fmax(0.0, -t->k * t->gap_after) : 0.0;
-  t->next_sliding = 1; /* what does not touch moves freely */
   const sw_vec surface = s->rolls ? surface_shift(s, t, shift) : shift;
-  const int agrees =
-      active && c->obstacles[t->obstacle].friction > 0 ? update_friction(c, t, surface) : 1;
-  if (active ? t->gap_after > GAP_TOLERANCE : t->gap_after < -GAP_TOLERANCE) return 0;
+  const int agrees = sw_press_update(&t->press, c->obstacles[t->obstacle].friction, surface, scale);
+  if (t->held) return 1;
   const double radius = c->candidates[t->candidate].radius;
-  if (!c->flat[t->obstacle] && t->gap_after < radius && sw_norm(shift) > SMALL_SHIFT * radius)
+  if (!c->flat[t->obstacle] && t->press.gap_after < radius && sw_norm(shift) > SMALL_SHIFT * radius)
     return 0; /* place and normal of the touch may have changed */
-  sw_candidate *k = &c->candidates[t->candidate];
-  if (!s->rough && t->gap_after < -DEEPEST && k->k < MOST_BOOST * k->usual &&
-      c->regime != SW_CONTACT_EXPLICIT) {
-    k->k *= fmin(100.0, 2.0 * t->gap_after / -DEEPEST);
-    return 0;
-  }
   return agrees;
+}
+
+/* Of a wire's touches, forces far below the largest one do not matter. Touches are in the
+ * order of wires: from the first of one to the first of the next. */
+static double scale_of(const sw_contact *c, size_t first, size_t *end) {
+  const size_t body = c->touches[first].body;
+  double scale = 0;
+  size_t i = first;
+  for (; i < c->touch_count && c->touches[i].body == body; i++)
+    scale = fmax(scale, c->touches[i].press.lag);
+  *end = i;
+  return scale;
+}
+
+static int update_all(sw_contact *c, const sw_system *s, const double *delta) {
+  int fine = 1;
+  for (size_t first = 0, end; first < c->touch_count; first = end) {
+    const double scale = scale_of(c, first, &end);
+    for (size_t i = first; i < end; i++) fine &= update(c, s, &c->touches[i], delta, scale);
+  }
+  return fine;
+}
+
+/* In steps below this share of the nominal one, depth that was there before is taken as
+ * it comes [-]. */
+static const double SMALL_STEP = 0.25;
+
+/* Make touches that sink in too deep stiffer; 1 = there were some. */
+static int stiffen(sw_contact *c, const sw_system *s) {
+  const int small = c->h > 0 && c->h < SMALL_STEP * c->nominal;
+  int any = 0;
+  if (c->regime == SW_CONTACT_EXPLICIT || s->rough) return 0;
+  for (size_t i = 0; i < c->touch_count; i++) {
+    sw_touch *t = &c->touches[i];
+    const double before = small ? fmax(0.0, depth_before(c, s, t)) : -1.0;
+    if (t->held) continue;
+    t->stiffer =
+        sw_press_stiffer(&t->press, c->candidates[t->candidate].usual, t->forgiven, before);
+    any |= t->stiffer > t->press.k;
+  }
+  return any;
 }
 
 int sw_contact_settled(void *contact, sw_system *s, const double *y, const double *delta) {
   sw_contact *c = contact;
-  int fine = 1;
   (void)y;
   c->pressed_count = c->pressed_before;
-  for (size_t i = 0; i < c->touch_count; i++) fine &= update(c, s, &c->touches[i], delta);
+  const int fine = update_all(c, s, delta);
+  if (fine && stiffen(c, s)) return 0;
   for (size_t i = 0; fine && i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
-    if (t->held || !(t->normal_force > 0 || t->gap_after < 0)) continue;
+    if (t->held || !(t->press.normal_force > 0 || t->press.gap_after < 0)) continue;
     if (sw_grow((void **)&c->pressed, &c->pressed_capacity, c->pressed_count + 1,
                 sizeof *c->pressed) != SW_OK)
       break; /* an impact is then dealt with in the next step */

@@ -4,6 +4,7 @@
 #define SW_CONTACT_TOUCH_H
 
 #include "contact/contact.h"
+#include "contact/law.h"
 
 /* A node, or the inside of the segment that starts there, and an obstacle that
  * it may touch in this step. */
@@ -15,8 +16,6 @@ typedef struct sw_candidate {
   double radius, mass;       /* of the wire there [m], [kg] */
   size_t memory, memory_end; /* matching range of the memory */
   size_t last, last_end;     /* matching range of the last iterate's touches */
-  double k;                  /* stiffness: kept from step to step while it touches, raised where
-                                the wire would sink in too deep [N/m] */
   double usual;              /* stiffness of a new touch [N/m] */
 } sw_candidate;
 
@@ -25,22 +24,15 @@ typedef struct sw_touch {
   int obstacle, segment;
   size_t node, body;
   int feature;
-  double at;           /* along the segment [-] */
-  sw_vec normal;       /* world, outward [-] */
-  sw_vec point;        /* on the obstacle, world [m] */
-  double gap;          /* of the surfaces at this iterate [m] */
-  double forgiven;     /* part of the true depth left out of gap in this step [m] */
-  double k;            /* stiffness, normal and tangential [N/m] */
-  double lag;          /* normal force that friction takes as given [N] */
-  double normal_force; /* after the last solve [N] */
-  sw_vec trial;        /* tangential displacement from the anchor at this iterate [m] */
-  sw_vec tangential;   /* friction force after the last solve [N] */
-  double gap_after;    /* after the last solve [m] */
-  int sliding;         /* assumed in this iterate */
-  int next_sliding;    /* as the last solve found it */
-  int known;           /* it touched at the step's start */
-  int held;            /* both ends are held: no force */
-  size_t candidate;    /* index of what it was made from */
+  double at;        /* along the segment [-] */
+  sw_vec point;     /* on the obstacle, world [m] */
+  sw_vec local;     /* the same in the obstacle's coordinates [m] */
+  double forgiven;  /* part of the true depth left out of the gap in this step [m] */
+  double stiffer;   /* its stiffness from the next iterate on [N/m] */
+  int known;        /* it pressed at the step's start */
+  int held;         /* both ends are held: no force */
+  size_t candidate; /* index of what it was made from */
+  sw_press press;   /* its normal is the obstacle's, outward, in the world */
 } sw_touch;
 
 /* What is kept of a touch between steps; in the obstacle's coordinates. */
@@ -91,12 +83,11 @@ struct sw_contact {
   size_t barrier_count, barrier_capacity;
   sw_memory *impacts; /* keys of touches whose impact was dealt with in this step */
   size_t impact_count, impact_capacity;
-  double time, h;        /* of the step [s] */
-  double nominal;        /* the run's full step [s] */
-  double base_stiffness; /* from the expected forces [N/m] */
-  double force_scale;    /* weight of the heaviest wire, or its bending force [N] */
-  double rate2;          /* stiffness per mass [1/s2] */
+  double time, h;    /* of the step [s] */
+  double stage_time; /* that obstacles were last placed for [s] */
+  double nominal;    /* the run's full step [s] */
   sw_contact_regime regime;
+  int plastic;     /* 1: the step is one that does not bounce */
   int fresh;       /* 1: no step was accepted yet, there is no memory */
   double widening; /* of the reserve for flight, when nodes went further [-] */
 };

@@ -118,7 +118,8 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
   for (int redo = 0; status == SW_OK && redo < MOST_REDOS; redo++) {
     status = trial(p, h, err);
     if (status != SW_OK) break;
-    const sw_contact_verdict verdict = sw_scene_review_contact(s, s->stepper.trial_x, h);
+    const sw_contact_verdict verdict =
+        sw_scene_review_contact(s, s->stepper.trial_x, s->stepper.trial_v, h);
     if (verdict == SW_CONTACT_ACCEPT) return SW_OK;
     if (verdict == SW_CONTACT_STRIKE) s->stepper.plastic = 1;
     sw_stepper_reject(&s->stepper, &s->system);

@@ -101,9 +101,10 @@ sw_status sw_scene_begin_contact(sw_scene *s, sw_contact_regime regime, double t
   return s->pairs ? sw_pairs_begin_step(s->pairs, &s->system, regime, h, nominal, err) : SW_OK;
 }
 
-sw_contact_verdict sw_scene_review_contact(sw_scene *s, const double *x1, double h) {
+sw_contact_verdict sw_scene_review_contact(sw_scene *s, const double *x1, const double *v1,
+                                           double h) {
   sw_contact_verdict verdict = SW_CONTACT_ACCEPT;
-  if (s->contact) verdict = sw_contact_review(s->contact, &s->system, x1, h);
+  if (s->contact) verdict = sw_contact_review(s->contact, &s->system, x1, v1, h);
   if (!s->pairs || verdict == SW_CONTACT_SMALLER) return verdict;
   const sw_contact_verdict other = sw_pairs_review(s->pairs, &s->system, x1, h);
   return other == SW_CONTACT_ACCEPT ? verdict : other;

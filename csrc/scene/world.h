@@ -232,7 +232,8 @@ void sw_scene_couple(sw_scene *scene);
 int sw_scene_has_contact(const sw_scene *scene);
 sw_status sw_scene_begin_contact(sw_scene *scene, sw_contact_regime regime, double t, double h,
                                  double nominal, sw_error *err);
-sw_contact_verdict sw_scene_review_contact(sw_scene *scene, const double *x1, double h);
+sw_contact_verdict sw_scene_review_contact(sw_scene *scene, const double *x1, const double *v1,
+                                           double h);
 int sw_scene_review_static(sw_scene *scene, const double *x1);
 void sw_scene_commit_contact(sw_scene *scene);
 double sw_scene_deepest(const sw_scene *scene, size_t *node); /* [m] */

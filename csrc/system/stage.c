@@ -231,10 +231,8 @@ static int drowned_in_rounding(const sw_system *s, const sw_stage *stage, int st
 static int converged(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                      const sw_stage_report *report, double share) {
   if (share < 1.0) return 0;
-  /* contact is told of rough updates too where these are usual, at rest and when rolling:
-   * the next iteration goes on from what it finds */
+  /* contact is told of rough updates too: the next iteration goes on from what it finds */
   s->rough = report->rotation > newton->accept_rotation;
-  if (s->rough && !newton->statics && !s->rolls) return 0;
   const int settled =
       !s->coupling.settled || s->coupling.settled(s->coupling.user, s, stage->y, s->delta);
   if (!settled || s->rough) return 0;
