@@ -28,6 +28,7 @@ local function add_statics(quick)
       for _, n in ipairs(counts) do add(case, { model = model, segments = n }) end
     end
   end
+  for _, n in ipairs(many) do add("arc", { segments = n }) end
 end
 
 local function add_implicit_release(quick)
@@ -147,8 +148,8 @@ add_transport(quick)
 add_walls(quick)
 add_scale(quick)
 
-local order = { "droop", "catenary", "lift", "release", "transport", "walls", "scale", "curved", "flat",
-  "rolling" }
+local order = { "droop", "arc", "catenary", "lift", "release", "transport", "walls", "scale", "curved",
+  "flat", "rolling" }
 local jobs = {}
 for _, name in ipairs(order) do
   for _, entry in ipairs(plan) do
@@ -309,7 +310,7 @@ end
 
 local function print_best()
   print "\nmost accurate row of each case"
-  for _, name in ipairs{ "droop", "catenary", "lift", "release", "transport" } do
+  for _, name in ipairs{ "droop", "arc", "catenary", "lift", "release", "transport" } do
     local row = most_accurate(name)
     if row then
       print(("  %-10s %10.6f %%  %10.3f ms  %s"):format(name, row.error, 1e3 * row.wall, row_name(row)))

@@ -77,7 +77,7 @@ end
 
 sink.run("mkdir -p " .. sink.quote(options.out))
 both("release", points_of("release", release_series, useless), "Released cantilever, 1 s: all methods", tip)
-for _, case in ipairs{ "droop", "catenary", "lift" } do
+for _, case in ipairs{ "droop", "arc", "catenary", "lift" } do
   if benchcases[case] then
     both(case, points_of(case, rest_of(case)), benchcases[case].title, "error [%]")
   end

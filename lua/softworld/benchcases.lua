@@ -24,6 +24,7 @@ known("droop", "S1: a cantilever's droop, Gamma = 10", true)
 known("release", "S2: release of a cantilever, Gamma = 10, 1 s", false)
 known("transport", "Transport of a hanging wire, 2 s", false)
 known("catenary", "Catenary, L/span = 1.5", true, "%")
+known("arc", "A curved wire's droop out of its plane, w L^3/EI = 20", true)
 known("lift", "One end lifted from a table", true, "%")
 -- A snapshot of a wire that lies exactly on a table and was never run does not restore its touch.
 if benchcases.lift then benchcases.lift.remake = true end

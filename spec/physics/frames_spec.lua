@@ -52,6 +52,18 @@ describe("an arc that hangs out of its plane", function()
     end)
   end
 
+  it("does so anyhow turned, as the case that is benchmarked", function()
+    local cases_of = require "softworld.cases"
+    for _, options in ipairs{ {}, { rotation = { 0.5, 0.1, -0.3, 0.7 }, at = { 1, 2, 3 } },
+      { gravity = { 3, -4, 2 }, weight = 5 } } do
+      options.segments = 50
+      local c = cases_of.arc(options)
+      fine(c.run())
+      below(2e-4, c.error(), "tip")
+    end
+    assert.has_error(function() cases_of.arc{ weight = 6 } end, "arc: weight must be one of 5, 20, 80")
+  end)
+
   it("is second order in the number of segments", function()
     tools.order_at_least(1.8, { 25, 50, 100 }, function(n)
       local w = hang(5, n)

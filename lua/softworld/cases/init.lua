@@ -18,7 +18,7 @@
 -- @module softworld.cases
 local cases = {}
 for _, name in ipairs{ "droop", "end_load", "release", "transport", "catenary", "lift", "column",
-  "incline", "push", "cord", "laying" } do
+  "incline", "push", "cord", "laying", "arc" } do
   cases[name] = setmetatable({}, { __call = function(_, options)
     return require("softworld.cases." .. name)(options or {})
   end })
