@@ -154,6 +154,38 @@ local function spin(o)
   return row
 end
 
+-- A wire that rolls, twisted at its end and let go: a wave of twist runs to and fro. With c^2 = GJ/I
+-- the end spins at c angle/L, one way for 2 L/c, then the other way.
+local function wave(o)
+  local sw = require "softworld"
+  local scene = sw.scene{ name = "twist wave", gravity = { 0, 0, 0 } }
+  local GJ, inertia = 1e-6, 1e-8 -- [N m2], [kg m]
+  local wire = scene:wire{ EA = 1e4, EI = 1e-3, GJ = GJ, mass_per_length = 0.02, radius = 1e-3,
+    from = { 0, 0, 0 }, to = { 1, 0, 0 }, segments = o.segments, rolls = true, spin_inertia = inertia }
+  scene:clamp(wire, { s = 0 })
+  local hand = scene:clamp(wire, { s = 1 })
+  hand:follow{ points = { { 0, 0, 0 }, { 0, 0, 0 } }, duration = 4, relative = true,
+    turn = { axis = { 1, 0, 0 }, angle = 1 } }
+  local row = drive(scene, o, 4)
+  hand:release()
+  local c, turns, before, time, most = (GJ / inertia) ^ 0.5, 0, 0, 0, 0
+  for k = 1, row.status == "ok" and 120 or 0 do
+    local part = drive(scene, o, 0.01)
+    row.rejected, row.steps = row.rejected + part.rejected, row.steps + part.steps
+    row.wall, row.status, row.reason = row.wall + part.wall, part.status, part.reason
+    if part.status ~= "ok" then break end
+    local spin = wire:spin(1)
+    if before * spin < 0 then turns, time = turns + 1, 0.01 * (k - spin / (spin - before)) end
+    before, most = spin, math.max(math.abs(spin), most)
+  end
+  if row.status == "ok" then
+    row.note = ("turns back %d times, the last after %.3f of its time, spin up to %.2f c angle/L")
+      :format(turns, time / (turns * 2 / c), most / c)
+  end
+  scene:close()
+  return row
+end
+
 --- Call add(item, run, options) for every row.
 function twists.add_all(add)
   for _, dt in ipairs{ 0.01, 0.005, 0.002 } do
@@ -165,6 +197,7 @@ function twists.add_all(add)
     end
     add("arch snaps through", snap, { dt = dt, segments = 60 })
     add("whip", whip, { dt = dt, segments = 100 })
+    add("twist wave", wave, { dt = dt, segments = 50 })
     add("spun at 50 turns/s", spin, { dt = dt, segments = 50 })
     add("spun at 50 turns/s, frames", spin, { dt = dt, segments = 50, rest = "path" })
   end
