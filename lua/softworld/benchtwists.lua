@@ -174,9 +174,9 @@ local function wave(o)
     row.rejected, row.steps = row.rejected + part.rejected, row.steps + part.steps
     row.wall, row.status, row.reason = row.wall + part.wall, part.status, part.reason
     if part.status ~= "ok" then break end
-    local spin = wire:spin(1)
-    if before * spin < 0 then turns, time = turns + 1, 0.01 * (k - spin / (spin - before)) end
-    before, most = spin, math.max(math.abs(spin), most)
+    local now = wire:spin(1)
+    if before * now < 0 then turns, time = turns + 1, 0.01 * (k - now / (now - before)) end
+    before, most = now, math.max(math.abs(now), most)
   end
   if row.status == "ok" then
     row.note = ("turns back %d times, the last after %.3f of its time, spin up to %.2f c angle/L")

@@ -17,7 +17,19 @@ function Settled:__tostring()
   return ("settled on %d levels\n%s"):format(#self.levels, tostring(self:error_bars()))
 end
 
-local settle = core.class.scene.settle
+local Rest = { __name = "rest" }
+
+function Rest:__tostring()
+  local text = self.ok and "at rest after %d iterations" or "not at rest: %s"
+  text = text:format(self.ok and self.iterations or self.reason)
+  if self.ok and self.unstable > 0 then
+    text = text .. (", unstable in %d directions"):format(self.unstable)
+  end
+  return text
+end
+
+local core_settle = core.class.scene.settle
+local function settle(scene, args) return setmetatable(core_settle(scene, args), Rest) end
 
 local function with_bars(scene, given)
   local args = {}

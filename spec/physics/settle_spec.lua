@@ -68,6 +68,13 @@ describe("settling from straight", function()
     t.below(6, t.fine(c.scene:settle()).iterations, "iterations after a small change")
   end)
 
+  it("prints what it found", function()
+    local c = cases.droop{ segments = 20 }
+    assert.matches("^at rest after %d+ iterations$", tostring(c.scene:settle()))
+    c = cases.droop{ segments = 20 }
+    assert.matches("^not at rest: ", tostring(c.scene:settle{ max_iterations = 1 }))
+  end)
+
   it("says so when it may not iterate enough", function()
     local c = cases.catenary{}
     local r = c.scene:settle{ max_iterations = 1 }
