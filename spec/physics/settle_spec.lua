@@ -71,7 +71,7 @@ describe("settling from straight", function()
   it("prints what it found", function()
     local c = cases.droop{ segments = 20 }
     assert.matches("^at rest after %d+ iterations$", tostring(c.scene:settle()))
-    c = cases.droop{ segments = 20 }
+    c = cases.catenary{}
     assert.matches("^not at rest: ", tostring(c.scene:settle{ max_iterations = 1 }))
   end)
 
