@@ -28,21 +28,9 @@ static struct sw_joins *joins_of(sw_system *s) {
 
 /* --- plan ------------------------------------------------------------------------ */
 
-static size_t body_of(const sw_system *s, uint32_t node) {
-  size_t low = 0, high = s->body_count;
-  while (high - low > 1) {
-    const size_t middle = (low + high) / 2;
-    if (s->bodies[middle].first_node <= node)
-      low = middle;
-    else
-      high = middle;
-  }
-  return low;
-}
-
 /* Is the block of nodes i < j in the rows of their body's own band? */
 static int in_band(const sw_system *s, uint32_t i, uint32_t j) {
-  return j - i <= 2 && body_of(s, i) == body_of(s, j);
+  return j - i <= 2 && sw_system_body_of(s, i) == sw_system_body_of(s, j);
 }
 
 static sw_status plan(sw_system *s, uint32_t i, uint32_t j) {
@@ -89,7 +77,7 @@ sw_status sw_system_add_hub(sw_system *s, const sw_join_hub *hub) {
 /* --- forces ---------------------------------------------------------------------- */
 
 static void add_force(sw_system *s, uint32_t node, sw_vec f) {
-  sw_body *b = &s->bodies[body_of(s, node)];
+  sw_body *b = &s->bodies[sw_system_body_of(s, node)];
   sw_accumulate(b->field.force + 3 * (node - b->first_node), f);
 }
 
@@ -101,7 +89,7 @@ static sw_status add_block(sw_system *s, uint32_t i, uint32_t j, const double k[
     return add_block(s, j, i, turned);
   }
   if (!in_band(s, i, j)) return sw_system_add_link(s, i, j, k);
-  sw_body *b = &s->bodies[body_of(s, i)];
+  sw_body *b = &s->bodies[sw_system_body_of(s, i)];
   double *row = b->field.rows + SW_ROW_SIZE * (i - b->first_node);
   for (size_t m = 0; i == j && m < 6; m++) row[SW_ROW_OWN + m] += k[upper[m]];
   for (size_t m = 0; j == i + 1 && m < 9; m++) row[SW_ROW_NEXT + m] += k[m];
@@ -291,7 +279,7 @@ sw_status sw_joins_eval(sw_system *s, const double *y) {
 /* Length along the wire from the edge that starts at a node to another node; infinite on
  * another wire [m]. */
 static double along(const sw_system *s, uint32_t edge, uint32_t node) {
-  const sw_body *b = &s->bodies[body_of(s, edge)];
+  const sw_body *b = &s->bodies[sw_system_body_of(s, edge)];
   if (node < b->first_node || node >= b->first_node + b->plan->nodes) return HUGE_VAL;
   const double *at = b->plan->s + (edge - b->first_node), to = b->plan->s[node - b->first_node];
   return to < at[0] ? at[0] - to : to > at[1] ? to - at[1] : 0.0;

@@ -129,19 +129,6 @@ static sw_status take_plan(struct sw_links *l) {
   return SW_OK;
 }
 
-static const sw_body *body_of(const sw_system *s, uint32_t node, size_t *number) {
-  size_t low = 0, high = s->body_count;
-  while (high - low > 1) {
-    const size_t middle = (low + high) / 2;
-    if (s->bodies[middle].first_node <= node)
-      low = middle;
-    else
-      high = middle;
-  }
-  *number = low;
-  return &s->bodies[low];
-}
-
 /* Mark the linked bodies and number their nodes one after another. */
 static sw_status number_nodes(sw_system *s) {
   struct sw_links *l = s->links;
@@ -150,11 +137,8 @@ static sw_status number_nodes(sw_system *s) {
   if (!l->number || !l->first) return SW_ENOMEM;
   for (size_t b = 0; b < s->body_count; b++) s->bodies[b].linked = 0;
   for (size_t k = 0; k < l->known_count; k++) {
-    size_t b;
-    body_of(s, l->known[k].i, &b);
-    s->bodies[b].linked = 1;
-    body_of(s, l->known[k].j, &b);
-    s->bodies[b].linked = 1;
+    s->bodies[sw_system_body_of(s, l->known[k].i)].linked = 1;
+    s->bodies[sw_system_body_of(s, l->known[k].j)].linked = 1;
   }
   l->nodes = 0;
   l->block = 3;

@@ -10,19 +10,6 @@
 #include "system/spin.h"
 #include "system/twist.h"
 
-/* The body that has the node. */
-static const sw_body *body_of(const sw_system *s, uint32_t node) {
-  size_t low = 0, high = s->body_count;
-  while (high - low > 1) {
-    const size_t middle = (low + high) / 2;
-    if (s->bodies[middle].first_node <= node)
-      low = middle;
-    else
-      high = middle;
-  }
-  return &s->bodies[low];
-}
-
 /* --- values --------------------------------------------------------------------- */
 
 /* A block of three unknowns among those of the matrix. */
@@ -62,7 +49,7 @@ static void load_spinning(struct sw_links *l, const sw_body *b, size_t first, si
 }
 
 static int is_held(const sw_system *s, uint32_t node) {
-  const sw_body *body = body_of(s, node);
+  const sw_body *body = &s->bodies[sw_system_body_of(s, node)];
   return body->plan->held[node - body->first_node] != SW_FREE;
 }
 

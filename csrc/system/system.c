@@ -11,6 +11,18 @@
 #include "system/spin.h"
 #include "system/twist.h"
 
+size_t sw_system_body_of(const sw_system *s, size_t node) {
+  size_t low = 0, high = s->body_count;
+  while (high - low > 1) {
+    const size_t middle = (low + high) / 2;
+    if (s->bodies[middle].first_node <= node)
+      low = middle;
+    else
+      high = middle;
+  }
+  return low;
+}
+
 void sw_system_free(sw_system *system) {
   for (size_t b = 0; system->bodies && b < system->body_count; b++) {
     sw_plan_release(system->bodies[b].plan);

@@ -166,6 +166,9 @@ sw_status sw_system_new(sw_system *system, sw_plan *const *plans, size_t body_co
                         size_t hold_count);
 void sw_system_free(sw_system *system);
 
+/* The body that has a node of the system's arrays. */
+size_t sw_system_body_of(const sw_system *system, size_t node);
+
 /* Add a force to a body. inner terms: id -1. SW_ENOMEM. */
 sw_status sw_system_add_term(sw_system *system, size_t body, const sw_force_class *cls,
                              const void *args, size_t args_size, int id);

@@ -20,12 +20,9 @@ end
 local Rest = { __name = "rest" }
 
 function Rest:__tostring()
-  local text = self.ok and "at rest after %d iterations" or "not at rest: %s"
-  text = text:format(self.ok and self.iterations or self.reason)
-  if self.ok and self.unstable > 0 then
-    text = text .. (", unstable in %d directions"):format(self.unstable)
-  end
-  return text
+  if not self.ok then return self.reason end
+  local unstable = self.unstable > 0 and (", unstable in %d directions"):format(self.unstable) or ""
+  return ("at rest after %d iterations%s"):format(self.iterations, unstable)
 end
 
 local core_settle = core.class.scene.settle
