@@ -57,8 +57,10 @@ static void read_force(lua_State *L, sw_vec *force, sw_vec *moment) {
   sw_scene *scene;
   sw_error err = {""};
   const lsw_child *j = lsw_check_child(L, 1, &lsw_class_join, &scene);
-  const lua_Integer k = luaL_checkinteger(L, 2);
-  if (k < 1) luaL_error(L, "join: end %d is not one of its own; they count from 1", (int)k);
+  const lua_Integer k = lua_isinteger(L, 2) ? lua_tointeger(L, 2) : 0;
+  if (k < 1)
+    luaL_error(L, "join: the number of one of its ends is wanted, from 1; got %s",
+               lsw_describe(L, 2));
   lsw_must(L, sw_scene_join_force(scene, j->id, (size_t)k - 1, force, moment, &err), &err);
 }
 
