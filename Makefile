@@ -13,8 +13,9 @@ PKG = lua5.4 gsl ccd assimp
 
 # Value-safe speed only: no -ffast-math, NaN checks and reproducible bits need IEEE rules.
 OPT = -O3 -fno-math-errno -fno-trapping-math -ffp-contract=fast
+# -Wno-psabi: wide vectors are handed over inside one file only.
 WARN = -Wall -Wextra -Wshadow -Wmissing-prototypes -Wstrict-prototypes -Wdouble-promotion \
-  -Wpointer-arith -Wwrite-strings -Wvla
+  -Wpointer-arith -Wwrite-strings -Wvla -Wno-psabi
 CPPFLAGS = -Icsrc -D_GNU_SOURCE $(shell pkg-config --cflags $(PKG))
 CFLAGS = -std=c11 -g $(OPT) $(WARN) $(SAN) -fPIC
 LIBS = $(shell pkg-config --libs gsl ccd assimp) -lqhull_r -lamd -lm

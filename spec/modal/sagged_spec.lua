@@ -65,17 +65,7 @@ describe("a wire between two clamps", function()
       integrator = "implicit-midpoint" })
     local frames = run:frames()
     for _, mode in ipairs{ 1, 2, 3 } do
-      local weights, crossings, before = modal.mass_times(wire, f.shapes[mode]), {}, nil
-      for _, frame in ipairs(frames) do
-        local x, q = frame.wires[1], 0
-        for i = 1, #x do q = q + weights[i] * (x[i] - rest[i]) end
-        if before and before.q * q < 0 then
-          crossings[#crossings + 1] = before.t + (frame.t - before.t) * before.q / (before.q - q)
-        end
-        before = { t = frame.t, q = q }
-      end
-      assert.is_true(#crossings > 3, "mode " .. mode .. " does not swing")
-      local measured = (#crossings - 1) / 2 / (crossings[#crossings] - crossings[1])
+      local measured = modal.swings(wire, f.shapes[mode], rest, frames)
       t.share(f[mode], measured, 2e-3, "mode " .. mode)
     end
   end)

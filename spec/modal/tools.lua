@@ -81,4 +81,19 @@ function modal.roots(f, low, high, step)
   return list
 end
 
+-- How often a run swings in a shape [Hz]: from the zeros of its share of the nodes' way from rest.
+function modal.swings(wire, shape, rest, frames)
+  local weights, crossings, before = modal.mass_times(wire, shape), {}, nil
+  for _, frame in ipairs(frames) do
+    local q = 0
+    for i = 1, #rest do q = q + weights[i] * (frame.wires[1][i] - rest[i]) end
+    if before and before.q * q < 0 then
+      crossings[#crossings + 1] = before.t + (frame.t - before.t) * before.q / (before.q - q)
+    end
+    before = { t = frame.t, q = q }
+  end
+  assert(#crossings > 3, "the shape does not swing")
+  return (#crossings - 1) / 2 / (crossings[#crossings] - crossings[1])
+end
+
 return modal

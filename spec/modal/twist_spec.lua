@@ -63,16 +63,7 @@ describe("frequencies of a twisted wire", function()
     local frames = t.fine(scene:run{ duration = 1000 * dt, dt = dt, frame = dt,
       integrator = "implicit-midpoint" }):frames()
     for mode = 1, 3 do
-      local weights, crossings, before = modal.mass_times(wire, f.shapes[mode]), {}, nil
-      for _, frame in ipairs(frames) do
-        local q = 0
-        for i = 1, #rest do q = q + weights[i] * (frame.wires[1][i] - rest[i]) end
-        if before and before.q * q < 0 then
-          crossings[#crossings + 1] = before.t + (frame.t - before.t) * before.q / (before.q - q)
-        end
-        before = { t = frame.t, q = q }
-      end
-      local measured = (#crossings - 1) / 2 / (crossings[#crossings] - crossings[1])
+      local measured = modal.swings(wire, f.shapes[mode], rest, frames)
       t.share(f[mode], measured, 3e-3, "mode " .. mode)
     end
   end)

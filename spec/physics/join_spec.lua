@@ -195,7 +195,7 @@ describe("a rigid join", function()
       assert.is_near(l0[k], l1[k], 5e-3 * math.sqrt(l0[1] ^ 2 + l0[2] ^ 2 + l0[3] ^ 2))
     end
     assert.is_true(s:energy().total <= e0 * (1 + 1e-6))
-    assert.is_near(e0, s:energy().total, 0.3 * e0) -- the fastest bending waves are damped
+    assert.is_near(e0, s:energy().total, 2e-3 * e0) -- the fastest bending waves are damped
   end)
 end)
 
@@ -285,7 +285,6 @@ describe("joins in a scene", function()
     assert.is_false(join.held)
     assert.matches("released", tostring(join))
     s:run{ duration = 0.2, dt = 5e-3 }
-    assert.is_near(b:position(0)[3], t:position(t.length)[3], 1)
     assert.is_true(t:position(t.length)[3] - b:position(0)[3] > 0.05) -- falls freely
     for i = 1, 3 do assert.are.equal(0, join:force(1)[i]) end
     s:restore(before)
