@@ -4,6 +4,7 @@
 #ifndef SW_FORCE_LANE_H
 #define SW_FORCE_LANE_H
 
+#pragma GCC diagnostic ignored "-Wpsabi"
 typedef double lane __attribute__((vector_size(32), aligned(8)));
 enum { LANES = 4 };
 #define FLAT static inline __attribute__((always_inline))

@@ -12,6 +12,7 @@
 
 #include "base/simd.h"
 
+#pragma GCC diagnostic ignored "-Wpsabi" /* vectors stay inside this file */
 typedef double quad __attribute__((vector_size(32), aligned(8)));
 typedef long long lanes __attribute__((vector_size(32)));
 #define MIX __builtin_shufflevector
