@@ -94,4 +94,11 @@ static inline sw_pose sw_pose_identity(void) { return (sw_pose){{0, 0, 0}, {1, 0
 static inline sw_vec sw_pose_point(sw_pose f, sw_vec a) { return sw_add(sw_rotate(f.q, a), f.p); }
 static inline sw_vec sw_pose_local(sw_pose f, sw_vec a) { return sw_unrotate(f.q, sw_sub(a, f.p)); }
 
+/* The shortest rotation that takes one unit vector to another. */
+static inline sw_quat sw_quat_between(sw_vec from, sw_vec to) {
+  const double c = 1.0 + sw_dot(from, to);
+  const sw_vec axis = c > 1e-12 ? sw_cross(from, to) : sw_perpendicular(from);
+  return sw_quat_unit((sw_quat){c > 1e-12 ? c : 0.0, axis.x, axis.y, axis.z});
+}
+
 #endif

@@ -62,7 +62,7 @@ int lsw_scene_evaluate(lua_State *L) {
   lua_settop(L, 3);
   const lsw_child *wire = lsw_check_child_of(L, 2, &lsw_class_wire, scene, "scene:evaluate");
   lsw_arguments(L, 3, "scene:evaluate", &params, &args);
-  lsw_must(L, sw_scene_wire_nodes(scene, wire->id, &nodes, &err), &err);
+  lsw_must(L, sw_scene_wire_particles(scene, wire->id, &nodes, &err), &err);
   const size_t n = 3 * nodes;
   const int table = lua_isnil(L, 3) ? 0 : 3;
   const sw_probe at = {.positions = read_flat(L, table, "positions", n),

@@ -75,6 +75,19 @@ static double split_stiffness(lua_State *L) {
   return EI[1];
 }
 
+/* What a model that is a mesh takes besides: rows into out; returns how many. */
+static size_t mesh_sections(const sw_wire_class *cls, sw_wire_mesh_args *mesh, lsw_section *out) {
+  sw_params_default(&sw_wire_mesh_params, mesh);
+  sw_params_default(&sw_tube_params, &mesh->lattice.tube);
+  sw_params_default(&sw_radial_params, &mesh->lattice.radial);
+  sw_params_default(&sw_cubic_params, &mesh->lattice.cubic);
+  if (!cls->mesh) return 0;
+  const int kind = sw_calibrate_mesh(cls->mesh);
+  out[0] = (lsw_section){&sw_wire_mesh_params, mesh};
+  out[1] = (lsw_section){sw_lattice_params(kind), sw_lattice_place(&mesh->lattice, kind)};
+  return 2;
+}
+
 int lsw_scene_wire(lua_State *L) {
   lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
   sw_wire_args args;
@@ -82,12 +95,15 @@ int lsw_scene_wire(lua_State *L) {
   sw_beam beam;
   sw_error err = {""};
   size_t count;
-  const lsw_section sections[] = {{&sw_wire_params, &args}, {&sw_section_params, &section}};
+  sw_wire_mesh_args mesh;
+  lsw_section sections[4] = {{&sw_wire_params, &args}, {&sw_section_params, &section}};
   lua_settop(L, 2);
   lsw_check_table(L, 2, "scene:wire");
   const double EI2 = split_stiffness(L);
-  lsw_sections(L, 2, "wire", sections, 2);
-  args.model = read_model(L, 2);
+  const int model = read_model(L, 2);
+  const size_t more = mesh_sections(sw_wire_all()[model], &mesh, sections + 2);
+  lsw_sections(L, 2, "wire", sections, 2 + more);
+  args.model = model;
   section.EI2 = EI2;
   const char *object = args.name[0] ? lua_pushfstring(L, "wire '%s'", args.name) : "wire";
   if (section.spin_inertia > 0 && !args.rolls)
@@ -95,9 +111,10 @@ int lsw_scene_wire(lua_State *L) {
   lsw_must(L, sw_section_beam(object, &section, &beam, &err), &err);
   if (beam.EI == 0 && strcmp(sw_wire_all()[args.model]->name, "string") != 0)
     luaL_error(L, "%s: EI = 0 N m2 is allowed with model = 'string' only", object);
+  mesh.section = section;
   const double *points = read_path(L, 2, &count);
   lsw_child *child = lsw_new_child(L, 1, &lsw_class_wire);
-  lsw_must(L, sw_scene_add_wire(owner->h.object, &args, &beam, points, count, &child->id, &err),
+  lsw_must(L, sw_scene_add_wire(owner->h.object, &args, &beam, &mesh, points, count, &child->id, &err),
            &err);
   child->h.object = owner;
   return 1;

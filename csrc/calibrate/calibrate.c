@@ -31,6 +31,12 @@ static const sw_param rows[] = {
 };
 const sw_params sw_calibrate_params = SW_PARAMS("calibrate", rows);
 
+int sw_calibrate_mesh(const char *name) {
+  int i = 0;
+  while (meshes[i + 1] && strcmp(meshes[i], name) != 0) i++;
+  return i;
+}
+
 const sw_params *sw_lattice_params(int mesh) {
   static const sw_params *const all[] = {&sw_tube_params, &sw_radial_params, &sw_cubic_params};
   return all[mesh];

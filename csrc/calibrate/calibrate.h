@@ -11,6 +11,9 @@
 
 enum { SW_LATTICE_TUBE, SW_LATTICE_RADIAL, SW_LATTICE_CUBIC };
 
+/* The number of the mesh called name, which is one of them. */
+int sw_calibrate_mesh(const char *name);
+
 typedef struct sw_calibrate_args {
   int mesh;         /* [-] */
   double squeeze;   /* NAN: not asked for [Pa] */

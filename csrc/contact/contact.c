@@ -127,39 +127,58 @@ static double reach_of(const sw_contact *c, const sw_system *s, const sw_body *b
          c->widening * sw_flight_reserve(c, s, sw_load(s->v + 3 * node));
 }
 
-static sw_status add_candidate(sw_contact *c, const sw_body *b, size_t body, size_t node, int o,
-                               int segment) {
+static sw_status add_candidate(sw_contact *c, const sw_body *b, size_t body, size_t node,
+                               size_t other, int o, int segment) {
   SW_TRY(sw_grow((void **)&c->candidates, &c->candidate_capacity, c->candidate_count + 1,
                  sizeof *c->candidates));
   c->candidates[c->candidate_count++] =
       (sw_candidate){.obstacle = o,
                      .segment = segment,
                      .node = node,
+                     .other = other,
                      .body = body,
                      .radius = b->plan->beam.radius,
+                     .skin = sw_plan_skin(b->plan),
                      .mass = b->plan->lumped[node - b->first_node]};
   return SW_OK;
 }
 
-static sw_status node_candidates(sw_contact *c, const sw_system *s, size_t body, size_t i,
-                                 const sw_bounds *bounds) {
+/* The other end of segment number k (from 1) that starts at node i, or i: there is none. */
+static size_t other_end(const sw_plan *p, size_t i, int k) {
+  const sw_web *w = p->web;
+  if (!w) return k == 1 && i + 1 < p->nodes ? i + 1 : i;
+  const size_t at = w->side_first[i] + (size_t)k - 1;
+  return at < w->side_first[i + 1] ? w->side[at] : i;
+}
+
+static sw_status segment_candidates(sw_contact *c, const sw_system *s, size_t body, size_t i,
+                                    size_t o, double reach) {
   const sw_body *b = &s->bodies[body];
   const size_t node = b->first_node + i;
   const sw_vec x = sw_load(s->x + 3 * node);
-  const int more = i + 1 < b->plan->nodes;
-  const sw_vec y = more ? sw_load(s->x + 3 * node + 3) : x;
+  for (int k = 1; other_end(b->plan, i, k) != i; k++) {
+    const size_t other = b->first_node + other_end(b->plan, i, k);
+    const sw_vec y = sw_load(s->x + 3 * other);
+    const double wide = fmax(reach, reach_of(c, s, b, other, o));
+    const sw_vec w = sw_v(wide, wide, wide);
+    if (!outside(&c->bounds[o], sw_sub(low_of(x, y), w), sw_add(high_of(x, y), w)))
+      SW_TRY(add_candidate(c, b, body, node, other, (int)o, k));
+  }
+  return SW_OK;
+}
+
+static sw_status node_candidates(sw_contact *c, const sw_system *s, size_t body, size_t i) {
+  const sw_body *b = &s->bodies[body];
+  const size_t node = b->first_node + i;
+  const sw_vec x = sw_load(s->x + 3 * node);
   for (size_t o = 0; o < c->count; o++) {
     const double reach = reach_of(c, s, b, node, o);
     const sw_vec r = sw_v(reach, reach, reach);
     sw_closest near;
-    if (!outside(&bounds[o], sw_sub(x, r), sw_add(x, r)) &&
+    if (!outside(&c->bounds[o], sw_sub(x, r), sw_add(x, r)) &&
         sw_shape_point(c->obstacles[o].shape, sw_pose_local(c->start[o].pose, x), reach, &near))
-      SW_TRY(add_candidate(c, b, body, node, (int)o, 0));
-    if (!more || c->flat[o]) continue;
-    const double wide = fmax(reach, reach_of(c, s, b, node + 1, o));
-    const sw_vec w = sw_v(wide, wide, wide);
-    if (!outside(&bounds[o], sw_sub(low_of(x, y), w), sw_add(high_of(x, y), w)))
-      SW_TRY(add_candidate(c, b, body, node, (int)o, 1));
+      SW_TRY(add_candidate(c, b, body, node, node, (int)o, 0));
+    if (!c->flat[o]) SW_TRY(segment_candidates(c, s, body, i, o, reach));
   }
   return SW_OK;
 }
@@ -217,8 +236,9 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
     bounds[o] = world_bounds(c->obstacles[o].shape, &c->start[o].pose);
   for (size_t b = 0; b < s->body_count && status == SW_OK; b++) {
     const size_t first = c->candidate_count;
+    const sw_web *web = s->bodies[b].plan->web;
     for (size_t i = 0; i < s->bodies[b].plan->nodes && status == SW_OK; i++)
-      status = node_candidates(c, s, b, i, bounds);
+      if (!web || web->outer[i]) status = node_candidates(c, s, b, i);
     set_stiffness(c, s, b, first);
   }
   if (status != SW_OK) return sw_fail(err, status, "contact: out of memory");

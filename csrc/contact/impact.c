@@ -30,10 +30,10 @@ static int dealt_with(const sw_contact *c, int obstacle, size_t node, int segmen
 /* Share of the momentum that each end of a segment takes; held ends take none. */
 static void shares(const sw_system *s, const sw_touch *t, double out[2]) {
   const sw_body *b = &s->bodies[t->body];
-  const size_t i = t->node - b->first_node;
+  const size_t end[2] = {t->node - b->first_node, t->other - b->first_node};
   double w[2] = {t->segment ? 1.0 - t->at : 1.0, t->segment ? t->at : 0.0};
   for (size_t e = 0; e < 2; e++)
-    if (w[e] > 0 && b->plan->held[i + e] != SW_FREE) w[e] = 0;
+    if (w[e] > 0 && b->plan->held[end[e]] != SW_FREE) w[e] = 0;
   const double sum = w[0] * w[0] + w[1] * w[1];
   for (size_t e = 0; e < 2; e++) out[e] = sum > 0 ? w[e] / sum : 0.0;
 }
@@ -68,16 +68,17 @@ static sw_vec striking_velocity(const sw_contact *c, const sw_touch *t, sw_vec p
  * Returns 1 when something was changed. */
 static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
-  const sw_vec x = sw_touch_place(s->x, t->node, t->segment, t->at);
+  const sw_vec x = sw_touch_place(s->x, t->node, t->other, t->at);
   const sw_body *b = &s->bodies[t->body];
-  const double radius = b->plan->beam.radius;
+  const double radius = sw_plan_skin(b->plan);
+  const size_t end[2] = {t->node, t->other};
   const sw_levers levers = sw_touch_levers(s, t);
   const sw_vec at = levers.count ? sw_madd(x, t->press.normal, -radius) : x;
   const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
   const double gap = fmax(0.0, sw_dot(t->press.normal, sw_sub(x, plane)) - radius);
   double slow;
   const sw_vec wall = striking_velocity(c, t, at, gap, &slow);
-  sw_vec v = sw_sub(sw_touch_place(s->v, t->node, t->segment, t->at), wall);
+  sw_vec v = sw_sub(sw_touch_place(s->v, t->node, t->other, t->at), wall);
   const double approach = -sw_dot(v, t->press.normal);
   const double allowed = gap / h;
   if (!(approach > allowed + slow)) return 0;
@@ -90,8 +91,8 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   shares(s, t, w);
   for (size_t e = 0; e < 2; e++) {
     if (!(w[e] > 0)) continue;
-    mass += w[e] * b->plan->lumped[t->node + e - b->first_node];
-    sw_accumulate(s->v + 3 * (t->node + e), sw_scale(dv, w[e]));
+    mass += w[e] * b->plan->lumped[end[e] - b->first_node];
+    sw_accumulate(s->v + 3 * end[e], sw_scale(dv, w[e]));
   }
   if (levers.count)
     sw_levers_kick(b->plan, &levers, sw_scale(brake, mass),
@@ -137,10 +138,10 @@ static const double END_SHARE = 1e-6;
 /* Keep a segment on its side for the rest of the step. */
 static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k, const sw_closest *hit,
                          double h) {
-  sw_barrier b = {k->obstacle, 1, k->node, hit->at, hit->normal, hit->point};
-  const size_t end = k->node + (hit->at > 0.5);
+  sw_barrier b = {k->obstacle, k->segment, k->node, k->other, hit->at, hit->normal, hit->point};
+  const size_t end = hit->at > 0.5 ? k->other : k->node;
   if ((hit->at < END_SHARE || hit->at > 1.0 - END_SHARE) && is_candidate(c, k->obstacle, end)) {
-    b.node = end;
+    b.node = b.other = end;
     b.segment = 0;
     b.at = 0;
   }
@@ -153,6 +154,7 @@ static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k, con
   const sw_touch t = {.obstacle = k->obstacle,
                       .segment = b.segment,
                       .node = b.node,
+                      .other = b.other,
                       .body = k->body,
                       .at = b.at,
                       .local = hit->point,
@@ -169,9 +171,9 @@ static int review_crossings(sw_contact *c, sw_system *s, const double *x1, doubl
     if (!k->segment) continue;
     const sw_pose *p0 = &c->start[k->obstacle].pose, *p1 = &c->now[k->obstacle].pose;
     const sw_vec a0 = sw_pose_local(*p0, sw_load(s->x + 3 * k->node));
-    const sw_vec b0 = sw_pose_local(*p0, sw_load(s->x + 3 * k->node + 3));
+    const sw_vec b0 = sw_pose_local(*p0, sw_load(s->x + 3 * k->other));
     const sw_vec a1 = sw_pose_local(*p1, sw_load(x1 + 3 * k->node));
-    const sw_vec b1 = sw_pose_local(*p1, sw_load(x1 + 3 * k->node + 3));
+    const sw_vec b1 = sw_pose_local(*p1, sw_load(x1 + 3 * k->other));
     const double shift2 = fmax(sw_norm2(sw_sub(a1, a0)), sw_norm2(sw_sub(b1, b0)));
     if (shift2 < SAFE_SHIFT * SAFE_SHIFT * k->radius * k->radius) continue;
     sw_closest hit;
@@ -210,13 +212,13 @@ static double depth_at(const sw_contact *c, const sw_candidate *k, const sw_cont
   const sw_vec a = sw_pose_local(*pose, sw_load(x + 3 * k->node));
   sw_closest near[SW_CLOSEST_MAX];
   if (!k->segment) {
-    const int found = sw_shape_point(shape, a, k->radius, &near[0]);
-    return found ? k->radius - near[0].gap : 0.0;
+    const int found = sw_shape_point(shape, a, k->skin, &near[0]);
+    return found ? k->skin - near[0].gap : 0.0;
   }
-  const sw_vec b = sw_pose_local(*pose, sw_load(x + 3 * k->node + 3));
+  const sw_vec b = sw_pose_local(*pose, sw_load(x + 3 * k->other));
   double deepest = 0;
-  const int n = sw_shape_segment(shape, a, b, k->radius, near);
-  for (int i = 0; i < n; i++) deepest = fmax(deepest, k->radius - near[i].gap);
+  const int n = sw_shape_segment(shape, a, b, k->skin, near);
+  for (int i = 0; i < n; i++) deepest = fmax(deepest, k->skin - near[i].gap);
   return deepest;
 }
 
@@ -244,7 +246,7 @@ static int bounces(sw_contact *c, const double *v1) {
       continue;
     const sw_vec wall = sw_obstacle_velocity(&c->now[t->obstacle], t->point);
     if (!(fabs(sw_dot(wall, t->press.normal)) > SLOWEST_IMPACT)) continue;
-    const sw_vec v = sw_sub(sw_touch_place(v1, t->node, t->segment, t->at), wall);
+    const sw_vec v = sw_sub(sw_touch_place(v1, t->node, t->other, t->at), wall);
     if (sw_dot(v, t->press.normal) > SLOWEST_IMPACT) return c->plastic = 1;
   }
   return 0;

@@ -60,6 +60,7 @@ static sw_vec middle_of(const double *x, uint32_t node) {
 }
 
 /* 1: some wire of the rules takes part. */
+/* Meshes of particles have no edges and so no pairs; the scene refuses rules for them. */
 static int takes_part(const sw_pairs *p, size_t body) {
   for (size_t k = 0; k < p->bodies; k++)
     if (p->rules[p->bodies * body + k].on) return 1;

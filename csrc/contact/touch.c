@@ -70,8 +70,8 @@ static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, doub
  * obstacle's material there. */
 static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_touch *t,
                              const double *y) {
-  const sw_vec from = sw_touch_place(s->x, t->node, t->segment, t->at);
-  const sw_vec to = sw_touch_place(y, t->node, t->segment, t->at);
+  const sw_vec from = sw_touch_place(s->x, t->node, t->other, t->at);
+  const sw_vec to = sw_touch_place(y, t->node, t->other, t->at);
   const sw_vec carried =
       sw_pose_point(c->now[t->obstacle].pose, sw_pose_local(c->start[t->obstacle].pose, from));
   const sw_body *b = &s->bodies[t->body];
@@ -85,9 +85,11 @@ static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_t
 }
 
 /* The memory of a touch that pressed, on whatever part of the wire it was. */
-static const sw_memory *pressed_memory(const sw_contact *c, const sw_candidate *k, double at) {
+static const sw_memory *pressed_memory(const sw_contact *c, const sw_system *s,
+                                       const sw_candidate *k, double at) {
   const sw_memory *own = memory_for(c, k, at);
-  return own && own->normal_force > 0 ? own : inherited(c, k, at);
+  if (own && own->normal_force > 0) return own;
+  return s->bodies[k->body].plan->web ? NULL : inherited(c, k, at);
 }
 
 /* What only now begins to touch has been moving freely: it slides first. A wire that has been
@@ -116,15 +118,15 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
 
 int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
   const sw_body *b = &s->bodies[k->body];
-  const size_t i = k->node - b->first_node;
-  return b->plan->held[i] != SW_FREE && (!k->segment || b->plan->held[i + 1] != SW_FREE);
+  const int *held = b->plan->held;
+  return held[k->node - b->first_node] != SW_FREE && held[k->other - b->first_node] != SW_FREE;
 }
 
 /* How deep the touch's place was at the step's start, below 0 when it was outside [m]. */
 static double depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
-  const sw_vec from = sw_touch_place(s->x, t->node, t->segment, t->at);
-  return c->candidates[t->candidate].radius - sw_dot(t->press.normal, sw_sub(from, plane));
+  const sw_vec from = sw_touch_place(s->x, t->node, t->other, t->at);
+  return c->candidates[t->candidate].skin - sw_dot(t->press.normal, sw_sub(from, plane));
 }
 
 static double stiffness_of(const sw_contact *c, const sw_candidate *k, const sw_memory *m,
@@ -145,12 +147,13 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
                            const double *y, const sw_closest *near) {
   const sw_pose *pose = &c->now[k->obstacle].pose;
   const double at = k->segment ? near->at : 0.0;
-  const sw_memory *m = pressed_memory(c, k, at);
+  const sw_memory *m = pressed_memory(c, s, k, at);
   const sw_touch *last = last_for(c, k, at);
   const double stiffness = stiffness_of(c, k, m, last);
   sw_touch t = {.obstacle = k->obstacle,
                 .segment = k->segment,
                 .node = k->node,
+                .other = k->other,
                 .body = k->body,
                 .feature = near->feature,
                 .at = at,
@@ -161,7 +164,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
                 .held = sw_contact_is_held(s, k),
                 .candidate = (size_t)(k - c->candidates),
                 .press = {.normal = sw_rotate(pose->q, near->normal),
-                          .gap = near->gap - k->radius,
+                          .gap = near->gap - k->skin,
                           .k = stiffness}};
   sw_press *press = &t.press;
   if (c->regime == SW_CONTACT_IMPLICIT &&
@@ -201,7 +204,7 @@ static int behind_barrier(const sw_contact *c, const sw_candidate *k, const doub
     const sw_barrier *b = &c->barriers[i];
     if (b->obstacle != k->obstacle || b->node != k->node || b->segment != k->segment) continue;
     const sw_vec local =
-        sw_pose_local(c->now[b->obstacle].pose, sw_touch_place(y, b->node, b->segment, b->at));
+        sw_pose_local(c->now[b->obstacle].pose, sw_touch_place(y, b->node, b->other, b->at));
     const double gap = sw_dot(b->normal, sw_sub(local, b->point));
     *near = (sw_closest){.gap = gap,
                          .at = b->at,
@@ -225,7 +228,7 @@ static sw_status keep_pushing(sw_contact *c, const sw_system *s, const sw_candid
     int found = 0;
     for (size_t j = first; j < c->touch_count; j++)
       found |= fabs(c->touches[j].at - last->at) < SAME_PLACE;
-    const sw_vec p = sw_pose_local(*pose, sw_touch_place(y, k->node, 1, last->at));
+    const sw_vec p = sw_pose_local(*pose, sw_touch_place(y, k->node, k->other, last->at));
     sw_closest near;
     if (found || !sw_shape_point(c->obstacles[k->obstacle].shape, p, k->radius, &near)) continue;
     near.at = last->at;
@@ -246,7 +249,7 @@ static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k,
     near[0].at = 0;
     return keep_side(c, k, a, &near[0]) ? add_touch(c, s, k, y, &near[0]) : SW_OK;
   }
-  const sw_vec b = sw_pose_local(*pose, sw_load(y + 3 * k->node + 3));
+  const sw_vec b = sw_pose_local(*pose, sw_load(y + 3 * k->other));
   const size_t first = c->touch_count;
   const int n = sw_shape_segment(shape, a, b, reach, near);
   for (int i = 0; i < n; i++) {
@@ -276,16 +279,21 @@ static void swap_lists(sw_contact *c) {
 static void add_to_field(sw_system *s, const sw_touch *t, sw_vec f, const double K[6],
                          unsigned want) {
   sw_body *b = &s->bodies[t->body];
-  const size_t i = t->node - b->first_node;
+  const size_t ends[2] = {t->node - b->first_node, t->other - b->first_node};
   const double w[2] = {1.0 - t->at, t->at};
   for (size_t e = 0; e < (t->segment ? 2u : 1u); e++) {
-    sw_accumulate(b->field.force + 3 * (i + e), sw_scale(f, w[e]));
+    sw_accumulate(b->field.force + 3 * ends[e], sw_scale(f, w[e]));
     if (want & SW_WANT_STIFFNESS)
-      for (size_t k = 0; k < 6; k++) b->field.rows[ROW * (i + e) + OWN + k] += w[e] * w[e] * K[k];
+      for (size_t k = 0; k < 6; k++) b->field.rows[ROW * ends[e] + OWN + k] += w[e] * w[e] * K[k];
   }
   if (!t->segment || !(want & SW_WANT_STIFFNESS)) return;
   static const size_t full[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
-  for (size_t k = 0; k < 9; k++) b->field.rows[ROW * i + NEXT + k] += w[0] * w[1] * K[full[k]];
+  double between[9];
+  for (size_t k = 0; k < 9; k++) between[k] = w[0] * w[1] * K[full[k]];
+  if (b->plan->web)
+    sw_body_couple(b, ends[0], ends[1], between);
+  else
+    for (size_t k = 0; k < 9; k++) b->field.rows[ROW * ends[0] + NEXT + k] += between[k];
 }
 
 static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
@@ -325,9 +333,7 @@ static sw_vec surface_shift(const sw_system *s, const sw_touch *t, sw_vec shift)
  * solve assumed. */
 static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *delta,
                   double scale) {
-  const sw_vec shift =
-      t->segment ? sw_lerp(sw_load(delta + 3 * t->node), sw_load(delta + 3 * t->node + 3), t->at)
-                 : sw_load(delta + 3 * t->node);
+  const sw_vec shift = sw_touch_place(delta, t->node, t->other, t->at);
   const sw_vec surface = s->rolls ? surface_shift(s, t, shift) : shift;
   const int agrees = sw_press_update(&t->press, c->obstacles[t->obstacle].friction, surface, scale);
   if (t->held) return 1;

@@ -6,14 +6,16 @@
 #include "contact/contact.h"
 #include "contact/law.h"
 
-/* A node, or the inside of the segment that starts there, and an obstacle that
+/* A node, or the inside of a segment that starts there, and an obstacle that
  * it may touch in this step. */
 typedef struct sw_candidate {
   int obstacle;
-  int segment; /* 1: the inside of the segment node..node+1 */
-  size_t node; /* in the system's arrays */
+  int segment;        /* number of the segment among those of its node; 0: the node itself */
+  size_t node, other; /* in the system's arrays; its other end, or the node again */
   size_t body;
-  double radius, mass;       /* of the wire there [m], [kg] */
+  double radius;             /* of the wire there [m] */
+  double skin;               /* of the surface from the node [m] */
+  double mass;               /* [kg] */
   size_t memory, memory_end; /* matching range of the memory */
   size_t last, last_end;     /* matching range of the last iterate's touches */
   double usual;              /* stiffness of a new touch [N/m] */
@@ -22,7 +24,7 @@ typedef struct sw_candidate {
 /* One place where a wire's surface is near an obstacle. */
 typedef struct sw_touch {
   int obstacle, segment;
-  size_t node, body;
+  size_t node, other, body;
   int feature;
   double at;        /* along the segment [-] */
   sw_vec point;     /* on the obstacle, world [m] */
@@ -53,7 +55,7 @@ typedef struct sw_memory {
  * for the rest of the step. */
 typedef struct sw_barrier {
   int obstacle, segment;
-  size_t node;
+  size_t node, other;
   double at;
   sw_vec normal, point; /* local [-], [m] */
 } sw_barrier;
@@ -120,9 +122,9 @@ sw_vec sw_levers_brake(const sw_beam *beam, const sw_levers *l, sw_vec slide, do
 void sw_levers_kick(const sw_plan *p, const sw_levers *l, sw_vec impulse, double *rates);
 
 /* The place of a candidate on its segment. */
-static inline sw_vec sw_touch_place(const double *x, size_t node, int segment, double at) {
-  return segment ? sw_lerp(sw_load(x + 3 * node), sw_load(x + 3 * node + 3), at)
-                 : sw_load(x + 3 * node);
+static inline sw_vec sw_touch_place(const double *x, size_t node, size_t other, double at) {
+  return node != other ? sw_lerp(sw_load(x + 3 * node), sw_load(x + 3 * other), at)
+                       : sw_load(x + 3 * node);
 }
 
 /* Velocity of the obstacle's material at world point p [m/s]. */

@@ -13,7 +13,7 @@ static sw_status eval(const void *args, sw_field *field, sw_error *err) {
 const sw_force_class sw_force_callback = {
     .name = "callback",
     .summary = "a function that adds to the node forces",
-    .flags = SW_FORCE_INNER | SW_FORCE_EXPLICIT,
+    .flags = SW_FORCE_INNER | SW_FORCE_EXPLICIT | SW_FORCE_ANY_BODY,
     .params = {"force callback", NULL, 0},
     .eval = eval,
 };

@@ -45,7 +45,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
 const sw_force_class sw_force_drag = {
     .name = "drag",
     .summary = "resistance of still air or liquid",
-    .flags = SW_FORCE_DISSIPATIVE,
+    .flags = SW_FORCE_DISSIPATIVE | SW_FORCE_ANY_BODY,
     .params = SW_PARAMS("force drag", rows),
     .eval = eval,
 };

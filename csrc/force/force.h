@@ -16,7 +16,8 @@ enum {
   SW_FORCE_AT_PLACE = 4,    /* acts at one arc length: takes s */
   SW_FORCE_DISSIPATIVE = 8, /* has no energy; takes power from the motion, F.v <= 0 */
   SW_FORCE_FROZEN = 16,     /* its stiffness leaves a part out, which its file names */
-  SW_FORCE_BY_ANGLE = 32    /* corrects bend: only for wires whose bending is by angles */
+  SW_FORCE_BY_ANGLE = 32,   /* corrects bend: only for wires whose bending is by angles */
+  SW_FORCE_ANY_BODY = 64    /* knows nodes only, or particles too: goes with meshes as well */
 };
 
 enum { SW_FORCE_ARGS_MAX = 128 }; /* room for any force's arguments [B] */
@@ -35,6 +36,11 @@ typedef struct sw_force_class {
   /* Largest stable step of undamped leapfrog due to this force alone on this
    * plan, with lumped masses [s]; NULL = no limit. */
   double (*stable_dt)(const void *args, const sw_plan *plan);
+
+  /* Share of the move delta of the nodes from x (both nodes x 3) that the force can follow, in
+   * (0, 1]; NULL = any [-]. */
+  double (*largest_share)(const void *args, const sw_plan *plan, const double *x,
+                          const double *delta);
 
   /* Moment that a clamp hinge puts on the wire [N m]; NULL = none. */
   sw_vec (*clamp_moment)(const void *args, const sw_field *field, const sw_clamp_hinge *hinge);

@@ -21,7 +21,7 @@ static sw_status eval(const void *args, sw_field *field, sw_error *err) {
 const sw_force_class sw_force_gravity = {
     .name = "gravity",
     .summary = "weight of every node in the scene's gravity",
-    .flags = SW_FORCE_INNER,
+    .flags = SW_FORCE_INNER | SW_FORCE_ANY_BODY,
     .params = {"force gravity", NULL, 0},
     .eval = eval,
 };

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A dead force at one arc length: fixed direction and size, shared between the
- * edge's two nodes by its place between them. */
+ * edge's two nodes by its place between them. In a mesh of particles each of both rings
+ * shares its part out by mass, so that the force acts at the middle of the section. */
 #include <math.h>
 #include <stddef.h>
 
@@ -18,11 +19,26 @@ static const sw_param rows[] = {
      offsetof(point_args, force), "the force, fixed in world axes"},
 };
 
+static void on_ring(const sw_web *web, size_t ring, sw_vec force, sw_field *f) {
+  double middle[3];
+  if (f->want & SW_WANT_FORCE)
+    for (size_t i = 0; i < web->per_ring; i++)
+      sw_accumulate(f->force + 3 * (ring * web->per_ring + i), sw_scale(force, web->share[i]));
+  if (!(f->want & SW_WANT_ENERGY)) return;
+  sw_web_middle(web, f->x, ring, middle);
+  f->energy -= sw_dot(force, sw_load(middle));
+}
+
 static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   const point_args *a = args;
   double fraction;
   (void)err;
   const size_t e = sw_plan_locate(f->plan, a->s, &fraction);
+  if (f->plan->web) {
+    on_ring(f->plan->web, e, sw_scale(a->force, 1.0 - fraction), f);
+    on_ring(f->plan->web, e + 1, sw_scale(a->force, fraction), f);
+    return SW_OK;
+  }
   double *first = f->force + 3 * e;
   if (f->want & SW_WANT_FORCE) {
     sw_accumulate(first, sw_scale(a->force, 1.0 - fraction));
@@ -37,7 +53,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
 const sw_force_class sw_force_point = {
     .name = "point",
     .summary = "a force of fixed direction at one place of the wire",
-    .flags = SW_FORCE_AT_PLACE,
+    .flags = SW_FORCE_AT_PLACE | SW_FORCE_ANY_BODY,
     .params = SW_PARAMS("force point", rows),
     .eval = eval,
 };

@@ -69,11 +69,25 @@ static sw_status use_integrator(sw_scene *s, const sw_run_args *args, sw_error *
   return SW_OK;
 }
 
+/* The same of particles: squeezed sections may bring two close to each other. */
+static sw_status check_particles(const sw_scene *s, size_t wire, const double *x, sw_error *err) {
+  const sw_web *web = s->system.bodies[wire].plan->web;
+  for (size_t e = 0; e < web->links; e++) {
+    const sw_web_link *link = &web->link[e];
+    const double most = (1.0 + LARGEST_STRAIN) * link->rest;
+    if (!(sw_dist(sw_vec_at(x, link->a), sw_vec_at(x, link->b)) <= most))
+      return sw_fail(err, SW_EDIVERGED, "wire '%s' is torn apart near s = %.4g m",
+                     s->wires[wire].name, web->s[link->a]);
+  }
+  return SW_OK;
+}
+
 /* Nodes must stay at finite places and edges at believable lengths. */
 static sw_status check_trial(const sw_scene *s, sw_error *err) {
   const double *x = s->stepper.trial_x;
   for (size_t b = 0; b < s->system.body_count; b++) {
     const sw_body *body = &s->system.bodies[b];
+    if (body->plan->web) SW_TRY(check_particles(s, b, x + 3 * body->first_node, err));
     for (size_t e = 0; e < body->plan->edges; e++) {
       const double *a = x + 3 * (body->first_node + e);
       const double l2 = sw_norm2(sw_sub(sw_load(a + 3), sw_load(a)));

@@ -68,6 +68,10 @@ static sw_status inherit_contact(sw_scene *s) {
     const sw_body *b = &s->system.bodies[w];
     size_t i = 0;
     for (size_t k = s->kept.first[w]; k < s->kept.first[w + 1]; k++) {
+      if (b->plan->web) { /* its particles stay as they are */
+        new_node[k] = b->first_node + k - s->kept.first[w];
+        continue;
+      }
       while (i < b->plan->nodes && b->plan->s[i] < s->kept.s[k]) i++;
       const int same = i < b->plan->nodes && b->plan->s[i] == s->kept.s[k];
       new_node[k] = same ? b->first_node + i : SIZE_MAX;
@@ -154,6 +158,10 @@ sw_status sw_scene_thaw(sw_scene *s) {
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_body *b = &s->system.bodies[w];
     sw_mesh *m = &s->wires[w].mesh;
+    if (b->plan->web) {
+      sw_strand_take(&s->wires[w], &s->system, b);
+      continue;
+    }
     m->drawn = m->drawn &&
                memcmp(m->x, s->system.x + 3 * b->first_node, 3 * m->n * sizeof *m->x) == 0 &&
                memcmp(m->v, s->system.v + 3 * b->first_node, 3 * m->n * sizeof *m->v) == 0;
@@ -167,6 +175,23 @@ sw_status sw_scene_thaw(sw_scene *s) {
   drop(s);
   s->discontinuous = 1;
   return SW_OK;
+}
+
+/* The plan of a wire that is a mesh, its particles held as holds say. */
+static sw_status new_web_plan(const sw_scene *s, size_t w, sw_plan **out) {
+  sw_web *web = s->wires[w].strand.web;
+  int *held = sw_alloc(web->particles, sizeof *held);
+  if (!held) return SW_ENOMEM;
+  for (size_t k = 0; k < s->hold_count; k++) {
+    const sw_scene_hold *h = &s->holds[k];
+    if (!h->alive || h->wire != w) continue;
+    for (size_t p = 0; p < web->particles; p++)
+      if (web->s[p] >= h->s1 && web->s[p] <= h->s2 && sw_strand_holds(web, h->cls, p))
+        held[p] = SW_HELD;
+  }
+  const sw_status status = sw_plan_of_web(&s->wires[w].beam, web, held, out);
+  sw_free(held);
+  return status;
 }
 
 static sw_status new_plans(sw_scene *s, sw_plan **plans) {
@@ -183,7 +208,9 @@ static sw_status new_plans(sw_scene *s, sw_plan **plans) {
       if (h->wire == w) places[n++] = (sw_hold_place){h->s1, h->s2, h->cls->clamped, number};
       number++;
     }
-    status = sw_plan_new(&wire->beam, wire->mesh.s, wire->mesh.n, places, n, &plans[w]);
+    status = wire->strand.web
+                 ? new_web_plan(s, w, &plans[w])
+                 : sw_plan_new(&wire->beam, wire->mesh.s, wire->mesh.n, places, n, &plans[w]);
     if (status == SW_OK && wire->mesh.rest) status = sw_scene_unloaded(s, w, plans[w]);
   }
   sw_free(places);
@@ -235,13 +262,17 @@ static sw_status add_holds(sw_scene *s, size_t alive) {
       sw_store(s->system.directors + at, h->director[side]);
       sw_store(s->system.normals + at, h->frame[side].normal);
     }
+    size_t particle = 0;
     for (size_t i = 0; i < b->plan->nodes; i++) {
       if (!(b->plan->s[i] >= h->s1 && b->plan->s[i] <= h->s2)) continue;
+      if (b->plan->web && !sw_strand_holds(b->plan->web, h->cls, i)) continue;
       s->system.held[s->system.held_count++] = (sw_held_node){.node = b->first_node + i,
                                                               .body = h->wire,
                                                               .hold = number,
                                                               .slides = h->cls->feeds,
-                                                              .local = local_of(h, b->plan->s[i])};
+                                                              .local = b->plan->web
+                                                                  ? sw_vec_at(h->local, particle++)
+                                                                  : local_of(h, b->plan->s[i])};
     }
     s->hold_slot[number++] = (int)k;
   }
@@ -287,10 +318,13 @@ static sw_status fill(sw_scene *s, size_t alive) {
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_body *b = &s->system.bodies[w];
     const sw_mesh *m = &s->wires[w].mesh;
-    memcpy(s->system.x + 3 * b->first_node, m->x, 3 * m->n * sizeof *m->x);
-    memcpy(s->system.v + 3 * b->first_node, m->v, 3 * m->n * sizeof *m->v);
-    memcpy(s->system.a + 3 * b->first_node, m->a, 3 * m->n * sizeof *m->a);
-    memcpy(s->system.tension + b->first_edge, m->tension, (m->n - 1) * sizeof *m->tension);
+    const sw_strand *strand = &s->wires[w].strand;
+    const size_t at = 3 * b->first_node, size = 3 * b->plan->nodes * sizeof(double);
+    const size_t axial = sw_plan_axial(b->plan) * sizeof(double);
+    memcpy(s->system.x + at, strand->web ? strand->x : m->x, size);
+    memcpy(s->system.v + at, strand->web ? strand->v : m->v, size);
+    memcpy(s->system.a + at, strand->web ? strand->a : m->a, size);
+    memcpy(s->system.tension + b->first_edge, strand->web ? strand->axial : m->tension, axial);
     SW_TRY(add_terms(s, w));
   }
   SW_TRY(sw_system_add_histories(&s->system));

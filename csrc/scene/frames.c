@@ -41,6 +41,13 @@ static sw_status fill(sw_scene *s, double *p, sw_error *err) {
   }
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_body *b = &s->system.bodies[w];
+    const sw_web *web = b->plan->web;
+    if (web) { /* its middle line */
+      *p++ = (double)web->rings;
+      for (size_t r = 0; r < web->rings; r++, p += 3)
+        sw_web_middle(web, s->system.x + 3 * b->first_node, r, p);
+      continue;
+    }
     *p++ = (double)b->plan->nodes;
     memcpy(p, s->system.x + 3 * b->first_node, 3 * b->plan->nodes * sizeof *p);
     p += 3 * b->plan->nodes;

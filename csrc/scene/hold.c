@@ -82,6 +82,11 @@ static sw_status refine_gaps(const sw_scene *s, size_t wire, const sw_scene_hold
 
 static sw_status place_nodes(sw_scene *s, size_t wire, sw_scene_hold *h, const sw_hold_args *a) {
   sw_mesh *m = &s->wires[wire].mesh;
+  if (s->wires[wire].strand.web) {
+    held_interval(m, a, &h->s1, &h->s2);
+    sw_strand_rings(m, &h->s1, &h->s2);
+    return SW_OK;
+  }
   double s1, s2, *keep = new_places(s, wire);
   if (!keep) return SW_ENOMEM;
   size_t n = kept_places(s, wire, keep);
@@ -119,6 +124,32 @@ static sw_status take_hold(const sw_mesh *m, sw_scene_hold *h, const sw_hold_arg
   return SW_OK;
 }
 
+/* The same of the particles of a mesh. With a direction given the sections are turned to it. */
+static sw_status take_particles(const sw_scene_wire *w, sw_scene_hold *h, const sw_hold_args *a) {
+  const sw_web *web = w->strand.web;
+  const sw_mesh *m = &w->mesh;
+  const size_t first = sw_mesh_node(m, h->s1), last = sw_mesh_node(m, h->s2);
+  const size_t room = (last - first + 1) * web->per_ring;
+  h->s = sw_alloc(room, sizeof *h->s);
+  h->local = sw_alloc(3 * room, sizeof *h->local);
+  if (!h->s || !h->local) return SW_ENOMEM;
+  size_t i = first < last ? first : first + 1 < m->n ? first : first - 1;
+  while (i + 2 < m->n && m->s[i + 1] < a->s) i++;
+  const double f = fmin(1.0, fmax(0.0, (a->s - m->s[i]) / (m->s[i + 1] - m->s[i])));
+  const sw_vec origin = sw_lerp(sw_vec_at(m->x, i), sw_vec_at(m->x, i + 1), f);
+  const sw_quat turn = sw_quat_between(sw_mesh_tangent_at(m, a->s), h->director[1]);
+  for (size_t p = first * web->per_ring; p < (last + 1) * web->per_ring; p++) {
+    if (!sw_strand_holds(web, h->cls, p)) continue;
+    h->s[h->count] = web->s[p];
+    const sw_vec local = sw_sub(sw_vec_at(w->strand.x, p), origin);
+    sw_store(h->local + 3 * h->count++, sw_rotate(turn, local));
+  }
+  h->drive.pose = (sw_pose){origin, sw_quat_identity()};
+  h->last_pose = h->drive.pose;
+  h->turn = h->drive.pose.q;
+  return SW_OK;
+}
+
 /* The held directions, taken before nodes move: a moved node turns the edges
  * beside it. */
 static void take_directions(const sw_mesh *m, sw_scene_hold *h, const sw_hold_args *a) {
@@ -145,6 +176,13 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wir
   if (!sw_scene_find_wire(s, wire, err)) return SW_EDEAD;
   own.s += s->wires[wire.slot].mesh.s[0];
   SW_TRY(check_place(s, cls, wire.slot, args, err));
+  const sw_web *web = s->wires[wire.slot].strand.web;
+  if (cls->feeds) SW_TRY(sw_scene_check_line(&s->wires[wire.slot], "feed", err));
+  if (web && !cls->clamped && web->axis == web->per_ring)
+    return sw_fail(err, SW_EINVAL,
+                   "%s: wire '%s' has no particle on its axis to be held; %s", cls->name,
+                   s->wires[wire.slot].name,
+                   "give the mesh a middle (tube: core = true; cubic: across even)");
   if (cls->feeds && isfinite(args->speed) && isfinite(args->force))
     return sw_fail(err, SW_EINVAL, "feed: give speed or force, not both; the other one follows");
   const sw_scene_join *join = cls->feeds ? sw_scene_joined(s, wire.slot) : NULL;
@@ -163,8 +201,13 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wir
     snprintf(h.name, sizeof h.name, "%s%zu", cls->name, s->hold_count + 1);
   take_directions(&s->wires[wire.slot].mesh, &h, args);
   sw_status status = place_nodes(s, wire.slot, &h, args);
-  if (status == SW_OK) status = take_hold(&s->wires[wire.slot].mesh, &h, args);
-  if (status == SW_OK) status = refine_gaps(s, wire.slot, &h, &s->wires[wire.slot].mesh);
+  const sw_scene_wire *on = &s->wires[wire.slot];
+  if (status == SW_OK && on->strand.web)
+    status = take_particles(on, &h, args);
+  else if (status == SW_OK)
+    status = take_hold(&on->mesh, &h, args);
+  if (status == SW_OK && !on->strand.web)
+    status = refine_gaps(s, wire.slot, &h, &s->wires[wire.slot].mesh);
   if (status == SW_OK && cls->feeds) status = sw_feed_begin(s, &h, args);
   if (status != SW_OK) {
     sw_scene_clear_hold(&h);

@@ -163,7 +163,10 @@ sw_status sw_scene_add_join(sw_scene *s, const sw_join_args *args, const sw_join
   if (count < 2 || count > SW_JOIN_ENDS)
     return sw_fail(err, SW_EINVAL, "scene:join: ends lists %zu wires; it must be from 2 to %d",
                    count, SW_JOIN_ENDS);
-  for (size_t k = 0; k < count; k++) SW_TRY(check_end(s, ends, k, err));
+  for (size_t k = 0; k < count; k++) {
+    SW_TRY(check_end(s, ends, k, err));
+    SW_TRY(sw_scene_check_line(&s->wires[ends[k].wire.slot], "scene:join", err));
+  }
   SW_TRY(sw_scene_thaw(s));
   SW_TRY(check_meeting(s, ends, count, err));
   sw_scene_join j = {.alive = 1, .rigid = args->rigid, .count = count};

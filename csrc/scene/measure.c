@@ -32,6 +32,24 @@ sw_status sw_scene_wire_nodes(sw_scene *s, sw_handle h, size_t *nodes, sw_error 
   return SW_OK;
 }
 
+sw_status sw_scene_wire_particles(sw_scene *s, sw_handle h, size_t *particles, sw_error *err) {
+  const sw_scene_wire *w = sw_scene_find_wire(s, h, err);
+  if (!w) return SW_EDEAD;
+  *particles = w->strand.web ? w->strand.web->particles : w->mesh.n;
+  return SW_OK;
+}
+
+sw_status sw_scene_wire_particle_copy(sw_scene *s, sw_handle h, double *positions, double *arc,
+                                      sw_error *err) {
+  sw_scene_wire *w;
+  SW_TRY(open_wire(s, h, &w, err));
+  const sw_body *b = &s->system.bodies[h.slot];
+  const size_t n = b->plan->nodes;
+  memcpy(positions, s->system.x + 3 * b->first_node, 3 * n * sizeof(double));
+  for (size_t i = 0; i < n; i++) arc[i] = b->plan->s[i] - b->plan->s[0];
+  return SW_OK;
+}
+
 sw_status sw_scene_wire_beam(sw_scene *s, sw_handle h, sw_beam *out, sw_error *err) {
   const sw_scene_wire *w = sw_scene_find_wire(s, h, err);
   if (!w) return SW_EDEAD;
@@ -158,6 +176,10 @@ sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double place, sw_point_stat
                    place, length);
   const double at = place + start;
   const sw_body *b = &s->system.bodies[h.slot];
+  if (b->plan->web) {
+    sw_strand_at(s, w, b, at, out);
+    return SW_OK;
+  }
   const size_t e = sw_plan_locate(b->plan, at, &f);
   const double *x = s->system.x + 3 * (b->first_node + e);
   const double *v = s->system.v + 3 * (b->first_node + e);
@@ -189,7 +211,14 @@ sw_status sw_scene_wire_copy(sw_scene *s, sw_handle h, double *positions, double
   sw_scene_wire *w;
   SW_TRY(open_wire(s, h, &w, err));
   const sw_body *b = &s->system.bodies[h.slot];
-  const size_t n = b->plan->nodes;
+  const size_t n = b->plan->nodes, at = 3 * b->first_node;
+  const sw_web *web = b->plan->web;
+  for (size_t r = 0; web && r < web->rings; r++) {
+    if (positions) sw_web_middle(web, s->system.x + at, r, positions + 3 * r);
+    if (velocities) sw_web_middle(web, s->system.v + at, r, velocities + 3 * r);
+    if (arc) arc[r] = w->mesh.s[r];
+  }
+  if (web) return SW_OK;
   if (positions) memcpy(positions, s->system.x + 3 * b->first_node, 3 * n * sizeof(double));
   if (velocities) memcpy(velocities, s->system.v + 3 * b->first_node, 3 * n * sizeof(double));
   for (size_t i = 0; arc && i < n; i++) arc[i] = b->plan->s[i] - b->plan->s[0];

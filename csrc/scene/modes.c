@@ -115,6 +115,7 @@ static sw_status find(sw_scene *s, size_t w, const sw_modes_args *args, int (*in
                       sw_modes_result *out, sw_error *err) {
   sw_modes modes;
   sw_error why = {""};
+  SW_TRY(sw_scene_check_line(&s->wires[w], "frequencies", err));
   SW_TRY(check_joins(s, w, err));
   SW_TRY(linearise(s, err));
   SW_TRY(check_rest(s, w, args->tolerance, err));

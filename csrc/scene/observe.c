@@ -136,6 +136,11 @@ static void strain_extreme(const sw_system *s, const sw_body *b, sw_extreme *out
 }
 
 void sw_scene_wire_now(sw_scene *s, size_t w, sw_wire_extremes *now) {
+  if (s->wires[w].strand.web) {
+    sw_strand_extremes(s, w, now);
+    now->curvature.time = now->tension.time = now->strain.time = s->time;
+    return;
+  }
   curvature_extreme(&s->system.bodies[w], s->system.directors_now, &now->curvature);
   tension_extreme(&s->system, &s->system.bodies[w], &now->tension);
   strain_extreme(&s->system, &s->system.bodies[w], &now->strain);

@@ -35,8 +35,7 @@ static void aim(sw_scene *s, sw_body *b, const sw_probe *at) {
   f->hold_directors = s->system.directors_now;
   f->hold_turns = s->system.directors_rate;
   f->cautious = 0;
-  sw_field_clear(f);
-  sw_field_geometry(f);
+  sw_body_begin(b);
   if (b->spin_block) {
     sw_system_begin_step(&s->system);
     sw_system_measure(&s->system, b);
@@ -58,7 +57,7 @@ sw_status sw_scene_probe(sw_scene *s, sw_handle wire, const sw_force_class *cls,
   out->energy = b->field.energy;
   if (out->force) gather_force(&b->field, out->force);
   if (at->direction && out->product)
-    sw_field_stiffness_times(&b->field, at->direction, out->product);
+    sw_body_stiffness_times(b, at->direction, out->product);
   sw_system_refresh(&s->system);
   return status;
 }

@@ -169,8 +169,11 @@ static int is_drawn(const sw_scene_wire *w) {
   return w->mesh.drawn && fabs(w->mesh.s[w->mesh.n - 1] - drawn) <= SAME_PLACE * drawn;
 }
 
-/* Feeding makes and takes nodes of its own, at places that another mesh would not know. */
+/* Feeding makes and takes nodes of its own, at places that another mesh would not know; a mesh
+ * of particles is what it was made. */
 static sw_status check_fed(const sw_scene *s, sw_error *err) {
+  for (size_t w = 0; w < s->wire_count; w++)
+    SW_TRY(sw_scene_check_line(&s->wires[w], "another number of segments", err));
   for (size_t k = 0; k < s->hold_count; k++)
     if (s->holds[k].alive && s->holds[k].cls->feeds)
       return sw_fail(err, SW_EINVAL, "wire '%s' is fed by '%s': it cannot be meshed anew",

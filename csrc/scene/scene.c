@@ -47,6 +47,7 @@ void sw_scene_free(sw_scene *s) {
   if (!s) return;
   for (size_t i = 0; i < s->wire_count; i++) {
     sw_mesh_free(&s->wires[i].mesh);
+    sw_strand_free(&s->wires[i].strand);
     sw_free(s->wires[i].twisted);
     sw_free(s->wires[i].drawing.points);
   }
@@ -159,15 +160,15 @@ static const char *const rest_names[] = {"straight", "path", NULL};
 static const sw_param wire_rows[] = {
     {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_wire_args, name),
      "name used in messages and series"},
-    {"model", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0, "wire model: 'rod' (default) or 'string'"},
+    {"model", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0, "wire model: 'rod' (default), 'string', or a mesh: 'tube', 'radial', 'cubic'"},
     {"from", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(sw_wire_args, from),
      "start of a straight wire (s = 0)"},
     {"to", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(sw_wire_args, to),
      "end of a straight wire"},
     {"path", SW_PARAM_OTHER, "m", 0, 0, 0, 0, NULL, 0,
      "list of points the wire lies along, instead of from and to"},
-    {"segments", SW_PARAM_INTEGER, "-", 50, 2, 1e7, 0, NULL, offsetof(sw_wire_args, segments),
-     "number of segments"},
+    {"segments", SW_PARAM_INTEGER, "-", 0, 0, 1e7, 0, NULL, offsetof(sw_wire_args, segments),
+     "number of segments, 2 or more (default 50; of a mesh slices, as many as their spacing gives)"},
     {"rest", SW_PARAM_CHOICE, "-", 0, 0, 0, 0, rest_names, offsetof(sw_wire_args, rest),
      "shape without load: 'straight' or as 'path' has it"},
     {"normal", SW_PARAM_VECTOR, "-", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL,
@@ -179,6 +180,20 @@ static const sw_param wire_rows[] = {
      offsetof(sw_wire_args, rest_twist), "twist without load; it is drawn untwisted"},
 };
 const sw_params sw_wire_params = SW_PARAMS("wire", wire_rows);
+
+#define AT(member) offsetof(sw_wire_mesh_args, member)
+static const sw_param mesh_rows[] = {
+    {"spacing", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(spacing),
+     "of a mesh's slices along the wire (chosen when not given); the length is an even number of "
+     "them"},
+    {"squeeze", SW_PARAM_NUMBER, "Pa", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(squeeze),
+     "stiffness of the section: line force of two plates on opposite sides over their approach "
+     "(not given: as the springs come out)"},
+};
+#undef AT
+const sw_params sw_wire_mesh_params = SW_PARAMS("wire", mesh_rows);
+
+enum { USUAL_SEGMENTS = 50 };
 
 static const double SHORTEST_SEGMENT = 1e-9; /* of the wire's length [-] */
 
@@ -198,6 +213,16 @@ static const double LEAST_SINE = 1e-3; /* of the angle between both [-] */
 
 static const double LARGEST_TWIST = 1.5; /* of a segment at rest, with frames [rad] */
 
+/* A mesh of particles has its frames by itself. */
+static sw_status check_mesh_frames(const sw_scene_wire *w, const sw_drawing *a, sw_error *err) {
+  if (a->rolls)
+    return sw_fail(err, SW_EINVAL,
+                   "wire '%s': rolls goes with model = 'rod'; a %s, whose surface is of particles, "
+                   "rolls by itself",
+                   w->name, w->cls->name);
+  return SW_OK;
+}
+
 static sw_status add_frames(sw_scene_wire *w, sw_mesh *m, sw_error *err) {
   const int two = w->beam.EI_axis[0] != w->beam.EI_axis[1];
   const sw_drawing *a = &w->drawing;
@@ -208,6 +233,7 @@ static sw_status add_frames(sw_scene_wire *w, sw_mesh *m, sw_error *err) {
   w->beam.rest_twist = a->rest_twist;
   if (!w->beam.framed && !given && a->rest == SW_REST_STRAIGHT && a->rest_twist == 0 && !a->rolls)
     return SW_OK;
+  if (w->cls->mesh) return check_mesh_frames(w, a, err);
   if (strcmp(w->cls->name, "rod") != 0)
     return sw_fail(err, SW_EINVAL,
                    "wire '%s': rest, rest_twist, normal, rolls and two values of EI go with "
@@ -269,6 +295,11 @@ static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, c
   sw_recipe recipe;
   int by_angle = 0;
   w->cls->recipe(&w->beam, &recipe);
+  if (w->cls->mesh && !(cls->flags & SW_FORCE_ANY_BODY))
+    return sw_fail(err, SW_EINVAL,
+                   "force %s: wire '%s' is a %s, a mesh of particles, which it does not know; it "
+                   "goes with model = 'rod'",
+                   cls->name, w->name, w->cls->name);
   for (size_t k = 0; k < recipe.count; k++) by_angle |= strcmp(recipe.terms[k].force, "bend") == 0;
   if ((cls->flags & SW_FORCE_BY_ANGLE) && !by_angle)
     return sw_fail(err, SW_EINVAL,
@@ -283,8 +314,69 @@ static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, c
   return cls->check ? cls->check(args, &w->beam, err) : SW_OK;
 }
 
+sw_status sw_scene_check_line(const sw_scene_wire *w, const char *what, sw_error *err) {
+  if (!w->cls->mesh) return SW_OK;
+  return sw_fail(err, SW_EINVAL, "%s: wire '%s' is a %s, a mesh of particles; it goes with rods "
+                 "and strings only", what, w->name, w->cls->name);
+}
+
+/* The particles of a wire that is a mesh, along its drawing. */
+static sw_status draw_strand(sw_scene_wire *w, const sw_wire_args *args,
+                             const sw_wire_mesh_args *mesh, sw_error *err) {
+  const sw_drawing *d = &w->drawing;
+  const sw_strand_plan plan = {.name = w->name,
+                               .mesh = w->cls->mesh,
+                               .spacing = mesh->spacing,
+                               .squeeze = mesh->squeeze,
+                               .lattice = mesh->lattice,
+                               .section = mesh->section,
+                               .normal = d->normal,
+                               .curved = d->rest == SW_REST_PATH,
+                               .rest_twist = d->rest_twist};
+  size_t slices = (size_t)args->segments;
+  double length = 0;
+  for (size_t i = 0; i + 1 < d->count; i++)
+    length += sw_dist(sw_vec_at(d->points, i), sw_vec_at(d->points, i + 1));
+  if (!slices) SW_TRY(sw_strand_slices(&plan, &w->beam, length, &slices, err));
+  SW_TRY(sw_scene_draw(w, slices, &w->mesh, err));
+  return sw_strand_new(&plan, &w->beam, &w->mesh, &w->strand, err);
+}
+
+static sw_status check_rules(const sw_scene *s, const sw_scene_wire *w, sw_error *err) {
+  for (size_t k = 0; k < s->force_count; k++)
+    if (s->forces[k].alive && s->forces[k].wire < 0)
+      SW_TRY(check_wire(s->forces[k].cls, w, s->forces[k].args, err));
+  for (size_t k = 0; k < s->rule_count; k++)
+    if (s->rules[k].count == 0 && s->rules[k].rule.on)
+      SW_TRY(sw_scene_check_line(w, "scene:wire_contact of all wires", err));
+  return SW_OK;
+}
+
+static void clear_wire(sw_scene_wire *w) {
+  sw_mesh_free(&w->mesh);
+  sw_strand_free(&w->strand);
+  sw_free(w->drawing.points);
+  sw_free(w->twisted);
+}
+
+static sw_status draw_wire(sw_scene *s, sw_scene_wire *w, const sw_wire_args *args,
+                           const sw_wire_mesh_args *mesh, sw_error *err) {
+  const size_t segments = args->segments ? (size_t)args->segments : USUAL_SEGMENTS;
+  if (args->segments == 1)
+    return sw_fail(err, SW_EINVAL, "wire '%s': segments = 1 is not allowed; it must be 2 or more",
+                   w->name);
+  if (w->cls->mesh)
+    SW_TRY(draw_strand(w, args, mesh, err));
+  else
+    SW_TRY(sw_scene_draw(w, segments, &w->mesh, err));
+  if (!w->cls->mesh && args->rest_twist != 0 && sw_scene_draw_untwisted(w) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", w->name);
+  return check_rules(s, w, err);
+}
+
 sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam *beam,
-                            const double *points, size_t count, sw_handle *out, sw_error *err) {
+                            const sw_wire_mesh_args *mesh, const double *points, size_t count,
+                            sw_handle *out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   const double straight[6] = {args->from.x, args->from.y, args->from.z,
                               args->to.x,   args->to.y,   args->to.z};
@@ -297,22 +389,20 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
   SW_TRY(sw_scene_thaw(s));
   SW_TRY(sw_grow((void **)&s->wires, &s->wire_capacity, s->wire_count + 1, sizeof *s->wires));
   sw_status status = keep_drawing(&w, args, points ? points : straight, points ? count : 2);
-  if (status == SW_OK) status = sw_scene_draw(&w, (size_t)args->segments, &w.mesh, err);
-  if (status == SW_OK && args->rest_twist != 0 && sw_scene_draw_untwisted(&w) != SW_OK)
-    status = sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", w.name);
-  for (size_t k = 0; status == SW_OK && k < s->force_count; k++)
-    if (s->forces[k].alive && s->forces[k].wire < 0)
-      status = check_wire(s->forces[k].cls, &w, s->forces[k].args, err);
+  if (status == SW_OK) status = draw_wire(s, &w, args, mesh, err);
   if (status != SW_OK) {
-    sw_mesh_free(&w.mesh);
-    sw_free(w.drawing.points);
-    sw_free(w.twisted);
+    clear_wire(&w);
     return status;
   }
   w.drawing.length = w.mesh.s[w.mesh.n - 1];
   *out = (sw_handle){(uint32_t)s->wire_count, ++s->serial};
   s->wires[s->wire_count++] = w;
   return SW_OK;
+}
+
+const sw_calibration *sw_scene_wire_calibration(const sw_scene *s, sw_handle h) {
+  const sw_scene_wire *w = sw_scene_find_wire(s, h, NULL);
+  return w && w->strand.web ? &w->strand.calibration : NULL;
 }
 
 /* --- obstacles -------------------------------------------------------------- */

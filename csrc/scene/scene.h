@@ -12,6 +12,7 @@
 #include "base/param.h"
 #include "base/status.h"
 #include "base/vec.h"
+#include "calibrate/calibrate.h"
 #include "constraint/constraint.h"
 #include "force/force.h"
 #include "integrate/integrate.h"
@@ -91,7 +92,7 @@ typedef struct sw_wire_args {
   char name[SW_NAME_SIZE];
   int model;         /* index into sw_wire_all() */
   sw_vec from, to;   /* straight wire; NAN = not given [m] */
-  long segments;     /* [-] */
+  long segments;     /* 0 = chosen [-] */
   int rest;          /* shape without load: SW_REST_STRAIGHT, SW_REST_PATH */
   sw_vec normal;     /* first axis of the section; NAN = not given [-] */
   double rest_twist; /* without load [rad/m] */
@@ -100,10 +101,20 @@ typedef struct sw_wire_args {
 enum { SW_REST_STRAIGHT = 0, SW_REST_PATH = 1 };
 extern const sw_params sw_wire_params; /* model, path, segments, ... */
 
-/* points (count x 3): the polyline the wire lies along; NULL takes from and to.
- * SW_EINVAL for fewer than two different points. */
+/* Of a wire whose model is a mesh of particles. */
+typedef struct sw_wire_mesh_args {
+  double spacing; /* of slices; NAN = chosen [m] */
+  double squeeze; /* see sw_calibrate_args [Pa] */
+  sw_lattice_args lattice;
+  sw_section section; /* as given */
+} sw_wire_mesh_args;
+extern const sw_params sw_wire_mesh_params; /* without those of the lattice and the section */
+
+/* points (count x 3): the polyline the wire lies along; NULL takes from and to. mesh: with a
+ * model that is one, else NULL. SW_EINVAL for fewer than two different points. */
 sw_status sw_scene_add_wire(sw_scene *scene, const sw_wire_args *args, const sw_beam *beam,
-                            const double *points, size_t count, sw_handle *out, sw_error *err);
+                            const sw_wire_mesh_args *mesh, const double *points, size_t count,
+                            sw_handle *out, sw_error *err);
 
 /* Give every wire a mesh of so many even segments (count: one number per wire), with
  * the nodes its holds need. A wire that has not moved since it was drawn is drawn anew;
@@ -112,6 +123,9 @@ sw_status sw_scene_add_wire(sw_scene *scene, const sw_wire_args *args, const sw_
 sw_status sw_scene_remesh(sw_scene *scene, const size_t *segments, size_t count, sw_error *err);
 /* Even segments that a wire's mesh stands for, holds' own nodes left out. */
 sw_status sw_scene_wire_segments(sw_scene *scene, sw_handle wire, size_t *segments, sw_error *err);
+
+/* What the springs of a wire that is a mesh were fitted to; NULL: it is none, or is gone. */
+const sw_calibration *sw_scene_wire_calibration(const sw_scene *scene, sw_handle wire);
 
 /* --- holds ------------------------------------------------------------------ */
 
@@ -288,6 +302,11 @@ sw_status sw_scene_wire_at(sw_scene *scene, sw_handle wire, double s, sw_point_s
 /* Node positions (n x 3) and arc lengths (n); each may be NULL. */
 sw_status sw_scene_wire_copy(sw_scene *scene, sw_handle wire, double *positions, double *s,
                              double *velocities, sw_error *err);
+/* All particles of a wire that is a mesh, ring by ring; of any other its nodes. */
+sw_status sw_scene_wire_particles(sw_scene *scene, sw_handle wire, size_t *particles,
+                                  sw_error *err);
+sw_status sw_scene_wire_particle_copy(sw_scene *scene, sw_handle wire, double *positions, double *s,
+                                      sw_error *err);
 /* Give every node a velocity: linear field v + omega x (x - about). */
 sw_status sw_scene_wire_set_velocity(sw_scene *scene, sw_handle wire, sw_vec v, sw_vec omega,
                                      sw_vec about, sw_error *err);

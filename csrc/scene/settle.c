@@ -227,9 +227,12 @@ static void find_from_poses(statics *p) {
 
 static double shortest_edge(const sw_system *s) {
   double shortest = HUGE_VAL;
-  for (size_t b = 0; b < s->body_count; b++)
-    for (size_t e = 0; e < s->bodies[b].plan->edges; e++)
-      shortest = fmin(shortest, s->bodies[b].plan->rest[e]);
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_plan *p = s->bodies[b].plan;
+    if (p->web && p->web->rings > 1)
+      shortest = fmin(shortest, p->length / (double)(p->web->rings - 1));
+    for (size_t e = 0; e < p->edges; e++) shortest = fmin(shortest, p->rest[e]);
+  }
   return shortest;
 }
 

@@ -24,6 +24,8 @@ sw_status sw_scene_wire_contact(sw_scene *s, const sw_wire_contact_args *args,
   SW_TRY(sw_scene_editable(s, err));
   for (size_t k = 0; k < count; k++)
     if (!sw_scene_find_wire(s, wires[k], err)) return SW_EDEAD;
+  for (size_t k = 0; args->on && k < (count ? count : s->wire_count); k++)
+    SW_TRY(sw_scene_check_line(&s->wires[count ? wires[k].slot : k], "scene:wire_contact", err));
   SW_TRY(sw_scene_thaw(s));
   uint32_t *slots = sw_alloc(count, sizeof *slots);
   if (!slots || sw_grow((void **)&s->rules, &s->rule_capacity, s->rule_count + 1,

@@ -6,6 +6,7 @@
 #include "contact/contact.h"
 #include "contact/pairs.h"
 #include "scene/scene.h"
+#include "scene/strand.h"
 #include "state/mesh.h"
 #include "system/system.h"
 
@@ -32,12 +33,30 @@ typedef struct sw_scene_wire {
   const sw_wire_class *cls;
   sw_beam beam;
   sw_mesh mesh; /* authoritative while the scene is not built */
+  sw_strand strand; /* of a model that is a mesh of particles; else without a web */
   sw_drawing drawing;
   sw_wire_extremes extremes;
   sw_twisted *twisted;
   size_t twisted_count;
   int untwisted; /* 1: lies as it was drawn, without the twist it has unloaded; nothing has moved */
 } sw_scene_wire;
+
+/* SW_EINVAL when the wire is a mesh of particles, which does not go with what. */
+sw_status sw_scene_check_line(const sw_scene_wire *wire, const char *what, sw_error *err);
+
+/* Rings between the arc lengths s1 and s2, at least the nearest one to their middle, as those
+ * of its first and last [m]. */
+void sw_strand_rings(const sw_mesh *mesh, double *s1, double *s2);
+/* 1: a hold of this class holds the particle. */
+static inline int sw_strand_holds(const sw_web *web, const sw_hold_class *cls, size_t particle) {
+  return cls->clamped || particle % web->per_ring == web->axis;
+}
+/* The system's state to the strand and the middles of its rings. */
+void sw_strand_take(sw_scene_wire *wire, const sw_system *system, const sw_body *body);
+/* Read-outs at arc length s; extremes. */
+void sw_strand_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_body *body, double s,
+                  sw_point_state *out);
+void sw_strand_extremes(const sw_scene *scene, size_t wire, sw_wire_extremes *now);
 
 /* The wire is as drawn: not twisted anywhere. SW_ENOMEM. */
 sw_status sw_scene_draw_untwisted(sw_scene_wire *wire);

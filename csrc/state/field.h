@@ -72,6 +72,14 @@ typedef struct sw_field {
   double energy;       /* [J] */
   double bending;      /* part of energy that corrects the wire's own bending [J] */
 
+  /* of particles with a web; NULL for nodes one after another */
+  double *blocks;          /* values of the matrix, 3 x 3 blocks [N/m] */
+  size_t block_stride;     /* from one row of a block to the next [-] */
+  const size_t *own_slot;  /* (n) where a particle's own block begins */
+  const size_t *link_slot; /* (links) of the row of the larger number, column of the smaller one */
+  const size_t *fold_slot; /* (folds x 3) the same of a b, a c, b c */
+  const size_t *solid_slot; /* (solids x 28) the same of corners 0 1, 0 2, 1 2, 0 3, ... */
+
   /* per-hinge scratch */
   double *scratch[4]; /* (n) */
 } sw_field;
@@ -85,5 +93,34 @@ void sw_field_clear(sw_field *field);
 /* Allocate all arrays of a field for a plan with n nodes, in one block that is
  * returned through *block (free with sw_free). SW_ENOMEM. */
 sw_status sw_field_new(sw_field *field, size_t nodes, void **block);
+
+enum { SW_FIELD_SOLID_PAIRS = SW_WEB_SOLID_NODES * (SW_WEB_SOLID_NODES - 1) / 2 }; /* [-] */
+
+/* Add a symmetric stiffness between particles a and b: K (upper half) on both, -K between.
+ * slot: of the block between them. */
+static inline void sw_field_add_pair(sw_field *f, size_t a, size_t b, size_t slot,
+                                     const double K[6]) {
+  const size_t row = f->block_stride;
+  double *const own[2] = {f->blocks + f->own_slot[a], f->blocks + f->own_slot[b]};
+  double *between = f->blocks + slot;
+  static const int whole[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+  for (size_t i = 0; i < 3; i++)
+    for (size_t j = 0; j < 3; j++) {
+      const double k = K[whole[3 * i + j]];
+      own[0][i * row + j] += k;
+      own[1][i * row + j] += k;
+      between[i * row + j] -= k;
+    }
+}
+
+/* Add second derivatives H (row by row, first by a, then by b) between two different
+ * particles. */
+static inline void sw_field_add_block(sw_field *f, size_t a, size_t b, size_t slot,
+                                      const double *H, size_t stride) {
+  double *to = f->blocks + slot;
+  for (size_t i = 0; i < 3; i++)
+    for (size_t j = 0; j < 3; j++)
+      to[i * f->block_stride + j] += a > b ? H[i * stride + j] : H[j * stride + i];
+}
 
 #endif

@@ -13,6 +13,7 @@ sw_plan *sw_plan_retain(sw_plan *plan) {
 
 void sw_plan_release(sw_plan *plan) {
   if (!plan || --plan->references > 0) return;
+  sw_web_release(plan->web);
   sw_free(plan->s);
   sw_free(plan->rest);
   sw_free(plan->lumped);
@@ -127,12 +128,11 @@ static void set_spans(sw_plan *p) {
     }
 }
 
-sw_status sw_plan_new(const sw_beam *beam, const double *s, size_t n, const sw_hold_place *holds,
-                      size_t hold_count, sw_plan **out) {
+/* A plan with room for n nodes and all that goes with so many holds. */
+static sw_plan *new_plan(const sw_beam *beam, size_t n, size_t edges, size_t holds) {
   sw_plan *p = sw_alloc(1, sizeof *p);
-  if (!p) return SW_ENOMEM;
-  *p = (sw_plan){
-      .references = 1, .nodes = n, .edges = n - 1, .beam = *beam, .length = s[n - 1] - s[0]};
+  if (!p) return NULL;
+  *p = (sw_plan){.references = 1, .nodes = n, .edges = edges, .beam = *beam};
   p->s = sw_alloc(n, sizeof *p->s);
   p->rest = sw_alloc(n, sizeof *p->rest);
   p->lumped = sw_alloc(n, sizeof *p->lumped);
@@ -140,18 +140,39 @@ sw_status sw_plan_new(const sw_beam *beam, const double *s, size_t n, const sw_h
   p->mass_next = sw_alloc(n, sizeof *p->mass_next);
   p->hinge = sw_alloc(n, sizeof *p->hinge);
   p->held = sw_alloc(n, sizeof *p->held);
-  p->clamps = sw_alloc(2 * hold_count + 1, sizeof *p->clamps);
-  p->spans = sw_alloc(hold_count + 1, sizeof *p->spans);
-  if (!p->s || !p->rest || !p->lumped || !p->mass_own || !p->mass_next || !p->hinge || !p->held ||
-      !p->clamps || !p->spans) {
-    sw_plan_release(p);
-    return SW_ENOMEM;
-  }
+  p->clamps = sw_alloc(2 * holds + 1, sizeof *p->clamps);
+  p->spans = sw_alloc(holds + 1, sizeof *p->spans);
+  if (p->s && p->rest && p->lumped && p->mass_own && p->mass_next && p->hinge && p->held &&
+      p->clamps && p->spans)
+    return p;
+  sw_plan_release(p);
+  return NULL;
+}
+
+sw_status sw_plan_new(const sw_beam *beam, const double *s, size_t n, const sw_hold_place *holds,
+                      size_t hold_count, sw_plan **out) {
+  sw_plan *p = new_plan(beam, n, n - 1, hold_count);
+  if (!p) return SW_ENOMEM;
+  p->length = s[n - 1] - s[0];
   memcpy(p->s, s, n * sizeof *s);
   for (size_t e = 0; e < p->edges; e++) p->rest[e] = s[e + 1] - s[e];
   for (size_t i = 0; i < n; i++) set_mass(p, i);
   set_holds(p, holds, hold_count);
   set_spans(p);
+  *out = p;
+  return SW_OK;
+}
+
+sw_status sw_plan_of_web(const sw_beam *beam, sw_web *web, const int *held, sw_plan **out) {
+  sw_plan *p = new_plan(beam, web->particles, 0, 0);
+  if (!p) return SW_ENOMEM;
+  p->web = sw_web_retain(web);
+  p->length = web->s[web->particles - 1] - web->s[0];
+  for (size_t i = 0; i < web->particles; i++) {
+    p->s[i] = web->s[i];
+    p->lumped[i] = p->mass_own[i] = web->mass[i];
+    p->held[i] = held[i];
+  }
   *out = p;
   return SW_OK;
 }
@@ -182,17 +203,17 @@ sw_status sw_plan_add_rest(sw_plan *plan) {
 }
 
 size_t sw_plan_locate(const sw_plan *plan, double s, double *fraction) {
-  size_t low = 0, high = plan->edges;
+  const size_t step = plan->web ? plan->web->per_ring : 1;
+  size_t low = 0, high = plan->web ? plan->web->rings - 1 : plan->edges;
   while (high - low > 1) {
     const size_t middle = (low + high) / 2;
-    if (plan->s[middle] <= s)
+    if (plan->s[middle * step] <= s)
       low = middle;
     else
       high = middle;
   }
-  double f = (s - plan->s[low]) / plan->rest[low];
-  if (f < 0) f = 0;
-  if (f > 1) f = 1;
-  *fraction = f;
+  const double from = plan->s[low * step], rest = plan->s[(low + 1) * step] - from;
+  const double f = (s - from) / (plan->web ? rest : plan->rest[low]);
+  *fraction = fmin(1.0, fmax(0.0, f));
   return low;
 }

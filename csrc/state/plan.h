@@ -11,6 +11,7 @@
 
 #include "base/status.h"
 #include "base/vec.h"
+#include "state/web.h"
 
 /* What a section is made of, in beam terms. */
 typedef struct sw_beam {
@@ -50,10 +51,13 @@ typedef struct sw_span {
   double length;      /* [m] */
 } sw_span;
 
+/* Of a wire that is a mesh of particles the nodes are these; it has no edges, hinges, clamps and
+ * spans, and its mass is lumped. */
 typedef struct sw_plan {
   int references;
   size_t nodes; /* n */
-  size_t edges; /* m = n - 1 */
+  size_t edges; /* m = n - 1, or 0 with a web */
+  sw_web *web;  /* what the particles hang together by; NULL: nodes one after another */
   sw_beam beam;
   double length;          /* unstressed wire length [m] */
   double *s;              /* (n) arc length of each node [m] */
@@ -86,6 +90,19 @@ typedef struct sw_hold_place {
 sw_status sw_plan_new(const sw_beam *beam, const double *s, size_t n, const sw_hold_place *holds,
                       size_t hold_count, sw_plan **out);
 
+/* The same for particles, held where the flags (particles) say so; retains the web. SW_ENOMEM. */
+sw_status sw_plan_of_web(const sw_beam *beam, sw_web *web, const int *held, sw_plan **out);
+
+/* Axial forces that the body's state has: of its edges, or springs [-]. */
+static inline size_t sw_plan_axial(const sw_plan *plan) {
+  return plan->web ? plan->web->links : plan->edges;
+}
+
+/* How far the surface is from a node that touches something [m]. */
+static inline double sw_plan_skin(const sw_plan *plan) {
+  return plan->web ? plan->web->skin : plan->beam.radius;
+}
+
 /* Let the wire slide through a held node until its arc length there is s: changes all
  * that depends on the edges beside it. spare: how much longer than by their arc lengths the
  * edges before and after are [m]. */
@@ -108,7 +125,8 @@ static inline double sw_span_torque(const sw_plan *plan, const sw_span *span, do
 sw_plan *sw_plan_retain(sw_plan *plan);
 void sw_plan_release(sw_plan *plan); /* NULL is allowed */
 
-/* The edge that contains arc length s, and the place within it in [0, 1]. */
+/* The edge (of a mesh of particles: the ring before it) that contains arc length s, and the
+ * place within it in [0, 1]. */
 size_t sw_plan_locate(const sw_plan *plan, double s, double *fraction);
 
 #endif

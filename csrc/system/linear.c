@@ -11,11 +11,13 @@
 #include "base/simd.h"
 #include "solve/band3.h"
 #include "solve/band4.h"
+#include "solve/blocks.h"
 #include "system/assemble.h"
 #include "system/link.h"
 #include "system/spin.h"
 #include "system/system.h"
 #include "system/twist.h"
+#include "system/web.h"
 
 sw_status sw_system_linearise(sw_system *s, double time, sw_error *err) {
   const sw_coupling *c = &s->coupling;
@@ -203,6 +205,15 @@ void sw_field_stiffness_times(const sw_field *f, const double *d, double *out) {
       out[3 * e + 3 + k] += g[k];
     }
   }
+}
+
+void sw_body_stiffness_times(sw_body *b, const double *d, double *out) {
+  if (!b->plan->web) {
+    sw_field_stiffness_times(&b->field, d, out);
+    return;
+  }
+  sw_web_gather(b);
+  sw_blocks_multiply(b->blocks, d, out);
 }
 
 /* The nodes of a motion (unknowns), and back. */

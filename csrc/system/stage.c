@@ -14,6 +14,7 @@
 #include "system/spin.h"
 #include "system/system.h"
 #include "system/twist.h"
+#include "system/web.h"
 
 static void transpose(const double *u, double *out) {
   for (int i = 0; i < 3; i++)
@@ -79,6 +80,12 @@ static double advance_tension(size_t m, const double *restrict delta, const doub
  * other iteration after this many is a cautious one. */
 enum { QUICK = 4 };
 
+void sw_body_begin(sw_body *b) {
+  sw_field_clear(&b->field);
+  sw_field_geometry(&b->field);
+  if (b->plan->web && b->field.want & SW_WANT_STIFFNESS) sw_web_begin(b);
+}
+
 sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, const double *y,
                            const double *v, int statics, int iteration, sw_error *err) {
   sw_field *f = &b->field;
@@ -93,8 +100,7 @@ sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, c
   f->gravity = s->gravity;
   f->hold_directors = s->directors_now;
   f->hold_turns = s->directors_rate;
-  sw_field_clear(f);
-  sw_field_geometry(f);
+  sw_body_begin(b);
   if (b->has_twist || b->spin_block) sw_system_measure(s, b);
   for (size_t k = 0; k < b->term_count; k++) SW_TRY(sw_term_eval(&b->terms[k], f, err));
   return SW_OK;
@@ -112,6 +118,7 @@ static void stage_velocity(const sw_system *s, const sw_stage *stage, int static
 static sw_status solve_body(const sw_system *s, sw_body *body, size_t *negative) {
   double *delta = s->delta + 3 * body->first_node;
   if (body->spin_block) return sw_spin_solve(s, body, delta, negative);
+  if (body->plan->web) return sw_web_solve(body, delta, negative);
   SW_TRY(sw_band3_factor(body->field.rows, body->plan->nodes, body->field.rows, negative));
   sw_band3_solve(body->field.rows, body->plan->nodes, delta);
   if (body->has_twist) *negative -= sw_twist_correct(body, delta);
@@ -138,9 +145,14 @@ static sw_status solve_once(sw_system *s, const sw_stage *stage, int statics,
     const size_t at = 3 * s->bodies[b].first_node;
     sw_gather_rows(f, rate2, f->rows);
     sw_gather_residual(f, rate2, f->x, s->yhat + at, s->delta + at);
+    if (f->plan->web) sw_web_gather(&s->bodies[b]);
   }
   for (size_t i = 0; i < s->held_count; i++) {
     const sw_body *b = &s->bodies[s->held[i].body];
+    if (b->plan->web) {
+      sw_web_hold(&s->held[i], b, s->delta + 3 * b->first_node);
+      continue;
+    }
     hold_row(&s->held[i], b->field.rows, b->plan->nodes, s->held[i].node - b->first_node,
              s->delta + 3 * b->first_node);
   }
@@ -158,18 +170,26 @@ static sw_status solve_once(sw_system *s, const sw_stage *stage, int statics,
   return SW_OK;
 }
 
+/* A body's axial forces after the update, and the square of its largest rotation. */
+static double advance_axial(sw_system *s, const sw_body *b) {
+  const sw_field *f = &b->field;
+  const double *delta = s->delta + 3 * b->first_node;
+  double *axial = s->tension_new + b->first_edge;
+  if (b->plan->web) return sw_web_advance(b, f->x, delta, axial);
+  return advance_tension(b->plan->edges, delta, b->plan->rest, f->length, f->reciprocal,
+                         f->tangent[0], f->tangent[1], f->tangent[2], b->EA, b->EA_push, axial);
+}
+
 /* Apply the update, shortened when an edge would turn too far. Returns the
  * share applied, or -1 when the update is not finite. */
 static double apply(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                     sw_stage_report *report) {
-  double largest = 0;
+  double largest = 0, share = 1.0;
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
-    const sw_field *f = &body->field;
-    const double turn2 =
-        advance_tension(body->plan->edges, s->delta + 3 * body->first_node, body->plan->rest,
-                        f->length, f->reciprocal, f->tangent[0], f->tangent[1], f->tangent[2],
-                        body->EA, body->EA_push, s->tension_new + body->first_edge);
+    const double turn2 = advance_axial(s, body);
+    if (body->plan->web)
+      share = fmin(share, sw_web_share(body, body->field.x, s->delta + 3 * body->first_node));
     if (!(turn2 <= largest)) largest = turn2;
     if (!body->spin_block) continue;
     const double spin = sw_spin_largest(body);
@@ -177,8 +197,8 @@ static double apply(sw_system *s, const sw_stage *stage, const sw_newton *newton
   }
   if (!isfinite(largest)) return -1;
   report->rotation = sqrt(fmax(largest, 0.0));
-  const double share =
-      report->rotation > newton->limit_rotation ? newton->limit_rotation / report->rotation : 1.0;
+  if (report->rotation > newton->limit_rotation)
+    share = fmin(share, newton->limit_rotation / report->rotation);
   for (size_t i = 0; i < 3 * s->nodes; i++) stage->y[i] += share * s->delta[i];
   for (size_t b = 0; b < s->body_count; b++)
     if (s->bodies[b].spin_block) sw_spin_turn(&s->bodies[b], share);
@@ -222,6 +242,7 @@ static double trusted_shift(const sw_system *s, const sw_body *b, double hbar, i
 static int drowned_in_rounding(const sw_system *s, const sw_stage *stage, int statics) {
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
+    if (body->plan->web) continue; /* its springs are no chain that adds rounding up */
     const double trusted = trusted_shift(s, body, stage->hbar, statics);
     if (trusted < body->plan->length && trusted > 0 && largest_shift(s) > trusted) return 1;
   }
@@ -268,7 +289,8 @@ static sw_status check_start(const sw_system *s, const double *y, sw_error *err)
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
     const size_t at = 3 * body->first_node;
-    if (count_turned(body->plan->edges, s->x + at, y + at))
+    if (count_turned(body->plan->edges, s->x + at, y + at) ||
+        (body->plan->web && sw_web_turned(body, s->x + at, y + at, LEAST_ALIGNMENT)))
       return sw_fail(err, SW_ENOCONV, "an edge would turn over within the step");
   }
   return SW_OK;
@@ -311,7 +333,11 @@ static void finish(sw_system *s, const sw_stage *stage, int statics) {
     for (size_t i = 0; i < s->freedoms; i++) stage->v[i] = (stage->y[i] - stage->xhat[i]) * rate;
   for (size_t k = 0; k < s->held_count; k++) {
     sw_held_node *h = &s->held[k];
-    update_reaction(h, &s->bodies[h->body], s->delta);
+    const sw_body *b = &s->bodies[h->body];
+    if (b->plan->web)
+      h->reaction = sw_web_reaction(h, b, s->delta + 3 * b->first_node);
+    else
+      update_reaction(h, b, s->delta);
     if (s->bodies[h->body].has_twist) sw_twist_react(h, &s->bodies[h->body]);
     if (s->bodies[h->body].spin_block) sw_spin_react(h, &s->bodies[h->body]);
     sw_system_held_velocity(s, h, stage->v + 3 * h->node);

@@ -10,6 +10,7 @@
 #include "system/roll.h"
 #include "system/spin.h"
 #include "system/twist.h"
+#include "system/web.h"
 
 size_t sw_system_body_of(const sw_system *s, size_t node) {
   size_t low = 0, high = s->body_count;
@@ -31,6 +32,7 @@ void sw_system_free(sw_system *system) {
     sw_free(system->bodies[b].twist_block);
     sw_free(system->bodies[b].spin_block);
     sw_free(system->bodies[b].roll_block);
+    sw_web_discard(&system->bodies[b]);
   }
   sw_links_free(system);
   sw_joins_free(system);
@@ -57,10 +59,11 @@ static sw_status new_bodies(sw_system *s, sw_plan *const *plans, size_t count) {
     body->first_span = s->span_count;
     s->span_count += plans[b]->span_count;
     SW_TRY(sw_spin_new(body));
+    if (plans[b]->web) SW_TRY(sw_web_prepare(body));
     body->first_roll = s->rolls;
     if (body->roll_block) s->rolls += plans[b]->edges;
     s->nodes += plans[b]->nodes;
-    s->edges += plans[b]->edges;
+    s->edges += sw_plan_axial(plans[b]);
   }
   s->freedoms = 3 * s->nodes + s->rolls;
   return SW_OK;
@@ -286,6 +289,7 @@ void sw_system_axial_from_state(sw_system *s) {
     const sw_body *body = &s->bodies[b];
     const double *x = s->x + 3 * body->first_node;
     double *T = s->tension + body->first_edge;
+    if (body->plan->web) sw_web_axial(body, x, T);
     for (size_t e = 0; e < body->plan->edges; e++) {
       const double l = sw_dist(sw_vec_at(x, e), sw_vec_at(x, e + 1));
       const double strain = l / body->plan->rest[e] - 1.0;

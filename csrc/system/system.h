@@ -53,6 +53,9 @@ typedef struct sw_body {
   int needs_velocity; /* some force depends on it */
   int is_explicit;    /* some force has no stiffness */
   int is_kinked;      /* some force has a history: its stiffness jumps */
+  struct sw_blocks *blocks;  /* the matrix of a body whose plan has a web, or NULL */
+  size_t *web_slots;         /* where its forces write into it */
+  unsigned char *web_fixed;  /* (particles) 1: held */
   int linked;         /* its matrix is part of the links' (see system/link.h) */
 } sw_body;
 
@@ -182,6 +185,10 @@ sw_status sw_system_add_histories(sw_system *system);
  * SW_ENOMEM. */
 sw_status sw_system_add_link(sw_system *system, size_t i, size_t j, const double k[9]);
 
+/* While the coupling evaluates: stiffness between nodes i and j of a body with a web, of the
+ * body's own numbers, i != j, row by row with i's rows [N/m]. They are an edge of its surface. */
+void sw_body_couple(sw_body *body, size_t i, size_t j, const double K[9]);
+
 /* Before a step: between which nodes there may be links in it, anew from begin_plan on, so
  * that the matrix is made for them and that its order does not depend on earlier steps. */
 sw_status sw_system_begin_plan(sw_system *system);
@@ -292,6 +299,11 @@ double sw_system_stiffest(const sw_system *system, size_t body, double *work);
 void sw_system_stiffness_times(const sw_system *system, size_t body, const double *motion,
                                double *out);
 void sw_system_mass_times(const sw_system *system, size_t body, const double *motion, double *out);
+
+/* An evaluation of the body's terms begins: what they add to is zero, edges are measured. */
+void sw_body_begin(sw_body *body);
+/* out = stiffness that they added times d, held nodes like all others; both (nodes x 3). */
+void sw_body_stiffness_times(sw_body *body, const double *d, double *out);
 
 /* out = stiffness of a body's field times d, held nodes like all others; both
  * (nodes x 3). */

@@ -15,6 +15,11 @@ static const sw_wire_class *const all[] = {
 
 const sw_wire_class *const *sw_wire_all(void) { return all; }
 
+void sw_web_recipe(const sw_beam *beam, sw_recipe *out) {
+  (void)beam;
+  *out = (sw_recipe){.count = 3, .terms = {{"gravity", {0}}, {"spring", {0}}, {"fold", {0}}}};
+}
+
 const sw_wire_class *sw_wire_find(const char *name) {
   for (size_t i = 0; all[i]; i++)
     if (strcmp(all[i]->name, name) == 0) return all[i];

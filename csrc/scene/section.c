@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a wire that is a mesh of particles does as a wire: the line through the middles of its
+ * rings, what its sections carry, and how they are deformed. */
+#include <math.h>
+#include <string.h>
+
+#include "scene/world.h"
+
+void sw_strand_rings(const sw_mesh *m, double *s1, double *s2) {
+  const double middle = 0.5 * (*s1 + *s2), slack = 1e-9 * m->s[m->n - 1];
+  size_t first = 0, last = m->n - 1, nearest = 0;
+  while (first + 1 < m->n && m->s[first] < *s1 - slack) first++;
+  while (last > 0 && m->s[last] > *s2 + slack) last--;
+  for (size_t i = 1; i < m->n; i++)
+    if (fabs(m->s[i] - middle) < fabs(m->s[nearest] - middle)) nearest = i;
+  if (first > last) first = last = nearest;
+  *s1 = m->s[first], *s2 = m->s[last];
+}
+
+static sw_vec middle_of(const sw_web *w, const double *x, size_t ring) {
+  double at[3];
+  sw_web_middle(w, x, ring, at);
+  return sw_load(at);
+}
+
+void sw_strand_take(sw_scene_wire *wire, const sw_system *s, const sw_body *b) {
+  sw_strand *p = &wire->strand;
+  const size_t at = 3 * b->first_node, size = 3 * b->plan->nodes * sizeof(double);
+  memcpy(p->x, s->x + at, size);
+  memcpy(p->v, s->v + at, size);
+  memcpy(p->a, s->a + at, size);
+  memcpy(p->axial, s->tension + b->first_edge, p->web->links * sizeof(double));
+  for (size_t r = 0; r < wire->mesh.n; r++) {
+    sw_store(wire->mesh.x + 3 * r, middle_of(p->web, p->x, r));
+    sw_store(wire->mesh.v + 3 * r, middle_of(p->web, p->v, r));
+  }
+}
+
+/* --- sections -------------------------------------------------------------------- */
+
+/* Direction across section r: of the area that its surface encloses. */
+static sw_vec facing(const sw_web *w, const double *x, size_t ring) {
+  const double *at = x + 3 * ring * w->per_ring;
+  const sw_vec middle = middle_of(w, x, ring);
+  sw_vec sum = sw_v(0, 0, 0);
+  for (size_t k = 0; k < w->around_count; k++) {
+    const sw_vec p = sw_sub(sw_vec_at(at, w->around[k]), middle);
+    const sw_vec q = sw_sub(sw_vec_at(at, w->around[(k + 1) % w->around_count]), middle);
+    sum = sw_add(sum, sw_cross(p, q));
+  }
+  return sw_unit_or(sum, sw_v(1, 0, 0));
+}
+
+/* Force of the part of the wire after slice number r (between rings r and r + 1) on that
+ * before, and its moment about a point [N], [N m]. */
+static void slice_force(const sw_web *w, const double *x, size_t r, sw_vec about, sw_vec *force,
+                        sw_vec *moment) {
+  *force = *moment = sw_v(0, 0, 0);
+  const size_t next = (r + 1) * w->per_ring;
+  for (size_t e = w->ring_links[r]; e < w->ring_links[r + 1]; e++) {
+    const sw_web_link *link = &w->link[e];
+    if (link->b < next) continue; /* within ring r */
+    const sw_vec a = sw_vec_at(x, link->a), d = sw_sub(sw_vec_at(x, link->b), a);
+    const double l = sw_norm(d);
+    const sw_vec f = sw_scale(d, link->k * (l - link->rest) / l);
+    *force = sw_add(*force, f);
+    *moment = sw_add(*moment, sw_cross(sw_sub(a, about), f));
+  }
+}
+
+typedef struct slice {
+  double tension, twist_moment, curvature; /* [N], [N m], [1/m] */
+} slice;
+
+static slice slice_of(const sw_web *w, const double *x, size_t r) {
+  const sw_vec a = middle_of(w, x, r), b = middle_of(w, x, r + 1), about = sw_lerp(a, b, 0.5);
+  const sw_vec t0 = facing(w, x, r), t1 = facing(w, x, r + 1);
+  const sw_vec axis = sw_unit_or(sw_add(t0, t1), t0);
+  const double h = w->s[(r + 1) * w->per_ring] - w->s[r * w->per_ring];
+  sw_vec force, moment;
+  slice_force(w, x, r, about, &force, &moment);
+  return (slice){sw_dot(force, axis), sw_dot(moment, axis),
+                 2.0 * asin(fmin(1.0, 0.5 * sw_dist(t0, t1))) / h};
+}
+
+static slice blend(slice a, slice b, double f) {
+  return (slice){a.tension + f * (b.tension - a.tension),
+                 a.twist_moment + f * (b.twist_moment - a.twist_moment),
+                 a.curvature + f * (b.curvature - a.curvature)};
+}
+
+/* Values are of the middles of slices: linear between these, and on to the ends. */
+static slice slice_at(const sw_web *w, const double *x, size_t r, double f) {
+  const size_t slices = w->rings - 1;
+  if (slices == 1) return slice_of(w, x, 0);
+  size_t k = f < 0.5 ? (r > 0 ? r - 1 : 0) : r;
+  if (k + 1 >= slices) k = slices - 2;
+  const double at = (double)r + f - ((double)k + 0.5);
+  return blend(slice_of(w, x, k), slice_of(w, x, k + 1), at);
+}
+
+void sw_strand_at(const sw_scene *s, const sw_scene_wire *wire, const sw_body *b, double place,
+                  sw_point_state *out) {
+  const sw_web *w = wire->strand.web;
+  const double *x = s->system.x + 3 * b->first_node, *v = s->system.v + 3 * b->first_node;
+  double f;
+  const size_t r = sw_plan_locate(b->plan, place, &f);
+  const sw_vec x0 = middle_of(w, x, r), x1 = middle_of(w, x, r + 1);
+  const sw_vec t0 = facing(w, x, r), t1 = facing(w, x, r + 1);
+  const double l = sw_dist(x0, x1), h00 = (1 + 2 * f) * (1 - f) * (1 - f);
+  const double h10 = f * (1 - f) * (1 - f), h01 = f * f * (3 - 2 * f), h11 = f * f * (f - 1);
+  const slice at = slice_at(w, x, r, f);
+  const double EA = wire->beam.EA, bent = fmax(0.0, at.curvature) * wire->beam.radius;
+  out->position = sw_add(sw_add(sw_scale(x0, h00), sw_scale(t0, l * h10)),
+                         sw_add(sw_scale(x1, h01), sw_scale(t1, l * h11)));
+  out->velocity = sw_lerp(middle_of(w, v, r), middle_of(w, v, r + 1), f);
+  out->tangent = sw_unit_or(sw_lerp(t0, t1, f), t0);
+  out->curvature = fmax(0.0, at.curvature);
+  out->tension = at.tension;
+  out->twist_moment = at.twist_moment;
+  out->spin = 0;
+  out->strain = at.tension / EA + bent;
+  out->least_strain = at.tension / EA - bent;
+}
+
+void sw_strand_extremes(const sw_scene *s, size_t wire, sw_wire_extremes *now) {
+  const sw_body *b = &s->system.bodies[wire];
+  const sw_web *w = b->plan->web;
+  const double *x = s->system.x + 3 * b->first_node, EA = b->plan->beam.EA;
+  const sw_extreme least = {.value = -HUGE_VAL};
+  *now = (sw_wire_extremes){least, least, least};
+  for (size_t r = 0; r + 1 < w->rings; r++) {
+    const slice at = slice_of(w, x, r);
+    const double place = 0.5 * (w->s[r * w->per_ring] + w->s[(r + 1) * w->per_ring]);
+    const double strain = at.tension / EA + b->plan->beam.radius * at.curvature;
+    if (at.curvature > now->curvature.value)
+      now->curvature = (sw_extreme){.value = at.curvature, .s = place};
+    if (at.tension > now->tension.value)
+      now->tension = (sw_extreme){.value = at.tension, .s = place};
+    if (strain > now->strain.value) now->strain = (sw_extreme){.value = strain, .s = place};
+  }
+}

@@ -1,0 +1,244 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/strand.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "state/hinge.h"
+
+/* Particles at a surface are this far inside of it, so that what touches them has a side;
+ * of the radius [-]. */
+static const double SKIN = 0.1;
+
+/* --- calibration -------------------------------------------------------------------- */
+
+static sw_status calibrate(const sw_strand_plan *p, const sw_beam *beam, double spacing,
+                           double tolerance, sw_calibration *out, sw_error *err) {
+  const sw_calibrate_args args = {.mesh = sw_calibrate_mesh(p->mesh),
+                                  .squeeze = p->squeeze,
+                                  .spacing = spacing,
+                                  .tolerance = tolerance};
+  sw_lattice_args lattice = p->lattice;
+  sw_section section = p->section;
+  sw_error why = {""};
+  section.E = section.nu = section.density = section.spin_inertia = (double)NAN;
+  section.EA = beam->EA, section.EI = beam->EI_axis[0], section.GJ = beam->GJ;
+  section.mass_per_length = beam->mass;
+  section.radius = (1.0 - SKIN) * beam->radius;
+  if (section.EI2 > 0) lattice.cubic.EI2 = section.EI2;
+  section.EI2 = (double)NAN;
+  const sw_status status = sw_calibrate(&args, &section, &lattice, out, &why);
+  if (status == SW_OK) return SW_OK;
+  const char *text = strncmp(why.text, "calibrate: ", 11) == 0 ? why.text + 11 : why.text;
+  return sw_fail(err, status, "wire '%s' as %s: %.400s", p->name, p->mesh, text);
+}
+
+sw_status sw_strand_slices(const sw_strand_plan *p, const sw_beam *beam, double length, size_t *out,
+                           sw_error *err) {
+  double spacing = p->spacing;
+  if (isnan(spacing)) {
+    sw_calibration any;
+    const sw_status status = calibrate(p, beam, spacing, 1.0, &any, err);
+    spacing = any.lattice.spacing;
+    sw_calibration_free(&any);
+    SW_TRY(status);
+  }
+  const double count = ceil(length / spacing - 1e-6);
+  if (!(count < 1e7))
+    return sw_fail(err, SW_EINVAL, "wire '%s': slices of %g m are too many", p->name, spacing);
+  *out = (size_t)fmax(2.0, count);
+  return SW_OK;
+}
+
+/* --- the mesh of particles ------------------------------------------------------------ */
+
+typedef struct maker {
+  const sw_strand_plan *plan;
+  const sw_lattice *lattice;
+  const sw_mesh *mesh;
+  const double *k; /* of groups */
+  sw_web *web;
+  sw_strand *strand;
+} maker;
+
+/* Share of a link that lies within ring r: those of the ends belong to half a slice. */
+static double ring_share(const maker *m, const sw_cell_link *link, size_t r) {
+  return link->slices == 0 && (r == 0 || r + 1 == m->mesh->n) ? 0.5 : 1.0;
+}
+
+/* Does the link that starts at ring r end on the wire? A bend spring needs a ring before. */
+static int fits(const maker *m, const sw_cell_link *link, size_t r) {
+  if (link->bend) return r > 0 && r + 1 < m->mesh->n;
+  return r + (size_t)link->slices < m->mesh->n;
+}
+
+/* Unstressed length: of the drawn shape, or of the straight lattice, twisted at rest. */
+static double rest_length(const maker *m, const sw_cell_link *link, size_t r) {
+  const size_t n = m->lattice->particles;
+  if (m->plan->curved)
+    return sw_dist(sw_vec_at(m->strand->x, r * n + link->from),
+                   sw_vec_at(m->strand->x, (r + (size_t)link->slices) * n + link->to));
+  const double z = (double)link->slices * m->lattice->spacing, turn = m->plan->rest_twist * z;
+  const double *a = m->lattice->at + 3 * (size_t)link->from;
+  const double *b = m->lattice->at + 3 * (size_t)link->to;
+  const double x = cos(turn) * b[0] - sin(turn) * b[1], y = sin(turn) * b[0] + cos(turn) * b[1];
+  return sqrt((x - a[0]) * (x - a[0]) + (y - a[1]) * (y - a[1]) + z * z);
+}
+
+static void add_links(maker *m) {
+  const size_t n = m->lattice->particles;
+  size_t links = 0, folds = 0;
+  for (size_t r = 0; r < m->mesh->n; r++) {
+    m->web->ring_links[r] = links;
+    for (size_t i = 0; i < m->lattice->links; i++) {
+      const sw_cell_link *link = &m->lattice->link[i];
+      if (!fits(m, link, r)) continue;
+      const double k = m->k[link->group] * link->weight * ring_share(m, link, r);
+      const uint32_t from = (uint32_t)(r * n) + link->from;
+      const uint32_t to = (uint32_t)((r + (size_t)link->slices) * n) + link->to;
+      if (link->bend)
+        m->web->fold[folds++] = (sw_web_fold){from - (uint32_t)n, from, from + (uint32_t)n, k};
+      else
+        m->web->link[links++] = (sw_web_link){from, to, k, rest_length(m, link, r)};
+    }
+  }
+  m->web->ring_links[m->mesh->n] = links;
+}
+
+static void count_links(const maker *m, size_t *links, size_t *folds) {
+  *links = *folds = 0;
+  for (size_t r = 0; r < m->mesh->n; r++)
+    for (size_t i = 0; i < m->lattice->links; i++)
+      if (fits(m, &m->lattice->link[i], r))
+        *(m->lattice->link[i].bend ? folds : links) += 1;
+}
+
+/* The particles of a section that lie on its convex outline, in their order round it: those
+ * inside by more than rounding are left out. */
+static void find_around(const sw_lattice *l, sw_web *w) {
+  const size_t n = l->particles;
+  size_t first = 0;
+  for (size_t i = 1; i < n; i++)
+    if (l->at[3 * i] > l->at[3 * first]) first = i;
+  size_t at = first;
+  do { /* wrap the section: the next one has all others on its left */
+    w->around[w->around_count++] = (uint32_t)at;
+    size_t next = at == 0 && n > 1;
+    const double *p = l->at + 3 * at;
+    for (size_t i = 0; i < n; i++) {
+      const double *q = l->at + 3 * i, *o = l->at + 3 * next;
+      const double ux = o[0] - p[0], uy = o[1] - p[1], vx = q[0] - p[0], vy = q[1] - p[1];
+      const double cross = ux * vy - uy * vx, size = hypot(ux, uy) * hypot(vx, vy);
+      const int straight = fabs(cross) <= 1e-9 * size;
+      if (i == at || i == next || size == 0) continue;
+      if (cross < 0 && !straight) next = i;
+      if (straight && ux * vx + uy * vy > 0 && hypot(vx, vy) < hypot(ux, uy)) next = i;
+    }
+    at = next;
+  } while (at != first && w->around_count < n);
+}
+
+static sw_status fill_web(maker *m) {
+  const sw_lattice *l = m->lattice;
+  sw_web *w = m->web;
+  const size_t n = l->particles, rings = m->mesh->n;
+  w->rings = rings, w->per_ring = n;
+  w->banded = w->folds == 0;
+  w->share = sw_alloc(n, sizeof *w->share);
+  w->section = sw_alloc(2 * n, sizeof *w->section);
+  w->around = sw_alloc(n, sizeof *w->around);
+  w->ring_links = sw_alloc(rings + 1, sizeof *w->ring_links);
+  w->ring_solids = sw_alloc(rings + 1, sizeof *w->ring_solids);
+  if (!w->share || !w->section || !w->around || !w->ring_links || !w->ring_solids)
+    return SW_ENOMEM;
+  w->axis = (uint32_t)n;
+  for (size_t i = 0; i < n; i++) {
+    w->share[i] = l->share[i];
+    w->section[2 * i] = l->at[3 * i], w->section[2 * i + 1] = l->at[3 * i + 1];
+    if (hypot(l->at[3 * i], l->at[3 * i + 1]) < 1e-9 * l->spacing) w->axis = (uint32_t)i;
+  }
+  const double slice = m->strand->calibration.mass_per_length * l->spacing;
+  for (size_t p = 0; p < w->particles; p++) {
+    const size_t r = p / n;
+    w->mass[p] = slice * l->share[p % n] * (r == 0 || r + 1 == rings ? 0.5 : 1.0);
+    w->s[p] = m->mesh->s[r];
+  }
+  add_links(m);
+  find_around(l, w);
+  SW_TRY(sw_web_bound_rate(w));
+  return sw_web_add_surface(w);
+}
+
+/* Particles across the line that the mesh's nodes are, sections carried along without twist. */
+static void place_particles(const maker *m) {
+  const sw_mesh *mesh = m->mesh;
+  const size_t n = m->lattice->particles;
+  sw_vec t = sw_mesh_tangent(mesh, 0);
+  const sw_vec wanted = sw_madd(m->plan->normal, t, -sw_dot(m->plan->normal, t));
+  sw_vec u = isfinite(wanted.x) ? sw_unit_or(wanted, sw_perpendicular(t)) : sw_perpendicular(t);
+  for (size_t r = 0; r < mesh->n; r++) {
+    const sw_vec next = sw_mesh_tangent(mesh, r), middle = sw_vec_at(mesh->x, r);
+    u = sw_carry_unit(u, t, next);
+    t = next;
+    const sw_vec w = sw_cross(t, u);
+    for (size_t i = 0; i < n; i++) {
+      const double *at = m->lattice->at + 3 * i;
+      const sw_vec across = sw_madd(sw_scale(u, at[0]), w, at[1]);
+      sw_store(m->strand->x + 3 * (r * n + i), sw_madd(sw_add(middle, across), t, at[2]));
+    }
+  }
+}
+
+static sw_status new_particles(maker *m, size_t particles, size_t links) {
+  sw_strand *s = m->strand;
+  s->x = sw_alloc(3 * particles, sizeof *s->x);
+  s->v = sw_alloc(3 * particles, sizeof *s->v);
+  s->a = sw_alloc(3 * particles, sizeof *s->a);
+  s->axial = sw_alloc(links, sizeof *s->axial);
+  if (!s->x || !s->v || !s->a || !s->axial) return SW_ENOMEM;
+  place_particles(m);
+  return SW_OK;
+}
+
+static sw_status make(maker *m) {
+  size_t links, folds;
+  const size_t particles = m->mesh->n * m->lattice->particles;
+  count_links(m, &links, &folds);
+  SW_TRY(sw_web_new(particles, links, folds, 0, &m->web));
+  m->strand->web = m->web;
+  SW_TRY(new_particles(m, particles, links));
+  SW_TRY(fill_web(m));
+  const double *x = m->strand->x;
+  for (size_t e = 0; e < links; e++) {
+    const sw_web_link *link = &m->web->link[e];
+    const double l = sw_dist(sw_vec_at(x, link->a), sw_vec_at(x, link->b));
+    m->strand->axial[e] = link->k * (l - link->rest);
+  }
+  return SW_OK;
+}
+
+sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const sw_mesh *mesh,
+                        sw_strand *out, sw_error *err) {
+  const double spacing = (mesh->s[mesh->n - 1] - mesh->s[0]) / (double)(mesh->n - 1);
+  memset(out, 0, sizeof *out);
+  SW_TRY(calibrate(plan, beam, spacing, 1e-6, &out->calibration, err));
+  maker m = {.plan = plan,
+             .lattice = &out->calibration.lattice,
+             .mesh = mesh,
+             .k = out->calibration.k,
+             .strand = out};
+  if (make(&m) != SW_OK) return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", plan->name);
+  out->web->skin = SKIN * beam->radius;
+  return SW_OK;
+}
+
+void sw_strand_free(sw_strand *s) {
+  sw_web_release(s->web);
+  sw_calibration_free(&s->calibration);
+  sw_free(s->x);
+  sw_free(s->v);
+  sw_free(s->a);
+  sw_free(s->axial);
+  memset(s, 0, sizeof *s);
+}

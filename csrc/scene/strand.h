@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Wires that are meshes of particles: made of a calibrated lattice along what they are drawn
+ * along. The wire's own mesh (sw_mesh) then has one node for each ring, in its middle. */
+#ifndef SW_SCENE_STRAND_H
+#define SW_SCENE_STRAND_H
+
+#include "calibrate/calibrate.h"
+#include "state/mesh.h"
+#include "state/web.h"
+
+/* Particles of a wire; authoritative while the scene is not built. */
+typedef struct sw_strand {
+  sw_web *web;
+  sw_calibration calibration;
+  double *x, *v, *a; /* (particles x 3) [m], [m/s], [m/s2] */
+  double *axial;     /* (links) of springs [N] */
+} sw_strand;
+
+/* What a mesh is to be of; the wire's beam gives the rest. */
+typedef struct sw_strand_plan {
+  const char *name; /* of the wire, for messages */
+  const char *mesh; /* the lattice's name */
+  double spacing, squeeze; /* see sw_calibrate_args */
+  sw_lattice_args lattice;
+  sw_section section; /* as given */
+  sw_vec normal;      /* where the lattice's x goes; NAN = anywhere [-] */
+  int curved;         /* 1: unstressed as it is drawn */
+  double rest_twist;  /* [rad/m] */
+} sw_strand_plan;
+
+/* How many slices the wire of this length has when nobody says. */
+sw_status sw_strand_slices(const sw_strand_plan *plan, const sw_beam *beam, double length,
+                           size_t *out, sw_error *err);
+/* A strand along the nodes of an even mesh. Frees nothing of *out on failure. */
+sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const sw_mesh *mesh,
+                        sw_strand *out, sw_error *err);
+void sw_strand_free(sw_strand *strand);
+
+#endif

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "state/web.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+
+sw_status sw_web_new(size_t particles, size_t links, size_t folds, size_t solids, sw_web **out) {
+  sw_web *w = sw_alloc(1, sizeof *w);
+  if (!w) return SW_ENOMEM;
+  *w = (sw_web){.references = 1,
+                .particles = particles,
+                .links = links,
+                .folds = folds,
+                .solids = solids};
+  w->link = sw_alloc(links, sizeof *w->link);
+  w->fold = sw_alloc(folds, sizeof *w->fold);
+  w->solid = sw_alloc(solids, sizeof *w->solid);
+  w->mass = sw_alloc(particles, sizeof *w->mass);
+  w->s = sw_alloc(particles, sizeof *w->s);
+  w->outer = sw_alloc(particles, sizeof *w->outer);
+  w->side_first = sw_alloc(particles + 1, sizeof *w->side_first);
+  if (!w->link || !w->fold || !w->solid || !w->mass || !w->s || !w->outer || !w->side_first) {
+    sw_web_release(w);
+    return SW_ENOMEM;
+  }
+  *out = w;
+  return SW_OK;
+}
+
+sw_web *sw_web_retain(sw_web *web) {
+  if (web) web->references++;
+  return web;
+}
+
+void sw_web_release(sw_web *w) {
+  if (!w || --w->references > 0) return;
+  void *const blocks[] = {w->link,  w->fold,    w->solid,  w->shapes, w->ring_links,
+                          w->mass,  w->s,       w->share,  w->section, w->ring_solids,
+                          w->outer, w->around,  w->side,   w->side_first};
+  for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) sw_free(blocks[k]);
+  sw_free(w);
+}
+
+/* Edges of the surface: around each ring, and along the wire to the next one. */
+sw_status sw_web_add_surface(sw_web *w) {
+  const size_t n = w->around_count;
+  sw_free(w->side);
+  w->side = sw_alloc(2 * n * w->rings, sizeof *w->side);
+  if (!w->side) return SW_ENOMEM;
+  uint32_t *next = sw_alloc(w->per_ring, sizeof *next); /* round the section; itself: inside */
+  if (!next) return SW_ENOMEM;
+  for (size_t i = 0; i < w->per_ring; i++) next[i] = (uint32_t)i;
+  for (size_t k = 0; k < n; k++) next[w->around[k]] = w->around[(k + 1) % n];
+  size_t count = 0;
+  for (size_t p = 0; p < w->particles; p++) {
+    const size_t ring = p / w->per_ring, i = p % w->per_ring;
+    w->side_first[p] = count;
+    if (next[i] == i) continue;
+    w->outer[p] = 1;
+    w->side[count++] = (uint32_t)(ring * w->per_ring + next[i]);
+    if (ring + 1 < w->rings) w->side[count++] = (uint32_t)(p + w->per_ring);
+  }
+  w->side_first[w->particles] = count;
+  sw_free(next);
+  return SW_OK;
+}
+
+sw_status sw_web_bound_rate(sw_web *w) {
+  double *sum = sw_alloc(w->particles, sizeof *sum);
+  if (!sum) return SW_ENOMEM;
+  for (size_t e = 0; e < w->links; e++) {
+    sum[w->link[e].a] += w->link[e].k;
+    sum[w->link[e].b] += w->link[e].k;
+  }
+  w->rate2 = 0;
+  for (size_t p = 0; p < w->particles; p++) w->rate2 = fmax(w->rate2, 2.0 * sum[p] / w->mass[p]);
+  sw_free(sum);
+  return SW_OK;
+}
+
+void sw_web_middle(const sw_web *w, const double *x, size_t ring, double out[3]) {
+  const double *at = x + 3 * ring * w->per_ring;
+  out[0] = out[1] = out[2] = 0;
+  for (size_t i = 0; i < w->per_ring; i++)
+    for (size_t k = 0; k < 3; k++) out[k] += w->share[i] * at[3 * i + k];
+}

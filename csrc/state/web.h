@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Particles that springs, folds and solid elements hold together: the inside of a wire that is
+ * a mesh (a tube of rings, layers around a line, voxels) or of anything else that is soft. A web
+ * is immutable once made and reference-counted; where its particles are is the body's state. */
+#ifndef SW_STATE_WEB_H
+#define SW_STATE_WEB_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/status.h"
+
+/* A spring between two particles. */
+typedef struct sw_web_link {
+  uint32_t a, b;
+  double k;    /* [N/m] */
+  double rest; /* unstressed length [m] */
+} sw_web_link;
+
+/* A spring against the angle at b between a, b and c, which lie straight at rest. */
+typedef struct sw_web_fold {
+  uint32_t a, b, c;
+  double k; /* moment per angle [N m] */
+} sw_web_fold;
+
+enum { SW_WEB_SOLID_NODES = 8 }; /* most of one solid element [-] */
+
+/* Corners of a solid element; what else it is lies in the web's shapes. */
+typedef struct sw_web_solid {
+  uint32_t count; /* [-] */
+  uint32_t node[SW_WEB_SOLID_NODES];
+} sw_web_solid;
+
+typedef struct sw_web {
+  int references;
+  size_t particles;
+  size_t rings, per_ring; /* particles ring by ring along a wire; per_ring 0: in no order [-] */
+  int banded;             /* 1: nothing reaches further than to the next ring */
+  sw_web_link *link;
+  size_t links;
+  sw_web_fold *fold;
+  size_t folds;
+  sw_web_solid *solid;
+  size_t solids;
+  void *shapes;                      /* (solids) prepared by the force that they have, or NULL */
+  size_t *ring_links, *ring_solids;  /* (rings + 1) where those begin that start at each ring */
+  double *mass;                      /* (particles) [kg] */
+  double *s;                         /* (particles) arc length [m] */
+  double *share;                     /* (per_ring) of the mass of a slice [-] */
+  double *section;                   /* (per_ring x 2) where they are across the wire [m] */
+  uint32_t *around;                  /* (around_count) of a section's surface, in their order */
+  size_t around_count;
+  uint32_t axis;         /* a section's particle on the axis; per_ring: there is none */
+  double rate2;          /* most of twice the springs of a particle over its mass [1/s2] */
+  double skin;           /* distance of the surface from the particles there [m] */
+  unsigned char *outer;  /* (particles) 1: at the surface */
+  size_t *side_first;    /* (particles + 1) where the sides of each begin */
+  uint32_t *side;        /* other ends of the surface's edges, each edge once */
+} sw_web;
+
+/* An empty web for so many particles, of one reference. SW_ENOMEM. */
+sw_status sw_web_new(size_t particles, size_t links, size_t folds, size_t solids, sw_web **out);
+sw_web *sw_web_retain(sw_web *web);
+void sw_web_release(sw_web *web); /* NULL is allowed */
+
+/* Once particles, rings and around are known: which particles and edges are the surface of a
+ * wire. SW_ENOMEM. */
+sw_status sw_web_add_surface(sw_web *web);
+
+/* Once springs and masses are known: the square of a bound on how fast they swing. SW_ENOMEM. */
+sw_status sw_web_bound_rate(sw_web *web);
+
+/* Mass-weighted middle of ring i, of positions or anything else that particles have
+ * (particles x 3). */
+void sw_web_middle(const sw_web *web, const double *x, size_t ring, double out[3]);
+
+#endif

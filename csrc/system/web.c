@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "system/web.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/simd.h"
+#include "solve/band3.h"
+#include "solve/blocks.h"
+
+/* --- the matrix -------------------------------------------------------------------- */
+
+/* All pairs of particles that something joins, into out (may be NULL); their number. */
+static size_t pairs_of(const sw_web *w, sw_blocks_pair *out) {
+  size_t n = 0;
+  for (size_t e = 0; e < w->links; e++, n++)
+    if (out) out[n] = (sw_blocks_pair){w->link[e].a, w->link[e].b};
+  for (size_t k = 0; k < w->folds; k++) {
+    const sw_web_fold *f = &w->fold[k];
+    const sw_blocks_pair three[3] = {{f->a, f->b}, {f->a, f->c}, {f->b, f->c}};
+    for (int i = 0; i < 3; i++, n++)
+      if (out) out[n] = three[i];
+  }
+  for (size_t k = 0; k < w->solids; k++)
+    for (uint32_t i = 1; i < w->solid[k].count; i++)
+      for (uint32_t j = 0; j < i; j++, n++)
+        if (out) out[n] = (sw_blocks_pair){w->solid[k].node[j], w->solid[k].node[i]};
+  for (size_t p = 0; p < w->particles; p++)
+    for (size_t k = w->side_first[p]; k < w->side_first[p + 1]; k++, n++)
+      if (out) out[n] = (sw_blocks_pair){(uint32_t)p, w->side[k]};
+  return n;
+}
+
+static sw_status new_blocks(const sw_web *w, sw_blocks **out) {
+  if (w->banded) return sw_blocks_new_rings(w->rings, w->per_ring, out);
+  sw_blocks_pair *pairs = sw_alloc(pairs_of(w, NULL), sizeof *pairs);
+  if (!pairs) return SW_ENOMEM;
+  const size_t count = pairs_of(w, pairs);
+  const sw_status status = sw_blocks_new_sparse(w->particles, pairs, count, out);
+  sw_free(pairs);
+  return status;
+}
+
+static size_t between(const sw_blocks *m, size_t a, size_t b) {
+  return a > b ? sw_blocks_slot(m, a, b) : sw_blocks_slot(m, b, a);
+}
+
+static void fill_slots(sw_body *b) {
+  const sw_web *w = b->plan->web;
+  size_t *own = b->web_slots, *link = own + w->particles, *fold = link + w->links;
+  size_t *solid = fold + 3 * w->folds;
+  for (size_t p = 0; p < w->particles; p++) own[p] = sw_blocks_slot(b->blocks, p, p);
+  for (size_t e = 0; e < w->links; e++) link[e] = between(b->blocks, w->link[e].a, w->link[e].b);
+  for (size_t k = 0; k < w->folds; k++) {
+    const sw_web_fold *f = &w->fold[k];
+    fold[3 * k] = between(b->blocks, f->a, f->b);
+    fold[3 * k + 1] = between(b->blocks, f->a, f->c);
+    fold[3 * k + 2] = between(b->blocks, f->b, f->c);
+  }
+  for (size_t k = 0; k < w->solids; k++) {
+    const uint32_t *node = w->solid[k].node;
+    size_t *at = solid + SW_FIELD_SOLID_PAIRS * k;
+    for (uint32_t i = 1; i < w->solid[k].count; i++)
+      for (uint32_t j = 0; j < i; j++) *at++ = between(b->blocks, node[j], node[i]);
+  }
+  b->field.own_slot = own, b->field.link_slot = link;
+  b->field.fold_slot = fold, b->field.solid_slot = solid;
+}
+
+sw_status sw_web_prepare(sw_body *b) {
+  const sw_web *w = b->plan->web;
+  SW_TRY(new_blocks(w, &b->blocks));
+  const size_t slots = w->particles + w->links + 3 * w->folds + SW_FIELD_SOLID_PAIRS * w->solids;
+  b->web_slots = sw_alloc(slots, sizeof *b->web_slots);
+  b->web_fixed = sw_alloc(w->particles, sizeof *b->web_fixed);
+  if (!b->web_slots || !b->web_fixed) return SW_ENOMEM;
+  for (size_t p = 0; p < w->particles; p++) b->web_fixed[p] = b->plan->held[p] != SW_FREE;
+  fill_slots(b);
+  b->field.blocks = sw_blocks_values(b->blocks);
+  b->field.block_stride = sw_blocks_stride(b->blocks);
+  return SW_OK;
+}
+
+void sw_web_discard(sw_body *b) {
+  sw_blocks_free(b->blocks);
+  sw_free(b->web_slots);
+  sw_free(b->web_fixed);
+}
+
+void sw_web_begin(sw_body *b) { sw_blocks_clear(b->blocks); }
+
+void sw_body_couple(sw_body *b, size_t i, size_t j, const double K[9]) {
+  const size_t slot = between(b->blocks, i, j);
+  if (slot != SIZE_MAX) sw_field_add_block(&b->field, i, j, slot, K, 3);
+}
+
+void sw_web_gather(sw_body *b) {
+  static const size_t whole[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+  const sw_field *f = &b->field;
+  for (size_t p = 0; p < b->plan->nodes; p++) {
+    double *to = f->blocks + f->own_slot[p];
+    const double *row = f->rows + SW_ROW_SIZE * p;
+    for (size_t i = 0; i < 3; i++)
+      for (size_t j = 0; j < 3; j++) to[i * f->block_stride + j] += row[whole[3 * i + j]];
+  }
+}
+
+void sw_web_hold(sw_held_node *h, const sw_body *b, double *right) {
+  double *at = right + 3 * (h->node - b->first_node);
+  h->own_force = sw_neg(sw_load(at));
+  sw_store(at, sw_v(0, 0, 0));
+}
+
+sw_vec sw_web_reaction(const sw_held_node *h, const sw_body *b, const double *delta) {
+  double push[3];
+  sw_blocks_row_times(b->blocks, h->node - b->first_node, delta, push);
+  return sw_add(h->own_force, sw_load(push));
+}
+
+sw_status sw_web_solve(const sw_body *b, double *delta, size_t *negative) {
+  SW_TRY(sw_blocks_factor(b->blocks, b->web_fixed, negative));
+  sw_blocks_solve(b->blocks, delta);
+  return SW_OK;
+}
+
+/* --- springs ------------------------------------------------------------------------ */
+
+SW_HOT
+static double advance(const sw_web *w, const double *restrict x, const double *restrict delta,
+                      double *restrict axial) {
+  double largest = 0;
+  for (size_t e = 0; e < w->links; e++) {
+    const sw_web_link *link = &w->link[e];
+    const double *a = x + 3 * (size_t)link->a, *b = x + 3 * (size_t)link->b;
+    const double *p = delta + 3 * (size_t)link->a, *q = delta + 3 * (size_t)link->b;
+    const double e0 = b[0] - a[0], e1 = b[1] - a[1], e2 = b[2] - a[2];
+    const double d0 = q[0] - p[0], d1 = q[1] - p[1], d2 = q[2] - p[2];
+    const double l2 = e0 * e0 + e1 * e1 + e2 * e2, l = sqrt(l2);
+    const double along = (e0 * d0 + e1 * d1 + e2 * d2) / l;
+    const double across2 = (d0 * d0 + d1 * d1 + d2 * d2 - along * along) / l2;
+    axial[e] = link->k * (l + along - link->rest);
+    largest = largest > across2 ? largest : across2;
+  }
+  return largest;
+}
+
+/* Edges between corners one after another of solid elements. */
+static double solid_turn2(const sw_web *w, const double *x, const double *delta) {
+  double largest = 0;
+  for (size_t n = 0; n < w->solids; n++)
+    for (uint32_t i = 0; i + 1 < w->solid[n].count; i++) {
+      const size_t a = w->solid[n].node[i], b = w->solid[n].node[i + 1];
+      const sw_vec e = sw_sub(sw_vec_at(x, b), sw_vec_at(x, a));
+      const sw_vec d = sw_sub(sw_vec_at(delta, b), sw_vec_at(delta, a));
+      const double l2 = sw_norm2(e), along = sw_dot(d, e);
+      const double across2 = (sw_norm2(d) - along * along / l2) / l2;
+      if (!(across2 <= largest)) largest = across2;
+    }
+  return largest;
+}
+
+double sw_web_advance(const sw_body *b, const double *x, const double *delta, double *axial) {
+  const double springs = advance(b->plan->web, x, delta, axial);
+  const double solids = solid_turn2(b->plan->web, x, delta);
+  return springs >= solids ? springs : solids; /* a NaN of the solids comes through */
+}
+
+double sw_web_share(const sw_body *b, const double *x, const double *delta) {
+  double share = 1.0;
+  for (size_t k = 0; k < b->term_count; k++)
+    if (b->terms[k].cls->largest_share)
+      share = fmin(share, b->terms[k].cls->largest_share(b->terms[k].args, b->plan, x, delta));
+  return share;
+}
+
+void sw_web_axial(const sw_body *b, const double *x, double *axial) {
+  const sw_web *w = b->plan->web;
+  for (size_t e = 0; e < w->links; e++) {
+    const double l = sw_dist(sw_vec_at(x, w->link[e].a), sw_vec_at(x, w->link[e].b));
+    axial[e] = w->link[e].k * (l - w->link[e].rest);
+  }
+}
+
+long sw_web_turned(const sw_body *b, const double *x, const double *y, double share) {
+  const sw_web *w = b->plan->web;
+  long turned = 0;
+  for (size_t e = 0; e < w->links; e++) {
+    const sw_vec from = sw_sub(sw_vec_at(x, w->link[e].b), sw_vec_at(x, w->link[e].a));
+    const sw_vec to = sw_sub(sw_vec_at(y, w->link[e].b), sw_vec_at(y, w->link[e].a));
+    turned += !(sw_dot(from, to) >= share * sw_norm2(from));
+  }
+  return turned;
+}

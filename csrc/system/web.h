@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Bodies that are webs of particles: their matrix, its solution, and the axial forces of their
+ * springs, which are unknowns of the mixed Newton as a rod's are. Of this room only. */
+#ifndef SW_SYSTEM_WEB_H
+#define SW_SYSTEM_WEB_H
+
+#include "system/system.h"
+
+/* The matrix of a body whose plan has a web, and where its forces write. SW_ENOMEM. */
+sw_status sw_web_prepare(sw_body *body);
+void sw_web_discard(sw_body *body);
+
+/* An evaluation with stiffness begins; it is over, and what nodes have in the field's rows
+ * joins the rest. */
+void sw_web_begin(sw_body *body);
+void sw_web_gather(sw_body *body);
+
+/* Take a held node out of the equations; its reaction after the update delta (nodes x 3). */
+void sw_web_hold(sw_held_node *held, const sw_body *body, double *right);
+sw_vec sw_web_reaction(const sw_held_node *held, const sw_body *body, const double *delta);
+
+/* The update of all free particles: right side in, delta out. Fails as sw_blocks_factor. */
+sw_status sw_web_solve(const sw_body *body, double *delta, size_t *negative);
+
+/* Axial forces after delta by the linearised law, at positions x before it; returns the square
+ * of the largest rotation of a spring or of a solid element's edge. */
+double sw_web_advance(const sw_body *body, const double *x, const double *delta, double *axial);
+/* Share of the move delta from x that turns no solid element inside out, in (0, 1] [-]. */
+double sw_web_share(const sw_body *body, const double *x, const double *delta);
+
+/* Axial forces as the springs' lengths give them. */
+void sw_web_axial(const sw_body *body, const double *x, double *axial);
+
+/* Springs that keep less than a share of their length along themselves from x to y. */
+long sw_web_turned(const sw_body *body, const double *x, const double *y, double share);
+
+#endif
