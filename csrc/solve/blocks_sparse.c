@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solve/blocks_sparse.h"
+
+#include <string.h>
+
+#include "base/alloc.h"
+#include "solve/cholmod_adapter.h"
+
+enum { BLOCK = 9 };
+
+void sw_blocks_sparse_free(sw_blocks_sparse *s) {
+  if (!s) return;
+  sw_cholmod_free(s->solver);
+  sw_free(s->first);
+  sw_free(s->column);
+  sw_free(s->values);
+  sw_free(s);
+}
+
+/* Blocks of the lower half by a sort into columns and then, of these, into rows: both lists
+ * then ascend. order: (count + nodes) indices of pairs. */
+static void sort_by_column(size_t nodes, const sw_blocks_pair *pairs, size_t count, uint32_t *start,
+                           uint32_t *order) {
+  for (size_t k = 0; k < count; k++) {
+    const uint32_t low = pairs[k].i < pairs[k].j ? pairs[k].i : pairs[k].j;
+    start[low + 1]++;
+  }
+  for (size_t i = 0; i < nodes; i++) start[i + 1] += start[i];
+  for (size_t k = 0; k < count; k++) {
+    const uint32_t low = pairs[k].i < pairs[k].j ? pairs[k].i : pairs[k].j;
+    order[start[low]++] = (uint32_t)k;
+  }
+}
+
+/* Rows with their columns, repeats together: column (count + nodes) and first (nodes + 1). */
+static void sort_by_row(size_t nodes, const sw_blocks_pair *pairs, size_t count,
+                        const uint32_t *order, uint32_t *first, uint32_t *column) {
+  for (size_t k = 0; k < count; k++) {
+    const uint32_t high = pairs[k].i > pairs[k].j ? pairs[k].i : pairs[k].j;
+    first[high + 1]++;
+  }
+  for (size_t i = 0; i < nodes; i++) first[i + 1] += first[i] + 1; /* and its own block */
+  for (size_t k = 0; k < count; k++) {
+    const sw_blocks_pair p = pairs[order[k]];
+    const uint32_t high = p.i > p.j ? p.i : p.j, low = p.i < p.j ? p.i : p.j;
+    column[first[high]++] = low;
+  }
+  for (size_t i = nodes; i-- > 0;) {
+    column[first[i]] = (uint32_t)i;
+    first[i + 1] = first[i] + 1; /* where this row ends, and the next one began */
+  }
+  first[0] = 0;
+}
+
+/* Leave out repeats. */
+static void unite(size_t nodes, uint32_t *first, uint32_t *column) {
+  uint32_t filled = 0, from = 0;
+  for (size_t i = 0; i < nodes; i++) {
+    const uint32_t begin = filled;
+    for (; from < first[i + 1]; from++)
+      if (filled == begin || column[filled - 1] != column[from]) column[filled++] = column[from];
+    first[i + 1] = filled;
+  }
+}
+
+static sw_status find_pattern(sw_blocks_sparse *s, const sw_blocks_pair *pairs, size_t count) {
+  uint32_t *work = sw_alloc(s->nodes + 1 + count, sizeof *work);
+  s->first = sw_alloc(s->nodes + 1, sizeof *s->first);
+  s->column = sw_alloc(count + s->nodes, sizeof *s->column);
+  const sw_status status = work && s->first && s->column ? SW_OK : SW_ENOMEM;
+  if (status == SW_OK) {
+    uint32_t *order = work + s->nodes + 1;
+    sort_by_column(s->nodes, pairs, count, work, order);
+    sort_by_row(s->nodes, pairs, count, order, s->first, s->column);
+    unite(s->nodes, s->first, s->column);
+  }
+  sw_free(work);
+  return status;
+}
+
+static sw_status analyse(sw_blocks_sparse *s, const sw_blocks_pair *pairs, size_t count) {
+  SW_TRY(find_pattern(s, pairs, count));
+  s->values = sw_alloc(BLOCK * (size_t)s->first[s->nodes], sizeof *s->values);
+  if (!s->values) return SW_ENOMEM;
+  return sw_cholmod_new(s->nodes, s->first, s->column, &s->solver);
+}
+
+sw_status sw_blocks_sparse_new(size_t nodes, const sw_blocks_pair *pairs, size_t count,
+                               sw_blocks_sparse **out) {
+  if (nodes < 1) return SW_EINVAL;
+  if (nodes > INT32_MAX / 8 || count > INT32_MAX / (2 * BLOCK)) return SW_ELIMIT;
+  for (size_t k = 0; k < count; k++)
+    if (pairs[k].i >= nodes || pairs[k].j >= nodes || pairs[k].i == pairs[k].j) return SW_EINVAL;
+  sw_blocks_sparse *s = sw_alloc(1, sizeof *s);
+  if (!s) return SW_ENOMEM;
+  s->nodes = nodes;
+  const sw_status status = analyse(s, pairs, count);
+  if (status == SW_OK)
+    *out = s;
+  else
+    sw_blocks_sparse_free(s);
+  return status;
+}
+
+size_t sw_blocks_sparse_slot(const sw_blocks_sparse *s, size_t i, size_t j) {
+  if (i >= s->nodes) return SIZE_MAX;
+  uint32_t low = s->first[i], high = s->first[i + 1];
+  while (low < high) {
+    const uint32_t middle = low + (high - low) / 2;
+    if (s->column[middle] < j)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low < s->first[i + 1] && s->column[low] == j ? BLOCK * (size_t)low : SIZE_MAX;
+}
+
+void sw_blocks_sparse_clear(sw_blocks_sparse *s) {
+  memset(s->values, 0, BLOCK * (size_t)s->first[s->nodes] * sizeof *s->values);
+}
+
+sw_status sw_blocks_sparse_factor(sw_blocks_sparse *s, const unsigned char *fixed,
+                                  size_t *negative) {
+  return sw_cholmod_factor(s->solver, s->values, fixed, negative);
+}
+
+void sw_blocks_sparse_solve(const sw_blocks_sparse *s, double *x) {
+  sw_cholmod_solve(s->solver, x);
+}
+
+/* y += block x */
+static inline void add(const double *a, const double *x, double *y) {
+  for (int i = 0; i < 3; i++) y[i] += a[3 * i] * x[0] + a[3 * i + 1] * x[1] + a[3 * i + 2] * x[2];
+}
+
+/* y += block' x */
+static inline void add_mirrored(const double *a, const double *x, double *y) {
+  for (int i = 0; i < 3; i++) y[i] += a[i] * x[0] + a[3 + i] * x[1] + a[6 + i] * x[2];
+}
+
+/* The same for a node's own block, of which the lower half counts. */
+static inline void add_own(const double *a, const double *x, double *y) {
+  y[0] += a[0] * x[0] + a[3] * x[1] + a[6] * x[2];
+  y[1] += a[3] * x[0] + a[4] * x[1] + a[7] * x[2];
+  y[2] += a[6] * x[0] + a[7] * x[1] + a[8] * x[2];
+}
+
+void sw_blocks_sparse_multiply(const sw_blocks_sparse *s, const double *x, double *y) {
+  memset(y, 0, 3 * s->nodes * sizeof *y);
+  for (size_t i = 0; i < s->nodes; i++) {
+    const double *a = s->values + BLOCK * (size_t)s->first[i];
+    uint32_t k = s->first[i];
+    for (; s->column[k] < i; k++, a += BLOCK) {
+      const size_t j = s->column[k];
+      add(a, x + 3 * j, y + 3 * i);
+      add_mirrored(a, x + 3 * i, y + 3 * j);
+    }
+    add_own(a, x + 3 * i, y + 3 * i);
+  }
+}
+
+/* A node's blocks below its own are found by search in the rows of their nodes: this is for few
+ * nodes. */
+void sw_blocks_sparse_row_times(const sw_blocks_sparse *s, size_t node, const double *x,
+                                double y[3]) {
+  const double *a = s->values + BLOCK * (size_t)s->first[node];
+  double sum[3] = {0, 0, 0};
+  for (uint32_t k = s->first[node]; s->column[k] < node; k++, a += BLOCK)
+    add(a, x + 3 * (size_t)s->column[k], sum);
+  add_own(a, x + 3 * node, sum);
+  for (size_t i = node + 1; i < s->nodes; i++) {
+    const size_t slot = sw_blocks_sparse_slot(s, i, node);
+    if (slot != SIZE_MAX) add_mirrored(s->values + slot, x + 3 * i, sum);
+  }
+  memcpy(y, sum, sizeof sum);
+}

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Block-tridiagonal symmetric matrices with dense blocks: nodes in rings, as in solve/blocks.h.
+ * A ring's row holds its columns in the ring before, padded, and in its own ring: one stretch
+ * of memory. Rows are eliminated from the last one to the first, since row by row the lower
+ * half is then at hand as a row of the factor: A = L' D L with L in the places of A. */
+#ifndef SW_SOLVE_RINGS_H
+#define SW_SOLVE_RINGS_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+
+enum {
+  SW_RINGS_TILE = 8,  /* columns of a register tile; rows are padded to it */
+  SW_RINGS_PANEL = 6, /* rows eliminated at once; the last ones of a ring may be 3 */
+  SW_RINGS_OWN = 8    /* numbers kept of a row's part of its panel */
+};
+
+typedef struct sw_rings {
+  size_t rings, per_ring;
+  size_t n;      /* rows of a ring: 3 per_ring */
+  size_t padded; /* n, up to a full tile */
+  size_t stride; /* a row: two rings and a line of zeros, so that columns do not share cache sets */
+  double *values; /* (rings x n x stride) */
+  double *factor; /* (rings x n x stride) L left of the panels; 0 at and right of them */
+  double *own;    /* (rings x n x SW_RINGS_OWN) L inside the panels, then 1/D */
+  double *scaled; /* (2 x n x stride) D L of this ring and the one before it in the elimination */
+  double *masked; /* (n x stride) rows of a ring without its fixed nodes */
+  double *x, *y;  /* (rings x padded) vectors */
+} sw_rings;
+
+sw_status sw_rings_new(size_t rings, size_t per_ring, sw_rings **out);
+void sw_rings_free(sw_rings *rings); /* NULL is allowed */
+size_t sw_rings_slot(const sw_rings *rings, size_t i, size_t j);
+void sw_rings_clear(sw_rings *rings);
+sw_status sw_rings_factor(sw_rings *rings, const unsigned char *fixed, size_t *negative);
+void sw_rings_solve(const sw_rings *rings, double *x);
+void sw_rings_multiply(const sw_rings *rings, const double *x, double *y);
+void sw_rings_row_times(const sw_rings *rings, size_t node, const double *x, double y[3]);
+
+/* Between user's vectors (n a ring) and padded ones. */
+void sw_rings_pad(const sw_rings *rings, const double *x, double *padded);
+void sw_rings_unpad(const sw_rings *rings, const double *padded, double *x);
+
+#endif
