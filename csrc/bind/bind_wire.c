@@ -114,7 +114,8 @@ int lsw_scene_wire(lua_State *L) {
   mesh.section = section;
   const double *points = read_path(L, 2, &count);
   lsw_child *child = lsw_new_child(L, 1, &lsw_class_wire);
-  lsw_must(L, sw_scene_add_wire(owner->h.object, &args, &beam, &mesh, points, count, &child->id, &err),
+  lsw_must(L,
+           sw_scene_add_wire(owner->h.object, &args, &beam, &mesh, points, count, &child->id, &err),
            &err);
   child->h.object = owner;
   return 1;

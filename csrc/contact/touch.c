@@ -150,22 +150,22 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
   const sw_memory *m = pressed_memory(c, s, k, at);
   const sw_touch *last = last_for(c, k, at);
   const double stiffness = stiffness_of(c, k, m, last);
-  sw_touch t = {.obstacle = k->obstacle,
-                .segment = k->segment,
-                .node = k->node,
-                .other = k->other,
-                .body = k->body,
-                .feature = near->feature,
-                .at = at,
-                .point = sw_pose_point(*pose, near->point),
-                .local = near->point,
-                .known = m != NULL,
-                .stiffer = stiffness,
-                .held = sw_contact_is_held(s, k),
-                .candidate = (size_t)(k - c->candidates),
-                .press = {.normal = sw_rotate(pose->q, near->normal),
-                          .gap = near->gap - k->skin,
-                          .k = stiffness}};
+  sw_touch t = {
+      .obstacle = k->obstacle,
+      .segment = k->segment,
+      .node = k->node,
+      .other = k->other,
+      .body = k->body,
+      .feature = near->feature,
+      .at = at,
+      .point = sw_pose_point(*pose, near->point),
+      .local = near->point,
+      .known = m != NULL,
+      .stiffer = stiffness,
+      .held = sw_contact_is_held(s, k),
+      .candidate = (size_t)(k - c->candidates),
+      .press = {
+          .normal = sw_rotate(pose->q, near->normal), .gap = near->gap - k->skin, .k = stiffness}};
   sw_press *press = &t.press;
   if (c->regime == SW_CONTACT_IMPLICIT &&
       press->gap < 0) /* in explicit steps force follows depth */

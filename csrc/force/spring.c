@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Springs between the particles of a web: E = 1/2 k (l - l0)^2, force T = k (l - l0) along the
  * spring, stiffness k t t' + (T/l)(I - t t'). As for the edges of a rod, the T of the geometric
- * part is the solver's own unknown (see system/stage.c), and outside of statics a spring under
- * pressure has none. Hooke's law in the change of length: valid while springs are not
+ * part is the solver's own unknown (see system/stage.c). Springs under pressure have that part
+ * too, for in a bent section those pulled and pushed must cancel; only iterations that would
+ * not converge leave it out. Hooke's law in the change of length: valid while springs are not
  * squeezed to a point. */
 #include <math.h>
 
@@ -10,11 +11,11 @@
 
 static void add_stiffness(const sw_web_link *link, double stored, double l, const double t[3],
                           size_t e, sw_field *f) {
-  const double T = f->statics ? stored : fmax(0.0, stored);
+  const double T = f->cautious ? fmax(0.0, stored) : stored;
   const double geometric = T / l, axial = link->k - geometric;
-  const double K[6] = {axial * t[0] * t[0] + geometric, axial * t[0] * t[1],
-                       axial * t[0] * t[2],             axial * t[1] * t[1] + geometric,
-                       axial * t[1] * t[2],             axial * t[2] * t[2] + geometric};
+  const double K[6] = {
+      axial * t[0] * t[0] + geometric, axial * t[0] * t[1], axial * t[0] * t[2],
+      axial * t[1] * t[1] + geometric, axial * t[1] * t[2], axial * t[2] * t[2] + geometric};
   sw_field_add_pair(f, link->a, link->b, f->link_slot[e], K);
 }
 

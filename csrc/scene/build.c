@@ -266,13 +266,12 @@ static sw_status add_holds(sw_scene *s, size_t alive) {
     for (size_t i = 0; i < b->plan->nodes; i++) {
       if (!(b->plan->s[i] >= h->s1 && b->plan->s[i] <= h->s2)) continue;
       if (b->plan->web && !sw_strand_holds(b->plan->web, h->cls, i)) continue;
-      s->system.held[s->system.held_count++] = (sw_held_node){.node = b->first_node + i,
-                                                              .body = h->wire,
-                                                              .hold = number,
-                                                              .slides = h->cls->feeds,
-                                                              .local = b->plan->web
-                                                                  ? sw_vec_at(h->local, particle++)
-                                                                  : local_of(h, b->plan->s[i])};
+      s->system.held[s->system.held_count++] = (sw_held_node){
+          .node = b->first_node + i,
+          .body = h->wire,
+          .hold = number,
+          .slides = h->cls->feeds,
+          .local = b->plan->web ? sw_vec_at(h->local, particle++) : local_of(h, b->plan->s[i])};
     }
     s->hold_slot[number++] = (int)k;
   }

@@ -179,9 +179,8 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wir
   const sw_web *web = s->wires[wire.slot].strand.web;
   if (cls->feeds) SW_TRY(sw_scene_check_line(&s->wires[wire.slot], "feed", err));
   if (web && !cls->clamped && web->axis == web->per_ring)
-    return sw_fail(err, SW_EINVAL,
-                   "%s: wire '%s' has no particle on its axis to be held; %s", cls->name,
-                   s->wires[wire.slot].name,
+    return sw_fail(err, SW_EINVAL, "%s: wire '%s' has no particle on its axis to be held; %s",
+                   cls->name, s->wires[wire.slot].name,
                    "give the mesh a middle (tube: core = true; cubic: across even)");
   if (cls->feeds && isfinite(args->speed) && isfinite(args->force))
     return sw_fail(err, SW_EINVAL, "feed: give speed or force, not both; the other one follows");

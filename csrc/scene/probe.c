@@ -56,8 +56,7 @@ sw_status sw_scene_probe(sw_scene *s, sw_handle wire, const sw_force_class *cls,
   s->running--;
   out->energy = b->field.energy;
   if (out->force) gather_force(&b->field, out->force);
-  if (at->direction && out->product)
-    sw_body_stiffness_times(b, at->direction, out->product);
+  if (at->direction && out->product) sw_body_stiffness_times(b, at->direction, out->product);
   sw_system_refresh(&s->system);
   return status;
 }

@@ -160,7 +160,8 @@ static const char *const rest_names[] = {"straight", "path", NULL};
 static const sw_param wire_rows[] = {
     {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_wire_args, name),
      "name used in messages and series"},
-    {"model", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0, "wire model: 'rod' (default), 'string', or a mesh: 'tube', 'radial', 'cubic'"},
+    {"model", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
+     "wire model: 'rod' (default), 'string', or a mesh: 'tube', 'radial', 'cubic'"},
     {"from", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(sw_wire_args, from),
      "start of a straight wire (s = 0)"},
     {"to", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(sw_wire_args, to),
@@ -168,7 +169,8 @@ static const sw_param wire_rows[] = {
     {"path", SW_PARAM_OTHER, "m", 0, 0, 0, 0, NULL, 0,
      "list of points the wire lies along, instead of from and to"},
     {"segments", SW_PARAM_INTEGER, "-", 0, 0, 1e7, 0, NULL, offsetof(sw_wire_args, segments),
-     "number of segments, 2 or more (default 50; of a mesh slices, as many as their spacing gives)"},
+     "number of segments, 2 or more (default 50; of a mesh slices, as many as their spacing "
+     "gives)"},
     {"rest", SW_PARAM_CHOICE, "-", 0, 0, 0, 0, rest_names, offsetof(sw_wire_args, rest),
      "shape without load: 'straight' or as 'path' has it"},
     {"normal", SW_PARAM_VECTOR, "-", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL,
@@ -316,8 +318,10 @@ static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, c
 
 sw_status sw_scene_check_line(const sw_scene_wire *w, const char *what, sw_error *err) {
   if (!w->cls->mesh) return SW_OK;
-  return sw_fail(err, SW_EINVAL, "%s: wire '%s' is a %s, a mesh of particles; it goes with rods "
-                 "and strings only", what, w->name, w->cls->name);
+  return sw_fail(err, SW_EINVAL,
+                 "%s: wire '%s' is a %s, a mesh of particles; it goes with rods "
+                 "and strings only",
+                 what, w->name, w->cls->name);
 }
 
 /* The particles of a wire that is a mesh, along its drawing. */

@@ -110,8 +110,7 @@ static void count_links(const maker *m, size_t *links, size_t *folds) {
   *links = *folds = 0;
   for (size_t r = 0; r < m->mesh->n; r++)
     for (size_t i = 0; i < m->lattice->links; i++)
-      if (fits(m, &m->lattice->link[i], r))
-        *(m->lattice->link[i].bend ? folds : links) += 1;
+      if (fits(m, &m->lattice->link[i], r)) *(m->lattice->link[i].bend ? folds : links) += 1;
 }
 
 /* The particles of a section that lie on its convex outline, in their order round it: those
@@ -150,8 +149,7 @@ static sw_status fill_web(maker *m) {
   w->around = sw_alloc(n, sizeof *w->around);
   w->ring_links = sw_alloc(rings + 1, sizeof *w->ring_links);
   w->ring_solids = sw_alloc(rings + 1, sizeof *w->ring_solids);
-  if (!w->share || !w->section || !w->around || !w->ring_links || !w->ring_solids)
-    return SW_ENOMEM;
+  if (!w->share || !w->section || !w->around || !w->ring_links || !w->ring_solids) return SW_ENOMEM;
   w->axis = (uint32_t)n;
   for (size_t i = 0; i < n; i++) {
     w->share[i] = l->share[i];

@@ -18,8 +18,8 @@ typedef struct sw_strand {
 
 /* What a mesh is to be of; the wire's beam gives the rest. */
 typedef struct sw_strand_plan {
-  const char *name; /* of the wire, for messages */
-  const char *mesh; /* the lattice's name */
+  const char *name;        /* of the wire, for messages */
+  const char *mesh;        /* the lattice's name */
   double spacing, squeeze; /* see sw_calibrate_args */
   sw_lattice_args lattice;
   sw_section section; /* as given */

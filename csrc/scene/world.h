@@ -32,7 +32,7 @@ typedef struct sw_scene_wire {
   char name[SW_NAME_SIZE];
   const sw_wire_class *cls;
   sw_beam beam;
-  sw_mesh mesh; /* authoritative while the scene is not built */
+  sw_mesh mesh;     /* authoritative while the scene is not built */
   sw_strand strand; /* of a model that is a mesh of particles; else without a web */
   sw_drawing drawing;
   sw_wire_extremes extremes;

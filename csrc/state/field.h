@@ -73,11 +73,11 @@ typedef struct sw_field {
   double bending;      /* part of energy that corrects the wire's own bending [J] */
 
   /* of particles with a web; NULL for nodes one after another */
-  double *blocks;          /* values of the matrix, 3 x 3 blocks [N/m] */
-  size_t block_stride;     /* from one row of a block to the next [-] */
-  const size_t *own_slot;  /* (n) where a particle's own block begins */
-  const size_t *link_slot; /* (links) of the row of the larger number, column of the smaller one */
-  const size_t *fold_slot; /* (folds x 3) the same of a b, a c, b c */
+  double *blocks;           /* values of the matrix, 3 x 3 blocks [N/m] */
+  size_t block_stride;      /* from one row of a block to the next [-] */
+  const size_t *own_slot;   /* (n) where a particle's own block begins */
+  const size_t *link_slot;  /* (links) of the row of the larger number, column of the smaller one */
+  const size_t *fold_slot;  /* (folds x 3) the same of a b, a c, b c */
   const size_t *solid_slot; /* (solids x 28) the same of corners 0 1, 0 2, 1 2, 0 3, ... */
 
   /* per-hinge scratch */
@@ -115,8 +115,8 @@ static inline void sw_field_add_pair(sw_field *f, size_t a, size_t b, size_t slo
 
 /* Add second derivatives H (row by row, first by a, then by b) between two different
  * particles. */
-static inline void sw_field_add_block(sw_field *f, size_t a, size_t b, size_t slot,
-                                      const double *H, size_t stride) {
+static inline void sw_field_add_block(sw_field *f, size_t a, size_t b, size_t slot, const double *H,
+                                      size_t stride) {
   double *to = f->blocks + slot;
   for (size_t i = 0; i < 3; i++)
     for (size_t j = 0; j < 3; j++)

@@ -8,11 +8,8 @@
 sw_status sw_web_new(size_t particles, size_t links, size_t folds, size_t solids, sw_web **out) {
   sw_web *w = sw_alloc(1, sizeof *w);
   if (!w) return SW_ENOMEM;
-  *w = (sw_web){.references = 1,
-                .particles = particles,
-                .links = links,
-                .folds = folds,
-                .solids = solids};
+  *w = (sw_web){
+      .references = 1, .particles = particles, .links = links, .folds = folds, .solids = solids};
   w->link = sw_alloc(links, sizeof *w->link);
   w->fold = sw_alloc(folds, sizeof *w->fold);
   w->solid = sw_alloc(solids, sizeof *w->solid);
@@ -35,9 +32,9 @@ sw_web *sw_web_retain(sw_web *web) {
 
 void sw_web_release(sw_web *w) {
   if (!w || --w->references > 0) return;
-  void *const blocks[] = {w->link,  w->fold,    w->solid,  w->shapes, w->ring_links,
-                          w->mass,  w->s,       w->share,  w->section, w->ring_solids,
-                          w->outer, w->around,  w->side,   w->side_first};
+  void *const blocks[] = {w->link,  w->fold,   w->solid, w->shapes,    w->ring_links,
+                          w->mass,  w->s,      w->share, w->section,   w->ring_solids,
+                          w->outer, w->around, w->side,  w->side_first};
   for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) sw_free(blocks[k]);
   sw_free(w);
 }

@@ -50,13 +50,13 @@ typedef struct sw_body {
   double *roll_turn;    /* (edges) turn since the state, along the way straight from there [rad]; */
   double *roll_from[3]; /* (edges) the state's tangents; NULL for other wires [-] */
   void *roll_block;
-  int needs_velocity; /* some force depends on it */
-  int is_explicit;    /* some force has no stiffness */
-  int is_kinked;      /* some force has a history: its stiffness jumps */
-  struct sw_blocks *blocks;  /* the matrix of a body whose plan has a web, or NULL */
-  size_t *web_slots;         /* where its forces write into it */
-  unsigned char *web_fixed;  /* (particles) 1: held */
-  int linked;         /* its matrix is part of the links' (see system/link.h) */
+  int needs_velocity;       /* some force depends on it */
+  int is_explicit;          /* some force has no stiffness */
+  int is_kinked;            /* some force has a history: its stiffness jumps */
+  struct sw_blocks *blocks; /* the matrix of a body whose plan has a web, or NULL */
+  size_t *web_slots;        /* where its forces write into it */
+  unsigned char *web_fixed; /* (particles) 1: held */
+  int linked;               /* its matrix is part of the links' (see system/link.h) */
 } sw_body;
 
 /* Where a hold is, for all nodes it holds. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The solid model of any convex section: small cubes with a particle at each corner or middle. Its springs
- * are calibrated to the wire (room calibrate). */
+/* The solid model of any convex section: small cubes with a particle at each corner or middle. Its
+ * springs are calibrated to the wire (room calibrate). */
 #include "wire/wire.h"
 
 const sw_wire_class sw_wire_cubic = {

@@ -28,7 +28,8 @@ typedef struct sw_wire_class {
   const char *name;
   const char *summary;
   void (*recipe)(const sw_beam *beam, sw_recipe *out);
-  const char *mesh; /* the lattice of particles of room calibrate that it is; NULL: a line of them */
+  const char
+      *mesh; /* the lattice of particles of room calibrate that it is; NULL: a line of them */
 } sw_wire_class;
 
 /* The recipe of all models that are meshes: what the springs are is in the mesh. */
