@@ -63,6 +63,8 @@ static void forces(lua_State *L) {
 static void models(lua_State *L) {
   for (int i = 0; sw_wire_all()[i]; i++) {
     push_entry(L, sw_wire_all()[i]->name, sw_wire_all()[i]->summary);
+    lua_pushboolean(L, sw_wire_all()[i]->mesh != NULL);
+    lua_setfield(L, -2, "mesh");
     lua_rawseti(L, -2, i + 1);
   }
 }
@@ -90,6 +92,7 @@ static void params(lua_State *L) {
     const sw_params *params;
   } tables[] = {{"scene", &sw_scene_params},
                 {"wire", &sw_wire_params},
+                {"wire_mesh", &sw_wire_mesh_params},
                 {"section", &sw_section_params},
                 {"obstacle", &sw_obstacle_params},
                 {"run", &sw_run_params},

@@ -193,6 +193,21 @@ static int meth_positions(lua_State *L) {
   return 2;
 }
 
+/* Flat {x1, y1, z1, x2, ...} of all particles of a mesh, ring by ring, and their arc lengths; of
+ * any other wire its nodes [m]. */
+static int meth_particles(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  size_t n;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  lsw_must(L, sw_scene_wire_particles(scene, w->id, &n, &err), &err);
+  double *x = lua_newuserdatauv(L, 4 * n * sizeof *x, 0);
+  lsw_must(L, sw_scene_wire_particle_copy(scene, w->id, x, x + 3 * n, &err), &err);
+  lsw_push_flat(L, x, 3 * n);
+  lsw_push_flat(L, x + 3 * n, n);
+  return 2;
+}
+
 static int meth_velocities(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
@@ -345,6 +360,7 @@ static const luaL_Reg methods[] = {{"position", meth_position},
                                    {"twist_moment", meth_twist_moment},
                                    {"spin", meth_spin},
                                    {"positions", meth_positions},
+                                   {"particles", meth_particles},
                                    {"velocities", meth_velocities},
                                    {"set_velocity", meth_set_velocity},
                                    {"min_bend_radius", meth_min_bend_radius},

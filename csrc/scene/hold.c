@@ -124,7 +124,8 @@ static sw_status take_hold(const sw_mesh *m, sw_scene_hold *h, const sw_hold_arg
   return SW_OK;
 }
 
-/* The same of the particles of a mesh. With a direction given the sections are turned to it. */
+/* The same of the particles of a mesh. With a direction given the hold's pose is turned to it,
+ * while the wire is not yet. */
 static sw_status take_particles(const sw_scene_wire *w, sw_scene_hold *h, const sw_hold_args *a) {
   const sw_web *web = w->strand.web;
   const sw_mesh *m = &w->mesh;
@@ -141,12 +142,11 @@ static sw_status take_particles(const sw_scene_wire *w, sw_scene_hold *h, const 
   for (size_t p = first * web->per_ring; p < (last + 1) * web->per_ring; p++) {
     if (!sw_strand_holds(web, h->cls, p)) continue;
     h->s[h->count] = web->s[p];
-    const sw_vec local = sw_sub(sw_vec_at(w->strand.x, p), origin);
-    sw_store(h->local + 3 * h->count++, sw_rotate(turn, local));
+    sw_store(h->local + 3 * h->count++, sw_sub(sw_vec_at(w->strand.x, p), origin));
   }
-  h->drive.pose = (sw_pose){origin, sw_quat_identity()};
+  h->drive.pose = (sw_pose){origin, turn};
   h->last_pose = h->drive.pose;
-  h->turn = h->drive.pose.q;
+  h->turn = sw_quat_identity();
   return SW_OK;
 }
 

@@ -42,6 +42,7 @@ void sw_web_release(sw_web *w) {
 /* Edges of the surface: around each ring, and along the wire to the next one. */
 sw_status sw_web_add_surface(sw_web *w) {
   const size_t n = w->around_count;
+  if (!w->per_ring) return SW_OK; /* no rings */
   sw_free(w->side);
   w->side = sw_alloc(2 * n * w->rings, sizeof *w->side);
   if (!w->side) return SW_ENOMEM;

@@ -45,9 +45,9 @@ for _, model in ipairs(samples.registry.models) do
 
     it("tells its length, ends and energies", function()
       local scene, wire = samples.wire{ segments = 9, model = model.name }
-      assert.are.equal(9, wire.segments)
+      if not model.mesh then assert.are.equal(9, wire.segments) end
       near(1, wire.length, 1e-15)
-      assert.are.same({ 0, 0, 0 }, wire:position(0))
+      near(0, samples.norm(wire:position(0)), model.mesh and 1e-17 or 0)
       near(1, wire:position(wire.length)[1], 1e-15)
       near(1, wire:tangent(0.5)[1], 1e-15)
       local sum, energy = 0, scene:energy()
@@ -63,13 +63,16 @@ for _, model in ipairs(samples.registry.models) do
     it("keeps its length of arc on a bent path", function()
       local scene = sw.scene{ gravity = { 0, 0, 0 } }
       local points = {}
-      for i = 0, 60 do
-        points[#points + 1] = { math.sin(i / 30), 1 - math.cos(i / 30), 0 }
+      for i = 0, 600 do -- finer than the slices of any mesh, which lie as they are drawn
+        points[#points + 1] = { math.sin(i / 300), 1 - math.cos(i / 300), 0 }
       end
-      local wire = scene:wire{ EA = 60, EI = 0.02, mass_per_length = 0.1, radius = 0.005,
-        path = points, segments = 20, model = model.name }
+      local args = samples.values(model.name)
+      args.path, args.segments = points, not model.mesh and 20 or nil
+      local wire = scene:wire(args)
       near(2, wire.length, 1e-3)
-      near(0, wire:tension(1), 1e-12) -- its edges are unstressed
+      -- edges are unstressed; springs of a bent mesh follow chords: EA times the square of the
+      -- strain outside, 60 N times 0.05^2, is the scale of what that does
+      near(0, wire:tension(1), model.mesh and 0.1 * 60 * 0.05 ^ 2 or 1e-12)
       near(1, wire:curvature(1), 2e-2) -- bent by force: the path is not its rest shape
     end)
   end)

@@ -37,12 +37,32 @@ function samples.arguments(rows, random)
   return args
 end
 
+--- Models that are meshes of particles, by name.
+samples.meshes = {}
+
+--- Values of the sample wire. A mesh's section must be as thick as EI/EA asks for, and it
+-- chooses its slices by itself.
+function samples.values(model)
+  local mesh = samples.meshes[model]
+  return { EA = 60, EI = 0.02, mass_per_length = 0.1, radius = mesh and 0.05 or 0.005,
+    model = model }
+end
+
 --- One wire of 1 m along x in a scene, soft enough for differences of its energy.
 function samples.wire(options)
   local scene = sw.scene{ gravity = options.gravity or { 0, 0, 0 } }
-  local wire = scene:wire{ EA = 60, EI = 0.02, mass_per_length = 0.1, radius = 0.005,
-    from = { 0, 0, 0 }, to = { 1, 0, 0 }, segments = options.segments, model = options.model }
-  return scene, wire
+  local args = samples.values(options.model)
+  args.from, args.to = { 0, 0, 0 }, { 1, 0, 0 }
+  if not samples.meshes[options.model] then args.segments = options.segments end
+  args.bend = options.bend
+  return scene, scene:wire(args)
+end
+
+--- The particles of a wire that is a mesh, stretched and shaken by up to `shake` [m].
+function samples.shaken(wire, stretch, shake, random)
+  local x = wire:particles()
+  for i = 1, #x do x[i] = stretch * x[i] + random(-shake, shake) end
+  return x
 end
 
 --- Node positions along edges of given stretch whose direction turns by up to
@@ -130,5 +150,6 @@ function samples.zeros(n)
 end
 
 samples.registry = core.registry()
+for _, model in ipairs(samples.registry.models) do samples.meshes[model.name] = model.mesh end
 
 return samples
