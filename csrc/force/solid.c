@@ -13,16 +13,25 @@
 #include "force/solid_inner.h"
 
 #pragma GCC diagnostic ignored "-Wpsabi"
-typedef double row8 __attribute__((vector_size(64), aligned(8)));
 #define FLAT static inline __attribute__((always_inline))
+typedef double lane __attribute__((vector_size(32), aligned(8)));
+typedef struct row8 { /* two halves: compilers spill vectors wider than the registers */
+  lane a, b;
+} row8;
 
 static const double CONTINUED = 0.1; /* J below which the energy is a polynomial [-] */
 
 enum { PAIRS = 6 }; /* of components: xx xy xz yy yz zz */
 static const int first[PAIRS] = {0, 0, 0, 1, 1, 2}, second[PAIRS] = {0, 1, 2, 1, 2, 2};
 
-FLAT row8 load8(const double *p) { return *(const row8 *)(const void *)p; }
-FLAT void add8(double *p, double s, row8 v) { *(row8 *)(void *)p += s * v; }
+FLAT lane load4(const double *p) { return *(const lane *)(const void *)p; }
+FLAT row8 load8(const double *p) { return (row8){load4(p), load4(p + 4)}; }
+FLAT row8 times8(double s, row8 v) { return (row8){s * v.a, s * v.b}; }
+FLAT row8 madd8(row8 u, double s, row8 v) { return (row8){u.a + s * v.a, u.b + s * v.b}; }
+FLAT void store8(double *p, row8 v) {
+  *(lane *)(void *)p = v.a;
+  *(lane *)(void *)(p + 4) = v.b;
+}
 
 sw_solid_volumetric sw_solid_of_J(double mu, double lambda, double J) {
   const double at = fmax(J, CONTINUED), log_J = log(at), d = J - at;
@@ -126,16 +135,19 @@ FLAT void add_bending(const sw_solid *e, int modes, work *w) {
     }
   for (int r = 0; r < 3 * modes; r++)
     for (int j = 0; j < 3; j++) {
-      row8 sum = {0};
-      for (int c = 0; c < 3 * modes; c++) sum += e->K[r][c] * load8(w->by[c][j]);
-      *(row8 *)(void *)w->stressed[r][j] = sum;
+      row8 sum = times8(e->K[r][0], load8(w->by[0][j]));
+      for (int c = 1; c < 3 * modes; c++) sum = madd8(sum, e->K[r][c], load8(w->by[c][j]));
+      store8(w->stressed[r][j], sum);
     }
   for (int p = 0; p < PAIRS; p++)
     for (int m = 0; m < modes; m++)
       for (int i = 0; i < 3; i++) {
         const int at[3] = {(i + 1) % 3, (i + 2) % 3, 3 + m};
         const row8 t = load8(w->stressed[3 * m + i][second[p]]);
-        for (int k = 0; k < 3; k++) add8(w->h[p][at[k]], w->by[3 * m + i][first[p]][at[k]], t);
+        for (int k = 0; k < 3; k++) {
+          double *h = w->h[p][at[k]];
+          store8(h, madd8(load8(h), w->by[3 * m + i][first[p]][at[k]], t));
+        }
       }
 }
 
@@ -186,12 +198,14 @@ FLAT void to_nodes(const sw_solid *e, int nodes, int modes, const work *w, doubl
   for (int p = 0; p < PAIRS; p++) {
     row8 t[SW_SOLID_ROWS];
     for (int m = 0; m < rows; m++) {
-      t[m] = w->h[p][m][0] * load8(e->rows[0]);
-      for (int k = 1; k < rows; k++) t[m] += w->h[p][m][k] * load8(e->rows[k]);
+      t[m] = times8(w->h[p][m][0], load8(e->rows[0]));
+      for (int k = 1; k < rows; k++) t[m] = madd8(t[m], w->h[p][m][k], load8(e->rows[k]));
     }
     for (int a = 0; a < nodes; a++) {
-      row8 sum = e->rows[0][a] * t[0];
-      for (int m = 1; m < rows; m++) sum += e->rows[m][a] * t[m];
+      row8 v = times8(e->rows[0][a], t[0]);
+      for (int m = 1; m < rows; m++) v = madd8(v, e->rows[m][a], t[m]);
+      double sum[8];
+      store8(sum, v);
       double *right = H + (3 * a + first[p]) * n + second[p];
       double *below = H + second[p] * n + 3 * a + first[p];
       for (int b = 0; b < nodes; b++) right[3 * b] = sum[b];

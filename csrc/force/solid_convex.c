@@ -21,7 +21,7 @@ static void jacobi(double a[3][3], double v[3][3]) {
       for (int q = p + 1; q < 3; q++) {
         if (a[p][q] == 0) continue;
         const double theta = 0.5 * (a[q][q] - a[p][p]) / a[p][q];
-        const double t = copysign(1, theta) / (fabs(theta) + hypot(theta, 1));
+        const double t = copysign(1, theta) / (fabs(theta) + sqrt(theta * theta + 1));
         const double c = 1 / sqrt(t * t + 1), s = t * c;
         for (int k = 0; k < 3; k++) {
           const double x = a[k][p], y = a[k][q];
