@@ -189,7 +189,10 @@ static void strain(double out[STRAINS], sw_vec a, sw_vec b, double factor) {
 
 static const sw_vec unit[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-/* Enhanced strains at a point: G are the coordinates' gradients at the middle. */
+/* Enhanced strains at a point: G are the coordinates' gradients at the middle, ratio the Jacobian
+ * there to that at the point, which makes strains across the section have no mean. Those along
+ * the wire are without it: a bent prism's shear is the same all over its section, whatever the
+ * section's shape. */
 static void enhance(const shape *s, const point *p, const sw_vec G[3], double ratio,
                     double out[ENHANCED][STRAINS]) {
   const double r = p->at[0], c = p->at[1], t = p->at[2];
@@ -198,12 +201,13 @@ static void enhance(const shape *s, const point *p, const sw_vec G[3], double ra
     for (int k = 0; k < 2; k++)
       for (int j = 0; j < 3; j++)
         strain(out[3 * k + j], G[j / 2], G[(j + 1) / 2], ratio * linear[k]);
-    for (int i = 0; i < 3; i++) strain(out[6 + i], unit[i], G[2], ratio * t);
+    for (int i = 0; i < 3; i++) strain(out[6 + i], unit[i], G[2], t);
     return;
   }
   const double product[3] = {c * t, t * r, r * c};
   for (int k = 0; k < 3; k++) {
-    for (int i = 0; i < 3; i++) strain(out[3 * k + i], unit[i], G[k], ratio * p->at[k]);
+    for (int i = 0; i < 3; i++)
+      strain(out[3 * k + i], unit[i], G[k], (k == 2 ? 1 : ratio) * p->at[k]);
     for (int j = 0; j < STRAINS; j++) out[9 + k][j] = j < 3 ? ratio * product[k] : 0;
   }
 }
@@ -217,31 +221,40 @@ static double work_of(const double a[STRAINS], const double b[STRAINS], double m
 
 enum { ALL = SW_SOLID_STIFF + ENHANCED };
 
-/* Adds one point to the stiffness of patterns and enhanced strains together. */
-static void add_point(const shape *s, const point *p, const sw_vec G[3], double ratio,
-                      const sw_solid *e, double *whole) {
+/* Strains of patterns and enhanced strains at each point, the latter without their mean. */
+static int strains(const shape *s, const double *rest, const sw_solid *e,
+                   double B[POINTS][ALL][STRAINS]) {
   const int own = 3 * s->modes, n = own + s->enhanced;
-  double B[ALL][STRAINS];
-  for (int m = 0; m < s->modes; m++) {
-    sw_vec slope = sw_v(0, 0, 0);
-    for (int a = 0; a < s->nodes; a++) slope = sw_madd(slope, p->slope[a], s->displaced[m][a]);
-    for (int i = 0; i < 3; i++) strain(B[3 * m + i], unit[i], slope, 1);
+  sw_vec G[3];
+  const double middle = coordinates(rest, s->middle, s->nodes, G);
+  if (!(middle > 0)) return 0;
+  for (int k = 0; k < s->points; k++) {
+    const point *p = s->p + k;
+    for (int m = 0; m < s->modes; m++) {
+      sw_vec slope = sw_v(0, 0, 0);
+      for (int a = 0; a < s->nodes; a++) slope = sw_madd(slope, p->slope[a], s->displaced[m][a]);
+      for (int i = 0; i < 3; i++) strain(B[k][3 * m + i], unit[i], slope, 1);
+    }
+    enhance(s, p, G, middle * p->weight / p->volume, B[k] + own);
   }
-  enhance(s, p, G, ratio, B + own);
-  for (int i = 0; i < n; i++)
-    for (int j = 0; j < n; j++)
-      whole[i * n + j] += p->volume * work_of(B[i], B[j], e->mu, e->lambda);
+  for (int i = own; i < n; i++)
+    for (int j = 0; j < STRAINS; j++) {
+      double mean = 0;
+      for (int k = 0; k < s->points; k++) mean += s->p[k].volume / e->volume * B[k][i][j];
+      for (int k = 0; k < s->points; k++) B[k][i][j] -= mean;
+    }
+  return 1;
 }
 
 static int stiffness(const shape *s, const double *rest, sw_solid *e) {
   const int own = 3 * s->modes, extra = s->enhanced, n = own + extra;
   double whole[ALL * ALL] = {0}, inner[ENHANCED * ENHANCED], mixed[ENHANCED * SW_SOLID_STIFF];
-  sw_vec G[3];
-  const double middle = coordinates(rest, s->middle, s->nodes, G);
-  const double unit_volume = s->p[0].weight;
-  if (!(middle > 0)) return 0;
+  double B[POINTS][ALL][STRAINS];
+  if (!strains(s, rest, e, B)) return 0;
   for (int k = 0; k < s->points; k++)
-    add_point(s, s->p + k, G, middle * unit_volume / s->p[k].volume, e, whole);
+    for (int i = 0; i < n; i++)
+      for (int j = 0; j < n; j++)
+        whole[i * n + j] += s->p[k].volume * work_of(B[k][i], B[k][j], e->mu, e->lambda);
   for (int i = 0; i < extra; i++) {
     for (int j = 0; j < extra; j++) inner[i * extra + j] = whole[(own + i) * n + own + j];
     for (int j = 0; j < own; j++) mixed[i * own + j] = whole[(own + i) * n + j];
