@@ -12,6 +12,7 @@
 #include "base/vec.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/minimise.h"
+#include "force/solid.h"
 #include "motion/motion.h"
 #include "scene/scene.h"
 #include "shape/shape.h"

@@ -52,6 +52,29 @@ static void set_links(lua_State *L, const sw_lattice *l) {
   lua_setfield(L, -2, "links");
 }
 
+/* Each with its particles and the slice, 0 or 1, that each of these is of. */
+static void set_elements(lua_State *L, const sw_lattice *l) {
+  lua_createtable(L, (int)l->solids, 0);
+  for (size_t m = 0; m < l->solids; m++) {
+    const sw_cell_solid *solid = l->solid + m;
+    lua_createtable(L, 0, 2);
+    lua_createtable(L, solid->nodes, 0);
+    for (int a = 0; a < solid->nodes; a++) {
+      lua_pushinteger(L, (lua_Integer)solid->particle[a] + 1);
+      lua_rawseti(L, -2, a + 1);
+    }
+    lua_setfield(L, -2, "particles");
+    lua_createtable(L, solid->nodes, 0);
+    for (int a = 0; a < solid->nodes; a++) {
+      lua_pushinteger(L, 2 * a >= solid->nodes);
+      lua_rawseti(L, -2, a + 1);
+    }
+    lua_setfield(L, -2, "slices");
+    lua_rawseti(L, -2, (lua_Integer)m + 1);
+  }
+  lua_setfield(L, -2, "elements");
+}
+
 static void set_particles(lua_State *L, const sw_calibration *c) {
   const double mass = c->mass_per_length * c->lattice.spacing;
   lua_createtable(L, (int)c->lattice.particles, 0);
@@ -77,13 +100,19 @@ static int push_calibration(lua_State *L) {
   set_beam(L, &c->reached);
   set_links(L, &c->lattice);
   set_particles(L, c);
+  if (c->lattice.solids) {
+    set_elements(L, &c->lattice);
+    lsw_set_number(L, "modulus", c->k[SW_GROUP_SOLID]);
+    lsw_set_number(L, "nu", c->nu);
+    lsw_set_number(L, "scale", c->scale);
+  }
   lsw_set_number(L, "spacing", c->lattice.spacing);
   lua_newtable(L);
   for (int t = 0; t < SW_TARGETS; t++) set_unless_nan(L, sw_target_names[t], c->residual[t]);
   lua_setfield(L, -2, "residuals");
   lua_newtable(L);
   for (int g = 0; g < SW_GROUPS; g++)
-    if (c->links[g]) lsw_set_number(L, sw_group_names[g], c->k[g]);
+    if (c->links[g] && g != SW_GROUP_SOLID) lsw_set_number(L, sw_group_names[g], c->k[g]);
   lua_setfield(L, -2, "springs");
   lua_newtable(L);
   for (int g = 0; g < SW_GROUPS; g++)
@@ -145,9 +174,30 @@ static double *read_flat(lua_State *L, int index, size_t *n) {
 
 enum { LINK_NUMBERS = 6 };
 
-/* cell(spacing, particles, links, stiffness) -> EA, EI, EI2, GJ, squeeze, matrix in a table.
- * particles: flat, 3 numbers each; links: flat, from and to (from 1), slices, group (from 1),
- * weight, 1 for bending or 0; stiffness: one number a group. */
+enum { SOLID_NUMBERS = 9 };
+
+/* The elements of the list at index, as scratch memory of Lua's. */
+static sw_cell_solid *read_solids(lua_State *L, int index, size_t *n) {
+  size_t numbers = 0;
+  const double *list = lua_isnoneornil(L, index) ? NULL : read_flat(L, index, &numbers);
+  luaL_argcheck(L, numbers % SOLID_NUMBERS == 0, index, "9 numbers an element");
+  *n = numbers / SOLID_NUMBERS;
+  sw_cell_solid *solid = lua_newuserdatauv(L, (*n + 1) * sizeof *solid, 0);
+  for (size_t m = 0; m < *n; m++) {
+    const double *l = list + SOLID_NUMBERS * m;
+    solid[m] = (sw_cell_solid){.nodes = l[0] == 6 ? 6 : l[0] == 8 ? 8 : 0};
+    for (int a = 0; a < solid[m].nodes; a++) {
+      luaL_argcheck(L, l[1 + a] >= 1 && l[1 + a] < 1e9, index, "a particle is out of range");
+      solid[m].particle[a] = (uint32_t)l[1 + a] - 1;
+    }
+  }
+  return solid;
+}
+
+/* cell(spacing, particles, links, stiffness [, elements, nu]) -> EA, EI, EI2, GJ, squeeze, matrix
+ * in a table. particles: flat, 3 numbers each; links: flat, from and to (from 1), slices, group
+ * (from 1), weight, 1 for bending or 0; stiffness: one number a group, with elements one more,
+ * their modulus; elements: flat, 6 or 8 and as many particles (from 1), 8 places in any case. */
 static int mod_cell(lua_State *L) {
   sw_error err = {""};
   sw_cell_result result;
@@ -158,6 +208,9 @@ static int mod_cell(lua_State *L) {
   luaL_argcheck(L, places % 3 == 0, 2, "3 numbers a particle");
   luaL_argcheck(L, numbers % LINK_NUMBERS == 0, 3, "6 numbers a link");
   const size_t links = numbers / LINK_NUMBERS;
+  size_t solids;
+  const sw_cell_solid *solid = read_solids(L, 5, &solids);
+  luaL_argcheck(L, !solids || groups > 0, 4, "no modulus");
   sw_cell_link *link = lua_newuserdatauv(L, (links + 1) * sizeof *link, 0);
   for (size_t m = 0; m < links; m++) {
     const double *l = list + LINK_NUMBERS * m;
@@ -167,7 +220,16 @@ static int mod_cell(lua_State *L) {
     link[m] = (sw_cell_link){(uint32_t)l[0] - 1, (uint32_t)l[1] - 1, (uint32_t)l[3] - 1,
                              (int)l[2],          l[5] != 0,          l[4]};
   }
-  const sw_cell cell = {spacing, places / 3, links, groups, at, link};
+  const sw_cell cell = {.spacing = spacing,
+                        .particles = places / 3,
+                        .links = links,
+                        .groups = groups,
+                        .at = at,
+                        .link = link,
+                        .solids = solids,
+                        .solid_group = groups - 1,
+                        .solid = solid,
+                        .nu = luaL_optnumber(L, 6, 0)};
   lsw_must(L, sw_cell_stiffness(&cell, k, &result, NULL, &err), &err);
   lua_createtable(L, 0, SW_TARGETS + 1);
   set_beam(L, &result);

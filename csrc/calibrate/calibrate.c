@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "calibrate/calibrate_inner.h"
+
 static const double PI = 3.14159265358979323846;
 static const double OF_LIMIT = 0.6; /* of the largest spacing, when it is chosen [-] */
 
@@ -15,6 +17,7 @@ static const double FADED = 0.02; /* of its first guess, below which a spring is
 enum { RADII = 12 };              /* tried at most [-] */
 
 static const char *const meshes[] = {"tube", "radial", "cubic", NULL};
+static const char *const bodies[] = {"springs", "solid", NULL};
 
 #define AT(member) offsetof(sw_calibrate_args, member)
 static const sw_param rows[] = {
@@ -28,6 +31,9 @@ static const sw_param rows[] = {
     {"tolerance", SW_PARAM_NUMBER, "-", 1e-6, 0, 1, SW_PARAM_ABOVE_MIN, NULL, AT(tolerance),
      "how far off the springs may be, as a share of each target, before that is an error; 1 takes "
      "whatever comes nearest"},
+    {"body", SW_PARAM_CHOICE, "-", SW_BODY_SPRINGS, 0, 0, 0, bodies, AT(body),
+     "springs between the particles, or solid elements with Poisson's ratio nu, and springs only "
+     "for what these leave of EA, EI and GJ"},
 };
 const sw_params sw_calibrate_params = SW_PARAMS("calibrate", rows);
 
@@ -65,8 +71,8 @@ static double ring_limit(const sw_calibrate_args *args, const sw_lattice_args *m
   return HUGE_VAL;
 }
 
-static sw_status make_lattice(const sw_calibrate_args *args, const sw_beam *beam,
-                              sw_lattice_args *mesh, sw_lattice *out, sw_error *err) {
+sw_status sw_calibrate_lattice(const sw_calibrate_args *args, const sw_beam *beam,
+                               sw_lattice_args *mesh, sw_lattice *out, sw_error *err) {
   sw_tube_args *tube = &mesh->tube;
   double h = args->spacing;
   if (args->mesh == SW_LATTICE_CUBIC)
@@ -239,7 +245,8 @@ static sw_status try_mesh(const sw_calibrate_args *args, const sw_section *secti
                           const sw_beam *beam, sw_lattice_args *mesh, sw_calibration *out,
                           sw_error *err) {
   sw_lattice_free(&out->lattice);
-  SW_TRY(make_lattice(args, beam, mesh, &out->lattice, err));
+  SW_TRY(sw_calibrate_lattice(args, beam, mesh, &out->lattice, err));
+  sw_lattice_drop_solids(&out->lattice);
   SW_TRY(spread_mass(args, section, &mesh->tube, out, err));
   return sw_calibrate_fit(out, err);
 }
@@ -274,7 +281,9 @@ sw_status sw_calibrate(const sw_calibrate_args *args, const sw_section *section,
   SW_TRY(read_beam(args, section, mesh, &beam, err));
   out->mass_per_length =
       isnan(section->mass_per_length) && isnan(section->density) ? (double)NAN : beam.mass;
+  out->scale = 1;
   set_targets(args, &beam, mesh, out->target);
+  if (args->body == SW_BODY_SOLID) return sw_calibrate_solid(args, section, &beam, mesh, out, err);
   if (args->mesh == SW_LATTICE_TUBE && !mesh->tube.core && isnan(mesh->tube.ring_radius))
     SW_TRY(find_radius(args, section, &beam, mesh, out, err));
   else

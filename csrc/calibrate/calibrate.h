@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Springs of a mesh for which it is, as a beam, exactly the wire: EA, EI, GJ, and the
- * resistance against squeezing when that is asked for. */
+/* Springs, or solid elements and springs, of a mesh for which it is, as a beam, exactly the wire:
+ * EA, EI, GJ, and the resistance of springs against squeezing when that is asked for. */
 #ifndef SW_CALIBRATE_CALIBRATE_H
 #define SW_CALIBRATE_CALIBRATE_H
 
@@ -10,6 +10,7 @@
 #include "wire/wire.h"
 
 enum { SW_LATTICE_TUBE, SW_LATTICE_RADIAL, SW_LATTICE_CUBIC };
+enum { SW_BODY_SPRINGS, SW_BODY_SOLID };
 
 /* The number of the mesh called name, which is one of them. */
 int sw_calibrate_mesh(const char *name);
@@ -19,6 +20,7 @@ typedef struct sw_calibrate_args {
   double squeeze;   /* NAN: not asked for [Pa] */
   double spacing;   /* NAN: chosen [m] */
   double tolerance; /* largest residual that is no error [-] */
+  int body;         /* springs, or elements [-] */
 } sw_calibrate_args;
 extern const sw_params sw_calibrate_params;
 
@@ -38,14 +40,16 @@ extern const char *const sw_target_units[SW_TARGETS];
 
 typedef struct sw_calibration {
   sw_lattice lattice;
-  double k[SW_GROUPS];         /* of groups without links 0 [N/m, of bending N m] */
-  size_t links[SW_GROUPS];     /* of one slice [-] */
+  double k[SW_GROUPS];         /* of groups without links 0 [N/m, of bending N m, of solid Pa] */
+  size_t links[SW_GROUPS];     /* of one slice; of solid its elements [-] */
   double target[SW_TARGETS];   /* NAN: not asked for */
   double residual[SW_TARGETS]; /* reached / target - 1; NAN likewise [-] */
   sw_cell_result reached;
   int faded;              /* group that is softest by its first guess; SW_GROUPS: none is softer */
   double fading;          /* its stiffness by that guess [-] */
   double mass_per_length; /* NAN: not given [kg/m] */
+  double nu;              /* of solid elements, whose modulus is k[SW_GROUP_SOLID]; else 0 [-] */
+  double scale; /* particles are so many times as far out as the section's; 1 of springs [-] */
 } sw_calibration;
 
 /* *out is to be freed with sw_calibration_free also after an error. section: as of a wire;
@@ -55,7 +59,8 @@ sw_status sw_calibrate(const sw_calibrate_args *args, const sw_section *section,
                        sw_lattice_args *mesh, sw_calibration *out, sw_error *err);
 void sw_calibration_free(sw_calibration *calibration);
 
-/* Searches the springs of a lattice for the targets of out, from their first guesses. */
+/* Searches the springs of a lattice for the targets of out, from their first guesses; one with
+ * elements from out->k. */
 sw_status sw_calibrate_fit(sw_calibration *out, sw_error *err);
 
 double sw_reached(const sw_cell_result *result, int target); /* [unit of the target] */

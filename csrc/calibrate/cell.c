@@ -2,7 +2,7 @@
 /* Displacements u(x, y, z) = strains of the beam + v, where v is the same in every slice.
  * Energy per slice: 1/2 e'C e + e'G'v + 1/2 v'K v; smallest for v = -K^+ G e, so that
  * S = (C - G'K^+G)/h. K v = -G e has solutions though K is singular, because both come from
- * the same springs; all of them have the same energy. */
+ * the same springs and elements; all of them have the same energy. */
 #include "calibrate/cell.h"
 
 #include <math.h>
@@ -10,10 +10,11 @@
 
 #include "base/alloc.h"
 #include "base/vec.h"
+#include "calibrate/cell_inner.h"
 #include "calibrate/dense.h"
 
-enum { SIDES = SW_CELL_STRAINS + 1 }; /* right sides: the strains, and the plates [-] */
-static const double IN_RANGE = 1e-6;  /* of a right side that may be left [-] */
+enum { SIDES = SW_CELL_SIDES };
+static const double IN_RANGE = 1e-6; /* of a right side that may be left [-] */
 
 /* Where a link's far end is in the unstrained mesh. */
 static sw_vec far_end(const sw_cell *c, const sw_cell_link *l) {
@@ -26,8 +27,7 @@ double sw_cell_length(const sw_cell *c, const sw_cell_link *l) {
   return sw_dist(far_end(c, l), sw_vec_at(c->at, l->from));
 }
 
-/* Displacement at p by unit strains: sections turn by z times the curvatures and the twist. */
-static void macro(sw_vec p, sw_vec u[SW_CELL_STRAINS]) {
+void sw_cell_macro(sw_vec p, sw_vec u[SW_CELL_STRAINS]) {
   u[SW_CELL_STRETCH] = sw_v(0, 0, p.z);
   u[SW_CELL_ABOUT_X] = sw_v(0, -0.5 * p.z * p.z, p.y * p.z);
   u[SW_CELL_ABOUT_Y] = sw_v(0.5 * p.z * p.z, 0, -p.x * p.z);
@@ -39,8 +39,8 @@ static sw_vec elongations(const sw_cell *c, const sw_cell_link *l, double e[SW_C
   const sw_vec p = sw_vec_at(c->at, l->from), q = far_end(c, l);
   const sw_vec n = sw_unit_or(sw_sub(q, p), sw_v(0, 0, 0));
   sw_vec a[SW_CELL_STRAINS], b[SW_CELL_STRAINS];
-  macro(p, a);
-  macro(q, b);
+  sw_cell_macro(p, a);
+  sw_cell_macro(q, b);
   for (int s = 0; s < SW_CELL_STRAINS; s++) e[s] = sw_dot(n, sw_sub(b[s], a[s]));
   return n;
 }
@@ -101,6 +101,7 @@ static void assemble(const sw_cell *c, const double *k, double *K, double *right
       }
     }
   }
+  if (c->solids) sw_cell_assemble_solids(c, k[c->solid_group], K, right);
   squeeze_load(c, right + SW_CELL_STRAINS * n);
 }
 
@@ -125,6 +126,8 @@ static double collect(const sw_cell *c, const double *k, const double *v, double
     part[SW_CELL_SIZE] += stiffness * e[SW_CELL_STRAINS] * e[SW_CELL_STRAINS];
     compliance += stiffness * e[SW_CELL_STRAINS] * e[SW_CELL_STRAINS];
   }
+  if (c->solids)
+    compliance += sw_cell_collect_solids(c, k[c->solid_group], v, parts + c->solid_group * size);
   return compliance;
 }
 
@@ -160,7 +163,7 @@ static sw_status check(const sw_cell *c, const double *k, sw_error *err) {
     if (!l->bend && !(sw_cell_length(c, l) > 0))
       return sw_fail(err, SW_EINVAL, "cell: link %zu has no length", m + 1);
   }
-  return SW_OK;
+  return sw_cell_check_solids(c, err);
 }
 
 sw_status sw_cell_stiffness(const sw_cell *c, const double *k, sw_cell_result *out, double *parts,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The beam that an endless mesh of springs is: one slice of particles that repeats along z,
- * its springs to its own slice and the next ones, and the exact stiffness of the whole against
- * stretch, bending and twist. */
+/* The beam that an endless mesh of springs and solid elements is: one slice of particles that
+ * repeats along z, its springs to its own slice and the next ones, its elements between its own
+ * slice and the next, and the exact stiffness of the whole against stretch, bending and twist. */
 #ifndef SW_CALIBRATE_CELL_H
 #define SW_CALIBRATE_CELL_H
 
@@ -21,12 +21,23 @@ typedef struct sw_cell_link {
   double weight; /* its stiffness is weight times the group's [-] */
 } sw_cell_link;
 
+/* A solid element: its first nodes / 2 particles are of a slice, anticlockwise seen from the
+ * next one; the others, of the next slice, stand for the same corners. */
+typedef struct sw_cell_solid {
+  int nodes;            /* 6 or 8 [-] */
+  uint32_t particle[8]; /* by the numbers of one slice */
+} sw_cell_solid;
+
 /* The caller's arrays. */
 typedef struct sw_cell {
   double spacing; /* of slices along z [m] */
   size_t particles, links, groups;
   const double *at; /* x, y, z of each particle of slice 0 [m] */
   const sw_cell_link *link;
+  /* k of the elements' group is their modulus [Pa] */
+  size_t solids, solid_group;
+  const sw_cell_solid *solid;
+  double nu; /* Poisson's ratio of the elements [-] */
 } sw_cell;
 
 enum { SW_CELL_PARTICLES = 512 }; /* most of one slice [-] */
@@ -42,11 +53,11 @@ typedef struct sw_cell_result {
                    * of the beam held at 0; 0 when the section flattens freely [Pa] */
 } sw_cell_result;
 
-/* k: stiffness of each group [N/m; of bending N m], none below 0. parts (may be NULL): for each
- * group SW_CELL_SIZE + 1 numbers, its share of every entry of S and of the compliance under
- * the plates (as a share of the whole): the derivatives by log k of S, and of log squeeze.
- * Couplings by which the section is free to go are relaxed; the beam's axis is z whether it is
- * the neutral line or not. SW_EINVAL, SW_ENOMEM, SW_ESINGULAR. */
+/* k: stiffness of each group [N/m; of bending N m; of elements Pa], none below 0. parts (may be
+ * NULL): for each group SW_CELL_SIZE + 1 numbers, its share of every entry of S and of the
+ * compliance under the plates (as a share of the whole): the derivatives by log k of S, and of log
+ * squeeze. Couplings by which the section is free to go are relaxed; the beam's axis is z whether
+ * it is the neutral line or not. SW_EINVAL, SW_ENOMEM, SW_ESINGULAR. */
 sw_status sw_cell_stiffness(const sw_cell *cell, const double *k, sw_cell_result *out,
                             double *parts, sw_error *err);
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
-#include "calibrate/calibrate.h"
+#include "calibrate/calibrate_inner.h"
 #include "calibrate/least_squares.h"
 
 static const double PULL = 0.03;     /* of the guess, per unit of log stiffness, first round [-] */
@@ -127,7 +127,7 @@ static void guess(search *s) {
   guess_section(s, all);
 }
 
-static double worst(sw_calibration *c) {
+double sw_calibrate_residuals(sw_calibration *c) {
   double most = 0;
   for (int t = 0; t < SW_TARGETS; t++) {
     c->residual[t] = sw_reached(&c->reached, t) / c->target[t] - 1; /* NAN without a target */
@@ -136,12 +136,17 @@ static double worst(sw_calibration *c) {
   return most;
 }
 
+void sw_calibrate_count(sw_calibration *c) {
+  memset(c->links, 0, sizeof c->links);
+  for (size_t m = 0; m < c->lattice.links; m++) c->links[c->lattice.link[m].group]++;
+  c->links[SW_GROUP_SOLID] = c->lattice.solids;
+}
+
 /* The groups that have links, and where their search begins. */
 static sw_status begin(search *s, double *x, sw_error *err) {
   sw_calibration *c = s->c;
-  memset(c->links, 0, sizeof c->links);
-  for (size_t m = 0; m < s->cell.links; m++) c->links[s->cell.link[m].group]++;
-  guess(s);
+  sw_calibrate_count(c);
+  if (!c->lattice.solids) guess(s);
   for (size_t g = 0; g < SW_GROUPS; g++) {
     if (!c->links[g]) continue;
     if (!(c->k[g] > 1 / MOST) || !(c->k[g] < MOST))
@@ -177,7 +182,7 @@ sw_status sw_calibrate_fit(sw_calibration *c, sw_error *err) {
     memcpy(s.guess, x, sizeof x);
     set_stiffness(&s, x);
     SW_TRY(sw_cell_stiffness(&s.cell, c->k, &c->reached, NULL, err));
-    const double now = worst(c);
+    const double now = sw_calibrate_residuals(c);
     if (now < GOOD || (now > HOPELESS && now > 0.9 * before)) break;
     before = now;
     s.pull *= WEAKER;

@@ -12,7 +12,7 @@ static const double PI = 3.14159265358979323846;
 
 const char *const sw_group_names[SW_GROUPS] = {"longitudinal", "inner", "core",  "diagonal",
                                                "hoop",         "brace", "spoke", "inclined",
-                                               "edge",         "cross", "bend"};
+                                               "edge",         "cross", "bend",  "solid"};
 
 #define AT(member) offsetof(sw_tube_args, member)
 static const sw_param tube_rows[] = {
@@ -56,6 +56,7 @@ void sw_lattice_free(sw_lattice *l) {
   sw_free(l->at);
   sw_free(l->share);
   sw_free(l->link);
+  sw_free(l->solid);
   *l = (sw_lattice){0};
 }
 
@@ -66,6 +67,35 @@ sw_status sw_lattice_link(sw_lattice *l, sw_cell_link link, sw_error *err) {
   l->link = p;
   l->link[l->links++] = link;
   return SW_OK;
+}
+
+sw_status sw_lattice_solid(sw_lattice *l, int corners, const uint32_t *corner, sw_error *err) {
+  void *p = l->solid;
+  sw_cell_solid solid = {.nodes = 2 * corners};
+  for (int i = 0; i < corners; i++) solid.particle[i] = solid.particle[i + corners] = corner[i];
+  if (sw_grow(&p, &l->solid_capacity, l->solids + 1, sizeof solid) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "calibrate: out of memory");
+  l->solid = p;
+  l->solid[l->solids++] = solid;
+  return SW_OK;
+}
+
+void sw_lattice_drop_solids(sw_lattice *l) {
+  sw_free(l->solid);
+  l->solid = NULL;
+  l->solids = l->solid_capacity = 0;
+}
+
+void sw_lattice_keep(sw_lattice *l, unsigned groups) {
+  size_t kept = 0;
+  for (size_t m = 0; m < l->links; m++)
+    if (groups >> l->link[m].group & 1U) l->link[kept++] = l->link[m];
+  l->links = kept;
+}
+
+void sw_lattice_scale(sw_lattice *l, double scale) {
+  for (size_t i = 0; i < l->particles; i++)
+    for (size_t k = 0; k < 2; k++) l->at[3 * i + k] *= scale;
 }
 
 static double radius2(const sw_lattice *l, size_t i) {
@@ -84,7 +114,16 @@ uint32_t sw_lattice_line(const sw_lattice *l, size_t i) {
 }
 
 sw_cell sw_lattice_cell(const sw_lattice *l) {
-  return (sw_cell){l->spacing, l->particles, l->links, SW_GROUPS, l->at, l->link};
+  return (sw_cell){.spacing = l->spacing,
+                   .particles = l->particles,
+                   .links = l->links,
+                   .groups = SW_GROUPS,
+                   .at = l->at,
+                   .link = l->link,
+                   .solids = l->solids,
+                   .solid_group = SW_GROUP_SOLID,
+                   .solid = l->solid,
+                   .nu = l->nu};
 }
 
 static void place(sw_lattice *l, size_t i, double r, double angle, double share) {
@@ -197,6 +236,14 @@ static sw_status radial_links(const radial *r, size_t layer, size_t sector, sw_e
   return bar(r, in2, p, 0, SW_GROUP_CROSS, err);
 }
 
+/* Prisms around the central line, hexahedra from layer to layer. */
+static sw_status radial_solid(const radial *r, size_t layer, size_t sector, sw_error *err) {
+  const uint32_t in = (uint32_t)node(r, layer - 1, sector), p = (uint32_t)node(r, layer, sector);
+  const uint32_t q = (uint32_t)node(r, layer, sector + 1);
+  const uint32_t in2 = (uint32_t)node(r, layer - 1, sector + 1);
+  return sw_lattice_solid(r->l, layer == 1 ? 3 : 4, (uint32_t[]){in, p, q, in2}, err);
+}
+
 static void unit_weights(sw_lattice *l) {
   double most[SW_GROUPS] = {0};
   for (int pass = 0; pass < 2; pass++)
@@ -223,7 +270,10 @@ sw_status sw_lattice_radial(const sw_radial_args *a, double radius, double spaci
   }
   SW_TRY(bar(&r, 0, 0, 1, SW_GROUP_CORE, err));
   for (size_t k = 1; k <= r.L; k++)
-    for (size_t s = 0; s < r.M; s++) SW_TRY(radial_links(&r, k, s, err));
+    for (size_t s = 0; s < r.M; s++) {
+      SW_TRY(radial_links(&r, k, s, err));
+      SW_TRY(radial_solid(&r, k, s, err));
+    }
   unit_weights(l);
   return SW_OK;
 }

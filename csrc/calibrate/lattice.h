@@ -19,6 +19,7 @@ enum {
   SW_GROUP_EDGE,         /* edges of voxels within a slice */
   SW_GROUP_CROSS,        /* diagonals within a slice */
   SW_GROUP_BEND,         /* against angles of the central line [N m] */
+  SW_GROUP_SOLID,        /* elements between slices [Pa] */
   SW_GROUPS
 };
 extern const char *const sw_group_names[SW_GROUPS];
@@ -32,6 +33,10 @@ typedef struct sw_lattice {
   double *share;           /* of the slice's mass [-] */
   sw_cell_link *link;
   size_t capacity; /* of link [-] */
+  /* What fills the section; NULL for a mesh of springs alone. */
+  sw_cell_solid *solid;
+  size_t solids, solid_capacity; /* of one slice [-] */
+  double nu;                     /* of the elements [-] */
 } sw_lattice;
 
 typedef struct sw_tube_args {
@@ -55,7 +60,8 @@ typedef struct sw_cubic_args {
 } sw_cubic_args;
 extern const sw_params sw_cubic_params;
 
-/* Each makes *out, to be freed with sw_lattice_free also after an error. Arguments are within
+/* Each makes *out, radial and cubic with elements, to be freed with sw_lattice_free also after an
+ * error. Arguments are within
  * their rows; what rows cannot tell is SW_EINVAL. */
 sw_status sw_lattice_tube(const sw_tube_args *args, double spacing, sw_lattice *out, sw_error *err);
 sw_status sw_lattice_radial(const sw_radial_args *args, double radius, double spacing,
@@ -66,16 +72,25 @@ sw_status sw_lattice_cubic(const sw_cubic_args *args, double radius, double spac
                            sw_lattice *out, sw_error *err);
 void sw_lattice_free(sw_lattice *lattice);
 
+/* Leaves springs alone, or elements and the springs of those groups whose bits are set. */
+void sw_lattice_drop_solids(sw_lattice *lattice);
+void sw_lattice_keep(sw_lattice *lattice, unsigned groups);
+
+/* The section `scale` times as large. */
+void sw_lattice_scale(sw_lattice *lattice, double scale);
+
 /* The steps of a diagonal round the ring that were asked for, or chosen (0) [-]. */
 long sw_tube_reach(const sw_tube_args *args);
 
 sw_cell sw_lattice_cell(const sw_lattice *lattice); /* a view, while the lattice lives */
 
-/* For the makers: room for particles; one more link; the group of the line along the wire at
- * particle i, once all particles have their place and share. The division lets EA and EI have
- * any ratio that the section allows. */
+/* For the makers: room for particles; one more link or element; the group of the line along the
+ * wire at particle i, once all particles have their place and share. The division lets EA and EI
+ * have any ratio that the section allows. */
 sw_status sw_lattice_room(sw_lattice *lattice, size_t particles, sw_error *err);
 sw_status sw_lattice_link(sw_lattice *lattice, sw_cell_link link, sw_error *err);
+/* A prism on a triangle of particles, or a hexahedron on a quadrilateral (corners = 3 or 4). */
+sw_status sw_lattice_solid(sw_lattice *lattice, int corners, const uint32_t *corner, sw_error *err);
 uint32_t sw_lattice_line(const sw_lattice *lattice, size_t i);
 
 #endif

@@ -131,6 +131,7 @@ static sw_status corner(const grid *g, sw_lattice *l, size_t i, size_t j, sw_err
   const uint32_t b = (uint32_t)g->particle[i + 1][j], c = (uint32_t)g->particle[i][j + 1];
   const uint32_t d = (uint32_t)g->particle[i + 1][j + 1];
   SW_TRY(sw_lattice_link(l, (sw_cell_link){a, d, SW_GROUP_CROSS, 0, 0, 1}, err));
+  SW_TRY(sw_lattice_solid(l, 4, (uint32_t[]){a, b, d, c}, err));
   return sw_lattice_link(l, (sw_cell_link){b, c, SW_GROUP_CROSS, 0, 0, 1}, err);
 }
 

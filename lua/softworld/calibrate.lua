@@ -11,7 +11,8 @@
 -- The beam that an endless mesh of springs is, is known exactly (softworld.calibrate.cell):
 -- a slice that repeats is strained, bent and twisted, its particles go where they like, and
 -- what they resist with are EA, EI and GJ. The springs are searched until these are those of
--- the wire. help "calibrate" lists the parameters.
+-- the wire. body = "solid" fills the mesh with solid elements of one modulus instead, and takes
+-- springs only for what these leave of EA, EI and GJ. help "calibrate" lists the parameters.
 -- @module softworld.calibrate
 local core = require "softworld.core"
 local cable = require "softworld.cable"
@@ -34,6 +35,10 @@ function Calibration.__tostring(c)
       lines[#lines + 1] = ("  %-13s %12.6g %-5s %+.1e of it off"):format(t[1], c[t[1]], t[2], off)
     end
   end
+  if c.elements then
+    lines[#lines + 1] = ("  %-13s %12.6g %-5s %d elements, nu = %.4g, section times %.4g"):format("modulus",
+      c.modulus, "Pa", #c.elements, c.nu, c.scale)
+  end
   for _, group in ipairs(order) do
     if c.springs[group] then
       lines[#lines + 1] = ("  %-13s %12.6g %-5s %d links"):format(group, c.springs[group],
@@ -47,7 +52,7 @@ end
 local function with_cable(args)
   local entry = cable.get(args.cable)
   for _, key in ipairs { "E", "nu", "density" } do
-    if args[key] ~= nil then
+    if args[key] ~= nil and not (key == "nu" and args.body == "solid") then
       error(("calibrate: %s is of a solid round wire and does not go with cable = '%s'"):format(key,
         entry.name), 0)
     end
@@ -61,16 +66,31 @@ local function with_cable(args)
   return all
 end
 
+-- section = "solid" and "springs" say the same as body; other sections are shapes of a cubic mesh.
+local function with_body(args)
+  if args.section ~= "solid" and args.section ~= "springs" then return args end
+  local all = {}
+  for key, value in pairs(args) do all[key] = value end
+  all.body, all.section = all.body or args.section, nil
+  return all
+end
+
 --- Springs of a mesh whose EA, EI and GJ, and squeeze stiffness when that is asked for, are
--- those of a wire. An error tells what to change when no springs of the mesh are.
+-- those of a wire; with body = "solid" elements and springs. An error tells what to change when
+-- there are none of the mesh.
 -- @tparam table args `mesh` = "tube", "radial" or "cubic", EA, EI, GJ (or E, nu), radius, or
 -- `cable` = "name" for them, and what help "calibrate" lists
 -- @treturn table `springs` by group [N/m], which `weight` of a link multiplies; `links` {from,
 -- to, slices, group, weight, bend} and `particles` {x, y, z} [m] of one slice, `spacing` [m];
 -- `count` of links by group; `shares` of the slice's mass, and `mass` [kg] when a mass per length
 -- or density was given; EA, EI, EI2, GJ and `squeeze` reached, `residuals` (reached/wanted - 1),
--- `matrix`, the stiffness against stretch, curvatures about x and y, and twist
+-- `matrix`, the stiffness against stretch, curvatures about x and y, and twist. With body =
+-- "solid" (or section = "solid") also `elements` {particles, slices (0 or 1)} of one slice, their
+-- `modulus` [Pa] and `nu`, and `scale`, how many times as far out as the wire's section its
+-- particles are, so that EA and EI are exact in spite of corners; GJ of elements alone is then
+-- within 2 %
 local function run(args)
+  if type(args) == "table" then args = with_body(args) end
   if type(args) == "table" and args.cable ~= nil then args = with_cable(args) end
   local c = core.calibrate(args)
   c.mesh = args.mesh
@@ -122,7 +142,23 @@ local function flat_links(links, names)
   return flat
 end
 
-local cell_keys = { "spacing", "particles", "links", "stiffness" }
+-- 6 or 8, and as many particles, of each element.
+local function flat_elements(elements)
+  local flat = {}
+  for i, e in ipairs(elements or {}) do
+    local list = type(e) == "table" and e.particles
+    if type(list) ~= "table" or #list ~= 6 and #list ~= 8 then
+      error(("cell: element %d must have a list of 6 or 8 particles"):format(i), 0)
+    end
+    flat[#flat + 1] = #list
+    for k = 1, 8 do
+      flat[#flat + 1] = k <= #list and number(("particle %d of element %d"):format(k, i), list[k]) or 0
+    end
+  end
+  return flat
+end
+
+local cell_keys = { "spacing", "particles", "links", "stiffness", "elements", "modulus", "nu" }
 
 local function check_cell(args)
   if type(args) ~= "table" then error("cell takes one table of parameters, got " .. type(args), 0) end
@@ -152,14 +188,18 @@ local function cell(args)
   for i, name in ipairs(names) do
     stiffness[i] = number("stiffness of " .. name, args.stiffness[name])
   end
-  return core.cell(number("spacing", args.spacing), places, flat_links(args.links, names), stiffness)
+  if args.elements then stiffness[#names + 1] = number("modulus", args.modulus) end
+  return core.cell(number("spacing", args.spacing), places, flat_links(args.links, names), stiffness,
+    flat_elements(args.elements), args.elements and number("nu", args.nu) or 0)
 end
 
 --- The beam that an endless mesh of springs is, exactly: any mesh whose slices repeat along z.
 -- @tparam table args `spacing` of slices [m]; `particles`, a list of {x, y, z} [m]; `links`, a
 -- list of { from =, to = particles' numbers, slices = how many slices further `to` is, group =,
 -- weight = 1 }, or { from = i, to = i, slices = 1, bend = true, group = } for a spring against the
--- angle between slices; `stiffness` by group [N/m; bend N m]
+-- angle between slices; `stiffness` by group [N/m; bend N m]; `elements`, a list of { particles =
+-- 6 or 8 numbers }, the first half of this slice, anticlockwise seen from the next one, the second
+-- half the same of the next slice, with their `modulus` [Pa] and `nu`
 -- @treturn table EA [N], EI (plane of x and z), EI2 (y and z), GJ [N m2], squeeze [Pa], and
 -- `matrix`, 4 x 4: stretch, curvature about x, about y, twist
 function calibrate.cell(args) return call(cell, args) end

@@ -1,0 +1,252 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Elements that are a wire. A beam of elements alone has EA = E a s^2, EI = E b s^4 and
+ * GJ = E c s^4 when its section is scaled by s, whatever the distance of slices: modulus and
+ * scale make EA and EI exact for a wire of one material, with a scale near 1 that makes up for
+ * corners of the mesh, and GJ follows from nu. Springs along the wire only add to EA and EI, so
+ * that elements may have the modulus of GJ where the wire is stiffer than that. Where it is
+ * softer (strands that slip bend easily but hardly untwist), diagonals carry a part of GJ, and
+ * the least squares of the springs' fit find how much. */
+#include <math.h>
+#include <string.h>
+
+#include "calibrate/calibrate_inner.h"
+
+static const double USUAL_POISSON = 0.45; /* of rubbery insulation [-] */
+static const double HIGHEST = 0.4999;     /* Poisson's ratio whose numbers are still exact [-] */
+static const double ONE_MATERIAL = 0.05;  /* EI off that of EA and one material, at most [-] */
+static const double GJ_NEAR = 0.02;       /* of elements alone: nu says the rest [-] */
+static const double LEAST = 0.01;         /* of EA and EI that springs are searched from [-] */
+
+enum { SHARE_SIZE = SW_CELL_SIZE + 1 };
+static const unsigned ALONG =
+    1U << SW_GROUP_LONGITUDINAL | 1U << SW_GROUP_INNER | 1U << SW_GROUP_CORE;
+
+typedef struct task {
+  sw_calibrate_args args; /* with the spacing that is used */
+  const sw_beam *beam;
+  sw_lattice_args *mesh;
+  sw_calibration *c;
+  double scale;                          /* of the section [-] */
+  double unit[SW_TARGETS];               /* of elements of 1 Pa, scale 1 */
+  double shares[SW_GROUPS * SHARE_SIZE]; /* of unit springs */
+} task;
+
+static double share(const task *t, int group, int strain) {
+  return t->shares[group * SHARE_SIZE + strain * (SW_CELL_STRAINS + 1)];
+}
+
+/* Square of the radius of gyration about y. */
+static double gyration2(const task *t) {
+  const sw_cubic_args *cubic = &t->mesh->cubic;
+  const double r = t->beam->radius;
+  if (t->args.mesh == SW_LATTICE_CUBIC && cubic->section == SW_SECTION_RECTANGLE)
+    return cubic->width * cubic->width / 12;
+  if (t->args.mesh == SW_LATTICE_CUBIC && cubic->section == SW_SECTION_ANNULUS)
+    return 0.25 * (r * r + cubic->inner * cubic->inner);
+  return 0.25 * r * r;
+}
+
+static int one_material(const task *t) {
+  const double *target = t->c->target;
+  return fabs(target[SW_TARGET_EI] / (target[SW_TARGET_EA] * gyration2(t)) - 1) <= ONE_MATERIAL;
+}
+
+static sw_status check(const task *t, const sw_section *section, sw_error *err) {
+  if (t->args.mesh == SW_LATTICE_TUBE)
+    return sw_fail(err, SW_EINVAL,
+                   "calibrate: mesh = 'tube' is one ring of particles, which has no room for "
+                   "solid elements; use mesh = 'radial', or mesh = 'cubic' with section = "
+                   "'annulus'");
+  if (!isnan(t->args.squeeze))
+    return sw_fail(err, SW_EINVAL,
+                   "calibrate: squeeze = %g Pa goes with body = 'springs'; that of solid elements "
+                   "follows from EA, EI, GJ and nu",
+                   t->args.squeeze);
+  if (!isnan(section->spin_inertia))
+    return sw_fail(err, SW_EINVAL, "calibrate: spin_inertia goes with mesh = 'tube' only");
+  if (!isnan(section->nu) && !(section->nu >= 0 && section->nu <= HIGHEST))
+    return sw_fail(err, SW_EINVAL, "calibrate: nu = %g of solid elements must be in [0, %g]",
+                   section->nu, HIGHEST);
+  return SW_OK;
+}
+
+/* That which was given, or the one with which GJ and EI of a round wire go together. */
+static double poisson(const task *t, const sw_section *section) {
+  const int flat =
+      t->args.mesh == SW_LATTICE_CUBIC && t->mesh->cubic.section == SW_SECTION_RECTANGLE;
+  const double fits = t->beam->EI / t->beam->GJ - 1;
+  if (!isnan(section->nu)) return section->nu;
+  return !flat && one_material(t) && fits >= 0 && fits <= 0.49 ? fits : USUAL_POISSON;
+}
+
+/* About as long as the outermost elements are wide: nothing but the curvature of the wire asks
+ * for short ones. */
+static double usual_spacing(const task *t) {
+  const double r = t->beam->radius, M = (double)t->mesh->radial.particles;
+  const double chord = 2 * r * sin(3.14159265358979323846 / M);
+  return fmin(0.75 * r, fmax(chord, r / (double)t->mesh->radial.layers));
+}
+
+static sw_status fresh(task *t, double scale, unsigned groups, sw_error *err) {
+  sw_calibration *c = t->c;
+  sw_lattice_free(&c->lattice);
+  SW_TRY(sw_calibrate_lattice(&t->args, t->beam, t->mesh, &c->lattice, err));
+  c->lattice.nu = c->nu;
+  c->scale = scale;
+  sw_lattice_keep(&c->lattice, groups);
+  sw_lattice_scale(&c->lattice, scale);
+  sw_calibrate_count(c);
+  memset(c->k, 0, sizeof c->k);
+  return SW_OK;
+}
+
+static sw_status reach(task *t, sw_error *err) {
+  const sw_cell cell = sw_lattice_cell(&t->c->lattice);
+  SW_TRY(sw_cell_stiffness(&cell, t->c->k, &t->c->reached, NULL, err));
+  sw_calibrate_residuals(t->c);
+  return SW_OK;
+}
+
+static int is_good(const task *t, double near_GJ) {
+  for (int g = 0; g < SW_TARGETS; g++) {
+    const double allowed = fmax(t->args.tolerance, g == SW_TARGET_GJ ? near_GJ : 0);
+    if (fabs(t->c->residual[g]) > allowed) return 0;
+  }
+  return 1;
+}
+
+/* Elements of 1 Pa, and the scale that is right for one material. */
+static sw_status measure(task *t, sw_error *err) {
+  SW_TRY(fresh(t, 1, 0, err));
+  t->c->k[SW_GROUP_SOLID] = 1;
+  SW_TRY(reach(t, err));
+  for (int g = 0; g < SW_TARGETS; g++) t->unit[g] = sw_reached(&t->c->reached, g);
+  t->scale = sqrt(gyration2(t) * t->unit[SW_TARGET_EA] / t->unit[SW_TARGET_EI]);
+  return SW_OK;
+}
+
+static sw_status elements_alone(task *t, sw_error *err) {
+  const double *target = t->c->target, *unit = t->unit;
+  const double s2 =
+      target[SW_TARGET_EI] / target[SW_TARGET_EA] * unit[SW_TARGET_EA] / unit[SW_TARGET_EI];
+  SW_TRY(fresh(t, sqrt(s2), 0, err));
+  t->c->k[SW_GROUP_SOLID] = target[SW_TARGET_EA] / (unit[SW_TARGET_EA] * s2);
+  return reach(t, err);
+}
+
+/* What unit springs of each group have of EA, EI and GJ. */
+static void measure_springs(task *t) {
+  const sw_cell cell = sw_lattice_cell(&t->c->lattice);
+  double one[SW_GROUPS], S[SW_CELL_SIZE];
+  for (int g = 0; g < SW_GROUPS; g++) one[g] = g != SW_GROUP_SOLID;
+  sw_cell_affine(&cell, one, S, t->shares);
+}
+
+/* Springs along the wire that have EA and EI: those off its axis EI, equal in modulus if that
+ * leaves something of EA for the axis, else the outermost alone. 0: there are none. */
+static int springs_along(task *t, double EA, double EI) {
+  double *k = t->c->k;
+  const double EA_out = share(t, SW_GROUP_LONGITUDINAL, SW_CELL_STRETCH);
+  const double EA_in = share(t, SW_GROUP_INNER, SW_CELL_STRETCH);
+  const double EI_out = share(t, SW_GROUP_LONGITUDINAL, SW_CELL_ABOUT_Y);
+  const double EI_in = share(t, SW_GROUP_INNER, SW_CELL_ABOUT_Y);
+  const double EA_core = share(t, SW_GROUP_CORE, SW_CELL_STRETCH);
+  const double EI_core = share(t, SW_GROUP_CORE, SW_CELL_ABOUT_Y);
+  const int core = EA_core > 0;
+  for (int both = EI_in > 0; both >= 0; both--) {
+    const double EAs = EA_out + both * EA_in, EIs = EI_out + both * EI_in;
+    const double b = core ? EA_core : EA_in, d = core ? EI_core : EI_in;
+    const double det = EAs * d - EIs * b; /* rows: EA, EI; columns: off the axis, at it */
+    if (!(fabs(det) > 0) || (both && !core)) continue;
+    const double off = (EA * d - EI * b) / det, at = (EAs * EI - EIs * EA) / det;
+    if (!(off >= 0) || !(at >= 0)) continue;
+    k[SW_GROUP_LONGITUDINAL] = off;
+    if (t->c->links[SW_GROUP_INNER]) k[SW_GROUP_INNER] = both ? off : core ? 0 : at;
+    if (core) k[SW_GROUP_CORE] = at;
+    return 1;
+  }
+  return 0;
+}
+
+/* Elements have GJ, springs along the wire what these leave of EA and EI. *possible: 0 when they
+ * leave less than nothing. */
+static sw_status with_springs(task *t, int *possible, sw_error *err) {
+  const double *target = t->c->target, s2 = t->scale * t->scale;
+  const double E = target[SW_TARGET_GJ] / (t->unit[SW_TARGET_GJ] * s2 * s2);
+  SW_TRY(fresh(t, t->scale, ALONG, err));
+  measure_springs(t);
+  *possible = springs_along(t, target[SW_TARGET_EA] - E * t->unit[SW_TARGET_EA] * s2,
+                            target[SW_TARGET_EI] - E * t->unit[SW_TARGET_EI] * s2 * s2);
+  t->c->k[SW_GROUP_SOLID] = E;
+  return *possible ? reach(t, err) : SW_OK;
+}
+
+/* Largest modulus whose elements, with the diagonals that make up for GJ, leave some of a target
+ * that diagonals have a share of as well. */
+static double room(const task *t, int target, int strain, double power) {
+  const double s4 = pow(t->scale, 4), *wanted = t->c->target;
+  const double per_GJ =
+      share(t, SW_GROUP_DIAGONAL, strain) / share(t, SW_GROUP_DIAGONAL, SW_CELL_TWIST);
+  const double own = t->unit[target] * pow(t->scale, power);
+  const double left = (1 - LEAST) * wanted[target] - wanted[SW_TARGET_GJ] * per_GJ;
+  return fmax(left, LEAST * wanted[target]) /
+         fmax(own - t->unit[SW_TARGET_GJ] * s4 * per_GJ, LEAST * own);
+}
+
+/* Elements have most of EA or EI, diagonals what these leave of GJ; all are searched. */
+static sw_status with_diagonals(task *t, sw_error *err) {
+  const double *target = t->c->target, s2 = t->scale * t->scale;
+  const double least_EA = LEAST * target[SW_TARGET_EA], least_EI = LEAST * target[SW_TARGET_EI];
+  double *k = t->c->k;
+  SW_TRY(fresh(t, t->scale, ALONG | 1U << SW_GROUP_DIAGONAL, err));
+  measure_springs(t);
+  const double whole = target[SW_TARGET_GJ] / (t->unit[SW_TARGET_GJ] * s2 * s2);
+  const double E = fmin((1 - LEAST) * whole, fmin(room(t, SW_TARGET_EI, SW_CELL_ABOUT_Y, 4),
+                                                  room(t, SW_TARGET_EA, SW_CELL_STRETCH, 2)));
+  const double diagonal =
+      target[SW_TARGET_GJ] * (1 - E / whole) / share(t, SW_GROUP_DIAGONAL, SW_CELL_TWIST);
+  const double EA = target[SW_TARGET_EA] - E * t->unit[SW_TARGET_EA] * s2 -
+                    diagonal * share(t, SW_GROUP_DIAGONAL, SW_CELL_STRETCH);
+  const double EI = target[SW_TARGET_EI] - E * t->unit[SW_TARGET_EI] * s2 * s2 -
+                    diagonal * share(t, SW_GROUP_DIAGONAL, SW_CELL_ABOUT_Y);
+  springs_along(t, fmax(EA, least_EA), fmax(EI, least_EI));
+  k[SW_GROUP_SOLID] = E;
+  k[SW_GROUP_DIAGONAL] = diagonal;
+  for (int g = 0; g < SW_GROUPS; g++) /* logarithms are searched */
+    if (t->c->links[g] && !(k[g] > 0)) k[g] = least_EA / fmax(share(t, g, SW_CELL_STRETCH), 1e-300);
+  return sw_calibrate_fit(t->c, err);
+}
+
+static sw_status refuse(const task *t, sw_error *err) {
+  const sw_calibration *c = t->c;
+  int worst = 0;
+  for (int g = 1; g < SW_TARGETS; g++)
+    if (fabs(c->residual[g]) > fabs(c->residual[worst])) worst = g;
+  return sw_fail(err, SW_EINVAL,
+                 "calibrate: no solid elements with nu = %.4g and springs of this mesh give %s = "
+                 "%.6g %s; the nearest have %.6g %s (%+.2g %%); make spacing = %.4g m less, or nu "
+                 "such that GJ is near EI/(1 + nu) = %.4g N m2, or use body = 'springs'",
+                 c->nu, sw_target_names[worst], c->target[worst], sw_target_units[worst],
+                 sw_reached(&c->reached, worst), sw_target_units[worst], 100 * c->residual[worst],
+                 c->lattice.spacing, c->target[SW_TARGET_EI] / (1 + c->nu));
+}
+
+sw_status sw_calibrate_solid(const sw_calibrate_args *args, const sw_section *section,
+                             const sw_beam *beam, sw_lattice_args *mesh, sw_calibration *out,
+                             sw_error *err) {
+  task t = {.args = *args, .beam = beam, .mesh = mesh, .c = out};
+  int possible = 0;
+  SW_TRY(check(&t, section, err));
+  if (isnan(t.args.spacing) && args->mesh == SW_LATTICE_RADIAL) t.args.spacing = usual_spacing(&t);
+  out->nu = poisson(&t, section);
+  SW_TRY(measure(&t, err));
+  if (one_material(&t)) {
+    SW_TRY(elements_alone(&t, err));
+    if (is_good(&t, GJ_NEAR)) return SW_OK;
+  }
+  SW_TRY(with_springs(&t, &possible, err));
+  if (possible && is_good(&t, 0)) return SW_OK;
+  t.args.spacing = args->spacing; /* diagonals want short slices */
+  SW_TRY(with_diagonals(&t, err));
+  return is_good(&t, 0) ? SW_OK : refuse(&t, err);
+}

@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Solid elements in the slice that repeats: as springs are, with the element's second derivative
+ * at rest for the spring's stiffness. */
+#include <string.h>
+
+#include "calibrate/cell_inner.h"
+#include "force/solid.h"
+
+enum { MOST = 3 * SW_SOLID_NODES };
+
+/* One element of modulus 1 Pa: places at rest, displacements by the strains, stiffness. */
+typedef struct element {
+  int n;                             /* components [-] */
+  size_t component[MOST];            /* of the slice [-] */
+  double moved[SW_CELL_SIDES][MOST]; /* by unit strains [m] */
+  double stiffness[MOST * MOST];     /* of modulus 1 Pa [m] */
+} element;
+
+static sw_status prepare(const sw_cell *c, const sw_cell_solid *s, element *e) {
+  const double mu = 0.5 / (1 + c->nu), lambda = c->nu / ((1 + c->nu) * (1 - 2 * c->nu));
+  double rest[MOST];
+  sw_solid solid;
+  e->n = 3 * s->nodes;
+  memset(e->moved, 0, sizeof e->moved);
+  for (int a = 0; a < s->nodes; a++) {
+    sw_vec u[SW_CELL_STRAINS], p = sw_vec_at(c->at, s->particle[a]);
+    if (2 * a >= s->nodes) p.z += c->spacing;
+    sw_cell_macro(p, u);
+    sw_store(rest + 3 * a, p);
+    for (int t = 0; t < SW_CELL_STRAINS; t++) sw_store(e->moved[t] + 3 * a, u[t]);
+    for (size_t i = 0; i < 3; i++) e->component[3 * (size_t)a + i] = 3 * (size_t)s->particle[a] + i;
+  }
+  SW_TRY(sw_solid_prepare(s->nodes, rest, mu, lambda, &solid));
+  sw_solid_eval(&solid, rest, SW_WANT_STIFFNESS, NULL, e->stiffness);
+  return SW_OK;
+}
+
+sw_status sw_cell_check_solids(const sw_cell *c, sw_error *err) {
+  element e;
+  if (c->solids && (c->solid_group >= c->groups || !(c->nu > -1) || !(c->nu < 0.5)))
+    return sw_fail(err, SW_EINVAL, "cell: nu = %g must be in (-1, 0.5)", c->nu);
+  for (size_t m = 0; m < c->solids; m++) {
+    const sw_cell_solid *s = c->solid + m;
+    if (s->nodes != SW_SOLID_PRISM && s->nodes != SW_SOLID_HEX)
+      return sw_fail(err, SW_EINVAL, "cell: element %zu has %d particles; 6 or 8 make one", m + 1,
+                     s->nodes);
+    for (int a = 0; a < s->nodes; a++)
+      if (s->particle[a] >= c->particles)
+        return sw_fail(err, SW_EINVAL, "cell: element %zu names a particle that is not there",
+                       m + 1);
+    if (prepare(c, s, &e) != SW_OK)
+      return sw_fail(err, SW_EINVAL,
+                     "cell: element %zu has no volume, is inverted, or is too flat; its face in "
+                     "this slice goes anticlockwise seen from the next",
+                     m + 1);
+  }
+  return SW_OK;
+}
+
+/* out = stiffness times u */
+static void times(const element *e, const double *u, double *out) {
+  for (int i = 0; i < e->n; i++) {
+    out[i] = 0;
+    for (int j = 0; j < e->n; j++) out[i] += e->stiffness[i * e->n + j] * u[j];
+  }
+}
+
+void sw_cell_assemble_solids(const sw_cell *c, double k, double *K, double *right) {
+  const size_t n = 3 * c->particles;
+  element e;
+  for (size_t m = 0; m < c->solids; m++) {
+    if (prepare(c, c->solid + m, &e) != SW_OK) continue; /* checked before */
+    for (int i = 0; i < e.n; i++)
+      for (int j = 0; j < e.n; j++)
+        K[e.component[i] * n + e.component[j]] += k * e.stiffness[i * e.n + j];
+    for (size_t t = 0; t < SW_CELL_STRAINS; t++) {
+      double force[MOST];
+      times(&e, e.moved[t], force);
+      for (int i = 0; i < e.n; i++) right[t * n + e.component[i]] -= k * force[i];
+    }
+  }
+}
+
+double sw_cell_collect_solids(const sw_cell *c, double k, const double *v, double *part) {
+  const size_t n = 3 * c->particles;
+  double compliance = 0;
+  element e;
+  for (size_t m = 0; m < c->solids; m++) {
+    if (prepare(c, c->solid + m, &e) != SW_OK) continue;
+    double force[SW_CELL_SIDES][MOST], all[SW_CELL_SIDES][SW_CELL_SIDES];
+    for (size_t t = 0; t < SW_CELL_SIDES; t++) {
+      for (int i = 0; v && i < e.n; i++) e.moved[t][i] += v[t * n + e.component[i]];
+      times(&e, e.moved[t], force[t]);
+    }
+    for (int s = 0; s < SW_CELL_SIDES; s++)
+      for (int t = 0; t < SW_CELL_SIDES; t++) {
+        all[s][t] = 0;
+        for (int i = 0; i < e.n; i++) all[s][t] += k * e.moved[s][i] * force[t][i];
+      }
+    for (int s = 0; s < SW_CELL_STRAINS; s++)
+      for (int t = 0; t < SW_CELL_STRAINS; t++)
+        part[s * SW_CELL_STRAINS + t] += 0.5 * (all[s][t] + all[t][s]) / c->spacing;
+    part[SW_CELL_SIZE] += all[SW_CELL_STRAINS][SW_CELL_STRAINS];
+    compliance += all[SW_CELL_STRAINS][SW_CELL_STRAINS];
+  }
+  return compliance;
+}
