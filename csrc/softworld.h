@@ -17,6 +17,7 @@
 #include "shape/shape.h"
 #include "solve/band3.h"
 #include "solve/band4.h"
+#include "solve/blocks.h"
 #include "solve/sparse.h"
 
 #endif
