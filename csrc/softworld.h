@@ -18,6 +18,7 @@
 #include "shape/shape.h"
 #include "solve/band3.h"
 #include "solve/band4.h"
+#include "solve/blocks.h"
 #include "solve/sparse.h"
 
 #endif

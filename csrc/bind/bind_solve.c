@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The band solvers for specs: core.band3(rows, right) -> x, negative pivots,
+/* The solvers for specs: core.band3(rows, right) -> x, negative pivots,
  * product. rows: flat, 24 numbers a node as in solve/band3.h; right: flat, 3 a
  * node. product is rows times right. */
 #include <string.h>
@@ -100,7 +100,94 @@ static int mod_sparse(lua_State *L) {
   return 3;
 }
 
-static const luaL_Reg functions[] = {
-    {"band3", mod_band3}, {"band4", mod_band4}, {"sparse", mod_sparse}, {NULL, NULL}};
+static size_t field(lua_State *L, const char *name) {
+  lua_getfield(L, 1, name);
+  const lua_Integer value = luaL_optinteger(L, -1, 0);
+  luaL_argcheck(L, value >= 0, 1, name);
+  lua_pop(L, 1);
+  return (size_t)value;
+}
+
+/* Nodes in rings { rings, per_ring } or with pairs { nodes, pairs }. */
+static sw_status new_blocks(lua_State *L, sw_blocks **out) {
+  const size_t rings = field(L, "rings"), per_ring = field(L, "per_ring");
+  const size_t nodes = field(L, "nodes");
+  if (lua_getfield(L, 1, "pairs") != LUA_TTABLE) return sw_blocks_new_rings(rings, per_ring, out);
+  const size_t count = lua_rawlen(L, -1) / 2;
+  const double *list = read_flat(L, lua_gettop(L), 2 * count);
+  sw_blocks_pair *pairs = lua_newuserdatauv(L, (count + 1) * sizeof *pairs, 0);
+  for (size_t k = 0; k < count; k++) {
+    luaL_argcheck(L, list[2 * k] >= 0 && list[2 * k + 1] >= 0, 1, "no such node");
+    pairs[k] = (sw_blocks_pair){(uint32_t)list[2 * k], (uint32_t)list[2 * k + 1]};
+  }
+  return sw_blocks_new_sparse(nodes, pairs, count, out);
+}
+
+/* The blocks that exist, from a dense matrix row by row; returns how many. */
+static size_t write_blocks(sw_blocks *b, const double *dense) {
+  const size_t n = sw_blocks_nodes(b), stride = sw_blocks_stride(b);
+  size_t count = 0;
+  sw_blocks_clear(b);
+  for (size_t i = 0; i < n; i++)
+    for (size_t j = 0; j <= i; j++) {
+      const size_t slot = sw_blocks_slot(b, i, j);
+      if (slot == SIZE_MAX) continue;
+      count++;
+      for (size_t r = 0; r < 3; r++)
+        for (size_t c = 0; c < 3; c++)
+          sw_blocks_values(b)[slot + r * stride + c] = dense[(3 * i + r) * 3 * n + 3 * j + c];
+    }
+  return count;
+}
+
+/* core.blocks(layout, dense, right, fixed, before) -> x, negative pivots, product, the same row
+ * by row, blocks. dense: flat, all numbers of the matrix; fixed, and before, with which it is
+ * factorised once more beforehand: a number a node, or nil. product is of all values with
+ * right. */
+static int mod_blocks(lua_State *L) {
+  sw_error err = {""};
+  sw_blocks *b = NULL;
+  size_t negative = 0, count = 0;
+  lua_settop(L, 5);
+  for (int k = 1; k <= 3; k++) luaL_checktype(L, k, LUA_TTABLE);
+  const size_t n = lua_rawlen(L, 3) / 3;
+  luaL_argcheck(L, lua_rawlen(L, 2) == 9 * n * n, 2, "sizes differ");
+  unsigned char *masks[2] = {NULL, NULL};
+  for (int k = 0; k < 2; k++) {
+    if (lua_isnil(L, 4 + k)) continue;
+    const double *list = read_flat(L, 4 + k, n);
+    masks[k] = lua_newuserdatauv(L, n + 1, 0);
+    for (size_t i = 0; i < n; i++) masks[k][i] = list[i] != 0.0;
+  }
+  const double *dense = read_flat(L, 2, 9 * n * n);
+  double *x = read_flat(L, 3, 3 * n), *product = read_flat(L, 3, 3 * n);
+  double *rows = read_flat(L, 3, 3 * n);
+  sw_status status = new_blocks(L, &b);
+  if (status == SW_OK && sw_blocks_nodes(b) != n) status = SW_EINVAL;
+  if (status == SW_OK) {
+    count = write_blocks(b, dense);
+    if (masks[1]) status = sw_blocks_factor(b, masks[1], NULL);
+  }
+  if (status == SW_OK) status = sw_blocks_factor(b, masks[0], &negative);
+  if (status == SW_OK) {
+    sw_blocks_multiply(b, x, product);
+    for (size_t i = 0; i < n; i++) sw_blocks_row_times(b, i, x, rows + 3 * i);
+    sw_blocks_solve(b, x);
+  }
+  sw_blocks_free(b);
+  if (status != SW_OK) return lsw_raise(L, status, &err);
+  push_flat(L, x, 3 * n);
+  lua_pushinteger(L, (lua_Integer)negative);
+  push_flat(L, product, 3 * n);
+  push_flat(L, rows, 3 * n);
+  lua_pushinteger(L, (lua_Integer)count);
+  return 5;
+}
+
+static const luaL_Reg functions[] = {{"band3", mod_band3},
+                                     {"band4", mod_band4},
+                                     {"sparse", mod_sparse},
+                                     {"blocks", mod_blocks},
+                                     {NULL, NULL}};
 
 void lsw_open_solve(lua_State *L) { luaL_setfuncs(L, functions, 0); }

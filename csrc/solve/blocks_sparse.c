@@ -4,13 +4,13 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "solve/cholmod_adapter.h"
+#include "solve/blocks_tree.h"
 
 enum { BLOCK = 9 };
 
 void sw_blocks_sparse_free(sw_blocks_sparse *s) {
   if (!s) return;
-  sw_cholmod_free(s->solver);
+  sw_tree_free(s->tree);
   sw_free(s->first);
   sw_free(s->column);
   sw_free(s->values);
@@ -82,7 +82,7 @@ static sw_status analyse(sw_blocks_sparse *s, const sw_blocks_pair *pairs, size_
   SW_TRY(find_pattern(s, pairs, count));
   s->values = sw_alloc(BLOCK * (size_t)s->first[s->nodes], sizeof *s->values);
   if (!s->values) return SW_ENOMEM;
-  return sw_cholmod_new(s->nodes, s->first, s->column, &s->solver);
+  return sw_tree_new(s->nodes, s->first, s->column, &s->tree);
 }
 
 sw_status sw_blocks_sparse_new(size_t nodes, const sw_blocks_pair *pairs, size_t count,
@@ -121,11 +121,11 @@ void sw_blocks_sparse_clear(sw_blocks_sparse *s) {
 
 sw_status sw_blocks_sparse_factor(sw_blocks_sparse *s, const unsigned char *fixed,
                                   size_t *negative) {
-  return sw_cholmod_factor(s->solver, s->values, fixed, negative);
+  return sw_tree_factor(s->tree, s->values, fixed, negative);
 }
 
 void sw_blocks_sparse_solve(const sw_blocks_sparse *s, double *x) {
-  sw_cholmod_solve(s->solver, x);
+  sw_tree_solve(s->tree, x);
 }
 
 /* y += block x */

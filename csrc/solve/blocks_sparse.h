@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Symmetric matrices of 3 x 3 blocks with any pattern, as in solve/blocks.h: the blocks of the
- * lower half row by row, in the order of their columns. CHOLMOD factorises. */
+ * lower half row by row, in the order of their columns. */
 #ifndef SW_SOLVE_BLOCKS_SPARSE_H
 #define SW_SOLVE_BLOCKS_SPARSE_H
 
@@ -9,14 +9,14 @@
 
 #include "solve/blocks.h"
 
-typedef struct sw_cholmod sw_cholmod;
+typedef struct sw_tree sw_tree;
 
 typedef struct sw_blocks_sparse {
   size_t nodes;
   uint32_t *first;  /* (nodes + 1) a node's first block; its own block is the last one */
   uint32_t *column; /* (blocks) nodes, ascending in each row */
   double *values;   /* (blocks x 9) */
-  sw_cholmod *solver;
+  sw_tree *tree;
 } sw_blocks_sparse;
 
 sw_status sw_blocks_sparse_new(size_t nodes, const sw_blocks_pair *pairs, size_t count,

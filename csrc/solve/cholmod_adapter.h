@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sparse factors of symmetric matrices of 3 x 3 blocks, by CHOLMOD (Chen, Davis, Hager and
- * Rajamanickam 2008). The pattern is analysed once. A definite matrix is factorised in dense
- * pieces as L L', another one column by column as L D L', which is many times slower. */
+/* How to eliminate a sparse symmetric matrix in dense pieces (supernodes), found by CHOLMOD
+ * (Chen, Davis, Hager and Rajamanickam 2008). Numbers are none of its business: its dense
+ * kernels are those of whatever BLAS is installed, and it has none for indefinite matrices. */
 #ifndef SW_SOLVE_CHOLMOD_ADAPTER_H
 #define SW_SOLVE_CHOLMOD_ADAPTER_H
 
@@ -10,19 +10,18 @@
 
 #include "base/status.h"
 
-typedef struct sw_cholmod sw_cholmod;
+typedef struct sw_cholmod_plan {
+  size_t fronts;
+  uint32_t *order; /* (nodes) nodes in the order in which they are eliminated: steps */
+  uint32_t *pivot; /* (fronts + 1) a front's first step */
+  uint32_t *start; /* (fronts + 1) where its rows begin */
+  uint32_t *row;   /* (start[fronts]) steps, ascending: a front's own ones, then those coupled */
+} sw_cholmod_plan;
 
-/* Node i has the blocks first[i] .. first[i + 1] - 1, of columns column[..] ascending, the last
- * one its own. Both lists must outlive the solver. SW_ENOMEM, SW_ELIMIT. */
-sw_status sw_cholmod_new(size_t nodes, const uint32_t *first, const uint32_t *column,
-                         sw_cholmod **out);
-void sw_cholmod_free(sw_cholmod *c); /* NULL is allowed */
-
-/* values: 9 a block, row by row. Otherwise as sw_blocks_factor. */
-sw_status sw_cholmod_factor(sw_cholmod *c, const double *values, const unsigned char *fixed,
-                            size_t *negative);
-
-/* In place for x (nodes x 3). */
-void sw_cholmod_solve(sw_cholmod *c, double *x);
+/* Node i is coupled to nodes column[first[i]] .. column[first[i + 1] - 1], ascending, the last
+ * one itself. SW_ENOMEM, SW_ELIMIT; then there is no plan to free. */
+sw_status sw_cholmod_analyse(size_t nodes, const uint32_t *first, const uint32_t *column,
+                             sw_cholmod_plan *plan);
+void sw_cholmod_free_plan(sw_cholmod_plan *plan);
 
 #endif

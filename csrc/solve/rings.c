@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "base/simd.h"
+#include "solve/blocks_front.h"
 
 typedef double quad __attribute__((vector_size(32), aligned(8)));
 static inline quad *at(double *p) { return (quad *)(void *)p; }
@@ -15,7 +16,7 @@ void sw_rings_free(sw_rings *r) {
   if (!r) return;
   sw_free(r->values);
   sw_free(r->factor);
-  sw_free(r->own);
+  sw_free(r->kept);
   sw_free(r->scaled);
   sw_free(r->x);
   sw_free(r);
@@ -26,10 +27,10 @@ static sw_status allocate(sw_rings *r) {
   if (r->rings > SIZE_MAX / 16 / one) return SW_ENOMEM;
   r->values = sw_alloc(r->rings * one, sizeof *r->values);
   r->factor = sw_alloc(r->rings * one, sizeof *r->factor);
-  r->own = sw_alloc(r->rings * r->n * SW_RINGS_OWN, sizeof *r->own);
+  r->kept = sw_alloc(r->rings * r->n * SW_FRONT_KEPT, sizeof *r->kept);
   r->scaled = sw_alloc(3 * one, sizeof *r->scaled);
   r->x = sw_alloc(2 * r->rings * r->padded, sizeof *r->x);
-  if (!r->values || !r->factor || !r->own || !r->scaled || !r->x) return SW_ENOMEM;
+  if (!r->values || !r->factor || !r->kept || !r->scaled || !r->x) return SW_ENOMEM;
   r->masked = r->scaled + 2 * one;
   r->y = r->x + r->rings * r->padded;
   return SW_OK;
@@ -41,8 +42,8 @@ sw_status sw_rings_new(size_t rings, size_t per_ring, sw_rings **out) {
   sw_rings *r = sw_alloc(1, sizeof *r);
   if (!r) return SW_ENOMEM;
   r->rings = rings, r->per_ring = per_ring, r->n = 3 * per_ring;
-  r->padded = (r->n + SW_RINGS_TILE - 1) / SW_RINGS_TILE * SW_RINGS_TILE;
-  r->stride = 2 * r->padded + SW_RINGS_TILE;
+  r->padded = sw_front_pad(r->n);
+  r->stride = 2 * r->padded + SW_FRONT_TILE;
   const sw_status status = allocate(r);
   if (status == SW_OK)
     *out = r;
@@ -62,8 +63,10 @@ void sw_rings_clear(sw_rings *r) {
 }
 
 void sw_rings_pad(const sw_rings *r, const double *x, double *padded) {
-  for (size_t k = 0; k < r->rings; k++)
-    memcpy(padded + k * r->padded, x + k * r->n, r->n * sizeof *x);
+  for (size_t k = 0; k < r->rings; k++, padded += r->padded) {
+    memcpy(padded, x + k * r->n, r->n * sizeof *x);
+    memset(padded + r->n, 0, (r->padded - r->n) * sizeof *x); /* else a NaN would stay for good */
+  }
 }
 
 void sw_rings_unpad(const sw_rings *r, const double *padded, double *x) {

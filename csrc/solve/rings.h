@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Block-tridiagonal symmetric matrices with dense blocks: nodes in rings, as in solve/blocks.h.
  * A ring's row holds its columns in the ring before, padded, and in its own ring: one stretch
- * of memory. Rows are eliminated from the last one to the first, since row by row the lower
- * half is then at hand as a row of the factor: A = L' D L with L in the places of A. */
+ * of memory. Each ring is eliminated as a front (solve/blocks_front.h), the last one first. */
 #ifndef SW_SOLVE_RINGS_H
 #define SW_SOLVE_RINGS_H
 
@@ -10,20 +9,14 @@
 
 #include "base/status.h"
 
-enum {
-  SW_RINGS_TILE = 8,  /* columns of a register tile; rows are padded to it */
-  SW_RINGS_PANEL = 6, /* rows eliminated at once; the last ones of a ring may be 3 */
-  SW_RINGS_OWN = 8    /* numbers kept of a row's part of its panel */
-};
-
 typedef struct sw_rings {
   size_t rings, per_ring;
   size_t n;      /* rows of a ring: 3 per_ring */
   size_t padded; /* n, up to a full tile */
   size_t stride; /* a row: two rings and a line of zeros, so that columns do not share cache sets */
   double *values; /* (rings x n x stride) */
-  double *factor; /* (rings x n x stride) L left of the panels; 0 at and right of them */
-  double *own;    /* (rings x n x SW_RINGS_OWN) L inside the panels, then 1/D */
+  double *factor; /* (rings x n x stride) */
+  double *kept;   /* (rings x n x SW_FRONT_KEPT) */
   double *scaled; /* (2 x n x stride) D L of this ring and the one before it in the elimination */
   double *masked; /* (n x stride) rows of a ring without its fixed nodes */
   double *x, *y;  /* (rings x padded) vectors */

@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Panels of 6 rows wait until all rows below them are done; then a tile of 6 x 8 numbers takes
+ * up, in registers, all that these rows subtract, and is divided by its panel's own part before
+ * it is stored: every number is written once. */
+#include "solve/blocks_front.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/simd.h"
+
+#pragma GCC diagnostic ignored "-Wpsabi" /* vectors stay inside this file */
+typedef double quad __attribute__((vector_size(32), aligned(8)));
+enum { TILE = SW_FRONT_TILE, PANEL = SW_FRONT_PANEL, KEPT = SW_FRONT_KEPT };
+#define ALWAYS static inline __attribute__((always_inline))
+
+ALWAYS quad *at(double *p) { return (quad *)(void *)p; }
+ALWAYS const quad *look(const double *p) { return (const quad *)(const void *)p; }
+
+/* tile -= (rows of d)' (rows of l), over count rows; d: rows' columns of the panel. */
+ALWAYS void subtract(quad tile[][2], const double *d, const double *l, size_t count, size_t stride,
+                     const int rows) {
+  for (size_t k = 0; k < count; k++, d += stride, l += stride) {
+    const quad first = look(l)[0], second = look(l)[1];
+#pragma GCC unroll 6
+    for (int i = 0; i < rows; i++) {
+      tile[i][0] -= d[i] * first;
+      tile[i][1] -= d[i] * second;
+    }
+  }
+}
+
+ALWAYS void load(quad tile[][2], const double *a, size_t stride, const int rows) {
+#pragma GCC unroll 6
+  for (int i = 0; i < rows; i++, a += stride) tile[i][0] = look(a)[0], tile[i][1] = look(a)[1];
+}
+
+/* A panel's tile at a column of its row, with all that rows below the panel take from it. */
+ALWAYS void gather(const sw_front *f, quad tile[][2], size_t panel, size_t column, const int own,
+                   const int rows) {
+  const size_t s = f->stride, below = panel + (size_t)rows;
+  load(tile, f->a + panel * s + column, s, rows);
+  if (own && f->next_factor)
+    subtract(tile, f->next_scaled + panel, f->next_factor + column - f->place, f->n, s, rows);
+  subtract(tile, f->scaled + below * s + f->place + panel, f->factor + below * s + column,
+           f->n - below, s, rows);
+}
+
+/* The panel's own part: L' D L of it. */
+ALWAYS void split(sw_front *f, size_t panel, const int rows) {
+  quad tile[PANEL][2];
+  double m[PANEL][TILE];
+  gather(f, tile, panel, f->place + panel, 1, rows);
+  for (int i = 0; i < rows; i++) *at(m[i]) = tile[i][0], *at(m[i] + 4) = tile[i][1];
+  for (int k = rows - 1; k >= 0; k--) {
+    const double pivot = m[k][k], r = 1.0 / pivot;
+    double *kept = f->kept + KEPT * (panel + (size_t)k);
+    f->negative += pivot < 0.0;
+    f->bad += !(fabs(r) > 0.0 && fabs(r) < HUGE_VAL);
+    for (int i = 0; i < k; i++) {
+      const double l = m[k][i] * r;
+      for (int j = 0; j <= i; j++) m[i][j] -= l * m[k][j];
+      kept[i] = l;
+    }
+    kept[PANEL] = r;
+  }
+}
+
+/* One tile of the panel's rows of L and D L. */
+ALWAYS void finish(sw_front *f, size_t panel, size_t column, const int own, const int rows) {
+  const double *kept = f->kept + KEPT * panel;
+  const size_t place = panel * f->stride + column;
+  quad tile[PANEL][2];
+  gather(f, tile, panel, column, own, rows);
+#pragma GCC unroll 6
+  for (int k = rows - 1; k >= 0; k--) {
+    double *l = f->factor + place + (size_t)k * f->stride;
+    double *d = f->scaled + place + (size_t)k * f->stride;
+    const double r = kept[KEPT * k + PANEL];
+#pragma GCC unroll 6
+    for (int i = 0; i < k; i++) {
+      tile[i][0] -= kept[KEPT * k + i] * tile[k][0];
+      tile[i][1] -= kept[KEPT * k + i] * tile[k][1];
+    }
+    at(d)[0] = tile[k][0], at(d)[1] = tile[k][1];
+    at(l)[0] = tile[k][0] * r, at(l)[1] = tile[k][1] * r;
+  }
+}
+
+ALWAYS void eliminate(sw_front *f, size_t panel, const int rows) {
+  split(f, panel, rows);
+  for (size_t j = 0; j < panel; j += TILE) finish(f, panel, f->place + j, 1, rows);
+  for (size_t j = 0; j < f->before; j += TILE) finish(f, panel, j, 0, rows);
+  /* what the last tile held of the panel itself and beyond, where `solve` runs over it */
+  const size_t beyond = sw_front_pad(panel) - panel;
+  for (size_t k = panel; k < panel + (size_t)rows; k++)
+    memset(f->factor + k * f->stride + f->place + panel, 0, beyond * sizeof *f->factor);
+}
+
+SW_HOT
+void sw_front_eliminate(sw_front *f) {
+  const size_t full = f->n / PANEL;
+  if (f->n % PANEL) eliminate(f, full * PANEL, PANEL / 2);
+  for (size_t k = full; k-- > 0;) eliminate(f, k * PANEL, PANEL);
+}
+
+ALWAYS void contribute(const sw_front *f, double *rest, size_t row, const int rows) {
+  const size_t end = sw_front_pad(row + (size_t)rows);
+  for (size_t j = 0; j < end; j += TILE) {
+    double *to = rest + row * f->before + j;
+    quad tile[PANEL][2];
+    load(tile, to, f->before, rows);
+    subtract(tile, f->scaled + row, f->factor + j, f->n, f->stride, rows);
+#pragma GCC unroll 6
+    for (int i = 0; i < rows; i++, to += f->before) at(to)[0] = tile[i][0], at(to)[1] = tile[i][1];
+  }
+}
+
+SW_HOT
+void sw_front_contribute(const sw_front *f, double *rest, size_t rows) {
+  size_t i = 0;
+  for (; i + PANEL <= rows; i += PANEL) contribute(f, rest, i, PANEL);
+  if (i < rows) contribute(f, rest, i, PANEL / 2);
+}
+
+/* x -= rows' y, over count columns, a multiple of TILE. */
+ALWAYS void scatter(const double *row, size_t stride, size_t count, const double *y, double *x,
+                    const int rows) {
+  for (size_t j = 0; j < count; j += TILE) {
+    quad first = look(x + j)[0], second = look(x + j)[1];
+#pragma GCC unroll 6
+    for (int i = 0; i < rows; i++) {
+      const quad *l = look(row + (size_t)i * stride + j);
+      first -= y[i] * l[0], second -= y[i] * l[1];
+    }
+    at(x + j)[0] = first, at(x + j)[1] = second;
+  }
+}
+
+/* sum -= rows x */
+ALWAYS void collect(const double *row, size_t stride, size_t count, const double *x, quad sum[],
+                    const int rows) {
+  for (size_t j = 0; j < count; j += TILE) {
+    const quad first = look(x + j)[0], second = look(x + j)[1];
+#pragma GCC unroll 6
+    for (int i = 0; i < rows; i++) {
+      const quad *l = look(row + (size_t)i * stride + j);
+      sum[i] -= first * l[0];
+      sum[i] -= second * l[1];
+    }
+  }
+}
+
+ALWAYS void forward(const sw_front *f, size_t panel, double *x, double *before, const int rows) {
+  const double *row = f->factor + panel * f->stride, *kept = f->kept + KEPT * panel;
+  double y[PANEL];
+  for (int i = 0; i < rows; i++) y[i] = x[panel + (size_t)i];
+  for (int k = rows - 1; k > 0; k--)
+    for (int i = 0; i < k; i++) y[i] -= kept[KEPT * k + i] * y[k];
+  scatter(row + f->place, f->stride, sw_front_pad(panel), y, x, rows);
+  for (int i = 0; i < rows; i++) x[panel + (size_t)i] = y[i];
+  scatter(row, f->stride, f->before, y, before, rows);
+}
+
+ALWAYS void backward(const sw_front *f, size_t panel, double *x, const double *before,
+                     const int rows) {
+  const double *row = f->factor + panel * f->stride, *kept = f->kept + KEPT * panel;
+  quad sum[PANEL] = {{0}};
+  double *y = x + panel;
+  collect(row, f->stride, f->before, before, sum, rows);
+  collect(row + f->place, f->stride, sw_front_pad(panel), x, sum, rows);
+  for (int k = 0; k < rows; k++) {
+    double value = y[k] * kept[KEPT * k + PANEL];
+    value += (sum[k][0] + sum[k][1]) + (sum[k][2] + sum[k][3]);
+    for (int i = 0; i < k; i++) value -= kept[KEPT * k + i] * y[i];
+    y[k] = value;
+  }
+}
+
+SW_HOT
+void sw_front_forward(const sw_front *f, double *own, double *before) {
+  const size_t full = f->n / PANEL;
+  if (f->n % PANEL) forward(f, full * PANEL, own, before, PANEL / 2);
+  for (size_t k = full; k-- > 0;) forward(f, k * PANEL, own, before, PANEL);
+}
+
+SW_HOT
+void sw_front_backward(const sw_front *f, double *own, const double *before) {
+  const size_t full = f->n / PANEL;
+  for (size_t k = 0; k < full; k++) backward(f, k * PANEL, own, before, PANEL);
+  if (f->n % PANEL) backward(f, full * PANEL, own, before, PANEL / 2);
+}

@@ -1,0 +1,278 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solve/blocks_tree.h"
+
+#include <string.h>
+
+#include "base/alloc.h"
+#include "solve/blocks_front.h"
+#include "solve/cholmod_adapter.h"
+
+/* A front's rows are nodes, ascending: those that it leaves (rest), then its own. */
+typedef struct piece {
+  uint32_t row;          /* where its list of rows begins */
+  uint32_t rest, own;    /* counts */
+  uint32_t child, other; /* its last child; the child before it of the same parent; NONE */
+  size_t before, stride; /* as in sw_front */
+  size_t factor;         /* where its factor begins */
+  size_t left;           /* where what it leaves stands, among what others left */
+} piece;
+
+#define NONE UINT32_MAX
+
+/* A block of the matrix, in the rows of the node eliminated first. */
+typedef struct entry {
+  uint32_t block;
+  uint32_t other;  /* its columns' number */
+  uint32_t turned; /* 1: the block stands the other way round */
+} entry;
+
+struct sw_tree {
+  size_t nodes, pieces;
+  const uint32_t *first, *column;
+  uint32_t *number;   /* (nodes) node -> its number */
+  uint32_t *node;     /* (nodes) number -> node */
+  piece *piece;       /* (pieces) as they are eliminated */
+  uint32_t *row;      /* numbers */
+  uint32_t *entries;  /* (nodes + 1) a number's first entry */
+  entry *entry;       /* (blocks) */
+  uint32_t *place;    /* (nodes) work: columns of a front by number */
+  double *factor, *kept, *scaled, *left, *x, *before;
+};
+
+void sw_tree_free(sw_tree *t) {
+  if (!t) return;
+  sw_free(t->number);
+  sw_free(t->piece);
+  sw_free(t->row);
+  sw_free(t->entry);
+  sw_free(t->factor);
+  sw_free(t->scaled);
+  sw_free(t->left);
+  sw_free(t->x);
+  sw_free(t);
+}
+
+/* --- analysis ------------------------------------------------------------------- */
+
+/* Rows turned round, and who is whose child. */
+static void find_pieces(sw_tree *t, const sw_cholmod_plan *plan) {
+  const uint32_t last = (uint32_t)t->nodes - 1;
+  uint32_t *owner = t->place; /* of each number */
+  for (size_t k = 0; k < t->nodes; k++) {
+    t->node[last - k] = plan->order[k];
+    t->number[plan->order[k]] = last - (uint32_t)k;
+  }
+  for (uint32_t s = 0; s < t->pieces; s++) {
+    piece *p = t->piece + s;
+    const uint32_t rows = plan->start[s + 1] - plan->start[s];
+    p->row = plan->start[s], p->own = plan->pivot[s + 1] - plan->pivot[s];
+    p->rest = rows - p->own;
+    p->child = p->other = NONE;
+    for (uint32_t k = 0; k < rows; k++)
+      t->row[p->row + k] = last - plan->row[p->row + rows - 1 - k];
+    for (uint32_t k = plan->pivot[s]; k < plan->pivot[s + 1]; k++) owner[last - k] = s;
+  }
+  for (uint32_t s = 0; s < t->pieces; s++) {
+    piece *p = t->piece + s;
+    if (!p->rest) continue;
+    piece *parent = t->piece + owner[t->row[p->row + p->rest - 1]];
+    p->other = parent->child, parent->child = s;
+  }
+}
+
+static void find_entries(sw_tree *t) {
+  uint32_t *start = t->entries;
+  for (size_t i = 0; i < t->nodes; i++)
+    for (uint32_t k = t->first[i]; k < t->first[i + 1]; k++) {
+      const uint32_t a = t->number[i], b = t->number[t->column[k]];
+      start[(a > b ? a : b) + 1]++;
+    }
+  for (size_t i = 0; i < t->nodes; i++) start[i + 1] += start[i], t->place[i] = start[i];
+  for (size_t i = 0; i < t->nodes; i++)
+    for (uint32_t k = t->first[i]; k < t->first[i + 1]; k++) {
+      const uint32_t a = t->number[i], b = t->number[t->column[k]];
+      t->entry[t->place[a > b ? a : b]++] = (entry){k, a > b ? b : a, b > a};
+    }
+}
+
+/* Sizes of all memory [doubles]. */
+typedef struct sizes {
+  size_t factor, scaled, left, before;
+} sizes;
+
+/* What is left stands on two stacks, by turns from parent to child: so a front's own part can
+ * be added to while its children's are read. Both are walked here once, since all is known. */
+static void lay_out(sw_tree *t, sizes *size) {
+  size_t top[2] = {0, 0}, most[2] = {0, 0};
+  uint32_t *turn = t->place;
+  for (size_t s = t->pieces; s-- > 0;) /* parents come after children */
+    for (uint32_t c = t->piece[s].child; c != NONE; c = t->piece[c].other) turn[c] = !turn[s];
+  for (size_t s = 0; s < t->pieces; s++) {
+    piece *p = t->piece + s;
+    p->before = sw_front_pad(3 * (size_t)p->rest);
+    p->stride = (p->before + sw_front_pad(3 * (size_t)p->own)) | SW_FRONT_TILE; /* spares cache sets */
+    p->factor = size->factor;
+    size->factor += 3 * p->own * p->stride;
+    if (3 * p->own * p->stride > size->scaled) size->scaled = 3 * p->own * p->stride;
+    if (p->before > size->before) size->before = p->before;
+    size_t *mine = top + turn[s], *theirs = top + !turn[s];
+    p->left = *mine;
+    *mine += 3 * p->rest * p->before;
+    if (*mine > most[turn[s]]) most[turn[s]] = *mine;
+    for (uint32_t c = p->child; c != NONE; c = t->piece[c].other) *theirs = t->piece[c].left;
+  }
+  for (size_t s = 0; s < t->pieces; s++) t->piece[s].left += turn[s] ? most[0] : 0;
+  size->left = most[0] + most[1];
+}
+
+static sw_status build(sw_tree *t, const sw_cholmod_plan *plan) {
+  const size_t n = t->nodes;
+  sizes size = {0, 0, 0, 0};
+  t->pieces = plan->fronts;
+  t->number = sw_alloc(4 * n + 1, sizeof *t->number);
+  t->piece = sw_alloc(t->pieces, sizeof *t->piece);
+  t->row = sw_alloc(plan->start[t->pieces], sizeof *t->row);
+  t->entry = sw_alloc(t->first[n], sizeof *t->entry);
+  if (!t->number || !t->piece || !t->row || !t->entry) return SW_ENOMEM;
+  t->node = t->number + n, t->place = t->node + n, t->entries = t->place + n;
+  find_pieces(t, plan);
+  find_entries(t);
+  memset(t->place, 0, n * sizeof *t->place);
+  lay_out(t, &size);
+  /* tiles may be read beyond the last row */
+  t->factor = sw_alloc(size.factor + SW_FRONT_TILE + 3 * n * SW_FRONT_KEPT, sizeof *t->factor);
+  t->scaled = sw_alloc(size.scaled + SW_FRONT_TILE, sizeof *t->scaled);
+  t->left = sw_alloc(size.left, sizeof *t->left);
+  t->x = sw_alloc(3 * n + SW_FRONT_TILE + size.before, sizeof *t->x);
+  if (!t->factor || !t->scaled || !t->left || !t->x) return SW_ENOMEM;
+  t->kept = t->factor + size.factor + SW_FRONT_TILE;
+  t->before = t->x + 3 * n + SW_FRONT_TILE;
+  return SW_OK;
+}
+
+sw_status sw_tree_new(size_t nodes, const uint32_t *first, const uint32_t *column, sw_tree **out) {
+  sw_cholmod_plan plan = {0};
+  SW_TRY(sw_cholmod_analyse(nodes, first, column, &plan));
+  sw_tree *t = sw_alloc(1, sizeof *t);
+  sw_status status = SW_ENOMEM;
+  if (t) {
+    t->nodes = nodes, t->first = first, t->column = column;
+    status = build(t, &plan);
+  }
+  sw_cholmod_free_plan(&plan);
+  if (status == SW_OK)
+    *out = t;
+  else
+    sw_tree_free(t);
+  return status;
+}
+
+/* --- factorisation --------------------------------------------------------------- */
+
+static sw_front front_of(const sw_tree *t, const piece *p) {
+  return (sw_front){.n = 3 * p->own,
+                    .before = p->before,
+                    .place = p->before,
+                    .stride = p->stride,
+                    .a = t->factor + p->factor,
+                    .factor = t->factor + p->factor,
+                    .kept = t->kept + 3 * (size_t)t->row[p->row + p->rest] * SW_FRONT_KEPT,
+                    .scaled = t->scaled};
+}
+
+/* Columns of a front's nodes. */
+static void find_places(const sw_tree *t, const piece *p) {
+  const uint32_t *row = t->row + p->row;
+  for (uint32_t k = 0; k < p->rest; k++) t->place[row[k]] = 3 * k;
+  for (uint32_t k = 0; k < p->own; k++) t->place[row[p->rest + k]] = (uint32_t)p->before + 3 * k;
+}
+
+/* The matrix's part of a front's own rows. */
+static void add_entries(const sw_tree *t, const piece *p, const double *values,
+                        const unsigned char *fixed) {
+  for (uint32_t k = 0; k < p->own; k++) {
+    const uint32_t number = t->row[p->row + p->rest + k], node = t->node[number];
+    double *row = t->factor + p->factor + 3 * (size_t)k * p->stride;
+    const int out = fixed && fixed[node];
+    for (uint32_t e = t->entries[number]; e < t->entries[number + 1]; e++) {
+      const entry *at = t->entry + e;
+      const double *from = values + 9 * (size_t)at->block;
+      double *to = row + t->place[at->other];
+      const int own = at->other == number, turned = (int)at->turned;
+      if (!own && (out || (fixed && fixed[t->node[at->other]]))) continue;
+      for (int i = 0; i < 3; i++, to += p->stride)
+        for (int j = 0; j < (own ? i + 1 : 3); j++)
+          to[j] += own && out ? i == j : from[turned ? 3 * j + i : 3 * i + j];
+    }
+  }
+}
+
+/* One row of what a child left, up to its node number k, to where its nodes are in the parent. */
+static inline void add_row(const uint32_t *places, uint32_t k, const double *from, double *to) {
+  for (uint32_t j = 0; j <= k;) {
+    const uint32_t begin = j, place = places[j];
+    while (++j <= k && places[j] == place + 3 * (j - begin)) {
+    }
+    const size_t count = 3 * (size_t)(j - begin);
+    for (size_t c = 0; c < count; c++) to[place + c] += (from + 3 * (size_t)begin)[c];
+  }
+}
+
+/* places: work, a column a node. */
+static void add_child(const sw_tree *t, const piece *p, const piece *child, uint32_t *places) {
+  const uint32_t *row = t->row + child->row;
+  const double *from = t->left + child->left;
+  for (uint32_t k = 0; k < child->rest; k++) places[k] = t->place[row[k]];
+  for (uint32_t k = 0; k < child->rest; k++) {
+    const int own = places[k] >= p->before;
+    const size_t stride = own ? p->stride : p->before;
+    double *to = own ? t->factor + p->factor + (places[k] - p->before) * stride
+                     : t->left + p->left + places[k] * stride;
+    for (int i = 0; i < 3; i++, from += child->before, to += stride) add_row(places, k, from, to);
+  }
+}
+
+sw_status sw_tree_factor(sw_tree *t, const double *values, const unsigned char *fixed,
+                         size_t *negative) {
+  size_t count = 0, bad = 0;
+  for (size_t s = 0; s < t->pieces && !bad; s++) {
+    const piece *p = t->piece + s;
+    sw_front f = front_of(t, p);
+    double *left = t->left + p->left;
+    memset(f.factor, 0, f.n * f.stride * sizeof *f.factor);
+    memset(left, 0, 3 * p->rest * p->before * sizeof *left);
+    find_places(t, p);
+    add_entries(t, p, values, fixed);
+    for (uint32_t c = p->child; c != NONE; c = t->piece[c].other)
+      add_child(t, p, t->piece + c, (uint32_t *)(void *)t->scaled);
+    sw_front_eliminate(&f);
+    sw_front_contribute(&f, left, 3 * (size_t)p->rest);
+    count += f.negative, bad += f.bad;
+  }
+  if (negative) *negative = count;
+  return bad ? SW_ESINGULAR : SW_OK;
+}
+
+void sw_tree_solve(const sw_tree *t, double *x) {
+  double *z = t->x, *before = t->before;
+  for (size_t k = 0; k < t->nodes; k++) memcpy(z + 3 * k, x + 3 * (size_t)t->node[k], 3 * sizeof *x);
+  for (size_t s = 0; s < t->pieces; s++) {
+    const piece *p = t->piece + s;
+    const sw_front f = front_of(t, p);
+    const uint32_t *row = t->row + p->row;
+    memset(before, 0, p->before * sizeof *before);
+    sw_front_forward(&f, z + 3 * (size_t)row[p->rest], before);
+    for (size_t k = 0; k < p->rest; k++)
+      for (size_t c = 0; c < 3; c++) z[3 * (size_t)row[k] + c] += before[3 * k + c];
+  }
+  for (size_t s = t->pieces; s-- > 0;) {
+    const piece *p = t->piece + s;
+    const sw_front f = front_of(t, p);
+    const uint32_t *row = t->row + p->row;
+    memset(before, 0, p->before * sizeof *before);
+    for (size_t k = 0; k < p->rest; k++)
+      memcpy(before + 3 * k, z + 3 * (size_t)row[k], 3 * sizeof *z);
+    sw_front_backward(&f, z + 3 * (size_t)row[p->rest], before);
+  }
+  for (size_t k = 0; k < t->nodes; k++) memcpy(x + 3 * (size_t)t->node[k], z + 3 * k, 3 * sizeof *x);
+}
