@@ -28,6 +28,7 @@ enum { SW_WEB_SOLID_NODES = 8 }; /* most of one solid element [-] */
 /* Corners of a solid element; what else it is lies in the web's shapes. */
 typedef struct sw_web_solid {
   uint32_t count; /* [-] */
+  uint32_t shape; /* which one of these it has */
   uint32_t node[SW_WEB_SOLID_NODES];
 } sw_web_solid;
 
@@ -42,7 +43,8 @@ typedef struct sw_web {
   size_t folds;
   sw_web_solid *solid;
   size_t solids;
-  void *shapes;                     /* (solids) prepared by the force that they have, or NULL */
+  size_t shape_count;
+  void *shapes;                     /* (shape_count) prepared by the force of the solids, or NULL */
   size_t *ring_links, *ring_solids; /* (rings + 1) where those begin that start at each ring */
   double *mass;                     /* (particles) [kg] */
   double *s;                        /* (particles) arc length [m] */
@@ -51,6 +53,7 @@ typedef struct sw_web {
   uint32_t *around;                 /* (around_count) of a section's surface, in their order */
   size_t around_count;
   uint32_t axis;        /* a section's particle on the axis; per_ring: there is none */
+  double solid_rate2;   /* the same of the solid elements [1/s2] */
   double rate2;         /* most of twice the springs of a particle over its mass [1/s2] */
   double skin;          /* distance of the surface from the particles there [m] */
   unsigned char *outer; /* (particles) 1: at the surface */

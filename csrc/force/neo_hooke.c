@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Solid elements between the particles of a web: the compressible neo-Hookean body of
+ * force/solid.h, prisms and hexahedra. Its second derivative is exact; iterations that would not
+ * converge take one without negative eigenvalues. Steps are kept so short that no element turns
+ * inside out; one that was put so is pushed back. */
+#include <math.h>
+
+#include "force/force.h"
+#include "force/solid.h"
+
+static void gather(const sw_web_solid *s, const double *x, double *out) {
+  for (uint32_t i = 0; i < s->count; i++)
+    for (size_t k = 0; k < 3; k++) out[3 * i + k] = x[3 * (size_t)s->node[i] + k];
+}
+
+static void add_stiffness(const sw_web_solid *s, const double *H, const size_t *slot, sw_field *f) {
+  const size_t n = 3 * s->count;
+  for (uint32_t i = 0; i < s->count; i++) {
+    double *own = f->blocks + f->own_slot[s->node[i]];
+    for (size_t r = 0; r < 3; r++)
+      for (size_t c = 0; c < 3; c++) own[r * f->block_stride + c] += H[(3 * i + r) * n + 3 * i + c];
+    for (uint32_t j = 0; j < i; j++) /* the order of the slots: j before i */
+      sw_field_add_block(f, s->node[j], s->node[i], *slot++, H + 3 * j * n + 3 * i, n);
+  }
+}
+
+static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+  const sw_web *web = f->plan->web;
+  const unsigned want = f->want | (f->cautious ? SW_SOLID_SEMIDEFINITE : 0u);
+  double x[3 * SW_SOLID_NODES], g[3 * SW_SOLID_NODES], H[9 * SW_SOLID_NODES * SW_SOLID_NODES];
+  (void)args, (void)err;
+  for (size_t n = 0; n < web->solids; n++) {
+    const sw_web_solid *s = &web->solid[n];
+    const sw_solid *shape = (const sw_solid *)web->shapes + s->shape;
+    gather(s, f->x, x);
+    const double energy = sw_solid_eval(shape, x, want, g, H);
+    if (f->want & SW_WANT_ENERGY) f->energy += energy;
+    for (uint32_t i = 0; i < s->count && f->want & SW_WANT_FORCE; i++)
+      for (size_t k = 0; k < 3; k++) f->force[3 * (size_t)s->node[i] + k] -= g[3 * i + k];
+    if (f->want & SW_WANT_STIFFNESS)
+      add_stiffness(s, H, f->solid_slot + SW_FIELD_SOLID_PAIRS * n, f);
+  }
+  return SW_OK;
+}
+
+static double largest_share(const void *args, const sw_plan *plan, const double *x,
+                            const double *delta) {
+  const sw_web *web = plan->web;
+  double from[3 * SW_SOLID_NODES], move[3 * SW_SOLID_NODES], share = 1.0;
+  (void)args;
+  for (size_t n = 0; n < web->solids; n++) {
+    const sw_web_solid *s = &web->solid[n];
+    gather(s, x, from);
+    gather(s, delta, move);
+    share = fmin(share, sw_solid_step((const sw_solid *)web->shapes + s->shape, from, move));
+  }
+  return share;
+}
+
+static double stable_dt(const void *args, const sw_plan *plan) {
+  (void)args;
+  return plan->web->solid_rate2 > 0 ? 2.0 / sqrt(plan->web->solid_rate2) : HUGE_VAL;
+}
+
+const sw_force_class sw_force_neo_hooke = {
+    .name = "neo_hooke",
+    .summary = "solid elements between the particles of a mesh",
+    .stores = "solid",
+    .flags = SW_FORCE_INNER | SW_FORCE_ANY_BODY,
+    .params = {"force neo_hooke", NULL, 0},
+    .eval = eval,
+    .stable_dt = stable_dt,
+    .largest_share = largest_share,
+};
