@@ -7,6 +7,7 @@
  * softer (strands that slip bend easily but hardly untwist), diagonals carry a part of GJ, and
  * the least squares of the springs' fit find how much. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -245,16 +246,24 @@ static sw_status with_diagonals(task *t, sw_error *err) {
 
 static sw_status refuse(const task *t, sw_error *err) {
   const sw_calibration *c = t->c;
+  const double r = t->beam->radius, ratio = c->target[SW_TARGET_EI] / c->target[SW_TARGET_EA];
+  char advice[160];
   int worst = 0;
   for (int g = 1; g < SW_TARGETS; g++)
     if (fabs(c->residual[g]) > fabs(c->residual[worst])) worst = g;
+  if (ratio > 0.45 * r * r)
+    snprintf(advice, sizeof advice, "EI/EA = %.3g m2 is too near to half of radius^2 = %.3g m2",
+             ratio, r * r);
+  else
+    snprintf(advice, sizeof advice,
+             "make spacing = %.4g m less, or nu such that GJ is near EI/(1 + nu) = %.4g N m2",
+             c->lattice.spacing, c->target[SW_TARGET_EI] / (1 + c->nu));
   return sw_fail(err, SW_EINVAL,
                  "calibrate: no solid elements with nu = %.4g and springs of this mesh give %s = "
-                 "%.6g %s; the nearest have %.6g %s (%+.2g %%); make spacing = %.4g m less, or nu "
-                 "such that GJ is near EI/(1 + nu) = %.4g N m2, or use body = 'springs'",
+                 "%.6g %s; the nearest have %.6g %s (%+.2g %%); %s",
                  c->nu, sw_target_names[worst], c->target[worst], sw_target_units[worst],
                  sw_reached(&c->reached, worst), sw_target_units[worst], 100 * c->residual[worst],
-                 c->lattice.spacing, c->target[SW_TARGET_EI] / (1 + c->nu));
+                 advice);
 }
 
 sw_status sw_calibrate_solid(const sw_calibrate_args *args, const sw_section *section,

@@ -97,27 +97,30 @@ end
 
 local function settle(m, x)
   local iterations = 0
-  local energy, gradient, blocks, force = evaluate(m, x)
+  local energy, gradient, blocks = evaluate(m, x)
+  local force, largest
   repeat
     iterations = iterations + 1
     local move, negative = solve(m, gradient, blocks)
     if negative > 0 then
-      _, _, blocks = evaluate(m, x, true)
-      move = solve(m, gradient, blocks)
+      local _, _, definite = evaluate(m, x, true)
+      move = solve(m, gradient, definite)
     end
-    local share, slope, largest, trial, now = allowed(m, x, move), 0, 0, {}, nil
+    local share, slope, trial, now = allowed(m, x, move), 0, {}
+    largest = 0
     for p = 1, m.n do
       for i = 1, 2 do
         slope = slope + move[3 * (p - 1) + i] * gradient[2 * (p - 1) + i]
         largest = math.max(largest, math.abs(move[3 * (p - 1) + i]))
       end
     end
+    local good
     repeat
       for p = 1, m.n do
         for i = 1, 2 do trial[2 * p - 2 + i] = x[2 * p - 2 + i] + share * move[3 * p - 3 + i] end
       end
       now, gradient, blocks, force = evaluate(m, trial)
-      local good = now <= energy + 1e-4 * share * slope + 1e-12 * math.abs(energy)
+      good = now <= energy + 1e-4 * share * slope + 1e-12 * math.abs(energy)
       share = 0.5 * share
     until good or share < 1e-6
     x, energy = trial, now
