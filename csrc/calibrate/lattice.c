@@ -93,6 +93,23 @@ void sw_lattice_keep(sw_lattice *l, unsigned groups) {
   l->links = kept;
 }
 
+void sw_lattice_share(sw_lattice *l) {
+  double whole = 0;
+  memset(l->share, 0, l->particles * sizeof *l->share);
+  for (size_t m = 0; m < l->solids; m++) {
+    const sw_cell_solid *s = l->solid + m;
+    const int corners = s->nodes / 2;
+    double area = 0;
+    for (int a = 0; a < corners; a++) {
+      const double *p = l->at + 3 * s->particle[a], *q = l->at + 3 * s->particle[(a + 1) % corners];
+      area += 0.5 * (p[0] * q[1] - p[1] * q[0]);
+    }
+    for (int a = 0; a < corners; a++) l->share[s->particle[a]] += area / corners;
+    whole += area;
+  }
+  for (size_t i = 0; i < l->particles; i++) l->share[i] /= whole;
+}
+
 void sw_lattice_scale(sw_lattice *l, double scale) {
   for (size_t i = 0; i < l->particles; i++)
     for (size_t k = 0; k < 2; k++) l->at[3 * i + k] *= scale;

@@ -76,6 +76,9 @@ void sw_lattice_free(sw_lattice *lattice);
 void sw_lattice_drop_solids(sw_lattice *lattice);
 void sw_lattice_keep(sw_lattice *lattice, unsigned groups);
 
+/* Masses by the areas of the elements, each of which gives its corners equal parts. */
+void sw_lattice_share(sw_lattice *lattice);
+
 /* The section `scale` times as large. */
 void sw_lattice_scale(sw_lattice *lattice, double scale);
 

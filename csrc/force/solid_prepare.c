@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The element at rest: mean gradients, patterns of displacements that these do not see, and the
- * stiffness of the patterns, from which enhanced strains are condensed (Simo and Rifai 1990;
- * weighted with the ratio of the Jacobian at the middle to that at the point, so that their mean
- * is 0 and homogeneous strains do no work on the patterns). */
+ * stiffness of the patterns, from which enhanced strains are condensed (Simo and Rifai 1990).
+ * Their mean over the element is 0, so that homogeneous strains do no work on them. */
 #include <math.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A beam of finite length put together from a calibration's springs and solved by the general
+-- A beam of finite length put together from a calibration's springs and elements and solved by the general
 -- sparse solver: nothing in it knows of periodic cells. Both end slices are rigid.
 local core = require "softworld.core"
 
@@ -43,6 +43,29 @@ local function add_link(matrix, c, l, slice, M)
   element(matrix, { slice * M + l.from - 1, (slice + l.slices) * M + l.to - 1 }, { -1, 1 }, d, stiffness)
 end
 
+local function add_element(matrix, c, e, slice, M)
+  local rest = {}
+  for a, p in ipairs(e.particles) do
+    local at = c.particles[p]
+    rest[3 * a - 2], rest[3 * a - 1], rest[3 * a] = at[1], at[2], at[3] + e.slices[a] * c.spacing
+  end
+  local mu = 0.5 * c.modulus / (1 + c.nu)
+  local _, _, H = core.solid(rest, mu, 2 * mu * c.nu / (1 - 2 * c.nu), rest)
+  for a, p in ipairs(e.particles) do
+    for b, q in ipairs(e.particles) do
+      local key = ((slice + e.slices[a]) * M + p - 1) * matrix.count + (slice + e.slices[b]) * M + q - 1
+      local block = matrix.block[key] or { 0, 0, 0, 0, 0, 0, 0, 0, 0 }
+      matrix.block[key] = block
+      for i = 1, 3 do
+        for j = 1, 3 do
+          local at = 3 * (i - 1) + j
+          block[at] = block[at] + H[(3 * a + i - 4) * #rest + 3 * (b - 1) + j]
+        end
+      end
+    end
+  end
+end
+
 -- The stiffness matrix of slices 0 to n as blocks by node.
 local function assemble(c, n)
   local M = #c.particles
@@ -51,6 +74,7 @@ local function assemble(c, n)
     for _, l in ipairs(c.links) do
       if slice + (l.bend and 2 or l.slices) <= n then add_link(matrix, c, l, slice, M) end
     end
+    for _, e in ipairs(slice < n and c.elements or {}) do add_element(matrix, c, e, slice, M) end
   end
   return matrix
 end
