@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/alloc.h"
+
 static const double PI = 3.14159265358979323846;
 static const double OF_LIMIT = 0.6; /* of the largest spacing, when it is chosen [-] */
 
@@ -14,12 +16,12 @@ static const double NEAR = 1e-10; /* share of EA at which a radius is good [-] *
 static const double FADED = 0.02; /* of its first guess, below which a spring is gone [-] */
 enum { RADII = 12 };              /* tried at most [-] */
 
-static const char *const meshes[] = {"tube", "radial", "cubic", NULL};
+static const char *const meshes[] = {"tube", "radial", "cubic", "composite", NULL};
 
 #define AT(member) offsetof(sw_calibrate_args, member)
 static const sw_param rows[] = {
     {"mesh", SW_PARAM_CHOICE, "-", NAN, 0, 0, SW_PARAM_REQUIRED, meshes, AT(mesh),
-     "how the particles lie: rings, layers and sectors, or voxels"},
+     "how the particles lie: rings, layers and sectors, voxels, or a shell around cores"},
     {"spacing", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(spacing),
      "of slices along the wire (chosen when not given; that of cubic makes cubes)"},
     {"squeeze", SW_PARAM_NUMBER, "Pa", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(squeeze),
@@ -32,12 +34,13 @@ static const sw_param rows[] = {
 const sw_params sw_calibrate_params = SW_PARAMS("calibrate", rows);
 
 const sw_params *sw_lattice_params(int mesh) {
-  static const sw_params *const all[] = {&sw_tube_params, &sw_radial_params, &sw_cubic_params};
+  static const sw_params *const all[] = {&sw_tube_params, &sw_radial_params, &sw_cubic_params,
+                                         &sw_composite_params};
   return all[mesh];
 }
 
 void *sw_lattice_place(sw_lattice_args *args, int mesh) {
-  void *const all[] = {&args->tube, &args->radial, &args->cubic};
+  void *const all[] = {&args->tube, &args->radial, &args->cubic, &args->composite};
   return all[mesh];
 }
 
@@ -269,6 +272,8 @@ sw_status sw_calibrate(const sw_calibrate_args *args, const sw_section *section,
   out->mass_per_length =
       isnan(section->mass_per_length) && isnan(section->density) ? (double)NAN : beam.mass;
   set_targets(args, &beam, mesh, out->target);
+  if (args->mesh == SW_LATTICE_COMPOSITE)
+    return sw_calibrate_composite(args, section, &beam, &mesh->composite, out, err);
   if (args->mesh == SW_LATTICE_TUBE && !mesh->tube.core && isnan(mesh->tube.ring_radius))
     SW_TRY(find_radius(args, section, &beam, mesh, out, err));
   else
@@ -276,4 +281,7 @@ sw_status sw_calibrate(const sw_calibrate_args *args, const sw_section *section,
   return check_reached(args, mesh, &beam, out, err);
 }
 
-void sw_calibration_free(sw_calibration *c) { sw_lattice_free(&c->lattice); }
+void sw_calibration_free(sw_calibration *c) {
+  sw_lattice_free(&c->lattice);
+  sw_free(c->composite.slide);
+}
