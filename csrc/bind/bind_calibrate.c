@@ -72,7 +72,7 @@ static void add_slides(lua_State *L, const sw_calibration *c) {
     lua_setfield(L, -2, "group");
     lsw_set_number(L, "gap", slide->gap);
     lsw_set_vector(L, "direction", sw_unit_or(away, sw_v(0, 0, 0)));
-    lua_rawseti(L, -2, (lua_Integer)(c->lattice.links + m + 1));
+    lua_rawseti(L, -2, (lua_Integer)c->lattice.links + (lua_Integer)m + 1);
   }
   lua_pop(L, 1);
 }
@@ -110,9 +110,9 @@ static void set_composite(lua_State *L, const sw_calibration *c) {
   lua_setfield(L, -2, "part");
 }
 
-/* A link without stiffness is not a spring, but has its group. */
-static int has_group(const sw_calibration *c, int g) {
-  return c->links[g] || (g == SW_GROUP_BOND && c->composite.slides);
+/* Pairs that slide are not springs, but have their group. */
+static size_t count_of(const sw_calibration *c, int g) {
+  return c->links[g] + (g == SW_GROUP_BOND ? c->composite.slides : 0);
 }
 
 static void set_particles(lua_State *L, const sw_calibration *c) {
@@ -146,11 +146,11 @@ static int push_calibration(lua_State *L) {
   lua_setfield(L, -2, "residuals");
   lua_newtable(L);
   for (int g = 0; g < SW_GROUPS; g++)
-    if (has_group(c, g)) lsw_set_number(L, sw_group_names[g], c->k[g]);
+    if (count_of(c, g)) lsw_set_number(L, sw_group_names[g], c->k[g]);
   lua_setfield(L, -2, "springs");
   lua_newtable(L);
   for (int g = 0; g < SW_GROUPS; g++)
-    if (has_group(c, g)) lsw_set_integer(L, sw_group_names[g], c->links[g]);
+    if (count_of(c, g)) lsw_set_integer(L, sw_group_names[g], count_of(c, g));
   lua_setfield(L, -2, "count");
   if (c->composite.cores) set_composite(L, c);
   return 1;

@@ -11,6 +11,7 @@
 
 static const double PI = 3.14159265358979323846;
 static const double OF_LIMIT = 0.6; /* of the largest spacing, when it is chosen [-] */
+static const double LONGEST = 0.55; /* spacing over the ring's radius, when it is chosen [-] */
 static const double FADED = 0.02;   /* of its first guess, below which a spring is gone [-] */
 static const double CARRIED = 0.1;  /* of the lesser EA, by bonds from slice to slice [-] */
 static const double DEFINITE = 0.2; /* least of a divisor that is trusted [-] */
@@ -108,10 +109,14 @@ static sw_status check_parts(const plan *p, sw_error *err) {
 }
 
 /* A ring that is not in the wall is not the shell's. */
+static int is_in_wall(const plan *p, double R) {
+  const double room = 1e-9 * p->place->radius;
+  return R >= p->place->bore - room && R <= p->place->radius + room;
+}
+
 static sw_status check_wall(const plan *p, double R, sw_error *err) {
   const sw_composite *c = p->place;
-  const double room = 1e-9 * c->radius;
-  if (R >= c->bore - room && R <= c->radius + room) return SW_OK;
+  if (is_in_wall(p, R)) return SW_OK;
   const double a = left_by_ring(p, c->bore), b = left_by_ring(p, c->radius);
   return sw_fail(err, SW_EINVAL,
                  "calibrate: with core_EA = %.6g N and core_EI = %.6g N m2 the shell's particles "
@@ -144,7 +149,7 @@ static double core_limit(const plan *p) {
 static double choose_spacing(const plan *p) {
   const sw_composite *c = p->place;
   const sw_composite_args *a = p->given;
-  double h = 2 * c->ring_radius * sin(PI / (double)c->ring);
+  double h = fmin(2 * sin(PI / (double)c->ring), LONGEST) * c->ring_radius;
   const double most = OF_LIMIT * shell_limit(p);
   if (!isnan(p->args->spacing)) return p->args->spacing;
   if (most > 1e-6 * h) h = fmin(h, most); /* 0: a reach that the tube refuses */
@@ -228,7 +233,7 @@ static void set_bonds(const plan *p, sw_calibration *out) {
       length += own, count++;
   }
   const double base = p->shell.EA / (h * (double)p->place->ring), mean = length / count;
-  const double usual = base * h * h / (mean * mean);
+  const double usual = base * h / mean;
   const double inclined = fmin(1, CARRIED * both / (carried * usual));
   for (size_t m = 0; m < l->links; m++)
     if (l->link[m].group == SW_GROUP_BOND && l->link[m].slices) l->link[m].weight = inclined;
@@ -270,10 +275,15 @@ static sw_status check_whole(const plan *p, const sw_calibration *out, sw_error 
   for (int t = 0; t < 3; t++)
     if (!(fabs(out->residual[targets[t]]) <= fabs(out->residual[worst]))) worst = targets[t];
   if (p->args->tolerance == 1) return SW_OK;
-  if (fabs(out->residual[worst]) <= p->args->tolerance)
-    return check_wall(p, p->place->ring_radius, err);
+  const double h = out->lattice.spacing, most = shell_limit(p), R = p->place->ring_radius;
+  const int near = fabs(out->residual[worst]) <= p->args->tolerance;
+  if (near && (h < OF_LIMIT * most || is_in_wall(p, R))) return check_wall(p, R, err);
   char text[200];
-  const double h = out->lattice.spacing, most = shell_limit(p);
+  if (near)
+    return sw_fail(err, SW_EINVAL,
+                   "calibrate: with spacing = %.4g m the shell's particles would be at %.4g m, "
+                   "outside of its wall from %.4g m to %.4g m: make spacing less than about %.4g m",
+                   h, R, p->place->bore, p->place->radius, OF_LIMIT * most);
   if (h > 0.85 * most)
     snprintf(text, sizeof text,
              "the diagonals that GJ needs bend too stiffly: make spacing = %.4g m less than about "
