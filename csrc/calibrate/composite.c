@@ -175,6 +175,8 @@ static sw_status check_core(const plan *p, const sw_calibration *core, sw_error 
   if (h > 0.85 * core_limit(p))
     snprintf(text, sizeof text, "make spacing = %.4g m less than about %.4g m", h,
              0.8 * core_limit(p));
+  else if (p->given->core == SW_CORE_CUBIC && sw_core_across(p->given, p->place) < 2)
+    snprintf(text, sizeof text, "make core_across = 1 more");
   else
     snprintf(text, sizeof text,
              "core_EI/core_EA is %.3g m2 and that of a solid core of this radius %.3g m2: change "

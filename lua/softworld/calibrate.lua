@@ -48,12 +48,12 @@ function Calibration.__tostring(c)
   for _, t in ipairs(targets) do
     local off = c.residuals[t[1]]
     if off then
-      lines[#lines + 1] = ("  %-13s %12.6g %-5s %+.1e of it off"):format(t[1], c[t[1]], t[2], off)
+      lines[#lines + 1] = ("  %-17s %12.6g %-5s %+.1e of it off"):format(t[1], c[t[1]], t[2], off)
     end
   end
   for _, group in ipairs(order) do
     if c.springs[group] then
-      lines[#lines + 1] = ("  %-13s %12.6g %-5s %d links"):format(group, c.springs[group],
+      lines[#lines + 1] = ("  %-17s %12.6g %-5s %d links"):format(group, c.springs[group],
         group:find "bend" and "N m" or "N/m", c.count[group])
     end
   end

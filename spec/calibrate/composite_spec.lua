@@ -370,6 +370,7 @@ describe("a composite tells", function()
   it("which target cannot be reached, and what helps", function()
     refused(with(WIRE, { core_EA = 0.01 * EA }), "no springs of the core give core_EA = 78.5398 N",
       "core_EI/core_EA is 8.1e-05 m2 and that of a solid core of this radius 2.25e-06 m2")
+    refused(with(WIRE, { core = "cubic", core_across = 1 }), "make core_across = 1 more")
     refused(with(WIRE, { spacing = 0.008 }), "make spacing = 0.008 m less than about")
     refused(with(WIRE, { core = "line", spacing = 0.02 }), "with spacing = 0.02 m the shell's particles "
       .. "would be at", "make spacing less than about")
