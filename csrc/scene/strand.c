@@ -8,11 +8,23 @@
 #include "force/solid.h"
 #include "state/hinge.h"
 
-/* Particles at a surface are this far inside of it, so that what touches them has a side;
- * of the radius [-]. Solid elements have their section's own size. */
+/* Particles at a surface are this far inside of it, so that what touches them has a side; of the
+ * radius [-]. Solid elements have their section's own size, the ring of a composite's shell lies
+ * in its wall. */
 static const double SKIN = 0.1;
 
-static double skin_of(const sw_strand_plan *p) { return p->body == SW_BODY_SOLID ? 0.0 : SKIN; }
+static double inset(const sw_strand_plan *p) {
+  const int whole = p->body == SW_BODY_SOLID || strcmp(p->mesh, "composite") == 0;
+  return whole ? 0.0 : SKIN;
+}
+
+/* How far the surface is outside of the outermost particles. */
+static double skin_of(const sw_lattice *l, double radius) {
+  double most = 0;
+  for (size_t i = 0; i < l->particles; i++)
+    most = fmax(most, hypot(l->at[3 * i], l->at[3 * i + 1]));
+  return fmax(0.0, radius - most);
+}
 
 /* --- calibration -------------------------------------------------------------------- */
 
@@ -30,9 +42,14 @@ static sw_status calibrate(const sw_strand_plan *p, const sw_beam *beam, double 
   if (p->body == SW_BODY_SPRINGS) section.nu = (double)NAN;
   section.EA = beam->EA, section.EI = beam->EI_axis[0], section.GJ = beam->GJ;
   section.mass_per_length = beam->mass;
-  section.radius = (1.0 - skin_of(p)) * beam->radius;
+  section.radius = (1.0 - inset(p)) * beam->radius;
   if (section.EI2 > 0) lattice.cubic.EI2 = section.EI2;
   section.EI2 = (double)NAN;
+  if (args.mesh == SW_LATTICE_COMPOSITE && !lattice.composite.bonded)
+    return sw_fail(err, SW_EINVAL,
+                   "wire '%s': bonded = false is for sw.calibrate only; in a scene parts of a "
+                   "composite are bonded",
+                   p->name);
   const sw_status status = sw_calibrate(&args, &section, &lattice, out, &why);
   if (status == SW_OK) return SW_OK;
   const char *text = strncmp(why.text, "calibrate: ", 11) == 0 ? why.text + 11 : why.text;
@@ -308,7 +325,7 @@ sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const s
              .k = out->calibration.k,
              .strand = out};
   if (make(&m) != SW_OK) return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", plan->name);
-  out->web->skin = skin_of(plan) * beam->radius;
+  out->web->skin = skin_of(m.lattice, beam->radius);
   return SW_OK;
 }
 

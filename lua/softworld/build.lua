@@ -87,7 +87,7 @@ local function check_cable_words(args)
     wire_words = { from = true, to = true, path = true }
     local rows = core.registry().params
     for _, list in ipairs{ rows.wire, rows.section, rows.wire_mesh, rows.calibrate_tube,
-      rows.calibrate_radial, rows.calibrate_cubic } do
+      rows.calibrate_radial, rows.calibrate_cubic, rows.calibrate_composite } do
       for _, row in ipairs(list) do wire_words[row.name] = true end
     end
     for _, word in ipairs(cable_words) do wire_words[word] = true end
