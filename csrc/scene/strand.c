@@ -9,9 +9,9 @@
 #include "state/hinge.h"
 
 /* Particles at a surface are this far inside of it, so that what touches them has a side; of the
- * radius [-]. Solid elements have their section's own size, the ring of a composite's shell lies
- * in its wall. */
-static const double SKIN = 0.1;
+ * radius [-]. Solid elements have their section's own size, and the thinnest skin that keeps a
+ * particle out of what it touches; the ring of a composite's shell lies in its wall. */
+static const double SKIN = 0.1, THINNEST = 0.03;
 
 static double inset(const sw_strand_plan *p) {
   const int whole = p->body == SW_BODY_SOLID || strcmp(p->mesh, "composite") == 0;
@@ -23,7 +23,7 @@ static double skin_of(const sw_lattice *l, double radius) {
   double most = 0;
   for (size_t i = 0; i < l->particles; i++)
     most = fmax(most, hypot(l->at[3 * i], l->at[3 * i + 1]));
-  return fmax(0.0, radius - most);
+  return fmax(THINNEST * radius, radius - most);
 }
 
 /* --- calibration -------------------------------------------------------------------- */
