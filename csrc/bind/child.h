@@ -54,6 +54,12 @@ int lsw_scene_touches(lua_State *L);
 int lsw_scene_penetration(lua_State *L);
 int lsw_scene_contacts(lua_State *L);
 int lsw_wire_frequencies(lua_State *L);
+int lsw_wire_calibration(lua_State *L);
+/* wire:section(s), wire:width(s, direction), wire:contact_pressure([s]), wire:von_mises([s]) */
+int lsw_wire_section(lua_State *L);
+int lsw_wire_width(lua_State *L);
+int lsw_wire_contact_pressure(lua_State *L);
+int lsw_wire_von_mises(lua_State *L);
 
 /* While the core may call Lua functions as forces: they run on L, whose stack
  * index 1 is the scene. The value goes back to lsw_end_forces. */
