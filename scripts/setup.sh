@@ -22,7 +22,7 @@ build libgsl-dev       # steppers, splines, fits, eigenvalues
 build libccd-dev       # distance and overlap of convex hulls
 build libassimp-dev    # reads STL, OBJ, PLY and glTF meshes
 build libqhull-dev     # convex hulls of point sets
-build libsuitesparse-dev # order in which to eliminate, where wires touch
+build libsuitesparse-dev # order in which to eliminate sparse matrices
 build libreadline-dev  # the interactive prompt
 run   gnuplot-nox      # charts
 run   povray           # ray-traced pictures

@@ -75,6 +75,69 @@ static void set_elements(lua_State *L, const sw_lattice *l) {
   lua_setfield(L, -2, "elements");
 }
 
+/* Pairs that slide on each other as links without stiffness, after the springs. */
+static void add_slides(lua_State *L, const sw_calibration *c) {
+  lua_getfield(L, -1, "links");
+  for (size_t m = 0; m < c->composite.slides; m++) {
+    const sw_slide *slide = c->composite.slide + m;
+    const sw_vec from = sw_vec_at(c->lattice.at, slide->from);
+    const sw_vec away = sw_sub(sw_vec_at(c->lattice.at, slide->to), from);
+    lua_createtable(L, 0, 9);
+    lsw_set_integer(L, "from", slide->from + 1);
+    lsw_set_integer(L, "to", slide->to + 1);
+    lsw_set_integer(L, "slices", 0);
+    lsw_set_number(L, "weight", 0);
+    lua_pushboolean(L, 0);
+    lua_setfield(L, -2, "bend");
+    lua_pushboolean(L, 1);
+    lua_setfield(L, -2, "slide");
+    lua_pushstring(L, sw_group_names[SW_GROUP_BOND]);
+    lua_setfield(L, -2, "group");
+    lsw_set_number(L, "gap", slide->gap);
+    lsw_set_vector(L, "direction", sw_unit_or(away, sw_v(0, 0, 0)));
+    lua_rawseti(L, -2, (lua_Integer)c->lattice.links + (lua_Integer)m + 1);
+  }
+  lua_pop(L, 1);
+}
+
+/* EA, EI and GJ of a part, under its name. */
+static void set_part(lua_State *L, const char *name, const sw_cell_result *r) {
+  lua_createtable(L, 0, 3);
+  lsw_set_number(L, "EA", sw_reached(r, SW_TARGET_EA));
+  lsw_set_number(L, "EI", sw_reached(r, SW_TARGET_EI));
+  lsw_set_number(L, "GJ", sw_reached(r, SW_TARGET_GJ));
+  lua_setfield(L, -2, name);
+}
+
+/* Where parts are and what each is by itself; part 0 is the shell, 1 the first core. */
+static void set_composite(lua_State *L, const sw_calibration *c) {
+  const sw_composite *place = &c->composite;
+  add_slides(L, c);
+  set_part(L, "shell", &place->shell);
+  set_part(L, "core", &place->core);
+  lsw_set_number(L, "bore", place->bore);
+  lsw_set_number(L, "core_radius", place->core_radius);
+  lsw_set_number(L, "ring_radius", place->ring_radius);
+  lua_createtable(L, (int)place->cores, 0);
+  for (size_t i = 0; i < place->cores; i++) {
+    lsw_push_vector(L, place->centre[i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  lua_setfield(L, -2, "centres");
+  lua_createtable(L, (int)c->lattice.particles, 0);
+  for (size_t i = 0; i < c->lattice.particles; i++) {
+    const size_t part = i < place->ring ? 0 : 1 + (i - place->ring) / place->each;
+    lua_pushinteger(L, (lua_Integer)part);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  lua_setfield(L, -2, "part");
+}
+
+/* Pairs that slide are not springs, but have their group. */
+static size_t count_of(const sw_calibration *c, int g) {
+  return c->links[g] + (g == SW_GROUP_BOND ? c->composite.slides : 0);
+}
+
 static void set_particles(lua_State *L, const sw_calibration *c) {
   const double mass = c->mass_per_length * c->lattice.spacing;
   lua_createtable(L, (int)c->lattice.particles, 0);
@@ -96,7 +159,7 @@ static void set_particles(lua_State *L, const sw_calibration *c) {
 
 static int push_calibration(lua_State *L) {
   const sw_calibration *c = lua_touserdata(L, 1);
-  lua_createtable(L, 0, 16);
+  lua_createtable(L, 0, 24);
   set_beam(L, &c->reached);
   set_links(L, &c->lattice);
   set_particles(L, c);
@@ -112,12 +175,13 @@ static int push_calibration(lua_State *L) {
   lua_setfield(L, -2, "residuals");
   lua_newtable(L);
   for (int g = 0; g < SW_GROUPS; g++)
-    if (c->links[g] && g != SW_GROUP_SOLID) lsw_set_number(L, sw_group_names[g], c->k[g]);
+    if (count_of(c, g) && g != SW_GROUP_SOLID) lsw_set_number(L, sw_group_names[g], c->k[g]);
   lua_setfield(L, -2, "springs");
   lua_newtable(L);
   for (int g = 0; g < SW_GROUPS; g++)
-    if (c->links[g]) lsw_set_integer(L, sw_group_names[g], c->links[g]);
+    if (count_of(c, g)) lsw_set_integer(L, sw_group_names[g], count_of(c, g));
   lua_setfield(L, -2, "count");
+  if (c->composite.cores) set_composite(L, c);
   return 1;
 }
 

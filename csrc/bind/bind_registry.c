@@ -103,7 +103,8 @@ static void params(lua_State *L) {
                 {"calibrate", &sw_calibrate_params},
                 {"calibrate_tube", &sw_tube_params},
                 {"calibrate_radial", &sw_radial_params},
-                {"calibrate_cubic", &sw_cubic_params}};
+                {"calibrate_cubic", &sw_cubic_params},
+                {"calibrate_composite", &sw_composite_params}};
   for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++) {
     lsw_push_params(L, tables[i].params);
     lua_setfield(L, -2, tables[i].name);

@@ -81,6 +81,7 @@ static size_t mesh_sections(const sw_wire_class *cls, sw_wire_mesh_args *mesh, l
   sw_params_default(&sw_tube_params, &mesh->lattice.tube);
   sw_params_default(&sw_radial_params, &mesh->lattice.radial);
   sw_params_default(&sw_cubic_params, &mesh->lattice.cubic);
+  sw_params_default(&sw_composite_params, &mesh->lattice.composite);
   if (!cls->mesh) return 0;
   const int kind = sw_calibrate_mesh(cls->mesh);
   out[0] = (lsw_section){&sw_wire_mesh_params, mesh};

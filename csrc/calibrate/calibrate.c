@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/alloc.h"
 #include "calibrate/calibrate_inner.h"
 
 static const double PI = 3.14159265358979323846;
@@ -16,13 +17,13 @@ static const double NEAR = 1e-10; /* share of EA at which a radius is good [-] *
 static const double FADED = 0.02; /* of its first guess, below which a spring is gone [-] */
 enum { RADII = 12 };              /* tried at most [-] */
 
-static const char *const meshes[] = {"tube", "radial", "cubic", NULL};
+static const char *const meshes[] = {"tube", "radial", "cubic", "composite", NULL};
 static const char *const bodies[] = {"springs", "solid", NULL};
 
 #define AT(member) offsetof(sw_calibrate_args, member)
 static const sw_param rows[] = {
     {"mesh", SW_PARAM_CHOICE, "-", NAN, 0, 0, SW_PARAM_REQUIRED, meshes, AT(mesh),
-     "how the particles lie: rings, layers and sectors, or voxels"},
+     "how the particles lie: rings, layers and sectors, voxels, or a shell around cores"},
     {"spacing", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(spacing),
      "of slices along the wire (chosen when not given; that of cubic makes cubes)"},
     {"squeeze", SW_PARAM_NUMBER, "Pa", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(squeeze),
@@ -44,12 +45,13 @@ int sw_calibrate_mesh(const char *name) {
 }
 
 const sw_params *sw_lattice_params(int mesh) {
-  static const sw_params *const all[] = {&sw_tube_params, &sw_radial_params, &sw_cubic_params};
+  static const sw_params *const all[] = {&sw_tube_params, &sw_radial_params, &sw_cubic_params,
+                                         &sw_composite_params};
   return all[mesh];
 }
 
 void *sw_lattice_place(sw_lattice_args *args, int mesh) {
-  void *const all[] = {&args->tube, &args->radial, &args->cubic};
+  void *const all[] = {&args->tube, &args->radial, &args->cubic, &args->composite};
   return all[mesh];
 }
 
@@ -283,6 +285,12 @@ sw_status sw_calibrate(const sw_calibrate_args *args, const sw_section *section,
       isnan(section->mass_per_length) && isnan(section->density) ? (double)NAN : beam.mass;
   out->scale = 1;
   set_targets(args, &beam, mesh, out->target);
+  if (args->mesh == SW_LATTICE_COMPOSITE && args->body == SW_BODY_SOLID)
+    return sw_fail(err, SW_EINVAL,
+                   "calibrate: body = 'solid' does not go with mesh = 'composite', which is of "
+                   "springs; give radial or cubic");
+  if (args->mesh == SW_LATTICE_COMPOSITE)
+    return sw_calibrate_composite(args, section, &beam, &mesh->composite, out, err);
   if (args->body == SW_BODY_SOLID) return sw_calibrate_solid(args, section, &beam, mesh, out, err);
   if (args->mesh == SW_LATTICE_TUBE && !mesh->tube.core && isnan(mesh->tube.ring_radius))
     SW_TRY(find_radius(args, section, &beam, mesh, out, err));
@@ -291,4 +299,7 @@ sw_status sw_calibrate(const sw_calibrate_args *args, const sw_section *section,
   return check_reached(args, mesh, &beam, out, err);
 }
 
-void sw_calibration_free(sw_calibration *c) { sw_lattice_free(&c->lattice); }
+void sw_calibration_free(sw_calibration *c) {
+  sw_lattice_free(&c->lattice);
+  sw_free(c->composite.slide);
+}

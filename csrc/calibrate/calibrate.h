@@ -6,10 +6,11 @@
 
 #include "base/param.h"
 #include "calibrate/cell.h"
+#include "calibrate/composite.h"
 #include "calibrate/lattice.h"
 #include "wire/wire.h"
 
-enum { SW_LATTICE_TUBE, SW_LATTICE_RADIAL, SW_LATTICE_CUBIC };
+enum { SW_LATTICE_TUBE, SW_LATTICE_RADIAL, SW_LATTICE_CUBIC, SW_LATTICE_COMPOSITE };
 enum { SW_BODY_SPRINGS, SW_BODY_SOLID };
 
 /* The number of the mesh called name, which is one of them. */
@@ -29,6 +30,7 @@ typedef struct sw_lattice_args {
   sw_tube_args tube;
   sw_radial_args radial;
   sw_cubic_args cubic;
+  sw_composite_args composite;
 } sw_lattice_args;
 const sw_params *sw_lattice_params(int mesh);
 void *sw_lattice_place(sw_lattice_args *args, int mesh); /* what the rows are read into */
@@ -50,6 +52,7 @@ typedef struct sw_calibration {
   double mass_per_length; /* NAN: not given [kg/m] */
   double nu;              /* of solid elements, whose modulus is k[SW_GROUP_SOLID]; else 0 [-] */
   double scale; /* particles are so many times as far out as the section's; 1 of springs [-] */
+  sw_composite composite; /* of other meshes all 0 */
 } sw_calibration;
 
 /* *out is to be freed with sw_calibration_free also after an error. section: as of a wire;
@@ -62,6 +65,12 @@ void sw_calibration_free(sw_calibration *calibration);
 /* Searches the springs of a lattice for the targets of out, from their first guesses; one with
  * elements from out->k. */
 sw_status sw_calibrate_fit(sw_calibration *out, sw_error *err);
+
+/* sw_calibrate for a composite, once the wire's values are read into beam and the targets and
+ * mass of out are set. */
+sw_status sw_calibrate_composite(const sw_calibrate_args *args, const sw_section *section,
+                                 const sw_beam *beam, const sw_composite_args *given,
+                                 sw_calibration *out, sw_error *err);
 
 double sw_reached(const sw_cell_result *result, int target); /* [unit of the target] */
 

@@ -10,9 +10,19 @@
 
 static const double PI = 3.14159265358979323846;
 
-const char *const sw_group_names[SW_GROUPS] = {"longitudinal", "inner", "core",  "diagonal",
-                                               "hoop",         "brace", "spoke", "inclined",
-                                               "edge",         "cross", "bend",  "solid"};
+const char *const sw_group_names[SW_GROUPS] = {"longitudinal",  "inner",
+                                               "core",          "diagonal",
+                                               "hoop",          "brace",
+                                               "spoke",         "inclined",
+                                               "edge",          "cross",
+                                               "bend",          "solid",
+                                               "bond",          "core_longitudinal",
+                                               "core_inner",    "core_line",
+                                               "core_diagonal", "core_hoop",
+                                               "core_brace",    "core_spoke",
+                                               "core_inclined", "core_edge",
+                                               "core_cross",    "core_bend",
+                                               "core_solid"};
 
 #define AT(member) offsetof(sw_tube_args, member)
 static const sw_param tube_rows[] = {

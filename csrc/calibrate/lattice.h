@@ -20,7 +20,9 @@ enum {
   SW_GROUP_CROSS,        /* diagonals within a slice */
   SW_GROUP_BEND,         /* against angles of the central line [N m] */
   SW_GROUP_SOLID,        /* elements between slices [Pa] */
-  SW_GROUPS
+  SW_GROUP_BOND,         /* between a composite's parts */
+  SW_GROUP_OF_CORE,      /* the groups before bonds once more, of its cores */
+  SW_GROUPS = SW_GROUP_OF_CORE + SW_GROUP_BOND
 };
 extern const char *const sw_group_names[SW_GROUPS];
 

@@ -64,6 +64,16 @@ static sw_vec striking_velocity(const sw_contact *c, const sw_touch *t, sw_vec p
   return start;
 }
 
+/* What strikes a particle of a wire stops the whole section: its springs do that within any step
+ * but the shortest, and would throw it back. */
+static void kick(sw_system *s, const sw_body *b, size_t node, sw_vec dv) {
+  const sw_web *web = b->plan->web;
+  const size_t n = web && web->per_ring ? web->per_ring : 1, i = node - b->first_node;
+  const size_t first = i - i % n;
+  for (size_t k = first; k < first + n; k++)
+    if (b->plan->held[k] == SW_FREE) sw_accumulate(s->v + 3 * (b->first_node + k), dv);
+}
+
 /* Change the starting velocities so that the touch is reached, not passed.
  * Returns 1 when something was changed. */
 static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
@@ -92,7 +102,7 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   for (size_t e = 0; e < 2; e++) {
     if (!(w[e] > 0)) continue;
     mass += w[e] * b->plan->lumped[end[e] - b->first_node];
-    sw_accumulate(s->v + 3 * end[e], sw_scale(dv, w[e]));
+    kick(s, b, end[e], sw_scale(dv, w[e]));
   }
   if (levers.count)
     sw_levers_kick(b->plan, &levers, sw_scale(brake, mass),

@@ -72,6 +72,10 @@ static sw_status use_integrator(sw_scene *s, const sw_run_args *args, sw_error *
 /* The same of particles: squeezed sections may bring two close to each other. */
 static sw_status check_particles(const sw_scene *s, size_t wire, const double *x, sw_error *err) {
   const sw_web *web = s->system.bodies[wire].plan->web;
+  for (size_t p = 0; p < web->particles; p++)
+    if (!sw_finite(sw_vec_at(x, p)))
+      return sw_fail(err, SW_EDIVERGED, "wire '%s' has flown apart near s = %.4g m",
+                     s->wires[wire].name, web->s[p]);
   for (size_t e = 0; e < web->links; e++) {
     const sw_web_link *link = &web->link[e];
     const double most = (1.0 + LARGEST_STRAIN) * link->rest;

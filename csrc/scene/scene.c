@@ -161,7 +161,7 @@ static const sw_param wire_rows[] = {
     {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_wire_args, name),
      "name used in messages and series"},
     {"model", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
-     "wire model: 'rod' (default), 'string', or a mesh: 'tube', 'radial', 'cubic'"},
+     "wire model: 'rod' (default), 'string', or a mesh: 'tube', 'radial', 'cubic', 'composite'"},
     {"from", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(sw_wire_args, from),
      "start of a straight wire (s = 0)"},
     {"to", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(sw_wire_args, to),
@@ -183,6 +183,7 @@ static const sw_param wire_rows[] = {
 };
 const sw_params sw_wire_params = SW_PARAMS("wire", wire_rows);
 
+static const char *const body_names[] = {"springs", "solid", NULL};
 #define AT(member) offsetof(sw_wire_mesh_args, member)
 static const sw_param mesh_rows[] = {
     {"spacing", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(spacing),
@@ -191,6 +192,8 @@ static const sw_param mesh_rows[] = {
     {"squeeze", SW_PARAM_NUMBER, "Pa", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(squeeze),
      "stiffness of the section: line force of two plates on opposite sides over their approach "
      "(not given: as the springs come out)"},
+    {"body", SW_PARAM_CHOICE, "-", SW_BODY_SPRINGS, 0, 0, 0, body_names, AT(body),
+     "springs between the particles, or solid elements of finite strain with nu"},
 };
 #undef AT
 const sw_params sw_wire_mesh_params = SW_PARAMS("wire", mesh_rows);
@@ -332,6 +335,7 @@ static sw_status draw_strand(sw_scene_wire *w, const sw_wire_args *args,
                                .mesh = w->cls->mesh,
                                .spacing = mesh->spacing,
                                .squeeze = mesh->squeeze,
+                               .body = mesh->body,
                                .lattice = mesh->lattice,
                                .section = mesh->section,
                                .normal = d->normal,

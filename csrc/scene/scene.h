@@ -105,6 +105,7 @@ extern const sw_params sw_wire_params; /* model, path, segments, ... */
 typedef struct sw_wire_mesh_args {
   double spacing; /* of slices; NAN = chosen [m] */
   double squeeze; /* see sw_calibrate_args [Pa] */
+  int body;       /* SW_BODY_SPRINGS, SW_BODY_SOLID */
   sw_lattice_args lattice;
   sw_section section; /* as given */
 } sw_wire_mesh_args;

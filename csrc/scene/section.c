@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "force/solid.h"
 #include "scene/world.h"
 
 void sw_strand_rings(const sw_mesh *m, double *s1, double *s2) {
@@ -50,6 +51,19 @@ sw_vec sw_strand_facing(const sw_web *w, const double *x, size_t ring) {
   return sw_unit_or(sum, sw_v(1, 0, 0));
 }
 
+/* What an element pulls the corners of its first ring with. */
+static void add_solid_force(const sw_web *w, const double *x, const sw_web_solid *s, sw_vec about,
+                            sw_vec *force, sw_vec *moment) {
+  double at[3 * SW_SOLID_NODES], g[3 * SW_SOLID_NODES];
+  for (uint32_t i = 0; i < s->count; i++) sw_store(at + 3 * i, sw_vec_at(x, s->node[i]));
+  sw_solid_eval((const sw_solid *)w->shapes + s->shape, at, SW_WANT_FORCE, g, NULL);
+  for (uint32_t i = 0; i < s->count / 2; i++) {
+    const sw_vec f = sw_neg(sw_load(g + 3 * i));
+    *force = sw_add(*force, f);
+    *moment = sw_add(*moment, sw_cross(sw_sub(sw_load(at + 3 * i), about), f));
+  }
+}
+
 /* Force of the part of the wire after slice number r (between rings r and r + 1) on that
  * before, and its moment about a point [N], [N m]. */
 static void slice_force(const sw_web *w, const double *x, size_t r, sw_vec about, sw_vec *force,
@@ -65,6 +79,8 @@ static void slice_force(const sw_web *w, const double *x, size_t r, sw_vec about
     *force = sw_add(*force, f);
     *moment = sw_add(*moment, sw_cross(sw_sub(a, about), f));
   }
+  for (size_t k = w->ring_solids[r]; k < w->ring_solids[r + 1]; k++)
+    add_solid_force(w, x, &w->solid[k], about, force, moment);
 }
 
 typedef struct slice {

@@ -5,11 +5,26 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "force/solid.h"
 #include "state/hinge.h"
 
-/* Particles at a surface are this far inside of it, so that what touches them has a side;
- * of the radius [-]. */
-static const double SKIN = 0.1;
+/* Particles at a surface are this far inside of it, so that what touches them has a side; of the
+ * radius [-]. Solid elements have their section's own size, and the thinnest skin that keeps a
+ * particle out of what it touches; the ring of a composite's shell lies in its wall. */
+static const double SKIN = 0.1, THINNEST = 0.03;
+
+static double inset(const sw_strand_plan *p) {
+  const int whole = p->body == SW_BODY_SOLID || strcmp(p->mesh, "composite") == 0;
+  return whole ? 0.0 : SKIN;
+}
+
+/* How far the surface is outside of the outermost particles. */
+static double skin_of(const sw_lattice *l, double radius) {
+  double most = 0;
+  for (size_t i = 0; i < l->particles; i++)
+    most = fmax(most, hypot(l->at[3 * i], l->at[3 * i + 1]));
+  return fmax(THINNEST * radius, radius - most);
+}
 
 /* --- calibration -------------------------------------------------------------------- */
 
@@ -18,16 +33,23 @@ static sw_status calibrate(const sw_strand_plan *p, const sw_beam *beam, double 
   const sw_calibrate_args args = {.mesh = sw_calibrate_mesh(p->mesh),
                                   .squeeze = p->squeeze,
                                   .spacing = spacing,
-                                  .tolerance = tolerance};
+                                  .tolerance = tolerance,
+                                  .body = p->body};
   sw_lattice_args lattice = p->lattice;
   sw_section section = p->section;
   sw_error why = {""};
-  section.E = section.nu = section.density = section.spin_inertia = (double)NAN;
+  section.E = section.density = section.spin_inertia = (double)NAN;
+  if (p->body == SW_BODY_SPRINGS) section.nu = (double)NAN;
   section.EA = beam->EA, section.EI = beam->EI_axis[0], section.GJ = beam->GJ;
   section.mass_per_length = beam->mass;
-  section.radius = (1.0 - SKIN) * beam->radius;
+  section.radius = (1.0 - inset(p)) * beam->radius;
   if (section.EI2 > 0) lattice.cubic.EI2 = section.EI2;
   section.EI2 = (double)NAN;
+  if (args.mesh == SW_LATTICE_COMPOSITE && !lattice.composite.bonded)
+    return sw_fail(err, SW_EINVAL,
+                   "wire '%s': bonded = false is for sw.calibrate only; in a scene parts of a "
+                   "composite are bonded",
+                   p->name);
   const sw_status status = sw_calibrate(&args, &section, &lattice, out, &why);
   if (status == SW_OK) return SW_OK;
   const char *text = strncmp(why.text, "calibrate: ", 11) == 0 ? why.text + 11 : why.text;
@@ -106,6 +128,58 @@ static void add_links(maker *m) {
   m->web->ring_links[m->mesh->n] = links;
 }
 
+/* Rest places of an element's corners, of a shape that serves all slices unless the wire is
+ * curved at rest. */
+static void rest_corners(const maker *m, const sw_cell_solid *e, size_t r, double *out) {
+  const size_t n = m->lattice->particles, half = (size_t)e->nodes / 2;
+  for (size_t i = 0; i < (size_t)e->nodes; i++) {
+    const size_t next = i >= half;
+    const double *at = m->lattice->at + 3 * (size_t)e->particle[i];
+    const double z = next ? m->lattice->spacing : 0.0, turn = m->plan->rest_twist * z;
+    sw_vec p = sw_v(cos(turn) * at[0] - sin(turn) * at[1], sin(turn) * at[0] + cos(turn) * at[1],
+                    at[2] + z);
+    if (m->plan->curved) p = sw_vec_at(m->strand->x, (r + next) * n + e->particle[i]);
+    sw_store(out + 3 * i, p);
+  }
+}
+
+static sw_status prepare_shapes(maker *m) {
+  const sw_lattice *l = m->lattice;
+  const size_t slices = m->plan->curved ? m->mesh->n - 1 : 1;
+  const double E = m->k[SW_GROUP_SOLID], nu = m->strand->calibration.nu;
+  const double mu = 0.5 * E / (1.0 + nu), lambda = E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
+  sw_solid *shape = sw_alloc(slices * l->solids, sizeof *shape);
+  if (!shape) return SW_ENOMEM;
+  m->web->shapes = shape;
+  m->web->shape_count = slices * l->solids;
+  for (size_t k = 0; k < m->web->shape_count; k++) {
+    double rest[3 * SW_SOLID_NODES];
+    const sw_cell_solid *e = &l->solid[k % l->solids];
+    rest_corners(m, e, k / l->solids, rest);
+    SW_TRY(sw_solid_prepare(e->nodes, rest, mu, lambda, &shape[k]));
+  }
+  return SW_OK;
+}
+
+static sw_status add_solids(maker *m) {
+  const sw_lattice *l = m->lattice;
+  const size_t n = l->particles, rings = m->mesh->n;
+  if (l->solids) SW_TRY(prepare_shapes(m));
+  for (size_t r = 0; r < rings; r++) {
+    m->web->ring_solids[r] = r * l->solids;
+    for (size_t k = 0; k < l->solids && r + 1 < rings; k++) {
+      const sw_cell_solid *e = &l->solid[k];
+      sw_web_solid *to = &m->web->solid[r * l->solids + k];
+      to->count = (uint32_t)e->nodes;
+      to->shape = (uint32_t)((m->plan->curved ? r * l->solids : 0) + k);
+      for (int i = 0; i < e->nodes; i++)
+        to->node[i] = (uint32_t)((r + (2 * i >= e->nodes)) * n) + e->particle[i];
+    }
+  }
+  m->web->ring_solids[rings] = m->web->solids;
+  return SW_OK;
+}
+
 static void count_links(const maker *m, size_t *links, size_t *folds) {
   *links = *folds = 0;
   for (size_t r = 0; r < m->mesh->n; r++)
@@ -138,6 +212,28 @@ static void find_around(const sw_lattice *l, sw_web *w) {
   } while (at != first && w->around_count < n);
 }
 
+sw_status sw_strand_bound_solids(sw_web *w, const double *x) {
+  double at[3 * SW_SOLID_NODES], H[9 * SW_SOLID_NODES * SW_SOLID_NODES];
+  double *sum = sw_alloc(w->particles, sizeof *sum);
+  if (!sum) return SW_ENOMEM;
+  for (size_t n = 0; n < w->solids; n++) {
+    const sw_web_solid *s = &w->solid[n];
+    const size_t size = 3 * s->count;
+    for (uint32_t i = 0; i < s->count; i++) sw_store(at + 3 * i, sw_vec_at(x, s->node[i]));
+    sw_solid_eval((const sw_solid *)w->shapes + s->shape, at, SW_WANT_STIFFNESS, NULL, H);
+    for (size_t r = 0; r < size; r++) {
+      double row = 0;
+      for (size_t c = 0; c < size; c++) row += fabs(H[r * size + c]);
+      sum[s->node[r / 3]] += row / 3.0; /* of three directions the mean */
+    }
+  }
+  w->solid_rate2 = 0;
+  for (size_t p = 0; p < w->particles; p++)
+    w->solid_rate2 = fmax(w->solid_rate2, sum[p] / w->mass[p]);
+  sw_free(sum);
+  return SW_OK;
+}
+
 static sw_status fill_web(maker *m) {
   const sw_lattice *l = m->lattice;
   sw_web *w = m->web;
@@ -163,7 +259,9 @@ static sw_status fill_web(maker *m) {
     w->s[p] = m->mesh->s[r];
   }
   add_links(m);
+  SW_TRY(add_solids(m));
   find_around(l, w);
+  SW_TRY(sw_strand_bound_solids(w, m->strand->x));
   SW_TRY(sw_web_bound_rate(w));
   return sw_web_add_surface(w);
 }
@@ -203,7 +301,7 @@ static sw_status make(maker *m) {
   size_t links, folds;
   const size_t particles = m->mesh->n * m->lattice->particles;
   count_links(m, &links, &folds);
-  SW_TRY(sw_web_new(particles, links, folds, 0, &m->web));
+  SW_TRY(sw_web_new(particles, links, folds, (m->mesh->n - 1) * m->lattice->solids, &m->web));
   m->strand->web = m->web;
   SW_TRY(new_particles(m, particles, links));
   SW_TRY(fill_web(m));
@@ -227,7 +325,7 @@ sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const s
              .k = out->calibration.k,
              .strand = out};
   if (make(&m) != SW_OK) return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", plan->name);
-  out->web->skin = SKIN * beam->radius;
+  out->web->skin = skin_of(m.lattice, beam->radius);
   return SW_OK;
 }
 

@@ -21,6 +21,7 @@ typedef struct sw_strand_plan {
   const char *name;        /* of the wire, for messages */
   const char *mesh;        /* the lattice's name */
   double spacing, squeeze; /* see sw_calibrate_args */
+  int body;                /* likewise */
   sw_lattice_args lattice;
   sw_section section; /* as given */
   sw_vec normal;      /* where the lattice's x goes; NAN = anywhere [-] */
@@ -35,5 +36,9 @@ sw_status sw_strand_slices(const sw_strand_plan *plan, const sw_beam *beam, doub
 sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const sw_mesh *mesh,
                         sw_strand *out, sw_error *err);
 void sw_strand_free(sw_strand *strand);
+
+/* How fast the web's solid elements swing, by their stiffness at the places x, which bounds the
+ * steps of explicit methods. SW_ENOMEM. */
+sw_status sw_strand_bound_solids(sw_web *web, const double *x);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Symmetric matrices of 3 x 3 blocks between nodes, for meshes of particles. Two kinds behind
  * one interface: nodes in rings, each coupled to its own and the neighbouring rings, and nodes
- * in no order. Factorised as L D L' without pivoting (L L' where that will do), so that the
- * signs of the pivots count negative directions. The pattern is fixed when the matrix is made;
+ * in no order. Factorised as L' D L without pivoting, so that the signs of the pivots count
+ * negative directions. The pattern is fixed when the matrix is made;
  * values come anew each time and survive factoring.
  * A matrix owns scratch memory: no two threads may use one at a time. */
 #ifndef SW_SOLVE_BLOCKS_H

@@ -12,6 +12,7 @@
 #pragma GCC diagnostic ignored "-Wpsabi" /* vectors stay inside this file */
 typedef double quad __attribute__((vector_size(32), aligned(8)));
 enum { TILE = SW_FRONT_TILE, PANEL = SW_FRONT_PANEL, KEPT = SW_FRONT_KEPT };
+enum { COLUMNS = 384 }; /* of SW_FRONT_ROWS rows: these stay in a second-level cache */
 #define ALWAYS static inline __attribute__((always_inline))
 
 ALWAYS quad *at(double *p) { return (quad *)(void *)p; }
@@ -90,37 +91,76 @@ ALWAYS void finish(sw_front *f, size_t panel, size_t column, const int own, cons
 ALWAYS void eliminate(sw_front *f, size_t panel, const int rows) {
   split(f, panel, rows);
   for (size_t j = 0; j < panel; j += TILE) finish(f, panel, f->place + j, 1, rows);
-  for (size_t j = 0; j < f->before; j += TILE) finish(f, panel, j, 0, rows);
-  /* what the last tile held of the panel itself and beyond, where `solve` runs over it */
+  /* what the last tile held of the panel itself and beyond, where solving runs over it */
   const size_t beyond = sw_front_pad(panel) - panel;
   for (size_t k = panel; k < panel + (size_t)rows; k++)
     memset(f->factor + k * f->stride + f->place + panel, 0, beyond * sizeof *f->factor);
 }
 
-SW_HOT
-void sw_front_eliminate(sw_front *f) {
-  const size_t full = f->n / PANEL;
-  if (f->n % PANEL) eliminate(f, full * PANEL, PANEL / 2);
-  for (size_t k = full; k-- > 0;) eliminate(f, k * PANEL, PANEL);
+ALWAYS void finish_before(sw_front *f, size_t panel, size_t begin, size_t end, const int rows) {
+  for (size_t j = begin; j < end; j += TILE) finish(f, panel, j, 0, rows);
 }
 
-ALWAYS void contribute(const sw_front *f, double *rest, size_t row, const int rows) {
-  const size_t end = sw_front_pad(row + (size_t)rows);
-  for (size_t j = 0; j < end; j += TILE) {
-    double *to = rest + row * f->before + j;
-    quad tile[PANEL][2];
-    load(tile, to, f->before, rows);
-    subtract(tile, f->scaled + row, f->factor + j, f->n, f->stride, rows);
-#pragma GCC unroll 6
-    for (int i = 0; i < rows; i++, to += f->before) at(to)[0] = tile[i][0], at(to)[1] = tile[i][1];
+static size_t least(size_t a, size_t b) { return a < b ? a : b; }
+
+SW_HOT
+void sw_front_eliminate(sw_front *f) {
+  const size_t full = f->n / PANEL, odd = f->n % PANEL;
+  if (odd) eliminate(f, full * PANEL, PANEL / 2);
+  for (size_t k = full; k-- > 0;) eliminate(f, k * PANEL, PANEL);
+  for (size_t begin = 0, end; begin < f->before; begin = end) {
+    end = least(begin + COLUMNS, f->before);
+    if (odd) finish_before(f, full * PANEL, begin, end, PANEL / 2);
+    for (size_t k = full; k-- > 0;) finish_before(f, k * PANEL, begin, end, PANEL);
   }
 }
 
+/* to: some rows of a lower half, tiles from begin to end; d: what the front's rows hold of
+ * these. */
+ALWAYS void take(const sw_front *f, const double *d, double *to, size_t stride, size_t begin,
+                 size_t end, const int rows) {
+  for (size_t j = begin; j < end; j += TILE) {
+    double *out = to + j;
+    quad tile[PANEL][2];
+    load(tile, out, stride, rows);
+    for (int i = 0; i < rows; i++) __builtin_prefetch(out + (size_t)i * stride + TILE, 1);
+    subtract(tile, d, f->factor + j, f->n, f->stride, rows);
+#pragma GCC unroll 6
+    for (int i = 0; i < rows; i++, out += stride) at(out)[0] = tile[i][0], at(out)[1] = tile[i][1];
+  }
+}
+
+/* Subtract what the front's rows take from count rows of a matrix, which stand for its columns
+ * from `first` on: the lower half up to full tiles. */
 SW_HOT
-void sw_front_contribute(const sw_front *f, double *rest, size_t rows) {
-  size_t i = 0;
-  for (; i + PANEL <= rows; i += PANEL) contribute(f, rest, i, PANEL);
-  if (i < rows) contribute(f, rest, i, PANEL / 2);
+static void take_all(const sw_front *f, size_t first, double *to, size_t stride, size_t count) {
+  for (size_t begin = 0; begin < first + count; begin += COLUMNS) {
+    size_t i = begin > first ? (begin - first) / PANEL * PANEL : 0;
+    for (; i < count; i += PANEL) {
+      const size_t rows = least(PANEL, count - i);
+      const size_t end = least(begin + COLUMNS, sw_front_pad(first + i + rows));
+      const double *d = f->scaled + first + i;
+      if (rows == PANEL)
+        take(f, d, to + i * stride, stride, begin, end, PANEL);
+      else
+        take(f, d, to + i * stride, stride, begin, end, PANEL / 2);
+    }
+  }
+}
+
+void sw_front_reduce(sw_front *f, double *rest, size_t rows) {
+  for (size_t begin, end = f->n; end > 0; end = begin) {
+    begin = (end - 1) / SW_FRONT_ROWS * SW_FRONT_ROWS;
+    sw_front part = *f;
+    part.n = end - begin;
+    part.before = part.place = f->place + begin;
+    part.factor += begin * f->stride, part.a = part.factor;
+    part.kept += begin * KEPT;
+    sw_front_eliminate(&part);
+    take_all(&part, f->place, f->factor, f->stride, begin);
+    take_all(&part, 0, rest, f->before, rows);
+    f->negative = part.negative, f->bad = part.bad;
+  }
 }
 
 /* x -= rows' y, over count columns, a multiple of TILE. */

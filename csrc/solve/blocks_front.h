@@ -11,7 +11,8 @@
 enum {
   SW_FRONT_TILE = 8,  /* columns of a register tile; parts of rows are padded to it */
   SW_FRONT_PANEL = 6, /* rows eliminated at once; the last ones of a front may be 3 */
-  SW_FRONT_KEPT = 8   /* numbers kept of a row's part of its panel */
+  SW_FRONT_KEPT = 8,  /* numbers kept of a row's part of its panel */
+  SW_FRONT_ROWS = 192 /* rows whose products are taken up at once; a multiple of all above */
 };
 
 typedef struct sw_front {
@@ -36,9 +37,10 @@ static inline size_t sw_front_pad(size_t n) {
 /* Fills factor, kept and scaled. */
 void sw_front_eliminate(sw_front *front);
 
-/* Subtract from what stays, (rows x before) with its lower half up to full tiles, what the
- * eliminated rows take from it. */
-void sw_front_contribute(const sw_front *front, double *rest, size_t rows);
+/* The same in place and without a next front, in parts of SW_FRONT_ROWS rows (which is what
+ * scaled must hold); and subtract what they take from the columns that stay from rest, their
+ * (rows x before) with the lower half up to full tiles. */
+void sw_front_reduce(sw_front *front, double *rest, size_t rows);
 
 /* Solving: own (n, and up to a tile beyond it unchanged), before (as many as there are).
  * First own = L'^-1 own and before -= ..., fronts as they were eliminated; then

@@ -13,6 +13,7 @@ void sw_blocks_sparse_free(sw_blocks_sparse *s) {
   sw_tree_free(s->tree);
   sw_free(s->first);
   sw_free(s->column);
+  sw_free(s->under);
   sw_free(s->values);
   sw_free(s);
 }
@@ -78,8 +79,27 @@ static sw_status find_pattern(sw_blocks_sparse *s, const sw_blocks_pair *pairs, 
   return status;
 }
 
+/* The blocks below each node's own one. */
+static sw_status find_below(sw_blocks_sparse *s) {
+  const size_t n = s->nodes, blocks = s->first[n];
+  s->under = sw_alloc(n + 2 + 2 * blocks, sizeof *s->under);
+  if (!s->under) return SW_ENOMEM;
+  s->below = s->under + n + 2;
+  uint32_t *at = s->under + 1; /* becomes under: filled one place further on */
+  for (size_t i = 0; i < n; i++)
+    for (uint32_t k = s->first[i]; s->column[k] < i; k++) at[s->column[k] + 1]++;
+  for (size_t i = 1; i <= n; i++) at[i] += at[i - 1];
+  for (size_t i = 0; i < n; i++)
+    for (uint32_t k = s->first[i]; s->column[k] < i; k++) {
+      uint32_t *to = s->below + 2 * (size_t)at[s->column[k]]++;
+      to[0] = (uint32_t)i, to[1] = k;
+    }
+  return SW_OK;
+}
+
 static sw_status analyse(sw_blocks_sparse *s, const sw_blocks_pair *pairs, size_t count) {
   SW_TRY(find_pattern(s, pairs, count));
+  SW_TRY(find_below(s));
   s->values = sw_alloc(BLOCK * (size_t)s->first[s->nodes], sizeof *s->values);
   if (!s->values) return SW_ENOMEM;
   return sw_tree_new(s->nodes, s->first, s->column, &s->tree);
@@ -88,7 +108,7 @@ static sw_status analyse(sw_blocks_sparse *s, const sw_blocks_pair *pairs, size_
 sw_status sw_blocks_sparse_new(size_t nodes, const sw_blocks_pair *pairs, size_t count,
                                sw_blocks_sparse **out) {
   if (nodes < 1) return SW_EINVAL;
-  if (nodes > INT32_MAX / 8 || count > INT32_MAX / (2 * BLOCK)) return SW_ELIMIT;
+  if (nodes > INT32_MAX / 32 || count > INT32_MAX / 32) return SW_ELIMIT;
   for (size_t k = 0; k < count; k++)
     if (pairs[k].i >= nodes || pairs[k].j >= nodes || pairs[k].i == pairs[k].j) return SW_EINVAL;
   sw_blocks_sparse *s = sw_alloc(1, sizeof *s);
@@ -124,9 +144,7 @@ sw_status sw_blocks_sparse_factor(sw_blocks_sparse *s, const unsigned char *fixe
   return sw_tree_factor(s->tree, s->values, fixed, negative);
 }
 
-void sw_blocks_sparse_solve(const sw_blocks_sparse *s, double *x) {
-  sw_tree_solve(s->tree, x);
-}
+void sw_blocks_sparse_solve(const sw_blocks_sparse *s, double *x) { sw_tree_solve(s->tree, x); }
 
 /* y += block x */
 static inline void add(const double *a, const double *x, double *y) {
@@ -159,8 +177,6 @@ void sw_blocks_sparse_multiply(const sw_blocks_sparse *s, const double *x, doubl
   }
 }
 
-/* A node's blocks below its own are found by search in the rows of their nodes: this is for few
- * nodes. */
 void sw_blocks_sparse_row_times(const sw_blocks_sparse *s, size_t node, const double *x,
                                 double y[3]) {
   const double *a = s->values + BLOCK * (size_t)s->first[node];
@@ -168,9 +184,9 @@ void sw_blocks_sparse_row_times(const sw_blocks_sparse *s, size_t node, const do
   for (uint32_t k = s->first[node]; s->column[k] < node; k++, a += BLOCK)
     add(a, x + 3 * (size_t)s->column[k], sum);
   add_own(a, x + 3 * node, sum);
-  for (size_t i = node + 1; i < s->nodes; i++) {
-    const size_t slot = sw_blocks_sparse_slot(s, i, node);
-    if (slot != SIZE_MAX) add_mirrored(s->values + slot, x + 3 * i, sum);
+  for (uint32_t e = s->under[node]; e < s->under[node + 1]; e++) {
+    const uint32_t *at = s->below + 2 * (size_t)e;
+    add_mirrored(s->values + BLOCK * (size_t)at[1], x + 3 * (size_t)at[0], sum);
   }
   memcpy(y, sum, sizeof sum);
 }

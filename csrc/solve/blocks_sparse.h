@@ -15,6 +15,8 @@ typedef struct sw_blocks_sparse {
   size_t nodes;
   uint32_t *first;  /* (nodes + 1) a node's first block; its own block is the last one */
   uint32_t *column; /* (blocks) nodes, ascending in each row */
+  uint32_t *under;  /* (nodes + 1) a node's first block in later rows */
+  uint32_t *below;  /* (blocks x 2) row and number of these */
   double *values;   /* (blocks x 9) */
   sw_tree *tree;
 } sw_blocks_sparse;

@@ -29,13 +29,13 @@ typedef struct entry {
 struct sw_tree {
   size_t nodes, pieces;
   const uint32_t *first, *column;
-  uint32_t *number;   /* (nodes) node -> its number */
-  uint32_t *node;     /* (nodes) number -> node */
-  piece *piece;       /* (pieces) as they are eliminated */
-  uint32_t *row;      /* numbers */
-  uint32_t *entries;  /* (nodes + 1) a number's first entry */
-  entry *entry;       /* (blocks) */
-  uint32_t *place;    /* (nodes) work: columns of a front by number */
+  uint32_t *number;  /* (nodes) node -> its number */
+  uint32_t *node;    /* (nodes) number -> node */
+  piece *piece;      /* (pieces) as they are eliminated */
+  uint32_t *row;     /* numbers */
+  uint32_t *entries; /* (nodes + 1) a number's first entry */
+  entry *entry;      /* (blocks) */
+  uint32_t *place;   /* (nodes) work: columns of a front by number */
   double *factor, *kept, *scaled, *left, *x, *before;
 };
 
@@ -110,10 +110,12 @@ static void lay_out(sw_tree *t, sizes *size) {
   for (size_t s = 0; s < t->pieces; s++) {
     piece *p = t->piece + s;
     p->before = sw_front_pad(3 * (size_t)p->rest);
-    p->stride = (p->before + sw_front_pad(3 * (size_t)p->own)) | SW_FRONT_TILE; /* spares cache sets */
+    p->stride =
+        (p->before + sw_front_pad(3 * (size_t)p->own)) | SW_FRONT_TILE; /* spares cache sets */
     p->factor = size->factor;
     size->factor += 3 * p->own * p->stride;
-    if (3 * p->own * p->stride > size->scaled) size->scaled = 3 * p->own * p->stride;
+    const size_t together = 3 * p->own < SW_FRONT_ROWS ? 3 * p->own : SW_FRONT_ROWS;
+    if (together * p->stride > size->scaled) size->scaled = together * p->stride;
     if (p->before > size->before) size->before = p->before;
     size_t *mine = top + turn[s], *theirs = top + !turn[s];
     p->left = *mine;
@@ -174,7 +176,6 @@ static sw_front front_of(const sw_tree *t, const piece *p) {
                     .before = p->before,
                     .place = p->before,
                     .stride = p->stride,
-                    .a = t->factor + p->factor,
                     .factor = t->factor + p->factor,
                     .kept = t->kept + 3 * (size_t)t->row[p->row + p->rest] * SW_FRONT_KEPT,
                     .scaled = t->scaled};
@@ -245,8 +246,7 @@ sw_status sw_tree_factor(sw_tree *t, const double *values, const unsigned char *
     add_entries(t, p, values, fixed);
     for (uint32_t c = p->child; c != NONE; c = t->piece[c].other)
       add_child(t, p, t->piece + c, (uint32_t *)(void *)t->scaled);
-    sw_front_eliminate(&f);
-    sw_front_contribute(&f, left, 3 * (size_t)p->rest);
+    sw_front_reduce(&f, left, 3 * (size_t)p->rest);
     count += f.negative, bad += f.bad;
   }
   if (negative) *negative = count;
@@ -255,7 +255,9 @@ sw_status sw_tree_factor(sw_tree *t, const double *values, const unsigned char *
 
 void sw_tree_solve(const sw_tree *t, double *x) {
   double *z = t->x, *before = t->before;
-  for (size_t k = 0; k < t->nodes; k++) memcpy(z + 3 * k, x + 3 * (size_t)t->node[k], 3 * sizeof *x);
+  memset(z + 3 * t->nodes, 0, SW_FRONT_TILE * sizeof *z); /* else a NaN would stay for good */
+  for (size_t k = 0; k < t->nodes; k++)
+    memcpy(z + 3 * k, x + 3 * (size_t)t->node[k], 3 * sizeof *x);
   for (size_t s = 0; s < t->pieces; s++) {
     const piece *p = t->piece + s;
     const sw_front f = front_of(t, p);
@@ -274,5 +276,6 @@ void sw_tree_solve(const sw_tree *t, double *x) {
       memcpy(before + 3 * k, z + 3 * (size_t)row[k], 3 * sizeof *z);
     sw_front_backward(&f, z + 3 * (size_t)row[p->rest], before);
   }
-  for (size_t k = 0; k < t->nodes; k++) memcpy(x + 3 * (size_t)t->node[k], z + 3 * k, 3 * sizeof *x);
+  for (size_t k = 0; k < t->nodes; k++)
+    memcpy(x + 3 * (size_t)t->node[k], z + 3 * k, 3 * sizeof *x);
 }

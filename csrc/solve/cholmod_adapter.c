@@ -19,13 +19,14 @@ static sw_status analyse(size_t nodes, const uint32_t *first, const uint32_t *co
   const size_t blocks = first[nodes];
   cholmod_sparse *graph =
       cholmod_allocate_sparse(nodes, nodes, blocks, 1, 1, 1, CHOLMOD_PATTERN, common);
-  if (!graph) return status_of(common);
+  if (!graph) return SW_ENOMEM;
   int *start = graph->p, *row = graph->i;
   for (size_t i = 0; i <= nodes; i++) start[i] = (int)first[i];
   for (size_t k = 0; k < blocks; k++) row[k] = (int)column[k];
   *out = cholmod_analyze(graph, common);
   cholmod_free_sparse(&graph, common);
-  return status_of(common);
+  const sw_status status = status_of(common);
+  return status == SW_OK && !*out ? SW_ENOMEM : status;
 }
 
 static uint32_t *copy(const void *from, size_t count) {
@@ -48,6 +49,7 @@ sw_status sw_cholmod_analyse(size_t nodes, const uint32_t *first, const uint32_t
   cholmod_factor *factor = NULL;
   cholmod_start(&common);
   common.print = 0;
+  common.metis_memory = 2.0; /* asked for on trial before METIS runs, which may end the process */
   common.supernodal = CHOLMOD_SUPERNODAL;
   sw_status status = analyse(nodes, first, column, &common, &factor);
   if (status == SW_OK) {

@@ -86,7 +86,8 @@ local function check_cable_words(args)
   if not wire_words then
     wire_words = { from = true, to = true, path = true }
     local rows = core.registry().params
-    for _, list in ipairs{ rows.wire, rows.section } do
+    for _, list in ipairs{ rows.wire, rows.section, rows.wire_mesh, rows.calibrate_tube,
+      rows.calibrate_radial, rows.calibrate_cubic, rows.calibrate_composite } do
       for _, row in ipairs(list) do wire_words[row.name] = true end
     end
     for _, word in ipairs(cable_words) do wire_words[word] = true end
@@ -110,7 +111,7 @@ local function take_cable(args)
   end
   entry = cable.get(entry)
   for _, key in ipairs{ "E", "nu", "density" } do
-    if args[key] ~= nil then
+    if args[key] ~= nil and not (key == "nu" and args.body == "solid") then
       error(("wire: %s is of a solid round wire and does not go with cable = '%s'; give EA, EI, GJ or "
         .. "mass_per_length to override"):format(key, entry.name), 0)
     end
@@ -123,6 +124,12 @@ local function take_cable(args)
   return entry, use
 end
 
+-- section = "solid" and "springs" say the same as body; other sections are shapes of a cubic mesh.
+local function take_body(args)
+  if args.section ~= "solid" and args.section ~= "springs" then return end
+  args.body, args.section = args.body or args.section, nil
+end
+
 local new_wire = class.scene.wire
 --- scene:wire{...}: see help "wire" for the parameters. `cable`, a name or entry of
 -- the catalogue, gives EA, EI, GJ, mass_per_length and radius that are not given;
@@ -132,6 +139,7 @@ function class.scene.wire(scene, args)
   build.check(scene, "scene:wire", 3)
   args = table_of(args, "scene:wire")
   local data = build.data(scene)
+  take_body(args)
   local entry, use = build.call(3, take_cable, args)
   args.name = build.name(scene, args.name, "wire", #data.wires, 3)
   local wire = build.call(3, new_wire, scene, args)

@@ -13,6 +13,20 @@
 -- what they resist with are EA, EI and GJ. The springs are searched until these are those of
 -- the wire. body = "solid" fills the mesh with solid elements of one modulus instead, and takes
 -- springs only for what these leave of EA, EI and GJ. help "calibrate" lists the parameters.
+--
+-- A composite is a tube of rings as shell around cores, each a line of particles, layers or
+-- voxels. Bonded, springs (group "bond") hold its parts together and the whole has EA, EI and GJ.
+-- Sliding (`bonded = false`), these are the sums of what the parts have, each core bending about
+-- its own axis, as strands do that are laid round; links with `slide` then name the particles that
+-- face each other, for a law of contact. They have no stiffness. Of one core all of it also holds
+-- for the cell of the mesh as a whole; of cores off the axis that cell, whose sections stay plane,
+-- has their EA times distance^2 more of EI.
+--
+--     local c = sw.calibrate { mesh = "composite", core = "radial", cores = 3, bonded = false,
+--       EA = 5000, EI = 0.02, GJ = 0.015, radius = 0.005 }
+--     for _, l in ipairs(c.links) do
+--       if l.slide then touch(l.from, l.to, l.gap, l.direction) end
+--     end
 -- @module softworld.calibrate
 local core = require "softworld.core"
 local cable = require "softworld.cable"
@@ -20,7 +34,10 @@ local cable = require "softworld.cable"
 local calibrate = {}
 
 local order = { "longitudinal", "inner", "core", "diagonal", "hoop", "brace", "spoke", "inclined",
-  "edge", "cross", "bend" }
+  "edge", "cross", "bend", "bond" }
+for i = 1, #order - 1 do
+  order[#order + 1] = "core_" .. (order[i] == "core" and "line" or order[i])
+end
 local targets = { { "EA", "N" }, { "EI", "N m2" }, { "EI2", "N m2" }, { "GJ", "N m2" },
   { "squeeze", "Pa" } }
 
@@ -32,7 +49,7 @@ function Calibration.__tostring(c)
   for _, t in ipairs(targets) do
     local off = c.residuals[t[1]]
     if off then
-      lines[#lines + 1] = ("  %-13s %12.6g %-5s %+.1e of it off"):format(t[1], c[t[1]], t[2], off)
+      lines[#lines + 1] = ("  %-17s %12.6g %-5s %+.1e of it off"):format(t[1], c[t[1]], t[2], off)
     end
   end
   if c.elements then
@@ -41,8 +58,8 @@ function Calibration.__tostring(c)
   end
   for _, group in ipairs(order) do
     if c.springs[group] then
-      lines[#lines + 1] = ("  %-13s %12.6g %-5s %d links"):format(group, c.springs[group],
-        group == "bend" and "N m" or "N/m", c.count[group])
+      lines[#lines + 1] = ("  %-17s %12.6g %-5s %d links"):format(group, c.springs[group],
+        group:find "bend" and "N m" or "N/m", c.count[group])
     end
   end
   return table.concat(lines, "\n")
@@ -84,7 +101,7 @@ end
 --- Springs of a mesh whose EA, EI and GJ, and squeeze stiffness when that is asked for, are
 -- those of a wire; with body = "solid" elements and springs. An error tells what to change when
 -- there are none of the mesh.
--- @tparam table args `mesh` = "tube", "radial" or "cubic", EA, EI, GJ (or E, nu), radius, or
+-- @tparam table args `mesh` = "tube", "radial", "cubic" or "composite", EA, EI, GJ (or E, nu), radius, or
 -- `cable` = "name" for them, and what help "calibrate" lists
 -- @treturn table `springs` by group [N/m], which `weight` of a link multiplies; `links` {from,
 -- to, slices, group, weight, bend} and `particles` {x, y, z} [m] of one slice, `spacing` [m];
@@ -94,7 +111,13 @@ end
 -- "solid" (or section = "solid") also `elements` {particles, slices (0 or 1)} of one slice, their
 -- `modulus` [Pa] and `nu`, and `scale`, how many times as far out as the wire's section its
 -- particles are, so that EA and EI are exact in spite of corners; GJ of elements alone is then
--- within 2 %
+-- within 2 %. Of a composite
+-- also `part` of each particle (0: the shell, else the core's number), `shell` and `core`, each
+-- { EA, EI, GJ } of that part by itself, core that of each of them; `centres` {x, y, z} of the
+-- cores, `bore`, `core_radius` and `ring_radius` of the shell's particles [m]; without bonds, links
+-- with `slide` = true, `gap` between the bodies [m] and `direction`, a unit vector. Two bonded
+-- cores lie along x: EI is that of their plane, EI2 is less. Bending is alike in all planes where
+-- ring and cores look alike after a third of a turn or less; EI2 tells
 local function run(args)
   if type(args) == "table" then args = with_body(args) end
   if type(args) == "table" and args.cable ~= nil then args = with_cable(args) end

@@ -20,6 +20,7 @@ local notes = {
   calibrate_tube = "sw.calibrate{ mesh = 'tube', ... }: rings, with or without a central line",
   calibrate_radial = "sw.calibrate{ mesh = 'radial', ... }: layers and sectors around a line",
   calibrate_cubic = "sw.calibrate{ mesh = 'cubic', ... }: voxels of a section",
+  calibrate_composite = "sw.calibrate{ mesh = 'composite', ... }: a shell around cores, bonded or not",
   trajectory = "sw.trajectory{...}; clamps, obstacles and grippers take the table itself",
 }
 
@@ -102,11 +103,13 @@ local more = {
   rigid carries bending on from wire to wire, not twist: a wire still turns about its own axis]],
   calibrate = [[
   and a section (help "section") or cable = "name", and the mesh's own:
-  help "calibrate_tube", help "calibrate_radial", help "calibrate_cubic"
+  help "calibrate_tube", help "calibrate_radial", help "calibrate_cubic",
+  help "calibrate_composite"
   returns what print shows, and
   .springs[group] [N/m]          stiffness, times the weight of each link
   .links, .particles, .spacing   of one slice; the next is .spacing [m] further along z
   .mass, .shares                 of each particle of a slice [kg], [-]
+  .shell, .core, .part, .centres of a composite: EA, EI, GJ of the parts; part of each particle
   .EA .EI .EI2 .GJ .squeeze      reached [N], [N m2], [Pa]; .residuals: share of each that is off
   sw.calibrate.cell{ spacing =, particles =, links =, stiffness = }   the beam that any mesh is]],
   feed = [[

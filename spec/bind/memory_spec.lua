@@ -132,6 +132,9 @@ local acts = {
   end },
   { "calibrating springs", function()
     sw.calibrate { mesh = "tube", particles = 3, EA = 1e4, EI = 0.05, GJ = 0.04, radius = 5e-3 }
+    sw.calibrate { mesh = "composite", core = "line", particles = 3, E = 1e8, radius = 5e-3 }
+    sw.calibrate { mesh = "composite", core = "cubic", core_across = 2, particles = 3, E = 1e8,
+      radius = 5e-3, bonded = false }
     return sw.calibrate { mesh = "cubic", across = 2, E = 1e8, radius = 5e-3, density = 1e3 }
   end },
   { "a whole script", function()

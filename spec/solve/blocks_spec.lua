@@ -134,6 +134,23 @@ for kind, layout_of in pairs { rings = function(layout) return layout end, pairs
       end)
     end
 
+    -- Beyond what is taken up at once, in rows and in columns.
+    it("solve with many nodes in a ring", function()
+      math.randomseed(23)
+      for _, shape in ipairs { { 2, 70 }, { 3, 67 } } do
+        local m = 3 * shape[2]
+        local n = m * shape[1]
+        local a = symmetric(n, function(i, j)
+          if i == j then return 20 * mixed(i) end
+          return (i - 1) // m - (j - 1) // m < 2 and math.random() - 0.5 or 0
+        end)
+        local x = random_vector(n)
+        local solved, negative = core.blocks(layout_of(rings(shape[1], shape[2])), a, times(a, x))
+        assert.is_true(difference(solved, x) < 1e-11, difference(solved, x))
+        assert.are.equal(negatives(n, mixed), negative)
+      end
+    end)
+
     it("agree with dense elimination", function()
       math.randomseed(13)
       for _, sign in ipairs { plus, mixed } do

@@ -1,0 +1,405 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The mesh of a shell around cores. Cores off the axis are copies of the first turned about
+ * it, and the ring has the same symmetry, so that bending is alike in all planes. */
+#include <math.h>
+
+#include "base/alloc.h"
+#include "calibrate/composite.h"
+
+static const double PI = 3.14159265358979323846;
+static const double ONE = 0.6;    /* radius of a single core over the wire's, unless given [-] */
+static const double WALL = 0.2;   /* of the shell over the radius, around several [-] */
+static const double USUAL = 0.95; /* radius of several cores over what fits, unless given [-] */
+static const double MOST = 0.98;  /* the same at most: particles must not meet [-] */
+static const double TIE = 1e-6;   /* of distances that count as the same [-] */
+static const double BESIDE = 1.2; /* of the least distance of cores, for neighbours [-] */
+static const long CORE_RING = 6;  /* of a layer of a radial core, unless given [-] */
+static const long RING = 12;      /* particles of the shell, at least, unless given [-] */
+
+static const char *const cores[] = {"line", "radial", "cubic", NULL};
+
+#define AT(member) offsetof(sw_composite_args, member)
+#define VALUE(name, unit, doc) \
+  { #name, SW_PARAM_NUMBER, unit, NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(name), doc }
+#define COUNT(name, most, doc) \
+  { #name, SW_PARAM_INTEGER, "-", 0, 0, most, 0, NULL, AT(name), doc }
+static const sw_param rows[] = {
+    {"core", SW_PARAM_CHOICE, "-", SW_CORE_RADIAL, 0, 0, 0, cores, AT(core),
+     "a line of particles with springs against bending, layers, or voxels"},
+    {"cores", SW_PARAM_INTEGER, "-", 1, 1, SW_COMPOSITE_CORES, 0, NULL, AT(cores),
+     "equal cores: one at the axis; 2 to 6 around it; 7 are six around one"},
+    VALUE(core_radius, "m",
+          "of each core (not given: 0.6 of the wire's radius; of several 0.95 of what fits)"),
+    VALUE(wall, "m",
+          "of the shell (not given: all that a single core leaves; around several 0.2 of the "
+          "wire's radius)"),
+    VALUE(core_EA, "N",
+          "of each core (not given: what a wall that has the rest of EI leaves; of one material "
+          "the areas' share)"),
+    VALUE(core_EI, "N m2",
+          "of each core about its own axis (not given: its share in a section of one material that "
+          "has "
+          "the wire's EI or EA, whichever is less)"),
+    VALUE(core_GJ, "N m2", "of each core, likewise; a line has none"),
+    VALUE(core_mass, "kg/m", "of each core (not given: by areas)"),
+    {"bonded", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, AT(bonded),
+     "springs hold core and shell together; without them they slide, and links with slide = true "
+     "name the particles that face each other"},
+    {"bond", SW_PARAM_NUMBER, "-", 1, 0, 100, SW_PARAM_ABOVE_MIN, NULL, AT(bond),
+     "stiffness of bonds, over that of bars of the shell's modulus and of what carries at most a "
+     "tenth of the shell's or the cores' EA from slice to slice"},
+    COUNT(particles, 64,
+          "particles of the shell's ring, 3 or more and the same to each core around the axis; 0 "
+          "chooses 12 or more"),
+    COUNT(reach, 31,
+          "particles that a diagonal of the shell goes round, below half a ring; 0 chooses"),
+    COUNT(core_particles, 48,
+          "of a radial core: particles of each layer, 3 or more; 0 chooses, 6 as a rule"),
+    COUNT(core_layers, 6, "of a radial core; 0 is 2 for one, 1 for each of several"),
+    COUNT(core_across, 16, "of a cubic core: voxels across; 0 is 4 for one, 2 for each of several"),
+};
+const sw_params sw_composite_params = SW_PARAMS("calibrate", rows);
+
+/* --- where parts are ---------------------------------------------------------------- */
+
+/* Cores around the axis. */
+static size_t around(const sw_composite *c) {
+  return c->cores == SW_COMPOSITE_CORES ? c->cores - 1 : c->cores;
+}
+
+/* The largest radius with which cores touch one another or the bore. */
+static double fitting(const sw_composite *c) {
+  if (c->cores == 1) return c->bore;
+  const double s = sin(PI / (double)around(c));
+  return c->bore * s / (1 + s);
+}
+
+static sw_status choose_ring(const sw_composite_args *a, sw_composite *c, sw_error *err) {
+  const long n = (long)around(c);
+  if (a->particles == 0) {
+    c->ring = (size_t)(n * ((RING + n - 1) / n));
+    return SW_OK;
+  }
+  if (a->particles < 3)
+    return sw_fail(
+        err, SW_EINVAL,
+        "calibrate: particles = %ld is not allowed; it must be 0 (chooses) or in [3, 64]",
+        a->particles);
+  if (a->particles % n)
+    return sw_fail(
+        err, SW_EINVAL,
+        "calibrate: particles = %ld must be a multiple of the %ld cores around the axis, "
+        "so that bending is alike in all planes: take %ld",
+        a->particles, n, n * (a->particles / n + 1));
+  c->ring = (size_t)a->particles;
+  return SW_OK;
+}
+
+/* Numbers of a mesh that was not chosen. */
+static sw_status check_kind(const sw_composite_args *a, sw_error *err) {
+  const struct {
+    const char *name;
+    long value;
+    int kind;
+  } all[] = {{"core_particles", a->core_particles, SW_CORE_RADIAL},
+             {"core_layers", a->core_layers, SW_CORE_RADIAL},
+             {"core_across", a->core_across, SW_CORE_CUBIC}};
+  for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+    if (all[i].value != 0 && a->core != all[i].kind)
+      return sw_fail(err, SW_EINVAL, "calibrate: %s = %ld goes with core = '%s', not with '%s'",
+                     all[i].name, all[i].value, cores[all[i].kind], cores[a->core]);
+  if (a->core_particles == 1 || a->core_particles == 2)
+    return sw_fail(err, SW_EINVAL,
+                   "calibrate: core_particles = %ld is not allowed; it must be 0 (chooses) or in "
+                   "[3, 48]",
+                   a->core_particles);
+  if (!a->bonded && a->bond != 1)
+    return sw_fail(err, SW_EINVAL, "calibrate: bond = %g goes with bonded = true", a->bond);
+  return SW_OK;
+}
+
+static sw_status check_room(const sw_composite *c, sw_error *err) {
+  const double most = c->cores == 1 ? c->bore : MOST * fitting(c);
+  if (c->core_radius <= most * (1 + 1e-12)) return SW_OK;
+  return sw_fail(err, SW_EINVAL,
+                 "calibrate: core_radius = %.6g m is not allowed; %zu core%s fit%s in a bore of "
+                 "%.6g m with a radius in (0, %.6g] m: make core_radius or wall less",
+                 c->core_radius, c->cores, c->cores == 1 ? "" : "s", c->cores == 1 ? "s" : "",
+                 c->bore, most);
+}
+
+static sw_status choose_radii(const sw_composite_args *a, sw_composite *c, sw_error *err) {
+  const int one = c->cores == 1;
+  double wall = a->wall;
+  if (isnan(wall) && !one) wall = WALL * c->radius;
+  if (!isnan(wall) && !(wall < c->radius))
+    return sw_fail(err, SW_EINVAL,
+                   "calibrate: wall = %.6g m must be in (0, %.6g) m, below the wire's radius", wall,
+                   c->radius);
+  c->core_radius = !isnan(a->core_radius) ? a->core_radius : ONE * c->radius;
+  if (isnan(wall) && !(c->core_radius < c->radius))
+    return sw_fail(
+        err, SW_EINVAL,
+        "calibrate: core_radius = %.6g m must be in (0, %.6g) m, below the wire's radius",
+        c->core_radius, c->radius);
+  c->bore = isnan(wall) ? c->core_radius : c->radius - wall;
+  if (isnan(a->core_radius))
+    c->core_radius = one ? fmin(c->core_radius, c->bore) : USUAL * fitting(c);
+  return check_room(c, err);
+}
+
+sw_status sw_composite_place(const sw_composite_args *a, double radius, sw_composite *c,
+                             sw_error *err) {
+  *c = (sw_composite){.cores = (size_t)a->cores, .radius = radius};
+  SW_TRY(check_kind(a, err));
+  SW_TRY(choose_radii(a, c, err));
+  SW_TRY(choose_ring(a, c, err));
+  c->ring_radius = sqrt(0.5 * (radius * radius + c->bore * c->bore));
+  for (size_t i = 0; c->cores > 1 && i < around(c); i++) { /* against the shell */
+    const double angle = 2 * PI * (double)i / (double)around(c), d = c->bore - c->core_radius;
+    c->centre[i] = sw_v(d * cos(angle), d * sin(angle), 0);
+  }
+  return SW_OK;
+}
+
+/* --- the cores ----------------------------------------------------------------------- */
+
+static long divisor(long a, long b) { return b ? divisor(b, a % b) : a; }
+
+/* Layers and ring together look alike after a third of a turn or less, where that can be. */
+long sw_core_particles(const sw_composite_args *a, const sw_composite *c) {
+  if (a->core_particles) return a->core_particles;
+  if (c->cores > 1 || divisor((long)c->ring, CORE_RING) > 2) return CORE_RING;
+  for (long n = CORE_RING - 1; n <= 2 * CORE_RING; n++)
+    if (divisor((long)c->ring, n) > 2) return n;
+  return CORE_RING;
+}
+
+long sw_core_layers(const sw_composite_args *a, const sw_composite *c) {
+  return a->core_layers ? a->core_layers : c->cores == 1 ? 2 : 1;
+}
+
+long sw_core_across(const sw_composite_args *a, const sw_composite *c) {
+  return a->core_across ? a->core_across : c->cores == 1 ? 4 : 2;
+}
+
+sw_status sw_lattice_core(const sw_composite_args *a, const sw_composite *c, double spacing,
+                          sw_lattice *l, sw_error *err) {
+  const double R = c->core_radius;
+  *l = (sw_lattice){0};
+  if (a->core == SW_CORE_RADIAL) {
+    const sw_radial_args radial = {sw_core_particles(a, c), sw_core_layers(a, c)};
+    SW_TRY(sw_lattice_radial(&radial, R, spacing, l, err));
+    sw_lattice_drop_solids(l);
+    return SW_OK;
+  }
+  if (a->core == SW_CORE_CUBIC) {
+    sw_cubic_args cubic;
+    sw_params_default(&sw_cubic_params, &cubic);
+    cubic.across = sw_core_across(a, c);
+    SW_TRY(sw_lattice_cubic(&cubic, R, spacing, l, err));
+    sw_lattice_drop_solids(l);
+    return SW_OK;
+  }
+  SW_TRY(sw_lattice_room(l, 1, err));
+  l->spacing = spacing;
+  sw_store(l->at, sw_v(0, 0, 0));
+  l->share[0] = 1;
+  return SW_OK;
+}
+
+static void copy_particles(const sw_composite *c, size_t number, const sw_lattice *core,
+                           double share, sw_lattice *l) {
+  const sw_vec centre = c->centre[number];
+  const double d = hypot(centre.x, centre.y);
+  const double cosine = d > 0 ? centre.x / d : 1, sine = d > 0 ? centre.y / d : 0;
+  for (size_t i = 0; i < core->particles; i++) {
+    const size_t p = c->ring + number * c->each + i;
+    const sw_vec q = sw_vec_at(core->at, i);
+    sw_store(l->at + 3 * p,
+             sw_v(centre.x + cosine * q.x - sine * q.y, centre.y + sine * q.x + cosine * q.y, q.z));
+    l->share[p] = share * core->share[i];
+  }
+}
+
+static sw_status copy_links(const sw_composite *c, size_t number, const sw_lattice *core,
+                            sw_lattice *l, sw_error *err) {
+  const uint32_t base = (uint32_t)(c->ring + number * c->each);
+  for (size_t m = 0; m < core->links; m++) {
+    sw_cell_link link = core->link[m];
+    link.from += base;
+    link.to += base;
+    link.group += SW_GROUP_OF_CORE;
+    SW_TRY(sw_lattice_link(l, link, err));
+  }
+  if (core->links) return SW_OK;
+  SW_TRY(sw_lattice_link(l, (sw_cell_link){base, base, SW_GROUP_OF_CORE + SW_GROUP_CORE, 1, 0, 1},
+                         err));
+  return sw_lattice_link(l, (sw_cell_link){base, base, SW_GROUP_OF_CORE + SW_GROUP_BEND, 1, 1, 1},
+                         err);
+}
+
+/* --- what faces what ------------------------------------------------------------------ */
+
+/* A body's surface, at the particles that can face another body. */
+typedef struct surface {
+  size_t count;
+  uint32_t *at;  /* numbers of particles in the slice */
+  double pitch;  /* of neighbouring particles [m] */
+  sw_vec centre; /* of a core [m] */
+  int shell;     /* [-] */
+} surface;
+
+/* Inner voxels have more of the mass than others; of a few, none is an inner one. */
+static int is_outer(const sw_composite_args *a, const sw_composite *c, const sw_lattice *core,
+                    size_t i) {
+  if (a->core == SW_CORE_RADIAL) return i + (size_t)sw_core_particles(a, c) >= core->particles;
+  double most = 0, least = HUGE_VAL;
+  for (size_t p = 0; p < core->particles; p++) {
+    most = fmax(most, core->share[p]);
+    least = fmin(least, core->share[p]);
+  }
+  return least > (1 - TIE) * most || core->share[i] < (1 - TIE) * most;
+}
+
+static surface ring_surface(const sw_composite *c, uint32_t *numbers) {
+  for (size_t i = 0; i < c->ring; i++) numbers[i] = (uint32_t)i;
+  return (surface){c->ring, numbers, 2 * c->ring_radius * sin(PI / (double)c->ring), sw_v(0, 0, 0),
+                   1};
+}
+
+static surface core_surface(const sw_composite_args *a, const sw_composite *c,
+                            const sw_lattice *core, size_t number, uint32_t *numbers) {
+  size_t n = 0;
+  for (size_t i = 0; i < core->particles; i++)
+    if (is_outer(a, c, core, i)) numbers[n++] = (uint32_t)(c->ring + number * c->each + i);
+  return (surface){n, numbers, 2 * c->core_radius * sin(PI / fmax(3, (double)n)), c->centre[number],
+                   0};
+}
+
+/* Clearance between the bodies where the particle at p stands for the surface of core b. */
+static double clearance(const sw_composite *c, const surface *a, const surface *b, sw_vec shell,
+                        sw_vec core) {
+  if (a->shell) {
+    const sw_vec wall = sw_scale(shell, c->bore / sw_norm(shell));
+    return sw_dist(wall, b->centre) - c->core_radius;
+  }
+  const sw_vec out = sw_unit_or(sw_sub(core, b->centre), sw_sub(a->centre, b->centre));
+  const sw_vec touching = sw_madd(b->centre, sw_unit_or(out, sw_v(1, 0, 0)), c->core_radius);
+  return sw_dist(touching, a->centre) - c->core_radius;
+}
+
+static double nearest(const sw_lattice *l, uint32_t i, const surface *b) {
+  double least = HUGE_VAL;
+  for (size_t k = 0; k < b->count; k++)
+    least = fmin(least, sw_dist(sw_vec_at(l->at, i), sw_vec_at(l->at, b->at[k])));
+  return least;
+}
+
+static sw_status join(const sw_composite_args *args, sw_composite *c, sw_lattice *l, uint32_t i,
+                      uint32_t j, double gap, sw_error *err) {
+  if (args->bonded) {
+    SW_TRY(sw_lattice_link(l, (sw_cell_link){i, j, SW_GROUP_BOND, 0, 0, 1}, err));
+    SW_TRY(sw_lattice_link(l, (sw_cell_link){i, j, SW_GROUP_BOND, 1, 0, 1}, err));
+    return sw_lattice_link(l, (sw_cell_link){j, i, SW_GROUP_BOND, 1, 0, 1}, err);
+  }
+  void *p = c->slide;
+  if (sw_grow(&p, &c->capacity, c->slides + 1, sizeof *c->slide) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "calibrate: out of memory");
+  c->slide = p;
+  c->slide[c->slides++] = (sw_slide){i, j, gap};
+  return SW_OK;
+}
+
+/* Each particle with the nearest ones of the other body, all of them where several are as
+ * near, so that nothing of the symmetry is lost; but not those that look away. */
+static sw_status face(const sw_composite_args *args, sw_composite *c, const surface *a,
+                      const surface *b, sw_lattice *l, sw_error *err) {
+  double least = HUGE_VAL;
+  for (size_t i = 0; i < a->count; i++) least = fmin(least, nearest(l, a->at[i], b));
+  const double most = least + fmax(a->pitch, b->pitch);
+  for (size_t i = 0; i < a->count; i++)
+    for (size_t k = 0; k < b->count; k++) {
+      const sw_vec p = sw_vec_at(l->at, a->at[i]), q = sw_vec_at(l->at, b->at[k]);
+      const double d = sw_dist(p, q) / (1 + TIE);
+      if (d > most || (d > nearest(l, a->at[i], b) && d > nearest(l, b->at[k], a))) continue;
+      SW_TRY(join(args, c, l, a->at[i], b->at[k], clearance(c, a, b, p, q), err));
+    }
+  return SW_OK;
+}
+
+static sw_status face_all(const sw_composite_args *args, const sw_lattice *core, sw_composite *c,
+                          sw_lattice *l, sw_error *err) {
+  uint32_t ring[SW_CELL_PARTICLES], numbers[2][SW_CELL_PARTICLES];
+  const surface shell = ring_surface(c, ring);
+  double beside = HUGE_VAL;
+  for (size_t i = 0; i < c->cores; i++)
+    for (size_t k = 0; k < i; k++) beside = fmin(beside, sw_dist(c->centre[i], c->centre[k]));
+  for (size_t i = 0; i < c->cores; i++) {
+    const surface own = core_surface(args, c, core, i, numbers[0]);
+    if (i < around(c)) SW_TRY(face(args, c, &shell, &own, l, err));
+    for (size_t k = i + 1; k < c->cores; k++) {
+      if (sw_dist(c->centre[i], c->centre[k]) > BESIDE * beside) continue;
+      const surface other = core_surface(args, c, core, k, numbers[1]);
+      SW_TRY(face(args, c, &own, &other, l, err));
+    }
+  }
+  return SW_OK;
+}
+
+/* --- the whole ------------------------------------------------------------------------ */
+
+/* The shell as the tube without a central line, whose chords keep it round by itself. */
+static sw_status shell(const sw_composite_args *a, const sw_composite *c, double spacing,
+                       sw_lattice *out, sw_error *err) {
+  sw_tube_args tube;
+  sw_params_default(&sw_tube_params, &tube);
+  tube.particles = (long)c->ring;
+  tube.reach = a->reach;
+  tube.ring_radius = c->ring_radius;
+  tube.core = 0;
+  return sw_lattice_tube(&tube, spacing, out, err);
+}
+
+static sw_status put_together(const sw_composite_args *args, const sw_lattice *ring,
+                              const sw_lattice *core, double core_share, sw_composite *c,
+                              sw_lattice *l, sw_error *err) {
+  const double shell_share = 1 - core_share * (double)c->cores;
+  SW_TRY(sw_lattice_room(l, c->ring + c->cores * c->each, err));
+  l->spacing = core->spacing;
+  for (size_t i = 0; i < c->ring; i++) {
+    sw_store(l->at + 3 * i, sw_vec_at(ring->at, i));
+    l->share[i] = shell_share / (double)c->ring;
+  }
+  for (size_t m = 0; m < ring->links; m++) SW_TRY(sw_lattice_link(l, ring->link[m], err));
+  c->shell_links = l->links;
+  for (size_t i = 0; i < c->cores; i++) {
+    copy_particles(c, i, core, core_share, l);
+    SW_TRY(copy_links(c, i, core, l, err));
+  }
+  return face_all(args, core, c, l, err);
+}
+
+sw_status sw_lattice_composite(const sw_composite_args *args, const sw_lattice *core,
+                               double core_share, sw_composite *c, sw_lattice *l, sw_error *err) {
+  sw_lattice ring;
+  *l = (sw_lattice){0};
+  c->each = core->particles;
+  const size_t all = c->ring + c->cores * c->each;
+  if (all > SW_CELL_PARTICLES)
+    return sw_fail(err, SW_EINVAL,
+                   "calibrate: %zu particles of the ring and %zu of each of %zu cores are %zu in a "
+                   "slice; at most %d: make core_layers, core_particles or core_across less",
+                   c->ring, c->each, c->cores, all, SW_CELL_PARTICLES);
+  sw_status status = shell(args, c, core->spacing, &ring, err);
+  if (status == SW_OK) status = put_together(args, &ring, core, core_share, c, l, err);
+  sw_lattice_free(&ring);
+  return status;
+}
+
+void sw_composite_resize(sw_composite *c, sw_lattice *l, double ring_radius) {
+  const double factor = ring_radius / c->ring_radius;
+  for (size_t i = 0; i < c->ring; i++)
+    sw_store(l->at + 3 * i, sw_scale(sw_vec_at(l->at, i), factor));
+  c->ring_radius = ring_radius;
+}
