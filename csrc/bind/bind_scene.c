@@ -283,7 +283,35 @@ static void push_frame_wires(lua_State *L, const sw_scene *scene, size_t frame) 
   }
 }
 
-/* scene:frame(i) -> { t, wires, obstacles, holds, energy }, or nil past the end. */
+/* Of each wire its surface { around =, points = flat [m], force = flat [N] }, or false. */
+static void push_frame_surfaces(lua_State *L, const sw_scene *scene, size_t frame) {
+  size_t count, around;
+  lua_newtable(L);
+  for (size_t w = 0; sw_scene_frame_wire(scene, frame, w, &count) != NULL; w++) {
+    const double *p = sw_scene_frame_surface(scene, frame, w, &count, &around);
+    if (p) {
+      lua_createtable(L, 0, 3);
+      lsw_set_integer(L, "around", around);
+      lua_createtable(L, (int)(3 * count), 0);
+      lua_createtable(L, (int)count, 0);
+      for (size_t i = 0; i < count; i++, p += SW_FRAME_SURFACE) {
+        for (size_t k = 0; k < 3; k++) {
+          lua_pushnumber(L, p[k]);
+          lua_rawseti(L, -3, (lua_Integer)(3 * i + k + 1));
+        }
+        lua_pushnumber(L, p[3]);
+        lua_rawseti(L, -2, (lua_Integer)i + 1);
+      }
+      lua_setfield(L, -3, "force");
+      lua_setfield(L, -2, "points");
+    } else {
+      lua_pushboolean(L, 0);
+    }
+    lua_rawseti(L, -2, (lua_Integer)w + 1);
+  }
+}
+
+/* scene:frame(i) -> { t, wires, surfaces, obstacles, holds, energy }, or nil past the end. */
 static int meth_frame(lua_State *L) {
   const sw_scene *scene = check(L);
   const lua_Integer i = luaL_checkinteger(L, 2);
@@ -295,6 +323,8 @@ static int meth_frame(lua_State *L) {
   lsw_set_number(L, "t", sw_scene_frame_time(scene, frame));
   push_frame_wires(L, scene, frame);
   lua_setfield(L, -2, "wires");
+  push_frame_surfaces(L, scene, frame);
+  lua_setfield(L, -2, "surfaces");
   lua_newtable(L);
   for (size_t o = 0; (p = sw_scene_frame_obstacle(scene, frame, o)) != NULL; o++) {
     push_pose(L, p);

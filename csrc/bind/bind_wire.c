@@ -280,6 +280,18 @@ static int meth_max_stress(lua_State *L) {
   return push_extreme(L, x.value * modulus(L), &x);
 }
 
+/* Largest ovalisation of a section of a mesh [-], where [m], when [s]. */
+static int meth_max_ovalisation(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const sw_extreme x = read_extremes(L).ovalisation;
+  if (sw_scene_wire_calibration(scene, w->id)) return push_extreme(L, x.value, &x);
+  return luaL_error(L,
+                    "wire:max_ovalisation: wire '%s' is a %s, whose section does not change; it is "
+                    "known of meshes of particles",
+                    sw_scene_wire_name(scene, w->id), sw_scene_wire_model(scene, w->id));
+}
+
 static int prop_length(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
@@ -327,6 +339,13 @@ static int prop_radius(lua_State *L) {
   return 1;
 }
 
+static int prop_model(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  lua_pushstring(L, sw_scene_wire_model(scene, w->id));
+  return 1;
+}
+
 static int prop_name(lua_State *L) {
   sw_scene *scene;
   const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
@@ -369,12 +388,22 @@ static const luaL_Reg methods[] = {{"position", meth_position},
                                    {"stress", meth_stress},
                                    {"max_strain", meth_max_strain},
                                    {"max_stress", meth_max_stress},
+                                   {"max_ovalisation", meth_max_ovalisation},
+                                   {"section", lsw_wire_section},
+                                   {"width", lsw_wire_width},
+                                   {"contact_pressure", lsw_wire_contact_pressure},
+                                   {"von_mises", lsw_wire_von_mises},
+                                   {"calibration", lsw_wire_calibration},
                                    {"frequencies", lsw_wire_frequencies},
                                    {"remodel", lsw_wire_remodel},
                                    {NULL, NULL}};
-static const luaL_Reg properties[] = {{"length", prop_length}, {"segments", prop_segments},
-                                      {"beam", push_beam},     {"radius", prop_radius},
-                                      {"name", prop_name},     {NULL, NULL}};
+static const luaL_Reg properties[] = {{"length", prop_length},
+                                      {"segments", prop_segments},
+                                      {"beam", push_beam},
+                                      {"radius", prop_radius},
+                                      {"name", prop_name},
+                                      {"model", prop_model},
+                                      {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
 const lsw_class lsw_class_wire = {.name = "wire",

@@ -59,6 +59,12 @@ int lsw_wire_remodel(lua_State *L);
 int lsw_read_model(lua_State *L, int table);
 /* What a model that is a mesh takes besides: rows into out, 0 or 2 of them; defaults into mesh. */
 size_t lsw_mesh_sections(const sw_wire_class *cls, sw_wire_mesh_args *mesh, lsw_section *out);
+int lsw_wire_calibration(lua_State *L);
+/* wire:section(s), wire:width(s, direction), wire:contact_pressure([s]), wire:von_mises([s]) */
+int lsw_wire_section(lua_State *L);
+int lsw_wire_width(lua_State *L);
+int lsw_wire_contact_pressure(lua_State *L);
+int lsw_wire_von_mises(lua_State *L);
 
 /* While the core may call Lua functions as forces: they run on L, whose stack
  * index 1 is the scene. The value goes back to lsw_end_forces. */

@@ -384,6 +384,20 @@ size_t sw_contact_count(const sw_contact *c) {
   return n;
 }
 
+size_t sw_contact_touches(const sw_contact *c) { return c->touch_count; }
+
+int sw_contact_push_at(const sw_contact *c, size_t k, sw_contact_push *out) {
+  const sw_touch *t = &c->touches[k];
+  const sw_press *p = &t->press;
+  *out = (sw_contact_push){.obstacle = c->obstacles[t->obstacle].id,
+                           .node = t->node,
+                           .other = t->other,
+                           .at = t->at,
+                           .normal_force = p->normal_force,
+                           .force = sw_madd(p->tangential, p->normal, p->normal_force)};
+  return p->normal_force > 0;
+}
+
 double sw_contact_energy(const sw_contact *c) {
   double sum = 0;
   for (size_t i = 0; i < c->touch_count; i++) {

@@ -6,8 +6,7 @@
 #include "scene/world.h"
 #include "system/join.h"
 
-/* The wire of a handle, in a scene that is built, readable and refreshed. */
-static sw_status open_wire(sw_scene *s, sw_handle h, sw_scene_wire **wire, sw_error *err) {
+sw_status sw_scene_open_wire(sw_scene *s, sw_handle h, sw_scene_wire **wire, sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
   *wire = sw_scene_find_wire(s, h, err);
   if (!*wire) return SW_EDEAD;
@@ -42,7 +41,7 @@ sw_status sw_scene_wire_particles(sw_scene *s, sw_handle h, size_t *particles, s
 sw_status sw_scene_wire_particle_copy(sw_scene *s, sw_handle h, double *positions, double *arc,
                                       sw_error *err) {
   sw_scene_wire *w;
-  SW_TRY(open_wire(s, h, &w, err));
+  SW_TRY(sw_scene_open_wire(s, h, &w, err));
   const sw_body *b = &s->system.bodies[h.slot];
   const size_t n = b->plan->nodes;
   memcpy(positions, s->system.x + 3 * b->first_node, 3 * n * sizeof(double));
@@ -163,18 +162,22 @@ static double torque_at(const sw_system *s, const sw_body *b, double at) {
   return 0.0;
 }
 
+sw_status sw_scene_check_place(const sw_scene_wire *w, double place, sw_error *err) {
+  const double length = w->mesh.s[w->mesh.n - 1] - w->mesh.s[0];
+  if (place >= 0 && place <= length * (1 + 1e-12)) return SW_OK;
+  return sw_fail(err, SW_EINVAL,
+                 "wire '%s': s = %.6g m is not on the wire; it must be in [0, %.6g] m", w->name,
+                 place, length);
+}
+
 sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double place, sw_point_state *out,
                            sw_error *err) {
   sw_scene_wire *w;
   sw_vec t0, t1;
   double k0, k1, f;
-  SW_TRY(open_wire(s, h, &w, err));
-  const double start = w->mesh.s[0], length = w->mesh.s[w->mesh.n - 1] - start;
-  if (!(place >= 0 && place <= length * (1 + 1e-12)))
-    return sw_fail(err, SW_EINVAL,
-                   "wire '%s': s = %.6g m is not on the wire; it must be in [0, %.6g] m", w->name,
-                   place, length);
-  const double at = place + start;
+  SW_TRY(sw_scene_open_wire(s, h, &w, err));
+  SW_TRY(sw_scene_check_place(w, place, err));
+  const double at = place + w->mesh.s[0];
   const sw_body *b = &s->system.bodies[h.slot];
   if (b->plan->web) {
     sw_strand_at(s, w, b, at, out);
@@ -209,7 +212,7 @@ sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double place, sw_point_stat
 sw_status sw_scene_wire_copy(sw_scene *s, sw_handle h, double *positions, double *arc,
                              double *velocities, sw_error *err) {
   sw_scene_wire *w;
-  SW_TRY(open_wire(s, h, &w, err));
+  SW_TRY(sw_scene_open_wire(s, h, &w, err));
   const sw_body *b = &s->system.bodies[h.slot];
   const size_t n = b->plan->nodes, at = 3 * b->first_node;
   const sw_web *web = b->plan->web;
@@ -229,7 +232,7 @@ sw_status sw_scene_wire_set_velocity(sw_scene *s, sw_handle h, sw_vec v, sw_vec 
                                      sw_error *err) {
   sw_scene_wire *w;
   SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(open_wire(s, h, &w, err));
+  SW_TRY(sw_scene_open_wire(s, h, &w, err));
   const sw_body *b = &s->system.bodies[h.slot];
   for (size_t i = 0; i < b->plan->nodes; i++) {
     const size_t k = 3 * (b->first_node + i);
@@ -248,12 +251,13 @@ static void measure_from_start(sw_wire_extremes *e, double start) {
   e->curvature.s -= start;
   e->tension.s -= start;
   e->strain.s -= start;
+  e->ovalisation.s -= start;
 }
 
 sw_status sw_scene_wire_extremes(sw_scene *s, sw_handle h, sw_wire_extremes *now,
                                  sw_wire_extremes *run, sw_error *err) {
   sw_scene_wire *w;
-  SW_TRY(open_wire(s, h, &w, err));
+  SW_TRY(sw_scene_open_wire(s, h, &w, err));
   sw_scene_wire_now(s, h.slot, now);
   *run = w->extremes;
   sw_scene_keep_extremes(run, now);

@@ -417,6 +417,11 @@ const sw_calibration *sw_scene_wire_calibration(const sw_scene *s, sw_handle h) 
   return w && w->strand.kit ? &w->strand.kit->calibration : NULL;
 }
 
+const char *sw_scene_wire_model(const sw_scene *s, sw_handle h) {
+  const sw_scene_wire *w = sw_scene_find_wire(s, h, NULL);
+  return w ? w->cls->name : NULL;
+}
+
 /* --- obstacles -------------------------------------------------------------- */
 
 static const sw_param obstacle_rows[] = {

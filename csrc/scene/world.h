@@ -58,6 +58,34 @@ void sw_strand_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_bod
                   sw_point_state *out);
 void sw_strand_extremes(const sw_scene *scene, size_t wire, sw_wire_extremes *now);
 
+/* Middle of ring number r of particles at x, and the direction across the area that its surface
+ * encloses [m], [-]. */
+sw_vec sw_strand_middle(const sw_web *web, const double *x, size_t ring);
+sw_vec sw_strand_facing(const sw_web *web, const double *x, size_t ring);
+/* How wide an outline (count x 3) is across the tangent. */
+typedef struct sw_widths {
+  double least, largest;         /* [m] */
+  sw_vec least_way, largest_way; /* [-] */
+} sw_widths;
+enum { SW_OUTLINE = SW_CELL_PARTICLES }; /* most points of an outline [-] */
+sw_widths sw_outline_widths(const double *outline, size_t count, sw_vec tangent);
+/* See sw_section_shape; and for all rings at once, of the one that is out of round most [-]. */
+double sw_outline_ovalisation(const sw_web *web, const double *outline, sw_vec tangent);
+sw_extreme sw_strand_ovalisation(const sw_web *web, const double *x);
+/* Points of the outline (count x 3) moved outwards by skin. */
+void sw_outline_widen(const double *outline, size_t count, sw_vec tangent, double skin,
+                      double *out);
+/* The outline of ring number r [m]. */
+void sw_strand_outline(const sw_web *web, const double *x, size_t ring, double *out);
+/* Forces of obstacles on the particles of a body: across the surface (particles) and, unless
+ * NULL, in all (particles x 3) [N]. */
+void sw_strand_pressed(const sw_scene *scene, const sw_body *body, double *normal, double *force);
+
+/* The wire of a handle, in a scene that is built, readable and refreshed. */
+sw_status sw_scene_open_wire(sw_scene *scene, sw_handle h, sw_scene_wire **wire, sw_error *err);
+/* SW_EINVAL when place is no arc length of the wire. */
+sw_status sw_scene_check_place(const sw_scene_wire *wire, double place, sw_error *err);
+
 /* The wire is as drawn: not twisted anywhere. SW_ENOMEM. */
 sw_status sw_scene_draw_untwisted(sw_scene_wire *wire);
 
