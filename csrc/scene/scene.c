@@ -31,6 +31,7 @@ sw_status sw_scene_new(const sw_scene_args *args, sw_scene **out, sw_error *err)
 void sw_scene_clear_hold(sw_scene_hold *h) {
   sw_free(h->s);
   sw_free(h->local);
+  sw_free(h->particle);
   sw_free(h->log.rows);
   sw_drive_free(&h->drive);
   sw_motion_release(h->feed.motion);
@@ -102,10 +103,17 @@ sw_status sw_scene_editable(const sw_scene *s, sw_error *err) {
   return SW_OK;
 }
 
-sw_scene_wire *sw_scene_find_wire(const sw_scene *s, sw_handle h, sw_error *err) {
+sw_scene_wire *sw_scene_find_body(const sw_scene *s, sw_handle h, sw_error *err) {
   if (h.slot < s->wire_count && s->wires[h.slot].generation == h.generation)
     return &s->wires[h.slot];
-  sw_fail(err, SW_EDEAD, "this wire is not of scene '%s' any more", s->name);
+  sw_fail(err, SW_EDEAD, "this object is not of scene '%s' any more", s->name);
+  return NULL;
+}
+
+sw_scene_wire *sw_scene_find_wire(const sw_scene *s, sw_handle h, sw_error *err) {
+  sw_scene_wire *w = sw_scene_find_body(s, h, err);
+  if (!w || !sw_scene_is_loose(w)) return w;
+  sw_fail(err, SW_EINVAL, "'%s' is an object of particles, not a wire", w->name);
   return NULL;
 }
 
@@ -125,7 +133,7 @@ sw_scene_obstacle *sw_scene_find_obstacle(const sw_scene *s, sw_handle h, sw_err
 }
 
 const char *sw_scene_wire_name(const sw_scene *s, sw_handle h) {
-  const sw_scene_wire *w = sw_scene_find_wire(s, h, NULL);
+  const sw_scene_wire *w = sw_scene_find_body(s, h, NULL);
   return w ? w->name : NULL;
 }
 

@@ -41,6 +41,12 @@ typedef struct sw_scene_wire {
   int untwisted; /* 1: lies as it was drawn, without the twist it has unloaded; nothing has moved */
 } sw_scene_wire;
 
+/* 1: an object of particles in no order along a wire. It has no arc length, and its mesh is a
+ * straight line of its size. */
+static inline int sw_scene_is_loose(const sw_scene_wire *wire) {
+  return wire->strand.web && !wire->strand.web->per_ring;
+}
+
 /* SW_EINVAL when the wire is a mesh of particles, which does not go with what. */
 sw_status sw_scene_check_line(const sw_scene_wire *wire, const char *what, sw_error *err);
 
@@ -119,6 +125,7 @@ typedef struct sw_scene_hold {
   size_t count;           /* held places */
   double *s;              /* (count) arc lengths when taken hold of [m] */
   double *local;          /* (count x 3) in the hold's frame [m] */
+  uint32_t *particle;     /* (count) which ones of a mesh; NULL on other wires */
   sw_vec director[2];     /* arriving, leaving; in the hold's frame [-] */
   sw_mesh_frame frame[2]; /* the wire's there, with directions as held; if it has frames */
   sw_quat turn;           /* orientation that goes with the wire's twist, while not built */
@@ -336,7 +343,8 @@ void sw_slip_give_up(sw_scene *scene);
 
 sw_status sw_log_add(sw_log *log, const double *row, size_t n);
 
-/* The object of a handle, or NULL with err set. */
+/* The object of a handle, or NULL with err set. A body is a wire or an object of particles. */
+sw_scene_wire *sw_scene_find_body(const sw_scene *scene, sw_handle h, sw_error *err);
 sw_scene_wire *sw_scene_find_wire(const sw_scene *scene, sw_handle h, sw_error *err);
 sw_scene_hold *sw_scene_find_hold(const sw_scene *scene, sw_handle h, sw_error *err);
 /* The same of a hold that has not been released. */
