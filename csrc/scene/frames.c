@@ -42,7 +42,7 @@ static sw_status fill(sw_scene *s, double *p, sw_error *err) {
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_body *b = &s->system.bodies[w];
     const sw_web *web = b->plan->web;
-    if (web) { /* its middle line */
+    if (web && web->per_ring) { /* its middle line */
       *p++ = (double)web->rings;
       for (size_t r = 0; r < web->rings; r++, p += 3)
         sw_web_middle(web, s->system.x + 3 * b->first_node, r, p);
@@ -90,6 +90,10 @@ const double *sw_scene_frame_hold(const sw_scene *s, size_t frame, size_t h, int
   const double *p = f->data + SW_FRAME_ENERGIES + POSE * f->obstacles + HOLD * h;
   *held = p[POSE] > 0;
   return p;
+}
+
+int sw_scene_frame_is_loose(const sw_scene *s, size_t w) {
+  return w < s->wire_count && sw_scene_is_loose(&s->wires[w]);
 }
 
 const double *sw_scene_frame_wire(const sw_scene *s, size_t frame, size_t w, size_t *count) {

@@ -282,7 +282,7 @@ static void drop_newer(sw_scene *s) {
   }
   while (s->hold_count > holds) sw_scene_clear_hold(&s->holds[--s->hold_count]);
   while (s->obstacle_count > obstacles) sw_scene_clear_obstacle(&s->obstacles[--s->obstacle_count]);
-  if (s->force_count > forces) s->force_count = forces;
+  while (s->force_count > forces) sw_scene_clear_force(&s->forces[--s->force_count]);
   if (s->join_count > joins) s->join_count = joins;
 }
 

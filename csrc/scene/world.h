@@ -152,6 +152,7 @@ typedef struct sw_scene_force {
   long wire;    /* -1 = all */
   double scale; /* of the wire's mesh when it was made [-] */
   double args[SW_FORCE_ARGS_MAX / sizeof(double)];
+  uint32_t *particle; /* of a force on some particles: its list, which args name; or NULL */
 } sw_scene_force;
 
 /* Wires joined at a point. */
@@ -363,7 +364,16 @@ sw_status sw_scene_make_places(const sw_scene *scene, size_t wire, sw_mesh *mesh
 /* Where and how a hold holds, into another slot that owns nothing. SW_ENOMEM. */
 sw_status sw_scene_copy_shape(const sw_scene_hold *from, sw_scene_hold *to);
 
+/* The body of a handle, in a scene that is built, readable and refreshed. */
+sw_status sw_scene_open_body(sw_scene *scene, sw_handle h, sw_scene_wire **body, sw_error *err);
+/* Do the forces and contacts that the scene has for all wires go with a new body? */
+sw_status sw_scene_check_rules(const sw_scene *scene, const sw_scene_wire *body, sw_error *err);
+/* The given name, or kind and a number. */
+void sw_scene_give_name(char *out, const char *wanted, const char *kind, size_t number);
+
 /* Free what these slots own. */
+void sw_scene_clear_body(sw_scene_wire *body);
+void sw_scene_clear_force(sw_scene_force *force);
 void sw_scene_clear_hold(sw_scene_hold *hold);
 void sw_scene_clear_obstacle(sw_scene_obstacle *obstacle);
 /* The scene goes away: its snapshots live on, good for nothing. */

@@ -124,9 +124,7 @@ sw_status sw_blocks_sparse_factor(sw_blocks_sparse *s, const unsigned char *fixe
   return sw_tree_factor(s->tree, s->values, fixed, negative);
 }
 
-void sw_blocks_sparse_solve(const sw_blocks_sparse *s, double *x) {
-  sw_tree_solve(s->tree, x);
-}
+void sw_blocks_sparse_solve(const sw_blocks_sparse *s, double *x) { sw_tree_solve(s->tree, x); }
 
 /* y += block x */
 static inline void add(const double *a, const double *x, double *y) {

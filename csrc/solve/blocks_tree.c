@@ -29,13 +29,13 @@ typedef struct entry {
 struct sw_tree {
   size_t nodes, pieces;
   const uint32_t *first, *column;
-  uint32_t *number;   /* (nodes) node -> its number */
-  uint32_t *node;     /* (nodes) number -> node */
-  piece *piece;       /* (pieces) as they are eliminated */
-  uint32_t *row;      /* numbers */
-  uint32_t *entries;  /* (nodes + 1) a number's first entry */
-  entry *entry;       /* (blocks) */
-  uint32_t *place;    /* (nodes) work: columns of a front by number */
+  uint32_t *number;  /* (nodes) node -> its number */
+  uint32_t *node;    /* (nodes) number -> node */
+  piece *piece;      /* (pieces) as they are eliminated */
+  uint32_t *row;     /* numbers */
+  uint32_t *entries; /* (nodes + 1) a number's first entry */
+  entry *entry;      /* (blocks) */
+  uint32_t *place;   /* (nodes) work: columns of a front by number */
   double *factor, *kept, *scaled, *left, *x, *before;
 };
 
@@ -110,7 +110,8 @@ static void lay_out(sw_tree *t, sizes *size) {
   for (size_t s = 0; s < t->pieces; s++) {
     piece *p = t->piece + s;
     p->before = sw_front_pad(3 * (size_t)p->rest);
-    p->stride = (p->before + sw_front_pad(3 * (size_t)p->own)) | SW_FRONT_TILE; /* spares cache sets */
+    p->stride =
+        (p->before + sw_front_pad(3 * (size_t)p->own)) | SW_FRONT_TILE; /* spares cache sets */
     p->factor = size->factor;
     size->factor += 3 * p->own * p->stride;
     if (3 * p->own * p->stride > size->scaled) size->scaled = 3 * p->own * p->stride;
@@ -255,7 +256,8 @@ sw_status sw_tree_factor(sw_tree *t, const double *values, const unsigned char *
 
 void sw_tree_solve(const sw_tree *t, double *x) {
   double *z = t->x, *before = t->before;
-  for (size_t k = 0; k < t->nodes; k++) memcpy(z + 3 * k, x + 3 * (size_t)t->node[k], 3 * sizeof *x);
+  for (size_t k = 0; k < t->nodes; k++)
+    memcpy(z + 3 * k, x + 3 * (size_t)t->node[k], 3 * sizeof *x);
   for (size_t s = 0; s < t->pieces; s++) {
     const piece *p = t->piece + s;
     const sw_front f = front_of(t, p);
@@ -274,5 +276,6 @@ void sw_tree_solve(const sw_tree *t, double *x) {
       memcpy(before + 3 * k, z + 3 * (size_t)row[k], 3 * sizeof *z);
     sw_front_backward(&f, z + 3 * (size_t)row[p->rest], before);
   }
-  for (size_t k = 0; k < t->nodes; k++) memcpy(x + 3 * (size_t)t->node[k], z + 3 * k, 3 * sizeof *x);
+  for (size_t k = 0; k < t->nodes; k++)
+    memcpy(x + 3 * (size_t)t->node[k], z + 3 * k, 3 * sizeof *x);
 }

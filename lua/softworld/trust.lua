@@ -174,6 +174,10 @@ function trust.job(scene, what, args)
     error(("%s: %s is under way and cannot begin again, as error bars need; run the scene without them "
       .. "until it has ended, or ask for them from the start"):format(what, tostring(under_way)), 0)
   end
+  if #data.particles > 0 then
+    error(("%s: error bars go with wires only, and '%s' is an object of particles; give dt, or tolerance "
+      .. "as a number"):format(what, data.particles[1].name), 0)
+  end
   if #data.wires == 0 then error(("%s: scene '%s': there is no wire"):format(what, scene.name), 0) end
   local job = { scene = scene, what = what, values = {}, levels = {} }
   local count = (data.process_count or 0) - #bodies
