@@ -145,6 +145,7 @@ void sw_strand_extremes(const sw_scene *s, size_t wire, sw_wire_extremes *now) {
   const double *x = s->system.x + 3 * b->first_node, EA = b->plan->beam.EA;
   const sw_extreme least = {.value = -HUGE_VAL};
   *now = (sw_wire_extremes){least, least, least, least};
+  if (!w->rings) return; /* an object of particles */
   for (size_t r = 0; r + 1 < w->rings; r++) {
     const slice at = slice_of(w, x, r);
     const double place = 0.5 * (w->s[r * w->per_ring] + w->s[(r + 1) * w->per_ring]);

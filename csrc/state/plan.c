@@ -167,7 +167,7 @@ sw_status sw_plan_of_web(const sw_beam *beam, sw_web *web, const int *held, sw_p
   sw_plan *p = new_plan(beam, web->particles, 0, 0);
   if (!p) return SW_ENOMEM;
   p->web = sw_web_retain(web);
-  p->length = web->s[web->particles - 1] - web->s[0];
+  p->length = web->per_ring ? web->s[web->particles - 1] - web->s[0] : web->length;
   for (size_t i = 0; i < web->particles; i++) {
     p->s[i] = web->s[i];
     p->lumped[i] = p->mass_own[i] = web->mass[i];

@@ -43,22 +43,27 @@ typedef struct sw_web {
   size_t folds;
   sw_web_solid *solid;
   size_t solids;
+  double *yield, *hardening; /* (links) strain at which they yield, and gain of that force
+                                over their stiffness, NAN: never [-]; or NULL */
   size_t shape_count;
   void *shapes;                     /* (shape_count) prepared by the force of the solids, or NULL */
   size_t *ring_links, *ring_solids; /* (rings + 1) where those begin that start at each ring */
   double *mass;                     /* (particles) [kg] */
-  double *s;                        /* (particles) arc length [m] */
+  double *s;                        /* (particles) arc length; place along the size [m] */
+  double length;                    /* without rings: size of the whole [m] */
   double *share;                    /* (per_ring) of the mass of a slice [-] */
   double *section;                  /* (per_ring x 2) where they are across the wire [m] */
   uint32_t *around;                 /* (around_count) of a section's surface, in their order */
   size_t around_count;
-  uint32_t axis;        /* a section's particle on the axis; per_ring: there is none */
-  double solid_rate2;   /* the same of the solid elements [1/s2] */
-  double rate2;         /* most of twice the springs of a particle over its mass [1/s2] */
-  double skin;          /* distance of the surface from the particles there [m] */
-  unsigned char *outer; /* (particles) 1: at the surface */
-  size_t *side_first;   /* (particles + 1) where the sides of each begin */
-  uint32_t *side;       /* other ends of the surface's edges, each edge once */
+  uint32_t axis;      /* a section's particle on the axis; per_ring: there is none */
+  double solid_rate2; /* the same of the solid elements [1/s2] */
+  double rate2;       /* most of twice the springs of a particle over its mass [1/s2] */
+  double repel_distance, repel_stiffness; /* particles nearer than that push each other apart;
+                                             stiffness 0: they do not [m], [N/m] */
+  double skin;                            /* distance of the surface from the particles there [m] */
+  unsigned char *outer;                   /* (particles) 1: at the surface */
+  size_t *side_first;                     /* (particles + 1) where the sides of each begin */
+  uint32_t *side;                         /* other ends of the surface's edges, each edge once */
 } sw_web;
 
 /* An empty web for so many particles, of one reference. SW_ENOMEM. */
