@@ -130,7 +130,7 @@ static sw_status take_particles(const sw_scene_wire *w, sw_scene_hold *h, const 
   const sw_web *web = w->strand.web;
   const sw_mesh *m = &w->mesh;
   const size_t first = sw_mesh_node(m, h->s1), last = sw_mesh_node(m, h->s2);
-  const size_t room = (last - first + 1) * web->per_ring;
+  const size_t room = web->first[last + 1] - web->first[first];
   h->s = sw_alloc(room, sizeof *h->s);
   h->local = sw_alloc(3 * room, sizeof *h->local);
   h->particle = sw_alloc(room, sizeof *h->particle);
@@ -140,7 +140,7 @@ static sw_status take_particles(const sw_scene_wire *w, sw_scene_hold *h, const 
   const double f = fmin(1.0, fmax(0.0, (a->s - m->s[i]) / (m->s[i + 1] - m->s[i])));
   const sw_vec origin = sw_lerp(sw_vec_at(m->x, i), sw_vec_at(m->x, i + 1), f);
   const sw_quat turn = sw_quat_between(sw_mesh_tangent_at(m, a->s), h->director[1]);
-  for (size_t p = first * web->per_ring; p < (last + 1) * web->per_ring; p++) {
+  for (size_t p = web->first[first]; p < web->first[last + 1]; p++) {
     if (!sw_strand_holds(web, h->cls, p)) continue;
     h->s[h->count] = web->s[p];
     h->particle[h->count] = (uint32_t)p;

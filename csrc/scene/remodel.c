@@ -62,7 +62,7 @@ static sw_vec section_x(const sw_web *w, const double *x, size_t ring, sw_vec t)
   sw_vec sum = sw_v(0, 0, 0);
   for (size_t k = 0; k < w->around_count; k++) {
     const uint32_t i = w->around[k];
-    const sw_vec r = sw_sub(sw_vec_at(x, ring * w->per_ring + i), sw_load(at));
+    const sw_vec r = sw_sub(sw_vec_at(x, w->first[ring] + i), sw_load(at));
     const double X = w->section[2 * i], Y = w->section[2 * i + 1];
     sum = sw_madd(sum, r, X);              /* as if turned by nothing */
     sum = sw_madd(sum, sw_cross(r, t), Y); /* and by a quarter turn: y comes to x */
@@ -249,7 +249,7 @@ static void spin_sections(const line *l, const sw_web *web, const double *x, dou
     const sw_vec rate = sw_sub(sw_vec_at(l->v, b), sw_vec_at(l->v, a));
     const sw_vec t = sw_load(l->frame + 6 * r);
     const sw_vec omega = sw_scale(sw_cross(t, rate), 1.0 / fmax(sw_norm(way), 1e-30));
-    for (size_t i = r * web->per_ring; i < (r + 1) * web->per_ring; i++) {
+    for (size_t i = web->first[r]; i < web->first[r + 1]; i++) {
       const sw_vec arm = sw_sub(sw_vec_at(x, i), sw_vec_at(l->x, r));
       sw_store(v + 3 * i, sw_add(sw_vec_at(l->v, r), sw_cross(omega, arm)));
     }

@@ -241,6 +241,9 @@ static sw_status fill_web(maker *m) {
   sw_web *w = m->web;
   const size_t n = l->particles, rings = m->mesh->n;
   w->rings = rings, w->per_ring = n;
+  w->first = sw_alloc(rings + 1, sizeof *w->first);
+  if (!w->first) return SW_ENOMEM;
+  for (size_t r = 0; r <= rings; r++) w->first[r] = r * n;
   w->banded = w->folds == 0;
   w->share = sw_alloc(n, sizeof *w->share);
   w->section = sw_alloc(2 * n, sizeof *w->section);

@@ -55,7 +55,8 @@ sw_status sw_scene_check_line(const sw_scene_wire *wire, const char *what, sw_er
 void sw_strand_rings(const sw_mesh *mesh, double *s1, double *s2);
 /* 1: a hold of this class holds the particle. */
 static inline int sw_strand_holds(const sw_web *web, const sw_hold_class *cls, size_t particle) {
-  return cls->clamped || particle % web->per_ring == web->axis;
+  const size_t ring = sw_web_ring_of(web, particle);
+  return cls->clamped || !sw_web_is_ring(web, ring) || particle - web->first[ring] == web->axis;
 }
 /* The system's state to the strand and the middles of its rings. */
 void sw_strand_take(sw_scene_wire *wire, const sw_system *system, const sw_body *body);

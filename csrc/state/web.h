@@ -36,6 +36,8 @@ typedef struct sw_web {
   int references;
   size_t particles;
   size_t rings, per_ring; /* particles ring by ring along a wire; per_ring 0: in no order [-] */
+  size_t *first;          /* (rings + 1) particle that each ring begins with; those of rings that
+                           * are one particle, where the wire is a line, are one apart */
   int banded;             /* 1: nothing reaches further than to the next ring */
   sw_web_link *link;
   size_t links;
@@ -60,6 +62,7 @@ typedef struct sw_web {
   double rate2;       /* most of twice the springs of a particle over its mass [1/s2] */
   double repel_distance, repel_stiffness; /* particles nearer than that push each other apart;
                                              stiffness 0: they do not [m], [N/m] */
+  double line_skin;                       /* distance of the surface from particles of a line [m] */
   double skin;                            /* distance of the surface from the particles there [m] */
   unsigned char *outer;                   /* (particles) 1: at the surface */
   size_t *side_first;                     /* (particles + 1) where the sides of each begin */
@@ -70,6 +73,14 @@ typedef struct sw_web {
 sw_status sw_web_new(size_t particles, size_t links, size_t folds, size_t solids, sw_web **out);
 sw_web *sw_web_retain(sw_web *web);
 void sw_web_release(sw_web *web); /* NULL is allowed */
+
+/* 0: ring number r is a single particle of a line. */
+static inline int sw_web_is_ring(const sw_web *web, size_t r) {
+  return web->first[r + 1] - web->first[r] == web->per_ring;
+}
+
+/* The ring that has a particle. */
+size_t sw_web_ring_of(const sw_web *web, size_t particle);
 
 /* Once particles, rings and around are known: which particles and edges are the surface of a
  * wire. SW_ENOMEM. */
