@@ -31,7 +31,7 @@ void sw_strand_take(sw_scene_wire *wire, const sw_system *s, const sw_body *b) {
   memcpy(p->v, s->v + at, size);
   memcpy(p->a, s->a + at, size);
   memcpy(p->axial, s->tension + b->first_edge, p->web->links * sizeof(double));
-  for (size_t r = 0; r < wire->mesh.n; r++) {
+  for (size_t r = 0; r < p->web->rings; r++) {
     sw_store(wire->mesh.x + 3 * r, sw_strand_middle(p->web, p->x, r));
     sw_store(wire->mesh.v + 3 * r, sw_strand_middle(p->web, p->v, r));
   }
