@@ -258,7 +258,7 @@ static void spin_sections(const line *l, const sw_web *web, const double *x, dou
 
 static sw_status becomes_mesh(const sw_strand_plan *plan, const sw_scene_wire *w, const line *l,
                               sw_scene_wire *out, sw_error *err) {
-  const sw_strand_lie lie = {l->frame, l->strain};
+  const sw_strand_lie lie = {.frames = l->frame, .strains = l->strain};
   SW_TRY(sw_strand_new(plan, &w->beam, &out->mesh, &lie, &out->strand, err));
   spin_sections(l, out->strand.web, out->strand.x, out->strand.v);
   return SW_OK;
