@@ -79,9 +79,20 @@ sw_status sw_strand_slices(const sw_strand_plan *p, const sw_beam *beam, double 
 static sw_vec in_section(const sw_strand_maker *m, size_t r, size_t i) {
   sw_vec at = sw_vec_at(m->lattice->at, i);
   const size_t n = 3 * m->lattice->particles;
+  if (sw_strand_is_line(m, r + 1) || (r > 0 && sw_strand_is_line(m, r - 1)))
+    return at; /* a lever keeps the section as it is */
   for (size_t s = 0; m->warp && s < SW_CELL_STRAINS; s++)
     at = sw_madd(at, sw_vec_at(m->warp + s * n, i), m->lie->strains[SW_CELL_STRAINS * r + s]);
   return at;
+}
+
+/* The particle of a line: a lever is straight before its section. */
+static sw_vec on_line(const sw_strand_maker *m, size_t r) {
+  const int left = r > 0 && sw_strand_is_ring(m, r - 1), right = sw_strand_is_ring(m, r + 1);
+  if (!left && !right) return sw_vec_at(m->mesh->x, r);
+  const size_t ring = left ? r - 1 : r + 1;
+  const double d = m->mesh->s[r] - m->mesh->s[ring];
+  return sw_madd(sw_vec_at(m->mesh->x, ring), sw_load(m->lie->frames + 6 * ring), d);
 }
 
 /* Particles across the line that the mesh's nodes are, sections carried along without twist. */
@@ -97,7 +108,7 @@ static void place_particles(const sw_strand_maker *m) {
     t = next;
     if (m->lie) t = sw_load(m->lie->frames + 6 * r), u = sw_load(m->lie->frames + 6 * r + 3);
     const sw_vec w = sw_cross(t, u);
-    if (!sw_strand_is_ring(m, r)) sw_store(m->strand->x + 3 * m->first[r], middle);
+    if (!sw_strand_is_ring(m, r)) sw_store(m->strand->x + 3 * m->first[r], on_line(m, r));
     for (size_t i = 0; i < n && sw_strand_is_ring(m, r); i++) {
       const sw_vec at = in_section(m, r, i), across = sw_madd(sw_scale(u, at.x), w, at.y);
       sw_store(m->strand->x + 3 * (m->first[r] + i), sw_madd(sw_add(middle, across), t, at.z));

@@ -16,8 +16,8 @@ typedef struct sw_strand_maker {
   size_t *first;             /* (mesh.n + 1) particle that each begins with */
   uint32_t *around;          /* (around_count) of a section's surface, in their order */
   size_t around_count;
-  double *warp;              /* of a section by unit strains, see sw_cell_warp; or NULL */
-  sw_web *web;               /* NULL while parts are only counted */
+  double *warp; /* of a section by unit strains, see sw_cell_warp; or NULL */
+  sw_web *web;  /* NULL while parts are only counted */
   sw_strand *strand;
   size_t links, folds, solids; /* so far */
 } sw_strand_maker;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lines of particles between the meshed parts of a strand: a rod that stretches and bends, lumped
  * in particles, without twist. Where a line meets a ring, its first particle is a lever: springs
- * to the ring's surface hold it straight before the section, and the line's last hinge lies there,
+ * to the ring's particles hold it straight before the section, and the line's last hinge lies there,
  * between the line and the section, with the compliance of half the edge and of the lever. */
 #include <math.h>
 
@@ -16,23 +16,22 @@ static const double *outline_at(const sw_strand_maker *m, size_t k) {
   return m->lattice->at + 3 * (size_t)m->around[k];
 }
 
-/* Springs from a ring's surface to the particle of a line that is d away from its plane. */
+/* Springs from a ring to the particle of a line that is d away from its plane. */
 static void add_lever(sw_strand_maker *m, size_t ring, size_t line, double d) {
-  const size_t count = m->around_count;
-  double sum = 0; /* of (d R/l^2)^2 l^2 round the ring */
-  for (size_t k = 0; k < count; k++) {
-    const double *at = outline_at(m, k), R2 = at[0] * at[0] + at[1] * at[1];
-    sum += 0.5 * d * d * R2 / (d * d + R2);
+  const sw_lattice *p = m->lattice;
+  double sum = 0; /* what unit springs do against turning [m2] */
+  for (size_t i = 0; i < p->particles; i++) {
+    const double *at = p->at + 3 * i, R2 = at[0] * at[0] + at[1] * at[1];
+    sum += 0.5 * p->share[i] * d * d * R2 / (d * d + R2);
   }
-  for (size_t k = 0; k < count; k++) {
-    const double *at = outline_at(m, k);
+  for (size_t i = 0; i < p->particles; i++) {
+    const double *at = p->at + 3 * i;
     const double l = sqrt(at[0] * at[0] + at[1] * at[1] + d * d);
-    const size_t i = m->first[ring] + m->around[k];
-    const double stiff = RIGID * m->beam->EI / (m->lattice->spacing * sum);
+    const double stiff = RIGID * m->beam->EI / (p->spacing * sum) * p->share[i];
     if (line > ring)
-      sw_strand_add_link(m, i, m->first[line], stiff, l);
+      sw_strand_add_link(m, m->first[ring] + i, m->first[line], stiff, l);
     else
-      sw_strand_add_link(m, m->first[line], i, stiff, l);
+      sw_strand_add_link(m, m->first[line], m->first[ring] + i, stiff, l);
   }
 }
 

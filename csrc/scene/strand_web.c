@@ -179,8 +179,7 @@ static sw_status make_room(sw_strand_maker *m) {
   w->ring_links = sw_alloc(rings + 1, sizeof *w->ring_links);
   w->ring_solids = sw_alloc(rings + 1, sizeof *w->ring_solids);
   m->strand->axial = sw_alloc(m->links, sizeof *m->strand->axial);
-  return w->first && w->share && w->section && w->ring_links && w->ring_solids &&
-                 m->strand->axial
+  return w->first && w->share && w->section && w->ring_links && w->ring_solids && m->strand->axial
              ? SW_OK
              : SW_ENOMEM;
 }
