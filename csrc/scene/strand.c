@@ -60,7 +60,7 @@ sw_status sw_strand_slices(const sw_strand_plan *p, const sw_beam *beam, double 
                            sw_error *err) {
   double spacing = p->spacing;
   if (isnan(spacing)) {
-    sw_calibration any;
+    sw_calibration any = {0};
     const sw_status status = calibrate(p, beam, spacing, 1.0, &any, err);
     spacing = any.lattice.spacing;
     sw_calibration_free(&any);
