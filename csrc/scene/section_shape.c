@@ -113,19 +113,10 @@ static void torsion(const spot *p, sw_section_shape *out) {
 
 /* --- strain ------------------------------------------------------------------------- */
 
-/* Unstressed length of the line from a particle to the same one in the next ring: of the spring
- * that lies there, or that of a straight wire. */
-static double line_rest(const sw_web *w, size_t ring, size_t particle) {
-  const size_t a = ring * w->per_ring + particle;
-  for (size_t e = w->ring_links[ring]; e < w->ring_links[ring + 1]; e++)
-    if (w->link[e].a == a && w->link[e].b == a + w->per_ring) return w->link[e].rest;
-  return ring_s(w, ring + 1) - ring_s(w, ring);
-}
-
 static double line_strain(const spot *p, size_t slice, size_t particle) {
-  const double *a = p->x + 3 * (slice * p->web->per_ring + particle);
-  const double l = sw_dist(sw_load(a), sw_load(a + 3 * p->web->per_ring));
-  return l / line_rest(p->web, slice, particle) - 1.0;
+  const size_t i = slice * p->web->per_ring + particle;
+  const double l = sw_dist(sw_vec_at(p->x, i), sw_vec_at(p->x, i + p->web->per_ring));
+  return l / p->web->along[i] - 1.0;
 }
 
 /* Of both lines round the wire that meet at number k of a ring's outline. */

@@ -241,11 +241,13 @@ static sw_status fill_web(maker *m) {
   w->rings = rings, w->per_ring = n;
   w->banded = w->folds == 0;
   w->share = sw_alloc(n, sizeof *w->share);
+  w->along = sw_alloc(w->particles, sizeof *w->along);
   w->section = sw_alloc(2 * n, sizeof *w->section);
   w->around = sw_alloc(n, sizeof *w->around);
   w->ring_links = sw_alloc(rings + 1, sizeof *w->ring_links);
   w->ring_solids = sw_alloc(rings + 1, sizeof *w->ring_solids);
-  if (!w->share || !w->section || !w->around || !w->ring_links || !w->ring_solids) return SW_ENOMEM;
+  if (!w->share || !w->along || !w->section || !w->around || !w->ring_links || !w->ring_solids)
+    return SW_ENOMEM;
   w->axis = (uint32_t)n;
   for (size_t i = 0; i < n; i++) {
     w->share[i] = l->share[i];
@@ -257,6 +259,8 @@ static sw_status fill_web(maker *m) {
     const size_t r = p / n;
     w->mass[p] = slice * l->share[p % n] * (r == 0 || r + 1 == rings ? 0.5 : 1.0);
     w->s[p] = m->mesh->s[r];
+    const sw_cell_link line = {.from = (uint32_t)(p % n), .to = (uint32_t)(p % n), .slices = 1};
+    if (r + 1 < rings) w->along[p] = rest_length(m, &line, r);
   }
   add_links(m);
   SW_TRY(add_solids(m));

@@ -32,9 +32,9 @@ sw_web *sw_web_retain(sw_web *web) {
 
 void sw_web_release(sw_web *w) {
   if (!w || --w->references > 0) return;
-  void *const blocks[] = {w->link,  w->fold,   w->solid, w->shapes,    w->ring_links,
-                          w->mass,  w->s,      w->share, w->section,   w->ring_solids,
-                          w->outer, w->around, w->side,  w->side_first};
+  void *const blocks[] = {w->link,  w->fold,  w->solid,  w->shapes,  w->ring_links,
+                          w->mass,  w->s,     w->share,  w->section, w->ring_solids,
+                          w->along, w->outer, w->around, w->side,    w->side_first};
   for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) sw_free(blocks[k]);
   sw_free(w);
 }

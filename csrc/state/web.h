@@ -48,9 +48,10 @@ typedef struct sw_web {
   size_t *ring_links, *ring_solids; /* (rings + 1) where those begin that start at each ring */
   double *mass;                     /* (particles) [kg] */
   double *s;                        /* (particles) arc length [m] */
-  double *share;                    /* (per_ring) of the mass of a slice [-] */
-  double *section;                  /* (per_ring x 2) where they are across the wire [m] */
-  uint32_t *around;                 /* (around_count) of a section's surface, in their order */
+  double *along; /* (particles) unstressed distance of the same one in the next ring; 0: none [m] */
+  double *share; /* (per_ring) of the mass of a slice [-] */
+  double *section;  /* (per_ring x 2) where they are across the wire [m] */
+  uint32_t *around; /* (around_count) of a section's surface, in their order */
   size_t around_count;
   uint32_t axis;        /* a section's particle on the axis; per_ring: there is none */
   double solid_rate2;   /* the same of the solid elements [1/s2] */
