@@ -93,6 +93,7 @@ static void params(lua_State *L) {
   } tables[] = {{"scene", &sw_scene_params},
                 {"wire", &sw_wire_params},
                 {"wire_mesh", &sw_wire_mesh_params},
+                {"remodel", &sw_remodel_params},
                 {"section", &sw_section_params},
                 {"obstacle", &sw_obstacle_params},
                 {"run", &sw_run_params},

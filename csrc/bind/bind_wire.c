@@ -25,7 +25,7 @@ static double *read_path(lua_State *L, int table, size_t *count) {
   return points;
 }
 
-static int read_model(lua_State *L, int table) {
+int lsw_read_model(lua_State *L, int table) {
   const char *names[32];
   size_t count = 0;
   while (count < 32 && sw_wire_all()[count]) names[count] = sw_wire_all()[count]->name, count++;
@@ -75,8 +75,7 @@ static double split_stiffness(lua_State *L) {
   return EI[1];
 }
 
-/* What a model that is a mesh takes besides: rows into out; returns how many. */
-static size_t mesh_sections(const sw_wire_class *cls, sw_wire_mesh_args *mesh, lsw_section *out) {
+size_t lsw_mesh_sections(const sw_wire_class *cls, sw_wire_mesh_args *mesh, lsw_section *out) {
   sw_params_default(&sw_wire_mesh_params, mesh);
   sw_params_default(&sw_tube_params, &mesh->lattice.tube);
   sw_params_default(&sw_radial_params, &mesh->lattice.radial);
@@ -101,8 +100,8 @@ int lsw_scene_wire(lua_State *L) {
   lua_settop(L, 2);
   lsw_check_table(L, 2, "scene:wire");
   const double EI2 = split_stiffness(L);
-  const int model = read_model(L, 2);
-  const size_t more = mesh_sections(sw_wire_all()[model], &mesh, sections + 2);
+  const int model = lsw_read_model(L, 2);
+  const size_t more = lsw_mesh_sections(sw_wire_all()[model], &mesh, sections + 2);
   lsw_sections(L, 2, "wire", sections, 2 + more);
   args.model = model;
   section.EI2 = EI2;
@@ -396,6 +395,7 @@ static const luaL_Reg methods[] = {{"position", meth_position},
                                    {"von_mises", lsw_wire_von_mises},
                                    {"calibration", lsw_wire_calibration},
                                    {"frequencies", lsw_wire_frequencies},
+                                   {"remodel", lsw_wire_remodel},
                                    {NULL, NULL}};
 static const luaL_Reg properties[] = {{"length", prop_length},
                                       {"segments", prop_segments},

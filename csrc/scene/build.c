@@ -68,6 +68,10 @@ static sw_status inherit_contact(sw_scene *s) {
     const sw_body *b = &s->system.bodies[w];
     size_t i = 0;
     for (size_t k = s->kept.first[w]; k < s->kept.first[w + 1]; k++) {
+      if (s->kept.changed == w + 1) {
+        new_node[k] = SIZE_MAX;
+        continue;
+      }
       if (b->plan->web) { /* its particles stay as they are */
         new_node[k] = b->first_node + k - s->kept.first[w];
         continue;

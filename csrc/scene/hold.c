@@ -217,6 +217,47 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wir
   return SW_OK;
 }
 
+/* Places and directions as they are now, in a frame at a pose. */
+static void seen_from(sw_scene_hold *h, sw_pose pose) {
+  for (size_t i = 0; i < h->count; i++) {
+    const sw_vec world = sw_add(sw_vec_at(h->local, i), h->drive.pose.p);
+    sw_store(h->local + 3 * i, sw_pose_local(pose, world));
+  }
+  for (int side = 0; side < 2; side++) {
+    h->director[side] = sw_unrotate(pose.q, h->director[side]);
+    h->frame[side].tangent = sw_unrotate(pose.q, h->frame[side].tangent);
+    h->frame[side].normal = sw_unrotate(pose.q, h->frame[side].normal);
+  }
+}
+
+sw_status sw_scene_rehold(sw_scene *s, sw_scene_hold *h, sw_pose pose) {
+  const sw_scene_wire *w = &s->wires[h->wire];
+  sw_hold_args a = h->args;
+  sw_scene_hold new = *h;
+  a.s = 0.5 * (h->s1 + h->s2), a.direction = sw_v(NAN, NAN, NAN);
+  new.s = new.local = NULL, new.count = 0;
+  h->alive = 0; /* its own places are not in its way */
+  take_directions(&w->mesh, &new, &a);
+  sw_status status = place_nodes(s, h->wire, &new, &a);
+  if (status == SW_OK)
+    status = w->strand.web ? take_particles(w, &new, &a) : take_hold(&w->mesh, &new, &a);
+  if (status == SW_OK && !w->strand.web)
+    status = refine_gaps(s, h->wire, &new, &s->wires[h->wire].mesh);
+  h->alive = 1;
+  if (status != SW_OK) {
+    sw_free(new.s);
+    sw_free(new.local);
+    return status;
+  }
+  seen_from(&new, pose);
+  new.alive = 1, new.drive = h->drive, new.last_pose = h->last_pose, new.turn = pose.q;
+  new.shape = ++s->serial;
+  sw_free(h->s);
+  sw_free(h->local);
+  *h = new;
+  return SW_OK;
+}
+
 /* --- another mesh ------------------------------------------------------------------ */
 
 sw_status sw_scene_copy_shape(const sw_scene_hold *from, sw_scene_hold *to) {

@@ -347,16 +347,20 @@ static sw_status draw_strand(sw_scene_wire *w, const sw_wire_args *args,
     length += sw_dist(sw_vec_at(d->points, i), sw_vec_at(d->points, i + 1));
   if (!slices) SW_TRY(sw_strand_slices(&plan, &w->beam, length, &slices, err));
   SW_TRY(sw_scene_draw(w, slices, &w->mesh, err));
-  return sw_strand_new(&plan, &w->beam, &w->mesh, &w->strand, err);
+  return sw_strand_new(&plan, &w->beam, &w->mesh, NULL, &w->strand, err);
 }
 
-static sw_status check_rules(const sw_scene *s, const sw_scene_wire *w, sw_error *err) {
+sw_status sw_scene_check_rules(const sw_scene *s, size_t wire, const sw_scene_wire *as,
+                               sw_error *err) {
   for (size_t k = 0; k < s->force_count; k++)
-    if (s->forces[k].alive && s->forces[k].wire < 0)
-      SW_TRY(check_wire(s->forces[k].cls, w, s->forces[k].args, err));
-  for (size_t k = 0; k < s->rule_count; k++)
-    if (s->rules[k].count == 0 && s->rules[k].rule.on)
-      SW_TRY(sw_scene_check_line(w, "scene:wire_contact of all wires", err));
+    if (s->forces[k].alive && (s->forces[k].wire < 0 || s->forces[k].wire == (long)wire))
+      SW_TRY(check_wire(s->forces[k].cls, as, s->forces[k].args, err));
+  for (size_t k = 0; k < s->rule_count; k++) {
+    const sw_scene_rule *r = &s->rules[k];
+    int mine = r->count == 0;
+    for (size_t i = 0; i < r->count; i++) mine |= r->wires[i] == wire;
+    if (mine && r->rule.on) SW_TRY(sw_scene_check_line(as, "scene:wire_contact", err));
+  }
   return SW_OK;
 }
 
@@ -379,7 +383,7 @@ static sw_status draw_wire(sw_scene *s, sw_scene_wire *w, const sw_wire_args *ar
     SW_TRY(sw_scene_draw(w, segments, &w->mesh, err));
   if (!w->cls->mesh && args->rest_twist != 0 && sw_scene_draw_untwisted(w) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", w->name);
-  return check_rules(s, w, err);
+  return sw_scene_check_rules(s, s->wire_count, w, err);
 }
 
 sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam *beam,
@@ -410,7 +414,7 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
 
 const sw_calibration *sw_scene_wire_calibration(const sw_scene *s, sw_handle h) {
   const sw_scene_wire *w = sw_scene_find_wire(s, h, NULL);
-  return w && w->strand.web ? &w->strand.calibration : NULL;
+  return w && w->strand.kit ? &w->strand.kit->calibration : NULL;
 }
 
 const char *sw_scene_wire_model(const sw_scene *s, sw_handle h) {

@@ -251,6 +251,7 @@ struct sw_scene {
     size_t *first; /* (wires + 1) first node of each wire then */
     size_t wires;
     int fresh;
+    size_t changed; /* a wire that has other nodes since, from 1; 0: none */
   } kept;
   sw_kept_history *kept_histories; /* of the last built system, for the next one */
   size_t kept_history_count;
@@ -382,6 +383,13 @@ sw_status sw_scene_retake_hold(sw_scene *scene, sw_scene_hold *hold);
 sw_status sw_scene_make_places(const sw_scene *scene, size_t wire, sw_mesh *mesh);
 /* Where and how a hold holds, into another slot that owns nothing. SW_ENOMEM. */
 sw_status sw_scene_copy_shape(const sw_scene_hold *from, sw_scene_hold *to);
+
+/* Take hold of a wire that has other nodes but lies as before; the hold's pose is known.
+ * SW_ENOMEM. */
+sw_status sw_scene_rehold(sw_scene *scene, sw_scene_hold *hold, sw_pose pose);
+/* May the wire, as it is given, be in the scene with its forces and rules? */
+sw_status sw_scene_check_rules(const sw_scene *scene, size_t wire, const sw_scene_wire *as,
+                               sw_error *err);
 
 /* Free what these slots own. */
 void sw_scene_clear_hold(sw_scene_hold *hold);
