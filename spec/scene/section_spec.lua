@@ -33,7 +33,9 @@ end
 -- How far out the particles of the surface are.
 local function ring_radius(wire)
   local most = 0
-  for _, p in ipairs(wire:calibration().particles) do most = math.max(most, math.sqrt(p[1] ^ 2 + p[2] ^ 2)) end
+  for _, p in ipairs(wire:calibration().particles) do
+    most = math.max(most, math.sqrt(p[1] ^ 2 + p[2] ^ 2))
+  end
   return most
 end
 
