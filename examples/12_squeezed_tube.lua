@@ -26,8 +26,8 @@ for k = 1, 4 do
   local run = scene:run { duration = 1, dt = 0.02, integrator = "implicit-euler", frame = 0.5 }
   assert(run.ok, run.reason)
   local now = tube:section(middle)
-  print(("%3.0f %%  %8.2f N  %8.3f mm  %8.3f mm  %9.4f  %8.0f kPa  %8.0f kPa"):format(10 * k, plate:force()[3],
-    now.height * 1e3, now:width { 0, 1, 0 } * 1e3, now.ovalisation,
+  print(("%3.0f %%  %8.2f N  %8.3f mm  %8.3f mm  %9.4f  %8.0f kPa  %8.0f kPa"):format(10 * k,
+    plate:force()[3], now.height * 1e3, now:width { 0, 1, 0 } * 1e3, now.ovalisation,
     tube:contact_pressure(middle).largest / 1e3, tube:von_mises(middle).largest / 1e3))
   if k == 4 and arg[1] then
     run:pictures { path = arg[1], count = 1, camera = { direction = { 1, 0.5, -0.3 } } }

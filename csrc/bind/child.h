@@ -16,8 +16,8 @@ typedef struct lsw_child {
   sw_handle id;
 } lsw_child;
 
-extern const lsw_class lsw_class_scene, lsw_class_wire, lsw_class_clamp, lsw_class_obstacle,
-    lsw_class_force, lsw_class_join, lsw_class_snapshot;
+extern const lsw_class lsw_class_scene, lsw_class_wire, lsw_class_particles, lsw_class_clamp,
+    lsw_class_obstacle, lsw_class_force, lsw_class_join, lsw_class_snapshot;
 
 /* Push a child of the scene userdata at index scene. */
 lsw_child *lsw_new_child(lua_State *L, int scene, const lsw_class *c);
@@ -28,6 +28,9 @@ lsw_child *lsw_check_child(lua_State *L, int index, const lsw_class *c, sw_scene
 /* The same when it must belong to the given scene. */
 lsw_child *lsw_check_child_of(lua_State *L, int index, const lsw_class *c, const sw_scene *scene,
                               const char *what);
+
+/* A wire or an object of particles, as above. */
+lsw_child *lsw_check_body_of(lua_State *L, int index, const sw_scene *scene, const char *what);
 
 /* The child at index 1 without raising: when its scene is gone NULL, and what
  * tostring may say is pushed. */
@@ -42,6 +45,8 @@ int lsw_scene_pin(lua_State *L);
 int lsw_scene_grip(lua_State *L);
 int lsw_scene_feed(lua_State *L);
 int lsw_scene_wire(lua_State *L);
+int lsw_scene_particles(lua_State *L);
+int lsw_hold_particles(lua_State *L);
 int lsw_scene_join(lua_State *L);
 int lsw_scene_obstacle(lua_State *L);
 int lsw_scene_force(lua_State *L);

@@ -138,7 +138,7 @@ static sw_status add_candidate(sw_contact *c, const sw_body *b, size_t body, siz
                      .other = other,
                      .body = body,
                      .radius = b->plan->beam.radius,
-                     .skin = sw_plan_skin(b->plan),
+                     .skin = sw_plan_skin(b->plan, node - b->first_node),
                      .mass = b->plan->lumped[node - b->first_node]};
   return SW_OK;
 }
@@ -274,6 +274,7 @@ sw_status sw_contact_begin_stage(void *contact, sw_system *s, double time, doubl
   (void)s, (void)hbar, (void)y;
   c->pressed_before = c->pressed_count;
   c->stage_time = time;
+  c->updates = 0;
   return place_all(c, time, c->now, err);
 }
 
@@ -306,7 +307,7 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
                    .normal = sw_rotate(back, t->press.normal),
                    .point = t->local};
   if (t->press.normal_force > 0)
-    m->elastic = sw_rotate(back, sw_scale(t->press.tangential, -1.0 / t->press.k));
+    m->elastic = sw_rotate(back, sw_scale(t->press.tangential, -1.0 / sw_press_grip(&t->press)));
   return SW_OK;
 }
 
@@ -403,8 +404,8 @@ double sw_contact_energy(const sw_contact *c) {
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
     if (!(t->press.normal_force > 0)) continue;
-    sum += 0.5 * (t->press.normal_force * t->press.normal_force + sw_norm2(t->press.tangential)) /
-           t->press.k;
+    sum += 0.5 * t->press.normal_force * t->press.normal_force / t->press.k;
+    sum += 0.5 * sw_norm2(t->press.tangential) / sw_press_grip(&t->press);
   }
   return sum;
 }

@@ -43,7 +43,7 @@ static sw_status fill_strand(const sw_scene *s, const sw_body *b, double **to, s
     sw_outline_widen(outline, around, sw_strand_facing(web, x, r), web->skin, wide);
     for (size_t k = 0; k < around; k++, p += SW_FRAME_SURFACE) {
       sw_store(p, sw_vec_at(wide, k));
-      p[3] = pressed[r * web->per_ring + web->around[k]];
+      p[3] = pressed[web->first[r] + (sw_web_is_ring(web, r) ? web->around[k] : 0)];
     }
   }
   sw_free(pressed);
@@ -53,7 +53,7 @@ static sw_status fill_strand(const sw_scene *s, const sw_body *b, double **to, s
 
 /* Numbers that a wire takes in a frame. */
 static size_t size_of(const sw_plan *p) {
-  if (!p->web) return 2 + 3 * p->nodes;
+  if (!p->web || !p->web->per_ring) return 2 + 3 * p->nodes;
   return 2 + (3 + SW_FRAME_SURFACE * p->web->around_count) * p->web->rings;
 }
 
@@ -74,7 +74,7 @@ static sw_status fill(sw_scene *s, double *p, sw_error *err) {
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_body *b = &s->system.bodies[w];
     const sw_web *web = b->plan->web;
-    if (web) {
+    if (web && web->per_ring) {
       SW_TRY(fill_strand(s, b, &p, err));
       continue;
     }
@@ -121,6 +121,10 @@ const double *sw_scene_frame_hold(const sw_scene *s, size_t frame, size_t h, int
   const double *p = f->data + SW_FRAME_ENERGIES + POSE * f->obstacles + HOLD * h;
   *held = p[POSE] > 0;
   return p;
+}
+
+int sw_scene_frame_is_loose(const sw_scene *s, size_t w) {
+  return w < s->wire_count && sw_scene_is_loose(&s->wires[w]);
 }
 
 const double *sw_scene_frame_wire(const sw_scene *s, size_t frame, size_t w, size_t *count) {

@@ -31,6 +31,7 @@ sw_status sw_scene_new(const sw_scene_args *args, sw_scene **out, sw_error *err)
 void sw_scene_clear_hold(sw_scene_hold *h) {
   sw_free(h->s);
   sw_free(h->local);
+  sw_free(h->particle);
   sw_free(h->log.rows);
   sw_drive_free(&h->drive);
   sw_motion_release(h->feed.motion);
@@ -45,12 +46,8 @@ void sw_scene_clear_obstacle(sw_scene_obstacle *o) {
 
 void sw_scene_free(sw_scene *s) {
   if (!s) return;
-  for (size_t i = 0; i < s->wire_count; i++) {
-    sw_mesh_free(&s->wires[i].mesh);
-    sw_strand_free(&s->wires[i].strand);
-    sw_free(s->wires[i].twisted);
-    sw_free(s->wires[i].drawing.points);
-  }
+  for (size_t i = 0; i < s->wire_count; i++) sw_scene_clear_body(&s->wires[i]);
+  for (size_t i = 0; i < s->force_count; i++) sw_scene_clear_force(&s->forces[i]);
   for (size_t i = 0; i < s->hold_count; i++) sw_scene_clear_hold(&s->holds[i]);
   for (size_t i = 0; i < s->obstacle_count; i++) sw_scene_clear_obstacle(&s->obstacles[i]);
   sw_scene_orphan_snapshots(s);
@@ -102,10 +99,17 @@ sw_status sw_scene_editable(const sw_scene *s, sw_error *err) {
   return SW_OK;
 }
 
-sw_scene_wire *sw_scene_find_wire(const sw_scene *s, sw_handle h, sw_error *err) {
+sw_scene_wire *sw_scene_find_body(const sw_scene *s, sw_handle h, sw_error *err) {
   if (h.slot < s->wire_count && s->wires[h.slot].generation == h.generation)
     return &s->wires[h.slot];
-  sw_fail(err, SW_EDEAD, "this wire is not of scene '%s' any more", s->name);
+  sw_fail(err, SW_EDEAD, "this object is not of scene '%s' any more", s->name);
+  return NULL;
+}
+
+sw_scene_wire *sw_scene_find_wire(const sw_scene *s, sw_handle h, sw_error *err) {
+  sw_scene_wire *w = sw_scene_find_body(s, h, err);
+  if (!w || !sw_scene_is_loose(w)) return w;
+  sw_fail(err, SW_EINVAL, "'%s' is an object of particles, not a wire", w->name);
   return NULL;
 }
 
@@ -125,7 +129,7 @@ sw_scene_obstacle *sw_scene_find_obstacle(const sw_scene *s, sw_handle h, sw_err
 }
 
 const char *sw_scene_wire_name(const sw_scene *s, sw_handle h) {
-  const sw_scene_wire *w = sw_scene_find_wire(s, h, NULL);
+  const sw_scene_wire *w = sw_scene_find_body(s, h, NULL);
   return w ? w->name : NULL;
 }
 
@@ -146,7 +150,7 @@ const char *sw_scene_obstacle_name(const sw_scene *s, sw_handle h, const char **
 }
 
 /* A name for an unnamed object: "wire1", "box2", ... */
-static void give_name(char *out, const char *wanted, const char *kind, size_t number) {
+void sw_scene_give_name(char *out, const char *wanted, const char *kind, size_t number) {
   if (wanted[0])
     memcpy(out, wanted, SW_NAME_SIZE);
   else
@@ -300,6 +304,19 @@ static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, c
   sw_recipe recipe;
   int by_angle = 0;
   w->cls->recipe(&w->beam, &recipe);
+  if ((cls->flags & SW_FORCE_AT_PLACE) && sw_scene_is_loose(w))
+    return sw_fail(err, SW_EINVAL,
+                   "force %s: '%s' is an object of particles, which has no arc length s; kind = "
+                   "'push' takes particles",
+                   cls->name, w->name);
+  if ((cls->flags & SW_FORCE_OF_WEB) && !w->cls->mesh)
+    return sw_fail(err, SW_EINVAL,
+                   "force %s: wire '%s' is a %s; it goes with objects of particles and with models "
+                   "that are meshes",
+                   cls->name, w->name, w->cls->name);
+  if (w->cls->mesh && !(cls->flags & SW_FORCE_ANY_BODY) && sw_scene_is_loose(w))
+    return sw_fail(err, SW_EINVAL, "force %s: '%s' is an object of particles; it goes with wires",
+                   cls->name, w->name);
   if (w->cls->mesh && !(cls->flags & SW_FORCE_ANY_BODY))
     return sw_fail(err, SW_EINVAL,
                    "force %s: wire '%s' is a %s, a mesh of particles, which it does not know; it "
@@ -321,6 +338,9 @@ static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, c
 
 sw_status sw_scene_check_line(const sw_scene_wire *w, const char *what, sw_error *err) {
   if (!w->cls->mesh) return SW_OK;
+  if (sw_scene_is_loose(w))
+    return sw_fail(err, SW_EINVAL, "%s: '%s' is an object of particles; it goes with wires only",
+                   what, w->name);
   return sw_fail(err, SW_EINVAL,
                  "%s: wire '%s' is a %s, a mesh of particles; it goes with rods "
                  "and strings only",
@@ -364,7 +384,7 @@ sw_status sw_scene_check_rules(const sw_scene *s, size_t wire, const sw_scene_wi
   return SW_OK;
 }
 
-static void clear_wire(sw_scene_wire *w) {
+void sw_scene_clear_body(sw_scene_wire *w) {
   sw_mesh_free(&w->mesh);
   sw_strand_free(&w->strand);
   sw_free(w->drawing.points);
@@ -393,7 +413,7 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
   const double straight[6] = {args->from.x, args->from.y, args->from.z,
                               args->to.x,   args->to.y,   args->to.z};
   sw_scene_wire w = {.generation = s->serial + 1, .cls = sw_wire_all()[args->model], .beam = *beam};
-  give_name(w.name, args->name, "wire", s->wire_count);
+  sw_scene_give_name(w.name, args->name, "wire", s->wire_count);
   if (!points && (isnan(args->from.x) || isnan(args->to.x)))
     return sw_fail(err, SW_EINVAL, "wire '%s': give from and to, or path [m]", w.name);
   if (points && count < 2)
@@ -403,7 +423,7 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
   sw_status status = keep_drawing(&w, args, points ? points : straight, points ? count : 2);
   if (status == SW_OK) status = draw_wire(s, &w, args, mesh, err);
   if (status != SW_OK) {
-    clear_wire(&w);
+    sw_scene_clear_body(&w);
     return status;
   }
   w.drawing.length = w.mesh.s[w.mesh.n - 1];
@@ -450,7 +470,7 @@ sw_status sw_scene_add_obstacle(sw_scene *s, sw_shape *shape, const sw_obstacle_
                            .drive = {.pose = {args->at, args->rotation}},
                            .friction = args->friction,
                            .restitution = args->restitution};
-  give_name(o->name, args->name, sw_shape_kind(shape), s->obstacle_count);
+  sw_scene_give_name(o->name, args->name, sw_shape_kind(shape), s->obstacle_count);
   o->shape = sw_shape_retain(shape);
   *out = (sw_handle){(uint32_t)s->obstacle_count++, s->serial};
   return SW_OK;
@@ -519,10 +539,37 @@ static sw_status check_force(const sw_scene *s, const sw_force_class *cls, sw_ha
   return SW_OK;
 }
 
+void sw_scene_clear_force(sw_scene_force *f) { sw_free(f->particle); }
+
+static sw_status check_some(const sw_force_class *cls, const sw_scene_wire *w,
+                            const sw_force_some *some, sw_error *err) {
+  if (!w) return sw_fail(err, SW_EINVAL, "force %s: on is required: the object", cls->name);
+  if (!some->count)
+    return sw_fail(err, SW_EINVAL, "force %s: particles of '%s': none", cls->name, w->name);
+  for (size_t i = 0; i < some->count; i++)
+    if (some->particle[i] >= w->strand.web->particles)
+      return sw_fail(err, SW_EINVAL, "force %s: '%s' has no particle %lu; it has %zu, from 1 on",
+                     cls->name, w->name, (unsigned long)some->particle[i] + 1,
+                     w->strand.web->particles);
+  return SW_OK;
+}
+
+/* The scene's own list instead of the caller's. SW_ENOMEM. */
+static sw_status own_list(sw_scene_force *f) {
+  sw_force_some some;
+  memcpy(&some, f->args, sizeof some);
+  f->particle = sw_alloc(some.count, sizeof *f->particle);
+  if (!f->particle) return SW_ENOMEM;
+  memcpy(f->particle, some.particle, some.count * sizeof *f->particle);
+  some.particle = f->particle;
+  memcpy(f->args, &some, sizeof some);
+  return SW_OK;
+}
+
 sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle wire,
                              const void *args, size_t args_size, sw_handle *out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  const sw_scene_wire *w = wire.generation ? sw_scene_find_wire(s, wire, err) : NULL;
+  const sw_scene_wire *w = wire.generation ? sw_scene_find_body(s, wire, err) : NULL;
   if (wire.generation && !w) return SW_EDEAD;
   if (args_size > SW_FORCE_ARGS_MAX) return sw_fail(err, SW_ELIMIT, "force: too many arguments");
   if (cls->flags & SW_FORCE_AT_PLACE) {
@@ -535,17 +582,19 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
                      cls->name, at, w->name, length);
   }
   SW_TRY(check_force(s, cls, wire, args, err));
+  if (cls->flags & SW_FORCE_ON_SOME) SW_TRY(check_some(cls, w, args, err));
   SW_TRY(sw_scene_thaw(s));
   SW_TRY(sw_grow((void **)&s->forces, &s->force_capacity, s->force_count + 1, sizeof *s->forces));
   sw_scene_force *f = &s->forces[s->force_count];
-  *f = (sw_scene_force){.generation = ++s->serial,
+  *f = (sw_scene_force){.generation = s->serial + 1,
                         .alive = 1,
                         .cls = cls,
                         .wire = wire.generation ? (long)wire.slot : -1,
                         .scale = w ? w->mesh.scale : 1.0};
   if (args_size) memcpy(f->args, args, args_size);
+  if (cls->flags & SW_FORCE_ON_SOME) SW_TRY(own_list(f));
   if (w && cls->flags & SW_FORCE_AT_PLACE) f->args[0] += w->mesh.s[0]; /* stays with the wire */
-  *out = (sw_handle){(uint32_t)s->force_count++, s->serial};
+  *out = (sw_handle){(uint32_t)s->force_count++, ++s->serial};
   return SW_OK;
 }
 

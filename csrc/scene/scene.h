@@ -132,15 +132,104 @@ typedef struct sw_remodel_report {
 } sw_remodel_report;
 
 /* Another model for the wire from now on: of args model and segments are read. mesh: as for a new
- * wire, its section that of the wire. */
+ * wire, its section that of the wire. region: from and to [m]; only there, and beside clamps, the
+ * wire is the mesh, elsewhere a line of as many segments as a rod; NULL: all of it. */
 sw_status sw_scene_remodel(sw_scene *scene, sw_handle wire, const sw_wire_args *args,
-                           const sw_wire_mesh_args *mesh, sw_remodel_report *out, sw_error *err);
+                           const sw_wire_mesh_args *mesh, const double *region,
+                           sw_remodel_report *out, sw_error *err);
 extern const sw_params sw_remodel_params;
 
 /* What the springs of a wire that is a mesh were fitted to; NULL: it is none, or is gone. */
 const sw_calibration *sw_scene_wire_calibration(const sw_scene *scene, sw_handle wire);
 /* Name of its model; NULL: it is gone. */
 const char *sw_scene_wire_model(const sw_scene *scene, sw_handle wire);
+
+/* --- objects of particles ------------------------------------------------------ */
+
+typedef struct sw_particles_args {
+  char name[SW_NAME_SIZE];
+  double radius; /* of the surface around particles and its edges; NAN = chosen [m] */
+} sw_particles_args;
+extern const sw_params sw_particles_params;
+
+/* Particles that push each other apart where they come nearer than a distance. */
+typedef struct sw_repel_pairs {
+  double distance;  /* [m] */
+  double stiffness; /* force over what is missing of it; 0 = none [N/m] */
+} sw_repel_pairs;
+extern const sw_params sw_repel_pairs_params;
+
+enum { SW_ELEMENT_NODES = 8 };
+typedef struct sw_particles_element {
+  uint32_t count; /* 6: a prism, 8: a hexahedron; see force/solid.h [-] */
+  uint32_t node[SW_ELEMENT_NODES];
+  double mu, lambda; /* [Pa] */
+} sw_particles_element;
+
+typedef struct sw_particles_link {
+  uint32_t a, b;
+  double k;         /* [N/m] */
+  double rest;      /* unstressed length; NAN = as it lies [m] */
+  double yield;     /* strain at which it yields; NAN = never [-] */
+  double hardening; /* what that force gains per plastic elongation, of k [-] */
+} sw_particles_link;
+
+typedef struct sw_particles_fold {
+  uint32_t a, b, c; /* straight at rest */
+  double stiffness; /* moment per angle [N m] */
+} sw_particles_fold;
+
+/* What touches obstacles. */
+enum {
+  SW_SURFACE_USUAL, /* the links, or the boundary of the elements where there are any */
+  SW_SURFACE_PARTICLES,
+  SW_SURFACE_EDGES /* as given */
+};
+
+/* What an object is made of; numbers of particles count from 0. */
+typedef struct sw_particles_parts {
+  size_t count;
+  const double *positions; /* (count x 3) [m] */
+  const double *masses;    /* (count) [kg] */
+  const sw_particles_link *link;
+  size_t links;
+  const sw_particles_fold *fold;
+  size_t folds;
+  const sw_particles_element *element;
+  size_t elements;
+  int surface;
+  const uint32_t *edge; /* (edges x 2) */
+  size_t edges;
+  sw_repel_pairs repel;
+} sw_particles_parts;
+
+/* Any object of particles. Takes copies. Errors number particles and parts from 1. */
+sw_status sw_scene_add_particles(sw_scene *scene, const sw_particles_args *args,
+                                 const sw_particles_parts *parts, sw_handle *out, sw_error *err);
+typedef struct sw_particles_info {
+  size_t particles, links, folds, elements; /* [-] */
+  double mass, radius;                      /* [kg], [m] */
+} sw_particles_info;
+sw_status sw_scene_particles_info(sw_scene *scene, sw_handle object, sw_particles_info *out,
+                                  sw_error *err);
+/* (particles x 3) each, may be NULL [m], [m/s]. */
+sw_status sw_scene_particles_copy(sw_scene *scene, sw_handle object, double *positions,
+                                  double *velocities, sw_error *err);
+sw_status sw_scene_particle(sw_scene *scene, sw_handle object, size_t particle, sw_vec *position,
+                            sw_vec *velocity, sw_error *err);
+/* (particles x 3); held ones keep theirs [m/s]. */
+sw_status sw_scene_particles_set_velocities(sw_scene *scene, sw_handle object,
+                                            const double *velocities, sw_error *err);
+/* Of all links: force pulling [N], elongation over rest length [-], plastic part of it [-]; each
+ * may be NULL. */
+sw_status sw_scene_particles_links(sw_scene *scene, sw_handle object, double *force, double *strain,
+                                   double *plastic, sw_error *err);
+
+/* Hold some of them rigidly: they move with the hold's pose, which begins at `at` (NAN: their
+ * middle) with the world's axes. */
+sw_status sw_scene_hold_particles(sw_scene *scene, sw_handle object, const char *name,
+                                  const uint32_t *particles, size_t count, sw_vec at,
+                                  sw_handle *out, sw_error *err);
 
 /* --- holds ------------------------------------------------------------------ */
 
@@ -403,6 +492,8 @@ typedef struct sw_energy {
   int has_dissipated;            /* there are such forces */
 } sw_energy;
 sw_status sw_scene_energy(sw_scene *scene, sw_energy *out, sw_error *err);
+/* The same of one wire or object of particles alone. */
+sw_status sw_scene_body_energy(sw_scene *scene, sw_handle body, sw_energy *out, sw_error *err);
 
 /* Deepest penetration of a wire's surface into an obstacle now and since the
  * last run began [m]. */
@@ -453,6 +544,8 @@ const double *sw_scene_frame_wire(const sw_scene *scene, size_t frame, size_t w,
 enum { SW_FRAME_SURFACE = 4 };
 const double *sw_scene_frame_surface(const sw_scene *scene, size_t frame, size_t w, size_t *count,
                                      size_t *around);
+/* 1: number w of the scene is an object of particles, which the frame then lists. */
+int sw_scene_frame_is_loose(const sw_scene *scene, size_t w);
 /* Poses: 7 doubles (x y z, qw qx qy qz) per obstacle and per hold slot. */
 const double *sw_scene_frame_obstacle(const sw_scene *scene, size_t frame, size_t o);
 const double *sw_scene_frame_hold(const sw_scene *scene, size_t frame, size_t h, int *held);

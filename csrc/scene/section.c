@@ -31,7 +31,7 @@ void sw_strand_take(sw_scene_wire *wire, const sw_system *s, const sw_body *b) {
   memcpy(p->v, s->v + at, size);
   memcpy(p->a, s->a + at, size);
   memcpy(p->axial, s->tension + b->first_edge, p->web->links * sizeof(double));
-  for (size_t r = 0; r < wire->mesh.n; r++) {
+  for (size_t r = 0; r < p->web->rings; r++) {
     sw_store(wire->mesh.x + 3 * r, sw_strand_middle(p->web, p->x, r));
     sw_store(wire->mesh.v + 3 * r, sw_strand_middle(p->web, p->v, r));
   }
@@ -39,8 +39,21 @@ void sw_strand_take(sw_scene_wire *wire, const sw_system *s, const sw_body *b) {
 
 /* --- sections -------------------------------------------------------------------- */
 
+/* Direction of a line of particles at one of them: of both parts beside it, the shorter one's
+ * counting more. */
+static sw_vec line_direction(const sw_web *w, const double *x, size_t ring) {
+  const sw_vec at = sw_strand_middle(w, x, ring);
+  sw_vec before = sw_v(0, 0, 0), after = before;
+  if (ring > 0) before = sw_sub(at, sw_strand_middle(w, x, ring - 1));
+  if (ring + 1 < w->rings) after = sw_sub(sw_strand_middle(w, x, ring + 1), at);
+  const double b2 = sw_norm2(before), a2 = sw_norm2(after);
+  if (!(b2 > 0) || !(a2 > 0)) return sw_unit_or(sw_add(before, after), sw_v(1, 0, 0));
+  return sw_unit_or(sw_add(sw_scale(before, a2), sw_scale(after, b2)), sw_v(1, 0, 0));
+}
+
 sw_vec sw_strand_facing(const sw_web *w, const double *x, size_t ring) {
-  const double *at = x + 3 * ring * w->per_ring;
+  if (!sw_web_is_ring(w, ring)) return line_direction(w, x, ring);
+  const double *at = x + 3 * w->first[ring];
   const sw_vec middle = sw_strand_middle(w, x, ring);
   sw_vec sum = sw_v(0, 0, 0);
   for (size_t k = 0; k < w->around_count; k++) {
@@ -69,7 +82,7 @@ static void add_solid_force(const sw_web *w, const double *x, const sw_web_solid
 static void slice_force(const sw_web *w, const double *x, size_t r, sw_vec about, sw_vec *force,
                         sw_vec *moment) {
   *force = *moment = sw_v(0, 0, 0);
-  const size_t next = (r + 1) * w->per_ring;
+  const size_t next = w->first[r + 1];
   for (size_t e = w->ring_links[r]; e < w->ring_links[r + 1]; e++) {
     const sw_web_link *link = &w->link[e];
     if (link->b < next) continue; /* within ring r */
@@ -92,7 +105,7 @@ static slice slice_of(const sw_web *w, const double *x, size_t r) {
                about = sw_lerp(a, b, 0.5);
   const sw_vec t0 = sw_strand_facing(w, x, r), t1 = sw_strand_facing(w, x, r + 1);
   const sw_vec axis = sw_unit_or(sw_add(t0, t1), t0);
-  const double h = w->s[(r + 1) * w->per_ring] - w->s[r * w->per_ring];
+  const double h = w->s[w->first[r + 1]] - w->s[w->first[r]];
   sw_vec force, moment;
   slice_force(w, x, r, about, &force, &moment);
   return (slice){sw_dot(force, axis), sw_dot(moment, axis),
@@ -145,9 +158,10 @@ void sw_strand_extremes(const sw_scene *s, size_t wire, sw_wire_extremes *now) {
   const double *x = s->system.x + 3 * b->first_node, EA = b->plan->beam.EA;
   const sw_extreme least = {.value = -HUGE_VAL};
   *now = (sw_wire_extremes){least, least, least, least};
+  if (!w->rings) return; /* an object of particles */
   for (size_t r = 0; r + 1 < w->rings; r++) {
     const slice at = slice_of(w, x, r);
-    const double place = 0.5 * (w->s[r * w->per_ring] + w->s[(r + 1) * w->per_ring]);
+    const double place = 0.5 * (w->s[w->first[r]] + w->s[w->first[r + 1]]);
     const double strain = at.tension / EA + b->plan->beam.radius * at.curvature;
     if (at.curvature > now->curvature.value)
       now->curvature = (sw_extreme){.value = at.curvature, .s = place};

@@ -11,7 +11,7 @@ static sw_status open_mesh(sw_scene *s, sw_handle h, const char *what, const sw_
   sw_scene_wire *wire;
   SW_TRY(sw_scene_open_wire(s, h, &wire, err));
   *body = &s->system.bodies[h.slot];
-  if (wire->strand.web) return SW_OK;
+  if (wire->strand.web && wire->strand.web->per_ring) return SW_OK;
   return sw_fail(err, SW_EINVAL,
                  "wire:%s: wire '%s' is a %s, which has no surface of its own; it is known of "
                  "meshes of particles (model = 'tube', 'radial', 'cubic', ...)",
@@ -50,11 +50,12 @@ static double own_round(const double *outline, size_t n, size_t k, double skin, 
 
 /* Length along the wire that belongs to a particle: half of the lines to both neighbours. */
 static double own_along(const sw_web *w, const double *x, size_t ring, size_t particle) {
-  const double *at = x + 3 * (ring * w->per_ring + particle);
-  const size_t next = 3 * w->per_ring;
+  const sw_vec at = sw_vec_at(x, w->first[ring] + particle);
+  const int before = ring > 0 && sw_web_is_ring(w, ring - 1);
+  const int after = ring + 1 < w->rings && sw_web_is_ring(w, ring + 1);
   double sum = 0;
-  if (ring > 0) sum += sw_dist(sw_load(at), sw_load(at - next));
-  if (ring + 1 < w->rings) sum += sw_dist(sw_load(at), sw_load(at + next));
+  if (before) sum += sw_dist(at, sw_vec_at(x, w->first[ring - 1] + particle));
+  if (after) sum += sw_dist(at, sw_vec_at(x, w->first[ring + 1] + particle));
   return 0.5 * sum;
 }
 
@@ -69,10 +70,11 @@ sw_status sw_scene_wire_pressed(sw_scene *s, sw_handle h, double *force, double 
   memset(area, 0, w->particles * sizeof *area);
   for (size_t p = 0; p < w->particles; p++) arc[p] = w->s[p] - w->s[0];
   for (size_t r = 0; r < w->rings; r++) {
+    if (!sw_web_is_ring(w, r)) continue; /* a line has no surface of its own */
     const sw_vec t = sw_strand_facing(w, x, r);
     sw_strand_outline(w, x, r, outline);
     for (size_t k = 0; k < w->around_count; k++)
-      area[r * w->per_ring + w->around[k]] =
+      area[w->first[r] + w->around[k]] =
           own_round(outline, w->around_count, k, w->skin, t) * own_along(w, x, r, w->around[k]);
   }
   return SW_OK;

@@ -157,13 +157,14 @@ sw_extreme sw_strand_ovalisation(const sw_web *w, const double *x) {
   double outline[3 * SW_OUTLINE], most = -1;
   size_t ring = 0;
   for (size_t r = 0; r < w->rings; r++) {
+    if (!sw_web_is_ring(w, r)) continue;
     sw_strand_outline(w, x, r, outline);
     const double now = out_of_round(w, outline, sw_strand_facing(w, x, r));
     if (now > most) most = now, ring = r;
   }
   sw_strand_outline(w, x, ring, outline);
   return (sw_extreme){.value = sw_outline_ovalisation(w, outline, sw_strand_facing(w, x, ring)),
-                      .s = w->s[ring * w->per_ring]};
+                      .s = w->s[w->first[ring]]};
 }
 
 void sw_outline_widen(const double *outline, size_t n, sw_vec tangent, double skin, double *out) {

@@ -9,8 +9,17 @@
 static const double PI = 3.14159265358979323846;
 
 void sw_strand_outline(const sw_web *w, const double *x, size_t ring, double *out) {
-  const double *at = x + 3 * ring * w->per_ring;
-  for (size_t k = 0; k < w->around_count; k++) sw_store(out + 3 * k, sw_vec_at(at, w->around[k]));
+  const double *at = x + 3 * w->first[ring];
+  if (sw_web_is_ring(w, ring)) {
+    for (size_t k = 0; k < w->around_count; k++) sw_store(out + 3 * k, sw_vec_at(at, w->around[k]));
+    return;
+  }
+  /* the undeformed section, turned anyhow */
+  const sw_vec t = sw_strand_facing(w, x, ring), u = sw_perpendicular(t), v = sw_cross(t, u);
+  for (size_t k = 0; k < w->around_count; k++) {
+    const double *rest = w->section + 2 * (size_t)w->around[k];
+    sw_store(out + 3 * k, sw_madd(sw_madd(sw_load(at), u, rest[0]), v, rest[1]));
+  }
 }
 
 /* --- the place ---------------------------------------------------------------------- */
@@ -23,13 +32,14 @@ typedef struct spot {
   size_t ring;     /* the one before; the next one is there too [-] */
   double f;        /* share of the way to that [-] */
   size_t slice;    /* this one's middle and the next one's lie nearest [-] */
+  int single;      /* 1: there is no next one */
   double between;  /* share of the way from the one to the other, beyond 0 to 1 near ends [-] */
 } spot;
 
 static sw_status open_mesh(sw_scene *s, sw_handle h, const char *what, spot *out, sw_error *err) {
   sw_scene_wire *wire;
   SW_TRY(sw_scene_open_wire(s, h, &wire, err));
-  if (!wire->strand.web)
+  if (!wire->strand.web || !wire->strand.web->per_ring)
     return sw_fail(err, SW_EINVAL,
                    "wire:%s: wire '%s' is a %s, whose section does not change; it is known of "
                    "meshes of particles (model = 'tube', 'radial', 'cubic', ...)",
@@ -39,16 +49,26 @@ static sw_status open_mesh(sw_scene *s, sw_handle h, const char *what, spot *out
   return SW_OK;
 }
 
-static double ring_s(const sw_web *w, size_t ring) { return w->s[ring * w->per_ring]; }
+static double ring_s(const sw_web *w, size_t ring) { return w->s[w->first[ring]]; }
 
 static sw_status open_place(sw_scene *s, sw_handle h, double place, spot *p, sw_error *err) {
   SW_TRY(open_mesh(s, h, "section", p, err));
   SW_TRY(sw_scene_check_place(p->wire, place, err));
   p->ring = sw_plan_locate(s->system.bodies[h.slot].plan, place + p->wire->mesh.s[0], &p->f);
   const size_t slices = p->web->rings - 1;
+  if (!sw_web_is_ring(p->web, p->ring) || !sw_web_is_ring(p->web, p->ring + 1))
+    return sw_fail(err, SW_EINVAL,
+                   "wire '%s': at s = %.6g m it is a line of particles, whose section does not "
+                   "change",
+                   p->wire->name, place);
   p->slice = p->f < 0.5 && p->ring > 0 ? p->ring - 1 : p->ring;
   if (p->slice + 1 >= slices) p->slice = slices > 1 ? slices - 2 : 0;
-  p->between = slices > 1 ? (double)p->ring + p->f - ((double)p->slice + 0.5) : 0.0;
+  if (p->slice < p->ring && !sw_web_is_ring(p->web, p->slice)) p->slice = p->ring;
+  const int more = p->slice + 1 < slices && sw_web_is_ring(p->web, p->slice + 2);
+  if (!more && p->slice == p->ring && p->ring > 0 && sw_web_is_ring(p->web, p->ring - 1))
+    p->slice = p->ring - 1;
+  p->single = p->slice + 1 >= slices || !sw_web_is_ring(p->web, p->slice + 2);
+  p->between = p->single ? 0.0 : (double)p->ring + p->f - ((double)p->slice + 0.5);
   return SW_OK;
 }
 
@@ -70,7 +90,7 @@ static void outline_of(const spot *p, double *out) {
 /* The angle by which the outline of a ring is turned about its tangent t against u, in which
  * the undeformed section has its x: of the rotation that brings it nearest. */
 static double turned(const sw_web *w, const double *x, size_t ring, sw_vec t, sw_vec u) {
-  const double *at = x + 3 * ring * w->per_ring;
+  const double *at = x + 3 * w->first[ring];
   const sw_vec middle = sw_strand_middle(w, x, ring), v = sw_cross(t, u);
   double sine = 0, cosine = 0;
   for (size_t k = 0; k < w->around_count; k++) {
@@ -87,12 +107,14 @@ static double turned(const sw_web *w, const double *x, size_t ring, sw_vec t, sw
 static void torsion(const spot *p, sw_section_shape *out) {
   const sw_web *w = p->web;
   const size_t last = p->ring + 1 > p->slice + 2 ? p->ring + 1 : p->slice + 2;
-  sw_vec t = sw_strand_facing(w, p->x, 0), u = sw_perpendicular(t);
-  double before = turned(w, p->x, 0, t, u), sum = 0, ends[2] = {0, 0}, rate[2] = {0, 0};
+  size_t start = p->ring; /* where the mesh begins that has the spot */
+  while (start > 0 && sw_web_is_ring(w, start - 1)) start--;
+  sw_vec t = sw_strand_facing(w, p->x, start), u = sw_perpendicular(t);
+  double before = turned(w, p->x, start, t, u), sum = 0, ends[2] = {0, 0}, rate[2] = {0, 0};
   u = sw_madd(sw_scale(u, cos(before)), sw_cross(t, u), sin(before));
   before = 0;
   sw_vec carried = u;
-  for (size_t r = 1; r <= last && r < w->rings; r++) {
+  for (size_t r = start + 1; r <= last && r < w->rings && sw_web_is_ring(w, r); r++) {
     const sw_vec next = sw_strand_facing(w, p->x, r);
     u = sw_carry_unit(u, t, next);
     t = next;
@@ -114,15 +136,16 @@ static void torsion(const spot *p, sw_section_shape *out) {
 /* --- strain ------------------------------------------------------------------------- */
 
 static double line_strain(const spot *p, size_t slice, size_t particle) {
-  const size_t i = slice * p->web->per_ring + particle;
-  const double l = sw_dist(sw_vec_at(p->x, i), sw_vec_at(p->x, i + p->web->per_ring));
-  return l / p->web->along[i] - 1.0;
+  const size_t *first = p->web->first;
+  const double l = sw_dist(sw_vec_at(p->x, first[slice] + particle),
+                           sw_vec_at(p->x, first[slice + 1] + particle));
+  return l / p->web->along[first[slice] + particle] - 1.0;
 }
 
 /* Of both lines round the wire that meet at number k of a ring's outline. */
 static double hoop_strain(const spot *p, size_t ring, size_t k) {
   const sw_web *w = p->web;
-  const double *at = p->x + 3 * ring * w->per_ring;
+  const double *at = p->x + 3 * w->first[ring];
   const size_t n = w->around_count;
   const uint32_t three[3] = {w->around[(k + n - 1) % n], w->around[k], w->around[(k + 1) % n]};
   double sum = 0;
@@ -136,7 +159,7 @@ static double hoop_strain(const spot *p, size_t ring, size_t k) {
 
 static void strains(const spot *p, sw_section_shape *out) {
   const sw_web *w = p->web;
-  const size_t next = p->slice + 2 < w->rings ? p->slice + 1 : p->slice;
+  const size_t next = p->single ? p->slice : p->slice + 1;
   for (size_t k = 0; k < w->around_count; k++) {
     const double a = line_strain(p, p->slice, w->around[k]);
     const double b = line_strain(p, next, w->around[k]);

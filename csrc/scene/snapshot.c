@@ -293,7 +293,7 @@ static void drop_newer(sw_scene *s) {
   }
   while (s->hold_count > holds) sw_scene_clear_hold(&s->holds[--s->hold_count]);
   while (s->obstacle_count > obstacles) sw_scene_clear_obstacle(&s->obstacles[--s->obstacle_count]);
-  if (s->force_count > forces) s->force_count = forces;
+  while (s->force_count > forces) sw_scene_clear_force(&s->forces[--s->force_count]);
   if (s->join_count > joins) s->join_count = joins;
 }
 
@@ -330,11 +330,12 @@ static void free_copies(const sw_snapshot *p, copies *c) {
 
 static void swap_shape(sw_scene_hold *h, sw_scene_hold *copy) {
   double *s = h->s, *local = h->local;
+  uint32_t *particle = h->particle;
   h->shape = copy->shape, h->s1 = copy->s1, h->s2 = copy->s2, h->count = copy->count;
   memcpy(h->director, copy->director, sizeof h->director);
   memcpy(h->frame, copy->frame, sizeof h->frame);
-  h->s = copy->s, h->local = copy->local;
-  copy->s = s, copy->local = local;
+  h->s = copy->s, h->local = copy->local, h->particle = copy->particle;
+  copy->s = s, copy->local = local, copy->particle = particle;
 }
 
 /* Meshes and holds as they were, in a scene that is not built. */

@@ -41,6 +41,12 @@ typedef struct sw_scene_wire {
   int untwisted; /* 1: lies as it was drawn, without the twist it has unloaded; nothing has moved */
 } sw_scene_wire;
 
+/* 1: an object of particles in no order along a wire. It has no arc length, and its mesh is a
+ * straight line of its size. */
+static inline int sw_scene_is_loose(const sw_scene_wire *wire) {
+  return wire->strand.web && !wire->strand.web->per_ring;
+}
+
 /* SW_EINVAL when the wire is a mesh of particles, which does not go with what. */
 sw_status sw_scene_check_line(const sw_scene_wire *wire, const char *what, sw_error *err);
 
@@ -49,7 +55,8 @@ sw_status sw_scene_check_line(const sw_scene_wire *wire, const char *what, sw_er
 void sw_strand_rings(const sw_mesh *mesh, double *s1, double *s2);
 /* 1: a hold of this class holds the particle. */
 static inline int sw_strand_holds(const sw_web *web, const sw_hold_class *cls, size_t particle) {
-  return cls->clamped || particle % web->per_ring == web->axis;
+  const size_t ring = sw_web_ring_of(web, particle);
+  return cls->clamped || !sw_web_is_ring(web, ring) || particle - web->first[ring] == web->axis;
 }
 /* The system's state to the strand and the middles of its rings. */
 void sw_strand_take(sw_scene_wire *wire, const sw_system *system, const sw_body *body);
@@ -147,6 +154,7 @@ typedef struct sw_scene_hold {
   size_t count;           /* held places */
   double *s;              /* (count) arc lengths when taken hold of [m] */
   double *local;          /* (count x 3) in the hold's frame [m] */
+  uint32_t *particle;     /* (count) which ones of a mesh; NULL on other wires */
   sw_vec director[2];     /* arriving, leaving; in the hold's frame [-] */
   sw_mesh_frame frame[2]; /* the wire's there, with directions as held; if it has frames */
   sw_quat turn;           /* orientation that goes with the wire's twist, while not built */
@@ -173,6 +181,7 @@ typedef struct sw_scene_force {
   long wire;    /* -1 = all */
   double scale; /* of the wire's mesh when it was made [-] */
   double args[SW_FORCE_ARGS_MAX / sizeof(double)];
+  uint32_t *particle; /* of a force on some particles: its list, which args name; or NULL */
 } sw_scene_force;
 
 /* Wires joined at a point. */
@@ -365,7 +374,8 @@ void sw_slip_give_up(sw_scene *scene);
 
 sw_status sw_log_add(sw_log *log, const double *row, size_t n);
 
-/* The object of a handle, or NULL with err set. */
+/* The object of a handle, or NULL with err set. A body is a wire or an object of particles. */
+sw_scene_wire *sw_scene_find_body(const sw_scene *scene, sw_handle h, sw_error *err);
 sw_scene_wire *sw_scene_find_wire(const sw_scene *scene, sw_handle h, sw_error *err);
 sw_scene_hold *sw_scene_find_hold(const sw_scene *scene, sw_handle h, sw_error *err);
 /* The same of a hold that has not been released. */
@@ -390,8 +400,14 @@ sw_status sw_scene_rehold(sw_scene *scene, sw_scene_hold *hold, sw_pose pose);
 /* May the wire, as it is given, be in the scene with its forces and rules? */
 sw_status sw_scene_check_rules(const sw_scene *scene, size_t wire, const sw_scene_wire *as,
                                sw_error *err);
+/* The body of a handle, in a scene that is built, readable and refreshed. */
+sw_status sw_scene_open_body(sw_scene *scene, sw_handle h, sw_scene_wire **body, sw_error *err);
+/* The given name, or kind and a number. */
+void sw_scene_give_name(char *out, const char *wanted, const char *kind, size_t number);
 
 /* Free what these slots own. */
+void sw_scene_clear_body(sw_scene_wire *body);
+void sw_scene_clear_force(sw_scene_force *force);
 void sw_scene_clear_hold(sw_scene_hold *hold);
 void sw_scene_clear_obstacle(sw_scene_obstacle *obstacle);
 /* The scene goes away: its snapshots live on, good for nothing. */
