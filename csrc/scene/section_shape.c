@@ -39,14 +39,14 @@ typedef struct spot {
 static sw_status open_mesh(sw_scene *s, sw_handle h, const char *what, spot *out, sw_error *err) {
   sw_scene_wire *wire;
   SW_TRY(sw_scene_open_wire(s, h, &wire, err));
-  if (!wire->strand.web || !wire->strand.web->per_ring)
-    return sw_fail(err, SW_EINVAL,
-                   "wire:%s: wire '%s' is a %s, whose section does not change; it is known of "
-                   "meshes of particles (model = 'tube', 'radial', 'cubic', ...)",
-                   what, wire->name, wire->cls->name);
   const sw_body *b = &s->system.bodies[h.slot];
   *out = (spot){.wire = wire, .web = b->plan->web, .x = s->system.x + 3 * b->first_node};
-  return SW_OK;
+  if (out->web && out->web->per_ring) return SW_OK;
+  sw_fail(err, SW_EINVAL,
+          "wire:%s: wire '%s' is a %s, whose section does not change; it is known of meshes of "
+          "particles (model = 'tube', 'radial', 'cubic', ...)",
+          what, wire->name, wire->cls->name);
+  return SW_EINVAL;
 }
 
 static double ring_s(const sw_web *w, size_t ring) { return w->s[w->first[ring]]; }
