@@ -173,13 +173,15 @@ static sw_status make_room(sw_strand_maker *m) {
   w->rings = rings, w->per_ring = n;
   w->banded = w->folds == 0 && !m->ring;
   w->first = sw_alloc(rings + 1, sizeof *w->first);
+  w->along = sw_alloc(w->particles, sizeof *w->along);
   w->share = sw_alloc(n, sizeof *w->share);
   w->section = sw_alloc(2 * n, sizeof *w->section);
   w->around = m->around, w->around_count = m->around_count;
   w->ring_links = sw_alloc(rings + 1, sizeof *w->ring_links);
   w->ring_solids = sw_alloc(rings + 1, sizeof *w->ring_solids);
   m->strand->axial = sw_alloc(m->links, sizeof *m->strand->axial);
-  return w->first && w->share && w->section && w->ring_links && w->ring_solids && m->strand->axial
+  return w->first && w->along && w->share && w->section && w->ring_links && w->ring_solids &&
+                 m->strand->axial
              ? SW_OK
              : SW_ENOMEM;
 }
@@ -199,6 +201,10 @@ static void fill_sections(sw_strand_maker *m) {
       const double share = sw_strand_is_ring(m, r) ? w->share[p - w->first[r]] : 1.0;
       w->mass[p] = share * sw_strand_mass(m, r);
       w->s[p] = m->mesh->s[r];
+      const uint32_t i = (uint32_t)(p - w->first[r]);
+      const sw_cell_link line = {.from = i, .to = i, .slices = 1};
+      if (sw_strand_is_ring(m, r) && sw_strand_is_ring(m, r + 1))
+        w->along[p] = rest_length(m, &line, r);
     }
 }
 
