@@ -32,11 +32,14 @@ static size_t pairs_of(const sw_web *w, sw_blocks_pair *out) {
   return n;
 }
 
-static sw_status new_blocks(const sw_web *w, sw_blocks **out) {
+/* With more pairs (more x 2). */
+static sw_status new_blocks(const sw_web *w, const uint32_t *others, size_t more, sw_blocks **out) {
   if (w->banded) return sw_blocks_new_rings(w->rings, w->per_ring, out);
-  sw_blocks_pair *pairs = sw_alloc(pairs_of(w, NULL), sizeof *pairs);
+  sw_blocks_pair *pairs = sw_alloc(pairs_of(w, NULL) + more, sizeof *pairs);
   if (!pairs) return SW_ENOMEM;
-  const size_t count = pairs_of(w, pairs);
+  size_t count = pairs_of(w, pairs);
+  for (size_t i = 0; i < more; i++)
+    pairs[count++] = (sw_blocks_pair){others[2 * i], others[2 * i + 1]};
   const sw_status status = sw_blocks_new_sparse(w->particles, pairs, count, out);
   sw_free(pairs);
   return status;
@@ -68,17 +71,41 @@ static void fill_slots(sw_body *b) {
   b->field.fold_slot = fold, b->field.solid_slot = solid;
 }
 
+static void use_blocks(sw_body *b) {
+  fill_slots(b);
+  b->field.blocks = sw_blocks_values(b->blocks);
+  b->field.block_stride = sw_blocks_stride(b->blocks);
+}
+
 sw_status sw_web_prepare(sw_body *b) {
   const sw_web *w = b->plan->web;
-  SW_TRY(new_blocks(w, &b->blocks));
+  SW_TRY(new_blocks(w, NULL, 0, &b->blocks));
   const size_t slots = w->particles + w->links + 3 * w->folds + SW_FIELD_SOLID_PAIRS * w->solids;
   b->web_slots = sw_alloc(slots, sizeof *b->web_slots);
   b->web_fixed = sw_alloc(w->particles, sizeof *b->web_fixed);
   if (!b->web_slots || !b->web_fixed) return SW_ENOMEM;
   for (size_t p = 0; p < w->particles; p++) b->web_fixed[p] = b->plan->held[p] != SW_FREE;
-  fill_slots(b);
-  b->field.blocks = sw_blocks_values(b->blocks);
-  b->field.block_stride = sw_blocks_stride(b->blocks);
+  use_blocks(b);
+  return SW_OK;
+}
+
+sw_status sw_body_plan_pairs(sw_body *b, const uint32_t *pairs, size_t count) {
+  const size_t size = 2 * count * sizeof *pairs;
+  if (count == b->web_pair_count && (!count || memcmp(pairs, b->web_pairs, size) == 0))
+    return SW_OK;
+  sw_blocks *blocks;
+  uint32_t *copy = sw_alloc(2 * count, sizeof *copy);
+  if (!copy) return SW_ENOMEM;
+  if (count) memcpy(copy, pairs, size);
+  const sw_status status = new_blocks(b->plan->web, pairs, count, &blocks);
+  if (status != SW_OK) {
+    sw_free(copy);
+    return status;
+  }
+  sw_blocks_free(b->blocks);
+  sw_free(b->web_pairs);
+  b->blocks = blocks, b->web_pairs = copy, b->web_pair_count = count;
+  use_blocks(b);
   return SW_OK;
 }
 
@@ -86,6 +113,7 @@ void sw_web_discard(sw_body *b) {
   sw_blocks_free(b->blocks);
   sw_free(b->web_slots);
   sw_free(b->web_fixed);
+  sw_free(b->web_pairs);
 }
 
 void sw_web_begin(sw_body *b) { sw_blocks_clear(b->blocks); }
