@@ -142,9 +142,13 @@ typedef struct cell {
   int64_t x, y, z;
 } cell;
 
+/* Whatever the numbers are: cells far out may be one. */
+static int64_t coordinate(double x, double size) {
+  return (int64_t)fmax(-1e15, fmin(1e15, floor(x / size)));
+}
+
 static cell cell_of(const double *x, double size) {
-  return (cell){(int64_t)floor(x[0] / size), (int64_t)floor(x[1] / size),
-                (int64_t)floor(x[2] / size)};
+  return (cell){coordinate(x[0], size), coordinate(x[1], size), coordinate(x[2], size)};
 }
 
 static size_t slot_of(const group *g, cell at) {
@@ -198,7 +202,7 @@ static sw_status search(group *g, const sw_body *b, const double *x, const doubl
     g->next[i] = g->head[slot];
     g->head[slot] = i;
   }
-  qsort(g->near, g->count, sizeof *g->near, by_number); /* one order, whatever the cells were */
+  if (g->count) qsort(g->near, g->count, sizeof *g->near, by_number); /* one order, whatever the cells were */
   return SW_OK;
 }
 
