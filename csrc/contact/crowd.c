@@ -202,7 +202,8 @@ static sw_status search(group *g, const sw_body *b, const double *x, const doubl
     g->next[i] = g->head[slot];
     g->head[slot] = i;
   }
-  if (g->count) qsort(g->near, g->count, sizeof *g->near, by_number); /* one order, whatever the cells were */
+  if (g->count)
+    qsort(g->near, g->count, sizeof *g->near, by_number); /* one order, whatever the cells were */
   return SW_OK;
 }
 

@@ -59,7 +59,10 @@ typedef struct sw_body {
   unsigned char *web_fixed; /* (particles) 1: held */
   uint32_t *web_pairs;      /* (web_pair_count x 2) that it has besides the web's */
   size_t web_pair_count;
-  int linked; /* its matrix is part of the links' (see system/link.h) */
+  double *web_room; /* (particles x 15) of a large one, for iterations; or NULL */
+  int web_factored; /* 1: there is a factor of this step that leads iterations */
+  int web_slow;     /* 1: it did not lead them fast enough in this step */
+  int linked;       /* its matrix is part of the links' (see system/link.h) */
 } sw_body;
 
 /* Where a hold is, for all nodes it holds. */
