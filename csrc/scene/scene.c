@@ -54,6 +54,7 @@ void sw_scene_free(sw_scene *s) {
   sw_stepper_free(&s->stepper);
   sw_contact_free(s->contact);
   sw_pairs_free(s->pairs);
+  sw_crowd_free(s->crowd);
   sw_scene_drop_rules(s, 0);
   sw_free(s->rules);
   sw_system_free(&s->system);
