@@ -385,7 +385,7 @@ describe("example", function()
     assert.is_true(after(out, "the joint is") > 4)
   end)
 
-  it("12: fabric hangs over a box", function()
+  it("13: fabric hangs over a box", function()
     local out = example "13_fabric"
     local corners = {}
     for depth in out:gmatch "corner hangs (%S+) mm" do corners[#corners + 1] = tonumber(depth) end
@@ -403,7 +403,7 @@ describe("example", function()
   -- stretch a from mu (a^2 - 1) + lambda ln J = 0 its force is A (mu (s - 1/s) + lambda ln J / s) at
   -- the stretch s. What touches gives way by less than 0.05 mm on each side, 0.8 % of the travel, and
   -- friction of 0.05 adds about 0.05 / 3 times the width over twice the height, 1.3 %.
-  it("13: foam under a press", function()
+  it("14: foam under a press", function()
     local out = example "14_foam"
     local mu, lambda, s = 50e3 / 2.4, 50e3 * 0.2 / (1.2 * 0.6), 1 - 12 / 40
     local low, high = 1, 2

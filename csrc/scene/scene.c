@@ -197,6 +197,9 @@ static const sw_param mesh_rows[] = {
     {"squeeze", SW_PARAM_NUMBER, "Pa", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(squeeze),
      "stiffness of the section: line force of two plates on opposite sides over their approach "
      "(not given: as the springs come out)"},
+    {"wall", SW_PARAM_NUMBER, "N m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(wall),
+     "of a tube with core = false: bending stiffness of its wall per length, E t^3 / (12 (1 - "
+     "nu^2)), against flattening and ovalisation; takes the place of chords (brace)"},
     {"body", SW_PARAM_CHOICE, "-", SW_BODY_SPRINGS, 0, 0, 0, body_names, AT(body),
      "springs between the particles, or solid elements of finite strain with nu"},
 };
@@ -357,6 +360,7 @@ static sw_status draw_strand(sw_scene_wire *w, const sw_wire_args *args,
                                .spacing = mesh->spacing,
                                .squeeze = mesh->squeeze,
                                .body = mesh->body,
+                               .wall = mesh->wall,
                                .lattice = mesh->lattice,
                                .section = mesh->section,
                                .normal = d->normal,

@@ -50,6 +50,14 @@ static sw_status calibrate(const sw_strand_plan *p, const sw_beam *beam, double 
                    "wire '%s': bonded = false is for sw.calibrate only; in a scene parts of a "
                    "composite are bonded",
                    p->name);
+  if (!isnan(p->wall) && (args.mesh != SW_LATTICE_TUBE || lattice.tube.core))
+    return sw_fail(err, SW_EINVAL,
+                   "wire '%s': wall = %.6g N m goes with model = 'tube' and core = false", p->name,
+                   p->wall);
+  if (!isnan(p->wall)) { /* chords and wide diagonals would hold the ring round too */
+    if (lattice.tube.brace < 0) lattice.tube.brace = 0;
+    if (lattice.tube.reach == 0) lattice.tube.reach = 1;
+  }
   const sw_status status = sw_calibrate(&args, &section, &lattice, out, &why);
   if (status == SW_OK) return SW_OK;
   const char *text = strncmp(why.text, "calibrate: ", 11) == 0 ? why.text + 11 : why.text;
