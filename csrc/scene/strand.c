@@ -314,11 +314,25 @@ static sw_status make(maker *m) {
   return SW_OK;
 }
 
+/* An angle alone does not tell which way three particles are bent at rest. */
+static sw_status check_rest(const sw_strand_plan *p, const sw_lattice *l, sw_error *err) {
+  for (size_t i = 0; p->curved && i < l->links; i++)
+    if (l->link[i].bend)
+      return sw_fail(err, SW_EINVAL,
+                     "wire '%s': rest = 'path' needs a mesh without springs against bending, which "
+                     "are straight at rest; make %s",
+                     p->name,
+                     strcmp(p->mesh, "composite") == 0 ? "core = 'radial' or 'cubic'"
+                                                       : "bend = false");
+  return SW_OK;
+}
+
 sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const sw_mesh *mesh,
                         sw_strand *out, sw_error *err) {
   const double spacing = (mesh->s[mesh->n - 1] - mesh->s[0]) / (double)(mesh->n - 1);
   memset(out, 0, sizeof *out);
   SW_TRY(calibrate(plan, beam, spacing, 1e-6, &out->calibration, err));
+  SW_TRY(check_rest(plan, &out->calibration.lattice, err));
   maker m = {.plan = plan,
              .lattice = &out->calibration.lattice,
              .mesh = mesh,
