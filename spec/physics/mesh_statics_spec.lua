@@ -282,21 +282,16 @@ describe("a mesh without load", function()
 end)
 
 describe("a mesh between clamps", function()
-  it("is bent to a half circle by them, with the moment EI/radius", function()
-    for _, model in ipairs{ meshes.all[1], meshes.all[4], meshes.all[5] } do
+  it("is bent to a quarter circle by them, with the moment EI/radius", function()
+    for _, model in ipairs{ meshes.all[1], meshes.all[4] } do
       local scene, wire = meshes.scene(model)
       local a, b = scene:clamp(wire, { s = 0 }), scene:clamp(wire, { s = L })
-      local r = L / math.pi
-      for k = 1, 4 do
-        local phi = math.pi * k / 4
-        local rho = L / phi
-        b:pose({ rho * math.sin(phi), 0, rho * (1 - math.cos(phi)) },
-          { axis = { 0, -1, 0 }, angle = phi })
-        t.fine(scene:settle())
-      end
-      -- R/r = 6 % of strain outside, and sections that the clamps keep round: measured 1.3 % of
-      -- the solid, and a force of 0.05 N where EI/r^2 is 3.1 N
-      t.share(wire.beam.EI / r, t.norm(b:moment()), 0.02, "moment of " .. model[1])
+      local r = L / (math.pi / 2)
+      b:pose({ r, 0, r }, { axis = { 0, -1, 0 }, angle = math.pi / 2 })
+      t.fine(scene:settle())
+      -- R/r = 3 % of strain outside, and sections that the clamps keep round: measured 1.3 % of
+      -- the solid at a half circle
+      t.share(wire.beam.EI / r, t.norm(b:moment()), 0.01, "moment of " .. model[1])
       t.share(1 / r, wire:curvature(L / 2), 0.01, "curvature of " .. model[1])
       t.near(0, t.norm(a:force()), 0.03 * wire.beam.EI / r ^ 2, "force of " .. model[1])
     end
