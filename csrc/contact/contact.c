@@ -119,7 +119,8 @@ double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v) {
 /* Widest gap at the step's start that can close within it, with reserve. */
 static double reach_of(const sw_contact *c, const sw_system *s, const sw_body *b, size_t node,
                        size_t o) {
-  if (c->regime == SW_CONTACT_STATIC) return b->plan->length;
+  if (c->regime == SW_CONTACT_STATIC)
+    return b->plan->length + (b->plan->web ? 2.0 * b->plan->beam.radius : 0.0);
   const sw_vec x = sw_load(s->x + 3 * node);
   const double wall = sw_norm(sw_obstacle_velocity(&c->start[o], x)) * c->h;
   const double skin = 1.5; /* of the radius: what is this near is always looked at [-] */

@@ -155,6 +155,19 @@ static sw_status find_warp(sw_strand_maker *m, sw_error *err) {
   return status;
 }
 
+/* An angle alone does not tell which way three particles are bent at rest. */
+static sw_status check_rest(const sw_strand_plan *p, const sw_lattice *l, sw_error *err) {
+  for (size_t i = 0; p->curved && i < l->links; i++)
+    if (l->link[i].bend)
+      return sw_fail(err, SW_EINVAL,
+                     "wire '%s': rest = 'path' needs a mesh without springs against bending, which "
+                     "are straight at rest; make %s",
+                     p->name,
+                     strcmp(p->mesh, "composite") == 0 ? "core = 'radial' or 'cubic'"
+                                                       : "bend = false");
+  return SW_OK;
+}
+
 sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const sw_mesh *mesh,
                         const sw_strand_lie *lie, sw_strand *out, sw_error *err) {
   const double even = (mesh->s[mesh->n - 1] - mesh->s[0]) / (double)(mesh->n - 1);
@@ -165,6 +178,7 @@ sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const s
   out->kit->references = 1;
   sw_calibration *c = &out->kit->calibration;
   SW_TRY(calibrate(plan, beam, spacing, 1e-6, c, err));
+  SW_TRY(check_rest(plan, &c->lattice, err));
   sw_strand_maker m = {.plan = plan,
                        .beam = beam,
                        .ring = lie ? lie->ring : NULL,
