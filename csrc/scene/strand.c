@@ -60,7 +60,7 @@ sw_status sw_strand_slices(const sw_strand_plan *p, const sw_beam *beam, double 
                            sw_error *err) {
   double spacing = p->spacing;
   if (isnan(spacing)) {
-    sw_calibration any;
+    sw_calibration any = {0};
     const sw_status status = calibrate(p, beam, spacing, 1.0, &any, err);
     spacing = any.lattice.spacing;
     sw_calibration_free(&any);
@@ -314,6 +314,17 @@ static sw_status make(maker *m) {
   return SW_OK;
 }
 
+enum { MOST_PARTICLES = 1000000 }; /* their matrices take gigabytes */
+
+static sw_status check_count(const sw_strand_plan *p, size_t rings, size_t per_ring,
+                             sw_error *err) {
+  if (rings <= MOST_PARTICLES / per_ring) return SW_OK;
+  return sw_fail(err, SW_EINVAL,
+                 "wire '%s': %zu slices of %zu particles or more are too many; at most %d "
+                 "particles are allowed",
+                 p->name, rings - 1, per_ring, (int)MOST_PARTICLES);
+}
+
 /* An angle alone does not tell which way three particles are bent at rest. */
 static sw_status check_rest(const sw_strand_plan *p, const sw_lattice *l, sw_error *err) {
   for (size_t i = 0; p->curved && i < l->links; i++)
@@ -331,7 +342,9 @@ sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const s
                         sw_strand *out, sw_error *err) {
   const double spacing = (mesh->s[mesh->n - 1] - mesh->s[0]) / (double)(mesh->n - 1);
   memset(out, 0, sizeof *out);
+  SW_TRY(check_count(plan, mesh->n, 1, err));
   SW_TRY(calibrate(plan, beam, spacing, 1e-6, &out->calibration, err));
+  SW_TRY(check_count(plan, mesh->n, out->calibration.lattice.particles, err));
   SW_TRY(check_rest(plan, &out->calibration.lattice, err));
   maker m = {.plan = plan,
              .lattice = &out->calibration.lattice,
