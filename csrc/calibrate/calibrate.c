@@ -105,7 +105,7 @@ static sw_status check_section(const sw_calibrate_args *args, const sw_section *
                    "[N m2] and GJ [N m2] of this section, and mass_per_length [kg/m]");
   if (args->mesh == SW_LATTICE_CUBIC && !flat && !isnan(cubic->EI2))
     return sw_fail(err, SW_EINVAL, "calibrate: EI2 goes with section = 'rectangle'");
-  if (flat && isnan(cubic->EI2) && cubic->width != cubic->height)
+  if (flat && isnan(cubic->EI2) && fabs(cubic->width - cubic->height) > 0)
     return sw_fail(err, SW_EINVAL,
                    "calibrate: a rectangle of %g m times %g m needs EI2 [N m2] too, for bending "
                    "in the plane of y and z",

@@ -368,6 +368,8 @@ static sw_status draw_strand(sw_scene_wire *w, const sw_wire_args *args,
                                .rest_twist = d->rest_twist};
   size_t slices = (size_t)args->segments;
   double length = 0;
+  if (slices && !isnan(mesh->spacing))
+    return sw_fail(err, SW_EINVAL, "wire '%s': give segments or spacing, not both", w->name);
   for (size_t i = 0; i + 1 < d->count; i++)
     length += sw_dist(sw_vec_at(d->points, i), sw_vec_at(d->points, i + 1));
   if (!slices) SW_TRY(sw_strand_slices(&plan, &w->beam, length, &slices, err));
