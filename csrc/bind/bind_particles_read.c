@@ -295,7 +295,7 @@ static void read_surface(lua_State *L, int table, sw_particles_parts *p) {
     if (n != 2 && n != 3)
       luaL_error(L, "particles: surface, entry %d, must be {i, j} or {i, j, k}, got %s", (int)i + 1,
                  lsw_describe(L, -1));
-    uint32_t node[3];
+    uint32_t node[3] = {0};
     for (size_t k = 0; k < n; k++) node[k] = particle_at(L, lua_gettop(L), k, "surface");
     for (size_t k = 0; k < (n == 3 ? 3 : 1); k++, p->edges++) {
       out[2 * p->edges] = node[k];
