@@ -274,6 +274,7 @@ sw_status sw_contact_begin_stage(void *contact, sw_system *s, double time, doubl
   (void)s, (void)hbar, (void)y;
   c->pressed_before = c->pressed_count;
   c->stage_time = time;
+  c->updates = 0;
   return place_all(c, time, c->now, err);
 }
 
@@ -306,7 +307,7 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
                    .normal = sw_rotate(back, t->press.normal),
                    .point = t->local};
   if (t->press.normal_force > 0)
-    m->elastic = sw_rotate(back, sw_scale(t->press.tangential, -1.0 / t->press.k));
+    m->elastic = sw_rotate(back, sw_scale(t->press.tangential, -1.0 / sw_press_grip(&t->press)));
   return SW_OK;
 }
 
@@ -384,13 +385,27 @@ size_t sw_contact_count(const sw_contact *c) {
   return n;
 }
 
+size_t sw_contact_touches(const sw_contact *c) { return c->touch_count; }
+
+int sw_contact_push_at(const sw_contact *c, size_t k, sw_contact_push *out) {
+  const sw_touch *t = &c->touches[k];
+  const sw_press *p = &t->press;
+  *out = (sw_contact_push){.obstacle = c->obstacles[t->obstacle].id,
+                           .node = t->node,
+                           .other = t->other,
+                           .at = t->at,
+                           .normal_force = p->normal_force,
+                           .force = sw_madd(p->tangential, p->normal, p->normal_force)};
+  return p->normal_force > 0;
+}
+
 double sw_contact_energy(const sw_contact *c) {
   double sum = 0;
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
     if (!(t->press.normal_force > 0)) continue;
-    sum += 0.5 * (t->press.normal_force * t->press.normal_force + sw_norm2(t->press.tangential)) /
-           t->press.k;
+    sum += 0.5 * t->press.normal_force * t->press.normal_force / t->press.k;
+    sum += 0.5 * sw_norm2(t->press.tangential) / sw_press_grip(&t->press);
   }
   return sum;
 }

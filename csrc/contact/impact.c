@@ -68,9 +68,12 @@ static sw_vec striking_velocity(const sw_contact *c, const sw_touch *t, sw_vec p
  * but the shortest, and would throw it back. */
 static void kick(sw_system *s, const sw_body *b, size_t node, sw_vec dv) {
   const sw_web *web = b->plan->web;
-  const size_t n = web && web->per_ring ? web->per_ring : 1, i = node - b->first_node;
-  const size_t first = i - i % n;
-  for (size_t k = first; k < first + n; k++)
+  size_t first = node - b->first_node, end = first + 1;
+  if (web && web->per_ring) {
+    const size_t ring = sw_web_ring_of(web, first);
+    first = web->first[ring], end = web->first[ring + 1];
+  }
+  for (size_t k = first; k < end; k++)
     if (b->plan->held[k] == SW_FREE) sw_accumulate(s->v + 3 * (b->first_node + k), dv);
 }
 

@@ -231,6 +231,8 @@ static double shortest_edge(const sw_system *s) {
     const sw_plan *p = s->bodies[b].plan;
     if (p->web && p->web->rings > 1)
       shortest = fmin(shortest, p->length / (double)(p->web->rings - 1));
+    for (size_t e = 0; p->web && !p->web->per_ring && e < p->web->links; e++)
+      shortest = fmin(shortest, p->web->link[e].rest);
     for (size_t e = 0; e < p->edges; e++) shortest = fmin(shortest, p->rest[e]);
   }
   return shortest;

@@ -80,6 +80,8 @@ typedef struct maker {
   const sw_lattice *lattice;
   const sw_mesh *mesh;
   const double *k; /* of groups */
+  const sw_strand_lie *lie;
+  double *warp; /* of a section by unit strains, see sw_cell_warp; or NULL */
   sw_web *web;
   sw_strand *strand;
 } maker;
@@ -146,7 +148,7 @@ static void rest_corners(const maker *m, const sw_cell_solid *e, size_t r, doubl
 static sw_status prepare_shapes(maker *m) {
   const sw_lattice *l = m->lattice;
   const size_t slices = m->plan->curved ? m->mesh->n - 1 : 1;
-  const double E = m->k[SW_GROUP_SOLID], nu = m->strand->calibration.nu;
+  const double E = m->k[SW_GROUP_SOLID], nu = m->strand->kit->calibration.nu;
   const double mu = 0.5 * E / (1.0 + nu), lambda = E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
   sw_solid *shape = sw_alloc(slices * l->solids, sizeof *shape);
   if (!shape) return SW_ENOMEM;
@@ -239,6 +241,9 @@ static sw_status fill_web(maker *m) {
   sw_web *w = m->web;
   const size_t n = l->particles, rings = m->mesh->n;
   w->rings = rings, w->per_ring = n;
+  w->first = sw_alloc(rings + 1, sizeof *w->first);
+  if (!w->first) return SW_ENOMEM;
+  for (size_t r = 0; r <= rings; r++) w->first[r] = r * n;
   w->banded = w->folds == 0;
   w->share = sw_alloc(n, sizeof *w->share);
   w->section = sw_alloc(2 * n, sizeof *w->section);
@@ -252,7 +257,7 @@ static sw_status fill_web(maker *m) {
     w->section[2 * i] = l->at[3 * i], w->section[2 * i + 1] = l->at[3 * i + 1];
     if (hypot(l->at[3 * i], l->at[3 * i + 1]) < 1e-9 * l->spacing) w->axis = (uint32_t)i;
   }
-  const double slice = m->strand->calibration.mass_per_length * l->spacing;
+  const double slice = m->strand->kit->calibration.mass_per_length * l->spacing;
   for (size_t p = 0; p < w->particles; p++) {
     const size_t r = p / n;
     w->mass[p] = slice * l->share[p % n] * (r == 0 || r + 1 == rings ? 0.5 : 1.0);
@@ -266,6 +271,15 @@ static sw_status fill_web(maker *m) {
   return sw_web_add_surface(w);
 }
 
+/* Where particle i of the section at node r is, in axes across, across, along. */
+static sw_vec in_section(const maker *m, size_t r, size_t i) {
+  sw_vec at = sw_vec_at(m->lattice->at, i);
+  const size_t n = 3 * m->lattice->particles;
+  for (size_t s = 0; m->warp && s < SW_CELL_STRAINS; s++)
+    at = sw_madd(at, sw_vec_at(m->warp + s * n, i), m->lie->strains[SW_CELL_STRAINS * r + s]);
+  return at;
+}
+
 /* Particles across the line that the mesh's nodes are, sections carried along without twist. */
 static void place_particles(const maker *m) {
   const sw_mesh *mesh = m->mesh;
@@ -277,11 +291,11 @@ static void place_particles(const maker *m) {
     const sw_vec next = sw_mesh_tangent(mesh, r), middle = sw_vec_at(mesh->x, r);
     u = sw_carry_unit(u, t, next);
     t = next;
+    if (m->lie) t = sw_load(m->lie->frames + 6 * r), u = sw_load(m->lie->frames + 6 * r + 3);
     const sw_vec w = sw_cross(t, u);
     for (size_t i = 0; i < n; i++) {
-      const double *at = m->lattice->at + 3 * i;
-      const sw_vec across = sw_madd(sw_scale(u, at[0]), w, at[1]);
-      sw_store(m->strand->x + 3 * (r * n + i), sw_madd(sw_add(middle, across), t, at[2]));
+      const sw_vec at = in_section(m, r, i), across = sw_madd(sw_scale(u, at.x), w, at.y);
+      sw_store(m->strand->x + 3 * (r * n + i), sw_madd(sw_add(middle, across), t, at.z));
     }
   }
 }
@@ -314,27 +328,67 @@ static sw_status make(maker *m) {
   return SW_OK;
 }
 
+/* How sections give way to strains. */
+static sw_status find_warp(maker *m, sw_error *err) {
+  const sw_cell cell = sw_lattice_cell(m->lattice);
+  m->warp = sw_alloc(3 * SW_CELL_STRAINS * cell.particles, sizeof *m->warp);
+  if (!m->warp) return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", m->plan->name);
+  const sw_status status = sw_cell_warp(&cell, m->k, m->lattice->share, m->warp, err);
+  if (status == SW_OK) return SW_OK;
+  sw_free(m->warp);
+  return status;
+}
+
 sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const sw_mesh *mesh,
-                        sw_strand *out, sw_error *err) {
+                        const sw_strand_lie *lie, sw_strand *out, sw_error *err) {
   const double spacing = (mesh->s[mesh->n - 1] - mesh->s[0]) / (double)(mesh->n - 1);
   memset(out, 0, sizeof *out);
-  SW_TRY(calibrate(plan, beam, spacing, 1e-6, &out->calibration, err));
-  maker m = {.plan = plan,
-             .lattice = &out->calibration.lattice,
-             .mesh = mesh,
-             .k = out->calibration.k,
-             .strand = out};
-  if (make(&m) != SW_OK) return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", plan->name);
+  out->kit = sw_alloc(1, sizeof *out->kit);
+  if (!out->kit) return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", plan->name);
+  out->kit->references = 1;
+  sw_calibration *c = &out->kit->calibration;
+  SW_TRY(calibrate(plan, beam, spacing, 1e-6, c, err));
+  maker m = {
+      .plan = plan, .lattice = &c->lattice, .mesh = mesh, .k = c->k, .lie = lie, .strand = out};
+  if (lie) SW_TRY(find_warp(&m, err));
+  const sw_status made = make(&m);
+  sw_free(m.warp);
+  if (made != SW_OK) return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", plan->name);
   out->web->skin = skin_of(m.lattice, beam->radius);
   return SW_OK;
 }
 
 void sw_strand_free(sw_strand *s) {
   sw_web_release(s->web);
-  sw_calibration_free(&s->calibration);
+  if (s->kit && --s->kit->references == 0) {
+    sw_calibration_free(&s->kit->calibration);
+    sw_free(s->kit);
+  }
   sw_free(s->x);
   sw_free(s->v);
   sw_free(s->a);
   sw_free(s->axial);
   memset(s, 0, sizeof *s);
+}
+
+static double *copy_of(const double *from, size_t n) {
+  double *to = sw_alloc(n, sizeof *to);
+  if (to) memcpy(to, from, n * sizeof *to);
+  return to;
+}
+
+sw_status sw_strand_copy(const sw_strand *from, sw_strand *to) {
+  memset(to, 0, sizeof *to);
+  if (!from->web) return SW_OK;
+  const size_t n = 3 * from->web->particles;
+  to->web = sw_web_retain(from->web);
+  to->kit = from->kit;
+  if (to->kit) to->kit->references++;
+  to->x = copy_of(from->x, n);
+  to->v = copy_of(from->v, n);
+  to->a = copy_of(from->a, n);
+  to->axial = copy_of(from->axial, from->web->links);
+  if (to->x && to->v && to->a && to->axial) return SW_OK;
+  sw_strand_free(to);
+  return SW_ENOMEM;
 }

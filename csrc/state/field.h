@@ -70,7 +70,8 @@ typedef struct sw_field {
   double *force;       /* (n x 3) forces on nodes [N] */
   double *rows;        /* (n x SW_ROW_SIZE) node blocks of the matrix [N/m] */
   double energy;       /* [J] */
-  double bending;      /* part of energy that corrects the wire's own bending [J] */
+  double bending;      /* part of energy that corrects the wire's own bending, or what else the
+                          force says that it corrects [J] */
 
   /* of particles with a web; NULL for nodes one after another */
   double *blocks;           /* values of the matrix, 3 x 3 blocks [N/m] */

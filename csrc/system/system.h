@@ -258,6 +258,7 @@ void sw_system_reaction(const sw_system *system, int hold, sw_vec point, sw_vec 
 
 /* Kinetic energy of the state with consistent (implicit) masses [J]. */
 double sw_system_kinetic(const sw_system *system, int lumped);
+double sw_body_kinetic(const sw_system *system, size_t body, int lumped);
 
 /* Energy of one term of one body at the state; *bending is the part of it that
  * corrects the wire's own bending [J]. */

@@ -164,8 +164,8 @@ end
 for i, force in ipairs(samples.registry.forces) do
   if not force.inner then
     acts[#acts + 1] = { "making a force " .. force.name, function(scene, wire)
-      local args = samples.arguments(force.params, samples.random(i))
-      args.kind, args.on = force.name, wire
+      local args = samples.force(force, i)
+      args.on = force.of_web and samples.sheet(scene) or wire
       return scene:force(args)
     end }
   end
