@@ -138,7 +138,7 @@ static sw_status add_candidate(sw_contact *c, const sw_body *b, size_t body, siz
                      .other = other,
                      .body = body,
                      .radius = b->plan->beam.radius,
-                     .skin = sw_plan_skin(b->plan),
+                     .skin = sw_plan_skin(b->plan, node - b->first_node),
                      .mass = b->plan->lumped[node - b->first_node]};
   return SW_OK;
 }

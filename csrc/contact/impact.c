@@ -83,7 +83,7 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
   const sw_vec x = sw_touch_place(s->x, t->node, t->other, t->at);
   const sw_body *b = &s->bodies[t->body];
-  const double radius = sw_plan_skin(b->plan);
+  const double radius = sw_plan_skin(b->plan, t->node - b->first_node);
   const size_t end[2] = {t->node, t->other};
   const sw_levers levers = sw_touch_levers(s, t);
   const sw_vec at = levers.count ? sw_madd(x, t->press.normal, -radius) : x;

@@ -236,7 +236,7 @@ static sw_status fill_links(const maker *m) {
   }
   for (size_t i = 0; i < w->folds; i++) {
     const sw_particles_fold *f = &m->parts->fold[i];
-    w->fold[i] = (sw_web_fold){f->a, f->b, f->c, f->stiffness};
+    w->fold[i] = (sw_web_fold){f->a, f->b, f->c, f->stiffness, 0};
   }
   return SW_OK;
 }

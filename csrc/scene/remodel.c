@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "scene/region.h"
 #include "scene/world.h"
 #include "state/hinge.h"
 
@@ -16,19 +17,23 @@ static const sw_param rows[] = {
     {"segments", SW_PARAM_INTEGER, "-", 0, 0, 1e7, 0, NULL, offsetof(sw_wire_args, segments),
      "number of segments, 2 or more (default 50; of a mesh slices, as many as their spacing "
      "gives)"},
+    {"region", SW_PARAM_OTHER, "m", 0, 0, 0, 0, NULL, 0,
+     "{s1, s2}: only there, and beside clamps, the wire is the mesh; elsewhere a line of particles "
+     "of a rod's EA and EI, without twist (not given: all of it)"},
 };
 const sw_params sw_remodel_params = SW_PARAMS("remodel", rows);
 
 /* The middle line at even arc lengths. */
 typedef struct line {
   size_t n;
-  double length;       /* [m] */
-  double start;        /* arc length of the first one in the mesh [m] */
-  double *s, *tension; /* (n) from the start [m], [N] */
-  double *x, *v;       /* (n x 3) [m], [m/s] */
-  double *frame;       /* (n x 6) tangent, direction across [-] */
-  double *turn;        /* (n) twist since the start [rad] */
-  double *strain;      /* (n x 4) of the beam, as a cell has them [-], [1/m] */
+  double length;               /* [m] */
+  double start;                /* arc length of the first one in the mesh [m] */
+  double *s, *tension;         /* (n) from the start [m], [N] */
+  double *x, *v;               /* (n x 3) [m], [m/s] */
+  double *frame;               /* (n x 6) tangent, direction across [-] */
+  double *turn;                /* (n) twist since the start [rad] */
+  double *strain;              /* (n x 4) of the beam, as a cell has them [-], [1/m] */
+  const sw_stations *stations; /* which of them are rings; n 0: all */
   void *block;
 } line;
 
@@ -76,13 +81,16 @@ static double turn_between(sw_vec t0, sw_vec u0, sw_vec t1, sw_vec u1) {
   return sw_hinge_twist(&a, &b, 0.0);
 }
 
-static sw_status sample(sw_scene *s, sw_handle h, line *out, sw_error *err) {
+static sw_status sample(sw_scene *s, sw_handle h, const double *at, line *out, sw_error *err) {
   const sw_scene_wire *w = &s->wires[h.slot];
   SW_TRY(sw_scene_wire_length(s, h, &out->length, err));
   out->start = w->mesh.s[0];
   for (size_t i = 0; i < out->n; i++) {
+    const double even = out->length * ((double)i / (double)(out->n - 1));
+    out->s[i] = at ? at[i] : i + 1 == out->n ? out->length : even;
+  }
+  for (size_t i = 0; i < out->n; i++) {
     sw_point_state p;
-    out->s[i] = i + 1 == out->n ? out->length : out->length * ((double)i / (double)(out->n - 1));
     SW_TRY(sw_scene_wire_at(s, h, out->s[i], &p, err));
     sw_store(out->x + 3 * i, p.position);
     sw_store(out->v + 3 * i, p.velocity);
@@ -105,8 +113,8 @@ static void sample_frames(const sw_scene *s, size_t wire, line *out) {
     double f, turn = 0;
     sw_vec v = sw_carry_unit(u, t, next);
     if (web) {
-      const size_t r = sw_plan_locate(b->plan, out->start + out->s[i], &f);
-      const sw_vec mine = section_x(web, x, r + (f > 0.5), next);
+      const size_t r = sw_plan_locate(b->plan, out->start + out->s[i], &f) + (f > 0.5);
+      const sw_vec mine = sw_web_is_ring(web, r) ? section_x(web, x, r, next) : v;
       turn = i ? turn_between(t, u, next, mine) : 0.0;
       v = mine;
     } else if (i) {
@@ -258,7 +266,10 @@ static void spin_sections(const line *l, const sw_web *web, const double *x, dou
 
 static sw_status becomes_mesh(const sw_strand_plan *plan, const sw_scene_wire *w, const line *l,
                               sw_scene_wire *out, sw_error *err) {
-  const sw_strand_lie lie = {l->frame, l->strain};
+  const sw_strand_lie lie = {.frames = l->frame,
+                             .strains = l->strain,
+                             .ring = l->stations->ring,
+                             .spacing = l->stations->spacing};
   SW_TRY(sw_strand_new(plan, &w->beam, &out->mesh, &lie, &out->strand, err));
   spin_sections(l, out->strand.web, out->strand.x, out->strand.v);
   return SW_OK;
@@ -358,9 +369,9 @@ static void about_now(const sw_scene *s, size_t wire, sw_vec *about, double out[
 
 /* The line, once the number of its nodes is known. */
 static sw_status read_line(sw_scene *s, sw_handle h, const sw_wire_args *args,
-                           const sw_strand_plan *plan, const sw_wire_class *cls, line *out,
-                           sw_error *err) {
-  size_t segments = (size_t)args->segments;
+                           const sw_strand_plan *plan, const sw_wire_class *cls,
+                           const sw_stations *stations, line *out, sw_error *err) {
+  size_t segments = stations->n ? stations->n - 1 : (size_t)args->segments;
   double length;
   SW_TRY(sw_scene_wire_length(s, h, &length, err));
   if (!segments && cls->mesh)
@@ -368,10 +379,51 @@ static sw_status read_line(sw_scene *s, sw_handle h, const sw_wire_args *args,
   if (segments < 2) segments = 50;
   if (new_line(segments + 1, out) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "remodel: out of memory");
-  SW_TRY(sample(s, h, out, err));
+  SW_TRY(sample(s, h, stations->s, out, err));
   sample_frames(s, h.slot, out);
   find_strains(&s->wires[h.slot].beam, out);
   return SW_OK;
+}
+
+enum { USUAL_SEGMENTS = 50 }; /* of a wire that is a line, when nobody says [-] */
+
+static sw_status plan_region(sw_scene *s, sw_handle h, const sw_wire_args *args,
+                             const sw_strand_plan *plan, const double *region, sw_stations *out,
+                             sw_error *err) {
+  const sw_scene_wire *w = &s->wires[h.slot];
+  size_t slices;
+  double length;
+  SW_TRY(sw_scene_wire_length(s, h, &length, err));
+  if (!plan->mesh)
+    return sw_fail(err, SW_EINVAL,
+                   "remodel: region goes with a model that is a mesh, not with a "
+                   "line; without it the whole wire changes");
+  if (!(region[0] >= 0) || !(region[1] <= length * (1 + 1e-9)) || !(region[0] < region[1]))
+    return sw_fail(err, SW_EINVAL,
+                   "remodel: region = {%.6g, %.6g} m is not on wire '%s'; it must be two arc "
+                   "lengths, the first one less, within [0, %.6g] m",
+                   region[0], region[1], w->name, length);
+  if (w->beam.rest_twist != 0)
+    return sw_fail(err, SW_EINVAL,
+                   "remodel: wire '%s' is twisted without load, which lines beside a region are "
+                   "not; leave region out",
+                   w->name);
+  SW_TRY(sw_strand_slices(plan, &w->beam, length, &slices, err));
+  const double segments = args->segments ? (double)args->segments : USUAL_SEGMENTS;
+  return sw_region_plan(s, h.slot, region, length / (double)slices, length / segments, out, err);
+}
+
+/* More than this is lost in lines [rad]. */
+static const double LEAST_TWIST = 1e-3;
+
+static sw_status check_twist(const sw_scene_wire *w, const line *l, sw_error *err) {
+  double most = 0;
+  for (size_t i = 0; i < l->n; i++) most = fmax(most, fabs(l->turn[i]));
+  if (most <= LEAST_TWIST) return SW_OK;
+  return sw_fail(err, SW_EINVAL,
+                 "remodel: wire '%s' is twisted by %.3g rad, which lines beside a region cannot "
+                 "carry; leave region out",
+                 w->name, most);
 }
 
 static sw_status change(sw_scene *s, sw_handle h, const sw_strand_plan *plan, const line *l,
@@ -401,7 +453,8 @@ static sw_status change(sw_scene *s, sw_handle h, const sw_strand_plan *plan, co
 }
 
 sw_status sw_scene_remodel(sw_scene *s, sw_handle h, const sw_wire_args *args,
-                           const sw_wire_mesh_args *mesh, sw_remodel_report *out, sw_error *err) {
+                           const sw_wire_mesh_args *mesh, const double *region,
+                           sw_remodel_report *out, sw_error *err) {
   *out = (sw_remodel_report){0};
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
@@ -423,11 +476,16 @@ sw_status sw_scene_remodel(sw_scene *s, sw_handle h, const sw_wire_args *args,
   sw_scene_wire next = {.cls = cls};
   sw_snapshot *before = NULL;
   sw_error ignored;
-  sw_status status = read_line(s, h, args, &plan, cls, &l, err);
+  sw_stations stations = {0};
+  sw_status status = region ? plan_region(s, h, args, &plan, region, &stations, err) : SW_OK;
+  if (status == SW_OK) status = read_line(s, h, args, &plan, cls, &stations, &l, err);
+  l.stations = &stations;
+  if (status == SW_OK && region) status = check_twist(&s->wires[h.slot], &l, err);
   if (status == SW_OK) status = sw_scene_snapshot(s, &before, err);
   if (status == SW_OK) status = change(s, h, &plan, &l, &next, out, err);
   if (status != SW_OK && before) sw_scene_restore(s, before, &ignored);
   sw_snapshot_free(before);
+  sw_region_free(&stations);
   sw_free(l.block);
   return status;
 }

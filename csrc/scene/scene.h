@@ -132,9 +132,11 @@ typedef struct sw_remodel_report {
 } sw_remodel_report;
 
 /* Another model for the wire from now on: of args model and segments are read. mesh: as for a new
- * wire, its section that of the wire. */
+ * wire, its section that of the wire. region: from and to [m]; only there, and beside clamps, the
+ * wire is the mesh, elsewhere a line of as many segments as a rod; NULL: all of it. */
 sw_status sw_scene_remodel(sw_scene *scene, sw_handle wire, const sw_wire_args *args,
-                           const sw_wire_mesh_args *mesh, sw_remodel_report *out, sw_error *err);
+                           const sw_wire_mesh_args *mesh, const double *region,
+                           sw_remodel_report *out, sw_error *err);
 extern const sw_params sw_remodel_params;
 
 /* What the springs of a wire that is a mesh were fitted to; NULL: it is none, or is gone. */

@@ -40,8 +40,11 @@ sw_status sw_strand_slices(const sw_strand_plan *plan, const sw_beam *beam, doub
                            size_t *out, sw_error *err);
 /* How sections lie along the nodes of a mesh. */
 typedef struct sw_strand_lie {
-  const double *frames;  /* (nodes x 6) tangent, where the lattice's x goes [-] */
-  const double *strains; /* (nodes x 4) of the beam, as a cell has them [-], [1/m] */
+  const double *frames;      /* (nodes x 6) tangent, where the lattice's x goes [-] */
+  const double *strains;     /* (nodes x 4) of the beam, as a cell has them [-], [1/m] */
+  const unsigned char *ring; /* (nodes) 0: not a ring but a particle of a line, which stretches and
+                              * bends as a rod but is not twisted; or NULL: all are rings */
+  double spacing;            /* of rings side by side, when some are not [m] */
 } sw_strand_lie;
 
 /* A strand along the nodes of an even mesh; lie NULL: as the mesh lies, untwisted, sections as

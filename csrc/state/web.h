@@ -17,10 +17,11 @@ typedef struct sw_web_link {
   double rest; /* unstressed length [m] */
 } sw_web_link;
 
-/* A spring against the angle at b between a, b and c, which lie straight at rest. */
+/* A spring against the angle at b by which a, b and c are off a straight line. */
 typedef struct sw_web_fold {
   uint32_t a, b, c;
-  double k; /* moment per angle [N m] */
+  double k;    /* moment per angle [N m] */
+  double rest; /* the angle without moment, 0 or well inside (0, pi) [rad] */
 } sw_web_fold;
 
 enum { SW_WEB_SOLID_NODES = 8 }; /* most of one solid element [-] */

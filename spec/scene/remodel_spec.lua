@@ -177,6 +177,87 @@ describe("wire:remodel", function()
     assert.has_error(function() third:remodel{ model = "tube" } end)
   end)
 
+  -- A droop, half of it under a region that is meshed.
+  local function drooping(model, region)
+    local scene, wire = make{ gravity = { 0, 0, -9.81 } }
+    local clamp = scene:clamp(wire, { s = 0 })
+    t.fine(scene:settle())
+    local rod = { tip = wire:position(L), middle = wire:position(L / 2), moment = clamp:moment()[2],
+      particles = #wire:particles() }
+    local report = wire:remodel{ model = model, region = region, segments = 40 }
+    return scene, wire, clamp, rod, report
+  end
+
+  for _, model in ipairs(meshes) do
+    it("of a region leaves the shape and what clamps bear: " .. model, function()
+      local scene, wire, clamp, rod, report = drooping(model, { 0.1, 0.15 })
+      t.below(1e-15, t.distance(report.after.linear, { 0, 0, 0 }), "momentum of what rests")
+      t.near(L, wire.length, 1e-15)
+      t.below(1e-4, t.distance(rod.tip, wire:position(L)), "tip at once")
+      t.fine(scene:settle())
+      -- of three places where a line meets a ring each is known to a few hundredths of a slice
+      t.below(3e-3 * L, t.distance(rod.tip, wire:position(L)), "tip")
+      t.below(3e-3 * L, t.distance(rod.middle, wire:position(L / 2)), "middle")
+      t.share(rod.moment, clamp:moment()[2], 5e-3, "moment of the clamp")
+      t.share(9.81 * wire.beam.mass_per_length * L, clamp:force()[3], 1e-9, "weight")
+      local hangs = 9.81 * wire.beam.mass_per_length * L / 4
+      t.near(-hangs * wire:tangent(0.75 * L)[3], wire:tension(0.75 * L), 0.02 * hangs,
+        "tension of the line")
+      wire:remodel{ model = "rod", segments = 40 }
+      t.fine(scene:settle())
+      t.below(3e-3 * L, t.distance(rod.tip, wire:position(L)), "tip, back from " .. model)
+    end)
+  end
+
+  it("of a region tells sections there only", function()
+    local _, wire = drooping("tube", { 0.1, 0.15 })
+    t.share(2 * 0.006, wire:section(0.125).largest_width or wire:section(0.125).width, 0.1)
+    local ok, text = pcall(wire.section, wire, 0.25)
+    assert.is_false(ok)
+    assert.is_truthy(text:find "line of particles", text)
+  end)
+
+  it("of a region lies on a plane and is squeezed between plates", function()
+    for _, model in ipairs{ "tube", "radial" } do
+      local scene, wire = make{ gravity = { 0, 0, -9.81 } }
+      local weight = 9.81 * wire.beam.mass_per_length * L
+      local floor = scene:obstacle{ shape = "plane", at = { 0, 0, -0.006 }, friction = 0.3 }
+      local plate = scene:obstacle{ shape = "box", size = { 0.02, 0.05, 0.01 },
+        at = { L / 2, 0, 0.0115 } }
+      wire:remodel{ model = model, region = { 0.12, 0.18 }, segments = 40 }
+      t.fine(scene:run{ duration = 0.2, dt = 0.005 })
+      t.share(weight, floor:force()[3] * -1, 0.02, model .. ": weight on the plane")
+      plate:follow{ points = { { L / 2, 0, 0.0115 }, { L / 2, 0, 0.0095 } }, duration = 0.2 }
+      t.fine(scene:run{ duration = 0.4, dt = 0.005 })
+      local force = plate:force()[3]
+      t.above(20 * weight, force, model .. ": force of the plate")
+      t.share(force + weight, -floor:force()[3], 0.01, model .. ": both forces")
+      t.below(0.0106, wire:width(L / 2, { 0, 0, 1 }), model .. ": height between the plates")
+    end
+  end)
+
+  it("of a region refuses what lines cannot have", function()
+    local scene, wire = make{}
+    local function refused(pattern, region, model)
+      local ok, text = pcall(wire.remodel, wire, { model = model or "tube", region = region })
+      assert.is_false(ok)
+      assert.is_truthy(text:find(pattern), text)
+      assert.are.equal(40, wire.segments)
+    end
+    refused("region", { 0.1, 0.5 })
+    refused("region", { 0.2, 0.1 })
+    refused("region", { -0.1, 0.1 })
+    refused("region", { 0.1 })
+    refused("region", 0.1)
+    refused("finite", { 0.1, 0 / 0 })
+    refused("leave region out", { 0, L })
+    refused("goes with a model that is a mesh", { 0.1, 0.2 }, "rod")
+    scene:clamp(wire, { s = 0 })
+    scene:clamp(wire, { s = L }):pose({ L, 0, 0 }, { axis = { 1, 0, 0 }, angle = 0.5 })
+    t.fine(scene:settle())
+    refused("twisted", { 0.1, 0.2 })
+  end)
+
   it("survives every failing allocation", function()
     local scene, wire = make{}
     scene:clamp(wire, { s = 0 })
