@@ -117,6 +117,22 @@ local function add_scale(quick)
   end
 end
 
+-- Slices of meshes: springs have coarsest ones, beyond which there are none of EA, EI and GJ.
+local slices = { rod = { 10, 20, 40, 80, 160 }, tube = { 80, 120, 160, 240 }, radial = { 120, 160, 240 },
+  cubic = { 120, 160, 240 }, composite = { 120, 160 }, ["radial, solid"] = { 10, 20, 40, 80, 160 },
+  ["cubic, solid"] = { 10, 20, 40, 80, 160 } }
+
+local function add_meshes(quick)
+  for _, model in ipairs(benchcases.meshes) do
+    for i, n in ipairs(slices[model]) do
+      if not quick or i == 1 then
+        add("mesh_droop", { model = model, segments = n })
+        add("mesh_release", { model = model, segments = n, integrator = "tr-bdf2", dt = 0.005 })
+      end
+    end
+  end
+end
+
 -- Choosing -------------------------------------------------------------------------
 
 local wanted, quick, out = {}, false, "out/bench"
@@ -148,9 +164,10 @@ add_explicit_release(quick)
 add_transport(quick)
 add_walls(quick)
 add_scale(quick)
+add_meshes(quick)
 
 local order = { "droop", "arc", "catenary", "lift", "release", "transport", "walls", "scale", "curved",
-  "flat", "rolling" }
+  "flat", "rolling", "mesh_droop", "mesh_release" }
 local jobs = {}
 for _, name in ipairs(order) do
   for _, entry in ipairs(plan) do
@@ -311,10 +328,11 @@ end
 
 local function print_best()
   print "\nmost accurate row of each case"
-  for _, name in ipairs{ "droop", "arc", "catenary", "lift", "release", "transport" } do
+  for _, name in ipairs{ "droop", "arc", "catenary", "lift", "release", "transport", "mesh_droop",
+    "mesh_release" } do
     local row = most_accurate(name)
     if row then
-      print(("  %-10s %10.6f %%  %10.3f ms  %s"):format(name, row.error, 1e3 * row.wall, row_name(row)))
+      print(("  %-12s %10.6f %%  %10.3f ms  %s"):format(name, row.error, 1e3 * row.wall, row_name(row)))
     end
   end
 end

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lines of particles between the meshed parts of a strand: a rod that stretches and bends, lumped
  * in particles, without twist. Where a line meets a ring, its first particle is a lever: springs
- * to the ring's particles hold it straight before the section, and the line's last hinge lies there,
- * between the line and the section, with the compliance of half the edge and of the lever. */
+ * to the ring's particles hold it straight before the section, and the line's last hinge lies
+ * there, between the line and the section, with the compliance of half the edge and of the lever.
+ */
 #include <math.h>
 
 #include "scene/strand_inner.h"
