@@ -137,22 +137,23 @@ static int group_of(lua_State *L, const kind *k, int entry) {
   return -1;
 }
 
-/* How many parts an entry stands for; leaves what group_of pushes. */
-static size_t parts_of(lua_State *L, const kind *k, int entry, size_t number, int *group) {
+/* How many parts an entry stands for, and how many particles each has; leaves what group_of
+ * pushes. */
+static size_t parts_of(lua_State *L, const kind *k, int entry, size_t number, size_t *size) {
   if (!lua_istable(L, entry))
     luaL_error(L, "particles: %s, entry %d, must be a table, got %s", k->what, (int)number + 1,
                lsw_describe(L, entry));
-  *group = group_of(L, k, entry);
-  const char *what = *group < 0 ? k->what : k->group[*group];
+  const int group = group_of(L, k, entry);
+  const char *what = group < 0 ? k->what : k->group[group];
   const size_t n = length_of(L, lua_gettop(L), what);
-  const size_t size = k->size[*group < 0 ? 0 : *group];
-  if (*group < 0 && n != size)
+  if (group < 0 && n != k->size[0] && n != k->size[1])
     luaL_error(L, "particles: %s, entry %d, names %d particles; it must be %d, or have a list '%s'",
-               k->what, (int)number + 1, (int)n, (int)size, k->group[0]);
-  if (n % size)
+               k->what, (int)number + 1, (int)n, (int)k->size[0], k->group[0]);
+  *size = group < 0 ? n : k->size[group];
+  if (n % *size)
     luaL_error(L, "particles: %s, entry %d: %s has %d numbers, which is no multiple of %d", k->what,
-               (int)number + 1, what, (int)n, (int)size);
-  return n / size;
+               (int)number + 1, what, (int)n, (int)*size);
+  return n / *size;
 }
 
 /* Values of an entry: pushes what is under each key, a number or a list of count. */
@@ -174,17 +175,15 @@ static void open_values(lua_State *L, const kind *k, int entry, size_t number, s
 
 static void read_entry(lua_State *L, const kind *k, int entry, size_t number, void *out,
                        size_t *at) {
-  int group;
-  const size_t count = parts_of(L, k, entry, number, &group);
+  size_t size;
+  const size_t count = parts_of(L, k, entry, number, &size);
   const int list = lua_gettop(L);
-  const size_t size = k->size[group < 0 ? 0 : group];
   check_keys(L, k, entry, number);
   open_values(L, k, entry, number, count);
   for (size_t i = 0; i < count; i++) {
     uint32_t node[SW_ELEMENT_NODES];
     double values[MOST_VALUES] = {0};
-    for (size_t j = 0; j < size; j++)
-      node[j] = particle_at(L, list, size * i + j, group < 0 ? k->what : k->group[group]);
+    for (size_t j = 0; j < size; j++) node[j] = particle_at(L, list, size * i + j, k->what);
     for (int v = 0; v < MOST_VALUES && k->values[v]; v++) {
       const int type = lua_type(L, list + 1 + v);
       values[v] = type == LUA_TNIL      ? k->usual[v]
@@ -204,9 +203,9 @@ static const void *read_list(lua_State *L, int table, const kind *k, size_t item
   const int list = lua_gettop(L);
   const size_t entries = length_of(L, list, k->what);
   for (size_t i = 0; i < entries; i++) {
-    int group;
+    size_t size;
     lua_rawgeti(L, list, (lua_Integer)i + 1);
-    *count += parts_of(L, k, lua_gettop(L), i, &group);
+    *count += parts_of(L, k, lua_gettop(L), i, &size);
     lua_settop(L, list);
   }
   char *out = new_array(L, *count, item);

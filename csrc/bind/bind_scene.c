@@ -296,12 +296,12 @@ static void push_frame_surfaces(lua_State *L, const sw_scene *scene, size_t fram
     if (p) {
       lua_createtable(L, 0, 3);
       lsw_set_integer(L, "around", around);
-      lua_createtable(L, (int)(3 * count), 0);
+      lua_createtable(L, 3 * (int)count, 0);
       lua_createtable(L, (int)count, 0);
       for (size_t i = 0; i < count; i++, p += SW_FRAME_SURFACE) {
         for (size_t k = 0; k < 3; k++) {
           lua_pushnumber(L, p[k]);
-          lua_rawseti(L, -3, (lua_Integer)(3 * i + k + 1));
+          lua_rawseti(L, -3, 3 * (lua_Integer)i + (lua_Integer)k + 1);
         }
         lua_pushnumber(L, p[3]);
         lua_rawseti(L, -2, (lua_Integer)i + 1);

@@ -105,7 +105,7 @@ static sw_status check_section(const sw_calibrate_args *args, const sw_section *
                    "[N m2] and GJ [N m2] of this section, and mass_per_length [kg/m]");
   if (args->mesh == SW_LATTICE_CUBIC && !flat && !isnan(cubic->EI2))
     return sw_fail(err, SW_EINVAL, "calibrate: EI2 goes with section = 'rectangle'");
-  if (flat && isnan(cubic->EI2) && cubic->width != cubic->height)
+  if (flat && isnan(cubic->EI2) && fabs(cubic->width - cubic->height) > 0)
     return sw_fail(err, SW_EINVAL,
                    "calibrate: a rectangle of %g m times %g m needs EI2 [N m2] too, for bending "
                    "in the plane of y and z",
@@ -204,8 +204,8 @@ static void cubic_advice(const sw_cubic_args *cubic, const sw_calibration *c, in
              "the section larger",
              ratio, most * most);
   else if (cubic->section == SW_SECTION_RECTANGLE)
-    snprintf(text, n, "EI/EI2 must be near (width/height)^2 = %.4g",
-             cubic->width * cubic->width / (cubic->height * cubic->height));
+    snprintf(text, n, "EI/EI2 must be near (width/height)^2 = %.4g; if it is, make across = %ld more",
+             cubic->width * cubic->width / (cubic->height * cubic->height), cubic->across);
   else
     snprintf(text, n, "make across = %ld more, and even", cubic->across);
 }

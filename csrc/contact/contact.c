@@ -119,7 +119,8 @@ double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v) {
 /* Widest gap at the step's start that can close within it, with reserve. */
 static double reach_of(const sw_contact *c, const sw_system *s, const sw_body *b, size_t node,
                        size_t o) {
-  if (c->regime == SW_CONTACT_STATIC) return b->plan->length;
+  if (c->regime == SW_CONTACT_STATIC)
+    return b->plan->length + (b->plan->web ? 2.0 * b->plan->beam.radius : 0.0);
   const sw_vec x = sw_load(s->x + 3 * node);
   const double wall = sw_norm(sw_obstacle_velocity(&c->start[o], x)) * c->h;
   const double skin = 1.5; /* of the radius: what is this near is always looked at [-] */
@@ -218,12 +219,18 @@ void sw_contact_stiffness(sw_contact_regime regime, double force, double nominal
   }
 }
 
+/* Touches of an object of particles are at least as stiff as this share of a bound on what holds
+ * a particle: it may be without weight [-]. */
+static const double HARD_SHARE = 1.0;
+
 /* Stiffness of a wire's new touches: for its weight or for what bends it. */
 static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t first) {
   const sw_plan *p = s->bodies[body].plan;
   const double L = p->length, weight = p->beam.mass * L * sw_norm(sw_load(s->gravity));
   double base, rate2;
   sw_contact_stiffness(c->regime, fmax(weight, p->beam.EI / (L * L)), c->nominal, &base, &rate2);
+  if (p->web && !p->web->per_ring && c->regime != SW_CONTACT_EXPLICIT)
+    rate2 = fmax(rate2, HARD_SHARE * 0.5 * (p->web->rate2 + p->web->solid_rate2));
   for (size_t i = first; i < c->candidate_count; i++)
     c->candidates[i].usual = fmax(base, rate2 * c->candidates[i].mass);
 }

@@ -13,7 +13,7 @@
 /* Slower approaches are left to the integrator; their energy does not matter
  * [m/s]. */
 static const double SLOWEST_IMPACT = 5e-4;
-/* A segment that moves less than this share of its radius cannot get through
+/* A segment that moves less than this share of its skin cannot get through
  * anything unseen [-]. */
 static const double SAFE_SHIFT = 0.5;
 
@@ -188,7 +188,7 @@ static int review_crossings(sw_contact *c, sw_system *s, const double *x1, doubl
     const sw_vec a1 = sw_pose_local(*p1, sw_load(x1 + 3 * k->node));
     const sw_vec b1 = sw_pose_local(*p1, sw_load(x1 + 3 * k->other));
     const double shift2 = fmax(sw_norm2(sw_sub(a1, a0)), sw_norm2(sw_sub(b1, b0)));
-    if (shift2 < SAFE_SHIFT * SAFE_SHIFT * k->radius * k->radius) continue;
+    if (shift2 < SAFE_SHIFT * SAFE_SHIFT * k->skin * k->skin) continue;
     sw_closest hit;
     double when;
     if (sw_shape_sweep(c->obstacles[k->obstacle].shape, a0, b0, a1, b1, 0.0, &hit, &when))

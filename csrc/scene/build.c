@@ -16,6 +16,8 @@ static void drop(sw_scene *s) {
   s->contact = NULL;
   sw_pairs_free(s->pairs);
   s->pairs = NULL;
+  sw_crowd_free(s->crowd);
+  s->crowd = NULL;
   sw_free(s->hold_slot);
   s->hold_slot = NULL;
   s->built = 0;
@@ -332,6 +334,7 @@ static sw_status fill(sw_scene *s, size_t alive) {
   SW_TRY(sw_scene_add_joins(s));
   SW_TRY(add_contact(s));
   SW_TRY(sw_scene_new_pairs(s));
+  SW_TRY(sw_crowd_new(&s->system, &s->crowd));
   SW_TRY(inherit_contact(s));
   s->system.coupling = (sw_coupling){.user = s, .place = place_hold};
   sw_scene_couple(s);

@@ -305,6 +305,7 @@ static void collect_energy(sw_scene *s, sw_energy *out) {
   for (size_t b = 0; b < s->system.body_count; b++) add_terms(s, b, out);
   out->dissipated = sw_system_dissipated(&s->system, &out->has_dissipated);
   if (sw_scene_has_contact(s)) add_energy(out, "contact", sw_scene_contact_energy(s));
+  if (s->crowd) add_energy(out, "repel", sw_crowd_energy(s->crowd, &s->system));
   if (s->system.joins) add_energy(out, "join", sw_joins_energy(&s->system));
 }
 

@@ -240,6 +240,7 @@ static sw_status match_momentum(sw_scene *s, size_t wire, sw_vec about, const do
 /* Nodes on the line. */
 static sw_status line_mesh(const sw_scene_wire *w, const line *l, sw_mesh *out) {
   const double ends[6] = {0, 0, 0, l->length, 0, 0};
+  if (!l->block) return SW_ENOMEM;
   SW_TRY(sw_mesh_along(out, ends, 2, l->n - 1));
   memcpy(out->s, l->s, l->n * sizeof *out->s);
   memcpy(out->x, l->x, 3 * l->n * sizeof *out->x);
@@ -418,7 +419,7 @@ static const double LEAST_TWIST = 1e-3;
 
 static sw_status check_twist(const sw_scene_wire *w, const line *l, sw_error *err) {
   double most = 0;
-  for (size_t i = 0; i < l->n; i++) most = fmax(most, fabs(l->turn[i]));
+  for (size_t i = 0; l->turn && i < l->n; i++) most = fmax(most, fabs(l->turn[i]));
   if (most <= LEAST_TWIST) return SW_OK;
   return sw_fail(err, SW_EINVAL,
                  "remodel: wire '%s' is twisted by %.3g rad, which lines beside a region cannot "
@@ -468,6 +469,7 @@ sw_status sw_scene_remodel(sw_scene *s, sw_handle h, const sw_wire_args *args,
                                .spacing = mesh->spacing,
                                .squeeze = mesh->squeeze,
                                .body = mesh->body,
+                               .wall = mesh->wall,
                                .lattice = mesh->lattice,
                                .section = mesh->section,
                                .normal = w->drawing.normal,

@@ -54,6 +54,7 @@ void sw_scene_free(sw_scene *s) {
   sw_stepper_free(&s->stepper);
   sw_contact_free(s->contact);
   sw_pairs_free(s->pairs);
+  sw_crowd_free(s->crowd);
   sw_scene_drop_rules(s, 0);
   sw_free(s->rules);
   sw_system_free(&s->system);
@@ -196,6 +197,9 @@ static const sw_param mesh_rows[] = {
     {"squeeze", SW_PARAM_NUMBER, "Pa", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(squeeze),
      "stiffness of the section: line force of two plates on opposite sides over their approach "
      "(not given: as the springs come out)"},
+    {"wall", SW_PARAM_NUMBER, "N m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(wall),
+     "of a tube with core = false: bending stiffness of its wall per length, E t^3 / (12 (1 - "
+     "nu^2)), against flattening and ovalisation; takes the place of chords (brace)"},
     {"body", SW_PARAM_CHOICE, "-", SW_BODY_SPRINGS, 0, 0, 0, body_names, AT(body),
      "springs between the particles, or solid elements of finite strain with nu"},
 };
@@ -356,6 +360,7 @@ static sw_status draw_strand(sw_scene_wire *w, const sw_wire_args *args,
                                .spacing = mesh->spacing,
                                .squeeze = mesh->squeeze,
                                .body = mesh->body,
+                               .wall = mesh->wall,
                                .lattice = mesh->lattice,
                                .section = mesh->section,
                                .normal = d->normal,
@@ -363,6 +368,8 @@ static sw_status draw_strand(sw_scene_wire *w, const sw_wire_args *args,
                                .rest_twist = d->rest_twist};
   size_t slices = (size_t)args->segments;
   double length = 0;
+  if (slices && !isnan(mesh->spacing))
+    return sw_fail(err, SW_EINVAL, "wire '%s': give segments or spacing, not both", w->name);
   for (size_t i = 0; i + 1 < d->count; i++)
     length += sw_dist(sw_vec_at(d->points, i), sw_vec_at(d->points, i + 1));
   if (!slices) SW_TRY(sw_strand_slices(&plan, &w->beam, length, &slices, err));

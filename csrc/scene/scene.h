@@ -106,6 +106,7 @@ typedef struct sw_wire_mesh_args {
   double spacing; /* of slices; NAN = chosen [m] */
   double squeeze; /* see sw_calibrate_args [Pa] */
   int body;       /* SW_BODY_SPRINGS, SW_BODY_SOLID */
+  double wall;    /* bending stiffness of a tube's wall, per length; NAN = none [N m] */
   sw_lattice_args lattice;
   sw_section section; /* as given */
 } sw_wire_mesh_args;

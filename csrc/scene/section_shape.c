@@ -39,14 +39,14 @@ typedef struct spot {
 static sw_status open_mesh(sw_scene *s, sw_handle h, const char *what, spot *out, sw_error *err) {
   sw_scene_wire *wire;
   SW_TRY(sw_scene_open_wire(s, h, &wire, err));
-  if (!wire->strand.web)
-    return sw_fail(err, SW_EINVAL,
-                   "wire:%s: wire '%s' is a %s, whose section does not change; it is known of "
-                   "meshes of particles (model = 'tube', 'radial', 'cubic', ...)",
-                   what, wire->name, wire->cls->name);
   const sw_body *b = &s->system.bodies[h.slot];
   *out = (spot){.wire = wire, .web = b->plan->web, .x = s->system.x + 3 * b->first_node};
-  return SW_OK;
+  if (out->web && out->web->per_ring) return SW_OK;
+  sw_fail(err, SW_EINVAL,
+          "wire:%s: wire '%s' is a %s, whose section does not change; it is known of meshes of "
+          "particles (model = 'tube', 'radial', 'cubic', ...)",
+          what, wire->name, wire->cls->name);
+  return SW_EINVAL;
 }
 
 static double ring_s(const sw_web *w, size_t ring) { return w->s[w->first[ring]]; }
@@ -135,20 +135,11 @@ static void torsion(const spot *p, sw_section_shape *out) {
 
 /* --- strain ------------------------------------------------------------------------- */
 
-/* Unstressed length of the line from a particle to the same one in the next ring: of the spring
- * that lies there, or that of a straight wire. */
-static double line_rest(const sw_web *w, size_t ring, size_t particle) {
-  const size_t a = w->first[ring] + particle;
-  for (size_t e = w->ring_links[ring]; e < w->ring_links[ring + 1]; e++)
-    if (w->link[e].a == a && w->link[e].b == w->first[ring + 1] + particle) return w->link[e].rest;
-  return ring_s(w, ring + 1) - ring_s(w, ring);
-}
-
 static double line_strain(const spot *p, size_t slice, size_t particle) {
   const size_t *first = p->web->first;
   const double l = sw_dist(sw_vec_at(p->x, first[slice] + particle),
                            sw_vec_at(p->x, first[slice + 1] + particle));
-  return l / line_rest(p->web, slice, particle) - 1.0;
+  return l / p->web->along[first[slice] + particle] - 1.0;
 }
 
 /* Of both lines round the wire that meet at number k of a ring's outline. */

@@ -50,6 +50,14 @@ static sw_status calibrate(const sw_strand_plan *p, const sw_beam *beam, double 
                    "wire '%s': bonded = false is for sw.calibrate only; in a scene parts of a "
                    "composite are bonded",
                    p->name);
+  if (!isnan(p->wall) && (args.mesh != SW_LATTICE_TUBE || lattice.tube.core))
+    return sw_fail(err, SW_EINVAL,
+                   "wire '%s': wall = %.6g N m goes with model = 'tube' and core = false", p->name,
+                   p->wall);
+  if (!isnan(p->wall)) { /* chords and wide diagonals would hold the ring round too */
+    if (lattice.tube.brace < 0) lattice.tube.brace = 0;
+    if (lattice.tube.reach == 0) lattice.tube.reach = 1;
+  }
   const sw_status status = sw_calibrate(&args, &section, &lattice, out, &why);
   if (status == SW_OK) return SW_OK;
   const char *text = strncmp(why.text, "calibrate: ", 11) == 0 ? why.text + 11 : why.text;
@@ -60,7 +68,7 @@ sw_status sw_strand_slices(const sw_strand_plan *p, const sw_beam *beam, double 
                            sw_error *err) {
   double spacing = p->spacing;
   if (isnan(spacing)) {
-    sw_calibration any;
+    sw_calibration any = {0};
     const sw_status status = calibrate(p, beam, spacing, 1.0, &any, err);
     spacing = any.lattice.spacing;
     sw_calibration_free(&any);
@@ -147,16 +155,43 @@ static sw_status find_warp(sw_strand_maker *m, sw_error *err) {
   return status;
 }
 
+enum { MOST_PARTICLES = 1000000 }; /* their matrices take gigabytes */
+
+static sw_status check_count(const sw_strand_plan *p, size_t rings, size_t per_ring,
+                             sw_error *err) {
+  if (rings <= MOST_PARTICLES / per_ring) return SW_OK;
+  return sw_fail(err, SW_EINVAL,
+                 "wire '%s': %zu slices of %zu particles or more are too many; at most %d "
+                 "particles are allowed",
+                 p->name, rings - 1, per_ring, (int)MOST_PARTICLES);
+}
+
+/* An angle alone does not tell which way three particles are bent at rest. */
+static sw_status check_rest(const sw_strand_plan *p, const sw_lattice *l, sw_error *err) {
+  for (size_t i = 0; p->curved && i < l->links; i++)
+    if (l->link[i].bend)
+      return sw_fail(err, SW_EINVAL,
+                     "wire '%s': rest = 'path' needs a mesh without springs against bending, which "
+                     "are straight at rest; make %s",
+                     p->name,
+                     strcmp(p->mesh, "composite") == 0 ? "core = 'radial' or 'cubic'"
+                                                       : "bend = false");
+  return SW_OK;
+}
+
 sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const sw_mesh *mesh,
                         const sw_strand_lie *lie, sw_strand *out, sw_error *err) {
   const double even = (mesh->s[mesh->n - 1] - mesh->s[0]) / (double)(mesh->n - 1);
   const double spacing = lie && lie->ring ? lie->spacing : even;
   memset(out, 0, sizeof *out);
+  SW_TRY(check_count(plan, mesh->n, 1, err));
   out->kit = sw_alloc(1, sizeof *out->kit);
   if (!out->kit) return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", plan->name);
   out->kit->references = 1;
   sw_calibration *c = &out->kit->calibration;
   SW_TRY(calibrate(plan, beam, spacing, 1e-6, c, err));
+  SW_TRY(check_count(plan, mesh->n, c->lattice.particles, err));
+  SW_TRY(check_rest(plan, &c->lattice, err));
   sw_strand_maker m = {.plan = plan,
                        .beam = beam,
                        .ring = lie ? lie->ring : NULL,

@@ -28,6 +28,7 @@ typedef struct sw_strand_plan {
   const char *mesh;        /* the lattice's name */
   double spacing, squeeze; /* see sw_calibrate_args */
   int body;                /* likewise */
+  double wall;             /* bending stiffness of a tube's wall per length; NAN: none [N m] */
   sw_lattice_args lattice;
   sw_section section; /* as given */
   sw_vec normal;      /* where the lattice's x goes; NAN = anywhere [-] */

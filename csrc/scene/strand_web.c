@@ -7,6 +7,8 @@
 #include "force/solid.h"
 #include "scene/strand_inner.h"
 
+static const double PI = 3.14159265358979323846;
+
 void sw_strand_add_link(sw_strand_maker *m, size_t a, size_t b, double k, double rest) {
   if (m->web) m->web->link[m->links] = (sw_web_link){(uint32_t)a, (uint32_t)b, k, rest};
   m->links++;
@@ -56,6 +58,24 @@ static void add_ring(sw_strand_maker *m, size_t r) {
   }
 }
 
+/* Length of wire that a ring stands for [m]. */
+static double ring_length(const sw_strand_maker *m, size_t r) {
+  const int before = r > 0 && sw_strand_is_ring(m, r - 1), after = sw_strand_is_ring(m, r + 1);
+  return 0.5 * (before + after) * m->lattice->spacing;
+}
+
+/* Folds round a ring: its wall, bent at each particle by the same angle when unloaded. */
+static void add_wall(sw_strand_maker *m, size_t r) {
+  const size_t n = m->around_count, at = m->first[r];
+  const double *p = m->lattice->at + 3 * (size_t)m->around[0];
+  const double *q = m->lattice->at + 3 * (size_t)m->around[1];
+  const double chord = hypot(q[0] - p[0], q[1] - p[1]), turn = 2.0 * PI / (double)n;
+  const double k = m->plan->wall * ring_length(m, r) / chord;
+  for (size_t i = 0; i < n; i++)
+    sw_strand_add_fold(m, at + m->around[(i + n - 1) % n], at + m->around[i],
+                       at + m->around[(i + 1) % n], k, turn);
+}
+
 static void add_elements(sw_strand_maker *m, size_t r) {
   const sw_lattice *l = m->lattice;
   for (size_t k = 0; k < l->solids && sw_strand_is_ring(m, r + 1); k++, m->solids++) {
@@ -76,6 +96,7 @@ static void add_parts(sw_strand_maker *m) {
     if (sw_strand_is_line(m, r)) sw_strand_add_line(m, r);
     if (!sw_strand_is_ring(m, r)) continue;
     add_ring(m, r);
+    if (!isnan(m->plan->wall)) add_wall(m, r);
     add_elements(m, r);
     if (sw_strand_is_line(m, r + 1)) sw_strand_add_end(m, r);
   }
@@ -171,15 +192,17 @@ static sw_status make_room(sw_strand_maker *m) {
   sw_web *w = m->web;
   m->strand->web = w;
   w->rings = rings, w->per_ring = n;
-  w->banded = w->folds == 0 && !m->ring;
+  w->banded = !m->ring && (w->folds == 0 || !isnan(m->plan->wall));
   w->first = sw_alloc(rings + 1, sizeof *w->first);
+  w->along = sw_alloc(w->particles, sizeof *w->along);
   w->share = sw_alloc(n, sizeof *w->share);
   w->section = sw_alloc(2 * n, sizeof *w->section);
   w->around = m->around, w->around_count = m->around_count;
   w->ring_links = sw_alloc(rings + 1, sizeof *w->ring_links);
   w->ring_solids = sw_alloc(rings + 1, sizeof *w->ring_solids);
   m->strand->axial = sw_alloc(m->links, sizeof *m->strand->axial);
-  return w->first && w->share && w->section && w->ring_links && w->ring_solids && m->strand->axial
+  return w->first && w->along && w->share && w->section && w->ring_links && w->ring_solids &&
+                 m->strand->axial
              ? SW_OK
              : SW_ENOMEM;
 }
@@ -199,6 +222,10 @@ static void fill_sections(sw_strand_maker *m) {
       const double share = sw_strand_is_ring(m, r) ? w->share[p - w->first[r]] : 1.0;
       w->mass[p] = share * sw_strand_mass(m, r);
       w->s[p] = m->mesh->s[r];
+      const uint32_t i = (uint32_t)(p - w->first[r]);
+      const sw_cell_link line = {.from = i, .to = i, .slices = 1};
+      if (sw_strand_is_ring(m, r) && sw_strand_is_ring(m, r + 1))
+        w->along[p] = rest_length(m, &line, r);
     }
 }
 

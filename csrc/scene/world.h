@@ -4,6 +4,7 @@
 #define SW_SCENE_WORLD_H
 
 #include "contact/contact.h"
+#include "contact/crowd.h"
 #include "contact/pairs.h"
 #include "scene/scene.h"
 #include "scene/strand.h"
@@ -249,6 +250,7 @@ struct sw_scene {
   int *hold_slot;       /* (system.hold_count) scene slot of each system hold */
   sw_contact *contact;  /* with obstacles, or NULL */
   sw_pairs *pairs;      /* between wires, or NULL */
+  sw_crowd *crowd;      /* between particles that repel each other, or NULL */
   sw_scene_rule *rules; /* that pairs are made by */
   size_t rule_count, rule_capacity;
   struct {        /* contact memory of the last built system, for the next one */

@@ -54,9 +54,10 @@ typedef struct sw_web {
   double *mass;                     /* (particles) [kg] */
   double *s;                        /* (particles) arc length; place along the size [m] */
   double length;                    /* without rings: size of the whole [m] */
-  double *share;                    /* (per_ring) of the mass of a slice [-] */
-  double *section;                  /* (per_ring x 2) where they are across the wire [m] */
-  uint32_t *around;                 /* (around_count) of a section's surface, in their order */
+  double *along; /* (particles) unstressed distance of the same one in the next ring; 0: none [m] */
+  double *share; /* (per_ring) of the mass of a slice [-] */
+  double *section;  /* (per_ring x 2) where they are across the wire [m] */
+  uint32_t *around; /* (around_count) of a section's surface, in their order */
   size_t around_count;
   uint32_t axis;      /* a section's particle on the axis; per_ring: there is none */
   double solid_rate2; /* the same of the solid elements [1/s2] */

@@ -180,22 +180,36 @@ static double advance_axial(sw_system *s, const sw_body *b) {
                          f->tangent[0], f->tangent[1], f->tangent[2], b->EA, b->EA_push, axial);
 }
 
+/* A mesh that nothing holds has directions without stiffness, in which rounding alone would throw
+ * it far away, to where nothing pulls at it any more. Does the update go further than the wire is
+ * long? */
+static int flies_off(const sw_body *b, const double *delta) {
+  const double most = b->plan->length + 2.0 * b->plan->beam.radius;
+  double largest = 0;
+  for (size_t i = 0; i < 3 * b->plan->nodes; i++) largest = fmax(largest, fabs(delta[i]));
+  return largest > most;
+}
+
 /* Apply the update, shortened when an edge would turn too far. Returns the
- * share applied, or -1 when the update is not finite. */
+ * share applied; 0 when the update goes nowhere near, or -1 when it is not finite. */
 static double apply(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                     sw_stage_report *report) {
   double largest = 0, share = 1.0;
+  int flying = 0;
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
     const double turn2 = advance_axial(s, body);
     if (body->plan->web)
       share = fmin(share, sw_web_share(body, body->field.x, s->delta + 3 * body->first_node));
+    if (body->plan->web && newton->statics)
+      flying |= flies_off(body, s->delta + 3 * body->first_node);
     if (!(turn2 <= largest)) largest = turn2;
     if (!body->spin_block) continue;
     const double spin = sw_spin_largest(body);
     if (!(spin * spin <= largest)) largest = spin * spin;
   }
   if (!isfinite(largest)) return -1;
+  if (flying) return 0;
   report->rotation = sqrt(fmax(largest, 0.0));
   if (report->rotation > newton->limit_rotation)
     share = fmin(share, newton->limit_rotation / report->rotation);
@@ -359,6 +373,7 @@ sw_status sw_system_stage(sw_system *s, const sw_stage *stage, const sw_newton *
     SW_TRY(solve_once(s, stage, newton->statics, report, err));
     const double share = apply(s, stage, newton, report);
     if (share < 0) return sw_fail(err, SW_EDIVERGED, "the positions left the finite numbers");
+    if (share == 0) return sw_fail(err, SW_ENOCONV, "nothing holds a wire where it is");
     if (converged(s, stage, newton, report, share)) {
       finish(s, stage, newton->statics);
       return SW_OK;

@@ -269,6 +269,7 @@ void sw_system_refresh(sw_system *s) {
 
 void sw_system_begin_step(sw_system *s) {
   s->fastest_turn = 0;
+  for (size_t b = 0; b < s->body_count; b++) s->bodies[b].web_factored = s->bodies[b].web_slow = 0;
   for (size_t b = 0; b < s->body_count; b++)
     if (s->bodies[b].spin_block) sw_spin_begin(s, &s->bodies[b]);
 }

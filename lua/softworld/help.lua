@@ -90,6 +90,22 @@ for _, t in ipairs(scene:touches()) do ... end
   t.normal, t.force, t.friction   towards and on the first wire [-], [N], [N]
   t.normal_force                  [N]
 ]],
+  sections = [[
+of wires that are meshes of particles (model = "tube", "radial", "cubic", ...), as they are now
+wire:section(s)                 print it, or
+  .least_width .largest_width   between parallel plates [m]; .least_direction .largest_direction
+  :width(direction) .height     across a direction; upwards [m]
+  .ovalisation                  (largest - least)/(largest + least) of widths, as in API RP 1111
+  .area                         within the surface [m2]
+  .torsion .twist_rate          turn since the wire's start [rad], [rad/m]
+  .axial_strain .hoop_strain    of each of .particles [m]; .stress = E times the axial one [Pa]
+  .outline .middle .tangent     points of the surface, which is .skin outside of the particles [m]
+wire:width(s, direction)        [m]
+wire:contact_pressure(s)        of the section nearest to s, or without s of all: a list of
+  .particle .s .at .force .normal_force .area .pressure   [m], [N], [m2], [Pa]; .largest [Pa]
+wire:von_mises(s)               of solid elements: a list of .stress .s .at; .largest [Pa]
+wire:max_ovalisation()          of the run, where [m], when [s]; { now = true }
+wire:calibration()              its springs, see help "calibrate"]],
   units = "sw.units.mm(5), sw.units.deg(30), ...: into SI units",
 }
 

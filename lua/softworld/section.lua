@@ -27,7 +27,7 @@ function Section:width(direction)
   local along, size = dot(d, t), dot(d, d)
   local across = { d[1] - along * t[1], d[2] - along * t[2], d[3] - along * t[3] }
   local norm = dot(across, across) ^ 0.5
-  if not (norm > 1e-9 * size ^ 0.5) then
+  if norm ~= norm or norm <= 1e-9 * size ^ 0.5 then
     error(("section:width: direction {%g, %g, %g} must not be along the wire or zero"):format(d[1],
       d[2], d[3]), 2)
   end

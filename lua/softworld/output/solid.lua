@@ -208,6 +208,14 @@ local function widen(bounds, points)
   end
 end
 
+-- Section by section at both ends, where its corners are in any view, and as a whole.
+local function see_surface(surface, see)
+  local points, n = surface.points, 3 * surface.around
+  see(table.move(points, 1, n, 1, {}))
+  see(points)
+  see(table.move(points, #points - n + 1, #points, 1, {}))
+end
+
 --- The smallest box along the axes around all wires, obstacles other than
 -- planes, and grips of a run.
 -- @tparam table run
@@ -225,7 +233,7 @@ function solid.bounds(run, visit)
   for f, frame in ipairs(run.frames) do
     for _, points in ipairs(frame.wires or {}) do see(points) end
     for _, surface in ipairs(frame.surfaces or {}) do
-      if surface then see(surface.points) end
+      if surface then see_surface(surface, see) end
     end
     for i, shape in ipairs(shapes) do
       local pose = (frame.obstacles or {})[i]

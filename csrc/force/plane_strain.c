@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Plane strain: a stiff spring keeps each node or particle at its arc length along a line, so that
+ * nothing moves along it and sections deform across it only: E = 1/2 k l (d.(x - at) - s)^2, with l
+ * the length of wire that the particle stands for. A slice of a long wire between plates. */
+#include <math.h>
+#include <stddef.h>
+
+#include "force/force.h"
+
+typedef struct plane_strain_args {
+  sw_vec direction; /* [-] */
+  sw_vec at;        /* [m] */
+  double stiffness; /* [N/m2] */
+} plane_strain_args;
+
+static const sw_param rows[] = {
+    {"direction", SW_PARAM_VECTOR, "-", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
+     offsetof(plane_strain_args, direction), "of the wire, along which nothing is to move"},
+    {"at", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(plane_strain_args, at),
+     "any point of the plane in which the wire starts"},
+    {"stiffness", SW_PARAM_NUMBER, "N/m2", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(plane_strain_args, stiffness),
+     "against motion, per length of wire (10000 EA/radius^2 when not given)"},
+};
+
+static const double STIFF = 1e4; /* over what a slice as thick as the wire's radius has [-] */
+
+static double stiffness_of(const plane_strain_args *a, const sw_beam *b) {
+  return isnan(a->stiffness) ? STIFF * b->EA / (b->radius * b->radius) : a->stiffness;
+}
+
+static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+  const plane_strain_args *a = args;
+  const sw_plan *p = f->plan;
+  const sw_vec d = sw_unit_or(a->direction, sw_v(1, 0, 0));
+  const double u[3] = {d.x, d.y, d.z}, K = stiffness_of(a, &p->beam);
+  (void)err;
+  for (size_t i = 0; i < p->nodes; i++) {
+    const double k = K * p->lumped[i] / p->beam.mass;
+    const double off = sw_dot(sw_sub(sw_load(f->x + 3 * i), a->at), d) - p->s[i];
+    if (f->want & SW_WANT_FORCE) sw_accumulate(f->force + 3 * i, sw_scale(d, -k * off));
+    if (f->want & SW_WANT_ENERGY) f->energy += 0.5 * k * off * off;
+    if (!(f->want & SW_WANT_STIFFNESS)) continue;
+    double *row = f->rows + 24 * i;
+    for (int n = 0, at = 0; n < 3; n++)
+      for (int j = n; j < 3; j++, at++) row[at] += k * u[n] * u[j];
+  }
+  return SW_OK;
+}
+
+static double stable_dt(const void *args, const sw_plan *plan) {
+  return 2.0 * sqrt(plan->beam.mass / stiffness_of(args, &plan->beam));
+}
+
+static sw_status check(const void *args, const sw_beam *beam, sw_error *err) {
+  const plane_strain_args *a = args;
+  (void)beam;
+  if (sw_norm(a->direction) > 0) return SW_OK;
+  return sw_fail(err, SW_EINVAL, "force plane_strain: direction must not be zero");
+}
+
+const sw_force_class sw_force_plane_strain = {
+    .name = "plane_strain",
+    .summary = "keeps nodes and particles where they are along the wire, free to move across",
+    .flags = SW_FORCE_ANY_BODY,
+    .params = SW_PARAMS("force plane_strain", rows),
+    .eval = eval,
+    .stable_dt = stable_dt,
+    .check = check,
+};

@@ -1,0 +1,52 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- What the specs of wires that are meshes of particles share: the models, and a short thick wire,
+-- so that slices are few.
+local sw = require "softworld"
+
+local meshes = {}
+
+-- Every model at its defaults, and what of it makes another mesh.
+meshes.all = {
+  { "tube", { model = "tube" } },
+  { "hollow tube", { model = "tube", core = false } },
+  { "radial", { model = "radial" } },
+  { "radial solid", { model = "radial", body = "solid" } },
+  { "cubic", { model = "cubic" } },
+  { "cubic solid", { model = "cubic", body = "solid" } },
+  { "composite, line", { model = "composite", core = "line" } },
+  { "composite, radial", { model = "composite", core = "radial" } },
+  { "composite, cubic", { model = "composite", core = "cubic" } },
+  { "composite, 3 lines", { model = "composite", core = "line", cores = 3 } },
+  { "composite, 3 radial", { model = "composite", core = "radial", cores = 3 } },
+}
+
+-- One of each kind, for what costs more.
+meshes.few = { meshes.all[1], meshes.all[3], meshes.all[4], meshes.all[5], meshes.all[6],
+  meshes.all[7] }
+
+meshes.length, meshes.radius, meshes.E, meshes.density = 0.5, 0.01, 1e7, 1200 -- L/d = 25
+
+--- Adds a wire of 0.5 m by 20 mm along x that is such a mesh; changes go over all.
+function meshes.wire(scene, model, changes)
+  local p = { E = meshes.E, density = meshes.density, radius = meshes.radius, from = { 0, 0, 0 },
+    to = { meshes.length, 0, 0 } }
+  for k, v in pairs(model[2]) do p[k] = v end
+  for k, v in pairs(changes or {}) do
+    p[k] = v
+    if k == "path" then p.from, p.to = nil, nil end
+    if k == "EA" then p.E = nil end
+    if k == "mass_per_length" then p.density = nil end
+  end
+  return scene:wire(p)
+end
+
+--- A scene with such a wire; gravity 0 unless changes.gravity says.
+function meshes.scene(model, changes)
+  local c = {}
+  for k, v in pairs(changes or {}) do c[k] = v end
+  local scene = sw.scene{ gravity = c.gravity or { 0, 0, 0 } }
+  c.gravity = nil
+  return scene, meshes.wire(scene, model, c)
+end
+
+return meshes
