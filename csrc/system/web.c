@@ -139,13 +139,14 @@ void sw_body_couple(sw_body *b, size_t i, size_t j, const double K[9]) {
 }
 
 void sw_web_gather(sw_body *b) {
-  static const size_t whole[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
   const sw_field *f = &b->field;
-  for (size_t p = 0; p < b->plan->nodes; p++) {
-    double *to = f->blocks + f->own_slot[p];
+  for (size_t p = 0; p < b->plan->nodes; p++) { /* the lower half, which alone is read */
+    double *first = f->blocks + f->own_slot[p];
+    double *second = first + f->block_stride, *third = second + f->block_stride;
     const double *row = f->rows + SW_ROW_SIZE * p;
-    for (size_t i = 0; i < 3; i++)
-      for (size_t j = 0; j < 3; j++) to[i * f->block_stride + j] += row[whole[3 * i + j]];
+    first[0] += row[0];
+    second[0] += row[1], second[1] += row[3];
+    third[0] += row[2], third[1] += row[4], third[2] += row[5];
   }
 }
 
@@ -224,9 +225,9 @@ static double advance(const sw_web *w, const double *restrict x, const double *r
     const double *p = delta + 3 * (size_t)link->a, *q = delta + 3 * (size_t)link->b;
     const double e0 = b[0] - a[0], e1 = b[1] - a[1], e2 = b[2] - a[2];
     const double d0 = q[0] - p[0], d1 = q[1] - p[1], d2 = q[2] - p[2];
-    const double l2 = e0 * e0 + e1 * e1 + e2 * e2, l = sqrt(l2);
-    const double along = (e0 * d0 + e1 * d1 + e2 * d2) / l;
-    const double across2 = (d0 * d0 + d1 * d1 + d2 * d2 - along * along) / l2;
+    const double l = sqrt(e0 * e0 + e1 * e1 + e2 * e2), r = 1.0 / l;
+    const double along = (e0 * d0 + e1 * d1 + e2 * d2) * r;
+    const double across2 = (d0 * d0 + d1 * d1 + d2 * d2 - along * along) * (r * r);
     axial[e] = link->k * (l + along - link->rest);
     largest = largest > across2 ? largest : across2;
   }
@@ -270,13 +271,20 @@ void sw_web_axial(const sw_body *b, const double *x, double *axial) {
   }
 }
 
-long sw_web_turned(const sw_body *b, const double *x, const double *y, double share) {
-  const sw_web *w = b->plan->web;
+SW_HOT
+static long count_turned(const sw_web *w, const double *restrict x, const double *restrict y,
+                         double share) {
   long turned = 0;
   for (size_t e = 0; e < w->links; e++) {
-    const sw_vec from = sw_sub(sw_vec_at(x, w->link[e].b), sw_vec_at(x, w->link[e].a));
-    const sw_vec to = sw_sub(sw_vec_at(y, w->link[e].b), sw_vec_at(y, w->link[e].a));
-    turned += !(sw_dot(from, to) >= share * sw_norm2(from));
+    const double *a = x + 3 * (size_t)w->link[e].a, *b = x + 3 * (size_t)w->link[e].b;
+    const double *p = y + 3 * (size_t)w->link[e].a, *q = y + 3 * (size_t)w->link[e].b;
+    const double e0 = b[0] - a[0], e1 = b[1] - a[1], e2 = b[2] - a[2];
+    const double along = e0 * (q[0] - p[0]) + e1 * (q[1] - p[1]) + e2 * (q[2] - p[2]);
+    turned += !(along >= share * (e0 * e0 + e1 * e1 + e2 * e2));
   }
   return turned;
+}
+
+long sw_web_turned(const sw_body *b, const double *x, const double *y, double share) {
+  return count_turned(b->plan->web, x, y, share);
 }
