@@ -223,12 +223,17 @@ void sw_contact_stiffness(sw_contact_regime regime, double force, double nominal
  * a particle: it may be without weight [-]. */
 static const double HARD_SHARE = 1.0;
 
+/* A mesh shorter than so many radii is there for its section [-]. */
+static const double SLENDER = 40.0;
+
 /* Stiffness of a wire's new touches: for its weight or for what bends it. */
 static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t first) {
   const sw_plan *p = s->bodies[body].plan;
   const double L = p->length, weight = p->beam.mass * L * sw_norm(sw_load(s->gravity));
+  const double bends = p->web ? fmax(L, SLENDER * p->beam.radius) : L; /* a slice does not bend */
   double base, rate2;
-  sw_contact_stiffness(c->regime, fmax(weight, p->beam.EI / (L * L)), c->nominal, &base, &rate2);
+  sw_contact_stiffness(c->regime, fmax(weight, p->beam.EI / (bends * bends)), c->nominal, &base,
+                       &rate2);
   if (p->web && !p->web->per_ring && c->regime != SW_CONTACT_EXPLICIT)
     rate2 = fmax(rate2, HARD_SHARE * 0.5 * (p->web->rate2 + p->web->solid_rate2));
   for (size_t i = first; i < c->candidate_count; i++)
