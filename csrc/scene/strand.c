@@ -253,11 +253,11 @@ static sw_status fill_web(maker *m) {
     if (hypot(l->at[3 * i], l->at[3 * i + 1]) < 1e-9 * l->spacing) w->axis = (uint32_t)i;
   }
   const double slice = m->strand->calibration.mass_per_length * l->spacing;
-  for (size_t p = 0; p < w->particles; p++) {
-    const size_t r = p / n;
-    w->mass[p] = slice * l->share[p % n] * (r == 0 || r + 1 == rings ? 0.5 : 1.0);
-    w->s[p] = m->mesh->s[r];
-  }
+  for (size_t r = 0; r < rings; r++)
+    for (size_t i = 0; i < n; i++) {
+      w->mass[r * n + i] = slice * l->share[i] * (r == 0 || r + 1 == rings ? 0.5 : 1.0);
+      w->s[r * n + i] = m->mesh->s[r];
+    }
   add_links(m);
   SW_TRY(add_solids(m));
   find_around(l, w);
@@ -318,7 +318,7 @@ enum { MOST_PARTICLES = 1000000 }; /* their matrices take gigabytes */
 
 static sw_status check_count(const sw_strand_plan *p, size_t rings, size_t per_ring,
                              sw_error *err) {
-  if (rings <= MOST_PARTICLES / per_ring) return SW_OK;
+  if (rings * per_ring <= MOST_PARTICLES) return SW_OK;
   return sw_fail(err, SW_EINVAL,
                  "wire '%s': %zu slices of %zu particles or more are too many; at most %d "
                  "particles are allowed",
@@ -329,12 +329,12 @@ static sw_status check_count(const sw_strand_plan *p, size_t rings, size_t per_r
 static sw_status check_rest(const sw_strand_plan *p, const sw_lattice *l, sw_error *err) {
   for (size_t i = 0; p->curved && i < l->links; i++)
     if (l->link[i].bend)
-      return sw_fail(err, SW_EINVAL,
-                     "wire '%s': rest = 'path' needs a mesh without springs against bending, which "
-                     "are straight at rest; make %s",
-                     p->name,
-                     strcmp(p->mesh, "composite") == 0 ? "core = 'radial' or 'cubic'"
-                                                       : "bend = false");
+      return sw_fail(
+          err, SW_EINVAL,
+          "wire '%s': rest = 'path' needs a mesh without springs against bending, which "
+          "are straight at rest; make %s",
+          p->name,
+          strcmp(p->mesh, "composite") == 0 ? "core = 'radial' or 'cubic'" : "bend = false");
   return SW_OK;
 }
 
