@@ -2,6 +2,7 @@
 -- Error against time of cases x models x resolutions x integrators x steps.
 --   build/softworld scripts/bench.lua [quick] [case=..] [model=..] [integrator=..] [n=..] [out=folder]
 -- One CSV row each in out/bench/bench.csv, a summary on the terminal. Values may be lists: case=droop,walls.
+-- case=meshes: what wires that are meshes of particles cost, on the terminal only.
 -- Compare numbers of one run only: machines differ, and so do their loads.
 local bench = require "softworld.bench"
 local benchcases = require "softworld.benchcases"
@@ -116,6 +117,22 @@ local function add_scale(quick)
   end
 end
 
+-- Slices of meshes: springs have coarsest ones, beyond which there are none of EA, EI and GJ.
+local slices = { rod = { 10, 20, 40, 80, 160 }, tube = { 80, 120, 160, 240 }, radial = { 120, 160, 240 },
+  cubic = { 120, 160, 240 }, composite = { 120, 160 }, ["radial, solid"] = { 10, 20, 40, 80, 160 },
+  ["cubic, solid"] = { 10, 20, 40, 80, 160 } }
+
+local function add_meshes(quick)
+  for _, model in ipairs(benchcases.meshes) do
+    for i, n in ipairs(slices[model]) do
+      if not quick or i == 1 then
+        add("mesh_droop", { model = model, segments = n })
+        add("mesh_release", { model = model, segments = n, integrator = "tr-bdf2", dt = 0.005 })
+      end
+    end
+  end
+end
+
 -- Choosing -------------------------------------------------------------------------
 
 local wanted, quick, out = {}, false, "out/bench"
@@ -147,16 +164,17 @@ add_explicit_release(quick)
 add_transport(quick)
 add_walls(quick)
 add_scale(quick)
+add_meshes(quick)
 
 local order = { "droop", "arc", "catenary", "lift", "release", "transport", "walls", "scale", "curved",
-  "flat", "rolling" }
+  "flat", "rolling", "mesh_droop", "mesh_release" }
 local jobs = {}
 for _, name in ipairs(order) do
   for _, entry in ipairs(plan) do
     if entry.case.name == name and chosen(entry) then jobs[#jobs + 1] = entry end
   end
 end
-if #jobs == 0 then
+if #jobs == 0 and not (wanted.case and wanted.case.meshes) then
   io.stderr:write("bench: nothing fits these options\n")
   os.exit(2)
 end
@@ -310,10 +328,11 @@ end
 
 local function print_best()
   print "\nmost accurate row of each case"
-  for _, name in ipairs{ "droop", "arc", "catenary", "lift", "release", "transport" } do
+  for _, name in ipairs{ "droop", "arc", "catenary", "lift", "release", "transport", "mesh_droop",
+    "mesh_release" } do
     local row = most_accurate(name)
     if row then
-      print(("  %-10s %10.6f %%  %10.3f ms  %s"):format(name, row.error, 1e3 * row.wall, row_name(row)))
+      print(("  %-12s %10.6f %%  %10.3f ms  %s"):format(name, row.error, 1e3 * row.wall, row_name(row)))
     end
   end
 end
@@ -340,6 +359,43 @@ local function print_links()
   end
 end
 
+local function judged(r, value, unit)
+  if not r.ok then return "failed: " .. r.reason end
+  return r.aim and ("within %g %s: %s"):format(r.aim, unit, value <= r.aim and "met" or "missed") or ""
+end
+
+-- What wires that are meshes of particles cost.
+local function print_meshes()
+  local meshes = require "softworld.benchmeshes"
+  print "\nmeshes of particles                       s/simulated s  rejected  us/iteration"
+  local seconds = meshes.squeezes()
+  table.insert(seconds, 1, meshes.second())
+  for _, r in ipairs(seconds) do
+    print(("  %-40s %12.4f  %8d  %12.1f  %s"):format(r.name, r.wall, r.rejected, 1e6 * r.iteration,
+      judged(r, r.wall, "s")))
+  end
+  print "\nblocks of rings: unknowns      factor us   solve us  over plain C"
+  for _, r in ipairs(meshes.blocks()) do
+    print(("  %-26d %11.2f  %9.2f  %12.2f  %s"):format(r.n, 1e6 * r.factor, 1e6 * r.solve, r.ratio,
+      r.ratio <= r.aim and "met" or "missed"))
+  end
+  print "\ncost of a ring in an iteration        us     ratio"
+  for _, r in ipairs(meshes.rings()) do
+    print(("  %-26s %13.2f  %8.2f"):format(r.name, 1e6 * r.ring, r.ratio))
+  end
+  for _, what in ipairs{ "cantilever", "wall" } do
+    print(("\n%-26s particles  s/simulated s  over the rod  rejected"):format(what))
+    for _, r in ipairs(meshes.costs(what)) do
+      print(("  %-24s %9d  %13.4f  %12.1f  %8d  %s"):format(r.name, r.particles, r.wall, r.ratio, r.rejected,
+        judged(r, 0, "")))
+    end
+  end
+  print "\ncalibration of a default mesh        ms"
+  for _, r in ipairs(meshes.calibrations()) do
+    print(("  %-26s %12.2f  %s"):format(r.name, 1e3 * r.wall, judged(r, r.wall, "s")))
+  end
+end
+
 print_aims()
 scale_ratio()
 frames_ratio()
@@ -350,6 +406,7 @@ if not next(wanted) then
   print_bars()
   print_links()
 end
+if not next(wanted) or wanted.case and wanted.case.meshes then print_meshes() end
 local bad = {}
 for _, row in ipairs(rows) do
   if row.status ~= "ok" then bad[row.status] = (bad[row.status] or 0) + 1 end

@@ -77,11 +77,13 @@ end
 
 sink.run("mkdir -p " .. sink.quote(options.out))
 both("release", points_of("release", release_series, useless), "Released cantilever, 1 s: all methods", tip)
-for _, case in ipairs{ "droop", "arc", "catenary", "lift" } do
+for _, case in ipairs{ "droop", "arc", "catenary", "lift", "mesh_droop" } do
   if benchcases[case] then
     both(case, points_of(case, rest_of(case)), benchcases[case].title, "error [%]")
   end
 end
+both("mesh_release", points_of("mesh_release", function(r) return r.model end, useless),
+  benchcases.mesh_release.title, tip)
 both("transport", points_of("transport", release_series, useless), benchcases.transport.title, tip)
 both("walls", points_of("walls", rest_of "walls", nil, function(r)
   return r.segments ~= 100 and r.integrator == "tr-bdf2" and ("N = %d"):format(r.segments) or nil
@@ -164,4 +166,61 @@ if #release > 0 then
   sink.run("mkdir -p " .. sink.quote(options.readme))
   draw_readme(options.readme .. "/speed-accuracy.svg", release)
   draw_readme(options.out .. "/speed-accuracy.png", release)
+end
+
+-- The README's chart of meshes --------------------------------------------------------
+-- At rest beside in motion, a line for each model.
+
+local models = { { "rod", "rod", "#0072B2", 7 }, { "tube", "tube", "#009E73", 9 },
+  { "radial", "radial", "#D55E00", 5 }, { "cubic", "cubic", "#CC79A7", 11 },
+  { "composite", "composite", "#888888", 13 }, { "radial, solid", "radial, solid", "#E69F00", 4 },
+  { "cubic, solid", "cubic, solid", "#56B4E9", 6 } }
+
+local function mesh_plot(script, case, dot)
+  local groups, plots = group(points_of(case, function(r) return r.model end, useless)), {}
+  for _, m in ipairs(models) do
+    local list = groups[m[1]] and lines_of(groups[m[1]]) or {}
+    if #list > 0 then
+      plots[#plots + 1] = ("%s using 1:2 with linespoints pt %d ps %g lw 2 lc rgb '%s' title '%s'"):format(
+        script.data(list), m[4], dot, m[3], m[2])
+    end
+  end
+  if #plots > 0 then script.add("plot " .. table.concat(plots, ", ")) end
+end
+
+local function draw_meshes(path)
+  local script, dot = gnuplot.script(), path:find "svg$" and 0.7 or 1
+  script.add [[
+set multiplot
+set logscale xy
+set yrange [5e-3:5]
+set ytics ('0.01 %%' 0.01, '0.1 %%' 0.1, '1 %%' 1)
+set xlabel 'computing time on one core [ms]' noenhanced
+set ylabel 'error of the tip, of the length' noenhanced
+set lmargin at screen 0.1
+set rmargin at screen 0.42
+set xrange [0.005:2000]
+set xtics ('0.01' 0.01, '0.1' 0.1, '1' 1, '10' 10, '100' 100, '1000' 1000)
+set title 'at rest' noenhanced
+unset key]]
+  mesh_plot(script, "mesh_droop", dot)
+  script.add [[
+set lmargin at screen 0.47
+set rmargin at screen 0.79
+set xrange [0.1:20000]
+set xtics ('1' 1, '10' 10, '100' 100, '1000' 1000, '10 s' 10000)
+set format y ''
+set ytics ('' 0.01, '' 0.1, '' 1)
+unset ylabel
+set key outside right center vertical spacing 1.25
+set title 'one second of motion' noenhanced]]
+  mesh_plot(script, "mesh_release", dot)
+  script.add "unset multiplot"
+  print(gnuplot.draw(script, path, { 880, 400 }))
+end
+
+if #points_of("mesh_release", function(r) return r.model end) > 0 then
+  sink.run("mkdir -p " .. sink.quote(options.readme))
+  draw_meshes(options.readme .. "/meshes.svg")
+  draw_meshes(options.out .. "/meshes.png")
 end

@@ -5,6 +5,7 @@
 local bench = require "softworld.bench"
 local benchcases = require "softworld.benchcases"
 local benchlimits = require "softworld.benchlimits"
+local benchsqueeze = require "softworld.benchsqueeze"
 local benchstable = require "softworld.benchstable"
 local chart = require "softworld.output.chart"
 local sink = require "softworld.output.sink"
@@ -53,6 +54,30 @@ local function measure_explicit()
     end
   end
   return map
+end
+
+-- Meshes: what the program bounds without knowing their frequencies, against what is stable.
+local function measure_meshes()
+  for _, integrator in ipairs{ "symplectic-euler", "velocity-verlet", "rk4" } do
+    for _, mesh in ipairs(quick and { benchsqueeze.meshes[1] } or benchsqueeze.meshes) do
+      local name = mesh[1] .. (mesh[2] == "solid" and ", solid" or "")
+      say("%s %s", name, integrator)
+      local found, how, own = benchsqueeze.measure(integrator, mesh, bench.limit(integrator, 2000, 1e4) / 2)
+      add{ group = "meshes", item = "0.1 m", model = name, segments = 20, integrator = integrator, dt = found,
+        own_limit = own, ratio = found / own, status = how }
+    end
+  end
+end
+
+local function print_meshes()
+  print "\nexplicit methods on meshes: largest stable step, against the program's bound\n"
+  print "  model          integrator          dt measured    dt bound    ratio"
+  for _, r in ipairs(rows) do
+    if r.group == "meshes" then
+      print(("  %-14s %-17s %9.4g us %9.4g us  %7.3f  %s"):format(r.model, r.integrator, 1e6 * r.dt,
+        1e6 * r.own_limit, r.ratio, r.status ~= "found" and r.status or ""))
+    end
+  end
 end
 
 local function print_explicit()
@@ -125,12 +150,12 @@ end
 
 local function print_limits()
   print "\nwhere methods fail: energy in % of m g L/2 (of what is stored or flies, where that is meant)\n"
-  print("  scene                            model   N     integrator         dt ms     gain   change  "
+  print("  scene                            model            N     integrator         dt ms     gain   change  "
     .. "rejected")
   for _, r in ipairs(rows) do
     if r.group == "limits" then
       local function percent(x) return x and ("%.2f"):format(100 * x) or "-" end
-      print(("  %-32s %-6s %5d  %-18s %5g %8s %8s  %8s  %s%s"):format(r.item, r.model, r.segments,
+      print(("  %-32s %-14s %5d  %-18s %5g %8s %8s  %8s  %s%s"):format(r.item, r.model, r.segments,
         r.integrator, 1e3 * r.dt, percent(r.gain), percent(r.change), r.rejected or "-", r.status,
         r.note and ", " .. r.note or r.reason and ": " .. r.reason or ""))
     end
@@ -163,10 +188,12 @@ local function draw(map, name, title, xlabel)
 end
 
 local explicit_map = measure_explicit()
+measure_meshes()
 measure_implicit()
 if not quick then measure_limits() end
 bench.write(out .. "/stability.csv", rows, columns)
 print_explicit()
+print_meshes()
 print_implicit()
 if not quick then print_limits() end
 draw(explicit_map, "stability_explicit", "Largest stable step times the highest natural frequency [-]")

@@ -185,6 +185,24 @@ static int push_calibration(lua_State *L) {
   return 1;
 }
 
+/* wire:calibration() -> what its springs were fitted to. */
+int lsw_wire_calibration(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const sw_calibration *c = sw_scene_wire_calibration(scene, w->id);
+  const char *name = sw_scene_wire_name(scene, w->id), *model = sw_scene_wire_model(scene, w->id);
+  if (!name) return luaL_error(L, "wire:calibration: the wire is gone");
+  if (!c)
+    return luaL_error(L,
+                      "wire:calibration: wire '%s' is a %s, which has no springs to calibrate; it "
+                      "is known of meshes of particles",
+                      name, model);
+  lua_pushcfunction(L, push_calibration);
+  lua_pushlightuserdata(L, (void *)c);
+  lua_call(L, 1, 1);
+  return 1;
+}
+
 /* The word under mesh, before the other keys: they depend on it. */
 static int read_mesh(lua_State *L) {
   const sw_param *row = sw_params_find(&sw_calibrate_params, "mesh");

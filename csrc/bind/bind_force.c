@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "bind/bind_motion.h"
+#include "bind/bind_particles.h"
 #include "bind/child.h"
 
 /* A Lua function as a force. The function and its arrays are an entry of a table
@@ -138,7 +139,8 @@ enum { OWN_ROWS = 2 };
 static const sw_param own_rows[OWN_ROWS] = {
     {"kind", SW_PARAM_OTHER, "-", 0, 0, 0, SW_PARAM_REQUIRED, NULL, 0,
      "name of the force, or a function(t, x, v, f) that adds to f"},
-    {"on", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0, "the wire (default: every wire)"},
+    {"on", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
+     "the wire or object of particles (default: all of them)"},
 };
 static const sw_params own_params = {"force", own_rows, OWN_ROWS};
 
@@ -171,7 +173,7 @@ int lsw_scene_force(lua_State *L) {
   lua_settop(L, 2);
   lsw_check_table(L, 2, "scene:force");
   if (lua_getfield(L, 2, "on") != LUA_TNIL)
-    wire = lsw_check_child_of(L, 3, &lsw_class_wire, owner->h.object, "scene:force: on")->id;
+    wire = lsw_check_body_of(L, 3, owner->h.object, "scene:force: on")->id;
   lua_getfield(L, 2, "kind");
   const int function = lua_isfunction(L, 4);
   if (lua_isnil(L, 4))
@@ -180,6 +182,12 @@ int lsw_scene_force(lua_State *L) {
   const lsw_section sections[] = {{&own_params, &none}, {&cls->params, args}};
   lsw_sections(L, 2, function ? "force" : lua_pushfstring(L, "force %s", cls->name), sections,
                cls->params.count ? 2 : 1);
+  if (cls->flags & SW_FORCE_ON_SOME) {
+    sw_force_some some;
+    lua_getfield(L, 2, "particles");
+    some.particle = lsw_particle_numbers(L, -1, "particles of a force", &some.count);
+    memcpy(args, &some, sizeof some);
+  }
   lsw_child *child = lsw_new_child(L, 1, &lsw_class_force);
   const int number = function ? keep_function(L, owner, 4) : 0;
   if (function) {

@@ -12,6 +12,10 @@ static int new_hold(lua_State *L, const char *kind) {
   sw_hold_args args = {
       .s = 0, .direction = {NAN, NAN, NAN}, .speed = NAN, .force = NAN, .force_limit = NAN};
   sw_error err = {""};
+  if (lsw_test(L, 2, &lsw_class_particles)) {
+    if (strcmp(kind, "clamp") == 0) return lsw_hold_particles(L);
+    return luaL_error(L, "scene:%s goes with wires; particles are held by scene:hold", kind);
+  }
   const char *what = lua_pushfstring(L, "scene:%s", kind);
   const lsw_child *wire = lsw_check_child_of(L, 2, &lsw_class_wire, owner->h.object, what);
   lsw_arguments(L, 3, what, &cls->params, &args);

@@ -60,7 +60,7 @@ int lsw_scene_evaluate(lua_State *L) {
   size_t nodes;
   probe_args args;
   lua_settop(L, 3);
-  const lsw_child *wire = lsw_check_child_of(L, 2, &lsw_class_wire, scene, "scene:evaluate");
+  const lsw_child *wire = lsw_check_body_of(L, 2, scene, "scene:evaluate");
   lsw_arguments(L, 3, "scene:evaluate", &params, &args);
   lsw_must(L, sw_scene_wire_particles(scene, wire->id, &nodes, &err), &err);
   const size_t n = 3 * nodes;

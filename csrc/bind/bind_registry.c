@@ -44,11 +44,10 @@ static void forces(lua_State *L) {
   static const struct {
     const char *name;
     unsigned bit;
-  } flags[] = {{"inner", SW_FORCE_INNER},
-               {"explicit", SW_FORCE_EXPLICIT},
-               {"at_place", SW_FORCE_AT_PLACE},
-               {"dissipative", SW_FORCE_DISSIPATIVE},
-               {"frozen", SW_FORCE_FROZEN}};
+  } flags[] = {{"inner", SW_FORCE_INNER},       {"explicit", SW_FORCE_EXPLICIT},
+               {"at_place", SW_FORCE_AT_PLACE}, {"dissipative", SW_FORCE_DISSIPATIVE},
+               {"frozen", SW_FORCE_FROZEN},     {"of_web", SW_FORCE_OF_WEB},
+               {"on_some", SW_FORCE_ON_SOME}};
   for (int i = 0; sw_force_all()[i]; i++) {
     const sw_force_class *f = sw_force_all()[i];
     push_entry(L, f->name, f->summary);
@@ -93,6 +92,7 @@ static void params(lua_State *L) {
   } tables[] = {{"scene", &sw_scene_params},
                 {"wire", &sw_wire_params},
                 {"wire_mesh", &sw_wire_mesh_params},
+                {"remodel", &sw_remodel_params},
                 {"section", &sw_section_params},
                 {"obstacle", &sw_obstacle_params},
                 {"run", &sw_run_params},
@@ -100,6 +100,8 @@ static void params(lua_State *L) {
                 {"frequencies", &sw_modes_params},
                 {"wire_contact", &sw_wire_contact_params},
                 {"join", &sw_join_params},
+                {"particles", &sw_particles_params},
+                {"repel", &sw_repel_pairs_params},
                 {"calibrate", &sw_calibrate_params},
                 {"calibrate_tube", &sw_tube_params},
                 {"calibrate_radial", &sw_radial_params},

@@ -70,7 +70,8 @@ static int mod_exists(lua_State *L) {
     const sw_scene *scene = ((lsw_scene_handle *)child->h.object)->h.object;
     known =
         scene &&
-        (c == &lsw_class_wire    ? sw_scene_wire_name(scene, child->id) != NULL
+        (c == &lsw_class_wire || c == &lsw_class_particles
+             ? sw_scene_wire_name(scene, child->id) != NULL
          : c == &lsw_class_clamp ? sw_scene_hold_name(scene, child->id, &kind, &alive) != NULL
          : c == &lsw_class_join  ? sw_scene_join_name(scene, child->id, &alive, &ends) != NULL
          : c == &lsw_class_force ? sw_scene_force_class(scene, child->id) != NULL
@@ -273,17 +274,49 @@ static void push_pose(lua_State *L, const double *p) {
   lua_setfield(L, -2, "rotation");
 }
 
-static void push_frame_wires(lua_State *L, const sw_scene *scene, size_t frame) {
+/* Wires, or objects of particles. */
+static void push_frame_bodies(lua_State *L, const sw_scene *scene, size_t frame, int loose) {
   size_t count;
   const double *x;
+  lua_Integer number = 0;
   lua_newtable(L);
   for (size_t w = 0; (x = sw_scene_frame_wire(scene, frame, w, &count)) != NULL; w++) {
+    if (sw_scene_frame_is_loose(scene, w) != loose) continue;
     lsw_push_flat(L, x, 3 * count);
+    lua_rawseti(L, -2, ++number);
+  }
+}
+
+/* Of each wire its surface { around =, points = flat [m], force = flat [N] }, or false. */
+static void push_frame_surfaces(lua_State *L, const sw_scene *scene, size_t frame) {
+  size_t count, around;
+  lua_newtable(L);
+  for (size_t w = 0; sw_scene_frame_wire(scene, frame, w, &count) != NULL; w++) {
+    const double *p = sw_scene_frame_surface(scene, frame, w, &count, &around);
+    if (p) {
+      lua_createtable(L, 0, 3);
+      lsw_set_integer(L, "around", around);
+      lua_createtable(L, 3 * (int)count, 0);
+      lua_createtable(L, (int)count, 0);
+      for (size_t i = 0; i < count; i++, p += SW_FRAME_SURFACE) {
+        for (size_t k = 0; k < 3; k++) {
+          lua_pushnumber(L, p[k]);
+          lua_rawseti(L, -3, 3 * (lua_Integer)i + (lua_Integer)k + 1);
+        }
+        lua_pushnumber(L, p[3]);
+        lua_rawseti(L, -2, (lua_Integer)i + 1);
+      }
+      lua_setfield(L, -3, "force");
+      lua_setfield(L, -2, "points");
+    } else {
+      lua_pushboolean(L, 0);
+    }
     lua_rawseti(L, -2, (lua_Integer)w + 1);
   }
 }
 
-/* scene:frame(i) -> { t, wires, obstacles, holds, energy }, or nil past the end. */
+/* scene:frame(i) -> { t, wires, surfaces, particles, obstacles, holds, energy }, or nil past the
+ * end. */
 static int meth_frame(lua_State *L) {
   const sw_scene *scene = check(L);
   const lua_Integer i = luaL_checkinteger(L, 2);
@@ -293,8 +326,12 @@ static int meth_frame(lua_State *L) {
   const size_t frame = (size_t)i - 1;
   lua_createtable(L, 0, 5);
   lsw_set_number(L, "t", sw_scene_frame_time(scene, frame));
-  push_frame_wires(L, scene, frame);
+  push_frame_bodies(L, scene, frame, 0);
   lua_setfield(L, -2, "wires");
+  push_frame_surfaces(L, scene, frame);
+  lua_setfield(L, -2, "surfaces");
+  push_frame_bodies(L, scene, frame, 1);
+  lua_setfield(L, -2, "particles");
   lua_newtable(L);
   for (size_t o = 0; (p = sw_scene_frame_obstacle(scene, frame, o)) != NULL; o++) {
     push_pose(L, p);
@@ -376,6 +413,8 @@ static int meta_describe(lua_State *L) {
 }
 
 static const luaL_Reg methods[] = {{"wire", lsw_scene_wire},
+                                   {"particles", lsw_scene_particles},
+                                   {"hold", lsw_hold_particles},
                                    {"clamp", lsw_scene_clamp},
                                    {"pin", lsw_scene_pin},
                                    {"grip", lsw_scene_grip},

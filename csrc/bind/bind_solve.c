@@ -2,7 +2,9 @@
 /* The solvers for specs: core.band3(rows, right) -> x, negative pivots,
  * product. rows: flat, 24 numbers a node as in solve/band3.h; right: flat, 3 a
  * node. product is rows times right. */
+#include <math.h>
 #include <string.h>
+#include <time.h>
 
 #include "bind/class.h"
 #include "bind/module.h"
@@ -184,10 +186,56 @@ static int mod_blocks(lua_State *L) {
   return 5;
 }
 
+/* Any matrix of rings that can be factorised: large on the diagonal, small beside it. */
+static void write_any(sw_blocks *b, size_t per_ring) {
+  const size_t n = sw_blocks_nodes(b), stride = sw_blocks_stride(b);
+  for (size_t i = 0; i < n; i++)
+    for (size_t j = i < 2 * per_ring ? 0 : i - 2 * per_ring; j <= i; j++) {
+      const size_t slot = sw_blocks_slot(b, i, j);
+      for (size_t k = 0; slot != SIZE_MAX && k < 9; k++)
+        sw_blocks_values(b)[slot + k / 3 * stride + k % 3] =
+            i == j && k % 4 == 0 ? 1.0 : 0.1 / (double)(per_ring * (1 + i - j + k));
+    }
+}
+
+static double seconds(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* core.blocks_time(rings, per ring, repeats) -> least time of a factorisation, of a solve [s] */
+static int mod_blocks_time(lua_State *L) {
+  sw_error err = {""};
+  sw_blocks *b = NULL;
+  const lua_Integer size[3] = {luaL_checkinteger(L, 1), luaL_checkinteger(L, 2),
+                               luaL_checkinteger(L, 3)};
+  for (int k = 0; k < 3; k++) luaL_argcheck(L, size[k] >= 1 && size[k] <= 100000, k + 1, "range");
+  const size_t per_ring = (size_t)size[1], count = 3 * (size_t)size[0] * per_ring;
+  double least[2] = {HUGE_VAL, HUGE_VAL}, *x = lua_newuserdatauv(L, count * sizeof *x, 0);
+  sw_status status = sw_blocks_new_rings((size_t)size[0], per_ring, &b);
+  if (status == SW_OK) write_any(b, per_ring);
+  for (lua_Integer k = 0; k < size[2] && status == SW_OK; k++) {
+    for (size_t i = 0; i < count; i++) x[i] = 1.0;
+    const double begun = seconds();
+    status = sw_blocks_factor(b, NULL, NULL);
+    const double between = seconds();
+    if (status == SW_OK) sw_blocks_solve(b, x);
+    least[0] = fmin(least[0], between - begun);
+    least[1] = fmin(least[1], seconds() - between);
+  }
+  sw_blocks_free(b);
+  if (status != SW_OK) return lsw_raise(L, status, &err);
+  lua_pushnumber(L, least[0]);
+  lua_pushnumber(L, least[1]);
+  return 2;
+}
+
 static const luaL_Reg functions[] = {{"band3", mod_band3},
                                      {"band4", mod_band4},
                                      {"sparse", mod_sparse},
                                      {"blocks", mod_blocks},
+                                     {"blocks_time", mod_blocks_time},
                                      {NULL, NULL}};
 
 void lsw_open_solve(lua_State *L) { luaL_setfuncs(L, functions, 0); }

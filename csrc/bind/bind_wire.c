@@ -25,7 +25,7 @@ static double *read_path(lua_State *L, int table, size_t *count) {
   return points;
 }
 
-static int read_model(lua_State *L, int table) {
+int lsw_read_model(lua_State *L, int table) {
   const char *names[32];
   size_t count = 0;
   while (count < 32 && sw_wire_all()[count]) names[count] = sw_wire_all()[count]->name, count++;
@@ -75,8 +75,7 @@ static double split_stiffness(lua_State *L) {
   return EI[1];
 }
 
-/* What a model that is a mesh takes besides: rows into out; returns how many. */
-static size_t mesh_sections(const sw_wire_class *cls, sw_wire_mesh_args *mesh, lsw_section *out) {
+size_t lsw_mesh_sections(const sw_wire_class *cls, sw_wire_mesh_args *mesh, lsw_section *out) {
   sw_params_default(&sw_wire_mesh_params, mesh);
   sw_params_default(&sw_tube_params, &mesh->lattice.tube);
   sw_params_default(&sw_radial_params, &mesh->lattice.radial);
@@ -101,8 +100,8 @@ int lsw_scene_wire(lua_State *L) {
   lua_settop(L, 2);
   lsw_check_table(L, 2, "scene:wire");
   const double EI2 = split_stiffness(L);
-  const int model = read_model(L, 2);
-  const size_t more = mesh_sections(sw_wire_all()[model], &mesh, sections + 2);
+  const int model = lsw_read_model(L, 2);
+  const size_t more = lsw_mesh_sections(sw_wire_all()[model], &mesh, sections + 2);
   lsw_sections(L, 2, "wire", sections, 2 + more);
   args.model = model;
   section.EI2 = EI2;
@@ -281,6 +280,18 @@ static int meth_max_stress(lua_State *L) {
   return push_extreme(L, x.value * modulus(L), &x);
 }
 
+/* Largest ovalisation of a section of a mesh [-], where [m], when [s]. */
+static int meth_max_ovalisation(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const sw_extreme x = read_extremes(L).ovalisation;
+  if (sw_scene_wire_calibration(scene, w->id)) return push_extreme(L, x.value, &x);
+  return luaL_error(L,
+                    "wire:max_ovalisation: wire '%s' is a %s, whose section does not change; it is "
+                    "known of meshes of particles",
+                    sw_scene_wire_name(scene, w->id), sw_scene_wire_model(scene, w->id));
+}
+
 static int prop_length(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
@@ -328,6 +339,13 @@ static int prop_radius(lua_State *L) {
   return 1;
 }
 
+static int prop_model(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  lua_pushstring(L, sw_scene_wire_model(scene, w->id));
+  return 1;
+}
+
 static int prop_name(lua_State *L) {
   sw_scene *scene;
   const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
@@ -370,11 +388,22 @@ static const luaL_Reg methods[] = {{"position", meth_position},
                                    {"stress", meth_stress},
                                    {"max_strain", meth_max_strain},
                                    {"max_stress", meth_max_stress},
+                                   {"max_ovalisation", meth_max_ovalisation},
+                                   {"section", lsw_wire_section},
+                                   {"width", lsw_wire_width},
+                                   {"contact_pressure", lsw_wire_contact_pressure},
+                                   {"von_mises", lsw_wire_von_mises},
+                                   {"calibration", lsw_wire_calibration},
                                    {"frequencies", lsw_wire_frequencies},
+                                   {"remodel", lsw_wire_remodel},
                                    {NULL, NULL}};
-static const luaL_Reg properties[] = {{"length", prop_length}, {"segments", prop_segments},
-                                      {"beam", push_beam},     {"radius", prop_radius},
-                                      {"name", prop_name},     {NULL, NULL}};
+static const luaL_Reg properties[] = {{"length", prop_length},
+                                      {"segments", prop_segments},
+                                      {"beam", push_beam},
+                                      {"radius", prop_radius},
+                                      {"name", prop_name},
+                                      {"model", prop_model},
+                                      {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
 const lsw_class lsw_class_wire = {.name = "wire",

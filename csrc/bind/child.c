@@ -32,6 +32,11 @@ lsw_child *lsw_check_child_of(lua_State *L, int index, const lsw_class *c, const
   return child;
 }
 
+lsw_child *lsw_check_body_of(lua_State *L, int index, const sw_scene *scene, const char *what) {
+  const int loose = lsw_test(L, index, &lsw_class_particles) != NULL;
+  return lsw_check_child_of(L, index, loose ? &lsw_class_particles : &lsw_class_wire, scene, what);
+}
+
 const lsw_child *lsw_find_child(lua_State *L, const lsw_class *c, sw_scene **scene) {
   const lsw_child *child = lsw_test(L, 1, c);
   const lsw_scene_handle *owner = child ? child->h.object : NULL;

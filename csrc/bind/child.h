@@ -16,8 +16,8 @@ typedef struct lsw_child {
   sw_handle id;
 } lsw_child;
 
-extern const lsw_class lsw_class_scene, lsw_class_wire, lsw_class_clamp, lsw_class_obstacle,
-    lsw_class_force, lsw_class_join, lsw_class_snapshot;
+extern const lsw_class lsw_class_scene, lsw_class_wire, lsw_class_particles, lsw_class_clamp,
+    lsw_class_obstacle, lsw_class_force, lsw_class_join, lsw_class_snapshot;
 
 /* Push a child of the scene userdata at index scene. */
 lsw_child *lsw_new_child(lua_State *L, int scene, const lsw_class *c);
@@ -28,6 +28,9 @@ lsw_child *lsw_check_child(lua_State *L, int index, const lsw_class *c, sw_scene
 /* The same when it must belong to the given scene. */
 lsw_child *lsw_check_child_of(lua_State *L, int index, const lsw_class *c, const sw_scene *scene,
                               const char *what);
+
+/* A wire or an object of particles, as above. */
+lsw_child *lsw_check_body_of(lua_State *L, int index, const sw_scene *scene, const char *what);
 
 /* The child at index 1 without raising: when its scene is gone NULL, and what
  * tostring may say is pushed. */
@@ -42,6 +45,8 @@ int lsw_scene_pin(lua_State *L);
 int lsw_scene_grip(lua_State *L);
 int lsw_scene_feed(lua_State *L);
 int lsw_scene_wire(lua_State *L);
+int lsw_scene_particles(lua_State *L);
+int lsw_hold_particles(lua_State *L);
 int lsw_scene_join(lua_State *L);
 int lsw_scene_obstacle(lua_State *L);
 int lsw_scene_force(lua_State *L);
@@ -54,6 +59,17 @@ int lsw_scene_touches(lua_State *L);
 int lsw_scene_penetration(lua_State *L);
 int lsw_scene_contacts(lua_State *L);
 int lsw_wire_frequencies(lua_State *L);
+int lsw_wire_remodel(lua_State *L);
+/* Index of the word under `model` of the table: of sw_wire_all(). */
+int lsw_read_model(lua_State *L, int table);
+/* What a model that is a mesh takes besides: rows into out, 0 or 2 of them; defaults into mesh. */
+size_t lsw_mesh_sections(const sw_wire_class *cls, sw_wire_mesh_args *mesh, lsw_section *out);
+int lsw_wire_calibration(lua_State *L);
+/* wire:section(s), wire:width(s, direction), wire:contact_pressure([s]), wire:von_mises([s]) */
+int lsw_wire_section(lua_State *L);
+int lsw_wire_width(lua_State *L);
+int lsw_wire_contact_pressure(lua_State *L);
+int lsw_wire_von_mises(lua_State *L);
 
 /* While the core may call Lua functions as forces: they run on L, whose stack
  * index 1 is the scene. The value goes back to lsw_end_forces. */

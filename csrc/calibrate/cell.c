@@ -190,6 +190,44 @@ sw_status sw_cell_stiffness(const sw_cell *c, const double *k, sw_cell_result *o
                                    status == SW_ENOMEM ? "out of memory" : "not a finite matrix");
 }
 
+/* Take the mean shift and the mean turn about z out of v (particles x 3). */
+static void remove_motion(const sw_cell *c, const double *share, double *v) {
+  sw_vec mean = sw_v(0, 0, 0), middle = sw_v(0, 0, 0);
+  for (size_t i = 0; i < c->particles; i++) {
+    mean = sw_madd(mean, sw_vec_at(v, i), share[i]);
+    middle = sw_madd(middle, sw_vec_at(c->at, i), share[i]);
+  }
+  double turn = 0, inertia = 0;
+  for (size_t i = 0; i < c->particles; i++) {
+    const sw_vec r = sw_sub(sw_vec_at(c->at, i), middle);
+    const sw_vec d = sw_sub(sw_vec_at(v, i), mean);
+    turn += share[i] * (r.x * d.y - r.y * d.x);
+    inertia += share[i] * (r.x * r.x + r.y * r.y);
+  }
+  const double rate = inertia > 0 ? turn / inertia : 0.0;
+  for (size_t i = 0; i < c->particles; i++) {
+    const sw_vec r = sw_sub(sw_vec_at(c->at, i), middle);
+    const sw_vec rigid = sw_add(mean, sw_v(-rate * r.y, rate * r.x, 0));
+    sw_store(v + 3 * i, sw_sub(sw_vec_at(v, i), rigid));
+  }
+}
+
+sw_status sw_cell_warp(const sw_cell *c, const double *k, const double *share, double *warp,
+                       sw_error *err) {
+  SW_TRY(check(c, k, err));
+  const size_t n = 3 * c->particles;
+  double left[SIDES], *K = sw_alloc(n * n + SIDES * n, sizeof *K);
+  if (!K) return sw_fail(err, SW_ENOMEM, "cell: out of memory");
+  assemble(c, k, K, K + n * n);
+  const sw_status status = sw_dense_semidefinite(K, n, K + n * n, SIDES, left);
+  if (status == SW_OK) {
+    memcpy(warp, K + n * n, SW_CELL_STRAINS * n * sizeof *warp);
+    for (size_t s = 0; s < SW_CELL_STRAINS; s++) remove_motion(c, share, warp + s * n);
+  }
+  sw_free(K);
+  return status == SW_OK ? SW_OK : sw_fail(err, status, "cell: not a finite matrix");
+}
+
 void sw_cell_affine(const sw_cell *c, const double *k, double S[SW_CELL_SIZE], double *parts) {
   collect(c, k, NULL, parts);
   sum_parts(c, parts, S);

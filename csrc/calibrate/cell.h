@@ -61,6 +61,12 @@ typedef struct sw_cell_result {
 sw_status sw_cell_stiffness(const sw_cell *cell, const double *k, sw_cell_result *out,
                             double *parts, sw_error *err);
 
+/* How a section gives way to unit strains of the beam, without shift and turn of the whole: warp,
+ * SW_CELL_STRAINS times (particles x 3) [m per strain: m, m2, m2, m2]. share (particles): of the
+ * slice's mass. Statuses as above. */
+sw_status sw_cell_warp(const sw_cell *cell, const double *k, const double *share, double *warp,
+                       sw_error *err);
+
 /* The same with every particle moving with its section, which stays plane and keeps its shape:
  * an upper bound, linear in k. Only S, and of the parts only those of S. */
 void sw_cell_affine(const sw_cell *cell, const double *k, double S[SW_CELL_SIZE], double *parts);

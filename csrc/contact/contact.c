@@ -139,7 +139,7 @@ static sw_status add_candidate(sw_contact *c, const sw_body *b, size_t body, siz
                      .other = other,
                      .body = body,
                      .radius = b->plan->beam.radius,
-                     .skin = sw_plan_skin(b->plan),
+                     .skin = sw_plan_skin(b->plan, node - b->first_node),
                      .mass = b->plan->lumped[node - b->first_node]};
   return SW_OK;
 }
@@ -219,12 +219,23 @@ void sw_contact_stiffness(sw_contact_regime regime, double force, double nominal
   }
 }
 
+/* Touches of an object of particles are at least as stiff as this share of a bound on what holds
+ * a particle: it may be without weight [-]. */
+static const double HARD_SHARE = 1.0;
+
+/* A mesh shorter than so many radii is there for its section [-]. */
+static const double SLENDER = 40.0;
+
 /* Stiffness of a wire's new touches: for its weight or for what bends it. */
 static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t first) {
   const sw_plan *p = s->bodies[body].plan;
   const double L = p->length, weight = p->beam.mass * L * sw_norm(sw_load(s->gravity));
+  const double bends = p->web ? fmax(L, SLENDER * p->beam.radius) : L; /* a slice does not bend */
   double base, rate2;
-  sw_contact_stiffness(c->regime, fmax(weight, p->beam.EI / (L * L)), c->nominal, &base, &rate2);
+  sw_contact_stiffness(c->regime, fmax(weight, p->beam.EI / (bends * bends)), c->nominal, &base,
+                       &rate2);
+  if (p->web && !p->web->per_ring && c->regime != SW_CONTACT_EXPLICIT)
+    rate2 = fmax(rate2, HARD_SHARE * 0.5 * (p->web->rate2 + p->web->solid_rate2));
   for (size_t i = first; i < c->candidate_count; i++)
     c->candidates[i].usual = fmax(base, rate2 * c->candidates[i].mass);
 }
@@ -275,6 +286,7 @@ sw_status sw_contact_begin_stage(void *contact, sw_system *s, double time, doubl
   (void)s, (void)hbar, (void)y;
   c->pressed_before = c->pressed_count;
   c->stage_time = time;
+  c->updates = 0;
   return place_all(c, time, c->now, err);
 }
 
@@ -307,7 +319,7 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
                    .normal = sw_rotate(back, t->press.normal),
                    .point = t->local};
   if (t->press.normal_force > 0)
-    m->elastic = sw_rotate(back, sw_scale(t->press.tangential, -1.0 / t->press.k));
+    m->elastic = sw_rotate(back, sw_scale(t->press.tangential, -1.0 / sw_press_grip(&t->press)));
   return SW_OK;
 }
 
@@ -385,13 +397,27 @@ size_t sw_contact_count(const sw_contact *c) {
   return n;
 }
 
+size_t sw_contact_touches(const sw_contact *c) { return c->touch_count; }
+
+int sw_contact_push_at(const sw_contact *c, size_t k, sw_contact_push *out) {
+  const sw_touch *t = &c->touches[k];
+  const sw_press *p = &t->press;
+  *out = (sw_contact_push){.obstacle = c->obstacles[t->obstacle].id,
+                           .node = t->node,
+                           .other = t->other,
+                           .at = t->at,
+                           .normal_force = p->normal_force,
+                           .force = sw_madd(p->tangential, p->normal, p->normal_force)};
+  return p->normal_force > 0;
+}
+
 double sw_contact_energy(const sw_contact *c) {
   double sum = 0;
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
     if (!(t->press.normal_force > 0)) continue;
-    sum += 0.5 * (t->press.normal_force * t->press.normal_force + sw_norm2(t->press.tangential)) /
-           t->press.k;
+    sum += 0.5 * t->press.normal_force * t->press.normal_force / t->press.k;
+    sum += 0.5 * sw_norm2(t->press.tangential) / sw_press_grip(&t->press);
   }
   return sum;
 }

@@ -91,7 +91,18 @@ void sw_contact_force(const sw_contact *contact, int o, sw_vec about, sw_vec *fo
 /* Deepest penetration of the accepted state, with the system's node nearest to
  * it [m]. */
 double sw_contact_penetration(const sw_contact *contact, size_t *node);
-size_t sw_contact_count(const sw_contact *contact);  /* touches with a force */
+size_t sw_contact_count(const sw_contact *contact); /* touches with a force */
+/* What presses on a node, or on the segment between two. */
+typedef struct sw_contact_push {
+  int obstacle;        /* the owner's number */
+  size_t node, other;  /* of the system; other is node again when that alone is pressed [-] */
+  double at;           /* between both [-] */
+  double normal_force; /* [N] */
+  sw_vec force;        /* on the wire, with friction [N] */
+} sw_contact_push;
+/* All touches, also those without a force; number k of them: 0 when it has none. */
+size_t sw_contact_touches(const sw_contact *contact);
+int sw_contact_push_at(const sw_contact *contact, size_t k, sw_contact_push *out);
 double sw_contact_energy(const sw_contact *contact); /* stored in the springs [J] */
 
 /* Memory kept between steps (anchors and sides), for snapshots: a block to copy

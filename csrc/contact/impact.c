@@ -68,9 +68,12 @@ static sw_vec striking_velocity(const sw_contact *c, const sw_touch *t, sw_vec p
  * but the shortest, and would throw it back. */
 static void kick(sw_system *s, const sw_body *b, size_t node, sw_vec dv) {
   const sw_web *web = b->plan->web;
-  const size_t n = web && web->per_ring ? web->per_ring : 1, i = node - b->first_node;
-  const size_t first = i - i % n;
-  for (size_t k = first; k < first + n; k++)
+  size_t first = node - b->first_node, end = first + 1;
+  if (web && web->per_ring) {
+    const size_t ring = sw_web_ring_of(web, first);
+    first = web->first[ring], end = web->first[ring + 1];
+  }
+  for (size_t k = first; k < end; k++)
     if (b->plan->held[k] == SW_FREE) sw_accumulate(s->v + 3 * (b->first_node + k), dv);
 }
 
@@ -80,7 +83,7 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
   const sw_vec x = sw_touch_place(s->x, t->node, t->other, t->at);
   const sw_body *b = &s->bodies[t->body];
-  const double radius = sw_plan_skin(b->plan);
+  const double radius = sw_plan_skin(b->plan, t->node - b->first_node);
   const size_t end[2] = {t->node, t->other};
   const sw_levers levers = sw_touch_levers(s, t);
   const sw_vec at = levers.count ? sw_madd(x, t->press.normal, -radius) : x;

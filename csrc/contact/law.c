@@ -50,7 +50,7 @@ void sw_press_take_lag(sw_press *p, const sw_press *last) {
 }
 
 void sw_press_begin(sw_press *p, double friction, int known) {
-  const double most = friction * p->lag, pull = p->k * sw_norm(p->trial);
+  const double most = friction * p->lag, pull = sw_press_grip(p) * sw_norm(p->trial);
   if (!known) p->sliding = pull > most;
   if (pull > SURELY_SLIDING * most) p->sliding = 1;
 }
@@ -66,15 +66,15 @@ static void stiffness_matrix(double kn, double kt, double ks, sw_vec n, sw_vec d
 sw_vec sw_press_eval(sw_press *p, double friction, int lagged, double K[6]) {
   p->normal_force = -p->k * p->gap;
   if (!lagged) p->lag = p->normal_force;
-  const double most = friction * p->lag, length = sw_norm(p->trial);
-  if (!lagged) p->sliding = p->k * length > most;
+  const double most = friction * p->lag, length = sw_norm(p->trial), grip = sw_press_grip(p);
+  if (!lagged) p->sliding = grip * length > most;
   const sw_vec d = length > 0 ? sw_scale(p->trial, 1.0 / length) : sw_v(0, 0, 0);
-  p->tangential = sw_scale(d, p->sliding ? -most : -p->k * length);
+  p->tangential = sw_scale(d, p->sliding ? -most : -grip * length);
   if (p->sliding) {
-    const double kt = length > 0 ? fmin(most / length, p->k) : 0.0;
+    const double kt = length > 0 ? fmin(most / length, grip) : 0.0;
     stiffness_matrix(p->k, kt, kt, p->normal, d, K);
   } else {
-    stiffness_matrix(p->k, friction > 0 ? p->k : 0.0, 0, p->normal, d, K);
+    stiffness_matrix(p->k, friction > 0 ? grip : 0.0, 0, p->normal, d, K);
     if (!(friction > 0)) p->tangential = sw_v(0, 0, 0);
   }
   return sw_madd(p->tangential, p->normal, p->normal_force);
@@ -83,16 +83,16 @@ sw_vec sw_press_eval(sw_press *p, double friction, int lagged, double K[6]) {
 static int update_friction(sw_press *p, double friction, sw_vec shift, double force_scale) {
   const sw_vec u = sw_madd(sw_add(p->trial, shift), p->normal, -sw_dot(shift, p->normal));
   const double length = sw_norm(u), most = friction * p->normal_force;
-  const double small = p->k * SPRING_TOLERANCE;
+  const double grip = sw_press_grip(p), small = grip * SPRING_TOLERANCE;
   const double along = sw_dot(u, p->trial);
-  const int beyond = p->k * length > most;
+  const int beyond = grip * length > most;
   const int reversed = p->sliding && along < 0;
   p->next_sliding = beyond && !reversed;
-  p->tangential = sw_scale(u, -(beyond && length > 0 ? most / length : p->k));
+  p->tangential = sw_scale(u, -(beyond && length > 0 ? most / length : grip));
   if (reversed) return most <= small;
   if (p->sliding && beyond && along < TURN_TOLERANCE * length * sw_norm(p->trial)) return 0;
   if (p->sliding != beyond) /* a change of state matters when the force does */
-    return fabs(p->k * length - most) <=
+    return fabs(grip * length - most) <=
            small + FORCE_TOLERANCE * most + WEIGHT_TOLERANCE * force_scale;
   return !beyond || fabs(p->normal_force - p->lag) <=
                         FORCE_TOLERANCE * p->normal_force + WEIGHT_TOLERANCE * force_scale;
@@ -104,8 +104,11 @@ int sw_press_update(sw_press *p, double friction, sw_vec shift, double force_sca
   p->normal_force = active ? fmax(0.0, -p->k * p->gap_after) : 0.0;
   p->next_sliding = 1; /* what does not touch moves freely */
   const int agrees = active && friction > 0 ? update_friction(p, friction, shift, force_scale) : 1;
-  if (active ? p->gap_after > GAP_TOLERANCE : p->gap_after < -GAP_TOLERANCE) return 0;
-  return agrees;
+  return agrees && sw_press_apart(p);
+}
+
+int sw_press_apart(const sw_press *p) {
+  return p->active ? p->gap_after <= GAP_TOLERANCE : p->gap_after >= -GAP_TOLERANCE;
 }
 
 double sw_press_forgiven(double depth, double explained, double h) {

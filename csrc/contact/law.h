@@ -10,11 +10,12 @@
 #include "base/vec.h"
 
 typedef struct sw_press {
-  double gap;                      /* of the surfaces at this iterate [m] */
-  double gap_after;                /* after the last solve [m] */
-  double k;                        /* stiffness, normal and tangential [N/m] */
-  double lag;                      /* normal force that friction takes as given [N] */
-  double normal_force;             /* after the last solve [N] */
+  double gap;          /* of the surfaces at this iterate [m] */
+  double gap_after;    /* after the last solve [m] */
+  double k;            /* stiffness, normal and tangential [N/m] */
+  double soft;         /* friction's spring is so many times softer; 0 = it is not [-] */
+  double lag;          /* normal force that friction takes as given [N] */
+  double normal_force; /* after the last solve [N] */
   double lag_before, force_before; /* both, one iterate earlier; 0 = not known [N] */
   sw_vec normal;                   /* of the push [-] */
   sw_vec trial;                    /* tangential displacement from the anchor at this iterate [m] */
@@ -24,6 +25,11 @@ typedef struct sw_press {
   int sliding;                     /* assumed in this iterate */
   int next_sliding;                /* as the last solve found it */
 } sw_press;
+
+/* Stiffness of friction's spring [N/m]. */
+static inline double sw_press_grip(const sw_press *p) {
+  return p->soft > 0 ? p->k / p->soft : p->k;
+}
 
 /* A touch that pushed after the last solve goes on in this iterate even if turning normals
  * have opened its gap a little: letting go of it would let the wires fall into each other.
@@ -52,6 +58,9 @@ double sw_press_forgiven(double depth, double explained, double h);
 /* Forces after an update that shifted the touch; 1 = they agree with what the solve
  * assumed. force_scale: of the scene, forces far below which do not matter [N]. */
 int sw_press_update(sw_press *press, double friction, sw_vec shift, double force_scale);
+
+/* Does the last update leave the gap open where nothing pushed, and closed where it did? */
+int sw_press_apart(const sw_press *press);
 
 /* A touch that sinks in too deep gets stiffer: its stiffness from the next iterate on, or the
  * one it has [N/m]. usual: of a new touch. before: how deep the wire was at the step's start in

@@ -16,6 +16,12 @@ static const double SMALL_SHIFT = 0.05;
  * turns by an angle with a cosine above this [-]. */
 static const double STILL_NEAR = 0.5, SAME_SIDE = 0.7;
 
+/* Friction's springs in an object of many particles are softer than its touches, by their number
+ * and up to this: hundreds of touches at once whose springs are as stiff as they themselves go to
+ * and fro between sticking and sliding. What sticks gives way by some tens of micrometres under
+ * its weight, and comes back [-]. */
+static const double SOFTEST = 1000.0;
+
 enum { OWN = 0, NEXT = 6, ROW = 24 }; /* layout of the system's block rows */
 
 static sw_status push(sw_contact *c, const sw_touch *t) {
@@ -166,6 +172,8 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
       .candidate = (size_t)(k - c->candidates),
       .press = {
           .normal = sw_rotate(pose->q, near->normal), .gap = near->gap - k->skin, .k = stiffness}};
+  const sw_web *web = s->bodies[k->body].plan->web;
+  if (web && !web->per_ring) t.press.soft = fmin(SOFTEST, (double)web->particles);
   sw_press *press = &t.press;
   if (c->regime == SW_CONTACT_IMPLICIT &&
       press->gap < 0) /* in explicit steps force follows depth */
@@ -329,6 +337,11 @@ static sw_vec surface_shift(const sw_system *s, const sw_touch *t, sw_vec shift)
   return sw_add(shift, sw_levers_shift(&levers, s->bodies[t->body].spin_delta + 3, 4));
 }
 
+/* Friction of a mesh's many touches may never agree with itself all over. After so many updates
+ * of a stage it no longer keeps iterations going where it shifts a touch by less than a small
+ * share of the radius: it is then off by less than its own size for that step [-]. */
+enum { PATIENCE = 6 };
+
 /* Bring a touch's forces up to the solved update; 1 = it agrees with what the
  * solve assumed. */
 static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *delta,
@@ -338,9 +351,11 @@ static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *
   const int agrees = sw_press_update(&t->press, c->obstacles[t->obstacle].friction, surface, scale);
   if (t->held) return 1;
   const double radius = c->candidates[t->candidate].radius;
-  if (!c->flat[t->obstacle] && t->press.gap_after < radius && sw_norm(shift) > SMALL_SHIFT * radius)
+  const int small = sw_norm(shift) <= SMALL_SHIFT * radius;
+  if (!c->flat[t->obstacle] && t->press.gap_after < radius && !small)
     return 0; /* place and normal of the touch may have changed */
-  return agrees;
+  if (agrees || !small || c->updates <= PATIENCE || !s->bodies[t->body].plan->web) return agrees;
+  return sw_press_apart(&t->press);
 }
 
 /* Of a wire's touches, forces far below the largest one do not matter. Touches are in the
@@ -388,6 +403,7 @@ int sw_contact_settled(void *contact, sw_system *s, const double *y, const doubl
   sw_contact *c = contact;
   (void)y;
   c->pressed_count = c->pressed_before;
+  c->updates++;
   const int fine = update_all(c, s, delta);
   if (fine && stiffen(c, s)) return 0;
   for (size_t i = 0; fine && i < c->touch_count; i++) {

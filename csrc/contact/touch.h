@@ -91,6 +91,7 @@ struct sw_contact {
   sw_contact_regime regime;
   int plastic;     /* 1: the step is one that does not bounce */
   int fresh;       /* 1: no step was accepted yet, there is no memory */
+  int updates;     /* of the stage so far [-] */
   double widening; /* of the reserve for flight, when nodes went further [-] */
 };
 

@@ -3,7 +3,8 @@
  * c = beta EA/l0 along each edge; bending dashpot k = beta EI/w on the rate at
  * which neighbouring tangents turn against each other. alpha and beta are
  * Rayleigh's: a mode of angular frequency omega has the damping ratio
- * alpha/(2 omega) + beta omega/2 (small vibrations). */
+ * alpha/(2 omega) + beta omega/2 (small vibrations). In a mesh of particles the dashpots are
+ * those of its springs, beta k each; its folds and solid elements have none. */
 #include <math.h>
 #include <stddef.h>
 
@@ -109,11 +110,32 @@ static void clamp_term(double beta, sw_field *f, const sw_clamp_hinge *h) {
   if (f->want & SW_WANT_STIFFNESS) add_own(f, e, 0.0, k * f->velocity_rate * r * r);
 }
 
+/* Dashpots beside the springs of a mesh. */
+static void spring_term(double beta, sw_field *f) {
+  const sw_web *w = f->plan->web;
+  for (size_t e = 0; e < w->links; e++) {
+    const size_t a = w->link[e].a, b = w->link[e].b;
+    const double c = beta * w->link[e].k, r = c * f->velocity_rate;
+    const sw_vec t = sw_unit_or(sw_sub(sw_vec_at(f->x, b), sw_vec_at(f->x, a)), sw_v(0, 0, 0));
+    const sw_vec push = sw_scale(t, c * sw_dot(t, sw_sub(sw_vec_at(f->v, b), sw_vec_at(f->v, a))));
+    if (f->want & SW_WANT_FORCE) {
+      sw_accumulate(f->force + 3 * a, push);
+      sw_accumulate(f->force + 3 * b, sw_neg(push));
+    }
+    if (!(f->want & SW_WANT_STIFFNESS)) continue;
+    const double K[6] = {r * t.x * t.x, r * t.x * t.y, r * t.x * t.z,
+                         r * t.y * t.y, r * t.y * t.z, r * t.z * t.z};
+    sw_field_add_pair(f, a, b, f->link_slot[e], K);
+  }
+}
+
 static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   const damping_args *a = args;
   (void)err;
   if (a->mass > 0) mass_term(a->mass, f);
-  if (a->stiffness > 0) {
+  if (a->stiffness > 0 && f->plan->web) {
+    spring_term(a->stiffness, f);
+  } else if (a->stiffness > 0) {
     axial_term(a->stiffness, f);
     bending_term(a->stiffness, f);
     for (size_t k = 0; k < f->plan->clamp_count && !f->statics; k++)
@@ -125,7 +147,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
 const sw_force_class sw_force_damping = {
     .name = "damping",
     .summary = "Rayleigh damping, by mass and by axial and bending stiffness",
-    .flags = SW_FORCE_DISSIPATIVE,
+    .flags = SW_FORCE_DISSIPATIVE | SW_FORCE_ANY_BODY,
     .params = SW_PARAMS("force damping", rows),
     .eval = eval,
 };

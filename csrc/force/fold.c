@@ -4,8 +4,9 @@
  * s = phi/sin phi, w = (1 - s c)/sin^2 phi, p1 = t2 - c t1, p2 = t1 - c t2 the gradient by the
  * edge e1 is -k s p1/l1, and second derivatives are
  * H11 = (k w p1 p1' + k s (c (I - t1 t1') + t1 p1' + p1 t1')) / l1^2,
- * H12 = (k w p1 p2' - k s (I - t1 t1')(I - t2 t2')) / (l1 l2). Undefined where a part is folded
- * back onto the other (phi = pi). */
+ * H12 = (k w p1 p2' - k s (I - t1 t1')(I - t2 t2')) / (l1 l2). With an angle phi0 at rest it is phi
+ * - phi0 instead of phi, also in s. Undefined where a part is folded back onto the other (phi =
+ * pi). */
 #include <math.h>
 
 #include "force/force.h"
@@ -14,8 +15,11 @@
 typedef struct bent {
   double t[2][3], p[2][3], l[2]; /* [-], [-], [m] */
   double c, s, w;                /* [-] */
+  double rest;                   /* [rad] */
   double k;                      /* [N m] */
 } bent;
+
+static const double LEAST_SINE = 1e-3; /* of a fold with an angle at rest [-] */
 
 static void measure(const sw_web_fold *fold, const double *x, bent *b) {
   const sw_vec at[3] = {sw_vec_at(x, fold->a), sw_vec_at(x, fold->b), sw_vec_at(x, fold->c)};
@@ -30,11 +34,17 @@ static void measure(const sw_web_fold *fold, const double *x, bent *b) {
   sw_angle_factors(u, &b->s, &b->w);
   b->c = 1.0 - 2.0 * u;
   b->k = fold->k;
+  b->rest = fold->rest;
+  if (fold->rest > 0) {
+    const double sine = fmax(LEAST_SINE, sqrt(fmax(0.0, 1.0 - b->c * b->c)));
+    b->s = (atan2(sine, b->c) - fold->rest) / sine;
+    b->w = (1.0 - b->s * b->c) / (sine * sine);
+  }
   for (int i = 0; i < 2; i++) sw_store(b->p[i], sw_madd(t[1 - i], t[i], -b->c));
 }
 
 static double energy_of(const bent *b) {
-  const double phi = acos(fmax(-1.0, fmin(1.0, b->c)));
+  const double phi = acos(fmax(-1.0, fmin(1.0, b->c))) - b->rest;
   return 0.5 * b->k * phi * phi;
 }
 

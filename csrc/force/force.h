@@ -5,6 +5,7 @@
 #define SW_FORCE_FORCE_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/param.h"
 #include "base/status.h"
@@ -17,15 +18,18 @@ enum {
   SW_FORCE_DISSIPATIVE = 8, /* has no energy; takes power from the motion, F.v <= 0 */
   SW_FORCE_FROZEN = 16,     /* its stiffness leaves a part out, which its file names */
   SW_FORCE_BY_ANGLE = 32,   /* corrects bend: only for wires whose bending is by angles */
-  SW_FORCE_ANY_BODY = 64    /* knows nodes only, or particles too: goes with meshes as well */
+  SW_FORCE_ANY_BODY = 64,   /* knows nodes only, or particles too: goes with meshes as well */
+  SW_FORCE_OF_WEB = 128,    /* knows springs or particles only: goes with nothing else */
+  SW_FORCE_ON_SOME = 256    /* acts on some particles: takes a list; see sw_force_some */
 };
 
 enum { SW_FORCE_ARGS_MAX = 128 }; /* room for any force's arguments [B] */
 
 typedef struct sw_force_class {
   const char *name;
-  const char *summary; /* one line for help() */
-  const char *stores;  /* what its energy is called; NULL = as the force */
+  const char *summary;  /* one line for help() */
+  const char *stores;   /* what its energy is called; NULL = as the force */
+  const char *corrects; /* what its field's `bending` is part of; NULL = bend */
   unsigned flags;
   sw_params params; /* rows of its argument struct */
 
@@ -78,6 +82,12 @@ typedef struct sw_repel_args {
 typedef struct sw_bend_args {
   double EI; /* [N m2] */
 } sw_bend_args;
+
+/* What the arguments of a force on some particles begin with. The scene owns the list. */
+typedef struct sw_force_some {
+  const uint32_t *particle; /* (count) numbers in the body, from 0 */
+  size_t count;
+} sw_force_some;
 
 /* Arguments of a Lua function as a force: called with the field, adds to
  * field->force. */

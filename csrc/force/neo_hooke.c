@@ -5,6 +5,7 @@
  * inside out; one that was put so is pushed back. */
 #include <math.h>
 
+#include "base/simd.h"
 #include "force/force.h"
 #include "force/solid.h"
 
@@ -13,14 +14,23 @@ static void gather(const sw_web_solid *s, const double *x, double *out) {
     for (size_t k = 0; k < 3; k++) out[3 * i + k] = x[3 * (size_t)s->node[i] + k];
 }
 
+/* Elements list a pair's particles in the order of the slots, j before i; the particle with the
+ * larger number has the rows. */
+SW_HOT
 static void add_stiffness(const sw_web_solid *s, const double *H, const size_t *slot, sw_field *f) {
-  const size_t n = 3 * s->count;
+  const size_t n = 3 * s->count, stride = f->block_stride;
   for (uint32_t i = 0; i < s->count; i++) {
-    double *own = f->blocks + f->own_slot[s->node[i]];
-    for (size_t r = 0; r < 3; r++)
-      for (size_t c = 0; c < 3; c++) own[r * f->block_stride + c] += H[(3 * i + r) * n + 3 * i + c];
-    for (uint32_t j = 0; j < i; j++) /* the order of the slots: j before i */
-      sw_field_add_block(f, s->node[j], s->node[i], *slot++, H + 3 * j * n + 3 * i, n);
+    double *own = f->rows + SW_FIELD_ROW * (size_t)s->node[i];
+    const double *h = H + 3 * i * n + 3 * i;
+    own[0] += h[0], own[1] += h[1], own[2] += h[2];
+    own[3] += h[n + 1], own[4] += h[n + 2], own[5] += h[2 * n + 2];
+    for (uint32_t j = 0; j < i; j++, slot++) {
+      const int upper = s->node[j] > s->node[i];
+      double *to = f->blocks + *slot;
+      h = upper ? H + 3 * j * n + 3 * i : H + 3 * i * n + 3 * j;
+      for (size_t k = 0; k < 3; k++, to += stride, h += n)
+        to[0] += h[0], to[1] += h[1], to[2] += h[2];
+    }
   }
 }
 

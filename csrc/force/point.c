@@ -22,8 +22,10 @@ static const sw_param rows[] = {
 static void on_ring(const sw_web *web, size_t ring, sw_vec force, sw_field *f) {
   double middle[3];
   if (f->want & SW_WANT_FORCE)
-    for (size_t i = 0; i < web->per_ring; i++)
-      sw_accumulate(f->force + 3 * (ring * web->per_ring + i), sw_scale(force, web->share[i]));
+    for (size_t p = web->first[ring]; p < web->first[ring + 1]; p++) {
+      const double share = sw_web_is_ring(web, ring) ? web->share[p - web->first[ring]] : 1.0;
+      sw_accumulate(f->force + 3 * p, sw_scale(force, share));
+    }
   if (!(f->want & SW_WANT_ENERGY)) return;
   sw_web_middle(web, f->x, ring, middle);
   f->energy -= sw_dot(force, sw_load(middle));

@@ -7,36 +7,64 @@
  * squeezed to a point. */
 #include <math.h>
 
+#include "base/simd.h"
 #include "force/force.h"
 
-static void add_stiffness(const sw_web_link *link, double stored, double l, const double t[3],
-                          size_t e, sw_field *f) {
+static inline __attribute__((always_inline)) void add_stiffness(const sw_web_link *link,
+                                                                double stored, double reciprocal,
+                                                                const double t[3], size_t slot,
+                                                                sw_field *f) {
   const double T = f->cautious ? fmax(0.0, stored) : stored;
-  const double geometric = T / l, axial = link->k - geometric;
+  const double geometric = T * reciprocal, axial = link->k - geometric;
   const double K[6] = {
       axial * t[0] * t[0] + geometric, axial * t[0] * t[1], axial * t[0] * t[2],
       axial * t[1] * t[1] + geometric, axial * t[1] * t[2], axial * t[2] * t[2] + geometric};
-  sw_field_add_pair(f, link->a, link->b, f->link_slot[e], K);
+  sw_field_add_pair(f, link->a, link->b, slot, K);
+}
+
+/* How much longer than unstressed a spring is [m], its direction [-] and 1 / length [1/m], 0 of one
+ * without. */
+static inline __attribute__((always_inline)) double stretch_of(const sw_web_link *link,
+                                                               const double *x, double t[3],
+                                                               double *reciprocal) {
+  const double *a = x + 3 * (size_t)link->a, *b = x + 3 * (size_t)link->b;
+  const double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  const double l = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  const double r = l > 0 ? 1.0 / l : 0.0;
+  for (int k = 0; k < 3; k++) t[k] = d[k] * r;
+  *reciprocal = r;
+  return l - link->rest;
+}
+
+SW_HOT
+static void add_all(const sw_web *web, sw_field *f) {
+  const int stiffness = (f->want & SW_WANT_STIFFNESS) != 0;
+  for (size_t e = 0; e < web->links; e++) {
+    const sw_web_link *link = &web->link[e];
+    double t[3], r;
+    const double T = link->k * stretch_of(link, f->x, t, &r);
+    double *fa = f->force + 3 * (size_t)link->a, *fb = f->force + 3 * (size_t)link->b;
+    for (int k = 0; k < 3; k++) fa[k] += T * t[k];
+    for (int k = 0; k < 3; k++) fb[k] -= T * t[k];
+    if (stiffness && r > 0)
+      add_stiffness(link, f->tension ? f->tension[e] : T, r, t, f->link_slot[e], f);
+  }
+}
+
+static double energy_of(const sw_web *web, const double *x) {
+  double energy = 0, t[3], r;
+  for (size_t e = 0; e < web->links; e++) {
+    const sw_web_link *link = &web->link[e];
+    const double stretch = stretch_of(link, x, t, &r);
+    energy += 0.5 * link->k * stretch * stretch;
+  }
+  return energy;
 }
 
 static sw_status eval(const void *args, sw_field *f, sw_error *err) {
-  const sw_web *web = f->plan->web;
   (void)args, (void)err;
-  for (size_t e = 0; e < web->links; e++) {
-    const sw_web_link *link = &web->link[e];
-    const double *a = f->x + 3 * (size_t)link->a, *b = f->x + 3 * (size_t)link->b;
-    const double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    const double l = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    const double r = l > 0 ? 1.0 / l : 0.0, t[3] = {d[0] * r, d[1] * r, d[2] * r};
-    const double T = link->k * (l - link->rest);
-    if (f->want & SW_WANT_FORCE) {
-      double *fa = f->force + 3 * (size_t)link->a, *fb = f->force + 3 * (size_t)link->b;
-      for (int k = 0; k < 3; k++) fa[k] += T * t[k], fb[k] -= T * t[k];
-    }
-    if ((f->want & SW_WANT_STIFFNESS) && l > 0)
-      add_stiffness(link, f->tension ? f->tension[e] : T, l, t, e, f);
-    if (f->want & SW_WANT_ENERGY) f->energy += 0.5 * T * (l - link->rest);
-  }
+  if (f->want & (SW_WANT_FORCE | SW_WANT_STIFFNESS)) add_all(f->plan->web, f);
+  if (f->want & SW_WANT_ENERGY) f->energy += energy_of(f->plan->web, f->x);
   return SW_OK;
 }
 

@@ -69,6 +69,16 @@ static sw_status use_integrator(sw_scene *s, const sw_run_args *args, sw_error *
   return SW_OK;
 }
 
+/* Of particles that no spring holds. */
+static sw_status check_places(const sw_scene *s, size_t wire, const double *x, sw_error *err) {
+  const size_t n = s->system.bodies[wire].plan->nodes;
+  for (size_t p = 0; p < n; p++)
+    if (!isfinite(x[3 * p] + x[3 * p + 1] + x[3 * p + 2]))
+      return sw_fail(err, SW_EDIVERGED, "particle %zu of '%s' left the finite numbers", p + 1,
+                     s->wires[wire].name);
+  return SW_OK;
+}
+
 /* The same of particles: squeezed sections may bring two close to each other. */
 static sw_status check_particles(const sw_scene *s, size_t wire, const double *x, sw_error *err) {
   const sw_web *web = s->system.bodies[wire].plan->web;
@@ -79,11 +89,14 @@ static sw_status check_particles(const sw_scene *s, size_t wire, const double *x
   for (size_t e = 0; e < web->links; e++) {
     const sw_web_link *link = &web->link[e];
     const double most = (1.0 + LARGEST_STRAIN) * link->rest;
-    if (!(sw_dist(sw_vec_at(x, link->a), sw_vec_at(x, link->b)) <= most))
-      return sw_fail(err, SW_EDIVERGED, "wire '%s' is torn apart near s = %.4g m",
-                     s->wires[wire].name, web->s[link->a]);
+    if (sw_dist(sw_vec_at(x, link->a), sw_vec_at(x, link->b)) <= most) continue;
+    if (!web->per_ring)
+      return sw_fail(err, SW_EDIVERGED, "'%s' is torn apart between particles %u and %u",
+                     s->wires[wire].name, link->a + 1, link->b + 1);
+    return sw_fail(err, SW_EDIVERGED, "wire '%s' is torn apart near s = %.4g m",
+                   s->wires[wire].name, web->s[link->a]);
   }
-  return SW_OK;
+  return check_places(s, wire, x, err);
 }
 
 /* Nodes must stay at finite places and edges at believable lengths. */

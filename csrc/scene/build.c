@@ -16,6 +16,8 @@ static void drop(sw_scene *s) {
   s->contact = NULL;
   sw_pairs_free(s->pairs);
   s->pairs = NULL;
+  sw_crowd_free(s->crowd);
+  s->crowd = NULL;
   sw_free(s->hold_slot);
   s->hold_slot = NULL;
   s->built = 0;
@@ -68,6 +70,10 @@ static sw_status inherit_contact(sw_scene *s) {
     const sw_body *b = &s->system.bodies[w];
     size_t i = 0;
     for (size_t k = s->kept.first[w]; k < s->kept.first[w + 1]; k++) {
+      if (s->kept.changed == w + 1) {
+        new_node[k] = SIZE_MAX;
+        continue;
+      }
       if (b->plan->web) { /* its particles stay as they are */
         new_node[k] = b->first_node + k - s->kept.first[w];
         continue;
@@ -185,9 +191,7 @@ static sw_status new_web_plan(const sw_scene *s, size_t w, sw_plan **out) {
   for (size_t k = 0; k < s->hold_count; k++) {
     const sw_scene_hold *h = &s->holds[k];
     if (!h->alive || h->wire != w) continue;
-    for (size_t p = 0; p < web->particles; p++)
-      if (web->s[p] >= h->s1 && web->s[p] <= h->s2 && sw_strand_holds(web, h->cls, p))
-        held[p] = SW_HELD;
+    for (size_t i = 0; i < h->count; i++) held[h->particle[i]] = SW_HELD;
   }
   const sw_status status = sw_plan_of_web(&s->wires[w].beam, web, held, out);
   sw_free(held);
@@ -262,16 +266,15 @@ static sw_status add_holds(sw_scene *s, size_t alive) {
       sw_store(s->system.directors + at, h->director[side]);
       sw_store(s->system.normals + at, h->frame[side].normal);
     }
-    size_t particle = 0;
-    for (size_t i = 0; i < b->plan->nodes; i++) {
+    sw_held_node node = {.body = h->wire, .hold = number, .slides = h->cls->feeds};
+    for (size_t i = 0; b->plan->web && i < h->count; i++) {
+      node.node = b->first_node + h->particle[i], node.local = sw_vec_at(h->local, i);
+      s->system.held[s->system.held_count++] = node;
+    }
+    for (size_t i = 0; !b->plan->web && i < b->plan->nodes; i++) {
       if (!(b->plan->s[i] >= h->s1 && b->plan->s[i] <= h->s2)) continue;
-      if (b->plan->web && !sw_strand_holds(b->plan->web, h->cls, i)) continue;
-      s->system.held[s->system.held_count++] = (sw_held_node){
-          .node = b->first_node + i,
-          .body = h->wire,
-          .hold = number,
-          .slides = h->cls->feeds,
-          .local = b->plan->web ? sw_vec_at(h->local, particle++) : local_of(h, b->plan->s[i])};
+      node.node = b->first_node + i, node.local = local_of(h, b->plan->s[i]);
+      s->system.held[s->system.held_count++] = node;
     }
     s->hold_slot[number++] = (int)k;
   }
@@ -331,6 +334,7 @@ static sw_status fill(sw_scene *s, size_t alive) {
   SW_TRY(sw_scene_add_joins(s));
   SW_TRY(add_contact(s));
   SW_TRY(sw_scene_new_pairs(s));
+  SW_TRY(sw_crowd_new(&s->system, &s->crowd));
   SW_TRY(inherit_contact(s));
   s->system.coupling = (sw_coupling){.user = s, .place = place_hold};
   sw_scene_couple(s);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Frames: what a picture or a player needs, stored at even times of a run. One
  * block a frame: energies, obstacle poses, hold poses with a held flag, then
- * for each wire its node count and positions. */
+ * for each wire its node count and positions, the number of its surface's points in a section (0:
+ * it is no mesh of particles), and these points with the force across the surface at each. */
 #include <string.h>
 
 #include "base/alloc.h"
@@ -25,6 +26,37 @@ static void store_pose(double *out, sw_pose pose) {
   out[3] = pose.q.w, out[4] = pose.q.x, out[5] = pose.q.y, out[6] = pose.q.z;
 }
 
+/* The middle line of a mesh and its surface. */
+static sw_status fill_strand(const sw_scene *s, const sw_body *b, double **to, sw_error *err) {
+  const sw_web *web = b->plan->web;
+  const size_t around = web->around_count;
+  const double *x = s->system.x + 3 * b->first_node;
+  double outline[3 * SW_OUTLINE], wide[3 * SW_OUTLINE], *p = *to;
+  double *pressed = sw_alloc(b->plan->nodes, sizeof *pressed);
+  if (!pressed) return sw_fail(err, SW_ENOMEM, "out of memory for frames");
+  sw_strand_pressed(s, b, pressed, NULL);
+  *p++ = (double)web->rings;
+  for (size_t r = 0; r < web->rings; r++, p += 3) sw_store(p, sw_strand_middle(web, x, r));
+  *p++ = (double)around;
+  for (size_t r = 0; r < web->rings; r++) {
+    sw_strand_outline(web, x, r, outline);
+    sw_outline_widen(outline, around, sw_strand_facing(web, x, r), web->skin, wide);
+    for (size_t k = 0; k < around; k++, p += SW_FRAME_SURFACE) {
+      sw_store(p, sw_vec_at(wide, k));
+      p[3] = pressed[web->first[r] + (sw_web_is_ring(web, r) ? web->around[k] : 0)];
+    }
+  }
+  sw_free(pressed);
+  *to = p;
+  return SW_OK;
+}
+
+/* Numbers that a wire takes in a frame. */
+static size_t size_of(const sw_plan *p) {
+  if (!p->web || !p->web->per_ring) return 2 + 3 * p->nodes;
+  return 2 + (3 + SW_FRAME_SURFACE * p->web->around_count) * p->web->rings;
+}
+
 static sw_status fill(sw_scene *s, double *p, sw_error *err) {
   sw_motion_state at;
   sw_scene_frame_energies(s, p);
@@ -42,22 +74,21 @@ static sw_status fill(sw_scene *s, double *p, sw_error *err) {
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_body *b = &s->system.bodies[w];
     const sw_web *web = b->plan->web;
-    if (web) { /* its middle line */
-      *p++ = (double)web->rings;
-      for (size_t r = 0; r < web->rings; r++, p += 3)
-        sw_web_middle(web, s->system.x + 3 * b->first_node, r, p);
+    if (web && web->per_ring) {
+      SW_TRY(fill_strand(s, b, &p, err));
       continue;
     }
     *p++ = (double)b->plan->nodes;
     memcpy(p, s->system.x + 3 * b->first_node, 3 * b->plan->nodes * sizeof *p);
     p += 3 * b->plan->nodes;
+    *p++ = 0;
   }
   return SW_OK;
 }
 
 sw_status sw_scene_store_frame(sw_scene *s, sw_error *err) {
-  const size_t size = SW_FRAME_ENERGIES + POSE * s->obstacle_count + HOLD * s->hold_count +
-                      s->wire_count + 3 * s->system.nodes;
+  size_t size = SW_FRAME_ENERGIES + POSE * s->obstacle_count + HOLD * s->hold_count;
+  for (size_t w = 0; w < s->wire_count; w++) size += size_of(s->system.bodies[w].plan);
   if (sw_grow((void **)&s->frames, &s->frame_capacity, s->frame_count + 1, sizeof *s->frames) !=
       SW_OK)
     return sw_fail(err, SW_ENOMEM, "out of memory for frames");
@@ -92,11 +123,29 @@ const double *sw_scene_frame_hold(const sw_scene *s, size_t frame, size_t h, int
   return p;
 }
 
+int sw_scene_frame_is_loose(const sw_scene *s, size_t w) {
+  return w < s->wire_count && sw_scene_is_loose(&s->wires[w]);
+}
+
 const double *sw_scene_frame_wire(const sw_scene *s, size_t frame, size_t w, size_t *count) {
   const sw_frame *f = &s->frames[frame];
   if (w >= f->wires) return NULL;
   const double *p = f->data + SW_FRAME_ENERGIES + POSE * f->obstacles + HOLD * f->holds;
-  for (size_t k = 0; k < w; k++) p += 1 + 3 * (size_t)*p;
+  for (size_t k = 0; k < w; k++) {
+    const size_t nodes = (size_t)*p;
+    p += 1 + 3 * nodes;
+    p += 1 + SW_FRAME_SURFACE * nodes * (size_t)*p;
+  }
   *count = (size_t)*p;
   return p + 1;
+}
+
+const double *sw_scene_frame_surface(const sw_scene *s, size_t frame, size_t w, size_t *count,
+                                     size_t *around) {
+  const double *p = sw_scene_frame_wire(s, frame, w, count);
+  if (!p) return NULL;
+  p += 3 * *count;
+  *around = (size_t)*p;
+  *count *= *around;
+  return *around ? p + 1 : NULL;
 }

@@ -130,18 +130,20 @@ static sw_status take_particles(const sw_scene_wire *w, sw_scene_hold *h, const 
   const sw_web *web = w->strand.web;
   const sw_mesh *m = &w->mesh;
   const size_t first = sw_mesh_node(m, h->s1), last = sw_mesh_node(m, h->s2);
-  const size_t room = (last - first + 1) * web->per_ring;
+  const size_t room = web->first[last + 1] - web->first[first];
   h->s = sw_alloc(room, sizeof *h->s);
   h->local = sw_alloc(3 * room, sizeof *h->local);
-  if (!h->s || !h->local) return SW_ENOMEM;
+  h->particle = sw_alloc(room, sizeof *h->particle);
+  if (!h->s || !h->local || !h->particle) return SW_ENOMEM;
   size_t i = first < last ? first : first + 1 < m->n ? first : first - 1;
   while (i + 2 < m->n && m->s[i + 1] < a->s) i++;
   const double f = fmin(1.0, fmax(0.0, (a->s - m->s[i]) / (m->s[i + 1] - m->s[i])));
   const sw_vec origin = sw_lerp(sw_vec_at(m->x, i), sw_vec_at(m->x, i + 1), f);
   const sw_quat turn = sw_quat_between(sw_mesh_tangent_at(m, a->s), h->director[1]);
-  for (size_t p = first * web->per_ring; p < (last + 1) * web->per_ring; p++) {
+  for (size_t p = web->first[first]; p < web->first[last + 1]; p++) {
     if (!sw_strand_holds(web, h->cls, p)) continue;
     h->s[h->count] = web->s[p];
+    h->particle[h->count] = (uint32_t)p;
     sw_store(h->local + 3 * h->count++, sw_sub(sw_vec_at(w->strand.x, p), origin));
   }
   h->drive.pose = (sw_pose){origin, turn};
@@ -217,21 +219,65 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wir
   return SW_OK;
 }
 
+/* Places and directions as they are now, in a frame at a pose. */
+static void seen_from(sw_scene_hold *h, sw_pose pose) {
+  for (size_t i = 0; i < h->count; i++) {
+    const sw_vec world = sw_add(sw_vec_at(h->local, i), h->drive.pose.p);
+    sw_store(h->local + 3 * i, sw_pose_local(pose, world));
+  }
+  for (int side = 0; side < 2; side++) {
+    h->director[side] = sw_unrotate(pose.q, h->director[side]);
+    h->frame[side].tangent = sw_unrotate(pose.q, h->frame[side].tangent);
+    h->frame[side].normal = sw_unrotate(pose.q, h->frame[side].normal);
+  }
+}
+
+sw_status sw_scene_rehold(sw_scene *s, sw_scene_hold *h, sw_pose pose) {
+  const sw_scene_wire *w = &s->wires[h->wire];
+  sw_hold_args a = h->args;
+  sw_scene_hold new = *h;
+  a.s = 0.5 * (h->s1 + h->s2), a.direction = sw_v(NAN, NAN, NAN);
+  new.s = new.local = NULL, new.count = 0;
+  h->alive = 0; /* its own places are not in its way */
+  take_directions(&w->mesh, &new, &a);
+  sw_status status = place_nodes(s, h->wire, &new, &a);
+  if (status == SW_OK)
+    status = w->strand.web ? take_particles(w, &new, &a) : take_hold(&w->mesh, &new, &a);
+  if (status == SW_OK && !w->strand.web)
+    status = refine_gaps(s, h->wire, &new, &s->wires[h->wire].mesh);
+  h->alive = 1;
+  if (status != SW_OK) {
+    sw_free(new.s);
+    sw_free(new.local);
+    return status;
+  }
+  seen_from(&new, pose);
+  new.alive = 1, new.drive = h->drive, new.last_pose = h->last_pose, new.turn = pose.q;
+  new.shape = ++s->serial;
+  sw_free(h->s);
+  sw_free(h->local);
+  *h = new;
+  return SW_OK;
+}
+
 /* --- another mesh ------------------------------------------------------------------ */
 
 sw_status sw_scene_copy_shape(const sw_scene_hold *from, sw_scene_hold *to) {
   double *s = sw_alloc(from->count, sizeof *s), *local = sw_alloc(3 * from->count, sizeof *local);
-  if (!s || !local) {
+  uint32_t *particle = from->particle ? sw_alloc(from->count, sizeof *particle) : NULL;
+  if (!s || !local || (from->particle && !particle)) {
     sw_free(s);
     sw_free(local);
+    sw_free(particle);
     return SW_ENOMEM;
   }
+  if (particle) memcpy(particle, from->particle, from->count * sizeof *particle);
   memcpy(s, from->s, from->count * sizeof *s);
   memcpy(local, from->local, 3 * from->count * sizeof *local);
   to->shape = from->shape, to->s1 = from->s1, to->s2 = from->s2, to->count = from->count;
   memcpy(to->director, from->director, sizeof to->director);
   memcpy(to->frame, from->frame, sizeof to->frame);
-  to->s = s, to->local = local;
+  to->s = s, to->local = local, to->particle = particle;
   return SW_OK;
 }
 

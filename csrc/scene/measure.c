@@ -6,16 +6,21 @@
 #include "scene/world.h"
 #include "system/join.h"
 
-/* The wire of a handle, in a scene that is built, readable and refreshed. */
-static sw_status open_wire(sw_scene *s, sw_handle h, sw_scene_wire **wire, sw_error *err) {
+sw_status sw_scene_open_body(sw_scene *s, sw_handle h, sw_scene_wire **body, sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
-  *wire = sw_scene_find_wire(s, h, err);
-  if (!*wire) return SW_EDEAD;
+  *body = sw_scene_find_body(s, h, err);
+  if (!*body) return SW_EDEAD;
   if (s->running) return sw_scene_editable(s, err);
   SW_TRY(sw_scene_build(s, err));
   SW_TRY(sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err));
   sw_system_refresh(&s->system);
   return SW_OK;
+}
+
+/* The same of a wire only. */
+sw_status sw_scene_open_wire(sw_scene *s, sw_handle h, sw_scene_wire **wire, sw_error *err) {
+  if (!sw_scene_find_wire(s, h, err)) return SW_EDEAD;
+  return sw_scene_open_body(s, h, wire, err);
 }
 
 sw_status sw_scene_wire_length(sw_scene *s, sw_handle h, double *length, sw_error *err) {
@@ -33,7 +38,7 @@ sw_status sw_scene_wire_nodes(sw_scene *s, sw_handle h, size_t *nodes, sw_error 
 }
 
 sw_status sw_scene_wire_particles(sw_scene *s, sw_handle h, size_t *particles, sw_error *err) {
-  const sw_scene_wire *w = sw_scene_find_wire(s, h, err);
+  const sw_scene_wire *w = sw_scene_find_body(s, h, err);
   if (!w) return SW_EDEAD;
   *particles = w->strand.web ? w->strand.web->particles : w->mesh.n;
   return SW_OK;
@@ -42,7 +47,7 @@ sw_status sw_scene_wire_particles(sw_scene *s, sw_handle h, size_t *particles, s
 sw_status sw_scene_wire_particle_copy(sw_scene *s, sw_handle h, double *positions, double *arc,
                                       sw_error *err) {
   sw_scene_wire *w;
-  SW_TRY(open_wire(s, h, &w, err));
+  SW_TRY(sw_scene_open_body(s, h, &w, err));
   const sw_body *b = &s->system.bodies[h.slot];
   const size_t n = b->plan->nodes;
   memcpy(positions, s->system.x + 3 * b->first_node, 3 * n * sizeof(double));
@@ -163,18 +168,22 @@ static double torque_at(const sw_system *s, const sw_body *b, double at) {
   return 0.0;
 }
 
+sw_status sw_scene_check_place(const sw_scene_wire *w, double place, sw_error *err) {
+  const double length = w->mesh.s[w->mesh.n - 1] - w->mesh.s[0];
+  if (place >= 0 && place <= length * (1 + 1e-12)) return SW_OK;
+  return sw_fail(err, SW_EINVAL,
+                 "wire '%s': s = %.6g m is not on the wire; it must be in [0, %.6g] m", w->name,
+                 place, length);
+}
+
 sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double place, sw_point_state *out,
                            sw_error *err) {
   sw_scene_wire *w;
   sw_vec t0, t1;
   double k0, k1, f;
-  SW_TRY(open_wire(s, h, &w, err));
-  const double start = w->mesh.s[0], length = w->mesh.s[w->mesh.n - 1] - start;
-  if (!(place >= 0 && place <= length * (1 + 1e-12)))
-    return sw_fail(err, SW_EINVAL,
-                   "wire '%s': s = %.6g m is not on the wire; it must be in [0, %.6g] m", w->name,
-                   place, length);
-  const double at = place + start;
+  SW_TRY(sw_scene_open_wire(s, h, &w, err));
+  SW_TRY(sw_scene_check_place(w, place, err));
+  const double at = place + w->mesh.s[0];
   const sw_body *b = &s->system.bodies[h.slot];
   if (b->plan->web) {
     sw_strand_at(s, w, b, at, out);
@@ -209,7 +218,7 @@ sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double place, sw_point_stat
 sw_status sw_scene_wire_copy(sw_scene *s, sw_handle h, double *positions, double *arc,
                              double *velocities, sw_error *err) {
   sw_scene_wire *w;
-  SW_TRY(open_wire(s, h, &w, err));
+  SW_TRY(sw_scene_open_wire(s, h, &w, err));
   const sw_body *b = &s->system.bodies[h.slot];
   const size_t n = b->plan->nodes, at = 3 * b->first_node;
   const sw_web *web = b->plan->web;
@@ -229,7 +238,7 @@ sw_status sw_scene_wire_set_velocity(sw_scene *s, sw_handle h, sw_vec v, sw_vec 
                                      sw_error *err) {
   sw_scene_wire *w;
   SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(open_wire(s, h, &w, err));
+  SW_TRY(sw_scene_open_body(s, h, &w, err));
   const sw_body *b = &s->system.bodies[h.slot];
   for (size_t i = 0; i < b->plan->nodes; i++) {
     const size_t k = 3 * (b->first_node + i);
@@ -248,12 +257,13 @@ static void measure_from_start(sw_wire_extremes *e, double start) {
   e->curvature.s -= start;
   e->tension.s -= start;
   e->strain.s -= start;
+  e->ovalisation.s -= start;
 }
 
 sw_status sw_scene_wire_extremes(sw_scene *s, sw_handle h, sw_wire_extremes *now,
                                  sw_wire_extremes *run, sw_error *err) {
   sw_scene_wire *w;
-  SW_TRY(open_wire(s, h, &w, err));
+  SW_TRY(sw_scene_open_wire(s, h, &w, err));
   sw_scene_wire_now(s, h.slot, now);
   *run = w->extremes;
   sw_scene_keep_extremes(run, now);
@@ -278,19 +288,24 @@ static int lumped(const sw_scene *s) {
   return s->has_stepper && !(s->method->flags & SW_INTEGRATOR_IMPLICIT);
 }
 
+/* Of the forces on one body. */
+static void add_terms(sw_scene *s, size_t body, sw_energy *out) {
+  for (size_t k = 0; k < s->system.bodies[body].term_count; k++) {
+    const sw_term *term = &s->system.bodies[body].terms[k];
+    double other;
+    const double energy = sw_system_term_energy(&s->system, body, k, &other);
+    add_energy(out, term->cls->stores ? term->cls->stores : term->cls->name, energy - other);
+    if (other != 0) add_energy(out, term->cls->corrects ? term->cls->corrects : "bend", other);
+  }
+}
+
 static void collect_energy(sw_scene *s, sw_energy *out) {
   out->count = 0;
   add_energy(out, "kinetic", sw_system_kinetic(&s->system, lumped(s)));
-  for (size_t b = 0; b < s->system.body_count; b++)
-    for (size_t k = 0; k < s->system.bodies[b].term_count; k++) {
-      const sw_term *term = &s->system.bodies[b].terms[k];
-      double bending;
-      const double energy = sw_system_term_energy(&s->system, b, k, &bending);
-      add_energy(out, term->cls->stores ? term->cls->stores : term->cls->name, energy - bending);
-      if (bending != 0) add_energy(out, "bend", bending);
-    }
+  for (size_t b = 0; b < s->system.body_count; b++) add_terms(s, b, out);
   out->dissipated = sw_system_dissipated(&s->system, &out->has_dissipated);
   if (sw_scene_has_contact(s)) add_energy(out, "contact", sw_scene_contact_energy(s));
+  if (s->crowd) add_energy(out, "repel", sw_crowd_energy(s->crowd, &s->system));
   if (s->system.joins) add_energy(out, "join", sw_joins_energy(&s->system));
 }
 
@@ -300,6 +315,20 @@ sw_status sw_scene_energy(sw_scene *s, sw_energy *out, sw_error *err) {
   SW_TRY(sw_scene_build(s, err));
   SW_TRY(sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err));
   collect_energy(s, out);
+  return SW_OK;
+}
+
+sw_status sw_scene_body_energy(sw_scene *s, sw_handle h, sw_energy *out, sw_error *err) {
+  sw_scene_wire *w;
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_open_body(s, h, &w, err));
+  *out = (sw_energy){0};
+  add_energy(out, "kinetic", sw_body_kinetic(&s->system, h.slot, lumped(s)));
+  add_terms(s, h.slot, out);
+  for (size_t k = 0; k < s->system.bodies[h.slot].term_count; k++) {
+    const double *history = s->system.bodies[h.slot].terms[k].history;
+    if (history) out->dissipated += history[0], out->has_dissipated = 1;
+  }
   return SW_OK;
 }
 

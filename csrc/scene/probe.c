@@ -46,7 +46,7 @@ sw_status sw_scene_probe(sw_scene *s, sw_handle wire, const sw_force_class *cls,
                          sw_probe_result *out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
-  if (!sw_scene_find_wire(s, wire, err)) return SW_EDEAD;
+  if (!sw_scene_find_body(s, wire, err)) return SW_EDEAD;
   SW_TRY(sw_scene_build(s, err));
   SW_TRY(sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err));
   sw_body *b = &s->system.bodies[wire.slot];

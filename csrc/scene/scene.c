@@ -31,6 +31,7 @@ sw_status sw_scene_new(const sw_scene_args *args, sw_scene **out, sw_error *err)
 void sw_scene_clear_hold(sw_scene_hold *h) {
   sw_free(h->s);
   sw_free(h->local);
+  sw_free(h->particle);
   sw_free(h->log.rows);
   sw_drive_free(&h->drive);
   sw_motion_release(h->feed.motion);
@@ -45,18 +46,15 @@ void sw_scene_clear_obstacle(sw_scene_obstacle *o) {
 
 void sw_scene_free(sw_scene *s) {
   if (!s) return;
-  for (size_t i = 0; i < s->wire_count; i++) {
-    sw_mesh_free(&s->wires[i].mesh);
-    sw_strand_free(&s->wires[i].strand);
-    sw_free(s->wires[i].twisted);
-    sw_free(s->wires[i].drawing.points);
-  }
+  for (size_t i = 0; i < s->wire_count; i++) sw_scene_clear_body(&s->wires[i]);
+  for (size_t i = 0; i < s->force_count; i++) sw_scene_clear_force(&s->forces[i]);
   for (size_t i = 0; i < s->hold_count; i++) sw_scene_clear_hold(&s->holds[i]);
   for (size_t i = 0; i < s->obstacle_count; i++) sw_scene_clear_obstacle(&s->obstacles[i]);
   sw_scene_orphan_snapshots(s);
   sw_stepper_free(&s->stepper);
   sw_contact_free(s->contact);
   sw_pairs_free(s->pairs);
+  sw_crowd_free(s->crowd);
   sw_scene_drop_rules(s, 0);
   sw_free(s->rules);
   sw_system_free(&s->system);
@@ -102,10 +100,17 @@ sw_status sw_scene_editable(const sw_scene *s, sw_error *err) {
   return SW_OK;
 }
 
-sw_scene_wire *sw_scene_find_wire(const sw_scene *s, sw_handle h, sw_error *err) {
+sw_scene_wire *sw_scene_find_body(const sw_scene *s, sw_handle h, sw_error *err) {
   if (h.slot < s->wire_count && s->wires[h.slot].generation == h.generation)
     return &s->wires[h.slot];
-  sw_fail(err, SW_EDEAD, "this wire is not of scene '%s' any more", s->name);
+  sw_fail(err, SW_EDEAD, "this object is not of scene '%s' any more", s->name);
+  return NULL;
+}
+
+sw_scene_wire *sw_scene_find_wire(const sw_scene *s, sw_handle h, sw_error *err) {
+  sw_scene_wire *w = sw_scene_find_body(s, h, err);
+  if (!w || !sw_scene_is_loose(w)) return w;
+  sw_fail(err, SW_EINVAL, "'%s' is an object of particles, not a wire", w->name);
   return NULL;
 }
 
@@ -125,7 +130,7 @@ sw_scene_obstacle *sw_scene_find_obstacle(const sw_scene *s, sw_handle h, sw_err
 }
 
 const char *sw_scene_wire_name(const sw_scene *s, sw_handle h) {
-  const sw_scene_wire *w = sw_scene_find_wire(s, h, NULL);
+  const sw_scene_wire *w = sw_scene_find_body(s, h, NULL);
   return w ? w->name : NULL;
 }
 
@@ -146,7 +151,7 @@ const char *sw_scene_obstacle_name(const sw_scene *s, sw_handle h, const char **
 }
 
 /* A name for an unnamed object: "wire1", "box2", ... */
-static void give_name(char *out, const char *wanted, const char *kind, size_t number) {
+void sw_scene_give_name(char *out, const char *wanted, const char *kind, size_t number) {
   if (wanted[0])
     memcpy(out, wanted, SW_NAME_SIZE);
   else
@@ -192,6 +197,9 @@ static const sw_param mesh_rows[] = {
     {"squeeze", SW_PARAM_NUMBER, "Pa", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(squeeze),
      "stiffness of the section: line force of two plates on opposite sides over their approach "
      "(not given: as the springs come out)"},
+    {"wall", SW_PARAM_NUMBER, "N m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(wall),
+     "of a tube with core = false: bending stiffness of its wall per length, E t^3 / (12 (1 - "
+     "nu^2)), against flattening and ovalisation; takes the place of chords (brace)"},
     {"body", SW_PARAM_CHOICE, "-", SW_BODY_SPRINGS, 0, 0, 0, body_names, AT(body),
      "springs between the particles, or solid elements of finite strain with nu"},
 };
@@ -300,6 +308,19 @@ static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, c
   sw_recipe recipe;
   int by_angle = 0;
   w->cls->recipe(&w->beam, &recipe);
+  if ((cls->flags & SW_FORCE_AT_PLACE) && sw_scene_is_loose(w))
+    return sw_fail(err, SW_EINVAL,
+                   "force %s: '%s' is an object of particles, which has no arc length s; kind = "
+                   "'push' takes particles",
+                   cls->name, w->name);
+  if ((cls->flags & SW_FORCE_OF_WEB) && !w->cls->mesh)
+    return sw_fail(err, SW_EINVAL,
+                   "force %s: wire '%s' is a %s; it goes with objects of particles and with models "
+                   "that are meshes",
+                   cls->name, w->name, w->cls->name);
+  if (w->cls->mesh && !(cls->flags & SW_FORCE_ANY_BODY) && sw_scene_is_loose(w))
+    return sw_fail(err, SW_EINVAL, "force %s: '%s' is an object of particles; it goes with wires",
+                   cls->name, w->name);
   if (w->cls->mesh && !(cls->flags & SW_FORCE_ANY_BODY))
     return sw_fail(err, SW_EINVAL,
                    "force %s: wire '%s' is a %s, a mesh of particles, which it does not know; it "
@@ -321,6 +342,9 @@ static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, c
 
 sw_status sw_scene_check_line(const sw_scene_wire *w, const char *what, sw_error *err) {
   if (!w->cls->mesh) return SW_OK;
+  if (sw_scene_is_loose(w))
+    return sw_fail(err, SW_EINVAL, "%s: '%s' is an object of particles; it goes with wires only",
+                   what, w->name);
   return sw_fail(err, SW_EINVAL,
                  "%s: wire '%s' is a %s, a mesh of particles; it goes with rods "
                  "and strings only",
@@ -336,6 +360,7 @@ static sw_status draw_strand(sw_scene_wire *w, const sw_wire_args *args,
                                .spacing = mesh->spacing,
                                .squeeze = mesh->squeeze,
                                .body = mesh->body,
+                               .wall = mesh->wall,
                                .lattice = mesh->lattice,
                                .section = mesh->section,
                                .normal = d->normal,
@@ -349,20 +374,24 @@ static sw_status draw_strand(sw_scene_wire *w, const sw_wire_args *args,
     length += sw_dist(sw_vec_at(d->points, i), sw_vec_at(d->points, i + 1));
   if (!slices) SW_TRY(sw_strand_slices(&plan, &w->beam, length, &slices, err));
   SW_TRY(sw_scene_draw(w, slices, &w->mesh, err));
-  return sw_strand_new(&plan, &w->beam, &w->mesh, &w->strand, err);
+  return sw_strand_new(&plan, &w->beam, &w->mesh, NULL, &w->strand, err);
 }
 
-static sw_status check_rules(const sw_scene *s, const sw_scene_wire *w, sw_error *err) {
+sw_status sw_scene_check_rules(const sw_scene *s, size_t wire, const sw_scene_wire *as,
+                               sw_error *err) {
   for (size_t k = 0; k < s->force_count; k++)
-    if (s->forces[k].alive && s->forces[k].wire < 0)
-      SW_TRY(check_wire(s->forces[k].cls, w, s->forces[k].args, err));
-  for (size_t k = 0; k < s->rule_count; k++)
-    if (s->rules[k].count == 0 && s->rules[k].rule.on)
-      SW_TRY(sw_scene_check_line(w, "scene:wire_contact of all wires", err));
+    if (s->forces[k].alive && (s->forces[k].wire < 0 || s->forces[k].wire == (long)wire))
+      SW_TRY(check_wire(s->forces[k].cls, as, s->forces[k].args, err));
+  for (size_t k = 0; k < s->rule_count; k++) {
+    const sw_scene_rule *r = &s->rules[k];
+    int mine = r->count == 0;
+    for (size_t i = 0; i < r->count; i++) mine |= r->wires[i] == wire;
+    if (mine && r->rule.on) SW_TRY(sw_scene_check_line(as, "scene:wire_contact", err));
+  }
   return SW_OK;
 }
 
-static void clear_wire(sw_scene_wire *w) {
+void sw_scene_clear_body(sw_scene_wire *w) {
   sw_mesh_free(&w->mesh);
   sw_strand_free(&w->strand);
   sw_free(w->drawing.points);
@@ -381,7 +410,7 @@ static sw_status draw_wire(sw_scene *s, sw_scene_wire *w, const sw_wire_args *ar
     SW_TRY(sw_scene_draw(w, segments, &w->mesh, err));
   if (!w->cls->mesh && args->rest_twist != 0 && sw_scene_draw_untwisted(w) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", w->name);
-  return check_rules(s, w, err);
+  return sw_scene_check_rules(s, s->wire_count, w, err);
 }
 
 sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam *beam,
@@ -391,7 +420,7 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
   const double straight[6] = {args->from.x, args->from.y, args->from.z,
                               args->to.x,   args->to.y,   args->to.z};
   sw_scene_wire w = {.generation = s->serial + 1, .cls = sw_wire_all()[args->model], .beam = *beam};
-  give_name(w.name, args->name, "wire", s->wire_count);
+  sw_scene_give_name(w.name, args->name, "wire", s->wire_count);
   if (!points && (isnan(args->from.x) || isnan(args->to.x)))
     return sw_fail(err, SW_EINVAL, "wire '%s': give from and to, or path [m]", w.name);
   if (points && count < 2)
@@ -401,7 +430,7 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
   sw_status status = keep_drawing(&w, args, points ? points : straight, points ? count : 2);
   if (status == SW_OK) status = draw_wire(s, &w, args, mesh, err);
   if (status != SW_OK) {
-    clear_wire(&w);
+    sw_scene_clear_body(&w);
     return status;
   }
   w.drawing.length = w.mesh.s[w.mesh.n - 1];
@@ -412,7 +441,12 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
 
 const sw_calibration *sw_scene_wire_calibration(const sw_scene *s, sw_handle h) {
   const sw_scene_wire *w = sw_scene_find_wire(s, h, NULL);
-  return w && w->strand.web ? &w->strand.calibration : NULL;
+  return w && w->strand.kit ? &w->strand.kit->calibration : NULL;
+}
+
+const char *sw_scene_wire_model(const sw_scene *s, sw_handle h) {
+  const sw_scene_wire *w = sw_scene_find_wire(s, h, NULL);
+  return w ? w->cls->name : NULL;
 }
 
 /* --- obstacles -------------------------------------------------------------- */
@@ -443,7 +477,7 @@ sw_status sw_scene_add_obstacle(sw_scene *s, sw_shape *shape, const sw_obstacle_
                            .drive = {.pose = {args->at, args->rotation}},
                            .friction = args->friction,
                            .restitution = args->restitution};
-  give_name(o->name, args->name, sw_shape_kind(shape), s->obstacle_count);
+  sw_scene_give_name(o->name, args->name, sw_shape_kind(shape), s->obstacle_count);
   o->shape = sw_shape_retain(shape);
   *out = (sw_handle){(uint32_t)s->obstacle_count++, s->serial};
   return SW_OK;
@@ -512,10 +546,37 @@ static sw_status check_force(const sw_scene *s, const sw_force_class *cls, sw_ha
   return SW_OK;
 }
 
+void sw_scene_clear_force(sw_scene_force *f) { sw_free(f->particle); }
+
+static sw_status check_some(const sw_force_class *cls, const sw_scene_wire *w,
+                            const sw_force_some *some, sw_error *err) {
+  if (!w) return sw_fail(err, SW_EINVAL, "force %s: on is required: the object", cls->name);
+  if (!some->count)
+    return sw_fail(err, SW_EINVAL, "force %s: particles of '%s': none", cls->name, w->name);
+  for (size_t i = 0; i < some->count; i++)
+    if (some->particle[i] >= w->strand.web->particles)
+      return sw_fail(err, SW_EINVAL, "force %s: '%s' has no particle %lu; it has %zu, from 1 on",
+                     cls->name, w->name, (unsigned long)some->particle[i] + 1,
+                     w->strand.web->particles);
+  return SW_OK;
+}
+
+/* The scene's own list instead of the caller's. SW_ENOMEM. */
+static sw_status own_list(sw_scene_force *f) {
+  sw_force_some some;
+  memcpy(&some, f->args, sizeof some);
+  f->particle = sw_alloc(some.count, sizeof *f->particle);
+  if (!f->particle) return SW_ENOMEM;
+  memcpy(f->particle, some.particle, some.count * sizeof *f->particle);
+  some.particle = f->particle;
+  memcpy(f->args, &some, sizeof some);
+  return SW_OK;
+}
+
 sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle wire,
                              const void *args, size_t args_size, sw_handle *out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  const sw_scene_wire *w = wire.generation ? sw_scene_find_wire(s, wire, err) : NULL;
+  const sw_scene_wire *w = wire.generation ? sw_scene_find_body(s, wire, err) : NULL;
   if (wire.generation && !w) return SW_EDEAD;
   if (args_size > SW_FORCE_ARGS_MAX) return sw_fail(err, SW_ELIMIT, "force: too many arguments");
   if (cls->flags & SW_FORCE_AT_PLACE) {
@@ -528,17 +589,19 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
                      cls->name, at, w->name, length);
   }
   SW_TRY(check_force(s, cls, wire, args, err));
+  if (cls->flags & SW_FORCE_ON_SOME) SW_TRY(check_some(cls, w, args, err));
   SW_TRY(sw_scene_thaw(s));
   SW_TRY(sw_grow((void **)&s->forces, &s->force_capacity, s->force_count + 1, sizeof *s->forces));
   sw_scene_force *f = &s->forces[s->force_count];
-  *f = (sw_scene_force){.generation = ++s->serial,
+  *f = (sw_scene_force){.generation = s->serial + 1,
                         .alive = 1,
                         .cls = cls,
                         .wire = wire.generation ? (long)wire.slot : -1,
                         .scale = w ? w->mesh.scale : 1.0};
   if (args_size) memcpy(f->args, args, args_size);
+  if (cls->flags & SW_FORCE_ON_SOME) SW_TRY(own_list(f));
   if (w && cls->flags & SW_FORCE_AT_PLACE) f->args[0] += w->mesh.s[0]; /* stays with the wire */
-  *out = (sw_handle){(uint32_t)s->force_count++, s->serial};
+  *out = (sw_handle){(uint32_t)s->force_count++, ++s->serial};
   return SW_OK;
 }
 

@@ -18,7 +18,7 @@ void sw_strand_rings(const sw_mesh *m, double *s1, double *s2) {
   *s1 = m->s[first], *s2 = m->s[last];
 }
 
-static sw_vec middle_of(const sw_web *w, const double *x, size_t ring) {
+sw_vec sw_strand_middle(const sw_web *w, const double *x, size_t ring) {
   double at[3];
   sw_web_middle(w, x, ring, at);
   return sw_load(at);
@@ -31,18 +31,30 @@ void sw_strand_take(sw_scene_wire *wire, const sw_system *s, const sw_body *b) {
   memcpy(p->v, s->v + at, size);
   memcpy(p->a, s->a + at, size);
   memcpy(p->axial, s->tension + b->first_edge, p->web->links * sizeof(double));
-  for (size_t r = 0; r < wire->mesh.n; r++) {
-    sw_store(wire->mesh.x + 3 * r, middle_of(p->web, p->x, r));
-    sw_store(wire->mesh.v + 3 * r, middle_of(p->web, p->v, r));
+  for (size_t r = 0; r < p->web->rings; r++) {
+    sw_store(wire->mesh.x + 3 * r, sw_strand_middle(p->web, p->x, r));
+    sw_store(wire->mesh.v + 3 * r, sw_strand_middle(p->web, p->v, r));
   }
 }
 
 /* --- sections -------------------------------------------------------------------- */
 
-/* Direction across section r: of the area that its surface encloses. */
-static sw_vec facing(const sw_web *w, const double *x, size_t ring) {
-  const double *at = x + 3 * ring * w->per_ring;
-  const sw_vec middle = middle_of(w, x, ring);
+/* Direction of a line of particles at one of them: of both parts beside it, the shorter one's
+ * counting more. */
+static sw_vec line_direction(const sw_web *w, const double *x, size_t ring) {
+  const sw_vec at = sw_strand_middle(w, x, ring);
+  sw_vec before = sw_v(0, 0, 0), after = before;
+  if (ring > 0) before = sw_sub(at, sw_strand_middle(w, x, ring - 1));
+  if (ring + 1 < w->rings) after = sw_sub(sw_strand_middle(w, x, ring + 1), at);
+  const double b2 = sw_norm2(before), a2 = sw_norm2(after);
+  if (!(b2 > 0) || !(a2 > 0)) return sw_unit_or(sw_add(before, after), sw_v(1, 0, 0));
+  return sw_unit_or(sw_add(sw_scale(before, a2), sw_scale(after, b2)), sw_v(1, 0, 0));
+}
+
+sw_vec sw_strand_facing(const sw_web *w, const double *x, size_t ring) {
+  if (!sw_web_is_ring(w, ring)) return line_direction(w, x, ring);
+  const double *at = x + 3 * w->first[ring];
+  const sw_vec middle = sw_strand_middle(w, x, ring);
   sw_vec sum = sw_v(0, 0, 0);
   for (size_t k = 0; k < w->around_count; k++) {
     const sw_vec p = sw_sub(sw_vec_at(at, w->around[k]), middle);
@@ -70,7 +82,7 @@ static void add_solid_force(const sw_web *w, const double *x, const sw_web_solid
 static void slice_force(const sw_web *w, const double *x, size_t r, sw_vec about, sw_vec *force,
                         sw_vec *moment) {
   *force = *moment = sw_v(0, 0, 0);
-  const size_t next = (r + 1) * w->per_ring;
+  const size_t next = w->first[r + 1];
   for (size_t e = w->ring_links[r]; e < w->ring_links[r + 1]; e++) {
     const sw_web_link *link = &w->link[e];
     if (link->b < next) continue; /* within ring r */
@@ -89,10 +101,11 @@ typedef struct slice {
 } slice;
 
 static slice slice_of(const sw_web *w, const double *x, size_t r) {
-  const sw_vec a = middle_of(w, x, r), b = middle_of(w, x, r + 1), about = sw_lerp(a, b, 0.5);
-  const sw_vec t0 = facing(w, x, r), t1 = facing(w, x, r + 1);
+  const sw_vec a = sw_strand_middle(w, x, r), b = sw_strand_middle(w, x, r + 1),
+               about = sw_lerp(a, b, 0.5);
+  const sw_vec t0 = sw_strand_facing(w, x, r), t1 = sw_strand_facing(w, x, r + 1);
   const sw_vec axis = sw_unit_or(sw_add(t0, t1), t0);
-  const double h = w->s[(r + 1) * w->per_ring] - w->s[r * w->per_ring];
+  const double h = w->s[w->first[r + 1]] - w->s[w->first[r]];
   sw_vec force, moment;
   slice_force(w, x, r, about, &force, &moment);
   return (slice){sw_dot(force, axis), sw_dot(moment, axis),
@@ -121,15 +134,15 @@ void sw_strand_at(const sw_scene *s, const sw_scene_wire *wire, const sw_body *b
   const double *x = s->system.x + 3 * b->first_node, *v = s->system.v + 3 * b->first_node;
   double f;
   const size_t r = sw_plan_locate(b->plan, place, &f);
-  const sw_vec x0 = middle_of(w, x, r), x1 = middle_of(w, x, r + 1);
-  const sw_vec t0 = facing(w, x, r), t1 = facing(w, x, r + 1);
+  const sw_vec x0 = sw_strand_middle(w, x, r), x1 = sw_strand_middle(w, x, r + 1);
+  const sw_vec t0 = sw_strand_facing(w, x, r), t1 = sw_strand_facing(w, x, r + 1);
   const double l = sw_dist(x0, x1), h00 = (1 + 2 * f) * (1 - f) * (1 - f);
   const double h10 = f * (1 - f) * (1 - f), h01 = f * f * (3 - 2 * f), h11 = f * f * (f - 1);
   const slice at = slice_at(w, x, r, f);
   const double EA = wire->beam.EA, bent = fmax(0.0, at.curvature) * wire->beam.radius;
   out->position = sw_add(sw_add(sw_scale(x0, h00), sw_scale(t0, l * h10)),
                          sw_add(sw_scale(x1, h01), sw_scale(t1, l * h11)));
-  out->velocity = sw_lerp(middle_of(w, v, r), middle_of(w, v, r + 1), f);
+  out->velocity = sw_lerp(sw_strand_middle(w, v, r), sw_strand_middle(w, v, r + 1), f);
   out->tangent = sw_unit_or(sw_lerp(t0, t1, f), t0);
   out->curvature = fmax(0.0, at.curvature);
   out->tension = at.tension;
@@ -144,10 +157,11 @@ void sw_strand_extremes(const sw_scene *s, size_t wire, sw_wire_extremes *now) {
   const sw_web *w = b->plan->web;
   const double *x = s->system.x + 3 * b->first_node, EA = b->plan->beam.EA;
   const sw_extreme least = {.value = -HUGE_VAL};
-  *now = (sw_wire_extremes){least, least, least};
+  *now = (sw_wire_extremes){least, least, least, least};
+  if (!w->rings) return; /* an object of particles */
   for (size_t r = 0; r + 1 < w->rings; r++) {
     const slice at = slice_of(w, x, r);
-    const double place = 0.5 * (w->s[r * w->per_ring] + w->s[(r + 1) * w->per_ring]);
+    const double place = 0.5 * (w->s[w->first[r]] + w->s[w->first[r + 1]]);
     const double strain = at.tension / EA + b->plan->beam.radius * at.curvature;
     if (at.curvature > now->curvature.value)
       now->curvature = (sw_extreme){.value = at.curvature, .s = place};
@@ -155,4 +169,5 @@ void sw_strand_extremes(const sw_scene *s, size_t wire, sw_wire_extremes *now) {
       now->tension = (sw_extreme){.value = at.tension, .s = place};
     if (strain > now->strain.value) now->strain = (sw_extreme){.value = strain, .s = place};
   }
+  now->ovalisation = sw_strand_ovalisation(w, x);
 }

@@ -231,9 +231,21 @@ static double shortest_edge(const sw_system *s) {
     const sw_plan *p = s->bodies[b].plan;
     if (p->web && p->web->rings > 1)
       shortest = fmin(shortest, p->length / (double)(p->web->rings - 1));
+    for (size_t e = 0; p->web && !p->web->per_ring && e < p->web->links; e++)
+      shortest = fmin(shortest, p->web->link[e].rest);
     for (size_t e = 0; e < p->edges; e++) shortest = fmin(shortest, p->rest[e]);
   }
   return shortest;
+}
+
+/* How far out particles of a mesh are from the axis about which a hold turns them [m]. */
+static double widest_mesh(const sw_system *s) {
+  double widest = 0;
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_plan *p = s->bodies[b].plan;
+    if (p->web && p->web->rings > 1) widest = fmax(widest, p->beam.radius);
+  }
+  return widest;
 }
 
 /* Into how many parts the way of the holds to their places is to be cut, so that
@@ -241,11 +253,12 @@ static double shortest_edge(const sw_system *s) {
 static sw_status count_parts(statics *p, size_t *parts, sw_error *err) {
   sw_system *s = &p->s->system;
   double most = 0;
-  SW_TRY(sw_system_place_holds(s, p->s->time, NULL, NULL, NULL, err));
+  SW_TRY(sw_system_place_holds(s, p->s->time, NULL, NULL, NULL, err)); /* feeds move nodes */
+  const double longest_shift = LONGEST_PART * shortest_edge(s), lever = widest_mesh(s);
   for (size_t k = 0; k < s->hold_count; k++) {
     const sw_pose *from = &p->from_poses[k], *to = &s->hold_states[k].pose;
-    const double shift = sw_dist(from->p, to->p) / (LONGEST_PART * shortest_edge(s));
     const double turn = sw_norm(sw_quat_log(sw_quat_mul(to->q, sw_quat_conj(from->q))));
+    const double shift = (sw_dist(from->p, to->p) + lever * turn) / longest_shift;
     most = fmax(most, fmax(shift, turn / WIDEST_PART));
   }
   *parts = most <= 1 ? 1 : (size_t)fmin(ceil(most), MOST_PARTS);

@@ -30,8 +30,10 @@ struct sw_snapshot {
   sw_vec gravity;
   size_t wires, holds, obstacles, forces, frames;
   sw_mesh *meshes;
-  sw_wire_extremes *extremes; /* (wires) */
-  int *untwisted;             /* (wires) */
+  sw_strand *strands;           /* (wires), their places those of some state or other */
+  const sw_wire_class **models; /* (wires) */
+  sw_wire_extremes *extremes;   /* (wires) */
+  int *untwisted;               /* (wires) */
   saved_hold *hold;
   saved_obstacle *obstacle;
   int *force_alive;
@@ -81,6 +83,7 @@ void sw_snapshot_free(sw_snapshot *p) {
   if (!p) return;
   unlink_snapshot(p);
   for (size_t w = 0; p->meshes && w < p->wires; w++) sw_mesh_free(&p->meshes[w]);
+  for (size_t w = 0; p->strands && w < p->wires; w++) sw_strand_free(&p->strands[w]);
   for (size_t k = 0; p->hold && k < p->holds; k++) {
     sw_drive_free(&p->hold[k].drive);
     sw_scene_clear_hold(&p->hold[k].shape);
@@ -88,6 +91,8 @@ void sw_snapshot_free(sw_snapshot *p) {
   }
   for (size_t k = 0; p->obstacle && k < p->obstacles; k++) sw_drive_free(&p->obstacle[k].drive);
   sw_free(p->meshes);
+  sw_free(p->strands);
+  sw_free(p->models);
   sw_free(p->extremes);
   sw_free(p->untwisted);
   sw_free(p->hold);
@@ -117,16 +122,21 @@ static sw_drive copy_drive(const sw_drive *d) {
 
 static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
   p->meshes = sw_alloc(s->wire_count, sizeof *p->meshes);
+  p->strands = sw_alloc(s->wire_count, sizeof *p->strands);
+  p->models = sw_alloc(s->wire_count, sizeof *p->models);
   p->extremes = sw_alloc(s->wire_count, sizeof *p->extremes);
   p->untwisted = sw_alloc(s->wire_count, sizeof *p->untwisted);
   p->hold = sw_alloc(s->hold_count, sizeof *p->hold);
   p->obstacle = sw_alloc(s->obstacle_count, sizeof *p->obstacle);
   p->force_alive = sw_alloc(s->force_count, sizeof *p->force_alive);
-  if (!p->meshes || !p->extremes || !p->untwisted || !p->hold || !p->obstacle || !p->force_alive)
+  if (!p->meshes || !p->strands || !p->models || !p->extremes || !p->untwisted || !p->hold ||
+      !p->obstacle || !p->force_alive)
     return SW_ENOMEM;
   for (size_t w = 0; w < s->wire_count; w++) {
     SW_TRY(sw_mesh_copy(&s->wires[w].mesh, &p->meshes[w]));
     p->wires = w + 1;
+    SW_TRY(sw_strand_copy(&s->wires[w].strand, &p->strands[w]));
+    p->models[w] = s->wires[w].cls;
     p->extremes[w] = s->wires[w].extremes;
     p->untwisted[w] = s->wires[w].untwisted;
   }
@@ -202,7 +212,8 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
 static int same_plan(const sw_scene *s, const sw_snapshot *p) {
   if (!s->built || s->wire_count != p->wires || s->rule_count != p->rules) return 0;
   for (size_t w = 0; w < p->wires; w++)
-    if (s->wires[w].mesh.n != p->meshes[w].n || s->wires[w].mesh.scale != p->meshes[w].scale ||
+    if (s->wires[w].cls != p->models[w] || s->wires[w].strand.web != p->strands[w].web ||
+        s->wires[w].mesh.n != p->meshes[w].n || s->wires[w].mesh.scale != p->meshes[w].scale ||
         memcmp(s->wires[w].mesh.s, p->meshes[w].s, p->meshes[w].n * sizeof(double)) != 0)
       return 0;
   for (size_t k = 0; k < s->hold_count; k++)
@@ -282,21 +293,26 @@ static void drop_newer(sw_scene *s) {
   }
   while (s->hold_count > holds) sw_scene_clear_hold(&s->holds[--s->hold_count]);
   while (s->obstacle_count > obstacles) sw_scene_clear_obstacle(&s->obstacles[--s->obstacle_count]);
-  if (s->force_count > forces) s->force_count = forces;
+  while (s->force_count > forces) sw_scene_clear_force(&s->forces[--s->force_count]);
   if (s->join_count > joins) s->join_count = joins;
 }
 
 /* What the scene's meshes and holds were, allocated before anything is changed. */
 typedef struct copies {
   sw_mesh *meshes;      /* (wires) */
+  sw_strand *strands;   /* (wires) */
   sw_scene_hold *holds; /* (holds): shapes of those that were taken anew since */
 } copies;
 
 static sw_status make_copies(const sw_scene *s, const sw_snapshot *p, copies *c) {
   c->meshes = sw_alloc(p->wires, sizeof *c->meshes);
+  c->strands = sw_alloc(p->wires, sizeof *c->strands);
   c->holds = sw_alloc(p->holds, sizeof *c->holds);
-  if (!c->meshes || !c->holds) return SW_ENOMEM;
-  for (size_t w = 0; w < p->wires; w++) SW_TRY(sw_mesh_copy(&p->meshes[w], &c->meshes[w]));
+  if (!c->meshes || !c->strands || !c->holds) return SW_ENOMEM;
+  for (size_t w = 0; w < p->wires; w++) {
+    SW_TRY(sw_mesh_copy(&p->meshes[w], &c->meshes[w]));
+    SW_TRY(sw_strand_copy(&p->strands[w], &c->strands[w]));
+  }
   for (size_t k = 0; k < p->holds; k++)
     if (s->holds[k].shape != p->hold[k].shape.shape)
       SW_TRY(sw_scene_copy_shape(&p->hold[k].shape, &c->holds[k]));
@@ -305,18 +321,21 @@ static sw_status make_copies(const sw_scene *s, const sw_snapshot *p, copies *c)
 
 static void free_copies(const sw_snapshot *p, copies *c) {
   for (size_t w = 0; c->meshes && w < p->wires; w++) sw_mesh_free(&c->meshes[w]);
+  for (size_t w = 0; c->strands && w < p->wires; w++) sw_strand_free(&c->strands[w]);
   for (size_t k = 0; c->holds && k < p->holds; k++) sw_scene_clear_hold(&c->holds[k]);
   sw_free(c->meshes);
+  sw_free(c->strands);
   sw_free(c->holds);
 }
 
 static void swap_shape(sw_scene_hold *h, sw_scene_hold *copy) {
   double *s = h->s, *local = h->local;
+  uint32_t *particle = h->particle;
   h->shape = copy->shape, h->s1 = copy->s1, h->s2 = copy->s2, h->count = copy->count;
   memcpy(h->director, copy->director, sizeof h->director);
   memcpy(h->frame, copy->frame, sizeof h->frame);
-  h->s = copy->s, h->local = copy->local;
-  copy->s = s, copy->local = local;
+  h->s = copy->s, h->local = copy->local, h->particle = copy->particle;
+  copy->s = s, copy->local = local, copy->particle = particle;
 }
 
 /* Meshes and holds as they were, in a scene that is not built. */
@@ -326,8 +345,12 @@ static sw_status put_meshes(sw_scene *s, const sw_snapshot *p) {
   if (status == SW_OK) {
     for (size_t w = 0; w < p->wires; w++) {
       const sw_mesh now = s->wires[w].mesh;
+      const sw_strand strand = s->wires[w].strand;
       s->wires[w].mesh = c.meshes[w];
+      s->wires[w].strand = c.strands[w];
+      s->wires[w].cls = p->models[w];
       c.meshes[w] = now;
+      c.strands[w] = strand;
     }
     for (size_t k = 0; k < p->holds; k++)
       if (c.holds[k].s) swap_shape(&s->holds[k], &c.holds[k]);

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "force/solid.h"
+#include "scene/strand_inner.h"
 #include "state/hinge.h"
 
 /* Particles at a surface are this far inside of it, so that what touches them has a side; of the
@@ -50,6 +50,14 @@ static sw_status calibrate(const sw_strand_plan *p, const sw_beam *beam, double 
                    "wire '%s': bonded = false is for sw.calibrate only; in a scene parts of a "
                    "composite are bonded",
                    p->name);
+  if (!isnan(p->wall) && (args.mesh != SW_LATTICE_TUBE || lattice.tube.core))
+    return sw_fail(err, SW_EINVAL,
+                   "wire '%s': wall = %.6g N m goes with model = 'tube' and core = false", p->name,
+                   p->wall);
+  if (!isnan(p->wall)) { /* chords and wide diagonals would hold the ring round too */
+    if (lattice.tube.brace < 0) lattice.tube.brace = 0;
+    if (lattice.tube.reach == 0) lattice.tube.reach = 1;
+  }
   const sw_status status = sw_calibrate(&args, &section, &lattice, out, &why);
   if (status == SW_OK) return SW_OK;
   const char *text = strncmp(why.text, "calibrate: ", 11) == 0 ? why.text + 11 : why.text;
@@ -73,201 +81,30 @@ sw_status sw_strand_slices(const sw_strand_plan *p, const sw_beam *beam, double 
   return SW_OK;
 }
 
-/* --- the mesh of particles ------------------------------------------------------------ */
+/* --- where particles are --------------------------------------------------------------- */
 
-typedef struct maker {
-  const sw_strand_plan *plan;
-  const sw_lattice *lattice;
-  const sw_mesh *mesh;
-  const double *k; /* of groups */
-  sw_web *web;
-  sw_strand *strand;
-} maker;
-
-/* Share of a link that lies within ring r: those of the ends belong to half a slice. */
-static double ring_share(const maker *m, const sw_cell_link *link, size_t r) {
-  return link->slices == 0 && (r == 0 || r + 1 == m->mesh->n) ? 0.5 : 1.0;
+/* Where particle i of the section at node r is, in axes across, across, along. */
+static sw_vec in_section(const sw_strand_maker *m, size_t r, size_t i) {
+  sw_vec at = sw_vec_at(m->lattice->at, i);
+  const size_t n = 3 * m->lattice->particles;
+  if (sw_strand_is_line(m, r + 1) || (r > 0 && sw_strand_is_line(m, r - 1)))
+    return at; /* a lever keeps the section as it is */
+  for (size_t s = 0; m->warp && s < SW_CELL_STRAINS; s++)
+    at = sw_madd(at, sw_vec_at(m->warp + s * n, i), m->lie->strains[SW_CELL_STRAINS * r + s]);
+  return at;
 }
 
-/* Does the link that starts at ring r end on the wire? A bend spring needs a ring before. */
-static int fits(const maker *m, const sw_cell_link *link, size_t r) {
-  if (link->bend) return r > 0 && r + 1 < m->mesh->n;
-  return r + (size_t)link->slices < m->mesh->n;
-}
-
-/* Unstressed length: of the drawn shape, or of the straight lattice, twisted at rest. */
-static double rest_length(const maker *m, const sw_cell_link *link, size_t r) {
-  const size_t n = m->lattice->particles;
-  if (m->plan->curved)
-    return sw_dist(sw_vec_at(m->strand->x, r * n + link->from),
-                   sw_vec_at(m->strand->x, (r + (size_t)link->slices) * n + link->to));
-  const double z = (double)link->slices * m->lattice->spacing, turn = m->plan->rest_twist * z;
-  const double *a = m->lattice->at + 3 * (size_t)link->from;
-  const double *b = m->lattice->at + 3 * (size_t)link->to;
-  const double x = cos(turn) * b[0] - sin(turn) * b[1], y = sin(turn) * b[0] + cos(turn) * b[1];
-  return sqrt((x - a[0]) * (x - a[0]) + (y - a[1]) * (y - a[1]) + z * z);
-}
-
-static void add_links(maker *m) {
-  const size_t n = m->lattice->particles;
-  size_t links = 0, folds = 0;
-  for (size_t r = 0; r < m->mesh->n; r++) {
-    m->web->ring_links[r] = links;
-    for (size_t i = 0; i < m->lattice->links; i++) {
-      const sw_cell_link *link = &m->lattice->link[i];
-      if (!fits(m, link, r)) continue;
-      const double k = m->k[link->group] * link->weight * ring_share(m, link, r);
-      const uint32_t from = (uint32_t)(r * n) + link->from;
-      const uint32_t to = (uint32_t)((r + (size_t)link->slices) * n) + link->to;
-      if (link->bend)
-        m->web->fold[folds++] = (sw_web_fold){from - (uint32_t)n, from, from + (uint32_t)n, k};
-      else
-        m->web->link[links++] = (sw_web_link){from, to, k, rest_length(m, link, r)};
-    }
-  }
-  m->web->ring_links[m->mesh->n] = links;
-}
-
-/* Rest places of an element's corners, of a shape that serves all slices unless the wire is
- * curved at rest. */
-static void rest_corners(const maker *m, const sw_cell_solid *e, size_t r, double *out) {
-  const size_t n = m->lattice->particles, half = (size_t)e->nodes / 2;
-  for (size_t i = 0; i < (size_t)e->nodes; i++) {
-    const size_t next = i >= half;
-    const double *at = m->lattice->at + 3 * (size_t)e->particle[i];
-    const double z = next ? m->lattice->spacing : 0.0, turn = m->plan->rest_twist * z;
-    sw_vec p = sw_v(cos(turn) * at[0] - sin(turn) * at[1], sin(turn) * at[0] + cos(turn) * at[1],
-                    at[2] + z);
-    if (m->plan->curved) p = sw_vec_at(m->strand->x, (r + next) * n + e->particle[i]);
-    sw_store(out + 3 * i, p);
-  }
-}
-
-static sw_status prepare_shapes(maker *m) {
-  const sw_lattice *l = m->lattice;
-  const size_t slices = m->plan->curved ? m->mesh->n - 1 : 1;
-  const double E = m->k[SW_GROUP_SOLID], nu = m->strand->calibration.nu;
-  const double mu = 0.5 * E / (1.0 + nu), lambda = E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
-  sw_solid *shape = sw_alloc(slices * l->solids, sizeof *shape);
-  if (!shape) return SW_ENOMEM;
-  m->web->shapes = shape;
-  m->web->shape_count = slices * l->solids;
-  for (size_t k = 0; k < m->web->shape_count; k++) {
-    double rest[3 * SW_SOLID_NODES];
-    const sw_cell_solid *e = &l->solid[k % l->solids];
-    rest_corners(m, e, k / l->solids, rest);
-    SW_TRY(sw_solid_prepare(e->nodes, rest, mu, lambda, &shape[k]));
-  }
-  return SW_OK;
-}
-
-static sw_status add_solids(maker *m) {
-  const sw_lattice *l = m->lattice;
-  const size_t n = l->particles, rings = m->mesh->n;
-  if (l->solids) SW_TRY(prepare_shapes(m));
-  for (size_t r = 0; r < rings; r++) {
-    m->web->ring_solids[r] = r * l->solids;
-    for (size_t k = 0; k < l->solids && r + 1 < rings; k++) {
-      const sw_cell_solid *e = &l->solid[k];
-      sw_web_solid *to = &m->web->solid[r * l->solids + k];
-      to->count = (uint32_t)e->nodes;
-      to->shape = (uint32_t)((m->plan->curved ? r * l->solids : 0) + k);
-      for (int i = 0; i < e->nodes; i++)
-        to->node[i] = (uint32_t)((r + (2 * i >= e->nodes)) * n) + e->particle[i];
-    }
-  }
-  m->web->ring_solids[rings] = m->web->solids;
-  return SW_OK;
-}
-
-static void count_links(const maker *m, size_t *links, size_t *folds) {
-  *links = *folds = 0;
-  for (size_t r = 0; r < m->mesh->n; r++)
-    for (size_t i = 0; i < m->lattice->links; i++)
-      if (fits(m, &m->lattice->link[i], r)) *(m->lattice->link[i].bend ? folds : links) += 1;
-}
-
-/* The particles of a section that lie on its convex outline, in their order round it: those
- * inside by more than rounding are left out. */
-static void find_around(const sw_lattice *l, sw_web *w) {
-  const size_t n = l->particles;
-  size_t first = 0;
-  for (size_t i = 1; i < n; i++)
-    if (l->at[3 * i] > l->at[3 * first]) first = i;
-  size_t at = first;
-  do { /* wrap the section: the next one has all others on its left */
-    w->around[w->around_count++] = (uint32_t)at;
-    size_t next = at == 0 && n > 1;
-    const double *p = l->at + 3 * at;
-    for (size_t i = 0; i < n; i++) {
-      const double *q = l->at + 3 * i, *o = l->at + 3 * next;
-      const double ux = o[0] - p[0], uy = o[1] - p[1], vx = q[0] - p[0], vy = q[1] - p[1];
-      const double cross = ux * vy - uy * vx, size = hypot(ux, uy) * hypot(vx, vy);
-      const int straight = fabs(cross) <= 1e-9 * size;
-      if (i == at || i == next || size == 0) continue;
-      if (cross < 0 && !straight) next = i;
-      if (straight && ux * vx + uy * vy > 0 && hypot(vx, vy) < hypot(ux, uy)) next = i;
-    }
-    at = next;
-  } while (at != first && w->around_count < n);
-}
-
-sw_status sw_strand_bound_solids(sw_web *w, const double *x) {
-  double at[3 * SW_SOLID_NODES], H[9 * SW_SOLID_NODES * SW_SOLID_NODES];
-  double *sum = sw_alloc(w->particles, sizeof *sum);
-  if (!sum) return SW_ENOMEM;
-  for (size_t n = 0; n < w->solids; n++) {
-    const sw_web_solid *s = &w->solid[n];
-    const size_t size = 3 * s->count;
-    for (uint32_t i = 0; i < s->count; i++) sw_store(at + 3 * i, sw_vec_at(x, s->node[i]));
-    sw_solid_eval((const sw_solid *)w->shapes + s->shape, at, SW_WANT_STIFFNESS, NULL, H);
-    for (size_t r = 0; r < size; r++) {
-      double row = 0;
-      for (size_t c = 0; c < size; c++) row += fabs(H[r * size + c]);
-      sum[s->node[r / 3]] += row / 3.0; /* of three directions the mean */
-    }
-  }
-  w->solid_rate2 = 0;
-  for (size_t p = 0; p < w->particles; p++)
-    w->solid_rate2 = fmax(w->solid_rate2, sum[p] / w->mass[p]);
-  sw_free(sum);
-  return SW_OK;
-}
-
-static sw_status fill_web(maker *m) {
-  const sw_lattice *l = m->lattice;
-  sw_web *w = m->web;
-  const size_t n = l->particles, rings = m->mesh->n;
-  w->rings = rings, w->per_ring = n;
-  w->banded = w->folds == 0;
-  w->share = sw_alloc(n, sizeof *w->share);
-  w->section = sw_alloc(2 * n, sizeof *w->section);
-  w->around = sw_alloc(n, sizeof *w->around);
-  w->ring_links = sw_alloc(rings + 1, sizeof *w->ring_links);
-  w->ring_solids = sw_alloc(rings + 1, sizeof *w->ring_solids);
-  if (!w->share || !w->section || !w->around || !w->ring_links || !w->ring_solids) return SW_ENOMEM;
-  w->axis = (uint32_t)n;
-  for (size_t i = 0; i < n; i++) {
-    w->share[i] = l->share[i];
-    w->section[2 * i] = l->at[3 * i], w->section[2 * i + 1] = l->at[3 * i + 1];
-    if (hypot(l->at[3 * i], l->at[3 * i + 1]) < 1e-9 * l->spacing) w->axis = (uint32_t)i;
-  }
-  const double slice = m->strand->calibration.mass_per_length * l->spacing;
-  for (size_t r = 0; r < rings; r++)
-    for (size_t i = 0; i < n; i++) {
-      w->mass[r * n + i] = slice * l->share[i] * (r == 0 || r + 1 == rings ? 0.5 : 1.0);
-      w->s[r * n + i] = m->mesh->s[r];
-    }
-  add_links(m);
-  SW_TRY(add_solids(m));
-  find_around(l, w);
-  SW_TRY(sw_strand_bound_solids(w, m->strand->x));
-  SW_TRY(sw_web_bound_rate(w));
-  return sw_web_add_surface(w);
+/* The particle of a line: a lever is straight before its section. */
+static sw_vec on_line(const sw_strand_maker *m, size_t r) {
+  const int left = r > 0 && sw_strand_is_ring(m, r - 1), right = sw_strand_is_ring(m, r + 1);
+  if (!left && !right) return sw_vec_at(m->mesh->x, r);
+  const size_t ring = left ? r - 1 : r + 1;
+  const double d = m->mesh->s[r] - m->mesh->s[ring];
+  return sw_madd(sw_vec_at(m->mesh->x, ring), sw_load(m->lie->frames + 6 * ring), d);
 }
 
 /* Particles across the line that the mesh's nodes are, sections carried along without twist. */
-static void place_particles(const maker *m) {
+static void place_particles(const sw_strand_maker *m) {
   const sw_mesh *mesh = m->mesh;
   const size_t n = m->lattice->particles;
   sw_vec t = sw_mesh_tangent(mesh, 0);
@@ -277,48 +114,52 @@ static void place_particles(const maker *m) {
     const sw_vec next = sw_mesh_tangent(mesh, r), middle = sw_vec_at(mesh->x, r);
     u = sw_carry_unit(u, t, next);
     t = next;
+    if (m->lie) t = sw_load(m->lie->frames + 6 * r), u = sw_load(m->lie->frames + 6 * r + 3);
     const sw_vec w = sw_cross(t, u);
-    for (size_t i = 0; i < n; i++) {
-      const double *at = m->lattice->at + 3 * i;
-      const sw_vec across = sw_madd(sw_scale(u, at[0]), w, at[1]);
-      sw_store(m->strand->x + 3 * (r * n + i), sw_madd(sw_add(middle, across), t, at[2]));
+    if (!sw_strand_is_ring(m, r)) sw_store(m->strand->x + 3 * m->first[r], on_line(m, r));
+    for (size_t i = 0; i < n && sw_strand_is_ring(m, r); i++) {
+      const sw_vec at = in_section(m, r, i), across = sw_madd(sw_scale(u, at.x), w, at.y);
+      sw_store(m->strand->x + 3 * (m->first[r] + i), sw_madd(sw_add(middle, across), t, at.z));
     }
   }
 }
 
-static sw_status new_particles(maker *m, size_t particles, size_t links) {
+static sw_status new_particles(sw_strand_maker *m) {
   sw_strand *s = m->strand;
-  s->x = sw_alloc(3 * particles, sizeof *s->x);
-  s->v = sw_alloc(3 * particles, sizeof *s->v);
-  s->a = sw_alloc(3 * particles, sizeof *s->a);
-  s->axial = sw_alloc(links, sizeof *s->axial);
-  if (!s->x || !s->v || !s->a || !s->axial) return SW_ENOMEM;
+  const size_t n = m->mesh->n;
+  m->first = sw_alloc(n + 1, sizeof *m->first);
+  if (!m->first) return SW_ENOMEM;
+  for (size_t r = 0; r < n; r++)
+    m->first[r + 1] = m->first[r] + (sw_strand_is_ring(m, r) ? m->lattice->particles : 1);
+  s->x = sw_alloc(3 * m->first[n], sizeof *s->x);
+  s->v = sw_alloc(3 * m->first[n], sizeof *s->v);
+  s->a = sw_alloc(3 * m->first[n], sizeof *s->a);
+  if (!s->x || !s->v || !s->a) return SW_ENOMEM;
   place_particles(m);
   return SW_OK;
 }
 
-static sw_status make(maker *m) {
-  size_t links, folds;
-  const size_t particles = m->mesh->n * m->lattice->particles;
-  count_links(m, &links, &folds);
-  SW_TRY(sw_web_new(particles, links, folds, (m->mesh->n - 1) * m->lattice->solids, &m->web));
-  m->strand->web = m->web;
-  SW_TRY(new_particles(m, particles, links));
-  SW_TRY(fill_web(m));
-  const double *x = m->strand->x;
-  for (size_t e = 0; e < links; e++) {
-    const sw_web_link *link = &m->web->link[e];
-    const double l = sw_dist(sw_vec_at(x, link->a), sw_vec_at(x, link->b));
-    m->strand->axial[e] = link->k * (l - link->rest);
-  }
-  return SW_OK;
+static sw_status make(sw_strand_maker *m) {
+  SW_TRY(new_particles(m));
+  return sw_strand_fill(m);
+}
+
+/* How sections give way to strains. */
+static sw_status find_warp(sw_strand_maker *m, sw_error *err) {
+  const sw_cell cell = sw_lattice_cell(m->lattice);
+  m->warp = sw_alloc(3 * SW_CELL_STRAINS * cell.particles, sizeof *m->warp);
+  if (!m->warp) return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", m->plan->name);
+  const sw_status status = sw_cell_warp(&cell, m->k, m->lattice->share, m->warp, err);
+  if (status == SW_OK) return SW_OK;
+  sw_free(m->warp);
+  return status;
 }
 
 enum { MOST_PARTICLES = 1000000 }; /* their matrices take gigabytes */
 
 static sw_status check_count(const sw_strand_plan *p, size_t rings, size_t per_ring,
                              sw_error *err) {
-  if (rings * per_ring <= MOST_PARTICLES) return SW_OK;
+  if (rings <= MOST_PARTICLES / per_ring) return SW_OK;
   return sw_fail(err, SW_EINVAL,
                  "wire '%s': %zu slices of %zu particles or more are too many; at most %d "
                  "particles are allowed",
@@ -329,39 +170,78 @@ static sw_status check_count(const sw_strand_plan *p, size_t rings, size_t per_r
 static sw_status check_rest(const sw_strand_plan *p, const sw_lattice *l, sw_error *err) {
   for (size_t i = 0; p->curved && i < l->links; i++)
     if (l->link[i].bend)
-      return sw_fail(
-          err, SW_EINVAL,
-          "wire '%s': rest = 'path' needs a mesh without springs against bending, which "
-          "are straight at rest; make %s",
-          p->name,
-          strcmp(p->mesh, "composite") == 0 ? "core = 'radial' or 'cubic'" : "bend = false");
+      return sw_fail(err, SW_EINVAL,
+                     "wire '%s': rest = 'path' needs a mesh without springs against bending, which "
+                     "are straight at rest; make %s",
+                     p->name,
+                     strcmp(p->mesh, "composite") == 0 ? "core = 'radial' or 'cubic'"
+                                                       : "bend = false");
   return SW_OK;
 }
 
 sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const sw_mesh *mesh,
-                        sw_strand *out, sw_error *err) {
-  const double spacing = (mesh->s[mesh->n - 1] - mesh->s[0]) / (double)(mesh->n - 1);
+                        const sw_strand_lie *lie, sw_strand *out, sw_error *err) {
+  const double even = (mesh->s[mesh->n - 1] - mesh->s[0]) / (double)(mesh->n - 1);
+  const double spacing = lie && lie->ring ? lie->spacing : even;
   memset(out, 0, sizeof *out);
   SW_TRY(check_count(plan, mesh->n, 1, err));
-  SW_TRY(calibrate(plan, beam, spacing, 1e-6, &out->calibration, err));
-  SW_TRY(check_count(plan, mesh->n, out->calibration.lattice.particles, err));
-  SW_TRY(check_rest(plan, &out->calibration.lattice, err));
-  maker m = {.plan = plan,
-             .lattice = &out->calibration.lattice,
-             .mesh = mesh,
-             .k = out->calibration.k,
-             .strand = out};
-  if (make(&m) != SW_OK) return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", plan->name);
+  out->kit = sw_alloc(1, sizeof *out->kit);
+  if (!out->kit) return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", plan->name);
+  out->kit->references = 1;
+  sw_calibration *c = &out->kit->calibration;
+  SW_TRY(calibrate(plan, beam, spacing, 1e-6, c, err));
+  SW_TRY(check_count(plan, mesh->n, c->lattice.particles, err));
+  SW_TRY(check_rest(plan, &c->lattice, err));
+  sw_strand_maker m = {.plan = plan,
+                       .beam = beam,
+                       .ring = lie ? lie->ring : NULL,
+                       .lattice = &c->lattice,
+                       .mesh = mesh,
+                       .k = c->k,
+                       .lie = lie,
+                       .strand = out};
+  if (lie) SW_TRY(find_warp(&m, err));
+  const sw_status made = make(&m);
+  sw_free(m.warp);
+  sw_free(m.first);
+  if (!m.web) sw_free(m.around);
+  if (made != SW_OK) return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", plan->name);
   out->web->skin = skin_of(m.lattice, beam->radius);
+  out->web->line_skin = beam->radius;
   return SW_OK;
 }
 
 void sw_strand_free(sw_strand *s) {
   sw_web_release(s->web);
-  sw_calibration_free(&s->calibration);
+  if (s->kit && --s->kit->references == 0) {
+    sw_calibration_free(&s->kit->calibration);
+    sw_free(s->kit);
+  }
   sw_free(s->x);
   sw_free(s->v);
   sw_free(s->a);
   sw_free(s->axial);
   memset(s, 0, sizeof *s);
+}
+
+static double *copy_of(const double *from, size_t n) {
+  double *to = sw_alloc(n, sizeof *to);
+  if (to) memcpy(to, from, n * sizeof *to);
+  return to;
+}
+
+sw_status sw_strand_copy(const sw_strand *from, sw_strand *to) {
+  memset(to, 0, sizeof *to);
+  if (!from->web) return SW_OK;
+  const size_t n = 3 * from->web->particles;
+  to->web = sw_web_retain(from->web);
+  to->kit = from->kit;
+  if (to->kit) to->kit->references++;
+  to->x = copy_of(from->x, n);
+  to->v = copy_of(from->v, n);
+  to->a = copy_of(from->a, n);
+  to->axial = copy_of(from->axial, from->web->links);
+  if (to->x && to->v && to->a && to->axial) return SW_OK;
+  sw_strand_free(to);
+  return SW_ENOMEM;
 }

@@ -8,10 +8,16 @@
 #include "state/mesh.h"
 #include "state/web.h"
 
+/* What a mesh was calibrated to, shared by all that have its web. */
+typedef struct sw_strand_kit {
+  int references;
+  sw_calibration calibration;
+} sw_strand_kit;
+
 /* Particles of a wire; authoritative while the scene is not built. */
 typedef struct sw_strand {
   sw_web *web;
-  sw_calibration calibration;
+  sw_strand_kit *kit;
   double *x, *v, *a; /* (particles x 3) [m], [m/s], [m/s2] */
   double *axial;     /* (links) of springs [N] */
 } sw_strand;
@@ -22,6 +28,7 @@ typedef struct sw_strand_plan {
   const char *mesh;        /* the lattice's name */
   double spacing, squeeze; /* see sw_calibrate_args */
   int body;                /* likewise */
+  double wall;             /* bending stiffness of a tube's wall per length; NAN: none [N m] */
   sw_lattice_args lattice;
   sw_section section; /* as given */
   sw_vec normal;      /* where the lattice's x goes; NAN = anywhere [-] */
@@ -32,10 +39,22 @@ typedef struct sw_strand_plan {
 /* How many slices the wire of this length has when nobody says. */
 sw_status sw_strand_slices(const sw_strand_plan *plan, const sw_beam *beam, double length,
                            size_t *out, sw_error *err);
-/* A strand along the nodes of an even mesh. Frees nothing of *out on failure. */
+/* How sections lie along the nodes of a mesh. */
+typedef struct sw_strand_lie {
+  const double *frames;      /* (nodes x 6) tangent, where the lattice's x goes [-] */
+  const double *strains;     /* (nodes x 4) of the beam, as a cell has them [-], [1/m] */
+  const unsigned char *ring; /* (nodes) 0: not a ring but a particle of a line, which stretches and
+                              * bends as a rod but is not twisted; or NULL: all are rings */
+  double spacing;            /* of rings side by side, when some are not [m] */
+} sw_strand_lie;
+
+/* A strand along the nodes of an even mesh; lie NULL: as the mesh lies, untwisted, sections as
+ * they are without load. Frees nothing of *out on failure. */
 sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const sw_mesh *mesh,
-                        sw_strand *out, sw_error *err);
+                        const sw_strand_lie *lie, sw_strand *out, sw_error *err);
 void sw_strand_free(sw_strand *strand);
+/* A copy that shares what never changes; of a strand without a web nothing. SW_ENOMEM. */
+sw_status sw_strand_copy(const sw_strand *from, sw_strand *to);
 
 /* How fast the web's solid elements swing, by their stiffness at the places x, which bounds the
  * steps of explicit methods. SW_ENOMEM. */

@@ -78,6 +78,7 @@ static sw_status eval(void *user, sw_system *system, double t, double hbar, cons
                       unsigned want, sw_error *err) {
   const sw_scene *s = user;
   if (s->contact) SW_TRY(sw_contact_eval(s->contact, system, t, hbar, y, want, err));
+  if (s->crowd) sw_crowd_eval(s->crowd, system, y, want);
   return s->pairs ? sw_pairs_eval(s->pairs, system, y, want, err) : SW_OK;
 }
 
@@ -85,6 +86,7 @@ static int settled(void *user, sw_system *system, const double *y, const double 
   const sw_scene *s = user;
   int fine = !s->contact || sw_contact_settled(s->contact, system, y, delta);
   if (s->pairs) fine &= sw_pairs_settled(s->pairs, system, delta);
+  if (s->crowd) fine &= sw_crowd_settled(s->crowd, system, y, delta);
   return fine;
 }
 
@@ -95,11 +97,13 @@ void sw_scene_couple(sw_scene *s) {
   s->system.coupling.settled = settled;
 }
 
-int sw_scene_has_contact(const sw_scene *s) { return s->contact || s->pairs; }
+int sw_scene_has_contact(const sw_scene *s) { return s->contact || s->pairs || s->crowd; }
 
 sw_status sw_scene_begin_contact(sw_scene *s, sw_contact_regime regime, double t, double h,
                                  double nominal, sw_error *err) {
   if (s->contact) SW_TRY(sw_contact_begin_step(s->contact, &s->system, regime, t, h, nominal, err));
+  if (s->crowd && sw_crowd_begin_step(s->crowd, &s->system, h) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "particles that repel each other: out of memory");
   return s->pairs ? sw_pairs_begin_step(s->pairs, &s->system, regime, h, nominal, err) : SW_OK;
 }
 

@@ -4,6 +4,7 @@
 #define SW_SCENE_WORLD_H
 
 #include "contact/contact.h"
+#include "contact/crowd.h"
 #include "contact/pairs.h"
 #include "scene/scene.h"
 #include "scene/strand.h"
@@ -41,6 +42,12 @@ typedef struct sw_scene_wire {
   int untwisted; /* 1: lies as it was drawn, without the twist it has unloaded; nothing has moved */
 } sw_scene_wire;
 
+/* 1: an object of particles in no order along a wire. It has no arc length, and its mesh is a
+ * straight line of its size. */
+static inline int sw_scene_is_loose(const sw_scene_wire *wire) {
+  return wire->strand.web && !wire->strand.web->per_ring;
+}
+
 /* SW_EINVAL when the wire is a mesh of particles, which does not go with what. */
 sw_status sw_scene_check_line(const sw_scene_wire *wire, const char *what, sw_error *err);
 
@@ -49,7 +56,8 @@ sw_status sw_scene_check_line(const sw_scene_wire *wire, const char *what, sw_er
 void sw_strand_rings(const sw_mesh *mesh, double *s1, double *s2);
 /* 1: a hold of this class holds the particle. */
 static inline int sw_strand_holds(const sw_web *web, const sw_hold_class *cls, size_t particle) {
-  return cls->clamped || particle % web->per_ring == web->axis;
+  const size_t ring = sw_web_ring_of(web, particle);
+  return cls->clamped || !sw_web_is_ring(web, ring) || particle - web->first[ring] == web->axis;
 }
 /* The system's state to the strand and the middles of its rings. */
 void sw_strand_take(sw_scene_wire *wire, const sw_system *system, const sw_body *body);
@@ -57,6 +65,34 @@ void sw_strand_take(sw_scene_wire *wire, const sw_system *system, const sw_body 
 void sw_strand_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_body *body, double s,
                   sw_point_state *out);
 void sw_strand_extremes(const sw_scene *scene, size_t wire, sw_wire_extremes *now);
+
+/* Middle of ring number r of particles at x, and the direction across the area that its surface
+ * encloses [m], [-]. */
+sw_vec sw_strand_middle(const sw_web *web, const double *x, size_t ring);
+sw_vec sw_strand_facing(const sw_web *web, const double *x, size_t ring);
+/* How wide an outline (count x 3) is across the tangent. */
+typedef struct sw_widths {
+  double least, largest;         /* [m] */
+  sw_vec least_way, largest_way; /* [-] */
+} sw_widths;
+enum { SW_OUTLINE = SW_CELL_PARTICLES }; /* most points of an outline [-] */
+sw_widths sw_outline_widths(const double *outline, size_t count, sw_vec tangent);
+/* See sw_section_shape; and for all rings at once, of the one that is out of round most [-]. */
+double sw_outline_ovalisation(const sw_web *web, const double *outline, sw_vec tangent);
+sw_extreme sw_strand_ovalisation(const sw_web *web, const double *x);
+/* Points of the outline (count x 3) moved outwards by skin. */
+void sw_outline_widen(const double *outline, size_t count, sw_vec tangent, double skin,
+                      double *out);
+/* The outline of ring number r [m]. */
+void sw_strand_outline(const sw_web *web, const double *x, size_t ring, double *out);
+/* Forces of obstacles on the particles of a body: across the surface (particles) and, unless
+ * NULL, in all (particles x 3) [N]. */
+void sw_strand_pressed(const sw_scene *scene, const sw_body *body, double *normal, double *force);
+
+/* The wire of a handle, in a scene that is built, readable and refreshed. */
+sw_status sw_scene_open_wire(sw_scene *scene, sw_handle h, sw_scene_wire **wire, sw_error *err);
+/* SW_EINVAL when place is no arc length of the wire. */
+sw_status sw_scene_check_place(const sw_scene_wire *wire, double place, sw_error *err);
 
 /* The wire is as drawn: not twisted anywhere. SW_ENOMEM. */
 sw_status sw_scene_draw_untwisted(sw_scene_wire *wire);
@@ -119,6 +155,7 @@ typedef struct sw_scene_hold {
   size_t count;           /* held places */
   double *s;              /* (count) arc lengths when taken hold of [m] */
   double *local;          /* (count x 3) in the hold's frame [m] */
+  uint32_t *particle;     /* (count) which ones of a mesh; NULL on other wires */
   sw_vec director[2];     /* arriving, leaving; in the hold's frame [-] */
   sw_mesh_frame frame[2]; /* the wire's there, with directions as held; if it has frames */
   sw_quat turn;           /* orientation that goes with the wire's twist, while not built */
@@ -145,6 +182,7 @@ typedef struct sw_scene_force {
   long wire;    /* -1 = all */
   double scale; /* of the wire's mesh when it was made [-] */
   double args[SW_FORCE_ARGS_MAX / sizeof(double)];
+  uint32_t *particle; /* of a force on some particles: its list, which args name; or NULL */
 } sw_scene_force;
 
 /* Wires joined at a point. */
@@ -212,6 +250,7 @@ struct sw_scene {
   int *hold_slot;       /* (system.hold_count) scene slot of each system hold */
   sw_contact *contact;  /* with obstacles, or NULL */
   sw_pairs *pairs;      /* between wires, or NULL */
+  sw_crowd *crowd;      /* between particles that repel each other, or NULL */
   sw_scene_rule *rules; /* that pairs are made by */
   size_t rule_count, rule_capacity;
   struct {        /* contact memory of the last built system, for the next one */
@@ -223,6 +262,7 @@ struct sw_scene {
     size_t *first; /* (wires + 1) first node of each wire then */
     size_t wires;
     int fresh;
+    size_t changed; /* a wire that has other nodes since, from 1; 0: none */
   } kept;
   sw_kept_history *kept_histories; /* of the last built system, for the next one */
   size_t kept_history_count;
@@ -336,7 +376,8 @@ void sw_slip_give_up(sw_scene *scene);
 
 sw_status sw_log_add(sw_log *log, const double *row, size_t n);
 
-/* The object of a handle, or NULL with err set. */
+/* The object of a handle, or NULL with err set. A body is a wire or an object of particles. */
+sw_scene_wire *sw_scene_find_body(const sw_scene *scene, sw_handle h, sw_error *err);
 sw_scene_wire *sw_scene_find_wire(const sw_scene *scene, sw_handle h, sw_error *err);
 sw_scene_hold *sw_scene_find_hold(const sw_scene *scene, sw_handle h, sw_error *err);
 /* The same of a hold that has not been released. */
@@ -355,7 +396,20 @@ sw_status sw_scene_make_places(const sw_scene *scene, size_t wire, sw_mesh *mesh
 /* Where and how a hold holds, into another slot that owns nothing. SW_ENOMEM. */
 sw_status sw_scene_copy_shape(const sw_scene_hold *from, sw_scene_hold *to);
 
+/* Take hold of a wire that has other nodes but lies as before; the hold's pose is known.
+ * SW_ENOMEM. */
+sw_status sw_scene_rehold(sw_scene *scene, sw_scene_hold *hold, sw_pose pose);
+/* May the wire, as it is given, be in the scene with its forces and rules? */
+sw_status sw_scene_check_rules(const sw_scene *scene, size_t wire, const sw_scene_wire *as,
+                               sw_error *err);
+/* The body of a handle, in a scene that is built, readable and refreshed. */
+sw_status sw_scene_open_body(sw_scene *scene, sw_handle h, sw_scene_wire **body, sw_error *err);
+/* The given name, or kind and a number. */
+void sw_scene_give_name(char *out, const char *wanted, const char *kind, size_t number);
+
 /* Free what these slots own. */
+void sw_scene_clear_body(sw_scene_wire *body);
+void sw_scene_clear_force(sw_scene_force *force);
 void sw_scene_clear_hold(sw_scene_hold *hold);
 void sw_scene_clear_obstacle(sw_scene_obstacle *obstacle);
 /* The scene goes away: its snapshots live on, good for nothing. */

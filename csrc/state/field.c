@@ -7,7 +7,7 @@
 #include "base/alloc.h"
 #include "base/simd.h"
 
-enum { ROW = 24, EDGE_ARRAYS = 5 + 3 + 6, NODE_ARRAYS = 9 + 4 };
+enum { ROW = SW_FIELD_ROW, EDGE_ARRAYS = 5 + 3 + 6, NODE_ARRAYS = 9 + 4 };
 
 sw_status sw_field_new(sw_field *field, size_t nodes, void **block) {
   const size_t stride = (nodes + 3 * SW_LANES - 1) / SW_LANES * SW_LANES;

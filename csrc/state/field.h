@@ -70,7 +70,8 @@ typedef struct sw_field {
   double *force;       /* (n x 3) forces on nodes [N] */
   double *rows;        /* (n x SW_ROW_SIZE) node blocks of the matrix [N/m] */
   double energy;       /* [J] */
-  double bending;      /* part of energy that corrects the wire's own bending [J] */
+  double bending;      /* part of energy that corrects the wire's own bending, or what else the
+                          force says that it corrects [J] */
 
   /* of particles with a web; NULL for nodes one after another */
   double *blocks;           /* values of the matrix, 3 x 3 blocks [N/m] */
@@ -94,23 +95,24 @@ void sw_field_clear(sw_field *field);
  * returned through *block (free with sw_free). SW_ENOMEM. */
 sw_status sw_field_new(sw_field *field, size_t nodes, void **block);
 
+enum {
+  SW_FIELD_ROW = 24
+}; /* numbers of a node's row, its own block (xx xy xz yy yz zz) first [-] */
+
 enum { SW_FIELD_SOLID_PAIRS = SW_WEB_SOLID_NODES * (SW_WEB_SOLID_NODES - 1) / 2 }; /* [-] */
 
 /* Add a symmetric stiffness between particles a and b: K (upper half) on both, -K between.
- * slot: of the block between them. */
+ * slot: of the block between them. Each particle's own goes to its row, where six numbers lie side
+ * by side, and from there to the matrix once for all pairs. */
 static inline void sw_field_add_pair(sw_field *f, size_t a, size_t b, size_t slot,
                                      const double K[6]) {
-  const size_t row = f->block_stride;
-  double *const own[2] = {f->blocks + f->own_slot[a], f->blocks + f->own_slot[b]};
-  double *between = f->blocks + slot;
   static const int whole[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
-  for (size_t i = 0; i < 3; i++)
-    for (size_t j = 0; j < 3; j++) {
-      const double k = K[whole[3 * i + j]];
-      own[0][i * row + j] += k;
-      own[1][i * row + j] += k;
-      between[i * row + j] -= k;
-    }
+  double *first = f->rows + SW_FIELD_ROW * a, *second = f->rows + SW_FIELD_ROW * b;
+  double *between = f->blocks + slot;
+  for (int i = 0; i < 6; i++) first[i] += K[i];
+  for (int i = 0; i < 6; i++) second[i] += K[i];
+  for (int i = 0; i < 3; i++, between += f->block_stride)
+    for (int j = 0; j < 3; j++) between[j] -= K[whole[3 * i + j]];
 }
 
 /* Add second derivatives H (row by row, first by a, then by b) between two different
@@ -118,9 +120,9 @@ static inline void sw_field_add_pair(sw_field *f, size_t a, size_t b, size_t slo
 static inline void sw_field_add_block(sw_field *f, size_t a, size_t b, size_t slot, const double *H,
                                       size_t stride) {
   double *to = f->blocks + slot;
-  for (size_t i = 0; i < 3; i++)
-    for (size_t j = 0; j < 3; j++)
-      to[i * f->block_stride + j] += a > b ? H[i * stride + j] : H[j * stride + i];
+  const size_t down = a > b ? stride : 1, across = a > b ? 1 : stride;
+  for (size_t i = 0; i < 3; i++, to += f->block_stride)
+    for (size_t j = 0; j < 3; j++) to[j] += H[i * down + j * across];
 }
 
 #endif

@@ -167,7 +167,7 @@ sw_status sw_plan_of_web(const sw_beam *beam, sw_web *web, const int *held, sw_p
   sw_plan *p = new_plan(beam, web->particles, 0, 0);
   if (!p) return SW_ENOMEM;
   p->web = sw_web_retain(web);
-  p->length = web->s[web->particles - 1] - web->s[0];
+  p->length = web->per_ring ? web->s[web->particles - 1] - web->s[0] : web->length;
   for (size_t i = 0; i < web->particles; i++) {
     p->s[i] = web->s[i];
     p->lumped[i] = p->mass_own[i] = web->mass[i];
@@ -203,16 +203,17 @@ sw_status sw_plan_add_rest(sw_plan *plan) {
 }
 
 size_t sw_plan_locate(const sw_plan *plan, double s, double *fraction) {
-  const size_t step = plan->web ? plan->web->per_ring : 1;
+  const size_t *first = plan->web ? plan->web->first : NULL;
   size_t low = 0, high = plan->web ? plan->web->rings - 1 : plan->edges;
   while (high - low > 1) {
     const size_t middle = (low + high) / 2;
-    if (plan->s[middle * step] <= s)
+    if (plan->s[first ? first[middle] : middle] <= s)
       low = middle;
     else
       high = middle;
   }
-  const double from = plan->s[low * step], rest = plan->s[(low + 1) * step] - from;
+  const double from = plan->s[first ? first[low] : low];
+  const double rest = plan->s[first ? first[low + 1] : low + 1] - from;
   const double f = (s - from) / (plan->web ? rest : plan->rest[low]);
   *fraction = fmin(1.0, fmax(0.0, f));
   return low;

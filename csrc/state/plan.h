@@ -99,8 +99,11 @@ static inline size_t sw_plan_axial(const sw_plan *plan) {
 }
 
 /* How far the surface is from a node that touches something [m]. */
-static inline double sw_plan_skin(const sw_plan *plan) {
-  return plan->web ? plan->web->skin : plan->beam.radius;
+static inline double sw_plan_skin(const sw_plan *plan, size_t node) {
+  const sw_web *web = plan->web;
+  if (!web) return plan->beam.radius;
+  const int lines = web->per_ring && web->particles != web->rings * web->per_ring;
+  return lines && !sw_web_is_ring(web, sw_web_ring_of(web, node)) ? web->line_skin : web->skin;
 }
 
 /* Let the wire slide through a held node until its arc length there is s: changes all

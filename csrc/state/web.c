@@ -32,9 +32,10 @@ sw_web *sw_web_retain(sw_web *web) {
 
 void sw_web_release(sw_web *w) {
   if (!w || --w->references > 0) return;
-  void *const blocks[] = {w->link,  w->fold,   w->solid, w->shapes,    w->ring_links,
-                          w->mass,  w->s,      w->share, w->section,   w->ring_solids,
-                          w->outer, w->around, w->side,  w->side_first};
+  void *const blocks[] = {w->link,        w->first,     w->fold,   w->solid, w->shapes,
+                          w->ring_links,  w->mass,      w->s,      w->share, w->section,
+                          w->ring_solids, w->outer,     w->around, w->side,  w->side_first,
+                          w->yield,       w->hardening, w->along};
   for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) sw_free(blocks[k]);
   sw_free(w);
 }
@@ -44,24 +45,39 @@ sw_status sw_web_add_surface(sw_web *w) {
   const size_t n = w->around_count;
   if (!w->per_ring) return SW_OK; /* no rings */
   sw_free(w->side);
-  w->side = sw_alloc(2 * n * w->rings, sizeof *w->side);
+  w->side = sw_alloc(2 * w->particles, sizeof *w->side);
   if (!w->side) return SW_ENOMEM;
   uint32_t *next = sw_alloc(w->per_ring, sizeof *next); /* round the section; itself: inside */
   if (!next) return SW_ENOMEM;
   for (size_t i = 0; i < w->per_ring; i++) next[i] = (uint32_t)i;
   for (size_t k = 0; k < n; k++) next[w->around[k]] = w->around[(k + 1) % n];
   size_t count = 0;
-  for (size_t p = 0; p < w->particles; p++) {
-    const size_t ring = p / w->per_ring, i = p % w->per_ring;
-    w->side_first[p] = count;
-    if (next[i] == i) continue;
-    w->outer[p] = 1;
-    w->side[count++] = (uint32_t)(ring * w->per_ring + next[i]);
-    if (ring + 1 < w->rings) w->side[count++] = (uint32_t)(p + w->per_ring);
-  }
+  for (size_t r = 0; r < w->rings; r++)
+    for (size_t p = w->first[r]; p < w->first[r + 1]; p++) {
+      const size_t i = p - w->first[r];
+      const int ring = sw_web_is_ring(w, r), more = r + 1 < w->rings;
+      w->side_first[p] = count;
+      if (ring && next[i] == i) continue;
+      w->outer[p] = 1;
+      if (ring) w->side[count++] = (uint32_t)(w->first[r] + next[i]);
+      if (more && ring == sw_web_is_ring(w, r + 1))
+        w->side[count++] = (uint32_t)(w->first[r + 1] + i);
+    }
   w->side_first[w->particles] = count;
   sw_free(next);
   return SW_OK;
+}
+
+size_t sw_web_ring_of(const sw_web *w, size_t particle) {
+  size_t low = 0, high = w->rings;
+  while (high - low > 1) {
+    const size_t middle = (low + high) / 2;
+    if (w->first[middle] <= particle)
+      low = middle;
+    else
+      high = middle;
+  }
+  return low;
 }
 
 sw_status sw_web_bound_rate(sw_web *w) {
@@ -78,7 +94,11 @@ sw_status sw_web_bound_rate(sw_web *w) {
 }
 
 void sw_web_middle(const sw_web *w, const double *x, size_t ring, double out[3]) {
-  const double *at = x + 3 * ring * w->per_ring;
+  const double *at = x + 3 * w->first[ring];
+  if (!sw_web_is_ring(w, ring)) {
+    out[0] = at[0], out[1] = at[1], out[2] = at[2];
+    return;
+  }
   out[0] = out[1] = out[2] = 0;
   for (size_t i = 0; i < w->per_ring; i++)
     for (size_t k = 0; k < 3; k++) out[k] += w->share[i] * at[3 * i + k];

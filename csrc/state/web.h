@@ -17,10 +17,11 @@ typedef struct sw_web_link {
   double rest; /* unstressed length [m] */
 } sw_web_link;
 
-/* A spring against the angle at b between a, b and c, which lie straight at rest. */
+/* A spring against the angle at b by which a, b and c are off a straight line. */
 typedef struct sw_web_fold {
   uint32_t a, b, c;
-  double k; /* moment per angle [N m] */
+  double k;    /* moment per angle [N m] */
+  double rest; /* the angle without moment, 0 or well inside (0, pi) [rad] */
 } sw_web_fold;
 
 enum { SW_WEB_SOLID_NODES = 8 }; /* most of one solid element [-] */
@@ -36,6 +37,8 @@ typedef struct sw_web {
   int references;
   size_t particles;
   size_t rings, per_ring; /* particles ring by ring along a wire; per_ring 0: in no order [-] */
+  size_t *first;          /* (rings + 1) particle that each ring begins with; those of rings that
+                           * are one particle, where the wire is a line, are one apart */
   int banded;             /* 1: nothing reaches further than to the next ring */
   sw_web_link *link;
   size_t links;
@@ -43,28 +46,43 @@ typedef struct sw_web {
   size_t folds;
   sw_web_solid *solid;
   size_t solids;
+  double *yield, *hardening; /* (links) strain at which they yield, and gain of that force
+                                over their stiffness, NAN: never [-]; or NULL */
   size_t shape_count;
   void *shapes;                     /* (shape_count) prepared by the force of the solids, or NULL */
   size_t *ring_links, *ring_solids; /* (rings + 1) where those begin that start at each ring */
   double *mass;                     /* (particles) [kg] */
-  double *s;                        /* (particles) arc length [m] */
-  double *share;                    /* (per_ring) of the mass of a slice [-] */
-  double *section;                  /* (per_ring x 2) where they are across the wire [m] */
-  uint32_t *around;                 /* (around_count) of a section's surface, in their order */
+  double *s;                        /* (particles) arc length; place along the size [m] */
+  double length;                    /* without rings: size of the whole [m] */
+  double *along; /* (particles) unstressed distance of the same one in the next ring; 0: none [m] */
+  double *share; /* (per_ring) of the mass of a slice [-] */
+  double *section;  /* (per_ring x 2) where they are across the wire [m] */
+  uint32_t *around; /* (around_count) of a section's surface, in their order */
   size_t around_count;
-  uint32_t axis;        /* a section's particle on the axis; per_ring: there is none */
-  double solid_rate2;   /* the same of the solid elements [1/s2] */
-  double rate2;         /* most of twice the springs of a particle over its mass [1/s2] */
-  double skin;          /* distance of the surface from the particles there [m] */
-  unsigned char *outer; /* (particles) 1: at the surface */
-  size_t *side_first;   /* (particles + 1) where the sides of each begin */
-  uint32_t *side;       /* other ends of the surface's edges, each edge once */
+  uint32_t axis;      /* a section's particle on the axis; per_ring: there is none */
+  double solid_rate2; /* the same of the solid elements [1/s2] */
+  double rate2;       /* most of twice the springs of a particle over its mass [1/s2] */
+  double repel_distance, repel_stiffness; /* particles nearer than that push each other apart;
+                                             stiffness 0: they do not [m], [N/m] */
+  double line_skin;                       /* distance of the surface from particles of a line [m] */
+  double skin;                            /* distance of the surface from the particles there [m] */
+  unsigned char *outer;                   /* (particles) 1: at the surface */
+  size_t *side_first;                     /* (particles + 1) where the sides of each begin */
+  uint32_t *side;                         /* other ends of the surface's edges, each edge once */
 } sw_web;
 
 /* An empty web for so many particles, of one reference. SW_ENOMEM. */
 sw_status sw_web_new(size_t particles, size_t links, size_t folds, size_t solids, sw_web **out);
 sw_web *sw_web_retain(sw_web *web);
 void sw_web_release(sw_web *web); /* NULL is allowed */
+
+/* 0: ring number r is a single particle of a line. */
+static inline int sw_web_is_ring(const sw_web *web, size_t r) {
+  return web->first[r + 1] - web->first[r] == web->per_ring;
+}
+
+/* The ring that has a particle. */
+size_t sw_web_ring_of(const sw_web *web, size_t particle);
 
 /* Once particles, rings and around are known: which particles and edges are the surface of a
  * wire. SW_ENOMEM. */

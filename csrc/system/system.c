@@ -269,6 +269,7 @@ void sw_system_refresh(sw_system *s) {
 
 void sw_system_begin_step(sw_system *s) {
   s->fastest_turn = 0;
+  for (size_t b = 0; b < s->body_count; b++) s->bodies[b].web_factored = s->bodies[b].web_slow = 0;
   for (size_t b = 0; b < s->body_count; b++)
     if (s->bodies[b].spin_block) sw_spin_begin(s, &s->bodies[b]);
 }
@@ -298,18 +299,21 @@ void sw_system_axial_from_state(sw_system *s) {
   }
 }
 
+double sw_body_kinetic(const sw_system *s, size_t body, int lumped) {
+  const sw_plan *p = s->bodies[body].plan;
+  const double *v = s->v + 3 * s->bodies[body].first_node;
+  double sum = sw_roll_kinetic(s, &s->bodies[body]);
+  for (size_t i = 0; i < p->nodes; i++) {
+    const sw_vec vi = sw_load(v + 3 * i);
+    sum += 0.5 * (lumped ? p->lumped[i] : p->mass_own[i]) * sw_norm2(vi);
+    if (!lumped && i + 1 < p->nodes) sum += p->mass_next[i] * sw_dot(vi, sw_load(v + 3 * i + 3));
+  }
+  return sum;
+}
+
 double sw_system_kinetic(const sw_system *s, int lumped) {
   double sum = 0;
-  for (size_t b = 0; b < s->body_count; b++) {
-    const sw_plan *p = s->bodies[b].plan;
-    const double *v = s->v + 3 * s->bodies[b].first_node;
-    sum += sw_roll_kinetic(s, &s->bodies[b]);
-    for (size_t i = 0; i < p->nodes; i++) {
-      const sw_vec vi = sw_load(v + 3 * i);
-      sum += 0.5 * (lumped ? p->lumped[i] : p->mass_own[i]) * sw_norm2(vi);
-      if (!lumped && i + 1 < p->nodes) sum += p->mass_next[i] * sw_dot(vi, sw_load(v + 3 * i + 3));
-    }
-  }
+  for (size_t b = 0; b < s->body_count; b++) sum += sw_body_kinetic(s, b, lumped);
   return sum;
 }
 

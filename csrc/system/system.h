@@ -8,6 +8,7 @@
 #define SW_SYSTEM_SYSTEM_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/status.h"
 #include "force/force.h"
@@ -56,7 +57,12 @@ typedef struct sw_body {
   struct sw_blocks *blocks; /* the matrix of a body whose plan has a web, or NULL */
   size_t *web_slots;        /* where its forces write into it */
   unsigned char *web_fixed; /* (particles) 1: held */
-  int linked;               /* its matrix is part of the links' (see system/link.h) */
+  uint32_t *web_pairs;      /* (web_pair_count x 2) that it has besides the web's */
+  size_t web_pair_count;
+  double *web_room; /* (particles x 15) of a large one, for iterations; or NULL */
+  int web_factored; /* 1: there is a factor of this step that leads iterations */
+  int web_slow;     /* 1: it did not lead them fast enough in this step */
+  int linked;       /* its matrix is part of the links' (see system/link.h) */
 } sw_body;
 
 /* Where a hold is, for all nodes it holds. */
@@ -189,6 +195,11 @@ sw_status sw_system_add_link(sw_system *system, size_t i, size_t j, const double
  * body's own numbers, i != j, row by row with i's rows [N/m]. They are an edge of its surface. */
 void sw_body_couple(sw_body *body, size_t i, size_t j, const double K[9]);
 
+/* Before a step: between which pairs of the body's own particles (count x 2) there may be
+ * stiffness besides its web's in it. The matrix depends on these alone, not on earlier steps.
+ * SW_ENOMEM leaves the old ones. */
+sw_status sw_body_plan_pairs(sw_body *body, const uint32_t *pairs, size_t count);
+
 /* Before a step: between which nodes there may be links in it, anew from begin_plan on, so
  * that the matrix is made for them and that its order does not depend on earlier steps. */
 sw_status sw_system_begin_plan(sw_system *system);
@@ -258,6 +269,7 @@ void sw_system_reaction(const sw_system *system, int hold, sw_vec point, sw_vec 
 
 /* Kinetic energy of the state with consistent (implicit) masses [J]. */
 double sw_system_kinetic(const sw_system *system, int lumped);
+double sw_body_kinetic(const sw_system *system, size_t body, int lumped);
 
 /* Energy of one term of one body at the state; *bending is the part of it that
  * corrects the wire's own bending [J]. */

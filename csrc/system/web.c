@@ -32,11 +32,14 @@ static size_t pairs_of(const sw_web *w, sw_blocks_pair *out) {
   return n;
 }
 
-static sw_status new_blocks(const sw_web *w, sw_blocks **out) {
+/* With more pairs (more x 2). */
+static sw_status new_blocks(const sw_web *w, const uint32_t *others, size_t more, sw_blocks **out) {
   if (w->banded) return sw_blocks_new_rings(w->rings, w->per_ring, out);
-  sw_blocks_pair *pairs = sw_alloc(pairs_of(w, NULL), sizeof *pairs);
+  sw_blocks_pair *pairs = sw_alloc(pairs_of(w, NULL) + more, sizeof *pairs);
   if (!pairs) return SW_ENOMEM;
-  const size_t count = pairs_of(w, pairs);
+  size_t count = pairs_of(w, pairs);
+  for (size_t i = 0; i < more; i++)
+    pairs[count++] = (sw_blocks_pair){others[2 * i], others[2 * i + 1]};
   const sw_status status = sw_blocks_new_sparse(w->particles, pairs, count, out);
   sw_free(pairs);
   return status;
@@ -68,17 +71,55 @@ static void fill_slots(sw_body *b) {
   b->field.fold_slot = fold, b->field.solid_slot = solid;
 }
 
+/* Within a step matrices differ little from one another. From this number of particles on the
+ * first one's factor leads conjugate gradients to the solutions of those that follow, as long as
+ * that goes fast: a factor costs as much as some dozens of iterations then. A step begins with a
+ * factor of its own, so that it depends on nothing but the state it starts from. */
+enum { LARGE = 30000, MOST_ITERATIONS = 20, EARLY = 5 };
+static const double EXACT = 1e-7; /* error that is left, of the solution's energy norm [-] */
+static const double PROMISE =
+    0.03; /* error after the early iterations, else it takes too long [-] */
+
+static void use_blocks(sw_body *b) {
+  fill_slots(b);
+  b->field.blocks = sw_blocks_values(b->blocks);
+  b->field.block_stride = sw_blocks_stride(b->blocks);
+}
+
 sw_status sw_web_prepare(sw_body *b) {
   const sw_web *w = b->plan->web;
-  SW_TRY(new_blocks(w, &b->blocks));
+  SW_TRY(new_blocks(w, NULL, 0, &b->blocks));
   const size_t slots = w->particles + w->links + 3 * w->folds + SW_FIELD_SOLID_PAIRS * w->solids;
   b->web_slots = sw_alloc(slots, sizeof *b->web_slots);
   b->web_fixed = sw_alloc(w->particles, sizeof *b->web_fixed);
   if (!b->web_slots || !b->web_fixed) return SW_ENOMEM;
+  if (w->particles >= LARGE && !w->banded) {
+    b->web_room = sw_alloc(15 * w->particles, sizeof *b->web_room);
+    if (!b->web_room) return SW_ENOMEM;
+  }
   for (size_t p = 0; p < w->particles; p++) b->web_fixed[p] = b->plan->held[p] != SW_FREE;
-  fill_slots(b);
-  b->field.blocks = sw_blocks_values(b->blocks);
-  b->field.block_stride = sw_blocks_stride(b->blocks);
+  use_blocks(b);
+  return SW_OK;
+}
+
+sw_status sw_body_plan_pairs(sw_body *b, const uint32_t *pairs, size_t count) {
+  const size_t size = 2 * count * sizeof *pairs;
+  if (count == b->web_pair_count && (!count || memcmp(pairs, b->web_pairs, size) == 0))
+    return SW_OK;
+  sw_blocks *blocks;
+  uint32_t *copy = sw_alloc(2 * count, sizeof *copy);
+  if (!copy) return SW_ENOMEM;
+  if (count) memcpy(copy, pairs, size);
+  const sw_status status = new_blocks(b->plan->web, pairs, count, &blocks);
+  if (status != SW_OK) {
+    sw_free(copy);
+    return status;
+  }
+  sw_blocks_free(b->blocks);
+  sw_free(b->web_pairs);
+  b->blocks = blocks, b->web_pairs = copy, b->web_pair_count = count;
+  b->web_factored = 0;
+  use_blocks(b);
   return SW_OK;
 }
 
@@ -86,6 +127,8 @@ void sw_web_discard(sw_body *b) {
   sw_blocks_free(b->blocks);
   sw_free(b->web_slots);
   sw_free(b->web_fixed);
+  sw_free(b->web_pairs);
+  sw_free(b->web_room);
 }
 
 void sw_web_begin(sw_body *b) { sw_blocks_clear(b->blocks); }
@@ -96,13 +139,14 @@ void sw_body_couple(sw_body *b, size_t i, size_t j, const double K[9]) {
 }
 
 void sw_web_gather(sw_body *b) {
-  static const size_t whole[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
   const sw_field *f = &b->field;
-  for (size_t p = 0; p < b->plan->nodes; p++) {
-    double *to = f->blocks + f->own_slot[p];
+  for (size_t p = 0; p < b->plan->nodes; p++) { /* the lower half, which alone is read */
+    double *first = f->blocks + f->own_slot[p];
+    double *second = first + f->block_stride, *third = second + f->block_stride;
     const double *row = f->rows + SW_ROW_SIZE * p;
-    for (size_t i = 0; i < 3; i++)
-      for (size_t j = 0; j < 3; j++) to[i * f->block_stride + j] += row[whole[3 * i + j]];
+    first[0] += row[0];
+    second[0] += row[1], second[1] += row[3];
+    third[0] += row[2], third[1] += row[4], third[2] += row[5];
   }
 }
 
@@ -118,8 +162,53 @@ sw_vec sw_web_reaction(const sw_held_node *h, const sw_body *b, const double *de
   return sw_add(h->own_force, sw_load(push));
 }
 
-sw_status sw_web_solve(const sw_body *b, double *delta, size_t *negative) {
+static double dot(size_t n, const double *a, const double *b) {
+  double sum = 0;
+  for (size_t i = 0; i < n; i++) sum += a[i] * b[i];
+  return sum;
+}
+
+/* Solve for delta, which is the right side; 0: it would take too long, and delta is as before. */
+static int iterate(const sw_body *b, double *delta) {
+  const size_t particles = b->plan->nodes, n = 3 * particles;
+  double *x = b->web_room, *r = x + n, *z = x + 2 * n, *p = x + 3 * n, *Ap = x + 4 * n;
+  memset(x, 0, n * sizeof *x);
+  memcpy(r, delta, n * sizeof *r);
+  memcpy(p, delta, n * sizeof *p);
+  sw_blocks_solve(b->blocks, p);
+  double rz = dot(n, r, p);
+  const double whole = rz, enough = EXACT * EXACT * rz;
+  if (rz == 0) return 1;
+  for (int k = 0; k < MOST_ITERATIONS && rz > 0; k++) {
+    sw_blocks_multiply(b->blocks, p, Ap);
+    for (size_t i = 0; i < particles; i++)
+      if (b->web_fixed[i]) sw_store(Ap + 3 * i, sw_v(0, 0, 0));
+    const double curve = dot(n, p, Ap);
+    if (!(curve > 0)) return 0; /* not positive definite */
+    const double step = rz / curve;
+    for (size_t i = 0; i < n; i++) x[i] += step * p[i], r[i] -= step * Ap[i];
+    memcpy(z, r, n * sizeof *z);
+    sw_blocks_solve(b->blocks, z);
+    const double before = rz;
+    rz = dot(n, r, z);
+    if (fabs(rz) <= enough) {
+      memcpy(delta, x, n * sizeof *x);
+      return 1;
+    }
+    if (k == EARLY && fabs(rz) > PROMISE * PROMISE * whole) return 0;
+    for (size_t i = 0; i < n; i++) p[i] = z[i] + rz / before * p[i];
+  }
+  return 0;
+}
+
+sw_status sw_web_solve(sw_body *b, double *delta, size_t *negative) {
+  *negative = 0;
+  if (b->web_factored && b->web_room && !b->field.statics) {
+    if (iterate(b, delta)) return SW_OK;
+    b->web_slow = 1;
+  }
   SW_TRY(sw_blocks_factor(b->blocks, b->web_fixed, negative));
+  b->web_factored = *negative == 0 && !b->web_slow;
   sw_blocks_solve(b->blocks, delta);
   return SW_OK;
 }
@@ -136,9 +225,9 @@ static double advance(const sw_web *w, const double *restrict x, const double *r
     const double *p = delta + 3 * (size_t)link->a, *q = delta + 3 * (size_t)link->b;
     const double e0 = b[0] - a[0], e1 = b[1] - a[1], e2 = b[2] - a[2];
     const double d0 = q[0] - p[0], d1 = q[1] - p[1], d2 = q[2] - p[2];
-    const double l2 = e0 * e0 + e1 * e1 + e2 * e2, l = sqrt(l2);
-    const double along = (e0 * d0 + e1 * d1 + e2 * d2) / l;
-    const double across2 = (d0 * d0 + d1 * d1 + d2 * d2 - along * along) / l2;
+    const double l = sqrt(e0 * e0 + e1 * e1 + e2 * e2), r = 1.0 / l;
+    const double along = (e0 * d0 + e1 * d1 + e2 * d2) * r;
+    const double across2 = (d0 * d0 + d1 * d1 + d2 * d2 - along * along) * (r * r);
     axial[e] = link->k * (l + along - link->rest);
     largest = largest > across2 ? largest : across2;
   }
@@ -182,13 +271,20 @@ void sw_web_axial(const sw_body *b, const double *x, double *axial) {
   }
 }
 
-long sw_web_turned(const sw_body *b, const double *x, const double *y, double share) {
-  const sw_web *w = b->plan->web;
+SW_HOT
+static long count_turned(const sw_web *w, const double *restrict x, const double *restrict y,
+                         double share) {
   long turned = 0;
   for (size_t e = 0; e < w->links; e++) {
-    const sw_vec from = sw_sub(sw_vec_at(x, w->link[e].b), sw_vec_at(x, w->link[e].a));
-    const sw_vec to = sw_sub(sw_vec_at(y, w->link[e].b), sw_vec_at(y, w->link[e].a));
-    turned += !(sw_dot(from, to) >= share * sw_norm2(from));
+    const double *a = x + 3 * (size_t)w->link[e].a, *b = x + 3 * (size_t)w->link[e].b;
+    const double *p = y + 3 * (size_t)w->link[e].a, *q = y + 3 * (size_t)w->link[e].b;
+    const double e0 = b[0] - a[0], e1 = b[1] - a[1], e2 = b[2] - a[2];
+    const double along = e0 * (q[0] - p[0]) + e1 * (q[1] - p[1]) + e2 * (q[2] - p[2]);
+    turned += !(along >= share * (e0 * e0 + e1 * e1 + e2 * e2));
   }
   return turned;
+}
+
+long sw_web_turned(const sw_body *b, const double *x, const double *y, double share) {
+  return count_turned(b->plan->web, x, y, share);
 }

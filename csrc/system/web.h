@@ -20,7 +20,7 @@ void sw_web_hold(sw_held_node *held, const sw_body *body, double *right);
 sw_vec sw_web_reaction(const sw_held_node *held, const sw_body *body, const double *delta);
 
 /* The update of all free particles: right side in, delta out. Fails as sw_blocks_factor. */
-sw_status sw_web_solve(const sw_body *body, double *delta, size_t *negative);
+sw_status sw_web_solve(sw_body *body, double *delta, size_t *negative);
 
 /* Axial forces after delta by the linearised law, at positions x before it; returns the square
  * of the largest rotation of a spring or of a solid element's edge. */

@@ -29,6 +29,28 @@ known("lift", "One end lifted from a table", true, "%")
 -- A snapshot of a wire that lies exactly on a table and was never run does not restore its touch.
 if benchcases.lift then benchcases.lift.remake = true end
 
+-- Wires that are meshes -------------------------------------------------------
+
+local thick = 0.0125 -- radius of a wire of 1 m that is 40 times as long as thick [m]
+
+--- The models drawn against each other, as rows call them.
+benchcases.meshes = { "rod", "tube", "radial", "cubic", "composite", "radial, solid", "cubic, solid" }
+
+local function of_meshes(name, title, static)
+  local case = {}
+  for key, value in pairs(benchcases[name]) do case[key] = value end
+  case.name, case.title, case.static = "mesh_" .. name, title, static
+  function case.make(config)
+    local model, section = config.model:match "^([^,]+),? ?(.*)$"
+    return cases[name]{ segments = config.segments, model = model, radius = thick,
+      section = section ~= "" and section or nil }
+  end
+  benchcases[case.name] = case
+end
+
+of_meshes("droop", "A wire of length 40 times its diameter: droop, Gamma = 10", true)
+of_meshes("release", "A wire of length 40 times its diameter, released, 1 s", false)
+
 -- Laying over three walls -----------------------------------------------------
 
 local walls = { x = { 0.4, 0.9, 1.4 }, high = 0.1 } -- as in softworld.cases.laying [m]

@@ -5,8 +5,8 @@ local bench = require "softworld.bench"
 
 local stable = {}
 
-local steps = 2000 -- of one trial [-]
-local blown = 1e8 -- energy over that at the start: unstable [-]
+stable.steps = 2000 -- of one trial [-]
+stable.blown = 1e8 -- energy over that at the start: unstable [-]
 
 --- Wires of the reference table: straight, round, lumped masses, equal edges. omega: the largest
 -- natural frequency [rad/s] of the rod, exact eigenvalues (1e-12): axial waves set it where given.
@@ -129,9 +129,9 @@ function stable.expected(integrator, modes)
   for y = 0.2, 20, 0.002 do
     local energy = 0
     for _, mode in ipairs(modes) do
-      energy = energy + mode.share * bench.growth(integrator, y * mode.omega / fastest) ^ (2 * steps)
+      energy = energy + mode.share * bench.growth(integrator, y * mode.omega / fastest) ^ (2 * stable.steps)
     end
-    if energy > blown then return y / fastest end
+    if energy > stable.blown then return y / fastest end
   end
 end
 
@@ -167,8 +167,8 @@ function stable.measure(integrator, w, model, modes, rounds)
   local expected = stable.expected(integrator, modes)
   local function bounded(dt)
     scene:restore(snapshot)
-    local r = scene:advance({ dt = dt, integrator = integrator }, steps * dt)
-    return r.ok and r.rejected == 0 and scene:energy().total < blown * start
+    local r = scene:advance({ dt = dt, integrator = integrator }, stable.steps * dt)
+    return r.ok and r.rejected == 0 and scene:energy().total < stable.blown * start
   end
   local found, how = stable.largest(bounded, expected / 1.5, expected * 1.5, rounds or 9)
   local own = scene:stable_dt()

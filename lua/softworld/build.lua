@@ -13,7 +13,7 @@ local class = core.class
 function build.data(scene)
   local data = core.data(scene)
   if not data.wires then
-    data.wires, data.obstacles, data.holds = {}, {}, {}
+    data.wires, data.particles, data.obstacles, data.holds = {}, {}, {}, {}
     data.grippers, data.processes = {}, {}
     data.restores = 0 -- how often a snapshot was restored
   end
@@ -57,7 +57,7 @@ local function table_of(args, what)
 end
 
 local function is_taken(data, name)
-  for _, list in ipairs{ data.wires, data.obstacles, data.holds, data.grippers } do
+  for _, list in ipairs{ data.wires, data.particles, data.obstacles, data.holds, data.grippers } do
     for _, entry in ipairs(list) do
       if entry.name == name then return true end
     end
@@ -193,6 +193,19 @@ function class.wire.bend_limit(wire, options)
     limit = limit, inside = inside, use = use }, Limit)
 end
 
+local new_particles = class.scene.particles
+--- scene:particles{ positions =, masses =, links =, ... }: any object of particles; see help
+-- "particles".
+function class.scene.particles(scene, args)
+  build.check(scene, "scene:particles", 3)
+  args = table_of(args, "scene:particles")
+  local data = build.data(scene)
+  args.name = build.name(scene, args.name, "particles", #data.particles, 3)
+  local object = build.call(3, new_particles, scene, args)
+  data.particles[#data.particles + 1] = { object = object, name = args.name }
+  return object
+end
+
 local new_obstacle = class.scene.obstacle
 --- scene:obstacle{ shape =, ... }: see help "obstacle". `file` reads a mesh.
 function class.scene.obstacle(scene, args)
@@ -216,15 +229,15 @@ function class.scene.obstacle(scene, args)
   return obstacle
 end
 
--- clamp, pin, grip and feed
-for _, kind in ipairs{ "clamp", "pin", "grip", "feed" } do
+-- clamp, pin, grip and feed; hold takes particles
+for _, kind in ipairs{ "clamp", "pin", "grip", "feed", "hold" } do
   local new_hold = class.scene[kind]
   class.scene[kind] = function(scene, wire, args)
     build.check(scene, "scene:" .. kind, 3)
     args = table_of(args, "scene:" .. kind)
     local data = build.data(scene)
     if kind ~= "grip" or args.name == nil then -- a gripper's holds have its name
-      args.name = build.name(scene, args.name, kind, #data.holds, 3)
+      args.name = build.name(scene, args.name, kind == "hold" and "clamp" or kind, #data.holds, 3)
     end
     local hold = build.call(3, new_hold, scene, wire, args)
     data.holds[#data.holds + 1] =

@@ -65,6 +65,12 @@ function Calibration.__tostring(c)
   return table.concat(lines, "\n")
 end
 
+--- What the core gives of a calibration, with the mesh's name, made to print.
+function calibrate.named(c, mesh)
+  c.mesh = mesh
+  return setmetatable(c, Calibration)
+end
+
 -- A copy of the arguments with the cable's values for what is not given.
 local function with_cable(args)
   local entry = cable.get(args.cable)

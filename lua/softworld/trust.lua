@@ -174,7 +174,9 @@ function trust.job(scene, what, args)
     error(("%s: %s is under way and cannot begin again, as error bars need; run the scene without them "
       .. "until it has ended, or ask for them from the start"):format(what, tostring(under_way)), 0)
   end
-  if #data.wires == 0 then error(("%s: scene '%s': there is no wire"):format(what, scene.name), 0) end
+  if #data.wires + #data.particles == 0 then
+    error(("%s: scene '%s': there is no wire"):format(what, scene.name), 0)
+  end
   local job = { scene = scene, what = what, values = {}, levels = {} }
   local count = (data.process_count or 0) - #bodies
   function job.begin_processes()
@@ -182,6 +184,10 @@ function trust.job(scene, what, args)
     process.renew(scene, bodies)
   end
   job.quantities = quantity.list(scene, args.tolerance, what)
+  if #data.particles > 0 then
+    error(("%s: error bars go with wires only, and '%s' is an object of particles; give dt, or tolerance "
+      .. "as a number"):format(what, data.particles[1].name), 0)
+  end
   args.tolerance = nil
   job.most = take_levels(what, args)
   job.first, job.share = first_counts(scene)

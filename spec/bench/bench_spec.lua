@@ -190,3 +190,59 @@ describe("benchlinks.rows", function()
     assert.is_true(rows[1].places >= 5, rows[1].places)
   end)
 end)
+
+describe("benchmeshes", function()
+  local meshes = require "softworld.benchmeshes"
+  local kept = {}
+
+  before_each(function()
+    for key, value in pairs{ repeats = 1, solves = 2, share = 0.02 } do
+      kept[key], meshes[key] = meshes[key], value
+    end
+  end)
+
+  after_each(function()
+    for key, value in pairs(kept) do meshes[key] = value end
+  end)
+
+  it("has a second of the tube and squeezed wires", function()
+    local rows = meshes.squeezes()
+    rows[#rows + 1] = meshes.second()
+    assert.equal(3, #rows)
+    for _, row in ipairs(rows) do
+      assert.is_true(row.ok, row.reason)
+      assert.is_true(row.wall > 0 and row.iteration > 0 and row.iterations >= row.steps)
+    end
+  end)
+
+  it("has rings of the solver, and long tubes by the ring", function()
+    local rows = meshes.blocks()
+    assert.equal(5, #rows)
+    for _, row in ipairs(rows) do
+      assert.is_true(row.factor > 0 and row.solve > 0 and row.ratio > 0 and row.ratio < math.huge)
+    end
+    rows = meshes.rings()
+    assert.equal(3, #rows)
+    assert.equal(1, rows[1].ratio)
+    assert.near(rows[3].ring, rows[3].ratio * rows[1].ring, 1e-15)
+  end)
+
+  it("compares every model with the rod", function()
+    for _, what in ipairs{ "cantilever", "wall" } do
+      local rows = meshes.costs(what)
+      assert.equal(#meshes.models, #rows)
+      assert.equal("rod", rows[1].name)
+      for _, row in ipairs(rows) do
+        assert.is_true(row.ok, row.reason)
+        assert.near(row.wall / rows[1].wall, row.ratio, 1e-9 * row.ratio)
+      end
+      assert.is_true(rows[3].particles > rows[1].particles)
+    end
+  end)
+
+  it("times the calibration of each mesh", function()
+    local rows = meshes.calibrations()
+    assert.equal(#meshes.models - 2, #rows)
+    for _, row in ipairs(rows) do assert.is_true(row.ok and row.wall >= 0, row.reason) end
+  end)
+end)

@@ -53,3 +53,41 @@ describe("the largest stable step", function()
     end
   end
 end)
+
+describe("benchsqueeze", function()
+  local squeeze = require "softworld.benchsqueeze"
+
+  local function row_of(item, model)
+    local found
+    squeeze.add_all(function(name, run, o)
+      if name == item and o.model == model then
+        o.integrator = "tr-bdf2"
+        found = found or run(o)
+      end
+    end)
+    return found
+  end
+
+  it("presses a tube and lets it go", function()
+    local row = row_of("squeezed to 60 %", "tube")
+    assert.equal("ok", row.status, row.reason)
+    assert.truthy(row.note:find "afterwards")
+    assert.is_true(row.steps >= 400)
+  end)
+
+  it("tells that springs cannot be turned inside out, while elements come back", function()
+    local row = row_of("pushed inside out", "tube")
+    assert.equal("failed", row.status)
+    assert.truthy(row.reason:find "turn over")
+    row = row_of("pushed inside out", "radial, solid")
+    assert.equal("ok", row.status, row.reason)
+  end)
+
+  it("has steps of explicit methods that the program's bound keeps below", function()
+    for _, mesh in ipairs{ squeeze.meshes[1], squeeze.meshes[5] } do
+      local found, how, own = squeeze.measure("velocity-verlet", mesh, 1, 5)
+      assert.equal("found", how)
+      assert.is_true(own < found and found < 3 * own, found / own)
+    end
+  end)
+end)

@@ -14,11 +14,12 @@ local function in_use()
 end
 
 -- { name for the error, rows, make(args) -> object or result, good arguments }
-local scene, wire
+local scene, wire, sheet
 local function fresh()
   scene = sw.scene{ name = "under test", gravity = { 0, 0, 0 } }
   wire = scene:wire{ EA = 60, EI = 0.02, mass_per_length = 0.1, radius = 0.005, segments = 6,
     from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+  sheet = samples.sheet(scene)
 end
 
 local corners = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } }
@@ -34,6 +35,11 @@ local function objects()
     table.move(r.params.wire, 1, #r.params.wire, 1, {}))
   add("wire", rows, { EA = 60, EI = 0.02, mass_per_length = 0.1, radius = 0.005, segments = 4,
     from = { 0, 0, 1 }, to = { 1, 0, 1 } }, function(args) return scene:wire(args) end)
+  add("particles", r.params.particles, { positions = { 0, 0, 1, 0.1, 0, 1 }, masses = 0.1 },
+    function(args)
+      args.radius = args.radius or 0.01
+      return scene:particles(args)
+    end)
   for _, hold in ipairs(r.holds) do
     add("hold " .. hold.name, hold.params, { s = 0.5 }, function(args)
       return scene[hold.name](scene, wire, args)
@@ -53,10 +59,8 @@ local function objects()
   end
   for i, force in ipairs(r.forces) do
     if not force.inner then
-      local good = samples.arguments(force.params, samples.random(i))
-      good.kind = force.name
-      add("force " .. force.name, force.params, good, function(args)
-        args.on = wire
+      add("force " .. force.name, force.params, samples.force(force, i), function(args)
+        args.on = force.of_web and sheet or wire
         return scene:force(args)
       end)
     end

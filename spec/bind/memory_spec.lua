@@ -130,6 +130,24 @@ local acts = {
     scene:feed(wire, { s = 2, speed = 4 })
     scene:run{ duration = 0.08, dt = 0.02 }
   end },
+  { "making particles", function(scene) return samples.sheet(scene) end },
+  { "making, holding, moving and restoring particles", function()
+    local scene <close> = sw.scene{}
+    scene:obstacle{ shape = "box", size = { 1, 1, 0.1 }, at = { 0, 0, -0.1 } }
+    local x = {}
+    for k = 0, 7 do x[k + 1] = { 0.1 * ((k + 1) // 2 % 2), 0.1 * (k // 2 % 2), 0.1 * (k // 4) } end
+    x[9] = { 0.2, 0, 0 }
+    local object = scene:particles{ positions = x, masses = 0.1, repel = { distance = 0.15, stiffness = 9 },
+      elements = { { 1, 2, 3, 4, 5, 6, 7, 8, E = 1e4, nu = 0.2 } },
+      links = { { 2, 9, k = 100, yield = 0.01 } } }
+    scene:force{ kind = "push", on = object, particles = { 9 }, force = { 4, 0, 0 } }
+    local snapshot = scene:snapshot()
+    scene:hold(object, { particles = { 1, 5 } })
+    scene:run{ duration = 0.02, dt = 0.01 }
+    scene:restore(snapshot)
+    scene:run{ duration = 0.02, dt = 0.01 }
+    return object:positions(), object:links(), object:energy()
+  end },
   { "calibrating springs", function()
     sw.calibrate { mesh = "tube", particles = 3, EA = 1e4, EI = 0.05, GJ = 0.04, radius = 5e-3 }
     sw.calibrate { mesh = "composite", core = "line", particles = 3, E = 1e8, radius = 5e-3 }
@@ -164,8 +182,8 @@ end
 for i, force in ipairs(samples.registry.forces) do
   if not force.inner then
     acts[#acts + 1] = { "making a force " .. force.name, function(scene, wire)
-      local args = samples.arguments(force.params, samples.random(i))
-      args.kind, args.on = force.name, wire
+      local args = samples.force(force, i)
+      args.on = force.of_web and samples.sheet(scene) or wire
       return scene:force(args)
     end }
   end

@@ -37,6 +37,22 @@ function samples.arguments(rows, random)
   return args
 end
 
+--- Arguments of a force as scene:force takes them.
+function samples.force(force, index)
+  local args = samples.arguments(force.params, samples.random(index))
+  args.kind = force.name
+  if force.on_some then args.particles = { 3, 1, 7 } end
+  if args.yield then args.yield = 0.02 end -- so small that the shapes met go beyond it
+  return args
+end
+
+--- Seven particles in a row along x that springs and a fold hold together.
+function samples.sheet(scene)
+  return scene:particles{ positions = { 0, 0, 1, 0.1, 0, 1, 0.2, 0, 1, 0.3, 0, 1, 0.4, 0, 1, 0.5, 0, 1,
+    0.6, 0, 1 }, masses = 0.01, links = { { pairs = { 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7 }, k = 100 } },
+    folds = { { 1, 2, 3, stiffness = 0.01 } } }
+end
+
 --- Models that are meshes of particles, by name.
 samples.meshes = {}
 
@@ -60,7 +76,7 @@ end
 
 --- The particles of a wire that is a mesh, stretched and shaken by up to `shake` [m].
 function samples.shaken(wire, stretch, shake, random)
-  local x = wire:particles()
+  local x = core.type(wire) == "particles" and wire:positions() or wire:particles()
   for i = 1, #x do x[i] = stretch * x[i] + random(-shake, shake) end
   return x
 end
@@ -149,6 +165,7 @@ function samples.zeros(n)
   return list
 end
 
+samples.type = core.type
 samples.registry = core.registry()
 for _, model in ipairs(samples.registry.models) do samples.meshes[model.name] = model.mesh end
 

@@ -130,6 +130,22 @@ describe("povray", function()
     assert.is_nil(povscene.text(run, run.frames[1], look):find("plane {", 1, true))
   end)
 
+  it("draws the surface of a mesh of particles", function()
+    local run = scene.run { frames = 1 }
+    local surface, line = scene.surface(8, 6, 0.02)
+    run.wires[1].radius, run.frames[1].wires[1], run.frames[1].surfaces = 0.02, line, { surface }
+    local look = { camera = view.camera(run, 1.5), size = 2, thickness = 1, smallest_grip = 0 }
+    local text = povscene.text(run, run.frames[1], look)
+    assert.truthy(text:find("mesh2 {\nvertex_vectors { 66,", 1, true)) -- 6 x 8, and two ends of 9
+    assert.truthy(text:find("face_indices { 96,", 1, true)) -- 2 x 5 x 8, and twice 8
+    assert.is_nil(text:find("sphere {", 1, true))
+    look.thickness = 2 -- away from the middle line
+    text = povscene.text(run, run.frames[1], look)
+    assert.truthy(text:find("<0,0.04,0.05>", 1, true))
+    povray.picture { run = run, path = folder .. "/a.png", size = { 120, 100 }, draft = true }
+    assert.same({ 120, 100 }, { files.png_size(folder .. "/a.png") })
+  end)
+
   it("chooses round squares for the table", function()
     assert.near(0.2, povscene.square(3.4), 1e-15)
     assert.near(0.05, povscene.square(1), 1e-15)

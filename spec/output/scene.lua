@@ -91,4 +91,20 @@ function scene.run(options)
   return run
 end
 
+--- The surface of a wire that is a mesh: a tube of `around` points along x, in `sections`.
+function scene.surface(around, sections, radius)
+  local surface, line = { around = around, points = {}, force = {} }, {}
+  for i = 0, sections - 1 do
+    for _, x in ipairs { 0.1 * i, 0, 0.05 } do line[#line + 1] = x end
+    for k = 0, around - 1 do
+      local a = 2 * math.pi * k / around
+      for _, x in ipairs { 0.1 * i, radius * math.cos(a), 0.05 + radius * math.sin(a) } do
+        surface.points[#surface.points + 1] = x
+      end
+      surface.force[#surface.force + 1] = i + k / 10
+    end
+  end
+  return surface, line
+end
+
 return scene

@@ -63,6 +63,30 @@ describe("vtk", function()
     assert.near(run.wires[1].length, arrays.s[101], 1e-12)
   end)
 
+  it("writes the surface of a mesh of particles as quadrilaterals and two ends", function()
+    local run = scene.run { frames = 2 }
+    run.wires[2] = { name = "hose", radius = 0.02, length = 0.3 }
+    for _, frame in ipairs(run.frames) do
+      local surface, line = scene.surface(5, 4, 0.02)
+      frame.wires[2], frame.surfaces = line, { false, surface }
+    end
+    vtk.write(run, folder .. "/a.pvd")
+    local arrays, piece = read_vtp(folder .. "/a.vtk/surfaces_00001.vtp")
+    assert.equal(20, tonumber(piece.NumberOfPoints))
+    assert.equal(3 * 5 + 2, tonumber(piece.NumberOfPolys))
+    assert.same(run.frames[2].surfaces[2].points, arrays.Points)
+    assert.same(run.frames[2].surfaces[2].force, arrays.contact_force)
+    assert.near(0.3, arrays.s[20], 1e-12)
+    assert.same({ 0, 1, 6, 5 }, { table.unpack(arrays.Polysconnectivity, 1, 4) })
+    assert.equal(3 * 20 + 2 * 5, #arrays.Polysconnectivity)
+    for _, object in ipairs(arrays.object) do assert.equal(1, object) end
+    local series = sink.read_file(folder .. "/a.pvd")
+    assert.equal(2, select(2, series:gsub('part="2"', "")))
+    run.frames[2].surfaces[2].points[4] = 0 / 0
+    vtk.write(run, folder .. "/b.pvd")
+    assert.is_nil(io.open(folder .. "/b.vtk/surfaces_00001.vtp"))
+  end)
+
   it("moves obstacles by their pose and writes them again when they move", function()
     local run = scene.run { frames = 3 }
     local half = math.sqrt(0.5)
@@ -142,6 +166,21 @@ describe("solid", function()
         assert.equal(1, edges[edge:gsub("(%d+) (%d+)", "%2 %1")])
       end
     end
+  end)
+
+  it("closes the surface of a mesh of particles, outwards", function()
+    local surface = scene.surface(6, 5, 0.02)
+    local quads, ends = solid.tube_faces(surface)
+    local shape = { vertices = surface.points, indices = {} }
+    local function face(a, b, c) table.move({ a, b, c }, 1, 3, #shape.indices + 1, shape.indices) end
+    for i = 1, #quads, 4 do
+      face(quads[i], quads[i + 1], quads[i + 2])
+      face(quads[i], quads[i + 2], quads[i + 3])
+    end
+    for _, corners in ipairs(ends) do
+      for k = 2, #corners - 1 do face(corners[1], corners[k], corners[k + 1]) end
+    end
+    assert.near(3 * math.sin(math.pi / 3) * 0.02 ^ 2 * 0.4, volume(shape), 1e-12)
   end)
 
   it("cuts a piece of a plane that lies in it", function()

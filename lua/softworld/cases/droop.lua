@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- A wire clamped level at one end droops under its own weight, static.
--- Options: gamma (10), axial (EA L^2/EI; default that of the round section).
+-- Options: gamma (10), axial (EA L^2/EI; default that of the round section), radius (0.0025 m),
+-- section (of meshes).
 -- error(): distance of the tip from the exact one over L.
 -- @module softworld.cases.droop
 local sw = require "softworld"
@@ -31,7 +32,7 @@ return function(options)
   local gamma = options.gamma or 10
   local row = wires.row(exact, gamma)
   local p = wires.parameters{ gamma = gamma, g = f.g, segments = options.segments,
-    model = options.model, axial = options.axial }
+    model = options.model, axial = options.axial, radius = options.radius, section = options.section }
   local scene = sw.scene{ name = "droop", gravity = f.gravity }
   local wire = wires.straight(scene, f, p, { 0, 0, 0 }, { 1, 0, 0 })
   local clamp = scene:clamp(wire, { s = 0 })

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- A wire clamped level, straight and at rest, is let go: undamped swing for 1 s.
 -- Options: gamma (10 or 100), axial (EA L^2/EI; default that of the round section,
--- which the reference has), every: time between samples [s] (0.1; must divide 0.1 by
+-- of radius 2.5 mm, which the reference has), radius (0.0025 m), section (of meshes), every: time between samples [s] (0.1; must divide 0.1 by
 -- a whole number, at the finest 0.05).
 -- error(): root mean square of the tip's distance over L, samples 0.1 .. 1 s.
 -- largest(t): largest distance up to t [m].
@@ -50,7 +50,7 @@ return function(options)
   local gamma = options.gamma or 10
   local rows = exact[gamma]
   local p = wires.parameters{ gamma = gamma, g = f.g, segments = options.segments,
-    model = options.model, axial = options.axial }
+    model = options.model, axial = options.axial, radius = options.radius, section = options.section }
   local scene = sw.scene{ name = "release", gravity = f.gravity }
   local wire = wires.straight(scene, f, p, { 0, 0, 0 }, { 1, 0, 0 })
   local clamp = scene:clamp(wire, { s = 0 })

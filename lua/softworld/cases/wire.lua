@@ -15,7 +15,7 @@ function wire.parameters(options)
   local EI = options.EI or m * options.g * L ^ 3 / options.gamma
   local axial = options.axial or 4 * (L / r) ^ 2
   return { EA = axial * EI / L ^ 2, EI = EI, GJ = EI / 1.35, mass_per_length = m, radius = r,
-    segments = options.segments or 50, model = options.model }
+    segments = options.segments or 50, model = options.model, section = options.section }
 end
 
 --- Add a straight wire between two points of the case's axes.

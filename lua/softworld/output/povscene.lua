@@ -1,7 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- One frame of a run as a POV-Ray 3.7 scene.
 -- The camera's axes are given outright, which settles POV-Ray's left-handed
--- habit; colours are srgb. Wires are unions of spheres and cylinders.
+-- habit; colours are srgb. Wires are unions of spheres and cylinders; those that are meshes of
+-- particles are meshes of triangles with smooth normals.
 -- @module softworld.output.povscene
 
 local solid = require "softworld.output.solid"
@@ -162,6 +163,74 @@ local function jaw(add, w, from, to)
   add(format("box { <%.9g,%.9g,%.9g>, <%.9g,%.9g,%.9g> }\n", -w / 2, from, -0.6 * w, w / 2, to, 2 * w))
 end
 
+local function list(add, name, items)
+  add(format("%s { %d,\n%s }\n", name, #items, table.concat(items, ",\n")))
+end
+
+-- A surface's points, away from the middle line by a factor.
+local function thickened(surface, line, factor)
+  local points, n = surface.points, 3 * surface.around
+  if factor == 1 then return points end
+  local out = {}
+  for i = 1, #points do
+    local middle = line[3 * ((i - 1) // n) + (i - 1) % 3 + 1]
+    out[i] = middle + factor * (points[i] - middle)
+  end
+  return out
+end
+
+-- At each point the sum of the normals of the faces there.
+local function normals(points, quads)
+  local out = {}
+  for i = 1, #points do out[i] = 0 end
+  for i = 1, #quads, 4 do
+    local a, b, c, d = 3 * quads[i], 3 * quads[i + 1], 3 * quads[i + 2], 3 * quads[i + 3]
+    local p, q = {}, {} -- the diagonals
+    for k = 1, 3 do p[k], q[k] = points[c + k] - points[a + k], points[d + k] - points[b + k] end
+    local nx, ny, nz = p[2] * q[3] - p[3] * q[2], p[3] * q[1] - p[1] * q[3], p[1] * q[2] - p[2] * q[1]
+    for _, corner in ipairs { a, b, c, d } do
+      out[corner + 1] = out[corner + 1] + nx
+      out[corner + 2] = out[corner + 2] + ny
+      out[corner + 3] = out[corner + 3] + nz
+    end
+  end
+  return out
+end
+
+-- The ends have points of their own, so that their edges stay sharp.
+local function tube(add, surface, line, factor, c)
+  local points = thickened(surface, line, factor)
+  local quads, ends = solid.tube_faces(surface)
+  local n, vertices, across, faces = normals(points, quads), {}, {}, {}
+  local function face(a, b, d) faces[#faces + 1] = format("<%d,%d,%d>", a, b, d) end
+  local function vertex(flat, i, normal)
+    vertices[#vertices + 1] = vector { flat[i + 1], flat[i + 2], flat[i + 3] }
+    across[#across + 1] = normal
+  end
+  for i = 0, #points - 1, 3 do vertex(points, i, vector { n[i + 1], n[i + 2], n[i + 3] }) end
+  for i = 1, #quads, 4 do
+    face(quads[i], quads[i + 1], quads[i + 2])
+    face(quads[i], quads[i + 2], quads[i + 3])
+  end
+  for e, corners in ipairs(ends) do
+    local at = e == 1 and 0 or #line - 3
+    local inner = e == 1 and 3 or #line - 6
+    local out = vector { line[at + 1] - line[inner + 1], line[at + 2] - line[inner + 2],
+      line[at + 3] - line[inner + 3] }
+    local first = #vertices
+    vertex(line, at, out)
+    for k, corner in ipairs(corners) do
+      vertex(points, 3 * corner, out)
+      face(first, first + k, first + k % #corners + 1)
+    end
+  end
+  add "mesh2 {\n"
+  list(add, "vertex_vectors", vertices)
+  list(add, "normal_vectors", across)
+  list(add, "face_indices", faces)
+  add(format("texture { pigment { %s } %s } }\n", colour(c), glossy))
+end
+
 local function painted(c)
   return format("texture { pigment { %s } %s }", colour(c), satin)
 end
@@ -204,7 +273,12 @@ function povscene.text(run, frame, look)
   end
   for i, points in ipairs(frame.wires) do
     local w = run.wires[i]
-    wire(add, points, w.radius * look.thickness, w.color or wire_colours[(i - 1) % #wire_colours + 1])
+    local c, surface = w.color or wire_colours[(i - 1) % #wire_colours + 1], (frame.surfaces or {})[i]
+    if surface then
+      tube(add, surface, points, look.thickness, c)
+    else
+      wire(add, points, w.radius * look.thickness, c)
+    end
   end
   grips(add, run, frame, look)
   return table.concat(parts)

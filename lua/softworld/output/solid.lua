@@ -208,6 +208,14 @@ local function widen(bounds, points)
   end
 end
 
+-- Section by section at both ends, where its corners are in any view, and as a whole.
+local function see_surface(surface, see)
+  local points, n = surface.points, 3 * surface.around
+  see(table.move(points, 1, n, 1, {}))
+  see(points)
+  see(table.move(points, #points - n + 1, #points, 1, {}))
+end
+
 --- The smallest box along the axes around all wires, obstacles other than
 -- planes, and grips of a run.
 -- @tparam table run
@@ -224,6 +232,9 @@ function solid.bounds(run, visit)
   for i, o in ipairs(run.obstacles or {}) do shapes[i] = o.shape ~= "plane" and solid.triangles(o, 8) end
   for f, frame in ipairs(run.frames) do
     for _, points in ipairs(frame.wires or {}) do see(points) end
+    for _, surface in ipairs(frame.surfaces or {}) do
+      if surface then see_surface(surface, see) end
+    end
     for i, shape in ipairs(shapes) do
       local pose = (frame.obstacles or {})[i]
       if shape and (f == 1 or not solid.same_pose(pose, before[i])) then
@@ -244,6 +255,23 @@ function solid.bounds(run, visit)
   return bounds
 end
 
+--- The surface of a wire that is a mesh of particles, as quadrilaterals and two ends.
+-- @tparam table surface `around` points for each section, `points` flat, of all sections [m]
+-- @treturn table flat list of corners from 0, four for each quadrilateral, outwards
+-- @treturn table of the first and of the last section, the corners in their order outwards
+function solid.tube_faces(surface)
+  local n, quads, ends = surface.around, {}, { {}, {} }
+  local last = #surface.points // 3 - n
+  for first = 0, last - n, n do
+    for k = 0, n - 1 do
+      local a, b = first + k, first + (k + 1) % n
+      table.move({ a, b, b + n, a + n }, 1, 4, #quads + 1, quads)
+    end
+  end
+  for k = 0, n - 1 do ends[1][k + 1], ends[2][k + 1] = n - 1 - k, last + k end
+  return quads, ends
+end
+
 local function all_finite(points)
   for i = 1, #points do
     local x = points[i]
@@ -260,6 +288,9 @@ function solid.finite_run(run)
   for _, frame in ipairs(run.frames) do
     local fine = true
     for _, points in ipairs(frame.wires or {}) do fine = fine and all_finite(points) end
+    for _, surface in ipairs(frame.surfaces or {}) do
+      fine = fine and (not surface or all_finite(surface.points))
+    end
     for _, pose in ipairs(frame.obstacles or {}) do fine = fine and all_finite((solid.pose(pose))) end
     for _, pose in ipairs(frame.grips or {}) do fine = fine and all_finite((solid.pose(pose))) end
     if fine then frames[#frames + 1] = frame end

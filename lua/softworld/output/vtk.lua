@@ -1,8 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- A run as a ParaView series: `laying.pvd` and a folder `laying.vtk` of `.vtp` files.
 -- Part 0 holds the wires as polylines with point data radius [m] and s (arc
--- length [m]); part 1 holds obstacles as triangles. Cell data object counts
--- wires or obstacles from 0. Obstacles that rest share one file.
+-- length [m]); part 1 holds obstacles as triangles; part 2, where wires are meshes of
+-- particles, their surfaces, with point data s [m] and contact_force, that of obstacles across
+-- the surface [N]. Cell data object counts wires or obstacles from 0. Obstacles that rest share
+-- one file.
 -- @module softworld.output.vtk
 
 local json = require "softworld.output.json"
@@ -97,6 +99,38 @@ local function wires_data(run, frame, lengths)
   return data
 end
 
+local function add_face(polys, first, corners, from, to)
+  for i = from, to do polys.connectivity[#polys.connectivity + 1] = first + corners[i] end
+  polys.offsets[#polys.offsets + 1] = #polys.connectivity
+end
+
+local function add_surface(data, index, surface, s)
+  local first, polys = #data.points // 3, data.polys
+  table.move(surface.points, 1, #surface.points, #data.points + 1, data.points)
+  for i = 1, #surface.points // 3 do
+    data.point_data[1].values[first + i] = s[(i - 1) // surface.around + 1] or 0 / 0
+    data.point_data[2].values[first + i] = surface.force[i]
+  end
+  local before = #polys.offsets
+  local quads, ends = solid.tube_faces(surface)
+  for i = 1, #quads, 4 do add_face(polys, first, quads, i, i + 3) end
+  for _, corners in ipairs(ends) do add_face(polys, first, corners, 1, #corners) end
+  for i = before + 1, #polys.offsets do data.object[i] = index - 1 end
+end
+
+-- nil when no wire is a mesh.
+local function surfaces_data(frame, lengths)
+  local data
+  for i, surface in ipairs(frame.surfaces or {}) do
+    if surface then
+      data = data or { points = {}, polys = { connectivity = {}, offsets = {} }, object = {},
+        point_data = { { name = "s", values = {} }, { name = "contact_force", values = {} } } }
+      add_surface(data, i, surface, lengths[i])
+    end
+  end
+  return data
+end
+
 local function add_solid(data, index, vertices, indices)
   local first = #data.points // 3
   for i = 1, #vertices do data.points[#data.points + 1] = vertices[i] end
@@ -171,6 +205,8 @@ local function write_frames(run, folder, folder_name, bounds)
       rest_file = save("obstacles", 1, moved and obstacles_data(run, frame, bounds) or nil)
       rest = frame
     end
+    local surfaces = surfaces_data(frame, lengths)
+    if surfaces then save("surfaces", 2, surfaces) end
   end
   return entries
 end

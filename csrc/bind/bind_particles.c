@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lua class particles and scene:particles. */
+#include "bind/bind_particles.h"
+
+#include <stdio.h>
+
+int lsw_scene_particles(lua_State *L) {
+  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  sw_particles_args args;
+  sw_particles_parts parts = {0};
+  sw_error err = {""};
+  lua_settop(L, 2);
+  lsw_check_table(L, 2, "scene:particles");
+  lsw_arguments(L, 2, "particles", &sw_particles_params, &args);
+  lsw_read_parts(L, 2, &parts);
+  lsw_child *child = lsw_new_child(L, 1, &lsw_class_particles);
+  lsw_must(L, sw_scene_add_particles(owner->h.object, &args, &parts, &child->id, &err), &err);
+  child->h.object = owner;
+  return 1;
+}
+
+/* scene:hold(object, { particles = {i, ...} [, at =, name =] }) -> a clamp */
+int lsw_hold_particles(lua_State *L) {
+  static const sw_param rows[] = {
+      {"particles", SW_PARAM_OTHER, "-", 0, 0, 0, SW_PARAM_REQUIRED, NULL, 0,
+       "list of the particles' numbers, from 1 on"},
+      {"at", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, SW_NAME_SIZE,
+       "point that the hold's pose is of (default: their middle)"},
+      {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, 0, "name used in messages and series"},
+  };
+  static const sw_params params = SW_PARAMS("hold", rows);
+  struct {
+    char name[SW_NAME_SIZE];
+    sw_vec at; /* [m] */
+  } args;
+  _Static_assert(offsetof(__typeof__(args), at) == SW_NAME_SIZE, "as in the row");
+  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  sw_error err = {""};
+  size_t count;
+  lua_settop(L, 3);
+  const lsw_child *object =
+      lsw_check_child_of(L, 2, &lsw_class_particles, owner->h.object, "scene:hold");
+  lsw_arguments(L, 3, "scene:hold", &params, &args);
+  lua_getfield(L, 3, "particles");
+  const uint32_t *list = lsw_particle_numbers(L, 4, "particles to be held", &count);
+  lsw_child *child = lsw_new_child(L, 1, &lsw_class_clamp);
+  lsw_must(L,
+           sw_scene_hold_particles(owner->h.object, object->id, args.name, list, count, args.at,
+                                   &child->id, &err),
+           &err);
+  child->h.object = owner;
+  return 1;
+}
+
+/* --- read-outs ---------------------------------------------------------------- */
+
+static sw_particles_info info_of(lua_State *L, sw_scene **scene, const lsw_child **child) {
+  sw_error err = {""};
+  sw_particles_info info;
+  *child = lsw_check_child(L, 1, &lsw_class_particles, scene);
+  lsw_must(L, sw_scene_particles_info(*scene, (*child)->id, &info, &err), &err);
+  return info;
+}
+
+static int push_copy(lua_State *L, int velocities) {
+  sw_scene *scene;
+  const lsw_child *p;
+  sw_error err = {""};
+  const size_t n = 3 * info_of(L, &scene, &p).particles;
+  double *x = lua_newuserdatauv(L, n * sizeof *x, 0);
+  lsw_must(
+      L, sw_scene_particles_copy(scene, p->id, velocities ? NULL : x, velocities ? x : NULL, &err),
+      &err);
+  lsw_push_flat(L, x, n);
+  return 1;
+}
+
+/* Flat {x1, y1, z1, x2, ...} of all particles [m]; their velocities [m/s]. */
+static int meth_positions(lua_State *L) { return push_copy(L, 0); }
+static int meth_velocities(lua_State *L) { return push_copy(L, 1); }
+
+/* object:particle(i) -> position [m], velocity [m/s] */
+static int meth_particle(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *p;
+  sw_error err = {""};
+  sw_vec x, v;
+  info_of(L, &scene, &p);
+  int whole;
+  const lua_Integer i = lua_tointegerx(L, 2, &whole);
+  if (!whole || i < 1)
+    return luaL_error(L, "particles:particle takes the number of a particle, from 1 on, got %s",
+                      lsw_describe(L, 2));
+  lsw_must(L, sw_scene_particle(scene, p->id, (size_t)i - 1, &x, &v, &err), &err);
+  lsw_push_vector(L, x);
+  lsw_push_vector(L, v);
+  return 2;
+}
+
+/* object:links() -> flat lists of all links: force pulling [N], strain [-], plastic strain [-] */
+static int meth_links(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *p;
+  sw_error err = {""};
+  const size_t n = info_of(L, &scene, &p).links;
+  double *values = lua_newuserdatauv(L, (3 * n + 1) * sizeof *values, 0);
+  lsw_must(L, sw_scene_particles_links(scene, p->id, values, values + n, values + 2 * n, &err),
+           &err);
+  for (size_t k = 0; k < 3; k++) lsw_push_flat(L, values + k * n, n);
+  return 3;
+}
+
+/* object:energy() -> { kinetic =, stretch =, ... } of it alone [J] */
+static int meth_energy(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *p;
+  sw_error err = {""};
+  sw_energy e;
+  double total = 0;
+  info_of(L, &scene, &p);
+  lsw_must(L, sw_scene_body_energy(scene, p->id, &e, &err), &err);
+  lua_createtable(L, 0, (int)e.count + 1);
+  for (size_t i = 0; i < e.count; i++) {
+    lsw_set_number(L, e.kind[i], e.value[i]);
+    total += e.value[i];
+  }
+  lsw_set_number(L, "total", total);
+  if (e.has_dissipated) lsw_set_number(L, "dissipated", e.dissipated); /* not in total */
+  return 1;
+}
+
+/* A flat list of three numbers for each particle. */
+static int set_all(lua_State *L, sw_scene *scene, const lsw_child *p, size_t count) {
+  sw_error err = {""};
+  const size_t n = 3 * count;
+  if (lua_rawlen(L, 2) != n)
+    return luaL_error(L,
+                      "particles:set_velocity takes {vx, vy, vz} or %d numbers, three for each "
+                      "particle, got %d",
+                      (int)n, (int)lua_rawlen(L, 2));
+  double *v = lua_newuserdatauv(L, n * sizeof *v, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_rawgeti(L, 2, (lua_Integer)i + 1);
+    v[i] = lsw_number(L, -1, "particles:set_velocity: an item", "m/s");
+    lua_pop(L, 1);
+  }
+  lsw_must(L, sw_scene_particles_set_velocities(scene, p->id, v, &err), &err);
+  return 0;
+}
+
+/* object:set_velocity(v [, omega [, about]]) moves it as a rigid body; with a flat list of all
+ * velocities each particle [m/s]. */
+static int meth_set_velocity(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *p;
+  sw_error err = {""};
+  const sw_vec zero = sw_v(0, 0, 0);
+  const size_t count = info_of(L, &scene, &p).particles;
+  if (lua_istable(L, 2) && lua_rawlen(L, 2) > 3) return set_all(L, scene, p, count);
+  const sw_vec v = lsw_vector(L, 2, "particles:set_velocity: velocity", "m/s");
+  const sw_vec omega =
+      lua_isnoneornil(L, 3) ? zero : lsw_vector(L, 3, "particles:set_velocity: omega", "rad/s");
+  const sw_vec about =
+      lua_isnoneornil(L, 4) ? zero : lsw_vector(L, 4, "particles:set_velocity: about", "m");
+  lsw_must(L, sw_scene_wire_set_velocity(scene, p->id, v, omega, about, &err), &err);
+  return 0;
+}
+
+/* --- what it is ----------------------------------------------------------------- */
+
+static int prop_name(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *p;
+  info_of(L, &scene, &p);
+  lua_pushstring(L, sw_scene_wire_name(scene, p->id));
+  return 1;
+}
+
+static int prop_count(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *p;
+  lua_pushinteger(L, (lua_Integer)info_of(L, &scene, &p).particles);
+  return 1;
+}
+
+static int prop_mass(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *p;
+  lua_pushnumber(L, info_of(L, &scene, &p).mass);
+  return 1;
+}
+
+static int prop_radius(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *p;
+  lua_pushnumber(L, info_of(L, &scene, &p).radius);
+  return 1;
+}
+
+static int meta_describe(lua_State *L) {
+  sw_scene *scene;
+  sw_error err;
+  sw_particles_info info;
+  char text[SW_NAME_SIZE + 160];
+  const lsw_child *p = lsw_find_child(L, &lsw_class_particles, &scene);
+  if (!p) return 1;
+  if (sw_scene_particles_info(scene, p->id, &info, &err) != SW_OK)
+    return lua_pushliteral(L, "particles (gone)"), 1;
+  snprintf(text, sizeof text,
+           "particles '%s': %zu of them, %zu links, %zu folds, %zu elements, %.6g kg",
+           sw_scene_wire_name(scene, p->id), info.particles, info.links, info.folds, info.elements,
+           info.mass);
+  lua_pushstring(L, text);
+  return 1;
+}
+
+static const luaL_Reg methods[] = {{"positions", meth_positions},
+                                   {"velocities", meth_velocities},
+                                   {"particle", meth_particle},
+                                   {"links", meth_links},
+                                   {"energy", meth_energy},
+                                   {"set_velocity", meth_set_velocity},
+                                   {NULL, NULL}};
+static const luaL_Reg properties[] = {{"name", prop_name},
+                                      {"count", prop_count},
+                                      {"mass", prop_mass},
+                                      {"radius", prop_radius},
+                                      {NULL, NULL}};
+static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
+
+const lsw_class lsw_class_particles = {.name = "particles",
+                                       .size = sizeof(lsw_child),
+                                       .methods = methods,
+                                       .meta = meta,
+                                       .properties = properties,
+                                       .gone = "these particles were never made"};

@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* wire:remodel{ model =, ... }: another model for a wire in mid-run. */
+#include <math.h>
+
+#include "bind/child.h"
+
+static void push_momentum(lua_State *L, const char *name, const double p[6]) {
+  lua_createtable(L, 0, 2);
+  lsw_set_vector(L, "linear", sw_load(p));
+  lsw_set_vector(L, "angular", sw_load(p + 3));
+  lua_setfield(L, -2, name);
+}
+
+/* The table of arguments with what is the wire's own left out; `model` is required. */
+static int read_arguments(lua_State *L, sw_wire_args *args, sw_wire_mesh_args *mesh,
+                          double region[2]) {
+  lsw_section sections[4] = {{&sw_remodel_params, args}};
+  lsw_check_table(L, 2, "wire:remodel");
+  region[0] = region[1] = (double)NAN;
+  if (lua_getfield(L, 2, "region") != LUA_TNIL) {
+    if (!lua_istable(L, -1) || lua_rawlen(L, -1) != 2)
+      return luaL_error(L, "wire:remodel: region must be {s1, s2} [m], got %s",
+                        lsw_describe(L, -1));
+    for (int k = 0; k < 2; k++) {
+      lua_rawgeti(L, -1, k + 1);
+      region[k] = lsw_number(L, -1, "wire:remodel: region", "m");
+      lua_pop(L, 1);
+    }
+  }
+  if (lua_getfield(L, 2, "model") == LUA_TNIL)
+    return luaL_error(L, "wire:remodel: model is required: 'rod', 'string', or a mesh");
+  lua_settop(L, 2);
+  const int model = lsw_read_model(L, 2);
+  const size_t more = lsw_mesh_sections(sw_wire_all()[model], mesh, sections + 1);
+  lsw_sections(L, 2, "wire:remodel", sections, 1 + (int)more);
+  return model;
+}
+
+/* -> { energy_before, energy_after, energy_change [J], before, after = { linear [N s], angular
+ * [N m s] about the place `about` [m] } } */
+int lsw_wire_remodel(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_wire_args args = {0};
+  sw_wire_mesh_args mesh;
+  sw_remodel_report r;
+  double region[2];
+  lua_settop(L, 2);
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  args.model = read_arguments(L, &args, &mesh, region);
+  if (args.segments == 1)
+    return luaL_error(L, "wire:remodel: segments = 1 is not allowed; it must be 2 or more");
+  sw_params_default(&sw_section_params, &mesh.section);
+  mesh.section.EI2 = (double)NAN;
+  lsw_must(L,
+           sw_scene_remodel(scene, w->id, &args, &mesh, isnan(region[0]) ? NULL : region, &r, &err),
+           &err);
+  lua_createtable(L, 0, 6);
+  lsw_set_number(L, "energy_before", r.energy_before);
+  lsw_set_number(L, "energy_after", r.energy_after);
+  lsw_set_number(L, "energy_change", r.energy_after - r.energy_before);
+  lsw_set_vector(L, "about", r.about);
+  push_momentum(L, "before", r.before);
+  push_momentum(L, "after", r.after);
+  return 1;
+}

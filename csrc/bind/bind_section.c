@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sections of wires that are meshes of particles: wire:section, wire:width,
+ * wire:contact_pressure, wire:von_mises. */
+#include <math.h>
+
+#include "bind/child.h"
+
+static void set_points(lua_State *L, const char *name, const double *at, size_t count) {
+  lua_createtable(L, (int)count, 0);
+  for (size_t i = 0; i < count; i++) {
+    lsw_push_vector(L, sw_vec_at(at, i));
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  lua_setfield(L, -2, name);
+}
+
+static void set_flat(lua_State *L, const char *name, const double *values, size_t count) {
+  lsw_push_flat(L, values, count);
+  lua_setfield(L, -2, name);
+}
+
+/* Stress of the material's E at each of the strains. */
+static void set_stress(lua_State *L, double E, const double *strain, size_t count) {
+  lua_createtable(L, (int)count, 0);
+  for (size_t i = 0; i < count; i++) {
+    lua_pushnumber(L, E * strain[i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  lua_setfield(L, -2, "stress");
+}
+
+/* The width along up, where the wire does not go that way itself. */
+static void set_height(lua_State *L, sw_scene *scene, sw_handle wire, double s, sw_vec tangent) {
+  const sw_vec g = sw_scene_gravity(scene);
+  const sw_vec up = sw_unit_or(sw_neg(g), sw_v(0, 0, 1));
+  sw_error err = {""};
+  double height;
+  if (fabs(sw_dot(up, tangent)) > 0.999) return; /* nothing across the wire points up */
+  lsw_must(L, sw_scene_wire_width(scene, wire, s, up, &height, &err), &err);
+  lsw_set_number(L, "height", height);
+}
+
+static void push_section(lua_State *L, const sw_section_shape *p) {
+  lua_createtable(L, 0, 24);
+  lsw_set_vector(L, "middle", p->middle);
+  lsw_set_vector(L, "tangent", p->tangent);
+  lsw_set_vector(L, "axis", p->axis);
+  set_points(L, "outline", p->surface, p->count);
+  set_points(L, "particles", p->particles, p->count);
+  lsw_set_number(L, "skin", p->skin);
+  lsw_set_number(L, "least_width", p->least);
+  lsw_set_vector(L, "least_direction", p->least_way);
+  lsw_set_number(L, "largest_width", p->largest);
+  lsw_set_vector(L, "largest_direction", p->largest_way);
+  lsw_set_number(L, "ovalisation", p->ovalisation);
+  lsw_set_number(L, "area", p->area);
+  lsw_set_number(L, "torsion", p->turn);
+  lsw_set_number(L, "twist_rate", p->twist_rate);
+  set_flat(L, "axial_strain", p->axial, p->count);
+  set_flat(L, "hoop_strain", p->hoop, p->count);
+}
+
+/* wire:section(s) -> table */
+int lsw_wire_section(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_beam beam;
+  size_t n;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const double s = lsw_number(L, 2, "wire:section: s", "m");
+  lsw_must(L, sw_scene_wire_outline(scene, w->id, &n, &err), &err);
+  lsw_must(L, sw_scene_wire_beam(scene, w->id, &beam, &err), &err);
+  double *room = lua_newuserdatauv(L, 8 * n * sizeof *room, 0);
+  sw_section_shape p = {
+      .particles = room, .surface = room + 3 * n, .axial = room + 6 * n, .hoop = room + 7 * n};
+  lsw_must(L, sw_scene_wire_section(scene, w->id, s, &p, &err), &err);
+  push_section(L, &p);
+  lsw_set_number(L, "s", s);
+  set_stress(L, beam.E, p.axial, n);
+  set_height(L, scene, w->id, s, p.tangent);
+  return 1;
+}
+
+/* wire:width(s, direction) [m] */
+int lsw_wire_width(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  double width;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const double s = lsw_number(L, 2, "wire:width: s", "m");
+  const sw_vec direction = lsw_vector(L, 3, "wire:width: direction", "-");
+  lsw_must(L, sw_scene_wire_width(scene, w->id, s, direction, &width, &err), &err);
+  lua_pushnumber(L, width);
+  return 1;
+}
+
+/* The place at index 2, which must be on the wire; NAN: none is given. */
+static double read_place(lua_State *L, sw_scene *scene, sw_handle wire, const char *what) {
+  sw_error err = {""};
+  sw_point_state any;
+  if (lua_isnoneornil(L, 2)) return (double)NAN;
+  const double s = lsw_number(L, 2, what, "m");
+  lsw_must(L, sw_scene_wire_at(scene, wire, s, &any, &err), &err);
+  return s;
+}
+
+/* --- contact ------------------------------------------------------------------------- */
+
+typedef struct pressed {
+  size_t n;
+  double *x, *arc, *force, *normal, *area; /* [m], [m], [N], [N], [m2] */
+} pressed;
+
+/* Arrays in a userdata on the stack. */
+static pressed read_pressed(lua_State *L, sw_scene *scene, sw_handle wire) {
+  sw_error err = {""};
+  pressed p;
+  lsw_must(L, sw_scene_wire_particles(scene, wire, &p.n, &err), &err);
+  p.x = lua_newuserdatauv(L, 9 * p.n * sizeof *p.x, 0);
+  p.force = p.x + 3 * p.n, p.arc = p.force + 3 * p.n;
+  p.normal = p.arc + p.n, p.area = p.normal + p.n;
+  lsw_must(L, sw_scene_wire_pressed(scene, wire, p.force, p.normal, p.area, p.arc, &err), &err);
+  lsw_must(L, sw_scene_wire_particle_copy(scene, wire, p.x, p.arc, &err), &err);
+  return p;
+}
+
+/* Arc length of the particles nearest to s. */
+static double nearest(const pressed *p, double s) {
+  double best = p->arc[0];
+  for (size_t i = 1; i < p->n; i++)
+    if (fabs(p->arc[i] - s) < fabs(best - s)) best = p->arc[i];
+  return best;
+}
+
+static void push_particle(lua_State *L, const pressed *p, size_t i) {
+  lua_createtable(L, 0, 7);
+  lsw_set_integer(L, "particle", i + 1);
+  lsw_set_number(L, "s", p->arc[i]);
+  lsw_set_vector(L, "at", sw_vec_at(p->x, i));
+  lsw_set_vector(L, "force", sw_vec_at(p->force, i));
+  lsw_set_number(L, "normal_force", p->normal[i]);
+  lsw_set_number(L, "area", p->area[i]);
+  lsw_set_number(L, "pressure", p->normal[i] / p->area[i]);
+}
+
+/* wire:contact_pressure([s]) -> list of the particles that obstacles press, .largest [Pa] */
+int lsw_wire_contact_pressure(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const double s = read_place(L, scene, w->id, "wire:contact_pressure: s");
+  const pressed p = read_pressed(L, scene, w->id);
+  const double only = isnan(s) ? s : nearest(&p, s);
+  double largest = 0;
+  lua_Integer count = 0;
+  sw_vec force = sw_v(0, 0, 0);
+  lua_newtable(L);
+  for (size_t i = 0; i < p.n; i++) {
+    if (!(p.normal[i] > 0) || !(p.area[i] > 0) || (!isnan(s) && p.arc[i] != only)) continue;
+    largest = fmax(largest, p.normal[i] / p.area[i]);
+    force = sw_add(force, sw_vec_at(p.force, i));
+    push_particle(L, &p, i);
+    lua_rawseti(L, -2, ++count);
+  }
+  lsw_set_number(L, "largest", largest);
+  lsw_set_vector(L, "force", force);
+  return 1;
+}
+
+/* --- solid elements -------------------------------------------------------------------- */
+
+/* wire:von_mises([s]) -> list of the elements' stress, .largest [Pa] and where */
+int lsw_wire_von_mises(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  size_t n, best = 0;
+  lua_Integer count = 0;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  lsw_must(L, sw_scene_wire_elements(scene, w->id, &n, &err), &err);
+  const double s = read_place(L, scene, w->id, "wire:von_mises: s");
+  double *mises = lua_newuserdatauv(L, 6 * n * sizeof *mises, 0);
+  double *middle = mises + n, *arc = middle + 3 * n;
+  lsw_must(L, sw_scene_wire_mises(scene, w->id, mises, middle, arc, &err), &err);
+  lua_newtable(L);
+  for (size_t i = 0; i < n; i++) {
+    if (!isnan(s) && (s < arc[2 * i] || s > arc[2 * i + 1])) continue;
+    if (count == 0 || mises[i] > mises[best]) best = i;
+    lua_createtable(L, 0, 3);
+    lsw_set_number(L, "stress", mises[i]);
+    lsw_set_number(L, "s", 0.5 * (arc[2 * i] + arc[2 * i + 1]));
+    lsw_set_vector(L, "at", sw_vec_at(middle, i));
+    lua_rawseti(L, -2, ++count);
+  }
+  if (count == 0) return 1;
+  lsw_set_number(L, "largest", mises[best]);
+  lsw_set_number(L, "s", 0.5 * (arc[2 * best] + arc[2 * best + 1]));
+  lsw_set_vector(L, "at", sw_vec_at(middle, best));
+  return 1;
+}

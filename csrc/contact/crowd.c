@@ -1,0 +1,289 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "contact/crowd.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/alloc.h"
+
+/* Pairs are looked for up to the distance and this much of the way that they may come nearer in
+ * the step [-]; in statics up to so many distances. */
+static const double RESERVE = 1.5, STATIC_REACH = 2.0;
+static const double FARTHEST = 5.0;    /* in distances: whatever speeds are [-] */
+static const double SMALL_PUSH = 0.01; /* of the distance: does not keep iterations going [-] */
+
+typedef struct couple {
+  uint32_t a, b; /* a < b */
+} couple;
+
+typedef struct group {
+  size_t body;
+  double distance, stiffness; /* [m], [N/m] */
+  size_t *first;              /* (particles + 1) where the partners of each begin */
+  uint32_t *partner;          /* those joined to it, of larger numbers, sorted */
+  couple *near;               /* of this step */
+  size_t count, capacity;
+  uint32_t *head, *next; /* particles of each cell, as lists; UINT32_MAX ends them */
+  size_t cells;          /* power of 2 */
+} group;
+
+struct sw_crowd {
+  group *groups;
+  size_t count;
+};
+
+/* --- who is joined to whom -------------------------------------------------------------- */
+
+/* All joined pairs into out (may be NULL), smaller number first; how many. */
+static size_t joined(const sw_web *w, couple *out) {
+  size_t n = 0;
+  for (size_t e = 0; e < w->links; e++, n++)
+    if (out) out[n] = (couple){w->link[e].a, w->link[e].b};
+  for (size_t k = 0; k < w->folds; k++) {
+    const sw_web_fold *f = &w->fold[k];
+    const couple three[3] = {{f->a, f->b}, {f->b, f->c}, {f->a, f->c}};
+    for (int i = 0; i < 3; i++, n++)
+      if (out) out[n] = three[i];
+  }
+  for (size_t k = 0; k < w->solids; k++)
+    for (uint32_t i = 1; i < w->solid[k].count; i++)
+      for (uint32_t j = 0; j < i; j++, n++)
+        if (out) out[n] = (couple){w->solid[k].node[j], w->solid[k].node[i]};
+  for (size_t i = 0; out && i < n; i++)
+    if (out[i].a > out[i].b) out[i] = (couple){out[i].b, out[i].a};
+  return n;
+}
+
+static int by_number(const void *left, const void *right) {
+  const couple *p = left, *q = right;
+  if (p->a != q->a) return p->a < q->a ? -1 : 1;
+  return p->b < q->b ? -1 : p->b > q->b;
+}
+
+static sw_status list_partners(group *g, const sw_web *w) {
+  const size_t n = joined(w, NULL);
+  couple *all = sw_alloc(n, sizeof *all);
+  g->first = sw_alloc(w->particles + 1, sizeof *g->first);
+  g->partner = sw_alloc(n, sizeof *g->partner);
+  if (!all || !g->first || !g->partner) {
+    sw_free(all);
+    return SW_ENOMEM;
+  }
+  joined(w, all);
+  qsort(all, n, sizeof *all, by_number);
+  size_t at = 0;
+  for (size_t p = 0; p < w->particles; p++) {
+    g->first[p] = at;
+    for (; at < n && all[at].a == p; at++) g->partner[at] = all[at].b;
+  }
+  g->first[w->particles] = at;
+  sw_free(all);
+  return SW_OK;
+}
+
+static int are_joined(const group *g, uint32_t a, uint32_t b) {
+  size_t low = g->first[a], high = g->first[a + 1];
+  while (low < high) {
+    const size_t middle = (low + high) / 2;
+    if (g->partner[middle] == b) return 1;
+    if (g->partner[middle] < b)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return 0;
+}
+
+static sw_status new_group(group *g, size_t body, const sw_web *w) {
+  *g = (group){.body = body, .distance = w->repel_distance, .stiffness = w->repel_stiffness};
+  for (g->cells = 16; g->cells < 2 * w->particles;) g->cells *= 2;
+  g->head = sw_alloc(g->cells, sizeof *g->head);
+  g->next = sw_alloc(w->particles, sizeof *g->next);
+  return g->head && g->next ? list_partners(g, w) : SW_ENOMEM;
+}
+
+sw_status sw_crowd_new(const sw_system *s, sw_crowd **out) {
+  size_t count = 0;
+  *out = NULL;
+  for (size_t b = 0; b < s->body_count; b++)
+    count += s->bodies[b].plan->web && s->bodies[b].plan->web->repel_stiffness > 0;
+  if (!count) return SW_OK;
+  sw_crowd *c = sw_alloc(1, sizeof *c);
+  if (!c) return SW_ENOMEM;
+  c->groups = sw_alloc(count, sizeof *c->groups);
+  sw_status status = c->groups ? SW_OK : SW_ENOMEM;
+  for (size_t b = 0; b < s->body_count && status == SW_OK; b++) {
+    const sw_web *w = s->bodies[b].plan->web;
+    if (w && w->repel_stiffness > 0) status = new_group(&c->groups[c->count++], b, w);
+  }
+  if (status == SW_OK)
+    *out = c;
+  else
+    sw_crowd_free(c);
+  return status;
+}
+
+void sw_crowd_free(sw_crowd *c) {
+  if (!c) return;
+  for (size_t k = 0; c->groups && k < c->count; k++) {
+    group *g = &c->groups[k];
+    void *const blocks[] = {g->first, g->partner, g->near, g->head, g->next};
+    for (size_t i = 0; i < sizeof blocks / sizeof blocks[0]; i++) sw_free(blocks[i]);
+  }
+  sw_free(c->groups);
+  sw_free(c);
+}
+
+/* --- who is near to whom ------------------------------------------------------------------ */
+
+typedef struct cell {
+  int64_t x, y, z;
+} cell;
+
+/* Whatever the numbers are: cells far out may be one. */
+static int64_t coordinate(double x, double size) {
+  return (int64_t)fmax(-1e15, fmin(1e15, floor(x / size)));
+}
+
+static cell cell_of(const double *x, double size) {
+  return (cell){coordinate(x[0], size), coordinate(x[1], size), coordinate(x[2], size)};
+}
+
+static size_t slot_of(const group *g, cell at) {
+  const uint64_t h = (uint64_t)at.x * 0x9E3779B97F4A7C15u ^ (uint64_t)at.y * 0xC2B2AE3D27D4EB4Fu ^
+                     (uint64_t)at.z * 0x165667B19E3779F9u;
+  return (size_t)(h ^ h >> 29) & (g->cells - 1);
+}
+
+/* How fast the fastest particle goes beside the mean of all [m/s]. */
+static double fastest(const sw_body *b, const double *v) {
+  sw_vec mean = sw_v(0, 0, 0);
+  double most = 0;
+  const size_t n = b->plan->nodes;
+  for (size_t i = 0; i < n; i++) mean = sw_madd(mean, sw_vec_at(v, i), 1.0 / (double)n);
+  for (size_t i = 0; i < n; i++) most = fmax(most, sw_dist(sw_vec_at(v, i), mean));
+  return most;
+}
+
+static double reach_of(const group *g, double speed, double h) {
+  if (!(h > 0)) return STATIC_REACH * g->distance;
+  return fmin(g->distance + RESERVE * h * speed, FARTHEST * g->distance);
+}
+
+static sw_status look_at(group *g, const double *x, const double *v, double h, uint32_t i,
+                         uint32_t j) {
+  const uint32_t a = i < j ? i : j, b = i < j ? j : i;
+  const double speed = sw_dist(sw_vec_at(v, a), sw_vec_at(v, b));
+  if (!(sw_dist(sw_vec_at(x, a), sw_vec_at(x, b)) < reach_of(g, speed, h))) return SW_OK;
+  if (are_joined(g, a, b)) return SW_OK;
+  SW_TRY(sw_grow((void **)&g->near, &g->capacity, g->count + 1, sizeof *g->near));
+  g->near[g->count++] = (couple){a, b};
+  return SW_OK;
+}
+
+/* Each particle meets those that were put into the cells around it before. */
+static sw_status search(group *g, const sw_body *b, const double *x, const double *v, double h) {
+  const double size = reach_of(g, 2.0 * fastest(b, v), h);
+  g->count = 0;
+  memset(g->head, 0xff, g->cells * sizeof *g->head);
+  for (uint32_t i = 0; i < b->plan->nodes; i++) {
+    const cell at = cell_of(x + 3 * (size_t)i, size);
+    for (int k = 0; k < 27; k++) {
+      const cell beside = {at.x + k % 3 - 1, at.y + k / 3 % 3 - 1, at.z + k / 9 - 1};
+      for (uint32_t j = g->head[slot_of(g, beside)]; j != UINT32_MAX; j = g->next[j]) {
+        const cell its = cell_of(x + 3 * (size_t)j, size);
+        if (its.x == beside.x && its.y == beside.y && its.z == beside.z)
+          SW_TRY(look_at(g, x, v, h, i, j));
+      }
+    }
+    const size_t slot = slot_of(g, at);
+    g->next[i] = g->head[slot];
+    g->head[slot] = i;
+  }
+  if (g->count)
+    qsort(g->near, g->count, sizeof *g->near, by_number); /* one order, whatever the cells were */
+  return SW_OK;
+}
+
+sw_status sw_crowd_begin_step(sw_crowd *c, sw_system *s, double h) {
+  for (size_t k = 0; k < c->count; k++) {
+    group *g = &c->groups[k];
+    sw_body *b = &s->bodies[g->body];
+    const size_t at = 3 * b->first_node;
+    SW_TRY(search(g, b, s->x + at, s->v + at, h));
+    SW_TRY(sw_body_plan_pairs(b, (const uint32_t *)(const void *)g->near, g->count));
+  }
+  return SW_OK;
+}
+
+/* --- forces ------------------------------------------------------------------------------- */
+
+enum { ROW = 24 }; /* layout of the system's block rows */
+
+/* Along the line between both; the part across, which pulls them off it, only where an
+ * equilibrium is looked for and iterations converge. */
+static void add_stiffness(sw_body *b, const group *g, const couple *p, double r, sw_vec t) {
+  const double u[3] = {t.x, t.y, t.z};
+  const sw_field *f = &b->field;
+  const double across = f->statics && !f->cautious ? -g->stiffness * (g->distance - r) / r : 0.0;
+  double between[9], *row[2] = {f->rows + ROW * (size_t)p->a, f->rows + ROW * (size_t)p->b};
+  for (size_t i = 0, at = 0; i < 3; i++)
+    for (size_t j = 0; j < 3; j++) {
+      const double K = (g->stiffness - across) * u[i] * u[j] + (i == j ? across : 0.0);
+      between[3 * i + j] = -K;
+      if (j < i) continue;
+      row[0][at] += K, row[1][at++] += K;
+    }
+  sw_body_couple(b, p->a, p->b, between);
+}
+
+void sw_crowd_eval(const sw_crowd *c, sw_system *s, const double *y, unsigned want) {
+  for (size_t k = 0; k < c->count; k++) {
+    const group *g = &c->groups[k];
+    sw_body *b = &s->bodies[g->body];
+    const double *x = y + 3 * b->first_node;
+    for (size_t i = 0; i < g->count; i++) {
+      const couple *p = &g->near[i];
+      const sw_vec d = sw_sub(sw_vec_at(x, p->b), sw_vec_at(x, p->a));
+      const double r = sw_norm(d);
+      if (!(r < g->distance) || !(r > 0)) continue;
+      const sw_vec t = sw_scale(d, 1.0 / r);
+      const sw_vec push = sw_scale(t, g->stiffness * (g->distance - r));
+      sw_accumulate(b->field.force + 3 * (size_t)p->a, sw_neg(push));
+      sw_accumulate(b->field.force + 3 * (size_t)p->b, push);
+      if (want & SW_WANT_STIFFNESS) add_stiffness(b, g, p, r, t);
+    }
+  }
+}
+
+int sw_crowd_settled(const sw_crowd *c, const sw_system *s, const double *y, const double *delta) {
+  for (size_t k = 0; k < c->count; k++) {
+    const group *g = &c->groups[k];
+    const size_t at = 3 * s->bodies[g->body].first_node;
+    for (size_t i = 0; i < g->count; i++) {
+      const couple *p = &g->near[i];
+      const sw_vec now = sw_sub(sw_vec_at(y + at, p->b), sw_vec_at(y + at, p->a));
+      const sw_vec way = sw_sub(sw_vec_at(delta + at, p->b), sw_vec_at(delta + at, p->a));
+      const double after = sw_norm(now) - g->distance;
+      const double before = sw_norm(sw_sub(now, way)) - g->distance;
+      if ((after < 0) != (before < 0) && fabs(after - before) > SMALL_PUSH * g->distance) return 0;
+    }
+  }
+  return 1;
+}
+
+double sw_crowd_energy(const sw_crowd *c, const sw_system *s) {
+  double sum = 0;
+  for (size_t k = 0; k < c->count; k++) {
+    const group *g = &c->groups[k];
+    const double *x = s->x + 3 * s->bodies[g->body].first_node;
+    for (size_t i = 0; i < g->count; i++) {
+      const couple *p = &g->near[i];
+      const double over = g->distance - sw_dist(sw_vec_at(x, p->a), sw_vec_at(x, p->b));
+      if (over > 0) sum += 0.5 * g->stiffness * over * over;
+    }
+  }
+  return sum;
+}

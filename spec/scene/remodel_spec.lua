@@ -1,0 +1,278 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- wire:remodel: another model in mid-run.
+package.path = "./?.lua;" .. package.path
+local sw = require "softworld"
+local t = require "spec.physics.tools"
+
+local L = 0.3
+local meshes = { "tube", "radial", "cubic", "composite" }
+
+local function make(options)
+  local scene = sw.scene{ gravity = options.gravity or { 0, 0, 0 } }
+  local args = { model = options.model or "rod", E = 2e7, nu = 0.35, density = 1200, radius = 0.006,
+    from = { 0, 0, 0 }, to = { L, 0, 0 } }
+  if args.model == "rod" then args.segments = 40 end
+  return scene, scene:wire(args)
+end
+
+-- A wire that flies, spins and is bent in two planes.
+local function flying(model)
+  local scene, wire = make{ model = model }
+  wire:set_velocity({ 0.3, 0.1, 0 }, { 0, 9, 4 }, { 0.1, 0, 0 })
+  scene:force{ kind = "point", on = wire, s = 0.05, force = { 0, 0.1, 0.4 } }
+  t.fine(scene:run{ duration = 0.06, dt = 0.002 })
+  return scene, wire
+end
+
+local function apart(a, b)
+  local size = 0
+  for k = 1, 3 do size = math.max(size, math.abs(a[k]), math.abs(b[k])) end
+  return t.distance(a, b) / size
+end
+
+describe("wire:remodel", function()
+  for _, model in ipairs(meshes) do
+    it("keeps shape, momentum and length from rod to " .. model .. " and back", function()
+      local scene, wire = flying "rod"
+      local before = {}
+      for i = 0, 10 do before[i] = wire:position(L * i / 10) end
+      local elastic = scene:energy().bend
+      for _, step in ipairs{ { model = model }, { model = "rod", segments = 40 } } do
+        local report = wire:remodel(step)
+        -- both are sums over particles: rounding
+        t.below(1e-11, apart(report.before.linear, report.after.linear), "momentum")
+        t.below(1e-11, apart(report.before.angular, report.after.angular), "angular momentum")
+        t.near(report.energy_after - report.energy_before, report.energy_change, 1e-15)
+        -- a mesh also has inertia against turning of its sections, a share of r^2/4 over L^2/12:
+        -- with the same angular momentum it turns so much slower; and in its elastic energy the
+        -- shape between nodes counts, and what sections at the ends cannot give way
+        local moving = 1.2 * 3 * (0.006 / L) ^ 2 * scene:energy().kinetic
+        t.below(moving + 0.05 * elastic, math.abs(report.energy_change), "energy change")
+        t.near(L, wire.length, 1e-15)
+        for i = 0, 10 do -- curves through the nodes differ by less than a fiftieth of a millimetre
+          t.below(2e-5, t.distance(before[i], wire:position(L * i / 10)), "shift at " .. i)
+        end
+      end
+      t.near(0.5 * math.pi * 0.006 ^ 2 * 1200 * L, (function()
+        wire:set_velocity{ 1, 0, 0 }
+        return scene:energy().kinetic
+      end)(), 1e-14, "mass, as energy at 1 m/s")
+    end)
+  end
+
+  it("goes on moving as it did", function()
+    local scene, wire = flying "rod"
+    local start = scene:snapshot()
+    local function go(model)
+      scene:restore(start)
+      if model then wire:remodel{ model = model } end
+      t.fine(scene:run{ duration = 0.05, dt = 0.002 })
+      return wire:position(L), wire:position(L / 2)
+    end
+    local tip, middle = go()
+    for _, model in ipairs(meshes) do
+      local a, b = go(model)
+      -- the wire flies 25 mm meanwhile and bends; models agree as they do when they run alone
+      t.below(4e-4, t.distance(tip, a), model .. ": end")
+      t.below(4e-4, t.distance(middle, b), model .. ": middle")
+    end
+  end)
+
+  it("takes twist and the clamps' moment along", function()
+    for _, model in ipairs(meshes) do
+      local scene, wire = make{}
+      scene:clamp(wire, { s = 0 })
+      local clamp = scene:clamp(wire, { s = L })
+      clamp:pose({ L, 0, 0 }, { axis = { 1, 0, 0 }, angle = 0.5 })
+      t.fine(scene:settle())
+      local exact = wire.beam.GJ * 0.5 / L
+      wire:remodel{ model = model }
+      t.share(exact, wire:twist_moment(L / 2), 0.01, model .. ": twist moment")
+      t.fine(scene:settle())
+      t.share(exact, clamp:moment()[1], 0.01, model .. ": moment of the clamp")
+      wire:remodel{ model = "rod", segments = 40 }
+      t.share(exact, wire:twist_moment(L / 2), 0.01, "back from " .. model)
+      t.fine(scene:settle())
+      t.share(exact, clamp:moment()[1], 0.01, "clamp, back from " .. model)
+    end
+  end)
+
+  it("leaves holds where they are, and they go on with what they follow", function()
+    local scene, wire = make{ gravity = { 0, 0, -9.81 } }
+    local clamp = scene:clamp(wire, { s = 0 })
+    clamp:follow{ points = { { 0, 0, 0 }, { 0.05, 0, 0.02 } }, duration = 0.4 }
+    t.fine(scene:run{ duration = 0.1, dt = 0.005 })
+    local weight = 9.81 * wire.beam.mass_per_length * L
+    for _, model in ipairs{ "tube", "rod", "radial" } do
+      wire:remodel{ model = model }
+      assert.is_true(clamp.held)
+      t.fine(scene:run{ duration = 0.1, dt = 0.005 })
+    end
+    t.below(1e-12, t.distance(wire:position(0), { 0.05, 0, 0.02 }), "held end")
+    clamp:follow(nil)
+    t.fine(scene:settle())
+    t.share(weight, clamp:force()[3], 1e-6, "weight on the clamp")
+    clamp:release()
+    t.fine(scene:run{ duration = 0.02 })
+  end)
+
+  it("is undone by restoring a snapshot, to the same bits", function()
+    local scene, wire = flying "rod"
+    local start = scene:snapshot()
+    local function go()
+      t.fine(scene:run{ duration = 0.02, dt = 0.002 })
+      return wire:positions()
+    end
+    local alone = go()
+    scene:restore(start)
+    wire:remodel{ model = "tube" }
+    go()
+    local tube = scene:snapshot()
+    local first = go()
+    scene:restore(start)
+    assert.are.equal(40, wire.segments)
+    assert.are.same(alone, go())
+    scene:restore(tube)
+    assert.are.same(first, go())
+  end)
+
+  it("keeps friction of what else touches", function()
+    local scene, wire = make{ gravity = { 0, 0, -9.81 } }
+    scene:obstacle{ shape = "plane", friction = 0.5, at = { 0, 0, -0.006 } }
+    t.fine(scene:run{ duration = 0.1, dt = 0.005 })
+    wire:remodel{ model = "tube" }
+    t.fine(scene:run{ duration = 0.2, dt = 0.005 })
+    t.near(0, wire:position(L / 2)[3], 2e-4, "it still lies on the plane")
+  end)
+
+  it("refuses what it cannot do, by name, and changes nothing", function()
+    local scene, wire = make{}
+    local function refused(pattern, f)
+      local ok, text = pcall(f)
+      assert.is_false(ok)
+      assert.is_truthy(text:find(pattern), text)
+      assert.are.equal(40, wire.segments)
+    end
+    refused("model is required", function() wire:remodel{} end)
+    refused("did you mean 'tube'", function() wire:remodel{ model = "tub" } end)
+    refused("segments", function() wire:remodel{ model = "tube", segments = 1 } end)
+    refused("particles", function() wire:remodel{ model = "tube", particles = 2 } end)
+    refused("spacin", function() wire:remodel{ model = "tube", spacin = 2 } end)
+    refused("spacing", function() wire:remodel{ model = "tube", segments = 2 } end)
+    local force = scene:force{ kind = "moment", on = wire, s = 0.1, moment = { 0, 0.01, 0 } }
+    refused("force moment", function() wire:remodel{ model = "tube" } end)
+    force:release()
+    scene:wire_contact{}
+    refused("wire_contact", function() wire:remodel{ model = "tube" } end)
+    local rolling = sw.scene{}
+    local other = rolling:wire{ E = 2e7, nu = 0.35, density = 1200, radius = 0.006, rolls = true,
+      from = { 0, 0, 0 }, to = { L, 0, 0 } }
+    refused("rolls", function() other:remodel{ model = "tube" } end)
+    local fed = sw.scene{}
+    local third = fed:wire{ E = 2e7, nu = 0.35, density = 1200, radius = 0.006,
+      from = { 0, 0, 0 }, to = { L, 0, 0 } }
+    fed:feed(third, { s = 0 })
+    refused("fed", function() third:remodel{ model = "tube" } end)
+    fed:close()
+    assert.has_error(function() third:remodel{ model = "tube" } end)
+  end)
+
+  -- A droop, half of it under a region that is meshed.
+  local function drooping(model, region)
+    local scene, wire = make{ gravity = { 0, 0, -9.81 } }
+    local clamp = scene:clamp(wire, { s = 0 })
+    t.fine(scene:settle())
+    local rod = { tip = wire:position(L), middle = wire:position(L / 2), moment = clamp:moment()[2],
+      particles = #wire:particles() }
+    local report = wire:remodel{ model = model, region = region, segments = 40 }
+    return scene, wire, clamp, rod, report
+  end
+
+  for _, model in ipairs(meshes) do
+    it("of a region leaves the shape and what clamps bear: " .. model, function()
+      local scene, wire, clamp, rod, report = drooping(model, { 0.1, 0.15 })
+      t.below(1e-15, t.distance(report.after.linear, { 0, 0, 0 }), "momentum of what rests")
+      t.near(L, wire.length, 1e-15)
+      t.below(1e-4, t.distance(rod.tip, wire:position(L)), "tip at once")
+      t.fine(scene:settle())
+      -- of three places where a line meets a ring each is known to a few hundredths of a slice
+      t.below(3e-3 * L, t.distance(rod.tip, wire:position(L)), "tip")
+      t.below(3e-3 * L, t.distance(rod.middle, wire:position(L / 2)), "middle")
+      t.share(rod.moment, clamp:moment()[2], 5e-3, "moment of the clamp")
+      t.share(9.81 * wire.beam.mass_per_length * L, clamp:force()[3], 1e-9, "weight")
+      local hangs = 9.81 * wire.beam.mass_per_length * L / 4
+      t.near(-hangs * wire:tangent(0.75 * L)[3], wire:tension(0.75 * L), 0.02 * hangs,
+        "tension of the line")
+      wire:remodel{ model = "rod", segments = 40 }
+      t.fine(scene:settle())
+      t.below(3e-3 * L, t.distance(rod.tip, wire:position(L)), "tip, back from " .. model)
+    end)
+  end
+
+  it("of a region tells sections there only", function()
+    local _, wire = drooping("tube", { 0.1, 0.15 })
+    t.share(2 * 0.006, wire:section(0.125).largest_width or wire:section(0.125).width, 0.1)
+    local ok, text = pcall(wire.section, wire, 0.25)
+    assert.is_false(ok)
+    assert.is_truthy(text:find "line of particles", text)
+  end)
+
+  it("of a region lies on a plane and is squeezed between plates", function()
+    for _, model in ipairs{ "tube", "radial" } do
+      local scene, wire = make{ gravity = { 0, 0, -9.81 } }
+      local weight = 9.81 * wire.beam.mass_per_length * L
+      local floor = scene:obstacle{ shape = "plane", at = { 0, 0, -0.006 }, friction = 0.3 }
+      local plate = scene:obstacle{ shape = "box", size = { 0.02, 0.05, 0.01 },
+        at = { L / 2, 0, 0.0115 } }
+      wire:remodel{ model = model, region = { 0.12, 0.18 }, segments = 40 }
+      t.fine(scene:run{ duration = 0.2, dt = 0.005 })
+      t.share(weight, floor:force()[3] * -1, 0.02, model .. ": weight on the plane")
+      plate:follow{ points = { { L / 2, 0, 0.0115 }, { L / 2, 0, 0.0095 } }, duration = 0.2 }
+      t.fine(scene:run{ duration = 0.4, dt = 0.005 })
+      local force = plate:force()[3]
+      t.above(20 * weight, force, model .. ": force of the plate")
+      t.share(force + weight, -floor:force()[3], 0.01, model .. ": both forces")
+      t.below(0.0106, wire:width(L / 2, { 0, 0, 1 }), model .. ": height between the plates")
+    end
+  end)
+
+  it("of a region refuses what lines cannot have", function()
+    local scene, wire = make{}
+    local function refused(pattern, region, model)
+      local ok, text = pcall(wire.remodel, wire, { model = model or "tube", region = region })
+      assert.is_false(ok)
+      assert.is_truthy(text:find(pattern), text)
+      assert.are.equal(40, wire.segments)
+    end
+    refused("region", { 0.1, 0.5 })
+    refused("region", { 0.2, 0.1 })
+    refused("region", { -0.1, 0.1 })
+    refused("region", { 0.1 })
+    refused("region", 0.1)
+    refused("finite", { 0.1, 0 / 0 })
+    refused("leave region out", { 0, L })
+    refused("goes with a model that is a mesh", { 0.1, 0.2 }, "rod")
+    scene:clamp(wire, { s = 0 })
+    scene:clamp(wire, { s = L }):pose({ L, 0, 0 }, { axis = { 1, 0, 0 }, angle = 0.5 })
+    t.fine(scene:settle())
+    refused("twisted", { 0.1, 0.2 })
+  end)
+
+  it("survives every failing allocation", function()
+    local scene, wire = make{}
+    scene:clamp(wire, { s = 0 })
+    scene:run{ duration = 0.01 }
+    local before = wire:positions()
+    for n = 1, 2000 do
+      sw.core.fail_allocation(n)
+      local ok, text = pcall(wire.remodel, wire, { model = "tube", segments = 60 })
+      sw.core.fail_allocation(0)
+      if ok then break end
+      assert.is_truthy(tostring(text):find "memory", text)
+      assert.are.equal(40, wire.segments)
+      assert.are.same(before, wire:positions())
+      assert.is_true(n < 2000)
+    end
+    assert.are.equal(60, wire.segments)
+  end)
+end)
