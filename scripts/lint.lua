@@ -29,7 +29,7 @@ local ROOMS = {
 
 -- Headers other rooms may see: <room>/<room>.h, unless listed here (true = all of them).
 -- state and solve have no single header: their parts have different users.
-local OPEN = { base = true, bind = true, contact = { "contact.h", "pairs.h" },
+local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "pairs.h" },
   force = { "force.h", "solid.h" },
   state = { "angle.h", "field.h", "hinge.h", "mesh.h", "plan.h", "web.h" },
   solve = { "band3.h", "band4.h", "blocks.h", "rotation.h", "sparse.h" },

@@ -247,12 +247,6 @@ static void store_element(void *out, size_t i, const uint32_t *node, size_t coun
   e->lambda = values[2] * values[3] / ((1 + values[3]) * (1 - 2 * values[3]));
 }
 
-static void store_edge(void *out, size_t i, const uint32_t *node, size_t count,
-                       const double *values) {
-  (void)count, (void)values;
-  memcpy((uint32_t *)out + 2 * i, node, 2 * sizeof *node);
-}
-
 static const kind links = {.what = "links",
                            .group = {"pairs", NULL},
                            .size = {2, 2},
@@ -301,11 +295,11 @@ static void read_surface(lua_State *L, int table, sw_particles_parts *p) {
     if (n != 2 && n != 3)
       luaL_error(L, "particles: surface, entry %d, must be {i, j} or {i, j, k}, got %s", (int)i + 1,
                  lsw_describe(L, -1));
-    uint32_t node[3];
+    uint32_t node[3] = {0};
     for (size_t k = 0; k < n; k++) node[k] = particle_at(L, lua_gettop(L), k, "surface");
-    for (size_t k = 0; k < (n == 2 ? 1 : 3); k++) {
-      const uint32_t edge[2] = {node[k], node[(k + 1) % n]};
-      store_edge(out, p->edges++, edge, 2, NULL);
+    for (size_t k = 0; k < (n == 3 ? 3 : 1); k++, p->edges++) {
+      out[2 * p->edges] = node[k];
+      out[2 * p->edges + 1] = node[k < 2 ? (k + 1) : 0];
     }
     lua_pop(L, 1);
   }

@@ -127,7 +127,7 @@ sw_status sw_crowd_new(const sw_system *s, sw_crowd **out) {
 
 void sw_crowd_free(sw_crowd *c) {
   if (!c) return;
-  for (size_t k = 0; k < c->count; k++) {
+  for (size_t k = 0; c->groups && k < c->count; k++) {
     group *g = &c->groups[k];
     void *const blocks[] = {g->first, g->partner, g->near, g->head, g->next};
     for (size_t i = 0; i < sizeof blocks / sizeof blocks[0]; i++) sw_free(blocks[i]);

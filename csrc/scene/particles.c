@@ -242,12 +242,9 @@ static sw_status fill_links(const maker *m) {
 }
 
 /* By Gershgorin: no frequency's square is above the largest sum of a row over the mass there. */
-static void bound_solid(const maker *m, const sw_solid *e, const sw_web_solid *s, const double *x,
-                        double *sums) {
-  static const double nothing = 0;
+static void bound_solid(const sw_solid *e, const sw_web_solid *s, const double *x, double *sums) {
   double H[9 * SW_SOLID_NODES * SW_SOLID_NODES], g[3 * SW_SOLID_NODES];
   const size_t n = 3 * s->count;
-  (void)m, (void)nothing;
   sw_solid_eval(e, x, SW_WANT_FORCE | SW_WANT_STIFFNESS, g, H);
   for (size_t r = 0; r < n; r++)
     for (size_t c = 0; c < n; c++) sums[3 * (size_t)s->node[r / 3] + r % 3] += fabs(H[r * n + c]);
@@ -274,7 +271,7 @@ static sw_status fill_solids(const maker *m) {
               "particles '%s': element %zu has no volume, is inverted or too much distorted; its "
               "first half is a face, anticlockwise as seen from the second half",
               m->name, i + 1);
-    if (status == SW_OK) bound_solid(m, &shape[i], &w->solid[i], x, sums);
+    if (status == SW_OK) bound_solid(&shape[i], &w->solid[i], x, sums);
   }
   for (size_t k = 0; k < 3 * w->particles && status == SW_OK; k++)
     w->solid_rate2 = fmax(w->solid_rate2, sums[k] / w->mass[k / 3]);

@@ -15,6 +15,8 @@ local notes = {
   run = "scene:run{...}", settle = "scene:settle{...}",
   frequencies = "wire:frequencies{...}: natural frequencies [Hz] about the present equilibrium",
   wire_contact = "scene:wire_contact{...}: wires that touch each other and themselves",
+  particles = "scene:particles{...}: any object of particles: fabric, foam, nets, chains",
+  repel = "repel = {...} of scene:particles",
   join = "scene:join{...}: wires fixed to each other at a point, as in a harness",
   calibrate = "sw.calibrate{ mesh =, ... }: springs of a mesh of particles that is the given wire",
   calibrate_tube = "sw.calibrate{ mesh = 'tube', ... }: rings, with or without a central line",
@@ -111,6 +113,20 @@ wire:calibration()              its springs, see help "calibrate"]],
 
 -- What comes after the parameters of a topic or member.
 local more = {
+  particles = [[
+  particles are numbered from 1 on; a group of links is read faster than single ones
+  returns an object: .name .count .mass [kg] .radius [m] and
+  :positions() :velocities()     flat lists [m], [m/s]
+  :particle(i)                   position, velocity [m], [m/s]
+  :set_velocity(v, omega, about) as a rigid body; with a flat list each particle [m/s]
+  :links()                       flat lists: force [N], strain [-], plastic strain [-]
+  :energy()                      its own, by kind [J]
+  scene:hold(object, { particles = {i, ...}, at =, name = })   a clamp: :force() :moment() :follow()
+  scene:force{ kind = "push", on = object, particles = {...}, force = {x, y, z} }
+  gravity, drag, line, damping and functions act on it too; its length, by which drag and line
+  count, is the diagonal of a box around it as it was made, shared out by mass
+  yield = 0.02, hardening = 0.1  links that stay longer or shorter beyond that strain
+  only edges and particles touch obstacles, not the inside of a mesh; objects do not touch each other]],
   join = [[
   scene:join{ ends = { { trunk, s = 0.5 }, { branch, s = 0 } } }   2 to 8, which must meet there
   returns a join: .name .held and

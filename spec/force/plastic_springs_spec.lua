@@ -110,7 +110,7 @@ describe("springs that yield", function()
   end)
 
   it("come back from snapshots as they were", function()
-    local scene, object, hand, stretch = bench()
+    local scene, _, hand, stretch = bench()
     stretch(1.2)
     local snapshot = scene:snapshot()
     local first = { stretch(0.95) }

@@ -212,6 +212,21 @@ describe("objects of particles", function()
   end)
 end)
 
+describe("surfaces of particles", function()
+  it("are the edges of triangles, and particles alone if so wanted", function()
+    for _, case in ipairs{ { { { 1, 2, 3 } }, true }, { { { 1, 2 } }, true }, { "particles", false } } do
+      local scene = sw.scene{}
+      local object = scene:particles{ positions = { 0, 0, 0.1, 1, 0, 0.1, 0, 1, 0.1 }, masses = 0.1,
+        links = { { pairs = { 1, 2, 2, 3, 3, 1 }, k = 1e3 } }, radius = 0.01, surface = case[1] }
+      -- a ball below the middle of the edge from 1 to 2
+      scene:obstacle{ shape = "sphere", radius = 0.05, at = { 0.5, 0, 0 } }
+      assert.is_true(scene:run{ duration = 0.15, dt = 0.01 }.ok)
+      assert.are.equal(case[2], scene:contacts() > 0)
+      assert.is_true(object:particle(3)[3] < 0.05)
+    end
+  end)
+end)
+
 describe("holds of particles", function()
   it("carry them rigidly along a trajectory and let go", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
