@@ -204,7 +204,8 @@ static void cubic_advice(const sw_cubic_args *cubic, const sw_calibration *c, in
              "the section larger",
              ratio, most * most);
   else if (cubic->section == SW_SECTION_RECTANGLE)
-    snprintf(text, n, "EI/EI2 must be near (width/height)^2 = %.4g; if it is, make across = %ld more",
+    snprintf(text, n,
+             "EI/EI2 must be near (width/height)^2 = %.4g; if it is, make across = %ld more",
              cubic->width * cubic->width / (cubic->height * cubic->height), cubic->across);
   else
     snprintf(text, n, "make across = %ld more, and even", cubic->across);

@@ -9,6 +9,8 @@
 #include "base/alloc.h"
 #include "contact/touch.h"
 
+static const double PI = 3.14159265358979323846;
+
 /* A wire at rest sinks in by this much when a single touch carries its whole
  * weight [m]. */
 static const double ALLOWED_PENETRATION = 20e-6;
@@ -223,12 +225,27 @@ void sw_contact_stiffness(sw_contact_regime regime, double force, double nominal
  * a particle: it may be without weight [-]. */
 static const double HARD_SHARE = 1.0;
 
+/* A mesh shorter than so many radii is a slice, there for its section, which does not bend [-]. Its
+ * touches are so many times as stiff as a solid section of its EA is against squeezing [-]. */
+static const double SLICE = 1.0, HARDER = 100.0;
+/* Of a ring with a wall: as its wall times length over radius^3 [-]. */
+static const double HARDER_WALL = 1e5;
+
+/* Force that a touch is to carry of the body [N]. */
+static double usual_force(const sw_plan *p, double weight) {
+  const double L = p->length, r = p->beam.radius;
+  if (!p->web || L >= SLICE * r) return fmax(weight, p->beam.EI / (L * L));
+  const double solid = HARDER * p->beam.EA * L / (PI * r * r);
+  const double ring = HARDER_WALL * p->web->wall * L / (r * r * r);
+  return fmax(weight, ALLOWED_PENETRATION * (ring > 0 ? ring : solid));
+}
+
 /* Stiffness of a wire's new touches: for its weight or for what bends it. */
 static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t first) {
   const sw_plan *p = s->bodies[body].plan;
   const double L = p->length, weight = p->beam.mass * L * sw_norm(sw_load(s->gravity));
   double base, rate2;
-  sw_contact_stiffness(c->regime, fmax(weight, p->beam.EI / (L * L)), c->nominal, &base, &rate2);
+  sw_contact_stiffness(c->regime, usual_force(p, weight), c->nominal, &base, &rate2);
   if (p->web && !p->web->per_ring && c->regime != SW_CONTACT_EXPLICIT)
     rate2 = fmax(rate2, HARD_SHARE * 0.5 * (p->web->rate2 + p->web->solid_rate2));
   for (size_t i = first; i < c->candidate_count; i++)

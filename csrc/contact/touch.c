@@ -337,7 +337,7 @@ static sw_vec surface_shift(const sw_system *s, const sw_touch *t, sw_vec shift)
   return sw_add(shift, sw_levers_shift(&levers, s->bodies[t->body].spin_delta + 3, 4));
 }
 
-/* Friction of a mesh's many touches may never agree with itself all over. After so many updates
+/* Friction of a loose object's many touches may never agree with itself all over. After so many updates
  * of a stage it no longer keeps iterations going where it shifts a touch by less than a small
  * share of the radius: it is then off by less than its own size for that step [-]. */
 enum { PATIENCE = 6 };
@@ -354,7 +354,8 @@ static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *
   const int small = sw_norm(shift) <= SMALL_SHIFT * radius;
   if (!c->flat[t->obstacle] && t->press.gap_after < radius && !small)
     return 0; /* place and normal of the touch may have changed */
-  if (agrees || !small || c->updates <= PATIENCE || !s->bodies[t->body].plan->web) return agrees;
+  const sw_web *web = s->bodies[t->body].plan->web;
+  if (agrees || !small || c->updates <= PATIENCE || !web || web->per_ring) return agrees;
   return sw_press_apart(&t->press);
 }
 

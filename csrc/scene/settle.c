@@ -253,8 +253,8 @@ static double widest_mesh(const sw_system *s) {
 static sw_status count_parts(statics *p, size_t *parts, sw_error *err) {
   sw_system *s = &p->s->system;
   double most = 0;
+  SW_TRY(sw_system_place_holds(s, p->s->time, NULL, NULL, NULL, err)); /* feeds move nodes */
   const double longest_shift = LONGEST_PART * shortest_edge(s), lever = widest_mesh(s);
-  SW_TRY(sw_system_place_holds(s, p->s->time, NULL, NULL, NULL, err));
   for (size_t k = 0; k < s->hold_count; k++) {
     const sw_pose *from = &p->from_poses[k], *to = &s->hold_states[k].pose;
     const double turn = sw_norm(sw_quat_log(sw_quat_mul(to->q, sw_quat_conj(from->q))));

@@ -159,7 +159,7 @@ enum { MOST_PARTICLES = 1000000 }; /* their matrices take gigabytes */
 
 static sw_status check_count(const sw_strand_plan *p, size_t rings, size_t per_ring,
                              sw_error *err) {
-  if (rings <= MOST_PARTICLES / per_ring) return SW_OK;
+  if (rings * per_ring <= MOST_PARTICLES) return SW_OK;
   return sw_fail(err, SW_EINVAL,
                  "wire '%s': %zu slices of %zu particles or more are too many; at most %d "
                  "particles are allowed",
@@ -170,12 +170,12 @@ static sw_status check_count(const sw_strand_plan *p, size_t rings, size_t per_r
 static sw_status check_rest(const sw_strand_plan *p, const sw_lattice *l, sw_error *err) {
   for (size_t i = 0; p->curved && i < l->links; i++)
     if (l->link[i].bend)
-      return sw_fail(err, SW_EINVAL,
-                     "wire '%s': rest = 'path' needs a mesh without springs against bending, which "
-                     "are straight at rest; make %s",
-                     p->name,
-                     strcmp(p->mesh, "composite") == 0 ? "core = 'radial' or 'cubic'"
-                                                       : "bend = false");
+      return sw_fail(
+          err, SW_EINVAL,
+          "wire '%s': rest = 'path' needs a mesh without springs against bending, which "
+          "are straight at rest; make %s",
+          p->name,
+          strcmp(p->mesh, "composite") == 0 ? "core = 'radial' or 'cubic'" : "bend = false");
   return SW_OK;
 }
 
@@ -208,6 +208,7 @@ sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const s
   if (made != SW_OK) return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", plan->name);
   out->web->skin = skin_of(m.lattice, beam->radius);
   out->web->line_skin = beam->radius;
+  out->web->wall = isnan(plan->wall) ? 0.0 : plan->wall;
   return SW_OK;
 }
 

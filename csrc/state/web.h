@@ -64,11 +64,12 @@ typedef struct sw_web {
   double rate2;       /* most of twice the springs of a particle over its mass [1/s2] */
   double repel_distance, repel_stiffness; /* particles nearer than that push each other apart;
                                              stiffness 0: they do not [m], [N/m] */
-  double line_skin;                       /* distance of the surface from particles of a line [m] */
-  double skin;                            /* distance of the surface from the particles there [m] */
-  unsigned char *outer;                   /* (particles) 1: at the surface */
-  size_t *side_first;                     /* (particles + 1) where the sides of each begin */
-  uint32_t *side;                         /* other ends of the surface's edges, each edge once */
+  double wall;          /* bending stiffness of a ring's wall per length, 0: none [N m] */
+  double line_skin;     /* distance of the surface from particles of a line [m] */
+  double skin;          /* distance of the surface from the particles there [m] */
+  unsigned char *outer; /* (particles) 1: at the surface */
+  size_t *side_first;   /* (particles + 1) where the sides of each begin */
+  uint32_t *side;       /* other ends of the surface's edges, each edge once */
 } sw_web;
 
 /* An empty web for so many particles, of one reference. SW_ENOMEM. */

@@ -186,7 +186,10 @@ static double advance_axial(sw_system *s, const sw_body *b) {
 static int flies_off(const sw_body *b, const double *delta) {
   const double most = b->plan->length + 2.0 * b->plan->beam.radius;
   double largest = 0;
-  for (size_t i = 0; i < 3 * b->plan->nodes; i++) largest = fmax(largest, fabs(delta[i]));
+  for (size_t i = 0; i < b->plan->nodes; i++) {
+    if (b->plan->held[i] != SW_FREE) return 0;
+    largest = fmax(largest, sw_norm(sw_load(delta + 3 * i)));
+  }
   return largest > most;
 }
 

@@ -19,7 +19,8 @@ describe("a mesh on a table", function()
   for _, model in ipairs(meshes.all) do
     it("carries its weight there, as " .. model[1], function()
       local l = 0.16
-      local scene, wire = meshes.scene(model, { gravity = { 0, 0, -G }, from = { 0, 0, R }, to = { l, 0, R } })
+      local scene, wire = meshes.scene(model, { gravity = { 0, 0, -G }, from = { 0, 0, R },
+        to = { l, 0, R } })
       local table_ = scene:obstacle{ shape = "plane", friction = 0.3 }
       t.fine(scene:settle())
       local weight = wire.beam.mass_per_length * l * G
