@@ -207,7 +207,7 @@ unset key]]
   script.add [[
 set lmargin at screen 0.47
 set rmargin at screen 0.79
-set xrange [0.1:20000]
+set xrange [0.1:30000]
 set xtics ('1' 1, '10' 10, '100' 100, '1000' 1000, '10 s' 10000)
 set format y ''
 set ytics ('' 0.01, '' 0.1, '' 1)

@@ -150,8 +150,8 @@ end
 
 local function print_limits()
   print "\nwhere methods fail: energy in % of m g L/2 (of what is stored or flies, where that is meant)\n"
-  print("  scene                            model            N     integrator         dt ms     gain   change  "
-    .. "rejected")
+  print("  scene                            model            N     integrator         dt ms     gain"
+    .. "   change  rejected")
   for _, r in ipairs(rows) do
     if r.group == "limits" then
       local function percent(x) return x and ("%.2f"):format(100 * x) or "-" end

@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- A wire clamped level, straight and at rest, is let go: undamped swing for 1 s.
--- Options: gamma (10 or 100), axial (EA L^2/EI; default that of the round section,
--- of radius 2.5 mm, which the reference has), radius (0.0025 m), section (of meshes), every: time between samples [s] (0.1; must divide 0.1 by
--- a whole number, at the finest 0.05).
+-- Options: gamma (10 or 100), axial (EA L^2/EI; default that of the round section, which the
+-- reference has with radius 2.5 mm), radius (0.0025 m), section (of meshes), every: time between
+-- samples [s] (0.1; must divide 0.1 by a whole number, at the finest 0.05).
 -- error(): root mean square of the tip's distance over L, samples 0.1 .. 1 s.
 -- largest(t): largest distance up to t [m].
 -- @module softworld.cases.release
