@@ -57,6 +57,21 @@ local function subjects()
         end }
     end
   end
+  -- parts that slide, with friction they stick by, slip beyond, and without
+  for name, friction in pairs{ slide = 0.3, ["slide without friction"] = 0 } do
+    for _, core in ipairs{ "radial", "line" } do
+      local more = { bonded = false, core = core, particles = 6, friction = friction, grip = 3 }
+      list[#list + 1] = { name = name .. " of composite, core " .. core, kind = "slide", inner = true,
+        mesh = true, make = function() return samples.wire{ model = "composite", more = more } end }
+      list[#list + 1] = { name = name .. " of composite after use, core " .. core, kind = "slide",
+        mesh = true, make = function()
+          local scene, wire = samples.wire{ model = "composite", more = more }
+          used(scene, wire)
+          return scene, wire
+        end }
+    end
+  end
+  met.slide = true
   for index, force in ipairs(samples.registry.forces) do
     if not force.inner then
       met[force.name] = true
