@@ -30,7 +30,6 @@
 /* Slipping found less by rounding than this share of the limit is none: solving starts with the
  * elastic side [-]. */
 static const double ON_LIMIT = 1e-10;
-static const double CAUTIOUS_SHARE = 0.5; /* of what slipping takes off the stiffness [-] */
 
 typedef struct pair {
   sw_slide_place at;
@@ -75,7 +74,8 @@ static void add_force(const sw_web_slide *s, const pair *p, double *force) {
 /* Second derivatives by r and r, r and e, e and e. */
 static void derive(const pair *p, int cautious, double H[3][9]) {
   const double *t = p->at.t, *n = p->at.n, l = p->at.l, u = p->at.u, d = p->at.apart;
-  const double slack = cautious ? 1 - CAUTIOUS_SHARE : 0.0;
+  /* slipping, the secant from where it stuck: an upper bound by which iterations come down */
+  const double slack = cautious ? p->limit / fabs(p->xi) : 0.0;
   const double K = p->over > 0 ? slack * p->stick : p->stick;
   /* what forces themselves add would make the matrix indefinite: not where nothing converges */
   const double F = cautious ? 0.0 : along(p), N = cautious ? 0.0 : p->press;
