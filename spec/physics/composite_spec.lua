@@ -95,7 +95,7 @@ describe("a composite whose parts slide", function()
   it("dissipates the area of its loop", function()
     local load, scene, wire = cantilever { cores = 3, friction = FRICTION, grip = 1 }
     local slide, stick = parts(wire)
-    local F, at, work, most, lost = 0, 0, 0, 0.2, 0
+    local F, at, work, most = 0, 0, 0, 0.2
     local function go(to, steps)
       local from = F
       for i = 1, steps do
@@ -112,7 +112,7 @@ describe("a composite whose parts slide", function()
     work = 0
     go(most, 40)
     go(-most, 40)
-    lost = scene:energy().dissipated - before
+    local lost = scene:energy().dissipated - before
     share(work, lost, 0.02, "dissipated")
     -- the loop has an area: of all that is stored at its end some percent
     above(0.01 * most * top, lost, "dissipated")
@@ -149,6 +149,37 @@ describe("a composite whose parts slide", function()
       share((by - 1) * most * T ^ 2 / 2 / mass, moved, 0.05, "way of the shell")
       share(most * moved, lost, 0.05, "dissipated")
       below(0.03 * moved, math.abs(stays), "what sticks")
+    end
+  end)
+
+  -- Line forces on opposite sides, all along: what holds sliding parts across is as stiff as bonds
+  -- within a slice, but bonds are inclined too.
+  it("resists squeezing as a bonded one does", function()
+    for _, core in ipairs { "line", "radial" } do
+      local function stiffness_across(bonded)
+        local scene, wire = make { core = core, bonded = bonded, particles = 12 }
+        local n, middle = #wire:calibration().shares, wire.segments // 2
+        local sides = { {}, {} }
+        for r = 0, wire.segments do
+          sides[1][r + 1], sides[2][r + 1] = n * r + 1, n * r + 7
+        end
+        local function apart()
+          local x, d = wire:particles(), {}
+          for k = 1, 3 do
+            d[k] = x[3 * sides[1][middle] - 3 + k] - x[3 * sides[2][middle] - 3 + k]
+          end
+          return tools.norm(d), d
+        end
+        local before, d = apart()
+        scene:clamp(wire, { s = 0 })
+        for side, sign in ipairs { -1 / before, 1 / before } do
+          scene:force { kind = "push", on = wire, particles = sides[side],
+            force = { sign * d[1], sign * d[2], sign * d[3] } }
+        end
+        fine(scene:settle())
+        return 1 / (before - apart())
+      end
+      share(stiffness_across(true), stiffness_across(false), 0.25, core)
     end
   end)
 
