@@ -20,6 +20,8 @@ typedef struct sw_composite_args {
   double core_radius, wall;                      /* NAN: chosen [m] */
   double core_EA, core_EI, core_GJ;              /* of each core; NAN: chosen [N, N m2, N m2] */
   double core_mass;                              /* of each core; NAN: by areas [kg/m] */
+  double friction;                               /* of parts that slide [-] */
+  double grip;                                   /* presses each core, when they slide [N/m] */
   double bond;                                   /* bonds' stiffness over the usual one [-] */
 } sw_composite_args;
 extern const sw_params sw_composite_params;

@@ -43,11 +43,16 @@ static const sw_param rows[] = {
     VALUE(core_GJ, "N m2", "of each core, likewise; a line has none"),
     VALUE(core_mass, "kg/m", "of each core (not given: by areas)"),
     {"bonded", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, AT(bonded),
-     "springs hold core and shell together; without them they slide, and links with slide = true "
-     "name the particles that face each other"},
+     "springs hold core and shell together; without them they slide, and sw.calibrate's links with "
+     "slide = true name the particles that face each other"},
     {"bond", SW_PARAM_NUMBER, "-", 1, 0, 100, SW_PARAM_ABOVE_MIN, NULL, AT(bond),
      "stiffness of bonds, over that of bars of the shell's modulus and of what carries at most a "
      "tenth of the shell's or the cores' EA from slice to slice"},
+    {"friction", SW_PARAM_NUMBER, "-", 0, 0, 100, 0, NULL, AT(friction),
+     "with bonded = false, in a scene: of shell and cores on one another along the wire"},
+    {"grip", SW_PARAM_NUMBER, "N/m", 0, 0, HUGE_VAL, 0, NULL, AT(grip),
+     "likewise: radial force per length that presses each core from the start, besides what bends "
+     "and squeezing press; drawing out a core needs friction * grip * length"},
     COUNT(particles, 64,
           "particles of the shell's ring, 3 or more and the same to each core around the axis; 0 "
           "chooses 12 or more"),
@@ -95,6 +100,16 @@ static sw_status choose_ring(const sw_composite_args *a, sw_composite *c, sw_err
   return SW_OK;
 }
 
+/* Values of parts that slide, with parts that do not. */
+static sw_status check_sliding(const sw_composite_args *a, sw_error *err) {
+  if (a->bonded && a->friction != 0)
+    return sw_fail(err, SW_EINVAL, "calibrate: friction = %g goes with bonded = false",
+                   a->friction);
+  if (a->bonded && a->grip != 0)
+    return sw_fail(err, SW_EINVAL, "calibrate: grip = %g N/m goes with bonded = false", a->grip);
+  return SW_OK;
+}
+
 /* Numbers of a mesh that was not chosen. */
 static sw_status check_kind(const sw_composite_args *a, sw_error *err) {
   const struct {
@@ -115,7 +130,7 @@ static sw_status check_kind(const sw_composite_args *a, sw_error *err) {
                    a->core_particles);
   if (!a->bonded && a->bond != 1)
     return sw_fail(err, SW_EINVAL, "calibrate: bond = %g goes with bonded = true", a->bond);
-  return SW_OK;
+  return check_sliding(a, err);
 }
 
 static sw_status check_room(const sw_composite *c, sw_error *err) {

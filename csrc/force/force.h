@@ -33,6 +33,9 @@ typedef struct sw_force_class {
   unsigned flags;
   sw_params params; /* rows of its argument struct */
 
+  /* Has it anything to do there? NULL = always. A term of a recipe that has not is left out. */
+  int (*applies)(const sw_plan *plan);
+
   /* Add what field->want asks for. args is the argument struct. Statuses: SW_OK;
    * SW_ECALLBACK from user code (err filled). */
   sw_status (*eval)(const void *args, sw_field *field, sw_error *err);

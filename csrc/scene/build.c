@@ -225,9 +225,12 @@ static sw_status add_terms(sw_scene *s, size_t w) {
   sw_recipe recipe;
   sw_body *b = &s->system.bodies[w];
   s->wires[w].cls->recipe(&s->wires[w].beam, &recipe);
-  for (size_t k = 0; k < recipe.count; k++)
-    SW_TRY(sw_system_add_term(&s->system, w, sw_force_find(recipe.terms[k].force),
-                              recipe.terms[k].args, sizeof recipe.terms[k].args, -1));
+  for (size_t k = 0; k < recipe.count; k++) {
+    const sw_force_class *cls = sw_force_find(recipe.terms[k].force);
+    if (cls->applies && !cls->applies(b->plan)) continue;
+    SW_TRY(sw_system_add_term(&s->system, w, cls, recipe.terms[k].args, sizeof recipe.terms[k].args,
+                              -1));
+  }
   b->EA = s->wires[w].beam.EA;
   b->EA_push = recipe.push ? b->EA : 0.0;
   if (recipe.twist && !b->spin_block) SW_TRY(sw_system_enable_twist(&s->system, w));

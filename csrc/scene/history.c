@@ -24,7 +24,8 @@ static sw_status keep(sw_scene *s, size_t wire, const sw_term *term, sw_kept_his
   memcpy(data, term->history, size * sizeof *data);
   *out = (sw_kept_history){.force = (size_t)term->id,
                            .wire = wire,
-                           .generation = s->forces[term->id].generation,
+                           .inner = term->id < 0 ? term->cls : NULL,
+                           .generation = term->id < 0 ? 0 : s->forces[term->id].generation,
                            .plan = sw_plan_retain(plan),
                            .data = data};
   return SW_OK;
@@ -42,7 +43,7 @@ sw_status sw_scene_keep_histories(sw_scene *s) {
   for (size_t b = 0; b < s->system.body_count; b++)
     for (size_t k = 0; k < s->system.bodies[b].term_count; k++) {
       const sw_term *term = &s->system.bodies[b].terms[k];
-      if (!term->history || term->id < 0) continue;
+      if (!term->history) continue;
       SW_TRY(keep(s, b, term, &s->kept_histories[s->kept_history_count]));
       s->kept_history_count++;
     }
@@ -52,8 +53,8 @@ sw_status sw_scene_keep_histories(sw_scene *s) {
 static const sw_kept_history *find(const sw_scene *s, size_t wire, const sw_term *term) {
   for (size_t k = 0; k < s->kept_history_count; k++) {
     const sw_kept_history *h = &s->kept_histories[k];
-    if (h->wire == wire && (long)h->force == term->id &&
-        h->generation == s->forces[term->id].generation)
+    if (h->wire != wire || (long)h->force != term->id) continue;
+    if (term->id < 0 ? h->inner == term->cls : h->generation == s->forces[term->id].generation)
       return h;
   }
   return NULL;
@@ -65,7 +66,7 @@ void sw_scene_inherit_histories(sw_scene *s) {
   for (size_t b = 0; b < s->system.body_count; b++)
     for (size_t k = 0; k < s->system.bodies[b].term_count; k++) {
       const sw_term *term = &s->system.bodies[b].terms[k];
-      if (!term->history || term->id < 0) continue;
+      if (!term->history) continue;
       const sw_kept_history *old = find(s, b, term);
       if (old) term->cls->inherit(old->plan, old->data, &s->system.bodies[b].field, term->history);
     }

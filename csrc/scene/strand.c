@@ -45,11 +45,6 @@ static sw_status calibrate(const sw_strand_plan *p, const sw_beam *beam, double 
   section.radius = (1.0 - inset(p)) * beam->radius;
   if (section.EI2 > 0) lattice.cubic.EI2 = section.EI2;
   section.EI2 = (double)NAN;
-  if (args.mesh == SW_LATTICE_COMPOSITE && !lattice.composite.bonded)
-    return sw_fail(err, SW_EINVAL,
-                   "wire '%s': bonded = false is for sw.calibrate only; in a scene parts of a "
-                   "composite are bonded",
-                   p->name);
   if (!isnan(p->wall) && (args.mesh != SW_LATTICE_TUBE || lattice.tube.core))
     return sw_fail(err, SW_EINVAL,
                    "wire '%s': wall = %.6g N m goes with model = 'tube' and core = false", p->name,

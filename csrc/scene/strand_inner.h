@@ -19,7 +19,7 @@ typedef struct sw_strand_maker {
   double *warp; /* of a section by unit strains, see sw_cell_warp; or NULL */
   sw_web *web;  /* NULL while parts are only counted */
   sw_strand *strand;
-  size_t links, folds, solids; /* so far */
+  size_t links, folds, solids, slides; /* so far */
 } sw_strand_maker;
 
 static inline int sw_strand_is_ring(const sw_strand_maker *m, size_t r) {
@@ -39,6 +39,9 @@ void sw_strand_add_line(sw_strand_maker *m, size_t r);
 void sw_strand_add_end(sw_strand_maker *m, size_t r);
 /* Mass that ring or line number r has [kg]. */
 double sw_strand_mass(const sw_strand_maker *m, size_t r);
+
+/* Parts that slide on each other, between ring r and the next one. */
+void sw_strand_add_slides(sw_strand_maker *m, size_t r);
 
 /* The web of all this, its particles placed. SW_ENOMEM. */
 sw_status sw_strand_fill(sw_strand_maker *m);

@@ -90,7 +90,7 @@ static void add_elements(sw_strand_maker *m, size_t r) {
 }
 
 static void add_parts(sw_strand_maker *m) {
-  m->links = m->folds = m->solids = 0;
+  m->links = m->folds = m->solids = m->slides = 0;
   for (size_t r = 0; r <= m->mesh->n; r++) {
     if (m->web) m->web->ring_links[r] = m->links, m->web->ring_solids[r] = m->solids;
     if (sw_strand_is_line(m, r)) sw_strand_add_line(m, r);
@@ -98,6 +98,7 @@ static void add_parts(sw_strand_maker *m) {
     add_ring(m, r);
     if (!isnan(m->plan->wall)) add_wall(m, r);
     add_elements(m, r);
+    sw_strand_add_slides(m, r);
     if (sw_strand_is_line(m, r + 1)) sw_strand_add_end(m, r);
   }
 }
@@ -200,11 +201,13 @@ static sw_status make_room(sw_strand_maker *m) {
   w->around = m->around, w->around_count = m->around_count;
   w->ring_links = sw_alloc(rings + 1, sizeof *w->ring_links);
   w->ring_solids = sw_alloc(rings + 1, sizeof *w->ring_solids);
+  w->slide = sw_alloc(m->slides, sizeof *w->slide);
+  w->slides = m->slides;
+  w->friction = m->plan->lattice.composite.friction;
   m->strand->axial = sw_alloc(m->links, sizeof *m->strand->axial);
-  return w->first && w->along && w->share && w->section && w->ring_links && w->ring_solids &&
-                 m->strand->axial
-             ? SW_OK
-             : SW_ENOMEM;
+  const int made =
+      w->first && w->along && w->share && w->section && w->ring_links && w->ring_solids;
+  return made && w->slide && m->strand->axial ? SW_OK : SW_ENOMEM;
 }
 
 static void fill_sections(sw_strand_maker *m) {
@@ -242,5 +245,6 @@ sw_status sw_strand_fill(sw_strand_maker *m) {
   }
   SW_TRY(sw_strand_bound_solids(w, x));
   SW_TRY(sw_web_bound_rate(w));
+  SW_TRY(sw_web_bound_slides(w));
   return sw_web_add_surface(w);
 }

@@ -218,8 +218,9 @@ typedef struct sw_frame {
 /* What a force on a wire remembers between two systems. */
 typedef struct sw_kept_history {
   size_t force, wire;
-  uint32_t generation; /* of the force */
-  sw_plan *plan;       /* retained */
+  const sw_force_class *inner; /* of a wire's recipe, or NULL: one of the scene's forces */
+  uint32_t generation;         /* of the force */
+  sw_plan *plan;               /* retained */
   double *data;
 } sw_kept_history;
 

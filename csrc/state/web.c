@@ -35,7 +35,7 @@ void sw_web_release(sw_web *w) {
   void *const blocks[] = {w->link,        w->first,     w->fold,   w->solid, w->shapes,
                           w->ring_links,  w->mass,      w->s,      w->share, w->section,
                           w->ring_solids, w->outer,     w->around, w->side,  w->side_first,
-                          w->yield,       w->hardening, w->along};
+                          w->yield,       w->hardening, w->along,  w->slide};
   for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) sw_free(blocks[k]);
   sw_free(w);
 }
@@ -89,6 +89,23 @@ sw_status sw_web_bound_rate(sw_web *w) {
   }
   w->rate2 = 0;
   for (size_t p = 0; p < w->particles; p++) w->rate2 = fmax(w->rate2, 2.0 * sum[p] / w->mass[p]);
+  sw_free(sum);
+  return SW_OK;
+}
+
+/* Along, the force on one edge has the other's distance as its lever. */
+sw_status sw_web_bound_slides(sw_web *w) {
+  double *sum = sw_alloc(w->particles, sizeof *sum);
+  if (!sum) return SW_ENOMEM;
+  for (size_t i = 0; i < w->slides; i++) {
+    const sw_web_slide *s = &w->slide[i];
+    const double h = fabs(w->s[s->node[1]] - w->s[s->node[0]]), lever = 0.5 * s->apart / h;
+    const double along = w->friction > 0 ? s->stick * (0.5 + lever) * (2.0 + 4.0 * lever) : 0.0;
+    for (int k = 0; k < SW_SLIDE_NODES; k++) sum[s->node[k]] += fmax(s->press, along);
+  }
+  w->slide_rate2 = 0;
+  for (size_t p = 0; p < w->particles; p++)
+    w->slide_rate2 = fmax(w->slide_rate2, sum[p] / w->mass[p]);
   sw_free(sum);
   return SW_OK;
 }

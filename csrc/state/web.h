@@ -33,6 +33,16 @@ typedef struct sw_web_solid {
   uint32_t node[SW_WEB_SOLID_NODES];
 } sw_web_solid;
 
+enum { SW_SLIDE_NODES = 4 };
+
+/* Two edges that face each other, of parts that slide on each other: see state/slide.h. */
+typedef struct sw_web_slide {
+  uint32_t node[SW_SLIDE_NODES]; /* of one part, in a ring and in the next, then of the other */
+  double press, stick;           /* stiffness across and, before they slip, along [N/m] */
+  double apart, along;           /* their offset at rest across and along [m] */
+  double grip;                   /* presses them together from the start [N] */
+} sw_web_slide;
+
 typedef struct sw_web {
   int references;
   size_t particles;
@@ -46,6 +56,10 @@ typedef struct sw_web {
   size_t folds;
   sw_web_solid *solid;
   size_t solids;
+  sw_web_slide *slide;
+  size_t slides;
+  double friction;           /* between parts that slide [-] */
+  double slide_rate2;        /* the same as rate2 of what presses and sticks them [1/s2] */
   double *yield, *hardening; /* (links) strain at which they yield, and gain of that force
                                 over their stiffness, NAN: never [-]; or NULL */
   size_t shape_count;
@@ -91,6 +105,9 @@ sw_status sw_web_add_surface(sw_web *web);
 
 /* Once springs and masses are known: the square of a bound on how fast they swing. SW_ENOMEM. */
 sw_status sw_web_bound_rate(sw_web *web);
+
+/* The same of what presses and sticks parts that slide. SW_ENOMEM. */
+sw_status sw_web_bound_slides(sw_web *web);
 
 /* Mass-weighted middle of ring i, of positions or anything else that particles have
  * (particles x 3). */

@@ -26,6 +26,10 @@ static size_t pairs_of(const sw_web *w, sw_blocks_pair *out) {
     for (uint32_t i = 1; i < w->solid[k].count; i++)
       for (uint32_t j = 0; j < i; j++, n++)
         if (out) out[n] = (sw_blocks_pair){w->solid[k].node[j], w->solid[k].node[i]};
+  for (size_t k = 0; k < w->slides; k++)
+    for (int i = 1; i < SW_SLIDE_NODES; i++)
+      for (int j = 0; j < i; j++, n++)
+        if (out) out[n] = (sw_blocks_pair){w->slide[k].node[j], w->slide[k].node[i]};
   for (size_t p = 0; p < w->particles; p++)
     for (size_t k = w->side_first[p]; k < w->side_first[p + 1]; k++, n++)
       if (out) out[n] = (sw_blocks_pair){(uint32_t)p, w->side[k]};
@@ -52,7 +56,7 @@ static size_t between(const sw_blocks *m, size_t a, size_t b) {
 static void fill_slots(sw_body *b) {
   const sw_web *w = b->plan->web;
   size_t *own = b->web_slots, *link = own + w->particles, *fold = link + w->links;
-  size_t *solid = fold + 3 * w->folds;
+  size_t *solid = fold + 3 * w->folds, *slide = solid + SW_FIELD_SOLID_PAIRS * w->solids;
   for (size_t p = 0; p < w->particles; p++) own[p] = sw_blocks_slot(b->blocks, p, p);
   for (size_t e = 0; e < w->links; e++) link[e] = between(b->blocks, w->link[e].a, w->link[e].b);
   for (size_t k = 0; k < w->folds; k++) {
@@ -67,8 +71,15 @@ static void fill_slots(sw_body *b) {
     for (uint32_t i = 1; i < w->solid[k].count; i++)
       for (uint32_t j = 0; j < i; j++) *at++ = between(b->blocks, node[j], node[i]);
   }
+  for (size_t k = 0; k < w->slides; k++) {
+    size_t *at = slide + SW_FIELD_SLIDE_PAIRS * k;
+    for (int i = 1; i < SW_SLIDE_NODES; i++)
+      for (int j = 0; j < i; j++)
+        *at++ = between(b->blocks, w->slide[k].node[j], w->slide[k].node[i]);
+  }
   b->field.own_slot = own, b->field.link_slot = link;
   b->field.fold_slot = fold, b->field.solid_slot = solid;
+  b->field.slide_slot = slide;
 }
 
 /* Within a step matrices differ little from one another. From this number of particles on the
@@ -89,7 +100,8 @@ static void use_blocks(sw_body *b) {
 sw_status sw_web_prepare(sw_body *b) {
   const sw_web *w = b->plan->web;
   SW_TRY(new_blocks(w, NULL, 0, &b->blocks));
-  const size_t slots = w->particles + w->links + 3 * w->folds + SW_FIELD_SOLID_PAIRS * w->solids;
+  const size_t slots = w->particles + w->links + 3 * w->folds + SW_FIELD_SOLID_PAIRS * w->solids +
+                       SW_FIELD_SLIDE_PAIRS * w->slides;
   b->web_slots = sw_alloc(slots, sizeof *b->web_slots);
   b->web_fixed = sw_alloc(w->particles, sizeof *b->web_fixed);
   if (!b->web_slots || !b->web_fixed) return SW_ENOMEM;

@@ -30,11 +30,12 @@ local function mesh_shape(wire, shape, random)
 end
 
 -- Bend a wire in two planes, far enough for any force to remember it.
-local function used(scene, wire)
+local function used(scene, wire, share)
   for _, pull in ipairs{ { 0, 3, 9 }, { 0, 9, -2 } } do
     local clamp = sw.core.type(wire) == "particles" and scene:hold(wire, { particles = { 1 } })
       or scene:clamp(wire, { s = 0 })
-    local force = scene:force{ kind = "line", on = wire, force = pull }
+    local force = scene:force{ kind = "line", on = wire,
+      force = along({ 0, 0, 0 }, pull, share or 1) }
     local run = scene:run{ duration = 0.3, dt = 0.01 }
     assert(run.ok, run.reason)
     force:release()
@@ -57,6 +58,22 @@ local function subjects()
         end }
     end
   end
+  -- Parts that slide: without friction, stuck, and some of them slipping. Few elements, so that
+  -- differences hardly ever meet the place where one of them slips.
+  for _, how in ipairs{ { "free", 0, 0 }, { "stuck", 100, 1e6 }, { "slipping", 0.3, 60 } } do
+    local more = { bonded = false, core = "line", particles = 3, to = { 0.2, 0, 0 },
+      friction = how[2], grip = how[3] }
+    local function make() return samples.wire{ model = "composite", more = more } end
+    list[#list + 1] = { name = "slide of composite, " .. how[1], kind = "slide", inner = true,
+      mesh = true, make = make }
+    list[#list + 1] = { name = "slide of composite, " .. how[1] .. ", after use", kind = "slide",
+      mesh = true, make = function()
+        local scene, wire = make()
+        used(scene, wire, 0.3) -- its section keeps its shape
+        return scene, wire
+      end }
+  end
+  met.slide = true
   for index, force in ipairs(samples.registry.forces) do
     if not force.inner then
       met[force.name] = true

@@ -71,6 +71,7 @@ function samples.wire(options)
   args.from, args.to = { 0, 0, 0 }, { 1, 0, 0 }
   if not samples.meshes[options.model] then args.segments = options.segments end
   args.bend = options.bend
+  for key, value in pairs(options.more or {}) do args[key] = value end
   return scene, scene:wire(args)
 end
 
