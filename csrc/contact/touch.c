@@ -337,9 +337,9 @@ static sw_vec surface_shift(const sw_system *s, const sw_touch *t, sw_vec shift)
   return sw_add(shift, sw_levers_shift(&levers, s->bodies[t->body].spin_delta + 3, 4));
 }
 
-/* Friction of a loose object's many touches may never agree with itself all over. After so many updates
- * of a stage it no longer keeps iterations going where it shifts a touch by less than a small
- * share of the radius: it is then off by less than its own size for that step [-]. */
+/* Friction of a loose object's many touches may never agree with itself all over. After so many
+ * updates of a stage it no longer keeps iterations going where it shifts a touch by less than a
+ * small share of the radius: it is then off by less than its own size for that step [-]. */
 enum { PATIENCE = 6 };
 
 /* Bring a touch's forces up to the solved update; 1 = it agrees with what the
