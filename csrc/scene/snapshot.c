@@ -123,7 +123,7 @@ static sw_drive copy_drive(const sw_drive *d) {
 static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
   p->meshes = sw_alloc(s->wire_count, sizeof *p->meshes);
   p->strands = sw_alloc(s->wire_count, sizeof *p->strands);
-  p->models = sw_alloc(s->wire_count, sizeof *p->models);
+  p->models = sw_alloc(s->wire_count, sizeof(const sw_wire_class *));
   p->extremes = sw_alloc(s->wire_count, sizeof *p->extremes);
   p->untwisted = sw_alloc(s->wire_count, sizeof *p->untwisted);
   p->hold = sw_alloc(s->hold_count, sizeof *p->hold);

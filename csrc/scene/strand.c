@@ -89,7 +89,7 @@ static sw_vec in_section(const sw_strand_maker *m, size_t r, size_t i) {
   const size_t n = 3 * m->lattice->particles;
   if (sw_strand_is_line(m, r + 1) || (r > 0 && sw_strand_is_line(m, r - 1)))
     return at; /* a lever keeps the section as it is */
-  for (size_t s = 0; m->warp && s < SW_CELL_STRAINS; s++)
+  for (size_t s = 0; m->warp && m->lie && s < SW_CELL_STRAINS; s++)
     at = sw_madd(at, sw_vec_at(m->warp + s * n, i), m->lie->strains[SW_CELL_STRAINS * r + s]);
   return at;
 }
@@ -97,7 +97,7 @@ static sw_vec in_section(const sw_strand_maker *m, size_t r, size_t i) {
 /* The particle of a line: a lever is straight before its section. */
 static sw_vec on_line(const sw_strand_maker *m, size_t r) {
   const int left = r > 0 && sw_strand_is_ring(m, r - 1), right = sw_strand_is_ring(m, r + 1);
-  if (!left && !right) return sw_vec_at(m->mesh->x, r);
+  if ((!left && !right) || !m->lie) return sw_vec_at(m->mesh->x, r);
   const size_t ring = left ? r - 1 : r + 1;
   const double d = m->mesh->s[r] - m->mesh->s[ring];
   return sw_madd(sw_vec_at(m->mesh->x, ring), sw_load(m->lie->frames + 6 * ring), d);
@@ -159,7 +159,7 @@ enum { MOST_PARTICLES = 1000000 }; /* their matrices take gigabytes */
 
 static sw_status check_count(const sw_strand_plan *p, size_t rings, size_t per_ring,
                              sw_error *err) {
-  if (rings * per_ring <= MOST_PARTICLES) return SW_OK;
+  if (rings <= MOST_PARTICLES / per_ring) return SW_OK;
   return sw_fail(err, SW_EINVAL,
                  "wire '%s': %zu slices of %zu particles or more are too many; at most %d "
                  "particles are allowed",

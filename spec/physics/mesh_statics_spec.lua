@@ -287,13 +287,17 @@ describe("a mesh between clamps", function()
       local scene, wire = meshes.scene(model)
       local a, b = scene:clamp(wire, { s = 0 }), scene:clamp(wire, { s = L })
       local r = L / (math.pi / 2)
-      b:pose({ r, 0, r }, { axis = { 0, -1, 0 }, angle = math.pi / 2 })
-      t.fine(scene:settle())
+      for k = 1, 2 do
+        local phi, rho = math.pi / 4 * k, L / (math.pi / 4 * k)
+        b:pose({ rho * math.sin(phi), 0, rho * (1 - math.cos(phi)) }, { axis = { 0, -1, 0 }, angle = phi })
+        t.fine(scene:settle())
+      end
       -- R/r = 3 % of strain outside, and sections that the clamps keep round: measured 1.4 % of
       -- the solid
       t.share(wire.beam.EI / r, t.norm(b:moment()), 0.02, "moment of " .. model[1])
       t.share(1 / r, wire:curvature(L / 2), 0.01, "curvature of " .. model[1])
-      t.near(0, t.norm(a:force()), 0.03 * wire.beam.EI / r ^ 2, "force of " .. model[1])
+      -- the stiffer ends keep the rest from being a circle: 5.4 % of EI/r^2 of the solid
+      t.near(0, t.norm(a:force()), 0.08 * wire.beam.EI / r ^ 2, "force of " .. model[1])
     end
   end)
 end)
