@@ -251,12 +251,13 @@ static double widest_mesh(const sw_system *s) {
 }
 
 /* Into how many parts the way of the holds to their places is to be cut, so that
- * no part shifts a hold by much of an edge or turns it far. */
-static sw_status count_parts(statics *p, size_t *parts, sw_error *err) {
+ * no part shifts a hold by much of an edge or turns it far. lever: what is so far out does not
+ * shift by much either when a hold turns [m]. */
+static sw_status count_parts(statics *p, double lever, size_t *parts, sw_error *err) {
   sw_system *s = &p->s->system;
   double most = 0;
   SW_TRY(sw_system_place_holds(s, p->s->time, NULL, NULL, NULL, err)); /* feeds move nodes */
-  const double longest_shift = LONGEST_PART * shortest_edge(s), lever = widest_mesh(s);
+  const double longest_shift = LONGEST_PART * shortest_edge(s);
   for (size_t k = 0; k < s->hold_count; k++) {
     const sw_pose *from = &p->from_poses[k], *to = &s->hold_states[k].pose;
     const double turn = sw_norm(sw_quat_log(sw_quat_mul(to->q, sw_quat_conj(from->q))));
@@ -267,11 +268,8 @@ static sw_status count_parts(statics *p, size_t *parts, sw_error *err) {
   return SW_OK;
 }
 
-/* Settle at every part of the holds' way. The parts are only for convergence: what
- * forces remember is brought up to the last one alone. */
-static sw_status follow_holds(statics *p, sw_error *err) {
-  size_t parts;
-  sw_status status = count_parts(p, &parts, err);
+static sw_status follow_in(statics *p, size_t parts, sw_error *err) {
+  sw_status status = SW_OK;
   for (size_t i = 1; status == SW_OK && i <= parts; i++) {
     p->s->part_from = i < parts ? p->from_poses : NULL;
     p->s->part = (double)i / (double)parts;
@@ -280,6 +278,20 @@ static sw_status follow_holds(statics *p, sw_error *err) {
   }
   p->s->part_from = NULL;
   return status;
+}
+
+/* Settle at every part of the holds' way. The parts are only for convergence: what
+ * forces remember is brought up to the last one alone. Where particles of a mesh are further from
+ * the axis than its slices from each other, the usual parts may be too wide to begin with. */
+static sw_status follow_holds(statics *p, sw_error *err) {
+  size_t parts, more;
+  SW_TRY(count_parts(p, 0.0, &parts, err));
+  const sw_status status = follow_in(p, parts, err);
+  if (status != SW_ENOCONV) return status;
+  SW_TRY(count_parts(p, widest_mesh(&p->s->system), &more, err));
+  if (more <= parts) return status;
+  take_back(p->s, p->begun);
+  return follow_in(p, more, err);
 }
 
 static void conclude(sw_scene *s, sw_status status, sw_settle_report *report, const sw_error *why) {
