@@ -40,7 +40,7 @@ describe("a mesh is refused", function()
     { "a rectangle without sides", "cubic", { section = "rectangle" }, "width and height" },
     { "unknown cores", "composite", { core = "lime" }, "did you mean 'line'?" },
     { "too many cores", "composite", { cores = 8 }, "cores = 8" },
-    { "sliding cores", "composite", { bonded = false }, "bonded = false is for sw.calibrate only" },
+    { "grip of bonded cores", "composite", { grip = 5 }, "grip" },
     { "bonds of nothing", "composite", { bond = 0 }, "bond = 0" },
     { "unknown bodies", "radial", { body = "sold" }, "springs, solid; did you mean 'solid'?" },
     { "solid tubes", "tube", { body = "solid" }, "no room for solid elements" },
