@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Forces of a scene, and which of them go with which wires. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "scene/world.h"
+
+sw_status sw_scene_check_line(const sw_scene_wire *w, const char *what, sw_error *err) {
+  if (!w->cls->mesh) return SW_OK;
+  if (sw_scene_is_loose(w))
+    return sw_fail(err, SW_EINVAL, "%s: '%s' is an object of particles; it goes with wires only",
+                   what, w->name);
+  return sw_fail(err, SW_EINVAL,
+                 "%s: wire '%s' is a %s, a mesh of particles; it goes with rods "
+                 "and strings only",
+                 what, w->name, w->cls->name);
+}
+
+/* Can the force act on the wire? */
+static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, const void *args,
+                            sw_error *err) {
+  sw_recipe recipe;
+  int by_angle = 0;
+  w->cls->recipe(&w->beam, &recipe);
+  if ((cls->flags & SW_FORCE_AT_PLACE) && sw_scene_is_loose(w))
+    return sw_fail(err, SW_EINVAL,
+                   "force %s: '%s' is an object of particles, which has no arc length s; kind = "
+                   "'push' takes particles",
+                   cls->name, w->name);
+  if ((cls->flags & SW_FORCE_OF_WEB) && !w->cls->mesh)
+    return sw_fail(err, SW_EINVAL,
+                   "force %s: wire '%s' is a %s; it goes with objects of particles and with models "
+                   "that are meshes",
+                   cls->name, w->name, w->cls->name);
+  if (w->cls->mesh && !(cls->flags & SW_FORCE_ANY_BODY) && sw_scene_is_loose(w))
+    return sw_fail(err, SW_EINVAL, "force %s: '%s' is an object of particles; it goes with wires",
+                   cls->name, w->name);
+  if (w->cls->mesh && !(cls->flags & SW_FORCE_ANY_BODY))
+    return sw_fail(err, SW_EINVAL,
+                   "force %s: wire '%s' is a %s, a mesh of particles, which it does not know; it "
+                   "goes with model = 'rod'",
+                   cls->name, w->name, w->cls->name);
+  for (size_t k = 0; k < recipe.count; k++) by_angle |= strcmp(recipe.terms[k].force, "bend") == 0;
+  if ((cls->flags & SW_FORCE_BY_ANGLE) && !by_angle)
+    return sw_fail(err, SW_EINVAL,
+                   "force %s: wire '%s' is a %s, whose bending it cannot correct; it goes with "
+                   "model = 'rod'",
+                   cls->name, w->name, w->cls->name);
+  if (cls->commit && w->beam.framed)
+    return sw_fail(err, SW_EINVAL,
+                   "force %s: wire '%s' is curved at rest, has two values of EI or rolls, which it "
+                   "does not know",
+                   cls->name, w->name);
+  return cls->check ? cls->check(args, &w->beam, err) : SW_OK;
+}
+
+sw_status sw_scene_check_rules(const sw_scene *s, size_t wire, const sw_scene_wire *as,
+                               sw_error *err) {
+  for (size_t k = 0; k < s->force_count; k++)
+    if (s->forces[k].alive && (s->forces[k].wire < 0 || s->forces[k].wire == (long)wire))
+      SW_TRY(check_wire(s->forces[k].cls, as, s->forces[k].args, err));
+  for (size_t k = 0; k < s->rule_count; k++) {
+    const sw_scene_rule *r = &s->rules[k];
+    int mine = r->count == 0;
+    for (size_t i = 0; i < r->count; i++) mine |= r->wires[i] == wire;
+    if (mine && r->rule.on) SW_TRY(sw_scene_check_line(as, "scene:wire_contact", err));
+  }
+  return SW_OK;
+}
+
+static sw_status check_force(const sw_scene *s, const sw_force_class *cls, sw_handle wire,
+                             const void *args, sw_error *err) {
+  for (size_t w = 0; w < s->wire_count; w++)
+    if (!wire.generation || w == wire.slot) SW_TRY(check_wire(cls, &s->wires[w], args, err));
+  return SW_OK;
+}
+
+void sw_scene_clear_force(sw_scene_force *f) { sw_free(f->particle); }
+
+static sw_status check_some(const sw_force_class *cls, const sw_scene_wire *w,
+                            const sw_force_some *some, sw_error *err) {
+  if (!w) return sw_fail(err, SW_EINVAL, "force %s: on is required: the object", cls->name);
+  if (!some->count)
+    return sw_fail(err, SW_EINVAL, "force %s: particles of '%s': none", cls->name, w->name);
+  for (size_t i = 0; i < some->count; i++)
+    if (some->particle[i] >= w->strand.web->particles)
+      return sw_fail(err, SW_EINVAL, "force %s: '%s' has no particle %lu; it has %zu, from 1 on",
+                     cls->name, w->name, (unsigned long)some->particle[i] + 1,
+                     w->strand.web->particles);
+  return SW_OK;
+}
+
+/* The scene's own list instead of the caller's. SW_ENOMEM. */
+static sw_status own_list(sw_scene_force *f) {
+  sw_force_some some;
+  memcpy(&some, f->args, sizeof some);
+  f->particle = sw_alloc(some.count, sizeof *f->particle);
+  if (!f->particle) return SW_ENOMEM;
+  memcpy(f->particle, some.particle, some.count * sizeof *f->particle);
+  some.particle = f->particle;
+  memcpy(f->args, &some, sizeof some);
+  return SW_OK;
+}
+
+sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle wire,
+                             const void *args, size_t args_size, sw_handle *out, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  const sw_scene_wire *w = wire.generation ? sw_scene_find_body(s, wire, err) : NULL;
+  if (wire.generation && !w) return SW_EDEAD;
+  if (args_size > SW_FORCE_ARGS_MAX) return sw_fail(err, SW_ELIMIT, "force: too many arguments");
+  if (cls->flags & SW_FORCE_AT_PLACE) {
+    double at;
+    memcpy(&at, args, sizeof at); /* by contract the first member is s */
+    if (!w) return sw_fail(err, SW_EINVAL, "force %s: on is required: the wire", cls->name);
+    const double length = w->mesh.s[w->mesh.n - 1] - w->mesh.s[0];
+    if (at > length * (1 + 1e-12))
+      return sw_fail(err, SW_EINVAL, "force %s: s = %g m is beyond the end of wire '%s' at %g m",
+                     cls->name, at, w->name, length);
+  }
+  SW_TRY(check_force(s, cls, wire, args, err));
+  if (cls->flags & SW_FORCE_ON_SOME) SW_TRY(check_some(cls, w, args, err));
+  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_grow((void **)&s->forces, &s->force_capacity, s->force_count + 1, sizeof *s->forces));
+  sw_scene_force *f = &s->forces[s->force_count];
+  *f = (sw_scene_force){.generation = s->serial + 1,
+                        .alive = 1,
+                        .cls = cls,
+                        .wire = wire.generation ? (long)wire.slot : -1,
+                        .scale = w ? w->mesh.scale : 1.0};
+  if (args_size) memcpy(f->args, args, args_size);
+  if (cls->flags & SW_FORCE_ON_SOME) SW_TRY(own_list(f));
+  if (w && cls->flags & SW_FORCE_AT_PLACE) f->args[0] += w->mesh.s[0]; /* stays with the wire */
+  *out = (sw_handle){(uint32_t)s->force_count++, ++s->serial};
+  return SW_OK;
+}
+
+const sw_force_class *sw_scene_force_class(const sw_scene *s, sw_handle h) {
+  const int known = h.slot < s->force_count && s->forces[h.slot].generation == h.generation;
+  return known ? s->forces[h.slot].cls : NULL;
+}
+
+sw_status sw_scene_remove_force(sw_scene *s, sw_handle force, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  if (!sw_scene_force_class(s, force))
+    return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
+  if (!s->forces[force.slot].alive) return SW_OK;
+  SW_TRY(sw_scene_thaw(s));
+  s->forces[force.slot].alive = 0;
+  return SW_OK;
+}
