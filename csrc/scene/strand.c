@@ -47,8 +47,8 @@ static sw_status calibrate(const sw_strand_plan *p, const sw_beam *beam, double 
   section.EI2 = (double)NAN;
   if (!isnan(p->wall) && (args.mesh != SW_LATTICE_TUBE || lattice.tube.core))
     return sw_fail(err, SW_EINVAL,
-                   "wire '%s': wall = %.6g N m goes with model = 'tube' and core = false", p->name,
-                   p->wall);
+                   "wire '%s': wall_bending = %.6g N m goes with model = 'tube' and core = false",
+                   p->name, p->wall);
   if (!isnan(p->wall)) { /* chords and wide diagonals would hold the ring round too */
     if (lattice.tube.brace < 0) lattice.tube.brace = 0;
     if (lattice.tube.reach == 0) lattice.tube.reach = 1;

@@ -44,7 +44,7 @@ static const sw_param mesh_rows[] = {
     {"squeeze", SW_PARAM_NUMBER, "Pa", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(squeeze),
      "stiffness of the section: line force of two plates on opposite sides over their approach "
      "(not given: as the springs come out)"},
-    {"wall", SW_PARAM_NUMBER, "N m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(wall),
+    {"wall_bending", SW_PARAM_NUMBER, "N m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(wall),
      "of a tube with core = false: bending stiffness of its wall per length, E t^3 / (12 (1 - "
      "nu^2)), against flattening and ovalisation; takes the place of chords (brace)"},
     {"body", SW_PARAM_CHOICE, "-", SW_BODY_SPRINGS, 0, 0, 0, body_names, AT(body),

@@ -14,6 +14,8 @@ local notes = {
   section = "scene:wire{...}: what the wire is made of", obstacle = "scene:obstacle{ shape =, ... }",
   run = "scene:run{...}", settle = "scene:settle{...}",
   frequencies = "wire:frequencies{...}: natural frequencies [Hz] about the present equilibrium",
+  wire_mesh = "scene:wire{ model = 'tube' | 'radial' | 'cubic' | 'composite' }: what meshes take besides",
+  remodel = "wire:remodel{ model =, ... }: another model for a wire in mid-run",
   wire_contact = "scene:wire_contact{...}: wires that touch each other and themselves",
   particles = "scene:particles{...}: any object of particles: fabric, foam, nets, chains",
   repel = "repel = {...} of scene:particles",
@@ -144,6 +146,15 @@ local more = {
   .shell, .core, .part, .centres of a composite: EA, EI, GJ of the parts; part of each particle
   .EA .EI .EI2 .GJ .squeeze      reached [N], [N m2], [Pa]; .residuals: share of each that is off
   sw.calibrate.cell{ spacing =, particles =, links =, stiffness = }   the beam that any mesh is]],
+  wire_mesh = [[
+  and what the mesh itself takes: help "calibrate_tube", help "calibrate_radial",
+  help "calibrate_cubic", help "calibrate_composite"
+  section = "solid" is body = "solid"; wire:section(s) tells how a section is deformed ]],
+  remodel = [[
+  and what help "wire_mesh" lists. Shape, stretch, twist, velocity, momentum go over; holds stay
+  returns { energy_before, energy_after, energy_change [J], before, after = { linear [N s],
+  angular [N m s] about the place `about` [m] } }
+  region = {s1, s2} [m]: rings there and beside clamps, elsewhere a line without twist ]],
   feed = [[
   returns a clamp (:force() :moment() :pose() :follow() :release()) and
   :fed()                         length paid out so far, unstressed [m]

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A thin ring between plates: a tube whose wall bends (wall =), one slice of it in plane strain.
+-- A thin ring between plates: a tube whose wall bends (wall_bending =), one slice of it in plane strain.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -16,7 +16,7 @@ local exact = { { 0.05, 0.6254082015, 1.043693411 }, { 0.1, 1.174331514, 1.08325
 local function squeeze(particles, share)
   local EA = E * 2 * math.pi * R * thick
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
-  local wire = scene:wire{ model = "tube", core = false, particles = particles, wall = wall, EA = EA,
+  local wire = scene:wire{ model = "tube", core = false, particles = particles, wall_bending = wall, EA = EA,
     EI = EA * R ^ 2 / 2, GJ = EA * R ^ 2 / 2, mass_per_length = 0.02, radius = 1.2 * R, segments = 2,
     from = { 0, 0, 0 }, to = { R / 2, 0, 0 }, normal = { 0, 0, 1 } }
   scene:force{ kind = "plane_strain", on = wire, direction = { 1, 0, 0 } }
@@ -50,7 +50,7 @@ describe("a thin ring between plates", function()
   it("needs a tube without core for its wall, and says so", function()
     local scene = sw.scene{}
     for _, case in ipairs{ { model = "tube" }, { model = "radial" }, { model = "tube", core = true } } do
-      local ok, text = pcall(scene.wire, scene, { model = case.model, core = case.core, wall = 1,
+      local ok, text = pcall(scene.wire, scene, { model = case.model, core = case.core, wall_bending = 1,
         E = 1e7, nu = 0.3, density = 1000, radius = 0.01, from = { 0, 0, 0 }, to = { 0.2, 0, 0 } })
       assert.is_false(ok)
       assert.is_truthy(text:find "wall", text)
