@@ -292,6 +292,16 @@ static int meth_max_ovalisation(lua_State *L) {
                     sw_scene_wire_name(scene, w->id), sw_scene_wire_model(scene, w->id));
 }
 
+/* Where [m] and when [s] in the run a section of springs has first folded through itself, which
+ * makes its forces wrong from then on; nothing when none has. */
+static int meth_folded(lua_State *L) {
+  const sw_extreme x = read_extremes(L).folding;
+  if (!(x.value > 0)) return 0;
+  lua_pushnumber(L, x.s);
+  lua_pushnumber(L, x.time);
+  return 2;
+}
+
 static int prop_length(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
@@ -389,6 +399,7 @@ static const luaL_Reg methods[] = {{"position", meth_position},
                                    {"max_strain", meth_max_strain},
                                    {"max_stress", meth_max_stress},
                                    {"max_ovalisation", meth_max_ovalisation},
+                                   {"folded", meth_folded},
                                    {"section", lsw_wire_section},
                                    {"width", lsw_wire_width},
                                    {"contact_pressure", lsw_wire_contact_pressure},

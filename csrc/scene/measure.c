@@ -258,6 +258,7 @@ static void measure_from_start(sw_wire_extremes *e, double start) {
   e->tension.s -= start;
   e->strain.s -= start;
   e->ovalisation.s -= start;
+  e->folding.s -= start;
 }
 
 sw_status sw_scene_wire_extremes(sw_scene *s, sw_handle h, sw_wire_extremes *now,

@@ -139,13 +139,13 @@ void sw_scene_wire_now(sw_scene *s, size_t w, sw_wire_extremes *now) {
   if (s->wires[w].strand.web) {
     sw_strand_extremes(s, w, now);
     now->curvature.time = now->tension.time = now->strain.time = s->time;
-    now->ovalisation.time = s->time;
+    now->ovalisation.time = now->folding.time = s->time;
     return;
   }
   curvature_extreme(&s->system.bodies[w], s->system.directors_now, &now->curvature);
   tension_extreme(&s->system, &s->system.bodies[w], &now->tension);
   strain_extreme(&s->system, &s->system.bodies[w], &now->strain);
-  now->ovalisation = (sw_extreme){.value = -HUGE_VAL};
+  now->ovalisation = now->folding = (sw_extreme){.value = -HUGE_VAL};
   now->curvature.time = now->tension.time = now->strain.time = s->time;
 }
 
@@ -154,6 +154,7 @@ void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now)
   keep_largest(&kept->tension, &now->tension);
   keep_largest(&kept->strain, &now->strain);
   keep_largest(&kept->ovalisation, &now->ovalisation);
+  if (!(kept->folding.value > 0)) keep_largest(&kept->folding, &now->folding); /* the first fold */
 }
 
 static sw_status log_holds(sw_scene *s, sw_error *err) {
@@ -215,7 +216,7 @@ sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
 void sw_scene_reset_extremes(sw_scene *s) {
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_extreme least = {.value = -HUGE_VAL};
-    s->wires[w].extremes = (sw_wire_extremes){least, least, least, least};
+    s->wires[w].extremes = (sw_wire_extremes){least, least, least, least, least};
   }
   s->deepest = (sw_extreme){0};
 }

@@ -418,7 +418,8 @@ sw_status sw_scene_wire_set_velocity(sw_scene *scene, sw_handle wire, sw_vec v, 
 /* The wire's largest values: now, and since the last run or settle began. */
 typedef struct sw_wire_extremes {
   sw_extreme curvature, tension, strain; /* [1/m], [N], outermost fibre [-] */
-  sw_extreme ovalisation;                /* of a mesh of particles; see sw_section_shape [-] */
+  sw_extreme folding;     /* of a section of springs; above 0: it has folded through itself [-] */
+  sw_extreme ovalisation; /* of a mesh of particles; see sw_section_shape [-] */
 } sw_wire_extremes;
 sw_status sw_scene_wire_extremes(sw_scene *scene, sw_handle wire, sw_wire_extremes *now,
                                  sw_wire_extremes *run, sw_error *err);

@@ -157,7 +157,7 @@ void sw_strand_extremes(const sw_scene *s, size_t wire, sw_wire_extremes *now) {
   const sw_web *w = b->plan->web;
   const double *x = s->system.x + 3 * b->first_node, EA = b->plan->beam.EA;
   const sw_extreme least = {.value = -HUGE_VAL};
-  *now = (sw_wire_extremes){least, least, least, least};
+  *now = (sw_wire_extremes){least, least, least, least, least};
   if (!w->rings) return; /* an object of particles */
   for (size_t r = 0; r + 1 < w->rings; r++) {
     const slice at = slice_of(w, x, r);
@@ -170,4 +170,5 @@ void sw_strand_extremes(const sw_scene *s, size_t wire, sw_wire_extremes *now) {
     if (strain > now->strain.value) now->strain = (sw_extreme){.value = strain, .s = place};
   }
   now->ovalisation = sw_strand_ovalisation(w, x);
+  now->folding = sw_strand_folding(w, x);
 }

@@ -43,6 +43,9 @@ double sw_strand_mass(const sw_strand_maker *m, size_t r);
 /* Parts that slide on each other, between ring r and the next one. */
 void sw_strand_add_slides(sw_strand_maker *m, size_t r);
 
+/* Once the web has its sections: their faces. SW_ENOMEM. */
+sw_status sw_strand_find_faces(sw_strand_maker *m);
+
 /* The web of all this, its particles placed. SW_ENOMEM. */
 sw_status sw_strand_fill(sw_strand_maker *m);
 

@@ -237,6 +237,7 @@ sw_status sw_strand_fill(sw_strand_maker *m) {
   sw_web *w = m->web;
   const double *x = m->strand->x;
   fill_sections(m);
+  SW_TRY(sw_strand_find_faces(m));
   if (m->lattice->solids) SW_TRY(prepare_shapes(m));
   add_parts(m);
   for (size_t e = 0; e < w->links; e++) {

@@ -80,6 +80,9 @@ sw_widths sw_outline_widths(const double *outline, size_t count, sw_vec tangent)
 /* See sw_section_shape; and for all rings at once, of the one that is out of round most [-]. */
 double sw_outline_ovalisation(const sw_web *web, const double *outline, sw_vec tangent);
 sw_extreme sw_strand_ovalisation(const sw_web *web, const double *x);
+/* How far the worst face of a section of springs is turned over: minus its area over that at rest,
+ * above 0 when it is [-]. */
+sw_extreme sw_strand_folding(const sw_web *web, const double *x);
 /* Points of the outline (count x 3) moved outwards by skin. */
 void sw_outline_widen(const double *outline, size_t count, sw_vec tangent, double skin,
                       double *out);

@@ -35,7 +35,7 @@ void sw_web_release(sw_web *w) {
   void *const blocks[] = {w->link,        w->first,     w->fold,   w->solid, w->shapes,
                           w->ring_links,  w->mass,      w->s,      w->share, w->section,
                           w->ring_solids, w->outer,     w->around, w->side,  w->side_first,
-                          w->yield,       w->hardening, w->along,  w->slide};
+                          w->yield,       w->hardening, w->along,  w->slide, w->face};
   for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) sw_free(blocks[k]);
   sw_free(w);
 }

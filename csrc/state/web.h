@@ -73,6 +73,8 @@ typedef struct sw_web {
   double *section;  /* (per_ring x 2) where they are across the wire [m] */
   uint32_t *around; /* (around_count) of a section's surface, in their order */
   size_t around_count;
+  uint32_t *face; /* (faces x 3) triangles of a section of springs, anticlockwise */
+  size_t faces;
   uint32_t axis;      /* a section's particle on the axis; per_ring: there is none */
   double solid_rate2; /* the same of the solid elements [1/s2] */
   double rate2;       /* most of twice the springs of a particle over its mass [1/s2] */

@@ -108,6 +108,8 @@ wire:width(s, direction)        [m]
 wire:contact_pressure(s)        of the section nearest to s, or without s of all: a list of
   .particle .s .at .force .normal_force .area .pressure   [m], [N], [m2], [Pa]; .largest [Pa]
 wire:von_mises(s)               of solid elements: a list of .stress .s .at; .largest [Pa]
+wire:folded()                   where [m] and when [s] a section of springs folded through itself;
+                                nothing when none has. Solid elements do not
 wire:max_ovalisation()          of the run, where [m], when [s]; { now = true }
 wire:calibration()              its springs, see help "calibrate"]],
   units = "sw.units.mm(5), sw.units.deg(30), ...: into SI units",

@@ -246,6 +246,10 @@ local function summary_of(self)
     local tension
     tension, s, t = w.object:max_tension()
     add(w.name .. ": largest tension", tension, "N", s, t)
+    s, t = w.object:folded()
+    if s then
+      add(w.name .. ": section FOLDED through itself, its forces are wrong since", t, "s", s, t)
+    end
   end
   if #data.obstacles > 0 then
     local depth, s, t = self.scene:penetration()
