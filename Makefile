@@ -31,9 +31,10 @@ all: $(BUILD)/softworld $(BUILD)/lib/softworld/core.so
 $(BUILD)/softworld: $(OBJ) $(HOSTOBJ)
 	$(CC) $(SAN) -Wl,-E -o $@ $^ $(LIBS) $(LUALIB) -lreadline
 
+# Stays loaded: libraries behind it do not bear being taken away.
 $(BUILD)/lib/softworld/core.so: $(OBJ)
 	@mkdir -p $(@D)
-	$(CC) $(SAN) -shared -o $@ $^ $(LIBS)
+	$(CC) $(SAN) -shared -Wl,-z,nodelete -o $@ $^ $(LIBS)
 
 $(BUILD)/obj/%.o: csrc/%.c Makefile
 	@mkdir -p $(@D)

@@ -237,7 +237,7 @@ sw_status sw_scene_rehold(sw_scene *s, sw_scene_hold *h, sw_pose pose) {
   sw_hold_args a = h->args;
   sw_scene_hold new = *h;
   a.s = 0.5 * (h->s1 + h->s2), a.direction = sw_v(NAN, NAN, NAN);
-  new.s = new.local = NULL, new.count = 0;
+  new.s = new.local = NULL, new.particle = NULL, new.count = 0;
   h->alive = 0; /* its own places are not in its way */
   take_directions(&w->mesh, &new, &a);
   sw_status status = place_nodes(s, h->wire, &new, &a);
@@ -249,6 +249,7 @@ sw_status sw_scene_rehold(sw_scene *s, sw_scene_hold *h, sw_pose pose) {
   if (status != SW_OK) {
     sw_free(new.s);
     sw_free(new.local);
+    sw_free(new.particle);
     return status;
   }
   seen_from(&new, pose);
@@ -256,6 +257,7 @@ sw_status sw_scene_rehold(sw_scene *s, sw_scene_hold *h, sw_pose pose) {
   new.shape = ++s->serial;
   sw_free(h->s);
   sw_free(h->local);
+  sw_free(h->particle);
   *h = new;
   return SW_OK;
 }
