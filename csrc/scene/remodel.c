@@ -463,17 +463,7 @@ sw_status sw_scene_remodel(sw_scene *s, sw_handle h, const sw_wire_args *args,
   const sw_wire_class *cls = sw_wire_all()[args->model];
   SW_TRY(check(s, h.slot, cls, err));
   SW_TRY(sw_scene_build(s, err));
-  const sw_scene_wire *w = &s->wires[h.slot];
-  const sw_strand_plan plan = {.name = w->name,
-                               .mesh = cls->mesh,
-                               .spacing = mesh->spacing,
-                               .squeeze = mesh->squeeze,
-                               .body = mesh->body,
-                               .wall = mesh->wall,
-                               .lattice = mesh->lattice,
-                               .section = mesh->section,
-                               .normal = w->drawing.normal,
-                               .rest_twist = w->beam.rest_twist};
+  const sw_strand_plan plan = sw_scene_strand_plan(&s->wires[h.slot], cls, mesh);
   line l = {0};
   sw_scene_wire next = {.cls = cls};
   sw_snapshot *before = NULL;

@@ -149,21 +149,26 @@ static sw_status keep_drawing(sw_scene_wire *w, const sw_wire_args *args, const 
   return SW_OK;
 }
 
+sw_strand_plan sw_scene_strand_plan(const sw_scene_wire *w, const sw_wire_class *cls,
+                                    const sw_wire_mesh_args *mesh) {
+  return (sw_strand_plan){.name = w->name,
+                          .mesh = cls->mesh,
+                          .spacing = mesh->spacing,
+                          .squeeze = mesh->squeeze,
+                          .body = mesh->body,
+                          .wall = mesh->wall,
+                          .lattice = mesh->lattice,
+                          .section = mesh->section,
+                          .normal = w->drawing.normal,
+                          .curved = w->drawing.rest == SW_REST_PATH,
+                          .rest_twist = w->drawing.rest_twist};
+}
+
 /* The particles of a wire that is a mesh, along its drawing. */
 static sw_status draw_strand(sw_scene_wire *w, const sw_wire_args *args,
                              const sw_wire_mesh_args *mesh, sw_error *err) {
   const sw_drawing *d = &w->drawing;
-  const sw_strand_plan plan = {.name = w->name,
-                               .mesh = w->cls->mesh,
-                               .spacing = mesh->spacing,
-                               .squeeze = mesh->squeeze,
-                               .body = mesh->body,
-                               .wall = mesh->wall,
-                               .lattice = mesh->lattice,
-                               .section = mesh->section,
-                               .normal = d->normal,
-                               .curved = d->rest == SW_REST_PATH,
-                               .rest_twist = d->rest_twist};
+  const sw_strand_plan plan = sw_scene_strand_plan(w, w->cls, mesh);
   size_t slices = (size_t)args->segments;
   double length = 0;
   if (slices && !isnan(mesh->spacing))

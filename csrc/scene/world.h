@@ -97,6 +97,10 @@ sw_status sw_scene_open_wire(sw_scene *scene, sw_handle h, sw_scene_wire **wire,
 /* SW_EINVAL when place is no arc length of the wire. */
 sw_status sw_scene_check_place(const sw_scene_wire *wire, double place, sw_error *err);
 
+/* What a mesh of this class for the wire is to be of. */
+sw_strand_plan sw_scene_strand_plan(const sw_scene_wire *wire, const sw_wire_class *cls,
+                                    const sw_wire_mesh_args *mesh);
+
 /* The wire is as drawn: not twisted anywhere. SW_ENOMEM. */
 sw_status sw_scene_draw_untwisted(sw_scene_wire *wire);
 
