@@ -180,11 +180,14 @@ static double advance_axial(sw_system *s, const sw_body *b) {
                          f->tangent[0], f->tangent[1], f->tangent[2], b->EA, b->EA_push, axial);
 }
 
+/* Largest shift that a static solve may give a mesh which nothing holds, of the radius [-]. */
+static const double LOOSE = 0.1;
+
 /* A mesh that nothing holds has directions without stiffness, in which rounding alone would throw
- * it far away, to where nothing pulls at it any more. Does the update go further than the wire is
- * long? */
+ * it away, to where nothing pulls at it any more. Is the update so large that it may be that? With
+ * inertia, which pseudo-transient steps have, it is known where it goes. */
 static int flies_off(const sw_body *b, const double *delta) {
-  const double most = b->plan->length + 2.0 * b->plan->beam.radius;
+  const double most = LOOSE * b->plan->beam.radius;
   double largest = 0;
   for (size_t i = 0; i < b->plan->nodes; i++) {
     if (b->plan->held[i] != SW_FREE) return 0;
