@@ -10,7 +10,8 @@
 static const double PRECISION = 1e-3; /* of the force wanted [-] */
 static const double REACHED = 0.02;   /* so far below it the force counts as reached [-] */
 enum { MOST_TRIALS = 10 };            /* the last one is then taken as it is [-] */
-static const double SAME_OPENING = 1e-12; /* at a step's end [m] */
+static const double SAME_OPENING = 1e-9; /* at a step's end [m] */
+static const double TELLS = 1e-7; /* forces at openings nearer to each other tell no stiffness [m] */
 static const double BEYOND = 1.3; /* a guess goes so much further than the slope says [-] */
 static const double WIDER = 4.0;  /* and so many times as far with every trial that is too short [-] */
 
@@ -71,7 +72,7 @@ static int improve(sw_jaw *j, double off) {
   }
   const double gap = j->tried[0] - j->tried[1];
   if (gap * j->step < SAME_OPENING) return 1;
-  if (j->trials > 1) j->stiffness = (j->off[1] - j->off[0]) / (gap * j->step);
+  if (j->trials > 1 && gap * j->step > TELLS) j->stiffness = (j->off[1] - j->off[0]) / (gap * j->step);
   if (j->last_side == side) j->off[!side] *= 0.5;
   j->last_side = side;
   j->speed = j->tried[0] - gap * j->off[0] / (j->off[0] - j->off[1]);
@@ -127,7 +128,8 @@ static void follow(const sw_scene *s, sw_tool *t) {
   j->since = s->time;
   j->now = sw_tool_squeeze(s, t);
   const double k = (j->now - force) / (before - j->opening);
-  const int tells = force > 0 && fabs(j->now - force) > TELLING * j->force;
+  const int tells = force > 0 && fabs(j->now - force) > TELLING * j->force &&
+                    fabs(before - j->opening) > TELLS;
   if (tells && k > 0 && k < HUGE_VAL) j->stiffness = k;
   if (j->mode == SW_JAW_STILL) j->speed = 0;
   judge(j);
