@@ -151,6 +151,9 @@ static int meth_state(lua_State *L) {
   lsw_set_number(L, "slip", now.slip);
   lsw_set_vector(L, "slipped", now.slipped);
   lsw_set_number(L, "place", now.place);
+  lua_pushboolean(L, now.frozen);
+  lua_setfield(L, -2, "frozen");
+  if (!isnan(now.lost_time)) lsw_set_number(L, "lost_time", now.lost_time);
   if (isnan(now.slip_time)) return 1;
   lsw_set_number(L, "slip_time", now.slip_time);
   lsw_set_number(L, "slip_place", now.slip_place);
@@ -227,12 +230,64 @@ static int meth_touches(lua_State *L) {
   return 1;
 }
 
+static void push_momentum(lua_State *L, const char *name, const double p[6]) {
+  lua_createtable(L, 0, 2);
+  lsw_set_vector(L, "linear", sw_load(p));
+  lsw_set_vector(L, "angular", sw_load(p + 3));
+  lua_setfield(L, -2, name);
+}
+
+static int push_report(lua_State *L, const sw_freeze_report *r) {
+  lua_createtable(L, 0, 8);
+  lsw_set_number(L, "s1", r->s1);
+  lsw_set_number(L, "s2", r->s2);
+  lsw_set_number(L, "energy_before", r->energy_before);
+  lsw_set_number(L, "energy_after", r->energy_after);
+  lsw_set_vector(L, "force", r->force);
+  lsw_set_vector(L, "moment", r->moment);
+  push_momentum(L, "before", r->before);
+  push_momentum(L, "after", r->after);
+  return 1;
+}
+
+/* tool:freeze(wire), tool:thaw() -> { s1, s2 [m], energy_before, energy_after [J], force [N], moment
+ * [N m] of the tool before, before, after = momentum { linear, angular } } */
+static int meth_freeze(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_freeze_report r;
+  const lsw_child *t = check(L, &scene);
+  const lsw_child *w = lsw_check_child_of(L, 2, &lsw_class_wire, scene, "tool:freeze");
+  lsw_must(L, sw_scene_tool_freeze(scene, t->id, w->id, &r, &err), &err);
+  return push_report(L, &r);
+}
+
+static int meth_thaw(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_freeze_report r;
+  const lsw_child *t = check(L, &scene);
+  lsw_must(L, sw_scene_tool_thaw(scene, t->id, &r, &err), &err);
+  return push_report(L, &r);
+}
+
+/* tool:limit(margin): at which a frozen grip is lost. */
+static int meth_limit(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const lsw_child *t = check(L, &scene);
+  const double margin = lsw_number(L, 2, "tool:limit: margin", "-");
+  lsw_must(L, sw_scene_tool_limit(scene, t->id, margin, &err), &err);
+  return 0;
+}
+
 static const luaL_Reg methods[] = {
     {"pad", meth_pad},     {"hold", meth_hold},   {"pads_on", meth_pads_on},
     {"follow", meth_follow}, {"pose", meth_pose},   {"jaws", meth_jaws},
     {"watch", meth_watch}, {"state", meth_state}, {"force", meth_force},
     {"moment", meth_moment}, {"log", meth_log},
-    {"touches", meth_touches}, {NULL, NULL}};
+    {"touches", meth_touches}, {"freeze", meth_freeze}, {"thaw", meth_thaw},
+    {"limit", meth_limit},   {NULL, NULL}};
 
 static int meta_describe(lua_State *L) {
   sw_scene *scene;

@@ -3,6 +3,7 @@
 #include "contact/contact.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -393,6 +394,32 @@ sw_status sw_contact_inherit(sw_contact *c, const void *memory, size_t bytes, in
     c->memory[kept++].node = node;
   }
   c->memory_count = kept;
+  return SW_OK;
+}
+
+static int in_order(const void *a, const void *b) {
+  const sw_memory *p = a, *q = b;
+  if (p->node != q->node) return p->node < q->node ? -1 : 1;
+  if (p->obstacle != q->obstacle) return p->obstacle < q->obstacle ? -1 : 1;
+  if (p->segment != q->segment) return p->segment < q->segment ? -1 : 1;
+  return (p->at > q->at) - (p->at < q->at);
+}
+
+sw_status sw_contact_add_memory(sw_contact *c, const void *memory, size_t bytes, size_t old_first,
+                                size_t old_end, size_t new_first, const size_t *obstacles,
+                                size_t count) {
+  const sw_memory *from = memory;
+  const size_t n = bytes / sizeof *from;
+  SW_TRY(sw_grow((void **)&c->memory, &c->memory_capacity, c->memory_count + n, sizeof *c->memory));
+  for (size_t i = 0; i < n; i++) {
+    int wanted = 0;
+    for (size_t k = 0; k < count; k++) wanted |= (size_t)from[i].obstacle == obstacles[k];
+    if (!wanted || from[i].node < old_first || from[i].node >= old_end) continue;
+    c->memory[c->memory_count] = from[i];
+    c->memory[c->memory_count++].node += new_first - old_first;
+  }
+  qsort(c->memory, c->memory_count, sizeof *c->memory, in_order);
+  c->fresh = 0;
   return SW_OK;
 }
 

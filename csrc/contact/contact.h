@@ -128,6 +128,11 @@ const void *sw_contact_memory(const sw_contact *contact, size_t *bytes);
 /* 1 while no step was accepted: there is nothing to remember yet. */
 int sw_contact_is_fresh(const sw_contact *contact);
 sw_status sw_contact_set_memory(sw_contact *contact, const void *memory, size_t bytes, int fresh);
+/* Add what a memory says of nodes from old_first up to old_end, which are now numbered from
+ * new_first, and obstacles of these numbers (count). SW_ENOMEM. */
+sw_status sw_contact_add_memory(sw_contact *contact, const void *memory, size_t bytes,
+                                size_t old_first, size_t old_end, size_t new_first,
+                                const size_t *obstacles, size_t count);
 /* The same from a contact whose nodes had other numbers: new_node gives for each
  * old number the new one, or SIZE_MAX when the node is gone. */
 sw_status sw_contact_inherit(sw_contact *contact, const void *memory, size_t bytes, int fresh,

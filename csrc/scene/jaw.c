@@ -41,11 +41,12 @@ int sw_jaw_begin(sw_scene *s, double h) {
     sw_jaw *j = &s->tools[k].jaw;
     j->since = s->time;
     j->step = h;
-    j->speed = s->tools[k].alive && h > 0 ? first_guess(j) : 0.0;
+    const int works = s->tools[k].alive && !s->tools[k].frozen;
+    j->speed = works && h > 0 ? first_guess(j) : 0.0;
     j->off[0] = j->off[1] = NAN;
     j->last_side = -1;
     j->trials = 0;
-    if (!s->tools[k].alive || !yields(j)) continue;
+    if (!works || !yields(j)) continue;
     any = 1;
     if (j->now < j->force) j->tried[0] = 0, j->off[0] = j->now - j->force;
   }
@@ -93,7 +94,7 @@ static int correct(const sw_scene *s, sw_tool *t) {
 int sw_jaw_correct(sw_scene *s) {
   int good = 1;
   for (size_t k = 0; k < s->tool_count; k++)
-    if (s->tools[k].alive && yields(&s->tools[k].jaw)) good &= correct(s, &s->tools[k]);
+    if (s->tools[k].alive && !s->tools[k].frozen && yields(&s->tools[k].jaw)) good &= correct(s, &s->tools[k]);
   return good;
 }
 
@@ -137,5 +138,8 @@ static void follow(const sw_scene *s, sw_tool *t) {
 
 void sw_jaw_follow(sw_scene *s) {
   for (size_t k = 0; k < s->tool_count; k++)
-    if (s->tools[k].alive) follow(s, &s->tools[k]);
+    if (s->tools[k].alive && s->tools[k].frozen)
+      s->tools[k].jaw.since = s->time;
+    else if (s->tools[k].alive)
+      follow(s, &s->tools[k]);
 }

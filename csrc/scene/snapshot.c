@@ -92,7 +92,10 @@ void sw_snapshot_free(sw_snapshot *p) {
     sw_motion_release(p->hold[k].feed.motion);
   }
   for (size_t k = 0; p->obstacle && k < p->obstacles; k++) sw_drive_free(&p->obstacle[k].drive);
-  for (size_t k = 0; p->tool && k < p->tools; k++) sw_drive_free(&p->tool[k].drive);
+  for (size_t k = 0; p->tool && k < p->tools; k++) {
+    sw_drive_free(&p->tool[k].drive);
+    sw_frozen_release(p->tool[k].frozen);
+  }
   sw_free(p->meshes);
   sw_free(p->strands);
   sw_free(p->models);
@@ -160,7 +163,10 @@ static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
         (saved_obstacle){o->alive, o->off, copy_drive(&o->drive), o->log.count};
   }
   SW_TRY(copy_block(s->tools, s->tool_count * sizeof *p->tool, &p->tool));
-  for (; p->tools < s->tool_count; p->tools++) sw_motion_retain(p->tool[p->tools].drive.motion);
+  for (; p->tools < s->tool_count; p->tools++) {
+    sw_motion_retain(p->tool[p->tools].drive.motion);
+    sw_frozen_retain(p->tool[p->tools].frozen);
+  }
   SW_TRY(copy_block(s->joins, s->join_count * sizeof *p->join, &p->join));
   p->joins = s->join_count;
   for (; p->forces < s->force_count; p->forces++)
@@ -264,6 +270,8 @@ static void put_tool(sw_tool *to, const sw_tool *saved) {
   if (!saved) return;
   if (log.count > saved->log.count) log.count = saved->log.count;
   put_drive(&to->drive, &saved->drive);
+  sw_frozen_retain(saved->frozen);
+  sw_frozen_release(to->frozen);
   const sw_drive drive = to->drive;
   *to = *saved;
   to->drive = drive;

@@ -10,10 +10,11 @@
 
 void sw_scene_clear_tool(sw_tool *t) {
   sw_drive_free(&t->drive);
+  sw_frozen_release(t->frozen);
   sw_free(t->log.rows);
 }
 
-static sw_tool *find(const sw_scene *s, sw_handle h, sw_error *err) {
+sw_tool *sw_scene_find_tool(const sw_scene *s, sw_handle h, sw_error *err) {
   if (h.slot < s->tool_count && s->tools[h.slot].generation == h.generation &&
       s->tools[h.slot].alive)
     return &s->tools[h.slot];
@@ -23,11 +24,12 @@ static sw_tool *find(const sw_scene *s, sw_handle h, sw_error *err) {
 
 const char *sw_scene_tool_name(const sw_scene *s, sw_handle h) {
   sw_error ignored;
-  const sw_tool *t = find(s, h, &ignored);
+  const sw_tool *t = sw_scene_find_tool(s, h, &ignored);
   return t ? t->name : NULL;
 }
 
 static const double SLIP = 1e-4; /* that is an event, unless told [m] */
+static const double LIMIT = 0.9; /* of the margin of a frozen grip, unless told [-] */
 
 sw_status sw_scene_add_tool(sw_scene *s, const sw_tool_args *args, sw_handle *out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
@@ -39,8 +41,9 @@ sw_status sw_scene_add_tool(sw_scene *s, const sw_tool_args *args, sw_handle *ou
                  .drive = {.pose = {args->at, args->rotation}},
                  .jaw = {.opening = args->opening, .since = s->time, .force = HUGE_VAL},
                  .tolerance = SLIP,
+                 .limit = LIMIT,
                  .now = {.centre = args->at, .q = args->rotation}};
-  t->now.slip_time = t->now.slip_place = NAN;
+  t->now.slip_time = t->now.slip_place = t->now.lost_time = NAN;
   sw_scene_give_name(t->name, args->name, "gripper", s->tool_count);
   *out = (sw_handle){(uint32_t)s->tool_count++, s->serial};
   return SW_OK;
@@ -59,7 +62,7 @@ static sw_status local_pose(sw_scene *s, const sw_tool *t, sw_pose world, sw_pos
 sw_status sw_scene_tool_pad(sw_scene *s, sw_handle tool, sw_handle obstacle, int finger,
                             sw_vec opens, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_tool *t = find(s, tool, err);
+  sw_tool *t = sw_scene_find_tool(s, tool, err);
   sw_scene_obstacle *o = t ? sw_scene_find_obstacle(s, obstacle, err) : NULL;
   sw_motion_state now;
   sw_pose pose;
@@ -79,7 +82,7 @@ sw_status sw_scene_tool_pad(sw_scene *s, sw_handle tool, sw_handle obstacle, int
 
 sw_status sw_scene_tool_hold(sw_scene *s, sw_handle tool, sw_handle hold, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  const sw_tool *t = find(s, tool, err);
+  const sw_tool *t = sw_scene_find_tool(s, tool, err);
   sw_scene_hold *h = t ? sw_scene_living_hold(s, hold, err) : NULL;
   sw_motion_state now;
   sw_pose pose;
@@ -94,7 +97,7 @@ sw_status sw_scene_tool_hold(sw_scene *s, sw_handle tool, sw_handle hold, sw_err
 
 sw_status sw_scene_tool_pads_on(sw_scene *s, sw_handle tool, int on, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  const sw_tool *t = find(s, tool, err);
+  const sw_tool *t = sw_scene_find_tool(s, tool, err);
   if (!t) return SW_EDEAD;
   SW_TRY(sw_scene_thaw(s));
   for (size_t k = 0; k < t->pads; k++) s->obstacles[t->pad[k].obstacle].off = !on;
@@ -104,7 +107,7 @@ sw_status sw_scene_tool_pads_on(sw_scene *s, sw_handle tool, int on, sw_error *e
 sw_status sw_scene_tool_follow(sw_scene *s, sw_handle tool, sw_motion *motion, int relative,
                                sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_tool *t = find(s, tool, err);
+  sw_tool *t = sw_scene_find_tool(s, tool, err);
   if (!t) return SW_EDEAD;
   SW_TRY(sw_drive_follow(s, &t->drive, t->name, motion, relative, err));
   s->discontinuous = 1;
@@ -113,7 +116,7 @@ sw_status sw_scene_tool_follow(sw_scene *s, sw_handle tool, sw_motion *motion, i
 
 sw_status sw_scene_tool_pose(sw_scene *s, sw_handle tool, sw_pose *out, sw_error *err) {
   sw_motion_state now;
-  const sw_tool *t = find(s, tool, err);
+  const sw_tool *t = sw_scene_find_tool(s, tool, err);
   if (!t) return SW_EDEAD;
   SW_TRY(sw_drive_eval(s, &t->drive, s->time, &now, err));
   *out = now.pose;
@@ -122,7 +125,7 @@ sw_status sw_scene_tool_pose(sw_scene *s, sw_handle tool, sw_pose *out, sw_error
 
 sw_status sw_scene_tool_set_pose(sw_scene *s, sw_handle tool, sw_pose pose, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_tool *t = find(s, tool, err);
+  sw_tool *t = sw_scene_find_tool(s, tool, err);
   if (!t) return SW_EDEAD;
   sw_drive_free(&t->drive);
   t->drive = (sw_drive){.pose = pose};
@@ -132,7 +135,7 @@ sw_status sw_scene_tool_set_pose(sw_scene *s, sw_handle tool, sw_pose pose, sw_e
 
 sw_status sw_scene_tool_jaws(sw_scene *s, sw_handle tool, const sw_jaw_args *args, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_tool *t = find(s, tool, err);
+  sw_tool *t = sw_scene_find_tool(s, tool, err);
   if (!t) return SW_EDEAD;
   sw_jaw *j = &t->jaw;
   if (j->force != args->force) SW_TRY(sw_scene_thaw(s)); /* contact is told */
@@ -146,7 +149,7 @@ sw_status sw_scene_tool_jaws(sw_scene *s, sw_handle tool, const sw_jaw_args *arg
 sw_status sw_scene_tool_watch(sw_scene *s, sw_handle tool, double tolerance, int stops,
                               sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_tool *t = find(s, tool, err);
+  sw_tool *t = sw_scene_find_tool(s, tool, err);
   if (!t) return SW_EDEAD;
   t->tolerance = tolerance, t->stops = stops;
   t->now.slipped = sw_v(0, 0, 0);
@@ -220,6 +223,16 @@ sw_status sw_scene_tool_finger(sw_scene *s, sw_handle tool, int finger, const sw
   return SW_OK;
 }
 
+/* Friction that pads would have to give in place of the grip that stands for them. */
+static void hold_frozen(const sw_scene *s, sw_tool *t, sw_vec force) {
+  sw_tool_state *now = &t->now;
+  const sw_vec f = sw_unrotate(now->q, force);
+  const sw_drive *pad = &s->obstacles[t->pad[0].obstacle].drive;
+  const sw_vec across = sw_unit_or(pad->opens, sw_v(0, 1, 0));
+  now->margin = now->most > 0 ? sw_norm(sw_madd(f, across, -sw_dot(f, across))) / now->most : 0;
+  if (isnan(now->lost_time) && now->margin > t->limit) now->lost_time = s->time;
+}
+
 static void hold_now(const sw_scene *s, sw_tool *t) {
   sw_contact_grip sum = {0};
   sw_tool_state *now = &t->now;
@@ -247,10 +260,13 @@ sw_status sw_tool_observe(sw_scene *s, sw_error *err) {
     SW_TRY(sw_drive_eval(s, &t->drive, s->time, &at, err));
     t->now.centre = at.pose.p;
     t->now.q = at.pose.q;
-    hold_now(s, t);
     sw_vec force = sw_v(0, 0, 0), moment = force;
     pads_force(s, t, -1, at.pose.p, &force, &moment);
     SW_TRY(holds_force(s, k, at.pose.p, &force, &moment, err));
+    if (t->frozen)
+      hold_frozen(s, t, force);
+    else
+      hold_now(s, t);
     row[SW_LOG_TIME] = s->time;
     sw_store(row + SW_LOG_FORCE, force);
     sw_store(row + SW_LOG_MOMENT, moment);
@@ -265,7 +281,7 @@ sw_status sw_tool_observe(sw_scene *s, sw_error *err) {
 
 sw_status sw_scene_tool_touches(sw_scene *s, sw_handle tool, size_t *count, sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
-  if (!find(s, tool, err)) return SW_EDEAD;
+  if (!sw_scene_find_tool(s, tool, err)) return SW_EDEAD;
   *count = s->contact ? sw_contact_touches(s->contact) : 0;
   return SW_OK;
 }
@@ -286,15 +302,27 @@ int sw_scene_tool_touch(const sw_scene *s, sw_handle tool, size_t number, sw_too
 
 int sw_tool_slipped(const sw_scene *s) {
   for (size_t k = 0; k < s->tool_count; k++)
-    if (s->tools[k].alive && s->tools[k].stops && s->tools[k].now.slip_time == s->time) return 1;
+    if (s->tools[k].alive && ((s->tools[k].stops && s->tools[k].now.slip_time == s->time) ||
+                              s->tools[k].now.lost_time == s->time))
+      return 1;
   return 0;
+}
+
+sw_status sw_scene_tool_limit(sw_scene *s, sw_handle tool, double margin, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  sw_tool *t = sw_scene_find_tool(s, tool, err);
+  if (!t) return SW_EDEAD;
+  t->limit = margin;
+  t->now.lost_time = NAN;
+  return SW_OK;
 }
 
 sw_status sw_scene_tool_state(sw_scene *s, sw_handle tool, sw_tool_state *out, sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
-  const sw_tool *t = find(s, tool, err);
+  const sw_tool *t = sw_scene_find_tool(s, tool, err);
   if (!t) return SW_EDEAD;
   *out = t->now;
+  out->frozen = t->frozen != NULL;
   out->opening = sw_jaw_at(&t->jaw, s->time);
   out->status = t->jaw.status;
   return SW_OK;
@@ -303,7 +331,7 @@ sw_status sw_scene_tool_state(sw_scene *s, sw_handle tool, sw_tool_state *out, s
 sw_status sw_scene_tool_log(sw_scene *s, sw_handle tool, const double **rows, size_t *count,
                             sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
-  const sw_tool *t = find(s, tool, err);
+  const sw_tool *t = sw_scene_find_tool(s, tool, err);
   if (!t) return SW_EDEAD;
   *rows = t->log.rows;
   *count = t->log.count / SW_LOG_TOOL_SIZE;

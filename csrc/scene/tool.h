@@ -52,6 +52,26 @@ typedef struct sw_jaw_args {
 sw_status sw_scene_tool_jaws(sw_scene *scene, sw_handle tool, const sw_jaw_args *args,
                              sw_error *err);
 
+/* What a change between pads and a rigid grip did. */
+typedef struct sw_freeze_report {
+  sw_handle hold;                       /* of the frozen wire [-] */
+  double s1, s2;                        /* held interval [m] */
+  double energy_before, energy_after;   /* of the scene [J] */
+  double before[6], after[6];           /* momentum and its moment [N s], [N m s] */
+  sw_vec force, moment;                 /* of the tool before, about its centre [N], [N m] */
+} sw_freeze_report;
+
+/* The wire, a mesh between the tool's pads, becomes a rod that the tool holds rigidly where the
+ * pads press on it; its deformed sections are kept. Pads no longer touch it. SW_EINVAL when
+ * they do not press on a mesh. */
+sw_status sw_scene_tool_freeze(sw_scene *scene, sw_handle tool, sw_handle wire,
+                               sw_freeze_report *out, sw_error *err);
+/* Back again: the mesh as it was between the pads, with their friction; elsewhere as the rod lies. */
+sw_status sw_scene_tool_thaw(sw_scene *scene, sw_handle tool, sw_freeze_report *out, sw_error *err);
+/* Friction over what the pads allow at which a frozen grip counts as lost, and a run ends with
+ * that step [-]. */
+sw_status sw_scene_tool_limit(sw_scene *scene, sw_handle tool, double margin, sw_error *err);
+
 /* What the tool holds now. */
 typedef struct sw_tool_state {
   double opening;      /* [m] */
@@ -68,6 +88,8 @@ typedef struct sw_tool_state {
   double place;        /* arc length between the pads [m] */
   double slip_time, slip_place; /* when and where that became more than is tolerated; NAN = it
                                    did not [s], [m] */
+  int frozen;                   /* 1: by a rigid grip that stands for the pads */
+  double lost_time;             /* when the margin of a frozen grip was used up; NAN = it is not [s] */
 } sw_tool_state;
 sw_status sw_scene_tool_state(sw_scene *scene, sw_handle tool, sw_tool_state *out, sw_error *err);
 /* Slip that is an event [m]; stops: a run ends with that step. Slip counts from now on. */

@@ -143,6 +143,10 @@ typedef struct sw_tool_pad {
   int finger;      /* [-] */
 } sw_tool_pad;
 
+typedef struct sw_frozen sw_frozen; /* what pads held, see frozen.c; shared and immutable */
+void sw_frozen_retain(sw_frozen *frozen);
+void sw_frozen_release(sw_frozen *frozen);
+
 /* What a gripper is to the core: a frame that moves, with jaws and pads in it. */
 typedef struct sw_tool {
   uint32_t generation;
@@ -153,6 +157,8 @@ typedef struct sw_tool {
   sw_tool_pad pad[SW_TOOL_PADS];
   size_t pads;
   int fingers;
+  sw_frozen *frozen; /* or NULL */
+  double limit;      /* margin at which a frozen grip is lost [-] */
   sw_tool_state now; /* of the accepted state */
   double tolerance;  /* slip that is an event [m] */
   int stops;         /* 1: a run ends with the step in which the wire slips */
@@ -379,6 +385,7 @@ void sw_drive_free(sw_drive *drive);
 /* --- tools ------------------------------------------------------------------- */
 
 void sw_scene_clear_tool(sw_tool *tool);
+sw_tool *sw_scene_find_tool(const sw_scene *scene, sw_handle h, sw_error *err);
 /* Their jaws at the start of a step of size h; 1: a trial may have to be corrected. After a
  * trial: 1 = the forces are as wanted, or cannot be. After an accepted one, or one given up. */
 int sw_jaw_begin(sw_scene *scene, double h);
