@@ -56,6 +56,14 @@ sw_status sw_contact_copy(const sw_contact *c, sw_contact **out) {
   return status;
 }
 
+void sw_contact_keep(sw_contact *c, const size_t *ids, size_t count) {
+  for (size_t o = 0; o < c->count; o++) {
+    c->obstacles[o].off = 1;
+    for (size_t k = 0; k < count; k++)
+      if (ids[k] == (size_t)c->obstacles[o].id) c->obstacles[o].off = 0;
+  }
+}
+
 void sw_contact_free(sw_contact *c) {
   if (!c) return;
   sw_free(c->obstacles);
@@ -179,6 +187,7 @@ static sw_status node_candidates(sw_contact *c, const sw_system *s, size_t body,
     const double reach = reach_of(c, s, b, node, o);
     const sw_vec r = sw_v(reach, reach, reach);
     sw_closest near;
+    if (c->obstacles[o].off) continue;
     if (!outside(&c->bounds[o], sw_sub(x, r), sw_add(x, r)) &&
         sw_shape_point(c->obstacles[o].shape, sw_pose_local(c->start[o].pose, x), reach, &near))
       SW_TRY(add_candidate(c, b, body, node, node, (int)o, 0));
