@@ -54,7 +54,11 @@ function Calibration.__tostring(c)
   end
   if c.elements then
     lines[#lines + 1] = ("  %-13s %12.6g %-5s %d elements, nu = %.4g, section times %.4g"):format("modulus",
-      c.modulus, "Pa", #c.elements, c.nu, c.scale)
+      c.modulus, "Pa", c.count.solid, c.nu, c.scale)
+  end
+  if c.core_modulus then
+    lines[#lines + 1] = ("  %-13s %12.6g %-5s %d elements, nu = %.4g"):format("core_modulus",
+      c.core_modulus, "Pa", c.count.core_solid, c.core_nu)
   end
   for _, group in ipairs(order) do
     if c.springs[group] then
@@ -171,10 +175,11 @@ local function flat_links(links, names)
   return flat
 end
 
--- 6 or 8, and as many particles, of each element.
-local function flat_elements(elements)
-  local flat = {}
-  for i, e in ipairs(elements or {}) do
+-- 6 or 8, and as many particles, of each element, its group and nu. Moduli become more groups of
+-- stiffness.
+local function flat_elements(args, stiffness)
+  local flat, groups = {}, {}
+  for i, e in ipairs(args.elements or {}) do
     local list = type(e) == "table" and e.particles
     if type(list) ~= "table" or #list ~= 6 and #list ~= 8 then
       error(("cell: element %d must have a list of 6 or 8 particles"):format(i), 0)
@@ -183,6 +188,15 @@ local function flat_elements(elements)
     for k = 1, 8 do
       flat[#flat + 1] = k <= #list and number(("particle %d of element %d"):format(k, i), list[k]) or 0
     end
+    local modulus = number("modulus", args.modulus or e.modulus)
+    local group = groups[modulus]
+    if not group then
+      stiffness[#stiffness + 1] = modulus
+      group = #stiffness
+      if modulus == modulus then groups[modulus] = group end -- what is no number is told by the core
+    end
+    flat[#flat + 1] = group
+    flat[#flat + 1] = number("nu", args.nu or e.nu)
   end
   return flat
 end
@@ -217,9 +231,8 @@ local function cell(args)
   for i, name in ipairs(names) do
     stiffness[i] = number("stiffness of " .. name, args.stiffness[name])
   end
-  if args.elements then stiffness[#names + 1] = number("modulus", args.modulus) end
-  return core.cell(number("spacing", args.spacing), places, flat_links(args.links, names), stiffness,
-    flat_elements(args.elements), args.elements and number("nu", args.nu) or 0)
+  local links, elements = flat_links(args.links, names), flat_elements(args, stiffness)
+  return core.cell(number("spacing", args.spacing), places, links, stiffness, elements)
 end
 
 --- The beam that an endless mesh of springs is, exactly: any mesh whose slices repeat along z.
