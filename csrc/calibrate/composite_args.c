@@ -53,10 +53,10 @@ static const sw_param rows[] = {
     COUNT(reach, 31,
           "particles that a diagonal of the shell goes round, below half a ring; 0 chooses"),
     COUNT(layers, 6,
-          "of elements: layers of the shell; 0 makes elements about a third of the radius thick"),
+          "of elements: layers of the shell; 0 makes them about a third of the wire's radius thick"),
     COUNT(core_particles, 48,
           "of a radial core: particles of each layer, 3 or more; 0 chooses, 6 as a rule"),
-    COUNT(core_layers, 6, "of a radial core; 0 is 2 for one, 1 for each of several, and of elements as layers"),
+    COUNT(core_layers, 6, "of a radial core; 0 is 2 for one, 1 for each of several, and of elements as thick as layers"),
     COUNT(core_across, 16, "of a cubic core: voxels across; 0 is 4 for one, 2 for each of several"),
 };
 const sw_params sw_composite_params = SW_PARAMS("calibrate", rows);

@@ -12,9 +12,11 @@ enum { CORE_SOLID = SW_GROUP_OF_CORE + SW_GROUP_SOLID };
 
 /* --- where parts are ---------------------------------------------------------------- */
 
-/* So many that elements are about as thick as a third of the wire's radius. */
-static size_t chosen(long given, double thickness, double radius) {
-  return given ? (size_t)given : (size_t)fmin(MOST, fmax(1, round(THIRD * thickness / radius)));
+/* So many that elements are about as thick as a third of the wire's radius. A core that is one
+ * layer of prisms bends up to a third too stiffly by itself, as it cannot bulge. */
+static size_t chosen(long given, double thickness, double radius, double least) {
+  const double usual = fmin(MOST, fmax(least, round(THIRD * thickness / radius)));
+  return (size_t)(given ? (double)given : usual);
 }
 
 sw_status sw_composite_place_solid(const sw_composite_args *given, double radius, sw_composite *c,
@@ -29,8 +31,8 @@ sw_status sw_composite_place_solid(const sw_composite_args *given, double radius
                    "m, which body = 'solid' does not have; leave one of them out",
                    c->core_radius, a.wall, radius);
   c->bore = c->core_radius;
-  c->core_layers = chosen(a.core_layers, c->core_radius, radius);
-  c->layers = chosen(a.layers, radius - c->core_radius, radius);
+  c->core_layers = chosen(a.core_layers, c->core_radius, radius, 2);
+  c->layers = chosen(a.layers, radius - c->core_radius, radius, 1);
   c->each = 1 + c->ring * c->core_layers;
   c->ring_radius = radius;
   return SW_OK;
