@@ -275,7 +275,9 @@ static sw_cell_solid *read_solids(lua_State *L, int index, size_t groups, size_t
   for (size_t m = 0; m < *n; m++) {
     const double *l = list + SOLID_NUMBERS * m;
     luaL_argcheck(L, l[SOLID_GROUP] >= 1 && l[SOLID_GROUP] <= (double)groups, index, "no modulus");
-    solid[m] = (sw_cell_solid){.nodes = l[0] == 6 ? 6 : l[0] == 8 ? 8 : 0,
+    solid[m] = (sw_cell_solid){.nodes = l[0] == 6   ? 6
+                                        : l[0] == 8 ? 8
+                                                    : 0,
                                .group = (uint32_t)l[SOLID_GROUP] - 1,
                                .nu = l[SOLID_NU]};
     for (int a = 0; a < solid[m].nodes; a++) {

@@ -96,8 +96,7 @@ sw_status sw_calibrate_lattice(const sw_calibrate_args *args, const sw_beam *bea
 sw_status sw_calibrate_composite_lattice(const sw_composite *place, const sw_beam *beam, double h,
                                          sw_lattice *out, sw_error *err) {
   const double R = beam->radius, ring = (double)place->ring;
-  const double limit =
-      OF_LIMIT * largest_spacing(R, beam->EI, beam->GJ, 1, (long)place->ring);
+  const double limit = OF_LIMIT * largest_spacing(R, beam->EI, beam->GJ, 1, (long)place->ring);
   const double layer = R / (double)(place->layers + place->core_layers);
   if (isnan(h)) h = fmin(fmin(2 * R * sin(PI / ring), layer), limit);
   return sw_lattice_composite_solid(place, h, out, err);

@@ -3,10 +3,10 @@
  * GJ = E c s^4 when its section is scaled by s, whatever the distance of slices: modulus and
  * scale make EA and EI exact for a wire of one material, with a scale near 1 that makes up for
  * corners of the mesh, and GJ follows from nu. Of a composite, whose core has its own modulus and
- * nu, the same holds with the core's modulus over the shell's as a given. Springs along the wire only add to EA and EI, so
- * that elements may have the modulus of GJ where the wire is stiffer than that. Where it is
- * softer (strands that slip bend easily but hardly untwist), diagonals carry a part of GJ, and
- * the least squares of the springs' fit find how much. */
+ * nu, the same holds with the core's modulus over the shell's as a given. Springs along the wire
+ * only add to EA and EI, so that elements may have the modulus of GJ where the wire is stiffer than
+ * that. Where it is softer (strands that slip bend easily but hardly untwist), diagonals carry a
+ * part of GJ, and the least squares of the springs' fit find how much. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -146,8 +146,8 @@ static sw_status fresh(task *t, double scale, unsigned groups, sw_error *err) {
   sw_calibration *c = t->c;
   sw_lattice_free(&c->lattice);
   if (is_composite(t))
-    SW_TRY(sw_calibrate_composite_lattice(&c->composite, t->beam, t->args.spacing, &c->lattice,
-                                          err));
+    SW_TRY(
+        sw_calibrate_composite_lattice(&c->composite, t->beam, t->args.spacing, &c->lattice, err));
   else
     SW_TRY(sw_calibrate_lattice(&t->args, t->beam, t->mesh, &c->lattice, err));
   if (t->rounded) SW_TRY(round_voxels(t, &c->lattice, err));

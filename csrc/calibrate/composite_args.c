@@ -52,11 +52,14 @@ static const sw_param rows[] = {
           "chooses 12 or more"),
     COUNT(reach, 31,
           "particles that a diagonal of the shell goes round, below half a ring; 0 chooses"),
-    COUNT(layers, 6,
-          "of elements: layers of the shell; 0 makes them about a third of the wire's radius thick"),
+    COUNT(
+        layers, 6,
+        "of elements: layers of the shell; 0 makes them about a third of the wire's radius thick"),
     COUNT(core_particles, 48,
           "of a radial core: particles of each layer, 3 or more; 0 chooses, 6 as a rule"),
-    COUNT(core_layers, 6, "of a radial core; 0 is 2 for one, 1 for each of several, and of elements as thick as layers"),
+    COUNT(core_layers, 6,
+          "of a radial core; 0 is 2 for one, 1 for each of several, and of elements as thick as "
+          "layers"),
     COUNT(core_across, 16, "of a cubic core: voxels across; 0 is 4 for one, 2 for each of several"),
 };
 const sw_params sw_composite_params = SW_PARAMS("calibrate", rows);
@@ -141,18 +144,21 @@ sw_status sw_composite_check_solid(const sw_composite_args *a, sw_error *err) {
                    "the axis; take cores = 1, or body = 'springs'",
                    a->cores);
   if (!a->bonded)
-    return sw_fail(err, SW_EINVAL,
-                   "calibrate: bonded = false does not go with body = 'solid', whose core and shell "
-                   "are one mesh; take bonded = true, or body = 'springs'");
+    return sw_fail(
+        err, SW_EINVAL,
+        "calibrate: bonded = false does not go with body = 'solid', whose core and shell "
+        "are one mesh; take bonded = true, or body = 'springs'");
   if (a->core != SW_CORE_RADIAL)
-    return sw_fail(err, SW_EINVAL,
-                   "calibrate: core = '%s' does not go with body = 'solid'; take core = 'radial', or "
-                   "body = 'springs'",
-                   cores[a->core]);
+    return sw_fail(
+        err, SW_EINVAL,
+        "calibrate: core = '%s' does not go with body = 'solid'; take core = 'radial', or "
+        "body = 'springs'",
+        cores[a->core]);
   if (!isnan(a->core_E) && !isnan(a->core_EA))
-    return sw_fail(err, SW_EINVAL,
-                   "calibrate: core_E = %.6g Pa and core_EA = %.6g N say the same; give one of them",
-                   a->core_E, a->core_EA);
+    return sw_fail(
+        err, SW_EINVAL,
+        "calibrate: core_E = %.6g Pa and core_EA = %.6g N say the same; give one of them",
+        a->core_E, a->core_EA);
   if (!isnan(a->core_density) && !isnan(a->core_mass))
     return sw_fail(err, SW_EINVAL,
                    "calibrate: core_density = %.6g kg/m3 and core_mass = %.6g kg/m say the same; "

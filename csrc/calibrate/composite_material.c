@@ -79,8 +79,8 @@ sw_status sw_composite_ratio(const sw_composite_args *a, const sw_section *secti
   const double core_E = core_modulus(a, c);
   if (!isnan(core_E)) return given_ratio(a, section, beam, &of, core_E, ratio, err);
   /* EI (As + x Ac) = EA (Is + x Ic) */
-  const double x = (beam->EA * of.shell_I - beam->EI * of.shell) /
-                   (beam->EI * of.core - beam->EA * of.core_I);
+  const double x =
+      (beam->EA * of.shell_I - beam->EI * of.shell) / (beam->EI * of.core - beam->EA * of.core_I);
   *ratio = x >= 1 / SOLVED && x <= SOLVED ? x : 1;
   return SW_OK;
 }

@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-static const double THIRD = 3;      /* layers over the radius, when they are chosen [-] */
-static const double SAME = 1e-9;    /* of the radius: lengths that agree [-] */
+static const double THIRD = 3;           /* layers over the radius, when they are chosen [-] */
+static const double SAME = 1e-9;         /* of the radius: lengths that agree [-] */
 enum { MOST = 6, RADII = 2 * MOST + 1 }; /* layers of a part, radii of both [-] */
 enum { CORE_SOLID = SW_GROUP_OF_CORE + SW_GROUP_SOLID };
 

@@ -309,7 +309,7 @@ sw_status sw_lattice_layers(size_t particles, size_t layers, const double *radiu
 
 sw_status sw_lattice_radial(const sw_radial_args *a, double radius, double spacing, sw_lattice *l,
                             sw_error *err) {
-  double at[LAYERS + 1];
+  double at[LAYERS + 1] = {0};
   for (long k = 0; k <= a->layers; k++) at[k] = radius * (double)k / (double)a->layers;
   return sw_lattice_layers((size_t)a->particles, (size_t)a->layers, at, spacing, l, err);
 }

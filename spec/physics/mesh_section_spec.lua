@@ -138,8 +138,8 @@ describe("a section of core and shell between plates", function()
     local rows = { { 0.05, 0 }, { 0.1, 0 }, { 0.2, 0 } }
     local one = squeeze({ model = "radial", body = "solid", E = E, nu = 0.3, density = 1000, particles = 24,
       layers = 4 }, rows, 0.002)
-    local two = squeeze({ model = "composite", body = "solid", E = E, nu = 0.3, density = 1000, particles = 24,
-      layers = 2, core_layers = 2, core_radius = 0.5 * R }, rows, 0.002)
+    local two = squeeze({ model = "composite", body = "solid", E = E, nu = 0.3, density = 1000,
+      particles = 24, layers = 2, core_layers = 2, core_radius = 0.5 * R }, rows, 0.002)
     for i, force in ipairs(two) do t.share(one[i], force, 1e-6, "force") end
   end)
 end)

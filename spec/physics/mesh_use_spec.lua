@@ -46,7 +46,7 @@ describe("a mesh is refused", function()
     { "solid tubes", "tube", { body = "solid" }, "no room for solid elements" },
     { "incompressible ones", "radial", { body = "solid", nu = 0.5 }, "nu = 0.5" },
     { "a solid's squeeze", "radial", { body = "solid", squeeze = 1e6 }, "squeeze" },
-    { "solid cables", "composite", { body = "solid", cores = 3 }, "has one core at the axis; take cores = 1" },
+    { "solid cables", "composite", { body = "solid", cores = 3 }, "one core at the axis; take cores = 1" },
     { "solids that slide", "composite", { body = "solid", bonded = false }, "take bonded = true" },
     { "cores of springs", "composite", { core_E = 1e9 }, "core_E = 1e+09 Pa is of elements" },
     { "a core of another name", "composite", { body = "solid", core_e = 1e9 }, "did you mean 'core_E'?" },
