@@ -111,6 +111,11 @@ sw_status sw_composite_core_share(const sw_composite_args *a, const sw_composite
     return sw_fail(err, SW_EINVAL,
                    "calibrate: core_mass = %.6g kg/m goes with the wire's mass_per_length [kg/m]",
                    given);
+  if (!(given < mass) && !isnan(density))
+    return sw_fail(err, SW_EINVAL,
+                   "calibrate: core_density = %.6g kg/m3 must be in (0, %.6g) kg/m3, so that the "
+                   "shell has a part of the wire's mass of %.6g kg/m",
+                   a->core_density, mass / (PI * core), mass);
   if (!(n * given < mass))
     return sw_fail(
         err, SW_EINVAL,
