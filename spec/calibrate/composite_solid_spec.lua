@@ -269,7 +269,8 @@ describe("a composite of elements tells", function()
     refused({ core_mass = 1e-3, core_density = 1e3, density = 1 }, "say the same; give one of them")
     refused({ core_density = 1e3 }, "core_density = 1000 kg/m3 goes with the shell's density")
     refused({ core_mass = 1, density = 1000 }, "core_mass = 1 kg/m of each of 1 cores must be in")
-    refused({ core_density = 1e4, mass_per_length = 0.1 }, "core_density = 10000 kg/m3 must be in (0, 3536.78)",
+    refused({ core_density = 1e4, mass_per_length = 0.1 },
+      "core_density = 10000 kg/m3 must be in (0, 3536.78)",
       "the wire's mass of 0.1 kg/m")
     refused({ core_radius = R }, "core_radius = 0.005 m must be in (0, 0.005) m")
     refused({ wall = R }, "wall = 0.005 m must be in (0, 0.005) m")
