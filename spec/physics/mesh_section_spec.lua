@@ -107,14 +107,15 @@ describe("a section of core and shell between plates", function()
 
   it("has the exact force within 3 %, of 60 particles and 3 + 3 layers", function()
     local model = cable{ particles = 60, core_layers = 3, layers = 3 }
-    -- measured 2 %, -0.2 %, -0.5 %, -0.9 % and 0.1 %
-    for i, force in ipairs(squeeze(model, composite, 0.001, SLIPPERY)) do
+    -- measured 2.1, -0.1, -0.1, 0.4 and 2.5 % with plates that stick, which settle at once and push
+    -- up to 2.5 % more; slippery ones, 2.0, -0.2, -0.5, -0.9 and 0.1 %
+    for i, force in ipairs(squeeze(model, composite, 0.001)) do
       t.share(composite[i][2], force, 0.03, ("force at %g %%"):format(100 * composite[i][1]))
     end
   end)
 
   it("has it within 3 % from 5 % on, of 48 particles, with a corner or a flat to the plates", function()
-    -- contact of the first per cents is narrower than two particles: 9 % off
+    -- within 1 %; contact of the first per cents is narrower than two particles: 9 % off
     local rows = { composite[3], composite[4], composite[5] }
     for _, turn in ipairs{ 0, math.pi / 48 } do
       local model = cable{ particles = 48, core_layers = 3, layers = 3,
