@@ -6,8 +6,7 @@
 #include "base/alloc.h"
 #include "force/solid.h"
 #include "scene/strand_inner.h"
-
-static const double PI = 3.14159265358979323846;
+#include "state/crease.h"
 
 void sw_strand_add_link(sw_strand_maker *m, size_t a, size_t b, double k, double rest) {
   if (m->web) m->web->link[m->links] = (sw_web_link){(uint32_t)a, (uint32_t)b, k, rest};
@@ -64,16 +63,37 @@ static double ring_length(const sw_strand_maker *m, size_t r) {
   return 0.5 * (before + after) * m->lattice->spacing;
 }
 
-/* Folds round a ring: its wall, bent at each particle by the same angle when unloaded. */
+/* Where particle i of ring r lies without load, beside ring number from. */
+static sw_vec at_rest(const sw_strand_maker *m, size_t i, size_t r, size_t from) {
+  const double z = ((double)r - (double)from) * m->lattice->spacing;
+  const double turn = m->plan->rest_twist * z, c = cos(turn), s = sin(turn);
+  const double *at = m->lattice->at + 3 * i;
+  if (m->plan->curved) return sw_vec_at(m->strand->x, m->first[r] + i);
+  return sw_v(c * at[0] - s * at[1], s * at[0] + c * at[1], at[2] + z);
+}
+
+/* Creases round a ring: its wall, bent at each particle as it is drawn. */
 static void add_wall(sw_strand_maker *m, size_t r) {
-  const size_t n = m->around_count, at = m->first[r];
+  const size_t n = m->around_count;
+  const size_t next = sw_strand_is_ring(m, r + 1) ? r + 1 : r - 1;
   const double *p = m->lattice->at + 3 * (size_t)m->around[0];
   const double *q = m->lattice->at + 3 * (size_t)m->around[1];
-  const double chord = hypot(q[0] - p[0], q[1] - p[1]), turn = 2.0 * PI / (double)n;
-  const double k = m->plan->wall * ring_length(m, r) / chord;
-  for (size_t i = 0; i < n; i++)
-    sw_strand_add_fold(m, at + m->around[(i + n - 1) % n], at + m->around[i],
-                       at + m->around[(i + 1) % n], k, turn);
+  const double k = m->plan->wall * ring_length(m, r) / hypot(q[0] - p[0], q[1] - p[1]);
+  if (!(k > 0)) return; /* a ring alone between lines */
+  for (size_t i = 0; i < n; i++, m->creases++) {
+    if (!m->web) continue;
+    const uint32_t a = m->around[(i + n - 1) % n], b = m->around[i], c = m->around[(i + 1) % n];
+    const sw_vec at = at_rest(m, b, r, r);
+    const double turn =
+        sw_crease_angle(sw_sub(at_rest(m, a, r, r), at), sw_sub(at_rest(m, c, r, r), at),
+                        sw_sub(at_rest(m, b, next, r), at));
+    m->web->crease[m->creases] = (sw_web_crease){.a = (uint32_t)m->first[r] + a,
+                                                 .b = (uint32_t)m->first[r] + b,
+                                                 .c = (uint32_t)m->first[r] + c,
+                                                 .d = (uint32_t)m->first[next] + b,
+                                                 .k = k,
+                                                 .rest = turn};
+  }
 }
 
 static void add_elements(sw_strand_maker *m, size_t r) {
@@ -90,7 +110,7 @@ static void add_elements(sw_strand_maker *m, size_t r) {
 }
 
 static void add_parts(sw_strand_maker *m) {
-  m->links = m->folds = m->solids = m->slides = 0;
+  m->links = m->folds = m->creases = m->solids = m->slides = 0;
   for (size_t r = 0; r <= m->mesh->n; r++) {
     if (m->web) m->web->ring_links[r] = m->links, m->web->ring_solids[r] = m->solids;
     if (sw_strand_is_line(m, r)) sw_strand_add_line(m, r);
@@ -193,7 +213,7 @@ static sw_status make_room(sw_strand_maker *m) {
   sw_web *w = m->web;
   m->strand->web = w;
   w->rings = rings, w->per_ring = n;
-  w->banded = !m->ring && (w->folds == 0 || !isnan(m->plan->wall));
+  w->banded = !m->ring && w->folds == 0;
   w->first = sw_alloc(rings + 1, sizeof *w->first);
   w->along = sw_alloc(w->particles, sizeof *w->along);
   w->share = sw_alloc(n, sizeof *w->share);
@@ -203,11 +223,13 @@ static sw_status make_room(sw_strand_maker *m) {
   w->ring_solids = sw_alloc(rings + 1, sizeof *w->ring_solids);
   w->slide = sw_alloc(m->slides, sizeof *w->slide);
   w->slides = m->slides;
+  w->crease = sw_alloc(m->creases, sizeof *w->crease);
+  w->creases = m->creases;
   w->friction = m->plan->lattice.composite.friction;
   m->strand->axial = sw_alloc(m->links, sizeof *m->strand->axial);
   const int made =
       w->first && w->along && w->share && w->section && w->ring_links && w->ring_solids;
-  return made && w->slide && m->strand->axial ? SW_OK : SW_ENOMEM;
+  return made && w->slide && w->crease && m->strand->axial ? SW_OK : SW_ENOMEM;
 }
 
 static void fill_sections(sw_strand_maker *m) {
