@@ -18,6 +18,9 @@ static const double WEIGHT_TOLERANCE = 1e-3;
 /* A spring stretched this many times over what friction can hold does not stick,
  * whatever the prediction is worth [-]. */
 static const double SURELY_SLIDING = 20.0;
+/* Unless the slide has turned round so often: friction then pushes it back by more than that
+ * stretch each time, and it is held [-]. */
+enum { REVERSALS = 3 };
 
 /* Wires that are deeper inside than their force explains are let out at this speed [m/s]. */
 static const double RECOVERY_SPEED = 0.2;
@@ -32,6 +35,11 @@ static const double EASING = 0.8;        /* per step [-] */
 
 void sw_press_activate(sw_press *p, const sw_press *last) {
   p->active = p->gap < 0 || (last && last->active && last->normal_force > 0);
+  if (!last) return;
+  p->spare = last->spare;
+  if (p->active || !last->active || !p->spare) return;
+  p->active = 1;
+  p->spare--;
 }
 
 /* After this many alternations friction's normal force is taken by secant: most die out by
@@ -43,6 +51,7 @@ void sw_press_take_lag(sw_press *p, const sw_press *last) {
   const double error_before = last->force_before - last->lag_before;
   p->lag_before = last->lag, p->force_before = last->normal_force;
   p->lag = last->normal_force;
+  p->reversals = last->reversals;
   if (!(last->lag_before > 0) || !(error * error_before < 0)) return;
   p->alternations = last->alternations + 1;
   if (p->alternations >= ALTERNATIONS)
@@ -52,7 +61,7 @@ void sw_press_take_lag(sw_press *p, const sw_press *last) {
 void sw_press_begin(sw_press *p, double friction, int known) {
   const double most = friction * p->lag, pull = sw_press_grip(p) * sw_norm(p->trial);
   if (!known) p->sliding = pull > most;
-  if (pull > SURELY_SLIDING * most) p->sliding = 1;
+  if (pull > SURELY_SLIDING * most && p->reversals < REVERSALS) p->sliding = 1;
 }
 
 /* K = kn n n' + kt (I - n n') - ks d d' */
@@ -88,6 +97,7 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
   const int beyond = grip * length > most;
   const int reversed = p->sliding && along < 0;
   p->next_sliding = beyond && !reversed;
+  p->reversals += reversed;
   p->tangential = sw_scale(u, -(beyond && length > 0 ? most / length : grip));
   if (reversed) return most <= small;
   if (p->sliding && beyond && along < TURN_TOLERANCE * length * sw_norm(p->trial)) return 0;

@@ -22,6 +22,10 @@ static const double STILL_NEAR = 0.5, SAME_SIDE = 0.7;
  * its weight, and comes back [-]. */
 static const double SOFTEST = 1000.0;
 
+/* What has pressed a mesh up to now is not let go of by the first static solve in which it pulls:
+ * that one may only have met too many touches at once, and then nothing holds the mesh. */
+enum { SPARE_PULLS = 1 };
+
 enum { OWN = 0, NEXT = 6, ROW = 24 }; /* layout of the system's block rows */
 
 static sw_status push(sw_contact *c, const sw_touch *t) {
@@ -180,6 +184,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
     t.forgiven = sw_press_forgiven(depth_before(c, s, &t), m ? m->depth : 0.0, c->h);
   press->gap += t.forgiven;
   press->gap_after = press->gap;
+  if (c->regime == SW_CONTACT_STATIC && m && web && web->per_ring) press->spare = SPARE_PULLS;
   sw_press_activate(press, goes_on(c, k, press, last) ? &last->press : NULL);
   begin_friction(c, s, m, last, y, &t);
   if (t.held) press->active = 0;
