@@ -51,7 +51,6 @@ void sw_press_take_lag(sw_press *p, const sw_press *last) {
   const double error_before = last->force_before - last->lag_before;
   p->lag_before = last->lag, p->force_before = last->normal_force;
   p->lag = last->normal_force;
-  p->reversals = last->reversals;
   if (!(last->lag_before > 0) || !(error * error_before < 0)) return;
   p->alternations = last->alternations + 1;
   if (p->alternations >= ALTERNATIONS)
