@@ -21,7 +21,7 @@ typedef struct sw_press {
   sw_vec trial;                    /* tangential displacement from the anchor at this iterate [m] */
   sw_vec tangential;               /* friction force after the last solve [N] */
   int alternations;                /* of normal_force - lag until the last iterate [-] */
-  int reversals;                   /* of the slide, in this static solve [-] */
+  int reversals;                   /* of the slide, where a static solve is dragged [-] */
   int active;                      /* pushes in this iterate */
   int spare;                       /* so often it stays active though the last solve pulled [-] */
   int sliding;                     /* assumed in this iterate */

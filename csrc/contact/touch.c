@@ -116,7 +116,8 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
   press->trial = sw_madd(u, press->normal, -sw_dot(u, press->normal));
   press->lag = m ? m->normal_force : press->k * fmax(0.0, -press->gap);
   if (last) sw_press_take_lag(press, &last->press);
-  if (last && c->regime == SW_CONTACT_STATIC) press->reversals = last->press.reversals;
+  const int turned = last && last->press.reversals > 0 && c->regime == SW_CONTACT_STATIC;
+  if (turned && sw_contact_moves(c)) press->reversals = last->press.reversals;
   const int went_on = last && last->press.active;
   if (went_on)
     press->sliding = last->press.next_sliding;
