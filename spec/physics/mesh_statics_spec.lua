@@ -12,10 +12,6 @@ local L, R = meshes.length, meshes.radius
 -- and strains of R/bend radius, up to 7 % here, meet springs and elements that are not quite
 -- linear. Measured at most 4.4e-3.
 local BEAM = 5e-3
--- Of GJ: solid elements of one material have that of their own section, up to 2 % off (GJ_NEAR in
--- csrc/calibrate/calibrate_solid.c); springs meet it in a straight wire to 1e-6, and in one whose
--- ends cannot warp to a few thousandths.
-local function torsion_tolerance(model) return model[2].body == "solid" and 0.02 or BEAM end
 
 -- Elliptic integrals (Bisshopp and Drucker 1945): P L^2/EI, tip x/L, tip z/L, moment L/EI.
 local end_loads = { { 1, 0.9435667637, -0.3017207738, 0.9435667637 },
@@ -90,7 +86,7 @@ describe("a cantilever that is a mesh:", function()
           b:pose({ L, 0, 0 }, { axis = { 1, 0, 0 }, angle = angle })
           t.fine(scene:settle())
           local torque = beam.GJ * angle / L
-          t.share(torque, b:moment()[1], torsion_tolerance(model), "torque")
+          t.share(torque, b:moment()[1], BEAM, "torque")
           t.share(b:moment()[1], -a:moment()[1], 1e-6, "torque at the other end")
           t.share(b:moment()[1], wire:twist_moment(L / 2), 1e-6, "torque in the middle")
         end
@@ -253,7 +249,7 @@ describe("a mesh without load", function()
       local clamp = scene2:clamp(held, { s = 0 })
       scene2:clamp(held, { s = L })
       t.fine(scene2:settle())
-      t.share(-held.beam.GJ * 2, held:twist_moment(L / 2), torsion_tolerance(model), "torque, held")
+      t.share(-held.beam.GJ * 2, held:twist_moment(L / 2), BEAM, "torque, held")
       t.share(held:twist_moment(L / 2), -clamp:moment()[1], 1e-6, "torque of the clamp")
     end)
   end
