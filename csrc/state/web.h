@@ -74,6 +74,8 @@ typedef struct sw_web {
                                 over their stiffness, NAN: never [-]; or NULL */
   size_t shape_count;
   void *shapes;                     /* (shape_count) prepared by the force of the solids, or NULL */
+  size_t clamped_shapes;            /* so many shapes further on is that of an element of which one
+                                       ring is held; 0: the same one */
   size_t *ring_links, *ring_solids; /* (rings + 1) where those begin that start at each ring */
   double *mass;                     /* (particles) [kg] */
   double *s;                        /* (particles) arc length; place along the size [m] */
