@@ -19,6 +19,8 @@ void sw_strand_add_fold(sw_strand_maker *m, size_t a, size_t b, size_t c, double
   m->folds++;
 }
 
+static const double PI = 3.14159265358979323846;
+
 /* Share of a link that lies within ring r: a ring at an end has half a slice. */
 static double ring_share(const sw_strand_maker *m, const sw_cell_link *link, size_t r) {
   const int before = r > 0 && sw_strand_is_ring(m, r - 1), after = sw_strand_is_ring(m, r + 1);
@@ -95,13 +97,24 @@ static double ring_length(const sw_strand_maker *m, size_t r) {
   return 0.5 * (before + after) * m->lattice->spacing;
 }
 
+/* How much stiffer hinges of a polygon must be for it to be as stiff as its circle when it is made
+ * oval. Bent by A cos 2 phi, hinges have 2 A^2 sin^2 b each and the polygon loses
+ * R A (1 + sin(b/2)/sin(3 b/2)) of its height, with b the angle of a side; the circle is b = 0 [-].
+ */
+static double of_polygon(size_t sides) {
+  const double b = 2.0 * PI / (double)sides;
+  const double lost = 0.75 * (1.0 + sin(0.5 * b) / sin(1.5 * b));
+  return 2.0 * b * sin(0.5 * b) / (sin(b) * sin(b)) * lost * lost;
+}
+
 /* Creases round a ring: its wall, bent at each particle as it is drawn. */
 static void add_wall(sw_strand_maker *m, size_t r) {
   const size_t n = m->around_count;
   const size_t next = sw_strand_is_ring(m, r + 1) ? r + 1 : r - 1;
   const double *p = m->lattice->at + 3 * (size_t)m->around[0];
   const double *q = m->lattice->at + 3 * (size_t)m->around[1];
-  const double k = m->plan->wall * ring_length(m, r) / hypot(q[0] - p[0], q[1] - p[1]);
+  const double chord = hypot(q[0] - p[0], q[1] - p[1]);
+  const double k = m->plan->wall * of_polygon(n) * ring_length(m, r) / chord;
   if (!(k > 0)) return; /* a ring alone between lines */
   for (size_t i = 0; i < n; i++, m->creases++) {
     if (!m->web) continue;

@@ -41,10 +41,11 @@ local function squeeze(particles, share, friction, quasistatic)
 end
 
 describe("a thin ring between plates", function()
-  -- 1 %: what the reference suggests for 64 particles; measured at most 0.9 % (force), 0.3 % (width)
+  -- the reference suggests 1 % for 64 particles; measured at most 0.45 % (force), 0.3 % (width),
+  -- as the wall's hinges are of a polygon that is as stiff as its circle when oval
   local function check(row, force, width)
-    t.share(row[2], force, 0.01, "F R^2/EI")
-    t.share(row[3], width, 0.005, "half width over R")
+    t.share(row[2], force, 0.006, "F R^2/EI")
+    t.share(row[3], width, 0.004, "half width over R")
   end
 
   for _, row in ipairs(exact) do
@@ -52,6 +53,14 @@ describe("a thin ring between plates", function()
       check(row, squeeze(64, row[1], 0.3))
     end)
   end
+
+  it("needs half as many particles for 1 %", function()
+    for _, row in ipairs(exact) do
+      local force, width = squeeze(32, row[1], 0.3)
+      t.share(row[2], force, 0.01, "F R^2/EI")
+      t.share(row[3], width, 0.005, "half width over R")
+    end
+  end)
 
   it("needs no friction to stay between plates that it lies on", function()
     for k = 4, 5 do check(exact[k], squeeze(64, exact[k][1], 0)) end
