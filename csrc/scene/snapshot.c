@@ -301,7 +301,8 @@ static void put_objects(sw_scene *s, const sw_snapshot *p) {
     o->off = p->obstacle[k].off;
     put_drive(&o->drive, &p->obstacle[k].drive);
   }
-  for (size_t k = 0; k < s->tool_count; k++) put_tool(&s->tools[k], k < p->tools ? &p->tool[k] : NULL);
+  for (size_t k = 0; k < s->tool_count; k++)
+    put_tool(&s->tools[k], k < p->tools ? &p->tool[k] : NULL);
   for (size_t k = 0; k < s->force_count; k++)
     s->forces[k].alive = k < p->forces && p->force_alive[k];
   for (size_t k = 0; k < s->join_count; k++) {

@@ -122,19 +122,19 @@ typedef struct sw_drive {
 
 /* The jaws of a tool. Their opening at time t is opening + speed (t - since). */
 typedef struct sw_jaw {
-  int mode;             /* SW_JAW_STILL, ... */
-  int status;           /* SW_JAW_RESTS, ... */
-  double opening;       /* [m] */
-  double since;         /* [s] */
-  double step;          /* the present one [s] */
-  double speed;         /* of this step; below 0 they close [m/s] */
-  double most;          /* highest speed [m/s] */
-  double goal;          /* opening to go to [m] */
-  double force;         /* per finger: wanted, or at which they stop [N] */
-  double now;           /* force per finger of the accepted state [N] */
-  double stiffness;     /* of what they hold, last found; 0 = not known [N/m] */
-  double tried[2];      /* speeds with too little force and with too much [m/s] */
-  double off[2];        /* how far their forces were off; NAN = not tried [N] */
+  int mode;         /* SW_JAW_STILL, ... */
+  int status;       /* SW_JAW_RESTS, ... */
+  double opening;   /* [m] */
+  double since;     /* [s] */
+  double step;      /* the present one [s] */
+  double speed;     /* of this step; below 0 they close [m/s] */
+  double most;      /* highest speed [m/s] */
+  double goal;      /* opening to go to [m] */
+  double force;     /* per finger: wanted, or at which they stop [N] */
+  double now;       /* force per finger of the accepted state [N] */
+  double stiffness; /* of what they hold, last found; 0 = not known [N/m] */
+  double tried[2];  /* speeds with too little force and with too much [m/s] */
+  double off[2];    /* how far their forces were off; NAN = not tried [N] */
   int last_side, trials;
 } sw_jaw;
 
