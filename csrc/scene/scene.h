@@ -330,6 +330,9 @@ void sw_scene_wire_touch(sw_scene *scene, size_t k, sw_wire_touch *out);
 sw_status sw_scene_add_force(sw_scene *scene, const sw_force_class *cls, sw_handle wire,
                              const void *args, size_t args_size, sw_handle *out, sw_error *err);
 sw_status sw_scene_remove_force(sw_scene *scene, sw_handle force, sw_error *err);
+/* Values of its class' outputs on one wire, SW_FORCE_OUTPUTS_MAX at most. */
+sw_status sw_scene_read_force(sw_scene *scene, sw_handle force, sw_handle wire, double *out,
+                              sw_error *err);
 
 /* --- running ---------------------------------------------------------------- */
 

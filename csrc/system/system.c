@@ -165,12 +165,14 @@ sw_status sw_system_add_histories(sw_system *s) {
   return SW_OK;
 }
 
-void sw_system_commit(sw_system *s) {
-  for (size_t b = 0; b < s->body_count; b++)
+void sw_system_commit(sw_system *s, double time) {
+  for (size_t b = 0; b < s->body_count; b++) {
+    s->bodies[b].field.time = time;
     for (size_t k = 0; k < s->bodies[b].term_count; k++) {
       const sw_term *term = &s->bodies[b].terms[k];
       if (term->cls->commit) term->cls->commit(term->args, &s->bodies[b].field, term->history);
     }
+  }
 }
 
 double sw_system_dissipated(const sw_system *s, int *any) {

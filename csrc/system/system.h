@@ -211,9 +211,9 @@ static inline sw_status sw_term_eval(const sw_term *term, sw_field *field, sw_er
   return term->cls->eval(term->args, field, err);
 }
 
-/* The state is accepted and the fields are fresh (sw_system_refresh): bring the
+/* The state is accepted at this time and the fields are fresh (sw_system_refresh): bring the
  * histories up to it. */
-void sw_system_commit(sw_system *system);
+void sw_system_commit(sw_system *system, double time);
 
 /* Work dissipated by the forces with a history [J]; *any: there are such. */
 double sw_system_dissipated(const sw_system *system, int *any);

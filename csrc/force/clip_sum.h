@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A clip's potential along one edge of a wire, and its forces on nodes or rings. */
+#ifndef SW_FORCE_CLIP_SUM_H
+#define SW_FORCE_CLIP_SUM_H
+
+#include <stddef.h>
+
+#include "base/vec.h"
+#include "force/clip_law.h"
+#include "state/field.h"
+
+typedef struct sw_clip_args {
+  sw_vec at;                   /* the wire's centre line in the seat [m] */
+  sw_vec direction, axis;      /* [-] */
+  double width;                /* [m] */
+  double insertion, retention; /* [N] */
+  double radius;               /* of the seat; NAN = that of the wire [m] */
+  double friction;             /* [-] */
+  double way;                  /* of the wire over the lips; NAN = chosen [m] */
+  double stiffness;            /* of floor and walls; NAN = chosen [N/m] */
+} sw_clip_args;
+
+/* The clip as one wire meets it. */
+typedef struct sw_clip {
+  sw_clip_law law;
+  sw_vec at, direction, across, axis; /* [m], three unit vectors [-] */
+  double width, friction;             /* [m], [-] */
+  double strongest;                   /* of both forces of the lips [N] */
+} sw_clip;
+
+sw_clip sw_clip_of(const sw_clip_args *args, const sw_beam *beam);
+
+/* The centre line's places: nodes, or rings of a mesh; none of loose particles. Arc length and
+ * position of place i [m]. */
+size_t sw_clip_points(const sw_plan *plan);
+double sw_clip_s(const sw_plan *plan, size_t i);
+sw_vec sw_clip_point_at(const sw_field *field, size_t i);
+
+/* What one edge has of the clip; vectors and matrices in the clip's u, v, a. */
+typedef struct sw_clip_sum {
+  double energy;         /* [J] */
+  double g[2][3];        /* derivatives by the two ends [N] */
+  double own[2][6];      /* second ones by each end, upper half [N/m] */
+  double next[6];        /* by both, which is symmetric too [N/m] */
+  double push[2];        /* |grad U| across the axis, shared between the ends [N] */
+  double share, u, v, s; /* of the window within the walls; times u, v and arc length [-], [m] */
+} sw_clip_sum;
+
+/* The sum along edge e, from place e to the next; 0: it has none. */
+int sw_clip_edge(const sw_clip *clip, const sw_field *field, size_t e, int stiffness,
+                 sw_clip_sum *out);
+
+/* (u, v, a) as a vector of the world. */
+sw_vec sw_clip_world(const sw_clip *clip, const double local[3]);
+
+/* Add what is wanted of a sum to the field. */
+void sw_clip_on_edge(const sw_clip *clip, sw_field *field, size_t e, const sw_clip_sum *sum);
+/* Add a force on place i, with stiffness k along a unit vector. */
+void sw_clip_on_point(sw_field *field, size_t i, sw_vec force, sw_vec along, double k);
+
+/* Largest stiffness that all of the clip can have, with friction that slips after slip [N/m]. */
+double sw_clip_stiffness(const sw_clip *clip, double slip);
+
+#endif
