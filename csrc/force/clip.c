@@ -71,7 +71,14 @@ static sw_status check(const void *args, const sw_beam *beam, sw_error *err) {
  * [m], where along the axis the node was [m], and the most friction there [N]. */
 enum { DISSIPATED, BEGUN, STATE, PEAK, IN, IN_TIME, IN_S, IN_PEAK, OUT, OUT_TIME, OUT_PEAK, HEAD };
 enum { STRETCH, PLACE, MOST, EACH };
-enum { EMPTY, INSERTING, SEATED };
+enum { EMPTY, INSERTING, SEATED, ABOVE };
+
+/* The clip as the wire meets it in this step. */
+static sw_clip clip_of(const void *args, const sw_field *f, const double *history) {
+  sw_clip c = sw_clip_of(args, &f->plan->beam);
+  c.law.caught = history && history[STATE] != EMPTY;
+  return c;
+}
 
 static size_t state_size(const sw_plan *plan) { return HEAD + EACH * sw_clip_points(plan); }
 
@@ -103,7 +110,7 @@ static void add_friction(const sw_clip *c, sw_field *f) {
 }
 
 static sw_status eval(const void *args, sw_field *f, sw_error *err) {
-  const sw_clip c = sw_clip_of(args, &f->plan->beam);
+  const sw_clip c = clip_of(args, f, f->history);
   const int stiffness = (f->want & SW_WANT_STIFFNESS) != 0;
   (void)err;
   for (size_t e = 0; e + 1 < sw_clip_points(f->plan); e++) {
@@ -146,14 +153,22 @@ static const double THERE = 0.5, SETTLED = 0.5;
 
 static void begin(double *h, int state) { h[STATE] = state, h[PEAK] = 0; }
 
+/* Where a wire is that is not in the clip. */
+static int outside(const sw_clip *c, const middle *m) {
+  const double way = c->law.out + c->law.in;
+  if (m->share < THERE || m->u < -c->law.clearance - c->law.reach) return EMPTY;
+  return m->u < way ? INSERTING : ABOVE;
+}
+
 static void follow(const sw_clip *c, const middle *m, double time, double *h) {
-  const int there = m->share >= THERE && m->u < c->law.out + c->law.in;
-  if (!there) {
+  const int caught = h[STATE] == SEATED || h[STATE] == INSERTING;
+  const int gone = m->share < THERE || m->u >= c->law.out + c->law.in;
+  if (caught && gone) {
     if (h[STATE] == SEATED) h[OUT]++, h[OUT_TIME] = time, h[OUT_PEAK] = h[PEAK];
-    begin(h, EMPTY);
-  } else if (h[STATE] == EMPTY) {
-    const int drawn_there = !(h[BEGUN] > 0) && m->u < c->law.out;
-    begin(h, drawn_there ? SEATED : INSERTING);
+    begin(h, m->share < THERE ? EMPTY : ABOVE);
+  } else if (!caught) {
+    const int state = outside(c, m), drawn_there = !(h[BEGUN] > 0) && m->u < c->law.out;
+    if (h[STATE] != state) begin(h, state == INSERTING && drawn_there ? SEATED : state);
   }
   if (h[STATE] == INSERTING) {
     h[PEAK] = fmax(h[PEAK], m->push);
@@ -191,7 +206,7 @@ static void commit_friction(const sw_clip *c, const sw_field *f, double *history
 }
 
 static void commit(const void *args, const sw_field *f, double *history) {
-  const sw_clip c = sw_clip_of(args, &f->plan->beam);
+  const sw_clip c = clip_of(args, f, history);
   const middle m = middle_of(&c, f);
   follow(&c, &m, f->time, history);
   commit_friction(&c, f, history);
@@ -224,7 +239,7 @@ static const char *const outputs[] = {"share",    "u",          "v",        "s",
                                       "removals", "out_time",   "out_peak", NULL};
 
 static void read(const void *args, const sw_field *f, const double *history, double *out) {
-  const sw_clip c = sw_clip_of(args, &f->plan->beam);
+  const sw_clip c = clip_of(args, f, history);
   middle m = middle_of(&c, f);
   for (size_t i = 0; i < sw_clip_points(f->plan); i++) {
     const double *h = history + HEAD + EACH * i;

@@ -43,6 +43,15 @@ static curve barrier(double depth, double reach, double k) {
   return hump(depth, reach, 0.5 * k / (a * a));
 }
 
+static curve spring(double depth, double k) {
+  return depth > 0 ? (curve){0.5 * k * depth * depth, k * depth, k} : NOTHING;
+}
+
+/* What floor and walls do at this depth. */
+static curve side(const sw_clip_law *l, double depth) {
+  return l->caught ? spring(depth, l->k) : barrier(depth, l->reach, l->k);
+}
+
 static curve lips(const sw_clip_law *l, double u) {
   if (!(u > 0) || u >= l->out + l->in) return NOTHING;
   if (u < l->out) return hump(u, l->out, l->top);
@@ -50,14 +59,14 @@ static curve lips(const sw_clip_law *l, double u) {
 }
 
 static curve floor_of(const sw_clip_law *l, double u) {
-  return mirrored(barrier(-l->clearance - u, l->reach, l->k));
+  return mirrored(side(l, -l->clearance - u));
 }
 
 /* Of something even in v, from what it is at depth |v| - clearance. */
 static curve even(curve c, double v) { return v < 0 ? mirrored(c) : c; }
 
 static curve walls(const sw_clip_law *l, double v) {
-  return even(barrier(fabs(v) - l->clearance, l->reach, l->k), v);
+  return even(side(l, fabs(v) - l->clearance), v);
 }
 
 /* Between the walls: where lips and floor are. */
@@ -71,7 +80,7 @@ static curve between(const sw_clip_law *l, double v) {
 static curve beside(const sw_clip_law *l, double u) {
   const double above = u - l->out, below = -l->clearance - u;
   if (above > 0) return above < l->in ? fade(above, l->in) : NOTHING;
-  if (below <= 0) return ONE;
+  if (below <= 0 || l->caught) return ONE;
   return below < 2.0 * l->reach ? mirrored(fade(below, 2.0 * l->reach)) : NOTHING;
 }
 
@@ -89,7 +98,7 @@ sw_clip_law sw_clip_law_of(double wire, double seat, double insertion, double re
 }
 
 sw_clip_point sw_clip_at(const sw_clip_law *l, double u, double v) {
-  const curve a = lips(l, u), b = floor_of(l, u), h = between(l, v);
+  const curve a = lips(l, u), b = floor_of(l, u), h = l->caught ? ONE : between(l, v);
   const curve w = walls(l, v), g = beside(l, u);
   const curve p = {a.f + b.f, a.d + b.d, a.dd + b.dd};
   return (sw_clip_point){.energy = p.f * h.f + g.f * w.f,

@@ -10,9 +10,11 @@
  * one lip: Bayer, Snap-Fit Joints for Plastics, 1998). The lips rest when the wire is in its
  * seat and when it is out: nothing is lost, a closed cycle costs what it gives back.
  *
- * Floor (u < -clearance) and walls (|v| > clearance): springs of stiffness k that hold up to
- * k reach / pi; pressed harder the wire breaks through, which is the end of the clip's
- * validity. Above the top the walls fade out over the mouth, which makes that a funnel. */
+ * Floor (u < -clearance) and walls (|v| > clearance): springs of stiffness k. Above the lips' top
+ * the walls fade out over the mouth, which makes that a funnel. A wire that came over the mouth is
+ * kept by them however hard it is pressed. For one that is elsewhere they are only as thick as a
+ * wall: twice reach deep, they hold up to k reach / pi from either side, so that a wire may
+ * lie beside or under the clip; pressed harder it breaks in, where this is valid no more. */
 #ifndef SW_FORCE_CLIP_LAW_H
 #define SW_FORCE_CLIP_LAW_H
 
@@ -22,6 +24,7 @@ typedef struct sw_clip_law {
   double clearance; /* of the wire in its seat [m] */
   double k;         /* of floor and walls [N/m] */
   double reach;     /* depth at which these hold no more [m] */
+  int caught;       /* 1: the wire came over the mouth */
 } sw_clip_law;
 
 /* For a wire of this radius. seat: radius of the seat, NAN = that of the wire; way: of the wire
