@@ -236,6 +236,13 @@ static int prop_kind(lua_State *L) {
   return 1;
 }
 
+static int prop_held(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
+  lua_pushboolean(L, sw_scene_force_acts(scene, f->id));
+  return 1;
+}
+
 static int meta_describe(lua_State *L) {
   sw_scene *scene;
   const lsw_child *f = lsw_find_child(L, &lsw_class_force, &scene);
@@ -249,7 +256,7 @@ static int meta_describe(lua_State *L) {
 }
 
 static const luaL_Reg methods[] = {{"release", meth_release}, {"read", meth_read}, {NULL, NULL}};
-static const luaL_Reg properties[] = {{"kind", prop_kind}, {NULL, NULL}};
+static const luaL_Reg properties[] = {{"kind", prop_kind}, {"held", prop_held}, {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
 const lsw_class lsw_class_force = {.name = "force",

@@ -69,7 +69,21 @@ static sw_status check(const void *args, const sw_beam *beam, sw_error *err) {
 
 /* The head, then three numbers for each node or ring: how far friction's spring is stretched
  * [m], where along the axis the node was [m], and the most friction there [N]. */
-enum { DISSIPATED, BEGUN, STATE, PEAK, IN, IN_TIME, IN_S, IN_PEAK, OUT, OUT_TIME, OUT_PEAK, HEAD };
+enum {
+  DISSIPATED,
+  BEGUN,
+  STATE,
+  PEAK,
+  LAST,
+  IN,
+  IN_TIME,
+  IN_S,
+  IN_PEAK,
+  OUT,
+  OUT_TIME,
+  OUT_PEAK,
+  HEAD
+};
 enum { STRETCH, PLACE, MOST, EACH };
 enum { EMPTY, INSERTING, SEATED, ABOVE };
 
@@ -171,12 +185,13 @@ static void follow(const sw_clip *c, const middle *m, double time, double *h) {
     if (h[STATE] != state) begin(h, state == INSERTING && drawn_there ? SEATED : state);
   }
   if (h[STATE] == INSERTING) {
-    h[PEAK] = fmax(h[PEAK], m->push);
+    if (m->u > c->law.out) h[PEAK] = fmax(h[PEAK], m->push); /* else the lips pull it in */
     if (m->u > (1.0 - SETTLED) * c->law.out) return;
     h[IN]++, h[IN_TIME] = time, h[IN_S] = m->s, h[IN_PEAK] = h[PEAK];
     begin(h, SEATED);
   }
-  if (h[STATE] == SEATED) h[PEAK] = fmax(h[PEAK], -m->push);
+  /* on its way in it is pulled too, but by nothing outside of the clip */
+  if (h[STATE] == SEATED && m->u >= h[LAST]) h[PEAK] = fmax(h[PEAK], -m->push);
 }
 
 /* Friction's springs after slipping, the work that it took, and the most friction from now on. */
@@ -209,6 +224,7 @@ static void commit(const void *args, const sw_field *f, double *history) {
   const sw_clip c = clip_of(args, f, history);
   const middle m = middle_of(&c, f);
   follow(&c, &m, f->time, history);
+  history[LAST] = m.u;
   commit_friction(&c, f, history);
   history[BEGUN] = 1;
 }

@@ -65,8 +65,12 @@ static curve floor_of(const sw_clip_law *l, double u) {
 /* Of something even in v, from what it is at depth |v| - clearance. */
 static curve even(curve c, double v) { return v < 0 ? mirrored(c) : c; }
 
-static curve walls(const sw_clip_law *l, double v) {
-  return even(side(l, fabs(v) - l->clearance), v);
+/* How much further apart the walls are above the lips' top: a funnel that ends as steep as 45
+ * degrees. */
+static curve widening(const sw_clip_law *l, double u) {
+  const double above = u - l->out;
+  if (!(above > 0)) return NOTHING;
+  return (curve){0.5 * above * above / l->in, above / l->in, 1.0 / l->in};
 }
 
 /* Between the walls: where lips and floor are. */
@@ -97,16 +101,30 @@ sw_clip_law sw_clip_law_of(double wire, double seat, double insertion, double re
   return l;
 }
 
+/* Add the walls: what they do at their depth, times how much of them there is at u. */
+static void add_walls(const sw_clip_law *l, double u, double v, sw_clip_point *p) {
+  const curve z = widening(l, u), g = beside(l, u);
+  const curve w = side(l, fabs(v) - l->clearance - z.f);
+  const double sign = v < 0 ? -1.0 : 1.0;
+  p->energy += w.f * g.f;
+  p->u += w.f * g.d - w.d * z.d * g.f;
+  p->v += sign * w.d * g.f;
+  p->uu += w.f * g.dd - 2.0 * w.d * z.d * g.d + (w.dd * z.d * z.d - w.d * z.dd) * g.f;
+  p->uv += sign * (w.d * g.d - w.dd * z.d * g.f);
+  p->vv += w.dd * g.f;
+}
+
 sw_clip_point sw_clip_at(const sw_clip_law *l, double u, double v) {
   const curve a = lips(l, u), b = floor_of(l, u), h = l->caught ? ONE : between(l, v);
-  const curve w = walls(l, v), g = beside(l, u);
-  const curve p = {a.f + b.f, a.d + b.d, a.dd + b.dd};
-  return (sw_clip_point){.energy = p.f * h.f + g.f * w.f,
-                         .u = p.d * h.f + g.d * w.f,
-                         .v = p.f * h.d + g.f * w.d,
-                         .uu = p.dd * h.f + g.dd * w.f,
-                         .uv = p.d * h.d + g.d * w.d,
-                         .vv = p.f * h.dd + g.f * w.dd};
+  const curve q = {a.f + b.f, a.d + b.d, a.dd + b.dd};
+  sw_clip_point p = {.energy = q.f * h.f,
+                     .u = q.d * h.f,
+                     .v = q.f * h.d,
+                     .uu = q.dd * h.f,
+                     .uv = q.d * h.d,
+                     .vv = q.f * h.dd};
+  add_walls(l, u, v, &p);
+  return p;
 }
 
 double sw_clip_between(const sw_clip_law *l, double v) { return between(l, v).f; }

@@ -11,7 +11,8 @@
  * seat and when it is out: nothing is lost, a closed cycle costs what it gives back.
  *
  * Floor (u < -clearance) and walls (|v| > clearance): springs of stiffness k. Above the lips' top
- * the walls fade out over the mouth, which makes that a funnel. A wire that came over the mouth is
+ * the walls open and fade out over the mouth, a funnel half as wide to either side as the lips'
+ * outer flank is long. A wire that came over the mouth is
  * kept by them however hard it is pressed. For one that is elsewhere they are only as thick as a
  * wall: twice reach deep, they hold up to k reach / pi from either side, so that a wire may
  * lie beside or under the clip; pressed harder it breaks in, where this is valid no more. */

@@ -27,12 +27,15 @@ size_t sw_clip_points(const sw_plan *p) {
 
 double sw_clip_s(const sw_plan *p, size_t i) { return p->s[p->web ? p->web->first[i] : i]; }
 
-sw_vec sw_clip_point_at(const sw_field *f, size_t i) {
+static sw_vec middle_of(const sw_field *f, const double *values, size_t i) {
   double middle[3];
-  if (!f->plan->web) return sw_load(f->x + 3 * i);
-  sw_web_middle(f->plan->web, f->x, i, middle);
+  if (!f->plan->web) return sw_load(values + 3 * i);
+  sw_web_middle(f->plan->web, values, i, middle);
   return sw_load(middle);
 }
+
+sw_vec sw_clip_point_at(const sw_field *f, size_t i) { return middle_of(f, f->x, i); }
+sw_vec sw_clip_velocity_at(const sw_field *f, size_t i) { return middle_of(f, f->v, i); }
 
 static void local_of(const sw_clip *c, sw_vec x, double out[3]) {
   const sw_vec d = sw_sub(x, c->at);
@@ -43,8 +46,7 @@ sw_vec sw_clip_world(const sw_clip *c, const double g[3]) {
   return sw_madd(sw_madd(sw_scale(c->direction, g[0]), c->across, g[1]), c->axis, g[2]);
 }
 
-/* chi and its derivatives by a. */
-static void window(const sw_clip *c, double a, double chi[3]) {
+void sw_clip_window(const sw_clip *c, double a, double chi[3]) {
   const double k = 2.0 * PI / c->width;
   chi[0] = 1.0 + cos(k * a);
   chi[1] = -k * sin(k * a);
@@ -62,7 +64,7 @@ static void add_place(const sw_clip *c, const double x[3], double t, double w, d
                       int stiffness, sw_clip_sum *out) {
   const double part[2] = {1.0 - t, t};
   double chi[3], H[6];
-  window(c, x[2], chi);
+  sw_clip_window(c, x[2], chi);
   const double in = w * chi[0] * sw_clip_between(&c->law, x[1]);
   out->share += in, out->u += in * x[0], out->v += in * x[1], out->s += in * s;
   const sw_clip_point p = sw_clip_at(&c->law, x[0], x[1]);
@@ -100,22 +102,37 @@ static int range(double a, double b, double half, long n, long *first, long *las
   return 1;
 }
 
-int sw_clip_edge(const sw_clip *c, const sw_field *f, size_t e, int stiffness, sw_clip_sum *out) {
-  double a[3], b[3], x[3];
-  long first, last;
-  local_of(c, sw_clip_point_at(f, e), a);
-  local_of(c, sw_clip_point_at(f, e + 1), b);
-  const double s = sw_clip_s(f->plan, e), length = sw_clip_s(f->plan, e + 1) - s;
-  const double half = 0.5 * c->width, most = 1e6;
-  const long n = (long)fmin(most, ceil(FINENESS * length / c->width));
-  if (!range(a[2], b[2], half, n, &first, &last)) return 0;
-  memset(out, 0, sizeof *out);
-  const double w = length / ((double)n * c->width);
-  for (long k = first; k <= last; k++) {
-    const double t = ((double)k + 0.5) / (double)n;
-    for (int i = 0; i < 3; i++) x[i] = a[i] + t * (b[i] - a[i]);
-    if (fabs(x[2]) < half) add_place(c, x, t, w, s + t * length, stiffness, out);
+int sw_clip_begin(const sw_clip *c, const sw_field *f, size_t e, sw_clip_walk *w) {
+  const double most = 1e6;
+  long first;
+  local_of(c, sw_clip_point_at(f, e), w->a);
+  local_of(c, sw_clip_point_at(f, e + 1), w->b);
+  w->half = 0.5 * c->width;
+  w->s = sw_clip_s(f->plan, e);
+  w->length = sw_clip_s(f->plan, e + 1) - w->s;
+  w->count = (long)fmin(most, ceil(FINENESS * w->length / c->width));
+  if (!range(w->a[2], w->b[2], w->half, w->count, &first, &w->last)) return 0;
+  w->k = first;
+  w->weight = w->length / ((double)w->count * c->width);
+  return 1;
+}
+
+int sw_clip_next(sw_clip_walk *w, double x[3], double *along) {
+  while (w->k <= w->last) {
+    const double t = ((double)w->k++ + 0.5) / (double)w->count;
+    for (int i = 0; i < 3; i++) x[i] = w->a[i] + t * (w->b[i] - w->a[i]);
+    *along = t;
+    if (fabs(x[2]) < w->half) return 1;
   }
+  return 0;
+}
+
+int sw_clip_edge(const sw_clip *c, const sw_field *f, size_t e, int stiffness, sw_clip_sum *out) {
+  sw_clip_walk w;
+  double x[3], t;
+  if (!sw_clip_begin(c, f, e, &w)) return 0;
+  memset(out, 0, sizeof *out);
+  while (sw_clip_next(&w, x, &t)) add_place(c, x, t, w.weight, w.s + t * w.length, stiffness, out);
   return 1;
 }
 

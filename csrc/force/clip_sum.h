@@ -35,6 +35,7 @@ sw_clip sw_clip_of(const sw_clip_args *args, const sw_beam *beam);
 size_t sw_clip_points(const sw_plan *plan);
 double sw_clip_s(const sw_plan *plan, size_t i);
 sw_vec sw_clip_point_at(const sw_field *field, size_t i);
+sw_vec sw_clip_velocity_at(const sw_field *field, size_t i); /* [m/s] */
 
 /* What one edge has of the clip; vectors and matrices in the clip's u, v, a. */
 typedef struct sw_clip_sum {
@@ -45,6 +46,22 @@ typedef struct sw_clip_sum {
   double push[2];        /* |grad U| across the axis, shared between the ends [N] */
   double share, u, v, s; /* of the window within the walls; times u, v and arc length [-], [m] */
 } sw_clip_sum;
+
+/* The places of the sum along one edge, one after another. */
+typedef struct sw_clip_walk {
+  double a[3], b[3];   /* u, v, a of the edge's ends [m] */
+  double s, length;    /* arc length at the first end, of the edge [m] */
+  long count, k, last; /* places on the edge, the next one, the last one that may count */
+  double half, weight; /* of the clip's width; of a place, without chi [m], [-] */
+} sw_clip_walk;
+
+/* 0: the edge from place e to the next is outside of the clip. */
+int sw_clip_begin(const sw_clip *clip, const sw_field *field, size_t e, sw_clip_walk *walk);
+/* The next place: u, v, a and how far along the edge it is [m], [-]; 0: there is none. */
+int sw_clip_next(sw_clip_walk *walk, double x[3], double *along);
+
+/* chi at a and its derivatives [-], [1/m], [1/m2]. */
+void sw_clip_window(const sw_clip *clip, double a, double chi[3]);
 
 /* The sum along edge e, from place e to the next; 0: it has none. */
 int sw_clip_edge(const sw_clip *clip, const sw_field *field, size_t e, int stiffness,

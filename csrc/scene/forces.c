@@ -141,6 +141,10 @@ const sw_force_class *sw_scene_force_class(const sw_scene *s, sw_handle h) {
   return known ? s->forces[h.slot].cls : NULL;
 }
 
+int sw_scene_force_acts(const sw_scene *s, sw_handle h) {
+  return sw_scene_force_class(s, h) && s->forces[h.slot].alive;
+}
+
 sw_status sw_scene_read_force(sw_scene *s, sw_handle force, sw_handle wire, double *out,
                               sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
