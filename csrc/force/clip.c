@@ -5,7 +5,7 @@
  * with u, v, a along the clip's direction, across both, and along its axis. So it takes hold of
  * whatever part of the wire is there, not of nodes, and a straight wire slides along the axis
  * without being pushed either way. The integral is a sum over places at even distances of at most
- * W/16 within each edge, for which the window's sum is exact where edges are equal. Of meshes of
+ * W/32 within each edge, for which the window's sum is exact where edges are equal. Of meshes of
  * particles it takes the middles of rings and leaves the stiffness between neighbouring rings in
  * the rings' own.
  *

@@ -6,7 +6,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-enum { FINENESS = 16 };                /* places over the clip's width, at least [-] */
+enum { FINENESS = 32 };                /* places over the clip's width, at least [-] */
 enum { NEXT = 6, ROW = SW_FIELD_ROW }; /* layout of a node's row */
 
 sw_clip sw_clip_of(const sw_clip_args *a, const sw_beam *beam) {
