@@ -107,7 +107,7 @@ function fixing.name(scene, what, given, kind)
 end
 
 --- Note it in the scene's list. It has name, object (what it is in the core), exists(), and
--- report(add) for the summary; it may have solids() for pictures.
+-- report(add) for the summary.
 function fixing.keep(scene, it)
   local list = build.data(scene).fixings
   list[#list + 1] = { fixing = it, object = it.object, name = it.name }
@@ -126,6 +126,7 @@ end
 -- name the nearest word for a typo. `own` lists fields that may be nil.
 function fixing.class(kind, properties, own)
   local class = { __name = kind }
+  function class.solids() return {} end -- what pictures show besides obstacles
   local known = {}
   for _, name in ipairs(own or {}) do known[name] = true end
   function class.__index(self, key)

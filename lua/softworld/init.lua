@@ -30,6 +30,7 @@ require "softworld.gripper"  -- scene:gripper
 require "softworld.run"      -- scene:run
 require "softworld.clip"     -- scene:clip
 require "softworld.clipping" -- gripper:clip
+require "softworld.channel"  -- scene:channel
 require "softworld.settle"   -- scene:settle with error bars
 
 --- A new scene. { name =, gravity = {x, y, z} [m/s2] }

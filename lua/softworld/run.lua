@@ -268,7 +268,7 @@ end
 -- Clips are shown as obstacles that stand still.
 local function add_fixings(scene, doc)
   for _, f in ipairs(fixing.all(scene)) do
-    for _, solid in ipairs(f.solids and f:solids() or {}) do
+    for _, solid in ipairs(f:solids()) do
       doc.obstacles[#doc.obstacles + 1] = solid
       for _, frame in ipairs(doc.frames) do
         frame.obstacles[#doc.obstacles] = { position = { 0, 0, 0 }, rotation = { 1, 0, 0, 0 } }
