@@ -94,10 +94,10 @@ static sw_clip clip_of(const void *args, const sw_field *f, const double *histor
   return c;
 }
 
-static size_t state_size(const sw_plan *plan) { return HEAD + EACH * sw_clip_points(plan); }
+static size_t state_size(const sw_plan *plan) { return HEAD + EACH * sw_axis_points(plan); }
 
 static double place_of(const sw_clip *c, const sw_field *f, size_t i) {
-  return sw_dot(c->axis, sw_sub(sw_clip_point_at(f, i), c->at));
+  return sw_dot(c->axis, sw_sub(sw_axis_at(f, i), c->at));
 }
 
 /* Friction at node i: how far its spring would be stretched if it did not slip [m]. */
@@ -113,13 +113,13 @@ static double friction_energy(double stretch, double most, double slip) {
 
 static void add_friction(const sw_clip *c, sw_field *f) {
   const double slip = SLIP * c->width;
-  for (size_t i = 0; f->history && i < sw_clip_points(f->plan); i++) {
+  for (size_t i = 0; f->history && i < sw_axis_points(f->plan); i++) {
     const double *h = f->history + HEAD + EACH * i;
     if (!(h[MOST] > 0)) continue;
     const double e = stretch_of(c, f, h, i);
     const double force = -h[MOST] * fmax(-1.0, fmin(1.0, e / slip));
     if (f->want & SW_WANT_ENERGY) f->energy += friction_energy(e, h[MOST], slip);
-    sw_clip_on_point(f, i, sw_scale(c->axis, force), c->axis, fabs(e) < slip ? h[MOST] / slip : 0);
+    sw_axis_push(f, i, sw_scale(c->axis, force), c->axis, fabs(e) < slip ? h[MOST] / slip : 0);
   }
 }
 
@@ -127,7 +127,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   const sw_clip c = clip_of(args, f, f->history);
   const int stiffness = (f->want & SW_WANT_STIFFNESS) != 0;
   (void)err;
-  for (size_t e = 0; e + 1 < sw_clip_points(f->plan); e++) {
+  for (size_t e = 0; e + 1 < sw_axis_points(f->plan); e++) {
     sw_clip_sum sum;
     if (!sw_clip_edge(&c, f, e, stiffness, &sum)) continue;
     f->energy += f->want & SW_WANT_ENERGY ? sum.energy : 0.0;
@@ -149,7 +149,7 @@ typedef struct middle {
 
 static middle middle_of(const sw_clip *c, const sw_field *f) {
   middle m = {0};
-  for (size_t e = 0; e + 1 < sw_clip_points(f->plan); e++) {
+  for (size_t e = 0; e + 1 < sw_axis_points(f->plan); e++) {
     sw_clip_sum sum;
     if (!sw_clip_edge(c, f, e, 0, &sum)) continue;
     m.share += sum.share;
@@ -197,7 +197,7 @@ static void follow(const sw_clip *c, const middle *m, double time, double *h) {
 /* Friction's springs after slipping, the work that it took, and the most friction from now on. */
 static void commit_friction(const sw_clip *c, const sw_field *f, double *history) {
   const double slip = SLIP * c->width;
-  const size_t points = sw_clip_points(f->plan);
+  const size_t points = sw_axis_points(f->plan);
   double *each = history + HEAD;
   for (size_t i = 0; i < points; i++) {
     double *h = each + EACH * i;
@@ -231,17 +231,17 @@ static void commit(const void *args, const sw_field *f, double *history) {
 
 /* Node for node by arc length, springs and their friction shared out by what there was. */
 static void inherit(const sw_plan *old, const double *from, const sw_field *f, double *history) {
-  const size_t before = sw_clip_points(old), points = sw_clip_points(f->plan);
+  const size_t before = sw_axis_points(old), points = sw_axis_points(f->plan);
   for (size_t k = 0; k < HEAD; k++) history[k] = from[k];
   for (size_t i = 0; i < points; i++) {
     double at;
     double *h = history + HEAD + EACH * i;
-    const size_t e = sw_plan_locate(old, sw_clip_s(f->plan, i), &at);
+    const size_t e = sw_plan_locate(old, sw_axis_s(f->plan, i), &at);
     if (before < 2) continue;
     const double *a = from + HEAD + EACH * e, *b = a + EACH;
-    const double length = sw_clip_s(old, e + 1) - sw_clip_s(old, e);
-    const double own = 0.5 * (sw_clip_s(f->plan, i + 1 < points ? i + 1 : i) -
-                              sw_clip_s(f->plan, i > 0 ? i - 1 : i));
+    const double length = sw_axis_s(old, e + 1) - sw_axis_s(old, e);
+    const double own = 0.5 * (sw_axis_s(f->plan, i + 1 < points ? i + 1 : i) -
+                              sw_axis_s(f->plan, i > 0 ? i - 1 : i));
     for (int k = 0; k < EACH; k++) h[k] = a[k] + at * (b[k] - a[k]);
     if (points != before) h[MOST] *= own / length;
   }
@@ -257,7 +257,7 @@ static const char *const outputs[] = {"share",    "u",          "v",        "s",
 static void read(const void *args, const sw_field *f, const double *history, double *out) {
   const sw_clip c = clip_of(args, f, history);
   middle m = middle_of(&c, f);
-  for (size_t i = 0; i < sw_clip_points(f->plan); i++) {
+  for (size_t i = 0; i < sw_axis_points(f->plan); i++) {
     const double *h = history + HEAD + EACH * i;
     const double e = stretch_of(&c, f, h, i) / (SLIP * c.width);
     if (h[MOST] > 0) m.force = sw_madd(m.force, c.axis, -h[MOST] * fmax(-1.0, fmin(1.0, e)));
@@ -288,10 +288,10 @@ static double stable_dt(const void *args, const sw_plan *plan) {
   const sw_clip c = sw_clip_of(args, &plan->beam);
   const double k = sw_clip_stiffness(&c, SLIP * c.width);
   double rate2 = 0;
-  const size_t points = sw_clip_points(plan);
+  const size_t points = sw_axis_points(plan);
   for (size_t i = 0; i < points; i++) {
     const double length =
-        0.5 * (sw_clip_s(plan, i + 1 < points ? i + 1 : i) - sw_clip_s(plan, i > 0 ? i - 1 : i));
+        0.5 * (sw_axis_s(plan, i + 1 < points ? i + 1 : i) - sw_axis_s(plan, i > 0 ? i - 1 : i));
     rate2 = fmax(rate2, k * fmin(1.0, 2.0 * length / c.width) / (plan->beam.mass * length));
   }
   return rate2 > 0 ? 2.0 / sqrt(rate2) : HUGE_VAL;

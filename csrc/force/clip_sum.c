@@ -20,23 +20,6 @@ sw_clip sw_clip_of(const sw_clip_args *a, const sw_beam *beam) {
   return c;
 }
 
-size_t sw_clip_points(const sw_plan *p) {
-  if (!p->web) return p->nodes;
-  return p->web->per_ring ? p->web->rings : 0;
-}
-
-double sw_clip_s(const sw_plan *p, size_t i) { return p->s[p->web ? p->web->first[i] : i]; }
-
-static sw_vec middle_of(const sw_field *f, const double *values, size_t i) {
-  double middle[3];
-  if (!f->plan->web) return sw_load(values + 3 * i);
-  sw_web_middle(f->plan->web, values, i, middle);
-  return sw_load(middle);
-}
-
-sw_vec sw_clip_point_at(const sw_field *f, size_t i) { return middle_of(f, f->x, i); }
-sw_vec sw_clip_velocity_at(const sw_field *f, size_t i) { return middle_of(f, f->v, i); }
-
 static void local_of(const sw_clip *c, sw_vec x, double out[3]) {
   const sw_vec d = sw_sub(x, c->at);
   out[0] = sw_dot(d, c->direction), out[1] = sw_dot(d, c->across), out[2] = sw_dot(d, c->axis);
@@ -105,11 +88,11 @@ static int range(double a, double b, double half, long n, long *first, long *las
 int sw_clip_begin(const sw_clip *c, const sw_field *f, size_t e, sw_clip_walk *w) {
   const double most = 1e6;
   long first;
-  local_of(c, sw_clip_point_at(f, e), w->a);
-  local_of(c, sw_clip_point_at(f, e + 1), w->b);
+  local_of(c, sw_axis_at(f, e), w->a);
+  local_of(c, sw_axis_at(f, e + 1), w->b);
   w->half = 0.5 * c->width;
-  w->s = sw_clip_s(f->plan, e);
-  w->length = sw_clip_s(f->plan, e + 1) - w->s;
+  w->s = sw_axis_s(f->plan, e);
+  w->length = sw_axis_s(f->plan, e + 1) - w->s;
   w->count = (long)fmin(most, ceil(FINENESS * w->length / c->width));
   if (!range(w->a[2], w->b[2], w->half, w->count, &first, &w->last)) return 0;
   w->k = first;
@@ -152,19 +135,6 @@ static void turn(const sw_clip *c, const double H[6], double out[9]) {
     }
 }
 
-/* A force and stiffness (whole, or NULL) on a place; of a ring each particle has its share. */
-static void put(sw_field *f, size_t i, sw_vec force, const double *K) {
-  const sw_web *web = f->plan->web;
-  const size_t from = web ? web->first[i] : i, to = web ? web->first[i + 1] : i + 1;
-  for (size_t p = from; p < to; p++) {
-    const double share = web && sw_web_is_ring(web, i) ? web->share[p - from] : 1.0;
-    if (f->want & SW_WANT_FORCE) sw_accumulate(f->force + 3 * p, sw_scale(force, share));
-    double *row = f->rows + ROW * p;
-    for (int k = 0, at = 0; K && k < 3; k++)
-      for (int j = k; j < 3; j++, at++) row[at] += share * K[3 * k + j];
-  }
-}
-
 void sw_clip_on_edge(const sw_clip *c, sw_field *f, size_t e, const sw_clip_sum *sum) {
   const int stiffness = (f->want & SW_WANT_STIFFNESS) != 0;
   double between[9], K[9];
@@ -172,16 +142,10 @@ void sw_clip_on_edge(const sw_clip *c, sw_field *f, size_t e, const sw_clip_sum 
   for (size_t end = 0; end < 2; end++) {
     if (stiffness) turn(c, sum->own[end], K);
     for (int k = 0; stiffness && f->plan->web && k < 9; k++) K[k] += between[k];
-    put(f, e + end, sw_neg(sw_clip_world(c, sum->g[end])), stiffness ? K : NULL);
+    sw_axis_put(f, e + end, sw_neg(sw_clip_world(c, sum->g[end])), stiffness ? K : NULL);
   }
   if (!stiffness || f->plan->web) return;
   for (int k = 0; k < 9; k++) f->rows[ROW * e + NEXT + (size_t)k] += between[k];
-}
-
-void sw_clip_on_point(sw_field *f, size_t i, sw_vec force, sw_vec d, double k) {
-  const double K[9] = {k * d.x * d.x, k * d.x * d.y, k * d.x * d.z, k * d.y * d.x, k * d.y * d.y,
-                       k * d.y * d.z, k * d.z * d.x, k * d.z * d.y, k * d.z * d.z};
-  put(f, i, force, f->want & SW_WANT_STIFFNESS && k > 0 ? K : NULL);
 }
 
 double sw_clip_stiffness(const sw_clip *c, double slip) {

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A clip's potential along one edge of a wire, and its forces on nodes or rings. */
+/* A clip's potential along one edge of a wire's centre line (axis.h). */
 #ifndef SW_FORCE_CLIP_SUM_H
 #define SW_FORCE_CLIP_SUM_H
 
 #include <stddef.h>
 
 #include "base/vec.h"
+#include "force/axis.h"
 #include "force/clip_law.h"
-#include "state/field.h"
 
 typedef struct sw_clip_args {
   sw_vec at;                   /* the wire's centre line in the seat [m] */
@@ -29,13 +29,6 @@ typedef struct sw_clip {
 } sw_clip;
 
 sw_clip sw_clip_of(const sw_clip_args *args, const sw_beam *beam);
-
-/* The centre line's places: nodes, or rings of a mesh; none of loose particles. Arc length and
- * position of place i [m]. */
-size_t sw_clip_points(const sw_plan *plan);
-double sw_clip_s(const sw_plan *plan, size_t i);
-sw_vec sw_clip_point_at(const sw_field *field, size_t i);
-sw_vec sw_clip_velocity_at(const sw_field *field, size_t i); /* [m/s] */
 
 /* What one edge has of the clip; vectors and matrices in the clip's u, v, a. */
 typedef struct sw_clip_sum {
@@ -72,8 +65,6 @@ sw_vec sw_clip_world(const sw_clip *clip, const double local[3]);
 
 /* Add what is wanted of a sum to the field. */
 void sw_clip_on_edge(const sw_clip *clip, sw_field *field, size_t e, const sw_clip_sum *sum);
-/* Add a force on place i, with stiffness k along a unit vector. */
-void sw_clip_on_point(sw_field *field, size_t i, sw_vec force, sw_vec along, double k);
 
 /* Largest stiffness that all of the clip can have, with friction that slips after slip [N/m]. */
 double sw_clip_stiffness(const sw_clip *clip, double slip);

@@ -44,8 +44,8 @@ static double share_at(const sw_clip_law *l, double u) {
 }
 
 static void add_edge(const sw_clip *c, double damping, sw_field *f, size_t e) {
-  const double va = sw_dot(c->direction, sw_clip_velocity_at(f, e));
-  const double vb = sw_dot(c->direction, sw_clip_velocity_at(f, e + 1));
+  const double va = sw_dot(c->direction, sw_axis_velocity(f, e));
+  const double vb = sw_dot(c->direction, sw_axis_velocity(f, e + 1));
   sw_clip_walk w;
   sw_clip_sum sum = {0};
   double x[3], t, chi[3];
@@ -70,7 +70,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   (void)err;
   a.stiffness = NAN;
   const sw_clip c = sw_clip_of(&a, &f->plan->beam);
-  for (size_t e = 0; e + 1 < sw_clip_points(f->plan); e++)
+  for (size_t e = 0; e + 1 < sw_axis_points(f->plan); e++)
     add_edge(&c, 2.0 * a.retention * time / c.law.out, f, e);
   return SW_OK;
 }

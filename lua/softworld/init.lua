@@ -31,6 +31,7 @@ require "softworld.run"      -- scene:run
 require "softworld.clip"     -- scene:clip
 require "softworld.clipping" -- gripper:clip
 require "softworld.channel"  -- scene:channel
+require "softworld.tie"      -- scene:tie
 require "softworld.settle"   -- scene:settle with error bars
 
 --- A new scene. { name =, gravity = {x, y, z} [m/s2] }
