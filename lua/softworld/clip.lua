@@ -223,7 +223,7 @@ function Clip:report(add)
     add(("%s: '%s' was PULLED OUT, at"):format(self.name, out.wire.name), out.peak_force, "N", nil, out.time)
   end
   if self:seated() then
-    add(self.name .. ": largest pull over retention", self:ratio(), "")
+    add(self.name .. ": largest pull so far, of its retention", ("%.1f %%"):format(100 * self:ratio()), "")
   elseif not out then
     add(self.name .. ": state", self:state(), "")
   end
