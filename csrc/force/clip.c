@@ -5,7 +5,7 @@
  * with u, v, a along the clip's direction, across both, and along its axis. So it takes hold of
  * whatever part of the wire is there, not of nodes, and a straight wire slides along the axis
  * without being pushed either way. The integral is a sum over places at even distances of at most
- * W/32 within each edge, for which the window's sum is exact where edges are equal. Of meshes of
+ * W/16 within each edge, for which the window's sum is exact where edges are equal. Of meshes of
  * particles it takes the middles of rings and leaves the stiffness between neighbouring rings in
  * the rings' own.
  *
@@ -72,6 +72,8 @@ static sw_status check(const void *args, const sw_beam *beam, sw_error *err) {
 enum {
   DISSIPATED,
   BEGUN,
+  NEAR, /* 1: some of the wire is within the clip's width and not far above or beside */
+  RUBS, /* 1: there is friction at some node */
   STATE,
   PEAK,
   LAST,
@@ -113,7 +115,7 @@ static double friction_energy(double stretch, double most, double slip) {
 
 static void add_friction(const sw_clip *c, sw_field *f) {
   const double slip = SLIP * c->width;
-  for (size_t i = 0; f->history && i < sw_axis_points(f->plan); i++) {
+  for (size_t i = 0; f->history && f->history[RUBS] > 0 && i < sw_axis_points(f->plan); i++) {
     const double *h = f->history + HEAD + EACH * i;
     if (!(h[MOST] > 0)) continue;
     const double e = stretch_of(c, f, h, i);
@@ -127,11 +129,13 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   const sw_clip c = clip_of(args, f, f->history);
   const int stiffness = (f->want & SW_WANT_STIFFNESS) != 0;
   (void)err;
-  for (size_t e = 0; e + 1 < sw_axis_points(f->plan); e++) {
+  for (long e = sw_clip_find(&c, f, 0); e >= 0; e = sw_clip_find(&c, f, e + 1)) {
+    sw_clip_walk walk;
     sw_clip_sum sum;
-    if (!sw_clip_edge(&c, f, e, stiffness, &sum)) continue;
+    if (!sw_clip_begin(&c, f, (size_t)e, &walk) || sw_clip_far(&c, &walk)) continue;
+    if (!sw_clip_edge(&c, f, (size_t)e, stiffness, &sum)) continue;
     f->energy += f->want & SW_WANT_ENERGY ? sum.energy : 0.0;
-    sw_clip_on_edge(&c, f, e, &sum);
+    sw_clip_on_edge(&c, f, (size_t)e, &sum);
   }
   add_friction(&c, f);
   return SW_OK;
@@ -149,9 +153,9 @@ typedef struct middle {
 
 static middle middle_of(const sw_clip *c, const sw_field *f) {
   middle m = {0};
-  for (size_t e = 0; e + 1 < sw_axis_points(f->plan); e++) {
+  for (long e = sw_clip_find(c, f, 0); e >= 0; e = sw_clip_find(c, f, e + 1)) {
     sw_clip_sum sum;
-    if (!sw_clip_edge(c, f, e, 0, &sum)) continue;
+    if (!sw_clip_edge(c, f, (size_t)e, 0, &sum)) continue;
     m.share += sum.share;
     m.u += sum.u, m.v += sum.v, m.s += sum.s;
     m.push -= sum.g[0][0] + sum.g[1][0];
@@ -199,6 +203,7 @@ static void commit_friction(const sw_clip *c, const sw_field *f, double *history
   const double slip = SLIP * c->width;
   const size_t points = sw_axis_points(f->plan);
   double *each = history + HEAD;
+  history[RUBS] = 0;
   for (size_t i = 0; i < points; i++) {
     double *h = each + EACH * i;
     const double trial = stretch_of(c, f, h, i);
@@ -207,25 +212,44 @@ static void commit_friction(const sw_clip *c, const sw_field *f, double *history
     history[DISSIPATED] += friction_energy(kept, h[MOST], slip); /* less what it will store */
     h[STRETCH] = kept, h[PLACE] = place_of(c, f, i), h[MOST] = 0;
   }
-  for (size_t e = 0; c->friction > 0 && e + 1 < points; e++) {
+  for (long e = sw_clip_find(c, f, 0); c->friction > 0 && e >= 0; e = sw_clip_find(c, f, e + 1)) {
     sw_clip_sum sum;
-    if (!sw_clip_edge(c, f, e, 0, &sum)) continue;
+    if (!sw_clip_edge(c, f, (size_t)e, 0, &sum)) continue;
     for (size_t end = 0; end < 2; end++)
-      each[EACH * (e + end) + MOST] += c->friction * sum.push[end];
+      each[EACH * ((size_t)e + end) + MOST] += c->friction * sum.push[end];
   }
   for (size_t i = 0; i < points; i++) {
     double *h = each + EACH * i;
     if (!(h[MOST] > 0)) h[STRETCH] = 0;
+    history[RUBS] += h[MOST] > 0;
     history[DISSIPATED] -= friction_energy(h[STRETCH], h[MOST], slip);
   }
 }
 
+/* Is some of the wire so near that a step may bring it in? */
+static int near_by(const sw_clip *c, const sw_field *f) {
+  const double reach = 4.0 * (c->law.out + c->law.in + c->law.reach);
+  for (long e = sw_clip_find(c, f, 0); e >= 0; e = sw_clip_find(c, f, e + 1)) {
+    sw_clip_walk w;
+    if (!sw_clip_begin(c, f, (size_t)e, &w)) continue;
+    if (fmin(fabs(w.a[0]), fabs(w.b[0])) < reach && fmin(fabs(w.a[1]), fabs(w.b[1])) < reach)
+      return 1;
+  }
+  return 0;
+}
+
+static int idle(const double *history) { return history[BEGUN] > 0 && !(history[NEAR] > 0); }
+
 static void commit(const void *args, const sw_field *f, double *history) {
   const sw_clip c = clip_of(args, f, history);
-  const middle m = middle_of(&c, f);
-  follow(&c, &m, f->time, history);
-  history[LAST] = m.u;
-  commit_friction(&c, f, history);
+  const int was_near = history[NEAR] > 0 || !(history[BEGUN] > 0);
+  history[NEAR] = near_by(&c, f);
+  if (history[NEAR] > 0 || was_near) {
+    const middle m = middle_of(&c, f);
+    follow(&c, &m, f->time, history);
+    history[LAST] = m.u;
+    if (c.friction > 0) commit_friction(&c, f, history);
+  }
   history[BEGUN] = 1;
 }
 
@@ -307,6 +331,7 @@ const sw_force_class sw_force_clip = {
     .check = check,
     .state_size = state_size,
     .commit = commit,
+    .idle = idle,
     .inherit = inherit,
     .outputs = outputs,
     .read = read,

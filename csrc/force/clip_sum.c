@@ -6,7 +6,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-enum { FINENESS = 32 };                /* places over the clip's width, at least [-] */
+enum { FINENESS = 16 };                /* places over the clip's width, at least [-] */
 enum { NEXT = 6, ROW = SW_FIELD_ROW }; /* layout of a node's row */
 
 sw_clip sw_clip_of(const sw_clip_args *a, const sw_beam *beam) {
@@ -85,6 +85,19 @@ static int range(double a, double b, double half, long n, long *first, long *las
   return 1;
 }
 
+long sw_clip_find(const sw_clip *c, const sw_field *f, long from) {
+  const long points = (long)sw_axis_points(f->plan);
+  const double half = 0.5 * c->width, zero = sw_dot(c->axis, c->at);
+  if (from + 1 >= points) return SW_CLIP_NO_EDGE;
+  double last = sw_dot(c->axis, sw_axis_at(f, (size_t)from)) - zero;
+  for (long e = from; e + 1 < points; e++) {
+    const double next = sw_dot(c->axis, sw_axis_at(f, (size_t)e + 1)) - zero;
+    if (!((last >= half && next >= half) || (last <= -half && next <= -half))) return e;
+    last = next;
+  }
+  return SW_CLIP_NO_EDGE;
+}
+
 int sw_clip_begin(const sw_clip *c, const sw_field *f, size_t e, sw_clip_walk *w) {
   const double most = 1e6;
   long first;
@@ -108,6 +121,15 @@ int sw_clip_next(sw_clip_walk *w, double x[3], double *along) {
     if (fabs(x[2]) < w->half) return 1;
   }
   return 0;
+}
+
+int sw_clip_far(const sw_clip *c, const sw_clip_walk *w) {
+  const sw_clip_law *l = &c->law;
+  if (fmin(w->a[0], w->b[0]) >= l->out + l->in) return 1;
+  if (l->caught) return 0;
+  const double side = l->clearance + 0.5 * l->in + 2.0 * l->reach;
+  return fmax(w->a[0], w->b[0]) <= -l->clearance - 2.0 * l->reach ||
+         fmin(w->a[1], w->b[1]) >= side || fmax(w->a[1], w->b[1]) <= -side;
 }
 
 int sw_clip_edge(const sw_clip *c, const sw_field *f, size_t e, int stiffness, sw_clip_sum *out) {

@@ -48,13 +48,20 @@ typedef struct sw_clip_walk {
   double half, weight; /* of the clip's width; of a place, without chi [m], [-] */
 } sw_clip_walk;
 
-/* 0: the edge from place e to the next is outside of the clip. */
+enum { SW_CLIP_NO_EDGE = -1 };
+/* The first edge from number `from` on that is within the clip's width, or SW_CLIP_NO_EDGE. */
+long sw_clip_find(const sw_clip *clip, const sw_field *field, long from);
+
+/* 0: the edge from place e to the next is outside of the clip's width. */
 int sw_clip_begin(const sw_clip *clip, const sw_field *field, size_t e, sw_clip_walk *walk);
 /* The next place: u, v, a and how far along the edge it is [m], [-]; 0: there is none. */
 int sw_clip_next(sw_clip_walk *walk, double x[3], double *along);
 
 /* chi at a and its derivatives [-], [1/m], [1/m2]. */
 void sw_clip_window(const sw_clip *clip, double a, double chi[3]);
+
+/* 1: nothing acts on any part of the edge. */
+int sw_clip_far(const sw_clip *clip, const sw_clip_walk *walk);
 
 /* The sum along edge e, from place e to the next; 0: it has none. */
 int sw_clip_edge(const sw_clip *clip, const sw_field *field, size_t e, int stiffness,

@@ -67,6 +67,10 @@ typedef struct sw_force_class {
   void (*commit)(const void *args, const sw_field *field, double *history);
   void (*inherit)(const sw_plan *old, const double *from, const sw_field *field, double *history);
 
+  /* 1: with this history it does nothing in the coming step, which then need not be computed as
+   * closely as kinks ask for; NULL = it always may. */
+  int (*idle)(const double *history);
+
   /* What there is to read of it besides its force, on one wire at the accepted state: names,
    * NULL-terminated, and as many values, each of the unit that its file says. NULL = nothing. */
   const char *const *outputs;

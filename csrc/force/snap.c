@@ -49,7 +49,7 @@ static void add_edge(const sw_clip *c, double damping, sw_field *f, size_t e) {
   sw_clip_walk w;
   sw_clip_sum sum = {0};
   double x[3], t, chi[3];
-  if (!sw_clip_begin(c, f, e, &w)) return;
+  if (!sw_clip_begin(c, f, e, &w) || sw_clip_far(c, &w)) return;
   while (sw_clip_next(&w, x, &t)) {
     const double speed = va + t * (vb - va);
     if (!(speed < 0) || x[0] < -c->law.clearance - 2.0 * c->law.reach) continue;
@@ -70,8 +70,8 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   (void)err;
   a.stiffness = NAN;
   const sw_clip c = sw_clip_of(&a, &f->plan->beam);
-  for (size_t e = 0; e + 1 < sw_axis_points(f->plan); e++)
-    add_edge(&c, 2.0 * a.retention * time / c.law.out, f, e);
+  for (long e = sw_clip_find(&c, f, 0); e >= 0; e = sw_clip_find(&c, f, e + 1))
+    add_edge(&c, 2.0 * a.retention * time / c.law.out, f, (size_t)e);
   return SW_OK;
 }
 

@@ -53,7 +53,7 @@ typedef struct sw_body {
   void *roll_block;
   int needs_velocity;       /* some force depends on it */
   int is_explicit;          /* some force has no stiffness */
-  int is_kinked;            /* some force has a history: its stiffness jumps */
+  int is_kinked;            /* some force has a history: its stiffness may jump in this step */
   struct sw_blocks *blocks; /* the matrix of a body whose plan has a web, or NULL */
   size_t *web_slots;        /* where its forces write into it */
   unsigned char *web_fixed; /* (particles) 1: held */

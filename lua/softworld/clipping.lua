@@ -67,7 +67,7 @@ local ROUNDS = 3
 -- Over the mouth, first upwards, then across until the wire there is over it.
 local function line_up(self, clip, args, what)
   local tool = place(self, clip)
-  local u, v, radius, way = passing(clip)
+  local u, _, radius, way = passing(clip)
   if not u then
     error(("%s: no wire passes '%s'; move the one that it holds over its mouth before"):format(what,
       clip.name), 0)
@@ -82,7 +82,7 @@ local function line_up(self, clip, args, what)
   end
   if u < way + radius then go(clip.direction, way + radius - u) end
   for _ = 1, ROUNDS do
-    _, v = passing(clip)
+    local _, v = passing(clip)
     if not v or math.abs(v) < LINED_UP * radius then break end
     go(fixing.cross(clip.axis, clip.direction), v)
   end

@@ -42,7 +42,7 @@ local function checked(scene, wire, args)
   args.name = fixing.name(scene, "scene:tie", args.name, "tie")
   local what = ("tie '%s'"):format(args.name)
   fixing.wire(scene, what, "the first argument", wire)
-  local here, there = place(what, wire, args.s, ""), nil
+  local here, there = place(what, wire, args.s, "")
   if type(args.to) == "table" and type(args.to[1]) == "userdata" then
     args.other, args.other_s, there = other_wire(scene, what, args.to)
   else

@@ -9,8 +9,8 @@ local WIDTH, DEPTH, WALL, R = 0.012, 0.01, 0.0015, 0.002
 local function bent(options)
   local o = options or {}
   local scene = sw.scene{ gravity = o.gravity }
-  local duct = scene:channel{ name = "duct", points = o.points or { { -0.01, 0, 0 }, { 0.2, 0, 0 }, { 0.2, 0.2, 0 } },
-    width = WIDTH, depth = DEPTH, thickness = WALL, friction = o.friction or 0.2, lid = o.lid, up = o.up }
+  local duct = scene:channel{ name = "duct",
+    points = o.points or { { -0.01, 0, 0 }, { 0.2, 0, 0 }, { 0.2, 0.2, 0 } }, width = WIDTH, depth = DEPTH, thickness = WALL, friction = o.friction or 0.2, lid = o.lid, up = o.up }
   local wire = scene:wire{ name = "w", E = 2e7, density = 1500, radius = R, segments = 60,
     path = o.path or { { 0, 0, o.z or 0.005 }, { 0.2, 0, o.z or 0.005 }, { 0.2, 0.18, o.z or 0.005 } },
     rest = "path", model = o.model }
@@ -137,7 +137,8 @@ describe("a channel", function()
     local document = run:document()
     assert.are.equal(8, #document.obstacles) -- three parts and a lid for each of two legs
     assert.are.equal(0.7, document.obstacles[8].transparency)
-    assert.is_truthy(require "softworld.output.summary".text(document):find("duct: share of 'w' in it", 1, true))
+    local text = require "softworld.output.summary".text(document)
+    assert.is_truthy(text:find("duct: share of 'w' in it", 1, true))
     assert.is_truthy(tostring(duct):find "of 2 legs")
     duct:release()
     assert.has_error(function() duct:force() end,
@@ -149,7 +150,8 @@ describe("a channel", function()
   it("refuses what makes no channel, by name", function()
     local function refused(message, args)
       local scene = sw.scene{}
-      local a = { name = "d", points = { { 0, 0, 0 }, { 0.1, 0, 0 }, { 0.1, 0.1, 0 } }, width = 0.01, depth = 0.01 }
+      local a = { name = "d", points = { { 0, 0, 0 }, { 0.1, 0, 0 }, { 0.1, 0.1, 0 } }, width = 0.01,
+        depth = 0.01 }
       for k, v in pairs(args) do a[k] = v end
       local ok, text = pcall(scene.channel, scene, a)
       assert.is_false(ok)
@@ -161,7 +163,8 @@ describe("a channel", function()
     refused("channel 'd': width = a boolean is not allowed; it must be a number above 0 m", { width = false })
     refused("channel 'd': depth = -1 m is not allowed", { depth = -1 })
     refused("channel 'd': points is required, a list of at least two", { points = { { 0, 0, 0 } } })
-    refused("channel 'd': points[2] must be a table of 3 finite numbers", { points = { { 0, 0, 0 }, { 1, 2 } } })
+    refused("channel 'd': points[2] must be a table of 3 finite numbers",
+      { points = { { 0, 0, 0 }, { 1, 2 } } })
     refused("channel 'd': points 1 and 2 are the same", { points = { { 0, 0, 0 }, { 0, 0, 0 } } })
     refused("channel 'd': leg 1 goes along up", { points = { { 0, 0, 0 }, { 0, 0, 1 } } })
     refused("meet at 180 degrees", { points = { { 0, 0, 0 }, { 0.1, 0, 0 }, { 0, 0, 0 } } })

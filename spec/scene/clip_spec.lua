@@ -67,7 +67,7 @@ end
 describe("a clip", function()
   -- The wire is one with a wide grip, so that its height is what the grip says: force against the
   -- law at every step, and its work over the cycle. The edges beside the grip's nodes are of another
-  -- length, where the sum over the window is not exact (32 places: 1e-4). Of the work the
+  -- length, where the sum over the window is not exact (16 places: 2e-4). Of the work the
   -- trapezoidal rule loses about (pi 80 um / 1.1 mm)^2 / 12 = 4e-3 of the steep flank.
   it("pushes and pulls as the law says, and takes no work over a cycle, whichever way it lies", function()
     local random = t.random(7)
@@ -83,7 +83,7 @@ describe("a clip", function()
           local f, p = grip:force(), grip:pose()
           local u = p[1] * up[1] + p[2] * up[2] + p[3] * up[3]
           local force = -(f[1] * up[1] + f[2] * up[2] + f[3] * up[3])
-          t.near(law(u), force, 1e-4 * OUT, ("force at u = %.6f m"):format(u))
+          t.near(law(u), force, 3e-4 * OUT, ("force at u = %.6f m"):format(u))
           if last then total = total + 0.5 * (force + last[2]) * (u - last[1]) end
           if last and z < 0 then half = math.min(half, total) end
           last = { u, force }
@@ -218,7 +218,8 @@ describe("a clip", function()
 
   -- Two clips, so that the rod does not tilt as it slides off their middle.
   it("takes friction from the lips too, in sliding steady state", function()
-    local scene, wire, clip = scene_with{ half = 0.05, z = 0, x = -0.03, E = 2e11, segments = 40, friction = 0.4 }
+    local scene, wire, clip = scene_with{ half = 0.05, z = 0, x = -0.03, E = 2e11, segments = 40,
+      friction = 0.4 }
     local other = scene:clip{ at = { 0.03, 0, 0 }, width = WIDTH, insertion = INTO, retention = OUT,
       friction = 0.4 }
     scene:force{ kind = "damping", on = wire, mass = 2000 }
@@ -287,7 +288,8 @@ describe("a clip", function()
 
   -- Of all explicit methods velocity Verlet has the limit that stable_dt is about.
   it("tells explicit methods how large a step may be", function()
-    local scene, wire, clip = scene_with{ half = 0.03, z = 0, segments = 12, model = "string", stiffness = 1e7 }
+    local scene, wire, clip = scene_with{ half = 0.03, z = 0, segments = 12, model = "string",
+      stiffness = 1e7 }
     wire:set_velocity{ 0, 0.05, 0 }
     local dt = scene:stable_dt()
     t.fine(scene:run{ duration = 2000 * dt, dt = 0.95 * dt, integrator = "velocity-verlet" })
@@ -359,78 +361,5 @@ describe("a clip", function()
         scene:wire{ E = 1e9, density = 1000, radius = 0.006, from = { 0, 1, 0 }, to = { 1, 1, 0 } }
       end)
     end)
-  end)
-end)
-
-describe("gripper:clip", function()
-  local function laid(options, action)
-    local scene, wire, clip = scene_with(options)
-    scene:force{ kind = "damping", on = wire, mass = 5, stiffness = 1e-3 }
-    local keeper = scene:gripper{ name = "keeper", pads = { width = 0.01 } }
-    local guide = scene:gripper{ name = "guide", pads = { width = 0.005 } }
-    local result
-    scene:process(function(p)
-      keeper:grasp(wire, { s = 0.19 })
-      guide:grasp(wire, { s = 0.11 })
-      result = table.pack(action(guide, clip, p))
-    end)
-    local ok, run = pcall(scene.run, scene, { dt = 4e-3 })
-    return clip, result, ok, run
-  end
-
-  it("presses the wire in and says with what", function()
-    local clip, result, ok, run = laid(nil, function(guide, clip)
-      return guide:clip{ into = clip, max_force = 60 }
-    end)
-    assert.is_true(ok, tostring(run))
-    t.fine(run)
-    assert.is_true(clip:seated())
-    t.share(INTO, result[1].peak_force, 0.02, "lips")
-    t.above(INTO, result[1].force * 1.05, "gripper")
-    t.near(0.1, result[1].s, 1e-3, "s")
-  end)
-
-  it("lines up with a mouth that is beside it", function()
-    local clip, _, ok, run = laid(nil, function(guide, clip)
-      guide:move{ by = { 0, 0.01, 0 }, duration = 0.2 }
-      return guide:clip{ into = clip, max_force = 60 }
-    end)
-    assert.is_true(ok, tostring(run))
-    assert.is_true(clip:seated())
-    t.share(INTO, clip.peak_insertion_force, 0.1, "lips, of a wire at a slant")
-  end)
-
-  it("says which force was reached where it does not go in", function()
-    local clip, _, ok, message = laid(nil, function(guide, clip)
-      return guide:clip{ into = clip, max_force = 6 }
-    end)
-    assert.is_false(ok)
-    assert.is_truthy(message:find "gripper 'guide': clip: wire not in 'c': 6%.%d+ N was reached, above max_force")
-    assert.is_false(clip:seated())
-    local _, result = laid(nil, function(guide, other)
-      return guide:clip{ into = other, max_force = 6, fail = false }
-    end)
-    assert.is_nil(result[1])
-    assert.is_truthy(result[2]:find "above max_force = 6 N")
-  end)
-
-  it("refuses what it cannot do", function()
-    local function says(text, args, before)
-      local _, _, ok, message = laid(nil, function(guide, clip)
-        if before then before(guide, clip) end
-        args.into = args.into or clip
-        return guide:clip(args)
-      end)
-      assert.is_false(ok)
-      assert.is_truthy(message:find(text, 1, true), message)
-    end
-    says("into is required, a clip of the gripper's scene", { into = 3 })
-    says("speed = -1 m/s is not allowed", { speed = -1 })
-    says("there is no parameter 'sped'; did you mean 'speed'?", { sped = 1 })
-    says("it holds nothing; grasp a wire before", {}, function(guide) guide:release() end)
-    local scene, wire, clip = scene_with()
-    local guide = scene:gripper{}
-    guide:grasp(wire, { s = 0.1 })
-    assert.has_error(function() guide:clip{ into = clip } end)
   end)
 end)
