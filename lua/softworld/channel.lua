@@ -90,7 +90,8 @@ local function trough(what, self)
     { "right", -half - t, -half, 0, self.depth } }
   for i = 1, #self.legs do
     for _, p in ipairs(list) do
-      parts[#parts + 1] = { ("%s %s %d"):format(self.name, p[1], i), prism(what, self, i, table.unpack(p, 2)) }
+      local points = prism(what, self, i, table.unpack(p, 2))
+      parts[#parts + 1] = { ("%s %s %d"):format(self.name, p[1], i), points }
     end
   end
   return parts

@@ -42,12 +42,13 @@ local function checked(scene, wire, args)
   args.name = fixing.name(scene, "scene:tie", args.name, "tie")
   local what = ("tie '%s'"):format(args.name)
   fixing.wire(scene, what, "the first argument", wire)
-  local here, there = place(what, wire, args.s, "")
+  local here = place(what, wire, args.s, "")
+  local there
   if type(args.to) == "table" and type(args.to[1]) == "userdata" then
     args.other, args.other_s, there = other_wire(scene, what, args.to)
   else
-    there = fixing.vector(what, "to", args.to, "m", here)
-    args.to = there
+    args.to = fixing.vector(what, "to", args.to, "m", here)
+    there = args.to
   end
   args.slack = fixing.number(what, "slack", args.slack, "m", 0, false,
     fixing.norm(fixing.add(here, there, -1)))

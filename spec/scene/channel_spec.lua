@@ -10,7 +10,8 @@ local function bent(options)
   local o = options or {}
   local scene = sw.scene{ gravity = o.gravity }
   local duct = scene:channel{ name = "duct",
-    points = o.points or { { -0.01, 0, 0 }, { 0.2, 0, 0 }, { 0.2, 0.2, 0 } }, width = WIDTH, depth = DEPTH, thickness = WALL, friction = o.friction or 0.2, lid = o.lid, up = o.up }
+    points = o.points or { { -0.01, 0, 0 }, { 0.2, 0, 0 }, { 0.2, 0.2, 0 } },
+    width = WIDTH, depth = DEPTH, thickness = WALL, friction = o.friction or 0.2, lid = o.lid, up = o.up }
   local wire = scene:wire{ name = "w", E = 2e7, density = 1500, radius = R, segments = 60,
     path = o.path or { { 0, 0, o.z or 0.005 }, { 0.2, 0, o.z or 0.005 }, { 0.2, 0.18, o.z or 0.005 } },
     rest = "path", model = o.model }
