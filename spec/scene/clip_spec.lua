@@ -320,6 +320,7 @@ describe("a clip", function()
     for i = 1, #shown.vertices, 3 do -- all of it is within a few radii of the seat
       t.below(4 * RADIUS, t.norm{ shown.vertices[i], shown.vertices[i + 1], shown.vertices[i + 2] })
     end
+    assert.is_truthy(require "softworld.output.vtk".objects(document):find('"c"', 1, true))
     local text = require "softworld.output.summary".text(document)
     assert.is_truthy(text:find("c: largest force as 'w' went in", 1, true))
     assert.is_truthy(tostring(clip):find "seated")
