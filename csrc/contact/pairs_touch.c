@@ -92,7 +92,7 @@ static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, co
   if (last) sw_press_take_lag(press, &last->press);
   const int known = (last && last->press.active) || pressed;
   if (known) press->sliding = last && last->press.active ? last->press.next_sliding : m->sliding;
-  sw_press_begin(press, friction, known);
+  sw_press_begin(press, friction, known, HUGE_VAL);
   SW_TRY(sw_grow((void **)&p->touches, &p->touch_capacity, p->touch_count + 1, sizeof *p->touches));
   p->touches[p->touch_count++] = t;
   return SW_OK;
