@@ -11,8 +11,9 @@
 local core = require "softworld.core"
 local build = require "softworld.build"
 local fixing = require "softworld.fixing"
+local vec = require "softworld.vec"
 
-local dot, cross, add, unit, norm = fixing.dot, fixing.cross, fixing.add, fixing.unit, fixing.norm
+local dot, cross, add, unit, norm = vec.dot, vec.cross, vec.add, vec.unit, vec.norm
 
 local properties = {}
 local Channel = fixing.class("channel", properties, { "lids" })

@@ -14,6 +14,7 @@
 local core = require "softworld.core"
 local build = require "softworld.build"
 local fixing = require "softworld.fixing"
+local vec = require "softworld.vec"
 local fixshape = require "softworld.fixshape"
 
 local properties = {}
@@ -26,17 +27,17 @@ local SNAP = 2e-3 -- [s]
 local THERE = 0.5 -- share of the clip that a wire in it passes through
 
 local function check_axes(what, args)
-  args.direction = fixing.unit(fixing.vector(what, "direction", args.direction, "-", { 0, 0, 1 }))
-  args.axis = fixing.unit(fixing.vector(what, "axis", args.axis, "-", { 1, 0, 0 }))
+  args.direction = vec.unit(fixing.vector(what, "direction", args.direction, "-", { 0, 0, 1 }))
+  args.axis = vec.unit(fixing.vector(what, "axis", args.axis, "-", { 1, 0, 0 }))
   if not args.direction or not args.axis then
     error(what .. ": direction and axis must not be zero vectors", 0)
   end
-  local along = fixing.dot(args.direction, args.axis)
+  local along = vec.dot(args.direction, args.axis)
   if math.abs(along) > 0.995 then
     error(what .. ": axis, along the wire, and direction, towards the mouth, are the same; they "
       .. "must be across each other", 0)
   end
-  args.axis = fixing.unit(fixing.add(args.axis, args.direction, -along))
+  args.axis = vec.unit(vec.add(args.axis, args.direction, -along))
 end
 
 local function check_wires(scene, what, args)
@@ -144,7 +145,7 @@ end
 function Clip:force(wire)
   local sum = { 0, 0, 0 }
   for _, r in ipairs(build.call(3, chosen, self, wire, "force")) do
-    sum = fixing.add(sum, { r.force_x, r.force_y, r.force_z })
+    sum = vec.add(sum, { r.force_x, r.force_y, r.force_z })
   end
   return sum
 end

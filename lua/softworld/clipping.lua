@@ -4,6 +4,7 @@
 local build = require "softworld.build"
 local process = require "softworld.process"
 local fixing = require "softworld.fixing"
+local vec = require "softworld.vec"
 local Clip = require "softworld.clip"
 local Gripper = require "softworld.gripper"
 
@@ -19,7 +20,9 @@ local function checked(self, args)
   if getmetatable(args.into) ~= Clip or args.into.scene ~= self.scene or not args.into:exists() then
     error(what .. ": into is required, a clip of the gripper's scene that is still there", 0)
   end
-  if not self.hold then error(what .. ": it holds nothing; grasp a wire before", 0) end
+  if not (self.hold or rawget(self, "wire")) then -- imposed, or between pads
+    error(what .. ": it holds nothing; grasp a wire before", 0)
+  end
   if not process.current() then
     error(what .. ": works inside a process only, as it watches the force on the way", 0)
   end
@@ -35,24 +38,24 @@ end
 
 -- How far the tool is over the seat, towards the mouth [m].
 local function place(self, clip)
-  return fixing.dot(fixing.add(self:position(), clip.at, -1), clip.direction)
+  return vec.dot(vec.add(self:position(), clip.at, -1), clip.direction)
 end
 
 -- Where the wire that is nearest to the seat passes the clip: height, offset across [m], its
 -- radius and the lips' height for it [m]. nil when none does.
 local function passing(clip)
-  local best, across = nil, fixing.cross(clip.direction, clip.axis)
+  local best, across = nil, vec.cross(clip.direction, clip.axis)
   local function look(wire, a, b, along_a, along_b)
-    local d = fixing.add(a, fixing.add(b, a, -1), along_a / (along_a - along_b))
-    local u, v = fixing.dot(d, clip.direction), fixing.dot(d, across)
+    local d = vec.add(a, vec.add(b, a, -1), along_a / (along_a - along_b))
+    local u, v = vec.dot(d, clip.direction), vec.dot(d, across)
     if not best or u * u + v * v < best.u ^ 2 + best.v ^ 2 then best = { u = u, v = v, wire = wire } end
   end
   for _, entry in ipairs(build.data(clip.scene).wires) do
     local x = (clip.on == nil or clip.on == entry.object) and entry.object:positions() or {}
     local last, before
     for i = 1, #x, 3 do
-      local d = fixing.add({ x[i], x[i + 1], x[i + 2] }, clip.at, -1)
-      local along = fixing.dot(d, clip.axis)
+      local d = vec.add({ x[i], x[i + 1], x[i + 2] }, clip.at, -1)
+      local along = vec.dot(d, clip.axis)
       if last and (along > 0) ~= (before > 0) then look(entry.object, last, d, before, along) end
       last, before = d, along
     end
@@ -78,13 +81,13 @@ local function line_up(self, clip, args, what)
   end
   if args.align == false then return way, radius end
   local function go(direction, by)
-    self:move{ by = fixing.add({ 0, 0, 0 }, direction, by), speed = args.approach_speed }
+    self:move{ by = vec.add({ 0, 0, 0 }, direction, by), speed = args.approach_speed }
   end
   if u < way + radius then go(clip.direction, way + radius - u) end
   for _ = 1, ROUNDS do
     local _, v = passing(clip)
     if not v or math.abs(v) < LINED_UP * radius then break end
-    go(fixing.cross(clip.axis, clip.direction), v)
+    go(vec.cross(clip.axis, clip.direction), v)
   end
   return way, radius
 end
@@ -99,9 +102,9 @@ local function press(self, clip, args, way, radius)
       return most, ("the tool went %.4g m beyond the seat with at most %.4g N, and the wire did not go in "
         .. "beside it; hold it nearer to the clip, or give more overtravel"):format(-goal, most)
     end
-    self:move{ by = fixing.add({ 0, 0, 0 }, clip.direction, -step), speed = args.speed, law = "linear" }
+    self:move{ by = vec.add({ 0, 0, 0 }, clip.direction, -step), speed = args.speed, law = "linear" }
     u = place(self, clip)
-    most = math.max(most, -fixing.dot(self:force(), clip.direction))
+    most = math.max(most, -vec.dot(self:force(), clip.direction))
     if most > args.max_force and not clip:seated() then
       return most, ("%.4g N was reached, above max_force = %.4g N, with the tool %.4g m over the seat; the "
         .. "lips had given %.4g N"):format(most, args.max_force, u, clip.peak_insertion_force)

@@ -1,29 +1,19 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What clips, ties and channels share: checks of what they are given, vectors, and the
--- scene's list of them, by which runs tell of them and pictures show them.
+--- What clips, ties and channels share: checks of what they are given, and the scene's list of
+-- them, by which runs tell of them and pictures show them.
 -- @module softworld.fixing
 local core = require "softworld.core"
 local build = require "softworld.build"
+local checks = require "softworld.checks"
 
 local fixing = {}
 
 --- Copy of the table of parameters; raises when it is none or has what is not known.
 -- Errors have no place yet: call from build.call.
 function fixing.arguments(what, args, known)
-  if type(args) ~= "table" then
-    error(("%s takes one table of parameters, got %s"):format(what, type(args)), 0)
-  end
-  local copy, names = {}, {}
-  for name in pairs(known) do names[#names + 1] = name end
-  table.sort(names)
-  for key, value in pairs(args) do
-    if not known[key] then
-      local near = core.nearest(tostring(key), names)
-      error(("%s: there is no parameter '%s'; %s"):format(what, tostring(key), near
-        and ("did you mean '" .. near .. "'?") or "known are: " .. table.concat(names, " ")), 0)
-    end
-    copy[key] = value
-  end
+  checks.keys(what, args, known, 0)
+  local copy = {}
+  for key, value in pairs(args) do copy[key] = value end
   return copy
 end
 
@@ -53,36 +43,7 @@ end
 function fixing.vector(what, name, value, unit, default)
   if value == nil and default then return { default[1], default[2], default[3] } end
   if value == nil then error(("%s: %s is required, {x, y, z} [%s]"):format(what, name, unit), 0) end
-  local copy = {}
-  for k, axis in ipairs{ "x", "y", "z" } do
-    local v = type(value) == "table" and (value[k] or value[axis])
-    if type(v) ~= "number" or v - v ~= 0 then
-      error(("%s: %s must be a table of 3 finite numbers [%s]"):format(what, name, unit), 0)
-    end
-    copy[k] = v
-  end
-  return copy
-end
-
-function fixing.dot(a, b) return a[1] * b[1] + a[2] * b[2] + a[3] * b[3] end
-
-function fixing.cross(a, b)
-  return { a[2] * b[3] - a[3] * b[2], a[3] * b[1] - a[1] * b[3], a[1] * b[2] - a[2] * b[1] }
-end
-
---- a + f b
-function fixing.add(a, b, f)
-  f = f or 1
-  return { a[1] + f * b[1], a[2] + f * b[2], a[3] + f * b[3] }
-end
-
-function fixing.norm(a) return fixing.dot(a, a) ^ 0.5 end
-
---- a / |a|, or nil.
-function fixing.unit(a)
-  local n = fixing.norm(a)
-  if not (n > 0 and n < math.huge) then return nil end
-  return { a[1] / n, a[2] / n, a[3] / n }
+  return checks.vector(("%s: %s"):format(what, name), value, unit, 0)
 end
 
 --- A wire of the scene, or an error.

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- What clips look like: a slotted ring with wings at its mouth on a foot, extruded along its axis.
 -- @module softworld.fixshape
-local fixing = require "softworld.fixing"
+local vec = require "softworld.vec"
 
 local fixshape = {}
 
@@ -53,7 +53,7 @@ end
 
 -- From x along the axis, y across, z towards the mouth to the world.
 local function placed(clip, vertices)
-  local across, out = fixing.cross(clip.direction, clip.axis), {}
+  local across, out = vec.cross(clip.direction, clip.axis), {}
   for i = 1, #vertices, 3 do
     for k = 1, 3 do
       out[i + k - 1] = clip.at[k] + vertices[i] * clip.axis[k] + vertices[i + 1] * across[k]

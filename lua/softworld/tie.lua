@@ -11,6 +11,7 @@
 local core = require "softworld.core"
 local build = require "softworld.build"
 local fixing = require "softworld.fixing"
+local vec = require "softworld.vec"
 
 local properties = {}
 local Tie = fixing.class("tie", properties, { "other" })
@@ -51,7 +52,7 @@ local function checked(scene, wire, args)
     there = args.to
   end
   args.slack = fixing.number(what, "slack", args.slack, "m", 0, false,
-    fixing.norm(fixing.add(here, there, -1)))
+    vec.norm(vec.add(here, there, -1)))
   args.stiffness = fixing.number(what, "stiffness", args.stiffness, "N/m", 0, true, STIFFNESS)
   if args.strength ~= nil then fixing.number(what, "strength", args.strength, "N", 0, true) end
   return args

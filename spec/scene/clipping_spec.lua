@@ -16,15 +16,15 @@ local function made()
 end
 
 describe("gripper:clip", function()
-  local function laid(action)
+  local function laid(action, approach)
     local scene, wire, clip = made()
     scene:force{ kind = "damping", on = wire, mass = 5, stiffness = 1e-3 }
     local keeper = scene:gripper{ name = "keeper", pads = { width = 0.01 } }
-    local guide = scene:gripper{ name = "guide", pads = { width = 0.005 } }
+    local guide = scene:gripper{ name = "guide", pads = { width = 0.005, friction = 0.8 } }
     local result
     scene:process(function(p)
       keeper:grasp(wire, { s = 0.19 })
-      guide:grasp(wire, { s = 0.11 })
+      guide:grasp(wire, { s = 0.11, approach = approach, force = approach == "plates" and 60 or nil })
       result = table.pack(action(guide, clip, p))
     end)
     local ok, run = pcall(scene.run, scene, { dt = 4e-3 })
@@ -41,6 +41,15 @@ describe("gripper:clip", function()
     t.share(INTO, result[1].peak_force, 0.02, "lips")
     t.above(INTO, result[1].force * 1.05, "gripper")
     t.near(0.1, result[1].s, 1e-3, "s")
+  end)
+
+  it("presses with real pads too", function()
+    local clip, result, ok, run = laid(function(guide, clip)
+      return guide:clip{ into = clip, max_force = 60 }
+    end, "plates")
+    assert.is_true(ok, tostring(run))
+    assert.is_true(clip:seated())
+    t.share(INTO, result[1].peak_force, 0.05, "lips")
   end)
 
   it("lines up with a mouth that is beside it", function()
