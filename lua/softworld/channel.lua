@@ -109,11 +109,17 @@ end
 
 local LID = 0.7 -- transparency in pictures, so that the wire is seen
 
+-- All of them or none.
 local function raise(self, parts, transparency)
   local list, shown = {}, build.data(self.scene).obstacles
   for i, part in ipairs(parts) do
-    list[i] = self.scene:obstacle{ name = part[1], shape = "hull", points = part[2],
-      friction = self.friction, restitution = self.restitution }
+    local ok, made = pcall(self.scene.obstacle, self.scene, { name = part[1], shape = "hull",
+      points = part[2], friction = self.friction, restitution = self.restitution })
+    if not ok then
+      for k = i - 1, 1, -1 do list[k]:remove() end
+      error(made, 0)
+    end
+    list[i] = made
     shown[#shown].transparency = transparency
   end
   return list
@@ -151,8 +157,15 @@ local function make(scene, given)
   local parts, cover = trough(what, self), lid(what, self)
   self.parts = raise(self, parts)
   self.object = self.parts[1]
-  self.lids = args.lid and raise(self, cover, LID) or nil
   setmetatable(self, Channel)
+  if args.lid then
+    local ok, lids = pcall(raise, self, cover, LID)
+    if not ok then
+      self:release()
+      error(lids, 0)
+    end
+    self.lids = lids
+  end
   fixing.keep(scene, self)
   return self
 end

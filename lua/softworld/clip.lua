@@ -71,17 +71,26 @@ local function checked(scene, args)
   return args
 end
 
+-- What damps the wire that snaps in; without it there is to be no clip either.
+local function make_damper(scene, args, time, force)
+  if time == 0 then return nil end
+  local ok, damper = pcall(scene.force, scene, { kind = "snap", at = args.at, direction = args.direction,
+    axis = args.axis, width = args.width, insertion = args.insertion, retention = args.retention,
+    radius = args.radius, way = args.way, time = time, on = args.on })
+  if ok then return damper end
+  force:release()
+  error(damper, 0)
+end
+
 local function make(scene, given)
   local args = checked(scene, given)
   local name, time = args.name, args.snap
   args.name, args.snap, args.kind = nil, nil, "clip"
   local force = scene:force(args)
-  local damper = time > 0 and scene:force{ kind = "snap", at = args.at, direction = args.direction,
-    axis = args.axis, width = args.width, insertion = args.insertion, retention = args.retention,
-    radius = args.radius, way = args.way, time = time, on = args.on } or nil
-  local self = setmetatable({ name = name, scene = scene, object = force, damper = damper, at = args.at,
-    direction = args.direction, axis = args.axis, width = args.width, on = args.on,
-    radius = args.radius, insertion = args.insertion, retention = args.retention }, Clip)
+  local self = setmetatable({ name = name, scene = scene, object = force, at = args.at,
+    damper = make_damper(scene, args, time, force), direction = args.direction, axis = args.axis,
+    width = args.width, on = args.on, radius = args.radius, insertion = args.insertion,
+    retention = args.retention }, Clip)
   fixing.keep(scene, self)
   return self
 end
