@@ -11,9 +11,9 @@
  *
  * Friction acts along the axis: at each node a spring that is W/200 long when it slips, with
  * mu times the push |grad U| that the node had in the last accepted state. So it is a potential
- * of the step, its stiffness symmetric; it lags one step behind a push that changes, and there is
- * none in a first static solve. A wire that crosses the clip at an angle of more than about 45
- * degrees, or loops through it more than once, is outside of what this describes. */
+ * of the step, its stiffness symmetric, and it lags one step behind a push that changes. A wire
+ * that crosses the clip at an angle of more than about 45 degrees, or loops through it more than
+ * once, is outside of what this describes. */
 #include <math.h>
 #include <stddef.h>
 
@@ -115,6 +115,7 @@ static double friction_energy(double stretch, double most, double slip) {
 
 static void add_friction(const sw_clip *c, sw_field *f) {
   const double slip = SLIP * c->width;
+  if (f->history && !(f->history[BEGUN] > 0) && !f->statics) return; /* see begin_history */
   for (size_t i = 0; f->history && f->history[RUBS] > 0 && i < sw_axis_points(f->plan); i++) {
     const double *h = f->history + HEAD + EACH * i;
     if (!(h[MOST] > 0)) continue;
@@ -198,31 +199,58 @@ static void follow(const sw_clip *c, const middle *m, double time, double *h) {
   if (h[STATE] == SEATED && m->u >= h[LAST]) h[PEAK] = fmax(h[PEAK], -m->push);
 }
 
-/* Friction's springs after slipping, the work that it took, and the most friction from now on. */
-static void commit_friction(const sw_clip *c, const sw_field *f, double *history) {
-  const double slip = SLIP * c->width;
-  const size_t points = sw_axis_points(f->plan);
-  double *each = history + HEAD;
-  history[RUBS] = 0;
-  for (size_t i = 0; i < points; i++) {
-    double *h = each + EACH * i;
-    const double trial = stretch_of(c, f, h, i);
-    const double kept = h[MOST] > 0 ? fmax(-slip, fmin(slip, trial)) : 0.0;
-    history[DISSIPATED] += h[MOST] * fabs(trial - kept) * (h[MOST] > 0);
-    history[DISSIPATED] += friction_energy(kept, h[MOST], slip); /* less what it will store */
-    h[STRETCH] = kept, h[PLACE] = place_of(c, f, i), h[MOST] = 0;
-  }
-  for (long e = sw_clip_find(c, f, 0); c->friction > 0 && e >= 0; e = sw_clip_find(c, f, e + 1)) {
+/* What friction is to be from now on, by what presses each node. */
+static void measure_friction(const sw_clip *c, const sw_field *f, double *each) {
+  for (long e = sw_clip_find(c, f, 0); e >= 0; e = sw_clip_find(c, f, e + 1)) {
     sw_clip_sum sum;
     if (!sw_clip_edge(c, f, (size_t)e, 0, &sum)) continue;
     for (size_t end = 0; end < 2; end++)
       each[EACH * ((size_t)e + end) + MOST] += c->friction * sum.push[end];
   }
+}
+
+/* Friction's springs after slipping, the work that it took, and the most friction from now on. What
+ * sticks goes on with the force that it had, as long as friction can bear that. */
+static void commit_friction(const sw_clip *c, const sw_field *f, double *history) {
+  const double slip = SLIP * c->width;
+  const size_t points = sw_axis_points(f->plan);
+  const int begun = history[BEGUN] > 0;
+  double *each = history + HEAD;
   for (size_t i = 0; i < points; i++) {
     double *h = each + EACH * i;
-    if (!(h[MOST] > 0)) h[STRETCH] = 0;
+    const double trial = stretch_of(c, f, h, i);
+    const double kept = h[MOST] > 0 ? fmax(-slip, fmin(slip, trial)) : 0.0;
+    if (begun) /* less what it will store */
+      history[DISSIPATED] +=
+          h[MOST] * fabs(trial - kept) * (h[MOST] > 0) + friction_energy(kept, h[MOST], slip);
+    h[STRETCH] = fabs(kept) < slip ? kept * h[MOST] : copysign(HUGE_VAL, kept);
+    h[PLACE] = place_of(c, f, i), h[MOST] = 0;
+  }
+  measure_friction(c, f, each);
+  history[RUBS] = 0;
+  for (size_t i = 0; i < points; i++) {
+    double *h = each + EACH * i;
+    h[STRETCH] = h[MOST] > 0 ? fmax(-slip, fmin(slip, h[STRETCH] / h[MOST])) : 0.0;
     history[RUBS] += h[MOST] > 0;
-    history[DISSIPATED] -= friction_energy(h[STRETCH], h[MOST], slip);
+    history[DISSIPATED] -= begun ? friction_energy(h[STRETCH], h[MOST], slip) : 0.0;
+  }
+}
+
+/* What presses the wire is not known before the first solve. In a static one friction then holds it
+ * up to mu times the retention, so that a wire which lies in clips alone does not slide away. */
+static void begin_history(const void *args, const sw_field *f, double *history) {
+  const sw_clip c = sw_clip_of(args, &f->plan->beam);
+  double *each = history + HEAD;
+  if (!(c.friction > 0)) return;
+  for (size_t i = 0; i < sw_axis_points(f->plan); i++) each[EACH * i + PLACE] = place_of(&c, f, i);
+  for (long e = sw_clip_find(&c, f, 0); e >= 0; e = sw_clip_find(&c, f, e + 1)) {
+    sw_clip_sum sum;
+    if (!sw_clip_edge(&c, f, (size_t)e, 0, &sum)) continue;
+    const double half = 0.5 * sum.share;
+    if (fabs(sum.u) > sum.share * (c.law.out + c.law.in)) continue;
+    for (size_t end = 0; end < 2; end++)
+      each[EACH * ((size_t)e + end) + MOST] += c.friction * half * c.strongest;
+    history[RUBS] = 1;
   }
 }
 
@@ -333,6 +361,7 @@ const sw_force_class sw_force_clip = {
     .commit = commit,
     .idle = idle,
     .inherit = inherit,
+    .begin = begin_history,
     .outputs = outputs,
     .read = read,
 };

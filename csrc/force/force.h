@@ -67,6 +67,9 @@ typedef struct sw_force_class {
   void (*commit)(const void *args, const sw_field *field, double *history);
   void (*inherit)(const sw_plan *old, const double *from, const sw_field *field, double *history);
 
+  /* Fills the history of a wire that has none yet; geometry as for inherit. NULL = zeros. */
+  void (*begin)(const void *args, const sw_field *field, double *history);
+
   /* 1: with this history it does nothing in the coming step, which then need not be computed as
    * closely as kinks ask for; NULL = it always may. */
   int (*idle)(const double *history);

@@ -175,6 +175,28 @@ describe("a clip", function()
     end
   end)
 
+  -- Nothing else keeps it from sliding along its axis: the first solve does not know yet what presses.
+  for _, model in ipairs{ "string", "rod", "radial" } do
+    it("bears a " .. model .. " that lies in two of them alone, settled at once", function()
+      local scene = sw.scene{}
+      local wire = scene:wire{ E = 1e8, density = 1200, radius = RADIUS, from = { 0, 0, 0 },
+        to = { 0.16, 0, 0 }, segments = model ~= "radial" and 40 or nil, model = model }
+      local up, clips = 0, {}
+      for i, x in ipairs{ 0.03, 0.13 } do
+        clips[i] = scene:clip{ at = { x, 0, 0 }, width = WIDTH, insertion = INTO, retention = OUT,
+          friction = 0.3 }
+      end
+      t.fine(scene:settle())
+      for _, clip in ipairs(clips) do
+        assert.is_true(clip:seated())
+        up = up + clip:force()[3]
+      end
+      t.share(wire.beam.mass_per_length * wire.length * 9.81, up, 1e-3, "force upwards")
+      -- friction's springs are up to W/200 long, in either clip
+      t.near(0.08, wire:position(0.08)[1], 2 * WIDTH / 200, "place along the axis")
+    end)
+  end
+
   it("gives way by force over stiffness at floor and walls", function()
     for _, side in ipairs{ { 0, 0, -1 }, { 0, 1, 0 }, { 0, -1, 0 } } do
       local scene, wire = scene_with{ half = 0.02, z = 0, E = 2e11, segments = 16, stiffness = 1e5,
