@@ -23,6 +23,7 @@ typedef struct sw_contact_obstacle {
   double grips;       /* of a gripper's pad: the force that it is to press with, INFINITY = any; 0 =
                          it is none [N] */
   int id;             /* the owner's number; part of the memory's key */
+  int off;            /* 1: nothing touches it */
 } sw_contact_obstacle;
 
 /* Where obstacle number o is at a time. */
@@ -36,6 +37,8 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
  * it does leaves the first as it is. SW_ENOMEM. */
 sw_status sw_contact_copy(const sw_contact *contact, sw_contact **out);
 void sw_contact_free(sw_contact *contact);
+/* Only obstacles of these numbers (count) are touched from now on. */
+void sw_contact_keep(sw_contact *contact, const size_t *ids, size_t count);
 
 /* How the coming steps are computed: decides the normal stiffness. */
 typedef enum sw_contact_regime {

@@ -19,8 +19,9 @@ static const double WEIGHT_TOLERANCE = 1e-3;
  * whatever the prediction is worth [-]. */
 static const double SURELY_SLIDING = 20.0;
 
-/* Wires that are deeper inside than their force explains are let out at this speed [m/s]. */
-static const double RECOVERY_SPEED = 0.2;
+/* Wires that are deeper inside than their force explains are let out at this speed; meshes, whose
+ * sections may stand off the line that they come from, so slowly that they are not thrown [m/s]. */
+static const double RECOVERY_SPEED = 0.2, SLOW_RECOVERY = 0.02;
 
 /* A touch that sinks in deeper is made stiffer until it does not [m]. */
 static const double DEEPEST = 50e-6;
@@ -114,8 +115,9 @@ int sw_press_apart(const sw_press *p) {
   return p->active ? p->gap_after <= GAP_TOLERANCE : p->gap_after >= -GAP_TOLERANCE;
 }
 
-double sw_press_forgiven(double depth, double explained, double h) {
-  return fmax(0.0, depth - explained - RECOVERY_SPEED * h - GAP_TOLERANCE);
+double sw_press_forgiven(double depth, double explained, double h, int slowly) {
+  const double speed = slowly ? SLOW_RECOVERY : RECOVERY_SPEED;
+  return fmax(0.0, depth - explained - speed * h - GAP_TOLERANCE);
 }
 
 double sw_press_stiffer(const sw_press *p, double usual, double forgiven, double before) {

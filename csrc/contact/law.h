@@ -55,7 +55,7 @@ sw_vec sw_press_eval(sw_press *press, double friction, int lagged, double K[6]);
 /* Part of a depth at the step's start that the step leaves alone, explained being what goes
  * with the touch's force there: what was placed in each other, or comes out of a barrier, is
  * let out slowly, for within one step the whole depth would turn into speed [m]. */
-double sw_press_forgiven(double depth, double explained, double h);
+double sw_press_forgiven(double depth, double explained, double h, int slowly);
 
 /* Forces after an update that shifted the touch; 1 = they agree with what the solve
  * assumed. force_scale: of the scene, forces far below which do not matter [N]. */

@@ -56,7 +56,7 @@ static double forgiven(const sw_pairs *p, const sw_system *s, const sw_pair *k,
   if (p->regime != SW_CONTACT_IMPLICIT || t->press.gap >= 0) return 0;
   const sw_vec from = sw_pair_apart(s->x, k->one, k->two, t->at);
   const double depth = k->reach - sw_dot(t->press.normal, from);
-  return sw_press_forgiven(depth, m ? m->depth : 0.0, p->h);
+  return sw_press_forgiven(depth, m ? m->depth : 0.0, p->h, 0);
 }
 
 /* Wherever it has slid to. */

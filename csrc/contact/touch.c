@@ -170,6 +170,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
   const sw_memory *m = pressed_memory(c, s, k, at);
   const sw_touch *last = last_for(c, k, at);
   const double stiffness = stiffness_of(c, k, m, last);
+  const sw_web *web = s->bodies[k->body].plan->web;
   sw_touch t = {
       .obstacle = k->obstacle,
       .segment = k->segment,
@@ -186,12 +187,12 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
       .candidate = (size_t)(k - c->candidates),
       .press = {
           .normal = sw_rotate(pose->q, near->normal), .gap = near->gap - k->skin, .k = stiffness}};
-  const sw_web *web = s->bodies[k->body].plan->web;
   if (web && !web->per_ring) t.press.soft = fmin(SOFTEST, (double)web->particles);
   sw_press *press = &t.press;
   if (c->regime == SW_CONTACT_IMPLICIT &&
       press->gap < 0) /* in explicit steps force follows depth */
-    t.forgiven = sw_press_forgiven(depth_before(c, s, &t), m ? m->depth : 0.0, c->h);
+    t.forgiven = sw_press_forgiven(depth_before(c, s, &t), m ? m->depth : 0.0, c->h,
+                                   web && web->per_ring);
   press->gap += t.forgiven;
   press->gap_after = press->gap;
   sw_press_activate(press, goes_on(c, k, press, last) ? &last->press : NULL);

@@ -5,10 +5,13 @@
  * with the tool like the grip that stands for them; those beside them turn with the rod. */
 #include <math.h>
 #include <string.h>
+#include <stdio.h>
+#include <stdlib.h>
 
 #include "base/alloc.h"
 #include "scene/remodel_inner.h"
 #include "state/hinge.h"
+#include "system/web.h"
 
 struct sw_frozen {
   int references;
@@ -18,6 +21,8 @@ struct sw_frozen {
   sw_strand strand;    /* likewise */
   sw_pose pose;        /* of the tool then */
   size_t first, last;  /* rings that were pressed */
+  double inside[2];    /* so far inside of them a rod's grip ends before, and after [m] */
+  sw_vec across;       /* how the pads close, in the tool's axes [-] */
   double *frame;       /* (rings x 6) tangent, direction across then [-] */
   sw_stations stations;
   void *memory;        /* of contact then */
@@ -83,6 +88,82 @@ static sw_status keep_memory(const sw_scene *s, const sw_body *b, sw_frozen *f) 
   return SW_OK;
 }
 
+/* --- how far inside the pads a rod's grip has to end --------------------------------------------
+ *
+ * Sections give way under the pads: what a moment turns the wire by where it leaves them is more
+ * than by a clamp there. The rod's grip ends as much further inside as makes it turn the same. */
+
+/* Second moment of a ring's particles across the axis of a couple, and axial parts of a turn. */
+static double couple(const sw_web *web, const double *x, size_t ring, sw_vec t, sw_vec axis,
+                     double *load) {
+  const sw_vec e = sw_cross(t, axis), middle = sw_strand_middle(web, x, ring);
+  double sum = 0;
+  for (size_t p = web->first[ring]; p < web->first[ring + 1]; p++) {
+    const double arm = sw_dot(sw_sub(sw_vec_at(x, p), middle), e);
+    sum += arm * arm;
+    if (load) sw_store(load + 3 * p, sw_scale(t, arm));
+  }
+  return sum;
+}
+
+/* Turn of a ring by shifts of its particles [rad]. */
+static double turn_of(const sw_web *web, const double *x, size_t ring, sw_vec t, sw_vec axis,
+                      const double *shift) {
+  const sw_vec e = sw_cross(t, axis), middle = sw_strand_middle(web, x, ring);
+  double sum = 0;
+  for (size_t p = web->first[ring]; p < web->first[ring + 1]; p++)
+    sum += sw_dot(sw_vec_at(shift, p), t) * sw_dot(sw_sub(sw_vec_at(x, p), middle), e);
+  return sum / couple(web, x, ring, t, axis, NULL);
+}
+
+enum { OUTSIDE = 3 }; /* the couple acts so many rings outside the pads [-] */
+
+/* Of one side: -1 before, 1 after. Nothing where the wire ends between the pads. */
+static sw_status find_inside(sw_scene *s, const sw_tool *tool, sw_frozen *f, int side, double *load,
+                             sw_error *err) {
+  size_t pads_only[SW_TOOL_PADS];
+  for (size_t k = 0; k < tool->pads; k++) pads_only[k] = tool->pad[k].obstacle;
+  const sw_body *b = &s->system.bodies[f->wire.slot];
+  const sw_web *web = b->plan->web;
+  const double *x = s->system.x + 3 * b->first_node;
+  const size_t face = side < 0 ? f->first : f->last;
+  size_t ring = face;
+  for (int k = 0; k < OUTSIDE; k++) {
+    const size_t next = side < 0 ? ring - 1 : ring + 1;
+    if (next >= web->rings || !sw_web_is_ring(web, next)) break; /* below 0 is above all, too */
+    ring = next;
+  }
+  f->inside[side > 0] = 0;
+  if (ring == face) return SW_OK;
+  const sw_vec t = sw_strand_facing(web, x, ring);
+  const sw_vec pads = sw_rotate(f->pose.q, f->across);
+  const sw_vec axis = sw_unit_or(sw_madd(pads, t, -sw_dot(pads, t)), sw_perpendicular(t));
+  memset(load, 0, 3 * web->particles * sizeof *load);
+  const double second = couple(web, x, ring, t, axis, load);
+  for (size_t i = 0; i < 3 * web->particles; i++) load[i] /= second; /* a moment of 1 N m */
+  SW_TRY(sw_scene_linearise(s, pads_only, tool->pads, err));
+  SW_TRY(sw_web_deflect(&s->system, f->wire.slot, load));
+  const double turn = turn_of(web, x, ring, t, axis, load); /* [rad/(N m)] */
+  const double way = fabs(f->stations.s[ring] - f->stations.s[face]);
+  f->inside[side > 0] = fmax(0.0, turn * b->plan->beam.EI - way);
+  return SW_OK;
+}
+
+/* Both sides; together less than the pressed length. */
+static sw_status find_insides(sw_scene *s, const sw_tool *t, sw_frozen *f, sw_error *err) {
+  static const double MOST = 0.45; /* of the pressed length, each [-] */
+  const sw_body *b = &s->system.bodies[f->wire.slot];
+  const double most = MOST * (f->stations.s[f->last] - f->stations.s[f->first]);
+  double *load = sw_alloc(3 * b->plan->nodes, sizeof *load);
+  if (!load) return SW_ENOMEM;
+  f->across = sw_unit_or(s->obstacles[t->pad[0].obstacle].drive.opens, sw_v(0, 1, 0));
+  sw_status status = find_inside(s, t, f, -1, load, err);
+  if (status == SW_OK) status = find_inside(s, t, f, 1, load, err);
+  for (int k = 0; k < 2; k++) f->inside[k] = fmin(f->inside[k], most);
+  sw_free(load);
+  return status;
+}
+
 /* All that has to be known to come back. */
 static sw_status keep(sw_scene *s, const sw_tool *t, sw_handle wire, sw_frozen *f, sw_line *line,
                       sw_error *err) {
@@ -101,7 +182,7 @@ static sw_status keep(sw_scene *s, const sw_tool *t, sw_handle wire, sw_frozen *
   f->frame = sw_alloc(6 * f->stations.n, sizeof *f->frame);
   if (!f->frame) return SW_ENOMEM;
   memcpy(f->frame, line->frame, 6 * f->stations.n * sizeof *f->frame);
-  return SW_OK;
+  return find_insides(s, t, f, err);
 }
 
 /* The rod that the line is. */
@@ -116,20 +197,30 @@ static sw_status become_rod(sw_scene *s, sw_handle wire, const sw_line *line, sw
   return status;
 }
 
+/* How the section nearest to an arc length faces. */
+static sw_vec facing_at(const sw_frozen *f, double s) {
+  size_t r = f->first;
+  while (r < f->last && f->stations.s[r] < s) r++;
+  if (r > f->first && s - f->stations.s[r - 1] < f->stations.s[r] - s) r--;
+  return sw_load(f->frame + 6 * r);
+}
+
 /* The tool's grip on the rod; where it leaves the grip it goes on as the sections face there. */
 static sw_status grip(sw_scene *s, sw_handle tool, const sw_frozen *f, sw_freeze_report *out,
                       sw_error *err) {
   const sw_hold_class *cls = sw_hold_find("grip");
   sw_hold_args args;
   sw_params_default(&cls->params, &args);
-  out->s1 = f->stations.s[f->first], out->s2 = f->stations.s[f->last];
+  out->s1 = f->stations.s[f->first] + f->inside[0];
+  out->s2 = f->stations.s[f->last] - f->inside[1];
   args.s = 0.5 * (out->s1 + out->s2);
   args.width = out->s2 - out->s1;
   args.direction = sw_v(NAN, NAN, NAN);
+  if (getenv("DBG")) fprintf(stderr,"inside %g %g  s %g %g\n", f->inside[0], f->inside[1], f->stations.s[f->first], f->stations.s[f->last]);
   SW_TRY(sw_scene_add_hold(s, cls, f->wire, &args, &out->hold, err));
   sw_scene_hold *h = &s->holds[out->hold.slot];
-  h->director[0] = sw_load(f->frame + 6 * f->first);
-  h->director[1] = sw_load(f->frame + 6 * f->last);
+  h->director[0] = facing_at(f, out->s1);
+  h->director[1] = facing_at(f, out->s2);
   return sw_scene_tool_hold(s, tool, out->hold, err);
 }
 
@@ -226,20 +317,39 @@ static sw_vec turned(const double *from, const double *to, sw_vec a) {
   return sw_madd(sw_madd(sw_scale(t2, sw_dot(a, t)), u2, sw_dot(a, u)), w2, sw_dot(a, w));
 }
 
+/* What pads press on stays where it was between them; the middle goes with the rod that stands for
+ * it, and what lies between shears in between. */
+static void place_pressed(const sw_frozen *f, const sw_motion_state *tool, const sw_line *l,
+                          size_t r, const sw_web *web, double *x) {
+  const sw_vec middle = sw_pose_local(f->pose, sw_vec_at(f->mesh.x, r));
+  const sw_vec off = sw_sub(sw_vec_at(l->x, r), sw_pose_point(tool->pose, middle));
+  double widest = 0;
+  for (size_t p = web->first[r]; p < web->first[r + 1]; p++) {
+    const sw_vec at = sw_pose_local(f->pose, sw_vec_at(x, p));
+    widest = fmax(widest, fabs(sw_dot(sw_sub(at, middle), f->across)));
+  }
+  for (size_t p = web->first[r]; p < web->first[r + 1]; p++) {
+    const sw_vec at = sw_pose_local(f->pose, sw_vec_at(x, p));
+    const double far = fabs(sw_dot(sw_sub(at, middle), f->across));
+    const double share = widest > 0 ? 1.0 - far / widest : 0.0;
+    sw_store(x + 3 * p, sw_madd(sw_pose_point(tool->pose, at), off, share));
+  }
+}
+
 /* Particles of the strand, whose places are those of then, to where they are now. */
 static void place(const sw_frozen *f, const sw_motion_state *tool, const sw_line *l,
                   sw_strand *strand) {
   const sw_web *web = strand->web;
   double *x = strand->x, *v = strand->v;
   for (size_t r = 0; r < web->rings; r++) {
-    const int held = r >= f->first && r <= f->last;
+    if (r >= f->first && r <= f->last) {
+      place_pressed(f, tool, l, r, web, x);
+      continue;
+    }
     for (size_t p = web->first[r]; p < web->first[r + 1]; p++) {
-      const sw_vec then = sw_vec_at(x, p), middle = sw_vec_at(f->mesh.x, r);
-      if (held)
-        sw_store(x + 3 * p, sw_pose_point(tool->pose, sw_pose_local(f->pose, then)));
-      else
-        sw_store(x + 3 * p, sw_add(sw_vec_at(l->x, r), turned(f->frame + 6 * r, l->frame + 6 * r,
-                                                              sw_sub(then, middle))));
+      const sw_vec off = sw_sub(sw_vec_at(x, p), sw_vec_at(f->mesh.x, r));
+      sw_store(x + 3 * p,
+               sw_add(sw_vec_at(l->x, r), turned(f->frame + 6 * r, l->frame + 6 * r, off)));
     }
   }
   sw_line_spin(l, web, x, v);

@@ -487,6 +487,10 @@ sw_status sw_scene_copy_shape(const sw_scene_hold *from, sw_scene_hold *to);
 /* Take hold of a wire that has other nodes but lies as before; the hold's pose is known.
  * SW_ENOMEM. */
 sw_status sw_scene_rehold(sw_scene *scene, sw_scene_hold *hold, sw_pose pose);
+/* The built system's stiffness at its state, with contact as it presses now: of these obstacles
+ * (count), or NULL: of all. */
+sw_status sw_scene_linearise(sw_scene *scene, const size_t *only, size_t count, sw_error *err);
+
 /* May the wire, as it is given, be in the scene with its forces and rules? */
 sw_status sw_scene_check_rules(const sw_scene *scene, size_t wire, const sw_scene_wire *as,
                                sw_error *err);
