@@ -240,7 +240,9 @@ static int same_plan(const sw_scene *s, const sw_snapshot *p) {
   for (size_t k = 0; k < s->force_count; k++)
     if (s->forces[k].alive != (k < p->forces && p->force_alive[k])) return 0;
   for (size_t k = 0; k < s->join_count; k++)
-    if (s->joins[k].alive != (k < p->joins && p->join[k].alive)) return 0;
+    if (s->joins[k].alive != (k < p->joins && p->join[k].alive) ||
+        (k < p->joins && s->joins[k].broken != p->join[k].broken))
+      return 0;
   return 1;
 }
 
