@@ -62,7 +62,8 @@ function core.class.scene.gripper(scene, args)
 end
 
 local remembered = { "hold", "at", "rotation", "tool", "wire", "way", "frozen", "on_slip", "opening",
-  "order", "obstacles", "held", "s", "free_height" }
+  "order", "obstacles", "held", "s", "free_height",
+  "margin", "segments", "mesh_model", "rod_model", "slip_event" }
 
 --- What a snapshot must know of the gripper, and the way back; recall(nil) for
 -- one that was made later.
@@ -75,8 +76,9 @@ end
 function Gripper:recall(state)
   self.gone = state == nil or nil
   for _, key in ipairs(remembered) do self[key] = state and state[key] end
-  for i = #self.past, (state and state.grasps or 0) + 1, -1 do self.past[i] = nil end
-  for i = #self.events, (state and state.events or 0) + 1, -1 do self.events[i] = nil end
+  if not state then return end
+  for i = #self.past, state.grasps + 1, -1 do self.past[i] = nil end
+  for i = #self.events, state.events + 1, -1 do self.events[i] = nil end
 end
 
 local function needs_pose(self, verb)
@@ -229,7 +231,7 @@ local shortcuts = { peak_force = true, mean_force = true, peak_moment = true, me
   impulse = true }
 
 -- Fields that may be nil.
-local fields = { gone = true, slip_event = true }
+local fields = { gone = true }
 for _, key in ipairs(remembered) do fields[key] = true end
 
 function Gripper:__index(key)
