@@ -322,6 +322,11 @@ function Methods:grasp(wire, args)
   if core.type(wire) ~= "wire" then
     error("gripper:grasp expects a wire, got " .. (core.type(wire) or type(wire)), 2)
   end
+  local ours = false
+  for _, entry in ipairs(build.data(self.scene).wires) do ours = ours or entry.object == wire end
+  if not ours then
+    error(("gripper '%s': wire '%s' is of another scene"):format(self.name, wire.name), 2)
+  end
   checks.keys("gripper:grasp", args, grasp_keys, 3)
   local approach = args.approach or "imposed"
   checks.word(("gripper '%s': approach"):format(self.name), approach, approaches, 3)
