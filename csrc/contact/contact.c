@@ -365,6 +365,20 @@ sw_status sw_contact_set_memory(sw_contact *c, const void *memory, size_t bytes,
   return SW_OK;
 }
 
+size_t sw_contact_memory_item(void) { return sizeof(sw_memory); }
+
+int sw_contact_memory_fits(const void *memory, size_t bytes, size_t nodes, size_t obstacles) {
+  const size_t count = bytes / sizeof(sw_memory);
+  for (size_t i = 0; i < count; i++) {
+    sw_memory m;
+    memcpy(&m, (const char *)memory + i * sizeof m, sizeof m);
+    if (m.node >= nodes || m.obstacle < 0 || (size_t)m.obstacle >= obstacles || m.segment < 0 ||
+        !isfinite(m.at))
+      return 0;
+  }
+  return bytes % sizeof(sw_memory) == 0;
+}
+
 sw_status sw_contact_inherit(sw_contact *c, const void *memory, size_t bytes, int fresh,
                              const size_t *new_node) {
   size_t kept = 0;

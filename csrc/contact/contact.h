@@ -111,6 +111,10 @@ const void *sw_contact_memory(const sw_contact *contact, size_t *bytes);
 /* 1 while no step was accepted: there is nothing to remember yet. */
 int sw_contact_is_fresh(const sw_contact *contact);
 sw_status sw_contact_set_memory(sw_contact *contact, const void *memory, size_t bytes, int fresh);
+/* 1: memory that may have come from anywhere names nothing beyond these nodes and obstacles. */
+int sw_contact_memory_fits(const void *memory, size_t bytes, size_t nodes, size_t obstacles);
+/* Size of one of its items, by which files of another version are told [B]. */
+size_t sw_contact_memory_item(void);
 /* The same from a contact whose nodes had other numbers: new_node gives for each
  * old number the new one, or SIZE_MAX when the node is gone. */
 sw_status sw_contact_inherit(sw_contact *contact, const void *memory, size_t bytes, int fresh,

@@ -137,6 +137,18 @@ sw_status sw_pairs_set_memory(sw_pairs *p, const void *memory, size_t bytes) {
   return SW_OK;
 }
 
+size_t sw_pairs_memory_item(void) { return sizeof(sw_pair_memory); }
+
+int sw_pairs_memory_fits(const void *memory, size_t bytes, size_t nodes) {
+  const size_t count = bytes / sizeof(sw_pair_memory);
+  for (size_t i = 0; i < count; i++) {
+    sw_pair_memory m;
+    memcpy(&m, (const char *)memory + i * sizeof m, sizeof m);
+    if (m.one >= nodes || m.two >= nodes || !isfinite(m.at[0] + m.at[1])) return 0;
+  }
+  return bytes % sizeof(sw_pair_memory) == 0;
+}
+
 sw_status sw_pairs_inherit(sw_pairs *p, const void *memory, size_t bytes, const size_t *new_node) {
   size_t kept = 0;
   SW_TRY(sw_pairs_set_memory(p, memory, bytes));

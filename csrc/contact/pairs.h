@@ -41,6 +41,8 @@ void sw_pairs_commit(sw_pairs *pairs, sw_system *system);
 /* Memory between steps, as sw_contact_memory. */
 const void *sw_pairs_memory(const sw_pairs *pairs, size_t *bytes);
 sw_status sw_pairs_set_memory(sw_pairs *pairs, const void *memory, size_t bytes);
+int sw_pairs_memory_fits(const void *memory, size_t bytes, size_t nodes);
+size_t sw_pairs_memory_item(void); /* [B] */
 sw_status sw_pairs_inherit(sw_pairs *pairs, const void *memory, size_t bytes,
                            const size_t *new_node);
 

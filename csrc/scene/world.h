@@ -288,6 +288,27 @@ struct sw_scene {
   double next_frame; /* [s] */
 };
 
+/* What a built scene has besides its objects: a copy of it, put back into a scene that is built
+ * of the same objects (and fits). SW_ENOMEM leaves *out to be freed. */
+typedef struct sw_live {
+  double *state; /* x v a tension and so on of the built system */
+  size_t state_size;
+  const sw_integrator *method; /* NULL: before the first run */
+  double last_h;               /* [s] */
+  int restart;
+  double *history; /* xp, vp of a method with history, or NULL */
+  size_t history_size;
+  void *memory; /* contact anchors */
+  size_t memory_size;
+  int fresh;
+  void *pairs; /* the same between wires */
+  size_t pairs_size;
+} sw_live;
+sw_status sw_live_take(const sw_scene *scene, sw_live *out);
+sw_status sw_live_put(sw_scene *scene, const sw_live *live, sw_error *err);
+int sw_live_fits(const sw_scene *scene, const sw_live *live);
+void sw_live_free(sw_live *live);
+
 /* Leave the built state: the meshes become authoritative again. */
 sw_status sw_scene_thaw(sw_scene *scene);
 /* Drop the contact memory kept for the next system. */
