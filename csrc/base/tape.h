@@ -5,7 +5,7 @@
  *
  * After the first failure everything is a no-op and reading gives zeros, so that functions need
  * not look at the status after each field; they must before they trust what they read. Reading
- * never goes beyond the tape, and never allocates more than what is left of it. */
+ * never goes beyond the tape, and what it allocates is bounded by what is left of it. */
 #ifndef SW_BASE_TAPE_H
 #define SW_BASE_TAPE_H
 
@@ -82,8 +82,8 @@ void sw_tape_expect(sw_tape *tape, int good, const char *what);
 /* Begins the function of a struct. A field that is added to the struct changes its size, so that
  * this does not compile until somebody has put the field on the tape too and stated the new size;
  * files written with another struct are told by the size that they have. */
-#define SW_TAPE_STRUCT(tape, type, bytes)                                         \
-  _Static_assert(sizeof(void *) != 8 || sizeof(type) == (bytes),                  \
+#define SW_TAPE_STRUCT(tape, type, bytes)                                          \
+  _Static_assert(sizeof(void *) != 8 || sizeof(type) == (bytes),                   \
                  #type " has other fields: put them on the tape, state its size"); \
   sw_tape_mark(tape, #type, sizeof(type))
 void sw_tape_mark(sw_tape *tape, const char *what, size_t size);

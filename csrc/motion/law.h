@@ -90,10 +90,10 @@ struct sw_motion {
   double length;   /* [m] */
   size_t count;    /* way-points [-] */
   int relative;
-  void *body;       /* the law's own */
+  void *body;             /* the law's own */
   sw_motion_given *given; /* of a law for way-points that is no view, else NULL */
-  sw_motion *inner; /* of a view: what is looked at, else NULL */
-  sw_pose base;     /* of a view: what is displaced */
+  sw_motion *inner;       /* of a view: what is looked at, else NULL */
+  sw_pose base;           /* of a view: what is displaced */
 };
 
 /* Shared by the laws of progress along legs (path.c). */

@@ -461,5 +461,9 @@ void sw_scene_frame_energies(sw_scene *scene, double out[SW_FRAME_ENERGIES]);
 void sw_scene_reset_extremes(sw_scene *scene);
 sw_status sw_scene_store_frame(sw_scene *scene, sw_error *err);
 void sw_scene_drop_frames(sw_scene *scene);
+/* How many doubles the frame's block has; 0: more than room, or its counts make no sense. */
+int sw_scene_frame_walk(const sw_frame *frame, size_t room, size_t *size);
+/* The class of a wire or of objects of particles; NULL: there is none of this name. */
+const sw_wire_class *sw_scene_body_class(const char *name);
 
 #endif
