@@ -16,10 +16,12 @@
 -- @module softworld.gripper
 local core = require "softworld.core"
 local build = require "softworld.build"
+local keep = require "softworld.keep"
 local process = require "softworld.process"
 local trajectory = require "softworld.trajectory"
 
 local Gripper = { __name = "gripper" }
+keep.class("gripper", Gripper)
 local approaches = { imposed = true }
 
 local function check_keys(what, args, known, level)
@@ -127,6 +129,7 @@ local function needs_hold(self, verb)
   if not self.hold then
     error(("gripper '%s' holds nothing; grasp a wire before you %s"):format(self.name, verb), 3)
   end
+  process.guard("gripper:" .. verb)
 end
 
 --- Take hold of wire around arc length s [m].
