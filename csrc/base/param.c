@@ -81,8 +81,10 @@ sw_status sw_param_check(const char *object, const sw_param *row, double value, 
 }
 
 /* A number that may also not be given. */
-static sw_status check_given(const char *object, const sw_param *row, double value, sw_error *err) {
-  if (isnan(value) && isnan(row->def) && !(row->flags & SW_PARAM_REQUIRED)) return SW_OK;
+static sw_status check_given(const char *object, const sw_param *row, double value, int lenient,
+                             sw_error *err) {
+  const int may_miss = isnan(row->def) && !(row->flags & SW_PARAM_REQUIRED);
+  if (isnan(value) && (lenient || may_miss)) return SW_OK;
   return sw_param_check(object, row, value, err);
 }
 
@@ -92,7 +94,7 @@ static sw_status check_choice(const char *object, const sw_param *row, int value
   return sw_fail(err, SW_EINVAL, "%s: %s is none of its words", object, row->name);
 }
 
-sw_status sw_params_check(const sw_params *params, const void *args, sw_error *err) {
+sw_status sw_params_check(const sw_params *params, const void *args, int lenient, sw_error *err) {
   for (size_t i = 0; i < params->count; i++) {
     const sw_param *row = &params->rows[i];
     const char *place = (const char *)args + row->offset;
@@ -115,7 +117,7 @@ sw_status sw_params_check(const sw_params *params, const void *args, sw_error *e
       case SW_PARAM_TEXT:
       case SW_PARAM_OTHER: break;
     }
-    for (int k = 0; k < numbers; k++) SW_TRY(check_given(params->object, row, x[k], err));
+    for (int k = 0; k < numbers; k++) SW_TRY(check_given(params->object, row, x[k], lenient, err));
   }
   return SW_OK;
 }

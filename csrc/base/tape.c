@@ -28,7 +28,8 @@ uint64_t sw_sum(uint64_t sum, const void *bytes, size_t size) {
 }
 
 void sw_tape_fail(sw_tape *t, sw_status status) {
-  if (t->status == SW_OK) t->status = status;
+  if (t->status != SW_OK) return;
+  t->status = status;
   if (status == SW_ENOMEM) sw_fail(t->err, status, "out of memory");
 }
 

@@ -12,12 +12,12 @@ static void tape_result(sw_tape *t, sw_cell_result *x) {
 
 static void check_lattice(sw_tape *t, const sw_lattice *l) {
   if (!sw_tape_good(t)) return;
-  for (size_t i = 0; i < l->links; i++)
+  for (size_t i = 0; l->link && i < l->links; i++)
     sw_tape_expect(t,
                    l->link[i].from < l->particles && l->link[i].to < l->particles &&
                        l->link[i].group < SW_GROUPS,
                    "a spring of a section");
-  for (size_t i = 0; i < l->solids; i++)
+  for (size_t i = 0; l->solid && i < l->solids; i++)
     for (int k = 0; k < 8 && sw_tape_good(t); k++)
       sw_tape_expect(t,
                      (l->solid[i].nodes == 6 || l->solid[i].nodes == 8) &&

@@ -41,7 +41,8 @@ static void tape_plan(sw_tape *t, sw_motion **motion) {
   char name[SW_NAME_SIZE], law[SW_NAME_SIZE];
   sw_motion_plan plan = sw_motion_plan_empty();
   sw_waypoint *points = NULL;
-  if (!sw_tape_reads(t)) plan = (*motion)->given->plan, points = (*motion)->given->points;
+  const sw_motion_given *given = !sw_tape_reads(t) && *motion ? (*motion)->given : NULL;
+  if (given) plan = given->plan, points = given->points;
   plan.name = sw_tape_word(t, plan.name, name);
   plan.law = sw_tape_word(t, plan.law, law);
   tape_numbers(t, &plan);
@@ -50,7 +51,7 @@ static void tape_plan(sw_tape *t, sw_motion **motion) {
     points = sw_alloc(plan.count, sizeof *points);
     if (!points) sw_tape_fail(t, SW_ENOMEM);
   }
-  for (size_t i = 0; i < plan.count && sw_tape_good(t); i++) tape_point(t, &points[i]);
+  for (size_t i = 0; points && i < plan.count && sw_tape_good(t); i++) tape_point(t, &points[i]);
   if (!sw_tape_reads(t)) return;
   plan.points = points;
   if (!name[0]) plan.name = NULL;
@@ -59,8 +60,8 @@ static void tape_plan(sw_tape *t, sw_motion **motion) {
 }
 
 static void tape_view(sw_tape *t, sw_motion **motion) {
-  sw_motion *inner = sw_tape_reads(t) ? NULL : (*motion)->inner;
   sw_motion *view = sw_tape_reads(t) ? NULL : *motion;
+  sw_motion *inner = view ? view->inner : NULL;
   tape_plan(t, &inner);
   if (sw_tape_reads(t) && sw_tape_good(t)) {
     view = sw_motion_view(inner);

@@ -50,7 +50,7 @@ static void check_particles(sw_tape *t, const sw_scene *s, size_t wire) {
     const sw_scene_hold *h = &s->holds[k];
     if (!h->alive || h->wire != wire) continue;
     sw_tape_expect(t, h->particle && !h->cls->feeds, "a clamp on a mesh");
-    for (size_t i = 0; i < h->count && sw_tape_good(t); i++)
+    for (size_t i = 0; taken && h->particle && i < h->count && sw_tape_good(t); i++)
       sw_tape_expect(t, h->particle[i] < web->particles && !taken[h->particle[i]]++,
                      "a clamp's particles");
   }
@@ -109,7 +109,7 @@ static void check_force(sw_tape *t, const sw_scene *s, const sw_scene_force *f) 
   memcpy(&list, f->args, sizeof list);
   const sw_web *web = s->wires[f->wire].strand.web;
   sw_tape_expect(t, web && list.count > 0, "a force on particles");
-  for (size_t i = 0; i < list.count && sw_tape_good(t); i++)
+  for (size_t i = 0; web && i < list.count && sw_tape_good(t); i++)
     sw_tape_expect(t, list.particle[i] < web->particles, "a force on particles");
 }
 

@@ -201,7 +201,7 @@ static void tape_force_args(sw_tape *t, sw_scene_force *x) {
   if (!sw_tape_reads(t)) return;
   memcpy(x->args, args, sizeof args);
   if (!sw_tape_good(t)) return;
-  t->status = sw_params_check(&x->cls->params, x->args, t->err);
+  t->status = sw_params_check(&x->cls->params, x->args, 1, t->err);
   list.particle = x->particle;
   if (some) memcpy(x->args, &list, sizeof list);
 }
@@ -215,7 +215,7 @@ void sw_tape_force(sw_tape *t, sw_scene_force *x) {
   sw_tape_expect(t, x->cls != NULL, "a force of an unknown kind");
   sw_tape_expect(t, isfinite(x->scale) && x->scale > 0, "a force without scale");
   if (x->cls) tape_force_args(t, x);
-  sw_tape_expect(t, !x->alive || x->cls->params.count, "a force that is a function");
+  sw_tape_expect(t, x->cls && (!x->alive || x->cls->params.count), "a force that is a function");
 }
 
 void sw_tape_join(sw_tape *t, sw_scene_join *x) {

@@ -118,8 +118,8 @@ void sw_tape_shape(sw_tape *t, sw_shape **shape) {
   *shape = NULL;
   const sw_shape_class *class = sw_shape_class_find(kind);
   sw_tape_expect(t, class != NULL, "a shape of an unknown kind");
-  if (sw_tape_good(t)) t->status = sw_params_check(&class->params, &args, t->err);
-  if (sw_tape_good(t)) t->status = sw_shape_new(class, &args, &source, shape, t->err);
+  if (class && sw_tape_good(t)) t->status = sw_params_check(&class->params, &args, 0, t->err);
+  if (class && sw_tape_good(t)) t->status = sw_shape_new(class, &args, &source, shape, t->err);
   sw_free((void *)(uintptr_t)source.points);
   sw_free((void *)(uintptr_t)source.bytes);
 }

@@ -179,6 +179,7 @@ void sw_tape_web(sw_tape *t, sw_web **web, size_t shape_size) {
     }
     (*web)->references = 1;
   }
+  if (!*web) return;
   SW_TAPE_STRUCT(t, sw_web_link, 24);
   SW_TAPE_STRUCT(t, sw_web_fold, 32);
   SW_TAPE_STRUCT(t, sw_web_solid, 40);

@@ -310,7 +310,7 @@ function process.check_steps(scene)
   process.take_up(scene)
   for number, done in pairs(data.done or {}) do
     if #done > 0 and number > (data.process_count or 0) then
-      error(("scene:run: the file '%s' has process %d with its step '%s', which this script has not made; "
+      error(("scene:run: the file '%s' has process %d with step '%s', which this script has not made; "
         .. "make all processes before the run that goes on"):format(tostring(data.from_file), number,
         tostring(done[1].name)), 0)
     end

@@ -148,7 +148,7 @@ end
 local function tell(what, file, f, ...)
   local fine, result = pcall(f, ...)
   if fine then return result end
-  error(("%s: '%s' cannot be read: %s"):format(what, file, tostring(result)), 0)
+  error(("%s: '%s' cannot be read: %s"):format(what, file, (tostring(result):gsub("^[^\n:]+:%d+: ", ""))), 0)
 end
 
 local lists = { "wires", "particles", "obstacles", "holds", "grippers" }
@@ -216,7 +216,8 @@ local function compare(scene, note, file)
         or not b and ("%s is not in the file"):format(a)
         or ("%s is there instead of %s"):format(a, b)
       error(("scene:resume: '%s' is of another scene: %s. A script must build the same scene again "
-        .. "before it goes on; take the file away to start anew, or read it by sw.load"):format(file, what), 0)
+        .. "before it goes on; take the file away to start anew, or read it by sw.load")
+        :format(file, what), 0)
     end
   end
 end
@@ -277,11 +278,19 @@ function save.load(file) return build.call(3, load, file) end
 
 -- --- finding ---------------------------------------------------------------------------
 
--- All that has a name: { name = object }, and the names in order.
+-- All that has a name: { name = object }, and the names in order. The holds of a gripper have its
+-- name: they come last.
 local function named(scene)
-  local objects, names = {}, {}
-  for _, list in pairs(build.data(scene)) do
-    for _, entry in ipairs(type(list) == "table" and list or {}) do
+  local objects, names, data, order = {}, {}, build.data(scene), {}
+  for key, list in pairs(data) do
+    if type(list) == "table" and not passing[key] then order[#order + 1] = key end
+  end
+  table.sort(order, function(a, b)
+    if (a == "holds") ~= (b == "holds") then return b == "holds" end
+    return a < b
+  end)
+  for _, key in ipairs(order) do
+    for _, entry in ipairs(data[key]) do
       local name = type(entry) == "table" and rawget(entry, "name")
       local object = name and (rawget(entry, "object") or getmetatable(entry) and entry)
       if object and not objects[name] then
@@ -293,9 +302,12 @@ local function named(scene)
   return objects, names
 end
 
+local function name_of(scene) return scene.name end
+
 --- scene:find(name) -> the wire, obstacle, clamp, gripper, ... of this name
 function class.scene.find(scene, name)
   if core.type(scene) ~= "scene" then error("scene:find is a method: call it with a colon", 2) end
+  build.call(3, name_of, scene) -- raises when it has been closed
   if type(name) ~= "string" then error("scene:find expects a name, got " .. type(name), 2) end
   local objects, names = named(scene)
   if objects[name] then return objects[name] end
@@ -308,6 +320,7 @@ end
 --- scene:names() -> the names that scene:find knows, in order
 function class.scene.names(scene)
   if core.type(scene) ~= "scene" then error("scene:names is a method: call it with a colon", 2) end
+  build.call(3, name_of, scene)
   return (select(2, named(scene)))
 end
 
