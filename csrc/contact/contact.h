@@ -113,8 +113,13 @@ int sw_contact_is_fresh(const sw_contact *contact);
 sw_status sw_contact_set_memory(sw_contact *contact, const void *memory, size_t bytes, int fresh);
 /* 1: memory that may have come from anywhere names nothing beyond these nodes and obstacles. */
 int sw_contact_memory_fits(const void *memory, size_t bytes, size_t nodes, size_t obstacles);
-/* Size of one of its items, by which files of another version are told [B]. */
-size_t sw_contact_memory_item(void);
+/* What touches at the accepted state, which only read-outs look at, likewise. SW_EINVAL: it names
+ * nodes (so many) or obstacles that there are not. */
+const void *sw_contact_seen(const sw_contact *contact, size_t *bytes);
+sw_status sw_contact_set_seen(sw_contact *contact, const void *seen, size_t bytes, size_t nodes);
+/* A number that is another one when what these blocks consist of is, to tell files of another
+ * version by. */
+size_t sw_contact_layout(void);
 /* The same from a contact whose nodes had other numbers: new_node gives for each
  * old number the new one, or SIZE_MAX when the node is gone. */
 sw_status sw_contact_inherit(sw_contact *contact, const void *memory, size_t bytes, int fresh,

@@ -21,10 +21,16 @@ sw_status sw_live_take(const sw_scene *s, sw_live *p) {
     p->fresh = sw_contact_is_fresh(s->contact);
     const void *memory = sw_contact_memory(s->contact, &p->memory_size);
     SW_TRY(copy_block(memory, p->memory_size, &p->memory));
+    const void *seen = sw_contact_seen(s->contact, &p->seen_size[0]);
+    SW_TRY(copy_block(seen, p->seen_size[0], &p->seen[0]));
   }
   if (s->pairs) {
     const void *memory = sw_pairs_memory(s->pairs, &p->pairs_size);
     SW_TRY(copy_block(memory, p->pairs_size, &p->pairs));
+    const void *seen[2];
+    sw_pairs_seen(s->pairs, seen, p->seen_size + 1);
+    for (size_t k = 0; k < 2; k++)
+      SW_TRY(copy_block(seen[k], p->seen_size[k + 1], &p->seen[k + 1]));
   }
   if (!s->has_stepper) return SW_OK;
   p->method = s->method;
@@ -35,10 +41,23 @@ sw_status sw_live_take(const sw_scene *s, sw_live *p) {
   return copy_block(s->stepper.xp, p->history_size * sizeof(double), &p->history);
 }
 
+static sw_status put_contact(sw_scene *s, const sw_live *p) {
+  if (s->contact) {
+    SW_TRY(sw_contact_set_memory(s->contact, p->memory, p->memory_size, p->fresh));
+    SW_TRY(sw_contact_set_seen(s->contact, p->seen[0], p->seen_size[0], s->system.nodes));
+  }
+  if (!s->pairs) return SW_OK;
+  const void *const seen[2] = {p->seen[1], p->seen[2]};
+  SW_TRY(sw_pairs_set_memory(s->pairs, p->pairs, p->pairs_size));
+  return sw_pairs_set_seen(s->pairs, seen, p->seen_size + 1, &s->system);
+}
+
 sw_status sw_live_put(sw_scene *s, const sw_live *p, sw_error *err) {
   memcpy(s->system.state, p->state, p->state_size * sizeof(double));
-  if (s->contact) SW_TRY(sw_contact_set_memory(s->contact, p->memory, p->memory_size, p->fresh));
-  if (s->pairs) SW_TRY(sw_pairs_set_memory(s->pairs, p->pairs, p->pairs_size));
+  const sw_status status = put_contact(s, p);
+  if (status == SW_EINVAL)
+    return sw_fail(err, SW_EFORMAT, "its contact does not go with its objects");
+  SW_TRY(status);
   if (p->method && (!s->has_stepper || s->method != p->method)) {
     sw_stepper_free(&s->stepper);
     s->has_stepper = 0;
@@ -71,5 +90,6 @@ void sw_live_free(sw_live *p) {
   sw_free(p->history);
   sw_free(p->memory);
   sw_free(p->pairs);
+  for (size_t k = 0; k < 3; k++) sw_free(p->seen[k]);
   memset(p, 0, sizeof *p);
 }

@@ -259,8 +259,8 @@ void sw_tape_kept_contact(sw_tape *t, sw_scene *s) {
   int there = !sw_tape_reads(t) && s->kept.memory != NULL;
   sw_tape_int(t, &there);
   if (!there) return;
-  sw_tape_mark(t, "contact", sw_contact_memory_item());
-  sw_tape_mark(t, "contact of wires", sw_pairs_memory_item());
+  sw_tape_mark(t, "contact", sw_contact_layout());
+  sw_tape_mark(t, "contact of wires", sw_pairs_layout());
   sw_tape_count(t, &s->kept.bytes, 1), sw_tape_count(t, &s->kept.pair_bytes, 1);
   sw_tape_array(t, &s->kept.memory, s->kept.bytes, 1);
   sw_tape_array(t, &s->kept.pairs, s->kept.pair_bytes, 1);
@@ -302,9 +302,9 @@ void sw_tape_kept_history(sw_tape *t, sw_scene *s, sw_kept_history *x) {
 
 void sw_tape_live(sw_tape *t, sw_live *x) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_live, 96);
-  sw_tape_mark(t, "contact", sw_contact_memory_item());
-  sw_tape_mark(t, "contact of wires", sw_pairs_memory_item());
+  SW_TAPE_STRUCT(t, sw_live, 144);
+  sw_tape_mark(t, "contact", sw_contact_layout());
+  sw_tape_mark(t, "contact of wires", sw_pairs_layout());
   sw_tape_count(t, &x->state_size, sizeof *x->state);
   SW_TAPE_ARRAY(t, x->state, x->state_size);
   const char *method =
@@ -318,6 +318,11 @@ void sw_tape_live(sw_tape *t, sw_live *x) {
   sw_tape_optional(t, &x->memory, x->memory_size, 1);
   INT(fresh);
   sw_tape_optional(t, &x->pairs, x->pairs_size, 1);
+  for (size_t k = 0; k < 3; k++) {
+    sw_tape_count(t, &x->seen_size[k], 1);
+    sw_tape_optional(t, &x->seen[k], x->seen_size[k], 1);
+    sw_tape_expect(t, x->seen[k] || !x->seen_size[k], "contact");
+  }
   sw_tape_expect(t,
                  (x->history || !x->history_size) && (x->memory || !x->memory_size) &&
                      (x->pairs || !x->pairs_size),

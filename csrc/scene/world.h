@@ -303,6 +303,8 @@ typedef struct sw_live {
   int fresh;
   void *pairs; /* the same between wires */
   size_t pairs_size;
+  void *seen[3]; /* for read-outs: what touches obstacles, wires that may touch, and do */
+  size_t seen_size[3];
 } sw_live;
 sw_status sw_live_take(const sw_scene *scene, sw_live *out);
 sw_status sw_live_put(sw_scene *scene, const sw_live *live, sw_error *err);

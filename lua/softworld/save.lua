@@ -153,17 +153,61 @@ end
 
 local lists = { "wires", "particles", "obstacles", "holds", "grippers" }
 
--- The note, looked through: what follows from it cannot fail.
+local function expect(good, what)
+  if not good then error(("its content makes no sense (%s)"):format(what), 0) end
+end
+
+local function is_list(t) return type(t) == "table" and getmetatable(t) == nil end
+
+local function check_lists(data)
+  for _, name in ipairs(lists) do
+    expect(is_list(data[name]), name)
+    for _, entry in ipairs(data[name]) do
+      expect(type(entry) == "table" and type(rawget(entry, "name")) == "string", name)
+      if name ~= "grippers" then expect(type(rawget(entry, "object")) == "string", name) end
+    end
+  end
+end
+
+local function check_steps(data)
+  expect(data.ended == nil or is_list(data.ended), "processes")
+  expect(data.done == nil or is_list(data.done), "steps")
+  for number, done in pairs(data.done or {}) do
+    expect(math.type(number) == "integer" and is_list(done), "steps")
+    for _, step in ipairs(done) do
+      expect(is_list(step) and type(step.name) == "string" and is_list(step.results)
+        and math.type(step.count) == "integer" and step.count >= 0 and step.count < 1000, "steps")
+    end
+  end
+end
+
+local totals = { "steps", "rejected", "iterations", "evaluations", "jumps", "smallest_dt", "time",
+  "start", "wall", "cpu" }
+
+-- What the Lua side will rely on; objects stand there as words, for there are none yet.
+local function check_note(note)
+  expect(is_list(note) and is_list(note.data) and is_list(note.beside) and is_list(note.origin), "note")
+  for key in pairs(note.data) do expect(not passing[key], "note") end
+  check_lists(note.data)
+  check_steps(note.data)
+  for _, entry in ipairs(note.beside) do
+    expect(is_list(entry) and type(entry.object) == "string" and is_list(entry.own), "note")
+  end
+  for k, value in ipairs(note.origin) do expect(k % 2 == 0 or type(value) == "string", "note") end
+  expect(note.run == nil or is_list(note.run) and type(note.run.ok) == "boolean", "run")
+  for _, name in ipairs(note.run and totals or {}) do expect(type(note.run[name]) == "number", "run") end
+end
+
+local kinds = { wire = true, particles = true, clamp = true, obstacle = true, force = true, join = true }
+
+-- The note, looked through so that nothing that follows from it fails.
 local function note_from(bytes, scene)
   local text = core.saved_note(bytes)
-  local note = keep.unpack(text, scene)
-  if type(note) ~= "table" or type(note.data) ~= "table" or type(note.beside) ~= "table"
-    or type(note.origin) ~= "table" then
-    error("its note is not one of a scene", 0)
-  end
-  for _, name in ipairs(lists) do
-    if type(note.data[name]) ~= "table" then error("its note has no list of " .. name, 0) end
-  end
+  local note = keep.unpack(text, scene, function(kind, slot, generation)
+    expect(kinds[kind], kind)
+    return ("%s %d %d"):format(kind, slot, generation)
+  end)
+  check_note(note)
   return text, note
 end
 
@@ -200,7 +244,9 @@ local function take(scene, text)
   for _, entry in ipairs(data.obstacles) do add_triangles(entry, old[entry.object]) end
   for _, entry in ipairs(note.beside) do
     local own = core.data(entry.object)
-    for key, value in pairs(entry.own) do own[key] = value end
+    for key, value in pairs(entry.own) do
+      if own[key] == nil then own[key] = value end
+    end
   end
   return note
 end
