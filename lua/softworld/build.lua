@@ -309,7 +309,7 @@ function class.scene.restore(scene, snapshot)
     error("scene:restore expects a snapshot, got " .. (core.type(snapshot) or type(snapshot)), 2)
   end
   build.call(3, restore, scene, snapshot)
-  data.restores = data.restores + 1
+  data.restores, data.going = data.restores + 1, nil
   data.holds, data.obstacles = keep_existing(data.holds), keep_existing(data.obstacles)
   data.joins = keep_existing(data.joins)
   for _, process in ipairs(data.processes) do process:finish() end

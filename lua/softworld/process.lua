@@ -212,7 +212,12 @@ function process.renew(scene, bodies)
   local data = build.data(scene)
   for _, p in ipairs(data.processes) do p:finish() end
   data.processes = {}
-  for _, body in ipairs(bodies) do scene:process(body) end
+  for k, body in ipairs(bodies) do
+    local number = (data.process_count or 0) + 1
+    if data.done then data.done[number] = nil end -- all steps anew
+    if data.ended then data.ended[number] = nil end
+    assert(scene:process(body).number == number, k)
+  end
 end
 
 local library = debug.getinfo(1, "S").short_src:match "^(.*)process%.lua$" or "softworld/"

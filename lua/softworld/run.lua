@@ -110,7 +110,12 @@ local function check_start(scene, args)
 end
 
 -- The files that it is to be written to and to go on from.
-local function check_files(args)
+local function check_files(scene, args)
+  if trust.wanted(args) and build.data(scene).from_file then
+    error(("scene:run: tolerance: error bars need the whole computation, and scene '%s' goes on from the "
+      .. "file '%s'; give dt [s], or tolerance as a number [m]"):format(scene.name,
+      build.data(scene).from_file), 0)
+  end
   for _, key in ipairs{ "save", "resume" } do
     local file = args[key]
     if file ~= nil and (type(file) ~= "string" or file == "") then
@@ -132,7 +137,7 @@ end
 function core.class.scene.run(scene, args)
   build.check(scene, "scene:run", 3)
   if args == nil then args = {} end
-  if type(args) == "table" then build.call(3, check_files, args) end
+  if type(args) == "table" then build.call(3, check_files, scene, args) end
   if trust.wanted(args) then
     local job, steps = build.call(3, refine.job, scene, args, check_start)
     return build.call(3, refine.run, job, steps, run_once)

@@ -151,7 +151,7 @@ local function tell(what, file, f, ...)
   error(("%s: '%s' cannot be read: %s"):format(what, file, (tostring(result):gsub("^[^\n:]+:%d+: ", ""))), 0)
 end
 
-local lists = { "wires", "particles", "obstacles", "holds", "grippers" }
+local lists = { "wires", "particles", "obstacles", "holds", "grippers", "joins" }
 
 local function expect(good, what)
   if not good then error(("its content makes no sense (%s)"):format(what), 0) end
@@ -237,8 +237,8 @@ local function take(scene, text)
   local have, old = known(data), {}
   for _, entry in ipairs(data.obstacles) do old[entry.object] = entry end
   local note = realise(text, scene, have)
-  for key in pairs(data) do
-    if not passing[key] then data[key] = nil end
+  for key, value in pairs(data) do -- lists stay lists, whether the file knows them or not
+    if not passing[key] then data[key] = is_list(value) and {} or nil end
   end
   for key, value in pairs(note.data) do data[key] = value end
   for _, entry in ipairs(data.obstacles) do add_triangles(entry, old[entry.object]) end

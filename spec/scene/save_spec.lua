@@ -58,6 +58,29 @@ describe("a saved scene goes on with the same bits:", function()
       same(wanted, saving.all(resumed))
       assert.are.equal(table.concat(plain:names(), " "), table.concat(resumed:names(), " "))
     end)
+
+    it(case.name .. ", edited just before", function()
+      -- what a scene remembers of its last system goes into the file; building it would not do
+      local function edited()
+        local scene = case.build()
+        case.before(scene)
+        scene:obstacle{ name = "distant", shape = "sphere", radius = 0.1, at = { 0, 0, -50 } }
+        return scene
+      end
+      local path, plain, saved = file(), edited(), edited()
+      saved:save(path)
+      local ran = saved.time > 0 -- what was made before the first run is the script's to make
+      case.after(plain)
+      case.after(saved)
+      local wanted = saving.all(plain)
+      same(wanted, saving.all(saved))
+      local loaded, resumed = sw.load(path), (ran and case.build or edited)()
+      case.after(loaded)
+      same(wanted, saving.all(loaded))
+      resumed:resume(path)
+      case.after(resumed)
+      same(wanted, saving.all(resumed))
+    end)
   end
 end)
 
@@ -294,13 +317,41 @@ print(("%%a %%a %%a"):format(wire:max_tension(), left.peak_force, wire:position(
     fails({ "p:step 'something else'", "has 'lift' as step 2" }, e.run, e)
   end)
 
+  it("may have steps with error bars, which begin anew on every level", function()
+    local function make()
+      local scene, count = sw.scene{}, 0
+      local wire = scene:wire{ E = 1e8, density = 1200, radius = 0.002, from = { 0, 0, 0 }, to = { 0.3, 0, 0 } }
+      local tool = scene:clamp(wire, { s = 0 })
+      scene:process(function(p)
+        p:step("move", function()
+          count = count + 1
+          tool:follow{ points = { { 0, 0, 0 }, { 0, 0, 0.05 } }, duration = 0.1 }
+          p:wait(0.1)
+        end)
+      end)
+      return scene, function() return count end
+    end
+    local scene, count = make()
+    local r = scene:run{ tolerance = { tip = 1e-3 } }
+    assert.is_true(r.ok)
+    assert.are.equal(#r.levels, count())
+    assert.is_true(count() >= 2)
+  end)
+
   it("is refused with error bars, without processes and with other things than files", function()
     local c = script()
     fails("tolerance", c.scene.run, c.scene, { save = "x", tolerance = { ["wire1.tension"] = 1 } })
     fails("save: the name of a file", c.scene.run, c.scene, { save = 3 })
     fails("resume: the name of a file", c.scene.run, c.scene, { resume = true })
+    local path = file()
+    files_of(c, { dt = 0.005, save = path })
+    local d = script()
+    d.scene:resume(path)
+    fails({ "error bars need the whole computation", path }, d.scene.run, d.scene,
+      { tolerance = { ["wire1.tension"] = 1 } })
     local scene = sw.scene{}
     fails("there is none", scene.run, scene, { duration = 1, save = "x" })
+    c = script()
     fails("cannot write", c.scene.run, c.scene, { dt = 0.005, save = "/no/such/folder/x.sws" })
   end)
 end)
