@@ -13,6 +13,7 @@ static void check_strand(sw_tape *t, const sw_scene_wire *w) {
   const int loose = w->cls == sw_scene_body_class("particles");
   sw_tape_expect(t, !w->mesh.rest && loose == !web->per_ring, "a mesh");
   sw_tape_expect(t, loose ? w->mesh.n == 3 : w->mesh.n == web->rings, "the rings of a mesh");
+  sw_tape_expect(t, !w->beam.rolls, "a mesh that rolls as rods do");
   sw_tape_expect(t, loose || w->strand.kit, "a mesh without calibration");
   sw_tape_expect(t, web->around_count <= SW_OUTLINE && web->skin > 0, "the surface of a mesh");
 }
@@ -29,7 +30,8 @@ static void check_wire(sw_tape *t, const sw_scene *s, size_t number) {
     check_strand(t, w);
   } else {
     sw_tape_expect(t, (w->mesh.rest != NULL) == (w->beam.framed != 0), "a wire's frames");
-    sw_tape_expect(t, w->beam.framed || !w->beam.rolls, "a wire's frames");
+    sw_tape_expect(t, w->beam.framed || !(w->beam.rolls || w->beam.curved), "a wire's frames");
+    sw_tape_expect(t, !w->beam.framed || w->cls == sw_wire_find("rod"), "a wire's frames");
     sw_tape_expect(t, w->drawing.count >= 2, "a wire without its drawing");
   }
   for (size_t k = 0; k < w->twisted_count; k++)

@@ -266,8 +266,10 @@ void sw_tape_kept_contact(sw_tape *t, sw_scene *s) {
   sw_tape_array(t, &s->kept.pairs, s->kept.pair_bytes, 1);
   sw_tape_count(t, &s->kept.wires, sizeof *s->kept.first);
   SW_TAPE_ARRAY(t, s->kept.first, s->kept.wires + 1);
-  size_t nodes = s->kept.first ? s->kept.first[s->kept.wires] : 0;
+  const size_t expected = s->kept.first ? s->kept.first[s->kept.wires] : 0;
+  size_t nodes = expected;
   sw_tape_count(t, &nodes, sizeof *s->kept.s);
+  sw_tape_expect(t, nodes == expected, "contact");
   SW_TAPE_ARRAY(t, s->kept.s, nodes);
   sw_tape_int(t, &s->kept.fresh), sw_tape_size(t, &s->kept.changed);
 }
