@@ -15,6 +15,7 @@
 #include "force/solid.h"
 #include "motion/motion.h"
 #include "scene/scene.h"
+#include "scene/tool.h"
 #include "shape/shape.h"
 #include "solve/band3.h"
 #include "solve/band4.h"

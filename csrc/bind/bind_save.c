@@ -84,9 +84,9 @@ static int mod_items(lua_State *L) {
   return 1;
 }
 
-static const lsw_class *const children[] = {&lsw_class_wire,  &lsw_class_particles,
-                                            &lsw_class_clamp, &lsw_class_obstacle,
-                                            &lsw_class_force, &lsw_class_join};
+static const lsw_class *const children[] = {
+    &lsw_class_wire,  &lsw_class_particles, &lsw_class_clamp, &lsw_class_obstacle,
+    &lsw_class_force, &lsw_class_join,      &lsw_class_tool};
 enum { CHILDREN = sizeof children / sizeof children[0] };
 
 /* core.number(object) -> class, slot, generation, scene; nothing for what is none of a scene's */

@@ -17,7 +17,7 @@ typedef struct lsw_child {
 } lsw_child;
 
 extern const lsw_class lsw_class_scene, lsw_class_wire, lsw_class_particles, lsw_class_clamp,
-    lsw_class_obstacle, lsw_class_force, lsw_class_join, lsw_class_snapshot;
+    lsw_class_obstacle, lsw_class_tool, lsw_class_force, lsw_class_join, lsw_class_snapshot;
 
 /* Push a scene that is still closed, to be opened by its object. */
 lsw_handle *lsw_new_scene(lua_State *L);
@@ -52,6 +52,7 @@ int lsw_scene_particles(lua_State *L);
 int lsw_hold_particles(lua_State *L);
 int lsw_scene_join(lua_State *L);
 int lsw_scene_obstacle(lua_State *L);
+int lsw_scene_tool(lua_State *L);
 int lsw_scene_force(lua_State *L);
 int lsw_scene_evaluate(lua_State *L);
 /* scene:wire_contact{...}; scene:touches() -> places where wires press on each other;

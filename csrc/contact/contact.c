@@ -3,6 +3,7 @@
 #include "contact/contact.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -53,6 +54,14 @@ sw_status sw_contact_copy(const sw_contact *c, sw_contact **out) {
   sw_contact_free(*out);
   *out = NULL;
   return status;
+}
+
+void sw_contact_keep(sw_contact *c, const size_t *ids, size_t count) {
+  for (size_t o = 0; o < c->count; o++) {
+    c->obstacles[o].off = 1;
+    for (size_t k = 0; k < count; k++)
+      if (ids[k] == (size_t)c->obstacles[o].id) c->obstacles[o].off = 0;
+  }
 }
 
 void sw_contact_free(sw_contact *c) {
@@ -178,6 +187,7 @@ static sw_status node_candidates(sw_contact *c, const sw_system *s, size_t body,
     const double reach = reach_of(c, s, b, node, o);
     const sw_vec r = sw_v(reach, reach, reach);
     sw_closest near;
+    if (c->obstacles[o].off) continue;
     if (!outside(&c->bounds[o], sw_sub(x, r), sw_add(x, r)) &&
         sw_shape_point(c->obstacles[o].shape, sw_pose_local(c->start[o].pose, x), reach, &near))
       SW_TRY(add_candidate(c, b, body, node, node, (int)o, 0));
@@ -241,6 +251,18 @@ static double usual_force(const sw_plan *p, double weight) {
 }
 
 /* Stiffness of a wire's new touches: for its weight or for what bends it. */
+/* Line stiffness of one side of a round section between plates, of its mean modulus: a solid
+ * cylinder has F/(E R) = 0.084 at an approach of a tenth of its diameter (plane strain, finite
+ * elements) [-]. */
+static const double SECTION = 2.0 * 0.084 / 0.2;
+
+/* A pad on a wire without a section: as soft as the section would be, and not stiffer than its
+ * force needs. Rigid against rigid, no force could be set [N/m]. */
+static double pad_stiffness(const sw_plan *p, double grips) {
+  const double r = p->beam.radius, length = p->length / (double)p->edges;
+  return fmin(SECTION * p->beam.EA / (PI * r * r) * length, grips / ALLOWED_PENETRATION);
+}
+
 static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t first) {
   const sw_plan *p = s->bodies[body].plan;
   const double L = p->length, weight = p->beam.mass * L * sw_norm(sw_load(s->gravity));
@@ -248,8 +270,13 @@ static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t
   sw_contact_stiffness(c->regime, usual_force(p, weight), c->nominal, &base, &rate2);
   if (p->web && !p->web->per_ring && c->regime != SW_CONTACT_EXPLICIT)
     rate2 = fmax(rate2, HARD_SHARE * 0.5 * (p->web->rate2 + p->web->solid_rate2));
-  for (size_t i = first; i < c->candidate_count; i++)
-    c->candidates[i].usual = fmax(base, rate2 * c->candidates[i].mass);
+  for (size_t i = first; i < c->candidate_count; i++) {
+    sw_candidate *k = &c->candidates[i];
+    const double grips = c->obstacles[k->obstacle].grips;
+    k->usual = fmax(base, rate2 * k->mass);
+    k->given = grips > 0 && !p->web && c->regime != SW_CONTACT_EXPLICIT;
+    if (k->given) k->usual = pad_stiffness(p, grips);
+  }
 }
 
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err) {
@@ -413,6 +440,32 @@ sw_status sw_contact_inherit(sw_contact *c, const void *memory, size_t bytes, in
   return SW_OK;
 }
 
+static int in_order(const void *a, const void *b) {
+  const sw_memory *p = a, *q = b;
+  if (p->node != q->node) return p->node < q->node ? -1 : 1;
+  if (p->obstacle != q->obstacle) return p->obstacle < q->obstacle ? -1 : 1;
+  if (p->segment != q->segment) return p->segment < q->segment ? -1 : 1;
+  return (p->at > q->at) - (p->at < q->at);
+}
+
+sw_status sw_contact_add_memory(sw_contact *c, const void *memory, size_t bytes, size_t old_first,
+                                size_t old_end, size_t new_first, const size_t *obstacles,
+                                size_t count) {
+  const sw_memory *from = memory;
+  const size_t n = bytes / sizeof *from;
+  SW_TRY(sw_grow((void **)&c->memory, &c->memory_capacity, c->memory_count + n, sizeof *c->memory));
+  for (size_t i = 0; i < n; i++) {
+    int wanted = 0;
+    for (size_t k = 0; k < count; k++) wanted |= (size_t)from[i].obstacle == obstacles[k];
+    if (!wanted || from[i].node < old_first || from[i].node >= old_end) continue;
+    c->memory[c->memory_count] = from[i];
+    c->memory[c->memory_count++].node += new_first - old_first;
+  }
+  qsort(c->memory, c->memory_count, sizeof *c->memory, in_order);
+  c->fresh = 0;
+  return SW_OK;
+}
+
 /* --- read-outs ---------------------------------------------------------------- */
 
 void sw_contact_force(const sw_contact *c, int id, sw_vec about, sw_vec *force, sw_vec *moment) {
@@ -423,6 +476,28 @@ void sw_contact_force(const sw_contact *c, int id, sw_vec about, sw_vec *force, 
     const sw_vec f = sw_neg(sw_madd(t->press.tangential, t->press.normal, t->press.normal_force));
     *force = sw_add(*force, f);
     *moment = sw_add(*moment, sw_cross(sw_sub(t->point, about), f));
+  }
+}
+
+static double place_of(const sw_system *s, const sw_touch *t) {
+  const sw_body *b = &s->bodies[t->body];
+  const sw_plan *p = b->plan;
+  const size_t a = t->node - b->first_node, e = t->other - b->first_node;
+  const double *arc = p->web ? p->web->s : p->s;
+  return arc[a] + t->at * (arc[e] - arc[a]) - (p->web ? 0.0 : arc[0]);
+}
+
+void sw_contact_add_grip(const sw_contact *c, const sw_system *s, int id, sw_contact_grip *sum) {
+  for (size_t i = 0; i < c->touch_count; i++) {
+    const sw_touch *t = &c->touches[i];
+    const double N = t->press.normal_force;
+    if (c->obstacles[t->obstacle].id != id || !(N > 0)) continue;
+    sum->normal += N;
+    sum->most += t->friction * N;
+    sum->tangent = sw_add(sum->tangent, t->press.tangential);
+    sum->slip = sw_madd(sum->slip, t->press.slip, N);
+    sum->sliding += t->press.next_sliding ? N : 0.0;
+    sum->place += N * place_of(s, t);
   }
 }
 
@@ -445,7 +520,7 @@ size_t sw_contact_count(const sw_contact *c) {
 
 size_t sw_contact_touches(const sw_contact *c) { return c->touch_count; }
 
-int sw_contact_push_at(const sw_contact *c, size_t k, sw_contact_push *out) {
+int sw_contact_push_at(const sw_contact *c, const sw_system *s, size_t k, sw_contact_push *out) {
   const sw_touch *t = &c->touches[k];
   const sw_press *p = &t->press;
   *out = (sw_contact_push){.obstacle = c->obstacles[t->obstacle].id,
@@ -453,6 +528,8 @@ int sw_contact_push_at(const sw_contact *c, size_t k, sw_contact_push *out) {
                            .other = t->other,
                            .at = t->at,
                            .normal_force = p->normal_force,
+                           .point = t->point,
+                           .place = place_of(s, t),
                            .force = sw_madd(p->tangential, p->normal, p->normal_force)};
   return p->normal_force > 0;
 }

@@ -17,9 +17,13 @@ typedef struct sw_contact sw_contact;
 /* One obstacle as contact sees it. */
 typedef struct sw_contact_obstacle {
   const sw_shape *shape;
-  double friction;    /* [-] */
+  double friction;    /* of what sticks [-] */
+  double kinetic;     /* of what slides [-] */
   double restitution; /* [-] */
+  double grips;       /* of a gripper's pad: the force that it is to press with, INFINITY = any; 0 =
+                         it is none [N] */
   int id;             /* the owner's number; part of the memory's key */
+  int off;            /* 1: nothing touches it */
 } sw_contact_obstacle;
 
 /* Where obstacle number o is at a time. */
@@ -33,6 +37,8 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
  * it does leaves the first as it is. SW_ENOMEM. */
 sw_status sw_contact_copy(const sw_contact *contact, sw_contact **out);
 void sw_contact_free(sw_contact *contact);
+/* Only obstacles of these numbers (count) are touched from now on. */
+void sw_contact_keep(sw_contact *contact, const size_t *ids, size_t count);
 
 /* How the coming steps are computed: decides the normal stiffness. */
 typedef enum sw_contact_regime {
@@ -88,6 +94,17 @@ void sw_contact_commit(sw_contact *contact, sw_system *system);
 /* Total force on obstacle o and its moment about a point [N], [N m]. */
 void sw_contact_force(const sw_contact *contact, int o, sw_vec about, sw_vec *force,
                       sw_vec *moment);
+/* What holds wires by obstacle o, added up over its touches. */
+typedef struct sw_contact_grip {
+  double normal;  /* forces across the surface [N] */
+  double most;    /* friction that these allow [N] */
+  sw_vec tangent; /* friction on the wires [N] */
+  sw_vec slip;    /* force times the way slid in the last step, of wires [N m] */
+  double sliding; /* force of touches that slide [N] */
+  double place;   /* force times arc length in its plan [N m] */
+} sw_contact_grip;
+void sw_contact_add_grip(const sw_contact *contact, const sw_system *system, int o,
+                         sw_contact_grip *sum);
 /* Deepest penetration of the accepted state, with the system's node nearest to
  * it [m]. */
 double sw_contact_penetration(const sw_contact *contact, size_t *node);
@@ -99,10 +116,13 @@ typedef struct sw_contact_push {
   double at;           /* between both [-] */
   double normal_force; /* [N] */
   sw_vec force;        /* on the wire, with friction [N] */
+  sw_vec point;        /* on the obstacle [m] */
+  double place;        /* arc length [m] */
 } sw_contact_push;
 /* All touches, also those without a force; number k of them: 0 when it has none. */
 size_t sw_contact_touches(const sw_contact *contact);
-int sw_contact_push_at(const sw_contact *contact, size_t k, sw_contact_push *out);
+int sw_contact_push_at(const sw_contact *contact, const sw_system *system, size_t k,
+                       sw_contact_push *out);
 double sw_contact_energy(const sw_contact *contact); /* stored in the springs [J] */
 
 /* Memory kept between steps (anchors and sides), for snapshots: a block to copy
@@ -120,6 +140,11 @@ sw_status sw_contact_set_seen(sw_contact *contact, const void *seen, size_t byte
 /* A number that is another one when what these blocks consist of is, to tell files of another
  * version by. */
 size_t sw_contact_layout(void);
+/* Add what a memory says of nodes from old_first up to old_end, which are now numbered from
+ * new_first, and obstacles of these numbers (count). SW_ENOMEM. */
+sw_status sw_contact_add_memory(sw_contact *contact, const void *memory, size_t bytes,
+                                size_t old_first, size_t old_end, size_t new_first,
+                                const size_t *obstacles, size_t count);
 /* The same from a contact whose nodes had other numbers: new_node gives for each
  * old number the new one, or SIZE_MAX when the node is gone. */
 sw_status sw_contact_inherit(sw_contact *contact, const void *memory, size_t bytes, int fresh,

@@ -19,8 +19,9 @@ static const double WEIGHT_TOLERANCE = 1e-3;
  * whatever the prediction is worth [-]. */
 static const double SURELY_SLIDING = 20.0;
 
-/* Wires that are deeper inside than their force explains are let out at this speed [m/s]. */
-static const double RECOVERY_SPEED = 0.2;
+/* Wires that are deeper inside than their force explains are let out at this speed; meshes, whose
+ * sections may stand off the line that they come from, so slowly that they are not thrown [m/s]. */
+static const double RECOVERY_SPEED = 0.2, SLOW_RECOVERY = 0.02;
 
 /* A touch that sinks in deeper is made stiffer until it does not [m]. */
 static const double DEEPEST = 50e-6;
@@ -49,10 +50,10 @@ void sw_press_take_lag(sw_press *p, const sw_press *last) {
     p->lag = last->lag + (last->lag_before - last->lag) * error / (error - error_before);
 }
 
-void sw_press_begin(sw_press *p, double friction, int known) {
-  const double most = friction * p->lag, pull = sw_press_grip(p) * sw_norm(p->trial);
-  if (!known) p->sliding = pull > most;
-  if (pull > SURELY_SLIDING * most) p->sliding = 1;
+void sw_press_begin(sw_press *p, double friction, int known, double felt) {
+  const double most = friction * p->lag, grip = sw_press_grip(p), length = sw_norm(p->trial);
+  if (!known) p->sliding = grip * length > most;
+  if (fmin(grip, felt) * length > SURELY_SLIDING * most) p->sliding = 1;
 }
 
 /* K = kn n n' + kt (I - n n') - ks d d' */
@@ -70,6 +71,7 @@ sw_vec sw_press_eval(sw_press *p, double friction, int lagged, double K[6]) {
   if (!lagged) p->sliding = grip * length > most;
   const sw_vec d = length > 0 ? sw_scale(p->trial, 1.0 / length) : sw_v(0, 0, 0);
   p->tangential = sw_scale(d, p->sliding ? -most : -grip * length);
+  p->slip = sw_madd(p->trial, p->tangential, 1.0 / grip);
   if (p->sliding) {
     const double kt = length > 0 ? fmin(most / length, grip) : 0.0;
     stiffness_matrix(p->k, kt, kt, p->normal, d, K);
@@ -89,6 +91,7 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
   const int reversed = p->sliding && along < 0;
   p->next_sliding = beyond && !reversed;
   p->tangential = sw_scale(u, -(beyond && length > 0 ? most / length : grip));
+  p->slip = sw_madd(u, p->tangential, 1.0 / grip);
   if (reversed) return most <= small;
   if (p->sliding && beyond && along < TURN_TOLERANCE * length * sw_norm(p->trial)) return 0;
   if (p->sliding != beyond) /* a change of state matters when the force does */
@@ -103,6 +106,7 @@ int sw_press_update(sw_press *p, double friction, sw_vec shift, double force_sca
   p->gap_after = p->gap + sw_dot(p->normal, shift);
   p->normal_force = active ? fmax(0.0, -p->k * p->gap_after) : 0.0;
   p->next_sliding = 1; /* what does not touch moves freely */
+  p->slip = sw_v(0, 0, 0);
   const int agrees = active && friction > 0 ? update_friction(p, friction, shift, force_scale) : 1;
   return agrees && sw_press_apart(p);
 }
@@ -111,8 +115,9 @@ int sw_press_apart(const sw_press *p) {
   return p->active ? p->gap_after <= GAP_TOLERANCE : p->gap_after >= -GAP_TOLERANCE;
 }
 
-double sw_press_forgiven(double depth, double explained, double h) {
-  return fmax(0.0, depth - explained - RECOVERY_SPEED * h - GAP_TOLERANCE);
+double sw_press_forgiven(double depth, double explained, double h, int slowly) {
+  const double speed = slowly ? SLOW_RECOVERY : RECOVERY_SPEED;
+  return fmax(0.0, depth - explained - speed * h - GAP_TOLERANCE);
 }
 
 double sw_press_stiffer(const sw_press *p, double usual, double forgiven, double before) {

@@ -20,6 +20,7 @@ typedef struct sw_press {
   sw_vec normal;                   /* of the push [-] */
   sw_vec trial;                    /* tangential displacement from the anchor at this iterate [m] */
   sw_vec tangential;               /* friction force after the last solve [N] */
+  sw_vec slip;                     /* how far it slid, of the displacement from the anchor [m] */
   int alternations;                /* of normal_force - lag until the last iterate [-] */
   int active;                      /* pushes in this iterate */
   int sliding;                     /* assumed in this iterate */
@@ -43,8 +44,9 @@ void sw_press_take_lag(sw_press *press, const sw_press *last);
 
 /* Friction begins at an iterate: k, lag and trial are set. known: 1 = it slides as sliding
  * says, 0 = find out. A predicted place says little about sticking, as a spring this stiff
- * calls every prediction a slide; but one stretched far beyond its limit does slide. */
-void sw_press_begin(sw_press *press, double friction, int known);
+ * calls every prediction a slide; but one stretched far beyond its limit does slide, were it
+ * not stiffer than felt [N/m]. */
+void sw_press_begin(sw_press *press, double friction, int known, double felt);
 
 /* Forces at this iterate. Returns the force, and its stiffness (upper half). lagged: 0 =
  * explicit methods, which take all from this iterate. */
@@ -53,7 +55,7 @@ sw_vec sw_press_eval(sw_press *press, double friction, int lagged, double K[6]);
 /* Part of a depth at the step's start that the step leaves alone, explained being what goes
  * with the touch's force there: what was placed in each other, or comes out of a barrier, is
  * let out slowly, for within one step the whole depth would turn into speed [m]. */
-double sw_press_forgiven(double depth, double explained, double h);
+double sw_press_forgiven(double depth, double explained, double h, int slowly);
 
 /* Forces after an update that shifted the touch; 1 = they agree with what the solve
  * assumed. force_scale: of the scene, forces far below which do not matter [N]. */

@@ -56,7 +56,7 @@ static double forgiven(const sw_pairs *p, const sw_system *s, const sw_pair *k,
   if (p->regime != SW_CONTACT_IMPLICIT || t->press.gap >= 0) return 0;
   const sw_vec from = sw_pair_apart(s->x, k->one, k->two, t->at);
   const double depth = k->reach - sw_dot(t->press.normal, from);
-  return sw_press_forgiven(depth, m ? m->depth : 0.0, p->h);
+  return sw_press_forgiven(depth, m ? m->depth : 0.0, p->h, 0);
 }
 
 /* Wherever it has slid to. */
@@ -92,7 +92,7 @@ static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, co
   if (last) sw_press_take_lag(press, &last->press);
   const int known = (last && last->press.active) || pressed;
   if (known) press->sliding = last && last->press.active ? last->press.next_sliding : m->sliding;
-  sw_press_begin(press, friction, known);
+  sw_press_begin(press, friction, known, HUGE_VAL);
   SW_TRY(sw_grow((void **)&p->touches, &p->touch_capacity, p->touch_count + 1, sizeof *p->touches));
   p->touches[p->touch_count++] = t;
   return SW_OK;

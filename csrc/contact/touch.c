@@ -98,6 +98,18 @@ static const sw_memory *pressed_memory(const sw_contact *c, const sw_system *s,
   return s->bodies[k->body].plan->web ? NULL : inherited(c, k, at);
 }
 
+/* A particle of a mesh that sticks is predicted off its place by far more than what its touch's
+ * spring gives way, while nothing but its inertia needs that: a prediction says that it slides when
+ * so many times its inertia would [-]. */
+static const double NEIGHBOURS = 30.0;
+
+/* How stiff friction's spring counts where a prediction is to say that it surely slides [N/m]. */
+static double felt_stiffness(const sw_contact *c, const sw_system *s, const sw_touch *t) {
+  const sw_web *web = s->bodies[t->body].plan->web;
+  if (!web || !web->per_ring || c->regime != SW_CONTACT_IMPLICIT) return HUGE_VAL;
+  return NEIGHBOURS * c->candidates[t->candidate].mass / (c->h * c->h);
+}
+
 /* What only now begins to touch has been moving freely: it slides first. A wire that has been
  * rolling is not called a slide for a long spring: on a curved surface both its shift and its
  * turn are predicted less exactly than that. */
@@ -112,14 +124,16 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
   press->trial = sw_madd(u, press->normal, -sw_dot(u, press->normal));
   press->lag = m ? m->normal_force : press->k * fmax(0.0, -press->gap);
   if (last) sw_press_take_lag(press, &last->press);
+  const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
   const int went_on = last && last->press.active;
+  t->friction = m && m->sliding ? o->kinetic : o->friction;
   if (went_on)
     press->sliding = last->press.next_sliding;
   else if (m)
     press->sliding = m->sliding;
   const int held = m && !m->sliding &&
                    (s->bodies[t->body].roll_block || (!last && c->regime == SW_CONTACT_STATIC));
-  if (!held) sw_press_begin(press, c->obstacles[t->obstacle].friction, went_on || m);
+  if (!held) sw_press_begin(press, t->friction, went_on || m, felt_stiffness(c, s, t));
 }
 
 int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
@@ -156,6 +170,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
   const sw_memory *m = pressed_memory(c, s, k, at);
   const sw_touch *last = last_for(c, k, at);
   const double stiffness = stiffness_of(c, k, m, last);
+  const sw_web *web = s->bodies[k->body].plan->web;
   sw_touch t = {
       .obstacle = k->obstacle,
       .segment = k->segment,
@@ -172,12 +187,12 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
       .candidate = (size_t)(k - c->candidates),
       .press = {
           .normal = sw_rotate(pose->q, near->normal), .gap = near->gap - k->skin, .k = stiffness}};
-  const sw_web *web = s->bodies[k->body].plan->web;
   if (web && !web->per_ring) t.press.soft = fmin(SOFTEST, (double)web->particles);
   sw_press *press = &t.press;
   if (c->regime == SW_CONTACT_IMPLICIT &&
       press->gap < 0) /* in explicit steps force follows depth */
-    t.forgiven = sw_press_forgiven(depth_before(c, s, &t), m ? m->depth : 0.0, c->h);
+    t.forgiven = sw_press_forgiven(depth_before(c, s, &t), m ? m->depth : 0.0, c->h,
+                                   web && web->per_ring);
   press->gap += t.forgiven;
   press->gap_after = press->gap;
   sw_press_activate(press, goes_on(c, k, press, last) ? &last->press : NULL);
@@ -307,10 +322,9 @@ static void add_to_field(sw_system *s, const sw_touch *t, sw_vec f, const double
 static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
   double K[6];
   t->press.normal_force = 0;
-  t->press.tangential = sw_v(0, 0, 0);
+  t->press.tangential = t->press.slip = sw_v(0, 0, 0);
   if (!t->press.active) return;
-  const sw_vec f = sw_press_eval(&t->press, c->obstacles[t->obstacle].friction,
-                                 c->regime != SW_CONTACT_EXPLICIT, K);
+  const sw_vec f = sw_press_eval(&t->press, t->friction, c->regime != SW_CONTACT_EXPLICIT, K);
   add_to_field(s, t, f, K, want);
   if (s->rolls) sw_levers_push(s, t, K, want);
 }
@@ -348,7 +362,7 @@ static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *
                   double scale) {
   const sw_vec shift = sw_touch_place(delta, t->node, t->other, t->at);
   const sw_vec surface = s->rolls ? surface_shift(s, t, shift) : shift;
-  const int agrees = sw_press_update(&t->press, c->obstacles[t->obstacle].friction, surface, scale);
+  const int agrees = sw_press_update(&t->press, t->friction, surface, scale);
   if (t->held) return 1;
   const double radius = c->candidates[t->candidate].radius;
   const int small = sw_norm(shift) <= SMALL_SHIFT * radius;
@@ -392,7 +406,7 @@ static int stiffen(sw_contact *c, const sw_system *s) {
   for (size_t i = 0; i < c->touch_count; i++) {
     sw_touch *t = &c->touches[i];
     const double before = small ? fmax(0.0, depth_before(c, s, t)) : -1.0;
-    if (t->held) continue;
+    if (t->held || c->candidates[t->candidate].given) continue;
     t->stiffer =
         sw_press_stiffer(&t->press, c->candidates[t->candidate].usual, t->forgiven, before);
     any |= t->stiffer > t->press.k;

@@ -19,6 +19,7 @@ typedef struct sw_candidate {
   size_t memory, memory_end; /* matching range of the memory */
   size_t last, last_end;     /* matching range of the last iterate's touches */
   double usual;              /* stiffness of a new touch [N/m] */
+  int given;                 /* 1: it keeps that, however deep it gets */
 } sw_candidate;
 
 /* One place where a wire's surface is near an obstacle. */
@@ -33,6 +34,7 @@ typedef struct sw_touch {
   double stiffer;   /* its stiffness from the next iterate on [N/m] */
   int known;        /* it pressed at the step's start */
   int held;         /* both ends are held: no force */
+  double friction;  /* coefficient in this step: kinetic when it slid before [-] */
   size_t candidate; /* index of what it was made from */
   sw_press press;   /* its normal is the obstacle's, outward, in the world */
 } sw_touch;

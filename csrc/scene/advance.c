@@ -180,12 +180,23 @@ enum { MOST_SLIP_TRIALS = 25 };
  * size, by which slips would be wrong: it is kept to this share [-]. */
 static const double FIRST_SLIP = 1e-3;
 
+/* One step of size h in which jaws close with a force. */
+static sw_status squeezing_attempt(loop *p, double h, sw_error *err) {
+  sw_scene *s = p->s;
+  const int squeezes = sw_jaw_begin(s, h);
+  for (;;) {
+    const sw_status status = attempt(p, h, err);
+    if (status != SW_OK || !squeezes || sw_jaw_correct(s)) return status;
+    undo(p);
+  }
+}
+
 /* One step of size h in which feeds slip that yield to a force. */
 static sw_status yielding_attempt(loop *p, double h, sw_error *err) {
   sw_scene *s = p->s;
-  if (!sw_slip_begin(s)) return attempt(p, h, err);
+  if (!sw_slip_begin(s)) return squeezing_attempt(p, h, err);
   for (int i = 0; i < MOST_SLIP_TRIALS; i++) {
-    const sw_status status = attempt(p, h, err);
+    const sw_status status = squeezing_attempt(p, h, err);
     if (status != SW_OK) {
       sw_slip_give_up(s);
       return status;
@@ -303,6 +314,7 @@ static sw_status pose_step(loop *p, double t1, int halvings, int (*interrupted)(
   sw_settle_report report = {0};
   const double t0 = s->time;
   int too_far = 0;
+  sw_jaw_begin(s, t1 - t0);
   s->time = t1;
   const sw_status status =
       sw_scene_rest(s, t0, halvings ? &too_far : NULL, &rest, interrupted, &report, err);
@@ -365,6 +377,7 @@ static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_er
   for (size_t k = 1; s->time < until - slack; k++) {
     if (interrupted && interrupted()) return SW_EINTR;
     if ((double)(p->report->steps - first) >= (double)p->args->max_steps) return SW_OK;
+    if (k > 1 && sw_tool_slipped(s)) return SW_OK;
     const double t1 = (double)k >= count ? until : t0 + span * ((double)k / count);
     SW_TRY(p->args->quasistatic ? whole_pose_step(p, t1, interrupted, err)
            : adaptive           ? controlled_step(p, until - s->time, until, err)

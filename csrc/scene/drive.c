@@ -10,8 +10,28 @@ void sw_drive_free(sw_drive *d) {
   d->motion = NULL;
 }
 
+/* In a tool's frame, which itself is at rest or follows a motion. */
+static sw_status carried(sw_scene *s, const sw_drive *d, double t, sw_motion_state *out,
+                         sw_error *err) {
+  const sw_tool *tool = &s->tools[d->tool - 1];
+  sw_motion_state f;
+  SW_TRY(sw_drive_eval(s, &tool->drive, t, &f, err));
+  const sw_quat q = f.pose.q;
+  const sw_vec arm = sw_rotate(q, sw_madd(d->pose.p, d->opens, sw_jaw_at(&tool->jaw, t)));
+  const sw_vec opening = sw_rotate(q, sw_scale(d->opens, tool->jaw.speed));
+  const sw_vec turning = sw_cross(f.omega, arm);
+  out->pose = (sw_pose){sw_add(f.pose.p, arm), sw_quat_mul(q, d->pose.q)};
+  out->v = sw_add(f.v, sw_add(turning, opening));
+  out->a = sw_add(sw_add(f.a, sw_cross(f.alpha, arm)),
+                  sw_cross(f.omega, sw_madd(turning, opening, 2.0)));
+  out->omega = f.omega;
+  out->alpha = f.alpha;
+  return SW_OK;
+}
+
 sw_status sw_drive_eval(sw_scene *s, const sw_drive *d, double t, sw_motion_state *out,
                         sw_error *err) {
+  if (d->tool) return carried(s, d, t, out, err);
   if (!d->motion) {
     memset(out, 0, sizeof *out);
     out->pose = d->pose;
@@ -30,6 +50,9 @@ sw_status sw_drive_follow(sw_scene *s, sw_drive *d, const char *object, sw_motio
                           int relative, sw_error *err) {
   const double now = s->time;
   sw_motion_state here, first;
+  if (d->tool)
+    return sw_fail(err, SW_EINVAL, "%s goes with gripper '%s'; move that", object,
+                   s->tools[d->tool - 1].name);
   SW_TRY(sw_drive_eval(s, d, now, &here, err));
   sw_drive next = {.pose = here.pose, .start = now};
   if (motion && (relative || sw_motion_is_relative(motion))) {

@@ -364,6 +364,9 @@ sw_status sw_scene_set_pose(sw_scene *s, sw_handle hold, sw_pose pose, sw_error 
   sw_scene_hold *h = sw_scene_living_hold(s, hold, err);
   if (!h) return SW_EDEAD;
   SW_TRY(sw_scene_editable(s, err));
+  if (h->drive.tool)
+    return sw_fail(err, SW_EINVAL, "'%s' goes with gripper '%s'; move that", h->name,
+                   s->tools[h->drive.tool - 1].name);
   sw_drive_free(&h->drive);
   h->drive = (sw_drive){.pose = pose};
   s->discontinuous = 1;

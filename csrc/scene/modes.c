@@ -31,14 +31,15 @@ static double time_scale(const sw_scene *s, size_t w) {
 }
 
 /* With contact as it presses now; other wires stay where they are. */
-static sw_status linearise(sw_scene *s, sw_error *err) {
+sw_status sw_scene_linearise(sw_scene *s, const size_t *only, size_t count, sw_error *err) {
   sw_contact *const own = s->contact;
   sw_pairs *const pairs = s->pairs;
   sw_status status = SW_OK;
   s->contact = NULL, s->pairs = NULL;
   if (own) status = sw_contact_copy(own, &s->contact);
   if (pairs && status == SW_OK) status = sw_pairs_copy(pairs, &s->pairs);
-  if (status != SW_OK) sw_fail(err, status, "frequencies: out of memory");
+  if (status != SW_OK) sw_fail(err, status, "out of memory");
+  if (own && only && status == SW_OK) sw_contact_keep(s->contact, only, count);
   if (own && status == SW_OK) status = sw_contact_begin_look(s->contact, &s->system, s->time, err);
   if (pairs && status == SW_OK) status = sw_pairs_begin_look(s->pairs, &s->system, err);
   if (status == SW_OK) status = sw_system_linearise(&s->system, s->time, err);
@@ -117,7 +118,7 @@ static sw_status find(sw_scene *s, size_t w, const sw_modes_args *args, int (*in
   sw_error why = {""};
   SW_TRY(sw_scene_check_line(&s->wires[w], "frequencies", err));
   SW_TRY(check_joins(s, w, err));
-  SW_TRY(linearise(s, err));
+  SW_TRY(sw_scene_linearise(s, NULL, 0, err));
   SW_TRY(check_rest(s, w, args->tolerance, err));
   const double rate = 1.0 / (SLOWEST_GROWTH * time_scale(s, w));
   const sw_status status =

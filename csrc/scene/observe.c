@@ -200,6 +200,7 @@ static sw_status observe_contact(sw_scene *s, sw_error *err) {
 
 sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
   sw_feed_follow(s);
+  sw_jaw_follow(s);
   for (size_t w = 0; w < s->wire_count; w++) s->wires[w].untwisted = 0;
   SW_TRY(sw_system_place_holds(&s->system, s->time, s->system.x, NULL, NULL, err));
   sw_system_refresh(&s->system);
@@ -210,7 +211,8 @@ sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
     sw_scene_keep_extremes(&s->wires[w].extremes, &now);
   }
   SW_TRY(log_holds(s, err));
-  return sw_scene_has_contact(s) ? observe_contact(s, err) : SW_OK;
+  if (sw_scene_has_contact(s)) SW_TRY(observe_contact(s, err));
+  return sw_tool_observe(s, err);
 }
 
 void sw_scene_reset_extremes(sw_scene *s) {

@@ -46,7 +46,7 @@ static size_t tape_list(sw_tape *t, void *list_pointer, size_t *count, size_t *c
   } while (0)
 
 static void tape_objects(sw_tape *t, sw_scene *s) {
-  SW_TAPE_STRUCT(t, sw_scene, 1608);
+  SW_TAPE_STRUCT(t, sw_scene, 1632);
   sw_tape_name(t, s->name);
   sw_tape_uint32(t, &s->serial);
   sw_tape_vec(t, &s->gravity);
@@ -57,6 +57,7 @@ static void tape_objects(sw_tape *t, sw_scene *s) {
   LIST(wires, wire_count, wire_capacity, sw_tape_wire(t, &s->wires[k]));
   LIST(holds, hold_count, hold_capacity, sw_tape_hold(t, s, &s->holds[k]));
   LIST(obstacles, obstacle_count, obstacle_capacity, sw_tape_obstacle(t, s, &s->obstacles[k]));
+  LIST(tools, tool_count, tool_capacity, sw_tape_tool(t, s, &s->tools[k]));
   LIST(forces, force_count, force_capacity, sw_tape_force(t, &s->forces[k]));
   LIST(joins, join_count, join_capacity, sw_tape_join(t, &s->joins[k]));
   LIST(frames, frame_count, frame_capacity, sw_tape_frame(t, s, &s->frames[k]));
@@ -106,6 +107,8 @@ static sw_status check_functions(const sw_scene *s, sw_error *err) {
   for (size_t k = 0; k < s->obstacle_count; k++)
     if (s->obstacles[k].alive)
       SW_TRY(check_drive(s, &s->obstacles[k].drive, s->obstacles[k].name, err));
+  for (size_t k = 0; k < s->tool_count; k++)
+    if (s->tools[k].alive) SW_TRY(check_drive(s, &s->tools[k].drive, s->tools[k].name, err));
   return SW_OK;
 }
 
@@ -299,7 +302,12 @@ static void sum_object(sw_tape *t, sw_scene *s, size_t k, sw_scene_item *out) {
     snprintf(name, sizeof name, "%zu (%s)", k + 1, s->forces[k].cls->name);
     item(out, "force", name);
     sw_tape_force(t, &s->forces[k]);
-  } else if ((k -= s->force_count) < s->join_count) {
+  } else if ((k -= s->force_count) < s->tool_count) {
+    sw_tool *tool = &s->tools[k];
+    item(out, "tool", tool->name);
+    sw_tape_uint32(t, &tool->generation);
+    for (size_t i = 0; i < tool->pads; i++) sw_tape_size(t, &tool->pad[i].obstacle);
+  } else if ((k -= s->tool_count) < s->join_count) {
     item(out, "join", s->joins[k].name);
     sw_tape_join(t, &s->joins[k]);
   } else {
@@ -311,8 +319,8 @@ static void sum_object(sw_tape *t, sw_scene *s, size_t k, sw_scene_item *out) {
 }
 
 size_t sw_scene_items(const sw_scene *s) {
-  return s->wire_count + s->obstacle_count + s->hold_count + s->force_count + s->join_count +
-         s->rule_count;
+  return s->wire_count + s->obstacle_count + s->hold_count + s->force_count + s->tool_count +
+         s->join_count + s->rule_count;
 }
 
 sw_scene_item sw_scene_item_at(sw_scene *s, size_t k) {

@@ -10,6 +10,11 @@
  * after a failure. */
 void sw_tape_wire(sw_tape *tape, sw_scene_wire *wire);
 void sw_tape_hold(sw_tape *tape, sw_scene *scene, sw_scene_hold *hold);
+void sw_tape_strand(sw_tape *tape, sw_strand *strand);
+void sw_tape_tool(sw_tape *tape, sw_scene *scene, sw_tool *tool);
+void sw_tape_jaw(sw_tape *tape, sw_jaw *jaw);
+void sw_tape_frozen(sw_tape *tape, sw_frozen **frozen); /* or NULL */
+int sw_frozen_fits(const sw_frozen *frozen, const sw_scene *scene);
 void sw_tape_obstacle(sw_tape *tape, sw_scene *scene, sw_scene_obstacle *obstacle);
 void sw_tape_force(sw_tape *tape, sw_scene_force *force);
 void sw_tape_join(sw_tape *tape, sw_scene_join *join);

@@ -115,6 +115,18 @@ static void check_force(sw_tape *t, const sw_scene *s, const sw_scene_force *f) 
     sw_tape_expect(t, list.particle[i] < web->particles, "a force on particles");
 }
 
+/* What carries something is there, and is not carried itself. */
+static void check_drive(sw_tape *t, const sw_scene *s, const sw_drive *d) {
+  sw_tape_expect(t, d->tool <= s->tool_count && !(d->tool && d->motion), "what a gripper carries");
+}
+
+static void check_tool(sw_tape *t, const sw_scene *s, const sw_tool *tool) {
+  sw_tape_expect(t, !tool->drive.tool && tool->log.count % SW_LOG_TOOL_SIZE == 0, "a gripper");
+  for (size_t k = 0; k < tool->pads; k++)
+    sw_tape_expect(t, tool->pad[k].obstacle < s->obstacle_count, "the pads of a gripper");
+  if (tool->frozen) sw_tape_expect(t, sw_frozen_fits(tool->frozen, s), "what a gripper has frozen");
+}
+
 static void check_rule(sw_tape *t, const sw_scene *s, const sw_scene_rule *r) {
   for (size_t i = 0; i < r->count; i++)
     sw_tape_expect(t, r->wires[i] < s->wire_count, "contact of wires");
@@ -147,6 +159,9 @@ void sw_tape_check_scene(sw_tape *t, sw_scene *s) {
   for (size_t w = 0; w < s->wire_count && sw_tape_good(t); w++)
     if (s->wires[w].strand.web) check_particles(t, s, w);
   for (size_t k = 0; k < s->join_count; k++) check_join(t, s, &s->joins[k]);
+  for (size_t k = 0; k < s->tool_count; k++) check_tool(t, s, &s->tools[k]);
+  for (size_t k = 0; k < s->hold_count; k++) check_drive(t, s, &s->holds[k].drive);
+  for (size_t k = 0; k < s->obstacle_count; k++) check_drive(t, s, &s->obstacles[k].drive);
   for (size_t k = 0; k < s->obstacle_count; k++)
     sw_tape_expect(t, s->obstacles[k].log.count % SW_LOG_OBSTACLE_SIZE == 0, "an obstacle's log");
   if (sw_tape_good(t)) check_kept(t, s);

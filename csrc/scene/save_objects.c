@@ -32,7 +32,7 @@ static void tape_log(sw_tape *t, sw_log *x) {
 static void tape_drive(sw_tape *t, sw_scene *s, sw_drive *x) {
   sw_drive now = *x;
   sw_motion_state at;
-  SW_TAPE_STRUCT(t, sw_drive, 72);
+  SW_TAPE_STRUCT(t, sw_drive, 104);
   if (!sw_tape_reads(t) && x->motion && sw_motion_is_function(x->motion)) {
     const sw_status status = sw_drive_eval(s, x, s->time, &at, t->err);
     if (status != SW_OK) sw_tape_fail(t, status);
@@ -40,11 +40,13 @@ static void tape_drive(sw_tape *t, sw_scene *s, sw_drive *x) {
   }
   sw_tape_pose(t, &now.pose);
   sw_tape_double(t, &now.start);
+  sw_tape_size(t, &now.tool), sw_tape_vec(t, &now.opens);
   sw_tape_motion(t, &now.motion);
   if (!sw_tape_reads(t)) return;
   *x = now;
   const double q = x->pose.q.w + x->pose.q.x + x->pose.q.y + x->pose.q.z;
   sw_tape_expect(t, sw_finite(x->pose.p) && isfinite(q) && isfinite(x->start), "a place");
+  sw_tape_expect(t, sw_finite(x->opens), "a place");
 }
 
 /* --- wires ------------------------------------------------------------------------- */
@@ -81,7 +83,7 @@ static void tape_kit(sw_tape *t, sw_strand_kit **kit) {
   sw_tape_calibration(t, &(*kit)->calibration);
 }
 
-static void tape_strand(sw_tape *t, sw_strand *x) {
+void sw_tape_strand(sw_tape *t, sw_strand *x) {
   int there = !sw_tape_reads(t) && x->web != NULL;
   SW_TAPE_STRUCT(t, sw_strand, 48);
   SW_TAPE_STRUCT(t, sw_solid, 1632);
@@ -118,7 +120,7 @@ void sw_tape_wire(sw_tape *t, sw_scene_wire *x) {
   sw_tape_expect(t, x->cls != NULL, "a wire of an unknown model");
   sw_tape_beam_of(t, x);
   sw_tape_mesh(t, &x->mesh);
-  tape_strand(t, &x->strand);
+  sw_tape_strand(t, &x->strand);
   tape_extremes(t, &x->extremes);
   INT(untwisted);
   sw_tape_count(t, &x->twisted_count, sizeof *x->twisted);
@@ -155,7 +157,7 @@ static void tape_feed(sw_tape *t, sw_feed *x) {
 
 void sw_tape_hold(sw_tape *t, sw_scene *s, sw_scene_hold *x) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_scene_hold, 1128);
+  SW_TAPE_STRUCT(t, sw_scene_hold, 1160);
   UINT32(generation), INT(alive), NAME(name);
   const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
   if (sw_tape_reads(t)) x->cls = sw_hold_find(kind);
@@ -176,14 +178,48 @@ void sw_tape_hold(sw_tape *t, sw_scene *s, sw_scene_hold *x) {
 /* --- all else ---------------------------------------------------------------------- */
 
 void sw_tape_obstacle(sw_tape *t, sw_scene *s, sw_scene_obstacle *x) {
-  SW_TAPE_STRUCT(t, sw_scene_obstacle, 192);
+  SW_TAPE_STRUCT(t, sw_scene_obstacle, 240);
   UINT32(generation), INT(alive), NAME(name);
   sw_tape_shape(t, &x->shape);
   tape_drive(t, s, &x->drive);
-  DOUBLE(friction), DOUBLE(restitution);
+  DOUBLE(friction), DOUBLE(kinetic), DOUBLE(restitution), INT(off);
   tape_log(t, &x->log);
+  sw_tape_expect(t, x->kinetic >= 0 && x->kinetic <= 100, "friction of an obstacle");
   sw_tape_expect(t, x->friction >= 0 && x->friction <= 100, "friction of an obstacle");
   sw_tape_expect(t, x->restitution >= 0 && x->restitution <= 1, "restitution of an obstacle");
+}
+
+void sw_tape_jaw(sw_tape *t, sw_jaw *x) {
+  SW_TAPE_STRUCT(t, sw_jaw, 120);
+  INT(mode), INT(status), DOUBLE(opening), DOUBLE(since), DOUBLE(step), DOUBLE(speed);
+  DOUBLE(most), DOUBLE(goal), DOUBLE(force), DOUBLE(now), DOUBLE(stiffness);
+  DOUBLE(tried[0]), DOUBLE(tried[1]), DOUBLE(off[0]), DOUBLE(off[1]), INT(last_side), INT(trials);
+  sw_tape_expect(t, x->mode >= SW_JAW_STILL && x->mode <= SW_JAW_FORCE, "jaws");
+  sw_tape_expect(t, x->status >= SW_JAW_RESTS && x->status <= SW_JAW_EMPTY, "jaws");
+  sw_tape_expect(t, x->last_side == 0 || x->last_side == 1, "jaws");
+  sw_tape_expect(t, isfinite(x->opening + x->since + x->speed + x->most + x->goal), "jaws");
+}
+
+static void tape_tool_state(sw_tape *t, sw_tool_state *x) {
+  SW_TAPE_STRUCT(t, sw_tool_state, 184);
+  DOUBLE(opening), INT(status), DOUBLE(squeeze), DOUBLE(normal), DOUBLE(most), DOUBLE(margin);
+  DOUBLE(sliding), DOUBLE(slip), VEC(slipped), VEC(centre), QUAT(q), DOUBLE(place);
+  DOUBLE(slip_time), DOUBLE(slip_place), INT(frozen), DOUBLE(lost_time);
+  sw_tape_expect(t, x->status >= SW_JAW_RESTS && x->status <= SW_JAW_EMPTY, "jaws");
+}
+
+void sw_tape_tool(sw_tape *t, sw_scene *s, sw_tool *x) {
+  SW_TAPE_STRUCT(t, sw_tool, 808);
+  UINT32(generation), INT(alive), NAME(name);
+  tape_drive(t, s, &x->drive);
+  sw_tape_jaw(t, &x->jaw);
+  SIZE(pads), INT(fingers), DOUBLE(limit), DOUBLE(tolerance), INT(stops);
+  sw_tape_expect(t, x->pads <= SW_TOOL_PADS, "the pads of a gripper");
+  for (size_t k = 0; k < x->pads && sw_tape_good(t); k++)
+    sw_tape_size(t, &x->pad[k].obstacle), sw_tape_int(t, &x->pad[k].finger);
+  sw_tape_frozen(t, &x->frozen);
+  tape_tool_state(t, &x->now);
+  tape_log(t, &x->log);
 }
 
 /* The arguments without the addresses in them, which mean nothing elsewhere. */

@@ -50,6 +50,7 @@ void sw_scene_free(sw_scene *s) {
   for (size_t i = 0; i < s->force_count; i++) sw_scene_clear_force(&s->forces[i]);
   for (size_t i = 0; i < s->hold_count; i++) sw_scene_clear_hold(&s->holds[i]);
   for (size_t i = 0; i < s->obstacle_count; i++) sw_scene_clear_obstacle(&s->obstacles[i]);
+  for (size_t i = 0; i < s->tool_count; i++) sw_scene_clear_tool(&s->tools[i]);
   sw_scene_orphan_snapshots(s);
   sw_stepper_free(&s->stepper);
   sw_contact_free(s->contact);
@@ -66,6 +67,7 @@ void sw_scene_free(sw_scene *s) {
   sw_free(s->wires);
   sw_free(s->holds);
   sw_free(s->obstacles);
+  sw_free(s->tools);
   sw_free(s->forces);
   sw_free(s->joins);
   sw_free(s);
@@ -169,6 +171,8 @@ static const sw_param obstacle_rows[] = {
      "turn of the shape: { axis = {x, y, z}, angle = } or quaternion {w, x, y, z}"},
     {"friction", SW_PARAM_NUMBER, "-", 0.3, 0, 100, 0, NULL, offsetof(sw_obstacle_args, friction),
      "Coulomb friction coefficient"},
+    {"kinetic_friction", SW_PARAM_NUMBER, "-", NAN, 0, 100, 0, NULL,
+     offsetof(sw_obstacle_args, kinetic), "of what slides already (default: friction)"},
     {"restitution", SW_PARAM_NUMBER, "-", 0, 0, 1, 0, NULL, offsetof(sw_obstacle_args, restitution),
      "share of the approach speed kept in an impact"},
 };
@@ -185,6 +189,7 @@ sw_status sw_scene_add_obstacle(sw_scene *s, sw_shape *shape, const sw_obstacle_
                            .alive = 1,
                            .drive = {.pose = {args->at, args->rotation}},
                            .friction = args->friction,
+                           .kinetic = isnan(args->kinetic) ? args->friction : args->kinetic,
                            .restitution = args->restitution};
   sw_scene_give_name(o->name, args->name, sw_shape_kind(shape), s->obstacle_count);
   o->shape = sw_shape_retain(shape);
@@ -231,6 +236,9 @@ sw_status sw_scene_obstacle_set_pose(sw_scene *s, sw_handle obstacle, sw_pose po
   sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
   if (!o) return SW_EDEAD;
   SW_TRY(sw_scene_editable(s, err));
+  if (o->drive.tool)
+    return sw_fail(err, SW_EINVAL, "obstacle '%s' goes with gripper '%s'; move that", o->name,
+                   s->tools[o->drive.tool - 1].name);
   sw_drive_free(&o->drive);
   o->drive.pose = pose;
   s->discontinuous = 1;

@@ -277,6 +277,7 @@ typedef struct sw_obstacle_args {
   sw_vec at;          /* [m] */
   sw_quat rotation;   /* [-] */
   double friction;    /* Coulomb coefficient [-] */
+  double kinetic;     /* the same of what slides; NAN = as friction [-] */
   double restitution; /* share of the approach speed kept in an impact [-] */
 } sw_obstacle_args;
 extern const sw_params sw_obstacle_params;

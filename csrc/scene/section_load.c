@@ -26,7 +26,7 @@ void sw_strand_pressed(const sw_scene *s, const sw_body *b, double *normal, doub
   if (force) memset(force, 0, 3 * n * sizeof *force);
   for (size_t k = 0; k < count; k++) {
     sw_contact_push push;
-    if (!sw_contact_push_at(s->contact, k, &push)) continue;
+    if (!sw_contact_push_at(s->contact, &s->system, k, &push)) continue;
     if (push.node < b->first_node || push.node >= b->first_node + n) continue;
     const size_t ends[2] = {push.node - b->first_node, push.other - b->first_node};
     const double share[2] = {1.0 - push.at, push.at};

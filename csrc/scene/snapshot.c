@@ -18,7 +18,7 @@ typedef struct saved_hold {
 } saved_hold;
 
 typedef struct saved_obstacle {
-  int alive;
+  int alive, off;
   sw_drive drive;
   size_t log_count;
 } saved_obstacle;
@@ -36,6 +36,8 @@ struct sw_snapshot {
   int *untwisted;               /* (wires) */
   saved_hold *hold;
   saved_obstacle *obstacle;
+  sw_tool *tool; /* (tools): their motions retained, their logs not owned */
+  size_t tools;
   int *force_alive;
   sw_scene_join *join; /* (joins) */
   size_t joins;
@@ -80,6 +82,10 @@ void sw_snapshot_free(sw_snapshot *p) {
     sw_motion_release(p->hold[k].feed.motion);
   }
   for (size_t k = 0; p->obstacle && k < p->obstacles; k++) sw_drive_free(&p->obstacle[k].drive);
+  for (size_t k = 0; p->tool && k < p->tools; k++) {
+    sw_drive_free(&p->tool[k].drive);
+    sw_frozen_release(p->tool[k].frozen);
+  }
   sw_free(p->meshes);
   sw_free(p->strands);
   sw_free(p->models);
@@ -87,6 +93,7 @@ void sw_snapshot_free(sw_snapshot *p) {
   sw_free(p->untwisted);
   sw_free(p->hold);
   sw_free(p->obstacle);
+  sw_free(p->tool);
   sw_free(p->force_alive);
   sw_free(p->join);
   sw_live_free(&p->live);
@@ -139,7 +146,13 @@ static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
   }
   for (; p->obstacles < s->obstacle_count; p->obstacles++) {
     const sw_scene_obstacle *o = &s->obstacles[p->obstacles];
-    p->obstacle[p->obstacles] = (saved_obstacle){o->alive, copy_drive(&o->drive), o->log.count};
+    p->obstacle[p->obstacles] =
+        (saved_obstacle){o->alive, o->off, copy_drive(&o->drive), o->log.count};
+  }
+  SW_TRY(copy_block(s->tools, s->tool_count * sizeof *p->tool, &p->tool));
+  for (; p->tools < s->tool_count; p->tools++) {
+    sw_motion_retain(p->tool[p->tools].drive.motion);
+    sw_frozen_retain(p->tool[p->tools].frozen);
   }
   SW_TRY(copy_block(s->joins, s->join_count * sizeof *p->join, &p->join));
   p->joins = s->join_count;
@@ -187,7 +200,9 @@ static int same_plan(const sw_scene *s, const sw_snapshot *p) {
         (k < p->holds && s->holds[k].shape != p->hold[k].shape.shape))
       return 0;
   for (size_t k = 0; k < s->obstacle_count; k++)
-    if (s->obstacles[k].alive != (k < p->obstacles && p->obstacle[k].alive)) return 0;
+    if (s->obstacles[k].alive != (k < p->obstacles && p->obstacle[k].alive) ||
+        (k < p->obstacles && s->obstacles[k].off != p->obstacle[k].off))
+      return 0;
   for (size_t k = 0; k < s->force_count; k++)
     if (s->forces[k].alive != (k < p->forces && p->force_alive[k])) return 0;
   for (size_t k = 0; k < s->join_count; k++)
@@ -215,6 +230,20 @@ static void put_feed(sw_scene_hold *h, const saved_hold *saved) {
   if (shape.rest) sw_feed_rest(h, h->s1);
 }
 
+static void put_tool(sw_tool *to, const sw_tool *saved) {
+  sw_log log = to->log;
+  to->alive = 0;
+  if (!saved) return;
+  if (log.count > saved->log.count) log.count = saved->log.count;
+  put_drive(&to->drive, &saved->drive);
+  sw_frozen_retain(saved->frozen);
+  sw_frozen_release(to->frozen);
+  const sw_drive drive = to->drive;
+  *to = *saved;
+  to->drive = drive;
+  to->log = log;
+}
+
 /* Objects made after the snapshot go away; the others get their old state. */
 static void put_objects(sw_scene *s, const sw_snapshot *p) {
   for (size_t k = 0; k < s->hold_count; k++) {
@@ -235,8 +264,10 @@ static void put_objects(sw_scene *s, const sw_snapshot *p) {
     o->alive = k < p->obstacles && p->obstacle[k].alive;
     if (k >= p->obstacles) continue;
     if (o->log.count > p->obstacle[k].log_count) o->log.count = p->obstacle[k].log_count;
+    o->off = p->obstacle[k].off;
     put_drive(&o->drive, &p->obstacle[k].drive);
   }
+  for (size_t k = 0; k < s->tool_count; k++) put_tool(&s->tools[k], k < p->tools ? &p->tool[k] : NULL);
   for (size_t k = 0; k < s->force_count; k++)
     s->forces[k].alive = k < p->forces && p->force_alive[k];
   for (size_t k = 0; k < s->join_count; k++) {
@@ -250,16 +281,18 @@ static void put_objects(sw_scene *s, const sw_snapshot *p) {
 
 /* Slots beyond what any living snapshot knows are free again. */
 static void drop_newer(sw_scene *s) {
-  size_t holds = 0, obstacles = 0, forces = 0, joins = 0;
+  size_t holds = 0, obstacles = 0, forces = 0, joins = 0, tools = 0;
   for (const sw_snapshot *q = s->snapshots; q; q = q->next) {
     if (q->holds > holds) holds = q->holds;
     if (q->obstacles > obstacles) obstacles = q->obstacles;
     if (q->forces > forces) forces = q->forces;
     if (q->joins > joins) joins = q->joins;
+    if (q->tools > tools) tools = q->tools;
   }
   while (s->hold_count > holds) sw_scene_clear_hold(&s->holds[--s->hold_count]);
   while (s->obstacle_count > obstacles) sw_scene_clear_obstacle(&s->obstacles[--s->obstacle_count]);
   while (s->force_count > forces) sw_scene_clear_force(&s->forces[--s->force_count]);
+  while (s->tool_count > tools) sw_scene_clear_tool(&s->tools[--s->tool_count]);
   if (s->join_count > joins) s->join_count = joins;
 }
 

@@ -8,6 +8,7 @@
 #include "contact/pairs.h"
 #include "scene/scene.h"
 #include "scene/strand.h"
+#include "scene/tool.h"
 #include "state/mesh.h"
 #include "system/system.h"
 
@@ -115,7 +116,54 @@ typedef struct sw_drive {
   sw_pose pose;      /* at rest */
   sw_motion *motion; /* NULL = at rest */
   double start;      /* scene time of the motion's zero [s] */
+  size_t tool;       /* 1 + slot of the tool that carries it, in whose frame pose is; 0 = none */
+  sw_vec opens;      /* how it moves in that frame with the jaws' opening [m/m] */
 } sw_drive;
+
+/* The jaws of a tool. Their opening at time t is opening + speed (t - since). */
+typedef struct sw_jaw {
+  int mode;             /* SW_JAW_STILL, ... */
+  int status;           /* SW_JAW_RESTS, ... */
+  double opening;       /* [m] */
+  double since;         /* [s] */
+  double step;          /* the present one [s] */
+  double speed;         /* of this step; below 0 they close [m/s] */
+  double most;          /* highest speed [m/s] */
+  double goal;          /* opening to go to [m] */
+  double force;         /* per finger: wanted, or at which they stop [N] */
+  double now;           /* force per finger of the accepted state [N] */
+  double stiffness;     /* of what they hold, last found; 0 = not known [N/m] */
+  double tried[2];      /* speeds with too little force and with too much [m/s] */
+  double off[2];        /* how far their forces were off; NAN = not tried [N] */
+  int last_side, trials;
+} sw_jaw;
+
+typedef struct sw_tool_pad {
+  size_t obstacle; /* slot */
+  int finger;      /* [-] */
+} sw_tool_pad;
+
+typedef struct sw_frozen sw_frozen; /* what pads held, see frozen.c; shared and immutable */
+void sw_frozen_retain(sw_frozen *frozen);
+void sw_frozen_release(sw_frozen *frozen);
+
+/* What a gripper is to the core: a frame that moves, with jaws and pads in it. */
+typedef struct sw_tool {
+  uint32_t generation;
+  int alive;
+  char name[SW_NAME_SIZE];
+  sw_drive drive;
+  sw_jaw jaw;
+  sw_tool_pad pad[SW_TOOL_PADS];
+  size_t pads;
+  int fingers;
+  sw_frozen *frozen; /* or NULL */
+  double limit;      /* margin at which a frozen grip is lost [-] */
+  sw_tool_state now; /* of the accepted state */
+  double tolerance;  /* slip that is an event [m] */
+  int stops;         /* 1: a run ends with the step in which the wire slips */
+  sw_log log;
+} sw_tool;
 
 /* A hold through which the wire slides. The length paid out at time t is fed + speed
  * (t - since) + motion's x at t - start + slip + slip_speed u + slip_growth u^2 / 2, with
@@ -178,7 +226,8 @@ typedef struct sw_scene_obstacle {
   char name[SW_NAME_SIZE];
   sw_shape *shape;
   sw_drive drive;
-  double friction, restitution;
+  double friction, kinetic, restitution;
+  int off; /* 1: wires pass through it for the time being */
   sw_log log;
 } sw_scene_obstacle;
 
@@ -244,6 +293,8 @@ struct sw_scene {
   size_t hold_count, hold_capacity;
   sw_scene_obstacle *obstacles;
   size_t obstacle_count, obstacle_capacity;
+  sw_tool *tools;
+  size_t tool_count, tool_capacity;
   sw_scene_force *forces;
   size_t force_count, force_capacity;
   sw_scene_join *joins;
@@ -354,6 +405,24 @@ sw_status sw_drive_follow(sw_scene *scene, sw_drive *drive, const char *object, 
                           int relative, sw_error *err);
 void sw_drive_free(sw_drive *drive);
 
+/* --- tools ------------------------------------------------------------------- */
+
+void sw_scene_clear_tool(sw_tool *tool);
+sw_tool *sw_scene_find_tool(const sw_scene *scene, sw_handle h, sw_error *err);
+/* Their jaws at the start of a step of size h; 1: a trial may have to be corrected. After a
+ * trial: 1 = the forces are as wanted, or cannot be. After an accepted one, or one given up. */
+int sw_jaw_begin(sw_scene *scene, double h);
+int sw_jaw_correct(sw_scene *scene);
+void sw_jaw_follow(sw_scene *scene);
+/* How far they are open at time t, and how fast that changes [m], [m/s]. */
+double sw_jaw_at(const sw_jaw *jaw, double t);
+/* Force per finger as of the last trial [N]. */
+double sw_tool_squeeze(const sw_scene *scene, const sw_tool *tool);
+/* What tools hold at the accepted state; their logs. */
+sw_status sw_tool_observe(sw_scene *scene, sw_error *err);
+/* 1: one slipped in the last step that ends a run with it. */
+int sw_tool_slipped(const sw_scene *scene);
+
 /* --- joins ------------------------------------------------------------------- */
 
 /* The living join that has the wire, or NULL. */
@@ -430,6 +499,10 @@ sw_status sw_scene_copy_shape(const sw_scene_hold *from, sw_scene_hold *to);
 /* Take hold of a wire that has other nodes but lies as before; the hold's pose is known.
  * SW_ENOMEM. */
 sw_status sw_scene_rehold(sw_scene *scene, sw_scene_hold *hold, sw_pose pose);
+/* The built system's stiffness at its state, with contact as it presses now: of these obstacles
+ * (count), or NULL: of all. */
+sw_status sw_scene_linearise(sw_scene *scene, const size_t *only, size_t count, sw_error *err);
+
 /* May the wire, as it is given, be in the scene with its forces and rules? */
 sw_status sw_scene_check_rules(const sw_scene *scene, size_t wire, const sw_scene_wire *as,
                                sw_error *err);

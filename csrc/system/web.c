@@ -8,6 +8,7 @@
 #include "base/simd.h"
 #include "solve/band3.h"
 #include "solve/blocks.h"
+#include "system/assemble.h"
 
 /* --- the matrix -------------------------------------------------------------------- */
 
@@ -223,6 +224,19 @@ sw_status sw_web_solve(sw_body *b, double *delta, size_t *negative) {
   b->web_factored = *negative == 0 && !b->web_slow;
   sw_blocks_solve(b->blocks, delta);
   return SW_OK;
+}
+
+sw_status sw_web_deflect(sw_system *s, size_t body, double *load) {
+  sw_body *b = &s->bodies[body];
+  size_t negative;
+  sw_gather_rows(&b->field, 0.0, b->field.rows);
+  sw_web_gather(b);
+  for (size_t i = 0; i < s->held_count; i++)
+    if (s->held[i].body == body) sw_web_hold(&s->held[i], b, load);
+  b->web_factored = 0;
+  const sw_status status = sw_web_solve(b, load, &negative);
+  b->web_factored = 0;
+  return status;
 }
 
 /* --- springs ------------------------------------------------------------------------ */

@@ -1,10 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Grippers with imposed handling: the wire between the pads is one with the
--- gripper and follows its trajectory; force and moment are reported.
+--- Grippers. Three ways to take hold of a wire: "imposed", where the wire between the pads is one
+-- with the gripper and follows its trajectory; "plates", where rigid pads squeeze it and carry it
+-- by friction; "mixed", which squeezes it for real and then carries it as imposed.
 --
---     local left = scene:gripper{ name = "left", pads = { width = 0.02 } }
+--     local left = scene:gripper{ name = "left", pads = { width = 0.02, friction = 0.6 } }
 --     scene:process(function(p)
---       left:grasp(wire, { s = 0.02 })
+--       left:grasp(wire, { s = 0.02, approach = "plates", force = 5 })
 --       left:move{ by = {0.3, 0, 0}, speed = 0.2 }
 --       left:release()
 --     end)
@@ -16,160 +17,91 @@
 -- @module softworld.gripper
 local core = require "softworld.core"
 local build = require "softworld.build"
+local checks = require "softworld.checks"
+local grasp = require "softworld.grasp"
 local keep = require "softworld.keep"
+local measures = require "softworld.gripmeasures"
+local pads = require "softworld.pads"
 local process = require "softworld.process"
 local trajectory = require "softworld.trajectory"
 
 local Gripper = { __name = "gripper" }
 keep.class("gripper", Gripper)
-local approaches = { imposed = true }
+local check_keys, vector = checks.keys, checks.vector
 
-local function check_keys(what, args, known, level)
-  if type(args) ~= "table" then
-    error(("%s takes one table of parameters, got %s"):format(what, type(args)), level)
-  end
-  for key in pairs(args) do
-    if not known[key] then
-      local names = {}
-      for name in pairs(known) do names[#names + 1] = name end
-      table.sort(names)
-      local near = core.nearest(tostring(key), names)
-      error(("%s: there is no parameter '%s'; %s"):format(what, tostring(key), near
-        and ("did you mean '" .. near .. "'?") or "known are: " .. table.concat(names, " ")), level)
-    end
-  end
+for _, part in ipairs{ grasp, measures } do
+  for name, f in pairs(part.methods) do Gripper[name] = f end
 end
 
-local function number(what, value, low, unit, level)
-  if type(value) ~= "number" or not (value >= low and value < math.huge) then
-    error(("%s = %s%s is not allowed; it must be at least %g%s"):format(what, tostring(value),
-      type(value) == "number" and unit or "", low, unit), level)
-  end
-end
+local keys = { name = true, pads = true, at = true, rotation = true, slip_tolerance = true }
 
--- A copy of the vector {x, y, z}.
-local function vector(what, value, level)
-  local copy = {}
-  for k, axis in ipairs{ "x", "y", "z" } do
-    local v = type(value) == "table" and (value[k] or value[axis])
-    if type(v) ~= "number" or v - v ~= 0 then
-      error(("%s must be a table of 3 finite numbers [m]"):format(what), level)
-    end
-    copy[k] = v
-  end
-  return copy
-end
-
---- scene:gripper{ name =, pads = { width = [m] }, at = {x, y, z} [m] }
+--- scene:gripper{ name =, pads = {...}, at = {x, y, z} [m], rotation =, slip_tolerance = [m] }
 -- at is where the tool is while it holds nothing; grasp without s takes the
--- place of the wire nearest to it.
+-- place of the wire nearest to it. See help "gripper" for pads.
 function core.class.scene.gripper(scene, args)
   build.check(scene, "scene:gripper", 3)
   if args == nil then args = {} end
-  check_keys("scene:gripper", args, { name = true, pads = true, at = true }, 3)
-  local pads = args.pads or {}
-  check_keys("scene:gripper: pads", pads, { width = true, friction = true }, 3)
-  if pads.width ~= nil then number("scene:gripper: pads.width", pads.width, 0, " m", 3) end
-  if pads.friction ~= nil then number("scene:gripper: pads.friction", pads.friction, 0, "", 3) end
+  check_keys("scene:gripper", args, keys, 3)
+  local given = pads.check(args.pads or {}, "scene:gripper: pads", 3)
   if args.name ~= nil and type(args.name) ~= "string" then
     error("scene:gripper: name must be a string, got " .. type(args.name), 2)
   end
+  if args.slip_tolerance ~= nil then
+    checks.number("scene:gripper: slip_tolerance", args.slip_tolerance, 0, " m", 3, nil, true)
+  end
+  local at = args.at ~= nil and vector("scene:gripper: at", args.at, "m", 3) or nil
   local data = build.data(scene)
   local self = setmetatable({}, Gripper)
   self.scene = scene
   self.name = build.name(scene, args.name, "gripper", #data.grippers, 3)
-  self.width = pads.width or 0.02
-  self.at = args.at ~= nil and vector("scene:gripper: at", args.at, 3) or nil
+  self.pads, self.width = given, given.width
+  self.at, self.rotation = at, args.rotation
+  self.slip_tolerance = args.slip_tolerance or 1e-4
   self.past = {} -- clamps of earlier grasps, for the series
+  self.events = {} -- what happened: { kind =, time =, s =, ... }
   data.grippers[#data.grippers + 1] = self
   return self
 end
 
+local remembered = { "hold", "at", "rotation", "tool", "wire", "way", "frozen", "on_slip", "opening",
+  "order", "obstacles" }
+
 --- What a snapshot must know of the gripper, and the way back; recall(nil) for
 -- one that was made later.
 function Gripper:remember()
-  return { hold = self.hold, at = self.at, grasps = #self.past }
+  local state = { grasps = #self.past, events = #self.events }
+  for _, key in ipairs(remembered) do state[key] = self[key] end
+  return state
 end
 
 function Gripper:recall(state)
   self.gone = state == nil or nil
-  self.hold, self.at = state and state.hold, state and state.at
+  for _, key in ipairs(remembered) do self[key] = state and state[key] end
   for i = #self.past, (state and state.grasps or 0) + 1, -1 do self.past[i] = nil end
+  for i = #self.events, (state and state.events or 0) + 1, -1 do self.events[i] = nil end
 end
 
-local function needs_scene(self)
-  if self.gone then
-    error(("gripper '%s' was made after the snapshot that was restored; make it anew")
-      :format(self.name), 3)
-  end
-end
-
--- The arc length of the wire nearest to a point.
-local function nearest_place(wire, at)
-  local x, s = wire:positions()
-  local best, place = math.huge, 0
-  for i = 1, #s - 1 do
-    local a, b, t, e = 3 * i - 2, 3 * i + 1, 0, 0
-    for k = 0, 2 do
-      local d = x[b + k] - x[a + k]
-      t, e = t + d * (at[k + 1] - x[a + k]), e + d * d
-    end
-    t = math.max(0, math.min(1, t / e))
-    local d2 = 0
-    for k = 0, 2 do d2 = d2 + (at[k + 1] - x[a + k] - t * (x[b + k] - x[a + k])) ^ 2 end
-    if d2 < best then best, place = d2, s[i] + t * (s[i + 1] - s[i]) end
-  end
-  return place
-end
-
-local function needs_hold(self, verb)
+local function needs_pose(self, verb)
   if getmetatable(self) ~= Gripper then
     error(("gripper:%s is a method: call it with a colon"):format(verb), 3)
   end
-  if not self.hold then
-    error(("gripper '%s' holds nothing; grasp a wire before you %s"):format(self.name, verb), 3)
-  end
   process.guard("gripper:" .. verb)
-end
-
---- Take hold of wire around arc length s [m].
-function Gripper:grasp(wire, args)
-  if args == nil then args = {} end
-  if getmetatable(self) ~= Gripper then error("gripper:grasp: call it with a colon", 2) end
-  needs_scene(self)
-  if core.type(wire) ~= "wire" then
-    error("gripper:grasp expects a wire, got " .. (core.type(wire) or type(wire)), 2)
-  end
-  check_keys("gripper:grasp", args, { s = true, approach = true }, 3)
-  local approach = args.approach or "imposed"
-  if not approaches[approach] then
-    error(("gripper '%s': approach = '%s' is not one of: imposed"):format(self.name,
-      tostring(approach)), 2)
-  end
-  if self.hold then error(("gripper '%s' already holds a wire"):format(self.name), 2) end
-  local s = args.s
-  if s == nil then
-    if not self.at then
-      error(("gripper '%s': give s [m], or the gripper's place at = {x, y, z} [m]")
-        :format(self.name), 2)
-    end
-    s = nearest_place(wire, self.at)
-  end
-  self.hold = build.call(3, self.scene.grip, self.scene, wire, { s = s, width = self.width,
-    name = self.name .. (#self.past > 0 and "#" .. #self.past + 1 or "") })
-  self.past[#self.past + 1] = self.hold
-  return self
+  grasp.check_scene(self, 4)
+  if self.hold and not self.tool then return self.hold end
+  if not self.tool and (self.at or self.rotation) then grasp.make_tool(self, 4) end
+  if self.tool then return self.tool end
+  error(("gripper '%s' holds nothing; grasp a wire before you %s"):format(self.name, verb), 3)
 end
 
 local move_keys = { path = true, points = true, to = true, by = true, rotation = true, scale = true }
 
 -- The trajectory's table for a move from the present pose.
-local function move_table(self, args)
+local function move_table(held, args)
   local t = {}
   for k, v in pairs(args) do
     if not move_keys[k] and k ~= "on_slip" then t[k] = v end
   end
-  local here, facing = self.hold:pose()
+  local here, facing = held:pose()
   here.rotation = facing
   local points = args.points or args.path
   if type(points) == "string" then points = trajectory.read(points, args.scale) end
@@ -177,11 +109,11 @@ local function move_table(self, args)
     error("gripper:move: rotation goes with to; way-points have their own", 3)
   end
   if args.to then
-    local to = vector("gripper:move: to", args.to, 4)
+    local to = vector("gripper:move: to", args.to, "m", 4)
     to.rotation = args.rotation
     points = { here, to }
   elseif args.by then
-    points, t.relative = { { 0, 0, 0 }, vector("gripper:move: by", args.by, 4) }, true
+    points, t.relative = { { 0, 0, 0 }, vector("gripper:move: by", args.by, "m", 4) }, true
   elseif not points and t.turn then
     points, t.relative = { { 0, 0, 0 }, { 0, 0, 0 } }, true
   elseif type(points) == "table" and type(points[1]) == "table" and not t.relative then
@@ -198,19 +130,31 @@ local function move_table(self, args)
 end
 
 --- Move the tool: { path = "file.csv" | points = {...} | to = point | by = vector,
--- speed = [m/s] | duration = [s], law =, blend =, turn = { axis =, angle = [rad] } }.
+-- speed = [m/s] | duration = [s], law =, blend =, turn = { axis =, angle = [rad] }, on_slip = }.
 -- Inside a process it returns when the move is done, elsewhere at once.
 function Gripper:move(args)
-  needs_hold(self, "move")
+  local held = needs_pose(self, "move")
   if type(args) ~= "table" then error("gripper:move takes one table of parameters", 2) end
   if not (args.path or args.points or args.to or args.by or args.turn) then
     error(("gripper '%s': move where? give path, points, to, by or turn"):format(self.name), 2)
   end
-  local motion = build.call(3, core.trajectory, move_table(self, args))
-  local duration = build.call(3, self.hold.follow, self.hold, motion)
+  if args.on_slip ~= nil then grasp.set_on_slip(self, args.on_slip, 3) end
+  local motion = build.call(3, core.trajectory, move_table(held, args))
+  local duration = build.call(3, held.follow, held, motion)
   local p = process.current()
   if p then process.sleep_until(p, self.scene.time + duration) end
   return self
+end
+
+--- Move the tool's centre to a point: move_to({x, y, z}, { speed =, rotation =, ... }).
+function Gripper:move_to(point, args)
+  local t = {}
+  if args ~= nil and type(args) ~= "table" then
+    error("gripper:move_to takes a point and a table of parameters", 2)
+  end
+  for k, v in pairs(args or {}) do t[k] = v end
+  t.to = point
+  return self:move(t)
 end
 
 --- Turn the tool about its centre by angle [rad] around axis.
@@ -222,93 +166,82 @@ function Gripper:rotate(args)
   return self:move(t)
 end
 
-function Gripper:release()
-  needs_hold(self, "release")
-  self.at = self.hold:pose()
-  build.call(3, self.hold.release, self.hold)
-  self.hold = nil
-  return self
+local press_keys = { direction = true, force = true, speed = true, distance = true }
+
+--- Move along direction (default: down) at speed [m/s] until the wire pushes back with force [N],
+-- at most by distance [m]; then stop. Only in a process. Returns the force that was reached and
+-- the way gone; true as a third value when it was the force wanted.
+function Gripper:press(args)
+  local held = needs_pose(self, "press")
+  check_keys("gripper:press", args, press_keys, 3)
+  local p = process.current()
+  if not p then error("gripper:press works inside a process only", 2) end
+  local force = checks.number("gripper:press: force", args.force, 0, " N", 3, nil, true)
+  local speed = checks.number("gripper:press: speed", args.speed or 0.02, 0, " m/s", 3, nil, true)
+  local most = checks.number("gripper:press: distance", args.distance or 0.1, 0, " m", 3, nil, true)
+  local way = vector("gripper:press: direction", args.direction or { 0, 0, -1 }, "-", 3)
+  local length = (way[1] ^ 2 + way[2] ^ 2 + way[3] ^ 2) ^ 0.5
+  if length == 0 then error("gripper:press: direction must not be zero", 2) end
+  for k = 1, 3 do way[k] = way[k] / length end
+  local function pushed() -- the gripper pushes the wire along its way
+    local f = self:force()
+    return f[1] * way[1] + f[2] * way[2] + f[3] * way[3]
+  end
+  local from, start = held:pose(), pushed()
+  held:follow{ points = { { 0, 0, 0 }, { most * way[1], most * way[2], most * way[3] } },
+    relative = true, speed = speed, law = "linear" }
+  local done = p:wait_until(function() return pushed() - start >= force end,
+    { timeout = most / speed })
+  held:follow(nil)
+  local at, gone = held:pose(), 0
+  for k = 1, 3 do gone = gone + (at[k] - from[k]) * way[k] end
+  return pushed() - start, gone, done
 end
 
---- Force on the wire now [N]; zero while nothing is held.
-function Gripper:force()
-  return self.hold and self.hold:force() or { 0, 0, 0 }
+--- Hand the wire over to another gripper, which takes hold with args (see grasp), then let go.
+function Gripper:handover(other, args)
+  if getmetatable(other) ~= Gripper then
+    error("gripper:handover expects the gripper that takes over", 2)
+  end
+  if not self.wire then error(("gripper '%s' holds nothing to hand over"):format(self.name), 2) end
+  if other == self then error(("gripper '%s' cannot hand over to itself"):format(self.name), 2) end
+  local wire = self.wire
+  build.call(3, other.grasp, other, wire, args)
+  build.call(3, self.release, self)
+  return other
 end
 
---- Moment on the wire now, about the tool centre or { at = point } [N m].
-function Gripper:moment(args)
-  return self.hold and self.hold:moment(args) or { 0, 0, 0 }
+--- Let go: jaws open (by pads' opening, at speed [m/s]); in a process it returns when they have.
+function Gripper:release(args)
+  if getmetatable(self) ~= Gripper then
+    error("gripper:release is a method: call it with a colon", 2)
+  end
+  grasp.check_scene(self, 3)
+  if not self.wire then
+    error(("gripper '%s' holds nothing; grasp a wire before you release"):format(self.name), 2)
+  end
+  return grasp.release(self, args)
 end
 
 function Gripper:position()
-  return self.hold and self.hold:pose() or self.at
+  if self.tool then return (self.tool:pose()) end
+  return self.hold and (self.hold:pose()) or self.at
 end
 
--- Every recorded step of every grasp: t, force, moment as three arrays.
-local function records(self)
-  local list = {}
-  for _, hold in ipairs(self.past) do
-    local rows, count = hold:log()
-    for i = 0, count - 1 do
-      local b = 10 * i
-      list[#list + 1] = { t = rows[b + 1], rows[b + 2], rows[b + 3], rows[b + 4], rows[b + 5],
-        rows[b + 6], rows[b + 7] }
-    end
-  end
-  return list
-end
-
-local function norm(r, first) return (r[first] ^ 2 + r[first + 1] ^ 2 + r[first + 2] ^ 2) ^ 0.5 end
-
---- Measures over [t1, t2] [s]: a table with peak_force, mean_force [N],
--- peak_moment, mean_moment [N m], impulse (vector) [N s] and the times of the
--- peaks. Means are over time, of the magnitudes.
-function Gripper:over(t1, t2)
-  t1, t2 = t1 or -math.huge, t2 or math.huge
-  local m = { peak_force = 0, peak_moment = 0, impulse = { 0, 0, 0 }, duration = 0 }
-  local force_time, moment_time, before = 0, 0, nil
-  for _, r in ipairs(records(self)) do
-    if r.t >= t1 and r.t <= t2 then
-      local f, n = norm(r, 1), norm(r, 4)
-      if f > m.peak_force then m.peak_force, m.peak_force_time = f, r.t end
-      if n > m.peak_moment then m.peak_moment, m.peak_moment_time = n, r.t end
-      if before then
-        local h = r.t - before.t
-        m.duration = m.duration + h
-        force_time = force_time + 0.5 * h * (f + norm(before, 1))
-        moment_time = moment_time + 0.5 * h * (n + norm(before, 4))
-        for k = 1, 3 do m.impulse[k] = m.impulse[k] + 0.5 * h * (r[k] + before[k]) end
-      end
-      before = r
-    end
-  end
-  m.mean_force = m.duration > 0 and force_time / m.duration or m.peak_force
-  m.mean_moment = m.duration > 0 and moment_time / m.duration or m.peak_moment
-  return m
-end
-
---- Series of force and moment: { t =, force = {{x, y, z}, ...}, moment = }.
-function Gripper:series()
-  local s = { t = {}, force = {}, moment = {} }
-  for i, r in ipairs(records(self)) do
-    s.t[i], s.force[i], s.moment[i] = r.t, { r[1], r[2], r[3] }, { r[4], r[5], r[6] }
-  end
-  return s
-end
-
-local measures = { peak_force = true, mean_force = true, peak_moment = true, mean_moment = true,
+local shortcuts = { peak_force = true, mean_force = true, peak_moment = true, mean_moment = true,
   impulse = true }
 
 -- Fields that may be nil.
-local fields = { hold = true, at = true, gone = true }
+local fields = { gone = true, slip_event = true }
+for _, key in ipairs(remembered) do fields[key] = true end
 
 function Gripper:__index(key)
-  if measures[key] then return self:over()[key] end
+  if shortcuts[key] then return self:over()[key] end
   local value = Gripper[key]
   if value ~= nil or fields[key] then return value end
   local names = {}
   for name in pairs(Gripper) do names[#names + 1] = name end
-  for name in pairs(measures) do names[#names + 1] = name end
+  for name in pairs(shortcuts) do names[#names + 1] = name end
   local near = core.nearest(tostring(key), names)
   error(("gripper has no '%s'%s"):format(tostring(key),
     near and ("; did you mean '" .. near .. "'?")
@@ -317,18 +250,20 @@ end
 
 --- Names of methods and measures, for completion at the prompt.
 function Gripper.__names()
-  local names = { "name", "width" }
+  local names = { "name", "width", "events" }
   for name in pairs(Gripper) do
     if name:sub(1, 2) ~= "__" and name ~= "remember" and name ~= "recall" then
       names[#names + 1] = name
     end
   end
-  for name in pairs(measures) do names[#names + 1] = name end
+  for name in pairs(shortcuts) do names[#names + 1] = name end
   return names
 end
 
 function Gripper:__tostring()
-  return ("gripper '%s' (%s)"):format(self.name, self.hold and "holding" or "open")
+  local doing = "open"
+  if self.wire then doing = ("holding '%s', %s"):format(self.wire.name, self.way) end
+  return ("gripper '%s' (%s)"):format(self.name, doing)
 end
 
 return Gripper

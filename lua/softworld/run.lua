@@ -3,6 +3,7 @@
 -- @module softworld.run
 local core = require "softworld.core"
 local build = require "softworld.build"
+local grasp = require "softworld.grasp"
 local process = require "softworld.process"
 local number = require "softworld.output.number"
 local refine = require "softworld.refine"
@@ -59,6 +60,8 @@ local function drive(scene, args, total, bar)
     left = left - part.steps
     bar:update(scene.time - start, total.steps)
     if not part.ok then return part.reason end
+    local stopped = grasp.look(scene)
+    if stopped then return stopped end
     if left <= 0 then return "the allowed number of steps was used" end
   end
 end

@@ -198,7 +198,8 @@ local function check_note(note)
   for _, name in ipairs(note.run and totals or {}) do expect(type(note.run[name]) == "number", "run") end
 end
 
-local kinds = { wire = true, particles = true, clamp = true, obstacle = true, force = true, join = true }
+local kinds = { wire = true, particles = true, clamp = true, obstacle = true, force = true, join = true,
+  tool = true }
 
 -- The note, looked through so that nothing that follows from it fails.
 local function note_from(bytes, scene)
@@ -377,7 +378,7 @@ local function all(...) return ... end
 -- What changes a scene must happen inside of steps while these are kept.
 for kind, methods in pairs{ clamp = { "follow", "release", "feed" },
   obstacle = { "follow", "remove" }, force = { "release" }, join = { "release" },
-  wire = { "remodel" } } do
+  wire = { "remodel" }, tool = { "follow", "hold", "pads_on", "jaws", "freeze", "thaw" } } do
   for _, name in ipairs(methods) do
     local method = class[kind][name]
     class[kind][name] = function(object, ...)

@@ -1,0 +1,310 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lua class tool and scene:tool: a gripper's frame, jaws and pads (see scene/tool.h). Users meet
+ * it as scene:gripper. */
+#include <math.h>
+#include <stdio.h>
+
+#include "bind/bind_motion.h"
+#include "bind/child.h"
+
+static const sw_param rows[] = {
+    {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_tool_args, name),
+     "name used in messages"},
+    {"at", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(sw_tool_args, at),
+     "centre"},
+    {"rotation", SW_PARAM_ROTATION, "rad", 0, 0, 0, 0, NULL, offsetof(sw_tool_args, rotation),
+     "orientation"},
+    {"opening", SW_PARAM_NUMBER, "m", 0, 0, 1e3, 0, NULL, offsetof(sw_tool_args, opening),
+     "between facing pads"},
+};
+static const sw_params tool_params = SW_PARAMS("scene:tool", rows);
+
+int lsw_scene_tool(lua_State *L) {
+  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  sw_tool_args args;
+  sw_error err = {""};
+  lua_settop(L, 2);
+  lsw_child *child = lsw_new_child(L, 1, &lsw_class_tool);
+  lsw_arguments(L, 2, "scene:tool", &tool_params, &args);
+  lsw_must(L, sw_scene_add_tool(owner->h.object, &args, &child->id, &err), &err);
+  child->h.object = owner;
+  return 1;
+}
+
+static lsw_child *check(lua_State *L, sw_scene **scene) {
+  return lsw_check_child(L, 1, &lsw_class_tool, scene);
+}
+
+/* tool:pad(obstacle, finger, opens): the obstacle goes with the tool from now on. */
+static int meth_pad(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const lsw_child *t = check(L, &scene);
+  const lsw_child *o = lsw_check_child_of(L, 2, &lsw_class_obstacle, scene, "tool:pad");
+  const lua_Integer finger = luaL_checkinteger(L, 3);
+  luaL_argcheck(L, finger >= 1 && finger <= SW_TOOL_PADS, 3, "finger out of range");
+  const sw_vec opens = lsw_vector(L, 4, "tool:pad: opens", "-");
+  lsw_must(L, sw_scene_tool_pad(scene, t->id, o->id, (int)finger - 1, opens, &err), &err);
+  return 0;
+}
+
+static int meth_hold(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const lsw_child *t = check(L, &scene);
+  const lsw_child *h = lsw_check_child_of(L, 2, &lsw_class_clamp, scene, "tool:hold");
+  lsw_must(L, sw_scene_tool_hold(scene, t->id, h->id, &err), &err);
+  return 0;
+}
+
+static int meth_pads_on(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const lsw_child *t = check(L, &scene);
+  luaL_checktype(L, 2, LUA_TBOOLEAN);
+  lsw_must(L, sw_scene_tool_pads_on(scene, t->id, lua_toboolean(L, 2), &err), &err);
+  return 0;
+}
+
+static int meth_follow(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const lsw_child *t = check(L, &scene);
+  luaL_checkany(L, 2);
+  sw_motion *motion = lua_isnil(L, 2) ? NULL : lsw_motion_from(L, 2, "gripper:move");
+  const sw_status status = sw_scene_tool_follow(scene, t->id, motion, 0, &err);
+  lua_pushnumber(L, motion ? sw_motion_end(motion) : 0.0);
+  sw_motion_release(motion);
+  lsw_must(L, status, &err);
+  return 1;
+}
+
+static int meth_pose(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_pose pose;
+  const lsw_child *t = check(L, &scene);
+  if (lua_gettop(L) > 1) {
+    pose.p = lsw_vector(L, 2, "tool:pose: position", "m");
+    pose.q = lsw_rotation(L, 3, "tool:pose: rotation");
+    lsw_must(L, sw_scene_tool_set_pose(scene, t->id, pose, &err), &err);
+    return 0;
+  }
+  lsw_must(L, sw_scene_tool_pose(scene, t->id, &pose, &err), &err);
+  lsw_push_vector(L, pose.p);
+  lsw_push_quaternion(L, pose.q);
+  return 2;
+}
+
+static const char *const modes[] = {"still", "to", "force", NULL};
+static const sw_param jaw_rows[] = {
+    {"mode", SW_PARAM_CHOICE, "-", 0, 0, 0, SW_PARAM_REQUIRED, modes, offsetof(sw_jaw_args, mode),
+     "stay; go to an opening; close to a force and keep it"},
+    {"opening", SW_PARAM_NUMBER, "m", 0, 0, 1e3, 0, NULL, offsetof(sw_jaw_args, opening),
+     "to go to"},
+    {"speed", SW_PARAM_NUMBER, "m/s", 0, 0, 1e3, 0, NULL, offsetof(sw_jaw_args, speed),
+     "highest, of the opening"},
+    {"force", SW_PARAM_NUMBER, "N", HUGE_VAL, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(sw_jaw_args, force), "per finger: wanted, or at which jaws stop"},
+};
+static const sw_params jaw_params = SW_PARAMS("tool:jaws", jaw_rows);
+
+static int meth_jaws(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_jaw_args args;
+  const lsw_child *t = check(L, &scene);
+  lsw_arguments(L, 2, "tool:jaws", &jaw_params, &args);
+  lsw_must(L, sw_scene_tool_jaws(scene, t->id, &args, &err), &err);
+  return 0;
+}
+
+/* tool:watch(slip [m], stops): slip beyond it is an event, which may end a run. */
+static int meth_watch(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const lsw_child *t = check(L, &scene);
+  const double slip = lsw_number(L, 2, "tool:watch: slip", "m");
+  lsw_must(L, sw_scene_tool_watch(scene, t->id, slip, lua_toboolean(L, 3), &err), &err);
+  return 0;
+}
+
+static const char *const statuses[] = {"rests", "moves", "holds", "stopped", "empty"};
+
+/* tool:state() -> { opening, jaws, squeeze, normal, margin, sliding, slip, slipped, place } and,
+ * when it slipped, slip_time, slip_place. */
+static int meth_state(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_tool_state now;
+  const lsw_child *t = check(L, &scene);
+  lsw_must(L, sw_scene_tool_state(scene, t->id, &now, &err), &err);
+  lua_createtable(L, 0, 12);
+  lua_pushstring(L, statuses[now.status]);
+  lua_setfield(L, -2, "jaws");
+  lsw_set_number(L, "opening", now.opening);
+  lsw_set_number(L, "squeeze", now.squeeze);
+  lsw_set_number(L, "normal", now.normal);
+  lsw_set_number(L, "most", now.most);
+  lsw_set_number(L, "margin", now.margin);
+  lsw_set_number(L, "sliding", now.sliding);
+  lsw_set_number(L, "slip", now.slip);
+  lsw_set_vector(L, "slipped", now.slipped);
+  lsw_set_number(L, "place", now.place);
+  lua_pushboolean(L, now.frozen);
+  lua_setfield(L, -2, "frozen");
+  if (!isnan(now.lost_time)) lsw_set_number(L, "lost_time", now.lost_time);
+  if (isnan(now.slip_time)) return 1;
+  lsw_set_number(L, "slip_time", now.slip_time);
+  lsw_set_number(L, "slip_place", now.slip_place);
+  return 1;
+}
+
+/* tool:force([finger]), tool:moment([point [, finger]]): on wires [N], [N m]. */
+static void force_of(lua_State *L, int point, int finger, sw_vec *force, sw_vec *moment) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_vec about;
+  const lsw_child *t = check(L, &scene);
+  const sw_vec *at = NULL;
+  if (point && !lua_isnoneornil(L, point)) {
+    about = lsw_vector(L, point, "gripper:moment: at", "m");
+    at = &about;
+  }
+  const sw_status status =
+      lua_isnoneornil(L, finger)
+          ? sw_scene_tool_force(scene, t->id, at, force, moment, &err)
+          : sw_scene_tool_finger(scene, t->id, (int)luaL_checkinteger(L, finger) - 1, at, force,
+                                 moment, &err);
+  lsw_must(L, status, &err);
+}
+
+static int meth_force(lua_State *L) {
+  sw_vec force, moment;
+  force_of(L, 0, 2, &force, &moment);
+  lsw_push_vector(L, force);
+  return 1;
+}
+
+static int meth_moment(lua_State *L) {
+  sw_vec force, moment;
+  force_of(L, 2, 3, &force, &moment);
+  lsw_push_vector(L, moment);
+  return 1;
+}
+
+/* tool:log() -> flat rows of 14: t, force, moment, centre, opening, squeeze, margin, slip;
+ * number of rows. */
+static int meth_log(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const double *values;
+  size_t count;
+  const lsw_child *t = check(L, &scene);
+  lsw_must(L, sw_scene_tool_log(scene, t->id, &values, &count, &err), &err);
+  lsw_push_flat(L, values, count * SW_LOG_TOOL_SIZE);
+  lua_pushinteger(L, (lua_Integer)count);
+  return 2;
+}
+
+/* tool:touches() -> { { finger, at, force (in the tool's axes), normal, s }, ... } */
+static int meth_touches(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  size_t count;
+  lua_Integer found = 0;
+  const lsw_child *t = check(L, &scene);
+  lsw_must(L, sw_scene_tool_touches(scene, t->id, &count, &err), &err);
+  lua_newtable(L);
+  for (size_t k = 0; k < count; k++) {
+    sw_tool_touch touch;
+    if (!sw_scene_tool_touch(scene, t->id, k, &touch)) continue;
+    lua_createtable(L, 0, 5);
+    lsw_set_integer(L, "finger", (size_t)touch.finger + 1);
+    lsw_set_vector(L, "at", touch.at);
+    lsw_set_vector(L, "force", touch.force);
+    lsw_set_number(L, "normal", touch.normal);
+    lsw_set_number(L, "s", touch.s);
+    lua_rawseti(L, -2, ++found);
+  }
+  return 1;
+}
+
+static void push_momentum(lua_State *L, const char *name, const double p[6]) {
+  lua_createtable(L, 0, 2);
+  lsw_set_vector(L, "linear", sw_load(p));
+  lsw_set_vector(L, "angular", sw_load(p + 3));
+  lua_setfield(L, -2, name);
+}
+
+static int push_report(lua_State *L, const sw_freeze_report *r) {
+  lua_createtable(L, 0, 8);
+  lsw_set_number(L, "s1", r->s1);
+  lsw_set_number(L, "s2", r->s2);
+  lsw_set_number(L, "energy_before", r->energy_before);
+  lsw_set_number(L, "energy_after", r->energy_after);
+  lsw_set_vector(L, "force", r->force);
+  lsw_set_vector(L, "moment", r->moment);
+  push_momentum(L, "before", r->before);
+  push_momentum(L, "after", r->after);
+  return 1;
+}
+
+/* tool:freeze(wire), tool:thaw() -> { s1, s2 [m], energy_before, energy_after [J], force [N], moment
+ * [N m] of the tool before, before, after = momentum { linear, angular } } */
+static int meth_freeze(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_freeze_report r;
+  const lsw_child *t = check(L, &scene);
+  const lsw_child *w = lsw_check_child_of(L, 2, &lsw_class_wire, scene, "tool:freeze");
+  lsw_must(L, sw_scene_tool_freeze(scene, t->id, w->id, &r, &err), &err);
+  return push_report(L, &r);
+}
+
+static int meth_thaw(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_freeze_report r;
+  const lsw_child *t = check(L, &scene);
+  lsw_must(L, sw_scene_tool_thaw(scene, t->id, &r, &err), &err);
+  return push_report(L, &r);
+}
+
+/* tool:limit(margin): at which a frozen grip is lost. */
+static int meth_limit(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const lsw_child *t = check(L, &scene);
+  const double margin = lsw_number(L, 2, "tool:limit: margin", "-");
+  lsw_must(L, sw_scene_tool_limit(scene, t->id, margin, &err), &err);
+  return 0;
+}
+
+static const luaL_Reg methods[] = {
+    {"pad", meth_pad},     {"hold", meth_hold},   {"pads_on", meth_pads_on},
+    {"follow", meth_follow}, {"pose", meth_pose},   {"jaws", meth_jaws},
+    {"watch", meth_watch}, {"state", meth_state}, {"force", meth_force},
+    {"moment", meth_moment}, {"log", meth_log},
+    {"touches", meth_touches}, {"freeze", meth_freeze}, {"thaw", meth_thaw},
+    {"limit", meth_limit},   {NULL, NULL}};
+
+static int meta_describe(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *t = lsw_find_child(L, &lsw_class_tool, &scene);
+  if (!t) return 1;
+  const char *name = sw_scene_tool_name(scene, t->id);
+  if (name)
+    lua_pushfstring(L, "tool '%s'", name);
+  else
+    lua_pushstring(L, "tool (taken back when a snapshot was restored)");
+  return 1;
+}
+
+static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
+
+const lsw_class lsw_class_tool = {.name = "tool",
+                                  .size = sizeof(lsw_child),
+                                  .methods = methods,
+                                  .meta = meta,
+                                  .gone = "this tool was never made"};

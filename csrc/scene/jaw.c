@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Jaws of tools in a step. Their opening changes evenly within it. With a force to be reached
+ * or not to be exceeded, the speed of the step is the one for which the fingers' force at its
+ * end is as wanted, found by false position between a speed with too little force and one with
+ * too much, like feeds that yield to a force (see slip.c). */
+#include <math.h>
+
+#include "scene/world.h"
+
+static const double PRECISION = 1e-3; /* of the force wanted [-] */
+static const double REACHED = 0.02;   /* so far below it the force counts as reached [-] */
+enum { MOST_TRIALS = 10 };            /* the last one is then taken as it is [-] */
+static const double SAME_OPENING = 1e-9; /* at a step's end [m] */
+static const double TELLS = 1e-7; /* forces at openings nearer to each other tell no stiffness [m] */
+static const double BEYOND = 1.3; /* a guess goes so much further than the slope says [-] */
+static const double WIDER = 4.0;  /* and so many times as far with every trial that is too short [-] */
+
+double sw_jaw_at(const sw_jaw *j, double t) { return j->opening + j->speed * (t - j->since); }
+
+/* May this step end with another force than the one that comes with its first guess? */
+static int yields(const sw_jaw *j) {
+  if (j->mode == SW_JAW_STILL || !(j->force < HUGE_VAL)) return 0;
+  return j->mode == SW_JAW_FORCE || j->goal < j->opening;
+}
+
+/* The speed at which this step ends with the opening, within what is allowed. */
+static double speed_to(const sw_jaw *j, double opening) {
+  return fmax(-j->most, fmin(j->most, (opening - j->opening) / j->step));
+}
+
+static double first_guess(const sw_jaw *j) {
+  if (j->mode == SW_JAW_STILL) return 0;
+  if (j->mode == SW_JAW_TO) return speed_to(j, j->goal);
+  if (j->status != SW_JAW_HOLDS || !(j->stiffness > 0)) return speed_to(j, 0);
+  return speed_to(j, fmax(0.0, j->opening + (j->now - j->force) / j->stiffness));
+}
+
+int sw_jaw_begin(sw_scene *s, double h) {
+  int any = 0;
+  for (size_t k = 0; k < s->tool_count; k++) {
+    sw_jaw *j = &s->tools[k].jaw;
+    j->since = s->time;
+    j->step = h;
+    const int works = s->tools[k].alive && !s->tools[k].frozen;
+    j->speed = works && h > 0 ? first_guess(j) : 0.0;
+    j->off[0] = j->off[1] = NAN;
+    j->last_side = -1;
+    j->trials = 0;
+    if (!works || !yields(j)) continue;
+    any = 1;
+    if (j->now < j->force) j->tried[0] = 0, j->off[0] = j->now - j->force;
+  }
+  return any;
+}
+
+/* A speed on the other side than the last one, which gave off too much force. */
+static double guess_beyond(const sw_jaw *j, double off) {
+  if (!(j->stiffness > 0)) return off > 0 ? j->most : speed_to(j, 0);
+  const double way = BEYOND * pow(WIDER, j->trials - 1) * off / j->stiffness;
+  return speed_to(j, fmax(0.0, j->opening + j->speed * j->step + way));
+}
+
+/* The next speed to try. Returns 1 when both sides are one place: the force jumps there. */
+static int improve(sw_jaw *j, double off) {
+  const int side = off > 0;
+  if (isfinite(j->off[!side]) && (j->speed - j->tried[!side]) * (side ? 1 : -1) >= 0)
+    j->off[!side] = NAN; /* that was a guess, and a wrong one */
+  j->tried[side] = j->speed, j->off[side] = off;
+  if (!isfinite(j->off[!side])) {
+    const double before = j->speed;
+    j->speed = guess_beyond(j, off);
+    return j->speed == before;
+  }
+  const double gap = j->tried[0] - j->tried[1];
+  if (gap * j->step < SAME_OPENING) return 1;
+  if (j->trials > 1 && gap * j->step > TELLS) j->stiffness = (j->off[1] - j->off[0]) / (gap * j->step);
+  if (j->last_side == side) j->off[!side] *= 0.5;
+  j->last_side = side;
+  j->speed = j->tried[0] - gap * j->off[0] / (j->off[0] - j->off[1]);
+  return 0;
+}
+
+/* 1: the trial's force is as wanted, or nothing can be done about it in this step. */
+static int correct(const sw_scene *s, sw_tool *t) {
+  sw_jaw *j = &t->jaw;
+  const double off = sw_tool_squeeze(s, t) - j->force;
+  if (fabs(off) <= PRECISION * j->force || ++j->trials >= MOST_TRIALS) return 1;
+  const int approaches = j->status != SW_JAW_HOLDS && j->trials == 1;
+  if (off < 0 && (approaches || j->speed <= speed_to(j, 0))) return 1;
+  if (off > 0 && j->speed >= j->most) return 1;
+  return improve(j, off);
+}
+
+int sw_jaw_correct(sw_scene *s) {
+  int good = 1;
+  for (size_t k = 0; k < s->tool_count; k++)
+    if (s->tools[k].alive && !s->tools[k].frozen && yields(&s->tools[k].jaw)) good &= correct(s, &s->tools[k]);
+  return good;
+}
+
+/* What has become of what they were told. */
+static void judge(sw_jaw *j) {
+  const int reached = j->now >= (1.0 - REACHED) * j->force;
+  if (j->mode == SW_JAW_FORCE) {
+    if (reached)
+      j->status = SW_JAW_HOLDS;
+    else if (j->opening <= 0)
+      j->status = SW_JAW_EMPTY;
+    else if (!(j->now > 0))
+      j->status = SW_JAW_MOVES; /* what they held is gone */
+  }
+  if (j->mode != SW_JAW_TO) return;
+  if (reached && j->goal < j->opening)
+    j->status = SW_JAW_STOPPED;
+  else if (j->opening == j->goal)
+    j->status = SW_JAW_RESTS;
+  if (j->status != SW_JAW_MOVES) j->mode = SW_JAW_STILL;
+}
+
+/* Changes of force below this share of the one wanted tell no stiffness [-]. */
+static const double TELLING = 0.05;
+
+static void follow(const sw_scene *s, sw_tool *t) {
+  sw_jaw *j = &t->jaw;
+  const double before = j->opening, force = j->now;
+  const double end = sw_jaw_at(j, s->time);
+  const int there = j->mode == SW_JAW_TO && fabs(end - j->goal) < SAME_OPENING;
+  j->opening = there ? j->goal : fmax(0.0, end);
+  j->since = s->time;
+  j->now = sw_tool_squeeze(s, t);
+  const double k = (j->now - force) / (before - j->opening);
+  const int tells = force > 0 && fabs(j->now - force) > TELLING * j->force &&
+                    fabs(before - j->opening) > TELLS;
+  if (tells && k > 0 && k < HUGE_VAL) j->stiffness = k;
+  if (j->mode == SW_JAW_STILL) j->speed = 0;
+  judge(j);
+}
+
+void sw_jaw_follow(sw_scene *s) {
+  for (size_t k = 0; k < s->tool_count; k++)
+    if (s->tools[k].alive && s->tools[k].frozen)
+      s->tools[k].jaw.since = s->time;
+    else if (s->tools[k].alive)
+      follow(s, &s->tools[k]);
+}

@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Momentum of a wire whose model changes: measured before, made the same afterwards. */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "scene/remodel_inner.h"
+
+/* Momentum of velocities v and its moment about a point: out, 6 numbers [N s], [N m s]. */
+static void momentum(const sw_plan *p, const double *x, const double *v, sw_vec about,
+                     double out[6]) {
+  sw_vec P = sw_v(0, 0, 0), L = sw_v(0, 0, 0);
+  for (size_t i = 0; i < p->nodes; i++) {
+    sw_vec m = sw_scale(sw_vec_at(v, i), p->mass_own[i]);
+    if (i > 0) m = sw_madd(m, sw_vec_at(v, i - 1), p->mass_next[i - 1]);
+    if (i + 1 < p->nodes) m = sw_madd(m, sw_vec_at(v, i + 1), p->mass_next[i]);
+    P = sw_add(P, m);
+    L = sw_add(L, sw_cross(sw_sub(sw_vec_at(x, i), about), m));
+  }
+  sw_store(out, P);
+  sw_store(out + 3, L);
+}
+
+/* Solves A y = b by elimination with full pivoting; directions in which A all but vanishes get
+ * nothing. */
+static void solve6(double A[6][6], double b[6], double y[6]) {
+  static const double LEAST = 1e-10; /* of the largest pivot [-] */
+  size_t column[6] = {0, 1, 2, 3, 4, 5}, rank = 0;
+  double most = 0;
+  for (; rank < 6; rank++) {
+    size_t pi = rank, pj = rank;
+    for (size_t i = rank; i < 6; i++)
+      for (size_t j = rank; j < 6; j++)
+        if (fabs(A[i][j]) > fabs(A[pi][pj])) pi = i, pj = j;
+    if (rank == 0) most = fabs(A[pi][pj]);
+    if (!(fabs(A[pi][pj]) > LEAST * most)) break;
+    for (size_t j = 0; j < 6; j++) {
+      const double t = A[rank][j];
+      A[rank][j] = A[pi][j], A[pi][j] = t;
+    }
+    const double t = b[rank];
+    b[rank] = b[pi], b[pi] = t;
+    for (size_t i = 0; i < 6; i++) {
+      const double u = A[i][rank];
+      A[i][rank] = A[i][pj], A[i][pj] = u;
+    }
+    const size_t c = column[rank];
+    column[rank] = column[pj], column[pj] = c;
+    for (size_t i = rank + 1; i < 6; i++) {
+      const double f = A[i][rank] / A[rank][rank];
+      for (size_t j = rank; j < 6; j++) A[i][j] -= f * A[rank][j];
+      b[i] -= f * b[rank];
+    }
+  }
+  memset(y, 0, 6 * sizeof *y);
+  for (size_t i = rank; i-- > 0;) {
+    double sum = b[i];
+    for (size_t j = i + 1; j < rank; j++) sum -= A[i][j] * y[column[j]];
+    y[column[i]] = sum / A[i][i];
+  }
+}
+
+/* A rigid motion of what is free: number k < 3 shifts, else turns about a point; the turn's
+ * speed is that at a distance. */
+static void rigid(const sw_plan *p, const double *x, sw_vec about, double distance, size_t k,
+                  double *v) {
+  const sw_vec unit = sw_v(k % 3 == 0, k % 3 == 1, k % 3 == 2);
+  for (size_t i = 0; i < p->nodes; i++) {
+    const sw_vec arm = sw_scale(sw_sub(sw_vec_at(x, i), about), 1.0 / distance);
+    const sw_vec at = k < 3 ? unit : sw_cross(unit, arm);
+    sw_store(v + 3 * i, p->held[i] == SW_FREE ? at : sw_v(0, 0, 0));
+  }
+}
+
+/* Give the built wire the momentum wanted. */
+sw_status sw_momentum_match(sw_scene *s, size_t wire, sw_vec about, const double wanted[6]) {
+  const sw_body *b = &s->system.bodies[wire];
+  const double *x = s->system.x + 3 * b->first_node, size = b->plan->length;
+  double *v = s->system.v + 3 * b->first_node, A[6][6], off[6], now[6], y[6], column[6];
+  double *field = sw_alloc(3 * b->plan->nodes, sizeof *field);
+  if (!field) return SW_ENOMEM;
+  momentum(b->plan, x, v, about, now);
+  for (size_t k = 0; k < 6; k++) {
+    rigid(b->plan, x, about, size, k, field);
+    momentum(b->plan, x, field, about, column);
+    for (size_t i = 0; i < 6; i++) A[i][k] = column[i] / (i < 3 ? 1.0 : size);
+    off[k] = (wanted[k] - now[k]) / (k < 3 ? 1.0 : size);
+  }
+  solve6(A, off, y);
+  for (size_t k = 0; k < 6; k++) {
+    rigid(b->plan, x, about, size, k, field);
+    for (size_t i = 0; i < 3 * b->plan->nodes; i++) v[i] += y[k] * field[i];
+  }
+  sw_free(field);
+  return SW_OK;
+}
+
+void sw_momentum_of(const sw_scene *s, size_t wire, sw_vec *about, double out[6]) {
+  const sw_body *b = &s->system.bodies[wire];
+  const double *x = s->system.x + 3 * b->first_node;
+  double mass = 0;
+  sw_vec sum = sw_v(0, 0, 0);
+  for (size_t i = 0; i < b->plan->nodes; i++) {
+    sum = sw_madd(sum, sw_vec_at(x, i), b->plan->lumped[i]);
+    mass += b->plan->lumped[i];
+  }
+  *about = sw_scale(sum, 1.0 / mass);
+  momentum(b->plan, x, s->system.v + 3 * b->first_node, *about, out);
+}
+
+void sw_momentum_about(const sw_scene *s, size_t wire, sw_vec about, double out[6]) {
+  const sw_body *b = &s->system.bodies[wire];
+  const size_t at = 3 * b->first_node;
+  momentum(b->plan, s->system.x + at, s->system.v + at, about, out);
+}
+
+double sw_scene_total_energy(sw_scene *s, sw_error *err) {
+  sw_energy e;
+  double sum = 0;
+  if (sw_scene_energy(s, &e, err) != SW_OK) return (double)NAN;
+  for (size_t k = 0; k < e.count; k++) sum += e.value[k];
+  return sum;
+}

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tools: what a gripper is to the core. A frame that moves, jaws that open and close in it,
+ * and pads: obstacles that move with the frame, and apart with the jaws. */
+#ifndef SW_SCENE_TOOL_H
+#define SW_SCENE_TOOL_H
+
+#include "scene/scene.h"
+
+enum { SW_TOOL_PADS = 16 }; /* most obstacles of a tool [-] */
+
+typedef struct sw_tool_args {
+  char name[SW_NAME_SIZE];
+  sw_vec at;        /* [m] */
+  sw_quat rotation; /* [-] */
+  double opening;   /* between facing pads [m] */
+} sw_tool_args;
+
+sw_status sw_scene_add_tool(sw_scene *scene, const sw_tool_args *args, sw_handle *out,
+                            sw_error *err);
+/* From now on the obstacle, where it is, goes with the tool. opens: how it moves in the tool's
+ * axes while the opening grows [m/m]. finger: forces of the same number are one finger's. */
+sw_status sw_scene_tool_pad(sw_scene *scene, sw_handle tool, sw_handle obstacle, int finger,
+                            sw_vec opens, sw_error *err);
+/* From now on the hold goes with the tool; its force counts as the tool's. */
+sw_status sw_scene_tool_hold(sw_scene *scene, sw_handle tool, sw_handle hold, sw_error *err);
+/* Wires pass through the pads (on: 0), or do not. */
+sw_status sw_scene_tool_pads_on(sw_scene *scene, sw_handle tool, int on, sw_error *err);
+
+sw_status sw_scene_tool_follow(sw_scene *scene, sw_handle tool, sw_motion *motion, int relative,
+                               sw_error *err);
+sw_status sw_scene_tool_pose(sw_scene *scene, sw_handle tool, sw_pose *out, sw_error *err);
+sw_status sw_scene_tool_set_pose(sw_scene *scene, sw_handle tool, sw_pose pose, sw_error *err);
+
+enum {
+  SW_JAW_STILL, /* stay */
+  SW_JAW_TO,    /* go to an opening, unless a force stops them */
+  SW_JAW_FORCE  /* close until there is a force, and keep it */
+};
+enum {
+  SW_JAW_RESTS,
+  SW_JAW_MOVES,
+  SW_JAW_HOLDS,  /* with the force that is wanted */
+  SW_JAW_STOPPED, /* by the force that was allowed */
+  SW_JAW_EMPTY   /* closed, without the force wanted */
+};
+typedef struct sw_jaw_args {
+  int mode;
+  double opening; /* [m] */
+  double speed;   /* highest, of the opening [m/s] */
+  double force;   /* per finger; INFINITY = none [N] */
+} sw_jaw_args;
+sw_status sw_scene_tool_jaws(sw_scene *scene, sw_handle tool, const sw_jaw_args *args,
+                             sw_error *err);
+
+/* What a change between pads and a rigid grip did. */
+typedef struct sw_freeze_report {
+  sw_handle hold;                       /* of the frozen wire [-] */
+  double s1, s2;                        /* held interval [m] */
+  double energy_before, energy_after;   /* of the scene [J] */
+  double before[6], after[6];           /* momentum and its moment [N s], [N m s] */
+  sw_vec force, moment;                 /* of the tool before, about its centre [N], [N m] */
+} sw_freeze_report;
+
+/* The wire, a mesh between the tool's pads, becomes a rod that the tool holds rigidly where the
+ * pads press on it; its deformed sections are kept. Pads no longer touch it. SW_EINVAL when
+ * they do not press on a mesh. */
+sw_status sw_scene_tool_freeze(sw_scene *scene, sw_handle tool, sw_handle wire,
+                               sw_freeze_report *out, sw_error *err);
+/* Back again: the mesh as it was between the pads, with their friction; elsewhere as the rod lies. */
+sw_status sw_scene_tool_thaw(sw_scene *scene, sw_handle tool, sw_freeze_report *out, sw_error *err);
+/* Friction over what the pads allow at which a frozen grip counts as lost, and a run ends with
+ * that step [-]. */
+sw_status sw_scene_tool_limit(sw_scene *scene, sw_handle tool, double margin, sw_error *err);
+
+/* What the tool holds now. */
+typedef struct sw_tool_state {
+  double opening;      /* [m] */
+  int status;          /* of the jaws */
+  double squeeze;      /* force per finger against opening [N] */
+  double normal, most; /* forces across the pads, friction that they allow [N] */
+  double margin;       /* friction over that; 0 without any [-] */
+  double sliding;      /* share of the force that slides [-] */
+  double slip;         /* way that wires slid since the jaws were told what to do, as a vector's
+                          length [m] */
+  sw_vec slipped;      /* that vector, of wires in the tool's axes [m] */
+  sw_vec centre;       /* of the tool [m] */
+  sw_quat q;           /* its orientation [-] */
+  double place;        /* arc length between the pads [m] */
+  double slip_time, slip_place; /* when and where that became more than is tolerated; NAN = it
+                                   did not [s], [m] */
+  int frozen;                   /* 1: by a rigid grip that stands for the pads */
+  double lost_time;             /* when the margin of a frozen grip was used up; NAN = it is not [s] */
+} sw_tool_state;
+sw_status sw_scene_tool_state(sw_scene *scene, sw_handle tool, sw_tool_state *out, sw_error *err);
+/* Slip that is an event [m]; stops: a run ends with that step. Slip counts from now on. */
+sw_status sw_scene_tool_watch(sw_scene *scene, sw_handle tool, double tolerance, int stops,
+                              sw_error *err);
+/* Force on wires by pads and holds and its moment about a point; NULL: the tool's
+ * centre [N], [N m]. */
+sw_status sw_scene_tool_force(sw_scene *scene, sw_handle tool, const sw_vec *about, sw_vec *force,
+                              sw_vec *moment, sw_error *err);
+/* The same of its pads of one finger. */
+sw_status sw_scene_tool_finger(sw_scene *scene, sw_handle tool, int finger, const sw_vec *about,
+                               sw_vec *force, sw_vec *moment, sw_error *err);
+
+/* A place where a pad presses on a wire. */
+typedef struct sw_tool_touch {
+  int finger;
+  sw_vec at;     /* in the tool's axes [m] */
+  sw_vec force;  /* on the wire, in them [N] */
+  double normal; /* part of it across the surface [N] */
+  double s;      /* arc length [m] */
+} sw_tool_touch;
+/* How many touches pads have; number k of all touches there are: 0 = not one of a pad's with a
+ * force. */
+sw_status sw_scene_tool_touches(sw_scene *scene, sw_handle tool, size_t *count, sw_error *err);
+int sw_scene_tool_touch(const sw_scene *scene, sw_handle tool, size_t k, sw_tool_touch *out);
+
+/* Rows as of holds (see SW_LOG_SIZE), and opening, squeeze, margin, slip. */
+enum {
+  SW_LOG_OPENING = SW_LOG_SIZE,
+  SW_LOG_SQUEEZE,
+  SW_LOG_MARGIN,
+  SW_LOG_SLIP,
+  SW_LOG_TOOL_SIZE
+};
+sw_status sw_scene_tool_log(sw_scene *scene, sw_handle tool, const double **rows, size_t *count,
+                            sw_error *err);
+/* NULL when the scene does not know it any more. */
+const char *sw_scene_tool_name(const sw_scene *scene, sw_handle tool);
+
+#endif

@@ -1,0 +1,64 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Checks of what users hand in: known keys, numbers in range, vectors. Levels count as in
+-- error(), from the function that calls the check.
+-- @module softworld.checks
+local core = require "softworld.core"
+
+local checks = {}
+
+local function names_of(known)
+  local names = {}
+  for name in pairs(known) do names[#names + 1] = name end
+  table.sort(names)
+  return names
+end
+
+--- Raise unless args is a table with keys that are known.
+function checks.keys(what, args, known, level)
+  if type(args) ~= "table" then
+    error(("%s takes one table of parameters, got %s"):format(what, type(args)), level)
+  end
+  for key in pairs(args) do
+    if not known[key] then
+      local names = names_of(known)
+      local near = core.nearest(tostring(key), names)
+      error(("%s: there is no parameter '%s'; %s"):format(what, tostring(key), near
+        and ("did you mean '" .. near .. "'?") or "known are: " .. table.concat(names, " ")), level)
+    end
+  end
+end
+
+--- Raise unless value is a number from low to high (default: any); above: low itself is not allowed.
+function checks.number(what, value, low, unit, level, high, above)
+  local fine = type(value) == "number" and value >= low and value < math.huge
+    and not (above and value == low) and not (high and value > high)
+  if fine then return value end
+  local range = ("%s %g%s"):format(above and "above" or "at least", low, unit)
+  if high then range = ("%s and at most %g%s"):format(range, high, unit) end
+  error(("%s = %s%s is not allowed; it must be %s"):format(what, tostring(value),
+    type(value) == "number" and unit or "", range), level)
+end
+
+--- One of the words in known (a table with them as keys).
+function checks.word(what, value, known, level)
+  if known[value] then return value end
+  local names = names_of(known)
+  local near = type(value) == "string" and core.nearest(value, names)
+  error(("%s = '%s' is not one of: %s%s"):format(what, tostring(value), table.concat(names, " "),
+    near and ("; did you mean '%s'?"):format(near) or ""), level)
+end
+
+--- A copy of the vector {x, y, z}.
+function checks.vector(what, value, unit, level)
+  local copy = {}
+  for k, axis in ipairs{ "x", "y", "z" } do
+    local v = type(value) == "table" and (value[k] or value[axis])
+    if type(v) ~= "number" or v - v ~= 0 then
+      error(("%s must be a table of 3 finite numbers [%s]"):format(what, unit), level)
+    end
+    copy[k] = v
+  end
+  return copy
+end
+
+return checks

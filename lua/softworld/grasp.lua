@@ -1,0 +1,345 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- How grippers take hold of a wire and let go: imposed, by plates, or mixed.
+-- @module softworld.grasp
+local core = require "softworld.core"
+local build = require "softworld.build"
+local checks = require "softworld.checks"
+local mixed = require "softworld.mixed"
+local pads = require "softworld.pads"
+local process = require "softworld.process"
+local vec = require "softworld.vec"
+
+local grasp = { methods = {} }
+local Methods = grasp.methods
+
+local approaches = { imposed = true, plates = true, mixed = true }
+local JAW_SPEED = 0.02 -- of the opening, unless told [m/s]
+local PATIENCE = 2 -- a force is waited for so long after jaws could have closed [s]
+local CRUSHED = 0.2 -- opening over the wire's diameter at which it is [-]
+
+--- Raise when the gripper was taken back with a snapshot.
+function grasp.check_scene(self, level)
+  if self.gone then
+    error(("gripper '%s' was made after the snapshot that was restored; make it anew")
+      :format(self.name), level)
+  end
+  build.check(self.scene, "gripper '" .. self.name .. "'", level + 1)
+end
+
+-- The arc length of the wire nearest to a point, and how far it is.
+local function nearest_place(wire, at)
+  local x, s = wire:positions()
+  local best, place = math.huge, 0
+  for i = 1, #s - 1 do
+    local a, b, t, e = 3 * i - 2, 3 * i + 1, 0, 0
+    for k = 0, 2 do
+      local d = x[b + k] - x[a + k]
+      t, e = t + d * (at[k + 1] - x[a + k]), e + d * d
+    end
+    t = e > 0 and math.max(0, math.min(1, t / e)) or 0
+    local d2 = 0
+    for k = 0, 2 do d2 = d2 + (at[k + 1] - x[a + k] - t * (x[b + k] - x[a + k])) ^ 2 end
+    if d2 < best then best, place = d2, s[i] + t * (s[i + 1] - s[i]) end
+  end
+  return place, best ^ 0.5
+end
+
+-- The orientation of a tool at arc length s: x along the wire, z as far up as may be.
+local function facing(scene, wire, s)
+  local x = vec.unit(wire:tangent(s))
+  local up = vec.unit(vec.scale(scene:gravity(), -1)) or { 0, 0, 1 }
+  local z = vec.unit(vec.across(up, x))
+  if not z or math.abs(vec.dot(up, x)) > 0.999 then
+    z = vec.unit(vec.across({ 0, 1, 0 }, x)) or vec.unit(vec.across({ 1, 0, 0 }, x))
+  end
+  return vec.axes(x, vec.cross(z, x))
+end
+
+--- Give the gripper its pads, where it is (at, rotation) or around the wire at s.
+function grasp.make_tool(self, level, wire, s)
+  local at = s and wire:position(s) or self.at or { 0, 0, 0 }
+  local rotation = self.rotation or (s and facing(self.scene, wire, s)) or nil
+  build.call(level, function()
+    self.tool, self.obstacles, self.opening = pads.make(self.scene, self.name, self.pads, at,
+      rotation, wire and wire.radius)
+  end)
+end
+
+-- Pads open at the wire's arc length s.
+local function place_tool(self, wire, s, level)
+  if not self.tool then return grasp.make_tool(self, level + 1, wire, s) end
+  if s then self.tool:pose(wire:position(s), self.rotation or facing(self.scene, wire, s)) end
+end
+
+-- --- slip ---------------------------------------------------------------------------
+
+local reactions = { stop = true, warn = true, record = true }
+
+--- What happens when the wire slips: "record" (default), "warn", "stop" or a function, called with
+-- the gripper and the event.
+function grasp.set_on_slip(self, value, level)
+  if type(value) ~= "function" then
+    checks.word("gripper '" .. self.name .. "': on_slip", value, reactions, level + 1)
+  end
+  self.on_slip = value
+  grasp.watch(self)
+end
+
+--- Slip counts from now on.
+function grasp.watch(self)
+  self.slip_event = nil
+  if self.tool then
+    self.tool:watch(self.slip_tolerance, self.on_slip ~= nil and self.on_slip ~= "record")
+  end
+end
+
+local function slip_text(self, event)
+  return ("gripper '%s': the wire slips, %.3g mm by t = %.4g s at s = %.4g m"):format(self.name,
+    1e3 * event.distance, event.time, event.s)
+end
+
+--- After steps of a run: events of the scene's grippers. Returns why the run is to stop, or nil.
+function grasp.look(scene)
+  local why
+  for _, self in ipairs(build.data(scene).grippers) do
+    if self.tool and self.wire then
+      if self.frozen then mixed.watch(self) end
+      local now = not self.slip_event and self.tool:state()
+      if now and now.slip_time then
+        local event = { kind = "slip", time = now.slip_time, s = now.slip_place, distance = now.slip }
+        self.slip_event = event
+        self.events[#self.events + 1] = event
+        if self.on_slip == "warn" then io.stderr:write("softworld: ", slip_text(self, event), "\n")
+        elseif self.on_slip == "stop" then why = slip_text(self, event)
+        elseif type(self.on_slip) == "function" then self.on_slip(self, event) end
+      end
+    end
+  end
+  return why
+end
+
+-- --- jaws ---------------------------------------------------------------------------
+
+local function note(self, kind, fields)
+  fields.kind, fields.time = kind, self.scene.time
+  self.events[#self.events + 1] = fields
+end
+
+local jaw_keys = { distance = true, speed = true, force = true }
+
+-- The core's order for close_jaws' words.
+local function jaw_order(self, args, what, level)
+  checks.keys(what, args, jaw_keys, level + 1)
+  local function number(key, above)
+    local unit = key == "force" and " N" or key == "speed" and " m/s" or " m"
+    return args[key] and checks.number(what .. ": " .. key, args[key], 0, unit, level + 1, nil, above)
+  end
+  local distance, force = number("distance"), number("force", true)
+  local speed = number("speed", true) or JAW_SPEED
+  if not (distance or force or args.speed) then
+    error(("%s: how far? give force [N], distance [m] or speed [m/s]"):format(what), level)
+  end
+  if distance then return { mode = "to", opening = distance, speed = speed, force = force } end
+  if force then return { mode = "force", speed = speed, force = force } end
+  -- by speed: until there is contact, which is a force that counts against the wire's weight
+  local contact = 0.01
+  if self.wire then
+    contact = math.max(1e-3, 0.01 * self.wire.beam.mass_per_length * 9.81 * self.wire.length)
+  end
+  return { mode = "to", opening = 0, speed = speed, force = contact }
+end
+
+-- Wait until jaws have done what they were told; raises when they cannot.
+local function wait_for_jaws(self, p, order)
+  local state, crushed
+  local least = self.wire and CRUSHED * 2 * self.wire.radius or 0
+  local function done()
+    state = self.tool:state()
+    crushed = order.force and state.squeeze > 0 and state.opening < least
+    return crushed or state.jaws ~= "moves"
+  end
+  local longest = self.tool:state().opening / order.speed + PATIENCE
+  local arrived = p:wait_until(done, { timeout = longest })
+  if arrived and not crushed and state.jaws ~= "empty" then return state end
+  self.tool:jaws{ mode = "still" }
+  local force = order.mode == "force" and ("%g N"):format(order.force) or "the force"
+  if crushed then
+    note(self, "crushed", { opening = state.opening, squeeze = state.squeeze })
+    error(("gripper '%s' crushes the wire: %.3g mm are left of its %.3g mm between the pads, at %.4g N "
+      .. "per finger; %s is not reached"):format(self.name, 1e3 * state.opening,
+      2e3 * self.wire.radius, state.squeeze, force), 0)
+  end
+  if state.jaws == "empty" then
+    note(self, "missed", {})
+    local far = ""
+    if self.wire then
+      local _, d = nearest_place(self.wire, (self.tool:pose()))
+      far = (": wire '%s' is %.3g mm from the tool centre"):format(self.wire.name, 1e3 * d)
+    end
+    error(("gripper '%s' closed on nothing%s"):format(self.name, far), 0)
+  end
+  note(self, "unreached", { opening = state.opening, squeeze = state.squeeze })
+  error(("gripper '%s': %s is not reached in %.3g s; it is %.4g N at an opening of %.4g mm"):format(
+    self.name, force, longest, state.squeeze, 1e3 * state.opening), 0)
+end
+
+local function move_jaws(self, order)
+  self.order = order
+  self.tool:jaws(order)
+  local p = process.current()
+  return p and wait_for_jaws(self, p, order)
+end
+
+--- Close the jaws: { force = [N] } until each finger presses so hard, and keep it so;
+-- { distance = [m] } to an opening, unless force [N] stops them before; { speed = [m/s] } alone
+-- until there is contact. speed of the opening in all of them. In a process it returns when
+-- that is done; errors tell what is in the way.
+function Methods:close_jaws(args)
+  grasp.check_scene(self, 3)
+  local order = jaw_order(self, args, "gripper:close_jaws", 3)
+  if self.frozen then mixed.thaw(self) end
+  if self.hold and not self.tool then
+    error(("gripper '%s' holds its wire by imposed handling: there are no jaws to close"):format(
+      self.name), 2)
+  end
+  if not self.tool then grasp.make_tool(self, 3, self.wire) end
+  move_jaws(self, order)
+  return self
+end
+
+--- Open the jaws: { distance = [m] (default: pads' opening), speed = [m/s] }.
+function Methods:open_jaws(args)
+  grasp.check_scene(self, 3)
+  args = args or {}
+  checks.keys("gripper:open_jaws", args, { distance = true, speed = true }, 3)
+  if not self.tool then
+    error(("gripper '%s' has no pads yet: grasp with approach = 'plates' or 'mixed'"):format(self.name),
+      2)
+  end
+  if self.frozen then mixed.thaw(self) end
+  move_jaws(self, jaw_order(self, { distance = args.distance or self.opening, speed = args.speed },
+    "gripper:open_jaws", 3))
+  return self
+end
+
+-- --- grasp --------------------------------------------------------------------------
+
+local function grasp_imposed(self, wire, args)
+  if self.tool then
+    error(("gripper '%s' has pads; it grasps by 'plates' or 'mixed'"):format(self.name), 3)
+  end
+  local s = args.s
+  if s == nil then
+    if not self.at then
+      error(("gripper '%s': give s [m], or the gripper's place at = {x, y, z} [m]")
+        :format(self.name), 3)
+    end
+    s = nearest_place(wire, self.at)
+  end
+  self.hold = build.call(4, self.scene.grip, self.scene, wire, { s = s, width = self.width,
+    name = self.name .. (#self.past > 0 and "#" .. #self.past + 1 or "") })
+  self.past[#self.past + 1] = self.hold
+end
+
+local function grasp_by_pads(self, wire, args)
+  local s = args.s
+  if s then
+    checks.number(("gripper '%s': s"):format(self.name), s, 0, " m", 4, wire.length)
+  elseif not self.tool and not self.at then
+    error(("gripper '%s': give s [m], or the gripper's place at = {x, y, z} [m]"):format(self.name), 3)
+  end
+  local opening = self.tool and self.tool:state().opening or self.pads.opening
+  if opening and self.pads.shape == "flat" and opening < 2 * wire.radius then
+    error(("gripper '%s': its jaws are %.3g mm open, less than the wire's diameter of %.3g mm; open "
+      .. "them (pads.opening)"):format(self.name, 1e3 * opening, 2e3 * wire.radius), 3)
+  end
+  local order = jaw_order(self, { force = args.force, distance = args.distance, speed = args.speed },
+    "gripper:grasp", 4)
+  place_tool(self, wire, s, 4)
+  self.wire = wire
+  self.s = s or nearest_place(wire, (self.tool:pose()))
+  if self.way == "mixed" then
+    mixed.prepare(self, args)
+    grasp.watch(self)
+  end
+  move_jaws(self, order)
+end
+
+local grasp_keys = { s = true, approach = true, force = true, distance = true, speed = true,
+  on_slip = true, region = true, model = true, section = true, spacing = true, particles = true,
+  layers = true, across = true, margin = true, freeze = true }
+local pad_words = { "force", "distance", "speed" }
+local mesh_words = { "region", "model", "section", "spacing", "particles", "layers", "across",
+  "margin", "freeze" }
+
+local function check_words(self, approach, args, level)
+  local function refuse(words, wanted)
+    for _, word in ipairs(words) do
+      if args[word] ~= nil then
+        error(("gripper '%s': %s goes with approach = %s"):format(self.name, word, wanted), level + 1)
+      end
+    end
+  end
+  if approach == "imposed" then refuse(pad_words, "'plates' or 'mixed'") end
+  if approach ~= "mixed" then refuse(mesh_words, "'mixed'") end
+end
+
+--- Take hold of wire around arc length s [m] (default: where the tool is). approach = "imposed"
+-- (default), "plates" or "mixed"; for both of these force = [N] per finger or distance = [m],
+-- with speed = [m/s] of the opening; on_slip = "record", "warn", "stop" or a function. "mixed"
+-- takes what wire:remodel does of the mesh near the pads (model, section, ...), region = [m] its
+-- length, and freeze = false to stay with the plates until gripper:freeze().
+-- In a process it returns when the wire is held; elsewhere jaws begin to close.
+function Methods:grasp(wire, args)
+  if args == nil then args = {} end
+  if type(self) ~= "table" or not self.pads then error("gripper:grasp: call it with a colon", 2) end
+  grasp.check_scene(self, 3)
+  if core.type(wire) ~= "wire" then
+    error("gripper:grasp expects a wire, got " .. (core.type(wire) or type(wire)), 2)
+  end
+  checks.keys("gripper:grasp", args, grasp_keys, 3)
+  local approach = args.approach or "imposed"
+  checks.word(("gripper '%s': approach"):format(self.name), approach, approaches, 3)
+  if self.wire then error(("gripper '%s' already holds a wire"):format(self.name), 2) end
+  check_words(self, approach, args, 3)
+  if approach == "mixed" and not process.current() then
+    error(("gripper '%s': a mixed grasp takes its time; call it in a process"):format(self.name), 2)
+  end
+  self.way, self.frozen = approach, nil
+  if args.on_slip ~= nil then grasp.set_on_slip(self, args.on_slip, 3) end
+  if approach == "imposed" then
+    grasp_imposed(self, wire, args)
+    self.wire = wire
+    return self
+  end
+  local fine, why = pcall(grasp_by_pads, self, wire, args)
+  if not fine then
+    self.wire = nil
+    error(why, 0)
+  end
+  grasp.watch(self)
+  if approach == "mixed" and args.freeze ~= false then mixed.settle(self, args) end
+  return self
+end
+
+--- Let go; see gripper:release.
+function grasp.release(self, args)
+  args = args or {}
+  checks.keys("gripper:release", args, { speed = true, distance = true }, 4)
+  if not self.tool then
+    self.at = self.hold:pose()
+    build.call(4, self.hold.release, self.hold)
+    self.hold, self.wire = nil, nil
+    return self
+  end
+  if self.frozen then mixed.thaw(self) end
+  self:open_jaws(args)
+  if self.way == "mixed" then mixed.finish(self) end
+  self.wire = nil
+  return self
+end
+
+Methods.freeze = mixed.freeze
+Methods.thaw = mixed.thaw
+
+return grasp

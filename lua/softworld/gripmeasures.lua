@@ -1,0 +1,190 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- What grippers measure: force and moment now and over time, pressure on the pads, squeeze, slip.
+-- @module softworld.gripmeasures
+local checks = require "softworld.checks"
+local vec = require "softworld.vec"
+
+local Measures = {}
+
+local function in_axes(self, v, axes, what)
+  if axes == nil or axes == "world" then return v end
+  checks.word(what .. ": axes", axes, { world = true, gripper = true }, 4)
+  local held = self.tool or self.hold
+  if not held then return v end
+  local _, q = held:pose()
+  return vec.rotate(vec.conjugate(q), v)
+end
+
+--- Force on the wire now [N]; zero while nothing is held. { axes = "gripper" } for the tool's own
+-- axes, { finger = number } for that of one finger.
+function Measures:force(args)
+  args = args or {}
+  checks.keys("gripper:force", args, { axes = true, finger = true }, 3)
+  local f = { 0, 0, 0 }
+  if self.tool then f = self.tool:force(args.finger)
+  elseif self.hold then f = self.hold:force() end
+  return in_axes(self, f, args.axes, "gripper:force")
+end
+
+--- Moment on the wire now, about the tool centre or { at = point } [N m]; axes, finger as for force.
+function Measures:moment(args)
+  args = args or {}
+  checks.keys("gripper:moment", args, { at = true, axes = true, finger = true }, 3)
+  local m = { 0, 0, 0 }
+  if self.tool then m = self.tool:moment(args.at, args.finger)
+  elseif self.hold then m = self.hold:moment(args.at and { at = args.at } or nil) end
+  return in_axes(self, m, args.axes, "gripper:moment")
+end
+
+-- Every recorded step: t, force, moment; of a tool also opening, squeeze, margin, slip.
+local function records(self)
+  local list = {}
+  local function add(rows, count, width)
+    for i = 0, count - 1 do
+      local b = width * i
+      list[#list + 1] = { t = rows[b + 1], rows[b + 2], rows[b + 3], rows[b + 4], rows[b + 5],
+        rows[b + 6], rows[b + 7], at = { rows[b + 8], rows[b + 9], rows[b + 10] },
+        opening = width > 10 and rows[b + 11] or nil, squeeze = width > 10 and rows[b + 12] or nil,
+        margin = width > 10 and rows[b + 13] or nil, slip = width > 10 and rows[b + 14] or nil }
+    end
+  end
+  for _, hold in ipairs(self.past) do
+    local rows, count = hold:log()
+    add(rows, count, 10)
+  end
+  if self.tool then
+    local rows, count = self.tool:log()
+    add(rows, count, 14)
+    if #self.past > 0 then table.sort(list, function(a, b) return a.t < b.t end) end
+  end
+  return list
+end
+
+local function norm(r, first) return (r[first] ^ 2 + r[first + 1] ^ 2 + r[first + 2] ^ 2) ^ 0.5 end
+
+-- Moment of a row about a fixed point.
+local function moment_about(r, at)
+  if not at then return norm(r, 4) end
+  local turned = vec.cross(vec.sub(r.at, at), { r[1], r[2], r[3] })
+  return vec.norm(vec.add({ r[4], r[5], r[6] }, turned))
+end
+
+--- Measures over [t1, t2] [s]: a table with peak_force, mean_force [N],
+-- peak_moment, mean_moment [N m], impulse (vector) [N s] and the times of the
+-- peaks. Means are over time, of the magnitudes. Moments are about the tool centre, or about
+-- at [m] where it is given. Of pads also peak_squeeze [N], peak_margin, slip [m].
+function Measures:over(t1, t2, at)
+  t1, t2 = t1 or -math.huge, t2 or math.huge
+  if at ~= nil then at = checks.vector("gripper:over: at", at, "m", 3) end
+  local m = { peak_force = 0, peak_moment = 0, impulse = { 0, 0, 0 }, duration = 0 }
+  local force_time, moment_time, before, moment_before = 0, 0, nil, nil
+  for _, r in ipairs(records(self)) do
+    if r.t >= t1 and r.t <= t2 then
+      local f, n = norm(r, 1), moment_about(r, at)
+      if f > m.peak_force then m.peak_force, m.peak_force_time = f, r.t end
+      if n > m.peak_moment then m.peak_moment, m.peak_moment_time = n, r.t end
+      if r.squeeze then
+        m.peak_squeeze = math.max(m.peak_squeeze or 0, r.squeeze)
+        m.peak_margin, m.slip = math.max(m.peak_margin or 0, r.margin), r.slip
+      end
+      if before then
+        local h = r.t - before.t
+        m.duration = m.duration + h
+        force_time = force_time + 0.5 * h * (f + norm(before, 1))
+        moment_time = moment_time + 0.5 * h * (n + moment_before)
+        for k = 1, 3 do m.impulse[k] = m.impulse[k] + 0.5 * h * (r[k] + before[k]) end
+      end
+      before, moment_before = r, n
+    end
+  end
+  m.mean_force = m.duration > 0 and force_time / m.duration or m.peak_force
+  m.mean_moment = m.duration > 0 and moment_time / m.duration or m.peak_moment
+  return m
+end
+
+--- Series: { t =, force = {{x, y, z}, ...}, moment = } and, of pads, opening, squeeze, margin, slip.
+function Measures:series()
+  local s = { t = {}, force = {}, moment = {} }
+  for i, r in ipairs(records(self)) do
+    s.t[i], s.force[i], s.moment[i] = r.t, { r[1], r[2], r[3] }, { r[4], r[5], r[6] }
+    for _, key in ipairs{ "opening", "squeeze", "margin", "slip" } do
+      if self.tool then
+        s[key] = s[key] or {}
+        s[key][i] = r[key] or 0 / 0
+      end
+    end
+  end
+  return s
+end
+
+local function needs_tool(self, verb)
+  if self.tool then return self.tool end
+  error(("gripper '%s' has no pads yet, so no %s: grasp with approach = 'plates' or 'mixed'")
+    :format(self.name, verb), 3)
+end
+
+--- What the pads do: a table with jaws ("rests", "moves", "holds", "stopped", "empty"), opening
+-- [m], squeeze (force per finger [N]), normal (sum over pads [N]), margin (|friction| over what
+-- the normal forces allow [-]), sliding (share of the normal force that slides [-]), slip [m]
+-- with its vector slipped in the tool's axes, and, once it exceeds the gripper's slip_tolerance,
+-- slip_time [s] and slip_place (arc length [m]).
+function Measures:state()
+  local now = needs_tool(self, "state"):state()
+  if self.frozen then
+    for _, key in ipairs{ "squeeze", "normal", "most", "opening" } do now[key] = self.frozen[key] end
+    now.jaws = "holds"
+    local f = self:force{ axes = "gripper" }
+    now.margin = now.most > 0 and (f[1] ^ 2 + f[3] ^ 2) ^ 0.5 / now.most or 0
+  end
+  return now
+end
+
+--- How far the wire is squeezed at the pads: height across the pads and width along them [m], and
+-- the share of the diameter that is missing [-].
+function Measures:squeeze()
+  local state = self:state()
+  if not self.wire then error(("gripper '%s' holds nothing"):format(self.name), 2) end
+  local d, result = 2 * self.wire.radius, nil
+  if self.frozen and self.frozen.section then
+    result = { height = self.frozen.section.height, width = self.frozen.section.width }
+  elseif self.wire.model ~= "rod" and self.wire.model ~= "string" then
+    local _, q = self.tool:pose()
+    result = { height = self.wire:width(state.place, vec.rotate(q, { 0, 1, 0 })),
+      width = self.wire:width(state.place, vec.rotate(q, { 0, 0, 1 })) }
+  else
+    result = { height = math.min(d, state.opening), width = d }
+  end
+  result.share = 1 - result.height / d
+  return result
+end
+
+--- Where the pads press: a map of the mean pressure [Pa] over cells of the pads,
+-- { { finger =, x =, z =, pressure = }, ... } in the tool's axes [m], with
+-- .largest, .force (sum of normal forces [N]) and .touches, the single places with { finger, at
+-- (in the tool's axes), normal [N], force, s }. Options: cell = { along, across } [m].
+function Measures:pressure_map(args)
+  args = args or {}
+  checks.keys("gripper:pressure_map", args, { cell = true }, 3)
+  local cell = args.cell or { self.width / 8, self.width / 8 }
+  for k = 1, 2 do
+    checks.number("gripper:pressure_map: cell", type(cell) == "table" and cell[k], 0, " m", 3, nil, true)
+  end
+  local touches, cells, map = needs_tool(self, "pressure map"):touches(), {}, { largest = 0, force = 0 }
+  for _, touch in ipairs(touches) do
+    local i, j = touch.at[1] // cell[1], touch.at[3] // cell[2]
+    local key = ("%d %d %d"):format(touch.finger, i, j)
+    local entry = cells[key]
+    if not entry then
+      entry = { finger = touch.finger, x = (i + 0.5) * cell[1], z = (j + 0.5) * cell[2], pressure = 0 }
+      cells[key] = entry
+      map[#map + 1] = entry
+    end
+    entry.pressure = entry.pressure + touch.normal / (cell[1] * cell[2])
+    map.largest = math.max(map.largest, entry.pressure)
+    map.force = map.force + touch.normal
+  end
+  map.touches = touches
+  return map
+end
+
+return { methods = Measures }

@@ -1,0 +1,120 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Pads of grippers: rigid fingers in the tool's axes. x is along the wire, fingers close along
+-- y (more than two: around x), z is up; the opening is between the faces of facing fingers.
+-- @module softworld.pads
+local checks = require "softworld.checks"
+local meshfile = require "softworld.meshfile"
+local vec = require "softworld.vec"
+
+local pads = {}
+local turn = vec.turn
+local X = { 1, 0, 0 }
+
+-- Parts of one finger that opens towards +y: shape, with its place at an opening of zero.
+local makers = {}
+
+--- A plate: width along the wire, height, thickness.
+function makers.flat(p)
+  return { { shape = "box", size = { p.width, p.thickness, p.height },
+    at = { 0, p.thickness / 2, p.height / 2 - p.below } } }
+end
+
+--- A groove along the wire between two plates at an angle; the opening is between the bottoms.
+function makers.v(p)
+  local parts, lean = {}, math.pi / 2 - p.angle / 2
+  for _, side in ipairs{ -1, 1 } do
+    local q = turn(X, side * lean) -- the plate's outward normal is -y turned by this
+    local along, out = vec.rotate(q, { 0, 0, side }), vec.rotate(q, { 0, 1, 0 })
+    local at = vec.add(vec.scale(along, p.height / 2), out, p.thickness / 2)
+    parts[#parts + 1] = { shape = "box", size = { p.width, p.thickness, p.height }, at = at,
+      rotation = q }
+  end
+  return parts
+end
+
+--- A pin across the wire.
+function makers.round(p)
+  return { { shape = "cylinder", radius = p.radius, length = p.height,
+    at = { 0, p.radius, p.height / 2 - p.below } } }
+end
+
+--- A finger from a mesh file; its own axes are the tool's, for the finger at +y.
+function makers.mesh(p)
+  local mesh = meshfile.read(p.file)
+  return { { shape = "mesh", data = mesh.data, format = mesh.format, scale = p.scale,
+    at = { 0, 0, 0 } } }
+end
+
+pads.kinds = makers
+
+local numbers = { -- default, lowest, unit, what it is
+  width = { 0.02, 0, " m" }, height = { nil, 0, " m" }, thickness = { 0.008, 0, " m" },
+  radius = { 0.004, 0, " m" }, angle = { 2 * math.pi / 3, 0, " rad" }, scale = { 1, 0, "" },
+  friction = { 0.5, 0, "" }, kinetic_friction = { nil, 0, "" }, opening = { nil, 0, " m" },
+  below = { nil, 0, " m" }, restitution = { 0, 0, "" } }
+local highest = { angle = math.pi, friction = 100, kinetic_friction = 100, restitution = 1 }
+local may_be_zero = { friction = true, kinetic_friction = true, restitution = true, below = true,
+  width = true }
+local known = { shape = true, fingers = true, file = true }
+for key in pairs(numbers) do known[key] = true end
+
+--- The description of pads with what was not given filled in; raises for what cannot be.
+function pads.check(args, what, level)
+  checks.keys(what, args, known, level + 1)
+  local p = { shape = checks.word(what .. ".shape", args.shape or "flat", makers, level + 1) }
+  for key, row in pairs(numbers) do
+    p[key] = args[key]
+    if p[key] == nil then
+      p[key] = row[1]
+    else
+      checks.number(what .. "." .. key, p[key], row[2], row[3], level + 1, highest[key],
+        not may_be_zero[key])
+    end
+  end
+  p.fingers = args.fingers or 2
+  if math.type(p.fingers) ~= "integer" or p.fingers < 1 or p.fingers > 6 then
+    error(("%s.fingers = %s is not allowed; it must be an integer from 1 to 6"):format(what,
+      tostring(p.fingers)), level)
+  end
+  if (p.shape == "mesh") ~= (args.file ~= nil) then
+    error(("%s: file goes with shape = 'mesh'"):format(what), level)
+  end
+  p.file = args.file
+  return p
+end
+
+--- Make the tool and its fingers in the scene, open, at a pose. Returns the tool and what its
+-- obstacles are.
+function pads.make(scene, name, p, at, rotation, radius)
+  radius = radius or 0.005
+  local opening = p.opening or 4 * radius
+  local height = p.height or (p.shape == "v" and 2 * radius or 0.02)
+  local given = { width = p.width, height = height, thickness = p.thickness, radius = p.radius,
+    angle = p.angle, file = p.file, scale = p.scale,
+    below = p.below or math.min(height / 2, 0.9 * radius) }
+  local tool = scene:tool{ name = name, at = at, rotation = rotation, opening = opening }
+  local obstacles, _, q = {}, tool:pose()
+  for finger = 1, p.fingers do
+    local around = turn(X, 2 * math.pi * (finger - 1) / p.fingers)
+    local opens = vec.rotate(around, { 0, 0.5, 0 })
+    for number, part in ipairs(makers[p.shape](given)) do
+      local mirrored = p.fingers == 2 and finger == 2 and p.shape ~= "mesh"
+      local place = mirrored and { part.at[1], -part.at[2], part.at[3] }
+        or vec.rotate(around, part.at)
+      local facing = part.rotation or { 1, 0, 0, 0 }
+      if mirrored then facing = { facing[1], -facing[2], facing[3], -facing[4] }
+      else facing = vec.multiply(around, facing) end
+      part.at = vec.add(at, vec.rotate(q, vec.add(place, opens, opening)))
+      part.rotation = vec.multiply(q, facing)
+      part.friction, part.kinetic_friction = p.friction, p.kinetic_friction
+      part.restitution = p.restitution
+      part.name = ("%s.finger%d%s"):format(name, finger, number > 1 and "." .. number or "")
+      local obstacle = scene:obstacle(part)
+      tool:pad(obstacle, finger, opens)
+      obstacles[#obstacles + 1] = obstacle
+    end
+  end
+  return tool, obstacles, opening
+end
+
+return pads
