@@ -136,25 +136,6 @@ static void write_all(sw_tape *t, sw_scene *s, const void *note, size_t note_siz
   memcpy(t->bytes, &h, sizeof h);
 }
 
-sw_status sw_scene_save(sw_scene *s, const void *note, size_t note_size, unsigned char **out,
-                        size_t *size, sw_error *err) {
-  sw_error why = {""};
-  SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_scene_readable(s, err));
-  SW_TRY(check_functions(s, err));
-  if (s->built) sw_feed_undo(s);
-  sw_tape t = sw_tape_writer(&why);
-  write_all(&t, s, note, note_size);
-  if (!sw_tape_good(&t)) {
-    sw_tape_free(&t);
-    if (t.status == SW_ECALLBACK) return sw_fail(err, t.status, "%s", why.text);
-    return sw_fail(err, t.status, "scene '%s' cannot be saved: %.400s", s->name, why.text);
-  }
-  *out = t.bytes;
-  *size = t.size;
-  return SW_OK;
-}
-
 /* --- reading --------------------------------------------------------------------------- */
 
 static sw_status check_head(const void *bytes, size_t size, sw_error *err) {
@@ -208,6 +189,43 @@ static sw_status read_scene(const void *bytes, size_t size, sw_scene *s, sw_live
   sw_tape_expect(&t, t.at == t.size, "more than a scene");
   if (sw_tape_good(&t)) sw_tape_check_scene(&t, s);
   return t.status;
+}
+
+/* A file that cannot be read is worse than none: better to know now than after what it is for. */
+static sw_status read_back(const sw_tape *t, sw_error *err) {
+  sw_live live = {0};
+  int built = 0;
+  sw_scene *copy = sw_alloc(1, sizeof *copy);
+  if (!copy) return sw_fail(err, SW_ENOMEM, "out of memory");
+  const sw_status status = read_scene(t->bytes, t->size, copy, &live, &built, err);
+  sw_live_free(&live);
+  sw_scene_free(copy);
+  return status;
+}
+
+sw_status sw_scene_save(sw_scene *s, const void *note, size_t note_size, unsigned char **out,
+                        size_t *size, sw_error *err) {
+  sw_error why = {""};
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(check_functions(s, err));
+  if (s->built) sw_feed_undo(s);
+  sw_tape t = sw_tape_writer(&why);
+  write_all(&t, s, note, note_size);
+  if (!sw_tape_good(&t)) {
+    sw_tape_free(&t);
+    if (t.status == SW_ECALLBACK) return sw_fail(err, t.status, "%s", why.text);
+    return sw_fail(err, t.status, "scene '%s' cannot be saved: %.400s", s->name, why.text);
+  }
+  const sw_status status = read_back(&t, &why);
+  if (status != SW_OK) {
+    sw_tape_free(&t);
+    return sw_fail(err, status, "scene '%s' cannot be saved: read again, %.400s", s->name,
+                   why.text);
+  }
+  *out = t.bytes;
+  *size = t.size;
+  return SW_OK;
 }
 
 /* Go on where the saved scene was. What was edited since it was built stays to be built. */

@@ -148,7 +148,7 @@ static void tape_feed(sw_tape *t, sw_feed *x) {
   DOUBLE(size), DOUBLE(drive);
   sw_tape_int(t, &shaped);
   if (shaped) sw_tape_mesh(t, &x->shape);
-  sw_tape_expect(t, x->last_side == 0 || x->last_side == 1, "a feed");
+  sw_tape_expect(t, x->last_side >= -1 && x->last_side <= 1, "a feed");
   if (!sw_tape_reads(t)) return;
   const double all = x->label + x->fed + x->since + x->speed + x->start + x->slip + x->slip_since +
                      x->slip_speed + x->slip_growth + x->slip_before + x->slope + x->size;
@@ -196,8 +196,8 @@ void sw_tape_jaw(sw_tape *t, sw_jaw *x) {
   DOUBLE(tried[0]), DOUBLE(tried[1]), DOUBLE(off[0]), DOUBLE(off[1]), INT(last_side), INT(trials);
   sw_tape_expect(t, x->mode >= SW_JAW_STILL && x->mode <= SW_JAW_FORCE, "jaws");
   sw_tape_expect(t, x->status >= SW_JAW_RESTS && x->status <= SW_JAW_EMPTY, "jaws");
-  sw_tape_expect(t, x->last_side == 0 || x->last_side == 1, "jaws");
-  sw_tape_expect(t, isfinite(x->opening + x->since + x->speed + x->most + x->goal), "jaws");
+  sw_tape_expect(t, x->last_side >= -1 && x->last_side <= 1, "jaws");
+  sw_tape_expect(t, isfinite(x->opening + x->since + x->speed), "jaws");
 }
 
 static void tape_tool_state(sw_tape *t, sw_tool_state *x) {
