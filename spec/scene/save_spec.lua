@@ -244,14 +244,16 @@ print(("%%a %%a %%a"):format(wire:max_tension(), left.peak_force, wire:position(
   it("keeps what steps return, and gives scripts their own objects", function()
     local path, c = file(), script()
     c.scene:run{ dt = 0.005, save = path }
-    local again = script(function(p, c)
-      c.last = { p:step("values", function() return nil, 1, 2.5, "x", { true, { 7 } }, c.wire, nil end) }
-      c.count = select("#", p:step("none", function() end))
+    local again = script(function(p, made)
+      made.last = { p:step("values", function()
+        return nil, 1, 2.5, "x", { true, { 7 } }, made.wire, nil
+      end) }
+      made.count = select("#", p:step("none", function() end))
     end)
     again.scene:run{ dt = 0.005, resume = path, save = path }
-    local third = script(function(p, c)
-      c.last = table.pack(p:step("values", error))
-      c.count = select("#", p:step("none", error))
+    local third = script(function(p, made)
+      made.last = table.pack(p:step("values", error))
+      made.count = select("#", p:step("none", error))
     end)
     third.scene:run{ dt = 0.005, resume = path }
     assert.are.same({}, third.log)
@@ -351,7 +353,8 @@ print(("%%a %%a %%a"):format(wire:max_tension(), left.peak_force, wire:position(
   it("may have steps with error bars, which begin anew on every level", function()
     local function make()
       local scene, count = sw.scene{}, 0
-      local wire = scene:wire{ E = 1e8, density = 1200, radius = 0.002, from = { 0, 0, 0 }, to = { 0.3, 0, 0 } }
+      local wire = scene:wire{ E = 1e8, density = 1200, radius = 0.002, from = { 0, 0, 0 },
+        to = { 0.3, 0, 0 } }
       local tool = scene:clamp(wire, { s = 0 })
       scene:process(function(p)
         p:step("move", function()
@@ -633,10 +636,10 @@ describe("memory of saved scenes", function()
     local path = file()
     small_file(path)
     local bytes = saving.read(path)
-    local scene, base = small(), nil
+    local scene = small()
     scene:run{ duration = 0.01, dt = 0.005 }
     local here = saving.all(scene)
-    base = in_use()
+    local base = in_use()
     for name, work in pairs{
       save = function() core.save(scene, "") end,
       load = function() core.load(bytes):close() end,
