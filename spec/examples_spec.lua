@@ -416,4 +416,18 @@ describe("example", function()
     near(force, tonumber(got), 0.02, "force")
     near(60 * low, tonumber(widest), 0.005, "width")
   end)
+
+  -- The gripper's path is from 1.5 mm above the table to 11.5 mm, 0.3 m further and 0.1 m aside; of
+  -- the wire's start 10 mm stick out of the pads and hang by less than a millimetre. Going on from a
+  -- file gives the same bits: differences are 0, not small.
+  it("18: going on from a file", function()
+    local out = example "18_resume"
+    assert.is_truthy(out:find("the lights go out", 1, true))
+    near(0.3, after(out, "laid from x = "), 3e-3, "x")
+    near(0.1, after(out, ", y = "), 1e-2, "y")
+    assert.are.equal(after(out, "without the break "), tonumber(out:match "(%d+) steps of time"))
+    assert.are.equal(0, after(out, "wire's start "))
+    assert.are.equal(0, after(out, "peak force "))
+    assert.is_truthy(out:find("in the file: left plane1 wire1", 1, true))
+  end)
 end)
