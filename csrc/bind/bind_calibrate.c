@@ -52,12 +52,15 @@ static void set_links(lua_State *L, const sw_lattice *l) {
   lua_setfield(L, -2, "links");
 }
 
-/* Each with its particles and the slice, 0 or 1, that each of these is of. */
-static void set_elements(lua_State *L, const sw_lattice *l) {
+/* Each with its particles, the slice, 0 or 1, that each of these is of, and its material. */
+static void set_elements(lua_State *L, const sw_calibration *c) {
+  const sw_lattice *l = &c->lattice;
   lua_createtable(L, (int)l->solids, 0);
   for (size_t m = 0; m < l->solids; m++) {
     const sw_cell_solid *solid = l->solid + m;
-    lua_createtable(L, 0, 2);
+    lua_createtable(L, 0, 4);
+    lsw_set_number(L, "modulus", c->k[solid->group]);
+    lsw_set_number(L, "nu", solid->nu);
     lua_createtable(L, solid->nodes, 0);
     for (int a = 0; a < solid->nodes; a++) {
       lua_pushinteger(L, (lua_Integer)solid->particle[a] + 1);
@@ -126,8 +129,7 @@ static void set_composite(lua_State *L, const sw_calibration *c) {
   lua_setfield(L, -2, "centres");
   lua_createtable(L, (int)c->lattice.particles, 0);
   for (size_t i = 0; i < c->lattice.particles; i++) {
-    const size_t part = i < place->ring ? 0 : 1 + (i - place->ring) / place->each;
-    lua_pushinteger(L, (lua_Integer)part);
+    lua_pushinteger(L, (lua_Integer)sw_composite_part(place, i));
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }
   lua_setfield(L, -2, "part");
@@ -164,9 +166,13 @@ static int push_calibration(lua_State *L) {
   set_links(L, &c->lattice);
   set_particles(L, c);
   if (c->lattice.solids) {
-    set_elements(L, &c->lattice);
+    set_elements(L, c);
     lsw_set_number(L, "modulus", c->k[SW_GROUP_SOLID]);
     lsw_set_number(L, "nu", c->nu);
+    if (c->composite.cores) {
+      lsw_set_number(L, "core_modulus", c->k[SW_GROUP_OF_CORE + SW_GROUP_SOLID]);
+      lsw_set_number(L, "core_nu", c->core_nu);
+    }
     lsw_set_number(L, "scale", c->scale);
   }
   lsw_set_number(L, "spacing", c->lattice.spacing);
@@ -175,7 +181,8 @@ static int push_calibration(lua_State *L) {
   lua_setfield(L, -2, "residuals");
   lua_newtable(L);
   for (int g = 0; g < SW_GROUPS; g++)
-    if (count_of(c, g) && g != SW_GROUP_SOLID) lsw_set_number(L, sw_group_names[g], c->k[g]);
+    if (count_of(c, g) && g != SW_GROUP_SOLID && g != SW_GROUP_OF_CORE + SW_GROUP_SOLID)
+      lsw_set_number(L, sw_group_names[g], c->k[g]);
   lua_setfield(L, -2, "springs");
   lua_newtable(L);
   for (int g = 0; g < SW_GROUPS; g++)
@@ -256,18 +263,23 @@ static double *read_flat(lua_State *L, int index, size_t *n) {
 
 enum { LINK_NUMBERS = 6 };
 
-enum { SOLID_NUMBERS = 9 };
+enum { SOLID_NUMBERS = 11, SOLID_GROUP = 9, SOLID_NU = 10 };
 
-/* The elements of the list at index, as scratch memory of Lua's. */
-static sw_cell_solid *read_solids(lua_State *L, int index, size_t *n) {
+/* The elements of the list at index, as scratch memory of Lua's; of one of `groups` groups each. */
+static sw_cell_solid *read_solids(lua_State *L, int index, size_t groups, size_t *n) {
   size_t numbers = 0;
   const double *list = lua_isnoneornil(L, index) ? NULL : read_flat(L, index, &numbers);
-  luaL_argcheck(L, numbers % SOLID_NUMBERS == 0, index, "9 numbers an element");
+  luaL_argcheck(L, numbers % SOLID_NUMBERS == 0, index, "11 numbers an element");
   *n = numbers / SOLID_NUMBERS;
   sw_cell_solid *solid = lua_newuserdatauv(L, (*n + 1) * sizeof *solid, 0);
   for (size_t m = 0; m < *n; m++) {
     const double *l = list + SOLID_NUMBERS * m;
-    solid[m] = (sw_cell_solid){.nodes = l[0] == 6 ? 6 : l[0] == 8 ? 8 : 0};
+    luaL_argcheck(L, l[SOLID_GROUP] >= 1 && l[SOLID_GROUP] <= (double)groups, index, "no modulus");
+    solid[m] = (sw_cell_solid){.nodes = l[0] == 6   ? 6
+                                        : l[0] == 8 ? 8
+                                                    : 0,
+                               .group = (uint32_t)l[SOLID_GROUP] - 1,
+                               .nu = l[SOLID_NU]};
     for (int a = 0; a < solid[m].nodes; a++) {
       luaL_argcheck(L, l[1 + a] >= 1 && l[1 + a] < 1e9, index, "a particle is out of range");
       solid[m].particle[a] = (uint32_t)l[1 + a] - 1;
@@ -276,10 +288,10 @@ static sw_cell_solid *read_solids(lua_State *L, int index, size_t *n) {
   return solid;
 }
 
-/* cell(spacing, particles, links, stiffness [, elements, nu]) -> EA, EI, EI2, GJ, squeeze, matrix
+/* cell(spacing, particles, links, stiffness [, elements]) -> EA, EI, EI2, GJ, squeeze, matrix
  * in a table. particles: flat, 3 numbers each; links: flat, from and to (from 1), slices, group
- * (from 1), weight, 1 for bending or 0; stiffness: one number a group, with elements one more,
- * their modulus; elements: flat, 6 or 8 and as many particles (from 1), 8 places in any case. */
+ * (from 1), weight, 1 for bending or 0; stiffness: one number a group, of elements their modulus;
+ * elements: flat, 6 or 8 and as many particles (from 1), 8 places in any case, group, nu. */
 static int mod_cell(lua_State *L) {
   sw_error err = {""};
   sw_cell_result result;
@@ -291,8 +303,7 @@ static int mod_cell(lua_State *L) {
   luaL_argcheck(L, numbers % LINK_NUMBERS == 0, 3, "6 numbers a link");
   const size_t links = numbers / LINK_NUMBERS;
   size_t solids;
-  const sw_cell_solid *solid = read_solids(L, 5, &solids);
-  luaL_argcheck(L, !solids || groups > 0, 4, "no modulus");
+  const sw_cell_solid *solid = read_solids(L, 5, groups, &solids);
   sw_cell_link *link = lua_newuserdatauv(L, (links + 1) * sizeof *link, 0);
   for (size_t m = 0; m < links; m++) {
     const double *l = list + LINK_NUMBERS * m;
@@ -309,9 +320,7 @@ static int mod_cell(lua_State *L) {
                         .at = at,
                         .link = link,
                         .solids = solids,
-                        .solid_group = groups - 1,
-                        .solid = solid,
-                        .nu = luaL_optnumber(L, 6, 0)};
+                        .solid = solid};
   lsw_must(L, sw_cell_stiffness(&cell, k, &result, NULL, &err), &err);
   lua_createtable(L, 0, SW_TARGETS + 1);
   set_beam(L, &result);

@@ -108,10 +108,15 @@ int lsw_scene_wire(lua_State *L) {
   const char *object = args.name[0] ? lua_pushfstring(L, "wire '%s'", args.name) : "wire";
   if (section.spin_inertia > 0 && !args.rolls)
     luaL_error(L, "%s: spin_inertia goes with rolls = true", object);
+  mesh.section = section;
+  if (more) {
+    const int kind = sw_calibrate_mesh(sw_wire_all()[model]->mesh);
+    lsw_must(L, sw_calibrate_materials(object, kind, mesh.body, &mesh.lattice, &section, &err),
+             &err);
+  }
   lsw_must(L, sw_section_beam(object, &section, &beam, &err), &err);
   if (beam.EI == 0 && strcmp(sw_wire_all()[args.model]->name, "string") != 0)
     luaL_error(L, "%s: EI = 0 N m2 is allowed with model = 'string' only", object);
-  mesh.section = section;
   const double *points = read_path(L, 2, &count);
   lsw_child *child = lsw_new_child(L, 1, &lsw_class_wire);
   lsw_must(L,

@@ -9,6 +9,7 @@
 
 #include "base/alloc.h"
 #include "calibrate/calibrate_inner.h"
+#include "calibrate/composite_solid.h"
 
 static const double PI = 3.14159265358979323846;
 static const double OF_LIMIT = 0.6; /* of the largest spacing, when it is chosen [-] */
@@ -92,6 +93,21 @@ sw_status sw_calibrate_lattice(const sw_calibrate_args *args, const sw_beam *bea
   return sw_lattice_radial(&mesh->radial, beam->radius, h, out, err);
 }
 
+sw_status sw_calibrate_composite_lattice(const sw_composite *place, const sw_beam *beam, double h,
+                                         sw_lattice *out, sw_error *err) {
+  const double R = beam->radius, ring = (double)place->ring;
+  const double limit = OF_LIMIT * largest_spacing(R, beam->EI, beam->GJ, 1, (long)place->ring);
+  const double layer = R / (double)(place->layers + place->core_layers);
+  if (isnan(h)) h = fmin(fmin(2 * R * sin(PI / ring), layer), limit);
+  return sw_lattice_composite_solid(place, h, out, err);
+}
+
+sw_status sw_calibrate_materials(const char *object, int mesh, int body,
+                                 const sw_lattice_args *args, sw_section *section, sw_error *err) {
+  if (mesh != SW_LATTICE_COMPOSITE || body != SW_BODY_SOLID) return SW_OK;
+  return sw_composite_section(object, &args->composite, section, err);
+}
+
 /* --- the wire -------------------------------------------------------------------- */
 
 /* E and nu are those of a solid round wire. */
@@ -120,6 +136,7 @@ static sw_status read_beam(const sw_calibrate_args *args, const sw_section *give
   sw_section c = *given;
   const int flat = args->mesh == SW_LATTICE_CUBIC && mesh->cubic.section == SW_SECTION_RECTANGLE;
   SW_TRY(check_section(args, given, &mesh->cubic, err));
+  SW_TRY(sw_calibrate_materials("calibrate", args->mesh, args->body, mesh, &c, err));
   if (flat && isnan(c.radius)) c.radius = 0.5 * hypot(mesh->cubic.width, mesh->cubic.height);
   if (flat && isnan(c.radius)) c.radius = 1; /* without sides, which the mesh will tell */
   if (isnan(c.mass_per_length) && isnan(c.density)) c.mass_per_length = 1;
@@ -286,13 +303,9 @@ sw_status sw_calibrate(const sw_calibrate_args *args, const sw_section *section,
       isnan(section->mass_per_length) && isnan(section->density) ? (double)NAN : beam.mass;
   out->scale = 1;
   set_targets(args, &beam, mesh, out->target);
-  if (args->mesh == SW_LATTICE_COMPOSITE && args->body == SW_BODY_SOLID)
-    return sw_fail(err, SW_EINVAL,
-                   "calibrate: body = 'solid' does not go with mesh = 'composite', which is of "
-                   "springs; give radial or cubic");
+  if (args->body == SW_BODY_SOLID) return sw_calibrate_solid(args, section, &beam, mesh, out, err);
   if (args->mesh == SW_LATTICE_COMPOSITE)
     return sw_calibrate_composite(args, section, &beam, &mesh->composite, out, err);
-  if (args->body == SW_BODY_SOLID) return sw_calibrate_solid(args, section, &beam, mesh, out, err);
   if (args->mesh == SW_LATTICE_TUBE && !mesh->tube.core && isnan(mesh->tube.ring_radius))
     SW_TRY(find_radius(args, section, &beam, mesh, out, err));
   else

@@ -36,6 +36,11 @@ typedef struct sw_lattice_args {
 const sw_params *sw_lattice_params(int mesh);
 void *sw_lattice_place(sw_lattice_args *args, int mesh); /* what the rows are read into */
 
+/* Where a mesh has several materials: EA, EI, GJ and mass per length into what *section does not
+ * give. object names the wire in messages. */
+sw_status sw_calibrate_materials(const char *object, int mesh, int body,
+                                 const sw_lattice_args *args, sw_section *section, sw_error *err);
+
 /* EI: bending in the plane of x and z; EI2: of y and z. */
 enum { SW_TARGET_EA, SW_TARGET_EI, SW_TARGET_EI2, SW_TARGET_GJ, SW_TARGET_SQUEEZE, SW_TARGETS };
 extern const char *const sw_target_names[SW_TARGETS];
@@ -52,6 +57,7 @@ typedef struct sw_calibration {
   double fading;          /* its stiffness by that guess [-] */
   double mass_per_length; /* NAN: not given [kg/m] */
   double nu;              /* of solid elements, whose modulus is k[SW_GROUP_SOLID]; else 0 [-] */
+  double core_nu;         /* likewise of a composite's core [-] */
   double scale; /* particles are so many times as far out as the section's; 1 of springs [-] */
   sw_composite composite; /* of other meshes all 0 */
 } sw_calibration;

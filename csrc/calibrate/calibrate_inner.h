@@ -9,6 +9,10 @@
 sw_status sw_calibrate_lattice(const sw_calibrate_args *args, const sw_beam *beam,
                                sw_lattice_args *mesh, sw_lattice *out, sw_error *err);
 
+/* The same for a composite of elements. */
+sw_status sw_calibrate_composite_lattice(const sw_composite *place, const sw_beam *beam,
+                                         double spacing, sw_lattice *out, sw_error *err);
+
 /* Residuals from what was reached; returns the largest that counts. */
 double sw_calibrate_residuals(sw_calibration *calibration);
 

@@ -2,16 +2,18 @@
 /* Elements that are a wire. A beam of elements alone has EA = E a s^2, EI = E b s^4 and
  * GJ = E c s^4 when its section is scaled by s, whatever the distance of slices: modulus and
  * scale make EA and EI exact for a wire of one material, with a scale near 1 that makes up for
- * corners of the mesh, and GJ follows from nu. Springs along the wire only add to EA and EI, so
- * that elements may have the modulus of GJ where the wire is stiffer than that. Where it is
- * softer (strands that slip bend easily but hardly untwist), diagonals carry a part of GJ, and
- * the least squares of the springs' fit find how much. */
+ * corners of the mesh, and GJ follows from nu. Of a composite, whose core has its own modulus and
+ * nu, the same holds with the core's modulus over the shell's as a given. Springs along the wire
+ * only add to EA and EI, so that elements may have the modulus of GJ where the wire is stiffer than
+ * that. Where it is softer (strands that slip bend easily but hardly untwist), diagonals carry a
+ * part of GJ, and the least squares of the springs' fit find how much. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "calibrate/calibrate_inner.h"
+#include "calibrate/composite_solid.h"
 
 static const double USUAL_POISSON = 0.45; /* of rubbery insulation [-] */
 static const double HIGHEST = 0.4999;     /* Poisson's ratio whose numbers are still exact [-] */
@@ -19,7 +21,7 @@ static const double ONE_MATERIAL = 0.05;  /* EI off that of EA and one material,
 static const double GJ_NEAR = 0.02;       /* of elements alone: nu says the rest [-] */
 static const double LEAST = 0.01;         /* of EA and EI that springs are searched from [-] */
 
-enum { SHARE_SIZE = SW_CELL_SIZE + 1 };
+enum { SHARE_SIZE = SW_CELL_SIZE + 1, CORE_SOLID = SW_GROUP_OF_CORE + SW_GROUP_SOLID };
 static const unsigned ALONG =
     1U << SW_GROUP_LONGITUDINAL | 1U << SW_GROUP_INNER | 1U << SW_GROUP_CORE;
 
@@ -30,18 +32,31 @@ typedef struct task {
   sw_calibration *c;
   int rounded;                           /* corners of voxels are put on the circles [-] */
   double scale;                          /* of the section [-] */
+  double ratio;                          /* modulus of a composite's core over the shell's [-] */
   double unit[SW_TARGETS];               /* of elements of 1 Pa, scale 1 */
   double shares[SW_GROUPS * SHARE_SIZE]; /* of unit springs */
 } task;
+
+static int is_composite(const task *t) { return t->args.mesh == SW_LATTICE_COMPOSITE; }
+
+/* Of all elements, by that of the shell or of all. */
+static void set_modulus(task *t, double E) {
+  t->c->k[SW_GROUP_SOLID] = E;
+  t->c->k[CORE_SOLID] = is_composite(t) ? t->ratio * E : 0;
+}
 
 static double share(const task *t, int group, int strain) {
   return t->shares[group * SHARE_SIZE + strain * (SW_CELL_STRAINS + 1)];
 }
 
-/* Square of the radius of gyration about y. */
+/* Square of the radius of gyration about y, moduli being weights. */
 static double gyration2(const task *t) {
   const sw_cubic_args *cubic = &t->mesh->cubic;
   const double r = t->beam->radius;
+  if (is_composite(t)) {
+    const sw_composite_areas of = sw_composite_measure(&t->c->composite);
+    return (of.shell_I + t->ratio * of.core_I) / (of.shell + t->ratio * of.core);
+  }
   if (t->args.mesh == SW_LATTICE_CUBIC && cubic->section == SW_SECTION_RECTANGLE)
     return cubic->width * cubic->width / 12;
   if (t->args.mesh == SW_LATTICE_CUBIC && cubic->section == SW_SECTION_ANNULUS)
@@ -73,6 +88,16 @@ static sw_status check(const task *t, const sw_section *section, sw_error *err) 
   return SW_OK;
 }
 
+static void choose_composite_poisson(const task *t, const sw_section *section) {
+  sw_calibration *c = t->c;
+  sw_composite_poisson(&t->mesh->composite, section, t->beam, &c->composite, t->ratio, &c->nu,
+                       &c->core_nu);
+  const int fits = one_material(t) || !isnan(section->nu);
+  if (!fits || isnan(c->nu)) c->nu = USUAL_POISSON;
+  if (!isnan(t->mesh->composite.core_nu)) return;
+  c->core_nu = c->nu;
+}
+
 /* That which was given, or the one with which GJ and EI of a round wire go together. */
 static double poisson(const task *t, const sw_section *section) {
   const int flat =
@@ -85,9 +110,13 @@ static double poisson(const task *t, const sw_section *section) {
 /* About as long as the outermost elements are wide: nothing but the curvature of the wire asks
  * for short ones. */
 static double usual_spacing(const task *t) {
-  const double r = t->beam->radius, M = (double)t->mesh->radial.particles;
+  const sw_composite *c = &t->c->composite;
+  const double r = t->beam->radius;
+  const double M = is_composite(t) ? (double)c->ring : (double)t->mesh->radial.particles;
+  const double layers =
+      is_composite(t) ? (double)(c->layers + c->core_layers) : (double)t->mesh->radial.layers;
   const double chord = 2 * r * sin(3.14159265358979323846 / M);
-  return fmin(0.75 * r, fmax(chord, r / (double)t->mesh->radial.layers));
+  return fmin(0.75 * r, fmax(chord, r / layers));
 }
 
 /* Voxels need not stay squares: their outer corners go to the nearer of the section's circles,
@@ -116,9 +145,14 @@ static sw_status round_voxels(const task *t, sw_lattice *l, sw_error *err) {
 static sw_status fresh(task *t, double scale, unsigned groups, sw_error *err) {
   sw_calibration *c = t->c;
   sw_lattice_free(&c->lattice);
-  SW_TRY(sw_calibrate_lattice(&t->args, t->beam, t->mesh, &c->lattice, err));
+  if (is_composite(t))
+    SW_TRY(
+        sw_calibrate_composite_lattice(&c->composite, t->beam, t->args.spacing, &c->lattice, err));
+  else
+    SW_TRY(sw_calibrate_lattice(&t->args, t->beam, t->mesh, &c->lattice, err));
   if (t->rounded) SW_TRY(round_voxels(t, &c->lattice, err));
-  c->lattice.nu = c->nu;
+  for (size_t m = 0; m < c->lattice.solids; m++)
+    c->lattice.solid[m].nu = c->lattice.solid[m].group == CORE_SOLID ? c->core_nu : c->nu;
   c->scale = scale;
   sw_lattice_keep(&c->lattice, groups);
   sw_lattice_scale(&c->lattice, scale);
@@ -145,7 +179,7 @@ static int is_good(const task *t, double near_GJ) {
 /* Elements of 1 Pa, and the scale that is right for one material. */
 static sw_status measure(task *t, sw_error *err) {
   SW_TRY(fresh(t, 1, 0, err));
-  t->c->k[SW_GROUP_SOLID] = 1;
+  set_modulus(t, 1);
   SW_TRY(reach(t, err));
   for (int g = 0; g < SW_TARGETS; g++) t->unit[g] = sw_reached(&t->c->reached, g);
   t->scale = sqrt(gyration2(t) * t->unit[SW_TARGET_EA] / t->unit[SW_TARGET_EI]);
@@ -157,7 +191,7 @@ static sw_status elements_alone(task *t, sw_error *err) {
   const double s2 =
       target[SW_TARGET_EI] / target[SW_TARGET_EA] * unit[SW_TARGET_EA] / unit[SW_TARGET_EI];
   SW_TRY(fresh(t, sqrt(s2), 0, err));
-  t->c->k[SW_GROUP_SOLID] = target[SW_TARGET_EA] / (unit[SW_TARGET_EA] * s2);
+  set_modulus(t, target[SW_TARGET_EA] / (unit[SW_TARGET_EA] * s2));
   return reach(t, err);
 }
 
@@ -165,7 +199,7 @@ static sw_status elements_alone(task *t, sw_error *err) {
 static void measure_springs(task *t) {
   const sw_cell cell = sw_lattice_cell(&t->c->lattice);
   double one[SW_GROUPS], S[SW_CELL_SIZE];
-  for (int g = 0; g < SW_GROUPS; g++) one[g] = g != SW_GROUP_SOLID;
+  for (int g = 0; g < SW_GROUPS; g++) one[g] = g != SW_GROUP_SOLID && g != CORE_SOLID;
   sw_cell_affine(&cell, one, S, t->shares);
 }
 
@@ -204,7 +238,7 @@ static sw_status with_springs(task *t, int *possible, sw_error *err) {
   measure_springs(t);
   *possible = springs_along(t, target[SW_TARGET_EA] - E * t->unit[SW_TARGET_EA] * s2,
                             target[SW_TARGET_EI] - E * t->unit[SW_TARGET_EI] * s2 * s2);
-  t->c->k[SW_GROUP_SOLID] = E;
+  set_modulus(t, E);
   return *possible ? reach(t, err) : SW_OK;
 }
 
@@ -237,7 +271,7 @@ static sw_status with_diagonals(task *t, sw_error *err) {
   const double EI = target[SW_TARGET_EI] - E * t->unit[SW_TARGET_EI] * s2 * s2 -
                     diagonal * share(t, SW_GROUP_DIAGONAL, SW_CELL_ABOUT_Y);
   springs_along(t, fmax(EA, least_EA), fmax(EI, least_EI));
-  k[SW_GROUP_SOLID] = E;
+  set_modulus(t, E);
   k[SW_GROUP_DIAGONAL] = diagonal;
   for (int g = 0; g < SW_GROUPS; g++) /* logarithms are searched */
     if (t->c->links[g] && !(k[g] > 0)) k[g] = least_EA / fmax(share(t, g, SW_CELL_STRETCH), 1e-300);
@@ -266,28 +300,58 @@ static sw_status refuse(const task *t, sw_error *err) {
                  advice);
 }
 
+/* Elements alone where these have EA, EI and nearly GJ, else springs as well. */
+static sw_status fit(task *t, double spacing, sw_error *err) {
+  int possible = 0;
+  sw_status status = measure(t, err);
+  if (status == SW_EINVAL && t->rounded) { /* walls of a voxel or two may not bear it */
+    t->rounded = 0;
+    status = measure(t, err);
+  }
+  SW_TRY(status);
+  if (one_material(t)) {
+    SW_TRY(elements_alone(t, err));
+    if (is_good(t, GJ_NEAR)) return SW_OK;
+  }
+  SW_TRY(with_springs(t, &possible, err));
+  if (possible && is_good(t, 0)) return SW_OK;
+  t->args.spacing = spacing; /* diagonals want short slices */
+  SW_TRY(with_diagonals(t, err));
+  return is_good(t, 0) ? SW_OK : refuse(t, err);
+}
+
+/* Where core and shell are, and of what. */
+static sw_status begin_composite(task *t, const sw_section *section, double *core_share,
+                                 sw_error *err) {
+  const sw_composite_args *given = &t->mesh->composite;
+  sw_composite *place = &t->c->composite;
+  SW_TRY(sw_composite_place_solid(given, t->beam->radius, place, err));
+  SW_TRY(sw_composite_core_share(given, place, t->c->mass_per_length, core_share, err));
+  SW_TRY(sw_composite_ratio(given, section, t->beam, place, &t->ratio, err));
+  choose_composite_poisson(t, section);
+  return SW_OK;
+}
+
+static sw_status finish_composite(task *t, double core_share, sw_error *err) {
+  sw_calibration *c = t->c;
+  sw_composite_weigh(&c->composite, core_share, &c->lattice);
+  c->composite.ring_radius *= c->scale;
+  return sw_composite_parts(&c->composite, &c->lattice, c->k, err);
+}
+
 sw_status sw_calibrate_solid(const sw_calibrate_args *args, const sw_section *section,
                              const sw_beam *beam, sw_lattice_args *mesh, sw_calibration *out,
                              sw_error *err) {
-  task t = {.args = *args, .beam = beam, .mesh = mesh, .c = out};
-  int possible = 0;
+  task t = {.args = *args, .beam = beam, .mesh = mesh, .c = out, .ratio = 1};
+  const int composite = args->mesh == SW_LATTICE_COMPOSITE;
+  double core_share = 0;
   SW_TRY(check(&t, section, err));
-  if (isnan(t.args.spacing) && args->mesh == SW_LATTICE_RADIAL) t.args.spacing = usual_spacing(&t);
-  out->nu = poisson(&t, section);
+  if (composite)
+    SW_TRY(begin_composite(&t, section, &core_share, err));
+  else
+    out->nu = poisson(&t, section);
+  if (isnan(t.args.spacing) && args->mesh != SW_LATTICE_CUBIC) t.args.spacing = usual_spacing(&t);
   t.rounded = args->mesh == SW_LATTICE_CUBIC && mesh->cubic.section != SW_SECTION_RECTANGLE;
-  sw_status status = measure(&t, err);
-  if (status == SW_EINVAL && t.rounded) { /* walls of a voxel or two may not bear it */
-    t.rounded = 0;
-    status = measure(&t, err);
-  }
-  SW_TRY(status);
-  if (one_material(&t)) {
-    SW_TRY(elements_alone(&t, err));
-    if (is_good(&t, GJ_NEAR)) return SW_OK;
-  }
-  SW_TRY(with_springs(&t, &possible, err));
-  if (possible && is_good(&t, 0)) return SW_OK;
-  t.args.spacing = args->spacing; /* diagonals want short slices */
-  SW_TRY(with_diagonals(&t, err));
-  return is_good(&t, 0) ? SW_OK : refuse(&t, err);
+  SW_TRY(fit(&t, args->spacing, err));
+  return composite ? finish_composite(&t, core_share, err) : SW_OK;
 }

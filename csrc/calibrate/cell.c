@@ -101,7 +101,7 @@ static void assemble(const sw_cell *c, const double *k, double *K, double *right
       }
     }
   }
-  if (c->solids) sw_cell_assemble_solids(c, k[c->solid_group], K, right);
+  sw_cell_assemble_solids(c, k, K, right);
   squeeze_load(c, right + SW_CELL_STRAINS * n);
 }
 
@@ -126,9 +126,7 @@ static double collect(const sw_cell *c, const double *k, const double *v, double
     part[SW_CELL_SIZE] += stiffness * e[SW_CELL_STRAINS] * e[SW_CELL_STRAINS];
     compliance += stiffness * e[SW_CELL_STRAINS] * e[SW_CELL_STRAINS];
   }
-  if (c->solids)
-    compliance += sw_cell_collect_solids(c, k[c->solid_group], v, parts + c->solid_group * size);
-  return compliance;
+  return compliance + sw_cell_collect_solids(c, k, v, parts);
 }
 
 static void sum_parts(const sw_cell *c, const double *parts, double S[SW_CELL_SIZE]) {

@@ -26,6 +26,8 @@ typedef struct sw_cell_link {
 typedef struct sw_cell_solid {
   int nodes;            /* 6 or 8 [-] */
   uint32_t particle[8]; /* by the numbers of one slice */
+  uint32_t group;       /* k of it is the modulus [Pa] */
+  double nu;            /* Poisson's ratio [-] */
 } sw_cell_solid;
 
 /* The caller's arrays. */
@@ -34,10 +36,8 @@ typedef struct sw_cell {
   size_t particles, links, groups;
   const double *at; /* x, y, z of each particle of slice 0 [m] */
   const sw_cell_link *link;
-  /* k of the elements' group is their modulus [Pa] */
-  size_t solids, solid_group;
+  size_t solids;
   const sw_cell_solid *solid;
-  double nu; /* Poisson's ratio of the elements [-] */
 } sw_cell;
 
 enum { SW_CELL_PARTICLES = 512 }; /* most of one slice [-] */

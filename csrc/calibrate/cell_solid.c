@@ -17,7 +17,7 @@ typedef struct element {
 } element;
 
 static sw_status prepare(const sw_cell *c, const sw_cell_solid *s, element *e) {
-  const double mu = 0.5 / (1 + c->nu), lambda = c->nu / ((1 + c->nu) * (1 - 2 * c->nu));
+  const double mu = 0.5 / (1 + s->nu), lambda = s->nu / ((1 + s->nu) * (1 - 2 * s->nu));
   double rest[MOST];
   sw_solid solid;
   e->n = 3 * s->nodes;
@@ -37,10 +37,10 @@ static sw_status prepare(const sw_cell *c, const sw_cell_solid *s, element *e) {
 
 sw_status sw_cell_check_solids(const sw_cell *c, sw_error *err) {
   element e;
-  if (c->solids && (c->solid_group >= c->groups || !(c->nu > -1) || !(c->nu < 0.5)))
-    return sw_fail(err, SW_EINVAL, "cell: nu = %g must be in (-1, 0.5)", c->nu);
   for (size_t m = 0; m < c->solids; m++) {
     const sw_cell_solid *s = c->solid + m;
+    if (s->group >= c->groups || !(s->nu > -1) || !(s->nu < 0.5))
+      return sw_fail(err, SW_EINVAL, "cell: nu = %g must be in (-1, 0.5)", s->nu);
     if (s->nodes != SW_SOLID_PRISM && s->nodes != SW_SOLID_HEX)
       return sw_fail(err, SW_EINVAL, "cell: element %zu has %d particles; 6 or 8 make one", m + 1,
                      s->nodes);
@@ -65,10 +65,11 @@ static void times(const element *e, const double *u, double *out) {
   }
 }
 
-void sw_cell_assemble_solids(const sw_cell *c, double k, double *K, double *right) {
+void sw_cell_assemble_solids(const sw_cell *c, const double *of, double *K, double *right) {
   const size_t n = 3 * c->particles;
   element e;
   for (size_t m = 0; m < c->solids; m++) {
+    const double k = of[c->solid[m].group];
     if (prepare(c, c->solid + m, &e) != SW_OK) continue; /* checked before */
     for (int i = 0; i < e.n; i++)
       for (int j = 0; j < e.n; j++)
@@ -81,11 +82,13 @@ void sw_cell_assemble_solids(const sw_cell *c, double k, double *K, double *righ
   }
 }
 
-double sw_cell_collect_solids(const sw_cell *c, double k, const double *v, double *part) {
+double sw_cell_collect_solids(const sw_cell *c, const double *of, const double *v, double *parts) {
   const size_t n = 3 * c->particles;
   double compliance = 0;
   element e;
   for (size_t m = 0; m < c->solids; m++) {
+    const uint32_t group = c->solid[m].group;
+    double k = of[group], *part = parts + group * (SW_CELL_SIZE + 1);
     if (prepare(c, c->solid + m, &e) != SW_OK) continue;
     double force[SW_CELL_SIDES][MOST], all[SW_CELL_SIDES][SW_CELL_SIDES];
     for (size_t t = 0; t < SW_CELL_SIDES; t++) {

@@ -323,31 +323,11 @@ static sw_status fit_whole(const plan *p, sw_calibration *out, sw_error *err) {
   return check_whole(p, out, err);
 }
 
-/* Share of the slice's mass in each core. */
-static sw_status share_mass(const plan *p, double mass, double *share, sw_error *err) {
-  const sw_composite *c = p->place;
-  const double core = area(c->core_radius, 0), given = p->given->core_mass;
-  *share = core / (area(c->radius, c->bore) + p->n * core);
-  if (isnan(given)) return SW_OK;
-  if (isnan(mass))
-    return sw_fail(err, SW_EINVAL,
-                   "calibrate: core_mass = %.6g kg/m goes with the wire's mass_per_length [kg/m]",
-                   given);
-  if (!(p->n * given < mass))
-    return sw_fail(
-        err, SW_EINVAL,
-        "calibrate: core_mass = %.6g kg/m of each of %g cores must be in (0, %.6g) kg/m, "
-        "so that the shell has a part of the wire's mass",
-        given, p->n, mass / p->n);
-  *share = given / mass;
-  return SW_OK;
-}
-
 static sw_status build(plan *p, sw_calibration *out, sw_error *err) {
   sw_calibration core;
   double share = 0;
   memset(&core, 0, sizeof core);
-  SW_TRY(share_mass(p, out->mass_per_length, &share, err));
+  SW_TRY(sw_composite_core_share(p->given, p->place, out->mass_per_length, &share, err));
   sw_status status = sw_lattice_core(p->given, p->place, choose_spacing(p), &core.lattice, err);
   if (status == SW_OK)
     status = sw_lattice_composite(p->given, &core.lattice, share, p->place, &out->lattice, err);
@@ -380,6 +360,7 @@ sw_status sw_calibrate_composite(const sw_calibrate_args *args, const sw_section
         "calibrate: spin_inertia = %g kg m goes with mesh = 'tube'; give core_mass [kg/m] "
         "to mesh = 'composite'",
         section->spin_inertia);
+  SW_TRY(sw_composite_check_springs(given, err));
   SW_TRY(sw_composite_place(given, beam->radius, p.place, err));
   p.wire = (part){beam->EA, beam->EI, beam->GJ};
   p.n = (double)p.place->cores;

@@ -139,7 +139,7 @@ double sw_calibrate_residuals(sw_calibration *c) {
 void sw_calibrate_count(sw_calibration *c) {
   memset(c->links, 0, sizeof c->links);
   for (size_t m = 0; m < c->lattice.links; m++) c->links[c->lattice.link[m].group]++;
-  c->links[SW_GROUP_SOLID] = c->lattice.solids;
+  for (size_t m = 0; m < c->lattice.solids; m++) c->links[c->lattice.solid[m].group]++;
 }
 
 /* The groups that have links, and where their search begins. */

@@ -44,10 +44,12 @@ static const sw_param tube_rows[] = {
 const sw_params sw_tube_params = SW_PARAMS("calibrate", tube_rows);
 #undef AT
 
+enum { LAYERS = 6 }; /* of radial at most [-] */
+
 static const sw_param radial_rows[] = {
     {"particles", SW_PARAM_INTEGER, "-", 8, 3, 48, 0, NULL, offsetof(sw_radial_args, particles),
      "particles of each layer"},
-    {"layers", SW_PARAM_INTEGER, "-", 2, 1, 6, 0, NULL, offsetof(sw_radial_args, layers),
+    {"layers", SW_PARAM_INTEGER, "-", 2, 1, LAYERS, 0, NULL, offsetof(sw_radial_args, layers),
      "layers around the central line"},
 };
 const sw_params sw_radial_params = SW_PARAMS("calibrate", radial_rows);
@@ -81,7 +83,7 @@ sw_status sw_lattice_link(sw_lattice *l, sw_cell_link link, sw_error *err) {
 
 sw_status sw_lattice_solid(sw_lattice *l, int corners, const uint32_t *corner, sw_error *err) {
   void *p = l->solid;
-  sw_cell_solid solid = {.nodes = 2 * corners};
+  sw_cell_solid solid = {.nodes = 2 * corners, .group = SW_GROUP_SOLID};
   for (int i = 0; i < corners; i++) solid.particle[i] = solid.particle[i + corners] = corner[i];
   if (sw_grow(&p, &l->solid_capacity, l->solids + 1, sizeof solid) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "calibrate: out of memory");
@@ -148,9 +150,7 @@ sw_cell sw_lattice_cell(const sw_lattice *l) {
                    .at = l->at,
                    .link = l->link,
                    .solids = l->solids,
-                   .solid_group = SW_GROUP_SOLID,
-                   .solid = l->solid,
-                   .nu = l->nu};
+                   .solid = l->solid};
 }
 
 static void place(sw_lattice *l, size_t i, double r, double angle, double share) {
@@ -283,24 +283,33 @@ static void unit_weights(sw_lattice *l) {
     }
 }
 
-sw_status sw_lattice_radial(const sw_radial_args *a, double radius, double spacing, sw_lattice *l,
-                            sw_error *err) {
-  const radial r = {(size_t)a->particles, (size_t)a->layers, l};
-  const double L = (double)r.L, M = (double)r.M;
-  SW_TRY(sw_lattice_room(l, 1 + r.M * r.L, err));
+sw_status sw_lattice_layers(size_t particles, size_t layers, const double *radius, double spacing,
+                            sw_lattice *l, sw_error *err) {
+  const radial r = {particles, layers, l};
+  const double M = (double)particles, whole = radius[layers] * radius[layers];
+  double inner = 0; /* square of the radius up to which others have the area */
+  SW_TRY(sw_lattice_room(l, 1 + particles * layers, err));
   l->spacing = spacing;
-  place(l, 0, 0, 0, 0.25 / (L * L));
-  for (size_t k = 1; k <= r.L; k++) {
-    const double share = (k < r.L ? 2 * (double)k : L - 0.25) / (L * L * M); /* of the area */
-    for (size_t s = 0; s < r.M; s++)
-      place(l, node(&r, k, s), radius * (double)k / L, 2 * PI * (double)s / M, share);
+  for (size_t k = 0; k <= layers; k++) {
+    const double middle = k < layers ? 0.5 * (radius[k] + radius[k + 1]) : radius[k];
+    const double share = (middle * middle - inner) / (whole * (k ? M : 1));
+    for (size_t s = 0; s < (k ? particles : 1); s++)
+      place(l, node(&r, k, s), radius[k], 2 * PI * (double)s / M, share);
+    inner = middle * middle;
   }
   SW_TRY(bar(&r, 0, 0, 1, SW_GROUP_CORE, err));
-  for (size_t k = 1; k <= r.L; k++)
-    for (size_t s = 0; s < r.M; s++) {
+  for (size_t k = 1; k <= layers; k++)
+    for (size_t s = 0; s < particles; s++) {
       SW_TRY(radial_links(&r, k, s, err));
       SW_TRY(radial_solid(&r, k, s, err));
     }
   unit_weights(l);
   return SW_OK;
+}
+
+sw_status sw_lattice_radial(const sw_radial_args *a, double radius, double spacing, sw_lattice *l,
+                            sw_error *err) {
+  double at[LAYERS + 1] = {0};
+  for (long k = 0; k <= a->layers; k++) at[k] = radius * (double)k / (double)a->layers;
+  return sw_lattice_layers((size_t)a->particles, (size_t)a->layers, at, spacing, l, err);
 }

@@ -38,7 +38,6 @@ typedef struct sw_lattice {
   /* What fills the section; NULL for a mesh of springs alone. */
   sw_cell_solid *solid;
   size_t solids, solid_capacity; /* of one slice [-] */
-  double nu;                     /* of the elements [-] */
 } sw_lattice;
 
 typedef struct sw_tube_args {
@@ -68,6 +67,9 @@ extern const sw_params sw_cubic_params;
 sw_status sw_lattice_tube(const sw_tube_args *args, double spacing, sw_lattice *out, sw_error *err);
 sw_status sw_lattice_radial(const sw_radial_args *args, double radius, double spacing,
                             sw_lattice *out, sw_error *err);
+/* The same with layers at any radii, layers + 1 of them from 0 on [m]. */
+sw_status sw_lattice_layers(size_t particles, size_t layers, const double *radius, double spacing,
+                            sw_lattice *out, sw_error *err);
 /* spacing NAN: the voxels are cubes. radius: of circle and annulus; the voxels' area is that of
  * the section. */
 sw_status sw_lattice_cubic(const sw_cubic_args *args, double radius, double spacing,
@@ -94,7 +96,8 @@ sw_cell sw_lattice_cell(const sw_lattice *lattice); /* a view, while the lattice
  * have any ratio that the section allows. */
 sw_status sw_lattice_room(sw_lattice *lattice, size_t particles, sw_error *err);
 sw_status sw_lattice_link(sw_lattice *lattice, sw_cell_link link, sw_error *err);
-/* A prism on a triangle of particles, or a hexahedron on a quadrilateral (corners = 3 or 4). */
+/* A prism on a triangle of particles, or a hexahedron on a quadrilateral (corners = 3 or 4), of
+ * group SW_GROUP_SOLID, nu 0. */
 sw_status sw_lattice_solid(sw_lattice *lattice, int corners, const uint32_t *corner, sw_error *err);
 uint32_t sw_lattice_line(const sw_lattice *lattice, size_t i);
 

@@ -16,55 +16,6 @@ static const double BESIDE = 1.2; /* of the least distance of cores, for neighbo
 static const long CORE_RING = 6;  /* of a layer of a radial core, unless given [-] */
 static const long RING = 12;      /* particles of the shell, at least, unless given [-] */
 
-static const char *const cores[] = {"line", "radial", "cubic", NULL};
-
-#define AT(member) offsetof(sw_composite_args, member)
-#define VALUE(name, unit, doc) \
-  { #name, SW_PARAM_NUMBER, unit, NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(name), doc }
-#define COUNT(name, most, doc) \
-  { #name, SW_PARAM_INTEGER, "-", 0, 0, most, 0, NULL, AT(name), doc }
-static const sw_param rows[] = {
-    {"core", SW_PARAM_CHOICE, "-", SW_CORE_RADIAL, 0, 0, 0, cores, AT(core),
-     "a line of particles with springs against bending, layers, or voxels"},
-    {"cores", SW_PARAM_INTEGER, "-", 1, 1, SW_COMPOSITE_CORES, 0, NULL, AT(cores),
-     "equal cores: one at the axis; 2 to 6 around it; 7 are six around one"},
-    VALUE(core_radius, "m",
-          "of each core (not given: 0.6 of the wire's radius; of several 0.95 of what fits)"),
-    VALUE(wall, "m",
-          "of the shell (not given: all that a single core leaves; around several 0.2 of the "
-          "wire's radius)"),
-    VALUE(core_EA, "N",
-          "of each core (not given: what a wall that has the rest of EI leaves; of one material "
-          "the areas' share)"),
-    VALUE(core_EI, "N m2",
-          "of each core about its own axis (not given: its share in a section of one material that "
-          "has "
-          "the wire's EI or EA, whichever is less)"),
-    VALUE(core_GJ, "N m2", "of each core, likewise; a line has none"),
-    VALUE(core_mass, "kg/m", "of each core (not given: by areas)"),
-    {"bonded", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, AT(bonded),
-     "springs hold core and shell together; without them they slide, and sw.calibrate's links with "
-     "slide = true name the particles that face each other"},
-    {"bond", SW_PARAM_NUMBER, "-", 1, 0, 100, SW_PARAM_ABOVE_MIN, NULL, AT(bond),
-     "stiffness of bonds, over that of bars of the shell's modulus and of what carries at most a "
-     "tenth of the shell's or the cores' EA from slice to slice"},
-    {"friction", SW_PARAM_NUMBER, "-", 0, 0, 100, 0, NULL, AT(friction),
-     "with bonded = false, in a scene: of shell and cores on one another along the wire"},
-    {"grip", SW_PARAM_NUMBER, "N/m", 0, 0, HUGE_VAL, 0, NULL, AT(grip),
-     "likewise: radial force per length that presses each core from the start, besides what bends "
-     "and squeezing press; drawing out a core needs friction * grip * length"},
-    COUNT(particles, 64,
-          "particles of the shell's ring, 3 or more and the same to each core around the axis; 0 "
-          "chooses 12 or more"),
-    COUNT(reach, 31,
-          "particles that a diagonal of the shell goes round, below half a ring; 0 chooses"),
-    COUNT(core_particles, 48,
-          "of a radial core: particles of each layer, 3 or more; 0 chooses, 6 as a rule"),
-    COUNT(core_layers, 6, "of a radial core; 0 is 2 for one, 1 for each of several"),
-    COUNT(core_across, 16, "of a cubic core: voxels across; 0 is 4 for one, 2 for each of several"),
-};
-const sw_params sw_composite_params = SW_PARAMS("calibrate", rows);
-
 /* --- where parts are ---------------------------------------------------------------- */
 
 /* Cores around the axis. */
@@ -100,39 +51,6 @@ static sw_status choose_ring(const sw_composite_args *a, sw_composite *c, sw_err
   return SW_OK;
 }
 
-/* Values of parts that slide, with parts that do not. */
-static sw_status check_sliding(const sw_composite_args *a, sw_error *err) {
-  if (a->bonded && a->friction != 0)
-    return sw_fail(err, SW_EINVAL, "calibrate: friction = %g goes with bonded = false",
-                   a->friction);
-  if (a->bonded && a->grip != 0)
-    return sw_fail(err, SW_EINVAL, "calibrate: grip = %g N/m goes with bonded = false", a->grip);
-  return SW_OK;
-}
-
-/* Numbers of a mesh that was not chosen. */
-static sw_status check_kind(const sw_composite_args *a, sw_error *err) {
-  const struct {
-    const char *name;
-    long value;
-    int kind;
-  } all[] = {{"core_particles", a->core_particles, SW_CORE_RADIAL},
-             {"core_layers", a->core_layers, SW_CORE_RADIAL},
-             {"core_across", a->core_across, SW_CORE_CUBIC}};
-  for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-    if (all[i].value != 0 && a->core != all[i].kind)
-      return sw_fail(err, SW_EINVAL, "calibrate: %s = %ld goes with core = '%s', not with '%s'",
-                     all[i].name, all[i].value, cores[all[i].kind], cores[a->core]);
-  if (a->core_particles == 1 || a->core_particles == 2)
-    return sw_fail(err, SW_EINVAL,
-                   "calibrate: core_particles = %ld is not allowed; it must be 0 (chooses) or in "
-                   "[3, 48]",
-                   a->core_particles);
-  if (!a->bonded && a->bond != 1)
-    return sw_fail(err, SW_EINVAL, "calibrate: bond = %g goes with bonded = true", a->bond);
-  return check_sliding(a, err);
-}
-
 static sw_status check_room(const sw_composite *c, sw_error *err) {
   const double most = c->cores == 1 ? c->bore : MOST * fitting(c);
   if (c->core_radius <= most * (1 + 1e-12)) return SW_OK;
@@ -166,7 +84,7 @@ static sw_status choose_radii(const sw_composite_args *a, sw_composite *c, sw_er
 sw_status sw_composite_place(const sw_composite_args *a, double radius, sw_composite *c,
                              sw_error *err) {
   *c = (sw_composite){.cores = (size_t)a->cores, .radius = radius};
-  SW_TRY(check_kind(a, err));
+  SW_TRY(sw_composite_check(a, err));
   SW_TRY(choose_radii(a, c, err));
   SW_TRY(choose_ring(a, c, err));
   c->ring_radius = sqrt(0.5 * (radius * radius + c->bore * c->bore));
@@ -175,6 +93,42 @@ sw_status sw_composite_place(const sw_composite_args *a, double radius, sw_compo
     c->centre[i] = sw_v(d * cos(angle), d * sin(angle), 0);
   }
   return SW_OK;
+}
+
+sw_status sw_composite_core_share(const sw_composite_args *a, const sw_composite *c, double mass,
+                                  double *share, sw_error *err) {
+  const double n = (double)c->cores, core = c->core_radius * c->core_radius;
+  const double density = a->core_density * PI * core;
+  const double given = isnan(density) ? a->core_mass : density;
+  *share = core / (c->radius * c->radius - c->bore * c->bore + n * core);
+  if (isnan(given)) return SW_OK;
+  if (isnan(mass) && !isnan(density))
+    return sw_fail(err, SW_EINVAL,
+                   "calibrate: core_density = %.6g kg/m3 goes with the shell's density [kg/m3] or "
+                   "the wire's mass_per_length [kg/m]",
+                   a->core_density);
+  if (isnan(mass))
+    return sw_fail(err, SW_EINVAL,
+                   "calibrate: core_mass = %.6g kg/m goes with the wire's mass_per_length [kg/m]",
+                   given);
+  if (!(given < mass) && !isnan(density))
+    return sw_fail(err, SW_EINVAL,
+                   "calibrate: core_density = %.6g kg/m3 must be in (0, %.6g) kg/m3, so that the "
+                   "shell has a part of the wire's mass of %.6g kg/m",
+                   a->core_density, mass / (PI * core), mass);
+  if (!(n * given < mass))
+    return sw_fail(
+        err, SW_EINVAL,
+        "calibrate: core_mass = %.6g kg/m of each of %g cores must be in (0, %.6g) kg/m, "
+        "so that the shell has a part of the wire's mass",
+        given, n, mass / n);
+  *share = given / mass;
+  return SW_OK;
+}
+
+size_t sw_composite_part(const sw_composite *c, size_t particle) {
+  if (c->layers) return particle < c->each;
+  return particle < c->ring ? 0 : 1 + (particle - c->ring) / c->each;
 }
 
 /* --- the cores ----------------------------------------------------------------------- */

@@ -30,8 +30,9 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   c->start = sw_alloc(count, sizeof *c->start);
   c->now = sw_alloc(count, sizeof *c->now);
   c->flat = sw_alloc(count, sizeof *c->flat);
+  c->dense = sw_alloc(count, sizeof *c->dense);
   c->bounds = (sw_bounds *)sw_alloc(count, sizeof *c->bounds);
-  if (!c->obstacles || !c->start || !c->now || !c->flat || !c->bounds) {
+  if (!c->obstacles || !c->start || !c->now || !c->flat || !c->dense || !c->bounds) {
     sw_contact_free(c);
     return SW_ENOMEM;
   }
@@ -70,6 +71,7 @@ void sw_contact_free(sw_contact *c) {
   sw_free(c->start);
   sw_free(c->now);
   sw_free(c->flat);
+  sw_free(c->dense);
   sw_free(c->bounds);
   sw_free(c->candidates);
   sw_free(c->touches);
@@ -179,6 +181,22 @@ static sw_status segment_candidates(sw_contact *c, const sw_system *s, size_t bo
   return SW_OK;
 }
 
+/* Pads are met by particles alone where these lie close enough: between them the pad's edges would
+ * come and go along one edge of the surface after the other, and take its force to and fro. */
+static const double CLOSE = 3.0; /* rings along the least size of the pad [-] */
+
+static void find_dense(sw_contact *c, const sw_plan *p) {
+  double widest = 0;
+  const int rings = p->web && p->web->per_ring;
+  for (size_t i = 0; rings && i < p->nodes; i++) widest = fmax(widest, p->web->along[i]);
+  for (size_t o = 0; o < c->count; o++) {
+    const sw_bounds b = sw_shape_bounds(c->obstacles[o].shape);
+    const sw_vec size = sw_sub(b.max, b.min);
+    c->dense[o] = rings && c->obstacles[o].grips > 0 &&
+                  fmin(size.x, fmin(size.y, size.z)) > CLOSE * widest;
+  }
+}
+
 static sw_status node_candidates(sw_contact *c, const sw_system *s, size_t body, size_t i) {
   const sw_body *b = &s->bodies[body];
   const size_t node = b->first_node + i;
@@ -191,7 +209,7 @@ static sw_status node_candidates(sw_contact *c, const sw_system *s, size_t body,
     if (!outside(&c->bounds[o], sw_sub(x, r), sw_add(x, r)) &&
         sw_shape_point(c->obstacles[o].shape, sw_pose_local(c->start[o].pose, x), reach, &near))
       SW_TRY(add_candidate(c, b, body, node, node, (int)o, 0));
-    if (!c->flat[o]) SW_TRY(segment_candidates(c, s, body, i, o, reach));
+    if (!c->flat[o] && !c->dense[o]) SW_TRY(segment_candidates(c, s, body, i, o, reach));
   }
   return SW_OK;
 }
@@ -288,6 +306,7 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
   for (size_t b = 0; b < s->body_count && status == SW_OK; b++) {
     const size_t first = c->candidate_count;
     const sw_web *web = s->bodies[b].plan->web;
+    find_dense(c, s->bodies[b].plan);
     for (size_t i = 0; i < s->bodies[b].plan->nodes && status == SW_OK; i++)
       if (!web || web->outer[i]) status = node_candidates(c, s, b, i);
     set_stiffness(c, s, b, first);

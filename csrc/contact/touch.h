@@ -74,6 +74,7 @@ struct sw_contact {
   void *user;
   sw_contact_at *start, *now; /* (count) at the step's start and at the stage */
   int *flat;                  /* (count) 1: a half space, no segment contacts */
+  int *dense;                 /* (count) 1: particles of the body at hand lie close, likewise */
   sw_bounds *bounds;          /* (count) at the step's start, world axes */
   sw_candidate *candidates;
   size_t candidate_count, candidate_capacity;

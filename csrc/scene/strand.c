@@ -38,7 +38,9 @@ static sw_status calibrate(const sw_strand_plan *p, const sw_beam *beam, double 
   sw_lattice_args lattice = p->lattice;
   sw_section section = p->section;
   sw_error why = {""};
-  section.E = section.density = section.spin_inertia = (double)NAN;
+  section.density = section.spin_inertia = (double)NAN;
+  /* with the beam's values all that E tells is the ratio of a composite's materials */
+  if (p->body == SW_BODY_SPRINGS || args.mesh != SW_LATTICE_COMPOSITE) section.E = (double)NAN;
   if (p->body == SW_BODY_SPRINGS) section.nu = (double)NAN;
   section.EA = beam->EA, section.EI = beam->EI_axis[0], section.GJ = beam->GJ;
   section.mass_per_length = beam->mass;

@@ -121,8 +121,6 @@ static void rest_corners(const sw_strand_maker *m, const sw_cell_solid *e, size_
 static sw_status prepare_shapes(sw_strand_maker *m) {
   const sw_lattice *l = m->lattice;
   const size_t slices = m->plan->curved ? m->mesh->n - 1 : 1;
-  const double E = m->k[SW_GROUP_SOLID], nu = m->strand->kit->calibration.nu;
-  const double mu = 0.5 * E / (1.0 + nu), lambda = E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
   sw_solid *shape = sw_alloc(slices * l->solids, sizeof *shape);
   if (!shape) return SW_ENOMEM;
   m->web->shapes = shape;
@@ -130,6 +128,8 @@ static sw_status prepare_shapes(sw_strand_maker *m) {
   for (size_t k = 0; k < m->web->shape_count; k++) {
     double rest[3 * SW_SOLID_NODES];
     const sw_cell_solid *e = &l->solid[k % l->solids];
+    const double E = m->k[e->group], nu = e->nu;
+    const double mu = 0.5 * E / (1.0 + nu), lambda = E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
     rest_corners(m, e, k / l->solids, rest);
     SW_TRY(sw_solid_prepare(e->nodes, rest, mu, lambda, &shape[k]));
   }

@@ -11,7 +11,7 @@ local benchmeshes = { repeats = 5, patience = 2, solves = 400, share = 1 }
 
 --- The models with the sections they may have; the first is what others are compared with.
 benchmeshes.models = { { "rod" }, { "string" }, { "tube" }, { "radial" }, { "cubic" }, { "composite" },
-  { "radial", "solid" }, { "cubic", "solid" } }
+  { "radial", "solid" }, { "cubic", "solid" }, { "composite", "solid" } }
 
 -- Microseconds a ring of n unknowns may take, factor and solve: measured with plain blocks of C. Of
 -- solving the ends are known, 0.5 and 2.1 us; a power of n lies between.

@@ -22,6 +22,15 @@
 -- for the cell of the mesh as a whole; of cores off the axis that cell, whose sections stay plane,
 -- has their EA times distance^2 more of EI.
 --
+-- With body = "solid" a composite is one core bonded to the shell, in one mesh of layers with the
+-- face at the core's radius. E, nu and density are the shell's, core_E, core_nu and core_density
+-- the core's, and EA = sum of E_i A_i, EI = sum of E_i I_i, GJ = sum of G_i J_i. Exact: EA, EI, both
+-- nu, the ratio of the moduli. Scaled: the section (`scale`, with the face in it) and both moduli by
+-- one factor, so that EA and EI are exact in spite of corners, and of what parts with different nu
+-- add to EA by pressing on one another. GJ is then within 2 %. From EA, EI and GJ: the moduli that
+-- have EA and EI, and nu that makes GJ, unless core_E, core_EA or nu are given. Where that does
+-- not do it springs are added, moduli are searched too, and EA, EI and GJ are exact.
+--
 --     local c = sw.calibrate { mesh = "composite", core = "radial", cores = 3, bonded = false,
 --       EA = 5000, EI = 0.02, GJ = 0.015, radius = 0.005 }
 --     for _, l in ipairs(c.links) do
@@ -54,7 +63,11 @@ function Calibration.__tostring(c)
   end
   if c.elements then
     lines[#lines + 1] = ("  %-13s %12.6g %-5s %d elements, nu = %.4g, section times %.4g"):format("modulus",
-      c.modulus, "Pa", #c.elements, c.nu, c.scale)
+      c.modulus, "Pa", c.count.solid, c.nu, c.scale)
+  end
+  if c.core_modulus then
+    lines[#lines + 1] = ("  %-13s %12.6g %-5s %d elements, nu = %.4g"):format("core_modulus",
+      c.core_modulus, "Pa", c.count.core_solid, c.core_nu)
   end
   for _, group in ipairs(order) do
     if c.springs[group] then
@@ -111,7 +124,8 @@ end
 -- "solid" (or section = "solid") also `elements` {particles, slices (0 or 1)} of one slice, their
 -- `modulus` [Pa] and `nu`, and `scale`, how many times as far out as the wire's section its
 -- particles are, so that EA and EI are exact in spite of corners; GJ of elements alone is then
--- within 2 %. Of a composite
+-- within 2 %; of a composite `modulus` and `nu` are the shell's, `core_modulus` and `core_nu` the
+-- core's, and each of `elements` has its own. Of a composite
 -- also `part` of each particle (0: the shell, else the core's number), `shell` and `core`, each
 -- { EA, EI, GJ } of that part by itself, core that of each of them; `centres` {x, y, z} of the
 -- cores, `bore`, `core_radius` and `ring_radius` of the shell's particles [m]; without bonds, links
@@ -171,10 +185,11 @@ local function flat_links(links, names)
   return flat
 end
 
--- 6 or 8, and as many particles, of each element.
-local function flat_elements(elements)
-  local flat = {}
-  for i, e in ipairs(elements or {}) do
+-- 6 or 8, and as many particles, of each element, its group and nu. Moduli become more groups of
+-- stiffness.
+local function flat_elements(args, stiffness)
+  local flat, groups = {}, {}
+  for i, e in ipairs(args.elements or {}) do
     local list = type(e) == "table" and e.particles
     if type(list) ~= "table" or #list ~= 6 and #list ~= 8 then
       error(("cell: element %d must have a list of 6 or 8 particles"):format(i), 0)
@@ -183,6 +198,15 @@ local function flat_elements(elements)
     for k = 1, 8 do
       flat[#flat + 1] = k <= #list and number(("particle %d of element %d"):format(k, i), list[k]) or 0
     end
+    local modulus = number("modulus", args.modulus or e.modulus)
+    local group = groups[modulus]
+    if not group then
+      stiffness[#stiffness + 1] = modulus
+      group = #stiffness
+      if modulus == modulus then groups[modulus] = group end -- what is no number is told by the core
+    end
+    flat[#flat + 1] = group
+    flat[#flat + 1] = number("nu", args.nu or e.nu)
   end
   return flat
 end
@@ -217,9 +241,8 @@ local function cell(args)
   for i, name in ipairs(names) do
     stiffness[i] = number("stiffness of " .. name, args.stiffness[name])
   end
-  if args.elements then stiffness[#names + 1] = number("modulus", args.modulus) end
-  return core.cell(number("spacing", args.spacing), places, flat_links(args.links, names), stiffness,
-    flat_elements(args.elements), args.elements and number("nu", args.nu) or 0)
+  local links, elements = flat_links(args.links, names), flat_elements(args, stiffness)
+  return core.cell(number("spacing", args.spacing), places, links, stiffness, elements)
 end
 
 --- The beam that an endless mesh of springs is, exactly: any mesh whose slices repeat along z.
@@ -228,7 +251,7 @@ end
 -- weight = 1 }, or { from = i, to = i, slices = 1, bend = true, group = } for a spring against the
 -- angle between slices; `stiffness` by group [N/m; bend N m]; `elements`, a list of { particles =
 -- 6 or 8 numbers }, the first half of this slice, anticlockwise seen from the next one, the second
--- half the same of the next slice, with their `modulus` [Pa] and `nu`
+-- half the same of the next slice, with their `modulus` [Pa] and `nu`, or each with its own
 -- @treturn table EA [N], EI (plane of x and z), EI2 (y and z), GJ [N m2], squeeze [Pa], and
 -- `matrix`, 4 x 4: stretch, curvature about x, about y, twist
 function calibrate.cell(args) return call(cell, args) end

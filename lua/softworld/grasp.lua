@@ -104,7 +104,7 @@ function grasp.look(scene)
   for _, self in ipairs(build.data(scene).grippers) do
     if self.tool and self.wire then
       if self.frozen then mixed.watch(self) end
-      local now = not self.slip_event and self.tool:state()
+      local now = self.held and not self.slip_event and self.tool:state()
       if now and now.slip_time then
         local event = { kind = "slip", time = now.slip_time, s = now.slip_place, distance = now.slip }
         self.slip_event = event
@@ -258,9 +258,14 @@ local function grasp_by_pads(self, wire, args)
   place_tool(self, wire, s, 4)
   self.wire = wire
   self.s = s or nearest_place(wire, (self.tool:pose()))
+  self.free_height = nil
   if self.way == "mixed" then
     mixed.prepare(self, args)
     grasp.watch(self)
+  end
+  if wire.model ~= "rod" and wire.model ~= "string" then -- a mesh's section is not quite round
+    local _, q = self.tool:pose()
+    self.free_height = wire:width(self.s, vec.rotate(q, { 0, 1, 0 }))
   end
   move_jaws(self, order)
 end
@@ -305,7 +310,7 @@ function Methods:grasp(wire, args)
   if approach == "mixed" and not process.current() then
     error(("gripper '%s': a mixed grasp takes its time; call it in a process"):format(self.name), 2)
   end
-  self.way, self.frozen = approach, nil
+  self.way, self.frozen, self.held = approach, nil, false
   if args.on_slip ~= nil then grasp.set_on_slip(self, args.on_slip, 3) end
   if approach == "imposed" then
     grasp_imposed(self, wire, args)
@@ -317,6 +322,7 @@ function Methods:grasp(wire, args)
     self.wire = nil
     error(why, 0)
   end
+  self.held = true
   grasp.watch(self)
   if approach == "mixed" and args.freeze ~= false then mixed.settle(self, args) end
   return self
@@ -333,6 +339,7 @@ function grasp.release(self, args)
     return self
   end
   if self.frozen then mixed.thaw(self) end
+  self.held = false
   self:open_jaws(args)
   if self.way == "mixed" then mixed.finish(self) end
   self.wire = nil

@@ -139,13 +139,13 @@ function Measures:state()
   return now
 end
 
---- How far the wire is squeezed at the pads: height across the pads and width along them [m], and
--- the share of the diameter that is missing [-].
+--- How far the wire is squeezed at the pads: height from pad to pad and width across that [m], and
+-- the share of the height that is missing [-].
 function Measures:squeeze()
   local state = self:state()
   if not self.wire then error(("gripper '%s' holds nothing"):format(self.name), 2) end
   local d, result = 2 * self.wire.radius, nil
-  if self.frozen and self.frozen.section then
+  if self.frozen then
     result = { height = self.frozen.section.height, width = self.frozen.section.width }
   elseif self.wire.model ~= "rod" and self.wire.model ~= "string" then
     local _, q = self.tool:pose()
@@ -154,7 +154,7 @@ function Measures:squeeze()
   else
     result = { height = math.min(d, state.opening), width = d }
   end
-  result.share = 1 - result.height / d
+  result.share = 1 - result.height / (self.free_height or d)
   return result
 end
 

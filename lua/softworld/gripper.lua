@@ -64,7 +64,7 @@ function core.class.scene.gripper(scene, args)
 end
 
 local remembered = { "hold", "at", "rotation", "tool", "wire", "way", "frozen", "on_slip", "opening",
-  "order", "obstacles" }
+  "order", "obstacles", "held", "s", "free_height" }
 
 --- What a snapshot must know of the gripper, and the way back; recall(nil) for
 -- one that was made later.

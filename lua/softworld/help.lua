@@ -158,12 +158,14 @@ local more = {
   .links, .particles, .spacing   of one slice; the next is .spacing [m] further along z
   .mass, .shares                 of each particle of a slice [kg], [-]
   .shell, .core, .part, .centres of a composite: EA, EI, GJ of the parts; part of each particle
+  .modulus, .nu, .scale          of elements [Pa], [-]; .core_modulus, .core_nu of a composite's core
   .EA .EI .EI2 .GJ .squeeze      reached [N], [N m2], [Pa]; .residuals: share of each that is off
   sw.calibrate.cell{ spacing =, particles =, links =, stiffness = }   the beam that any mesh is]],
   wire_mesh = [[
   and what the mesh itself takes: help "calibrate_tube", help "calibrate_radial",
   help "calibrate_cubic", help "calibrate_composite"
-  section = "solid" is body = "solid"; wire:section(s) tells how a section is deformed ]],
+  section = "solid" is body = "solid"; wire:section(s) tells how a section is deformed
+  a composite of elements: E, nu, density are the shell's; core_E, core_nu, core_density the core's ]],
   remodel = [[
   and what help "wire_mesh" lists. Shape, stretch, twist, velocity, momentum go over; holds stay
   returns { energy_before, energy_after, energy_change [J], before, after = { linear [N s],

@@ -49,8 +49,8 @@ local function add_element(matrix, c, e, slice, M)
     local at = c.particles[p]
     rest[3 * a - 2], rest[3 * a - 1], rest[3 * a] = at[1], at[2], at[3] + e.slices[a] * c.spacing
   end
-  local mu = 0.5 * c.modulus / (1 + c.nu)
-  local _, _, H = core.solid(rest, mu, 2 * mu * c.nu / (1 - 2 * c.nu), rest)
+  local mu = 0.5 * e.modulus / (1 + e.nu)
+  local _, _, H = core.solid(rest, mu, 2 * mu * e.nu / (1 - 2 * e.nu), rest)
   for a, p in ipairs(e.particles) do
     for b, q in ipairs(e.particles) do
       local key = ((slice + e.slices[a]) * M + p - 1) * matrix.count + (slice + e.slices[b]) * M + q - 1

@@ -46,6 +46,12 @@ describe("a mesh is refused", function()
     { "solid tubes", "tube", { body = "solid" }, "no room for solid elements" },
     { "incompressible ones", "radial", { body = "solid", nu = 0.5 }, "nu = 0.5" },
     { "a solid's squeeze", "radial", { body = "solid", squeeze = 1e6 }, "squeeze" },
+    { "solid cables", "composite", { body = "solid", cores = 3 }, "one core at the axis; take cores = 1" },
+    { "solids that slide", "composite", { body = "solid", bonded = false }, "take bonded = true" },
+    { "cores of springs", "composite", { core_E = 1e9 }, "core_E = 1e+09 Pa is of elements" },
+    { "a core of another name", "composite", { body = "solid", core_e = 1e9 }, "did you mean 'core_E'?" },
+    { "cores of two moduli", "composite", { body = "solid", core_E = 1e9, core_EA = 5 }, "say the same" },
+    { "a core as large as the wire", "composite", { body = "solid", core_radius = 1 }, "core_radius = 1 m" },
     { "rolling", "tube", { rolls = true }, "rolls by itself" },
     { "one slice", "tube", { segments = 1 }, "segments = 1" },
     { "too many slices", "tube", { segments = 2e6 }, "too many" },
@@ -229,6 +235,11 @@ describe("a mesh without memory", function()
     ["making a solid one"] = function(scene)
       return scene:wire{ model = "radial", body = "solid", particles = 3, layers = 1, segments = 2, E = 1e7,
         density = 1e3, radius = 0.01, from = { 0, 0, 0 }, to = { 0.02, 0, 0 } }
+    end,
+    ["making a solid one with a core"] = function(scene)
+      return scene:wire{ model = "composite", body = "solid", particles = 3, layers = 1, core_layers = 1,
+        segments = 2, E = 1e7, core_E = 1e8, density = 1e3, radius = 0.01, from = { 0, 0, 0 },
+        to = { 0.02, 0, 0 } }
     end,
     ["making a curved one"] = function(scene)
       local p = { rest = "path", path = { { 0, 0, 0 }, { 0.03, 0, 0 }, { 0.05, 0.02, 0 } } }

@@ -5,7 +5,7 @@ local sw = require "softworld"
 
 local meshes = {}
 
--- Every model at its defaults, and what of it makes another mesh.
+-- Every model at its defaults, and what of it makes another mesh; core_E is in units of E.
 meshes.all = {
   { "tube", { model = "tube" } },
   { "hollow tube", { model = "tube", core = false } },
@@ -18,11 +18,12 @@ meshes.all = {
   { "composite, cubic", { model = "composite", core = "cubic" } },
   { "composite, 3 lines", { model = "composite", core = "line", cores = 3 } },
   { "composite, 3 radial", { model = "composite", core = "radial", cores = 3 } },
+  { "composite solid", { model = "composite", body = "solid", core_nu = 0.3, nu = 0.4 }, core_E = 5 },
 }
 
 -- One of each kind, for what costs more.
 meshes.few = { meshes.all[1], meshes.all[3], meshes.all[4], meshes.all[5], meshes.all[6],
-  meshes.all[7] }
+  meshes.all[7], meshes.all[12] }
 
 meshes.length, meshes.radius, meshes.E, meshes.density = 0.5, 0.01, 1e7, 1200 -- L/d = 25
 
@@ -37,6 +38,7 @@ function meshes.wire(scene, model, changes)
     if k == "EA" then p.E = nil end
     if k == "mass_per_length" then p.density = nil end
   end
+  if model.core_E and p.E then p.core_E = model.core_E * p.E end
   return scene:wire(p)
 end
 

@@ -78,6 +78,36 @@ describe("wire:remodel", function()
     end
   end)
 
+  -- The core's modulus is given, the shell's follows from the wire's EA, which two materials have.
+  it("makes a composite of elements of a rod, and a rod of it", function()
+    local r, rc, E, core_E = 0.006, 0.004, 2e7, 1.6e8
+    local EA = math.pi * (E * (r ^ 2 - rc ^ 2) + core_E * rc ^ 2)
+    local EI = math.pi / 4 * (E * (r ^ 4 - rc ^ 4) + core_E * rc ^ 4)
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ EA = EA, EI = EI, GJ = EI / 1.35, mass_per_length = 0.2, radius = r,
+      from = { 0, 0, 0 }, to = { L, 0, 0 }, segments = 40 }
+    scene:clamp(wire, { s = 0 })
+    scene:force{ kind = "point", on = wire, s = L, force = { 0, 0, 0.5 * EI / L ^ 2 } }
+    t.fine(scene:settle())
+    local tip, bend = wire:position(L), scene:energy().bend
+    local report = wire:remodel{ model = "composite", body = "solid", core_radius = rc, core_E = core_E }
+    t.below(0.02 * bend, math.abs(report.energy_change), "energy change")
+    local c = wire:calibration()
+    t.share(E, c.modulus, 0.005, "modulus of the shell")
+    t.share(core_E, c.core_modulus, 0.005, "modulus of the core")
+    t.near(0.35, c.nu, 1e-6, "nu")
+    t.fine(scene:settle())
+    t.below(2e-3 * L, t.distance(tip, wire:position(L)), "tip of the mesh")
+    wire:remodel{ model = "rod", segments = 40 }
+    t.fine(scene:settle())
+    -- its hinge at the clamp is where the mesh had a section: 1.4e-4 here, 3e-4 with a tube between
+    t.below(5e-4 * L, t.distance(tip, wire:position(L)), "tip of the rod")
+    local ok, message = pcall(wire.remodel, wire, { model = "composite", body = "solid", cores = 3 })
+    assert.is_false(ok)
+    assert.truthy(message:find("cores = 3 does not go with body = 'solid'", 1, true), message)
+    assert.equal("rod", wire.model)
+  end)
+
   it("takes twist and the clamps' moment along", function()
     for _, model in ipairs(meshes) do
       local scene, wire = make{}

@@ -305,6 +305,31 @@ describe("von Mises stress", function()
   end)
 end)
 
+describe("von Mises stress of a composite", function()
+  -- As above, each part with its own modulus; of one nu, so that they do not press on one another.
+  it("is the tension of shell and core", function()
+    local wire, scene = make { model = "composite", section = "solid", core_E = 8e6, core_radius = 0.0035 }
+    local L, c = wire.length, wire:calibration()
+    scene:clamp(wire, { s = 0 })
+    scene:clamp(wire, { s = L }):pose { 1.001 * L, 0, 0 }
+    assert.is_true(scene:settle().ok)
+    local strain = wire:section(L / 2).axial_strain[1]
+    share(1e-3, strain, 0.02)
+    local list, parts = wire:von_mises(L / 2), { shell = 0, core = 0 }
+    assert.equal(c.count.solid + c.count.core_solid, #list)
+    for _, e in ipairs(list) do
+      local inside = math.sqrt(e.at[2] ^ 2 + e.at[3] ^ 2) < 0.0035
+      local part = inside and "core" or "shell"
+      parts[part] = parts[part] + 1
+      share((inside and c.core_modulus or c.modulus) * strain, e.stress, 2e-3, part)
+    end
+    assert.same({ shell = c.count.solid, core = c.count.core_solid }, parts)
+    share(8e6, c.core_modulus, 0.002)
+    -- the whole of it: the elements' stress times their areas, within the corners of twelve sides
+    share(wire.beam.EA * strain, wire:tension(L / 2), 2e-3, "tension")
+  end)
+end)
+
 describe("wire:calibration", function()
   it("is what sw.calibrate finds for the particles' radius", function()
     local wire = make { model = "tube" }
