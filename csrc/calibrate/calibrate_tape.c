@@ -21,15 +21,16 @@ static void check_lattice(sw_tape *t, const sw_lattice *l) {
     for (int k = 0; k < 8 && sw_tape_good(t); k++)
       sw_tape_expect(t,
                      (l->solid[i].nodes == 6 || l->solid[i].nodes == 8) &&
+                         l->solid[i].group < SW_GROUPS &&
                          (k >= l->solid[i].nodes || l->solid[i].particle[k] < l->particles),
                      "an element of a section");
 }
 
 static void tape_lattice(sw_tape *t, sw_lattice *x) {
-  SW_TAPE_STRUCT(t, sw_lattice, 88);
+  SW_TAPE_STRUCT(t, sw_lattice, 80);
   SW_TAPE_STRUCT(t, sw_cell_link, 32);
-  SW_TAPE_STRUCT(t, sw_cell_solid, 36);
-  DOUBLE(spacing), DOUBLE(nu);
+  SW_TAPE_STRUCT(t, sw_cell_solid, 48);
+  DOUBLE(spacing);
   sw_tape_count(t, &x->particles, sizeof *x->share);
   sw_tape_count(t, &x->links, sizeof *x->link);
   sw_tape_count(t, &x->solids, sizeof *x->solid);
@@ -44,9 +45,9 @@ static void tape_lattice(sw_tape *t, sw_lattice *x) {
 }
 
 static void tape_composite(sw_tape *t, sw_composite *x) {
-  SW_TAPE_STRUCT(t, sw_composite, 528);
+  SW_TAPE_STRUCT(t, sw_composite, 544);
   SW_TAPE_STRUCT(t, sw_slide, 16);
-  SIZE(cores), SIZE(ring), SIZE(each), SIZE(shell_links);
+  SIZE(cores), SIZE(ring), SIZE(each), SIZE(shell_links), SIZE(layers), SIZE(core_layers);
   DOUBLE(radius), DOUBLE(bore), DOUBLE(core_radius), DOUBLE(ring_radius);
   DOUBLES(centre);
   tape_result(t, &x->shell), tape_result(t, &x->core);
@@ -58,12 +59,13 @@ static void tape_composite(sw_tape *t, sw_composite *x) {
 }
 
 void sw_tape_calibration(sw_tape *t, sw_calibration *x) {
-  SW_TAPE_STRUCT(t, sw_calibration, 1272);
+  SW_TAPE_STRUCT(t, sw_calibration, 1288);
   tape_lattice(t, &x->lattice);
   DOUBLES(k), DOUBLES(links), DOUBLES(target), DOUBLES(residual);
   tape_result(t, &x->reached);
   sw_tape_int(t, &x->faded);
-  DOUBLE(fading), DOUBLE(mass_per_length), DOUBLE(nu), DOUBLE(scale);
+  DOUBLE(fading), DOUBLE(mass_per_length), DOUBLE(nu), DOUBLE(core_nu);
+  DOUBLE(scale);
   tape_composite(t, &x->composite);
   sw_tape_expect(t, x->faded >= 0 && x->faded <= SW_GROUPS, "a calibration");
 }

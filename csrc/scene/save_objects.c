@@ -69,7 +69,7 @@ static void tape_drawing(sw_tape *t, sw_drawing *x) {
 
 static void tape_kit(sw_tape *t, sw_strand_kit **kit) {
   int there = !sw_tape_reads(t) && *kit != NULL;
-  SW_TAPE_STRUCT(t, sw_strand_kit, 1280);
+  SW_TAPE_STRUCT(t, sw_strand_kit, 1296);
   sw_tape_int(t, &there);
   if (!there) return;
   if (sw_tape_reads(t)) {
