@@ -417,6 +417,26 @@ describe("example", function()
     near(60 * low, tonumber(widest), 0.005, "width")
   end)
 
+  -- The lips' peaks are what the clips were given: steps of 5 ms at 0.05 m/s are 0.25 mm of a flank of
+  -- 4.5 mm, which miss the top of the sine by at most (pi/2 * 0.25/4.5)^2 / 2 = 0.4 %; on the way out
+  -- 0.04 mm of 1.5 mm. A slanting wire adds some. At rest clips and keeper bear the weight, printed
+  -- to four digits.
+  it("17: a cable in three clips", function()
+    local out = example "17_clips"
+    local count = 0
+    for s, lips, gripper in out:gmatch "wire in at t = %S+ s, s = (%S+) mm; lips (%S+) N, gripper (%S+) N" do
+      count = count + 1
+      near(8, tonumber(lips), 0.01, "insertion")
+      near(100 * count, tonumber(s), 0.01, "place on the wire") -- laid with little slack
+      assert.is_true(tonumber(gripper) > 8 and tonumber(gripper) < 40)
+    end
+    assert.are.equal(3, count)
+    near(25, after(out, "pulled out with"), 0.01, "retention")
+    near(after(out, "weight"), after(out, "together:"), 2e-3, "weight")
+    near(1500 * math.pi * 0.004 ^ 2 * 0.42 * g, after(out, "weight"), 1e-3, "weight")
+    assert.is_truthy(out:find("the others are seated and seated", 1, true))
+  end)
+
   -- The gripper's path is from 1.5 mm above the table to 11.5 mm, 0.3 m further and 0.1 m aside; of
   -- the wire's start 10 mm stick out of the pads and hang by less than a millimetre. Going on from a
   -- file gives the same bits: differences are 0, not small.

@@ -212,12 +212,34 @@ static int meth_release(lua_State *L) {
   return 0;
 }
 
+/* force:read(wire) -> what its kind has to read there, by name; see the force's file */
+static int meth_read(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  double values[SW_FORCE_OUTPUTS_MAX];
+  const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
+  lua_settop(L, 2);
+  const lsw_child *wire = lsw_check_body_of(L, 2, scene, "force:read");
+  lsw_must(L, sw_scene_read_force(scene, f->id, wire->id, values, &err), &err);
+  const char *const *names = sw_scene_force_class(scene, f->id)->outputs;
+  lua_newtable(L);
+  for (size_t k = 0; names[k]; k++) lsw_set_number(L, names[k], values[k]);
+  return 1;
+}
+
 static int prop_kind(lua_State *L) {
   sw_scene *scene;
   const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
   const sw_force_class *cls = sw_scene_force_class(scene, f->id);
   if (!cls) return luaL_error(L, "this force is not of scene '%s' any more", sw_scene_name(scene));
   lua_pushstring(L, cls->name);
+  return 1;
+}
+
+static int prop_held(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
+  lua_pushboolean(L, sw_scene_force_acts(scene, f->id));
   return 1;
 }
 
@@ -233,8 +255,8 @@ static int meta_describe(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg methods[] = {{"release", meth_release}, {NULL, NULL}};
-static const luaL_Reg properties[] = {{"kind", prop_kind}, {NULL, NULL}};
+static const luaL_Reg methods[] = {{"release", meth_release}, {"read", meth_read}, {NULL, NULL}};
+static const luaL_Reg properties[] = {{"kind", prop_kind}, {"held", prop_held}, {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
 const lsw_class lsw_class_force = {.name = "force",

@@ -79,6 +79,23 @@ static int meth_moment(lua_State *L) {
   return 1;
 }
 
+/* join:read() of a tie -> { distance, tension, peak, broken, broken_time, broken_force } */
+static int meth_read(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_tie_state state;
+  const lsw_child *j = lsw_check_child(L, 1, &lsw_class_join, &scene);
+  lsw_must(L, sw_scene_tie_state(scene, j->id, &state, &err), &err);
+  lua_newtable(L);
+  lsw_set_number(L, "distance", state.distance);
+  lsw_set_number(L, "tension", state.tension);
+  lsw_set_number(L, "peak", state.peak);
+  lsw_set_number(L, "broken", state.broken);
+  lsw_set_number(L, "broken_time", state.broken_time);
+  lsw_set_number(L, "broken_force", state.broken_force);
+  return 1;
+}
+
 static int meth_release(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
@@ -125,8 +142,11 @@ static int meta_describe(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg methods[] = {
-    {"force", meth_force}, {"moment", meth_moment}, {"release", meth_release}, {NULL, NULL}};
+static const luaL_Reg methods[] = {{"force", meth_force},
+                                   {"moment", meth_moment},
+                                   {"release", meth_release},
+                                   {"read", meth_read},
+                                   {NULL, NULL}};
 static const luaL_Reg properties[] = {{"name", prop_name}, {"held", prop_held}, {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 

@@ -133,6 +133,15 @@ static int prop_name(lua_State *L) {
   return 1;
 }
 
+static int prop_present(lua_State *L) {
+  sw_scene *scene;
+  const char *kind;
+  int present = 0;
+  const lsw_child *o = check(L, &scene);
+  lua_pushboolean(L, sw_scene_obstacle_name(scene, o->id, &kind, &present) && present);
+  return 1;
+}
+
 static int meta_describe(lua_State *L) {
   sw_scene *scene;
   sw_error err;
@@ -156,7 +165,8 @@ static int meta_describe(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg properties[] = {{"shape", prop_shape}, {"name", prop_name}, {NULL, NULL}};
+static const luaL_Reg properties[] = {
+    {"shape", prop_shape}, {"name", prop_name}, {"present", prop_present}, {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
 const lsw_class lsw_class_obstacle = {.name = "obstacle",

@@ -250,8 +250,8 @@ static int push_report(lua_State *L, const sw_freeze_report *r) {
   return 1;
 }
 
-/* tool:freeze(wire), tool:thaw() -> { s1, s2 [m], energy_before, energy_after [J], force [N], moment
- * [N m] of the tool before, before, after = momentum { linear, angular } } */
+/* tool:freeze(wire), tool:thaw() -> { s1, s2 [m], energy_before, energy_after [J], force [N],
+ * moment [N m] of the tool before, before, after = momentum { linear, angular } } */
 static int meth_freeze(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
@@ -281,13 +281,14 @@ static int meth_limit(lua_State *L) {
   return 0;
 }
 
-static const luaL_Reg methods[] = {
-    {"pad", meth_pad},     {"hold", meth_hold},   {"pads_on", meth_pads_on},
-    {"follow", meth_follow}, {"pose", meth_pose},   {"jaws", meth_jaws},
-    {"watch", meth_watch}, {"state", meth_state}, {"force", meth_force},
-    {"moment", meth_moment}, {"log", meth_log},
-    {"touches", meth_touches}, {"freeze", meth_freeze}, {"thaw", meth_thaw},
-    {"limit", meth_limit},   {NULL, NULL}};
+static const luaL_Reg methods[] = {{"pad", meth_pad},         {"hold", meth_hold},
+                                   {"pads_on", meth_pads_on}, {"follow", meth_follow},
+                                   {"pose", meth_pose},       {"jaws", meth_jaws},
+                                   {"watch", meth_watch},     {"state", meth_state},
+                                   {"force", meth_force},     {"moment", meth_moment},
+                                   {"log", meth_log},         {"touches", meth_touches},
+                                   {"freeze", meth_freeze},   {"thaw", meth_thaw},
+                                   {"limit", meth_limit},     {NULL, NULL}};
 
 static int meta_describe(lua_State *L) {
   sw_scene *scene;

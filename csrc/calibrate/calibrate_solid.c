@@ -2,11 +2,13 @@
 /* Elements that are a wire. A beam of elements alone has EA = E a s^2, EI = E b s^4 and
  * GJ = E c s^4 when its section is scaled by s, whatever the distance of slices: modulus and
  * scale make EA and EI exact for a wire of one material, with a scale near 1 that makes up for
- * corners of the mesh, and GJ follows from nu. Of a composite, whose core has its own modulus and
- * nu, the same holds with the core's modulus over the shell's as a given. Springs along the wire
- * only add to EA and EI, so that elements may have the modulus of GJ where the wire is stiffer than
- * that. Where it is softer (strands that slip bend easily but hardly untwist), diagonals carry a
- * part of GJ, and the least squares of the springs' fit find how much. */
+ * corners of the mesh. GJ then follows from nu: one that is up to 0.03 off the wire's makes up for
+ * corners and for warping that the mesh does not know. Of a composite, whose core has its own
+ * modulus and nu, EA and EI are met likewise with the core's modulus over the shell's as a given.
+ * Springs along the wire only add to EA and EI, so that elements may have the modulus of GJ where
+ * the wire is stiffer than that. Where it is softer (strands that slip bend easily but hardly
+ * untwist), diagonals carry a part of GJ, and the least squares of the springs' fit find how
+ * much. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -18,8 +20,11 @@
 static const double USUAL_POISSON = 0.45; /* of rubbery insulation [-] */
 static const double HIGHEST = 0.4999;     /* Poisson's ratio whose numbers are still exact [-] */
 static const double ONE_MATERIAL = 0.05;  /* EI off that of EA and one material, at most [-] */
-static const double GJ_NEAR = 0.02;       /* of elements alone: nu says the rest [-] */
+static const double GJ_NEAR = 0.02;       /* of elements alone, before nu makes up for it [-] */
 static const double LEAST = 0.01;         /* of EA and EI that springs are searched from [-] */
+
+static const double MOST_OFF = 0.03; /* of Poisson's ratio that makes up for it [-] */
+enum { CORRECTIONS = 8 };
 
 enum { SHARE_SIZE = SW_CELL_SIZE + 1, CORE_SOLID = SW_GROUP_OF_CORE + SW_GROUP_SOLID };
 static const unsigned ALONG =
@@ -195,6 +200,21 @@ static sw_status elements_alone(task *t, sw_error *err) {
   return reach(t, err);
 }
 
+/* The same, with the Poisson's ratio that gives GJ too. Where that is none of a material GJ stays
+ * as near as it is. */
+static sw_status one_that_twists(task *t, sw_error *err) {
+  const double nu = t->c->nu;
+  SW_TRY(elements_alone(t, err));
+  if (!is_good(t, GJ_NEAR)) return SW_OK;
+  for (int k = 0; k < CORRECTIONS && !is_good(t, 0); k++) {
+    const double fits = (1 + t->c->nu) * (1 + t->c->residual[SW_TARGET_GJ]) - 1;
+    t->c->nu = fmax(nu - MOST_OFF, fmin(fits, fmin(HIGHEST, nu + MOST_OFF)));
+    SW_TRY(measure(t, err));
+    SW_TRY(elements_alone(t, err));
+  }
+  return SW_OK;
+}
+
 /* What unit springs of each group have of EA, EI and GJ. */
 static void measure_springs(task *t) {
   const sw_cell cell = sw_lattice_cell(&t->c->lattice);
@@ -310,7 +330,8 @@ static sw_status fit(task *t, double spacing, sw_error *err) {
   }
   SW_TRY(status);
   if (one_material(t)) {
-    SW_TRY(elements_alone(t, err));
+    const int composite = t->args.mesh == SW_LATTICE_COMPOSITE; /* it has two nu, both given */
+    SW_TRY(composite ? elements_alone(t, err) : one_that_twists(t, err));
     if (is_good(t, GJ_NEAR)) return SW_OK;
   }
   SW_TRY(with_springs(t, &possible, err));

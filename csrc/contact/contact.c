@@ -3,8 +3,8 @@
 #include "contact/contact.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -192,8 +192,8 @@ static void find_dense(sw_contact *c, const sw_plan *p) {
   for (size_t o = 0; o < c->count; o++) {
     const sw_bounds b = sw_shape_bounds(c->obstacles[o].shape);
     const sw_vec size = sw_sub(b.max, b.min);
-    c->dense[o] = rings && c->obstacles[o].grips > 0 &&
-                  fmin(size.x, fmin(size.y, size.z)) > CLOSE * widest;
+    c->dense[o] =
+        rings && c->obstacles[o].grips > 0 && fmin(size.x, fmin(size.y, size.z)) > CLOSE * widest;
   }
 }
 

@@ -18,6 +18,9 @@ static const double WEIGHT_TOLERANCE = 1e-3;
 /* A spring stretched this many times over what friction can hold does not stick,
  * whatever the prediction is worth [-]. */
 static const double SURELY_SLIDING = 20.0;
+/* Unless the slide has turned round so often: friction then pushes it back by more than that
+ * stretch each time, and it is held [-]. */
+enum { REVERSALS = 3 };
 
 /* Wires that are deeper inside than their force explains are let out at this speed; meshes, whose
  * sections may stand off the line that they come from, so slowly that they are not thrown [m/s]. */
@@ -33,6 +36,11 @@ static const double EASING = 0.8;        /* per step [-] */
 
 void sw_press_activate(sw_press *p, const sw_press *last) {
   p->active = p->gap < 0 || (last && last->active && last->normal_force > 0);
+  if (!last) return;
+  p->spare = last->spare;
+  if (p->active || !last->active || !p->spare) return;
+  p->active = 1;
+  p->spare--;
 }
 
 /* After this many alternations friction's normal force is taken by secant: most die out by
@@ -53,7 +61,8 @@ void sw_press_take_lag(sw_press *p, const sw_press *last) {
 void sw_press_begin(sw_press *p, double friction, int known, double felt) {
   const double most = friction * p->lag, grip = sw_press_grip(p), length = sw_norm(p->trial);
   if (!known) p->sliding = grip * length > most;
-  if (fmin(grip, felt) * length > SURELY_SLIDING * most) p->sliding = 1;
+  const int surely = fmin(grip, felt) * length > SURELY_SLIDING * most;
+  if (surely && p->reversals < REVERSALS) p->sliding = 1;
 }
 
 /* K = kn n n' + kt (I - n n') - ks d d' */
@@ -90,6 +99,7 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
   const int beyond = grip * length > most;
   const int reversed = p->sliding && along < 0;
   p->next_sliding = beyond && !reversed;
+  p->reversals += reversed;
   p->tangential = sw_scale(u, -(beyond && length > 0 ? most / length : grip));
   p->slip = sw_madd(u, p->tangential, 1.0 / grip);
   if (reversed) return most <= small;

@@ -22,7 +22,9 @@ typedef struct sw_press {
   sw_vec tangential;               /* friction force after the last solve [N] */
   sw_vec slip;                     /* how far it slid, of the displacement from the anchor [m] */
   int alternations;                /* of normal_force - lag until the last iterate [-] */
+  int reversals;                   /* of the slide, where a static solve is dragged [-] */
   int active;                      /* pushes in this iterate */
+  int spare;                       /* so often it stays active though the last solve pulled [-] */
   int sliding;                     /* assumed in this iterate */
   int next_sliding;                /* as the last solve found it */
 } sw_press;
@@ -34,7 +36,8 @@ static inline double sw_press_grip(const sw_press *p) {
 
 /* A touch that pushed after the last solve goes on in this iterate even if turning normals
  * have opened its gap a little: letting go of it would let the wires fall into each other.
- * The next solve tells. last: the same touch in the iterate before, or NULL. */
+ * The next solve tells. Nor does the first pull end a touch with spare ones. last: the same touch
+ * in the iterate before, or NULL. */
 void sw_press_activate(sw_press *press, const sw_press *last);
 
 /* The normal force for friction to take as given, from the same touch in the iterate

@@ -22,6 +22,10 @@ static const double STILL_NEAR = 0.5, SAME_SIDE = 0.7;
  * its weight, and comes back [-]. */
 static const double SOFTEST = 1000.0;
 
+/* What has pressed a mesh up to now is not let go of by the first static solve in which it pulls:
+ * that one may only have met too many touches at once, and then nothing holds the mesh. */
+enum { SPARE_PULLS = 1 };
+
 enum { OWN = 0, NEXT = 6, ROW = 24 }; /* layout of the system's block rows */
 
 static sw_status push(sw_contact *c, const sw_touch *t) {
@@ -124,6 +128,8 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
   press->trial = sw_madd(u, press->normal, -sw_dot(u, press->normal));
   press->lag = m ? m->normal_force : press->k * fmax(0.0, -press->gap);
   if (last) sw_press_take_lag(press, &last->press);
+  const int turned = last && last->press.reversals > 0 && c->regime == SW_CONTACT_STATIC;
+  if (turned && sw_contact_moves(c)) press->reversals = last->press.reversals;
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
   const int went_on = last && last->press.active;
   t->friction = m && m->sliding ? o->kinetic : o->friction;
@@ -191,10 +197,11 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
   sw_press *press = &t.press;
   if (c->regime == SW_CONTACT_IMPLICIT &&
       press->gap < 0) /* in explicit steps force follows depth */
-    t.forgiven = sw_press_forgiven(depth_before(c, s, &t), m ? m->depth : 0.0, c->h,
-                                   web && web->per_ring);
+    t.forgiven =
+        sw_press_forgiven(depth_before(c, s, &t), m ? m->depth : 0.0, c->h, web && web->per_ring);
   press->gap += t.forgiven;
   press->gap_after = press->gap;
+  if (c->regime == SW_CONTACT_STATIC && m && web && web->per_ring) press->spare = SPARE_PULLS;
   sw_press_activate(press, goes_on(c, k, press, last) ? &last->press : NULL);
   begin_friction(c, s, m, last, y, &t);
   if (t.held) press->active = 0;

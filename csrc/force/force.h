@@ -20,10 +20,12 @@ enum {
   SW_FORCE_BY_ANGLE = 32,   /* corrects bend: only for wires whose bending is by angles */
   SW_FORCE_ANY_BODY = 64,   /* knows nodes only, or particles too: goes with meshes as well */
   SW_FORCE_OF_WEB = 128,    /* knows springs or particles only: goes with nothing else */
-  SW_FORCE_ON_SOME = 256    /* acts on some particles: takes a list; see sw_force_some */
+  SW_FORCE_ON_SOME = 256,   /* acts on some particles: takes a list; see sw_force_some */
+  SW_FORCE_ANY_SHAPE = 512  /* its history is not of bends: goes with material frames as well */
 };
 
-enum { SW_FORCE_ARGS_MAX = 128 }; /* room for any force's arguments [B] */
+enum { SW_FORCE_ARGS_MAX = 128 };   /* room for any force's arguments [B] */
+enum { SW_FORCE_OUTPUTS_MAX = 32 }; /* most values that a force has to read [-] */
 
 typedef struct sw_force_class {
   const char *name;
@@ -64,6 +66,18 @@ typedef struct sw_force_class {
   size_t (*state_size)(const sw_plan *plan);
   void (*commit)(const void *args, const sw_field *field, double *history);
   void (*inherit)(const sw_plan *old, const double *from, const sw_field *field, double *history);
+
+  /* Fills the history of a wire that has none yet; geometry as for inherit. NULL = zeros. */
+  void (*begin)(const void *args, const sw_field *field, double *history);
+
+  /* 1: with this history it does nothing in the coming step, which then need not be computed as
+   * closely as kinks ask for; NULL = it always may. */
+  int (*idle)(const double *history);
+
+  /* What there is to read of it besides its force, on one wire at the accepted state: names,
+   * NULL-terminated, and as many values, each of the unit that its file says. NULL = nothing. */
+  const char *const *outputs;
+  void (*read)(const void *args, const sw_field *field, const double *history, double *out);
 } sw_force_class;
 
 /* The class called name, or NULL. */

@@ -41,7 +41,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   (void)args, (void)err;
   for (size_t n = 0; n < web->solids; n++) {
     const sw_web_solid *s = &web->solid[n];
-    const sw_solid *shape = (const sw_solid *)web->shapes + s->shape;
+    const sw_solid *shape = (const sw_solid *)web->shapes + sw_plan_shape(f->plan, s);
     gather(s, f->x, x);
     const double energy = sw_solid_eval(shape, x, want, g, H);
     if (f->want & SW_WANT_ENERGY) f->energy += energy;
@@ -62,7 +62,8 @@ static double largest_share(const void *args, const sw_plan *plan, const double 
     const sw_web_solid *s = &web->solid[n];
     gather(s, x, from);
     gather(s, delta, move);
-    share = fmin(share, sw_solid_step((const sw_solid *)web->shapes + s->shape, from, move));
+    share = fmin(share,
+                 sw_solid_step((const sw_solid *)web->shapes + sw_plan_shape(plan, s), from, move));
   }
   return share;
 }

@@ -314,8 +314,8 @@ static sw_status add_contact(sw_scene *s) {
     const sw_scene_obstacle *o = &s->obstacles[k];
     const double grips = o->drive.tool ? s->tools[o->drive.tool - 1].jaw.force : 0.0;
     if (o->alive && !o->off)
-      list[n++] = (sw_contact_obstacle){o->shape,       o->friction, o->kinetic,
-                                        o->restitution, grips,       (int)k,      0};
+      list[n++] = (sw_contact_obstacle){o->shape, o->friction, o->kinetic, o->restitution,
+                                        grips,    (int)k,      0};
   }
   sw_status status = n ? sw_contact_new(list, n, place_obstacle, s, &s->contact) : SW_OK;
   sw_free(list);

@@ -48,7 +48,7 @@ static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, c
                    "force %s: wire '%s' is a %s, whose bending it cannot correct; it goes with "
                    "model = 'rod'",
                    cls->name, w->name, w->cls->name);
-  if (cls->commit && w->beam.framed)
+  if (cls->commit && w->beam.framed && !(cls->flags & SW_FORCE_ANY_SHAPE))
     return sw_fail(err, SW_EINVAL,
                    "force %s: wire '%s' is curved at rest, has two values of EI or rolls, which it "
                    "does not know",
@@ -139,6 +139,30 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
 const sw_force_class *sw_scene_force_class(const sw_scene *s, sw_handle h) {
   const int known = h.slot < s->force_count && s->forces[h.slot].generation == h.generation;
   return known ? s->forces[h.slot].cls : NULL;
+}
+
+int sw_scene_force_acts(const sw_scene *s, sw_handle h) {
+  return sw_scene_force_class(s, h) && s->forces[h.slot].alive;
+}
+
+sw_status sw_scene_read_force(sw_scene *s, sw_handle force, sw_handle wire, double *out,
+                              sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_editable(s, err)); /* inside of a step the fields are the solver's */
+  const sw_force_class *cls = sw_scene_force_class(s, force);
+  if (!cls) return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
+  const sw_scene_wire *w = sw_scene_find_body(s, wire, err);
+  if (!w) return SW_EDEAD;
+  if (!cls->read) return sw_fail(err, SW_EINVAL, "force %s: there is nothing to read", cls->name);
+  SW_TRY(sw_scene_build(s, err));
+  sw_system_refresh(&s->system);
+  const sw_body *b = &s->system.bodies[wire.slot];
+  for (size_t k = 0; k < b->term_count; k++)
+    if (b->terms[k].id == (long)force.slot) {
+      cls->read(b->terms[k].args, &b->field, b->terms[k].history, out);
+      return SW_OK;
+    }
+  return sw_fail(err, SW_EINVAL, "force %s: it does not act on '%s'", cls->name, w->name);
 }
 
 sw_status sw_scene_remove_force(sw_scene *s, sw_handle force, sw_error *err) {

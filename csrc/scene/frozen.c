@@ -4,9 +4,9 @@
  * in the tool's axes, and the friction between pads and particles. Rings that were pressed move
  * with the tool like the grip that stands for them; those beside them turn with the rod. */
 #include <math.h>
-#include <string.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "scene/remodel_inner.h"
@@ -19,17 +19,17 @@ struct sw_frozen {
   int references;
   sw_handle wire, hold;
   const sw_wire_class *cls;
-  sw_mesh mesh;        /* one node for each ring, as they lay */
-  sw_strand strand;    /* likewise */
-  sw_pose pose;        /* of the tool then */
-  size_t first, last;  /* rings that were pressed */
-  double inside[2];    /* so far inside of them a rod's grip ends before, and after [m] */
-  sw_vec across;       /* how the pads close, in the tool's axes [-] */
-  double *frame;       /* (rings x 6) tangent, direction across then [-] */
+  sw_mesh mesh;       /* one node for each ring, as they lay */
+  sw_strand strand;   /* likewise */
+  sw_pose pose;       /* of the tool then */
+  size_t first, last; /* rings that were pressed */
+  double inside[2];   /* so far inside of them a rod's grip ends before, and after [m] */
+  sw_vec across;      /* how the pads close, in the tool's axes [-] */
+  double *frame;      /* (rings x 6) tangent, direction across then [-] */
   sw_stations stations;
-  void *memory;        /* of contact then */
+  void *memory; /* of contact then */
   size_t bytes;
-  size_t node, nodes;  /* the wire's first one in it, how many it had */
+  size_t node, nodes; /* the wire's first one in it, how many it had */
   sw_jaw jaw;
 };
 
@@ -218,7 +218,9 @@ static sw_status grip(sw_scene *s, sw_handle tool, const sw_frozen *f, sw_freeze
   args.s = 0.5 * (out->s1 + out->s2);
   args.width = out->s2 - out->s1;
   args.direction = sw_v(NAN, NAN, NAN);
-  if (getenv("DBG")) fprintf(stderr,"inside %g %g  s %g %g\n", f->inside[0], f->inside[1], f->stations.s[f->first], f->stations.s[f->last]);
+  if (getenv("DBG"))
+    fprintf(stderr, "inside %g %g  s %g %g\n", f->inside[0], f->inside[1], f->stations.s[f->first],
+            f->stations.s[f->last]);
   SW_TRY(sw_scene_add_hold(s, cls, f->wire, &args, &out->hold, err));
   sw_scene_hold *h = &s->holds[out->hold.slot];
   h->director[0] = facing_at(f, out->s1);

@@ -60,14 +60,25 @@ static const sw_kept_history *find(const sw_scene *s, size_t wire, const sw_term
   return NULL;
 }
 
+static int any_begins(const sw_scene *s) {
+  for (size_t b = 0; b < s->system.body_count; b++)
+    for (size_t k = 0; k < s->system.bodies[b].term_count; k++)
+      if (s->system.bodies[b].terms[k].cls->begin) return 1;
+  return 0;
+}
+
 void sw_scene_inherit_histories(sw_scene *s) {
-  if (!s->kept_history_count) return;
+  if (!s->kept_history_count && !any_begins(s)) return;
   sw_system_refresh(&s->system);
   for (size_t b = 0; b < s->system.body_count; b++)
     for (size_t k = 0; k < s->system.bodies[b].term_count; k++) {
       const sw_term *term = &s->system.bodies[b].terms[k];
       if (!term->history) continue;
       const sw_kept_history *old = find(s, b, term);
-      if (old) term->cls->inherit(old->plan, old->data, &s->system.bodies[b].field, term->history);
+      const sw_field *field = &s->system.bodies[b].field;
+      if (old)
+        term->cls->inherit(old->plan, old->data, field, term->history);
+      else if (term->cls->begin)
+        term->cls->begin(term->args, field, term->history);
     }
 }

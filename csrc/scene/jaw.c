@@ -7,13 +7,15 @@
 
 #include "scene/world.h"
 
-static const double PRECISION = 1e-3; /* of the force wanted [-] */
-static const double REACHED = 0.02;   /* so far below it the force counts as reached [-] */
-enum { MOST_TRIALS = 10 };            /* the last one is then taken as it is [-] */
+static const double PRECISION = 1e-3;    /* of the force wanted [-] */
+static const double REACHED = 0.02;      /* so far below it the force counts as reached [-] */
+enum { MOST_TRIALS = 10 };               /* the last one is then taken as it is [-] */
 static const double SAME_OPENING = 1e-9; /* at a step's end [m] */
-static const double TELLS = 1e-7; /* forces at openings nearer to each other tell no stiffness [m] */
+static const double TELLS =
+    1e-7; /* forces at openings nearer to each other tell no stiffness [m] */
 static const double BEYOND = 1.3; /* a guess goes so much further than the slope says [-] */
-static const double WIDER = 4.0;  /* and so many times as far with every trial that is too short [-] */
+static const double WIDER =
+    4.0; /* and so many times as far with every trial that is too short [-] */
 
 double sw_jaw_at(const sw_jaw *j, double t) { return j->opening + j->speed * (t - j->since); }
 
@@ -73,7 +75,8 @@ static int improve(sw_jaw *j, double off) {
   }
   const double gap = j->tried[0] - j->tried[1];
   if (gap * j->step < SAME_OPENING) return 1;
-  if (j->trials > 1 && gap * j->step > TELLS) j->stiffness = (j->off[1] - j->off[0]) / (gap * j->step);
+  if (j->trials > 1 && gap * j->step > TELLS)
+    j->stiffness = (j->off[1] - j->off[0]) / (gap * j->step);
   if (j->last_side == side) j->off[!side] *= 0.5;
   j->last_side = side;
   j->speed = j->tried[0] - gap * j->off[0] / (j->off[0] - j->off[1]);
@@ -94,7 +97,8 @@ static int correct(const sw_scene *s, sw_tool *t) {
 int sw_jaw_correct(sw_scene *s) {
   int good = 1;
   for (size_t k = 0; k < s->tool_count; k++)
-    if (s->tools[k].alive && !s->tools[k].frozen && yields(&s->tools[k].jaw)) good &= correct(s, &s->tools[k]);
+    if (s->tools[k].alive && !s->tools[k].frozen && yields(&s->tools[k].jaw))
+      good &= correct(s, &s->tools[k]);
   return good;
 }
 
@@ -129,8 +133,8 @@ static void follow(const sw_scene *s, sw_tool *t) {
   j->since = s->time;
   j->now = sw_tool_squeeze(s, t);
   const double k = (j->now - force) / (before - j->opening);
-  const int tells = force > 0 && fabs(j->now - force) > TELLING * j->force &&
-                    fabs(before - j->opening) > TELLS;
+  const int tells =
+      force > 0 && fabs(j->now - force) > TELLING * j->force && fabs(before - j->opening) > TELLS;
   if (tells && k > 0 && k < HUGE_VAL) j->stiffness = k;
   if (j->mode == SW_JAW_STILL) j->speed = 0;
   judge(j);

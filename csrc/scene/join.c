@@ -16,6 +16,12 @@ static const sw_param rows[] = {
      "the angles between the wires are kept; false: they turn freely"},
     {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_join_args, name),
      "name used in messages"},
+    {"slack", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, 0, NULL, offsetof(sw_join_args, slack),
+     "a tie: two wires that only may not be further apart than this, and need not meet"},
+    {"stiffness", SW_PARAM_NUMBER, "N/m", 1e5, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(sw_join_args, stiffness), "of a tie that is taut"},
+    {"strength", SW_PARAM_NUMBER, "N", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(sw_join_args, strength), "pull at which a tie breaks (default: never)"},
 };
 const sw_params sw_join_params = SW_PARAMS("scene:join", rows);
 
@@ -167,9 +173,18 @@ sw_status sw_scene_add_join(sw_scene *s, const sw_join_args *args, const sw_join
     SW_TRY(check_end(s, ends, k, err));
     SW_TRY(sw_scene_check_line(&s->wires[ends[k].wire.slot], "scene:join", err));
   }
+  const int tie = !isnan(args->slack);
+  if (tie && count != 2)
+    return sw_fail(err, SW_EINVAL, "scene:join: slack makes it a tie, of 2 wires; ends lists %zu",
+                   count);
   SW_TRY(sw_scene_thaw(s));
-  SW_TRY(check_meeting(s, ends, count, err));
-  sw_scene_join j = {.alive = 1, .rigid = args->rigid, .count = count};
+  if (!tie) SW_TRY(check_meeting(s, ends, count, err));
+  sw_scene_join j = {.alive = 1,
+                     .rigid = args->rigid && !tie,
+                     .count = count,
+                     .slack = args->slack,
+                     .stiffness = args->stiffness,
+                     .strength = args->strength};
   for (size_t k = 0; k < count; k++) {
     const sw_mesh *m = &s->wires[ends[k].wire.slot].mesh;
     j.ends[k] = (end){.wire = ends[k].wire.slot,
@@ -236,6 +251,10 @@ static uint32_t system_node(const sw_scene *s, const end *e, size_t node) {
   return (uint32_t)(s->system.bodies[e->wire].first_node + node);
 }
 
+uint32_t sw_scene_join_node(const sw_scene *s, const end *e) {
+  return system_node(s, e, node_of(s, e));
+}
+
 /* Stiffness of the stiffest edge beside the join [N/m]. */
 static double stiffest(const sw_scene *s, const sw_scene_join *j) {
   double most = 0;
@@ -296,6 +315,10 @@ static sw_status add_hub(sw_scene *s, const sw_scene_join *j) {
 sw_status sw_scene_add_joins(sw_scene *s) {
   for (size_t k = 0; k < s->join_count; k++) {
     if (!s->joins[k].alive) continue;
+    if (!isnan(s->joins[k].slack)) {
+      SW_TRY(sw_scene_add_tie(s, k));
+      continue;
+    }
     SW_TRY(add_springs(s, &s->joins[k]));
     if (s->joins[k].rigid) SW_TRY(add_hub(s, &s->joins[k]));
   }
@@ -304,7 +327,7 @@ sw_status sw_scene_add_joins(sw_scene *s) {
 
 /* --- handles ---------------------------------------------------------------------- */
 
-static sw_scene_join *find(const sw_scene *s, sw_handle h, sw_error *err) {
+sw_scene_join *sw_scene_find_join(const sw_scene *s, sw_handle h, sw_error *err) {
   if (h.slot < s->join_count && s->joins[h.slot].generation == h.generation)
     return &s->joins[h.slot];
   sw_fail(err, SW_EDEAD, "this join is not of scene '%s' any more", s->name);
@@ -312,7 +335,7 @@ static sw_scene_join *find(const sw_scene *s, sw_handle h, sw_error *err) {
 }
 
 const char *sw_scene_join_name(const sw_scene *s, sw_handle h, int *held, size_t *ends) {
-  const sw_scene_join *j = find(s, h, NULL);
+  const sw_scene_join *j = sw_scene_find_join(s, h, NULL);
   if (!j) return NULL;
   *held = j->alive;
   *ends = j->count;
@@ -321,7 +344,7 @@ const char *sw_scene_join_name(const sw_scene *s, sw_handle h, int *held, size_t
 
 sw_status sw_scene_release_join(sw_scene *s, sw_handle h, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_scene_join *j = find(s, h, err);
+  sw_scene_join *j = sw_scene_find_join(s, h, err);
   if (!j) return SW_EDEAD;
   if (!j->alive) return SW_OK;
   SW_TRY(sw_scene_thaw(s));
@@ -352,7 +375,7 @@ sw_status sw_scene_join_force(sw_scene *s, sw_handle h, size_t k, sw_vec *force,
                               sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
   SW_TRY(sw_scene_editable(s, err));
-  const sw_scene_join *j = find(s, h, err);
+  const sw_scene_join *j = sw_scene_find_join(s, h, err);
   if (!j) return SW_EDEAD;
   *force = *moment = sw_v(0, 0, 0);
   if (k >= j->count)

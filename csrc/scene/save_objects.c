@@ -102,6 +102,8 @@ void sw_tape_strand(sw_tape *t, sw_strand *x) {
     const sw_web_solid *e = &x->web->solid[k];
     const sw_solid *shape = (const sw_solid *)x->web->shapes + e->shape;
     sw_tape_expect(t, shape->nodes == (int)e->count, "an element");
+    shape += x->web->clamped_shapes;
+    sw_tape_expect(t, shape->nodes == (int)e->count, "an element");
   }
 }
 
@@ -255,8 +257,10 @@ void sw_tape_force(sw_tape *t, sw_scene_force *x) {
 }
 
 void sw_tape_join(sw_tape *t, sw_scene_join *x) {
-  SW_TAPE_STRUCT(t, sw_scene_join, 728);
+  SW_TAPE_STRUCT(t, sw_scene_join, 792);
   UINT32(generation), INT(alive), INT(rigid), NAME(name), SIZE(count);
+  DOUBLE(slack), DOUBLE(stiffness), DOUBLE(strength); /* its spring is found when it is built */
+  INT(broken), DOUBLE(broken_time), DOUBLE(broken_force), DOUBLE(peak);
   sw_tape_expect(t, x->count >= 2 && x->count <= SW_JOIN_ENDS, "a join");
   for (size_t k = 0; k < x->count && sw_tape_good(t); k++) {
     struct sw_scene_join_end *e = &x->ends[k];

@@ -55,6 +55,9 @@ enum { SW_JOIN_ENDS = 8 }; /* most wires in a join */
 typedef struct sw_join_args {
   int rigid; /* 1: angles between the wires are kept */
   char name[SW_NAME_SIZE];
+  double slack;     /* a tie of two wires: how far apart they may be; NAN = none [m] */
+  double stiffness; /* of a tie [N/m] */
+  double strength;  /* pull at which a tie breaks; NAN = never [N] */
 } sw_join_args;
 extern const sw_params sw_join_params;
 
@@ -70,6 +73,15 @@ sw_status sw_scene_release_join(sw_scene *scene, sw_handle join, sw_error *err);
 /* Force and moment about its place that a living join puts on its end number k [N], [N m]. */
 sw_status sw_scene_join_force(sw_scene *scene, sw_handle join, size_t k, sw_vec *force,
                               sw_vec *moment, sw_error *err);
+/* What a tie bears, and what became of it. */
+typedef struct sw_tie_state {
+  double distance;                  /* of both places [m] */
+  double tension, peak;             /* now, largest so far [N] */
+  int broken;                       /* 1: it broke */
+  double broken_time, broken_force; /* [s], [N] */
+} sw_tie_state;
+/* SW_EINVAL when the join is none. */
+sw_status sw_scene_tie_state(sw_scene *scene, sw_handle join, sw_tie_state *out, sw_error *err);
 /* NULL when the scene does not know it any more; held: 0 once released. */
 const char *sw_scene_join_name(const sw_scene *scene, sw_handle join, int *held, size_t *ends);
 
@@ -85,6 +97,8 @@ const char *sw_scene_obstacle_name(const sw_scene *scene, sw_handle obstacle, co
 int sw_scene_force_needed(const sw_scene *scene, sw_handle force);
 /* The class of a force, released or not; NULL as above. */
 const sw_force_class *sw_scene_force_class(const sw_scene *scene, sw_handle force);
+/* 0 once released, or when the scene does not know it. */
+int sw_scene_force_acts(const sw_scene *scene, sw_handle force);
 
 /* --- wires ------------------------------------------------------------------ */
 
@@ -331,6 +345,9 @@ void sw_scene_wire_touch(sw_scene *scene, size_t k, sw_wire_touch *out);
 sw_status sw_scene_add_force(sw_scene *scene, const sw_force_class *cls, sw_handle wire,
                              const void *args, size_t args_size, sw_handle *out, sw_error *err);
 sw_status sw_scene_remove_force(sw_scene *scene, sw_handle force, sw_error *err);
+/* Values of its class' outputs on one wire, SW_FORCE_OUTPUTS_MAX at most. */
+sw_status sw_scene_read_force(sw_scene *scene, sw_handle force, sw_handle wire, double *out,
+                              sw_error *err);
 
 /* --- running ---------------------------------------------------------------- */
 

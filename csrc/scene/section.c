@@ -65,11 +65,11 @@ sw_vec sw_strand_facing(const sw_web *w, const double *x, size_t ring) {
 }
 
 /* What an element pulls the corners of its first ring with. */
-static void add_solid_force(const sw_web *w, const double *x, const sw_web_solid *s, sw_vec about,
+static void add_solid_force(const sw_plan *p, const double *x, const sw_web_solid *s, sw_vec about,
                             sw_vec *force, sw_vec *moment) {
   double at[3 * SW_SOLID_NODES], g[3 * SW_SOLID_NODES];
   for (uint32_t i = 0; i < s->count; i++) sw_store(at + 3 * i, sw_vec_at(x, s->node[i]));
-  sw_solid_eval((const sw_solid *)w->shapes + s->shape, at, SW_WANT_FORCE, g, NULL);
+  sw_solid_eval((const sw_solid *)p->web->shapes + sw_plan_shape(p, s), at, SW_WANT_FORCE, g, NULL);
   for (uint32_t i = 0; i < s->count / 2; i++) {
     const sw_vec f = sw_neg(sw_load(g + 3 * i));
     *force = sw_add(*force, f);
@@ -79,8 +79,9 @@ static void add_solid_force(const sw_web *w, const double *x, const sw_web_solid
 
 /* Force of the part of the wire after slice number r (between rings r and r + 1) on that
  * before, and its moment about a point [N], [N m]. */
-static void slice_force(const sw_web *w, const double *x, size_t r, sw_vec about, sw_vec *force,
+static void slice_force(const sw_plan *p, const double *x, size_t r, sw_vec about, sw_vec *force,
                         sw_vec *moment) {
+  const sw_web *w = p->web;
   *force = *moment = sw_v(0, 0, 0);
   const size_t next = w->first[r + 1];
   for (size_t e = w->ring_links[r]; e < w->ring_links[r + 1]; e++) {
@@ -93,21 +94,22 @@ static void slice_force(const sw_web *w, const double *x, size_t r, sw_vec about
     *moment = sw_add(*moment, sw_cross(sw_sub(a, about), f));
   }
   for (size_t k = w->ring_solids[r]; k < w->ring_solids[r + 1]; k++)
-    add_solid_force(w, x, &w->solid[k], about, force, moment);
+    add_solid_force(p, x, &w->solid[k], about, force, moment);
 }
 
 typedef struct slice {
   double tension, twist_moment, curvature; /* [N], [N m], [1/m] */
 } slice;
 
-static slice slice_of(const sw_web *w, const double *x, size_t r) {
+static slice slice_of(const sw_plan *p, const double *x, size_t r) {
+  const sw_web *w = p->web;
   const sw_vec a = sw_strand_middle(w, x, r), b = sw_strand_middle(w, x, r + 1),
                about = sw_lerp(a, b, 0.5);
   const sw_vec t0 = sw_strand_facing(w, x, r), t1 = sw_strand_facing(w, x, r + 1);
   const sw_vec axis = sw_unit_or(sw_add(t0, t1), t0);
   const double h = w->s[w->first[r + 1]] - w->s[w->first[r]];
   sw_vec force, moment;
-  slice_force(w, x, r, about, &force, &moment);
+  slice_force(p, x, r, about, &force, &moment);
   return (slice){sw_dot(force, axis), sw_dot(moment, axis),
                  2.0 * asin(fmin(1.0, 0.5 * sw_dist(t0, t1))) / h};
 }
@@ -119,13 +121,13 @@ static slice blend(slice a, slice b, double f) {
 }
 
 /* Values are of the middles of slices: linear between these, and on to the ends. */
-static slice slice_at(const sw_web *w, const double *x, size_t r, double f) {
-  const size_t slices = w->rings - 1;
-  if (slices == 1) return slice_of(w, x, 0);
+static slice slice_at(const sw_plan *p, const double *x, size_t r, double f) {
+  const size_t slices = p->web->rings - 1;
+  if (slices == 1) return slice_of(p, x, 0);
   size_t k = f < 0.5 ? (r > 0 ? r - 1 : 0) : r;
   if (k + 1 >= slices) k = slices - 2;
   const double at = (double)r + f - ((double)k + 0.5);
-  return blend(slice_of(w, x, k), slice_of(w, x, k + 1), at);
+  return blend(slice_of(p, x, k), slice_of(p, x, k + 1), at);
 }
 
 void sw_strand_at(const sw_scene *s, const sw_scene_wire *wire, const sw_body *b, double place,
@@ -138,7 +140,7 @@ void sw_strand_at(const sw_scene *s, const sw_scene_wire *wire, const sw_body *b
   const sw_vec t0 = sw_strand_facing(w, x, r), t1 = sw_strand_facing(w, x, r + 1);
   const double l = sw_dist(x0, x1), h00 = (1 + 2 * f) * (1 - f) * (1 - f);
   const double h10 = f * (1 - f) * (1 - f), h01 = f * f * (3 - 2 * f), h11 = f * f * (f - 1);
-  const slice at = slice_at(w, x, r, f);
+  const slice at = slice_at(b->plan, x, r, f);
   const double EA = wire->beam.EA, bent = fmax(0.0, at.curvature) * wire->beam.radius;
   out->position = sw_add(sw_add(sw_scale(x0, h00), sw_scale(t0, l * h10)),
                          sw_add(sw_scale(x1, h01), sw_scale(t1, l * h11)));
@@ -160,7 +162,7 @@ void sw_strand_extremes(const sw_scene *s, size_t wire, sw_wire_extremes *now) {
   *now = (sw_wire_extremes){least, least, least, least, least};
   if (!w->rings) return; /* an object of particles */
   for (size_t r = 0; r + 1 < w->rings; r++) {
-    const slice at = slice_of(w, x, r);
+    const slice at = slice_of(b->plan, x, r);
     const double place = 0.5 * (w->s[w->first[r]] + w->s[w->first[r + 1]]);
     const double strain = at.tension / EA + b->plan->beam.radius * at.curvature;
     if (at.curvature > now->curvature.value)

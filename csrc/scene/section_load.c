@@ -107,7 +107,8 @@ sw_status sw_scene_wire_mises(sw_scene *s, sw_handle h, double *mises, double *m
       sw_store(at + 3 * i, p);
       sum = sw_add(sum, p);
     }
-    sw_solid_stress((const sw_solid *)w->shapes + e->shape, at, NULL, &mises[n], NULL);
+    sw_solid_stress((const sw_solid *)w->shapes + sw_plan_shape(b->plan, e), at, NULL, &mises[n],
+                    NULL);
     sw_store(middle + 3 * n, sw_scale(sum, 1.0 / e->count));
     arc[2 * n] = w->s[e->node[0]] - w->s[0];
     arc[2 * n + 1] = w->s[e->node[e->count - 1]] - w->s[0];

@@ -61,6 +61,24 @@ static double time_scale(const sw_scene *s) {
 
 static double first_step(const sw_scene *s) { return FIRST_PSEUDO_STEP * time_scale(s); }
 
+/* A loose mesh that an obstacle touches on one side is pushed on for as long as the pseudo step
+ * is. Is it further than its own size away from where it was? */
+static int thrown(const statics *p) {
+  const sw_system *s = &p->s->system;
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_body *body = &s->bodies[b];
+    const double size = body->plan->length + 2.0 * body->plan->beam.radius;
+    double least = HUGE_VAL;
+    for (size_t i = 0; body->plan->web && i < body->plan->nodes; i++) {
+      const size_t n = body->first_node + i;
+      const int is_free = body->plan->held[i] == SW_FREE;
+      least = fmin(least, is_free ? sw_dist(sw_vec_at(p->y, n), sw_vec_at(s->x, n)) : 0.0);
+    }
+    if (isfinite(least) && least > size) return 1;
+  }
+  return 0;
+}
+
 static sw_status solve(statics *p, double hbar, const sw_newton *newton, sw_error *err) {
   sw_scene *s = p->s;
   sw_stage_report r = {0};
@@ -79,6 +97,9 @@ static sw_status solve(statics *p, double hbar, const sw_newton *newton, sw_erro
     if (newton->statics || redo == MOST_REDOS)
       status = sw_fail(err, SW_ENOCONV, "the wire would pass through an obstacle");
   }
+  if (status == SW_OK && !newton->statics && hbar > first_step(s) && sw_scene_has_contact(s) &&
+      thrown(p))
+    status = sw_fail(err, SW_ENOCONV, "a loose mesh would be thrown far");
   p->report->negative = r.negative;
   if (status != SW_OK) memcpy(s->system.tension, p->tension, s->system.edges * sizeof(double));
   return status;

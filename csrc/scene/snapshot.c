@@ -206,7 +206,9 @@ static int same_plan(const sw_scene *s, const sw_snapshot *p) {
   for (size_t k = 0; k < s->force_count; k++)
     if (s->forces[k].alive != (k < p->forces && p->force_alive[k])) return 0;
   for (size_t k = 0; k < s->join_count; k++)
-    if (s->joins[k].alive != (k < p->joins && p->join[k].alive)) return 0;
+    if (s->joins[k].alive != (k < p->joins && p->join[k].alive) ||
+        (k < p->joins && s->joins[k].broken != p->join[k].broken))
+      return 0;
   return 1;
 }
 
@@ -267,7 +269,8 @@ static void put_objects(sw_scene *s, const sw_snapshot *p) {
     o->off = p->obstacle[k].off;
     put_drive(&o->drive, &p->obstacle[k].drive);
   }
-  for (size_t k = 0; k < s->tool_count; k++) put_tool(&s->tools[k], k < p->tools ? &p->tool[k] : NULL);
+  for (size_t k = 0; k < s->tool_count; k++)
+    put_tool(&s->tools[k], k < p->tools ? &p->tool[k] : NULL);
   for (size_t k = 0; k < s->force_count; k++)
     s->forces[k].alive = k < p->forces && p->force_alive[k];
   for (size_t k = 0; k < s->join_count; k++) {

@@ -19,7 +19,7 @@ typedef struct sw_strand_maker {
   double *warp; /* of a section by unit strains, see sw_cell_warp; or NULL */
   sw_web *web;  /* NULL while parts are only counted */
   sw_strand *strand;
-  size_t links, folds, solids, slides; /* so far */
+  size_t links, folds, creases, solids, slides; /* so far */
 } sw_strand_maker;
 
 static inline int sw_strand_is_ring(const sw_strand_maker *m, size_t r) {

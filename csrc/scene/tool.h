@@ -39,9 +39,9 @@ enum {
 enum {
   SW_JAW_RESTS,
   SW_JAW_MOVES,
-  SW_JAW_HOLDS,  /* with the force that is wanted */
+  SW_JAW_HOLDS,   /* with the force that is wanted */
   SW_JAW_STOPPED, /* by the force that was allowed */
-  SW_JAW_EMPTY   /* closed, without the force wanted */
+  SW_JAW_EMPTY    /* closed, without the force wanted */
 };
 typedef struct sw_jaw_args {
   int mode;
@@ -54,11 +54,11 @@ sw_status sw_scene_tool_jaws(sw_scene *scene, sw_handle tool, const sw_jaw_args 
 
 /* What a change between pads and a rigid grip did. */
 typedef struct sw_freeze_report {
-  sw_handle hold;                       /* of the frozen wire [-] */
-  double s1, s2;                        /* held interval [m] */
-  double energy_before, energy_after;   /* of the scene [J] */
-  double before[6], after[6];           /* momentum and its moment [N s], [N m s] */
-  sw_vec force, moment;                 /* of the tool before, about its centre [N], [N m] */
+  sw_handle hold;                     /* of the frozen wire [-] */
+  double s1, s2;                      /* held interval [m] */
+  double energy_before, energy_after; /* of the scene [J] */
+  double before[6], after[6];         /* momentum and its moment [N s], [N m s] */
+  sw_vec force, moment;               /* of the tool before, about its centre [N], [N m] */
 } sw_freeze_report;
 
 /* The wire, a mesh between the tool's pads, becomes a rod that the tool holds rigidly where the
@@ -66,7 +66,8 @@ typedef struct sw_freeze_report {
  * they do not press on a mesh. */
 sw_status sw_scene_tool_freeze(sw_scene *scene, sw_handle tool, sw_handle wire,
                                sw_freeze_report *out, sw_error *err);
-/* Back again: the mesh as it was between the pads, with their friction; elsewhere as the rod lies. */
+/* Back again: the mesh as it was between the pads, with their friction; elsewhere as the rod lies.
+ */
 sw_status sw_scene_tool_thaw(sw_scene *scene, sw_handle tool, sw_freeze_report *out, sw_error *err);
 /* Friction over what the pads allow at which a frozen grip counts as lost, and a run ends with
  * that step [-]. */
@@ -89,7 +90,7 @@ typedef struct sw_tool_state {
   double slip_time, slip_place; /* when and where that became more than is tolerated; NAN = it
                                    did not [s], [m] */
   int frozen;                   /* 1: by a rigid grip that stands for the pads */
-  double lost_time;             /* when the margin of a frozen grip was used up; NAN = it is not [s] */
+  double lost_time; /* when the margin of a frozen grip was used up; NAN = it is not [s] */
 } sw_tool_state;
 sw_status sw_scene_tool_state(sw_scene *scene, sw_handle tool, sw_tool_state *out, sw_error *err);
 /* Slip that is an event [m]; stops: a run ends with that step. Slip counts from now on. */
@@ -117,13 +118,7 @@ sw_status sw_scene_tool_touches(sw_scene *scene, sw_handle tool, size_t *count, 
 int sw_scene_tool_touch(const sw_scene *scene, sw_handle tool, size_t k, sw_tool_touch *out);
 
 /* Rows as of holds (see SW_LOG_SIZE), and opening, squeeze, margin, slip. */
-enum {
-  SW_LOG_OPENING = SW_LOG_SIZE,
-  SW_LOG_SQUEEZE,
-  SW_LOG_MARGIN,
-  SW_LOG_SLIP,
-  SW_LOG_TOOL_SIZE
-};
+enum { SW_LOG_OPENING = SW_LOG_SIZE, SW_LOG_SQUEEZE, SW_LOG_MARGIN, SW_LOG_SLIP, SW_LOG_TOOL_SIZE };
 sw_status sw_scene_tool_log(sw_scene *scene, sw_handle tool, const double **rows, size_t *count,
                             sw_error *err);
 /* NULL when the scene does not know it any more. */

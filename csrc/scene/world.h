@@ -122,19 +122,19 @@ typedef struct sw_drive {
 
 /* The jaws of a tool. Their opening at time t is opening + speed (t - since). */
 typedef struct sw_jaw {
-  int mode;             /* SW_JAW_STILL, ... */
-  int status;           /* SW_JAW_RESTS, ... */
-  double opening;       /* [m] */
-  double since;         /* [s] */
-  double step;          /* the present one [s] */
-  double speed;         /* of this step; below 0 they close [m/s] */
-  double most;          /* highest speed [m/s] */
-  double goal;          /* opening to go to [m] */
-  double force;         /* per finger: wanted, or at which they stop [N] */
-  double now;           /* force per finger of the accepted state [N] */
-  double stiffness;     /* of what they hold, last found; 0 = not known [N/m] */
-  double tried[2];      /* speeds with too little force and with too much [m/s] */
-  double off[2];        /* how far their forces were off; NAN = not tried [N] */
+  int mode;         /* SW_JAW_STILL, ... */
+  int status;       /* SW_JAW_RESTS, ... */
+  double opening;   /* [m] */
+  double since;     /* [s] */
+  double step;      /* the present one [s] */
+  double speed;     /* of this step; below 0 they close [m/s] */
+  double most;      /* highest speed [m/s] */
+  double goal;      /* opening to go to [m] */
+  double force;     /* per finger: wanted, or at which they stop [N] */
+  double now;       /* force per finger of the accepted state [N] */
+  double stiffness; /* of what they hold, last found; 0 = not known [N/m] */
+  double tried[2];  /* speeds with too little force and with too much [m/s] */
+  double off[2];    /* how far their forces were off; NAN = not tried [N] */
   int last_side, trials;
 } sw_jaw;
 
@@ -246,6 +246,10 @@ typedef struct sw_scene_join {
   uint32_t generation;
   int alive, rigid;
   char name[SW_NAME_SIZE];
+  double slack, stiffness, strength; /* of a tie, see sw_join_args; slack NAN: it is none */
+  int broken;
+  double broken_time, broken_force, peak; /* [s], [N], [N] */
+  size_t spring;                          /* of a tie: its number in the system, while built */
   size_t count;
   struct sw_scene_join_end {
     size_t wire;
@@ -435,6 +439,13 @@ sw_status sw_scene_retake_joins(sw_scene *scene, size_t wire);
 void sw_scene_measure_joins(sw_scene *scene);
 /* Springs and hinges of the living joins for the new system. SW_ENOMEM. */
 sw_status sw_scene_add_joins(sw_scene *scene);
+sw_status sw_scene_add_tie(sw_scene *scene, size_t join);
+/* After a step: ties that were pulled too hard break. */
+void sw_scene_watch_ties(sw_scene *scene);
+/* NULL: the scene does not know it. */
+sw_scene_join *sw_scene_find_join(const sw_scene *scene, sw_handle join, sw_error *err);
+/* Node of an end in the system. */
+uint32_t sw_scene_join_node(const sw_scene *scene, const struct sw_scene_join_end *end);
 
 /* --- feeds ------------------------------------------------------------------- */
 

@@ -74,13 +74,14 @@ typedef struct sw_field {
                           force says that it corrects [J] */
 
   /* of particles with a web; NULL for nodes one after another */
-  double *blocks;           /* values of the matrix, 3 x 3 blocks [N/m] */
-  size_t block_stride;      /* from one row of a block to the next [-] */
-  const size_t *own_slot;   /* (n) where a particle's own block begins */
-  const size_t *link_slot;  /* (links) of the row of the larger number, column of the smaller one */
-  const size_t *fold_slot;  /* (folds x 3) the same of a b, a c, b c */
-  const size_t *slide_slot; /* (slides x 6) the same of nodes 1 0, 2 0, 2 1, 3 0, 3 1, 3 2 */
-  const size_t *solid_slot; /* (solids x 28) the same of corners 0 1, 0 2, 1 2, 0 3, ... */
+  double *blocks;          /* values of the matrix, 3 x 3 blocks [N/m] */
+  size_t block_stride;     /* from one row of a block to the next [-] */
+  const size_t *own_slot;  /* (n) where a particle's own block begins */
+  const size_t *link_slot; /* (links) of the row of the larger number, column of the smaller one */
+  const size_t *fold_slot; /* (folds x 3) the same of a b, a c, b c */
+  const size_t *crease_slot; /* (creases x 6) the same of a b, c b, d b, a c, a d, c d */
+  const size_t *slide_slot;  /* (slides x 6) the same of nodes 1 0, 2 0, 2 1, 3 0, 3 1, 3 2 */
+  const size_t *solid_slot;  /* (solids x 28) the same of corners 0 1, 0 2, 1 2, 0 3, ... */
 
   /* per-hinge scratch */
   double *scratch[4]; /* (n) */
@@ -101,6 +102,8 @@ enum {
 }; /* numbers of a node's row, its own block (xx xy xz yy yz zz) first [-] */
 
 enum { SW_FIELD_SOLID_PAIRS = SW_WEB_SOLID_NODES * (SW_WEB_SOLID_NODES - 1) / 2 }; /* [-] */
+
+enum { SW_FIELD_CREASE_PAIRS = 6 }; /* [-] */
 
 enum { SW_FIELD_SLIDE_PAIRS = SW_SLIDE_NODES * (SW_SLIDE_NODES - 1) / 2 }; /* [-] */
 

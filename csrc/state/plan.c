@@ -218,3 +218,10 @@ size_t sw_plan_locate(const sw_plan *plan, double s, double *fraction) {
   *fraction = fmin(1.0, fmax(0.0, f));
   return low;
 }
+
+size_t sw_plan_shape(const sw_plan *p, const sw_web_solid *e) {
+  int free[2] = {0, 0};
+  if (!p->web->clamped_shapes) return e->shape;
+  for (uint32_t i = 0; i < e->count; i++) free[2 * i >= e->count] |= p->held[e->node[i]] == SW_FREE;
+  return e->shape + (free[0] != free[1] ? p->web->clamped_shapes : 0);
+}

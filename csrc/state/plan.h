@@ -90,6 +90,9 @@ typedef struct sw_hold_place {
 sw_status sw_plan_new(const sw_beam *beam, const double *s, size_t n, const sw_hold_place *holds,
                       size_t hold_count, sw_plan **out);
 
+/* Which of its web's shapes a solid element has. */
+size_t sw_plan_shape(const sw_plan *plan, const sw_web_solid *element);
+
 /* The same for particles, held where the flags (particles) say so; retains the web. SW_ENOMEM. */
 sw_status sw_plan_of_web(const sw_beam *beam, sw_web *web, const int *held, sw_plan **out);
 

@@ -55,16 +55,17 @@ void sw_tape_mesh(sw_tape *t, sw_mesh *x) {
 /* --- webs ------------------------------------------------------------------------ */
 
 static void tape_sizes(sw_tape *t, sw_web *x) {
-  SW_TAPE_STRUCT(t, sw_web, 344);
+  SW_TAPE_STRUCT(t, sw_web, 368);
   sw_tape_count(t, &x->particles, sizeof *x->mass);
   SIZE(rings), SIZE(per_ring), INT(banded);
   sw_tape_count(t, &x->links, sizeof *x->link);
   sw_tape_count(t, &x->folds, sizeof *x->fold);
   sw_tape_count(t, &x->solids, sizeof *x->solid);
   sw_tape_count(t, &x->slides, sizeof *x->slide);
+  sw_tape_count(t, &x->creases, sizeof *x->crease);
   sw_tape_count(t, &x->around_count, sizeof *x->around);
   sw_tape_count(t, &x->faces, sizeof *x->face);
-  SIZE(shape_count), sw_tape_uint32(t, &x->axis);
+  SIZE(shape_count), SIZE(clamped_shapes), sw_tape_uint32(t, &x->axis);
   sw_tape_expect(t, x->rings <= x->particles && x->per_ring <= x->particles, "rings of a mesh");
   DOUBLE(friction), DOUBLE(slide_rate2), DOUBLE(length), DOUBLE(solid_rate2), DOUBLE(rate2);
   DOUBLE(repel_distance), DOUBLE(repel_stiffness), DOUBLE(wall), DOUBLE(line_skin), DOUBLE(skin);
@@ -75,7 +76,8 @@ static void tape_lists(sw_tape *t, sw_web *x, size_t shape_size) {
   size_t sides = x->side_first && !sw_tape_reads(t) ? x->side_first[n] : 0;
   OPTIONAL(first, x->rings + 1);
   ARRAY(link, x->links), ARRAY(fold, x->folds), ARRAY(solid, x->solids);
-  OPTIONAL(slide, x->slides), OPTIONAL(yield, x->links), OPTIONAL(hardening, x->links);
+  OPTIONAL(slide, x->slides), OPTIONAL(crease, x->creases), OPTIONAL(yield, x->links),
+      OPTIONAL(hardening, x->links);
   sw_tape_optional(t, &x->shapes, x->shape_count, shape_size);
   OPTIONAL(ring_links, x->rings + 1), OPTIONAL(ring_solids, x->rings + 1);
   ARRAY(mass, n), ARRAY(s, n), OPTIONAL(along, n);
@@ -144,7 +146,13 @@ static int are_parts(const sw_web *w) {
   for (size_t i = 0; i < w->solids; i++) {
     const sw_web_solid *s = &w->solid[i];
     if ((s->count != 6 && s->count != 8) || s->shape >= w->shape_count || !w->shapes) return 0;
+    if (w->clamped_shapes >= w->shape_count - s->shape) return 0;
     if (!is_part(w, s->node, s->count)) return 0;
+  }
+  for (size_t i = 0; i < w->creases; i++) {
+    if (!w->crease) return 0;
+    const uint32_t node[4] = {w->crease[i].a, w->crease[i].b, w->crease[i].c, w->crease[i].d};
+    if (!is_part(w, node, 4)) return 0;
   }
   for (size_t i = 0; i < w->slides; i++)
     if (!w->slide || !is_part(w, w->slide[i].node, SW_SLIDE_NODES)) return 0;
@@ -184,6 +192,7 @@ void sw_tape_web(sw_tape *t, sw_web **web, size_t shape_size) {
   SW_TAPE_STRUCT(t, sw_web_fold, 32);
   SW_TAPE_STRUCT(t, sw_web_solid, 40);
   SW_TAPE_STRUCT(t, sw_web_slide, 56);
+  SW_TAPE_STRUCT(t, sw_web_crease, 32);
   tape_sizes(t, *web);
   tape_lists(t, *web, shape_size);
   if (sw_tape_reads(t)) check_web(t, *web);

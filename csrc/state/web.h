@@ -24,6 +24,14 @@ typedef struct sw_web_fold {
   double rest; /* the angle without moment, 0 or well inside (0, pi) [rad] */
 } sw_web_fold;
 
+/* A spring against the angle by which the strip from b to c is turned from that from a to b, about
+ * the edge from b to d: see state/crease.h. */
+typedef struct sw_web_crease {
+  uint32_t a, b, c, d;
+  double k;    /* moment per angle [N m] */
+  double rest; /* the angle without moment [rad] */
+} sw_web_crease;
+
 enum { SW_WEB_SOLID_NODES = 8 }; /* most of one solid element [-] */
 
 /* Corners of a solid element; what else it is lies in the web's shapes. */
@@ -54,6 +62,8 @@ typedef struct sw_web {
   size_t links;
   sw_web_fold *fold;
   size_t folds;
+  sw_web_crease *crease;
+  size_t creases;
   sw_web_solid *solid;
   size_t solids;
   sw_web_slide *slide;
@@ -64,6 +74,8 @@ typedef struct sw_web {
                                 over their stiffness, NAN: never [-]; or NULL */
   size_t shape_count;
   void *shapes;                     /* (shape_count) prepared by the force of the solids, or NULL */
+  size_t clamped_shapes;            /* so many shapes further on is that of an element of which one
+                                       ring is held; 0: the same one */
   size_t *ring_links, *ring_solids; /* (rings + 1) where those begin that start at each ring */
   double *mass;                     /* (particles) [kg] */
   double *s;                        /* (particles) arc length; place along the size [m] */

@@ -99,12 +99,27 @@ static sw_status add_block(sw_system *s, uint32_t i, uint32_t j, const double k[
 
 sw_vec sw_join_spring_force(const sw_join_spring *p, const double *x) {
   const sw_vec apart = sw_sub(sw_sub(sw_vec_at(x, p->i), sw_vec_at(x, p->j)), p->offset);
-  return sw_scale(apart, -p->k);
+  if (!p->tie) return sw_scale(apart, -p->k);
+  const double d = sw_norm(apart);
+  return d > p->slack ? sw_scale(apart, -p->k * (d - p->slack) / d) : sw_v(0, 0, 0);
+}
+
+/* Of the nodes' difference, whole: k I; of a tie k (n n' + (1 - slack / d) (I - n n')). */
+static void spring_stiffness(const sw_join_spring *p, const double *x, double sign, double out[9]) {
+  const sw_vec apart = sw_sub(sw_vec_at(x, p->i), sw_vec_at(x, p->j));
+  const double d = sw_norm(apart), n[3] = {apart.x, apart.y, apart.z};
+  const double taut = !p->tie || d > p->slack ? sign * p->k : 0.0;
+  const double across = p->tie && d > 0 ? taut * (1.0 - p->slack / d) : taut;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      out[3 * i + j] = (i == j ? across : 0.0) +
+                       (taut != across ? (taut - across) * n[i] * n[j] / (d * d) : 0.0);
 }
 
 static sw_status eval_spring(sw_system *s, const sw_join_spring *p, const double *y) {
-  const double own[9] = {p->k, 0, 0, 0, p->k, 0, 0, 0, p->k};
-  const double other[9] = {-p->k, 0, 0, 0, -p->k, 0, 0, 0, -p->k};
+  double own[9], other[9];
+  spring_stiffness(p, y, 1.0, own);
+  spring_stiffness(p, y, -1.0, other);
   const sw_vec f = sw_join_spring_force(p, y);
   add_force(s, p->i, f);
   add_force(s, p->j, sw_neg(f));
@@ -289,6 +304,7 @@ int sw_joins_near(const sw_system *s, uint32_t one, uint32_t two, double reach) 
   const struct sw_joins *all = s->joins;
   for (size_t k = 0; all && k < all->spring_count; k++) {
     const sw_join_spring *p = &all->springs[k];
+    if (p->tie) continue; /* wires that are tied lie on each other */
     if (along(s, one, p->i) <= reach && along(s, two, p->j) <= reach) return 1;
     if (along(s, one, p->j) <= reach && along(s, two, p->i) <= reach) return 1;
   }
@@ -299,7 +315,8 @@ double sw_joins_energy(const sw_system *s) {
   const struct sw_joins *all = s->joins;
   double sum = 0;
   for (size_t k = 0; all && k < all->spring_count; k++)
-    sum += 0.5 * sw_norm2(sw_join_spring_force(&all->springs[k], s->x)) / all->springs[k].k;
+    if (all->springs[k].k > 0)
+      sum += 0.5 * sw_norm2(sw_join_spring_force(&all->springs[k], s->x)) / all->springs[k].k;
   for (size_t k = 0; all && k < all->hub_count; k++) sum += hub_energy(&all->hubs[k], s->x);
   return sum;
 }

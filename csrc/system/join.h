@@ -9,11 +9,14 @@
 
 #include "system/system.h"
 
-/* Keeps x_i - x_j at offset. */
+/* Keeps x_i - x_j at offset; or a tie: pulls x_i and x_j together where they are further apart than
+ * slack, with the energy 1/2 k (|x_i - x_j| - slack)^2. */
 typedef struct sw_join_spring {
   uint32_t i, j; /* nodes */
   double k;      /* [N/m] */
   sw_vec offset; /* [m] */
+  int tie;       /* 1: it is one */
+  double slack;  /* [m] */
 } sw_join_spring;
 
 enum { SW_HUB_ARMS = 8 };

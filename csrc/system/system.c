@@ -165,12 +165,14 @@ sw_status sw_system_add_histories(sw_system *s) {
   return SW_OK;
 }
 
-void sw_system_commit(sw_system *s) {
-  for (size_t b = 0; b < s->body_count; b++)
+void sw_system_commit(sw_system *s, double time) {
+  for (size_t b = 0; b < s->body_count; b++) {
+    s->bodies[b].field.time = time;
     for (size_t k = 0; k < s->bodies[b].term_count; k++) {
       const sw_term *term = &s->bodies[b].terms[k];
       if (term->cls->commit) term->cls->commit(term->args, &s->bodies[b].field, term->history);
     }
+  }
 }
 
 double sw_system_dissipated(const sw_system *s, int *any) {
@@ -267,8 +269,17 @@ void sw_system_refresh(sw_system *s) {
   }
 }
 
+static int is_kinked(const sw_body *b) {
+  for (size_t k = 0; k < b->term_count; k++) {
+    const sw_term *t = &b->terms[k];
+    if (t->cls->commit && !(t->cls->idle && t->history && t->cls->idle(t->history))) return 1;
+  }
+  return 0;
+}
+
 void sw_system_begin_step(sw_system *s) {
   s->fastest_turn = 0;
+  for (size_t b = 0; b < s->body_count; b++) s->bodies[b].is_kinked = is_kinked(&s->bodies[b]);
   for (size_t b = 0; b < s->body_count; b++) s->bodies[b].web_factored = s->bodies[b].web_slow = 0;
   for (size_t b = 0; b < s->body_count; b++)
     if (s->bodies[b].spin_block) sw_spin_begin(s, &s->bodies[b]);

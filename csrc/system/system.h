@@ -53,7 +53,7 @@ typedef struct sw_body {
   void *roll_block;
   int needs_velocity;       /* some force depends on it */
   int is_explicit;          /* some force has no stiffness */
-  int is_kinked;            /* some force has a history: its stiffness jumps */
+  int is_kinked;            /* some force has a history: its stiffness may jump in this step */
   struct sw_blocks *blocks; /* the matrix of a body whose plan has a web, or NULL */
   size_t *web_slots;        /* where its forces write into it */
   unsigned char *web_fixed; /* (particles) 1: held */
@@ -211,9 +211,9 @@ static inline sw_status sw_term_eval(const sw_term *term, sw_field *field, sw_er
   return term->cls->eval(term->args, field, err);
 }
 
-/* The state is accepted and the fields are fresh (sw_system_refresh): bring the
+/* The state is accepted at this time and the fields are fresh (sw_system_refresh): bring the
  * histories up to it. */
-void sw_system_commit(sw_system *system);
+void sw_system_commit(sw_system *system, double time);
 
 /* Work dissipated by the forces with a history [J]; *any: there are such. */
 double sw_system_dissipated(const sw_system *system, int *any);

@@ -12,6 +12,13 @@
 
 /* --- the matrix -------------------------------------------------------------------- */
 
+/* In the order of their slots. */
+static void crease_pairs(const sw_web_crease *f, sw_blocks_pair out[SW_FIELD_CREASE_PAIRS]) {
+  const sw_blocks_pair six[SW_FIELD_CREASE_PAIRS] = {{f->a, f->b}, {f->c, f->b}, {f->d, f->b},
+                                                     {f->a, f->c}, {f->a, f->d}, {f->c, f->d}};
+  memcpy(out, six, sizeof six);
+}
+
 /* All pairs of particles that something joins, into out (may be NULL); their number. */
 static size_t pairs_of(const sw_web *w, sw_blocks_pair *out) {
   size_t n = 0;
@@ -22,6 +29,12 @@ static size_t pairs_of(const sw_web *w, sw_blocks_pair *out) {
     const sw_blocks_pair three[3] = {{f->a, f->b}, {f->a, f->c}, {f->b, f->c}};
     for (int i = 0; i < 3; i++, n++)
       if (out) out[n] = three[i];
+  }
+  for (size_t k = 0; k < w->creases; k++) {
+    sw_blocks_pair six[SW_FIELD_CREASE_PAIRS];
+    crease_pairs(&w->crease[k], six);
+    for (int i = 0; i < SW_FIELD_CREASE_PAIRS; i++, n++)
+      if (out) out[n] = six[i];
   }
   for (size_t k = 0; k < w->solids; k++)
     for (uint32_t i = 1; i < w->solid[k].count; i++)
@@ -58,6 +71,7 @@ static void fill_slots(sw_body *b) {
   const sw_web *w = b->plan->web;
   size_t *own = b->web_slots, *link = own + w->particles, *fold = link + w->links;
   size_t *solid = fold + 3 * w->folds, *slide = solid + SW_FIELD_SOLID_PAIRS * w->solids;
+  size_t *crease = slide + SW_FIELD_SLIDE_PAIRS * w->slides;
   for (size_t p = 0; p < w->particles; p++) own[p] = sw_blocks_slot(b->blocks, p, p);
   for (size_t e = 0; e < w->links; e++) link[e] = between(b->blocks, w->link[e].a, w->link[e].b);
   for (size_t k = 0; k < w->folds; k++) {
@@ -78,9 +92,15 @@ static void fill_slots(sw_body *b) {
       for (int j = 0; j < i; j++)
         *at++ = between(b->blocks, w->slide[k].node[j], w->slide[k].node[i]);
   }
+  for (size_t k = 0; k < w->creases; k++) {
+    sw_blocks_pair six[SW_FIELD_CREASE_PAIRS];
+    crease_pairs(&w->crease[k], six);
+    for (int i = 0; i < SW_FIELD_CREASE_PAIRS; i++)
+      crease[SW_FIELD_CREASE_PAIRS * k + i] = between(b->blocks, six[i].i, six[i].j);
+  }
   b->field.own_slot = own, b->field.link_slot = link;
   b->field.fold_slot = fold, b->field.solid_slot = solid;
-  b->field.slide_slot = slide;
+  b->field.slide_slot = slide, b->field.crease_slot = crease;
 }
 
 /* Within a step matrices differ little from one another. From this number of particles on the
@@ -102,7 +122,7 @@ sw_status sw_web_prepare(sw_body *b) {
   const sw_web *w = b->plan->web;
   SW_TRY(new_blocks(w, NULL, 0, &b->blocks));
   const size_t slots = w->particles + w->links + 3 * w->folds + SW_FIELD_SOLID_PAIRS * w->solids +
-                       SW_FIELD_SLIDE_PAIRS * w->slides;
+                       SW_FIELD_SLIDE_PAIRS * w->slides + SW_FIELD_CREASE_PAIRS * w->creases;
   b->web_slots = sw_alloc(slots, sizeof *b->web_slots);
   b->web_fixed = sw_alloc(w->particles, sizeof *b->web_fixed);
   if (!b->web_slots || !b->web_fixed) return SW_ENOMEM;

@@ -17,10 +17,13 @@ const sw_wire_class *const *sw_wire_all(void) { return all; }
 
 void sw_web_recipe(const sw_beam *beam, sw_recipe *out) {
   (void)beam;
-  *out = (sw_recipe){
-      .count = 5,
-      .terms = {
-          {"gravity", {0}}, {"spring", {0}}, {"fold", {0}}, {"neo_hooke", {0}}, {"slide", {0}}}};
+  *out = (sw_recipe){.count = 6,
+                     .terms = {{"gravity", {0}},
+                               {"spring", {0}},
+                               {"fold", {0}},
+                               {"crease", {0}},
+                               {"neo_hooke", {0}},
+                               {"slide", {0}}}};
 }
 
 const sw_wire_class *sw_wire_find(const char *name) {

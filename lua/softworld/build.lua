@@ -14,7 +14,7 @@ function build.data(scene)
   local data = core.data(scene)
   if not data.wires then
     data.wires, data.particles, data.obstacles, data.holds = {}, {}, {}, {}
-    data.grippers, data.processes, data.joins = {}, {}, {}
+    data.grippers, data.processes, data.joins, data.fixings = {}, {}, {}, {}
     data.restores = 0 -- how often a snapshot was restored
   end
   return data
@@ -58,7 +58,8 @@ local function table_of(args, what)
 end
 
 local function is_taken(data, name)
-  for _, list in ipairs{ data.wires, data.particles, data.obstacles, data.holds, data.grippers } do
+  for _, list in ipairs{ data.wires, data.particles, data.obstacles, data.holds, data.grippers,
+    data.fixings } do
     for _, entry in ipairs(list) do
       if entry.name == name then return true end
     end
@@ -312,6 +313,7 @@ function class.scene.restore(scene, snapshot)
   data.restores, data.going = data.restores + 1, nil
   data.holds, data.obstacles = keep_existing(data.holds), keep_existing(data.obstacles)
   data.joins = keep_existing(data.joins)
+  data.fixings = keep_existing(data.fixings)
   for _, process in ipairs(data.processes) do process:finish() end
   data.processes = {}
   local kept = {}

@@ -124,6 +124,50 @@ wire:folded()                   where [m] and when [s] a section of springs fold
                                 nothing when none has. Solid elements do not
 wire:max_ovalisation()          of the run, where [m], when [s]; { now = true }
 wire:calibration()              its springs, see help "calibrate"]],
+  clip = [[
+scene:clip{ at = {x, y, z}, width = [m], insertion = [N], retention = [N], ... }   a snap-in clip
+  at               the wire's centre line in the seat [m]
+  direction, axis  from the seat to the mouth {0, 0, 1}; along the wire {1, 0, 0}
+  width            along the axis [m]
+  insertion        largest force of the lips on the way in [N]
+  retention        and on the way out [N]
+  friction         against sliding along the axis, = 0
+  radius           of the seat [m], = that of each wire; way over the lips [m], = 1.5 of the radius
+  stiffness        of floor and side walls [N/m], = 50 times the larger force over the radius
+  snap             time that the lips take to pull a wire in [s], = 0.002
+  on               the wire that it is for, = all of the scene; name
+  :seated(wire) :state(wire)     is there one in it; "empty", "inserting", "seated"
+  :force(wire) :height(wire)     on the wire [N]; over the seat [m]. Without wire: of all
+  :ratio(wire)                   largest pull so far over retention
+  .wire .peak_insertion_force    the one in the seat; [N]
+  .inserted .pulled_out          nil, or .time [s] .peak_force [N] .wire .count, .s [m]
+  :release()
+gripper:clip{ into = clip, speed = [m/s], max_force = [N] }   in a process: presses its wire in
+  approach_speed = 0.1, align = true   over the mouth before; speed = 0.02
+  overtravel       beyond the seat [m], = the wire's radius
+  max_force        = 5 times insertion; beyond it an error says what was reached, with fail = false
+                   nil and that are returned
+  returns { force = of the gripper, peak_force = of the lips [N], s = [m], duration = [s] }]],
+  tie = [[
+scene:tie(wire, { s = [m], to = {x, y, z} or { other, s = [m] }, ... })   from now on
+  to               a point (= where the wire is now) or a place of another rod or string
+  slack            distance up to which it does not pull [m], = the present one
+  stiffness        beyond it, = 1e5 N/m
+  strength         pull at which it breaks [N], = never; name
+  :tension() :distance() :force()   now [N], [m]; on wire [N]
+  .peak_force .broken               [N]; nil, or .time [s] .force [N]
+  :release()]],
+  channel = [[
+scene:channel{ points = {{x, y, z}, ...}, width = [m], depth = [m], ... }   a trough along the points
+  points           of the middle of its floor [m]; corners are mitred
+  width, depth     inside [m]; thickness = 0.002 of floor and walls [m]
+  up               where it is open, = {0, 0, 1}; friction = 0, restitution = 0; name
+  lid              = false
+  :force() :moment{ at = }       of all wires on it [N], [N m]
+  :contains(wire)                share of the wire's length inside
+  :close() :open() .closed       lid on, refused while a wire stands out; off
+  .parts                         its obstacles
+  :release()]],
   units = "sw.units.mm(5), sw.units.deg(30), ...: into SI units",
 }
 

@@ -28,6 +28,10 @@ require "softworld.section"  -- wire:section and what belongs to it
 require "softworld.process"  -- scene:process
 require "softworld.gripper"  -- scene:gripper
 require "softworld.run"      -- scene:run
+require "softworld.clip"     -- scene:clip
+require "softworld.clipping" -- gripper:clip
+require "softworld.channel"  -- scene:channel
+require "softworld.tie"      -- scene:tie
 require "softworld.settle"   -- scene:settle with error bars
 local save = require "softworld.save" -- scene:save, scene:resume, scene:find
 

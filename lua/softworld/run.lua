@@ -9,6 +9,7 @@ local number = require "softworld.output.number"
 local refine = require "softworld.refine"
 local save = require "softworld.save"
 local trust = require "softworld.trust"
+local fixing = require "softworld.fixing"
 local progress = require "softworld.output.progress"
 
 local Run = { __name = "run" }
@@ -294,12 +295,25 @@ local function summary_of(self)
     local depth, s, t = self.scene:penetration()
     add("deepest penetration", depth, "m", s, t)
   end
+  for _, f in ipairs(fixing.all(self.scene)) do f:report(add) end
   for _, q in ipairs(self.quantities and self:error_bars() or {}) do
     rows[#rows + 1] = { label = q.name, value = type(q.value) == "number" and q.value or q:text(),
       unit = type(q.value) == "number" and q.unit or "",
       where = ("+- %s%s"):format(number.text(q.error, q.unit), q.met and "" or " (NOT as asked)") }
   end
   return rows
+end
+
+-- Clips are shown as obstacles that stand still.
+local function add_fixings(scene, doc)
+  for _, f in ipairs(fixing.all(scene)) do
+    for _, solid in ipairs(f:solids()) do
+      doc.obstacles[#doc.obstacles + 1] = solid
+      for _, frame in ipairs(doc.frames) do
+        frame.obstacles[#doc.obstacles] = { position = { 0, 0, 0 }, rotation = { 1, 0, 0, 0 } }
+      end
+    end
+  end
 end
 
 --- Plain tables of everything that charts, pictures and files need.
@@ -336,6 +350,7 @@ function Run:document()
     end
     doc.frames[i] = f
   end
+  add_fixings(self.scene, doc)
   doc.series, doc.summary = self:series(), summary_of(self)
   for i, q in ipairs(self.quantities and self:error_bars() or {}) do
     doc.quantities = doc.quantities or {}

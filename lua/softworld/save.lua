@@ -339,7 +339,8 @@ local function named(scene)
   for _, key in ipairs(order) do
     for _, entry in ipairs(data[key]) do
       local name = type(entry) == "table" and rawget(entry, "name")
-      local object = name and (rawget(entry, "object") or getmetatable(entry) and entry)
+      local object = name and (getmetatable(entry) and entry or rawget(entry, "fixing")
+        or rawget(entry, "object"))
       if object and not objects[name] then
         objects[name], names[#names + 1] = object, name
       end

@@ -148,6 +148,23 @@ local acts = {
     scene:run{ duration = 0.02, dt = 0.01 }
     return object:positions(), object:links(), object:energy()
   end },
+  { "clips, ties and a channel, and restoring them", function()
+    local scene <close> = sw.scene{}
+    local wire = scene:wire{ E = 1e8, density = 1e3, radius = 2e-3, from = { 0, 0, 0 }, to = { 0.2, 0, 0 },
+      segments = 6 }
+    local other = scene:wire{ E = 1e8, density = 1e3, radius = 2e-3, from = { 0, 0.01, 0 },
+      to = { 0.2, 0.01, 0 }, segments = 6 }
+    local clip = scene:clip{ at = { 0.1, 0, 0 }, width = 0.01, insertion = 1, retention = 2, friction = 0.1 }
+    scene:channel{ points = { { 0, 0.05, 0 }, { 0.1, 0.05, 0 } }, width = 0.01, depth = 0.01, lid = true }
+    local tie = scene:tie(wire, { s = 0.05, strength = 1 })
+    local pair = scene:tie(wire, { s = 0.15, to = { other, s = 0.15 } })
+    local snapshot = scene:snapshot()
+    scene:run{ duration = 0.02, dt = 0.01 }
+    scene:restore(snapshot)
+    clip:release()
+    scene:run{ duration = 0.02, dt = 0.01 }
+    return pair:tension(), tie:tension()
+  end },
   { "calibrating springs", function()
     sw.calibrate { mesh = "tube", particles = 3, EA = 1e4, EI = 0.05, GJ = 0.04, radius = 5e-3 }
     sw.calibrate { mesh = "composite", core = "line", particles = 3, E = 1e8, radius = 5e-3 }

@@ -31,7 +31,7 @@ describe("a beam of solid elements", function()
         local sine = r * r * math.sin(2 * math.pi / n)
         local A, I = n / 2 * sine, n / 24 * sine * r * r * (2 + math.cos(2 * math.pi / n))
         for _, ratio in ipairs { 0.25, 0.5, 1, 2 } do
-          local b = alone(c, ratio * R)
+          local b = alone(c, ratio * R, nu)
           share(A, b.EA, 1e-9)
           share(I, b.EI, mesh[3])
           share(I / (1 + nu), b.GJ, 1e-9) -- no particle warps: all are on lines of symmetry
@@ -74,14 +74,14 @@ end)
 
 local STRANDS = { EA = 137e3, EI = 1.28e-3, radius = 1.2e-3 }
 local cases = {
-  { "one material", round {}, 0.02 },
-  { "one nearly incompressible material", round { nu = 0.45, particles = 12 }, 0.02 },
+  { "one material", round {}, 1e-6 },
+  { "one nearly incompressible material", round { nu = 0.45, particles = 12 }, 1e-6 },
   { "one material of one layer", round { nu = 0.45, layers = 1 }, 1e-8, springs = true },
-  { "one material whose Poisson's ratio is not given", round { nu = false }, 0.02 },
-  { "voxels", round { mesh = "cubic" }, 0.02 },
+  { "one material whose Poisson's ratio is not given", round { nu = false }, 1e-6 },
+  { "voxels", round { mesh = "cubic" }, 1e-6 },
   { "voxels of a tube", { mesh = "cubic", body = "solid", section = "annulus", inner = 0.6 * R, radius = R,
     across = 10, EA = 1e8 * math.pi * 0.64 * R ^ 2, EI = 1e8 * math.pi / 4 * 0.8704 * R ^ 4,
-    GJ = 1e8 / 1.3 * math.pi / 4 * 0.8704 * R ^ 4, nu = 0.3 }, 0.02 },
+    GJ = 1e8 / 1.3 * math.pi / 4 * 0.8704 * R ^ 4, nu = 0.3 }, 1e-6 },
   { "strands that slip", { GJ = 1.6e-3, STRANDS }, 1e-8, springs = true },
   { "strands that twist easily", { GJ = 0.4e-3, STRANDS }, 1e-8, springs = true },
   { "strands of voxels", { mesh = "cubic", GJ = 1.6e-3, STRANDS }, 1e-8, springs = true },
@@ -126,9 +126,10 @@ describe("calibrate makes of solid elements", function()
     end)
   end
 
+  -- the wire has nu = 0.3; flat sides and what does not warp are made up for
   it("a wire that says how", function()
     local text = tostring(calibrate(round {}))
-    assert.is_truthy(text:find("16 elements, nu = 0.3, section times 1.05", 1, true), text)
+    assert.is_truthy(text:find("16 elements, nu = 0.2977, section times 1.05", 1, true), text)
   end)
 end)
 

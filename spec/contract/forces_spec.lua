@@ -74,6 +74,13 @@ local function subjects()
       end }
   end
   met.slide = true
+  -- The wall of a hollow tube, as it is drawn and pulled out of round.
+  local function walled()
+    return samples.wire{ segments = 3, model = "tube",
+      more = { core = false, wall_bending = 0.7, particles = 8 } }
+  end
+  list[#list + 1] = { name = "crease of tube", kind = "crease", inner = true, mesh = true, make = walled }
+  met.crease = true
   for index, force in ipairs(samples.registry.forces) do
     if not force.inner then
       met[force.name] = true

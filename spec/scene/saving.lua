@@ -55,6 +55,7 @@ local readers = {
     add(all, { obstacle:force(), (obstacle:log()) })
   end,
   join = function(all, join) if join.held then add(all, { join:force(1), join:moment(2) }) end end,
+  clip = function(all, clip) add(all, { clip.held, tostring(clip), { clip:force() } }) end,
   gripper = function(all, gripper)
     add(all, gripper:over())
     add(all, gripper:series())
@@ -277,6 +278,14 @@ case("obstacles of all shapes, on trajectories of all laws", function(s)
   flat.name, flat.shape = "sphere", "sphere"
   flat.radius = 0.01
   s:obstacle(flat)
+end)
+case("a clip and a tie", function(s)
+  local a = wire(s, { from = { 0, 0, 0.01 }, to = { L, 0, 0.01 } })
+  local b = wire(s, { name = "b", from = { 0, 0.004, 0.01 }, to = { L, 0.004, 0.01 } })
+  s:clip{ name = "snap", at = { 0.2, 0, 0.006 }, axis = { 1, 0, 0 }, width = 0.006, insertion = 0.2,
+    retention = 1, friction = 0.3, on = a }
+  s:join{ name = "bundle", ends = { { a, s = 0.3 }, { b, s = 0.3 } }, slack = 0.001, stiffness = 1e3 }
+  s:clamp(a, { s = 0 })
 end)
 case("a function of time that is over", function(s)
   wire(s)

@@ -185,9 +185,9 @@ describe("a wire bent by clamps", function()
 
   -- Case 20 of the reference data, Brazier: with a = kappa r^2 / t (nu = 0) a long thin tube
   -- flattens by a^2 r, and M = EI kappa (1 - 1.5 a^2); of second order in a. The wall's bending is
-  -- that of braces, chords of two sides, which soften where the wall straightens: at a = 0.3 the
-  -- flattening is 8 % and the moment 6 % too large, as measured. The ends, which the clamps keep
-  -- round over r sqrt(r/t), are 8 % of the length each.
+  -- that of braces, chords of two sides, which soften where the wall straightens. At a = 0.3 a tube
+  -- really flattens by 9 % more than a^2 r (spec/physics/brazier_spec.lua, of a wall that bends). The
+  -- ends, which the clamps keep round over r sqrt(r/t), are 8 % of the length each.
   it("and thin flattens as Brazier's tube", function()
     local r, t, E = 0.01, 0.001, 1e7
     local EI, wall = pi * r ^ 3 * E * t, E * t ^ 3 / 12

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "force/axis.h"
+
+enum { ROW = SW_FIELD_ROW };
+
+size_t sw_axis_points(const sw_plan *p) {
+  if (!p->web) return p->nodes;
+  return p->web->per_ring ? p->web->rings : 0;
+}
+
+double sw_axis_s(const sw_plan *p, size_t i) { return p->s[p->web ? p->web->first[i] : i]; }
+
+static sw_vec middle_of(const sw_field *f, const double *values, size_t i) {
+  double middle[3];
+  if (!f->plan->web) return sw_load(values + 3 * i);
+  sw_web_middle(f->plan->web, values, i, middle);
+  return sw_load(middle);
+}
+
+sw_vec sw_axis_at(const sw_field *f, size_t i) { return middle_of(f, f->x, i); }
+sw_vec sw_axis_velocity(const sw_field *f, size_t i) { return middle_of(f, f->v, i); }
+
+void sw_axis_put(sw_field *f, size_t i, sw_vec force, const double *K) {
+  const sw_web *web = f->plan->web;
+  const size_t from = web ? web->first[i] : i, to = web ? web->first[i + 1] : i + 1;
+  for (size_t p = from; p < to; p++) {
+    const double share = web && sw_web_is_ring(web, i) ? web->share[p - from] : 1.0;
+    if (f->want & SW_WANT_FORCE) sw_accumulate(f->force + 3 * p, sw_scale(force, share));
+    double *row = f->rows + ROW * p;
+    for (int k = 0, at = 0; K && k < 3; k++)
+      for (int j = k; j < 3; j++, at++) row[at] += share * K[3 * k + j];
+  }
+}
+
+void sw_axis_push(sw_field *f, size_t i, sw_vec force, sw_vec d, double k) {
+  const double K[9] = {k * d.x * d.x, k * d.x * d.y, k * d.x * d.z, k * d.y * d.x, k * d.y * d.y,
+                       k * d.y * d.z, k * d.z * d.x, k * d.z * d.y, k * d.z * d.z};
+  sw_axis_put(f, i, force, f->want & SW_WANT_STIFFNESS && k > 0 ? K : NULL);
+}

@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "force/clip_law.h"
+
+#include <math.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* The way over the lips when it is not given: that of a round wire through a mouth two thirds as
+ * wide, 2 sqrt(1 - (2/3)^2) of the radius [-]. */
+static const double USUAL_WAY = 1.5;
+/* Floor and walls give way by a fiftieth of the radius under the larger of both forces [-]. */
+static const double USUAL_STIFFNESS = 50.0;
+/* They end where a wire that comes from outside touches a wall half a radius thick: halfway
+ * through that they hold no more [radii]. */
+static const double REACH = 1.25;
+
+/* A function of one variable and its derivatives. */
+typedef struct curve {
+  double f, d, dd;
+} curve;
+
+/* height sin^2(pi x / (2 length)): from 0 at x = 0 to its top at x = length. */
+static curve hump(double x, double length, double height) {
+  const double a = 0.5 * PI / length, s = sin(a * x), c = cos(a * x);
+  return (curve){height * s * s, 2.0 * height * a * s * c, 2.0 * height * a * a * (c * c - s * s)};
+}
+
+/* The same of a variable that goes the other way. */
+static curve mirrored(curve c) { return (curve){c.f, -c.d, c.dd}; }
+
+/* From 1 at x = 0 to 0 at x = length. */
+static curve fade(double x, double length) {
+  const curve c = hump(length - x, length, 1.0);
+  return mirrored(c);
+}
+
+static const curve NOTHING = {0, 0, 0}, ONE = {1, 0, 0};
+
+/* A spring of stiffness k that holds no more at depth reach and is nothing at twice that. */
+static curve barrier(double depth, double reach, double k) {
+  const double a = 0.5 * PI / reach;
+  if (!(depth > 0) || depth >= 2.0 * reach) return NOTHING;
+  return hump(depth, reach, 0.5 * k / (a * a));
+}
+
+static curve spring(double depth, double k) {
+  return depth > 0 ? (curve){0.5 * k * depth * depth, k * depth, k} : NOTHING;
+}
+
+/* What floor and walls do at this depth. */
+static curve side(const sw_clip_law *l, double depth) {
+  return l->caught ? spring(depth, l->k) : barrier(depth, l->reach, l->k);
+}
+
+static curve lips(const sw_clip_law *l, double u) {
+  if (!(u > 0) || u >= l->out + l->in) return NOTHING;
+  if (u < l->out) return hump(u, l->out, l->top);
+  return mirrored(hump(l->out + l->in - u, l->in, l->top));
+}
+
+static curve floor_of(const sw_clip_law *l, double u) {
+  return mirrored(side(l, -l->clearance - u));
+}
+
+/* Of something even in v, from what it is at depth |v| - clearance. */
+static curve even(curve c, double v) { return v < 0 ? mirrored(c) : c; }
+
+/* How much further apart the walls are above the lips' top: a funnel that ends as steep as 45
+ * degrees. */
+static curve widening(const sw_clip_law *l, double u) {
+  const double above = u - l->out;
+  if (!(above > 0)) return NOTHING;
+  return (curve){0.5 * above * above / l->in, above / l->in, 1.0 / l->in};
+}
+
+/* Between the walls: where lips and floor are. */
+static curve between(const sw_clip_law *l, double v) {
+  const double depth = fabs(v) - l->clearance;
+  if (depth <= 0) return ONE;
+  return depth < 2.0 * l->reach ? even(fade(depth, 2.0 * l->reach), v) : NOTHING;
+}
+
+/* Between floor and mouth: where walls are. */
+static curve beside(const sw_clip_law *l, double u) {
+  const double above = u - l->out, below = -l->clearance - u;
+  if (above > 0) return above < l->in ? fade(above, l->in) : NOTHING;
+  if (below <= 0 || l->caught) return ONE;
+  return below < 2.0 * l->reach ? mirrored(fade(below, 2.0 * l->reach)) : NOTHING;
+}
+
+sw_clip_law sw_clip_law_of(double wire, double seat, double insertion, double retention, double way,
+                           double stiffness) {
+  const double length = isnan(way) ? USUAL_WAY * wire : way;
+  sw_clip_law l;
+  l.out = length * insertion / (insertion + retention);
+  l.in = length - l.out;
+  l.top = 2.0 / PI * retention * l.out;
+  l.clearance = isnan(seat) ? 0.0 : fmax(0.0, seat - wire);
+  l.k = isnan(stiffness) ? USUAL_STIFFNESS * fmax(insertion, retention) / wire : stiffness;
+  l.reach = REACH * wire;
+  return l;
+}
+
+/* Add the walls: what they do at their depth, times how much of them there is at u. */
+static void add_walls(const sw_clip_law *l, double u, double v, sw_clip_point *p) {
+  const curve z = widening(l, u), g = beside(l, u);
+  const curve w = side(l, fabs(v) - l->clearance - z.f);
+  const double sign = v < 0 ? -1.0 : 1.0;
+  p->energy += w.f * g.f;
+  p->u += w.f * g.d - w.d * z.d * g.f;
+  p->v += sign * w.d * g.f;
+  p->uu += w.f * g.dd - 2.0 * w.d * z.d * g.d + (w.dd * z.d * z.d - w.d * z.dd) * g.f;
+  p->uv += sign * (w.d * g.d - w.dd * z.d * g.f);
+  p->vv += w.dd * g.f;
+}
+
+sw_clip_point sw_clip_at(const sw_clip_law *l, double u, double v) {
+  const curve a = lips(l, u), b = floor_of(l, u), h = l->caught ? ONE : between(l, v);
+  const curve q = {a.f + b.f, a.d + b.d, a.dd + b.dd};
+  sw_clip_point p = {.energy = q.f * h.f,
+                     .u = q.d * h.f,
+                     .v = q.f * h.d,
+                     .uu = q.dd * h.f,
+                     .uv = q.d * h.d,
+                     .vv = q.f * h.dd};
+  add_walls(l, u, v, &p);
+  return p;
+}
+
+double sw_clip_between(const sw_clip_law *l, double v) { return between(l, v).f; }
+
+double sw_clip_stiffest(const sw_clip_law *l) {
+  const double flank = 0.5 * PI * PI * l->top / (fmin(l->in, l->out) * fmin(l->in, l->out));
+  return fmax(l->k, flank);
+}

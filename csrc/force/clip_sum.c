@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "force/clip_sum.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double PI = 3.14159265358979323846;
+
+enum { FINENESS = 16 };                /* places over the clip's width, at least [-] */
+enum { NEXT = 6, ROW = SW_FIELD_ROW }; /* layout of a node's row */
+
+sw_clip sw_clip_of(const sw_clip_args *a, const sw_beam *beam) {
+  sw_clip c = {.at = a->at, .width = a->width, .friction = a->friction};
+  c.direction = sw_unit_or(a->direction, sw_v(0, 0, 1));
+  const sw_vec axis = sw_madd(a->axis, c.direction, -sw_dot(a->axis, c.direction));
+  c.axis = sw_unit_or(axis, sw_perpendicular(c.direction));
+  c.across = sw_cross(c.direction, c.axis);
+  c.strongest = fmax(a->insertion, a->retention);
+  c.law = sw_clip_law_of(beam->radius, a->radius, a->insertion, a->retention, a->way, a->stiffness);
+  return c;
+}
+
+static void local_of(const sw_clip *c, sw_vec x, double out[3]) {
+  const sw_vec d = sw_sub(x, c->at);
+  out[0] = sw_dot(d, c->direction), out[1] = sw_dot(d, c->across), out[2] = sw_dot(d, c->axis);
+}
+
+sw_vec sw_clip_world(const sw_clip *c, const double g[3]) {
+  return sw_madd(sw_madd(sw_scale(c->direction, g[0]), c->across, g[1]), c->axis, g[2]);
+}
+
+void sw_clip_window(const sw_clip *c, double a, double chi[3]) {
+  const double k = 2.0 * PI / c->width;
+  chi[0] = 1.0 + cos(k * a);
+  chi[1] = -k * sin(k * a);
+  chi[2] = -k * k * cos(k * a);
+}
+
+/* Second derivatives of U chi by u, v, a, upper half. */
+static void second(const sw_clip_point *p, const double chi[3], double w, double H[6]) {
+  H[0] = w * chi[0] * p->uu, H[1] = w * chi[0] * p->uv, H[2] = w * chi[1] * p->u;
+  H[3] = w * chi[0] * p->vv, H[4] = w * chi[1] * p->v, H[5] = w * chi[2] * p->energy;
+}
+
+/* Add one place at t along the edge, of weight w. */
+static void add_place(const sw_clip *c, const double x[3], double t, double w, double s,
+                      int stiffness, sw_clip_sum *out) {
+  const double part[2] = {1.0 - t, t};
+  double chi[3], H[6];
+  sw_clip_window(c, x[2], chi);
+  const double in = w * chi[0] * sw_clip_between(&c->law, x[1]);
+  out->share += in, out->u += in * x[0], out->v += in * x[1], out->s += in * s;
+  const sw_clip_point p = sw_clip_at(&c->law, x[0], x[1]);
+  out->energy += w * chi[0] * p.energy;
+  for (int end = 0; end < 2; end++) {
+    out->g[end][0] += part[end] * w * chi[0] * p.u;
+    out->g[end][1] += part[end] * w * chi[0] * p.v;
+    out->g[end][2] += part[end] * w * chi[1] * p.energy;
+    out->push[end] += part[end] * w * chi[0] * hypot(p.u, p.v);
+  }
+  if (!stiffness) return;
+  second(&p, chi, w, H);
+  for (int k = 0; k < 6; k++) {
+    out->own[0][k] += part[0] * part[0] * H[k];
+    out->own[1][k] += part[1] * part[1] * H[k];
+    out->next[k] += part[0] * part[1] * H[k];
+  }
+}
+
+/* Which of n even places between a and b may lie within the window: first and last. */
+static int range(double a, double b, double half, long n, long *first, long *last) {
+  const double low = fmin(a, b), high = fmax(a, b);
+  if (low >= half || high <= -half) return 0;
+  double t0 = 0, t1 = 1;
+  if (high - low > 1e-12 * half) {
+    t0 = (-half - a) / (b - a), t1 = (half - a) / (b - a);
+    if (t0 > t1) {
+      const double swap = t0;
+      t0 = t1, t1 = swap;
+    }
+    t0 = fmax(0.0, t0), t1 = fmin(1.0, t1);
+  }
+  *first = (long)floor(t0 * (double)n - 0.5), *last = (long)ceil(t1 * (double)n - 0.5);
+  *first = *first < 0 ? 0 : *first, *last = *last > n - 1 ? n - 1 : *last;
+  return 1;
+}
+
+long sw_clip_find(const sw_clip *c, const sw_field *f, long from) {
+  const long points = (long)sw_axis_points(f->plan);
+  const double half = 0.5 * c->width, zero = sw_dot(c->axis, c->at);
+  if (from + 1 >= points) return SW_CLIP_NO_EDGE;
+  double last = sw_dot(c->axis, sw_axis_at(f, (size_t)from)) - zero;
+  for (long e = from; e + 1 < points; e++) {
+    const double next = sw_dot(c->axis, sw_axis_at(f, (size_t)e + 1)) - zero;
+    if (!((last >= half && next >= half) || (last <= -half && next <= -half))) return e;
+    last = next;
+  }
+  return SW_CLIP_NO_EDGE;
+}
+
+int sw_clip_begin(const sw_clip *c, const sw_field *f, size_t e, sw_clip_walk *w) {
+  const double most = 1e6;
+  long first;
+  local_of(c, sw_axis_at(f, e), w->a);
+  local_of(c, sw_axis_at(f, e + 1), w->b);
+  w->half = 0.5 * c->width;
+  w->s = sw_axis_s(f->plan, e);
+  w->length = sw_axis_s(f->plan, e + 1) - w->s;
+  w->count = (long)fmin(most, ceil(FINENESS * w->length / c->width));
+  if (!range(w->a[2], w->b[2], w->half, w->count, &first, &w->last)) return 0;
+  w->k = first;
+  w->weight = w->length / ((double)w->count * c->width);
+  return 1;
+}
+
+int sw_clip_next(sw_clip_walk *w, double x[3], double *along) {
+  while (w->k <= w->last) {
+    const double t = ((double)w->k++ + 0.5) / (double)w->count;
+    for (int i = 0; i < 3; i++) x[i] = w->a[i] + t * (w->b[i] - w->a[i]);
+    *along = t;
+    if (fabs(x[2]) < w->half) return 1;
+  }
+  return 0;
+}
+
+int sw_clip_far(const sw_clip *c, const sw_clip_walk *w) {
+  const sw_clip_law *l = &c->law;
+  if (fmin(w->a[0], w->b[0]) >= l->out + l->in) return 1;
+  if (l->caught) return 0;
+  const double side = l->clearance + 0.5 * l->in + 2.0 * l->reach;
+  return fmax(w->a[0], w->b[0]) <= -l->clearance - 2.0 * l->reach ||
+         fmin(w->a[1], w->b[1]) >= side || fmax(w->a[1], w->b[1]) <= -side;
+}
+
+int sw_clip_edge(const sw_clip *c, const sw_field *f, size_t e, int stiffness, sw_clip_sum *out) {
+  sw_clip_walk w;
+  double x[3], t;
+  if (!sw_clip_begin(c, f, e, &w)) return 0;
+  memset(out, 0, sizeof *out);
+  while (sw_clip_next(&w, x, &t)) add_place(c, x, t, w.weight, w.s + t * w.length, stiffness, out);
+  return 1;
+}
+
+/* --- on the wire --------------------------------------------------------------------- */
+
+/* Q' H Q, whole, of local second derivatives H. */
+static void turn(const sw_clip *c, const double H[6], double out[9]) {
+  static const int whole[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+  const double q[9] = {c->direction.x, c->direction.y, c->direction.z, c->across.x, c->across.y,
+                       c->across.z,    c->axis.x,      c->axis.y,      c->axis.z};
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) {
+      double sum = 0;
+      for (int k = 0; k < 3; k++)
+        for (int l = 0; l < 3; l++) sum += q[3 * k + i] * H[whole[3 * k + l]] * q[3 * l + j];
+      out[3 * i + j] = sum;
+    }
+}
+
+void sw_clip_on_edge(const sw_clip *c, sw_field *f, size_t e, const sw_clip_sum *sum) {
+  const int stiffness = (f->want & SW_WANT_STIFFNESS) != 0;
+  double between[9], K[9];
+  if (stiffness) turn(c, sum->next, between);
+  for (size_t end = 0; end < 2; end++) {
+    if (stiffness) turn(c, sum->own[end], K);
+    for (int k = 0; stiffness && f->plan->web && k < 9; k++) K[k] += between[k];
+    sw_axis_put(f, e + end, sw_neg(sw_clip_world(c, sum->g[end])), stiffness ? K : NULL);
+  }
+  if (!stiffness || f->plan->web) return;
+  for (int k = 0; k < 9; k++) f->rows[ROW * e + NEXT + (size_t)k] += between[k];
+}
+
+double sw_clip_stiffness(const sw_clip *c, double slip) {
+  const double turn_rate = 2.0 * PI / c->width;
+  return sw_clip_stiffest(&c->law) + turn_rate * turn_rate * c->law.top +
+         c->friction * c->strongest / slip;
+}

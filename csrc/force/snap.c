@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a clip's lips take out of a wire that snaps in: on their inner flank and in the seat a
+ * dashpot against moving inwards, f = -c u' for u' < 0, spread over the width as the clip is.
+ * With c = 2 retention time / out, out being the length of that flank, the lips' own pull moves
+ * the wire by the flank within about `time`; without it a light wire would arrive at
+ * metres per second, bounce, and come out again, which wires in clips of plastic do not. Nothing
+ * acts outwards, on the outer flank, or at rest: the forces of insertion and of retention are the
+ * clip's alone. The time is a choice, not a measurement. */
+#include <math.h>
+#include <stddef.h>
+
+#include "force/clip_sum.h"
+#include "force/force.h"
+
+typedef struct snap_args {
+  sw_clip_args clip; /* stiffness is the time [s] */
+} snap_args;
+
+static const sw_param rows[] = {
+    {"at", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
+     offsetof(sw_clip_args, at), "the wire's centre line in the seat"},
+    {"direction", SW_PARAM_VECTOR, "-", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
+     offsetof(sw_clip_args, direction), "from the seat to the mouth"},
+    {"axis", SW_PARAM_VECTOR, "-", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
+     offsetof(sw_clip_args, axis), "along the wire in the seat"},
+    {"width", SW_PARAM_NUMBER, "m", 0, 0, HUGE_VAL, SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(sw_clip_args, width), "along the axis"},
+    {"insertion", SW_PARAM_NUMBER, "N", 0, 0, HUGE_VAL, SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN,
+     NULL, offsetof(sw_clip_args, insertion), "largest force of the lips on the way in"},
+    {"retention", SW_PARAM_NUMBER, "N", 0, 0, HUGE_VAL, SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN,
+     NULL, offsetof(sw_clip_args, retention), "largest force of the lips on the way out"},
+    {"radius", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(sw_clip_args, radius), "of the seat (default: that of the wire)"},
+    {"way", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(sw_clip_args, way), "of the wire over the lips (default: 1.5 of its radius)"},
+    {"time", SW_PARAM_NUMBER, "s", 2e-3, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(sw_clip_args, stiffness), "that the lips take to pull the wire in"},
+};
+
+/* Share of the dashpot at height u: all of it from the middle of the flank on [-]. */
+static double share_at(const sw_clip_law *l, double u) {
+  const double x = 2.0 * (l->out - u) / l->out;
+  return x <= 0 ? 0.0 : x >= 1 ? 1.0 : x * x * (3.0 - 2.0 * x);
+}
+
+static void add_edge(const sw_clip *c, double damping, sw_field *f, size_t e) {
+  const double va = sw_dot(c->direction, sw_axis_velocity(f, e));
+  const double vb = sw_dot(c->direction, sw_axis_velocity(f, e + 1));
+  sw_clip_walk w;
+  sw_clip_sum sum = {0};
+  double x[3], t, chi[3];
+  if (!sw_clip_begin(c, f, e, &w) || sw_clip_far(c, &w)) return;
+  while (sw_clip_next(&w, x, &t)) {
+    const double speed = va + t * (vb - va);
+    if (!(speed < 0) || x[0] < -c->law.clearance - 2.0 * c->law.reach) continue;
+    sw_clip_window(c, x[2], chi);
+    const double here =
+        damping * w.weight * chi[0] * share_at(&c->law, x[0]) * sw_clip_between(&c->law, x[1]);
+    sum.g[0][0] += (1.0 - t) * here * speed, sum.g[1][0] += t * here * speed;
+    sum.own[0][0] += (1.0 - t) * (1.0 - t) * here * f->velocity_rate;
+    sum.own[1][0] += t * t * here * f->velocity_rate;
+    sum.next[0] += t * (1.0 - t) * here * f->velocity_rate;
+  }
+  sw_clip_on_edge(c, f, e, &sum);
+}
+
+static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+  sw_clip_args a = ((const snap_args *)args)->clip;
+  const double time = a.stiffness;
+  (void)err;
+  a.stiffness = NAN;
+  const sw_clip c = sw_clip_of(&a, &f->plan->beam);
+  for (long e = sw_clip_find(&c, f, 0); e >= 0; e = sw_clip_find(&c, f, e + 1))
+    add_edge(&c, 2.0 * a.retention * time / c.law.out, f, (size_t)e);
+  return SW_OK;
+}
+
+const sw_force_class sw_force_snap = {
+    .name = "snap",
+    .summary = "what a clip's lips take out of a wire that snaps in; part of scene:clip",
+    .flags = SW_FORCE_DISSIPATIVE | SW_FORCE_ANY_BODY | SW_FORCE_FROZEN,
+    .params = SW_PARAMS("force snap", rows),
+    .eval = eval,
+};

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A tie to a fixed point: pulls one place of a wire towards it where they are further apart than
+ * its slack, E = 1/2 k (d - slack)^2, until it is pulled harder than it bears and breaks. It holds
+ * no direction and pushes nothing away. Valid while its own mass does not matter; a tie that goes
+ * round the wire leaves that free to turn and to slide through, which this one does not. */
+#include <math.h>
+#include <stddef.h>
+
+#include "force/axis.h"
+#include "force/force.h"
+
+typedef struct tether_args {
+  double s;         /* [m] */
+  sw_vec to;        /* [m] */
+  double slack;     /* [m] */
+  double stiffness; /* [N/m] */
+  double strength;  /* NAN = never breaks [N] */
+} tether_args;
+
+static const sw_param rows[] = {
+    {"s", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_REQUIRED, NULL, offsetof(tether_args, s),
+     "arc length of the tied place"},
+    {"to", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
+     offsetof(tether_args, to), "the point"},
+    {"slack", SW_PARAM_NUMBER, "m", 0, 0, HUGE_VAL, 0, NULL, offsetof(tether_args, slack),
+     "distance up to which it does not pull"},
+    {"stiffness", SW_PARAM_NUMBER, "N/m", 1e5, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(tether_args, stiffness), "when it is taut"},
+    {"strength", SW_PARAM_NUMBER, "N", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(tether_args, strength), "pull at which it breaks (default: never)"},
+};
+
+enum { DISSIPATED, BROKEN, BROKEN_TIME, BROKEN_FORCE, PEAK, HISTORY };
+
+static size_t state_size(const sw_plan *plan) {
+  (void)plan;
+  return HISTORY;
+}
+
+/* Where the tied place is: between places i and i + 1 of the wire. */
+typedef struct tied {
+  size_t i;
+  double part[2];  /* shares of both [-] */
+  sw_vec n;        /* from the point to it, of length 1; or none [-] */
+  double distance; /* [m] */
+  double pull;     /* [N] */
+} tied;
+
+static tied tied_of(const tether_args *a, const sw_field *f) {
+  tied t = {0};
+  double fraction;
+  t.i = sw_plan_locate(f->plan, a->s, &fraction);
+  t.part[0] = 1.0 - fraction, t.part[1] = fraction;
+  const sw_vec at = sw_lerp(sw_axis_at(f, t.i), sw_axis_at(f, t.i + 1), fraction);
+  t.distance = sw_dist(at, a->to);
+  t.n = sw_unit_or(sw_sub(at, a->to), sw_v(0, 0, 0));
+  t.pull = a->stiffness * fmax(0.0, t.distance - a->slack);
+  return t;
+}
+
+/* k (n n' + (1 - slack/d) (I - n n')), times w. */
+static void stiffness_of(const tether_args *a, const tied *t, double w, double K[9]) {
+  const double k = w * a->stiffness, n[3] = {t->n.x, t->n.y, t->n.z};
+  const double across = t->distance > 0 ? k * (1.0 - a->slack / t->distance) : k;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) K[3 * i + j] = (k - across) * n[i] * n[j] + (i == j ? across : 0.0);
+}
+
+enum { NEXT = 6 };
+
+static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+  const tether_args *a = args;
+  double K[9];
+  (void)err;
+  if (f->history && f->history[BROKEN] > 0) return SW_OK;
+  const tied t = tied_of(a, f);
+  if (t.distance <= a->slack && a->slack > 0) return SW_OK;
+  const int stiff = (f->want & SW_WANT_STIFFNESS) != 0, web = f->plan->web != NULL;
+  for (size_t end = 0; end < 2; end++) {
+    stiffness_of(a, &t, t.part[end] * (web ? 1.0 : t.part[end]), K);
+    sw_axis_put(f, t.i + end, sw_scale(t.n, -t.pull * t.part[end]), stiff ? K : NULL);
+  }
+  stiffness_of(a, &t, t.part[0] * t.part[1], K);
+  for (size_t k = 0; stiff && !web && k < 9; k++) f->rows[SW_FIELD_ROW * t.i + NEXT + k] += K[k];
+  if (f->want & SW_WANT_ENERGY) f->energy += 0.5 * t.pull * t.pull / a->stiffness;
+  return SW_OK;
+}
+
+static void commit(const void *args, const sw_field *f, double *h) {
+  const tether_args *a = args;
+  const tied t = tied_of(a, f);
+  if (h[BROKEN] > 0) return;
+  h[PEAK] = fmax(h[PEAK], t.pull);
+  if (!(t.pull > a->strength)) return;
+  h[BROKEN] = 1, h[BROKEN_TIME] = f->time, h[BROKEN_FORCE] = t.pull;
+  h[DISSIPATED] += 0.5 * t.pull * t.pull / a->stiffness;
+}
+
+static void inherit(const sw_plan *old, const double *from, const sw_field *f, double *h) {
+  (void)old, (void)f;
+  for (size_t k = 0; k < HISTORY; k++) h[k] = from[k];
+}
+
+/* As those of join:read. */
+static const char *const outputs[] = {
+    "distance",     "tension", "peak",    "broken",  "broken_time",
+    "broken_force", "force_x", "force_y", "force_z", NULL};
+
+static void read(const void *args, const sw_field *f, const double *h, double *out) {
+  const tied t = tied_of(args, f);
+  const double tension = h[BROKEN] > 0 ? 0.0 : t.pull;
+  const double values[] = {t.distance,       tension,          h[PEAK],
+                           h[BROKEN],        h[BROKEN_TIME],   h[BROKEN_FORCE],
+                           -tension * t.n.x, -tension * t.n.y, -tension * t.n.z};
+  for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) out[k] = values[k];
+}
+
+/* On half an edge of the wire at least; leapfrog's limit is 2 / omega. */
+static double stable_dt(const void *args, const sw_plan *plan) {
+  const tether_args *a = args;
+  double least = HUGE_VAL;
+  for (size_t i = 0; i + 1 < sw_axis_points(plan); i++)
+    least = fmin(least, sw_axis_s(plan, i + 1) - sw_axis_s(plan, i));
+  return 2.0 / sqrt(a->stiffness / (0.5 * least * plan->beam.mass));
+}
+
+const sw_force_class sw_force_tether = {
+    .name = "tether",
+    .summary = "a tie of one place to a fixed point, with slack and strength; see scene:tie",
+    .flags = SW_FORCE_AT_PLACE | SW_FORCE_ANY_BODY | SW_FORCE_ANY_SHAPE,
+    .params = SW_PARAMS("force tether", rows),
+    .eval = eval,
+    .stable_dt = stable_dt,
+    .state_size = state_size,
+    .commit = commit,
+    .inherit = inherit,
+    .outputs = outputs,
+    .read = read,
+};

@@ -1,0 +1,128 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- What clips, ties and channels share: checks of what they are given, and the scene's list of
+-- them, by which runs tell of them and pictures show them.
+-- @module softworld.fixing
+local core = require "softworld.core"
+local build = require "softworld.build"
+local checks = require "softworld.checks"
+local keep = require "softworld.keep"
+
+local fixing = {}
+
+--- Copy of the table of parameters; raises when it is none or has what is not known.
+-- Errors have no place yet: call from build.call.
+function fixing.arguments(what, args, known)
+  checks.keys(what, args, known, 0)
+  local copy = {}
+  for key, value in pairs(args) do copy[key] = value end
+  return copy
+end
+
+local function shown(value, unit)
+  if type(value) == "number" then return ("%.6g%s"):format(value, unit ~= "" and " " .. unit or "") end
+  return type(value) == "string" and "'" .. value .. "'" or "a " .. type(value)
+end
+
+--- The number `name` of what is made: above (or at least) `low`; nil takes `default`, and raises
+-- without one.
+function fixing.number(what, name, value, unit, low, above, default)
+  local limit = ("%s %g%s"):format(above and "above" or "at least", low, unit ~= "" and " " .. unit or "")
+  if value == nil then
+    if default == nil then error(("%s: %s is required, %s"):format(what, name, limit), 0) end
+    return default
+  end
+  local fine = type(value) == "number" and value < math.huge and (above and value > low
+    or not above and value >= low)
+  if not fine then
+    error(("%s: %s = %s is not allowed; it must be a number %s"):format(what, name,
+      shown(value, unit), limit), 0)
+  end
+  return value
+end
+
+--- A copy of the vector {x, y, z}.
+function fixing.vector(what, name, value, unit, default)
+  if value == nil and default then return { default[1], default[2], default[3] } end
+  if value == nil then error(("%s: %s is required, {x, y, z} [%s]"):format(what, name, unit), 0) end
+  return checks.vector(("%s: %s"):format(what, name), value, unit, 0)
+end
+
+--- A wire of the scene, or an error.
+function fixing.wire(scene, what, name, value)
+  if core.type(value) ~= "wire" then
+    error(("%s: %s must be a wire, got %s"):format(what, name, core.type(value) or type(value)), 0)
+  end
+  for _, entry in ipairs(build.data(scene).wires) do
+    if entry.object == value then return value end
+  end
+  error(("%s: %s is a wire of another scene"):format(what, name), 0)
+end
+
+--- The name to use, see build.name; errors have no place yet.
+function fixing.name(scene, what, given, kind)
+  if given ~= nil and (type(given) ~= "string" or given == "" or #given > 40) then
+    error(("%s: name must be a string of 1 to 40 characters, got %s"):format(what, shown(given, "")), 0)
+  end
+  local ok, name = pcall(build.name, scene, given, kind, #build.data(scene).fixings, 0)
+  if not ok then error(name, 0) end
+  return name
+end
+
+--- Note it in the scene's list. It has name, object (what it is in the core), exists(), and
+-- report(add) for the summary.
+function fixing.keep(scene, it)
+  local list = build.data(scene).fixings
+  list[#list + 1] = { fixing = it, object = it.object, name = it.name }
+end
+
+--- Those that there are.
+function fixing.all(scene)
+  local list = {}
+  for _, entry in ipairs(build.data(scene).fixings) do
+    if entry.fixing:exists() then list[#list + 1] = entry.fixing end
+  end
+  return list
+end
+
+--- A class whose objects answer methods, then properties (functions of the object), and
+-- name the nearest word for a typo. `own` lists fields that may be nil.
+function fixing.class(kind, properties, own)
+  local class = { __name = kind }
+  function class.solids() return {} end -- what pictures show besides obstacles
+  local known = {}
+  for _, name in ipairs(own or {}) do known[name] = true end
+  function class.__index(self, key)
+    if properties[key] then return properties[key](self) end
+    local value = class[key]
+    if value ~= nil or known[key] then return value end
+    local names = class.__names()
+    local near = core.nearest(tostring(key), names)
+    error(("%s has no '%s'; %s"):format(kind, tostring(key), near and "did you mean '" .. near .. "'?"
+      or "it has: " .. table.concat(names, " ")), 2)
+  end
+  function class.__names()
+    local names = { "name" }
+    for _, list in ipairs{ class, properties } do
+      for name in pairs(list) do
+        if name:sub(1, 2) ~= "__" then names[#names + 1] = name end
+      end
+    end
+    table.sort(names)
+    return names
+  end
+  keep.class(kind, class)
+  return class
+end
+
+--- Raise unless self is of the class and its scene still knows it.
+function fixing.check(self, class, verb)
+  if getmetatable(self) ~= class then
+    error(("%s:%s is a method: call it with a colon"):format(class.__name, verb), 3)
+  end
+  if not self:exists() then
+    error(("%s '%s' was released, or taken back when a snapshot was restored"):format(class.__name,
+      self.name), 3)
+  end
+end
+
+return fixing

@@ -1,0 +1,98 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- gripper:clip: a gripper presses the wire that it holds into a clip, and tells where that fails.
+package.path = "./?.lua;" .. package.path
+local sw = require "softworld"
+local t = require "spec.physics.tools"
+
+local RADIUS, INTO, OUT = 0.003, 10, 30
+
+-- A wire along x, 8 mm over the clip at the origin.
+local function made()
+  local scene = sw.scene{ gravity = { 0, 0, 0 } }
+  local wire = scene:wire{ name = "w", E = 1e9, density = 1200, radius = RADIUS, segments = 40,
+    from = { -0.1, 0, 0.008 }, to = { 0.1, 0, 0.008 } }
+  local clip = scene:clip{ name = "c", at = { 0, 0, 0 }, width = 0.008, insertion = INTO, retention = OUT }
+  return scene, wire, clip
+end
+
+describe("gripper:clip", function()
+  local function laid(action, approach)
+    local scene, wire, clip = made()
+    scene:force{ kind = "damping", on = wire, mass = 5, stiffness = 1e-3 }
+    local keeper = scene:gripper{ name = "keeper", pads = { width = 0.01 } }
+    local guide = scene:gripper{ name = "guide", pads = { width = 0.005, friction = 0.8 } }
+    local result
+    scene:process(function(p)
+      keeper:grasp(wire, { s = 0.19 })
+      guide:grasp(wire, { s = 0.11, approach = approach, force = approach == "plates" and 60 or nil })
+      result = table.pack(action(guide, clip, p))
+    end)
+    local ok, run = pcall(scene.run, scene, { dt = 4e-3 })
+    return clip, result, ok, run
+  end
+
+  it("presses the wire in and says with what", function()
+    local clip, result, ok, run = laid(function(guide, clip)
+      return guide:clip{ into = clip, max_force = 60 }
+    end)
+    assert.is_true(ok, tostring(run))
+    t.fine(run)
+    assert.is_true(clip:seated())
+    t.share(INTO, result[1].peak_force, 0.02, "lips")
+    t.above(INTO, result[1].force * 1.05, "gripper")
+    t.near(0.1, result[1].s, 1e-3, "s")
+  end)
+
+  it("presses with real pads too", function()
+    local clip, result, ok, run = laid(function(guide, clip)
+      return guide:clip{ into = clip, max_force = 60 }
+    end, "plates")
+    assert.is_true(ok, tostring(run))
+    assert.is_true(clip:seated())
+    t.share(INTO, result[1].peak_force, 0.05, "lips")
+  end)
+
+  it("lines up with a mouth that is beside it", function()
+    local clip, _, ok, run = laid(function(guide, clip)
+      guide:move{ by = { 0, 0.01, 0 }, duration = 0.2 }
+      return guide:clip{ into = clip, max_force = 60 }
+    end)
+    assert.is_true(ok, tostring(run))
+    assert.is_true(clip:seated())
+    t.share(INTO, clip.peak_insertion_force, 0.1, "lips, of a wire at a slant")
+  end)
+
+  it("says which force was reached where it does not go in", function()
+    local clip, _, ok, message = laid(function(guide, clip)
+      return guide:clip{ into = clip, max_force = 6 }
+    end)
+    assert.is_false(ok)
+    assert.is_truthy(message:find "'guide': clip: wire not in 'c': 6%.%d+ N was reached, above max_force")
+    assert.is_false(clip:seated())
+    local _, result = laid(function(guide, other)
+      return guide:clip{ into = other, max_force = 6, fail = false }
+    end)
+    assert.is_nil(result[1])
+    assert.is_truthy(result[2]:find "above max_force = 6 N")
+  end)
+
+  it("refuses what it cannot do", function()
+    local function says(text, args, before)
+      local _, _, ok, message = laid(function(guide, clip)
+        if before then before(guide, clip) end
+        args.into = args.into or clip
+        return guide:clip(args)
+      end)
+      assert.is_false(ok)
+      assert.is_truthy(message:find(text, 1, true), message)
+    end
+    says("into is required, a clip of the gripper's scene", { into = 3 })
+    says("speed = -1 m/s is not allowed", { speed = -1 })
+    says("there is no parameter 'sped'; did you mean 'speed'?", { sped = 1 })
+    says("it holds nothing; grasp a wire before", {}, function(guide) guide:release() end)
+    local scene, wire, clip = made()
+    local guide = scene:gripper{}
+    guide:grasp(wire, { s = 0.1 })
+    assert.has_error(function() guide:clip{ into = clip } end)
+  end)
+end)

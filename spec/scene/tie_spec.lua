@@ -1,0 +1,225 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Ties to points and between wires: pull, slack, breaking, snapshots, every model.
+package.path = "./?.lua;" .. package.path
+local sw = require "softworld"
+local t = require "spec.physics.tools"
+local meshes = require "spec.physics.meshes"
+
+local G = 9.81
+
+local function rod(scene, options)
+  local o = options or {}
+  return scene:wire{ name = o.name, E = o.E or 1e9, density = 1200, radius = 0.003,
+    segments = o.segments or 20, from = o.from or { 0, 0, 0 }, to = o.to or { 0.4, 0, 0 }, model = o.model }
+end
+
+local function damped(scene, wire) scene:force{ kind = "damping", on = wire, mass = 20, stiffness = 2e-3 } end
+
+describe("a tie to a point", function()
+  -- Two ties hang a rod up by its quarters: each bears half of m g, and is longer by that over its
+  -- stiffness. Where nodes are does not matter: s lies between them.
+  for _, model in ipairs{ "string", "rod" } do
+    it("bears a " .. model .. " by force over stiffness", function()
+      local scene = sw.scene{}
+      local wire = rod(scene, { model = model })
+      damped(scene, wire)
+      local ties = {}
+      for i, s in ipairs{ 0.1037, 0.2963 } do
+        ties[i] = scene:tie(wire, { s = s, to = { s, 0, 0.05 }, slack = 0.04, stiffness = 2e4 })
+      end
+      t.fine(scene:run{ duration = 2, dt = 5e-3 })
+      local half = 0.5 * wire.beam.mass_per_length * wire.length * G
+      for _, tie in ipairs(ties) do
+        t.share(half, tie:force()[3], model == "rod" and 1e-3 or 5e-3, "force")
+        t.share(t.norm(tie:force()), tie:tension(), 1e-9, "tension")
+        t.share(0.04 + tie:tension() / 2e4, tie:distance(), 1e-9, "distance")
+        t.above(tie:tension() * 0.999, tie.peak_force, "peak")
+      end
+    end)
+  end
+
+  for _, model in ipairs(meshes.few) do
+    it("bears a wire that is a " .. model[1], function()
+      local scene, wire = meshes.scene(model, { gravity = { 0, 0, -G }, E = 1e8 })
+      scene:force{ kind = "damping", on = wire, mass = 30 }
+      local sum, ties = 0, {}
+      for i, s in ipairs{ 0.137, 0.363 } do ties[i] = scene:tie(wire, { s = s, stiffness = 1e4 }) end
+      t.fine(scene:run{ duration = 0.6, dt = 1e-2 })
+      for _, tie in ipairs(ties) do sum = sum + tie:force()[3] end
+      t.share(wire.beam.mass_per_length * wire.length * G, sum, 5e-3, "weight")
+    end)
+  end
+
+  it("holds the wire where it is when nothing else is said, from mid-run on", function()
+    local scene = sw.scene{}
+    local wire = rod(scene)
+    damped(scene, wire)
+    t.fine(scene:run{ duration = 0.1, dt = 5e-3 })
+    local at = wire:position(0.2)
+    scene:tie(wire, { s = 0.2 })
+    t.fine(scene:run{ duration = 1, dt = 5e-3 })
+    t.below(1e-4, t.distance(at, wire:position(0.2)), "way of the tied place") -- m g / 1e5 N/m, and swing
+    t.below(at[3] - 5e-4, wire:position(0)[3], "height of the end") -- a cantilever's w L^4/(8 EI) is 1.05 mm
+  end)
+
+  it("lets the wire alone within its slack", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = rod(scene)
+    local tie = scene:tie(wire, { s = 0.2, to = { 0.2, 0.1, 0 } }) -- as slack as it is far
+    wire:set_velocity{ 0, 0.5, 0 }
+    t.fine(scene:run{ duration = 0.3, dt = 5e-3 }) -- to y = 0.15: never further than 0.1 from 0.1
+    t.near(0.15, wire:position(0.2)[2], 1e-9, "place")
+    assert.are.equal(0, tie.peak_force)
+    t.fine(scene:run{ duration = 0.2, dt = 1e-3 })
+    assert.is_true(tie.peak_force > 0)
+  end)
+
+  -- A weight that grows: it breaks at the first step in which the pull is above the strength.
+  it("breaks at its strength, tells when, and takes no force after that", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = rod(scene, { E = 1e11 })
+    damped(scene, wire)
+    local tie = scene:tie(wire, { name = "t", s = 0.2, strength = 3, stiffness = 1e4 })
+    local hand = scene:grip(wire, { s = 0.2 })
+    hand:follow(sw.trajectory{ points = { { 0, 0, 0 }, { 0, 0, -1e-3 } }, duration = 1, law = "linear",
+      relative = true })
+    t.fine(scene:run{ duration = 0.28, dt = 1e-3 })
+    t.share(2.8, tie:tension(), 1e-6, "pull before")
+    t.share(2.8, tie:force()[3], 1e-6, "force")
+    assert.is_nil(tie.broken)
+    local snapshot = scene:snapshot()
+    for _ = 1, 2 do
+      local run = t.fine(scene:run{ duration = 0.1, dt = 1e-3 })
+      t.near(0.301, tie.broken.time, 1.001e-3, "time") -- 3 N is at 0.3 s
+      t.near(3.01, tie.broken.force, 0.011, "force")
+      assert.are.equal(0, tie:tension())
+      t.below(1e-3, t.norm(hand:force()), "force of the hand") -- damping at 1 mm/s: 0.3 mN
+      assert.is_truthy(require "softworld.output.summary".text(run:document()):find("t: BROKE at", 1, true))
+      assert.is_truthy(tostring(tie):find "broken")
+      scene:restore(snapshot)
+      assert.is_nil(tie.broken)
+      t.share(2.8, tie:tension(), 1e-6, "pull after restoring")
+    end
+    tie:release()
+    assert.has_error(function() tie:tension() end,
+      "tie 't' was released, or taken back when a snapshot was restored")
+  end)
+
+  it("refuses by name what makes no sense", function()
+    local scene = sw.scene{}
+    local wire = rod(scene, { name = "w" })
+    local function refused(message, args)
+      args.name = "t"
+      local ok, text = pcall(scene.tie, scene, wire, args)
+      assert.is_false(ok)
+      assert.is_truthy(text:find(message, 1, true), text)
+    end
+    refused("tie 't': s is required, at least 0 m", {})
+    refused("tie 't': s = 0.5 m is beyond the end of wire 'w' at 0.4 m", { s = 0.5 })
+    refused("tie 't': to must be a table of 3 finite numbers [m]", { s = 0.1, to = { 1, 2 } })
+    refused("tie 't': slack = -1 m is not allowed", { s = 0.1, slack = -1 })
+    refused("tie 't': strength = 0 N is not allowed", { s = 0.1, strength = 0 })
+    refused("there is no parameter 'strenght'; did you mean 'strength'?", { s = 0.1, strenght = 1 })
+    refused("tie 't': to[1] must be a wire, got scene", { s = 0.1, to = { scene, s = 0.1 } })
+    refused("tie 't': to.s is required", { s = 0.1, to = { wire } })
+    assert.are.equal("t", scene:tie(wire, { s = 0.1, name = "t" }).name)
+  end)
+end)
+
+describe("a tie of two wires", function()
+  -- The upper rod is held, the lower one hangs on it by two ties.
+  local function hung(options)
+    local o = options or {}
+    local scene = sw.scene{}
+    local upper = rod(scene, { name = "upper" })
+    local lower = rod(scene, { name = "lower", from = { 0, 0, -0.006 }, to = { 0.4, 0, -0.006 },
+      model = o.model })
+    scene:clamp(upper, { s = 0 })
+    scene:clamp(upper, { s = 0.4 })
+    damped(scene, nil)
+    local ties = {}
+    for i, s in ipairs{ 0.1, 0.3 } do
+      ties[i] = scene:tie(lower, { s = s, to = { upper, s = s }, strength = o.strength, stiffness = 2e4 })
+    end
+    return scene, upper, lower, ties
+  end
+
+  for _, model in ipairs{ "rod", "string" } do
+    it("hangs one on the other, a " .. model, function()
+      local scene, _, lower, ties = hung{ model = model }
+      t.fine(scene:run{ duration = 1, dt = 5e-3 })
+      local weight = lower.beam.mass_per_length * lower.length * G
+      t.share(weight, ties[1]:force()[3] + ties[2]:force()[3], 2e-3, "force on the lower wire")
+      for _, tie in ipairs(ties) do
+        t.share(0.006 + tie:tension() / 2e4, tie:distance(), 1e-6, "distance")
+      end
+      t.share(ties[1]:tension() ^ 2 / 2e4, scene:energy().join, 1e-3, "energy of both")
+    end)
+  end
+
+  -- Both fly off together and turn: inner forces, so that momentum and moment of momentum stay, the
+  -- latter as well as steps of this size keep it for one wire that turns (3e-4).
+  it("takes nothing from momentum, and pushes nothing", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local a = rod(scene)
+    local b = rod(scene, { from = { 0, 0.01, 0 }, to = { 0.4, 0.01, 0 } })
+    local tie = scene:tie(a, { s = 0.1, to = { b, s = 0.3 }, slack = 0.25 })
+    a:set_velocity({ 0, 0, 1 }, { 0, 3, 0 }, { 0.2, 0, 0 })
+    local p, l = t.momentum(a)
+    t.fine(scene:run{ duration = 0.5, dt = 5e-4 })
+    local p1, l1 = t.momentum(a)
+    local p2, l2 = t.momentum(b)
+    for k = 1, 3 do
+      t.near(p[k], p1[k] + p2[k], 1e-6, "momentum")
+      t.near(l[k], l1[k] + l2[k], 1e-3 * t.norm(l), "moment of momentum")
+    end
+    assert.is_true(tie.peak_force > 0)
+    t.above(1e-3, p2[3], "what the other wire has got of it")
+  end)
+
+  it("breaks, tells when, and is whole again in a snapshot of before", function()
+    local scene, _, lower, ties = hung{ strength = 2 }
+    t.fine(scene:run{ duration = 0.5, dt = 5e-3 })
+    local snapshot = scene:snapshot()
+    local times = {}
+    for k = 1, 2 do
+      scene:force{ kind = "line", on = lower, force = { 0, 0, -15 } }
+      t.fine(scene:run{ duration = 0.3, dt = 1e-3 })
+      times[k] = ties[1].broken.time
+      t.above(2, ties[1].broken.force, "force")
+      assert.are.equal(0, ties[1]:tension())
+      t.below(-0.1, lower:position(0.2)[3], "height of the lower wire")
+      scene:restore(snapshot)
+      assert.is_nil(ties[1].broken)
+      t.share(0.5 * lower.beam.mass_per_length * lower.length * G, ties[1]:tension(), 2e-2, "pull")
+    end
+    assert.are.equal(times[1], times[2])
+    ties[1]:release()
+    ties[2]:release()
+    t.fine(scene:run{ duration = 0.3, dt = 5e-3 })
+    t.below(-0.1, lower:position(0.2)[3], "height of the lower wire")
+  end)
+
+  it("lets tied wires touch each other", function()
+    local scene, upper, lower = hung()
+    scene:wire_contact{ between = { upper, lower } }
+    scene:force{ kind = "line", on = lower, force = { 0, 0, 20 } } -- pressed upwards
+    t.fine(scene:run{ duration = 0.3, dt = 2e-3 })
+    local apart = upper:position(0.1)[3] - lower:position(0.1)[3]
+    t.near(0.006, apart, 2e-4, "distance of the axes at a tie")
+  end)
+
+  it("refuses meshes, and more than two ends", function()
+    local scene = sw.scene{}
+    local a = rod(scene, { name = "a" })
+    local b = meshes.wire(scene, { "radial", { model = "radial", name = "b" } })
+    local ok, text = pcall(scene.tie, scene, a, { s = 0.1, to = { b, s = 0.1 } })
+    assert.is_false(ok)
+    assert.is_truthy(text:find("wire 'b' is a radial, a mesh of particles", 1, true), text)
+    local c = rod(scene, { name = "c" })
+    assert.has_error(function()
+      scene:join{ ends = { { a, s = 0 }, { c, s = 0 }, { a, s = 0.4 } }, slack = 0.1 }
+    end)
+    assert.has_error(function() scene:join{ ends = { { a, s = 0 }, { c, s = 0 } } }:read() end)
+  end)
+end)
