@@ -301,9 +301,18 @@ describe("example", function()
     local force = tonumber(out:match "\n(%S+)%s+%S+%s+%S+%s+%S+%s+%S+\n$")
     assert.is_true(force > 0.05 and force < 0.289, out)
     local ending = '\nlocal r = scene:run { duration = 0.1 }\nprint(r.ok)'
-    out, err, code = program.script((blocks[1]:gsub("scene:process.*", "")) .. blocks[3] .. ending)
+    out, err, code = program.script((blocks[1]:gsub("scene:process.*", "")) .. blocks[4] .. ending)
     assert.are.equal(0, code, err)
     assert.are.equal("true\n", out)
+    local file = os.tmpname()
+    os.remove(file)
+    local saves = blocks[3]:gsub("laying%.sws", file) .. "\nprint(sw.load '" .. file .. "'.time == scene.time)"
+    for _ = 1, 2 do -- the second time all its steps are done
+      out, err, code = program.script(saves)
+      assert.are.equal(0, code, err)
+      assert.are.equal("true\n", out)
+    end
+    os.remove(file)
     out, err, code = program.script((blocks[1]:gsub("local run.*", "")) .. blocks[2])
     assert.are.equal(0, code, err)
     assert.matches("^sag = .* %(asked for 2.000 mm: met%)\ngripper.mean_moment = .*: met%)\nmin_bend", out)

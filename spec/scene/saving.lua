@@ -55,7 +55,7 @@ local readers = {
     add(all, { obstacle:force(), (obstacle:log()) })
   end,
   join = function(all, join) if join.held then add(all, { join:force(1), join:moment(2) }) end end,
-  clip = function(all, clip) add(all, { clip.held, tostring(clip), { clip:force() } }) end,
+  clip = function(all, clip) add(all, { clip:exists(), clip:force() }) end,
   gripper = function(all, gripper)
     add(all, gripper:over())
     add(all, gripper:series())
