@@ -306,7 +306,8 @@ describe("example", function()
     assert.are.equal("true\n", out)
     local file = os.tmpname()
     os.remove(file)
-    local saves = blocks[3]:gsub("laying%.sws", file) .. "\nprint(sw.load '" .. file .. "'.time == scene.time)"
+    local saves = blocks[3]:gsub("laying%.sws", file)
+      .. "\nprint(sw.load '" .. file .. "'.time == scene.time)"
     for _ = 1, 2 do -- the second time all its steps are done
       out, err, code = program.script(saves)
       assert.are.equal(0, code, err)

@@ -487,7 +487,7 @@ void sw_tape_frozen(sw_tape *t, sw_frozen **frozen) {
     }
     (*frozen)->references = 1;
   }
-  tape_fields(t, *frozen);
+  if (*frozen) tape_fields(t, *frozen);
 }
 
 int sw_frozen_fits(const sw_frozen *f, const sw_scene *s) {
