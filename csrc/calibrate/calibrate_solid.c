@@ -203,12 +203,14 @@ static sw_status elements_alone(task *t, sw_error *err) {
 /* The same, with the Poisson's ratio that gives GJ too. Where that is none of a material GJ stays
  * as near as it is. */
 static sw_status one_that_twists(task *t, sw_error *err) {
-  const double nu = t->c->nu;
+  const double nu = t->c->nu, core_nu = t->c->core_nu;
   SW_TRY(elements_alone(t, err));
   if (!is_good(t, GJ_NEAR)) return SW_OK;
   for (int k = 0; k < CORRECTIONS && !is_good(t, 0); k++) {
     const double fits = (1 + t->c->nu) * (1 + t->c->residual[SW_TARGET_GJ]) - 1;
-    t->c->nu = fmax(nu - MOST_OFF, fmin(fits, fmin(HIGHEST, nu + MOST_OFF)));
+    const double off = fmax(-MOST_OFF, fmin(fits - nu, MOST_OFF)); /* of core and shell alike */
+    t->c->nu = fmin(HIGHEST, nu + off);
+    t->c->core_nu = fmin(HIGHEST, core_nu + off);
     SW_TRY(measure(t, err));
     SW_TRY(elements_alone(t, err));
   }
@@ -330,8 +332,7 @@ static sw_status fit(task *t, double spacing, sw_error *err) {
   }
   SW_TRY(status);
   if (one_material(t)) {
-    const int composite = t->args.mesh == SW_LATTICE_COMPOSITE; /* it has two nu, both given */
-    SW_TRY(composite ? elements_alone(t, err) : one_that_twists(t, err));
+    SW_TRY(one_that_twists(t, err));
     if (is_good(t, GJ_NEAR)) return SW_OK;
   }
   SW_TRY(with_springs(t, &possible, err));

@@ -50,7 +50,8 @@ int sw_jaw_begin(sw_scene *s, double h) {
     j->trials = 0;
     if (!works || !yields(j)) continue;
     any = 1;
-    if (j->now < j->force) j->tried[0] = 0, j->off[0] = j->now - j->force;
+    j->guessed = j->now < j->force; /* that standing still goes on giving too little force */
+    if (j->guessed) j->tried[0] = 0, j->off[0] = j->now - j->force;
   }
   return any;
 }
@@ -66,7 +67,9 @@ static double guess_beyond(const sw_jaw *j, double off) {
 static int improve(sw_jaw *j, double off) {
   const int side = off > 0;
   if (isfinite(j->off[!side]) && (j->speed - j->tried[!side]) * (side ? 1 : -1) >= 0)
-    j->off[!side] = NAN; /* that was a guess, and a wrong one */
+    j->off[!side] = NAN;
+  if (j->guessed && side && j->trials > 2) j->off[0] = NAN; /* a wrong guess */
+  if (!side || j->trials > 2) j->guessed = 0;
   j->tried[side] = j->speed, j->off[side] = off;
   if (!isfinite(j->off[!side])) {
     const double before = j->speed;

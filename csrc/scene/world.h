@@ -135,7 +135,7 @@ typedef struct sw_jaw {
   double stiffness; /* of what they hold, last found; 0 = not known [N/m] */
   double tried[2];  /* speeds with too little force and with too much [m/s] */
   double off[2];    /* how far their forces were off; NAN = not tried [N] */
-  int last_side, trials;
+  int last_side, trials, guessed;
 } sw_jaw;
 
 typedef struct sw_tool_pad {
