@@ -192,10 +192,11 @@ void sw_tape_obstacle(sw_tape *t, sw_scene *s, sw_scene_obstacle *x) {
 }
 
 void sw_tape_jaw(sw_tape *t, sw_jaw *x) {
-  SW_TAPE_STRUCT(t, sw_jaw, 120);
+  SW_TAPE_STRUCT(t, sw_jaw, 128);
   INT(mode), INT(status), DOUBLE(opening), DOUBLE(since), DOUBLE(step), DOUBLE(speed);
   DOUBLE(most), DOUBLE(goal), DOUBLE(force), DOUBLE(now), DOUBLE(stiffness);
-  DOUBLE(tried[0]), DOUBLE(tried[1]), DOUBLE(off[0]), DOUBLE(off[1]), INT(last_side), INT(trials);
+  DOUBLE(tried[0]), DOUBLE(tried[1]), DOUBLE(off[0]), DOUBLE(off[1]), INT(last_side), INT(trials),
+      INT(guessed);
   sw_tape_expect(t, x->mode >= SW_JAW_STILL && x->mode <= SW_JAW_FORCE, "jaws");
   sw_tape_expect(t, x->status >= SW_JAW_RESTS && x->status <= SW_JAW_EMPTY, "jaws");
   sw_tape_expect(t, x->last_side >= -1 && x->last_side <= 1, "jaws");
@@ -211,7 +212,7 @@ static void tape_tool_state(sw_tape *t, sw_tool_state *x) {
 }
 
 void sw_tape_tool(sw_tape *t, sw_scene *s, sw_tool *x) {
-  SW_TAPE_STRUCT(t, sw_tool, 808);
+  SW_TAPE_STRUCT(t, sw_tool, 816);
   UINT32(generation), INT(alive), NAME(name);
   tape_drive(t, s, &x->drive);
   sw_tape_jaw(t, &x->jaw);
