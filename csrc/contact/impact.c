@@ -81,6 +81,7 @@ static void kick(sw_system *s, const sw_body *b, size_t node, sw_vec dv) {
  * Returns 1 when something was changed. */
 static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
+  if (o->grips > 0 && t->known) return 0; /* pads: what they hold already only trembles */
   const sw_vec x = sw_touch_place(s->x, t->node, t->other, t->at);
   const sw_body *b = &s->bodies[t->body];
   const double radius = sw_plan_skin(b->plan, t->node - b->first_node);
