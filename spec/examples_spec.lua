@@ -450,8 +450,8 @@ describe("example", function()
   -- The gripper's path is from 1.5 mm above the table to 11.5 mm, 0.3 m further and 0.1 m aside; of
   -- the wire's start 10 mm stick out of the pads and hang by less than a millimetre. Going on from a
   -- file gives the same bits: differences are 0, not small.
-  it("18: going on from a file", function()
-    local out = example "18_resume"
+  it("19: going on from a file", function()
+    local out = example "19_resume"
     assert.is_truthy(out:find("the lights go out", 1, true))
     near(0.3, after(out, "laid from x = "), 3e-3, "x")
     near(0.1, after(out, ", y = "), 1e-2, "y")

@@ -191,6 +191,10 @@ function core.class.scene.process(scene, body)
   local self = setmetatable({ scene = scene, number = data.process_count, body = body,
     steps = 0 }, Process)
   self.thread = coroutine.create(body)
+  if not data.from_file then -- of an earlier process of this number nothing is done
+    if data.done then data.done[self.number] = nil end
+    if data.ended then data.ended[self.number] = nil end
+  end
   current[self.thread] = self
   data.processes[#data.processes + 1] = self
   return self
@@ -212,12 +216,7 @@ function process.renew(scene, bodies)
   local data = build.data(scene)
   for _, p in ipairs(data.processes) do p:finish() end
   data.processes = {}
-  for k, body in ipairs(bodies) do
-    local number = (data.process_count or 0) + 1
-    if data.done then data.done[number] = nil end -- all steps anew
-    if data.ended then data.ended[number] = nil end
-    assert(scene:process(body).number == number, k)
-  end
+  for _, body in ipairs(bodies) do scene:process(body) end
 end
 
 local library = debug.getinfo(1, "S").short_src:match "^(.*)process%.lua$" or "softworld/"
