@@ -42,7 +42,7 @@ static int meth_pad(lua_State *L) {
   const lsw_child *t = check(L, &scene);
   const lsw_child *o = lsw_check_child_of(L, 2, &lsw_class_obstacle, scene, "tool:pad");
   const lua_Integer finger = luaL_checkinteger(L, 3);
-  luaL_argcheck(L, finger >= 1 && finger <= SW_TOOL_PADS, 3, "finger out of range");
+  luaL_argcheck(L, finger >= 0 && finger <= SW_TOOL_PADS, 3, "finger out of range");
   const sw_vec opens = lsw_vector(L, 4, "tool:pad: opens", "-");
   lsw_must(L, sw_scene_tool_pad(scene, t->id, o->id, (int)finger - 1, opens, &err), &err);
   return 0;
@@ -154,6 +154,14 @@ static int meth_state(lua_State *L) {
   lua_pushboolean(L, now.frozen);
   lua_setfield(L, -2, "frozen");
   if (!isnan(now.lost_time)) lsw_set_number(L, "lost_time", now.lost_time);
+  if (!isnan(now.crash_time)) {
+    lsw_set_number(L, "crash_time", now.crash_time);
+    lsw_set_number(L, "crash_depth", now.crash_depth);
+    lua_pushstring(L, now.crash_part);
+    lua_setfield(L, -2, "crash_part");
+    lua_pushstring(L, now.crash_obstacle);
+    lua_setfield(L, -2, "crash_obstacle");
+  }
   if (isnan(now.slip_time)) return 1;
   lsw_set_number(L, "slip_time", now.slip_time);
   lsw_set_number(L, "slip_place", now.slip_place);

@@ -167,7 +167,9 @@ double sw_tool_squeeze(const sw_scene *s, const sw_tool *t) {
     const sw_drive *d = &s->obstacles[t->pad[k].obstacle].drive;
     sw_vec force, moment;
     sw_contact_force(s->contact, (int)t->pad[k].obstacle, sw_v(0, 0, 0), &force, &moment);
-    sum += sw_dot(sw_unrotate(t->now.q, force), sw_unit_or(d->opens, sw_v(0, 0, 0)));
+    sum += t->pad[k].finger < 0
+               ? 0.0
+               : sw_dot(sw_unrotate(t->now.q, force), sw_unit_or(d->opens, sw_v(0, 0, 0)));
   }
   return sum / t->fingers;
 }
@@ -237,7 +239,8 @@ static void hold_now(const sw_scene *s, sw_tool *t) {
   sw_contact_grip sum = {0};
   sw_tool_state *now = &t->now;
   for (size_t k = 0; s->contact && k < t->pads; k++)
-    sw_contact_add_grip(s->contact, &s->system, (int)t->pad[k].obstacle, &sum);
+    if (t->pad[k].finger >= 0)
+      sw_contact_add_grip(s->contact, &s->system, (int)t->pad[k].obstacle, &sum);
   now->opening = t->jaw.opening, now->status = t->jaw.status, now->squeeze = t->jaw.now;
   now->normal = sum.normal, now->most = sum.most;
   now->margin = sum.most > 0 ? sw_norm(sum.tangent) / sum.most : 0;
@@ -267,6 +270,7 @@ sw_status sw_tool_observe(sw_scene *s, sw_error *err) {
       hold_frozen(s, t, force);
     else
       hold_now(s, t);
+    SW_TRY(sw_tool_look_out(s, k, err));
     row[SW_LOG_TIME] = s->time;
     sw_store(row + SW_LOG_FORCE, force);
     sw_store(row + SW_LOG_MOMENT, moment);
@@ -303,7 +307,8 @@ int sw_scene_tool_touch(const sw_scene *s, sw_handle tool, size_t number, sw_too
 int sw_tool_slipped(const sw_scene *s) {
   for (size_t k = 0; k < s->tool_count; k++)
     if (s->tools[k].alive && ((s->tools[k].stops && s->tools[k].now.slip_time == s->time) ||
-                              s->tools[k].now.lost_time == s->time))
+                              s->tools[k].now.lost_time == s->time ||
+                              (s->tools[k].crashing && s->tools[k].crash.time == s->time)))
       return 1;
   return 0;
 }
@@ -323,6 +328,11 @@ sw_status sw_scene_tool_state(sw_scene *s, sw_handle tool, sw_tool_state *out, s
   if (!t) return SW_EDEAD;
   *out = t->now;
   out->frozen = t->frozen != NULL;
+  const int any = t->crash.depth > 0;
+  out->crash_time = any ? t->crash.time : (double)NAN;
+  out->crash_depth = t->crash.depth;
+  out->crash_part = any ? s->obstacles[t->crash.part].name : "";
+  out->crash_obstacle = any ? s->obstacles[t->crash.obstacle].name : "";
   out->opening = sw_jaw_at(&t->jaw, s->time);
   out->status = t->jaw.status;
   return SW_OK;

@@ -18,7 +18,8 @@ typedef struct sw_tool_args {
 sw_status sw_scene_add_tool(sw_scene *scene, const sw_tool_args *args, sw_handle *out,
                             sw_error *err);
 /* From now on the obstacle, where it is, goes with the tool. opens: how it moves in the tool's
- * axes while the opening grows [m/m]. finger: forces of the same number are one finger's. */
+ * axes while the opening grows [m/m]. finger: forces of the same number are one finger's; -1: it is
+ * no pad but some other part of the tool. */
 sw_status sw_scene_tool_pad(sw_scene *scene, sw_handle tool, sw_handle obstacle, int finger,
                             sw_vec opens, sw_error *err);
 /* From now on the hold goes with the tool; its force counts as the tool's. */
@@ -90,6 +91,9 @@ typedef struct sw_tool_state {
   double slip_time, slip_place; /* when and where that became more than is tolerated; NAN = it
                                    did not [s], [m] */
   int frozen;                   /* 1: by a rigid grip that stands for the pads */
+  double crash_time; /* when a part of it last ran into an obstacle; NAN = never [s] */
+  double crash_depth; /* [m] */
+  const char *crash_part, *crash_obstacle; /* their names, the scene's */
   double lost_time; /* when the margin of a frozen grip was used up; NAN = it is not [s] */
 } sw_tool_state;
 sw_status sw_scene_tool_state(sw_scene *scene, sw_handle tool, sw_tool_state *out, sw_error *err);

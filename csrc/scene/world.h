@@ -143,6 +143,11 @@ typedef struct sw_tool_pad {
   int finger;      /* [-] */
 } sw_tool_pad;
 
+typedef struct sw_crash {
+  double time, depth;    /* when a part ran into an obstacle, how far then [s], [m] */
+  size_t part, obstacle; /* slots */
+} sw_crash;
+
 typedef struct sw_frozen sw_frozen; /* what pads held, see frozen.c; shared and immutable */
 void sw_frozen_retain(sw_frozen *frozen);
 void sw_frozen_release(sw_frozen *frozen);
@@ -162,6 +167,8 @@ typedef struct sw_tool {
   sw_tool_state now; /* of the accepted state */
   double tolerance;  /* slip that is an event [m] */
   int stops;         /* 1: a run ends with the step in which the wire slips */
+  sw_crash crash;    /* the last one */
+  int crashing;      /* 1: it goes on */
   sw_log log;
 } sw_tool;
 
@@ -424,6 +431,8 @@ double sw_jaw_at(const sw_jaw *jaw, double t);
 double sw_tool_squeeze(const sw_scene *scene, const sw_tool *tool);
 /* What tools hold at the accepted state; their logs. */
 sw_status sw_tool_observe(sw_scene *scene, sw_error *err);
+/* Does the tool run into obstacles? */
+sw_status sw_tool_look_out(sw_scene *scene, size_t tool, sw_error *err);
 /* 1: one slipped in the last step that ends a run with it. */
 int sw_tool_slipped(const sw_scene *scene);
 

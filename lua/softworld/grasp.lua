@@ -60,8 +60,8 @@ function grasp.make_tool(self, level, wire, s)
   local at = s and wire:position(s) or self.at or { 0, 0, 0 }
   local rotation = self.rotation or (s and facing(self.scene, wire, s)) or nil
   build.call(level, function()
-    self.tool, self.obstacles, self.opening = pads.make(self.scene, self.name, self.pads, at,
-      rotation, wire and wire.radius)
+    self.tool, self.obstacles, self.opening = pads.make(self.scene, self, at, rotation,
+      wire and wire.radius)
   end)
 end
 
@@ -75,12 +75,14 @@ end
 
 local reactions = { stop = true, warn = true, record = true }
 
+function grasp.check_reaction(what, value, level)
+  if type(value) ~= "function" then checks.word(what, value, reactions, level + 1) end
+end
+
 --- What happens when the wire slips: "record" (default), "warn", "stop" or a function, called with
 -- the gripper and the event.
 function grasp.set_on_slip(self, value, level)
-  if type(value) ~= "function" then
-    checks.word("gripper '" .. self.name .. "': on_slip", value, reactions, level + 1)
-  end
+  grasp.check_reaction("gripper '" .. self.name .. "': on_slip", value, level + 1)
   self.on_slip = value
   grasp.watch(self)
 end
@@ -98,22 +100,40 @@ local function slip_text(self, event)
     1e3 * event.distance, event.time, event.s)
 end
 
+local function crash_text(self, event)
+  return ("gripper '%s': '%s' runs into '%s' at t = %.4g s"):format(self.name, event.part,
+    event.obstacle, event.time)
+end
+
+-- Keep the event and do what is to be done; returns the text when that is to stop.
+local function react(self, event, reaction, text)
+  self.events[#self.events + 1] = event
+  if reaction == "warn" then io.stderr:write("softworld: ", text(self, event), "\n")
+  elseif reaction == "stop" then return text(self, event)
+  elseif type(reaction) == "function" then reaction(self, event) end
+end
+
+-- Events of one gripper with pads; returns why the run is to stop, or nil.
+local function look_at(self)
+  local now, why = self.tool:state(), nil
+  if now.crash_time and now.crash_time ~= self.crash_time then
+    self.crash_time = now.crash_time
+    why = react(self, { kind = "crash", time = now.crash_time, part = now.crash_part,
+      obstacle = now.crash_obstacle, depth = now.crash_depth }, self.on_crash, crash_text)
+  end
+  if self.held and now.slip_time and not self.slip_event then
+    self.slip_event = { kind = "slip", time = now.slip_time, s = now.slip_place, distance = now.slip }
+    why = react(self, self.slip_event, self.on_slip, slip_text) or why
+  end
+  if self.frozen and now.lost_time then mixed.lose(self, now) end
+  return why
+end
+
 --- After steps of a run: events of the scene's grippers. Returns why the run is to stop, or nil.
 function grasp.look(scene)
   local why
   for _, self in ipairs(build.data(scene).grippers) do
-    if self.tool and self.wire then
-      if self.frozen then mixed.watch(self) end
-      local now = self.held and not self.slip_event and self.tool:state()
-      if now and now.slip_time then
-        local event = { kind = "slip", time = now.slip_time, s = now.slip_place, distance = now.slip }
-        self.slip_event = event
-        self.events[#self.events + 1] = event
-        if self.on_slip == "warn" then io.stderr:write("softworld: ", slip_text(self, event), "\n")
-        elseif self.on_slip == "stop" then why = slip_text(self, event)
-        elseif type(self.on_slip) == "function" then self.on_slip(self, event) end
-      end
-    end
+    if self.tool then why = look_at(self) or why end
   end
   return why
 end
@@ -302,6 +322,11 @@ function Methods:grasp(wire, args)
   if core.type(wire) ~= "wire" then
     error("gripper:grasp expects a wire, got " .. (core.type(wire) or type(wire)), 2)
   end
+  local ours = false
+  for _, entry in ipairs(build.data(self.scene).wires) do ours = ours or entry.object == wire end
+  if not ours then
+    error(("gripper '%s': wire '%s' is of another scene"):format(self.name, wire.name), 2)
+  end
   checks.keys("gripper:grasp", args, grasp_keys, 3)
   local approach = args.approach or "imposed"
   checks.word(("gripper '%s': approach"):format(self.name), approach, approaches, 3)
@@ -320,7 +345,9 @@ function Methods:grasp(wire, args)
   local fine, why = pcall(grasp_by_pads, self, wire, args)
   if not fine then
     self.wire = nil
-    error(why, 0)
+    if type(why) ~= "string" then error(why, 0) end
+    local text = why:gsub("^[^\n:]*softworld/[%w_]+%.lua:%d+: ", "")
+    error(text, 2)
   end
   self.held = true
   grasp.watch(self)

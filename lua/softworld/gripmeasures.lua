@@ -142,6 +142,7 @@ end
 --- How far the wire is squeezed at the pads: height from pad to pad and width across that [m], and
 -- the share of the height that is missing [-].
 function Measures:squeeze()
+  needs_tool(self, "squeeze")
   local state = self:state()
   if not self.wire then error(("gripper '%s' holds nothing"):format(self.name), 2) end
   local d, result = 2 * self.wire.radius, nil

@@ -33,11 +33,14 @@ for _, part in ipairs{ grasp, measures } do
   for name, f in pairs(part.methods) do Gripper[name] = f end
 end
 
-local keys = { name = true, pads = true, at = true, rotation = true, slip_tolerance = true }
+local keys = { name = true, pads = true, at = true, rotation = true, slip_tolerance = true, arm = true,
+  on_crash = true }
 
---- scene:gripper{ name =, pads = {...}, at = {x, y, z} [m], rotation =, slip_tolerance = [m] }
+--- scene:gripper{ name =, pads = {...}, at = {x, y, z} [m], rotation =, slip_tolerance = [m],
+-- arm = { radius =, length = [m] }, on_crash = }
 -- at is where the tool is while it holds nothing; grasp without s takes the
--- place of the wire nearest to it. See help "gripper" for pads.
+-- place of the wire nearest to it. The arm goes up from the pads. on_crash as on_slip: what happens
+-- when pads or arm run into an obstacle. See help "gripper" for pads.
 function core.class.scene.gripper(scene, args)
   build.check(scene, "scene:gripper", 3)
   if args == nil then args = {} end
@@ -49,6 +52,8 @@ function core.class.scene.gripper(scene, args)
   if args.slip_tolerance ~= nil then
     checks.number("scene:gripper: slip_tolerance", args.slip_tolerance, 0, " m", 3, nil, true)
   end
+  if args.on_crash ~= nil then grasp.check_reaction("scene:gripper: on_crash", args.on_crash, 3) end
+  if args.arm ~= nil then pads.check_arm(args.arm, "scene:gripper: arm", 3) end
   local at = args.at ~= nil and vector("scene:gripper: at", args.at, "m", 3) or nil
   local data = build.data(scene)
   local self = setmetatable({}, Gripper)
@@ -56,6 +61,7 @@ function core.class.scene.gripper(scene, args)
   self.name = build.name(scene, args.name, "gripper", #data.grippers, 3)
   self.pads, self.width = given, given.width
   self.at, self.rotation = at, args.rotation
+  self.arm, self.on_crash = args.arm or false, args.on_crash
   self.slip_tolerance = args.slip_tolerance or 1e-4
   self.past = {} -- clamps of earlier grasps, for the series
   self.events = {} -- what happened: { kind =, time =, s =, ... }
@@ -64,7 +70,8 @@ function core.class.scene.gripper(scene, args)
 end
 
 local remembered = { "hold", "at", "rotation", "tool", "wire", "way", "frozen", "on_slip", "opening",
-  "order", "obstacles", "held", "s", "free_height" }
+  "order", "obstacles", "held", "s", "free_height",
+  "margin", "segments", "mesh_model", "rod_model", "slip_event", "crash_time", "on_crash" }
 
 --- What a snapshot must know of the gripper, and the way back; recall(nil) for
 -- one that was made later.
@@ -77,8 +84,9 @@ end
 function Gripper:recall(state)
   self.gone = state == nil or nil
   for _, key in ipairs(remembered) do self[key] = state and state[key] end
-  for i = #self.past, (state and state.grasps or 0) + 1, -1 do self.past[i] = nil end
-  for i = #self.events, (state and state.events or 0) + 1, -1 do self.events[i] = nil end
+  if not state then return end
+  for i = #self.past, state.grasps + 1, -1 do self.past[i] = nil end
+  for i = #self.events, state.events + 1, -1 do self.events[i] = nil end
 end
 
 local function needs_pose(self, verb)
@@ -232,7 +240,7 @@ local shortcuts = { peak_force = true, mean_force = true, peak_moment = true, me
   impulse = true }
 
 -- Fields that may be nil.
-local fields = { gone = true, slip_event = true }
+local fields = { gone = true }
 for _, key in ipairs(remembered) do fields[key] = true end
 
 function Gripper:__index(key)

@@ -87,9 +87,7 @@ function mixed.thaw(self)
 end
 
 --- A frozen grip that the pads could not give any more goes back to them.
-function mixed.watch(self)
-  local state = self.tool:state()
-  if not state.lost_time then return end
+function mixed.lose(self, state)
   mixed.thaw(self)
   self.events[#self.events].margin = state.margin
 end

@@ -83,9 +83,27 @@ function pads.check(args, what, level)
   return p
 end
 
---- Make the tool and its fingers in the scene, open, at a pose. Returns the tool and what its
+--- The same for { radius =, length = } of an arm.
+function pads.check_arm(args, what, level)
+  checks.keys(what, args, { radius = true, length = true }, level + 1)
+  for _, key in ipairs{ "radius", "length" } do
+    checks.number(what .. "." .. key, args[key], 0, " m", level + 1, nil, true)
+  end
+end
+
+-- A capsule that goes up from the fingers.
+local function add_arm(scene, tool, name, arm, at, q, base)
+  local middle = { 0, 0, base + arm.radius + arm.length / 2 }
+  local obstacle = scene:obstacle{ name = name .. ".arm", shape = "capsule", radius = arm.radius,
+    length = arm.length, at = vec.add(at, vec.rotate(q, middle)), rotation = q, friction = 0.3 }
+  tool:pad(obstacle, 0, { 0, 0, 0 })
+  return obstacle
+end
+
+--- Make a gripper's tool and fingers in the scene, open, at a pose. Returns the tool and what its
 -- obstacles are.
-function pads.make(scene, name, p, at, rotation, radius)
+function pads.make(scene, gripper, at, rotation, radius)
+  local name, p = gripper.name, gripper.pads
   radius = radius or 0.005
   local opening = p.opening or 4 * radius
   local height = p.height or (p.shape == "v" and 2 * radius or 0.02)
@@ -113,6 +131,9 @@ function pads.make(scene, name, p, at, rotation, radius)
       tool:pad(obstacle, finger, opens)
       obstacles[#obstacles + 1] = obstacle
     end
+  end
+  if gripper.arm then
+    obstacles[#obstacles + 1] = add_arm(scene, tool, name, gripper.arm, at, q, height - given.below)
   end
   return tool, obstacles, opening
 end

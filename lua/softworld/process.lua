@@ -14,6 +14,7 @@
 -- @module softworld.process
 local core = require "softworld.core"
 local build = require "softworld.build"
+local conditions = require "softworld.conditions"
 
 local process = {}
 local Process = { __name = "process" }
@@ -102,11 +103,14 @@ local function timeout_of(options)
   return timeout
 end
 
---- Wait until condition() is true; asked once per step. Returns true, or false
+--- Wait until condition() is true; asked once per step. A condition may also be a table, see help
+-- "wait_until": { force = [N], on = gripper or obstacle }, { slip = [m], on = gripper },
+-- { contact = obstacle }, { distance = [m], between = { a, b } }. Returns true, or false
 -- when timeout [s] passed first.
 function Process:wait_until(condition, options)
+  if type(condition) == "table" then condition = conditions.of(condition, 3) end
   if type(condition) ~= "function" then
-    error("p:wait_until expects a function, got " .. type(condition), 2)
+    error("p:wait_until expects a function or a table, got " .. type(condition), 2)
   end
   local last = self.scene.time + timeout_of(options)
   check_inside(self, "p:wait_until")

@@ -1,0 +1,88 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Conditions that processes wait for, told as tables.
+-- @module softworld.conditions
+local core = require "softworld.core"
+local checks = require "softworld.checks"
+local vec = require "softworld.vec"
+
+local conditions = {}
+local kinds = {}
+
+local function number(what, value, unit, level)
+  return checks.number("p:wait_until: " .. what, value, 0, unit, level + 1)
+end
+
+local function pushes(object)
+  return type(object) == "table" and object.force or core.type(object) == "obstacle"
+    or core.type(object) == "clamp"
+end
+
+-- The force that a gripper or a hold puts on its wire, or wires on an obstacle, is so large.
+function kinds.force(t, level)
+  local least = number("force", t.force, " N", level + 1)
+  if not pushes(t.on) then
+    error("p:wait_until: force needs on = a gripper, hold or obstacle", level)
+  end
+  return function() return vec.norm(t.on:force()) >= least end
+end
+
+-- The wire has slid so far through a gripper's pads.
+function kinds.slip(t, level)
+  local least = number("slip", t.slip, " m", level + 1)
+  if type(t.on) ~= "table" or not t.on.state then
+    error("p:wait_until: slip needs on = a gripper", level)
+  end
+  return function() return t.on:state().slip >= least end
+end
+
+-- Something touches an obstacle.
+function kinds.contact(t, level)
+  if core.type(t.contact) ~= "obstacle" then
+    error("p:wait_until: contact needs an obstacle, got " .. (core.type(t.contact) or type(t.contact)),
+      level)
+  end
+  return function() return vec.norm(t.contact:force()) > 0 end
+end
+
+-- Where something is: a point, a gripper, an obstacle, { wire, s = }.
+local function place_of(what, level)
+  if type(what) == "table" and core.type(what[1]) == "wire" then
+    local s = number("between: s", what.s, " m", level + 1)
+    return function() return what[1]:position(s) end
+  elseif type(what) == "table" and what.position then
+    return function() return what:position() end
+  elseif core.type(what) == "obstacle" or core.type(what) == "clamp" then
+    return function() return (what:pose()) end
+  end
+  local point = checks.vector("p:wait_until: between: a place", what, "m", level + 1)
+  return function() return point end
+end
+
+-- Two places are so near to each other.
+function kinds.distance(t, level)
+  local most = number("distance", t.distance, " m", level + 1)
+  if type(t.between) ~= "table" or #t.between ~= 2 then
+    error("p:wait_until: distance needs between = { a, b }", level)
+  end
+  local a, b = place_of(t.between[1], level + 1), place_of(t.between[2], level + 1)
+  return function() return vec.norm(vec.sub(a(), b())) <= most end
+end
+
+local known = { on = true, between = true }
+for kind in pairs(kinds) do known[kind] = true end
+
+--- The function for a table that tells a condition.
+function conditions.of(t, level)
+  checks.keys("p:wait_until", t, known, level + 1)
+  local found
+  for kind in pairs(kinds) do
+    if t[kind] ~= nil then
+      if found then error(("p:wait_until: %s or %s, not both"):format(found, kind), level) end
+      found = kind
+    end
+  end
+  if not found then error("p:wait_until: wait for what? give force, slip, contact or distance", level) end
+  return kinds[found](t, level + 1)
+end
+
+return conditions

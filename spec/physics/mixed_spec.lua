@@ -1,0 +1,175 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- The mixed grasp against plates all the way: a wire is squeezed, lifted, carried and laid down.
+package.path = "./?.lua;" .. package.path
+local sw = require "softworld"
+local t = require "spec.physics.tools"
+
+local r, L, width, force = 0.003, 0.24, 0.02, 20
+
+-- A frictionless table, so that what is compared does not depend on the way there.
+local function new_scene()
+  local scene = sw.scene{}
+  scene:obstacle{ name = "table", shape = "plane", friction = 0 }
+  local wire = scene:wire{ E = 2e7, nu = 0.4, density = 1200, radius = r, from = { 0, 0, r }, to = { L, 0, r },
+    segments = 48 }
+  scene:force{ kind = "damping", mass = 8 }
+  local g = scene:gripper{ name = "hand", pads = { width = width, friction = 0.7, opening = 3 * r } }
+  return scene, wire, g
+end
+
+-- The two-plate test; freeze: nil = in the usual way, false = never. Returns what was seen on the way.
+local function carry(freeze)
+  local scene, wire, g = new_scene()
+  local seen = { g = g, wire = wire, scene = scene }
+  local function look(name)
+    local x = {}
+    for k = 0, 12 do x[k] = wire:position(L * k / 12) end
+    seen[name] = { force = g:force(), moment = g:moment(), x = x, squeeze = g:squeeze(), time = scene.time,
+      tail = g:moment{ at = wire:position(L / 2 - 2 * width) } }
+  end
+  local clock = os.clock
+  scene:process(function(p)
+    g:grasp(wire, { s = L / 2, approach = "mixed", force = force, freeze = freeze })
+    look "held"
+    local from, began = scene.time, clock()
+    g:move{ by = { 0, 0, 0.15 }, duration = 1 }
+    p:wait(2)
+    look "lifted"
+    g:move{ by = { 0, 0.05, 0 }, duration = 0.5 }
+    p:wait(1)
+    look "carried"
+    seen.cost = (clock() - began) / (scene.time - from)
+    g:move{ by = { 0, 0, -0.145 }, duration = 1 }
+    g:release()
+    p:wait(0.5)
+  end)
+  local run = scene:run{ dt = 0.01 }
+  assert(run.ok, run.reason)
+  return seen
+end
+
+describe("a mixed grasp", function()
+  local mixed, plates
+  setup(function() mixed, plates = carry(), carry(false) end)
+
+  it("is frozen once and given back to the pads", function()
+    local kinds = {}
+    for i, e in ipairs(mixed.g.events) do kinds[i] = e.kind end
+    assert.are.same({ "frozen", "thawed" }, kinds)
+    assert.are.same({}, plates.g.events)
+    assert.equal("rod", mixed.wire.model) -- as it was before
+  end)
+
+  it("has force, moment, shape and section as by plates within 2 %", function()
+    for _, when in ipairs{ "lifted", "carried" } do
+      local a, b = mixed[when], plates[when]
+      t.share(b.force[3], a.force[3], 0.02, when .. ": force")
+      t.share(b.tail[2], a.tail[2], 0.02, when .. ": moment of one side")
+      t.share(b.squeeze.height, a.squeeze.height, 0.02, when .. ": height of the section")
+      t.share(b.squeeze.width, a.squeeze.width, 0.02, when .. ": width of the section")
+      for k = 0, 12 do
+        t.below(0.02 * L, t.distance(a.x[k], b.x[k]), ("%s: place at s = %g L"):format(when, k / 12))
+      end
+    end
+  end)
+
+  it("costs far less to carry", function()
+    -- told in benchmarks as a ratio; here only that it is less, by much more than noise
+    t.below(plates.cost / 4, mixed.cost, "computing time per simulated second")
+  end)
+
+  it("keeps mass and momentum across the switches", function()
+    local scene, wire, g = new_scene()
+    local mass = wire.beam.mass_per_length * L
+    scene:process(function(p)
+      g:grasp(wire, { s = L / 2, approach = "mixed", force = force, freeze = false })
+      g:move{ by = { 0, 0, 0.1 }, duration = 0.4 }
+    end)
+    scene:process(function(p) -- in the middle of the move, where it is fast
+      p:wait_until(function() return g.held end)
+      p:wait(0.2)
+      g:freeze()
+      p:wait(0.1)
+      g:thaw()
+    end)
+    local run = scene:run{ dt = 0.005 }
+    assert(run.ok, run.reason)
+    for i = 1, 2 do
+      local e = g.events[i]
+      assert.equal(({ "frozen", "thawed" })[i], e.kind)
+      for _, part in ipairs{ "linear", "angular" } do
+        local scale = part == "linear" and mass * 0.1 or mass * 0.1 * L
+        for k = 1, 3 do
+          t.near(e.before[part][k], e.after[part][k], 1e-9 * scale, e.kind .. ": " .. part .. " momentum")
+        end
+      end
+      t.above(0.3 * mass * 0.1, math.abs(e.before.linear[3]), "it moves") -- it is no rest that is kept
+    end
+  end)
+
+  it("goes on with the force and moment that there were", function()
+    local scene, wire, g = new_scene()
+    local steps = {}
+    scene:process(function(p)
+      g:grasp(wire, { s = L / 2, approach = "mixed", force = force, freeze = false })
+      g:move{ by = { 0, 0, 0.15 }, duration = 1 }
+      p:wait(3)
+      for k, change in ipairs{ "freeze", "thaw" } do
+        steps[k] = { before = g:force()[3], tail = g:moment{ at = wire:position(L / 2 - 2 * width) }[2] }
+        g[change](g)
+        steps[k].at_once = g:force()[3]
+        p:wait(1) -- the wire's ends swing a little until then
+        steps[k].later = g:force()[3]
+        steps[k].tail_later = g:moment{ at = wire:position(L / 2 - 2 * width) }[2]
+      end
+    end)
+    local run = scene:run{ dt = 0.01 }
+    assert(run.ok, run.reason)
+    for k, s in ipairs(steps) do
+      t.share(s.before, s.later, 0.01, ("force a second after switch %d"):format(k))
+      t.share(s.tail, s.tail_later, 0.02, ("moment of one side a second after switch %d"):format(k))
+    end
+    t.near(steps[1].before, steps[1].at_once, 1e-9, "what the grip begins with")
+  end)
+
+  it("goes back to the pads when these would not hold it", function()
+    local scene, wire, g = new_scene()
+    local weight = wire.beam.mass_per_length * L * 9.81
+    scene:process(function(p)
+      -- enough for the weight, not for the jerk at the end
+      g:grasp(wire, { s = L / 2, approach = "mixed", force = 2 * weight })
+      assert.is_truthy(g.frozen)
+      g:move{ by = { 0, 0, 0.15 }, duration = 1 }
+      p:wait(0.5)
+      assert.is_truthy(g.frozen)
+      g:move{ by = { 0, 0, 0.15 }, duration = 0.15 }
+    end)
+    scene:run{ dt = 0.005 }
+    local lost = g.events[2]
+    assert.equal("thawed", lost.kind)
+    t.above(0.9, lost.margin, "margin")
+    assert.is_nil(g.frozen)
+  end)
+
+  it("survives snapshots bit by bit", function()
+    local scene, wire, g = new_scene()
+    scene:process(function() g:grasp(wire, { s = L / 2, approach = "mixed", force = force }) end)
+    assert(scene:run{ dt = 0.01 }.ok)
+    local snapshot = scene:snapshot()
+    local function on()
+      scene:process(function()
+        g:move{ by = { 0, 0, 0.1 }, duration = 0.5 }
+        g:release()
+      end)
+      local run = scene:run{ dt = 0.01 }
+      assert(run.ok, run.reason)
+      return wire:positions(), #g.events
+    end
+    local a, n = on()
+    scene:restore(snapshot)
+    assert.is_truthy(g.frozen)
+    local b, m = on()
+    assert.are.same(a, b)
+    assert.equal(n, m)
+  end)
+end)
