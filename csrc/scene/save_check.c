@@ -124,6 +124,10 @@ static void check_tool(sw_tape *t, const sw_scene *s, const sw_tool *tool) {
   sw_tape_expect(t, !tool->drive.tool && tool->log.count % SW_LOG_TOOL_SIZE == 0, "a gripper");
   for (size_t k = 0; k < tool->pads; k++)
     sw_tape_expect(t, tool->pad[k].obstacle < s->obstacle_count, "the pads of a gripper");
+  if (tool->crash.depth > 0)
+    sw_tape_expect(t,
+                   tool->crash.part < s->obstacle_count && tool->crash.obstacle < s->obstacle_count,
+                   "what a gripper ran into");
   if (tool->frozen) sw_tape_expect(t, sw_frozen_fits(tool->frozen, s), "what a gripper has frozen");
 }
 

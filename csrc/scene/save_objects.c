@@ -204,7 +204,7 @@ void sw_tape_jaw(sw_tape *t, sw_jaw *x) {
 }
 
 static void tape_tool_state(sw_tape *t, sw_tool_state *x) {
-  SW_TAPE_STRUCT(t, sw_tool_state, 184);
+  SW_TAPE_STRUCT(t, sw_tool_state, 216); /* what it crashed into is filled in when asked for */
   DOUBLE(opening), INT(status), DOUBLE(squeeze), DOUBLE(normal), DOUBLE(most), DOUBLE(margin);
   DOUBLE(sliding), DOUBLE(slip), VEC(slipped), VEC(centre), QUAT(q), DOUBLE(place);
   DOUBLE(slip_time), DOUBLE(slip_place), INT(frozen), DOUBLE(lost_time);
@@ -212,7 +212,7 @@ static void tape_tool_state(sw_tape *t, sw_tool_state *x) {
 }
 
 void sw_tape_tool(sw_tape *t, sw_scene *s, sw_tool *x) {
-  SW_TAPE_STRUCT(t, sw_tool, 816);
+  SW_TAPE_STRUCT(t, sw_tool, 888);
   UINT32(generation), INT(alive), NAME(name);
   tape_drive(t, s, &x->drive);
   sw_tape_jaw(t, &x->jaw);
@@ -221,6 +221,8 @@ void sw_tape_tool(sw_tape *t, sw_scene *s, sw_tool *x) {
   for (size_t k = 0; k < x->pads && sw_tape_good(t); k++)
     sw_tape_size(t, &x->pad[k].obstacle), sw_tape_int(t, &x->pad[k].finger);
   sw_tape_frozen(t, &x->frozen);
+  SW_TAPE_STRUCT(t, sw_crash, 32);
+  DOUBLE(crash.time), DOUBLE(crash.depth), SIZE(crash.part), SIZE(crash.obstacle), INT(crashing);
   tape_tool_state(t, &x->now);
   tape_log(t, &x->log);
 }
