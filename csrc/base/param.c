@@ -80,6 +80,48 @@ sw_status sw_param_check(const char *object, const sw_param *row, double value, 
                  row->name, value, *unit ? " " : "", unit, range);
 }
 
+/* A number that may also not be given. */
+static sw_status check_given(const char *object, const sw_param *row, double value, int lenient,
+                             sw_error *err) {
+  const int may_miss = isnan(row->def) && !(row->flags & SW_PARAM_REQUIRED);
+  if (isnan(value) && (lenient || may_miss)) return SW_OK;
+  return sw_param_check(object, row, value, err);
+}
+
+static sw_status check_choice(const char *object, const sw_param *row, int value, sw_error *err) {
+  for (int k = 0; row->choices[k]; k++)
+    if (k == value) return SW_OK;
+  return sw_fail(err, SW_EINVAL, "%s: %s is none of its words", object, row->name);
+}
+
+sw_status sw_params_check(const sw_params *params, const void *args, int lenient, sw_error *err) {
+  for (size_t i = 0; i < params->count; i++) {
+    const sw_param *row = &params->rows[i];
+    const char *place = (const char *)args + row->offset;
+    double x[4] = {0};
+    long whole = 0;
+    int flag = 0, numbers = 0;
+    switch (row->type) {
+      case SW_PARAM_NUMBER: memcpy(x, place, sizeof *x), numbers = 1; break;
+      case SW_PARAM_VECTOR: memcpy(x, place, sizeof(sw_vec)), numbers = 3; break;
+      case SW_PARAM_ROTATION: break;
+      case SW_PARAM_INTEGER:
+        memcpy(&whole, place, sizeof whole);
+        x[0] = (double)whole, numbers = 1;
+        break;
+      case SW_PARAM_CHOICE:
+        memcpy(&flag, place, sizeof flag);
+        SW_TRY(check_choice(params->object, row, flag, err));
+        break;
+      case SW_PARAM_BOOLEAN:
+      case SW_PARAM_TEXT:
+      case SW_PARAM_OTHER: break;
+    }
+    for (int k = 0; k < numbers; k++) SW_TRY(check_given(params->object, row, x[k], lenient, err));
+  }
+  return SW_OK;
+}
+
 enum { LONGEST_WORD = 32 }; /* longer names are not compared [B] */
 
 /* Optimal string alignment distance (insert, delete, replace, swap), without

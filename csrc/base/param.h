@@ -62,6 +62,10 @@ const sw_param *sw_params_find(const sw_params *params, const char *name);
  * SW_EINVAL with a text that names object, parameter, value, unit and range. */
 sw_status sw_param_check(const char *object, const sw_param *row, double value, sw_error *err);
 
+/* Check a whole argument struct that did not come through these checks, such as one from a file.
+ * lenient: the program itself may leave out (NAN) what users must give. */
+sw_status sw_params_check(const sw_params *params, const void *args, int lenient, sw_error *err);
+
 /* Store a checked number (NUMBER, INTEGER, BOOLEAN, CHOICE rows). */
 void sw_param_store(const sw_param *row, void *args, double value);
 

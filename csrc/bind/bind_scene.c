@@ -8,19 +8,24 @@
 #include "bind/child.h"
 #include "bind/module.h"
 
+lsw_handle *lsw_new_scene(lua_State *L) {
+  lsw_scene_handle *h = lsw_new(L, &lsw_class_scene, 2);
+  lua_newtable(L); /* functions kept as forces */
+  lua_setiuservalue(L, -2, 1);
+  lua_newtable(L); /* what the Lua side keeps about the scene */
+  lua_setiuservalue(L, -2, 2);
+  return &h->h;
+}
+
 static int mod_scene(lua_State *L) {
   sw_scene_args args;
   sw_error err = {""};
   sw_scene *scene = NULL;
   lua_settop(L, 1);
   lsw_arguments(L, 1, "scene", &sw_scene_params, &args);
-  lsw_scene_handle *h = lsw_new(L, &lsw_class_scene, 2);
-  lua_newtable(L); /* functions kept as forces */
-  lua_setiuservalue(L, -2, 1);
-  lua_newtable(L); /* what the Lua side keeps about the scene */
-  lua_setiuservalue(L, -2, 2);
+  lsw_handle *h = lsw_new_scene(L);
   lsw_must(L, sw_scene_new(&args, &scene, &err), &err);
-  h->h.object = scene;
+  h->object = scene;
   return 1;
 }
 

@@ -19,6 +19,9 @@ typedef struct lsw_child {
 extern const lsw_class lsw_class_scene, lsw_class_wire, lsw_class_particles, lsw_class_clamp,
     lsw_class_obstacle, lsw_class_tool, lsw_class_force, lsw_class_join, lsw_class_snapshot;
 
+/* Push a scene that is still closed, to be opened by its object. */
+lsw_handle *lsw_new_scene(lua_State *L);
+
 /* Push a child of the scene userdata at index scene. */
 lsw_child *lsw_new_child(lua_State *L, int scene, const lsw_class *c);
 

@@ -5,6 +5,7 @@
 #define SW_CALIBRATE_CALIBRATE_H
 
 #include "base/param.h"
+#include "base/tape.h"
 #include "calibrate/cell.h"
 #include "calibrate/composite.h"
 #include "calibrate/lattice.h"
@@ -67,6 +68,8 @@ typedef struct sw_calibration {
 sw_status sw_calibrate(const sw_calibrate_args *args, const sw_section *section,
                        sw_lattice_args *mesh, sw_calibration *out, sw_error *err);
 void sw_calibration_free(sw_calibration *calibration);
+/* Reading fills an empty one, which is freed also after a failure. */
+void sw_tape_calibration(sw_tape *tape, sw_calibration *calibration);
 
 /* Searches the springs of a lattice for the targets of out, from their first guesses; one with
  * elements from out->k. */

@@ -413,6 +413,40 @@ sw_status sw_contact_set_memory(sw_contact *c, const void *memory, size_t bytes,
   return SW_OK;
 }
 
+size_t sw_contact_layout(void) { return 4096 * sizeof(sw_memory) + sizeof(sw_touch); }
+
+const void *sw_contact_seen(const sw_contact *c, size_t *bytes) {
+  *bytes = c->touch_count * sizeof *c->touches;
+  return c->touches;
+}
+
+sw_status sw_contact_set_seen(sw_contact *c, const void *seen, size_t bytes, size_t nodes) {
+  const size_t n = bytes / sizeof *c->touches;
+  c->touch_count = 0;
+  if (bytes % sizeof *c->touches != 0) return SW_EINVAL;
+  SW_TRY(sw_grow((void **)&c->touches, &c->touch_capacity, n, sizeof *c->touches));
+  if (n) memcpy(c->touches, seen, bytes);
+  for (size_t i = 0; i < n; i++) {
+    const sw_touch *t = &c->touches[i];
+    if (t->obstacle < 0 || (size_t)t->obstacle >= c->count || t->node >= nodes || t->other >= nodes)
+      return SW_EINVAL;
+  }
+  c->touch_count = n;
+  return SW_OK;
+}
+
+int sw_contact_memory_fits(const void *memory, size_t bytes, size_t nodes, size_t obstacles) {
+  const size_t count = bytes / sizeof(sw_memory);
+  for (size_t i = 0; i < count; i++) {
+    sw_memory m;
+    memcpy(&m, (const char *)memory + i * sizeof m, sizeof m);
+    if (m.node >= nodes || m.obstacle < 0 || (size_t)m.obstacle >= obstacles || m.segment < 0 ||
+        !isfinite(m.at))
+      return 0;
+  }
+  return bytes % sizeof(sw_memory) == 0;
+}
+
 sw_status sw_contact_inherit(sw_contact *c, const void *memory, size_t bytes, int fresh,
                              const size_t *new_node) {
   size_t kept = 0;

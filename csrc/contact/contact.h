@@ -131,6 +131,15 @@ const void *sw_contact_memory(const sw_contact *contact, size_t *bytes);
 /* 1 while no step was accepted: there is nothing to remember yet. */
 int sw_contact_is_fresh(const sw_contact *contact);
 sw_status sw_contact_set_memory(sw_contact *contact, const void *memory, size_t bytes, int fresh);
+/* 1: memory that may have come from anywhere names nothing beyond these nodes and obstacles. */
+int sw_contact_memory_fits(const void *memory, size_t bytes, size_t nodes, size_t obstacles);
+/* What touches at the accepted state, which only read-outs look at, likewise. SW_EINVAL: it names
+ * nodes (so many) or obstacles that there are not. */
+const void *sw_contact_seen(const sw_contact *contact, size_t *bytes);
+sw_status sw_contact_set_seen(sw_contact *contact, const void *seen, size_t bytes, size_t nodes);
+/* A number that is another one when what these blocks consist of is, to tell files of another
+ * version by. */
+size_t sw_contact_layout(void);
 /* Add what a memory says of nodes from old_first up to old_end, which are now numbered from
  * new_first, and obstacles of these numbers (count). SW_ENOMEM. */
 sw_status sw_contact_add_memory(sw_contact *contact, const void *memory, size_t bytes,

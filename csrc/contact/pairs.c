@@ -137,6 +137,51 @@ sw_status sw_pairs_set_memory(sw_pairs *p, const void *memory, size_t bytes) {
   return SW_OK;
 }
 
+size_t sw_pairs_layout(void) {
+  return 4096 * sizeof(sw_pair_memory) + 64 * sizeof(sw_pair_touch) + sizeof(sw_pair);
+}
+
+void sw_pairs_seen(const sw_pairs *p, const void *blocks[2], size_t bytes[2]) {
+  blocks[0] = p->pairs, bytes[0] = p->pair_count * sizeof *p->pairs;
+  blocks[1] = p->touches, bytes[1] = p->touch_count * sizeof *p->touches;
+}
+
+/* The segment that begins at the node is one of the body's. */
+static int is_segment(const sw_system *s, uint32_t body, uint32_t node) {
+  if (body >= s->body_count) return 0;
+  const sw_body *b = &s->bodies[body];
+  return node >= b->first_node && node + 1 < b->first_node + b->plan->nodes;
+}
+
+sw_status sw_pairs_set_seen(sw_pairs *p, const void *const blocks[2], const size_t bytes[2],
+                            const sw_system *s) {
+  const size_t n = bytes[0] / sizeof *p->pairs, m = bytes[1] / sizeof *p->touches;
+  p->pair_count = p->touch_count = 0;
+  if (bytes[0] % sizeof *p->pairs != 0 || bytes[1] % sizeof *p->touches != 0) return SW_EINVAL;
+  SW_TRY(sw_grow((void **)&p->pairs, &p->pair_capacity, n, sizeof *p->pairs));
+  SW_TRY(sw_grow((void **)&p->touches, &p->touch_capacity, m, sizeof *p->touches));
+  if (n) memcpy(p->pairs, blocks[0], bytes[0]);
+  if (m) memcpy(p->touches, blocks[1], bytes[1]);
+  for (size_t i = 0; i < n; i++) {
+    const sw_pair *k = &p->pairs[i];
+    if (!is_segment(s, k->body[0], k->one) || !is_segment(s, k->body[1], k->two)) return SW_EINVAL;
+  }
+  for (size_t i = 0; i < m; i++)
+    if (p->touches[i].pair >= n) return SW_EINVAL;
+  p->pair_count = n, p->touch_count = m;
+  return SW_OK;
+}
+
+int sw_pairs_memory_fits(const void *memory, size_t bytes, size_t nodes) {
+  const size_t count = bytes / sizeof(sw_pair_memory);
+  for (size_t i = 0; i < count; i++) {
+    sw_pair_memory m;
+    memcpy(&m, (const char *)memory + i * sizeof m, sizeof m);
+    if (m.one >= nodes || m.two >= nodes || !isfinite(m.at[0] + m.at[1])) return 0;
+  }
+  return bytes % sizeof(sw_pair_memory) == 0;
+}
+
 sw_status sw_pairs_inherit(sw_pairs *p, const void *memory, size_t bytes, const size_t *new_node) {
   size_t kept = 0;
   SW_TRY(sw_pairs_set_memory(p, memory, bytes));

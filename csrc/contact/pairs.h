@@ -41,6 +41,12 @@ void sw_pairs_commit(sw_pairs *pairs, sw_system *system);
 /* Memory between steps, as sw_contact_memory. */
 const void *sw_pairs_memory(const sw_pairs *pairs, size_t *bytes);
 sw_status sw_pairs_set_memory(sw_pairs *pairs, const void *memory, size_t bytes);
+int sw_pairs_memory_fits(const void *memory, size_t bytes, size_t nodes);
+/* As sw_contact_seen, in two blocks: segments, and where they touch. */
+void sw_pairs_seen(const sw_pairs *pairs, const void *blocks[2], size_t bytes[2]);
+sw_status sw_pairs_set_seen(sw_pairs *pairs, const void *const blocks[2], const size_t bytes[2],
+                            const sw_system *system);
+size_t sw_pairs_layout(void); /* as sw_contact_layout */
 sw_status sw_pairs_inherit(sw_pairs *pairs, const void *memory, size_t bytes,
                            const size_t *new_node);
 

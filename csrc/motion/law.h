@@ -70,6 +70,18 @@ typedef struct sw_motion_law {
   void (*destroy)(void *body);
 } sw_motion_law;
 
+/* What a motion was planned from, to be planned again from a file. */
+typedef struct sw_motion_given {
+  char name[SW_NAME_SIZE];
+  sw_motion_plan plan; /* its law's name static, its points those below */
+  sw_waypoint *points;
+} sw_motion_given;
+
+void sw_motion_forget(sw_motion_given *given); /* NULL is allowed */
+
+/* A view of the motion that still looks the same. NULL: out of memory. */
+sw_motion *sw_motion_view(sw_motion *motion);
+
 struct sw_motion {
   const sw_motion_law *law;
   long references;
@@ -78,9 +90,10 @@ struct sw_motion {
   double length;   /* [m] */
   size_t count;    /* way-points [-] */
   int relative;
-  void *body;       /* the law's own */
-  sw_motion *inner; /* of a view: what is looked at, else NULL */
-  sw_pose base;     /* of a view: what is displaced */
+  void *body;             /* the law's own */
+  sw_motion_given *given; /* of a law for way-points that is no view, else NULL */
+  sw_motion *inner;       /* of a view: what is looked at, else NULL */
+  sw_pose base;           /* of a view: what is displaced */
 };
 
 /* Shared by the laws of progress along legs (path.c). */

@@ -2,6 +2,7 @@
 /* Life of a motion: creation by law, evaluation, views of another motion. */
 #include "motion/motion.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -73,13 +74,34 @@ static sw_status plan_motion(const sw_motion_plan *plan, sw_route *route, sw_mot
   return law->plan(law, plan, route, motion, err);
 }
 
+void sw_motion_forget(sw_motion_given *given) {
+  if (given) sw_free(given->points);
+  sw_free(given);
+}
+
+static sw_status remember(const sw_motion_plan *plan, sw_motion *motion) {
+  sw_motion_given *given = sw_alloc(1, sizeof *given);
+  if (!given) return SW_ENOMEM;
+  motion->given = given;
+  given->plan = *plan;
+  given->points = sw_alloc(plan->count, sizeof *given->points);
+  if (!given->points) return SW_ENOMEM;
+  if (plan->count) memcpy(given->points, plan->points, plan->count * sizeof *plan->points);
+  snprintf(given->name, sizeof given->name, "%s", plan->name ? plan->name : "");
+  given->plan.name = given->name[0] ? given->name : NULL;
+  given->plan.law = motion->law->name;
+  given->plan.points = given->points;
+  return SW_OK;
+}
+
 sw_status sw_motion_create(const sw_motion_plan *plan, sw_motion **out, sw_error *err) {
   sw_route route = {.name = plan->name ? plan->name : "trajectory"};
   *out = NULL;
   sw_motion *motion = sw_alloc(1, sizeof *motion);
   if (!motion) return sw_fail(err, SW_ENOMEM, "%s: out of memory", route.name);
   motion->references = 1;
-  const sw_status status = plan_motion(plan, &route, motion, err);
+  sw_status status = plan_motion(plan, &route, motion, err);
+  if (status == SW_OK) status = remember(plan, motion);
   sw_route_free(&route);
   if (status == SW_OK)
     *out = motion;
@@ -91,7 +113,7 @@ sw_status sw_motion_create(const sw_motion_plan *plan, sw_motion **out, sw_error
 
 /* --- views ------------------------------------------------------------------ */
 
-static sw_motion *view(sw_motion *motion) {
+sw_motion *sw_motion_view(sw_motion *motion) {
   sw_motion *seen = sw_alloc(1, sizeof *seen);
   if (!seen) return NULL;
   *seen = *motion;
@@ -103,11 +125,12 @@ static sw_motion *view(sw_motion *motion) {
     seen->base = sw_pose_identity();
   }
   seen->body = NULL;
+  seen->given = NULL;
   return seen;
 }
 
 sw_status sw_motion_relative(sw_motion *motion, sw_pose base, sw_motion **out) {
-  *out = view(motion);
+  *out = sw_motion_view(motion);
   if (!*out) return SW_ENOMEM;
   (*out)->base.p = sw_add(base.p, (*out)->base.p);
   (*out)->base.q = sw_quat_mul((*out)->base.q, base.q);
@@ -116,7 +139,7 @@ sw_status sw_motion_relative(sw_motion *motion, sw_pose base, sw_motion **out) {
 }
 
 sw_status sw_motion_shifted(sw_motion *motion, double delay, sw_motion **out) {
-  *out = view(motion);
+  *out = sw_motion_view(motion);
   if (!*out) return SW_ENOMEM;
   (*out)->start += delay;
   return SW_OK;
@@ -159,5 +182,6 @@ void sw_motion_release(sw_motion *motion) {
     sw_motion_release(motion->inner);
   else if (motion->body)
     motion->law->destroy(motion->body);
+  sw_motion_forget(motion->given);
   sw_free(motion);
 }

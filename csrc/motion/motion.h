@@ -21,6 +21,7 @@
 
 #include "base/param.h"
 #include "base/status.h"
+#include "base/tape.h"
 #include "base/vec.h"
 
 typedef struct sw_motion sw_motion;
@@ -114,6 +115,10 @@ int sw_motion_is_relative(const sw_motion *motion); /* still to be placed by sw_
 
 /* Names of the laws for way-points by number, NULL after the last. */
 const char *sw_motion_law_at(size_t i);
+
+int sw_motion_is_function(const sw_motion *motion); /* of a user: it cannot be put on a tape */
+/* A motion, or NULL; reading plans it anew, which gives the same bits. */
+void sw_tape_motion(sw_tape *tape, sw_motion **motion);
 
 sw_motion *sw_motion_retain(sw_motion *motion); /* NULL gives NULL */
 void sw_motion_release(sw_motion *motion);      /* NULL is allowed */

@@ -31,6 +31,10 @@ static sw_param run_rows[] = {
      "most steps to take"},
     {"progress", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
      "true shows a progress bar (default: when on a terminal and longer than a second)"},
+    {"save", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
+     "file to which the scene is written after every step of its processes; see help 'save'"},
+    {"resume", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
+     "file from which the scene goes on, if it is there; see help 'save'"},
 };
 const sw_params sw_run_params = SW_PARAMS("scene:run", run_rows);
 

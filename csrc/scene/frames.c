@@ -3,6 +3,7 @@
  * block a frame: energies, obstacle poses, hold poses with a held flag, then
  * for each wire its node count and positions, the number of its surface's points in a section (0:
  * it is no mesh of particles), and these points with the force across the surface at each. */
+#include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -102,6 +103,24 @@ sw_status sw_scene_store_frame(sw_scene *s, sw_error *err) {
   s->frames[s->frame_count++] =
       (sw_frame){s->time, data, s->wire_count, s->obstacle_count, s->hold_count};
   return SW_OK;
+}
+
+int sw_scene_frame_walk(const sw_frame *f, size_t room, size_t *size) {
+  size_t at = SW_FRAME_ENERGIES + POSE * f->obstacles + HOLD * f->holds;
+  for (size_t w = 0; w < f->wires; w++) {
+    double count[2]; /* nodes, points around each [-] */
+    for (size_t k = 0; k < 2; k++) {
+      if (at >= room) return 0;
+      count[k] = f->data[at++];
+      const double each = k ? SW_FRAME_SURFACE * count[0] : 3;
+      if (!(count[k] >= 0) || count[k] != floor(count[k]) ||
+          !(each * count[k] <= (double)(room - at)))
+        return 0;
+      at += (size_t)(each * count[k]);
+    }
+  }
+  *size = at;
+  return at <= room;
 }
 
 size_t sw_scene_frames(const sw_scene *s) { return s->frame_count; }

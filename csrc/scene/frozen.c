@@ -10,7 +10,9 @@
 
 #include "base/alloc.h"
 #include "scene/remodel_inner.h"
+#include "scene/save.h"
 #include "state/hinge.h"
+#include "state/state_tape.h"
 #include "system/web.h"
 
 struct sw_frozen {
@@ -441,4 +443,62 @@ sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_freeze_report *out,
   }
   sw_snapshot_free(before);
   return status == SW_ENOMEM ? sw_fail(err, status, "gripper: out of memory") : status;
+}
+
+/* --- on a tape ---------------------------------------------------------------------------- */
+
+static void tape_handle(sw_tape *t, sw_handle *h) {
+  SW_TAPE_STRUCT(t, sw_handle, 8);
+  sw_tape_uint32(t, &h->slot), sw_tape_uint32(t, &h->generation);
+}
+
+static void tape_fields(sw_tape *t, sw_frozen *f) {
+  char word[SW_NAME_SIZE];
+  SW_TAPE_STRUCT(t, sw_frozen, 528);
+  SW_TAPE_STRUCT(t, sw_stations, 32);
+  sw_tape_mark(t, "contact", sw_contact_layout());
+  tape_handle(t, &f->wire), tape_handle(t, &f->hold);
+  const char *model = sw_tape_word(t, sw_tape_reads(t) ? NULL : f->cls->name, word);
+  if (sw_tape_reads(t)) f->cls = sw_wire_find(model);
+  sw_tape_mesh(t, &f->mesh);
+  sw_tape_strand(t, &f->strand);
+  sw_tape_pose(t, &f->pose), sw_tape_vec(t, &f->across);
+  sw_tape_size(t, &f->first), sw_tape_size(t, &f->last);
+  sw_tape_double(t, &f->inside[0]), sw_tape_double(t, &f->inside[1]);
+  sw_tape_count(t, &f->stations.n, sizeof *f->stations.s);
+  SW_TAPE_ARRAY(t, f->frame, 6 * f->stations.n);
+  SW_TAPE_ARRAY(t, f->stations.s, f->stations.n), SW_TAPE_ARRAY(t, f->stations.ring, f->stations.n);
+  sw_tape_double(t, &f->stations.spacing);
+  sw_tape_count(t, &f->bytes, 1);
+  sw_tape_array(t, &f->memory, f->bytes, 1);
+  sw_tape_size(t, &f->node), sw_tape_size(t, &f->nodes);
+  sw_tape_jaw(t, &f->jaw);
+}
+
+void sw_tape_frozen(sw_tape *t, sw_frozen **frozen) {
+  int there = !sw_tape_reads(t) && *frozen != NULL;
+  sw_tape_int(t, &there);
+  if (!there) return;
+  if (sw_tape_reads(t)) {
+    *frozen = sw_tape_good(t) ? sw_alloc(1, sizeof **frozen) : NULL;
+    if (!*frozen) {
+      sw_tape_fail(t, SW_ENOMEM);
+      return;
+    }
+    (*frozen)->references = 1;
+  }
+  if (*frozen) tape_fields(t, *frozen);
+}
+
+int sw_frozen_fits(const sw_frozen *f, const sw_scene *s) {
+  const sw_web *web = f->strand.web;
+  if (!f->cls || !f->cls->mesh || !web || !web->per_ring || !f->strand.kit || f->mesh.rest) return 0;
+  if (f->wire.slot >= s->wire_count || s->wires[f->wire.slot].generation != f->wire.generation)
+    return 0;
+  if (f->mesh.n != web->rings || f->stations.n != web->rings) return 0;
+  if (f->first > f->last || f->last >= web->rings || f->nodes != web->particles) return 0;
+  for (size_t i = 0; i < f->stations.n; i++)
+    if (!isfinite(f->stations.s[i]) || (i && !(f->stations.s[i - 1] < f->stations.s[i]))) return 0;
+  if (f->node > SIZE_MAX - f->nodes || web->around_count > SW_OUTLINE) return 0;
+  return sw_contact_memory_fits(f->memory, f->bytes, SIZE_MAX, s->obstacle_count);
 }

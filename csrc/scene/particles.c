@@ -58,6 +58,10 @@ static const sw_wire_class particles_class = {
     .mesh = "particles",
 };
 
+const sw_wire_class *sw_scene_body_class(const char *name) {
+  return strcmp(name, particles_class.name) == 0 ? &particles_class : sw_wire_find(name);
+}
+
 static const double USUAL_RADIUS = 0.1; /* of the shortest link [-] */
 static const size_t MOST = 100000000;   /* of anything [-] */
 

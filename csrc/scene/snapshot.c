@@ -41,21 +41,11 @@ struct sw_snapshot {
   int *force_alive;
   sw_scene_join *join; /* (joins) */
   size_t joins;
-  double *state; /* x v a tension of the built system */
-  size_t state_size;
-  double *history; /* xp, vp of a method with history, or NULL */
-  size_t history_size;
-  const sw_integrator *method;
-  double last_h;
-  int restart, discontinuous, diverged;
+  sw_live live;
+  int discontinuous, diverged;
   sw_error why;
   sw_extreme deepest;
-  void *memory; /* contact anchors */
-  size_t memory_size;
-  void *pairs; /* the same between wires */
-  size_t pairs_size;
   size_t rules;
-  int fresh;
 };
 
 int sw_snapshot_busy(const sw_snapshot *p) { return p->scene && p->scene->restoring == p; }
@@ -106,10 +96,7 @@ void sw_snapshot_free(sw_snapshot *p) {
   sw_free(p->tool);
   sw_free(p->force_alive);
   sw_free(p->join);
-  sw_free(p->state);
-  sw_free(p->history);
-  sw_free(p->memory);
-  sw_free(p->pairs);
+  sw_live_free(&p->live);
   sw_free(p);
 }
 
@@ -174,27 +161,6 @@ static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
   return SW_OK;
 }
 
-static sw_status copy_state(const sw_scene *s, sw_snapshot *p) {
-  p->state_size = s->system.state_size;
-  SW_TRY(copy_block(s->system.state, p->state_size * sizeof(double), &p->state));
-  if (s->contact) {
-    p->fresh = sw_contact_is_fresh(s->contact);
-    const void *memory = sw_contact_memory(s->contact, &p->memory_size);
-    SW_TRY(copy_block(memory, p->memory_size, &p->memory));
-  }
-  if (s->pairs) {
-    const void *memory = sw_pairs_memory(s->pairs, &p->pairs_size);
-    SW_TRY(copy_block(memory, p->pairs_size, &p->pairs));
-  }
-  if (!s->has_stepper) return SW_OK;
-  p->method = s->method;
-  p->last_h = s->stepper.last_h;
-  p->restart = s->stepper.restart;
-  if (!(s->method->flags & SW_INTEGRATOR_HISTORY)) return SW_OK;
-  p->history_size = 2 * s->stepper.n;
-  return copy_block(s->stepper.xp, p->history_size * sizeof(double), &p->history);
-}
-
 sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
@@ -209,7 +175,7 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
   p->frames = s->frame_count;
   p->rules = s->rule_count;
   sw_status status = copy_objects(s, p);
-  if (status == SW_OK) status = copy_state(s, p);
+  if (status == SW_OK) status = sw_live_take(s, &p->live);
   if (status != SW_OK) {
     sw_snapshot_free(p);
     return sw_fail(err, status, "snapshot: out of memory");
@@ -416,31 +382,11 @@ static sw_status put_untwisted(sw_scene *s, const sw_snapshot *p) {
   return SW_OK;
 }
 
-static sw_status put_state(sw_scene *s, const sw_snapshot *p, sw_error *err) {
-  memcpy(s->system.state, p->state, p->state_size * sizeof(double));
-  if (s->contact) SW_TRY(sw_contact_set_memory(s->contact, p->memory, p->memory_size, p->fresh));
-  if (s->pairs) SW_TRY(sw_pairs_set_memory(s->pairs, p->pairs, p->pairs_size));
-  if (p->method && (!s->has_stepper || s->method != p->method)) {
-    sw_stepper_free(&s->stepper);
-    s->has_stepper = 0;
-    SW_TRY(sw_stepper_new(&s->stepper, p->method, &s->system));
-    s->has_stepper = 1;
-    s->method = p->method;
-  }
-  if (p->method) {
-    s->stepper.last_h = p->last_h;
-    s->stepper.restart = p->restart;
-    if (p->history) memcpy(s->stepper.xp, p->history, p->history_size * sizeof(double));
-  } else if (s->has_stepper) { /* taken before the first run */
-    sw_stepper_free(&s->stepper);
-    s->has_stepper = 0;
-    s->method = NULL;
-  }
-  return sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err);
-}
-
 sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
+  if (!p->scene)
+    return sw_fail(err, SW_EINVAL,
+                   "restore: the snapshot is of the scene as it was before a file took its place");
   if (p->scene != s) return sw_fail(err, SW_EINVAL, "restore: the snapshot is of another scene");
   if (s->wire_count > p->wires)
     return sw_fail(err, SW_EINVAL,
@@ -462,7 +408,7 @@ sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   SW_TRY(sw_scene_build(s, err));
   s->diverged = 0;
   s->restoring = p; /* placing the holds may call a user's function */
-  const sw_status status = put_state(s, p, err);
+  const sw_status status = sw_live_put(s, &p->live, err);
   s->restoring = NULL;
   if (status != SW_OK) return status;
   s->discontinuous = p->discontinuous;

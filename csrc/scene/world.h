@@ -350,6 +350,29 @@ struct sw_scene {
   double next_frame; /* [s] */
 };
 
+/* What a built scene has besides its objects: a copy of it, put back into a scene that is built
+ * of the same objects (and fits). SW_ENOMEM leaves *out to be freed. */
+typedef struct sw_live {
+  double *state; /* x v a tension and so on of the built system */
+  size_t state_size;
+  const sw_integrator *method; /* NULL: before the first run */
+  double last_h;               /* [s] */
+  int restart;
+  double *history; /* xp, vp of a method with history, or NULL */
+  size_t history_size;
+  void *memory; /* contact anchors */
+  size_t memory_size;
+  int fresh;
+  void *pairs; /* the same between wires */
+  size_t pairs_size;
+  void *seen[3]; /* for read-outs: what touches obstacles, wires that may touch, and do */
+  size_t seen_size[3];
+} sw_live;
+sw_status sw_live_take(const sw_scene *scene, sw_live *out);
+sw_status sw_live_put(sw_scene *scene, const sw_live *live, sw_error *err);
+int sw_live_fits(const sw_scene *scene, const sw_live *live);
+void sw_live_free(sw_live *live);
+
 /* Leave the built state: the meshes become authoritative again. */
 sw_status sw_scene_thaw(sw_scene *scene);
 /* Drop the contact memory kept for the next system. */
@@ -533,5 +556,9 @@ void sw_scene_frame_energies(sw_scene *scene, double out[SW_FRAME_ENERGIES]);
 void sw_scene_reset_extremes(sw_scene *scene);
 sw_status sw_scene_store_frame(sw_scene *scene, sw_error *err);
 void sw_scene_drop_frames(sw_scene *scene);
+/* How many doubles the frame's block has; 0: more than room, or its counts make no sense. */
+int sw_scene_frame_walk(const sw_frame *frame, size_t room, size_t *size);
+/* The class of a wire or of objects of particles; NULL: there is none of this name. */
+const sw_wire_class *sw_scene_body_class(const char *name);
 
 #endif

@@ -2,6 +2,7 @@
 /* What all shapes share: making, counting references, sending queries on. */
 #include "shape/shape.h"
 
+#include <stdint.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -29,6 +30,24 @@ const sw_shape_class *sw_shape_class_find(const char *kind) {
 
 const sw_params *sw_shape_class_params(const sw_shape_class *class) { return &class->params; }
 
+static sw_status copy(const void *from, size_t bytes, const void **to) {
+  if (!from) return SW_OK;
+  void *own = sw_alloc(bytes, 1);
+  if (!own) return SW_ENOMEM;
+  if (bytes) memcpy(own, from, bytes);
+  *to = own;
+  return SW_OK;
+}
+
+static sw_status remember(sw_shape *shape, const sw_shape_args *args, const sw_shape_source *from) {
+  const void *points = NULL, *bytes = NULL;
+  sw_status status = copy(from->points, 3 * from->point_count * sizeof(double), &points);
+  if (status == SW_OK) status = copy(from->bytes, from->byte_count, &bytes);
+  shape->args = *args;
+  shape->source = (sw_shape_source){points, from->point_count, bytes, from->byte_count};
+  return status;
+}
+
 sw_status sw_shape_new(const sw_shape_class *class, const sw_shape_args *args,
                        const sw_shape_source *source, sw_shape **out, sw_error *err) {
   static const sw_shape_source nothing;
@@ -37,7 +56,10 @@ sw_status sw_shape_new(const sw_shape_class *class, const sw_shape_args *args,
   if (!shape) return sw_fail(err, SW_ENOMEM, "%s: out of memory", class->params.object);
   shape->class = class;
   shape->references = 1;
-  const sw_status status = class->create(shape, args, source ? source : &nothing, err);
+  if (!source) source = &nothing;
+  sw_status status = class->create(shape, args, source, err);
+  if (status == SW_OK && remember(shape, args, source) != SW_OK)
+    status = sw_fail(err, SW_ENOMEM, "%s: out of memory", class->params.object);
   if (status != SW_OK) {
     sw_shape_release(shape);
     return status;
@@ -54,6 +76,8 @@ sw_shape *sw_shape_retain(sw_shape *shape) {
 void sw_shape_release(sw_shape *shape) {
   if (!shape || --shape->references > 0) return;
   if (shape->class->destroy) shape->class->destroy(shape);
+  sw_free((void *)(uintptr_t)shape->source.points);
+  sw_free((void *)(uintptr_t)shape->source.bytes);
   sw_free(shape);
 }
 
@@ -66,6 +90,38 @@ void sw_shape_triangles(const sw_shape *shape, const double **vertices, size_t *
   *vertex_count = *triangle_count = 0;
   if (shape->class->triangles)
     shape->class->triangles(shape, vertices, vertex_count, indices, triangle_count);
+}
+
+/* --- files ------------------------------------------------------------------ */
+
+/* A count of 0 on the tape: it was made without them. */
+static void tape_source(sw_tape *t, sw_shape_source *source) {
+  void *points = (void *)(uintptr_t)source->points, *bytes = (void *)(uintptr_t)source->bytes;
+  sw_tape_count(t, &source->point_count, 3 * sizeof(double));
+  sw_tape_count(t, &source->byte_count, 1);
+  sw_tape_optional(t, &points, source->point_count, 3 * sizeof(double));
+  sw_tape_optional(t, &bytes, source->byte_count, 1);
+  source->points = points, source->bytes = bytes;
+}
+
+void sw_tape_shape(sw_tape *t, sw_shape **shape) {
+  char word[SW_NAME_SIZE];
+  sw_shape_args args = {0};
+  sw_shape_source source = {0};
+  if (!sw_tape_reads(t)) args = (*shape)->args, source = (*shape)->source;
+  SW_TAPE_STRUCT(t, sw_shape_args, 64);
+  SW_TAPE_STRUCT(t, sw_shape_source, 32);
+  const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : (*shape)->class->kind, word);
+  sw_tape_raw(t, &args, sizeof args);
+  tape_source(t, &source);
+  if (!sw_tape_reads(t)) return;
+  *shape = NULL;
+  const sw_shape_class *class = sw_shape_class_find(kind);
+  sw_tape_expect(t, class != NULL, "a shape of an unknown kind");
+  if (class && sw_tape_good(t)) t->status = sw_params_check(&class->params, &args, 0, t->err);
+  if (class && sw_tape_good(t)) t->status = sw_shape_new(class, &args, &source, shape, t->err);
+  sw_free((void *)(uintptr_t)source.points);
+  sw_free((void *)(uintptr_t)source.bytes);
 }
 
 /* --- queries -------------------------------------------------------------- */

@@ -9,6 +9,7 @@
 
 #include "base/param.h"
 #include "base/status.h"
+#include "base/tape.h"
 #include "base/vec.h"
 
 typedef struct sw_shape sw_shape;
@@ -99,6 +100,9 @@ const char *sw_shape_kind(const sw_shape *shape); /* "box", "mesh", ... */
  * (m x 3); both stay the shape's. Counts of 0 for the other kinds. */
 void sw_shape_triangles(const sw_shape *shape, const double **vertices, size_t *vertex_count,
                         const int **indices, size_t *triangle_count);
+
+/* A shape; reading makes it anew from what it was made from, which gives the same bits. */
+void sw_tape_shape(sw_tape *tape, sw_shape **shape);
 
 sw_shape *sw_shape_retain(sw_shape *shape); /* NULL gives NULL */
 void sw_shape_release(sw_shape *shape);     /* NULL is allowed */

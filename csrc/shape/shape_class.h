@@ -10,6 +10,8 @@ struct sw_shape {
   const sw_shape_class *class;
   long references; /* [-] */
   sw_bounds bounds;
+  sw_shape_args args;     /* what it was made from, to be made again from a file, */
+  sw_shape_source source; /* the shape's own copies */
 };
 
 /* A segment on the way from a0-b0 to a1-b1. */

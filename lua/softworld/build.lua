@@ -14,7 +14,7 @@ function build.data(scene)
   local data = core.data(scene)
   if not data.wires then
     data.wires, data.particles, data.obstacles, data.holds = {}, {}, {}, {}
-    data.grippers, data.processes, data.fixings = {}, {}, {}
+    data.grippers, data.processes, data.joins, data.fixings = {}, {}, {}, {}
     data.restores = 0 -- how often a snapshot was restored
   end
   return data
@@ -40,6 +40,7 @@ function build.check(scene, what, level)
     error(("%s: scene '%s' cannot be changed from inside a step or a function of time")
       :format(what, scene.name), level)
   end
+  if build.guard then build.guard(what) end -- of processes whose steps are kept
 end
 
 local function copy(t)
@@ -261,7 +262,10 @@ local new_join = class.scene.join
 -- where they meet; see help "join".
 function class.scene.join(scene, args)
   build.check(scene, "scene:join", 3)
-  return (build.call(3, new_join, scene, args))
+  local join = build.call(3, new_join, scene, args)
+  local data = build.data(scene)
+  data.joins[#data.joins + 1] = { object = join, name = join.name }
+  return join
 end
 
 local new_force = class.scene.force
@@ -306,8 +310,9 @@ function class.scene.restore(scene, snapshot)
     error("scene:restore expects a snapshot, got " .. (core.type(snapshot) or type(snapshot)), 2)
   end
   build.call(3, restore, scene, snapshot)
-  data.restores = data.restores + 1
+  data.restores, data.going = data.restores + 1, nil
   data.holds, data.obstacles = keep_existing(data.holds), keep_existing(data.obstacles)
+  data.joins = keep_existing(data.joins)
   data.fixings = keep_existing(data.fixings)
   for _, process in ipairs(data.processes) do process:finish() end
   data.processes = {}

@@ -21,6 +21,7 @@
 -- it never follows from E and nu, which a bundle of strands does not have.
 -- @module softworld.cable
 local core = require "softworld.core"
+local keep = require "softworld.keep"
 local bendrule = require "softworld.bendrule"
 local material = require "softworld.material"
 local stranding = require "softworld.stranding"
@@ -28,6 +29,7 @@ local stranding = require "softworld.stranding"
 local cable = { flags = { "measured", "computed", "guessed" }, twist_ratio = 1.25 }
 local Entry = { __name = "cable" }
 Entry.__index = Entry
+keep.class("cable", Entry)
 
 local files = { "gxl", "flry", "h07v", "identified" }
 local by_name, names

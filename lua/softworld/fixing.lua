@@ -5,6 +5,7 @@
 local core = require "softworld.core"
 local build = require "softworld.build"
 local checks = require "softworld.checks"
+local keep = require "softworld.keep"
 
 local fixing = {}
 
@@ -109,6 +110,7 @@ function fixing.class(kind, properties, own)
     table.sort(names)
     return names
   end
+  keep.class(kind, class)
   return class
 end
 

@@ -19,12 +19,14 @@ local core = require "softworld.core"
 local build = require "softworld.build"
 local checks = require "softworld.checks"
 local grasp = require "softworld.grasp"
+local keep = require "softworld.keep"
 local measures = require "softworld.gripmeasures"
 local pads = require "softworld.pads"
 local process = require "softworld.process"
 local trajectory = require "softworld.trajectory"
 
 local Gripper = { __name = "gripper" }
+keep.class("gripper", Gripper)
 local check_keys, vector = checks.keys, checks.vector
 
 for _, part in ipairs{ grasp, measures } do
@@ -91,6 +93,7 @@ local function needs_pose(self, verb)
   if getmetatable(self) ~= Gripper then
     error(("gripper:%s is a method: call it with a colon"):format(verb), 3)
   end
+  process.guard("gripper:" .. verb)
   grasp.check_scene(self, 4)
   if self.hold and not self.tool then return self.hold end
   if not self.tool and (self.at or self.rotation) then grasp.make_tool(self, 4) end

@@ -45,7 +45,19 @@ scene:process(function(p) ... end)
   p:wait(seconds)
   p:feed(feed, { length = [m], speed = [m/s] })
   p:wait_until(function() return ... end, { timeout = [s] })   true, or false after the timeout
+  p:step("name", function() ... end)   a step that a saved run begins again after; see help 'save'
   grippers' move and rotate return when they are done]],
+  save = [[
+scene:save "file.sws"              everything that the scene is; not while processes are under way
+local scene = sw.load "file.sws"   it again; scene:find "name" gives what is in it, scene:names() all
+scene:run{ save = "file.sws" }     writes it after every step (p:step) of the processes
+scene:run{ resume = "file.sws" }   goes on from the file, if it is there, and leaves out the steps that
+                                   are done; with the same bits, on the same kind of machine
+scene:resume "file.sws"            the same before the run: true, or false when there is no such file
+A script that goes on must build the same scene and processes again; between steps a process may
+compute and print, not let time pass or change the scene. p:step returns what its function returned,
+also when it was left out. Lua functions as forces, and trajectories by a Lua function that is under
+way, cannot be saved.]],
   snapshot = [[
 local before = scene:snapshot()   the scene as it is
 scene:restore(before)             back to it, bit by bit, as often as wanted]],

@@ -33,9 +33,13 @@ require "softworld.clipping" -- gripper:clip
 require "softworld.channel"  -- scene:channel
 require "softworld.tie"      -- scene:tie
 require "softworld.settle"   -- scene:settle with error bars
+local save = require "softworld.save" -- scene:save, scene:resume, scene:find
 
 --- A new scene. { name =, gravity = {x, y, z} [m/s2] }
 function sw.scene(args) return core.scene(args) end
+
+--- The scene that scene:save has written to a file, or a run with save = file.
+function sw.load(file) return save.load(file) end
 
 --- The names of all cables of the catalogue; print shows them as a table.
 function sw.cables() return sw.cable.list() end

@@ -6,9 +6,11 @@
 --     scene:process(function(p)
 --       p:wait(0.5)
 --       p:wait_until(function() return left:force()[3] > 0.2 end, { timeout = 2 })
+--       p:step("lay", function() left:move{ by = {0.3, 0, 0}, speed = 0.2 } end)
 --     end)
 --
--- A process that yields by itself goes on after the next step.
+-- A process that yields by itself goes on after the next step. Named steps (p:step) are what a
+-- file of the scene can begin again after: see softworld.save.
 -- @module softworld.process
 local core = require "softworld.core"
 local build = require "softworld.build"
@@ -44,8 +46,31 @@ local function check_inside(self, what)
   end
 end
 
+-- The steps of a process that are done, in order.
+local function done_of(self)
+  local data = build.data(self.scene)
+  data.done = data.done or {}
+  data.done[self.number] = data.done[self.number] or {}
+  return data.done[self.number]
+end
+
+--- Raise when the process that is running is between two steps and these are kept in a file: what
+-- happens there would happen again when a script goes on from the file.
+function process.guard(what)
+  local self = process.current()
+  if not self or self.inside then return end
+  local data = build.data(self.scene)
+  if not data.saving and self.steps >= #done_of(self) then return end
+  error(("%s: this is between two steps of %s, and what happens there would happen again when the "
+    .. "scene goes on from its file; put it into a step: p:step('name', function() ... end)")
+    :format(what, tostring(self)), 0)
+end
+
+build.guard = process.guard
+
 -- Sleep until the scene's time reaches wake [s].
 function process.sleep_until(self, wake)
+  if not process.reached(self.scene, wake) then process.guard "to let time pass" end
   while not process.reached(self.scene, wake) do
     self.wake = wake
     coroutine.yield()
@@ -89,6 +114,7 @@ function Process:wait_until(condition, options)
   end
   local last = self.scene.time + timeout_of(options)
   check_inside(self, "p:wait_until")
+  process.guard "p:wait_until"
   while not condition() do
     if process.reached(self.scene, last) then return false end
     self.watching, self.wake = true, last
@@ -105,6 +131,47 @@ function Process:feed(feed, args)
   end
   check_inside(self, "p:feed")
   process.sleep_until(self, self.scene.time + build.call(3, feed.feed, feed, args))
+end
+
+local function check_step(self, name, work)
+  if type(name) ~= "string" or name == "" then
+    error(("p:step expects a name and a function, got %s"):format(name == "" and "''" or type(name)), 3)
+  end
+  if type(work) ~= "function" then
+    error(("p:step '%s' expects a function, got %s"):format(name, type(work)), 3)
+  end
+  check_inside(self, "p:step")
+  if self.inside then
+    error(("p:step '%s' begins inside of step '%s'; steps follow one another"):format(name,
+      self.inside), 3)
+  end
+end
+
+-- What the step returned when it was done, before the file was written.
+local function recall(self, name, old)
+  if old.name == name then return table.unpack(old.results, 1, old.count) end
+  error(("p:step '%s': the file '%s' has '%s' as step %d of %s; a script that goes on must have the "
+    .. "same steps"):format(name, tostring(build.data(self.scene).from_file), tostring(old.name),
+    self.steps, tostring(self)), 3)
+end
+
+--- A named step of the process: work() is called and may let time pass. A run with save = file
+-- writes the scene after it; a script that goes on from the file leaves the step out. What
+-- work returns is returned, and kept in the file: numbers, strings, tables of these, objects.
+function Process:step(name, work)
+  check_step(self, name, work)
+  local done = done_of(self)
+  self.steps = self.steps + 1
+  if done[self.steps] then return recall(self, name, done[self.steps]) end
+  self.inside = name
+  local results = table.pack(work())
+  self.inside = nil
+  local count = results.n
+  results.n = nil
+  done[self.steps] = { name = name, results = results, count = count }
+  self.between, self.wake = true, self.scene.time -- all that end a step now do so before any goes on
+  coroutine.yield()
+  return table.unpack(results, 1, count)
 end
 
 --- End the process where it waits.
@@ -125,8 +192,13 @@ function core.class.scene.process(scene, body)
   end
   local data = build.data(scene)
   data.process_count = (data.process_count or 0) + 1
-  local self = setmetatable({ scene = scene, number = data.process_count, body = body }, Process)
+  local self = setmetatable({ scene = scene, number = data.process_count, body = body,
+    steps = 0 }, Process)
   self.thread = coroutine.create(body)
+  if not data.from_file then -- of an earlier process of this number nothing is done
+    if data.done then data.done[self.number] = nil end
+    if data.ended then data.ended[self.number] = nil end
+  end
   current[self.thread] = self
   data.processes[#data.processes + 1] = self
   return self
@@ -171,8 +243,20 @@ local function place_in(thread)
   return ""
 end
 
+-- A process that has come to its end must have had all the steps that the file has.
+local function check_end(self)
+  local done, data = done_of(self), build.data(self.scene)
+  if self.steps < #done then
+    error(("%s has ended before step '%s', which the file '%s' has; a script that goes on must have "
+      .. "the same steps"):format(tostring(self), tostring(done[self.steps + 1].name),
+      tostring(data.from_file)), 0)
+  end
+  data.ended = data.ended or {}
+  data.ended[self.number] = true
+end
+
 local function resume(self)
-  self.wake, self.watching, self.begun = nil, nil, true
+  self.wake, self.watching, self.begun, self.between = nil, nil, true, nil
   local ok, message = coroutine.resume(self.thread, self)
   if not ok then
     self.failed, self.traceback = true, debug.traceback(self.thread)
@@ -181,25 +265,64 @@ local function resume(self)
     end
     error(message, 0)
   end
+  if coroutine.status(self.thread) == "dead" then check_end(self) end
   if not self.wake then self.watching, self.wake = true, math.huge end -- a plain yield
+end
+
+local function is_due(p, second)
+  if coroutine.status(p.thread) ~= "suspended" then return false end
+  if second then return p.between or not p.begun end
+  return not p.wake or p.watching or process.reached(p.scene, p.wake)
+end
+
+-- Let those go on whose time has come; second: those that ended a step just now.
+local function go_on(data, second)
+  local alive, wake, watching, between, inside = {}, math.huge, false, false, false
+  for _, p in ipairs(data.processes) do
+    if is_due(p, second) then resume(p) end
+    if coroutine.status(p.thread) == "suspended" then
+      alive[#alive + 1] = p
+      wake = math.min(wake, p.wake)
+      watching = watching or p.watching or false
+      between = between or p.between or false
+      inside = inside or not p.between
+    end
+  end
+  data.processes = alive
+  return wake, watching, between, inside
 end
 
 --- Let every process whose time has come go on. Returns the number of living
 -- processes, the next wake-up time [s] and whether one watches a condition.
 function process.step(scene)
-  local alive, wake, watching = {}, math.huge, false
+  local data = build.data(scene)
+  local wake, watching, between, inside = go_on(data, false)
+  while between do
+    if data.saving and not inside then data.saving() end
+    wake, watching, between, inside = go_on(data, true)
+  end
+  return #data.processes, wake, watching
+end
+
+--- After a file was read: processes that had ended without steps are not to begin again.
+function process.take_up(scene)
   local data = build.data(scene)
   for _, p in ipairs(data.processes) do
-    local waits = coroutine.status(p.thread) == "suspended"
-    if waits and (not p.wake or p.watching or process.reached(scene, p.wake)) then resume(p) end
-    if coroutine.status(p.thread) == "suspended" then
-      alive[#alive + 1] = p
-      wake = math.min(wake, p.wake)
-      watching = watching or p.watching or false
+    if data.ended and data.ended[p.number] and #done_of(p) == 0 then p:finish() end
+  end
+end
+
+--- Before a run: every process whose steps the file has must be there.
+function process.check_steps(scene)
+  local data = build.data(scene)
+  process.take_up(scene)
+  for number, done in pairs(data.done or {}) do
+    if #done > 0 and number > (data.process_count or 0) then
+      error(("scene:run: the file '%s' has process %d with step '%s', which this script has not made; "
+        .. "make all processes before the run that goes on"):format(tostring(data.from_file), number,
+        tostring(done[1].name)), 0)
     end
   end
-  data.processes = alive
-  return #alive, wake, watching
 end
 
 return process

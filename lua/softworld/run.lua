@@ -7,6 +7,7 @@ local grasp = require "softworld.grasp"
 local process = require "softworld.process"
 local number = require "softworld.output.number"
 local refine = require "softworld.refine"
+local save = require "softworld.save"
 local trust = require "softworld.trust"
 local fixing = require "softworld.fixing"
 local progress = require "softworld.output.progress"
@@ -38,13 +39,13 @@ local advance = core.class.scene.advance
 
 -- Advance until the end of time or of the processes.
 local function drive(scene, args, total, bar)
-  local start = scene.time
+  local start = total.start
   local stop = args.duration and start + args.duration or math.huge
   local options = {}
   for k, v in pairs(args) do options[k] = v end
-  options.progress, options.duration = nil, nil
+  options.progress, options.duration, options.save, options.resume = nil, nil, nil, nil
   options.frame = options.frame or default_frame
-  local left = args.max_steps or math.huge
+  local left = (args.max_steps or math.huge) - total.steps
   while true do
     local alive, wake, watching = process.step(scene)
     if stop == math.huge and alive == 0 then return "all processes have ended" end
@@ -69,16 +70,24 @@ end
 -- One run; level names it where it is one of several.
 local function run_once(scene, args, level)
   local data = build.data(scene)
-  local total = { steps = 0, rejected = 0, iterations = 0, evaluations = 0, jumps = 0,
-    smallest_dt = math.huge, ok = true, reason = "", time = scene.time, start = scene.time }
-  core.begin_run(scene)
-  local wall, cpu = core.clock(), os.clock()
+  local total = data.going or { steps = 0, rejected = 0, iterations = 0, evaluations = 0, jumps = 0,
+    smallest_dt = math.huge, ok = true, reason = "", time = scene.time, start = scene.time,
+    wall = 0, cpu = 0 }
+  process.check_steps(scene)
+  data.origin = data.origin or save.origin(scene)
+  if not data.going then core.begin_run(scene) end -- else the run of the file goes on
+  data.going = nil
+  local wall, cpu = core.clock() - total.wall, os.clock() - total.cpu
   local fine, reason
   do -- protected: a coroutine that dies by an error leaves its variables unclosed
     local bar <close> = new_bar(args, scene, level)
     data.running = true
+    data.saving = args.save and function()
+      total.wall, total.cpu = core.clock() - wall, os.clock() - cpu
+      save.write(scene, args.save, total)
+    end
     fine, reason = pcall(drive, scene, args, total, bar)
-    data.running = nil
+    data.running, data.saving = nil, nil
     if fine and total.ok then bar:finish() elseif fine then bar:fail(reason) end
   end
   if not fine then error(reason, 0) end
@@ -95,8 +104,32 @@ local function check_start(scene, args)
     error(("scene:run: a run of scene '%s' is under way; a process lets time pass by waiting")
       :format(scene.name), 0)
   end
-  if not args.duration and #data.processes == 0 then
+  if not args.duration and #data.processes == 0 and not data.going then
     error("scene:run: there is no process that could end; give duration [s]", 0)
+  end
+  if args.save ~= nil and #data.processes == 0 and not data.going then
+    error("scene:run: save: the scene is written after the steps of processes, and there is none; "
+      .. "scene:save(file) writes it at once", 0)
+  end
+end
+
+-- The files that it is to be written to and to go on from.
+local function check_files(scene, args)
+  if trust.wanted(args) and build.data(scene).from_file then
+    error(("scene:run: tolerance: error bars need the whole computation, and scene '%s' goes on from the "
+      .. "file '%s'; give dt [s], or tolerance as a number [m]"):format(scene.name,
+      build.data(scene).from_file), 0)
+  end
+  for _, key in ipairs{ "save", "resume" } do
+    local file = args[key]
+    if file ~= nil and (type(file) ~= "string" or file == "") then
+      error(("scene:run: %s: the name of a file is wanted, got %s"):format(key,
+        file == "" and "''" or type(file)), 0)
+    end
+    if file ~= nil and trust.wanted(args) then
+      error(("scene:run: %s does not go with a table of quantities as tolerance, which runs the scene "
+        .. "several times; give dt [s], or tolerance as a number [m]"):format(key), 0)
+    end
   end
 end
 
@@ -108,10 +141,13 @@ end
 function core.class.scene.run(scene, args)
   build.check(scene, "scene:run", 3)
   if args == nil then args = {} end
+  if type(args) == "table" then build.call(3, check_files, scene, args) end
   if trust.wanted(args) then
     local job, steps = build.call(3, refine.job, scene, args, check_start)
     return build.call(3, refine.run, job, steps, run_once)
   end
+  build.call(3, core.check_run, args)
+  if args.resume ~= nil then build.call(3, save.resume, scene, args.resume) end
   build.call(3, check_start, scene, args)
   return run_once(scene, args)
 end

@@ -3,6 +3,7 @@
 -- @module softworld.settle
 local core = require "softworld.core"
 local build = require "softworld.build"
+local process = require "softworld.process"
 local trust = require "softworld.trust"
 
 local Settled = { __name = "settled" }
@@ -63,6 +64,7 @@ end
 -- quantities as tolerance the result has error bars, see help "tolerance"; progress =
 -- true then tells every level.
 function core.class.scene.settle(scene, args)
+  process.guard "scene:settle"
   if not trust.wanted(args) then return settle(scene, args) end
   build.check(scene, "scene:settle", 3)
   return build.call(3, with_bars, scene, args)

@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/tape.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+
+sw_tape sw_tape_writer(sw_error *err) { return (sw_tape){.mode = SW_TAPE_WRITE, .err = err}; }
+
+sw_tape sw_tape_reader(const void *bytes, size_t size, sw_error *err) {
+  return (sw_tape){.mode = SW_TAPE_READ, .from = bytes, .size = size, .err = err};
+}
+
+sw_tape sw_tape_summer(void) { return (sw_tape){.mode = SW_TAPE_SUM, .sum = SW_SUM_START}; }
+
+void sw_tape_free(sw_tape *t) {
+  sw_free(t->bytes);
+  t->bytes = NULL;
+  t->size = t->capacity = 0;
+}
+
+uint64_t sw_sum(uint64_t sum, const void *bytes, size_t size) {
+  const unsigned char *p = bytes;
+  for (size_t i = 0; i < size; i++) sum = (sum ^ p[i]) * 1099511628211u;
+  return sum;
+}
+
+void sw_tape_fail(sw_tape *t, sw_status status) {
+  if (t->status != SW_OK) return;
+  t->status = status;
+  if (status == SW_ENOMEM) sw_fail(t->err, status, "out of memory");
+}
+
+void sw_tape_damaged(sw_tape *t, const char *format, ...) {
+  if (t->status != SW_OK) return;
+  char text[200];
+  va_list args;
+  va_start(args, format);
+  vsnprintf(text, sizeof text, format, args);
+  va_end(args);
+  t->status = sw_fail(t->err, SW_EFORMAT, "its content makes no sense (%s)", text);
+}
+
+void sw_tape_expect(sw_tape *t, int good, const char *what) {
+  if (sw_tape_reads(t) && sw_tape_good(t) && !good) sw_tape_damaged(t, "%s", what);
+}
+
+void sw_tape_raw(sw_tape *t, void *p, size_t bytes) {
+  if (t->mode == SW_TAPE_SUM) {
+    t->sum = sw_sum(t->sum, p, bytes);
+  } else if (sw_tape_reads(t)) {
+    if (sw_tape_good(t) && bytes > t->size - t->at) sw_tape_damaged(t, "it ends too early");
+    if (!sw_tape_good(t)) {
+      memset(p, 0, bytes);
+      return;
+    }
+    if (bytes) memcpy(p, (const unsigned char *)t->from + t->at, bytes);
+    t->at += bytes;
+  } else if (sw_tape_good(t)) {
+    if (sw_grow((void **)&t->bytes, &t->capacity, t->size + bytes, 1) != SW_OK) {
+      sw_tape_fail(t, SW_ENOMEM);
+      return;
+    }
+    if (bytes) memcpy(t->bytes + t->size, p, bytes);
+    t->size += bytes;
+  }
+}
+
+void sw_tape_double(sw_tape *t, double *x) { sw_tape_raw(t, x, sizeof *x); }
+void sw_tape_int(sw_tape *t, int *x) { sw_tape_raw(t, x, sizeof *x); }
+void sw_tape_uint32(sw_tape *t, uint32_t *x) { sw_tape_raw(t, x, sizeof *x); }
+void sw_tape_vec(sw_tape *t, sw_vec *x) { sw_tape_raw(t, x, sizeof *x); }
+void sw_tape_quat(sw_tape *t, sw_quat *x) { sw_tape_raw(t, x, sizeof *x); }
+void sw_tape_pose(sw_tape *t, sw_pose *x) { sw_tape_raw(t, x, sizeof *x); }
+void sw_tape_size(sw_tape *t, size_t *x) { sw_tape_raw(t, x, sizeof *x); }
+void sw_tape_long(sw_tape *t, long *x) { sw_tape_raw(t, x, sizeof *x); }
+
+/* What follows a name's end does not count, and must not make files differ. */
+void sw_tape_name(sw_tape *t, char *x) {
+  char clean[SW_NAME_SIZE] = {0};
+  if (!sw_tape_reads(t)) memcpy(clean, x, strnlen(x, SW_NAME_SIZE - 1));
+  sw_tape_raw(t, clean, sizeof clean);
+  clean[SW_NAME_SIZE - 1] = '\0';
+  if (sw_tape_reads(t)) memcpy(x, clean, sizeof clean);
+}
+
+const char *sw_tape_word(sw_tape *t, const char *word, char *buffer) {
+  if (!sw_tape_reads(t)) snprintf(buffer, SW_NAME_SIZE, "%s", word ? word : "");
+  sw_tape_name(t, buffer);
+  return buffer;
+}
+
+void sw_tape_mark(sw_tape *t, const char *what, size_t size) {
+  uint32_t here = (uint32_t)size;
+  sw_tape_uint32(t, &here);
+  if (sw_tape_reads(t) && sw_tape_good(t) && here != size)
+    t->status = sw_fail(t->err, SW_EFORMAT,
+                        "it was written by another version of SoftWorld (%s has %lu bytes there, "
+                        "%zu here)",
+                        what, (unsigned long)here, size);
+}
+
+void sw_tape_count(sw_tape *t, size_t *count, size_t least) {
+  sw_tape_size(t, count);
+  if (sw_tape_reads(t) && *count > (t->size - t->at) / least) {
+    sw_tape_damaged(t, "a list of %zu things does not fit into it", *count);
+    *count = 0;
+  }
+}
+
+void sw_tape_array(sw_tape *t, void *items_pointer, size_t count, size_t item) {
+  void **items = items_pointer;
+  sw_tape_mark(t, "an item", item);
+  if (!sw_tape_reads(t)) {
+    if (count) sw_tape_raw(t, *items, count * item);
+    return;
+  }
+  *items = NULL;
+  if (sw_tape_good(t) && count > (t->size - t->at) / item)
+    sw_tape_damaged(t, "a list of %zu items does not fit into it", count);
+  if (!sw_tape_good(t)) return;
+  *items = sw_alloc(count, item);
+  if (!*items)
+    sw_tape_fail(t, SW_ENOMEM);
+  else
+    sw_tape_raw(t, *items, count * item);
+}
+
+void sw_tape_optional(sw_tape *t, void *items_pointer, size_t count, size_t item) {
+  void **items = items_pointer;
+  int there = !sw_tape_reads(t) && *items != NULL;
+  sw_tape_int(t, &there);
+  if (there)
+    sw_tape_array(t, items_pointer, count, item);
+  else if (sw_tape_reads(t))
+    *items = NULL;
+}
+
+void sw_tape_finite(sw_tape *t, const double *x, size_t count, const char *what) {
+  if (!sw_tape_reads(t) || !sw_tape_good(t)) return;
+  for (size_t i = 0; i < count; i++)
+    if (!isfinite(x[i])) {
+      sw_tape_damaged(t, "%s: number %zu is not finite", what, i + 1);
+      return;
+    }
+}

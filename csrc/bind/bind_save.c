@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Scenes as strings, which the Lua side writes to files and reads from them, and the numbers by
+ * which objects are found again. */
+#include <string.h>
+
+#include "bind/child.h"
+#include "bind/module.h"
+
+typedef struct block {
+  unsigned char *bytes;
+  size_t size;
+} block;
+
+static int push_block(lua_State *L) {
+  const block *b = lua_touserdata(L, 1);
+  lua_pushlstring(L, (const char *)b->bytes, b->size);
+  return 1;
+}
+
+static sw_scene *check_scene(lua_State *L) {
+  return ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
+}
+
+/* core.save(scene, note) -> string */
+static int mod_save(lua_State *L) {
+  sw_scene *scene = check_scene(L);
+  sw_error err = {""};
+  block b = {NULL, 0};
+  size_t note_size;
+  const char *note = luaL_checklstring(L, 2, &note_size);
+  lsw_must(L, sw_scene_save(scene, note, note_size, &b.bytes, &b.size, &err), &err);
+  lua_pushcfunction(L, push_block); /* protected: the block must be freed whatever happens */
+  lua_pushlightuserdata(L, &b);
+  const int status = lua_pcall(L, 1, 1, 0);
+  sw_free(b.bytes);
+  return status == LUA_OK ? 1 : lua_error(L);
+}
+
+/* core.saved_note(string) -> the note */
+static int mod_saved_note(lua_State *L) {
+  size_t size, note_size;
+  const void *note;
+  sw_error err = {""};
+  const char *bytes = luaL_checklstring(L, 1, &size);
+  lsw_must(L, sw_saved_note(bytes, size, &note, &note_size, &err), &err);
+  lua_pushlstring(L, note, note_size);
+  return 1;
+}
+
+/* core.load(string) -> scene */
+static int mod_load(lua_State *L) {
+  size_t size;
+  sw_scene *scene = NULL;
+  sw_error err = {""};
+  const char *bytes = luaL_checklstring(L, 1, &size);
+  lsw_handle *h = lsw_new_scene(L);
+  lsw_must(L, sw_scene_load(bytes, size, &scene, &err), &err);
+  h->object = scene;
+  return 1;
+}
+
+/* core.resume(scene, string) */
+static int mod_resume(lua_State *L) {
+  sw_scene *scene = check_scene(L);
+  size_t size;
+  sw_error err = {""};
+  const char *bytes = luaL_checklstring(L, 2, &size);
+  lsw_must(L, sw_scene_resume(scene, bytes, size, &err), &err);
+  lsw_forget_forces(L, 1, scene);
+  return 0;
+}
+
+/* core.items(scene) -> { "wire 'a'", sum, "box 'b'", sum, ... } */
+static int mod_items(lua_State *L) {
+  sw_scene *scene = check_scene(L);
+  lua_newtable(L);
+  for (size_t k = 0; k < sw_scene_items(scene); k++) {
+    const sw_scene_item item = sw_scene_item_at(scene, k);
+    lua_pushfstring(L, "%s '%s'", item.kind, item.name);
+    lua_rawseti(L, -2, 2 * (lua_Integer)k + 1);
+    lua_pushinteger(L, (lua_Integer)item.sum);
+    lua_rawseti(L, -2, 2 * (lua_Integer)k + 2);
+  }
+  return 1;
+}
+
+static const lsw_class *const children[] = {
+    &lsw_class_wire,  &lsw_class_particles, &lsw_class_clamp, &lsw_class_obstacle,
+    &lsw_class_force, &lsw_class_join,      &lsw_class_tool};
+enum { CHILDREN = sizeof children / sizeof children[0] };
+
+/* core.number(object) -> class, slot, generation, scene; nothing for what is none of a scene's */
+static int mod_number(lua_State *L) {
+  const lsw_class *c = lsw_class_of(L, 1);
+  for (int k = 0; c && k < CHILDREN; k++) {
+    if (children[k] != c) continue;
+    const lsw_child *child = lua_touserdata(L, 1);
+    lua_pushstring(L, c->name);
+    lua_pushinteger(L, child->id.slot);
+    lua_pushinteger(L, child->id.generation);
+    lua_getiuservalue(L, 1, 1);
+    return 4;
+  }
+  return 0;
+}
+
+/* core.numbered(scene, class, slot, generation) -> the object of that number, which the scene
+ * may not have */
+static int mod_numbered(lua_State *L) {
+  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  const char *name = luaL_checkstring(L, 2);
+  const lua_Integer slot = luaL_checkinteger(L, 3), generation = luaL_checkinteger(L, 4);
+  for (int k = 0; k < CHILDREN; k++) {
+    if (strcmp(children[k]->name, name) != 0) continue;
+    lsw_child *child = lsw_new_child(L, 1, children[k]);
+    child->id = (sw_handle){(uint32_t)slot, (uint32_t)generation};
+    child->h.object = owner;
+    return 1;
+  }
+  return luaL_error(L, "a scene has no objects of class '%s'", name);
+}
+
+static const luaL_Reg functions[] = {{"save", mod_save},         {"saved_note", mod_saved_note},
+                                     {"load", mod_load},         {"resume", mod_resume},
+                                     {"items", mod_items},       {"number", mod_number},
+                                     {"numbered", mod_numbered}, {NULL, NULL}};
+
+void lsw_open_save(lua_State *L) { luaL_setfuncs(L, functions, 0); }

@@ -1,0 +1,377 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The objects of a scene on a tape, field by field. */
+#include <string.h>
+
+#include "base/alloc.h"
+#include "force/solid.h"
+#include "scene/save.h"
+#include "state/state_tape.h"
+
+#define DOUBLE(field) sw_tape_double(t, &x->field)
+#define INT(field) sw_tape_int(t, &x->field)
+#define SIZE(field) sw_tape_size(t, &x->field)
+#define UINT32(field) sw_tape_uint32(t, &x->field)
+#define VEC(field) sw_tape_vec(t, &x->field)
+#define QUAT(field) sw_tape_quat(t, &x->field)
+#define POSE(field) sw_tape_pose(t, &x->field)
+#define NAME(field) sw_tape_name(t, x->field)
+
+void sw_tape_extreme(sw_tape *t, sw_extreme *x) {
+  SW_TAPE_STRUCT(t, sw_extreme, 24);
+  DOUBLE(value), DOUBLE(s), DOUBLE(time);
+}
+
+static void tape_log(sw_tape *t, sw_log *x) {
+  SW_TAPE_STRUCT(t, sw_log, 24);
+  sw_tape_count(t, &x->count, sizeof *x->rows);
+  SW_TAPE_ARRAY(t, x->rows, x->count);
+  if (sw_tape_reads(t)) x->capacity = x->rows ? x->count : 0;
+}
+
+/* A function that is over stands where it ended; one under way is refused before. */
+static void tape_drive(sw_tape *t, sw_scene *s, sw_drive *x) {
+  sw_drive now = *x;
+  sw_motion_state at;
+  SW_TAPE_STRUCT(t, sw_drive, 104);
+  if (!sw_tape_reads(t) && x->motion && sw_motion_is_function(x->motion)) {
+    const sw_status status = sw_drive_eval(s, x, s->time, &at, t->err);
+    if (status != SW_OK) sw_tape_fail(t, status);
+    now = (sw_drive){.pose = at.pose};
+  }
+  sw_tape_pose(t, &now.pose);
+  sw_tape_double(t, &now.start);
+  sw_tape_size(t, &now.tool), sw_tape_vec(t, &now.opens);
+  sw_tape_motion(t, &now.motion);
+  if (!sw_tape_reads(t)) return;
+  *x = now;
+  const double q = x->pose.q.w + x->pose.q.x + x->pose.q.y + x->pose.q.z;
+  sw_tape_expect(t, sw_finite(x->pose.p) && isfinite(q) && isfinite(x->start), "a place");
+  sw_tape_expect(t, sw_finite(x->opens), "a place");
+}
+
+/* --- wires ------------------------------------------------------------------------- */
+
+static void tape_extremes(sw_tape *t, sw_wire_extremes *x) {
+  SW_TAPE_STRUCT(t, sw_wire_extremes, 120);
+  sw_tape_extreme(t, &x->curvature), sw_tape_extreme(t, &x->tension);
+  sw_tape_extreme(t, &x->strain), sw_tape_extreme(t, &x->folding);
+  sw_tape_extreme(t, &x->ovalisation);
+}
+
+static void tape_drawing(sw_tape *t, sw_drawing *x) {
+  SW_TAPE_STRUCT(t, sw_drawing, 64);
+  sw_tape_count(t, &x->count, 3 * sizeof *x->points);
+  SW_TAPE_OPTIONAL(t, x->points, 3 * x->count);
+  DOUBLE(length), VEC(normal), INT(rest), INT(rolls), DOUBLE(rest_twist);
+  sw_tape_expect(t, x->points || !x->count, "a wire without its drawing");
+  if (x->points) sw_tape_finite(t, x->points, 3 * x->count, "a wire's drawing");
+}
+
+static void tape_kit(sw_tape *t, sw_strand_kit **kit) {
+  int there = !sw_tape_reads(t) && *kit != NULL;
+  SW_TAPE_STRUCT(t, sw_strand_kit, 1296);
+  sw_tape_int(t, &there);
+  if (!there) return;
+  if (sw_tape_reads(t)) {
+    *kit = sw_tape_good(t) ? sw_alloc(1, sizeof **kit) : NULL;
+    if (!*kit) {
+      sw_tape_fail(t, SW_ENOMEM);
+      return;
+    }
+    (*kit)->references = 1;
+  }
+  sw_tape_calibration(t, &(*kit)->calibration);
+}
+
+void sw_tape_strand(sw_tape *t, sw_strand *x) {
+  int there = !sw_tape_reads(t) && x->web != NULL;
+  SW_TAPE_STRUCT(t, sw_strand, 48);
+  SW_TAPE_STRUCT(t, sw_solid, 1632);
+  sw_tape_int(t, &there);
+  if (!there) return;
+  sw_tape_web(t, &x->web, sizeof(sw_solid));
+  tape_kit(t, &x->kit);
+  if (!sw_tape_good(t)) return;
+  const size_t n = x->web->particles;
+  SW_TAPE_ARRAY(t, x->x, 3 * n), SW_TAPE_ARRAY(t, x->v, 3 * n), SW_TAPE_ARRAY(t, x->a, 3 * n);
+  SW_TAPE_ARRAY(t, x->axial, x->web->links);
+  if (!sw_tape_reads(t) || !sw_tape_good(t)) return;
+  sw_tape_finite(t, x->x, 3 * n, "particles");
+  sw_tape_finite(t, x->v, 3 * n, "particles");
+  for (size_t k = 0; k < x->web->solids && sw_tape_good(t); k++) {
+    const sw_web_solid *e = &x->web->solid[k];
+    const sw_solid *shape = (const sw_solid *)x->web->shapes + e->shape;
+    sw_tape_expect(t, shape->nodes == (int)e->count, "an element");
+    shape += x->web->clamped_shapes;
+    sw_tape_expect(t, shape->nodes == (int)e->count, "an element");
+  }
+}
+
+void sw_tape_beam_of(sw_tape *t, sw_scene_wire *x) {
+  sw_tape_beam(t, &x->beam);
+  tape_drawing(t, &x->drawing);
+}
+
+void sw_tape_wire(sw_tape *t, sw_scene_wire *x) {
+  char word[SW_NAME_SIZE];
+  SW_TAPE_STRUCT(t, sw_scene_wire, 568);
+  SW_TAPE_STRUCT(t, sw_twisted, 24);
+  UINT32(generation), NAME(name);
+  const char *model = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
+  if (sw_tape_reads(t)) x->cls = sw_scene_body_class(model);
+  sw_tape_expect(t, x->cls != NULL, "a wire of an unknown model");
+  sw_tape_beam_of(t, x);
+  sw_tape_mesh(t, &x->mesh);
+  sw_tape_strand(t, &x->strand);
+  tape_extremes(t, &x->extremes);
+  INT(untwisted);
+  sw_tape_count(t, &x->twisted_count, sizeof *x->twisted);
+  SW_TAPE_OPTIONAL(t, x->twisted, x->twisted_count);
+  sw_tape_expect(t, x->twisted || !x->twisted_count, "a wire without its twist");
+}
+
+/* --- holds ------------------------------------------------------------------------- */
+
+void sw_tape_hold_args(sw_tape *t, sw_hold_args *x) {
+  SW_TAPE_STRUCT(t, sw_hold_args, 128);
+  DOUBLE(s), DOUBLE(width), VEC(direction), NAME(name);
+  DOUBLE(speed), DOUBLE(force), DOUBLE(force_limit);
+}
+
+static void tape_feed(sw_tape *t, sw_feed *x) {
+  int shaped = x->shape.n > 0;
+  SW_TAPE_STRUCT(t, sw_feed, 376); /* node and number are found when the scene is built */
+  INT(outward), DOUBLE(label), DOUBLE(fed), DOUBLE(since), DOUBLE(speed), DOUBLE(start);
+  sw_tape_motion(t, &x->motion);
+  DOUBLE(slip), DOUBLE(slip_since), DOUBLE(slip_speed), DOUBLE(slip_growth), DOUBLE(slip_before);
+  DOUBLE(push), DOUBLE(limit), DOUBLE(slip_way), DOUBLE(way_before);
+  DOUBLE(tried[0]), DOUBLE(tried[1]), DOUBLE(off[0]), DOUBLE(off[1]), INT(last_side);
+  DOUBLE(slope), DOUBLE(spare[0]), DOUBLE(spare[1]), DOUBLE(spare_fed[0]), DOUBLE(spare_fed[1]);
+  DOUBLE(size), DOUBLE(drive);
+  sw_tape_int(t, &shaped);
+  if (shaped) sw_tape_mesh(t, &x->shape);
+  sw_tape_expect(t, x->last_side >= -1 && x->last_side <= 1, "a feed");
+  if (!sw_tape_reads(t)) return;
+  const double all = x->label + x->fed + x->since + x->speed + x->start + x->slip + x->slip_since +
+                     x->slip_speed + x->slip_growth + x->slip_before + x->slope + x->size;
+  sw_tape_expect(t, isfinite(all + x->spare[0] + x->spare[1]), "a feed");
+}
+
+void sw_tape_hold(sw_tape *t, sw_scene *s, sw_scene_hold *x) {
+  char word[SW_NAME_SIZE];
+  SW_TAPE_STRUCT(t, sw_scene_hold, 1160);
+  UINT32(generation), INT(alive), NAME(name);
+  const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
+  if (sw_tape_reads(t)) x->cls = sw_hold_find(kind);
+  sw_tape_expect(t, x->cls != NULL, "a clamp of an unknown kind");
+  SIZE(wire), DOUBLE(scale), UINT32(shape), DOUBLE(s1), DOUBLE(s2);
+  sw_tape_hold_args(t, &x->args);
+  tape_drive(t, s, &x->drive);
+  sw_tape_count(t, &x->count, sizeof *x->s);
+  SW_TAPE_ARRAY(t, x->s, x->count), SW_TAPE_ARRAY(t, x->local, 3 * x->count);
+  SW_TAPE_OPTIONAL(t, x->particle, x->count);
+  VEC(director[0]), VEC(director[1]);
+  sw_tape_mesh_frame(t, &x->frame[0]), sw_tape_mesh_frame(t, &x->frame[1]);
+  QUAT(turn), VEC(force), VEC(moment), POSE(last_pose);
+  tape_feed(t, &x->feed);
+  tape_log(t, &x->log);
+}
+
+/* --- all else ---------------------------------------------------------------------- */
+
+void sw_tape_obstacle(sw_tape *t, sw_scene *s, sw_scene_obstacle *x) {
+  SW_TAPE_STRUCT(t, sw_scene_obstacle, 240);
+  UINT32(generation), INT(alive), NAME(name);
+  sw_tape_shape(t, &x->shape);
+  tape_drive(t, s, &x->drive);
+  DOUBLE(friction), DOUBLE(kinetic), DOUBLE(restitution), INT(off);
+  tape_log(t, &x->log);
+  sw_tape_expect(t, x->kinetic >= 0 && x->kinetic <= 100, "friction of an obstacle");
+  sw_tape_expect(t, x->friction >= 0 && x->friction <= 100, "friction of an obstacle");
+  sw_tape_expect(t, x->restitution >= 0 && x->restitution <= 1, "restitution of an obstacle");
+}
+
+void sw_tape_jaw(sw_tape *t, sw_jaw *x) {
+  SW_TAPE_STRUCT(t, sw_jaw, 128);
+  INT(mode), INT(status), DOUBLE(opening), DOUBLE(since), DOUBLE(step), DOUBLE(speed);
+  DOUBLE(most), DOUBLE(goal), DOUBLE(force), DOUBLE(now), DOUBLE(stiffness);
+  DOUBLE(tried[0]), DOUBLE(tried[1]), DOUBLE(off[0]), DOUBLE(off[1]), INT(last_side), INT(trials),
+      INT(guessed);
+  sw_tape_expect(t, x->mode >= SW_JAW_STILL && x->mode <= SW_JAW_FORCE, "jaws");
+  sw_tape_expect(t, x->status >= SW_JAW_RESTS && x->status <= SW_JAW_EMPTY, "jaws");
+  sw_tape_expect(t, x->last_side >= -1 && x->last_side <= 1, "jaws");
+  sw_tape_expect(t, isfinite(x->opening + x->since + x->speed), "jaws");
+}
+
+static void tape_tool_state(sw_tape *t, sw_tool_state *x) {
+  SW_TAPE_STRUCT(t, sw_tool_state, 216); /* what it crashed into is filled in when asked for */
+  DOUBLE(opening), INT(status), DOUBLE(squeeze), DOUBLE(normal), DOUBLE(most), DOUBLE(margin);
+  DOUBLE(sliding), DOUBLE(slip), VEC(slipped), VEC(centre), QUAT(q), DOUBLE(place);
+  DOUBLE(slip_time), DOUBLE(slip_place), INT(frozen), DOUBLE(lost_time);
+  sw_tape_expect(t, x->status >= SW_JAW_RESTS && x->status <= SW_JAW_EMPTY, "jaws");
+}
+
+void sw_tape_tool(sw_tape *t, sw_scene *s, sw_tool *x) {
+  SW_TAPE_STRUCT(t, sw_tool, 888);
+  UINT32(generation), INT(alive), NAME(name);
+  tape_drive(t, s, &x->drive);
+  sw_tape_jaw(t, &x->jaw);
+  SIZE(pads), INT(fingers), DOUBLE(limit), DOUBLE(tolerance), INT(stops);
+  sw_tape_expect(t, x->pads <= SW_TOOL_PADS, "the pads of a gripper");
+  for (size_t k = 0; k < x->pads && sw_tape_good(t); k++)
+    sw_tape_size(t, &x->pad[k].obstacle), sw_tape_int(t, &x->pad[k].finger);
+  sw_tape_frozen(t, &x->frozen);
+  SW_TAPE_STRUCT(t, sw_crash, 32);
+  DOUBLE(crash.time), DOUBLE(crash.depth), SIZE(crash.part), SIZE(crash.obstacle), INT(crashing);
+  tape_tool_state(t, &x->now);
+  tape_log(t, &x->log);
+}
+
+/* The arguments without the addresses in them, which mean nothing elsewhere. */
+static void tape_force_args(sw_tape *t, sw_scene_force *x) {
+  double args[SW_FORCE_ARGS_MAX / sizeof(double)];
+  const int some = x->cls->flags & SW_FORCE_ON_SOME;
+  sw_force_some list = {NULL, 0};
+  memcpy(args, x->args, sizeof args);
+  if (some) memcpy(&list, args, sizeof list);
+  if (some) memcpy(args, &(sw_force_some){NULL, 0}, sizeof list);
+  if (!x->cls->params.count) memset(args, 0, sizeof args); /* a function */
+  sw_tape_raw(t, args, sizeof args);
+  sw_tape_count(t, &list.count, sizeof *x->particle);
+  if (some) SW_TAPE_ARRAY(t, x->particle, list.count);
+  if (!sw_tape_reads(t)) return;
+  memcpy(x->args, args, sizeof args);
+  if (!sw_tape_good(t)) return;
+  t->status = sw_params_check(&x->cls->params, x->args, 1, t->err);
+  list.particle = x->particle;
+  if (some) memcpy(x->args, &list, sizeof list);
+}
+
+void sw_tape_force(sw_tape *t, sw_scene_force *x) {
+  char word[SW_NAME_SIZE];
+  SW_TAPE_STRUCT(t, sw_scene_force, 168);
+  UINT32(generation), INT(alive), sw_tape_long(t, &x->wire), DOUBLE(scale);
+  const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
+  if (sw_tape_reads(t)) x->cls = sw_force_find(kind);
+  sw_tape_expect(t, x->cls != NULL, "a force of an unknown kind");
+  sw_tape_expect(t, isfinite(x->scale) && x->scale > 0, "a force without scale");
+  if (x->cls) tape_force_args(t, x);
+  sw_tape_expect(t, x->cls && (!x->alive || x->cls->params.count), "a force that is a function");
+}
+
+void sw_tape_join(sw_tape *t, sw_scene_join *x) {
+  SW_TAPE_STRUCT(t, sw_scene_join, 792);
+  UINT32(generation), INT(alive), INT(rigid), NAME(name), SIZE(count);
+  DOUBLE(slack), DOUBLE(stiffness), DOUBLE(strength); /* its spring is found when it is built */
+  INT(broken), DOUBLE(broken_time), DOUBLE(broken_force), DOUBLE(peak);
+  sw_tape_expect(t, x->count >= 2 && x->count <= SW_JOIN_ENDS, "a join");
+  for (size_t k = 0; k < x->count && sw_tape_good(t); k++) {
+    struct sw_scene_join_end *e = &x->ends[k];
+    sw_tape_size(t, &e->wire);
+    sw_tape_double(t, &e->s), sw_tape_double(t, &e->asked), sw_tape_double(t, &e->scale);
+    sw_tape_vec(t, &e->offset), sw_tape_vec(t, &e->rest);
+  }
+}
+
+void sw_tape_rule(sw_tape *t, sw_scene_rule *x) {
+  SW_TAPE_STRUCT(t, sw_scene_rule, 40);
+  sw_tape_count(t, &x->count, sizeof *x->wires);
+  SW_TAPE_ARRAY(t, x->wires, x->count);
+  INT(self), INT(rule.on), DOUBLE(rule.friction);
+  sw_tape_expect(t, x->rule.friction >= 0 && x->rule.friction <= 100, "friction of wires");
+}
+
+void sw_tape_frame(sw_tape *t, const sw_scene *s, sw_frame *x) {
+  SW_TAPE_STRUCT(t, sw_frame, 40);
+  size_t count = 0, size = 0;
+  if (!sw_tape_reads(t)) sw_scene_frame_walk(x, SIZE_MAX, &count);
+  DOUBLE(time), SIZE(wires), SIZE(obstacles), SIZE(holds);
+  sw_tape_count(t, &count, sizeof *x->data);
+  SW_TAPE_ARRAY(t, x->data, count);
+  if (!sw_tape_reads(t) || !sw_tape_good(t)) return;
+  sw_tape_expect(t,
+                 x->wires <= s->wire_count && x->obstacles <= s->obstacle_count &&
+                     x->holds <= s->hold_count && sw_scene_frame_walk(x, count, &size) &&
+                     size == count,
+                 "a frame");
+}
+
+/* --- the state between and during runs ------------------------------------------------ */
+
+void sw_tape_kept_contact(sw_tape *t, sw_scene *s) {
+  int there = !sw_tape_reads(t) && s->kept.memory != NULL;
+  sw_tape_int(t, &there);
+  if (!there) return;
+  sw_tape_mark(t, "contact", sw_contact_layout());
+  sw_tape_mark(t, "contact of wires", sw_pairs_layout());
+  sw_tape_count(t, &s->kept.bytes, 1), sw_tape_count(t, &s->kept.pair_bytes, 1);
+  sw_tape_array(t, &s->kept.memory, s->kept.bytes, 1);
+  sw_tape_array(t, &s->kept.pairs, s->kept.pair_bytes, 1);
+  sw_tape_count(t, &s->kept.wires, sizeof *s->kept.first);
+  SW_TAPE_ARRAY(t, s->kept.first, s->kept.wires + 1);
+  const size_t expected = s->kept.first ? s->kept.first[s->kept.wires] : 0;
+  size_t nodes = expected;
+  sw_tape_count(t, &nodes, sizeof *s->kept.s);
+  sw_tape_expect(t, nodes == expected, "contact");
+  SW_TAPE_ARRAY(t, s->kept.s, nodes);
+  sw_tape_int(t, &s->kept.fresh), sw_tape_size(t, &s->kept.changed);
+}
+
+/* May a force of this class have a history of the plan, and give it to the wire's next one? */
+static int remembers(const sw_force_class *cls, const sw_plan *plan, const sw_scene_wire *w) {
+  if (!cls->state_size || (cls->applies && !cls->applies(plan))) return 0;
+  if (!(cls->flags & SW_FORCE_OF_WEB)) return 1;
+  return plan->web && w->strand.web && plan->web->links == w->strand.web->links;
+}
+
+void sw_tape_kept_history(sw_tape *t, sw_scene *s, sw_kept_history *x) {
+  char word[SW_NAME_SIZE];
+  SW_TAPE_STRUCT(t, sw_kept_history, 48);
+  SIZE(force), SIZE(wire), UINT32(generation);
+  const char *inner = sw_tape_word(t, !sw_tape_reads(t) && x->inner ? x->inner->name : NULL, word);
+  if (sw_tape_reads(t)) x->inner = inner[0] ? sw_force_find(inner) : NULL;
+  sw_tape_expect(t, x->wire < s->wire_count && (x->inner || !inner[0]), "what a force remembers");
+  sw_tape_expect(t, x->inner || x->force < s->force_count, "what a force remembers");
+  if (!sw_tape_good(t)) return;
+  sw_tape_plan(t, &x->plan, s->wires[x->wire].strand.web, sizeof(sw_solid));
+  if (!sw_tape_good(t)) return;
+  const sw_force_class *cls = x->inner ? x->inner : s->forces[x->force].cls;
+  sw_tape_expect(t, remembers(cls, x->plan, &s->wires[x->wire]), "what a force remembers");
+  if (!sw_tape_good(t)) return;
+  size_t count = cls->state_size(x->plan);
+  const size_t expected = count;
+  sw_tape_count(t, &count, sizeof *x->data);
+  sw_tape_expect(t, count == expected, "what a force remembers");
+  SW_TAPE_ARRAY(t, x->data, count);
+}
+
+void sw_tape_live(sw_tape *t, sw_live *x) {
+  char word[SW_NAME_SIZE];
+  SW_TAPE_STRUCT(t, sw_live, 144);
+  sw_tape_mark(t, "contact", sw_contact_layout());
+  sw_tape_mark(t, "contact of wires", sw_pairs_layout());
+  sw_tape_count(t, &x->state_size, sizeof *x->state);
+  SW_TAPE_ARRAY(t, x->state, x->state_size);
+  const char *method =
+      sw_tape_word(t, !sw_tape_reads(t) && x->method ? x->method->name : NULL, word);
+  if (sw_tape_reads(t)) x->method = method[0] ? sw_integrator_find(method) : NULL;
+  sw_tape_expect(t, x->method || !method[0], "an unknown integrator");
+  DOUBLE(last_h), INT(restart);
+  sw_tape_count(t, &x->history_size, sizeof *x->history);
+  SW_TAPE_OPTIONAL(t, x->history, x->history_size);
+  sw_tape_count(t, &x->memory_size, 1), sw_tape_count(t, &x->pairs_size, 1);
+  sw_tape_optional(t, &x->memory, x->memory_size, 1);
+  INT(fresh);
+  sw_tape_optional(t, &x->pairs, x->pairs_size, 1);
+  for (size_t k = 0; k < 3; k++) {
+    sw_tape_count(t, &x->seen_size[k], 1);
+    sw_tape_optional(t, &x->seen[k], x->seen_size[k], 1);
+    sw_tape_expect(t, x->seen[k] || !x->seen_size[k], "contact");
+  }
+  sw_tape_expect(t,
+                 (x->history || !x->history_size) && (x->memory || !x->memory_size) &&
+                     (x->pairs || !x->pairs_size),
+                 "the state of a scene");
+  if (sw_tape_reads(t) && sw_tape_good(t))
+    sw_tape_finite(t, x->state, x->state_size, "the state of a scene");
+}

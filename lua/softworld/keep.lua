@@ -1,0 +1,221 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Values of Lua as a string and back: what the Lua side knows of a scene, for its file.
+-- Numbers keep their bits. Objects of a scene are kept by their numbers, tables that occur more
+-- than once stay one table, and tables of a known class (a gripper) get their class again:
+--
+--     keep.class("gripper", Gripper)
+--
+-- Such an object has a `name`, by which a script that made it too gets it back; its fields are
+-- kept as they are. Functions cannot be kept.
+-- @module softworld.keep
+local core = require "softworld.core"
+
+local keep = {}
+local classes, class_names = {}, {}
+local DEEPEST = 150 -- tables in tables
+
+--- Make tables with this metatable known by a name.
+function keep.class(name, metatable)
+  classes[name], class_names[metatable] = metatable, name
+end
+
+-- --- writing ---------------------------------------------------------------------
+
+local write -- function(out, value, path, depth)
+
+local function fail(path, what)
+  error(("%s is %s, which cannot be saved"):format(path, what), 0)
+end
+
+-- Keys in an order of their own, so that equal tables give equal strings.
+local function sorted_keys(value)
+  local keys = {}
+  for key in next, value do keys[#keys + 1] = key end
+  table.sort(keys, function(a, b)
+    local ta, tb = math.type(a) or type(a), math.type(b) or type(b)
+    if ta ~= tb then return ta < tb end
+    if ta == "boolean" then return a and not b end
+    return a < b
+  end)
+  return keys
+end
+
+local function write_fields(out, value, path, depth)
+  for key in next, value do
+    if type(key) ~= "string" and type(key) ~= "number" and type(key) ~= "boolean" then
+      fail(path, "a table with a key of type " .. type(key))
+    end
+  end
+  local keys = sorted_keys(value)
+  out[#out + 1] = string.pack("<I4", #keys)
+  for _, key in ipairs(keys) do
+    write(out, key, path, depth)
+    write(out, rawget(value, key), ("%s.%s"):format(path, tostring(key)), depth)
+  end
+end
+
+local function write_table(out, value, path, depth)
+  local number, class = out.numbers[value], nil
+  if number then
+    out[#out + 1] = string.pack("<c1I4", "R", number)
+    return
+  end
+  if depth > DEEPEST then fail(path, "too deep in other tables") end
+  out.count = out.count + 1
+  out.numbers[value] = out.count
+  local metatable = getmetatable(value)
+  if metatable ~= nil then
+    class = class_names[metatable]
+    if not class then
+      local kind = type(metatable) == "table" and rawget(metatable, "__name")
+      fail(path, type(kind) == "string" and "a " .. kind or "a table with a metatable")
+    end
+  end
+  out[#out + 1] = class and string.pack("<c1s4s4", "C", class, tostring(rawget(value, "name") or ""))
+    or "T"
+  write_fields(out, value, path, depth + 1)
+end
+
+local function write_object(out, value, path)
+  if rawequal(value, out.scene) then
+    out[#out + 1] = "S"
+    return
+  end
+  local class, slot, generation, scene = core.number(value)
+  if not class then fail(path, "a " .. (core.type(value) or type(value))) end
+  if not rawequal(scene, out.scene) then fail(path, "a " .. class .. " of another scene") end
+  out[#out + 1] = string.pack("<c1s4I4I4", "O", class, slot, generation)
+end
+
+local writers = {
+  ["nil"] = function(out) out[#out + 1] = "N" end,
+  boolean = function(out, value) out[#out + 1] = value and "t" or "f" end,
+  number = function(out, value)
+    out[#out + 1] = math.type(value) == "integer" and string.pack("<c1j", "i", value)
+      or string.pack("<c1d", "d", value)
+  end,
+  string = function(out, value) out[#out + 1] = string.pack("<c1s4", "s", value) end,
+  table = write_table,
+  userdata = write_object,
+}
+
+function write(out, value, path, depth)
+  local writer = writers[type(value)]
+  if not writer then fail(path, "a " .. type(value)) end
+  writer(out, value, path, depth)
+end
+
+--- The value as a string. scene: whose objects may be in it. what: names it in errors.
+function keep.pack(value, scene, what)
+  local out = { numbers = {}, count = 0, scene = scene }
+  write(out, value, what, 0)
+  return table.concat(out)
+end
+
+--- May the value be kept? Else false and why.
+function keep.may(value, scene, what)
+  return pcall(keep.pack, value, scene, what)
+end
+
+-- --- reading ---------------------------------------------------------------------
+
+local read -- function(from, depth) -> value
+
+local function damaged() error("its note makes no sense", 0) end
+
+local function unpack(from, format)
+  local ok, a, b, c, at = pcall(string.unpack, format, from.text, from.at)
+  if not ok then damaged() end
+  -- the place after the values comes last, whatever their number
+  if at == nil then if c ~= nil then at, c = c, nil else at, b = b, nil end end
+  from.at = at
+  return a, b, c
+end
+
+local function read_fields(from, into, depth)
+  if depth > DEEPEST then damaged() end
+  for _ = 1, (unpack(from, "<I4")) do
+    local key = read(from, depth)
+    if key == nil or key ~= key or type(key) == "table" or type(key) == "userdata" then damaged() end
+    local value = read(from, depth)
+    rawset(into, key, value)
+  end
+  return into
+end
+
+local function remember(from, value)
+  from.count = from.count + 1
+  from.tables[from.count] = value
+  return value
+end
+
+local readers = {
+  N = function() return nil end,
+  t = function() return true end,
+  f = function() return false end,
+  i = function(from) return (unpack(from, "<j")) end,
+  d = function(from) return (unpack(from, "<d")) end,
+  s = function(from) return (unpack(from, "<s4")) end,
+  S = function(from) return from.scene end,
+  R = function(from)
+    local value = from.tables[unpack(from, "<I4")]
+    if value == nil then damaged() end
+    return value
+  end,
+  O = function(from)
+    local class, slot, generation = unpack(from, "<s4I4I4")
+    return from.object(class, slot, generation)
+  end,
+  T = function(from, depth) return read_fields(from, remember(from, {}), depth + 1) end,
+  C = function(from, depth)
+    local class, name = unpack(from, "<s4s4")
+    if not classes[class] then
+      error(("it has a %s, which this SoftWorld does not know"):format(class), 0)
+    end
+    local value = from.instance(class, name) or {}
+    remember(from, value)
+    for key in next, value do rawset(value, key, nil) end
+    read_fields(from, value, depth + 1)
+    return setmetatable(value, classes[class])
+  end,
+}
+
+function read(from, depth)
+  local tag = from.text:sub(from.at, from.at)
+  from.at = from.at + 1
+  local reader = readers[tag]
+  if not reader then damaged() end
+  return reader(from, depth)
+end
+
+local function nothing() return nil end
+
+--- The value of a string, for a scene. object(class, slot, generation) gives its objects,
+-- instance(class, name) what the script has made of a class of keep.class, or nil.
+-- Without these two it is only looked through: an error tells what is wrong with it.
+function keep.unpack(text, scene, object, instance)
+  local from = { text = text, at = 1, tables = {}, count = 0, scene = scene,
+    object = object or nothing, instance = instance or nothing }
+  local value = read(from, 0)
+  if from.at ~= #text + 1 then damaged() end
+  return value
+end
+
+--- Every table of a class of keep.class within a value: { [class .. " " .. name] = it }.
+function keep.instances(value)
+  local found, seen = {}, {}
+  local function walk(t)
+    if seen[t] then return end
+    seen[t] = true
+    local class = class_names[getmetatable(t)]
+    if class then found[class .. " " .. tostring(rawget(t, "name") or "")] = t end
+    for key in next, t do
+      local v = rawget(t, key)
+      if type(v) == "table" then walk(v) end
+    end
+  end
+  walk(value)
+  return found
+end
+
+return keep
