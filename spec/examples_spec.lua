@@ -319,6 +319,52 @@ describe("example", function()
     assert.matches("^sag = .* %(asked for 2.000 mm: met%)\ngripper.mean_moment = .*: met%)\nmin_bend", out)
   end)
 
+  -- Weight 1200 pi r^2 L g. About the place at L/4 the gripper, at L/2, has that weight's moment.
+  it("15: two plates squeeze, lift and carry a wire", function()
+    local out = example "15_two_plates"
+    local weight, L, r = 1200 * math.pi * 0.003 ^ 2 * 0.2 * g, 0.2, 0.003
+    for _, when in ipairs{ "lifted", "carried" } do
+      local force, moment, squeeze, height, width =
+        out:match(when .. " +(%S+) N +(%S+) mN m +(%S+) N +(%S+) mm +(%S+) mm")
+      near(weight, tonumber(force), 0.005, when .. ": force")
+      -- the arm: less than L/4 as the wire hangs down, more as the squeeze makes it longer
+      local arm = -tonumber(moment) / 1e3 / weight
+      assert(arm < 1.005 * L / 4 and arm > 0.97 * L / 4, "arm " .. arm)
+      near(20, tonumber(squeeze), 0.01, when .. ": squeeze")
+      assert(tonumber(height) < tonumber(width) and tonumber(height) < 2.2e3 * r, "section")
+    end
+    assert.matches("no slip", out)
+  end)
+
+  it("16: a mixed grasp feels the same and costs less", function()
+    local out = example "16_mixed"
+    local weight, seen = 1200 * math.pi * 0.003 ^ 2 * 0.2 * g, 0
+    for name, a, b in out:gmatch "(%a+) +(%S+) +(%S+) m?[Nm] ?m? %(" do
+      near(tonumber(a), tonumber(b), 0.02, name)
+      if name == "force" then near(weight, tonumber(b), 0.005, "weight") end
+      seen = seen + 1
+    end
+    assert.are.equal(3, seen)
+    assert.matches("frozen +at", out)
+    assert.matches("thawed +at", out)
+    assert.is_true(after(out, "carrying is") > 10)
+  end)
+
+  -- Held at rest it takes weight / (2 mu). Lifted by 0.25 m in 0.5 s it is as heavy as g + 5.77 d / T^2
+  -- where that is most, and its ends swing: more than that, and less than four times as much.
+  it("18: the least force that lifts a wire", function()
+    local out = example "18_least_force"
+    local least, rest = after(out, "least force"), after(out, "(2 mu) =")
+    local heavier = 1 + 5.77 * 0.25 / 0.5 ^ 2 / g
+    assert(least > heavier * rest and least < 4 * rest, ("%g N, at rest %g N"):format(least, rest))
+    local failed, held = 0, math.huge
+    for force, what in out:gmatch "(%S+) N: (%a+)" do
+      if what == "slips" then failed = math.max(failed, tonumber(force)) else held = math.min(held, tonumber(force)) end
+    end
+    assert(failed < held and held <= 1.021 * failed + 1e-3, "bracket")
+    near(held, least, 1e-3, "least force")
+  end)
+
   it("of every number is tested here", function()
     local names = io.popen "ls examples/*.lua"
     local mine = program.read(here .. "/examples_spec.lua")

@@ -4,8 +4,6 @@
  * in the tool's axes, and the friction between pads and particles. Rings that were pressed move
  * with the tool like the grip that stands for them; those beside them turn with the rod. */
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -45,6 +43,80 @@ void sw_frozen_release(sw_frozen *f) {
   sw_free(f->frame);
   sw_free(f->memory);
   sw_free(f);
+}
+
+/* --- what goes on as it was ----------------------------------------------------------------
+ *
+ * A rod and a mesh do not lie quite alike under the same forces. The wire that takes over is put
+ * where it is in balance with the inertia that the other one had, by micrometres: else it would
+ * begin to swing, and the gripper feel that. */
+
+enum { MOST_POSES = 200 }; /* iterations; without a result the wire stays as it lies [-] */
+static const double BALANCED = 1e-8; /* of the shifts that end them, of the wire's length [-] */
+
+/* Add the forces that velocities make; work: (2 x freedoms). */
+static sw_status add_friction_of_motion(sw_scene *s, double *force, double *work, sw_error *err) {
+  sw_system *system = &s->system;
+  const size_t n = 3 * system->nodes;
+  double *still = work, *a = work + system->freedoms;
+  const sw_coupling coupling = system->coupling;
+  memset(still, 0, system->freedoms * sizeof *still);
+  system->coupling.eval = NULL; /* contact does not know velocities */
+  sw_status status = sw_system_acceleration(system, s->time, system->x, system->v, a, err);
+  for (size_t i = 0; i < n && status == SW_OK; i++) force[i] += system->delta[i];
+  if (status == SW_OK) status = sw_system_acceleration(system, s->time, system->x, still, a, err);
+  for (size_t i = 0; i < n && status == SW_OK; i++) force[i] -= system->delta[i];
+  system->coupling = coupling;
+  return status;
+}
+
+/* Put the built scene where it is in balance with the accelerations that it has: of the wire those
+ * of its rings or nodes before (rings x 3). Velocities stay. */
+static sw_status balance(sw_scene *s, size_t wire, const double *rings, size_t count) {
+  const sw_settle_args args = {.tolerance = BALANCED, .max_iterations = MOST_POSES};
+  const size_t n = s->system.freedoms;
+  const sw_body *b = &s->system.bodies[wire];
+  const sw_web *web = b->plan->web;
+  sw_settle_report report = {0};
+  sw_error ignored = {""};
+  double *dead = sw_alloc(5 * n, sizeof *dead);
+  if (!dead) return SW_ENOMEM;
+  double *v = dead + n, *a = dead + 2 * n;
+  memcpy(v, s->system.v, n * sizeof *v);
+  memcpy(a, s->system.a, n * sizeof *a);
+  const int alike = count == (web ? web->rings : b->plan->nodes); /* none came for narrow gaps */
+  for (size_t i = 0; i < b->plan->nodes; i++) {
+    const size_t r = web ? sw_web_ring_of(web, i) : i;
+    sw_store(a + 3 * (b->first_node + i), alike ? sw_vec_at(rings, r) : sw_v(0, 0, 0));
+  }
+  sw_inertia_of(&s->system, a, dead);
+  if (add_friction_of_motion(s, dead, dead + 3 * n, &ignored) != SW_OK) {
+    sw_free(dead);
+    return SW_OK;
+  }
+  s->system.dead = dead;
+  const sw_status status = sw_scene_rest(s, s->time, NULL, &args, NULL, &report, &ignored);
+  s->system.dead = NULL;
+  memcpy(s->system.v, v, n * sizeof *v);
+  memcpy(s->system.a, a, n * sizeof *a);
+  sw_free(dead);
+  return status == SW_ENOMEM || status == SW_ECALLBACK ? status : SW_OK;
+}
+
+/* Accelerations of a wire's rings, or of its nodes (count x 3), to be freed; NULL: no memory. */
+static double *accelerations(const sw_scene *s, size_t wire, size_t *count) {
+  const sw_body *b = &s->system.bodies[wire];
+  const sw_web *web = b->plan->web;
+  const double *a = s->system.a + 3 * b->first_node;
+  *count = web ? web->rings : b->plan->nodes;
+  double *out = sw_alloc(3 * *count, sizeof *out);
+  for (size_t r = 0; out && r < *count; r++) {
+    if (web)
+      sw_web_middle(web, a, r, out + 3 * r);
+    else
+      sw_store(out + 3 * r, sw_vec_at(a, r));
+  }
+  return out;
 }
 
 /* --- from pads to a grip --------------------------------------------------------------- */
@@ -218,9 +290,6 @@ static sw_status grip(sw_scene *s, sw_handle tool, const sw_frozen *f, sw_freeze
   args.s = 0.5 * (out->s1 + out->s2);
   args.width = out->s2 - out->s1;
   args.direction = sw_v(NAN, NAN, NAN);
-  if (getenv("DBG"))
-    fprintf(stderr, "inside %g %g  s %g %g\n", f->inside[0], f->inside[1], f->stations.s[f->first],
-            f->stations.s[f->last]);
   SW_TRY(sw_scene_add_hold(s, cls, f->wire, &args, &out->hold, err));
   sw_scene_hold *h = &s->holds[out->hold.slot];
   h->director[0] = facing_at(f, out->s1);
@@ -229,7 +298,8 @@ static sw_status grip(sw_scene *s, sw_handle tool, const sw_frozen *f, sw_freeze
 }
 
 static sw_status change_to_rod(sw_scene *s, sw_handle tool, sw_frozen *f, const sw_line *line,
-                               sw_freeze_report *out, sw_error *err) {
+                               const double *a, size_t count, sw_freeze_report *out,
+                               sw_error *err) {
   sw_vec about;
   sw_momentum_of(s, f->wire.slot, &about, out->before);
   out->energy_before = sw_scene_total_energy(s, err);
@@ -238,6 +308,7 @@ static sw_status change_to_rod(sw_scene *s, sw_handle tool, sw_frozen *f, const 
   f->hold = out->hold;
   SW_TRY(sw_scene_tool_pads_on(s, tool, 0, err));
   SW_TRY(sw_scene_build(s, err));
+  SW_TRY(balance(s, f->wire.slot, a, count));
   SW_TRY(sw_momentum_match(s, f->wire.slot, about, out->before));
   sw_momentum_about(s, f->wire.slot, about, out->after);
   out->energy_after = sw_scene_total_energy(s, err);
@@ -284,7 +355,11 @@ sw_status sw_scene_tool_freeze(sw_scene *s, sw_handle tool, sw_handle wire, sw_f
   sw_status status = sw_scene_tool_force(s, tool, NULL, &out->force, &out->moment, err);
   if (status == SW_OK) status = keep(s, t, wire, f, &line, err);
   if (status == SW_OK) status = sw_scene_snapshot(s, &before, err);
-  if (status == SW_OK) status = change_to_rod(s, tool, f, &line, out, err);
+  size_t count = 0;
+  double *a = status == SW_OK ? accelerations(s, wire.slot, &count) : NULL;
+  if (status == SW_OK && !a) status = SW_ENOMEM;
+  if (status == SW_OK) status = change_to_rod(s, tool, f, &line, a, count, out, err);
+  sw_free(a);
   sw_line_free(&line);
   if (status == SW_OK) {
     s->tools[tool.slot].frozen = f;
@@ -388,7 +463,8 @@ static sw_status become_mesh(sw_scene *s, const sw_frozen *f, const sw_motion_st
 }
 
 static sw_status change_to_mesh(sw_scene *s, sw_handle tool, const sw_frozen *f, sw_line *line,
-                                sw_freeze_report *out, sw_error *err) {
+                                const double *a, size_t count, sw_freeze_report *out,
+                                sw_error *err) {
   const sw_tool *t = &s->tools[tool.slot];
   size_t pads[SW_TOOL_PADS];
   sw_motion_state now;
@@ -406,6 +482,7 @@ static sw_status change_to_mesh(sw_scene *s, sw_handle tool, const sw_frozen *f,
   const size_t first = s->system.bodies[f->wire.slot].first_node;
   SW_TRY(sw_contact_add_memory(s->contact, f->memory, f->bytes, f->node, f->node + f->nodes, first,
                                pads, t->pads));
+  SW_TRY(balance(s, f->wire.slot, a, count));
   SW_TRY(sw_momentum_match(s, f->wire.slot, about, out->before));
   sw_momentum_about(s, f->wire.slot, about, out->after);
   out->energy_after = sw_scene_total_energy(s, err);
@@ -429,7 +506,11 @@ sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_freeze_report *out,
   SW_TRY(sw_scene_build(s, err));
   sw_status status = sw_scene_tool_force(s, tool, NULL, &out->force, &out->moment, err);
   if (status == SW_OK) status = sw_scene_snapshot(s, &before, err);
-  if (status == SW_OK) status = change_to_mesh(s, tool, f, &line, out, err);
+  size_t count = 0;
+  double *a = status == SW_OK ? accelerations(s, f->wire.slot, &count) : NULL;
+  if (status == SW_OK && !a) status = SW_ENOMEM;
+  if (status == SW_OK) status = change_to_mesh(s, tool, f, &line, a, count, out, err);
+  sw_free(a);
   sw_line_free(&line);
   if (status == SW_OK) {
     sw_tool *thawed = &s->tools[tool.slot];
@@ -492,7 +573,8 @@ void sw_tape_frozen(sw_tape *t, sw_frozen **frozen) {
 
 int sw_frozen_fits(const sw_frozen *f, const sw_scene *s) {
   const sw_web *web = f->strand.web;
-  if (!f->cls || !f->cls->mesh || !web || !web->per_ring || !f->strand.kit || f->mesh.rest) return 0;
+  if (!f->cls || !f->cls->mesh || !web || !web->per_ring || !f->strand.kit || f->mesh.rest)
+    return 0;
   if (f->wire.slot >= s->wire_count || s->wires[f->wire.slot].generation != f->wire.generation)
     return 0;
   if (f->mesh.n != web->rings || f->stations.n != web->rings) return 0;

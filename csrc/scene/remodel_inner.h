@@ -36,6 +36,8 @@ void sw_momentum_of(const sw_scene *scene, size_t wire, sw_vec *about, double ou
 void sw_momentum_about(const sw_scene *scene, size_t wire, sw_vec about, double out[6]);
 /* Give what is free of the built wire the momentum wanted, by the smallest rigid motion. */
 sw_status sw_momentum_match(sw_scene *scene, size_t wire, sw_vec about, const double wanted[6]);
+/* Forces of inertia of all wires that go with accelerations a (nodes x 3), into out [N]. */
+void sw_inertia_of(const sw_system *system, const double *a, double *out);
 double sw_scene_total_energy(sw_scene *scene, sw_error *err); /* [J] */
 
 /* The wire is with instead, whose parts it takes; its living holds take hold of that, each where

@@ -114,6 +114,20 @@ void sw_momentum_about(const sw_scene *s, size_t wire, sw_vec about, double out[
   momentum(b->plan, s->system.x + at, s->system.v + at, about, out);
 }
 
+void sw_inertia_of(const sw_system *s, const double *a, double *out) {
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_plan *p = s->bodies[b].plan;
+    const double *own = a + 3 * s->bodies[b].first_node;
+    double *to = out + 3 * s->bodies[b].first_node;
+    for (size_t i = 0; i < p->nodes; i++) {
+      sw_vec m = sw_scale(sw_vec_at(own, i), p->mass_own[i]);
+      if (i > 0) m = sw_madd(m, sw_vec_at(own, i - 1), p->mass_next[i - 1]);
+      if (i + 1 < p->nodes) m = sw_madd(m, sw_vec_at(own, i + 1), p->mass_next[i]);
+      sw_store(to + 3 * i, sw_neg(m));
+    }
+  }
+}
+
 double sw_scene_total_energy(sw_scene *s, sw_error *err) {
   sw_energy e;
   double sum = 0;

@@ -91,8 +91,8 @@ typedef struct sw_tool_state {
   double slip_time, slip_place; /* when and where that became more than is tolerated; NAN = it
                                    did not [s], [m] */
   int frozen;                   /* 1: by a rigid grip that stands for the pads */
-  double crash_time; /* when a part of it last ran into an obstacle; NAN = never [s] */
-  double crash_depth; /* [m] */
+  double crash_time;            /* when a part of it last ran into an obstacle; NAN = never [s] */
+  double crash_depth;           /* [m] */
   const char *crash_part, *crash_obstacle; /* their names, the scene's */
   double lost_time; /* when the margin of a frozen grip was used up; NAN = it is not [s] */
 } sw_tool_state;

@@ -10,9 +10,9 @@ static const double NOTICED = 1e-5; /* overlap of less than this is none [m] */
 
 typedef struct overlap {
   const sw_shape *other;
-  sw_pose pose;  /* of the part, in the other's coordinates */
-  double skin;   /* of the part around its points and edges [m] */
-  double depth;  /* so far [m] */
+  sw_pose pose; /* of the part, in the other's coordinates */
+  double skin;  /* of the part around its points and edges [m] */
+  double depth; /* so far [m] */
 } overlap;
 
 static void look_at_point(overlap *o, sw_vec local) {
@@ -29,7 +29,8 @@ static void look_at_edge(overlap *o, sw_vec a, sw_vec b) {
 }
 
 static sw_vec corner(const sw_bounds *b, int k) {
-  return sw_v(k & 1 ? b->max.x : b->min.x, k & 2 ? b->max.y : b->min.y, k & 4 ? b->max.z : b->min.z);
+  return sw_v(k & 1 ? b->max.x : b->min.x, k & 2 ? b->max.y : b->min.y,
+              k & 4 ? b->max.z : b->min.z);
 }
 
 static void look_at_box(overlap *o, const sw_bounds *b) {

@@ -103,6 +103,8 @@ sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, c
   sw_body_begin(b);
   if (b->has_twist || b->spin_block) sw_system_measure(s, b);
   for (size_t k = 0; k < b->term_count; k++) SW_TRY(sw_term_eval(&b->terms[k], f, err));
+  const double *dead = s->dead ? s->dead + 3 * b->first_node : NULL;
+  for (size_t i = 0; dead && i < 3 * b->plan->nodes; i++) f->force[i] += dead[i];
   return SW_OK;
 }
 

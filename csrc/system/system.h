@@ -123,7 +123,8 @@ struct sw_system {
   int rough; /* 1: the last update turned edges by too much to be the stage's last */
   sw_hold_state *hold_states; /* (hold_count) at the last stage */
   size_t hold_count;
-  double gravity[3]; /* [m/s2] */
+  double gravity[3];  /* [m/s2] */
+  const double *dead; /* (nodes x 3) forces on nodes besides, as those of inertia; or NULL [N] */
   sw_coupling coupling;
   struct sw_links *links; /* between bodies, or NULL while there never were any */
   struct sw_joins *joins; /* what holds wires together (see system/join.h), or NULL */

@@ -325,7 +325,7 @@ function Methods:grasp(wire, args)
   local ours = false
   for _, entry in ipairs(build.data(self.scene).wires) do ours = ours or entry.object == wire end
   if not ours then
-    error(("gripper '%s': wire '%s' is of another scene"):format(self.name, wire.name), 2)
+    error(("gripper '%s': wire '%s' belongs to another scene"):format(self.name, wire.name), 2)
   end
   checks.keys("gripper:grasp", args, grasp_keys, 3)
   local approach = args.approach or "imposed"

@@ -85,17 +85,24 @@ describe("a mixed grasp", function()
       g:grasp(wire, { s = L / 2, approach = "mixed", force = force, freeze = false })
       g:move{ by = { 0, 0, 0.1 }, duration = 0.4 }
     end)
+    local force = {}
     scene:process(function(p) -- in the middle of the move, where it is fast
       p:wait_until(function() return g.held end)
-      p:wait(0.2)
-      g:freeze()
       p:wait(0.1)
-      g:thaw()
+      for k, change in ipairs{ "freeze", "thaw" } do
+        p:wait(0.1)
+        force[k] = { g:force()[3] }
+        g[change](g)
+        p:wait(0.001)
+        force[k][2] = g:force()[3]
+      end
     end)
-    local run = scene:run{ dt = 0.005 }
+    local run = scene:run{ dt = 0.001 }
     assert(run.ok, run.reason)
     for i = 1, 2 do
       local e = g.events[i]
+      -- 1 % of it, and what swinging ends change in a step of 1 ms
+      t.near(force[i][1], force[i][2], 0.02 * mass * 9.81, e.kind .. ": force in motion")
       assert.equal(({ "frozen", "thawed" })[i], e.kind)
       for _, part in ipairs{ "linear", "angular" } do
         local scale = part == "linear" and mass * 0.1 or mass * 0.1 * L
@@ -118,7 +125,10 @@ describe("a mixed grasp", function()
         steps[k] = { before = g:force()[3], tail = g:moment{ at = wire:position(L / 2 - 2 * width) }[2] }
         g[change](g)
         steps[k].at_once = g:force()[3]
-        p:wait(1) -- the wire's ends swing a little until then
+        p:wait(0.01)
+        steps[k].after = g:force()[3]
+        steps[k].tail_after = g:moment{ at = wire:position(L / 2 - 2 * width) }[2]
+        p:wait(1)
         steps[k].later = g:force()[3]
         steps[k].tail_later = g:moment{ at = wire:position(L / 2 - 2 * width) }[2]
       end
@@ -126,8 +136,10 @@ describe("a mixed grasp", function()
     local run = scene:run{ dt = 0.01 }
     assert(run.ok, run.reason)
     for k, s in ipairs(steps) do
-      t.share(s.before, s.later, 0.01, ("force a second after switch %d"):format(k))
-      t.share(s.tail, s.tail_later, 0.02, ("moment of one side a second after switch %d"):format(k))
+      t.share(s.before, s.after, 1e-3, ("force a step after switch %d"):format(k))
+      t.share(s.tail, s.tail_after, 0.01, ("moment of one side a step after switch %d"):format(k))
+      t.share(s.before, s.later, 1e-3, ("force a second after switch %d"):format(k))
+      t.share(s.tail, s.tail_later, 0.01, ("moment of one side a second after switch %d"):format(k))
     end
     t.near(steps[1].before, steps[1].at_once, 1e-9, "what the grip begins with")
   end)

@@ -77,7 +77,7 @@ describe("a gripper with pads", function()
     local scene = new_scene()
     local g = scene:gripper{ name = "hand", at = { 0.1, 0.05, 0.05 }, rotation = { 1, 0, 0, 0 }, pads = pads }
     local _, wire = new_scene()
-    assert.error_matches(function() g:grasp(wire, { approach = "plates", force = 1 }) end, "another scene")
+    assert.error_matches(function() g:grasp(wire, { approach = "plates", force = 1 }) end, "belongs to another scene")
   end)
 
   it("says that it closed on nothing", function()
