@@ -70,6 +70,7 @@ static sw_status use_integrator(sw_scene *s, const sw_run_args *args, sw_error *
     return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
   s->has_stepper = 1;
   s->method = m;
+  if (s->discontinuous == SW_GOES_ON) s->stepper.restart = 0;
   return SW_OK;
 }
 
@@ -143,7 +144,7 @@ static sw_status trial(loop *p, double h, sw_error *err) {
 /* One step of size h, redone as long as contact finds impacts. */
 static sw_status attempt(loop *p, double h, sw_error *err) {
   sw_scene *s = p->s;
-  if (s->discontinuous) s->stepper.restart = 1;
+  if (s->discontinuous > 0) s->stepper.restart = 1;
   if (!sw_scene_has_contact(s)) return trial(p, h, err);
   memcpy(p->v_start, s->system.v, s->system.freedoms * sizeof(double));
   s->stepper.plastic = 0;
@@ -230,7 +231,7 @@ static sw_status make_room(loop *p, double *h, sw_error *err) {
   sw_scene *s = p->s;
   int changed;
   const size_t before = s->system.counters.evaluations;
-  const int fresh = s->discontinuous || s->stepper.restart; /* nodes alone are no jump */
+  const int fresh = s->discontinuous > 0 || s->stepper.restart; /* nodes alone are no jump */
   *h = sw_feed_step(s, *h);
   SW_TRY(sw_feed_make_room(s, s->time + *h, &changed, err));
   if (!changed) return SW_OK;

@@ -363,6 +363,7 @@ sw_status sw_scene_tool_freeze(sw_scene *s, sw_handle tool, sw_handle wire, sw_f
   sw_line_free(&line);
   if (status == SW_OK) {
     s->tools[tool.slot].frozen = f;
+    s->discontinuous = SW_GOES_ON;
     s->tools[tool.slot].now.lost_time = NAN;
   } else {
     if (before) sw_scene_restore(s, before, &ignored);
@@ -517,6 +518,7 @@ sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_freeze_report *out,
     thawed->jaw = f->jaw;
     thawed->jaw.since = s->time, thawed->jaw.speed = 0;
     thawed->frozen = NULL;
+    s->discontinuous = SW_GOES_ON;
     thawed->now.lost_time = NAN;
     sw_frozen_release(f);
   } else if (before) {

@@ -291,6 +291,9 @@ typedef struct sw_kept_history {
   double *data;
 } sw_kept_history;
 
+/* The system is a new one, but its accelerations are those of its forces. */
+enum { SW_GOES_ON = -1 };
+
 struct sw_scene {
   char name[SW_NAME_SIZE];
   uint32_t serial;              /* generation of the object made last */
@@ -339,7 +342,7 @@ struct sw_scene {
   const sw_integrator *method; /* of stepper */
   sw_stepper stepper;
   int has_stepper;
-  int discontinuous; /* the acceleration is stale: restart the integrator */
+  int discontinuous; /* the acceleration is stale: restart the integrator; or SW_GOES_ON */
   double next_dt;    /* of an adaptive run; 0 = not known [s] */
 
   int diverged;
