@@ -2,7 +2,8 @@
 -- Error against time of cases x models x resolutions x integrators x steps.
 --   build/softworld scripts/bench.lua [quick] [case=..] [model=..] [integrator=..] [n=..] [out=folder]
 -- One CSV row each in out/bench/bench.csv, a summary on the terminal. Values may be lists: case=droop,walls.
--- case=meshes: what wires that are meshes of particles cost, on the terminal only.
+-- case=meshes: what wires that are meshes of particles cost, on the terminal only; case=grip: what
+-- grippers do.
 -- Compare numbers of one run only: machines differ, and so do their loads.
 local bench = require "softworld.bench"
 local benchcases = require "softworld.benchcases"
@@ -174,7 +175,7 @@ for _, name in ipairs(order) do
     if entry.case.name == name and chosen(entry) then jobs[#jobs + 1] = entry end
   end
 end
-if #jobs == 0 and not (wanted.case and wanted.case.meshes) then
+if #jobs == 0 and not (wanted.case and (wanted.case.meshes or wanted.case.grip)) then
   io.stderr:write("bench: nothing fits these options\n")
   os.exit(2)
 end
@@ -406,7 +407,28 @@ if not next(wanted) then
   print_bars()
   print_links()
 end
+-- What each way of handling costs and gives in the two-plate test.
+local function print_grips()
+  local grip = require "softworld.benchgrip"
+  local base
+  print "\ntwo-plate test, s/simulated s    grasp     carry       lay       all  force N  moment mN m  height mm"
+  for _, way in ipairs(grip.ways) do
+    local r = grip.two_plates(way)
+    local cells = {}
+    for i, phase in ipairs(r.phases) do
+      cells[i] = phase.time > 0 and ("%9.4f"):format(phase.wall / phase.time) or "        -"
+    end
+    if way.freeze == false then base = r.phases[2] end
+    print(("%-26s %s %9.4f %8.4f %12.4f %10.4f%s"):format(r.name, table.concat(cells, " "), r.wall / r.time,
+      r.force, 1e3 * r.moment, 1e3 * r.height, r.ok and "" or "  FAILED: " .. r.reason))
+    if r.name == "mixed" then grip.mixed = r.phases[2] end
+  end
+  print(("carrying mixed costs 1/%.0f of carrying by the same mesh's plates"):format(
+    base.wall / base.time / (grip.mixed.wall / grip.mixed.time)))
+end
+
 if not next(wanted) or wanted.case and wanted.case.meshes then print_meshes() end
+if not next(wanted) or wanted.case and wanted.case.grip then print_grips() end
 local bad = {}
 for _, row in ipairs(rows) do
   if row.status ~= "ok" then bad[row.status] = (bad[row.status] or 0) + 1 end

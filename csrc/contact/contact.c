@@ -183,7 +183,7 @@ static sw_status segment_candidates(sw_contact *c, const sw_system *s, size_t bo
 
 /* Pads are met by particles alone where these lie close enough: between them the pad's edges would
  * come and go along one edge of the surface after the other, and take its force to and fro. */
-static const double CLOSE = 3.0; /* rings along the pad's face [-] */
+static const double CLOSE = 3.0; /* rings along the pad's face, its x and z [-] */
 
 static void find_dense(sw_contact *c, const sw_plan *p) {
   double widest = 0;
@@ -192,10 +192,7 @@ static void find_dense(sw_contact *c, const sw_plan *p) {
   for (size_t o = 0; o < c->count; o++) {
     const sw_bounds b = sw_shape_bounds(c->obstacles[o].shape);
     const sw_vec size = sw_sub(b.max, b.min);
-    const double most = fmax(size.x, fmax(size.y, size.z));
-    const double least = fmin(size.x, fmin(size.y, size.z));
-    const double second = size.x + size.y + size.z - most - least; /* a plate may be thin */
-    c->dense[o] = rings && c->obstacles[o].grips > 0 && second > CLOSE * widest;
+    c->dense[o] = rings && c->obstacles[o].grips > 0 && fmin(size.x, size.z) > CLOSE * widest;
   }
 }
 

@@ -131,6 +131,7 @@ local function add_all(implicit)
   add("N = 900", release, { segments = 900, dt = 0.01, integrator = "implicit-midpoint" })
   require("softworld.benchtwists").add_all(add)
   require("softworld.benchsqueeze").add_all(add)
+  require("softworld.benchgrip").add_all(add)
 end
 
 --- All rows, in order. progress(k, count, item) is called before each.

@@ -105,6 +105,10 @@ local function crash_text(self, event)
     event.obstacle, event.time)
 end
 
+local function lost_text(self, event)
+  return ("gripper '%s': nothing is left between the pads at t = %.4g s"):format(self.name, event.time)
+end
+
 -- Keep the event and do what is to be done; returns the text when that is to stop.
 local function react(self, event, reaction, text)
   self.events[#self.events + 1] = event
@@ -124,6 +128,11 @@ local function look_at(self)
   if self.held and now.slip_time and not self.slip_event then
     self.slip_event = { kind = "slip", time = now.slip_time, s = now.slip_place, distance = now.slip }
     why = react(self, self.slip_event, self.on_slip, slip_text) or why
+  end
+  if self.held and now.normal == 0 and not now.frozen then
+    self.held = false
+    local event = { kind = "lost", time = self.scene.time, s = now.place }
+    why = react(self, event, self.on_slip, lost_text) or why
   end
   if self.frozen and now.lost_time then mixed.lose(self, now) end
   return why
@@ -237,6 +246,7 @@ function Methods:open_jaws(args)
       2)
   end
   if self.frozen then mixed.thaw(self) end
+  self.held = false
   move_jaws(self, jaw_order(self, { distance = args.distance or self.opening, speed = args.speed },
     "gripper:open_jaws", 3))
   return self

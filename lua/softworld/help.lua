@@ -31,20 +31,40 @@ local notes = {
 -- What has no parameter rows.
 local texts = {
   gripper = [[
-scene:gripper{ name =, pads = { width = [m] }, at = {x, y, z} [m] }
-  :grasp(wire, { s = [m] })       take hold of the wire around s
-  :move{ by =, to =, points =, path =, turn =, speed = [m/s], duration = [s], law = }
-  :rotate{ axis =, angle = [rad], duration = [s] }
-  :release()
-  :force() :moment{ at = } :position()          now [N], [N m], [m]
+scene:gripper{ name =, pads = {...}, at = {x, y, z} [m], rotation =, arm = { radius =, length = [m] },
+  slip_tolerance = [m], on_crash = "record" | "warn" | "stop" | function }
+  pads: shape = "flat" | "v" | "round" | "mesh", width, height, thickness, below, opening, radius [m],
+    angle [rad], file, scale, friction, kinetic_friction, restitution, fingers
+  :grasp(wire, { s = [m], approach = "imposed" })     the wire is one with the gripper
+  :grasp(wire, { s =, approach = "plates", force = [N] | distance = [m], speed = [m/s], on_slip = })
+  :grasp(wire, { s =, approach = "mixed", force =, ... })   see help 'mixed'
+  :close_jaws{ force = | distance = | speed = } :open_jaws{ distance =, speed = }
+  :move{ by =, to =, points =, path =, turn =, speed = [m/s], duration = [s], law =, on_slip = }
+  :move_to(point, {...}) :rotate{ axis =, angle = [rad], duration = [s] }
+  :press{ force = [N], direction =, speed =, distance = }   in a process -> force, way, done
+  :handover(other, {...}) :release()
+  :force{ axes = "gripper", finger = } :moment{ at =, axes =, finger = } :position()   [N], [N m], [m]
+  :state()           .jaws .opening .squeeze .normal .margin .sliding .slip .place
+  :squeeze()         .height .width [m] .share   :pressure_map{ cell = {x, z} } [Pa]
+  .events            { kind = "slip" | "lost" | "crash" | "missed" | "crushed" | "frozen" | ..., time = }
   .peak_force .mean_force .impulse              over all grasps [N], [N s]
   .peak_moment .mean_moment                     [N m]
-  :over(t1, t2) :series()]],
+  :over(t1, t2, point) :series()]],
+  mixed = [[
+gripper:grasp(wire, { s = [m], approach = "mixed", force = [N] })     in a process
+  the wire becomes a mesh near the pads; these squeeze it for real; once force and slip are steady it
+  is carried on as a rod in a rigid grip (frozen) at the cost of one; released through the mesh again
+  model = "radial", section = "solid", spacing, particles, layers, across   of the mesh; see help 'remodel'
+  region = [m]      length of the mesh (default: the pads and 6 radii on both sides)
+  margin = 0.9      friction over what the pads allow at which the pads take over again
+  freeze = false    stay with the plates; gripper:freeze() and :thaw() switch by hand]],
   process = [[
 scene:process(function(p) ... end)
   p:wait(seconds)
   p:feed(feed, { length = [m], speed = [m/s] })
   p:wait_until(function() return ... end, { timeout = [s] })   true, or false after the timeout
+  p:wait_until({ force = [N], on = gripper } | { slip = [m], on = gripper } | { contact = obstacle } |
+    { distance = [m], between = { a, b } })   a place: a point, gripper, obstacle, { wire, s = }
   p:step("name", function() ... end)   a step that a saved run begins again after; see help 'save'
   grippers' move and rotate return when they are done]],
   save = [[

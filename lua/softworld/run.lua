@@ -164,21 +164,31 @@ end
 
 local function column(name, unit) return { name = name, unit = unit, values = {} } end
 
--- Force and moment columns of one hold on the common time axis of all.
-local function add_hold(series, index, name, rows, count)
+-- Force and moment columns of one hold, or gripper with pads, on the common time axis of all.
+local function add_hold(series, index, name, rows, count, width)
   local axes = { "x", "y", "z" }
   local names = {}
   for k, axis in ipairs(axes) do names[k] = column(name .. ".force_" .. axis, "N") end
   for k, axis in ipairs(axes) do names[3 + k] = column(name .. ".moment_" .. axis, "N m") end
   local force, moment = column(name .. ".force", "N"), column(name .. ".moment", "N m")
   for i = 0, count - 1 do
-    local b, at = 10 * i, index[rows[10 * i + 1]]
+    local b, at = width * i, index[rows[width * i + 1]]
     for k = 1, 6 do names[k].values[at] = rows[b + 1 + k] end
     force.values[at] = (rows[b + 2] ^ 2 + rows[b + 3] ^ 2 + rows[b + 4] ^ 2) ^ 0.5
     moment.values[at] = (rows[b + 5] ^ 2 + rows[b + 6] ^ 2 + rows[b + 7] ^ 2) ^ 0.5
   end
   for _, c in ipairs{ force, moment } do series.columns[#series.columns + 1] = c end
   for _, c in ipairs(names) do series.columns[#series.columns + 1] = c end
+end
+
+local function add_jaws(series, index, log)
+  for k, what in ipairs{ { "opening", "m" }, { "squeeze", "N" }, { "margin", "-" }, { "slip", "m" } } do
+    local c = column(("%s.%s"):format(log.name, what[1]), what[2])
+    for i = 0, log.count - 1 do
+      c.values[index[log.rows[log.width * i + 1]]] = log.rows[log.width * i + 10 + k]
+    end
+    series.columns[#series.columns + 1] = c
+  end
 end
 
 local function collect_times(self, logs)
@@ -204,7 +214,7 @@ local function cut(log, start)
   while first < log.count and log.rows[log.width * first + 1] < start do first = first + 1 end
   table.move(log.rows, log.width * first + 1, log.width * log.count, 1, rows)
   return { name = log.name, width = log.width, rows = rows, count = log.count - first,
-    obstacle = log.obstacle }
+    obstacle = log.obstacle, tool = log.tool }
 end
 
 local function all_logs(self)
@@ -216,6 +226,14 @@ local function all_logs(self)
   for _, o in ipairs(data.obstacles) do
     local rows, count = o.object:log()
     logs[#logs + 1] = { name = o.name, rows = rows, count = count, width = 4, obstacle = true }
+  end
+  for _, g in ipairs(data.grippers) do
+    if g.tool then
+      local rows, count = g.tool:log()
+      if count > 0 then
+        logs[#logs + 1] = { name = g.name, rows = rows, count = count, width = 14, tool = true }
+      end
+    end
   end
   for i, log in ipairs(logs) do logs[i] = cut(log, self.start) end
   return logs
@@ -247,7 +265,10 @@ function Run:series()
   local series = { time = times, columns = {} }
   for _, log in ipairs(logs) do
     if log.obstacle then add_obstacle(series, index, log)
-    else add_hold(series, index, log.name, log.rows, log.count) end
+    else
+      add_hold(series, index, log.name, log.rows, log.count, log.width)
+      if log.tool then add_jaws(series, index, log) end
+    end
   end
   fill_gaps(series)
   return series
@@ -261,6 +282,13 @@ function Run:frames()
   return list
 end
 
+-- Events of grippers that a summary tells, at their time.
+local told = {
+  slip = function() return "the wire SLIPS since" end,
+  lost = function() return "the wire is LOST since" end,
+  crash = function(e) return ("%s RUNS INTO %s at"):format(e.part, e.obstacle) end,
+}
+
 local function summary_of(self)
   local data, rows = build.data(self.scene), {}
   local function add(label, value, unit, s, t)
@@ -273,6 +301,12 @@ local function summary_of(self)
     add(g.name .. ": mean force", m.mean_force, "N")
     add(g.name .. ": peak moment", m.peak_moment, "N m", nil, m.peak_moment_time)
     add(g.name .. ": mean moment", m.mean_moment, "N m")
+    if m.peak_squeeze then add(g.name .. ": largest squeeze per finger", m.peak_squeeze, "N") end
+    for _, e in ipairs(g.events) do
+      if told[e.kind] and e.time >= self.start and e.time <= self.time then
+        add(("%s: %s"):format(g.name, told[e.kind](e)), e.time, "s", e.s, e.time)
+      end
+    end
   end
   for _, w in ipairs(data.wires) do
     local radius, s, t = w.object:min_bend_radius()
