@@ -77,11 +77,19 @@ static void kick(sw_system *s, const sw_body *b, size_t node, sw_vec dv) {
     if (b->plan->held[k] == SW_FREE) sw_accumulate(s->v + 3 * (b->first_node + k), dv);
 }
 
+/* Did the obstacle press on anything at the step's start? What comes to a pad that holds a wire
+ * already only trembles. */
+static int presses(const sw_contact *c, int id) {
+  for (size_t i = 0; i < c->memory_count; i++)
+    if (c->memory[i].obstacle == id && c->memory[i].normal_force > 0) return 1;
+  return 0;
+}
+
 /* Change the starting velocities so that the touch is reached, not passed.
  * Returns 1 when something was changed. */
 static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
-  if (o->grips > 0 && t->known) return 0; /* pads: what they hold already only trembles */
+  if (o->grips > 0 && presses(c, o->id)) return 0;
   const sw_vec x = sw_touch_place(s->x, t->node, t->other, t->at);
   const sw_body *b = &s->bodies[t->body];
   const double radius = sw_plan_skin(b->plan, t->node - b->first_node);
@@ -260,6 +268,7 @@ static int bounces(sw_contact *c, const double *v1) {
       continue;
     const sw_vec wall = sw_obstacle_velocity(&c->now[t->obstacle], t->point);
     if (!(fabs(sw_dot(wall, t->press.normal)) > SLOWEST_IMPACT)) continue;
+    if (c->obstacles[t->obstacle].grips > 0 && presses(c, c->obstacles[t->obstacle].id)) continue;
     const sw_vec v = sw_sub(sw_touch_place(v1, t->node, t->other, t->at), wall);
     if (sw_dot(v, t->press.normal) > SLOWEST_IMPACT) return c->plastic = 1;
   }

@@ -413,6 +413,12 @@ static sw_status check_run(const sw_scene *s, const sw_run_args *args, sw_error 
         err, SW_EINVAL,
         "scene:run: a feed with force or force_limit needs motion; give it a speed for a "
         "quasi-static run");
+  const char *closing = args->quasistatic ? sw_jaw_any(s) : NULL;
+  if (closing)
+    return sw_fail(err, SW_EINVAL,
+                   "scene:run: the jaws of gripper '%s' close with a force, which needs motion; "
+                   "close them to a distance for a quasi-static run",
+                   closing);
   if (args->quasistatic && isfinite(args->tolerance))
     return sw_fail(err, SW_EINVAL,
                    "scene:run: tolerance controls the time step of motion; a quasi-static run "

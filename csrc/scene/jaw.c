@@ -25,6 +25,12 @@ static int yields(const sw_jaw *j) {
   return j->mode == SW_JAW_FORCE || j->goal < j->opening;
 }
 
+const char *sw_jaw_any(const sw_scene *s) {
+  for (size_t k = 0; k < s->tool_count; k++)
+    if (s->tools[k].alive && !s->tools[k].frozen && yields(&s->tools[k].jaw)) return s->tools[k].name;
+  return NULL;
+}
+
 /* The speed at which this step ends with the opening, within what is allowed. */
 static double speed_to(const sw_jaw *j, double opening) {
   return fmax(-j->most, fmin(j->most, (opening - j->opening) / j->step));
