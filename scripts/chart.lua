@@ -224,3 +224,51 @@ if #points_of("mesh_release", function(r) return r.model end) > 0 then
   draw_meshes(options.readme .. "/meshes.svg")
   draw_meshes(options.out .. "/meshes.png")
 end
+
+-- The README's chart of grips ----------------------------------------------------------
+-- The two-plate test by each way of handling, in steps of 20, 10 and 5 ms.
+
+local ways = { { "imposed", "#0072B2", 7 }, { "plates, rod", "#56B4E9", 6 }, { "mixed", "#D55E00", 5 },
+  { "plates, mesh near pads", "#009E73", 9 }, { "plates, radial", "#CC79A7", 11 } }
+
+local function read_grips(path)
+  local file, groups = io.open(path), {}
+  if not file then return nil end
+  for line in file:lines() do
+    local way, all, err = line:match '^"([^"]+)",[^,]+,[^,]+,([^,]+),(.+)$'
+    if way then
+      groups[way] = groups[way] or {}
+      table.insert(groups[way], all .. " " .. err)
+    end
+  end
+  file:close()
+  return groups
+end
+
+local function draw_grips(path, groups)
+  local script, plots, dot = gnuplot.script(), {}, path:find "svg$" and 0.7 or 1
+  script.add [[
+set logscale xy
+set yrange [5e-3:2]
+set xrange [3e-4:2]
+set ytics ('0.01 %%' 0.01, '0.1 %%' 0.1, '1 %%' 1)
+set xtics ('1/1000' 1e-3, '1/100' 1e-2, '1/10' 0.1, 'real time' 1)
+set xlabel 'computing time over simulated time' noenhanced
+set ylabel 'error of the ends'' droop, of the length' noenhanced
+set key outside right center vertical spacing 1.25]]
+  for _, w in ipairs(ways) do
+    if groups[w[1]] then
+      plots[#plots + 1] = ("%s using 1:2 with linespoints pt %d ps %g lw 2 lc rgb '%s' title '%s'"):format(
+        script.data(groups[w[1]]), w[3], dot, w[2], w[1])
+    end
+  end
+  script.add("plot " .. table.concat(plots, ", "))
+  print(gnuplot.draw(script, path, { 880, 360 }))
+end
+
+local grips = read_grips(options.from:gsub("[^/]*$", "") .. "grip.csv")
+if grips and next(grips) then
+  sink.run("mkdir -p " .. sink.quote(options.readme))
+  draw_grips(options.readme .. "/grips.svg", grips)
+  draw_grips(options.out .. "/grips.png", grips)
+end

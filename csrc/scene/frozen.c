@@ -11,7 +11,6 @@
 #include "scene/save.h"
 #include "state/hinge.h"
 #include "state/state_tape.h"
-#include "system/web.h"
 
 struct sw_frozen {
   int references;
@@ -216,7 +215,7 @@ static sw_status find_inside(sw_scene *s, const sw_tool *tool, sw_frozen *f, int
   const double second = couple(web, x, ring, t, axis, load);
   for (size_t i = 0; i < 3 * web->particles; i++) load[i] /= second; /* a moment of 1 N m */
   SW_TRY(sw_scene_linearise(s, pads_only, tool->pads, err));
-  SW_TRY(sw_web_deflect(&s->system, f->wire.slot, load));
+  SW_TRY(sw_system_deflect(&s->system, f->wire.slot, load));
   const double turn = turn_of(web, x, ring, t, axis, load); /* [rad/(N m)] */
   const double way = fabs(f->stations.s[ring] - f->stations.s[face]);
   f->inside[side > 0] = fmax(0.0, turn * b->plan->beam.EI - way);

@@ -246,7 +246,7 @@ sw_status sw_web_solve(sw_body *b, double *delta, size_t *negative) {
   return SW_OK;
 }
 
-sw_status sw_web_deflect(sw_system *s, size_t body, double *load) {
+sw_status sw_system_deflect(sw_system *s, size_t body, double *load) {
   sw_body *b = &s->bodies[body];
   size_t negative;
   sw_gather_rows(&b->field, 0.0, b->field.rows);

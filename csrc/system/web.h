@@ -22,10 +22,6 @@ sw_vec sw_web_reaction(const sw_held_node *held, const sw_body *body, const doub
 /* The update of all free particles: right side in, delta out. Fails as sw_blocks_factor. */
 sw_status sw_web_solve(sw_body *body, double *delta, size_t *negative);
 
-/* Shifts of the particles of a system that was linearised under small loads on them (nodes x 3):
- * loads in, shifts out. Once only; fails as sw_blocks_factor. */
-sw_status sw_web_deflect(sw_system *system, size_t body, double *load);
-
 /* Axial forces after delta by the linearised law, at positions x before it; returns the square
  * of the largest rotation of a spring or of a solid element's edge. */
 double sw_web_advance(const sw_body *body, const double *x, const double *delta, double *axial);

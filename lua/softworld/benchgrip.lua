@@ -19,17 +19,21 @@ local function scene_of(o)
   scene:obstacle{ name = "table", shape = "plane", friction = 0 }
   scene:force{ kind = "damping", mass = 8 }
   local wire = scene:wire{ model = o.model, section = o.model == "radial" and "solid" or nil, E = o.E or 1e7,
-    nu = 0.4, density = 1200, radius = o.radius or radius, from = { 0, 0, o.radius or radius },
+    particles = o.particles, nu = 0.4, density = 1200, radius = o.radius or radius, from = { 0, 0, o.radius or radius },
     to = { length, 0, o.radius or radius } }
   local pads = { width = width, friction = 0.6, opening = 0.009 }
   for k, v in pairs(o.pads or {}) do pads[k] = v end
   return scene, wire, scene:gripper{ name = "hand", pads = pads }
 end
 
+--- What others are compared with: a finer mesh between plates, in small steps.
+benchgrip.reference = { "reference", "radial", "plates", particles = 12 }
+
 --- The two-plate test by one of the ways: { name, phases = { { name, wall, time } }, force, moment,
--- height } with seconds of computing and of motion per phase, and what the gripper felt aloft.
+-- height, droop } with seconds of computing and of motion per phase, and what there was aloft: force
+-- and moment of the gripper, height of the section, how far the wire's end hangs down [m].
 function benchgrip.two_plates(way, dt)
-  local scene, wire, hand = scene_of{ model = way[2] }
+  local scene, wire, hand = scene_of{ model = way[2], particles = way.particles }
   local row, clock, began = { name = way[1], phases = {} }, core.clock(), 0
   local function phase(name)
     local now = core.clock()
@@ -44,6 +48,7 @@ function benchgrip.two_plates(way, dt)
     hand:move{ by = { 0, 0, 0.12 }, duration = 1 }
     p:wait(1.5)
     row.force, row.moment = hand:force()[3], hand:moment{ at = wire:position(length / 4) }[2]
+    row.droop = hand:position()[3] - wire:position(0)[3]
     row.height = way[3] ~= "imposed" and hand:squeeze().height or 0 / 0
     hand:move{ by = { 0, 0.3, 0 }, duration = 2 }
     p:wait(0.5)
@@ -57,6 +62,21 @@ function benchgrip.two_plates(way, dt)
   row.rejected, row.steps = run.rejected, run.steps
   scene:close()
   return row
+end
+
+--- Ways and steps against the reference: rows with dt and error, of the end's droop over the wire's
+-- length [%]. each(row) is called with every row.
+function benchgrip.compare(each)
+  local reference = benchgrip.two_plates(benchgrip.reference, 0.005)
+  each(reference)
+  for _, way in ipairs(benchgrip.ways) do
+    for _, dt in ipairs{ 0.02, 0.01, 0.005 } do
+      local row = benchgrip.two_plates(way, dt)
+      row.dt = dt
+      row.error = row.ok and 100 * math.abs(row.droop - reference.droop) / length or 0 / 0
+      each(row)
+    end
+  end
 end
 
 -- --- grips that are hard ---------------------------------------------------------------
