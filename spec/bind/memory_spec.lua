@@ -165,6 +165,22 @@ local acts = {
     scene:run{ duration = 0.02, dt = 0.01 }
     return pair:tension(), tie:tension()
   end },
+  { "pads that close, freezing what they hold, and restoring it", function()
+    local scene <close> = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ E = 1e7, nu = 0.4, density = 1e3, radius = 3e-3, from = { 0, 0, 0 },
+      to = { 0.15, 0, 0 }, segments = 10 }
+    local hand = scene:gripper{ pads = { opening = 8e-3 }, arm = { radius = 0.01, length = 0.02 } }
+    scene:process(function()
+      hand:grasp(wire, { s = 0.075, approach = "mixed", distance = 6e-3, speed = 0.1, spacing = 3e-3,
+        freeze = false })
+      hand:freeze()
+    end)
+    scene:run{ dt = 0.01, max_steps = 4 }
+    local snapshot = scene:snapshot()
+    if hand.frozen then hand:thaw() end
+    scene:restore(snapshot)
+    return hand:state(), hand:pressure_map(), hand:force()
+  end },
   { "calibrating springs", function()
     sw.calibrate { mesh = "tube", particles = 3, EA = 1e4, EI = 0.05, GJ = 0.04, radius = 5e-3 }
     sw.calibrate { mesh = "composite", core = "line", particles = 3, E = 1e8, radius = 5e-3 }
