@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- A soft wire lies on a worktable. Two rough plates close on it, lift it, carry it sideways and lay it
 -- down; force, moment and the squeezed section on the way. The wire is a mesh all along.
---   15_two_plates.lua [picture.png]
+--   15_two_plates.lua [picture.png [sections.svg]]
 local sw = require "softworld"
 local mm = sw.units.mm
 
@@ -22,12 +22,14 @@ local function tell(what)
     1e3 * section.width, now.margin))
 end
 
+local free, squeezed = wire:section(L / 2), nil
 scene:process(function(p)
   hand:grasp(wire, { s = L / 2, approach = "plates", force = 20 })
   tell "closed"
   hand:move { by = { 0, 0, mm(100) }, duration = 1 }
   p:wait(0.5)
   tell "lifted"
+  squeezed = wire:section(L / 2)
   hand:move { by = { 0, mm(80), 0 }, duration = 0.8 }
   p:wait(0.2)
   tell "carried"
@@ -44,4 +46,7 @@ print(("peak force %.4f N, peak moment %.3g N m about the tool centre; %s"):form
 print(("%.1f s of motion took %.1f s"):format(run.time, run.cpu))
 if arg[1] then
   run:pictures { path = arg[1], count = 4, camera = { direction = { 1, 0.25, -0.35 } } }
+end
+if arg[2] then
+  free:chart { path = arg[2], name = "free", with = { { "between the plates", squeezed } } }
 end

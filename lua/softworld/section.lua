@@ -39,6 +39,22 @@ function Section:width(direction)
   return high - low + 2 * self.skin
 end
 
+--- Draw its outline, and those of others over it: { path = "x.svg" | ".png" | ".pdf", name =,
+-- with = { { name, section }, ... }, title = }. Returns the path.
+function Section:chart(options)
+  if type(options) ~= "table" or type(options.path) ~= "string" then
+    error("section:chart takes { path = 'file.svg', name =, with = { { name, section }, ... } }", 2)
+  end
+  local list = { { options.name or ("s = %.4g m"):format(self.s), self } }
+  for i, item in ipairs(options.with or {}) do
+    if type(item) ~= "table" or getmetatable(item[2]) ~= Section then
+      error(("section:chart: with, item %d, must be { name, section }"):format(i), 2)
+    end
+    list[#list + 1] = { tostring(item[1]), item[2] }
+  end
+  return require("softworld.output.outlines").draw(options.path, list, options.title)
+end
+
 local function range(list)
   return math.min(table.unpack(list)), math.max(table.unpack(list))
 end
