@@ -410,26 +410,28 @@ end
 -- What each way of handling costs and gives in the two-plate test; also as out/bench/grip.csv.
 local function print_grips()
   local grip = require "softworld.benchgrip"
-  local rows, carry = { "way,dt,carry,all,error" }, {}
-  print "\ntwo-plate test, s/simulated s     dt    grasp    carry      lay      all  force N  moment mN m  height mm  end's droop"
+  local lines, carry = { "way,dt,carry,all,error" }, {}
+  print("\ntwo-plate test, s/simulated s     dt    grasp    carry      lay      all  force N  moment mN m"
+    .. "  height mm  end's droop")
   grip.compare(function(r)
     local cells = {}
     for i, phase in ipairs(r.phases) do
       cells[i] = phase.time > 0 and ("%8.4f"):format(phase.wall / phase.time) or "       -"
     end
-    print(("%-26s %9s %s %8.4f %8.4f %12.4f %10.4f %9s%s"):format(r.name, r.dt or "", table.concat(cells, " "),
-      r.wall / r.time, r.force or 0 / 0, 1e3 * (r.moment or 0 / 0), 1e3 * (r.height or 0 / 0),
+    print(("%-26s %9s %s %8.4f %8.4f %12.4f %10.4f %9s%s"):format(r.name, r.dt or "",
+      table.concat(cells, " "), r.wall / r.time, r.force or 0 / 0, 1e3 * (r.moment or 0 / 0), 1e3 * (r.height or 0 / 0),
       r.error and ("%.3f %%"):format(r.error) or "", r.ok and "" or "  FAILED: " .. r.reason))
     local p = r.phases[2]
     if r.ok and r.dt then
-      rows[#rows + 1] = ('"%s",%g,%g,%g,%g'):format(r.name, r.dt, p.wall / p.time, r.wall / r.time, r.error)
+      lines[#lines + 1] = ('"%s",%g,%g,%g,%g'):format(r.name, r.dt, p.wall / p.time, r.wall / r.time,
+        r.error)
       if r.dt == 0.01 then carry[r.name] = p.wall / p.time end
     end
   end)
   print(("carrying mixed costs 1/%.0f of carrying by the same mesh's plates, steps of 10 ms"):format(
     carry["plates, mesh near pads"] / carry.mixed))
   sink.run("mkdir -p " .. sink.quote(out))
-  sink.write_file(out .. "/grip.csv", table.concat(rows, "\n") .. "\n")
+  sink.write_file(out .. "/grip.csv", table.concat(lines, "\n") .. "\n")
 end
 
 if not next(wanted) or wanted.case and wanted.case.meshes then print_meshes() end

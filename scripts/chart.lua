@@ -232,16 +232,16 @@ local ways = { { "imposed", "#0072B2", 7 }, { "plates, rod", "#56B4E9", 6 }, { "
   { "plates, mesh near pads", "#009E73", 9 }, { "plates, radial", "#CC79A7", 11 } }
 
 local function read_grips(path)
-  local file, groups = io.open(path), {}
-  if not file then return nil end
-  for line in file:lines() do
+  local grip_file, groups = io.open(path), {}
+  if not grip_file then return nil end
+  for line in grip_file:lines() do
     local way, all, err = line:match '^"([^"]+)",[^,]+,[^,]+,([^,]+),(.+)$'
     if way then
       groups[way] = groups[way] or {}
       table.insert(groups[way], all .. " " .. err)
     end
   end
-  file:close()
+  grip_file:close()
   return groups
 end
 

@@ -359,7 +359,8 @@ describe("example", function()
     assert(least > heavier * rest and least < 4 * rest, ("%g N, at rest %g N"):format(least, rest))
     local failed, held = 0, math.huge
     for force, what in out:gmatch "(%S+) N: (%a+)" do
-      if what == "slips" then failed = math.max(failed, tonumber(force)) else held = math.min(held, tonumber(force)) end
+      if what == "slips" then failed = math.max(failed, tonumber(force))
+      else held = math.min(held, tonumber(force)) end
     end
     assert(failed < held and held <= 1.021 * failed + 1e-3, "bracket")
     near(held, least, 1e-3, "least force")

@@ -479,7 +479,7 @@ sw_status sw_contact_add_memory(sw_contact *c, const void *memory, size_t bytes,
     c->memory[c->memory_count] = from[i];
     c->memory[c->memory_count++].node += new_first - old_first;
   }
-  qsort(c->memory, c->memory_count, sizeof *c->memory, in_order);
+  if (c->memory_count) qsort(c->memory, c->memory_count, sizeof *c->memory, in_order);
   c->fresh = 0;
   return SW_OK;
 }

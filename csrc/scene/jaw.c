@@ -27,7 +27,8 @@ static int yields(const sw_jaw *j) {
 
 const char *sw_jaw_any(const sw_scene *s) {
   for (size_t k = 0; k < s->tool_count; k++)
-    if (s->tools[k].alive && !s->tools[k].frozen && yields(&s->tools[k].jaw)) return s->tools[k].name;
+    if (s->tools[k].alive && !s->tools[k].frozen && yields(&s->tools[k].jaw))
+      return s->tools[k].name;
   return NULL;
 }
 

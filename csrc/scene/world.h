@@ -425,7 +425,8 @@ void sw_scene_clear_tool(sw_tool *tool);
 sw_tool *sw_scene_find_tool(const sw_scene *scene, sw_handle h, sw_error *err);
 /* Their jaws at the start of a step of size h; 1: a trial may have to be corrected. After a
  * trial: 1 = the forces are as wanted, or cannot be. After an accepted one, or one given up. */
-const char *sw_jaw_any(const sw_scene *scene); /* the name of a tool whose jaws obey a force, or NULL */
+const char *sw_jaw_any(
+    const sw_scene *scene); /* the name of a tool whose jaws obey a force, or NULL */
 int sw_jaw_begin(sw_scene *scene, double h);
 int sw_jaw_correct(sw_scene *scene);
 void sw_jaw_follow(sw_scene *scene);

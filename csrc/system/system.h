@@ -286,8 +286,8 @@ double sw_system_stable_dt(const sw_system *system);
  * (unknowns) values; in those given, held nodes must be zero. */
 sw_status sw_system_linearise(sw_system *system, double time, sw_error *err);
 
-/* Shifts of the particles of a body that is a mesh, in a system that was linearised, under small loads on them (nodes x 3):
- * loads in, shifts out. Once only; fails as sw_blocks_factor. */
+/* Shifts of the particles of a body that is a mesh, in a system that was linearised, under small
+ * loads on them (nodes x 3): loads in, shifts out. Once only; fails as sw_blocks_factor. */
 sw_status sw_system_deflect(sw_system *system, size_t body, double *load);
 
 size_t sw_system_unknowns(const sw_system *system, size_t body);

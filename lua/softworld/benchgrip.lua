@@ -19,7 +19,8 @@ local function scene_of(o)
   scene:obstacle{ name = "table", shape = "plane", friction = 0 }
   scene:force{ kind = "damping", mass = 8 }
   local wire = scene:wire{ model = o.model, section = o.model == "radial" and "solid" or nil, E = o.E or 1e7,
-    particles = o.particles, nu = 0.4, density = 1200, radius = o.radius or radius, from = { 0, 0, o.radius or radius },
+    particles = o.particles, nu = 0.4, density = 1200, radius = o.radius or radius,
+    from = { 0, 0, o.radius or radius },
     to = { length, 0, o.radius or radius } }
   local pads = { width = width, friction = 0.6, opening = 0.009 }
   for k, v in pairs(o.pads or {}) do pads[k] = v end

@@ -79,7 +79,8 @@ function grasp.check_reaction(what, value, level)
   if type(value) ~= "function" then checks.word(what, value, reactions, level + 1) end
 end
 
---- What happens when the wire slips, and when it is lost: "record" (default), "warn", "stop" or a function, called with
+--- What happens when the wire slips, and when it is lost: "record" (default), "warn", "stop" or a
+-- function, called with
 -- the gripper and the event.
 function grasp.set_on_slip(self, value, level)
   grasp.check_reaction("gripper '" .. self.name .. "': on_slip", value, level + 1)

@@ -145,7 +145,7 @@ function Measures:squeeze()
   needs_tool(self, "squeeze")
   local state = self:state()
   if not self.wire then error(("gripper '%s' holds nothing"):format(self.name), 2) end
-  local d, result = 2 * self.wire.radius, nil
+  local d, result = 2 * self.wire.radius
   if self.frozen then
     result = { height = self.frozen.section.height, width = self.frozen.section.width }
   elseif self.wire.model ~= "rod" and self.wire.model ~= "string" then

@@ -205,8 +205,8 @@ describe("a wire lifted from a table (case 09)", function()
     it("loads the gripper as it must: " .. approach, function()
       local scene = sw.scene{}
       scene:obstacle{ shape = "plane", friction = 0 }
-      local wire = scene:wire{ E = 4 * EI / (math.pi * radius ^ 4), nu = 0.3, density = density, radius = radius,
-        from = { 0, 0, radius }, to = { L, 0, radius }, segments = 200 }
+      local wire = scene:wire{ E = 4 * EI / (math.pi * radius ^ 4), nu = 0.3, density = density,
+        radius = radius,        from = { 0, 0, radius }, to = { L, 0, radius }, segments = 200 }
       scene:force{ kind = "damping", mass = 4, stiffness = 2e-3 }
       local g = scene:gripper{ pads = { width = width, friction = 0.8, opening = 3 * radius } }
       scene:process(function(p)
@@ -234,7 +234,8 @@ end)
 
 describe("fingers", function()
   it("of other shapes centre and hold the wire", function()
-    for _, pads in ipairs{ { shape = "v" }, { shape = "round" }, { fingers = 3, height = 0.004, below = 0.002 },
+    for _, pads in ipairs{ { shape = "v" }, { shape = "round" },
+      { fingers = 3, height = 0.004, below = 0.002 },
       { shape = "v", angle = math.pi / 2 } } do
       pads.opening = 0.014
       local scene = new_scene()

@@ -10,8 +10,8 @@ local r, L, width, force = 0.003, 0.24, 0.02, 20
 local function new_scene()
   local scene = sw.scene{}
   scene:obstacle{ name = "table", shape = "plane", friction = 0 }
-  local wire = scene:wire{ E = 2e7, nu = 0.4, density = 1200, radius = r, from = { 0, 0, r }, to = { L, 0, r },
-    segments = 48 }
+  local wire = scene:wire{ E = 2e7, nu = 0.4, density = 1200, radius = r, from = { 0, 0, r },
+    to = { L, 0, r },    segments = 48 }
   scene:force{ kind = "damping", mass = 8 }
   local g = scene:gripper{ name = "hand", pads = { width = width, friction = 0.7, opening = 3 * r } }
   return scene, wire, g
@@ -81,20 +81,20 @@ describe("a mixed grasp", function()
   it("keeps mass and momentum across the switches", function()
     local scene, wire, g = new_scene()
     local mass = wire.beam.mass_per_length * L
-    scene:process(function(p)
+    scene:process(function()
       g:grasp(wire, { s = L / 2, approach = "mixed", force = force, freeze = false })
       g:move{ by = { 0, 0, 0.1 }, duration = 0.4 }
     end)
-    local force = {}
+    local seen = {}
     scene:process(function(p) -- in the middle of the move, where it is fast
       p:wait_until(function() return g.held end)
       p:wait(0.1)
       for k, change in ipairs{ "freeze", "thaw" } do
         p:wait(0.1)
-        force[k] = { g:force()[3] }
+        seen[k] = { g:force()[3] }
         g[change](g)
         p:wait(0.001)
-        force[k][2] = g:force()[3]
+        seen[k][2] = g:force()[3]
       end
     end)
     local run = scene:run{ dt = 0.001 }
@@ -102,7 +102,7 @@ describe("a mixed grasp", function()
     for i = 1, 2 do
       local e = g.events[i]
       -- 1 % of it, and what swinging ends change in a step of 1 ms
-      t.near(force[i][1], force[i][2], 0.02 * mass * 9.81, e.kind .. ": force in motion")
+      t.near(seen[i][1], seen[i][2], 0.02 * mass * 9.81, e.kind .. ": force in motion")
       assert.equal(({ "frozen", "thawed" })[i], e.kind)
       for _, part in ipairs{ "linear", "angular" } do
         local scale = part == "linear" and mass * 0.1 or mass * 0.1 * L

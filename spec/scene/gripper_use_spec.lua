@@ -49,7 +49,8 @@ describe("a gripper with pads", function()
     for text, args in pairs{
       ["s = 0.3 m is not allowed; it must be at least 0 m and at most 0.2 m"] =
         { s = 0.3, approach = "plates", force = 1 },
-      ["approach = 'plate' is not one of: imposed mixed plates; did you mean 'plates'?"] = { approach = "plate" },
+      ["approach = 'plate' is not one of: imposed mixed plates; did you mean 'plates'?"] =
+        { approach = "plate" },
       ["how far? give force [N], distance [m] or speed [m/s]"] = { s = 0.1, approach = "plates" },
       ["force goes with approach = 'plates' or 'mixed'"] = { s = 0.1, force = 1 },
       ["region goes with approach = 'mixed'"] = { s = 0.1, approach = "plates", force = 1, region = 0.1 },
@@ -77,7 +78,9 @@ describe("a gripper with pads", function()
     local scene = new_scene()
     local g = scene:gripper{ name = "hand", at = { 0.1, 0.05, 0.05 }, rotation = { 1, 0, 0, 0 }, pads = pads }
     local _, wire = new_scene()
-    assert.error_matches(function() g:grasp(wire, { approach = "plates", force = 1 }) end, "belongs to another scene")
+    assert.error_matches(function()
+      g:grasp(wire, { approach = "plates", force = 1 })
+    end, "belongs to another scene")
   end)
 
   it("says that it closed on nothing", function()
@@ -100,7 +103,8 @@ describe("a gripper with pads", function()
   end)
 
   it("stops before it crushes the wire", function()
-    for _, model in ipairs{ { E = 2e6 }, { E = 2e6, model = "radial", body = "solid", to = { 0.1, 0, r } } } do
+    local mesh = { E = 2e6, model = "radial", body = "solid", to = { 0.1, 0, r } }
+    for _, model in ipairs{ { E = 2e6 }, mesh } do
       local scene, wire = new_scene(model)
       local g = scene:gripper{ name = "hand", pads = pads }
       local why
@@ -177,7 +181,8 @@ describe("a gripper with pads", function()
   it("moves with open jaws, presses, and hands over", function()
     local scene, wire = new_scene()
     local left = scene:gripper{ name = "left", pads = pads }
-    local right = scene:gripper{ name = "right", at = { 0.15, 0, 0.1 }, rotation = { 1, 0, 0, 0 }, pads = pads }
+    local right = scene:gripper{ name = "right", at = { 0.15, 0, 0.1 }, rotation = { 1, 0, 0, 0 },
+      pads = pads }
     local weight = wire.beam.mass_per_length * 9.81 * wire.length
     run(scene, function(p)
       right:move_to({ 0.15, 0, 0.12 }, { speed = 0.5 })

@@ -21,7 +21,11 @@ end
 --- Draw a list of { name, section } into a file (.svg, .png, .pdf).
 function outlines.draw(path, list, title)
   local script, plots = gnuplot.script(), {}
-  script.add("set size ratio -1\nset xlabel 'across [mm]'\nset ylabel 'up [mm]'\nset key outside right center vertical")
+  script.add [[
+set size ratio -1
+set xlabel 'across [mm]'
+set ylabel 'up [mm]'
+set key outside right center vertical]]
   if title then script.add("set title " .. gnuplot.quote(title)) end
   for i, item in ipairs(list) do
     plots[i] = ("%s using 1:2 with linespoints pt 7 ps 0.5 lw 2 lc rgb '%s' title %s"):format(
