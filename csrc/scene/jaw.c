@@ -8,6 +8,7 @@
 #include "scene/world.h"
 
 static const double PRECISION = 1e-3;    /* of the force wanted [-] */
+static const double ROUGHLY = 0.015; /* likewise, when it is reached first [-] */
 static const double REACHED = 0.02;      /* so far below it the force counts as reached [-] */
 enum { MOST_TRIALS = 10 };               /* the last one is then taken as it is [-] */
 static const double SAME_OPENING = 1e-9; /* at a step's end [m] */
@@ -97,7 +98,8 @@ static int improve(sw_jaw *j, double off) {
 static int correct(const sw_scene *s, sw_tool *t) {
   sw_jaw *j = &t->jaw;
   const double off = sw_tool_squeeze(s, t) - j->force;
-  if (fabs(off) <= PRECISION * j->force || ++j->trials >= MOST_TRIALS) return 1;
+  const double allowed = j->status == SW_JAW_HOLDS ? PRECISION : ROUGHLY;
+  if (fabs(off) <= allowed * j->force || ++j->trials >= MOST_TRIALS) return 1;
   const int approaches = j->status != SW_JAW_HOLDS && j->trials == 1;
   if (off < 0 && (approaches || j->speed <= speed_to(j, 0))) return 1;
   if (off > 0 && j->speed >= j->most) return 1;
