@@ -233,6 +233,7 @@ static int meth_touches(lua_State *L) {
     lsw_set_vector(L, "force", touch.force);
     lsw_set_number(L, "normal", touch.normal);
     lsw_set_number(L, "s", touch.s);
+    lsw_set_number(L, "slid", touch.slid);
     lua_rawseti(L, -2, ++found);
   }
   return 1;

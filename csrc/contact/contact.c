@@ -375,8 +375,9 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
                    .k = sw_press_eased(&t->press, c->candidates[t->candidate].usual, t->stiffer),
                    .normal = sw_rotate(back, t->press.normal),
                    .point = t->local};
-  if (t->press.normal_force > 0)
-    m->elastic = sw_rotate(back, sw_scale(t->press.tangential, -1.0 / sw_press_grip(&t->press)));
+  if (!(t->press.normal_force > 0)) return SW_OK;
+  m->slid = t->slid + sw_norm(t->press.slip);
+  m->elastic = sw_rotate(back, sw_scale(t->press.tangential, -1.0 / sw_press_grip(&t->press)));
   return SW_OK;
 }
 
@@ -548,6 +549,7 @@ int sw_contact_push_at(const sw_contact *c, const sw_system *s, size_t k, sw_con
                            .normal_force = p->normal_force,
                            .point = t->point,
                            .place = place_of(s, t),
+                           .slid = t->slid + sw_norm(p->slip),
                            .force = sw_madd(p->tangential, p->normal, p->normal_force)};
   return p->normal_force > 0;
 }

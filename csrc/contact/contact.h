@@ -118,6 +118,7 @@ typedef struct sw_contact_push {
   sw_vec force;        /* on the wire, with friction [N] */
   sw_vec point;        /* on the obstacle [m] */
   double place;        /* arc length [m] */
+  double slid;         /* way that it slid since it began to press [m] */
 } sw_contact_push;
 /* All touches, also those without a force; number k of them: 0 when it has none. */
 size_t sw_contact_touches(const sw_contact *contact);

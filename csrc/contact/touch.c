@@ -133,6 +133,7 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
   const int went_on = last && last->press.active;
   t->friction = m && m->sliding ? o->kinetic : o->friction;
+  t->slid = m ? m->slid : 0.0;
   if (went_on)
     press->sliding = last->press.next_sliding;
   else if (m)

@@ -35,6 +35,7 @@ typedef struct sw_touch {
   int known;        /* it pressed at the step's start */
   int held;         /* both ends are held: no force */
   double friction;  /* coefficient in this step: kinetic when it slid before [-] */
+  double slid;      /* way that it slid until the step's start, since it began to press [m] */
   size_t candidate; /* index of what it was made from */
   sw_press press;   /* its normal is the obstacle's, outward, in the world */
 } sw_touch;
@@ -51,6 +52,7 @@ typedef struct sw_memory {
   sw_vec normal, point; /* the side: local [-], [m] */
   int sliding;
   sw_vec elastic; /* displacement of the friction spring, local [m] */
+  double slid;    /* way that it slid since it began to press [m] */
 } sw_memory;
 
 /* A crossing found by the swept test: the place is kept on its side of a plane

@@ -298,7 +298,8 @@ int sw_scene_tool_touch(const sw_scene *s, sw_handle tool, size_t number, sw_too
     if (t->pad[k].obstacle != (size_t)push.obstacle) continue;
     const sw_vec arm = sw_sub(push.point, t->now.centre);
     *out = (sw_tool_touch){t->pad[k].finger, sw_unrotate(t->now.q, arm),
-                           sw_unrotate(t->now.q, push.force), push.normal_force, push.place};
+                           sw_unrotate(t->now.q, push.force), push.normal_force, push.place,
+                           push.slid};
     return 1;
   }
   return 0;

@@ -115,6 +115,7 @@ typedef struct sw_tool_touch {
   sw_vec force;  /* on the wire, in them [N] */
   double normal; /* part of it across the surface [N] */
   double s;      /* arc length [m] */
+  double slid;   /* way that the wire slid there since it began to press [m] */
 } sw_tool_touch;
 /* How many touches pads have; number k of all touches there are: 0 = not one of a pad's with a
  * force. */

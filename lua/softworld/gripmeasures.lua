@@ -162,7 +162,7 @@ end
 --- Where the pads press: a map of the mean pressure [Pa] over cells of the pads,
 -- { { finger =, x =, z =, pressure = }, ... } in the tool's axes [m], with
 -- .largest, .force (sum of normal forces [N]) and .touches, the single places with { finger, at
--- (in the tool's axes), normal [N], force, s }. Options: cell = { along, across } [m].
+-- (in the tool's axes), normal [N], force, s, slid [m] }. Options: cell = { along, across } [m].
 function Measures:pressure_map(args)
   args = args or {}
   checks.keys("gripper:pressure_map", args, { cell = true }, 3)

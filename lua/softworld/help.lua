@@ -34,7 +34,7 @@ local texts = {
 scene:gripper{ name =, pads = {...}, at = {x, y, z} [m], rotation =, arm = { radius =, length = [m] },
   slip_tolerance = [m], on_crash = "record" | "warn" | "stop" | function }
   pads: shape = "flat" | "v" | "round" | "mesh", width, height, thickness, below, opening, radius [m],
-    angle [rad], file, scale, friction, kinetic_friction, restitution, fingers
+    angle [rad], file, scale, restitution, fingers, friction, kinetic_friction (or a list: per finger)
   :grasp(wire, { s = [m], approach = "imposed" })     the wire is one with the gripper
   :grasp(wire, { s =, approach = "plates", force = [N] | distance = [m], speed = [m/s], on_slip = })
   :grasp(wire, { s =, approach = "mixed", force =, ... })   see help 'mixed'

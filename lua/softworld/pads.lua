@@ -55,6 +55,7 @@ local numbers = { -- default, lowest, unit, what it is
 local highest = { angle = math.pi, friction = 100, kinetic_friction = 100, restitution = 1 }
 local may_be_zero = { friction = true, kinetic_friction = true, restitution = true, below = true,
   width = true }
+local per_finger = { friction = true, kinetic_friction = true } -- may be a list, one for each
 local known = { shape = true, fingers = true, file = true }
 for key in pairs(numbers) do known[key] = true end
 
@@ -67,14 +68,22 @@ function pads.check(args, what, level)
     if p[key] == nil then
       p[key] = row[1]
     else
-      checks.number(what .. "." .. key, p[key], row[2], row[3], level + 1, highest[key],
-        not may_be_zero[key])
+      for i, value in ipairs(per_finger[key] and type(p[key]) == "table" and p[key] or { p[key] }) do
+        checks.number(("%s.%s%s"):format(what, key, type(p[key]) == "table" and ("[%d]"):format(i) or ""),
+          value, row[2], row[3], level + 1, highest[key], not may_be_zero[key])
+      end
     end
   end
   p.fingers = args.fingers or 2
   if math.type(p.fingers) ~= "integer" or p.fingers < 1 or p.fingers > 6 then
     error(("%s.fingers = %s is not allowed; it must be an integer from 1 to 6"):format(what,
       tostring(p.fingers)), level)
+  end
+  for key in pairs(per_finger) do
+    if type(p[key]) == "table" and #p[key] ~= p.fingers then
+      error(("%s.%s has %d values; it must have one, or one for each of %d fingers"):format(what, key,
+        #p[key], p.fingers), level)
+    end
   end
   if (p.shape == "mesh") ~= (args.file ~= nil) then
     error(("%s: file goes with shape = 'mesh'"):format(what), level)
@@ -124,7 +133,9 @@ function pads.make(scene, gripper, at, rotation, radius)
       else facing = vec.multiply(around, facing) end
       part.at = vec.add(at, vec.rotate(q, vec.add(place, opens, opening)))
       part.rotation = vec.multiply(q, facing)
-      part.friction, part.kinetic_friction = p.friction, p.kinetic_friction
+      part.friction = type(p.friction) == "table" and p.friction[finger] or p.friction
+      part.kinetic_friction = type(p.kinetic_friction) == "table" and p.kinetic_friction[finger]
+        or p.kinetic_friction
       part.restitution = p.restitution
       part.name = ("%s.finger%d%s"):format(name, finger, number > 1 and "." .. number or "")
       local obstacle = scene:obstacle(part)

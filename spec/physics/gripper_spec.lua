@@ -139,6 +139,26 @@ describe("friction of pads", function()
     t.share(0.3 * normal, force, 0.005, "pull against normal forces")
   end)
 
+  it("is each finger's own, and each touch knows how far it slid", function()
+    local gone
+    local _, g = grasped({ force = 5 }, { friction = { 0.2, 0.6 } }, nil, function(p, hand, w, scene)
+      local pulled = scene:clamp(w, { s = w.length })
+      pulled:follow{ points = { { 0, 0, 0 }, { 0.003, 0, 0 } }, duration = 1, relative = true, law = "linear" }
+      p:wait(0.8)
+      local a, b = hand:force{ finger = 1 }, hand:force{ finger = 2 }
+      t.share(-0.2 * 5, a[1], 0.05, "friction of the first finger")
+      t.share(-0.6 * 5, b[1], 0.05, "friction of the second finger")
+      gone = w:position(w.length / 2)[1] - w.length / 2
+      for _, touch in ipairs(hand:pressure_map().touches) do -- new ones come in at the pads' edge
+        t.below(gone * 1.05, touch.slid, "slid")
+      end
+    end)
+    t.share(gone, g:state().slip, 0.3, "slip") -- it went on for a fifth of the time
+    local ok, message = pcall(g.scene.gripper, g.scene, { pads = { friction = { 0.1 } } })
+    assert.is_false(ok)
+    assert.is_truthy(message:find("friction has 1 values; it must have one, or one for each of 2", 1, true))
+  end)
+
   it("is less where it slides, when that is told", function()
     -- stiff, so that all of it begins to slide at once
     local force, normal, g = pull(5, { friction = 0.5, kinetic_friction = 0.3 }, { E = 2e10 }, 0.004)
