@@ -110,7 +110,8 @@ sw_status sw_scene_tool_follow(sw_scene *s, sw_handle tool, sw_motion *motion, i
   sw_tool *t = sw_scene_find_tool(s, tool, err);
   if (!t) return SW_EDEAD;
   SW_TRY(sw_drive_follow(s, &t->drive, t->name, motion, relative, err));
-  s->discontinuous = 1;
+  for (size_t k = 0; k < s->hold_count; k++) /* pads alone push by where they are, not how fast */
+    if (s->holds[k].alive && s->holds[k].drive.tool == 1 + tool.slot) s->discontinuous = 1;
   return SW_OK;
 }
 
