@@ -419,7 +419,8 @@ local function print_grips()
       cells[i] = phase.time > 0 and ("%8.4f"):format(phase.wall / phase.time) or "       -"
     end
     print(("%-26s %9s %s %8.4f %8.4f %12.4f %10.4f %9s%s"):format(r.name, r.dt or "",
-      table.concat(cells, " "), r.wall / r.time, r.force or 0 / 0, 1e3 * (r.moment or 0 / 0), 1e3 * (r.height or 0 / 0),
+      table.concat(cells, " "),
+      r.wall / r.time, r.force or 0 / 0, 1e3 * (r.moment or 0 / 0), 1e3 * (r.height or 0 / 0),
       r.error and ("%.3f %%"):format(r.error) or "", r.ok and "" or "  FAILED: " .. r.reason))
     local p = r.phases[2]
     if r.ok and r.dt then

@@ -143,7 +143,8 @@ describe("friction of pads", function()
     local gone
     local _, g = grasped({ force = 5 }, { friction = { 0.2, 0.6 } }, nil, function(p, hand, w, scene)
       local pulled = scene:clamp(w, { s = w.length })
-      pulled:follow{ points = { { 0, 0, 0 }, { 0.003, 0, 0 } }, duration = 1, relative = true, law = "linear" }
+      pulled:follow{ points = { { 0, 0, 0 }, { 0.003, 0, 0 } }, duration = 1,
+        relative = true, law = "linear" }
       p:wait(0.8)
       local a, b = hand:force{ finger = 1 }, hand:force{ finger = 2 }
       t.share(-0.2 * 5, a[1], 0.05, "friction of the first finger")
@@ -275,6 +276,38 @@ describe("fingers", function()
       end)
       run(scene)
     end
+  end)
+
+  it("from mesh files hold it as plates of the same shape do", function()
+    -- a block 20 x 8 x 10 mm whose face is at y = 0, in millimetres
+    local corners = {}
+    for i = 0, 7 do
+      corners[i + 1] = ("v %g %g %g"):format(i % 2 == 0 and -10 or 10, i // 2 % 2 == 0 and 0 or 8,
+        i // 4 == 0 and -5 or 5)
+    end
+    local sides = { { 1, 2, 4, 3 }, { 5, 7, 8, 6 }, { 1, 5, 6, 2 }, { 3, 4, 8, 7 },
+      { 1, 3, 7, 5 }, { 2, 6, 8, 4 } }
+    for _, q in ipairs(sides) do -- outward
+      corners[#corners + 1] = ("f %d %d %d"):format(q[1], q[3], q[2])
+      corners[#corners + 1] = ("f %d %d %d"):format(q[1], q[4], q[3])
+    end
+    local file = os.tmpname() .. ".obj"
+    local out = assert(io.open(file, "w"))
+    out:write(table.concat(corners, "\n"), "\n")
+    out:close()
+    local seen = {}
+    for k, pads in ipairs{ { shape = "mesh", file = file, scale = 1e-3 },
+      { height = 0.01, below = 0.005 } } do
+      pads.opening = 2.5 * r
+      grasped({ force = 4 }, pads, { model = "radial", body = "solid", E = 5e6 }, function(p, g)
+        p:wait(0.1)
+        seen[k] = { opening = g:state().opening, squeeze = g:state().squeeze, force = g:force() }
+      end)
+    end
+    os.remove(file)
+    t.share(4, seen[1].squeeze, 0.01, "force")
+    t.share(seen[2].opening, seen[1].opening, 0.01, "opening")
+    t.near(0, seen[1].force[2], 0.02, "sum")
   end)
 
   it("report their own share of force and moment", function()
