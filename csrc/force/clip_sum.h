@@ -5,6 +5,7 @@
 
 #include <stddef.h>
 
+#include "base/param.h"
 #include "base/vec.h"
 #include "force/axis.h"
 #include "force/clip_law.h"
@@ -19,6 +20,83 @@ typedef struct sw_clip_args {
   double way;                  /* of the wire over the lips; NAN = chosen [m] */
   double stiffness;            /* of floor and walls; NAN = chosen [N/m] */
 } sw_clip_args;
+
+/* Rows of what every force of a clip takes. */
+#define SW_CLIP_ROWS                                                                          \
+  {"at",                                                                                      \
+   SW_PARAM_VECTOR,                                                                           \
+   "m",                                                                                       \
+   0,                                                                                         \
+   -HUGE_VAL,                                                                                 \
+   HUGE_VAL,                                                                                  \
+   SW_PARAM_REQUIRED,                                                                         \
+   NULL,                                                                                      \
+   offsetof(sw_clip_args, at),                                                                \
+   "the wire's centre line in the seat"},                                                     \
+      {"direction",                                                                           \
+       SW_PARAM_VECTOR,                                                                       \
+       "-",                                                                                   \
+       0,                                                                                     \
+       -HUGE_VAL,                                                                             \
+       HUGE_VAL,                                                                              \
+       SW_PARAM_REQUIRED,                                                                     \
+       NULL,                                                                                  \
+       offsetof(sw_clip_args, direction),                                                     \
+       "from the seat to the mouth"},                                                         \
+      {"axis",                                                                                \
+       SW_PARAM_VECTOR,                                                                       \
+       "-",                                                                                   \
+       0,                                                                                     \
+       -HUGE_VAL,                                                                             \
+       HUGE_VAL,                                                                              \
+       SW_PARAM_REQUIRED,                                                                     \
+       NULL,                                                                                  \
+       offsetof(sw_clip_args, axis),                                                          \
+       "along the wire in the seat"},                                                         \
+      {"width",                                                                               \
+       SW_PARAM_NUMBER,                                                                       \
+       "m",                                                                                   \
+       0,                                                                                     \
+       0,                                                                                     \
+       HUGE_VAL,                                                                              \
+       SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN,                                                \
+       NULL,                                                                                  \
+       offsetof(sw_clip_args, width),                                                         \
+       "along the axis"},                                                                     \
+      {"insertion",                                                                           \
+       SW_PARAM_NUMBER,                                                                       \
+       "N",                                                                                   \
+       0,                                                                                     \
+       0,                                                                                     \
+       HUGE_VAL,                                                                              \
+       SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN,                                                \
+       NULL,                                                                                  \
+       offsetof(sw_clip_args, insertion),                                                     \
+       "largest force of the lips on the way in"},                                            \
+      {"retention",                                                                           \
+       SW_PARAM_NUMBER,                                                                       \
+       "N",                                                                                   \
+       0,                                                                                     \
+       0,                                                                                     \
+       HUGE_VAL,                                                                              \
+       SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN,                                                \
+       NULL,                                                                                  \
+       offsetof(sw_clip_args, retention),                                                     \
+       "largest force of the lips on the way out"},                                           \
+      {"radius",                                                                              \
+       SW_PARAM_NUMBER,                                                                       \
+       "m",                                                                                   \
+       NAN,                                                                                   \
+       0,                                                                                     \
+       HUGE_VAL,                                                                              \
+       SW_PARAM_ABOVE_MIN,                                                                    \
+       NULL,                                                                                  \
+       offsetof(sw_clip_args, radius),                                                        \
+       "of the seat (default: that of the wire)"},                                            \
+  {                                                                                           \
+    "way", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,                  \
+        offsetof(sw_clip_args, way), "of the wire over the lips (default: 1.5 of its radius)" \
+  }
 
 /* The clip as one wire meets it. */
 typedef struct sw_clip {

@@ -17,22 +17,7 @@ typedef struct snap_args {
 } snap_args;
 
 static const sw_param rows[] = {
-    {"at", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
-     offsetof(sw_clip_args, at), "the wire's centre line in the seat"},
-    {"direction", SW_PARAM_VECTOR, "-", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
-     offsetof(sw_clip_args, direction), "from the seat to the mouth"},
-    {"axis", SW_PARAM_VECTOR, "-", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
-     offsetof(sw_clip_args, axis), "along the wire in the seat"},
-    {"width", SW_PARAM_NUMBER, "m", 0, 0, HUGE_VAL, SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN, NULL,
-     offsetof(sw_clip_args, width), "along the axis"},
-    {"insertion", SW_PARAM_NUMBER, "N", 0, 0, HUGE_VAL, SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN,
-     NULL, offsetof(sw_clip_args, insertion), "largest force of the lips on the way in"},
-    {"retention", SW_PARAM_NUMBER, "N", 0, 0, HUGE_VAL, SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN,
-     NULL, offsetof(sw_clip_args, retention), "largest force of the lips on the way out"},
-    {"radius", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
-     offsetof(sw_clip_args, radius), "of the seat (default: that of the wire)"},
-    {"way", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
-     offsetof(sw_clip_args, way), "of the wire over the lips (default: 1.5 of its radius)"},
+    SW_CLIP_ROWS,
     {"time", SW_PARAM_NUMBER, "s", 2e-3, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(sw_clip_args, stiffness), "that the lips take to pull the wire in"},
 };

@@ -8,7 +8,7 @@
 #include "scene/world.h"
 
 static const double PRECISION = 1e-3;    /* of the force wanted [-] */
-static const double ROUGHLY = 0.015; /* likewise, when it is reached first [-] */
+static const double ROUGHLY = 0.015;     /* likewise, when it is reached first [-] */
 static const double REACHED = 0.02;      /* so far below it the force counts as reached [-] */
 enum { MOST_TRIALS = 10 };               /* the last one is then taken as it is [-] */
 static const double SAME_OPENING = 1e-9; /* at a step's end [m] */

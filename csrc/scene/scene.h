@@ -159,93 +159,6 @@ const sw_calibration *sw_scene_wire_calibration(const sw_scene *scene, sw_handle
 /* Name of its model; NULL: it is gone. */
 const char *sw_scene_wire_model(const sw_scene *scene, sw_handle wire);
 
-/* --- objects of particles ------------------------------------------------------ */
-
-typedef struct sw_particles_args {
-  char name[SW_NAME_SIZE];
-  double radius; /* of the surface around particles and its edges; NAN = chosen [m] */
-} sw_particles_args;
-extern const sw_params sw_particles_params;
-
-/* Particles that push each other apart where they come nearer than a distance. */
-typedef struct sw_repel_pairs {
-  double distance;  /* [m] */
-  double stiffness; /* force over what is missing of it; 0 = none [N/m] */
-} sw_repel_pairs;
-extern const sw_params sw_repel_pairs_params;
-
-enum { SW_ELEMENT_NODES = 8 };
-typedef struct sw_particles_element {
-  uint32_t count; /* 6: a prism, 8: a hexahedron; see force/solid.h [-] */
-  uint32_t node[SW_ELEMENT_NODES];
-  double mu, lambda; /* [Pa] */
-} sw_particles_element;
-
-typedef struct sw_particles_link {
-  uint32_t a, b;
-  double k;         /* [N/m] */
-  double rest;      /* unstressed length; NAN = as it lies [m] */
-  double yield;     /* strain at which it yields; NAN = never [-] */
-  double hardening; /* what that force gains per plastic elongation, of k [-] */
-} sw_particles_link;
-
-typedef struct sw_particles_fold {
-  uint32_t a, b, c; /* straight at rest */
-  double stiffness; /* moment per angle [N m] */
-} sw_particles_fold;
-
-/* What touches obstacles. */
-enum {
-  SW_SURFACE_USUAL, /* the links, or the boundary of the elements where there are any */
-  SW_SURFACE_PARTICLES,
-  SW_SURFACE_EDGES /* as given */
-};
-
-/* What an object is made of; numbers of particles count from 0. */
-typedef struct sw_particles_parts {
-  size_t count;
-  const double *positions; /* (count x 3) [m] */
-  const double *masses;    /* (count) [kg] */
-  const sw_particles_link *link;
-  size_t links;
-  const sw_particles_fold *fold;
-  size_t folds;
-  const sw_particles_element *element;
-  size_t elements;
-  int surface;
-  const uint32_t *edge; /* (edges x 2) */
-  size_t edges;
-  sw_repel_pairs repel;
-} sw_particles_parts;
-
-/* Any object of particles. Takes copies. Errors number particles and parts from 1. */
-sw_status sw_scene_add_particles(sw_scene *scene, const sw_particles_args *args,
-                                 const sw_particles_parts *parts, sw_handle *out, sw_error *err);
-typedef struct sw_particles_info {
-  size_t particles, links, folds, elements; /* [-] */
-  double mass, radius;                      /* [kg], [m] */
-} sw_particles_info;
-sw_status sw_scene_particles_info(sw_scene *scene, sw_handle object, sw_particles_info *out,
-                                  sw_error *err);
-/* (particles x 3) each, may be NULL [m], [m/s]. */
-sw_status sw_scene_particles_copy(sw_scene *scene, sw_handle object, double *positions,
-                                  double *velocities, sw_error *err);
-sw_status sw_scene_particle(sw_scene *scene, sw_handle object, size_t particle, sw_vec *position,
-                            sw_vec *velocity, sw_error *err);
-/* (particles x 3); held ones keep theirs [m/s]. */
-sw_status sw_scene_particles_set_velocities(sw_scene *scene, sw_handle object,
-                                            const double *velocities, sw_error *err);
-/* Of all links: force pulling [N], elongation over rest length [-], plastic part of it [-]; each
- * may be NULL. */
-sw_status sw_scene_particles_links(sw_scene *scene, sw_handle object, double *force, double *strain,
-                                   double *plastic, sw_error *err);
-
-/* Hold some of them rigidly: they move with the hold's pose, which begins at `at` (NAN: their
- * middle) with the world's axes. */
-sw_status sw_scene_hold_particles(sw_scene *scene, sw_handle object, const char *name,
-                                  const uint32_t *particles, size_t count, sw_vec at,
-                                  sw_handle *out, sw_error *err);
-
 /* --- holds ------------------------------------------------------------------ */
 
 sw_status sw_scene_add_hold(sw_scene *scene, const sw_hold_class *cls, sw_handle wire,
@@ -442,46 +355,7 @@ typedef struct sw_wire_extremes {
 sw_status sw_scene_wire_extremes(sw_scene *scene, sw_handle wire, sw_wire_extremes *now,
                                  sw_wire_extremes *run, sw_error *err);
 
-/* --- sections of wires that are meshes of particles ------------------------------- */
-
-/* Other wires have no such sections: SW_EINVAL. A section's outline are its particles at the
- * surface, in their order round it; the surface is skin further out. */
-sw_status sw_scene_wire_outline(sw_scene *scene, sw_handle wire, size_t *count, sw_error *err);
-
-typedef struct sw_section_shape {
-  sw_vec middle, tangent, axis;  /* [m], [-]; where its own x has turned to [-] */
-  double least, largest;         /* widths between parallel planes along the wire [m] */
-  sw_vec least_way, largest_way; /* from one of these planes to the other [-] */
-  double ovalisation; /* (largest - least) / (largest + least), as in API RP 1111, of the widths
-                         of the smooth closed curve through the outline, so that a round section
-                         has none however few its particles; of one that is not round those of the
-                         outline itself [-] */
-  double area, skin;  /* within the surface [m2], [m] */
-  double turn, twist_rate;     /* about the tangent, from the start on, beyond what the middle line
-                                  alone turns it [rad], [rad/m] */
-  size_t count;                /* of the outline [-] */
-  double *particles, *surface; /* (count x 3) the caller's [m] */
-  double *axial, *hoop;        /* (count) strains of the lines of particles along and round the
-                                  wire, at those of the outline; the caller's [-] */
-} sw_section_shape;
-sw_status sw_scene_wire_section(sw_scene *scene, sw_handle wire, double s, sw_section_shape *out,
-                                sw_error *err);
-/* Between planes across direction, of which the part across the wire counts. SW_EINVAL for one
- * that has none. */
-sw_status sw_scene_wire_width(sw_scene *scene, sw_handle wire, double s, sw_vec direction,
-                              double *width, sw_error *err);
-
-/* What obstacles do to each particle of a mesh, in the order of sw_scene_wire_particle_copy:
- * force, its part across the surface, and the surface that is the particle's own (0 inside),
- * all the caller's (particles x 3) [N], (particles) [N], (particles) [m2]; s of each [m]. */
-sw_status sw_scene_wire_pressed(sw_scene *scene, sw_handle wire, double *force,
-                                double *normal_force, double *area, double *s, sw_error *err);
-
-/* Solid elements of a mesh; the von Mises stress of each [Pa], its middle (count x 3) [m], and the
- * arc lengths where it begins and ends (count x 2) [m]. */
-sw_status sw_scene_wire_elements(sw_scene *scene, sw_handle wire, size_t *count, sw_error *err);
-sw_status sw_scene_wire_mises(sw_scene *scene, sw_handle wire, double *mises, double *middle,
-                              double *s, sw_error *err);
+/* --- what else may be asked ---------------------------------------------------------- */
 
 typedef struct sw_modes_args {
   long modes;       /* how many [-] */

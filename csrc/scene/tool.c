@@ -298,8 +298,11 @@ int sw_scene_tool_touch(const sw_scene *s, sw_handle tool, size_t number, sw_too
   for (size_t k = 0; k < t->pads; k++) {
     if (t->pad[k].obstacle != (size_t)push.obstacle) continue;
     const sw_vec arm = sw_sub(push.point, t->now.centre);
-    *out = (sw_tool_touch){t->pad[k].finger, sw_unrotate(t->now.q, arm),
-                           sw_unrotate(t->now.q, push.force), push.normal_force, push.place,
+    *out = (sw_tool_touch){t->pad[k].finger,
+                           sw_unrotate(t->now.q, arm),
+                           sw_unrotate(t->now.q, push.force),
+                           push.normal_force,
+                           push.place,
                            push.slid};
     return 1;
   }
