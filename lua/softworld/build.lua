@@ -31,6 +31,11 @@ end
 -- calls up, counted from build.call itself as in error().
 function build.call(level, f, ...) return finish(level, pcall(f, ...)) end
 
+--- An error's text without the place in this library where it was raised.
+function build.plain(message)
+  return (tostring(message):gsub("^[^\n:]*softworld/[%w_]+%.lua:%d+: ", ""))
+end
+
 --- Raise unless scene is one that may be changed now.
 function build.check(scene, what, level)
   if core.type(scene) ~= "scene" then

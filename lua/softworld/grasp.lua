@@ -242,6 +242,7 @@ function Methods:open_jaws(args)
   grasp.check_scene(self, 3)
   args = args or {}
   checks.keys("gripper:open_jaws", args, { distance = true, speed = true }, 3)
+  if not self.tool and not self.hold and self.at then grasp.make_tool(self, 3) end
   if not self.tool then
     error(("gripper '%s' has no pads yet: grasp with approach = 'plates' or 'mixed'"):format(self.name),
       2)
@@ -357,8 +358,7 @@ function Methods:grasp(wire, args)
   if not fine then
     self.wire = nil
     if type(why) ~= "string" then error(why, 0) end
-    local text = why:gsub("^[^\n:]*softworld/[%w_]+%.lua:%d+: ", "")
-    error(text, 2)
+    error(build.plain(why), 2)
   end
   self.held = true
   grasp.watch(self)

@@ -2,6 +2,8 @@
 --- Pads of grippers: rigid fingers in the tool's axes. x is along the wire, fingers close along
 -- y (more than two: around x), z is up; the opening is between the faces of facing fingers.
 -- @module softworld.pads
+local core = require "softworld.core"
+local build = require "softworld.build"
 local checks = require "softworld.checks"
 local meshfile = require "softworld.meshfile"
 local vec = require "softworld.vec"
@@ -89,6 +91,13 @@ function pads.check(args, what, level)
     error(("%s: file goes with shape = 'mesh'"):format(what), level)
   end
   p.file = args.file
+  if p.file ~= nil then -- what is wrong with it is told now, not when the pads are needed
+    local fine, why = pcall(function()
+      local mesh = meshfile.read(p.file)
+      core.shape{ shape = "mesh", data = mesh.data, format = mesh.format, scale = p.scale }
+    end)
+    if not fine then error(("%s: %s"):format(what, build.plain(why)), level) end
+  end
   return p
 end
 
