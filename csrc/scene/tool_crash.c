@@ -90,19 +90,29 @@ static double overlap_of(const sw_shape *part, sw_pose at, const sw_shape *other
   return fmax(o.depth, back.depth);
 }
 
-/* The first obstacle that a part of the tool runs into; 0: none. */
+/* Are balls around both apart? Half spaces have none. */
+static int far_apart(const sw_shape *part, sw_pose at, const sw_shape *other, sw_pose there) {
+  const sw_bounds b = sw_shape_bounds(part), c = sw_shape_bounds(other);
+  const sw_vec p = sw_pose_point(at, sw_lerp(b.min, b.max, 0.5));
+  const sw_vec q = sw_pose_point(there, sw_lerp(c.min, c.max, 0.5));
+  return sw_dist(p, q) > 0.5 * (sw_dist(b.min, b.max) + sw_dist(c.min, c.max));
+}
+
+/* The obstacle that a part of the tool is deepest in; depth 0: none. */
 static sw_status find_crash(sw_scene *s, size_t slot, sw_crash *out, sw_error *err) {
   const sw_tool *t = &s->tools[slot];
+  sw_motion_state at[SW_TOOL_PADS], there;
   out->depth = 0;
-  for (size_t k = 0; k < t->pads; k++) {
-    const sw_scene_obstacle *part = &s->obstacles[t->pad[k].obstacle];
-    sw_motion_state at, there;
-    SW_TRY(sw_drive_eval(s, &part->drive, s->time, &at, err));
-    for (size_t i = 0; i < s->obstacle_count; i++) {
-      const sw_scene_obstacle *o = &s->obstacles[i];
-      if (!o->alive || o->drive.tool == 1 + slot) continue;
-      SW_TRY(sw_drive_eval(s, &o->drive, s->time, &there, err));
-      const double depth = overlap_of(part->shape, at.pose, o->shape, there.pose);
+  for (size_t k = 0; k < t->pads; k++)
+    SW_TRY(sw_drive_eval(s, &s->obstacles[t->pad[k].obstacle].drive, s->time, &at[k], err));
+  for (size_t i = 0; i < s->obstacle_count; i++) {
+    const sw_scene_obstacle *o = &s->obstacles[i];
+    if (!t->pads || !o->alive || o->drive.tool == 1 + slot) continue;
+    SW_TRY(sw_drive_eval(s, &o->drive, s->time, &there, err));
+    for (size_t k = 0; k < t->pads; k++) {
+      const sw_shape *part = s->obstacles[t->pad[k].obstacle].shape;
+      if (far_apart(part, at[k].pose, o->shape, there.pose)) continue;
+      const double depth = overlap_of(part, at[k].pose, o->shape, there.pose);
       if (depth <= NOTICED || depth <= out->depth) continue;
       *out = (sw_crash){s->time, depth, t->pad[k].obstacle, i};
     }
