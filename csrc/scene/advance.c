@@ -44,8 +44,7 @@ __attribute__((constructor)) static void fill_choices(void) {
     if (run_rows[i].type == SW_PARAM_CHOICE) run_rows[i].choices = integrator_names();
 }
 
-enum { MOST_HALVINGS = 6 }; /* of a pose step [-] */
-enum { MOST_REDOS = 40 };   /* impacts found one after another in one step [-] */
+enum { MOST_REDOS = 40 }; /* impacts found one after another in one step [-] */
 static const double SMALLEST_SHARE = 1.0 / 4096; /* of a step, before giving up [-] */
 static const double LARGEST_STRAIN = 10.0;       /* beyond it a run has diverged [-] */
 
@@ -305,44 +304,17 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
   }
 }
 
-/* Slow handling: what drives the wires goes on by a step, the wires to their
- * equilibrium. Without friction the pose step does not matter; with friction it
- * does, and halving it shows how much. */
-static sw_status pose_step(loop *p, double t1, int halvings, int (*interrupted)(void),
-                           sw_error *err) {
-  static const sw_settle_args rest = {.tolerance = 1e-9, .max_iterations = 4000};
-  sw_scene *s = p->s;
-  sw_settle_report report = {0};
-  const double t0 = s->time;
-  int too_far = 0;
-  sw_jaw_begin(s, t1 - t0);
-  s->time = t1;
-  const sw_status status =
-      sw_scene_rest(s, t0, halvings ? &too_far : NULL, &rest, interrupted, &report, err);
-  p->report->iterations += report.iterations;
-  if (status != SW_OK) {
-    s->time = t0;
-    if (!too_far) return status;
-    SW_TRY(pose_step(p, 0.5 * (t0 + t1), halvings - 1, interrupted, err));
-    return pose_step(p, t1, halvings - 1, interrupted, err);
-  }
-  p->report->smallest_dt = fmin(p->report->smallest_dt, t1 - t0);
-  if (report.jumped) {
-    p->report->jumps++;
-    p->report->last_jump = t1;
-  }
-  return SW_OK;
-}
-
-/* The same to time t, in parts that nodes can follow where wire is fed. */
+/* Slow handling: equilibria up to time t, in parts that nodes can follow where wire is fed, and
+ * jaws that close on wires. */
 static sw_status pose_steps(loop *p, double t, int (*interrupted)(void), sw_error *err) {
   sw_scene *s = p->s;
   while (s->time < t) {
     double h = t - s->time;
     if (interrupted && interrupted()) return SW_EINTR;
+    h = sw_jaw_step(s, h);
     SW_TRY(make_room(p, &h, err));
     const double part = h < (t - s->time) * (1 - 1e-9) ? s->time + h : t;
-    SW_TRY(pose_step(p, part, MOST_HALVINGS, interrupted, err));
+    SW_TRY(sw_scene_pose(s, part, interrupted, p->report, err));
     SW_TRY(sw_scene_observe(s, err));
   }
   return SW_OK;
@@ -413,12 +385,6 @@ static sw_status check_run(const sw_scene *s, const sw_run_args *args, sw_error 
         err, SW_EINVAL,
         "scene:run: a feed with force or force_limit needs motion; give it a speed for a "
         "quasi-static run");
-  const char *closing = args->quasistatic ? sw_jaw_any(s) : NULL;
-  if (closing)
-    return sw_fail(err, SW_EINVAL,
-                   "scene:run: the jaws of gripper '%s' close with a force, which needs motion; "
-                   "close them to a distance for a quasi-static run",
-                   closing);
   if (args->quasistatic && isfinite(args->tolerance))
     return sw_fail(err, SW_EINVAL,
                    "scene:run: tolerance controls the time step of motion; a quasi-static run "

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Jaws of tools in a step. Their opening changes evenly within it. With a force to be reached
- * or not to be exceeded, the speed of the step is the one for which the fingers' force at its
- * end is as wanted, found by false position between a speed with too little force and one with
- * too much, like feeds that yield to a force (see slip.c). */
+/* Jaws of tools in a step, or from one pose to the next. Their opening changes evenly within it.
+ * With a force to be reached or not to be exceeded, the speed of the step is the one for which the
+ * fingers' force at its end is as wanted, found by false position between a speed with too little
+ * force and one with too much, like feeds that yield to a force (see slip.c). */
 #include <math.h>
 
 #include "scene/world.h"
@@ -26,13 +26,6 @@ static int yields(const sw_jaw *j) {
   return j->mode == SW_JAW_FORCE || j->goal < j->opening;
 }
 
-const char *sw_jaw_any(const sw_scene *s) {
-  for (size_t k = 0; k < s->tool_count; k++)
-    if (s->tools[k].alive && !s->tools[k].frozen && yields(&s->tools[k].jaw))
-      return s->tools[k].name;
-  return NULL;
-}
-
 /* The speed at which this step ends with the opening, within what is allowed. */
 static double speed_to(const sw_jaw *j, double opening) {
   return fmax(-j->most, fmin(j->most, (opening - j->opening) / j->step));
@@ -45,23 +38,71 @@ static double first_guess(const sw_jaw *j) {
   return speed_to(j, fmax(0.0, j->opening + (j->now - j->force) / j->stiffness));
 }
 
+static int works(const sw_tool *t) { return t->alive && !t->frozen; }
+
+static void begin(sw_jaw *j, double since, double step) {
+  j->since = since;
+  j->step = step;
+  j->speed = step > 0 ? first_guess(j) : 0.0;
+  j->off[0] = j->off[1] = NAN;
+  j->last_side = -1;
+  j->trials = 0;
+  j->guessed = j->now < j->force; /* that standing still goes on giving too little force */
+  if (j->guessed) j->tried[0] = 0, j->off[0] = j->now - j->force;
+}
+
 int sw_jaw_begin(sw_scene *s, double h) {
   int any = 0;
   for (size_t k = 0; k < s->tool_count; k++) {
-    sw_jaw *j = &s->tools[k].jaw;
-    j->since = s->time;
-    j->step = h;
-    const int works = s->tools[k].alive && !s->tools[k].frozen;
-    j->speed = works && h > 0 ? first_guess(j) : 0.0;
-    j->off[0] = j->off[1] = NAN;
-    j->last_side = -1;
-    j->trials = 0;
-    if (!works || !yields(j)) continue;
-    any = 1;
-    j->guessed = j->now < j->force; /* that standing still goes on giving too little force */
-    if (j->guessed) j->tried[0] = 0, j->off[0] = j->now - j->force;
+    const sw_tool *t = &s->tools[k];
+    begin(&s->tools[k].jaw, s->time, works(t) ? h : 0.0);
+    any |= works(t) && yields(&t->jaw);
   }
   return any;
+}
+
+/* In one equilibrium jaws are not closed by more of the thinnest wire's radius: wires would be
+ * pushed to where they cannot be reached from [-]. */
+static const double WIDEST_STEP = 0.25;
+
+/* How long jaws take for that at their highest speed [s]. */
+static double longest_step(const sw_scene *s, const sw_jaw *j) {
+  double radius = HUGE_VAL;
+  for (size_t w = 0; w < s->wire_count; w++) radius = fmin(radius, s->wires[w].beam.radius);
+  return WIDEST_STEP * radius / j->most;
+}
+
+double sw_jaw_step(const sw_scene *s, double h) {
+  for (size_t k = 0; k < s->tool_count; k++) {
+    const sw_jaw *j = &s->tools[k].jaw;
+    if (works(&s->tools[k]) && yields(j) && j->status != SW_JAW_HOLDS && j->most > 0)
+      h = fmin(h, longest_step(s, j));
+  }
+  return h;
+}
+
+int sw_jaw_begin_rest(sw_scene *s) {
+  int any = 0;
+  for (size_t k = 0; k < s->tool_count; k++) {
+    const sw_tool *t = &s->tools[k];
+    sw_jaw *j = &s->tools[k].jaw;
+    const int obeys = works(t) && yields(j) && j->status == SW_JAW_HOLDS && j->most > 0;
+    const double step = obeys ? longest_step(s, j) : 0.0;
+    begin(j, s->time - step, step);
+    any |= obeys;
+  }
+  return any;
+}
+
+int sw_jaw_end_rest(sw_scene *s, int went_well) {
+  int more = 0;
+  for (size_t k = 0; k < s->tool_count; k++) {
+    sw_jaw *j = &s->tools[k].jaw;
+    if (!(j->step > 0)) continue;
+    more |= fabs(j->speed) >= j->most && went_well;
+    if (!went_well) j->since = s->time;
+  }
+  return more;
 }
 
 /* A speed on the other side than the last one, which gave off too much force. */
@@ -95,9 +136,9 @@ static int improve(sw_jaw *j, double off) {
 }
 
 /* 1: the trial's force is as wanted, or nothing can be done about it in this step. */
-static int correct(const sw_scene *s, sw_tool *t) {
+static int correct(sw_scene *s, sw_tool *t) {
   sw_jaw *j = &t->jaw;
-  const double off = sw_tool_squeeze(s, t) - j->force;
+  const double off = sw_tool_squeeze(s, t, j->since + j->step) - j->force;
   const double allowed = j->status == SW_JAW_HOLDS ? PRECISION : ROUGHLY;
   if (fabs(off) <= allowed * j->force || ++j->trials >= MOST_TRIALS) return 1;
   const int approaches = j->status != SW_JAW_HOLDS && j->trials == 1;
@@ -109,7 +150,7 @@ static int correct(const sw_scene *s, sw_tool *t) {
 int sw_jaw_correct(sw_scene *s) {
   int good = 1;
   for (size_t k = 0; k < s->tool_count; k++)
-    if (s->tools[k].alive && !s->tools[k].frozen && yields(&s->tools[k].jaw))
+    if (works(&s->tools[k]) && s->tools[k].jaw.step > 0 && yields(&s->tools[k].jaw))
       good &= correct(s, &s->tools[k]);
   return good;
 }
@@ -136,14 +177,14 @@ static void judge(sw_jaw *j) {
 /* Changes of force below this share of the one wanted tell no stiffness [-]. */
 static const double TELLING = 0.05;
 
-static void follow(const sw_scene *s, sw_tool *t) {
+static void follow(sw_scene *s, sw_tool *t) {
   sw_jaw *j = &t->jaw;
   const double before = j->opening, force = j->now;
   const double end = sw_jaw_at(j, s->time);
   const int there = j->mode == SW_JAW_TO && fabs(end - j->goal) < SAME_OPENING;
   j->opening = there ? j->goal : fmax(0.0, end);
   j->since = s->time;
-  j->now = sw_tool_squeeze(s, t);
+  j->now = sw_tool_squeeze(s, t, s->time);
   const double k = (j->now - force) / (before - j->opening);
   const int tells =
       force > 0 && fabs(j->now - force) > TELLING * j->force && fabs(before - j->opening) > TELLS;

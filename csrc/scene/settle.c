@@ -213,6 +213,19 @@ static int stops(sw_status status) {
   return status == SW_ECALLBACK || status == SW_ENOMEM || status == SW_EINTR;
 }
 
+/* Newton's iteration from where continuation came to rest, which stays when that fails: the
+ * equilibrium is then not isolated, or (unstable: 1) not stable. What touches there is kept too. */
+static sw_status polish(statics *p, int *unstable, sw_error *err) {
+  sw_error ignored;
+  sw_live rest = {0};
+  sw_status status = sw_live_take(p->s, &rest);
+  if (status == SW_OK) status = newton_attempt(p, NEWTON_ITERATIONS, &ignored);
+  *unstable = status == SW_OK && p->report->negative > 0;
+  if (status == SW_OK ? *unstable : !stops(status)) status = sw_live_put(p->s, &rest, err);
+  sw_live_free(&rest);
+  return status;
+}
+
 static sw_status find_rest(statics *p, sw_error *err) {
   put_aside(p->s, p->kept);
   sw_status status = newton_attempt(p, NEWTON_ITERATIONS, err);
@@ -223,15 +236,10 @@ static sw_status find_rest(statics *p, sw_error *err) {
   if ((status == SW_OK && p->report->negative == 0) || stops(status)) return status;
   take_back(p->s, p->kept);
   for (int k = 0;; k++) {
-    sw_error ignored;
+    int again = 0;
     SW_TRY(transient(p, err));
-    put_aside(p->s, p->kept);
-    status = newton_attempt(p, NEWTON_ITERATIONS,
-                            &ignored); /* fails where the equilibrium is not isolated */
-    if (status == SW_OK && p->report->negative == 0) return SW_OK;
-    if (stops(status)) return status;
-    take_back(p->s, p->kept);
-    if (status != SW_OK || k == MOST_NUDGES) return SW_OK;
+    SW_TRY(polish(p, &again, err));
+    if (!again || k == MOST_NUDGES) return SW_OK;
     nudge(p, k);
   }
 }
@@ -385,6 +393,22 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
   return status;
 }
 
+enum { MOST_ROUNDS = 100 };
+
+/* Jaws that hold with a force go on holding with it. */
+static sw_status settle_held(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
+                             sw_settle_report *report, sw_error *err) {
+  if (!sw_jaw_begin_rest(s)) return sw_scene_rest(s, s->time, NULL, args, interrupted, report, err);
+  for (int round = 1;; round++) {
+    const sw_status status =
+        sw_scene_squeezed_rest(s, s->time, NULL, args, interrupted, report, err);
+    const int more = sw_jaw_end_rest(s, status == SW_OK);
+    if (status != SW_OK || !more || round == MOST_ROUNDS) return status;
+    sw_jaw_follow(s);
+    if (!sw_jaw_begin_rest(s)) return SW_OK;
+  }
+}
+
 sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
                           sw_settle_report *report, sw_error *err) {
   sw_error why = {""};
@@ -394,7 +418,7 @@ sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interru
   if (!s->wire_count) return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", s->name);
   SW_TRY(sw_scene_build(s, err));
   s->running++;
-  sw_status status = sw_scene_rest(s, s->time, NULL, args, interrupted, report, &why);
+  sw_status status = settle_held(s, args, interrupted, report, &why);
   s->running--;
   sw_scene_reset_extremes(s);
   if (status == SW_OK) status = sw_scene_observe(s, &why);
