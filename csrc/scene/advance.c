@@ -186,7 +186,7 @@ static sw_status squeezing_attempt(loop *p, double h, sw_error *err) {
   const int squeezes = sw_jaw_begin(s, h);
   for (;;) {
     const sw_status status = attempt(p, h, err);
-    if (status != SW_OK || !squeezes || sw_jaw_correct(s)) return status;
+    if (status != SW_OK || !squeezes || sw_jaw_correct(s, 0)) return status;
     undo(p);
   }
 }
@@ -305,13 +305,13 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
 }
 
 /* Slow handling: equilibria up to time t, in parts that nodes can follow where wire is fed, and
- * jaws that close on wires. */
+ * wires between pads. */
 static sw_status pose_steps(loop *p, double t, int (*interrupted)(void), sw_error *err) {
   sw_scene *s = p->s;
   while (s->time < t) {
     double h = t - s->time;
     if (interrupted && interrupted()) return SW_EINTR;
-    h = sw_jaw_step(s, h);
+    SW_TRY(sw_scene_pose_step(s, &h, err));
     SW_TRY(make_room(p, &h, err));
     const double part = h < (t - s->time) * (1 - 1e-9) ? s->time + h : t;
     SW_TRY(sw_scene_pose(s, part, interrupted, p->report, err));

@@ -11,6 +11,7 @@ static const double PRECISION = 1e-3;    /* of the force wanted [-] */
 static const double ROUGHLY = 0.015;     /* likewise, when it is reached first [-] */
 static const double REACHED = 0.02;      /* so far below it the force counts as reached [-] */
 enum { MOST_TRIALS = 10 };               /* the last one is then taken as it is [-] */
+enum { MOST_RESTS = 16 };                /* the same of equilibria [-] */
 static const double SAME_OPENING = 1e-9; /* at a step's end [m] */
 static const double TELLS =
     1e-7; /* forces at openings nearer to each other tell no stiffness [m] */
@@ -34,7 +35,8 @@ static double speed_to(const sw_jaw *j, double opening) {
 static double first_guess(const sw_jaw *j) {
   if (j->mode == SW_JAW_STILL) return 0;
   if (j->mode == SW_JAW_TO) return speed_to(j, j->goal);
-  if (j->status != SW_JAW_HOLDS || !(j->stiffness > 0)) return speed_to(j, 0);
+  if (j->status != SW_JAW_HOLDS && j->now <= j->force) return speed_to(j, 0);
+  if (!(j->stiffness > 0)) return j->now > j->force ? 0.0 : speed_to(j, 0);
   return speed_to(j, fmax(0.0, j->opening + (j->now - j->force) / j->stiffness));
 }
 
@@ -135,24 +137,57 @@ static int improve(sw_jaw *j, double off) {
   return 0;
 }
 
+/* The last trial. Where the force jumps over the one wanted it is beyond that: from there on the
+ * jaws can come back. */
+static int give_up(sw_jaw *j, double off, int rests) {
+  if (!rests || off > 0 || !isfinite(j->off[1]) || j->trials > MOST_RESTS) return 1;
+  j->speed = j->tried[1];
+  j->trials = MOST_RESTS;
+  return 0;
+}
+
 /* 1: the trial's force is as wanted, or nothing can be done about it in this step. */
-static int correct(sw_scene *s, sw_tool *t) {
+static int correct(sw_scene *s, sw_tool *t, int rests) {
   sw_jaw *j = &t->jaw;
   const double off = sw_tool_squeeze(s, t, j->since + j->step) - j->force;
-  const double allowed = j->status == SW_JAW_HOLDS ? PRECISION : ROUGHLY;
-  if (fabs(off) <= allowed * j->force || ++j->trials >= MOST_TRIALS) return 1;
+  const double allowed = rests || j->status == SW_JAW_HOLDS ? PRECISION : ROUGHLY;
+  if (fabs(off) <= allowed * j->force) return 1;
+  if (++j->trials >= (rests ? MOST_RESTS : MOST_TRIALS)) return give_up(j, off, rests);
   const int approaches = j->status != SW_JAW_HOLDS && j->trials == 1;
   if (off < 0 && (approaches || j->speed <= speed_to(j, 0))) return 1;
   if (off > 0 && j->speed >= j->most) return 1;
-  return improve(j, off);
+  return improve(j, off) && give_up(j, off, rests);
 }
 
-int sw_jaw_correct(sw_scene *s) {
+int sw_jaw_correct(sw_scene *s, int rests) {
   int good = 1;
   for (size_t k = 0; k < s->tool_count; k++)
     if (works(&s->tools[k]) && s->tools[k].jaw.step > 0 && yields(&s->tools[k].jaw))
-      good &= correct(s, &s->tools[k]);
+      good &= correct(s, &s->tools[k], rests);
   return good;
+}
+
+/* How long the jaws could still move in this step [s]. */
+static double time_left(const sw_jaw *j) {
+  const double left = j->step * (1.0 - fabs(j->speed) / j->most);
+  return left * j->most > SAME_OPENING ? left : 0.0;
+}
+
+int sw_jaw_again(sw_scene *s) {
+  int again = 0;
+  for (size_t k = 0; k < s->tool_count; k++) {
+    sw_tool *t = &s->tools[k];
+    sw_jaw *j = &t->jaw;
+    if (!works(t) || !(j->step > 0) || j->mode != SW_JAW_FORCE) continue;
+    const double left = time_left(j);
+    j->now = sw_tool_squeeze(s, t, s->time);
+    j->opening = fmax(0.0, sw_jaw_at(j, s->time));
+    const int off = fabs(j->now - j->force) > PRECISION * j->force;
+    again |= off && left > 0 && (j->now > j->force || j->opening > 0);
+    begin(j, s->time - left, left);
+    if (!(left > 0)) j->since = s->time;
+  }
+  return again;
 }
 
 /* What has become of what they were told. */

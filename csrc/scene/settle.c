@@ -231,7 +231,8 @@ static sw_status find_rest(statics *p, sw_error *err) {
   sw_status status = newton_attempt(p, NEWTON_ITERATIONS, err);
   if (status == SW_ENOCONV && dragged(p)) { /* touches may begin to slide one by one */
     take_back(p->s, p->kept);
-    status = newton_attempt(p, NEWTON_ITERATIONS + SLIDES * (int)p->s->system.nodes, err);
+    const double most = NEWTON_ITERATIONS + SLIDES * (double)p->s->system.nodes;
+    status = newton_attempt(p, (int)fmin(most, (double)p->args->max_iterations), err);
   }
   if ((status == SW_OK && p->report->negative == 0) || stops(status)) return status;
   take_back(p->s, p->kept);
