@@ -304,14 +304,12 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
   }
 }
 
-/* Slow handling: equilibria up to time t, in parts that nodes can follow where wire is fed, and
- * wires between pads. */
+/* Slow handling: equilibria up to time t, in parts that nodes can follow where wire is fed. */
 static sw_status pose_steps(loop *p, double t, int (*interrupted)(void), sw_error *err) {
   sw_scene *s = p->s;
   while (s->time < t) {
     double h = t - s->time;
     if (interrupted && interrupted()) return SW_EINTR;
-    SW_TRY(sw_scene_pose_step(s, &h, err));
     SW_TRY(make_room(p, &h, err));
     const double part = h < (t - s->time) * (1 - 1e-9) ? s->time + h : t;
     SW_TRY(sw_scene_pose(s, part, interrupted, p->report, err));
@@ -347,11 +345,14 @@ static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_er
   s->stepper.wants_error = adaptive;
   const double slack = 1e-12 * fmax(fabs(until), span);
   const size_t first = p->report->steps;
-  for (size_t k = 1; s->time < until - slack; k++) {
+  for (size_t k = 1; s->time < until - slack;) {
     if (interrupted && interrupted()) return SW_EINTR;
     if ((double)(p->report->steps - first) >= (double)p->args->max_steps) return SW_OK;
-    if (k > 1 && sw_tool_slipped(s)) return SW_OK;
-    const double t1 = (double)k >= count ? until : t0 + span * ((double)k / count);
+    if (p->report->steps > first && sw_tool_slipped(s)) return SW_OK;
+    double t1 = (double)k >= count ? until : t0 + span * ((double)k / count);
+    int cut = 0;
+    if (p->args->quasistatic) SW_TRY(sw_scene_cut_pose(s, &t1, &cut, err));
+    if (!cut) k++;
     SW_TRY(p->args->quasistatic ? whole_pose_step(p, t1, interrupted, err)
            : adaptive           ? controlled_step(p, until - s->time, until, err)
                                 : step(p, t1 - s->time, t1, err));

@@ -11,10 +11,11 @@ static const double PRECISION = 1e-3;    /* of the force wanted [-] */
 static const double ROUGHLY = 0.015;     /* likewise, when it is reached first [-] */
 static const double REACHED = 0.02;      /* so far below it the force counts as reached [-] */
 enum { MOST_TRIALS = 10 };               /* the last one is then taken as it is [-] */
-enum { MOST_RESTS = 16 };                /* the same of equilibria [-] */
+enum { MOST_RESTS = 12 };                /* the same of equilibria [-] */
 static const double SAME_OPENING = 1e-9; /* at a step's end [m] */
 static const double TELLS =
-    1e-7; /* forces at openings nearer to each other tell no stiffness [m] */
+    1e-7;                  /* forces at openings nearer to each other tell no stiffness [m] */
+enum { BEFORE_JUMPS = 4 }; /* later trials are about a jump of the force, if there is one [-] */
 static const double BEYOND = 1.3; /* a guess goes so much further than the slope says [-] */
 static const double WIDER =
     4.0; /* and so many times as far with every trial that is too short [-] */
@@ -41,6 +42,9 @@ static double first_guess(const sw_jaw *j) {
 }
 
 static int works(const sw_tool *t) { return t->alive && !t->frozen; }
+
+/* Is it in a step whose end depends on its force? */
+static int obeys(const sw_tool *t) { return works(t) && t->jaw.step > 0 && yields(&t->jaw); }
 
 static void begin(sw_jaw *j, double since, double step) {
   j->since = since;
@@ -115,7 +119,7 @@ static double guess_beyond(const sw_jaw *j, double off) {
 }
 
 /* The next speed to try. Returns 1 when both sides are one place: the force jumps there. */
-static int improve(sw_jaw *j, double off) {
+static int improve(sw_jaw *j, double off, int rests) {
   const int side = off > 0;
   if (isfinite(j->off[!side]) && (j->speed - j->tried[!side]) * (side ? 1 : -1) >= 0)
     j->off[!side] = NAN;
@@ -128,9 +132,9 @@ static int improve(sw_jaw *j, double off) {
     return j->speed == before;
   }
   const double gap = j->tried[0] - j->tried[1];
-  if (gap * j->step < SAME_OPENING) return 1;
-  if (j->trials > 1 && gap * j->step > TELLS)
-    j->stiffness = (j->off[1] - j->off[0]) / (gap * j->step);
+  if (gap * j->step < (rests ? TELLS : SAME_OPENING)) return 1;
+  const int tells = gap * j->step > TELLS && (!rests || j->trials <= BEFORE_JUMPS);
+  if (j->trials > 1 && tells) j->stiffness = (j->off[1] - j->off[0]) / (gap * j->step);
   if (j->last_side == side) j->off[!side] *= 0.5;
   j->last_side = side;
   j->speed = j->tried[0] - gap * j->off[0] / (j->off[0] - j->off[1]);
@@ -156,15 +160,25 @@ static int correct(sw_scene *s, sw_tool *t, int rests) {
   const int approaches = j->status != SW_JAW_HOLDS && j->trials == 1;
   if (off < 0 && (approaches || j->speed <= speed_to(j, 0))) return 1;
   if (off > 0 && j->speed >= j->most) return 1;
-  return improve(j, off) && give_up(j, off, rests);
+  return improve(j, off, rests) && give_up(j, off, rests);
 }
 
 int sw_jaw_correct(sw_scene *s, int rests) {
   int good = 1;
   for (size_t k = 0; k < s->tool_count; k++)
-    if (works(&s->tools[k]) && s->tools[k].jaw.step > 0 && yields(&s->tools[k].jaw))
-      good &= correct(s, &s->tools[k], rests);
+    if (obeys(&s->tools[k])) good &= correct(s, &s->tools[k], rests);
   return good;
+}
+
+double sw_jaw_off(sw_scene *s) {
+  double most = 0;
+  for (size_t k = 0; k < s->tool_count; k++) {
+    const sw_jaw *j = &s->tools[k].jaw;
+    if (!obeys(&s->tools[k])) continue;
+    const double force = sw_tool_squeeze(s, &s->tools[k], j->since + j->step);
+    most = fmax(most, fabs(force / j->force - 1.0));
+  }
+  return most;
 }
 
 /* How long the jaws could still move in this step [s]. */

@@ -2,6 +2,8 @@
 /* Poses: equilibria at the places of what drives the wires, one after another. Jaws that obey a
  * force are as open at each as it takes, found by repeating the pose from where it began. */
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 
 #include "base/alloc.h"
 #include "scene/world.h"
@@ -13,78 +15,93 @@ enum {
 };                        /* of a trial: what needs more is sooner found in smaller steps [-] */
 enum { MOST_ROUNDS = 4 }; /* of looking for a force from where it jumped to [-] */
 
-typedef struct pose_start {
-  sw_live live;
-  sw_jaw *jaws; /* (tools) */
-} pose_start;
-
 typedef struct poser {
   sw_scene *s;
   const sw_settle_args *args;
   int (*interrupted)(void);
   sw_settle_report *report;
+  sw_live start;  /* what all trials begin with */
+  sw_jaw *before; /* (tools) as the pose found them */
+  double *speed;  /* (tools) of jaws in the trial that came nearest [m/s] */
+  double nearest; /* how far its force was off; INFINITY = none went well [-] */
 } poser;
 
-static sw_status take(const sw_scene *s, pose_start *p) {
-  p->jaws = sw_alloc(s->tool_count, sizeof *p->jaws);
-  if (!p->jaws) return SW_ENOMEM;
-  for (size_t k = 0; k < s->tool_count; k++) p->jaws[k] = s->tools[k].jaw;
-  return sw_live_take(s, &p->live);
+static sw_status try(poser *p, double since, int *too_far, sw_error *err) {
+  sw_settle_report trial = {0};
+  const sw_status status =
+      sw_scene_rest(p->s, since, too_far, p->args, p->interrupted, &trial, err);
+  trial.iterations += p->report->iterations;
+  *p->report = trial;
+  if (status != SW_OK) return status;
+  const double off = sw_jaw_off(p->s);
+  if (off > p->nearest) return SW_OK;
+  p->nearest = off;
+  for (size_t k = 0; k < p->s->tool_count; k++) p->speed[k] = p->s->tools[k].jaw.speed;
+  return SW_OK;
 }
 
-static void drop(pose_start *p) {
-  sw_live_free(&p->live);
-  sw_free(p->jaws);
+/* The nearest trial again, for the last one did not come to rest. */
+static sw_status fall_back(poser *p, double since, sw_error *err) {
+  SW_TRY(sw_live_put(p->s, &p->start, err));
+  for (size_t k = 0; k < p->s->tool_count; k++) p->s->tools[k].jaw.speed = p->speed[k];
+  return try(p, since, NULL, err);
 }
 
 /* One equilibrium after another, all from one start, until the jaws' forces are as wanted or known
  * not to be. On failure the scene is as at that start. */
-static sw_status search(const poser *p, const sw_live *start, double since, int *too_far,
-                        sw_error *err) {
+static sw_status search(poser *p, double since, int *too_far, sw_error *err) {
+  sw_error why;
+  p->nearest = HUGE_VAL;
   for (;;) {
-    sw_settle_report trial = {0};
-    sw_error ignored;
-    const sw_status status =
-        sw_scene_rest(p->s, since, too_far, p->args, p->interrupted, &trial, err);
-    trial.iterations += p->report->iterations;
-    *p->report = trial;
+    sw_status status = try(p, since, too_far, &why);
     if (status == SW_OK && sw_jaw_correct(p->s, 1)) return SW_OK;
-    const sw_status back = sw_live_put(p->s, start, status == SW_OK ? err : &ignored);
-    if (status != SW_OK) return status;
+    if (status == SW_ENOCONV && p->nearest < HUGE_VAL) {
+      status = fall_back(p, since, &why);
+      if (status == SW_OK) return SW_OK;
+    }
+    const sw_status back = sw_live_put(p->s, &p->start, err);
+    if (status != SW_OK) return sw_fail(err, status, "%s", why.text);
     SW_TRY(back);
   }
 }
 
 /* Where the force jumped: look for it from there on. What is found without it counts too. */
-static sw_status search_on(const poser *p, sw_error *err) {
-  sw_status status = SW_OK;
-  for (int round = 1; status == SW_OK && round < MOST_ROUNDS && sw_jaw_again(p->s); round++) {
-    sw_live start = {0};
-    sw_error why;
-    status = sw_live_take(p->s, &start);
-    if (status == SW_OK) status = search(p, &start, p->s->time, NULL, &why);
-    sw_live_free(&start);
-    if (status != SW_OK && status != SW_ENOCONV) return sw_fail(err, status, "%s", why.text);
+static sw_status search_on(poser *p, sw_error *err) {
+  for (int round = 1; round < MOST_ROUNDS && sw_jaw_again(p->s); round++) {
+    sw_live_free(&p->start);
+    SW_TRY(sw_live_take(p->s, &p->start));
+    const sw_status status = search(p, p->s->time, NULL, err);
+    if (status == SW_ENOCONV || status == SW_EINTR) {
+      sw_jaw_end_rest(p->s, 0);
+      break;
+    }
+    SW_TRY(status);
   }
-  if (status != SW_OK) sw_jaw_end_rest(p->s, 0);
   return SW_OK;
+}
+
+static sw_status prepare(poser *p) {
+  const size_t n = p->s->tool_count;
+  p->before = sw_alloc(n, sizeof *p->before);
+  p->speed = sw_alloc(n, sizeof *p->speed);
+  if (!p->before || !p->speed) return SW_ENOMEM;
+  for (size_t k = 0; k < n; k++) p->before[k] = p->s->tools[k].jaw;
+  return sw_live_take(p->s, &p->start);
 }
 
 sw_status sw_scene_squeezed_rest(sw_scene *s, double since, int *too_far,
                                  const sw_settle_args *args, int (*interrupted)(void),
                                  sw_settle_report *report, sw_error *err) {
-  const poser p = {s, args, interrupted, report};
-  pose_start start = {0};
-  sw_status status = take(s, &start);
+  poser p = {.s = s, .args = args, .interrupted = interrupted, .report = report};
+  sw_status status = prepare(&p);
   if (status != SW_OK) sw_fail(err, status, "scene '%s': out of memory", s->name);
-  if (status == SW_OK) status = search(&p, &start.live, since, too_far, err);
-  if (status == SW_OK) {
-    status = search_on(&p, err);
-    sw_error ignored;
-    for (size_t k = 0; status != SW_OK && k < s->tool_count; k++) s->tools[k].jaw = start.jaws[k];
-    if (status != SW_OK) sw_live_put(s, &start.live, &ignored);
-  }
-  drop(&start);
+  if (status == SW_OK) status = search(&p, since, too_far, err);
+  if (status == SW_OK) status = search_on(&p, err);
+  for (size_t k = 0; status != SW_OK && p.before && k < s->tool_count; k++)
+    s->tools[k].jaw = p.before[k];
+  sw_live_free(&p.start);
+  sw_free(p.before);
+  sw_free(p.speed);
   return status;
 }
 
@@ -155,13 +172,16 @@ static sw_status carried_step(sw_scene *s, const sw_tool *t, double most, double
   return SW_OK;
 }
 
-sw_status sw_scene_pose_step(sw_scene *s, double *h, sw_error *err) {
-  double radius = HUGE_VAL;
+sw_status sw_scene_cut_pose(sw_scene *s, double *t1, int *cut, sw_error *err) {
+  const double whole = *t1 - s->time;
+  double radius = HUGE_VAL, h = whole;
   for (size_t w = 0; w < s->wire_count; w++) radius = fmin(radius, s->wires[w].beam.radius);
   for (size_t k = 0; k < s->tool_count; k++)
     if (s->tools[k].alive && !s->tools[k].frozen && s->tools[k].jaw.now > 0)
-      SW_TRY(carried_step(s, &s->tools[k], WIDEST_SHIFT * radius, h, err));
-  *h = sw_jaw_step(s, *h);
+      SW_TRY(carried_step(s, &s->tools[k], WIDEST_SHIFT * radius, &h, err));
+  h = sw_jaw_step(s, h);
+  *cut = h < whole * (1 - 1e-9);
+  if (*cut) *t1 = s->time + h;
   return SW_OK;
 }
 

@@ -429,6 +429,8 @@ sw_tool *sw_scene_find_tool(const sw_scene *scene, sw_handle h, sw_error *err);
  * trial: 1 = the forces are as wanted, or cannot be. After an accepted one, or one given up. */
 int sw_jaw_begin(sw_scene *scene, double h);
 int sw_jaw_correct(sw_scene *scene, int rests); /* rests: trials are equilibria */
+/* How far the forces of a trial are off, the worst over what is wanted [-]. */
+double sw_jaw_off(sw_scene *scene);
 /* After an equilibrium that is taken: 1 = its force is not as wanted, for that jumped, and the jaws
  * have begun to look for it from there on. */
 int sw_jaw_again(sw_scene *scene);
@@ -564,8 +566,8 @@ sw_status sw_scene_rest(sw_scene *scene, double since, int *too_far, const sw_se
 sw_status sw_scene_squeezed_rest(sw_scene *scene, double since, int *too_far,
                                  const sw_settle_args *args, int (*interrupted)(void),
                                  sw_settle_report *report, sw_error *why);
-/* The largest pose step up to h in which wires between pads can follow these. */
-sw_status sw_scene_pose_step(sw_scene *scene, double *h, sw_error *err);
+/* Make a pose at t1 an earlier one (cut: 1) where wires between pads could not follow these. */
+sw_status sw_scene_cut_pose(sw_scene *scene, double *t1, int *cut, sw_error *err);
 /* Equilibrium at time t1, which becomes the scene's, in smaller parts where needed; nothing is
  * observed. On failure the scene is at the last pose that went well. */
 sw_status sw_scene_pose(sw_scene *scene, double t1, int (*interrupted)(void), sw_run_report *report,
