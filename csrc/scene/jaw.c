@@ -67,15 +67,17 @@ int sw_jaw_begin(sw_scene *s, double h) {
   return any;
 }
 
-/* In one equilibrium jaws are not closed by more of the thinnest wire's radius: wires would be
- * pushed to where they cannot be reached from [-]. */
-static const double WIDEST_STEP = 0.25;
+/* In one equilibrium jaws are not closed by more than this share of the thinnest wire's radius, or
+ * of what is left of it between them: wires would be pushed to where they cannot be reached from
+ * [-]. */
+static const double WIDEST_STEP = 0.25, LEFT = 0.25, LEAST = 0.05;
 
 /* How long jaws take for that at their highest speed [s]. */
 static double longest_step(const sw_scene *s, const sw_jaw *j) {
   double radius = HUGE_VAL;
   for (size_t w = 0; w < s->wire_count; w++) radius = fmin(radius, s->wires[w].beam.radius);
-  return WIDEST_STEP * radius / j->most;
+  const double width = fmax(LEAST * radius, fmin(radius, LEFT * j->opening));
+  return WIDEST_STEP * width / j->most;
 }
 
 double sw_jaw_step(const sw_scene *s, double h) {
@@ -187,19 +189,24 @@ static double time_left(const sw_jaw *j) {
   return left * j->most > SAME_OPENING ? left : 0.0;
 }
 
+static int looks_on(sw_scene *s, const sw_tool *t) {
+  const sw_jaw *j = &t->jaw;
+  if (!obeys(t) || j->mode != SW_JAW_FORCE || !(time_left(j) > 0)) return 0;
+  const double off = sw_tool_squeeze(s, t, s->time) - j->force;
+  return fabs(off) > PRECISION * j->force && (off > 0 || sw_jaw_at(j, s->time) > 0);
+}
+
 int sw_jaw_again(sw_scene *s) {
   int again = 0;
-  for (size_t k = 0; k < s->tool_count; k++) {
+  for (size_t k = 0; k < s->tool_count; k++) again |= looks_on(s, &s->tools[k]);
+  for (size_t k = 0; again && k < s->tool_count; k++) {
     sw_tool *t = &s->tools[k];
     sw_jaw *j = &t->jaw;
-    if (!works(t) || !(j->step > 0) || j->mode != SW_JAW_FORCE) continue;
-    const double left = time_left(j);
+    const double left = obeys(t) && j->mode == SW_JAW_FORCE ? time_left(j) : 0.0;
+    if (!works(t)) continue;
     j->now = sw_tool_squeeze(s, t, s->time);
     j->opening = fmax(0.0, sw_jaw_at(j, s->time));
-    const int off = fabs(j->now - j->force) > PRECISION * j->force;
-    again |= off && left > 0 && (j->now > j->force || j->opening > 0);
     begin(j, s->time - left, left);
-    if (!(left > 0)) j->since = s->time;
   }
   return again;
 }

@@ -2,8 +2,6 @@
 /* Poses: equilibria at the places of what drives the wires, one after another. Jaws that obey a
  * force are as open at each as it takes, found by repeating the pose from where it began. */
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 #include "base/alloc.h"
 #include "scene/world.h"
