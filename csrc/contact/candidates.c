@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What may touch what within a step, and how stiff new touches are. */
 #include <math.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "contact/contact.h"
@@ -88,6 +89,22 @@ static size_t other_end(const sw_plan *p, size_t i, int k) {
   return at < w->side_first[i + 1] ? w->side[at] : i;
 }
 
+/* Pads are met by particles alone where these lie close enough: between them the pad's edges would
+ * come and go along one edge of the surface after the other, and take its force to and fro. */
+static const double CLOSE = 3.0; /* rings along the pad's face, its x and z [-] */
+
+/* The same of a wire's line: nodes that lie just on a pad's edges come and go, and a whole
+ * segment's share of the force with them. So pads with faces are met at places spread evenly, so
+ * many along their width, that fade out over their edges. Pins are met at the nearest place. */
+static const double SAMPLES = 12.0;            /* [-] */
+enum { LEAST_SAMPLES = 2, MOST_SAMPLES = 64 }; /* of a segment [-] */
+
+/* Pads' touches of the segment of a line. */
+static int samples_of(const sw_plan *p, size_t i, double spaced) {
+  if (!(spaced > 0)) return 0;
+  return (int)fmin(MOST_SAMPLES, fmax(LEAST_SAMPLES, ceil(p->rest[i] / spaced)));
+}
+
 static sw_status segment_candidates(sw_contact *c, const sw_system *s, size_t body, size_t i,
                                     size_t o, double reach) {
   const sw_body *b = &s->bodies[body];
@@ -98,24 +115,28 @@ static sw_status segment_candidates(sw_contact *c, const sw_system *s, size_t bo
     const sw_vec y = sw_load(s->x + 3 * other);
     const double wide = fmax(reach, reach_of(c, s, b, other, o));
     const sw_vec w = sw_v(wide, wide, wide);
-    if (!outside(&c->bounds[o], sw_sub(low_of(x, y), w), sw_add(high_of(x, y), w)))
-      SW_TRY(add_candidate(c, b, body, node, other, (int)o, k));
+    if (outside(&c->bounds[o], sw_sub(low_of(x, y), w), sw_add(high_of(x, y), w))) continue;
+    SW_TRY(add_candidate(c, b, body, node, other, (int)o, k));
+    c->candidates[c->candidate_count - 1].samples = samples_of(b->plan, i, c->spaced[o]);
   }
   return SW_OK;
 }
 
-/* Pads are met by particles alone where these lie close enough: between them the pad's edges would
- * come and go along one edge of the surface after the other, and take its force to and fro. */
-static const double CLOSE = 3.0; /* rings along the pad's face, its x and z [-] */
+static int has_faces(const sw_shape *shape) {
+  const char *kind = sw_shape_kind(shape);
+  return strcmp(kind, "box") == 0 || strcmp(kind, "hull") == 0 || strcmp(kind, "mesh") == 0;
+}
 
-static void find_dense(sw_contact *c, const sw_plan *p) {
+static void look_at_pads(sw_contact *c, const sw_plan *p) {
   double widest = 0;
   const int rings = p->web && p->web->per_ring;
   for (size_t i = 0; rings && i < p->nodes; i++) widest = fmax(widest, p->web->along[i]);
   for (size_t o = 0; o < c->count; o++) {
     const sw_bounds b = sw_shape_bounds(c->obstacles[o].shape);
-    const sw_vec size = sw_sub(b.max, b.min);
-    c->dense[o] = rings && c->obstacles[o].grips > 0 && fmin(size.x, size.z) > CLOSE * widest;
+    const double width = fmin(b.max.x - b.min.x, b.max.z - b.min.z);
+    const int pad = c->obstacles[o].grips > 0;
+    c->dense[o] = rings && pad && width > CLOSE * widest;
+    c->spaced[o] = pad && !p->web && has_faces(c->obstacles[o].shape) ? width / SAMPLES : 0.0;
   }
 }
 
@@ -128,7 +149,7 @@ static sw_status node_candidates(sw_contact *c, const sw_system *s, size_t body,
     const sw_vec r = sw_v(reach, reach, reach);
     sw_closest near;
     if (c->obstacles[o].off) continue;
-    if (!outside(&c->bounds[o], sw_sub(x, r), sw_add(x, r)) &&
+    if (!(c->spaced[o] > 0) && !outside(&c->bounds[o], sw_sub(x, r), sw_add(x, r)) &&
         sw_shape_point(c->obstacles[o].shape, sw_pose_local(c->start[o].pose, x), reach, &near))
       SW_TRY(add_candidate(c, b, body, node, node, (int)o, 0));
     if (!c->flat[o] && !c->dense[o]) SW_TRY(segment_candidates(c, s, body, i, o, reach));
@@ -190,19 +211,24 @@ static double usual_force(const sw_plan *p, double weight) {
   return fmax(weight, ALLOWED_PENETRATION * (ring > 0 ? ring : solid));
 }
 
-/* Stiffness of a wire's new touches: for its weight or for what bends it. */
 /* Line stiffness of one side of a round section between plates, of its mean modulus: a solid
  * cylinder has F/(E R) = 0.084 at an approach of a tenth of its diameter (plane strain, finite
  * elements) [-]. */
 static const double SECTION = 2.0 * 0.084 / 0.2;
 
+/* With the force wanted a pad's samples sink in by about this [m]. */
+static const double PRESSED_IN = 5e-6;
+
 /* A pad on a wire without a section: as soft as the section would be, and not stiffer than its
  * force needs. Rigid against rigid, no force could be set [N/m]. */
-static double pad_stiffness(const sw_plan *p, double grips) {
-  const double r = p->beam.radius, length = p->length / (double)p->edges;
-  return fmin(SECTION * p->beam.EA / (PI * r * r) * length, grips / ALLOWED_PENETRATION);
+static double pad_stiffness(const sw_plan *p, const sw_candidate *k, size_t edge, double grips) {
+  const double r = p->beam.radius;
+  const double section = SECTION * p->beam.EA / (PI * r * r);
+  if (!k->samples) return fmin(section * p->length / (double)p->edges, grips / ALLOWED_PENETRATION);
+  return fmin(section * p->rest[edge] / k->samples, grips / (SAMPLES * PRESSED_IN));
 }
 
+/* Of a wire's new touches: for its weight or for what bends it, or as pads want it. */
 static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t first) {
   const sw_plan *p = s->bodies[body].plan;
   const double L = p->length, weight = p->beam.mass * L * sw_norm(sw_load(s->gravity));
@@ -215,7 +241,10 @@ static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t
     const double grips = c->obstacles[k->obstacle].grips;
     k->usual = fmax(base, rate2 * k->mass);
     k->given = grips > 0 && !p->web && c->regime != SW_CONTACT_EXPLICIT;
-    if (k->given) k->usual = pad_stiffness(p, grips);
+    if (k->given)
+      k->usual = pad_stiffness(p, k, k->node - s->bodies[body].first_node, grips);
+    else if (k->samples)
+      k->usual *= LEAST_SAMPLES / (double)k->samples;
   }
 }
 
@@ -228,7 +257,7 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
   for (size_t b = 0; b < s->body_count && status == SW_OK; b++) {
     const size_t first = c->candidate_count;
     const sw_web *web = s->bodies[b].plan->web;
-    find_dense(c, s->bodies[b].plan);
+    look_at_pads(c, s->bodies[b].plan);
     for (size_t i = 0; i < s->bodies[b].plan->nodes && status == SW_OK; i++)
       if (!web || web->outer[i]) status = node_candidates(c, s, b, i);
     set_stiffness(c, s, b, first);

@@ -19,8 +19,9 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   c->now = sw_alloc(count, sizeof *c->now);
   c->flat = sw_alloc(count, sizeof *c->flat);
   c->dense = sw_alloc(count, sizeof *c->dense);
+  c->spaced = sw_alloc(count, sizeof *c->spaced);
   c->bounds = (sw_bounds *)sw_alloc(count, sizeof *c->bounds);
-  if (!c->obstacles || !c->start || !c->now || !c->flat || !c->dense || !c->bounds) {
+  if (!c->obstacles || !c->start || !c->now || !c->flat || !c->dense || !c->spaced || !c->bounds) {
     sw_contact_free(c);
     return SW_ENOMEM;
   }
@@ -60,6 +61,7 @@ void sw_contact_free(sw_contact *c) {
   sw_free(c->now);
   sw_free(c->flat);
   sw_free(c->dense);
+  sw_free(c->spaced);
   sw_free(c->bounds);
   sw_free(c->candidates);
   sw_free(c->touches);

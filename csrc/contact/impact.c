@@ -223,6 +223,8 @@ static int went_too_far(sw_contact *c, const sw_system *s, const double *x1) {
 /* A step may leave a touch this much deeper than it found it; the law's own
  * depth is below half of that [m]. */
 static const double DEEPER = 1e-4;
+/* What has the softness of a section is meant to give way; of the radius [-]. */
+static const double SQUEEZED = 0.2;
 /* In steps below this share of the nominal one depth is taken as it comes [-]. */
 static const double SMALLEST_CARE = 1.0 / 64;
 
@@ -239,6 +241,10 @@ static double depth_at(const sw_contact *c, const sw_candidate *k, const sw_cont
   }
   const sw_vec b = sw_pose_local(*pose, sw_load(x + 3 * k->other));
   double deepest = 0;
+  for (int i = 0; i < k->samples; i++)
+    if (sw_shape_point(shape, sw_lerp(a, b, sw_sample_at(k, i)), k->skin, &near[0]))
+      deepest = fmax(deepest, k->skin - near[0].gap);
+  if (k->samples) return deepest;
   const int n = sw_shape_segment(shape, a, b, k->skin, near);
   for (int i = 0; i < n; i++) deepest = fmax(deepest, k->skin - near[i].gap);
   return deepest;
@@ -252,7 +258,8 @@ static int cuts_deep(const sw_contact *c, const sw_system *s, const double *x1, 
     const sw_candidate *k = &c->candidates[i];
     if (c->flat[k->obstacle] || sw_contact_is_held(s, k)) continue;
     const double depth = depth_at(c, k, c->now, x1);
-    if (depth > DEEPER && depth > depth_at(c, k, c->start, s->x) + DEEPER) return 1;
+    const double more = k->given ? SQUEEZED * k->radius : DEEPER;
+    if (depth > more && depth > depth_at(c, k, c->start, s->x) + more) return 1;
   }
   return 0;
 }

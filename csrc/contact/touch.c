@@ -34,11 +34,19 @@ static sw_status push(sw_contact *c, const sw_touch *t) {
   return SW_OK;
 }
 
+/* How far along the segment a touch may have moved and still be the same one, at most the given
+ * share: a sample has its place [-]. */
+static double within(const sw_candidate *k, double share) {
+  return k->samples ? fmin(share, 0.5 / k->samples) : share;
+}
+
 static const sw_memory *memory_for(const sw_contact *c, const sw_candidate *k, double at) {
   const sw_memory *best = NULL;
-  for (size_t i = k->memory; i < k->memory_end; i++)
-    if (c->memory && (!best || fabs(c->memory[i].at - at) < fabs(best->at - at)))
-      best = &c->memory[i];
+  double nearest = within(k, HUGE_VAL);
+  for (size_t i = k->memory; c->memory && i < k->memory_end; i++) {
+    const double d = fabs(c->memory[i].at - at);
+    if (d < nearest) best = &c->memory[i], nearest = d;
+  }
   return best;
 }
 
@@ -67,7 +75,7 @@ static const double SAME_PLACE = 0.25;
 
 static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, double at) {
   const sw_touch *best = NULL;
-  double nearest = SAME_PLACE;
+  double nearest = within(k, SAME_PLACE);
   for (size_t i = k->last; i < k->last_end; i++) {
     const double d = fabs(c->last[i].at - at);
     if (d < nearest) best = &c->last[i], nearest = d;
@@ -99,7 +107,7 @@ static const sw_memory *pressed_memory(const sw_contact *c, const sw_system *s,
                                        const sw_candidate *k, double at) {
   const sw_memory *own = memory_for(c, k, at);
   if (own && own->normal_force > 0) return own;
-  return s->bodies[k->body].plan->web ? NULL : inherited(c, k, at);
+  return s->bodies[k->body].plan->web || k->samples ? NULL : inherited(c, k, at);
 }
 
 /* A particle of a mesh that sticks is predicted off its place by far more than what its touch's
@@ -268,6 +276,23 @@ static sw_status keep_pushing(sw_contact *c, const sw_system *s, const sw_candid
   return SW_OK;
 }
 
+/* Touches at a candidate's samples. */
+static sw_status query_samples(sw_contact *c, const sw_system *s, const sw_candidate *k,
+                               const double *y, double reach) {
+  const sw_pose *pose = &c->now[k->obstacle].pose;
+  const sw_vec a = sw_pose_local(*pose, sw_load(y + 3 * k->node));
+  const sw_vec b = sw_pose_local(*pose, sw_load(y + 3 * k->other));
+  for (int i = 0; i < k->samples; i++) {
+    const double at = sw_sample_at(k, i);
+    const sw_vec p = sw_lerp(a, b, at);
+    sw_closest near;
+    if (!sw_shape_point(c->obstacles[k->obstacle].shape, p, reach, &near)) continue;
+    near.at = at;
+    if (keep_side(c, k, p, &near)) SW_TRY(add_touch(c, s, k, y, &near));
+  }
+  return SW_OK;
+}
+
 static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k, const double *y) {
   const sw_shape *shape = c->obstacles[k->obstacle].shape;
   const sw_pose *pose = &c->now[k->obstacle].pose;
@@ -275,6 +300,7 @@ static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k,
   const double reach = 2.0 * k->radius; /* keeps what may begin to touch in the list */
   sw_closest near[SW_CLOSEST_MAX];
   if (c->barrier_count && behind_barrier(c, k, y, &near[0])) return add_touch(c, s, k, y, &near[0]);
+  if (k->samples) return query_samples(c, s, k, y, reach);
   if (!k->segment) {
     if (!sw_shape_point(shape, a, reach, &near[0])) return SW_OK;
     near[0].at = 0;

@@ -20,6 +20,7 @@ typedef struct sw_candidate {
   size_t last, last_end;     /* matching range of the last iterate's touches */
   double usual;              /* stiffness of a new touch [N/m] */
   int given;                 /* 1: it keeps that, however deep it gets */
+  int samples; /* it touches at so many places, evenly along the segment; 0: at the nearest ones */
 } sw_candidate;
 
 /* One place where a wire's surface is near an obstacle. */
@@ -77,7 +78,8 @@ struct sw_contact {
   sw_contact_at *start, *now; /* (count) at the step's start and at the stage */
   int *flat;                  /* (count) 1: a half space, no segment contacts */
   int *dense;                 /* (count) 1: particles of the body at hand lie close, likewise */
-  sw_bounds *bounds;          /* (count) at the step's start, world axes */
+  double *spaced; /* (count) farthest that samples of the body at hand may be apart; 0: none [m] */
+  sw_bounds *bounds; /* (count) at the step's start, world axes */
   sw_candidate *candidates;
   size_t candidate_count, candidate_capacity;
   sw_touch *touches, *last; /* of this iterate and of the one before */
@@ -126,6 +128,11 @@ void sw_levers_push(sw_system *s, const sw_touch *t, const double K[6], unsigned
 sw_vec sw_levers_brake(const sw_beam *beam, const sw_levers *l, sw_vec slide, double most);
 /* Add the change of the edges' rates (edges) by an impulse at the touch [N s]. */
 void sw_levers_kick(const sw_plan *p, const sw_levers *l, sw_vec impulse, double *rates);
+
+/* Number k of a candidate's samples, along its segment [-]. */
+static inline double sw_sample_at(const sw_candidate *candidate, int k) {
+  return ((double)k + 0.5) / (double)candidate->samples;
+}
 
 /* The place of a candidate on its segment. */
 static inline sw_vec sw_touch_place(const double *x, size_t node, size_t other, double at) {
