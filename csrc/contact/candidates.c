@@ -58,7 +58,7 @@ static double reach_of(const sw_contact *c, const sw_system *s, const sw_body *b
                        size_t o) {
   if (c->regime == SW_CONTACT_STATIC)
     return b->plan->length + (b->plan->web ? 2.0 * b->plan->beam.radius : 0.0);
-  const sw_vec x = sw_load(s->x + 3 * node);
+  const sw_vec x = sw_contact_where(c, s->x, node, node, 0);
   const double wall = sw_norm(sw_obstacle_velocity(&c->start[o], x)) * c->h;
   const double skin = 1.5; /* of the radius: what is this near is always looked at [-] */
   return b->plan->beam.radius * skin + wall +
@@ -109,10 +109,10 @@ static sw_status segment_candidates(sw_contact *c, const sw_system *s, size_t bo
                                     size_t o, double reach) {
   const sw_body *b = &s->bodies[body];
   const size_t node = b->first_node + i;
-  const sw_vec x = sw_load(s->x + 3 * node);
+  const sw_vec x = sw_contact_where(c, s->x, node, node, 0);
   for (int k = 1; other_end(b->plan, i, k) != i; k++) {
     const size_t other = b->first_node + other_end(b->plan, i, k);
-    const sw_vec y = sw_load(s->x + 3 * other);
+    const sw_vec y = sw_contact_where(c, s->x, other, other, 0);
     const double wide = fmax(reach, reach_of(c, s, b, other, o));
     const sw_vec w = sw_v(wide, wide, wide);
     if (outside(&c->bounds[o], sw_sub(low_of(x, y), w), sw_add(high_of(x, y), w))) continue;
@@ -143,7 +143,7 @@ static void look_at_pads(sw_contact *c, const sw_plan *p) {
 static sw_status node_candidates(sw_contact *c, const sw_system *s, size_t body, size_t i) {
   const sw_body *b = &s->bodies[body];
   const size_t node = b->first_node + i;
-  const sw_vec x = sw_load(s->x + 3 * node);
+  const sw_vec x = sw_contact_where(c, s->x, node, node, 0);
   for (size_t o = 0; o < c->count; o++) {
     const double reach = reach_of(c, s, b, node, o);
     const sw_vec r = sw_v(reach, reach, reach);

@@ -60,6 +60,7 @@ void sw_contact_free(sw_contact *c) {
   sw_free(c->start);
   sw_free(c->now);
   sw_free(c->flat);
+  sw_free(c->sunk);
   sw_free(c->dense);
   sw_free(c->spaced);
   sw_free(c->bounds);
@@ -95,6 +96,7 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
   c->plastic = 0;
   c->widening = 1.0;
   SW_TRY(place_all(c, t, c->start, err));
+  if (sw_contact_sink(c, s) != SW_OK) return sw_fail(err, SW_ENOMEM, "contact: out of memory");
   return sw_contact_find_candidates(c, s, err);
 }
 

@@ -88,8 +88,8 @@ static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, doub
  * obstacle's material there. */
 static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_touch *t,
                              const double *y) {
-  const sw_vec from = sw_touch_place(s->x, t->node, t->other, t->at);
-  const sw_vec to = sw_touch_place(y, t->node, t->other, t->at);
+  const sw_vec from = sw_contact_where(c, s->x, t->node, t->other, t->at);
+  const sw_vec to = sw_contact_where(c, y, t->node, t->other, t->at);
   const sw_vec carried =
       sw_pose_point(c->now[t->obstacle].pose, sw_pose_local(c->start[t->obstacle].pose, from));
   const sw_body *b = &s->bodies[t->body];
@@ -160,7 +160,7 @@ int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
 /* How deep the touch's place was at the step's start, below 0 when it was outside [m]. */
 static double depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
-  const sw_vec from = sw_touch_place(s->x, t->node, t->other, t->at);
+  const sw_vec from = sw_contact_where(c, s->x, t->node, t->other, t->at);
   return c->candidates[t->candidate].skin - sw_dot(t->press.normal, sw_sub(from, plane));
 }
 
@@ -243,7 +243,7 @@ static int behind_barrier(const sw_contact *c, const sw_candidate *k, const doub
     const sw_barrier *b = &c->barriers[i];
     if (b->obstacle != k->obstacle || b->node != k->node || b->segment != k->segment) continue;
     const sw_vec local =
-        sw_pose_local(c->now[b->obstacle].pose, sw_touch_place(y, b->node, b->other, b->at));
+        sw_pose_local(c->now[b->obstacle].pose, sw_contact_where(c, y, b->node, b->other, b->at));
     const double gap = sw_dot(b->normal, sw_sub(local, b->point));
     *near = (sw_closest){.gap = gap,
                          .at = b->at,
@@ -267,7 +267,7 @@ static sw_status keep_pushing(sw_contact *c, const sw_system *s, const sw_candid
     int found = 0;
     for (size_t j = first; j < c->touch_count; j++)
       found |= fabs(c->touches[j].at - last->at) < SAME_PLACE;
-    const sw_vec p = sw_pose_local(*pose, sw_touch_place(y, k->node, k->other, last->at));
+    const sw_vec p = sw_pose_local(*pose, sw_contact_where(c, y, k->node, k->other, last->at));
     sw_closest near;
     if (found || !sw_shape_point(c->obstacles[k->obstacle].shape, p, k->radius, &near)) continue;
     near.at = last->at;
@@ -280,8 +280,8 @@ static sw_status keep_pushing(sw_contact *c, const sw_system *s, const sw_candid
 static sw_status query_samples(sw_contact *c, const sw_system *s, const sw_candidate *k,
                                const double *y, double reach) {
   const sw_pose *pose = &c->now[k->obstacle].pose;
-  const sw_vec a = sw_pose_local(*pose, sw_load(y + 3 * k->node));
-  const sw_vec b = sw_pose_local(*pose, sw_load(y + 3 * k->other));
+  const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, y, k->node, k->node, 0));
+  const sw_vec b = sw_pose_local(*pose, sw_contact_where(c, y, k->other, k->other, 0));
   for (int i = 0; i < k->samples; i++) {
     const double at = sw_sample_at(k, i);
     const sw_vec p = sw_lerp(a, b, at);
@@ -296,7 +296,7 @@ static sw_status query_samples(sw_contact *c, const sw_system *s, const sw_candi
 static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k, const double *y) {
   const sw_shape *shape = c->obstacles[k->obstacle].shape;
   const sw_pose *pose = &c->now[k->obstacle].pose;
-  const sw_vec a = sw_pose_local(*pose, sw_load(y + 3 * k->node));
+  const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, y, k->node, k->node, 0));
   const double reach = 2.0 * k->radius; /* keeps what may begin to touch in the list */
   sw_closest near[SW_CLOSEST_MAX];
   if (c->barrier_count && behind_barrier(c, k, y, &near[0])) return add_touch(c, s, k, y, &near[0]);
@@ -306,7 +306,7 @@ static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k,
     near[0].at = 0;
     return keep_side(c, k, a, &near[0]) ? add_touch(c, s, k, y, &near[0]) : SW_OK;
   }
-  const sw_vec b = sw_pose_local(*pose, sw_load(y + 3 * k->other));
+  const sw_vec b = sw_pose_local(*pose, sw_contact_where(c, y, k->other, k->other, 0));
   const size_t first = c->touch_count;
   const int n = sw_shape_segment(shape, a, b, reach, near);
   for (int i = 0; i < n; i++) {

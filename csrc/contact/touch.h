@@ -78,6 +78,8 @@ struct sw_contact {
   sw_contact_at *start, *now; /* (count) at the step's start and at the stage */
   int *flat;                  /* (count) 1: a half space, no segment contacts */
   int *dense;                 /* (count) 1: particles of the body at hand lie close, likewise */
+  double *sunk; /* (3 nodes) how far contact sees a node further in, or NULL: nowhere [m] */
+  size_t sunk_capacity;
   double *spaced; /* (count) farthest that samples of the body at hand may be apart; 0: none [m] */
   sw_bounds *bounds; /* (count) at the step's start, world axes */
   sw_candidate *candidates;
@@ -104,6 +106,9 @@ struct sw_contact {
 
 /* How far a node of velocity v may go in the step unnoticed [m]. */
 double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v);
+
+/* How far nodes are sunk, with the system where it is. SW_ENOMEM. */
+sw_status sw_contact_sink(sw_contact *c, const sw_system *s);
 
 /* Fill the list of candidates for the step. */
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err);
@@ -138,6 +143,13 @@ static inline double sw_sample_at(const sw_candidate *candidate, int k) {
 static inline sw_vec sw_touch_place(const double *x, size_t node, size_t other, double at) {
   return node != other ? sw_lerp(sw_load(x + 3 * node), sw_load(x + 3 * other), at)
                        : sw_load(x + 3 * node);
+}
+
+/* Where its surface is skin from, with the system's nodes at x [m]. */
+static inline sw_vec sw_contact_where(const sw_contact *c, const double *x, size_t node,
+                                      size_t other, double at) {
+  const sw_vec p = sw_touch_place(x, node, other, at);
+  return c->sunk ? sw_sub(p, sw_touch_place(c->sunk, node, other, at)) : p;
 }
 
 /* Velocity of the obstacle's material at world point p [m/s]. */
