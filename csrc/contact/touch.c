@@ -105,12 +105,12 @@ static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_t
 /* The same since the wire was last seen there: what explicit methods do after their last evaluation
  * in a step is not in that, and is found at the next one. */
 static sw_vec shift_since(const sw_contact *c, const sw_system *s, const sw_touch *t,
-                          const sw_memory *m, const double *y) {
-  if (c->regime != SW_CONTACT_EXPLICIT || !m || m->node != t->node || m->segment != t->segment)
-    return relative_shift(c, s, t, y);
-  const sw_pose pose = c->now[t->obstacle].pose;
+                          const double *y) {
+  const sw_candidate *k = &c->candidates[t->candidate];
+  const sw_memory *m = c->regime == SW_CONTACT_EXPLICIT ? memory_for(c, k, t->at) : NULL;
+  if (!m) return relative_shift(c, s, t, y);
   const sw_vec now = sw_contact_where(c, y, t->node, t->other, m->at);
-  return sw_sub(now, sw_pose_point(pose, m->seen));
+  return sw_sub(now, sw_pose_point(c->now[t->obstacle].pose, m->seen));
 }
 
 /* The memory of a touch that pressed, on whatever part of the wire it was. */
@@ -139,7 +139,7 @@ static double felt_stiffness(const sw_contact *c, const sw_system *s, const sw_t
 static void begin_friction(const sw_contact *c, const sw_system *s, const sw_memory *m,
                            const sw_touch *last, const double *y, sw_touch *t) {
   sw_press *press = &t->press;
-  sw_vec u = shift_since(c, s, t, m, y);
+  sw_vec u = shift_since(c, s, t, y);
   if (m)
     u = sw_add(u, sw_rotate(c->now[t->obstacle].pose.q, m->elastic));
   else if (press->gap >= 0)
