@@ -26,7 +26,8 @@ static sw_param run_rows[] = {
     {"frame", SW_PARAM_NUMBER, "s", NAN, 0, 1e9, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(sw_run_args, frame), "time between stored frames (default 1/30 s)"},
     {"quasistatic", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_run_args, quasistatic),
-     "true: equilibrium at every step instead of motion; dt is then the pose step"},
+     "true: equilibrium at every step instead of motion; dt is then the pose step, less where "
+     "pads hold a wire"},
     {"max_steps", SW_PARAM_INTEGER, "-", 1e15, 1, 1e15, 0, NULL, offsetof(sw_run_args, max_steps),
      "most steps to take"},
     {"progress", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
