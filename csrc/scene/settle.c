@@ -129,12 +129,12 @@ static int dragged(const statics *p) {
 
 /* A wire that nothing holds may lie where it can be shifted without effort, on a smooth table: a
  * direction in which rounding alone would carry it far. */
-static int loose(const sw_system *s) {
-  for (size_t b = 0; b < s->body_count; b++) {
-    const sw_plan *plan = s->bodies[b].plan;
+static int loose(const sw_scene *s) {
+  for (size_t b = 0; b < s->system.body_count; b++) {
+    const sw_plan *plan = s->system.bodies[b].plan;
     size_t i = 0;
     while (i < plan->nodes && plan->held[i] == SW_FREE) i++;
-    if (i == plan->nodes) return 1;
+    if (i == plan->nodes && !sw_scene_joined(s, b)) return 1;
   }
   return 0;
 }
@@ -149,7 +149,7 @@ static sw_status newton_attempt(statics *p, int iterations, sw_error *err) {
                             .statics = 1,
                             .accept_shift = p->args->tolerance};
   const double slowest = SLOWEST_GROWTH * time_scale(p->s);
-  const int massive = loose(&p->s->system);
+  const int massive = loose(p->s);
   SW_TRY(solve(p, massive ? slowest : HUGE_VAL, &newton, err));
   p->report->residual = p->args->tolerance;
   const double shift = take(p, p->report->negative > 0);
@@ -235,10 +235,11 @@ static int stops(sw_status status) {
 /* Newton's iteration from where continuation came to rest, which stays when that fails: the
  * equilibrium is then not isolated, or (unstable: 1) not stable. What touches there is kept too. */
 static sw_status polish(statics *p, int *unstable, sw_error *err) {
-  sw_error ignored;
+  sw_error why = {"out of memory"};
   sw_live rest = {0};
   sw_status status = sw_live_take(p->s, &rest);
-  if (status == SW_OK) status = newton_attempt(p, NEWTON_ITERATIONS, &ignored);
+  if (status == SW_OK) status = newton_attempt(p, NEWTON_ITERATIONS, &why);
+  if (stops(status)) sw_fail(err, status, "%s", why.text);
   *unstable = status == SW_OK && p->report->negative > 0;
   if (status == SW_OK ? *unstable : !stops(status)) status = sw_live_put(p->s, &rest, err);
   sw_live_free(&rest);

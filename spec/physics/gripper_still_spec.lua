@@ -35,7 +35,7 @@ end
 -- Rows of the gripper's series from a time on: time, opening, squeeze.
 local function rows(g, from)
   local series, list = g:series(), {}
-  for i, at in ipairs(series.time) do
+  for i, at in ipairs(series.t) do
     if at >= from - 1e-9 then list[#list + 1] = { at, series.opening[i], series.squeeze[i] } end
   end
   return list
