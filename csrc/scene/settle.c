@@ -128,13 +128,13 @@ static int dragged(const statics *p) {
 }
 
 /* A wire that nothing holds may lie where it can be shifted without effort, on a smooth table: a
- * direction in which rounding alone would carry it far. */
+ * direction in which rounding alone would carry it far. Meshes have touches enough to keep them. */
 static int loose(const sw_scene *s) {
   for (size_t b = 0; b < s->system.body_count; b++) {
     const sw_plan *plan = s->system.bodies[b].plan;
     size_t i = 0;
     while (i < plan->nodes && plan->held[i] == SW_FREE) i++;
-    if (i == plan->nodes && !sw_scene_joined(s, b)) return 1;
+    if (!plan->web && i == plan->nodes && !sw_scene_joined(s, b)) return 1;
   }
   return 0;
 }
