@@ -150,7 +150,7 @@ typedef struct sw_crash {
   size_t part, obstacle; /* slots */
 } sw_crash;
 
-typedef struct sw_frozen sw_frozen; /* what pads held, see frozen.c; shared and immutable */
+typedef struct sw_frozen sw_frozen; /* what pads held, see frozen_inner.h; shared and immutable */
 void sw_frozen_retain(sw_frozen *frozen);
 void sw_frozen_release(sw_frozen *frozen);
 
