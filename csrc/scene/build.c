@@ -209,7 +209,9 @@ static sw_status new_plans(sw_scene *s, sw_plan **plans) {
     for (size_t k = 0; k < s->hold_count; k++) {
       const sw_scene_hold *h = &s->holds[k];
       if (!h->alive) continue;
-      if (h->wire == w) places[n++] = (sw_hold_place){h->s1, h->s2, h->cls->clamped, number};
+      if (h->wire == w)
+        places[n++] =
+            (sw_hold_place){h->s1, h->s2, h->cls->clamped, number, {h->give[0], h->give[1]}};
       number++;
     }
     status = wire->strand.web
@@ -267,7 +269,8 @@ static sw_status add_holds(sw_scene *s, size_t alive) {
     for (size_t side = 0; side < 2; side++) {
       const size_t at = 3 * (2 * (size_t)number + side);
       sw_store(s->system.directors + at, h->director[side]);
-      sw_store(s->system.normals + at, h->frame[side].normal);
+      sw_store(s->system.normals + at,
+               h->give[side].softer > 0 ? h->give[side].axis : h->frame[side].normal);
     }
     sw_held_node node = {.body = h->wire, .hold = number, .slides = h->cls->feeds};
     for (size_t i = 0; b->plan->web && i < h->count; i++) {

@@ -104,6 +104,11 @@ static sw_status grip(sw_scene *s, sw_handle tool, const sw_frozen *f, sw_freeze
   sw_scene_hold *h = &s->holds[out->hold.slot];
   h->director[0] = facing_at(f, out->s1);
   h->director[1] = facing_at(f, out->s2);
+  for (int k = 0; k < 2; k++) {
+    const sw_vec a = f->give[k].axis, d = h->director[k];
+    h->give[k] = f->give[k];
+    h->give[k].axis = sw_unit_or(sw_madd(a, d, -sw_dot(a, d)), sw_perpendicular(d));
+  }
   return sw_scene_tool_hold(s, tool, out->hold, err);
 }
 

@@ -1,81 +1,178 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How far inside the pads a rod's grip has to end.
+/* How the wire gives way where it leaves the pads, condensed from the deformed mesh.
  *
- * Sections give way under the pads: what a moment turns the wire by where it leaves them is more
- * than by a clamp there. The rod's grip ends as much further inside as makes it turn the same. */
+ * Between the pads sections are flat, and what sticks to the pads shears: the wire gives way more
+ * than from a clamp at the pads' face, and not alike in all directions. On each side the mesh from
+ * some rings outside on is moved and turned as one rigid body, in six ways, with all that is inside
+ * free to follow between the pads' touches. The forces and moments that this takes, and how a ring
+ * between goes along, are the compliance of the cell from the pads to that ring. A rod has the same
+ * that is held further inside than the pads' face: so much further as it is to stretch more; and
+ * whose bending and twist begin further out than that. */
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "scene/frozen_inner.h"
 
-/* Second moment of a ring's particles across the axis of a couple, and axial parts of a turn. */
-static double couple(const sw_web *web, const double *x, size_t ring, sw_vec t, sw_vec axis,
-                     double *load) {
-  const sw_vec e = sw_cross(t, axis), middle = sw_strand_middle(web, x, ring);
-  double sum = 0;
-  for (size_t p = web->first[ring]; p < web->first[ring + 1]; p++) {
-    const double arm = sw_dot(sw_sub(sw_vec_at(x, p), middle), e);
-    sum += arm * arm;
-    if (load) sw_store(load + 3 * p, sw_scale(t, arm));
+enum { READ = 3, MOVED = 5, WAYS = 6 }; /* so many rings outside the pads; see above [-] */
+static const double MOST = 0.45;        /* a rod is held further inside by, of the pressed length */
+
+typedef struct cell {
+  sw_scene *s;
+  size_t wire;
+  const sw_web *web;
+  const double *x;       /* of its particles [m] */
+  size_t read[2];        /* rings before the pads and after; those of the pads: there is none */
+  size_t moved[2];       /* likewise */
+  sw_vec across;         /* how the pads close [-] */
+  unsigned char *fixed;  /* (particles) [-] */
+  double *motion, *push; /* (particles x 3) [m], [N] */
+} cell;
+
+/* A ring's own axes: along the wire, across it towards the pads, along their faces. */
+static void axes_of(const cell *c, size_t ring, sw_vec out[3]) {
+  out[0] = sw_strand_facing(c->web, c->x, ring);
+  const sw_vec across = sw_madd(c->across, out[0], -sw_dot(c->across, out[0]));
+  out[1] = sw_unit_or(across, sw_perpendicular(out[0]));
+  out[2] = sw_cross(out[0], out[1]);
+}
+
+/* Move the mesh from a ring on outwards in one of the ways: along an axis, or about it. */
+static void move_rigidly(const cell *c, int side, int way, const sw_vec axes[3], sw_vec middle) {
+  const size_t from = side ? c->web->first[c->moved[1]] : 0;
+  const size_t to = side ? c->web->particles : c->web->first[c->moved[0] + 1];
+  memset(c->motion, 0, 3 * c->web->particles * sizeof *c->motion);
+  for (size_t p = from; p < to; p++) {
+    const sw_vec arm = sw_sub(sw_vec_at(c->x, p), middle);
+    sw_store(c->motion + 3 * p, way < 3 ? axes[way] : sw_cross(axes[way - 3], arm));
   }
-  return sum;
 }
 
-/* Turn of a ring by shifts of its particles [rad]. */
-static double turn_of(const sw_web *web, const double *x, size_t ring, sw_vec t, sw_vec axis,
-                      const double *shift) {
-  const sw_vec e = sw_cross(t, axis), middle = sw_strand_middle(web, x, ring);
-  double sum = 0;
-  for (size_t p = web->first[ring]; p < web->first[ring + 1]; p++)
-    sum += sw_dot(sw_vec_at(shift, p), t) * sw_dot(sw_sub(sw_vec_at(x, p), middle), e);
-  return sum / couple(web, x, ring, t, axis, NULL);
+/* Turn of a ring about one of its axes by the motion: of its plane, or in it [rad]. */
+static double turn_of(const cell *c, size_t ring, int axis, const sw_vec axes[3], sw_vec middle) {
+  double sum = 0, second = 0;
+  for (size_t p = c->web->first[ring]; p < c->web->first[ring + 1]; p++) {
+    const sw_vec turned = sw_cross(axes[axis], sw_sub(sw_vec_at(c->x, p), middle));
+    const sw_vec way = axis ? sw_scale(axes[0], sw_dot(axes[0], turned)) : turned;
+    sum += sw_dot(sw_vec_at(c->motion, p), way);
+    second += sw_norm2(way);
+  }
+  return sum / second;
 }
 
-enum { OUTSIDE = 3 }; /* the couple acts so many rings outside the pads [-] */
+/* Forces and moments on the cell (rows) by ways, and how the ring that is read goes along. */
+static void try_ways(const cell *c, int side, double load[WAYS][WAYS], double motion[WAYS][WAYS]) {
+  sw_vec axes[3];
+  const size_t ring = c->read[side], from = c->web->first[c->moved[side]];
+  const sw_vec middle = sw_strand_middle(c->web, c->x, ring);
+  axes_of(c, ring, axes);
+  for (int way = 0; way < WAYS; way++) {
+    sw_vec force = sw_v(0, 0, 0), moment = force;
+    double along[3];
+    move_rigidly(c, side, way, axes, middle);
+    sw_system_carry(&c->s->system, c->wire, c->fixed, c->motion, c->push);
+    for (size_t p = from; p < c->web->first[c->moved[side] + 1]; p++) {
+      const sw_vec f = sw_vec_at(c->push, p);
+      force = sw_add(force, f);
+      moment = sw_add(moment, sw_cross(sw_sub(sw_vec_at(c->x, p), middle), f));
+    }
+    sw_web_middle(c->web, c->motion, ring, along);
+    for (int k = 0; k < 3; k++) {
+      load[k][way] = sw_dot(force, axes[k]), load[3 + k][way] = sw_dot(moment, axes[k]);
+      motion[k][way] = sw_dot(sw_load(along), axes[k]);
+      motion[3 + k][way] = turn_of(c, ring, k, axes, middle);
+    }
+  }
+}
 
-/* Of one side: -1 before, 1 after. Nothing where the wire ends between the pads. */
-static sw_status find_inside(sw_scene *s, const sw_tool *tool, sw_frozen *f, int side, double *load,
-                             sw_error *err) {
-  size_t pads_only[SW_TOOL_PADS];
-  for (size_t k = 0; k < tool->pads; k++) pads_only[k] = tool->pad[k].obstacle;
-  const sw_body *b = &s->system.bodies[f->wire.slot];
-  const sw_web *web = b->plan->web;
-  const double *x = s->system.x + 3 * b->first_node;
-  const size_t face = side < 0 ? f->first : f->last;
+/* out = b / a, by elimination of columns with pivots; a is lost. 0: there is none. */
+static int divide(double b[WAYS][WAYS], double a[WAYS][WAYS], double out[WAYS][WAYS]) {
+  memcpy(out, b, sizeof(double[WAYS][WAYS]));
+  for (int k = 0; k < WAYS; k++) {
+    int pivot = k;
+    for (int j = k; j < WAYS; j++)
+      if (fabs(a[k][j]) > fabs(a[k][pivot])) pivot = j;
+    const double p = a[k][pivot];
+    if (!isfinite(p) || p == 0) return 0;
+    for (int i = 0; i < WAYS; i++) {
+      const double one = a[i][pivot], two = out[i][pivot];
+      a[i][pivot] = a[i][k], out[i][pivot] = out[i][k];
+      a[i][k] = one / p, out[i][k] = two / p;
+    }
+    for (int j = 0; j < WAYS; j++) {
+      const double f = a[k][j];
+      for (int i = 0; i < WAYS && j != k; i++) a[i][j] -= f * a[i][k], out[i][j] -= f * out[i][k];
+    }
+  }
+  return 1;
+}
+
+/* What the rod's grip has to be on one side. */
+static void find_side(const cell *c, sw_frozen *f, int side) {
+  const sw_beam *beam = &c->s->system.bodies[c->wire].plan->beam;
+  const double face = f->stations.s[side ? f->last : f->first];
+  const double way = fabs(f->stations.s[c->read[side]] - face);
+  const double most = MOST * (f->stations.s[f->last] - f->stations.s[f->first]);
+  double load[WAYS][WAYS], motion[WAYS][WAYS], give[WAYS][WAYS];
+  try_ways(c, side, load, motion);
+  if (!divide(motion, load, give)) return;
+  const double stretch = give[0][0] * beam->EA - way, twist = give[3][3] * beam->GJ - way;
+  const double bend[2] = {give[4][4] * beam->EI - way, give[5][5] * beam->EI - way};
+  const int soft = bend[1] > bend[0];
+  if (!isfinite(stretch + twist + bend[0] + bend[1])) return;
+  sw_vec axes[3];
+  axes_of(c, c->read[side], axes);
+  f->inside[side] = fmin(most, fmax(0.0, stretch));
+  f->give[side] = (sw_clamp_give){.shorter = f->inside[side] - bend[!soft],
+                                  .softer = bend[soft] - bend[!soft],
+                                  .twist = twist - f->inside[side],
+                                  .axis = axes[1 + soft]};
+}
+
+/* So many rings outside the pads, or fewer. */
+static size_t ring_outside(const sw_web *web, size_t face, int side, int count) {
   size_t ring = face;
-  for (int k = 0; k < OUTSIDE; k++) {
-    const size_t next = side < 0 ? ring - 1 : ring + 1;
+  for (int k = 0; k < count; k++) {
+    const size_t next = side ? ring + 1 : ring - 1;
     if (next >= web->rings || !sw_web_is_ring(web, next)) break; /* below 0 is above all, too */
     ring = next;
   }
-  f->inside[side > 0] = 0;
-  if (ring == face) return SW_OK;
-  const sw_vec t = sw_strand_facing(web, x, ring);
-  const sw_vec pads = sw_rotate(f->pose.q, f->across);
-  const sw_vec axis = sw_unit_or(sw_madd(pads, t, -sw_dot(pads, t)), sw_perpendicular(t));
-  memset(load, 0, 3 * web->particles * sizeof *load);
-  const double second = couple(web, x, ring, t, axis, load);
-  for (size_t i = 0; i < 3 * web->particles; i++) load[i] /= second; /* a moment of 1 N m */
-  SW_TRY(sw_scene_linearise(s, pads_only, tool->pads, err));
-  SW_TRY(sw_system_deflect(&s->system, f->wire.slot, load));
-  const double turn = turn_of(web, x, ring, t, axis, load); /* [rad/(N m)] */
-  const double way = fabs(f->stations.s[ring] - f->stations.s[face]);
-  f->inside[side > 0] = fmax(0.0, turn * b->plan->beam.EI - way);
+  return ring;
+}
+
+static sw_status condense(sw_scene *s, const sw_tool *t, cell *c, sw_frozen *f, sw_error *err) {
+  const sw_body *b = &s->system.bodies[f->wire.slot];
+  const size_t face[2] = {f->first, f->last};
+  size_t pads[SW_TOOL_PADS];
+  for (size_t k = 0; k < t->pads; k++) pads[k] = t->pad[k].obstacle;
+  for (int side = 0; side < 2; side++) {
+    c->moved[side] = ring_outside(c->web, face[side], side, MOVED);
+    c->read[side] = ring_outside(c->web, face[side], side, READ);
+  }
+  for (size_t p = 0; p < c->web->particles; p++) {
+    const size_t r = sw_web_ring_of(c->web, p);
+    const int before = c->moved[0] < f->first && r <= c->moved[0];
+    const int after = c->moved[1] > f->last && r >= c->moved[1];
+    c->fixed[p] = before || after || b->plan->held[p] != SW_FREE;
+  }
+  SW_TRY(sw_scene_linearise(s, pads, t->pads, err));
+  SW_TRY(sw_system_fix_particles(&s->system, c->wire, c->fixed));
+  for (int side = 0; side < 2; side++)
+    if (c->moved[side] != face[side]) find_side(c, f, side);
   return SW_OK;
 }
 
-/* Both sides; together less than the pressed length. */
 sw_status sw_frozen_find_give(sw_scene *s, const sw_tool *t, sw_frozen *f, sw_error *err) {
-  static const double MOST = 0.45; /* of the pressed length, each [-] */
   const sw_body *b = &s->system.bodies[f->wire.slot];
-  const double most = MOST * (f->stations.s[f->last] - f->stations.s[f->first]);
-  double *load = sw_alloc(3 * b->plan->nodes, sizeof *load);
-  if (!load) return SW_ENOMEM;
+  const size_t n = b->plan->web->particles;
+  cell c = {.s = s, .wire = f->wire.slot, .web = b->plan->web};
   f->across = sw_unit_or(s->obstacles[t->pad[0].obstacle].drive.opens, sw_v(0, 1, 0));
-  sw_status status = find_inside(s, t, f, -1, load, err);
-  if (status == SW_OK) status = find_inside(s, t, f, 1, load, err);
-  for (int k = 0; k < 2; k++) f->inside[k] = fmin(f->inside[k], most);
-  sw_free(load);
+  c.across = sw_rotate(f->pose.q, f->across);
+  c.x = s->system.x + 3 * b->first_node;
+  c.motion = sw_alloc(6 * n, sizeof *c.motion), c.fixed = sw_alloc(n, 1);
+  c.push = c.motion ? c.motion + 3 * n : NULL;
+  const sw_status status = c.motion && c.fixed ? condense(s, t, &c, f, err) : SW_ENOMEM;
+  sw_free(c.motion);
+  sw_free(c.fixed);
   return status;
 }

@@ -222,6 +222,7 @@ typedef struct sw_scene_hold {
   uint32_t *particle;     /* (count) which ones of a mesh; NULL on other wires */
   sw_vec director[2];     /* arriving, leaving; in the hold's frame [-] */
   sw_mesh_frame frame[2]; /* the wire's there, with directions as held; if it has frames */
+  sw_clamp_give give[2];  /* likewise */
   sw_quat turn;           /* orientation that goes with the wire's twist, while not built */
   sw_feed feed;           /* of a class that feeds */
   sw_vec force, moment;   /* last, kept after release [N], [N m] */

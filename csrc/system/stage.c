@@ -99,6 +99,7 @@ sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, c
   f->tension = s->tension + b->first_edge;
   f->gravity = s->gravity;
   f->hold_directors = s->directors_now;
+  f->hold_normals = s->normals_now;
   f->hold_turns = s->directors_rate;
   sw_body_begin(b);
   if (b->has_twist || b->spin_block) sw_system_measure(s, b);
@@ -402,6 +403,7 @@ sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const 
     f->tension = NULL;
     f->gravity = s->gravity;
     f->hold_directors = s->directors_now;
+    f->hold_normals = s->normals_now;
     f->hold_turns = s->directors_rate;
     f->x = x + 3 * body->first_node;
     f->v = v + 3 * body->first_node;

@@ -256,6 +256,7 @@ static void aim(sw_system *s, sw_body *b, const double *x, const double *v) {
   f->v = v + 3 * b->first_node;
   f->gravity = s->gravity;
   f->hold_directors = s->directors_now;
+  f->hold_normals = s->normals_now;
   f->hold_turns = s->directors_rate;
 }
 

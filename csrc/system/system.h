@@ -286,9 +286,13 @@ double sw_system_stable_dt(const sw_system *system);
  * (unknowns) values; in those given, held nodes must be zero. */
 sw_status sw_system_linearise(sw_system *system, double time, sw_error *err);
 
-/* Shifts of the particles of a body that is a mesh, in a system that was linearised, under small
- * loads on them (nodes x 3): loads in, shifts out. Once only; fails as sw_blocks_factor. */
-sw_status sw_system_deflect(sw_system *system, size_t body, double *load);
+/* Small motions of a body that is a mesh, in a system that was linearised, by those of some of its
+ * particles, whose flags are 1 (particles). Once only; fails as sw_blocks_factor. */
+sw_status sw_system_fix_particles(sw_system *system, size_t body, const unsigned char *fixed);
+/* Then, for any number of them: motion (particles x 3) is given for these particles and 0 for the
+ * others, which follow so that nothing pushes them; push receives what does push [m], [N]. */
+void sw_system_carry(const sw_system *system, size_t body, const unsigned char *fixed,
+                     double *motion, double *push);
 
 size_t sw_system_unknowns(const sw_system *system, size_t body);
 size_t sw_system_free_unknowns(const sw_system *system, size_t body);

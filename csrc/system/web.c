@@ -246,17 +246,25 @@ sw_status sw_web_solve(sw_body *b, double *delta, size_t *negative) {
   return SW_OK;
 }
 
-sw_status sw_system_deflect(sw_system *s, size_t body, double *load) {
+sw_status sw_system_fix_particles(sw_system *s, size_t body, const unsigned char *fixed) {
   sw_body *b = &s->bodies[body];
   size_t negative;
   sw_gather_rows(&b->field, 0.0, b->field.rows);
   sw_web_gather(b);
-  for (size_t i = 0; i < s->held_count; i++)
-    if (s->held[i].body == body) sw_web_hold(&s->held[i], b, load);
   b->web_factored = 0;
-  const sw_status status = sw_web_solve(b, load, &negative);
-  b->web_factored = 0;
-  return status;
+  return sw_blocks_factor(b->blocks, fixed, &negative);
+}
+
+void sw_system_carry(const sw_system *s, size_t body, const unsigned char *fixed, double *motion,
+                     double *push) {
+  const sw_body *b = &s->bodies[body];
+  const size_t n = b->plan->nodes;
+  sw_blocks_multiply(b->blocks, motion, push);
+  for (size_t i = 0; i < n; i++)
+    sw_store(push + 3 * i, fixed[i] ? sw_v(0, 0, 0) : sw_neg(sw_vec_at(push, i)));
+  sw_blocks_solve(b->blocks, push);
+  for (size_t i = 0; i < 3 * n; i++) motion[i] += push[i];
+  sw_blocks_multiply(b->blocks, motion, push);
 }
 
 /* --- springs ------------------------------------------------------------------------ */
