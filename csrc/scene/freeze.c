@@ -50,7 +50,7 @@ static sw_status keep_memory(const sw_scene *s, const sw_body *b, sw_frozen *f) 
 }
 /* All that has to be known to come back. */
 static sw_status keep(sw_scene *s, const sw_tool *t, sw_handle wire, sw_frozen *f, sw_line *line,
-                      sw_error *err) {
+                      sw_grip_end ends[2], sw_error *err) {
   sw_scene_wire *w = &s->wires[wire.slot];
   const sw_body *b = &s->system.bodies[wire.slot];
   sw_motion_state now;
@@ -64,9 +64,23 @@ static sw_status keep(sw_scene *s, const sw_tool *t, sw_handle wire, sw_frozen *
   SW_TRY(keep_memory(s, b, f));
   SW_TRY(sw_line_read(s, wire, f->stations.n, f->stations.s, line, err));
   f->frame = sw_alloc(6 * f->stations.n, sizeof *f->frame);
-  if (!f->frame) return SW_ENOMEM;
+  f->rod = sw_alloc(3 * f->stations.n, sizeof *f->rod);
+  if (!f->frame || !f->rod) return SW_ENOMEM;
   memcpy(f->frame, line->frame, 6 * f->stations.n * sizeof *f->frame);
-  return sw_frozen_find_give(s, t, f, err);
+  return sw_frozen_condense(s, t, f, ends, err);
+}
+
+/* The twist that the line has between the grip's ends and where they take it over: what the torque
+ * there makes of their length. */
+static void take_turns(sw_line *line, const sw_grip_end ends[2]) {
+  const double turn[2] = {line->turn[ends[0].ring] - ends[0].turn,
+                          line->turn[ends[1].ring] - ends[1].turn};
+  for (size_t i = ends[0].ring + 1; i < ends[1].ring; i++) {
+    const int side = line->s[i] > 0.5 * (ends[0].s + ends[1].s);
+    const double whole = line->s[ends[side].ring] - ends[side].s;
+    const double share = whole != 0 ? (line->s[i] - ends[side].s) / whole : 0.0;
+    line->turn[i] = turn[side] + fmin(1.0, fmax(0.0, share)) * ends[side].turn;
+  }
 }
 
 /* The rod that the line is. */
@@ -81,45 +95,45 @@ static sw_status become_rod(sw_scene *s, sw_handle wire, const sw_line *line, sw
   return status;
 }
 
-/* How the section nearest to an arc length faces. */
-static sw_vec facing_at(const sw_frozen *f, double s) {
-  size_t r = f->first;
-  while (r < f->last && f->stations.s[r] < s) r++;
-  if (r > f->first && s - f->stations.s[r - 1] < f->stations.s[r] - s) r--;
-  return sw_load(f->frame + 6 * r);
-}
-
-/* The tool's grip on the rod; where it leaves the grip it goes on as the sections face there. */
-static sw_status grip(sw_scene *s, sw_handle tool, const sw_frozen *f, sw_freeze_report *out,
-                      sw_error *err) {
+/* The tool's grip on the rod. */
+static sw_status grip(sw_scene *s, sw_handle tool, const sw_frozen *f, const sw_grip_end ends[2],
+                      sw_freeze_report *out, sw_error *err) {
   const sw_hold_class *cls = sw_hold_find("grip");
   sw_hold_args args;
   sw_params_default(&cls->params, &args);
-  out->s1 = f->stations.s[f->first] + f->inside[0];
-  out->s2 = f->stations.s[f->last] - f->inside[1];
+  out->s1 = ends[0].s, out->s2 = ends[1].s;
   args.s = 0.5 * (out->s1 + out->s2);
   args.width = out->s2 - out->s1;
   args.direction = sw_v(NAN, NAN, NAN);
   SW_TRY(sw_scene_add_hold(s, cls, f->wire, &args, &out->hold, err));
   sw_scene_hold *h = &s->holds[out->hold.slot];
-  h->director[0] = facing_at(f, out->s1);
-  h->director[1] = facing_at(f, out->s2);
-  for (int k = 0; k < 2; k++) {
-    const sw_vec a = f->give[k].axis, d = h->director[k];
-    h->give[k] = f->give[k];
-    h->give[k].axis = sw_unit_or(sw_madd(a, d, -sw_dot(a, d)), sw_perpendicular(d));
+  h->formed = 1;
+  for (size_t k = 0; k < 2; k++) {
+    const sw_vec at = sw_sub(ends[k].at, h->drive.pose.p);
+    sw_store(h->local + 3 * (k ? h->count - 1 : 0), at);
+    h->director[k] = ends[k].director;
+    h->give[k] = ends[k].give;
   }
   return sw_scene_tool_hold(s, tool, out->hold, err);
 }
 
+/* Where the rod lies at the mesh's rings. */
+static sw_status keep_rod(sw_scene *s, sw_frozen *f, sw_error *err) {
+  sw_line rod = {0};
+  const sw_status status = sw_line_read(s, f->wire, f->stations.n, f->stations.s, &rod, err);
+  if (status == SW_OK) memcpy(f->rod, rod.x, 3 * rod.n * sizeof *rod.x);
+  sw_line_free(&rod);
+  return status;
+}
+
 static sw_status change_to_rod(sw_scene *s, sw_handle tool, sw_frozen *f, const sw_line *line,
-                               const double *a, size_t count, sw_freeze_report *out,
-                               sw_error *err) {
+                               const sw_grip_end ends[2], const double *a, size_t count,
+                               sw_freeze_report *out, sw_error *err) {
   sw_vec about;
   sw_momentum_of(s, f->wire.slot, &about, out->before);
   out->energy_before = sw_scene_total_energy(s, err);
   SW_TRY(become_rod(s, f->wire, line, err));
-  SW_TRY(grip(s, tool, f, out, err));
+  SW_TRY(grip(s, tool, f, ends, out, err));
   f->hold = out->hold;
   SW_TRY(sw_scene_tool_pads_on(s, tool, 0, err));
   SW_TRY(sw_scene_build(s, err));
@@ -127,6 +141,7 @@ static sw_status change_to_rod(sw_scene *s, sw_handle tool, sw_frozen *f, const 
   SW_TRY(sw_momentum_match(s, f->wire.slot, about, out->before));
   sw_momentum_about(s, f->wire.slot, about, out->after);
   out->energy_after = sw_scene_total_energy(s, err);
+  SW_TRY(keep_rod(s, f, err));
   sw_scene_hold *h = &s->holds[out->hold.slot];
   sw_motion_state at;
   SW_TRY(sw_drive_eval(s, &h->drive, s->time, &at, err));
@@ -150,6 +165,7 @@ static sw_status check_freeze(const sw_scene *s, const sw_tool *t, sw_handle wir
 sw_status sw_scene_tool_freeze(sw_scene *s, sw_handle tool, sw_handle wire, sw_freeze_report *out,
                                sw_error *err) {
   sw_line line = {0};
+  sw_grip_end ends[2];
   sw_snapshot *before = NULL;
   sw_error ignored;
   *out = (sw_freeze_report){0};
@@ -168,12 +184,13 @@ sw_status sw_scene_tool_freeze(sw_scene *s, sw_handle tool, sw_handle wire, sw_f
                    s->wires[wire.slot].name);
   }
   sw_status status = sw_scene_tool_force(s, tool, NULL, &out->force, &out->moment, err);
-  if (status == SW_OK) status = keep(s, t, wire, f, &line, err);
+  if (status == SW_OK) status = keep(s, t, wire, f, &line, ends, err);
   if (status == SW_OK) status = sw_scene_snapshot(s, &before, err);
   size_t count = 0;
   double *a = status == SW_OK ? sw_frozen_accelerations(s, wire.slot, &count) : NULL;
   if (status == SW_OK && !a) status = SW_ENOMEM;
-  if (status == SW_OK) status = change_to_rod(s, tool, f, &line, a, count, out, err);
+  if (status == SW_OK) take_turns(&line, ends);
+  if (status == SW_OK) status = change_to_rod(s, tool, f, &line, ends, a, count, out, err);
   sw_free(a);
   sw_line_free(&line);
   if (status == SW_OK) {

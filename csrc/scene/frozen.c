@@ -19,6 +19,7 @@ void sw_frozen_release(sw_frozen *f) {
   sw_strand_free(&f->strand);
   sw_region_free(&f->stations);
   sw_free(f->frame);
+  sw_free(f->rod);
   sw_free(f->memory);
   sw_free(f);
 }
@@ -30,15 +31,9 @@ static void tape_handle(sw_tape *t, sw_handle *h) {
   sw_tape_uint32(t, &h->slot), sw_tape_uint32(t, &h->generation);
 }
 
-static void tape_give(sw_tape *t, sw_clamp_give *x) {
-  SW_TAPE_STRUCT(t, sw_clamp_give, 48);
-  sw_tape_double(t, &x->shorter), sw_tape_double(t, &x->softer), sw_tape_double(t, &x->twist);
-  sw_tape_vec(t, &x->axis);
-}
-
 static void tape_fields(sw_tape *t, sw_frozen *f) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_frozen, 624);
+  SW_TAPE_STRUCT(t, sw_frozen, 520);
   SW_TAPE_STRUCT(t, sw_stations, 32);
   sw_tape_mark(t, "contact", sw_contact_layout());
   tape_handle(t, &f->wire), tape_handle(t, &f->hold);
@@ -48,10 +43,8 @@ static void tape_fields(sw_tape *t, sw_frozen *f) {
   sw_tape_strand(t, &f->strand);
   sw_tape_pose(t, &f->pose), sw_tape_vec(t, &f->across);
   sw_tape_size(t, &f->first), sw_tape_size(t, &f->last);
-  sw_tape_double(t, &f->inside[0]), sw_tape_double(t, &f->inside[1]);
-  tape_give(t, &f->give[0]), tape_give(t, &f->give[1]);
   sw_tape_count(t, &f->stations.n, sizeof *f->stations.s);
-  SW_TAPE_ARRAY(t, f->frame, 6 * f->stations.n);
+  SW_TAPE_ARRAY(t, f->frame, 6 * f->stations.n), SW_TAPE_ARRAY(t, f->rod, 3 * f->stations.n);
   SW_TAPE_ARRAY(t, f->stations.s, f->stations.n), SW_TAPE_ARRAY(t, f->stations.ring, f->stations.n);
   sw_tape_double(t, &f->stations.spacing);
   sw_tape_count(t, &f->bytes, 1);

@@ -27,6 +27,7 @@ typedef struct cell {
   sw_vec across;         /* how the pads close [-] */
   unsigned char *fixed;  /* (particles) [-] */
   double *motion, *push; /* (particles x 3) [m], [N] */
+  double *inner;         /* (particles x 3) forces on each other at present [N] */
 } cell;
 
 /* A ring's own axes: along the wire, across it towards the pads, along their faces. */
@@ -107,26 +108,71 @@ static int divide(double b[WAYS][WAYS], double a[WAYS][WAYS], double out[WAYS][W
   return 1;
 }
 
-/* What the rod's grip has to be on one side. */
-static void find_side(const cell *c, sw_frozen *f, int side) {
+/* What outside of the ring that is read pulls and turns the cell by, in the ring's axes. */
+static void load_of(const cell *c, int side, const sw_vec axes[3], double out[WAYS]) {
+  const size_t ring = c->read[side];
+  const size_t from = side ? c->web->first[ring + 1] : 0;
+  const size_t to = side ? c->web->particles : c->web->first[ring];
+  const sw_vec middle = sw_strand_middle(c->web, c->x, ring);
+  sw_vec force = sw_v(0, 0, 0), moment = force; /* of the cell on it */
+  for (size_t p = from; p < to; p++) {
+    const sw_vec f = sw_vec_at(c->inner, p);
+    force = sw_add(force, f);
+    moment = sw_add(moment, sw_cross(sw_sub(sw_vec_at(c->x, p), middle), f));
+  }
+  for (int k = 0; k < 3; k++)
+    out[k] = -sw_dot(force, axes[k]), out[3 + k] = -sw_dot(moment, axes[k]);
+}
+
+/* How the ring that is read would lie without that load; motion: what the load does to it, in its
+ * axes, which are turned back too. */
+static sw_vec unload(const double motion[WAYS], sw_vec axes[3], sw_vec middle) {
+  sw_vec way = sw_v(0, 0, 0), turn = way;
+  for (int k = 0; k < 3; k++) {
+    way = sw_madd(way, axes[k], motion[k]);
+    turn = sw_madd(turn, axes[k], motion[3 + k]);
+  }
+  const sw_quat back = sw_quat_exp(sw_neg(turn));
+  for (int k = 0; k < 3; k++) axes[k] = sw_rotate(back, axes[k]);
+  return sw_sub(middle, way);
+}
+
+/* The rod's end from the compliance of one side; it begins where the unloaded ring points back to.
+ */
+static void find_end(const cell *c, const sw_frozen *f, int side, double compliance[WAYS][WAYS],
+                     sw_grip_end *out) {
   const sw_beam *beam = &c->s->system.bodies[c->wire].plan->beam;
-  const double face = f->stations.s[side ? f->last : f->first];
-  const double way = fabs(f->stations.s[c->read[side]] - face);
+  const size_t ring = c->read[side];
+  const double face = f->stations.s[side ? f->last : f->first], s = f->stations.s[ring];
+  const double way = fabs(s - face);
   const double most = MOST * (f->stations.s[f->last] - f->stations.s[f->first]);
-  double load[WAYS][WAYS], motion[WAYS][WAYS], give[WAYS][WAYS];
-  try_ways(c, side, load, motion);
-  if (!divide(motion, load, give)) return;
-  const double stretch = give[0][0] * beam->EA - way, twist = give[3][3] * beam->GJ - way;
-  const double bend[2] = {give[4][4] * beam->EI - way, give[5][5] * beam->EI - way};
-  const int soft = bend[1] > bend[0];
+  const double stretch = compliance[0][0] * beam->EA - way;
+  const double twist = compliance[3][3] * beam->GJ - way;
+  const double bend[2] = {compliance[4][4] * beam->EI - way, compliance[5][5] * beam->EI - way};
   if (!isfinite(stretch + twist + bend[0] + bend[1])) return;
+  const int soft = bend[1] > bend[0];
+  const double inside = fmin(most, fmax(0.0, stretch));
+  double load[WAYS], motion[WAYS] = {0};
   sw_vec axes[3];
-  axes_of(c, c->read[side], axes);
-  f->inside[side] = fmin(most, fmax(0.0, stretch));
-  f->give[side] = (sw_clamp_give){.shorter = f->inside[side] - bend[!soft],
-                                  .softer = bend[soft] - bend[!soft],
-                                  .twist = twist - f->inside[side],
-                                  .axis = axes[1 + soft]};
+  axes_of(c, ring, axes);
+  load_of(c, side, axes, load);
+  for (int i = 0; i < WAYS; i++)
+    for (int j = 0; j < WAYS; j++) motion[i] += compliance[i][j] * load[j];
+  const sw_vec middle = unload(motion, axes, sw_strand_middle(c->web, c->x, ring));
+  out->s = side ? face - inside : face + inside;
+  out->at = sw_madd(middle, axes[0], out->s - s);
+  out->director = axes[0];
+  out->ring = ring, out->turn = motion[3];
+  out->give = (sw_clamp_give){.shorter = inside - bend[!soft],
+                              .softer = bend[soft] - bend[!soft],
+                              .twist = twist - inside,
+                              .axis = axes[1 + soft]};
+}
+
+static void find_side(const cell *c, const sw_frozen *f, int side, sw_grip_end *out) {
+  double load[WAYS][WAYS], motion[WAYS][WAYS], compliance[WAYS][WAYS];
+  try_ways(c, side, load, motion);
+  if (divide(motion, load, compliance)) find_end(c, f, side, compliance, out);
 }
 
 /* So many rings outside the pads, or fewer. */
@@ -140,7 +186,8 @@ static size_t ring_outside(const sw_web *web, size_t face, int side, int count) 
   return ring;
 }
 
-static sw_status condense(sw_scene *s, const sw_tool *t, cell *c, sw_frozen *f, sw_error *err) {
+static sw_status condense(sw_scene *s, const sw_tool *t, cell *c, const sw_frozen *f,
+                          sw_grip_end ends[2], sw_error *err) {
   const sw_body *b = &s->system.bodies[f->wire.slot];
   const size_t face[2] = {f->first, f->last};
   size_t pads[SW_TOOL_PADS];
@@ -155,24 +202,40 @@ static sw_status condense(sw_scene *s, const sw_tool *t, cell *c, sw_frozen *f, 
     const int after = c->moved[1] > f->last && r >= c->moved[1];
     c->fixed[p] = before || after || b->plan->held[p] != SW_FREE;
   }
+  SW_TRY(sw_system_inner_forces(&s->system, c->wire, c->inner, err));
   SW_TRY(sw_scene_linearise(s, pads, t->pads, err));
   SW_TRY(sw_system_fix_particles(&s->system, c->wire, c->fixed));
   for (int side = 0; side < 2; side++)
-    if (c->moved[side] != face[side]) find_side(c, f, side);
+    if (c->moved[side] != face[side]) find_side(c, f, side, &ends[side]);
   return SW_OK;
 }
 
-sw_status sw_frozen_find_give(sw_scene *s, const sw_tool *t, sw_frozen *f, sw_error *err) {
+/* As the mesh lies at the pads' face: of a wire that ends between them. */
+static void rigid_end(const cell *c, const sw_frozen *f, int side, sw_grip_end *out) {
+  const size_t ring = side ? f->last : f->first;
+  *out = (sw_grip_end){.s = f->stations.s[ring],
+                       .at = sw_strand_middle(c->web, c->x, ring),
+                       .director = sw_load(f->frame + 6 * ring),
+                       .ring = ring};
+}
+
+sw_status sw_frozen_condense(sw_scene *s, const sw_tool *t, sw_frozen *f, sw_grip_end ends[2],
+                             sw_error *err) {
   const sw_body *b = &s->system.bodies[f->wire.slot];
   const size_t n = b->plan->web->particles;
-  cell c = {.s = s, .wire = f->wire.slot, .web = b->plan->web};
+  double *room = sw_alloc(9 * n, sizeof *room);
+  unsigned char *fixed = sw_alloc(n, 1);
+  sw_status status = SW_ENOMEM;
   f->across = sw_unit_or(s->obstacles[t->pad[0].obstacle].drive.opens, sw_v(0, 1, 0));
-  c.across = sw_rotate(f->pose.q, f->across);
-  c.x = s->system.x + 3 * b->first_node;
-  c.motion = sw_alloc(6 * n, sizeof *c.motion), c.fixed = sw_alloc(n, 1);
-  c.push = c.motion ? c.motion + 3 * n : NULL;
-  const sw_status status = c.motion && c.fixed ? condense(s, t, &c, f, err) : SW_ENOMEM;
-  sw_free(c.motion);
-  sw_free(c.fixed);
+  if (room && fixed) {
+    cell c = {.s = s, .wire = f->wire.slot, .web = b->plan->web, .fixed = fixed};
+    c.across = sw_rotate(f->pose.q, f->across);
+    c.x = s->system.x + 3 * b->first_node;
+    c.motion = room, c.push = room + 3 * n, c.inner = room + 6 * n;
+    for (int side = 0; side < 2; side++) rigid_end(&c, f, side, &ends[side]);
+    status = condense(s, t, &c, f, ends, err);
+  }
+  sw_free(room);
+  sw_free(fixed);
   return status;
 }

@@ -10,14 +10,13 @@ struct sw_frozen {
   int references;
   sw_handle wire, hold;
   const sw_wire_class *cls;
-  sw_mesh mesh;          /* one node for each ring, as they lay */
-  sw_strand strand;      /* likewise */
-  sw_pose pose;          /* of the tool then */
-  size_t first, last;    /* rings that were pressed */
-  double inside[2];      /* so far inside of them a rod's grip ends before, and after [m] */
-  sw_clamp_give give[2]; /* how it gives way there; axes in the world's then */
-  sw_vec across;         /* how the pads close, in the tool's axes [-] */
-  double *frame;         /* (rings x 6) tangent, direction across then [-] */
+  sw_mesh mesh;       /* one node for each ring, as they lay */
+  sw_strand strand;   /* likewise */
+  sw_pose pose;       /* of the tool then */
+  size_t first, last; /* rings that were pressed */
+  sw_vec across;      /* how the pads close, in the tool's axes [-] */
+  double *rod;        /* (rings x 3) where the rod that it became lay there [m] */
+  double *frame;      /* (rings x 6) tangent, direction across then [-] */
   sw_stations stations;
   void *memory; /* of contact then */
   size_t bytes;
@@ -30,8 +29,20 @@ double *sw_frozen_accelerations(const sw_scene *scene, size_t wire, size_t *coun
 /* Put the built scene where it is in balance with the accelerations that it has: of the wire those
  * of its rings or nodes before (count x 3). Velocities stay. */
 sw_status sw_frozen_balance(sw_scene *scene, size_t wire, const double *rings, size_t count);
-/* Find inside and give: how a rod's grip has to be to give way like the mesh between the pads. The
- * scene is built. */
-sw_status sw_frozen_find_give(sw_scene *scene, const sw_tool *tool, sw_frozen *f, sw_error *err);
+
+/* One end of the grip on a rod that stands for pads on a mesh; in the world's axes. */
+typedef struct sw_grip_end {
+  double s;        /* arc length [m] */
+  sw_vec at;       /* where the rod is there [m] */
+  sw_vec director; /* and where it goes to, along the arc length [-] */
+  sw_clamp_give give;
+  size_t ring; /* of the mesh, from which on the rod lies like that [-] */
+  double turn; /* by which that is turned along the way from there to here [rad] */
+} sw_grip_end;
+
+/* The ends, before and after, with which the rod gives way like the mesh does, and lies at present
+ * as that lies outside of the pads. The scene is built; f knows its stations and frames. */
+sw_status sw_frozen_condense(sw_scene *scene, const sw_tool *tool, sw_frozen *f,
+                             sw_grip_end ends[2], sw_error *err);
 
 #endif

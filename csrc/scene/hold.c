@@ -281,6 +281,8 @@ sw_status sw_scene_copy_shape(const sw_scene_hold *from, sw_scene_hold *to) {
   to->shape = from->shape, to->s1 = from->s1, to->s2 = from->s2, to->count = from->count;
   memcpy(to->director, from->director, sizeof to->director);
   memcpy(to->frame, from->frame, sizeof to->frame);
+  memcpy(to->give, from->give, sizeof to->give);
+  to->formed = from->formed;
   to->s = s, to->local = local, to->particle = particle;
   return SW_OK;
 }

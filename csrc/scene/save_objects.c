@@ -171,7 +171,7 @@ void sw_tape_hold(sw_tape *t, sw_scene *s, sw_scene_hold *x) {
   const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
   if (sw_tape_reads(t)) x->cls = sw_hold_find(kind);
   sw_tape_expect(t, x->cls != NULL, "a clamp of an unknown kind");
-  SIZE(wire), DOUBLE(scale), UINT32(shape), DOUBLE(s1), DOUBLE(s2);
+  SIZE(wire), DOUBLE(scale), UINT32(shape), INT(formed), DOUBLE(s1), DOUBLE(s2);
   sw_tape_hold_args(t, &x->args);
   tape_drive(t, s, &x->drive);
   sw_tape_count(t, &x->count, sizeof *x->s);

@@ -34,7 +34,7 @@ static sw_vec turned(const double *from, const double *to, sw_vec a) {
  * it, and what lies between shears in between. */
 static void place_pressed(const sw_frozen *f, const sw_motion_state *tool, const sw_line *l,
                           size_t r, const sw_web *web, double *x) {
-  const sw_vec middle = sw_pose_local(f->pose, sw_vec_at(f->mesh.x, r));
+  const sw_vec middle = sw_pose_local(f->pose, sw_vec_at(f->rod, r));
   const sw_vec off = sw_sub(sw_vec_at(l->x, r), sw_pose_point(tool->pose, middle));
   double widest = 0;
   for (size_t p = web->first[r]; p < web->first[r + 1]; p++) {
@@ -60,7 +60,7 @@ static void place(const sw_frozen *f, const sw_motion_state *tool, const sw_line
       continue;
     }
     for (size_t p = web->first[r]; p < web->first[r + 1]; p++) {
-      const sw_vec off = sw_sub(sw_vec_at(x, p), sw_vec_at(f->mesh.x, r));
+      const sw_vec off = sw_sub(sw_vec_at(x, p), sw_vec_at(f->rod, r));
       sw_store(x + 3 * p,
                sw_add(sw_vec_at(l->x, r), turned(f->frame + 6 * r, l->frame + 6 * r, off)));
     }

@@ -214,6 +214,7 @@ typedef struct sw_scene_hold {
   sw_hold_args args; /* as asked for */
   double scale;      /* of the wire's mesh when it was asked for [-] */
   uint32_t shape;    /* another number when s1 .. frame are others */
+  int formed;        /* 1: between its ends the wire is as long without force as it lies */
   double s1, s2;     /* held interval, nodes of the mesh [m] */
   sw_drive drive;
   size_t count;           /* held places */

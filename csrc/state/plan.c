@@ -239,8 +239,9 @@ size_t sw_plan_locate(const sw_plan *plan, double s, double *fraction) {
       high = middle;
   }
   const double from = plan->s[first ? first[low] : low];
-  const double rest = plan->s[first ? first[low + 1] : low + 1] - from;
-  const double f = (s - from) / (plan->web ? rest : plan->rest[low]);
+  const double apart = plan->s[first ? first[low + 1] : low + 1] - from;
+  const int rigid = plan->web || (plan->held[low] != SW_FREE && plan->held[low + 1] != SW_FREE);
+  const double f = (s - from) / (rigid ? apart : plan->rest[low]);
   *fraction = fmin(1.0, fmax(0.0, f));
   return low;
 }

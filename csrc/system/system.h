@@ -286,6 +286,10 @@ double sw_system_stable_dt(const sw_system *system);
  * (unknowns) values; in those given, held nodes must be zero. */
 sw_status sw_system_linearise(sw_system *system, double time, sw_error *err);
 
+/* Forces that the particles of a body that is a mesh exert on each other at the state, on each
+ * (particles x 3) [N]. */
+sw_status sw_system_inner_forces(sw_system *system, size_t body, double *out, sw_error *err);
+
 /* Small motions of a body that is a mesh, in a system that was linearised, by those of some of its
  * particles, whose flags are 1 (particles). Once only; fails as sw_blocks_factor. */
 sw_status sw_system_fix_particles(sw_system *system, size_t body, const unsigned char *fixed);
