@@ -8,18 +8,13 @@
 #include "base/alloc.h"
 #include "scene/frozen_inner.h"
 
-static int is_pad(const sw_tool *t, int obstacle) {
-  for (size_t k = 0; k < t->pads; k++)
-    if (t->pad[k].obstacle == (size_t)obstacle) return 1;
-  return 0;
-}
-
 /* Rings that the tool presses; 0: there are none. */
 static int pressed_rings(const sw_scene *s, const sw_tool *t, const sw_body *b, sw_frozen *f) {
   f->first = SIZE_MAX, f->last = 0;
   for (size_t k = 0; s->contact && k < sw_contact_touches(s->contact); k++) {
     sw_contact_push p;
-    if (!sw_contact_push_at(s->contact, &s->system, k, &p) || !is_pad(t, p.obstacle)) continue;
+    if (!sw_contact_push_at(s->contact, &s->system, k, &p) || !sw_tool_is_pad(t, p.obstacle))
+      continue;
     if (p.node < b->first_node || p.node >= b->first_node + b->plan->nodes) continue;
     const size_t r = sw_web_ring_of(b->plan->web, p.node - b->first_node);
     if (r < f->first) f->first = r;
@@ -62,6 +57,7 @@ static sw_status keep(sw_scene *s, const sw_tool *t, sw_handle wire, sw_frozen *
   SW_TRY(sw_strand_copy(&w->strand, &f->strand));
   SW_TRY(keep_stations(w->strand.web, &w->mesh, &f->stations));
   SW_TRY(keep_memory(s, b, f));
+  SW_TRY(sw_frozen_keep_touches(s, t, f, err));
   SW_TRY(sw_line_read(s, wire, f->stations.n, f->stations.s, line, err));
   f->frame = sw_alloc(6 * f->stations.n, sizeof *f->frame);
   f->rod = sw_alloc(3 * f->stations.n, sizeof *f->rod);
@@ -196,7 +192,10 @@ sw_status sw_scene_tool_freeze(sw_scene *s, sw_handle tool, sw_handle wire, sw_f
   if (status == SW_OK) {
     s->tools[tool.slot].frozen = f;
     s->discontinuous = SW_GOES_ON;
-    s->tools[tool.slot].now.lost_time = NAN;
+    sw_tool_state *now = &s->tools[tool.slot].now;
+    now->margin = sw_frozen_margin(f, sw_unrotate(f->pose.q, out->force),
+                                   sw_unrotate(f->pose.q, out->moment));
+    now->lost_time = NAN;
   } else {
     if (before) sw_scene_restore(s, before, &ignored);
     sw_frozen_release(f);

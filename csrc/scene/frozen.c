@@ -20,6 +20,7 @@ void sw_frozen_release(sw_frozen *f) {
   sw_region_free(&f->stations);
   sw_free(f->frame);
   sw_free(f->rod);
+  sw_free(f->touch);
   sw_free(f->memory);
   sw_free(f);
 }
@@ -33,7 +34,7 @@ static void tape_handle(sw_tape *t, sw_handle *h) {
 
 static void tape_fields(sw_tape *t, sw_frozen *f) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_frozen, 520);
+  SW_TAPE_STRUCT(t, sw_frozen, 536);
   SW_TAPE_STRUCT(t, sw_stations, 32);
   sw_tape_mark(t, "contact", sw_contact_layout());
   tape_handle(t, &f->wire), tape_handle(t, &f->hold);
@@ -49,6 +50,8 @@ static void tape_fields(sw_tape *t, sw_frozen *f) {
   sw_tape_double(t, &f->stations.spacing);
   sw_tape_count(t, &f->bytes, 1);
   sw_tape_array(t, &f->memory, f->bytes, 1);
+  sw_tape_count(t, &f->touches, sizeof *f->touch);
+  SW_TAPE_ARRAY(t, f->touch, f->touches);
   sw_tape_size(t, &f->node), sw_tape_size(t, &f->nodes);
   sw_tape_jaw(t, &f->jaw);
 }

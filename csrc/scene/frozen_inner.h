@@ -6,6 +6,13 @@
 
 #include "scene/remodel_inner.h"
 
+/* Where a pad pressed; in the tool's axes, from its centre. */
+typedef struct sw_frozen_touch {
+  sw_vec at, normal; /* towards the wire [m], [-] */
+  double force;      /* across the surface [N] */
+  double friction;   /* [-] */
+} sw_frozen_touch;
+
 struct sw_frozen {
   int references;
   sw_handle wire, hold;
@@ -20,6 +27,8 @@ struct sw_frozen {
   sw_stations stations;
   void *memory; /* of contact then */
   size_t bytes;
+  sw_frozen_touch *touch; /* (touches) */
+  size_t touches;
   size_t node, nodes; /* the wire's first one in it, how many it had */
   sw_jaw jaw;
 };
@@ -29,6 +38,9 @@ double *sw_frozen_accelerations(const sw_scene *scene, size_t wire, size_t *coun
 /* Put the built scene where it is in balance with the accelerations that it has: of the wire those
  * of its rings or nodes before (count x 3). Velocities stay. */
 sw_status sw_frozen_balance(sw_scene *scene, size_t wire, const double *rings, size_t count);
+
+/* The tool's pads press as they do now. SW_ENOMEM. */
+sw_status sw_frozen_keep_touches(sw_scene *scene, const sw_tool *tool, sw_frozen *f, sw_error *err);
 
 /* One end of the grip on a rod that stands for pads on a mesh; in the world's axes. */
 typedef struct sw_grip_end {

@@ -153,6 +153,9 @@ typedef struct sw_crash {
 typedef struct sw_frozen sw_frozen; /* what pads held, see frozen_inner.h; shared and immutable */
 void sw_frozen_retain(sw_frozen *frozen);
 void sw_frozen_release(sw_frozen *frozen);
+/* What a force on the wire and its moment about the tool's centre, in the tool's axes, are of what
+ * the pads could bear in place of the rigid grip [-]. */
+double sw_frozen_margin(const sw_frozen *frozen, sw_vec force, sw_vec moment);
 
 /* What a gripper is to the core: a frame that moves, with jaws and pads in it. */
 typedef struct sw_tool {
@@ -437,6 +440,7 @@ void sw_jaw_follow(sw_scene *scene);
 /* How far they are open at time t, and how fast that changes [m], [m/s]. */
 double sw_jaw_at(const sw_jaw *jaw, double t);
 /* Force per finger as of the last trial [N]. */
+int sw_tool_is_pad(const sw_tool *tool, int obstacle);
 double sw_tool_squeeze(const sw_scene *scene, const sw_tool *tool);
 /* What tools hold at the accepted state; their logs. */
 sw_status sw_tool_observe(sw_scene *scene, sw_error *err);

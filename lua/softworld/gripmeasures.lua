@@ -133,8 +133,6 @@ function Measures:state()
   if self.frozen then
     for _, key in ipairs{ "squeeze", "normal", "most", "opening" } do now[key] = self.frozen[key] end
     now.jaws = "holds"
-    local f = self:force{ axes = "gripper" }
-    now.margin = now.most > 0 and (f[1] ^ 2 + f[3] ^ 2) ^ 0.5 / now.most or 0
   end
   return now
 end
