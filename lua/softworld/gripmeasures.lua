@@ -125,9 +125,10 @@ end
 
 --- What the pads do: a table with jaws ("rests", "moves", "holds", "stopped", "empty"), opening
 -- [m], squeeze (force per finger [N]), normal (sum over pads [N]), margin (|friction| over what
--- the normal forces allow [-]), sliding (share of the normal force that slides [-]), slip [m]
--- with its vector slipped in the tool's axes, and, once it exceeds the gripper's slip_tolerance,
--- slip_time [s] and slip_place (arc length [m]).
+-- the normal forces allow; of a frozen grip force and moment over what its touches could balance
+-- [-]), sliding (share of the normal force that slides [-]), slip [m] with its vector slipped in
+-- the tool's axes, and, once it exceeds the gripper's slip_tolerance, slip_time [s] and slip_place
+-- (arc length [m]).
 function Measures:state()
   local now = needs_tool(self, "state"):state()
   if self.frozen then
