@@ -22,7 +22,7 @@
 
 enum { SIX = 6, MOST_ROUNDS = 20 };
 static const double ENOUGH = 1e-4; /* growth of the margin that ends the search [-] */
-static const double STILL = 1e-6;  /* velocity that counts as none, of the fastest touch's [-] */
+static const double STILL = 1e-6;  /* velocity that counts as none, of the motion's [-] */
 
 sw_status sw_frozen_keep_touches(sw_scene *s, const sw_tool *t, sw_frozen *f, sw_error *err) {
   const size_t count = s->contact ? sw_contact_touches(s->contact) : 0;
@@ -96,41 +96,60 @@ static int solve(double A[SIX][SIX], double b[SIX]) {
   return 1;
 }
 
-/* Velocity of a touch in a motion: of the middle, and turns times the patch's size. */
-static sw_vec velocity(const sw_frozen_touch *t, const patch *p, const double v[SIX]) {
-  const sw_vec arm = sw_scale(sw_sub(t->at, p->middle), 1.0 / p->size);
-  return sw_add(sw_load(v), sw_cross(sw_load(v + 3), arm));
+/* Sums over the touches that make the quadratic form: of weights as in all directions, and of those
+ * across the surfaces. */
+typedef struct form {
+  double A[SIX][SIX];
+  double sum, arm[3], second[SIX]; /* second: xx xy xz yy yz zz */
+} form;
+
+/* Add a touch that resists alike in all directions, but for more across its surface. */
+static void add(form *o, sw_vec arm, sw_vec normal, double all, double more) {
+  double g[SIX];
+  sw_store(g, normal);
+  sw_store(g + 3, sw_cross(arm, normal));
+  for (int i = 0; i < SIX; i++) {
+    const double scaled = more * g[i];
+    for (int j = 0; j <= i; j++) o->A[i][j] += scaled * g[j];
+  }
+  const double x = all * arm.x, y = all * arm.y, z = all * arm.z;
+  o->sum += all, o->arm[0] += x, o->arm[1] += y, o->arm[2] += z;
+  o->second[0] += x * arm.x, o->second[1] += x * arm.y, o->second[2] += x * arm.z;
+  o->second[3] += y * arm.y, o->second[4] += y * arm.z, o->second[5] += z * arm.z;
 }
 
-/* A += weight g g', g the velocity along a direction by motions. */
-static void add(double A[SIX][SIX], const sw_frozen_touch *t, const patch *p, sw_vec way,
-                double weight) {
-  double g[SIX];
-  sw_store(g, way);
-  sw_store(g + 3, sw_cross(sw_scale(sw_sub(t->at, p->middle), 1.0 / p->size), way));
-  for (int i = 0; i < SIX; i++)
-    for (int j = 0; j <= i; j++) A[i][j] += weight * g[i] * g[j];
+/* The matrix, its lower half: velocities are v + turn x arm. */
+static void close_form(form *o) {
+  const double *p = o->arm, *q = o->second;
+  const double turns[3][3] = {
+      {q[3] + q[5], 0, 0}, {-q[1], q[0] + q[5], 0}, {-q[2], -q[4], q[0] + q[3]}};
+  const double mixed[3][3] = {{0, -p[2], p[1]}, {p[2], 0, -p[0]}, {-p[1], p[0], 0}};
+  for (int i = 0; i < 3; i++) {
+    o->A[i][i] += o->sum;
+    for (int j = 0; j < 3; j++) o->A[3 + i][j] += mixed[i][j];
+    for (int j = 0; j <= i; j++) o->A[3 + i][3 + j] += turns[i][j];
+  }
 }
 
 /* What the touches resist in a motion [W]; A: its quadratic form with weights of that motion. */
 static double resistance(const sw_frozen *f, const patch *p, const double v[SIX],
                          double A[SIX][SIX]) {
-  double sum = 0, fastest = 0;
-  memset(A, 0, sizeof(double[SIX][SIX]));
-  for (size_t k = 0; k < f->touches; k++)
-    fastest = fmax(fastest, sw_norm(velocity(&f->touch[k], p, v)));
+  form o = {0};
+  double sum = 0;
+  const sw_vec way = sw_load(v), turn = sw_load(v + 3);
+  const double still = STILL * (sw_norm(way) + sw_norm(turn));
   for (size_t k = 0; k < f->touches; k++) {
     const sw_frozen_touch *t = &f->touch[k];
-    const sw_vec u = velocity(t, p, v);
-    const double across = sw_dot(u, t->normal), still = STILL * fastest;
+    const sw_vec arm = sw_scale(sw_sub(t->at, p->middle), 1.0 / p->size);
+    const sw_vec u = sw_add(way, sw_cross(turn, arm));
+    const double across = sw_dot(u, t->normal);
     const double along = sw_norm(sw_madd(u, t->normal, -across));
     const double rub = t->friction * t->force / fmax(along, still);
-    const sw_vec one = sw_perpendicular(t->normal);
     sum += t->force * (t->friction * along + fabs(across));
-    add(A, t, p, t->normal, t->force / fmax(fabs(across), still));
-    add(A, t, p, one, rub);
-    add(A, t, p, sw_cross(t->normal, one), rub);
+    add(&o, arm, t->normal, rub, t->force / fmax(fabs(across), still) - rub);
   }
+  close_form(&o);
+  memcpy(A, o.A, sizeof o.A);
   return sum;
 }
 
