@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "scene/frozen_inner.h"
+#include "state/hinge.h"
 
 /* Rings that the tool presses; 0: there are none. */
 static int pressed_rings(const sw_scene *s, const sw_tool *t, const sw_body *b, sw_frozen *f) {
@@ -113,11 +114,17 @@ static sw_status grip(sw_scene *s, sw_handle tool, const sw_frozen *f, const sw_
   return sw_scene_tool_hold(s, tool, out->hold, err);
 }
 
-/* Where the rod lies at the mesh's rings. */
+/* How the rod lies at the mesh's rings; directions across are those of the mesh, carried there. */
 static sw_status keep_rod(sw_scene *s, sw_frozen *f, sw_error *err) {
   sw_line rod = {0};
   const sw_status status = sw_line_read(s, f->wire, f->stations.n, f->stations.s, &rod, err);
-  if (status == SW_OK) memcpy(f->rod, rod.x, 3 * rod.n * sizeof *rod.x);
+  for (size_t r = 0; r < rod.n && status == SW_OK; r++) {
+    const sw_vec was = sw_load(f->frame + 6 * r), across = sw_load(f->frame + 6 * r + 3);
+    const sw_vec is = sw_load(rod.frame + 6 * r);
+    sw_store(f->rod + 3 * r, sw_vec_at(rod.x, r));
+    sw_store(f->frame + 6 * r, is);
+    sw_store(f->frame + 6 * r + 3, sw_carry_unit(across, was, is));
+  }
   sw_line_free(&rod);
   return status;
 }

@@ -108,43 +108,58 @@ static int divide(double b[WAYS][WAYS], double a[WAYS][WAYS], double out[WAYS][W
   return 1;
 }
 
-/* What outside of the ring that is read pulls and turns the cell by, in the ring's axes. */
-static void load_of(const cell *c, int side, const sw_vec axes[3], double out[WAYS]) {
+/* What outside of the ring that is read pulls and turns the cell by, about the ring's middle. */
+static void load_of(const cell *c, int side, sw_vec middle, sw_vec *force, sw_vec *moment) {
   const size_t ring = c->read[side];
   const size_t from = side ? c->web->first[ring + 1] : 0;
   const size_t to = side ? c->web->particles : c->web->first[ring];
-  const sw_vec middle = sw_strand_middle(c->web, c->x, ring);
-  sw_vec force = sw_v(0, 0, 0), moment = force; /* of the cell on it */
+  *force = *moment = sw_v(0, 0, 0);
   for (size_t p = from; p < to; p++) {
-    const sw_vec f = sw_vec_at(c->inner, p);
-    force = sw_add(force, f);
-    moment = sw_add(moment, sw_cross(sw_sub(sw_vec_at(c->x, p), middle), f));
+    const sw_vec f = sw_vec_at(c->inner, p); /* of the cell on it */
+    *force = sw_sub(*force, f);
+    *moment = sw_sub(*moment, sw_cross(sw_sub(sw_vec_at(c->x, p), middle), f));
   }
-  for (int k = 0; k < 3; k++)
-    out[k] = -sw_dot(force, axes[k]), out[3 + k] = -sw_dot(moment, axes[k]);
 }
 
-/* How the ring that is read would lie without that load; motion: what the load does to it, in its
- * axes, which are turned back too. */
-static sw_vec unload(const double motion[WAYS], sw_vec axes[3], sw_vec middle) {
-  sw_vec way = sw_v(0, 0, 0), turn = way;
-  for (int k = 0; k < 3; k++) {
-    way = sw_madd(way, axes[k], motion[k]);
-    turn = sw_madd(turn, axes[k], motion[3 + k]);
+enum { PARTS = 64 }; /* of the rod between the ring and where it is held [-] */
+
+/* Where a rod is held that lies at the ring that is read as the mesh does, under the present load:
+ * from there inwards, bent and stretched by the load as far as the rod bends, to its end. */
+static void follow(const cell *c, int side, double length, sw_grip_end *out) {
+  const sw_beam *beam = &c->s->system.bodies[c->wire].plan->beam;
+  const sw_clamp_give *give = &out->give;
+  sw_vec axes[3], force, moment, at = sw_strand_middle(c->web, c->x, c->read[side]);
+  axes_of(c, c->read[side], axes);
+  load_of(c, side, at, &force, &moment);
+  const double part = length / PARTS, bends = length - fmax(0.0, give->shorter);
+  sw_vec t = axes[0];
+  out->turn = sw_dot(moment, t) * (length + give->twist) / beam->GJ;
+  for (int k = 0; k < PARTS; k++) {
+    const double l = fmin(part, fmax(0.0, bends - k * part));
+    const sw_vec across = sw_madd(moment, t, -sw_dot(moment, t));
+    const sw_quat back = sw_quat_exp(sw_scale(across, -0.5 * l / beam->EI));
+    t = sw_rotate(back, t);
+    const sw_vec inward = sw_scale(t, side ? -1.0 : 1.0);
+    const sw_vec way = sw_scale(inward, part * (1.0 - sw_dot(force, inward) / beam->EA));
+    at = sw_add(at, way);
+    moment = sw_sub(moment, sw_cross(way, force));
+    t = sw_rotate(back, t);
   }
-  const sw_quat back = sw_quat_exp(sw_neg(turn));
-  for (int k = 0; k < 3; k++) axes[k] = sw_rotate(back, axes[k]);
-  return sw_sub(middle, way);
+  const sw_vec axis = sw_unit_or(sw_madd(give->axis, t, -sw_dot(give->axis, t)), axes[2]);
+  const sw_vec across = sw_madd(moment, t, -sw_dot(moment, t));
+  const sw_vec hinge = sw_madd(sw_scale(across, fmax(0.0, -give->shorter)), axis,
+                               give->softer * sw_dot(moment, axis));
+  const sw_quat back = sw_quat_exp(sw_scale(hinge, -1.0 / beam->EI));
+  out->at = at;
+  out->director = sw_rotate(back, t), out->give.axis = sw_rotate(back, axis);
 }
 
-/* The rod's end from the compliance of one side; it begins where the unloaded ring points back to.
- */
+/* The rod's end from the compliance of one side. */
 static void find_end(const cell *c, const sw_frozen *f, int side, double compliance[WAYS][WAYS],
                      sw_grip_end *out) {
   const sw_beam *beam = &c->s->system.bodies[c->wire].plan->beam;
-  const size_t ring = c->read[side];
-  const double face = f->stations.s[side ? f->last : f->first], s = f->stations.s[ring];
-  const double way = fabs(s - face);
+  const double face = f->stations.s[side ? f->last : f->first];
+  const double way = fabs(f->stations.s[c->read[side]] - face);
   const double most = MOST * (f->stations.s[f->last] - f->stations.s[f->first]);
   const double stretch = compliance[0][0] * beam->EA - way;
   const double twist = compliance[3][3] * beam->GJ - way;
@@ -152,21 +167,15 @@ static void find_end(const cell *c, const sw_frozen *f, int side, double complia
   if (!isfinite(stretch + twist + bend[0] + bend[1])) return;
   const int soft = bend[1] > bend[0];
   const double inside = fmin(most, fmax(0.0, stretch));
-  double load[WAYS], motion[WAYS] = {0};
   sw_vec axes[3];
-  axes_of(c, ring, axes);
-  load_of(c, side, axes, load);
-  for (int i = 0; i < WAYS; i++)
-    for (int j = 0; j < WAYS; j++) motion[i] += compliance[i][j] * load[j];
-  const sw_vec middle = unload(motion, axes, sw_strand_middle(c->web, c->x, ring));
-  out->s = side ? face - inside : face + inside;
-  out->at = sw_madd(middle, axes[0], out->s - s);
-  out->director = axes[0];
-  out->ring = ring, out->turn = motion[3];
+  axes_of(c, c->read[side], axes);
   out->give = (sw_clamp_give){.shorter = inside - bend[!soft],
                               .softer = bend[soft] - bend[!soft],
                               .twist = twist - inside,
                               .axis = axes[1 + soft]};
+  out->s = side ? face - inside : face + inside;
+  out->ring = c->read[side];
+  follow(c, side, way + inside, out);
 }
 
 static void find_side(const cell *c, const sw_frozen *f, int side, sw_grip_end *out) {

@@ -24,6 +24,21 @@ enum { SIX = 6, MOST_ROUNDS = 20 };
 static const double ENOUGH = 1e-4; /* growth of the margin that ends the search [-] */
 static const double STILL = 1e-6;  /* velocity that counts as none, of the motion's [-] */
 
+/* Particles that touch may stand inside of a pad: a place from which its surface is seen without
+ * doubt, so much nearer to the middle of the section, of the wire's radius. */
+static const double INSIDE = 0.2;
+
+static sw_vec inside(const sw_scene *s, size_t wire, const sw_contact_push *p) {
+  const sw_body *b = &s->system.bodies[wire];
+  const sw_web *web = b->plan->web;
+  const double *x = s->system.x + 3 * b->first_node;
+  const sw_vec one = sw_vec_at(s->system.x, p->node), two = sw_vec_at(s->system.x, p->other);
+  const sw_vec at = sw_lerp(one, two, p->node == p->other ? 0.0 : p->at);
+  const sw_vec middle = sw_strand_middle(web, x, sw_web_ring_of(web, p->node - b->first_node));
+  const sw_vec in = sw_unit_or(sw_sub(middle, at), sw_v(0, 0, 0));
+  return sw_madd(at, in, INSIDE * b->plan->beam.radius);
+}
+
 sw_status sw_frozen_keep_touches(sw_scene *s, const sw_tool *t, sw_frozen *f, sw_error *err) {
   const size_t count = s->contact ? sw_contact_touches(s->contact) : 0;
   f->touch = sw_alloc(count, sizeof *f->touch);
@@ -34,10 +49,10 @@ sw_status sw_frozen_keep_touches(sw_scene *s, const sw_tool *t, sw_frozen *f, sw
     sw_closest near;
     if (!sw_contact_push_at(s->contact, &s->system, k, &p) || !sw_tool_is_pad(t, p.obstacle))
       continue;
+    if (p.node < f->node || p.node >= f->node + f->nodes) continue;
     const sw_scene_obstacle *o = &s->obstacles[p.obstacle];
     SW_TRY(sw_drive_eval(s, &o->drive, s->time, &at, err));
-    const sw_vec a = sw_vec_at(s->system.x, p.node), b = sw_vec_at(s->system.x, p.other);
-    const sw_vec place = sw_pose_local(at.pose, sw_lerp(a, b, p.node == p.other ? 0.0 : p.at));
+    const sw_vec place = sw_pose_local(at.pose, inside(s, f->wire.slot, &p));
     if (!sw_shape_point(o->shape, place, HUGE_VAL, &near)) continue;
     f->touch[f->touches++] =
         (sw_frozen_touch){.at = sw_pose_local(f->pose, p.point),

@@ -247,13 +247,16 @@ sw_status sw_web_solve(sw_body *b, double *delta, size_t *negative) {
 }
 
 sw_status sw_system_inner_forces(sw_system *s, size_t body, double *out, sw_error *err) {
+  static const double none[3] = {0, 0, 0};
   sw_body *b = &s->bodies[body];
   sw_field *f = &b->field;
   f->want = SW_WANT_FORCE;
+  f->gravity = none; /* which is among the terms */
   f->x = s->x + 3 * b->first_node, f->v = s->v + 3 * b->first_node;
   sw_body_begin(b);
   for (size_t k = 0; k < b->term_count; k++)
-    if (b->terms[k].cls->flags & SW_FORCE_INNER) SW_TRY(sw_term_eval(&b->terms[k], f, err));
+    if ((b->terms[k].cls->flags & (SW_FORCE_INNER | SW_FORCE_EXPLICIT)) == SW_FORCE_INNER)
+      SW_TRY(sw_term_eval(&b->terms[k], f, err));
   memcpy(out, f->force, 3 * b->plan->nodes * sizeof *out);
   return SW_OK;
 }

@@ -91,9 +91,9 @@ describe("a frozen grip", function()
         local rod = compliance(scene, clamp, wire:position(tip))
         -- In this order of the ways, soft and stiff, 5 and 20 %: rods held at the pads' face would be off by
         -- -6 -17 -27 -2 -17 -14 %; held further in by what turns along the pads need, all directions
-        -- alike, -0.6 +13 -0.9 +4.4 -0.3 +4.6 % at 5 %. Condensed: 0.09 0.24 1.1 0.002 0.06 0.05 % at
-        -- most. The 1.1 % are at 5 %, where the give along the pads is largest: it is all at the clamp.
-        local allowed = { 0.002, 0.005, 0.015, 0.001, 0.002, 0.002 }
+        -- alike, -0.6 +13 -0.9 +4.4 -0.3 +4.6 % at 5 %. Condensed: 0.24 0.3 1.4 0.002 0.06 0.05 % at
+        -- most. The 1.4 % are at 5 %, where the give along the pads is largest: it is all at the clamp.
+        local allowed = { 0.003, 0.005, 0.02, 0.001, 0.002, 0.002 }
         for k, way in ipairs(ways) do t.share(mesh[k][k], rod[k][k], allowed[k], way) end
         -- a force turns, a moment deflects: 0.1 and 0.4 %
         t.share(mesh[2][6], rod[2][6], 0.005, "deflection by a moment, towards the pads")
@@ -126,7 +126,7 @@ describe("a frozen grip", function()
         g:freeze()
         local rod = all()
         -- 1.9 % of the stretch are where the mesh passes into its line, which the rod has not
-        local allowed = { 0.02, 0.005, 0.015, 0.004, 0.004 }
+        local allowed = { 0.02, 0.005, 0.02, 0.004, 0.004 }
         for k, way in ipairs{ ways[1], ways[2], ways[3], ways[6], ways[5] } do
           t.share(mesh[k], rod[k], allowed[k], way)
         end
