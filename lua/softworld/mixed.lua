@@ -12,7 +12,7 @@ local mixed = {}
 
 local mesh_words = { "section", "spacing", "particles", "layers", "across", "model" }
 local BESIDE = 6 -- the mesh reaches so many radii beyond the pads, unless region says else [-]
-local LIMIT = 0.9 -- margin, of forces and moments together, at which the pads take over again, unless told [-]
+local LIMIT = 0.9 -- margin, forces and moments together, at which the pads take over again [-]
 local STEADY = 0.005 -- change of the force in TIME that counts as none, of the force [-]
 local TIME = 0.02 -- [s]
 local PATIENCE = 2 -- steady or not, a grasp is not frozen later than this [s]

@@ -89,10 +89,11 @@ describe("a frozen grip", function()
         t.fine(scene:settle())
         assert.equal("rod", wire.model)
         local rod = compliance(scene, clamp, wire:position(tip))
-        -- In this order of the ways, soft and stiff, 5 and 20 %: rods held at the pads' face would be off by
-        -- -6 -17 -27 -2 -17 -14 %; held further in by what turns along the pads need, all directions
-        -- alike, -0.6 +13 -0.9 +4.4 -0.3 +4.6 % at 5 %. Condensed: 0.24 0.3 1.4 0.002 0.06 0.05 % at
-        -- most. The 1.4 % are at 5 %, where the give along the pads is largest: it is all at the clamp.
+        -- Rods held at the pads' face were off by 2 (twist) to 27 % (deflection along the pads); held further
+        -- in by what turns along the pads need, alike in all directions, by up to 14 % (deflection) and
+        -- 4.6 % (turn) towards the pads, 4.4 % (twist). Condensed: 0.24 0.34 1.2 0.001 0.04 0.13 % at
+        -- most, in this order. The 1.2 % are at 5 %, where the give along the pads is largest: what it is
+        -- more than that towards them is all at the clamp.
         local allowed = { 0.003, 0.005, 0.02, 0.001, 0.002, 0.002 }
         for k, way in ipairs(ways) do t.share(mesh[k][k], rod[k][k], allowed[k], way) end
         -- a force turns, a moment deflects: 0.1 and 0.4 %

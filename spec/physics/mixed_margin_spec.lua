@@ -11,8 +11,8 @@ local r, mu, force, width, s = 0.003, 0.3, 20, 0.02, 0.03
 -- from the pads and is looked at when the wire rests again. what: gripper, wire -> 1 to stop.
 local function load(frozen, by, arm, steps, look)
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
-  local wire = scene:wire{ E = 1e9, nu = 0.3, density = 1200, radius = r, from = { 0, 0, 0 }, to = { 0.12, 0, 0 },
-    segments = 48 }
+  local wire = scene:wire{ E = 1e9, nu = 0.3, density = 1200, radius = r, from = { 0, 0, 0 },
+    to = { 0.12, 0, 0 }, segments = 48 }
   scene:force{ kind = "damping", mass = 20, stiffness = 1e-3 }
   local g = scene:gripper{ name = "hand", pads = { width = width, friction = mu, opening = 3 * r } }
   local touches
@@ -65,7 +65,8 @@ local function in_plane(touches, f, m)
   end
   while step > 1e-6 do
     local better = false
-    for _, d in ipairs{ { 1, 0 }, { -1, 0 }, { 0, 1 }, { 0, -1 }, { 1, 1 }, { -1, -1 }, { 1, -1 }, { -1, 1 } } do
+    for _, d in ipairs{ { 1, 0 }, { -1, 0 }, { 0, 1 }, { 0, -1 }, { 1, 1 }, { -1, -1 }, { 1, -1 },
+      { -1, 1 } } do
       local v = value(a + d[1] * step, b + d[2] * step)
       if v > best then best, a, b, better = v, a + d[1] * step, b + d[2] * step, true end
     end
