@@ -26,7 +26,8 @@ static sw_param run_rows[] = {
     {"frame", SW_PARAM_NUMBER, "s", NAN, 0, 1e9, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(sw_run_args, frame), "time between stored frames (default 1/30 s)"},
     {"quasistatic", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_run_args, quasistatic),
-     "true: equilibrium at every step instead of motion; dt is then the pose step"},
+     "true: equilibrium at every step instead of motion; dt is then the pose step, less where "
+     "pads hold a wire"},
     {"max_steps", SW_PARAM_INTEGER, "-", 1e15, 1, 1e15, 0, NULL, offsetof(sw_run_args, max_steps),
      "most steps to take"},
     {"progress", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
@@ -44,8 +45,7 @@ __attribute__((constructor)) static void fill_choices(void) {
     if (run_rows[i].type == SW_PARAM_CHOICE) run_rows[i].choices = integrator_names();
 }
 
-enum { MOST_HALVINGS = 6 }; /* of a pose step [-] */
-enum { MOST_REDOS = 40 };   /* impacts found one after another in one step [-] */
+enum { MOST_REDOS = 40 }; /* impacts found one after another in one step [-] */
 static const double SMALLEST_SHARE = 1.0 / 4096; /* of a step, before giving up [-] */
 static const double LARGEST_STRAIN = 10.0;       /* beyond it a run has diverged [-] */
 
@@ -187,7 +187,7 @@ static sw_status squeezing_attempt(loop *p, double h, sw_error *err) {
   const int squeezes = sw_jaw_begin(s, h);
   for (;;) {
     const sw_status status = attempt(p, h, err);
-    if (status != SW_OK || !squeezes || sw_jaw_correct(s)) return status;
+    if (status != SW_OK || !squeezes || sw_jaw_correct(s, 0)) return status;
     undo(p);
   }
 }
@@ -305,36 +305,7 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
   }
 }
 
-/* Slow handling: what drives the wires goes on by a step, the wires to their
- * equilibrium. Without friction the pose step does not matter; with friction it
- * does, and halving it shows how much. */
-static sw_status pose_step(loop *p, double t1, int halvings, int (*interrupted)(void),
-                           sw_error *err) {
-  static const sw_settle_args rest = {.tolerance = 1e-9, .max_iterations = 4000};
-  sw_scene *s = p->s;
-  sw_settle_report report = {0};
-  const double t0 = s->time;
-  int too_far = 0;
-  sw_jaw_begin(s, t1 - t0);
-  s->time = t1;
-  const sw_status status =
-      sw_scene_rest(s, t0, halvings ? &too_far : NULL, &rest, interrupted, &report, err);
-  p->report->iterations += report.iterations;
-  if (status != SW_OK) {
-    s->time = t0;
-    if (!too_far) return status;
-    SW_TRY(pose_step(p, 0.5 * (t0 + t1), halvings - 1, interrupted, err));
-    return pose_step(p, t1, halvings - 1, interrupted, err);
-  }
-  p->report->smallest_dt = fmin(p->report->smallest_dt, t1 - t0);
-  if (report.jumped) {
-    p->report->jumps++;
-    p->report->last_jump = t1;
-  }
-  return SW_OK;
-}
-
-/* The same to time t, in parts that nodes can follow where wire is fed. */
+/* Slow handling: equilibria up to time t, in parts that nodes can follow where wire is fed. */
 static sw_status pose_steps(loop *p, double t, int (*interrupted)(void), sw_error *err) {
   sw_scene *s = p->s;
   while (s->time < t) {
@@ -342,7 +313,7 @@ static sw_status pose_steps(loop *p, double t, int (*interrupted)(void), sw_erro
     if (interrupted && interrupted()) return SW_EINTR;
     SW_TRY(make_room(p, &h, err));
     const double part = h < (t - s->time) * (1 - 1e-9) ? s->time + h : t;
-    SW_TRY(pose_step(p, part, MOST_HALVINGS, interrupted, err));
+    SW_TRY(sw_scene_pose(s, part, interrupted, p->report, err));
     SW_TRY(sw_scene_observe(s, err));
   }
   return SW_OK;
@@ -375,11 +346,14 @@ static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_er
   s->stepper.wants_error = adaptive;
   const double slack = 1e-12 * fmax(fabs(until), span);
   const size_t first = p->report->steps;
-  for (size_t k = 1; s->time < until - slack; k++) {
+  for (size_t k = 1; s->time < until - slack;) {
     if (interrupted && interrupted()) return SW_EINTR;
     if ((double)(p->report->steps - first) >= (double)p->args->max_steps) return SW_OK;
-    if (k > 1 && sw_tool_slipped(s)) return SW_OK;
-    const double t1 = (double)k >= count ? until : t0 + span * ((double)k / count);
+    if (p->report->steps > first && sw_tool_slipped(s)) return SW_OK;
+    double t1 = (double)k >= count ? until : t0 + span * ((double)k / count);
+    int cut = 0;
+    if (p->args->quasistatic) SW_TRY(sw_scene_cut_pose(s, &t1, &cut, err));
+    if (!cut) k++;
     SW_TRY(p->args->quasistatic ? whole_pose_step(p, t1, interrupted, err)
            : adaptive           ? controlled_step(p, until - s->time, until, err)
                                 : step(p, t1 - s->time, t1, err));
@@ -413,12 +387,6 @@ static sw_status check_run(const sw_scene *s, const sw_run_args *args, sw_error 
         err, SW_EINVAL,
         "scene:run: a feed with force or force_limit needs motion; give it a speed for a "
         "quasi-static run");
-  const char *closing = args->quasistatic ? sw_jaw_any(s) : NULL;
-  if (closing)
-    return sw_fail(err, SW_EINVAL,
-                   "scene:run: the jaws of gripper '%s' close with a force, which needs motion; "
-                   "close them to a distance for a quasi-static run",
-                   closing);
   if (args->quasistatic && isfinite(args->tolerance))
     return sw_fail(err, SW_EINVAL,
                    "scene:run: tolerance controls the time step of motion; a quasi-static run "

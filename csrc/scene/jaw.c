@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Jaws of tools in a step. Their opening changes evenly within it. With a force to be reached
- * or not to be exceeded, the speed of the step is the one for which the fingers' force at its
- * end is as wanted, found by false position between a speed with too little force and one with
- * too much, like feeds that yield to a force (see slip.c). */
+/* Jaws of tools in a step, or from one pose to the next. Their opening changes evenly within it.
+ * With a force to be reached or not to be exceeded, the speed of the step is the one for which the
+ * fingers' force at its end is as wanted, found by false position between a speed with too little
+ * force and one with too much, like feeds that yield to a force (see slip.c). */
 #include <math.h>
 
 #include "scene/world.h"
@@ -11,9 +11,11 @@ static const double PRECISION = 1e-3;    /* of the force wanted [-] */
 static const double ROUGHLY = 0.015;     /* likewise, when it is reached first [-] */
 static const double REACHED = 0.02;      /* so far below it the force counts as reached [-] */
 enum { MOST_TRIALS = 10 };               /* the last one is then taken as it is [-] */
+enum { MOST_RESTS = 12 };                /* the same of equilibria [-] */
 static const double SAME_OPENING = 1e-9; /* at a step's end [m] */
 static const double TELLS =
-    1e-7; /* forces at openings nearer to each other tell no stiffness [m] */
+    1e-7;                  /* forces at openings nearer to each other tell no stiffness [m] */
+enum { BEFORE_JUMPS = 4 }; /* later trials are about a jump of the force, if there is one [-] */
 static const double BEYOND = 1.3; /* a guess goes so much further than the slope says [-] */
 static const double WIDER =
     4.0; /* and so many times as far with every trial that is too short [-] */
@@ -26,13 +28,6 @@ static int yields(const sw_jaw *j) {
   return j->mode == SW_JAW_FORCE || j->goal < j->opening;
 }
 
-const char *sw_jaw_any(const sw_scene *s) {
-  for (size_t k = 0; k < s->tool_count; k++)
-    if (s->tools[k].alive && !s->tools[k].frozen && yields(&s->tools[k].jaw))
-      return s->tools[k].name;
-  return NULL;
-}
-
 /* The speed at which this step ends with the opening, within what is allowed. */
 static double speed_to(const sw_jaw *j, double opening) {
   return fmax(-j->most, fmin(j->most, (opening - j->opening) / j->step));
@@ -41,27 +36,81 @@ static double speed_to(const sw_jaw *j, double opening) {
 static double first_guess(const sw_jaw *j) {
   if (j->mode == SW_JAW_STILL) return 0;
   if (j->mode == SW_JAW_TO) return speed_to(j, j->goal);
-  if (j->status != SW_JAW_HOLDS || !(j->stiffness > 0)) return speed_to(j, 0);
+  if (j->status != SW_JAW_HOLDS && j->now <= j->force) return speed_to(j, 0);
+  if (!(j->stiffness > 0)) return j->now > j->force ? 0.0 : speed_to(j, 0);
   return speed_to(j, fmax(0.0, j->opening + (j->now - j->force) / j->stiffness));
+}
+
+static int works(const sw_tool *t) { return t->alive && !t->frozen; }
+
+/* Is it in a step whose end depends on its force? */
+static int obeys(const sw_tool *t) { return works(t) && t->jaw.step > 0 && yields(&t->jaw); }
+
+static void begin(sw_jaw *j, double since, double step) {
+  j->since = since;
+  j->step = step;
+  j->speed = step > 0 ? first_guess(j) : 0.0;
+  j->off[0] = j->off[1] = NAN;
+  j->last_side = -1;
+  j->trials = 0;
+  j->guessed = j->now < j->force; /* that standing still goes on giving too little force */
+  if (j->guessed) j->tried[0] = 0, j->off[0] = j->now - j->force;
 }
 
 int sw_jaw_begin(sw_scene *s, double h) {
   int any = 0;
   for (size_t k = 0; k < s->tool_count; k++) {
-    sw_jaw *j = &s->tools[k].jaw;
-    j->since = s->time;
-    j->step = h;
-    const int works = s->tools[k].alive && !s->tools[k].frozen;
-    j->speed = works && h > 0 ? first_guess(j) : 0.0;
-    j->off[0] = j->off[1] = NAN;
-    j->last_side = -1;
-    j->trials = 0;
-    if (!works || !yields(j)) continue;
-    any = 1;
-    j->guessed = j->now < j->force; /* that standing still goes on giving too little force */
-    if (j->guessed) j->tried[0] = 0, j->off[0] = j->now - j->force;
+    const sw_tool *t = &s->tools[k];
+    begin(&s->tools[k].jaw, s->time, works(t) ? h : 0.0);
+    any |= works(t) && yields(&t->jaw);
   }
   return any;
+}
+
+/* In one equilibrium jaws are not closed by more than this share of the thinnest wire's radius, or
+ * of what is left of it between them: wires would be pushed to where they cannot be reached from
+ * [-]. */
+static const double WIDEST_STEP = 0.25, LEFT = 0.25, LEAST = 0.05;
+
+/* How long jaws take for that at their highest speed [s]. */
+static double longest_step(const sw_scene *s, const sw_jaw *j) {
+  double radius = HUGE_VAL;
+  for (size_t w = 0; w < s->wire_count; w++) radius = fmin(radius, s->wires[w].beam.radius);
+  const double width = fmax(LEAST * radius, fmin(radius, LEFT * j->opening));
+  return WIDEST_STEP * width / j->most;
+}
+
+double sw_jaw_step(const sw_scene *s, double h) {
+  for (size_t k = 0; k < s->tool_count; k++) {
+    const sw_jaw *j = &s->tools[k].jaw;
+    if (works(&s->tools[k]) && yields(j) && j->status != SW_JAW_HOLDS && j->most > 0)
+      h = fmin(h, longest_step(s, j));
+  }
+  return h;
+}
+
+int sw_jaw_begin_rest(sw_scene *s) {
+  int any = 0;
+  for (size_t k = 0; k < s->tool_count; k++) {
+    const sw_tool *t = &s->tools[k];
+    sw_jaw *j = &s->tools[k].jaw;
+    const int obeys = works(t) && yields(j) && j->status == SW_JAW_HOLDS && j->most > 0;
+    const double step = obeys ? longest_step(s, j) : 0.0;
+    begin(j, s->time - step, step);
+    any |= obeys;
+  }
+  return any;
+}
+
+int sw_jaw_end_rest(sw_scene *s, int went_well) {
+  int more = 0;
+  for (size_t k = 0; k < s->tool_count; k++) {
+    sw_jaw *j = &s->tools[k].jaw;
+    if (!(j->step > 0)) continue;
+    more |= fabs(j->speed) >= j->most && went_well;
+    if (!went_well) j->since = s->time;
+  }
+  return more;
 }
 
 /* A speed on the other side than the last one, which gave off too much force. */
@@ -72,7 +121,7 @@ static double guess_beyond(const sw_jaw *j, double off) {
 }
 
 /* The next speed to try. Returns 1 when both sides are one place: the force jumps there. */
-static int improve(sw_jaw *j, double off) {
+static int improve(sw_jaw *j, double off, int rests) {
   const int side = off > 0;
   if (isfinite(j->off[!side]) && (j->speed - j->tried[!side]) * (side ? 1 : -1) >= 0)
     j->off[!side] = NAN;
@@ -85,33 +134,81 @@ static int improve(sw_jaw *j, double off) {
     return j->speed == before;
   }
   const double gap = j->tried[0] - j->tried[1];
-  if (gap * j->step < SAME_OPENING) return 1;
-  if (j->trials > 1 && gap * j->step > TELLS)
-    j->stiffness = (j->off[1] - j->off[0]) / (gap * j->step);
+  if (gap * j->step < (rests ? TELLS : SAME_OPENING)) return 1;
+  const int tells = gap * j->step > TELLS && (!rests || j->trials <= BEFORE_JUMPS);
+  if (j->trials > 1 && tells) j->stiffness = (j->off[1] - j->off[0]) / (gap * j->step);
   if (j->last_side == side) j->off[!side] *= 0.5;
   j->last_side = side;
   j->speed = j->tried[0] - gap * j->off[0] / (j->off[0] - j->off[1]);
   return 0;
 }
 
+/* The last trial. Where the force jumps over the one wanted it is beyond that: from there on the
+ * jaws can come back. */
+static int give_up(sw_jaw *j, double off, int rests) {
+  if (!rests || off > 0 || !isfinite(j->off[1]) || j->trials > MOST_RESTS) return 1;
+  j->speed = j->tried[1];
+  j->trials = MOST_RESTS;
+  return 0;
+}
+
 /* 1: the trial's force is as wanted, or nothing can be done about it in this step. */
-static int correct(const sw_scene *s, sw_tool *t) {
+static int correct(sw_scene *s, sw_tool *t, int rests) {
   sw_jaw *j = &t->jaw;
-  const double off = sw_tool_squeeze(s, t) - j->force;
-  const double allowed = j->status == SW_JAW_HOLDS ? PRECISION : ROUGHLY;
-  if (fabs(off) <= allowed * j->force || ++j->trials >= MOST_TRIALS) return 1;
+  const double off = sw_tool_squeeze(s, t, j->since + j->step) - j->force;
+  const double allowed = rests || j->status == SW_JAW_HOLDS ? PRECISION : ROUGHLY;
+  if (fabs(off) <= allowed * j->force) return 1;
+  if (++j->trials >= (rests ? MOST_RESTS : MOST_TRIALS)) return give_up(j, off, rests);
   const int approaches = j->status != SW_JAW_HOLDS && j->trials == 1;
   if (off < 0 && (approaches || j->speed <= speed_to(j, 0))) return 1;
   if (off > 0 && j->speed >= j->most) return 1;
-  return improve(j, off);
+  return improve(j, off, rests) && give_up(j, off, rests);
 }
 
-int sw_jaw_correct(sw_scene *s) {
+int sw_jaw_correct(sw_scene *s, int rests) {
   int good = 1;
   for (size_t k = 0; k < s->tool_count; k++)
-    if (s->tools[k].alive && !s->tools[k].frozen && yields(&s->tools[k].jaw))
-      good &= correct(s, &s->tools[k]);
+    if (obeys(&s->tools[k])) good &= correct(s, &s->tools[k], rests);
   return good;
+}
+
+double sw_jaw_off(sw_scene *s) {
+  double most = 0;
+  for (size_t k = 0; k < s->tool_count; k++) {
+    const sw_jaw *j = &s->tools[k].jaw;
+    if (!obeys(&s->tools[k])) continue;
+    const double force = sw_tool_squeeze(s, &s->tools[k], j->since + j->step);
+    most = fmax(most, fabs(force / j->force - 1.0));
+  }
+  return most;
+}
+
+/* How long the jaws could still move in this step [s]. */
+static double time_left(const sw_jaw *j) {
+  const double left = j->step * (1.0 - fabs(j->speed) / j->most);
+  return left * j->most > SAME_OPENING ? left : 0.0;
+}
+
+static int looks_on(sw_scene *s, const sw_tool *t) {
+  const sw_jaw *j = &t->jaw;
+  if (!obeys(t) || j->mode != SW_JAW_FORCE || !(time_left(j) > 0)) return 0;
+  const double off = sw_tool_squeeze(s, t, s->time) - j->force;
+  return fabs(off) > PRECISION * j->force && (off > 0 || sw_jaw_at(j, s->time) > 0);
+}
+
+int sw_jaw_again(sw_scene *s) {
+  int again = 0;
+  for (size_t k = 0; k < s->tool_count; k++) again |= looks_on(s, &s->tools[k]);
+  for (size_t k = 0; again && k < s->tool_count; k++) {
+    sw_tool *t = &s->tools[k];
+    sw_jaw *j = &t->jaw;
+    const double left = obeys(t) && j->mode == SW_JAW_FORCE ? time_left(j) : 0.0;
+    if (!works(t)) continue;
+    j->now = sw_tool_squeeze(s, t, s->time);
+    j->opening = fmax(0.0, sw_jaw_at(j, s->time));
+    begin(j, s->time - left, left);
+  }
+  return again;
 }
 
 /* What has become of what they were told. */
@@ -136,14 +233,14 @@ static void judge(sw_jaw *j) {
 /* Changes of force below this share of the one wanted tell no stiffness [-]. */
 static const double TELLING = 0.05;
 
-static void follow(const sw_scene *s, sw_tool *t) {
+static void follow(sw_scene *s, sw_tool *t) {
   sw_jaw *j = &t->jaw;
   const double before = j->opening, force = j->now;
   const double end = sw_jaw_at(j, s->time);
   const int there = j->mode == SW_JAW_TO && fabs(end - j->goal) < SAME_OPENING;
   j->opening = there ? j->goal : fmax(0.0, end);
   j->since = s->time;
-  j->now = sw_tool_squeeze(s, t);
+  j->now = sw_tool_squeeze(s, t, s->time);
   const double k = (j->now - force) / (before - j->opening);
   const int tells =
       force > 0 && fabs(j->now - force) > TELLING * j->force && fabs(before - j->opening) > TELLS;

@@ -127,19 +127,38 @@ static int dragged(const statics *p) {
   return p->s->contact && p->touched != p->s->time && sw_contact_moves(p->s->contact);
 }
 
+/* A wire that nothing holds may lie where it can be shifted without effort, on a smooth table: a
+ * direction in which rounding alone would carry it far. */
+static int loose(const sw_scene *s) {
+  for (size_t b = 0; b < s->system.body_count; b++) {
+    const sw_plan *plan = s->system.bodies[b].plan;
+    size_t i = 0;
+    while (i < plan->nodes && plan->held[i] == SW_FREE) i++;
+    if (i == plan->nodes && !sw_scene_joined(s, b)) return 1;
+  }
+  return 0;
+}
+
+/* Forces that a little mass leaves out of balance, over its weight [-]. */
+static const double LITTLE = 1e-5;
+
 static sw_status newton_attempt(statics *p, int iterations, sw_error *err) {
   const sw_newton newton = {.max_iterations = iterations,
                             .accept_rotation = STATIC_TURN,
                             .limit_rotation = 1.0,
                             .statics = 1,
                             .accept_shift = p->args->tolerance};
-  SW_TRY(solve(p, HUGE_VAL, &newton, err));
+  const double slowest = SLOWEST_GROWTH * time_scale(p->s);
+  const int massive = loose(p->s);
+  SW_TRY(solve(p, massive ? slowest : HUGE_VAL, &newton, err));
   p->report->residual = p->args->tolerance;
-  take(p, p->report->negative > 0);
-  if (p->report->negative == 0) return SW_OK;
+  const double shift = take(p, p->report->negative > 0);
+  const double far = LITTLE * fmax(sw_norm(p->s->gravity), 1.0) * slowest * slowest;
+  if (p->report->negative == 0 && !(massive && shift > far)) return SW_OK;
   /* once more with a little mass: rounding in neutral directions drops out */
-  SW_TRY(solve(p, SLOWEST_GROWTH * time_scale(p->s), &newton, err));
-  take(p, p->report->negative > 0);
+  SW_TRY(solve(p, slowest, &newton, err));
+  if (take(p, p->report->negative > 0) > far && massive && p->report->negative == 0)
+    return sw_fail(err, SW_ENOCONV, "a wire that nothing holds is carried away");
   return SW_OK;
 }
 
@@ -213,25 +232,35 @@ static int stops(sw_status status) {
   return status == SW_ECALLBACK || status == SW_ENOMEM || status == SW_EINTR;
 }
 
+/* Newton's iteration from where continuation came to rest, which stays when that fails: the
+ * equilibrium is then not isolated, or (unstable: 1) not stable. What touches there is kept too. */
+static sw_status polish(statics *p, int *unstable, sw_error *err) {
+  sw_error why = {"out of memory"};
+  sw_live rest = {0};
+  sw_status status = sw_live_take(p->s, &rest);
+  if (status == SW_OK) status = newton_attempt(p, NEWTON_ITERATIONS, &why);
+  if (stops(status)) sw_fail(err, status, "%s", why.text);
+  *unstable = status == SW_OK && p->report->negative > 0;
+  if (status == SW_OK ? *unstable : !stops(status)) status = sw_live_put(p->s, &rest, err);
+  sw_live_free(&rest);
+  return status;
+}
+
 static sw_status find_rest(statics *p, sw_error *err) {
   put_aside(p->s, p->kept);
   sw_status status = newton_attempt(p, NEWTON_ITERATIONS, err);
   if (status == SW_ENOCONV && dragged(p)) { /* touches may begin to slide one by one */
     take_back(p->s, p->kept);
-    status = newton_attempt(p, NEWTON_ITERATIONS + SLIDES * (int)p->s->system.nodes, err);
+    const double most = NEWTON_ITERATIONS + SLIDES * (double)p->s->system.nodes;
+    status = newton_attempt(p, (int)fmin(most, (double)p->args->max_iterations), err);
   }
   if ((status == SW_OK && p->report->negative == 0) || stops(status)) return status;
   take_back(p->s, p->kept);
   for (int k = 0;; k++) {
-    sw_error ignored;
+    int again = 0;
     SW_TRY(transient(p, err));
-    put_aside(p->s, p->kept);
-    status = newton_attempt(p, NEWTON_ITERATIONS,
-                            &ignored); /* fails where the equilibrium is not isolated */
-    if (status == SW_OK && p->report->negative == 0) return SW_OK;
-    if (stops(status)) return status;
-    take_back(p->s, p->kept);
-    if (status != SW_OK || k == MOST_NUDGES) return SW_OK;
+    SW_TRY(polish(p, &again, err));
+    if (!again || k == MOST_NUDGES) return SW_OK;
     nudge(p, k);
   }
 }
@@ -385,6 +414,22 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
   return status;
 }
 
+enum { MOST_ROUNDS = 100 };
+
+/* Jaws that hold with a force go on holding with it. */
+static sw_status settle_held(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
+                             sw_settle_report *report, sw_error *err) {
+  if (!sw_jaw_begin_rest(s)) return sw_scene_rest(s, s->time, NULL, args, interrupted, report, err);
+  for (int round = 1;; round++) {
+    const sw_status status =
+        sw_scene_squeezed_rest(s, s->time, NULL, args, interrupted, report, err);
+    const int more = sw_jaw_end_rest(s, status == SW_OK);
+    if (status != SW_OK || !more || round == MOST_ROUNDS) return status;
+    sw_jaw_follow(s);
+    if (!sw_jaw_begin_rest(s)) return SW_OK;
+  }
+}
+
 sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
                           sw_settle_report *report, sw_error *err) {
   sw_error why = {""};
@@ -394,7 +439,7 @@ sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interru
   if (!s->wire_count) return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", s->name);
   SW_TRY(sw_scene_build(s, err));
   s->running++;
-  sw_status status = sw_scene_rest(s, s->time, NULL, args, interrupted, report, &why);
+  sw_status status = settle_held(s, args, interrupted, report, &why);
   s->running--;
   sw_scene_reset_extremes(s);
   if (status == SW_OK) status = sw_scene_observe(s, &why);

@@ -167,16 +167,19 @@ int sw_tool_is_pad(const sw_tool *t, int obstacle) {
   return 0;
 }
 
-double sw_tool_squeeze(const sw_scene *s, const sw_tool *t) {
+double sw_tool_squeeze(sw_scene *s, const sw_tool *t, double time) {
   double sum = 0;
-  if (!s->contact || !t->fingers) return 0;
+  sw_motion_state at;
+  sw_error ignored; /* it was asked for this place in the trial */
+  if (!s->contact || !t->fingers || sw_drive_eval(s, &t->drive, time, &at, &ignored) != SW_OK)
+    return 0;
   for (size_t k = 0; k < t->pads; k++) {
     const sw_drive *d = &s->obstacles[t->pad[k].obstacle].drive;
     sw_vec force, moment;
     sw_contact_force(s->contact, (int)t->pad[k].obstacle, sw_v(0, 0, 0), &force, &moment);
     sum += t->pad[k].finger < 0
                ? 0.0
-               : sw_dot(sw_unrotate(t->now.q, force), sw_unit_or(d->opens, sw_v(0, 0, 0)));
+               : sw_dot(sw_unrotate(at.pose.q, force), sw_unit_or(d->opens, sw_v(0, 0, 0)));
   }
   return sum / t->fingers;
 }

@@ -432,16 +432,27 @@ void sw_scene_clear_tool(sw_tool *tool);
 sw_tool *sw_scene_find_tool(const sw_scene *scene, sw_handle h, sw_error *err);
 /* Their jaws at the start of a step of size h; 1: a trial may have to be corrected. After a
  * trial: 1 = the forces are as wanted, or cannot be. After an accepted one, or one given up. */
-const char *sw_jaw_any(
-    const sw_scene *scene); /* the name of a tool whose jaws obey a force, or NULL */
 int sw_jaw_begin(sw_scene *scene, double h);
-int sw_jaw_correct(sw_scene *scene);
+int sw_jaw_correct(sw_scene *scene, int rests); /* rests: trials are equilibria */
+/* How far the forces of a trial are off, the worst over what is wanted [-]. */
+double sw_jaw_off(sw_scene *scene);
+/* After an equilibrium that is taken: 1 = its force is not as wanted, for that jumped, and the jaws
+ * have begun to look for it from there on. */
+int sw_jaw_again(sw_scene *scene);
 void sw_jaw_follow(sw_scene *scene);
+/* The same of an equilibrium at the scene's time: jaws that hold with a force open or close at
+ * once, by a small part of the wires' thickness. After it: 1 = they have to go further. */
+int sw_jaw_begin_rest(sw_scene *scene);
+int sw_jaw_end_rest(sw_scene *scene, int went_well);
+/* The largest pose step up to h in which jaws that close with a force go no further than a small
+ * part of the wires' thickness [s]. */
+double sw_jaw_step(const sw_scene *scene, double h);
 /* How far they are open at time t, and how fast that changes [m], [m/s]. */
 double sw_jaw_at(const sw_jaw *jaw, double t);
-/* Force per finger as of the last trial [N]. */
+/* 1: the obstacle of this number is one of its pads. */
 int sw_tool_is_pad(const sw_tool *tool, int obstacle);
-double sw_tool_squeeze(const sw_scene *scene, const sw_tool *tool);
+/* Force per finger as of the last trial, which ended at time t [N]. */
+double sw_tool_squeeze(sw_scene *scene, const sw_tool *tool, double t);
 /* What tools hold at the accepted state; their logs. */
 sw_status sw_tool_observe(sw_scene *scene, sw_error *err);
 /* Does the tool run into obstacles? */
@@ -557,6 +568,17 @@ void sw_scene_orphan_snapshots(sw_scene *scene);
  * it failed because obstacles drag wires along that a shorter way might show how. */
 sw_status sw_scene_rest(sw_scene *scene, double since, int *too_far, const sw_settle_args *args,
                         int (*interrupted)(void), sw_settle_report *report, sw_error *why);
+/* The same with the jaws that have begun a step as open as their forces want. On failure contact's
+ * memory is as before too. */
+sw_status sw_scene_squeezed_rest(sw_scene *scene, double since, int *too_far,
+                                 const sw_settle_args *args, int (*interrupted)(void),
+                                 sw_settle_report *report, sw_error *why);
+/* Make a pose at t1 an earlier one (cut: 1) where wires between pads could not follow these. */
+sw_status sw_scene_cut_pose(sw_scene *scene, double *t1, int *cut, sw_error *err);
+/* Equilibrium at time t1, which becomes the scene's, in smaller parts where needed; nothing is
+ * observed. On failure the scene is at the last pose that went well. */
+sw_status sw_scene_pose(sw_scene *scene, double t1, int (*interrupted)(void), sw_run_report *report,
+                        sw_error *err);
 
 /* After an accepted state: histories, extremes, logs. */
 sw_status sw_scene_observe(sw_scene *scene, sw_error *err);

@@ -60,7 +60,8 @@ local function with_bars(scene, given)
   return setmetatable(result, Settled)
 end
 
---- Static equilibrium: { tolerance = [m], max_iterations = }. With a table of
+--- Static equilibrium: { tolerance = [m], max_iterations = }. Jaws of grippers that hold with a
+-- force go on with it; others stay as open as they are. With a table of
 -- quantities as tolerance the result has error bars, see help "tolerance"; progress =
 -- true then tells every level.
 function core.class.scene.settle(scene, args)

@@ -47,6 +47,11 @@ local RUNS = {
       for i = 1, #f do f[i] = -0.01 * v[i] end end, on = wire } },
       { __close = function(t) t[1]:release() end })
     scene:run{ duration = 1e6, dt = 1e-3 }]],
+  ["poses at which jaws obey a force"] = [[
+    local g = scene:gripper{ pads = { opening = 0.012 } }
+    local held <close> = setmetatable({ g:grasp(wire, { s = 0.5, approach = "plates", force = 1 }) },
+      { __close = function() g:release() end })
+    scene:run{ duration = 1e6, dt = 0.01, quasistatic = true }]],
   ["a settling without end"] = [[
     local k = 0
     local force <close> = setmetatable({ scene:force{ kind = function(_, _, _, f)

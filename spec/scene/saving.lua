@@ -238,6 +238,14 @@ for _, method in ipairs{ { "bdf2", 0.004 }, { "sdirk2", 0.004 }, { "velocity-ver
 end
 case("quasi-static steps", function(s) plane(s) wire(s) lift(s) end,
   run(0.06, { quasistatic = true, dt = 0.01 }), run(0.06, { quasistatic = true, dt = 0.01 }))
+local function squeezed(s)
+  s:run{ duration = 0.1, dt = 0.01, quasistatic = true }
+end
+case("jaws that obey a force in quasi-static steps", function(s)
+  plane(s)
+  local hand = s:gripper{ name = "hand", pads = { opening = 0.012 } }
+  hand:grasp(wire(s), { s = 0.1, approach = "plates", force = 0.5, speed = 0.05 })
+end, squeezed, squeezed)
 case("a remodelled wire", function(s)
   wire(s, { radius = 0.006, E = 2e7, to = { 0.3, 0, 0.003 } })
   s:clamp(s:find "a", { s = 0 })

@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Poses: equilibria at the places of what drives the wires, one after another. Jaws that obey a
+ * force are as open at each as it takes, found by repeating the pose from where it began. */
+#include <math.h>
+
+#include "base/alloc.h"
+#include "scene/world.h"
+
+enum { MOST_HALVINGS = 6 }; /* of a pose step [-] */
+
+enum {
+  FEW_ITERATIONS = 300
+};                        /* of a trial: what needs more is sooner found in smaller steps [-] */
+enum { MOST_ROUNDS = 4 }; /* of looking for a force from where it jumped to [-] */
+
+typedef struct poser {
+  sw_scene *s;
+  const sw_settle_args *args;
+  int (*interrupted)(void);
+  sw_settle_report *report;
+  sw_live start;  /* what all trials begin with */
+  sw_jaw *before; /* (tools) as the pose found them */
+  double *speed;  /* (tools) of jaws in the trial that came nearest [m/s] */
+  double nearest; /* how far its force was off; INFINITY = none went well [-] */
+} poser;
+
+static sw_status try(poser *p, double since, int *too_far, sw_error *err) {
+  sw_settle_report trial = {0};
+  const sw_status status =
+      sw_scene_rest(p->s, since, too_far, p->args, p->interrupted, &trial, err);
+  trial.iterations += p->report->iterations;
+  *p->report = trial;
+  if (status != SW_OK) return status;
+  const double off = sw_jaw_off(p->s);
+  if (off > p->nearest) return SW_OK;
+  p->nearest = off;
+  for (size_t k = 0; k < p->s->tool_count; k++) p->speed[k] = p->s->tools[k].jaw.speed;
+  return SW_OK;
+}
+
+/* The nearest trial again, for the last one did not come to rest. */
+static sw_status fall_back(poser *p, double since, sw_error *err) {
+  SW_TRY(sw_live_put(p->s, &p->start, err));
+  for (size_t k = 0; k < p->s->tool_count; k++) p->s->tools[k].jaw.speed = p->speed[k];
+  return try(p, since, NULL, err);
+}
+
+/* One equilibrium after another, all from one start, until the jaws' forces are as wanted or known
+ * not to be. On failure the scene is as at that start. */
+static sw_status search(poser *p, double since, int *too_far, sw_error *err) {
+  sw_error why;
+  p->nearest = HUGE_VAL;
+  for (;;) {
+    sw_status status = try(p, since, too_far, &why);
+    if (status == SW_OK && sw_jaw_correct(p->s, 1)) return SW_OK;
+    if (status == SW_ENOCONV && p->nearest < HUGE_VAL) {
+      status = fall_back(p, since, &why);
+      if (status == SW_OK) return SW_OK;
+    }
+    const sw_status back = sw_live_put(p->s, &p->start, err);
+    if (status != SW_OK) return sw_fail(err, status, "%s", why.text);
+    SW_TRY(back);
+  }
+}
+
+/* Where the force jumped: look for it from there on. What is found without it counts too. */
+static sw_status search_on(poser *p, sw_error *err) {
+  for (int round = 1; round < MOST_ROUNDS && sw_jaw_again(p->s); round++) {
+    sw_live_free(&p->start);
+    SW_TRY(sw_live_take(p->s, &p->start));
+    const sw_status status = search(p, p->s->time, NULL, err);
+    if (status == SW_ENOCONV || status == SW_EINTR) {
+      sw_jaw_end_rest(p->s, 0);
+      break;
+    }
+    SW_TRY(status);
+  }
+  return SW_OK;
+}
+
+static sw_status prepare(poser *p) {
+  const size_t n = p->s->tool_count;
+  p->before = sw_alloc(n, sizeof *p->before);
+  p->speed = sw_alloc(n, sizeof *p->speed);
+  if (!p->before || !p->speed) return SW_ENOMEM;
+  for (size_t k = 0; k < n; k++) p->before[k] = p->s->tools[k].jaw;
+  return sw_live_take(p->s, &p->start);
+}
+
+sw_status sw_scene_squeezed_rest(sw_scene *s, double since, int *too_far,
+                                 const sw_settle_args *args, int (*interrupted)(void),
+                                 sw_settle_report *report, sw_error *err) {
+  poser p = {.s = s, .args = args, .interrupted = interrupted, .report = report};
+  sw_status status = prepare(&p);
+  if (status != SW_OK) sw_fail(err, status, "scene '%s': out of memory", s->name);
+  if (status == SW_OK) status = search(&p, since, too_far, err);
+  if (status == SW_OK) status = search_on(&p, err);
+  for (size_t k = 0; status != SW_OK && p.before && k < s->tool_count; k++)
+    s->tools[k].jaw = p.before[k];
+  sw_live_free(&p.start);
+  sw_free(p.before);
+  sw_free(p.speed);
+  return status;
+}
+
+/* What drives the wires goes on to t1, the wires to their equilibrium. Without friction the pose
+ * step does not matter; with friction it does, and halving it shows how much. */
+static sw_status pose(sw_scene *s, double t1, int halvings, int (*interrupted)(void),
+                      sw_run_report *report, sw_error *err) {
+  sw_settle_args args = {.tolerance = 1e-9, .max_iterations = 4000};
+  sw_settle_report rest = {0};
+  const double t0 = s->time;
+  int too_far = 0;
+  int *const tells = halvings ? &too_far : NULL;
+  const int squeezes = sw_jaw_begin(s, t1 - t0);
+  if (squeezes && halvings) args.max_iterations = FEW_ITERATIONS;
+  s->time = t1;
+  const sw_status status =
+      squeezes ? sw_scene_squeezed_rest(s, t0, tells, &args, interrupted, &rest, err)
+               : sw_scene_rest(s, t0, tells, &args, interrupted, &rest, err);
+  report->iterations += rest.iterations;
+  if (status != SW_OK) {
+    s->time = t0;
+    const int helps = too_far || (squeezes && status == SW_ENOCONV); /* jaws then go less far */
+    if (!helps || !halvings) return status;
+    SW_TRY(pose(s, 0.5 * (t0 + t1), halvings - 1, interrupted, report, err));
+    sw_jaw_follow(s);
+    return pose(s, t1, halvings - 1, interrupted, report, err);
+  }
+  report->smallest_dt = fmin(report->smallest_dt, t1 - t0);
+  if (rest.jumped) {
+    report->jumps++;
+    report->last_jump = t1;
+  }
+  return SW_OK;
+}
+
+/* Pads that hold a wire are shifted by no more of the thinnest one's radius from one pose to the
+ * next: it would be beside them where its equilibrium is looked for [-]. */
+static const double WIDEST_SHIFT = 0.5;
+
+/* How far from its centre a tool presses [m]. */
+static double reach_of(const sw_scene *s, const sw_tool *t) {
+  double reach = 0;
+  for (size_t i = 0; s->contact && i < sw_contact_touches(s->contact); i++) {
+    sw_contact_push push;
+    if (!sw_contact_push_at(s->contact, &s->system, i, &push)) continue;
+    for (size_t k = 0; k < t->pads; k++)
+      if (t->pad[k].obstacle == (size_t)push.obstacle)
+        reach = fmax(reach, sw_dist(push.point, t->now.centre));
+  }
+  return reach;
+}
+
+enum { MOST_CUTS = 60 }; /* of a step, by motions that start slowly and end fast [-] */
+
+/* The largest step up to h in which the tool carries what it presses no further than that. */
+static sw_status carried_step(sw_scene *s, const sw_tool *t, double most, double *h,
+                              sw_error *err) {
+  sw_motion_state from, to;
+  SW_TRY(sw_drive_eval(s, &t->drive, s->time, &from, err));
+  const double reach = reach_of(s, t);
+  for (int cut = 0; cut < MOST_CUTS; cut++) {
+    SW_TRY(sw_drive_eval(s, &t->drive, s->time + *h, &to, err));
+    const sw_quat turned = sw_quat_mul(to.pose.q, sw_quat_conj(from.pose.q));
+    const double shift = sw_dist(from.pose.p, to.pose.p) + reach * sw_norm(sw_quat_log(turned));
+    if (!(shift > most)) break;
+    *h *= fmax(0.5, 0.95 * most / shift);
+  }
+  return SW_OK;
+}
+
+sw_status sw_scene_cut_pose(sw_scene *s, double *t1, int *cut, sw_error *err) {
+  const double whole = *t1 - s->time;
+  double radius = HUGE_VAL, h = whole;
+  for (size_t w = 0; w < s->wire_count; w++) radius = fmin(radius, s->wires[w].beam.radius);
+  for (size_t k = 0; k < s->tool_count; k++)
+    if (s->tools[k].alive && !s->tools[k].frozen && s->tools[k].jaw.now > 0)
+      SW_TRY(carried_step(s, &s->tools[k], WIDEST_SHIFT * radius, &h, err));
+  h = sw_jaw_step(s, h);
+  *cut = h < whole * (1 - 1e-9);
+  if (*cut) *t1 = s->time + h;
+  return SW_OK;
+}
+
+sw_status sw_scene_pose(sw_scene *s, double t1, int (*interrupted)(void), sw_run_report *report,
+                        sw_error *err) {
+  return pose(s, t1, MOST_HALVINGS, interrupted, report, err);
+}
