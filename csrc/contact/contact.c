@@ -81,6 +81,7 @@ void sw_contact_free(sw_contact *c) {
   sw_free(c->pressed);
   sw_free(c->barriers);
   sw_free(c->impacts);
+  sw_free(c->marks);
   sw_free(c);
 }
 
@@ -300,6 +301,7 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
   sw_bounds *bounds = c->bounds;
   sw_status status = SW_OK;
   c->candidate_count = c->touch_count = c->last_count = 0;
+  c->unmarked = 1;
   for (size_t o = 0; o < c->count; o++)
     bounds[o] = world_bounds(c->obstacles[o].shape, &c->start[o].pose);
   for (size_t b = 0; b < s->body_count && status == SW_OK; b++) {
@@ -343,7 +345,7 @@ sw_status sw_contact_begin_stage(void *contact, sw_system *s, double time, doubl
   (void)s, (void)hbar, (void)y;
   c->pressed_before = c->pressed_count;
   c->stage_time = time;
-  c->updates = 0;
+  c->updates = c->looked = 0;
   return place_all(c, time, c->now, err);
 }
 
