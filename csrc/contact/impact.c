@@ -90,7 +90,7 @@ static int presses(const sw_contact *c, int id) {
 static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
   if (o->grips > 0 && presses(c, o->id)) return 0;
-  const sw_vec x = sw_touch_place(s->x, t->node, t->other, t->at);
+  const sw_vec x = sw_contact_where(c, s->x, t->node, t->other, t->at);
   const sw_body *b = &s->bodies[t->body];
   const double radius = sw_plan_skin(b->plan, t->node - b->first_node);
   const size_t end[2] = {t->node, t->other};
@@ -192,10 +192,10 @@ static int review_crossings(sw_contact *c, sw_system *s, const double *x1, doubl
     const sw_candidate *k = &c->candidates[i];
     if (!k->segment) continue;
     const sw_pose *p0 = &c->start[k->obstacle].pose, *p1 = &c->now[k->obstacle].pose;
-    const sw_vec a0 = sw_pose_local(*p0, sw_load(s->x + 3 * k->node));
-    const sw_vec b0 = sw_pose_local(*p0, sw_load(s->x + 3 * k->other));
-    const sw_vec a1 = sw_pose_local(*p1, sw_load(x1 + 3 * k->node));
-    const sw_vec b1 = sw_pose_local(*p1, sw_load(x1 + 3 * k->other));
+    const sw_vec a0 = sw_pose_local(*p0, sw_contact_where(c, s->x, k->node, k->node, 0));
+    const sw_vec b0 = sw_pose_local(*p0, sw_contact_where(c, s->x, k->other, k->other, 0));
+    const sw_vec a1 = sw_pose_local(*p1, sw_contact_where(c, x1, k->node, k->node, 0));
+    const sw_vec b1 = sw_pose_local(*p1, sw_contact_where(c, x1, k->other, k->other, 0));
     const double shift2 = fmax(sw_norm2(sw_sub(a1, a0)), sw_norm2(sw_sub(b1, b0)));
     if (shift2 < SAFE_SHIFT * SAFE_SHIFT * k->skin * k->skin) continue;
     sw_closest hit;
@@ -223,6 +223,8 @@ static int went_too_far(sw_contact *c, const sw_system *s, const double *x1) {
 /* A step may leave a touch this much deeper than it found it; the law's own
  * depth is below half of that [m]. */
 static const double DEEPER = 1e-4;
+/* What has the softness of a section is meant to give way; of the radius [-]. */
+static const double SQUEEZED = 0.2;
 /* In steps below this share of the nominal one depth is taken as it comes [-]. */
 static const double SMALLEST_CARE = 1.0 / 64;
 
@@ -231,14 +233,18 @@ static double depth_at(const sw_contact *c, const sw_candidate *k, const sw_cont
                        const double *x) {
   const sw_shape *shape = c->obstacles[k->obstacle].shape;
   const sw_pose *pose = &at[k->obstacle].pose;
-  const sw_vec a = sw_pose_local(*pose, sw_load(x + 3 * k->node));
+  const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, x, k->node, k->node, 0));
   sw_closest near[SW_CLOSEST_MAX];
   if (!k->segment) {
     const int found = sw_shape_point(shape, a, k->skin, &near[0]);
     return found ? k->skin - near[0].gap : 0.0;
   }
-  const sw_vec b = sw_pose_local(*pose, sw_load(x + 3 * k->other));
+  const sw_vec b = sw_pose_local(*pose, sw_contact_where(c, x, k->other, k->other, 0));
   double deepest = 0;
+  for (int i = 0; i < k->samples; i++)
+    if (sw_shape_point(shape, sw_lerp(a, b, sw_sample_at(k, i)), k->skin, &near[0]))
+      deepest = fmax(deepest, k->skin - near[0].gap);
+  if (k->samples) return deepest;
   const int n = sw_shape_segment(shape, a, b, k->skin, near);
   for (int i = 0; i < n; i++) deepest = fmax(deepest, k->skin - near[i].gap);
   return deepest;
@@ -252,7 +258,8 @@ static int cuts_deep(const sw_contact *c, const sw_system *s, const double *x1, 
     const sw_candidate *k = &c->candidates[i];
     if (c->flat[k->obstacle] || sw_contact_is_held(s, k)) continue;
     const double depth = depth_at(c, k, c->now, x1);
-    if (depth > DEEPER && depth > depth_at(c, k, c->start, s->x) + DEEPER) return 1;
+    const double more = k->given ? SQUEEZED * k->radius : DEEPER;
+    if (depth > more && depth > depth_at(c, k, c->start, s->x) + more) return 1;
   }
   return 0;
 }

@@ -34,11 +34,19 @@ static sw_status push(sw_contact *c, const sw_touch *t) {
   return SW_OK;
 }
 
+/* How far along the segment a touch may have moved and still be the same one, at most the given
+ * share: a sample has its place [-]. */
+static double within(const sw_candidate *k, double share) {
+  return k->samples ? fmin(share, 0.5 / k->samples) : share;
+}
+
 static const sw_memory *memory_for(const sw_contact *c, const sw_candidate *k, double at) {
   const sw_memory *best = NULL;
-  for (size_t i = k->memory; i < k->memory_end; i++)
-    if (c->memory && (!best || fabs(c->memory[i].at - at) < fabs(best->at - at)))
-      best = &c->memory[i];
+  double nearest = within(k, HUGE_VAL);
+  for (size_t i = k->memory; c->memory && i < k->memory_end; i++) {
+    const double d = fabs(c->memory[i].at - at);
+    if (d < nearest) best = &c->memory[i], nearest = d;
+  }
   return best;
 }
 
@@ -67,7 +75,7 @@ static const double SAME_PLACE = 0.25;
 
 static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, double at) {
   const sw_touch *best = NULL;
-  double nearest = SAME_PLACE;
+  double nearest = within(k, SAME_PLACE);
   for (size_t i = k->last; i < k->last_end; i++) {
     const double d = fabs(c->last[i].at - at);
     if (d < nearest) best = &c->last[i], nearest = d;
@@ -80,8 +88,8 @@ static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, doub
  * obstacle's material there. */
 static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_touch *t,
                              const double *y) {
-  const sw_vec from = sw_touch_place(s->x, t->node, t->other, t->at);
-  const sw_vec to = sw_touch_place(y, t->node, t->other, t->at);
+  const sw_vec from = sw_contact_where(c, s->x, t->node, t->other, t->at);
+  const sw_vec to = sw_contact_where(c, y, t->node, t->other, t->at);
   const sw_vec carried =
       sw_pose_point(c->now[t->obstacle].pose, sw_pose_local(c->start[t->obstacle].pose, from));
   const sw_body *b = &s->bodies[t->body];
@@ -99,7 +107,7 @@ static const sw_memory *pressed_memory(const sw_contact *c, const sw_system *s,
                                        const sw_candidate *k, double at) {
   const sw_memory *own = memory_for(c, k, at);
   if (own && own->normal_force > 0) return own;
-  return s->bodies[k->body].plan->web ? NULL : inherited(c, k, at);
+  return s->bodies[k->body].plan->web || k->samples ? NULL : inherited(c, k, at);
 }
 
 /* A particle of a mesh that sticks is predicted off its place by far more than what its touch's
@@ -152,7 +160,7 @@ int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
 /* How deep the touch's place was at the step's start, below 0 when it was outside [m]. */
 static double depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
-  const sw_vec from = sw_touch_place(s->x, t->node, t->other, t->at);
+  const sw_vec from = sw_contact_where(c, s->x, t->node, t->other, t->at);
   return c->candidates[t->candidate].skin - sw_dot(t->press.normal, sw_sub(from, plane));
 }
 
@@ -235,7 +243,7 @@ static int behind_barrier(const sw_contact *c, const sw_candidate *k, const doub
     const sw_barrier *b = &c->barriers[i];
     if (b->obstacle != k->obstacle || b->node != k->node || b->segment != k->segment) continue;
     const sw_vec local =
-        sw_pose_local(c->now[b->obstacle].pose, sw_touch_place(y, b->node, b->other, b->at));
+        sw_pose_local(c->now[b->obstacle].pose, sw_contact_where(c, y, b->node, b->other, b->at));
     const double gap = sw_dot(b->normal, sw_sub(local, b->point));
     *near = (sw_closest){.gap = gap,
                          .at = b->at,
@@ -259,7 +267,7 @@ static sw_status keep_pushing(sw_contact *c, const sw_system *s, const sw_candid
     int found = 0;
     for (size_t j = first; j < c->touch_count; j++)
       found |= fabs(c->touches[j].at - last->at) < SAME_PLACE;
-    const sw_vec p = sw_pose_local(*pose, sw_touch_place(y, k->node, k->other, last->at));
+    const sw_vec p = sw_pose_local(*pose, sw_contact_where(c, y, k->node, k->other, last->at));
     sw_closest near;
     if (found || !sw_shape_point(c->obstacles[k->obstacle].shape, p, k->radius, &near)) continue;
     near.at = last->at;
@@ -268,19 +276,37 @@ static sw_status keep_pushing(sw_contact *c, const sw_system *s, const sw_candid
   return SW_OK;
 }
 
+/* Touches at a candidate's samples. */
+static sw_status query_samples(sw_contact *c, const sw_system *s, const sw_candidate *k,
+                               const double *y, double reach) {
+  const sw_pose *pose = &c->now[k->obstacle].pose;
+  const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, y, k->node, k->node, 0));
+  const sw_vec b = sw_pose_local(*pose, sw_contact_where(c, y, k->other, k->other, 0));
+  for (int i = 0; i < k->samples; i++) {
+    const double at = sw_sample_at(k, i);
+    const sw_vec p = sw_lerp(a, b, at);
+    sw_closest near;
+    if (!sw_shape_point(c->obstacles[k->obstacle].shape, p, reach, &near)) continue;
+    near.at = at;
+    if (keep_side(c, k, p, &near)) SW_TRY(add_touch(c, s, k, y, &near));
+  }
+  return SW_OK;
+}
+
 static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k, const double *y) {
   const sw_shape *shape = c->obstacles[k->obstacle].shape;
   const sw_pose *pose = &c->now[k->obstacle].pose;
-  const sw_vec a = sw_pose_local(*pose, sw_load(y + 3 * k->node));
+  const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, y, k->node, k->node, 0));
   const double reach = 2.0 * k->radius; /* keeps what may begin to touch in the list */
   sw_closest near[SW_CLOSEST_MAX];
   if (c->barrier_count && behind_barrier(c, k, y, &near[0])) return add_touch(c, s, k, y, &near[0]);
+  if (k->samples) return query_samples(c, s, k, y, reach);
   if (!k->segment) {
     if (!sw_shape_point(shape, a, reach, &near[0])) return SW_OK;
     near[0].at = 0;
     return keep_side(c, k, a, &near[0]) ? add_touch(c, s, k, y, &near[0]) : SW_OK;
   }
-  const sw_vec b = sw_pose_local(*pose, sw_load(y + 3 * k->other));
+  const sw_vec b = sw_pose_local(*pose, sw_contact_where(c, y, k->other, k->other, 0));
   const size_t first = c->touch_count;
   const int n = sw_shape_segment(shape, a, b, reach, near);
   for (int i = 0; i < n; i++) {

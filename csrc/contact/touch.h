@@ -20,6 +20,7 @@ typedef struct sw_candidate {
   size_t last, last_end;     /* matching range of the last iterate's touches */
   double usual;              /* stiffness of a new touch [N/m] */
   int given;                 /* 1: it keeps that, however deep it gets */
+  int samples; /* it touches at so many places, evenly along the segment; 0: at the nearest ones */
 } sw_candidate;
 
 /* One place where a wire's surface is near an obstacle. */
@@ -84,7 +85,10 @@ struct sw_contact {
   sw_contact_at *start, *now; /* (count) at the step's start and at the stage */
   int *flat;                  /* (count) 1: a half space, no segment contacts */
   int *dense;                 /* (count) 1: particles of the body at hand lie close, likewise */
-  sw_bounds *bounds;          /* (count) at the step's start, world axes */
+  double *sunk; /* (3 nodes) how far contact sees a node further in, or NULL: nowhere [m] */
+  size_t sunk_capacity;
+  double *spaced; /* (count) farthest that samples of the body at hand may be apart; 0: none [m] */
+  sw_bounds *bounds; /* (count) at the step's start, world axes */
   sw_candidate *candidates;
   size_t candidate_count, candidate_capacity;
   sw_touch *touches, *last; /* of this iterate and of the one before */
@@ -114,6 +118,9 @@ struct sw_contact {
 /* How far a node of velocity v may go in the step unnoticed [m]. */
 double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v);
 
+/* How far nodes are sunk, with the system where it is. SW_ENOMEM. */
+sw_status sw_contact_sink(sw_contact *c, const sw_system *s);
+
 /* Fill the list of candidates for the step. */
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err);
 
@@ -138,10 +145,22 @@ sw_vec sw_levers_brake(const sw_beam *beam, const sw_levers *l, sw_vec slide, do
 /* Add the change of the edges' rates (edges) by an impulse at the touch [N s]. */
 void sw_levers_kick(const sw_plan *p, const sw_levers *l, sw_vec impulse, double *rates);
 
+/* Number k of a candidate's samples, along its segment [-]. */
+static inline double sw_sample_at(const sw_candidate *candidate, int k) {
+  return ((double)k + 0.5) / (double)candidate->samples;
+}
+
 /* The place of a candidate on its segment. */
 static inline sw_vec sw_touch_place(const double *x, size_t node, size_t other, double at) {
   return node != other ? sw_lerp(sw_load(x + 3 * node), sw_load(x + 3 * other), at)
                        : sw_load(x + 3 * node);
+}
+
+/* Where its surface is skin from, with the system's nodes at x [m]. */
+static inline sw_vec sw_contact_where(const sw_contact *c, const double *x, size_t node,
+                                      size_t other, double at) {
+  const sw_vec p = sw_touch_place(x, node, other, at);
+  return c->sunk ? sw_sub(p, sw_touch_place(c->sunk, node, other, at)) : p;
 }
 
 /* Velocity of the obstacle's material at world point p [m/s]. */

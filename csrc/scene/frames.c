@@ -41,7 +41,7 @@ static sw_status fill_strand(const sw_scene *s, const sw_body *b, double **to, s
   *p++ = (double)around;
   for (size_t r = 0; r < web->rings; r++) {
     sw_strand_outline(web, x, r, outline);
-    sw_outline_widen(outline, around, sw_strand_facing(web, x, r), web->skin, wide);
+    sw_outline_widen(outline, around, sw_strand_facing(web, x, r), web->skin - web->proud, wide);
     for (size_t k = 0; k < around; k++, p += SW_FRAME_SURFACE) {
       sw_store(p, sw_vec_at(wide, k));
       p[3] = pressed[web->first[r] + (sw_web_is_ring(web, r) ? web->around[k] : 0)];

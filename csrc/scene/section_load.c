@@ -75,7 +75,8 @@ sw_status sw_scene_wire_pressed(sw_scene *s, sw_handle h, double *force, double 
     sw_strand_outline(w, x, r, outline);
     for (size_t k = 0; k < w->around_count; k++)
       area[w->first[r] + w->around[k]] =
-          own_round(outline, w->around_count, k, w->skin, t) * own_along(w, x, r, w->around[k]);
+          own_round(outline, w->around_count, k, w->skin - w->proud, t) *
+          own_along(w, x, r, w->around[k]);
   }
   return SW_OK;
 }

@@ -134,7 +134,7 @@ double sw_outline_ovalisation(const sw_web *w, const double *outline, sw_vec tan
   const sw_widths wide = widths(fine, all, hull, u, v);
   /* the curve goes beyond its points as a circle does */
   const double least = wide.least / (times > 1 ? cos(PI / (double)all) : 1.0);
-  return fmax(0.0, wide.largest - least) / (wide.largest + least + 4.0 * w->skin);
+  return fmax(0.0, wide.largest - least) / (wide.largest + least + 4.0 * (w->skin - w->proud));
 }
 
 /* Two waves round the section over one: about the ovalisation, at little cost. */

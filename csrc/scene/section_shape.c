@@ -197,14 +197,14 @@ sw_status sw_scene_wire_section(sw_scene *s, sw_handle h, double place, sw_secti
   SW_TRY(open_place(s, h, place, &p, err));
   const sw_web *w = p.web;
   out->count = w->around_count;
-  out->skin = w->skin;
+  out->skin = w->skin - w->proud;
   out->tangent = tangent_of(&p);
   out->middle =
       sw_lerp(sw_strand_middle(w, p.x, p.ring), sw_strand_middle(w, p.x, p.ring + 1), p.f);
   outline_of(&p, out->particles);
-  sw_outline_widen(out->particles, out->count, out->tangent, w->skin, out->surface);
+  sw_outline_widen(out->particles, out->count, out->tangent, out->skin, out->surface);
   const sw_widths wide = sw_outline_widths(out->particles, out->count, out->tangent);
-  out->least = wide.least + 2.0 * w->skin, out->largest = wide.largest + 2.0 * w->skin;
+  out->least = wide.least + 2.0 * out->skin, out->largest = wide.largest + 2.0 * out->skin;
   out->least_way = wide.least_way, out->largest_way = wide.largest_way;
   out->ovalisation = sw_outline_ovalisation(w, out->particles, out->tangent);
   out->area = area_of(out);
@@ -230,6 +230,6 @@ sw_status sw_scene_wire_width(sw_scene *s, sw_handle h, double place, sw_vec dir
     const double at = sw_dot(sw_vec_at(outline, k), way);
     low = fmin(low, at), high = fmax(high, at);
   }
-  *width = high - low + 2.0 * p.web->skin;
+  *width = high - low + 2.0 * (p.web->skin - p.web->proud);
   return SW_OK;
 }

@@ -26,6 +26,37 @@ static double skin_of(const sw_lattice *l, double radius) {
   return fmax(THINNEST * radius, radius - most);
 }
 
+static const double PI = 3.14159265358979323846;
+enum { DIRECTIONS = 720 };
+
+/* Mean over all directions of how far out the section goes: of a polygon less than its corners. */
+static double mean_reach(const sw_lattice *l) {
+  const double step = 2.0 * PI / DIRECTIONS;
+  double sum = 0;
+  for (int k = 0; k < DIRECTIONS; k++) {
+    const double x = cos(step * k), y = sin(step * k);
+    double most = 0;
+    for (size_t i = 0; i < l->particles; i++)
+      most = fmax(most, x * l->at[3 * i] + y * l->at[3 * i + 1]);
+    sum += most;
+  }
+  return sum / DIRECTIONS;
+}
+
+/* The same of the section that was asked for. */
+static double own_reach(const sw_strand_plan *p, double radius) {
+  const sw_cubic_args *a = &p->lattice.cubic;
+  const int flat = strcmp(p->mesh, "cubic") == 0 && a->section == SW_SECTION_RECTANGLE;
+  return flat ? (a->width + a->height) / PI : radius;
+}
+
+/* How far the surface of solid elements is outside of the section's own, on the average: to be as
+ * stiff as a round section a polygon reaches further out, and it has a skin. */
+static double proud_of(const sw_strand_plan *p, const sw_lattice *l, double skin, double radius) {
+  if (p->body != SW_BODY_SOLID) return 0;
+  return fmax(0.0, mean_reach(l) + skin - own_reach(p, radius));
+}
+
 /* --- calibration -------------------------------------------------------------------- */
 
 static sw_status calibrate(const sw_strand_plan *p, const sw_beam *beam, double spacing,
@@ -204,6 +235,7 @@ sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const s
   if (!m.web) sw_free(m.around);
   if (made != SW_OK) return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", plan->name);
   out->web->skin = skin_of(m.lattice, beam->radius);
+  out->web->proud = proud_of(plan, m.lattice, out->web->skin, beam->radius);
   out->web->line_skin = beam->radius;
   out->web->wall = isnan(plan->wall) ? 0.0 : plan->wall;
   return SW_OK;

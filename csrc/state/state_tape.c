@@ -55,7 +55,7 @@ void sw_tape_mesh(sw_tape *t, sw_mesh *x) {
 /* --- webs ------------------------------------------------------------------------ */
 
 static void tape_sizes(sw_tape *t, sw_web *x) {
-  SW_TAPE_STRUCT(t, sw_web, 368);
+  SW_TAPE_STRUCT(t, sw_web, 376);
   sw_tape_count(t, &x->particles, sizeof *x->mass);
   SIZE(rings), SIZE(per_ring), INT(banded);
   sw_tape_count(t, &x->links, sizeof *x->link);
@@ -68,7 +68,8 @@ static void tape_sizes(sw_tape *t, sw_web *x) {
   SIZE(shape_count), SIZE(clamped_shapes), sw_tape_uint32(t, &x->axis);
   sw_tape_expect(t, x->rings <= x->particles && x->per_ring <= x->particles, "rings of a mesh");
   DOUBLE(friction), DOUBLE(slide_rate2), DOUBLE(length), DOUBLE(solid_rate2), DOUBLE(rate2);
-  DOUBLE(repel_distance), DOUBLE(repel_stiffness), DOUBLE(wall), DOUBLE(line_skin), DOUBLE(skin);
+  DOUBLE(repel_distance), DOUBLE(repel_stiffness), DOUBLE(wall), DOUBLE(line_skin), DOUBLE(skin),
+      DOUBLE(proud);
 }
 
 static void tape_lists(sw_tape *t, sw_web *x, size_t shape_size) {

@@ -95,6 +95,7 @@ typedef struct sw_web {
   double wall;          /* bending stiffness of a ring's wall per length, 0: none [N m] */
   double line_skin;     /* distance of the surface from particles of a line [m] */
   double skin;          /* distance of the surface from the particles there [m] */
+  double proud;         /* how far that surface is outside of the section's own [m] */
   unsigned char *outer; /* (particles) 1: at the surface */
   size_t *side_first;   /* (particles + 1) where the sides of each begin */
   uint32_t *side;       /* other ends of the surface's edges, each edge once */

@@ -93,13 +93,12 @@ describe("a solid section between pads", function()
       density = 1000, radius = R, from = { 0, 0, 0 }, to = { L, 0, 0 }, segments = 2 }
     scene:force{ kind = "plane_strain", on = wire, direction = { 1, 0, 0 } }
     scene:force{ kind = "damping", mass = 200 }
-    local skin = 0.03 * R -- surface of solid meshes beyond their particles
     local g = scene:gripper{ pads = { width = 0.1, height = 0.1, below = 0.05, friction = 5,
       opening = 2.2 * R } }
     scene:process(function(p)
-      g:grasp(wire, { s = L / 2, approach = "plates", distance = 2 * (R + skin), speed = 0.05 })
+      g:grasp(wire, { s = L / 2, approach = "plates", distance = 2 * R, speed = 0.05 })
       for _, row in ipairs{ { 0.1, 0.08485878573 }, { 0.2, 0.2240633922 } } do
-        g:close_jaws{ distance = 2 * (R + skin) - row[1] * 2 * R, speed = 0.05 }
+        g:close_jaws{ distance = 2 * R - row[1] * 2 * R, speed = 0.05 }
         p:wait(0.1)
         t.share(row[2], g:state().squeeze / (E * R * L), 0.03, ("force at %g"):format(row[1]))
       end

@@ -25,20 +25,17 @@ local function squeeze(model, rows, length, friction)
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
   local wire = scene:wire(p)
   scene:force{ kind = "plane_strain", on = wire, direction = { 1, 0, 0 } }
-  local x, top = wire:particles(), 0
-  for i = 3, #x, 3 do top = math.max(top, x[i]) end
-  -- particles of springs are within the wire's radius, those of solids have a skin of 3 % outside
-  local skin = p.body == "solid" and math.max(0.03 * R, R - top) or 0
+  local x = wire:particles()
   local plates = {}
   for k = 1, 2 do
     plates[k] = scene:obstacle{ shape = "box", size = { 0.1, 0.1, 0.02 }, friction = friction or 5,
-      at = { 0, 0, (2 * k - 3) * (R + skin + 0.01) } }
+      at = { 0, 0, (2 * k - 3) * (R + 0.01) } }
   end
   local forces, before = {}, 0
   for i, row in ipairs(rows) do
     local steps = math.ceil((row[1] - before) / 0.05 - 1e-9)
     for n = 1, steps do
-      local z = R * (1 - before - (row[1] - before) * n / steps) + skin + 0.01
+      local z = R * (1 - before - (row[1] - before) * n / steps) + 0.01
       plates[1]:pose{ 0, 0, -z }
       plates[2]:pose{ 0, 0, z }
       t.fine(scene:settle())
@@ -69,14 +66,14 @@ describe("a solid section between plates", function()
   end)
 
   it("has it within 10 %, of 12 voxels across and of 16 x 4 particles", function()
-    -- measured 4.2 % and 6 %: particles meet the plates one pair after the other
+    -- particles meet the plates one pair after the other
     compare(round{ model = "cubic", across = 12 }, solid, 0.002, 0.1)
     compare(round{ model = "radial", particles = 16, layers = 4 }, solid, 0.002, 0.1)
   end)
 
   it("has its order of magnitude at default resolution", function()
-    -- eight sides meet plates with a corner or a flat first: measured 2.1 times as much at 5 %, -16
-    -- to 31 % beyond; voxels -16 to 14 %
+    -- eight sides meet plates with a corner or a flat first: measured 59 % too much at 5 %, -25
+    -- to 9 % beyond; voxels -22 to 4 %
     local forces = squeeze(round{ model = "radial" }, solid, 0.01)
     for i, force in ipairs(forces) do t.share(solid[i][2], force, i == 1 and 1.5 or 0.5, "force") end
     forces = squeeze(round{ model = "cubic" }, solid, 0.008)
@@ -127,10 +124,15 @@ describe("a section of core and shell between plates", function()
   end)
 
   it("has its order of magnitude at default resolution", function()
-    -- twelve sides: measured 17 % at 5 %, -12 and 3 % beyond
-    local rows = { composite[3], composite[4], composite[5] }
-    for i, force in ipairs(squeeze(cable{}, rows, 0.01, SLIPPERY)) do
-      t.share(rows[i][2], force, 0.25, ("force at %g %%"):format(100 * rows[i][1]))
+    -- twelve sides meet plates with a corner or a flat first: measured -2, -30, -9 % and 3, 9, 4 %
+    -- of plates at the true approach; the mean of both is what does not depend on how it lies
+    local rows, sum = { composite[3], composite[4], composite[5] }, { 0, 0, 0 }
+    for _, turn in ipairs{ 0, math.pi / 12 } do
+      local model = cable{ normal = { 0, math.cos(turn), math.sin(turn) } }
+      for i, force in ipairs(squeeze(model, rows, 0.01, SLIPPERY)) do sum[i] = sum[i] + force end
+    end
+    for i, force in ipairs(sum) do
+      t.share(rows[i][2], force / 2, 0.25, ("force at %g %%"):format(100 * rows[i][1]))
     end
   end)
 
