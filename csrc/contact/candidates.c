@@ -240,11 +240,11 @@ static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t
     sw_candidate *k = &c->candidates[i];
     const double grips = c->obstacles[k->obstacle].grips;
     k->usual = fmax(base, rate2 * k->mass);
-    k->given = grips > 0 && !p->web && c->regime != SW_CONTACT_EXPLICIT;
-    if (k->given)
-      k->usual = pad_stiffness(p, k, k->node - s->bodies[body].first_node, grips);
-    else if (k->samples)
-      k->usual *= LEAST_SAMPLES / (double)k->samples;
+    if (k->samples) k->usual *= LEAST_SAMPLES / (double)k->samples;
+    if (!(grips > 0) || p->web) continue;
+    const double soft = pad_stiffness(p, k, k->node - s->bodies[body].first_node, grips);
+    k->given = c->regime != SW_CONTACT_EXPLICIT;
+    k->usual = k->given ? soft : fmin(soft, k->usual); /* explicit steps may not bear it */
   }
 }
 

@@ -147,7 +147,8 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
                    .depth = t->press.normal_force / t->press.k,
                    .k = sw_press_eased(&t->press, c->candidates[t->candidate].usual, t->stiffer),
                    .normal = sw_rotate(back, t->press.normal),
-                   .point = t->local};
+                   .point = t->local,
+                   .seen = t->seen};
   if (!(t->press.normal_force > 0)) return SW_OK;
   m->slid = t->slid + sw_norm(t->press.slip);
   m->elastic = sw_rotate(back, sw_scale(t->press.tangential, -1.0 / sw_press_grip(&t->press)));

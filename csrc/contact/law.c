@@ -77,7 +77,7 @@ sw_vec sw_press_eval(sw_press *p, double friction, int lagged, double K[6]) {
   p->normal_force = -p->k * p->gap;
   if (!lagged) p->lag = p->normal_force;
   const double most = friction * p->lag, length = sw_norm(p->trial), grip = sw_press_grip(p);
-  if (!lagged) p->sliding = grip * length > most;
+  if (!lagged) p->next_sliding = p->sliding = grip * length > most;
   const sw_vec d = length > 0 ? sw_scale(p->trial, 1.0 / length) : sw_v(0, 0, 0);
   p->tangential = sw_scale(d, p->sliding ? -most : -grip * length);
   p->slip = sw_madd(p->trial, p->tangential, 1.0 / grip);

@@ -102,6 +102,17 @@ static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_t
   return sw_add(sw_add(sw_sub(to, carried), arm), rolled);
 }
 
+/* The same since the wire was last seen there: what explicit methods do after their last evaluation
+ * in a step is not in that, and is found at the next one. */
+static sw_vec shift_since(const sw_contact *c, const sw_system *s, const sw_touch *t,
+                          const double *y) {
+  const sw_candidate *k = &c->candidates[t->candidate];
+  const sw_memory *m = c->regime == SW_CONTACT_EXPLICIT ? memory_for(c, k, t->at) : NULL;
+  if (!m) return relative_shift(c, s, t, y);
+  const sw_vec now = sw_contact_where(c, y, t->node, t->other, m->at);
+  return sw_sub(now, sw_pose_point(c->now[t->obstacle].pose, m->seen));
+}
+
 /* The memory of a touch that pressed, on whatever part of the wire it was. */
 static const sw_memory *pressed_memory(const sw_contact *c, const sw_system *s,
                                        const sw_candidate *k, double at) {
@@ -128,7 +139,7 @@ static double felt_stiffness(const sw_contact *c, const sw_system *s, const sw_t
 static void begin_friction(const sw_contact *c, const sw_system *s, const sw_memory *m,
                            const sw_touch *last, const double *y, sw_touch *t) {
   sw_press *press = &t->press;
-  sw_vec u = relative_shift(c, s, t, y);
+  sw_vec u = shift_since(c, s, t, y);
   if (m)
     u = sw_add(u, sw_rotate(c->now[t->obstacle].pose.q, m->elastic));
   else if (press->gap >= 0)
@@ -212,6 +223,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
   press->gap_after = press->gap;
   if (c->regime == SW_CONTACT_STATIC && m && web && web->per_ring) press->spare = SPARE_PULLS;
   sw_press_activate(press, goes_on(c, k, press, last) ? &last->press : NULL);
+  t.seen = sw_pose_local(*pose, sw_contact_where(c, y, t.node, t.other, t.at));
   begin_friction(c, s, m, last, y, &t);
   if (t.held) press->active = 0;
   return push(c, &t);

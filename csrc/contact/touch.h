@@ -37,6 +37,7 @@ typedef struct sw_touch {
   int held;         /* both ends are held: no force */
   double friction;  /* coefficient in this step: kinetic when it slid before [-] */
   double slid;      /* way that it slid until the step's start, since it began to press [m] */
+  sw_vec seen;      /* where the wire was at this evaluation, in the obstacle's coordinates [m] */
   size_t candidate; /* index of what it was made from */
   sw_press press;   /* its normal is the obstacle's, outward, in the world */
 } sw_touch;
@@ -53,6 +54,7 @@ typedef struct sw_memory {
   sw_vec normal, point; /* the side: local [-], [m] */
   int sliding;
   sw_vec elastic; /* displacement of the friction spring, local [m] */
+  sw_vec seen;    /* where the wire was when that was found, local [m] */
   double slid;    /* way that it slid since it began to press [m] */
 } sw_memory;
 
