@@ -222,7 +222,7 @@ static const double PRESSED_IN = 5e-6;
 /* A pad on a particle of a mesh is so many times as stiff as the section behind it: one that gave
  * way as much as that would be made stiffer in the middle of a squeeze, whose force would jump [-].
  */
-static const double STIFFER = 10.0;
+static const double STIFFER = 3.0;
 
 static double mesh_pad_stiffness(const sw_plan *p, size_t particle) {
   const double r = p->beam.radius;
