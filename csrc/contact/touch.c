@@ -375,6 +375,58 @@ static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
   if (s->rolls) sw_levers_push(s, t, K, want);
 }
 
+static sw_status look(sw_contact *c, const sw_system *s, const double *y, sw_error *err) {
+  sw_status status = SW_OK;
+  swap_lists(c);
+  for (size_t i = 0; i < c->candidate_count && status == SW_OK; i++)
+    status = query(c, s, &c->candidates[i], y);
+  return status == SW_OK ? SW_OK : sw_fail(err, status, "contact: out of memory");
+}
+
+/* What friction lets slide has a stiffness of its own at every place. */
+static int slides(const sw_touch *t) {
+  return t->press.sliding && t->friction > 0 && t->press.lag > 0;
+}
+
+static void mark(sw_contact *c) {
+  c->mark_count = 0;
+  c->unmarked = 0;
+  for (size_t i = 0; i < c->touch_count && !c->unmarked; i++) {
+    const sw_touch *t = &c->touches[i];
+    if (!t->press.active) continue;
+    c->unmarked = slides(t) || sw_grow((void **)&c->marks, &c->mark_capacity, c->mark_count + 1,
+                                       sizeof *c->marks) != SW_OK;
+    if (!c->unmarked)
+      c->marks[c->mark_count++] = (sw_mark){t->candidate, t->at, t->press.k, t->press.normal};
+  }
+}
+
+/* A touch is that of the matrix while it moved by less than this share of its segment, and its
+ * normal turned by less than this angle [-], [rad]. */
+static const double MOVED = 1e-3, TURNED = 0.01;
+
+static int is_marked(const sw_touch *t, const sw_mark *m) {
+  return !slides(t) && m->candidate == t->candidate && m->k == t->press.k &&
+         fabs(m->at - t->at) < MOVED &&
+         sw_norm2(sw_sub(m->normal, t->press.normal)) < TURNED * TURNED;
+}
+
+sw_status sw_contact_keeps(void *contact, sw_system *s, const double *y, int *out, sw_error *err) {
+  sw_contact *c = contact;
+  size_t active = 0;
+  *out = 0;
+  if (c->unmarked || c->regime == SW_CONTACT_EXPLICIT) return SW_OK;
+  SW_TRY(look(c, s, y, err));
+  c->looked = 1;
+  for (size_t i = 0; i < c->touch_count; i++) {
+    const sw_touch *t = &c->touches[i];
+    if (!t->press.active) continue;
+    if (active >= c->mark_count || !is_marked(t, &c->marks[active++])) return SW_OK;
+  }
+  *out = active == c->mark_count;
+  return SW_OK;
+}
+
 sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar, const double *y,
                           unsigned want, sw_error *err) {
   sw_contact *c = contact;
@@ -382,10 +434,9 @@ sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar,
   sw_status status = SW_OK;
   if (c->regime == SW_CONTACT_EXPLICIT) status = sw_contact_begin_stage(c, s, time, hbar, y, err);
   if (status != SW_OK) return status;
-  swap_lists(c);
-  for (size_t i = 0; i < c->candidate_count && status == SW_OK; i++)
-    status = query(c, s, &c->candidates[i], y);
-  if (status != SW_OK) return sw_fail(err, status, "contact: out of memory");
+  if (!c->looked) SW_TRY(look(c, s, y, err));
+  c->looked = 0;
+  if (want & SW_WANT_STIFFNESS) mark(c);
   for (size_t i = 0; i < c->touch_count; i++) apply(c, s, &c->touches[i], want);
   return SW_OK;
 }

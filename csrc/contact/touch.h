@@ -67,6 +67,13 @@ typedef struct sw_barrier {
   sw_vec normal, point; /* local [-], [m] */
 } sw_barrier;
 
+/* A touch that was part of the last matrix. */
+typedef struct sw_mark {
+  size_t candidate;
+  double at, k;  /* [-], [N/m] */
+  sw_vec normal; /* [-] */
+} sw_mark;
+
 typedef struct sw_contact_at {
   sw_pose pose;
   sw_vec v, omega; /* [m/s], [rad/s] */
@@ -96,6 +103,10 @@ struct sw_contact {
   size_t barrier_count, barrier_capacity;
   sw_memory *impacts; /* keys of touches whose impact was dealt with in this step */
   size_t impact_count, impact_capacity;
+  sw_mark *marks;
+  size_t mark_count, mark_capacity;
+  int unmarked;      /* 1: some touch slid, or there was no room: the marks tell nothing */
+  int looked;        /* 1: touches are those of the iterate to be evaluated next */
   double time, h;    /* of the step [s] */
   double stage_time; /* that obstacles were last placed for [s] */
   double nominal;    /* the run's full step [s] */

@@ -97,6 +97,9 @@ typedef struct sw_coupling {
   /* Add forces and matrix rows at y to the bodies' fields. */
   sw_status (*eval)(void *user, sw_system *system, double time, double hbar, const double *y,
                     unsigned want, sw_error *err);
+  /* Before eval at y: out = 1, its stiffness there is that of the last eval that was asked for it,
+   * but for small turns. NULL: never. */
+  sw_status (*keeps)(void *user, sw_system *system, const double *y, int *out, sw_error *err);
   /* After an update y was reached by the solved delta: 1 = converged. */
   int (*settled)(void *user, sw_system *system, const double *y, const double *delta);
 } sw_coupling;
@@ -129,6 +132,11 @@ struct sw_system {
   struct sw_links *links; /* between bodies, or NULL while there never were any */
   struct sw_joins *joins; /* what holds wires together (see system/join.h), or NULL */
   sw_counters counters;
+  double factor_hbar;   /* bodies' factors are of this step, made for it; 0: there are none [s] */
+  int factor_solves;    /* with factors of before, one after another in this stage [-] */
+  int goes_on;          /* 1: the iterate that is being solved goes on with them */
+  double factor_first;  /* change of edges by the first of these, of their length [-] */
+  double factor_update; /* and by the last one [-] */
 
   /* the state, one block: x v a (nodes x 3, then turns of edges that roll, each), tension (edges),
    * twist (spans) [rad], turn (holds x 4: the holds' orientations that go with it), frames of each
@@ -142,6 +150,7 @@ struct sw_system {
   /* work space of a stage (freedoms) */
   double *yhat, *delta, *velocity;
   double *tension_new; /* (edges) */
+  double *factor_at;   /* (freedoms) positions for which the factors were made [m] */
   void *work;
 };
 

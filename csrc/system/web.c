@@ -318,6 +318,20 @@ static double solid_turn2(const sw_web *w, const double *x, const double *delta)
   return largest;
 }
 
+double sw_web_change(const sw_body *body, const double *x, const double *from, const double *to) {
+  const sw_web *w = body->plan->web;
+  double largest = 0;
+  for (size_t n = 0; n < w->solids; n++)
+    for (uint32_t i = 0; i + 1 < w->solid[n].count; i++) {
+      const size_t a = w->solid[n].node[i], b = w->solid[n].node[i + 1];
+      sw_vec d = sw_sub(sw_vec_at(to, b), sw_vec_at(to, a));
+      if (from) d = sw_sub(d, sw_sub(sw_vec_at(from, b), sw_vec_at(from, a)));
+      const double change2 = sw_norm2(d) / sw_norm2(sw_sub(sw_vec_at(x, b), sw_vec_at(x, a)));
+      if (!(change2 <= largest)) largest = change2;
+    }
+  return sqrt(largest);
+}
+
 double sw_web_advance(const sw_body *b, const double *x, const double *delta, double *axial) {
   const double springs = advance(b->plan->web, x, delta, axial);
   const double solids = solid_turn2(b->plan->web, x, delta);
