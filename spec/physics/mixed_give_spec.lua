@@ -140,7 +140,7 @@ describe("a frozen grip", function()
       local scene, wire, g = squeezed(soft, share, true)
       local EA = wire.beam.EA
       local clamp = scene:clamp(wire, { s = tip })
-      t.fine(scene:settle())
+      for _ = 1, 2 do t.fine(scene:settle()) end -- the first one ends some nanometres off the second
       local x = wire:particles()
       g:freeze()
       t.fine(scene:settle())
