@@ -126,6 +126,11 @@ sw_status sw_contact_sink(sw_contact *c, const sw_system *s);
 /* Fill the list of candidates for the step. */
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err);
 
+/* Find the touches at positions y; those of before are then the last ones. SW_ENOMEM. */
+sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw_error *err);
+/* How deep the touch's place was at the step's start, below 0 when it was outside [m]. */
+double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t);
+
 /* 1: the candidate's node, or both ends of its segment, are held. */
 int sw_contact_is_held(const sw_system *s, const sw_candidate *k);
 
