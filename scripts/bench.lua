@@ -411,19 +411,19 @@ end
 local function print_grips()
   local grip = require "softworld.benchgrip"
   local lines, carry = { "way,dt,carry,all,error" }, {}
-  print("\ntwo-plate test, s/simulated s     dt    grasp    carry      lay      all  force N  moment mN m"
-    .. "  height mm  end's droop")
+  print("\ntwo-plate test, s/simulated s         dt    grasp     lift    carry      lay      all"
+    .. "      force N  moment mN m  height mm  end's droop")
   grip.compare(function(r)
     local cells = {}
     for i, phase in ipairs(r.phases) do
       cells[i] = phase.time > 0 and ("%8.4f"):format(phase.wall / phase.time) or "       -"
     end
-    print(("%-26s %9s %s %8.4f %8.4f %12.4f %10.4f %9s%s"):format(r.name, r.dt or "",
+    print(("%-29s %6s %s %8.4f %8.4f %12.4f %10.4f %9s%s"):format(r.name, r.dt or "",
       table.concat(cells, " "),
       r.wall / r.time, r.force or 0 / 0, 1e3 * (r.moment or 0 / 0), 1e3 * (r.height or 0 / 0),
       r.error and ("%.3f %%"):format(r.error) or "", r.ok and "" or "  FAILED: " .. r.reason))
-    local p = r.phases[2]
-    if r.ok and r.dt then
+    local p = r.phases[3]
+    if r.ok and r.dt and not r.rough then
       lines[#lines + 1] = ('"%s",%g,%g,%g,%g'):format(r.name, r.dt, p.wall / p.time, r.wall / r.time,
         r.error)
       if r.dt == 0.01 then carry[r.name] = p.wall / p.time end

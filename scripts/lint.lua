@@ -31,7 +31,7 @@ local ROOMS = {
 -- state and solve have no single header: their parts have different users.
 local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "pairs.h" },
   force = { "force.h", "solid.h" },
-  state = { "angle.h", "crease.h", "field.h", "hinge.h", "mesh.h", "plan.h", "slide.h",
+  state = { "angle.h", "clamp.h", "crease.h", "field.h", "hinge.h", "mesh.h", "plan.h", "slide.h",
     "state_tape.h", "web.h" },
   solve = { "band3.h", "band4.h", "blocks.h", "rotation.h", "sparse.h" },
   system = { "join.h", "system.h" } }

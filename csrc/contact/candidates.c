@@ -219,6 +219,17 @@ static const double SECTION = 2.0 * 0.084 / 0.2;
 /* With the force wanted a pad's samples sink in by about this [m]. */
 static const double PRESSED_IN = 5e-6;
 
+/* A pad on a particle of a mesh is so many times as stiff as the section behind it: one that gave
+ * way as much as that would be made stiffer in the middle of a squeeze, whose force would jump [-].
+ */
+static const double STIFFER = 3.0;
+
+static double mesh_pad_stiffness(const sw_plan *p, size_t particle) {
+  const double r = p->beam.radius;
+  if (!p->web->per_ring) return 0;
+  return STIFFER * SECTION * p->beam.EA / (PI * r * r) * p->web->along[particle];
+}
+
 /* A pad on a wire without a section: as soft as the section would be, and not stiffer than its
  * force needs. Rigid against rigid, no force could be set [N/m]. */
 static double pad_stiffness(const sw_plan *p, const sw_candidate *k, size_t edge, double grips) {
@@ -241,7 +252,10 @@ static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t
     const double grips = c->obstacles[k->obstacle].grips;
     k->usual = fmax(base, rate2 * k->mass);
     if (k->samples) k->usual *= LEAST_SAMPLES / (double)k->samples;
-    if (!(grips > 0) || p->web) continue;
+    if (!(grips > 0)) continue;
+    if (p->web && c->regime != SW_CONTACT_EXPLICIT)
+      k->usual = fmax(k->usual, mesh_pad_stiffness(p, k->node - s->bodies[body].first_node));
+    if (p->web) continue;
     const double soft = pad_stiffness(p, k, k->node - s->bodies[body].first_node, grips);
     k->given = c->regime != SW_CONTACT_EXPLICIT;
     k->usual = k->given ? soft : fmin(soft, k->usual); /* explicit steps may not bear it */
@@ -252,6 +266,7 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
   sw_bounds *bounds = c->bounds;
   sw_status status = SW_OK;
   c->candidate_count = c->touch_count = c->last_count = 0;
+  c->unmarked = 1;
   for (size_t o = 0; o < c->count; o++)
     bounds[o] = world_bounds(c->obstacles[o].shape, &c->start[o].pose);
   for (size_t b = 0; b < s->body_count && status == SW_OK; b++) {

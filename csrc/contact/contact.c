@@ -72,6 +72,7 @@ void sw_contact_free(sw_contact *c) {
   sw_free(c->pressed);
   sw_free(c->barriers);
   sw_free(c->impacts);
+  sw_free(c->marks);
   sw_free(c);
 }
 
@@ -115,7 +116,7 @@ sw_status sw_contact_begin_stage(void *contact, sw_system *s, double time, doubl
   (void)s, (void)hbar, (void)y;
   c->pressed_before = c->pressed_count;
   c->stage_time = time;
-  c->updates = 0;
+  c->updates = c->looked = 0;
   return place_all(c, time, c->now, err);
 }
 

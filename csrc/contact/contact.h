@@ -67,6 +67,10 @@ sw_status sw_contact_begin_stage(void *contact, sw_system *system, double time, 
                                  const double *y, sw_error *err);
 sw_status sw_contact_eval(void *contact, sw_system *system, double time, double hbar,
                           const double *y, unsigned want, sw_error *err);
+/* Its normals and friction are those of the last matrix: no touch slides, and the same ones press.
+ */
+sw_status sw_contact_keeps(void *contact, sw_system *system, const double *y, int *out,
+                           sw_error *err);
 int sw_contact_settled(void *contact, sw_system *system, const double *y, const double *delta);
 
 /* 1: an obstacle is not where it was at the step's start, as last placed. */

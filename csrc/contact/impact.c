@@ -265,16 +265,19 @@ static int cuts_deep(const sw_contact *c, const sw_system *s, const double *x1, 
 }
 
 /* An impulse at the step's start knows nothing of what forces drive into an obstacle within the
- * step. The integrator makes such a touch bounce, and an obstacle that moves does work in that,
- * step after step; a plastic step does not bounce. 1 = one is needed, once in a step. */
-static int bounces(sw_contact *c, const double *v1) {
+ * step. The integrator makes such a touch bounce: of an obstacle that moves, which does work in
+ * that, step after step; and of a mesh, which would hop by g h^2 for ever, the restart at each
+ * landing giving it back what damping takes. A plastic step does not bounce. 1 = one is needed,
+ * once in a step. */
+static int bounces(sw_contact *c, const sw_system *s, const double *v1) {
   if (c->plastic || c->regime == SW_CONTACT_EXPLICIT) return 0;
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
     if (t->known || !(t->press.normal_force > 0) || c->obstacles[t->obstacle].restitution > 0)
       continue;
     const sw_vec wall = sw_obstacle_velocity(&c->now[t->obstacle], t->point);
-    if (!(fabs(sw_dot(wall, t->press.normal)) > SLOWEST_IMPACT)) continue;
+    const int moves = fabs(sw_dot(wall, t->press.normal)) > SLOWEST_IMPACT;
+    if (!moves && !s->bodies[t->body].plan->web) continue;
     if (c->obstacles[t->obstacle].grips > 0 && presses(c, c->obstacles[t->obstacle].id)) continue;
     const sw_vec v = sw_sub(sw_touch_place(v1, t->node, t->other, t->at), wall);
     if (sw_dot(v, t->press.normal) > SLOWEST_IMPACT) return c->plastic = 1;
@@ -297,7 +300,7 @@ sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *
   for (size_t e = 0; e < s->rolls; e++) rates[e] += kicks[e];
   c->pressed_count = 0;
   if (crossed || struck) return SW_CONTACT_REDO;
-  if (bounces(c, v1)) return SW_CONTACT_STRIKE;
+  if (bounces(c, s, v1)) return SW_CONTACT_STRIKE;
   return cuts_deep(c, s, x1, h) ? SW_CONTACT_SMALLER : SW_CONTACT_ACCEPT;
 }
 

@@ -1,16 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Touches of an iterate: where wires are near obstacles, what the touches there remember,
- * their forces by the common law, and whether these agree with the solve. */
+/* Touches of an iterate: where wires are near obstacles, and what the touches there remember. */
 #include "contact/touch.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
-
-/* Shorter updates leave place and normal of a touch on a curved or edged shape
- * as they are; of the radius [-]. */
-static const double SMALL_SHIFT = 0.05;
 
 /* A touch goes on into the next iterate up to this gap, of the radius, and while its normal
  * turns by an angle with a cosine above this [-]. */
@@ -25,8 +20,6 @@ static const double SOFTEST = 1000.0;
 /* What has pressed a mesh up to now is not let go of by the first static solve in which it pulls:
  * that one may only have met too many touches at once, and then nothing holds the mesh. */
 enum { SPARE_PULLS = 1 };
-
-enum { OWN = 0, NEXT = 6, ROW = 24 }; /* layout of the system's block rows */
 
 static sw_status push(sw_contact *c, const sw_touch *t) {
   SW_TRY(sw_grow((void **)&c->touches, &c->touch_capacity, c->touch_count + 1, sizeof *c->touches));
@@ -168,8 +161,7 @@ int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
   return held[k->node - b->first_node] != SW_FREE && held[k->other - b->first_node] != SW_FREE;
 }
 
-/* How deep the touch's place was at the step's start, below 0 when it was outside [m]. */
-static double depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t) {
+double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
   const sw_vec from = sw_contact_where(c, s->x, t->node, t->other, t->at);
   return c->candidates[t->candidate].skin - sw_dot(t->press.normal, sw_sub(from, plane));
@@ -217,8 +209,8 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
   sw_press *press = &t.press;
   if (c->regime == SW_CONTACT_IMPLICIT &&
       press->gap < 0) /* in explicit steps force follows depth */
-    t.forgiven =
-        sw_press_forgiven(depth_before(c, s, &t), m ? m->depth : 0.0, c->h, web && web->per_ring);
+    t.forgiven = sw_press_forgiven(sw_contact_depth_before(c, s, &t), m ? m->depth : 0.0, c->h,
+                                   web && web->per_ring);
   press->gap += t.forgiven;
   press->gap_after = press->gap;
   if (c->regime == SW_CONTACT_STATIC && m && web && web->per_ring) press->spare = SPARE_PULLS;
@@ -344,136 +336,10 @@ static void swap_lists(sw_contact *c) {
   }
 }
 
-/* Add force f and symmetric stiffness K (upper half) at a touch. */
-static void add_to_field(sw_system *s, const sw_touch *t, sw_vec f, const double K[6],
-                         unsigned want) {
-  sw_body *b = &s->bodies[t->body];
-  const size_t ends[2] = {t->node - b->first_node, t->other - b->first_node};
-  const double w[2] = {1.0 - t->at, t->at};
-  for (size_t e = 0; e < (t->segment ? 2u : 1u); e++) {
-    sw_accumulate(b->field.force + 3 * ends[e], sw_scale(f, w[e]));
-    if (want & SW_WANT_STIFFNESS)
-      for (size_t k = 0; k < 6; k++) b->field.rows[ROW * ends[e] + OWN + k] += w[e] * w[e] * K[k];
-  }
-  if (!t->segment || !(want & SW_WANT_STIFFNESS)) return;
-  static const size_t full[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
-  double between[9];
-  for (size_t k = 0; k < 9; k++) between[k] = w[0] * w[1] * K[full[k]];
-  if (b->plan->web)
-    sw_body_couple(b, ends[0], ends[1], between);
-  else
-    for (size_t k = 0; k < 9; k++) b->field.rows[ROW * ends[0] + NEXT + k] += between[k];
-}
-
-static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
-  double K[6];
-  t->press.normal_force = 0;
-  t->press.tangential = t->press.slip = sw_v(0, 0, 0);
-  if (!t->press.active) return;
-  const sw_vec f = sw_press_eval(&t->press, t->friction, c->regime != SW_CONTACT_EXPLICIT, K);
-  add_to_field(s, t, f, K, want);
-  if (s->rolls) sw_levers_push(s, t, K, want);
-}
-
-sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar, const double *y,
-                          unsigned want, sw_error *err) {
-  sw_contact *c = contact;
-  (void)hbar;
+sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw_error *err) {
   sw_status status = SW_OK;
-  if (c->regime == SW_CONTACT_EXPLICIT) status = sw_contact_begin_stage(c, s, time, hbar, y, err);
-  if (status != SW_OK) return status;
   swap_lists(c);
   for (size_t i = 0; i < c->candidate_count && status == SW_OK; i++)
     status = query(c, s, &c->candidates[i], y);
-  if (status != SW_OK) return sw_fail(err, status, "contact: out of memory");
-  for (size_t i = 0; i < c->touch_count; i++) apply(c, s, &c->touches[i], want);
-  return SW_OK;
-}
-
-/* A touch's shift by the solved update, with that of the surface. */
-static sw_vec surface_shift(const sw_system *s, const sw_touch *t, sw_vec shift) {
-  const sw_levers levers = sw_touch_levers(s, t);
-  if (!levers.count) return shift;
-  return sw_add(shift, sw_levers_shift(&levers, s->bodies[t->body].spin_delta + 3, 4));
-}
-
-/* Friction of a loose object's many touches may never agree with itself all over. After so many
- * updates of a stage it no longer keeps iterations going where it shifts a touch by less than a
- * small share of the radius: it is then off by less than its own size for that step [-]. */
-enum { PATIENCE = 6 };
-
-/* Bring a touch's forces up to the solved update; 1 = it agrees with what the
- * solve assumed. */
-static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *delta,
-                  double scale) {
-  const sw_vec shift = sw_touch_place(delta, t->node, t->other, t->at);
-  const sw_vec surface = s->rolls ? surface_shift(s, t, shift) : shift;
-  const int agrees = sw_press_update(&t->press, t->friction, surface, scale);
-  if (t->held) return 1;
-  const double radius = c->candidates[t->candidate].radius;
-  const int small = sw_norm(shift) <= SMALL_SHIFT * radius;
-  if (!c->flat[t->obstacle] && t->press.gap_after < radius && !small)
-    return 0; /* place and normal of the touch may have changed */
-  const sw_web *web = s->bodies[t->body].plan->web;
-  if (agrees || !small || c->updates <= PATIENCE || !web || web->per_ring) return agrees;
-  return sw_press_apart(&t->press);
-}
-
-/* Of a wire's touches, forces far below the largest one do not matter. Touches are in the
- * order of wires: from the first of one to the first of the next. */
-static double scale_of(const sw_contact *c, size_t first, size_t *end) {
-  const size_t body = c->touches[first].body;
-  double scale = 0;
-  size_t i = first;
-  for (; i < c->touch_count && c->touches[i].body == body; i++)
-    scale = fmax(scale, c->touches[i].press.lag);
-  *end = i;
-  return scale;
-}
-
-static int update_all(sw_contact *c, const sw_system *s, const double *delta) {
-  int fine = 1;
-  for (size_t first = 0, end; first < c->touch_count; first = end) {
-    const double scale = scale_of(c, first, &end);
-    for (size_t i = first; i < end; i++) fine &= update(c, s, &c->touches[i], delta, scale);
-  }
-  return fine;
-}
-
-/* In steps below this share of the nominal one, depth that was there before is taken as
- * it comes [-]. */
-static const double SMALL_STEP = 0.25;
-
-/* Make touches that sink in too deep stiffer; 1 = there were some. */
-static int stiffen(sw_contact *c, const sw_system *s) {
-  const int small = c->h > 0 && c->h < SMALL_STEP * c->nominal;
-  int any = 0;
-  if (c->regime == SW_CONTACT_EXPLICIT || s->rough) return 0;
-  for (size_t i = 0; i < c->touch_count; i++) {
-    sw_touch *t = &c->touches[i];
-    const double before = small ? fmax(0.0, depth_before(c, s, t)) : -1.0;
-    if (t->held || c->candidates[t->candidate].given) continue;
-    t->stiffer =
-        sw_press_stiffer(&t->press, c->candidates[t->candidate].usual, t->forgiven, before);
-    any |= t->stiffer > t->press.k;
-  }
-  return any;
-}
-
-int sw_contact_settled(void *contact, sw_system *s, const double *y, const double *delta) {
-  sw_contact *c = contact;
-  (void)y;
-  c->pressed_count = c->pressed_before;
-  c->updates++;
-  const int fine = update_all(c, s, delta);
-  if (fine && stiffen(c, s)) return 0;
-  for (size_t i = 0; fine && i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
-    if (t->held || !(t->press.normal_force > 0 || t->press.gap_after < 0)) continue;
-    if (sw_grow((void **)&c->pressed, &c->pressed_capacity, c->pressed_count + 1,
-                sizeof *c->pressed) != SW_OK)
-      break; /* an impact is then dealt with in the next step */
-    c->pressed[c->pressed_count++] = *t;
-  }
-  return fine;
+  return status == SW_OK ? SW_OK : sw_fail(err, status, "contact: out of memory");
 }

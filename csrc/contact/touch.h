@@ -67,6 +67,13 @@ typedef struct sw_barrier {
   sw_vec normal, point; /* local [-], [m] */
 } sw_barrier;
 
+/* A touch that was part of the last matrix. */
+typedef struct sw_mark {
+  size_t candidate;
+  double at, k;  /* [-], [N/m] */
+  sw_vec normal; /* [-] */
+} sw_mark;
+
 typedef struct sw_contact_at {
   sw_pose pose;
   sw_vec v, omega; /* [m/s], [rad/s] */
@@ -96,6 +103,10 @@ struct sw_contact {
   size_t barrier_count, barrier_capacity;
   sw_memory *impacts; /* keys of touches whose impact was dealt with in this step */
   size_t impact_count, impact_capacity;
+  sw_mark *marks;
+  size_t mark_count, mark_capacity;
+  int unmarked;      /* 1: some touch slid, or there was no room: the marks tell nothing */
+  int looked;        /* 1: touches are those of the iterate to be evaluated next */
   double time, h;    /* of the step [s] */
   double stage_time; /* that obstacles were last placed for [s] */
   double nominal;    /* the run's full step [s] */
@@ -114,6 +125,11 @@ sw_status sw_contact_sink(sw_contact *c, const sw_system *s);
 
 /* Fill the list of candidates for the step. */
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err);
+
+/* Find the touches at positions y; those of before are then the last ones. SW_ENOMEM. */
+sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw_error *err);
+/* How deep the touch's place was at the step's start, below 0 when it was outside [m]. */
+double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t);
 
 /* 1: the candidate's node, or both ends of its segment, are held. */
 int sw_contact_is_held(const sw_system *s, const sw_candidate *k);

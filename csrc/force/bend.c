@@ -10,6 +10,7 @@
 #include "base/simd.h"
 #include "force/force.h"
 #include "state/angle.h"
+#include "state/clamp.h"
 
 /* scratch: 0 cos phi, 1 k s, 2 k w for hinges 1..n-2. Returns how many hinges are
  * beyond the fit (a count, because a largest angle would not go into vectors). */
@@ -139,6 +140,37 @@ static void clamp_hinge(const sw_clamp_hinge *h, double EI, sw_field *field) {
                            (i == j ? a * c : 0.0);
 }
 
+/* What the hinge is less stiff about the axis of its hold's give [N m]. */
+static double softening(const sw_clamp_hinge *h, double EI) {
+  return h->softer > 0 ? EI / h->length - EI / (h->length + h->softer) : 0.0;
+}
+
+/* For that E = -1/2 k f^2, f the angle about the axis (state/clamp.h): with g = dE/dt and H its
+ * derivative, of the edge vector P g / l and (P H P - (g.t) P - P g t' - t g' P) / l^2, P = I - t
+ * t'. */
+static void soften_clamp(const sw_clamp_hinge *h, double EI, sw_field *field) {
+  const size_t e = h->edge;
+  const double k = softening(h, EI), rl = field->reciprocal[e];
+  const sw_vec t = sw_v(field->tangent[0][e], field->tangent[1][e], field->tangent[2][e]);
+  const sw_clamp_bend b = sw_clamp_bend_of(h, field->hold_directors, field->hold_normals, t);
+  const double f = b.angle, gt = -k * f * sw_dot(b.slope, t);
+  const sw_vec slope = sw_madd(b.slope, t, -sw_dot(b.slope, t)), g = sw_scale(slope, -k * f);
+  if (field->want & SW_WANT_ENERGY) field->energy -= 0.5 * k * f * f;
+  const double G[3] = {g.x, g.y, g.z}, T[3] = {t.x, t.y, t.z};
+  for (int i = 0; i < 3 && field->want & SW_WANT_FORCE; i++) field->gradient[i][e] += G[i] * rl;
+  if (!(field->want & SW_WANT_STIFFNESS)) return;
+  const sw_vec d = sw_madd(b.d, t, -sw_dot(b.d, t)), n = sw_madd(b.n, t, -sw_dot(b.n, t));
+  const double S[3] = {slope.x, slope.y, slope.z}, D[3] = {d.x, d.y, d.z}, N[3] = {n.x, n.y, n.z};
+  const double q = sw_dot(t, b.n);
+  for (int i = 0, at = 0; i < 3; i++)
+    for (int j = i; j < 3; j++, at++) {
+      const double second = q * b.v * D[i] * D[j] - b.w * (N[i] * D[j] + D[i] * N[j]);
+      const double H = -k * (S[i] * S[j] + f * second);
+      field->own[at][e] +=
+          (H - gt * ((i == j) - T[i] * T[j]) - G[i] * T[j] - T[i] * G[j]) * rl * rl;
+    }
+}
+
 static double hinge_energy(const sw_field *field, double EI) {
   double sum = 0;
   for (size_t i = 1; i + 1 < field->plan->nodes; i++) {
@@ -170,15 +202,20 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   }
   if (f->want & SW_WANT_ENERGY) f->energy += hinge_energy(f, EI);
   for (size_t k = 0; k < p->clamp_count; k++) clamp_hinge(&p->clamps[k], EI, f);
+  for (size_t k = 0; k < p->clamp_count; k++)
+    if (p->clamps[k].softer > 0) soften_clamp(&p->clamps[k], EI, f);
   return SW_OK;
 }
 
-/* omega_max <= 4 sqrt(EI/mu) / l^2 for equal edges and lumped masses. */
+/* omega_max <= 4 sqrt(EI/mu) / l^2 for equal edges and lumped masses; more by the root of what
+ * hinges are shorter. */
 static double stable_dt(const void *args, const sw_plan *plan) {
   const double EI = ((const sw_bend_args *)args)->EI;
   double smallest = HUGE_VAL;
   for (size_t e = 0; EI > 0 && e < plan->edges; e++) {
-    const double dt = 0.5 * plan->rest[e] * plan->rest[e] * sqrt(plan->beam.mass / EI);
+    double dt = 0.5 * plan->rest[e] * plan->rest[e] * sqrt(plan->beam.mass / EI);
+    for (size_t i = e; i <= e + 1; i++)
+      if (plan->hinge[i] > 0) dt *= sqrt(fmin(1.0, plan->hinge[i] / plan->rest[e]));
     if (dt < smallest) smallest = dt;
   }
   return smallest;
@@ -192,7 +229,11 @@ static sw_vec clamp_moment(const void *args, const sw_field *field, const sw_cla
   const sw_vec t = sw_v(field->tangent[0][e], field->tangent[1][e], field->tangent[2][e]);
   double s, w;
   sw_angle_factors(0.25 * sw_norm2(sw_sub(t, d)), &s, &w);
-  return sw_scale(sw_cross(t, d), ((const sw_bend_args *)args)->EI / h->length * s);
+  const double EI = ((const sw_bend_args *)args)->EI;
+  const sw_vec moment = sw_scale(sw_cross(t, d), EI / h->length * s);
+  if (!(h->softer > 0)) return moment;
+  const sw_clamp_bend b = sw_clamp_bend_of(h, field->hold_directors, field->hold_normals, t);
+  return sw_madd(moment, sw_cross(b.slope, t), -softening(h, EI) * b.angle);
 }
 
 const sw_force_class sw_force_bend = {

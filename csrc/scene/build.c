@@ -198,6 +198,26 @@ static sw_status new_web_plan(const sw_scene *s, size_t w, sw_plan **out) {
   return status;
 }
 
+/* Place of arc length s in the hold's frame. */
+static sw_vec local_of(const sw_scene_hold *h, double s) {
+  size_t i = 0;
+  while (i + 2 < h->count && h->s[i + 1] <= s) i++;
+  if (h->count == 1) return sw_load(h->local);
+  const double f = (s - h->s[i]) / (h->s[i + 1] - h->s[i]);
+  return sw_lerp(sw_vec_at(h->local, i), sw_vec_at(h->local, i + 1), f);
+}
+
+/* What a hold has formed is as long as it lies there. */
+static void form(const sw_scene *s, size_t w, sw_plan *plan) {
+  for (size_t k = 0; k < s->hold_count; k++) {
+    const sw_scene_hold *h = &s->holds[k];
+    if (!h->alive || h->wire != w || !h->formed) continue;
+    for (size_t e = 0; e < plan->edges; e++)
+      if (plan->s[e] >= h->s1 && plan->s[e + 1] <= h->s2)
+        plan->rest[e] = sw_dist(local_of(h, plan->s[e]), local_of(h, plan->s[e + 1]));
+  }
+}
+
 static sw_status new_plans(sw_scene *s, sw_plan **plans) {
   sw_hold_place *places = sw_alloc(s->hold_count, sizeof *places);
   if (!places) return SW_ENOMEM;
@@ -209,12 +229,15 @@ static sw_status new_plans(sw_scene *s, sw_plan **plans) {
     for (size_t k = 0; k < s->hold_count; k++) {
       const sw_scene_hold *h = &s->holds[k];
       if (!h->alive) continue;
-      if (h->wire == w) places[n++] = (sw_hold_place){h->s1, h->s2, h->cls->clamped, number};
+      if (h->wire == w)
+        places[n++] =
+            (sw_hold_place){h->s1, h->s2, h->cls->clamped, number, {h->give[0], h->give[1]}};
       number++;
     }
     status = wire->strand.web
                  ? new_web_plan(s, w, &plans[w])
                  : sw_plan_new(&wire->beam, wire->mesh.s, wire->mesh.n, places, n, &plans[w]);
+    if (status == SW_OK) form(s, w, plans[w]);
     if (status == SW_OK && wire->mesh.rest) status = sw_scene_unloaded(s, w, plans[w]);
   }
   sw_free(places);
@@ -245,15 +268,6 @@ static sw_status add_terms(sw_scene *s, size_t w) {
   return SW_OK;
 }
 
-/* Place of arc length s in the hold's frame. */
-static sw_vec local_of(const sw_scene_hold *h, double s) {
-  size_t i = 0;
-  while (i + 2 < h->count && h->s[i + 1] <= s) i++;
-  if (h->count == 1) return sw_load(h->local);
-  const double f = (s - h->s[i]) / (h->s[i + 1] - h->s[i]);
-  return sw_lerp(sw_vec_at(h->local, i), sw_vec_at(h->local, i + 1), f);
-}
-
 static sw_status add_holds(sw_scene *s, size_t alive) {
   s->hold_slot = sw_alloc(alive, sizeof *s->hold_slot);
   if (!s->hold_slot) return SW_ENOMEM;
@@ -267,7 +281,8 @@ static sw_status add_holds(sw_scene *s, size_t alive) {
     for (size_t side = 0; side < 2; side++) {
       const size_t at = 3 * (2 * (size_t)number + side);
       sw_store(s->system.directors + at, h->director[side]);
-      sw_store(s->system.normals + at, h->frame[side].normal);
+      sw_store(s->system.normals + at,
+               h->give[side].softer > 0 ? h->give[side].axis : h->frame[side].normal);
     }
     sw_held_node node = {.body = h->wire, .hold = number, .slides = h->cls->feeds};
     for (size_t i = 0; b->plan->web && i < h->count; i++) {

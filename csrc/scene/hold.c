@@ -229,6 +229,7 @@ static void seen_from(sw_scene_hold *h, sw_pose pose) {
     h->director[side] = sw_unrotate(pose.q, h->director[side]);
     h->frame[side].tangent = sw_unrotate(pose.q, h->frame[side].tangent);
     h->frame[side].normal = sw_unrotate(pose.q, h->frame[side].normal);
+    h->give[side].axis = sw_unrotate(pose.q, h->give[side].axis);
   }
 }
 
@@ -240,6 +241,7 @@ sw_status sw_scene_rehold(sw_scene *s, sw_scene_hold *h, sw_pose pose) {
   new.s = new.local = NULL, new.particle = NULL, new.count = 0;
   h->alive = 0; /* its own places are not in its way */
   take_directions(&w->mesh, &new, &a);
+  for (int k = 0; k < 2; k++) new.give[k].axis = sw_rotate(pose.q, h->give[k].axis);
   sw_status status = place_nodes(s, h->wire, &new, &a);
   if (status == SW_OK)
     status = w->strand.web ? take_particles(w, &new, &a) : take_hold(&w->mesh, &new, &a);
@@ -279,6 +281,8 @@ sw_status sw_scene_copy_shape(const sw_scene_hold *from, sw_scene_hold *to) {
   to->shape = from->shape, to->s1 = from->s1, to->s2 = from->s2, to->count = from->count;
   memcpy(to->director, from->director, sizeof to->director);
   memcpy(to->frame, from->frame, sizeof to->frame);
+  memcpy(to->give, from->give, sizeof to->give);
+  to->formed = from->formed;
   to->s = s, to->local = local, to->particle = particle;
   return SW_OK;
 }

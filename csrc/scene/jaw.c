@@ -33,11 +33,11 @@ static double speed_to(const sw_jaw *j, double opening) {
   return fmax(-j->most, fmin(j->most, (opening - j->opening) / j->step));
 }
 
+/* With a force: the opening for it by the stiffness found last. */
 static double first_guess(const sw_jaw *j) {
   if (j->mode == SW_JAW_STILL) return 0;
   if (j->mode == SW_JAW_TO) return speed_to(j, j->goal);
-  if (j->status != SW_JAW_HOLDS && j->now <= j->force) return speed_to(j, 0);
-  if (!(j->stiffness > 0)) return j->now > j->force ? 0.0 : speed_to(j, 0);
+  if (!(j->now > 0) || !(j->stiffness > 0)) return j->now > j->force ? 0.0 : speed_to(j, 0);
   return speed_to(j, fmax(0.0, j->opening + (j->now - j->force) / j->stiffness));
 }
 

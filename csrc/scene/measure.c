@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "scene/world.h"
+#include "state/clamp.h"
 #include "system/join.h"
 
 sw_status sw_scene_open_body(sw_scene *s, sw_handle h, sw_scene_wire **body, sw_error *err) {
@@ -99,7 +100,7 @@ static void node_state(const sw_system *s, const sw_body *b, size_t node, size_t
   *tangent = own;
   if (c) {
     *tangent = director(s, c);
-    *curvature = angle_between(*tangent, own) / c->length;
+    *curvature = sw_clamp_curvature(c, s->directors_now, s->normals_now, own);
   } else if (p->held[edge] != SW_FREE && p->held[edge + 1] != SW_FREE &&
              (c = face_at(p, node)) != NULL) { /* from inside a grip, at its face */
     *tangent = director(s, c);

@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "base/simd.h"
 #include "scene/world.h"
+#include "state/clamp.h"
 
 /* The largest of |t2 - t1| / hinge length, squared: the curvature to second
  * order in the hinge angle; the exact angle is taken at the place found. */
@@ -32,17 +33,13 @@ static double hinge_chord(const sw_field *f, size_t i) {
   return sqrt(d2);
 }
 
-static double clamp_chord(const sw_body *b, const double *directors, const sw_clamp_hinge *h) {
-  const double *d = directors + 3 * (2 * (size_t)h->hold + (h->side > 0 ? 1 : 0));
-  double d2 = 0;
-  for (int k = 0; k < 3; k++) {
-    const double e = b->field.tangent[k][h->edge] - d[k];
-    d2 += e * e;
-  }
-  return sqrt(d2);
+static double clamp_curvature(const sw_system *s, const sw_body *b, const sw_clamp_hinge *h) {
+  const sw_field *f = &b->field;
+  const sw_vec t = sw_v(f->tangent[0][h->edge], f->tangent[1][h->edge], f->tangent[2][h->edge]);
+  return sw_clamp_curvature(h, s->directors_now, s->normals_now, t);
 }
 
-static void curvature_extreme(const sw_body *b, const double *directors, sw_extreme *out) {
+static void curvature_extreme(const sw_system *s, const sw_body *b, sw_extreme *out) {
   const sw_plan *p = b->plan;
   const sw_field *f = &b->field;
   const double bound2 =
@@ -57,7 +54,7 @@ static void curvature_extreme(const sw_body *b, const double *directors, sw_extr
   }
   for (size_t c = 0; c < p->clamp_count; c++) {
     const sw_clamp_hinge *h = &p->clamps[c];
-    const double value = angle_of_chord(clamp_chord(b, directors, h)) / h->length;
+    const double value = clamp_curvature(s, b, h);
     if (value > out->value) *out = (sw_extreme){.value = value, .s = p->s[h->node]};
   }
 }
@@ -130,7 +127,7 @@ static void strain_extreme(const sw_system *s, const sw_body *b, sw_extreme *out
   }
   for (size_t c = 0; c < p->clamp_count; c++) {
     const sw_clamp_hinge *h = &p->clamps[c];
-    const double bent = radius * angle_of_chord(clamp_chord(b, s->directors_now, h)) / h->length;
+    const double bent = radius * clamp_curvature(s, b, h);
     keep_largest(out, &(sw_extreme){.value = T[h->edge] / EA + bent, .s = p->s[h->node]});
   }
 }
@@ -142,7 +139,7 @@ void sw_scene_wire_now(sw_scene *s, size_t w, sw_wire_extremes *now) {
     now->ovalisation.time = now->folding.time = s->time;
     return;
   }
-  curvature_extreme(&s->system.bodies[w], s->system.directors_now, &now->curvature);
+  curvature_extreme(&s->system, &s->system.bodies[w], &now->curvature);
   tension_extreme(&s->system, &s->system.bodies[w], &now->tension);
   strain_extreme(&s->system, &s->system.bodies[w], &now->strain);
   now->ovalisation = now->folding = (sw_extreme){.value = -HUGE_VAL};

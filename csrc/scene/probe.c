@@ -33,6 +33,7 @@ static void aim(sw_scene *s, sw_body *b, const sw_probe *at) {
   f->tension = NULL; /* from the positions, not the solver's own unknown */
   f->gravity = s->system.gravity;
   f->hold_directors = s->system.directors_now;
+  f->hold_normals = s->system.normals_now;
   f->hold_turns = s->system.directors_rate;
   f->cautious = 0;
   sw_body_begin(b);

@@ -157,14 +157,21 @@ static void tape_feed(sw_tape *t, sw_feed *x) {
   sw_tape_expect(t, isfinite(all + x->spare[0] + x->spare[1]), "a feed");
 }
 
+static void tape_give(sw_tape *t, sw_clamp_give *x) {
+  SW_TAPE_STRUCT(t, sw_clamp_give, 48);
+  DOUBLE(shorter), DOUBLE(softer), DOUBLE(twist), VEC(axis);
+  const int fine = isfinite(x->shorter + x->twist) && x->softer >= 0 && isfinite(x->softer);
+  sw_tape_expect(t, fine, "how a clamp gives way");
+}
+
 void sw_tape_hold(sw_tape *t, sw_scene *s, sw_scene_hold *x) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_scene_hold, 1160);
+  SW_TAPE_STRUCT(t, sw_scene_hold, 1256);
   UINT32(generation), INT(alive), NAME(name);
   const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
   if (sw_tape_reads(t)) x->cls = sw_hold_find(kind);
   sw_tape_expect(t, x->cls != NULL, "a clamp of an unknown kind");
-  SIZE(wire), DOUBLE(scale), UINT32(shape), DOUBLE(s1), DOUBLE(s2);
+  SIZE(wire), DOUBLE(scale), UINT32(shape), INT(formed), DOUBLE(s1), DOUBLE(s2);
   sw_tape_hold_args(t, &x->args);
   tape_drive(t, s, &x->drive);
   sw_tape_count(t, &x->count, sizeof *x->s);
@@ -172,6 +179,7 @@ void sw_tape_hold(sw_tape *t, sw_scene *s, sw_scene_hold *x) {
   SW_TAPE_OPTIONAL(t, x->particle, x->count);
   VEC(director[0]), VEC(director[1]);
   sw_tape_mesh_frame(t, &x->frame[0]), sw_tape_mesh_frame(t, &x->frame[1]);
+  tape_give(t, &x->give[0]), tape_give(t, &x->give[1]);
   QUAT(turn), VEC(force), VEC(moment), POSE(last_pose);
   tape_feed(t, &x->feed);
   tape_log(t, &x->log);

@@ -161,6 +161,12 @@ sw_status sw_scene_tool_watch(sw_scene *s, sw_handle tool, double tolerance, int
 
 /* --- what it holds ---------------------------------------------------------------- */
 
+int sw_tool_is_pad(const sw_tool *t, int obstacle) {
+  for (size_t k = 0; k < t->pads; k++)
+    if (t->pad[k].obstacle == (size_t)obstacle) return 1;
+  return 0;
+}
+
 double sw_tool_squeeze(sw_scene *s, const sw_tool *t, double time) {
   double sum = 0;
   sw_motion_state at;
@@ -229,13 +235,11 @@ sw_status sw_scene_tool_finger(sw_scene *s, sw_handle tool, int finger, const sw
   return SW_OK;
 }
 
-/* Friction that pads would have to give in place of the grip that stands for them. */
-static void hold_frozen(const sw_scene *s, sw_tool *t, sw_vec force) {
+/* What pads would have to bear in place of the grip that stands for them. */
+static void hold_frozen(const sw_scene *s, sw_tool *t, sw_vec force, sw_vec moment) {
   sw_tool_state *now = &t->now;
-  const sw_vec f = sw_unrotate(now->q, force);
-  const sw_drive *pad = &s->obstacles[t->pad[0].obstacle].drive;
-  const sw_vec across = sw_unit_or(pad->opens, sw_v(0, 1, 0));
-  now->margin = now->most > 0 ? sw_norm(sw_madd(f, across, -sw_dot(f, across))) / now->most : 0;
+  now->margin =
+      sw_frozen_margin(t->frozen, sw_unrotate(now->q, force), sw_unrotate(now->q, moment));
   if (isnan(now->lost_time) && now->margin > t->limit) now->lost_time = s->time;
 }
 
@@ -271,7 +275,7 @@ sw_status sw_tool_observe(sw_scene *s, sw_error *err) {
     pads_force(s, t, -1, at.pose.p, &force, &moment);
     SW_TRY(holds_force(s, k, at.pose.p, &force, &moment, err));
     if (t->frozen)
-      hold_frozen(s, t, force);
+      hold_frozen(s, t, force, moment);
     else
       hold_now(s, t);
     SW_TRY(sw_tool_look_out(s, k, err));

@@ -70,8 +70,7 @@ sw_status sw_scene_tool_freeze(sw_scene *scene, sw_handle tool, sw_handle wire,
 /* Back again: the mesh as it was between the pads, with their friction; elsewhere as the rod lies.
  */
 sw_status sw_scene_tool_thaw(sw_scene *scene, sw_handle tool, sw_freeze_report *out, sw_error *err);
-/* Friction over what the pads allow at which a frozen grip counts as lost, and a run ends with
- * that step [-]. */
+/* Margin at which a frozen grip counts as lost, and a run ends with that step [-]. */
 sw_status sw_scene_tool_limit(sw_scene *scene, sw_handle tool, double margin, sw_error *err);
 
 /* What the tool holds now. */
@@ -80,7 +79,8 @@ typedef struct sw_tool_state {
   int status;          /* of the jaws */
   double squeeze;      /* force per finger against opening [N] */
   double normal, most; /* forces across the pads, friction that they allow [N] */
-  double margin;       /* friction over that; 0 without any [-] */
+  double margin;       /* friction over that; 0 without any; of a frozen grip force and moment over
+                          what its touches could balance [-] */
   double sliding;      /* share of the force that slides [-] */
   double slip;         /* way that wires slid since the jaws were told what to do, as a vector's
                           length [m] */

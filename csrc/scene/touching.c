@@ -82,6 +82,12 @@ static sw_status eval(void *user, sw_system *system, double t, double hbar, cons
   return s->pairs ? sw_pairs_eval(s->pairs, system, y, want, err) : SW_OK;
 }
 
+static sw_status keeps(void *user, sw_system *system, const double *y, int *out, sw_error *err) {
+  const sw_scene *s = user;
+  *out = !s->crowd && !s->pairs;
+  return s->contact && *out ? sw_contact_keeps(s->contact, system, y, out, err) : SW_OK;
+}
+
 static int settled(void *user, sw_system *system, const double *y, const double *delta) {
   const sw_scene *s = user;
   int fine = !s->contact || sw_contact_settled(s->contact, system, y, delta);
@@ -94,6 +100,7 @@ void sw_scene_couple(sw_scene *s) {
   if (s->contact) s->system.coupling.begin_stage = begin_stage;
   if (!sw_scene_has_contact(s)) return;
   s->system.coupling.eval = eval;
+  s->system.coupling.keeps = keeps;
   s->system.coupling.settled = settled;
 }
 

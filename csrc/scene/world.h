@@ -150,9 +150,12 @@ typedef struct sw_crash {
   size_t part, obstacle; /* slots */
 } sw_crash;
 
-typedef struct sw_frozen sw_frozen; /* what pads held, see frozen.c; shared and immutable */
+typedef struct sw_frozen sw_frozen; /* what pads held, see frozen_inner.h; shared and immutable */
 void sw_frozen_retain(sw_frozen *frozen);
 void sw_frozen_release(sw_frozen *frozen);
+/* What a force on the wire and its moment about the tool's centre, in the tool's axes, are of what
+ * the pads could bear in place of the rigid grip [-]. */
+double sw_frozen_margin(const sw_frozen *frozen, sw_vec force, sw_vec moment);
 
 /* What a gripper is to the core: a frame that moves, with jaws and pads in it. */
 typedef struct sw_tool {
@@ -214,6 +217,7 @@ typedef struct sw_scene_hold {
   sw_hold_args args; /* as asked for */
   double scale;      /* of the wire's mesh when it was asked for [-] */
   uint32_t shape;    /* another number when s1 .. frame are others */
+  int formed;        /* 1: between its ends the wire is as long without force as it lies */
   double s1, s2;     /* held interval, nodes of the mesh [m] */
   sw_drive drive;
   size_t count;           /* held places */
@@ -222,6 +226,7 @@ typedef struct sw_scene_hold {
   uint32_t *particle;     /* (count) which ones of a mesh; NULL on other wires */
   sw_vec director[2];     /* arriving, leaving; in the hold's frame [-] */
   sw_mesh_frame frame[2]; /* the wire's there, with directions as held; if it has frames */
+  sw_clamp_give give[2];  /* likewise */
   sw_quat turn;           /* orientation that goes with the wire's twist, while not built */
   sw_feed feed;           /* of a class that feeds */
   sw_vec force, moment;   /* last, kept after release [N], [N m] */
@@ -444,6 +449,8 @@ int sw_jaw_end_rest(sw_scene *scene, int went_well);
 double sw_jaw_step(const sw_scene *scene, double h);
 /* How far they are open at time t, and how fast that changes [m], [m/s]. */
 double sw_jaw_at(const sw_jaw *jaw, double t);
+/* 1: the obstacle of this number is one of its pads. */
+int sw_tool_is_pad(const sw_tool *tool, int obstacle);
 /* Force per finger as of the last trial, which ended at time t [N]. */
 double sw_tool_squeeze(sw_scene *scene, const sw_tool *tool, double t);
 /* What tools hold at the accepted state; their logs. */

@@ -49,7 +49,8 @@ typedef struct sw_field {
   const double *normals[3];   /* (m) first material axis of each edge, each component; the arrays
                                  may be read, as garbage, three items beyond their ends [-] */
   const double *hinge_twist;  /* (n + clamps) turn from edge to edge, then at clamps [rad] */
-  const double *hold_normals; /* (holds x 2 x 3) first material axis at the holds [-] */
+  const double *hold_normals; /* (holds x 2 x 3) first material axis at the holds, or that of their
+                                 give [-] */
   double *spin;         /* (m) d energy / d turn of an edge about itself, to be added to [N m] */
   double *spin_own;     /* (m) second derivative [N m] */
   double *spin_next;    /* (n) at node i: spins of edges i-1 and i [N m] */

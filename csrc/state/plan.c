@@ -73,7 +73,23 @@ static void size_clamp(sw_plan *p, sw_clamp_hinge *c) {
   p->hinge[near] += next_hinge_length(b) * l - 0.5 * (first + l);
 }
 
-static void add_clamp(sw_plan *p, size_t node, int side, int hold) {
+/* Of each hinge so much is left at least: one that hardly turns would be very stiff [-]. */
+static const double LEAST_HINGE = 1.0 / 3.0;
+
+/* The bending wire begins further out than the clamp: hinges from there on are shorter. */
+static void shorten(sw_plan *p, sw_clamp_hinge *c, double by) {
+  double cut = fmin(by, (1.0 - LEAST_HINGE) * c->length); /* of a negative one, all */
+  c->length -= cut;
+  for (long k = 1; by - cut > 0; k++) {
+    const long i = node_from(p, c, k);
+    if (i < 0 || p->held[i] != SW_FREE) return;
+    by -= cut;
+    cut = fmin(by, (1.0 - LEAST_HINGE) * p->hinge[i]);
+    p->hinge[i] -= cut;
+  }
+}
+
+static void add_clamp(sw_plan *p, size_t node, int side, int hold, const sw_clamp_give *give) {
   if (side > 0 ? node + 1 == p->nodes : node == 0) return;
   const size_t edge = side > 0 ? node : node - 1;
   const size_t next = side > 0 ? node + 1 : node - 1;
@@ -81,6 +97,8 @@ static void add_clamp(sw_plan *p, size_t node, int side, int hold) {
   sw_clamp_hinge *c = &p->clamps[p->clamp_count++];
   *c = (sw_clamp_hinge){.node = node, .edge = edge, .side = side, .hold = hold};
   size_clamp(p, c);
+  shorten(p, c, give->shorter);
+  c->softer = give->softer, c->twist = give->twist;
 }
 
 static void set_mass(sw_plan *p, size_t i) {
@@ -101,8 +119,8 @@ static void set_holds(sw_plan *p, const sw_hold_place *holds, size_t count) {
     for (size_t i = 0; i < p->nodes; i++) {
       if (!(p->s[i] >= holds[k].s1 && p->s[i] <= holds[k].s2)) continue;
       p->hinge[i] = 0.0;
-      if (p->s[i] == holds[k].s1) add_clamp(p, i, -1, holds[k].hold);
-      if (p->s[i] == holds[k].s2) add_clamp(p, i, +1, holds[k].hold);
+      if (p->s[i] == holds[k].s1) add_clamp(p, i, -1, holds[k].hold, &holds[k].give[0]);
+      if (p->s[i] == holds[k].s2) add_clamp(p, i, +1, holds[k].hold, &holds[k].give[1]);
     }
   }
 }
@@ -117,6 +135,13 @@ static size_t next_arriving(const sw_plan *p, size_t from) {
   return best;
 }
 
+/* Between its clamps, as they give way. */
+static double span_length(const sw_plan *p, const sw_span *span) {
+  const double length = p->s[span->last + 1] - p->s[span->first];
+  const double give = p->clamps[span->left].twist + p->clamps[span->right].twist;
+  return fmax(length + give, LEAST_HINGE * length);
+}
+
 static void set_spans(sw_plan *p) {
   for (size_t e = 0; e < p->edges; e++)
     for (size_t c = 0; c < p->clamp_count; c++) {
@@ -124,7 +149,9 @@ static void set_spans(sw_plan *p) {
       const size_t right = next_arriving(p, e);
       if (right == p->clamp_count) continue;
       const size_t last = p->clamps[right].edge;
-      p->spans[p->span_count++] = (sw_span){e, last, c, right, p->s[last + 1] - p->s[e]};
+      sw_span *span = &p->spans[p->span_count++];
+      *span = (sw_span){.first = e, .last = last, .left = c, .right = right};
+      span->length = span_length(p, span);
     }
 }
 
@@ -191,8 +218,7 @@ void sw_plan_slide(sw_plan *p, size_t node, double s, const double spare[2]) {
     const long next = node_from(p, &p->clamps[c], 1);
     if (next == (long)from || next == (long)to) size_clamp(p, &p->clamps[c]);
   }
-  for (size_t k = 0; k < p->span_count; k++)
-    p->spans[k].length = p->s[p->spans[k].last + 1] - p->s[p->spans[k].first];
+  for (size_t k = 0; k < p->span_count; k++) p->spans[k].length = span_length(p, &p->spans[k]);
 }
 
 sw_status sw_plan_add_rest(sw_plan *plan) {
@@ -213,8 +239,9 @@ size_t sw_plan_locate(const sw_plan *plan, double s, double *fraction) {
       high = middle;
   }
   const double from = plan->s[first ? first[low] : low];
-  const double rest = plan->s[first ? first[low + 1] : low + 1] - from;
-  const double f = (s - from) / (plan->web ? rest : plan->rest[low]);
+  const double apart = plan->s[first ? first[low + 1] : low + 1] - from;
+  const int rigid = plan->web || (plan->held[low] != SW_FREE && plan->held[low + 1] != SW_FREE);
+  const double f = (s - from) / (rigid ? apart : plan->rest[low]);
   *fraction = fmin(1.0, fmax(0.0, f));
   return low;
 }

@@ -32,6 +32,15 @@ typedef struct sw_beam {
 /* How a node is held. */
 enum { SW_FREE = 0, SW_HELD = 1 };
 
+/* How what holds a wire gives way on one side, where it is no rigid clamp: as by other lengths of
+ * wire. 0: it does not. */
+typedef struct sw_clamp_give {
+  double shorter; /* the bending wire begins so much further out than where it is held [m] */
+  double softer;  /* but about the axis so much further in than that [m] */
+  double twist;   /* longer by so much as to twist [m] */
+  sw_vec axis;    /* across the director, in the hold's frame [-] */
+} sw_clamp_give;
+
 /* A place where a hold fixes the wire's direction: the hinge between the held
  * director and one edge. */
 typedef struct sw_clamp_hinge {
@@ -40,6 +49,8 @@ typedef struct sw_clamp_hinge {
   int side;      /* +1: the edge leaves the node, -1: it arrives there */
   int hold;      /* index of the hold that owns the director */
   double length; /* hinge length: angle = curvature * length [m] */
+  double softer; /* more of it about the axis of the hold's give [m] */
+  double twist;  /* what it adds to the length of its span [m] */
 } sw_clamp_hinge;
 
 /* A stretch of wire between two holds that both keep it from turning about its
@@ -48,7 +59,7 @@ typedef struct sw_clamp_hinge {
 typedef struct sw_span {
   size_t first, last; /* its edges, both included */
   size_t left, right; /* its clamp hinges, indices into clamps */
-  double length;      /* [m] */
+  double length;      /* as to twist [m] */
 } sw_span;
 
 /* Of a wire that is a mesh of particles the nodes are these; it has no edges, hinges, clamps and
@@ -80,7 +91,8 @@ typedef struct sw_plan {
 typedef struct sw_hold_place {
   double s1, s2; /* [m] */
   int clamped;
-  int hold; /* the owner's index */
+  int hold;              /* the owner's index */
+  sw_clamp_give give[2]; /* where the wire arrives, and where it leaves */
 } sw_hold_place;
 
 /* Build a plan for nodes at arc lengths s (n values, increasing; the first is 0 unless

@@ -236,7 +236,7 @@ void sw_tape_plan(sw_tape *t, sw_plan **plan, sw_web *own, size_t shape_size) {
   }
   sw_plan *x = *plan;
   SW_TAPE_STRUCT(t, sw_plan, 240);
-  SW_TAPE_STRUCT(t, sw_clamp_hinge, 32);
+  SW_TAPE_STRUCT(t, sw_clamp_hinge, 48);
   SW_TAPE_STRUCT(t, sw_span, 40);
   sw_tape_count(t, &x->nodes, sizeof *x->s);
   SIZE(edges), DOUBLE(length);

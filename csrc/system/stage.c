@@ -8,7 +8,9 @@
 
 #include "base/simd.h"
 #include "solve/band3.h"
+#include "solve/blocks.h"
 #include "system/assemble.h"
+#include "system/factors.h"
 #include "system/join.h"
 #include "system/link.h"
 #include "system/spin.h"
@@ -89,7 +91,7 @@ void sw_body_begin(sw_body *b) {
 sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, const double *y,
                            const double *v, int statics, int iteration, sw_error *err) {
   sw_field *f = &b->field;
-  f->want = SW_WANT_FORCE | SW_WANT_STIFFNESS;
+  f->want = SW_WANT_FORCE | (s->goes_on ? 0u : SW_WANT_STIFFNESS);
   f->time = time;
   f->velocity_rate = statics ? 0.0 : 1.0 / hbar;
   f->statics = statics;
@@ -99,6 +101,7 @@ sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, c
   f->tension = s->tension + b->first_edge;
   f->gravity = s->gravity;
   f->hold_directors = s->directors_now;
+  f->hold_normals = s->normals_now;
   f->hold_turns = s->directors_rate;
   sw_body_begin(b);
   if (b->has_twist || b->spin_block) sw_system_measure(s, b);
@@ -119,6 +122,10 @@ static void stage_velocity(const sw_system *s, const sw_stage *stage, int static
 /* The update of a body that no link ties to others. */
 static sw_status solve_body(const sw_system *s, sw_body *body, size_t *negative) {
   double *delta = s->delta + 3 * body->first_node;
+  if (s->goes_on) {
+    sw_blocks_solve(body->blocks, delta);
+    return SW_OK;
+  }
   if (body->spin_block) return sw_spin_solve(s, body, delta, negative);
   if (body->plan->web) return sw_web_solve(body, delta, negative);
   SW_TRY(sw_band3_factor(body->field.rows, body->plan->nodes, body->field.rows, negative));
@@ -127,9 +134,9 @@ static sw_status solve_body(const sw_system *s, sw_body *body, size_t *negative)
   return SW_OK;
 }
 
-/* Assemble and solve once; delta is the full update. */
-static sw_status solve_once(sw_system *s, const sw_stage *stage, int statics,
-                            sw_stage_report *report, sw_error *err) {
+static sw_status assemble_and_solve(sw_system *s, const sw_stage *stage, const sw_newton *newton,
+                                    sw_stage_report *report, sw_error *err) {
+  const int statics = newton->statics;
   const double rate2 = isfinite(stage->hbar) ? 1.0 / (stage->hbar * stage->hbar) : 0.0;
   int velocity = 0;
   for (size_t b = 0; b < s->body_count; b++) velocity |= s->bodies[b].needs_velocity;
@@ -140,14 +147,14 @@ static sw_status solve_once(sw_system *s, const sw_stage *stage, int statics,
   sw_links_begin(s);
   if (s->coupling.eval)
     SW_TRY(s->coupling.eval(s->coupling.user, s, stage->time, stage->hbar, stage->y,
-                            SW_WANT_FORCE | SW_WANT_STIFFNESS, err));
+                            SW_WANT_FORCE | (s->goes_on ? 0u : SW_WANT_STIFFNESS), err));
   SW_TRY(sw_joins_eval(s, stage->y));
   for (size_t b = 0; b < s->body_count; b++) {
     sw_field *f = &s->bodies[b].field;
     const size_t at = 3 * s->bodies[b].first_node;
-    sw_gather_rows(f, rate2, f->rows);
+    if (!s->goes_on) sw_gather_rows(f, rate2, f->rows);
     sw_gather_residual(f, rate2, f->x, s->yhat + at, s->delta + at);
-    if (f->plan->web) sw_web_gather(&s->bodies[b]);
+    if (f->plan->web && !s->goes_on) sw_web_gather(&s->bodies[b]);
   }
   for (size_t i = 0; i < s->held_count; i++) {
     const sw_body *b = &s->bodies[s->held[i].body];
@@ -167,9 +174,19 @@ static sw_status solve_once(sw_system *s, const sw_stage *stage, int statics,
     SW_TRY(solve_body(s, body, &negative));
     report->negative += negative;
   }
+  if (!s->goes_on) sw_factors_keep(s, stage, newton, report);
   s->counters.newton++;
   s->counters.evaluations++;
   return SW_OK;
+}
+
+/* One iterate; delta is the full update. */
+static sw_status solve_once(sw_system *s, const sw_stage *stage, const sw_newton *newton,
+                            sw_stage_report *report, sw_error *err) {
+  SW_TRY(sw_factors_serve(s, stage, newton, report, &s->goes_on, err));
+  const sw_status status = assemble_and_solve(s, stage, newton, report, err);
+  s->goes_on = 0;
+  return status;
 }
 
 /* A body's axial forces after the update, and the square of its largest rotation. */
@@ -275,7 +292,7 @@ static int converged(sw_system *s, const sw_stage *stage, const sw_newton *newto
                      const sw_stage_report *report, double share) {
   if (share < 1.0) return 0;
   /* contact is told of rough updates too: the next iteration goes on from what it finds */
-  s->rough = report->rotation > newton->accept_rotation;
+  s->rough = sw_factors_stale(s, report) || report->rotation > newton->accept_rotation;
   const int settled =
       !s->coupling.settled || s->coupling.settled(s->coupling.user, s, stage->y, s->delta);
   if (!settled || s->rough) return 0;
@@ -378,7 +395,7 @@ sw_status sw_system_stage(sw_system *s, const sw_stage *stage, const sw_newton *
   for (int i = 1; i <= newton->max_iterations; i++) {
     report->iterations = i;
     if (i == STEADY && !newton->statics) sw_spin_slow_down(s, 1.0 / (stage->hbar * stage->hbar));
-    SW_TRY(solve_once(s, stage, newton->statics, report, err));
+    SW_TRY(solve_once(s, stage, newton, report, err));
     const double share = apply(s, stage, newton, report);
     if (share < 0) return sw_fail(err, SW_EDIVERGED, "the positions left the finite numbers");
     if (share == 0) return sw_fail(err, SW_ENOCONV, "nothing holds a wire where it is");
@@ -402,6 +419,7 @@ sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const 
     f->tension = NULL;
     f->gravity = s->gravity;
     f->hold_directors = s->directors_now;
+    f->hold_normals = s->normals_now;
     f->hold_turns = s->directors_rate;
     f->x = x + 3 * body->first_node;
     f->v = v + 3 * body->first_node;

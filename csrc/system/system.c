@@ -95,7 +95,7 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
     s->state_size += sw_spin_state_size(s->bodies[b].plan);
   }
   s->state = sw_alloc(s->state_size, sizeof(double));
-  double *w = sw_alloc(3 * s->freedoms + s->edges, sizeof(double));
+  double *w = sw_alloc(4 * s->freedoms + s->edges, sizeof(double));
   s->work = w;
   if (!s->held || !s->directors || !s->hold_states || !s->state || !w) return SW_ENOMEM;
   s->directors_now = s->directors + 6 * hold_count;
@@ -106,7 +106,8 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
   s->yhat = w;
   s->delta = s->yhat + s->freedoms;
   s->velocity = s->delta + s->freedoms;
-  s->tension_new = s->velocity + s->freedoms;
+  s->factor_at = s->velocity + s->freedoms;
+  s->tension_new = s->factor_at + s->freedoms;
   return SW_OK;
 }
 
@@ -256,6 +257,7 @@ static void aim(sw_system *s, sw_body *b, const double *x, const double *v) {
   f->v = v + 3 * b->first_node;
   f->gravity = s->gravity;
   f->hold_directors = s->directors_now;
+  f->hold_normals = s->normals_now;
   f->hold_turns = s->directors_rate;
 }
 
@@ -279,6 +281,7 @@ static int is_kinked(const sw_body *b) {
 
 void sw_system_begin_step(sw_system *s) {
   s->fastest_turn = 0;
+  s->factor_hbar = 0;
   for (size_t b = 0; b < s->body_count; b++) s->bodies[b].is_kinked = is_kinked(&s->bodies[b]);
   for (size_t b = 0; b < s->body_count; b++) s->bodies[b].web_factored = s->bodies[b].web_slow = 0;
   for (size_t b = 0; b < s->body_count; b++)

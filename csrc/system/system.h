@@ -97,6 +97,9 @@ typedef struct sw_coupling {
   /* Add forces and matrix rows at y to the bodies' fields. */
   sw_status (*eval)(void *user, sw_system *system, double time, double hbar, const double *y,
                     unsigned want, sw_error *err);
+  /* Before eval at y: out = 1, its stiffness there is that of the last eval that was asked for it,
+   * but for small turns. NULL: never. */
+  sw_status (*keeps)(void *user, sw_system *system, const double *y, int *out, sw_error *err);
   /* After an update y was reached by the solved delta: 1 = converged. */
   int (*settled)(void *user, sw_system *system, const double *y, const double *delta);
 } sw_coupling;
@@ -129,6 +132,11 @@ struct sw_system {
   struct sw_links *links; /* between bodies, or NULL while there never were any */
   struct sw_joins *joins; /* what holds wires together (see system/join.h), or NULL */
   sw_counters counters;
+  double factor_hbar;   /* bodies' factors are of this step, made for it; 0: there are none [s] */
+  int factor_solves;    /* with factors of before, one after another in this stage [-] */
+  int goes_on;          /* 1: the iterate that is being solved goes on with them */
+  double factor_first;  /* change of edges by the first of these, of their length [-] */
+  double factor_update; /* and by the last one [-] */
 
   /* the state, one block: x v a (nodes x 3, then turns of edges that roll, each), tension (edges),
    * twist (spans) [rad], turn (holds x 4: the holds' orientations that go with it), frames of each
@@ -142,6 +150,7 @@ struct sw_system {
   /* work space of a stage (freedoms) */
   double *yhat, *delta, *velocity;
   double *tension_new; /* (edges) */
+  double *factor_at;   /* (freedoms) positions for which the factors were made [m] */
   void *work;
 };
 
@@ -286,9 +295,17 @@ double sw_system_stable_dt(const sw_system *system);
  * (unknowns) values; in those given, held nodes must be zero. */
 sw_status sw_system_linearise(sw_system *system, double time, sw_error *err);
 
-/* Shifts of the particles of a body that is a mesh, in a system that was linearised, under small
- * loads on them (nodes x 3): loads in, shifts out. Once only; fails as sw_blocks_factor. */
-sw_status sw_system_deflect(sw_system *system, size_t body, double *load);
+/* Forces that the particles of a body that is a mesh exert on each other at the state, on each
+ * (particles x 3) [N]. */
+sw_status sw_system_inner_forces(sw_system *system, size_t body, double *out, sw_error *err);
+
+/* Small motions of a body that is a mesh, in a system that was linearised, by those of some of its
+ * particles, whose flags are 1 (particles). Once only; fails as sw_blocks_factor. */
+sw_status sw_system_fix_particles(sw_system *system, size_t body, const unsigned char *fixed);
+/* Then, for any number of them: motion (particles x 3) is given for these particles and 0 for the
+ * others, which follow so that nothing pushes them; push receives what does push [m], [N]. */
+void sw_system_carry(const sw_system *system, size_t body, const unsigned char *fixed,
+                     double *motion, double *push);
 
 size_t sw_system_unknowns(const sw_system *system, size_t body);
 size_t sw_system_free_unknowns(const sw_system *system, size_t body);

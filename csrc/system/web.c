@@ -246,17 +246,40 @@ sw_status sw_web_solve(sw_body *b, double *delta, size_t *negative) {
   return SW_OK;
 }
 
-sw_status sw_system_deflect(sw_system *s, size_t body, double *load) {
+sw_status sw_system_inner_forces(sw_system *s, size_t body, double *out, sw_error *err) {
+  static const double none[3] = {0, 0, 0};
+  sw_body *b = &s->bodies[body];
+  sw_field *f = &b->field;
+  f->want = SW_WANT_FORCE;
+  f->gravity = none; /* which is among the terms */
+  f->x = s->x + 3 * b->first_node, f->v = s->v + 3 * b->first_node;
+  sw_body_begin(b);
+  for (size_t k = 0; k < b->term_count; k++)
+    if ((b->terms[k].cls->flags & (SW_FORCE_INNER | SW_FORCE_EXPLICIT)) == SW_FORCE_INNER)
+      SW_TRY(sw_term_eval(&b->terms[k], f, err));
+  memcpy(out, f->force, 3 * b->plan->nodes * sizeof *out);
+  return SW_OK;
+}
+
+sw_status sw_system_fix_particles(sw_system *s, size_t body, const unsigned char *fixed) {
   sw_body *b = &s->bodies[body];
   size_t negative;
   sw_gather_rows(&b->field, 0.0, b->field.rows);
   sw_web_gather(b);
-  for (size_t i = 0; i < s->held_count; i++)
-    if (s->held[i].body == body) sw_web_hold(&s->held[i], b, load);
   b->web_factored = 0;
-  const sw_status status = sw_web_solve(b, load, &negative);
-  b->web_factored = 0;
-  return status;
+  return sw_blocks_factor(b->blocks, fixed, &negative);
+}
+
+void sw_system_carry(const sw_system *s, size_t body, const unsigned char *fixed, double *motion,
+                     double *push) {
+  const sw_body *b = &s->bodies[body];
+  const size_t n = b->plan->nodes;
+  sw_blocks_multiply(b->blocks, motion, push);
+  for (size_t i = 0; i < n; i++)
+    sw_store(push + 3 * i, fixed[i] ? sw_v(0, 0, 0) : sw_neg(sw_vec_at(push, i)));
+  sw_blocks_solve(b->blocks, push);
+  for (size_t i = 0; i < 3 * n; i++) motion[i] += push[i];
+  sw_blocks_multiply(b->blocks, motion, push);
 }
 
 /* --- springs ------------------------------------------------------------------------ */
@@ -293,6 +316,20 @@ static double solid_turn2(const sw_web *w, const double *x, const double *delta)
       if (!(across2 <= largest)) largest = across2;
     }
   return largest;
+}
+
+double sw_web_change(const sw_body *body, const double *x, const double *from, const double *to) {
+  const sw_web *w = body->plan->web;
+  double largest = 0;
+  for (size_t n = 0; n < w->solids; n++)
+    for (uint32_t i = 0; i + 1 < w->solid[n].count; i++) {
+      const size_t a = w->solid[n].node[i], b = w->solid[n].node[i + 1];
+      sw_vec d = sw_sub(sw_vec_at(to, b), sw_vec_at(to, a));
+      if (from) d = sw_sub(d, sw_sub(sw_vec_at(from, b), sw_vec_at(from, a)));
+      const double change2 = sw_norm2(d) / sw_norm2(sw_sub(sw_vec_at(x, b), sw_vec_at(x, a)));
+      if (!(change2 <= largest)) largest = change2;
+    }
+  return sqrt(largest);
 }
 
 double sw_web_advance(const sw_body *b, const double *x, const double *delta, double *axial) {

@@ -28,6 +28,10 @@ double sw_web_advance(const sw_body *body, const double *x, const double *delta,
 /* Share of the move delta from x that turns no solid element inside out, in (0, 1] [-]. */
 double sw_web_share(const sw_body *body, const double *x, const double *delta);
 
+/* The largest change of an edge of a solid element by the move from - to (from may be NULL: to is
+ * the move), of its length at x [-]. */
+double sw_web_change(const sw_body *body, const double *x, const double *from, const double *to);
+
 /* Axial forces as the springs' lengths give them. */
 void sw_web_axial(const sw_body *body, const double *x, double *axial);
 

@@ -7,16 +7,18 @@ local core = require "softworld.core"
 local benchgrip = {}
 
 local radius, length, width, force = 0.003, 0.2, 0.02, 20 -- [m], [N]
+local table_friction = 0.4 -- friction of a table that has some [-]
 
---- Ways of handling, as rows call them.
+--- Ways of handling, as rows call them; with the friction of the table, 0 unless it is there.
 benchgrip.ways = { { "imposed", "rod", "imposed" }, { "plates, rod", "rod", "plates" },
   { "mixed", "rod", "mixed" }, { "plates, mesh near pads", "rod", "mixed", freeze = false },
-  { "plates, radial", "radial", "plates" } }
+  { "plates, radial", "radial", "plates" },
+  { "plates, radial, rough table", "radial", "plates", friction = table_friction } }
 
 local function scene_of(o)
   local sw = require "softworld"
   local scene = sw.scene{ name = "two plates", gravity = o.gravity }
-  scene:obstacle{ name = "table", shape = "plane", friction = 0 }
+  scene:obstacle{ name = "table", shape = "plane", friction = o.friction or 0 }
   scene:force{ kind = "damping", mass = 8 }
   local wire = scene:wire{ model = o.model, section = o.model == "radial" and "solid" or nil, E = o.E or 1e7,
     particles = o.particles, nu = 0.4, density = 1200, radius = o.radius or radius,
@@ -32,9 +34,11 @@ benchgrip.reference = { "reference", "radial", "plates", particles = 12 }
 
 --- The two-plate test by one of the ways: { name, phases = { { name, wall, time } }, force, moment,
 -- height, droop } with seconds of computing and of motion per phase, and what there was aloft: force
--- and moment of the gripper, height of the section, how far the wire's end hangs down [m].
+-- and moment of the gripper, height of the section, how far the wire's end hangs down [m]. Phases
+-- are grasp, lift, carry and lay.
 function benchgrip.two_plates(way, dt)
-  local scene, wire, hand = scene_of{ model = way[2], particles = way.particles }
+  local scene, wire, hand = scene_of{ model = way[2], particles = way.particles,
+    friction = way.friction }
   local row, clock, began = { name = way[1], phases = {} }, core.clock(), 0
   local function phase(name)
     local now = core.clock()
@@ -47,6 +51,7 @@ function benchgrip.two_plates(way, dt)
     hand:grasp(wire, args)
     phase "grasp"
     hand:move{ by = { 0, 0, 0.12 }, duration = 1 }
+    phase "lift"
     p:wait(1.5)
     row.force, row.moment = hand:force()[3], hand:moment{ at = wire:position(length / 4) }[2]
     row.droop = hand:position()[3] - wire:position(0)[3]
@@ -73,7 +78,7 @@ function benchgrip.compare(each)
   for _, way in ipairs(benchgrip.ways) do
     for _, dt in ipairs{ 0.02, 0.01, 0.005 } do
       local row = benchgrip.two_plates(way, dt)
-      row.dt = dt
+      row.dt, row.rough = dt, way.friction
       row.error = row.ok and 100 * math.abs(row.droop - reference.droop) / length or 0 / 0
       each(row)
     end

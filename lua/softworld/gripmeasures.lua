@@ -125,16 +125,15 @@ end
 
 --- What the pads do: a table with jaws ("rests", "moves", "holds", "stopped", "empty"), opening
 -- [m], squeeze (force per finger [N]), normal (sum over pads [N]), margin (|friction| over what
--- the normal forces allow [-]), sliding (share of the normal force that slides [-]), slip [m]
--- with its vector slipped in the tool's axes, and, once it exceeds the gripper's slip_tolerance,
--- slip_time [s] and slip_place (arc length [m]).
+-- the normal forces allow; of a frozen grip force and moment over what its touches could balance
+-- [-]), sliding (share of the normal force that slides [-]), slip [m] with its vector slipped in
+-- the tool's axes, and, once it exceeds the gripper's slip_tolerance, slip_time [s] and slip_place
+-- (arc length [m]).
 function Measures:state()
   local now = needs_tool(self, "state"):state()
   if self.frozen then
     for _, key in ipairs{ "squeeze", "normal", "most", "opening" } do now[key] = self.frozen[key] end
     now.jaws = "holds"
-    local f = self:force{ axes = "gripper" }
-    now.margin = now.most > 0 and (f[1] ^ 2 + f[3] ^ 2) ^ 0.5 / now.most or 0
   end
   return now
 end

@@ -56,7 +56,7 @@ gripper:grasp(wire, { s = [m], approach = "mixed", force = [N] })     in a proce
   is carried on as a rod in a rigid grip (frozen) at the cost of one; released through the mesh again
   model = "radial", section = "solid", spacing, particles, layers, across   of the mesh; see help 'remodel'
   region = [m]      length of the mesh (default: the pads and 6 radii on both sides)
-  margin = 0.9      friction over what the pads allow at which the pads take over again
+  margin = 0.9      force and moment over what the pads could bear at which they take over again
   freeze = false    stay with the plates; gripper:freeze() and :thaw() switch by hand]],
   process = [[
 scene:process(function(p) ... end)

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- The mixed grasp: near the pads the wire becomes a mesh, the pads squeeze it for real, and once
 -- nothing moves there any more it is carried on as a rod which the gripper holds rigidly, at the
--- cost of one. Should the friction that this takes come near to what the pads allow, or when the
+-- cost of one. Should the load that this takes come near to what the pads could bear, or when the
 -- gripper opens, the mesh takes over again as it was.
 -- @module softworld.mixed
 local build = require "softworld.build"
@@ -12,7 +12,7 @@ local mixed = {}
 
 local mesh_words = { "section", "spacing", "particles", "layers", "across", "model" }
 local BESIDE = 6 -- the mesh reaches so many radii beyond the pads, unless region says else [-]
-local LIMIT = 0.9 -- margin at which the pads take over again, unless told [-]
+local LIMIT = 0.9 -- margin, forces and moments together, at which the pads take over again [-]
 local STEADY = 0.005 -- change of the force in TIME that counts as none, of the force [-]
 local TIME = 0.02 -- [s]
 local PATIENCE = 2 -- steady or not, a grasp is not frozen later than this [s]

@@ -79,30 +79,37 @@ describe("a mixed grasp", function()
   end)
 
   it("keeps mass and momentum across the switches", function()
-    local scene, wire, g = new_scene()
-    local mass = wire.beam.mass_per_length * L
-    scene:process(function()
-      g:grasp(wire, { s = L / 2, approach = "mixed", force = force, freeze = false })
-      g:move{ by = { 0, 0, 0.1 }, duration = 0.4 }
-    end)
-    local seen = {}
-    scene:process(function(p) -- in the middle of the move, where it is fast
-      p:wait_until(function() return g.held end)
-      p:wait(0.1)
-      for k, change in ipairs{ "freeze", "thaw" } do
+    local mass
+    -- In the middle of a move, where the wire is fast: force at the gripper two steps after each switch,
+    -- of which the first ones are made. The first step, which begins anew, is off by up to 2 %.
+    local function ride(switches)
+      local scene, wire, g = new_scene()
+      local seen = {}
+      mass = wire.beam.mass_per_length * L
+      scene:process(function()
+        g:grasp(wire, { s = L / 2, approach = "mixed", force = force, freeze = false })
+        g:move{ by = { 0, 0, 0.1 }, duration = 0.4 }
+      end)
+      scene:process(function(p)
+        p:wait_until(function() return g.held end)
         p:wait(0.1)
-        seen[k] = { g:force()[3] }
-        g[change](g)
-        p:wait(0.001)
-        seen[k][2] = g:force()[3]
-      end
-    end)
-    local run = scene:run{ dt = 0.001 }
-    assert(run.ok, run.reason)
+        for k, change in ipairs{ "freeze", "thaw" } do
+          p:wait(0.1)
+          if k <= switches then g[change](g) end
+          p:wait(0.002)
+          seen[k] = g:force()[3]
+        end
+      end)
+      t.fine(scene:run{ dt = 0.001 })
+      return seen, g
+    end
+    local none, once = ride(0), ride(1)
+    local both, g = ride(2)
+    -- against the same time without the switch: swinging ends change it by 2 % a step
+    t.near(none[1], once[1], 0.01 * mass * 9.81, "frozen: force in motion")
+    t.near(once[2], both[2], 0.01 * mass * 9.81, "thawed: force in motion")
     for i = 1, 2 do
       local e = g.events[i]
-      -- 1 % of it, and what swinging ends change in a step of 1 ms
-      t.near(seen[i][1], seen[i][2], 0.02 * mass * 9.81, e.kind .. ": force in motion")
       assert.equal(({ "frozen", "thawed" })[i], e.kind)
       for _, part in ipairs{ "linear", "angular" } do
         local scale = part == "linear" and mass * 0.1 or mass * 0.1 * L

@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the touches of an iterate do: their forces by the common law, whether a matrix made with
+ * them serves again, and whether they agree with the solve. */
+#include <math.h>
+
+#include "base/alloc.h"
+#include "contact/touch.h"
+
+/* Shorter updates leave place and normal of a touch on a curved or edged shape
+ * as they are; of the radius [-]. */
+static const double SMALL_SHIFT = 0.05;
+
+enum { OWN = 0, NEXT = 6, ROW = 24 }; /* layout of the system's block rows */
+
+/* Add force f and symmetric stiffness K (upper half) at a touch. */
+static void add_to_field(sw_system *s, const sw_touch *t, sw_vec f, const double K[6],
+                         unsigned want) {
+  sw_body *b = &s->bodies[t->body];
+  const size_t ends[2] = {t->node - b->first_node, t->other - b->first_node};
+  const double w[2] = {1.0 - t->at, t->at};
+  for (size_t e = 0; e < (t->segment ? 2u : 1u); e++) {
+    sw_accumulate(b->field.force + 3 * ends[e], sw_scale(f, w[e]));
+    if (want & SW_WANT_STIFFNESS)
+      for (size_t k = 0; k < 6; k++) b->field.rows[ROW * ends[e] + OWN + k] += w[e] * w[e] * K[k];
+  }
+  if (!t->segment || !(want & SW_WANT_STIFFNESS)) return;
+  static const size_t full[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+  double between[9];
+  for (size_t k = 0; k < 9; k++) between[k] = w[0] * w[1] * K[full[k]];
+  if (b->plan->web)
+    sw_body_couple(b, ends[0], ends[1], between);
+  else
+    for (size_t k = 0; k < 9; k++) b->field.rows[ROW * ends[0] + NEXT + k] += between[k];
+}
+
+static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
+  double K[6];
+  t->press.normal_force = 0;
+  t->press.tangential = t->press.slip = sw_v(0, 0, 0);
+  if (!t->press.active) return;
+  const sw_vec f = sw_press_eval(&t->press, t->friction, c->regime != SW_CONTACT_EXPLICIT, K);
+  add_to_field(s, t, f, K, want);
+  if (s->rolls) sw_levers_push(s, t, K, want);
+}
+
+/* What friction lets slide has a stiffness of its own at every place. */
+static int slides(const sw_touch *t) {
+  return t->press.sliding && t->friction > 0 && t->press.lag > 0;
+}
+
+static void mark(sw_contact *c) {
+  c->mark_count = 0;
+  c->unmarked = 0;
+  for (size_t i = 0; i < c->touch_count && !c->unmarked; i++) {
+    const sw_touch *t = &c->touches[i];
+    if (!t->press.active) continue;
+    c->unmarked = slides(t) || sw_grow((void **)&c->marks, &c->mark_capacity, c->mark_count + 1,
+                                       sizeof *c->marks) != SW_OK;
+    if (!c->unmarked)
+      c->marks[c->mark_count++] = (sw_mark){t->candidate, t->at, t->press.k, t->press.normal};
+  }
+}
+
+/* A touch is that of the matrix while it moved by less than this share of its segment, and its
+ * normal turned by less than this angle [-], [rad]. */
+static const double MOVED = 1e-3, TURNED = 0.01;
+
+static int is_marked(const sw_touch *t, const sw_mark *m) {
+  return !slides(t) && m->candidate == t->candidate && m->k == t->press.k &&
+         fabs(m->at - t->at) < MOVED &&
+         sw_norm2(sw_sub(m->normal, t->press.normal)) < TURNED * TURNED;
+}
+
+sw_status sw_contact_keeps(void *contact, sw_system *s, const double *y, int *out, sw_error *err) {
+  sw_contact *c = contact;
+  size_t active = 0;
+  *out = 0;
+  if (c->unmarked || c->regime == SW_CONTACT_EXPLICIT) return SW_OK;
+  SW_TRY(sw_contact_look(c, s, y, err));
+  c->looked = 1;
+  for (size_t i = 0; i < c->touch_count; i++) {
+    const sw_touch *t = &c->touches[i];
+    if (!t->press.active) continue;
+    if (active >= c->mark_count || !is_marked(t, &c->marks[active++])) return SW_OK;
+  }
+  *out = active == c->mark_count;
+  return SW_OK;
+}
+
+sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar, const double *y,
+                          unsigned want, sw_error *err) {
+  sw_contact *c = contact;
+  (void)hbar;
+  sw_status status = SW_OK;
+  if (c->regime == SW_CONTACT_EXPLICIT) status = sw_contact_begin_stage(c, s, time, hbar, y, err);
+  if (status != SW_OK) return status;
+  if (!c->looked) SW_TRY(sw_contact_look(c, s, y, err));
+  c->looked = 0;
+  if (want & SW_WANT_STIFFNESS) mark(c);
+  for (size_t i = 0; i < c->touch_count; i++) apply(c, s, &c->touches[i], want);
+  return SW_OK;
+}
+
+/* A touch's shift by the solved update, with that of the surface. */
+static sw_vec surface_shift(const sw_system *s, const sw_touch *t, sw_vec shift) {
+  const sw_levers levers = sw_touch_levers(s, t);
+  if (!levers.count) return shift;
+  return sw_add(shift, sw_levers_shift(&levers, s->bodies[t->body].spin_delta + 3, 4));
+}
+
+/* Friction of a loose object's many touches may never agree with itself all over. After so many
+ * updates of a stage it no longer keeps iterations going where it shifts a touch by less than a
+ * small share of the radius: it is then off by less than its own size for that step [-]. */
+enum { PATIENCE = 6 };
+
+/* Bring a touch's forces up to the solved update; 1 = it agrees with what the
+ * solve assumed. */
+static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *delta,
+                  double scale) {
+  const sw_vec shift = sw_touch_place(delta, t->node, t->other, t->at);
+  const sw_vec surface = s->rolls ? surface_shift(s, t, shift) : shift;
+  const int agrees = sw_press_update(&t->press, t->friction, surface, scale);
+  if (t->held) return 1;
+  const double radius = c->candidates[t->candidate].radius;
+  const int small = sw_norm(shift) <= SMALL_SHIFT * radius;
+  if (!c->flat[t->obstacle] && t->press.gap_after < radius && !small)
+    return 0; /* place and normal of the touch may have changed */
+  const sw_web *web = s->bodies[t->body].plan->web;
+  if (agrees || !small || c->updates <= PATIENCE || !web || web->per_ring) return agrees;
+  return sw_press_apart(&t->press);
+}
+
+/* Of a wire's touches, forces far below the largest one do not matter. Touches are in the
+ * order of wires: from the first of one to the first of the next. */
+static double scale_of(const sw_contact *c, size_t first, size_t *end) {
+  const size_t body = c->touches[first].body;
+  double scale = 0;
+  size_t i = first;
+  for (; i < c->touch_count && c->touches[i].body == body; i++)
+    scale = fmax(scale, c->touches[i].press.lag);
+  *end = i;
+  return scale;
+}
+
+static int update_all(sw_contact *c, const sw_system *s, const double *delta) {
+  int fine = 1;
+  for (size_t first = 0, end; first < c->touch_count; first = end) {
+    const double scale = scale_of(c, first, &end);
+    for (size_t i = first; i < end; i++) fine &= update(c, s, &c->touches[i], delta, scale);
+  }
+  return fine;
+}
+
+/* In steps below this share of the nominal one, depth that was there before is taken as
+ * it comes [-]. */
+static const double SMALL_STEP = 0.25;
+
+/* Make touches that sink in too deep stiffer; 1 = there were some. */
+static int stiffen(sw_contact *c, const sw_system *s) {
+  const int small = c->h > 0 && c->h < SMALL_STEP * c->nominal;
+  int any = 0;
+  if (c->regime == SW_CONTACT_EXPLICIT || s->rough) return 0;
+  for (size_t i = 0; i < c->touch_count; i++) {
+    sw_touch *t = &c->touches[i];
+    const double before = small ? fmax(0.0, sw_contact_depth_before(c, s, t)) : -1.0;
+    if (t->held || c->candidates[t->candidate].given) continue;
+    t->stiffer =
+        sw_press_stiffer(&t->press, c->candidates[t->candidate].usual, t->forgiven, before);
+    any |= t->stiffer > t->press.k;
+  }
+  return any;
+}
+
+int sw_contact_settled(void *contact, sw_system *s, const double *y, const double *delta) {
+  sw_contact *c = contact;
+  (void)y;
+  c->pressed_count = c->pressed_before;
+  c->updates++;
+  const int fine = update_all(c, s, delta);
+  if (fine && stiffen(c, s)) return 0;
+  for (size_t i = 0; fine && i < c->touch_count; i++) {
+    const sw_touch *t = &c->touches[i];
+    if (t->held || !(t->press.normal_force > 0 || t->press.gap_after < 0)) continue;
+    if (sw_grow((void **)&c->pressed, &c->pressed_capacity, c->pressed_count + 1,
+                sizeof *c->pressed) != SW_OK)
+      break; /* an impact is then dealt with in the next step */
+    c->pressed[c->pressed_count++] = *t;
+  }
+  return fine;
+}

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The inside of a frozen grip: what pads held, and what both changes between pads and a rigid
+ * grip need. */
+#ifndef SW_SCENE_FROZEN_INNER_H
+#define SW_SCENE_FROZEN_INNER_H
+
+#include "scene/remodel_inner.h"
+
+/* Where a pad pressed; in the tool's axes, from its centre. */
+typedef struct sw_frozen_touch {
+  sw_vec at, normal; /* towards the wire [m], [-] */
+  double force;      /* across the surface [N] */
+  double friction;   /* [-] */
+} sw_frozen_touch;
+
+struct sw_frozen {
+  int references;
+  sw_handle wire, hold;
+  const sw_wire_class *cls;
+  sw_mesh mesh;       /* one node for each ring, as they lay */
+  sw_strand strand;   /* likewise */
+  sw_pose pose;       /* of the tool then */
+  size_t first, last; /* rings that were pressed */
+  sw_vec across;      /* how the pads close, in the tool's axes [-] */
+  double *rod;        /* (rings x 3) where the rod that it became lay there [m] */
+  double *frame;      /* (rings x 6) tangent, direction across then [-] */
+  sw_stations stations;
+  void *memory; /* of contact then */
+  size_t bytes;
+  sw_frozen_touch *touch; /* (touches) */
+  size_t touches;
+  size_t node, nodes; /* the wire's first one in it, how many it had */
+  sw_jaw jaw;
+};
+
+/* Accelerations of a wire's rings, or of its nodes (count x 3), to be freed; NULL: no memory. */
+double *sw_frozen_accelerations(const sw_scene *scene, size_t wire, size_t *count);
+/* Put the built scene where it is in balance with the accelerations that it has: of the wire those
+ * of its rings or nodes before (count x 3). Velocities stay. */
+sw_status sw_frozen_balance(sw_scene *scene, size_t wire, const double *rings, size_t count);
+
+/* The tool's pads press as they do now. SW_ENOMEM. */
+sw_status sw_frozen_keep_touches(sw_scene *scene, const sw_tool *tool, sw_frozen *f, sw_error *err);
+
+/* One end of the grip on a rod that stands for pads on a mesh; in the world's axes. */
+typedef struct sw_grip_end {
+  double s;        /* arc length [m] */
+  sw_vec at;       /* where the rod is there [m] */
+  sw_vec director; /* and where it goes to, along the arc length [-] */
+  sw_clamp_give give;
+  size_t ring; /* of the mesh, from which on the rod lies like that [-] */
+  double turn; /* by which that is turned along the way from there to here [rad] */
+} sw_grip_end;
+
+/* The ends, before and after, with which the rod gives way like the mesh does, and lies at present
+ * as that lies outside of the pads. The scene is built; f knows its stations and frames. */
+sw_status sw_frozen_condense(sw_scene *scene, const sw_tool *tool, sw_frozen *f,
+                             sw_grip_end ends[2], sw_error *err);
+
+#endif

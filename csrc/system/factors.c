@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "system/factors.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "system/link.h"
+#include "system/web.h"
+
+/* Factors serve while no edge has changed by more than this share of its length [-], and for so
+ * many solves of a stage, one after another. */
+static const double SERVES = 0.02;
+enum { MOST_SOLVES = 3 };
+
+/* A Newton step leaves an error of about half the square of what it changes edges by. What these
+ * solves leave, by how much smaller the last one was than the one before, is to be half of that at
+ * most, or a change that no force can be told from [-]. How fast they get there nobody knows
+ * before: a turn of what is stiff goes into what is soft, as many times as it is softer. */
+static const double GOOD = 0.25, NOTHING = 1e-8;
+static const double SLOW = 0.3; /* solves that are not by so much smaller are given up [-] */
+
+/* Stiffness that does not jump: that of elements, and of what takes power from the motion. */
+static int is_smooth(const sw_body *b) {
+  const sw_web *w = b->plan->web;
+  if (!w || !w->solids || w->links || w->folds || w->creases || w->slides || b->web_room) return 0;
+  if (b->is_explicit || b->is_kinked) return 0;
+  for (size_t k = 0; k < b->term_count; k++) {
+    const int flags = b->terms[k].cls->flags;
+    if (!(flags & (SW_FORCE_INNER | SW_FORCE_DISSIPATIVE)) || flags & SW_FORCE_FROZEN) return 0;
+  }
+  return 1;
+}
+
+static int may_serve(const sw_system *s, const sw_newton *newton) {
+  if (newton->statics || s->joins || sw_links_any(s)) return 0;
+  for (size_t b = 0; b < s->body_count; b++)
+    if (!is_smooth(&s->bodies[b])) return 0;
+  return 1;
+}
+
+void sw_factors_keep(sw_system *s, const sw_stage *stage, const sw_newton *newton,
+                     const sw_stage_report *report) {
+  s->factor_hbar = 0;
+  if (report->negative || !may_serve(s, newton)) return;
+  s->factor_hbar = stage->hbar;
+  memcpy(s->factor_at, stage->y, 3 * s->nodes * sizeof *s->factor_at);
+}
+
+/* The largest change of an edge by the move from - to, of its length. */
+static double change(const sw_system *s, const double *from, const double *to) {
+  double largest = 0;
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_body *body = &s->bodies[b];
+    const size_t at = 3 * body->first_node;
+    const double own = sw_web_change(body, s->x + at, from ? from + at : NULL, to + at);
+    if (!(own <= largest)) largest = own;
+  }
+  return largest;
+}
+
+sw_status sw_factors_serve(sw_system *s, const sw_stage *stage, const sw_newton *newton,
+                           const sw_stage_report *report, int *out, sw_error *err) {
+  const sw_coupling *c = &s->coupling;
+  *out = 0;
+  if (report->iterations == 1) s->factor_solves = 0;
+  if (!(s->factor_hbar > 0) || s->factor_solves == MOST_SOLVES) return SW_OK;
+  if (s->factor_solves != report->iterations - 1 || !may_serve(s, newton)) return SW_OK;
+  if (fabs(s->factor_hbar - stage->hbar) > 1e-9 * stage->hbar) return SW_OK;
+  if (!(change(s, s->factor_at, stage->y) <= SERVES)) return SW_OK;
+  if (!c->eval) *out = 1;
+  if (c->eval && c->keeps) SW_TRY(c->keeps(c->user, s, stage->y, out, err));
+  s->factor_solves += *out;
+  return SW_OK;
+}
+
+int sw_factors_stale(sw_system *s, const sw_stage_report *report) {
+  if (s->factor_solves != report->iterations) return 0;
+  const double before = s->factor_update, size = change(s, NULL, s->delta);
+  s->factor_update = size;
+  if (report->iterations == 1) {
+    s->factor_first = size;
+    return size > NOTHING;
+  }
+  if (!(size <= SLOW * before)) s->factor_solves = MOST_SOLVES;
+  return size * size > before * fmax(GOOD * s->factor_first * s->factor_first, NOTHING);
+}
