@@ -97,7 +97,8 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_levers levers = sw_touch_levers(s, t);
   const sw_vec at = levers.count ? sw_madd(x, t->press.normal, -radius) : x;
   const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
-  const double gap = fmax(0.0, sw_dot(t->press.normal, sw_sub(x, plane)) - radius);
+  const double aslant = sw_contact_aslant(c, t->node, t->other, t->at, t->press.normal);
+  const double gap = fmax(0.0, sw_dot(t->press.normal, sw_sub(x, plane)) + aslant - radius);
   double slow;
   const sw_vec wall = striking_velocity(c, t, at, gap, &slow);
   sw_vec v = sw_sub(sw_touch_place(s->v, t->node, t->other, t->at), wall);
@@ -228,25 +229,33 @@ static const double SQUEEZED = 0.2;
 /* In steps below this share of the nominal one depth is taken as it comes [-]. */
 static const double SMALLEST_CARE = 1.0 / 64;
 
-/* How deep the candidate's wire is in its obstacle with positions x [m]. */
+/* How deep the candidate's wire is at a place near its obstacle [m]. */
+static double depth_of(const sw_contact *c, const sw_candidate *k, const sw_pose *pose,
+                       const sw_closest *near) {
+  const sw_vec normal = sw_rotate(pose->q, near->normal);
+  return k->skin - near->gap - sw_contact_aslant(c, k->node, k->other, near->at, normal);
+}
+
+/* The same with positions x, where it is deepest. */
 static double depth_at(const sw_contact *c, const sw_candidate *k, const sw_contact_at *at,
                        const double *x) {
   const sw_shape *shape = c->obstacles[k->obstacle].shape;
   const sw_pose *pose = &at[k->obstacle].pose;
   const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, x, k->node, k->node, 0));
   sw_closest near[SW_CLOSEST_MAX];
-  if (!k->segment) {
-    const int found = sw_shape_point(shape, a, k->skin, &near[0]);
-    return found ? k->skin - near[0].gap : 0.0;
-  }
+  near[0].at = 0;
+  if (!k->segment)
+    return sw_shape_point(shape, a, k->skin, &near[0]) ? depth_of(c, k, pose, &near[0]) : 0.0;
   const sw_vec b = sw_pose_local(*pose, sw_contact_where(c, x, k->other, k->other, 0));
   double deepest = 0;
-  for (int i = 0; i < k->samples; i++)
-    if (sw_shape_point(shape, sw_lerp(a, b, sw_sample_at(k, i)), k->skin, &near[0]))
-      deepest = fmax(deepest, k->skin - near[0].gap);
+  for (int i = 0; i < k->samples; i++) {
+    near[0].at = sw_sample_at(k, i);
+    if (sw_shape_point(shape, sw_lerp(a, b, near[0].at), k->skin, &near[0]))
+      deepest = fmax(deepest, depth_of(c, k, pose, &near[0]));
+  }
   if (k->samples) return deepest;
   const int n = sw_shape_segment(shape, a, b, k->skin, near);
-  for (int i = 0; i < n; i++) deepest = fmax(deepest, k->skin - near[i].gap);
+  for (int i = 0; i < n; i++) deepest = fmax(deepest, depth_of(c, k, pose, &near[i]));
   return deepest;
 }
 

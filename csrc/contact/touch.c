@@ -164,7 +164,8 @@ int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
 double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
   const sw_vec from = sw_contact_where(c, s->x, t->node, t->other, t->at);
-  return c->candidates[t->candidate].skin - sw_dot(t->press.normal, sw_sub(from, plane));
+  const double aslant = sw_contact_aslant(c, t->node, t->other, t->at, t->press.normal);
+  return c->candidates[t->candidate].skin - aslant - sw_dot(t->press.normal, sw_sub(from, plane));
 }
 
 static double stiffness_of(const sw_contact *c, const sw_candidate *k, const sw_memory *m,
@@ -205,6 +206,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
       .candidate = (size_t)(k - c->candidates),
       .press = {
           .normal = sw_rotate(pose->q, near->normal), .gap = near->gap - k->skin, .k = stiffness}};
+  t.press.gap += sw_contact_aslant(c, k->node, k->other, at, t.press.normal);
   if (web && !web->per_ring) t.press.soft = fmin(SOFTEST, (double)web->particles);
   sw_press *press = &t.press;
   if (c->regime == SW_CONTACT_IMPLICIT &&

@@ -170,6 +170,17 @@ static inline sw_vec sw_contact_where(const sw_contact *c, const double *x, size
   return c->sunk ? sw_sub(p, sw_touch_place(c->sunk, node, other, at)) : p;
 }
 
+/* What is sunk along the normal n of its surface meets a face of normal -n where that surface is.
+ * Where the surface is turned against the face it is the same, so that what flattens a section does
+ * not change how far off it is: part of the gap that is added for that [m]. */
+static inline double sw_contact_aslant(const sw_contact *c, size_t node, size_t other, double at,
+                                       sw_vec normal) {
+  if (!c->sunk) return 0;
+  const sw_vec a = sw_load(c->sunk + 3 * node), b = sw_load(c->sunk + 3 * other);
+  const double whole = sw_norm(a) + at * (sw_norm(b) - sw_norm(a));
+  return whole + sw_dot(normal, node != other ? sw_lerp(a, b, at) : a);
+}
+
 /* Velocity of the obstacle's material at world point p [m/s]. */
 static inline sw_vec sw_obstacle_velocity(const sw_contact_at *o, sw_vec p) {
   return sw_add(o->v, sw_cross(o->omega, sw_sub(p, o->pose.p)));
