@@ -93,7 +93,8 @@ describe("jaws in a quasi-static run", function()
 
   it("carry the wire's weight with two grippers", function()
     local scene, wire = new_scene()
-    local left, right = scene:gripper{ pads = { opening = 3 * r } }, scene:gripper{ pads = { opening = 3 * r } }
+    local left = scene:gripper{ pads = { opening = 3 * r } }
+    local right = scene:gripper{ pads = { opening = 3 * r } }
     local function hand(g, s, force)
       return function(p)
         g:grasp(wire, { s = s, approach = "plates", force = force })
