@@ -233,6 +233,7 @@ describe("settling between jaws", function()
     t.fine(scene:settle())
     t.share(4, g:state().squeeze, 1e-3, "force per finger")
     assert.equal("holds", g:state().jaws)
+    t.fine(scene:settle()) -- the first one ends some nanometres off the next
     t.above(1e-7, math.abs(g:state().opening - before.opening), "jaws gave way by")
     local settled = g:state().opening
     t.fine(scene:settle())

@@ -66,9 +66,18 @@ describe("a solid section between plates", function()
   end)
 
   it("has it within 10 %, of 12 voxels across and of 16 x 4 particles", function()
-    -- particles meet the plates one pair after the other
+    -- Particles meet the plates one pair after the other: with a corner first 16 x 4 are up to 12 %
+    -- too soft, with a side first up to 5 % too stiff. The mean does not depend on how it lies.
     compare(round{ model = "cubic", across = 12 }, solid, 0.002, 0.1)
-    compare(round{ model = "radial", particles = 16, layers = 4 }, solid, 0.002, 0.1)
+    local sum = { 0, 0, 0, 0 }
+    for _, turn in ipairs{ 0, math.pi / 16 } do
+      local model = round{ model = "radial", particles = 16, layers = 4,
+        normal = { 0, math.cos(turn), math.sin(turn) } }
+      for i, force in ipairs(squeeze(model, solid, 0.002)) do sum[i] = sum[i] + force / 2 end
+    end
+    for i, force in ipairs(sum) do
+      t.share(solid[i][2], force, 0.1, ("force at %g %%"):format(100 * solid[i][1]))
+    end
   end)
 
   it("has its order of magnitude at default resolution", function()
@@ -124,7 +133,7 @@ describe("a section of core and shell between plates", function()
   end)
 
   it("has its order of magnitude at default resolution", function()
-    -- twelve sides meet plates with a corner or a flat first: measured -2, -30, -9 % and 3, 9, 4 %
+    -- twelve sides meet plates with a corner or a flat first: measured -2, -34, -11 % and -2, 7, 3 %
     -- of plates at the true approach; the mean of both is what does not depend on how it lies
     local rows, sum = { composite[3], composite[4], composite[5] }, { 0, 0, 0 }
     for _, turn in ipairs{ 0, math.pi / 12 } do
