@@ -418,9 +418,10 @@ local function print_grips()
     for i, phase in ipairs(r.phases) do
       cells[i] = phase.time > 0 and ("%8.4f"):format(phase.wall / phase.time) or "       -"
     end
-    print(("%-29s %6s %s %8.4f %8.4f %12.4f %10.4f %9s%s"):format(r.name, r.dt or "",
+    print(("%-29s %6s %s %8.4f %8.4f %12.4f %10s %9s%s"):format(r.name, r.dt or "",
       table.concat(cells, " "),
-      r.wall / r.time, r.force or 0 / 0, 1e3 * (r.moment or 0 / 0), 1e3 * (r.height or 0 / 0),
+      r.wall / r.time, r.force or 0 / 0, 1e3 * (r.moment or 0 / 0),
+      r.height and ("%.4f"):format(1e3 * r.height) or "-",
       r.error and ("%.3f %%"):format(r.error) or "", r.ok and "" or "  FAILED: " .. r.reason))
     local p = r.phases[3]
     if r.ok and r.dt and not r.rough then

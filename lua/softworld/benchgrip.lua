@@ -55,7 +55,7 @@ function benchgrip.two_plates(way, dt)
     p:wait(1.5)
     row.force, row.moment = hand:force()[3], hand:moment{ at = wire:position(length / 4) }[2]
     row.droop = hand:position()[3] - wire:position(0)[3]
-    row.height = way[3] ~= "imposed" and hand:squeeze().height or 0 / 0
+    row.height = way[3] ~= "imposed" and hand:squeeze().height or nil
     hand:move{ by = { 0, 0.3, 0 }, duration = 2 }
     p:wait(0.5)
     phase "carry"

@@ -190,7 +190,12 @@ local function wait_for_jaws(self, p, order)
   end
   local longest = self.tool:state().opening / order.speed + PATIENCE
   local arrived = p:wait_until(done, { timeout = longest })
-  if arrived and not crushed and state.jaws ~= "empty" then return state end
+  if arrived and not crushed and state.jaws ~= "empty" then
+    if state.squeeze > 0 and state.opening < least then -- as they were told to
+      note(self, "crushed", { opening = state.opening, squeeze = state.squeeze })
+    end
+    return state
+  end
   self.tool:jaws{ mode = "still" }
   local force = order.mode == "force" and ("%g N"):format(order.force) or "the force"
   if crushed then

@@ -119,6 +119,19 @@ describe("a gripper with pads", function()
     end
   end)
 
+  it("crushes it when told to by an opening, and says so", function()
+    local scene, wire = new_scene{ E = 2e6 }
+    local g = scene:gripper{ name = "hand", pads = pads }
+    run(scene, function()
+      g:grasp(wire, { s = 0.05, approach = "plates", distance = 1.2 * r })
+      assert.equal(0, #g.events)
+      g:close_jaws{ distance = 0.2 * r }
+    end, 0.005)
+    assert.equal("crushed", g.events[1].kind)
+    assert.is_true(math.abs(g.events[1].opening - 0.2 * r) < 1e-9)
+    assert.is_true(scene:run{ duration = 0.02, dt = 0.005 }.ok)
+  end)
+
   it("tells of slip once, and stops, warns or calls when told", function()
     local scene, wire = new_scene()
     local g = scene:gripper{ name = "hand", pads = { width = 0.02, friction = 0.1, opening = 3 * r } }
