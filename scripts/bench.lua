@@ -196,7 +196,7 @@ for i, job in ipairs(jobs) do
       row.segments, row.dt == "" and "-" or ("%.3g"):format(row.dt), row.status, row.reason))
   end
 end
-bench.write(path, rows)
+if #rows > 0 then bench.write(path, rows) end -- else what is there stays
 
 -- Summary --------------------------------------------------------------------------
 
@@ -445,5 +445,6 @@ end
 local counts = {}
 for status, count in pairs(bad) do counts[#counts + 1] = count .. " " .. status end
 table.sort(counts)
+if #rows == 0 then return end
 print(("\n%d rows in %s%s"):format(#rows, path,
   #counts > 0 and " (" .. table.concat(counts, ", ") .. ")" or ""))

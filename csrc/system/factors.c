@@ -38,6 +38,12 @@ static int may_serve(const sw_system *s, const sw_newton *newton) {
   return 1;
 }
 
+size_t sw_factors_room(const sw_system *s) {
+  for (size_t b = 0; b < s->body_count; b++)
+    if (!s->bodies[b].plan->web || !s->bodies[b].plan->web->solids) return 0;
+  return s->freedoms;
+}
+
 void sw_factors_keep(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                      const sw_stage_report *report) {
   s->factor_hbar = 0;

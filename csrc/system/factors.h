@@ -7,6 +7,9 @@
 
 #include "system/system.h"
 
+/* How many numbers it takes to know whether they do; 0: in such a system they never do. */
+size_t sw_factors_room(const sw_system *system);
+
 /* Before the solve of an iterate: out = 1, the factors of this step serve again. */
 sw_status sw_factors_serve(sw_system *system, const sw_stage *stage, const sw_newton *newton,
                            const sw_stage_report *report, int *out, sw_error *err);

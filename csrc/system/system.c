@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "system/factors.h"
 #include "system/join.h"
 #include "system/link.h"
 #include "system/roll.h"
@@ -95,7 +96,8 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
     s->state_size += sw_spin_state_size(s->bodies[b].plan);
   }
   s->state = sw_alloc(s->state_size, sizeof(double));
-  double *w = sw_alloc(4 * s->freedoms + s->edges, sizeof(double));
+  const size_t kept = sw_factors_room(s);
+  double *w = sw_alloc(3 * s->freedoms + kept + s->edges, sizeof(double));
   s->work = w;
   if (!s->held || !s->directors || !s->hold_states || !s->state || !w) return SW_ENOMEM;
   s->directors_now = s->directors + 6 * hold_count;
@@ -107,7 +109,7 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
   s->delta = s->yhat + s->freedoms;
   s->velocity = s->delta + s->freedoms;
   s->factor_at = s->velocity + s->freedoms;
-  s->tension_new = s->factor_at + s->freedoms;
+  s->tension_new = s->factor_at + kept;
   return SW_OK;
 }
 

@@ -150,7 +150,8 @@ struct sw_system {
   /* work space of a stage (freedoms) */
   double *yhat, *delta, *velocity;
   double *tension_new; /* (edges) */
-  double *factor_at;   /* (freedoms) positions for which the factors were made [m] */
+  double *factor_at;   /* (freedoms) positions for which the factors were made, where they may
+                          serve again [m] */
   void *work;
 };
 
