@@ -33,7 +33,7 @@ local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "pa
   force = { "force.h", "solid.h" },
   state = { "angle.h", "clamp.h", "crease.h", "field.h", "hinge.h", "mesh.h", "plan.h", "slide.h",
     "state_tape.h", "web.h" },
-  solve = { "band3.h", "band4.h", "blocks.h", "rotation.h", "sparse.h" },
+  solve = { "band3.h", "band4.h", "blocks.h", "cholesky.h", "rotation.h", "sparse.h" },
   system = { "join.h", "system.h" } }
 
 -- May include softworld.h.

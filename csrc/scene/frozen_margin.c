@@ -19,6 +19,7 @@
 
 #include "base/alloc.h"
 #include "scene/frozen_inner.h"
+#include "solve/cholesky.h"
 
 enum { SIX = 6, MOST_ROUNDS = 20 };
 static const double ENOUGH = 1e-4; /* growth of the margin that ends the search [-] */
@@ -87,28 +88,6 @@ static patch patch_of(const sw_frozen *f) {
   }
   out.size = sqrt(second / sum);
   return out;
-}
-
-/* Solve A y = b, A symmetric and positive, by Cholesky's method in place; 0: it is not. */
-static int solve(double A[SIX][SIX], double b[SIX]) {
-  for (int j = 0; j < SIX; j++) {
-    for (int k = 0; k < j; k++) A[j][j] -= A[j][k] * A[j][k];
-    if (!(A[j][j] > 0)) return 0;
-    A[j][j] = sqrt(A[j][j]);
-    for (int i = j + 1; i < SIX; i++) {
-      for (int k = 0; k < j; k++) A[i][j] -= A[i][k] * A[j][k];
-      A[i][j] /= A[j][j];
-    }
-  }
-  for (int i = 0; i < SIX; i++) {
-    for (int k = 0; k < i; k++) b[i] -= A[i][k] * b[k];
-    b[i] /= A[i][i];
-  }
-  for (int i = SIX - 1; i >= 0; i--) {
-    for (int k = i + 1; k < SIX; k++) b[i] -= A[k][i] * b[k];
-    b[i] /= A[i][i];
-  }
-  return 1;
 }
 
 /* Sums over the touches that make the quadratic form: of weights as in all directions, and of those
@@ -185,7 +164,7 @@ double sw_frozen_margin(const sw_frozen *f, sw_vec force, sw_vec moment) {
     if (round && now <= margin * (1.0 + ENOUGH)) return fmax(now, margin);
     margin = fmax(margin, now);
     memcpy(v, load, sizeof v);
-    if (!solve(A, v)) return margin;
+    if (!sw_cholesky_solve(&A[0][0], SIX, v)) return margin;
   }
   return margin;
 }
