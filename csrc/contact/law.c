@@ -24,7 +24,7 @@ enum { REVERSALS = 3 };
 
 /* Wires that are deeper inside than their force explains are let out at this speed; meshes, whose
  * sections may stand off the line that they come from, so slowly that they are not thrown [m/s]. */
-static const double RECOVERY_SPEED = 0.2, SLOW_RECOVERY = 0.02;
+static const double RECOVERY_SPEED = 0.2, SLOW_RECOVERY = 0.005;
 
 /* A touch that sinks in deeper is made stiffer until it does not [m]. */
 static const double DEEPEST = 50e-6;

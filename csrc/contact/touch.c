@@ -209,10 +209,11 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
   t.press.gap += sw_contact_aslant(c, k->node, k->other, at, t.press.normal);
   if (web && !web->per_ring) t.press.soft = fmin(SOFTEST, (double)web->particles);
   sw_press *press = &t.press;
+  const int slowly = web && web->per_ring;
   if (c->regime == SW_CONTACT_IMPLICIT &&
       press->gap < 0) /* in explicit steps force follows depth */
-    t.forgiven = sw_press_forgiven(sw_contact_depth_before(c, s, &t), m ? m->depth : 0.0, c->h,
-                                   web && web->per_ring);
+    t.forgiven = sw_press_forgiven(sw_contact_depth_before(c, s, &t), m ? m->depth : 0.0,
+                                   slowly ? c->stage_time - c->time : c->h, slowly);
   press->gap += t.forgiven;
   press->gap_after = press->gap;
   if (c->regime == SW_CONTACT_STATIC && m && web && web->per_ring) press->spare = SPARE_PULLS;
