@@ -78,6 +78,30 @@ describe("a mixed grasp", function()
     t.below(plates.cost / 4, mixed.cost, "computing time per simulated second")
   end)
 
+  it("takes hold of soft and stiff wires on a rough table, thick and thin", function()
+    for _, E in ipairs{ 1e6, 1e8, 1e9, 3e9 } do
+      for _, thick in ipairs{ 0.001, 0.005 } do
+        local scene = sw.scene{}
+        scene:obstacle{ shape = "plane", friction = 0.4 }
+        scene:force{ kind = "damping", mass = 8, stiffness = 1e-3 }
+        local long, wide = 40 * thick, math.max(4 * thick, 0.006)
+        local wire = scene:wire{ E = E, nu = 0.4, density = 1200, radius = thick,
+          from = { 0, 0, thick }, to = { long, 0, thick } }
+        local g = scene:gripper{ pads = { opening = 3 * thick, friction = 0.6, width = wide } }
+        local weight = wire.beam.mass_per_length * long * 9.81
+        scene:process(function(p) -- pads whose force squeezes it by some per cent
+          g:grasp(wire, { s = long / 2, approach = "mixed", force = 0.0176 * E * thick * wide })
+          g:move{ by = { 0, 0, long / 2 }, duration = 0.5 }
+          p:wait(0.5)
+          t.share(weight, g:force()[3], 0.02, "weight") -- what still swings
+        end)
+        local run = t.fine(scene:run{ dt = 0.01 })
+        assert.equal("frozen", g.events[1].kind)
+        t.below(12, run.rejected, ("steps not taken, E = %g, r = %g"):format(E, thick))
+      end
+    end
+  end)
+
   it("keeps mass and momentum across the switches", function()
     local mass
     -- In the middle of a move, where the wire is fast: force at the gripper two steps after each switch,
