@@ -19,23 +19,25 @@ local tube = { { 0.05, 0.002121184817 }, { 0.1, 0.004049114355 }, { 0.2, 0.00746
   { 0.3, 0.01079826821 } }
 
 --- Two slices of a wire between plates; line forces over E R at the approaches of the rows.
-local function squeeze(model, rows, length, friction)
+-- With own, approaches count from the particles instead of the wire's radius: what a mesh does by
+-- itself, without where its surface is said to be.
+local function squeeze(model, rows, length, friction, own)
   local p = { radius = R, segments = 2, from = { 0, 0, 0 }, to = { length, 0, 0 } }
   for k, v in pairs(model) do p[k] = v end
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
   local wire = scene:wire(p)
   scene:force{ kind = "plane_strain", on = wire, direction = { 1, 0, 0 } }
   local x = wire:particles()
-  local plates = {}
+  local plates, skin = {}, own and wire:section(length / 2).skin or 0
   for k = 1, 2 do
     plates[k] = scene:obstacle{ shape = "box", size = { 0.1, 0.1, 0.02 }, friction = friction or 5,
-      at = { 0, 0, (2 * k - 3) * (R + 0.01) } }
+      at = { 0, 0, (2 * k - 3) * (R + skin + 0.01) } }
   end
   local forces, before = {}, 0
   for i, row in ipairs(rows) do
     local steps = math.ceil((row[1] - before) / 0.05 - 1e-9)
     for n = 1, steps do
-      local z = R * (1 - before - (row[1] - before) * n / steps) + 0.01
+      local z = R * (1 - before - (row[1] - before) * n / steps) + skin + 0.01
       plates[1]:pose{ 0, 0, -z }
       plates[2]:pose{ 0, 0, z }
       t.fine(scene:settle())
@@ -69,6 +71,10 @@ describe("a solid section between plates", function()
     -- Particles meet the plates one pair after the other: with a corner first 16 x 4 are up to 12 %
     -- too soft, with a side first up to 5 % too stiff. The mean does not depend on how it lies.
     compare(round{ model = "cubic", across = 12 }, solid, 0.002, 0.1)
+    local coarse = round{ model = "radial", particles = 16, layers = 4 }
+    for i, force in ipairs(squeeze(coarse, solid, 0.002, 5, true)) do
+      t.share(solid[i][2], force, 0.1, ("force of the particles at %g %%"):format(100 * solid[i][1]))
+    end
     local sum = { 0, 0, 0, 0 }
     for _, turn in ipairs{ 0, math.pi / 16 } do
       local model = round{ model = "radial", particles = 16, layers = 4,
@@ -136,6 +142,9 @@ describe("a section of core and shell between plates", function()
     -- twelve sides meet plates with a corner or a flat first: measured -2, -34, -11 % and -2, 7, 3 %
     -- of plates at the true approach; the mean of both is what does not depend on how it lies
     local rows, sum = { composite[3], composite[4], composite[5] }, { 0, 0, 0 }
+    for i, force in ipairs(squeeze(cable{}, rows, 0.01, SLIPPERY, true)) do
+      t.share(rows[i][2], force, 0.25, ("force of the particles at %g %%"):format(100 * rows[i][1]))
+    end
     for _, turn in ipairs{ 0, math.pi / 12 } do
       local model = cable{ normal = { 0, math.cos(turn), math.sin(turn) } }
       for i, force in ipairs(squeeze(model, rows, 0.01, SLIPPERY)) do sum[i] = sum[i] + force end

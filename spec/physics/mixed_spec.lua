@@ -102,6 +102,32 @@ describe("a mixed grasp", function()
     end
   end)
 
+  it("goes on with its force in the first step after a switch, in full motion", function()
+    local scene, wire, g = new_scene()
+    local mass = wire.beam.mass_per_length * L
+    scene:process(function()
+      g:grasp(wire, { s = L / 2, approach = "mixed", force = force, freeze = false })
+      g:move{ by = { 0, 0, 0.1 }, duration = 0.4 }
+    end)
+    local seen = {}
+    scene:process(function(p) -- in the middle of the move, where it is fast
+      p:wait_until(function() return g.held end)
+      p:wait(0.1)
+      for k, change in ipairs{ "freeze", "thaw" } do
+        p:wait(0.1)
+        seen[k] = { g:force()[3] }
+        g[change](g)
+        p:wait(0.001)
+        seen[k][2] = g:force()[3]
+      end
+    end)
+    t.fine(scene:run{ dt = 0.001 })
+    for k, name in ipairs{ "frozen", "thawed" } do
+      -- 1 % of it, and what swinging ends change in a step of 1 ms
+      t.near(seen[k][1], seen[k][2], 0.02 * mass * 9.81, name .. ": force in motion")
+    end
+  end)
+
   it("keeps mass and momentum across the switches", function()
     local mass
     -- In the middle of a move, where the wire is fast: force at the gripper two steps after each switch,

@@ -117,4 +117,16 @@ function tools.largest_difference(a, b)
   return most
 end
 
+--- Of a wire lifted by a gripper near its end, outside of the pads at s: moment there with what hangs
+-- beyond, and what it must be by M^2 / (2 EI) = w y - V sin theta, y above where it lies.
+function tools.lifted(g, wire, s, w, EI)
+  local L, x, slope = wire.length, wire:position(s), wire:tangent(s)[3]
+  local y = x[3] - wire:position(L / 5)[3]
+  local V, M, n = g:force()[3] - w * (L - s), g:moment{ at = x }[2], 40
+  for k = 1, n do -- weight of the part between there and the end
+    M = M + w * (L - s) / n * (wire:position(s + (L - s) * (k - 0.5) / n)[1] - x[1])
+  end
+  return M, (2 * EI * (w * y - V * slope)) ^ 0.5
+end
+
 return tools
