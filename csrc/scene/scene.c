@@ -63,6 +63,7 @@ void sw_scene_free(sw_scene *s) {
   sw_scene_forget_histories(s);
   sw_scene_drop_frames(s);
   sw_free(s->frames);
+  sw_events_clear(&s->events);
   sw_free(s->hold_slot);
   sw_free(s->wires);
   sw_free(s->holds);

@@ -278,6 +278,24 @@ extern const sw_params sw_run_params;
 /* A run begins: extremes of wires and of penetration start anew. */
 sw_status sw_scene_begin_run(sw_scene *scene, sw_error *err);
 
+/* --- events ------------------------------------------------------------------- */
+
+/* Something that happened, once or again and again. */
+typedef struct sw_event {
+  char kind[SW_NAME_SIZE], object[SW_NAME_SIZE];
+  char text[224];           /* one sentence, for people */
+  double time, first, last; /* of the largest value; of the first and the last time [s] */
+  double s;                 /* arc length; NAN = none [m] */
+  double value;             /* in the text's unit; NAN = none */
+  size_t count;             /* how often it happened, one soon after the other [-] */
+} sw_event;
+size_t sw_scene_events(const sw_scene *scene);         /* of the last run [-] */
+size_t sw_scene_events_dropped(const sw_scene *scene); /* for want of room [-] */
+const sw_event *sw_scene_event(const sw_scene *scene, size_t k);
+/* Book one at the scene's time; value and arc may be NAN. */
+sw_status sw_scene_book_event(sw_scene *scene, const char *kind, const char *object, double arc,
+                              double value, const char *text, sw_error *err);
+
 typedef struct sw_run_report {
   sw_status status; /* SW_OK, SW_EDIVERGED, SW_EINTR, SW_ECALLBACK, ... */
   double time;      /* reached [s] */

@@ -6,6 +6,7 @@
 #include "contact/contact.h"
 #include "contact/crowd.h"
 #include "contact/pairs.h"
+#include "scene/events.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
 #include "scene/section.h"
@@ -358,6 +359,7 @@ struct sw_scene {
   sw_frame *frames;
   size_t frame_count, frame_capacity;
   double next_frame; /* [s] */
+  sw_events events;  /* of the last run */
 };
 
 /* What a built scene has besides its objects: a copy of it, put back into a scene that is built

@@ -248,6 +248,11 @@ local more = {
   they are on the wire]],
 }
 
+-- Pages of the manual.
+for _, name in ipairs(require "softworld.manual") do
+  texts[name] = require("softworld.manual." .. name)
+end
+
 local function range_of(row)
   if row.choices then return "one of " .. table.concat(row.choices, ", ") end
   if row.min and row.max then

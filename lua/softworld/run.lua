@@ -93,6 +93,7 @@ local function run_once(scene, args, level)
   if not fine then error(reason, 0) end
   total.wall, total.cpu = core.clock() - wall, os.clock() - cpu
   total.reason, total.scene, total.name = reason, scene, scene.name
+  total.events = scene:events()
   total.restores = data.restores
   return setmetatable(total, Run)
 end
@@ -355,6 +356,7 @@ function Run:document()
   if self.ok then readable(self, "results") end
   local data = build.data(self.scene)
   local doc = { name = self.name, ok = self.ok, reason = self.reason, time = self.time,
+    events = self.events,
     steps = self.steps, wall = self.wall, cpu = self.cpu, gravity = self.scene:gravity(),
     wires = {}, obstacles = {}, grips = {}, frames = {} }
   if not self.ok then return doc end

@@ -46,11 +46,26 @@ local function widths_of(rows)
   return widths
 end
 
+local most_events = 12 -- lines
+
+-- What happened: the first ones, and how many more.
+local function add_events(lines, events)
+  for i, e in ipairs(events) do
+    if i > most_events and #events > most_events + 1 then
+      lines[#lines + 1] = ("  ! and %d more events, see run.events"):format(#events - most_events)
+      return
+    end
+    local times = e.count > 1
+      and (" (%d times until t = %s)"):format(e.count, number.text(e.last, "s")) or ""
+    lines[#lines + 1] = ("  ! t = %s: %s%s"):format(number.text(e.time, "s"), plain(e.text), times)
+  end
+end
+
 --- The summary as text.
 -- First the state of the run, then one aligned row per entry: label, value
--- with four significant digits, unit, place and time. A run that diverged
--- gives its reason and no numbers.
--- @tparam table run with `name, ok, reason, time [s], steps, wall [s]` and
+-- with four significant digits, unit, place and time; last what happened. A run
+-- that diverged gives its reason and no numbers.
+-- @tparam table run with `name, ok, reason, time [s], steps, wall [s], events` and
 -- `summary = { { label=, value= number or text, unit=, where=, when= [s] }, ... }`
 -- @treturn string lines, each ended by a newline
 function summary.text(run)
@@ -69,6 +84,7 @@ function summary.text(run)
   else
     lines[#lines + 1] = "  no results are given for a run that diverged"
   end
+  add_events(lines, run.events or {})
   return table.concat(lines, "\n") .. "\n"
 end
 

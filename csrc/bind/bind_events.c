@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* scene:events() and scene:tell{...}: what happened in a run. */
+#include <math.h>
+
+#include "bind/child.h"
+
+typedef struct tell_args {
+  char kind[SW_NAME_SIZE], object[SW_NAME_SIZE];
+  double s, value;
+} tell_args;
+
+static const sw_param tell_rows[] = {
+    {"kind", SW_PARAM_TEXT, "-", 0, 0, 0, SW_PARAM_REQUIRED, NULL, offsetof(tell_args, kind),
+     "one word, such as crash"},
+    {"object", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(tell_args, object),
+     "name of what it happened to"},
+    {"s", SW_PARAM_NUMBER, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(tell_args, s),
+     "arc length"},
+    {"value", SW_PARAM_NUMBER, "-", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(tell_args, value),
+     "how large, in the text's unit; of repeats the largest stays"},
+    {"text", SW_PARAM_OTHER, "-", 0, 0, 0, SW_PARAM_REQUIRED, NULL, 0, "one sentence"},
+};
+static const sw_params tell_params = SW_PARAMS("scene:tell", tell_rows);
+
+static sw_scene *check(lua_State *L) {
+  return ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
+}
+
+/* scene:tell{ kind =, object =, s =, value =, text = } */
+int lsw_scene_tell(lua_State *L) {
+  sw_scene *scene = check(L);
+  tell_args args;
+  sw_error err = {""};
+  lsw_arguments(L, 2, "scene:tell", &tell_params, &args);
+  if (lua_getfield(L, 2, "text") != LUA_TSTRING)
+    return luaL_error(L, "scene:tell: text must be a string, got %s", luaL_typename(L, -1));
+  lsw_must(L,
+           sw_scene_book_event(scene, args.kind, args.object, args.s, args.value,
+                               lua_tostring(L, -1), &err),
+           &err);
+  return 0;
+}
+
+static void push_event(lua_State *L, const sw_event *e) {
+  lua_createtable(L, 0, 9);
+  lua_pushstring(L, e->kind);
+  lua_setfield(L, -2, "kind");
+  lua_pushstring(L, e->object);
+  lua_setfield(L, -2, "object");
+  lua_pushstring(L, e->text);
+  lua_setfield(L, -2, "text");
+  lsw_set_number(L, "time", e->time);
+  lsw_set_number(L, "first", e->first);
+  lsw_set_number(L, "last", e->last);
+  lsw_set_integer(L, "count", e->count);
+  if (!isnan(e->s)) lsw_set_number(L, "s", e->s);
+  if (!isnan(e->value)) lsw_set_number(L, "value", e->value);
+}
+
+/* scene:events() -> list, number of events for which there was no room */
+int lsw_scene_events(lua_State *L) {
+  const sw_scene *scene = check(L);
+  const sw_event *e;
+  lua_newtable(L);
+  for (size_t k = 0; (e = sw_scene_event(scene, k)) != NULL; k++) {
+    push_event(L, e);
+    lua_rawseti(L, -2, (lua_Integer)k + 1);
+  }
+  lua_pushinteger(L, (lua_Integer)sw_scene_events_dropped(scene));
+  return 2;
+}

@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/events.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "scene/world.h"
+
+/* What happens again within this time is a repeat [s]; longer where steps are. */
+static const double REPEAT = 0.1;
+static const double REPEAT_STEPS = 2.5; /* of the last step [-] */
+
+void sw_events_clear(sw_events *e) {
+  sw_free(e->list);
+  *e = (sw_events){0};
+}
+
+void sw_events_back_to(sw_events *e, double time) {
+  size_t kept = 0;
+  for (size_t i = 0; i < e->count; i++)
+    if (e->list[i].first <= time) e->list[kept++] = e->list[i];
+  e->count = kept;
+}
+
+static void copy_name(char *out, const char *name) {
+  snprintf(out, SW_NAME_SIZE, "%s", name ? name : "");
+}
+
+/* The latest event of this kind and object, or NULL. */
+static sw_event *latest(sw_events *e, const char *kind, const char *object) {
+  for (size_t i = e->count; i-- > 0;)
+    if (strcmp(e->list[i].kind, kind) == 0 && strcmp(e->list[i].object, object) == 0)
+      return &e->list[i];
+  return NULL;
+}
+
+static sw_event *append(sw_events *e) {
+  if (e->count >= SW_EVENTS_MOST ||
+      sw_grow((void **)&e->list, &e->capacity, e->count + 1, sizeof *e->list) != SW_OK) {
+    e->dropped++;
+    return NULL;
+  }
+  return &e->list[e->count++];
+}
+
+void sw_scene_tell(sw_scene *s, const char *kind, const char *object, double arc, double value,
+                   const char *format, ...) {
+  char name[SW_NAME_SIZE], word[SW_NAME_SIZE];
+  copy_name(name, object);
+  copy_name(word, kind);
+  sw_event *e = latest(&s->events, word, name);
+  const double soon = fmax(REPEAT, s->has_stepper ? REPEAT_STEPS * s->stepper.last_h : 0.0);
+  if (e && (s->time - e->last > soon && s->events.count < SW_EVENTS_MOST)) e = NULL;
+  const int repeat = e != NULL;
+  if (!e && !(e = append(&s->events))) return;
+  if (!repeat) {
+    *e = (sw_event){.first = s->time, .value = NAN, .s = NAN};
+    memcpy(e->kind, word, sizeof e->kind);
+    memcpy(e->object, name, sizeof e->object);
+  }
+  e->count++;
+  e->last = s->time;
+  if (repeat && !(fabs(value) > fabs(e->value))) return;
+  e->time = s->time, e->s = arc, e->value = value;
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(e->text, sizeof e->text, format, arguments);
+  va_end(arguments);
+}
+
+size_t sw_scene_events(const sw_scene *s) { return s->events.count; }
+size_t sw_scene_events_dropped(const sw_scene *s) { return s->events.dropped; }
+const sw_event *sw_scene_event(const sw_scene *s, size_t k) {
+  return k < s->events.count ? &s->events.list[k] : NULL;
+}
+
+sw_status sw_scene_book_event(sw_scene *s, const char *kind, const char *object, double arc,
+                              double value, const char *text, sw_error *err) {
+  if (!kind[0]) return sw_fail(err, SW_EINVAL, "scene:tell: kind is empty; it is a word");
+  sw_scene_tell(s, kind, object, arc, value, "%s", text);
+  return SW_OK;
+}
+
+void sw_tape_event(sw_tape *t, sw_event *x) {
+  SW_TAPE_STRUCT(t, sw_event, 400);
+  sw_tape_name(t, x->kind), sw_tape_name(t, x->object);
+  sw_tape_raw(t, x->text, sizeof x->text);
+  if (sw_tape_reads(t)) x->text[sizeof x->text - 1] = 0;
+  sw_tape_double(t, &x->time), sw_tape_double(t, &x->first), sw_tape_double(t, &x->last);
+  sw_tape_double(t, &x->s), sw_tape_double(t, &x->value);
+  sw_tape_size(t, &x->count);
+}

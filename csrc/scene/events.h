@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What happened in a run, in one list: slips, crashes, jumps of equilibrium, energy out of nowhere.
+ * Bounded; repeats are merged. */
+#ifndef SW_SCENE_EVENTS_H
+#define SW_SCENE_EVENTS_H
+
+#include "base/tape.h"
+#include "scene/scene.h"
+
+enum { SW_EVENTS_MOST = 512 }; /* different ones in a list [-] */
+
+typedef struct sw_events {
+  sw_event *list;
+  size_t count, capacity;
+  size_t dropped; /* beyond the bound [-] */
+} sw_events;
+
+/* Book an event at the scene's time. kind: one word; object: a name, or "". arc: arc length [m] or
+ * NAN. value: in the unit that the text tells, or NAN. The text is one sentence. The same kind of
+ * event of the same object soon after the last one is a repeat: it is counted, and the largest
+ * value stays with its time, place and text. Without memory it is only counted as dropped. */
+__attribute__((format(printf, 6, 7))) void sw_scene_tell(sw_scene *scene, const char *kind,
+                                                         const char *object, double arc,
+                                                         double value, const char *format, ...);
+
+void sw_events_clear(sw_events *events);
+/* Forget those after a time [s]. */
+void sw_events_back_to(sw_events *events, double time);
+void sw_tape_event(sw_tape *tape, sw_event *event);
+
+#endif
