@@ -4,6 +4,7 @@
 local core = require "softworld.core"
 local build = require "softworld.build"
 local grasp = require "softworld.grasp"
+local ledger = require "softworld.ledger"
 local process = require "softworld.process"
 local number = require "softworld.output.number"
 local refine = require "softworld.refine"
@@ -93,7 +94,7 @@ local function run_once(scene, args, level)
   if not fine then error(reason, 0) end
   total.wall, total.cpu = core.clock() - wall, os.clock() - cpu
   total.reason, total.scene, total.name = reason, scene, scene.name
-  total.events = scene:events()
+  ledger.close(total)
   total.restores = data.restores
   return setmetatable(total, Run)
 end
@@ -271,6 +272,7 @@ function Run:series()
       if log.tool then add_jaws(series, index, log) end
     end
   end
+  ledger.add(self, series, index)
   fill_gaps(series)
   return series
 end
@@ -331,6 +333,7 @@ local function summary_of(self)
     add("deepest penetration", depth, "m", s, t)
   end
   for _, f in ipairs(fixing.all(self.scene)) do f:report(add) end
+  ledger.report(self, add)
   for _, q in ipairs(self.quantities and self:error_bars() or {}) do
     rows[#rows + 1] = { label = q.name, value = type(q.value) == "number" and q.value or q:text(),
       unit = type(q.value) == "number" and q.unit or "",
@@ -434,6 +437,7 @@ function Run:pictures(options)
 end
 
 Run.error_bars = trust.error_bars
+Run.ledger = ledger.of
 
 function Run.__index(self, key)
   local value = Run[key]
