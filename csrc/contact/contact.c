@@ -29,7 +29,7 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   for (size_t o = 0; o < count; o++)
     c->flat[o] = strcmp(sw_shape_kind(obstacles[o].shape), "plane") == 0;
   c->count = count;
-  c->fresh = 1;
+  c->fresh = SW_CONTACT_FRESH;
   c->place = place;
   c->user = user;
   *out = c;
@@ -156,10 +156,17 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
   return SW_OK;
 }
 
+/* Is something still deeper inside than its force explains? */
+static int emerges(const sw_contact *c) {
+  for (size_t i = 0; i < c->touch_count; i++)
+    if (c->touches[i].forgiven > 0 || c->touches[i].let_out > 0) return 1;
+  return 0;
+}
+
 void sw_contact_commit(sw_contact *c, sw_system *s) {
   (void)s;
   c->next_count = 0;
-  c->fresh = 0;
+  c->fresh = c->fresh && emerges(c) ? SW_CONTACT_EMERGING : 0;
   for (size_t i = 0; i < c->touch_count; i++)
     if (remember(c, &c->touches[i]) != SW_OK) break; /* a lost anchor only starts anew */
   sw_memory *swap = c->memory;
@@ -357,6 +364,13 @@ double sw_contact_rubbed(const sw_contact *c) {
     const sw_press *p = &c->touches[i].press;
     if (p->normal_force > 0) sum -= sw_dot(p->tangential, p->slip);
   }
+  return sum;
+}
+
+double sw_contact_let_out(const sw_contact *c) {
+  double sum = 0;
+  for (size_t i = 0; i < c->touch_count; i++)
+    sum += c->touches[i].press.normal_force * c->touches[i].let_out;
   return sum;
 }
 
