@@ -160,13 +160,15 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
 static int emerges(const sw_contact *c) {
   for (size_t i = 0; i < c->touch_count; i++)
     if (c->touches[i].forgiven > 0 || c->touches[i].let_out > 0) return 1;
+  for (size_t i = 0; i < c->pressed_count; i++)
+    if (c->pressed[i].let_out > 0) return 1;
   return 0;
 }
 
 void sw_contact_commit(sw_contact *c, sw_system *s) {
   (void)s;
   c->next_count = 0;
-  c->fresh = c->fresh && emerges(c) ? SW_CONTACT_EMERGING : 0;
+  c->fresh = sw_contact_emerges(c) ? SW_CONTACT_EMERGING : 0;
   for (size_t i = 0; i < c->touch_count; i++)
     if (remember(c, &c->touches[i]) != SW_OK) break; /* a lost anchor only starts anew */
   sw_memory *swap = c->memory;
@@ -367,12 +369,7 @@ double sw_contact_rubbed(const sw_contact *c) {
   return sum;
 }
 
-double sw_contact_let_out(const sw_contact *c) {
-  double sum = 0;
-  for (size_t i = 0; i < c->touch_count; i++)
-    sum += c->touches[i].press.normal_force * c->touches[i].let_out;
-  return sum;
-}
+int sw_contact_emerges(const sw_contact *c) { return c->fresh && emerges(c); }
 
 int sw_contact_steady(const sw_contact *c) {
   size_t before = 0, now = 0;

@@ -137,8 +137,8 @@ int sw_contact_poses(const sw_contact *contact, int id, sw_pose *from, sw_pose *
 double sw_contact_rubbed(const sw_contact *contact); /* lost by friction in the step [J] */
 /* 1: the touches that press are those that pressed at the step's start. */
 int sw_contact_steady(const sw_contact *contact);
-/* Work of letting wires out of obstacles that they began in [J]. */
-double sw_contact_let_out(const sw_contact *contact);
+/* 1: in this step wires are let out of obstacles that they began in. */
+int sw_contact_emerges(const sw_contact *contact);
 size_t sw_contact_impacts(const sw_contact *contact); /* dealt with in the step [-] */
 double sw_contact_struck(const sw_contact *contact);  /* work of moving obstacles in these [J] */
 

@@ -23,10 +23,11 @@ typedef struct sw_step_energy {
   sw_powers powers;                       /* at its end */
   double holds, obstacles, feeds, forces; /* work [J] */
   double damping, friction, impact;       /* lost [J] */
-  double gain;  /* beyond the most that outer work may have been; below 0: a loss [J] */
-  double work;  /* in size, all kinds added up [J] */
-  int steady;   /* 1: no touch began or ended */
-  int touching; /* 1: something touches */
+  double gain;    /* beyond the most that outer work may have been; below 0: a loss [J] */
+  double work;    /* in size, all kinds added up [J] */
+  double let_out; /* at most given by letting wires out of what they began in [J] */
+  int steady;     /* 1: no touch began or ended */
+  int touching;   /* 1: something touches */
 } sw_step_energy;
 
 typedef struct sw_books {
@@ -41,6 +42,7 @@ typedef struct sw_books {
   double rise, lowest; /* energy that the method made by itself, netted; the least so far [J] */
   double highest_rise; /* from the least [J] */
   double rubbed_off;   /* the part of dissipated that is friction [J] */
+  double mass;         /* of the wires [kg] */
   double weight;       /* of the wires, times their radii [J] */
   double bending;      /* their EI / L [J] */
   int has_powers;      /* 1: there are forces without a potential */
