@@ -221,7 +221,7 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
   step->work = fabs(step->holds) + fabs(step->obstacles) + fabs(step->feeds) + fabs(step->forces);
   const double before = b->now.kinetic + potential(&b->now, b->contact);
   if (changed) step->let_out += jolt(s, step);
-  if (!step->steady && has_pads(s)) step->let_out += fmax(0.0, step->contact - b->contact);
+  if (has_pads(s)) step->let_out += fmax(0.0, step->contact - b->contact);
   most += step->let_out;
   step->gain = step->to.kinetic + potential(&step->to, step->contact) - before - most;
   return status;
