@@ -365,6 +365,7 @@ static sw_status fill(sw_scene *s, size_t alive) {
 sw_status sw_scene_build(sw_scene *s, sw_error *err) {
   if (!s->built) {
     size_t alive = 0;
+    SW_TRY(sw_scene_check_holds(s, err));
     for (size_t k = 0; k < s->hold_count; k++) alive += s->holds[k].alive != 0;
     sw_plan **plans = sw_alloc(s->wire_count, sizeof(sw_plan *));
     sw_status status = plans ? new_plans(s, plans) : SW_ENOMEM;
