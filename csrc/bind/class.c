@@ -200,8 +200,9 @@ void lsw_open_classes(lua_State *L) {
 }
 
 int lsw_raise(lua_State *L, sw_status status, const sw_error *err) {
+  const int why = status != SW_EINTR && err && err->text[0];
   if (status == SW_EINTR) sw_interrupt_clear(); /* this error answers the Ctrl-C */
-  return luaL_error(L, "%s", err && err->text[0] ? err->text : sw_status_text(status));
+  return luaL_error(L, "%s", why ? err->text : sw_status_text(status));
 }
 
 /* --- values --------------------------------------------------------------- */

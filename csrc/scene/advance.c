@@ -275,7 +275,7 @@ static sw_status observe(sw_scene *s, sw_error *err) {
 /* Errors that a smaller step cannot mend. */
 static int hopeless(sw_status status) {
   return status == SW_ECALLBACK || status == SW_ENOMEM || status == SW_EINVAL ||
-         status == SW_EEMPTY;
+         status == SW_EEMPTY || status == SW_EINTR || status == SW_ELIMIT;
 }
 
 /* Nodes for the wire that a step up to h feeds; shortens the step to what nodes can
