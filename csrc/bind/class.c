@@ -205,11 +205,16 @@ int lsw_raise(lua_State *L, sw_status status, const sw_error *err) {
   return luaL_error(L, "%s", why ? err->text : sw_status_text(status));
 }
 
+void lsw_poll(lua_State *L) {
+  if (sw_interrupted()) lsw_raise(L, SW_EINTR, NULL);
+}
+
 /* --- values --------------------------------------------------------------- */
 
 double lsw_number(lua_State *L, int index, const char *what, const char *unit) {
   const char *space = strcmp(unit, "-") == 0 ? "" : " ";
   const char *shown = *space ? unit : "";
+  lsw_poll(L); /* it may be one of millions */
   if (lua_type(L, index) != LUA_TNUMBER)
     return luaL_error(L, "%s must be a number%s%s%s, got %s", what, *space ? " [" : "", shown,
                       *space ? "]" : "", lsw_describe(L, index));
