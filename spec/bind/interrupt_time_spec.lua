@@ -47,18 +47,19 @@ local CASES = {
   ["a run of 1e6 nodes"] = { wire(1000000), "s:run{ duration = 1, dt = 1e-3 }", 0, 0.4, 1.5 },
   ["an explicit run of 1e6 nodes"] = { wire(1000000),
     "s:run{ duration = 1, dt = 1e-9, integrator = 'rk4' }", 0.8 },
-  ["settling of a mesh of many particles"] = { wire(2000) .. "w:remodel{ model = 'tube', segments = 8000 }\n",
-    "s:settle{}", 0.2, 1 },
+  ["settling of a mesh of many particles"] = {
+    wire(2000) .. "w:remodel{ model = 'tube', segments = 8000 }\n", "s:settle{}", 0.2, 1 },
   ["a wire of 1e5 segments that touches itself"] = { wire(100000) .. "s:wire_contact{ self = true }\n",
     "s:run{ duration = 1, dt = 1e-3 }", 0.3 },
-  ["a wire of frames"] = { wire(200000, ", rolls = true, GJ = 0.01"), "s:run{ duration = 1, dt = 1e-3 }", 0.5 },
+  ["a wire of frames"] = { wire(200000, ", rolls = true, GJ = 0.01"),
+    "s:run{ duration = 1, dt = 1e-3 }", 0.5 },
   ["a cube of particles"] = { CUBE .. "s:particles{ positions = p, masses = 1e-4, links = l }\n",
     "s:run{ duration = 1, dt = 1e-3 }", 0.1, 1.5 },
   ["the hull of 2e5 points"] = { SPHERE, "s:obstacle{ shape = 'hull', points = p }", 0.1, 0.8 },
-  ["a mesh's tree and edges"] = { SHEET, "for _ = 1, 50 do s:obstacle{ shape = 'mesh', data = data, format = 'off' } end",
-    0.7, 1.3 },
-  ["a calibration"] = { "", "s:wire{ model = 'cubic', across = 8, E = 1e7, nu = 0.3, density = 1000, radius = 0.005, "
-    .. "from = { 0, 0, 0 }, to = { 1, 0, 0 } }\n s:run{ duration = 10, dt = 1e-4 }", 0.3 },
+  ["a mesh's tree and edges"] = { SHEET,
+    "for _ = 1, 50 do s:obstacle{ shape = 'mesh', data = data, format = 'off' } end", 0.7, 1.3 },
+  ["a calibration"] = { "", "s:wire{ model = 'cubic', across = 8, E = 1e7, nu = 0.3, density = 1000, "
+    .. "radius = 0.005, from = { 0, 0, 0 }, to = { 1, 0, 0 } }\n s:run{ duration = 10, dt = 1e-4 }", 0.3 },
 }
 
 local ticks

@@ -105,7 +105,7 @@ describe("two holds at one place", function()
   it("do not come about in any order of making, remodelling, releasing and going back", function()
     local names = { "remodel", "hold", "release", "back", "keep", "save", "join" }
     local done, refusals = 0, 0
-    for seed = 1, 12 do
+    for seed = 1, 24 do
       math.randomseed(seed)
       local scene, wire = make()
       local other = scene:wire{ E = 2e7, density = 1200, radius = 0.006,
@@ -144,15 +144,15 @@ describe("two holds at one place", function()
         end
         local fine, run = pcall(scene.run, scene, { duration = 1e-4, dt = 1e-4 })
         done = done + 1
-        if not fine then break end -- nothing goes on from what has diverged
-        -- edges of a fortieth of a millimetre may be too stiff to be solved for: it says so
-        assert.is_true(run.ok or #run.reason > 0)
-        assert.is_nil(run.reason:find "memory", ("seed %d, after %s"):format(seed, what))
+        local reason = fine and run.reason or run
+        assert.is_nil(reason:find "memory", ("seed %d, after %s"):format(seed, what))
+        -- edges of a fortieth of a millimetre may be too stiff; nothing goes on from what has diverged
+        if not fine or not run.ok then break end
         local x = wire:position(0.2)
         assert.is_true(x[1] == x[1], ("seed %d, after %s"):format(seed, what))
       end
     end
-    t.below(done, 200, "steps")
+    t.below(done, 150, "steps")
     t.below(refusals, 20, "refusals")
   end)
 end)
