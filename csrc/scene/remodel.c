@@ -115,6 +115,7 @@ static sw_status read_line(sw_scene *s, sw_handle h, const sw_wire_args *args,
   if (!segments && cls->mesh)
     SW_TRY(sw_strand_slices(plan, &s->wires[h.slot].beam, length, &segments, err));
   if (segments < 2) segments = 50;
+  if (cls->mesh) SW_TRY(sw_strand_check_count(plan, segments + 1, 1, err));
   return sw_line_read(s, h, segments + 1, stations->s, out, err);
 }
 

@@ -258,3 +258,19 @@ describe("numbers beyond all reason", function()
     end
   end)
 end)
+
+describe("counts beyond all reason", function()
+  it("are refused before anything is made of them", function()
+    local scene, wire = make()
+    refused({ "segments = 1e+09" }, scene.wire, scene, { EA = 6000, EI = 0.02, mass_per_length = 0.1,
+      radius = 0.005, segments = 1e9, from = { 0, 0, 0 }, to = { 1, 0, 0 } })
+    refused({ "too many", "10000000 slices" }, wire.remodel, wire, { model = "tube", segments = 1e7 })
+    refused({ "too many" }, wire.remodel, wire, { model = "tube", spacing = 1e-300 })
+    refused({ "cores" }, wire.remodel, wire, { model = "composite", cores = 1e9 })
+    refused({ "modes" }, wire.frequencies, wire, { modes = 1e9 })
+    refused({ "levels" }, scene.settle, scene, { levels = 1e9,
+      tolerance = { { name = "x", value = 1, of = function() return 0 end } } })
+    refused({ "name", "too long" }, scene.clamp, scene, wire, { s = 0.5, name = ("x"):rep(1e7) })
+    assert.is_true(scene:run{ duration = 0.02 }.ok)
+  end)
+end)
