@@ -22,7 +22,8 @@ enum {
   SW_FORCE_OF_WEB = 128,    /* knows springs or particles only: goes with nothing else */
   SW_FORCE_ON_SOME = 256,   /* acts on some particles: takes a list; see sw_force_some */
   SW_FORCE_ANY_SHAPE = 512, /* its history is not of bends: goes with material frames as well */
-  SW_FORCE_LOAD = 1024      /* a dead load: its energy is work that it gives */
+  SW_FORCE_LOAD = 1024,     /* a dead load: its energy is work that it gives */
+  SW_FORCE_POWER = 2048     /* tells the power that it takes from the motion (SW_WANT_POWER) */
 };
 
 enum { SW_FORCE_ARGS_MAX = 128 };   /* room for any force's arguments [B] */
@@ -52,6 +53,10 @@ typedef struct sw_force_class {
    * (0, 1]; NULL = any [-]. */
   double (*largest_share)(const void *args, const sw_plan *plan, const double *x,
                           const double *delta);
+
+  /* Axial dashpots: their force over that of the springs beside them, per rate of strain [s];
+   * NULL = it has none. */
+  double (*axial_time)(const void *args);
 
   /* Moment that a clamp hinge puts on the wire [N m]; NULL = none. */
   sw_vec (*clamp_moment)(const void *args, const sw_field *field, const sw_clamp_hinge *hinge);

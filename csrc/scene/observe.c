@@ -60,7 +60,7 @@ static void curvature_extreme(const sw_system *s, const sw_body *b, sw_extreme *
 }
 
 static void tension_extreme(const sw_system *s, const sw_body *b, sw_extreme *out) {
-  const double *T = s->tension + b->first_edge;
+  const double *T = sw_system_pull(s, b);
   *out = (sw_extreme){.value = -HUGE_VAL};
   for (size_t e = 0; e < b->plan->edges; e++)
     if (T[e] > out->value)

@@ -379,7 +379,7 @@ sw_status sw_scene_settle(sw_scene *scene, const sw_settle_args *args, int (*int
 typedef struct sw_point_state {
   sw_vec position, tangent, velocity; /* [m], [-], [m/s] */
   double curvature;                   /* [1/m] */
-  double tension;                     /* [N] */
+  double tension, elastic;            /* axial force; without that of dashpots [N] */
   double twist_moment;                /* [N m] */
   double spin;                        /* about the tangent, of a wire that rolls [rad/s] */
   double strain, least_strain;        /* of the fibres outside and inside the bend [-] */

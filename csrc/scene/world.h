@@ -65,8 +65,8 @@ static inline int sw_strand_holds(const sw_web *web, const sw_hold_class *cls, s
   const size_t ring = sw_web_ring_of(web, particle);
   return cls->clamped || !sw_web_is_ring(web, ring) || particle - web->first[ring] == web->axis;
 }
-/* The system's state to the strand and the middles of its rings. */
-void sw_strand_take(sw_scene_wire *wire, const sw_system *system, const sw_body *body);
+/* The system's state to the strand and the middles of its rings. SW_ENOMEM. */
+sw_status sw_strand_take(sw_scene_wire *wire, const sw_system *system, const sw_body *body);
 /* Read-outs at arc length s; extremes. */
 void sw_strand_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_body *body, double s,
                   sw_point_state *out);
