@@ -160,6 +160,7 @@ static sw_status log_holds(sw_scene *s, sw_error *err) {
     const sw_hold_state *at = &s->system.hold_states[k];
     double row[SW_LOG_SIZE];
     sw_system_reaction(&s->system, (int)k, at->pose.p, &h->force, &h->moment);
+    SW_TRY(sw_hold_look_out(s, h, err));
     row[SW_LOG_TIME] = s->time;
     sw_store(row + SW_LOG_FORCE, h->force);
     sw_store(row + SW_LOG_MOMENT, h->moment);

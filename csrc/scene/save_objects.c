@@ -167,7 +167,7 @@ static void tape_give(sw_tape *t, sw_clamp_give *x) {
 
 void sw_tape_hold(sw_tape *t, sw_scene *s, sw_scene_hold *x) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_scene_hold, 1264);
+  SW_TAPE_STRUCT(t, sw_scene_hold, 1320);
   UINT32(generation), INT(alive), NAME(name);
   const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
   if (sw_tape_reads(t)) x->cls = sw_hold_find(kind);
@@ -182,6 +182,9 @@ void sw_tape_hold(sw_tape *t, sw_scene *s, sw_scene_hold *x) {
   sw_tape_mesh_frame(t, &x->frame[0]), sw_tape_mesh_frame(t, &x->frame[1]);
   tape_give(t, &x->give[0]), tape_give(t, &x->give[1]);
   QUAT(turn), VEC(force), VEC(moment), POSE(last_pose);
+  SW_TAPE_STRUCT(t, sw_hold_watch, 56);
+  INT(watch.looking), INT(watch.crashing), DOUBLE(watch.looked), DOUBLE(watch.given);
+  DOUBLE(watch.crash.time), DOUBLE(watch.crash.depth), SIZE(watch.crash.obstacle);
   tape_feed(t, &x->feed);
   sw_tape_log(t, &x->log);
 }

@@ -172,6 +172,10 @@ sw_status sw_scene_follow(sw_scene *scene, sw_handle hold, sw_motion *motion, in
                           sw_error *err);
 sw_status sw_scene_set_pose(sw_scene *scene, sw_handle hold, sw_pose pose, sw_error *err);
 sw_status sw_scene_hold_pose(sw_scene *scene, sw_handle hold, sw_pose *out, sw_error *err);
+/* When what it holds was last driven into an obstacle, how far then, and into which one: NAN, 0
+ * and "" when it never was [s], [m]. */
+sw_status sw_scene_hold_crash(const sw_scene *scene, sw_handle hold, double *time, double *depth,
+                              const char **obstacle, sw_error *err);
 
 /* Force and moment on the wire about the held point, or about *about [N, N m]. */
 sw_status sw_scene_hold_force(sw_scene *scene, sw_handle hold, const sw_vec *about, sw_vec *force,
