@@ -11,11 +11,15 @@
  *
  * Friction acts along the axis: at each node a spring that is W/200 long when it slips, with
  * mu times the push |grad U| that the node had in the last accepted state. So it is a potential
- * of the step, its stiffness symmetric, and it lags one step behind a push that changes. A wire
- * that crosses the clip at an angle of more than about 45 degrees, or loops through it more than
- * once, is outside of what this describes. */
+ * of the step, its stiffness symmetric, and it lags one step behind a push that changes.
+ *
+ * Floor and walls bear their strength. A wire that is pressed through them, from within or from
+ * outside, has broken the clip, which does nothing to it from then on. A wire that crosses the clip
+ * at an angle of more than 45 degrees, or passes it altogether within one step, is outside of
+ * what this describes. All of that is told. */
 #include <math.h>
 #include <stddef.h>
+#include <stdio.h>
 
 #include "force/clip_sum.h"
 #include "force/force.h"
@@ -29,6 +33,9 @@ static const sw_param rows[] = {
     {"stiffness", SW_PARAM_NUMBER, "N/m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(sw_clip_args, stiffness),
      "of floor and walls (default: 50 times the larger force over the wire's radius)"},
+    {"strength", SW_PARAM_NUMBER, "N", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(sw_clip_args, strength),
+     "of floor and walls, beyond which they break (default: 20 times the larger force)"},
 };
 
 static sw_status check(const void *args, const sw_beam *beam, sw_error *err) {
@@ -69,10 +76,21 @@ enum {
   OUT,
   OUT_TIME,
   OUT_PEAK,
+  THERE_BEFORE, /* 1: the wire passed the clip's plane in the last accepted state, at */
+  U_BEFORE,     /* this height and */
+  V_BEFORE,     /* this far to the side [m] */
+  PUSH,         /* the most that floor or wall did to it since it is deep in them [N] */
+  BROKEN,       /* by what the wire has broken it, see below; 0 = it has not */
+  BROKEN_TIME,
+  BROKEN_FORCE,
+  NEWS, /* what is to be told of the last step */
+  NEWS_VALUE,
+  NEWS_S,
   HEAD
 };
 enum { STRETCH, PLACE, MOST, EACH };
 enum { EMPTY, INSERTING, SEATED, ABOVE };
+enum { NO_NEWS, THROUGH_FLOOR, THROUGH_WALL, FROM_OUTSIDE, CROSSING, PASSED };
 
 /* The clip as the wire meets it in this step. */
 static sw_clip clip_of(const void *args, const sw_field *f, const double *history) {
@@ -111,7 +129,10 @@ static void add_friction(const sw_clip *c, sw_field *f) {
   }
 }
 
+static int is_broken(const double *history) { return history && history[BROKEN] > 0; }
+
 static sw_status eval(const void *args, sw_field *f, sw_error *err) {
+  if (is_broken(f->history)) return SW_OK;
   const sw_clip c = clip_of(args, f, f->history);
   const int stiffness = (f->want & SW_WANT_STIFFNESS) != 0;
   (void)err;
@@ -135,7 +156,16 @@ typedef struct middle {
   double u, v, s; /* of its middle [m] */
   double push;    /* of lips, floor and walls along direction [N] */
   sw_vec force;   /* of all [N] */
+  double passes;  /* share of the width that it passes through, anywhere [-] */
+  double at[2];   /* u and v of that [m] */
+  double along;   /* of the wire there and the axis, the cosine [-] */
 } middle;
+
+/* Cosine of the angle between the edge and the axis. */
+static double cosine(const sw_clip *c, const sw_field *f, size_t e) {
+  const sw_vec d = sw_sub(sw_axis_at(f, e + 1), sw_axis_at(f, e));
+  return fabs(sw_dot(c->axis, sw_unit_or(d, c->axis)));
+}
 
 static middle middle_of(const sw_clip *c, const sw_field *f) {
   middle m = {0};
@@ -144,10 +174,13 @@ static middle middle_of(const sw_clip *c, const sw_field *f) {
     if (!sw_clip_edge(c, f, (size_t)e, 0, &sum)) continue;
     m.share += sum.share;
     m.u += sum.u, m.v += sum.v, m.s += sum.s;
+    m.passes += sum.all[0], m.at[0] += sum.all[1], m.at[1] += sum.all[2];
+    m.along += sum.share * cosine(c, f, (size_t)e);
     m.push -= sum.g[0][0] + sum.g[1][0];
     for (int end = 0; end < 2; end++) m.force = sw_sub(m.force, sw_clip_world(c, sum.g[end]));
   }
-  if (m.share > 0) m.u /= m.share, m.v /= m.share, m.s /= m.share;
+  if (m.share > 0) m.u /= m.share, m.v /= m.share, m.s /= m.share, m.along /= m.share;
+  if (m.passes > 0) m.at[0] /= m.passes, m.at[1] /= m.passes;
   return m;
 }
 
@@ -162,6 +195,84 @@ static int outside(const sw_clip *c, const middle *m) {
   const double way = c->law.out + c->law.in;
   if (m->share < THERE || m->u < -c->law.clearance - c->law.reach) return EMPTY;
   return m->u < way ? INSERTING : ABOVE;
+}
+
+/* --- what it does not bear or describe ------------------------------------------------ */
+
+static const double PART = 0.25; /* of the width, from which on a wire counts as there [-] */
+static const double STEEP = 0.7071067812; /* cosine of the largest angle of crossing [-] */
+static const double TOUCHES = 1e-3;       /* of the larger force, from which on it is told of [-] */
+static const double PRESSED = 0.2;        /* of the strength: the push before can be told [-] */
+
+static void tell(double *h, int what, double value, double s) {
+  h[NEWS] = what, h[NEWS_VALUE] = value, h[NEWS_S] = s;
+}
+
+/* Is a wire at u, v between the walls, or under the lips' top beside or under the clip's body? */
+static int inside(const sw_clip_law *l, double u, double v) {
+  return u < l->out && u > -l->clearance - l->reach && fabs(v) < l->clearance + l->reach;
+}
+
+/* Does the straight way from one place to the other go through the body, below the lips' top? */
+static int goes_through(const sw_clip_law *l, const double from[2], const double to[2]) {
+  enum { LOOKS = 64 };
+  for (int k = 1; k < LOOKS; k++) {
+    const double share = (double)k / LOOKS;
+    if (inside(l, from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])))
+      return 1;
+  }
+  return 0;
+}
+
+/* Is it where floor or walls, pressed from either side, have borne all they can? */
+static int deep(const sw_clip_law *l, const double at[2]) {
+  const double below = -l->clearance - at[0], aside = fabs(at[1]) - l->clearance;
+  const double low = 0.5 * l->reach, high = 1.5 * l->reach;
+  return (below > low && below < high) || (aside > low && aside < high);
+}
+
+/* How a wire that was in the clip has left it, on the straight way from one place to the next,
+ * other than by its mouth. */
+static int way_out(const sw_clip_law *l, const double from[2], const double to[2]) {
+  const double wall = l->clearance + l->reach, floor = -wall;
+  const double v0 = fabs(from[1]), v1 = fabs(to[1]);
+  if (v1 > wall) {
+    const double share = v0 < wall ? (wall - v0) / (v1 - v0) : 0.0;
+    const double u = from[0] + share * (to[0] - from[0]);
+    if (u < l->out && u >= floor) return THROUGH_WALL;
+  }
+  return to[0] < floor ? THROUGH_FLOOR : NO_NEWS;
+}
+
+/* Has the wire gone where this is valid no more? */
+static int look(const sw_clip *c, const middle *m, double *h) {
+  const sw_clip_law *l = &c->law;
+  const double before[2] = {h[U_BEFORE], h[V_BEFORE]};
+  const int there = m->passes >= THERE && h[THERE_BEFORE] > 0;
+  const int caught = h[STATE] == SEATED || h[STATE] == INSERTING;
+  const int touches = sw_norm(m->force) > TOUCHES * c->strongest;
+  if (m->share > PART && touches && m->along < STEEP)
+    tell(h, CROSSING, 180.0 / 3.14159265358979323846 * acos(m->along), m->s);
+  if (!there) return NO_NEWS;
+  if (caught) return way_out(l, before, m->at);
+  if (inside(l, before[0], before[1])) return NO_NEWS;
+  const int in = inside(l, m->at[0], m->at[1]), from_above = before[0] >= l->out;
+  if (in ? from_above : !goes_through(l, before, m->at)) return NO_NEWS;
+  return !from_above && h[PUSH] > PRESSED * l->strength ? FROM_OUTSIDE : PASSED;
+}
+
+/* 1: the clip is broken for this wire. */
+static int breaks(const sw_clip *c, const middle *m, double time, double *h) {
+  const double push = sw_norm(m->force), most = fmax(push, h[PUSH]);
+  const double step = hypot(m->at[0] - h[U_BEFORE], m->at[1] - h[V_BEFORE]);
+  const int how = look(c, m, h);
+  h[THERE_BEFORE] = m->passes >= THERE, h[U_BEFORE] = m->at[0], h[V_BEFORE] = m->at[1];
+  h[PUSH] = deep(&c->law, m->at) ? most : push;
+  if (!how) return 0;
+  h[BROKEN] = how, h[BROKEN_TIME] = time, h[BROKEN_FORCE] = most;
+  tell(h, how, how == PASSED ? step : most, m->s);
+  begin(h, EMPTY);
+  return 1;
 }
 
 static void follow(const sw_clip *c, const middle *m, double time, double *h) {
@@ -251,14 +362,36 @@ static int near_by(const sw_clip *c, const sw_field *f) {
   return 0;
 }
 
-static int idle(const double *history) { return history[BEGUN] > 0 && !(history[NEAR] > 0); }
+static int idle(const double *history) {
+  return is_broken(history) || (history[BEGUN] > 0 && !(history[NEAR] > 0));
+}
+
+/* A broken clip does nothing any more; what it and friction's springs stored is lost. */
+static void give_up(const sw_clip *c, const sw_field *f, double *history) {
+  const double slip = SLIP * c->width;
+  sw_clip_sum sum;
+  history[RUBS] = history[NEAR] = 0;
+  for (long e = sw_clip_find(c, f, 0); e >= 0; e = sw_clip_find(c, f, e + 1))
+    if (sw_clip_edge(c, f, (size_t)e, 0, &sum)) history[DISSIPATED] += sum.energy;
+  for (size_t i = 0; i < sw_axis_points(f->plan); i++) {
+    double *h = history + HEAD + EACH * i;
+    if (h[MOST] > 0) history[DISSIPATED] += friction_energy(stretch_of(c, f, h, i), h[MOST], slip);
+    h[MOST] = 0;
+  }
+}
 
 static void commit(const void *args, const sw_field *f, double *history) {
   const sw_clip c = clip_of(args, f, history);
+  history[NEWS] = NO_NEWS;
+  if (is_broken(history)) return;
   const int was_near = history[NEAR] > 0 || !(history[BEGUN] > 0);
   history[NEAR] = near_by(&c, f);
   if (history[NEAR] > 0 || was_near) {
     const middle m = middle_of(&c, f);
+    if (breaks(&c, &m, f->time, history)) {
+      give_up(&c, f, history);
+      return;
+    }
     follow(&c, &m, f->time, history);
     history[LAST] = m.u;
     if (c.friction > 0) commit_friction(&c, f, history);
@@ -286,14 +419,16 @@ static void inherit(const sw_plan *old, const double *from, const sw_field *f, d
 
 /* --- read-outs --------------------------------------------------------------------- */
 
-static const char *const outputs[] = {"share",    "u",          "v",        "s",    "force_x",
-                                      "force_y",  "force_z",    "way",      "out",  "state",
-                                      "peak",     "insertions", "in_time",  "in_s", "in_peak",
-                                      "removals", "out_time",   "out_peak", NULL};
+static const char *const outputs[] = {
+    "share",    "u",        "v",        "s",        "force_x",    "force_y",     "force_z",
+    "way",      "out",      "state",    "peak",     "insertions", "in_time",     "in_s",
+    "in_peak",  "removals", "out_time", "out_peak", "broken",     "broken_time", "broken_force",
+    "strength", NULL};
 
 static void read(const void *args, const sw_field *f, const double *history, double *out) {
   const sw_clip c = clip_of(args, f, history);
   middle m = middle_of(&c, f);
+  if (is_broken(history)) m.force = sw_v(0, 0, 0), m.share = 0;
   for (size_t i = 0; i < sw_axis_points(f->plan); i++) {
     const double *h = history + HEAD + EACH * i;
     const double e = stretch_of(&c, f, h, i) / (SLIP * c.width);
@@ -316,8 +451,33 @@ static void read(const void *args, const sw_field *f, const double *history, dou
                            history[IN_PEAK],
                            history[OUT],
                            history[OUT_TIME],
-                           history[OUT_PEAK]};
+                           history[OUT_PEAK],
+                           history[BROKEN],
+                           history[BROKEN_TIME],
+                           history[BROKEN_FORCE],
+                           c.law.strength};
   for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) out[k] = values[k];
+}
+
+static int news(const void *args, const double *history, sw_force_news *out) {
+  static const char *const how[] = {"", "its floor", "a wall", "a wall from outside"};
+  const int what = (int)history[NEWS];
+  const double value = history[NEWS_VALUE];
+  (void)args;
+  if (what == NO_NEWS) return 0;
+  *out = (sw_force_news){.kind = "clip", .s = history[NEWS_S], .value = value};
+  if (what == CROSSING)
+    snprintf(out->text, sizeof out->text,
+             "the wire crosses it at %.3g degrees, more than the 45 that it describes", value);
+  else if (what == PASSED)
+    snprintf(out->text, sizeof out->text,
+             "the wire goes through it within one step, by %.3g mm, and is free of it",
+             1e3 * value);
+  else
+    snprintf(out->text, sizeof out->text,
+             "OVERLOADED, the wire breaks through %s with %.4g N and is free of it", how[what],
+             value);
+  return 1;
 }
 
 /* A node has at most 2 length / W of the clip, or all of it. Leapfrog's limit is 2 / omega. */
@@ -348,6 +508,7 @@ const sw_force_class sw_force_clip = {
     .idle = idle,
     .inherit = inherit,
     .begin = begin_history,
+    .news = news,
     .outputs = outputs,
     .read = read,
 };

@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/simd.h"
+#include "scene/events.h"
 #include "scene/world.h"
 #include "state/clamp.h"
 
@@ -196,6 +197,22 @@ static sw_status observe_contact(sw_scene *s, sw_error *err) {
   return SW_OK;
 }
 
+/* What forces on wires have found. */
+static void tell_news(sw_scene *s) {
+  sw_force_news news;
+  for (size_t w = 0; w < s->system.body_count; w++) {
+    const sw_body *b = &s->system.bodies[w];
+    for (size_t k = 0; k < b->term_count; k++) {
+      if (!sw_term_news(&b->terms[k], &news)) continue;
+      const int id = b->terms[k].id;
+      const char *name = id >= 0 ? s->forces[id].name : "";
+      const double s0 = b->plan->s[0];
+      sw_scene_tell(s, news.kind, name, news.s - s0, news.value, "%s '%s', wire '%s': %s",
+                    b->terms[k].cls->name, name, s->wires[w].name, news.text);
+    }
+  }
+}
+
 sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
   sw_feed_follow(s);
   sw_jaw_follow(s);
@@ -203,6 +220,7 @@ sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
   SW_TRY(sw_system_place_holds(&s->system, s->time, s->system.x, NULL, NULL, err));
   sw_system_refresh(&s->system);
   sw_system_commit(&s->system, s->time);
+  tell_news(s);
   sw_scene_watch_ties(s);
   for (size_t w = 0; w < s->wire_count; w++) {
     sw_wire_extremes now;

@@ -261,8 +261,8 @@ static void tape_force_args(sw_tape *t, sw_scene_force *x) {
 
 void sw_tape_force(sw_tape *t, sw_scene_force *x) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_scene_force, 168);
-  UINT32(generation), INT(alive), sw_tape_long(t, &x->wire), DOUBLE(scale);
+  SW_TAPE_STRUCT(t, sw_scene_force, 248);
+  UINT32(generation), INT(alive), NAME(name), sw_tape_long(t, &x->wire), DOUBLE(scale);
   const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
   if (sw_tape_reads(t)) x->cls = sw_force_find(kind);
   sw_tape_expect(t, x->cls != NULL, "a force of an unknown kind");

@@ -97,6 +97,8 @@ const char *sw_scene_obstacle_name(const sw_scene *scene, sw_handle obstacle, co
 int sw_scene_force_needed(const sw_scene *scene, sw_handle force);
 /* The class of a force, released or not; NULL as above. */
 const sw_force_class *sw_scene_force_class(const sw_scene *scene, sw_handle force);
+/* What its events call it. */
+sw_status sw_scene_name_force(sw_scene *scene, sw_handle force, const char *name, sw_error *err);
 /* 0 once released, or when the scene does not know it. */
 int sw_scene_force_acts(const sw_scene *scene, sw_handle force);
 

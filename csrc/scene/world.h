@@ -255,6 +255,7 @@ typedef struct sw_scene_obstacle {
 typedef struct sw_scene_force {
   uint32_t generation;
   int alive;
+  char name[SW_NAME_SIZE]; /* for events, or "" */
   const sw_force_class *cls;
   long wire;    /* -1 = all */
   double scale; /* of the wire's mesh when it was made [-] */

@@ -240,6 +240,11 @@ static inline sw_status sw_term_eval(const sw_term *term, sw_field *field, sw_er
  * histories up to it. */
 void sw_system_commit(sw_system *system, double time);
 
+/* What commit has found in a body's term; 1: there is something to tell. */
+static inline int sw_term_news(const sw_term *term, sw_force_news *out) {
+  return term->cls->news && term->history && term->cls->news(term->args, term->history, out);
+}
+
 /* Work dissipated by the forces with a history [J]; *any: there are such. */
 double sw_system_dissipated(const sw_system *system, int *any);
 
