@@ -211,12 +211,12 @@ static void commit(const void *args, const sw_field *f, double *history) {
   if (sw_clip_is_broken(history)) return;
   const int was_near = history[SW_CLIP_NEAR] > 0 || !(history[SW_CLIP_BEGUN] > 0);
   history[SW_CLIP_NEAR] = near_by(&c, f);
+  const sw_clip_middle m = sw_clip_middle_of(&c, f);
+  if (sw_clip_breaks(&c, &m, f->time, history)) { /* from afar to afar in one step, too */
+    give_up(&c, f, history);
+    return;
+  }
   if (history[SW_CLIP_NEAR] > 0 || was_near) {
-    const sw_clip_middle m = sw_clip_middle_of(&c, f);
-    if (sw_clip_breaks(&c, &m, f->time, history)) {
-      give_up(&c, f, history);
-      return;
-    }
     sw_clip_follow(&c, &m, f->time, history);
     history[SW_CLIP_LAST] = m.u;
     if (c.friction > 0) commit_friction(&c, f, history);

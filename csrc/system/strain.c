@@ -118,14 +118,3 @@ void sw_strain_take(sw_system *s, double share) {
   for (size_t e = 0; e < s->edges; e++)
     s->strain_now[e] += share * (s->strain_new[e] - s->strain_now[e]);
 }
-
-sw_status sw_system_power(sw_system *s, size_t body, double *power, sw_error *err) {
-  sw_body *b = &s->bodies[body];
-  b->field.want = SW_WANT_POWER;
-  b->field.power = 0;
-  b->field.statics = 0;
-  for (size_t k = 0; k < b->term_count; k++)
-    if (b->terms[k].cls->flags & SW_FORCE_POWER) SW_TRY(sw_term_eval(&b->terms[k], &b->field, err));
-  *power = b->field.power;
-  return SW_OK;
-}

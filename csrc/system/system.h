@@ -307,10 +307,6 @@ void sw_system_strain_from_state(sw_system *system);
 /* The velocities were given and are exact: rates of strain of a body as they have them. */
 void sw_system_rate_from_velocity(sw_system *system, size_t body);
 
-/* Power that the body's forces of SW_FORCE_POWER take from the motion at the refreshed state, with
- * the true rates of strain [W]. Fails as they do. */
-sw_status sw_system_power(sw_system *system, size_t body, double *power, sw_error *err);
-
 /* Kinetic energy of the state with consistent (implicit) masses [J]. */
 double sw_system_kinetic(const sw_system *system, int lumped);
 double sw_body_kinetic(const sw_system *system, size_t body, int lumped);

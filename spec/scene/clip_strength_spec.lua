@@ -24,7 +24,7 @@ end
 local function move(scene, clip, hands, way, speed, run)
   local duration, most = t.norm(way) / speed, 0
   for _, hand in ipairs(hands) do
-    hand:follow{ relative = true, points = { { 0, 0, 0 }, way }, duration = duration, law = "linear" }
+    hand:follow{ relative = true, points = { { 0, 0, 0 }, way }, duration = duration }
   end
   scene:process(function(p)
     local start = scene.time
