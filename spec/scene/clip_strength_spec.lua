@@ -42,7 +42,8 @@ end
 local function line(y, z) return { -0.1, y, z }, { 0.1, y, z } end
 
 describe("a clip's strength", function()
-  for _, case in ipairs{ { "sideways", { 0, -0.03, -0.01 }, "a wall" }, { "downwards", { 0, 0, -0.03 }, "its floor" } } do
+  for _, case in ipairs{ { "sideways", { 0, -0.03, -0.01 }, "a wall" },
+    { "downwards", { 0, 0, -0.03 }, "its floor" } } do
     it("is all that a seated wire swept " .. case[1] .. " has to break, at any step", function()
       for _, dt in ipairs{ 1e-3, 5e-3, 1e-2 } do
         local from, to = line(0, 0)
@@ -67,7 +68,8 @@ describe("a clip's strength", function()
     for _, strength in ipairs{ 50, 200, false } do
       local from, to = line(0, 0)
       local scene, _, clip, hands = scene_with(from, to, { wide = 0.03, strength = strength or nil })
-      local _, most, told = move(scene, clip, hands, { 0, -0.006, 0 }, 0.006, { dt = 1 / 200, quasistatic = true })
+      local slowly = { dt = 1 / 200, quasistatic = true }
+      local _, most, told = move(scene, clip, hands, { 0, -0.006, 0 }, 0.006, slowly)
       t.share(strength or STRENGTH, most, 0.01, "largest force")
       assert.is_truthy(told[1].text:find("a wall", 1, true), told[1].text)
       t.near(most, told[1].value, 0.1 * most, "force told")
@@ -148,7 +150,8 @@ describe("a clip tells of a wire that", function()
   it("does none of this: goes in and out, lies beside, under or over it", function()
     local from, to = line(0, 0.02)
     local scene, _, clip, hands = scene_with(from, to)
-    for _, way in ipairs{ { 0, 0, -0.022 }, { 0, 0, 0.03 }, { 0, 0.02, 0 }, { 0, 0, -0.04 }, { 0, -0.02, 0 } } do
+    local ways = { { 0, 0, -0.022 }, { 0, 0, 0.03 }, { 0, 0.02, 0 }, { 0, 0, -0.04 }, { 0, -0.02, 0 } }
+    for _, way in ipairs(ways) do
       local _, _, told = move(scene, clip, hands, way, 0.05, { dt = 2e-3 })
       assert.equal(0, #told)
     end

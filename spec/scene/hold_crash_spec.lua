@@ -54,7 +54,8 @@ describe("an imposed grip", function()
   it("that is driven through a peg is an event at any step", function()
     for _, dt in ipairs{ 2e-3, 1e-2, 2e-2 } do
       local run = gripped({ 0, 0.2, 0 }, { speed = 1, dt = dt, add = function(scene)
-        scene:obstacle{ name = "peg", shape = "cylinder", radius = 0.002, length = 0.05, at = { 0.2, 0.1, 0.1 } }
+        scene:obstacle{ name = "peg", shape = "cylinder", radius = 0.002, length = 0.05,
+          at = { 0.2, 0.1, 0.1 } }
       end })
       local e = of_kind(run.events, "crash")[1]
       assert.is_table(e, "dt = " .. dt)
@@ -72,7 +73,9 @@ describe("an imposed grip", function()
     assert.is_truthy(run.reason:find("'hand' runs into 'table'", 1, true), run.reason)
     t.below(0.004, of_kind(run.events, "crash")[1].value, "depth when it stopped")
     local calls = {}
-    gripped({ 0, 0, -0.15 }, { on_crash = function(hand, e) calls[#calls + 1] = { hand.name, e.obstacle } end })
+    gripped({ 0, 0, -0.15 }, { on_crash = function(hand, e)
+      calls[#calls + 1] = { hand.name, e.obstacle }
+    end })
     assert.same({ { "hand", "table" } }, calls)
   end)
 
