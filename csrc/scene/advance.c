@@ -417,7 +417,7 @@ static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_er
   for (size_t k = 1; s->time < until - slack;) {
     if (interrupted && interrupted()) return SW_EINTR;
     if ((double)(p->report->steps - first) >= (double)p->args->max_steps) return SW_OK;
-    if (p->report->steps > first && sw_tool_slipped(s)) return SW_OK;
+    if (p->report->steps > first && (sw_tool_slipped(s) || sw_hold_crashed(s))) return SW_OK;
     double t1 = (double)k >= count ? until : t0 + span * ((double)k / count);
     int cut = 0;
     if (p->args->quasistatic) SW_TRY(sw_scene_cut_pose(s, &t1, &cut, err));

@@ -166,7 +166,7 @@ sw_status sw_scene_thaw(sw_scene *s) {
     const sw_body *b = &s->system.bodies[w];
     sw_mesh *m = &s->wires[w].mesh;
     if (b->plan->web) {
-      sw_strand_take(&s->wires[w], &s->system, b);
+      SW_TRY(sw_strand_take(&s->wires[w], &s->system, b));
       continue;
     }
     m->drawn = m->drawn &&
@@ -176,6 +176,10 @@ sw_status sw_scene_thaw(sw_scene *s) {
     memcpy(m->v, s->system.v + 3 * b->first_node, 3 * m->n * sizeof *m->v);
     memcpy(m->a, s->system.a + 3 * b->first_node, 3 * m->n * sizeof *m->a);
     memcpy(m->tension, s->system.tension + b->first_edge, (m->n - 1) * sizeof *m->tension);
+    if (b->axial_time > 0)
+      memcpy(m->rate, s->system.strain_rate + b->first_edge, (m->n - 1) * sizeof *m->rate);
+    else
+      memset(m->rate, 0, m->n * sizeof *m->rate);
     if (b->spin_block) sw_scene_frame_out(s, w);
   }
   SW_TRY(keep_twist(s));
@@ -344,6 +348,20 @@ static sw_status add_contact(sw_scene *s) {
   return status;
 }
 
+/* Strains and their rates go on; where they are not known, springs change as their ends move. */
+static void inherit_strains(sw_scene *s) {
+  sw_system_strain_from_state(&s->system);
+  for (size_t w = 0; w < s->wire_count; w++) {
+    const sw_body *b = &s->system.bodies[w];
+    const double *known = b->plan->web ? s->wires[w].strand.rate : s->wires[w].mesh.rate;
+    if (!(b->axial_time > 0)) continue;
+    if (known)
+      memcpy(s->system.strain_rate + b->first_edge, known, sw_plan_axial(b->plan) * sizeof *known);
+    else
+      sw_system_rate_from_velocity(&s->system, w);
+  }
+}
+
 static sw_status fill(sw_scene *s, size_t alive) {
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_body *b = &s->system.bodies[w];
@@ -359,6 +377,7 @@ static sw_status fill(sw_scene *s, size_t alive) {
     SW_TRY(add_terms(s, w));
   }
   SW_TRY(sw_system_add_histories(&s->system));
+  inherit_strains(s);
   SW_TRY(add_holds(s, alive));
   SW_TRY(sw_scene_add_joins(s));
   SW_TRY(add_contact(s));

@@ -211,7 +211,8 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
   if (lumped(s)) SW_TRY(look_at_end(s, t1, err));
   if (sw_scene_has_contact(s)) judge_touches(s, h, step);
   double most = step->obstacles;
-  sw_system_look_at(&s->system, &glance, s->stepper.trial_x, s->stepper.trial_v);
+  sw_system_look_at(&s->system, &glance, s->stepper.trial_x, s->stepper.trial_v,
+                    s->stepper.strain_rate);
   sw_system_energies(&s->system, lumped(s), &step->to);
   step->contact = contact_energy(s);
   most += sw_ledger_work(s, t1, changed);

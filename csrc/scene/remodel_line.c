@@ -67,7 +67,7 @@ static sw_status sample(sw_scene *s, sw_handle h, const double *at, sw_line *out
     sw_store(out->x + 3 * i, p.position);
     sw_store(out->v + 3 * i, p.velocity);
     sw_store(out->frame + 6 * i, p.tangent);
-    out->tension[i] = p.tension;
+    out->tension[i] = p.elastic;
   }
   return SW_OK;
 }

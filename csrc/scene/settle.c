@@ -116,6 +116,7 @@ static double take(statics *p, int trial) {
   memcpy(s->system.x, p->y, s->system.freedoms * sizeof(double));
   memset(s->system.v, 0, s->system.freedoms * sizeof(double));
   memset(s->system.a, 0, s->system.freedoms * sizeof(double));
+  sw_system_strain_from_state(&s->system);
   if (trial) return shift;
   sw_scene_commit_contact(s);
   p->touched = s->time;

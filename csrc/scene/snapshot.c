@@ -11,6 +11,7 @@ typedef struct saved_hold {
   sw_drive drive;
   sw_vec force, moment;
   sw_pose last_pose;
+  sw_hold_watch watch;
   size_t log_count;
   sw_scene_hold shape; /* where and how it holds, nothing else of it */
   double s1, s2;       /* of a hold that feeds they change [m] */
@@ -141,6 +142,7 @@ static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
     kept->alive = h->alive, kept->drive = copy_drive(&h->drive);
     kept->force = h->force, kept->moment = h->moment;
     kept->last_pose = h->last_pose, kept->log_count = h->log.count;
+    kept->watch = h->watch;
     kept->s1 = h->s1, kept->s2 = h->s2, kept->feed = h->feed;
     sw_motion_retain(h->feed.motion);
   }
@@ -257,6 +259,7 @@ static void put_objects(sw_scene *s, const sw_snapshot *p) {
     h->alive = p->hold[k].alive;
     h->force = p->hold[k].force, h->moment = p->hold[k].moment;
     h->last_pose = p->hold[k].last_pose;
+    h->watch = p->hold[k].watch;
     if (h->log.count > p->hold[k].log_count) h->log.count = p->hold[k].log_count;
     put_drive(&h->drive, &p->hold[k].drive);
     put_feed(h, &p->hold[k]);

@@ -251,6 +251,7 @@ void sw_strand_free(sw_strand *s) {
   sw_free(s->v);
   sw_free(s->a);
   sw_free(s->axial);
+  sw_free(s->rate);
   memset(s, 0, sizeof *s);
 }
 
@@ -271,7 +272,9 @@ sw_status sw_strand_copy(const sw_strand *from, sw_strand *to) {
   to->v = copy_of(from->v, n);
   to->a = copy_of(from->a, n);
   to->axial = copy_of(from->axial, from->web->links);
-  if (to->x && to->v && to->a && to->axial) return SW_OK;
+  if (from->rate) to->rate = copy_of(from->rate, from->web->links);
+  const int whole = !from->rate || to->rate;
+  if (to->x && to->v && to->a && to->axial && whole) return SW_OK;
   sw_strand_free(to);
   return SW_ENOMEM;
 }

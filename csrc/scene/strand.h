@@ -20,6 +20,7 @@ typedef struct sw_strand {
   sw_strand_kit *kit;
   double *x, *v, *a; /* (particles x 3) [m], [m/s], [m/s2] */
   double *axial;     /* (links) of springs [N] */
+  double *rate;      /* (links) of their strains, where dashpots know it; or NULL [1/s] */
 } sw_strand;
 
 /* What a mesh is to be of; the wire's beam gives the rest. */

@@ -65,8 +65,8 @@ static inline int sw_strand_holds(const sw_web *web, const sw_hold_class *cls, s
   const size_t ring = sw_web_ring_of(web, particle);
   return cls->clamped || !sw_web_is_ring(web, ring) || particle - web->first[ring] == web->axis;
 }
-/* The system's state to the strand and the middles of its rings. */
-void sw_strand_take(sw_scene_wire *wire, const sw_system *system, const sw_body *body);
+/* The system's state to the strand and the middles of its rings. SW_ENOMEM. */
+sw_status sw_strand_take(sw_scene_wire *wire, const sw_system *system, const sw_body *body);
 /* Read-outs at arc length s; extremes. */
 void sw_strand_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_body *body, double s,
                   sw_point_state *out);
@@ -205,6 +205,15 @@ typedef struct sw_feed {
   sw_mesh shape;       /* the wire with its unloaded shape, if it has frames */
 } sw_feed;
 
+/* Is it driven into an obstacle? */
+typedef struct sw_hold_watch {
+  int looking;    /* 1: it has been looked at */
+  int crashing;   /* 1: it is driven into one now */
+  double looked;  /* when last [s] */
+  double given;   /* how deep it was in one to begin with [m] */
+  sw_crash crash; /* the last one, of no part; depth 0: none */
+} sw_hold_watch;
+
 typedef struct sw_scene_hold {
   uint32_t generation;
   int alive;
@@ -227,6 +236,7 @@ typedef struct sw_scene_hold {
   sw_quat turn;           /* orientation that goes with the wire's twist, while not built */
   sw_feed feed;           /* of a class that feeds */
   sw_vec force, moment;   /* last, kept after release [N], [N m] */
+  sw_hold_watch watch;
   sw_pose last_pose;
   sw_log log;
 } sw_scene_hold;
@@ -245,6 +255,7 @@ typedef struct sw_scene_obstacle {
 typedef struct sw_scene_force {
   uint32_t generation;
   int alive;
+  char name[SW_NAME_SIZE]; /* for events, or "" */
   const sw_force_class *cls;
   long wire;    /* -1 = all */
   double scale; /* of the wire's mesh when it was made [-] */
@@ -458,6 +469,11 @@ sw_status sw_tool_observe(sw_scene *scene, sw_error *err);
 sw_status sw_tool_look_out(sw_scene *scene, size_t tool, sw_error *err);
 /* 1: one slipped in the last step that ends a run with it. */
 int sw_tool_slipped(const sw_scene *scene);
+
+/* Looks at a hold of the accepted state: is it driven into obstacles, does it push too hard? */
+sw_status sw_hold_look_out(sw_scene *scene, sw_scene_hold *hold, sw_error *err);
+/* 1: one was driven into an obstacle in the last step. */
+int sw_hold_crashed(const sw_scene *scene);
 
 /* --- joins ------------------------------------------------------------------- */
 

@@ -118,6 +118,15 @@ local function react(self, event, reaction, text)
   elseif type(reaction) == "function" then reaction(self, event) end
 end
 
+-- A crash of an imposed grip, which drives the wire itself into an obstacle.
+local function look_at_hold(self)
+  local crash = self.hold:crash()
+  if not crash or crash.time == self.crash_time then return end
+  self.crash_time = crash.time
+  return react(self, { kind = "crash", time = crash.time, part = self.name, obstacle = crash.obstacle,
+    depth = crash.depth, s = self.s }, self.on_crash, crash_text)
+end
+
 -- Events of one gripper with pads; returns why the run is to stop, or nil.
 local function look_at(self)
   local now, why = self.tool:state(), nil
@@ -143,7 +152,8 @@ end
 function grasp.look(scene)
   local why
   for _, self in ipairs(build.data(scene).grippers) do
-    if self.tool then why = look_at(self) or why end
+    if self.tool then why = look_at(self) or why
+    elseif self.hold then why = look_at_hold(self) or why end
   end
   return why
 end
@@ -276,6 +286,7 @@ local function grasp_imposed(self, wire, args)
   self.hold = build.call(4, self.scene.grip, self.scene, wire, { s = s, width = self.width,
     name = self.name .. (#self.past > 0 and "#" .. #self.past + 1 or "") })
   self.past[#self.past + 1] = self.hold
+  self.s = s
 end
 
 local function grasp_by_pads(self, wire, args)
