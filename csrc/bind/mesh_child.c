@@ -282,6 +282,11 @@ static sw_status broken(const sw_mesh_file *file, const limits *most, int status
   if (status != -1 && WIFSIGNALED(status)) {
     if (WTERMSIG(status) == SIGINT) return sw_fail(err, SW_EINTR, "interrupted");
     if (WTERMSIG(status) == SIGXCPU) return too_long(file, most, err);
+    if (WTERMSIG(status) == SIGKILL)
+      return sw_fail(err, SW_ELIMIT,
+                     "%s: reading data as %s was ended by the system, which has too little memory "
+                     "or time for it; write the file anew, with fewer triangles if it is whole",
+                     file->object, file->format);
   }
   return sw_fail(err, SW_EFORMAT,
                  "%s: data is not readable as %s: it is damaged so that its reader broke down; "

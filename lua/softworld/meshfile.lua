@@ -43,4 +43,11 @@ function meshfile.read(path)
   return { data = data, format = format }
 end
 
+--- An error of the core about the content, with the path: "obstacle mesh: file 'clip.ply': ...".
+function meshfile.named(message, path)
+  return (tostring(message):gsub("obstacle mesh: ", function(who)
+    return ("%sfile '%s': "):format(who, path)
+  end, 1))
+end
+
 return meshfile
