@@ -59,7 +59,7 @@ static int is_part(const char *name) {
   if (number == 0 || end < number + 1 || name[end - number - 1] != '-') return 0;
   end -= number + 1;
   const size_t process = digits_before(name, end);
-  return process > 0 && end > process && name[end - process - 1] == '.';
+  return process > 0 && end > process + 1 && name[end - process - 1] == '.';
 }
 
 static void remove_folder(int parent, int fd, const char *name) {

@@ -11,9 +11,12 @@ gnuplot.colours = { "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B
 
 --- A text as a gnuplot string: nothing in it has a meaning.
 -- @tparam string text
--- @treturn string in single quotes, on one line
+-- @treturn string in quotes, on one line
 function gnuplot.quote(text)
-  return "'" .. tostring(text):gsub("%c", " "):gsub("'", "''") .. "'"
+  text = tostring(text):gsub("%c", " ")
+  -- gnuplot takes two single quotes at the start for an empty string
+  if text:sub(1, 1) ~= "'" then return "'" .. text:gsub("'", "''") .. "'" end
+  return '"' .. text:gsub('["\\`]', function(c) return ("\\%03o"):format(c:byte()) end) .. '"'
 end
 
 --- A number for gnuplot; what is not finite leaves a gap.
