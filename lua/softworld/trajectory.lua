@@ -184,6 +184,14 @@ core.trajectory_reader(function(source, scale) return trajectory.read(source, sc
 --- Write count samples (default 201) of a trajectory as a CSV file that can be read
 -- back as way-points with times.
 function trajectory.save(self, path, count)
+  if core.type(self) ~= "trajectory" then error("trajectory:save is a method: call it with a colon", 2) end
+  if type(path) ~= "string" or path == "" then
+    error("trajectory:save: the name of a file is wanted, got " .. (path == "" and "''" or type(path)), 2)
+  end
+  if count ~= nil and (math.type(count) ~= "integer" or count < 2) then
+    error(("trajectory:save: the number of samples = %s must be an integer of 2 or more")
+      :format(tostring(count)), 2)
+  end
   local s = self:sample(count or 201)
   local columns = { t = s.t }
   for k, name in ipairs(position) do
