@@ -210,4 +210,20 @@ core.class.trajectory.save = trajectory.save
 --- Make a trajectory; see the reference of its parameters.
 trajectory.new = core.trajectory
 
-return setmetatable(trajectory, { __call = function(_, ...) return core.trajectory(...) end })
+-- Errors about way-points of a file name it.
+local function of_file(path, level, ok, result)
+  if ok then return result end
+  local text = tostring(result):gsub("^[^\n:]*%.lua:%d+: ", "")
+  if not text:find(path, 1, true) then
+    text = text:gsub("^trajectory: ", function() return ("trajectory: '%s': "):format(path) end)
+  end
+  error(text, level + 1)
+end
+
+local function make(_, args, ...)
+  local path = type(args) == "table" and rawget(args, "path")
+  if type(path) ~= "string" or path:find "\n" then return core.trajectory(args, ...) end
+  return of_file(path, 2, pcall(core.trajectory, args))
+end
+
+return setmetatable(trajectory, { __call = make })
