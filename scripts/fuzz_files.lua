@@ -287,10 +287,13 @@ damages[4] = function(text, other)
   return replaced(text, a, b, other:sub(c, d))
 end
 
-local function damage(text, other)
+local in_place = { 2, 3, 8 } -- what follows stays where it was
+
+local function damage(text, other, kept_in_place)
   for _ = 1, random(1, 4) do
     if #text == 0 then break end
-    text = damages[random(#damages)](text, other)
+    local which = kept_in_place and in_place[random(#in_place)] or random(#damages)
+    text = damages[which](text, other)
   end
   return text
 end
@@ -348,7 +351,7 @@ local function file_of(number)
   corpora[kind] = corpora[kind] or kinds[kind][1]()
   math.randomseed(seed, number)
   local from, other = corpora[kind][random(#corpora[kind])], corpora[kind][random(#corpora[kind])]
-  local text = damage(from[1], other[1])
+  local text = damage(from[1], other[1], kind == "save" and random() < 0.6)
   if kind == "save" and random() < 0.7 then text = sealed(text) end
   return kind, text, from[2]
 end

@@ -154,10 +154,16 @@ describe("the reader of mesh files", function()
   it("leaves no process and no file open, whatever comes", function()
     local out, err, code = program.script([[
       local core = require "softworld.core"
-      local function read(data, format) return pcall(core.shape, { shape = "mesh", data = data, format = format }) end
+      local function read(data, format)
+        return pcall(core.shape, { shape = "mesh", data = data, format = format })
+      end
+      local lfs = require "lfs"
       local function left()
-        local pipe = io.popen "ls /proc/$PPID/fd | wc -l; grep -l \"PPid:.*\\b$PPID$\" /proc/[0-9]*/status | wc -l"
-        return pipe:read "a", pipe:close()
+        local pipe, open = io.popen "grep -l \"PPid:.*\\b$PPID$\" /proc/[0-9]*/status | wc -l", 0
+        local children = pipe:read "a"
+        pipe:close()
+        for _ in lfs.dir "/proc/self/fd" do open = open + 1 end
+        return open .. " " .. children
       end
       local good = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
       assert(read(good, "obj"))
