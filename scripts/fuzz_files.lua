@@ -149,7 +149,8 @@ end
 local function csv_files()
   local numbers = { "a,b_mm,c\n" }
   for i = 1, 60 do numbers[#numbers + 1] = ("%d,%.17g,%.3e\n"):format(i, math.sin(i), math.exp(-i)) end
-  return { { table.concat(numbers), "csv" }, { '"first ""name""";second\n# a comment\n"1.5";2e-3\n\n3;4\n', "csv" },
+  return { { table.concat(numbers), "csv" },
+    { '"first ""name""";second\n# a comment\n"1.5";2e-3\n\n3;4\n', "csv" },
     { "x\ty\r\n1\t2\r\n3\t4\r\n", "csv" }, { "\239\187\191t,v\n0,1\n1,2\n", "csv" } }
 end
 
@@ -168,10 +169,12 @@ end
 local function scene_of()
   local scene = sw.scene { name = "fuzzed" }
   scene:obstacle { shape = "plane", friction = 0.3 }
-  scene:obstacle { shape = "mesh", data = mesh_files()[1][1], format = "obj", scale = 0.1, at = { 0.3, 0.2, 0 } }
-  local wire = scene:wire { cable = "GXL 1.5", from = { 0, 0, 0.0015 }, to = { 0.2, 0, 0.0015 }, segments = 12 }
-  local other = scene:wire { E = 1e7, density = 1e3, radius = 1e-3, from = { 0, 0.1, 0.1 }, to = { 0.1, 0.1, 0.1 },
-    segments = 4 }
+  scene:obstacle { shape = "mesh", data = mesh_files()[1][1], format = "obj", scale = 0.1,
+    at = { 0.3, 0.2, 0 } }
+  local wire = scene:wire { cable = "GXL 1.5", from = { 0, 0, 0.0015 }, to = { 0.2, 0, 0.0015 },
+    segments = 12 }
+  local other = scene:wire { E = 1e7, density = 1e3, radius = 1e-3, from = { 0, 0.1, 0.1 },
+    to = { 0.1, 0.1, 0.1 }, segments = 4 }
   scene:clamp(other, { s = 0 })
   scene:tie(wire, { s = 0.2, to = { 0.2, 0, 0.05 }, slack = 0.01 })
   local hand = scene:gripper { name = "hand" }
@@ -227,8 +230,9 @@ end
 local random = math.random
 local NUMBERS = { "-1", "0", "1e308", "nan", "inf", "-0", "99999999999999999999", "2147483648", "4294967295",
   "1,5", "0x10", "", "1e-320", "-2147483649", "100000000" }
-local WORDS = { "\0\0\0\0", "\255\255\255\255", "\255\255\255\127", "\0\0\0\128", "\0\0\128\127", "\0\0\192\127",
-  "\1\0\0\0", ("<d"):pack(0 / 0), ("<d"):pack(1 / 0), ("<d"):pack(-1e300), ("<I8"):pack(1 << 40) }
+local WORDS = { "\0\0\0\0", "\255\255\255\255", "\255\255\255\127", "\0\0\0\128", "\0\0\128\127",
+  "\0\0\192\127", "\1\0\0\0", ("<d"):pack(0 / 0), ("<d"):pack(1 / 0), ("<d"):pack(-1e300),
+  ("<I8"):pack(1 << 40) }
 
 local function pieces(text)
   local a, b = random(1, #text), random(1, #text)
@@ -334,7 +338,8 @@ local kinds = {
   end },
 }
 -- In turn: files of scenes are twenty times as large as the others.
-local names = { "mesh", "csv", "mesh", "trajectory", "mesh", "csv", "mesh", "save", "mesh", "trajectory", "mesh" }
+local names = { "mesh", "csv", "mesh", "trajectory", "mesh", "csv", "mesh", "save", "mesh",
+  "trajectory", "mesh" }
 if o.kind and not kinds[o.kind] then
   io.stderr:write(usage, "\n")
   os.exit(2)
@@ -453,8 +458,8 @@ local function supervise()
     for key in pairs(sum) do sum[key] = sum[key] + t[key] end
     first = t.next
     if not o.quiet then
-      io.stderr:write(("seed %d: %d cases, %.3g of %.3g bytes, %d refused, %d found\n"):format(seed, sum.cases,
-        sum.bytes, o.bytes, sum.refused, sum.found))
+      io.stderr:write(("seed %d: %d cases, %.3g of %.3g bytes, %d refused, %d found\n"):format(seed,
+        sum.cases, sum.bytes, o.bytes, sum.refused, sum.found))
     end
   end
   print(("%d cases, %d bytes, %d refused, %d found"):format(sum.cases, sum.bytes, sum.refused, sum.found))

@@ -7,7 +7,8 @@ local core = require "softworld.core"
 local methods = {}
 
 local function described(value)
-  local kind = core.type(value) or type(value) == "table" and (getmetatable(value) or {}).__name or type(value)
+  local kind = core.type(value)
+    or type(value) == "table" and (getmetatable(value) or {}).__name or type(value)
   return type(kind) == "string" and kind or "table"
 end
 

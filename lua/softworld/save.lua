@@ -98,7 +98,8 @@ local function note_of(scene, run)
     scene, ("scene '%s'"):format(scene.name))
 end
 
---- Write the scene to a file, whole or not at all, also when the computer goes down; run: the totals of a run under way.
+--- Write the scene to a file, whole or not at all, also when the computer goes down; run: the
+-- totals of a run under way.
 function save.write(scene, file, run)
   return sink.write_file(file, core.save(scene, note_of(scene, run)), { safe = true })
 end

@@ -8,7 +8,8 @@ local script = program.script
 
 -- Shells start background jobs with SIGINT ignored; env undoes that.
 local NORMAL = "env --default-signal=INT"
-local ONCE, TWICE = { before = NORMAL, signals = { 0.3 } }, { before = NORMAL, signals = { 0.3, again = true } }
+local ONCE = { before = NORMAL, signals = { 0.3 } }
+local TWICE = { before = NORMAL, signals = { 0.3, again = true } }
 
 local function interrupted(text, line)
   local out, err, code = script(text, nil, ONCE)

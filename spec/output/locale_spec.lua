@@ -7,7 +7,8 @@ local program = require "host.program"
 local function make_locale()
   local folder = program.folder()
   os.execute("mkdir " .. program.quote(folder .. "/comma"))
-  local texts = { ",\0", ".\0", "\3\3\0\0", string.pack("<I4", 44), string.pack("<I4", 46), "ANSI_X3.4-1968\0" }
+  local texts = { ",\0", ".\0", "\3\3\0\0", string.pack("<I4", 44), string.pack("<I4", 46),
+    "ANSI_X3.4-1968\0" }
   program.write(folder .. "/comma/LC_NUMERIC", string.pack("<I4I4I4I4I4I4I4I4", 0x20031114, 6, 32, 34, 36,
     40, 44, 48) .. table.concat(texts))
   return "LOCPATH=" .. program.quote(folder)
@@ -90,7 +91,8 @@ describe("numbers in a locale with a decimal comma", function()
       print(os.setlocale("C.UTF-8", "ctype") or "C.UTF-8", 2.5)
     ]], nil, { before = make_locale() })
     assert.equal("", err)
-    assert.matches("^comma\tcomma\t1.5\tnil\nC\tC\t1.5\tnil\tfalse\tbad argument #1 [^\n]*\nC.UTF%-8\t2.5\n$", out)
+    assert.matches("^comma\tcomma\t1.5\tnil\nC\tC\t1.5\tnil\tfalse\tbad argument #1 [^\n]*\n"
+      .. "C.UTF%-8\t2.5\n$", out)
   end)
 
   it("are the same in the stock interpreter", function()

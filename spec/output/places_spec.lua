@@ -78,7 +78,8 @@ describe("a title that begins with a quote", function()
       local path = folder .. "/t.svg"
       chart.front { path = path, title = title, xlabel = title, ylabel = title, points = {
         { x = 1, y = 2, series = title, label = title }, { x = 2, y = 1, series = "other" } } }
-      local shown = sink.read_file(path):gsub("&quot;", '"'):gsub("&apos;", "'"):gsub("&lt;", "<"):gsub("&gt;", ">")
+      local shown = sink.read_file(path):gsub("&quot;", '"'):gsub("&apos;", "'")
+      shown = shown:gsub("&lt;", "<"):gsub("&gt;", ">")
       local _, times = shown:gsub(title:gsub("%p", "%%%0"), "")
       assert.is_true(times >= 5, title .. ": " .. times)
     end
@@ -159,7 +160,7 @@ describe("temporary files", function()
       pcall(sink.write_file, folder, "text")
       pcall(sink.write_file, folder .. "/no/x", "text")
       sink.write_file(folder .. "/x", "text")
-      pcall(chart.front, { path = folder .. "/x.svg", title = "t", points = { { x = 1, y = 1 } }, size = { -1, -1 } })
+      pcall(chart.front, { path = folder .. "/x.svg", points = { { x = 1, y = 1 } }, size = { -1, -1 } })
     end
     assert.equal(before, open())
     assert.same({ "x" }, files.list(folder))
@@ -176,15 +177,14 @@ describe("what is no file", function()
     assert.equal("through", reader:read "a")
     reader:close()
     assert.equal("pipe", core.kind(pipe))
+    local kind = core.kind "/dev/null"
     sink.write_file("/dev/null", "away")
-    assert.equal("device", core.kind "/dev/null")
-    for _, f in ipairs { function() chart.front { path = folder .. "/p.svg", points = { { x = 1, y = 1 } } } end } do
-      os.rename(pipe, folder .. "/p.svg")
-      local ok, why = pcall(f)
-      assert.is_false(ok)
-      assert.equal(("cannot write %s/p.svg: it is a pipe"):format(folder), why)
-      assert.same({ "p.svg" }, files.list(folder))
-    end
+    assert.equal(kind, core.kind "/dev/null")
+    os.rename(pipe, folder .. "/p.svg")
+    local ok, why = pcall(chart.front, { path = folder .. "/p.svg", points = { { x = 1, y = 1 } } })
+    assert.is_false(ok)
+    assert.equal(("cannot write %s/p.svg: it is a pipe"):format(folder), why)
+    assert.same({ "p.svg" }, files.list(folder))
     files.remove(folder)
   end)
 

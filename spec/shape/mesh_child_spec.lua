@@ -250,9 +250,9 @@ describe("the reader of mesh files", function()
   it("ends with a program that is killed", function()
     local mark = ("SOFTWORLD_SPEC_MARK=%d.%d"):format(os.time(), math.random(1 << 40))
     local name = program.write(program.folder() .. "/s.lua", SLOW .. "core.shape(slow(100000))")
-    program.shell(("%s %s %s & p=$!; n=0; while [ $(grep -l %s /proc/[0-9]*/environ 2>/dev/null | wc -l) -lt 2 ] "
-      .. "&& [ $n -lt 500 ]; do sleep 0.05; n=$((n+1)); done; kill -KILL $p"):format(mark,
-      program.quote(program.path), name, program.quote(mark)))
+    program.shell(("%s %s %s & p=$!; n=0; "
+      .. "while [ $(grep -l %s /proc/[0-9]*/environ 2>/dev/null | wc -l) -lt 2 ] && [ $n -lt 500 ]; "
+      .. "do sleep 0.05; n=$((n+1)); done; kill -KILL $p"):format(mark, program.quote(program.path), name, program.quote(mark)))
     assert.is_true(none_left(mark))
   end)
 
@@ -271,8 +271,9 @@ describe("the reader of mesh files", function()
     assert.matches("^mesh\nfalse\tobstacle mesh: ", out)
     assert.equal(0, code)
     local mark = ("SOFTWORLD_SPEC_MARK=%d.%d"):format(os.time(), math.random(1 << 40))
-    _, err, code = program.script(SLOW .. "core.shape(slow(100000))", nil,
+    out, err, code = program.script(SLOW .. "core.shape(slow(100000))", nil,
       { before = before .. " " .. mark, path = "lua5.4", signals = { 100 } })
+    assert.equal("", out)
     assert.matches("interrupted", err)
     assert.equal(1, code)
     assert.is_true(none_left(mark))
@@ -284,7 +285,8 @@ describe("the reader of mesh files", function()
       return
     end
     local out, code = program.terminal { "core = require 'softworld.core'\n",
-      "core.shape{ shape = 'mesh', format = 'obj', data = 'v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nf 1 2 3\\n' }:kind()\n",
+      "triangle = 'v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nf 1 2 3\\n'\n",
+      "core.shape{ shape = 'mesh', format = 'obj', data = triangle }:kind()\n",
       "core.shape{ shape = 'mesh', format = 'obj', data = 'x' }\n", "6 * 7\n", "\16\n", "\4" }
     assert.matches("\nmesh\n> ", out)
     assert.matches("obstacle mesh: data is not readable as obj", out)
