@@ -82,6 +82,13 @@ ready() {
     sleep 0.02
   done
 }
+more() { # has computed for $1/100 s more since $from, or waits
+  still=0
+  while ticks && [ $state != Z ] && [ $((t-from)) -lt $1 ] && [ $still -lt 10 ]; do
+    case $state in S) still=$((still+1)) ;; *) still=0 ;; esac
+    sleep 0.02
+  done
+}
 watch() { # ends it when it goes on for too long
   n=0
   while ticks && [ $state != Z ]; do
@@ -92,14 +99,16 @@ watch() { # ends it when it goes on for too long
 ]]
 
 -- Run it in the background and send SIGINT: first when it has computed for the first of the times
--- [s] (or waits), then after each other time that passes; with again = true, more of them until
--- it ends. KILL (code 137) comes should it go on for long. Its own number stays taken until wait,
+-- [s] (or waits), then after each other time, of which it has computed three quarters (or waits);
+-- with again = true, more of them until it ends. KILL (code 137) comes should it go on for long. Its own number stays taken until wait,
 -- so no other process can be hit.
 local function with_signals(command, times)
   local steps = {}
   for i, time in ipairs(times) do
-    steps[i] = (i == 1 and "ready %d" or time > 0 and "sleep %g" or MOMENT):format(
-      i == 1 and math.floor(100 * time) or time) .. "; kill -INT $p 2>/dev/null"
+    local wait = i == 1 and ("ready %d"):format(100 * time // 1)
+      or time > 0 and ("sleep %g; more %d"):format(time, 75 * time // 1) or MOMENT
+    local note = (times[i + 1] or 0) > 0 and "; ticks; from=$t" or ""
+    steps[i] = wait .. note .. "; kill -INT $p 2>/dev/null"
   end
   if times.again then
     steps[#steps + 1] = "while sleep 0.2; ticks && [ $state != Z ]; do kill -INT $p 2>/dev/null; done"

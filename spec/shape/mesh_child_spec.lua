@@ -252,7 +252,8 @@ describe("the reader of mesh files", function()
     local name = program.write(program.folder() .. "/s.lua", SLOW .. "core.shape(slow(100000))")
     program.shell(("%s %s %s & p=$!; n=0; "
       .. "while [ $(grep -l %s /proc/[0-9]*/environ 2>/dev/null | wc -l) -lt 2 ] && [ $n -lt 500 ]; "
-      .. "do sleep 0.05; n=$((n+1)); done; kill -KILL $p"):format(mark, program.quote(program.path), name, program.quote(mark)))
+      .. "do sleep 0.05; n=$((n+1)); done; kill -KILL $p"):format(mark, program.quote(program.path), name,
+      program.quote(mark)))
     assert.is_true(none_left(mark))
   end)
 
