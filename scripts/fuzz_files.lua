@@ -397,7 +397,8 @@ local function leaks(before)
 end
 
 local function work()
-  local path = os.tmpname()
+  local folder = sink.temporary((os.getenv "TMPDIR" or "/tmp") .. "/softworld_fuzz", true)
+  local path = folder .. "/case"
   for number = o.first, o.first + CHUNK - 1 do
     io.stdout:write("case ", number, "\n")
     io.stdout:flush()
@@ -410,7 +411,7 @@ local function work()
     io.stdout:write(("done %d %s %s\n"):format(size, ok, (found or ""):gsub("\n", "\\n")))
     io.stdout:flush()
   end
-  os.remove(path)
+  sink.remove_folder(folder, {})
 end
 
 -- --- supervisor -------------------------------------------------------------------------

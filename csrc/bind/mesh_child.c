@@ -296,7 +296,7 @@ static sw_status broken(const sw_mesh_file *file, const limits *most, int status
 
 static sw_status converse(reading *r, const sw_mesh_file *file, const limits *most,
                           sw_mesh_data *out, sw_error *err) {
-  reply from;
+  reply from = {.word = 0};
   outcome o = receive(r, &from, sizeof from);
   if (o == WHOLE && from.word != REPLY) o = SHORT;
   if (o == WHOLE) sw_alloc_passed((size_t)from.requests);

@@ -286,9 +286,7 @@ end
 function save.resume(scene, file)
   check_file("scene:resume", file)
   check_before(scene)
-  local there = io.open(file, "rb")
-  if not there then return false end
-  there:close()
+  if not core.kind(file) then return false end
   local bytes = read("scene:resume", file)
   local text, note
   tell("scene:resume", file, function() text, note = note_from(bytes, scene) end)

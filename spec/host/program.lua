@@ -100,8 +100,8 @@ watch() { # ends it when it goes on for too long
 
 -- Run it in the background and send SIGINT: first when it has computed for the first of the times
 -- [s] (or waits), then after each other time, of which it has computed three quarters (or waits);
--- with again = true, more of them until it ends. KILL (code 137) comes should it go on for long. Its own number stays taken until wait,
--- so no other process can be hit.
+-- with again = true, more of them until it ends. KILL (code 137) comes should it go on for long. Its
+-- own number stays taken until wait, so no other process can be hit.
 local function with_signals(command, times)
   local steps = {}
   for i, time in ipairs(times) do

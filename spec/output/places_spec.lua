@@ -196,6 +196,7 @@ describe("what is no file", function()
       for name, f in pairs {
         csv = function() sw.trajectory { path = path, speed = 1 } end,
         load = function() sw.load(path) end,
+        resume = function() sw.scene{}:resume(path) end,
         mesh = function() scene:obstacle { shape = "mesh", file = path, format = "stl" } end } do
         local ok, why = pcall(f)
         assert.is_false(ok)
