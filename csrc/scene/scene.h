@@ -298,9 +298,10 @@ typedef struct sw_ledger {
   double by_holds, by_obstacles, by_feeds, by_forces;                /* work [J] */
   double by_changes;                                                 /* of the scene itself [J] */
   double damping, friction, plasticity, impact, contact, integrator; /* lost [J] */
-  double jumps;        /* lost by equilibria that jumped, of quasi-static runs [J] */
-  double gap;          /* from nowhere [J] */
-  double gained;       /* sum of what steps gained beyond the work [J] */
+  double jumps;                  /* lost by equilibria that jumped, of quasi-static runs [J] */
+  double gap;                    /* from nowhere [J] */
+  double gained;                 /* sum of what steps gained beyond the work [J] */
+  double most_gained, most_time; /* by one step, and when [J], [s] */
   double play;         /* energy that was in play: largest kinetic energy, work, energy released;
                           at least the wires' weight times their radius [J] */
   sw_retries redone;   /* steps redone with implicit Euler */

@@ -405,10 +405,10 @@ sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   s->time = p->time, s->next_dt = p->next_dt, s->next_frame = p->next_frame;
   s->gravity = p->gravity;
   s->deepest = p->deepest;
-  SW_TRY(sw_scene_build(s, err));
-  s->diverged = 0;
   s->restoring = p; /* placing the holds may call a user's function */
-  const sw_status status = sw_live_put(s, &p->live, err);
+  sw_status status = sw_scene_build(s, err);
+  if (status == SW_OK) s->diverged = 0;
+  if (status == SW_OK) status = sw_live_put(s, &p->live, err);
   s->restoring = NULL;
   if (status != SW_OK) return status;
   s->discontinuous = p->discontinuous;

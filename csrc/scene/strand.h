@@ -36,6 +36,9 @@ typedef struct sw_strand_plan {
   double rest_twist;  /* [rad/m] */
 } sw_strand_plan;
 
+/* SW_EINVAL when so many rings of so many particles are more than fit. */
+sw_status sw_strand_check_count(const sw_strand_plan *plan, size_t rings, size_t per_ring,
+                                sw_error *err);
 /* How many slices the wire of this length has when nobody says. */
 sw_status sw_strand_slices(const sw_strand_plan *plan, const sw_beam *beam, double length,
                            size_t *out, sw_error *err);

@@ -537,9 +537,16 @@ sw_status sw_scene_make_places(const sw_scene *scene, size_t wire, sw_mesh *mesh
 /* Where and how a hold holds, into another slot that owns nothing. SW_ENOMEM. */
 sw_status sw_scene_copy_shape(const sw_scene_hold *from, sw_scene_hold *to);
 
-/* Take hold of a wire that has other nodes but lies as before; the hold's pose is known.
- * SW_ENOMEM. */
-sw_status sw_scene_rehold(sw_scene *scene, sw_scene_hold *hold, sw_pose pose);
+/* Take hold of a wire that has other nodes but lies as before; the hold's pose is known. It is
+ * not alive; those that are have done so. SW_EINVAL when one of them is in the way; SW_ENOMEM. */
+sw_status sw_scene_rehold(sw_scene *scene, sw_scene_hold *hold, sw_pose pose, sw_error *err);
+
+/* SW_EINVAL, naming the hold that is in the way, when one between s1 and s2, rings of a mesh, is
+ * on another living hold of the wire or too near it; what: who asks [m]. */
+sw_status sw_scene_check_clear(const sw_scene *scene, size_t wire, const sw_scene_hold *self,
+                               const char *what, double s1, double s2, sw_error *err);
+/* SW_EINVAL, naming both, when two living holds hold the same node or particle. */
+sw_status sw_scene_check_holds(const sw_scene *scene, sw_error *err);
 /* The built system's stiffness at its state, with contact as it presses now: of these obstacles
  * (count), or NULL: of all. */
 sw_status sw_scene_linearise(sw_scene *scene, const size_t *only, size_t count, sw_error *err);

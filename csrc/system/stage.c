@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "base/simd.h"
 #include "solve/band3.h"
 #include "solve/blocks.h"
@@ -166,6 +167,7 @@ static sw_status assemble_and_solve(sw_system *s, const sw_stage *stage, const s
              s->delta + 3 * b->first_node);
   }
   report->negative = 0;
+  if (sw_interrupted()) return SW_EINTR;
   if (sw_links_any(s)) SW_TRY(sw_links_solve(s, &report->negative));
   for (size_t b = 0; b < s->body_count; b++) {
     sw_body *body = &s->bodies[b];
@@ -394,6 +396,7 @@ sw_status sw_system_stage(sw_system *s, const sw_stage *stage, const sw_newton *
   SW_TRY(begin(s, stage, newton->statics, err));
   for (int i = 1; i <= newton->max_iterations; i++) {
     report->iterations = i;
+    if (sw_interrupted()) return SW_EINTR;
     if (i == STEADY && !newton->statics) sw_spin_slow_down(s, 1.0 / (stage->hbar * stage->hbar));
     SW_TRY(solve_once(s, stage, newton, report, err));
     const double share = apply(s, stage, newton, report);
@@ -409,6 +412,7 @@ sw_status sw_system_stage(sw_system *s, const sw_stage *stage, const sw_newton *
 
 sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const double *v,
                                  double *a, sw_error *err) {
+  if (sw_interrupted()) return SW_EINTR;
   SW_TRY(sw_system_place_holds(s, t, NULL, NULL, a, err));
   for (size_t b = 0; b < s->body_count; b++) {
     sw_body *body = &s->bodies[b];
