@@ -78,7 +78,7 @@ local core = require "softworld.core"
 
 -- Processes that have the text in their environment.
 local function processes_with(mark)
-  local out = program.shell(("grep -l %s /proc/[0-9]*/environ 2>/dev/null"):format(program.quote(mark)))
+  local out = program.shell(("grep -sl %s /proc/[0-9]*/environ 2>/dev/null"):format(program.quote(mark)))
   local count = 0
   for pid in out:gmatch "/proc/(%d+)/" do
     local stat = io.open("/proc/" .. pid .. "/stat")
@@ -159,7 +159,7 @@ describe("the reader of mesh files", function()
       end
       local lfs = require "lfs"
       local function left()
-        local pipe, open = io.popen "grep -l \"PPid:.*\\b$PPID$\" /proc/[0-9]*/status | wc -l", 0
+        local pipe, open = io.popen "grep -sl \"PPid:.*\\b$PPID$\" /proc/[0-9]*/status | wc -l", 0
         local children = pipe:read "a"
         pipe:close()
         for _ in lfs.dir "/proc/self/fd" do open = open + 1 end
@@ -251,7 +251,7 @@ describe("the reader of mesh files", function()
     local mark = ("SOFTWORLD_SPEC_MARK=%d.%d"):format(os.time(), math.random(1 << 40))
     local name = program.write(program.folder() .. "/s.lua", SLOW .. "core.shape(slow(100000))")
     program.shell(("%s %s %s & p=$!; n=0; "
-      .. "while [ $(grep -l %s /proc/[0-9]*/environ 2>/dev/null | wc -l) -lt 2 ] && [ $n -lt 500 ]; "
+      .. "while [ $(grep -sl %s /proc/[0-9]*/environ 2>/dev/null | wc -l) -lt 2 ] && [ $n -lt 500 ]; "
       .. "do sleep 0.05; n=$((n+1)); done; kill -KILL $p"):format(mark, program.quote(program.path), name,
       program.quote(mark)))
     assert.is_true(none_left(mark))
