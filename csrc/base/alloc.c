@@ -24,6 +24,12 @@ void sw_alloc_fail_at(long n) { fail_countdown = n > 0 ? n : 0; }
 size_t sw_alloc_live(void) { return live_bytes; }
 size_t sw_alloc_count(void) { return requests; }
 
+void sw_alloc_passed(size_t count) {
+  requests += count;
+  if (fail_countdown > 0)
+    fail_countdown -= count < (size_t)fail_countdown ? (long)count : fail_countdown;
+}
+
 void *sw_alloc(size_t count, size_t size) {
   requests++;
   if (fail_countdown > 0 && --fail_countdown == 0) return NULL;

@@ -83,7 +83,7 @@ static int meth_follow(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
   const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
-  luaL_checkany(L, 2);
+  lsw_given(L, 2, "clamp:follow: a trajectory is needed, or nil to stop");
   sw_motion *motion = lua_isnil(L, 2) ? NULL : lsw_motion_from(L, 2, "clamp:follow");
   const sw_status status = sw_scene_follow(scene, c->id, motion, 0, &err);
   lua_pushnumber(L, motion ? sw_motion_end(motion) : 0.0);
@@ -126,7 +126,8 @@ static int meth_log(lua_State *L) {
   const double *rows;
   size_t count;
   const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
-  const lua_Integer first = luaL_optinteger(L, 2, 1);
+  const lua_Integer first =
+      lua_isnoneornil(L, 2) ? 1 : lsw_integer(L, 2, "clamp:log: the first row");
   lsw_must(L, sw_scene_hold_log(scene, c->id, &rows, &count, &err), &err);
   const size_t skip = first > 1 ? (size_t)(first - 1) : 0;
   const size_t n = count > skip ? count - skip : 0;

@@ -76,7 +76,7 @@ static int meth_follow(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
   const lsw_child *o = check(L, &scene);
-  luaL_checkany(L, 2);
+  lsw_given(L, 2, "obstacle:follow: a trajectory is needed, or nil to stop");
   sw_motion *motion = lua_isnil(L, 2) ? NULL : lsw_motion_from(L, 2, "obstacle:follow");
   const sw_status status = sw_scene_obstacle_follow(scene, o->id, motion, 0, &err);
   lua_pushnumber(L, motion ? sw_motion_end(motion) : 0.0);

@@ -324,7 +324,7 @@ static void push_frame_surfaces(lua_State *L, const sw_scene *scene, size_t fram
  * end. */
 static int meth_frame(lua_State *L) {
   const sw_scene *scene = check(L);
-  const lua_Integer i = luaL_checkinteger(L, 2);
+  const lua_Integer i = lsw_integer(L, 2, "scene:frame: the number of the frame");
   const double *p;
   int held;
   if (i < 1 || (size_t)i > sw_scene_frames(scene)) return 0;

@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 
+#include "bind/mesh_child.h"
 #include "bind/module.h"
 
 typedef struct shape_handle {
@@ -114,6 +115,7 @@ sw_shape *lsw_shape_from_table(lua_State *L, int index, const lsw_section *extra
   for (int i = 0; i < extra_count; i++) sections[2 + i] = extra[i];
   lsw_sections(L, index, params->object, sections, 2 + extra_count);
   read_source(L, index, params, &source);
+  lsw_mesh_child_for(L);
   const sw_status status = sw_shape_new(class, &args, &source, &shape, &err);
   if (status != SW_OK) lsw_raise(L, status, &err);
   lua_pop(L, 1);
@@ -265,4 +267,5 @@ void lsw_open_shape(lua_State *L) {
   static const luaL_Reg functions[] = {
       {"shape", mod_shape}, {"shape_params", mod_shape_params}, {NULL, NULL}};
   luaL_setfuncs(L, functions, 0);
+  lsw_mesh_child_open();
 }

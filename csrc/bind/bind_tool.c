@@ -41,7 +41,7 @@ static int meth_pad(lua_State *L) {
   sw_error err = {""};
   const lsw_child *t = check(L, &scene);
   const lsw_child *o = lsw_check_child_of(L, 2, &lsw_class_obstacle, scene, "tool:pad");
-  const lua_Integer finger = luaL_checkinteger(L, 3);
+  const lua_Integer finger = lsw_integer(L, 3, "tool: the number of the finger");
   luaL_argcheck(L, finger >= 0 && finger <= SW_TOOL_PADS, 3, "finger out of range");
   const sw_vec opens = lsw_vector(L, 4, "tool:pad: opens", "-");
   lsw_must(L, sw_scene_tool_pad(scene, t->id, o->id, (int)finger - 1, opens, &err), &err);
@@ -70,7 +70,7 @@ static int meth_follow(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
   const lsw_child *t = check(L, &scene);
-  luaL_checkany(L, 2);
+  lsw_given(L, 2, "tool:follow: a trajectory is needed, or nil to stop");
   sw_motion *motion = lua_isnil(L, 2) ? NULL : lsw_motion_from(L, 2, "gripper:move");
   const sw_status status = sw_scene_tool_follow(scene, t->id, motion, 0, &err);
   lua_pushnumber(L, motion ? sw_motion_end(motion) : 0.0);
@@ -182,8 +182,9 @@ static void force_of(lua_State *L, int point, int finger, sw_vec *force, sw_vec 
   const sw_status status =
       lua_isnoneornil(L, finger)
           ? sw_scene_tool_force(scene, t->id, at, force, moment, &err)
-          : sw_scene_tool_finger(scene, t->id, (int)luaL_checkinteger(L, finger) - 1, at, force,
-                                 moment, &err);
+          : sw_scene_tool_finger(scene, t->id,
+                                 (int)lsw_integer(L, finger, "tool: the number of the finger") - 1,
+                                 at, force, moment, &err);
   lsw_must(L, status, &err);
 }
 

@@ -49,9 +49,24 @@ const char *lsw_describe(lua_State *L, int index) {
   return luaL_typename(L, index);
 }
 
+/* The name under which the running C function is a method of the class, or NULL. */
+static const char *method_name(lua_State *L, const lsw_class *c) {
+  lua_Debug ar;
+  if (!lua_getstack(L, 0, &ar) || !lua_getinfo(L, "f", &ar)) return NULL;
+  const lua_CFunction running = lua_tocfunction(L, -1);
+  lua_pop(L, 1);
+  for (const luaL_Reg *m = c->methods; m && m->name && running; m++)
+    if (m->func == running) return m->name;
+  return NULL;
+}
+
 void *lsw_check(lua_State *L, int index, const lsw_class *c) {
   lsw_handle *h = lsw_test(L, index, c);
   if (!h) {
+    const char *method = index == 1 ? method_name(L, c) : NULL;
+    if (method)
+      luaL_error(L, "%s:%s is a method: call it with a colon (%s expected, got %s)", c->name,
+                 method, c->name, lsw_describe(L, index));
     luaL_argerror(L, index,
                   lua_pushfstring(L, "%s expected, got %s", c->name, lsw_describe(L, index)));
     return NULL;
@@ -67,7 +82,10 @@ static const lsw_class *class_of(lua_State *L) { return lua_touserdata(L, lua_up
 static int meta_gc(lua_State *L) {
   const lsw_class *c = class_of(L);
   lsw_handle *h = lsw_test(L, 1, c);
-  if (h && h->object) {
+  if (!h)
+    return luaL_error(L, "%s:close is a method: call it with a colon (%s expected, got %s)",
+                      c->name, c->name, lsw_describe(L, 1));
+  if (h->object) {
     if (c->busy && c->busy(h))
       return luaL_error(L, "this %s cannot be closed from inside a step or a function of time",
                         c->name);
@@ -223,6 +241,21 @@ double lsw_number(lua_State *L, int index, const char *what, const char *unit) {
     return luaL_error(L, "%s = %f%s%s is not allowed; it must be a finite number", what, value,
                       space, shown);
   return value;
+}
+
+lua_Integer lsw_integer(lua_State *L, int index, const char *what) {
+  int whole = 0;
+  const lua_Integer value =
+      lua_type(L, index) == LUA_TNUMBER ? lua_tointegerx(L, index, &whole) : 0;
+  if (!whole)
+    luaL_error(L, "%s must be an integer, got %s", what,
+               lua_type(L, index) == LUA_TNUMBER ? lua_pushfstring(L, "%f", lua_tonumber(L, index))
+                                                 : lsw_describe(L, index));
+  return value;
+}
+
+void lsw_given(lua_State *L, int index, const char *what) {
+  if (lua_isnone(L, index)) luaL_error(L, "%s", what);
 }
 
 /* Item i of the array at table, or its field name; pushed. */

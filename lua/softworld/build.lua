@@ -214,18 +214,27 @@ function class.scene.particles(scene, args)
 end
 
 local new_obstacle = class.scene.obstacle
+
+local function obstacle_from(scene, args, path)
+  if not path then return new_obstacle(scene, args) end
+  local fine, result = pcall(new_obstacle, scene, args)
+  if not fine then error(meshfile.named(result, path), 0) end
+  return result
+end
+
 --- scene:obstacle{ shape =, ... }: see help "obstacle". `file` reads a mesh.
 function class.scene.obstacle(scene, args)
   build.check(scene, "scene:obstacle", 3)
   args = table_of(args, "scene:obstacle")
   local data = build.data(scene)
-  if args.file ~= nil then
-    local mesh = build.call(3, meshfile.read, args.file)
+  local path = args.file
+  if path ~= nil then
+    local mesh = build.call(3, meshfile.read, path)
     args.data, args.format, args.file = mesh.data, args.format or mesh.format, nil
   end
   local kind = type(args.shape) == "string" and args.shape or "obstacle"
   args.name = build.name(scene, args.name, kind, #data.obstacles, 3)
-  local obstacle = build.call(3, new_obstacle, scene, args)
+  local obstacle = build.call(3, obstacle_from, scene, args, path)
   local entry = copy(args)
   entry.object, entry.data = obstacle, nil
   data.obstacles[#data.obstacles + 1] = entry -- in the order of the core's, whatever fails next

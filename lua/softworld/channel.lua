@@ -9,6 +9,7 @@
 --
 -- @module softworld.channel
 local core = require "softworld.core"
+local checks = require "softworld.checks"
 local build = require "softworld.build"
 local fixing = require "softworld.fixing"
 local vec = require "softworld.vec"
@@ -201,6 +202,7 @@ end
 --- Moment of all wires on the channel about a point (default: its first one) [N m].
 function Channel:moment(args)
   fixing.check(self, Channel, "moment")
+  if args ~= nil then checks.keys("channel:moment", args, { at = true }, 3) end
   local at = args and args.at and build.call(3, fixing.vector, "channel:moment", "at", args.at, "m")
     or self.legs[1].from
   local sum = { 0, 0, 0 }
@@ -296,6 +298,9 @@ end
 
 --- Rows of a run's summary.
 function Channel:report(add_row)
+  if type(add_row) ~= "function" then
+    error("channel:report: a function that adds a row is wanted, got " .. type(add_row), 2)
+  end
   for _, entry in ipairs(build.data(self.scene).wires) do
     if core.exists(entry.object) then
       local part = share(self, entry.object, self.depth)

@@ -238,6 +238,9 @@ end
 
 --- Rows of a run's summary.
 function Clip:report(add)
+  if type(add) ~= "function" then
+    error("clip:report: a function that adds a row is wanted, got " .. type(add), 2)
+  end
   local into, out = self.inserted, self.pulled_out
   if into then
     add(("%s: largest force as '%s' went in"):format(self.name, into.wire.name), into.peak_force, "N",

@@ -82,6 +82,9 @@ function Gripper:remember()
 end
 
 function Gripper:recall(state)
+  if state ~= nil and (type(state) ~= "table" or not state.grasps or not state.events) then
+    error("gripper:recall takes what gripper:remember gave, got " .. type(state), 2)
+  end
   self.gone = state == nil or nil
   for _, key in ipairs(remembered) do self[key] = state and state[key] end
   if not state then return end

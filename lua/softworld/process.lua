@@ -13,6 +13,7 @@
 -- file of the scene can begin again after: see softworld.save.
 -- @module softworld.process
 local core = require "softworld.core"
+local methods = require "softworld.methods"
 local build = require "softworld.build"
 local conditions = require "softworld.conditions"
 local waiting = require "softworld.waiting"
@@ -330,5 +331,7 @@ function process.check_steps(scene)
     end
   end
 end
+
+methods.guard_table("process", Process)
 
 return process

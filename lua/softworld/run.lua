@@ -407,14 +407,30 @@ function Run:document()
   return doc
 end
 
+local function options_of(what, options)
+  if options ~= nil and type(options) ~= "table" then
+    error(("%s takes one table of parameters, got %s"):format(what, type(options)), 3)
+  end
+  return options or {}
+end
+
+local function path_of(what, path)
+  if type(path) == "string" and path ~= "" then return path end
+  error(("%s: the name of a file is wanted, got %s"):format(what, path == "" and "''" or type(path)), 3)
+end
+
 --- Table of results on the terminal.
 function Run:summary(stream)
+  if stream ~= nil and io.type(stream) ~= "file" and not (type(stream) == "table" and stream.write) then
+    error("run:summary: an open file is wanted, got " .. (io.type(stream) or type(stream)), 2)
+  end
   require("softworld.output.summary").print(self:document(), stream or io.stdout)
 end
 
 --- Series as CSV or JSON, by the file's extension.
 function Run:save(path)
   readable(self, "series")
+  path_of("run:save", path)
   require("softworld.output.series").write(self:document(), path)
   return path
 end
@@ -422,6 +438,7 @@ end
 --- ParaView series (.pvd).
 function Run:vtk(path)
   readable(self, "frames")
+  path_of("run:vtk", path)
   require("softworld.output.vtk").write(self:document(), path)
   return path
 end
@@ -430,7 +447,7 @@ end
 function Run:chart(options)
   readable(self, "series")
   local o = {}
-  for k, v in pairs(options or {}) do o[k] = v end
+  for k, v in pairs(options_of("run:chart", options)) do o[k] = v end
   o.run = self:document()
   return require("softworld.output.chart").series(o)
 end
@@ -439,7 +456,7 @@ end
 function Run:pictures(options)
   readable(self, "frames")
   local o = {}
-  for k, v in pairs(options or {}) do o[k] = v end
+  for k, v in pairs(options_of("run:pictures", options)) do o[k] = v end
   o.run = self:document()
   return require("softworld.output.povray").strip(o)
 end

@@ -127,6 +127,9 @@ end
 
 --- Rows of a run's summary.
 function Tie:report(add)
+  if type(add) ~= "function" then
+    error("tie:report: a function that adds a row is wanted, got " .. type(add), 2)
+  end
   local broken = self.broken
   if broken then
     add(self.name .. ": BROKE at", broken.force, "N", nil, broken.time)

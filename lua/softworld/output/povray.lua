@@ -160,9 +160,7 @@ end
 
 local function render(sheet, run, frames, look, options)
   local path = options.path
-  local folder, names = sink.reserve(path), { "sheet.pov", "sheet.png" }
-  os.remove(folder) -- a file of that name could be made: so can a folder
-  sink.make_folder(folder)
+  local folder, names = sink.temporary(path, true), { "sheet.pov", "sheet.png" }
   local settings = { threads = options.threads or 2, aa = options.draft and "-A" or "+A0.15 +AM2 +R3 -J" }
   local ok, why = pcall(function()
     for i, frame in ipairs(frames) do

@@ -194,7 +194,8 @@ local function write_frames(run, folder, folder_name, bounds)
     local function save(kind, part, data)
       local name = data and string.format("%s_%05d.vtp", kind, f - 1) or rest_file
       if data then
-        sink.write_file(folder .. "/" .. name, function(write) write_poly(write, data) end)
+        sink.write_file(folder .. "/" .. name, function(write) write_poly(write, data) end,
+          { swept = #entries > 0 })
       end
       entries[#entries + 1] = { t = frame.t, part = part, file = folder_name .. "/" .. name }
       return name
