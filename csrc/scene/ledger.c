@@ -30,6 +30,7 @@ static const double THROWN = 0.02, LET_OUT = 0.01;
 static const double JUMP = 1e-9;
 /* The least that is in play: the weight times the radius, or this share of EI / L [-]. */
 static const double LEAST_BENDING = 1e-6;
+static const double LEAST = 1e-12; /* and this [J] */
 
 /* --- life ---------------------------------------------------------------------- */
 
@@ -93,7 +94,7 @@ static void take_as_now(sw_books *b, const sw_energies *e, double contact) {
   b->most_kinetic = fmax(b->most_kinetic, e->kinetic);
   b->sums.kinetic = e->kinetic, b->sums.gravity = e->gravity;
   b->sums.stored = e->stored + contact;
-  const double least = fmax(b->weight, LEAST_BENDING * b->bending);
+  const double least = LEAST + fmax(b->weight, LEAST_BENDING * b->bending);
   b->sums.play = fmax(least, b->most_kinetic + b->work + b->released);
 }
 
@@ -157,8 +158,9 @@ static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
     step->friction += sw_contact_rubbed(s->contact);
     step->steady &= sw_contact_steady(s->contact);
     step->obstacles += sw_contact_struck(s->contact);
+    step->let_out = sw_contact_hardened(s->contact);
     if (sw_contact_emerges(s->contact))
-      step->let_out = b->mass * (THROWN * THROWN + LET_OUT * h * sw_norm(s->gravity));
+      step->let_out += b->mass * (THROWN * THROWN + LET_OUT * h * sw_norm(s->gravity));
   }
   if (s->pairs) {
     impacts += sw_pairs_impacts(s->pairs);
