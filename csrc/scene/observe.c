@@ -146,6 +146,52 @@ void sw_scene_wire_now(sw_scene *s, size_t w, sw_wire_extremes *now) {
   now->curvature.time = now->tension.time = now->strain.time = s->time;
 }
 
+/* Tension and curvature at node i of a line. */
+static void line_values(const sw_system *s, const sw_body *b, size_t i, double *out) {
+  const sw_plan *p = b->plan;
+  const double *T = s->tension + b->first_edge;
+  const size_t before = i > 0 ? i - 1 : 0, after = i < p->edges ? i : p->edges - 1;
+  const int inner = i > 0 && i + 1 < p->nodes && p->hinge[i] > 0;
+  out[0] = 0.5 * (T[before] + T[after]);
+  out[1] = inner ? angle_of_chord(hinge_chord(&b->field, i)) / p->hinge[i] : 0.0;
+}
+
+static void add_pressed(const sw_scene *s, const sw_body *b, double *out) {
+  const sw_web *web = b->plan->web;
+  for (size_t k = 0; s->contact && k < sw_contact_touches(s->contact); k++) {
+    sw_contact_push p;
+    if (!sw_contact_push_at(s->contact, &s->system, k, &p)) continue;
+    const size_t at[2] = {p.node, p.other};
+    const double share[2] = {1 - p.at, p.at};
+    for (size_t e = 0; e < 2; e++) {
+      if (at[e] < b->first_node || at[e] >= b->first_node + b->plan->nodes) continue;
+      const size_t i = at[e] - b->first_node, ring = web ? sw_web_ring_of(web, i) : i;
+      out[SW_FRAME_VALUES * ring + 2] += share[e] * p.normal_force;
+    }
+  }
+}
+
+void sw_scene_node_values(sw_scene *s, size_t w, size_t n, double *out) {
+  const sw_body *b = &s->system.bodies[w];
+  for (size_t i = 0; i < n; i++, out += SW_FRAME_VALUES) {
+    sw_point_state at;
+    out[2] = 0;
+    if (!b->plan->web) {
+      line_values(&s->system, b, i, out);
+      continue;
+    }
+    sw_strand_at(s, &s->wires[w], b, s->wires[w].mesh.s[i], &at);
+    out[0] = at.tension, out[1] = at.curvature;
+  }
+  out -= SW_FRAME_VALUES * n;
+  for (size_t c = 0; !b->plan->web && c < b->plan->clamp_count; c++) {
+    const sw_clamp_hinge *h = &b->plan->clamps[c];
+    double *bent = out + SW_FRAME_VALUES * h->node + 1;
+    *bent = fmax(*bent, clamp_curvature(&s->system, b, h));
+  }
+  add_pressed(s, b, out);
+}
+
 void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now) {
   keep_largest(&kept->curvature, &now->curvature);
   keep_largest(&kept->tension, &now->tension);
@@ -207,7 +253,9 @@ sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
     sw_wire_extremes now;
     sw_scene_wire_now(s, w, &now);
     sw_scene_keep_extremes(&s->wires[w].extremes, &now);
+    SW_TRY(sw_watch_wire(s, w, &now, err));
   }
+  SW_TRY(sw_watch_forces(s, err));
   SW_TRY(log_holds(s, err));
   if (sw_scene_has_contact(s)) SW_TRY(observe_contact(s, err));
   return sw_tool_observe(s, err);

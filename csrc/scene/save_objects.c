@@ -21,7 +21,7 @@ void sw_tape_extreme(sw_tape *t, sw_extreme *x) {
   DOUBLE(value), DOUBLE(s), DOUBLE(time);
 }
 
-static void tape_log(sw_tape *t, sw_log *x) {
+void sw_tape_log(sw_tape *t, sw_log *x) {
   SW_TAPE_STRUCT(t, sw_log, 24);
   sw_tape_count(t, &x->count, sizeof *x->rows);
   SW_TAPE_ARRAY(t, x->rows, x->count);
@@ -182,7 +182,7 @@ void sw_tape_hold(sw_tape *t, sw_scene *s, sw_scene_hold *x) {
   tape_give(t, &x->give[0]), tape_give(t, &x->give[1]);
   QUAT(turn), VEC(force), VEC(moment), POSE(last_pose);
   tape_feed(t, &x->feed);
-  tape_log(t, &x->log);
+  sw_tape_log(t, &x->log);
 }
 
 /* --- all else ---------------------------------------------------------------------- */
@@ -193,7 +193,7 @@ void sw_tape_obstacle(sw_tape *t, sw_scene *s, sw_scene_obstacle *x) {
   sw_tape_shape(t, &x->shape);
   tape_drive(t, s, &x->drive);
   DOUBLE(friction), DOUBLE(kinetic), DOUBLE(restitution), INT(off);
-  tape_log(t, &x->log);
+  sw_tape_log(t, &x->log);
   sw_tape_expect(t, x->kinetic >= 0 && x->kinetic <= 100, "friction of an obstacle");
   sw_tape_expect(t, x->friction >= 0 && x->friction <= 100, "friction of an obstacle");
   sw_tape_expect(t, x->restitution >= 0 && x->restitution <= 1, "restitution of an obstacle");
@@ -232,7 +232,7 @@ void sw_tape_tool(sw_tape *t, sw_scene *s, sw_tool *x) {
   SW_TAPE_STRUCT(t, sw_crash, 32);
   DOUBLE(crash.time), DOUBLE(crash.depth), SIZE(crash.part), SIZE(crash.obstacle), INT(crashing);
   tape_tool_state(t, &x->now);
-  tape_log(t, &x->log);
+  sw_tape_log(t, &x->log);
 }
 
 /* The arguments without the addresses in them, which mean nothing elsewhere. */
@@ -290,17 +290,17 @@ void sw_tape_rule(sw_tape *t, sw_scene_rule *x) {
 }
 
 void sw_tape_frame(sw_tape *t, const sw_scene *s, sw_frame *x) {
-  SW_TAPE_STRUCT(t, sw_frame, 40);
+  SW_TAPE_STRUCT(t, sw_frame, 48);
   size_t count = 0, size = 0;
   if (!sw_tape_reads(t)) sw_scene_frame_walk(x, SIZE_MAX, &count);
-  DOUBLE(time), SIZE(wires), SIZE(obstacles), SIZE(holds);
+  DOUBLE(time), SIZE(wires), SIZE(obstacles), SIZE(holds), SIZE(tools);
   sw_tape_count(t, &count, sizeof *x->data);
   SW_TAPE_ARRAY(t, x->data, count);
   if (!sw_tape_reads(t) || !sw_tape_good(t)) return;
   sw_tape_expect(t,
                  x->wires <= s->wire_count && x->obstacles <= s->obstacle_count &&
-                     x->holds <= s->hold_count && sw_scene_frame_walk(x, count, &size) &&
-                     size == count,
+                     x->holds <= s->hold_count && x->tools <= s->tool_count &&
+                     sw_scene_frame_walk(x, count, &size) && size == count,
                  "a frame");
 }
 

@@ -413,6 +413,7 @@ sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   if (status != SW_OK) return status;
   s->discontinuous = p->discontinuous;
   sw_events_back_to(&s->events, p->time);
+  sw_watches_back_to(&s->watches, p->time);
   while (s->frame_count > p->frames) sw_free(s->frames[--s->frame_count].data);
   return SW_OK;
 }

@@ -12,6 +12,7 @@
 #include "scene/section.h"
 #include "scene/strand.h"
 #include "scene/tool.h"
+#include "scene/watch.h"
 #include "state/mesh.h"
 #include "system/system.h"
 
@@ -287,7 +288,7 @@ typedef struct sw_scene_rule {
 typedef struct sw_frame {
   double time;
   double *data; /* one block */
-  size_t wires, obstacles, holds;
+  size_t wires, obstacles, holds, tools;
 } sw_frame;
 
 /* What a force on a wire remembers between two systems. */
@@ -360,6 +361,7 @@ struct sw_scene {
   size_t frame_count, frame_capacity;
   double next_frame; /* [s] */
   sw_events events;  /* of the last run */
+  sw_watches watches;
 };
 
 /* What a built scene has besides its objects: a copy of it, put back into a scene that is built
@@ -520,6 +522,7 @@ int sw_slip_begin(sw_scene *scene);
 int sw_slip_correct(sw_scene *scene, double h, int first);
 void sw_slip_give_up(sw_scene *scene);
 
+void sw_tape_log(sw_tape *tape, sw_log *log);
 sw_status sw_log_add(sw_log *log, const double *row, size_t n);
 
 /* The object of a handle, or NULL with err set. A body is a wire or an object of particles. */
@@ -585,6 +588,8 @@ sw_status sw_scene_pose(sw_scene *scene, double t1, int (*interrupted)(void), sw
 /* After an accepted state: histories, extremes, logs. */
 sw_status sw_scene_observe(sw_scene *scene, sw_error *err);
 /* Extremes of wire w at the refreshed state. */
+/* What frames tell of each node of the wire, SW_FRAME_VALUES numbers; n nodes. */
+void sw_scene_node_values(sw_scene *scene, size_t wire, size_t n, double *out);
 void sw_scene_wire_now(sw_scene *scene, size_t w, sw_wire_extremes *now);
 /* Keep the larger ones. */
 void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now);
