@@ -10,6 +10,7 @@ local refine = require "softworld.refine"
 local save = require "softworld.save"
 local series = require "softworld.series"
 local trust = require "softworld.trust"
+local drawn = require "softworld.drawn"
 local fixing = require "softworld.fixing"
 local progress = require "softworld.output.progress"
 
@@ -253,7 +254,7 @@ function Run:document()
   local doc = { name = self.name, ok = self.ok, reason = self.reason, time = self.time,
     events = self.events,
     steps = self.steps, wall = self.wall, cpu = self.cpu, gravity = self.scene:gravity(),
-    wires = {}, obstacles = {}, grips = {}, frames = {} }
+    wires = {}, obstacles = {}, grips = {}, clamps = {}, frames = {} }
   if not self.ok then return doc end
   for i, w in ipairs(data.wires) do
     doc.wires[i] = { name = w.name, radius = w.object.radius, length = w.object.length,
@@ -265,22 +266,8 @@ function Run:document()
     entry.object = nil
     doc.obstacles[i] = entry
   end
-  local shown = {}
-  for i, h in ipairs(data.holds) do
-    if h.kind == "grip" then
-      shown[#shown + 1] = i
-      doc.grips[#shown] = { name = h.name, width = h.width or 0.02 }
-    end
-  end
-  for i = 1, self.scene:frame_count() do
-    local f = self.scene:frame(i)
-    f.grips = {}
-    for k, h in ipairs(shown) do
-      f.grips[k] = f.holds[h] or
-        { position = { 0, 0, 0 }, rotation = { 1, 0, 0, 0 }, held = false }
-    end
-    doc.frames[i] = f
-  end
+  for i = 1, self.scene:frame_count() do doc.frames[i] = self.scene:frame(i) end
+  drawn.add(self.scene, doc)
   add_fixings(self.scene, doc)
   doc.series, doc.summary = self:series(), summary_of(self)
   for i, q in ipairs(self.quantities and self:error_bars() or {}) do

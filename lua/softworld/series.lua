@@ -1,118 +1,156 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Time series of a run: what the scene has recorded since the run began, on one time axis.
 -- @module softworld.series
+local core = require "softworld.core"
 local build = require "softworld.build"
+local measures = require "softworld.gripmeasures"
 
 local series = {}
 
-local function column(name, unit) return { name = name, unit = unit, values = {} } end
+local axes = { "x", "y", "z" }
 
--- Force and moment columns of one hold, or gripper with pads, on the common time axis of all.
-local function add_hold(series, index, name, rows, count, width)
-  local axes = { "x", "y", "z" }
-  local names = {}
-  for k, axis in ipairs(axes) do names[k] = column(name .. ".force_" .. axis, "N") end
-  for k, axis in ipairs(axes) do names[3 + k] = column(name .. ".moment_" .. axis, "N m") end
-  local force, moment = column(name .. ".force", "N"), column(name .. ".moment", "N m")
+-- What one object has recorded: times [s] and columns of as many values.
+local function source(list, name, times)
+  local one = { name = name, times = times, columns = {} }
+  list[#list + 1] = one
+  return one
+end
+
+local function add(one, what, unit, value)
+  local column = { name = one.name .. "." .. what, unit = unit, values = {} }
+  for i = 1, #one.times do column.values[i] = value(i) end
+  one.columns[#one.columns + 1] = column
+end
+
+local function norm(x, y, z) return (x * x + y * y + z * z) ^ 0.5 end
+
+-- Flat rows from the run's start on as a list of their first places (0: before the row), and times.
+local function places(rows, count, width, start)
+  local list, times = {}, {}
   for i = 0, count - 1 do
-    local b, at = width * i, index[rows[width * i + 1]]
-    for k = 1, 6 do names[k].values[at] = rows[b + 1 + k] end
-    force.values[at] = (rows[b + 2] ^ 2 + rows[b + 3] ^ 2 + rows[b + 4] ^ 2) ^ 0.5
-    moment.values[at] = (rows[b + 5] ^ 2 + rows[b + 6] ^ 2 + rows[b + 7] ^ 2) ^ 0.5
+    local t = rows[width * i + 1]
+    if t >= start then list[#list + 1], times[#times + 1] = width * i, t end
   end
-  for _, c in ipairs{ force, moment } do series.columns[#series.columns + 1] = c end
-  for _, c in ipairs(names) do series.columns[#series.columns + 1] = c end
+  return list, times
 end
 
-local function add_jaws(series, index, log)
-  for k, what in ipairs{ { "opening", "m" }, { "squeeze", "N" }, { "margin", "-" }, { "slip", "m" } } do
-    local c = column(("%s.%s"):format(log.name, what[1]), what[2])
-    for i = 0, log.count - 1 do
-      c.values[index[log.rows[log.width * i + 1]]] = log.rows[log.width * i + 10 + k]
+-- A vector that stands in the rows from number first on: its length, then its components.
+local function add_vectors(one, vectors)
+  for _, v in ipairs(vectors) do
+    add(one, v.what, v.unit, function(i) return norm(v.at(i, 1), v.at(i, 2), v.at(i, 3)) end)
+  end
+  for _, v in ipairs(vectors) do
+    for k, axis in ipairs(axes) do
+      add(one, v.what .. "_" .. axis, v.unit, function(i) return v.at(i, k) end)
     end
-    series.columns[#series.columns + 1] = c
   end
 end
 
-local function collect_times(self, logs)
-  local seen, times = {}, {}
-  for _, log in ipairs(logs) do
-    for i = 0, log.count - 1 do
-      local t = log.rows[log.width * i + 1]
-      if t >= self.start and not seen[t] then
-        seen[t] = true
+local function add_hold(list, name, object, start)
+  local rows, count = object:log()
+  if count == 0 then return end
+  local at, times = places(rows, count, 10, start)
+  add_vectors(source(list, name, times), {
+    { what = "force", unit = "N", at = function(i, k) return rows[at[i] + 1 + k] end },
+    { what = "moment", unit = "N m", at = function(i, k) return rows[at[i] + 4 + k] end } })
+end
+
+-- All grasps of a gripper as one.
+local function add_gripper(list, gripper, start)
+  local rows, times = {}, {}
+  for _, r in ipairs(measures.records(gripper)) do
+    if r.t >= start then rows[#rows + 1], times[#times + 1] = r, r.t end
+  end
+  if #rows == 0 then return end
+  local one = source(list, gripper.name, times)
+  add_vectors(one, {
+    { what = "force", unit = "N", at = function(i, k) return rows[i][k] end },
+    { what = "moment", unit = "N m", at = function(i, k) return rows[i][3 + k] end } })
+  if not gripper.tool then return end
+  for _, what in ipairs{ { "opening", "m" }, { "squeeze", "N" }, { "margin", "-" }, { "slip", "m" } } do
+    add(one, what[1], what[2], function(i) return rows[i][what[1]] or 0 / 0 end)
+  end
+end
+
+local function add_obstacle(list, entry, start)
+  local rows, count = entry.object:log()
+  local at, times = places(rows, count, 4, start)
+  local one = source(list, entry.name, times)
+  add(one, "contact_force", "N", function(i)
+    return norm(rows[at[i] + 2], rows[at[i] + 3], rows[at[i] + 4])
+  end)
+end
+
+-- Clips, ties.
+local function add_fixing(list, it, start)
+  if core.type(it.object) ~= "force" then return end
+  local rows, count = it.object:log()
+  if count == 0 then return end
+  local at, times = places(rows, count, 4, start)
+  add_vectors(source(list, it.name, times),
+    { { what = "force", unit = "N", at = function(i, k) return rows[at[i] + 1 + k] end } })
+end
+
+local function add_wire(list, entry, start)
+  local rows, count = entry.object:log()
+  if count == 0 then return end
+  local at, times = places(rows, count, 3, start)
+  local one = source(list, entry.name, times)
+  add(one, "tension", "N", function(i) return rows[at[i] + 2] end)
+  add(one, "bend_radius", "m", function(i)
+    local bent = rows[at[i] + 3]
+    return bent > 0 and 1 / bent or math.huge
+  end)
+end
+
+local function sources(self)
+  local data, list, theirs = build.data(self.scene), {}, {}
+  for _, g in ipairs(data.grippers) do
+    for _, hold in ipairs(g.past) do theirs[hold] = true end
+    add_gripper(list, g, self.start)
+  end
+  for _, h in ipairs(data.holds) do
+    if not theirs[h.object] then add_hold(list, h.name, h.object, self.start) end
+  end
+  for _, o in ipairs(data.obstacles) do add_obstacle(list, o, self.start) end
+  for _, f in ipairs(data.fixings) do
+    if core.exists(f.object) then add_fixing(list, f.fixing, self.start) end
+  end
+  for _, w in ipairs(data.wires) do add_wire(list, w, self.start) end
+  return list
+end
+
+-- Every time at which something was recorded, and the number of each.
+local function common_times(list)
+  local index, times = {}, {}
+  for _, one in ipairs(list) do
+    for _, t in ipairs(one.times) do
+      if not index[t] then
+        index[t] = true
         times[#times + 1] = t
       end
     end
   end
   table.sort(times)
-  local index = {}
   for i, t in ipairs(times) do index[t] = i end
   return times, index
 end
 
--- Rows of a log from the run's start on.
-local function cut(log, start)
-  local rows, first = {}, 0
-  while first < log.count and log.rows[log.width * first + 1] < start do first = first + 1 end
-  table.move(log.rows, log.width * first + 1, log.width * log.count, 1, rows)
-  return { name = log.name, width = log.width, rows = rows, count = log.count - first,
-    obstacle = log.obstacle, tool = log.tool }
-end
-
-local function all_logs(self)
-  local data, logs = build.data(self.scene), {}
-  for _, h in ipairs(data.holds) do
-    local rows, count = h.object:log()
-    if count > 0 then logs[#logs + 1] = { name = h.name, rows = rows, count = count, width = 10 } end
-  end
-  for _, o in ipairs(data.obstacles) do
-    local rows, count = o.object:log()
-    logs[#logs + 1] = { name = o.name, rows = rows, count = count, width = 4, obstacle = true }
-  end
-  for _, g in ipairs(data.grippers) do
-    if g.tool then
-      local rows, count = g.tool:log()
-      if count > 0 then
-        logs[#logs + 1] = { name = g.name, rows = rows, count = count, width = 14, tool = true }
-      end
-    end
-  end
-  for i, log in ipairs(logs) do logs[i] = cut(log, self.start) end
-  return logs
-end
-
-local function fill_gaps(series)
-  for _, c in ipairs(series.columns) do
-    for i = 1, #series.time do
-      if c.values[i] == nil then c.values[i] = 0 / 0 end
-    end
-  end
-end
-
-local function add_obstacle(series, index, log)
-  local c = column(log.name .. ".contact_force", "N")
-  for i = 0, log.count - 1 do
-    local b = 4 * i
-    c.values[index[log.rows[b + 1]]] =
-      (log.rows[b + 2] ^ 2 + log.rows[b + 3] ^ 2 + log.rows[b + 4] ^ 2) ^ 0.5
-  end
-  series.columns[#series.columns + 1] = c
-end
-
---- { time = {...} [s], columns = {{ name, unit, values }} } of a run.
+--- { time = {...} [s], columns = {{ name, unit, values }} } of a run; nan where an object has
+-- recorded nothing: it was not there, or held nothing.
 function series.of(self)
-  local logs = all_logs(self)
-  local times, index = collect_times(self, logs)
+  local list = sources(self)
+  local times, index = common_times(list)
   local result = { time = times, columns = {} }
-  for _, log in ipairs(logs) do
-    if log.obstacle then add_obstacle(result, index, log)
-    else
-      add_hold(result, index, log.name, log.rows, log.count, log.width)
-      if log.tool then add_jaws(result, index, log) end
+  for _, one in ipairs(list) do
+    for _, column in ipairs(one.columns) do
+      local values = {}
+      for i = 1, #times do values[i] = 0 / 0 end
+      for i, t in ipairs(one.times) do values[index[t]] = column.values[i] end
+      column.values = values
+      result.columns[#result.columns + 1] = column
     end
   end
-  fill_gaps(result)
   return result
 end
 

@@ -83,13 +83,14 @@ local function chosen_frames(run, count, times)
 end
 
 -- Points that the drawn grippers reach, for the camera to hold.
-local function grip_points(run, width)
+local function grip_points(run, smallest)
   local points = {}
   for _, frame in ipairs(run.frames) do
-    for _, pose in ipairs(frame.grips or {}) do
-      local p, q = solid.pose(pose)
-      for _, side in ipairs { -1, 1 } do
-        local x, y, z = solid.rotate(q, side * width, 0, povscene.grip_reach * width)
+    for i, pose in ipairs(frame.grips or {}) do
+      local width = math.max(smallest, (run.grips and run.grips[i] or {}).width or 0)
+      local p, q = solid.pose(pose or nil)
+      for _, side in ipairs(pose and { -1, 1 } or {}) do
+        local x, y, z = solid.rotate(q, 0, 1.5 * side * width, povscene.grip_reach * width)
         points[#points + 1] = { p[1] + x, p[2] + y, p[3] + z }
       end
     end

@@ -242,7 +242,11 @@ function solid.bounds(run, visit)
       end
       before[i] = pose
     end
-    for _, grip in ipairs(frame.grips or {}) do see((solid.pose(grip))) end
+    for _, kind in ipairs{ "grips", "clamps" } do
+      for _, grip in ipairs(frame[kind] or {}) do
+        if grip then see((solid.pose(grip))) end
+      end
+    end
   end
   if bounds.low[1] > bounds.high[1] then bounds.low, bounds.high = { -1, -1, -1 }, { 1, 1, 1 } end
   local low, high, square = bounds.low, bounds.high, 0
@@ -292,7 +296,9 @@ function solid.finite_run(run)
       fine = fine and (not surface or all_finite(surface.points))
     end
     for _, pose in ipairs(frame.obstacles or {}) do fine = fine and all_finite((solid.pose(pose))) end
-    for _, pose in ipairs(frame.grips or {}) do fine = fine and all_finite((solid.pose(pose))) end
+    for _, pose in ipairs(frame.grips or {}) do
+      fine = fine and (not pose or all_finite((solid.pose(pose))))
+    end
     if fine then frames[#frames + 1] = frame end
   end
   if #frames == #run.frames and #frames > 0 then return run end
