@@ -50,8 +50,6 @@ local function write_poly(write, data)
   local lines, polys = data.lines or empty, data.polys or empty
   write '<?xml version="1.0"?>\n'
   write '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<PolyData>\n'
-  write(string.format('<Piece NumberOfPoints="%d" NumberOfVerts="0" NumberOfLines="%d" '
-    .. 'NumberOfStrips="0" NumberOfPolys="%d">\n', #data.points // 3, #lines.offsets, #polys.offsets))
   if data.fields and #data.fields > 0 then
     write "<FieldData>\n"
     for _, array in ipairs(data.fields) do
@@ -62,6 +60,8 @@ local function write_poly(write, data)
     end
     write "</FieldData>\n"
   end
+  write(string.format('<Piece NumberOfPoints="%d" NumberOfVerts="0" NumberOfLines="%d" '
+    .. 'NumberOfStrips="0" NumberOfPolys="%d">\n', #data.points // 3, #lines.offsets, #polys.offsets))
   write "<PointData>\n"
   for _, array in ipairs(data.point_data or {}) do write_array(write, "Float64", array.name, array.values) end
   write "</PointData>\n<CellData>\n"
@@ -127,6 +127,7 @@ local function fields_at(run, t)
   local i = math.abs(times[low] - t) <= math.abs(times[high] - t) and low or high
   for c, column in ipairs(series.columns) do
     local value = column.values[i]
+    if value ~= value then value = 0.0 end -- nothing was held, say; VTK reads no nan
     fields[c] = { name = column.name, value = value == math.huge and STRAIGHT or value }
   end
   return fields
