@@ -13,6 +13,13 @@ local function names_of(known)
   return names
 end
 
+--- The words of a text as a set: { word = true, ... }.
+function checks.set(text)
+  local set = {}
+  for word in text:gmatch "%S+" do set[word] = true end
+  return set
+end
+
 --- Raise unless args is a table with keys that are known.
 function checks.keys(what, args, known, level)
   if type(args) ~= "table" then

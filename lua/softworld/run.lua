@@ -2,14 +2,18 @@
 --- scene:run and the run it returns.
 -- @module softworld.run
 local core = require "softworld.core"
+local advice = require "softworld.advice"
 local build = require "softworld.build"
+local checks = require "softworld.checks"
 local grasp = require "softworld.grasp"
 local process = require "softworld.process"
 local number = require "softworld.output.number"
+local place = require "softworld.place"
 local refine = require "softworld.refine"
 local save = require "softworld.save"
 local series = require "softworld.series"
 local trust = require "softworld.trust"
+local unread = require "softworld.unread"
 local drawn = require "softworld.drawn"
 local fixing = require "softworld.fixing"
 local progress = require "softworld.output.progress"
@@ -17,6 +21,7 @@ local progress = require "softworld.output.progress"
 local Run = { __name = "run" }
 local chunk = 64 -- steps between two looks at progress; fixed, so that results never depend on it
 local default_frame = 1 / 30 -- [s]
+local progress_after = 1 -- of computing [s]
 
 local function merge(total, part)
   for _, key in ipairs{ "steps", "rejected", "iterations", "evaluations", "jumps" } do
@@ -30,9 +35,11 @@ end
 local function new_bar(args, scene, level)
   local host = package.loaded["softworld.host"]
   local wanted = args.progress
-  if wanted == nil then wanted = false end
+  local usual = wanted == nil -- on a terminal, for runs that last
+  if usual then wanted = host and host.terminal and os.getenv "TERM" ~= "dumb" end
   return progress.new{ total = args.duration and args.duration > 0 and args.duration or nil,
     name = level and ("%s, %s"):format(scene.name, level) or scene.name, quiet = not wanted,
+    after = usual and progress_after or nil,
     terminal = host and host.terminal or nil,
     clock = core.clock, width = host and host.columns or nil }
 end
@@ -70,6 +77,27 @@ local function drive(scene, args, total, bar)
 end
 
 -- One run; level names it where it is one of several.
+-- Wires as they are when the run begins, for pictures of one that fails.
+local function wires_of(data)
+  local list = {}
+  for i, w in ipairs(data.wires) do
+    list[i] = { name = w.name, radius = w.object.radius, length = w.object.length,
+      segments = w.object.segments }
+  end
+  return list
+end
+
+-- A run that failed keeps ok and reason where reading them is seen.
+local function hide_failure(run)
+  if rawget(run, "ok") ~= false then return run end
+  local at = place.of_caller()
+  local number = unread.add(("softworld: run of '%s'%s FAILED %s; the script did not look at run.ok")
+    :format(run.name, at and " at " .. at or "", run.reason))
+  run.failure = { number = number, reason = run.reason }
+  run.ok, run.reason = nil, nil
+  return run
+end
+
 local function run_once(scene, args, level)
   local data = build.data(scene)
   local total = data.going or { steps = 0, rejected = 0, iterations = 0, evaluations = 0, jumps = 0,
@@ -79,6 +107,7 @@ local function run_once(scene, args, level)
   data.origin = data.origin or save.origin(scene)
   if not data.going then core.begin_run(scene) end -- else the run of the file goes on
   data.going = nil
+  total.drawn = wires_of(data)
   local wall, cpu = core.clock() - total.wall, os.clock() - total.cpu
   local fine, reason
   do -- protected: a coroutine that dies by an error leaves its variables unclosed
@@ -94,11 +123,15 @@ local function run_once(scene, args, level)
   end
   if not fine then error(reason, 0) end
   total.wall, total.cpu = core.clock() - wall, os.clock() - cpu
+  if not total.ok and not level then reason = ("%s; try %s"):format(reason, advice.of(reason, args)) end
   total.reason, total.scene, total.name = reason, scene, scene.name
   total.events = scene:events()
   total.restores = data.restores
   return setmetatable(total, Run)
 end
+
+-- As the caller gets it.
+local function run_alone(scene, args) return hide_failure(run_once(scene, args)) end
 
 local function check_start(scene, args)
   core.check_run(args)
@@ -147,16 +180,16 @@ function core.class.scene.run(scene, args)
   if type(args) == "table" then build.call(3, check_files, scene, args) end
   if trust.wanted(args) then
     local job, steps = build.call(3, refine.job, scene, args, check_start)
-    return build.call(3, refine.run, job, steps, run_once)
+    return hide_failure(build.call(3, refine.run, job, steps, run_once))
   end
   build.call(3, core.check_run, args)
   if args.resume ~= nil then build.call(3, save.resume, scene, args.resume) end
   build.call(3, check_start, scene, args)
-  return run_once(scene, args)
+  return run_alone(scene, args)
 end
 
-local function readable(self, what)
-  if not self.ok then
+local function readable(self, what, even_failed)
+  if not self.ok and not even_failed then
     error(("run of '%s' failed %s; it has no %s"):format(self.name, self.reason, what), 3)
   end
   if build.data(self.scene).restores ~= self.restores then
@@ -173,7 +206,7 @@ end
 
 --- Frames stored while running: { { t, wires = {flat positions}, obstacles, holds, energy } }.
 function Run:frames()
-  readable(self, "frames")
+  readable(self, "frames", true)
   local list = {}
   for i = 1, self.scene:frame_count() do list[i] = self.scene:frame(i) end
   return list
@@ -247,6 +280,20 @@ local function add_fixings(scene, doc)
   end
 end
 
+-- What pictures show.
+local function draw(self, doc, wires)
+  doc.wires = wires
+  for i, o in ipairs(build.data(self.scene).obstacles) do
+    local entry = {}
+    for k, v in pairs(o) do entry[k] = v end
+    entry.object = nil
+    doc.obstacles[i] = entry
+  end
+  for i = 1, self.scene:frame_count() do doc.frames[i] = self.scene:frame(i) end
+  drawn.add(self.scene, doc)
+  add_fixings(self.scene, doc)
+end
+
 --- Plain tables of everything that charts, pictures and files need.
 function Run:document()
   if self.ok then readable(self, "results") end
@@ -256,19 +303,7 @@ function Run:document()
     steps = self.steps, wall = self.wall, cpu = self.cpu, gravity = self.scene:gravity(),
     wires = {}, obstacles = {}, grips = {}, clamps = {}, frames = {} }
   if not self.ok then return doc end
-  for i, w in ipairs(data.wires) do
-    doc.wires[i] = { name = w.name, radius = w.object.radius, length = w.object.length,
-      segments = w.object.segments }
-  end
-  for i, o in ipairs(data.obstacles) do
-    local entry = {}
-    for k, v in pairs(o) do entry[k] = v end
-    entry.object = nil
-    doc.obstacles[i] = entry
-  end
-  for i = 1, self.scene:frame_count() do doc.frames[i] = self.scene:frame(i) end
-  drawn.add(self.scene, doc)
-  add_fixings(self.scene, doc)
+  draw(self, doc, wires_of(data))
   doc.series, doc.summary = self:series(), summary_of(self)
   for i, q in ipairs(self.quantities and self:error_bars() or {}) do
     doc.quantities = doc.quantities or {}
@@ -278,6 +313,44 @@ function Run:document()
   return doc
 end
 
+-- The document, with the frames of a run that failed.
+local function pictured(self)
+  local doc = self:document()
+  if not self.ok then
+    readable(self, "frames", true)
+    draw(self, doc, self.drawn)
+  end
+  return doc
+end
+
+local function check_path(path, what, wanted)
+  if type(path) == "string" and path ~= "" then return end
+  error(("%s expects %s, got %s"):format(what, wanted, path == "" and "''" or type(path)), 3)
+end
+
+local chart_keys = checks.set "path columns energy mean title size"
+local picture_keys = checks.set
+  "path count times captions caption columns width height camera thickness draft threads"
+local camera_keys = checks.set "from to direction turn elevation angle"
+
+local function check_camera(camera, what, level)
+  if camera == nil or camera == "auto" then return end
+  if type(camera) ~= "table" then
+    error(("%s must be 'auto' or a table, got %s"):format(what,
+      type(camera) == "string" and "'" .. camera .. "'" or type(camera)), level)
+  end
+  checks.keys(what, camera, camera_keys, level + 1)
+  for _, key in ipairs{ "from", "to", "direction" } do
+    if camera[key] ~= nil then checks.vector(("%s.%s"):format(what, key), camera[key], "m", level + 1) end
+  end
+  for _, key in ipairs{ "turn", "elevation", "angle" } do
+    if camera[key] ~= nil then
+      checks.number(("%s.%s"):format(what, key), camera[key], key == "angle" and 1 or -360, " deg",
+        level + 1, key == "angle" and 150 or 360)
+    end
+  end
+end
+
 --- Table of results on the terminal.
 function Run:summary(stream)
   require("softworld.output.summary").print(self:document(), stream or io.stdout)
@@ -285,6 +358,7 @@ end
 
 --- Series as CSV or JSON, by the file's extension.
 function Run:save(path)
+  check_path(path, "run:save", "the name of a .csv or .json file")
   readable(self, "series")
   require("softworld.output.series").write(self:document(), path)
   return path
@@ -292,13 +366,15 @@ end
 
 --- ParaView series (.pvd).
 function Run:vtk(path)
-  readable(self, "frames")
-  require("softworld.output.vtk").write(self:document(), path)
+  check_path(path, "run:vtk", "the name of a .pvd file")
+  readable(self, "frames", true)
+  require("softworld.output.vtk").write(pictured(self), path)
   return path
 end
 
 --- Chart of series: { path = "x.svg", columns = { names }, title = }.
 function Run:chart(options)
+  checks.keys("run:chart", options or {}, chart_keys, 3)
   readable(self, "series")
   local o = {}
   for k, v in pairs(options or {}) do o[k] = v end
@@ -308,19 +384,45 @@ end
 
 --- A strip of ray-traced pictures: { path = "x.png", count = 6, ... }.
 function Run:pictures(options)
-  readable(self, "frames")
+  checks.keys("run:pictures", options or {}, picture_keys, 3)
+  check_camera((options or {}).camera, "run:pictures: camera", 3)
+  readable(self, "frames", true)
   local o = {}
   for k, v in pairs(options or {}) do o[k] = v end
-  o.run = self:document()
+  o.run = pictured(self)
   return require("softworld.output.povray").strip(o)
 end
 
 Run.error_bars = trust.error_bars
 
+-- Fields that a run may lack.
+local may_lack = checks.set [[quantities levels met advice where asked refused last_jump failure ledger
+  ok reason]]
+local fields = { "ok", "reason", "time", "steps", "rejected", "iterations", "evaluations", "jumps",
+  "smallest_dt", "start", "wall", "cpu", "scene", "name", "events", "quantities", "met", "levels" }
+
+--- Names of methods and fields, for completion at the prompt.
+function Run.__names()
+  local names = table.move(fields, 1, #fields, 1, {})
+  for name in pairs(Run) do
+    if name:sub(1, 2) ~= "__" then names[#names + 1] = name end
+  end
+  return names
+end
+
 function Run.__index(self, key)
   local value = Run[key]
   if value ~= nil then return value end
-  return trust.refuse(self, key)
+  local failure = rawget(self, "failure")
+  if failure and (key == "ok" or key == "reason") then
+    unread.seen(failure.number)
+    if key == "ok" then return false end
+    return failure.reason
+  end
+  if may_lack[key] then return trust.refuse(self, key) end
+  local near = core.nearest(tostring(key), Run.__names())
+  error(("run has no '%s'; %s"):format(tostring(key), near and "did you mean '" .. near .. "'?"
+    or "help(run) at the prompt lists what it has"), 2)
 end
 
 function Run:__tostring()
