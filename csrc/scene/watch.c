@@ -84,12 +84,17 @@ sw_status sw_watch_forces(sw_scene *s, sw_error *err) {
   return SW_OK;
 }
 
-void sw_watches_back_to(sw_watches *w, double time) {
-  for (size_t k = 0; k < w->count; k++) {
-    sw_log *log = &w->list[k].log;
-    const size_t width = width_of(w->list[k].kind);
-    while (log->count && log->rows[log->count - width] > time) log->count -= width;
-  }
+sw_status sw_watches_measure(const sw_watches *w, size_t **lengths) {
+  *lengths = sw_alloc(w->count, sizeof **lengths);
+  if (!*lengths) return SW_ENOMEM;
+  for (size_t k = 0; k < w->count; k++) (*lengths)[k] = w->list[k].log.count;
+  return SW_OK;
+}
+
+void sw_watches_back_to(sw_watches *w, const size_t *lengths, size_t count, size_t known) {
+  for (size_t k = 0; k < w->count && k < count; k++)
+    if (w->list[k].log.count > lengths[k]) w->list[k].log.count = lengths[k];
+  while (w->count > known) sw_free(w->list[--w->count].log.rows);
 }
 
 void sw_watches_clear(sw_watches *w) {
