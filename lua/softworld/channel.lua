@@ -16,7 +16,7 @@ local vec = require "softworld.vec"
 local dot, cross, add, unit, norm = vec.dot, vec.cross, vec.add, vec.unit, vec.norm
 
 local properties = {}
-local Channel = fixing.class("channel", properties, { "lids" })
+local Channel = fixing.class("channel", properties, { "lids", "count" })
 local known = { name = true, points = true, width = true, depth = true, thickness = true,
   friction = true, restitution = true, up = true, lid = true }
 local SHARPEST = 0.3 -- cosine between a leg and the mitre's normal; below it corners are spikes

@@ -141,6 +141,11 @@ end
 -- at [m] where it is given. Of pads also peak_squeeze [N], peak_margin, slip [m].
 function Measures:over(t1, t2, at)
   t1, t2 = t1 or -math.huge, t2 or math.huge
+  for name, t in pairs{ t1 = t1, t2 = t2 } do
+    if type(t) ~= "number" then
+      error(("gripper:over: %s must be a time [s], got %s"):format(name, type(t)), 2)
+    end
+  end
   if at ~= nil then at = checks.vector("gripper:over: at", at, "m", 3) end
   local m = { peak_force = 0, peak_moment = 0, impulse = { 0, 0, 0 }, duration = 0 }
   local force_time, moment_time, before, moment_before = 0, 0, nil, nil

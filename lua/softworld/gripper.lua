@@ -164,6 +164,8 @@ local function move_table(held, args)
   return t
 end
 
+local turn_keys = checks.set "axis angle"
+
 --- Move the tool: { path = "file.csv" | points = {...} | to = point | by = vector,
 -- speed = [m/s] | duration = [s], law =, blend =, turn = { axis =, angle = [rad] }, on_slip = }.
 -- Inside a process it returns when the move is done, elsewhere at once.
@@ -173,6 +175,7 @@ function Gripper:move(args)
   if not (args.path or args.points or args.to or args.by or args.turn) then
     error(("gripper '%s': move where? give path, points, to, by or turn"):format(self.name), 2)
   end
+  if type(args.turn) == "table" then checks.keys("gripper:move: turn", args.turn, turn_keys, 3) end
   if args.on_slip ~= nil then grasp.set_on_slip(self, args.on_slip, 3) end
   local motion = build.call(3, core.trajectory, move_table(held, args))
   local duration = build.call(3, held.follow, held, motion)
@@ -193,9 +196,13 @@ function Gripper:move_to(point, args)
   return self:move(t)
 end
 
+local rotate_keys = checks.set [[axis angle speed angular_speed acceleration angular_acceleration duration
+  law blend stop on_slip]]
+
 --- Turn the tool about its centre by angle [rad] around axis.
 function Gripper:rotate(args)
   if type(args) ~= "table" then error("gripper:rotate takes { axis =, angle = [rad] }", 2) end
+  checks.keys("gripper:rotate", args, rotate_keys, 3)
   local t = {}
   for k, v in pairs(args) do t[k] = v end
   t.turn, t.axis, t.angle = { axis = args.axis, angle = args.angle }, nil, nil
@@ -290,6 +297,21 @@ function Gripper:__index(key)
   error(("gripper has no '%s'%s"):format(tostring(key),
     near and ("; did you mean '" .. near .. "'?")
       or "; help 'gripper' at the prompt lists what it has"), 2)
+end
+
+local settable = { scene = true, name = true, pads = true, width = true, at = true, rotation = true,
+  arm = true, slip_tolerance = true, past = true, spans = true, events = true, first_at = true,
+  solid = true, gone = true }
+for _, key in ipairs(remembered) do settable[key] = true end
+
+function Gripper:__newindex(key, value)
+  if not settable[key] then
+    local names = { "slip_tolerance", "on_slip", "on_crash" }
+    local near = core.nearest(tostring(key), names)
+    error(("gripper has no '%s' to set%s"):format(tostring(key),
+      near and ("; did you mean '%s'?"):format(near) or "; what it is like is given to scene:gripper"), 2)
+  end
+  rawset(self, key, value)
 end
 
 --- Names of methods and measures, for completion at the prompt.

@@ -65,7 +65,7 @@ local function drive(scene, args, total, bar)
       target = scene.time + (args.dt or 0.01)
     end
     options.max_steps = math.min(left, watching and 1 or chunk)
-    local part = build.call(5, advance, scene, options, target)
+    local part = build.call(6, advance, scene, options, target)
     merge(total, part)
     left = left - part.steps
     bar:update(scene.time - start, total.steps)
@@ -130,8 +130,6 @@ local function run_once(scene, args, level)
   return setmetatable(total, Run)
 end
 
--- As the caller gets it.
-local function run_alone(scene, args) return hide_failure(run_once(scene, args)) end
 
 local function check_start(scene, args)
   core.check_run(args)
@@ -185,7 +183,7 @@ function core.class.scene.run(scene, args)
   build.call(3, core.check_run, args)
   if args.resume ~= nil then build.call(3, save.resume, scene, args.resume) end
   build.call(3, check_start, scene, args)
-  return run_alone(scene, args)
+  return hide_failure(run_once(scene, args))
 end
 
 local function readable(self, what, even_failed)
