@@ -5,6 +5,7 @@
 local core = require "softworld.core"
 local cable = require "softworld.cable"
 local meshfile = require "softworld.meshfile"
+local remarks = require "softworld.remarks"
 
 local build = {}
 local class = core.class
@@ -155,6 +156,7 @@ function class.scene.wire(scene, args)
     local kept = core.data(wire)
     kept.cable, kept.use = entry, use
   end
+  remarks.wire(data, wire, args)
   return wire
 end
 
@@ -233,6 +235,7 @@ function class.scene.obstacle(scene, args)
     entry.vertices, entry.indices = obstacle.shape:triangles()
     for i, corner in ipairs(entry.indices) do entry.indices[i] = corner - 1 end
   end
+  remarks.obstacle(data, entry, scene.time)
   return obstacle
 end
 
@@ -258,6 +261,7 @@ local new_contact = class.scene.wire_contact
 -- themselves from now on; see help "wire_contact".
 function class.scene.wire_contact(scene, args)
   build.check(scene, "scene:wire_contact", 3)
+  remarks.on("wire_contact", "wire_contact", args)
   build.call(3, new_contact, scene, args)
   build.data(scene).touching = true
 end

@@ -11,6 +11,7 @@
 local core = require "softworld.core"
 local build = require "softworld.build"
 local fixing = require "softworld.fixing"
+local remarks = require "softworld.remarks"
 local vec = require "softworld.vec"
 
 local dot, cross, add, unit, norm = vec.dot, vec.cross, vec.add, vec.unit, vec.norm
@@ -149,6 +150,7 @@ local function checked(scene, args)
 end
 
 local function make(scene, given)
+  remarks.on("channel", "scene:channel", given)
   local args, what = checked(scene, given)
   local self = { name = args.name, scene = scene, width = args.width, depth = args.depth,
     thickness = args.thickness, friction = args.friction, restitution = args.restitution }

@@ -7,6 +7,7 @@ local checks = require "softworld.checks"
 local mixed = require "softworld.mixed"
 local pads = require "softworld.pads"
 local process = require "softworld.process"
+local remarks = require "softworld.remarks"
 local vec = require "softworld.vec"
 
 local grasp = { methods = {} }
@@ -57,7 +58,7 @@ function grasp.make_tool(self, level, wire, s)
   local at = s and wire:position(s) or self.at or { 0, 0, 0 }
   local rotation = self.rotation or (s and facing(self.scene, wire, s)) or nil
   build.call(level, function()
-    self.tool, self.obstacles, self.opening = pads.make(self.scene, self, at, rotation,
+    self.tool, self.obstacles, self.opening = remarks.without(pads.make, self.scene, self, at, rotation,
       wire and wire.radius)
   end)
 end
@@ -461,6 +462,7 @@ function Methods:grasp(wire, args)
   local approach = args.approach or "imposed"
   checks.word(("gripper '%s': approach"):format(self.name), approach, approaches, 3)
   build.call(3, check_free, self, wires, approach, args)
+  remarks.on("grasp", ("gripper '%s': grasp"):format(self.name), args)
   check_words(self, approach, args, 3)
   if approach == "mixed" and not process.current() then
     error(("gripper '%s': a mixed grasp takes its time; call it in a process"):format(self.name), 2)

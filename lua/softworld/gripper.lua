@@ -24,6 +24,7 @@ local keep = require "softworld.keep"
 local measures = require "softworld.gripmeasures"
 local pads = require "softworld.pads"
 local process = require "softworld.process"
+local remarks = require "softworld.remarks"
 local trajectory = require "softworld.trajectory"
 
 local Gripper = { __name = "gripper" }
@@ -69,6 +70,7 @@ function core.class.scene.gripper(scene, args)
   self.scene = scene
   self.name = build.name(scene, args.name, "gripper", #data.grippers, 3)
   self.pads, self.width = given, given.width
+  remarks.on("pads", ("gripper '%s': pads"):format(self.name), args.pads or {})
   self.at, self.rotation = at, args.rotation
   self.arm, self.on_crash = args.arm or false, args.on_crash
   self.slip_tolerance = args.slip_tolerance or 1e-4
@@ -177,6 +179,7 @@ function Gripper:move(args)
   end
   if type(args.turn) == "table" then checks.keys("gripper:move: turn", args.turn, turn_keys, 3) end
   if args.on_slip ~= nil then grasp.set_on_slip(self, args.on_slip, 3) end
+  remarks.on("move", ("gripper '%s': move"):format(self.name), args)
   local motion = build.call(3, core.trajectory, move_table(held, args))
   local duration = build.call(3, held.follow, held, motion)
   self.busy_until = self.scene.time + duration

@@ -10,6 +10,7 @@ local process = require "softworld.process"
 local number = require "softworld.output.number"
 local place = require "softworld.place"
 local refine = require "softworld.refine"
+local remarks = require "softworld.remarks"
 local save = require "softworld.save"
 local series = require "softworld.series"
 local trust = require "softworld.trust"
@@ -181,6 +182,7 @@ function core.class.scene.run(scene, args)
     return hide_failure(build.call(3, refine.run, job, steps, run_once))
   end
   build.call(3, core.check_run, args)
+  if not args.quasistatic then remarks.on("run", "scene:run", args) end
   if args.resume ~= nil then build.call(3, save.resume, scene, args.resume) end
   build.call(3, check_start, scene, args)
   return hide_failure(run_once(scene, args))
