@@ -77,7 +77,6 @@ local function drive(scene, args, total, bar)
   end
 end
 
--- One run; level names it where it is one of several.
 -- Wires as they are when the run begins, for pictures of one that fails.
 local function wires_of(data)
   local list = {}
@@ -92,13 +91,14 @@ end
 local function hide_failure(run)
   if rawget(run, "ok") ~= false then return run end
   local at = place.of_caller()
-  local number = unread.add(("softworld: run of '%s'%s FAILED %s; the script did not look at run.ok")
+  local key = unread.add(("softworld: run of '%s'%s FAILED %s; the script did not look at run.ok")
     :format(run.name, at and " at " .. at or "", run.reason))
-  run.failure = { number = number, reason = run.reason }
+  run.failure = { number = key, reason = run.reason }
   run.ok, run.reason = nil, nil
   return run
 end
 
+-- One run; level names it where it is one of several.
 local function run_once(scene, args, level)
   local data = build.data(scene)
   local total = data.going or { steps = 0, rejected = 0, iterations = 0, evaluations = 0, jumps = 0,

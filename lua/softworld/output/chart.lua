@@ -195,7 +195,7 @@ local key_line = 17.5 -- height of a name in a key [px]
 local function natural_size(panels)
   local most = 0
   for _, panel in ipairs(panels) do most = math.max(most, #panel) end
-  local panel_height = math.max(184, key_line * most + 8)
+  local panel_height = math.max(184, key_line * (most + 2))
   local height = #panels > 1 and 100 + (panel_height + 36) * #panels or math.max(420, panel_height + 110)
   return math.max(900, 116 + key_room(panels) + 480), math.ceil(height)
 end
