@@ -21,10 +21,10 @@ local function build()
   local hand = scene:gripper{ name = "hand" }
   scene:process(function(p)
     hand:grasp(other, { s = 0.1 })
-    hand:move{ by = { 0, 0, 0.05 }, speed = 0.2 }
+    hand:move{ by = { 0, 0, 0.05 }, duration = 0.5 }
     p:wait(0.1)
   end)
-  return scene:run{ dt = 0.01, frame = 0.05 }
+  return scene:run{ dt = 0.01, frame = 0.05, integrator = "implicit-euler" }
 end
 
 setup(function()

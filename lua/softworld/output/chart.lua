@@ -189,13 +189,13 @@ local function key_room(panels)
   return longest > 0 and 60 + 8.2 * longest or 26
 end
 
-local key_line = 17.5 -- height of a name in a key [px]
+local key_line = 20 -- height of a name in a key [px]
 
 -- How large a chart must be for its panels and their keys [px].
 local function natural_size(panels)
   local most = 0
   for _, panel in ipairs(panels) do most = math.max(most, #panel) end
-  local panel_height = math.max(184, key_line * (most + 2))
+  local panel_height = math.max(184, key_line * (most + 1))
   local height = #panels > 1 and 100 + (panel_height + 36) * #panels or math.max(420, panel_height + 110)
   return math.max(900, 116 + key_room(panels) + 480), math.ceil(height)
 end
