@@ -95,6 +95,7 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
   c->regime = regime;
   c->barrier_count = c->impact_count = c->pressed_count = 0;
   c->plastic = 0;
+  c->struck = 0;
   c->widening = 1.0;
   SW_TRY(place_all(c, t, c->start, err));
   if (sw_contact_sink(c, s) != SW_OK) return sw_fail(err, SW_ENOMEM, "contact: out of memory");
@@ -338,3 +339,37 @@ double sw_contact_energy(const sw_contact *c) {
   }
   return sum;
 }
+
+/* --- for the energy ledger ------------------------------------------------------ */
+
+int sw_contact_poses(const sw_contact *c, int id, sw_pose *from, sw_pose *to) {
+  for (size_t o = 0; o < c->count; o++) {
+    if (c->obstacles[o].id != id) continue;
+    *from = c->start[o].pose, *to = c->now[o].pose;
+    return 1;
+  }
+  return 0;
+}
+
+double sw_contact_rubbed(const sw_contact *c) {
+  double sum = 0;
+  for (size_t i = 0; i < c->touch_count; i++) {
+    const sw_press *p = &c->touches[i].press;
+    if (p->normal_force > 0) sum -= sw_dot(p->tangential, p->slip);
+  }
+  return sum;
+}
+
+int sw_contact_steady(const sw_contact *c) {
+  size_t before = 0, now = 0;
+  for (size_t i = 0; i < c->memory_count; i++) before += c->memory[i].normal_force > 0;
+  for (size_t i = 0; i < c->touch_count; i++) {
+    if (!(c->touches[i].press.normal_force > 0)) continue;
+    if (!c->touches[i].known) return 0;
+    now++;
+  }
+  return before == now && !c->impact_count && !c->plastic;
+}
+
+size_t sw_contact_impacts(const sw_contact *c) { return c->impact_count; }
+double sw_contact_struck(const sw_contact *c) { return c->struck; }

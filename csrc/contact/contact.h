@@ -130,6 +130,16 @@ int sw_contact_push_at(const sw_contact *contact, const sw_system *system, size_
                        sw_contact_push *out);
 double sw_contact_energy(const sw_contact *contact); /* stored in the springs [J] */
 
+/* --- for the energy ledger, after a trial ------------------------------------- */
+
+/* Where obstacle number id is at the step's start and as last placed. 0: there is none. */
+int sw_contact_poses(const sw_contact *contact, int id, sw_pose *from, sw_pose *to);
+double sw_contact_rubbed(const sw_contact *contact); /* lost by friction in the step [J] */
+/* 1: the touches that press are those that pressed at the step's start. */
+int sw_contact_steady(const sw_contact *contact);
+size_t sw_contact_impacts(const sw_contact *contact); /* dealt with in the step [-] */
+double sw_contact_struck(const sw_contact *contact);  /* work of moving obstacles in these [J] */
+
 /* Memory kept between steps (anchors and sides), for snapshots: a block to copy
  * and to give back. */
 const void *sw_contact_memory(const sw_contact *contact, size_t *bytes);

@@ -117,6 +117,7 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
     mass += w[e] * b->plan->lumped[end[e] - b->first_node];
     kick(s, b, end[e], sw_scale(dv, w[e]));
   }
+  c->struck += mass * sw_dot(dv, wall);
   if (levers.count)
     sw_levers_kick(b->plan, &levers, sw_scale(brake, mass),
                    s->delta + 3 * s->nodes + b->first_roll);

@@ -102,7 +102,8 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
   p->reversals += reversed;
   p->tangential = sw_scale(u, -(beyond && length > 0 ? most / length : grip));
   p->slip = sw_madd(u, p->tangential, 1.0 / grip);
-  if (reversed) return most <= small;
+  /* the iterate's friction came from lag: it must not matter either */
+  if (reversed) return fmax(most, friction * p->lag) <= small;
   if (p->sliding && beyond && along < TURN_TOLERANCE * length * sw_norm(p->trial)) return 0;
   if (p->sliding != beyond) /* a change of state matters when the force does */
     return fabs(grip * length - most) <=

@@ -240,3 +240,21 @@ double sw_pairs_energy(const sw_pairs *p) {
   }
   return sum;
 }
+
+double sw_pairs_rubbed(const sw_pairs *p) {
+  double sum = 0;
+  for (size_t i = 0; i < p->touch_count; i++) {
+    const sw_press *t = &p->touches[i].press;
+    if (t->normal_force > 0) sum -= sw_dot(t->tangential, t->slip);
+  }
+  return sum;
+}
+
+int sw_pairs_steady(const sw_pairs *p) {
+  size_t before = 0, now = 0;
+  for (size_t i = 0; i < p->memory_count; i++) before += p->memory[i].normal_force > 0;
+  for (size_t i = 0; i < p->touch_count; i++) now += p->touches[i].press.normal_force > 0;
+  return before == now && !p->impact_count;
+}
+
+size_t sw_pairs_impacts(const sw_pairs *p) { return p->impact_count; }

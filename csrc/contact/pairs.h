@@ -65,5 +65,9 @@ size_t sw_pairs_count(const sw_pairs *pairs); /* places with a force */
 sw_pair_place sw_pairs_place(const sw_pairs *pairs, size_t k);
 double sw_pairs_penetration(const sw_pairs *pairs, size_t *node); /* [m] */
 double sw_pairs_energy(const sw_pairs *pairs);                    /* [J] */
+/* As those of sw_contact. */
+double sw_pairs_rubbed(const sw_pairs *pairs); /* [J] */
+int sw_pairs_steady(const sw_pairs *pairs);
+size_t sw_pairs_impacts(const sw_pairs *pairs); /* [-] */
 
 #endif

@@ -112,6 +112,7 @@ struct sw_contact {
   double nominal;    /* the run's full step [s] */
   sw_contact_regime regime;
   int plastic;     /* 1: the step is one that does not bounce */
+  double struck;   /* work of moving obstacles in the step's impacts [J] */
   int fresh;       /* 1: no step was accepted yet, there is no memory */
   int updates;     /* of the stage so far [-] */
   double widening; /* of the reserve for flight, when nodes went further [-] */

@@ -337,6 +337,7 @@ static double stable_dt(const void *args, const sw_plan *plan) {
 const sw_force_class sw_force_clip = {
     .name = "clip",
     .summary = "a snap-in clip that wires are pressed into; scene:clip makes one to look at",
+    .loses = "friction",
     .flags = SW_FORCE_ANY_BODY | SW_FORCE_ANY_SHAPE,
     .params = SW_PARAMS("force clip", rows),
     .eval = eval,

@@ -21,7 +21,8 @@ enum {
   SW_FORCE_ANY_BODY = 64,   /* knows nodes only, or particles too: goes with meshes as well */
   SW_FORCE_OF_WEB = 128,    /* knows springs or particles only: goes with nothing else */
   SW_FORCE_ON_SOME = 256,   /* acts on some particles: takes a list; see sw_force_some */
-  SW_FORCE_ANY_SHAPE = 512  /* its history is not of bends: goes with material frames as well */
+  SW_FORCE_ANY_SHAPE = 512, /* its history is not of bends: goes with material frames as well */
+  SW_FORCE_LOAD = 1024      /* a dead load: its energy is work that it gives */
 };
 
 enum { SW_FORCE_ARGS_MAX = 128 };   /* room for any force's arguments [B] */
@@ -31,6 +32,7 @@ typedef struct sw_force_class {
   const char *name;
   const char *summary;  /* one line for help() */
   const char *stores;   /* what its energy is called; NULL = as the force */
+  const char *loses;    /* what the work dissipated in its history is; NULL = plasticity */
   const char *corrects; /* what its field's `bending` is part of; NULL = bend */
   unsigned flags;
   sw_params params; /* rows of its argument struct */

@@ -29,7 +29,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
 const sw_force_class sw_force_line = {
     .name = "line",
     .summary = "a force of fixed direction spread over the whole wire",
-    .flags = SW_FORCE_ANY_BODY,
+    .flags = SW_FORCE_ANY_BODY | SW_FORCE_LOAD,
     .params = SW_PARAMS("force line", rows),
     .eval = eval,
 };

@@ -67,7 +67,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
 const sw_force_class sw_force_moment = {
     .name = "moment",
     .summary = "a couple about a fixed axis at one place of the wire",
-    .flags = SW_FORCE_AT_PLACE,
+    .flags = SW_FORCE_AT_PLACE | SW_FORCE_LOAD,
     .params = SW_PARAMS("force moment", rows),
     .eval = eval,
 };

@@ -55,7 +55,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
 const sw_force_class sw_force_point = {
     .name = "point",
     .summary = "a force of fixed direction at one place of the wire",
-    .flags = SW_FORCE_AT_PLACE | SW_FORCE_ANY_BODY,
+    .flags = SW_FORCE_AT_PLACE | SW_FORCE_ANY_BODY | SW_FORCE_LOAD,
     .params = SW_PARAMS("force point", rows),
     .eval = eval,
 };

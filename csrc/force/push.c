@@ -32,7 +32,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
 const sw_force_class sw_force_push = {
     .name = "push",
     .summary = "a force of fixed direction on some particles",
-    .flags = SW_FORCE_ANY_BODY | SW_FORCE_OF_WEB | SW_FORCE_ON_SOME,
+    .flags = SW_FORCE_ANY_BODY | SW_FORCE_OF_WEB | SW_FORCE_ON_SOME | SW_FORCE_LOAD,
     .params = SW_PARAMS("force push", rows),
     .eval = eval,
 };

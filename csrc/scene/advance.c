@@ -53,11 +53,18 @@ static const double LARGEST_STRAIN = 10.0;       /* beyond it a run has diverged
  * smaller step may avoid it [-]. */
 static const double LEAST_SHARE = 0.3;
 
+/* How a step that made energy is redone: by the method's start, which takes no acceleration from
+ * before and is of second order too; then with implicit Euler, which makes none but where touches
+ * go wrong. */
+enum { AS_IS, BY_START, DULLY, GIVE_UP };
+
 typedef struct loop {
   sw_scene *s;
   const sw_run_args *args;
   sw_run_report *report;
   double *v_start; /* velocities at the step's start, which impacts change */
+  int redo;        /* AS_IS, or how the step is redone, for it made energy */
+  int changed;     /* 1: the scene was, since the last step: its energy is not judged */
   int (*interrupted)(void);
 } loop;
 
@@ -145,9 +152,10 @@ static sw_status trial(loop *p, double h, sw_error *err) {
 static sw_status attempt(loop *p, double h, sw_error *err) {
   sw_scene *s = p->s;
   if (s->discontinuous > 0) s->stepper.restart = 1;
+  s->stepper.plastic = p->redo == DULLY;
+  if (p->redo == BY_START) s->stepper.restart = 1;
   if (!sw_scene_has_contact(s)) return trial(p, h, err);
   memcpy(p->v_start, s->system.v, s->system.freedoms * sizeof(double));
-  s->stepper.plastic = 0;
   sw_status status = sw_scene_begin_contact(
       s, s->method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
       s->time, h, p->args->dt, err);
@@ -210,13 +218,58 @@ static sw_status yielding_attempt(loop *p, double h, sw_error *err) {
   return sw_fail(err, SW_ENOCONV, "the speed at which a feed slips was not found");
 }
 
+static sw_status judge(loop *p, double h, double *excess, sw_error *err) {
+  sw_scene *s = p->s;
+  const sw_status status = sw_ledger_judge(s, s->time + h, h, p->changed, err);
+  *excess = p->changed || status != SW_OK ? 0.0 : sw_ledger_excess(s, h);
+  if (status != SW_OK) undo(p);
+  return status;
+}
+
+/* What to try after a step that made energy, tried as it is now. */
+static int next_redo(const loop *p) {
+  const sw_stepper *stepper = &p->s->stepper;
+  if (p->redo == AS_IS && stepper->start != stepper->method && !stepper->restart) return BY_START;
+  return p->redo < DULLY ? DULLY : GIVE_UP;
+}
+
+/* One step of size h, and the referee: a step that makes energy is redone. SW_ENOCONV: it makes
+ * some all the same. smallest: it is then taken as it is, and counted. */
+static sw_status judged_attempt(loop *p, double h, int smallest, sw_error *err) {
+  sw_scene *s = p->s;
+  sw_ledger *l = &s->books.sums;
+  double excess;
+  SW_TRY(sw_ledger_open(s, err));
+  for (p->redo = AS_IS;;) {
+    SW_TRY(yielding_attempt(p, h, err));
+    SW_TRY(judge(p, h, &excess, err));
+    if (!(excess > 0)) return SW_OK;
+    const int next = next_redo(p);
+    if (next == GIVE_UP && smallest) {
+      sw_ledger_retry(s, &l->accepted, s->time, excess);
+      return SW_OK;
+    }
+    if (p->redo == AS_IS) sw_ledger_retry(s, &l->redone, s->time, excess);
+    if (next == GIVE_UP) sw_ledger_retry(s, &l->halved, s->time, excess);
+    undo(p);
+    if (next == GIVE_UP) return sw_fail(err, SW_ENOCONV, "the step makes energy from nowhere");
+    p->redo = next;
+  }
+}
+
 static void accept(loop *p, double h) {
   sw_scene *s = p->s;
   sw_stepper_accept(&s->stepper, &s->system, h);
   sw_scene_commit_contact(s);
-  s->discontinuous = 0;
+  s->discontinuous = p->changed = 0;
   p->report->steps++;
   if (h < p->report->smallest_dt) p->report->smallest_dt = h;
+}
+
+static sw_status observe(sw_scene *s, sw_error *err) {
+  SW_TRY(sw_scene_observe(s, err));
+  if (sw_ledger_close(s) == SW_OK) return SW_OK;
+  return sw_fail(err, SW_ENOMEM, "out of memory for the energy of scene '%s'", s->name);
 }
 
 /* Errors that a smaller step cannot mend. */
@@ -235,6 +288,7 @@ static sw_status make_room(loop *p, double *h, sw_error *err) {
   *h = sw_feed_step(s, *h);
   SW_TRY(sw_feed_make_room(s, s->time + *h, &changed, err));
   if (!changed) return SW_OK;
+  sw_ledger_forget(s);
   s->system.counters.evaluations = before;
   SW_TRY(use_integrator(s, p->args, err));
   s->stepper.wants_error = isfinite(p->args->tolerance);
@@ -251,6 +305,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
   double done = 0, part = h;
   int starts = s->discontinuous && sw_slip_any(s);
   if (starts) part = FIRST_SLIP * h;
+  p->changed = s->discontinuous > 0;
   while (done < h) {
     const double left = h - done;
     if (part > left * (1 - 1e-12)) part = left;
@@ -258,12 +313,12 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
     SW_TRY(make_room(p, &part, err));
     if (!(part >= SMALLEST_SHARE * SMALLEST_SHARE * h))
       return sw_fail(err, SW_ENOCONV, "wire is fed too fast to follow it");
-    const sw_status status = yielding_attempt(p, part, err);
+    const sw_status status = judged_attempt(p, part, 0.5 * part < SMALLEST_SHARE * h, err);
     if (status == SW_OK) {
       done += part;
       accept(p, part);
       s->time = done < h ? t0 + done : t1;
-      SW_TRY(sw_scene_observe(s, err));
+      SW_TRY(observe(s, err));
       part = starts ? h : 2 * part;
       starts = 0;
       continue;
@@ -283,9 +338,11 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
   const double tolerance = p->args->tolerance, most = fmin(p->args->dt, left);
   double h = s->next_dt > 0 ? fmin(s->next_dt, most) : 0.1 * most;
   SW_TRY(make_room(p, &h, err));
+  p->changed = s->discontinuous > 0;
   for (;;) {
     const int last = h >= left * (1 - 1e-9);
-    const sw_status status = yielding_attempt(p, h, err);
+    const sw_status status =
+        judged_attempt(p, h, 0.25 * h < SMALLEST_SHARE * SMALLEST_SHARE * p->args->dt, err);
     if (hopeless(status)) return status;
     const int fine = status == SW_OK && s->stepper.error <= tolerance;
     const double next = status == SW_OK ? sw_stepper_next_h(&s->stepper, h, tolerance) : 0.25 * h;
@@ -294,7 +351,7 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
       accept(p, h);
       s->time = last ? t1 : s->time + h;
       s->next_dt = unknown ? h : last && next > h ? fmax(next, s->next_dt) : next;
-      return sw_scene_observe(s, err);
+      return observe(s, err);
     }
     if (status == SW_OK) undo(p);
     p->report->rejected++;
@@ -313,6 +370,7 @@ static sw_status pose_steps(loop *p, double t, int (*interrupted)(void), sw_erro
     if (interrupted && interrupted()) return SW_EINTR;
     SW_TRY(make_room(p, &h, err));
     const double part = h < (t - s->time) * (1 - 1e-9) ? s->time + h : t;
+    SW_TRY(sw_ledger_open(s, err));
     SW_TRY(sw_scene_pose(s, part, interrupted, p->report, err));
     SW_TRY(sw_scene_observe(s, err));
   }
@@ -417,6 +475,7 @@ sw_status sw_scene_begin_run(sw_scene *s, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   sw_scene_reset_extremes(s);
   sw_events_clear(&s->events);
+  sw_ledger_begin_run(s);
   return SW_OK;
 }
 
@@ -434,11 +493,11 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   p.v_start = sw_alloc(sw_scene_has_contact(s) ? s->system.freedoms : 1, sizeof(double));
   if (!p.v_start) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
   s->running++;
-  sw_status status = SW_OK;
-  if (isfinite(args->frame) && s->frame_count == 0) {
-    status =
-        sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, &why); /* energies need it */
-    if (status == SW_OK) status = sw_scene_store_frame(s, &why);
+  sw_ledger_forget(s);
+  sw_status status = /* energies need it */
+      sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, &why);
+  if (status == SW_OK && isfinite(args->frame) && s->frame_count == 0) {
+    status = sw_scene_store_frame(s, &why);
     s->next_frame = s->time + args->frame;
   }
   if (status == SW_OK) status = run_loop(&p, until, interrupted, &why);

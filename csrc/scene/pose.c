@@ -128,6 +128,7 @@ static sw_status pose(sw_scene *s, double t1, int halvings, int (*interrupted)(v
     return pose(s, t1, halvings - 1, interrupted, report, err);
   }
   report->smallest_dt = fmin(report->smallest_dt, t1 - t0);
+  SW_TRY(sw_ledger_pose(s, rest.jumped, err));
   if (rest.jumped) {
     report->jumps++;
     report->last_jump = t1;

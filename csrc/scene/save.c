@@ -46,7 +46,7 @@ static size_t tape_list(sw_tape *t, void *list_pointer, size_t *count, size_t *c
   } while (0)
 
 static void tape_objects(sw_tape *t, sw_scene *s) {
-  SW_TAPE_STRUCT(t, sw_scene, 1752);
+  SW_TAPE_STRUCT(t, sw_scene, 2560);
   sw_tape_name(t, s->name);
   sw_tape_uint32(t, &s->serial);
   sw_tape_vec(t, &s->gravity);
@@ -64,6 +64,7 @@ static void tape_objects(sw_tape *t, sw_scene *s) {
   LIST(events.list, events.count, events.capacity, sw_tape_event(t, &s->events.list[k]));
   sw_tape_size(t, &s->events.dropped);
   sw_tape_watches(t, &s->watches);
+  sw_tape_ledger(t, &s->books);
   sw_tape_kept_contact(t, s);
   size_t unused = 0;
   const size_t n =

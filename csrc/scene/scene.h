@@ -278,6 +278,49 @@ extern const sw_params sw_run_params;
 /* A run begins: extremes of wires and of penetration start anew. */
 sw_status sw_scene_begin_run(sw_scene *scene, sw_error *err);
 
+/* --- energy ------------------------------------------------------------------- */
+
+/* How often something had to be done because a step made energy, and the worst of it. */
+typedef struct sw_retries {
+  size_t count;
+  double largest;            /* energy made by such a step [J] */
+  double time, s;            /* when, and where nodes gained most [s], [m] */
+  char object[SW_NAME_SIZE]; /* the wire there */
+} sw_retries;
+
+/* Where the energy of a run came from and went. Of every step what is left of
+ *   change of energy = work - losses
+ * is booked without netting: below 0 as lost by the integrator (or by contact, in steps in which
+ * touches began or ended), above 0 as gap. */
+typedef struct sw_ledger {
+  double kinetic, stored, gravity;                                   /* now [J] */
+  double at_start;                                                   /* their sum then [J] */
+  double by_holds, by_obstacles, by_feeds, by_forces;                /* work [J] */
+  double by_changes;                                                 /* of the scene itself [J] */
+  double damping, friction, plasticity, impact, contact, integrator; /* lost [J] */
+  double jumps;        /* lost by equilibria that jumped, of quasi-static runs [J] */
+  double gap;          /* from nowhere [J] */
+  double gained;       /* sum of what steps gained beyond the work [J] */
+  double play;         /* energy that was in play: largest kinetic energy, work, energy released;
+                          at least the wires' weight times their radius [J] */
+  sw_retries redone;   /* steps redone with implicit Euler */
+  sw_retries halved;   /* and then halved */
+  sw_retries accepted; /* and taken all the same, for they could not be smaller */
+  size_t steps;        /* accepted ones [-] */
+} sw_ledger;
+
+/* Of the last run, or the one under way. */
+sw_status sw_scene_ledger(sw_scene *scene, sw_ledger *out, sw_error *err);
+/* Rows (their number) of time [s], kinetic, stored and gravity energy, gap and loss by the
+ * integrator so far [J], one a step. */
+const double *sw_scene_energy_log(const sw_scene *scene, size_t *rows);
+enum { SW_LOG_ENERGY_SIZE = 6 };
+/* Share of what was in play that steps gained; above it a remark, and a failure [-]. */
+extern const double SW_LEDGER_REMARK, SW_LEDGER_FAILURE;
+/* The run has ended: tell what there is to tell. SW_EDIVERGED when it made too much energy to be
+ * believed; the scene then refuses to be read. */
+sw_status sw_scene_end_run(sw_scene *scene, sw_error *why);
+
 /* --- events ------------------------------------------------------------------- */
 
 /* Something that happened, once or again and again. */

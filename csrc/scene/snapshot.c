@@ -420,6 +420,7 @@ sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   if (status != SW_OK) return status;
   s->discontinuous = p->discontinuous;
   sw_events_back_to(&s->events, p->time);
+  sw_ledger_forget(s);
   while (s->frame_count > p->frames) sw_free(s->frames[--s->frame_count].data);
   return SW_OK;
 }

@@ -7,6 +7,8 @@
 #include "contact/crowd.h"
 #include "contact/pairs.h"
 #include "scene/events.h"
+#include "scene/ledger.h"
+#include "scene/log.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
 #include "scene/section.h"
@@ -108,12 +110,6 @@ sw_strand_plan sw_scene_strand_plan(const sw_scene_wire *wire, const sw_wire_cla
 
 /* The wire is as drawn: not twisted anywhere. SW_ENOMEM. */
 sw_status sw_scene_draw_untwisted(sw_scene_wire *wire);
-
-/* A log: rows of a fixed number of doubles, growing. */
-typedef struct sw_log {
-  double *rows;
-  size_t count, capacity; /* in doubles */
-} sw_log;
 
 /* Where something driven is: at rest at a pose or following a motion. */
 typedef struct sw_drive {
@@ -362,6 +358,7 @@ struct sw_scene {
   double next_frame; /* [s] */
   sw_events events;  /* of the last run */
   sw_watches watches;
+  sw_books books;    /* of the energy in it */
 };
 
 /* What a built scene has besides its objects: a copy of it, put back into a scene that is built
@@ -521,9 +518,6 @@ int sw_slip_any(const sw_scene *scene);
 int sw_slip_begin(sw_scene *scene);
 int sw_slip_correct(sw_scene *scene, double h, int first);
 void sw_slip_give_up(sw_scene *scene);
-
-void sw_tape_log(sw_tape *tape, sw_log *log);
-sw_status sw_log_add(sw_log *log, const double *row, size_t n);
 
 /* The object of a handle, or NULL with err set. A body is a wire or an object of particles. */
 sw_scene_wire *sw_scene_find_body(const sw_scene *scene, sw_handle h, sw_error *err);

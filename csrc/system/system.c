@@ -95,9 +95,11 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
     s->bodies[b].first_frame = s->state_size - frames;
     s->state_size += sw_spin_state_size(s->bodies[b].plan);
   }
+  if (s->span_count || s->state_size > frames)
+    s->follow_size = s->state_size - 3 * s->freedoms - s->edges;
   s->state = sw_alloc(s->state_size, sizeof(double));
   const size_t kept = sw_factors_room(s);
-  double *w = sw_alloc(3 * s->freedoms + kept + s->edges, sizeof(double));
+  double *w = sw_alloc(3 * s->freedoms + kept + s->edges + s->follow_size, sizeof(double));
   s->work = w;
   if (!s->held || !s->directors || !s->hold_states || !s->state || !w) return SW_ENOMEM;
   s->directors_now = s->directors + 6 * hold_count;
@@ -110,6 +112,7 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
   s->velocity = s->delta + s->freedoms;
   s->factor_at = s->velocity + s->freedoms;
   s->tension_new = s->factor_at + kept;
+  s->aside = s->tension_new + s->edges;
   return SW_OK;
 }
 

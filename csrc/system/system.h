@@ -146,6 +146,8 @@ struct sw_system {
   size_t state_size; /* in doubles */
   double *x, *v, *a, *tension, *twist, *turn, *frames;
   size_t span_count;
+  size_t follow_size; /* of twist, turn and frames, if there is twist or a frame: else 0 */
+  double *aside;      /* (follow_size) room for them */
 
   /* work space of a stage (freedoms) */
   double *yhat, *delta, *velocity;

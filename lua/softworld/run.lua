@@ -6,6 +6,7 @@ local advice = require "softworld.advice"
 local build = require "softworld.build"
 local checks = require "softworld.checks"
 local grasp = require "softworld.grasp"
+local ledger = require "softworld.ledger"
 local process = require "softworld.process"
 local number = require "softworld.output.number"
 local place = require "softworld.place"
@@ -124,9 +125,11 @@ local function run_once(scene, args, level)
   end
   if not fine then error(reason, 0) end
   total.wall, total.cpu = core.clock() - wall, os.clock() - cpu
-  if not total.ok and not level then reason = ("%s; try %s"):format(reason, advice.of(reason, args)) end
   total.reason, total.scene, total.name = reason, scene, scene.name
-  total.events = scene:events()
+  ledger.close(total)
+  if not total.ok and not level and not total.reason:find("take smaller steps", 1, true) then
+    total.reason = ("%s; try %s"):format(total.reason, advice.of(total.reason, args))
+  end
   total.restores = data.restores
   return setmetatable(total, Run)
 end
@@ -201,7 +204,7 @@ end
 --- Time series of the run: { time = {...} [s], columns = {{ name, unit, values }} }.
 function Run:series()
   readable(self, "series")
-  return series.of(self)
+  return series.of(self, ledger.add)
 end
 
 --- Frames stored while running: { { t, wires = {flat positions}, obstacles, holds, energy } }.
@@ -260,6 +263,7 @@ local function summary_of(self)
     add("deepest penetration", depth, "m", s, t)
   end
   for _, f in ipairs(fixing.all(self.scene)) do f:report(add) end
+  ledger.report(self, add)
   for _, q in ipairs(self.quantities and self:error_bars() or {}) do
     rows[#rows + 1] = { label = q.name, value = type(q.value) == "number" and q.value or q:text(),
       unit = type(q.value) == "number" and q.unit or "",
@@ -394,9 +398,10 @@ function Run:pictures(options)
 end
 
 Run.error_bars = trust.error_bars
+Run.ledger = ledger.of
 
 -- Fields that a run may lack.
-local may_lack = checks.set [[quantities levels met advice where asked refused last_jump failure ledger
+local may_lack = checks.set [[quantities levels met advice where asked refused last_jump failure
   ok reason]]
 local fields = { "ok", "reason", "time", "steps", "rejected", "iterations", "evaluations", "jumps",
   "smallest_dt", "start", "wall", "cpu", "scene", "name", "events", "quantities", "met", "levels" }

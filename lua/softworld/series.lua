@@ -137,8 +137,9 @@ local function common_times(list)
 end
 
 --- { time = {...} [s], columns = {{ name, unit, values }} } of a run; nan where an object has
--- recorded nothing: it was not there, or held nothing.
-function series.of(self)
+-- recorded nothing: it was not there, or held nothing. more(run, series, index) adds columns, with
+-- the number of each time in index.
+function series.of(self, more)
   local list = sources(self)
   local times, index = common_times(list)
   local result = { time = times, columns = {} }
@@ -149,6 +150,12 @@ function series.of(self)
       for i, t in ipairs(one.times) do values[index[t]] = column.values[i] end
       column.values = values
       result.columns[#result.columns + 1] = column
+    end
+  end
+  if more then more(self, result, index) end
+  for _, column in ipairs(result.columns) do
+    for i = 1, #times do
+      if column.values[i] == nil then column.values[i] = 0 / 0 end
     end
   end
   return result

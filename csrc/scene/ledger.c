@@ -1,0 +1,362 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/ledger.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "scene/world.h"
+#include "system/join.h"
+
+const double SW_LEDGER_REMARK = 0.02, SW_LEDGER_FAILURE = 0.05;
+
+/* A step of this size may make so much of the kinetic energy, of the weight times the radius and of
+ * the work, by the errors of the method and of the work's quadrature [s], [-]. */
+static const double FULL_STEP = 0.01, OF_KINETIC = 1e-3, OF_WEIGHT = 1e-3, OF_WORK = 0.01;
+/* And of EI / L, as axial forces and bends are only known to rounding [-]. */
+static const double OF_BENDING = 1e-9;
+/* Energies are sums of large terms, known to this share of these [-]. */
+static const double ROUNDING = 1e-13;
+/* Once steps have gained this share of what is in play, only rounding is allowed [-]. */
+static const double ENOUGH = 0.005;
+/* The least that is in play: the weight times the radius, or this share of EI / L [-]. */
+static const double LEAST_BENDING = 1e-6;
+
+/* --- life ---------------------------------------------------------------------- */
+
+void sw_ledger_begin_run(sw_scene *s) {
+  sw_books *b = &s->books;
+  sw_log log = b->log;
+  log.count = 0;
+  *b = (sw_books){.holds = b->holds,
+                  .obstacles = b->obstacles,
+                  .log = log,
+                  .hold_room = b->hold_room,
+                  .obstacle_room = b->obstacle_room};
+}
+
+void sw_ledger_free(sw_books *b) {
+  sw_free(b->holds);
+  sw_free(b->obstacles);
+  sw_free(b->log.rows);
+  *b = (sw_books){0};
+}
+
+void sw_ledger_forget(sw_scene *s) { s->books.known = 0; }
+
+/* --- measuring ----------------------------------------------------------------- */
+
+static int lumped(const sw_scene *s) {
+  return s->has_stepper && !(s->method->flags & SW_INTEGRATOR_IMPLICIT);
+}
+
+/* Stored between bodies and obstacles. */
+static double contact_energy(sw_scene *s) {
+  double sum = sw_scene_has_contact(s) ? sw_scene_contact_energy(s) : 0.0;
+  if (s->crowd) sum += sw_crowd_energy(s->crowd, &s->system);
+  if (s->system.joins) sum += sw_joins_energy(&s->system);
+  return sum;
+}
+
+static double potential(const sw_energies *e, double contact) {
+  return e->gravity + e->stored + contact;
+}
+
+static void weigh(sw_scene *s) {
+  sw_books *b = &s->books;
+  b->weight = b->bending = 0;
+  for (size_t k = 0; k < s->system.body_count; k++) {
+    const sw_plan *p = s->system.bodies[k].plan;
+    const double mg = p->beam.mass * p->length * sw_norm(s->gravity);
+    if (isfinite(mg * p->beam.radius)) b->weight += mg * p->beam.radius;
+    if (p->length > 0 && isfinite(p->beam.EI)) b->bending += p->beam.EI / p->length;
+  }
+}
+
+static void take_as_now(sw_books *b, const sw_energies *e, double contact) {
+  b->now = *e;
+  b->contact = contact;
+  const double pot = potential(e, contact);
+  b->highest = fmax(b->highest, pot);
+  b->released = fmax(b->released, b->highest - pot);
+  b->most_kinetic = fmax(b->most_kinetic, e->kinetic);
+  b->sums.kinetic = e->kinetic, b->sums.gravity = e->gravity;
+  b->sums.stored = e->stored + contact;
+  const double least = fmax(b->weight, LEAST_BENDING * b->bending);
+  b->sums.play = fmax(least, b->most_kinetic + b->work + b->released);
+}
+
+sw_status sw_ledger_open(sw_scene *s, sw_error *err) {
+  sw_books *b = &s->books;
+  int any;
+  if (b->known) return SW_OK;
+  sw_energies e;
+  weigh(s);
+  sw_system_energies(&s->system, lumped(s), &e);
+  b->has_powers = sw_system_has_powers(&s->system);
+  if (b->has_powers) SW_TRY(sw_system_powers(&s->system, s->time, &b->powers, err));
+  const double contact = contact_energy(s), now = e.kinetic + potential(&e, contact);
+  const double last = b->now.kinetic + potential(&b->now, b->contact);
+  if (!b->begun) b->sums.at_start = now, b->highest = potential(&e, contact);
+  if (b->begun) b->sums.by_changes += now - last, b->highest += fmax(0.0, now - last);
+  b->begun = 1;
+  take_as_now(b, &e, contact);
+  b->dissipated = sw_system_dissipated(&s->system, &any);
+  b->rubbed_off = sw_system_rubbed(&s->system);
+  if (sw_ledger_note_workers(s, 1) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
+  b->known = 1;
+  return SW_OK;
+}
+
+/* Energy over a step by the powers at its ends: the trapezoid, but where what is damped dies out
+ * within the step. */
+static double over_step(double before, double after, double h) {
+  const int dies = before > 4.0 * after || after > 4.0 * before;
+  return h * (dies && before > 0 && after > 0 ? sqrt(before * after) : 0.5 * (before + after));
+}
+
+static void judge_outer_forces(sw_books *b, double h, double *most) {
+  sw_step_energy *step = &b->step;
+  const double before = b->powers.given;
+  const double dead = b->now.loads - step->to.loads;
+  step->forces = dead + over_step(before, step->powers.given, h);
+  *most += dead + h * fmax(before, step->powers.given);
+  step->damping = over_step(b->powers.damping, step->powers.damping, h);
+}
+
+static void judge_touches(sw_scene *s, sw_step_energy *step) {
+  size_t impacts = 0;
+  if (s->contact) {
+    impacts += sw_contact_impacts(s->contact);
+    step->friction += sw_contact_rubbed(s->contact);
+    step->steady &= sw_contact_steady(s->contact);
+    step->obstacles += sw_contact_struck(s->contact);
+  }
+  if (s->pairs) {
+    impacts += sw_pairs_impacts(s->pairs);
+    step->friction += sw_pairs_rubbed(s->pairs);
+    step->steady &= sw_pairs_steady(s->pairs);
+  }
+  if (impacts) /* these changed the velocities at the step's start */
+    step->impact =
+        s->books.now.kinetic + step->obstacles - sw_system_kinetic(&s->system, lumped(s));
+}
+
+sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_error *err) {
+  sw_books *b = &s->books;
+  sw_step_energy *step = &b->step;
+  sw_glance glance;
+  sw_status status = SW_OK;
+  *step = (sw_step_energy){.steady = 1};
+  if (lumped(s)) SW_TRY(sw_system_place_holds(&s->system, t1, NULL, NULL, NULL, err));
+  if (sw_scene_has_contact(s)) judge_touches(s, step);
+  double most = step->obstacles;
+  sw_system_look_at(&s->system, &glance, s->stepper.trial_x, s->stepper.trial_v);
+  sw_system_energies(&s->system, lumped(s), &step->to);
+  step->contact = contact_energy(s);
+  most += sw_ledger_work(s, t1, changed);
+  if (b->has_powers) status = sw_system_powers(&s->system, t1, &step->powers, err);
+  sw_system_look_back(&s->system, &glance);
+  judge_outer_forces(b, h, &most);
+  const double before = b->now.kinetic + potential(&b->now, b->contact);
+  step->gain = step->to.kinetic + potential(&step->to, step->contact) - before - most;
+  step->work = fabs(step->holds) + fabs(step->obstacles) + fabs(step->feeds) + fabs(step->forces);
+  return status;
+}
+
+double sw_ledger_excess(const sw_scene *s, double h) {
+  const sw_books *b = &s->books;
+  const sw_step_energy *step = &b->step;
+  if (lumped(s)) return 0.0;
+  const double share = fmin(1.0, h / FULL_STEP);
+  const double size = fabs(b->now.kinetic) + fabs(b->now.gravity) + fabs(b->now.stored) +
+                      fabs(step->to.kinetic) + fabs(step->to.gravity) + fabs(step->to.stored);
+  const double rounding = ROUNDING * size + OF_BENDING * b->bending * share;
+  const double usual = OF_KINETIC * b->now.kinetic + OF_WEIGHT * b->weight;
+  const int enough = b->sums.gained > ENOUGH * b->sums.play;
+  const double allowed = enough ? rounding : rounding + usual * share + OF_WORK * step->work;
+  if (!isfinite(step->gain)) return step->gain < 0 ? 0.0 : HUGE_VAL;
+  return step->gain > allowed ? step->gain : 0.0;
+}
+
+/* --- booking ------------------------------------------------------------------- */
+
+static sw_status log_row(sw_scene *s) {
+  const sw_ledger *l = &s->books.sums;
+  const double row[SW_LOG_ENERGY_SIZE] = {s->time,    l->kinetic, l->stored,
+                                          l->gravity, l->gap,     l->integrator};
+  return sw_log_add(&s->books.log, row, SW_LOG_ENERGY_SIZE);
+}
+
+/* What explicit methods gain goes to and fro within an oscillation: what counts is how far the
+ * unexplained energy has come from its least. */
+static void book_gain(sw_scene *s, double gain) {
+  sw_books *b = &s->books;
+  if (!lumped(s)) {
+    b->sums.gained += fmax(0.0, gain);
+    return;
+  }
+  b->rise += gain;
+  b->lowest = fmin(b->lowest, b->rise);
+  b->sums.gained = fmax(b->sums.gained, b->rise - b->lowest);
+}
+
+static void book_left(sw_ledger *l, double left, int steady) {
+  if (left > 0)
+    l->gap += left;
+  else if (steady)
+    l->integrator -= left;
+  else
+    l->contact -= left;
+}
+
+/* Losses that histories count, since the last step. */
+static double book_histories(sw_scene *s) {
+  sw_books *b = &s->books;
+  int any;
+  const double all = sw_system_dissipated(&s->system, &any), before = b->dissipated;
+  const double rubbed = sw_system_rubbed(&s->system);
+  b->sums.friction += rubbed - b->rubbed_off;
+  b->sums.plasticity += all - before - (rubbed - b->rubbed_off);
+  b->dissipated = all, b->rubbed_off = rubbed;
+  return all - before;
+}
+
+static void book_step(sw_scene *s) {
+  sw_books *b = &s->books;
+  const sw_step_energy *step = &b->step;
+  sw_ledger *l = &b->sums;
+  const double work = step->holds + step->obstacles + step->feeds + step->forces;
+  const double change = step->to.kinetic - b->now.kinetic + potential(&step->to, step->contact) -
+                        potential(&b->now, b->contact);
+  l->by_holds += step->holds, l->by_obstacles += step->obstacles;
+  l->by_feeds += step->feeds, l->by_forces += step->forces;
+  l->damping += step->damping, l->friction += step->friction, l->impact += step->impact;
+  const double lost = step->damping + step->friction + step->impact + book_histories(s);
+  b->work += step->work;
+  l->steps++;
+  book_left(l, change - work + lost, step->steady);
+  book_gain(s, step->gain);
+  take_as_now(b, &step->to, step->contact);
+  b->powers = step->powers;
+}
+
+sw_status sw_ledger_close(sw_scene *s) {
+  book_step(s);
+  SW_TRY(sw_ledger_note_workers(s, 1));
+  return log_row(s);
+}
+
+sw_status sw_ledger_pose(sw_scene *s, int jumped, sw_error *err) {
+  sw_books *b = &s->books;
+  sw_step_energy *step = &b->step;
+  *step = (sw_step_energy){.steady = 1};
+  sw_system_energies(&s->system, 0, &step->to);
+  step->to.kinetic = 0;
+  step->contact = contact_energy(s);
+  if (s->contact) step->friction += sw_contact_rubbed(s->contact);
+  if (s->pairs) step->friction += sw_pairs_rubbed(s->pairs);
+  sw_ledger_work(s, s->time, 0);
+  step->forces = b->now.loads - step->to.loads;
+  step->work = fabs(step->holds) + fabs(step->obstacles) + fabs(step->feeds) + fabs(step->forces);
+  const double before = b->sums.integrator, gained = b->sums.gained;
+  book_step(s);
+  b->sums.gained = gained; /* poses are not judged */
+  if (jumped) b->sums.jumps += b->sums.integrator - before, b->sums.integrator = before;
+  if (sw_ledger_note_workers(s, 0) != SW_OK || log_row(s) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
+  return SW_OK;
+}
+
+/* --- what the referee did -------------------------------------------------------- */
+
+/* The node whose kinetic energy grew most in the trial. */
+static size_t fastest_gain(const sw_scene *s) {
+  const double *v0 = s->system.v, *v1 = s->stepper.trial_v;
+  double largest = -HUGE_VAL;
+  size_t node = 0;
+  for (size_t b = 0; b < s->system.body_count; b++) {
+    const sw_body *body = &s->system.bodies[b];
+    for (size_t i = 0; i < body->plan->nodes; i++) {
+      const size_t at = body->first_node + i;
+      const double more =
+          body->plan->lumped[i] * (sw_norm2(sw_load(v1 + 3 * at)) - sw_norm2(sw_load(v0 + 3 * at)));
+      if (!(more > largest)) continue;
+      largest = more;
+      node = at;
+    }
+  }
+  return node;
+}
+
+void sw_ledger_retry(const sw_scene *s, sw_retries *r, double time, double excess) {
+  r->count++;
+  if (!(excess > r->largest)) return;
+  const size_t node = fastest_gain(s), body = sw_system_body_of(&s->system, node);
+  const sw_body *b = &s->system.bodies[body];
+  const sw_plan *p = b->plan;
+  const double *arc = p->web ? p->web->s : p->s;
+  r->largest = excess, r->time = time;
+  r->s = arc[node - b->first_node] - (p->web ? 0.0 : arc[0]);
+  snprintf(r->object, sizeof r->object, "%s", s->wires[body].name);
+}
+
+/* --- what there is to read -------------------------------------------------------- */
+
+sw_status sw_scene_ledger(sw_scene *s, sw_ledger *out, sw_error *err) {
+  (void)err;
+  *out = s->books.sums;
+  return SW_OK;
+}
+
+const double *sw_scene_energy_log(const sw_scene *s, size_t *rows) {
+  *rows = s->books.log.count / SW_LOG_ENERGY_SIZE;
+  return s->books.log.rows;
+}
+
+static void tell_retries(sw_scene *s, const char *what, const sw_retries *r) {
+  if (!r->count) return;
+  sw_scene_tell(s, "energy", r->object, r->s, r->largest,
+                "%zu steps were %s, the worst at t = %.6g s", r->count, what, r->time);
+}
+
+sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
+  const sw_ledger *l = &s->books.sums;
+  const double share = l->play > 0 ? l->gained / l->play : 0.0;
+  tell_retries(s, "taken though they made energy, for smaller ones did too", &l->accepted);
+  if ((double)l->redone.count > 0.01 * (double)l->steps)
+    tell_retries(s, "redone with implicit Euler, more than 1 % of all, for they made energy",
+                 &l->redone);
+  if (!(share > SW_LEDGER_REMARK)) return SW_OK;
+  if (!(share > SW_LEDGER_FAILURE)) {
+    sw_scene_tell(s, "energy", "", NAN, share,
+                  "steps made %.3g J from nowhere, %.2g %% of what was in play; smaller steps show "
+                  "what that changes",
+                  l->gained, 100.0 * share);
+    return SW_OK;
+  }
+  s->diverged = 1;
+  sw_fail(&s->why, SW_EDIVERGED,
+          "steps made %.3g J from nowhere, %.3g %% of the %.3g J in play; take smaller steps%s",
+          l->gained, 100.0 * share, l->play,
+          lumped(s) ? ", or an implicit integrator such as tr-bdf2" : "");
+  *why = s->why;
+  return SW_EDIVERGED;
+}
+
+/* --- on tape ------------------------------------------------------------------------ */
+
+void sw_tape_ledger(sw_tape *t, sw_books *b) {
+  SW_TAPE_STRUCT(t, sw_books, 792);
+  SW_TAPE_STRUCT(t, sw_ledger, 448);
+  sw_tape_raw(t, &b->sums, sizeof b->sums);
+  sw_tape_raw(t, &b->now, sizeof b->now);
+  sw_tape_double(t, &b->contact), sw_tape_double(t, &b->highest);
+  sw_tape_double(t, &b->most_kinetic), sw_tape_double(t, &b->work);
+  sw_tape_double(t, &b->released), sw_tape_double(t, &b->rise), sw_tape_double(t, &b->lowest);
+  sw_tape_int(t, &b->begun);
+  sw_tape_log(t, &b->log);
+  b->known = sw_tape_reads(t) ? 0 : b->known;
+}

@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "system/energy.h"
+
+#include <string.h>
+
+#include "system/spin.h"
+
+/* Where what is followed from step to step lies in the state. */
+static double *followed(const sw_system *s) { return s->tension + s->edges; }
+
+void sw_system_look_at(sw_system *s, sw_glance *g, const double *x, const double *v) {
+  *g = (sw_glance){s->x, s->v};
+  memcpy(s->aside, followed(s), s->follow_size * sizeof *s->aside);
+  if (s->follow_size) sw_system_follow(s, x);
+  /* read only from here on */
+  s->x = (double *)(uintptr_t)x;
+  s->v = (double *)(uintptr_t)v;
+}
+
+void sw_system_look_back(sw_system *s, const sw_glance *g) {
+  s->x = g->x;
+  s->v = g->v;
+  memcpy(followed(s), s->aside, s->follow_size * sizeof *s->aside);
+}
+
+/* --- energies ---------------------------------------------------------------- */
+
+static void aim(sw_system *s, sw_body *b, int lumped) {
+  sw_field *f = &b->field;
+  f->x = s->x + 3 * b->first_node;
+  f->v = s->v + 3 * b->first_node;
+  f->gravity = s->gravity;
+  f->hold_directors = s->directors_now;
+  f->hold_normals = s->normals_now;
+  f->hold_turns = s->directors_rate;
+  f->tension = lumped ? NULL : s->tension + b->first_edge;
+  f->twist = b->has_twist ? s->twist + b->first_span : NULL;
+  sw_field_geometry(f);
+  if (b->spin_block) sw_spin_show(s, b);
+}
+
+static double *place_of(const sw_force_class *cls, sw_energies *out) {
+  if (cls->flags & SW_FORCE_LOAD) return &out->loads;
+  return strcmp(cls->name, "gravity") == 0 ? &out->gravity : &out->stored;
+}
+
+void sw_system_energies(sw_system *s, int lumped, sw_energies *out) {
+  sw_error ignored;
+  *out = (sw_energies){.kinetic = sw_system_kinetic(s, lumped)};
+  for (size_t k = 0; k < s->body_count; k++) {
+    sw_body *b = &s->bodies[k];
+    aim(s, b, lumped);
+    b->field.want = SW_WANT_ENERGY;
+    for (size_t i = 0; i < b->term_count; i++) {
+      const sw_force_class *cls = b->terms[i].cls;
+      if (cls->flags & (SW_FORCE_DISSIPATIVE | SW_FORCE_EXPLICIT)) continue;
+      b->field.energy = b->field.bending = 0;
+      if (sw_term_eval(&b->terms[i], &b->field, &ignored) == SW_OK)
+        *place_of(cls, out) += b->field.energy;
+    }
+  }
+}
+
+double sw_system_rubbed(const sw_system *s) {
+  double sum = 0;
+  for (size_t b = 0; b < s->body_count; b++)
+    for (size_t k = 0; k < s->bodies[b].term_count; k++) {
+      const sw_term *term = &s->bodies[b].terms[k];
+      if (term->history && term->cls->loses && strcmp(term->cls->loses, "friction") == 0)
+        sum += term->history[0];
+    }
+  return sum;
+}
+
+/* --- powers ------------------------------------------------------------------ */
+
+static int has_power(const sw_force_class *cls) {
+  return (cls->flags & (SW_FORCE_DISSIPATIVE | SW_FORCE_EXPLICIT)) != 0;
+}
+
+int sw_system_has_powers(const sw_system *s) {
+  for (size_t b = 0; b < s->body_count; b++)
+    for (size_t k = 0; k < s->bodies[b].term_count; k++)
+      if (has_power(s->bodies[b].terms[k].cls)) return 1;
+  return 0;
+}
+
+/* Force times velocity over all nodes. */
+static double power_of(const sw_field *f) {
+  const size_t n = f->plan->nodes;
+  double sum = 0;
+  for (size_t i = 0; i < n; i++)
+    for (size_t k = 0; k < 3; k++)
+      sum +=
+          f->v[3 * i + k] * (f->force[3 * i + k] + f->gradient[k][i] - *(f->gradient[k] + i - 1));
+  return sum;
+}
+
+sw_status sw_system_powers(sw_system *s, double time, sw_powers *out, sw_error *err) {
+  *out = (sw_powers){0};
+  for (size_t k = 0; k < s->body_count; k++) {
+    sw_body *b = &s->bodies[k];
+    for (size_t i = 0; i < b->term_count; i++) {
+      const sw_term *term = &b->terms[i];
+      if (!has_power(term->cls)) continue;
+      b->field.want = SW_WANT_FORCE;
+      sw_field_clear(&b->field);
+      b->field.time = time;
+      b->field.velocity_rate = 0;
+      b->field.statics = 0;
+      SW_TRY(sw_term_eval(term, &b->field, err));
+      const double power = power_of(&b->field);
+      if (term->cls->flags & SW_FORCE_DISSIPATIVE)
+        out->damping -= power;
+      else
+        out->given += power;
+    }
+  }
+  return SW_OK;
+}

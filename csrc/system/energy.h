@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Energies and powers of the system's state, or of a state that it might go to. */
+#ifndef SW_SYSTEM_ENERGY_H
+#define SW_SYSTEM_ENERGY_H
+
+#include "system/system.h"
+
+/* What sw_system_look_at keeps aside. */
+typedef struct sw_glance {
+  double *x, *v;
+} sw_glance;
+
+/* The system as it would be with nodes at x and velocities v (freedoms each), holds as last placed
+ * and axial forces as stored; read-outs tell of that until sw_system_look_back. */
+void sw_system_look_at(sw_system *system, sw_glance *glance, const double *x, const double *v);
+void sw_system_look_back(sw_system *system, const sw_glance *glance);
+
+typedef struct sw_energies {
+  double kinetic, gravity, stored; /* [J] */
+  double loads;                    /* potential of dead loads, which are work from outside [J] */
+} sw_energies;
+
+/* All but contact's and joins'. lumped: masses of explicit methods, which also have no axial force
+ * of their own but that of the edges' lengths. */
+void sw_system_energies(sw_system *system, int lumped, sw_energies *out);
+
+/* Of what sw_system_dissipated counts, what friction took [J]. */
+double sw_system_rubbed(const sw_system *system);
+
+typedef struct sw_powers {
+  double damping; /* taken by forces that only brake [W] */
+  double given;   /* by forces without potential [W] */
+} sw_powers;
+
+/* 1: the system has forces without a potential. */
+int sw_system_has_powers(const sw_system *system);
+/* Of these at the state, whose fields sw_system_energies has just measured. */
+sw_status sw_system_powers(sw_system *system, double time, sw_powers *out, sw_error *err);
+
+#endif
