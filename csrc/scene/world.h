@@ -581,9 +581,9 @@ sw_status sw_scene_pose(sw_scene *scene, double t1, int (*interrupted)(void), sw
 
 /* After an accepted state: histories, extremes, logs. */
 sw_status sw_scene_observe(sw_scene *scene, sw_error *err);
-/* Extremes of wire w at the refreshed state. */
 /* What frames tell of each node of the wire, SW_FRAME_VALUES numbers; n nodes. */
 void sw_scene_node_values(sw_scene *scene, size_t wire, size_t n, double *out);
+/* Extremes of wire w at the refreshed state. */
 void sw_scene_wire_now(sw_scene *scene, size_t w, sw_wire_extremes *now);
 /* Keep the larger ones. */
 void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now);

@@ -138,7 +138,8 @@ end
 --- Measures over [t1, t2] [s]: a table with peak_force, mean_force [N],
 -- peak_moment, mean_moment [N m], impulse (vector) [N s] and the times of the
 -- peaks. Means are over the time in which it holds something (with pads: all), of the magnitudes.
--- Moments are about the tool centre, or about at [m] where it is given. Of pads also peak_squeeze [N], peak_margin, slip [m].
+-- Moments are about the tool centre, or about at [m] where it is given. Of pads also peak_squeeze
+-- [N], peak_margin, slip [m].
 function Measures:over(t1, t2, at)
   t1, t2 = t1 or -math.huge, t2 or math.huge
   for name, t in pairs{ t1 = t1, t2 = t2 } do

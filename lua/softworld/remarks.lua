@@ -105,7 +105,7 @@ end
 
 local SAMPLES = 24 -- points of a straight wire
 local MOST = 400 -- points of a path that are looked at
-local DEEP = -0.5 -- of the radius: so far beneath the surface is inside
+local DEEP = 0.5 -- of the radius: a middle nearer to the surface than this is inside
 
 local things = setmetatable({}, { __mode = "k" }) -- a scene's data -> its wires' points and obstacles
 
@@ -135,9 +135,9 @@ local function look(wire, obstacle)
     local here = { p[1] or p.x, p[2] or p.y, p[3] or p.z }
     local gap = shape:distance(vec.rotate(back, vec.sub(here, at)))
     if gap and gap < DEEP * wire.radius then
-      return tell("inside", ("wire '%s' begins inside of '%s': its middle is %.4g mm beneath the surface at "
-        .. "(%.4g, %.4g, %.4g) m, %s"):format(wire.name, obstacle.name, -1e3 * gap, here[1], here[2],
-        here[3], i == 1 and "where it starts" or "on its way"))
+      return tell("inside", ("wire '%s' begins inside of '%s': it reaches %.4g mm into it at "
+        .. "(%.4g, %.4g, %.4g) m, %s"):format(wire.name, obstacle.name,
+        1e3 * (wire.radius - gap), here[1], here[2], here[3], i == 1 and "where it starts" or "on its way"))
     end
   end
 end
