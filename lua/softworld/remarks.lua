@@ -48,7 +48,7 @@ end
 -- A script's line tells a thing once; lines typed at the prompt have no numbers of their own.
 local function tell(topic, text)
   local at = place.of_caller() or "?"
-  local key = at .. " " .. (at:find "^stdin" and text or topic)
+  local key = at .. " " .. (at:find "^input:" and text or topic)
   if told[key] or count >= ANSWERS then return end
   told[key], count = true, count + 1
   io.stdout:flush()
@@ -67,7 +67,7 @@ local function question(value, rule)
 end
 
 local function check(what, key, value, rule)
-  if type(value) ~= "number" or value - value ~= 0 or value == 0 then return end
+  if type(value) ~= "number" or value - value ~= 0 or value <= 0 then return end
   if value >= rule[2] and value <= rule[3] then return end
   local unit = rule[1] ~= "" and " " .. rule[1] or ""
   local usual = value < rule[2] and ("below %g%s"):format(rule[2], unit)
