@@ -35,6 +35,19 @@ function checks.keys(what, args, known, level)
   end
 end
 
+--- An __index for results that have these fields (a text of words): any other is an error that names
+-- the nearest; may_lack: words that may be nil.
+function checks.fields(what, fields, may_lack)
+  local names, silent = {}, checks.set(may_lack or "")
+  for word in fields:gmatch "%S+" do names[#names + 1] = word end
+  return function(_, key)
+    if silent[key] then return nil end
+    local near = core.nearest(tostring(key), names)
+    error(("%s has no '%s'; %s"):format(what, tostring(key), near and "did you mean '" .. near .. "'?"
+      or "it has: " .. table.concat(names, " ")), 2)
+  end
+end
+
 --- Raise unless value is a number from low to high (default: any); above: low itself is not allowed.
 function checks.number(what, value, low, unit, level, high, above)
   local fine = type(value) == "number" and value >= low and value < math.huge

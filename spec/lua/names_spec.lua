@@ -67,6 +67,10 @@ describe("an unknown", function()
     ["method of a run"] = { function() run:seris() end, "did you mean 'series'?" },
     ["field of a wire that is set"] = { function() wire.frictoin = 0.5 end, "wire has no 'frictoin'" },
     ["field that can only be read"] = { function() wire.radius = 1 end, "'radius' can only be read" },
+    ["field of a settled scene"] = { function() return scene:settle().okk end, "did you mean 'ok'?" },
+    ["key of wire:bend_limit"] = { function()
+      scene:wire{ cable = "GXL 1.5", from = { 0, 1, 1 }, to = { 1, 1, 1 } }:bend_limit{ us = "fixed" }
+    end, "did you mean 'use'?" },
     ["method that is set"] = { function() scene.gravity = {} end, "'gravity' is a method" },
     ["field of a clamp that is set"] = { function() clamp.frce = 1 end, "did you mean 'force'?" },
     ["field of a gripper that is set"] = { function() hand.slip_tolerence = 1 end,
