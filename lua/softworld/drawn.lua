@@ -49,6 +49,7 @@ end
 local function gripper_poses(scene, gripper, frames)
   local list, turned, last, grasps = {}, {}, false, nil
   local carrier = gripper.carrier and slot_of(gripper.carrier)
+  local pads = gripper.tool and slot_of(gripper.tool) -- from then on it is seen by them
   local function pose_in(frame)
     local i, span = span_at(gripper, frame.t)
     local by_hold = i and not (span.carried and frame.t >= span.carried)
@@ -66,7 +67,9 @@ local function gripper_poses(scene, gripper, frames)
   for f, frame in ipairs(frames) do
     local pose, i = pose_in(frame)
     grasps = i or grasps
-    if pose then
+    if pads and frame.tools[pads] then
+      last = false
+    elseif pose then
       last = placed(pose, turned[grasps] or { 1, 0, 0, 0 }, i ~= nil)
     elseif last and last.held then
       last = { position = last.position, rotation = last.rotation, held = false }
@@ -98,6 +101,9 @@ end
 -- { name, width, kind }, and in each frame as many poses, false where it is not there.
 function drawn.add(scene, doc)
   local data, theirs = build.data(scene), {}
+  for _, frame in ipairs(doc.frames) do -- those made later are not there yet
+    for i = #frame.obstacles + 1, #data.obstacles do frame.obstacles[i] = false end
+  end
   doc.grips, doc.clamps = {}, {}
   for _, frame in ipairs(doc.frames) do frame.grips, frame.clamps = {}, {} end
   for _, g in ipairs(data.grippers) do

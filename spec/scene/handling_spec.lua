@@ -146,6 +146,27 @@ describe("what a run draws and writes besides", function()
     end
   end)
 
+  it("has pads and obstacles from when they are there, and then no other gripper", function()
+    local scene, wires = scene_with(1)
+    local hand = scene:gripper{ at = { 0.1, 0, 0.05 } }
+    scene:process(function(p)
+      hand:approach(wires[1], { s = 0.1 })
+      hand:grasp(wires[1])
+      p:wait(0.1)
+      hand:release()
+      hand:grasp(wires[1], { approach = "plates", force = 2 })
+      p:wait(0.1)
+    end)
+    local doc = scene:run{ dt = 0.01, frame = 0.02 }:document()
+    local first, last = doc.frames[1], doc.frames[#doc.frames]
+    assert.are.equal(3, #doc.obstacles)
+    assert.truthy(first.obstacles[1])
+    assert.is_false(first.obstacles[2])
+    assert.truthy(first.grips[1])
+    assert.truthy(last.obstacles[3])
+    assert.is_false(last.grips[1])
+  end)
+
   it("has columns of tension, bend radius, clips and ties", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ E = 50e6, density = 1500, radius = 0.002, segments = 20,

@@ -303,7 +303,8 @@ function povscene.text(run, frame, look)
   head(add, look.camera)
   lights(add, look.camera, view.up(run), look.size)
   for i, o in ipairs(run.obstacles or {}) do
-    obstacle(add, o, (frame.obstacles or {})[i], look.camera, look.size)
+    local pose = (frame.obstacles or {})[i]
+    if pose ~= false then obstacle(add, o, pose, look.camera, look.size) end
   end
   for i, points in ipairs(frame.wires) do
     local w = run.wires[i]

@@ -190,6 +190,7 @@ end
 -- @tparam ?table b
 -- @treturn boolean
 function solid.same_pose(a, b)
+  if a == false or b == false then return a == b end -- not there
   local pa, qa = solid.pose(a)
   local pb, qb = solid.pose(b)
   for i = 1, 3 do if pa[i] ~= pb[i] then return false end end
@@ -237,7 +238,7 @@ function solid.bounds(run, visit)
     end
     for i, shape in ipairs(shapes) do
       local pose = (frame.obstacles or {})[i]
-      if shape and (f == 1 or not solid.same_pose(pose, before[i])) then
+      if shape and pose ~= false and (f == 1 or not solid.same_pose(pose, before[i])) then
         see(solid.place(shape.vertices, pose))
       end
       before[i] = pose
@@ -295,7 +296,9 @@ function solid.finite_run(run)
     for _, surface in ipairs(frame.surfaces or {}) do
       fine = fine and (not surface or all_finite(surface.points))
     end
-    for _, pose in ipairs(frame.obstacles or {}) do fine = fine and all_finite((solid.pose(pose))) end
+    for _, pose in ipairs(frame.obstacles or {}) do
+      fine = fine and (not pose or all_finite((solid.pose(pose))))
+    end
     for _, pose in ipairs(frame.grips or {}) do
       fine = fine and (not pose or all_finite((solid.pose(pose))))
     end

@@ -209,11 +209,11 @@ end
 local function obstacles_data(run, frame, bounds)
   local data = { points = {}, polys = { connectivity = {}, offsets = {} }, object = {} }
   for i, obstacle in ipairs(run.obstacles) do
-    local pose = (frame.obstacles or {})[i]
-    if obstacle.shape == "plane" then
+    local pose = (frame.obstacles or {})[i] -- false: it is not there
+    if pose ~= false and obstacle.shape == "plane" then
       local piece = solid.plane_piece(obstacle, pose, bounds.centre, bounds.size)
       add_solid(data, i, piece.vertices, piece.indices)
-    else
+    elseif pose ~= false then
       local shape = solid.triangles(obstacle)
       add_solid(data, i, solid.place(shape.vertices, pose), shape.indices)
     end
