@@ -342,8 +342,8 @@ static void push_frame_values(lua_State *L, const sw_scene *scene, size_t frame)
   }
 }
 
-/* scene:frame(i) -> { t, wires, values, surfaces, particles, obstacles, holds, tools, energy }, or
- * nil past the end. */
+/* scene:frame(i) -> { t, wires, values, surfaces, particles, obstacles (false: taken away), holds,
+ * tools, energy }, or nil past the end. */
 static int meth_frame(lua_State *L) {
   const sw_scene *scene = check(L);
   const lua_Integer i = luaL_checkinteger(L, 2);
@@ -362,8 +362,11 @@ static int meth_frame(lua_State *L) {
   push_frame_bodies(L, scene, frame, 1);
   lua_setfield(L, -2, "particles");
   lua_newtable(L);
-  for (size_t o = 0; (p = sw_scene_frame_obstacle(scene, frame, o)) != NULL; o++) {
-    push_pose(L, p);
+  for (size_t o = 0; (p = sw_scene_frame_obstacle(scene, frame, o, &held)) != NULL; o++) {
+    if (held)
+      push_pose(L, p);
+    else
+      lua_pushboolean(L, 0);
     lua_rawseti(L, -2, (lua_Integer)o + 1);
   }
   lua_setfield(L, -2, "obstacles");

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Frames: what a picture or a player needs, stored at even times of a run. One
- * block a frame: energies, obstacle poses, hold poses with a held flag, tool poses, then
- * for each wire its node count and positions, how many values each node has and these, the number
- * of its surface's points in a section (0: it is no mesh of particles), and these points with the
- * force across the surface at each. */
+ * block a frame: energies, obstacle poses with a flag (there), hold poses with one (held), tool
+ * poses, then for each wire its node count and positions, how many values each node has and these,
+ * the number of its surface's points in a section (0: it is no mesh of particles), and these points
+ * with the force across the surface at each. */
 #include <math.h>
 #include <string.h>
 
@@ -67,9 +67,10 @@ static sw_status fill(sw_scene *s, double *p, sw_error *err) {
   sw_motion_state at;
   sw_scene_frame_energies(s, p);
   p += SW_FRAME_ENERGIES;
-  for (size_t k = 0; k < s->obstacle_count; k++, p += POSE) {
+  for (size_t k = 0; k < s->obstacle_count; k++, p += HOLD) {
     SW_TRY(sw_drive_eval(s, &s->obstacles[k].drive, s->time, &at, err));
     store_pose(p, at.pose);
+    p[POSE] = s->obstacles[k].alive;
   }
   for (size_t k = 0; k < s->hold_count; k++, p += HOLD) {
     at.pose = s->holds[k].last_pose;
@@ -101,7 +102,7 @@ static sw_status fill(sw_scene *s, double *p, sw_error *err) {
 
 sw_status sw_scene_store_frame(sw_scene *s, sw_error *err) {
   size_t size =
-      SW_FRAME_ENERGIES + POSE * (s->obstacle_count + s->tool_count) + HOLD * s->hold_count;
+      SW_FRAME_ENERGIES + POSE * s->tool_count + HOLD * (s->obstacle_count + s->hold_count);
   for (size_t w = 0; w < s->wire_count; w++) size += size_of(s->system.bodies[w].plan);
   if (sw_grow((void **)&s->frames, &s->frame_capacity, s->frame_count + 1, sizeof *s->frames) !=
       SW_OK)
@@ -119,7 +120,7 @@ sw_status sw_scene_store_frame(sw_scene *s, sw_error *err) {
 }
 
 static size_t before_wires(const sw_frame *f) {
-  return SW_FRAME_ENERGIES + POSE * (f->obstacles + f->tools) + HOLD * f->holds;
+  return SW_FRAME_ENERGIES + POSE * f->tools + HOLD * (f->obstacles + f->holds);
 }
 
 int sw_scene_frame_walk(const sw_frame *f, size_t room, size_t *size) {
@@ -147,15 +148,18 @@ const double *sw_scene_frame_energy(const sw_scene *s, size_t frame) {
   return s->frames[frame].data;
 }
 
-const double *sw_scene_frame_obstacle(const sw_scene *s, size_t frame, size_t o) {
+const double *sw_scene_frame_obstacle(const sw_scene *s, size_t frame, size_t o, int *there) {
   const sw_frame *f = &s->frames[frame];
-  return o < f->obstacles ? f->data + SW_FRAME_ENERGIES + POSE * o : NULL;
+  if (o >= f->obstacles) return NULL;
+  const double *p = f->data + SW_FRAME_ENERGIES + HOLD * o;
+  *there = p[POSE] > 0;
+  return p;
 }
 
 const double *sw_scene_frame_hold(const sw_scene *s, size_t frame, size_t h, int *held) {
   const sw_frame *f = &s->frames[frame];
   if (h >= f->holds) return NULL;
-  const double *p = f->data + SW_FRAME_ENERGIES + POSE * f->obstacles + HOLD * h;
+  const double *p = f->data + SW_FRAME_ENERGIES + HOLD * (f->obstacles + h);
   *held = p[POSE] > 0;
   return p;
 }

@@ -513,8 +513,9 @@ const double *sw_scene_frame_surface(const sw_scene *scene, size_t frame, size_t
                                      size_t *around);
 /* 1: number w of the scene is an object of particles, which the frame then lists. */
 int sw_scene_frame_is_loose(const sw_scene *scene, size_t w);
-/* Poses: 7 doubles (x y z, qw qx qy qz) per obstacle and per hold slot. */
-const double *sw_scene_frame_obstacle(const sw_scene *scene, size_t frame, size_t o);
+/* Poses: 7 doubles (x y z, qw qx qy qz) per obstacle and per hold slot; there: 0 once it was taken
+ * away. */
+const double *sw_scene_frame_obstacle(const sw_scene *scene, size_t frame, size_t o, int *there);
 const double *sw_scene_frame_hold(const sw_scene *scene, size_t frame, size_t h, int *held);
 /* The same of grippers' tools: slot k. */
 const double *sw_scene_frame_tool(const sw_scene *scene, size_t frame, size_t k);

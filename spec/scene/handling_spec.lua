@@ -167,6 +167,19 @@ describe("what a run draws and writes besides", function()
     assert.is_false(last.grips[1])
   end)
 
+  it("has no obstacle that was taken away", function()
+    local scene = scene_with(1)
+    local box = scene:obstacle{ shape = "box", size = { 0.1, 0.1, 0.1 }, at = { 0, 1, 0.05 } }
+    scene:process(function(p)
+      p:wait(0.1)
+      box:remove()
+      p:wait(0.1)
+    end)
+    local frames = scene:run{ dt = 0.01, frame = 0.02 }:document().frames
+    assert.truthy(frames[2].obstacles[2])
+    assert.is_false(frames[#frames].obstacles[2])
+  end)
+
   it("has columns of tension, bend radius, clips and ties", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ E = 50e6, density = 1500, radius = 0.002, segments = 20,
