@@ -29,7 +29,7 @@ local rules = {
     retention = { "N", 1e-3, 1e4, "mN" }, radius = { "m", 1e-5, 0.2, "mm" } },
   channel = { friction = { "", 0, 3 }, width = { "m", 1e-4, 5, "mm" }, depth = { "m", 1e-4, 5, "mm" } },
   tie = { slack = { "m", 0, 10, "mm" }, strength = { "N", 1e-3, 1e6, "mN" } },
-  run = { duration = { "s", 0, 1e5, "ms" }, dt = { "s", 0, 1, "ms" } },
+  run = { duration = { "s", 0, 1e7 }, dt = { "s", 0, 1, "ms" } },
 }
 local known = { density = "steel has 7850 kg/m3, PVC 1400 kg/m3", E = "steel has 2e11 Pa, soft rubber 1e6 Pa",
   friction = "rubber on steel has 0.8" }

@@ -22,7 +22,7 @@ end
 local Rest = { __name = "rest" }
 Rest.__index = checks.fields("the result of scene:settle",
   "ok reason iterations residual unstable transient jumped",
-  "quantities met levels advice error_bars where refused asked start")
+  "steps rejected evaluations quantities met levels advice error_bars where refused asked start")
 
 function Rest:__tostring()
   if not self.ok then return self.reason end
