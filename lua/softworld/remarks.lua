@@ -107,7 +107,7 @@ local SAMPLES = 24 -- points of a straight wire
 local MOST = 400 -- points of a path that are looked at
 local DEEP = 0.5 -- of the radius: a middle nearer to the surface than this is inside
 
-local things = setmetatable({}, { __mode = "k" }) -- a scene's data -> its wires' points and obstacles
+local things = setmetatable({}, { __mode = "k" }) -- a scene's data -> its wires' points
 
 local function points_of(args)
   local list = {}
@@ -142,8 +142,8 @@ local function look(wire, obstacle)
   end
 end
 
-local function things_of(data)
-  things[data] = things[data] or { wires = {}, obstacles = {} }
+local function wires_of(data)
+  things[data] = things[data] or {}
   return things[data]
 end
 
@@ -164,9 +164,9 @@ function remarks.wire(data, wire, args)
   remarks.on("wire", what, args)
   local mine = { name = args.name, points = points_of(args), radius = args.radius or wire.radius }
   check(what, "length", length_of(mine.points), rules.wire.length)
-  local all = things_of(data)
-  all.wires[#all.wires + 1] = mine
-  for _, obstacle in ipairs(all.obstacles) do look(mine, obstacle) end
+  local wires = wires_of(data)
+  wires[#wires + 1] = mine
+  for _, obstacle in ipairs(data.obstacles) do look(mine, obstacle) end
 end
 
 local paused = false
@@ -184,10 +184,8 @@ end
 function remarks.obstacle(data, entry, time)
   if not remarks.wanted() or paused then return end
   remarks.on("obstacle", ("obstacle '%s'"):format(entry.name), entry)
-  local all = things_of(data)
-  all.obstacles[#all.obstacles + 1] = entry
   if time > 0 then return end -- wires are no longer where they began
-  for _, wire in ipairs(all.wires) do look(wire, entry) end
+  for _, wire in ipairs(wires_of(data)) do look(wire, entry) end
 end
 
 return remarks

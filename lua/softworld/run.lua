@@ -92,9 +92,9 @@ end
 local function hide_failure(run)
   if rawget(run, "ok") ~= false then return run end
   local at = place.of_caller()
-  local key = unread.add(("softworld: run of '%s'%s FAILED %s; the script did not look at run.ok")
+  local mark = unread.add(("softworld: run of '%s'%s FAILED %s; the script did not look at run.ok")
     :format(run.name, at and " at " .. at or "", run.reason))
-  run.failure = { number = key, reason = run.reason }
+  run.failure = { mark = mark, reason = run.reason }
   run.ok, run.reason = nil, nil
   return run
 end
@@ -420,7 +420,7 @@ function Run.__index(self, key)
   if value ~= nil then return value end
   local failure = rawget(self, "failure")
   if failure and (key == "ok" or key == "reason") then
-    unread.seen(failure.number)
+    unread.seen(failure.mark)
     if key == "ok" then return false end
     return failure.reason
   end

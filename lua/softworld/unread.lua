@@ -4,25 +4,42 @@
 -- @module softworld.unread
 local unread = {}
 
-local texts, last = {}, 0
-local MOST = 20 -- that are told
+local MOST = 20 -- texts that are kept, and told
+local texts, kept, last = {}, 0, 0
+local more = 0 -- failures beyond those kept
 
---- Remember a failure; gives its number.
+--- Remember a failure; gives what stands for it.
 function unread.add(text)
   last = last + 1
-  texts[last] = text
-  return last
+  local mark = { number = last }
+  if kept < MOST then
+    texts[last], kept = text, kept + 1
+  else
+    more = more + 1
+  end
+  return mark
 end
 
 --- Somebody looked.
-function unread.seen(number) texts[number] = nil end
+function unread.seen(mark)
+  if mark.seen then return end
+  mark.seen = true
+  if texts[mark.number] then
+    texts[mark.number], kept = nil, kept - 1
+  elseif more > 0 then
+    more = more - 1
+  end
+end
 
 --- What f(...) returns; of failures within it that nobody looked at nothing is told: it judges runs by
 -- other means.
 function unread.excused(f, ...)
-  local before = last
+  local before, more_before = last, more
   local function done(...)
-    for number = before + 1, last do texts[number] = nil end
+    for number in pairs(texts) do
+      if number > before then texts[number], kept = nil, kept - 1 end
+    end
+    more = math.min(more, more_before)
     return ...
   end
   return done(f(...))
@@ -32,12 +49,11 @@ end
 function unread.finish()
   local numbers, lines = {}, {}
   for number in pairs(texts) do numbers[#numbers + 1] = number end
-  if #numbers == 0 then return nil end
   table.sort(numbers)
-  for i = 1, math.min(MOST, #numbers) do lines[i] = texts[numbers[i]] end
-  if #numbers > MOST then lines[#lines + 1] = ("softworld: and %d more"):format(#numbers - MOST) end
-  texts = {}
-  return table.concat(lines, "\n")
+  for i, number in ipairs(numbers) do lines[i] = texts[number] end
+  if more > 0 then lines[#lines + 1] = ("softworld: and %d more"):format(more) end
+  texts, kept, more = {}, 0, 0
+  return #lines > 0 and table.concat(lines, "\n") or nil
 end
 
 return unread
