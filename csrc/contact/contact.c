@@ -29,7 +29,7 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   for (size_t o = 0; o < count; o++)
     c->flat[o] = strcmp(sw_shape_kind(obstacles[o].shape), "plane") == 0;
   c->count = count;
-  c->fresh = 1;
+  c->fresh = SW_CONTACT_FRESH;
   c->place = place;
   c->user = user;
   *out = c;
@@ -156,10 +156,19 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
   return SW_OK;
 }
 
+/* Is something still deeper inside than its force explains? */
+static int emerges(const sw_contact *c) {
+  for (size_t i = 0; i < c->touch_count; i++)
+    if (c->touches[i].forgiven > 0 || c->touches[i].let_out > 0) return 1;
+  for (size_t i = 0; i < c->pressed_count; i++)
+    if (c->pressed[i].let_out > 0) return 1;
+  return 0;
+}
+
 void sw_contact_commit(sw_contact *c, sw_system *s) {
   (void)s;
   c->next_count = 0;
-  c->fresh = 0;
+  c->fresh = sw_contact_emerges(c) ? SW_CONTACT_EMERGING : 0;
   for (size_t i = 0; i < c->touch_count; i++)
     if (remember(c, &c->touches[i]) != SW_OK) break; /* a lost anchor only starts anew */
   sw_memory *swap = c->memory;
@@ -359,6 +368,8 @@ double sw_contact_rubbed(const sw_contact *c) {
   }
   return sum;
 }
+
+int sw_contact_emerges(const sw_contact *c) { return c->fresh && emerges(c); }
 
 int sw_contact_steady(const sw_contact *c) {
   size_t before = 0, now = 0;

@@ -137,13 +137,18 @@ int sw_contact_poses(const sw_contact *contact, int id, sw_pose *from, sw_pose *
 double sw_contact_rubbed(const sw_contact *contact); /* lost by friction in the step [J] */
 /* 1: the touches that press are those that pressed at the step's start. */
 int sw_contact_steady(const sw_contact *contact);
+/* 1: in this step wires are let out of obstacles that they began in. */
+int sw_contact_emerges(const sw_contact *contact);
 size_t sw_contact_impacts(const sw_contact *contact); /* dealt with in the step [-] */
 double sw_contact_struck(const sw_contact *contact);  /* work of moving obstacles in these [J] */
 
 /* Memory kept between steps (anchors and sides), for snapshots: a block to copy
  * and to give back. */
 const void *sw_contact_memory(const sw_contact *contact, size_t *bytes);
-/* 1 while no step was accepted: there is nothing to remember yet. */
+/* SW_CONTACT_FRESH while no step was accepted: there is nothing to remember yet.
+ * SW_CONTACT_EMERGING while wires that began inside of obstacles are let out of them; slowly, so
+ * that they are not thrown. Else 0. */
+enum { SW_CONTACT_FRESH = 1, SW_CONTACT_EMERGING = 2 };
 int sw_contact_is_fresh(const sw_contact *contact);
 sw_status sw_contact_set_memory(sw_contact *contact, const void *memory, size_t bytes, int fresh);
 /* 1: memory that may have come from anywhere names nothing beyond these nodes and obstacles. */

@@ -209,11 +209,14 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
   t.press.gap += sw_contact_aslant(c, k->node, k->other, at, t.press.normal);
   if (web && !web->per_ring) t.press.soft = fmin(SOFTEST, (double)web->particles);
   sw_press *press = &t.press;
-  const int slowly = web && web->per_ring;
+  const int slowly = (web && web->per_ring) || c->fresh;
   if (c->regime == SW_CONTACT_IMPLICIT &&
-      press->gap < 0) /* in explicit steps force follows depth */
-    t.forgiven = sw_press_forgiven(sw_contact_depth_before(c, s, &t), m ? m->depth : 0.0,
-                                   slowly ? c->stage_time - c->time : c->h, slowly);
+      press->gap < 0) { /* in explicit steps force follows depth */
+    const double depth = sw_contact_depth_before(c, s, &t), explained = m ? m->depth : 0.0;
+    t.forgiven =
+        sw_press_forgiven(depth, explained, slowly ? c->stage_time - c->time : c->h, slowly);
+    t.let_out = fmax(0.0, depth - explained - t.forgiven);
+  }
   press->gap += t.forgiven;
   press->gap_after = press->gap;
   if (c->regime == SW_CONTACT_STATIC && m && web && web->per_ring) press->spare = SPARE_PULLS;
@@ -232,7 +235,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
 static int keep_side(const sw_contact *c, const sw_candidate *k, sw_vec local, sw_closest *near) {
   if (near->gap >= 0 || c->flat[k->obstacle]) return 1; /* a half space has one side */
   const sw_memory *m = memory_for(c, k, near->at);
-  if (!m) return c->fresh;
+  if (!m) return c->fresh == SW_CONTACT_FRESH;
   if (sw_dot(m->normal, near->normal) > 0.7) return 1; /* within 45 degrees: the same face */
   const double gap = sw_dot(m->normal, sw_sub(local, m->point));
   near->gap = gap;

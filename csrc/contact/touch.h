@@ -32,6 +32,7 @@ typedef struct sw_touch {
   sw_vec point;     /* on the obstacle, world [m] */
   sw_vec local;     /* the same in the obstacle's coordinates [m] */
   double forgiven;  /* part of the true depth left out of the gap in this step [m] */
+  double let_out;   /* part of the true depth that nothing explains and this step ends [m] */
   double stiffer;   /* its stiffness from the next iterate on [N/m] */
   int known;        /* it pressed at the step's start */
   int held;         /* both ends are held: no force */
@@ -113,7 +114,7 @@ struct sw_contact {
   sw_contact_regime regime;
   int plastic;     /* 1: the step is one that does not bounce */
   double struck;   /* work of moving obstacles in the step's impacts [J] */
-  int fresh;       /* 1: no step was accepted yet, there is no memory */
+  int fresh;       /* SW_CONTACT_FRESH, or SW_CONTACT_EMERGING, or 0 */
   int updates;     /* of the stage so far [-] */
   double widening; /* of the reserve for flight, when nodes went further [-] */
 };

@@ -230,7 +230,7 @@ static sw_status judge(loop *p, double h, double *excess, sw_error *err) {
 static int next_redo(const loop *p) {
   const sw_stepper *stepper = &p->s->stepper;
   if (p->redo == AS_IS && stepper->start != stepper->method && !stepper->restart) return BY_START;
-  return p->redo < DULLY ? DULLY : GIVE_UP;
+  return p->redo < DULLY && p->s->books.step.touching ? DULLY : GIVE_UP;
 }
 
 /* One step of size h, and the referee: a step that makes energy is redone. SW_ENOCONV: it makes

@@ -36,7 +36,7 @@ static sw_status keep_contact(sw_scene *s) {
   sw_scene_forget_contact(s);
   if (!sw_scene_has_contact(s)) return SW_OK;
   const void *memory = NULL, *pairs = NULL;
-  s->kept.fresh = !s->contact || sw_contact_is_fresh(s->contact);
+  s->kept.fresh = s->contact ? sw_contact_is_fresh(s->contact) : SW_CONTACT_FRESH;
   if (s->contact) memory = sw_contact_memory(s->contact, &s->kept.bytes);
   if (s->pairs) pairs = sw_pairs_memory(s->pairs, &s->kept.pair_bytes);
   s->kept.memory = sw_alloc(s->kept.bytes, 1);

@@ -20,6 +20,9 @@ static const double OF_BENDING = 1e-9;
 static const double ROUNDING = 1e-13;
 /* Once steps have gained this share of what is in play, only rounding is allowed [-]. */
 static const double ENOUGH = 0.005;
+/* Wires that begin inside of obstacles are let out, which gives them at most this speed and lifts
+ * them about as fast as this [m/s]. */
+static const double THROWN = 0.02, LET_OUT = 0.01;
 /* The least that is in play: the weight times the radius, or this share of EI / L [-]. */
 static const double LEAST_BENDING = 1e-6;
 
@@ -65,10 +68,11 @@ static double potential(const sw_energies *e, double contact) {
 
 static void weigh(sw_scene *s) {
   sw_books *b = &s->books;
-  b->weight = b->bending = 0;
+  b->weight = b->bending = b->mass = 0;
   for (size_t k = 0; k < s->system.body_count; k++) {
     const sw_plan *p = s->system.bodies[k].plan;
     const double mg = p->beam.mass * p->length * sw_norm(s->gravity);
+    if (isfinite(p->beam.mass * p->length)) b->mass += p->beam.mass * p->length;
     if (isfinite(mg * p->beam.radius)) b->weight += mg * p->beam.radius;
     if (p->length > 0 && isfinite(p->beam.EI)) b->bending += p->beam.EI / p->length;
   }
@@ -126,13 +130,17 @@ static void judge_outer_forces(sw_books *b, double h, double *most) {
   step->damping = over_step(b->powers.damping, step->powers.damping, h);
 }
 
-static void judge_touches(sw_scene *s, sw_step_energy *step) {
+static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
+  const sw_books *b = &s->books;
   size_t impacts = 0;
+  step->touching = sw_scene_touches(s) > 0 || b->contact != 0;
   if (s->contact) {
     impacts += sw_contact_impacts(s->contact);
     step->friction += sw_contact_rubbed(s->contact);
     step->steady &= sw_contact_steady(s->contact);
     step->obstacles += sw_contact_struck(s->contact);
+    if (sw_contact_emerges(s->contact))
+      step->let_out = b->mass * (THROWN * THROWN + LET_OUT * h * sw_norm(s->gravity));
   }
   if (s->pairs) {
     impacts += sw_pairs_impacts(s->pairs);
@@ -144,14 +152,23 @@ static void judge_touches(sw_scene *s, sw_step_energy *step) {
         s->books.now.kinetic + step->obstacles - sw_system_kinetic(&s->system, lumped(s));
 }
 
+/* Explicit methods have last looked at what touches before or within the step. */
+static sw_status look_at_end(sw_scene *s, double t1, sw_error *err) {
+  sw_system *y = &s->system;
+  SW_TRY(sw_system_place_holds(y, t1, NULL, NULL, NULL, err));
+  if (!y->coupling.eval) return SW_OK;
+  return y->coupling.eval(y->coupling.user, y, t1, HUGE_VAL, s->stepper.trial_x, SW_WANT_FORCE,
+                          err);
+}
+
 sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_error *err) {
   sw_books *b = &s->books;
   sw_step_energy *step = &b->step;
   sw_glance glance;
   sw_status status = SW_OK;
   *step = (sw_step_energy){.steady = 1};
-  if (lumped(s)) SW_TRY(sw_system_place_holds(&s->system, t1, NULL, NULL, NULL, err));
-  if (sw_scene_has_contact(s)) judge_touches(s, step);
+  if (lumped(s)) SW_TRY(look_at_end(s, t1, err));
+  if (sw_scene_has_contact(s)) judge_touches(s, h, step);
   double most = step->obstacles;
   sw_system_look_at(&s->system, &glance, s->stepper.trial_x, s->stepper.trial_v);
   sw_system_energies(&s->system, lumped(s), &step->to);
@@ -161,15 +178,20 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
   sw_system_look_back(&s->system, &glance);
   judge_outer_forces(b, h, &most);
   const double before = b->now.kinetic + potential(&b->now, b->contact);
+  most += step->let_out;
   step->gain = step->to.kinetic + potential(&step->to, step->contact) - before - most;
   step->work = fabs(step->holds) + fabs(step->obstacles) + fabs(step->feeds) + fabs(step->forces);
   return status;
 }
 
+int sw_ledger_referees(const sw_scene *s) {
+  return !lumped(s) && !(s->method->flags & SW_INTEGRATOR_NO_CONTACT);
+}
+
 double sw_ledger_excess(const sw_scene *s, double h) {
   const sw_books *b = &s->books;
   const sw_step_energy *step = &b->step;
-  if (lumped(s)) return 0.0;
+  if (!sw_ledger_referees(s)) return 0.0;
   const double share = fmin(1.0, h / FULL_STEP);
   const double size = fabs(b->now.kinetic) + fabs(b->now.gravity) + fabs(b->now.stored) +
                       fabs(step->to.kinetic) + fabs(step->to.gravity) + fabs(step->to.stored);
@@ -178,6 +200,8 @@ double sw_ledger_excess(const sw_scene *s, double h) {
   const int enough = b->sums.gained > ENOUGH * b->sums.play;
   const double allowed = enough ? rounding : rounding + usual * share + OF_WORK * step->work;
   if (!isfinite(step->gain)) return step->gain < 0 ? 0.0 : HUGE_VAL;
+  const double rise = b->rise + step->gain - b->lowest;
+  if (!step->touching && rise <= ENOUGH * b->sums.play) return 0.0;
   return step->gain > allowed ? step->gain : 0.0;
 }
 
@@ -190,17 +214,19 @@ static sw_status log_row(sw_scene *s) {
   return sw_log_add(&s->books.log, row, SW_LOG_ENERGY_SIZE);
 }
 
-/* What explicit methods gain goes to and fro within an oscillation: what counts is how far the
- * unexplained energy has come from its least. */
+/* What a method makes by itself goes to and fro, also where energy oscillates between kinds: what
+ * counts is how far the unexplained energy has come from its least. What touches make stays. */
 static void book_gain(sw_scene *s, double gain) {
   sw_books *b = &s->books;
-  if (!lumped(s)) {
-    b->sums.gained += fmax(0.0, gain);
-    return;
+  if (sw_ledger_referees(s) && b->step.touching) {
+    b->made += fmax(0.0, gain);
+    b->lowest = b->rise;
+  } else {
+    b->rise += gain;
+    b->lowest = fmin(b->lowest, b->rise);
+    b->highest_rise = fmax(b->highest_rise, b->rise - b->lowest);
   }
-  b->rise += gain;
-  b->lowest = fmin(b->lowest, b->rise);
-  b->sums.gained = fmax(b->sums.gained, b->rise - b->lowest);
+  b->sums.gained = b->made + b->highest_rise;
 }
 
 static void book_left(sw_ledger *l, double left, int steady) {
@@ -237,7 +263,9 @@ static void book_step(sw_scene *s) {
   const double lost = step->damping + step->friction + step->impact + book_histories(s);
   b->work += step->work;
   l->steps++;
-  book_left(l, change - work + lost, step->steady);
+  const double given = fmin(fmax(0.0, change - work + lost), step->let_out);
+  l->by_changes += given;
+  book_left(l, change - work + lost - given, step->steady);
   book_gain(s, step->gain);
   take_as_now(b, &step->to, step->contact);
   b->powers = step->powers;
@@ -261,9 +289,9 @@ sw_status sw_ledger_pose(sw_scene *s, int jumped, sw_error *err) {
   sw_ledger_work(s, s->time, 0);
   step->forces = b->now.loads - step->to.loads;
   step->work = fabs(step->holds) + fabs(step->obstacles) + fabs(step->feeds) + fabs(step->forces);
-  const double before = b->sums.integrator, gained = b->sums.gained;
+  const double before = b->sums.integrator;
+  step->gain = 0; /* poses are not judged */
   book_step(s);
-  b->sums.gained = gained; /* poses are not judged */
   if (jumped) b->sums.jumps += b->sums.integrator - before, b->sums.integrator = before;
   if (sw_ledger_note_workers(s, 0) != SW_OK || log_row(s) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
@@ -322,13 +350,14 @@ static void tell_retries(sw_scene *s, const char *what, const sw_retries *r) {
                 "%zu steps were %s, the worst at t = %.6g s", r->count, what, r->time);
 }
 
+enum { FEW = 2 }; /* steps redone that are not worth a word */
+
 sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
   const sw_ledger *l = &s->books.sums;
   const double share = l->play > 0 ? l->gained / l->play : 0.0;
   tell_retries(s, "taken though they made energy, for smaller ones did too", &l->accepted);
-  if ((double)l->redone.count > 0.01 * (double)l->steps)
-    tell_retries(s, "redone with implicit Euler, more than 1 % of all, for they made energy",
-                 &l->redone);
+  if (l->redone.count > FEW && (double)l->redone.count > 0.01 * (double)l->steps)
+    tell_retries(s, "redone, more than 1 % of all, for they made energy", &l->redone);
   if (!(share > SW_LEDGER_REMARK)) return SW_OK;
   if (!(share > SW_LEDGER_FAILURE)) {
     sw_scene_tell(s, "energy", "", NAN, share,
@@ -349,13 +378,14 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
 /* --- on tape ------------------------------------------------------------------------ */
 
 void sw_tape_ledger(sw_tape *t, sw_books *b) {
-  SW_TAPE_STRUCT(t, sw_books, 792);
+  SW_TAPE_STRUCT(t, sw_books, 824);
   SW_TAPE_STRUCT(t, sw_ledger, 448);
   sw_tape_raw(t, &b->sums, sizeof b->sums);
   sw_tape_raw(t, &b->now, sizeof b->now);
   sw_tape_double(t, &b->contact), sw_tape_double(t, &b->highest);
   sw_tape_double(t, &b->most_kinetic), sw_tape_double(t, &b->work);
-  sw_tape_double(t, &b->released), sw_tape_double(t, &b->rise), sw_tape_double(t, &b->lowest);
+  sw_tape_double(t, &b->released), sw_tape_double(t, &b->made);
+  sw_tape_double(t, &b->rise), sw_tape_double(t, &b->lowest), sw_tape_double(t, &b->highest_rise);
   sw_tape_int(t, &b->begun);
   sw_tape_log(t, &b->log);
   b->known = sw_tape_reads(t) ? 0 : b->known;

@@ -23,9 +23,11 @@ typedef struct sw_step_energy {
   sw_powers powers;                       /* at its end */
   double holds, obstacles, feeds, forces; /* work [J] */
   double damping, friction, impact;       /* lost [J] */
-  double gain; /* beyond the most that outer work may have been; below 0: a loss [J] */
-  double work; /* in size, all kinds added up [J] */
-  int steady;  /* 1: no touch began or ended */
+  double gain;    /* beyond the most that outer work may have been; below 0: a loss [J] */
+  double work;    /* in size, all kinds added up [J] */
+  double let_out; /* at most given by letting wires out of what they began in [J] */
+  int steady;     /* 1: no touch began or ended */
+  int touching;   /* 1: something touches */
 } sw_step_energy;
 
 typedef struct sw_books {
@@ -36,14 +38,17 @@ typedef struct sw_books {
   double dissipated; /* by histories so far [J] */
   double highest;    /* of potential energy so far, of what it was released from [J] */
   double most_kinetic, work, released; /* [J] */
-  double rise, lowest;          /* of explicit methods: unexplained energy, the least so far [J] */
-  double rubbed_off;            /* the part of dissipated that is friction [J] */
-  double weight;                /* of the wires, times their radii [J] */
-  double bending;               /* their EI / L [J] */
-  int has_powers;               /* 1: there are forces without a potential */
-  int known;                    /* 1: all of the above is of the present state */
-  int begun;                    /* 1: at_start is known */
-  sw_step_energy step;          /* judged last */
+  double made;                         /* gained by steps in which something touched [J] */
+  double rise, lowest; /* energy that the method made by itself, netted; the least so far [J] */
+  double highest_rise; /* from the least [J] */
+  double rubbed_off;   /* the part of dissipated that is friction [J] */
+  double mass;         /* of the wires [kg] */
+  double weight;       /* of the wires, times their radii [J] */
+  double bending;      /* their EI / L [J] */
+  int has_powers;      /* 1: there are forces without a potential */
+  int known;           /* 1: all of the above is of the present state */
+  int begun;           /* 1: at_start is known */
+  sw_step_energy step; /* judged last */
   sw_worker *holds, *obstacles; /* (hold_count), (obstacle_count) as of the system */
   size_t hold_room, obstacle_room;
   sw_log log; /* rows of SW_LOG_ENERGY_SIZE */
@@ -61,6 +66,9 @@ sw_status sw_ledger_open(sw_scene *scene, sw_error *err);
 /* The trial of size h that ends at t1. changed: the scene was, just before; forces at the start are
  * not known then. */
 sw_status sw_ledger_judge(sw_scene *scene, double t1, double h, int changed, sw_error *err);
+/* 1: the run's method is judged. Methods that do not damp go to and fro in energy; what they make
+ * is only told. */
+int sw_ledger_referees(const sw_scene *scene);
 /* Energy that the judged trial makes beyond what a step of that size is allowed [J]; 0: it is fine.
  */
 double sw_ledger_excess(const sw_scene *scene, double h);
