@@ -240,6 +240,15 @@ static int meth_log(lua_State *L) {
   return 2;
 }
 
+/* force:call_it(name): what its events call it */
+static int meth_call_it(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
+  lsw_must(L, sw_scene_name_force(scene, f->id, luaL_checkstring(L, 2), &err), &err);
+  return 0;
+}
+
 static int prop_kind(lua_State *L) {
   sw_scene *scene;
   const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
@@ -268,8 +277,11 @@ static int meta_describe(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg methods[] = {
-    {"release", meth_release}, {"read", meth_read}, {"log", meth_log}, {NULL, NULL}};
+static const luaL_Reg methods[] = {{"release", meth_release},
+                                   {"read", meth_read},
+                                   {"log", meth_log},
+                                   {"call_it", meth_call_it},
+                                   {NULL, NULL}};
 static const luaL_Reg properties[] = {{"kind", prop_kind}, {"held", prop_held}, {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 

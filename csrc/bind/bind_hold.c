@@ -100,6 +100,24 @@ static int meth_release(lua_State *L) {
   return 0;
 }
 
+/* clamp:crash() -> { time, depth, obstacle } of the last time that it drove the wire into an
+ * obstacle [s], [m]; nil when it never did */
+static int meth_crash(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  double time, depth;
+  const char *obstacle;
+  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
+  lsw_must(L, sw_scene_hold_crash(scene, c->id, &time, &depth, &obstacle, &err), &err);
+  if (!(depth > 0)) return 0;
+  lua_createtable(L, 0, 3);
+  lsw_set_number(L, "time", time);
+  lsw_set_number(L, "depth", depth);
+  lua_pushstring(L, obstacle);
+  lua_setfield(L, -2, "obstacle");
+  return 1;
+}
+
 /* clamp:log() -> flat rows of 10: t, force, moment, point [s, N, N m, m] and the
  * number of rows. clamp:log(first) starts at that row. */
 static int meth_log(lua_State *L) {
@@ -287,6 +305,7 @@ static const luaL_Reg methods[] = {{"force", meth_force},
                                    {"follow", meth_follow},
                                    {"release", meth_release},
                                    {"log", meth_log},
+                                   {"crash", meth_crash},
                                    {"fed", meth_fed},
                                    {"feed", meth_feed},
                                    {"speed", meth_speed},

@@ -48,6 +48,7 @@ static void read_points(lua_State *L, const char *object, sw_shape_source *sourc
   const size_t n = (size_t)(nested ? items : items / 3);
   double *to = lua_newuserdatauv(L, (3 * n + 1) * sizeof *to, 0);
   for (lua_Integer i = 1; i <= items; i++) {
+    lsw_poll(L);
     lua_rawgeti(L, table, i);
     if (!nested && lua_type(L, -1) == LUA_TNUMBER) {
       to[i - 1] = lua_tonumber(L, -1); /* the core checks that it is finite */

@@ -225,8 +225,13 @@ void lsw_open_classes(lua_State *L) {
 }
 
 int lsw_raise(lua_State *L, sw_status status, const sw_error *err) {
+  const int why = status != SW_EINTR && err && err->text[0];
   if (status == SW_EINTR) sw_interrupt_clear(); /* this error answers the Ctrl-C */
-  return luaL_error(L, "%s", err && err->text[0] ? err->text : sw_status_text(status));
+  return luaL_error(L, "%s", why ? err->text : sw_status_text(status));
+}
+
+void lsw_poll(lua_State *L) {
+  if (sw_interrupted()) lsw_raise(L, SW_EINTR, NULL);
 }
 
 /* --- values --------------------------------------------------------------- */
@@ -234,6 +239,7 @@ int lsw_raise(lua_State *L, sw_status status, const sw_error *err) {
 double lsw_number(lua_State *L, int index, const char *what, const char *unit) {
   const char *space = strcmp(unit, "-") == 0 ? "" : " ";
   const char *shown = *space ? unit : "";
+  lsw_poll(L); /* it may be one of millions */
   if (lua_type(L, index) != LUA_TNUMBER)
     return luaL_error(L, "%s must be a number%s%s%s, got %s", what, *space ? " [" : "", shown,
                       *space ? "]" : "", lsw_describe(L, index));

@@ -50,6 +50,9 @@ const char *lsw_describe(lua_State *L, int index);
 void lsw_open_classes(lua_State *L);
 
 /* Raise the error for a failed core call: err's text, or the status's. */
+/* Raise "interrupted" when the user wants to stop. */
+void lsw_poll(lua_State *L);
+
 int lsw_raise(lua_State *L, sw_status status, const sw_error *err);
 
 /* Read the table at index into args by the rows: defaults first, then every

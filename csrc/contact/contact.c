@@ -369,6 +369,12 @@ double sw_contact_rubbed(const sw_contact *c) {
   return sum;
 }
 
+double sw_contact_fastest(const sw_contact *c) {
+  double fastest = 0;
+  for (size_t o = 0; o < c->count; o++) fastest = fmax(fastest, sw_norm(c->now[o].v));
+  return fastest;
+}
+
 int sw_contact_emerges(const sw_contact *c) { return c->fresh && emerges(c); }
 
 int sw_contact_steady(const sw_contact *c) {

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/interrupt.h"
 
 /* A touch goes on into the next iterate up to this gap, of the radius, and while its normal
  * turns by an angle with a cosine above this [-]. */
@@ -346,6 +347,6 @@ sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw
   sw_status status = SW_OK;
   swap_lists(c);
   for (size_t i = 0; i < c->candidate_count && status == SW_OK; i++)
-    status = query(c, s, &c->candidates[i], y);
-  return status == SW_OK ? SW_OK : sw_fail(err, status, "contact: out of memory");
+    status = sw_interrupted() ? SW_EINTR : query(c, s, &c->candidates[i], y);
+  return status == SW_OK ? SW_OK : sw_fail(err, status, "contact: %s", sw_status_text(status));
 }

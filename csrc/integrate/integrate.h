@@ -60,9 +60,12 @@ struct sw_stepper {
   double *y[SW_STAGES_MAX], *w[SW_STAGES_MAX]; /* stage positions and velocities */
   double *a;                                   /* acceleration of the last stage */
   double *xp, *vp;                             /* state before last */
-  double *tension;                             /* saved for a rejected step (edges) */
-  double last_h;                               /* of the last accepted step; 0 = none [s] */
-  int restart;                                 /* next step starts anew: a_n is stale */
+  /* axial strains (edges): where the stage's rates count from, stages', rates of the last stage,
+   * of the state before last; NULL without axial dashpots [-], [1/s] */
+  double *strain_past, *strain[SW_STAGES_MAX], *strain_rate, *strain_before;
+  double *tension; /* saved for a rejected step (edges) */
+  double last_h;   /* of the last accepted step; 0 = none [s] */
+  int restart;     /* next step starts anew: a_n is stale */
   int plastic;     /* the next trials are of implicit Euler: what strikes does not bounce */
   double error;    /* estimate of the last trial; 0 without one [m] */
   int wants_error; /* the step size follows the error */
@@ -72,7 +75,7 @@ struct sw_stepper {
   sw_newton newton;
   size_t iterations; /* of the last trial, all stages */
   double rotation;   /* largest edge rotation of the last update [rad] */
-  const double *trial_x, *trial_v, *trial_a;
+  const double *trial_x, *trial_v, *trial_a, *trial_strain;
 };
 
 enum { SW_EXTRA = 6 };
@@ -80,6 +83,9 @@ enum { SW_EXTRA = 6 };
 /* Work space for a system of this size. SW_ENOMEM. */
 sw_status sw_stepper_new(sw_stepper *stepper, const sw_integrator *method, const sw_system *system);
 void sw_stepper_free(sw_stepper *stepper);
+
+/* What a method with history has to keep: xp and all after it (doubles). */
+size_t sw_stepper_history(const sw_stepper *stepper, const sw_system *system);
 
 /* Compute a trial step from the system's state at t; the state stays untouched
  * apart from the tension, which sw_stepper_reject puts back. */

@@ -275,7 +275,7 @@ static sw_status observe(sw_scene *s, sw_error *err) {
 /* Errors that a smaller step cannot mend. */
 static int hopeless(sw_status status) {
   return status == SW_ECALLBACK || status == SW_ENOMEM || status == SW_EINVAL ||
-         status == SW_EEMPTY;
+         status == SW_EEMPTY || status == SW_EINTR || status == SW_ELIMIT;
 }
 
 /* Nodes for the wire that a step up to h feeds; shortens the step to what nodes can
@@ -349,7 +349,9 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
     if (fine) {
       const int unknown = !(s->stepper.error > 0); /* a starting step gives no estimate */
       accept(p, h);
+      const double before = s->time;
       s->time = last ? t1 : s->time + h;
+      if (!(s->time > before)) return sw_fail(err, SW_ENOCONV, "steps of %g s are no time", h);
       s->next_dt = unknown ? h : last && next > h ? fmax(next, s->next_dt) : next;
       return observe(s, err);
     }
@@ -370,6 +372,7 @@ static sw_status pose_steps(loop *p, double t, int (*interrupted)(void), sw_erro
     if (interrupted && interrupted()) return SW_EINTR;
     SW_TRY(make_room(p, &h, err));
     const double part = h < (t - s->time) * (1 - 1e-9) ? s->time + h : t;
+    if (!(part > s->time)) return sw_fail(err, SW_ENOCONV, "wire is fed too fast to follow it");
     SW_TRY(sw_ledger_open(s, err));
     SW_TRY(sw_scene_pose(s, part, interrupted, p->report, err));
     SW_TRY(sw_scene_observe(s, err));
@@ -396,6 +399,13 @@ static sw_status whole_pose_step(loop *p, double t1, int (*interrupted)(void), s
   return SW_OK;
 }
 
+/* The next frame is due after t; frames that steps have passed are left out. */
+static void next_frame(sw_scene *s, double every, double t) {
+  if (s->next_frame <= t) s->next_frame += every;
+  if (s->next_frame <= t) s->next_frame += every * ceil((t - s->next_frame) / every);
+  if (!(s->next_frame > t)) s->next_frame = nextafter(t, HUGE_VAL);
+}
+
 static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_error *err) {
   sw_scene *s = p->s;
   const double t0 = s->time, span = until - t0;
@@ -407,7 +417,7 @@ static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_er
   for (size_t k = 1; s->time < until - slack;) {
     if (interrupted && interrupted()) return SW_EINTR;
     if ((double)(p->report->steps - first) >= (double)p->args->max_steps) return SW_OK;
-    if (p->report->steps > first && sw_tool_slipped(s)) return SW_OK;
+    if (p->report->steps > first && (sw_tool_slipped(s) || sw_hold_crashed(s))) return SW_OK;
     double t1 = (double)k >= count ? until : t0 + span * ((double)k / count);
     int cut = 0;
     if (p->args->quasistatic) SW_TRY(sw_scene_cut_pose(s, &t1, &cut, err));
@@ -417,8 +427,7 @@ static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_er
                                 : step(p, t1 - s->time, t1, err));
     if (isfinite(p->args->frame) && s->time >= s->next_frame - slack)
       SW_TRY(sw_scene_store_frame(s, err));
-    while (isfinite(p->args->frame) && s->next_frame <= s->time + slack)
-      s->next_frame += p->args->frame;
+    if (isfinite(p->args->frame)) next_frame(s, p->args->frame, s->time + slack);
   }
   return SW_OK;
 }
@@ -457,6 +466,23 @@ static sw_status check_run(const sw_scene *s, const sw_run_args *args, sw_error 
   return SW_OK;
 }
 
+/* A clock near t advances in parts of t times this [-]; a step must be some of them. */
+static const double CLOCK = 2.3e-16, TICKS = 64;
+static const double MOST_STEPS = 1e15;     /* [-] */
+static const double SHORTEST_STEP = 1e-20; /* [s] */
+
+/* Steps that add up to the time they are to cover. */
+static sw_status check_clock(const sw_scene *s, const sw_run_args *args, double until,
+                             sw_error *err) {
+  const double latest = fmax(fabs(s->time), fabs(until)), span = until - s->time;
+  const double least = fmax(SHORTEST_STEP, fmax(TICKS * CLOCK * latest, span / MOST_STEPS));
+  if (args->dt >= least || !(span > 0)) return SW_OK;
+  return sw_fail(err, SW_EINVAL,
+                 "scene:run: dt = %g s is too short for t = %.6g to %.6g s; it must be at least "
+                 "%.2g s, or the clock would not advance by it or never arrive",
+                 args->dt, s->time, until, least);
+}
+
 static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const sw_error *why) {
   report->status = status;
   report->time = s->time;
@@ -486,6 +512,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
   SW_TRY(check_run(s, args, err));
+  SW_TRY(check_clock(s, args, until, err));
   SW_TRY(sw_scene_build(s, err));
   SW_TRY(use_integrator(s, args, err));
   const size_t before = s->system.counters.evaluations;

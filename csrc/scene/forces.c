@@ -165,6 +165,13 @@ sw_status sw_scene_read_force(sw_scene *s, sw_handle force, sw_handle wire, doub
   return sw_fail(err, SW_EINVAL, "force %s: it does not act on '%s'", cls->name, w->name);
 }
 
+sw_status sw_scene_name_force(sw_scene *s, sw_handle force, const char *name, sw_error *err) {
+  if (!sw_scene_force_class(s, force))
+    return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
+  snprintf(s->forces[force.slot].name, SW_NAME_SIZE, "%s", name);
+  return SW_OK;
+}
+
 sw_status sw_scene_remove_force(sw_scene *s, sw_handle force, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   if (!sw_scene_force_class(s, force))

@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/simd.h"
+#include "scene/events.h"
 #include "scene/world.h"
 #include "state/clamp.h"
 
@@ -60,7 +61,7 @@ static void curvature_extreme(const sw_system *s, const sw_body *b, sw_extreme *
 }
 
 static void tension_extreme(const sw_system *s, const sw_body *b, sw_extreme *out) {
-  const double *T = s->tension + b->first_edge;
+  const double *T = sw_system_pull(s, b);
   *out = (sw_extreme){.value = -HUGE_VAL};
   for (size_t e = 0; e < b->plan->edges; e++)
     if (T[e] > out->value)
@@ -213,6 +214,7 @@ static sw_status log_holds(sw_scene *s, sw_error *err) {
     const sw_hold_state *at = &s->system.hold_states[k];
     double row[SW_LOG_SIZE];
     sw_system_reaction(&s->system, (int)k, at->pose.p, &h->force, &h->moment);
+    SW_TRY(sw_hold_look_out(s, h, err));
     row[SW_LOG_TIME] = s->time;
     sw_store(row + SW_LOG_FORCE, h->force);
     sw_store(row + SW_LOG_MOMENT, h->moment);
@@ -248,6 +250,22 @@ static sw_status observe_contact(sw_scene *s, sw_error *err) {
   return SW_OK;
 }
 
+/* What forces on wires have found. */
+static void tell_news(sw_scene *s) {
+  sw_force_news news;
+  for (size_t w = 0; w < s->system.body_count; w++) {
+    const sw_body *b = &s->system.bodies[w];
+    for (size_t k = 0; k < b->term_count; k++) {
+      if (!sw_term_news(&b->terms[k], &news)) continue;
+      const int id = b->terms[k].id;
+      const char *name = id >= 0 ? s->forces[id].name : "";
+      const double s0 = b->plan->s[0];
+      sw_scene_tell(s, news.kind, name, news.s - s0, news.value, "%s '%s', wire '%s': %s",
+                    b->terms[k].cls->name, name, s->wires[w].name, news.text);
+    }
+  }
+}
+
 sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
   sw_feed_follow(s);
   sw_jaw_follow(s);
@@ -255,6 +273,7 @@ sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
   SW_TRY(sw_system_place_holds(&s->system, s->time, s->system.x, NULL, NULL, err));
   sw_system_refresh(&s->system);
   sw_system_commit(&s->system, s->time);
+  tell_news(s);
   sw_scene_watch_ties(s);
   for (size_t w = 0; w < s->wire_count; w++) {
     sw_wire_extremes now;

@@ -85,7 +85,7 @@ static void tape_kit(sw_tape *t, sw_strand_kit **kit) {
 
 void sw_tape_strand(sw_tape *t, sw_strand *x) {
   int there = !sw_tape_reads(t) && x->web != NULL;
-  SW_TAPE_STRUCT(t, sw_strand, 48);
+  SW_TAPE_STRUCT(t, sw_strand, 56);
   SW_TAPE_STRUCT(t, sw_solid, 1632);
   sw_tape_int(t, &there);
   if (!there) return;
@@ -95,6 +95,7 @@ void sw_tape_strand(sw_tape *t, sw_strand *x) {
   const size_t n = x->web->particles;
   SW_TAPE_ARRAY(t, x->x, 3 * n), SW_TAPE_ARRAY(t, x->v, 3 * n), SW_TAPE_ARRAY(t, x->a, 3 * n);
   SW_TAPE_ARRAY(t, x->axial, x->web->links);
+  SW_TAPE_OPTIONAL(t, x->rate, x->web->links);
   if (!sw_tape_reads(t) || !sw_tape_good(t)) return;
   sw_tape_finite(t, x->x, 3 * n, "particles");
   sw_tape_finite(t, x->v, 3 * n, "particles");
@@ -114,7 +115,7 @@ void sw_tape_beam_of(sw_tape *t, sw_scene_wire *x) {
 
 void sw_tape_wire(sw_tape *t, sw_scene_wire *x) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_scene_wire, 568);
+  SW_TAPE_STRUCT(t, sw_scene_wire, 584);
   SW_TAPE_STRUCT(t, sw_twisted, 24);
   UINT32(generation), NAME(name);
   const char *model = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
@@ -140,7 +141,7 @@ void sw_tape_hold_args(sw_tape *t, sw_hold_args *x) {
 
 static void tape_feed(sw_tape *t, sw_feed *x) {
   int shaped = x->shape.n > 0;
-  SW_TAPE_STRUCT(t, sw_feed, 376); /* node and number are found when the scene is built */
+  SW_TAPE_STRUCT(t, sw_feed, 384); /* node and number are found when the scene is built */
   INT(outward), DOUBLE(label), DOUBLE(fed), DOUBLE(since), DOUBLE(speed), DOUBLE(start);
   sw_tape_motion(t, &x->motion);
   DOUBLE(slip), DOUBLE(slip_since), DOUBLE(slip_speed), DOUBLE(slip_growth), DOUBLE(slip_before);
@@ -166,7 +167,7 @@ static void tape_give(sw_tape *t, sw_clamp_give *x) {
 
 void sw_tape_hold(sw_tape *t, sw_scene *s, sw_scene_hold *x) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_scene_hold, 1256);
+  SW_TAPE_STRUCT(t, sw_scene_hold, 1320);
   UINT32(generation), INT(alive), NAME(name);
   const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
   if (sw_tape_reads(t)) x->cls = sw_hold_find(kind);
@@ -181,6 +182,9 @@ void sw_tape_hold(sw_tape *t, sw_scene *s, sw_scene_hold *x) {
   sw_tape_mesh_frame(t, &x->frame[0]), sw_tape_mesh_frame(t, &x->frame[1]);
   tape_give(t, &x->give[0]), tape_give(t, &x->give[1]);
   QUAT(turn), VEC(force), VEC(moment), POSE(last_pose);
+  SW_TAPE_STRUCT(t, sw_hold_watch, 56);
+  INT(watch.looking), INT(watch.crashing), DOUBLE(watch.looked), DOUBLE(watch.given);
+  DOUBLE(watch.crash.time), DOUBLE(watch.crash.depth), SIZE(watch.crash.obstacle);
   tape_feed(t, &x->feed);
   sw_tape_log(t, &x->log);
 }
@@ -257,8 +261,8 @@ static void tape_force_args(sw_tape *t, sw_scene_force *x) {
 
 void sw_tape_force(sw_tape *t, sw_scene_force *x) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_scene_force, 168);
-  UINT32(generation), INT(alive), sw_tape_long(t, &x->wire), DOUBLE(scale);
+  SW_TAPE_STRUCT(t, sw_scene_force, 248);
+  UINT32(generation), INT(alive), NAME(name), sw_tape_long(t, &x->wire), DOUBLE(scale);
   const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
   if (sw_tape_reads(t)) x->cls = sw_force_find(kind);
   sw_tape_expect(t, x->cls != NULL, "a force of an unknown kind");

@@ -97,6 +97,8 @@ const char *sw_scene_obstacle_name(const sw_scene *scene, sw_handle obstacle, co
 int sw_scene_force_needed(const sw_scene *scene, sw_handle force);
 /* The class of a force, released or not; NULL as above. */
 const sw_force_class *sw_scene_force_class(const sw_scene *scene, sw_handle force);
+/* What its events call it. */
+sw_status sw_scene_name_force(sw_scene *scene, sw_handle force, const char *name, sw_error *err);
 /* 0 once released, or when the scene does not know it. */
 int sw_scene_force_acts(const sw_scene *scene, sw_handle force);
 
@@ -172,6 +174,10 @@ sw_status sw_scene_follow(sw_scene *scene, sw_handle hold, sw_motion *motion, in
                           sw_error *err);
 sw_status sw_scene_set_pose(sw_scene *scene, sw_handle hold, sw_pose pose, sw_error *err);
 sw_status sw_scene_hold_pose(sw_scene *scene, sw_handle hold, sw_pose *out, sw_error *err);
+/* When what it holds was last driven into an obstacle, how far then, and into which one: NAN, 0
+ * and "" when it never was [s], [m]. */
+sw_status sw_scene_hold_crash(const sw_scene *scene, sw_handle hold, double *time, double *depth,
+                              const char **obstacle, sw_error *err);
 
 /* Force and moment on the wire about the held point, or about *about [N, N m]. */
 sw_status sw_scene_hold_force(sw_scene *scene, sw_handle hold, const sw_vec *about, sw_vec *force,
@@ -298,9 +304,10 @@ typedef struct sw_ledger {
   double by_holds, by_obstacles, by_feeds, by_forces;                /* work [J] */
   double by_changes;                                                 /* of the scene itself [J] */
   double damping, friction, plasticity, impact, contact, integrator; /* lost [J] */
-  double jumps;        /* lost by equilibria that jumped, of quasi-static runs [J] */
-  double gap;          /* from nowhere [J] */
-  double gained;       /* sum of what steps gained beyond the work [J] */
+  double jumps;                  /* lost by equilibria that jumped, of quasi-static runs [J] */
+  double gap;                    /* from nowhere [J] */
+  double gained;                 /* sum of what steps gained beyond the work [J] */
+  double most_gained, most_time; /* by one step, and when [J], [s] */
   double play;         /* energy that was in play: largest kinetic energy, work, energy released;
                           at least the wires' weight times their radius [J] */
   sw_retries redone;   /* steps redone with implicit Euler */
@@ -379,7 +386,7 @@ sw_status sw_scene_settle(sw_scene *scene, const sw_settle_args *args, int (*int
 typedef struct sw_point_state {
   sw_vec position, tangent, velocity; /* [m], [-], [m/s] */
   double curvature;                   /* [1/m] */
-  double tension;                     /* [N] */
+  double tension, elastic;            /* axial force; without that of dashpots [N] */
   double twist_moment;                /* [N m] */
   double spin;                        /* about the tangent, of a wire that rolls [rad/s] */
   double strain, least_strain;        /* of the fibres outside and inside the bend [-] */

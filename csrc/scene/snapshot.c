@@ -11,6 +11,7 @@ typedef struct saved_hold {
   sw_drive drive;
   sw_vec force, moment;
   sw_pose last_pose;
+  sw_hold_watch watch;
   size_t log_count;
   sw_scene_hold shape; /* where and how it holds, nothing else of it */
   double s1, s2;       /* of a hold that feeds they change [m] */
@@ -144,6 +145,7 @@ static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
     kept->alive = h->alive, kept->drive = copy_drive(&h->drive);
     kept->force = h->force, kept->moment = h->moment;
     kept->last_pose = h->last_pose, kept->log_count = h->log.count;
+    kept->watch = h->watch;
     kept->s1 = h->s1, kept->s2 = h->s2, kept->feed = h->feed;
     sw_motion_retain(h->feed.motion);
   }
@@ -262,6 +264,7 @@ static void put_objects(sw_scene *s, const sw_snapshot *p) {
     h->alive = p->hold[k].alive;
     h->force = p->hold[k].force, h->moment = p->hold[k].moment;
     h->last_pose = p->hold[k].last_pose;
+    h->watch = p->hold[k].watch;
     if (h->log.count > p->hold[k].log_count) h->log.count = p->hold[k].log_count;
     put_drive(&h->drive, &p->hold[k].drive);
     put_feed(h, &p->hold[k]);
@@ -412,10 +415,10 @@ sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   s->time = p->time, s->next_dt = p->next_dt, s->next_frame = p->next_frame;
   s->gravity = p->gravity;
   s->deepest = p->deepest;
-  SW_TRY(sw_scene_build(s, err));
-  s->diverged = 0;
   s->restoring = p; /* placing the holds may call a user's function */
-  const sw_status status = sw_live_put(s, &p->live, err);
+  sw_status status = sw_scene_build(s, err);
+  if (status == SW_OK) s->diverged = 0;
+  if (status == SW_OK) status = sw_live_put(s, &p->live, err);
   s->restoring = NULL;
   if (status != SW_OK) return status;
   s->discontinuous = p->discontinuous;

@@ -109,8 +109,10 @@ int sw_scene_has_contact(const sw_scene *s) { return s->contact || s->pairs || s
 sw_status sw_scene_begin_contact(sw_scene *s, sw_contact_regime regime, double t, double h,
                                  double nominal, sw_error *err) {
   if (s->contact) SW_TRY(sw_contact_begin_step(s->contact, &s->system, regime, t, h, nominal, err));
-  if (s->crowd && sw_crowd_begin_step(s->crowd, &s->system, h) != SW_OK)
-    return sw_fail(err, SW_ENOMEM, "particles that repel each other: out of memory");
+  const sw_status crowd = s->crowd ? sw_crowd_begin_step(s->crowd, &s->system, h) : SW_OK;
+  if (crowd != SW_OK)
+    return sw_fail(err, crowd, "particles that repel each other: %s",
+                   crowd == SW_ELIMIT ? "too many are near each other" : sw_status_text(crowd));
   return s->pairs ? sw_pairs_begin_step(s->pairs, &s->system, regime, h, nominal, err) : SW_OK;
 }
 

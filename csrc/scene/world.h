@@ -66,8 +66,8 @@ static inline int sw_strand_holds(const sw_web *web, const sw_hold_class *cls, s
   const size_t ring = sw_web_ring_of(web, particle);
   return cls->clamped || !sw_web_is_ring(web, ring) || particle - web->first[ring] == web->axis;
 }
-/* The system's state to the strand and the middles of its rings. */
-void sw_strand_take(sw_scene_wire *wire, const sw_system *system, const sw_body *body);
+/* The system's state to the strand and the middles of its rings. SW_ENOMEM. */
+sw_status sw_strand_take(sw_scene_wire *wire, const sw_system *system, const sw_body *body);
 /* Read-outs at arc length s; extremes. */
 void sw_strand_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_body *body, double s,
                   sw_point_state *out);
@@ -206,6 +206,15 @@ typedef struct sw_feed {
   sw_mesh shape;       /* the wire with its unloaded shape, if it has frames */
 } sw_feed;
 
+/* Is it driven into an obstacle? */
+typedef struct sw_hold_watch {
+  int looking;    /* 1: it has been looked at */
+  int crashing;   /* 1: it is driven into one now */
+  double looked;  /* when last [s] */
+  double given;   /* how deep it was in one to begin with [m] */
+  sw_crash crash; /* the last one, of no part; depth 0: none */
+} sw_hold_watch;
+
 typedef struct sw_scene_hold {
   uint32_t generation;
   int alive;
@@ -228,6 +237,7 @@ typedef struct sw_scene_hold {
   sw_quat turn;           /* orientation that goes with the wire's twist, while not built */
   sw_feed feed;           /* of a class that feeds */
   sw_vec force, moment;   /* last, kept after release [N], [N m] */
+  sw_hold_watch watch;
   sw_pose last_pose;
   sw_log log;
 } sw_scene_hold;
@@ -246,6 +256,7 @@ typedef struct sw_scene_obstacle {
 typedef struct sw_scene_force {
   uint32_t generation;
   int alive;
+  char name[SW_NAME_SIZE]; /* for events, or "" */
   const sw_force_class *cls;
   long wire;    /* -1 = all */
   double scale; /* of the wire's mesh when it was made [-] */
@@ -461,6 +472,11 @@ sw_status sw_tool_look_out(sw_scene *scene, size_t tool, sw_error *err);
 /* 1: one slipped in the last step that ends a run with it. */
 int sw_tool_slipped(const sw_scene *scene);
 
+/* Looks at a hold of the accepted state: is it driven into obstacles, does it push too hard? */
+sw_status sw_hold_look_out(sw_scene *scene, sw_scene_hold *hold, sw_error *err);
+/* 1: one was driven into an obstacle in the last step. */
+int sw_hold_crashed(const sw_scene *scene);
+
 /* --- joins ------------------------------------------------------------------- */
 
 /* The living join that has the wire, or NULL. */
@@ -539,9 +555,16 @@ sw_status sw_scene_make_places(const sw_scene *scene, size_t wire, sw_mesh *mesh
 /* Where and how a hold holds, into another slot that owns nothing. SW_ENOMEM. */
 sw_status sw_scene_copy_shape(const sw_scene_hold *from, sw_scene_hold *to);
 
-/* Take hold of a wire that has other nodes but lies as before; the hold's pose is known.
- * SW_ENOMEM. */
-sw_status sw_scene_rehold(sw_scene *scene, sw_scene_hold *hold, sw_pose pose);
+/* Take hold of a wire that has other nodes but lies as before; the hold's pose is known. It is
+ * not alive; those that are have done so. SW_EINVAL when one of them is in the way; SW_ENOMEM. */
+sw_status sw_scene_rehold(sw_scene *scene, sw_scene_hold *hold, sw_pose pose, sw_error *err);
+
+/* SW_EINVAL, naming the hold that is in the way, when one between s1 and s2, rings of a mesh, is
+ * on another living hold of the wire or too near it; what: who asks [m]. */
+sw_status sw_scene_check_clear(const sw_scene *scene, size_t wire, const sw_scene_hold *self,
+                               const char *what, double s1, double s2, sw_error *err);
+/* SW_EINVAL, naming both, when two living holds hold the same node or particle. */
+sw_status sw_scene_check_holds(const sw_scene *scene, sw_error *err);
 /* The built system's stiffness at its state, with contact as it presses now: of these obstacles
  * (count), or NULL: of all. */
 sw_status sw_scene_linearise(sw_scene *scene, const size_t *only, size_t count, sw_error *err);

@@ -125,6 +125,15 @@ local function react(self, event, reaction, text)
   elseif type(reaction) == "function" then reaction(self, event) end
 end
 
+-- A crash of an imposed grip, which drives the wire itself into an obstacle.
+local function look_at_hold(self)
+  local crash = self.hold:crash()
+  if not crash or crash.time == self.crash_time then return end
+  self.crash_time = crash.time
+  return react(self, { kind = "crash", time = crash.time, part = self.name, obstacle = crash.obstacle,
+    depth = crash.depth, s = self.s }, self.on_crash, crash_text)
+end
+
 -- Events of one gripper with pads; returns why the run is to stop, or nil.
 local function look_at(self)
   local now, why = self.tool:state(), nil
@@ -150,7 +159,8 @@ end
 function grasp.look(scene)
   local why
   for _, self in ipairs(build.data(scene).grippers) do
-    if self.tool then why = look_at(self) or why end
+    if self.tool then why = look_at(self) or why
+    elseif self.hold then why = look_at_hold(self) or why end
   end
   return why
 end
@@ -301,6 +311,7 @@ local function impose(self, wire, s)
   self.past[count + 1], self.spans[count + 1] = hold, span
   local grips = table.move(self.grips, 1, #self.grips, 1, {})
   grips[#grips + 1] = { wire = wire, hold = hold }
+  if not self.hold then self.s = s end
   self.grips, self.hold, self.wire = grips, self.hold or hold, self.wire or wire
 end
 

@@ -155,13 +155,16 @@ scene:clip{ at = {x, y, z}, width = [m], insertion = [N], retention = [N], ... }
   friction         against sliding along the axis, = 0
   radius           of the seat [m], = that of each wire; way over the lips [m], = 1.5 of the radius
   stiffness        of floor and side walls [N/m], = 50 times the larger force over the radius
+  strength         of these [N], = 20 times the larger force; pressed harder, from within or outside,
+                   they break, and the wire is free: an event, as is a wire that crosses steeply
   snap             time that the lips take to pull a wire in [s], = 0.002
   on               the wire that it is for, = all of the scene; name
-  :seated(wire) :state(wire)     is there one in it; "empty", "inserting", "seated"
+  :seated(wire) :state(wire)     is there one in it; "empty", "inserting", "seated", "broken"
   :force(wire) :height(wire)     on the wire [N]; over the seat [m]. Without wire: of all
   :ratio(wire)                   largest pull so far over retention
   .wire .peak_insertion_force    the one in the seat; [N]
   .inserted .pulled_out          nil, or .time [s] .peak_force [N] .wire .count, .s [m]
+  .overloaded                    nil, or .time [s] .force [N] .by .wire .strength [N] where it broke
   :release()
 gripper:clip{ into = clip, speed = [m/s], max_force = [N] }   in a process: presses its wire in
   approach_speed = 0.1, align = true   over the mouth before; speed = 0.02

@@ -15,6 +15,7 @@
 local core = require "softworld.core"
 local build = require "softworld.build"
 local conditions = require "softworld.conditions"
+local waiting = require "softworld.waiting"
 
 local process = {}
 local Process = { __name = "process" }
@@ -109,7 +110,10 @@ end
 -- { contact = obstacle }, { distance = [m], between = { a, b } }. Returns true, or false
 -- when timeout [s] passed first.
 function Process:wait_until(condition, options)
-  if type(condition) == "table" then condition = conditions.of(condition, 3) end
+  local impossible
+  if type(condition) == "table" then
+    condition, impossible = conditions.of(condition, 3, self.scene)
+  end
   if type(condition) ~= "function" then
     error("p:wait_until expects a function or a table, got " .. type(condition), 2)
   end
@@ -118,9 +122,11 @@ function Process:wait_until(condition, options)
   process.guard "p:wait_until"
   while not condition() do
     if process.reached(self.scene, last) then return false end
+    if last == math.huge then waiting.goes_on(self, impossible) end
     self.watching, self.wake = true, last
     coroutine.yield()
   end
+  waiting.ended(self)
   return true
 end
 

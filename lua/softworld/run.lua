@@ -18,6 +18,7 @@ local trust = require "softworld.trust"
 local unread = require "softworld.unread"
 local drawn = require "softworld.drawn"
 local fixing = require "softworld.fixing"
+local waiting = require "softworld.waiting"
 local progress = require "softworld.output.progress"
 
 local Run = { __name = "run" }
@@ -60,9 +61,13 @@ local function drive(scene, args, total, bar)
   while true do
     local alive, wake, watching = process.step(scene)
     if stop == math.huge and alive == 0 then return "all processes have ended" end
-    if process.reached(scene, stop) then return ("%g s have passed"):format(args.duration) end
+    if process.reached(scene, stop) then
+      waiting.at_end(scene)
+      return ("%g s have passed"):format(args.duration)
+    end
     local target = math.min(stop, wake)
     if target == math.huge then
+      waiting.look(scene, bar, args.progress == false)
       -- a process that waits for a condition without an end: go on step by step
       target = scene.time + (args.dt or 0.01)
     end
@@ -74,7 +79,10 @@ local function drive(scene, args, total, bar)
     if not part.ok then return part.reason end
     local stopped = grasp.look(scene)
     if stopped then return stopped end
-    if left <= 0 then return "the allowed number of steps was used" end
+    if left <= 0 then
+      waiting.at_end(scene)
+      return "the allowed number of steps was used"
+    end
   end
 end
 
