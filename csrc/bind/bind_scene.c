@@ -320,8 +320,30 @@ static void push_frame_surfaces(lua_State *L, const sw_scene *scene, size_t fram
   }
 }
 
-/* scene:frame(i) -> { t, wires, surfaces, particles, obstacles, holds, energy }, or nil past the
- * end. */
+/* Of each wire { tension =, curvature =, contact = }, flat, at each node [N], [1/m], [N]. */
+static void push_frame_values(lua_State *L, const sw_scene *scene, size_t frame) {
+  static const char *const names[SW_FRAME_VALUES] = {"tension", "curvature", "contact"};
+  size_t count;
+  lua_Integer number = 0;
+  lua_newtable(L);
+  for (size_t w = 0; sw_scene_frame_wire(scene, frame, w, &count) != NULL; w++) {
+    const double *p = sw_scene_frame_values(scene, frame, w, &count);
+    if (!p) continue;
+    lua_createtable(L, 0, SW_FRAME_VALUES);
+    for (size_t k = 0; k < SW_FRAME_VALUES; k++) {
+      lua_createtable(L, (int)count, 0);
+      for (size_t i = 0; i < count; i++) {
+        lua_pushnumber(L, p[SW_FRAME_VALUES * i + k]);
+        lua_rawseti(L, -2, (lua_Integer)i + 1);
+      }
+      lua_setfield(L, -2, names[k]);
+    }
+    lua_rawseti(L, -2, ++number);
+  }
+}
+
+/* scene:frame(i) -> { t, wires, values, surfaces, particles, obstacles (false: taken away), holds,
+ * tools, energy }, or nil past the end. */
 static int meth_frame(lua_State *L) {
   const sw_scene *scene = check(L);
   const lua_Integer i = lsw_integer(L, 2, "scene:frame: the number of the frame");
@@ -329,17 +351,22 @@ static int meth_frame(lua_State *L) {
   int held;
   if (i < 1 || (size_t)i > sw_scene_frames(scene)) return 0;
   const size_t frame = (size_t)i - 1;
-  lua_createtable(L, 0, 5);
+  lua_createtable(L, 0, 9);
   lsw_set_number(L, "t", sw_scene_frame_time(scene, frame));
   push_frame_bodies(L, scene, frame, 0);
   lua_setfield(L, -2, "wires");
+  push_frame_values(L, scene, frame);
+  lua_setfield(L, -2, "values");
   push_frame_surfaces(L, scene, frame);
   lua_setfield(L, -2, "surfaces");
   push_frame_bodies(L, scene, frame, 1);
   lua_setfield(L, -2, "particles");
   lua_newtable(L);
-  for (size_t o = 0; (p = sw_scene_frame_obstacle(scene, frame, o)) != NULL; o++) {
-    push_pose(L, p);
+  for (size_t o = 0; (p = sw_scene_frame_obstacle(scene, frame, o, &held)) != NULL; o++) {
+    if (held)
+      push_pose(L, p);
+    else
+      lua_pushboolean(L, 0);
     lua_rawseti(L, -2, (lua_Integer)o + 1);
   }
   lua_setfield(L, -2, "obstacles");
@@ -351,6 +378,12 @@ static int meth_frame(lua_State *L) {
     lua_rawseti(L, -2, (lua_Integer)h + 1);
   }
   lua_setfield(L, -2, "holds");
+  lua_newtable(L);
+  for (size_t k = 0; (p = sw_scene_frame_tool(scene, frame, k)) != NULL; k++) {
+    push_pose(L, p);
+    lua_rawseti(L, -2, (lua_Integer)k + 1);
+  }
+  lua_setfield(L, -2, "tools");
   const double *e = sw_scene_frame_energy(scene, frame);
   lua_createtable(L, 0, SW_FRAME_ENERGIES);
   lsw_set_number(L, "kinetic", e[0]);

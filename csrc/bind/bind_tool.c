@@ -216,7 +216,8 @@ static int meth_log(lua_State *L) {
   return 2;
 }
 
-/* tool:touches() -> { { finger, at, force (in the tool's axes), normal, s }, ... } */
+/* tool:touches() -> { { finger, at, force (in the tool's axes), normal, s, slid, wire = slot }, ...
+ * } */
 static int meth_touches(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
@@ -228,13 +229,14 @@ static int meth_touches(lua_State *L) {
   for (size_t k = 0; k < count; k++) {
     sw_tool_touch touch;
     if (!sw_scene_tool_touch(scene, t->id, k, &touch)) continue;
-    lua_createtable(L, 0, 5);
+    lua_createtable(L, 0, 7);
     lsw_set_integer(L, "finger", (size_t)touch.finger + 1);
     lsw_set_vector(L, "at", touch.at);
     lsw_set_vector(L, "force", touch.force);
     lsw_set_number(L, "normal", touch.normal);
     lsw_set_number(L, "s", touch.s);
     lsw_set_number(L, "slid", touch.slid);
+    lsw_set_integer(L, "wire", touch.wire);
     lua_rawseti(L, -2, ++found);
   }
   return 1;

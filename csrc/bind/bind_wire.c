@@ -307,6 +307,19 @@ static int meth_folded(lua_State *L) {
   return 2;
 }
 
+/* wire:log() -> flat rows of 3: t, largest tension, largest curvature; number of rows */
+static int meth_log(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const double *rows;
+  size_t count;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  lsw_must(L, sw_scene_wire_log(scene, w->id, &rows, &count, &err), &err);
+  lsw_push_flat(L, rows, count * SW_LOG_WIRE_SIZE);
+  lua_pushinteger(L, (lua_Integer)count);
+  return 2;
+}
+
 static int prop_length(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
@@ -405,6 +418,7 @@ static const luaL_Reg methods[] = {{"position", meth_position},
                                    {"max_stress", meth_max_stress},
                                    {"max_ovalisation", meth_max_ovalisation},
                                    {"folded", meth_folded},
+                                   {"log", meth_log},
                                    {"section", lsw_wire_section},
                                    {"width", lsw_wire_width},
                                    {"contact_pressure", lsw_wire_contact_pressure},

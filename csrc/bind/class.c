@@ -122,18 +122,8 @@ static int meta_eq(lua_State *L) {
   return 1;
 }
 
-/* Method or property by name; a name that is neither is an error with a hint.
- * Upvalues: the class, its methods, its properties. */
-static int meta_index(lua_State *L) {
-  lua_settop(L, 2);
-  lua_pushvalue(L, 2);
-  if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) return 1;
-  lua_pushvalue(L, 2);
-  if (lua_rawget(L, lua_upvalueindex(3)) != LUA_TNIL) {
-    lua_pushvalue(L, 1);
-    lua_call(L, 1, 1);
-    return 1;
-  }
+/* Raise for the name at index 2. Upvalues as of meta_index. */
+static int unknown_field(lua_State *L) {
   if (lua_type(L, 2) != LUA_TSTRING)
     return luaL_error(L, "%s has no such field", class_of(L)->name);
   const char *names[64];
@@ -152,6 +142,39 @@ static int meta_index(lua_State *L) {
     return luaL_error(L, "%s has no '%s'; did you mean '%s'?", class_of(L)->name, word, near);
   return luaL_error(L, "%s has no '%s'; help(it) at the prompt lists what it has",
                     class_of(L)->name, word);
+}
+
+/* Method or property by name; a name that is neither is an error with a hint.
+ * Upvalues: the class, its methods, its properties. */
+static int meta_index(lua_State *L) {
+  lua_settop(L, 2);
+  lua_pushvalue(L, 2);
+  if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) return 1;
+  lua_pushvalue(L, 2);
+  if (lua_rawget(L, lua_upvalueindex(3)) != LUA_TNIL) {
+    lua_pushvalue(L, 1);
+    lua_call(L, 1, 1);
+    return 1;
+  }
+  return unknown_field(L);
+}
+
+/* Nothing can be put into an object: what it is made of is given when it is made. Upvalues as
+ * above. */
+static int meta_newindex(lua_State *L) {
+  lua_settop(L, 2);
+  for (int up = 2; up <= 3; up++) {
+    lua_pushvalue(L, 2);
+    const int there = lua_rawget(L, lua_upvalueindex(up)) != LUA_TNIL;
+    if (there && up == 2)
+      return luaL_error(L, "%s: '%s' is a method and cannot be set: call it, with a colon",
+                        class_of(L)->name, lua_tostring(L, 2));
+    if (there)
+      return luaL_error(L, "%s: '%s' can only be read; what it is made of is given when it is made",
+                        class_of(L)->name, lua_tostring(L, 2));
+    lua_settop(L, 2);
+  }
+  return unknown_field(L);
 }
 
 /* Names of all methods and properties, for completion at the prompt. */
@@ -202,6 +225,8 @@ static void open_class(lua_State *L, const lsw_class *c) {
   const int methods = lua_gettop(L);
   push_indexer(L, c, methods, meta_index);
   lua_setfield(L, methods - 1, "__index");
+  push_indexer(L, c, methods, meta_newindex);
+  lua_setfield(L, methods - 1, "__newindex");
   push_indexer(L, c, methods, meta_names);
   lua_setfield(L, methods - 1, "__names");
   lua_insert(L, -2);

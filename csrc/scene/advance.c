@@ -507,7 +507,7 @@ sw_status sw_scene_begin_run(sw_scene *s, sw_error *err) {
 
 sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
                            int (*interrupted)(void), sw_run_report *report, sw_error *err) {
-  sw_error why = {""};
+  sw_error why = {""}, ignored;
   *report = (sw_run_report){.smallest_dt = HUGE_VAL, .time = s->time};
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
@@ -530,6 +530,10 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   if (status == SW_OK) status = run_loop(&p, until, interrupted, &why);
   s->running--;
   sw_free(p.v_start);
+  /* the last good state, for pictures of what went wrong */
+  if (status == SW_ENOCONV && isfinite(args->frame) && s->frame_count &&
+      s->time > s->frames[s->frame_count - 1].time)
+    (void)sw_scene_store_frame(s, &ignored);
   report->evaluations = s->system.counters.evaluations - before;
   conclude(s, status, report, &why);
   if (status == SW_ECALLBACK) s->discontinuous = 1;

@@ -16,7 +16,7 @@ typedef struct head {
 } head;
 
 static const char MAGIC[16] = "SoftWorld scene";
-enum { VERSION = 2, ORDER = 0x01020304 };
+enum { VERSION = 3, ORDER = 0x01020304 };
 
 enum { LEAST = 32 }; /* no object takes less on a tape [B] */
 
@@ -46,7 +46,7 @@ static size_t tape_list(sw_tape *t, void *list_pointer, size_t *count, size_t *c
   } while (0)
 
 static void tape_objects(sw_tape *t, sw_scene *s) {
-  SW_TAPE_STRUCT(t, sw_scene, 2688);
+  SW_TAPE_STRUCT(t, sw_scene, 2720);
   sw_tape_name(t, s->name);
   sw_tape_uint32(t, &s->serial);
   sw_tape_vec(t, &s->gravity);
@@ -63,6 +63,7 @@ static void tape_objects(sw_tape *t, sw_scene *s) {
   LIST(frames, frame_count, frame_capacity, sw_tape_frame(t, s, &s->frames[k]));
   LIST(events.list, events.count, events.capacity, sw_tape_event(t, &s->events.list[k]));
   sw_tape_size(t, &s->events.dropped);
+  sw_tape_watches(t, &s->watches);
   sw_tape_ledger(t, &s->books);
   sw_tape_kept_contact(t, s);
   size_t unused = 0;

@@ -64,6 +64,7 @@ void sw_scene_free(sw_scene *s) {
   sw_scene_drop_frames(s);
   sw_free(s->frames);
   sw_events_clear(&s->events);
+  sw_watches_clear(&s->watches);
   sw_ledger_free(&s->books);
   sw_free(s->hold_slot);
   sw_free(s->wires);

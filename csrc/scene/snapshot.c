@@ -42,6 +42,8 @@ struct sw_snapshot {
   int *force_alive;
   sw_scene_join *join; /* (joins) */
   size_t joins;
+  size_t *watched; /* (watches) lengths of logs [-] */
+  size_t watches;
   sw_live live;
   int discontinuous, diverged;
   sw_error why;
@@ -97,6 +99,7 @@ void sw_snapshot_free(sw_snapshot *p) {
   sw_free(p->tool);
   sw_free(p->force_alive);
   sw_free(p->join);
+  sw_free(p->watched);
   sw_live_free(&p->live);
   sw_free(p);
 }
@@ -158,6 +161,8 @@ static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
   }
   SW_TRY(copy_block(s->joins, s->join_count * sizeof *p->join, &p->join));
   p->joins = s->join_count;
+  SW_TRY(sw_watches_measure(&s->watches, &p->watched));
+  p->watches = s->watches.count;
   for (; p->forces < s->force_count; p->forces++)
     p->force_alive[p->forces] = s->forces[p->forces].alive;
   return SW_OK;
@@ -286,15 +291,17 @@ static void put_objects(sw_scene *s, const sw_snapshot *p) {
 }
 
 /* Slots beyond what any living snapshot knows are free again. */
-static void drop_newer(sw_scene *s) {
-  size_t holds = 0, obstacles = 0, forces = 0, joins = 0, tools = 0;
+static void drop_newer(sw_scene *s, const sw_snapshot *p) {
+  size_t holds = 0, obstacles = 0, forces = 0, joins = 0, tools = 0, watches = 0;
   for (const sw_snapshot *q = s->snapshots; q; q = q->next) {
     if (q->holds > holds) holds = q->holds;
     if (q->obstacles > obstacles) obstacles = q->obstacles;
     if (q->forces > forces) forces = q->forces;
     if (q->joins > joins) joins = q->joins;
     if (q->tools > tools) tools = q->tools;
+    if (q->watches > watches) watches = q->watches;
   }
+  sw_watches_back_to(&s->watches, p->watched, p->watches, watches);
   while (s->hold_count > holds) sw_scene_clear_hold(&s->holds[--s->hold_count]);
   while (s->obstacle_count > obstacles) sw_scene_clear_obstacle(&s->obstacles[--s->obstacle_count]);
   while (s->force_count > forces) sw_scene_clear_force(&s->forces[--s->force_count]);
@@ -403,7 +410,7 @@ sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   }
   if (put_untwisted(s, p) != SW_OK) return sw_fail(err, SW_ENOMEM, "restore: out of memory");
   put_objects(s, p);
-  drop_newer(s);
+  drop_newer(s, p);
   sw_scene_drop_rules(s, p->rules);
   s->time = p->time, s->next_dt = p->next_dt, s->next_frame = p->next_frame;
   s->gravity = p->gravity;

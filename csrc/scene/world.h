@@ -14,6 +14,7 @@
 #include "scene/section.h"
 #include "scene/strand.h"
 #include "scene/tool.h"
+#include "scene/watch.h"
 #include "state/mesh.h"
 #include "system/system.h"
 
@@ -294,7 +295,7 @@ typedef struct sw_scene_rule {
 typedef struct sw_frame {
   double time;
   double *data; /* one block */
-  size_t wires, obstacles, holds;
+  size_t wires, obstacles, holds, tools;
 } sw_frame;
 
 /* What a force on a wire remembers between two systems. */
@@ -367,6 +368,7 @@ struct sw_scene {
   size_t frame_count, frame_capacity;
   double next_frame; /* [s] */
   sw_events events;  /* of the last run */
+  sw_watches watches;
   sw_books books;    /* of the energy in it */
 };
 
@@ -602,6 +604,8 @@ sw_status sw_scene_pose(sw_scene *scene, double t1, int (*interrupted)(void), sw
 
 /* After an accepted state: histories, extremes, logs. */
 sw_status sw_scene_observe(sw_scene *scene, sw_error *err);
+/* What frames tell of each node of the wire, SW_FRAME_VALUES numbers; n nodes. */
+void sw_scene_node_values(sw_scene *scene, size_t wire, size_t n, double *out);
 /* Extremes of wire w at the refreshed state. */
 void sw_scene_wire_now(sw_scene *scene, size_t w, sw_wire_extremes *now);
 /* Keep the larger ones. */

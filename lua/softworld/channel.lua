@@ -12,12 +12,13 @@ local core = require "softworld.core"
 local checks = require "softworld.checks"
 local build = require "softworld.build"
 local fixing = require "softworld.fixing"
+local remarks = require "softworld.remarks"
 local vec = require "softworld.vec"
 
 local dot, cross, add, unit, norm = vec.dot, vec.cross, vec.add, vec.unit, vec.norm
 
 local properties = {}
-local Channel = fixing.class("channel", properties, { "lids" })
+local Channel = fixing.class("channel", properties, { "lids", "count" })
 local known = { name = true, points = true, width = true, depth = true, thickness = true,
   friction = true, restitution = true, up = true, lid = true }
 local SHARPEST = 0.3 -- cosine between a leg and the mitre's normal; below it corners are spikes
@@ -150,6 +151,7 @@ local function checked(scene, args)
 end
 
 local function make(scene, given)
+  remarks.on("channel", "scene:channel", given)
   local args, what = checked(scene, given)
   local self = { name = args.name, scene = scene, width = args.width, depth = args.depth,
     thickness = args.thickness, friction = args.friction, restitution = args.restitution }

@@ -14,6 +14,7 @@
 local core = require "softworld.core"
 local build = require "softworld.build"
 local fixing = require "softworld.fixing"
+local remarks = require "softworld.remarks"
 local vec = require "softworld.vec"
 local fixshape = require "softworld.fixshape"
 
@@ -84,6 +85,7 @@ local function make_damper(scene, args, time, force)
 end
 
 local function make(scene, given)
+  remarks.on("clip", "scene:clip", given)
   local args = checked(scene, given)
   local name, time = args.name, args.snap
   args.name, args.snap, args.kind = nil, nil, "clip"

@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- What grippers measure: force and moment now and over time, pressure on the pads, squeeze, slip.
 -- @module softworld.gripmeasures
+local core = require "softworld.core"
 local checks = require "softworld.checks"
 local vec = require "softworld.vec"
 
@@ -9,58 +10,123 @@ local Measures = {}
 local function in_axes(self, v, axes, what)
   if axes == nil or axes == "world" then return v end
   checks.word(what .. ": axes", axes, { world = true, gripper = true }, 4)
-  local held = self.tool or self.hold
+  local held = self.tool or self.hold and (self.carrier or self.hold)
   if not held then return v end
   local _, q = held:pose()
   return vec.rotate(vec.conjugate(q), v)
 end
 
---- Force on the wire now [N]; zero while nothing is held. { axes = "gripper" } for the tool's own
--- axes, { finger = number } for that of one finger.
+-- What of several wires holds the one that is asked for.
+local function grip_of(self, wire, what)
+  for _, grip in ipairs(self.grips) do
+    if grip.wire == wire then return grip end
+  end
+  error(("%s: gripper '%s' does not hold %s"):format(what, self.name,
+    core.type(wire) == "wire" and ("wire '%s'"):format(wire.name) or "this: wire must be a wire"), 3)
+end
+
+-- Force and moment about a point (nil: the centre) by the pads on one of several wires.
+local function pads_on(self, wire, at, finger)
+  local force, moment = { 0, 0, 0 }, { 0, 0, 0 }
+  local centre, q = self.tool:pose()
+  local _, slot = core.number(wire)
+  for _, touch in ipairs(self.tool:touches()) do
+    if touch.wire == slot and (finger == nil or finger == touch.finger) then
+      local f = vec.rotate(q, touch.force)
+      local arm = vec.rotate(q, touch.at)
+      if at then arm = vec.add(arm, vec.sub(centre, at)) end
+      force, moment = vec.add(force, f), vec.add(moment, vec.cross(arm, f))
+    end
+  end
+  return force, moment
+end
+
+-- What carries the wires: pads, or of several wires their holds together.
+local function carrier_of(self) return self.tool or self.hold and self.carrier or nil end
+
+--- Force on the wire now [N], of several on all of them; zero while nothing is held. { axes =
+-- "gripper" } for the tool's own axes, { finger = number } for that of one finger, { wire = } for
+-- that on one of several wires.
 function Measures:force(args)
   args = args or {}
-  checks.keys("gripper:force", args, { axes = true, finger = true }, 3)
-  local f = { 0, 0, 0 }
-  if self.tool then f = self.tool:force(args.finger)
+  checks.keys("gripper:force", args, { axes = true, finger = true, wire = true }, 3)
+  local f, carrier = { 0, 0, 0 }, carrier_of(self)
+  if args.wire ~= nil then
+    local grip = grip_of(self, args.wire, "gripper:force")
+    f = grip.hold and grip.hold:force() or #self.grips == 1 and self.tool:force(args.finger)
+      or pads_on(self, args.wire, nil, args.finger)
+  elseif carrier then f = carrier:force(args.finger)
   elseif self.hold then f = self.hold:force() end
   return in_axes(self, f, args.axes, "gripper:force")
 end
 
---- Moment on the wire now, about the tool centre or { at = point } [N m]; axes, finger as for force.
+--- Moment on the wire now, about the tool centre or { at = point } [N m]; axes, finger, wire as for
+-- force.
 function Measures:moment(args)
   args = args or {}
-  checks.keys("gripper:moment", args, { at = true, axes = true, finger = true }, 3)
-  local m = { 0, 0, 0 }
-  if self.tool then m = self.tool:moment(args.at, args.finger)
+  checks.keys("gripper:moment", args, { at = true, axes = true, finger = true, wire = true }, 3)
+  local m, carrier = { 0, 0, 0 }, carrier_of(self)
+  if args.wire ~= nil then
+    local grip = grip_of(self, args.wire, "gripper:moment")
+    if grip.hold then m = grip.hold:moment{ at = args.at or self:position() }
+    elseif #self.grips == 1 then m = self.tool:moment(args.at, args.finger)
+    else m = select(2, pads_on(self, args.wire, args.at, args.finger)) end
+  elseif carrier then m = carrier:moment(args.at, args.finger)
   elseif self.hold then m = self.hold:moment(args.at and { at = args.at } or nil) end
   return in_axes(self, m, args.axes, "gripper:moment")
 end
 
--- Every recorded step: t, force, moment; of a tool also opening, squeeze, margin, slip.
+-- While it held something by this carrier.
+local function carried_at(self, t)
+  for _, span in ipairs(self.spans) do
+    if span.carried and t >= span.carried and (not span.to or t <= span.to) then return true end
+  end
+  return false
+end
+
+--- Every recorded step: t, force, moment; of a tool also opening, squeeze, margin, slip.
 local function records(self)
   local list = {}
-  local function add(rows, count, width)
+  local function add(rows, count, width, wanted, jaws)
     for i = 0, count - 1 do
       local b = width * i
-      list[#list + 1] = { t = rows[b + 1], rows[b + 2], rows[b + 3], rows[b + 4], rows[b + 5],
-        rows[b + 6], rows[b + 7], at = { rows[b + 8], rows[b + 9], rows[b + 10] },
-        opening = width > 10 and rows[b + 11] or nil, squeeze = width > 10 and rows[b + 12] or nil,
-        margin = width > 10 and rows[b + 13] or nil, slip = width > 10 and rows[b + 14] or nil }
+      if not wanted or wanted(rows[b + 1]) then
+        list[#list + 1] = { t = rows[b + 1], rows[b + 2], rows[b + 3], rows[b + 4], rows[b + 5],
+          rows[b + 6], rows[b + 7], at = { rows[b + 8], rows[b + 9], rows[b + 10] },
+          opening = jaws and rows[b + 11] or nil, squeeze = jaws and rows[b + 12] or nil,
+          margin = jaws and rows[b + 13] or nil, slip = jaws and rows[b + 14] or nil }
+      end
     end
   end
-  for _, hold in ipairs(self.past) do
+  for i, hold in ipairs(self.past) do
+    local carried = self.spans[i].carried
     local rows, count = hold:log()
-    add(rows, count, 10)
+    add(rows, count, 10, carried and function(t) return t < carried end)
+  end
+  if self.carrier then
+    local rows, count = self.carrier:log()
+    add(rows, count, 14, function(t) return carried_at(self, t) end)
   end
   if self.tool then
     local rows, count = self.tool:log()
-    add(rows, count, 14)
-    if #self.past > 0 then table.sort(list, function(a, b) return a.t < b.t end) end
+    add(rows, count, 14, nil, true)
+  end
+  if #self.past > 1 or self.tool and #self.past > 0 then
+    table.sort(list, function(a, b) return a.t < b.t end)
   end
   return list
 end
 
 local function norm(r, first) return (r[first] ^ 2 + r[first + 1] ^ 2 + r[first + 2] ^ 2) ^ 0.5 end
+
+-- Did a gripper without pads hold nothing at this time?
+local function is_gap(self, t)
+  if self.tool then return false end
+  for _, span in ipairs(self.spans) do
+    if t >= span.from and (not span.to or t <= span.to) then return false end
+  end
+  return true
+end
 
 -- Moment of a row about a fixed point.
 local function moment_about(r, at)
@@ -71,10 +137,16 @@ end
 
 --- Measures over [t1, t2] [s]: a table with peak_force, mean_force [N],
 -- peak_moment, mean_moment [N m], impulse (vector) [N s] and the times of the
--- peaks. Means are over time, of the magnitudes. Moments are about the tool centre, or about
--- at [m] where it is given. Of pads also peak_squeeze [N], peak_margin, slip [m].
+-- peaks. Means are over the time in which it holds something (with pads: all), of the magnitudes.
+-- Moments are about the tool centre, or about at [m] where it is given. Of pads also peak_squeeze
+-- [N], peak_margin, slip [m].
 function Measures:over(t1, t2, at)
   t1, t2 = t1 or -math.huge, t2 or math.huge
+  for name, t in pairs{ t1 = t1, t2 = t2 } do
+    if type(t) ~= "number" then
+      error(("gripper:over: %s must be a time [s], got %s"):format(name, type(t)), 2)
+    end
+  end
   if at ~= nil then at = checks.vector("gripper:over: at", at, "m", 3) end
   local m = { peak_force = 0, peak_moment = 0, impulse = { 0, 0, 0 }, duration = 0 }
   local force_time, moment_time, before, moment_before = 0, 0, nil, nil
@@ -87,7 +159,7 @@ function Measures:over(t1, t2, at)
         m.peak_squeeze = math.max(m.peak_squeeze or 0, r.squeeze)
         m.peak_margin, m.slip = math.max(m.peak_margin or 0, r.margin), r.slip
       end
-      if before then
+      if before and not is_gap(self, 0.5 * (before.t + r.t)) then
         local h = r.t - before.t
         m.duration = m.duration + h
         force_time = force_time + 0.5 * h * (f + norm(before, 1))
@@ -187,4 +259,4 @@ function Measures:pressure_map(args)
   return map
 end
 
-return { methods = Measures }
+return { methods = Measures, records = records }

@@ -42,7 +42,8 @@ scene:gripper{ name =, pads = {...}, at = {x, y, z} [m], rotation =, arm = { rad
   :move{ by =, to =, points =, path =, turn =, speed = [m/s], duration = [s], law =, on_slip = }
   :move_to(point, {...}) :rotate{ axis =, angle = [rad], duration = [s] }
   :press{ force = [N], direction =, speed =, distance = }   in a process -> force, way, done
-  :handover(other, {...}) :release()
+  :wait(seconds) :approach(wire, {...}) :retreat{...}; several wires at once: see help 'handling'
+  :handover(other, {...}) :release{ wire = }
   :force{ axes = "gripper", finger = } :moment{ at =, axes =, finger = } :position()   [N], [N m], [m]
   :state()           .jaws .opening .squeeze .normal .margin .sliding .slip .place
   :squeeze()         .height .width [m] .share   :pressure_map{ cell = {x, z} } [Pa]
@@ -60,7 +61,7 @@ gripper:grasp(wire, { s = [m], approach = "mixed", force = [N] })     in a proce
   freeze = false    stay with the plates; gripper:freeze() and :thaw() switch by hand]],
   process = [[
 scene:process(function(p) ... end)
-  p:wait(seconds)
+  p:wait(seconds)     p.time is the scene's [s]
   p:feed(feed, { length = [m], speed = [m/s] })
   p:wait_until(function() return ... end, { timeout = [s] })   true, or false after the timeout
   p:wait_until({ force = [N], on = gripper } | { slip = [m], on = gripper } | { contact = obstacle } |

@@ -13,6 +13,7 @@
 -- @module softworld
 local core = require "softworld.core"
 local methods = require "softworld.methods"
+local remarks = require "softworld.remarks"
 
 local sw = {
   version = core.version,
@@ -22,6 +23,7 @@ local sw = {
   cable = require "softworld.cable",
   shape = core.shape,
   help = require "softworld.help",
+  remarks = true, -- false: no remarks on unusual values
 }
 
 require "softworld.build"    -- adds to the classes: names, files, drawing data
@@ -39,7 +41,10 @@ require "softworld.settle"   -- scene:settle with error bars
 local save = require "softworld.save" -- scene:save, scene:resume, scene:find
 
 --- A new scene. { name =, gravity = {x, y, z} [m/s2] }
-function sw.scene(args) return core.scene(args) end
+function sw.scene(args)
+  if type(args) == "table" then remarks.gravity(args.gravity) end
+  return core.scene(args)
+end
 
 --- The scene that scene:save has written to a file, or a run with save = file.
 function sw.load(file) return save.load(file) end

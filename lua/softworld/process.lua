@@ -20,7 +20,6 @@ local waiting = require "softworld.waiting"
 
 local process = {}
 local Process = { __name = "process" }
-Process.__index = Process
 
 local current = setmetatable({}, { __mode = "k" }) -- coroutine -> its process
 local SAME_TIME = 1e-12 -- of the time: the core's own rounding [-]
@@ -93,7 +92,9 @@ local function timeout_of(options)
   end
   for key in pairs(options) do
     if key ~= "timeout" then
-      error(("p:wait_until: there is no option '%s'; known is: timeout"):format(tostring(key)), 3)
+      error(("p:wait_until: there is no option '%s'; %s"):format(tostring(key),
+        core.nearest(tostring(key), { "timeout" }) and "did you mean 'timeout'?"
+          or "known is: timeout"), 3)
     end
   end
   local timeout = options.timeout
@@ -184,6 +185,36 @@ end
 --- End the process where it waits.
 function Process:finish()
   if coroutine.status(self.thread) == "suspended" then coroutine.close(self.thread) end
+end
+
+-- Fields that may be nil.
+local fields = { wake = true, watching = true, begun = true, between = true, inside = true,
+  failed = true, traceback = true }
+
+--- Names of methods and fields, for completion at the prompt.
+function Process.__names()
+  local names = { "time", "scene", "number" }
+  for name in pairs(Process) do
+    if name:sub(1, 2) ~= "__" then names[#names + 1] = name end
+  end
+  return names
+end
+
+--- p.time is that of the scene [s].
+function Process:__index(key)
+  if key == "time" then return self.scene.time end
+  local value = Process[key]
+  if value ~= nil or fields[key] then return value end
+  local near = core.nearest(tostring(key), Process.__names())
+  error(("a process has no '%s'; %s"):format(tostring(key), near and "did you mean '" .. near .. "'?"
+    or "help 'process' at the prompt lists what it has"), 2)
+end
+
+function Process:__newindex(key, value)
+  if not fields[key] and key ~= "thread" then
+    error(("a process has no '%s' to set; use a local variable"):format(tostring(key)), 2)
+  end
+  rawset(self, key, value)
 end
 
 function Process:__tostring()

@@ -3,6 +3,7 @@
 -- @module softworld.settle
 local core = require "softworld.core"
 local build = require "softworld.build"
+local checks = require "softworld.checks"
 local process = require "softworld.process"
 local trust = require "softworld.trust"
 
@@ -19,6 +20,9 @@ function Settled:__tostring()
 end
 
 local Rest = { __name = "rest" }
+Rest.__index = checks.fields("the result of scene:settle",
+  "ok reason iterations residual unstable transient jumped",
+  "steps rejected evaluations quantities met levels advice error_bars where refused asked start")
 
 function Rest:__tostring()
   if not self.ok then return self.reason end
