@@ -3,6 +3,7 @@
 -- @module softworld.gripmeasures
 local checks = require "softworld.checks"
 local vec = require "softworld.vec"
+local window = require "softworld.window"
 
 local Measures = {}
 
@@ -36,25 +37,29 @@ function Measures:moment(args)
   return in_axes(self, m, args.axes, "gripper:moment")
 end
 
--- Every recorded step: t, force, moment; of a tool also opening, squeeze, margin, slip.
+-- Every recorded step: t, span, force, moment; of a tool also opening, squeeze, margin, slip. span:
+-- above 0 the time up to t that the force is the mean of, below 0 that of the step at whose end it
+-- is the force, 0 at an equilibrium.
 local function records(self)
   local list = {}
-  local function add(rows, count, width)
+  local function add(rows, count, width, spans)
     for i = 0, count - 1 do
       local b = width * i
+      local tool = not spans
       list[#list + 1] = { t = rows[b + 1], rows[b + 2], rows[b + 3], rows[b + 4], rows[b + 5],
         rows[b + 6], rows[b + 7], at = { rows[b + 8], rows[b + 9], rows[b + 10] },
-        opening = width > 10 and rows[b + 11] or nil, squeeze = width > 10 and rows[b + 12] or nil,
-        margin = width > 10 and rows[b + 13] or nil, slip = width > 10 and rows[b + 14] or nil }
+        span = tool and rows[b + 11] or spans and spans[i + 1],
+        opening = tool and rows[b + 12] or nil, squeeze = tool and rows[b + 13] or nil,
+        margin = tool and rows[b + 14] or nil, slip = tool and rows[b + 15] or nil }
     end
   end
   for _, hold in ipairs(self.past) do
-    local rows, count = hold:log()
-    add(rows, count, 10)
+    local rows, count, spans = hold:log()
+    add(rows, count, 10, spans)
   end
   if self.tool then
     local rows, count = self.tool:log()
-    add(rows, count, 14)
+    add(rows, count, 15)
     if #self.past > 0 then table.sort(list, function(a, b) return a.t < b.t end) end
   end
   return list
@@ -64,41 +69,78 @@ local function norm(r, first) return (r[first] ^ 2 + r[first + 1] ^ 2 + r[first 
 
 -- Moment of a row about a fixed point.
 local function moment_about(r, at)
-  if not at then return norm(r, 4) end
-  local turned = vec.cross(vec.sub(r.at, at), { r[1], r[2], r[3] })
-  return vec.norm(vec.add({ r[4], r[5], r[6] }, turned))
+  if not at then return { r[4], r[5], r[6] } end
+  return vec.add({ r[4], r[5], r[6] }, vec.cross(vec.sub(r.at, at), { r[1], r[2], r[3] }))
+end
+
+local over_keys = { at = true, window = true }
+
+-- The third argument of gripper:over: a point, or a table of options.
+local function over_options(options, level)
+  if options == nil then return {} end
+  if type(options) ~= "table" or options[1] ~= nil or options.x ~= nil then
+    return { at = checks.vector("gripper:over: at", options, "m", level + 1) }
+  end
+  checks.keys("gripper:over", options, over_keys, level + 1)
+  local at = options.at
+  if at ~= nil then at = checks.vector("gripper:over: at", at, "m", level + 1) end
+  return { at = at, window = options.window }
+end
+
+-- Add up force and moment over the time between t1 and t2: what are means by their time, what is of
+-- the moment by trapezoids.
+local function add_up(m, list, t1, t2)
+  local force_time, moment_time, before = 0, 0, nil
+  local function add(h, r)
+    m.duration = m.duration + h
+    force_time, moment_time = force_time + h * norm(r, 1), moment_time + h * vec.norm(r.moment)
+    for k = 1, 3 do m.impulse[k] = m.impulse[k] + h * r[k] end
+  end
+  for _, r in ipairs(list) do
+    if r.span > 0 then
+      local h = math.min(r.t, t2) - math.max(r.t - r.span, t1)
+      if h > 0 then add(h, r) end
+      before = r.t >= t1 and r.t <= t2 and r or nil
+    elseif r.t >= t1 and r.t <= t2 then
+      if before then
+        add(0.5 * (r.t - before.t), before)
+        add(0.5 * (r.t - before.t), r)
+      end
+      before = r
+    end
+  end
+  m.mean_force = m.duration > 0 and force_time / m.duration or m.raw_peak_force
+  m.mean_moment = m.duration > 0 and moment_time / m.duration or m.raw_peak_moment
+  m.impulse_size = vec.norm(m.impulse)
 end
 
 --- Measures over [t1, t2] [s]: a table with peak_force, mean_force [N],
--- peak_moment, mean_moment [N m], impulse (vector) [N s] and the times of the
--- peaks. Means are over time, of the magnitudes. Moments are about the tool centre, or about
--- at [m] where it is given. Of pads also peak_squeeze [N], peak_margin, slip [m].
-function Measures:over(t1, t2, at)
-  t1, t2 = t1 or -math.huge, t2 or math.huge
-  if at ~= nil then at = checks.vector("gripper:over: at", at, "m", 3) end
-  local m = { peak_force = 0, peak_moment = 0, impulse = { 0, 0, 0 }, duration = 0 }
-  local force_time, moment_time, before, moment_before = 0, 0, nil, nil
-  for _, r in ipairs(records(self)) do
+-- peak_moment, mean_moment [N m], impulse (vector), impulse_size [N s] and the times of the
+-- peaks. Means are over time, of the magnitudes. Peaks are of means over a window of time, and
+-- beside them raw_peak_force, raw_peak_moment of single steps; see help "peaks". Moments are about
+-- the tool centre. options: { window = [s], at = point [m] that moments are about }, or that point.
+-- Of pads also peak_squeeze [N], peak_margin, slip [m].
+function Measures:over(t1, t2, options)
+  t1, t2, options = t1 or -math.huge, t2 or math.huge, over_options(options, 3)
+  local width = window.of(self.scene, options.window, "gripper:over", 3)
+  local m = { impulse = { 0, 0, 0 }, duration = 0, window = width }
+  local list, forces, moments, last = records(self), {}, {}, -math.huge
+  for _, r in ipairs(list) do
+    r.moment = moment_about(r, options.at)
     if r.t >= t1 and r.t <= t2 then
-      local f, n = norm(r, 1), moment_about(r, at)
-      if f > m.peak_force then m.peak_force, m.peak_force_time = f, r.t end
-      if n > m.peak_moment then m.peak_moment, m.peak_moment_time = n, r.t end
+      local t0 = math.max(r.t - math.abs(r.span), math.min(last, r.t))
+      forces[#forces + 1] = { t0 = t0, t1 = r.t, r[1], r[2], r[3] }
+      moments[#moments + 1] = { t0 = t0, t1 = r.t, table.unpack(r.moment) }
+      last = r.t
       if r.squeeze then
         m.peak_squeeze = math.max(m.peak_squeeze or 0, r.squeeze)
         m.peak_margin, m.slip = math.max(m.peak_margin or 0, r.margin), r.slip
       end
-      if before then
-        local h = r.t - before.t
-        m.duration = m.duration + h
-        force_time = force_time + 0.5 * h * (f + norm(before, 1))
-        moment_time = moment_time + 0.5 * h * (n + moment_before)
-        for k = 1, 3 do m.impulse[k] = m.impulse[k] + 0.5 * h * (r[k] + before[k]) end
-      end
-      before, moment_before = r, n
     end
   end
-  m.mean_force = m.duration > 0 and force_time / m.duration or m.peak_force
-  m.mean_moment = m.duration > 0 and moment_time / m.duration or m.peak_moment
+  window.fill(m, "peak_force", window.peak(forces, width), "N")
+  window.fill(m, "peak_moment", window.peak(moments, width), "N m")
+  add_up(m, list, t1, t2)
   return m
 end
 

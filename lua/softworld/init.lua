@@ -26,6 +26,7 @@ local sw = {
 require "softworld.build"    -- adds to the classes: names, files, drawing data
 require "softworld.section"  -- wire:section and what belongs to it
 require "softworld.process"  -- scene:process
+require "softworld.window"   -- obstacle:over
 require "softworld.gripper"  -- scene:gripper
 require "softworld.run"      -- scene:run
 require "softworld.clip"     -- scene:clip

@@ -12,6 +12,7 @@ local save = require "softworld.save"
 local trust = require "softworld.trust"
 local fixing = require "softworld.fixing"
 local waiting = require "softworld.waiting"
+local window = require "softworld.window"
 local progress = require "softworld.output.progress"
 
 local Run = { __name = "run" }
@@ -195,7 +196,7 @@ local function add_jaws(series, index, log)
   for k, what in ipairs{ { "opening", "m" }, { "squeeze", "N" }, { "margin", "-" }, { "slip", "m" } } do
     local c = column(("%s.%s"):format(log.name, what[1]), what[2])
     for i = 0, log.count - 1 do
-      c.values[index[log.rows[log.width * i + 1]]] = log.rows[log.width * i + 10 + k]
+      c.values[index[log.rows[log.width * i + 1]]] = log.rows[log.width * i + 11 + k]
     end
     series.columns[#series.columns + 1] = c
   end
@@ -235,13 +236,13 @@ local function all_logs(self)
   end
   for _, o in ipairs(data.obstacles) do
     local rows, count = o.object:log()
-    logs[#logs + 1] = { name = o.name, rows = rows, count = count, width = 4, obstacle = true }
+    logs[#logs + 1] = { name = o.name, rows = rows, count = count, width = 5, obstacle = true }
   end
   for _, g in ipairs(data.grippers) do
     if g.tool then
       local rows, count = g.tool:log()
       if count > 0 then
-        logs[#logs + 1] = { name = g.name, rows = rows, count = count, width = 14, tool = true }
+        logs[#logs + 1] = { name = g.name, rows = rows, count = count, width = 15, tool = true }
       end
     end
   end
@@ -260,7 +261,7 @@ end
 local function add_obstacle(series, index, log)
   local c = column(log.name .. ".contact_force", "N")
   for i = 0, log.count - 1 do
-    local b = 4 * i
+    local b = log.width * i
     c.values[index[log.rows[b + 1]]] =
       (log.rows[b + 2] ^ 2 + log.rows[b + 3] ^ 2 + log.rows[b + 4] ^ 2) ^ 0.5
   end
@@ -302,15 +303,16 @@ local told = {
 
 local function summary_of(self)
   local data, rows = build.data(self.scene), {}
-  local function add(label, value, unit, s, t)
-    rows[#rows + 1] = { label = label, value = value, unit = unit,
-      where = s and ("s = %.4g m"):format(s) or nil, when = t }
+  local function add(label, value, unit, s, t, note)
+    local where = s and ("s = %.4g m"):format(s) or nil
+    if note then where = ("%s(%s)"):format(where and where .. " " or "", note) end
+    rows[#rows + 1] = { label = label, value = value, unit = unit, where = where, when = t }
   end
   for _, g in ipairs(data.grippers) do
     local m = g:over(self.start, self.time)
-    add(g.name .. ": peak force", m.peak_force, "N", nil, m.peak_force_time)
+    add(g.name .. ": peak force", m.peak_force, "N", nil, m.peak_force_time, m.peak_force_note)
     add(g.name .. ": mean force", m.mean_force, "N")
-    add(g.name .. ": peak moment", m.peak_moment, "N m", nil, m.peak_moment_time)
+    add(g.name .. ": peak moment", m.peak_moment, "N m", nil, m.peak_moment_time, m.peak_moment_note)
     add(g.name .. ": mean moment", m.mean_moment, "N m")
     if m.peak_squeeze then add(g.name .. ": largest squeeze per finger", m.peak_squeeze, "N") end
     for _, e in ipairs(g.events) do
@@ -328,9 +330,9 @@ local function summary_of(self)
         allowed.ok and "" or ", EXCEEDED")
     end
     add(label, radius, "m", s, t)
-    local tension
-    tension, s, t = w.object:max_tension()
-    add(w.name .. ": largest tension", tension, "N", s, t)
+    local tension, note
+    tension, s, t, note = window.tension(self.scene, w.object)
+    add(w.name .. ": largest tension", tension, "N", s, t, note)
     s, t = w.object:folded()
     if s then
       add(w.name .. ": section FOLDED through itself, its forces are wrong since", t, "s", s, t)
@@ -345,7 +347,8 @@ local function summary_of(self)
   for _, q in ipairs(self.quantities and self:error_bars() or {}) do
     rows[#rows + 1] = { label = q.name, value = type(q.value) == "number" and q.value or q:text(),
       unit = type(q.value) == "number" and q.unit or "",
-      where = ("+- %s%s"):format(number.text(q.error, q.unit), q.met and "" or " (NOT as asked)") }
+      where = ("+- %s%s"):format(number.text(q.error, q.unit), q.met and "" or " (NOT as asked)")
+        .. (q.note and (" (%s)"):format(q.note) or "") }
   end
   return rows
 end
