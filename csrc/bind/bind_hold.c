@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lua class clamp (clamps, pins, grips and feeds) and scene:clamp, pin, grip, feed. */
+#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -118,8 +119,19 @@ static int meth_crash(lua_State *L) {
   return 1;
 }
 
-/* clamp:log() -> flat rows of 10: t, force, moment, point [s, N, N m, m] and the
- * number of rows. clamp:log(first) starts at that row. */
+/* Some columns of a log's rows, as one flat list. */
+static void push_columns(lua_State *L, const double *rows, size_t count, size_t from,
+                         size_t width) {
+  lua_createtable(L, count * width < INT_MAX ? (int)(count * width) : 0, 0);
+  for (size_t i = 0; i < count * width; i++) {
+    lua_pushnumber(L, rows[i / width * SW_LOG_SIZE + from + i % width]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+}
+
+/* clamp:log() -> flat rows of 10: t, force, moment, point [s, N, N m, m], the
+ * number of rows, and for each the time of its step below 0, 0 at an equilibrium [s].
+ * clamp:log(first) starts at that row. */
 static int meth_log(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
@@ -131,9 +143,10 @@ static int meth_log(lua_State *L) {
   lsw_must(L, sw_scene_hold_log(scene, c->id, &rows, &count, &err), &err);
   const size_t skip = first > 1 ? (size_t)(first - 1) : 0;
   const size_t n = count > skip ? count - skip : 0;
-  lsw_push_flat(L, n ? rows + skip * SW_LOG_SIZE : NULL, n * SW_LOG_SIZE);
+  push_columns(L, rows + skip * SW_LOG_SIZE, n, 0, SW_LOG_SPAN);
   lua_pushinteger(L, (lua_Integer)n);
-  return 2;
+  push_columns(L, rows + skip * SW_LOG_SIZE, n, SW_LOG_SPAN, 1);
+  return 3;
 }
 
 /* --- feeds ---------------------------------------------------------------------- */

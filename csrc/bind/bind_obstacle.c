@@ -30,7 +30,7 @@ static lsw_child *check(lua_State *L, sw_scene **scene) {
   return lsw_check_child(L, 1, &lsw_class_obstacle, scene);
 }
 
-/* Contact force on the obstacle [N]; its moment { at = point } [N m]. */
+/* Contact force on the obstacle, mean over the last step [N]; its moment { at = point } [N m]. */
 static int meth_force(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
@@ -93,7 +93,8 @@ static int meth_remove(lua_State *L) {
   return 0;
 }
 
-/* obstacle:log() -> flat rows of 4: t, force [s, N]; number of rows. */
+/* obstacle:log() -> flat rows of 5: t, force, the time up to t that it is the mean of (0 at an
+ * equilibrium) [s, N, s]; number of rows. */
 static int meth_log(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};

@@ -134,6 +134,17 @@ static int mod_begin_run(lua_State *L) {
   return 0;
 }
 
+/* core.window(scene or obstacle) -> that of the scene's last run [s]. */
+static int mod_window(lua_State *L) {
+  sw_scene *scene;
+  if (lsw_test(L, 1, &lsw_class_obstacle))
+    lsw_check_child(L, 1, &lsw_class_obstacle, &scene);
+  else
+    scene = check(L);
+  lua_pushnumber(L, sw_scene_window(scene));
+  return 1;
+}
+
 /* core.remesh(scene, { segments of each wire }) */
 static int mod_remesh(lua_State *L) {
   sw_scene *scene = check(L);
@@ -501,13 +512,20 @@ const lsw_class lsw_class_snapshot = {.name = "snapshot",
                                       .gone = "the snapshot has been closed",
                                       .busy = snapshot_busy};
 
-static const luaL_Reg functions[] = {
-    {"scene", mod_scene},         {"data", mod_data},
-    {"type", mod_type},           {"busy", mod_busy},
-    {"exists", mod_exists},       {"interrupted", mod_interrupted},
-    {"clock", mod_clock},         {"nearest", mod_nearest},
-    {"check_run", mod_check_run}, {"check_settle", mod_check_settle},
-    {"begin_run", mod_begin_run}, {"remesh", mod_remesh},
-    {"segments", mod_segments},   {NULL, NULL}};
+static const luaL_Reg functions[] = {{"scene", mod_scene},
+                                     {"data", mod_data},
+                                     {"type", mod_type},
+                                     {"busy", mod_busy},
+                                     {"exists", mod_exists},
+                                     {"interrupted", mod_interrupted},
+                                     {"clock", mod_clock},
+                                     {"nearest", mod_nearest},
+                                     {"check_run", mod_check_run},
+                                     {"check_settle", mod_check_settle},
+                                     {"begin_run", mod_begin_run},
+                                     {"window", mod_window},
+                                     {"remesh", mod_remesh},
+                                     {"segments", mod_segments},
+                                     {NULL, NULL}};
 
 void lsw_open_scene(lua_State *L) { luaL_setfuncs(L, functions, 0); }

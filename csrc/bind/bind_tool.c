@@ -202,8 +202,9 @@ static int meth_moment(lua_State *L) {
   return 1;
 }
 
-/* tool:log() -> flat rows of 14: t, force, moment, centre, opening, squeeze, margin, slip;
- * number of rows. */
+/* tool:log() -> flat rows of 15: t, force, moment, centre, span, opening, squeeze, margin, slip;
+ * number of rows. span: the time up to t that the force is the mean of; below 0: of the step at
+ * whose end it is the force; 0 at an equilibrium [s]. */
 static int meth_log(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};

@@ -129,6 +129,15 @@ static void find_rates(const sw_stepper *p, const sw_system *s, double hbar, con
   combine(s->edges, 1.0 / hbar, strain, -1.0 / hbar, p->strain_past, p->strain_rate);
 }
 
+static void book(sw_system *s, sw_booking booking) {
+  if (s->coupling.book) s->coupling.book(s->coupling.user, &booking);
+}
+
+void sw_stepper_book(sw_stepper *p, sw_system *s, double share) {
+  book(s, (sw_booking){.own = share, .first = p->booked ? 1.0 : 0.0});
+  p->booked = 1;
+}
+
 static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system *s, double t,
                                 double h, sw_error *err) {
   for (size_t k = 0; k < m->stages; k++) {
@@ -151,6 +160,11 @@ static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system
     p->rotation = report.rotation;
     if (status != SW_OK) return status;
     if (p->strain_past) find_rates(p, s, hbar, p->strain[k]);
+    book(s, (sw_booking){.stage = (int)k,
+                         .own = hbar,
+                         .start = row->xv * hbar,
+                         .first = row->x1,
+                         .before = row->xp});
   }
   const size_t last = m->stages - 1;
   if (m->flags & SW_INTEGRATOR_SECOND_HALF) {
@@ -158,6 +172,7 @@ static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system
       p->y[last][i] = 2.0 * p->y[last][i] - s->x[i];
       p->w[last][i] = 2.0 * p->w[last][i] - s->v[i];
     }
+    book(s, (sw_booking){.first = 2.0}); /* it has one stage */
     for (size_t e = 0; e < s->edges; e++) s->tension[e] = 2.0 * s->tension[e] - p->tension[e];
     for (size_t e = 0; p->strain_past && e < s->edges; e++)
       p->strain[last][e] = 2.0 * p->strain[last][e] - s->strain[e];
@@ -195,6 +210,7 @@ sw_status sw_stepper_trial(sw_stepper *p, sw_system *s, double t, double h, sw_e
   p->iterations = 0;
   p->rotation = 0;
   p->error = 0;
+  p->booked = 0;
   if (!(p->method->flags & SW_INTEGRATOR_IMPLICIT)) {
     memcpy(p->y[0], s->x, p->n * sizeof(double));
     memcpy(p->w[0], s->v, p->n * sizeof(double));

@@ -67,6 +67,7 @@ struct sw_stepper {
   double last_h;   /* of the last accepted step; 0 = none [s] */
   int restart;     /* next step starts anew: a_n is stale */
   int plastic;     /* the next trials are of implicit Euler: what strikes does not bounce */
+  int booked;      /* 1: an evaluation of the explicit step was booked */
   double error;    /* estimate of the last trial; 0 without one [m] */
   int wants_error; /* the step size follows the error */
   double **extra;  /* explicit methods' work arrays (SW_EXTRA of n) */
@@ -94,6 +95,9 @@ sw_status sw_stepper_trial(sw_stepper *stepper, sw_system *system, double t, dou
 void sw_stepper_reject(sw_stepper *stepper, sw_system *system);
 /* Make the trial the system's state. */
 void sw_stepper_accept(sw_stepper *stepper, sw_system *system, double h);
+
+/* Explicit methods, after each evaluation: its forces act on the velocity for so long [s]. */
+void sw_stepper_book(sw_stepper *stepper, sw_system *system, double share);
 
 /* The next step size for a tolerance on the step error [s]. */
 double sw_stepper_next_h(const sw_stepper *stepper, double h, double tolerance);

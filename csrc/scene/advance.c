@@ -28,6 +28,9 @@ static sw_param run_rows[] = {
     {"quasistatic", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_run_args, quasistatic),
      "true: equilibrium at every step instead of motion; dt is then the pose step, less where "
      "pads hold a wire"},
+    {"window", SW_PARAM_NUMBER, "s", SW_WINDOW, 0, 1e9, 0, NULL, offsetof(sw_run_args, window),
+     "largest forces and tensions are of means over this time; 0: of single steps; see help "
+     "'peaks'"},
     {"max_steps", SW_PARAM_INTEGER, "-", 1e15, 1, 1e15, 0, NULL, offsetof(sw_run_args, max_steps),
      "most steps to take"},
     {"progress", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
@@ -261,6 +264,7 @@ static void accept(loop *p, double h) {
   sw_scene *s = p->s;
   sw_stepper_accept(&s->stepper, &s->system, h);
   sw_scene_commit_contact(s);
+  s->span = h;
   s->discontinuous = p->changed = 0;
   p->report->steps++;
   if (h < p->report->smallest_dt) p->report->smallest_dt = h;
@@ -375,6 +379,7 @@ static sw_status pose_steps(loop *p, double t, int (*interrupted)(void), sw_erro
     if (!(part > s->time)) return sw_fail(err, SW_ENOCONV, "wire is fed too fast to follow it");
     SW_TRY(sw_ledger_open(s, err));
     SW_TRY(sw_scene_pose(s, part, interrupted, p->report, err));
+    s->span = 0;
     SW_TRY(sw_scene_observe(s, err));
   }
   return SW_OK;
@@ -515,6 +520,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   SW_TRY(check_clock(s, args, until, err));
   SW_TRY(sw_scene_build(s, err));
   SW_TRY(use_integrator(s, args, err));
+  s->window = args->window;
   const size_t before = s->system.counters.evaluations;
   loop p = {.s = s, .args = args, .report = report, .interrupted = interrupted};
   p.v_start = sw_alloc(sw_scene_has_contact(s) ? s->system.freedoms : 1, sizeof(double));

@@ -259,6 +259,7 @@ sw_status sw_scene_wire_set_velocity(sw_scene *s, sw_handle h, sw_vec v, sw_vec 
 static void measure_from_start(sw_wire_extremes *e, double start) {
   e->curvature.s -= start;
   e->tension.s -= start;
+  e->raw.s -= start;
   e->strain.s -= start;
   e->ovalisation.s -= start;
   e->folding.s -= start;
@@ -271,6 +272,7 @@ sw_status sw_scene_wire_extremes(sw_scene *s, sw_handle h, sw_wire_extremes *now
   sw_scene_wire_now(s, h.slot, now);
   *run = w->extremes;
   sw_scene_keep_extremes(run, now);
+  sw_scene_run_tension(s, h.slot, now, run);
   measure_from_start(now, w->mesh.s[0]);
   measure_from_start(run, w->mesh.s[0]);
   return SW_OK;

@@ -278,8 +278,12 @@ typedef struct sw_run_args {
   double frame;     /* time between stored frames; NAN = none [s] */
   int quasistatic;  /* 1: equilibrium at every step's end instead of motion */
   long max_steps;   /* stop after this many [-] */
+  double window;    /* peaks are of means over this time; 0: of values of single steps [s] */
 } sw_run_args;
 extern const sw_params sw_run_params;
+
+/* The window of the last run, or that of runs that say nothing [s]. */
+double sw_scene_window(const sw_scene *scene);
 
 /* A run begins: extremes of wires and of penetration start anew. */
 sw_status sw_scene_begin_run(sw_scene *scene, sw_error *err);
@@ -419,6 +423,8 @@ typedef struct sw_wire_extremes {
   sw_extreme curvature, tension, strain; /* [1/m], [N], outermost fibre [-] */
   sw_extreme folding;     /* of a section of springs; above 0: it has folded through itself [-] */
   sw_extreme ovalisation; /* of a mesh of particles; see sw_section_shape [-] */
+  sw_extreme raw;         /* tension of a single step; tension is of means over the window [N] */
+  double raw_span;        /* how long that step was; 0: it was an equilibrium [s] */
 } sw_wire_extremes;
 sw_status sw_scene_wire_extremes(sw_scene *scene, sw_handle wire, sw_wire_extremes *now,
                                  sw_wire_extremes *run, sw_error *err);
@@ -487,11 +493,18 @@ sw_status sw_scene_probe(sw_scene *scene, sw_handle wire, const sw_force_class *
                          const sw_probe *at, sw_probe_result *out, sw_error *err);
 
 /* One recorded row per step of a hold: time, force, moment, held point. */
-enum { SW_LOG_TIME = 0, SW_LOG_FORCE = 1, SW_LOG_MOMENT = 4, SW_LOG_POINT = 7, SW_LOG_SIZE = 10 };
+enum {
+  SW_LOG_TIME = 0,
+  SW_LOG_FORCE = 1,
+  SW_LOG_MOMENT = 4,
+  SW_LOG_POINT = 7,
+  SW_LOG_SPAN = 10,
+  SW_LOG_SIZE
+};
 sw_status sw_scene_hold_log(sw_scene *scene, sw_handle hold, const double **rows, size_t *count,
                             sw_error *err);
 /* One recorded row per step of an obstacle: time, force on it. */
-enum { SW_LOG_OBSTACLE_SIZE = 4 };
+enum { SW_LOG_OBSTACLE_SIZE = 5 };
 sw_status sw_scene_obstacle_log(sw_scene *scene, sw_handle obstacle, const double **rows,
                                 size_t *count, sw_error *err);
 

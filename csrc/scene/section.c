@@ -162,15 +162,16 @@ void sw_strand_at(const sw_scene *s, const sw_scene_wire *wire, const sw_body *b
   out->least_strain = at.tension / EA - bent;
 }
 
-void sw_strand_extremes(const sw_scene *s, size_t wire, sw_wire_extremes *now) {
+void sw_strand_extremes(const sw_scene *s, size_t wire, double *tension, sw_wire_extremes *now) {
   const sw_body *b = &s->system.bodies[wire];
   const sw_web *w = b->plan->web;
   const double *x = s->system.x + 3 * b->first_node, EA = b->plan->beam.EA;
   const sw_extreme least = {.value = -HUGE_VAL};
-  *now = (sw_wire_extremes){least, least, least, least, least};
+  *now = (sw_wire_extremes){least, least, least, least, least, least, 0};
   if (!w->rings) return; /* an object of particles */
   for (size_t r = 0; r + 1 < w->rings; r++) {
     const slice at = slice_of(b->plan, x, r);
+    if (tension) tension[r] = at.tension;
     const double place = 0.5 * (w->s[w->first[r]] + w->s[w->first[r + 1]]);
     const double strain = at.tension / EA + b->plan->beam.radius * at.curvature;
     if (at.curvature > now->curvature.value)

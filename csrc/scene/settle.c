@@ -444,6 +444,7 @@ sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interru
   sw_status status = settle_held(s, args, interrupted, report, &why);
   s->running--;
   sw_scene_reset_extremes(s);
+  s->span = 0;
   if (status == SW_OK) status = sw_scene_observe(s, &why);
   conclude(s, status, report, &why);
   return status == SW_ECALLBACK || status == SW_ENOMEM ? sw_fail(err, status, "%s", why.text)

@@ -22,18 +22,20 @@ typedef struct saved_obstacle {
   int alive, off;
   sw_drive drive;
   size_t log_count;
+  sw_contact_past past;
 } saved_obstacle;
 
 struct sw_snapshot {
   sw_scene *scene; /* NULL once it is gone */
   sw_snapshot *next;
-  double time, next_dt, next_frame;
+  double time, span, window, next_dt, next_frame;
   sw_vec gravity;
   size_t wires, holds, obstacles, forces, frames;
   sw_mesh *meshes;
   sw_strand *strands;           /* (wires), their places those of some state or other */
   const sw_wire_class **models; /* (wires) */
   sw_wire_extremes *extremes;   /* (wires) */
+  sw_window *windows;           /* (wires) */
   int *untwisted;               /* (wires) */
   saved_hold *hold;
   saved_obstacle *obstacle;
@@ -79,6 +81,7 @@ void sw_snapshot_free(sw_snapshot *p) {
   unlink_snapshot(p);
   for (size_t w = 0; p->meshes && w < p->wires; w++) sw_mesh_free(&p->meshes[w]);
   for (size_t w = 0; p->strands && w < p->wires; w++) sw_strand_free(&p->strands[w]);
+  for (size_t w = 0; p->windows && w < p->wires; w++) sw_window_free(&p->windows[w]);
   for (size_t k = 0; p->hold && k < p->holds; k++) {
     sw_drive_free(&p->hold[k].drive);
     sw_scene_clear_hold(&p->hold[k].shape);
@@ -93,6 +96,7 @@ void sw_snapshot_free(sw_snapshot *p) {
   sw_free(p->strands);
   sw_free(p->models);
   sw_free(p->extremes);
+  sw_free(p->windows);
   sw_free(p->untwisted);
   sw_free(p->hold);
   sw_free(p->obstacle);
@@ -123,17 +127,19 @@ static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
   p->strands = sw_alloc(s->wire_count, sizeof *p->strands);
   p->models = sw_alloc(s->wire_count, sizeof(const sw_wire_class *));
   p->extremes = sw_alloc(s->wire_count, sizeof *p->extremes);
+  p->windows = sw_alloc(s->wire_count, sizeof *p->windows);
   p->untwisted = sw_alloc(s->wire_count, sizeof *p->untwisted);
   p->hold = sw_alloc(s->hold_count, sizeof *p->hold);
   p->obstacle = sw_alloc(s->obstacle_count, sizeof *p->obstacle);
   p->force_alive = sw_alloc(s->force_count, sizeof *p->force_alive);
-  if (!p->meshes || !p->strands || !p->models || !p->extremes || !p->untwisted || !p->hold ||
-      !p->obstacle || !p->force_alive)
+  if (!p->meshes || !p->strands || !p->models || !p->extremes || !p->windows || !p->untwisted ||
+      !p->hold || !p->obstacle || !p->force_alive)
     return SW_ENOMEM;
   for (size_t w = 0; w < s->wire_count; w++) {
     SW_TRY(sw_mesh_copy(&s->wires[w].mesh, &p->meshes[w]));
     p->wires = w + 1;
     SW_TRY(sw_strand_copy(&s->wires[w].strand, &p->strands[w]));
+    SW_TRY(sw_window_copy(&s->wires[w].window, &p->windows[w]));
     p->models[w] = s->wires[w].cls;
     p->extremes[w] = s->wires[w].extremes;
     p->untwisted[w] = s->wires[w].untwisted;
@@ -152,7 +158,7 @@ static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
   for (; p->obstacles < s->obstacle_count; p->obstacles++) {
     const sw_scene_obstacle *o = &s->obstacles[p->obstacles];
     p->obstacle[p->obstacles] =
-        (saved_obstacle){o->alive, o->off, copy_drive(&o->drive), o->log.count};
+        (saved_obstacle){o->alive, o->off, copy_drive(&o->drive), o->log.count, o->past};
   }
   SW_TRY(copy_block(s->tools, s->tool_count * sizeof *p->tool, &p->tool));
   for (; p->tools < s->tool_count; p->tools++) {
@@ -175,7 +181,8 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
   sw_feed_undo(s);
   sw_snapshot *p = sw_alloc(1, sizeof *p);
   if (!p) return sw_fail(err, SW_ENOMEM, "snapshot: out of memory");
-  p->time = s->time, p->next_dt = s->next_dt, p->next_frame = s->next_frame;
+  p->time = s->time, p->span = s->span, p->window = s->window;
+  p->next_dt = s->next_dt, p->next_frame = s->next_frame;
   p->gravity = s->gravity;
   p->discontinuous = s->discontinuous;
   p->deepest = s->deepest;
@@ -275,6 +282,7 @@ static void put_objects(sw_scene *s, const sw_snapshot *p) {
     if (k >= p->obstacles) continue;
     if (o->log.count > p->obstacle[k].log_count) o->log.count = p->obstacle[k].log_count;
     o->off = p->obstacle[k].off;
+    o->past = p->obstacle[k].past;
     put_drive(&o->drive, &p->obstacle[k].drive);
   }
   for (size_t k = 0; k < s->tool_count; k++)
@@ -385,6 +393,11 @@ static void put_drawn(sw_scene *s, const sw_snapshot *p) {
   }
 }
 
+static sw_status put_windows(sw_scene *s, const sw_snapshot *p) {
+  for (size_t w = 0; w < p->wires; w++) SW_TRY(sw_window_copy(&p->windows[w], &s->wires[w].window));
+  return SW_OK;
+}
+
 /* Wires that had not moved yet lie untwisted again. */
 static sw_status put_untwisted(sw_scene *s, const sw_snapshot *p) {
   for (size_t w = 0; w < p->wires; w++)
@@ -408,11 +421,13 @@ sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   } else {
     put_drawn(s, p);
   }
-  if (put_untwisted(s, p) != SW_OK) return sw_fail(err, SW_ENOMEM, "restore: out of memory");
+  if (put_untwisted(s, p) != SW_OK || put_windows(s, p) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "restore: out of memory");
   put_objects(s, p);
   drop_newer(s, p);
   sw_scene_drop_rules(s, p->rules);
-  s->time = p->time, s->next_dt = p->next_dt, s->next_frame = p->next_frame;
+  s->time = p->time, s->span = p->span, s->window = p->window;
+  s->next_dt = p->next_dt, s->next_frame = p->next_frame;
   s->gravity = p->gravity;
   s->deepest = p->deepest;
   s->restoring = p; /* placing the holds may call a user's function */

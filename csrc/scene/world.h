@@ -15,6 +15,7 @@
 #include "scene/strand.h"
 #include "scene/tool.h"
 #include "scene/watch.h"
+#include "scene/window.h"
 #include "state/mesh.h"
 #include "system/system.h"
 
@@ -44,6 +45,7 @@ typedef struct sw_scene_wire {
   sw_strand strand; /* of a model that is a mesh of particles; else without a web */
   sw_drawing drawing;
   sw_wire_extremes extremes;
+  sw_window window; /* of the tension */
   sw_twisted *twisted;
   size_t twisted_count;
   int untwisted; /* 1: lies as it was drawn, without the twist it has unloaded; nothing has moved */
@@ -71,7 +73,8 @@ sw_status sw_strand_take(sw_scene_wire *wire, const sw_system *system, const sw_
 /* Read-outs at arc length s; extremes. */
 void sw_strand_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_body *body, double s,
                   sw_point_state *out);
-void sw_strand_extremes(const sw_scene *scene, size_t wire, sw_wire_extremes *now);
+/* tension (rings - 1), or NULL: what is carried between two rings [N]. */
+void sw_strand_extremes(const sw_scene *scene, size_t wire, double *tension, sw_wire_extremes *now);
 
 /* Middle of ring number r of particles at x, and the direction across the area that its surface
  * encloses [m], [-]. */
@@ -250,6 +253,7 @@ typedef struct sw_scene_obstacle {
   sw_drive drive;
   double friction, kinetic, restitution;
   int off; /* 1: wires pass through it for the time being */
+  sw_contact_past past;
   sw_log log;
 } sw_scene_obstacle;
 
@@ -359,6 +363,8 @@ struct sw_scene {
   sw_stepper stepper;
   int has_stepper;
   int discontinuous; /* the acceleration is stale: restart the integrator; or SW_GOES_ON */
+  double window;     /* of the present or last run, see sw_run_args [s] */
+  double span;       /* of the step that led here; 0: the state is an equilibrium [s] */
   double next_dt;    /* of an adaptive run; 0 = not known [s] */
 
   int diverged;
@@ -602,22 +608,13 @@ sw_status sw_scene_cut_pose(sw_scene *scene, double *t1, int *cut, sw_error *err
 sw_status sw_scene_pose(sw_scene *scene, double t1, int (*interrupted)(void), sw_run_report *report,
                         sw_error *err);
 
-/* After an accepted state: histories, extremes, logs. */
-sw_status sw_scene_observe(sw_scene *scene, sw_error *err);
 /* What frames tell of each node of the wire, SW_FRAME_VALUES numbers; n nodes. */
 void sw_scene_node_values(sw_scene *scene, size_t wire, size_t n, double *out);
-/* Extremes of wire w at the refreshed state. */
-void sw_scene_wire_now(sw_scene *scene, size_t w, sw_wire_extremes *now);
-/* Keep the larger ones. */
-void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now);
-/* Kinetic, elastic, gravity energy of the state [J]. */
-void sw_scene_frame_energies(sw_scene *scene, double out[SW_FRAME_ENERGIES]);
-void sw_scene_reset_extremes(sw_scene *scene);
-sw_status sw_scene_store_frame(sw_scene *scene, sw_error *err);
-void sw_scene_drop_frames(sw_scene *scene);
 /* How many doubles the frame's block has; 0: more than room, or its counts make no sense. */
 int sw_scene_frame_walk(const sw_frame *frame, size_t room, size_t *size);
 /* The class of a wire or of objects of particles; NULL: there is none of this name. */
 const sw_wire_class *sw_scene_body_class(const char *name);
+
+#include "scene/observe.h"
 
 #endif

@@ -86,6 +86,18 @@ typedef struct sw_held_node {
 
 typedef struct sw_system sw_system;
 
+enum { SW_BOOK_STAGES = 2 };
+
+/* How the impulse from a step's start up to a stage, of what acts from outside, is made up of
+ * forces and earlier impulses, as the stage's velocity is. */
+typedef struct sw_booking {
+  int stage;     /* number; what it had before is replaced [-] */
+  double own;    /* share of the forces of the last evaluation [s] */
+  double start;  /* of those at the step's start, which the last step ended with [s] */
+  double first;  /* of the impulse up to stage 0, as it was [-] */
+  double before; /* of that of the step before, backwards [-] */
+} sw_booking;
+
 /* What acts besides the wires' own forces. Every function may be NULL. All get
  * user first. */
 typedef struct sw_coupling {
@@ -103,6 +115,8 @@ typedef struct sw_coupling {
   sw_status (*keeps)(void *user, sw_system *system, const double *y, int *out, sw_error *err);
   /* After an update y was reached by the solved delta: 1 = converged. */
   int (*settled)(void *user, sw_system *system, const double *y, const double *delta);
+  /* A stage was solved, or an explicit method has evaluated: book the impulse. */
+  void (*book)(void *user, const sw_booking *booking);
 } sw_coupling;
 
 typedef struct sw_counters {

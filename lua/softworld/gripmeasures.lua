@@ -4,6 +4,7 @@
 local core = require "softworld.core"
 local checks = require "softworld.checks"
 local vec = require "softworld.vec"
+local window = require "softworld.window"
 
 local Measures = {}
 
@@ -84,32 +85,36 @@ local function carried_at(self, t)
   return false
 end
 
---- Every recorded step: t, force, moment; of a tool also opening, squeeze, margin, slip.
+-- Every recorded step: t, span, force, moment; of a tool also opening, squeeze, margin, slip. span:
+-- above 0 the time up to t that the force is the mean of, below 0 that of the step at whose end it
+-- is the force, 0 at an equilibrium.
 local function records(self)
   local list = {}
-  local function add(rows, count, width, wanted, jaws)
+  local function add(rows, count, spans, wanted, jaws)
+    local width = spans and 10 or 15
     for i = 0, count - 1 do
       local b = width * i
       if not wanted or wanted(rows[b + 1]) then
         list[#list + 1] = { t = rows[b + 1], rows[b + 2], rows[b + 3], rows[b + 4], rows[b + 5],
           rows[b + 6], rows[b + 7], at = { rows[b + 8], rows[b + 9], rows[b + 10] },
-          opening = jaws and rows[b + 11] or nil, squeeze = jaws and rows[b + 12] or nil,
-          margin = jaws and rows[b + 13] or nil, slip = jaws and rows[b + 14] or nil }
+          span = spans and spans[i + 1] or rows[b + 11],
+          opening = jaws and rows[b + 12] or nil, squeeze = jaws and rows[b + 13] or nil,
+          margin = jaws and rows[b + 14] or nil, slip = jaws and rows[b + 15] or nil }
       end
     end
   end
   for i, hold in ipairs(self.past) do
     local carried = self.spans[i].carried
-    local rows, count = hold:log()
-    add(rows, count, 10, carried and function(t) return t < carried end)
+    local rows, count, spans = hold:log()
+    add(rows, count, spans, carried and function(t) return t < carried end)
   end
   if self.carrier then
     local rows, count = self.carrier:log()
-    add(rows, count, 14, function(t) return carried_at(self, t) end)
+    add(rows, count, nil, function(t) return carried_at(self, t) end)
   end
   if self.tool then
     local rows, count = self.tool:log()
-    add(rows, count, 14, nil, true)
+    add(rows, count, nil, nil, true)
   end
   if #self.past > 1 or self.tool and #self.past > 0 then
     table.sort(list, function(a, b) return a.t < b.t end)
@@ -130,47 +135,83 @@ end
 
 -- Moment of a row about a fixed point.
 local function moment_about(r, at)
-  if not at then return norm(r, 4) end
-  local turned = vec.cross(vec.sub(r.at, at), { r[1], r[2], r[3] })
-  return vec.norm(vec.add({ r[4], r[5], r[6] }, turned))
+  if not at then return { r[4], r[5], r[6] } end
+  return vec.add({ r[4], r[5], r[6] }, vec.cross(vec.sub(r.at, at), { r[1], r[2], r[3] }))
+end
+
+local over_keys = { at = true, window = true }
+
+-- The third argument of gripper:over: a point, or a table of options.
+local function over_options(options, level)
+  if options == nil then return {} end
+  if type(options) ~= "table" or options[1] ~= nil or options.x ~= nil then
+    return { at = checks.vector("gripper:over: at", options, "m", level + 1) }
+  end
+  checks.keys("gripper:over", options, over_keys, level + 1)
+  local at = options.at
+  if at ~= nil then at = checks.vector("gripper:over: at", at, "m", level + 1) end
+  return { at = at, window = options.window }
+end
+
+-- Add up force and moment over the time between t1 and t2: what are means by their time, what is of
+-- the moment by trapezoids.
+local function add_up(self, m, list, t1, t2)
+  local force_time, moment_time, before = 0, 0, nil
+  local function add(h, r)
+    m.duration = m.duration + h
+    force_time, moment_time = force_time + h * norm(r, 1), moment_time + h * vec.norm(r.moment)
+    for k = 1, 3 do m.impulse[k] = m.impulse[k] + h * r[k] end
+  end
+  for _, r in ipairs(list) do
+    if r.span > 0 then
+      local h = math.min(r.t, t2) - math.max(r.t - r.span, t1)
+      if h > 0 then add(h, r) end
+      before = r.t >= t1 and r.t <= t2 and r or nil
+    elseif r.t >= t1 and r.t <= t2 then
+      if before and not is_gap(self, 0.5 * (before.t + r.t)) then
+        add(0.5 * (r.t - before.t), before)
+        add(0.5 * (r.t - before.t), r)
+      end
+      before = r
+    end
+  end
+  m.mean_force = m.duration > 0 and force_time / m.duration or m.raw_peak_force
+  m.mean_moment = m.duration > 0 and moment_time / m.duration or m.raw_peak_moment
+  m.impulse_size = vec.norm(m.impulse)
 end
 
 --- Measures over [t1, t2] [s]: a table with peak_force, mean_force [N],
--- peak_moment, mean_moment [N m], impulse (vector) [N s] and the times of the
--- peaks. Means are over the time in which it holds something (with pads: all), of the magnitudes.
--- Moments are about the tool centre, or about at [m] where it is given. Of pads also peak_squeeze
--- [N], peak_margin, slip [m].
-function Measures:over(t1, t2, at)
-  t1, t2 = t1 or -math.huge, t2 or math.huge
-  for name, t in pairs{ t1 = t1, t2 = t2 } do
-    if type(t) ~= "number" then
-      error(("gripper:over: %s must be a time [s], got %s"):format(name, type(t)), 2)
+-- peak_moment, mean_moment [N m], impulse (vector), impulse_size [N s] and the times of the
+-- peaks. Means are over the time in which it holds something, of the magnitudes. Peaks are of means over a window of time, and
+-- beside them raw_peak_force, raw_peak_moment of single steps; see help "peaks". Moments are about
+-- the tool centre. options: { window = [s], at = point [m] that moments are about }, or that point.
+-- Of pads also peak_squeeze [N], peak_margin, slip [m].
+function Measures:over(t1, t2, options)
+  t1, t2, options = t1 or -math.huge, t2 or math.huge, over_options(options, 3)
+  for name, time in pairs{ t1 = t1, t2 = t2 } do
+    if type(time) ~= "number" then
+      error(("gripper:over: %s must be a time [s], got %s"):format(name, type(time)), 2)
     end
   end
-  if at ~= nil then at = checks.vector("gripper:over: at", at, "m", 3) end
-  local m = { peak_force = 0, peak_moment = 0, impulse = { 0, 0, 0 }, duration = 0 }
-  local force_time, moment_time, before, moment_before = 0, 0, nil, nil
-  for _, r in ipairs(records(self)) do
+  local width = window.of(self.scene, options.window, "gripper:over", 3)
+  local m = { impulse = { 0, 0, 0 }, duration = 0, window = width }
+  local list, forces, moments, last = records(self), {}, {}, -math.huge
+  for _, r in ipairs(list) do
+    r.moment = moment_about(r, options.at)
     if r.t >= t1 and r.t <= t2 then
-      local f, n = norm(r, 1), moment_about(r, at)
-      if f > m.peak_force then m.peak_force, m.peak_force_time = f, r.t end
-      if n > m.peak_moment then m.peak_moment, m.peak_moment_time = n, r.t end
+      local t0 = math.max(r.t - math.abs(r.span), math.min(last, r.t))
+      forces[#forces + 1] = { t0 = t0, t1 = r.t, r[1], r[2], r[3] }
+      moments[#moments + 1] = { t0 = t0, t1 = r.t, table.unpack(r.moment) }
+      last = r.t
       if r.squeeze then
         m.peak_squeeze = math.max(m.peak_squeeze or 0, r.squeeze)
         m.peak_margin, m.slip = math.max(m.peak_margin or 0, r.margin), r.slip
       end
-      if before and not is_gap(self, 0.5 * (before.t + r.t)) then
-        local h = r.t - before.t
-        m.duration = m.duration + h
-        force_time = force_time + 0.5 * h * (f + norm(before, 1))
-        moment_time = moment_time + 0.5 * h * (n + moment_before)
-        for k = 1, 3 do m.impulse[k] = m.impulse[k] + 0.5 * h * (r[k] + before[k]) end
-      end
-      before, moment_before = r, n
     end
   end
-  m.mean_force = m.duration > 0 and force_time / m.duration or m.peak_force
-  m.mean_moment = m.duration > 0 and moment_time / m.duration or m.peak_moment
+  window.fill(m, "peak_force", window.peak(forces, width), "N")
+  window.fill(m, "peak_moment", window.peak(moments, width), "N m")
+  add_up(self, m, list, t1, t2)
   return m
 end
 

@@ -50,7 +50,7 @@ scene:gripper{ name =, pads = {...}, at = {x, y, z} [m], rotation =, arm = { rad
   .events            { kind = "slip" | "lost" | "crash" | "missed" | "crushed" | "frozen" | ..., time = }
   .peak_force .mean_force .impulse              over all grasps [N], [N s]
   .peak_moment .mean_moment                     [N m]
-  :over(t1, t2, point) :series()]],
+  :over(t1, t2, { at =, window = [s] }) :series()   see help 'peaks']],
   mixed = [[
 gripper:grasp(wire, { s = [m], approach = "mixed", force = [N] })     in a process
   the wire becomes a mesh near the pads; these squeeze it for real; once force and slip are steady it
@@ -106,7 +106,7 @@ scene:settle{ tolerance = { ... } }
   max_tension, max_stress, max_strain      of the run [N], [Pa]
   min_bend_radius                          [m]
   force, moment                            of a clamp, pin, gripper; force on an obstacle [N], [N m]
-  peak_force, mean_force, impulse          of a gripper [N], [N s]
+  peak_force, mean_force, impulse          of a gripper [N], [N s]; ["table.peak_force"]: of an obstacle
   peak_moment, mean_moment                 [N m]
   energy, penetration                      of the scene [J]; deepest into an obstacle [m]
   ["left.force"] = 0.05                    the object's name in front where several have it

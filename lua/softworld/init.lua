@@ -29,6 +29,7 @@ local sw = {
 require "softworld.build"    -- adds to the classes: names, files, drawing data
 require "softworld.section"  -- wire:section and what belongs to it
 require "softworld.process"  -- scene:process
+require "softworld.window"   -- obstacle:over
 local made = {
   gripper = require "softworld.gripper", -- scene:gripper
   run = require "softworld.run",         -- scene:run

@@ -19,6 +19,7 @@ local unread = require "softworld.unread"
 local drawn = require "softworld.drawn"
 local fixing = require "softworld.fixing"
 local waiting = require "softworld.waiting"
+local window = require "softworld.window"
 local progress = require "softworld.output.progress"
 
 local Run = { __name = "run" }
@@ -232,15 +233,16 @@ local told = {
 
 local function summary_of(self)
   local data, rows = build.data(self.scene), {}
-  local function add(label, value, unit, s, t)
-    rows[#rows + 1] = { label = label, value = value, unit = unit,
-      where = s and ("s = %.4g m"):format(s) or nil, when = t }
+  local function add(label, value, unit, s, t, note)
+    local where = s and ("s = %.4g m"):format(s) or nil
+    if note then where = ("%s(%s)"):format(where and where .. " " or "", note) end
+    rows[#rows + 1] = { label = label, value = value, unit = unit, where = where, when = t }
   end
   for _, g in ipairs(data.grippers) do
     local m = g:over(self.start, self.time)
-    add(g.name .. ": peak force", m.peak_force, "N", nil, m.peak_force_time)
+    add(g.name .. ": peak force", m.peak_force, "N", nil, m.peak_force_time, m.peak_force_note)
     add(g.name .. ": mean force", m.mean_force, "N")
-    add(g.name .. ": peak moment", m.peak_moment, "N m", nil, m.peak_moment_time)
+    add(g.name .. ": peak moment", m.peak_moment, "N m", nil, m.peak_moment_time, m.peak_moment_note)
     add(g.name .. ": mean moment", m.mean_moment, "N m")
     if m.peak_squeeze then add(g.name .. ": largest squeeze per finger", m.peak_squeeze, "N") end
     for _, e in ipairs(g.events) do
@@ -258,9 +260,9 @@ local function summary_of(self)
         allowed.ok and "" or ", EXCEEDED")
     end
     add(label, radius, "m", s, t)
-    local tension
-    tension, s, t = w.object:max_tension()
-    add(w.name .. ": largest tension", tension, "N", s, t)
+    local tension, note
+    tension, s, t, note = window.tension(self.scene, w.object)
+    add(w.name .. ": largest tension", tension, "N", s, t, note)
     s, t = w.object:folded()
     if s then
       add(w.name .. ": section FOLDED through itself, its forces are wrong since", t, "s", s, t)
@@ -275,7 +277,8 @@ local function summary_of(self)
   for _, q in ipairs(self.quantities and self:error_bars() or {}) do
     rows[#rows + 1] = { label = q.name, value = type(q.value) == "number" and q.value or q:text(),
       unit = type(q.value) == "number" and q.unit or "",
-      where = ("+- %s%s"):format(number.text(q.error, q.unit), q.met and "" or " (NOT as asked)") }
+      where = ("+- %s%s"):format(number.text(q.error, q.unit), q.met and "" or " (NOT as asked)")
+        .. (q.note and (" (%s)"):format(q.note) or "") }
   end
   return rows
 end

@@ -74,7 +74,7 @@ end
 
 local function add_obstacle(list, entry, start)
   local rows, count = entry.object:log()
-  local at, times = places(rows, count, 4, start)
+  local at, times = places(rows, count, 5, start)
   local one = source(list, entry.name, times)
   add(one, "contact_force", "N", function(i)
     return norm(rows[at[i] + 2], rows[at[i] + 3], rows[at[i] + 4])

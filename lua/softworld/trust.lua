@@ -99,7 +99,7 @@ function Bars:__tostring()
   local lines = {}
   for i, q in ipairs(self) do
     local place = (q.where and (", s = %.4g m"):format(q.where) or "")
-      .. (q.when and (", t = %.4g s"):format(q.when) or "")
+      .. (q.when and (", t = %.4g s"):format(q.when) or "") .. (q.note and (" (%s)"):format(q.note) or "")
     lines[i] = ("%s = %s (asked for %s: %s)%s"):format(q.name, tostring(q),
       number.text(q.tolerance, q.unit), q.met and "met" or "NOT met", place)
   end
@@ -200,7 +200,7 @@ local function touches(scene)
   for _, o in ipairs(build.data(scene).obstacles) do
     local rows, count = o.object:log()
     for i = 0, count - 1 do
-      if rows[4 * i + 2] ~= 0 or rows[4 * i + 3] ~= 0 or rows[4 * i + 4] ~= 0 then return true end
+      if rows[5 * i + 2] ~= 0 or rows[5 * i + 3] ~= 0 or rows[5 * i + 4] ~= 0 then return true end
     end
   end
   return false
@@ -308,7 +308,7 @@ local function conclude(job, result)
     local met = now.error <= q.tolerance
     result.met = result.met and met
     result.quantities[q.name] = setmetatable({ name = q.name, value = now.value, error = now.error,
-      unit = q.unit, tolerance = q.tolerance, met = met, where = now.where, when = now.when,
+      unit = q.unit, tolerance = q.tolerance, met = met, where = now.where, when = now.when, note = now.note,
       levels = job.values[q.name] }, Quantity)
   end
   if not result.met then result.advice = advice_of(job) end
