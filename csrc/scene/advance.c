@@ -47,11 +47,6 @@ __attribute__((constructor)) static void fill_choices(void) {
 
 enum { MOST_REDOS = 40 }; /* impacts found one after another in one step [-] */
 static const double SMALLEST_SHARE = 1.0 / 4096; /* of a step, before giving up [-] */
-static const double LARGEST_STRAIN = 10.0;       /* beyond it a run has diverged [-] */
-
-/* An edge squeezed below this share of its length is beyond Hooke's law; a
- * smaller step may avoid it [-]. */
-static const double LEAST_SHARE = 0.3;
 
 /* How a step that made energy is redone: by the method's start, which takes no acceleration from
  * before and is of second order too; then with implicit Euler, which makes none but where touches
@@ -81,58 +76,6 @@ static sw_status use_integrator(sw_scene *s, const sw_run_args *args, sw_error *
   return SW_OK;
 }
 
-/* Of particles that no spring holds. */
-static sw_status check_places(const sw_scene *s, size_t wire, const double *x, sw_error *err) {
-  const size_t n = s->system.bodies[wire].plan->nodes;
-  for (size_t p = 0; p < n; p++)
-    if (!isfinite(x[3 * p] + x[3 * p + 1] + x[3 * p + 2]))
-      return sw_fail(err, SW_EDIVERGED, "particle %zu of '%s' left the finite numbers", p + 1,
-                     s->wires[wire].name);
-  return SW_OK;
-}
-
-/* The same of particles: squeezed sections may bring two close to each other. */
-static sw_status check_particles(const sw_scene *s, size_t wire, const double *x, sw_error *err) {
-  const sw_web *web = s->system.bodies[wire].plan->web;
-  for (size_t p = 0; p < web->particles; p++)
-    if (!sw_finite(sw_vec_at(x, p)))
-      return sw_fail(err, SW_EDIVERGED, "wire '%s' has flown apart near s = %.4g m",
-                     s->wires[wire].name, web->s[p]);
-  for (size_t e = 0; e < web->links; e++) {
-    const sw_web_link *link = &web->link[e];
-    const double most = (1.0 + LARGEST_STRAIN) * link->rest;
-    if (sw_dist(sw_vec_at(x, link->a), sw_vec_at(x, link->b)) <= most) continue;
-    if (!web->per_ring)
-      return sw_fail(err, SW_EDIVERGED, "'%s' is torn apart between particles %u and %u",
-                     s->wires[wire].name, link->a + 1, link->b + 1);
-    return sw_fail(err, SW_EDIVERGED, "wire '%s' is torn apart near s = %.4g m",
-                   s->wires[wire].name, web->s[link->a]);
-  }
-  return check_places(s, wire, x, err);
-}
-
-/* Nodes must stay at finite places and edges at believable lengths. */
-static sw_status check_trial(const sw_scene *s, sw_error *err) {
-  const double *x = s->stepper.trial_x;
-  for (size_t b = 0; b < s->system.body_count; b++) {
-    const sw_body *body = &s->system.bodies[b];
-    if (body->plan->web) SW_TRY(check_particles(s, b, x + 3 * body->first_node, err));
-    for (size_t e = 0; e < body->plan->edges; e++) {
-      const double *a = x + 3 * (body->first_node + e);
-      const double l2 = sw_norm2(sw_sub(sw_load(a + 3), sw_load(a)));
-      const double most = (1.0 + LARGEST_STRAIN) * body->plan->rest[e];
-      const double least = LEAST_SHARE * body->plan->rest[e];
-      if (l2 < least * least)
-        return sw_fail(err, SW_ENOCONV, "wire '%s' is crushed near s = %.4g m", s->wires[b].name,
-                       body->plan->s[e] - body->plan->s[0]);
-      if (!(l2 <= most * most))
-        return sw_fail(err, SW_EDIVERGED, "wire '%s' is torn apart near s = %.4g m",
-                       s->wires[b].name, body->plan->s[e] - body->plan->s[0]);
-    }
-  }
-  return SW_OK;
-}
-
 /* A hold may turn by this much in a step: at half a turn and more its wire would not know
  * which way [rad]. */
 static const double WIDEST_TURN = 2.5;
@@ -141,7 +84,7 @@ static sw_status trial(loop *p, double h, sw_error *err) {
   sw_scene *s = p->s;
   sw_status status = sw_stepper_trial(&s->stepper, &s->system, s->time, h, err);
   p->report->iterations += s->stepper.iterations;
-  if (status == SW_OK) status = check_trial(s, err);
+  if (status == SW_OK) status = sw_scene_check_trial(s, err);
   if (status == SW_OK && s->system.fastest_turn * h > WIDEST_TURN)
     status = sw_fail(err, SW_ENOCONV, "what holds a wire turns too far in one step");
   if (status != SW_OK) sw_stepper_reject(&s->stepper, &s->system);

@@ -600,6 +600,9 @@ sw_status sw_scene_cut_pose(sw_scene *scene, double *t1, int *cut, sw_error *err
 sw_status sw_scene_pose(sw_scene *scene, double t1, int (*interrupted)(void), sw_run_report *report,
                         sw_error *err);
 
+/* SW_EDIVERGED when the stepper's trial is no believable state, SW_ENOCONV when a smaller step may
+ * mend it. */
+sw_status sw_scene_check_trial(const sw_scene *scene, sw_error *err);
 /* After an accepted state: histories, extremes, logs. */
 sw_status sw_scene_observe(sw_scene *scene, sw_error *err);
 /* Extremes of wire w at the refreshed state. */
