@@ -42,7 +42,7 @@ typedef struct sw_integrator {
   sw_stage_row rows[SW_STAGES_MAX];
   const char *start;     /* implicit: method for the first step after a
                             discontinuity; NULL = itself */
-  double leapfrog_limit; /* explicit: stable while h omega_max is below; 0 = unknown [-] */
+  double leapfrog_limit; /* explicit: stable while h omega_max is below; implicit: 0 [-] */
   /* explicit: advance (x, v) by h in place from time t; stepper's work arrays
    * are free to use. */
   sw_status (*advance)(sw_stepper *stepper, sw_system *system, double t, double h, double *x,

@@ -30,6 +30,8 @@ static sw_param run_rows[] = {
      "pads hold a wire"},
     {"max_steps", SW_PARAM_INTEGER, "-", 1e15, 1, 1e15, 0, NULL, offsetof(sw_run_args, max_steps),
      "most steps to take"},
+    {"unstable", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_run_args, unstable),
+     "true lets an explicit integrator take steps above its stable one"},
     {"progress", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
      "true shows a progress bar (default: when on a terminal and longer than a second)"},
     {"save", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
@@ -457,6 +459,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   SW_TRY(check_run(s, args, err));
   SW_TRY(check_clock(s, args, until, err));
   SW_TRY(sw_scene_build(s, err));
+  SW_TRY(sw_scene_check_step(s, args, until, err));
   SW_TRY(use_integrator(s, args, err));
   const size_t before = s->system.counters.evaluations;
   loop p = {.s = s, .args = args, .report = report, .interrupted = interrupted};

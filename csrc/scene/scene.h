@@ -278,6 +278,7 @@ typedef struct sw_run_args {
   double frame;     /* time between stored frames; NAN = none [s] */
   int quasistatic;  /* 1: equilibrium at every step's end instead of motion */
   long max_steps;   /* stop after this many [-] */
+  int unstable;     /* 1: an explicit method may take steps above its limit */
 } sw_run_args;
 extern const sw_params sw_run_params;
 

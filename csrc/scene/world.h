@@ -603,6 +603,9 @@ sw_status sw_scene_pose(sw_scene *scene, double t1, int (*interrupted)(void), sw
 /* SW_EDIVERGED when the stepper's trial is no believable state, SW_ENOCONV when a smaller step may
  * mend it. */
 sw_status sw_scene_check_trial(const sw_scene *scene, sw_error *err);
+/* SW_EINVAL when an explicit method would take steps above its limit on the way to a time. */
+sw_status sw_scene_check_step(const sw_scene *scene, const sw_run_args *args, double until,
+                              sw_error *err);
 /* After an accepted state: histories, extremes, logs. */
 sw_status sw_scene_observe(sw_scene *scene, sw_error *err);
 /* Extremes of wire w at the refreshed state. */
