@@ -446,7 +446,13 @@ typedef struct sw_modes_result {
 sw_status sw_scene_wire_modes(sw_scene *scene, sw_handle wire, const sw_modes_args *args,
                               int (*interrupted)(void), sw_modes_result *out, sw_error *err);
 
-enum { SW_ENERGY_KINDS = 24 };
+/* Kinetic, contact, repel, join, and of each class of force its own and what it corrects. */
+enum {
+  SW_ENERGY_KINDS = 4
+#define X(name) +2
+#include "force/list.def"
+#undef X
+};
 typedef struct sw_energy {
   size_t count;
   const char *kind[SW_ENERGY_KINDS];
