@@ -98,6 +98,14 @@ typedef struct sw_force_class {
   void (*read)(const void *args, const sw_field *field, const double *history, double *out);
 } sw_force_class;
 
+/* How many there are. */
+enum {
+  SW_FORCE_CLASSES = 0
+#define X(name) +1
+#include "force/list.def"
+#undef X
+};
+
 /* The class called name, or NULL. */
 const sw_force_class *sw_force_find(const char *name);
 

@@ -447,12 +447,7 @@ sw_status sw_scene_wire_modes(sw_scene *scene, sw_handle wire, const sw_modes_ar
                               int (*interrupted)(void), sw_modes_result *out, sw_error *err);
 
 /* Kinetic, contact, repel, join, and of each class of force its own and what it corrects. */
-enum {
-  SW_ENERGY_KINDS = 4
-#define X(name) +2
-#include "force/list.def"
-#undef X
-};
+enum { SW_ENERGY_KINDS = 4 + 2 * SW_FORCE_CLASSES };
 typedef struct sw_energy {
   size_t count;
   const char *kind[SW_ENERGY_KINDS];
