@@ -71,6 +71,10 @@ typedef struct sw_force_class {
   /* Does it go with a wire of these values? NULL = always. SW_EINVAL with a text. */
   sw_status (*check)(const void *args, const sw_beam *beam, sw_error *err);
 
+  /* Fills arguments that were left open from where the body lies: nodes or particles at x (3 each)
+   * with arc lengths s. nodes 0: there are several bodies. NULL = there are none. SW_EINVAL. */
+  sw_status (*place)(void *args, size_t nodes, const double *x, const double *s, sw_error *err);
+
   /* History: doubles that live in the system's state, zero at first, number 0 the
    * work dissipated so far [J]. eval finds those of the last accepted state in
    * field->history and only reads them; commit, once for each accepted state,
