@@ -85,8 +85,12 @@ static int meth_pose(lua_State *L) {
   sw_pose pose;
   const lsw_child *t = check(L, &scene);
   if (lua_gettop(L) > 1) {
-    pose.p = lsw_vector(L, 2, "tool:pose: position", "m");
-    pose.q = lsw_rotation(L, 3, "tool:pose: rotation");
+    const sw_vec to = lsw_vector(L, 2, "tool:pose: position", "m");
+    if (lua_isnoneornil(L, 3))
+      lsw_must(L, sw_scene_tool_pose(scene, t->id, &pose, &err), &err);
+    else
+      pose.q = lsw_rotation(L, 3, "tool:pose: rotation");
+    pose.p = to;
     lsw_must(L, sw_scene_tool_set_pose(scene, t->id, pose, &err), &err);
     return 0;
   }
