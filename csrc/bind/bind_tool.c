@@ -220,7 +220,7 @@ static int meth_log(lua_State *L) {
   return 2;
 }
 
-/* tool:touches() -> { { finger, at, force (in the tool's axes), normal, s }, ... } */
+/* tool:touches() -> { { wire, finger, at, force (in the tool's axes), normal, s }, ... } */
 static int meth_touches(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
@@ -232,7 +232,9 @@ static int meth_touches(lua_State *L) {
   for (size_t k = 0; k < count; k++) {
     sw_tool_touch touch;
     if (!sw_scene_tool_touch(scene, t->id, k, &touch)) continue;
-    lua_createtable(L, 0, 5);
+    lua_createtable(L, 0, 7);
+    lua_pushstring(L, touch.wire);
+    lua_setfield(L, -2, "wire");
     lsw_set_integer(L, "finger", (size_t)touch.finger + 1);
     lsw_set_vector(L, "at", touch.at);
     lsw_set_vector(L, "force", touch.force);

@@ -306,6 +306,7 @@ int sw_scene_tool_touch(const sw_scene *s, sw_handle tool, size_t number, sw_too
     if (t->pad[k].obstacle != (size_t)push.obstacle) continue;
     const sw_vec arm = sw_sub(push.point, t->now.centre);
     *out = (sw_tool_touch){t->pad[k].finger,
+                           s->wires[sw_system_body_of(&s->system, push.node)].name,
                            sw_unrotate(t->now.q, arm),
                            sw_unrotate(t->now.q, push.force),
                            push.normal_force,
