@@ -2,6 +2,7 @@
 /* Is a trial of a step believable? What has diverged is refused here, and never becomes the
  * scene's state. */
 #include <math.h>
+#include <string.h>
 
 #include "base/simd.h"
 #include "force/solid.h"
@@ -136,6 +137,17 @@ sw_status sw_scene_check_trial(const sw_scene *s, sw_error *err) {
     SW_TRY(check_edges(s, b, x, err));
   }
   return SW_OK;
+}
+
+void sw_scene_remark_contact(sw_scene *s) {
+  const sw_event *e;
+  if (!(s->contact && sw_contact_count(s->contact)) && !(s->pairs && sw_pairs_count(s->pairs)))
+    return;
+  for (size_t k = 0; (e = sw_scene_event(s, k)) != NULL; k++)
+    if (strcmp(e->kind, "integrator") == 0) return;
+  sw_scene_tell(s, "integrator", s->method->name, NAN, NAN,
+                "integrator '%s' gains energy where wires touch something; take 'tr-bdf2' there",
+                s->method->name);
 }
 
 sw_status sw_scene_check_step(const sw_scene *s, const sw_run_args *args, double until,

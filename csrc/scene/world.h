@@ -603,6 +603,8 @@ sw_status sw_scene_pose(sw_scene *scene, double t1, int (*interrupted)(void), sw
 /* SW_EDIVERGED when the stepper's trial is no believable state, SW_ENOCONV when a smaller step may
  * mend it. */
 sw_status sw_scene_check_trial(const sw_scene *scene, sw_error *err);
+/* Tells that the run's method is not meant for contact, once, when there is some. */
+void sw_scene_remark_contact(sw_scene *scene);
 /* SW_EINVAL when an explicit method would take steps above its limit on the way to a time. */
 sw_status sw_scene_check_step(const sw_scene *scene, const sw_run_args *args, double until,
                               sw_error *err);
