@@ -476,6 +476,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   }
   if (status == SW_OK) status = run_loop(&p, until, interrupted, &why);
   s->running--;
+  if (status == SW_OK && !args->quasistatic) status = sw_scene_look_for_buckling(s, &why);
   sw_free(p.v_start);
   report->evaluations = s->system.counters.evaluations - before;
   conclude(s, status, report, &why);

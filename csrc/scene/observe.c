@@ -236,6 +236,7 @@ void sw_scene_reset_extremes(sw_scene *s) {
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_extreme least = {.value = -HUGE_VAL};
     s->wires[w].extremes = (sw_wire_extremes){least, least, least, least, least};
+    if (s->built) s->system.bodies[w].pushed = 0;
   }
   s->deepest = (sw_extreme){0};
 }

@@ -605,6 +605,9 @@ sw_status sw_scene_pose(sw_scene *scene, double t1, int (*interrupted)(void), sw
 sw_status sw_scene_check_trial(const sw_scene *scene, sw_error *err);
 /* Tells that the run's method is not meant for contact, once, when there is some. */
 void sw_scene_remark_contact(sw_scene *scene);
+/* Tells of wires that are perfectly straight, and pushed beyond buckling. SW_ENOMEM, SW_ECALLBACK.
+ */
+sw_status sw_scene_look_for_buckling(sw_scene *scene, sw_error *err);
 /* SW_EINVAL when an explicit method would take steps above its limit on the way to a time. */
 sw_status sw_scene_check_step(const sw_scene *scene, const sw_run_args *args, double until,
                               sw_error *err);
