@@ -119,10 +119,10 @@ describe("a gripper with pads", function()
       return scene, g, body(scene, g, wires[1])
     end
     local orders = { approach = "plates", force = 5 }
-    local scene, g, why = two(0.1, function(scene, g, wire)
-      local why
-      run(scene, function() why = select(2, pcall(g.grasp, g, wire, orders)) end)
-      return why
+    local scene, g, why = two(0.1, function(world, hand, wire)
+      local said
+      run(world, function() said = select(2, pcall(hand.grasp, hand, wire, orders)) end)
+      return said
     end)
     assert.matches("^gripper 'hand' presses on wire 'b' %([45][%d.]* N%), not on wire 'a', which", why)
     assert.is_nil(g.wire)
@@ -130,11 +130,11 @@ describe("a gripper with pads", function()
     -- outside of a process nobody waits: the list of the run tells it
     local told = {}
     for _, z in ipairs{ 0.1, 0.0075, 0 } do
-      scene = two(z, function(scene, g2, wire)
-        g2:grasp(wire, orders)
-        if z == 0 then scene:restore(scene:snapshot()) end
-        t.fine(scene:run{ duration = 1, dt = 0.01 })
-        return g2
+      scene = two(z, function(world, hand, wire)
+        hand:grasp(wire, orders)
+        if z == 0 then world:restore(world:snapshot()) end
+        t.fine(world:run{ duration = 1, dt = 0.01 })
+        return hand
       end)
       told[#told + 1] = scene:events()[1]
     end
