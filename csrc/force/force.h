@@ -96,6 +96,10 @@ typedef struct sw_force_class {
    * closely as kinks ask for; NULL = it always may. */
   int (*idle)(const double *history);
 
+  /* Pull on something that breaks, and what it bears: 0 when it is broken or bears anything [N]. Of
+   * the field only places are up to date. NULL = nothing breaks. */
+  double (*pull)(const void *args, const sw_field *field, const double *history, double *bears);
+
   /* What there is to read of it besides its force, on one wire at the accepted state: names,
    * NULL-terminated, and as many values, each of the unit that its file says. NULL = nothing. */
   const char *const *outputs;

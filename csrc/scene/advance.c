@@ -82,6 +82,9 @@ static sw_status use_integrator(sw_scene *s, const sw_run_args *args, sw_error *
  * which way [rad]. */
 static const double WIDEST_TURN = 2.5;
 
+/* Steps are cut down to this share of dt to find the moment at which a tie breaks [-]. */
+static const double SHORTEST_BREAK = 1.0 / 1024;
+
 static sw_status trial(loop *p, double h, sw_error *err) {
   sw_scene *s = p->s;
   sw_status status = sw_stepper_trial(&s->stepper, &s->system, s->time, h, err);
@@ -89,6 +92,8 @@ static sw_status trial(loop *p, double h, sw_error *err) {
   if (status == SW_OK) status = sw_scene_check_trial(s, err);
   if (status == SW_OK && s->system.fastest_turn * h > WIDEST_TURN)
     status = sw_fail(err, SW_ENOCONV, "what holds a wire turns too far in one step");
+  if (status == SW_OK && s->join_count + s->force_count > 0 && h > SHORTEST_BREAK * p->args->dt)
+    status = sw_scene_check_ties(s, s->stepper.trial_x, err);
   if (status != SW_OK) sw_stepper_reject(&s->stepper, &s->system);
   return status;
 }

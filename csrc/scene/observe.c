@@ -219,9 +219,9 @@ sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
   for (size_t w = 0; w < s->wire_count; w++) s->wires[w].untwisted = 0;
   SW_TRY(sw_system_place_holds(&s->system, s->time, s->system.x, NULL, NULL, err));
   sw_system_refresh(&s->system);
+  sw_scene_watch_ties(s);
   sw_system_commit(&s->system, s->time);
   tell_news(s);
-  sw_scene_watch_ties(s);
   for (size_t w = 0; w < s->wire_count; w++) {
     sw_wire_extremes now;
     sw_scene_wire_now(s, w, &now);

@@ -488,7 +488,9 @@ void sw_scene_measure_joins(sw_scene *scene);
 /* Springs and hinges of the living joins for the new system. SW_ENOMEM. */
 sw_status sw_scene_add_joins(sw_scene *scene);
 sw_status sw_scene_add_tie(sw_scene *scene, size_t join);
-/* After a step: ties that were pulled too hard break. */
+/* SW_ENOCONV when a tie is pulled far beyond its strength with nodes at x: it breaks earlier. */
+sw_status sw_scene_check_ties(const sw_scene *scene, const double *x, sw_error *err);
+/* After a step, before histories follow: ties that were pulled too hard break. */
 void sw_scene_watch_ties(sw_scene *scene);
 /* NULL: the scene does not know it. */
 sw_scene_join *sw_scene_find_join(const sw_scene *scene, sw_handle join, sw_error *err);
