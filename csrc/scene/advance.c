@@ -254,6 +254,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
   sw_scene *s = p->s;
   const double t0 = s->time;
   double done = 0, part = h;
+  sw_error failed = {""}; /* why a part of this step was refused last */
   int starts = s->discontinuous && sw_slip_any(s);
   if (starts) part = FIRST_SLIP * h;
   p->changed = s->discontinuous > 0;
@@ -263,7 +264,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
     if (done > 0 && p->interrupted && p->interrupted()) return SW_EINTR; /* there may be many */
     SW_TRY(make_room(p, &part, err));
     if (!(part >= SMALLEST_SHARE * SMALLEST_SHARE * h))
-      return sw_fail(err, SW_ENOCONV, "wire is fed too fast to follow it");
+      return sw_feed_too_fast(s, failed.text, err);
     const sw_status status = judged_attempt(p, part, 0.5 * part < SMALLEST_SHARE * h, err);
     if (status == SW_OK) {
       done += part;
@@ -275,6 +276,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
       continue;
     }
     if (hopeless(status)) return status;
+    failed = *err;
     p->report->rejected++;
     s->discontinuous = 1;
     part *= 0.5;
