@@ -110,7 +110,9 @@ describe("a thin tube in pure bending", function()
     local moment = bender(scene, wire)(1)
     local _, exact = endless_tube(wire:curvature(L / 2) * r ^ 2 / wall)
     t.share(exact, moment / (EI * wire:curvature(L / 2)), 0.005, "moment")
-    for _, row in ipairs{ { 16, r / 2 }, { 24, r / 2 }, { 32, 0.4 * r } } do assert.truthy(tube(row[1], row[2])) end
+    for _, row in ipairs{ { 16, r / 2 }, { 24, r / 2 }, { 32, 0.4 * r } } do
+      assert.truthy(tube(row[1], row[2]))
+    end
   end)
 
   it("flattens and loses its stiffness as it should", function()
