@@ -61,15 +61,20 @@ static int meth_moment(lua_State *L) {
   return 1;
 }
 
-/* clamp:pose() -> position, rotation; clamp:pose(position [, rotation]) sets. */
+/* clamp:pose() -> position, rotation; clamp:pose(position [, rotation]) sets;
+ * without a rotation it keeps the one it has. */
 static int meth_pose(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
   sw_pose pose;
   const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
   if (lua_gettop(L) > 1) {
-    pose.p = lsw_vector(L, 2, "clamp:pose: position", "m");
-    pose.q = lsw_rotation(L, 3, "clamp:pose: rotation");
+    const sw_vec to = lsw_vector(L, 2, "clamp:pose: position", "m");
+    if (lua_isnoneornil(L, 3))
+      lsw_must(L, sw_scene_hold_pose(scene, c->id, &pose, &err), &err);
+    else
+      pose.q = lsw_rotation(L, 3, "clamp:pose: rotation");
+    pose.p = to;
     lsw_must(L, sw_scene_set_pose(scene, c->id, pose, &err), &err);
     return 0;
   }

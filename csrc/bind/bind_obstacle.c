@@ -55,14 +55,20 @@ static int meth_moment(lua_State *L) {
   return 1;
 }
 
+/* obstacle:pose() -> position, rotation; obstacle:pose(position [, rotation]) sets; without a
+ * rotation it keeps the one it has. */
 static int meth_pose(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
   sw_pose pose;
   const lsw_child *o = check(L, &scene);
   if (lua_gettop(L) > 1) {
-    pose.p = lsw_vector(L, 2, "obstacle:pose: position", "m");
-    pose.q = lsw_rotation(L, 3, "obstacle:pose: rotation");
+    const sw_vec to = lsw_vector(L, 2, "obstacle:pose: position", "m");
+    if (lua_isnoneornil(L, 3))
+      lsw_must(L, sw_scene_obstacle_pose(scene, o->id, &pose, &err), &err);
+    else
+      pose.q = lsw_rotation(L, 3, "obstacle:pose: rotation");
+    pose.p = to;
     lsw_must(L, sw_scene_obstacle_set_pose(scene, o->id, pose, &err), &err);
     return 0;
   }

@@ -85,8 +85,12 @@ static int meth_pose(lua_State *L) {
   sw_pose pose;
   const lsw_child *t = check(L, &scene);
   if (lua_gettop(L) > 1) {
-    pose.p = lsw_vector(L, 2, "tool:pose: position", "m");
-    pose.q = lsw_rotation(L, 3, "tool:pose: rotation");
+    const sw_vec to = lsw_vector(L, 2, "tool:pose: position", "m");
+    if (lua_isnoneornil(L, 3))
+      lsw_must(L, sw_scene_tool_pose(scene, t->id, &pose, &err), &err);
+    else
+      pose.q = lsw_rotation(L, 3, "tool:pose: rotation");
+    pose.p = to;
     lsw_must(L, sw_scene_tool_set_pose(scene, t->id, pose, &err), &err);
     return 0;
   }
@@ -217,8 +221,8 @@ static int meth_log(lua_State *L) {
   return 2;
 }
 
-/* tool:touches() -> { { finger, at, force (in the tool's axes), normal, s, slid, wire = slot }, ...
- * } */
+/* tool:touches() -> { { finger, at, force (in the tool's axes), normal, s, slid, wire = slot,
+ * wire_name }, ... } */
 static int meth_touches(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
@@ -231,6 +235,8 @@ static int meth_touches(lua_State *L) {
     sw_tool_touch touch;
     if (!sw_scene_tool_touch(scene, t->id, k, &touch)) continue;
     lua_createtable(L, 0, 7);
+    lua_pushstring(L, touch.name);
+    lua_setfield(L, -2, "wire_name");
     lsw_set_integer(L, "finger", (size_t)touch.finger + 1);
     lsw_set_vector(L, "at", touch.at);
     lsw_set_vector(L, "force", touch.force);

@@ -71,6 +71,10 @@ typedef struct sw_force_class {
   /* Does it go with a wire of these values? NULL = always. SW_EINVAL with a text. */
   sw_status (*check)(const void *args, const sw_beam *beam, sw_error *err);
 
+  /* Fills arguments that were left open from where the body lies: nodes or particles at x (3 each)
+   * with arc lengths s. nodes 0: there are several bodies. NULL = there are none. SW_EINVAL. */
+  sw_status (*place)(void *args, size_t nodes, const double *x, const double *s, sw_error *err);
+
   /* History: doubles that live in the system's state, zero at first, number 0 the
    * work dissipated so far [J]. eval finds those of the last accepted state in
    * field->history and only reads them; commit, once for each accepted state,
@@ -92,11 +96,23 @@ typedef struct sw_force_class {
    * closely as kinks ask for; NULL = it always may. */
   int (*idle)(const double *history);
 
+  /* Pull on something that breaks, and what it bears: 0 when it is broken or bears anything [N]. Of
+   * the field only places are up to date. NULL = nothing breaks. */
+  double (*pull)(const void *args, const sw_field *field, const double *history, double *bears);
+
   /* What there is to read of it besides its force, on one wire at the accepted state: names,
    * NULL-terminated, and as many values, each of the unit that its file says. NULL = nothing. */
   const char *const *outputs;
   void (*read)(const void *args, const sw_field *field, const double *history, double *out);
 } sw_force_class;
+
+/* How many there are. */
+enum {
+  SW_FORCE_CLASSES = 0
+#define X(name) +1
+#include "force/list.def"
+#undef X
+};
 
 /* The class called name, or NULL. */
 const sw_force_class *sw_force_find(const char *name);

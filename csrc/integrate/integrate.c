@@ -185,23 +185,21 @@ static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system
   return SW_OK;
 }
 
-/* Bank et al. 1985: error of the trapezoid-BDF2 pair from the three velocities,
- * largest over nodes. Spins go along: they are bound to the nodes' motion by friction, or
- * by twist, which is much faster than a step. */
-static double embedded_error(const sw_stepper *p, const sw_system *s, double h) {
-  const double g = 2.0 - sqrt(2.0);
-  const double k = (-3.0 * g * g + 4.0 * g - 2.0) / (12.0 * (2.0 - g));
-  const double c0 = 1.0 / g, c1 = -1.0 / (g * (1.0 - g)), c2 = 1.0 / (1.0 - g);
+/* The method's estimate, largest over nodes. Spins go along: they are bound to the nodes' motion by
+ * friction, or by twist, which is much faster than a step. */
+static double embedded_error(const sw_stepper *p, const sw_integrator *m, const sw_system *s,
+                             double h) {
   double largest = 0;
   for (size_t i = 0; i < 3 * s->nodes; i += 3) {
     double sum = 0;
     for (size_t c = i; c < i + 3; c++) {
-      const double e = c0 * s->v[c] + c1 * p->w[0][c] + c2 * p->w[1][c];
+      double e = m->error[0] * s->v[c];
+      for (size_t k = 0; k < m->stages; k++) e += m->error[1 + k] * p->w[k][c];
       sum += e * e;
     }
     largest = fmax(largest, sum);
   }
-  return 2.0 * fabs(k) * h * sqrt(largest);
+  return h * sqrt(largest);
 }
 
 sw_status sw_stepper_trial(sw_stepper *p, sw_system *s, double t, double h, sw_error *err) {
@@ -224,7 +222,7 @@ sw_status sw_stepper_trial(sw_stepper *p, sw_system *s, double t, double h, sw_e
                            : p->restart || uneven ? p->start
                                                   : p->method;
   SW_TRY(implicit_trial(p, m, s, t, h, err));
-  if (p->wants_error && m->flags & SW_INTEGRATOR_EMBEDDED) p->error = embedded_error(p, s, h);
+  if (p->wants_error && m->flags & SW_INTEGRATOR_EMBEDDED) p->error = embedded_error(p, m, s, h);
   return SW_OK;
 }
 
@@ -255,6 +253,6 @@ void sw_stepper_accept(sw_stepper *p, sw_system *s, double h) {
 double sw_stepper_next_h(const sw_stepper *p, double h, double tolerance) {
   const double safety = 0.9, most = 2.0, least = 0.2; /* of the last step [-] */
   if (!(p->error > 0)) return h;
-  const double factor = safety * cbrt(tolerance / p->error);
+  const double factor = safety * pow(tolerance / p->error, 1.0 / (p->method->order + 1));
   return h * fmin(most, fmax(least, factor));
 }

@@ -40,9 +40,12 @@ typedef struct sw_integrator {
   unsigned flags;
   size_t stages; /* implicit members */
   sw_stage_row rows[SW_STAGES_MAX];
+  /* embedded: h times the sum of these shares of the velocities at the start and after each
+   * stage is the step's error, of one order more than the method [-]. */
+  double error[SW_STAGES_MAX + 1];
   const char *start;     /* implicit: method for the first step after a
                             discontinuity; NULL = itself */
-  double leapfrog_limit; /* explicit: stable while h omega_max is below; 0 = unknown [-] */
+  double leapfrog_limit; /* explicit: stable while h omega_max is below; implicit: 0 [-] */
   /* explicit: advance (x, v) by h in place from time t; stepper's work arrays
    * are free to use. */
   sw_status (*advance)(sw_stepper *stepper, sw_system *system, double t, double h, double *x,

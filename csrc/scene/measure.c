@@ -284,7 +284,6 @@ static void add_energy(sw_energy *out, const char *kind, double value) {
       out->value[i] += value;
       return;
     }
-  if (out->count == SW_ENERGY_KINDS) return;
   out->kind[out->count] = kind;
   out->value[out->count++] = value;
 }

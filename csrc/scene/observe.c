@@ -356,9 +356,9 @@ sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
   for (size_t w = 0; w < s->wire_count; w++) s->wires[w].untwisted = 0;
   SW_TRY(sw_system_place_holds(&s->system, s->time, s->system.x, NULL, NULL, err));
   sw_system_refresh(&s->system);
+  sw_scene_watch_ties(s);
   sw_system_commit(&s->system, s->time);
   tell_news(s);
-  sw_scene_watch_ties(s);
   for (size_t w = 0; w < s->wire_count; w++) SW_TRY(observe_wire(s, w, err));
   SW_TRY(sw_watch_forces(s, err));
   SW_TRY(log_holds(s, err));
@@ -371,6 +371,7 @@ void sw_scene_reset_extremes(sw_scene *s) {
     const sw_extreme least = {.value = -HUGE_VAL};
     s->wires[w].extremes = (sw_wire_extremes){least, least, least, least, least, least, 0};
     sw_window_forget(&s->wires[w].window);
+    if (s->built) s->system.bodies[w].pushed = 0;
   }
   s->deepest = (sw_extreme){0};
 }

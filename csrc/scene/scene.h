@@ -279,6 +279,7 @@ typedef struct sw_run_args {
   int quasistatic;  /* 1: equilibrium at every step's end instead of motion */
   long max_steps;   /* stop after this many [-] */
   double window;    /* peaks are of means over this time; 0: of values of single steps [s] */
+  int unstable;     /* 1: an explicit method may take steps above its limit */
 } sw_run_args;
 extern const sw_params sw_run_params;
 
@@ -451,7 +452,8 @@ typedef struct sw_modes_result {
 sw_status sw_scene_wire_modes(sw_scene *scene, sw_handle wire, const sw_modes_args *args,
                               int (*interrupted)(void), sw_modes_result *out, sw_error *err);
 
-enum { SW_ENERGY_KINDS = 24 };
+/* Kinetic, contact, repel, join, and of each class of force its own and what it corrects. */
+enum { SW_ENERGY_KINDS = 4 + 2 * SW_FORCE_CLASSES };
 typedef struct sw_energy {
   size_t count;
   const char *kind[SW_ENERGY_KINDS];

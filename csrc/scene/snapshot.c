@@ -354,6 +354,8 @@ static void swap_shape(sw_scene_hold *h, sw_scene_hold *copy) {
   h->shape = copy->shape, h->s1 = copy->s1, h->s2 = copy->s2, h->count = copy->count;
   memcpy(h->director, copy->director, sizeof h->director);
   memcpy(h->frame, copy->frame, sizeof h->frame);
+  memcpy(h->give, copy->give, sizeof h->give);
+  h->formed = copy->formed;
   h->s = copy->s, h->local = copy->local, h->particle = copy->particle;
   copy->s = s, copy->local = local, copy->particle = particle;
 }

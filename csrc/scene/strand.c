@@ -207,6 +207,19 @@ static sw_status check_rest(const sw_strand_plan *p, const sw_lattice *l, sw_err
   return SW_OK;
 }
 
+/* Shorter ones are pieces that are pressed, and not bent; over the radius [-]. */
+static const double SHORT = 4.0;
+
+static sw_status check_bent(const sw_strand_plan *p, const sw_calibration *c, double length,
+                            double radius, sw_error *err) {
+  sw_error why = {""};
+  if (isnan(p->wall) || length < SHORT * radius) return SW_OK;
+  const sw_status status = sw_calibrate_check_bent(c, &why);
+  return status == SW_OK
+             ? status
+             : sw_fail(err, status, "wire '%s' as %s: %.400s", p->name, p->mesh, why.text);
+}
+
 sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const sw_mesh *mesh,
                         const sw_strand_lie *lie, sw_strand *out, sw_error *err) {
   const double even = (mesh->s[mesh->n - 1] - mesh->s[0]) / (double)(mesh->n - 1);
@@ -220,6 +233,7 @@ sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const s
   SW_TRY(calibrate(plan, beam, spacing, 1e-6, c, err));
   SW_TRY(sw_strand_check_count(plan, mesh->n, c->lattice.particles, err));
   SW_TRY(check_rest(plan, &c->lattice, err));
+  SW_TRY(check_bent(plan, c, mesh->s[mesh->n - 1] - mesh->s[0], beam->radius, err));
   sw_strand_maker m = {.plan = plan,
                        .beam = beam,
                        .ring = lie ? lie->ring : NULL,

@@ -330,13 +330,15 @@ int sw_scene_tool_touch(const sw_scene *s, sw_handle tool, size_t number, sw_too
   for (size_t k = 0; k < t->pads; k++) {
     if (t->pad[k].obstacle != (size_t)push.obstacle) continue;
     const sw_vec arm = sw_sub(push.point, t->now.centre);
-    *out = (sw_tool_touch){t->pad[k].finger,
-                           sw_unrotate(t->now.q, arm),
-                           sw_unrotate(t->now.q, push.force),
-                           push.normal_force,
-                           push.place,
-                           push.slid,
-                           body_of(s, push.node)};
+    const size_t wire = sw_system_body_of(&s->system, push.node);
+    *out = (sw_tool_touch){.finger = t->pad[k].finger,
+                           .at = sw_unrotate(t->now.q, arm),
+                           .force = sw_unrotate(t->now.q, push.force),
+                           .normal = push.normal_force,
+                           .s = push.place,
+                           .slid = push.slid,
+                           .wire = wire,
+                           .name = s->wires[wire].name};
     return 1;
   }
   return 0;

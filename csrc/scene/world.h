@@ -496,7 +496,9 @@ void sw_scene_measure_joins(sw_scene *scene);
 /* Springs and hinges of the living joins for the new system. SW_ENOMEM. */
 sw_status sw_scene_add_joins(sw_scene *scene);
 sw_status sw_scene_add_tie(sw_scene *scene, size_t join);
-/* After a step: ties that were pulled too hard break. */
+/* SW_ENOCONV when a tie is pulled far beyond its strength with nodes at x: it breaks earlier. */
+sw_status sw_scene_check_ties(const sw_scene *scene, const double *x, sw_error *err);
+/* After a step, before histories follow: ties that were pulled too hard break. */
 void sw_scene_watch_ties(sw_scene *scene);
 /* NULL: the scene does not know it. */
 sw_scene_join *sw_scene_find_join(const sw_scene *scene, sw_handle join, sw_error *err);
@@ -528,6 +530,8 @@ void sw_feed_shape(sw_scene *scene, sw_scene_hold *hold);
 void sw_feed_rest(sw_scene_hold *hold, double s);
 /* The largest step up to h that nodes can follow [s]. */
 double sw_feed_step(const sw_scene *scene, double h);
+/* SW_ENOCONV: which feed goes faster than steps can follow, and why longer ones were refused. */
+sw_status sw_feed_too_fast(const sw_scene *scene, const char *refused, sw_error *err);
 /* Insert and remove nodes beside guides as a step to time t needs. changed: the system was
  * made anew. SW_EEMPTY: no wire left to draw in. */
 sw_status sw_feed_make_room(sw_scene *scene, double t, int *changed, sw_error *err);
@@ -610,6 +614,17 @@ sw_status sw_scene_pose(sw_scene *scene, double t1, int (*interrupted)(void), sw
 
 /* What frames tell of each node of the wire, SW_FRAME_VALUES numbers; n nodes. */
 void sw_scene_node_values(sw_scene *scene, size_t wire, size_t n, double *out);
+/* SW_EDIVERGED when the stepper's trial is no believable state, SW_ENOCONV when a smaller step may
+ * mend it. */
+sw_status sw_scene_check_trial(const sw_scene *scene, sw_error *err);
+/* Tells that the run's method is not meant for contact, once, when there is some. */
+void sw_scene_remark_contact(sw_scene *scene);
+/* Tells of wires that are perfectly straight, and pushed beyond buckling. SW_ENOMEM, SW_ECALLBACK.
+ */
+sw_status sw_scene_look_for_buckling(sw_scene *scene, sw_error *err);
+/* SW_EINVAL when an explicit method would take steps above its limit on the way to a time. */
+sw_status sw_scene_check_step(const sw_scene *scene, const sw_run_args *args, double until,
+                              sw_error *err);
 /* How many doubles the frame's block has; 0: more than room, or its counts make no sense. */
 int sw_scene_frame_walk(const sw_frame *frame, size_t room, size_t *size);
 /* The class of a wire or of objects of particles; NULL: there is none of this name. */

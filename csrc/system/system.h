@@ -64,6 +64,7 @@ typedef struct sw_body {
   int web_factored; /* 1: there is a factor of this step that leads iterations */
   int web_slow;     /* 1: it did not lead them fast enough in this step */
   int linked;       /* its matrix is part of the links' (see system/link.h) */
+  double pushed;    /* largest push for which the scene looked whether it buckles [N] */
 } sw_body;
 
 /* Where a hold is, for all nodes it holds. */

@@ -4,6 +4,7 @@
 local core = require "softworld.core"
 local build = require "softworld.build"
 local checks = require "softworld.checks"
+local grasped = require "softworld.grasped"
 local mixed = require "softworld.mixed"
 local pads = require "softworld.pads"
 local process = require "softworld.process"
@@ -145,6 +146,10 @@ local function look_at(self)
   if self.held and now.slip_time and not self.slip_event then
     self.slip_event = { kind = "slip", time = now.slip_time, s = now.slip_place, distance = now.slip }
     why = react(self, self.slip_event, self.on_slip, slip_text) or why
+  end
+  if self.unchecked and self.held and now.squeeze > 0 and now.jaws ~= "moves" then
+    self.unchecked = nil
+    grasped.check(self) -- outside of a process: it is told, and the run goes on
   end
   if self.held and now.normal == 0 and not now.frozen then
     self.held = false
@@ -388,7 +393,9 @@ local function grasp_by_pads(self, wires, args)
     local _, q = self.tool:pose()
     self.free_height = wire:width(self.s, vec.rotate(q, { 0, 1, 0 }))
   end
-  move_jaws(self, order)
+  if not move_jaws(self, order) then return end
+  local text, missed = grasped.check(self)
+  if missed then error(text, 0) end
 end
 
 local grasp_keys = { s = true, approach = true, force = true, distance = true, speed = true,
@@ -492,6 +499,7 @@ function Methods:grasp(wire, args)
     error(build.plain(why), 2)
   end
   self.held = true
+  self.unchecked = not process.current() or nil
   grasp.watch(self)
   if approach == "mixed" and args.freeze ~= false then mixed.settle(self, args) end
   return self

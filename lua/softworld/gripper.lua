@@ -84,7 +84,7 @@ function core.class.scene.gripper(scene, args)
 end
 
 local remembered = { "hold", "at", "rotation", "tool", "wire", "way", "frozen", "on_slip", "opening",
-  "order", "obstacles", "held", "s", "free_height",
+  "order", "obstacles", "held", "unchecked", "s", "free_height",
   "margin", "segments", "mesh_model", "rod_model", "slip_event", "crash_time", "on_crash",
   "grips", "carrier", "facing", "busy_until" }
 

@@ -320,6 +320,8 @@ function Run:document()
   if not self.ok then return doc end
   draw(self, doc, wires_of(data))
   doc.series, doc.summary = self:series(), summary_of(self)
+  local unmet = trust.unmet(self)
+  doc.met, doc.unmet = self.met, unmet and ("%s (%s)"):format(unmet, self.advice)
   for i, q in ipairs(self.quantities and self:error_bars() or {}) do
     doc.quantities = doc.quantities or {}
     doc.quantities[i] = { name = q.name, value = q.value, error = q.error, unit = q.unit,
@@ -453,8 +455,10 @@ end
 
 function Run:__tostring()
   if self.ok and self.quantities then
-    return ("run of '%s': ok (%s), t = %.6g s, %d levels, %.3g s of computing\n%s"):format(self.name,
-      self.reason, self.time, #self.levels, self.cpu, tostring(self:error_bars()))
+    local unmet = trust.unmet(self)
+    return ("run of '%s': ok (%s)%s, t = %.6g s, %d levels, %.3g s of computing\n%s"):format(self.name,
+      self.reason, unmet and ", " .. unmet or "", self.time, #self.levels, self.cpu,
+      tostring(self:error_bars()))
   end
   return ("run of '%s': %s (%s), t = %.6g s, %d steps, %.3g s of computing"):format(
     self.name, self.ok and "ok" or "FAILED", self.reason, self.time, self.steps, self.cpu)

@@ -16,7 +16,9 @@ end
 
 function Settled:__tostring()
   if not self.ok then return ("not settled: %s"):format(self.reason) end
-  return ("settled on %d levels\n%s"):format(#self.levels, tostring(self:error_bars()))
+  local unmet = trust.unmet(self)
+  return ("settled on %d levels%s\n%s"):format(#self.levels, unmet and ", " .. unmet or "",
+    tostring(self:error_bars()))
 end
 
 local Rest = { __name = "rest" }

@@ -120,6 +120,16 @@ function trust.error_bars(result)
   return setmetatable(list, Bars)
 end
 
+--- Which tolerances were not met, in words; nil when all were, or none was asked for.
+function trust.unmet(result)
+  local names = {}
+  for _, name in ipairs(result.quantities and result.asked or {}) do
+    if not result.quantities[name].met then names[#names + 1] = name end
+  end
+  if #names == 0 then return nil end
+  return ("%d of %d tolerances NOT met: %s"):format(#names, #result.asked, table.concat(names, ", "))
+end
+
 --- For the __index of results: raises when the quantities of a refused one are read.
 function trust.refuse(result, key)
   if key == "quantities" and rawget(result, "refused") then
@@ -297,7 +307,7 @@ local function conclude(job, result)
   for i, q in ipairs(job.quantities) do result.asked[i] = q.name end
   if not result.ok or #job.values[job.quantities[1].name] < 2 then
     if result.ok then result.reason = "all levels but the last failed: " .. job.failure end
-    result.ok, result.refused = false, true
+    result.ok, result.refused, result.met = false, true, false
     result.where = ("%s: %s"):format(describe(job, #job.levels), result.reason)
     result.advice = job.advice
     return result
