@@ -317,11 +317,6 @@ sw_status sw_scene_tool_touches(sw_scene *s, sw_handle tool, size_t *count, sw_e
 }
 
 /* Number of the body that has the node. */
-static size_t body_of(const sw_scene *s, size_t node) {
-  size_t b = 0;
-  while (b + 1 < s->system.body_count && s->system.bodies[b + 1].first_node <= node) b++;
-  return b;
-}
 
 int sw_scene_tool_touch(const sw_scene *s, sw_handle tool, size_t number, sw_tool_touch *out) {
   const sw_tool *t = &s->tools[tool.slot];
