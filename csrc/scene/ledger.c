@@ -152,7 +152,7 @@ static void judge_outer_forces(sw_books *b, double h, double *most) {
 static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
   const sw_books *b = &s->books;
   size_t impacts = 0;
-  step->touching = sw_scene_touches(s) > 0 || b->contact != 0;
+  step->touching = sw_scene_touches(s) > 0;
   if (s->contact) {
     impacts += sw_contact_impacts(s->contact);
     step->friction += sw_contact_rubbed(s->contact);
@@ -217,6 +217,7 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
                     s->stepper.strain_rate);
   sw_system_energies(&s->system, lumped(s), &step->to);
   step->contact = contact_energy(s);
+  step->touching |= b->contact != 0 || step->contact != 0; /* ties that are taut too */
   most += sw_ledger_work(s, t1, changed);
   if (b->has_powers) status = sw_system_powers(&s->system, t1, &step->powers, err);
   sw_system_look_back(&s->system, &glance);
