@@ -53,9 +53,9 @@ __attribute__((constructor)) static void fill_choices(void) {
 enum { MOST_REDOS = 40 }; /* impacts found one after another in one step [-] */
 static const double SMALLEST_SHARE = 1.0 / 4096; /* of a step, before giving up [-] */
 
-/* How a step that made energy is redone: by the method's start, which takes no acceleration from
- * before and is of second order too; then with implicit Euler, which makes none but where touches
- * go wrong. */
+/* How a step that made energy is redone where something touches: by the method's start, which takes
+ * no acceleration from before and is of second order too; then with implicit Euler, which makes
+ * none but where touches go wrong. What a method makes by itself a smaller step mends. */
 enum { AS_IS, BY_START, DULLY, GIVE_UP };
 
 typedef struct loop {
@@ -64,6 +64,7 @@ typedef struct loop {
   sw_run_report *report;
   double *v_start; /* velocities at the step's start, which impacts change */
   int redo;        /* AS_IS, or how the step is redone, for it made energy */
+  int smooth;      /* 1: the step that was rejected last made energy where nothing touches */
   int changed;     /* 1: the scene was, since the last step: its energy is not judged */
   int (*interrupted)(void);
 } loop;
@@ -179,11 +180,14 @@ static sw_status judge(loop *p, double h, double *excess, sw_error *err) {
   return status;
 }
 
-/* What to try after a step that made energy, tried as it is now. */
-static int next_redo(const loop *p) {
+/* What to try after a step that made energy, tried as it is now. Where nothing touches only a
+ * smaller one helps, and what is known at its start stays so. */
+static int next_redo(loop *p) {
   const sw_stepper *stepper = &p->s->stepper;
+  p->smooth = !p->s->books.step.touching;
+  if (p->smooth) return GIVE_UP;
   if (p->redo == AS_IS && stepper->start != stepper->method && !stepper->restart) return BY_START;
-  return p->redo < DULLY && p->s->books.step.touching ? DULLY : GIVE_UP;
+  return p->redo < DULLY ? DULLY : GIVE_UP;
 }
 
 /* One step of size h, and the referee: a step that makes energy is redone. SW_ENOCONV: it makes
@@ -192,6 +196,7 @@ static sw_status judged_attempt(loop *p, double h, int smallest, sw_error *err) 
   sw_scene *s = p->s;
   sw_ledger *l = &s->books.sums;
   double excess;
+  p->smooth = 0;
   SW_TRY(sw_ledger_open(s, err));
   for (p->redo = AS_IS;;) {
     SW_TRY(yielding_attempt(p, h, err));
@@ -282,7 +287,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
     if (hopeless(status)) return status;
     failed = *err;
     p->report->rejected++;
-    s->discontinuous = 1;
+    if (!p->smooth) s->discontinuous = 1;
     part *= 0.5;
     if (part < SMALLEST_SHARE * h) return status;
   }
