@@ -58,12 +58,20 @@ static const double SMALLEST_SHARE = 1.0 / 4096; /* of a step, before giving up 
  * none but where touches go wrong. What a method makes by itself a smaller step mends. */
 enum { AS_IS, BY_START, DULLY, GIVE_UP };
 
+/* So many parts of less than this share of their step, one after another, are no way to go on: the
+ * run stops and says what holds it back [-]. Adaptive steps may be as small as they like for
+ * longer. */
+enum { MOST_SMALL = 4000, MOST_SMALL_ADAPTIVE = 20000 };
+static const double SMALL = 1.0 / 512, SMALL_ADAPTIVE = 2e-5;
+
 typedef struct loop {
   sw_scene *s;
   const sw_run_args *args;
   sw_run_report *report;
   double *v_start; /* velocities at the step's start, which impacts change */
   int redo;        /* AS_IS, or how the step is redone, for it made energy */
+  size_t small;    /* small parts one after another [-] */
+  sw_error held;   /* what the last rejected part was rejected for */
   int smooth;      /* 1: the step that was rejected last made energy where nothing touches */
   int changed;     /* 1: the scene was, since the last step: its energy is not judged */
   int (*interrupted)(void);
@@ -226,6 +234,18 @@ static void accept(loop *p, double h) {
   if (h < p->report->smallest_dt) p->report->smallest_dt = h;
 }
 
+/* A part h of a step that was to be whole is taken. SW_ELIMIT: steps have collapsed. */
+static sw_status count_small(loop *p, double h, double whole, sw_error *err) {
+  const int adaptive = isfinite(p->args->tolerance);
+  const size_t most = adaptive ? MOST_SMALL_ADAPTIVE : MOST_SMALL;
+  p->small = h < (adaptive ? SMALL_ADAPTIVE : SMALL) * whole ? p->small + 1 : 0;
+  if (p->small < most) return SW_OK;
+  return sw_fail(
+      err, SW_ELIMIT,
+      "steps have collapsed: the last %zu were about %.2g s, of %.3g s asked for%s%.200s", p->small,
+      h, whole, p->held.text[0] ? "; larger ones fail, for " : "", p->held.text);
+}
+
 static sw_status observe(sw_scene *s, sw_error *err) {
   SW_TRY(sw_scene_observe(s, err));
   if (sw_ledger_close(s) == SW_OK) return SW_OK;
@@ -280,6 +300,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
       accept(p, part);
       s->time = done < h ? t0 + done : t1;
       SW_TRY(observe(s, err));
+      SW_TRY(count_small(p, part, p->args->dt, err));
       part = starts ? h : 2 * part;
       starts = 0;
       continue;
@@ -287,6 +308,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
     if (hopeless(status)) return status;
     failed = *err;
     p->report->rejected++;
+    p->held = *err;
     if (!p->smooth) s->discontinuous = 1;
     part *= 0.5;
     if (part < SMALLEST_SHARE * h) return status;
@@ -315,9 +337,11 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
       s->time = last ? t1 : s->time + h;
       if (!(s->time > before)) return sw_fail(err, SW_ENOCONV, "steps of %g s are no time", h);
       s->next_dt = unknown ? h : last && next > h ? fmax(next, s->next_dt) : next;
-      return observe(s, err);
+      SW_TRY(observe(s, err));
+      return count_small(p, h, p->args->dt, err);
     }
     if (status == SW_OK) undo(p);
+    if (status != SW_OK) p->held = *err;
     p->report->rejected++;
     h = fmin(next, 0.9 * h);
     if (h < SMALLEST_SHARE * SMALLEST_SHARE * p->args->dt)
