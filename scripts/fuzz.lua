@@ -121,11 +121,11 @@ local function crash(why, code)
 end
 
 -- Run one case in a child; a list of findings, and the calls that were begun.
-local function run(words)
+local function run(words, cpu)
   empty(place)
   lfs.mkdir(place .. "/tmp")
   local _, why, code = os.execute(("ulimit -t %d; cd %s && exec %s %s child=%s slow=%s %s >%s 2>&1 </dev/null"):format(
-    options.cpu, quote(place .. "/tmp"), quote(program), quote(this), quote(place), options.slow, words,
+    cpu or options.cpu, quote(place .. "/tmp"), quote(program), quote(this), quote(place), options.slow, words,
     quote(place .. "/out")))
   local findings, ended = {}, false
   for line in read(place .. "/found"):gmatch "[^\n]+" do
@@ -137,7 +137,8 @@ end
 
 local function holds(calls, wanted)
   write(place .. ".case", to_text(calls))
-  for _, finding in ipairs((run("replay=" .. quote(place .. ".case")))) do
+  local cpu = wanted:find "^hang" and math.min(5, options.cpu) or nil
+  for _, finding in ipairs((run("replay=" .. quote(place .. ".case"), cpu))) do
     if signature(finding) == wanted then return true end
   end
   return false
@@ -174,7 +175,7 @@ local function lines_of(text)
 end
 
 local function shrink(calls, wanted)
-  local budget = { left = options.tries }
+  local budget = { left = wanted:find "^hang" and options.tries // 5 or options.tries }
   calls = reduce(calls, function(rest) return holds(rest, wanted) end, budget)
   for i = #calls, 1, -1 do -- inside of functions
     local lines = lines_of(calls[i])

@@ -9,7 +9,7 @@ local conditions = {}
 local kinds = {}
 
 local function number(what, value, unit, level)
-  return checks.number("p:wait_until: " .. what, value, 0, unit, level + 1)
+  return checks.number("p:wait_until: " .. what, value, 0, unit, level)
 end
 
 local function pushes(object)
@@ -46,7 +46,7 @@ end
 
 -- Where something is: a point, a gripper, an obstacle, { wire, s = }.
 local function place_of(what, level)
-  if type(what) == "table" and core.type(what[1]) == "wire" then
+  if type(what) == "table" and core.type(rawget(what, 1)) == "wire" then
     local s = number("between: s", what.s, " m", level + 1)
     return function() return what[1]:position(s) end
   elseif type(what) == "table" and what.position then
@@ -82,7 +82,7 @@ function conditions.of(t, level)
     end
   end
   if not found then error("p:wait_until: wait for what? give force, slip, contact or distance", level) end
-  return kinds[found](t, level + 1)
+  return (kinds[found](t, level + 1))
 end
 
 return conditions

@@ -92,7 +92,7 @@ function fixing.class(kind, properties, own)
   local known = {}
   for _, name in ipairs(own or {}) do known[name] = true end
   function class.__index(self, key)
-    if properties[key] then return properties[key](self) end
+    if properties[key] then return build.call(3, properties[key], self) end
     local value = class[key]
     if value ~= nil or known[key] then return value end
     local names = class.__names()
@@ -111,7 +111,10 @@ function fixing.class(kind, properties, own)
     return names
   end
   keep.class(kind, class)
-  return class
+  return setmetatable(class, { __newindex = function(_, name, value) -- errors of methods have a place
+    local method = type(value) == "function" and name:sub(1, 2) ~= "__"
+    rawset(class, name, method and build.placed(value) or value)
+  end })
 end
 
 --- Raise unless self is of the class and its scene still knows it.

@@ -256,6 +256,10 @@ function Gripper:__index(key)
       or "; help 'gripper' at the prompt lists what it has"), 2)
 end
 
+for name, value in pairs(Gripper) do
+  if type(value) == "function" and name:sub(1, 2) ~= "__" then Gripper[name] = build.placed(value) end
+end
+
 --- Names of methods and measures, for completion at the prompt.
 function Gripper.__names()
   local names = { "name", "width", "events" }

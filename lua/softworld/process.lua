@@ -108,7 +108,7 @@ end
 -- { contact = obstacle }, { distance = [m], between = { a, b } }. Returns true, or false
 -- when timeout [s] passed first.
 function Process:wait_until(condition, options)
-  if type(condition) == "table" then condition = conditions.of(condition, 3) end
+  if type(condition) == "table" then condition = build.placed(conditions.of(condition, 3)) end
   if type(condition) ~= "function" then
     error("p:wait_until expects a function or a table, got " .. type(condition), 2)
   end

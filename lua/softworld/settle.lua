@@ -27,7 +27,9 @@ function Rest:__tostring()
 end
 
 local core_settle = core.class.scene.settle
-local function settle(scene, args) return setmetatable(core_settle(scene, args), Rest) end
+local function settle(scene, args) 
+  return setmetatable(build.call(3, core_settle, scene, args), Rest)
+end
 
 local function with_bars(scene, given)
   local args = {}

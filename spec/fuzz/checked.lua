@@ -26,8 +26,8 @@ function checked.names_of(object)
     for name in pairs(type(index) == "table" and index or meta) do
       if type(name) == "string" and name:sub(1, 2) ~= "__" then names[#names + 1] = name end
     end
-    for name in pairs(object) do
-      if type(name) == "string" then names[#names + 1] = name end
+    for name, value in pairs(object) do
+      if type(name) == "string" and type(value) ~= "function" then names[#names + 1] = name end
     end
   end
   table.sort(names)
