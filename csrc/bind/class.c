@@ -52,11 +52,8 @@ const char *lsw_describe(lua_State *L, int index) {
 void *lsw_check(lua_State *L, int index, const lsw_class *c) {
   lsw_handle *h = lsw_test(L, index, c);
   if (!h) {
-    lua_Debug called;
-    const char *what = lsw_describe(L, index);
-    const int named = lua_getstack(L, 0, &called) && lua_getinfo(L, "n", &called) && called.name;
-    if (named) luaL_argerror(L, index, lua_pushfstring(L, "%s expected, got %s", c->name, what));
-    luaL_error(L, "argument %d must be a %s, got %s", index, c->name, what); /* not "to '?'" */
+    luaL_argerror(L, index,
+                  lua_pushfstring(L, "%s expected, got %s", c->name, lsw_describe(L, index)));
     return NULL;
   }
   if (!h->object) luaL_error(L, "%s", c->gone);

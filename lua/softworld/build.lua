@@ -40,7 +40,7 @@ end
 
 -- What Lua itself says of a mistake in this library: its place must be seen.
 local function is_mistake(text)
-  return text:find "^attempt to " or text:find "^bad argument " or text:find "^stack overflow"
+  return text:find "^attempt to " or text:find "^bad argument #%d+ to '[^f]" or text:find "^stack overflow"
 end
 
 local function finish(of_core, ok, ...)
@@ -51,7 +51,8 @@ local function finish(of_core, ok, ...)
   if where and (not is_ours(where) or is_mistake(text)) or not where and of_core then
     error(message, 0) -- a script's own
   end
-  error(place() .. (text or message), 0)
+  text = (text or message):gsub("^bad argument #(%d+) to 'f' %((.*)%)$", "argument %1: %2")
+  error(place() .. text, 0)
 end
 
 local function all(...) return ... end
@@ -71,22 +72,34 @@ function build.placed(f)
   return function(...) return build.call(3, f, ...) end
 end
 
+--- The same for a method of class: its first argument must be an object of it.
+function build.method(class, name, f)
+  return function(self, ...)
+    if getmetatable(self) ~= class then
+      error(("%s:%s is a method: call it with a colon"):format(class.__name, name), 2)
+    end
+    return build.call(3, f, self, ...)
+  end
+end
+
 --- An error's text without the place in this library where it was raised.
 function build.plain(message)
   return (tostring(message):gsub("^[^\n:]*softworld/[%w_]+%.lua:%d+: ", ""))
 end
 
---- Raise unless scene is one that may be changed now.
-function build.check(scene, what, level)
+local function check_scene(scene, what)
   if core.type(scene) ~= "scene" then
-    error(("%s is a method: call it with a colon, scene:%s"):format(what, what:match ":(.*)"), level)
+    error(("%s is a method: call it with a colon, scene:%s"):format(what, what:match ":(.*)"), 0)
   end
   if core.busy(scene) then
     error(("%s: scene '%s' cannot be changed from inside a step or a function of time")
-      :format(what, scene.name), level)
+      :format(what, scene.name), 0)
   end
   if build.guard then build.guard(what) end -- of processes whose steps are kept
 end
+
+--- Raise unless scene is one that may be changed now.
+function build.check(scene, what) build.call(3, check_scene, scene, what) end
 
 local function copy(t)
   local c = {}

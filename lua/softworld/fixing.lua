@@ -75,6 +75,12 @@ function fixing.keep(scene, it)
   list[#list + 1] = { fixing = it, object = it.object, name = it.name }
 end
 
+--- Raise unless rows of a summary have where to go.
+function fixing.check_report(add, kind)
+  if type(add) == "function" then return end
+  error(("%s:report expects a function that takes rows, got %s"):format(kind, type(add)), 0)
+end
+
 --- Those that there are.
 function fixing.all(scene)
   local list = {}
@@ -113,7 +119,7 @@ function fixing.class(kind, properties, own)
   keep.class(kind, class)
   return setmetatable(class, { __newindex = function(_, name, value) -- errors of methods have a place
     local method = type(value) == "function" and name:sub(1, 2) ~= "__"
-    rawset(class, name, method and build.placed(value) or value)
+    rawset(class, name, method and build.method(class, name, value) or value)
   end })
 end
 

@@ -257,7 +257,9 @@ function Gripper:__index(key)
 end
 
 for name, value in pairs(Gripper) do
-  if type(value) == "function" and name:sub(1, 2) ~= "__" then Gripper[name] = build.placed(value) end
+  if type(value) == "function" and name:sub(1, 2) ~= "__" then
+    Gripper[name] = build.method(Gripper, name, value)
+  end
 end
 
 --- Names of methods and measures, for completion at the prompt.

@@ -36,7 +36,7 @@ require "softworld.settle"   -- scene:settle with error bars
 local save = require "softworld.save" -- scene:save, scene:resume, scene:find
 
 --- A new scene. { name =, gravity = {x, y, z} [m/s2] }
-function sw.scene(args) return core.scene(args) end
+sw.scene = core.scene
 
 --- The scene that scene:save has written to a file, or a run with save = file.
 function sw.load(file) return save.load(file) end

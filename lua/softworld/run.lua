@@ -76,7 +76,7 @@ local function run_once(scene, args, level)
     wall = 0, cpu = 0 }
   process.check_steps(scene)
   data.origin = data.origin or save.origin(scene)
-  if not data.going then core.begin_run(scene) end -- else the run of the file goes on
+  if not data.going then build.call(3, core.begin_run, scene) end -- else the run of the file goes on
   data.going = nil
   local wall, cpu = core.clock() - total.wall, os.clock() - total.cpu
   local fine, reason
@@ -438,6 +438,10 @@ end
 
 Run.error_bars = trust.error_bars
 Run.ledger = ledger.of
+
+for name, value in pairs(Run) do
+  if type(value) == "function" and name:sub(1, 2) ~= "__" then Run[name] = build.method(Run, name, value) end
+end
 
 function Run.__index(self, key)
   local value = Run[key]

@@ -7,6 +7,7 @@
 --     print(found.x, found.value, found.ok)
 -- @module softworld.tune
 local core = require "softworld.core"
+local build = require "softworld.build"
 
 local tune = {}
 
@@ -24,6 +25,6 @@ local tune = {}
 -- one) returning a number, and the above
 -- @treturn table `x`, `value`, `ok`, `reason`, `iterations`, `evaluations`, and
 -- `nonfinite`, how many values were not finite
-function tune.minimise(args) return core.minimise(args) end
+function tune.minimise(args) return build.call(3, core.minimise, args) end
 
 return tune

@@ -99,7 +99,7 @@ local of_body = { wire = true, particles = true }
 local function read_outs(object, kind)
   for _, name in ipairs(checked.names_of(object)) do
     if not no_reading[name] then
-      local infinite = name:find "radius" or name:find "limit"
+      local infinite = name:find "radius" or name:find "limit" or name == "stable_dt"
       local fine, value = pcall(function() return object[name] end)
       if fine and type(value) == "function" then
         local known, length = pcall(function() return object.length end)
@@ -202,13 +202,29 @@ local function check_run(self, result)
   end
 end
 
-local function ledger(self, result)
+local function sum_of(list)
+  local sum, size = 0, 0
+  for _, value in next, list do sum, size = sum + value, size + math.abs(value) end
+  return sum, size
+end
+
+-- The energy ledger of a run that says ok: finite, closed, and nothing from nowhere.
+local function check_ledger(self, result)
   if not (kind_of(result) == "run" and result.ok) then return end
-  local kept, book = pcall(function() return result:ledger() end)
-  if not kept or type(book) ~= "table" then return end
-  local gap, play = rawget(book, "gap"), rawget(book, "in_play")
-  if type(gap) == "number" and type(play) == "number" and play > 0 and gap > 0.05 * play then
-    self.report("ledger", ("a run that is ok made %.3g J of %.3g J in play"):format(gap, play))
+  local book = result:ledger()
+  local wrong = wrong_number(setmetatable(table.move({ book.total, book.at_start, book.gap, book.play, book.gained,
+    book.kinetic, book.stored, book.gravity }, 1, 8, 1, {}), nil), "ledger", false, 0)
+    or wrong_number(book.work, "ledger.work", false, 0) or wrong_number(book.lost, "ledger.lost", false, 0)
+  if wrong then return self.report("ledger", wrong) end
+  local work, worked = sum_of(book.work)
+  local lost, gone = sum_of(book.lost)
+  local size = worked + gone + math.abs(book.total) + math.abs(book.at_start) + math.abs(book.gap)
+  local open = book.total - book.at_start - work + lost - book.gap
+  if math.abs(open) > 1e-6 * size then
+    self.report("ledger", ("open by %.3g J of %.3g J"):format(open, size))
+  end
+  if book.gap > 0.05 * book.play then
+    self.report("ledger", ("%.3g J from nowhere, %.3g J in play"):format(book.gap, book.play))
   end
 end
 
@@ -239,8 +255,11 @@ function Case:call(text)
       end
     end
   else
-    check_run(self, results[2])
-    ledger(self, results[2])
+    local n = tonumber(text:match "^v%[(%d+)%] = ")
+    local result = results[2]
+    if n then result = self.v[n] end
+    check_run(self, result)
+    check_ledger(self, result)
   end
   return table.unpack(results, 1, results.n)
 end
