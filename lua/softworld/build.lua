@@ -72,16 +72,6 @@ function build.placed(f)
   return function(...) return build.call(3, f, ...) end
 end
 
---- The same for a method of class: its first argument must be an object of it.
-function build.method(class, name, f)
-  return function(self, ...)
-    if getmetatable(self) ~= class then
-      error(("%s:%s is a method: call it with a colon"):format(class.__name, name), 2)
-    end
-    return build.call(3, f, self, ...)
-  end
-end
-
 --- An error's text without the place in this library where it was raised.
 function build.plain(message)
   return (tostring(message):gsub("^[^\n:]*softworld/[%w_]+%.lua:%d+: ", ""))

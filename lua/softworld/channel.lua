@@ -297,7 +297,6 @@ end
 
 --- Rows of a run's summary.
 function Channel:report(add_row)
-  fixing.check_report(add_row, "channel")
   for _, entry in ipairs(build.data(self.scene).wires) do
     if core.exists(entry.object) then
       local part = share(self, entry.object, self.depth)

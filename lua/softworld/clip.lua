@@ -224,7 +224,6 @@ end
 
 --- Rows of a run's summary.
 function Clip:report(add)
-  fixing.check_report(add, "clip")
   local into, out = self.inserted, self.pulled_out
   if into then
     add(("%s: largest force as '%s' went in"):format(self.name, into.wire.name), into.peak_force, "N",

@@ -50,7 +50,10 @@ local function place_of(what, level)
     local s = number("between: s", what.s, " m", level + 1)
     return function() return what[1]:position(s) end
   elseif type(what) == "table" and what.position then
-    return function() return what:position() end
+    return function()
+      return what:position() or error(("gripper '%s' is nowhere yet; give it at = {x, y, z} [m], or grasp")
+        :format(tostring(what.name)), 0)
+    end
   elseif core.type(what) == "obstacle" or core.type(what) == "clamp" then
     return function() return (what:pose()) end
   end

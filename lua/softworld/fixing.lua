@@ -75,12 +75,6 @@ function fixing.keep(scene, it)
   list[#list + 1] = { fixing = it, object = it.object, name = it.name }
 end
 
---- Raise unless rows of a summary have where to go.
-function fixing.check_report(add, kind)
-  if type(add) == "function" then return end
-  error(("%s:report expects a function that takes rows, got %s"):format(kind, type(add)), 0)
-end
-
 --- Those that there are.
 function fixing.all(scene)
   local list = {}
@@ -94,7 +88,6 @@ end
 -- name the nearest word for a typo. `own` lists fields that may be nil.
 function fixing.class(kind, properties, own)
   local class = { __name = kind }
-  function class.solids() return {} end -- what pictures show besides obstacles
   local known = {}
   for _, name in ipairs(own or {}) do known[name] = true end
   function class.__index(self, key)
@@ -117,10 +110,12 @@ function fixing.class(kind, properties, own)
     return names
   end
   keep.class(kind, class)
-  return setmetatable(class, { __newindex = function(_, name, value) -- errors of methods have a place
+  local meta = { __index = { solids = function() return {} end } } -- pictures show obstacles only
+  function meta.__newindex(_, name, value) -- errors of methods have a place
     local method = type(value) == "function" and name:sub(1, 2) ~= "__"
-    rawset(class, name, method and build.method(class, name, value) or value)
-  end })
+    rawset(class, name, method and build.placed(value) or value)
+  end
+  return setmetatable(class, meta)
 end
 
 --- Raise unless self is of the class and its scene still knows it.

@@ -258,7 +258,7 @@ end
 
 for name, value in pairs(Gripper) do
   if type(value) == "function" and name:sub(1, 2) ~= "__" then
-    Gripper[name] = build.method(Gripper, name, value)
+    Gripper[name] = build.placed(value)
   end
 end
 

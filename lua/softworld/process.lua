@@ -14,6 +14,7 @@
 -- @module softworld.process
 local core = require "softworld.core"
 local build = require "softworld.build"
+local checks = require "softworld.checks"
 local conditions = require "softworld.conditions"
 
 local process = {}
@@ -31,7 +32,7 @@ end
 local function check_time(what, seconds)
   if type(seconds) ~= "number" or not (seconds >= 0 and seconds < math.huge) then
     error(("%s = %s%s is not allowed; it must be a time of at least 0 s"):format(what,
-      tostring(seconds), type(seconds) == "number" and " s" or ""), 3)
+      checks.shown(seconds), type(seconds) == "number" and " s" or ""), 3)
   end
 end
 
@@ -91,14 +92,14 @@ local function timeout_of(options)
   end
   for key in pairs(options) do
     if key ~= "timeout" then
-      error(("p:wait_until: there is no option '%s'; known is: timeout"):format(tostring(key)), 3)
+      error(("p:wait_until: there is no option '%s'; known is: timeout"):format(checks.shown(key)), 3)
     end
   end
   local timeout = options.timeout
   if timeout == nil or timeout == math.huge then return math.huge end
   if type(timeout) ~= "number" or timeout ~= timeout or timeout < 0 then
     error(("p:wait_until: timeout = %s is not allowed; it must be at least 0 s")
-      :format(tostring(timeout)), 3)
+      :format(checks.shown(timeout)), 3)
   end
   return timeout
 end

@@ -440,7 +440,7 @@ Run.error_bars = trust.error_bars
 Run.ledger = ledger.of
 
 for name, value in pairs(Run) do
-  if type(value) == "function" and name:sub(1, 2) ~= "__" then Run[name] = build.method(Run, name, value) end
+  if type(value) == "function" and name:sub(1, 2) ~= "__" then Run[name] = build.placed(value) end
 end
 
 function Run.__index(self, key)

@@ -127,7 +127,6 @@ end
 
 --- Rows of a run's summary.
 function Tie:report(add)
-  fixing.check_report(add, "tie")
   local broken = self.broken
   if broken then
     add(self.name .. ": BROKE at", broken.force, "N", nil, broken.time)

@@ -212,7 +212,7 @@ local by_call = {
     words.or_hostile(r, r.size(-3, -1))) end,
   ["scene.frame"] = function(r) return words.or_hostile(r, tostring(r.whole(0, 4))) end,
   ["wire.remodel"] = function(r) return words.table_of(r, join_rows(rows_but(params.remodel, "model"), params.wire_mesh),
-    0.08, { { "model", words.value(r, "model") } }) end,
+    0.08, { { "model", words.or_hostile(r, r.of{ "'rod'", "'string'", "'tube'", "'tube'", "'radial'" }) } }) end,
   ["wire.frequencies"] = function(r) return words.table_of(r, params.frequencies, 0.4) end,
   ["wire.set_velocity"] = function(r) return words.vector(r, 1) end,
   ["wire.width"] = function(r) return ("%s, %s"):format(place(r), words.value(r, "direction")) end,
