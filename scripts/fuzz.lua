@@ -124,8 +124,10 @@ end
 local function run(words, cpu)
   empty(place)
   lfs.mkdir(place .. "/tmp")
-  local _, why, code = os.execute(("ulimit -t %d; cd %s && exec %s %s child=%s slow=%s %s >%s 2>&1 </dev/null"):format(
-    cpu or options.cpu, quote(place .. "/tmp"), quote(program), quote(this), quote(place), options.slow, words,
+  local command = "ulimit -t %d; cd %s && exec %s %s child=%s slow=%s %s >%s 2>&1 </dev/null"
+  local _, why, code = os.execute(command:format(
+    cpu or options.cpu, quote(place .. "/tmp"), quote(program), quote(this), quote(place), options.slow,
+      words,
     quote(place .. "/out")))
   local findings, ended = {}, false
   for line in read(place .. "/found"):gmatch "[^\n]+" do

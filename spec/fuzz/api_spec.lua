@@ -4,7 +4,8 @@ local program = require "host.program"
 local quote = program.quote
 
 local function fuzz(options)
-  local out, _, code = program.shell(("%s %s/scripts/fuzz.lua %s 2>&1"):format(quote(program.path), program.root, options))
+  local out, _, code = program.shell(("%s %s/scripts/fuzz.lua %s 2>&1"):format(quote(program.path),
+    program.root, options))
   return out, code
 end
 
@@ -29,7 +30,8 @@ describe("random calls", function()
   it("are the same every time for one seed", function()
     local folder = program.folder()
     local function log()
-      os.execute(("mkdir -p %s/tmp && cd %s/tmp && %s %s/scripts/fuzz.lua child=%s seed=3 per=60 >/dev/null 2>&1"):format(
+      local command = "mkdir -p %s/tmp && cd %s/tmp && %s %s/scripts/fuzz.lua child=%s seed=3 per=60"
+      os.execute((command .. " >/dev/null 2>&1"):format(
         folder, folder, quote(program.shell("realpath " .. quote(program.path)):match "[^\n]+"),
         quote(program.shell("realpath " .. quote(program.root)):match "[^\n]+"), folder))
       return program.read(folder .. "/log")
@@ -40,11 +42,12 @@ describe("random calls", function()
   end)
 
   it("are told when they are no good", function()
+    local wire = "v[1]:wire{ cable = 'GXL 1.5', from = { 0, 0, 0 }, to = { 1, 0, 0 } }"
     local good = "v[1] = sw.scene{}\n\nreturn v[1].name\n\n"
     for _, case in ipairs{ { "return 1", "0 findings" },
       { "error{}", "an error that is a table" }, { "error 'no'", "an error that tells nothing" },
       { "load('return nil + 1', '=softworld/x.lua')()", "a raw error" },
-      { "v[1]:wire{ cable = 'GXL 1.5', from = { 0, 0, 0 }, to = { 1, 0, 0 } } error 'and yet there is a wire'",
+      { wire .. " error 'and yet there is a wire'",
         "and yet changed: v[1] (scene) parts" },
       { "while true do end", "hang", "cpu=1" }, { "os.execute 'kill -SEGV $PPID'", "crash signal 11" },
       { "os.exit(7)", "crash exit 7" },
@@ -57,8 +60,15 @@ describe("random calls", function()
   end)
 
   it("tell of numbers that are none after a run that is ok", function()
-    local out = replayed("v[1] = sw.scene{}\n\nv[2] = v[1]:wire{ cable = 'GXL 1.5', from = { 0, 0, 0 }, to = { 1, 0, 0 } }"
-      .. "\n\ncore.class.wire.max_tension = function() return 0 / 0 end\n\nv[3] = v[1]:run{ duration = 0.01 }\n")
+    local out = replayed [=[
+v[1] = sw.scene{}
+
+v[2] = v[1]:wire{ cable = 'GXL 1.5', from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+
+core.class.wire.max_tension = function() return 0 / 0 end
+
+v[3] = v[1]:run{ duration = 0.01 }
+]=]
     assert.is_truthy(out:find("max_tension", 1, true), out)
   end)
 end)

@@ -32,7 +32,8 @@ end
 local function place(r) return r.of{ "0", "0.05", "0.1", "0.2", "0.2501", "0.3", r.between(0, 0.4) } end
 
 local starts = { "{ 0, 0, 0.1 }", "{ 0, 0, 0.1 }", "{ 0, 0.05, 0.05 }", "{ 0, 0, 0.003 }", "{ 0, 0, 0.1 }" }
-local ends = { "{ 0.4, 0, 0.1 }", "{ 0.4, 0, 0.1 }", "{ 0.3, 0.05, 0.1 }", "{ 0, 0.3, 0.003 }", "{ 0.2, 0, -0.2 }" }
+local ends = { "{ 0.4, 0, 0.1 }", "{ 0.4, 0, 0.1 }", "{ 0.3, 0.05, 0.1 }", "{ 0, 0.3, 0.003 }",
+  "{ 0.2, 0, -0.2 }" }
 
 local function wire(r)
   local fixed, model = {}, words.value(r, "model")
@@ -72,7 +73,8 @@ local function obstacle(r)
   local shape = r.of(samples.registry.shapes)
   local fixed = { { "shape", words.or_hostile(r, "'" .. shape.name .. "'") } }
   if shape.name == "hull" then
-    fixed[2] = { "points", words.or_hostile(r, "{ { 0, 0, 0 }, { 0.1, 0, 0 }, { 0, 0.1, 0 }, { 0, 0, 0.1 } }") }
+    fixed[2] = { "points", words.or_hostile(r,
+      "{ { 0, 0, 0 }, { 0.1, 0, 0 }, { 0, 0.1, 0 }, { 0, 0, 0.1 } }") }
   elseif shape.name == "mesh" then
     fixed[2], fixed[3] = { "data", words.value(r, "data") }, { "format", words.value(r, "format") }
   end
@@ -93,7 +95,8 @@ local function force(r)
     return ("{ kind = %s, on = %s }"):format(words.or_hostile(r, words.callback(r)), r.pick "wire")
   end
   local on = entry.of_web and r.pick "particles" or r.pick(r.of{ "wire", "wire", "wire", "particles" })
-  local fixed = { { "kind", words.or_hostile(r, "'" .. entry.name .. "'") }, { "on", words.or_hostile(r, on) } }
+  local fixed = { { "kind", words.or_hostile(r, "'" .. entry.name .. "'") }, { "on", words.or_hostile(r,
+    on) } }
   return words.table_of(r, entry.params or {}, 0.4, fixed)
 end
 
@@ -132,14 +135,16 @@ local function settle(r)
 end
 
 local function grasp(r)
-  local fixed, approach = { { "s", words.or_hostile(r, place(r)) } }, r.of{ "imposed", "plates", "plates", "mixed" }
+  local fixed, approach = { { "s", words.or_hostile(r, place(r)) } }, r.of{ "imposed", "plates", "plates",
+    "mixed" }
   if r.chance(0.15) then fixed = {} end
   if approach ~= "imposed" or r.chance(0.1) then
     fixed[#fixed + 1] = { "approach", words.or_hostile(r, "'" .. approach .. "'") }
     fixed[#fixed + 1] = { r.of{ "force", "force", "distance" }, words.or_hostile(r, r.size(-1, 1)) }
     if r.chance(0.5) then fixed[#fixed + 1] = { "speed", "0.1" } end
   end
-  return ("%s, %s"):format(r.pick "wire", words.table_of(r, { "on_slip", "region", "margin", "freeze", "section" }, 0.05,
+  return ("%s, %s"):format(r.pick "wire", words.table_of(r, { "on_slip", "region", "margin", "freeze",
+    "section" }, 0.05,
     fixed))
 end
 
@@ -148,7 +153,8 @@ local function move(r)
   fixed[1][2] = words.value(r, fixed[1][1])
   fixed[2] = r.chance(0.6) and { "speed", words.or_hostile(r, r.size(-1.5, 0.3)) }
     or { "duration", words.or_hostile(r, r.size(-2, -0.7)) }
-  return words.table_of(r, { "law", "blend", "on_slip", "acceleration", "relative", "rotation", "stop" }, 0.07, fixed)
+  return words.table_of(r, { "law", "blend", "on_slip", "acceleration", "relative", "rotation", "stop" },
+    0.07, fixed)
 end
 
 local function trajectory(r)
@@ -165,7 +171,8 @@ local function follow(r)
 end
 
 local function condition(r)
-  return r.of{ words.callback(r), "F.predicate", ("{ force = %s, on = %s }"):format(words.or_hostile(r, "0.1"),
+  return r.of{ words.callback(r), "F.predicate", ("{ force = %s, on = %s }"):format(words.or_hostile(r,
+    "0.1"),
     r.pick(r.of{ "gripper", "obstacle", "clamp" })), ("{ slip = 1e-4, on = %s }"):format(r.pick "gripper"),
     ("{ contact = %s }"):format(r.pick "obstacle"),
     ("{ distance = 0.1, between = { %s, { %s, s = 0.1 } } }"):format(r.pick "gripper", r.pick "wire") }
@@ -188,37 +195,46 @@ local by_call = {
   ["scene.wire"] = wire, ["scene.particles"] = particles, ["scene.obstacle"] = obstacle,
   ["scene.clamp"] = hold "clamp", ["scene.pin"] = hold "pin", ["scene.grip"] = hold "grip",
   ["scene.feed"] = hold "feed", ["scene.force"] = force, ["scene.run"] = run, ["scene.settle"] = settle,
-  ["scene.hold"] = function(r) return ("%s, %s"):format(r.pick "particles", words.table_of(r, { "at", "name" }, 0.1,
+  ["scene.hold"] = function(r) return ("%s, %s"):format(r.pick "particles", words.table_of(r, { "at",
+    "name" }, 0.1,
     { { "particles", words.value(r, "particles") } })) end,
   ["scene.join"] = function(r) return words.table_of(r, rows_but(params.join, "ends"), 0.2,
     { { "ends", words.value(r, "ends") } }) end,
   ["scene.wire_contact"] = function(r) return words.table_of(r, params.wire_contact, 0.3) end,
-  ["scene.clip"] = function(r) return words.table_of(r, { "name", "direction", "axis", "radius", "friction", "way",
+  ["scene.clip"] = function(r) return words.table_of(r, { "name", "direction", "axis", "radius", "friction",
+    "way",
     "stiffness", "snap", "on" }, 0.1, { { "at", words.or_hostile(r, "{ 0.2, 0, 0.08 }") },
     { "width", words.value(r, "width") }, { "insertion", words.or_hostile(r, r.size(-1, 2)) },
     { "retention", words.or_hostile(r, r.size(-1, 2)) } }) end,
-  ["scene.channel"] = function(r) return words.table_of(r, { "thickness", "up", "friction", "restitution", "name" }, 0.1,
+  ["scene.channel"] = function(r) return words.table_of(r, { "thickness", "up", "friction", "restitution",
+    "name" }, 0.1,
     { { "points", words.value(r, "points") }, { "width", words.or_hostile(r, "0.02") },
     { "depth", words.or_hostile(r, "0.02") } }) end,
-  ["scene.tie"] = function(r) return ("%s, %s"):format(r.pick "wire", words.table_of(r, { "to", "slack", "strength" }, 0.3,
+  ["scene.tie"] = function(r) return ("%s, %s"):format(r.pick "wire", words.table_of(r, { "to", "slack",
+    "strength" }, 0.3,
     { { "s", words.or_hostile(r, place(r)) } })) end,
   ["scene.gripper"] = table_with(0.15, "name", "pads", "at", "rotation", "slip_tolerance", "arm", "on_crash"),
   ["scene.restore"] = function(r) return r.pick "snapshot" end,
   ["scene.save"] = function(r) return words.or_hostile(r, words.file(r)) end,
   ["scene.resume"] = function(r) return words.or_hostile(r, words.file(r)) end,
-  ["scene.evaluate"] = function(r) return ("%s, %s"):format(r.pick "wire", words.table_of(r, { "rate", "statics",
+  ["scene.evaluate"] = function(r) return ("%s, %s"):format(r.pick "wire", words.table_of(r, { "rate",
+    "statics",
     "positions", "velocities", "direction" }, 0.1)) end,
-  ["scene.advance"] = function(r) return ("{ dt = %s, max_steps = 5 }, %s"):format(words.or_hostile(r, "0.01"),
+  ["scene.advance"] = function(r) return ("{ dt = %s, max_steps = 5 }, %s"):format(words.or_hostile(r,
+    "0.01"),
     words.or_hostile(r, r.size(-3, -1))) end,
   ["scene.frame"] = function(r) return words.or_hostile(r, tostring(r.whole(0, 4))) end,
-  ["wire.remodel"] = function(r) return words.table_of(r, join_rows(rows_but(params.remodel, "model"), params.wire_mesh),
-    0.08, { { "model", words.or_hostile(r, r.of{ "'rod'", "'string'", "'tube'", "'tube'", "'radial'" }) } }) end,
+  ["wire.remodel"] = function(r) return words.table_of(r, join_rows(rows_but(params.remodel, "model"),
+    params.wire_mesh),
+    0.08, { { "model", words.or_hostile(r, r.of{ "'rod'", "'string'", "'tube'", "'tube'",
+      "'radial'" }) } }) end,
   ["wire.frequencies"] = function(r) return words.table_of(r, params.frequencies, 0.4) end,
   ["wire.set_velocity"] = function(r) return words.vector(r, 1) end,
   ["wire.width"] = function(r) return ("%s, %s"):format(place(r), words.value(r, "direction")) end,
   ["particles.set_velocity"] = function(r) return words.vector(r, 1) end,
   ["gripper.grasp"] = grasp, ["gripper.move"] = move,
-  ["gripper.move_to"] = function(r) return ("%s, { speed = %s }"):format(words.vector(r), words.or_hostile(r, "0.5")) end,
+  ["gripper.move_to"] = function(r) return ("%s, { speed = %s }"):format(words.vector(r),
+    words.or_hostile(r, "0.5")) end,
   ["gripper.rotate"] = function(r) return words.table_of(r, {}, 0, { { "axis", words.value(r, "axis") },
     { "angle", words.or_hostile(r, r.between(-2, 2)) }, { "duration", words.or_hostile(r, "0.05") } }) end,
   ["gripper.press"] = table_with(0.5, "force", "speed", "distance", "direction"),
@@ -226,23 +242,28 @@ local by_call = {
   ["gripper.open_jaws"] = table_with(0.3, "speed", "distance"),
   ["gripper.release"] = table_with(0.1, "speed", "distance"),
   ["gripper.handover"] = function(r) return ("%s, { s = %s }"):format(r.pick "gripper", place(r)) end,
-  ["gripper.clip"] = function(r) return words.table_of(r, { "speed", "max_force", "approach_speed", "align", "overtravel",
+  ["gripper.clip"] = function(r) return words.table_of(r, { "speed", "max_force", "approach_speed", "align",
+    "overtravel",
     "fail" }, 0.3, { { "into", words.value(r, "into") } }) end,
-  ["gripper.force"] = table_with(0.2, "axes", "finger"), ["gripper.moment"] = table_with(0.2, "axes", "finger", "at"),
+  ["gripper.force"] = table_with(0.2, "axes", "finger"), ["gripper.moment"] = table_with(0.2, "axes",
+    "finger", "at"),
   ["gripper.over"] = function(r) return r.of{ "", "0, 0.1", words.or_hostile(r, "0.01") .. ", 0.02",
     "0, 1, " .. words.vector(r) } end,
   ["gripper.pressure_map"] = table_with(0.4, "cell"),
   ["clamp.follow"] = follow, ["obstacle.follow"] = follow, ["tool.follow"] = follow,
-  ["clamp.pose"] = function(r) return r.of{ "", words.vector(r), words.vector(r) .. ", " .. words.value(r, "rotation") } end,
+  ["clamp.pose"] = function(r) return r.of{ "", words.vector(r), words.vector(r) .. ", " .. words.value(r,
+    "rotation") } end,
   ["obstacle.pose"] = function(r) return r.of{ "", words.vector(r), words.vector(r) .. ", "
     .. words.value(r, "rotation") } end,
   ["clamp.feed"] = function(r) return words.table_of(r, { "duration", "acceleration", "law" }, 0.1,
     { { "length", words.value(r, "length") }, { "speed", words.value(r, "speed") } }) end,
   ["process.wait"] = function(r) return words.or_hostile(r, r.size(-4, -1)) end,
-  ["process.wait_until"] = function(r) return ("%s, { timeout = %s }"):format(condition(r), words.value(r, "timeout")) end,
+  ["process.wait_until"] = function(r) return ("%s, { timeout = %s }"):format(condition(r), words.value(r,
+    "timeout")) end,
   ["process.feed"] = function(r) return ("%s, { length = %s, speed = %s }"):format(r.pick "clamp",
     words.value(r, "length"), words.value(r, "speed")) end,
-  ["run.save"] = function(r) return words.or_hostile(r, r.of{ "dir .. '/a.csv'", "dir .. '/a.json'", "'/dev/full'", words.file(r) }) end,
+  ["run.save"] = function(r) return words.or_hostile(r, r.of{ "dir .. '/a.csv'", "dir .. '/a.json'",
+    "'/dev/full'", words.file(r) }) end,
   ["run.vtk"] = function(r) return words.or_hostile(r, r.of{ "dir .. '/a.pvd'", words.file(r) }) end,
   ["run.chart"] = function(r) return words.table_of(r, { "title", "columns" }, 0.2,
     { { "path", words.or_hostile(r, r.of{ "dir .. '/a.svg'", words.file(r) }) } }) end,
@@ -253,11 +274,15 @@ local by_call = {
   ["trajectory.read"] = function(r) return words.or_hostile(r, words.file(r)) end,
   ["sw.cable"] = function(r) return words.or_hostile(r, words.value(r, "cable")) end,
   ["sw.calibrate"] = section_words,
-  ["tune.minimise"] = function(r) return words.table_of(r, { "tolerance", "step" }, 0.2, { { "f", words.value(r, "f") },
+  ["tune.minimise"] = function(r) return words.table_of(r, { "tolerance", "step" }, 0.2, { { "f",
+    words.value(r, "f") },
     { "max_iterations", "20" }, r.chance(0.5) and { "start", words.value(r, "start") }
-    or { "from", words.or_hostile(r, "0.01") }, r.chance(0.5) and { "to", words.or_hostile(r, "1") } or nil }) end,
-  ["cable.define"] = function(r) return words.table_of(r, { "EA", "EI", "GJ", "friction", "source", "flag", "spread",
-    "bend", "construction", "temperature" }, 0.3, { { "name", "'own'" }, { "outer_diameter", words.or_hostile(r, "0.003") },
+    or { "from", words.or_hostile(r, "0.01") }, r.chance(0.5) and { "to", words.or_hostile(r, "1") }
+      or nil }) end,
+  ["cable.define"] = function(r) return words.table_of(r, { "EA", "EI", "GJ", "friction", "source", "flag",
+    "spread",
+    "bend", "construction", "temperature" }, 0.3, { { "name", "'own'" }, { "outer_diameter",
+      words.or_hostile(r, "0.003") },
     { "mass_per_length", words.value(r, "mass_per_length") } }) end,
 }
 for _, name in ipairs{ "position", "tangent", "curvature", "tension", "strain", "stress", "velocity", "spin",
@@ -268,11 +293,16 @@ end
 -- How often a method is called among those of its kind; 1 when not listed.
 calls.weights = { ["scene.run"] = 14, ["scene.settle"] = 3, ["scene.wire"] = 3, ["scene.gripper"] = 3,
   ["scene.process"] = 12, ["scene.clamp"] = 3, ["scene.pin"] = 2, ["scene.grip"] = 2, ["scene.feed"] = 2,
-  ["scene.obstacle"] = 2, ["scene.force"] = 5, ["scene.close"] = 0.05, ["scene.clip"] = 2, ["scene.channel"] = 1.5,
-  ["scene.tie"] = 2, ["scene.join"] = 3, ["scene.wire_contact"] = 1.5, ["scene.snapshot"] = 2, ["scene.restore"] = 2,
-  ["scene.save"] = 2, ["scene.resume"] = 1, ["wire.remodel"] = 4, ["wire.frequencies"] = 0.7, ["gripper.grasp"] = 5,
-  ["gripper.move"] = 4, ["gripper.release"] = 1.5, ["run.pictures"] = 0, ["run.chart"] = 0.15, ["clamp.release"] = 0.7,
-  ["obstacle.remove"] = 0.7, ["scene.tool"] = 0.5, ["clamp.follow"] = 4, ["obstacle.follow"] = 2, ["wire.set_velocity"] = 2,
+  ["scene.obstacle"] = 2, ["scene.force"] = 5, ["scene.close"] = 0.05, ["scene.clip"] = 2,
+    ["scene.channel"] = 1.5,
+  ["scene.tie"] = 2, ["scene.join"] = 3, ["scene.wire_contact"] = 1.5, ["scene.snapshot"] = 2,
+    ["scene.restore"] = 2,
+  ["scene.save"] = 2, ["scene.resume"] = 1, ["wire.remodel"] = 4, ["wire.frequencies"] = 0.7,
+    ["gripper.grasp"] = 5,
+  ["gripper.move"] = 4, ["gripper.release"] = 1.5, ["run.pictures"] = 0, ["run.chart"] = 0.15,
+    ["clamp.release"] = 0.7,
+  ["obstacle.remove"] = 0.7, ["scene.tool"] = 0.5, ["clamp.follow"] = 4, ["obstacle.follow"] = 2,
+    ["wire.set_velocity"] = 2,
   ["gripper.remember"] = 0, ["gripper.recall"] = 0 }
 
 local function guess(r, learned)

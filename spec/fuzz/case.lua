@@ -7,7 +7,8 @@ local checked = require "fuzz.checked"
 local words = require "fuzz.words"
 
 local case = {}
-local MOST = { wire = 5, particles = 2, scene = 3, obstacle = 8, gripper = 4, clamp = 10, force = 10, run = 6 }
+local MOST = { wire = 5, particles = 2, scene = 3, obstacle = 8, gripper = 4, clamp = 10, force = 10,
+  run = 6 }
 
 local Maker = {}
 Maker.__index = Maker
@@ -85,7 +86,8 @@ local function use(self, n)
   return ("v[%d]:%s(%s)"):format(n, name, arguments), call
 end
 
-local handling = { "grasp", "grasp", "grasp", "move", "move", "move", "release", "rotate", "press", "close_jaws",
+local handling = { "grasp", "grasp", "grasp", "move", "move", "move", "release", "rotate", "press",
+  "close_jaws",
   "open_jaws", "handover", "clip", "freeze", "thaw", "move_to", "state", "squeeze" }
 local waiting = { "wait", "wait", "wait_until", "feed" }
 
@@ -119,12 +121,14 @@ local function process(self)
   return table.concat(lines, "\n")
 end
 
-local modules = { "sw.scene", "sw.load", "sw.cable", "sw.cables", "sw.calibrate", "sw.material", "sw.help", "trajectory.new",
+local modules = { "sw.scene", "sw.load", "sw.cable", "sw.cables", "sw.calibrate", "sw.material", "sw.help",
+  "trajectory.new",
   "trajectory.read", "tune.minimise", "cable.define", "calibrate.cell", "units", "core" }
 
 local core_names = {}
 for name, value in pairs(sw.core) do
-  if type(value) == "function" and name ~= "fail_allocation" and name ~= "blocks_time" and name ~= "class" then
+  if type(value) == "function" and name ~= "fail_allocation" and name ~= "blocks_time"
+    and name ~= "class" then
     core_names[#core_names + 1] = name
   end
 end
@@ -178,7 +182,8 @@ local function begin(self)
   for _ = 1, r.whole(1, 2) do
     add(self, ("v[%d] = v[1]:wire(%s)"):format(slot(self), calls.arguments(r, "scene.wire")))
   end
-  if r.chance(0.5) then add(self, ("v[%d] = v[1]:obstacle{ shape = 'plane', friction = 0.3 }"):format(slot(self))) end
+  if r.chance(0.5) then add(self,
+    ("v[%d] = v[1]:obstacle{ shape = 'plane', friction = 0.3 }"):format(slot(self))) end
   if r.chance(0.6) then add(self, ("v[%d] = v[1]:gripper{}"):format(slot(self))) end
   if r.chance(0.5) then add(self, ("v[%d] = v[1]:clamp(v[2], { s = 0 })"):format(slot(self))) end
 end
@@ -186,7 +191,8 @@ end
 --- Make up and do `count` calls. options: files (folder), log(text) before each call, report(kind,
 -- text) for what is found.
 function case.run(seed, count, options)
-  local self = setmetatable({ log = options.log, case = checked.new(options.files, options.report), kinds = {},
+  local self = setmetatable({ log = options.log, case = checked.new(options.files, options.report),
+    kinds = {},
     of_kind = {}, slots = {}, learned = {}, made = 0, last_slot = 0 }, Maker)
   self.case.slow = options.slow or self.case.slow
   local function object(kind) return pick(self, kind) end

@@ -36,16 +36,19 @@ end
 
 -- --- errors ---------------------------------------------------------------------------
 
-local raw = { "attempt to ", "bad argument #%-?%d+ to '%?'", "bad argument #%-?%d+ to 'for ", "stack overflow",
+local raw = { "attempt to ", "bad argument #%-?%d+ to '%?'", "bad argument #%-?%d+ to 'for ",
+  "stack overflow",
   "invalid order function", "has no integer representation", "'for' ", "assertion failed",
   "table index is", "invalid value %(at index", "wrong number of arguments", "invalid option",
   "must return a string", "invalid conversion", "malformed", "too many results", "string length overflow",
   "invalid key to", "error in error handling", "cannot resume", "%(null%)" }
 
 local library = { tostring = true, ipairs = true, pairs = true, next = true, insert = true, concat = true,
-  unpack = true, max = true, min = true, rep = true, sub = true, find = true, match = true, gsub = true, format = true,
+  unpack = true, max = true, min = true, rep = true, sub = true, find = true, match = true, gsub = true,
+    format = true,
   setmetatable = true, getmetatable = true, type = true, select = true, sort = true, write = true,
-  move = true, rawget = true, rawset = true, floor = true, tonumber = true, remove = true, gmatch = true, read = true,
+  move = true, rawget = true, rawset = true, floor = true, tonumber = true, remove = true, gmatch = true,
+    read = true,
   lines = true, byte = true, char = true, error = true }
 
 -- Why the message of an error is of no use, or nil.
@@ -87,11 +90,14 @@ local function wrong_number(value, path, infinite, depth)
 end
 
 local no_reading = { close = true, release = true, remove = true, restore = true, run = true, settle = true,
-  advance = true, snapshot = true, clear_frames = true, process = true, gripper = true, push = true, follow = true,
+  advance = true, snapshot = true, clear_frames = true, process = true, gripper = true, push = true,
+    follow = true,
   open = true, open_jaws = true, remodel = true, frequencies = true, save = true, freeze = true, thaw = true,
-  close_jaws = true, rotate = true, finish = true, series = true, step = true, hold = true, force_limit = true,
+  close_jaws = true, rotate = true, finish = true, series = true, step = true, hold = true,
+    force_limit = true,
   calibration = true, triangles = true, cable = true, pressure_map = true, frame = true, names = true,
-  jaws = true, scene = true, evaluate = true, resume = true, clip = true, watch = true, log = true, document = true }
+  jaws = true, scene = true, evaluate = true, resume = true, clip = true, watch = true, log = true,
+    document = true }
 
 local of_body = { wire = true, particles = true }
 
@@ -104,7 +110,8 @@ local function read_outs(object, kind)
       if fine and type(value) == "function" then
         local known, length = pcall(function() return object.length end)
         local results = table.pack(pcall(value, object))
-        if not results[1] and kind == "wire" and known then results = table.pack(pcall(value, object, 0.4 * length)) end
+        if not results[1] and kind == "wire" and known then results = table.pack(pcall(value, object,
+          0.4 * length)) end
         value = results[1] and { table.unpack(results, 2, results.n) } or nil
       end
       local found = fine and value ~= nil and wrong_number(value, name, infinite, 0)
@@ -129,7 +136,8 @@ function checked.new(files, report)
     local why = poor(results[2], self.memory)
     if why then report("error", ("%s: %s"):format(why, tostring(results[2]))) end
   end
-  self.env = setmetatable({ v = self.v, T = T, F = F, nan = 0 / 0, huge = math.huge, long = ("x"):rep(300), dir = files,
+  self.env = setmetatable({ v = self.v, T = T, F = F, nan = 0 / 0, huge = math.huge, long = ("x"):rep(300),
+    dir = files,
     sw = sw, core = core, try = try, print = function() end }, { __index = _G })
   return self
 end
@@ -212,7 +220,8 @@ end
 local function check_ledger(self, result)
   if not (kind_of(result) == "run" and result.ok) then return end
   local book = result:ledger()
-  local wrong = wrong_number(setmetatable(table.move({ book.total, book.at_start, book.gap, book.play, book.gained,
+  local wrong = wrong_number(setmetatable(table.move({ book.total, book.at_start, book.gap, book.play,
+    book.gained,
     book.kinetic, book.stored, book.gravity }, 1, 8, 1, {}), nil), "ledger", false, 0)
     or wrong_number(book.work, "ledger.work", false, 0) or wrong_number(book.lost, "ledger.lost", false, 0)
   if wrong then return self.report("ledger", wrong) end

@@ -93,7 +93,8 @@ local function with_objects(F, v)
   make("save", function(scene) scene:save(v.dir .. "/a.sws") end)
   make("restore", function(scene) scene:restore(v.snapshot or scene:snapshot()) end)
   make("change", function(scene)
-    scene:wire{ E = 1e8, density = 1000, radius = 0.002, from = { 0, 0, 1 }, to = { 0.2, 0, 1 }, segments = 3 }
+    scene:wire{ E = 1e8, density = 1000, radius = 0.002, from = { 0, 0, 1 }, to = { 0.2, 0, 1 },
+      segments = 3 }
   end)
 end
 

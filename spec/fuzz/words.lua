@@ -23,7 +23,8 @@ function words.source(seed, hostility, pick)
 end
 
 local hostile = { "nan", "huge", "-huge", "1e300", "-1e300", "1e-300", "5e-324", "-5e-324", "0", "-1",
-  "-0.0", "1.5", "2^53", "math.maxinteger", "math.mininteger", "1e15", "''", "'x'", "long", "'a\\0b'", "'%s%n'",
+  "-0.0", "1.5", "2^53", "math.maxinteger", "math.mininteger", "1e15", "''", "'x'", "long", "'a\\0b'",
+    "'%s%n'",
   "'\\xff\\xfe'", "{}", "true", "false", "nil", "print", "T.raise", "T.self", "T.names", "T.long", "T.string",
   "{ nan, nan, nan }", "{ huge, 0, 0 }", "{ 1e200, 1e200, 0 }", "{ 0, 0, 0 }", "{ 0, 0 }",
   "{ 1, 2, 3, 4 }", "{ x = 1 }", "{ '1', '2', '3' }", "{ {}, {} }", "{ T.raise, T.raise }", "sw", "io.stdout",
@@ -97,8 +98,10 @@ local by_name = {
   ends = function(r) return list_of(r, 2, function() return ("{ %s, s = %s }"):format(r.pick "wire",
     r.of{ "0", "0.1", r.between(0, 0.5) }) end) end,
   name = function(r) return r.of{ "'a'", "'b'", "'c d'", "'%d'", "'\"q'", "'../x'" } end,
-  cable = function(r) return r.of{ "'GXL 1.5'", "'H07V-K 1'", "'gxl'", "'FLRY-B 0.5'", "sw.cable 'GXL 0.5'" } end,
-  stiffness = function(r) return r.chance(0.5) and r.size(-1, 4) or r.of{ "'slip'", "'stick'", "'default'" } end,
+  cable = function(r) return r.of{ "'GXL 1.5'", "'H07V-K 1'", "'gxl'", "'FLRY-B 0.5'",
+    "sw.cable 'GXL 0.5'" } end,
+  stiffness = function(r) return r.chance(0.5) and r.size(-1, 4) or r.of{ "'slip'", "'stick'",
+    "'default'" } end,
   use = function(r) return r.of{ "'fixed'", "'movement'", "'load'", "'reeling'" } end,
   model = function(r) return r.of{ "'rod'", "'rod'", "'rod'", "'string'", "'tube'", "'radial'", "'cubic'",
     "'composite'" } end,
@@ -120,13 +123,16 @@ local by_name = {
   dt = function(r) return r.size(-5, -1.5) end,
   tolerance = function(r) return r.size(-7, -3) end,
   progress = function() return "false" end,
-  positions = function(r) return r.chance(0.5) and "{ 0, 0, 1, 0.1, 0, 1, 0.2, 0, 1, 0.3, 0.1, 1, 0.1, 0.2, 1 }"
+  positions = function(r) return r.chance(0.5)
+    and "{ 0, 0, 1, 0.1, 0, 1, 0.2, 0, 1, 0.3, 0.1, 1, 0.1, 0.2, 1 }"
     or list_of(r, 15, function() return r.between(-0.3, 0.3) end) end,
   masses = function(r) return r.chance(0.6) and r.size(-3, -1) or "{ 0.1, 0.1, 0.2, 0.1, 0.1 }" end,
   links = function(r) return ("{ { pairs = { 1, 2, 2, 3, 3, 4, %s, %s }, k = %s } }"):format(
     or_hostile(r, "4"), or_hostile(r, "5"), r.size(0, 4)) end,
-  folds = function(r) return ("{ { 1, 2, %s, stiffness = %s } }"):format(or_hostile(r, "3"), r.size(-3, 0)) end,
-  elements = function(r) return ("{ { 1, 2, 3, 4, 5, 5, 5, %s, E = 1e5, nu = 0.3 } }"):format(or_hostile(r, "5")) end,
+  folds = function(r) return ("{ { 1, 2, %s, stiffness = %s } }"):format(or_hostile(r, "3"), r.size(-3,
+    0)) end,
+  elements = function(r) return ("{ { 1, 2, 3, 4, 5, 5, 5, %s, E = 1e5, nu = 0.3 } }"):format(or_hostile(r,
+    "5")) end,
   surface = function(r) return ("{ 1, 2, %s }"):format(or_hostile(r, "3")) end,
   repel = function(r) return ("{ distance = %s, stiffness = %s }"):format(r.size(-3, -1), r.size(0, 4)) end,
   particles = function(r) return r.chance(0.7) and indices(r) or tostring(r.whole(4, 12)) end,
@@ -154,9 +160,11 @@ local by_name = {
   levels = function() return "3" end, max_iterations = function(r) return tostring(r.whole(1, 30)) end,
   modes = function(r) return tostring(r.whole(1, 4)) end,
   mesh = function(r) return r.of{ "'tube'", "'radial'", "'cubic'", "'composite'" } end,
-  across = function(r) return tostring(r.whole(2, 6)) end, layers = function(r) return tostring(r.whole(1, 3)) end,
+  across = function(r) return tostring(r.whole(2, 6)) end, layers = function(r) return tostring(r.whole(1,
+    3)) end,
   cell = function(r) return ("{ %s, %s }"):format(r.size(-3, -1.5), r.size(-3, -1.5)) end,
-  axes = function(r) return r.of{ "'gripper'", "'world'" } end, finger = function(r) return tostring(r.whole(1, 3)) end,
+  axes = function(r) return r.of{ "'gripper'", "'world'" } end,
+    finger = function(r) return tostring(r.whole(1, 3)) end,
   fail = function() return "false" end, freeze = function() return "false" end,
   spacing = function(r) return r.size(-3, -1) end, columns = function() return "{ 'clamp1.force' }" end,
   title = function(r) return r.of{ "'a title'", "'\"quoted\"'", "long" } end,
@@ -168,10 +176,13 @@ local by_name = {
 
 --- A function that is called back.
 function words.callback(r)
-  local name = r.of{ "raise", "raise_table", "yield", "nonsense", "nans", "collect", "nothing", "number", "way",
-    "predicate", "run", "settle", "release", "close", "restore", "clear", "change", "recurse", "snapshot", "save" }
+  local name = r.of{ "raise", "raise_table", "yield", "nonsense", "nans", "collect", "nothing", "number",
+    "way",
+    "predicate", "run", "settle", "release", "close", "restore", "clear", "change", "recurse", "snapshot",
+      "save" }
   local object = r.of{ "scene", "wire", "clamp", "gripper", "obstacle", "force", "join", "snapshot", "any" }
-  if name == "run" or name == "settle" or name == "save" or name == "change" or name == "snapshot" then object = "scene" end
+  if name == "run" or name == "settle" or name == "save" or name == "change"
+    or name == "snapshot" then object = "scene" end
   if name == "release" or name == "close" or name == "change" or name == "run" or name == "settle"
     or name == "restore" or name == "save" or name == "snapshot" then
     return ("F.%s(%s)"):format(name .. "_it", r.pick(object))
@@ -253,7 +264,8 @@ function words.table_of(r, keys, share, fixed)
       list[#list + 1] = key_text(name) .. " = " .. words.value(r, name, row)
     end
   end
-  if r.chance(r.hostility * 0.2) then list[#list + 1] = ("[%s] = 1"):format(r.of{ "1", "1.5", "true", "'no such key'",
+  if r.chance(r.hostility * 0.2) then list[#list + 1] = ("[%s] = 1"):format(r.of{ "1", "1.5", "true",
+    "'no such key'",
     "print", "T.raise" }) end
   if #list == 0 then return "{}" end
   return "{ " .. table.concat(list, ", ") .. " }"

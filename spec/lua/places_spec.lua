@@ -5,7 +5,8 @@ local sw = require "softworld"
 
 local function world()
   local scene = sw.scene{}
-  local wire = scene:wire{ E = 1e8, density = 1400, radius = 0.002, from = { 0, 0, 0.1 }, to = { 0.4, 0, 0.1 },
+  local wire = scene:wire{ E = 1e8, density = 1400, radius = 0.002, from = { 0, 0, 0.1 }, to = { 0.4, 0,
+    0.1 },
     segments = 8 }
   return scene, wire, scene:gripper{ at = { 0.2, 0, 0.3 } }
 end
@@ -88,7 +89,8 @@ describe("an error", function()
 
   it("of a channel leaves no part of it, nor its name", function()
     local other = sw.scene{}
-    local args = { name = "c", width = 0.02, depth = 0.02, points = { { 0, 0, 0 }, { 0.2, 0, 0 }, { 1e9, 0.1, 0 } } }
+    local args = { name = "c", width = 0.02, depth = 0.02, points = { { 0, 0, 0 }, { 0.2, 0, 0 }, { 1e9,
+      0.1, 0 } } }
     local before = table.concat(other:names(), " ")
     assert.has_error(function() other:channel(args) end)
     assert.equal(before, table.concat(other:names(), " "))
@@ -104,7 +106,8 @@ describe("waiting for a distance", function()
     local seen = 0
     scene:process(function(p)
       gripper:grasp(wire, { s = 0.2 })
-      for _, between in ipairs{ { gripper, ball }, { gripper, { 0.2, 0, 0.1 } }, { { wire, s = 0.2 }, gripper } } do
+      for _, between in ipairs{ { gripper, ball }, { gripper, { 0.2, 0, 0.1 } }, { { wire, s = 0.2 },
+        gripper } } do
         if p:wait_until({ distance = 1, between = between }, { timeout = 0.01 }) then seen = seen + 1 end
       end
     end)
