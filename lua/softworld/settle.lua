@@ -27,7 +27,7 @@ function Rest:__tostring()
 end
 
 local core_settle = core.class.scene.settle
-local function settle(scene, args) 
+local function settle(scene, args)
   return setmetatable(build.call(3, core_settle, scene, args), Rest)
 end
 

@@ -39,7 +39,8 @@ local function convert(value, times, by, name, depth)
     error(("units.%s takes a number or a table of numbers, got %s"):format(name, type(value)), 0)
   end
   if depth > DEEPEST then
-    error(("units.%s: the table holds itself, or more than %d tables within each other"):format(name, DEEPEST), 0)
+    error(("units.%s: the table holds itself, or more than %d tables within each other"):format(name,
+      DEEPEST), 0)
   end
   local out = {}
   for key, item in pairs(value) do out[key] = convert(item, times, by, name, depth + 1) end
