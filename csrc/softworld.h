@@ -18,6 +18,7 @@
 #include "scene/scene.h"
 #include "scene/section.h"
 #include "scene/tool.h"
+#include "shape/mesh_read.h"
 #include "shape/shape.h"
 #include "solve/band3.h"
 #include "solve/band4.h"

@@ -6,10 +6,14 @@
 #include <string.h>
 
 enum { ALIGNMENT = 64 }; /* one cache line and the widest vector [B] */
+/* Blocks from this size on are zero without being written: the system zeroes a page when it is
+ * used first, and a large one does not keep Ctrl-C waiting for that [B]. */
+enum { LARGE = 1 << 20 };
 
 /* Stored in the line before the block, so that sw_free knows its size. */
 typedef struct header {
   size_t bytes; /* of the user's part [B] */
+  void *raw;    /* what the system gave */
 } header;
 
 static long fail_countdown;
@@ -20,25 +24,32 @@ void sw_alloc_fail_at(long n) { fail_countdown = n > 0 ? n : 0; }
 size_t sw_alloc_live(void) { return live_bytes; }
 size_t sw_alloc_count(void) { return requests; }
 
+void sw_alloc_passed(size_t count) {
+  requests += count;
+  if (fail_countdown > 0)
+    fail_countdown -= count < (size_t)fail_countdown ? (long)count : fail_countdown;
+}
+
 void *sw_alloc(size_t count, size_t size) {
   requests++;
   if (fail_countdown > 0 && --fail_countdown == 0) return NULL;
   if (size != 0 && count > (SIZE_MAX / 2) / size) return NULL;
   const size_t bytes = count * size;
   const size_t total = ALIGNMENT + (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
-  char *raw = aligned_alloc(ALIGNMENT, total);
+  char *raw = total < LARGE ? aligned_alloc(ALIGNMENT, total) : calloc(1, total + ALIGNMENT);
   if (!raw) return NULL;
-  memset(raw, 0, total);
-  ((header *)(void *)raw)->bytes = bytes;
+  if (total < LARGE) memset(raw, 0, total);
+  char *start = raw + (ALIGNMENT - (uintptr_t)raw % ALIGNMENT) % ALIGNMENT;
+  *(header *)(void *)start = (header){bytes, raw};
   live_bytes += bytes;
-  return raw + ALIGNMENT;
+  return start + ALIGNMENT;
 }
 
 void sw_free(void *p) {
   if (!p) return;
-  char *raw = (char *)p - ALIGNMENT;
-  live_bytes -= ((header *)(void *)raw)->bytes;
-  free(raw);
+  const header *h = (const header *)(void *)((char *)p - ALIGNMENT);
+  live_bytes -= h->bytes;
+  free(h->raw);
 }
 
 sw_status sw_grow(void **p, size_t *capacity, size_t need, size_t size) {

@@ -24,7 +24,8 @@ sw_status sw_grow(void **p, size_t *capacity, size_t need, size_t size);
 /* Fail the n-th request from now (1 = the next one); 0 switches this off. */
 void sw_alloc_fail_at(long n);
 
-size_t sw_alloc_live(void);  /* bytes in use [B] */
-size_t sw_alloc_count(void); /* requests made since start [-] */
+size_t sw_alloc_live(void);         /* bytes in use [B] */
+size_t sw_alloc_count(void);        /* requests made since start [-] */
+void sw_alloc_passed(size_t count); /* that many were made for this process by another one */
 
 #endif

@@ -227,6 +227,30 @@ static int meth_read(lua_State *L) {
   return 1;
 }
 
+/* force:log() -> flat rows of 4: t, force on wires; number of rows */
+static int meth_log(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const double *rows;
+  size_t count;
+  const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
+  lsw_must(L, sw_scene_force_log(scene, f->id, &rows, &count, &err), &err);
+  lsw_push_flat(L, rows, count * SW_LOG_FORCE_SIZE);
+  lua_pushinteger(L, (lua_Integer)count);
+  return 2;
+}
+
+/* force:call_it(name): what its events call it */
+static int meth_call_it(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
+  if (lua_type(L, 2) != LUA_TSTRING)
+    luaL_error(L, "force:call_it: the name must be a string, got %s", lsw_describe(L, 2));
+  lsw_must(L, sw_scene_name_force(scene, f->id, lua_tostring(L, 2), &err), &err);
+  return 0;
+}
+
 static int prop_kind(lua_State *L) {
   sw_scene *scene;
   const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
@@ -255,7 +279,11 @@ static int meta_describe(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg methods[] = {{"release", meth_release}, {"read", meth_read}, {NULL, NULL}};
+static const luaL_Reg methods[] = {{"release", meth_release},
+                                   {"read", meth_read},
+                                   {"log", meth_log},
+                                   {"call_it", meth_call_it},
+                                   {NULL, NULL}};
 static const luaL_Reg properties[] = {{"kind", prop_kind}, {"held", prop_held}, {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lua class clamp (clamps, pins, grips and feeds) and scene:clamp, pin, grip, feed. */
+#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -60,15 +61,20 @@ static int meth_moment(lua_State *L) {
   return 1;
 }
 
-/* clamp:pose() -> position, rotation; clamp:pose(position [, rotation]) sets. */
+/* clamp:pose() -> position, rotation; clamp:pose(position [, rotation]) sets;
+ * without a rotation it keeps the one it has. */
 static int meth_pose(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
   sw_pose pose;
   const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
   if (lua_gettop(L) > 1) {
-    pose.p = lsw_vector(L, 2, "clamp:pose: position", "m");
-    pose.q = lsw_rotation(L, 3, "clamp:pose: rotation");
+    const sw_vec to = lsw_vector(L, 2, "clamp:pose: position", "m");
+    if (lua_isnoneornil(L, 3))
+      lsw_must(L, sw_scene_hold_pose(scene, c->id, &pose, &err), &err);
+    else
+      pose.q = lsw_rotation(L, 3, "clamp:pose: rotation");
+    pose.p = to;
     lsw_must(L, sw_scene_set_pose(scene, c->id, pose, &err), &err);
     return 0;
   }
@@ -83,7 +89,7 @@ static int meth_follow(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
   const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
-  luaL_checkany(L, 2);
+  lsw_given(L, 2, "clamp:follow: a trajectory is needed, or nil to stop");
   sw_motion *motion = lua_isnil(L, 2) ? NULL : lsw_motion_from(L, 2, "clamp:follow");
   const sw_status status = sw_scene_follow(scene, c->id, motion, 0, &err);
   lua_pushnumber(L, motion ? sw_motion_end(motion) : 0.0);
@@ -100,21 +106,52 @@ static int meth_release(lua_State *L) {
   return 0;
 }
 
-/* clamp:log() -> flat rows of 10: t, force, moment, point [s, N, N m, m] and the
- * number of rows. clamp:log(first) starts at that row. */
+/* clamp:crash() -> { time, depth, obstacle } of the last time that it drove the wire into an
+ * obstacle [s], [m]; nil when it never did */
+static int meth_crash(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  double time, depth;
+  const char *obstacle;
+  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
+  lsw_must(L, sw_scene_hold_crash(scene, c->id, &time, &depth, &obstacle, &err), &err);
+  if (!(depth > 0)) return 0;
+  lua_createtable(L, 0, 3);
+  lsw_set_number(L, "time", time);
+  lsw_set_number(L, "depth", depth);
+  lua_pushstring(L, obstacle);
+  lua_setfield(L, -2, "obstacle");
+  return 1;
+}
+
+/* Some columns of a log's rows, as one flat list. */
+static void push_columns(lua_State *L, const double *rows, size_t count, size_t from,
+                         size_t width) {
+  lua_createtable(L, count * width < INT_MAX ? (int)(count * width) : 0, 0);
+  for (size_t i = 0; i < count * width; i++) {
+    lua_pushnumber(L, rows[i / width * SW_LOG_SIZE + from + i % width]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+}
+
+/* clamp:log() -> flat rows of 10: t, force, moment, point [s, N, N m, m], the
+ * number of rows, and for each the time of its step below 0, 0 at an equilibrium [s].
+ * clamp:log(first) starts at that row. */
 static int meth_log(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
   const double *rows;
   size_t count;
   const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
-  const lua_Integer first = luaL_optinteger(L, 2, 1);
+  const lua_Integer first =
+      lua_isnoneornil(L, 2) ? 1 : lsw_integer(L, 2, "clamp:log: the first row");
   lsw_must(L, sw_scene_hold_log(scene, c->id, &rows, &count, &err), &err);
   const size_t skip = first > 1 ? (size_t)(first - 1) : 0;
   const size_t n = count > skip ? count - skip : 0;
-  lsw_push_flat(L, n ? rows + skip * SW_LOG_SIZE : NULL, n * SW_LOG_SIZE);
+  push_columns(L, rows + skip * SW_LOG_SIZE, n, 0, SW_LOG_SPAN);
   lua_pushinteger(L, (lua_Integer)n);
-  return 2;
+  push_columns(L, rows + skip * SW_LOG_SIZE, n, SW_LOG_SPAN, 1);
+  return 3;
 }
 
 /* --- feeds ---------------------------------------------------------------------- */
@@ -287,6 +324,7 @@ static const luaL_Reg methods[] = {{"force", meth_force},
                                    {"follow", meth_follow},
                                    {"release", meth_release},
                                    {"log", meth_log},
+                                   {"crash", meth_crash},
                                    {"fed", meth_fed},
                                    {"feed", meth_feed},
                                    {"speed", meth_speed},

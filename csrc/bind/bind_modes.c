@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* wire:frequencies. */
+#include <stdio.h>
+
 #include "bind/child.h"
 
 static void push_shapes(lua_State *L, const sw_modes_result *r, size_t n) {
@@ -11,8 +13,19 @@ static void push_shapes(lua_State *L, const sw_modes_result *r, size_t n) {
   lua_setfield(L, -2, "shapes");
 }
 
-/* wire:frequencies{ modes =, shapes = } -> { f1, f2, ..., unstable =, growth =,
- * shapes = } [Hz], [-], [1/s], [1/sqrt(kg)] */
+static void push_note(lua_State *L, const sw_modes_result *r) {
+  char text[240];
+  snprintf(text, sizeof text,
+           "unstable in %zu direction%s: the wire would buckle or tip over, e-fold in %.2g s; what "
+           "is listed swings beside that",
+           r->unstable, r->unstable == 1 ? "" : "s", 1.0 / r->growth);
+  lsw_set_number(L, "growth", r->growth);
+  lua_pushstring(L, text);
+  lua_setfield(L, -2, "note");
+}
+
+/* wire:frequencies{ modes =, shapes = } -> { f1, f2, ..., unstable =, growth =, note =,
+ * shapes = } [Hz], [-], [1/s], words, [1/sqrt(kg)] */
 int lsw_wire_frequencies(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
@@ -38,7 +51,7 @@ int lsw_wire_frequencies(lua_State *L) {
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }
   lsw_set_integer(L, "unstable", r.unstable);
-  if (r.unstable) lsw_set_number(L, "growth", r.growth);
+  if (r.unstable) push_note(L, &r);
   if (args.shapes) push_shapes(L, &r, n);
   return 1;
 }

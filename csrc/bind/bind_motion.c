@@ -234,7 +234,8 @@ const lsw_class lsw_class_trajectory = {.name = "trajectory",
 
 /* trajectory(table | function | trajectory) */
 static int f_trajectory(lua_State *L) {
-  luaL_checkany(L, 1);
+  if (lua_isnoneornil(L, 1))
+    return luaL_error(L, "trajectory: a table of parameters, a function or a trajectory is needed");
   lua_settop(L, 1);
   if (lsw_test(L, 1, &lsw_class_trajectory)) return 1;
   lsw_motion_args args;

@@ -30,7 +30,7 @@ static lsw_child *check(lua_State *L, sw_scene **scene) {
   return lsw_check_child(L, 1, &lsw_class_obstacle, scene);
 }
 
-/* Contact force on the obstacle [N]; its moment { at = point } [N m]. */
+/* Contact force on the obstacle, mean over the last step [N]; its moment { at = point } [N m]. */
 static int meth_force(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
@@ -55,14 +55,20 @@ static int meth_moment(lua_State *L) {
   return 1;
 }
 
+/* obstacle:pose() -> position, rotation; obstacle:pose(position [, rotation]) sets; without a
+ * rotation it keeps the one it has. */
 static int meth_pose(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
   sw_pose pose;
   const lsw_child *o = check(L, &scene);
   if (lua_gettop(L) > 1) {
-    pose.p = lsw_vector(L, 2, "obstacle:pose: position", "m");
-    pose.q = lsw_rotation(L, 3, "obstacle:pose: rotation");
+    const sw_vec to = lsw_vector(L, 2, "obstacle:pose: position", "m");
+    if (lua_isnoneornil(L, 3))
+      lsw_must(L, sw_scene_obstacle_pose(scene, o->id, &pose, &err), &err);
+    else
+      pose.q = lsw_rotation(L, 3, "obstacle:pose: rotation");
+    pose.p = to;
     lsw_must(L, sw_scene_obstacle_set_pose(scene, o->id, pose, &err), &err);
     return 0;
   }
@@ -76,7 +82,7 @@ static int meth_follow(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
   const lsw_child *o = check(L, &scene);
-  luaL_checkany(L, 2);
+  lsw_given(L, 2, "obstacle:follow: a trajectory is needed, or nil to stop");
   sw_motion *motion = lua_isnil(L, 2) ? NULL : lsw_motion_from(L, 2, "obstacle:follow");
   const sw_status status = sw_scene_obstacle_follow(scene, o->id, motion, 0, &err);
   lua_pushnumber(L, motion ? sw_motion_end(motion) : 0.0);
@@ -93,7 +99,8 @@ static int meth_remove(lua_State *L) {
   return 0;
 }
 
-/* obstacle:log() -> flat rows of 4: t, force [s, N]; number of rows. */
+/* obstacle:log() -> flat rows of 5: t, force, the time up to t that it is the mean of (0 at an
+ * equilibrium) [s, N, s]; number of rows. */
 static int meth_log(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};

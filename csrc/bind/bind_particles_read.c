@@ -24,6 +24,7 @@ static size_t length_of(lua_State *L, int index, const char *what) {
 
 /* Item i (from 0) of the list at index: a number, finite where it must be. */
 static double number_at(lua_State *L, int index, size_t i, const char *what) {
+  lsw_poll(L);
   lua_rawgeti(L, index, (lua_Integer)i + 1);
   if (lua_type(L, -1) != LUA_TNUMBER)
     luaL_error(L, "particles: %s, item %d, must be a number, got %s", what, (int)i + 1,
@@ -39,6 +40,7 @@ static double number_at(lua_State *L, int index, size_t i, const char *what) {
 /* The number of a particle there, from 0. */
 static uint32_t particle_at(lua_State *L, int index, size_t i, const char *what) {
   int whole;
+  lsw_poll(L);
   lua_rawgeti(L, index, (lua_Integer)i + 1);
   const lua_Integer value = lua_tointegerx(L, -1, &whole);
   if (!whole || lua_type(L, -1) != LUA_TNUMBER || value < 1 || value > (lua_Integer)UINT32_MAX)

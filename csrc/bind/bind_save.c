@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "bind/child.h"
+#include "bind/mesh_child.h"
 #include "bind/module.h"
 
 typedef struct block {
@@ -54,6 +55,7 @@ static int mod_load(lua_State *L) {
   sw_error err = {""};
   const char *bytes = luaL_checklstring(L, 1, &size);
   lsw_handle *h = lsw_new_scene(L);
+  lsw_mesh_child_for(L);
   lsw_must(L, sw_scene_load(bytes, size, &scene, &err), &err);
   h->object = scene;
   return 1;
@@ -65,6 +67,7 @@ static int mod_resume(lua_State *L) {
   size_t size;
   sw_error err = {""};
   const char *bytes = luaL_checklstring(L, 2, &size);
+  lsw_mesh_child_for(L);
   lsw_must(L, sw_scene_resume(scene, bytes, size, &err), &err);
   lsw_forget_forces(L, 1, scene);
   return 0;

@@ -134,6 +134,17 @@ static int mod_begin_run(lua_State *L) {
   return 0;
 }
 
+/* core.window(scene or obstacle) -> that of the scene's last run [s]. */
+static int mod_window(lua_State *L) {
+  sw_scene *scene;
+  if (lsw_test(L, 1, &lsw_class_obstacle))
+    lsw_check_child(L, 1, &lsw_class_obstacle, &scene);
+  else
+    scene = check(L);
+  lua_pushnumber(L, sw_scene_window(scene));
+  return 1;
+}
+
 /* core.remesh(scene, { segments of each wire }) */
 static int mod_remesh(lua_State *L) {
   sw_scene *scene = check(L);
@@ -320,26 +331,53 @@ static void push_frame_surfaces(lua_State *L, const sw_scene *scene, size_t fram
   }
 }
 
-/* scene:frame(i) -> { t, wires, surfaces, particles, obstacles, holds, energy }, or nil past the
- * end. */
+/* Of each wire { tension =, curvature =, contact = }, flat, at each node [N], [1/m], [N]. */
+static void push_frame_values(lua_State *L, const sw_scene *scene, size_t frame) {
+  static const char *const names[SW_FRAME_VALUES] = {"tension", "curvature", "contact"};
+  size_t count;
+  lua_Integer number = 0;
+  lua_newtable(L);
+  for (size_t w = 0; sw_scene_frame_wire(scene, frame, w, &count) != NULL; w++) {
+    const double *p = sw_scene_frame_values(scene, frame, w, &count);
+    if (!p) continue;
+    lua_createtable(L, 0, SW_FRAME_VALUES);
+    for (size_t k = 0; k < SW_FRAME_VALUES; k++) {
+      lua_createtable(L, (int)count, 0);
+      for (size_t i = 0; i < count; i++) {
+        lua_pushnumber(L, p[SW_FRAME_VALUES * i + k]);
+        lua_rawseti(L, -2, (lua_Integer)i + 1);
+      }
+      lua_setfield(L, -2, names[k]);
+    }
+    lua_rawseti(L, -2, ++number);
+  }
+}
+
+/* scene:frame(i) -> { t, wires, values, surfaces, particles, obstacles (false: taken away), holds,
+ * tools, energy }, or nil past the end. */
 static int meth_frame(lua_State *L) {
   const sw_scene *scene = check(L);
-  const lua_Integer i = luaL_checkinteger(L, 2);
+  const lua_Integer i = lsw_integer(L, 2, "scene:frame: the number of the frame");
   const double *p;
   int held;
   if (i < 1 || (size_t)i > sw_scene_frames(scene)) return 0;
   const size_t frame = (size_t)i - 1;
-  lua_createtable(L, 0, 5);
+  lua_createtable(L, 0, 9);
   lsw_set_number(L, "t", sw_scene_frame_time(scene, frame));
   push_frame_bodies(L, scene, frame, 0);
   lua_setfield(L, -2, "wires");
+  push_frame_values(L, scene, frame);
+  lua_setfield(L, -2, "values");
   push_frame_surfaces(L, scene, frame);
   lua_setfield(L, -2, "surfaces");
   push_frame_bodies(L, scene, frame, 1);
   lua_setfield(L, -2, "particles");
   lua_newtable(L);
-  for (size_t o = 0; (p = sw_scene_frame_obstacle(scene, frame, o)) != NULL; o++) {
-    push_pose(L, p);
+  for (size_t o = 0; (p = sw_scene_frame_obstacle(scene, frame, o, &held)) != NULL; o++) {
+    if (held)
+      push_pose(L, p);
+    else
+      lua_pushboolean(L, 0);
     lua_rawseti(L, -2, (lua_Integer)o + 1);
   }
   lua_setfield(L, -2, "obstacles");
@@ -351,6 +389,12 @@ static int meth_frame(lua_State *L) {
     lua_rawseti(L, -2, (lua_Integer)h + 1);
   }
   lua_setfield(L, -2, "holds");
+  lua_newtable(L);
+  for (size_t k = 0; (p = sw_scene_frame_tool(scene, frame, k)) != NULL; k++) {
+    push_pose(L, p);
+    lua_rawseti(L, -2, (lua_Integer)k + 1);
+  }
+  lua_setfield(L, -2, "tools");
   const double *e = sw_scene_frame_energy(scene, frame);
   lua_createtable(L, 0, SW_FRAME_ENERGIES);
   lsw_set_number(L, "kinetic", e[0]);
@@ -468,13 +512,20 @@ const lsw_class lsw_class_snapshot = {.name = "snapshot",
                                       .gone = "the snapshot has been closed",
                                       .busy = snapshot_busy};
 
-static const luaL_Reg functions[] = {
-    {"scene", mod_scene},         {"data", mod_data},
-    {"type", mod_type},           {"busy", mod_busy},
-    {"exists", mod_exists},       {"interrupted", mod_interrupted},
-    {"clock", mod_clock},         {"nearest", mod_nearest},
-    {"check_run", mod_check_run}, {"check_settle", mod_check_settle},
-    {"begin_run", mod_begin_run}, {"remesh", mod_remesh},
-    {"segments", mod_segments},   {NULL, NULL}};
+static const luaL_Reg functions[] = {{"scene", mod_scene},
+                                     {"data", mod_data},
+                                     {"type", mod_type},
+                                     {"busy", mod_busy},
+                                     {"exists", mod_exists},
+                                     {"interrupted", mod_interrupted},
+                                     {"clock", mod_clock},
+                                     {"nearest", mod_nearest},
+                                     {"check_run", mod_check_run},
+                                     {"check_settle", mod_check_settle},
+                                     {"begin_run", mod_begin_run},
+                                     {"window", mod_window},
+                                     {"remesh", mod_remesh},
+                                     {"segments", mod_segments},
+                                     {NULL, NULL}};
 
 void lsw_open_scene(lua_State *L) { luaL_setfuncs(L, functions, 0); }

@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 
+#include "bind/mesh_child.h"
 #include "bind/module.h"
 
 typedef struct shape_handle {
@@ -48,6 +49,7 @@ static void read_points(lua_State *L, const char *object, sw_shape_source *sourc
   const size_t n = (size_t)(nested ? items : items / 3);
   double *to = lua_newuserdatauv(L, (3 * n + 1) * sizeof *to, 0);
   for (lua_Integer i = 1; i <= items; i++) {
+    lsw_poll(L);
     lua_rawgeti(L, table, i);
     if (!nested && lua_type(L, -1) == LUA_TNUMBER) {
       to[i - 1] = lua_tonumber(L, -1); /* the core checks that it is finite */
@@ -113,6 +115,7 @@ sw_shape *lsw_shape_from_table(lua_State *L, int index, const lsw_section *extra
   for (int i = 0; i < extra_count; i++) sections[2 + i] = extra[i];
   lsw_sections(L, index, params->object, sections, 2 + extra_count);
   read_source(L, index, params, &source);
+  lsw_mesh_child_for(L);
   const sw_status status = sw_shape_new(class, &args, &source, &shape, &err);
   if (status != SW_OK) lsw_raise(L, status, &err);
   lua_pop(L, 1);
@@ -264,4 +267,5 @@ void lsw_open_shape(lua_State *L) {
   static const luaL_Reg functions[] = {
       {"shape", mod_shape}, {"shape_params", mod_shape_params}, {NULL, NULL}};
   luaL_setfuncs(L, functions, 0);
+  lsw_mesh_child_open();
 }

@@ -41,7 +41,7 @@ static int meth_pad(lua_State *L) {
   sw_error err = {""};
   const lsw_child *t = check(L, &scene);
   const lsw_child *o = lsw_check_child_of(L, 2, &lsw_class_obstacle, scene, "tool:pad");
-  const lua_Integer finger = luaL_checkinteger(L, 3);
+  const lua_Integer finger = lsw_integer(L, 3, "tool: the number of the finger");
   luaL_argcheck(L, finger >= 0 && finger <= SW_TOOL_PADS, 3, "finger out of range");
   const sw_vec opens = lsw_vector(L, 4, "tool:pad: opens", "-");
   lsw_must(L, sw_scene_tool_pad(scene, t->id, o->id, (int)finger - 1, opens, &err), &err);
@@ -71,7 +71,7 @@ static int meth_follow(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
   const lsw_child *t = check(L, &scene);
-  luaL_checkany(L, 2);
+  lsw_given(L, 2, "tool:follow: a trajectory is needed, or nil to stop");
   sw_motion *motion = lua_isnil(L, 2) ? NULL : lsw_motion_from(L, 2, "gripper:move");
   const sw_status status = sw_scene_tool_follow(scene, t->id, motion, 0, &err);
   lua_pushnumber(L, motion ? sw_motion_end(motion) : 0.0);
@@ -86,8 +86,12 @@ static int meth_pose(lua_State *L) {
   sw_pose pose;
   const lsw_child *t = check(L, &scene);
   if (lua_gettop(L) > 1) {
-    pose.p = lsw_vector(L, 2, "tool:pose: position", "m");
-    pose.q = lsw_rotation(L, 3, "tool:pose: rotation");
+    const sw_vec to = lsw_vector(L, 2, "tool:pose: position", "m");
+    if (lua_isnoneornil(L, 3))
+      lsw_must(L, sw_scene_tool_pose(scene, t->id, &pose, &err), &err);
+    else
+      pose.q = lsw_rotation(L, 3, "tool:pose: rotation");
+    pose.p = to;
     lsw_must(L, sw_scene_tool_set_pose(scene, t->id, pose, &err), &err);
     return 0;
   }
@@ -183,8 +187,9 @@ static void force_of(lua_State *L, int point, int finger, sw_vec *force, sw_vec 
   const sw_status status =
       lua_isnoneornil(L, finger)
           ? sw_scene_tool_force(scene, t->id, at, force, moment, &err)
-          : sw_scene_tool_finger(scene, t->id, (int)luaL_checkinteger(L, finger) - 1, at, force,
-                                 moment, &err);
+          : sw_scene_tool_finger(scene, t->id,
+                                 (int)lsw_integer(L, finger, "tool: the number of the finger") - 1,
+                                 at, force, moment, &err);
   lsw_must(L, status, &err);
 }
 
@@ -202,8 +207,9 @@ static int meth_moment(lua_State *L) {
   return 1;
 }
 
-/* tool:log() -> flat rows of 14: t, force, moment, centre, opening, squeeze, margin, slip;
- * number of rows. */
+/* tool:log() -> flat rows of 15: t, force, moment, centre, span, opening, squeeze, margin, slip;
+ * number of rows. span: the time up to t that the force is the mean of; below 0: of the step at
+ * whose end it is the force; 0 at an equilibrium [s]. */
 static int meth_log(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
@@ -216,7 +222,8 @@ static int meth_log(lua_State *L) {
   return 2;
 }
 
-/* tool:touches() -> { { finger, at, force (in the tool's axes), normal, s }, ... } */
+/* tool:touches() -> { { finger, at, force (in the tool's axes), normal, s, slid, wire = slot,
+ * wire_name }, ... } */
 static int meth_touches(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
@@ -228,13 +235,16 @@ static int meth_touches(lua_State *L) {
   for (size_t k = 0; k < count; k++) {
     sw_tool_touch touch;
     if (!sw_scene_tool_touch(scene, t->id, k, &touch)) continue;
-    lua_createtable(L, 0, 5);
+    lua_createtable(L, 0, 7);
+    lua_pushstring(L, touch.name);
+    lua_setfield(L, -2, "wire_name");
     lsw_set_integer(L, "finger", (size_t)touch.finger + 1);
     lsw_set_vector(L, "at", touch.at);
     lsw_set_vector(L, "force", touch.force);
     lsw_set_number(L, "normal", touch.normal);
     lsw_set_number(L, "s", touch.s);
     lsw_set_number(L, "slid", touch.slid);
+    lsw_set_integer(L, "wire", touch.wire);
     lua_rawseti(L, -2, ++found);
   }
   return 1;

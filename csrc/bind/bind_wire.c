@@ -267,10 +267,28 @@ static int meth_min_bend_radius(lua_State *L) {
   return push_extreme(L, x.value > 0 ? 1.0 / x.value : HUGE_VAL, &x);
 }
 
-/* Largest tension [N], where [m], when [s]. */
+/* Largest tension [N], where [m], when [s]: of means over the run's window. { raw = true }: of
+ * single steps, and how long that one was [s]. */
 static int meth_max_tension(lua_State *L) {
-  const sw_extreme x = read_extremes(L).tension;
-  return push_extreme(L, x.value, &x);
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_wire_extremes now, run;
+  struct {
+    int now, raw;
+  } args;
+  static const sw_param rows[] = {{"now", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, 0,
+                                   "present value instead of the run's extreme"},
+                                  {"raw", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, sizeof(int),
+                                   "of single steps instead of means over the run's window"}};
+  static const sw_params params = SW_PARAMS("wire:max_tension", rows);
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  lsw_arguments(L, 2, "wire:max_tension", &params, &args);
+  lsw_must(L, sw_scene_wire_extremes(scene, w->id, &now, &run, &err), &err);
+  if (args.now) return push_extreme(L, now.tension.value, &now.tension);
+  if (!args.raw) return push_extreme(L, run.tension.value, &run.tension);
+  push_extreme(L, run.raw.value, &run.raw);
+  lua_pushnumber(L, run.raw_span);
+  return 4;
 }
 
 /* Largest strain of an outermost fibre [-], where [m], when [s]. */
@@ -304,6 +322,19 @@ static int meth_folded(lua_State *L) {
   if (!(x.value > 0)) return 0;
   lua_pushnumber(L, x.s);
   lua_pushnumber(L, x.time);
+  return 2;
+}
+
+/* wire:log() -> flat rows of 3: t, largest tension, largest curvature; number of rows */
+static int meth_log(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const double *rows;
+  size_t count;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  lsw_must(L, sw_scene_wire_log(scene, w->id, &rows, &count, &err), &err);
+  lsw_push_flat(L, rows, count * SW_LOG_WIRE_SIZE);
+  lua_pushinteger(L, (lua_Integer)count);
   return 2;
 }
 
@@ -405,6 +436,7 @@ static const luaL_Reg methods[] = {{"position", meth_position},
                                    {"max_stress", meth_max_stress},
                                    {"max_ovalisation", meth_max_ovalisation},
                                    {"folded", meth_folded},
+                                   {"log", meth_log},
                                    {"section", lsw_wire_section},
                                    {"width", lsw_wire_width},
                                    {"contact_pressure", lsw_wire_contact_pressure},

@@ -49,9 +49,24 @@ const char *lsw_describe(lua_State *L, int index) {
   return luaL_typename(L, index);
 }
 
+/* The name under which the running C function is a method of the class, or NULL. */
+static const char *method_name(lua_State *L, const lsw_class *c) {
+  lua_Debug ar;
+  if (!lua_getstack(L, 0, &ar) || !lua_getinfo(L, "f", &ar)) return NULL;
+  const lua_CFunction running = lua_tocfunction(L, -1);
+  lua_pop(L, 1);
+  for (const luaL_Reg *m = c->methods; m && m->name && running; m++)
+    if (m->func == running) return m->name;
+  return NULL;
+}
+
 void *lsw_check(lua_State *L, int index, const lsw_class *c) {
   lsw_handle *h = lsw_test(L, index, c);
   if (!h) {
+    const char *method = index == 1 ? method_name(L, c) : NULL;
+    if (method)
+      luaL_error(L, "%s:%s is a method: call it with a colon (%s expected, got %s)", c->name,
+                 method, c->name, lsw_describe(L, index));
     luaL_argerror(L, index,
                   lua_pushfstring(L, "%s expected, got %s", c->name, lsw_describe(L, index)));
     return NULL;
@@ -67,7 +82,10 @@ static const lsw_class *class_of(lua_State *L) { return lua_touserdata(L, lua_up
 static int meta_gc(lua_State *L) {
   const lsw_class *c = class_of(L);
   lsw_handle *h = lsw_test(L, 1, c);
-  if (h && h->object) {
+  if (!h)
+    return luaL_error(L, "%s:close is a method: call it with a colon (%s expected, got %s)",
+                      c->name, c->name, lsw_describe(L, 1));
+  if (h->object) {
     if (c->busy && c->busy(h))
       return luaL_error(L, "this %s cannot be closed from inside a step or a function of time",
                         c->name);
@@ -104,18 +122,8 @@ static int meta_eq(lua_State *L) {
   return 1;
 }
 
-/* Method or property by name; a name that is neither is an error with a hint.
- * Upvalues: the class, its methods, its properties. */
-static int meta_index(lua_State *L) {
-  lua_settop(L, 2);
-  lua_pushvalue(L, 2);
-  if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) return 1;
-  lua_pushvalue(L, 2);
-  if (lua_rawget(L, lua_upvalueindex(3)) != LUA_TNIL) {
-    lua_pushvalue(L, 1);
-    lua_call(L, 1, 1);
-    return 1;
-  }
+/* Raise for the name at index 2. Upvalues as of meta_index. */
+static int unknown_field(lua_State *L) {
   if (lua_type(L, 2) != LUA_TSTRING)
     return luaL_error(L, "%s has no such field", class_of(L)->name);
   const char *names[64];
@@ -134,6 +142,39 @@ static int meta_index(lua_State *L) {
     return luaL_error(L, "%s has no '%s'; did you mean '%s'?", class_of(L)->name, word, near);
   return luaL_error(L, "%s has no '%s'; help(it) at the prompt lists what it has",
                     class_of(L)->name, word);
+}
+
+/* Method or property by name; a name that is neither is an error with a hint.
+ * Upvalues: the class, its methods, its properties. */
+static int meta_index(lua_State *L) {
+  lua_settop(L, 2);
+  lua_pushvalue(L, 2);
+  if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) return 1;
+  lua_pushvalue(L, 2);
+  if (lua_rawget(L, lua_upvalueindex(3)) != LUA_TNIL) {
+    lua_pushvalue(L, 1);
+    lua_call(L, 1, 1);
+    return 1;
+  }
+  return unknown_field(L);
+}
+
+/* Nothing can be put into an object: what it is made of is given when it is made. Upvalues as
+ * above. */
+static int meta_newindex(lua_State *L) {
+  lua_settop(L, 2);
+  for (int up = 2; up <= 3; up++) {
+    lua_pushvalue(L, 2);
+    const int there = lua_rawget(L, lua_upvalueindex(up)) != LUA_TNIL;
+    if (there && up == 2)
+      return luaL_error(L, "%s: '%s' is a method and cannot be set: call it, with a colon",
+                        class_of(L)->name, lua_tostring(L, 2));
+    if (there)
+      return luaL_error(L, "%s: '%s' can only be read; what it is made of is given when it is made",
+                        class_of(L)->name, lua_tostring(L, 2));
+    lua_settop(L, 2);
+  }
+  return unknown_field(L);
 }
 
 /* Names of all methods and properties, for completion at the prompt. */
@@ -184,6 +225,8 @@ static void open_class(lua_State *L, const lsw_class *c) {
   const int methods = lua_gettop(L);
   push_indexer(L, c, methods, meta_index);
   lua_setfield(L, methods - 1, "__index");
+  push_indexer(L, c, methods, meta_newindex);
+  lua_setfield(L, methods - 1, "__newindex");
   push_indexer(L, c, methods, meta_names);
   lua_setfield(L, methods - 1, "__names");
   lua_insert(L, -2);
@@ -200,8 +243,13 @@ void lsw_open_classes(lua_State *L) {
 }
 
 int lsw_raise(lua_State *L, sw_status status, const sw_error *err) {
+  const int why = status != SW_EINTR && err && err->text[0];
   if (status == SW_EINTR) sw_interrupt_clear(); /* this error answers the Ctrl-C */
-  return luaL_error(L, "%s", err && err->text[0] ? err->text : sw_status_text(status));
+  return luaL_error(L, "%s", why ? err->text : sw_status_text(status));
+}
+
+void lsw_poll(lua_State *L) {
+  if (sw_interrupted()) lsw_raise(L, SW_EINTR, NULL);
 }
 
 /* --- values --------------------------------------------------------------- */
@@ -209,6 +257,7 @@ int lsw_raise(lua_State *L, sw_status status, const sw_error *err) {
 double lsw_number(lua_State *L, int index, const char *what, const char *unit) {
   const char *space = strcmp(unit, "-") == 0 ? "" : " ";
   const char *shown = *space ? unit : "";
+  lsw_poll(L); /* it may be one of millions */
   if (lua_type(L, index) != LUA_TNUMBER)
     return luaL_error(L, "%s must be a number%s%s%s, got %s", what, *space ? " [" : "", shown,
                       *space ? "]" : "", lsw_describe(L, index));
@@ -217,6 +266,21 @@ double lsw_number(lua_State *L, int index, const char *what, const char *unit) {
     return luaL_error(L, "%s = %f%s%s is not allowed; it must be a finite number", what, value,
                       space, shown);
   return value;
+}
+
+lua_Integer lsw_integer(lua_State *L, int index, const char *what) {
+  int whole = 0;
+  const lua_Integer value =
+      lua_type(L, index) == LUA_TNUMBER ? lua_tointegerx(L, index, &whole) : 0;
+  if (!whole)
+    luaL_error(L, "%s must be an integer, got %s", what,
+               lua_type(L, index) == LUA_TNUMBER ? lua_pushfstring(L, "%f", lua_tonumber(L, index))
+                                                 : lsw_describe(L, index));
+  return value;
+}
+
+void lsw_given(lua_State *L, int index, const char *what) {
+  if (lua_isnone(L, index)) luaL_error(L, "%s", what);
 }
 
 /* Item i of the array at table, or its field name; pushed. */

@@ -50,6 +50,9 @@ const char *lsw_describe(lua_State *L, int index);
 void lsw_open_classes(lua_State *L);
 
 /* Raise the error for a failed core call: err's text, or the status's. */
+/* Raise "interrupted" when the user wants to stop. */
+void lsw_poll(lua_State *L);
+
 int lsw_raise(lua_State *L, sw_status status, const sw_error *err);
 
 /* Read the table at index into args by the rows: defaults first, then every
@@ -76,6 +79,12 @@ sw_quat lsw_rotation(lua_State *L, int index, const char *what);
 
 /* A finite number at index, named in the error. */
 double lsw_number(lua_State *L, int index, const char *what, const char *unit);
+
+/* An integer at index, named in the error. */
+lua_Integer lsw_integer(lua_State *L, int index, const char *what);
+
+/* Raise the text what when there is no argument at index, not even nil. */
+void lsw_given(lua_State *L, int index, const char *what);
 
 void lsw_push_vector(lua_State *L, sw_vec a);      /* {x, y, z} */
 void lsw_push_quaternion(lua_State *L, sw_quat q); /* {w, x, y, z} */

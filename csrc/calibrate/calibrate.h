@@ -62,6 +62,10 @@ typedef struct sw_calibration {
   sw_composite composite; /* of other meshes all 0 */
 } sw_calibration;
 
+/* SW_EINVAL when the slices of a tube that is a ring alone, with a wall that bends, would wrinkle
+ * under bending. */
+sw_status sw_calibrate_check_bent(const sw_calibration *c, sw_error *err);
+
 /* *out is to be freed with sw_calibration_free also after an error. section: as of a wire;
  * EA, EI and GJ must come out of it. SW_EINVAL tells what is out of range, or which target
  * no springs of the mesh can reach and what would help. */

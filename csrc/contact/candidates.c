@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/interrupt.h"
 #include "contact/contact.h"
 #include "contact/touch.h"
 
@@ -274,10 +275,13 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
     const sw_web *web = s->bodies[b].plan->web;
     look_at_pads(c, s->bodies[b].plan);
     for (size_t i = 0; i < s->bodies[b].plan->nodes && status == SW_OK; i++)
-      if (!web || web->outer[i]) status = node_candidates(c, s, b, i);
+      if (sw_interrupted())
+        status = SW_EINTR;
+      else if (!web || web->outer[i])
+        status = node_candidates(c, s, b, i);
     set_stiffness(c, s, b, first);
   }
-  if (status != SW_OK) return sw_fail(err, status, "contact: out of memory");
+  if (status != SW_OK) return sw_fail(err, status, "contact: %s", sw_status_text(status));
   match_memory(c);
   return SW_OK;
 }

@@ -15,13 +15,15 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   sw_contact *c = sw_alloc(1, sizeof *c);
   if (!c) return SW_ENOMEM;
   c->obstacles = sw_alloc(count, sizeof *c->obstacles);
+  c->loads = sw_alloc(count, sizeof *c->loads);
   c->start = sw_alloc(count, sizeof *c->start);
   c->now = sw_alloc(count, sizeof *c->now);
   c->flat = sw_alloc(count, sizeof *c->flat);
   c->dense = sw_alloc(count, sizeof *c->dense);
   c->spaced = sw_alloc(count, sizeof *c->spaced);
   c->bounds = (sw_bounds *)sw_alloc(count, sizeof *c->bounds);
-  if (!c->obstacles || !c->start || !c->now || !c->flat || !c->dense || !c->spaced || !c->bounds) {
+  if (!c->obstacles || !c->loads || !c->start || !c->now || !c->flat || !c->dense || !c->spaced ||
+      !c->bounds) {
     sw_contact_free(c);
     return SW_ENOMEM;
   }
@@ -57,6 +59,7 @@ void sw_contact_keep(sw_contact *c, const size_t *ids, size_t count) {
 void sw_contact_free(sw_contact *c) {
   if (!c) return;
   sw_free(c->obstacles);
+  sw_free(c->loads);
   sw_free(c->start);
   sw_free(c->now);
   sw_free(c->flat);
@@ -97,6 +100,7 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
   c->plastic = 0;
   c->struck = 0;
   c->widening = 1.0;
+  sw_contact_forget_blows(c);
   SW_TRY(place_all(c, t, c->start, err));
   if (sw_contact_sink(c, s) != SW_OK) return sw_fail(err, SW_ENOMEM, "contact: out of memory");
   return sw_contact_find_candidates(c, s, err);
@@ -169,6 +173,7 @@ void sw_contact_commit(sw_contact *c, sw_system *s) {
   (void)s;
   c->next_count = 0;
   c->fresh = sw_contact_emerges(c) ? SW_CONTACT_EMERGING : 0;
+  sw_contact_conclude(c);
   for (size_t i = 0; i < c->touch_count; i++)
     if (remember(c, &c->touches[i]) != SW_OK) break; /* a lost anchor only starts anew */
   sw_memory *swap = c->memory;
@@ -367,6 +372,18 @@ double sw_contact_rubbed(const sw_contact *c) {
     if (p->normal_force > 0) sum -= sw_dot(p->tangential, p->slip);
   }
   return sum;
+}
+
+double sw_contact_hardened(const sw_contact *c) {
+  double sum = 0;
+  for (size_t i = 0; i < c->touch_count; i++) sum += c->touches[i].hardened;
+  return sum;
+}
+
+double sw_contact_fastest(const sw_contact *c) {
+  double fastest = 0;
+  for (size_t o = 0; o < c->count; o++) fastest = fmax(fastest, sw_norm(c->now[o].v));
+  return fastest;
 }
 
 int sw_contact_emerges(const sw_contact *c) { return c->fresh && emerges(c); }

@@ -26,6 +26,20 @@ typedef struct sw_contact_obstacle {
   int off;            /* 1: nothing touches it */
 } sw_contact_obstacle;
 
+/* What wires do to an obstacle: a force and its moment about the obstacle's own origin [N], [N m];
+ * or the impulse of both [N s], [N m s]. */
+typedef struct sw_contact_load {
+  sw_vec force, moment;
+} sw_contact_load;
+
+/* What an obstacle got in the last step. The owner keeps it, for contact is made anew. */
+typedef struct sw_contact_past {
+  sw_contact_load mean;   /* over the step, blows included; in statics that of the state; moment
+                             about the world's origin [N], [N m] */
+  sw_contact_load end;    /* at its end, with which a method may begin the next step [N] */
+  sw_contact_load gained; /* in the step without blows, for methods that look back [N s] */
+} sw_contact_past;
+
 /* Where obstacle number o is at a time. */
 typedef sw_status (*sw_contact_place)(void *user, int o, double time, sw_motion_state *out,
                                       sw_error *err);
@@ -73,6 +87,16 @@ sw_status sw_contact_keeps(void *contact, sw_system *system, const double *y, in
                            sw_error *err);
 int sw_contact_settled(void *contact, sw_system *system, const double *y, const double *delta);
 
+/* See sw_coupling. */
+void sw_contact_book(void *contact, const sw_booking *booking);
+
+/* Obstacles that it knows; the owner's number of number k of them. Before a step: what that one
+ * remembers; after an accepted one: what it is to remember. */
+size_t sw_contact_obstacles(const sw_contact *contact);
+int sw_contact_id(const sw_contact *contact, size_t k);
+void sw_contact_recall(sw_contact *contact, size_t k, const sw_contact_past *past);
+const sw_contact_past *sw_contact_past_of(const sw_contact *contact, size_t k);
+
 /* 1: an obstacle is not where it was at the step's start, as last placed. */
 int sw_contact_moves(const sw_contact *contact);
 
@@ -95,7 +119,8 @@ int sw_contact_review_static(sw_contact *contact, sw_system *system, const doubl
 /* The trial was accepted: keep friction anchors and sides for the next step. */
 void sw_contact_commit(sw_contact *contact, sw_system *system);
 
-/* Total force on obstacle o and its moment about a point [N], [N m]. */
+/* Total force on obstacle o at the last state that was looked at, and its moment about a point [N],
+ * [N m]. */
 void sw_contact_force(const sw_contact *contact, int o, sw_vec about, sw_vec *force,
                       sw_vec *moment);
 /* What holds wires by obstacle o, added up over its touches. */
@@ -137,6 +162,10 @@ int sw_contact_poses(const sw_contact *contact, int id, sw_pose *from, sw_pose *
 double sw_contact_rubbed(const sw_contact *contact); /* lost by friction in the step [J] */
 /* 1: the touches that press are those that pressed at the step's start. */
 int sw_contact_steady(const sw_contact *contact);
+/* Given by touches of meshes being stiffer than before, which lets them sink in less, at most [J].
+ */
+double sw_contact_hardened(const sw_contact *contact);
+double sw_contact_fastest(const sw_contact *contact); /* of obstacles at the step's end [m/s] */
 /* 1: in this step wires are let out of obstacles that they began in. */
 int sw_contact_emerges(const sw_contact *contact);
 size_t sw_contact_impacts(const sw_contact *contact); /* dealt with in the step [-] */

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/interrupt.h"
 
 /* Pairs are looked for up to the distance and this much of the way that they may come nearer in
  * the step [-]; in statics up to so many distances. */
@@ -172,12 +173,16 @@ static double reach_of(const group *g, double speed, double h) {
   return fmin(g->distance + RESERVE * h * speed, FARTHEST * g->distance);
 }
 
+/* More pairs than this near each other are of particles much closer than they should be [-]. */
+static const size_t MOST_NEAR = 30000000;
+
 static sw_status look_at(group *g, const double *x, const double *v, double h, uint32_t i,
                          uint32_t j) {
   const uint32_t a = i < j ? i : j, b = i < j ? j : i;
   const double speed = sw_dist(sw_vec_at(v, a), sw_vec_at(v, b));
   if (!(sw_dist(sw_vec_at(x, a), sw_vec_at(x, b)) < reach_of(g, speed, h))) return SW_OK;
   if (are_joined(g, a, b)) return SW_OK;
+  if (g->count == MOST_NEAR) return SW_ELIMIT;
   SW_TRY(sw_grow((void **)&g->near, &g->capacity, g->count + 1, sizeof *g->near));
   g->near[g->count++] = (couple){a, b};
   return SW_OK;
@@ -190,6 +195,7 @@ static sw_status search(group *g, const sw_body *b, const double *x, const doubl
   memset(g->head, 0xff, g->cells * sizeof *g->head);
   for (uint32_t i = 0; i < b->plan->nodes; i++) {
     const cell at = cell_of(x + 3 * (size_t)i, size);
+    if (sw_interrupted()) return SW_EINTR;
     for (int k = 0; k < 27; k++) {
       const cell beside = {at.x + k % 3 - 1, at.y + k / 3 % 3 - 1, at.z + k / 9 - 1};
       for (uint32_t j = g->head[slot_of(g, beside)]; j != UINT32_MAX; j = g->next[j]) {

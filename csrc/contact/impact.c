@@ -65,16 +65,21 @@ static sw_vec striking_velocity(const sw_contact *c, const sw_touch *t, sw_vec p
 }
 
 /* What strikes a particle of a wire stops the whole section: its springs do that within any step
- * but the shortest, and would throw it back. */
-static void kick(sw_system *s, const sw_body *b, size_t node, sw_vec dv) {
+ * but the shortest, and would throw it back. Returns the mass that was kicked [kg]. */
+static double kick(sw_system *s, const sw_body *b, size_t node, sw_vec dv) {
   const sw_web *web = b->plan->web;
   size_t first = node - b->first_node, end = first + 1;
   if (web && web->per_ring) {
     const size_t ring = sw_web_ring_of(web, first);
     first = web->first[ring], end = web->first[ring + 1];
   }
-  for (size_t k = first; k < end; k++)
-    if (b->plan->held[k] == SW_FREE) sw_accumulate(s->v + 3 * (b->first_node + k), dv);
+  double mass = 0;
+  for (size_t k = first; k < end; k++) {
+    if (b->plan->held[k] != SW_FREE) continue;
+    sw_accumulate(s->v + 3 * (b->first_node + k), dv);
+    mass += b->plan->lumped[k];
+  }
+  return mass;
 }
 
 /* Did the obstacle press on anything at the step's start? What comes to a pad that holds a wire
@@ -110,14 +115,15 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_vec along = sw_madd(v, t->press.normal, -sw_dot(v, t->press.normal));
   const sw_vec brake = sw_levers_brake(&b->plan->beam, &levers, along, o->friction * change);
   const sw_vec dv = sw_madd(brake, t->press.normal, change);
-  double w[2], mass = 0;
+  double w[2], mass = 0, kicked = 0;
   shares(s, t, w);
   for (size_t e = 0; e < 2; e++) {
     if (!(w[e] > 0)) continue;
     mass += w[e] * b->plan->lumped[end[e] - b->first_node];
-    kick(s, b, end[e], sw_scale(dv, w[e]));
+    kicked += w[e] * kick(s, b, end[e], sw_scale(dv, w[e]));
   }
-  c->struck += mass * sw_dot(dv, wall);
+  c->struck += kicked * sw_dot(dv, wall);
+  sw_contact_add_blow(c, t->obstacle, at, sw_scale(dv, -kicked));
   if (levers.count)
     sw_levers_kick(b->plan, &levers, sw_scale(brake, mass),
                    s->delta + 3 * s->nodes + b->first_roll);

@@ -114,12 +114,26 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
 
 int sw_press_update(sw_press *p, double friction, sw_vec shift, double force_scale) {
   const int active = p->active;
+  p->shift = shift;
   p->gap_after = p->gap + sw_dot(p->normal, shift);
   p->normal_force = active ? fmax(0.0, -p->k * p->gap_after) : 0.0;
   p->next_sliding = 1; /* what does not touch moves freely */
   p->slip = sw_v(0, 0, 0);
   const int agrees = active && friction > 0 ? update_friction(p, friction, shift, force_scale) : 1;
   return agrees && sw_press_apart(p);
+}
+
+sw_vec sw_press_borne(const sw_press *p, double friction) {
+  if (!p->active) return sw_v(0, 0, 0);
+  const double most = friction * p->lag, length = sw_norm(p->trial), grip = sw_press_grip(p);
+  const sw_vec along = sw_madd(p->shift, p->normal, -sw_dot(p->normal, p->shift));
+  sw_vec f = sw_scale(p->normal, -p->k * p->gap_after);
+  if (!(friction > 0)) return f;
+  if (!p->sliding) return sw_madd(f, sw_add(p->trial, along), -grip);
+  if (!(length > 0)) return f;
+  const sw_vec d = sw_scale(p->trial, 1.0 / length);
+  const sw_vec turn = sw_madd(along, d, -sw_dot(along, d));
+  return sw_madd(sw_madd(f, d, -most), turn, -fmin(most / length, grip));
 }
 
 int sw_press_apart(const sw_press *p) {

@@ -20,6 +20,7 @@ typedef struct sw_press {
   sw_vec normal;                   /* of the push [-] */
   sw_vec trial;                    /* tangential displacement from the anchor at this iterate [m] */
   sw_vec tangential;               /* friction force after the last solve [N] */
+  sw_vec shift;                    /* by the last solve [m] */
   sw_vec slip;                     /* how far it slid, of the displacement from the anchor [m] */
   int alternations;                /* of normal_force - lag until the last iterate [-] */
   int reversals;                   /* of the slide, where a static solve is dragged [-] */
@@ -63,6 +64,10 @@ double sw_press_forgiven(double depth, double explained, double h, int slowly);
 /* Forces after an update that shifted the touch; 1 = they agree with what the solve
  * assumed. force_scale: of the scene, forces far below which do not matter [N]. */
 int sw_press_update(sw_press *press, double friction, sw_vec shift, double force_scale);
+
+/* Force on the wire that the last solve reckoned with, which is what moved it: it may differ from
+ * that of the law by what does not keep an iteration going [N]. */
+sw_vec sw_press_borne(const sw_press *press, double friction);
 
 /* Does the last update leave the gap open where nothing pushed, and closed where it did? */
 int sw_press_apart(const sw_press *press);

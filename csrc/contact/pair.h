@@ -111,6 +111,9 @@ const sw_pair_memory *sw_pair_recall(const sw_pairs *pairs, const sw_pair *pair,
 /* Nearest points of two segments: places along them, distance returned [m]. */
 double sw_segments_nearest(sw_vec a0, sw_vec a1, sw_vec b0, sw_vec b1, double at[2]);
 
+/* Say why looking for pairs failed. */
+sw_status sw_pairs_fail(sw_status status, sw_error *err);
+
 static inline const sw_pair_rule *sw_pair_rule_of(const sw_pairs *p, const uint32_t body[2]) {
   return &p->rules[p->bodies * body[0] + body[1]];
 }

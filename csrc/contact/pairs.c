@@ -70,6 +70,14 @@ static double force_of(const sw_system *s, const sw_body *b) {
   return force;
 }
 
+sw_status sw_pairs_fail(sw_status status, sw_error *err) {
+  if (status != SW_ELIMIT)
+    return sw_fail(err, status, "contact of wires: %s", sw_status_text(status));
+  return sw_fail(err, status,
+                 "contact of wires: too many pairs of segments are near each other; segments much "
+                 "shorter than the wire is thick are too many, take fewer");
+}
+
 sw_status sw_pairs_begin_step(sw_pairs *p, sw_system *s, sw_contact_regime regime, double h,
                               double nominal, sw_error *err) {
   p->regime = regime;
@@ -81,7 +89,7 @@ sw_status sw_pairs_begin_step(sw_pairs *p, sw_system *s, sw_contact_regime regim
       sw_contact_stiffness(regime, force_of(s, &s->bodies[b]), nominal, &p->base_stiffness[b],
                            &p->rate2);
   const sw_status status = sw_pairs_choose(p, s);
-  return status == SW_OK ? SW_OK : sw_fail(err, status, "contact of wires: out of memory");
+  return status == SW_OK ? SW_OK : sw_pairs_fail(status, err);
 }
 
 sw_status sw_pairs_begin_look(sw_pairs *p, sw_system *s, sw_error *err) {
@@ -91,7 +99,7 @@ sw_status sw_pairs_begin_look(sw_pairs *p, sw_system *s, sw_error *err) {
     if (m->normal_force > 0 && m->depth > 0) m->k = m->normal_force / m->depth;
   }
   const sw_status status = sw_pairs_choose(p, s);
-  return status == SW_OK ? SW_OK : sw_fail(err, status, "contact of wires: out of memory");
+  return status == SW_OK ? SW_OK : sw_pairs_fail(status, err);
 }
 
 /* --- memory ---------------------------------------------------------------------- */

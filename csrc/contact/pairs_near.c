@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/interrupt.h"
 #include "base/simd.h"
 #include "contact/pair.h"
 #include "system/join.h"
@@ -127,6 +128,9 @@ static double radii(const sw_system *s, const uint32_t body[2]) {
 /* So near a join wires do not touch each other; of the radii's sum along both [-]. */
 static const double AT_A_JOIN = 4.0;
 
+/* More pairs than this near each other are of segments much shorter than the wire is thick [-]. */
+static const size_t MOST_NEAR = 30000000;
+
 static sw_status look_at(sw_pairs *p, const sw_system *s, const grid *g, size_t k, size_t m) {
   sw_near n = {.one = g->node[k], .two = g->node[m], .body = {g->body[k], g->body[m]}};
   double at[2];
@@ -136,6 +140,7 @@ static sw_status look_at(sw_pairs *p, const sw_system *s, const grid *g, size_t 
                           sw_vec_at(s->x, n.two), sw_vec_at(s->x, n.two + 1u), at);
   if (!(n.distance - radii(s, n.body) < p->listed_reach)) return SW_OK;
   if (sw_joins_near(s, n.one, n.two, AT_A_JOIN * radii(s, n.body))) return SW_OK;
+  if (p->near_count == MOST_NEAR) return SW_ELIMIT;
   SW_TRY(sw_grow((void **)&p->near, &p->near_capacity, p->near_count + 1, sizeof *p->near));
   p->near[p->near_count++] = n;
   return SW_OK;
@@ -175,7 +180,10 @@ static sw_status search(sw_pairs *p, const sw_system *s, double reach) {
   p->near_count = 0;
   p->listed_reach = reach;
   p->listed_nodes = 0;
-  for (size_t k = 0; k < g.count; k++) SW_TRY(look_around(p, s, &g, k));
+  for (size_t k = 0; k < g.count; k++) {
+    if (sw_interrupted()) return SW_EINTR;
+    SW_TRY(look_around(p, s, &g, k));
+  }
   SW_TRY(sw_grow((void **)&p->listed_at, &p->listed_capacity, 7 * s->nodes, sizeof(double)));
   p->before = p->listed_at + 3 * s->nodes;
   p->travel = p->before + 3 * s->nodes;
@@ -312,6 +320,7 @@ sw_status sw_pairs_choose(sw_pairs *p, sw_system *s) {
   p->least_left = -HUGE_VAL;
   SW_TRY(sw_system_begin_plan(s));
   for (size_t k = 0; k < p->near_count; k++) {
+    if (sw_interrupted()) return SW_EINTR;
     sw_near *n = &p->near[k];
     double at[2];
     const double sum = radii(s, n->body);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/interrupt.h"
 #include "contact/pair.h"
 
 /* --- memory ---------------------------------------------------------------------- */
@@ -241,6 +242,7 @@ static sw_status find_touches(sw_pairs *p, const sw_system *s, const double *y) 
     const sw_pair *k = &p->pairs[i];
     int found = 0;
     if (k->held) continue;
+    if (sw_interrupted()) return SW_EINTR;
     if (p->barrier_count) SW_TRY(behind_barrier(p, s, k, y, &found));
     if (found) continue;
     const size_t first = p->touch_count;
@@ -269,7 +271,7 @@ sw_status sw_pairs_eval(sw_pairs *p, sw_system *s, const double *y, unsigned wan
   sw_status status = find_touches(p, s, y);
   for (size_t i = 0; i < p->touch_count && status == SW_OK; i++)
     status = apply(p, s, &p->touches[i], y, want);
-  return status == SW_OK ? SW_OK : sw_fail(err, status, "contact of wires: out of memory");
+  return status == SW_OK ? SW_OK : sw_pairs_fail(status, err);
 }
 
 /* --- after the solve -------------------------------------------------------------- */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/interrupt.h"
 
 /* A touch goes on into the next iterate up to this gap, of the radius, and while its normal
  * turns by an angle with a cosine above this [-]. */
@@ -217,6 +218,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
         sw_press_forgiven(depth, explained, slowly ? c->stage_time - c->time : c->h, slowly);
     t.let_out = fmax(0.0, depth - explained - t.forgiven);
   }
+  if (m && web) t.hardened = 0.5 * m->depth * fmax(0.0, stiffness * m->depth - m->normal_force);
   press->gap += t.forgiven;
   press->gap_after = press->gap;
   if (c->regime == SW_CONTACT_STATIC && m && web && web->per_ring) press->spare = SPARE_PULLS;
@@ -346,6 +348,6 @@ sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw
   sw_status status = SW_OK;
   swap_lists(c);
   for (size_t i = 0; i < c->candidate_count && status == SW_OK; i++)
-    status = query(c, s, &c->candidates[i], y);
-  return status == SW_OK ? SW_OK : sw_fail(err, status, "contact: out of memory");
+    status = sw_interrupted() ? SW_EINTR : query(c, s, &c->candidates[i], y);
+  return status == SW_OK ? SW_OK : sw_fail(err, status, "contact: %s", sw_status_text(status));
 }

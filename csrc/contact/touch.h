@@ -33,6 +33,7 @@ typedef struct sw_touch {
   sw_vec local;     /* the same in the obstacle's coordinates [m] */
   double forgiven;  /* part of the true depth left out of the gap in this step [m] */
   double let_out;   /* part of the true depth that nothing explains and this step ends [m] */
+  double hardened;  /* stored at once by its being stiffer than before, of a mesh [J] */
   double stiffer;   /* its stiffness from the next iterate on [N/m] */
   int known;        /* it pressed at the step's start */
   int held;         /* both ends are held: no force */
@@ -80,8 +81,17 @@ typedef struct sw_contact_at {
   sw_vec v, omega; /* [m/s], [rad/s] */
 } sw_contact_at;
 
+/* What an obstacle gets in a step. */
+typedef struct sw_contact_loads {
+  sw_contact_past past;
+  sw_contact_load stage[SW_BOOK_STAGES]; /* impulse from the step's start, without blows [N s] */
+  sw_contact_load blows; /* impulse of impacts that changed velocities at the start [N s] */
+} sw_contact_loads;
+
 struct sw_contact {
   sw_contact_obstacle *obstacles;
+  sw_contact_loads *loads; /* (count) */
+  int last_stage;          /* that was booked in this trial */
   size_t count;
   sw_contact_place place;
   void *user;
@@ -121,6 +131,12 @@ struct sw_contact {
 
 /* How far a node of velocity v may go in the step unnoticed [m]. */
 double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v);
+
+/* An impact at the step's start gave an obstacle this impulse at a point [m], [N s]. A step begins
+ * without any. The trial was accepted: what obstacles remember. */
+void sw_contact_add_blow(sw_contact *c, int obstacle, sw_vec point, sw_vec impulse);
+void sw_contact_forget_blows(sw_contact *c);
+void sw_contact_conclude(sw_contact *c);
 
 /* How far nodes are sunk, with the system where it is. SW_ENOMEM. */
 sw_status sw_contact_sink(sw_contact *c, const sw_system *s);

@@ -43,14 +43,8 @@ static curve barrier(double depth, double reach, double k) {
   return hump(depth, reach, 0.5 * k / (a * a));
 }
 
-static curve spring(double depth, double k) {
-  return depth > 0 ? (curve){0.5 * k * depth * depth, k * depth, k} : NOTHING;
-}
-
 /* What floor and walls do at this depth. */
-static curve side(const sw_clip_law *l, double depth) {
-  return l->caught ? spring(depth, l->k) : barrier(depth, l->reach, l->k);
-}
+static curve side(const sw_clip_law *l, double depth) { return barrier(depth, l->reach, l->k); }
 
 static curve lips(const sw_clip_law *l, double u) {
   if (!(u > 0) || u >= l->out + l->in) return NOTHING;
@@ -89,7 +83,7 @@ static curve beside(const sw_clip_law *l, double u) {
 }
 
 sw_clip_law sw_clip_law_of(double wire, double seat, double insertion, double retention, double way,
-                           double stiffness) {
+                           double stiffness, double strength) {
   const double length = isnan(way) ? USUAL_WAY * wire : way;
   sw_clip_law l;
   l.out = length * insertion / (insertion + retention);
@@ -98,6 +92,10 @@ sw_clip_law sw_clip_law_of(double wire, double seat, double insertion, double re
   l.clearance = isnan(seat) ? 0.0 : fmax(0.0, seat - wire);
   l.k = isnan(stiffness) ? USUAL_STIFFNESS * fmax(insertion, retention) / wire : stiffness;
   l.reach = REACH * wire;
+  if (!isnan(strength) && isnan(stiffness)) l.k = PI * strength / l.reach;
+  if (!isnan(strength)) l.reach = PI * strength / l.k;
+  l.strength = l.k * l.reach / PI;
+  l.caught = 0;
   return l;
 }
 

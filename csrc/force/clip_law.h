@@ -12,10 +12,10 @@
  *
  * Floor (u < -clearance) and walls (|v| > clearance): springs of stiffness k. Above the lips' top
  * the walls open and fade out over the mouth, a funnel half as wide to either side as the lips'
- * outer flank is long. A wire that came over the mouth is
- * kept by them however hard it is pressed. For one that is elsewhere they are only as thick as a
- * wall: twice reach deep, they hold up to k reach / pi from either side, so that a wire may
- * lie beside or under the clip; pressed harder it breaks in, where this is valid no more. */
+ * outer flank is long. They are as thick as a wall: twice reach deep, they hold up to
+ * strength = k reach / pi from either side. For a wire that came over the mouth they go on to
+ * either side without end, for one that is elsewhere they do not, so that it may lie beside or
+ * under the clip. Pressed harder it breaks through, where this is valid no more. */
 #ifndef SW_FORCE_CLIP_LAW_H
 #define SW_FORCE_CLIP_LAW_H
 
@@ -25,14 +25,15 @@ typedef struct sw_clip_law {
   double clearance; /* of the wire in its seat [m] */
   double k;         /* of floor and walls [N/m] */
   double reach;     /* depth at which these hold no more [m] */
+  double strength;  /* what they bear there [N] */
   int caught;       /* 1: the wire came over the mouth */
 } sw_clip_law;
 
 /* For a wire of this radius. seat: radius of the seat, NAN = that of the wire; way: of the wire
- * over the lips, NAN = chosen; stiffness: of floor and walls, NAN = chosen [m], [m], [N], [N],
- * [m], [N/m]. */
+ * over the lips, NAN = chosen; stiffness of floor and walls, and what they bear, NAN = chosen [m],
+ * [m], [N], [N], [m], [N/m], [N]. */
 sw_clip_law sw_clip_law_of(double wire, double seat, double insertion, double retention, double way,
-                           double stiffness);
+                           double stiffness, double strength);
 
 /* Value and derivatives at u, v. */
 typedef struct sw_clip_point {

@@ -16,7 +16,8 @@ sw_clip sw_clip_of(const sw_clip_args *a, const sw_beam *beam) {
   c.axis = sw_unit_or(axis, sw_perpendicular(c.direction));
   c.across = sw_cross(c.direction, c.axis);
   c.strongest = fmax(a->insertion, a->retention);
-  c.law = sw_clip_law_of(beam->radius, a->radius, a->insertion, a->retention, a->way, a->stiffness);
+  c.law = sw_clip_law_of(beam->radius, a->radius, a->insertion, a->retention, a->way, a->stiffness,
+                         a->strength);
   return c;
 }
 
@@ -49,6 +50,7 @@ static void add_place(const sw_clip *c, const double x[3], double t, double w, d
   double chi[3], H[6];
   sw_clip_window(c, x[2], chi);
   const double in = w * chi[0] * sw_clip_between(&c->law, x[1]);
+  out->all[0] += w * chi[0], out->all[1] += w * chi[0] * x[0], out->all[2] += w * chi[0] * x[1];
   out->share += in, out->u += in * x[0], out->v += in * x[1], out->s += in * s;
   const sw_clip_point p = sw_clip_at(&c->law, x[0], x[1]);
   out->energy += w * chi[0] * p.energy;

@@ -19,6 +19,7 @@ typedef struct sw_clip_args {
   double friction;             /* [-] */
   double way;                  /* of the wire over the lips; NAN = chosen [m] */
   double stiffness;            /* of floor and walls; NAN = chosen [N/m] */
+  double strength;             /* what these bear; NAN = chosen [N] */
 } sw_clip_args;
 
 /* Rows of what every force of a clip takes. */
@@ -116,6 +117,7 @@ typedef struct sw_clip_sum {
   double next[6];        /* by both, which is symmetric too [N/m] */
   double push[2];        /* |grad U| across the axis, shared between the ends [N] */
   double share, u, v, s; /* of the window within the walls; times u, v and arc length [-], [m] */
+  double all[3];         /* of all of the window, and times u and v [-], [m] */
 } sw_clip_sum;
 
 /* The places of the sum along one edge, one after another. */

@@ -22,11 +22,19 @@ enum {
   SW_FORCE_OF_WEB = 128,    /* knows springs or particles only: goes with nothing else */
   SW_FORCE_ON_SOME = 256,   /* acts on some particles: takes a list; see sw_force_some */
   SW_FORCE_ANY_SHAPE = 512, /* its history is not of bends: goes with material frames as well */
-  SW_FORCE_LOAD = 1024      /* a dead load: its energy is work that it gives */
+  SW_FORCE_LOAD = 1024,     /* a dead load: its energy is work that it gives */
+  SW_FORCE_POWER = 2048     /* tells the power that it takes from the motion (SW_WANT_POWER) */
 };
 
-enum { SW_FORCE_ARGS_MAX = 128 };   /* room for any force's arguments [B] */
+enum { SW_FORCE_ARGS_MAX = 144 };   /* room for any force's arguments [B] */
 enum { SW_FORCE_OUTPUTS_MAX = 32 }; /* most values that a force has to read [-] */
+
+/* Something that happened to a wire, for the list of events. */
+typedef struct sw_force_news {
+  const char *kind;
+  double s, value; /* arc length [m] or NAN; of the text's unit */
+  char text[160];  /* goes on after the names of force and wire */
+} sw_force_news;
 
 typedef struct sw_force_class {
   const char *name;
@@ -53,11 +61,19 @@ typedef struct sw_force_class {
   double (*largest_share)(const void *args, const sw_plan *plan, const double *x,
                           const double *delta);
 
+  /* Axial dashpots: their force over that of the springs beside them, per rate of strain [s];
+   * NULL = it has none. */
+  double (*axial_time)(const void *args);
+
   /* Moment that a clamp hinge puts on the wire [N m]; NULL = none. */
   sw_vec (*clamp_moment)(const void *args, const sw_field *field, const sw_clamp_hinge *hinge);
 
   /* Does it go with a wire of these values? NULL = always. SW_EINVAL with a text. */
   sw_status (*check)(const void *args, const sw_beam *beam, sw_error *err);
+
+  /* Fills arguments that were left open from where the body lies: nodes or particles at x (3 each)
+   * with arc lengths s. nodes 0: there are several bodies. NULL = there are none. SW_EINVAL. */
+  sw_status (*place)(void *args, size_t nodes, const double *x, const double *s, sw_error *err);
 
   /* History: doubles that live in the system's state, zero at first, number 0 the
    * work dissipated so far [J]. eval finds those of the last accepted state in
@@ -69,6 +85,10 @@ typedef struct sw_force_class {
   void (*commit)(const void *args, const sw_field *field, double *history);
   void (*inherit)(const sw_plan *old, const double *from, const sw_field *field, double *history);
 
+  /* What commit has just found that has to be told: an event of the kind, with the force's name,
+   * where on the wire and a value of the unit that the text says; NULL = nothing. */
+  int (*news)(const void *args, const double *history, sw_force_news *out);
+
   /* Fills the history of a wire that has none yet; geometry as for inherit. NULL = zeros. */
   void (*begin)(const void *args, const sw_field *field, double *history);
 
@@ -76,11 +96,23 @@ typedef struct sw_force_class {
    * closely as kinks ask for; NULL = it always may. */
   int (*idle)(const double *history);
 
+  /* Pull on something that breaks, and what it bears: 0 when it is broken or bears anything [N]. Of
+   * the field only places are up to date. NULL = nothing breaks. */
+  double (*pull)(const void *args, const sw_field *field, const double *history, double *bears);
+
   /* What there is to read of it besides its force, on one wire at the accepted state: names,
    * NULL-terminated, and as many values, each of the unit that its file says. NULL = nothing. */
   const char *const *outputs;
   void (*read)(const void *args, const sw_field *field, const double *history, double *out);
 } sw_force_class;
+
+/* How many there are. */
+enum {
+  SW_FORCE_CLASSES = 0
+#define X(name) +1
+#include "force/list.def"
+#undef X
+};
 
 /* The class called name, or NULL. */
 const sw_force_class *sw_force_find(const char *name);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Plane strain: a stiff spring keeps each node or particle at its arc length along a line, so that
  * nothing moves along it and sections deform across it only: E = 1/2 k l (d.(x - at) - s)^2, with l
- * the length of wire that the particle stands for. A slice of a long wire between plates. */
+ * the length of wire that the particle stands for. A slice of a long wire between plates. Unless
+ * told where, the line is the one that the wire lies on when the force is made. */
 #include <math.h>
 #include <stddef.h>
 
@@ -16,8 +17,8 @@ typedef struct plane_strain_args {
 static const sw_param rows[] = {
     {"direction", SW_PARAM_VECTOR, "-", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
      offsetof(plane_strain_args, direction), "of the wire, along which nothing is to move"},
-    {"at", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(plane_strain_args, at),
-     "any point of the plane in which the wire starts"},
+    {"at", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(plane_strain_args, at),
+     "any point of the plane in which the wire starts (where it does now)"},
     {"stiffness", SW_PARAM_NUMBER, "N/m2", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(plane_strain_args, stiffness),
      "against motion, per length of wire (10000 EA/radius^2 when not given)"},
@@ -59,6 +60,36 @@ static sw_status check(const void *args, const sw_beam *beam, sw_error *err) {
   return sw_fail(err, SW_EINVAL, "force plane_strain: direction must not be zero");
 }
 
+/* Of a straight wire; it may lie a little bent, but not across. */
+static const double LARGEST_OFF = 0.02; /* over its length [-] */
+
+static sw_status place(void *args, size_t n, const double *x, const double *s, sw_error *err) {
+  plane_strain_args *a = args;
+  if (sw_finite(a->at)) return SW_OK;
+  if (!n)
+    return sw_fail(err, SW_EINVAL,
+                   "force plane_strain: at is required where it acts on several wires [m]: any "
+                   "point of the plane in which they start; or give on");
+  sw_vec d = sw_unit_or(a->direction, sw_v(1, 0, 0));
+  double mean = 0, mean_s = 0, along = 0, most = 0, first = s[0], last = s[0];
+  for (size_t i = 0; i < n; i++) {
+    mean_s += s[i] / (double)n;
+    first = fmin(first, s[i]), last = fmax(last, s[i]);
+  }
+  for (size_t i = 0; i < n; i++) along += (s[i] - mean_s) * sw_dot(sw_vec_at(x, i), d);
+  if (along < 0) d = sw_scale(d, -1.0); /* drawn against the direction */
+  for (size_t i = 0; i < n; i++) mean += (sw_dot(sw_vec_at(x, i), d) - s[i]) / (double)n;
+  for (size_t i = 0; i < n; i++) most = fmax(most, fabs(sw_dot(sw_vec_at(x, i), d) - s[i] - mean));
+  if (most > LARGEST_OFF * (last - first))
+    return sw_fail(err, SW_EINVAL,
+                   "force plane_strain: the wire does not lie along direction: it is up to %.3g m "
+                   "from where its arc length says; give the direction of the wire, or at [m] to "
+                   "pull it there",
+                   most);
+  a->direction = d, a->at = sw_scale(d, mean);
+  return SW_OK;
+}
+
 const sw_force_class sw_force_plane_strain = {
     .name = "plane_strain",
     .summary = "keeps nodes and particles where they are along the wire, free to move across",
@@ -67,4 +98,5 @@ const sw_force_class sw_force_plane_strain = {
     .eval = eval,
     .stable_dt = stable_dt,
     .check = check,
+    .place = place,
 };

@@ -53,7 +53,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   sw_clip_args a = ((const snap_args *)args)->clip;
   const double time = a.stiffness;
   (void)err;
-  a.stiffness = NAN;
+  a.stiffness = a.strength = NAN;
   const sw_clip c = sw_clip_of(&a, &f->plan->beam);
   for (long e = sw_clip_find(&c, f, 0); e >= 0; e = sw_clip_find(&c, f, e + 1))
     add_edge(&c, 2.0 * a.retention * time / c.law.out, f, (size_t)e);

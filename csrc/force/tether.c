@@ -86,6 +86,12 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   return SW_OK;
 }
 
+static double pull(const void *args, const sw_field *f, const double *h, double *bears) {
+  const tether_args *a = args;
+  *bears = h[BROKEN] > 0 || isnan(a->strength) ? 0.0 : a->strength;
+  return *bears > 0 ? tied_of(a, f).pull : 0.0;
+}
+
 static void commit(const void *args, const sw_field *f, double *h) {
   const tether_args *a = args;
   const tied t = tied_of(a, f);
@@ -134,6 +140,7 @@ const sw_force_class sw_force_tether = {
     .state_size = state_size,
     .commit = commit,
     .inherit = inherit,
+    .pull = pull,
     .outputs = outputs,
     .read = read,
 };

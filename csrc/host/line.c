@@ -14,6 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "bind/locale.h"
 #include "host/ctrl_c.h"
 #include "host/host.h"
 
@@ -181,6 +182,7 @@ void host_line_open(lua_State *L) {
   lua_rawsetp(L, LUA_REGISTRYINDEX, &completer_key);
   if (!isatty(STDIN_FILENO)) return;
   setlocale(LC_CTYPE, ""); /* wide characters in the editor; numbers stay as they are */
+  lsw_locale_renew();
   state = L;
   rl_readline_name = "softworld";    /* for $if softworld in ~/.inputrc */
   rl_persistent_signal_handlers = 1; /* else they are gone while waiting for a key */

@@ -50,11 +50,30 @@ static int push_arguments(lua_State *L, const host_options *o) {
   return count;
 }
 
+/* Runs that failed without the script looking: told at its end. */
+static int tell_unread(lua_State *L) {
+  const int top = lua_gettop(L);
+  int status = HOST_OK;
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
+  if (lua_getfield(L, -1, "softworld.unread") == LUA_TTABLE &&
+      lua_getfield(L, -1, "finish") == LUA_TFUNCTION) {
+    if (host_call(L, 0, 1) != LUA_OK) {
+      status = host_report(L);
+    } else if (lua_isstring(L, -1)) {
+      fflush(stdout);
+      fprintf(stderr, "%s\n", lua_tostring(L, -1));
+      status = HOST_FAILED;
+    }
+  }
+  lua_settop(L, top);
+  return status;
+}
+
 int host_run_code(lua_State *L, const char *code) {
   host_ctrl_c_reset();
   int status = luaL_loadbufferx(L, code, strlen(code), "=-e", "t");
   if (status == LUA_OK) status = host_call(L, 0, 0);
-  return status == LUA_OK ? HOST_OK : host_report(L);
+  return status == LUA_OK ? tell_unread(L) : host_report(L);
 }
 
 int host_run_script(lua_State *L, const host_options *o) {
@@ -70,5 +89,5 @@ int host_run_script(lua_State *L, const host_options *o) {
     return refuse(name, host_ctrl_c_seen() ? "interrupted" : strerror(errno));
   }
   if (status == LUA_OK) status = host_call(L, push_arguments(L, o), 0);
-  return status == LUA_OK ? HOST_OK : host_report(L);
+  return status == LUA_OK ? tell_unread(L) : host_report(L);
 }

@@ -3,6 +3,7 @@
  * files and the host are left out: the user cannot mend those. */
 #include <ctype.h>
 #include <lauxlib.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -125,6 +126,40 @@ static void add_calls(lua_State *L) {
   lua_concat(L, lua_gettop(L) - top + 1);
 }
 
+/* --- values that were called ----------------------------------------------- */
+
+/* "attempt to call a number value (method 'time')": the name of a value that is no function, within
+ * text; 0 when it says something else. */
+static int called_value(const char *text, const char **name, size_t *length) {
+  static const char *const kinds[] = {"number", "string", "boolean"};
+  static const char *const places[] = {"method", "field"};
+  const char *at = strstr(text, "attempt to call a ");
+  if (!at) return 0;
+  at += strlen("attempt to call a ");
+  for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++)
+    for (size_t p = 0; p < sizeof places / sizeof places[0]; p++) {
+      char start[40];
+      const int n = snprintf(start, sizeof start, "%s value (%s '", kinds[k], places[p]);
+      if (strncmp(at, start, (size_t)n) != 0) continue;
+      *name = at + n;
+      *length = strcspn(*name, "'");
+      return (*name)[*length] == '\'';
+    }
+  return 0;
+}
+
+/* Say how the value of the text on top is read. */
+static void hint_at_value(lua_State *L) {
+  const char *name;
+  size_t length;
+  if (!called_value(lua_tostring(L, -1), &name, &length)) return;
+  lua_pushlstring(L, name, length);
+  lua_pushfstring(L, "%s; '%s' is a value, not a method: read it as .%s", lua_tostring(L, -2),
+                  lua_tostring(L, -1), lua_tostring(L, -1));
+  lua_replace(L, -3);
+  lua_pop(L, 1);
+}
+
 /* --- the handler ---------------------------------------------------------- */
 
 static int value_text(lua_State *L) {
@@ -188,6 +223,7 @@ int host_traceback(lua_State *L) {
     return 1;
   }
   host_move_position(L, L, 1);
+  hint_at_value(L);
   add_calls(L);
   return 1;
 }

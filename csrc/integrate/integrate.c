@@ -39,12 +39,13 @@ sw_status sw_stepper_new(sw_stepper *p, const sw_integrator *method, const sw_sy
   p->restart = 1;
   p->newton = DYNAMIC_NEWTON;
   const int explicit_ = !(method->flags & SW_INTEGRATOR_IMPLICIT);
-  const size_t arrays = explicit_ ? 3 + SW_EXTRA : 9;
-  double *w = sw_alloc(arrays * p->n + system->edges, sizeof *w);
+  const size_t arrays = explicit_ ? 3 + SW_EXTRA : 9, m = system->edges;
+  const int strains = !explicit_ && system->strain;
+  double *w = sw_alloc(arrays * p->n + (strains ? 6 : 1) * m, sizeof *w);
   if (!w) return SW_ENOMEM;
   p->work = w;
   double **const implicit_arrays[] = {&p->xhat, &p->vhat, &p->y[0], &p->w[0], &p->y[1],
-                                      &p->w[1], &p->xp,   &p->vp,   &p->a};
+                                      &p->w[1], &p->a,    &p->xp,   &p->vp};
   if (explicit_) {
     p->extra = sw_alloc(SW_EXTRA, sizeof *p->extra);
     if (!p->extra) {
@@ -58,7 +59,16 @@ sw_status sw_stepper_new(sw_stepper *p, const sw_integrator *method, const sw_sy
     for (size_t k = 0; k < 9; k++) *implicit_arrays[k] = w + k * p->n;
   }
   p->tension = w + arrays * p->n;
+  if (!strains) return SW_OK;
+  p->strain_before = w + arrays * p->n; /* beside vp: both go to snapshots */
+  p->tension = p->strain_before + m, p->strain_past = p->tension + m;
+  p->strain[0] = p->strain_past + m, p->strain[1] = p->strain[0] + m;
+  p->strain_rate = p->strain[1] + m;
   return SW_OK;
+}
+
+size_t sw_stepper_history(const sw_stepper *p, const sw_system *s) {
+  return 2 * p->n + (p->strain_before ? s->edges : 0);
 }
 
 void sw_stepper_free(sw_stepper *p) {
@@ -105,6 +115,29 @@ static void prepare_stage(const sw_stepper *p, const sw_stage_row *row, const sw
   combine(p->n, row->xn, s->v, 0, s->v, p->vhat);
 }
 
+/* The same for strains; the stage begins with the guess that they change as fast as before. */
+static void prepare_strains(const sw_stepper *p, const sw_stage_row *row, const sw_system *s,
+                            double hbar, double *guess) {
+  const size_t m = s->edges;
+  combine(m, row->xn, s->strain, row->xv * hbar, s->strain_rate, p->strain_past);
+  if (row->x1 != 0) add(m, row->x1, p->strain[0], p->strain_past);
+  if (row->xp != 0) add(m, row->xp, p->strain_before, p->strain_past);
+  combine(m, 1.0, p->strain_past, hbar, s->strain_rate, guess);
+}
+
+static void find_rates(const sw_stepper *p, const sw_system *s, double hbar, const double *strain) {
+  combine(s->edges, 1.0 / hbar, strain, -1.0 / hbar, p->strain_past, p->strain_rate);
+}
+
+static void book(sw_system *s, sw_booking booking) {
+  if (s->coupling.book) s->coupling.book(s->coupling.user, &booking);
+}
+
+void sw_stepper_book(sw_stepper *p, sw_system *s, double share) {
+  book(s, (sw_booking){.own = share, .first = p->booked ? 1.0 : 0.0});
+  p->booked = 1;
+}
+
 static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system *s, double t,
                                 double h, sw_error *err) {
   for (size_t k = 0; k < m->stages; k++) {
@@ -112,17 +145,26 @@ static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system
     const double hbar = row->hbar * h;
     sw_stage_report report;
     prepare_stage(p, row, s, hbar);
+    if (p->strain_past) prepare_strains(p, row, s, hbar, p->strain[k]);
     const sw_stage stage = {.time = t + row->time * h,
                             .hbar = hbar,
                             .xhat = p->xhat,
                             .vhat = p->vhat,
                             .y = p->y[k],
                             .v = p->w[k],
-                            .a = p->a};
+                            .a = p->a,
+                            .strain_past = p->strain_past,
+                            .strain = p->strain[k]};
     const sw_status status = sw_system_stage(s, &stage, &p->newton, &report, err);
     p->iterations += (size_t)report.iterations;
     p->rotation = report.rotation;
     if (status != SW_OK) return status;
+    if (p->strain_past) find_rates(p, s, hbar, p->strain[k]);
+    book(s, (sw_booking){.stage = (int)k,
+                         .own = hbar,
+                         .start = row->xv * hbar,
+                         .first = row->x1,
+                         .before = row->xp});
   }
   const size_t last = m->stages - 1;
   if (m->flags & SW_INTEGRATOR_SECOND_HALF) {
@@ -130,32 +172,34 @@ static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system
       p->y[last][i] = 2.0 * p->y[last][i] - s->x[i];
       p->w[last][i] = 2.0 * p->w[last][i] - s->v[i];
     }
+    book(s, (sw_booking){.first = 2.0}); /* it has one stage */
     for (size_t e = 0; e < s->edges; e++) s->tension[e] = 2.0 * s->tension[e] - p->tension[e];
+    for (size_t e = 0; p->strain_past && e < s->edges; e++)
+      p->strain[last][e] = 2.0 * p->strain[last][e] - s->strain[e];
     SW_TRY(sw_system_place_holds(s, t + h, p->y[last], p->w[last], NULL, err));
   }
   p->trial_x = p->y[last];
   p->trial_v = p->w[last];
   p->trial_a = p->a;
+  p->trial_strain = p->strain[last];
   return SW_OK;
 }
 
-/* Bank et al. 1985: error of the trapezoid-BDF2 pair from the three velocities,
- * largest over nodes. Spins go along: they are bound to the nodes' motion by friction, or
- * by twist, which is much faster than a step. */
-static double embedded_error(const sw_stepper *p, const sw_system *s, double h) {
-  const double g = 2.0 - sqrt(2.0);
-  const double k = (-3.0 * g * g + 4.0 * g - 2.0) / (12.0 * (2.0 - g));
-  const double c0 = 1.0 / g, c1 = -1.0 / (g * (1.0 - g)), c2 = 1.0 / (1.0 - g);
+/* The method's estimate, largest over nodes. Spins go along: they are bound to the nodes' motion by
+ * friction, or by twist, which is much faster than a step. */
+static double embedded_error(const sw_stepper *p, const sw_integrator *m, const sw_system *s,
+                             double h) {
   double largest = 0;
   for (size_t i = 0; i < 3 * s->nodes; i += 3) {
     double sum = 0;
     for (size_t c = i; c < i + 3; c++) {
-      const double e = c0 * s->v[c] + c1 * p->w[0][c] + c2 * p->w[1][c];
+      double e = m->error[0] * s->v[c];
+      for (size_t k = 0; k < m->stages; k++) e += m->error[1 + k] * p->w[k][c];
       sum += e * e;
     }
     largest = fmax(largest, sum);
   }
-  return 2.0 * fabs(k) * h * sqrt(largest);
+  return h * sqrt(largest);
 }
 
 sw_status sw_stepper_trial(sw_stepper *p, sw_system *s, double t, double h, sw_error *err) {
@@ -164,6 +208,7 @@ sw_status sw_stepper_trial(sw_stepper *p, sw_system *s, double t, double h, sw_e
   p->iterations = 0;
   p->rotation = 0;
   p->error = 0;
+  p->booked = 0;
   if (!(p->method->flags & SW_INTEGRATOR_IMPLICIT)) {
     memcpy(p->y[0], s->x, p->n * sizeof(double));
     memcpy(p->w[0], s->v, p->n * sizeof(double));
@@ -177,7 +222,7 @@ sw_status sw_stepper_trial(sw_stepper *p, sw_system *s, double t, double h, sw_e
                            : p->restart || uneven ? p->start
                                                   : p->method;
   SW_TRY(implicit_trial(p, m, s, t, h, err));
-  if (p->wants_error && m->flags & SW_INTEGRATOR_EMBEDDED) p->error = embedded_error(p, s, h);
+  if (p->wants_error && m->flags & SW_INTEGRATOR_EMBEDDED) p->error = embedded_error(p, m, s, h);
   return SW_OK;
 }
 
@@ -189,11 +234,16 @@ void sw_stepper_accept(sw_stepper *p, sw_system *s, double h) {
   if (p->xp && (p->method->flags & SW_INTEGRATOR_HISTORY)) {
     memcpy(p->xp, s->x, p->n * sizeof(double));
     memcpy(p->vp, s->v, p->n * sizeof(double));
+    if (p->strain_past) memcpy(p->strain_before, s->strain, s->edges * sizeof(double));
   }
   sw_system_follow(s, p->trial_x);
   memcpy(s->x, p->trial_x, p->n * sizeof(double));
   memcpy(s->v, p->trial_v, p->n * sizeof(double));
   if (p->trial_a) memcpy(s->a, p->trial_a, p->n * sizeof(double));
+  if (p->strain_past) {
+    memcpy(s->strain, p->trial_strain, s->edges * sizeof(double));
+    memcpy(s->strain_rate, p->strain_rate, s->edges * sizeof(double));
+  }
   if (!(p->method->flags & SW_INTEGRATOR_IMPLICIT)) sw_system_axial_from_state(s);
   p->last_h = h;
   p->restart = p->plastic;
@@ -203,6 +253,6 @@ void sw_stepper_accept(sw_stepper *p, sw_system *s, double h) {
 double sw_stepper_next_h(const sw_stepper *p, double h, double tolerance) {
   const double safety = 0.9, most = 2.0, least = 0.2; /* of the last step [-] */
   if (!(p->error > 0)) return h;
-  const double factor = safety * cbrt(tolerance / p->error);
+  const double factor = safety * pow(tolerance / p->error, 1.0 / (p->method->order + 1));
   return h * fmin(most, fmax(least, factor));
 }

@@ -40,9 +40,12 @@ typedef struct sw_integrator {
   unsigned flags;
   size_t stages; /* implicit members */
   sw_stage_row rows[SW_STAGES_MAX];
+  /* embedded: h times the sum of these shares of the velocities at the start and after each
+   * stage is the step's error, of one order more than the method [-]. */
+  double error[SW_STAGES_MAX + 1];
   const char *start;     /* implicit: method for the first step after a
                             discontinuity; NULL = itself */
-  double leapfrog_limit; /* explicit: stable while h omega_max is below; 0 = unknown [-] */
+  double leapfrog_limit; /* explicit: stable while h omega_max is below; implicit: 0 [-] */
   /* explicit: advance (x, v) by h in place from time t; stepper's work arrays
    * are free to use. */
   sw_status (*advance)(sw_stepper *stepper, sw_system *system, double t, double h, double *x,
@@ -60,10 +63,14 @@ struct sw_stepper {
   double *y[SW_STAGES_MAX], *w[SW_STAGES_MAX]; /* stage positions and velocities */
   double *a;                                   /* acceleration of the last stage */
   double *xp, *vp;                             /* state before last */
-  double *tension;                             /* saved for a rejected step (edges) */
-  double last_h;                               /* of the last accepted step; 0 = none [s] */
-  int restart;                                 /* next step starts anew: a_n is stale */
+  /* axial strains (edges): where the stage's rates count from, stages', rates of the last stage,
+   * of the state before last; NULL without axial dashpots [-], [1/s] */
+  double *strain_past, *strain[SW_STAGES_MAX], *strain_rate, *strain_before;
+  double *tension; /* saved for a rejected step (edges) */
+  double last_h;   /* of the last accepted step; 0 = none [s] */
+  int restart;     /* next step starts anew: a_n is stale */
   int plastic;     /* the next trials are of implicit Euler: what strikes does not bounce */
+  int booked;      /* 1: an evaluation of the explicit step was booked */
   double error;    /* estimate of the last trial; 0 without one [m] */
   int wants_error; /* the step size follows the error */
   double **extra;  /* explicit methods' work arrays (SW_EXTRA of n) */
@@ -72,7 +79,7 @@ struct sw_stepper {
   sw_newton newton;
   size_t iterations; /* of the last trial, all stages */
   double rotation;   /* largest edge rotation of the last update [rad] */
-  const double *trial_x, *trial_v, *trial_a;
+  const double *trial_x, *trial_v, *trial_a, *trial_strain;
 };
 
 enum { SW_EXTRA = 6 };
@@ -81,6 +88,9 @@ enum { SW_EXTRA = 6 };
 sw_status sw_stepper_new(sw_stepper *stepper, const sw_integrator *method, const sw_system *system);
 void sw_stepper_free(sw_stepper *stepper);
 
+/* What a method with history has to keep: xp and all after it (doubles). */
+size_t sw_stepper_history(const sw_stepper *stepper, const sw_system *system);
+
 /* Compute a trial step from the system's state at t; the state stays untouched
  * apart from the tension, which sw_stepper_reject puts back. */
 sw_status sw_stepper_trial(sw_stepper *stepper, sw_system *system, double t, double h,
@@ -88,6 +98,9 @@ sw_status sw_stepper_trial(sw_stepper *stepper, sw_system *system, double t, dou
 void sw_stepper_reject(sw_stepper *stepper, sw_system *system);
 /* Make the trial the system's state. */
 void sw_stepper_accept(sw_stepper *stepper, sw_system *system, double h);
+
+/* Explicit methods, after each evaluation: its forces act on the velocity for so long [s]. */
+void sw_stepper_book(sw_stepper *stepper, sw_system *system, double share);
 
 /* The next step size for a tolerance on the step error [s]. */
 double sw_stepper_next_h(const sw_stepper *stepper, double h, double tolerance);

@@ -24,6 +24,7 @@ static sw_status advance(sw_stepper *p, sw_system *s, double t, double h, double
       SW_TRY(sw_system_place_holds(s, ts, xs, vs, NULL, err));
     }
     SW_TRY(sw_system_acceleration(s, ts, xs, vs, p->a, err));
+    sw_stepper_book(p, s, weight[k] * h);
     for (size_t i = 0; i < p->n; i++) {
       dx[i] += weight[k] * vs[i];
       dv[i] += weight[k] * p->a[i];

@@ -6,6 +6,7 @@
 static sw_status advance(sw_stepper *p, sw_system *s, double t, double h, double *x, double *v,
                          sw_error *err) {
   SW_TRY(sw_system_acceleration(s, t, x, v, p->a, err));
+  sw_stepper_book(p, s, h);
   for (size_t i = 0; i < p->n; i++) {
     v[i] += h * p->a[i];
     x[i] += h * v[i];

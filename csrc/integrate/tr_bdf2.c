@@ -2,12 +2,14 @@
 /* TR-BDF2 (Bank et al. 1985): the trapezoid over gamma h, then BDF2, with
  * gamma = 2 - sqrt 2 so that both stages have the same matrix. Second order,
  * L-stable, little damping of what it resolves. The trapezoid needs the
- * acceleration at the step's start; after a discontinuity sdirk2 takes one step. */
+ * acceleration at the step's start; after a discontinuity sdirk2 takes one step.
+ * Its error is that of the trapezoid and BDF2 with the three velocities. */
 #include "integrate/integrate.h"
 
 #define GAMMA 0.58578643762690495 /* 2 - sqrt 2 */
 #define A1 (1.0 / (GAMMA * (2.0 - GAMMA)))
 #define A2 ((1.0 - GAMMA) * (1.0 - GAMMA) / (GAMMA * (2.0 - GAMMA)))
+#define E (2.0 * (-3.0 * GAMMA * GAMMA + 4.0 * GAMMA - 2.0) / (12.0 * (2.0 - GAMMA)))
 
 const sw_integrator sw_integrator_tr_bdf2 = {
     .name = "tr-bdf2",
@@ -17,5 +19,6 @@ const sw_integrator sw_integrator_tr_bdf2 = {
     .stages = 2,
     .rows = {{.time = GAMMA, .hbar = 0.5 * GAMMA, .xn = 1, .xv = 1},
              {.time = 1, .hbar = (1.0 - GAMMA) / (2.0 - GAMMA), .x1 = A1, .xn = -A2}},
+    .error = {E / GAMMA, -E / (GAMMA * (1.0 - GAMMA)), E / (1.0 - GAMMA)},
     .start = "sdirk2",
 };

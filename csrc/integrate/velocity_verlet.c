@@ -6,12 +6,14 @@
 static sw_status advance(sw_stepper *p, sw_system *s, double t, double h, double *x, double *v,
                          sw_error *err) {
   SW_TRY(sw_system_acceleration(s, t, x, v, p->a, err));
+  sw_stepper_book(p, s, 0.5 * h);
   for (size_t i = 0; i < p->n; i++) {
     v[i] += 0.5 * h * p->a[i];
     x[i] += h * v[i];
   }
   SW_TRY(sw_system_place_holds(s, t + h, x, NULL, NULL, err));
   SW_TRY(sw_system_acceleration(s, t + h, x, v, p->a, err));
+  sw_stepper_book(p, s, 0.5 * h);
   for (size_t i = 0; i < p->n; i++) v[i] += 0.5 * h * p->a[i];
   return sw_system_place_holds(s, t + h, NULL, v, NULL, err);
 }

@@ -323,6 +323,17 @@ sw_status sw_modal_solve(const sw_system *system, size_t body, size_t modes, dou
   return status;
 }
 
+sw_status sw_modal_unstable(const sw_system *system, size_t body, double slow, size_t *count) {
+  sw_error ignored;
+  double *factor = sw_alloc(sw_system_factor_size(system, body), sizeof *factor);
+  if (!factor) return SW_ENOMEM;
+  const job p = {.system = system, .body = body, .err = &ignored};
+  const double floor = MATRIX_ROUNDING * sw_system_stiffest(system, body, factor);
+  const sw_status status = count_below(&p, -fmax(slow, floor), factor, count);
+  sw_free(factor);
+  return status;
+}
+
 void sw_modes_free(sw_modes *modes) {
   sw_free(modes->omega2);
   sw_free(modes->shapes);

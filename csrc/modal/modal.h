@@ -24,6 +24,8 @@ typedef struct sw_modes {
  * SW_ENOCONV, SW_EINTR, SW_ENOMEM; then out is empty. */
 sw_status sw_modal_solve(const sw_system *system, size_t body, size_t modes, double slow,
                          int (*interrupted)(void), sw_modes *out, sw_error *err);
+/* How many motions of the body would grow, faster than sqrt(slow). SW_ENOMEM, SW_EDIVERGED. */
+sw_status sw_modal_unstable(const sw_system *system, size_t body, double slow, size_t *count);
 void sw_modes_free(sw_modes *modes);
 
 /* What forces that are out of balance would do to the body within about the time tau

@@ -28,8 +28,13 @@ static sw_param run_rows[] = {
     {"quasistatic", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_run_args, quasistatic),
      "true: equilibrium at every step instead of motion; dt is then the pose step, less where "
      "pads hold a wire"},
+    {"window", SW_PARAM_NUMBER, "s", SW_WINDOW, 0, 1e9, 0, NULL, offsetof(sw_run_args, window),
+     "largest forces and tensions are of means over this time; 0: of single steps; see help "
+     "'peaks'"},
     {"max_steps", SW_PARAM_INTEGER, "-", 1e15, 1, 1e15, 0, NULL, offsetof(sw_run_args, max_steps),
      "most steps to take"},
+    {"unstable", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_run_args, unstable),
+     "true lets an explicit integrator take steps above its stable one"},
     {"progress", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
      "true shows a progress bar (default: when on a terminal and longer than a second)"},
     {"save", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
@@ -47,11 +52,6 @@ __attribute__((constructor)) static void fill_choices(void) {
 
 enum { MOST_REDOS = 40 }; /* impacts found one after another in one step [-] */
 static const double SMALLEST_SHARE = 1.0 / 4096; /* of a step, before giving up [-] */
-static const double LARGEST_STRAIN = 10.0;       /* beyond it a run has diverged [-] */
-
-/* An edge squeezed below this share of its length is beyond Hooke's law; a
- * smaller step may avoid it [-]. */
-static const double LEAST_SHARE = 0.3;
 
 /* How a step that made energy is redone: by the method's start, which takes no acceleration from
  * before and is of second order too; then with implicit Euler, which makes none but where touches
@@ -81,69 +81,22 @@ static sw_status use_integrator(sw_scene *s, const sw_run_args *args, sw_error *
   return SW_OK;
 }
 
-/* Of particles that no spring holds. */
-static sw_status check_places(const sw_scene *s, size_t wire, const double *x, sw_error *err) {
-  const size_t n = s->system.bodies[wire].plan->nodes;
-  for (size_t p = 0; p < n; p++)
-    if (!isfinite(x[3 * p] + x[3 * p + 1] + x[3 * p + 2]))
-      return sw_fail(err, SW_EDIVERGED, "particle %zu of '%s' left the finite numbers", p + 1,
-                     s->wires[wire].name);
-  return SW_OK;
-}
-
-/* The same of particles: squeezed sections may bring two close to each other. */
-static sw_status check_particles(const sw_scene *s, size_t wire, const double *x, sw_error *err) {
-  const sw_web *web = s->system.bodies[wire].plan->web;
-  for (size_t p = 0; p < web->particles; p++)
-    if (!sw_finite(sw_vec_at(x, p)))
-      return sw_fail(err, SW_EDIVERGED, "wire '%s' has flown apart near s = %.4g m",
-                     s->wires[wire].name, web->s[p]);
-  for (size_t e = 0; e < web->links; e++) {
-    const sw_web_link *link = &web->link[e];
-    const double most = (1.0 + LARGEST_STRAIN) * link->rest;
-    if (sw_dist(sw_vec_at(x, link->a), sw_vec_at(x, link->b)) <= most) continue;
-    if (!web->per_ring)
-      return sw_fail(err, SW_EDIVERGED, "'%s' is torn apart between particles %u and %u",
-                     s->wires[wire].name, link->a + 1, link->b + 1);
-    return sw_fail(err, SW_EDIVERGED, "wire '%s' is torn apart near s = %.4g m",
-                   s->wires[wire].name, web->s[link->a]);
-  }
-  return check_places(s, wire, x, err);
-}
-
-/* Nodes must stay at finite places and edges at believable lengths. */
-static sw_status check_trial(const sw_scene *s, sw_error *err) {
-  const double *x = s->stepper.trial_x;
-  for (size_t b = 0; b < s->system.body_count; b++) {
-    const sw_body *body = &s->system.bodies[b];
-    if (body->plan->web) SW_TRY(check_particles(s, b, x + 3 * body->first_node, err));
-    for (size_t e = 0; e < body->plan->edges; e++) {
-      const double *a = x + 3 * (body->first_node + e);
-      const double l2 = sw_norm2(sw_sub(sw_load(a + 3), sw_load(a)));
-      const double most = (1.0 + LARGEST_STRAIN) * body->plan->rest[e];
-      const double least = LEAST_SHARE * body->plan->rest[e];
-      if (l2 < least * least)
-        return sw_fail(err, SW_ENOCONV, "wire '%s' is crushed near s = %.4g m", s->wires[b].name,
-                       body->plan->s[e] - body->plan->s[0]);
-      if (!(l2 <= most * most))
-        return sw_fail(err, SW_EDIVERGED, "wire '%s' is torn apart near s = %.4g m",
-                       s->wires[b].name, body->plan->s[e] - body->plan->s[0]);
-    }
-  }
-  return SW_OK;
-}
-
 /* A hold may turn by this much in a step: at half a turn and more its wire would not know
  * which way [rad]. */
 static const double WIDEST_TURN = 2.5;
+
+/* Steps are cut down to this share of dt to find the moment at which a tie breaks [-]. */
+static const double SHORTEST_BREAK = 1.0 / 1024;
 
 static sw_status trial(loop *p, double h, sw_error *err) {
   sw_scene *s = p->s;
   sw_status status = sw_stepper_trial(&s->stepper, &s->system, s->time, h, err);
   p->report->iterations += s->stepper.iterations;
-  if (status == SW_OK) status = check_trial(s, err);
+  if (status == SW_OK) status = sw_scene_check_trial(s, err);
   if (status == SW_OK && s->system.fastest_turn * h > WIDEST_TURN)
     status = sw_fail(err, SW_ENOCONV, "what holds a wire turns too far in one step");
+  if (status == SW_OK && s->join_count + s->force_count > 0 && h > SHORTEST_BREAK * p->args->dt)
+    status = sw_scene_check_ties(s, s->stepper.trial_x, err);
   if (status != SW_OK) sw_stepper_reject(&s->stepper, &s->system);
   return status;
 }
@@ -261,6 +214,8 @@ static void accept(loop *p, double h) {
   sw_scene *s = p->s;
   sw_stepper_accept(&s->stepper, &s->system, h);
   sw_scene_commit_contact(s);
+  s->span = h;
+  if (s->method->flags & SW_INTEGRATOR_NO_CONTACT) sw_scene_remark_contact(s);
   s->discontinuous = p->changed = 0;
   p->report->steps++;
   if (h < p->report->smallest_dt) p->report->smallest_dt = h;
@@ -275,7 +230,7 @@ static sw_status observe(sw_scene *s, sw_error *err) {
 /* Errors that a smaller step cannot mend. */
 static int hopeless(sw_status status) {
   return status == SW_ECALLBACK || status == SW_ENOMEM || status == SW_EINVAL ||
-         status == SW_EEMPTY;
+         status == SW_EEMPTY || status == SW_EINTR || status == SW_ELIMIT;
 }
 
 /* Nodes for the wire that a step up to h feeds; shortens the step to what nodes can
@@ -303,6 +258,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
   sw_scene *s = p->s;
   const double t0 = s->time;
   double done = 0, part = h;
+  sw_error failed = {""}; /* why a part of this step was refused last */
   int starts = s->discontinuous && sw_slip_any(s);
   if (starts) part = FIRST_SLIP * h;
   p->changed = s->discontinuous > 0;
@@ -312,7 +268,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
     if (done > 0 && p->interrupted && p->interrupted()) return SW_EINTR; /* there may be many */
     SW_TRY(make_room(p, &part, err));
     if (!(part >= SMALLEST_SHARE * SMALLEST_SHARE * h))
-      return sw_fail(err, SW_ENOCONV, "wire is fed too fast to follow it");
+      return sw_feed_too_fast(s, failed.text, err);
     const sw_status status = judged_attempt(p, part, 0.5 * part < SMALLEST_SHARE * h, err);
     if (status == SW_OK) {
       done += part;
@@ -324,6 +280,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
       continue;
     }
     if (hopeless(status)) return status;
+    failed = *err;
     p->report->rejected++;
     s->discontinuous = 1;
     part *= 0.5;
@@ -349,7 +306,9 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
     if (fine) {
       const int unknown = !(s->stepper.error > 0); /* a starting step gives no estimate */
       accept(p, h);
+      const double before = s->time;
       s->time = last ? t1 : s->time + h;
+      if (!(s->time > before)) return sw_fail(err, SW_ENOCONV, "steps of %g s are no time", h);
       s->next_dt = unknown ? h : last && next > h ? fmax(next, s->next_dt) : next;
       return observe(s, err);
     }
@@ -370,8 +329,10 @@ static sw_status pose_steps(loop *p, double t, int (*interrupted)(void), sw_erro
     if (interrupted && interrupted()) return SW_EINTR;
     SW_TRY(make_room(p, &h, err));
     const double part = h < (t - s->time) * (1 - 1e-9) ? s->time + h : t;
+    if (!(part > s->time)) return sw_fail(err, SW_ENOCONV, "wire is fed too fast to follow it");
     SW_TRY(sw_ledger_open(s, err));
     SW_TRY(sw_scene_pose(s, part, interrupted, p->report, err));
+    s->span = 0;
     SW_TRY(sw_scene_observe(s, err));
   }
   return SW_OK;
@@ -396,6 +357,13 @@ static sw_status whole_pose_step(loop *p, double t1, int (*interrupted)(void), s
   return SW_OK;
 }
 
+/* The next frame is due after t; frames that steps have passed are left out. */
+static void next_frame(sw_scene *s, double every, double t) {
+  if (s->next_frame <= t) s->next_frame += every;
+  if (s->next_frame <= t) s->next_frame += every * ceil((t - s->next_frame) / every);
+  if (!(s->next_frame > t)) s->next_frame = nextafter(t, HUGE_VAL);
+}
+
 static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_error *err) {
   sw_scene *s = p->s;
   const double t0 = s->time, span = until - t0;
@@ -407,7 +375,7 @@ static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_er
   for (size_t k = 1; s->time < until - slack;) {
     if (interrupted && interrupted()) return SW_EINTR;
     if ((double)(p->report->steps - first) >= (double)p->args->max_steps) return SW_OK;
-    if (p->report->steps > first && sw_tool_slipped(s)) return SW_OK;
+    if (p->report->steps > first && (sw_tool_slipped(s) || sw_hold_crashed(s))) return SW_OK;
     double t1 = (double)k >= count ? until : t0 + span * ((double)k / count);
     int cut = 0;
     if (p->args->quasistatic) SW_TRY(sw_scene_cut_pose(s, &t1, &cut, err));
@@ -417,8 +385,7 @@ static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_er
                                 : step(p, t1 - s->time, t1, err));
     if (isfinite(p->args->frame) && s->time >= s->next_frame - slack)
       SW_TRY(sw_scene_store_frame(s, err));
-    while (isfinite(p->args->frame) && s->next_frame <= s->time + slack)
-      s->next_frame += p->args->frame;
+    if (isfinite(p->args->frame)) next_frame(s, p->args->frame, s->time + slack);
   }
   return SW_OK;
 }
@@ -457,6 +424,23 @@ static sw_status check_run(const sw_scene *s, const sw_run_args *args, sw_error 
   return SW_OK;
 }
 
+/* A clock near t advances in parts of t times this [-]; a step must be some of them. */
+static const double CLOCK = 2.3e-16, TICKS = 64;
+static const double MOST_STEPS = 1e15;     /* [-] */
+static const double SHORTEST_STEP = 1e-20; /* [s] */
+
+/* Steps that add up to the time they are to cover. */
+static sw_status check_clock(const sw_scene *s, const sw_run_args *args, double until,
+                             sw_error *err) {
+  const double latest = fmax(fabs(s->time), fabs(until)), span = until - s->time;
+  const double least = fmax(SHORTEST_STEP, fmax(TICKS * CLOCK * latest, span / MOST_STEPS));
+  if (args->dt >= least || !(span > 0)) return SW_OK;
+  return sw_fail(err, SW_EINVAL,
+                 "scene:run: dt = %g s is too short for t = %.6g to %.6g s; it must be at least "
+                 "%.2g s, or the clock would not advance by it or never arrive",
+                 args->dt, s->time, until, least);
+}
+
 static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const sw_error *why) {
   report->status = status;
   report->time = s->time;
@@ -482,13 +466,16 @@ sw_status sw_scene_begin_run(sw_scene *s, sw_error *err) {
 
 sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
                            int (*interrupted)(void), sw_run_report *report, sw_error *err) {
-  sw_error why = {""};
+  sw_error why = {""}, ignored;
   *report = (sw_run_report){.smallest_dt = HUGE_VAL, .time = s->time};
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
   SW_TRY(check_run(s, args, err));
+  SW_TRY(check_clock(s, args, until, err));
   SW_TRY(sw_scene_build(s, err));
+  SW_TRY(sw_scene_check_step(s, args, until, err));
   SW_TRY(use_integrator(s, args, err));
+  s->window = args->window;
   const size_t before = s->system.counters.evaluations;
   loop p = {.s = s, .args = args, .report = report, .interrupted = interrupted};
   p.v_start = sw_alloc(sw_scene_has_contact(s) ? s->system.freedoms : 1, sizeof(double));
@@ -503,7 +490,12 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   }
   if (status == SW_OK) status = run_loop(&p, until, interrupted, &why);
   s->running--;
+  if (status == SW_OK && !args->quasistatic) status = sw_scene_look_for_buckling(s, &why);
   sw_free(p.v_start);
+  /* the last good state, for pictures of what went wrong */
+  if (status == SW_ENOCONV && isfinite(args->frame) && s->frame_count &&
+      s->time > s->frames[s->frame_count - 1].time)
+    (void)sw_scene_store_frame(s, &ignored);
   report->evaluations = s->system.counters.evaluations - before;
   conclude(s, status, report, &why);
   if (status == SW_ECALLBACK) s->discontinuous = 1;

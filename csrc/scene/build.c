@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/interrupt.h"
 #include "scene/world.h"
 
 static void drop(sw_scene *s) {
@@ -165,7 +166,7 @@ sw_status sw_scene_thaw(sw_scene *s) {
     const sw_body *b = &s->system.bodies[w];
     sw_mesh *m = &s->wires[w].mesh;
     if (b->plan->web) {
-      sw_strand_take(&s->wires[w], &s->system, b);
+      SW_TRY(sw_strand_take(&s->wires[w], &s->system, b));
       continue;
     }
     m->drawn = m->drawn &&
@@ -175,6 +176,10 @@ sw_status sw_scene_thaw(sw_scene *s) {
     memcpy(m->v, s->system.v + 3 * b->first_node, 3 * m->n * sizeof *m->v);
     memcpy(m->a, s->system.a + 3 * b->first_node, 3 * m->n * sizeof *m->a);
     memcpy(m->tension, s->system.tension + b->first_edge, (m->n - 1) * sizeof *m->tension);
+    if (b->axial_time > 0)
+      memcpy(m->rate, s->system.strain_rate + b->first_edge, (m->n - 1) * sizeof *m->rate);
+    else
+      memset(m->rate, 0, m->n * sizeof *m->rate);
     if (b->spin_block) sw_scene_frame_out(s, w);
   }
   SW_TRY(keep_twist(s));
@@ -212,10 +217,14 @@ static void form(const sw_scene *s, size_t w, sw_plan *plan) {
   for (size_t k = 0; k < s->hold_count; k++) {
     const sw_scene_hold *h = &s->holds[k];
     if (!h->alive || h->wire != w || !h->formed) continue;
-    for (size_t e = 0; e < plan->edges; e++)
-      if (plan->s[e] >= h->s1 && plan->s[e + 1] <= h->s2)
-        plan->rest[e] = sw_dist(local_of(h, plan->s[e]), local_of(h, plan->s[e + 1]));
+    for (size_t e = sw_plan_first(plan, h->s1); e < plan->edges && plan->s[e + 1] <= h->s2; e++)
+      plan->rest[e] = sw_dist(local_of(h, plan->s[e]), local_of(h, plan->s[e + 1]));
   }
+}
+
+/* Between long parts of building; what goes back to a snapshot gets there. */
+static sw_status stopped(const sw_scene *s) {
+  return sw_interrupted() && !s->restoring ? SW_EINTR : SW_OK;
 }
 
 static sw_status new_plans(sw_scene *s, sw_plan **plans) {
@@ -237,6 +246,7 @@ static sw_status new_plans(sw_scene *s, sw_plan **plans) {
     status = wire->strand.web
                  ? new_web_plan(s, w, &plans[w])
                  : sw_plan_new(&wire->beam, wire->mesh.s, wire->mesh.n, places, n, &plans[w]);
+    if (status == SW_OK) status = stopped(s);
     if (status == SW_OK) form(s, w, plans[w]);
     if (status == SW_OK && wire->mesh.rest) status = sw_scene_unloaded(s, w, plans[w]);
   }
@@ -289,8 +299,9 @@ static sw_status add_holds(sw_scene *s, size_t alive) {
       node.node = b->first_node + h->particle[i], node.local = sw_vec_at(h->local, i);
       s->system.held[s->system.held_count++] = node;
     }
-    for (size_t i = 0; !b->plan->web && i < b->plan->nodes; i++) {
-      if (!(b->plan->s[i] >= h->s1 && b->plan->s[i] <= h->s2)) continue;
+    const size_t none = b->plan->nodes;
+    for (size_t i = b->plan->web ? none : sw_plan_first(b->plan, h->s1);
+         i < none && b->plan->s[i] <= h->s2; i++) {
       node.node = b->first_node + i, node.local = local_of(h, b->plan->s[i]);
       s->system.held[s->system.held_count++] = node;
     }
@@ -337,6 +348,20 @@ static sw_status add_contact(sw_scene *s) {
   return status;
 }
 
+/* Strains and their rates go on; where they are not known, springs change as their ends move. */
+static void inherit_strains(sw_scene *s) {
+  sw_system_strain_from_state(&s->system);
+  for (size_t w = 0; w < s->wire_count; w++) {
+    const sw_body *b = &s->system.bodies[w];
+    const double *known = b->plan->web ? s->wires[w].strand.rate : s->wires[w].mesh.rate;
+    if (!(b->axial_time > 0)) continue;
+    if (known)
+      memcpy(s->system.strain_rate + b->first_edge, known, sw_plan_axial(b->plan) * sizeof *known);
+    else
+      sw_system_rate_from_velocity(&s->system, w);
+  }
+}
+
 static sw_status fill(sw_scene *s, size_t alive) {
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_body *b = &s->system.bodies[w];
@@ -348,9 +373,11 @@ static sw_status fill(sw_scene *s, size_t alive) {
     memcpy(s->system.v + at, strand->web ? strand->v : m->v, size);
     memcpy(s->system.a + at, strand->web ? strand->a : m->a, size);
     memcpy(s->system.tension + b->first_edge, strand->web ? strand->axial : m->tension, axial);
+    SW_TRY(stopped(s));
     SW_TRY(add_terms(s, w));
   }
   SW_TRY(sw_system_add_histories(&s->system));
+  inherit_strains(s);
   SW_TRY(add_holds(s, alive));
   SW_TRY(sw_scene_add_joins(s));
   SW_TRY(add_contact(s));
@@ -365,16 +392,20 @@ static sw_status fill(sw_scene *s, size_t alive) {
 sw_status sw_scene_build(sw_scene *s, sw_error *err) {
   if (!s->built) {
     size_t alive = 0;
+    SW_TRY(sw_scene_check_holds(s, err));
     for (size_t k = 0; k < s->hold_count; k++) alive += s->holds[k].alive != 0;
     sw_plan **plans = sw_alloc(s->wire_count, sizeof(sw_plan *));
     sw_status status = plans ? new_plans(s, plans) : SW_ENOMEM;
+    if (status == SW_OK) status = stopped(s);
     if (status == SW_OK) status = sw_system_new(&s->system, plans, s->wire_count, alive);
+    if (status == SW_OK) status = stopped(s);
     if (status == SW_OK) status = fill(s, alive);
+    if (status == SW_OK) status = stopped(s);
     for (size_t w = 0; plans && w < s->wire_count; w++) sw_plan_release(plans[w]);
     sw_free(plans);
     if (status != SW_OK) {
       drop(s);
-      return sw_fail(err, status, "scene '%s': out of memory", s->name);
+      return sw_fail(err, status, "scene '%s': %s", s->name, sw_status_text(status));
     }
     status = sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err);
     if (status != SW_OK) {

@@ -104,6 +104,17 @@ static sw_status own_list(sw_scene_force *f) {
   return SW_OK;
 }
 
+/* What of the arguments is to be taken from where the wires lie, in a scene that is not built. */
+static sw_status place_force(const sw_scene *s, const sw_scene_wire *w, const sw_force_class *cls,
+                             void *args, sw_error *err) {
+  if (!cls->place) return SW_OK;
+  if (!w && s->wire_count == 1) w = &s->wires[0];
+  if (!w) return cls->place(args, 0, NULL, NULL, err);
+  const sw_web *web = w->strand.web;
+  return web ? cls->place(args, web->particles, w->strand.x, web->s, err)
+             : cls->place(args, w->mesh.n, w->mesh.x, w->mesh.s, err);
+}
+
 sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle wire,
                              const void *args, size_t args_size, sw_handle *out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
@@ -130,6 +141,7 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
                         .wire = wire.generation ? (long)wire.slot : -1,
                         .scale = w ? w->mesh.scale : 1.0};
   if (args_size) memcpy(f->args, args, args_size);
+  SW_TRY(place_force(s, w, cls, f->args, err));
   if (cls->flags & SW_FORCE_ON_SOME) SW_TRY(own_list(f));
   if (w && cls->flags & SW_FORCE_AT_PLACE) f->args[0] += w->mesh.s[0]; /* stays with the wire */
   *out = (sw_handle){(uint32_t)s->force_count++, ++s->serial};
@@ -163,6 +175,13 @@ sw_status sw_scene_read_force(sw_scene *s, sw_handle force, sw_handle wire, doub
       return SW_OK;
     }
   return sw_fail(err, SW_EINVAL, "force %s: it does not act on '%s'", cls->name, w->name);
+}
+
+sw_status sw_scene_name_force(sw_scene *s, sw_handle force, const char *name, sw_error *err) {
+  if (!sw_scene_force_class(s, force))
+    return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
+  snprintf(s->forces[force.slot].name, SW_NAME_SIZE, "%s", name);
+  return SW_OK;
 }
 
 sw_status sw_scene_remove_force(sw_scene *s, sw_handle force, sw_error *err) {

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Frames: what a picture or a player needs, stored at even times of a run. One
- * block a frame: energies, obstacle poses, hold poses with a held flag, then
- * for each wire its node count and positions, the number of its surface's points in a section (0:
- * it is no mesh of particles), and these points with the force across the surface at each. */
+ * block a frame: energies, obstacle poses with a flag (there), hold poses with one (held), tool
+ * poses, then for each wire its node count and positions, how many values each node has and these,
+ * the number of its surface's points in a section (0: it is no mesh of particles), and these points
+ * with the force across the surface at each. */
 #include <math.h>
 #include <string.h>
 
@@ -28,7 +29,7 @@ static void store_pose(double *out, sw_pose pose) {
 }
 
 /* The middle line of a mesh and its surface. */
-static sw_status fill_strand(const sw_scene *s, const sw_body *b, double **to, sw_error *err) {
+static sw_status fill_strand(sw_scene *s, const sw_body *b, double **to, sw_error *err) {
   const sw_web *web = b->plan->web;
   const size_t around = web->around_count;
   const double *x = s->system.x + 3 * b->first_node;
@@ -38,6 +39,9 @@ static sw_status fill_strand(const sw_scene *s, const sw_body *b, double **to, s
   sw_strand_pressed(s, b, pressed, NULL);
   *p++ = (double)web->rings;
   for (size_t r = 0; r < web->rings; r++, p += 3) sw_store(p, sw_strand_middle(web, x, r));
+  *p++ = SW_FRAME_VALUES;
+  sw_scene_node_values(s, (size_t)(b - s->system.bodies), web->rings, p);
+  p += SW_FRAME_VALUES * web->rings;
   *p++ = (double)around;
   for (size_t r = 0; r < web->rings; r++) {
     sw_strand_outline(web, x, r, outline);
@@ -54,23 +58,29 @@ static sw_status fill_strand(const sw_scene *s, const sw_body *b, double **to, s
 
 /* Numbers that a wire takes in a frame. */
 static size_t size_of(const sw_plan *p) {
-  if (!p->web || !p->web->per_ring) return 2 + 3 * p->nodes;
-  return 2 + (3 + SW_FRAME_SURFACE * p->web->around_count) * p->web->rings;
+  if (!p->web) return 3 + (3 + SW_FRAME_VALUES) * p->nodes;
+  if (!p->web->per_ring) return 3 + 3 * p->nodes;
+  return 3 + (3 + SW_FRAME_VALUES + SW_FRAME_SURFACE * p->web->around_count) * p->web->rings;
 }
 
 static sw_status fill(sw_scene *s, double *p, sw_error *err) {
   sw_motion_state at;
   sw_scene_frame_energies(s, p);
   p += SW_FRAME_ENERGIES;
-  for (size_t k = 0; k < s->obstacle_count; k++, p += POSE) {
+  for (size_t k = 0; k < s->obstacle_count; k++, p += HOLD) {
     SW_TRY(sw_drive_eval(s, &s->obstacles[k].drive, s->time, &at, err));
     store_pose(p, at.pose);
+    p[POSE] = s->obstacles[k].alive;
   }
   for (size_t k = 0; k < s->hold_count; k++, p += HOLD) {
     at.pose = s->holds[k].last_pose;
     if (s->holds[k].alive) SW_TRY(sw_drive_eval(s, &s->holds[k].drive, s->time, &at, err));
     store_pose(p, at.pose);
     p[POSE] = s->holds[k].alive;
+  }
+  for (size_t k = 0; k < s->tool_count; k++, p += POSE) {
+    SW_TRY(sw_drive_eval(s, &s->tools[k].drive, s->time, &at, err));
+    store_pose(p, at.pose);
   }
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_body *b = &s->system.bodies[w];
@@ -82,13 +92,17 @@ static sw_status fill(sw_scene *s, double *p, sw_error *err) {
     *p++ = (double)b->plan->nodes;
     memcpy(p, s->system.x + 3 * b->first_node, 3 * b->plan->nodes * sizeof *p);
     p += 3 * b->plan->nodes;
+    *p++ = web ? 0 : SW_FRAME_VALUES;
+    if (!web) sw_scene_node_values(s, w, b->plan->nodes, p);
+    if (!web) p += SW_FRAME_VALUES * b->plan->nodes;
     *p++ = 0;
   }
   return SW_OK;
 }
 
 sw_status sw_scene_store_frame(sw_scene *s, sw_error *err) {
-  size_t size = SW_FRAME_ENERGIES + POSE * s->obstacle_count + HOLD * s->hold_count;
+  size_t size =
+      SW_FRAME_ENERGIES + POSE * s->tool_count + HOLD * (s->obstacle_count + s->hold_count);
   for (size_t w = 0; w < s->wire_count; w++) size += size_of(s->system.bodies[w].plan);
   if (sw_grow((void **)&s->frames, &s->frame_capacity, s->frame_count + 1, sizeof *s->frames) !=
       SW_OK)
@@ -101,19 +115,24 @@ sw_status sw_scene_store_frame(sw_scene *s, sw_error *err) {
     return status;
   }
   s->frames[s->frame_count++] =
-      (sw_frame){s->time, data, s->wire_count, s->obstacle_count, s->hold_count};
+      (sw_frame){s->time, data, s->wire_count, s->obstacle_count, s->hold_count, s->tool_count};
   return SW_OK;
 }
 
+static size_t before_wires(const sw_frame *f) {
+  return SW_FRAME_ENERGIES + POSE * f->tools + HOLD * (f->obstacles + f->holds);
+}
+
 int sw_scene_frame_walk(const sw_frame *f, size_t room, size_t *size) {
-  size_t at = SW_FRAME_ENERGIES + POSE * f->obstacles + HOLD * f->holds;
+  size_t at = before_wires(f);
   for (size_t w = 0; w < f->wires; w++) {
-    double count[2]; /* nodes, points around each [-] */
-    for (size_t k = 0; k < 2; k++) {
+    double count[3]; /* nodes, values of each, points around each [-] */
+    for (size_t k = 0; k < 3; k++) {
       if (at >= room) return 0;
       count[k] = f->data[at++];
-      const double each = k ? SW_FRAME_SURFACE * count[0] : 3;
+      const double each = k == 0 ? 3 : k == 1 ? count[0] : SW_FRAME_SURFACE * count[0];
       if (!(count[k] >= 0) || count[k] != floor(count[k]) ||
+          (k == 1 && count[k] > 0 && count[k] != SW_FRAME_VALUES) ||
           !(each * count[k] <= (double)(room - at)))
         return 0;
       at += (size_t)(each * count[k]);
@@ -129,17 +148,25 @@ const double *sw_scene_frame_energy(const sw_scene *s, size_t frame) {
   return s->frames[frame].data;
 }
 
-const double *sw_scene_frame_obstacle(const sw_scene *s, size_t frame, size_t o) {
+const double *sw_scene_frame_obstacle(const sw_scene *s, size_t frame, size_t o, int *there) {
   const sw_frame *f = &s->frames[frame];
-  return o < f->obstacles ? f->data + SW_FRAME_ENERGIES + POSE * o : NULL;
+  if (o >= f->obstacles) return NULL;
+  const double *p = f->data + SW_FRAME_ENERGIES + HOLD * o;
+  *there = p[POSE] > 0;
+  return p;
 }
 
 const double *sw_scene_frame_hold(const sw_scene *s, size_t frame, size_t h, int *held) {
   const sw_frame *f = &s->frames[frame];
   if (h >= f->holds) return NULL;
-  const double *p = f->data + SW_FRAME_ENERGIES + POSE * f->obstacles + HOLD * h;
+  const double *p = f->data + SW_FRAME_ENERGIES + HOLD * (f->obstacles + h);
   *held = p[POSE] > 0;
   return p;
+}
+
+const double *sw_scene_frame_tool(const sw_scene *s, size_t frame, size_t k) {
+  const sw_frame *f = &s->frames[frame];
+  return k < f->tools ? f->data + before_wires(f) - POSE * (f->tools - k) : NULL;
 }
 
 int sw_scene_frame_is_loose(const sw_scene *s, size_t w) {
@@ -149,14 +176,22 @@ int sw_scene_frame_is_loose(const sw_scene *s, size_t w) {
 const double *sw_scene_frame_wire(const sw_scene *s, size_t frame, size_t w, size_t *count) {
   const sw_frame *f = &s->frames[frame];
   if (w >= f->wires) return NULL;
-  const double *p = f->data + SW_FRAME_ENERGIES + POSE * f->obstacles + HOLD * f->holds;
+  const double *p = f->data + before_wires(f);
   for (size_t k = 0; k < w; k++) {
     const size_t nodes = (size_t)*p;
     p += 1 + 3 * nodes;
+    p += 1 + nodes * (size_t)*p;
     p += 1 + SW_FRAME_SURFACE * nodes * (size_t)*p;
   }
   *count = (size_t)*p;
   return p + 1;
+}
+
+const double *sw_scene_frame_values(const sw_scene *s, size_t frame, size_t w, size_t *count) {
+  const double *p = sw_scene_frame_wire(s, frame, w, count);
+  if (!p) return NULL;
+  p += 3 * *count;
+  return *p > 0 ? p + 1 : NULL;
 }
 
 const double *sw_scene_frame_surface(const sw_scene *s, size_t frame, size_t w, size_t *count,
@@ -164,6 +199,7 @@ const double *sw_scene_frame_surface(const sw_scene *s, size_t frame, size_t w, 
   const double *p = sw_scene_frame_wire(s, frame, w, count);
   if (!p) return NULL;
   p += 3 * *count;
+  p += 1 + *count * (size_t)*p;
   *around = (size_t)*p;
   *count *= *around;
   return *around ? p + 1 : NULL;

@@ -53,7 +53,7 @@ static sw_status keep(sw_scene *s, const sw_tool *t, sw_handle wire, sw_frozen *
   SW_TRY(sw_drive_eval(s, &t->drive, s->time, &now, err));
   f->pose = now.pose;
   f->wire = wire, f->cls = w->cls, f->jaw = t->jaw;
-  sw_strand_take(w, &s->system, b);
+  SW_TRY(sw_strand_take(w, &s->system, b));
   SW_TRY(sw_mesh_copy(&w->mesh, &f->mesh));
   SW_TRY(sw_strand_copy(&w->strand, &f->strand));
   SW_TRY(keep_stations(w->strand.web, &w->mesh, &f->stations));

@@ -34,7 +34,7 @@ static void tape_handle(sw_tape *t, sw_handle *h) {
 
 static void tape_fields(sw_tape *t, sw_frozen *f) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_frozen, 536);
+  SW_TAPE_STRUCT(t, sw_frozen, 552);
   SW_TAPE_STRUCT(t, sw_stations, 32);
   sw_tape_mark(t, "contact", sw_contact_layout());
   tape_handle(t, &f->wire), tape_handle(t, &f->hold);

@@ -59,7 +59,7 @@ sw_status sw_frozen_balance(sw_scene *s, size_t wire, const double *rings, size_
   memcpy(s->system.v, v, n * sizeof *v);
   memcpy(s->system.a, a, n * sizeof *a);
   sw_free(dead);
-  return status == SW_ENOMEM || status == SW_ECALLBACK ? status : SW_OK;
+  return status == SW_ENOMEM || status == SW_ECALLBACK || status == SW_EINTR ? status : SW_OK;
 }
 
 /* Accelerations of a wire's rings, or of its nodes (count x 3), to be freed; NULL: no memory. */

@@ -52,6 +52,22 @@ double sw_feed_step(const sw_scene *s, double h) {
   return h;
 }
 
+sw_status sw_feed_too_fast(const sw_scene *s, const char *refused, sw_error *err) {
+  const sw_scene_hold *fastest = NULL;
+  double most = -1;
+  for (size_t k = 0; k < s->hold_count; k++) {
+    const sw_scene_hold *o = &s->holds[k];
+    if (!o->alive || !o->cls->feeds) continue;
+    const double speed = fabs(sw_feed_at(o, s->time).speed);
+    if (speed > most) most = speed, fastest = o;
+  }
+  if (!fastest) return sw_fail(err, SW_ENOCONV, "%s", refused);
+  return sw_fail(
+      err, SW_ENOCONV,
+      "wire '%s' goes through feed '%s' at %.3g m/s, faster than steps can follow%s%.300s",
+      s->wires[fastest->wire].name, fastest->name, most, refused[0] ? ": " : "", refused);
+}
+
 /* One side of a guide. */
 typedef struct guide {
   sw_scene_hold *h;

@@ -39,15 +39,8 @@ static sw_status check_place(const sw_scene *s, const sw_hold_class *cls, size_t
                    cls->name, a->s - start, w->name, length);
   double s1, s2;
   held_interval(&w->mesh, a, &s1, &s2);
-  for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_scene_hold *h = &s->holds[k];
-    if (!h->alive || h->wire != wire) continue;
-    if (s1 <= h->s2 + 1e-9 * length && s2 >= h->s1 - 1e-9 * length)
-      return sw_fail(err, SW_EINVAL,
-                     "%s: wire '%s' is already held by '%s' between s = %.6g and %.6g m", cls->name,
-                     w->name, h->name, h->s1 - start, h->s2 - start);
-  }
-  return SW_OK;
+  if (w->strand.web) sw_strand_rings(&w->mesh, &s1, &s2);
+  return sw_scene_check_clear(s, wire, NULL, cls->name, s1, s2, err);
 }
 
 /* Fewest edges between two holds: with four the bending stiffness between two
@@ -74,8 +67,11 @@ static sw_status refine_gaps(const sw_scene *s, size_t wire, const sw_scene_hold
     const sw_scene_hold *o = &s->holds[k];
     if (!o->alive || o->wire != wire || o == h) continue;
     const double low = o->s2 < h->s1 ? o->s2 : h->s2, high = o->s2 < h->s1 ? h->s1 : o->s1;
-    while (sw_mesh_node(m, high) - sw_mesh_node(m, low) < LEAST_EDGES)
-      SW_TRY(halve_edges(m, low, high));
+    for (size_t before = 0; low < high && before < m->n;) { /* ends when nothing is halved */
+      before = m->n;
+      if (sw_mesh_node(m, high) - sw_mesh_node(m, low) < LEAST_EDGES)
+        SW_TRY(halve_edges(m, low, high));
+    }
   }
   return SW_OK;
 }
@@ -169,6 +165,16 @@ static void take_directions(const sw_mesh *m, sw_scene_hold *h, const sw_hold_ar
   }
 }
 
+static sw_status check_axis(const sw_scene_wire *w, const sw_hold_class *cls, const char *what,
+                            sw_error *err) {
+  const sw_web *web = w->strand.web;
+  if (!web || cls->clamped || web->axis != web->per_ring) return SW_OK;
+  return sw_fail(err, SW_EINVAL,
+                 "%s: wire '%s' has no particle on its axis to be held; give the mesh a middle "
+                 "(tube: core = true; cubic: across even)",
+                 what, w->name);
+}
+
 sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wire,
                             const sw_hold_args *given, sw_handle *out, sw_error *err) {
   sw_hold_args own = *given;
@@ -178,12 +184,8 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wir
   if (!sw_scene_find_wire(s, wire, err)) return SW_EDEAD;
   own.s += s->wires[wire.slot].mesh.s[0];
   SW_TRY(check_place(s, cls, wire.slot, args, err));
-  const sw_web *web = s->wires[wire.slot].strand.web;
   if (cls->feeds) SW_TRY(sw_scene_check_line(&s->wires[wire.slot], "feed", err));
-  if (web && !cls->clamped && web->axis == web->per_ring)
-    return sw_fail(err, SW_EINVAL, "%s: wire '%s' has no particle on its axis to be held; %s",
-                   cls->name, s->wires[wire.slot].name,
-                   "give the mesh a middle (tube: core = true; cubic: across even)");
+  SW_TRY(check_axis(&s->wires[wire.slot], cls, cls->name, err));
   if (cls->feeds && isfinite(args->speed) && isfinite(args->force))
     return sw_fail(err, SW_EINVAL, "feed: give speed or force, not both; the other one follows");
   const sw_scene_join *join = cls->feeds ? sw_scene_joined(s, wire.slot) : NULL;
@@ -233,7 +235,21 @@ static void seen_from(sw_scene_hold *h, sw_pose pose) {
   }
 }
 
-sw_status sw_scene_rehold(sw_scene *s, sw_scene_hold *h, sw_pose pose) {
+/* Can a hold take the wire that has become another one? Those that are alive have done so. */
+static sw_status check_again(const sw_scene *s, const sw_scene_hold *h, const sw_hold_args *a,
+                             sw_error *err) {
+  const sw_scene_wire *w = &s->wires[h->wire];
+  const sw_web *web = w->strand.web;
+  char what[4 * SW_NAME_SIZE];
+  double s1, s2;
+  held_interval(&w->mesh, a, &s1, &s2);
+  if (web) sw_strand_rings(&w->mesh, &s1, &s2);
+  snprintf(what, sizeof what, "remodel to '%s', %s '%s'", w->cls->name, h->cls->name, h->name);
+  SW_TRY(check_axis(w, h->cls, what, err));
+  return sw_scene_check_clear(s, h->wire, h, what, s1, s2, err);
+}
+
+sw_status sw_scene_rehold(sw_scene *s, sw_scene_hold *h, sw_pose pose, sw_error *err) {
   const sw_scene_wire *w = &s->wires[h->wire];
   sw_hold_args a = h->args;
   sw_scene_hold new = *h;
@@ -242,7 +258,8 @@ sw_status sw_scene_rehold(sw_scene *s, sw_scene_hold *h, sw_pose pose) {
   h->alive = 0; /* its own places are not in its way */
   take_directions(&w->mesh, &new, &a);
   for (int k = 0; k < 2; k++) new.give[k].axis = sw_rotate(pose.q, h->give[k].axis);
-  sw_status status = place_nodes(s, h->wire, &new, &a);
+  sw_status status = check_again(s, h, &a, err);
+  if (status == SW_OK) status = place_nodes(s, h->wire, &new, &a);
   if (status == SW_OK)
     status = w->strand.web ? take_particles(w, &new, &a) : take_hold(&w->mesh, &new, &a);
   if (status == SW_OK && !w->strand.web)

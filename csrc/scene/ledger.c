@@ -18,13 +18,19 @@ static const double FULL_STEP = 0.01, OF_KINETIC = 1e-3, OF_WEIGHT = 1e-3, OF_WO
 static const double OF_BENDING = 1e-9;
 /* Energies are sums of large terms, known to this share of these [-]. */
 static const double ROUNDING = 1e-13;
+/* After so many steps that were taken though they made energy the referee is of no use: it costs
+ * what the smallest steps cost, and mends nothing. The run's end tells what was made [-]. */
+enum { MOST_ACCEPTED = 16 };
 /* Once steps have gained this share of what is in play, only rounding is allowed [-]. */
 static const double ENOUGH = 0.005;
 /* Wires that begin inside of obstacles are let out, which gives them at most this speed and lifts
  * them about as fast as this [m/s]. */
 static const double THROWN = 0.02, LET_OUT = 0.01;
+/* What is held is off its hold by more than rounding [m]. */
+static const double JUMP = 1e-9;
 /* The least that is in play: the weight times the radius, or this share of EI / L [-]. */
 static const double LEAST_BENDING = 1e-6;
+static const double LEAST = 1e-12; /* and this [J] */
 
 /* --- life ---------------------------------------------------------------------- */
 
@@ -68,10 +74,11 @@ static double potential(const sw_energies *e, double contact) {
 
 static void weigh(sw_scene *s) {
   sw_books *b = &s->books;
-  b->weight = b->bending = b->mass = 0;
+  b->weight = b->bending = b->mass = b->longest = 0;
   for (size_t k = 0; k < s->system.body_count; k++) {
     const sw_plan *p = s->system.bodies[k].plan;
     const double mg = p->beam.mass * p->length * sw_norm(s->gravity);
+    b->longest = fmax(b->longest, p->length);
     if (isfinite(p->beam.mass * p->length)) b->mass += p->beam.mass * p->length;
     if (isfinite(mg * p->beam.radius)) b->weight += mg * p->beam.radius;
     if (p->length > 0 && isfinite(p->beam.EI)) b->bending += p->beam.EI / p->length;
@@ -87,8 +94,19 @@ static void take_as_now(sw_books *b, const sw_energies *e, double contact) {
   b->most_kinetic = fmax(b->most_kinetic, e->kinetic);
   b->sums.kinetic = e->kinetic, b->sums.gravity = e->gravity;
   b->sums.stored = e->stored + contact;
-  const double least = fmax(b->weight, LEAST_BENDING * b->bending);
+  const double least = LEAST + fmax(b->weight, LEAST_BENDING * b->bending);
   b->sums.play = fmax(least, b->most_kinetic + b->work + b->released);
+}
+
+/* 1: a hold is not where what it holds is: it was put elsewhere between two steps. */
+static int was_put(sw_scene *s, sw_error *err) {
+  sw_system *y = &s->system;
+  if (sw_system_place_holds(y, s->time, y->delta, NULL, NULL, err) != SW_OK) return 0;
+  for (size_t k = 0; k < y->held_count; k++) {
+    const size_t at = 3 * y->held[k].node;
+    if (sw_dist(sw_load(y->delta + at), sw_load(y->x + at)) > JUMP) return 1;
+  }
+  return 0;
 }
 
 sw_status sw_ledger_open(sw_scene *s, sw_error *err) {
@@ -106,6 +124,7 @@ sw_status sw_ledger_open(sw_scene *s, sw_error *err) {
   if (b->begun) b->sums.by_changes += now - last, b->highest += fmax(0.0, now - last);
   b->begun = 1;
   take_as_now(b, &e, contact);
+  b->put = was_put(s, err);
   b->dissipated = sw_system_dissipated(&s->system, &any);
   b->rubbed_off = sw_system_rubbed(&s->system);
   if (sw_ledger_note_workers(s, 1) != SW_OK)
@@ -139,8 +158,9 @@ static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
     step->friction += sw_contact_rubbed(s->contact);
     step->steady &= sw_contact_steady(s->contact);
     step->obstacles += sw_contact_struck(s->contact);
+    step->let_out = sw_contact_hardened(s->contact);
     if (sw_contact_emerges(s->contact))
-      step->let_out = b->mass * (THROWN * THROWN + LET_OUT * h * sw_norm(s->gravity));
+      step->let_out += b->mass * (THROWN * THROWN + LET_OUT * h * sw_norm(s->gravity));
   }
   if (s->pairs) {
     impacts += sw_pairs_impacts(s->pairs);
@@ -150,6 +170,29 @@ static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
   if (impacts) /* these changed the velocities at the step's start */
     step->impact =
         s->books.now.kinetic + step->obstacles - sw_system_kinetic(&s->system, lumped(s));
+}
+
+/* Where the scene was changed, what moves may have begun to do so at once. Its forces within the
+ * step are not known then; the most that they may give to wires. */
+static double jolt(const sw_scene *s, const sw_step_energy *step) {
+  double fastest = 0;
+  for (size_t k = 0; k < s->system.hold_count; k++) {
+    const sw_scene_hold *h = &s->holds[s->hold_slot[k]];
+    const double fed = h->cls->feeds ? fabs(sw_feed_at(h, s->time).speed) : 0.0;
+    const sw_hold_state *at = &s->system.hold_states[k];
+    fastest = fmax(fastest, sw_norm(at->v) + fed + sw_norm(at->omega) * s->books.longest);
+  }
+  if (step->obstacles != 0) fastest = fmax(fastest, sw_contact_fastest(s->contact));
+  if (s->books.put) return HUGE_VAL;
+  return fastest > 0 ? s->books.mass * fastest * fastest + step->work : 0.0;
+}
+
+/* Pads are as soft as the wire, and share their force out among as many places as touch: what these
+ * store jumps when one comes or goes, by no doing of the wire. */
+static int has_pads(const sw_scene *s) {
+  for (size_t k = 0; k < s->tool_count; k++)
+    if (s->tools[k].alive && s->tools[k].pads && !s->tools[k].frozen) return 1;
+  return 0;
 }
 
 /* Explicit methods have last looked at what touches before or within the step. */
@@ -170,17 +213,20 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
   if (lumped(s)) SW_TRY(look_at_end(s, t1, err));
   if (sw_scene_has_contact(s)) judge_touches(s, h, step);
   double most = step->obstacles;
-  sw_system_look_at(&s->system, &glance, s->stepper.trial_x, s->stepper.trial_v);
+  sw_system_look_at(&s->system, &glance, s->stepper.trial_x, s->stepper.trial_v,
+                    s->stepper.strain_rate);
   sw_system_energies(&s->system, lumped(s), &step->to);
   step->contact = contact_energy(s);
   most += sw_ledger_work(s, t1, changed);
   if (b->has_powers) status = sw_system_powers(&s->system, t1, &step->powers, err);
   sw_system_look_back(&s->system, &glance);
   judge_outer_forces(b, h, &most);
+  step->work = fabs(step->holds) + fabs(step->obstacles) + fabs(step->feeds) + fabs(step->forces);
   const double before = b->now.kinetic + potential(&b->now, b->contact);
+  if (changed) step->let_out += jolt(s, step);
+  if (has_pads(s)) step->let_out += fmax(0.0, step->contact - b->contact);
   most += step->let_out;
   step->gain = step->to.kinetic + potential(&step->to, step->contact) - before - most;
-  step->work = fabs(step->holds) + fabs(step->obstacles) + fabs(step->feeds) + fabs(step->forces);
   return status;
 }
 
@@ -191,14 +237,14 @@ int sw_ledger_referees(const sw_scene *s) {
 double sw_ledger_excess(const sw_scene *s, double h) {
   const sw_books *b = &s->books;
   const sw_step_energy *step = &b->step;
-  if (!sw_ledger_referees(s)) return 0.0;
+  if (!sw_ledger_referees(s) || b->sums.accepted.count >= MOST_ACCEPTED) return 0.0;
   const double share = fmin(1.0, h / FULL_STEP);
   const double size = fabs(b->now.kinetic) + fabs(b->now.gravity) + fabs(b->now.stored) +
                       fabs(step->to.kinetic) + fabs(step->to.gravity) + fabs(step->to.stored);
   const double rounding = ROUNDING * size + OF_BENDING * b->bending * share;
   const double usual = OF_KINETIC * b->now.kinetic + OF_WEIGHT * b->weight;
   const int enough = b->sums.gained > ENOUGH * b->sums.play;
-  const double allowed = enough ? rounding : rounding + usual * share + OF_WORK * step->work;
+  const double allowed = rounding + OF_WORK * step->work + (enough ? 0.0 : usual * share);
   if (!isfinite(step->gain)) return step->gain < 0 ? 0.0 : HUGE_VAL;
   const double rise = b->rise + step->gain - b->lowest;
   if (!step->touching && rise <= ENOUGH * b->sums.play) return 0.0;
@@ -267,6 +313,7 @@ static void book_step(sw_scene *s) {
   l->by_changes += given;
   book_left(l, change - work + lost - given, step->steady);
   book_gain(s, step->gain);
+  if (step->gain > l->most_gained) l->most_gained = step->gain, l->most_time = s->time;
   take_as_now(b, &step->to, step->contact);
   b->powers = step->powers;
 }
@@ -367,10 +414,12 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
     return SW_OK;
   }
   s->diverged = 1;
-  sw_fail(&s->why, SW_EDIVERGED,
-          "steps made %.3g J from nowhere, %.3g %% of the %.3g J in play; take smaller steps%s",
-          l->gained, 100.0 * share, l->play,
-          lumped(s) ? ", or an implicit integrator such as tr-bdf2" : "");
+  sw_fail(
+      &s->why, SW_EDIVERGED,
+      "steps made %.3g J from nowhere, %.3g %% of the %.3g J in play, most of it at t = %.6g s; "
+      "take smaller steps%s",
+      l->gained, 100.0 * share, l->play, l->most_time,
+      lumped(s) ? ", or an implicit integrator such as tr-bdf2" : "");
   *why = s->why;
   return SW_EDIVERGED;
 }
@@ -378,8 +427,8 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
 /* --- on tape ------------------------------------------------------------------------ */
 
 void sw_tape_ledger(sw_tape *t, sw_books *b) {
-  SW_TAPE_STRUCT(t, sw_books, 824);
-  SW_TAPE_STRUCT(t, sw_ledger, 448);
+  SW_TAPE_STRUCT(t, sw_books, 848);
+  SW_TAPE_STRUCT(t, sw_ledger, 464);
   sw_tape_raw(t, &b->sums, sizeof b->sums);
   sw_tape_raw(t, &b->now, sizeof b->now);
   sw_tape_double(t, &b->contact), sw_tape_double(t, &b->highest);

@@ -43,8 +43,10 @@ typedef struct sw_books {
   double highest_rise; /* from the least [J] */
   double rubbed_off;   /* the part of dissipated that is friction [J] */
   double mass;         /* of the wires [kg] */
+  double longest;      /* of them [m] */
   double weight;       /* of the wires, times their radii [J] */
   double bending;      /* their EI / L [J] */
+  int put;             /* 1: a hold was put elsewhere since the last step */
   int has_powers;      /* 1: there are forces without a potential */
   int known;           /* 1: all of the above is of the present state */
   int begun;           /* 1: at_start is known */

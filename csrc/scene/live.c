@@ -37,7 +37,7 @@ sw_status sw_live_take(const sw_scene *s, sw_live *p) {
   p->last_h = s->stepper.last_h;
   p->restart = s->stepper.restart;
   if (!(s->method->flags & SW_INTEGRATOR_HISTORY)) return SW_OK;
-  p->history_size = 2 * s->stepper.n;
+  p->history_size = sw_stepper_history(&s->stepper, &s->system);
   return copy_block(s->stepper.xp, p->history_size * sizeof(double), &p->history);
 }
 
@@ -78,9 +78,9 @@ sw_status sw_live_put(sw_scene *s, const sw_live *p, sw_error *err) {
 }
 
 int sw_live_fits(const sw_scene *s, const sw_live *p) {
-  const size_t n = s->system.freedoms;
+  const size_t n = 2 * s->system.freedoms + (s->system.strain ? s->system.edges : 0);
   const int history = p->method && (p->method->flags & SW_INTEGRATOR_HISTORY);
-  return p->state_size == s->system.state_size && p->history_size == (history ? 2 * n : 0) &&
+  return p->state_size == s->system.state_size && p->history_size == (history ? n : 0) &&
          sw_contact_memory_fits(p->memory, p->memory_size, s->system.nodes, s->obstacle_count) &&
          sw_pairs_memory_fits(p->pairs, p->pairs_size, s->system.nodes);
 }

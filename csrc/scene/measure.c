@@ -203,15 +203,16 @@ sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double place, sw_point_stat
   out->velocity = sw_lerp(sw_load(v), sw_load(v + 3), f);
   out->tangent = sw_unit_or(sw_lerp(t0, t1, f), t0);
   out->curvature = k0 + f * (k1 - k0);
-  out->tension = between_middles(b->plan, s->system.tension + b->first_edge, at);
+  out->elastic = between_middles(b->plan, s->system.tension + b->first_edge, at);
+  out->tension = between_middles(b->plan, sw_system_pull(&s->system, b), at);
   out->spin = spin_at(&s->system, b, at);
   if (b->spin_block) {
     k0 = node_flexure(&s->system, b, e, e);
     k1 = node_flexure(&s->system, b, e + 1, e);
   }
   const double bent = (k0 + f * (k1 - k0)) * w->beam.radius;
-  out->strain = out->tension / w->beam.EA + bent;
-  out->least_strain = out->tension / w->beam.EA - bent;
+  out->strain = out->elastic / w->beam.EA + bent;
+  out->least_strain = out->elastic / w->beam.EA - bent;
   out->twist_moment = torque_at(&s->system, b, at);
   return SW_OK;
 }
@@ -247,6 +248,7 @@ sw_status sw_scene_wire_set_velocity(sw_scene *s, sw_handle h, sw_vec v, sw_vec 
     const sw_vec arm = sw_sub(sw_load(s->system.x + k), about);
     sw_store(s->system.v + k, sw_add(v, sw_cross(omega, arm)));
   }
+  sw_system_rate_from_velocity(&s->system, h.slot);
   for (size_t e = 0; b->roll_block && e < b->plan->edges; e++)
     s->system.v[3 * s->system.nodes + b->first_roll + e] = sw_dot(omega, tangent_of(&b->field, e));
   s->discontinuous = 1;
@@ -257,6 +259,7 @@ sw_status sw_scene_wire_set_velocity(sw_scene *s, sw_handle h, sw_vec v, sw_vec 
 static void measure_from_start(sw_wire_extremes *e, double start) {
   e->curvature.s -= start;
   e->tension.s -= start;
+  e->raw.s -= start;
   e->strain.s -= start;
   e->ovalisation.s -= start;
   e->folding.s -= start;
@@ -269,6 +272,7 @@ sw_status sw_scene_wire_extremes(sw_scene *s, sw_handle h, sw_wire_extremes *now
   sw_scene_wire_now(s, h.slot, now);
   *run = w->extremes;
   sw_scene_keep_extremes(run, now);
+  sw_scene_run_tension(s, h.slot, now, run);
   measure_from_start(now, w->mesh.s[0]);
   measure_from_start(run, w->mesh.s[0]);
   return SW_OK;
@@ -280,7 +284,6 @@ static void add_energy(sw_energy *out, const char *kind, double value) {
       out->value[i] += value;
       return;
     }
-  if (out->count == SW_ENERGY_KINDS) return;
   out->kind[out->count] = kind;
   out->value[out->count++] = value;
 }

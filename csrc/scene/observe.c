@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/simd.h"
+#include "scene/events.h"
 #include "scene/world.h"
 #include "state/clamp.h"
 
@@ -60,7 +61,7 @@ static void curvature_extreme(const sw_system *s, const sw_body *b, sw_extreme *
 }
 
 static void tension_extreme(const sw_system *s, const sw_body *b, sw_extreme *out) {
-  const double *T = s->tension + b->first_edge;
+  const double *T = sw_system_pull(s, b);
   *out = (sw_extreme){.value = -HUGE_VAL};
   for (size_t e = 0; e < b->plan->edges; e++)
     if (T[e] > out->value)
@@ -132,9 +133,9 @@ static void strain_extreme(const sw_system *s, const sw_body *b, sw_extreme *out
   }
 }
 
-void sw_scene_wire_now(sw_scene *s, size_t w, sw_wire_extremes *now) {
+static void wire_now(sw_scene *s, size_t w, double *tension, sw_wire_extremes *now) {
   if (s->wires[w].strand.web) {
-    sw_strand_extremes(s, w, now);
+    sw_strand_extremes(s, w, tension, now);
     now->curvature.time = now->tension.time = now->strain.time = s->time;
     now->ovalisation.time = now->folding.time = s->time;
     return;
@@ -146,9 +147,144 @@ void sw_scene_wire_now(sw_scene *s, size_t w, sw_wire_extremes *now) {
   now->curvature.time = now->tension.time = now->strain.time = s->time;
 }
 
+/* As angle_of_chord, within 5e-9 of it and without its cost where it is small. */
+static double quick_angle(double chord) {
+  const double c2 = chord * chord;
+  return c2 < 1e-3 ? chord * (1 + c2 / 24) : angle_of_chord(chord);
+}
+
+/* Tension and curvature at the nodes of a line. */
+static void line_values(const sw_system *s, const sw_body *b, double *out) {
+  const sw_plan *p = b->plan;
+  const double *T = s->tension + b->first_edge;
+  double before = T[0];
+  for (size_t i = 0; i < p->nodes; i++, out += SW_FRAME_VALUES) {
+    const double after = i < p->edges ? T[i] : before;
+    const int inner = i > 0 && i + 1 < p->nodes && p->hinge[i] > 0;
+    out[0] = 0.5 * (before + after);
+    out[1] = inner ? quick_angle(hinge_chord(&b->field, i)) / p->hinge[i] : 0.0;
+    out[2] = 0;
+    before = after;
+  }
+}
+
+static void add_pressed(const sw_scene *s, const sw_body *b, double *out) {
+  const sw_web *web = b->plan->web;
+  for (size_t k = 0; s->contact && k < sw_contact_touches(s->contact); k++) {
+    sw_contact_push p;
+    if (!sw_contact_push_at(s->contact, &s->system, k, &p)) continue;
+    const size_t at[2] = {p.node, p.other};
+    const double share[2] = {1 - p.at, p.at};
+    for (size_t e = 0; e < 2; e++) {
+      if (at[e] < b->first_node || at[e] >= b->first_node + b->plan->nodes) continue;
+      const size_t i = at[e] - b->first_node, ring = web ? sw_web_ring_of(web, i) : i;
+      out[SW_FRAME_VALUES * ring + 2] += share[e] * p.normal_force;
+    }
+  }
+}
+
+void sw_scene_node_values(sw_scene *s, size_t w, size_t n, double *out) {
+  const sw_body *b = &s->system.bodies[w];
+  if (!b->plan->web) line_values(&s->system, b, out);
+  for (size_t i = 0; b->plan->web && i < n; i++) {
+    sw_point_state at;
+    double *values = out + SW_FRAME_VALUES * i;
+    sw_strand_at(s, &s->wires[w], b, s->wires[w].mesh.s[i], &at);
+    values[0] = at.tension, values[1] = at.curvature, values[2] = 0;
+  }
+  for (size_t c = 0; !b->plan->web && c < b->plan->clamp_count; c++) {
+    const sw_clamp_hinge *h = &b->plan->clamps[c];
+    double *bent = out + SW_FRAME_VALUES * h->node + 1;
+    *bent = fmax(*bent, clamp_curvature(&s->system, b, h));
+  }
+  add_pressed(s, b, out);
+}
+
+void sw_scene_wire_now(sw_scene *s, size_t w, sw_wire_extremes *now) { wire_now(s, w, NULL, now); }
+
+/* Edges, or stretches between rings, whose tension is watched. */
+static size_t watched_edges(const sw_body *b) {
+  const sw_web *web = b->plan->web;
+  if (!web) return b->plan->edges;
+  return web->rings > 1 ? web->rings - 1 : 0;
+}
+
+static double watched_place(const sw_body *b, size_t e) {
+  const sw_web *web = b->plan->web;
+  if (!web) return 0.5 * (b->plan->s[e] + b->plan->s[e + 1]);
+  return 0.5 * (web->s[web->first[e]] + web->s[web->first[e + 1]]);
+}
+
+/* Are means to be taken of the step that led here? Longer steps, and equilibria, count as they
+ * are. */
+static int is_averaged(const sw_scene *s) { return s->span > 0 && s->span < s->window; }
+
+static sw_status fit_window(sw_scene *s, size_t w) {
+  sw_window *window = &s->wires[w].window;
+  const sw_body *b = &s->system.bodies[w];
+  const size_t n = watched_edges(b);
+  if (window->edges == n) return SW_OK;
+  double *places = sw_alloc(n, sizeof *places);
+  if (!places) return SW_ENOMEM;
+  for (size_t e = 0; e < n; e++) places[e] = watched_place(b, e);
+  const sw_status status = sw_window_fit(window, n, places);
+  sw_free(places);
+  return status;
+}
+
+/* The largest mean over the window up to now. */
+static void keep_mean(const sw_scene *s, size_t w, sw_extreme *kept) {
+  const sw_window *window = &s->wires[w].window;
+  sw_extreme mean = {.time = window->now};
+  const size_t e = sw_window_largest(window, s->window, &mean.value);
+  mean.s = watched_place(&s->system.bodies[w], e);
+  keep_largest(kept, &mean);
+}
+
+static void keep_tension(sw_scene *s, size_t w, const sw_wire_extremes *now) {
+  sw_scene_wire *wire = &s->wires[w];
+  sw_wire_extremes *kept = &wire->extremes;
+  const sw_body *b = &s->system.bodies[w];
+  if (now->tension.value > kept->raw.value) kept->raw = now->tension, kept->raw_span = s->span;
+  if (!is_averaged(s)) keep_largest(&kept->tension, &now->tension);
+  if (!is_averaged(s) && !wire->window.marks) return;
+  if (!(s->span > 0)) {
+    sw_window_forget(&wire->window);
+    return;
+  }
+  const double *T =
+      wire->strand.web ? sw_window_values(&wire->window) : sw_system_pull(&s->system, b);
+  if (sw_window_add(&wire->window, T, s->time, s->span, s->window) && is_averaged(s))
+    keep_mean(s, w, &kept->tension);
+}
+
+void sw_scene_run_tension(const sw_scene *s, size_t w, const sw_wire_extremes *now,
+                          sw_wire_extremes *run) {
+  const sw_window *window = &s->wires[w].window;
+  if (now->tension.value > run->raw.value) run->raw = now->tension, run->raw_span = s->span;
+  const int fits = window->marks && window->edges == watched_edges(&s->system.bodies[w]);
+  if (!fits)
+    keep_largest(&run->tension, &now->tension);
+  else if (!isfinite(run->tension.value) ||
+           (sw_window_waits(window) && is_averaged(s) && sw_window_full(window, s->window)))
+    keep_mean(s, w, &run->tension);
+}
+
+static sw_status observe_wire(sw_scene *s, size_t w, sw_error *err) {
+  sw_wire_extremes now;
+  double *tension = NULL;
+  if (is_averaged(s) && fit_window(s, w) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "out of memory for the tension of '%s'", s->wires[w].name);
+  if (s->wires[w].strand.web && s->wires[w].window.edges == watched_edges(&s->system.bodies[w]))
+    tension = sw_window_values(&s->wires[w].window);
+  wire_now(s, w, tension, &now);
+  sw_scene_keep_extremes(&s->wires[w].extremes, &now);
+  keep_tension(s, w, &now);
+  return sw_watch_wire(s, w, &now, err);
+}
+
 void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now) {
   keep_largest(&kept->curvature, &now->curvature);
-  keep_largest(&kept->tension, &now->tension);
   keep_largest(&kept->strain, &now->strain);
   keep_largest(&kept->ovalisation, &now->ovalisation);
   if (!(kept->folding.value > 0)) keep_largest(&kept->folding, &now->folding); /* the first fold */
@@ -160,10 +296,12 @@ static sw_status log_holds(sw_scene *s, sw_error *err) {
     const sw_hold_state *at = &s->system.hold_states[k];
     double row[SW_LOG_SIZE];
     sw_system_reaction(&s->system, (int)k, at->pose.p, &h->force, &h->moment);
+    SW_TRY(sw_hold_look_out(s, h, err));
     row[SW_LOG_TIME] = s->time;
     sw_store(row + SW_LOG_FORCE, h->force);
     sw_store(row + SW_LOG_MOMENT, h->moment);
     sw_store(row + SW_LOG_POINT, at->pose.p);
+    row[SW_LOG_SPAN] = -s->span;
     if (h->cls->feeds) h->feed.drive = sw_feed_drive(s, h, s->system.x);
     if (sw_log_add(&h->log, row, SW_LOG_SIZE) != SW_OK)
       return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", h->name);
@@ -186,13 +324,30 @@ static sw_status observe_contact(sw_scene *s, sw_error *err) {
     sw_vec force, moment;
     double row[SW_LOG_OBSTACLE_SIZE];
     if (!o->alive || !s->contact) continue;
-    sw_contact_force(s->contact, (int)k, sw_v(0, 0, 0), &force, &moment);
+    sw_obstacle_mean(o, sw_v(0, 0, 0), &force, &moment);
     row[0] = s->time;
     sw_store(row + 1, force);
+    row[4] = s->span;
     if (sw_log_add(&o->log, row, SW_LOG_OBSTACLE_SIZE) != SW_OK)
       return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", o->name);
   }
   return SW_OK;
+}
+
+/* What forces on wires have found. */
+static void tell_news(sw_scene *s) {
+  sw_force_news news;
+  for (size_t w = 0; w < s->system.body_count; w++) {
+    const sw_body *b = &s->system.bodies[w];
+    for (size_t k = 0; k < b->term_count; k++) {
+      if (!sw_term_news(&b->terms[k], &news)) continue;
+      const int id = b->terms[k].id;
+      const char *name = id >= 0 ? s->forces[id].name : "";
+      const double s0 = b->plan->s[0];
+      sw_scene_tell(s, news.kind, name, news.s - s0, news.value, "%s '%s', wire '%s': %s",
+                    b->terms[k].cls->name, name, s->wires[w].name, news.text);
+    }
+  }
 }
 
 sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
@@ -201,13 +356,11 @@ sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
   for (size_t w = 0; w < s->wire_count; w++) s->wires[w].untwisted = 0;
   SW_TRY(sw_system_place_holds(&s->system, s->time, s->system.x, NULL, NULL, err));
   sw_system_refresh(&s->system);
-  sw_system_commit(&s->system, s->time);
   sw_scene_watch_ties(s);
-  for (size_t w = 0; w < s->wire_count; w++) {
-    sw_wire_extremes now;
-    sw_scene_wire_now(s, w, &now);
-    sw_scene_keep_extremes(&s->wires[w].extremes, &now);
-  }
+  sw_system_commit(&s->system, s->time);
+  tell_news(s);
+  for (size_t w = 0; w < s->wire_count; w++) SW_TRY(observe_wire(s, w, err));
+  SW_TRY(sw_watch_forces(s, err));
   SW_TRY(log_holds(s, err));
   if (sw_scene_has_contact(s)) SW_TRY(observe_contact(s, err));
   return sw_tool_observe(s, err);
@@ -216,7 +369,9 @@ sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
 void sw_scene_reset_extremes(sw_scene *s) {
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_extreme least = {.value = -HUGE_VAL};
-    s->wires[w].extremes = (sw_wire_extremes){least, least, least, least, least};
+    s->wires[w].extremes = (sw_wire_extremes){least, least, least, least, least, least, 0};
+    sw_window_forget(&s->wires[w].window);
+    if (s->built) s->system.bodies[w].pushed = 0;
   }
   s->deepest = (sw_extreme){0};
 }

@@ -30,7 +30,8 @@ static void aim(sw_scene *s, sw_body *b, const sw_probe *at) {
   f->statics = at->statics;
   f->x = at->positions ? at->positions : s->system.x + 3 * b->first_node;
   f->v = at->velocities ? at->velocities : s->system.v + 3 * b->first_node;
-  f->tension = NULL; /* from the positions, not the solver's own unknown */
+  /* from positions and velocities, not the solver's own unknowns */
+  f->tension = f->strain_past = f->strain = f->strain_rate = NULL;
   f->gravity = s->system.gravity;
   f->hold_directors = s->system.directors_now;
   f->hold_normals = s->system.normals_now;

@@ -36,14 +36,22 @@ static sw_status becomes_mesh(const sw_strand_plan *plan, const sw_scene_wire *w
 
 /* The wire's living holds take hold of what it has become, each where its pose is now. */
 static sw_status retake(sw_scene *s, size_t wire, sw_error *err) {
+  unsigned char *waits = sw_alloc(s->hold_count, 1);
+  if (!waits) return SW_ENOMEM;
   for (size_t k = 0; k < s->hold_count; k++) {
     sw_scene_hold *h = &s->holds[k];
-    sw_motion_state now;
-    if (!h->alive || h->wire != wire) continue;
-    SW_TRY(sw_drive_eval(s, &h->drive, s->time, &now, err));
-    SW_TRY(sw_scene_rehold(s, h, now.pose));
+    waits[k] = h->alive && h->wire == wire;
+    if (waits[k]) h->alive = 0; /* where it held the wire that was is not in the others' way */
   }
-  return SW_OK;
+  sw_status status = SW_OK;
+  for (size_t k = 0; k < s->hold_count && status == SW_OK; k++) {
+    sw_motion_state now;
+    if (!waits[k]) continue;
+    status = sw_drive_eval(s, &s->holds[k].drive, s->time, &now, err);
+    if (status == SW_OK) status = sw_scene_rehold(s, &s->holds[k], now.pose, err);
+  }
+  sw_free(waits);
+  return status;
 }
 
 /* --- all of it ----------------------------------------------------------------------- */
@@ -107,6 +115,7 @@ static sw_status read_line(sw_scene *s, sw_handle h, const sw_wire_args *args,
   if (!segments && cls->mesh)
     SW_TRY(sw_strand_slices(plan, &s->wires[h.slot].beam, length, &segments, err));
   if (segments < 2) segments = 50;
+  if (cls->mesh) SW_TRY(sw_strand_check_count(plan, segments + 1, 1, err));
   return sw_line_read(s, h, segments + 1, stations->s, out, err);
 }
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/interrupt.h"
 #include "scene/remodel_inner.h"
 #include "state/hinge.h"
 
@@ -61,11 +62,12 @@ static sw_status sample(sw_scene *s, sw_handle h, const double *at, sw_line *out
   }
   for (size_t i = 0; i < out->n; i++) {
     sw_point_state p;
+    if (sw_interrupted()) return SW_EINTR;
     SW_TRY(sw_scene_wire_at(s, h, out->s[i], &p, err));
     sw_store(out->x + 3 * i, p.position);
     sw_store(out->v + 3 * i, p.velocity);
     sw_store(out->frame + 6 * i, p.tangent);
-    out->tension[i] = p.tension;
+    out->tension[i] = p.elastic;
   }
   return SW_OK;
 }

@@ -16,7 +16,7 @@ typedef struct head {
 } head;
 
 static const char MAGIC[16] = "SoftWorld scene";
-enum { VERSION = 2, ORDER = 0x01020304 };
+enum { VERSION = 3, ORDER = 0x01020304 };
 
 enum { LEAST = 32 }; /* no object takes less on a tape [B] */
 
@@ -46,11 +46,14 @@ static size_t tape_list(sw_tape *t, void *list_pointer, size_t *count, size_t *c
   } while (0)
 
 static void tape_objects(sw_tape *t, sw_scene *s) {
-  SW_TAPE_STRUCT(t, sw_scene, 2560);
+  SW_TAPE_STRUCT(t, sw_scene, 2752);
   sw_tape_name(t, s->name);
   sw_tape_uint32(t, &s->serial);
   sw_tape_vec(t, &s->gravity);
-  sw_tape_double(t, &s->time), sw_tape_double(t, &s->next_dt), sw_tape_double(t, &s->next_frame);
+  sw_tape_double(t, &s->time), sw_tape_double(t, &s->span), sw_tape_double(t, &s->window),
+      sw_tape_double(t, &s->next_dt), sw_tape_double(t, &s->next_frame);
+  sw_tape_expect(t, s->span >= 0 && s->span <= 1e9, "the length of a step");
+  sw_tape_expect(t, s->window >= 0 && s->window <= 1e9, "a window");
   sw_tape_int(t, &s->discontinuous);
   sw_tape_extreme(t, &s->deepest);
   LIST(rules, rule_count, rule_capacity, sw_tape_rule(t, &s->rules[k]));
@@ -63,6 +66,7 @@ static void tape_objects(sw_tape *t, sw_scene *s) {
   LIST(frames, frame_count, frame_capacity, sw_tape_frame(t, s, &s->frames[k]));
   LIST(events.list, events.count, events.capacity, sw_tape_event(t, &s->events.list[k]));
   sw_tape_size(t, &s->events.dropped);
+  sw_tape_watches(t, &s->watches);
   sw_tape_ledger(t, &s->books);
   sw_tape_kept_contact(t, s);
   size_t unused = 0;

@@ -59,6 +59,11 @@ static void check_particles(sw_tape *t, const sw_scene *s, size_t wire) {
   sw_free(taken);
 }
 
+static void check_crash(sw_tape *t, const sw_scene *s, const sw_scene_hold *h) {
+  const int fine = !(h->watch.crash.depth > 0) || h->watch.crash.obstacle < s->obstacle_count;
+  sw_tape_expect(t, fine && isfinite(h->watch.looked), "what a clamp ran into");
+}
+
 static void check_places(sw_tape *t, const sw_scene *s, const sw_scene_hold *h) {
   const sw_scene_wire *w = &s->wires[h->wire];
   sw_tape_expect(t, h->s1 <= h->s2 && is_node(&w->mesh, h->s1) && is_node(&w->mesh, h->s2),
@@ -78,6 +83,7 @@ static void check_hold(sw_tape *t, const sw_scene *s, const sw_scene_hold *h) {
   sw_tape_expect(t, h->wire < s->wire_count && h->log.count % SW_LOG_SIZE == 0, "a clamp");
   if (!sw_tape_good(t) || !h->alive) return;
   sw_tape_expect(t, h->count > 0 && h->scale > 0, "a clamp that holds nothing");
+  check_crash(t, s, h);
   sw_tape_finite(t, h->s, h->count, "where a clamp is");
   sw_tape_finite(t, h->local, 3 * h->count, "where a clamp is");
   const sw_vec sum = sw_add(h->director[0], h->director[1]);

@@ -52,10 +52,43 @@ static void tape_drive(sw_tape *t, sw_scene *s, sw_drive *x) {
 /* --- wires ------------------------------------------------------------------------- */
 
 static void tape_extremes(sw_tape *t, sw_wire_extremes *x) {
-  SW_TAPE_STRUCT(t, sw_wire_extremes, 120);
+  SW_TAPE_STRUCT(t, sw_wire_extremes, 152);
   sw_tape_extreme(t, &x->curvature), sw_tape_extreme(t, &x->tension);
   sw_tape_extreme(t, &x->strain), sw_tape_extreme(t, &x->folding);
-  sw_tape_extreme(t, &x->ovalisation);
+  sw_tape_extreme(t, &x->ovalisation), sw_tape_extreme(t, &x->raw), DOUBLE(raw_span);
+  sw_tape_expect(t, x->raw_span >= 0 && x->raw_span <= 1e9, "the length of a step");
+}
+
+/* Places that rise along the wire, and numbers. */
+static void expect_window(sw_tape *t, const sw_window *x, const double *room, size_t edges) {
+  sw_tape_finite(t, room, (2 + x->marks) * edges, "a window");
+  for (size_t e = 0; e + 1 < edges && sw_tape_good(t); e++)
+    sw_tape_expect(t, room[e] < room[e + 1], "a window");
+}
+
+/* A record that is to begin anew leaves nothing to be kept; of another one what is in use. */
+static void tape_window(sw_tape *t, sw_window *x) {
+  size_t edges = x->marks ? x->edges : 0;
+  SW_TAPE_STRUCT(t, sw_window, 192);
+  sw_tape_count(t, &edges, 3 * sizeof *x->room);
+  if (!edges) x->marks = 0;
+  if (!edges) return;
+  SIZE(marks), DOUBLE(now), DOUBLE(begun);
+  sw_tape_expect(t, x->marks > 0 && x->marks <= SW_WINDOW_MARKS && x->begun <= x->now, "a window");
+  double *room = NULL, before = x->begun;
+  if (!sw_tape_reads(t)) room = sw_window_used(x);
+  if (!sw_tape_reads(t) && !room) sw_tape_fail(t, SW_ENOMEM);
+  for (size_t k = 0; k < x->marks && sw_tape_good(t); k++) {
+    double *time = &x->time[sw_tape_reads(t) ? k : (x->first + k) % SW_WINDOW_MARKS];
+    sw_tape_double(t, time);
+    sw_tape_expect(t, *time >= before && *time <= x->now, "a window");
+    before = *time;
+  }
+  if (sw_tape_good(t)) SW_TAPE_ARRAY(t, room, (2 + x->marks) * edges);
+  if (sw_tape_good(t)) expect_window(t, x, room, edges);
+  if (sw_tape_reads(t) && sw_tape_good(t) && sw_window_use(x, edges, room) != SW_OK)
+    sw_tape_fail(t, SW_ENOMEM);
+  sw_free(room);
 }
 
 static void tape_drawing(sw_tape *t, sw_drawing *x) {
@@ -85,7 +118,7 @@ static void tape_kit(sw_tape *t, sw_strand_kit **kit) {
 
 void sw_tape_strand(sw_tape *t, sw_strand *x) {
   int there = !sw_tape_reads(t) && x->web != NULL;
-  SW_TAPE_STRUCT(t, sw_strand, 48);
+  SW_TAPE_STRUCT(t, sw_strand, 56);
   SW_TAPE_STRUCT(t, sw_solid, 1632);
   sw_tape_int(t, &there);
   if (!there) return;
@@ -95,6 +128,7 @@ void sw_tape_strand(sw_tape *t, sw_strand *x) {
   const size_t n = x->web->particles;
   SW_TAPE_ARRAY(t, x->x, 3 * n), SW_TAPE_ARRAY(t, x->v, 3 * n), SW_TAPE_ARRAY(t, x->a, 3 * n);
   SW_TAPE_ARRAY(t, x->axial, x->web->links);
+  SW_TAPE_OPTIONAL(t, x->rate, x->web->links);
   if (!sw_tape_reads(t) || !sw_tape_good(t)) return;
   sw_tape_finite(t, x->x, 3 * n, "particles");
   sw_tape_finite(t, x->v, 3 * n, "particles");
@@ -114,7 +148,7 @@ void sw_tape_beam_of(sw_tape *t, sw_scene_wire *x) {
 
 void sw_tape_wire(sw_tape *t, sw_scene_wire *x) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_scene_wire, 568);
+  SW_TAPE_STRUCT(t, sw_scene_wire, 808);
   SW_TAPE_STRUCT(t, sw_twisted, 24);
   UINT32(generation), NAME(name);
   const char *model = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
@@ -124,6 +158,7 @@ void sw_tape_wire(sw_tape *t, sw_scene_wire *x) {
   sw_tape_mesh(t, &x->mesh);
   sw_tape_strand(t, &x->strand);
   tape_extremes(t, &x->extremes);
+  tape_window(t, &x->window);
   INT(untwisted);
   sw_tape_count(t, &x->twisted_count, sizeof *x->twisted);
   SW_TAPE_OPTIONAL(t, x->twisted, x->twisted_count);
@@ -140,7 +175,7 @@ void sw_tape_hold_args(sw_tape *t, sw_hold_args *x) {
 
 static void tape_feed(sw_tape *t, sw_feed *x) {
   int shaped = x->shape.n > 0;
-  SW_TAPE_STRUCT(t, sw_feed, 376); /* node and number are found when the scene is built */
+  SW_TAPE_STRUCT(t, sw_feed, 384); /* node and number are found when the scene is built */
   INT(outward), DOUBLE(label), DOUBLE(fed), DOUBLE(since), DOUBLE(speed), DOUBLE(start);
   sw_tape_motion(t, &x->motion);
   DOUBLE(slip), DOUBLE(slip_since), DOUBLE(slip_speed), DOUBLE(slip_growth), DOUBLE(slip_before);
@@ -166,7 +201,7 @@ static void tape_give(sw_tape *t, sw_clamp_give *x) {
 
 void sw_tape_hold(sw_tape *t, sw_scene *s, sw_scene_hold *x) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_scene_hold, 1256);
+  SW_TAPE_STRUCT(t, sw_scene_hold, 1320);
   UINT32(generation), INT(alive), NAME(name);
   const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
   if (sw_tape_reads(t)) x->cls = sw_hold_find(kind);
@@ -181,18 +216,28 @@ void sw_tape_hold(sw_tape *t, sw_scene *s, sw_scene_hold *x) {
   sw_tape_mesh_frame(t, &x->frame[0]), sw_tape_mesh_frame(t, &x->frame[1]);
   tape_give(t, &x->give[0]), tape_give(t, &x->give[1]);
   QUAT(turn), VEC(force), VEC(moment), POSE(last_pose);
+  SW_TAPE_STRUCT(t, sw_hold_watch, 56);
+  INT(watch.looking), INT(watch.crashing), DOUBLE(watch.looked), DOUBLE(watch.given);
+  DOUBLE(watch.crash.time), DOUBLE(watch.crash.depth), SIZE(watch.crash.obstacle);
   tape_feed(t, &x->feed);
   sw_tape_log(t, &x->log);
 }
 
 /* --- all else ---------------------------------------------------------------------- */
 
+static void tape_load(sw_tape *t, sw_contact_load *x) {
+  VEC(force), VEC(moment);
+  sw_tape_expect(t, sw_finite(x->force) && sw_finite(x->moment), "force on an obstacle");
+}
+
 void sw_tape_obstacle(sw_tape *t, sw_scene *s, sw_scene_obstacle *x) {
-  SW_TAPE_STRUCT(t, sw_scene_obstacle, 240);
+  SW_TAPE_STRUCT(t, sw_contact_past, 144);
+  SW_TAPE_STRUCT(t, sw_scene_obstacle, 384);
   UINT32(generation), INT(alive), NAME(name);
   sw_tape_shape(t, &x->shape);
   tape_drive(t, s, &x->drive);
   DOUBLE(friction), DOUBLE(kinetic), DOUBLE(restitution), INT(off);
+  tape_load(t, &x->past.mean), tape_load(t, &x->past.end), tape_load(t, &x->past.gained);
   sw_tape_log(t, &x->log);
   sw_tape_expect(t, x->kinetic >= 0 && x->kinetic <= 100, "friction of an obstacle");
   sw_tape_expect(t, x->friction >= 0 && x->friction <= 100, "friction of an obstacle");
@@ -257,8 +302,8 @@ static void tape_force_args(sw_tape *t, sw_scene_force *x) {
 
 void sw_tape_force(sw_tape *t, sw_scene_force *x) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_scene_force, 168);
-  UINT32(generation), INT(alive), sw_tape_long(t, &x->wire), DOUBLE(scale);
+  SW_TAPE_STRUCT(t, sw_scene_force, 248);
+  UINT32(generation), INT(alive), NAME(name), sw_tape_long(t, &x->wire), DOUBLE(scale);
   const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
   if (sw_tape_reads(t)) x->cls = sw_force_find(kind);
   sw_tape_expect(t, x->cls != NULL, "a force of an unknown kind");
@@ -290,17 +335,17 @@ void sw_tape_rule(sw_tape *t, sw_scene_rule *x) {
 }
 
 void sw_tape_frame(sw_tape *t, const sw_scene *s, sw_frame *x) {
-  SW_TAPE_STRUCT(t, sw_frame, 40);
+  SW_TAPE_STRUCT(t, sw_frame, 48);
   size_t count = 0, size = 0;
   if (!sw_tape_reads(t)) sw_scene_frame_walk(x, SIZE_MAX, &count);
-  DOUBLE(time), SIZE(wires), SIZE(obstacles), SIZE(holds);
+  DOUBLE(time), SIZE(wires), SIZE(obstacles), SIZE(holds), SIZE(tools);
   sw_tape_count(t, &count, sizeof *x->data);
   SW_TAPE_ARRAY(t, x->data, count);
   if (!sw_tape_reads(t) || !sw_tape_good(t)) return;
   sw_tape_expect(t,
                  x->wires <= s->wire_count && x->obstacles <= s->obstacle_count &&
-                     x->holds <= s->hold_count && sw_scene_frame_walk(x, count, &size) &&
-                     size == count,
+                     x->holds <= s->hold_count && x->tools <= s->tool_count &&
+                     sw_scene_frame_walk(x, count, &size) && size == count,
                  "a frame");
 }
 

@@ -24,9 +24,12 @@ sw_status sw_scene_new(const sw_scene_args *args, sw_scene **out, sw_error *err)
   if (!s) return sw_fail(err, SW_ENOMEM, "scene: out of memory");
   memcpy(s->name, args->name[0] ? args->name : "scene", args->name[0] ? sizeof s->name : 6);
   s->gravity = isnan(args->gravity.x) ? sw_v(0, 0, -STANDARD_GRAVITY) : args->gravity;
+  s->window = SW_WINDOW;
   *out = s;
   return SW_OK;
 }
+
+double sw_scene_window(const sw_scene *s) { return s->window; }
 
 void sw_scene_clear_hold(sw_scene_hold *h) {
   sw_free(h->s);
@@ -64,6 +67,7 @@ void sw_scene_free(sw_scene *s) {
   sw_scene_drop_frames(s);
   sw_free(s->frames);
   sw_events_clear(&s->events);
+  sw_watches_clear(&s->watches);
   sw_ledger_free(&s->books);
   sw_free(s->hold_slot);
   sw_free(s->wires);
@@ -247,11 +251,17 @@ sw_status sw_scene_obstacle_set_pose(sw_scene *s, sw_handle obstacle, sw_pose po
   return SW_OK;
 }
 
+void sw_obstacle_mean(const sw_scene_obstacle *o, sw_vec about, sw_vec *force, sw_vec *moment) {
+  *force = *moment = sw_v(0, 0, 0);
+  if (o->off) return;
+  *force = o->past.mean.force;
+  *moment = sw_sub(o->past.mean.moment, sw_cross(about, *force));
+}
+
 sw_status sw_scene_obstacle_force(sw_scene *s, sw_handle obstacle, sw_vec about, sw_vec *force,
                                   sw_vec *moment, sw_error *err) {
   if (!sw_scene_find_obstacle(s, obstacle, err)) return SW_EDEAD;
   SW_TRY(sw_scene_readable(s, err));
-  *force = *moment = sw_v(0, 0, 0);
-  if (s->contact) sw_contact_force(s->contact, (int)obstacle.slot, about, force, moment);
+  sw_obstacle_mean(&s->obstacles[obstacle.slot], about, force, moment);
   return SW_OK;
 }

@@ -97,6 +97,8 @@ const char *sw_scene_obstacle_name(const sw_scene *scene, sw_handle obstacle, co
 int sw_scene_force_needed(const sw_scene *scene, sw_handle force);
 /* The class of a force, released or not; NULL as above. */
 const sw_force_class *sw_scene_force_class(const sw_scene *scene, sw_handle force);
+/* What its events call it. */
+sw_status sw_scene_name_force(sw_scene *scene, sw_handle force, const char *name, sw_error *err);
 /* 0 once released, or when the scene does not know it. */
 int sw_scene_force_acts(const sw_scene *scene, sw_handle force);
 
@@ -172,6 +174,10 @@ sw_status sw_scene_follow(sw_scene *scene, sw_handle hold, sw_motion *motion, in
                           sw_error *err);
 sw_status sw_scene_set_pose(sw_scene *scene, sw_handle hold, sw_pose pose, sw_error *err);
 sw_status sw_scene_hold_pose(sw_scene *scene, sw_handle hold, sw_pose *out, sw_error *err);
+/* When what it holds was last driven into an obstacle, how far then, and into which one: NAN, 0
+ * and "" when it never was [s], [m]. */
+sw_status sw_scene_hold_crash(const sw_scene *scene, sw_handle hold, double *time, double *depth,
+                              const char **obstacle, sw_error *err);
 
 /* Force and moment on the wire about the held point, or about *about [N, N m]. */
 sw_status sw_scene_hold_force(sw_scene *scene, sw_handle hold, const sw_vec *about, sw_vec *force,
@@ -272,8 +278,13 @@ typedef struct sw_run_args {
   double frame;     /* time between stored frames; NAN = none [s] */
   int quasistatic;  /* 1: equilibrium at every step's end instead of motion */
   long max_steps;   /* stop after this many [-] */
+  double window;    /* peaks are of means over this time; 0: of values of single steps [s] */
+  int unstable;     /* 1: an explicit method may take steps above its limit */
 } sw_run_args;
 extern const sw_params sw_run_params;
+
+/* The window of the last run, or that of runs that say nothing [s]. */
+double sw_scene_window(const sw_scene *scene);
 
 /* A run begins: extremes of wires and of penetration start anew. */
 sw_status sw_scene_begin_run(sw_scene *scene, sw_error *err);
@@ -298,9 +309,10 @@ typedef struct sw_ledger {
   double by_holds, by_obstacles, by_feeds, by_forces;                /* work [J] */
   double by_changes;                                                 /* of the scene itself [J] */
   double damping, friction, plasticity, impact, contact, integrator; /* lost [J] */
-  double jumps;        /* lost by equilibria that jumped, of quasi-static runs [J] */
-  double gap;          /* from nowhere [J] */
-  double gained;       /* sum of what steps gained beyond the work [J] */
+  double jumps;                  /* lost by equilibria that jumped, of quasi-static runs [J] */
+  double gap;                    /* from nowhere [J] */
+  double gained;                 /* sum of what steps gained beyond the work [J] */
+  double most_gained, most_time; /* by one step, and when [J], [s] */
   double play;         /* energy that was in play: largest kinetic energy, work, energy released;
                           at least the wires' weight times their radius [J] */
   sw_retries redone;   /* steps redone with implicit Euler */
@@ -379,7 +391,7 @@ sw_status sw_scene_settle(sw_scene *scene, const sw_settle_args *args, int (*int
 typedef struct sw_point_state {
   sw_vec position, tangent, velocity; /* [m], [-], [m/s] */
   double curvature;                   /* [1/m] */
-  double tension;                     /* [N] */
+  double tension, elastic;            /* axial force; without that of dashpots [N] */
   double twist_moment;                /* [N m] */
   double spin;                        /* about the tangent, of a wire that rolls [rad/s] */
   double strain, least_strain;        /* of the fibres outside and inside the bend [-] */
@@ -412,6 +424,8 @@ typedef struct sw_wire_extremes {
   sw_extreme curvature, tension, strain; /* [1/m], [N], outermost fibre [-] */
   sw_extreme folding;     /* of a section of springs; above 0: it has folded through itself [-] */
   sw_extreme ovalisation; /* of a mesh of particles; see sw_section_shape [-] */
+  sw_extreme raw;         /* tension of a single step; tension is of means over the window [N] */
+  double raw_span;        /* how long that step was; 0: it was an equilibrium [s] */
 } sw_wire_extremes;
 sw_status sw_scene_wire_extremes(sw_scene *scene, sw_handle wire, sw_wire_extremes *now,
                                  sw_wire_extremes *run, sw_error *err);
@@ -438,7 +452,8 @@ typedef struct sw_modes_result {
 sw_status sw_scene_wire_modes(sw_scene *scene, sw_handle wire, const sw_modes_args *args,
                               int (*interrupted)(void), sw_modes_result *out, sw_error *err);
 
-enum { SW_ENERGY_KINDS = 24 };
+/* Kinetic, contact, repel, join, and of each class of force its own and what it corrects. */
+enum { SW_ENERGY_KINDS = 4 + 2 * SW_FORCE_CLASSES };
 typedef struct sw_energy {
   size_t count;
   const char *kind[SW_ENERGY_KINDS];
@@ -480,13 +495,28 @@ sw_status sw_scene_probe(sw_scene *scene, sw_handle wire, const sw_force_class *
                          const sw_probe *at, sw_probe_result *out, sw_error *err);
 
 /* One recorded row per step of a hold: time, force, moment, held point. */
-enum { SW_LOG_TIME = 0, SW_LOG_FORCE = 1, SW_LOG_MOMENT = 4, SW_LOG_POINT = 7, SW_LOG_SIZE = 10 };
+enum {
+  SW_LOG_TIME = 0,
+  SW_LOG_FORCE = 1,
+  SW_LOG_MOMENT = 4,
+  SW_LOG_POINT = 7,
+  SW_LOG_SPAN = 10,
+  SW_LOG_SIZE
+};
 sw_status sw_scene_hold_log(sw_scene *scene, sw_handle hold, const double **rows, size_t *count,
                             sw_error *err);
 /* One recorded row per step of an obstacle: time, force on it. */
-enum { SW_LOG_OBSTACLE_SIZE = 4 };
+enum { SW_LOG_OBSTACLE_SIZE = 5 };
 sw_status sw_scene_obstacle_log(sw_scene *scene, sw_handle obstacle, const double **rows,
                                 size_t *count, sw_error *err);
+
+/* Of a wire: time, largest tension [N], largest curvature [1/m]. Of a force that tells what it does
+ * to wires (clip, tether): time, force on them [N]. count is 0 where nothing was recorded. */
+enum { SW_LOG_WIRE_SIZE = 3, SW_LOG_FORCE_SIZE = 4 };
+sw_status sw_scene_wire_log(sw_scene *scene, sw_handle wire, const double **rows, size_t *count,
+                            sw_error *err);
+sw_status sw_scene_force_log(sw_scene *scene, sw_handle force, const double **rows, size_t *count,
+                             sw_error *err);
 
 /* Frames stored while running. */
 size_t sw_scene_frames(const sw_scene *scene);
@@ -494,6 +524,10 @@ double sw_scene_frame_time(const sw_scene *scene, size_t frame);
 /* Node positions of wire number w in that frame; count = nodes. NULL when the
  * wire did not exist. */
 const double *sw_scene_frame_wire(const sw_scene *scene, size_t frame, size_t w, size_t *count);
+/* Tension [N], curvature [1/m] and force of obstacles across it [N] at each node; NULL: of an
+ * object of particles, or none. */
+enum { SW_FRAME_VALUES = 3 };
+const double *sw_scene_frame_values(const sw_scene *scene, size_t frame, size_t w, size_t *count);
 /* The surface of wire number w in that frame: around points for each section, x y z and the
  * force of obstacles across it [m], [N] each. NULL: it is no mesh of particles. */
 enum { SW_FRAME_SURFACE = 4 };
@@ -501,9 +535,12 @@ const double *sw_scene_frame_surface(const sw_scene *scene, size_t frame, size_t
                                      size_t *around);
 /* 1: number w of the scene is an object of particles, which the frame then lists. */
 int sw_scene_frame_is_loose(const sw_scene *scene, size_t w);
-/* Poses: 7 doubles (x y z, qw qx qy qz) per obstacle and per hold slot. */
-const double *sw_scene_frame_obstacle(const sw_scene *scene, size_t frame, size_t o);
+/* Poses: 7 doubles (x y z, qw qx qy qz) per obstacle and per hold slot; there: 0 once it was taken
+ * away. */
+const double *sw_scene_frame_obstacle(const sw_scene *scene, size_t frame, size_t o, int *there);
 const double *sw_scene_frame_hold(const sw_scene *scene, size_t frame, size_t h, int *held);
+/* The same of grippers' tools: slot k. */
+const double *sw_scene_frame_tool(const sw_scene *scene, size_t frame, size_t k);
 enum { SW_FRAME_ENERGIES = 3 }; /* kinetic, elastic, gravity [J] */
 const double *sw_scene_frame_energy(const sw_scene *scene, size_t frame);
 sw_status sw_scene_clear_frames(sw_scene *scene, sw_error *err);

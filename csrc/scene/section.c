@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/alloc.h"
 #include "force/solid.h"
 #include "scene/world.h"
 
@@ -24,17 +25,24 @@ sw_vec sw_strand_middle(const sw_web *w, const double *x, size_t ring) {
   return sw_load(at);
 }
 
-void sw_strand_take(sw_scene_wire *wire, const sw_system *s, const sw_body *b) {
+sw_status sw_strand_take(sw_scene_wire *wire, const sw_system *s, const sw_body *b) {
   sw_strand *p = &wire->strand;
   const size_t at = 3 * b->first_node, size = 3 * b->plan->nodes * sizeof(double);
   memcpy(p->x, s->x + at, size);
   memcpy(p->v, s->v + at, size);
   memcpy(p->a, s->a + at, size);
   memcpy(p->axial, s->tension + b->first_edge, p->web->links * sizeof(double));
+  sw_free(p->rate);
+  p->rate = b->axial_time > 0 ? sw_alloc(p->web->links, sizeof *p->rate) : NULL;
+  if (p->rate)
+    memcpy(p->rate, s->strain_rate + b->first_edge, p->web->links * sizeof(double));
+  else if (b->axial_time > 0)
+    return SW_ENOMEM;
   for (size_t r = 0; r < p->web->rings; r++) {
     sw_store(wire->mesh.x + 3 * r, sw_strand_middle(p->web, p->x, r));
     sw_store(wire->mesh.v + 3 * r, sw_strand_middle(p->web, p->v, r));
   }
+  return SW_OK;
 }
 
 /* --- sections -------------------------------------------------------------------- */
@@ -147,22 +155,23 @@ void sw_strand_at(const sw_scene *s, const sw_scene_wire *wire, const sw_body *b
   out->velocity = sw_lerp(sw_strand_middle(w, v, r), sw_strand_middle(w, v, r + 1), f);
   out->tangent = sw_unit_or(sw_lerp(t0, t1, f), t0);
   out->curvature = fmax(0.0, at.curvature);
-  out->tension = at.tension;
+  out->tension = out->elastic = at.tension;
   out->twist_moment = at.twist_moment;
   out->spin = 0;
   out->strain = at.tension / EA + bent;
   out->least_strain = at.tension / EA - bent;
 }
 
-void sw_strand_extremes(const sw_scene *s, size_t wire, sw_wire_extremes *now) {
+void sw_strand_extremes(const sw_scene *s, size_t wire, double *tension, sw_wire_extremes *now) {
   const sw_body *b = &s->system.bodies[wire];
   const sw_web *w = b->plan->web;
   const double *x = s->system.x + 3 * b->first_node, EA = b->plan->beam.EA;
   const sw_extreme least = {.value = -HUGE_VAL};
-  *now = (sw_wire_extremes){least, least, least, least, least};
+  *now = (sw_wire_extremes){least, least, least, least, least, least, 0};
   if (!w->rings) return; /* an object of particles */
   for (size_t r = 0; r + 1 < w->rings; r++) {
     const slice at = slice_of(b->plan, x, r);
+    if (tension) tension[r] = at.tension;
     const double place = 0.5 * (w->s[w->first[r]] + w->s[w->first[r + 1]]);
     const double strain = at.tension / EA + b->plan->beam.radius * at.curvature;
     if (at.curvature > now->curvature.value)

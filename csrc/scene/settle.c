@@ -116,6 +116,7 @@ static double take(statics *p, int trial) {
   memcpy(s->system.x, p->y, s->system.freedoms * sizeof(double));
   memset(s->system.v, 0, s->system.freedoms * sizeof(double));
   memset(s->system.a, 0, s->system.freedoms * sizeof(double));
+  sw_system_strain_from_state(&s->system);
   if (trial) return shift;
   sw_scene_commit_contact(s);
   p->touched = s->time;
@@ -195,6 +196,11 @@ static double growth(const sw_scene *s, size_t iterations) {
   return iterations <= 14 ? 1.1 : 0.7;
 }
 
+static int stops(sw_status status) {
+  return status == SW_ECALLBACK || status == SW_ENOMEM || status == SW_EINTR ||
+         status == SW_ELIMIT;
+}
+
 static sw_status transient(statics *p, sw_error *err) {
   sw_scene *s = p->s;
   const double first = first_step(s);
@@ -207,7 +213,7 @@ static sw_status transient(statics *p, sw_error *err) {
     if (p->interrupted && p->interrupted()) return SW_EINTR;
     const size_t before = p->report->iterations;
     const sw_status status = solve(p, tau, &newton, err);
-    if (status == SW_ECALLBACK || status == SW_ENOMEM) return status;
+    if (stops(status)) return status;
     if (status != SW_OK) {
       tau *= 0.25;
       if (p->too_far && tau < time_scale(s) && dragged(p)) {
@@ -226,10 +232,6 @@ static sw_status transient(statics *p, sw_error *err) {
   return sw_fail(err, SW_ENOCONV,
                  "not at rest after %zu iterations: the last step still moved %.3g m",
                  p->report->iterations, p->report->residual);
-}
-
-static int stops(sw_status status) {
-  return status == SW_ECALLBACK || status == SW_ENOMEM || status == SW_EINTR;
 }
 
 /* Newton's iteration from where continuation came to rest, which stays when that fails: the
@@ -442,6 +444,7 @@ sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interru
   sw_status status = settle_held(s, args, interrupted, report, &why);
   s->running--;
   sw_scene_reset_extremes(s);
+  s->span = 0;
   if (status == SW_OK) status = sw_scene_observe(s, &why);
   conclude(s, status, report, &why);
   return status == SW_ECALLBACK || status == SW_ENOMEM ? sw_fail(err, status, "%s", why.text)

@@ -11,6 +11,7 @@ typedef struct saved_hold {
   sw_drive drive;
   sw_vec force, moment;
   sw_pose last_pose;
+  sw_hold_watch watch;
   size_t log_count;
   sw_scene_hold shape; /* where and how it holds, nothing else of it */
   double s1, s2;       /* of a hold that feeds they change [m] */
@@ -21,18 +22,20 @@ typedef struct saved_obstacle {
   int alive, off;
   sw_drive drive;
   size_t log_count;
+  sw_contact_past past;
 } saved_obstacle;
 
 struct sw_snapshot {
   sw_scene *scene; /* NULL once it is gone */
   sw_snapshot *next;
-  double time, next_dt, next_frame;
+  double time, span, window, next_dt, next_frame;
   sw_vec gravity;
   size_t wires, holds, obstacles, forces, frames;
   sw_mesh *meshes;
   sw_strand *strands;           /* (wires), their places those of some state or other */
   const sw_wire_class **models; /* (wires) */
   sw_wire_extremes *extremes;   /* (wires) */
+  sw_window *windows;           /* (wires) */
   int *untwisted;               /* (wires) */
   saved_hold *hold;
   saved_obstacle *obstacle;
@@ -41,6 +44,8 @@ struct sw_snapshot {
   int *force_alive;
   sw_scene_join *join; /* (joins) */
   size_t joins;
+  size_t *watched; /* (watches) lengths of logs [-] */
+  size_t watches;
   sw_live live;
   int discontinuous, diverged;
   sw_error why;
@@ -76,6 +81,7 @@ void sw_snapshot_free(sw_snapshot *p) {
   unlink_snapshot(p);
   for (size_t w = 0; p->meshes && w < p->wires; w++) sw_mesh_free(&p->meshes[w]);
   for (size_t w = 0; p->strands && w < p->wires; w++) sw_strand_free(&p->strands[w]);
+  for (size_t w = 0; p->windows && w < p->wires; w++) sw_window_free(&p->windows[w]);
   for (size_t k = 0; p->hold && k < p->holds; k++) {
     sw_drive_free(&p->hold[k].drive);
     sw_scene_clear_hold(&p->hold[k].shape);
@@ -90,12 +96,14 @@ void sw_snapshot_free(sw_snapshot *p) {
   sw_free(p->strands);
   sw_free(p->models);
   sw_free(p->extremes);
+  sw_free(p->windows);
   sw_free(p->untwisted);
   sw_free(p->hold);
   sw_free(p->obstacle);
   sw_free(p->tool);
   sw_free(p->force_alive);
   sw_free(p->join);
+  sw_free(p->watched);
   sw_live_free(&p->live);
   sw_free(p);
 }
@@ -119,17 +127,19 @@ static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
   p->strands = sw_alloc(s->wire_count, sizeof *p->strands);
   p->models = sw_alloc(s->wire_count, sizeof(const sw_wire_class *));
   p->extremes = sw_alloc(s->wire_count, sizeof *p->extremes);
+  p->windows = sw_alloc(s->wire_count, sizeof *p->windows);
   p->untwisted = sw_alloc(s->wire_count, sizeof *p->untwisted);
   p->hold = sw_alloc(s->hold_count, sizeof *p->hold);
   p->obstacle = sw_alloc(s->obstacle_count, sizeof *p->obstacle);
   p->force_alive = sw_alloc(s->force_count, sizeof *p->force_alive);
-  if (!p->meshes || !p->strands || !p->models || !p->extremes || !p->untwisted || !p->hold ||
-      !p->obstacle || !p->force_alive)
+  if (!p->meshes || !p->strands || !p->models || !p->extremes || !p->windows || !p->untwisted ||
+      !p->hold || !p->obstacle || !p->force_alive)
     return SW_ENOMEM;
   for (size_t w = 0; w < s->wire_count; w++) {
     SW_TRY(sw_mesh_copy(&s->wires[w].mesh, &p->meshes[w]));
     p->wires = w + 1;
     SW_TRY(sw_strand_copy(&s->wires[w].strand, &p->strands[w]));
+    SW_TRY(sw_window_copy(&s->wires[w].window, &p->windows[w]));
     p->models[w] = s->wires[w].cls;
     p->extremes[w] = s->wires[w].extremes;
     p->untwisted[w] = s->wires[w].untwisted;
@@ -141,13 +151,14 @@ static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
     kept->alive = h->alive, kept->drive = copy_drive(&h->drive);
     kept->force = h->force, kept->moment = h->moment;
     kept->last_pose = h->last_pose, kept->log_count = h->log.count;
+    kept->watch = h->watch;
     kept->s1 = h->s1, kept->s2 = h->s2, kept->feed = h->feed;
     sw_motion_retain(h->feed.motion);
   }
   for (; p->obstacles < s->obstacle_count; p->obstacles++) {
     const sw_scene_obstacle *o = &s->obstacles[p->obstacles];
     p->obstacle[p->obstacles] =
-        (saved_obstacle){o->alive, o->off, copy_drive(&o->drive), o->log.count};
+        (saved_obstacle){o->alive, o->off, copy_drive(&o->drive), o->log.count, o->past};
   }
   SW_TRY(copy_block(s->tools, s->tool_count * sizeof *p->tool, &p->tool));
   for (; p->tools < s->tool_count; p->tools++) {
@@ -156,6 +167,8 @@ static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
   }
   SW_TRY(copy_block(s->joins, s->join_count * sizeof *p->join, &p->join));
   p->joins = s->join_count;
+  SW_TRY(sw_watches_measure(&s->watches, &p->watched));
+  p->watches = s->watches.count;
   for (; p->forces < s->force_count; p->forces++)
     p->force_alive[p->forces] = s->forces[p->forces].alive;
   return SW_OK;
@@ -168,7 +181,8 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
   sw_feed_undo(s);
   sw_snapshot *p = sw_alloc(1, sizeof *p);
   if (!p) return sw_fail(err, SW_ENOMEM, "snapshot: out of memory");
-  p->time = s->time, p->next_dt = s->next_dt, p->next_frame = s->next_frame;
+  p->time = s->time, p->span = s->span, p->window = s->window;
+  p->next_dt = s->next_dt, p->next_frame = s->next_frame;
   p->gravity = s->gravity;
   p->discontinuous = s->discontinuous;
   p->deepest = s->deepest;
@@ -257,6 +271,7 @@ static void put_objects(sw_scene *s, const sw_snapshot *p) {
     h->alive = p->hold[k].alive;
     h->force = p->hold[k].force, h->moment = p->hold[k].moment;
     h->last_pose = p->hold[k].last_pose;
+    h->watch = p->hold[k].watch;
     if (h->log.count > p->hold[k].log_count) h->log.count = p->hold[k].log_count;
     put_drive(&h->drive, &p->hold[k].drive);
     put_feed(h, &p->hold[k]);
@@ -267,6 +282,7 @@ static void put_objects(sw_scene *s, const sw_snapshot *p) {
     if (k >= p->obstacles) continue;
     if (o->log.count > p->obstacle[k].log_count) o->log.count = p->obstacle[k].log_count;
     o->off = p->obstacle[k].off;
+    o->past = p->obstacle[k].past;
     put_drive(&o->drive, &p->obstacle[k].drive);
   }
   for (size_t k = 0; k < s->tool_count; k++)
@@ -283,15 +299,17 @@ static void put_objects(sw_scene *s, const sw_snapshot *p) {
 }
 
 /* Slots beyond what any living snapshot knows are free again. */
-static void drop_newer(sw_scene *s) {
-  size_t holds = 0, obstacles = 0, forces = 0, joins = 0, tools = 0;
+static void drop_newer(sw_scene *s, const sw_snapshot *p) {
+  size_t holds = 0, obstacles = 0, forces = 0, joins = 0, tools = 0, watches = 0;
   for (const sw_snapshot *q = s->snapshots; q; q = q->next) {
     if (q->holds > holds) holds = q->holds;
     if (q->obstacles > obstacles) obstacles = q->obstacles;
     if (q->forces > forces) forces = q->forces;
     if (q->joins > joins) joins = q->joins;
     if (q->tools > tools) tools = q->tools;
+    if (q->watches > watches) watches = q->watches;
   }
+  sw_watches_back_to(&s->watches, p->watched, p->watches, watches);
   while (s->hold_count > holds) sw_scene_clear_hold(&s->holds[--s->hold_count]);
   while (s->obstacle_count > obstacles) sw_scene_clear_obstacle(&s->obstacles[--s->obstacle_count]);
   while (s->force_count > forces) sw_scene_clear_force(&s->forces[--s->force_count]);
@@ -336,6 +354,8 @@ static void swap_shape(sw_scene_hold *h, sw_scene_hold *copy) {
   h->shape = copy->shape, h->s1 = copy->s1, h->s2 = copy->s2, h->count = copy->count;
   memcpy(h->director, copy->director, sizeof h->director);
   memcpy(h->frame, copy->frame, sizeof h->frame);
+  memcpy(h->give, copy->give, sizeof h->give);
+  h->formed = copy->formed;
   h->s = copy->s, h->local = copy->local, h->particle = copy->particle;
   copy->s = s, copy->local = local, copy->particle = particle;
 }
@@ -375,6 +395,11 @@ static void put_drawn(sw_scene *s, const sw_snapshot *p) {
   }
 }
 
+static sw_status put_windows(sw_scene *s, const sw_snapshot *p) {
+  for (size_t w = 0; w < p->wires; w++) SW_TRY(sw_window_copy(&p->windows[w], &s->wires[w].window));
+  return SW_OK;
+}
+
 /* Wires that had not moved yet lie untwisted again. */
 static sw_status put_untwisted(sw_scene *s, const sw_snapshot *p) {
   for (size_t w = 0; w < p->wires; w++)
@@ -398,17 +423,19 @@ sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   } else {
     put_drawn(s, p);
   }
-  if (put_untwisted(s, p) != SW_OK) return sw_fail(err, SW_ENOMEM, "restore: out of memory");
+  if (put_untwisted(s, p) != SW_OK || put_windows(s, p) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "restore: out of memory");
   put_objects(s, p);
-  drop_newer(s);
+  drop_newer(s, p);
   sw_scene_drop_rules(s, p->rules);
-  s->time = p->time, s->next_dt = p->next_dt, s->next_frame = p->next_frame;
+  s->time = p->time, s->span = p->span, s->window = p->window;
+  s->next_dt = p->next_dt, s->next_frame = p->next_frame;
   s->gravity = p->gravity;
   s->deepest = p->deepest;
-  SW_TRY(sw_scene_build(s, err));
-  s->diverged = 0;
   s->restoring = p; /* placing the holds may call a user's function */
-  const sw_status status = sw_live_put(s, &p->live, err);
+  sw_status status = sw_scene_build(s, err);
+  if (status == SW_OK) s->diverged = 0;
+  if (status == SW_OK) status = sw_live_put(s, &p->live, err);
   s->restoring = NULL;
   if (status != SW_OK) return status;
   s->discontinuous = p->discontinuous;

@@ -185,8 +185,8 @@ static sw_status find_warp(sw_strand_maker *m, sw_error *err) {
 
 enum { MOST_PARTICLES = 1000000 }; /* their matrices take gigabytes */
 
-static sw_status check_count(const sw_strand_plan *p, size_t rings, size_t per_ring,
-                             sw_error *err) {
+sw_status sw_strand_check_count(const sw_strand_plan *p, size_t rings, size_t per_ring,
+                                sw_error *err) {
   if (rings <= MOST_PARTICLES / per_ring) return SW_OK;
   return sw_fail(err, SW_EINVAL,
                  "wire '%s': %zu slices of %zu particles or more are too many; at most %d "
@@ -207,19 +207,33 @@ static sw_status check_rest(const sw_strand_plan *p, const sw_lattice *l, sw_err
   return SW_OK;
 }
 
+/* Shorter ones are pieces that are pressed, and not bent; over the radius [-]. */
+static const double SHORT = 4.0;
+
+static sw_status check_bent(const sw_strand_plan *p, const sw_calibration *c, double length,
+                            double radius, sw_error *err) {
+  sw_error why = {""};
+  if (isnan(p->wall) || length < SHORT * radius) return SW_OK;
+  const sw_status status = sw_calibrate_check_bent(c, &why);
+  return status == SW_OK
+             ? status
+             : sw_fail(err, status, "wire '%s' as %s: %.400s", p->name, p->mesh, why.text);
+}
+
 sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const sw_mesh *mesh,
                         const sw_strand_lie *lie, sw_strand *out, sw_error *err) {
   const double even = (mesh->s[mesh->n - 1] - mesh->s[0]) / (double)(mesh->n - 1);
   const double spacing = lie && lie->ring ? lie->spacing : even;
   memset(out, 0, sizeof *out);
-  SW_TRY(check_count(plan, mesh->n, 1, err));
+  SW_TRY(sw_strand_check_count(plan, mesh->n, 1, err));
   out->kit = sw_alloc(1, sizeof *out->kit);
   if (!out->kit) return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", plan->name);
   out->kit->references = 1;
   sw_calibration *c = &out->kit->calibration;
   SW_TRY(calibrate(plan, beam, spacing, 1e-6, c, err));
-  SW_TRY(check_count(plan, mesh->n, c->lattice.particles, err));
+  SW_TRY(sw_strand_check_count(plan, mesh->n, c->lattice.particles, err));
   SW_TRY(check_rest(plan, &c->lattice, err));
+  SW_TRY(check_bent(plan, c, mesh->s[mesh->n - 1] - mesh->s[0], beam->radius, err));
   sw_strand_maker m = {.plan = plan,
                        .beam = beam,
                        .ring = lie ? lie->ring : NULL,
@@ -251,6 +265,7 @@ void sw_strand_free(sw_strand *s) {
   sw_free(s->v);
   sw_free(s->a);
   sw_free(s->axial);
+  sw_free(s->rate);
   memset(s, 0, sizeof *s);
 }
 
@@ -271,7 +286,9 @@ sw_status sw_strand_copy(const sw_strand *from, sw_strand *to) {
   to->v = copy_of(from->v, n);
   to->a = copy_of(from->a, n);
   to->axial = copy_of(from->axial, from->web->links);
-  if (to->x && to->v && to->a && to->axial) return SW_OK;
+  if (from->rate) to->rate = copy_of(from->rate, from->web->links);
+  const int whole = !from->rate || to->rate;
+  if (to->x && to->v && to->a && to->axial && whole) return SW_OK;
   sw_strand_free(to);
   return SW_ENOMEM;
 }

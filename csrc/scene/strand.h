@@ -20,6 +20,7 @@ typedef struct sw_strand {
   sw_strand_kit *kit;
   double *x, *v, *a; /* (particles x 3) [m], [m/s], [m/s2] */
   double *axial;     /* (links) of springs [N] */
+  double *rate;      /* (links) of their strains, where dashpots know it; or NULL [1/s] */
 } sw_strand;
 
 /* What a mesh is to be of; the wire's beam gives the rest. */
@@ -36,6 +37,9 @@ typedef struct sw_strand_plan {
   double rest_twist;  /* [rad/m] */
 } sw_strand_plan;
 
+/* SW_EINVAL when so many rings of so many particles are more than fit. */
+sw_status sw_strand_check_count(const sw_strand_plan *plan, size_t rings, size_t per_ring,
+                                sw_error *err);
 /* How many slices the wire of this length has when nobody says. */
 sw_status sw_strand_slices(const sw_strand_plan *plan, const sw_beam *beam, double length,
                            size_t *out, sw_error *err);

@@ -71,6 +71,8 @@ static void place(const sw_frozen *f, const sw_motion_state *tool, const sw_line
     sw_store(v + 3 * p, sw_add(tool->v, sw_cross(tool->omega, arm)));
   }
   memset(strand->a, 0, 3 * web->particles * sizeof *strand->a);
+  sw_free(strand->rate); /* that of long ago */
+  strand->rate = NULL;
   for (size_t e = 0; e < web->links; e++) {
     const sw_web_link *k = &web->link[e];
     const double length = sw_dist(sw_vec_at(x, k->a), sw_vec_at(x, k->b));

@@ -19,7 +19,53 @@ sw_status sw_scene_add_tie(sw_scene *s, size_t join) {
   return SW_OK;
 }
 
+/* A tie is to break when it is pulled by no more than this above its strength [-]. */
+static const double CLOSE = 0.01;
+
+static sw_status check_terms(const sw_body *b, const double *x, sw_error *err) {
+  for (size_t k = 0; k < b->term_count; k++) {
+    const sw_term *term = &b->terms[k];
+    if (!term->cls->pull) continue;
+    double bears;
+    sw_field at = b->field;
+    at.x = x + 3 * b->first_node;
+    const double pull = term->cls->pull(term->args, &at, term->history, &bears);
+    if (bears > 0 && pull > (1.0 + CLOSE) * bears)
+      return sw_fail(err, SW_ENOCONV, "a tie breaks within the step");
+  }
+  return SW_OK;
+}
+
+sw_status sw_scene_check_ties(const sw_scene *s, const double *x, sw_error *err) {
+  for (size_t k = 0; k < s->join_count; k++) {
+    const sw_scene_join *j = &s->joins[k];
+    if (!j->alive || isnan(j->slack) || j->broken) continue;
+    const sw_join_spring *p = &s->system.joins->springs[j->spring];
+    if (sw_norm(sw_join_spring_force(p, x)) > (1.0 + CLOSE) * j->strength)
+      return sw_fail(err, SW_ENOCONV, "tie '%s' breaks within the step", j->name);
+  }
+  for (size_t b = 0; s->force_count && b < s->system.body_count; b++)
+    SW_TRY(check_terms(&s->system.bodies[b], x, err));
+  return SW_OK;
+}
+
+/* Ties to points, which break when their force is told of the accepted state. */
+static void tell_of_terms(sw_scene *s, size_t body) {
+  const sw_body *b = &s->system.bodies[body];
+  for (size_t k = 0; k < b->term_count; k++) {
+    const sw_term *term = &b->terms[k];
+    double bears;
+    if (!term->cls->pull) continue;
+    const double pull = term->cls->pull(term->args, &b->field, term->history, &bears);
+    if (bears > 0 && pull > bears)
+      sw_scene_tell(s, "tie", s->wires[body].name, NAN, pull,
+                    "a tie of wire '%s' breaks at %.4g N; it bears %.4g N", s->wires[body].name,
+                    pull, bears);
+  }
+}
+
 void sw_scene_watch_ties(sw_scene *s) {
+  for (size_t b = 0; s->force_count && b < s->system.body_count; b++) tell_of_terms(s, b);
   for (size_t k = 0; k < s->join_count; k++) {
     sw_scene_join *j = &s->joins[k];
     if (!j->alive || isnan(j->slack) || j->broken) continue;
@@ -30,6 +76,8 @@ void sw_scene_watch_ties(sw_scene *s) {
     j->broken = 1, j->broken_time = s->time, j->broken_force = pull;
     p->k = 0;
     s->discontinuous = 1;
+    sw_scene_tell(s, "tie", j->name, NAN, pull, "tie '%s' breaks at %.4g N; it bears %.4g N",
+                  j->name, pull, j->strength);
   }
 }
 

@@ -196,6 +196,17 @@ static void pads_force(const sw_scene *s, const sw_tool *t, int finger, sw_vec a
   }
 }
 
+/* The same of all pads over the last step, with what struck them. */
+static void pads_mean(const sw_scene *s, const sw_tool *t, sw_vec about, sw_vec *force,
+                      sw_vec *moment) {
+  for (size_t k = 0; k < t->pads; k++) {
+    sw_vec f, m;
+    sw_obstacle_mean(&s->obstacles[t->pad[k].obstacle], about, &f, &m);
+    *force = sw_sub(*force, f);
+    *moment = sw_sub(*moment, m);
+  }
+}
+
 static sw_status holds_force(sw_scene *s, size_t slot, sw_vec about, sw_vec *force, sw_vec *moment,
                              sw_error *err) {
   for (size_t k = 0; k < s->hold_count; k++) {
@@ -262,6 +273,12 @@ static void hold_now(const sw_scene *s, sw_tool *t) {
     now->slip_time = s->time, now->slip_place = now->place;
 }
 
+static int holds_any(const sw_scene *s, size_t slot) {
+  for (size_t k = 0; k < s->hold_count; k++)
+    if (s->holds[k].alive && s->holds[k].drive.tool == 1 + slot) return 1;
+  return 0;
+}
+
 sw_status sw_tool_observe(sw_scene *s, sw_error *err) {
   for (size_t k = 0; k < s->tool_count; k++) {
     sw_tool *t = &s->tools[k];
@@ -272,7 +289,7 @@ sw_status sw_tool_observe(sw_scene *s, sw_error *err) {
     t->now.centre = at.pose.p;
     t->now.q = at.pose.q;
     sw_vec force = sw_v(0, 0, 0), moment = force;
-    pads_force(s, t, -1, at.pose.p, &force, &moment);
+    pads_mean(s, t, at.pose.p, &force, &moment);
     SW_TRY(holds_force(s, k, at.pose.p, &force, &moment, err));
     if (t->frozen)
       hold_frozen(s, t, force, moment);
@@ -285,6 +302,7 @@ sw_status sw_tool_observe(sw_scene *s, sw_error *err) {
     sw_store(row + SW_LOG_POINT, at.pose.p);
     row[SW_LOG_OPENING] = t->now.opening, row[SW_LOG_SQUEEZE] = t->now.squeeze;
     row[SW_LOG_MARGIN] = t->now.margin, row[SW_LOG_SLIP] = t->now.slip;
+    row[SW_LOG_SPAN] = holds_any(s, k) ? -s->span : s->span;
     if (sw_log_add(&t->log, row, SW_LOG_TOOL_SIZE) != SW_OK)
       return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", t->name);
   }
@@ -298,6 +316,8 @@ sw_status sw_scene_tool_touches(sw_scene *s, sw_handle tool, size_t *count, sw_e
   return SW_OK;
 }
 
+/* Number of the body that has the node. */
+
 int sw_scene_tool_touch(const sw_scene *s, sw_handle tool, size_t number, sw_tool_touch *out) {
   const sw_tool *t = &s->tools[tool.slot];
   sw_contact_push push;
@@ -305,12 +325,15 @@ int sw_scene_tool_touch(const sw_scene *s, sw_handle tool, size_t number, sw_too
   for (size_t k = 0; k < t->pads; k++) {
     if (t->pad[k].obstacle != (size_t)push.obstacle) continue;
     const sw_vec arm = sw_sub(push.point, t->now.centre);
-    *out = (sw_tool_touch){t->pad[k].finger,
-                           sw_unrotate(t->now.q, arm),
-                           sw_unrotate(t->now.q, push.force),
-                           push.normal_force,
-                           push.place,
-                           push.slid};
+    const size_t wire = sw_system_body_of(&s->system, push.node);
+    *out = (sw_tool_touch){.finger = t->pad[k].finger,
+                           .at = sw_unrotate(t->now.q, arm),
+                           .force = sw_unrotate(t->now.q, push.force),
+                           .normal = push.normal_force,
+                           .s = push.place,
+                           .slid = push.slid,
+                           .wire = wire,
+                           .name = s->wires[wire].name};
     return 1;
   }
   return 0;

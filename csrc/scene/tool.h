@@ -116,6 +116,8 @@ typedef struct sw_tool_touch {
   double normal; /* part of it across the surface [N] */
   double s;      /* arc length [m] */
   double slid;   /* way that the wire slid there since it began to press [m] */
+  size_t wire;   /* slot [-] */
+  const char *name; /* of that wire, the scene's */
 } sw_tool_touch;
 /* How many touches pads have; number k of all touches there are: 0 = not one of a pad's with a
  * force. */

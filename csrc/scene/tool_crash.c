@@ -4,6 +4,7 @@
  * the axis of round ones, the triangles of meshes; and by corners of boxes that they meet. */
 #include <math.h>
 
+#include "scene/events.h"
 #include "scene/world.h"
 
 static const double NOTICED = 1e-5; /* overlap of less than this is none [m] */
@@ -126,5 +127,8 @@ sw_status sw_tool_look_out(sw_scene *s, size_t slot, sw_error *err) {
   SW_TRY(find_crash(s, slot, &now, err));
   if (now.depth > 0 && !t->crashing) t->crash = now; /* a new one */
   t->crashing = now.depth > 0;
+  if (t->crashing)
+    sw_scene_tell(s, "crash", t->name, NAN, now.depth, "'%s' runs %.3g mm deep into '%s'",
+                  s->obstacles[now.part].name, 1e3 * now.depth, s->obstacles[now.obstacle].name);
   return SW_OK;
 }

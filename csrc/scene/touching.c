@@ -96,8 +96,12 @@ static int settled(void *user, sw_system *system, const double *y, const double 
   return fine;
 }
 
+static void book(void *user, const sw_booking *booking) {
+  sw_contact_book(((sw_scene *)user)->contact, booking);
+}
+
 void sw_scene_couple(sw_scene *s) {
-  if (s->contact) s->system.coupling.begin_stage = begin_stage;
+  if (s->contact) s->system.coupling.begin_stage = begin_stage, s->system.coupling.book = book;
   if (!sw_scene_has_contact(s)) return;
   s->system.coupling.eval = eval;
   s->system.coupling.keeps = keeps;
@@ -108,9 +112,13 @@ int sw_scene_has_contact(const sw_scene *s) { return s->contact || s->pairs || s
 
 sw_status sw_scene_begin_contact(sw_scene *s, sw_contact_regime regime, double t, double h,
                                  double nominal, sw_error *err) {
+  for (size_t k = 0; s->contact && k < sw_contact_obstacles(s->contact); k++)
+    sw_contact_recall(s->contact, k, &s->obstacles[sw_contact_id(s->contact, k)].past);
   if (s->contact) SW_TRY(sw_contact_begin_step(s->contact, &s->system, regime, t, h, nominal, err));
-  if (s->crowd && sw_crowd_begin_step(s->crowd, &s->system, h) != SW_OK)
-    return sw_fail(err, SW_ENOMEM, "particles that repel each other: out of memory");
+  const sw_status crowd = s->crowd ? sw_crowd_begin_step(s->crowd, &s->system, h) : SW_OK;
+  if (crowd != SW_OK)
+    return sw_fail(err, crowd, "particles that repel each other: %s",
+                   crowd == SW_ELIMIT ? "too many are near each other" : sw_status_text(crowd));
   return s->pairs ? sw_pairs_begin_step(s->pairs, &s->system, regime, h, nominal, err) : SW_OK;
 }
 
@@ -130,7 +138,12 @@ int sw_scene_review_static(sw_scene *s, const double *x1) {
 }
 
 void sw_scene_commit_contact(sw_scene *s) {
-  if (s->contact) sw_contact_commit(s->contact, &s->system);
+  if (s->contact) {
+    sw_contact_commit(s->contact, &s->system);
+    for (size_t k = 0; k < s->obstacle_count; k++) s->obstacles[k].past = (sw_contact_past){0};
+    for (size_t k = 0; k < sw_contact_obstacles(s->contact); k++)
+      s->obstacles[sw_contact_id(s->contact, k)].past = *sw_contact_past_of(s->contact, k);
+  }
   if (s->pairs) sw_pairs_commit(s->pairs, &s->system);
 }
 

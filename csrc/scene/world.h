@@ -14,6 +14,8 @@
 #include "scene/section.h"
 #include "scene/strand.h"
 #include "scene/tool.h"
+#include "scene/watch.h"
+#include "scene/window.h"
 #include "state/mesh.h"
 #include "system/system.h"
 
@@ -43,6 +45,7 @@ typedef struct sw_scene_wire {
   sw_strand strand; /* of a model that is a mesh of particles; else without a web */
   sw_drawing drawing;
   sw_wire_extremes extremes;
+  sw_window window; /* of the tension */
   sw_twisted *twisted;
   size_t twisted_count;
   int untwisted; /* 1: lies as it was drawn, without the twist it has unloaded; nothing has moved */
@@ -65,12 +68,13 @@ static inline int sw_strand_holds(const sw_web *web, const sw_hold_class *cls, s
   const size_t ring = sw_web_ring_of(web, particle);
   return cls->clamped || !sw_web_is_ring(web, ring) || particle - web->first[ring] == web->axis;
 }
-/* The system's state to the strand and the middles of its rings. */
-void sw_strand_take(sw_scene_wire *wire, const sw_system *system, const sw_body *body);
+/* The system's state to the strand and the middles of its rings. SW_ENOMEM. */
+sw_status sw_strand_take(sw_scene_wire *wire, const sw_system *system, const sw_body *body);
 /* Read-outs at arc length s; extremes. */
 void sw_strand_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_body *body, double s,
                   sw_point_state *out);
-void sw_strand_extremes(const sw_scene *scene, size_t wire, sw_wire_extremes *now);
+/* tension (rings - 1), or NULL: what is carried between two rings [N]. */
+void sw_strand_extremes(const sw_scene *scene, size_t wire, double *tension, sw_wire_extremes *now);
 
 /* Middle of ring number r of particles at x, and the direction across the area that its surface
  * encloses [m], [-]. */
@@ -205,6 +209,15 @@ typedef struct sw_feed {
   sw_mesh shape;       /* the wire with its unloaded shape, if it has frames */
 } sw_feed;
 
+/* Is it driven into an obstacle? */
+typedef struct sw_hold_watch {
+  int looking;    /* 1: it has been looked at */
+  int crashing;   /* 1: it is driven into one now */
+  double looked;  /* when last [s] */
+  double given;   /* how deep it was in one to begin with [m] */
+  sw_crash crash; /* the last one, of no part; depth 0: none */
+} sw_hold_watch;
+
 typedef struct sw_scene_hold {
   uint32_t generation;
   int alive;
@@ -227,6 +240,7 @@ typedef struct sw_scene_hold {
   sw_quat turn;           /* orientation that goes with the wire's twist, while not built */
   sw_feed feed;           /* of a class that feeds */
   sw_vec force, moment;   /* last, kept after release [N], [N m] */
+  sw_hold_watch watch;
   sw_pose last_pose;
   sw_log log;
 } sw_scene_hold;
@@ -239,12 +253,14 @@ typedef struct sw_scene_obstacle {
   sw_drive drive;
   double friction, kinetic, restitution;
   int off; /* 1: wires pass through it for the time being */
+  sw_contact_past past;
   sw_log log;
 } sw_scene_obstacle;
 
 typedef struct sw_scene_force {
   uint32_t generation;
   int alive;
+  char name[SW_NAME_SIZE]; /* for events, or "" */
   const sw_force_class *cls;
   long wire;    /* -1 = all */
   double scale; /* of the wire's mesh when it was made [-] */
@@ -283,7 +299,7 @@ typedef struct sw_scene_rule {
 typedef struct sw_frame {
   double time;
   double *data; /* one block */
-  size_t wires, obstacles, holds;
+  size_t wires, obstacles, holds, tools;
 } sw_frame;
 
 /* What a force on a wire remembers between two systems. */
@@ -347,6 +363,8 @@ struct sw_scene {
   sw_stepper stepper;
   int has_stepper;
   int discontinuous; /* the acceleration is stale: restart the integrator; or SW_GOES_ON */
+  double window;     /* of the present or last run, see sw_run_args [s] */
+  double span;       /* of the step that led here; 0: the state is an equilibrium [s] */
   double next_dt;    /* of an adaptive run; 0 = not known [s] */
 
   int diverged;
@@ -356,6 +374,7 @@ struct sw_scene {
   size_t frame_count, frame_capacity;
   double next_frame; /* [s] */
   sw_events events;  /* of the last run */
+  sw_watches watches;
   sw_books books;    /* of the energy in it */
 };
 
@@ -459,6 +478,11 @@ sw_status sw_tool_look_out(sw_scene *scene, size_t tool, sw_error *err);
 /* 1: one slipped in the last step that ends a run with it. */
 int sw_tool_slipped(const sw_scene *scene);
 
+/* Looks at a hold of the accepted state: is it driven into obstacles, does it push too hard? */
+sw_status sw_hold_look_out(sw_scene *scene, sw_scene_hold *hold, sw_error *err);
+/* 1: one was driven into an obstacle in the last step. */
+int sw_hold_crashed(const sw_scene *scene);
+
 /* --- joins ------------------------------------------------------------------- */
 
 /* The living join that has the wire, or NULL. */
@@ -472,7 +496,9 @@ void sw_scene_measure_joins(sw_scene *scene);
 /* Springs and hinges of the living joins for the new system. SW_ENOMEM. */
 sw_status sw_scene_add_joins(sw_scene *scene);
 sw_status sw_scene_add_tie(sw_scene *scene, size_t join);
-/* After a step: ties that were pulled too hard break. */
+/* SW_ENOCONV when a tie is pulled far beyond its strength with nodes at x: it breaks earlier. */
+sw_status sw_scene_check_ties(const sw_scene *scene, const double *x, sw_error *err);
+/* After a step, before histories follow: ties that were pulled too hard break. */
 void sw_scene_watch_ties(sw_scene *scene);
 /* NULL: the scene does not know it. */
 sw_scene_join *sw_scene_find_join(const sw_scene *scene, sw_handle join, sw_error *err);
@@ -504,6 +530,8 @@ void sw_feed_shape(sw_scene *scene, sw_scene_hold *hold);
 void sw_feed_rest(sw_scene_hold *hold, double s);
 /* The largest step up to h that nodes can follow [s]. */
 double sw_feed_step(const sw_scene *scene, double h);
+/* SW_ENOCONV: which feed goes faster than steps can follow, and why longer ones were refused. */
+sw_status sw_feed_too_fast(const sw_scene *scene, const char *refused, sw_error *err);
 /* Insert and remove nodes beside guides as a step to time t needs. changed: the system was
  * made anew. SW_EEMPTY: no wire left to draw in. */
 sw_status sw_feed_make_room(sw_scene *scene, double t, int *changed, sw_error *err);
@@ -537,9 +565,16 @@ sw_status sw_scene_make_places(const sw_scene *scene, size_t wire, sw_mesh *mesh
 /* Where and how a hold holds, into another slot that owns nothing. SW_ENOMEM. */
 sw_status sw_scene_copy_shape(const sw_scene_hold *from, sw_scene_hold *to);
 
-/* Take hold of a wire that has other nodes but lies as before; the hold's pose is known.
- * SW_ENOMEM. */
-sw_status sw_scene_rehold(sw_scene *scene, sw_scene_hold *hold, sw_pose pose);
+/* Take hold of a wire that has other nodes but lies as before; the hold's pose is known. It is
+ * not alive; those that are have done so. SW_EINVAL when one of them is in the way; SW_ENOMEM. */
+sw_status sw_scene_rehold(sw_scene *scene, sw_scene_hold *hold, sw_pose pose, sw_error *err);
+
+/* SW_EINVAL, naming the hold that is in the way, when one between s1 and s2, rings of a mesh, is
+ * on another living hold of the wire or too near it; what: who asks [m]. */
+sw_status sw_scene_check_clear(const sw_scene *scene, size_t wire, const sw_scene_hold *self,
+                               const char *what, double s1, double s2, sw_error *err);
+/* SW_EINVAL, naming both, when two living holds hold the same node or particle. */
+sw_status sw_scene_check_holds(const sw_scene *scene, sw_error *err);
 /* The built system's stiffness at its state, with contact as it presses now: of these obstacles
  * (count), or NULL: of all. */
 sw_status sw_scene_linearise(sw_scene *scene, const size_t *only, size_t count, sw_error *err);
@@ -577,20 +612,24 @@ sw_status sw_scene_cut_pose(sw_scene *scene, double *t1, int *cut, sw_error *err
 sw_status sw_scene_pose(sw_scene *scene, double t1, int (*interrupted)(void), sw_run_report *report,
                         sw_error *err);
 
-/* After an accepted state: histories, extremes, logs. */
-sw_status sw_scene_observe(sw_scene *scene, sw_error *err);
-/* Extremes of wire w at the refreshed state. */
-void sw_scene_wire_now(sw_scene *scene, size_t w, sw_wire_extremes *now);
-/* Keep the larger ones. */
-void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now);
-/* Kinetic, elastic, gravity energy of the state [J]. */
-void sw_scene_frame_energies(sw_scene *scene, double out[SW_FRAME_ENERGIES]);
-void sw_scene_reset_extremes(sw_scene *scene);
-sw_status sw_scene_store_frame(sw_scene *scene, sw_error *err);
-void sw_scene_drop_frames(sw_scene *scene);
+/* What frames tell of each node of the wire, SW_FRAME_VALUES numbers; n nodes. */
+void sw_scene_node_values(sw_scene *scene, size_t wire, size_t n, double *out);
+/* SW_EDIVERGED when the stepper's trial is no believable state, SW_ENOCONV when a smaller step may
+ * mend it. */
+sw_status sw_scene_check_trial(const sw_scene *scene, sw_error *err);
+/* Tells that the run's method is not meant for contact, once, when there is some. */
+void sw_scene_remark_contact(sw_scene *scene);
+/* Tells of wires that are perfectly straight, and pushed beyond buckling. SW_ENOMEM, SW_ECALLBACK.
+ */
+sw_status sw_scene_look_for_buckling(sw_scene *scene, sw_error *err);
+/* SW_EINVAL when an explicit method would take steps above its limit on the way to a time. */
+sw_status sw_scene_check_step(const sw_scene *scene, const sw_run_args *args, double until,
+                              sw_error *err);
 /* How many doubles the frame's block has; 0: more than room, or its counts make no sense. */
 int sw_scene_frame_walk(const sw_frame *frame, size_t room, size_t *size);
 /* The class of a wire or of objects of particles; NULL: there is none of this name. */
 const sw_wire_class *sw_scene_body_class(const char *name);
+
+#include "scene/observe.h"
 
 #endif

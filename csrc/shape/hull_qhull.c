@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/interrupt.h"
 
 enum { MESSAGE_SIZE = 4096 }; /* of qhull's text, of which the first line is used [B] */
 
@@ -79,19 +80,46 @@ static sw_status refused(const char *object, int code, char *message, sw_error *
   return sw_fail(err, SW_EINVAL, "%s: no hull could be made (%s)", object, message);
 }
 
+/* Where qhull writes to: what it has to say, and now and then how far it is, where it can be
+ * stopped. */
+typedef struct listener {
+  qhT *qh;
+  char message[MESSAGE_SIZE];
+  size_t length;
+  int stopped; /* 1: the user wants to stop */
+} listener;
+
+static const char PROGRESS[] = "\nAt "; /* how it begins */
+
+static ssize_t listen(void *cookie, const char *text, size_t size) {
+  listener *l = cookie;
+  if (size >= sizeof PROGRESS - 1 && memcmp(text, PROGRESS, sizeof PROGRESS - 1) == 0) {
+    if (!sw_interrupted()) return (ssize_t)size;
+    l->stopped = 1;
+    l->qh->STOPadd = 1; /* no further point */
+    return (ssize_t)size;
+  }
+  const size_t room = sizeof l->message - 1 - l->length, part = size < room ? size : room;
+  memcpy(l->message + l->length, text, part);
+  l->length += part;
+  return (ssize_t)size;
+}
+
 static sw_status run(const char *object, double *unit, size_t n, int **indices,
                      size_t *triangle_count, sw_error *err) {
-  char message[MESSAGE_SIZE] = "", command[] = "qhull Qt";
+  char command[] = "qhull Qt TF500"; /* to be heard of every 500 facets */
   qhT state, *qh = &state;
+  listener l = {.qh = qh};
   int left = 0, total = 0;
-  FILE *text = fmemopen(message, sizeof message, "w");
+  FILE *text = fopencookie(&l, "w", (cookie_io_functions_t){.write = listen});
   if (!text) return sw_fail(err, SW_ENOMEM, "%s: out of memory", object);
+  setvbuf(text, NULL, _IONBF, 0);
   qh_zero(qh, text);
   const int code = qh_new_qhull(qh, 3, (int)n, unit, 0, command, NULL, text);
-  fflush(text);
-  message[MESSAGE_SIZE - 1] = '\0';
-  const sw_status status =
-      code ? refused(object, code, message, err) : collect(qh, unit, indices, triangle_count);
+  sw_status status = SW_EINTR;
+  if (!l.stopped)
+    status =
+        code ? refused(object, code, l.message, err) : collect(qh, unit, indices, triangle_count);
   qh_freeqhull(qh, !qh_ALL);
   qh_memfreeshort(qh, &left, &total);
   fclose(text);

@@ -3,7 +3,7 @@
  * back counts as inside for places nearer to its triangles than to its border,
  * and within its bounds or within reach. */
 #include "base/alloc.h"
-#include "shape/mesh_assimp.h"
+#include "shape/mesh_read.h"
 #include "shape/trimesh.h"
 
 typedef struct mesh {
@@ -26,8 +26,9 @@ static sw_status create(sw_shape *shape, const void *args, const sw_shape_source
   sw_mesh_data data;
   if (!source->bytes || source->byte_count == 0)
     return sw_fail(err, SW_EINVAL, "%s: data is empty", object);
-  SW_TRY(
-      sw_mesh_read(object, source->bytes, source->byte_count, formats[given->format], &data, err));
+  const sw_mesh_file file = {object, source->bytes, source->byte_count, formats[given->format]};
+  SW_TRY(sw_mesh_check(&file, err));
+  SW_TRY(sw_mesh_get_reader()(&file, &data, err));
   for (size_t i = 0; i < 3 * data.vertex_count; i++) data.vertices[i] *= given->scale;
   const sw_status status = sw_trimesh_build(&self->mesh, object, data.vertices, data.vertex_count,
                                             data.indices, data.triangle_count, err);

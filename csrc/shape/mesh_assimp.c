@@ -1,6 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "shape/mesh_assimp.h"
-
 #include <assimp/cfileio.h>
 #include <assimp/cimport.h>
 #include <assimp/config.h>
@@ -11,6 +9,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/vec.h"
+#include "shape/mesh_read.h"
 
 /* --- the one file there is ------------------------------------------------ */
 
@@ -76,7 +76,8 @@ static void count(const struct aiScene *scene, size_t *vertices, size_t *triangl
   }
 }
 
-static void add_mesh(const struct aiMesh *mesh, sw_mesh_data *out) {
+/* 0 when a face has a corner that is not there: Assimp does not look at all formats' numbers. */
+static int add_mesh(const struct aiMesh *mesh, sw_mesh_data *out) {
   const int first = (int)out->vertex_count;
   for (unsigned v = 0; v < mesh->mNumVertices; v++) {
     const struct aiVector3D p = mesh->mVertices[v];
@@ -86,8 +87,12 @@ static void add_mesh(const struct aiMesh *mesh, sw_mesh_data *out) {
     const struct aiFace face = mesh->mFaces[f];
     if (face.mNumIndices != 3) continue; /* points and lines have no area */
     int *to = out->indices + 3 * out->triangle_count++;
-    for (int k = 0; k < 3; k++) to[k] = first + (int)face.mIndices[k];
+    for (int k = 0; k < 3; k++) {
+      if (face.mIndices[k] >= mesh->mNumVertices) return 0;
+      to[k] = first + (int)face.mIndices[k];
+    }
   }
+  return 1;
 }
 
 static sw_status copy(const char *object, const struct aiScene *scene, sw_mesh_data *out,
@@ -103,29 +108,33 @@ static sw_status copy(const char *object, const struct aiScene *scene, sw_mesh_d
     *out = (sw_mesh_data){0};
     return sw_fail(err, SW_ENOMEM, "%s: out of memory", object);
   }
-  for (unsigned m = 0; m < scene->mNumMeshes; m++) add_mesh(scene->mMeshes[m], out);
-  return SW_OK;
+  int whole = 1;
+  for (unsigned m = 0; m < scene->mNumMeshes && whole; m++)
+    whole = add_mesh(scene->mMeshes[m], out);
+  if (whole) return SW_OK;
+  sw_free(out->vertices), sw_free(out->indices);
+  *out = (sw_mesh_data){0};
+  return sw_fail(err, SW_EFORMAT, "%s: data has a face with a corner that is not there", object);
 }
 
-sw_status sw_mesh_read(const char *object, const char *bytes, size_t byte_count, const char *format,
-                       sw_mesh_data *out, sw_error *err) {
+sw_status sw_mesh_read(const sw_mesh_file *from, sw_mesh_data *out, sw_error *err) {
   const unsigned steps =
       aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices;
-  memory_file file = {bytes, byte_count, 0, "", 0};
+  memory_file file = {from->bytes, from->byte_count, 0, "", 0};
   struct aiFileIO io = {open_file, close_file, (aiUserData)&file};
   *out = (sw_mesh_data){0};
-  snprintf(file.name, sizeof file.name, "mesh.%s", format);
+  snprintf(file.name, sizeof file.name, "mesh.%s", from->format);
   struct aiPropertyStore *settings = aiCreatePropertyStore();
-  if (!settings) return sw_fail(err, SW_ENOMEM, "%s: out of memory", object);
+  if (!settings) return sw_fail(err, SW_ENOMEM, "%s: out of memory", from->object);
   aiSetImportPropertyInteger(settings, AI_CONFIG_PP_SBP_REMOVE,
                              aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const struct aiScene *scene = aiImportFileExWithProperties(file.name, steps, &io, settings);
   aiReleasePropertyStore(settings);
-  if (!scene && file.starved) return sw_fail(err, SW_ENOMEM, "%s: out of memory", object);
+  if (!scene && file.starved) return sw_fail(err, SW_ENOMEM, "%s: out of memory", from->object);
   if (!scene)
-    return sw_fail(err, SW_EFORMAT, "%s: data is not readable as %s (%s)", object, format,
-                   aiGetErrorString());
-  const sw_status status = copy(object, scene, out, err);
+    return sw_fail(err, SW_EFORMAT, "%s: data is not readable as %s (%s)", from->object,
+                   from->format, aiGetErrorString());
+  const sw_status status = copy(from->object, scene, out, err);
   aiReleaseImport(scene);
   return status;
 }

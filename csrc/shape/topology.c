@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/interrupt.h"
 #include "shape/trimesh.h"
 
 typedef struct half_edge {
@@ -20,13 +21,27 @@ static int compare(const void *one, const void *two) {
   return (a->side > b->side) - (a->side < b->side);
 }
 
-static void list_sides(const sw_trimesh *mesh, half_edge *halves) {
-  for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
-    const size_t tri = i / 3, k = i % 3;
-    const int from = mesh->indices[i], to = mesh->indices[3 * tri + (k + 1) % 3];
-    halves[i] = (half_edge){from < to ? from : to, from < to ? to : from, (int)tri, (int)k};
+static half_edge side_of(const sw_trimesh *mesh, size_t i) {
+  const size_t tri = i / 3, k = i % 3;
+  const int from = mesh->indices[i], to = mesh->indices[3 * tri + (k + 1) % 3];
+  return (half_edge){from < to ? from : to, from < to ? to : from, (int)tri, (int)k};
+}
+
+/* In order: counted by their lower vertex (first: vertices + 1 zeros), then sorted at each. */
+static sw_status list_sides(const sw_trimesh *mesh, half_edge *halves, size_t *first) {
+  const size_t n = 3 * mesh->triangle_count, vertices = mesh->vertex_count;
+  for (size_t i = 0; i < n; i++) first[side_of(mesh, i).low + 1]++;
+  for (size_t v = 0; v < vertices; v++) first[v + 1] += first[v];
+  for (size_t i = n; i-- > 0;) {
+    const half_edge h = side_of(mesh, i);
+    halves[--first[h.low + 1]] = h; /* becomes the first one's place */
   }
-  qsort(halves, 3 * mesh->triangle_count, sizeof *halves, compare);
+  for (size_t v = 0; v < vertices; v++) {
+    const size_t begin = first[v + 1], end = v + 2 <= vertices ? first[v + 2] : n;
+    if (sw_interrupted()) return SW_EINTR;
+    if (end - begin > 1) qsort(halves + begin, end - begin, sizeof *halves, compare);
+  }
+  return SW_OK;
 }
 
 /* Across the edge from v into the triangle whose side it is. */
@@ -158,10 +173,12 @@ sw_status sw_trimesh_topology(sw_trimesh *mesh, const char *object, sw_error *er
   sw_status status = SW_ENOMEM;
   half_edge *halves = sw_alloc(sides, sizeof *halves);
   mesh->sides = sw_alloc(sides, sizeof *mesh->sides);
-  if (halves && mesh->sides) {
-    list_sides(mesh, halves);
-    status = fill(mesh, halves, &twisted);
+  size_t *first = sw_alloc(mesh->vertex_count + 1, sizeof *first);
+  if (halves && first && mesh->sides) {
+    status = list_sides(mesh, halves, first);
+    if (status == SW_OK) status = fill(mesh, halves, &twisted);
   }
+  sw_free(first);
   sw_free(halves);
   SW_TRY(status);
   if (twisted > 0)

@@ -4,12 +4,14 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/interrupt.h"
 #include "shape/trimesh.h"
 
 typedef struct builder {
   sw_trimesh *mesh;
   const double *centres; /* of the triangles, x 3 [m] */
   int *order;            /* triangle numbers, sorted in place */
+  int stopped;           /* 1: the user wants to stop */
 } builder;
 
 static inline double key(const builder *b, int i, int axis) {
@@ -65,6 +67,8 @@ static sw_bounds bounds_of(const builder *b, int low, int high) {
 }
 
 static void split(builder *b, int low, int high) {
+  b->stopped |= sw_interrupted();
+  if (b->stopped) return;
   sw_tree_node *node = &b->mesh->nodes[b->mesh->node_count++];
   node->bounds = bounds_of(b, low, high);
   if (high - low < SW_TREE_LEAF) {
@@ -94,9 +98,10 @@ sw_status sw_trimesh_tree(sw_trimesh *mesh) {
   double *centres = sw_alloc(3 * n, sizeof *centres), *normals = sw_alloc(3 * n, sizeof *normals);
   int *order = sw_alloc(n, sizeof *order), *indices = sw_alloc(3 * n, sizeof *indices);
   mesh->nodes = sw_alloc(2 * n, sizeof *mesh->nodes);
+  sw_status status = SW_OK;
   const int fine = centres && normals && order && indices && mesh->nodes;
   if (fine) {
-    builder b = {mesh, centres, order};
+    builder b = {.mesh = mesh, .centres = centres, .order = order};
     for (size_t i = 0; i < n; i++) {
       const sw_triangle t = sw_trimesh_triangle(mesh, (int)i);
       sw_store(centres + 3 * i, sw_scale(sw_add(sw_add(t.v[0], t.v[1]), t.v[2]), 1.0 / 3));
@@ -104,9 +109,10 @@ sw_status sw_trimesh_tree(sw_trimesh *mesh) {
     }
     split(&b, 0, (int)n - 1);
     reorder(&b, indices, normals);
+    if (b.stopped) status = SW_EINTR;
   } else {
     sw_free(normals), sw_free(indices);
   }
   sw_free(centres), sw_free(order);
-  return fine ? SW_OK : SW_ENOMEM;
+  return fine ? status : SW_ENOMEM;
 }

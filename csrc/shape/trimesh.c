@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/interrupt.h"
 
 /* Vertices nearer than this part of the largest extent are one: float files
  * round their coordinates to 6e-8 of their size [-] */
@@ -103,9 +104,13 @@ static void keep_triangle(sw_trimesh *mesh, const int corner[3]) {
 static sw_status weld_all(sw_trimesh *mesh, welder *w, const double *vertices, size_t vertex_count,
                           const int *indices, size_t triangle_count, int *number) {
   for (size_t i = 0; i <= w->mask; i++) w->head[i] = -1;
-  for (size_t i = 0; i < vertex_count; i++) number[i] = weld(w, sw_load(vertices + 3 * i));
+  for (size_t i = 0; i < vertex_count; i++) {
+    if (sw_interrupted()) return SW_EINTR;
+    number[i] = weld(w, sw_load(vertices + 3 * i));
+  }
   mesh->vertex_count = (size_t)w->count;
   for (size_t i = 0; i < triangle_count; i++) {
+    if (sw_interrupted()) return SW_EINTR;
     const int *from = indices + 3 * i;
     const int corner[3] = {number[from[0]], number[from[1]], number[from[2]]};
     keep_triangle(mesh, corner);

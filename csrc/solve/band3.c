@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "base/simd.h"
 
 typedef double pair __attribute__((vector_size(16)));
@@ -137,6 +138,8 @@ static void factor_middle(const double *a, size_t p, const pending *left, double
   for (int k = 0; k < 6; k++) fb[k] = d[k][0];
 }
 
+enum { SELDOM = 0xffff }; /* nodes between two looks at the user's wish to stop [-] */
+
 SW_HOT
 sw_status sw_band3_factor(const double *a, size_t n, double *factor, size_t *negative) {
   const size_t odd = odd_of(n), count = pairs_of(n);
@@ -147,6 +150,7 @@ sw_status sw_band3_factor(const double *a, size_t n, double *factor, size_t *neg
   for (size_t k = 0; k < count; k++) {
     const size_t j = odd && k == 0 ? n : n - 1 - (k - odd);
     pair own[6], u1[9], u2[9], w1[9], w2[9];
+    if (!(k & SELDOM) && sw_interrupted()) return SW_EINTR;
     load(a, n, k, j, own, u1, u2);
     for (int c = 0; c < 6; c++) own[c] += left.own[c];
     for (int c = 0; c < 9; c++) u1[c] += left.next[c];

@@ -10,6 +10,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "base/simd.h"
 
 #pragma GCC diagnostic ignored "-Wpsabi" /* vectors stay inside this file */
@@ -138,6 +139,8 @@ static void factor_middle(double *row, signs *s) {
   put(row + SW_ROW4_SIZE, d);
 }
 
+enum { SELDOM = 0xffff }; /* nodes between two looks at the user's wish to stop [-] */
+
 SW_HOT
 sw_status sw_band4_factor(double *a, size_t n, size_t *negative) {
   signs s = {{0}, {0}}, t = {{0}, {0}};
@@ -151,6 +154,7 @@ sw_status sw_band4_factor(double *a, size_t n, size_t *negative) {
   }
   for (size_t k = 0; k < count; k++) {
     double *up = a + SW_ROW4_SIZE * (k + odd), *down = a + SW_ROW4_SIZE * (n - 1 - k);
+    if (!(k & SELDOM) && sw_interrupted()) return SW_EINTR;
     get(up, d);
     get(down, e);
     split(d, &s);

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "base/simd.h"
 
 #pragma GCC diagnostic ignored "-Wpsabi" /* vectors stay inside this file */
@@ -150,6 +151,7 @@ static void take_all(const sw_front *f, size_t first, double *to, size_t stride,
 
 void sw_front_reduce(sw_front *f, double *rest, size_t rows) {
   for (size_t begin, end = f->n; end > 0; end = begin) {
+    if (sw_interrupted()) return; /* whoever asked looks too */
     begin = (end - 1) / SW_FRONT_ROWS * SW_FRONT_ROWS;
     sw_front part = *f;
     part.n = end - begin;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/interrupt.h"
 #include "solve/blocks_front.h"
 #include "solve/cholmod_adapter.h"
 
@@ -247,6 +248,7 @@ sw_status sw_tree_factor(sw_tree *t, const double *values, const unsigned char *
     for (uint32_t c = p->child; c != NONE; c = t->piece[c].other)
       add_child(t, p, t->piece + c, (uint32_t *)(void *)t->scaled);
     sw_front_reduce(&f, left, 3 * (size_t)p->rest);
+    if (sw_interrupted()) return SW_EINTR;
     count += f.negative, bad += f.bad;
   }
   if (negative) *negative = count;

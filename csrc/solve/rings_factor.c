@@ -2,6 +2,7 @@
 /* Elimination ring by ring, and solving. */
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "solve/blocks_front.h"
 #include "solve/rings.h"
 
@@ -45,6 +46,7 @@ sw_status sw_rings_factor(sw_rings *r, const unsigned char *fixed, size_t *negat
   size_t count = 0, bad = 0;
   sw_front f, next = {.factor = NULL};
   for (size_t k = r->rings; k-- > 0 && !bad; next = f) {
+    if (sw_interrupted()) return SW_EINTR;
     f = front_of(r, k);
     f.a = fixed ? mask_ring(r, fixed, k) : r->values + k * r->n * r->stride;
     f.next_factor = next.factor, f.next_scaled = next.scaled;

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/interrupt.h"
 #include "base/simd.h"
 
 /* Two right-hand sides go through together: the way through a chain is one of waiting. */
@@ -265,6 +266,7 @@ ALWAYS sw_status factor(sw_sparse *s, size_t *negative, const int b) {
   const uint32_t *target = s->target;
   for (size_t k = 0; k < s->n; k++) {
     double *own = s->own + bb * k;
+    if (sw_interrupted()) return SW_EINTR;
     if (!split(own, b, negative)) return SW_ESINGULAR;
     const uint32_t begin = s->start[k], p = s->start[k + 1] - begin;
     double *off = s->off + bb * begin;

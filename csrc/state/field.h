@@ -20,7 +20,8 @@
 enum {
   SW_WANT_FORCE = 1,     /* gradients and node forces */
   SW_WANT_STIFFNESS = 2, /* second derivatives, with velocity_rate times damping */
-  SW_WANT_ENERGY = 4     /* add to energy */
+  SW_WANT_ENERGY = 4,    /* add to energy */
+  SW_WANT_POWER = 8      /* add to power */
 };
 
 enum { SW_LANES = 8 }; /* zeros around each edge array [-] */
@@ -35,6 +36,15 @@ typedef struct sw_field {
   const double *v;       /* (n x 3) node velocities [m/s] */
   const double *tension; /* (m) stored axial force of the mixed Newton, or NULL [N] */
   const double *gravity; /* (3) [m/s2] */
+
+  /* Axial strains, for dashpots: the change of length of an edge that turns cannot be told from
+   * its nodes' velocities over a step. While a stage is solved: that from which its rate counts
+   * (the same mean of earlier ones as the stage's positions start from) and the one that goes with
+   * tension. At a state: the rate, for read-outs. NULL: rates are those of the velocities. */
+  const double *strain_past; /* (m) [-] */
+  const double *strain;      /* (m) [-] */
+  const double *strain_rate; /* (m) [1/s] */
+
   const double *hold_directors; /* (holds x 2 x 3) directors of the holds [-] */
   const double *hold_turns;     /* the same size: rates of the directors [1/s] */
   int cautious;                 /* iterations do not converge: overestimate stiffness that jumps */
@@ -73,6 +83,7 @@ typedef struct sw_field {
   double energy;       /* [J] */
   double bending;      /* part of energy that corrects the wire's own bending, or what else the
                           force says that it corrects [J] */
+  double power;        /* taken from the motion, by forces that dissipate [W] */
 
   /* of particles with a web; NULL for nodes one after another */
   double *blocks;          /* values of the matrix, 3 x 3 blocks [N/m] */

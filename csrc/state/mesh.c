@@ -7,13 +7,14 @@
 #include "base/alloc.h"
 #include "state/hinge.h"
 
-enum { ARRAYS = 11, PLAIN = 5 }; /* the later ones with frames only */
+enum { ARRAYS = 12, PLAIN = 6 }; /* the later ones with frames only */
 
 /* The arrays and their doubles per node. */
 static void arrays(sw_mesh *m, double **out[ARRAYS], size_t width[ARRAYS]) {
-  double **const all[ARRAYS] = {&m->s,      &m->tension,     &m->x,     &m->v,    &m->a,   &m->rest,
-                                &m->normal, &m->rest_normal, &m->twist, &m->turn, &m->spin};
-  static const size_t widths[ARRAYS] = {1, 1, 3, 3, 3, 3, 3, 3, 1, 1, 1};
+  double **const all[ARRAYS] = {&m->s,           &m->tension, &m->rate, &m->x,
+                                &m->v,           &m->a,       &m->rest, &m->normal,
+                                &m->rest_normal, &m->twist,   &m->turn, &m->spin};
+  static const size_t widths[ARRAYS] = {1, 1, 1, 3, 3, 3, 3, 3, 3, 1, 1, 1};
   memcpy(out, all, sizeof all);
   memcpy(width, widths, sizeof widths);
 }
@@ -260,6 +261,7 @@ sw_status sw_mesh_insert(sw_mesh *m, size_t edge, double s) {
       memmove(*at[k] + width[k] * (i + 1), *at[k] + width[k] * i, width[k] * tail * sizeof(double));
   m->s[i] = s;
   m->tension[i] = m->tension[edge];
+  m->rate[i] = m->rate[edge];
   sw_store(m->x + 3 * i, x);
   sw_store(m->v + 3 * i, v);
   sw_store(m->a + 3 * i, a);
@@ -285,6 +287,7 @@ void sw_mesh_remove(sw_mesh *m, size_t i) {
   size_t width[ARRAYS];
   const double a = m->s[i] - m->s[i - 1], b = m->s[i + 1] - m->s[i];
   m->tension[i - 1] = (a * m->tension[i - 1] + b * m->tension[i]) / (a + b);
+  m->rate[i - 1] = (a * m->rate[i - 1] + b * m->rate[i]) / (a + b);
   if (m->rest) {
     merge_units(m->normal, i, a, b);
     merge_units(m->rest_normal, i, a, b);

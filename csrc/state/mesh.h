@@ -17,6 +17,7 @@ typedef struct sw_mesh {
   double *x, *v;   /* (n x 3) [m], [m/s] */
   double *a;       /* (n x 3) of the last step, good while nothing jumps [m/s2] */
   double *tension; /* (n) of the edge that starts at each node; last unused [N] */
+  double *rate;    /* (n) the same: rate of its strain, where dashpots know it [1/s] */
   double EA;       /* to keep edge strains when nodes move [N] */
   double spacing;  /* of the even nodes it was made of, before holds moved and added some [m] */
   int drawn;       /* 1: as it was drawn, nothing has moved yet */

@@ -109,15 +109,26 @@ static void set_mass(sw_plan *p, size_t i) {
   if (i < p->edges) p->mass_next[i] = after / 6.0;
 }
 
+size_t sw_plan_first(const sw_plan *p, double s) {
+  size_t low = 0, high = p->nodes;
+  while (low < high) {
+    const size_t middle = (low + high) / 2;
+    if (p->s[middle] < s)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
+
 static void set_holds(sw_plan *p, const sw_hold_place *holds, size_t count) {
   for (size_t k = 0; k < count; k++)
-    for (size_t i = 0; i < p->nodes; i++)
-      if (p->s[i] >= holds[k].s1 && p->s[i] <= holds[k].s2) p->held[i] = SW_HELD;
+    for (size_t i = sw_plan_first(p, holds[k].s1); i < p->nodes && p->s[i] <= holds[k].s2; i++)
+      p->held[i] = SW_HELD;
   for (size_t i = 1; i + 1 < p->nodes; i++) p->hinge[i] = 0.5 * (p->rest[i - 1] + p->rest[i]);
   for (size_t k = 0; k < count; k++) {
     if (!holds[k].clamped) continue;
-    for (size_t i = 0; i < p->nodes; i++) {
-      if (!(p->s[i] >= holds[k].s1 && p->s[i] <= holds[k].s2)) continue;
+    for (size_t i = sw_plan_first(p, holds[k].s1); i < p->nodes && p->s[i] <= holds[k].s2; i++) {
       p->hinge[i] = 0.0;
       if (p->s[i] == holds[k].s1) add_clamp(p, i, -1, holds[k].hold, &holds[k].give[0]);
       if (p->s[i] == holds[k].s2) add_clamp(p, i, +1, holds[k].hold, &holds[k].give[1]);
@@ -125,11 +136,11 @@ static void set_holds(sw_plan *p, const sw_hold_place *holds, size_t count) {
   }
 }
 
-/* The nearest clamp hinge after edge `from` that ends an edge, or clamp_count. */
-static size_t next_arriving(const sw_plan *p, size_t from) {
+/* The nearest clamp hinge of an edge from `from` on that looks to this side, or clamp_count. */
+static size_t next_clamp(const sw_plan *p, int side, size_t from) {
   size_t best = p->clamp_count;
   for (size_t c = 0; c < p->clamp_count; c++) {
-    if (p->clamps[c].side > 0 || p->clamps[c].edge < from) continue;
+    if (p->clamps[c].side != side || p->clamps[c].edge < from) continue;
     if (best == p->clamp_count || p->clamps[c].edge < p->clamps[best].edge) best = c;
   }
   return best;
@@ -143,16 +154,17 @@ static double span_length(const sw_plan *p, const sw_span *span) {
 }
 
 static void set_spans(sw_plan *p) {
-  for (size_t e = 0; e < p->edges; e++)
-    for (size_t c = 0; c < p->clamp_count; c++) {
-      if (p->clamps[c].side < 0 || p->clamps[c].edge != e) continue;
-      const size_t right = next_arriving(p, e);
-      if (right == p->clamp_count) continue;
-      const size_t last = p->clamps[right].edge;
-      sw_span *span = &p->spans[p->span_count++];
-      *span = (sw_span){.first = e, .last = last, .left = c, .right = right};
-      span->length = span_length(p, span);
-    }
+  for (size_t e = 0; e < p->edges; e++) {
+    const size_t left = next_clamp(p, 1, e);
+    if (left == p->clamp_count) return;
+    e = p->clamps[left].edge;
+    const size_t right = next_clamp(p, -1, e);
+    if (right == p->clamp_count) return;
+    const size_t last = p->clamps[right].edge;
+    sw_span *span = &p->spans[p->span_count++];
+    *span = (sw_span){.first = e, .last = last, .left = left, .right = right};
+    span->length = span_length(p, span);
+  }
 }
 
 /* A plan with room for n nodes and all that goes with so many holds. */

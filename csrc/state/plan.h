@@ -102,6 +102,9 @@ typedef struct sw_hold_place {
 sw_status sw_plan_new(const sw_beam *beam, const double *s, size_t n, const sw_hold_place *holds,
                       size_t hold_count, sw_plan **out);
 
+/* The first node at arc length s or after it; nodes when there is none [m]. */
+size_t sw_plan_first(const sw_plan *plan, double s);
+
 /* Which of its web's shapes a solid element has. */
 size_t sw_plan_shape(const sw_plan *plan, const sw_web_solid *element);
 

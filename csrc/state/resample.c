@@ -259,6 +259,7 @@ sw_status sw_mesh_resample(const sw_mesh *from, const double *s, size_t count, c
   }
   for (size_t e = 0; e + 1 < count; e++) {
     out->tension[e] = edge_value_at(&p, from->tension, middle(out, e));
+    out->rate[e] = edge_value_at(&p, from->rate, middle(out, e));
     p.want[e] = (s[e + 1] - s[e]) * edge_value_at(&p, rate, middle(out, e));
   }
   give_strains(&p);

@@ -31,13 +31,13 @@ static void expect_rising(sw_tape *t, const double *s, size_t n) {
 }
 
 void sw_tape_mesh(sw_tape *t, sw_mesh *x) {
-  SW_TAPE_STRUCT(t, sw_mesh, 136);
+  SW_TAPE_STRUCT(t, sw_mesh, 144);
   sw_tape_count(t, &x->n, sizeof *x->s);
   DOUBLE(EA), DOUBLE(spacing), DOUBLE(scale), INT(drawn);
   const size_t n = x->n;
   int framed = x->rest != NULL;
   sw_tape_int(t, &framed);
-  ARRAY(s, n), ARRAY(x, 3 * n), ARRAY(v, 3 * n), ARRAY(a, 3 * n), ARRAY(tension, n);
+  ARRAY(s, n), ARRAY(x, 3 * n), ARRAY(v, 3 * n), ARRAY(a, 3 * n), ARRAY(tension, n), ARRAY(rate, n);
   if (framed) {
     ARRAY(rest, 3 * n), ARRAY(normal, 3 * n), ARRAY(rest_normal, 3 * n);
     ARRAY(twist, n), ARRAY(turn, n), ARRAY(spin, n);

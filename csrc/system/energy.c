@@ -8,18 +8,21 @@
 /* Where what is followed from step to step lies in the state. */
 static double *followed(const sw_system *s) { return s->tension + s->edges; }
 
-void sw_system_look_at(sw_system *s, sw_glance *g, const double *x, const double *v) {
-  *g = (sw_glance){s->x, s->v};
+void sw_system_look_at(sw_system *s, sw_glance *g, const double *x, const double *v,
+                       const double *rates) {
+  *g = (sw_glance){s->x, s->v, s->strain_rate};
   memcpy(s->aside, followed(s), s->follow_size * sizeof *s->aside);
   if (s->follow_size) sw_system_follow(s, x);
   /* read only from here on */
   s->x = (double *)(uintptr_t)x;
   s->v = (double *)(uintptr_t)v;
+  s->strain_rate = (double *)(uintptr_t)rates;
 }
 
 void sw_system_look_back(sw_system *s, const sw_glance *g) {
   s->x = g->x;
   s->v = g->v;
+  s->strain_rate = g->rates;
   memcpy(followed(s), s->aside, s->follow_size * sizeof *s->aside);
 }
 
@@ -33,6 +36,8 @@ static void aim(sw_system *s, sw_body *b, int lumped) {
   f->hold_directors = s->directors_now;
   f->hold_normals = s->normals_now;
   f->hold_turns = s->directors_rate;
+  f->strain_past = f->strain = NULL;
+  f->strain_rate = b->axial_time > 0 && s->strain_rate ? s->strain_rate + b->first_edge : NULL;
   f->tension = lumped ? NULL : s->tension + b->first_edge;
   f->twist = b->has_twist ? s->twist + b->first_span : NULL;
   sw_field_geometry(f);
@@ -96,20 +101,29 @@ static double power_of(const sw_field *f) {
   return sum;
 }
 
+/* Some know it better than their forces and the velocities tell: see field.h. */
+static sw_status power_of_term(const sw_term *term, sw_field *f, double *power, sw_error *err) {
+  const int knows = (term->cls->flags & SW_FORCE_POWER) != 0;
+  f->want = knows ? SW_WANT_POWER : SW_WANT_FORCE;
+  f->power = 0;
+  sw_field_clear(f);
+  SW_TRY(sw_term_eval(term, f, err));
+  *power = knows ? -f->power : power_of(f);
+  return SW_OK;
+}
+
 sw_status sw_system_powers(sw_system *s, double time, sw_powers *out, sw_error *err) {
   *out = (sw_powers){0};
   for (size_t k = 0; k < s->body_count; k++) {
     sw_body *b = &s->bodies[k];
     for (size_t i = 0; i < b->term_count; i++) {
       const sw_term *term = &b->terms[i];
+      double power;
       if (!has_power(term->cls)) continue;
-      b->field.want = SW_WANT_FORCE;
-      sw_field_clear(&b->field);
       b->field.time = time;
       b->field.velocity_rate = 0;
       b->field.statics = 0;
-      SW_TRY(sw_term_eval(term, &b->field, err));
-      const double power = power_of(&b->field);
+      SW_TRY(power_of_term(term, &b->field, &power, err));
       if (term->cls->flags & SW_FORCE_DISSIPATIVE)
         out->damping -= power;
       else

@@ -7,12 +7,14 @@
 
 /* What sw_system_look_at keeps aside. */
 typedef struct sw_glance {
-  double *x, *v;
+  double *x, *v, *rates;
 } sw_glance;
 
-/* The system as it would be with nodes at x and velocities v (freedoms each), holds as last placed
- * and axial forces as stored; read-outs tell of that until sw_system_look_back. */
-void sw_system_look_at(sw_system *system, sw_glance *glance, const double *x, const double *v);
+/* The system as it would be with nodes at x and velocities v (freedoms each), rates of strain
+ * (edges, or NULL: those of the velocities), holds as last placed and axial forces as stored;
+ * read-outs tell of that until sw_system_look_back. */
+void sw_system_look_at(sw_system *system, sw_glance *glance, const double *x, const double *v,
+                       const double *rates);
 void sw_system_look_back(sw_system *system, const sw_glance *glance);
 
 typedef struct sw_energies {

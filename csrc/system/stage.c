@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "base/simd.h"
 #include "solve/band3.h"
 #include "solve/blocks.h"
@@ -14,6 +15,7 @@
 #include "system/join.h"
 #include "system/link.h"
 #include "system/spin.h"
+#include "system/strain.h"
 #include "system/system.h"
 #include "system/twist.h"
 #include "system/web.h"
@@ -99,6 +101,10 @@ sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, c
   f->x = y + 3 * b->first_node;
   f->v = v + 3 * b->first_node;
   f->tension = s->tension + b->first_edge;
+  const int rates = s->strain_past && b->axial_time > 0;
+  f->strain_past = rates ? s->strain_past + b->first_edge : NULL;
+  f->strain = rates ? s->strain_now + b->first_edge : NULL;
+  f->strain_rate = NULL;
   f->gravity = s->gravity;
   f->hold_directors = s->directors_now;
   f->hold_normals = s->normals_now;
@@ -166,6 +172,7 @@ static sw_status assemble_and_solve(sw_system *s, const sw_stage *stage, const s
              s->delta + 3 * b->first_node);
   }
   report->negative = 0;
+  if (sw_interrupted()) return SW_EINTR;
   if (sw_links_any(s)) SW_TRY(sw_links_solve(s, &report->negative));
   for (size_t b = 0; b < s->body_count; b++) {
     sw_body *body = &s->bodies[b];
@@ -224,6 +231,7 @@ static double apply(sw_system *s, const sw_stage *stage, const sw_newton *newton
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
     const double turn2 = advance_axial(s, body);
+    if (s->strain_past) sw_strain_advance(s, body);
     if (body->plan->web)
       share = fmin(share, sw_web_share(body, body->field.x, s->delta + 3 * body->first_node));
     if (body->plan->web && newton->statics)
@@ -246,6 +254,7 @@ static double apply(sw_system *s, const sw_stage *stage, const sw_newton *newton
   else
     for (size_t e = 0; e < s->edges; e++)
       s->tension[e] += share * (s->tension_new[e] - s->tension[e]);
+  if (s->strain_past) sw_strain_take(s, share);
   return share;
 }
 
@@ -388,12 +397,12 @@ static void finish(sw_system *s, const sw_stage *stage, int statics) {
  * let go. From this iteration on they have it. */
 enum { STEADY = 7 };
 
-sw_status sw_system_stage(sw_system *s, const sw_stage *stage, const sw_newton *newton,
-                          sw_stage_report *report, sw_error *err) {
-  *report = (sw_stage_report){0};
+static sw_status solve(sw_system *s, const sw_stage *stage, const sw_newton *newton,
+                       sw_stage_report *report, sw_error *err) {
   SW_TRY(begin(s, stage, newton->statics, err));
   for (int i = 1; i <= newton->max_iterations; i++) {
     report->iterations = i;
+    if (sw_interrupted()) return SW_EINTR;
     if (i == STEADY && !newton->statics) sw_spin_slow_down(s, 1.0 / (stage->hbar * stage->hbar));
     SW_TRY(solve_once(s, stage, newton, report, err));
     const double share = apply(s, stage, newton, report);
@@ -407,8 +416,18 @@ sw_status sw_system_stage(sw_system *s, const sw_stage *stage, const sw_newton *
   return sw_fail(err, SW_ENOCONV, "no convergence in %d iterations", newton->max_iterations);
 }
 
+sw_status sw_system_stage(sw_system *s, const sw_stage *stage, const sw_newton *newton,
+                          sw_stage_report *report, sw_error *err) {
+  *report = (sw_stage_report){0};
+  if (stage->strain_past) sw_strain_begin_stage(s, stage);
+  const sw_status status = solve(s, stage, newton, report, err);
+  sw_strain_end_stage(s);
+  return status;
+}
+
 sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const double *v,
                                  double *a, sw_error *err) {
+  if (sw_interrupted()) return SW_EINTR;
   SW_TRY(sw_system_place_holds(s, t, NULL, NULL, a, err));
   for (size_t b = 0; b < s->body_count; b++) {
     sw_body *body = &s->bodies[b];
@@ -416,7 +435,7 @@ sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const 
     f->want = SW_WANT_FORCE;
     f->time = t;
     f->velocity_rate = 0;
-    f->tension = NULL;
+    f->tension = f->strain_past = f->strain = f->strain_rate = NULL;
     f->gravity = s->gravity;
     f->hold_directors = s->directors_now;
     f->hold_normals = s->normals_now;

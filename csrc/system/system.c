@@ -10,6 +10,7 @@
 #include "system/link.h"
 #include "system/roll.h"
 #include "system/spin.h"
+#include "system/strain.h"
 #include "system/twist.h"
 #include "system/web.h"
 
@@ -42,6 +43,7 @@ void sw_system_free(sw_system *system) {
   sw_free(system->directors);
   sw_free(system->hold_states);
   sw_free(system->state);
+  sw_free(system->pull_block);
   sw_free(system->work);
   memset(system, 0, sizeof *system);
 }
@@ -141,22 +143,35 @@ sw_status sw_system_add_term(sw_system *system, size_t body, const sw_force_clas
   if (cls->flags & SW_FORCE_EXPLICIT) b->is_explicit = 1;
   if (cls->commit) b->is_kinked = 1;
   if (!(cls->flags & SW_FORCE_INNER) || (cls->flags & SW_FORCE_EXPLICIT)) b->needs_velocity = 1;
+  if (cls->axial_time) b->axial_time += cls->axial_time(term->args);
   return SW_OK;
 }
 
 /* --- histories -------------------------------------------------------------- */
 
+sw_status sw_system_grow_state(sw_system *s, size_t more, double **added) {
+  double *state = sw_alloc(s->state_size + more, sizeof *state); /* zeros */
+  if (!state) return SW_ENOMEM;
+  memcpy(state, s->state, s->state_size * sizeof *state);
+  if (s->strain) s->strain = state + (s->strain - s->state), s->strain_rate = s->strain + s->edges;
+  sw_free(s->state);
+  s->state = state;
+  *added = state + s->state_size;
+  s->state_size += more;
+  lay_out(s);
+  return SW_OK;
+}
+
 sw_status sw_system_add_histories(sw_system *s) {
-  size_t size = s->state_size;
+  double *next;
+  size_t size = 0;
+  SW_TRY(sw_system_add_strains(s));
   for (size_t b = 0; b < s->body_count; b++)
     for (size_t k = 0; k < s->bodies[b].term_count; k++)
       if (s->bodies[b].terms[k].cls->state_size)
         size += s->bodies[b].terms[k].cls->state_size(s->bodies[b].plan);
-  if (size == s->state_size) return SW_OK;
-  double *state = sw_alloc(size, sizeof *state); /* zeros */
-  if (!state) return SW_ENOMEM;
-  memcpy(state, s->state, s->state_size * sizeof *state);
-  double *next = state + s->state_size;
+  if (!size) return SW_OK;
+  SW_TRY(sw_system_grow_state(s, size, &next));
   for (size_t b = 0; b < s->body_count; b++)
     for (size_t k = 0; k < s->bodies[b].term_count; k++) {
       sw_term *term = &s->bodies[b].terms[k];
@@ -164,10 +179,6 @@ sw_status sw_system_add_histories(sw_system *s) {
       term->history = next;
       next += term->cls->state_size(s->bodies[b].plan);
     }
-  sw_free(s->state);
-  s->state = state;
-  s->state_size = size;
-  lay_out(s);
   return SW_OK;
 }
 
@@ -264,9 +275,12 @@ static void aim(sw_system *s, sw_body *b, const double *x, const double *v) {
   f->hold_directors = s->directors_now;
   f->hold_normals = s->normals_now;
   f->hold_turns = s->directors_rate;
+  f->strain = f->strain_past = NULL;
+  f->strain_rate = b->axial_time > 0 ? s->strain_rate + b->first_edge : NULL;
 }
 
 void sw_system_refresh(sw_system *s) {
+  sw_system_add_up_pull(s);
   for (size_t b = 0; b < s->body_count; b++) {
     sw_body *body = &s->bodies[b];
     aim(s, body, s->x, s->v);
@@ -316,6 +330,8 @@ void sw_system_axial_from_state(sw_system *s) {
       T[e] = (strain >= 0 ? body->EA : body->EA_push) * strain;
     }
   }
+  sw_system_strain_from_state(s);
+  for (size_t b = 0; b < s->body_count; b++) sw_system_rate_from_velocity(s, b);
 }
 
 double sw_body_kinetic(const sw_system *s, size_t body, int lumped) {

@@ -27,6 +27,7 @@ typedef struct sw_body {
   sw_plan *plan;
   size_t first_node, first_edge; /* place in the system's arrays */
   double EA, EA_push;            /* axial stiffness pulled and pushed [N] */
+  double axial_time; /* axial dashpots: EA times this and the rate of strain is their force [s] */
   sw_term *terms;
   size_t term_count;
   sw_field field;
@@ -63,6 +64,7 @@ typedef struct sw_body {
   int web_factored; /* 1: there is a factor of this step that leads iterations */
   int web_slow;     /* 1: it did not lead them fast enough in this step */
   int linked;       /* its matrix is part of the links' (see system/link.h) */
+  double pushed;    /* largest push for which the scene looked whether it buckles [N] */
 } sw_body;
 
 /* Where a hold is, for all nodes it holds. */
@@ -85,6 +87,18 @@ typedef struct sw_held_node {
 
 typedef struct sw_system sw_system;
 
+enum { SW_BOOK_STAGES = 2 };
+
+/* How the impulse from a step's start up to a stage, of what acts from outside, is made up of
+ * forces and earlier impulses, as the stage's velocity is. */
+typedef struct sw_booking {
+  int stage;     /* number; what it had before is replaced [-] */
+  double own;    /* share of the forces of the last evaluation [s] */
+  double start;  /* of those at the step's start, which the last step ended with [s] */
+  double first;  /* of the impulse up to stage 0, as it was [-] */
+  double before; /* of that of the step before, backwards [-] */
+} sw_booking;
+
 /* What acts besides the wires' own forces. Every function may be NULL. All get
  * user first. */
 typedef struct sw_coupling {
@@ -102,6 +116,8 @@ typedef struct sw_coupling {
   sw_status (*keeps)(void *user, sw_system *system, const double *y, int *out, sw_error *err);
   /* After an update y was reached by the solved delta: 1 = converged. */
   int (*settled)(void *user, sw_system *system, const double *y, const double *delta);
+  /* A stage was solved, or an explicit method has evaluated: book the impulse. */
+  void (*book)(void *user, const sw_booking *booking);
 } sw_coupling;
 
 typedef struct sw_counters {
@@ -140,11 +156,13 @@ struct sw_system {
 
   /* the state, one block: x v a (nodes x 3, then turns of edges that roll, each), tension (edges),
    * twist (spans) [rad], turn (holds x 4: the holds' orientations that go with it), frames of each
-   * body that has them (3 components of all edges, then hinges' and clamps' twist [rad]), forces'
-   * histories */
+   * body that has them (3 components of all edges, then hinges' and clamps' twist [rad]), strain
+   * and strain_rate, forces' histories */
   double *state;
   size_t state_size; /* in doubles */
   double *x, *v, *a, *tension, *twist, *turn, *frames;
+  /* (edges) axial strain and its rate; NULL when no force has axial dashpots [-], [1/s] */
+  double *strain, *strain_rate;
   size_t span_count;
   size_t follow_size; /* of twist, turn and frames, if there is twist or a frame: else 0 */
   double *aside;      /* (follow_size) room for them */
@@ -152,8 +170,13 @@ struct sw_system {
   /* work space of a stage (freedoms) */
   double *yhat, *delta, *velocity;
   double *tension_new; /* (edges) */
-  double *factor_at;   /* (freedoms) positions for which the factors were made, where they may
-                          serve again [m] */
+  /* of axial dashpots (edges): the stage's, while one is solved that has rates, else NULL; after
+   * an update; axial forces of the state with the dashpots' [-], [-], [N] */
+  const double *strain_past;
+  double *strain_now, *strain_new, *pull;
+  void *pull_block;
+  double *factor_at; /* (freedoms) positions for which the factors were made, where they may
+                        serve again [m] */
   void *work;
 };
 
@@ -174,6 +197,10 @@ typedef struct sw_stage {
   double *y;          /* out: positions [m] */
   double *v;          /* out: velocities [m/s] */
   double *a;          /* out: accelerations, or NULL [m/s2] */
+  /* where there are axial dashpots (edges): strain rate = (strain - strain_past)/hbar; without
+   * them, and in statics, NULL [-] */
+  const double *strain_past;
+  double *strain; /* in: a guess, out: of the solved stage [-] */
 } sw_stage;
 
 typedef struct sw_stage_report {
@@ -228,6 +255,11 @@ static inline sw_status sw_term_eval(const sw_term *term, sw_field *field, sw_er
  * histories up to it. */
 void sw_system_commit(sw_system *system, double time);
 
+/* What commit has found in a body's term; 1: there is something to tell. */
+static inline int sw_term_news(const sw_term *term, sw_force_news *out) {
+  return term->cls->news && term->history && term->cls->news(term->args, term->history, out);
+}
+
 /* Work dissipated by the forces with a history [J]; *any: there are such. */
 double sw_system_dissipated(const sw_system *system, int *any);
 
@@ -279,6 +311,16 @@ void sw_system_axial_from_state(sw_system *system);
  * solved stage [N], [N m]. */
 void sw_system_reaction(const sw_system *system, int hold, sw_vec point, sw_vec *force,
                         sw_vec *moment);
+
+/* Axial forces of a body's edges or springs at the refreshed state, those of dashpots included
+ * (sw_plan_axial) [N]. */
+const double *sw_system_pull(const sw_system *system, const sw_body *body);
+
+/* The state has just been filled, or has come to rest: strains as its axial forces and lengths
+ * have them, and their rates, which are zero then. */
+void sw_system_strain_from_state(sw_system *system);
+/* The velocities were given and are exact: rates of strain of a body as they have them. */
+void sw_system_rate_from_velocity(sw_system *system, size_t body);
 
 /* Kinetic energy of the state with consistent (implicit) masses [J]. */
 double sw_system_kinetic(const sw_system *system, int lumped);

@@ -253,6 +253,7 @@ sw_status sw_system_inner_forces(sw_system *s, size_t body, double *out, sw_erro
   f->want = SW_WANT_FORCE;
   f->gravity = none; /* which is among the terms */
   f->x = s->x + 3 * b->first_node, f->v = s->v + 3 * b->first_node;
+  f->strain_past = f->strain = f->strain_rate = NULL;
   sw_body_begin(b);
   for (size_t k = 0; k < b->term_count; k++)
     if ((b->terms[k].cls->flags & (SW_FORCE_INNER | SW_FORCE_EXPLICIT)) == SW_FORCE_INNER)

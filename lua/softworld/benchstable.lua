@@ -167,7 +167,8 @@ function stable.measure(integrator, w, model, modes, rounds)
   local expected = stable.expected(integrator, modes)
   local function bounded(dt)
     scene:restore(snapshot)
-    local r = scene:advance({ dt = dt, integrator = integrator }, stable.steps * dt)
+    local r = scene:advance({ dt = dt, integrator = integrator, unstable = true },
+      stable.steps * dt)
     return r.ok and r.rejected == 0 and scene:energy().total < stable.blown * start
   end
   local found, how = stable.largest(bounded, expected / 1.5, expected * 1.5, rounds or 9)

@@ -4,7 +4,9 @@
 -- @module softworld.build
 local core = require "softworld.core"
 local cable = require "softworld.cable"
+local checks = require "softworld.checks"
 local meshfile = require "softworld.meshfile"
+local remarks = require "softworld.remarks"
 
 local build = {}
 local class = core.class
@@ -198,6 +200,7 @@ function class.scene.wire(scene, args)
     local kept = core.data(wire)
     kept.cable, kept.use = entry, use
   end
+  remarks.wire(data, wire, args)
   return wire
 end
 
@@ -211,6 +214,7 @@ function class.wire.cable(wire)
 end
 
 local Limit = { __name = "bend limit" }
+Limit.__index = checks.fields("bend limit", "name ok radius s t limit inside use")
 
 function Limit.__tostring(l)
   return ("%s: smallest bend radius %.4g m, limit %.4g m (%s): %s"):format(l.name, l.radius, l.limit,
@@ -227,11 +231,7 @@ function class.wire.bend_limit(wire, options)
   if core.type(wire) ~= "wire" then error("wire:bend_limit is a method: call it with a colon", 2) end
   build.call(3, name_of, wire)
   options = table_of(options, "wire:bend_limit")
-  for key in pairs(options) do
-    if key ~= "use" and key ~= "now" then
-      error(("wire:bend_limit has no parameter '%s'; known are: now use"):format(tostring(key)), 2)
-    end
-  end
+  checks.keys("wire:bend_limit", options, { use = true, now = true }, 3)
   local kept = core.data(wire)
   if not kept.cable then
     error(("wire '%s' was not made from a cable of the catalogue: it has no bend limit"):format(wire.name), 2)
@@ -257,18 +257,27 @@ function class.scene.particles(scene, args)
 end
 
 local new_obstacle = class.scene.obstacle
+
+local function obstacle_from(scene, args, path)
+  if not path then return new_obstacle(scene, args) end
+  local fine, result = pcall(new_obstacle, scene, args)
+  if not fine then error(meshfile.named(result, path), 0) end
+  return result
+end
+
 --- scene:obstacle{ shape =, ... }: see help "obstacle". `file` reads a mesh.
 function class.scene.obstacle(scene, args)
   build.check(scene, "scene:obstacle", 3)
   args = table_of(args, "scene:obstacle")
   local data = build.data(scene)
-  if args.file ~= nil then
-    local mesh = build.call(3, meshfile.read, args.file)
+  local path = args.file
+  if path ~= nil then
+    local mesh = build.call(3, meshfile.read, path)
     args.data, args.format, args.file = mesh.data, args.format or mesh.format, nil
   end
   local kind = type(args.shape) == "string" and args.shape or "obstacle"
   args.name = build.name(scene, args.name, kind, #data.obstacles, 3)
-  local obstacle = build.call(3, new_obstacle, scene, args)
+  local obstacle = build.call(3, obstacle_from, scene, args, path)
   local entry = copy(args)
   entry.object, entry.data = obstacle, nil
   data.obstacles[#data.obstacles + 1] = entry -- in the order of the core's, whatever fails next
@@ -276,6 +285,7 @@ function class.scene.obstacle(scene, args)
     entry.vertices, entry.indices = obstacle.shape:triangles()
     for i, corner in ipairs(entry.indices) do entry.indices[i] = corner - 1 end
   end
+  remarks.obstacle(data, entry, scene.time)
   return obstacle
 end
 
@@ -301,6 +311,7 @@ local new_contact = class.scene.wire_contact
 -- themselves from now on; see help "wire_contact".
 function class.scene.wire_contact(scene, args)
   build.check(scene, "scene:wire_contact", 3)
+  remarks.on("wire_contact", "wire_contact", args)
   build.call(3, new_contact, scene, args)
   build.data(scene).touching = true
 end

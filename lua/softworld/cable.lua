@@ -21,6 +21,7 @@
 -- it never follows from E and nu, which a bundle of strands does not have.
 -- @module softworld.cable
 local core = require "softworld.core"
+local methods = require "softworld.methods"
 local keep = require "softworld.keep"
 local bendrule = require "softworld.bendrule"
 local material = require "softworld.material"
@@ -394,8 +395,17 @@ local function bend_limit(self, use, diameter)
   return factor * diameter, (factor + 0.5) * diameter, use
 end
 
+local function of_entry(name, f)
+  return function(self, ...)
+    if getmetatable(self) ~= Entry then
+      error(("cable.%s: a cable is wanted, as sw.cable gives it, got %s"):format(name, type(self)), 2)
+    end
+    return f(self, ...)
+  end
+end
+
 -- For other modules: errors without a place.
-cable.section, cable.bend_limit = section, bend_limit
+cable.section, cable.bend_limit = of_entry("section", section), of_entry("bend_limit", bend_limit)
 
 --- Parameters of scene:wire: EA [N], EI, GJ [N m2], mass_per_length [kg/m], radius
 -- [m]. stiffness: "default", or "slip" or "stick" for a bound of EI and GJ.
@@ -435,5 +445,7 @@ function Entry:__tostring()
   lines[#lines + 1] = "    " .. table.concat(limits, ", ")
   return table.concat(lines, "\n")
 end
+
+methods.guard_table("cable", Entry)
 
 return setmetatable(cable, { __call = function(_, name) return (placed(3, pcall(cable.get, name))) end })

@@ -80,6 +80,7 @@ end
 
 --- What the core gives of a calibration, with the mesh's name, made to print.
 function calibrate.named(c, mesh)
+  if type(c) ~= "table" then error("calibrate.named: a calibration is wanted, got " .. type(c), 2) end
   c.mesh = mesh
   return setmetatable(c, Calibration)
 end

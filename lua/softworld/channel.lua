@@ -9,14 +9,16 @@
 --
 -- @module softworld.channel
 local core = require "softworld.core"
+local checks = require "softworld.checks"
 local build = require "softworld.build"
 local fixing = require "softworld.fixing"
+local remarks = require "softworld.remarks"
 local vec = require "softworld.vec"
 
 local dot, cross, add, unit, norm = vec.dot, vec.cross, vec.add, vec.unit, vec.norm
 
 local properties = {}
-local Channel = fixing.class("channel", properties, { "lids" })
+local Channel = fixing.class("channel", properties, { "lids", "count" })
 local known = { name = true, points = true, width = true, depth = true, thickness = true,
   friction = true, restitution = true, up = true, lid = true }
 local SHARPEST = 0.3 -- cosine between a leg and the mitre's normal; below it corners are spikes
@@ -150,6 +152,7 @@ local function checked(scene, args)
 end
 
 local function make(scene, given)
+  remarks.on("channel", "scene:channel", given)
   local args, what = checked(scene, given)
   local self = { name = args.name, scene = scene, width = args.width, depth = args.depth,
     thickness = args.thickness, friction = args.friction, restitution = args.restitution }
@@ -202,6 +205,7 @@ end
 --- Moment of all wires on the channel about a point (default: its first one) [N m].
 function Channel:moment(args)
   fixing.check(self, Channel, "moment")
+  if args ~= nil then checks.keys("channel:moment", args, { at = true }, 3) end
   local at = args and args.at and build.call(3, fixing.vector, "channel:moment", "at", args.at, "m")
     or self.legs[1].from
   local sum = { 0, 0, 0 }
@@ -297,6 +301,9 @@ end
 
 --- Rows of a run's summary.
 function Channel:report(add_row)
+  if type(add_row) ~= "function" then
+    error("channel:report: a function that adds a row is wanted, got " .. type(add_row), 2)
+  end
   for _, entry in ipairs(build.data(self.scene).wires) do
     if core.exists(entry.object) then
       local part = share(self, entry.object, self.depth)

@@ -21,6 +21,13 @@ local function names_of(known)
   return names
 end
 
+--- The words of a text as a set: { word = true, ... }.
+function checks.set(text)
+  local set = {}
+  for word in text:gmatch "%S+" do set[word] = true end
+  return set
+end
+
 --- Raise unless args is a table with keys that are known.
 function checks.keys(what, args, known, level)
   if type(args) ~= "table" then
@@ -33,6 +40,19 @@ function checks.keys(what, args, known, level)
       error(("%s: there is no parameter '%s'; %s"):format(what, shown(key), near
         and ("did you mean '" .. near .. "'?") or "known are: " .. table.concat(names, " ")), level)
     end
+  end
+end
+
+--- An __index for results that have these fields (a text of words): any other is an error that names
+-- the nearest; may_lack: words that may be nil.
+function checks.fields(what, fields, may_lack)
+  local names, silent = {}, checks.set(may_lack or "")
+  for word in fields:gmatch "%S+" do names[#names + 1] = word end
+  return function(_, key)
+    if silent[key] then return nil end
+    local near = core.nearest(tostring(key), names)
+    error(("%s has no '%s'; %s"):format(what, tostring(key), near and "did you mean '" .. near .. "'?"
+      or "it has: " .. table.concat(names, " ")), 2)
   end
 end
 

@@ -14,6 +14,7 @@
 local core = require "softworld.core"
 local build = require "softworld.build"
 local fixing = require "softworld.fixing"
+local remarks = require "softworld.remarks"
 local vec = require "softworld.vec"
 local fixshape = require "softworld.fixshape"
 
@@ -21,8 +22,9 @@ local properties = {}
 local Clip = fixing.class("clip", properties, { "on", "radius", "damper" })
 local known = { name = true, at = true, direction = true, axis = true, width = true,
   insertion = true, retention = true, radius = true, friction = true, way = true,
-  stiffness = true, snap = true, on = true }
+  stiffness = true, strength = true, snap = true, on = true }
 local EMPTY, INSERTING, SEATED = 0, 1, 2 -- the core's words
+local BROKEN = { "its floor", "a wall", "a wall from outside", [5] = "it within one step" }
 local SNAP = 2e-3 -- [s]
 local THERE = 0.5 -- share of the clip that a wire in it passes through
 
@@ -64,7 +66,7 @@ local function checked(scene, args)
   fixing.number(what, "width", args.width, "m", 0, true)
   fixing.number(what, "friction", args.friction, "", 0, false, 0)
   args.snap = fixing.number(what, "snap", args.snap, "s", 0, false, SNAP)
-  for name, unit in pairs{ radius = "m", way = "m", stiffness = "N/m" } do
+  for name, unit in pairs{ radius = "m", way = "m", stiffness = "N/m", strength = "N" } do
     if args[name] ~= nil then fixing.number(what, name, args[name], unit, 0, true) end
   end
   check_wires(scene, what, args)
@@ -83,10 +85,12 @@ local function make_damper(scene, args, time, force)
 end
 
 local function make(scene, given)
+  remarks.on("clip", "scene:clip", given)
   local args = checked(scene, given)
   local name, time = args.name, args.snap
   args.name, args.snap, args.kind = nil, nil, "clip"
   local force = scene:force(args)
+  force:call_it(name)
   local self = setmetatable({ name = name, scene = scene, object = force, at = args.at,
     damper = make_damper(scene, args, time, force), direction = args.direction, axis = args.axis,
     width = args.width, on = args.on, radius = args.radius, insertion = args.insertion,
@@ -140,10 +144,11 @@ function Clip:seated(wire)
   return false
 end
 
---- "empty", "inserting" (under the lips) or "seated".
+--- "empty", "inserting" (under the lips), "seated", or "broken" by the wire.
 function Clip:state(wire)
   local state = "empty"
   for _, r in ipairs(build.call(3, chosen, self, wire, "state")) do
+    if r.broken > 0 then return "broken" end
     if is_seated(r) then return "seated" end
     if r.share >= THERE and r.u > 0 and r.u < r.way then state = "inserting" end
   end
@@ -213,6 +218,17 @@ function properties.pulled_out(self)
     count = math.tointeger(r.removals) }
 end
 
+--- How it was broken: { time = [s], force = [N], by = "its floor" and so on, wire =, strength = [N] }
+-- of the first wire that was pressed through it, or nil.
+function properties.overloaded(self)
+  local best
+  for _, r in ipairs(chosen(self, nil, "overloaded")) do
+    if r.broken > 0 and (not best or r.broken_time < best.broken_time) then best = r end
+  end
+  return best and { time = best.broken_time, force = best.broken_force, by = BROKEN[best.broken],
+    wire = best.wire, strength = best.strength }
+end
+
 --- Of the last insertion, or of that under way [N]; 0 before.
 function properties.peak_insertion_force(self)
   local most = 0
@@ -224,6 +240,9 @@ end
 
 --- Rows of a run's summary.
 function Clip:report(add)
+  if type(add) ~= "function" then
+    error("clip:report: a function that adds a row is wanted, got " .. type(add), 2)
+  end
   local into, out = self.inserted, self.pulled_out
   if into then
     add(("%s: largest force as '%s' went in"):format(self.name, into.wire.name), into.peak_force, "N",
@@ -232,7 +251,11 @@ function Clip:report(add)
   if out then
     add(("%s: '%s' was PULLED OUT, at"):format(self.name, out.wire.name), out.peak_force, "N", nil, out.time)
   end
-  if self:seated() then
+  local broken = self.overloaded
+  if broken then
+    add(("%s: OVERLOADED, '%s' broke through %s with"):format(self.name, broken.wire.name, broken.by),
+      broken.force, "N", nil, broken.time)
+  elseif self:seated() then
     add(self.name .. ": largest pull so far, of its retention", ("%.1f %%"):format(100 * self:ratio()), "")
   elseif not out then
     add(self.name .. ": state", self:state(), "")

@@ -4,6 +4,8 @@
 -- numbers have a decimal point, `#` starts a comment line, empty lines count for
 -- nothing, a first row that is no number names the columns.
 -- @module softworld.csv
+local sink = require "softworld.output.sink"
+
 local csv = {}
 
 local function fail(name, line, column, format, ...)
@@ -145,17 +147,13 @@ function csv.read(source, options)
     error("csv.read takes a file name or CSV text, got " .. type(source), 2)
   end
   if source:find "\n" then return csv.parse(source, "text", options) end
-  local file, why = io.open(source, "rb")
-  if not file then error(("cannot read %s"):format(why), 0) end
-  local text, trouble = file:read "a"
-  file:close()
-  if not text then error(("cannot read %s: %s"):format(source, trouble or "no text"), 0) end
+  local text = sink.read_file(source)
   return csv.parse(text, source, options)
 end
 
 local function cell_text(value)
   if math.type(value) == "integer" then return ("%d"):format(value) end
-  if type(value) == "number" then return ("%.17g"):format(value) end
+  if type(value) == "number" then return sink.number(value) end
   local text = tostring(value == nil and "" or value)
   if text:find '[,;"\t\n\r#]' then text = '"' .. text:gsub('"', '""') .. '"' end
   return text
@@ -180,23 +178,10 @@ local function lines_of(names, columns)
   return lines
 end
 
-local function attempt(path, part, done, why)
-  if done then return end
-  os.remove(part)
-  error(("cannot write %s: %s"):format(path, why), 0)
-end
-
 --- Write columns (tables by name) in the order of names. Numbers keep all their
 -- digits. The file appears whole or not at all.
 function csv.write(path, names, columns)
-  local text = table.concat(lines_of(names, columns), "\n")
-  local part = ("%s.%x.part"):format(path, math.random(0, 0xffffffff))
-  local file, why = io.open(part, "wb")
-  attempt(path, part, file, why)
-  local written, trouble = file:write(text)
-  local closed, late = file:close()
-  attempt(path, part, written and closed, trouble or late)
-  attempt(path, part, os.rename(part, path))
+  return sink.write_file(path, table.concat(lines_of(names, columns), "\n"))
 end
 
 return csv

@@ -99,6 +99,15 @@ function fixing.class(kind, properties, own)
     error(("%s has no '%s'; %s"):format(kind, tostring(key), near and "did you mean '" .. near .. "'?"
       or "it has: " .. table.concat(names, " ")), 2)
   end
+  function class.__newindex(self, key, value)
+    if not known[key] then
+      local near = core.nearest(tostring(key), class.__names())
+      error(("%s has no '%s' to set%s"):format(kind, tostring(key),
+        near and ("; '%s' can only be read"):format(near)
+          or "; what it is like is given when it is made"), 2)
+    end
+    rawset(self, key, value)
+  end
   function class.__names()
     local names = { "name" }
     for _, list in ipairs{ class, properties } do

@@ -4,9 +4,11 @@
 local core = require "softworld.core"
 local build = require "softworld.build"
 local checks = require "softworld.checks"
+local grasped = require "softworld.grasped"
 local mixed = require "softworld.mixed"
 local pads = require "softworld.pads"
 local process = require "softworld.process"
+local remarks = require "softworld.remarks"
 local vec = require "softworld.vec"
 
 local grasp = { methods = {} }
@@ -44,15 +46,12 @@ local function nearest_place(wire, at)
   return place, best ^ 0.5
 end
 
+grasp.nearest_place = nearest_place
+
 -- The orientation of a tool at arc length s: x along the wire, z as far up as may be.
 local function facing(scene, wire, s)
-  local x = vec.unit(wire:tangent(s))
   local up = vec.unit(vec.scale(scene:gravity(), -1)) or { 0, 0, 1 }
-  local z = vec.unit(vec.across(up, x))
-  if not z or math.abs(vec.dot(up, x)) > 0.999 then
-    z = vec.unit(vec.across({ 0, 1, 0 }, x)) or vec.unit(vec.across({ 1, 0, 0 }, x))
-  end
-  return vec.axes(x, vec.cross(z, x))
+  return vec.facing(vec.unit(wire:tangent(s)), up)
 end
 
 --- Give the gripper its pads, where it is (at, rotation) or around the wire at s.
@@ -60,13 +59,22 @@ function grasp.make_tool(self, level, wire, s)
   local at = s and wire:position(s) or self.at or { 0, 0, 0 }
   local rotation = self.rotation or (s and facing(self.scene, wire, s)) or nil
   build.call(level, function()
-    self.tool, self.obstacles, self.opening = pads.make(self.scene, self, at, rotation,
+    self.tool, self.obstacles, self.opening = remarks.without(pads.make, self.scene, self, at, rotation,
       wire and wire.radius)
   end)
 end
 
+--- Give it a place of its own that moves: while it holds nothing, and for several wires.
+function grasp.make_carrier(self)
+  local at, q = self.at or { 0, 0, 0 }, self.rotation or self.facing or nil
+  if self.hold then at, q = self.hold:pose() end
+  self.carrier = self.scene:tool{ name = self.name, at = at, rotation = q }
+  return self.carrier
+end
+
 -- Pads open at the wire's arc length s.
 local function place_tool(self, wire, s, level)
+  if not self.tool and self.carrier then self.at = (self.carrier:pose()) end
   if not self.tool then return grasp.make_tool(self, level + 1, wire, s) end
   if s then self.tool:pose(wire:position(s), self.rotation or facing(self.scene, wire, s)) end
 end
@@ -118,6 +126,15 @@ local function react(self, event, reaction, text)
   elseif type(reaction) == "function" then reaction(self, event) end
 end
 
+-- A crash of an imposed grip, which drives the wire itself into an obstacle.
+local function look_at_hold(self)
+  local crash = self.hold:crash()
+  if not crash or crash.time == self.crash_time then return end
+  self.crash_time = crash.time
+  return react(self, { kind = "crash", time = crash.time, part = self.name, obstacle = crash.obstacle,
+    depth = crash.depth, s = self.s }, self.on_crash, crash_text)
+end
+
 -- Events of one gripper with pads; returns why the run is to stop, or nil.
 local function look_at(self)
   local now, why = self.tool:state(), nil
@@ -129,6 +146,10 @@ local function look_at(self)
   if self.held and now.slip_time and not self.slip_event then
     self.slip_event = { kind = "slip", time = now.slip_time, s = now.slip_place, distance = now.slip }
     why = react(self, self.slip_event, self.on_slip, slip_text) or why
+  end
+  if self.unchecked and self.held and now.squeeze > 0 and now.jaws ~= "moves" then
+    self.unchecked = nil
+    grasped.check(self) -- outside of a process: it is told, and the run goes on
   end
   if self.held and now.normal == 0 and not now.frozen then
     self.held = false
@@ -143,7 +164,8 @@ end
 function grasp.look(scene)
   local why
   for _, self in ipairs(build.data(scene).grippers) do
-    if self.tool then why = look_at(self) or why end
+    if self.tool then why = look_at(self) or why
+    elseif self.hold then why = look_at_hold(self) or why end
   end
   return why
 end
@@ -261,25 +283,91 @@ end
 
 -- --- grasp --------------------------------------------------------------------------
 
-local function grasp_imposed(self, wire, args)
+-- It does not move now, so that what is held besides can go with it.
+local function check_rest(self, what)
+  if (self.busy_until or -math.huge) > self.scene.time * (1 + 1e-12) + 1e-12 then
+    error(("gripper '%s' moves until t = %g s; %s after that"):format(self.name, self.busy_until, what), 0)
+  end
+end
+
+-- One with the wire at s (nil: at the place nearest to the tool).
+local function impose(self, wire, s)
+  if s == nil then
+    local at = (#self.grips > 0 or self.carrier or self.at) and self:position()
+    if not at then
+      error(("gripper '%s': give s [m], or the gripper's place at = {x, y, z} [m]"):format(self.name), 0)
+    end
+    s = nearest_place(wire, at)
+  end
+  local count = #self.past
+  if #self.grips > 0 and not self.carrier then
+    grasp.make_carrier(self)
+    self.carrier:hold(self.hold)
+    self.spans[count].carried = self.scene.time
+  end
+  local hold = self.scene:grip(wire, { s = s, width = self.width,
+    name = self.name .. (count > 0 and "#" .. count + 1 or "") })
+  local span = { from = self.scene.time }
+  if self.carrier then
+    if #self.grips == 0 then self.carrier:pose(hold:pose()) end
+    self.carrier:hold(hold)
+    span.carried = self.scene.time
+  end
+  self.past[count + 1], self.spans[count + 1] = hold, span
+  local grips = table.move(self.grips, 1, #self.grips, 1, {})
+  grips[#grips + 1] = { wire = wire, hold = hold }
+  if not self.hold then self.s = s end
+  self.grips, self.hold, self.wire = grips, self.hold or hold, self.wire or wire
+end
+
+-- Let go of one; the others stay.
+local function drop(self, wire)
+  local left = {}
+  for _, grip in ipairs(self.grips) do
+    if grip.wire == wire then
+      self.at, self.facing = grip.hold:pose()
+      grip.hold:release()
+      for i, hold in ipairs(self.past) do
+        if hold == grip.hold then self.spans[i].to = self.scene.time end
+      end
+    else
+      left[#left + 1] = grip
+    end
+  end
+  self.grips = left
+  self.hold, self.wire = left[1] and left[1].hold, left[1] and left[1].wire
+end
+
+-- All of the wires or none more than before.
+local function grasp_imposed(self, wires, args)
   if self.tool then
     error(("gripper '%s' has pads; it grasps by 'plates' or 'mixed'"):format(self.name), 3)
   end
-  local s = args.s
-  if s == nil then
-    if not self.at then
-      error(("gripper '%s': give s [m], or the gripper's place at = {x, y, z} [m]")
-        :format(self.name), 3)
+  if #self.grips > 0 then build.call(4, check_rest, self, "grasp another wire") end
+  for i, wire in ipairs(wires) do
+    local s = args.s
+    if type(s) == "table" then s = s[i] end
+    local fine, why = pcall(impose, self, wire, s)
+    if not fine then
+      for k = 1, i - 1 do drop(self, wires[k]) end
+      if type(why) ~= "string" then error(why, 0) end
+      error(build.plain(why), 3)
     end
-    s = nearest_place(wire, self.at)
   end
-  self.hold = build.call(4, self.scene.grip, self.scene, wire, { s = s, width = self.width,
-    name = self.name .. (#self.past > 0 and "#" .. #self.past + 1 or "") })
-  self.past[#self.past + 1] = self.hold
 end
 
-local function grasp_by_pads(self, wire, args)
-  local s = args.s
+-- The thickest, which must go between the pads, comes first.
+local function by_thickness(wires)
+  local list = table.move(wires, 1, #wires, 1, {})
+  table.sort(list, function(a, b) return a.radius > b.radius end)
+  return list
+end
+
+local function grasp_by_pads(self, wires, args)
+  local wire, s = by_thickness(wires)[1], args.s
+  if type(s) == "table" then
+    for i, one in ipairs(wires) do if one == wire then s = args.s[i] end end
+  end
   if s then
     checks.number(("gripper '%s': s"):format(self.name), s, 0, " m", 4, wire.length)
   elseif not self.tool and not self.at then
@@ -293,7 +381,8 @@ local function grasp_by_pads(self, wire, args)
   local order = jaw_order(self, { force = args.force, distance = args.distance, speed = args.speed },
     "gripper:grasp", 4)
   place_tool(self, wire, s, 4)
-  self.wire = wire
+  self.wire, self.grips = wire, {}
+  for i, one in ipairs(wires) do self.grips[i] = { wire = one } end
   self.s = s or nearest_place(wire, (self.tool:pose()))
   self.free_height = nil
   if self.way == "mixed" then
@@ -304,7 +393,9 @@ local function grasp_by_pads(self, wire, args)
     local _, q = self.tool:pose()
     self.free_height = wire:width(self.s, vec.rotate(q, { 0, 1, 0 }))
   end
-  move_jaws(self, order)
+  if not move_jaws(self, order) then return end
+  local text, missed = grasped.check(self)
+  if missed then error(text, 0) end
 end
 
 local grasp_keys = { s = true, approach = true, force = true, distance = true, speed = true,
@@ -326,46 +417,89 @@ local function check_words(self, approach, args, level)
   if approach ~= "mixed" then refuse(mesh_words, "'mixed'") end
 end
 
+-- The wire or list of wires as a list.
+local function wires_of(self, given)
+  local list = type(given) == "table" and given or { given }
+  if #list == 0 then error("gripper:grasp expects a wire, or a list of wires", 0) end
+  local ours, seen = {}, {}
+  for _, entry in ipairs(build.data(self.scene).wires) do ours[#ours + 1] = entry.object end
+  for _, wire in ipairs(list) do
+    if core.type(wire) ~= "wire" then
+      error("gripper:grasp expects a wire, got " .. (core.type(wire) or type(wire)), 0)
+    end
+    local known = false
+    for _, one in ipairs(ours) do known = known or one == wire end
+    if not known then
+      error(("gripper '%s': wire '%s' belongs to another scene"):format(self.name, wire.name), 0)
+    end
+    for _, one in ipairs(seen) do
+      if one == wire then
+        error(("gripper '%s': wire '%s' is in the list twice"):format(self.name, wire.name), 0)
+      end
+    end
+    seen[#seen + 1] = wire
+  end
+  return seen
+end
+
+-- May it hold these wires besides what it holds?
+local function check_free(self, wires, approach, args)
+  if type(args.s) == "table" and #args.s ~= #wires then
+    error(("gripper '%s': s has %d places for %d wires"):format(self.name, #args.s, #wires), 0)
+  end
+  if approach == "mixed" and #wires > 1 then
+    error(("gripper '%s': a mixed grasp is of one wire; take several by 'plates' or 'imposed'")
+      :format(self.name), 0)
+  end
+  for _, grip in ipairs(self.grips) do
+    for _, wire in ipairs(wires) do
+      if grip.wire == wire then
+        error(("gripper '%s' already holds wire '%s'"):format(self.name, wire.name), 0)
+      end
+    end
+  end
+  if self.wire and (approach ~= "imposed" or self.way ~= "imposed") then
+    error(("gripper '%s' already holds a wire: pads take several at once only, grasp({ a, b }, ...)")
+      :format(self.name), 0)
+  end
+end
+
 --- Take hold of wire around arc length s [m] (default: where the tool is). approach = "imposed"
 -- (default), "plates" or "mixed"; for both of these force = [N] per finger or distance = [m],
 -- with speed = [m/s] of the opening; on_slip = "record", "warn", "stop" or a function. "mixed"
 -- takes what wire:remodel does of the mesh near the pads (model, section, ...), region = [m] its
 -- length, and freeze = false to stay with the plates until gripper:freeze().
--- In a process it returns when the wire is held; elsewhere jaws begin to close.
+-- A list of wires, with one s or a list of them, is taken at once; an imposed grip also takes one
+-- wire after another. In a process it returns when the wire is held; elsewhere jaws begin to close.
 function Methods:grasp(wire, args)
   if args == nil then args = {} end
   if type(self) ~= "table" or not self.pads then error("gripper:grasp: call it with a colon", 2) end
   grasp.check_scene(self, 3)
-  if core.type(wire) ~= "wire" then
-    error("gripper:grasp expects a wire, got " .. (core.type(wire) or type(wire)), 2)
-  end
-  local ours = false
-  for _, entry in ipairs(build.data(self.scene).wires) do ours = ours or entry.object == wire end
-  if not ours then
-    error(("gripper '%s': wire '%s' belongs to another scene"):format(self.name, wire.name), 2)
-  end
+  local wires = build.call(3, wires_of, self, wire)
   checks.keys("gripper:grasp", args, grasp_keys, 3)
   local approach = args.approach or "imposed"
   checks.word(("gripper '%s': approach"):format(self.name), approach, approaches, 3)
-  if self.wire then error(("gripper '%s' already holds a wire"):format(self.name), 2) end
+  build.call(3, check_free, self, wires, approach, args)
+  remarks.on("grasp", ("gripper '%s': grasp"):format(self.name), args)
   check_words(self, approach, args, 3)
   if approach == "mixed" and not process.current() then
     error(("gripper '%s': a mixed grasp takes its time; call it in a process"):format(self.name), 2)
   end
-  self.way, self.frozen, self.held = approach, nil, false
   if args.on_slip ~= nil then grasp.set_on_slip(self, args.on_slip, 3) end
   if approach == "imposed" then
-    grasp_imposed(self, wire, args)
-    self.wire = wire
+    grasp_imposed(self, wires, args)
+    self.way, self.frozen, self.held = approach, nil, false
     return self
   end
-  local fine, why = pcall(grasp_by_pads, self, wire, args)
+  self.way, self.frozen, self.held = approach, nil, false
+  local fine, why = pcall(grasp_by_pads, self, wires, args)
   if not fine then
-    self.wire = nil
+    self.wire, self.grips = nil, {}
     if type(why) ~= "string" then error(why, 0) end
     error(build.plain(why), 2)
   end
   self.held = true
+  self.unchecked = not process.current() or nil
   grasp.watch(self)
   if approach == "mixed" and args.freeze ~= false then mixed.settle(self, args) end
   return self
@@ -374,18 +508,32 @@ end
 --- Let go; see gripper:release.
 function grasp.release(self, args)
   args = args or {}
-  checks.keys("gripper:release", args, { speed = true, distance = true }, 4)
+  checks.keys("gripper:release", args, { speed = true, distance = true, wire = true }, 4)
+  local one = args.wire
+  if one ~= nil then
+    local held = false
+    for _, grip in ipairs(self.grips) do held = held or grip.wire == one end
+    if not held then
+      error(("gripper '%s' does not hold %s"):format(self.name,
+        core.type(one) == "wire" and ("wire '%s'"):format(one.name) or "this: wire must be a wire"), 3)
+    end
+    if self.tool and #self.grips > 1 then
+      error(("gripper '%s': pads that open let go of all wires; release() without wire"):format(self.name),
+        3)
+    end
+  end
   if not self.tool then
-    self.at = self.hold:pose()
-    build.call(4, self.hold.release, self.hold)
-    self.hold, self.wire = nil, nil
+    local grips = self.grips
+    for _, grip in ipairs(grips) do
+      if one == nil or grip.wire == one then build.call(4, drop, self, grip.wire) end
+    end
     return self
   end
   if self.frozen then mixed.thaw(self) end
   self.held = false
-  self:open_jaws(args)
+  self:open_jaws{ speed = args.speed, distance = args.distance }
   if self.way == "mixed" then mixed.finish(self) end
-  self.wire = nil
+  self.wire, self.grips = nil, {}
   return self
 end
 

@@ -1,104 +1,217 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- What grippers measure: force and moment now and over time, pressure on the pads, squeeze, slip.
 -- @module softworld.gripmeasures
+local core = require "softworld.core"
 local checks = require "softworld.checks"
 local vec = require "softworld.vec"
+local window = require "softworld.window"
 
 local Measures = {}
 
 local function in_axes(self, v, axes, what)
   if axes == nil or axes == "world" then return v end
   checks.word(what .. ": axes", axes, { world = true, gripper = true }, 4)
-  local held = self.tool or self.hold
+  local held = self.tool or self.hold and (self.carrier or self.hold)
   if not held then return v end
   local _, q = held:pose()
   return vec.rotate(vec.conjugate(q), v)
 end
 
---- Force on the wire now [N]; zero while nothing is held. { axes = "gripper" } for the tool's own
--- axes, { finger = number } for that of one finger.
+-- What of several wires holds the one that is asked for.
+local function grip_of(self, wire, what)
+  for _, grip in ipairs(self.grips) do
+    if grip.wire == wire then return grip end
+  end
+  error(("%s: gripper '%s' does not hold %s"):format(what, self.name,
+    core.type(wire) == "wire" and ("wire '%s'"):format(wire.name) or "this: wire must be a wire"), 3)
+end
+
+-- Force and moment about a point (nil: the centre) by the pads on one of several wires.
+local function pads_on(self, wire, at, finger)
+  local force, moment = { 0, 0, 0 }, { 0, 0, 0 }
+  local centre, q = self.tool:pose()
+  local _, slot = core.number(wire)
+  for _, touch in ipairs(self.tool:touches()) do
+    if touch.wire == slot and (finger == nil or finger == touch.finger) then
+      local f = vec.rotate(q, touch.force)
+      local arm = vec.rotate(q, touch.at)
+      if at then arm = vec.add(arm, vec.sub(centre, at)) end
+      force, moment = vec.add(force, f), vec.add(moment, vec.cross(arm, f))
+    end
+  end
+  return force, moment
+end
+
+-- What carries the wires: pads, or of several wires their holds together.
+local function carrier_of(self) return self.tool or self.hold and self.carrier or nil end
+
+--- Force on the wire now [N], of several on all of them; zero while nothing is held. { axes =
+-- "gripper" } for the tool's own axes, { finger = number } for that of one finger, { wire = } for
+-- that on one of several wires.
 function Measures:force(args)
   args = args or {}
-  checks.keys("gripper:force", args, { axes = true, finger = true }, 3)
-  local f = { 0, 0, 0 }
-  if self.tool then f = self.tool:force(args.finger)
+  checks.keys("gripper:force", args, { axes = true, finger = true, wire = true }, 3)
+  local f, carrier = { 0, 0, 0 }, carrier_of(self)
+  if args.wire ~= nil then
+    local grip = grip_of(self, args.wire, "gripper:force")
+    f = grip.hold and grip.hold:force() or #self.grips == 1 and self.tool:force(args.finger)
+      or pads_on(self, args.wire, nil, args.finger)
+  elseif carrier then f = carrier:force(args.finger)
   elseif self.hold then f = self.hold:force() end
   return in_axes(self, f, args.axes, "gripper:force")
 end
 
---- Moment on the wire now, about the tool centre or { at = point } [N m]; axes, finger as for force.
+--- Moment on the wire now, about the tool centre or { at = point } [N m]; axes, finger, wire as for
+-- force.
 function Measures:moment(args)
   args = args or {}
-  checks.keys("gripper:moment", args, { at = true, axes = true, finger = true }, 3)
-  local m = { 0, 0, 0 }
-  if self.tool then m = self.tool:moment(args.at, args.finger)
+  checks.keys("gripper:moment", args, { at = true, axes = true, finger = true, wire = true }, 3)
+  local m, carrier = { 0, 0, 0 }, carrier_of(self)
+  if args.wire ~= nil then
+    local grip = grip_of(self, args.wire, "gripper:moment")
+    if grip.hold then m = grip.hold:moment{ at = args.at or self:position() }
+    elseif #self.grips == 1 then m = self.tool:moment(args.at, args.finger)
+    else m = select(2, pads_on(self, args.wire, args.at, args.finger)) end
+  elseif carrier then m = carrier:moment(args.at, args.finger)
   elseif self.hold then m = self.hold:moment(args.at and { at = args.at } or nil) end
   return in_axes(self, m, args.axes, "gripper:moment")
 end
 
--- Every recorded step: t, force, moment; of a tool also opening, squeeze, margin, slip.
+-- While it held something by this carrier.
+local function carried_at(self, t)
+  for _, span in ipairs(self.spans) do
+    if span.carried and t >= span.carried and (not span.to or t <= span.to) then return true end
+  end
+  return false
+end
+
+-- Every recorded step: t, span, force, moment; of a tool also opening, squeeze, margin, slip. span:
+-- above 0 the time up to t that the force is the mean of, below 0 that of the step at whose end it
+-- is the force, 0 at an equilibrium.
 local function records(self)
   local list = {}
-  local function add(rows, count, width)
+  local function add(rows, count, spans, wanted, jaws)
+    local width = spans and 10 or 15
     for i = 0, count - 1 do
       local b = width * i
-      list[#list + 1] = { t = rows[b + 1], rows[b + 2], rows[b + 3], rows[b + 4], rows[b + 5],
-        rows[b + 6], rows[b + 7], at = { rows[b + 8], rows[b + 9], rows[b + 10] },
-        opening = width > 10 and rows[b + 11] or nil, squeeze = width > 10 and rows[b + 12] or nil,
-        margin = width > 10 and rows[b + 13] or nil, slip = width > 10 and rows[b + 14] or nil }
+      if not wanted or wanted(rows[b + 1]) then
+        list[#list + 1] = { t = rows[b + 1], rows[b + 2], rows[b + 3], rows[b + 4], rows[b + 5],
+          rows[b + 6], rows[b + 7], at = { rows[b + 8], rows[b + 9], rows[b + 10] },
+          span = spans and spans[i + 1] or rows[b + 11],
+          opening = jaws and rows[b + 12] or nil, squeeze = jaws and rows[b + 13] or nil,
+          margin = jaws and rows[b + 14] or nil, slip = jaws and rows[b + 15] or nil }
+      end
     end
   end
-  for _, hold in ipairs(self.past) do
-    local rows, count = hold:log()
-    add(rows, count, 10)
+  for i, hold in ipairs(self.past) do
+    local carried = self.spans[i].carried
+    local rows, count, spans = hold:log()
+    add(rows, count, spans, carried and function(t) return t < carried end)
+  end
+  if self.carrier then
+    local rows, count = self.carrier:log()
+    add(rows, count, nil, function(t) return carried_at(self, t) end)
   end
   if self.tool then
     local rows, count = self.tool:log()
-    add(rows, count, 14)
-    if #self.past > 0 then table.sort(list, function(a, b) return a.t < b.t end) end
+    add(rows, count, nil, nil, true)
+  end
+  if #self.past > 1 or self.tool and #self.past > 0 then
+    table.sort(list, function(a, b) return a.t < b.t end)
   end
   return list
 end
 
 local function norm(r, first) return (r[first] ^ 2 + r[first + 1] ^ 2 + r[first + 2] ^ 2) ^ 0.5 end
 
+-- Did a gripper without pads hold nothing at this time?
+local function is_gap(self, t)
+  if self.tool then return false end
+  for _, span in ipairs(self.spans) do
+    if t >= span.from and (not span.to or t <= span.to) then return false end
+  end
+  return true
+end
+
 -- Moment of a row about a fixed point.
 local function moment_about(r, at)
-  if not at then return norm(r, 4) end
-  local turned = vec.cross(vec.sub(r.at, at), { r[1], r[2], r[3] })
-  return vec.norm(vec.add({ r[4], r[5], r[6] }, turned))
+  if not at then return { r[4], r[5], r[6] } end
+  return vec.add({ r[4], r[5], r[6] }, vec.cross(vec.sub(r.at, at), { r[1], r[2], r[3] }))
+end
+
+local over_keys = { at = true, window = true }
+
+-- The third argument of gripper:over: a point, or a table of options.
+local function over_options(options, level)
+  if options == nil then return {} end
+  if type(options) ~= "table" or options[1] ~= nil or options.x ~= nil then
+    return { at = checks.vector("gripper:over: at", options, "m", level + 1) }
+  end
+  checks.keys("gripper:over", options, over_keys, level + 1)
+  local at = options.at
+  if at ~= nil then at = checks.vector("gripper:over: at", at, "m", level + 1) end
+  return { at = at, window = options.window }
+end
+
+-- Add up force and moment over the time between t1 and t2: what are means by their time, what is of
+-- the moment by trapezoids.
+local function add_up(self, m, list, t1, t2)
+  local force_time, moment_time, before = 0, 0, nil
+  local function add(h, r)
+    m.duration = m.duration + h
+    force_time, moment_time = force_time + h * norm(r, 1), moment_time + h * vec.norm(r.moment)
+    for k = 1, 3 do m.impulse[k] = m.impulse[k] + h * r[k] end
+  end
+  for _, r in ipairs(list) do
+    if r.span > 0 then
+      local h = math.min(r.t, t2) - math.max(r.t - r.span, t1)
+      if h > 0 then add(h, r) end
+      before = r.t >= t1 and r.t <= t2 and r or nil
+    elseif r.t >= t1 and r.t <= t2 then
+      if before and not is_gap(self, 0.5 * (before.t + r.t)) then
+        add(0.5 * (r.t - before.t), before)
+        add(0.5 * (r.t - before.t), r)
+      end
+      before = r
+    end
+  end
+  m.mean_force = m.duration > 0 and force_time / m.duration or m.raw_peak_force
+  m.mean_moment = m.duration > 0 and moment_time / m.duration or m.raw_peak_moment
+  m.impulse_size = vec.norm(m.impulse)
 end
 
 --- Measures over [t1, t2] [s]: a table with peak_force, mean_force [N],
--- peak_moment, mean_moment [N m], impulse (vector) [N s] and the times of the
--- peaks. Means are over time, of the magnitudes. Moments are about the tool centre, or about
--- at [m] where it is given. Of pads also peak_squeeze [N], peak_margin, slip [m].
-function Measures:over(t1, t2, at)
-  t1, t2 = t1 or -math.huge, t2 or math.huge
-  if at ~= nil then at = checks.vector("gripper:over: at", at, "m", 3) end
-  local m = { peak_force = 0, peak_moment = 0, impulse = { 0, 0, 0 }, duration = 0 }
-  local force_time, moment_time, before, moment_before = 0, 0, nil, nil
-  for _, r in ipairs(records(self)) do
+-- peak_moment, mean_moment [N m], impulse (vector), impulse_size [N s] and the times of the
+-- peaks. Means are over the time in which it holds something, of the magnitudes. Peaks are of means over a window of time, and
+-- beside them raw_peak_force, raw_peak_moment of single steps; see help "peaks". Moments are about
+-- the tool centre. options: { window = [s], at = point [m] that moments are about }, or that point.
+-- Of pads also peak_squeeze [N], peak_margin, slip [m].
+function Measures:over(t1, t2, options)
+  t1, t2, options = t1 or -math.huge, t2 or math.huge, over_options(options, 3)
+  for name, time in pairs{ t1 = t1, t2 = t2 } do
+    if type(time) ~= "number" then
+      error(("gripper:over: %s must be a time [s], got %s"):format(name, type(time)), 2)
+    end
+  end
+  local width = window.of(self.scene, options.window, "gripper:over", 3)
+  local m = { impulse = { 0, 0, 0 }, duration = 0, window = width }
+  local list, forces, moments, last = records(self), {}, {}, -math.huge
+  for _, r in ipairs(list) do
+    r.moment = moment_about(r, options.at)
     if r.t >= t1 and r.t <= t2 then
-      local f, n = norm(r, 1), moment_about(r, at)
-      if f > m.peak_force then m.peak_force, m.peak_force_time = f, r.t end
-      if n > m.peak_moment then m.peak_moment, m.peak_moment_time = n, r.t end
+      local t0 = math.max(r.t - math.abs(r.span), math.min(last, r.t))
+      forces[#forces + 1] = { t0 = t0, t1 = r.t, r[1], r[2], r[3] }
+      moments[#moments + 1] = { t0 = t0, t1 = r.t, table.unpack(r.moment) }
+      last = r.t
       if r.squeeze then
         m.peak_squeeze = math.max(m.peak_squeeze or 0, r.squeeze)
         m.peak_margin, m.slip = math.max(m.peak_margin or 0, r.margin), r.slip
       end
-      if before then
-        local h = r.t - before.t
-        m.duration = m.duration + h
-        force_time = force_time + 0.5 * h * (f + norm(before, 1))
-        moment_time = moment_time + 0.5 * h * (n + moment_before)
-        for k = 1, 3 do m.impulse[k] = m.impulse[k] + 0.5 * h * (r[k] + before[k]) end
-      end
-      before, moment_before = r, n
     end
   end
-  m.mean_force = m.duration > 0 and force_time / m.duration or m.peak_force
-  m.mean_moment = m.duration > 0 and moment_time / m.duration or m.peak_moment
+  window.fill(m, "peak_force", window.peak(forces, width), "N")
+  window.fill(m, "peak_moment", window.peak(moments, width), "N m")
+  add_up(self, m, list, t1, t2)
   return m
 end
 
@@ -187,4 +300,4 @@ function Measures:pressure_map(args)
   return map
 end
 
-return { methods = Measures }
+return { methods = Measures, records = records }

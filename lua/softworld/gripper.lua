@@ -19,18 +19,28 @@ local core = require "softworld.core"
 local build = require "softworld.build"
 local checks = require "softworld.checks"
 local grasp = require "softworld.grasp"
+local gripmoves = require "softworld.gripmoves"
 local keep = require "softworld.keep"
 local measures = require "softworld.gripmeasures"
 local pads = require "softworld.pads"
 local process = require "softworld.process"
+local remarks = require "softworld.remarks"
 local trajectory = require "softworld.trajectory"
 
 local Gripper = { __name = "gripper" }
 keep.class("gripper", Gripper)
 local check_keys, vector = checks.keys, checks.vector
 
-for _, part in ipairs{ grasp, measures } do
+for _, part in ipairs{ grasp, measures, gripmoves } do
   for name, f in pairs(part.methods) do Gripper[name] = f end
+end
+
+-- Are there real pads, or just how wide an imposed grip is?
+local function has_pads(given)
+  for key in pairs(given or {}) do
+    if key ~= "width" then return true end
+  end
+  return false
 end
 
 local keys = { name = true, pads = true, at = true, rotation = true, slip_tolerance = true, arm = true,
@@ -60,32 +70,51 @@ function core.class.scene.gripper(scene, args)
   self.scene = scene
   self.name = build.name(scene, args.name, "gripper", #data.grippers, 3)
   self.pads, self.width = given, given.width
+  remarks.on("pads", ("gripper '%s': pads"):format(self.name), args.pads or {})
   self.at, self.rotation = at, args.rotation
   self.arm, self.on_crash = args.arm or false, args.on_crash
   self.slip_tolerance = args.slip_tolerance or 1e-4
-  self.past = {} -- clamps of earlier grasps, for the series
+  self.past, self.spans = {}, {} -- clamps of all grasps, and { from =, to = [s] } of each
+  self.grips = {} -- what is held: { wire =, hold = }
+  self.first_at = at or false
+  self.solid = args.arm ~= nil or args.on_crash ~= nil or has_pads(args.pads) -- also while empty
   self.events = {} -- what happened: { kind =, time =, s =, ... }
   data.grippers[#data.grippers + 1] = self
   return self
 end
 
 local remembered = { "hold", "at", "rotation", "tool", "wire", "way", "frozen", "on_slip", "opening",
-  "order", "obstacles", "held", "s", "free_height",
-  "margin", "segments", "mesh_model", "rod_model", "slip_event", "crash_time", "on_crash" }
+  "order", "obstacles", "held", "unchecked", "s", "free_height",
+  "margin", "segments", "mesh_model", "rod_model", "slip_event", "crash_time", "on_crash",
+  "grips", "carrier", "facing", "busy_until" }
 
 --- What a snapshot must know of the gripper, and the way back; recall(nil) for
 -- one that was made later.
 function Gripper:remember()
   local state = { grasps = #self.past, events = #self.events }
   for _, key in ipairs(remembered) do state[key] = self[key] end
+  state.spans = {}
+  for i, span in ipairs(self.spans) do
+    state.spans[i] = { from = span.from, to = span.to, carried = span.carried }
+  end
   return state
 end
 
 function Gripper:recall(state)
+  if state ~= nil and (type(state) ~= "table" or not state.grasps or not state.events) then
+    error("gripper:recall takes what gripper:remember gave, got " .. type(state), 2)
+  end
   self.gone = state == nil or nil
   for _, key in ipairs(remembered) do self[key] = state and state[key] end
-  if not state then return end
+  if not state then
+    self.grips = {}
+    return
+  end
   for i = #self.past, state.grasps + 1, -1 do self.past[i] = nil end
+  self.spans = {}
+  for i, span in ipairs(state.spans) do
+    self.spans[i] = { from = span.from, to = span.to, carried = span.carried }
+  end
   for i = #self.events, state.events + 1, -1 do self.events[i] = nil end
 end
 
@@ -95,10 +124,13 @@ local function needs_pose(self, verb)
   end
   process.guard("gripper:" .. verb)
   grasp.check_scene(self, 4)
-  if self.hold and not self.tool then return self.hold end
-  if not self.tool and (self.at or self.rotation) then grasp.make_tool(self, 4) end
-  if self.tool then return self.tool end
-  error(("gripper '%s' holds nothing; grasp a wire before you %s"):format(self.name, verb), 3)
+  if self.hold and not self.tool then return self.carrier or self.hold end
+  if not self.tool and not self.carrier and (self.at or self.rotation) then
+    if self.solid then grasp.make_tool(self, 4) else grasp.make_carrier(self) end
+  end
+  if self.tool or self.carrier then return self.tool or self.carrier end
+  error(("gripper '%s' holds nothing; grasp a wire before you %s, or give the place where it is when "
+    .. "you make it: at = {x, y, z} [m]"):format(self.name, verb), 3)
 end
 
 local move_keys = { path = true, points = true, to = true, by = true, rotation = true, scale = true }
@@ -137,6 +169,8 @@ local function move_table(held, args)
   return t
 end
 
+local turn_keys = checks.set "axis angle"
+
 --- Move the tool: { path = "file.csv" | points = {...} | to = point | by = vector,
 -- speed = [m/s] | duration = [s], law =, blend =, turn = { axis =, angle = [rad] }, on_slip = }.
 -- Inside a process it returns when the move is done, elsewhere at once.
@@ -146,9 +180,12 @@ function Gripper:move(args)
   if not (args.path or args.points or args.to or args.by or args.turn) then
     error(("gripper '%s': move where? give path, points, to, by or turn"):format(self.name), 2)
   end
+  if type(args.turn) == "table" then checks.keys("gripper:move: turn", args.turn, turn_keys, 3) end
   if args.on_slip ~= nil then grasp.set_on_slip(self, args.on_slip, 3) end
+  remarks.on("move", ("gripper '%s': move"):format(self.name), args)
   local motion = build.call(3, core.trajectory, move_table(held, args))
   local duration = build.call(3, held.follow, held, motion)
+  self.busy_until = self.scene.time + duration
   local p = process.current()
   if p then process.sleep_until(p, self.scene.time + duration) end
   return self
@@ -165,9 +202,13 @@ function Gripper:move_to(point, args)
   return self:move(t)
 end
 
+local rotate_keys = checks.set [[axis angle speed angular_speed acceleration angular_acceleration duration
+  law blend stop on_slip]]
+
 --- Turn the tool about its centre by angle [rad] around axis.
 function Gripper:rotate(args)
   if type(args) ~= "table" then error("gripper:rotate takes { axis =, angle = [rad] }", 2) end
+  checks.keys("gripper:rotate", args, rotate_keys, 3)
   local t = {}
   for k, v in pairs(args) do t[k] = v end
   t.turn, t.axis, t.angle = { axis = args.axis, angle = args.angle }, nil, nil
@@ -213,13 +254,15 @@ function Gripper:handover(other, args)
   end
   if not self.wire then error(("gripper '%s' holds nothing to hand over"):format(self.name), 2) end
   if other == self then error(("gripper '%s' cannot hand over to itself"):format(self.name), 2) end
-  local wire = self.wire
-  build.call(3, other.grasp, other, wire, args)
+  local wires = {}
+  for i, grip in ipairs(self.grips) do wires[i] = grip.wire end
+  build.call(3, other.grasp, other, #wires == 1 and wires[1] or wires, args)
   build.call(3, self.release, self)
   return other
 end
 
 --- Let go: jaws open (by pads' opening, at speed [m/s]); in a process it returns when they have.
+-- { wire = } lets go of one of several wires that are held without pads.
 function Gripper:release(args)
   if getmetatable(self) ~= Gripper then
     error("gripper:release is a method: call it with a colon", 2)
@@ -232,7 +275,8 @@ function Gripper:release(args)
 end
 
 function Gripper:position()
-  if self.tool then return (self.tool:pose()) end
+  local carrier = self.tool or self.carrier
+  if carrier then return (carrier:pose()) end
   return self.hold and (self.hold:pose()) or self.at
 end
 
@@ -240,11 +284,16 @@ local shortcuts = { peak_force = true, mean_force = true, peak_moment = true, me
   impulse = true }
 
 -- Fields that may be nil.
-local fields = { gone = true }
+local fields = { gone = true, wires = true }
 for _, key in ipairs(remembered) do fields[key] = true end
 
 function Gripper:__index(key)
   if shortcuts[key] then return self:over()[key] end
+  if key == "wires" then -- that it holds
+    local list = {}
+    for i, grip in ipairs(self.grips) do list[i] = grip.wire end
+    return list
+  end
   local value = Gripper[key]
   if value ~= nil or fields[key] then return value end
   local names = {}
@@ -256,6 +305,21 @@ function Gripper:__index(key)
       or "; help 'gripper' at the prompt lists what it has"), 2)
 end
 
+local settable = { scene = true, name = true, pads = true, width = true, at = true, rotation = true,
+  arm = true, slip_tolerance = true, past = true, spans = true, events = true, first_at = true,
+  solid = true, gone = true }
+for _, key in ipairs(remembered) do settable[key] = true end
+
+function Gripper:__newindex(key, value)
+  if not settable[key] then
+    local names = { "slip_tolerance", "on_slip", "on_crash" }
+    local near = core.nearest(tostring(key), names)
+    error(("gripper has no '%s' to set%s"):format(tostring(key),
+      near and ("; did you mean '%s'?"):format(near) or "; what it is like is given to scene:gripper"), 2)
+  end
+  rawset(self, key, value)
+end
+
 for name, value in pairs(Gripper) do
   if type(value) == "function" and name:sub(1, 2) ~= "__" then
     Gripper[name] = build.placed(value)
@@ -264,7 +328,7 @@ end
 
 --- Names of methods and measures, for completion at the prompt.
 function Gripper.__names()
-  local names = { "name", "width", "events" }
+  local names = { "name", "width", "events", "wire", "wires" }
   for name in pairs(Gripper) do
     if name:sub(1, 2) ~= "__" and name ~= "remember" and name ~= "recall" then
       names[#names + 1] = name
@@ -276,7 +340,9 @@ end
 
 function Gripper:__tostring()
   local doing = "open"
-  if self.wire then doing = ("holding '%s', %s"):format(self.wire.name, self.way) end
+  local names = {}
+  for i, grip in ipairs(self.grips) do names[i] = ("'%s'"):format(grip.wire.name) end
+  if #names > 0 then doing = ("holding %s, %s"):format(table.concat(names, " and "), self.way) end
   return ("gripper '%s' (%s)"):format(self.name, doing)
 end
 

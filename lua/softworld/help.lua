@@ -42,14 +42,15 @@ scene:gripper{ name =, pads = {...}, at = {x, y, z} [m], rotation =, arm = { rad
   :move{ by =, to =, points =, path =, turn =, speed = [m/s], duration = [s], law =, on_slip = }
   :move_to(point, {...}) :rotate{ axis =, angle = [rad], duration = [s] }
   :press{ force = [N], direction =, speed =, distance = }   in a process -> force, way, done
-  :handover(other, {...}) :release()
+  :wait(seconds) :approach(wire, {...}) :retreat{...}; several wires at once: see help 'handling'
+  :handover(other, {...}) :release{ wire = }
   :force{ axes = "gripper", finger = } :moment{ at =, axes =, finger = } :position()   [N], [N m], [m]
   :state()           .jaws .opening .squeeze .normal .margin .sliding .slip .place
   :squeeze()         .height .width [m] .share   :pressure_map{ cell = {x, z} } [Pa]
   .events            { kind = "slip" | "lost" | "crash" | "missed" | "crushed" | "frozen" | ..., time = }
   .peak_force .mean_force .impulse              over all grasps [N], [N s]
   .peak_moment .mean_moment                     [N m]
-  :over(t1, t2, point) :series()]],
+  :over(t1, t2, { at =, window = [s] }) :series()   see help 'peaks']],
   mixed = [[
 gripper:grasp(wire, { s = [m], approach = "mixed", force = [N] })     in a process
   the wire becomes a mesh near the pads; these squeeze it for real; once force and slip are steady it
@@ -60,7 +61,7 @@ gripper:grasp(wire, { s = [m], approach = "mixed", force = [N] })     in a proce
   freeze = false    stay with the plates; gripper:freeze() and :thaw() switch by hand]],
   process = [[
 scene:process(function(p) ... end)
-  p:wait(seconds)
+  p:wait(seconds)     p.time is the scene's [s]
   p:feed(feed, { length = [m], speed = [m/s] })
   p:wait_until(function() return ... end, { timeout = [s] })   true, or false after the timeout
   p:wait_until({ force = [N], on = gripper } | { slip = [m], on = gripper } | { contact = obstacle } |
@@ -105,7 +106,7 @@ scene:settle{ tolerance = { ... } }
   max_tension, max_stress, max_strain      of the run [N], [Pa]
   min_bend_radius                          [m]
   force, moment                            of a clamp, pin, gripper; force on an obstacle [N], [N m]
-  peak_force, mean_force, impulse          of a gripper [N], [N s]
+  peak_force, mean_force, impulse          of a gripper [N], [N s]; ["table.peak_force"]: of an obstacle
   peak_moment, mean_moment                 [N m]
   energy, penetration                      of the scene [J]; deepest into an obstacle [m]
   ["left.force"] = 0.05                    the object's name in front where several have it
@@ -154,13 +155,16 @@ scene:clip{ at = {x, y, z}, width = [m], insertion = [N], retention = [N], ... }
   friction         against sliding along the axis, = 0
   radius           of the seat [m], = that of each wire; way over the lips [m], = 1.5 of the radius
   stiffness        of floor and side walls [N/m], = 50 times the larger force over the radius
+  strength         of these [N], = 20 times the larger force; pressed harder, from within or outside,
+                   they break, and the wire is free: an event, as is a wire that crosses steeply
   snap             time that the lips take to pull a wire in [s], = 0.002
   on               the wire that it is for, = all of the scene; name
-  :seated(wire) :state(wire)     is there one in it; "empty", "inserting", "seated"
+  :seated(wire) :state(wire)     is there one in it; "empty", "inserting", "seated", "broken"
   :force(wire) :height(wire)     on the wire [N]; over the seat [m]. Without wire: of all
   :ratio(wire)                   largest pull so far over retention
   .wire .peak_insertion_force    the one in the seat; [N]
   .inserted .pulled_out          nil, or .time [s] .peak_force [N] .wire .count, .s [m]
+  .overloaded                    nil, or .time [s] .force [N] .by .wire .strength [N] where it broke
   :release()
 gripper:clip{ into = clip, speed = [m/s], max_force = [N] }   in a process: presses its wire in
   approach_speed = 0.1, align = true   over the mouth before; speed = 0.02

@@ -12,6 +12,9 @@
 -- SI units throughout; sw.units converts. sw.help() lists what there is.
 -- @module softworld
 local core = require "softworld.core"
+local build = require "softworld.build" -- adds to the classes: names, files, drawing data
+local methods = require "softworld.methods"
+local remarks = require "softworld.remarks"
 
 local sw = {
   version = core.version,
@@ -21,28 +24,37 @@ local sw = {
   cable = require "softworld.cable",
   shape = core.shape,
   help = require "softworld.help",
+  remarks = true, -- false: no remarks on unusual values
 }
 
-require "softworld.build"    -- adds to the classes: names, files, drawing data
 require "softworld.section"  -- wire:section and what belongs to it
 require "softworld.process"  -- scene:process
-require "softworld.gripper"  -- scene:gripper
-require "softworld.run"      -- scene:run
-require "softworld.clip"     -- scene:clip
+require "softworld.window"   -- obstacle:over
+local made = {
+  gripper = require "softworld.gripper", -- scene:gripper
+  run = require "softworld.run",         -- scene:run
+  clip = require "softworld.clip",       -- scene:clip
+  channel = require "softworld.channel", -- scene:channel
+  tie = require "softworld.tie",         -- scene:tie
+}
 require "softworld.clipping" -- gripper:clip
-require "softworld.channel"  -- scene:channel
-require "softworld.tie"      -- scene:tie
 require "softworld.settle"   -- scene:settle with error bars
 local save = require "softworld.save" -- scene:save, scene:resume, scene:find
 
 --- A new scene. { name =, gravity = {x, y, z} [m/s2] }
-sw.scene = core.scene
+function sw.scene(args)
+  if type(args) == "table" then remarks.gravity(args.gravity) end
+  return build.call(3, core.scene, args)
+end
 
 --- The scene that scene:save has written to a file, or a run with save = file.
 function sw.load(file) return save.load(file) end
 
 --- The names of all cables of the catalogue; print shows them as a table.
 function sw.cables() return sw.cable.list() end
+
+for kind, class in pairs(made) do methods.guard_table(kind, class) end
+methods.guard_core()
 
 -- Loaded when first asked for.
 local lazy = { tune = "softworld.tune", material = "softworld.material",

@@ -2,6 +2,8 @@
 -- Reads mesh files into memory; the core makes triangles of them:
 --   local file = meshfile.read("clip.stl")
 --   scene:obstacle{ shape = "mesh", data = file.data, format = file.format, scale = 0.001 }
+local sink = require "softworld.output.sink"
+
 local meshfile = {}
 
 -- Extensions that the core's `format` parameter of the mesh shape knows.
@@ -31,16 +33,17 @@ function meshfile.read(path)
   end
   local format, unknown = format_of(path)
   if not format then fail(path, unknown) end
-  local file, why = io.open(path, "rb")
-  if not file then
-    -- io.open says "path: reason"
-    fail(path, (why:gsub("^" .. path:gsub("%p", "%%%0") .. ": ", "")))
-  end
-  local data, problem = file:read("a")
-  file:close()
-  if not data then fail(path, problem or "cannot be read") end
+  local fine, data = pcall(sink.read_file, path)
+  if not fine then fail(path, (data:gsub("^cannot read .-: ", "", 1))) end
   if data == "" then fail(path, "is empty") end
   return { data = data, format = format }
+end
+
+--- An error of the core about the content, with the path: "obstacle mesh: file 'clip.ply': ...".
+function meshfile.named(message, path)
+  return (tostring(message):gsub("obstacle mesh: ", function(who)
+    return ("%sfile '%s': "):format(who, path)
+  end, 1))
 end
 
 return meshfile

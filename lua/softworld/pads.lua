@@ -96,7 +96,7 @@ function pads.check(args, what, level)
       local mesh = meshfile.read(p.file)
       core.shape{ shape = "mesh", data = mesh.data, format = mesh.format, scale = p.scale }
     end)
-    if not fine then error(("%s: %s"):format(what, build.plain(why)), level) end
+    if not fine then error(("%s: %s"):format(what, meshfile.named(build.plain(why), p.file)), level) end
   end
   return p
 end

@@ -13,13 +13,14 @@
 -- file of the scene can begin again after: see softworld.save.
 -- @module softworld.process
 local core = require "softworld.core"
+local methods = require "softworld.methods"
 local build = require "softworld.build"
 local checks = require "softworld.checks"
 local conditions = require "softworld.conditions"
+local waiting = require "softworld.waiting"
 
 local process = {}
 local Process = { __name = "process" }
-Process.__index = Process
 
 local current = setmetatable({}, { __mode = "k" }) -- coroutine -> its process
 local SAME_TIME = 1e-12 -- of the time: the core's own rounding [-]
@@ -92,7 +93,9 @@ local function timeout_of(options)
   end
   for key in pairs(options) do
     if key ~= "timeout" then
-      error(("p:wait_until: there is no option '%s'; known is: timeout"):format(checks.shown(key)), 3)
+      error(("p:wait_until: there is no option '%s'; %s"):format(checks.shown(key),
+        core.nearest(tostring(key), { "timeout" }) and "did you mean 'timeout'?"
+          or "known is: timeout"), 3)
     end
   end
   local timeout = options.timeout
@@ -109,7 +112,11 @@ end
 -- { contact = obstacle }, { distance = [m], between = { a, b } }. Returns true, or false
 -- when timeout [s] passed first.
 function Process:wait_until(condition, options)
-  if type(condition) == "table" then condition = build.placed(conditions.of(condition, 3)) end
+  local impossible
+  if type(condition) == "table" then
+    condition, impossible = conditions.of(condition, 3, self.scene)
+    condition = build.placed(condition)
+  end
   if type(condition) ~= "function" then
     error("p:wait_until expects a function or a table, got " .. type(condition), 2)
   end
@@ -118,9 +125,11 @@ function Process:wait_until(condition, options)
   process.guard "p:wait_until"
   while not condition() do
     if process.reached(self.scene, last) then return false end
+    if last == math.huge then waiting.goes_on(self, impossible) end
     self.watching, self.wake = true, last
     coroutine.yield()
   end
+  waiting.ended(self)
   return true
 end
 
@@ -178,6 +187,36 @@ end
 --- End the process where it waits.
 function Process:finish()
   if coroutine.status(self.thread) == "suspended" then coroutine.close(self.thread) end
+end
+
+-- Fields that may be nil.
+local fields = { wake = true, watching = true, begun = true, between = true, inside = true,
+  failed = true, traceback = true }
+
+--- Names of methods and fields, for completion at the prompt.
+function Process.__names()
+  local names = { "time", "scene", "number" }
+  for name in pairs(Process) do
+    if name:sub(1, 2) ~= "__" then names[#names + 1] = name end
+  end
+  return names
+end
+
+--- p.time is that of the scene [s].
+function Process:__index(key)
+  if key == "time" then return self.scene.time end
+  local value = Process[key]
+  if value ~= nil or fields[key] then return value end
+  local near = core.nearest(tostring(key), Process.__names())
+  error(("a process has no '%s'; %s"):format(tostring(key), near and "did you mean '" .. near .. "'?"
+    or "help 'process' at the prompt lists what it has"), 2)
+end
+
+function Process:__newindex(key, value)
+  if not fields[key] and key ~= "thread" then
+    error(("a process has no '%s' to set; use a local variable"):format(tostring(key)), 2)
+  end
+  rawset(self, key, value)
 end
 
 function Process:__tostring()
@@ -325,5 +364,7 @@ function process.check_steps(scene)
     end
   end
 end
+
+methods.guard_table("process", Process)
 
 return process

@@ -4,6 +4,7 @@
 -- @module softworld.quantity
 local core = require "softworld.core"
 local build = require "softworld.build"
+local window = require "softworld.window"
 
 local quantity = {}
 
@@ -22,17 +23,20 @@ end
 local function over_at(name)
   return function(gripper, start)
     local m = gripper:over(start)
-    return m[name], nil, m[name .. "_time"]
+    return m[name], nil, m[name .. "_time"], m[name .. "_note"]
   end
 end
 
 -- Kind of object -> name -> unit and how to read it: value, where [m], when [s].
--- plain: values of edges and the like, whose errors do not halve twice with the edge.
+-- plain: values of edges and the like, whose errors do not halve twice with the edge. named: only with the
+-- object's name in front.
 quantity.known = {
   wire = {
     tip = { unit = "m", of = function(w) return w:position(w.length) end },
     position = { unit = "m", of = positions },
-    max_tension = { unit = "N", plain = true, of = function(w) return w:max_tension() end },
+    max_tension = { unit = "N", plain = true, of = function(w, _, scene)
+      return window.tension(scene, w)
+    end },
     min_bend_radius = { unit = "m", plain = true, of = function(w) return w:min_bend_radius() end },
     max_strain = { unit = "", plain = true, of = function(w) return w:max_strain() end },
     max_stress = { unit = "Pa", plain = true, of = function(w) return w:max_stress() end },
@@ -52,6 +56,9 @@ quantity.known = {
   },
   obstacle = {
     force = { unit = "N", of = function(o) return o:force() end },
+    peak_force = { unit = "N", plain = true, named = true, of = over_at "peak_force" },
+    mean_force = { unit = "N", named = true, of = over "mean_force" },
+    impulse = { unit = "N s", named = true, of = over "impulse" },
   },
   scene = {
     energy = { unit = "J", of = function(s) return s:energy().total end },
@@ -95,9 +102,9 @@ local function directory(scene)
     for key, def in pairs(quantity.known[o.kind]) do
       local full = o.name and o.name .. "." .. key or key
       local entry = { full = full, unit = def.unit, plain = def.plain,
-        of = function(start) return def.of(o.object, start) end }
+        of = function(start) return def.of(o.object, start, scene) end }
       add(full, entry)
-      if o.name then add(key, entry) end
+      if o.name and not def.named then add(key, entry) end
     end
   end
   table.sort(names)
@@ -216,15 +223,15 @@ local function is_value(v)
   return true
 end
 
---- Read it now: { value, where [m], when [s] }. start: when the run began [s].
+--- Read it now: { value, where [m], when [s], note }. start: when the run began [s].
 function quantity.read(q, start)
-  local value, s, t
-  if q.own then value = q.of() else value, s, t = q.of(start) end
+  local value, s, t, note
+  if q.own then value = q.of() else value, s, t, note = q.of(start) end
   if not is_value(value) then
     error(("quantity '%s': its function must return a number or a list of numbers, got %s")
       :format(q.name, type(value) == "number" and tostring(value) or core.type(value) or type(value)), 0)
   end
-  return { value = value, where = s, when = t }
+  return { value = value, where = s, when = t, note = note }
 end
 
 local function is_vector(v) return type(v) == "table" and type(v[1]) == "number" end

@@ -2,20 +2,30 @@
 --- scene:run and the run it returns.
 -- @module softworld.run
 local core = require "softworld.core"
+local advice = require "softworld.advice"
 local build = require "softworld.build"
+local checks = require "softworld.checks"
 local grasp = require "softworld.grasp"
 local ledger = require "softworld.ledger"
 local process = require "softworld.process"
 local number = require "softworld.output.number"
+local place = require "softworld.place"
 local refine = require "softworld.refine"
+local remarks = require "softworld.remarks"
 local save = require "softworld.save"
+local series = require "softworld.series"
 local trust = require "softworld.trust"
+local unread = require "softworld.unread"
+local drawn = require "softworld.drawn"
 local fixing = require "softworld.fixing"
+local waiting = require "softworld.waiting"
+local window = require "softworld.window"
 local progress = require "softworld.output.progress"
 
 local Run = { __name = "run" }
 local chunk = 64 -- steps between two looks at progress; fixed, so that results never depend on it
 local default_frame = 1 / 30 -- [s]
+local progress_after = 1 -- of computing [s]
 
 local function merge(total, part)
   for _, key in ipairs{ "steps", "rejected", "iterations", "evaluations", "jumps" } do
@@ -29,9 +39,11 @@ end
 local function new_bar(args, scene, level)
   local host = package.loaded["softworld.host"]
   local wanted = args.progress
-  if wanted == nil then wanted = false end
+  local usual = wanted == nil -- on a terminal, for runs that last
+  if usual then wanted = host and host.terminal and os.getenv "TERM" ~= "dumb" end
   return progress.new{ total = args.duration and args.duration > 0 and args.duration or nil,
     name = level and ("%s, %s"):format(scene.name, level) or scene.name, quiet = not wanted,
+    after = usual and progress_after or nil,
     terminal = host and host.terminal or nil,
     clock = core.clock, width = host and host.columns or nil }
 end
@@ -50,22 +62,50 @@ local function drive(scene, args, total, bar)
   while true do
     local alive, wake, watching = process.step(scene)
     if stop == math.huge and alive == 0 then return "all processes have ended" end
-    if process.reached(scene, stop) then return ("%g s have passed"):format(args.duration) end
+    if process.reached(scene, stop) then
+      waiting.at_end(scene)
+      return ("%g s have passed"):format(args.duration)
+    end
     local target = math.min(stop, wake)
     if target == math.huge then
+      waiting.look(scene, bar, args.progress == false)
       -- a process that waits for a condition without an end: go on step by step
       target = scene.time + (args.dt or 0.01)
     end
     options.max_steps = math.min(left, watching and 1 or chunk)
-    local part = build.call(5, advance, scene, options, target)
+    local part = build.call(6, advance, scene, options, target)
     merge(total, part)
     left = left - part.steps
     bar:update(scene.time - start, total.steps)
     if not part.ok then return part.reason end
     local stopped = grasp.look(scene)
     if stopped then return stopped end
-    if left <= 0 then return "the allowed number of steps was used" end
+    if left <= 0 then
+      waiting.at_end(scene)
+      return "the allowed number of steps was used"
+    end
   end
+end
+
+-- Wires as they are when the run begins, for pictures of one that fails.
+local function wires_of(data)
+  local list = {}
+  for i, w in ipairs(data.wires) do
+    list[i] = { name = w.name, radius = w.object.radius, length = w.object.length,
+      segments = w.object.segments }
+  end
+  return list
+end
+
+-- A run that failed keeps ok and reason where reading them is seen.
+local function hide_failure(run)
+  if rawget(run, "ok") ~= false then return run end
+  local at = place.of_caller()
+  local mark = unread.add(("softworld: run of '%s'%s FAILED %s; the script did not look at run.ok")
+    :format(run.name, at and " at " .. at or "", run.reason))
+  run.failure = { mark = mark, reason = run.reason }
+  run.ok, run.reason = nil, nil
+  return run
 end
 
 -- One run; level names it where it is one of several.
@@ -78,6 +118,7 @@ local function run_once(scene, args, level)
   data.origin = data.origin or save.origin(scene)
   if not data.going then build.call(3, core.begin_run, scene) end -- else the run of the file goes on
   data.going = nil
+  total.drawn = wires_of(data)
   local wall, cpu = core.clock() - total.wall, os.clock() - total.cpu
   local fine, reason
   do -- protected: a coroutine that dies by an error leaves its variables unclosed
@@ -95,9 +136,13 @@ local function run_once(scene, args, level)
   total.wall, total.cpu = core.clock() - wall, os.clock() - cpu
   total.reason, total.scene, total.name = reason, scene, scene.name
   ledger.close(total)
+  if not total.ok and not level and not total.reason:find("take smaller steps", 1, true) then
+    total.reason = ("%s; try %s"):format(total.reason, advice.of(total.reason, args))
+  end
   total.restores = data.restores
   return setmetatable(total, Run)
 end
+
 
 local function check_start(scene, args)
   core.check_run(args)
@@ -146,16 +191,17 @@ function core.class.scene.run(scene, args)
   if type(args) == "table" then build.call(3, check_files, scene, args) end
   if trust.wanted(args) then
     local job, steps = build.call(3, refine.job, scene, args, check_start)
-    return build.call(3, refine.run, job, steps, run_once)
+    return hide_failure(build.call(3, refine.run, job, steps, run_once))
   end
   build.call(3, core.check_run, args)
+  if not args.quasistatic then remarks.on("run", "scene:run", args) end
   if args.resume ~= nil then build.call(3, save.resume, scene, args.resume) end
   build.call(3, check_start, scene, args)
-  return run_once(scene, args)
+  return hide_failure(run_once(scene, args))
 end
 
-local function readable(self, what)
-  if not self.ok then
+local function readable(self, what, even_failed)
+  if not self.ok and not even_failed then
     error(("run of '%s' failed %s; it has no %s"):format(self.name, self.reason, what), 3)
   end
   if build.data(self.scene).restores ~= self.restores then
@@ -164,122 +210,15 @@ local function readable(self, what)
   end
 end
 
-local function column(name, unit) return { name = name, unit = unit, values = {} } end
-
--- Force and moment columns of one hold, or gripper with pads, on the common time axis of all.
-local function add_hold(series, index, name, rows, count, width)
-  local axes = { "x", "y", "z" }
-  local names = {}
-  for k, axis in ipairs(axes) do names[k] = column(name .. ".force_" .. axis, "N") end
-  for k, axis in ipairs(axes) do names[3 + k] = column(name .. ".moment_" .. axis, "N m") end
-  local force, moment = column(name .. ".force", "N"), column(name .. ".moment", "N m")
-  for i = 0, count - 1 do
-    local b, at = width * i, index[rows[width * i + 1]]
-    for k = 1, 6 do names[k].values[at] = rows[b + 1 + k] end
-    force.values[at] = (rows[b + 2] ^ 2 + rows[b + 3] ^ 2 + rows[b + 4] ^ 2) ^ 0.5
-    moment.values[at] = (rows[b + 5] ^ 2 + rows[b + 6] ^ 2 + rows[b + 7] ^ 2) ^ 0.5
-  end
-  for _, c in ipairs{ force, moment } do series.columns[#series.columns + 1] = c end
-  for _, c in ipairs(names) do series.columns[#series.columns + 1] = c end
-end
-
-local function add_jaws(series, index, log)
-  for k, what in ipairs{ { "opening", "m" }, { "squeeze", "N" }, { "margin", "-" }, { "slip", "m" } } do
-    local c = column(("%s.%s"):format(log.name, what[1]), what[2])
-    for i = 0, log.count - 1 do
-      c.values[index[log.rows[log.width * i + 1]]] = log.rows[log.width * i + 10 + k]
-    end
-    series.columns[#series.columns + 1] = c
-  end
-end
-
-local function collect_times(self, logs)
-  local seen, times = {}, {}
-  for _, log in ipairs(logs) do
-    for i = 0, log.count - 1 do
-      local t = log.rows[log.width * i + 1]
-      if t >= self.start and not seen[t] then
-        seen[t] = true
-        times[#times + 1] = t
-      end
-    end
-  end
-  table.sort(times)
-  local index = {}
-  for i, t in ipairs(times) do index[t] = i end
-  return times, index
-end
-
--- Rows of a log from the run's start on.
-local function cut(log, start)
-  local rows, first = {}, 0
-  while first < log.count and log.rows[log.width * first + 1] < start do first = first + 1 end
-  table.move(log.rows, log.width * first + 1, log.width * log.count, 1, rows)
-  return { name = log.name, width = log.width, rows = rows, count = log.count - first,
-    obstacle = log.obstacle, tool = log.tool }
-end
-
-local function all_logs(self)
-  local data, logs = build.data(self.scene), {}
-  for _, h in ipairs(data.holds) do
-    local rows, count = h.object:log()
-    if count > 0 then logs[#logs + 1] = { name = h.name, rows = rows, count = count, width = 10 } end
-  end
-  for _, o in ipairs(data.obstacles) do
-    local rows, count = o.object:log()
-    logs[#logs + 1] = { name = o.name, rows = rows, count = count, width = 4, obstacle = true }
-  end
-  for _, g in ipairs(data.grippers) do
-    if g.tool then
-      local rows, count = g.tool:log()
-      if count > 0 then
-        logs[#logs + 1] = { name = g.name, rows = rows, count = count, width = 14, tool = true }
-      end
-    end
-  end
-  for i, log in ipairs(logs) do logs[i] = cut(log, self.start) end
-  return logs
-end
-
-local function fill_gaps(series)
-  for _, c in ipairs(series.columns) do
-    for i = 1, #series.time do
-      if c.values[i] == nil then c.values[i] = 0 / 0 end
-    end
-  end
-end
-
-local function add_obstacle(series, index, log)
-  local c = column(log.name .. ".contact_force", "N")
-  for i = 0, log.count - 1 do
-    local b = 4 * i
-    c.values[index[log.rows[b + 1]]] =
-      (log.rows[b + 2] ^ 2 + log.rows[b + 3] ^ 2 + log.rows[b + 4] ^ 2) ^ 0.5
-  end
-  series.columns[#series.columns + 1] = c
-end
-
 --- Time series of the run: { time = {...} [s], columns = {{ name, unit, values }} }.
 function Run:series()
   readable(self, "series")
-  local logs = all_logs(self)
-  local times, index = collect_times(self, logs)
-  local series = { time = times, columns = {} }
-  for _, log in ipairs(logs) do
-    if log.obstacle then add_obstacle(series, index, log)
-    else
-      add_hold(series, index, log.name, log.rows, log.count, log.width)
-      if log.tool then add_jaws(series, index, log) end
-    end
-  end
-  ledger.add(self, series, index)
-  fill_gaps(series)
-  return series
+  return series.of(self, ledger.add)
 end
 
 --- Frames stored while running: { { t, wires = {flat positions}, obstacles, holds, energy } }.
 function Run:frames()
-  readable(self, "frames")
+  readable(self, "frames", true)
   local list = {}
   for i = 1, self.scene:frame_count() do list[i] = self.scene:frame(i) end
   return list
@@ -294,15 +233,16 @@ local told = {
 
 local function summary_of(self)
   local data, rows = build.data(self.scene), {}
-  local function add(label, value, unit, s, t)
-    rows[#rows + 1] = { label = label, value = value, unit = unit,
-      where = s and ("s = %.4g m"):format(s) or nil, when = t }
+  local function add(label, value, unit, s, t, note)
+    local where = s and ("s = %.4g m"):format(s) or nil
+    if note then where = ("%s(%s)"):format(where and where .. " " or "", note) end
+    rows[#rows + 1] = { label = label, value = value, unit = unit, where = where, when = t }
   end
   for _, g in ipairs(data.grippers) do
     local m = g:over(self.start, self.time)
-    add(g.name .. ": peak force", m.peak_force, "N", nil, m.peak_force_time)
+    add(g.name .. ": peak force", m.peak_force, "N", nil, m.peak_force_time, m.peak_force_note)
     add(g.name .. ": mean force", m.mean_force, "N")
-    add(g.name .. ": peak moment", m.peak_moment, "N m", nil, m.peak_moment_time)
+    add(g.name .. ": peak moment", m.peak_moment, "N m", nil, m.peak_moment_time, m.peak_moment_note)
     add(g.name .. ": mean moment", m.mean_moment, "N m")
     if m.peak_squeeze then add(g.name .. ": largest squeeze per finger", m.peak_squeeze, "N") end
     for _, e in ipairs(g.events) do
@@ -320,9 +260,9 @@ local function summary_of(self)
         allowed.ok and "" or ", EXCEEDED")
     end
     add(label, radius, "m", s, t)
-    local tension
-    tension, s, t = w.object:max_tension()
-    add(w.name .. ": largest tension", tension, "N", s, t)
+    local tension, note
+    tension, s, t, note = window.tension(self.scene, w.object)
+    add(w.name .. ": largest tension", tension, "N", s, t, note)
     s, t = w.object:folded()
     if s then
       add(w.name .. ": section FOLDED through itself, its forces are wrong since", t, "s", s, t)
@@ -337,7 +277,8 @@ local function summary_of(self)
   for _, q in ipairs(self.quantities and self:error_bars() or {}) do
     rows[#rows + 1] = { label = q.name, value = type(q.value) == "number" and q.value or q:text(),
       unit = type(q.value) == "number" and q.unit or "",
-      where = ("+- %s%s"):format(number.text(q.error, q.unit), q.met and "" or " (NOT as asked)") }
+      where = ("+- %s%s"):format(number.text(q.error, q.unit), q.met and "" or " (NOT as asked)")
+        .. (q.note and (" (%s)"):format(q.note) or "") }
   end
   return rows
 end
@@ -354,6 +295,20 @@ local function add_fixings(scene, doc)
   end
 end
 
+-- What pictures show.
+local function draw(self, doc, wires)
+  doc.wires = wires
+  for i, o in ipairs(build.data(self.scene).obstacles) do
+    local entry = {}
+    for k, v in pairs(o) do entry[k] = v end
+    entry.object = nil
+    doc.obstacles[i] = entry
+  end
+  for i = 1, self.scene:frame_count() do doc.frames[i] = self.scene:frame(i) end
+  drawn.add(self.scene, doc)
+  add_fixings(self.scene, doc)
+end
+
 --- Plain tables of everything that charts, pictures and files need.
 function Run:document()
   if self.ok then readable(self, "results") end
@@ -361,36 +316,12 @@ function Run:document()
   local doc = { name = self.name, ok = self.ok, reason = self.reason, time = self.time,
     events = self.events,
     steps = self.steps, wall = self.wall, cpu = self.cpu, gravity = self.scene:gravity(),
-    wires = {}, obstacles = {}, grips = {}, frames = {} }
+    wires = {}, obstacles = {}, grips = {}, clamps = {}, frames = {} }
   if not self.ok then return doc end
-  for i, w in ipairs(data.wires) do
-    doc.wires[i] = { name = w.name, radius = w.object.radius, length = w.object.length,
-      segments = w.object.segments }
-  end
-  for i, o in ipairs(data.obstacles) do
-    local entry = {}
-    for k, v in pairs(o) do entry[k] = v end
-    entry.object = nil
-    doc.obstacles[i] = entry
-  end
-  local shown = {}
-  for i, h in ipairs(data.holds) do
-    if h.kind == "grip" then
-      shown[#shown + 1] = i
-      doc.grips[#shown] = { name = h.name, width = h.width or 0.02 }
-    end
-  end
-  for i = 1, self.scene:frame_count() do
-    local f = self.scene:frame(i)
-    f.grips = {}
-    for k, h in ipairs(shown) do
-      f.grips[k] = f.holds[h] or
-        { position = { 0, 0, 0 }, rotation = { 1, 0, 0, 0 }, held = false }
-    end
-    doc.frames[i] = f
-  end
-  add_fixings(self.scene, doc)
+  draw(self, doc, wires_of(data))
   doc.series, doc.summary = self:series(), summary_of(self)
+  local unmet = trust.unmet(self)
+  doc.met, doc.unmet = self.met, unmet and ("%s (%s)"):format(unmet, self.advice)
   for i, q in ipairs(self.quantities and self:error_bars() or {}) do
     doc.quantities = doc.quantities or {}
     doc.quantities[i] = { name = q.name, value = q.value, error = q.error, unit = q.unit,
@@ -399,13 +330,62 @@ function Run:document()
   return doc
 end
 
+local function options_of(what, options)
+  if options ~= nil and type(options) ~= "table" then
+    error(("%s takes one table of parameters, got %s"):format(what, type(options)), 3)
+  end
+  return options or {}
+end
+
+-- The document, with the frames of a run that failed.
+local function pictured(self)
+  local doc = self:document()
+  if not self.ok then
+    readable(self, "frames", true)
+    draw(self, doc, self.drawn)
+  end
+  return doc
+end
+
+local function check_path(path, what, wanted)
+  if type(path) == "string" and path ~= "" then return end
+  error(("%s expects %s, got %s"):format(what, wanted, path == "" and "''" or type(path)), 3)
+end
+
+local chart_keys = checks.set "path columns energy mean title size"
+local picture_keys = checks.set
+  "path count times captions caption columns width height camera thickness draft threads"
+local camera_keys = checks.set "from to direction turn elevation angle"
+
+local function check_camera(camera, what, level)
+  if camera == nil or camera == "auto" then return end
+  if type(camera) ~= "table" then
+    error(("%s must be 'auto' or a table, got %s"):format(what,
+      type(camera) == "string" and "'" .. camera .. "'" or type(camera)), level)
+  end
+  checks.keys(what, camera, camera_keys, level + 1)
+  for _, key in ipairs{ "from", "to", "direction" } do
+    if camera[key] ~= nil then checks.vector(("%s.%s"):format(what, key), camera[key], "m", level + 1) end
+  end
+  for _, key in ipairs{ "turn", "elevation", "angle" } do
+    if camera[key] ~= nil then
+      checks.number(("%s.%s"):format(what, key), camera[key], key == "angle" and 1 or -360, " deg",
+        level + 1, key == "angle" and 150 or 360)
+    end
+  end
+end
+
 --- Table of results on the terminal.
 function Run:summary(stream)
+  if stream ~= nil and io.type(stream) ~= "file" and not (type(stream) == "table" and stream.write) then
+    error("run:summary: an open file is wanted, got " .. (io.type(stream) or type(stream)), 2)
+  end
   require("softworld.output.summary").print(self:document(), stream or io.stdout)
 end
 
 --- Series as CSV or JSON, by the file's extension.
 function Run:save(path)
+  check_path(path, "run:save", "the name of a .csv or .json file")
   readable(self, "series")
   require("softworld.output.series").write(self:document(), path)
   return path
@@ -413,31 +393,50 @@ end
 
 --- ParaView series (.pvd).
 function Run:vtk(path)
-  readable(self, "frames")
-  require("softworld.output.vtk").write(self:document(), path)
+  check_path(path, "run:vtk", "the name of a .pvd file")
+  readable(self, "frames", true)
+  require("softworld.output.vtk").write(pictured(self), path)
   return path
 end
 
 --- Chart of series: { path = "x.svg", columns = { names }, title = }.
 function Run:chart(options)
+  checks.keys("run:chart", options or {}, chart_keys, 3)
   readable(self, "series")
   local o = {}
-  for k, v in pairs(options or {}) do o[k] = v end
+  for k, v in pairs(options_of("run:chart", options)) do o[k] = v end
   o.run = self:document()
   return require("softworld.output.chart").series(o)
 end
 
 --- A strip of ray-traced pictures: { path = "x.png", count = 6, ... }.
 function Run:pictures(options)
-  readable(self, "frames")
+  checks.keys("run:pictures", options or {}, picture_keys, 3)
+  check_camera((options or {}).camera, "run:pictures: camera", 3)
+  readable(self, "frames", true)
   local o = {}
-  for k, v in pairs(options or {}) do o[k] = v end
-  o.run = self:document()
+  for k, v in pairs(options_of("run:pictures", options)) do o[k] = v end
+  o.run = pictured(self)
   return require("softworld.output.povray").strip(o)
 end
 
 Run.error_bars = trust.error_bars
 Run.ledger = ledger.of
+
+-- Fields that a run may lack.
+local may_lack = checks.set [[quantities levels met advice where asked refused last_jump failure
+  ok reason]]
+local fields = { "ok", "reason", "time", "steps", "rejected", "iterations", "evaluations", "jumps",
+  "smallest_dt", "start", "wall", "cpu", "scene", "name", "events", "quantities", "met", "levels" }
+
+--- Names of methods and fields, for completion at the prompt.
+function Run.__names()
+  local names = table.move(fields, 1, #fields, 1, {})
+  for name in pairs(Run) do
+    if name:sub(1, 2) ~= "__" then names[#names + 1] = name end
+  end
+  return names
+end
 
 for name, value in pairs(Run) do
   if type(value) == "function" and name:sub(1, 2) ~= "__" then Run[name] = build.placed(value) end
@@ -446,13 +445,24 @@ end
 function Run.__index(self, key)
   local value = Run[key]
   if value ~= nil then return value end
-  return trust.refuse(self, key)
+  local failure = rawget(self, "failure")
+  if failure and (key == "ok" or key == "reason") then
+    unread.seen(failure.mark)
+    if key == "ok" then return false end
+    return failure.reason
+  end
+  if may_lack[key] then return trust.refuse(self, key) end
+  local near = core.nearest(tostring(key), Run.__names())
+  error(("run has no '%s'; %s"):format(tostring(key), near and "did you mean '" .. near .. "'?"
+    or "help(run) at the prompt lists what it has"), 2)
 end
 
 function Run:__tostring()
   if self.ok and self.quantities then
-    return ("run of '%s': ok (%s), t = %.6g s, %d levels, %.3g s of computing\n%s"):format(self.name,
-      self.reason, self.time, #self.levels, self.cpu, tostring(self:error_bars()))
+    local unmet = trust.unmet(self)
+    return ("run of '%s': ok (%s)%s, t = %.6g s, %d levels, %.3g s of computing\n%s"):format(self.name,
+      self.reason, unmet and ", " .. unmet or "", self.time, #self.levels, self.cpu,
+      tostring(self:error_bars()))
   end
   return ("run of '%s': %s (%s), t = %.6g s, %d steps, %.3g s of computing"):format(
     self.name, self.ok and "ok" or "FAILED", self.reason, self.time, self.steps, self.cpu)

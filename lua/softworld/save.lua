@@ -98,9 +98,10 @@ local function note_of(scene, run)
     scene, ("scene '%s'"):format(scene.name))
 end
 
---- Write the scene to a file, whole or not at all; run: the totals of a run under way.
+--- Write the scene to a file, whole or not at all, also when the computer goes down; run: the
+-- totals of a run under way.
 function save.write(scene, file, run)
-  return sink.write_file(file, build.call(3, core.save, scene, note_of(scene, run)))
+  return sink.write_file(file, build.call(3, core.save, scene, note_of(scene, run)), { safe = true })
 end
 
 -- A process that has begun lives in its coroutine.
@@ -285,9 +286,7 @@ end
 function save.resume(scene, file)
   check_file("scene:resume", file)
   check_before(scene)
-  local there = io.open(file, "rb")
-  if not there then return false end
-  there:close()
+  if not core.kind(file) then return false end
   local bytes = read("scene:resume", file)
   local text, note
   tell("scene:resume", file, function() text, note = note_from(bytes, scene) end)

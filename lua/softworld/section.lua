@@ -9,6 +9,7 @@
 -- @module softworld.section
 local core = require "softworld.core"
 local build = require "softworld.build"
+local methods = require "softworld.methods"
 
 local class = core.class
 local Section = { __name = "section" }
@@ -103,3 +104,5 @@ function class.wire.calibration(wire)
   local c = build.call(3, calibration, wire)
   return require("softworld.calibrate").named(c, wire.model)
 end
+
+methods.guard_table("section", Section)

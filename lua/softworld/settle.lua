@@ -3,6 +3,7 @@
 -- @module softworld.settle
 local core = require "softworld.core"
 local build = require "softworld.build"
+local checks = require "softworld.checks"
 local process = require "softworld.process"
 local trust = require "softworld.trust"
 
@@ -15,10 +16,15 @@ end
 
 function Settled:__tostring()
   if not self.ok then return ("not settled: %s"):format(self.reason) end
-  return ("settled on %d levels\n%s"):format(#self.levels, tostring(self:error_bars()))
+  local unmet = trust.unmet(self)
+  return ("settled on %d levels%s\n%s"):format(#self.levels, unmet and ", " .. unmet or "",
+    tostring(self:error_bars()))
 end
 
 local Rest = { __name = "rest" }
+Rest.__index = checks.fields("the result of scene:settle",
+  "ok reason iterations residual unstable transient jumped",
+  "steps rejected evaluations quantities met levels advice error_bars where refused asked start")
 
 function Rest:__tostring()
   if not self.ok then return self.reason end
@@ -27,9 +33,7 @@ function Rest:__tostring()
 end
 
 local core_settle = core.class.scene.settle
-local function settle(scene, args)
-  return setmetatable(build.call(3, core_settle, scene, args), Rest)
-end
+local function settle(scene, args) return setmetatable(build.call(3, core_settle, scene, args), Rest) end
 
 local function with_bars(scene, given)
   local args = {}

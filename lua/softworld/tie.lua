@@ -11,6 +11,7 @@
 local core = require "softworld.core"
 local build = require "softworld.build"
 local fixing = require "softworld.fixing"
+local remarks = require "softworld.remarks"
 local vec = require "softworld.vec"
 
 local properties = {}
@@ -59,6 +60,7 @@ local function checked(scene, wire, args)
 end
 
 local function make(scene, wire, given)
+  remarks.on("tie", "scene:tie", given)
   local a = checked(scene, wire, given)
   local self = { name = a.name, scene = scene, wire = wire, s = a.s, other = a.other }
   if a.other then
@@ -127,6 +129,9 @@ end
 
 --- Rows of a run's summary.
 function Tie:report(add)
+  if type(add) ~= "function" then
+    error("tie:report: a function that adds a row is wanted, got " .. type(add), 2)
+  end
   local broken = self.broken
   if broken then
     add(self.name .. ": BROKE at", broken.force, "N", nil, broken.time)

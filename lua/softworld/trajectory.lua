@@ -184,6 +184,14 @@ core.trajectory_reader(function(source, scale) return trajectory.read(source, sc
 --- Write count samples (default 201) of a trajectory as a CSV file that can be read
 -- back as way-points with times.
 function trajectory.save(self, path, count)
+  if core.type(self) ~= "trajectory" then error("trajectory:save is a method: call it with a colon", 2) end
+  if type(path) ~= "string" or path == "" then
+    error("trajectory:save: the name of a file is wanted, got " .. (path == "" and "''" or type(path)), 2)
+  end
+  if count ~= nil and (math.type(count) ~= "integer" or count < 2) then
+    error(("trajectory:save: the number of samples = %s must be an integer of 2 or more")
+      :format(tostring(count)), 2)
+  end
   local s = self:sample(count or 201)
   local columns = { t = s.t }
   for k, name in ipairs(position) do
@@ -202,4 +210,20 @@ core.class.trajectory.save = trajectory.save
 --- Make a trajectory; see the reference of its parameters.
 trajectory.new = core.trajectory
 
-return setmetatable(trajectory, { __call = function(_, ...) return core.trajectory(...) end })
+-- Errors about way-points of a file name it.
+local function of_file(path, level, ok, result)
+  if ok then return result end
+  local text = tostring(result):gsub("^[^\n:]*%.lua:%d+: ", "")
+  if not text:find(path, 1, true) then
+    text = text:gsub("^trajectory: ", function() return ("trajectory: '%s': "):format(path) end)
+  end
+  error(text, level + 1)
+end
+
+local function make(_, args, ...)
+  local path = type(args) == "table" and rawget(args, "path")
+  if type(path) ~= "string" or path:find "\n" then return core.trajectory(args, ...) end
+  return of_file(path, 2, pcall(core.trajectory, args))
+end
+
+return setmetatable(trajectory, { __call = make })

@@ -99,7 +99,7 @@ function Bars:__tostring()
   local lines = {}
   for i, q in ipairs(self) do
     local place = (q.where and (", s = %.4g m"):format(q.where) or "")
-      .. (q.when and (", t = %.4g s"):format(q.when) or "")
+      .. (q.when and (", t = %.4g s"):format(q.when) or "") .. (q.note and (" (%s)"):format(q.note) or "")
     lines[i] = ("%s = %s (asked for %s: %s)%s"):format(q.name, tostring(q),
       number.text(q.tolerance, q.unit), q.met and "met" or "NOT met", place)
   end
@@ -118,6 +118,16 @@ function trust.error_bars(result)
   local list = {}
   for i, name in ipairs(result.asked) do list[i] = asked[name] end
   return setmetatable(list, Bars)
+end
+
+--- Which tolerances were not met, in words; nil when all were, or none was asked for.
+function trust.unmet(result)
+  local names = {}
+  for _, name in ipairs(result.quantities and result.asked or {}) do
+    if not result.quantities[name].met then names[#names + 1] = name end
+  end
+  if #names == 0 then return nil end
+  return ("%d of %d tolerances NOT met: %s"):format(#names, #result.asked, table.concat(names, ", "))
 end
 
 --- For the __index of results: raises when the quantities of a refused one are read.
@@ -200,7 +210,7 @@ local function touches(scene)
   for _, o in ipairs(build.data(scene).obstacles) do
     local rows, count = o.object:log()
     for i = 0, count - 1 do
-      if rows[4 * i + 2] ~= 0 or rows[4 * i + 3] ~= 0 or rows[4 * i + 4] ~= 0 then return true end
+      if rows[5 * i + 2] ~= 0 or rows[5 * i + 3] ~= 0 or rows[5 * i + 4] ~= 0 then return true end
     end
   end
   return false
@@ -297,7 +307,7 @@ local function conclude(job, result)
   for i, q in ipairs(job.quantities) do result.asked[i] = q.name end
   if not result.ok or #job.values[job.quantities[1].name] < 2 then
     if result.ok then result.reason = "all levels but the last failed: " .. job.failure end
-    result.ok, result.refused = false, true
+    result.ok, result.refused, result.met = false, true, false
     result.where = ("%s: %s"):format(describe(job, #job.levels), result.reason)
     result.advice = job.advice
     return result
@@ -308,7 +318,7 @@ local function conclude(job, result)
     local met = now.error <= q.tolerance
     result.met = result.met and met
     result.quantities[q.name] = setmetatable({ name = q.name, value = now.value, error = now.error,
-      unit = q.unit, tolerance = q.tolerance, met = met, where = now.where, when = now.when,
+      unit = q.unit, tolerance = q.tolerance, met = met, where = now.where, when = now.when, note = now.note,
       levels = job.values[q.name] }, Quantity)
   end
   if not result.met then result.advice = advice_of(job) end

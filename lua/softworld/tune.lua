@@ -8,6 +8,7 @@
 -- @module softworld.tune
 local core = require "softworld.core"
 local build = require "softworld.build"
+local unread = require "softworld.unread"
 
 local tune = {}
 
@@ -20,11 +21,11 @@ local tune = {}
 -- Brent cannot tell x closer than about 1e-8 of itself. `max_iterations` (200).
 --
 -- An error in f is raised unchanged; a value of f that is not finite counts as
--- worse than all others. One Ctrl-C stops the search.
+-- worse than all others; runs that fail within f need not be looked at. One Ctrl-C stops the search.
 -- @tparam table args `f`, a function of the number (or of the list, when start is
 -- one) returning a number, and the above
 -- @treturn table `x`, `value`, `ok`, `reason`, `iterations`, `evaluations`, and
 -- `nonfinite`, how many values were not finite
-function tune.minimise(args) return build.call(3, core.minimise, args) end
+function tune.minimise(args) return unread.excused(build.call, 3, core.minimise, args) end
 
 return tune

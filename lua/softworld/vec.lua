@@ -49,6 +49,15 @@ function vec.turn(axis, angle)
   return { math.cos(angle / 2), s * axis[1], s * axis[2], s * axis[3] }
 end
 
+--- The orientation with x along the unit vector and z as far towards the unit vector up as may be.
+function vec.facing(x, up)
+  local z = vec.unit(vec.across(up, x))
+  if not z or math.abs(vec.dot(up, x)) > 0.999 then
+    z = vec.unit(vec.across({ 0, 1, 0 }, x)) or vec.unit(vec.across({ 1, 0, 0 }, x))
+  end
+  return vec.axes(x, vec.cross(z, x))
+end
+
 --- The orientation whose axes are x, y and x cross y in the world, both units and square.
 function vec.axes(x, y)
   local z = vec.cross(x, y)

@@ -82,6 +82,40 @@ describe("Ctrl-C", function()
     end)
   end
 
+  it("in the middle of a step takes nothing from the scene: it goes on with the same bits", function()
+    local out, err, code = program.script([[
+      local sw = require "softworld"
+      local function make()
+        local scene = sw.scene{}
+        local wire = scene:wire{ EA = 6000, EI = 0.02, mass_per_length = 0.1, radius = 0.005,
+          segments = 20000, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+        scene:clamp(wire, { s = 0 })
+        return scene, wire
+      end
+      local scene, wire = make()
+      local k, stops = 1, 0
+      while stops < 2 do
+        local ok, message = pcall(function()
+          while true do
+            scene:advance({ dt = 1e-3 }, k * 1e-3)
+            k = k + 1
+          end
+        end)
+        assert(message:match "interrupted", message)
+        stops = stops + 1
+      end
+      scene:advance({ dt = 1e-3 }, k * 1e-3)
+      local other, same = make()
+      for i = 1, k do other:advance({ dt = 1e-3 }, i * 1e-3) end
+      local a, b, different = wire:positions(), same:positions(), 0
+      for i = 1, #a do if a[i] ~= b[i] then different = different + 1 end end
+      print(#a, different)
+    ]], nil, TWICE)
+    assert.equal("", err)
+    assert.equal("60003\t0\n", out)
+    assert.equal(0, code)
+  end)
+
   it("names the line that ran when nobody catches it", function()
     local _, err, code = program.script(SCENE .. "scene:run{ duration = 1e6, dt = 1e-4 }", nil, ONCE)
     local line = select(2, SCENE:gsub("\n", "")) + 1

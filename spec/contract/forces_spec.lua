@@ -349,3 +349,49 @@ describe("a function as a force", function()
     assert.are.equal(0, norm(r.product))
   end)
 end)
+
+describe("the energies of a scene", function()
+  -- One that has every kind of force: more kinds than a fixed list of 24 could hold.
+  it("are listed whatever their number, and add up to the total", function()
+    local scene, y = sw.scene{ gravity = { 0, 0, -9.81 } }, 0
+    local function wire(more)
+      y = y + 0.3
+      local args = { EA = 60, EI = 0.02, mass_per_length = 0.1, radius = 0.05, from = { 0, y, 1 },
+        to = { 1, y, 1 } }
+      for key, value in pairs(more) do args[key] = value end
+      return scene:wire(args)
+    end
+    local rod = wire{ segments = 4 }
+    local rolling = wire{ segments = 4, rolls = true, from = { 1, 0.3, 1 }, to = { 2, 0.3, 1 } }
+    for _, more in ipairs{ { model = "string", segments = 4 }, { model = "tube" },
+      { model = "tube", core = false, wall_bending = 0.7, particles = 8 },
+      { model = "radial", body = "solid" },
+      { model = "composite", bonded = false, core = "line", particles = 3, grip = 5 } } do
+      wire(more)
+    end
+    local sheet = scene:particles{ positions = { 0, 0, 3, 0.1, 0, 3, 0.2, 0, 3, 0.3, 0, 3 }, masses = 0.01,
+      links = { { pairs = { 1, 2, 2, 3, 3, 4 }, k = 100 } }, folds = { { 1, 2, 3, stiffness = 0.01 } },
+      repel = { distance = 0.05, stiffness = 10 } }
+    for index, force in ipairs(samples.registry.forces) do
+      if not force.inner then
+        local args = samples.force(force, index)
+        args.on = (force.on_some or force.name == "plastic_springs") and sheet or rod
+        if force.on_some then args.particles = { 3, 1 } end
+        scene:force(args)
+      end
+    end
+    scene:force{ kind = function() end, on = rod }
+    scene:obstacle{ shape = "plane", at = { 0, 0, 0 } }
+    scene:join{ ends = { { rod, s = 1 }, { rolling, s = 0 } } }
+    local energy, sum, count = scene:energy(), 0, 0
+    for kind, value in pairs(energy) do
+      if kind ~= "total" and kind ~= "dissipated" then sum, count = sum + value, count + 1 end
+    end
+    assert.is_true(count > 24, count .. " kinds")
+    for _, kind in ipairs{ "kinetic", "gravity", "contact", "repel", "join", "callback", "push",
+      "plastic_springs", "solid", "clip", "tether" } do
+      assert.is_true(energy[kind] ~= nil, kind)
+    end
+    assert.is_true(math.abs(sum - energy.total) < 1e-9 * math.abs(sum))
+  end)
+end)

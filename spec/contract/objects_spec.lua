@@ -128,6 +128,18 @@ for _, hold in ipairs(samples.registry.holds) do
       near(0.1, wire:position(0.37)[3], 1e-9)
     end)
 
+    it("keeps its rotation when only its place is set", function()
+      local _, _, handle = make()
+      local place = handle:pose()
+      handle:pose(place, { axis = { 0, 1, 0 }, angle = 0.2 })
+      local rotation = select(2, handle:pose())
+      near(math.cos(0.1), rotation[1], 1e-15)
+      handle:pose{ place[1], 0, 0.01 }
+      assert.are.same(rotation, select(2, handle:pose()))
+      handle:pose(place, { 1, 0, 0, 0 })
+      assert.are.same({ 1, 0, 0, 0 }, select(2, handle:pose()))
+    end)
+
     it("lets go once, for good", function()
       local scene, wire, handle = make()
       handle:release()
@@ -204,6 +216,9 @@ for index, shape in ipairs(samples.registry.shapes) do
       local place, rotation = obstacle:pose()
       assert.are.same({ 3, 2, 40 }, place)
       near(math.cos(0.25), rotation[1], 1e-15)
+      obstacle:pose{ 4, 2, 40 } -- the same way round
+      assert.are.same({ 4, 2, 40 }, obstacle:pose())
+      assert.are.same(rotation, select(2, obstacle:pose()))
       assert.is_true(scene:run{ duration = 0.02 }.ok)
       obstacle:remove()
       assert.has_error(function() obstacle:pose() end)

@@ -263,7 +263,7 @@ local by_call = {
   ["process.feed"] = function(r) return ("%s, { length = %s, speed = %s }"):format(r.pick "clamp",
     words.value(r, "length"), words.value(r, "speed")) end,
   ["run.save"] = function(r) return words.or_hostile(r, r.of{ "dir .. '/a.csv'", "dir .. '/a.json'",
-    "'/dev/full'", words.file(r) }) end,
+    "dir .. '/full'", words.file(r) }) end,
   ["run.vtk"] = function(r) return words.or_hostile(r, r.of{ "dir .. '/a.pvd'", words.file(r) }) end,
   ["run.chart"] = function(r) return words.table_of(r, { "title", "columns" }, 0.2,
     { { "path", words.or_hostile(r, r.of{ "dir .. '/a.svg'", words.file(r) }) } }) end,

@@ -4,6 +4,7 @@
 local sw = require "softworld"
 local core = sw.core
 local hostile = require "fuzz.hostile"
+local lfs = require "lfs"
 
 local checked = {}
 
@@ -130,6 +131,7 @@ function checked.new(files, report)
   local self = setmetatable({ v = {}, report = report, slow = 6 }, Case)
   local T, F = hostile.make(self.v)
   self.v.dir = files
+  lfs.link("/dev/full", files .. "/full", true) -- a link: a device must not be replaced by mistake
   local function try(f, ...)
     local results = table.pack(pcall(f, ...))
     if results[1] then return table.unpack(results, 2, results.n) end

@@ -192,7 +192,7 @@ end
 
 function words.file(r)
   return r.of{ "dir .. '/a.sws'", "dir .. '/a.sws'", "dir .. '/b.sws'", "dir .. '/a.csv'", "dir .. '/a.json'",
-    "dir .. '/a.pvd'", "dir .. '/a.svg'", "dir .. '/none/a.csv'", "dir", "'/dev/null'", "dir .. '/t.obj'",
+    "dir .. '/a.pvd'", "dir .. '/a.svg'", "dir .. '/none/a.csv'", "dir", "dir .. '/full'", "dir .. '/t.obj'",
     "dir .. '/' .. long" }
 end
 

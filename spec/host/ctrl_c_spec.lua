@@ -8,7 +8,8 @@ local script = program.script
 
 -- Shells start background jobs with SIGINT ignored; env undoes that.
 local NORMAL = "env --default-signal=INT"
-local ONCE, TWICE = { before = NORMAL, signals = { 0.3 } }, { before = NORMAL, signals = { 0.3, 0.3 } }
+local ONCE = { before = NORMAL, signals = { 0.3 } }
+local TWICE = { before = NORMAL, signals = { 0.3, again = true } }
 
 local function interrupted(text, line)
   local out, err, code = script(text, nil, ONCE)
@@ -73,14 +74,20 @@ describe("Ctrl-C", function()
   end)
 
   it("twice at once counts once", function()
-    local out, err, code = script([[
-      pcall(function() while true do end end)
-      local t = os.clock() while os.clock() - t < 0.3 do end
-      print "once"
-    ]], nil, { before = NORMAL, signals = { 0.3, 0 } })
-    assert.equal("", err)
-    assert.equal("once\n", out)
-    assert.equal(0, code)
+    -- a busy machine may put more than the 50 ms between both that make them two
+    for attempt = 1, 8 do
+      local out, err, code = script([[
+        pcall(function() while true do end end)
+        local t = os.clock() while os.clock() - t < 0.3 do end
+        print "once"
+      ]], nil, { before = NORMAL, signals = { 0.3, 0 } })
+      assert.equal("", err)
+      if code == 130 and attempt < 8 then goto again end
+      assert.equal("once\n", out)
+      assert.equal(0, code)
+      do return end
+      ::again::
+    end
   end)
 
   it("leaves jobs alone that a shell started with it ignored", function()

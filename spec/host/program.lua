@@ -51,19 +51,70 @@ function program.shell(command)
   return texts[1], texts[2], how == "exit" and code or how .. code
 end
 
+-- How long nothing may happen before a program counts as hanging. Wall time says little on a
+-- machine that does other things, so the limit is on the program's own CPU time [s], with a wall
+-- time beside it that is far beyond all that waiting for the processor could take.
+local MOST_CPU, MOST_WALL = 40, 300
+
 -- A time of 0 is some milliseconds: two signals that are not merged into one.
 local MOMENT = "i=0; while [ $i -lt 10000 ]; do i=$((i+1)); done"
 
--- Run it in the background, send SIGINT after each of the times [s], and KILL
--- (code 137) should it go on for long. Its own number stays taken until wait, so
--- no other process can be hit.
+-- Shell functions about process $p. ticks: its CPU time t [1/100 s] and its state. ready: it
+-- catches or ignores SIGINT by now, and has computed for a time since its start, or waits.
+local SHELL = [[
+ticks() {
+  read -r line 2>/dev/null </proc/$p/stat || return 1
+  set -- ${line##*) }; state=$1; t=$((${12}+${13}))
+}
+handles() {
+  while read -r key value; do
+    case $key in SigCgt:|SigIgn:) [ $((0x${value#????????} & 2)) -ne 0 ] && return 0 ;; esac
+  done 2>/dev/null </proc/$p/status
+  return 1
+}
+ready() {
+  still=0
+  while ticks && [ $state != Z ]; do
+    if handles; then
+      case $state in S) still=$((still+1)) ;; *) still=0 ;; esac
+      [ $t -ge $1 ] || [ $still -ge 10 ] && return 0
+    fi
+    sleep 0.02
+  done
+}
+more() { # has computed for $1/100 s more since $from, or waits
+  still=0
+  while ticks && [ $state != Z ] && [ $((t-from)) -lt $1 ] && [ $still -lt 10 ]; do
+    case $state in S) still=$((still+1)) ;; *) still=0 ;; esac
+    sleep 0.02
+  done
+}
+watch() { # ends it when it goes on for too long
+  n=0
+  while ticks && [ $state != Z ]; do
+    [ $t -gt $1 ] || [ $n -gt $2 ] && { kill -KILL $p; return; }
+    sleep 0.2; n=$((n+1))
+  done
+}
+]]
+
+-- Run it in the background and send SIGINT: first when it has computed for the first of the times
+-- [s] (or waits), then after each other time, of which it has computed three quarters (or waits);
+-- with again = true, more of them until it ends. KILL (code 137) comes should it go on for long. Its
+-- own number stays taken until wait, so no other process can be hit.
 local function with_signals(command, times)
   local steps = {}
   for i, time in ipairs(times) do
-    steps[i] = (time > 0 and "sleep " .. time or MOMENT) .. "; kill -INT $p 2>/dev/null; "
+    local wait = i == 1 and ("ready %d"):format(100 * time // 1)
+      or time > 0 and ("sleep %g; more %d"):format(time, 75 * time // 1) or MOMENT
+    local note = (times[i + 1] or 0) > 0 and "; ticks; from=$t" or ""
+    steps[i] = wait .. note .. "; kill -INT $p 2>/dev/null"
   end
-  return ("%s & p=$!; (sleep 5; kill -KILL $p) >/dev/null 2>&1 & w=$!; %swait $p; c=$?; kill $w; exit $c")
-    :format(command, table.concat(steps))
+  if times.again then
+    steps[#steps + 1] = "while sleep 0.2; ticks && [ $state != Z ]; do kill -INT $p 2>/dev/null; done"
+  end
+  return ("%s%s & p=$!; (watch %d %d) >/dev/null 2>&1 & w=$!; %s; wait $p; c=$?; kill $w; exit $c")
+    :format(SHELL, command, 100 * MOST_CPU, 5 * MOST_WALL, table.concat(steps, "; "))
 end
 
 -- Run the program with a list of arguments. options: stdin (a text), input (a
@@ -91,20 +142,44 @@ end
 
 function program.has(tool) return (os.execute("command -v " .. tool .. " >/dev/null 2>&1")) end
 
--- The session at a terminal: keys is a list of texts typed and numbers of
--- seconds waited. Gives what the terminal showed and the exit code.
+-- Can a program be given a terminal? true; false where the system has none to give (no /dev/pts,
+-- as in some containers); an error where it has one but script(1), which makes them, fails.
+function program.has_terminals()
+  local _, why, code = program.shell "script -qec true /dev/null </dev/null"
+  if code == 0 then return true end
+  assert(select(3, program.shell ": <>/dev/ptmx") ~= 0,
+    "there are terminals (/dev/ptmx), but script(1) of package bsdutils fails: " .. why)
+  return false
+end
+
+-- quiet N: process $p waits for something, or has computed for N/100 s more.
+local TYPING = [[
+quiet() {
+  ticks || return; from=$t; still=0
+  while ticks && [ $state != Z ] && [ $still -lt 5 ] && [ $((t-from)) -lt $1 ]; do
+    case $state in S) still=$((still+1)) ;; *) still=0 ;; esac
+    sleep 0.02
+  done
+}
+]]
+
+-- The session at a terminal: keys is a list of texts typed, each when the program waits for it or
+-- computes, and of numbers of seconds of its computing time that pass. Gives what the terminal
+-- showed and the exit code.
 function program.terminal(keys, options)
   options = options or {}
-  local typing = { "sleep 0.5" }
+  local number = program.folder() .. "/number"
+  local typing = { SHELL .. TYPING .. ("n=0; while ! read -r p <%s; do sleep 0.02; n=$((n+1)); "
+    .. "[ $n -gt 10000 ] && exit; done 2>/dev/null"):format(number), "quiet 1000" }
   for _, key in ipairs(keys) do
-    typing[#typing + 1] = type(key) == "number" and "sleep " .. key
-      or "printf %s " .. quote(key) .. "; sleep 0.15"
+    typing[#typing + 1] = type(key) == "number" and ("quiet %d"):format(100 * key // 1)
+      or "printf %s " .. quote(key) .. "; sleep 0.05; quiet 5"
   end
   local state = options.state or program.folder()
-  local command = ("TERM=dumb INPUTRC=/dev/null XDG_STATE_HOME=%s exec %s"):format(
+  local command = ("echo $$ >%s; TERM=dumb INPUTRC=/dev/null XDG_STATE_HOME=%s exec %s"):format(number,
     quote(state), quote(program.path))
-  local out, _, code = program.shell(("(%s) | timeout 20 script -qec %s /dev/null"):format(
-    table.concat(typing, "; "), quote(command)))
+  local out, _, code = program.shell(("(%s) | timeout %d script -qec %s /dev/null"):format(
+    table.concat(typing, "; "), MOST_WALL, quote(command)))
   return out:gsub("\r", ""), code
 end
 

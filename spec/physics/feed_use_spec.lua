@@ -121,6 +121,11 @@ describe("a feed", function()
     local scene = make { speed = 1e4 }
     local run = scene:run { duration = 1, dt = 0.01, max_steps = 200 }
     assert.are.equal("boolean", type(run.ok))
+    scene = make { speed = 1e4, name = "spool" }
+    run = scene:run { duration = 1000, dt = 1000 }
+    assert.is_false(run.ok)
+    assert.matches("wire 'w' goes through feed 'spool' at 1e%+04 m/s, faster than steps can follow$",
+      run.reason)
   end)
 
   it("is restored bit by bit", function()

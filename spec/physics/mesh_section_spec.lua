@@ -226,6 +226,35 @@ describe("plane strain", function()
     end, "stiffness")
   end)
 
+  it("leaves a wire where it lies, whichever way it was drawn", function()
+    for _, model in ipairs{ "tube", "rod" } do
+      for _, ends in ipairs{ { 1, 1.1 }, { 1.1, 1 }, { -0.05, 0.05 } } do
+        local scene = sw.scene{ gravity = { 0, 0, 0 } }
+        local wire = scene:wire{ model = model, E = E, density = 1000, radius = R,
+          from = { ends[1], 2, 3 }, to = { ends[2], 2, 3 } }
+        scene:force{ kind = "plane_strain", on = wire, direction = { 1, 0, 0 } }
+        t.below(1e-12, scene:energy().plane_strain, "energy at first")
+        t.fine(scene:settle())
+        t.near(ends[1], wire:position(0)[1], 1e-9, "start")
+        t.near(ends[2], wire:position(wire.length)[1], 1e-9, "end")
+      end
+    end
+  end)
+
+  it("pulls it elsewhere when it is told to, and refuses wires that lie across", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ E = E, density = 1000, radius = R, from = { 1, 0, 0 }, to = { 1.1, 0, 0 } }
+    assert.error_matches(function()
+      scene:force{ kind = "plane_strain", on = wire, direction = { 0, 1, 0 } }
+    end, "does not lie along direction")
+    scene:force{ kind = "plane_strain", direction = { 1, 0, 0 }, at = { 1.02, 0, 0 } }
+    t.fine(scene:settle())
+    t.near(1.02, wire:position(0)[1], 1e-6, "start")
+    scene:wire{ E = E, density = 1000, radius = R, from = { 0, 1, 0 }, to = { 0.1, 1, 0 } }
+    assert.error_matches(function() scene:force{ kind = "plane_strain", direction = { 1, 0, 0 } } end,
+      "at is required where it acts on several wires")
+  end)
+
   it("carries what loads a wire along itself", function()
     local scene = sw.scene{ gravity = { 9.81, 0, 0 } }
     local wire = scene:wire{ model = "tube", E = E, density = 1000, radius = R, from = { 0, 0, 0 },

@@ -199,3 +199,32 @@ describe("a frozen grip", function()
     end
   end)
 end)
+
+describe("a snapshot of a frozen grip", function()
+  it("is restored to the last bit after the wire was made a mesh elsewhere, and a rod again", function()
+    local scene, wire, g = squeezed(soft, 0.1, false, 0.18)
+    g:freeze()
+    g:rotate{ axis = { 1, 2, 3 }, angle = 0.4, duration = 0.1 }
+    t.fine(scene:run{ duration = 0.1, dt = 0.01 })
+    local before = scene:snapshot()
+    local function bits()
+      t.fine(scene:run{ duration = 0.05, dt = 0.01 })
+      local list = (wire:positions())
+      table.move(g:force(), 1, 3, #list + 1, list)
+      table.move(g:moment(), 1, 3, #list + 1, list)
+      for i, value in ipairs(list) do list[i] = ("%a"):format(value) end
+      return table.concat(list, " ")
+    end
+    local wanted = bits()
+    scene:restore(before)
+    assert.equal(wanted, bits())
+    for i = 1, 4 do
+      wire:remodel{ model = "radial", body = "solid", region = { 0.11, 0.15 } }
+      g:rotate{ axis = { 1, i, 3 }, angle = 0.4, duration = 0.02 }
+      t.fine(scene:run{ duration = 0.02, dt = 0.01 })
+      wire:remodel{ model = "rod", segments = 72 }
+      scene:restore(before)
+      assert.equal(wanted, bits())
+    end
+  end)
+end)

@@ -103,6 +103,52 @@ describe("a gripper with pads", function()
     assert.equal(wire, g.wire)
   end)
 
+  it("says when it presses on another wire than it was to grasp, or on one more", function()
+    -- a at height z, b on the axis between the pads
+    local function two(z, body)
+      local scene = sw.scene{ gravity = { 0, 0, 0 } }
+      local wires = {}
+      for i, height in ipairs{ z, 0 } do
+        wires[i] = scene:wire{ name = i == 1 and "a" or "b", E = 2e7, density = 1200, radius = r,
+          from = { 0, 0, height }, to = { 0.2, 0, height }, segments = 20 }
+        scene:clamp(wires[i], { s = 0 })
+      end
+      scene:force{ kind = "damping", mass = 20, stiffness = 1e-3 }
+      local g = scene:gripper{ name = "hand", at = { 0.1, 0, 0 },
+        pads = { width = 0.02, height = 0.04, below = 0.02, friction = 1, opening = 0.01 } }
+      return scene, g, body(scene, g, wires[1])
+    end
+    local orders = { approach = "plates", force = 5 }
+    local scene, g, why = two(0.1, function(world, hand, wire)
+      local said
+      run(world, function() said = select(2, pcall(hand.grasp, hand, wire, orders)) end)
+      return said
+    end)
+    assert.matches("^[^ ]*gripper_use_spec%.lua:%d+: gripper 'hand' presses on wire 'b' %([45][%d.]* N%), "
+      .. "not on wire 'a', which", why)
+    assert.is_nil(g.wire)
+    assert.equal("grasp", scene:events()[1].kind)
+    -- outside of a process nobody waits: the list of the run tells it
+    local told = {}
+    for _, z in ipairs{ 0.1, 0.0075, 0 } do
+      scene = two(z, function(world, hand, wire)
+        hand:grasp(wire, orders)
+        if z == 0 then world:restore(world:snapshot()) end
+        t.fine(world:run{ duration = 1, dt = 0.01 })
+        return hand
+      end)
+      told[#told + 1] = scene:events()[1]
+    end
+    assert.matches("presses on wire 'b' %(5 N%), not on wire 'a'", told[1].text)
+    assert.matches("presses on wire 'b' %(2%.%d+ N%) besides wire 'a'", told[2].text)
+    t.near(2.5, told[2].value, 0.2, "force on it")
+    assert.matches("besides wire 'a'", told[3].text)
+    local clean, wire = new_scene()
+    local alone = clean:gripper{ name = "hand", pads = pads }
+    run(clean, function() alone:grasp(wire, { s = 0.1, approach = "plates", force = 1 }) end)
+    assert.same({}, clean:events())
+  end)
+
   it("stops before it crushes the wire", function()
     local mesh = { E = 2e6, model = "radial", body = "solid", to = { 0.1, 0, r } }
     for _, model in ipairs{ { E = 2e6 }, mesh } do

@@ -43,8 +43,30 @@ local function thinned(time, values)
   return rows
 end
 
+local many = 8 -- curves of one unit; beyond that components of vectors are drawn only when named
+
+-- Of vectors the components, where the vector's length is there too.
+local function is_component(column, lengths)
+  local vector = column.name:match "^(.*)_[xyz]$"
+  return vector and lengths[vector]
+end
+
+local function usual_columns(data)
+  local count, lengths, most, list = {}, {}, 0, {}
+  for _, column in ipairs(data.columns) do
+    local unit = column.unit or ""
+    count[unit] = (count[unit] or 0) + 1
+    lengths[column.name], most = true, math.max(most, count[unit])
+  end
+  if most <= many then return data.columns end
+  for _, column in ipairs(data.columns) do
+    if not is_component(column, lengths) then list[#list + 1] = column end
+  end
+  return list
+end
+
 local function wanted_columns(data, names)
-  if not names then return data.columns end
+  if not names then return usual_columns(data) end
   local list = {}
   for i, name in ipairs(names) do
     for _, column in ipairs(data.columns) do
@@ -67,17 +89,28 @@ local function has_values(column)
   return false
 end
 
--- One panel for each unit, in the order of first use.
+local steep = 100 -- radii of bends above so many times the smallest are as good as straight
+
+-- Radii of bends that matter: those of almost straight wire would leave no room for them.
+local function tight(column)
+  local least, values = math.huge, {}
+  for _, x in ipairs(column.values) do if x > 0 then least = math.min(least, x) end end
+  for i, x in ipairs(column.values) do values[i] = x <= steep * least and x or 0 / 0 end
+  return { name = column.name, unit = column.unit, values = values }
+end
+
+-- One panel for each unit, in the order of first use; radii of bends have one of their own.
 local function panels_of(columns)
   local panels, by_unit = {}, {}
   for _, column in ipairs(columns) do
     if has_values(column) then
-      local unit = column.unit or ""
-      if not by_unit[unit] then
-        by_unit[unit] = { unit = unit }
-        panels[#panels + 1] = by_unit[unit]
+      local unit, bend = column.unit or "", column.name:find "%.bend_radius$" ~= nil
+      local key = bend and "bend" or unit
+      if not by_unit[key] then
+        by_unit[key] = { unit = unit, bend = bend }
+        panels[#panels + 1] = by_unit[key]
       end
-      table.insert(by_unit[unit], column)
+      table.insert(by_unit[key], bend and tight(column) or column)
     end
   end
   if #panels == 0 then sink.fail("a chart: no series with a finite value to draw") end
@@ -99,6 +132,11 @@ local function nice_step(span)
 end
 
 local function value_axis(script, panel)
+  script.add(panel.bend and "set logscale y" or "unset logscale y")
+  if panel.bend then
+    script.add "set yrange [*:*]\nset ytics autofreq"
+    return
+  end
   local low, high = math.huge, -math.huge
   for _, column in ipairs(panel) do
     for _, x in ipairs(column.values) do
@@ -119,19 +157,18 @@ local quantities = { N = "force", ["N m"] = "moment", J = "energy", m = "length"
 
 -- A single curve is named on its axis, several in the key; characters have no
 -- room beside the axis, so that there the key tells all.
-local function panel_plot(script, time, panel, first, text)
+local function panel_plot(script, time, panel, text)
   local curves, single = {}, #panel == 1
   for k, column in ipairs(panel) do
     local title = single and "notitle" or "title " .. quote(column.name)
     if text then title = "title " .. quote(series.head(column.name, panel.unit)) end
-    curves[k] = curve(script, time, column, first + k, title)
+    curves[k] = curve(script, time, column, k, title)
   end
   if not text then value_axis(script, panel) end
-  local name = single and panel[1].name or quantities[panel.unit] or ""
+  local name = single and panel[1].name or panel.bend and "bend radius" or quantities[panel.unit] or ""
   local axis = text and "" or series.head(name, panel.unit)
   script.add("set ylabel %s noenhanced", quote(axis))
   script.add("plot " .. table.concat(curves, ", "))
-  return first + #panel
 end
 
 local function time_range(time)
@@ -152,13 +189,24 @@ local function key_room(panels)
   return longest > 0 and 60 + 8.2 * longest or 26
 end
 
+local key_line = 20 -- height of a name in a key [px]
+
+-- How large a chart must be for its panels and their keys [px].
+local function natural_size(panels)
+  local most = 0
+  for _, panel in ipairs(panels) do most = math.max(most, #panel) end
+  local panel_height = math.max(184, key_line * (most + 1))
+  local height = #panels > 1 and 100 + (panel_height + 36) * #panels or math.max(420, panel_height + 110)
+  return math.max(900, 116 + key_room(panels) + 480), math.ceil(height)
+end
+
 -- Panels of one width and height, with room for the title and their keys.
 local function stack(script, panels, title, size, path)
   local dot = sink.extension(path) == "pdf" and 1 / 96 or 1
   local wide, high = dot / size[1], dot / size[2]
   script.add("set multiplot layout %d,1%s margins %.4f,%.4f,%.4f,%.4f spacing 0,%.4f", #panels,
     title and " title " .. quote(title) .. " noenhanced" or "", 116 * wide,
-    math.max(0.5, 1 - key_room(panels) * wide), 66 * high, 1 - (title and 44 or 20) * high, 36 * high)
+    math.max(0.3, 1 - key_room(panels) * wide), 66 * high, 1 - (title and 44 or 20) * high, 36 * high)
   script.add "set format x ''\nset key at graph 1.02,graph 1 left top vertical"
 end
 
@@ -177,7 +225,7 @@ function chart.series(options)
     title = (title and title .. ", " or "") .. ("means over %g s"):format(options.mean)
   end
   local panels = panels_of(wanted_columns(data, options.columns))
-  local size = size_of(options, 900, #panels > 1 and 100 + 220 * #panels or 420)
+  local size = size_of(options, natural_size(panels))
   local low, high = time_range(data.time)
   script.add("set xrange [%s:%s]", gnuplot.number(low), gnuplot.number(high))
   local text = not options.path
@@ -186,10 +234,9 @@ function chart.series(options)
   elseif title then
     script.add("set title %s noenhanced", quote(title))
   end
-  local used = 0
   for i, panel in ipairs(panels) do
     if i == #panels or text then script.add "set format x '%g'\nset xlabel 't [s]'" end
-    used = panel_plot(script, data.time, panel, used, text)
+    panel_plot(script, data.time, panel, text)
     if i == 1 and text then script.add "unset title" end
   end
   if not text then script.add "unset multiplot" end

@@ -11,9 +11,12 @@ gnuplot.colours = { "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B
 
 --- A text as a gnuplot string: nothing in it has a meaning.
 -- @tparam string text
--- @treturn string in single quotes, on one line
+-- @treturn string in quotes, on one line
 function gnuplot.quote(text)
-  return "'" .. tostring(text):gsub("%c", " "):gsub("'", "''") .. "'"
+  text = tostring(text):gsub("%c", " ")
+  -- gnuplot takes two single quotes at the start for an empty string
+  if text:sub(1, 1) ~= "'" then return "'" .. text:gsub("'", "''") .. "'" end
+  return '"' .. text:gsub('["\\`]', function(c) return ("\\%03o"):format(c:byte()) end) .. '"'
 end
 
 --- A number for gnuplot; what is not finite leaves a gap.
@@ -77,24 +80,27 @@ function gnuplot.script()
   return script
 end
 
--- The id puts its mark on names within an SVG, so that several fit one page.
+-- gnuplot writes to its standard output, for it takes no name of a file with a line end in it. The
+-- id puts its mark on names within an SVG, so that several fit one page.
 local function run(kind, size, script, output, id)
-  local name = os.tmpname()
-  local ok, text, code = pcall(function()
-    sink.write_file(name, table.concat({
+  local name = sink.scratch()
+  local ok, failure = pcall(function()
+    local file = assert(io.open(name, "wb"))
+    local done, why = file:write(table.concat({
       "set terminal " .. string.format(terminals[kind], size[1], size[2], id),
-      "set output " .. gnuplot.quote(output), kind == "dumb" and dumb_style or style,
-      table.concat(script.lines, "\n"), "unset output\n",
+      kind == "dumb" and dumb_style or style, table.concat(script.lines, "\n"), "unset output\n",
     }, "\n"))
-    local fine, said, exit = sink.run("exec gnuplot -d " .. sink.quote(name))
-    if not fine then return said, exit end
+    file:close()
+    if not done then sink.fail("cannot write %s: %s", name, why) end
+    local fine, said, exit = sink.run("exec gnuplot -d " .. sink.quote(name) .. " >" .. sink.quote(output))
+    if not fine then
+      sink.fail("gnuplot failed (exit code %d): %s", exit, complaint(said, name:gsub("%p", "%%%0")))
+    end
   end)
-  os.remove(name)
-  if text then os.remove(output) end
-  if not ok then error(text, 0) end
-  if text then
-    sink.fail("gnuplot failed (exit code %d): %s", code, complaint(text, name:gsub("%p", "%%%0")))
-  end
+  sink.discard(name)
+  if ok then return end
+  sink.discard(output)
+  error(failure, 0)
 end
 
 --- Draw a script into a file, or as characters.
@@ -106,17 +112,17 @@ end
 function gnuplot.draw(script, path, size)
   sink.need("gnuplot", "gnuplot-nox", "a chart")
   if not path then
-    local output = os.tmpname()
+    local output = sink.scratch()
     run("dumb", size, script, output)
     local text = sink.read_file(output)
-    os.remove(output)
+    sink.discard(output)
     return (text:gsub("\f", ""):gsub("[ \t]+\n", "\n"):gsub("^\n+", ""):gsub("\n+$", "\n"))
   end
   local kind = sink.extension(path)
   if not terminals[kind] or kind == "dumb" then
     sink.fail("a chart: %s ends in none of .svg .png .pdf", path)
   end
-  local output = sink.reserve(path)
+  local output = sink.temporary(path)
   run(kind, size, script, output, "c_" .. sink.base(path):gsub("[^%w]", "_"))
   sink.commit(output, path)
   return path

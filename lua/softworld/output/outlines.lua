@@ -26,7 +26,7 @@ set size ratio -1
 set xlabel 'across [mm]'
 set ylabel 'up [mm]'
 set key outside right center vertical]]
-  if title then script.add("set title " .. gnuplot.quote(title)) end
+  if title then script.add("set title " .. gnuplot.quote(title) .. " noenhanced") end
   for i, item in ipairs(list) do
     plots[i] = ("%s using 1:2 with linespoints pt 7 ps 0.5 lw 2 lc rgb '%s' title %s"):format(
       script.data(flat(item[2])), gnuplot.colours[(i - 1) % #gnuplot.colours + 1], gnuplot.quote(item[1]))

@@ -66,7 +66,8 @@ local function flat_scene(sheet)
   return table.concat(parts)
 end
 
--- The frame nearest to each time, or count frames evenly spread, first and last included.
+-- The frame nearest to each time, or count frames evenly spread, first and last included; of a run
+-- that failed the last ones.
 local function chosen_frames(run, count, times)
   local total, list = #run.frames, {}
   for k, t in ipairs(times or {}) do
@@ -76,20 +77,22 @@ local function chosen_frames(run, count, times)
   end
   if times and #list > 0 then return list end
   count = math.min(count, total)
-  for k = 0, count - 1 do
+  for k = 1, run.ok == false and count or 0 do list[k] = run.frames[total - count + k] end
+  for k = #list, count - 1 do
     list[k + 1] = run.frames[count > 1 and 1 + math.floor(k * (total - 1) / (count - 1) + 0.5) or total]
   end
   return list
 end
 
 -- Points that the drawn grippers reach, for the camera to hold.
-local function grip_points(run, width)
+local function grip_points(run, smallest)
   local points = {}
   for _, frame in ipairs(run.frames) do
-    for _, pose in ipairs(frame.grips or {}) do
-      local p, q = solid.pose(pose)
-      for _, side in ipairs { -1, 1 } do
-        local x, y, z = solid.rotate(q, side * width, 0, povscene.grip_reach * width)
+    for i, pose in ipairs(frame.grips or {}) do
+      local width = math.max(smallest, (run.grips and run.grips[i] or {}).width or 0)
+      local p, q = solid.pose(pose or nil)
+      for _, side in ipairs(pose and { -1, 1 } or {}) do
+        local x, y, z = solid.rotate(q, 0, 1.5 * side * width, povscene.grip_reach * width)
         points[#points + 1] = { p[1] + x, p[2] + y, p[3] + z }
       end
     end
@@ -116,13 +119,21 @@ local function look_of(run, width, height, options)
   return look
 end
 
-local function foot_of(run, look)
-  local notes = {}
+local function has_plane(run)
   for _, o in ipairs(run.obstacles or {}) do
-    if o.shape == "plane" and not notes[1] then
-      local side = number.text(povscene.square(look.size), "m"):gsub("(%d)%.0+ ", "%1 ")
-      notes[1] = "squares of " .. side
-    end
+    if o.shape == "plane" then return true end
+  end
+  return false
+end
+
+local foot_letter = 7.6 -- width of a letter of the foot [px]
+
+-- What stands below the pictures, on a sheet of this width [px].
+local function foot_of(run, look, width)
+  local notes = {}
+  if has_plane(run) then
+    local side = number.text(povscene.square(look.size), "m"):gsub("(%d)%.0+ ", "%1 ")
+    notes[1] = "squares of " .. side
   end
   if look.thickness ~= 1 then
     notes[#notes + 1] = string.format("wire drawn %g times as thick", look.thickness)
@@ -132,6 +143,11 @@ local function foot_of(run, look)
       notes[#notes + 1] = "grippers not to scale"
       break
     end
+  end
+  if run.ok == false then
+    local text, most = "FAILED " .. tostring(run.reason), (width - 2 * gap) // foot_letter
+    text = #notes > 0 and text .. "; " .. table.concat(notes, ", ") or text
+    return #text > most and text:sub(1, most - 3) .. "..." or text
   end
   return table.concat(notes, ", ")
 end
@@ -143,7 +159,8 @@ end
 
 local function caption_of(run, frame, i, options)
   local words = options.captions and options.captions[i]
-  return options.caption or time_caption(run, frame) .. (words and ": " .. words or "")
+  local failed = run.ok == false and frame == run.frames[#run.frames] and ", the run FAILED" or ""
+  return options.caption or time_caption(run, frame) .. failed .. (words and ": " .. words or "")
 end
 
 local function check(options, purpose)
@@ -160,9 +177,7 @@ end
 
 local function render(sheet, run, frames, look, options)
   local path = options.path
-  local folder, names = sink.reserve(path), { "sheet.pov", "sheet.png" }
-  os.remove(folder) -- a file of that name could be made: so can a folder
-  sink.make_folder(folder)
+  local folder, names = sink.temporary(path, true), { "sheet.pov", "sheet.png" }
   local settings = { threads = options.threads or 2, aa = options.draft and "-A" or "+A0.15 +AM2 +R3 -J" }
   local ok, why = pcall(function()
     for i, frame in ipairs(frames) do
@@ -227,7 +242,7 @@ function povray.strip(options)
     look = look_of(run, panel_width, panel_height, options)
   end
   local sheet = sheet_of(columns, rows, panel_width, panel_height)
-  sheet.foot = foot_of(run, look)
+  sheet.foot = foot_of(run, look, sheet.width)
   return render(sheet, run, frames, look, options)
 end
 
@@ -242,7 +257,7 @@ function povray.picture(options)
   local size = options.size or { 1200, 800 }
   local sheet = sheet_of(1, 1, size[1] - 2 * gap, size[2] - gap - foot_height - caption_height)
   local look = look_of(run, sheet.panel_width, sheet.panel_height, options)
-  sheet.foot = foot_of(run, look)
+  sheet.foot = foot_of(run, look, sheet.width)
   return render(sheet, run, { frame }, look, options)
 end
 

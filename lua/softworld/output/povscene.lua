@@ -253,7 +253,41 @@ local function grips(add, run, frame, look)
   for i, pose in ipairs(frame.grips or {}) do
     local w = math.max((run.grips and run.grips[i] or {}).width or 0, look.smallest_grip)
     local closed = math.min(radius * look.thickness, 0.4 * w)
-    grip(add, pose, w, pose.held and closed or closed + 0.5 * w)
+    if pose then grip(add, pose, w, pose.held and closed or closed + 0.5 * w) end
+  end
+end
+
+-- What stands still, or is moved by hand: w is half of its size, the wire lies along x.
+local clamp_makers = {}
+
+--- Two plates on a block, one above the wire and one below.
+function clamp_makers.clamp(add, w)
+  add(format("box { <%.9g,%.9g,%.9g>, <%.9g,%.9g,%.9g> }\n", -w, -w, 0.3 * w, w, w, w))
+  add(format("box { <%.9g,%.9g,%.9g>, <%.9g,%.9g,%.9g> }\n", -w, -w, -w, w, w, -0.3 * w))
+  add(format("box { <%.9g,%.9g,%.9g>, <%.9g,%.9g,%.9g> }\n", -w, 0.6 * w, -w, w, w, w))
+end
+
+--- An axle across the wire with a ball.
+function clamp_makers.pin(add, w)
+  add(format("sphere { 0, %.9g }\ncylinder { -y*%.9g, y*%.9g, %.9g }\n", 0.8 * w, 1.6 * w, 1.6 * w,
+    0.3 * w))
+end
+
+--- A tube around the wire.
+function clamp_makers.feed(add, w)
+  add(format("difference { cylinder { -x*%.9g, x*%.9g, %.9g } cylinder { -x*%.9g, x*%.9g, %.9g } }\n",
+    1.6 * w, 1.6 * w, w, 2 * w, 2 * w, 0.6 * w))
+end
+
+local function clamps(add, run, frame, look)
+  local radius = run.wires[1] and run.wires[1].radius or 0
+  for i, pose in ipairs(frame.clamps or {}) do
+    if pose then
+      local w = math.max(2.2 * radius * look.thickness, 0.5 * look.smallest_grip)
+      add "union {\n"
+      clamp_makers[run.clamps[i].kind or "clamp"](add, w)
+      add(format("%s\n%s }\n", painted(jaw_colour), matrix(pose)))
+    end
   end
 end
 
@@ -269,7 +303,8 @@ function povscene.text(run, frame, look)
   head(add, look.camera)
   lights(add, look.camera, view.up(run), look.size)
   for i, o in ipairs(run.obstacles or {}) do
-    obstacle(add, o, (frame.obstacles or {})[i], look.camera, look.size)
+    local pose = (frame.obstacles or {})[i]
+    if pose ~= false then obstacle(add, o, pose, look.camera, look.size) end
   end
   for i, points in ipairs(frame.wires) do
     local w = run.wires[i]
@@ -281,6 +316,7 @@ function povscene.text(run, frame, look)
     end
   end
   grips(add, run, frame, look)
+  clamps(add, run, frame, look)
   return table.concat(parts)
 end
 

@@ -40,6 +40,7 @@ end
 
 --- Start showing progress.
 -- @tparam[opt] table options
+-- `after` real time before anything is shown, and nothing at all of what ends sooner [s];
 -- `total` simulated time to reach [s], nil if the processes decide;
 -- `name` shown in front; `quiet = true` shows nothing;
 -- `stream` (default io.stderr); `terminal` true or false (default: asked of
@@ -56,6 +57,8 @@ function progress.new(options)
   self.stream = options.stream or io.stderr
   self.clock = options.clock or fallback_clock()
   self.start, self.time, self.steps = self.clock(), 0.0, 0
+  self.after = options.after or 0
+  self.early = self.after > 0
   self.terminal = options.terminal
   if self.terminal == nil and not self.quiet then
     self.terminal = self.stream == io.stderr and is_terminal()
@@ -141,6 +144,8 @@ function progress:update(time, steps)
   if self.quiet or self.ended then return end
   self.time, self.steps = time, math.tointeger(steps) or self.steps
   local now = self.clock()
+  if self.early and now - self.start < self.after then return end
+  self.early = false
   if self.shown and now - self.shown < (self.terminal and redraw_gap or line_gap) then return end
   self.shown = now
   if self.terminal then draw(self, now) else say(self, now) end
@@ -158,7 +163,7 @@ function progress:clear()
 end
 
 local function last_line(self, format, ...)
-  if self.quiet or self.ended then return end
+  if self.quiet or self.ended or self.early then return end
   self:clear()
   local label = self.name and self.name:gsub("%c", " ") .. ": " or ""
   self.stream:write(label, string.format(format, ...), "\n")

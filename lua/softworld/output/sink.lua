@@ -2,13 +2,15 @@
 --- Files, folders and numbers on their way out.
 -- A file is written beside its final place under a temporary name and then
 -- renamed, so that a reader never meets half a file and an interrupted run
--- never spoils the previous one. Functions that fail raise a plain string
--- that names the path and the reason.
+-- never spoils the previous one. Temporary files of processes that were killed
+-- are removed by the next one that writes into the folder. Functions that fail
+-- raise a plain string that names the path and the reason.
 -- @module softworld.output.sink
+local core = require "softworld.core"
 
 local sink = {}
 
-local counter = 0
+local locks = {} -- of this process's temporary files, by path
 
 --- Raise an error without position information.
 -- @tparam string format as for string.format
@@ -62,27 +64,51 @@ function sink.extension(path)
   return (sink.base(path):match("^.+%.([^.]*)$") or ""):lower()
 end
 
-local function check_path(path)
+local function check_path(path, verb)
+  verb = verb or "write"
   if type(path) ~= "string" or path == "" then
     sink.fail("a file path (a non-empty string) is expected, got %s", path == "" and '""' or type(path))
   end
-  if path:find("\0", 1, true) then sink.fail("cannot write %q: zero byte in the path", path) end
-  if sink.base(path) == "" then sink.fail("cannot write %s: it names a folder, not a file", path) end
+  if path:find("\0", 1, true) then sink.fail("cannot %s %q: zero byte in the path", verb, path) end
+  if sink.base(path) == "" then sink.fail("cannot %s %s: it names a folder, not a file", verb, path) end
 end
 
---- A fresh name in the same folder as the path, hidden and with its extension.
+--- A fresh, empty file in the same folder as the path, hidden; sink.commit or
+-- sink.discard when it is done with. What killed processes left there is removed.
 -- @tparam string path the final path
--- @treturn string temporary path; nothing is created
-function sink.temporary(path)
+-- @tparam[opt] boolean folder a folder is wanted, not a file
+-- @tparam[opt] boolean swept the folder has been looked through just now
+-- @treturn string temporary path; raises if the folder cannot be written
+function sink.temporary(path, folder, swept)
   check_path(path)
-  counter = counter + 1
-  local mark = tostring({}):gsub("%W", ""):sub(-10)
-  local name = string.format(".%s.%d%s%d.tmp", sink.base(path):sub(1, 120), os.time(), mark, counter)
-  local folder = sink.folder(path)
-  local extension = sink.extension(path)
-  if extension ~= "" then name = name .. "." .. extension end
-  if folder == "." and path:sub(1, 2) ~= "./" then return name end
-  return (folder == "/" and "" or folder) .. "/" .. name
+  local place = sink.folder(path)
+  if not swept then core.sweep(place) end
+  local start = "." .. sink.base(path):sub(1, 120)
+  if place ~= "." or path:sub(1, 2) == "./" then start = (place == "/" and "" or place) .. "/" .. start end
+  local temporary, lock = core.part(start, folder)
+  if not temporary then sink.fail("cannot write %s: %s", path, lock) end
+  locks[temporary] = lock
+  return temporary
+end
+
+--- A fresh, empty file for what this process needs by itself; sink.discard it.
+-- @treturn string path
+function sink.scratch()
+  local folder = os.getenv "TMPDIR"
+  if not folder or core.kind(folder) ~= "folder" then folder = "/tmp" end
+  return sink.temporary(folder .. "/softworld")
+end
+
+local function let_go(temporary)
+  if locks[temporary] then locks[temporary]() end
+  locks[temporary] = nil
+end
+
+--- Remove a temporary file.
+-- @tparam string temporary
+function sink.discard(temporary)
+  os.remove(temporary)
+  let_go(temporary)
 end
 
 local function reason_of(message, path)
@@ -92,15 +118,26 @@ local function reason_of(message, path)
   return message
 end
 
+local function put_in_place(temporary, path, safe)
+  local kind = core.kind(path)
+  if kind and kind ~= "file" then return nil, kind == "folder" and "Is a directory" or "it is a " .. kind end
+  local good, why = true, nil
+  if safe then good, why = core.sync(temporary) end
+  if good then good, why = os.rename(temporary, path) end
+  if good and safe then good, why = core.sync(sink.folder(path), true) end
+  return good, why
+end
+
 --- Give a finished temporary file its final name.
 -- The temporary file is removed if that fails.
 -- @tparam string temporary
 -- @tparam string path
-function sink.commit(temporary, path)
-  local ok, why = os.rename(temporary, path)
-  if ok then return end
-  os.remove(temporary)
-  sink.fail("cannot write %s: %s", path, reason_of(why, temporary))
+-- @tparam[opt] boolean safe have it on the disk first: a computer that goes
+-- down then leaves the old file or the new one, whole
+function sink.commit(temporary, path, safe)
+  local ok, why = put_in_place(temporary, path, safe)
+  sink.discard(temporary) -- it has gone already if all went well
+  if not ok then sink.fail("cannot write %s: %s", path, reason_of(why, temporary)) end
 end
 
 local function writer(file)
@@ -114,48 +151,79 @@ local function fill(file, content)
   if type(content) == "function" then content(writer(file)) else writer(file)(content) end
 end
 
+-- Fill an open file and close it: nil, or what went wrong.
+local function fill_and_close(file, content)
+  local ok, failure = pcall(fill, file, content)
+  local closed, close_why = file:close()
+  if ok and closed then return nil end
+  if ok then return { sink_reason = close_why } end
+  return failure
+end
+
+-- A device or a pipe (/dev/stdout) is written to; renaming would put a file in its place.
+local function write_through(path, content)
+  local file, why = io.open(path, "wb")
+  if not file then sink.fail("cannot write %s: %s", path, reason_of(why, path)) end
+  local failure = fill_and_close(file, content)
+  if failure and not (type(failure) == "table" and failure.sink_reason) then error(failure, 0) end
+  if failure then sink.fail("cannot write %s: %s", path, reason_of(failure.sink_reason, path)) end
+  return path
+end
+
 --- Write a file whole or not at all.
 -- @tparam string path
 -- @tparam string|function content the text, or function(write) that calls
 -- write(string, ...) as often as it likes; an error in it is passed on
+-- @tparam[opt] table options `safe` as in sink.commit; `swept` as in sink.temporary
 -- @treturn string the path
-function sink.write_file(path, content)
+function sink.write_file(path, content, options)
   check_path(path)
   if type(content) ~= "string" and type(content) ~= "function" then
     sink.fail("cannot write %s: text or function(write) expected, got %s", path, type(content))
   end
-  local temporary = sink.temporary(path)
+  local kind = core.kind(path)
+  if kind and kind ~= "file" and kind ~= "folder" then return write_through(path, content) end
+  local temporary = sink.temporary(path, false, options and options.swept)
   local file, why = io.open(temporary, "wb")
-  if not file then sink.fail("cannot write %s: %s", path, reason_of(why, temporary)) end
-  local ok, failure = pcall(fill, file, content)
-  local closed, close_why = file:close()
-  if ok and closed then
-    sink.commit(temporary, path)
+  if not file then
+    sink.discard(temporary)
+    sink.fail("cannot write %s: %s", path, reason_of(why, temporary))
+  end
+  local failure = fill_and_close(file, content)
+  if not failure then
+    sink.commit(temporary, path, options and options.safe)
     return path
   end
-  os.remove(temporary)
-  if not ok and type(failure) ~= "table" then error(failure, 0) end
-  if not ok and not failure.sink_reason then error(failure, 0) end
-  return sink.fail("cannot write %s: %s", path, reason_of(ok and close_why or failure.sink_reason, temporary))
+  sink.discard(temporary)
+  if type(failure) ~= "table" or not failure.sink_reason then error(failure, 0) end
+  return sink.fail("cannot write %s: %s", path, reason_of(failure.sink_reason, temporary))
 end
 
---- Make an empty temporary file beside a path for another program to fill.
--- @tparam string path the final path
--- @treturn string the temporary path; raises if the folder cannot be written
-function sink.reserve(path)
-  local temporary = sink.temporary(path)
-  local file, why = io.open(temporary, "wb")
-  if not file then sink.fail("cannot write %s: %s", path, reason_of(why, temporary)) end
-  file:close()
-  return temporary
+local largest = 4e9 -- of a file that is read whole [B]
+
+-- Why a file would not be read, or nil: reading pipes and devices may never end.
+local function unreadable(path)
+  local kind = core.kind(path)
+  if kind == nil or kind == "file" then return nil end
+  if kind == "pipe" and (path == "/dev/stdin" or path:find "^/dev/fd/%d+$") then return nil end
+  return ("it is a %s, not a file"):format(kind)
 end
 
 --- Read a whole file.
 -- @tparam string path
 -- @treturn string
 function sink.read_file(path)
+  check_path(path, "read")
+  local never = unreadable(path)
+  if never then sink.fail("cannot read %s: %s", path, never) end
   local file, why = io.open(path, "rb")
   if not file then sink.fail("cannot read %s: %s", path, reason_of(why, path)) end
+  local size = file:seek "end"
+  if size and size > largest then
+    file:close()
+    sink.fail("cannot read %s: it has %.0f bytes, more than %.0f", path, size, largest)
+  end
+  if size then file:seek "set" end
   local text, read_why = file:read("a")
   file:close()
   if not text then sink.fail("cannot read %s: %s", path, tostring(read_why)) end
@@ -198,7 +266,7 @@ end
 -- @tparam {string,...} names of the files that may be in it
 function sink.remove_folder(path, names)
   for _, name in ipairs(names) do os.remove(path .. "/" .. name) end
-  os.remove(path)
+  sink.discard(path)
 end
 
 --- Run a command in the shell and catch everything it prints.

@@ -190,6 +190,7 @@ end
 -- @tparam ?table b
 -- @treturn boolean
 function solid.same_pose(a, b)
+  if a == false or b == false then return a == b end -- not there
   local pa, qa = solid.pose(a)
   local pb, qb = solid.pose(b)
   for i = 1, 3 do if pa[i] ~= pb[i] then return false end end
@@ -237,12 +238,16 @@ function solid.bounds(run, visit)
     end
     for i, shape in ipairs(shapes) do
       local pose = (frame.obstacles or {})[i]
-      if shape and (f == 1 or not solid.same_pose(pose, before[i])) then
+      if shape and pose ~= false and (f == 1 or not solid.same_pose(pose, before[i])) then
         see(solid.place(shape.vertices, pose))
       end
       before[i] = pose
     end
-    for _, grip in ipairs(frame.grips or {}) do see((solid.pose(grip))) end
+    for _, kind in ipairs{ "grips", "clamps" } do
+      for _, grip in ipairs(frame[kind] or {}) do
+        if grip then see((solid.pose(grip))) end
+      end
+    end
   end
   if bounds.low[1] > bounds.high[1] then bounds.low, bounds.high = { -1, -1, -1 }, { 1, 1, 1 } end
   local low, high, square = bounds.low, bounds.high, 0
@@ -291,8 +296,12 @@ function solid.finite_run(run)
     for _, surface in ipairs(frame.surfaces or {}) do
       fine = fine and (not surface or all_finite(surface.points))
     end
-    for _, pose in ipairs(frame.obstacles or {}) do fine = fine and all_finite((solid.pose(pose))) end
-    for _, pose in ipairs(frame.grips or {}) do fine = fine and all_finite((solid.pose(pose))) end
+    for _, pose in ipairs(frame.obstacles or {}) do
+      fine = fine and (not pose or all_finite((solid.pose(pose))))
+    end
+    for _, pose in ipairs(frame.grips or {}) do
+      fine = fine and (not pose or all_finite((solid.pose(pose))))
+    end
     if fine then frames[#frames + 1] = frame end
   end
   if #frames == #run.frames and #frames > 0 then return run end

@@ -1,10 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- A run as a ParaView series: `laying.pvd` and a folder `laying.vtk` of `.vtp` files.
 -- Part 0 holds the wires as polylines with point data radius [m] and s (arc
--- length [m]); part 1 holds obstacles as triangles; part 2, where wires are meshes of
--- particles, their surfaces, with point data s [m] and contact_force, that of obstacles across
--- the surface [N]. Cell data object counts wires or obstacles from 0. Obstacles that rest share
--- one file.
+-- length [m]), tension [N], bend_radius [m] and contact_force, that of obstacles across the wire at
+-- each node [N]; its field data are all columns of the series at the frame's time. Part 1 holds
+-- obstacles as triangles; part 2, where wires are meshes of particles, their surfaces, with point data
+-- s [m] and contact_force, that of obstacles across the surface [N]. Cell data object counts wires or
+-- obstacles from 0. Obstacles that rest share one file.
 -- @module softworld.output.vtk
 
 local json = require "softworld.output.json"
@@ -31,6 +32,12 @@ local function write_array(write, kind, name, values, components)
   write "</DataArray>\n"
 end
 
+local xml = { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;" }
+
+local function escape(text)
+  return (text:gsub('[&<>"]', xml))
+end
+
 local function write_cells(write, tag, cells)
   write("<" .. tag .. ">\n")
   write_array(write, "Int64", "connectivity", cells.connectivity)
@@ -43,6 +50,16 @@ local function write_poly(write, data)
   local lines, polys = data.lines or empty, data.polys or empty
   write '<?xml version="1.0"?>\n'
   write '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<PolyData>\n'
+  if data.fields and #data.fields > 0 then
+    write "<FieldData>\n"
+    for _, array in ipairs(data.fields) do
+      write(string.format('<DataArray type="Float64" Name="%s" NumberOfTuples="1" format="ascii">\n',
+        escape(array.name)))
+      write_numbers(write, { array.value })
+      write "</DataArray>\n"
+    end
+    write "</FieldData>\n"
+  end
   write(string.format('<Piece NumberOfPoints="%d" NumberOfVerts="0" NumberOfLines="%d" '
     .. 'NumberOfStrips="0" NumberOfPolys="%d">\n', #data.points // 3, #lines.offsets, #polys.offsets))
   write "<PointData>\n"
@@ -72,6 +89,18 @@ local function arc_lengths(wire, points)
   return s
 end
 
+-- As large as VTK's readers take it for straight wire [m].
+local STRAIGHT = 1e9
+
+local function add_values(data, first, values, count)
+  for k = 1, count do
+    local bent = values.curvature[k] or 0 / 0
+    data.point_data[3].values[first + k] = values.tension[k] or 0 / 0
+    data.point_data[4].values[first + k] = bent == bent and math.min(STRAIGHT, 1 / bent) or bent
+    data.point_data[5].values[first + k] = values.contact[k] or 0 / 0
+  end
+end
+
 local function add_wire(data, index, points, s, radius)
   local first = #data.points // 3
   for i = 1, #points do data.points[#data.points + 1] = points[i] end
@@ -85,6 +114,25 @@ local function add_wire(data, index, points, s, radius)
   data.object[#data.object + 1] = index - 1
 end
 
+-- The series' values at a time, those of the sample nearest to it.
+local function fields_at(run, t)
+  local series, fields = run.series, {}
+  local times = series and series.time or {}
+  if #times == 0 then return fields end
+  local low, high = 1, #times
+  while high - low > 1 do
+    local middle = (low + high) // 2
+    if times[middle] <= t then low = middle else high = middle end
+  end
+  local i = math.abs(times[low] - t) <= math.abs(times[high] - t) and low or high
+  for c, column in ipairs(series.columns) do
+    local value = column.values[i]
+    if value ~= value then value = 0.0 end -- nothing was held, say; VTK reads no nan
+    fields[c] = { name = column.name, value = value == math.huge and STRAIGHT or value }
+  end
+  return fields
+end
+
 local function wires_data(run, frame, lengths)
   local data = {
     points = {}, lines = { connectivity = {}, offsets = {} }, object = {},
@@ -94,8 +142,18 @@ local function wires_data(run, frame, lengths)
     local wire = run.wires[i]
     if #points % 3 ~= 0 then sink.fail("vtk: wire %d has %d coordinates, not threes", i, #points) end
     lengths[i] = lengths[i] or arc_lengths(wire, points)
+    local first, values = #data.points // 3, (frame.values or {})[i]
     add_wire(data, i, points, lengths[i], wire.radius or 0.0)
+    if values then
+      if not data.point_data[3] then
+        for _, name in ipairs{ "tension", "bend_radius", "contact_force" } do
+          data.point_data[#data.point_data + 1] = { name = name, values = {} }
+        end
+      end
+      add_values(data, first, values, #points // 3)
+    end
   end
+  data.fields = fields_at(run, frame.t)
   return data
 end
 
@@ -151,11 +209,11 @@ end
 local function obstacles_data(run, frame, bounds)
   local data = { points = {}, polys = { connectivity = {}, offsets = {} }, object = {} }
   for i, obstacle in ipairs(run.obstacles) do
-    local pose = (frame.obstacles or {})[i]
-    if obstacle.shape == "plane" then
+    local pose = (frame.obstacles or {})[i] -- false: it is not there
+    if pose ~= false and obstacle.shape == "plane" then
       local piece = solid.plane_piece(obstacle, pose, bounds.centre, bounds.size)
       add_solid(data, i, piece.vertices, piece.indices)
-    else
+    elseif pose ~= false then
       local shape = solid.triangles(obstacle)
       add_solid(data, i, solid.place(shape.vertices, pose), shape.indices)
     end
@@ -168,12 +226,6 @@ local function same_poses(count, a, b)
     if not solid.same_pose((a.obstacles or {})[i], (b.obstacles or {})[i]) then return false end
   end
   return true
-end
-
-local xml = { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;" }
-
-local function escape(text)
-  return (text:gsub('[&<>"]', xml))
 end
 
 local function write_collection(path, entries)
@@ -194,7 +246,8 @@ local function write_frames(run, folder, folder_name, bounds)
     local function save(kind, part, data)
       local name = data and string.format("%s_%05d.vtp", kind, f - 1) or rest_file
       if data then
-        sink.write_file(folder .. "/" .. name, function(write) write_poly(write, data) end)
+        sink.write_file(folder .. "/" .. name, function(write) write_poly(write, data) end,
+          { swept = #entries > 0 })
       end
       entries[#entries + 1] = { t = frame.t, part = part, file = folder_name .. "/" .. name }
       return name

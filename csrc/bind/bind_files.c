@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the Lua library needs of files beyond io: temporary files whose owner can be seen to be
+ * gone, files that are safe on the disk, and what a path names. */
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <lauxlib.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "bind/module.h"
+
+/* --- locks ---------------------------------------------------------------- */
+
+/* A temporary file is locked by its owner as long as he lives: the system takes the lock away with
+ * the process, however it ends. What is not locked was left by one that was killed. */
+static const char lock_name[] = "softworld.part";
+
+typedef struct part_lock {
+  int fd; /* -1 when given back */
+} part_lock;
+
+static int unlock(lua_State *L) {
+  part_lock *lock = luaL_checkudata(L, 1, lock_name);
+  if (lock->fd >= 0) close(lock->fd);
+  lock->fd = -1;
+  return 0;
+}
+
+static part_lock *new_lock(lua_State *L) {
+  part_lock *lock = lua_newuserdatauv(L, sizeof *lock, 0);
+  lock->fd = -1;
+  if (luaL_newmetatable(L, lock_name)) {
+    lua_pushcfunction(L, unlock), lua_setfield(L, -2, "__gc");
+    lua_pushcfunction(L, unlock), lua_setfield(L, -2, "__close");
+    lua_pushcfunction(L, unlock), lua_setfield(L, -2, "__call");
+  }
+  lua_setmetatable(L, -2);
+  return lock;
+}
+
+/* --- what was left -------------------------------------------------------- */
+
+static size_t digits_before(const char *text, size_t end) {
+  size_t at = end;
+  while (at > 0 && text[at - 1] >= '0' && text[at - 1] <= '9') at--;
+  return end - at;
+}
+
+/* ".name.123-4.tmp" */
+static int is_part(const char *name) {
+  const size_t length = strlen(name);
+  if (name[0] != '.' || length < 4 || strcmp(name + length - 4, ".tmp") != 0) return 0;
+  size_t end = length - 4;
+  const size_t number = digits_before(name, end);
+  if (number == 0 || end < number + 1 || name[end - number - 1] != '-') return 0;
+  end -= number + 1;
+  const size_t process = digits_before(name, end);
+  return process > 0 && end > process + 1 && name[end - process - 1] == '.';
+}
+
+static void remove_folder(int parent, int fd, const char *name) {
+  DIR *folder = fdopendir(dup(fd));
+  if (!folder) return;
+  for (struct dirent *entry; (entry = readdir(folder)) != NULL;)
+    unlinkat(fd, entry->d_name, 0); /* no folders: ours have none */
+  closedir(folder);
+  unlinkat(parent, name, AT_REMOVEDIR);
+}
+
+static void remove_if_left(int parent, const char *name) {
+  struct stat info;
+  const int fd = openat(parent, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (fd < 0) return;
+  if (fstat(fd, &info) == 0 && (S_ISREG(info.st_mode) || S_ISDIR(info.st_mode)) &&
+      flock(fd, LOCK_EX | LOCK_NB) == 0) {
+    if (S_ISDIR(info.st_mode))
+      remove_folder(parent, fd, name);
+    else
+      unlinkat(parent, name, 0);
+  }
+  close(fd);
+}
+
+/* core.sweep(folder): remove temporary files of processes that are gone. */
+static int mod_sweep(lua_State *L) {
+  DIR *folder = opendir(luaL_checkstring(L, 1));
+  if (!folder) return 0;
+  for (struct dirent *entry; (entry = readdir(folder)) != NULL;)
+    if (is_part(entry->d_name)) remove_if_left(dirfd(folder), entry->d_name);
+  closedir(folder);
+  return 0;
+}
+
+/* --- making --------------------------------------------------------------- */
+
+static int failed(lua_State *L) {
+  const int why = errno;
+  lua_pushnil(L);
+  lua_pushstring(L, strerror(why));
+  return 2;
+}
+
+static int make(const char *path, int folder) {
+  if (!folder) return open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (mkdir(path, 0777) != 0) return -1;
+  return open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+}
+
+/* Is what was just made still there? Another process may have taken it for one that was left in
+ * the moment before it was locked. */
+static int keep(int fd, const char *path) {
+  struct stat own, there;
+  if (flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return 0;
+  return fstat(fd, &own) == 0 && stat(path, &there) == 0 && own.st_ino == there.st_ino;
+}
+
+/* core.part(start, folder) -> path, lock: a new, empty file (or folder) of a path that begins with
+ * start, "here/.name"; lock() when it is done with. nil and the reason when there can be none. */
+static int mod_part(lua_State *L) {
+  static unsigned number;
+  const char *start = luaL_checkstring(L, 1);
+  const int folder = lua_toboolean(L, 2);
+  lua_settop(L, 2);
+  part_lock *lock = new_lock(L);
+  for (int tries = 0; tries < 1000; tries++) {
+    lua_settop(L, 3);
+    lua_pushfstring(L, "%s.%I-%I.tmp", start, (LUAI_UACINT)getpid(), (LUAI_UACINT)++number);
+    const char *path = lua_tostring(L, -1);
+    lock->fd = make(path, folder);
+    if (lock->fd < 0 && errno != EEXIST) return failed(L);
+    if (lock->fd >= 0 && keep(lock->fd, path)) {
+      lua_insert(L, -2);
+      return 2;
+    }
+    if (lock->fd >= 0) close(lock->fd);
+    lock->fd = -1;
+  }
+  errno = EEXIST;
+  return failed(L);
+}
+
+static int sync_path(const char *path, int flags) {
+  const int fd = open(path, O_RDONLY | O_CLOEXEC | flags);
+  if (fd < 0) return -1;
+  const int done = fsync(fd), why = errno;
+  close(fd);
+  errno = why;
+  return done == 0 || why == EINVAL || why == EROFS ? 0 : -1; /* EINVAL: it has nothing to sync */
+}
+
+/* core.sync(path, folder): wait until a file's content, or a folder's names, are on the disk.
+ * true, or nil and the reason. */
+static int mod_sync(lua_State *L) {
+  const char *path = luaL_checkstring(L, 1);
+  if (sync_path(path, lua_toboolean(L, 2) ? O_DIRECTORY : 0) != 0) return failed(L);
+  lua_pushboolean(L, 1);
+  return 1;
+}
+
+/* core.kind(path) -> "file", "folder", "pipe", "device" or "socket"; nil when nothing is there. */
+static int mod_kind(lua_State *L) {
+  struct stat info;
+  if (stat(luaL_checkstring(L, 1), &info) != 0) return lua_pushnil(L), 1;
+  lua_pushstring(L, S_ISREG(info.st_mode)    ? "file"
+                    : S_ISDIR(info.st_mode)  ? "folder"
+                    : S_ISFIFO(info.st_mode) ? "pipe"
+                    : S_ISSOCK(info.st_mode) ? "socket"
+                                             : "device");
+  return 1;
+}
+
+static const luaL_Reg functions[] = {
+    {"part", mod_part}, {"sweep", mod_sweep}, {"sync", mod_sync}, {"kind", mod_kind}, {NULL, NULL}};
+
+void lsw_open_files(lua_State *L) { luaL_setfuncs(L, functions, 0); }

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* In some locales numbers have a comma: then Lua writes 1,5, and reads "1.5" no more in places.
+ * Files, scripts for other programs and the names of cables need the point, and there are too
+ * many places that write or read a number to guard each of them. So this thread gets a locale of
+ * its own, which is the program's but for its numbers. os.setlocale goes on to work for all else.
+ */
+#include <lauxlib.h>
+#include <locale.h>
+
+#include "bind/locale.h"
+#include "bind/module.h"
+
+static _Thread_local locale_t own;
+
+void lsw_locale_renew(void) {
+  const locale_t base = duplocale(LC_GLOBAL_LOCALE);
+  if (!base) return;
+  const locale_t next = newlocale(LC_NUMERIC_MASK, "C", base);
+  if (!next) {
+    freelocale(base);
+    return;
+  }
+  const locale_t before = own;
+  own = next;
+  uselocale(own);
+  if (before) freelocale(before);
+}
+
+/* os.setlocale as it was (upvalue 1), with what follows from it. */
+static int setlocale_and_renew(lua_State *L) {
+  const int count = lua_gettop(L);
+  lua_pushvalue(L, lua_upvalueindex(1));
+  lua_insert(L, 1);
+  lua_call(L, count, LUA_MULTRET);
+  lsw_locale_renew();
+  return lua_gettop(L);
+}
+
+void lsw_open_locale(lua_State *L) {
+  lsw_locale_renew();
+  if (lua_getglobal(L, "os") == LUA_TTABLE) {
+    lua_getfield(L, -1, "setlocale");
+    if (lua_tocfunction(L, -1) != setlocale_and_renew && lua_isfunction(L, -1)) {
+      lua_pushcclosure(L, setlocale_and_renew, 1);
+      lua_setfield(L, -2, "setlocale");
+    } else {
+      lua_pop(L, 1);
+    }
+  }
+  lua_pop(L, 1);
+}

@@ -1,0 +1,9 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Numbers with a decimal point, whatever os.setlocale says. */
+#ifndef LSW_LOCALE_H
+#define LSW_LOCALE_H
+
+/* Take over what the program's locale is by now, its numbers aside. To be called after setlocale. */
+void lsw_locale_renew(void);
+
+#endif

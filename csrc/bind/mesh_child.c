@@ -1,0 +1,345 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads a mesh file in a child process. Assimp may end the process on a damaged file, spoil its
+ * heap when memory runs out, and take any time; none of it polls for Ctrl-C. So a fork of this
+ * process reads, with limits on memory and time, and sends the triangles through a pipe. Here and
+ * nowhere else a process is started: the core does not, and the program that has loaded the core
+ * may be a stock Lua, so that there is no other program to start than itself.
+ *
+ * The child has no Lua: it reads, writes to the pipe and leaves by _exit, which runs no handlers
+ * of the parent and flushes nothing of its files. Its standard files are /dev/null, for what C++
+ * has to say when it ends. */
+#include "bind/mesh_child.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <malloc.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "softworld.h"
+
+#if defined(__SANITIZE_ADDRESS__)
+/* Its shadow takes more address space than any limit; what is written to can be limited. */
+enum { SLOWER = 5, LIMIT_AS = 0 };
+#else
+enum { SLOWER = 1, LIMIT_AS = 1 };
+#endif
+
+#define MEMORY_LEAST (256e6)           /* allowed for any file [B] */
+#define MEMORY_PER_BYTE 150.0          /* allowed for each byte of the file [-] */
+#define CPU_LEAST 4.0                  /* allowed for any file [s] */
+#define CPU_PER_BYTE 1e-6              /* allowed for each byte of the file [s] */
+#define WALL_PER_CPU 10.0              /* other processes may have the processor [-] */
+#define WALL_LEAST 60.0                /* [s] */
+#define SLICE 0.1                      /* time between two looks for Ctrl-C [s] */
+#define MOST_ITEMS ((uint64_t)1 << 28) /* points or triangles, before memory is asked for [-] */
+
+typedef struct reply {
+  uint32_t word; /* REPLY; anything else was not written by us */
+  int32_t status;
+  uint64_t vertex_count, triangle_count;
+  uint64_t requests; /* for memory, which count as if made here [-] */
+  sw_error err;
+} reply;
+
+enum { REPLY = 0x534d4553 };
+
+typedef struct limits {
+  double memory; /* [B] */
+  double cpu;    /* [s] */
+  double wall;   /* while this process runs, too [s] */
+} limits;
+
+static limits limits_of(const sw_mesh_file *file) {
+  const double size = (double)file->byte_count;
+  const double cpu = SLOWER * (CPU_LEAST + CPU_PER_BYTE * size);
+  return (limits){SLOWER * (MEMORY_LEAST + MEMORY_PER_BYTE * size), cpu,
+                  WALL_LEAST + WALL_PER_CPU * cpu};
+}
+
+/* --- the child ------------------------------------------------------------ */
+
+/* Address space and written-to memory in use [B]; 0 where the system does not tell. */
+static void memory_now(double *space, double *data) {
+  char text[256] = "";
+  unsigned long pages[6] = {0};
+  *space = *data = 0;
+  const int fd = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return;
+  const ssize_t n = read(fd, text, sizeof text - 1);
+  close(fd);
+  char *at = text;
+  for (int k = 0; k < 6 && n > 0; k++) pages[k] = strtoul(at, &at, 10);
+  *space = (double)pages[0] * (double)sysconf(_SC_PAGESIZE);
+  *data = (double)pages[5] * (double)sysconf(_SC_PAGESIZE);
+}
+
+/* Lower a limit; the one that is there stays where it is lower. */
+static void limit(int what, double soft, double hard) {
+  struct rlimit now;
+  if (getrlimit(what, &now) != 0) return;
+  if (now.rlim_cur == RLIM_INFINITY || (double)now.rlim_cur > soft) now.rlim_cur = (rlim_t)soft;
+  if (now.rlim_max == RLIM_INFINITY || (double)now.rlim_max > hard) now.rlim_max = (rlim_t)hard;
+  setrlimit(what, &now);
+}
+
+static void set_limits(const limits *most) {
+  double space, data;
+  memory_now(&space, &data);
+  if (LIMIT_AS && space > 0) limit(RLIMIT_AS, space + most->memory, space + most->memory);
+  if (data > 0) limit(RLIMIT_DATA, data + most->memory, data + most->memory);
+  limit(RLIMIT_CPU, ceil(most->cpu), ceil(most->cpu) + 1);
+  limit(RLIMIT_CORE, 0, 0);
+}
+
+/* The parent's handlers are not for this process; what it ignores stays ignored. */
+static void reset_signals(void) {
+  struct sigaction action;
+  sigset_t none;
+  for (int number = 1; number < NSIG; number++) {
+    if (sigaction(number, NULL, &action) != 0) continue;
+    if (action.sa_handler == SIG_DFL) continue;
+    if (action.sa_handler == SIG_IGN && number != SIGXCPU) continue;
+    signal(number, SIG_DFL);
+  }
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, NULL);
+}
+
+static int send_all(int fd, const void *bytes, size_t count) {
+  const char *at = bytes;
+  while (count > 0) {
+    const ssize_t n = write(fd, at, count);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return 0;
+    at += n, count -= (size_t)n;
+  }
+  return 1;
+}
+
+static void detach(int pipe_fd, pid_t parent) {
+#ifdef PR_SET_PDEATHSIG
+  prctl(PR_SET_PDEATHSIG, SIGKILL); /* a parent that is killed takes it along */
+  prctl(PR_SET_DUMPABLE, 0);        /* no report to anybody about how it ended */
+#endif
+  if (getppid() != parent) _exit(1);
+  const int nothing = open("/dev/null", O_RDWR);
+  for (int fd = 0; fd <= 2; fd++) {
+    if (fd == pipe_fd) continue;
+    if (nothing >= 0)
+      dup2(nothing, fd);
+    else
+      close(fd);
+  }
+}
+
+/* Assimp's buffer for OBJ files has 16 MB, whatever the file's size: in small pages, to get them
+ * takes twenty times as long as to read a small mesh. */
+static void widen_pages(void) {
+#if defined(__GLIBC__) && defined(MADV_HUGEPAGE)
+  enum { ROOM = 1 << 25, PAGE = 1 << 21 }; /* [B] */
+  mallopt(M_MMAP_THRESHOLD, 2 * ROOM);
+  mallopt(M_TRIM_THRESHOLD, 2 * ROOM);
+  char *room = malloc(ROOM); /* free, it stays the heap's */
+  if (room) madvise(room + (PAGE - (uintptr_t)room % PAGE), ROOM - PAGE, MADV_HUGEPAGE);
+  free(room);
+#endif
+}
+
+static void child(const sw_mesh_file *file, const limits *most, int fd, pid_t parent) {
+  sw_mesh_data data = {0};
+  reply r = {.word = REPLY};
+  detach(fd, parent);
+  set_limits(most);
+  reset_signals();
+  widen_pages();
+  const size_t before = sw_alloc_count();
+  r.status = (int32_t)sw_mesh_read(file, &data, &r.err);
+  if (strstr(r.err.text, "bad_alloc")) r.status = SW_ELIMIT;
+  r.requests = sw_alloc_count() - before;
+  r.vertex_count = data.vertex_count, r.triangle_count = data.triangle_count;
+  _exit(send_all(fd, &r, sizeof r) &&
+                send_all(fd, data.vertices, 3 * data.vertex_count * sizeof *data.vertices) &&
+                send_all(fd, data.indices, 3 * data.triangle_count * sizeof *data.indices)
+            ? 0
+            : 1);
+}
+
+/* --- the parent ----------------------------------------------------------- */
+
+typedef enum outcome { WHOLE, SHORT, LATE, STOPPED } outcome;
+
+static lua_State *asking; /* the main thread of the Lua that asked, or NULL */
+
+void lsw_mesh_child_for(lua_State *L) {
+  lua_rawgeti(L, LUA_REGISTRYINDEX, LUA_RIDX_MAINTHREAD);
+  asking = lua_tothread(L, -1);
+  lua_pop(L, 1);
+}
+
+typedef struct reading {
+  pid_t pid;
+  int fd;        /* the pipe's end that is read */
+  double waited; /* [s] */
+  double most;   /* [s] */
+  lua_Hook hook; /* what the asking Lua had when it began */
+} reading;
+
+static double now(void) {
+  struct timespec t = {0, 0};
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Stock Lua answers Ctrl-C with a hook, and the terminal sends it to the child, too. */
+static int stop_wanted(const reading *r) {
+  return sw_interrupted() || (asking && lua_gethook(asking) != r->hook);
+}
+
+/* Wait until there is something to read. Time in which this process did not run, stopped by
+ * Ctrl-Z, does not count. */
+static outcome wait_for_bytes(reading *r) {
+  for (;;) {
+    struct pollfd p = {r->fd, POLLIN, 0};
+    const double start = now();
+    const int n = poll(&p, 1, (int)(1e3 * SLICE));
+    r->waited += fmin(now() - start, 2 * SLICE);
+    if (stop_wanted(r)) return STOPPED;
+    if (n > 0) return WHOLE;
+    if (r->waited > r->most) return LATE;
+  }
+}
+
+static outcome receive(reading *r, void *bytes, size_t count) {
+  char *at = bytes;
+  while (count > 0) {
+    const outcome o = wait_for_bytes(r);
+    if (o != WHOLE) return o;
+    const ssize_t n = read(r->fd, at, count);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return SHORT;
+    at += n, count -= (size_t)n;
+  }
+  return WHOLE;
+}
+
+/* What came through the pipe is checked like a file: the child's heap may have been spoilt. */
+static int sensible(const sw_mesh_data *data) {
+  for (size_t k = 0; k < 3 * data->triangle_count; k++)
+    if (data->indices[k] < 0 || (size_t)data->indices[k] >= data->vertex_count) return 0;
+  return 1;
+}
+
+static outcome receive_data(reading *r, const reply *from, sw_mesh_data *out) {
+  if (from->vertex_count > MOST_ITEMS || from->triangle_count > MOST_ITEMS) return SHORT;
+  out->vertex_count = (size_t)from->vertex_count;
+  out->triangle_count = (size_t)from->triangle_count;
+  out->vertices = sw_alloc(3 * out->vertex_count, sizeof *out->vertices);
+  out->indices = sw_alloc(3 * out->triangle_count, sizeof *out->indices);
+  if (!out->vertices || !out->indices) return WHOLE; /* the caller sees it */
+  outcome o = receive(r, out->vertices, 3 * out->vertex_count * sizeof *out->vertices);
+  if (o == WHOLE) o = receive(r, out->indices, 3 * out->triangle_count * sizeof *out->indices);
+  if (o == WHOLE && !sensible(out)) o = SHORT;
+  return o;
+}
+
+/* End the child, if it has not ended, and take its exit status; -1 when there is none, as in a
+ * program that ignores its children. */
+static int bury(const reading *r, int kill_it) {
+  int status = -1;
+  if (kill_it) kill(r->pid, SIGKILL);
+  close(r->fd);
+  while (waitpid(r->pid, &status, 0) < 0)
+    if (errno != EINTR) return -1;
+  return status;
+}
+
+static sw_status too_much(const sw_mesh_file *file, const limits *most, sw_error *err) {
+  return sw_fail(
+      err, SW_ELIMIT,
+      "%s: reading data as %s takes more than %.0f MB of memory, which is too much for a "
+      "file of %zu bytes; write the file anew, with fewer triangles if it is whole",
+      file->object, file->format, most->memory / 1e6, file->byte_count);
+}
+
+static sw_status too_long(const sw_mesh_file *file, const limits *most, sw_error *err) {
+  return sw_fail(err, SW_ELIMIT,
+                 "%s: reading data as %s takes more than %.0f s, which is too much for a file of "
+                 "%zu bytes; write the file anew, with fewer triangles if it is whole",
+                 file->object, file->format, most->cpu, file->byte_count);
+}
+
+static sw_status broken(const sw_mesh_file *file, const limits *most, int status, sw_error *err) {
+  if (status != -1 && WIFSIGNALED(status)) {
+    if (WTERMSIG(status) == SIGINT) return sw_fail(err, SW_EINTR, "interrupted");
+    if (WTERMSIG(status) == SIGXCPU) return too_long(file, most, err);
+    if (WTERMSIG(status) == SIGKILL)
+      return sw_fail(err, SW_ELIMIT,
+                     "%s: reading data as %s was ended by the system, which has too little memory "
+                     "or time for it; write the file anew, with fewer triangles if it is whole",
+                     file->object, file->format);
+  }
+  return sw_fail(err, SW_EFORMAT,
+                 "%s: data is not readable as %s: it is damaged so that its reader broke down; "
+                 "write the file anew",
+                 file->object, file->format);
+}
+
+static sw_status converse(reading *r, const sw_mesh_file *file, const limits *most,
+                          sw_mesh_data *out, sw_error *err) {
+  reply from = {.word = 0};
+  outcome o = receive(r, &from, sizeof from);
+  if (o == WHOLE && from.word != REPLY) o = SHORT;
+  if (o == WHOLE) sw_alloc_passed((size_t)from.requests);
+  if (o == WHOLE && from.status == SW_OK) o = receive_data(r, &from, out);
+  const int status = bury(r, o != WHOLE && o != SHORT);
+  if (o == STOPPED) return sw_fail(err, SW_EINTR, "interrupted");
+  if (o == LATE) return too_long(file, most, err);
+  if (o == SHORT) return broken(file, most, status, err);
+  if (from.status == SW_ELIMIT) return too_much(file, most, err);
+  from.err.text[sizeof from.err.text - 1] = '\0';
+  if (from.status != SW_OK) return sw_fail(err, (sw_status)from.status, "%s", from.err.text);
+  if (out->vertices && out->indices) return SW_OK;
+  return sw_fail(err, SW_ENOMEM, "%s: out of memory", file->object);
+}
+
+static sw_status read_in_child(const sw_mesh_file *file, sw_mesh_data *out, sw_error *err) {
+  const limits most = limits_of(file);
+  reading r = {.most = most.wall, .hook = asking ? lua_gethook(asking) : NULL};
+  int ends[2];
+  sigset_t all, before;
+  *out = (sw_mesh_data){0};
+  if (pipe2(ends, O_CLOEXEC) != 0)
+    return sw_fail(err, SW_ELIMIT, "%s: no pipe for reading it (%s); close some files",
+                   file->object, strerror(errno));
+  const pid_t parent = getpid();
+  sigfillset(&all); /* no handler of this process may run in the child */
+  sigprocmask(SIG_SETMASK, &all, &before);
+  r.pid = fork();
+  if (r.pid == 0) child(file, &most, ends[1], parent);
+  const int why = errno;
+  sigprocmask(SIG_SETMASK, &before, NULL);
+  close(ends[1]);
+  r.fd = ends[0];
+  if (r.pid < 0) {
+    close(ends[0]);
+    return sw_fail(err, SW_ELIMIT, "%s: no process for reading it (%s); end some others",
+                   file->object, strerror(why));
+  }
+  const sw_status status = converse(&r, file, &most, out, err);
+  if (status == SW_OK) return SW_OK;
+  sw_free(out->vertices), sw_free(out->indices);
+  *out = (sw_mesh_data){0};
+  return status;
+}
+
+void lsw_mesh_child_open(void) { sw_mesh_set_reader(read_in_child); }

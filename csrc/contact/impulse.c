@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What obstacles get in a step: the impulse that changed the wires' momentum. A method's stages
+ * make it up from forces in the way they make up the velocity; impacts that change velocities at
+ * the step's start add theirs. */
+#include "contact/touch.h"
+
+static sw_contact_load sum(sw_contact_load a, double share, sw_contact_load b) {
+  return (sw_contact_load){sw_madd(a.force, b.force, share), sw_madd(a.moment, b.moment, share)};
+}
+
+/* On the wire, as it moved the wire; at an equilibrium as the law has it. */
+static sw_vec force_on(const sw_contact *c, const sw_touch *t) {
+  const sw_press *p = &t->press;
+  if (c->regime == SW_CONTACT_IMPLICIT) return sw_press_borne(p, t->friction);
+  return p->normal_force > 0 ? sw_madd(p->tangential, p->normal, p->normal_force) : sw_v(0, 0, 0);
+}
+
+/* Add share times the forces of the touches, with moments about the obstacles' origins now. */
+static void add_now(const sw_contact *c, double share, sw_contact_load *(*at)(sw_contact_loads *)) {
+  for (size_t i = 0; i < c->touch_count; i++) {
+    const sw_touch *t = &c->touches[i];
+    if (!t->press.active) continue;
+    const sw_vec arm = sw_sub(t->point, c->now[t->obstacle].pose.p);
+    const sw_vec f = sw_neg(force_on(c, t));
+    sw_contact_load *to = at(&c->loads[t->obstacle]);
+    *to = sum(*to, share, (sw_contact_load){f, sw_cross(arm, f)});
+  }
+}
+
+static sw_contact_load *first_of(sw_contact_loads *l) { return &l->stage[0]; }
+static sw_contact_load *second_of(sw_contact_loads *l) { return &l->stage[1]; }
+static sw_contact_load *end_of(sw_contact_loads *l) { return &l->past.end; }
+
+void sw_contact_book(void *contact, const sw_booking *b) {
+  sw_contact *c = contact;
+  const sw_contact_load none = {.force = {.x = 0}};
+  for (size_t o = 0; o < c->count; o++) {
+    sw_contact_loads *l = &c->loads[o];
+    sw_contact_load all = sum(none, b->first, l->stage[0]);
+    all = sum(all, b->start, l->past.end);
+    l->stage[b->stage] = sum(all, -b->before, l->past.gained);
+  }
+  c->last_stage = b->stage;
+  if (b->own != 0) add_now(c, b->own, b->stage ? second_of : first_of);
+}
+
+void sw_contact_add_blow(sw_contact *c, int obstacle, sw_vec point, sw_vec impulse) {
+  const sw_vec arm = sw_sub(point, c->start[obstacle].pose.p);
+  sw_contact_load *to = &c->loads[obstacle].blows;
+  *to = sum(*to, 1.0, (sw_contact_load){impulse, sw_cross(arm, impulse)});
+}
+
+void sw_contact_forget_blows(sw_contact *c) {
+  for (size_t o = 0; o < c->count; o++)
+    c->loads[o].blows = c->loads[o].stage[0] = c->loads[o].stage[1] =
+        (sw_contact_load){.force = {.x = 0}};
+  c->last_stage = 0;
+}
+
+void sw_contact_conclude(sw_contact *c) {
+  const sw_contact_load none = {.force = {.x = 0}};
+  for (size_t o = 0; o < c->count; o++) c->loads[o].past.end = none;
+  add_now(c, 1.0, end_of);
+  for (size_t o = 0; o < c->count; o++) {
+    sw_contact_loads *l = &c->loads[o];
+    const int moves = c->regime != SW_CONTACT_STATIC && c->h > 0;
+    const sw_contact_load gained = l->stage[c->last_stage];
+    l->past.gained = moves ? gained : none;
+    l->past.mean = moves ? sum(none, 1.0 / c->h, sum(gained, 1.0, l->blows)) : l->past.end;
+    const sw_vec turned = sw_cross(c->now[o].pose.p, l->past.mean.force);
+    l->past.mean.moment = sw_add(l->past.mean.moment, turned);
+  }
+}
+
+size_t sw_contact_obstacles(const sw_contact *c) { return c->count; }
+
+int sw_contact_id(const sw_contact *c, size_t k) { return c->obstacles[k].id; }
+
+void sw_contact_recall(sw_contact *c, size_t k, const sw_contact_past *past) {
+  c->loads[k].past = *past;
+}
+
+const sw_contact_past *sw_contact_past_of(const sw_contact *c, size_t k) {
+  return &c->loads[k].past;
+}

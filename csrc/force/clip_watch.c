@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "force/clip_watch.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* Cosine of the angle between the edge and the axis. */
+static double cosine(const sw_clip *c, const sw_field *f, size_t e) {
+  const sw_vec d = sw_sub(sw_axis_at(f, e + 1), sw_axis_at(f, e));
+  return fabs(sw_dot(c->axis, sw_unit_or(d, c->axis)));
+}
+
+sw_clip_middle sw_clip_middle_of(const sw_clip *c, const sw_field *f) {
+  sw_clip_middle m = {0};
+  for (long e = sw_clip_find(c, f, 0); e >= 0; e = sw_clip_find(c, f, e + 1)) {
+    sw_clip_sum sum;
+    if (!sw_clip_edge(c, f, (size_t)e, 0, &sum)) continue;
+    m.share += sum.share;
+    m.u += sum.u, m.v += sum.v, m.s += sum.s;
+    m.passes += sum.all[0], m.at[0] += sum.all[1], m.at[1] += sum.all[2];
+    m.along += sum.share * cosine(c, f, (size_t)e);
+    m.push -= sum.g[0][0] + sum.g[1][0];
+    for (int end = 0; end < 2; end++) m.force = sw_sub(m.force, sw_clip_world(c, sum.g[end]));
+  }
+  if (m.share > 0) m.u /= m.share, m.v /= m.share, m.s /= m.share, m.along /= m.share;
+  if (m.passes > 0) m.at[0] /= m.passes, m.at[1] /= m.passes;
+  return m;
+}
+
+/* A wire counts as there when it passes through this share of the clip, and as seated when it has
+ * gone this share of the way from the lips' top to the seat [-]. */
+static const double THERE = 0.5, SETTLED = 0.5;
+
+static void begin(double *h, int state) { h[SW_CLIP_STATE] = state, h[SW_CLIP_PEAK] = 0; }
+
+/* Where a wire is that is not in the clip. */
+static int outside(const sw_clip *c, const sw_clip_middle *m) {
+  const double way = c->law.out + c->law.in;
+  if (m->share < THERE || m->u < -c->law.clearance - c->law.reach) return SW_CLIP_EMPTY;
+  return m->u < way ? SW_CLIP_INSERTING : SW_CLIP_ABOVE;
+}
+
+/* --- what it does not bear or describe ------------------------------------------------ */
+
+static const double PART = 0.25; /* of the width, from which on a wire counts as there [-] */
+static const double STEEP = 0.7071067812; /* cosine of the largest angle of crossing [-] */
+static const double TOUCHES = 1e-3;       /* of the larger force, from which on it is told of [-] */
+static const double PRESSED = 0.2;        /* of the strength: the push before can be told [-] */
+
+static void tell(double *h, int what, double value, double s) {
+  h[SW_CLIP_NEWS] = what, h[SW_CLIP_NEWS_VALUE] = value, h[SW_CLIP_NEWS_S] = s;
+}
+
+/* Is a wire at u, v between the walls, or under the lips' top beside or under the clip's body? */
+static int inside(const sw_clip_law *l, double u, double v) {
+  return u < l->out && u > -l->clearance - l->reach && fabs(v) < l->clearance + l->reach;
+}
+
+/* Does the straight way from one place to the other go through the body, below the lips' top? */
+static int goes_through(const sw_clip_law *l, const double from[2], const double to[2]) {
+  enum { LOOKS = 64 };
+  for (int k = 1; k < LOOKS; k++) {
+    const double share = (double)k / LOOKS;
+    if (inside(l, from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])))
+      return 1;
+  }
+  return 0;
+}
+
+/* Is it where floor or walls, pressed from either side, have borne all they can? */
+static int deep(const sw_clip_law *l, const double at[2]) {
+  const double below = -l->clearance - at[0], aside = fabs(at[1]) - l->clearance;
+  const double low = 0.5 * l->reach, high = 1.5 * l->reach;
+  return (below > low && below < high) || (aside > low && aside < high);
+}
+
+/* How a wire that was in the clip has left it, on the straight way from one place to the next,
+ * other than by its mouth. */
+static int way_out(const sw_clip_law *l, const double from[2], const double to[2]) {
+  const double wall = l->clearance + l->reach, floor = -wall;
+  const double v0 = fabs(from[1]), v1 = fabs(to[1]);
+  if (v1 > wall) {
+    const double share = v0 < wall ? (wall - v0) / (v1 - v0) : 0.0;
+    const double u = from[0] + share * (to[0] - from[0]);
+    if (u < l->out && u >= floor) return SW_CLIP_THROUGH_WALL;
+  }
+  return to[0] < floor ? SW_CLIP_THROUGH_FLOOR : SW_CLIP_NO_NEWS;
+}
+
+/* Has the wire gone where this is valid no more? */
+static int look(const sw_clip *c, const sw_clip_middle *m, double *h) {
+  const sw_clip_law *l = &c->law;
+  const double before[2] = {h[SW_CLIP_U_BEFORE], h[SW_CLIP_V_BEFORE]};
+  const int there = m->passes >= THERE && h[SW_CLIP_THERE_BEFORE] > 0;
+  const int caught = h[SW_CLIP_STATE] == SW_CLIP_SEATED || h[SW_CLIP_STATE] == SW_CLIP_INSERTING;
+  const int touches = sw_norm(m->force) > TOUCHES * c->strongest;
+  if (m->share > PART && touches && m->along < STEEP)
+    tell(h, SW_CLIP_CROSSING, 180.0 / 3.14159265358979323846 * acos(m->along), m->s);
+  if (!there) return SW_CLIP_NO_NEWS;
+  if (caught) return way_out(l, before, m->at);
+  if (inside(l, before[0], before[1])) return SW_CLIP_NO_NEWS;
+  const int in = inside(l, m->at[0], m->at[1]), from_above = before[0] >= l->out;
+  if (in ? from_above : !goes_through(l, before, m->at)) return SW_CLIP_NO_NEWS;
+  return !from_above && h[SW_CLIP_PUSH] > PRESSED * l->strength ? SW_CLIP_FROM_OUTSIDE
+                                                                : SW_CLIP_PASSED;
+}
+
+/* 1: the clip is broken for this wire. */
+int sw_clip_breaks(const sw_clip *c, const sw_clip_middle *m, double time, double *h) {
+  const double push = sw_norm(m->force), most = fmax(push, h[SW_CLIP_PUSH]);
+  const double step = hypot(m->at[0] - h[SW_CLIP_U_BEFORE], m->at[1] - h[SW_CLIP_V_BEFORE]);
+  const int how = look(c, m, h);
+  h[SW_CLIP_THERE_BEFORE] = m->passes >= THERE, h[SW_CLIP_U_BEFORE] = m->at[0],
+  h[SW_CLIP_V_BEFORE] = m->at[1];
+  h[SW_CLIP_PUSH] = deep(&c->law, m->at) ? most : push;
+  if (!how) return 0;
+  h[SW_CLIP_BROKEN] = how, h[SW_CLIP_BROKEN_TIME] = time, h[SW_CLIP_BROKEN_FORCE] = most;
+  tell(h, how, how == SW_CLIP_PASSED ? step : most, m->s);
+  begin(h, SW_CLIP_EMPTY);
+  return 1;
+}
+
+void sw_clip_follow(const sw_clip *c, const sw_clip_middle *m, double time, double *h) {
+  const int caught = h[SW_CLIP_STATE] == SW_CLIP_SEATED || h[SW_CLIP_STATE] == SW_CLIP_INSERTING;
+  const int gone = m->share < THERE || m->u >= c->law.out + c->law.in;
+  if (caught && gone) {
+    if (h[SW_CLIP_STATE] == SW_CLIP_SEATED)
+      h[SW_CLIP_OUT]++, h[SW_CLIP_OUT_TIME] = time, h[SW_CLIP_OUT_PEAK] = h[SW_CLIP_PEAK];
+    begin(h, m->share < THERE ? SW_CLIP_EMPTY : SW_CLIP_ABOVE);
+  } else if (!caught) {
+    const int state = outside(c, m), drawn_there = !(h[SW_CLIP_BEGUN] > 0) && m->u < c->law.out;
+    if (h[SW_CLIP_STATE] != state)
+      begin(h, state == SW_CLIP_INSERTING && drawn_there ? SW_CLIP_SEATED : state);
+  }
+  if (h[SW_CLIP_STATE] == SW_CLIP_INSERTING) {
+    if (m->u > c->law.out)
+      h[SW_CLIP_PEAK] = fmax(h[SW_CLIP_PEAK], m->push); /* else the lips pull it in */
+    if (m->u > (1.0 - SETTLED) * c->law.out) return;
+    h[SW_CLIP_IN]++, h[SW_CLIP_IN_TIME] = time, h[SW_CLIP_IN_S] = m->s,
+                     h[SW_CLIP_IN_PEAK] = h[SW_CLIP_PEAK];
+    begin(h, SW_CLIP_SEATED);
+  }
+  /* on its way in it is pulled too, but by nothing outside of the clip */
+  if (h[SW_CLIP_STATE] == SW_CLIP_SEATED && m->u >= h[SW_CLIP_LAST])
+    h[SW_CLIP_PEAK] = fmax(h[SW_CLIP_PEAK], -m->push);
+}
+
+int sw_clip_news(const void *args, const double *history, sw_force_news *out) {
+  static const char *const how[] = {"", "its floor", "a wall", "a wall from outside"};
+  const int what = (int)history[SW_CLIP_NEWS];
+  const double value = history[SW_CLIP_NEWS_VALUE];
+  (void)args;
+  if (what == SW_CLIP_NO_NEWS) return 0;
+  *out = (sw_force_news){.kind = "clip", .s = history[SW_CLIP_NEWS_S], .value = value};
+  if (what == SW_CLIP_CROSSING)
+    snprintf(out->text, sizeof out->text,
+             "the wire crosses it at %.3g degrees, more than the 45 that it describes", value);
+  else if (what == SW_CLIP_PASSED)
+    snprintf(out->text, sizeof out->text,
+             "the wire goes through it within one step, by %.3g mm, and is free of it",
+             1e3 * value);
+  else
+    snprintf(out->text, sizeof out->text,
+             "OVERLOADED, the wire sw_clip_breaks through %s with %.4g N and is free of it",
+             how[what], value);
+  return 1;
+}

@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Is a trial of a step believable? What has diverged is refused here, and never becomes the
+ * scene's state. */
+#include <math.h>
+#include <string.h>
+
+#include "base/simd.h"
+#include "force/solid.h"
+#include "scene/world.h"
+
+static const double LARGEST_STRAIN = 10.0; /* beyond it a run has diverged [-] */
+
+/* An edge squeezed below this share of its length is beyond Hooke's law; a
+ * smaller step may avoid it [-]. */
+static const double LEAST_SHARE = 0.3;
+
+enum { LANES = 8 }; /* sums side by side, for the processor [-] */
+
+/* Sum of squares: finite only if each value is, and its square too. */
+SW_HOT
+static double sum_of_squares(size_t n, const double *x) {
+  double lane[LANES] = {0}, sum = 0;
+  size_t i = 0;
+  for (; i + LANES <= n; i += LANES)
+    for (size_t k = 0; k < LANES; k++) lane[k] += x[i + k] * x[i + k];
+  for (; i < n; i++) sum += x[i] * x[i];
+  for (size_t k = 0; k < LANES; k++) sum += lane[k];
+  return sum;
+}
+
+static sw_status fail_at(const sw_scene *s, size_t b, size_t node, const char *what,
+                         sw_error *err) {
+  const sw_body *body = &s->system.bodies[b];
+  const char *name = s->wires[b].name;
+  if (sw_scene_is_loose(&s->wires[b]))
+    return sw_fail(err, SW_EDIVERGED, "%s of particle %zu of '%s' is no finite number", what,
+                   node + 1, name);
+  const double at = body->plan->web ? body->plan->web->s[node] : body->plan->s[node];
+  return sw_fail(err, SW_EDIVERGED, "%s of wire '%s' near s = %.4g m is no finite number", what,
+                 name, at - body->plan->s[0]);
+}
+
+/* Which node it is whose place or velocity is out of the numbers. */
+static sw_status find_infinite(const sw_scene *s, const double *x, const char *what,
+                               sw_error *err) {
+  for (size_t b = 0; b < s->system.body_count; b++) {
+    const sw_body *body = &s->system.bodies[b];
+    for (size_t i = 0; i < body->plan->nodes; i++)
+      if (!isfinite(sw_norm2(sw_vec_at(x, body->first_node + i))))
+        return fail_at(s, b, i, what, err);
+  }
+  return sw_fail(err, SW_EDIVERGED, "%s of a wire about itself is no finite number", what);
+}
+
+static sw_status check_finite(const sw_scene *s, sw_error *err) {
+  const size_t n = s->system.freedoms;
+  if (!isfinite(sum_of_squares(n, s->stepper.trial_x)))
+    return find_infinite(s, s->stepper.trial_x, "the place", err);
+  if (!isfinite(sum_of_squares(n, s->stepper.trial_v)))
+    return find_infinite(s, s->stepper.trial_v, "the velocity", err);
+  return SW_OK;
+}
+
+static sw_status torn(const sw_scene *s, size_t wire, uint32_t a, uint32_t b, sw_error *err) {
+  const sw_web *web = s->system.bodies[wire].plan->web;
+  if (!web->per_ring)
+    return sw_fail(err, SW_EDIVERGED, "'%s' is torn apart between particles %u and %u",
+                   s->wires[wire].name, a + 1, b + 1);
+  return sw_fail(err, SW_EDIVERGED, "wire '%s' is torn apart near s = %.4g m", s->wires[wire].name,
+                 web->s[a]);
+}
+
+/* Corners may be this many largest sides apart, times the largest stretch [-]. */
+static const double LARGEST_DIAGONAL = 3.0;
+
+/* 1: the element's mean strain, or what its mean does not see, is beyond belief. */
+static int is_torn(const sw_solid *shape, const sw_web_solid *e, const double *x) {
+  const double most = 1.0 + LARGEST_STRAIN, count = (double)e->count;
+  const sw_vec origin = sw_vec_at(x, e->node[0]);
+  double side2 = 0, far2 = 0;
+  for (int k = 0; k < 3; k++) { /* columns of the mean deformation gradient */
+    sw_vec column = {0};
+    double sum = 0;
+    for (uint32_t i = 0; i < e->count; i++) {
+      const double row = shape->rows[k][i];
+      column = sw_add(column, sw_scale(sw_sub(sw_vec_at(x, e->node[i]), origin), row));
+      sum += row * row;
+    }
+    if (!(sw_norm2(column) <= most * most)) return 1;
+    side2 = fmax(side2, 4.0 / (count * sum)); /* a box's rows are 2/count over its side */
+  }
+  for (uint32_t i = 1; i < e->count; i++)
+    far2 = fmax(far2, sw_norm2(sw_sub(sw_vec_at(x, e->node[i]), origin)));
+  return !(far2 <= LARGEST_DIAGONAL * LARGEST_DIAGONAL * most * most * side2);
+}
+
+/* Squeezed sections may bring two particles close to each other. */
+static sw_status check_web(const sw_scene *s, size_t wire, const double *x, sw_error *err) {
+  const sw_plan *plan = s->system.bodies[wire].plan;
+  const sw_web *web = plan->web;
+  for (size_t e = 0; e < web->links; e++) {
+    const sw_web_link *link = &web->link[e];
+    const double most = (1.0 + LARGEST_STRAIN) * link->rest;
+    if (!(sw_dist(sw_vec_at(x, link->a), sw_vec_at(x, link->b)) <= most))
+      return torn(s, wire, link->a, link->b, err);
+  }
+  for (size_t e = 0; web->shapes && e < web->solids; e++) {
+    const sw_web_solid *solid = &web->solid[e];
+    if (is_torn((const sw_solid *)web->shapes + sw_plan_shape(plan, solid), solid, x))
+      return torn(s, wire, solid->node[0], solid->node[1], err);
+  }
+  return SW_OK;
+}
+
+static sw_status check_edges(const sw_scene *s, size_t b, const double *x, sw_error *err) {
+  const sw_plan *plan = s->system.bodies[b].plan;
+  for (size_t e = 0; e < plan->edges; e++) {
+    const double l2 = sw_norm2(sw_sub(sw_load(x + 3 * e + 3), sw_load(x + 3 * e)));
+    const double most = (1.0 + LARGEST_STRAIN) * plan->rest[e];
+    const double least = LEAST_SHARE * plan->rest[e];
+    if (l2 < least * least)
+      return sw_fail(err, SW_ENOCONV, "wire '%s' is crushed near s = %.4g m", s->wires[b].name,
+                     plan->s[e] - plan->s[0]);
+    if (!(l2 <= most * most))
+      return sw_fail(err, SW_EDIVERGED, "wire '%s' is torn apart near s = %.4g m", s->wires[b].name,
+                     plan->s[e] - plan->s[0]);
+  }
+  return SW_OK;
+}
+
+sw_status sw_scene_check_trial(const sw_scene *s, sw_error *err) {
+  SW_TRY(check_finite(s, err));
+  for (size_t b = 0; b < s->system.body_count; b++) {
+    const sw_body *body = &s->system.bodies[b];
+    const double *x = s->stepper.trial_x + 3 * body->first_node;
+    if (body->plan->web) SW_TRY(check_web(s, b, x, err));
+    SW_TRY(check_edges(s, b, x, err));
+  }
+  return SW_OK;
+}
+
+void sw_scene_remark_contact(sw_scene *s) {
+  const sw_event *e;
+  if (!(s->contact && sw_contact_count(s->contact)) && !(s->pairs && sw_pairs_count(s->pairs)))
+    return;
+  for (size_t k = 0; (e = sw_scene_event(s, k)) != NULL; k++)
+    if (strcmp(e->kind, "integrator") == 0) return;
+  sw_scene_tell(s, "integrator", s->method->name, NAN, NAN,
+                "integrator '%s' gains energy where wires touch something; take 'tr-bdf2' there",
+                s->method->name);
+}
+
+sw_status sw_scene_check_step(const sw_scene *s, const sw_run_args *args, double until,
+                              sw_error *err) {
+  const sw_integrator *m = sw_integrator_all()[args->integrator];
+  if (args->quasistatic || args->unstable || !(m->leapfrog_limit > 0)) return SW_OK;
+  const double most = 0.5 * m->leapfrog_limit * sw_system_stable_dt(&s->system);
+  const double h = fmin(args->dt, until - s->time);
+  if (!(h > most * (1.0 + 1e-9))) return SW_OK;
+  return sw_fail(
+      err, SW_EINVAL,
+      "scene:run: dt = %.3g s is above %.3g s, up to which integrator '%s' is stable here "
+      "(%.3g times scene:stable_dt()); give a smaller dt [s], an implicit integrator, or "
+      "unstable = true to try it all the same",
+      h, most, m->name, 0.5 * m->leapfrog_limit);
+}

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is recorded of wires and forces at every accepted state, for series. */
+#ifndef SW_SCENE_WATCH_H
+#define SW_SCENE_WATCH_H
+
+#include "base/tape.h"
+#include "scene/scene.h"
+
+typedef struct sw_watch sw_watch; /* the rows of one object */
+
+typedef struct sw_watches {
+  sw_watch *list;
+  size_t count, capacity;
+  size_t next; /* where the object that is noted next is likely to be [-] */
+} sw_watches;
+
+/* Add a row of the accepted state. */
+sw_status sw_watch_wire(sw_scene *scene, size_t wire, const sw_wire_extremes *now, sw_error *err);
+/* The same of all forces that tell what they do to wires (clips, ties). */
+sw_status sw_watch_forces(sw_scene *scene, sw_error *err);
+/* How long each log is, for snapshots. SW_ENOMEM. */
+sw_status sw_watches_measure(const sw_watches *watches, size_t **lengths);
+/* Back to these lengths (of the first count logs); those beyond the first `known` go away. */
+void sw_watches_back_to(sw_watches *watches, const size_t *lengths, size_t count, size_t known);
+void sw_watches_clear(sw_watches *watches);
+void sw_tape_watches(sw_tape *tape, sw_watches *watches);
+
+#endif

@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a mesh file declares against what it has. Each format is looked at just as closely as it
+ * takes to find a file that was cut off; the rest is the reader's. */
+#include "base/vec.h"
+#include "shape/mesh_ply.h"
+#include "shape/mesh_read.h"
+#include "shape/mesh_words.h"
+
+static sw_mesh_reader reader = sw_mesh_read;
+
+void sw_mesh_set_reader(sw_mesh_reader own) { reader = own ? own : sw_mesh_read; }
+sw_mesh_reader sw_mesh_get_reader(void) { return reader; }
+
+/* --- STL ------------------------------------------------------------------ */
+
+enum { STL_HEAD = 84, STL_TRIANGLE = 50 }; /* [B] */
+
+/* Where the text begins for the last time, whatever its case; NULL when it is not there. text is
+ * in small letters. */
+static const char *last_of(const sw_mesh_file *file, const char *text) {
+  const size_t n = strlen(text);
+  for (size_t at = file->byte_count >= n ? file->byte_count - n + 1 : 0; at-- > 0;) {
+    size_t k = 0;
+    while (k < n && (file->bytes[at + k] | 0x20) == text[k]) k++;
+    if (k == n) return file->bytes + at;
+  }
+  return NULL;
+}
+
+static sw_status check_stl(const sw_mesh_file *file, sw_error *err) {
+  const size_t size = file->byte_count;
+  const size_t count = size >= STL_HEAD ? sw_words_u32(file->bytes + 80) : 0;
+  const size_t whole = STL_HEAD + STL_TRIANGLE * count;
+  sw_words all = {file->bytes, file->bytes + size}, word;
+  if (size >= STL_HEAD && size == whole) return SW_OK;
+  if (sw_words_next(&all, &word) && word.end - word.at >= 5 && memcmp(word.at, "solid", 5) == 0) {
+    const char *facet = last_of(file, "facet"), *end = last_of(file, "endsolid");
+    if (end && (!facet || end > facet)) return SW_OK;
+    return sw_fail(err, SW_EFORMAT,
+                   "%s: data is not readable as stl: it is cut off, the closing word 'endsolid' is "
+                   "missing; write the file anew",
+                   file->object);
+  }
+  if (size < STL_HEAD)
+    return sw_fail(
+        err, SW_EFORMAT,
+        "%s: data is not readable as stl: it has %zu bytes, and the head alone takes %d; "
+        "write the file anew",
+        file->object, size, STL_HEAD);
+  if (size > whole) return SW_OK;
+  return sw_fail(err, SW_EFORMAT,
+                 "%s: data is not readable as stl: it is cut off or damaged: it declares %zu "
+                 "triangles, which take %zu bytes, and has %zu; write the file anew",
+                 file->object, count, whole, size);
+}
+
+/* --- OFF ------------------------------------------------------------------ */
+
+/* The next line that is no comment. */
+static int line_of(sw_words *from, sw_words *line) {
+  while (sw_words_line(from, line))
+    if (*line->at != '#') return 1;
+  return 0;
+}
+
+/* Has the line as many words as it takes: 3 numbers, or a count and as many numbers? */
+static int is_whole(sw_words line, int face) {
+  sw_words word;
+  size_t need = 3;
+  if (face && !sw_words_count(&line, &need)) return 0;
+  while (need > 0 && sw_words_next(&line, &word)) need--;
+  return need == 0;
+}
+
+static sw_status check_off(const sw_mesh_file *file, sw_error *err) {
+  sw_words all = {file->bytes, file->bytes + file->byte_count}, line, word;
+  size_t points, faces, k;
+  if (!line_of(&all, &line)) return SW_OK;
+  sw_words first = line;
+  if (sw_words_next(&first, &word) && word.end - word.at >= 3 &&
+      memcmp(word.end - 3, "OFF", 3) == 0) {
+    line = first;
+    if (!sw_words_next(&first, &word) && !line_of(&all, &line)) line = first;
+  }
+  if (!sw_words_count(&line, &points) || !sw_words_count(&line, &faces))
+    return sw_fail(err, SW_EFORMAT,
+                   "%s: data is not readable as off: its head has no numbers of points and faces; "
+                   "write the file anew",
+                   file->object);
+  for (k = 0; k < points + faces; k++)
+    if (!line_of(&all, &line) || !is_whole(line, k >= points)) break;
+  if (k == points + faces) return SW_OK;
+  return sw_fail(
+      err, SW_EFORMAT,
+      "%s: data is not readable as off: it is cut off or damaged: it declares %zu points "
+      "and %zu faces, and %s number %zu is not whole; write the file anew",
+      file->object, points, faces, k < points ? "point" : "face",
+      k < points ? k + 1 : k - points + 1);
+}
+
+/* --- GLB ------------------------------------------------------------------ */
+
+static sw_status check_glb(const sw_mesh_file *file, sw_error *err) {
+  enum { HEAD = 12 }; /* [B] */
+  const size_t size = file->byte_count, whole = size >= HEAD ? sw_words_u32(file->bytes + 8) : HEAD;
+  if (size >= HEAD && memcmp(file->bytes, "glTF", 4) != 0) return SW_OK; /* the reader says it */
+  if (size >= whole && size >= HEAD) return SW_OK;
+  return sw_fail(err, SW_EFORMAT,
+                 "%s: data is not readable as glb: it is cut off or damaged: it declares %zu bytes "
+                 "and has %zu; write the file anew",
+                 file->object, whole, size);
+}
+
+sw_status sw_mesh_check(const sw_mesh_file *file, sw_error *err) {
+  if (strcmp(file->format, "stl") == 0) return check_stl(file, err);
+  if (strcmp(file->format, "ply") == 0) return sw_mesh_check_ply(file, err);
+  if (strcmp(file->format, "off") == 0) return check_off(file, err);
+  if (strcmp(file->format, "glb") == 0) return check_glb(file, err);
+  return SW_OK; /* obj and gltf declare nothing that could be compared */
+}

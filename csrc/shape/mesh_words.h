@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lines, words and counts in the bytes of a mesh file; nothing is copied. */
+#ifndef SW_SHAPE_MESH_WORDS_H
+#define SW_SHAPE_MESH_WORDS_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+typedef struct sw_words {
+  const char *at, *end;
+} sw_words;
+
+static inline int sw_words_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+/* The next line that is not empty, without its end. 0 when there is none. */
+static inline int sw_words_line(sw_words *from, sw_words *line) {
+  while (from->at < from->end && sw_words_space(*from->at)) from->at++;
+  if (from->at == from->end) return 0;
+  line->at = from->at;
+  while (from->at < from->end && *from->at != '\n' && *from->at != '\r') from->at++;
+  line->end = from->at;
+  return 1;
+}
+
+static inline int sw_words_next(sw_words *from, sw_words *word) {
+  while (from->at < from->end && sw_words_space(*from->at)) from->at++;
+  word->at = from->at;
+  while (from->at < from->end && !sw_words_space(*from->at)) from->at++;
+  word->end = from->at;
+  return word->at < word->end;
+}
+
+static inline int sw_words_are(sw_words word, const char *text) {
+  const size_t n = strlen(text);
+  return (size_t)(word.end - word.at) == n && memcmp(word.at, text, n) == 0;
+}
+
+/* A count in decimal digits; 0 when it is none, or beyond 1e18. */
+static inline int sw_words_count(sw_words *from, size_t *count) {
+  sw_words word;
+  *count = 0;
+  if (!sw_words_next(from, &word) || word.end - word.at > 18) return 0;
+  for (const char *c = word.at; c < word.end; c++) {
+    if (*c < '0' || *c > '9') return 0;
+    *count = 10 * *count + (size_t)(*c - '0');
+  }
+  return 1;
+}
+
+/* Four bytes, the least first. */
+static inline size_t sw_words_u32(const char *at) {
+  const unsigned char *b = (const unsigned char *)at;
+  return (size_t)b[0] | (size_t)b[1] << 8 | (size_t)b[2] << 16 | (size_t)b[3] << 24;
+}
+
+#endif

@@ -1,0 +1,46 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Methods know whose they are: called with a dot, or with another object, they say so, instead of
+-- failing somewhere inside of the library. Methods written in C look after that themselves.
+-- @module softworld.methods
+local core = require "softworld.core"
+
+local methods = {}
+
+local function described(value)
+  local kind = core.type(value)
+    or type(value) == "table" and (getmetatable(value) or {}).__name or type(value)
+  return type(kind) == "string" and kind or "table"
+end
+
+--- Guard the Lua functions of a class. is(value) tells whether it is one.
+function methods.guard(kind, class, is)
+  for name, method in next, class do
+    if type(name) == "string" and name:sub(1, 2) ~= "__" and type(method) == "function"
+      and debug.getinfo(method, "S").what == "Lua" then
+      -- a tail call: levels of errors count as if this were not here
+      class[name] = function(self, ...)
+        if not is(self) then
+          error(("%s:%s is a method: call it with a colon (%s expected, got %s)"):format(kind, name, kind,
+            described(self)), 2)
+        end
+        return method(self, ...)
+      end
+    end
+  end
+end
+
+--- The same of a class whose objects are tables with it as their metatable.
+function methods.guard_table(kind, class)
+  methods.guard(kind, class, function(value)
+    return type(value) == "table" and getmetatable(value) == class
+  end)
+end
+
+--- The same of all classes of the core.
+function methods.guard_core()
+  for kind, class in pairs(core.class) do
+    methods.guard(kind, class, function(value) return core.type(value) == kind end)
+  end
+end
+
+return methods

@@ -1,0 +1,21 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Where in the user's script the library was called.
+-- @module softworld.place
+local place = {}
+
+local library = debug.getinfo(1, "S").source:match "^@(.*)place%.lua$"
+
+local DEEPEST = 60 -- calls
+
+--- "file.lua:12" of the innermost call that is not the library's own, or nil.
+function place.of_caller()
+  for level = 2, DEEPEST do
+    local info = debug.getinfo(level, "Sl")
+    if not info then return nil end
+    if info.currentline > 0 and not (library and info.source:sub(1, #library + 1) == "@" .. library) then
+      return ("%s:%d"):format(info.short_src, info.currentline)
+    end
+  end
+end
+
+return place

@@ -1,0 +1,191 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Remarks on what is allowed but hardly meant: a radius of 2.5 m, a modulus of 50 Pa, a wire that
+-- begins inside of an obstacle. Each is told once per line of the script, on stderr, in the host
+-- program; sw.remarks = false silences them.
+-- @module softworld.remarks
+local core = require "softworld.core"
+local place = require "softworld.place"
+local units = require "softworld.units"
+local vec = require "softworld.vec"
+
+local remarks = {}
+
+-- Of each kind of thing: key = { unit, low, high, units that may have been meant }. What lies
+-- outside is remarked.
+local rules = {
+  wire = {
+    radius = { "m", 2e-5, 0.1, "mm", "um" }, E = { "Pa", 1e4, 2e12, "MPa", "GPa", "kPa" },
+    density = { "kg/m3", 5, 25000, "g_per_cm3" }, mass_per_length = { "kg/m", 1e-7, 100, "g_per_m" },
+    EI = { "N m2", 1e-13, 1e5, "Nmm2" }, EA = { "N", 1e-2, 1e10 },
+    length = { "m", 1e-4, 300, "mm" },
+  },
+  obstacle = { friction = { "", 0, 3 }, kinetic_friction = { "", 0, 3 },
+    radius = { "m", 1e-5, 10, "mm" }, length = { "m", 1e-5, 100, "mm" } },
+  wire_contact = { friction = { "", 0, 3 } },
+  pads = { friction = { "", 0, 3 }, width = { "m", 1e-4, 0.5, "mm" }, opening = { "m", 1e-5, 1, "mm" } },
+  grasp = { force = { "N", 1e-4, 1e4, "mN" }, speed = { "m/s", 1e-6, 20, "mm_per_s" } },
+  move = { speed = { "m/s", 1e-6, 20, "mm_per_s" }, duration = { "s", 1e-4, 1e5, "ms" } },
+  clip = { friction = { "", 0, 3 }, width = { "m", 1e-4, 0.5, "mm" }, insertion = { "N", 1e-3, 1e4, "mN" },
+    retention = { "N", 1e-3, 1e4, "mN" }, radius = { "m", 1e-5, 0.2, "mm" } },
+  channel = { friction = { "", 0, 3 }, width = { "m", 1e-4, 5, "mm" }, depth = { "m", 1e-4, 5, "mm" } },
+  tie = { slack = { "m", 0, 10, "mm" }, strength = { "N", 1e-3, 1e6, "mN" } },
+  run = { duration = { "s", 0, 1e7 }, dt = { "s", 0, 1, "ms" } },
+}
+local known = { density = "steel has 7850 kg/m3, PVC 1400 kg/m3", E = "steel has 2e11 Pa, soft rubber 1e6 Pa",
+  friction = "rubber on steel has 0.8" }
+
+local told = {}
+local ANSWERS = 1000 -- lines kept
+local count = 0
+
+--- Are they wanted?
+function remarks.wanted()
+  local sw = package.loaded["softworld"]
+  return package.loaded["softworld.host"] ~= nil
+    and not (type(sw) == "table" and rawget(sw, "remarks") == false)
+end
+
+-- A script's line tells a thing once; lines typed at the prompt have no numbers of their own.
+local function tell(topic, text)
+  local at = place.of_caller() or "?"
+  local key = at .. " " .. (at:find "^input:" and text or topic)
+  if told[key] or count >= ANSWERS then return end
+  told[key], count = true, count + 1
+  io.stdout:flush()
+  io.stderr:write(at, ": remark: ", text, "\n")
+end
+
+-- The first unit in which the value would be usual, as a question.
+local function question(value, rule)
+  for i = 4, #rule do
+    local meant = units[rule[i]](value)
+    if meant >= rule[2] and meant <= rule[3] then
+      return ("; did you mean sw.units.%s(%g)?"):format(rule[i], value)
+    end
+  end
+  return ""
+end
+
+local function check(what, key, value, rule)
+  if type(value) ~= "number" or value - value ~= 0 or value <= 0 then return end
+  if value >= rule[2] and value <= rule[3] then return end
+  local unit = rule[1] ~= "" and " " .. rule[1] or ""
+  local usual = value < rule[2] and ("below %g%s"):format(rule[2], unit)
+    or ("above %g%s"):format(rule[3], unit)
+  tell(key, ("%s: %s = %g%s is %s%s%s"):format(what, key, value, unit, usual,
+    question(value, rule), known[key] and (" (%s)"):format(known[key]) or ""))
+end
+
+--- Remark what is unusual in the arguments of a kind of thing; what: names it.
+function remarks.on(kind, what, args)
+  if type(args) ~= "table" or not remarks.wanted() then return end
+  local keys = {}
+  for key in pairs(rules[kind]) do keys[#keys + 1] = key end
+  table.sort(keys)
+  for _, key in ipairs(keys) do
+    local value, rule = args[key], rules[kind][key]
+    for _, one in ipairs(type(value) == "table" and value or { value }) do check(what, key, one, rule) end
+  end
+end
+
+local MOST_GRAVITY = 50 -- [m/s2]
+
+--- Gravity as a vector [m/s2].
+function remarks.gravity(g)
+  if type(g) ~= "table" or not remarks.wanted() then return end
+  for k, axis in ipairs{ "x", "y", "z" } do
+    local value = g[k] or g[axis]
+    if type(value) == "number" then
+      check("scene", "gravity", math.abs(value), { "m/s2", 0, MOST_GRAVITY, "mm_per_s2" })
+    end
+  end
+end
+
+-- --- wires inside of obstacles ---------------------------------------------------------
+
+local SAMPLES = 24 -- points of a straight wire
+local MOST = 400 -- points of a path that are looked at
+local DEEP = 0.5 -- of the radius: a middle nearer to the surface than this is inside
+
+local things = setmetatable({}, { __mode = "k" }) -- a scene's data -> its wires' points
+
+local function points_of(args)
+  local list = {}
+  if type(args.path) == "table" then
+    for i = 1, #args.path, math.max(1, #args.path // MOST) do list[#list + 1] = args.path[i] end
+  elseif type(args.from) == "table" and type(args.to) == "table" then
+    for i = 0, SAMPLES do
+      local p, u = {}, i / SAMPLES
+      for k, axis in ipairs{ "x", "y", "z" } do
+        local a, b = args.from[k] or args.from[axis], args.to[k] or args.to[axis]
+        if type(a) ~= "number" or type(b) ~= "number" then return {} end
+        p[k] = (1 - u) * a + u * b
+      end
+      list[i + 1] = p
+    end
+  end
+  return list
+end
+
+local function look(wire, obstacle)
+  if not core.exists(obstacle.object) or not obstacle.object.present then return end
+  local at, q = obstacle.object:pose()
+  local back, shape = vec.conjugate(q), obstacle.object.shape
+  for i, p in ipairs(wire.points) do
+    local here = { p[1] or p.x, p[2] or p.y, p[3] or p.z }
+    local gap = shape:distance(vec.rotate(back, vec.sub(here, at)))
+    if gap and gap < DEEP * wire.radius then
+      return tell("inside", ("wire '%s' begins inside of '%s': it reaches %.4g mm into it at "
+        .. "(%.4g, %.4g, %.4g) m, %s"):format(wire.name, obstacle.name,
+        1e3 * (wire.radius - gap), here[1], here[2], here[3], i == 1 and "where it starts" or "on its way"))
+    end
+  end
+end
+
+local function wires_of(data)
+  things[data] = things[data] or {}
+  return things[data]
+end
+
+local function length_of(points)
+  local sum = 0
+  for i = 2, #points do
+    local a, b = points[i - 1], points[i]
+    sum = sum + vec.norm{ (b[1] or b.x) - (a[1] or a.x), (b[2] or b.y) - (a[2] or a.y),
+      (b[3] or b.z) - (a[3] or a.z) }
+  end
+  return sum
+end
+
+--- A new wire of the scene's data, made with args.
+function remarks.wire(data, wire, args)
+  if not remarks.wanted() then return end
+  local what = ("wire '%s'"):format(args.name)
+  remarks.on("wire", what, args)
+  local mine = { name = args.name, points = points_of(args), radius = args.radius or wire.radius }
+  check(what, "length", length_of(mine.points), rules.wire.length)
+  local wires = wires_of(data)
+  wires[#wires + 1] = mine
+  for _, obstacle in ipairs(data.obstacles) do look(mine, obstacle) end
+end
+
+local paused = false
+
+--- f(...) without remarks on obstacles that it makes: those of grippers' pads.
+function remarks.without(f, ...)
+  paused = true
+  local result = table.pack(pcall(f, ...))
+  paused = false
+  if not result[1] then error(result[2], 0) end
+  return table.unpack(result, 2, result.n)
+end
+
+--- A new obstacle, an entry of the scene's data; time of the scene [s].
+function remarks.obstacle(data, entry, time)
+  if not remarks.wanted() or paused then return end
+  remarks.on("obstacle", ("obstacle '%s'"):format(entry.name), entry)
+  if time > 0 then return end -- wires are no longer where they began
+  for _, wire in ipairs(wires_of(data)) do look(wire, entry) end
+end
+
+return remarks

@@ -1,0 +1,179 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Runs that fail: told at the end of a script that did not look, frames, pictures, progress.
+local sw = require "softworld"
+
+local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec/host"
+local program = dofile(here .. "/program.lua")
+local script = program.script
+
+-- Explicit steps somewhat too long: the wire is torn apart after a while.
+local failing = [[
+local sw = require "softworld"
+local function fail()
+  local scene = sw.scene{ name = "wild" }
+  local wire = scene:wire{ E = 5e6, density = 1500, radius = 0.0025, segments = 20, from = {0, 0, 0.1},
+    to = {0.5, 0, 0.1} }
+  scene:clamp(wire, { s = 0 })
+  local dt = 1.2 * scene:stable_dt()
+  local run = scene:run{ duration = 1, dt = dt, integrator = "velocity-verlet", frame = 0.001 }
+  return run
+end
+]]
+
+describe("a run that failed", function()
+  after_each(program.clean)
+
+  it("is told at the end of a script that did not look, which fails", function()
+    local out, err, code = script(failing .. "local run = fail()\nprint 'done'")
+    assert.equal("done\n", out)
+    assert.truthy(err:find("run of 'wild' at script.lua:8 FAILED at t = ", 1, true), err)
+    assert.truthy(err:find("; try ", 1, true), err)
+    assert.equal(1, code)
+  end)
+
+  for what, code in pairs{ ok = "assert(not run.ok)", reason = "print(run.reason)", print = "print(run)",
+    summary = "run:summary()", use = "print(pcall(run.series, run))" } do
+    it("is not told when the script looked: " .. what, function()
+      local _, err, status = script(failing .. "local run = fail()\n" .. code)
+      assert.equal("", err)
+      assert.equal(0, status)
+    end)
+  end
+
+  it("counts as looked at within tuning and error bars", function()
+    local _, err, status = script(failing .. [[
+      sw.tune.minimise{ from = 0, to = 1, max_iterations = 3, f = function(x) fail() return x * x end }]])
+    assert.equal("", err)
+    assert.equal(0, status)
+  end)
+
+  it("is told with error bars when nobody looks at the whole", function()
+    local _, err, status = script [[
+      local sw = require "softworld"
+      local scene = sw.scene{ name = "bars" }
+      local wire = scene:wire{ E = 5e6, density = 1500, radius = 0.0025, segments = 20, from = {0, 0, 0.1},
+        to = {0.5, 0, 0.1} }
+      scene:clamp(wire, { s = 0 })
+      scene:run{ duration = 0.3, dt = 0.01, integrator = "velocity-verlet", tolerance = { tip = 1e-3 } }]]
+    assert.truthy(err:find("run of 'bars'", 1, true), err)
+    local _, count = err:gsub("FAILED", "")
+    assert.equal(1, count)
+    assert.equal(1, status)
+  end)
+
+  it("is told for code of -e too", function()
+    local _, err, code = program.run{ "-e", failing .. "fail()" }
+    assert.truthy(err:find("FAILED", 1, true), err)
+    assert.equal(1, code)
+  end)
+end)
+
+describe("frames of a run that failed", function()
+  local run
+
+  setup(function()
+    run = load(failing .. "return fail()")()
+    assert.is_false(run.ok)
+  end)
+
+  it("are kept, with the last good state", function()
+    local frames = run:frames()
+    assert.is_true(#frames > 3)
+    assert.is_true(frames[#frames].t <= run.time)
+    assert.is_true(run.time - frames[#frames].t < 0.0021)
+  end)
+
+  it("are written for ParaView, and numbers are not", function()
+    local folder = program.folder()
+    run:vtk(folder .. "/wild.pvd")
+    assert.truthy(program.read(folder .. "/wild.pvd"):find("wires_00003", 1, true))
+    for _, f in ipairs{ run.series, run.chart, run.save } do
+      local fine, why = pcall(f, run, f == run.save and folder .. "/x.csv" or { path = folder .. "/x.svg" })
+      assert.is_false(fine)
+      assert.truthy(why:find("failed", 1, true), why)
+    end
+    program.clean()
+  end)
+
+  it("make pictures: the last ones, marked", function()
+    local folder = program.folder()
+    local made = run:pictures{ path = folder .. "/x.png", count = 2, draft = true, width = 300 }
+    assert.truthy(made.note:find("FAILED at t = ", 1, true), made.note)
+    program.clean()
+  end)
+end)
+
+describe("what to try next", function()
+  local advice = require "softworld.advice"
+  local cases = {
+    { "wire 'w' is torn apart", { integrator = "rk4" }, "scene:stable_dt()" },
+    { "no convergence in 30 iterations", { dt = 0.02 }, "dt = 5 ms" },
+    { "wire is fed too fast to follow it", {}, "a slower feed" },
+    { "no convergence in 30 iterations", { quasistatic = true, dt = 0.1 }, "without quasistatic" },
+    { "the tolerance needs steps below 1e-09 s", { tolerance = 1e-9 }, "a larger tolerance" },
+  }
+  for _, case in ipairs(cases) do
+    it("fits: " .. case[1], function()
+      local text = advice.of(case[1], case[2])
+      assert.truthy(text:gsub("%.0+ ", " "):find(case[3], 1, true), text)
+    end)
+  end
+end)
+
+describe("progress", function()
+  local progress = require "softworld.output.progress"
+
+  local function bar_after(time)
+    local now, lines = 0, {}
+    local stream = { write = function(_, ...) lines[#lines + 1] = table.concat{ ... } end,
+      flush = function() end }
+    local bar = progress.new{ total = 1, name = "x", stream = stream, terminal = true, width = 80, after = 1,
+      clock = function() return now end }
+    while now < time do
+      now = now + 0.2
+      bar:update(now / 10, 1)
+    end
+    bar:finish()
+    return table.concat(lines)
+  end
+
+  it("says nothing of short runs", function() assert.equal("", bar_after(0.7)) end)
+  it("shows long ones", function()
+    assert.truthy(bar_after(3):find("%", 1, true))
+    assert.truthy(bar_after(3):find("steps in", 1, true))
+  end)
+
+  it("shows on a terminal by default, not elsewhere", function()
+    if not program.has "script" then error "the program script is needed" end
+    local folder = program.folder()
+    local name = program.write(folder .. "/s.lua", [[
+      package.loaded["softworld.host"].slow = true
+      local sw = require "softworld"
+      local progress = require "softworld.output.progress"
+      local new = progress.new
+      progress.new = function(o)
+        io.stdout:write("quiet ", tostring(o.quiet), " after ", tostring(o.after), "\n")
+        return new(o)
+      end
+      local scene = sw.scene{}
+      scene:wire{ E = 5e6, density = 1500, radius = 0.0025, from = {0, 0, 0}, to = {1, 0, 0} }
+      scene:run{ duration = 0.01 }]])
+    local out = program.run{ name }
+    assert.truthy(out:find("quiet true", 1, true), out)
+    out = program.shell(("TERM=xterm script -qec %s /dev/null </dev/null"):format(
+      program.quote(program.quote(program.path) .. " " .. program.quote(name))))
+    assert.truthy(out:find("quiet false after 1", 1, true), out)
+    program.clean()
+  end)
+end)
+
+it("the module that keeps failures is not fooled by many", function()
+  local unread = require "softworld.unread"
+  unread.finish()
+  for i = 1, 30 do unread.add("failure " .. i) end
+  local text = unread.finish()
+  assert.truthy(text:find("failure 1\n", 1, true))
+  assert.truthy(text:find("and 10 more", 1, true))
+  assert.is_nil(unread.finish())
+  assert.is_table(sw)
+end)

@@ -1,0 +1,75 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Remarks on values that are allowed but hardly meant.
+local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec/host"
+local program = dofile(here .. "/program.lua")
+local script = program.script
+
+local start = 'local sw = require "softworld" local s = sw.scene{}\n'
+local good = "E = 50e6, density = 1500, radius = 0.0025, from = {0, 0, 0.1}, to = {1, 0, 0.1}"
+
+local function wire(change) return ("s:wire{ %s }"):format(change) end
+
+describe("remarks", function()
+  after_each(program.clean)
+
+  local cases = {
+    { wire "E = 50e6, density = 1500, radius = 2.5, from = {0,0,9}, to = {1,0,9}",
+      "radius = 2.5 m is above 0.1 m; did you mean sw.units.mm(2.5)?" },
+    { wire "E = 50, density = 1500, radius = 0.0025, from = {0,0,1}, to = {1,0,1}",
+      "E = 50 Pa is below 10000 Pa; did you mean sw.units.MPa(50)?" },
+    { wire "E = 50e6, density = 1500000, radius = 0.0025, from = {0,0,1}, to = {1,0,1}",
+      "density = 1.5e+06 kg/m3 is above" },
+    { wire "E = 50e6, density = 1500, radius = 0.0025, from = {0,0,1}, to = {500,0,1}",
+      "length = 500 m is above 300 m; did you mean sw.units.mm(500)?" },
+    { "s:obstacle{ shape = 'plane', friction = 30 }", "friction = 30 is above 3" },
+    { "s:obstacle{ shape = 'plane' } " .. wire("E = 50e6, density = 1500, radius = 0.0025, "
+      .. "from = {0,0,0.1}, to = {1,0,-0.1}"), "wire 'wire1' begins inside of 'plane1': it reaches" },
+    { wire(good) .. " s:obstacle{ name = 'ball', shape = 'sphere', radius = 0.1, at = {0.5, 0, 0.1} }",
+      "wire 'wire1' begins inside of 'ball'" },
+    { "sw.scene{ gravity = {0, 0, -9810} }", "did you mean sw.units.mm_per_s2(9810)?" },
+    { "s:gripper{ pads = { width = 20 } }", "did you mean sw.units.mm(20)?" },
+    { "local g = s:gripper{ at = {0, 0, 0} } g:move{ by = {0, 0, 1}, speed = 200 }",
+      "did you mean sw.units.mm_per_s(200)?" },
+    { "s:clip{ at = {0, 0, 0}, width = 8, insertion = 5, retention = 9 }", "sw.units.mm(8)" },
+  }
+  for _, case in ipairs(cases) do
+    it("on " .. case[1], function()
+      local _, err, code = script(start .. case[1])
+      assert.truthy(err:find("script.lua:2: remark: ", 1, true), err)
+      assert.truthy(err:find(case[2], 1, true), err)
+      assert.equal(0, code)
+    end)
+  end
+
+  it("are made once for a line", function()
+    local _, err = script(start
+      .. "for i = 1, 5 do s:obstacle{ shape = 'plane', friction = 10 * i } end\n"
+      .. "s:obstacle{ shape = 'plane', friction = 30 }")
+    local _, count = err:gsub("remark", "")
+    assert.equal(2, count)
+  end)
+
+  it("are not made on what is usual", function()
+    local _, err = script(start .. [[
+      s:obstacle{ shape = "plane", friction = 0.4 }
+      s:obstacle{ shape = "box", size = {0.1, 0.1, 0.1}, at = {0.5, 0, 0.05} }
+      s:wire{ cable = "GXL 1.5", from = {0, 0.2, 0.0014}, to = {1, 0.2, 0.0014} }
+      s:wire{ E = 50e6, density = 1500, radius = 0.0025, from = {0, 0, 0.1025}, to = {1, 0, 0.1025} }
+      local g = s:gripper{ at = {0.5, 0, 0.1025}, pads = { width = 0.02, friction = 0.6 } }
+      s:clip{ at = {0.2, 0.4, 0.03}, width = 0.008, insertion = 12, retention = 40, friction = 0.3 }]])
+    assert.equal("", err)
+  end)
+
+  it("are silenced by sw.remarks = false", function()
+    local _, err = script(start .. "sw.remarks = false\ns:obstacle{ shape = 'plane', friction = 30 }")
+    assert.equal("", err)
+  end)
+
+  it("change nothing: a wire with other values than usual runs", function()
+    local out, err, code = script(start .. wire("E = 5e3, density = 1500, radius = 0.0025, "
+      .. "from = {0,0,1}, to = {1,0,1}") .. " print(s:run{ duration = 0.01 }.ok)")
+    assert.equal("true\n", out)
+    assert.truthy(err:find("remark", 1, true))
+    assert.equal(0, code)
+  end)
+end)

@@ -1,0 +1,113 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- A misspelt key, field or method is an error that names the nearest one, everywhere.
+local sw = require "softworld"
+
+local scene, wire, hand, clamp, run
+
+setup(function()
+  scene = sw.scene{ name = "names" }
+  wire = scene:wire{ E = 50e6, density = 1500, radius = 0.0025, segments = 8, from = { 0, 0, 0.1 },
+    to = { 0.5, 0, 0.1 } }
+  hand = scene:gripper{ name = "hand", at = { 0.1, 0, 0.2 } }
+  clamp = scene:clamp(wire, { s = 0 })
+  run = scene:run{ duration = 0.02 }
+end)
+
+local function check(cases)
+  for name, case in pairs(cases) do
+    it(name, function()
+      local fine, why = pcall(case[1])
+      assert.is_false(fine)
+      assert.truthy(why:find(case[2], 1, true), why)
+      assert.truthy(why:find("names_spec.lua:", 1, true), "no line: " .. why)
+    end)
+  end
+end
+
+local path = "/nowhere/x.png"
+
+describe("a misspelt key of", function()
+  check{
+    ["run:chart"] = { function() run:chart{ colums = {} } end, "did you mean 'columns'?" },
+    ["run:pictures"] = { function() run:pictures{ path = path, cout = 3 } end, "did you mean 'count'?" },
+    camera = { function() run:pictures{ path = path, camera = { elevaton = 3 } } end,
+      "did you mean 'elevation'?" },
+    ["gripper:move"] = { function() hand:move{ by = { 0, 0, 1 }, sped = 1 } end, "did you mean 'speed'?" },
+    turn = { function() hand:move{ turn = { axs = { 0, 0, 1 }, angle = 1 }, duration = 1 } end,
+      "did you mean 'axis'?" },
+    ["gripper:rotate"] = { function() hand:rotate{ axes = { 0, 0, 1 }, angle = 1, duration = 1 } end,
+      "did you mean 'axis'?" },
+    ["gripper:grasp"] = { function() hand:grasp(wire, { approch = "plates" }) end, "'approach'" },
+    ["gripper:retreat"] = { function() hand:retreat{ distnce = 1 } end, "did you mean 'distance'?" },
+    ["gripper:press"] = { function() hand:press{ froce = 1 } end, "did you mean 'force'?" },
+    pads = { function() scene:gripper{ pads = { widht = 1 } } end, "did you mean 'width'?" },
+    clip = { function() scene:clip{ retenton = 1 } end, "did you mean 'retention'?" },
+    tie = { function() scene:tie(wire, { slak = 1 }) end, "did you mean 'slack'?" },
+    channel = { function() scene:channel{ pionts = {} } end, "did you mean 'points'?" },
+  }
+end)
+
+describe("what is no option:", function()
+  check{
+    ["a word for a camera"] = { function() run:pictures{ path = path, camera = "front" } end, "'auto'" },
+    ["an angle of a camera that is none"] = { function()
+      run:pictures{ path = path, camera = { angle = "wide" } }
+    end, "camera.angle = wide" },
+    ["a text for a table"] = { function() run:chart "x.svg" end, "one table of parameters, got string" },
+    ["a table for a path"] = { function() run:save{ path = "x.csv" } end, "the name of a .csv" },
+    ["a table for a .pvd"] = { function() run:vtk{} end, "the name of a .pvd" },
+    ["a table for a time"] = { function() hand:over{} end, "t1 must be a time [s]" },
+  }
+end)
+
+describe("an unknown", function()
+  check{
+    ["field of a run"] = { function() return run.steeps end, "did you mean 'steps'?" },
+    ["field of a run, far from all"] = { function() return run.took_hours end, "run has no 'took_hours'" },
+    ["method of a run"] = { function() run:seris() end, "did you mean 'series'?" },
+    ["field of a wire that is set"] = { function() wire.frictoin = 0.5 end, "wire has no 'frictoin'" },
+    ["field that can only be read"] = { function() wire.radius = 1 end, "'radius' can only be read" },
+    ["field of a settled scene"] = { function() return scene:settle().okk end, "did you mean 'ok'?" },
+    ["key of wire:bend_limit"] = { function()
+      scene:wire{ cable = "GXL 1.5", from = { 0, 1, 1 }, to = { 1, 1, 1 } }:bend_limit{ us = "fixed" }
+    end, "did you mean 'use'?" },
+    ["method that is set"] = { function() scene.gravity = {} end, "'gravity' is a method" },
+    ["field of a clamp that is set"] = { function() clamp.frce = 1 end, "did you mean 'force'?" },
+    ["field of a gripper that is set"] = { function() hand.slip_tolerence = 1 end,
+      "did you mean 'slip_tolerance'?" },
+  }
+end)
+
+it("what a run may lack reads as nil", function()
+  for _, key in ipairs{ "quantities", "met", "advice", "levels", "last_jump" } do
+    assert.is_nil(run[key])
+  end
+end)
+
+describe("within a process", function()
+  local function message(body)
+    local s = sw.scene{}
+    s:process(body)
+    local fine, why = pcall(s.run, s, { dt = 0.01 })
+    assert.is_false(fine)
+    return why
+  end
+
+  it("unknown methods, fields and options are named", function()
+    assert.truthy(message(function(p) p:wiat(1) end):find("did you mean 'wait'?", 1, true))
+    assert.truthy(message(function(p) p.count = 1 end):find("use a local variable", 1, true))
+    assert.truthy(message(function(p) p:wait_until(print, { timout = 1 }) end)
+      :find("did you mean 'timeout'?", 1, true))
+  end)
+
+  it("p.time is the scene's", function()
+    local s, seen = sw.scene{}, nil
+    s:process(function(p)
+      p:wait(0.25)
+      seen = p.time
+    end)
+    s:wire{ E = 1e6, density = 1000, radius = 0.001, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+    s:run{ dt = 0.05 }
+    assert.near(0.25, seen, 1e-12)
+  end)
+end)

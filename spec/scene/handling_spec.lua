@@ -1,0 +1,418 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Grippers over a day of handling: several grasps, several wires, moves while empty.
+local sw = require "softworld"
+local vec = require "softworld.vec"
+
+local G = 9.81
+
+-- A table with wires side by side, 3 cm apart.
+local function scene_with(count)
+  local scene, wires = sw.scene{ name = "handling" }, {}
+  scene:obstacle{ name = "table", shape = "plane", friction = 0.3 }
+  for i = 1, count do
+    local y = 0.03 * (i - 1)
+    wires[i] = scene:wire{ E = 50e6, density = 1500, radius = 0.0025, segments = 16,
+      from = { 0, y, 0.0025 }, to = { 0.4, y, 0.0025 } }
+  end
+  return scene, wires
+end
+
+local function column(run, name)
+  local series = run:series()
+  for _, c in ipairs(series.columns) do
+    if c.name == name then return c.values, series.time end
+  end
+end
+
+local function names_of(run)
+  local list = {}
+  for i, c in ipairs(run:series().columns) do list[i] = c.name end
+  return table.concat(list, " ")
+end
+
+local function weight_of(wire) return wire.beam.mass_per_length * wire.length * G end
+
+describe("a gripper that grasps three times", function()
+  local scene, wires, hand, run
+  local times = {}
+
+  setup(function()
+    scene, wires = scene_with(1)
+    hand = scene:gripper{ name = "hand" }
+    scene:clamp(wires[1], { s = 0.4 })
+    scene:process(function(p)
+      for k = 1, 3 do
+        hand:grasp(wires[1], { s = 0.1 * k })
+        times[#times + 1] = { from = p.time }
+        hand:move{ by = { 0, 0, 0.01 * k }, speed = 0.2 }
+        times[k].to = p.time
+        hand:release()
+        p:wait(0.2)
+      end
+    end)
+    run = scene:run{ dt = 0.01, frame = 0.02 }
+    assert.is_true(run.ok)
+  end)
+
+  it("has one series, which goes on over all grasps", function()
+    local _, count = names_of(run):gsub("hand%S*%.force ", "")
+    assert.are.equal(1, count)
+    assert.is_nil(names_of(run):find("hand#", 1, true))
+    local force, time = column(run, "hand.force")
+    local held = { 0, 0, 0 }
+    for i, t in ipairs(time) do
+      for k, span in ipairs(times) do
+        if t > span.from + 1e-9 and t <= span.to + 1e-9 then
+          assert.are.equal(force[i], force[i], ("a gap at t = %g"):format(t))
+          if force[i] > 0 then held[k] = held[k] + 1 end
+        end
+      end
+    end
+    for k = 1, 3 do assert.is_true(held[k] > 3, ("grasp %d"):format(k)) end
+  end)
+
+  it("has a gap where it holds nothing", function()
+    local force, time = column(run, "hand.force")
+    for i, t in ipairs(time) do
+      if t > times[1].to + 0.02 and t < times[2].from - 0.02 then
+        assert.are_not.equal(force[i], force[i])
+      end
+    end
+  end)
+
+  it("means over the time in which it holds", function()
+    local sum, duration = 0, 0
+    for _, span in ipairs(times) do
+      local m = hand:over(span.from, span.to)
+      sum, duration = sum + m.mean_force * m.duration, duration + m.duration
+    end
+    assert.near(sum / duration, hand.mean_force, 1e-9 * hand.peak_force)
+  end)
+
+  it("is one in pictures, where it is", function()
+    local doc = run:document()
+    assert.are.equal(1, #doc.grips)
+    assert.are.equal("hand", doc.grips[1].name)
+    local seen = { 0, 0, 0 }
+    for _, frame in ipairs(doc.frames) do
+      assert.are.equal(1, #frame.grips)
+      for k, span in ipairs(times) do
+        if frame.t > span.from + 1e-6 and frame.t < span.to - 1e-6 then
+          seen[k] = seen[k] + 1
+          assert.is_true(frame.grips[1].held)
+          assert.near(0.1 * k, frame.grips[1].position[1], 0.01)
+        end
+      end
+    end
+    for k = 1, 3 do assert.is_true(seen[k] > 2) end
+  end)
+
+  it("lies along the wire in pictures, whatever its direction", function()
+    local s = sw.scene{}
+    local wire = s:wire{ E = 50e6, density = 1500, radius = 0.0025, segments = 10, from = { 0, 0, 0 },
+      to = { 0, 0.5, 0 } }
+    s:clamp(wire, { s = 0.5 })
+    local g = s:gripper{}
+    g:grasp(wire, { s = 0.1 })
+    local frame = s:run{ duration = 0.05 }:document().frames[2]
+    for _, pose in ipairs{ frame.grips[1], frame.clamps[1] } do
+      local x = vec.rotate(pose.rotation, { 1, 0, 0 })
+      assert.near(1, math.abs(x[2]), 1e-3)
+    end
+  end)
+end)
+
+describe("what a run draws and writes besides", function()
+  it("has clamps, pins and feeds with their kind, and none before they hold", function()
+    local scene, wires = scene_with(2)
+    scene:clamp(wires[1], { s = 0 })
+    scene:feed(wires[2], { s = 0 })
+    scene:process(function(p)
+      p:wait(0.1)
+      local pin = scene:pin(wires[1], { s = 0.4 })
+      p:wait(0.1)
+      pin:release()
+      p:wait(0.1)
+    end)
+    local doc = scene:run{ dt = 0.01, frame = 0.02 }:document()
+    local kinds = {}
+    for i, c in ipairs(doc.clamps) do kinds[i] = c.kind end
+    assert.are.equal("clamp feed pin", table.concat(kinds, " "))
+    for _, frame in ipairs(doc.frames) do
+      assert.are.equal(3, #frame.clamps)
+      assert.truthy(frame.clamps[1])
+      if frame.t < 0.09 or frame.t > 0.23 then assert.is_false(frame.clamps[3]) end
+      if frame.t > 0.13 and frame.t < 0.19 then assert.truthy(frame.clamps[3]) end
+    end
+  end)
+
+  it("has pads and obstacles from when they are there, and then no other gripper", function()
+    local scene, wires = scene_with(1)
+    local hand = scene:gripper{ at = { 0.1, 0, 0.05 } }
+    scene:process(function(p)
+      hand:approach(wires[1], { s = 0.1 })
+      hand:grasp(wires[1])
+      p:wait(0.1)
+      hand:release()
+      hand:grasp(wires[1], { approach = "plates", force = 2 })
+      p:wait(0.1)
+    end)
+    local doc = scene:run{ dt = 0.01, frame = 0.02 }:document()
+    local first, last = doc.frames[1], doc.frames[#doc.frames]
+    assert.are.equal(3, #doc.obstacles)
+    assert.truthy(first.obstacles[1])
+    assert.is_false(first.obstacles[2])
+    assert.truthy(first.grips[1])
+    assert.truthy(last.obstacles[3])
+    assert.is_false(last.grips[1])
+  end)
+
+  it("has no obstacle that was taken away", function()
+    local scene = scene_with(1)
+    local box = scene:obstacle{ shape = "box", size = { 0.1, 0.1, 0.1 }, at = { 0, 1, 0.05 } }
+    scene:process(function(p)
+      p:wait(0.1)
+      box:remove()
+      p:wait(0.1)
+    end)
+    local frames = scene:run{ dt = 0.01, frame = 0.02 }:document().frames
+    assert.truthy(frames[2].obstacles[2])
+    assert.is_false(frames[#frames].obstacles[2])
+  end)
+
+  it("has columns of tension, bend radius, clips and ties", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ E = 50e6, density = 1500, radius = 0.002, segments = 20,
+      from = { 0, 0, 0 }, to = { 0.4, 0, 0 } }
+    scene:clip{ name = "c1", at = { 0.2, 0, 0 }, width = 0.01, insertion = 10, retention = 30 }
+    scene:tie(wire, { name = "t1", s = 0.1, to = { 0.1, 0, 0 }, slack = 0 })
+    local hand = scene:gripper{}
+    scene:process(function()
+      hand:grasp(wire, { s = 0.38 })
+      hand:move{ by = { 0, 0, 0.02 }, speed = 0.2 }
+    end)
+    local run = scene:run{ dt = 0.005 }
+    local tension, bend = column(run, "wire1.tension"), column(run, "wire1.bend_radius")
+    local last = #tension
+    assert.near(wire:max_tension{ now = true }, tension[last], 1e-12)
+    assert.near(wire:min_bend_radius{ now = true }, bend[last], 1e-12)
+    local least = math.huge
+    for _, r in ipairs(bend) do least = math.min(least, r) end
+    assert.near((wire:min_bend_radius()), least, 1e-12)
+    local c = scene:find "c1"
+    local clip, z, tie = column(run, "c1.force"), column(run, "c1.force_z"), column(run, "t1.force")
+    assert.near(vec.norm(c:force()), clip[last], 1e-9)
+    assert.near(c:force()[3], z[last], 1e-9)
+    assert.is_true(clip[last] > 0.05)
+    assert.near(scene:find "t1":tension(), tie[last], 1e-9)
+  end)
+
+  it("keeps these records in files and gives them back with snapshots", function()
+    local scene, wires = scene_with(1)
+    scene:clamp(wires[1], { s = 0 })
+    scene:run{ duration = 0.1, dt = 0.01 }
+    local snapshot = scene:snapshot()
+    local before = (wires[1]:log())
+    scene:run{ duration = 0.1, dt = 0.01 }
+    assert.is_true(#(wires[1]:log()) > #before)
+    scene:restore(snapshot)
+    assert.are.same(before, (wires[1]:log()))
+    local name = os.tmpname()
+    scene:save(name)
+    assert.are.same(before, (sw.load(name):find "wire1":log()))
+    os.remove(name)
+  end)
+end)
+
+describe("an empty gripper", function()
+  it("moves, waits, approaches and retreats, and its time counts", function()
+    local scene, wires = scene_with(1)
+    local hand = scene:gripper{ name = "hand", at = { 0.1, 0, 0.3 } }
+    local begun = {}
+    local function note(p, what) begun[what] = p.time end
+    scene:process(function(p)
+      hand:move{ to = { 0.1, 0, 0.2 }, duration = 0.5 }
+      note(p, "moved")
+      hand:wait(0.25)
+      note(p, "waited")
+      assert.near(0.2, hand:position()[3], 1e-12)
+      hand:approach(wires[1], { s = 0.1, distance = 0.05 })
+      note(p, "there")
+      assert.near(0, vec.norm(vec.sub(hand:position(), wires[1]:position(0.1))), 1e-6)
+      hand:grasp(wires[1])
+      hand:retreat{ distance = 0.1 }
+      assert.near(0.1025, wires[1]:position(0.1)[3], 1e-4)
+      hand:release()
+      hand:retreat{ distance = 0.02, direction = { 0, 1, 0 } }
+      assert.near(0.02, hand:position()[2], 1e-9)
+    end)
+    local run = scene:run{ dt = 0.01 }
+    assert.is_true(run.ok)
+    assert.near(0.5, begun.moved, 1e-9)
+    assert.near(0.75, begun.waited, 1e-9)
+    assert.is_true(begun.there > 1.5)
+    assert.are.equal(1, #run:document().obstacles) -- the table: an imposed grip has no pads
+    local grips = run:document().frames
+    assert.near(0.3, grips[1].grips[1].position[3], 1e-9)
+    assert.is_false(grips[1].grips[1].held)
+  end)
+
+  it("may begin anywhere by an approach", function()
+    local scene, wires = scene_with(1)
+    local hand = scene:gripper{}
+    scene:process(function()
+      hand:approach(wires[1], { s = 0.2 })
+      hand:grasp(wires[1])
+    end)
+    assert.is_true(scene:run{ dt = 0.01 }.ok)
+    assert.near(0.2, hand:position()[1], 1e-6)
+    assert.is_true(scene.time > 0.5)
+  end)
+
+  it("says what it lacks", function()
+    local scene, wires = scene_with(1)
+    local hand = scene:gripper{ name = "hand" }
+    assert.has_error(function() hand:wait(1) end, nil)
+    local _, why = pcall(hand.move, hand, { by = { 0, 0, 1 }, speed = 1 })
+    assert.truthy(why:find("at = {x, y, z}", 1, true), why)
+    scene:process(function() hand:approach(wires[1]) end)
+    _, why = pcall(scene.run, scene)
+    assert.truthy(why:find("give s [m]", 1, true), why)
+  end)
+
+  it("is where it was after a snapshot", function()
+    local scene, wires = scene_with(2)
+    local hand = scene:gripper{ name = "hand", at = { 0.1, 0, 0.1 } }
+    local before = scene:snapshot()
+    local function pass()
+      scene:process(function()
+        hand:approach(wires[1], { s = 0.1 })
+        hand:grasp(wires)
+        hand:retreat()
+      end)
+      scene:run{ dt = 0.01 }
+      return hand:position(), hand:force(), hand:series()
+    end
+    local at, force, series = pass()
+    scene:restore(before)
+    assert.are.equal(0, #hand.wires)
+    assert.are.same({ 0.1, 0, 0.1 }, hand:position())
+    local again, f, same = pass()
+    assert.are.same(at, again)
+    assert.are.same(force, f)
+    assert.are.same(series, same)
+  end)
+end)
+
+describe("a gripper with several wires", function()
+  it("carries them by one move, sums their forces, and lets go of one or all", function()
+    local scene, wires = scene_with(2)
+    local hand = scene:gripper{ name = "hand" }
+    local one, both, rest, places
+    scene:process(function(p)
+      hand:grasp(wires[1], { s = 0.2 })
+      hand:grasp(wires[2], { s = 0.2 })
+      hand:move{ by = { 0, 0, 0.2 }, duration = 1 }
+      hand:rotate{ axis = { 0, 0, 1 }, angle = math.pi / 2, duration = 1 }
+      p:wait(2)
+      both = hand:force()
+      one = { hand:force{ wire = wires[1] }, hand:force{ wire = wires[2] } }
+      places = { wires[1]:position(0.2), wires[2]:position(0.2) }
+      local sum, about = { 0, 0, 0 }, hand:position()
+      for i = 1, 2 do sum = vec.add(sum, hand:moment{ wire = wires[i], at = about }) end
+      assert.near(0, vec.norm(vec.sub(sum, hand:moment())), 1e-9)
+      hand:release{ wire = wires[1] }
+      assert.are.equal(1, #hand.wires)
+      p:wait(2)
+      rest = hand:force()
+      hand:release()
+      p:wait(0.1)
+    end)
+    local run = scene:run{ dt = 0.01, integrator = "implicit-euler" }
+    assert.is_true(run.ok)
+    local w = weight_of(wires[1])
+    assert.near(2 * w, both[3], 0.02 * w)
+    for i = 1, 2 do assert.near(w, one[i][3], 0.02 * w) end
+    for k = 1, 3 do assert.near(both[k], one[1][k] + one[2][k], 1e-9) end
+    assert.near(w, rest[3], 0.05 * w)
+    assert.near(0, vec.norm(vec.sub({ 0.2, 0, 0.2025 }, places[1])), 1e-6)
+    assert.near(0, vec.norm(vec.sub({ 0.17, 0, 0.2025 }, places[2])), 1e-6)
+    assert.are.same({ 0, 0, 0 }, hand:force())
+    assert.near(2 * w, column(run, "hand.force")[390], 0.1 * w)
+  end)
+
+  it("takes a list between pads and tells the force on each", function()
+    local scene, wires = sw.scene{}, {}
+    scene:obstacle{ shape = "plane", friction = 0.3 }
+    for i = 1, 2 do
+      local y = i == 1 and -0.003 or 0.003
+      wires[i] = scene:wire{ E = 5e6, density = 1500, radius = 0.0025, segments = 20,
+        from = { 0, y, 0.0025 }, to = { 0.1, y, 0.0025 } }
+    end
+    scene:wire_contact{ between = wires, friction = 0.5 }
+    local hand = scene:gripper{ name = "hand", at = { 0.05, 0, 0.0025 },
+      pads = { friction = 0.8, opening = 0.02 } }
+    scene:process(function(p)
+      hand:grasp(wires, { approach = "plates", force = 4 })
+      hand:move{ by = { 0, 0, 0.05 }, duration = 0.5 }
+      p:wait(0.5)
+      local sum = vec.add(hand:force{ wire = wires[1] }, hand:force{ wire = wires[2] })
+      assert.near(0, vec.norm(vec.sub(sum, hand:force())), 1e-9)
+      for i = 1, 2 do
+        assert.near(weight_of(wires[i]), hand:force{ wire = wires[i] }[3], 0.3 * weight_of(wires[i]))
+      end
+      local m = vec.add(hand:moment{ wire = wires[1] }, hand:moment{ wire = wires[2] })
+      assert.near(0, vec.norm(vec.sub(m, hand:moment())), 1e-6)
+      local fine, why = pcall(hand.release, hand, { wire = wires[1] })
+      assert.is_false(fine)
+      assert.truthy(why:find("let go of all", 1, true), why)
+      hand:release()
+      assert.are.equal(0, #hand.wires)
+    end)
+    assert.is_true(scene:run{ dt = 0.002 }.ok)
+  end)
+
+  it("refuses what cannot be, and changes nothing", function()
+    local scene, wires = scene_with(3)
+    local hand = scene:gripper{ name = "hand" }
+    hand:grasp(wires[1], { s = 0.1 })
+    for _, case in ipairs{
+      { function() hand:grasp(wires[1], { s = 0.3 }) end, "already holds wire 'wire1'" },
+      { function() hand:grasp({ wires[2], wires[2] }, { s = 0.1 }) end, "in the list twice" },
+      { function() hand:grasp({ wires[2], wires[3] }, { s = { 0.1, 9 } }) end, "wire3" },
+      { function() hand:grasp({ wires[2], wires[3] }, { s = { 0.1 } }) end, "1 places for 2 wires" },
+      { function() hand:grasp({}) end, "a list of wires" },
+      { function() hand:grasp(wires[2], { approach = "plates", force = 1 }) end, "already holds a wire" },
+      { function() hand:release{ wire = wires[2] } end, "does not hold wire 'wire2'" },
+      { function() hand:force{ wire = wires[2] } end, "does not hold wire 'wire2'" },
+    } do
+      local fine, why = pcall(case[1])
+      assert.is_false(fine)
+      assert.truthy(why:find(case[2], 1, true), why)
+      assert.are.equal(1, #hand.wires)
+    end
+    assert.is_true(scene:run{ duration = 0.05 }.ok)
+    hand:move{ by = { 0, 0, 0.1 }, duration = 1 }
+    local fine, why = pcall(hand.grasp, hand, wires[2], { s = 0.1 })
+    assert.is_false(fine)
+    assert.truthy(why:find("moves until", 1, true), why)
+  end)
+
+  it("goes on from a file", function()
+    local scene, wires = scene_with(2)
+    local hand = scene:gripper{ name = "hand" }
+    hand:grasp(wires, { s = 0.1 })
+    hand:move{ by = { 0, 0, 0.05 }, duration = 0.2 }
+    scene:run{ duration = 0.3, dt = 0.01 }
+    local name = os.tmpname()
+    scene:save(name)
+    local other = sw.load(name)
+    local same = other:find "hand"
+    assert.are.same(hand:series(), same:series())
+    assert.are.equal(2, #same.wires)
+    assert.are.same(hand:force{ wire = wires[2] }, same:force{ wire = other:find "wire2" })
+    same:release()
+    assert.is_true(other:run{ duration = 0.05 }.ok)
+    os.remove(name)
+  end)
+end)

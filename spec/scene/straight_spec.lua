@@ -1,0 +1,112 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Perfectly straight wires under a push: nothing bends them to a side, and the run says so.
+package.path = "./?.lua;" .. package.path
+local sw = require "softworld"
+local t = require "spec.physics.tools"
+
+local EI, L = 0.02, 1
+local euler = math.pi ^ 2 * EI / L ^ 2 -- of a strut that is pinned at both ends [N]
+
+-- A strut on a clamp, its other end free, pushed by P [N]; bent: a sine of this height [m].
+local function strut(P, o)
+  o = o or {}
+  local scene = sw.scene{ gravity = o.gravity or { 0, 0, 0 } }
+  local points = {}
+  for i = 0, 40 do
+    local z = L * i / 40
+    points[#points + 1] = { (o.bent or 0) * (1 - math.cos(math.pi * z / (2 * L))), 0, z }
+  end
+  local wire = scene:wire{ name = "strut", EA = 1e5, EI = EI, mass_per_length = 0.1, radius = 0.005,
+    path = points, segments = 40, rest = o.bent and "path" or nil }
+  scene:clamp(wire, { s = 0 })
+  if P > 0 then scene:force{ kind = "point", on = wire, s = wire.length, force = { 0, 0, -P } } end
+  scene:force{ kind = "damping", mass = 10 }
+  return scene, wire
+end
+
+local function buckling(scene)
+  local list = {}
+  for _, event in ipairs(scene:events()) do
+    if event.kind == "buckling" then list[#list + 1] = event end
+  end
+  return list
+end
+
+describe("a perfectly straight wire", function()
+  it("that is pushed beyond buckling is told of, once a run", function()
+    for _, times in ipairs{ 1.5, 100, 5e5 } do
+      local P = times * euler / 4
+      local scene, wire = strut(P)
+      for _ = 1, 2 do
+        local run = t.fine(scene:run{ duration = 1, dt = 0.01 })
+        local told = buckling(scene)
+        assert.equal(1, #told)
+        assert.equal("strut", told[1].object)
+        t.share(P, told[1].value, 1e-3, "push")
+        assert.matches("wire 'strut' stays straight under a push of .* N, though it is unstable in %d+ "
+          .. "directions: it would buckle", told[1].text)
+        assert.matches("draw it bent", told[1].text)
+        local text = {}
+        run:summary{ write = function(_, s) text[#text + 1] = s end }
+        assert.matches("would buckle", table.concat(text))
+      end
+      t.near(0, wire:position(0.5)[1], 1e-12, "place across")
+    end
+  end)
+
+  it("is not told of where it does not buckle, or does", function()
+    local function run(P, o)
+      local scene, wire = strut(P, o)
+      if o and o.clamped then scene:clamp(wire, { s = L }) end
+      if o and o.hung then scene:gravity{ 0, 0, 9.81 } end
+      t.fine(scene:run{ duration = 2, dt = 0.01 })
+      return #buckling(scene), wire
+    end
+    assert.equal(0, (run(0.9 * euler / 4)))
+    assert.equal(1, (run(1.1 * euler / 4)))
+    assert.equal(0, (run(0)))
+    assert.equal(0, (run(0, { hung = true })))
+    local told, wire = run(10 * euler / 4, { bent = 1e-3 })
+    assert.equal(0, told)
+    t.above(0.05, wire:position(L)[1], "the end's place across")
+  end)
+
+  it("is told of when it stands on a clamp, too high for its weight", function()
+    -- 7.837 EI/(m g L^2) is the most
+    for _, share in ipairs{ 0.9, 1.15 } do
+      local scene = strut(0, { gravity = { 0, 0, -share * 7.837 * EI / (0.1 * L ^ 3) } })
+      t.fine(scene:run{ duration = 2, dt = 0.01 })
+      assert.equal(share > 1 and 1 or 0, #buckling(scene))
+    end
+  end)
+
+  it("moves the same to the last bit however often it is looked at", function()
+    local seen
+    for _, every in ipairs{ false, true } do
+      local scene, wire = strut(10 * euler)
+      scene:process(function(p)
+        if every then p:wait_until(function() return false end, { timeout = 0.5 }) else p:wait(0.5) end
+        scene:force{ kind = "point", on = wire, s = L, force = { 1e-3, 0, 0 } }
+        p:wait(0.2)
+      end)
+      t.fine(scene:run{ dt = 0.002 })
+      local x = (wire:positions())
+      seen = seen or x
+      assert.same(seen, x)
+    end
+  end)
+end)
+
+describe("wire:frequencies of an unstable rest", function()
+  it("tells what it means in words", function()
+    local scene, wire = strut(4 * euler / 4)
+    t.fine(scene:run{ duration = 1, dt = 0.01 })
+    local f = wire:frequencies{ tolerance = 1 }
+    assert.equal(2, f.unstable)
+    assert.matches("^unstable in 2 directions: the wire would buckle or tip over, e%-fold in .* s", f.note)
+    t.share(1 / f.growth, tonumber(f.note:match("e%-fold in ([%d.e-]+) s")), 0.06, "time to grow")
+    scene, wire = strut(0.5 * euler / 4)
+    t.fine(scene:settle())
+    assert.is_nil(wire:frequencies().note)
+  end)
+end)
