@@ -301,6 +301,24 @@ static int bounces(sw_contact *c, const sw_system *s, const double *v1) {
   return 0;
 }
 
+/* A barrier holds a place as by an endless face, where the obstacle may end just above it. Bearing
+ * more than so many weights of its wire, or of the force that bends it, it is in the way of a wire
+ * that would pass over; a smaller step knows [-]. */
+static const double MOST_BORNE = 10.0;
+
+static int bars_too_hard(const sw_contact *c, const sw_system *s, double h) {
+  if (!c->barrier_count || h < SMALLEST_CARE * c->nominal) return 0;
+  for (size_t i = 0; i < c->touch_count; i++) {
+    const sw_touch *t = &c->touches[i];
+    if (t->feature != SW_BEHIND_BARRIER || !(t->press.normal_force > 0)) continue;
+    const sw_plan *p = s->bodies[t->body].plan;
+    const double weight = p->beam.mass * p->length * sw_norm(sw_load(s->gravity));
+    const double usual = fmax(weight, p->beam.EI / (p->length * p->length));
+    if (t->press.normal_force > MOST_BORNE * usual) return 1;
+  }
+  return 0;
+}
+
 sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *x1,
                                      const double *v1, double h) {
   sw_error err;
@@ -317,7 +335,8 @@ sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *
   c->pressed_count = 0;
   if (crossed || struck) return SW_CONTACT_REDO;
   if (bounces(c, s, v1)) return SW_CONTACT_STRIKE;
-  return cuts_deep(c, s, x1, h) ? SW_CONTACT_SMALLER : SW_CONTACT_ACCEPT;
+  const int smaller = bars_too_hard(c, s, h) || cuts_deep(c, s, x1, h);
+  return smaller ? SW_CONTACT_SMALLER : SW_CONTACT_ACCEPT;
 }
 
 int sw_contact_review_static(sw_contact *c, sw_system *s, const double *x1) {

@@ -261,7 +261,7 @@ static int behind_barrier(const sw_contact *c, const sw_candidate *k, const doub
                          .at = b->at,
                          .normal = b->normal,
                          .point = sw_madd(local, b->normal, -gap),
-                         .feature = -1};
+                         .feature = SW_BEHIND_BARRIER};
     return 1;
   }
   return 0;

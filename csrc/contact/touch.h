@@ -23,6 +23,8 @@ typedef struct sw_candidate {
   int samples; /* it touches at so many places, evenly along the segment; 0: at the nearest ones */
 } sw_candidate;
 
+enum { SW_BEHIND_BARRIER = -1 }; /* feature of a touch that a barrier keeps on its side [-] */
+
 /* One place where a wire's surface is near an obstacle. */
 typedef struct sw_touch {
   int obstacle, segment;

@@ -53,10 +53,16 @@ __attribute__((constructor)) static void fill_choices(void) {
 enum { MOST_REDOS = 40 }; /* impacts found one after another in one step [-] */
 static const double SMALLEST_SHARE = 1.0 / 4096; /* of a step, before giving up [-] */
 
-/* How a step that made energy is redone: by the method's start, which takes no acceleration from
- * before and is of second order too; then with implicit Euler, which makes none but where touches
- * go wrong. */
+/* How a step that made energy is redone where something touches: by the method's start, which takes
+ * no acceleration from before and is of second order too; then with implicit Euler, which makes
+ * none but where touches go wrong. What a method makes by itself a smaller step mends. */
 enum { AS_IS, BY_START, DULLY, GIVE_UP };
+
+/* So many parts of less than this share of their step, one after another, are no way to go on: the
+ * run stops and says what holds it back [-]. Adaptive steps may be as small as they like for
+ * longer. */
+enum { MOST_SMALL = 4000, MOST_SMALL_ADAPTIVE = 20000 };
+static const double SMALL = 1.0 / 512, SMALL_ADAPTIVE = 2e-5;
 
 typedef struct loop {
   sw_scene *s;
@@ -64,6 +70,9 @@ typedef struct loop {
   sw_run_report *report;
   double *v_start; /* velocities at the step's start, which impacts change */
   int redo;        /* AS_IS, or how the step is redone, for it made energy */
+  size_t small;    /* small parts one after another [-] */
+  sw_error held;   /* what the last rejected part was rejected for */
+  int smooth;      /* 1: the step that was rejected last made energy where nothing touches */
   int changed;     /* 1: the scene was, since the last step: its energy is not judged */
   int (*interrupted)(void);
 } loop;
@@ -179,11 +188,14 @@ static sw_status judge(loop *p, double h, double *excess, sw_error *err) {
   return status;
 }
 
-/* What to try after a step that made energy, tried as it is now. */
-static int next_redo(const loop *p) {
+/* What to try after a step that made energy, tried as it is now. Where nothing touches only a
+ * smaller one helps, and what is known at its start stays so. */
+static int next_redo(loop *p) {
   const sw_stepper *stepper = &p->s->stepper;
+  p->smooth = !p->s->books.step.touching;
+  if (p->smooth) return GIVE_UP;
   if (p->redo == AS_IS && stepper->start != stepper->method && !stepper->restart) return BY_START;
-  return p->redo < DULLY && p->s->books.step.touching ? DULLY : GIVE_UP;
+  return p->redo < DULLY ? DULLY : GIVE_UP;
 }
 
 /* One step of size h, and the referee: a step that makes energy is redone. SW_ENOCONV: it makes
@@ -192,6 +204,7 @@ static sw_status judged_attempt(loop *p, double h, int smallest, sw_error *err) 
   sw_scene *s = p->s;
   sw_ledger *l = &s->books.sums;
   double excess;
+  p->smooth = 0;
   SW_TRY(sw_ledger_open(s, err));
   for (p->redo = AS_IS;;) {
     SW_TRY(yielding_attempt(p, h, err));
@@ -219,6 +232,18 @@ static void accept(loop *p, double h) {
   s->discontinuous = p->changed = 0;
   p->report->steps++;
   if (h < p->report->smallest_dt) p->report->smallest_dt = h;
+}
+
+/* A part h of a step that was to be whole is taken. SW_ELIMIT: steps have collapsed. */
+static sw_status count_small(loop *p, double h, double whole, sw_error *err) {
+  const int adaptive = isfinite(p->args->tolerance);
+  const size_t most = adaptive ? MOST_SMALL_ADAPTIVE : MOST_SMALL;
+  p->small = h < (adaptive ? SMALL_ADAPTIVE : SMALL) * whole ? p->small + 1 : 0;
+  if (p->small < most) return SW_OK;
+  return sw_fail(
+      err, SW_ELIMIT,
+      "steps have collapsed: the last %zu were about %.2g s, of %.3g s asked for%s%.200s", p->small,
+      h, whole, p->held.text[0] ? "; larger ones fail, for " : "", p->held.text);
 }
 
 static sw_status observe(sw_scene *s, sw_error *err) {
@@ -275,6 +300,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
       accept(p, part);
       s->time = done < h ? t0 + done : t1;
       SW_TRY(observe(s, err));
+      SW_TRY(count_small(p, part, p->args->dt, err));
       part = starts ? h : 2 * part;
       starts = 0;
       continue;
@@ -282,7 +308,8 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
     if (hopeless(status)) return status;
     failed = *err;
     p->report->rejected++;
-    s->discontinuous = 1;
+    p->held = *err;
+    if (!p->smooth) s->discontinuous = 1;
     part *= 0.5;
     if (part < SMALLEST_SHARE * h) return status;
   }
@@ -310,9 +337,11 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
       s->time = last ? t1 : s->time + h;
       if (!(s->time > before)) return sw_fail(err, SW_ENOCONV, "steps of %g s are no time", h);
       s->next_dt = unknown ? h : last && next > h ? fmax(next, s->next_dt) : next;
-      return observe(s, err);
+      SW_TRY(observe(s, err));
+      return count_small(p, h, p->args->dt, err);
     }
     if (status == SW_OK) undo(p);
+    if (status != SW_OK) p->held = *err;
     p->report->rejected++;
     h = fmin(next, 0.9 * h);
     if (h < SMALLEST_SHARE * SMALLEST_SHARE * p->args->dt)

@@ -28,6 +28,8 @@ static const double ENOUGH = 0.005;
 static const double THROWN = 0.02, LET_OUT = 0.01;
 /* What is held is off its hold by more than rounding [m]. */
 static const double JUMP = 1e-9;
+/* Where nothing touches, what the method makes by itself may come to this share of it [-]. */
+static const double IN_FLIGHT = 0.01;
 /* The least that is in play: the weight times the radius, or this share of EI / L [-]. */
 static const double LEAST_BENDING = 1e-6;
 static const double LEAST = 1e-12; /* and this [J] */
@@ -152,7 +154,7 @@ static void judge_outer_forces(sw_books *b, double h, double *most) {
 static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
   const sw_books *b = &s->books;
   size_t impacts = 0;
-  step->touching = sw_scene_touches(s) > 0 || b->contact != 0;
+  step->touching = sw_scene_touches(s) > 0;
   if (s->contact) {
     impacts += sw_contact_impacts(s->contact);
     step->friction += sw_contact_rubbed(s->contact);
@@ -209,7 +211,7 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
   sw_step_energy *step = &b->step;
   sw_glance glance;
   sw_status status = SW_OK;
-  *step = (sw_step_energy){.steady = 1};
+  *step = (sw_step_energy){.steady = 1, .changed = changed};
   if (lumped(s)) SW_TRY(look_at_end(s, t1, err));
   if (sw_scene_has_contact(s)) judge_touches(s, h, step);
   double most = step->obstacles;
@@ -217,6 +219,7 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
                     s->stepper.strain_rate);
   sw_system_energies(&s->system, lumped(s), &step->to);
   step->contact = contact_energy(s);
+  step->touching |= b->contact != 0 || step->contact != 0; /* ties that are taut too */
   most += sw_ledger_work(s, t1, changed);
   if (b->has_powers) status = sw_system_powers(&s->system, t1, &step->powers, err);
   sw_system_look_back(&s->system, &glance);
@@ -247,7 +250,7 @@ double sw_ledger_excess(const sw_scene *s, double h) {
   const double allowed = rounding + OF_WORK * step->work + (enough ? 0.0 : usual * share);
   if (!isfinite(step->gain)) return step->gain < 0 ? 0.0 : HUGE_VAL;
   const double rise = b->rise + step->gain - b->lowest;
-  if (!step->touching && rise <= ENOUGH * b->sums.play) return 0.0;
+  if (!step->touching && rise <= IN_FLIGHT * b->sums.play) return 0.0;
   return step->gain > allowed ? step->gain : 0.0;
 }
 
@@ -269,7 +272,7 @@ static void book_gain(sw_scene *s, double gain) {
     b->lowest = b->rise;
   } else {
     b->rise += gain;
-    b->lowest = fmin(b->lowest, b->rise);
+    b->lowest = b->step.changed ? b->rise : fmin(b->lowest, b->rise);
     b->highest_rise = fmax(b->highest_rise, b->rise - b->lowest);
   }
   b->sums.gained = b->made + b->highest_rise;
@@ -427,7 +430,7 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
 /* --- on tape ------------------------------------------------------------------------ */
 
 void sw_tape_ledger(sw_tape *t, sw_books *b) {
-  SW_TAPE_STRUCT(t, sw_books, 848);
+  SW_TAPE_STRUCT(t, sw_books, 856);
   SW_TAPE_STRUCT(t, sw_ledger, 464);
   sw_tape_raw(t, &b->sums, sizeof b->sums);
   sw_tape_raw(t, &b->now, sizeof b->now);

@@ -28,6 +28,7 @@ typedef struct sw_step_energy {
   double let_out; /* at most given by letting wires out of what they began in [J] */
   int steady;     /* 1: no touch began or ended */
   int touching;   /* 1: something touches */
+  int changed;    /* 1: the scene was, just before */
 } sw_step_energy;
 
 typedef struct sw_books {

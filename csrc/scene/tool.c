@@ -316,8 +316,6 @@ sw_status sw_scene_tool_touches(sw_scene *s, sw_handle tool, size_t *count, sw_e
   return SW_OK;
 }
 
-/* Number of the body that has the node. */
-
 int sw_scene_tool_touch(const sw_scene *s, sw_handle tool, size_t number, sw_tool_touch *out) {
   const sw_tool *t = &s->tools[tool.slot];
   sw_contact_push push;
