@@ -114,7 +114,8 @@ function conditions.of(t, level, scene)
     end
   end
   if not found then error("p:wait_until: wait for what? give force, slip, contact or distance", level) end
-  return (kinds[found](t, level + 1))
+  local holds, impossible = kinds[found](t, level + 1)
+  return holds, impossible -- no tail call, which would hide a level
 end
 
 return conditions
