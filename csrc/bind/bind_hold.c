@@ -70,6 +70,7 @@ static int meth_pose(lua_State *L) {
   const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
   if (lua_gettop(L) > 1) {
     const sw_vec to = lsw_vector(L, 2, "clamp:pose: position", "m");
+    lsw_must(L, sw_scene_editable(scene, &err), &err);
     if (lua_isnoneornil(L, 3))
       lsw_must(L, sw_scene_hold_pose(scene, c->id, &pose, &err), &err);
     else

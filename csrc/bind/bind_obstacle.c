@@ -64,6 +64,7 @@ static int meth_pose(lua_State *L) {
   const lsw_child *o = check(L, &scene);
   if (lua_gettop(L) > 1) {
     const sw_vec to = lsw_vector(L, 2, "obstacle:pose: position", "m");
+    lsw_must(L, sw_scene_editable(scene, &err), &err);
     if (lua_isnoneornil(L, 3))
       lsw_must(L, sw_scene_obstacle_pose(scene, o->id, &pose, &err), &err);
     else

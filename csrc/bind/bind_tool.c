@@ -87,6 +87,7 @@ static int meth_pose(lua_State *L) {
   const lsw_child *t = check(L, &scene);
   if (lua_gettop(L) > 1) {
     const sw_vec to = lsw_vector(L, 2, "tool:pose: position", "m");
+    lsw_must(L, sw_scene_editable(scene, &err), &err);
     if (lua_isnoneornil(L, 3))
       lsw_must(L, sw_scene_tool_pose(scene, t->id, &pose, &err), &err);
     else

@@ -268,6 +268,9 @@ sw_status sw_scene_remove_force(sw_scene *scene, sw_handle force, sw_error *err)
 sw_status sw_scene_read_force(sw_scene *scene, sw_handle force, sw_handle wire, double *out,
                               sw_error *err);
 
+/* SW_EBUSY from inside a step or a user's function: the scene must not be changed now. */
+sw_status sw_scene_editable(const sw_scene *scene, sw_error *err);
+
 /* --- running ---------------------------------------------------------------- */
 
 typedef struct sw_run_args {

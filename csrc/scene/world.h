@@ -553,8 +553,6 @@ sw_scene_hold *sw_scene_find_hold(const sw_scene *scene, sw_handle h, sw_error *
 sw_scene_hold *sw_scene_living_hold(const sw_scene *s, sw_handle hold, sw_error *err);
 sw_scene_obstacle *sw_scene_find_obstacle(const sw_scene *scene, sw_handle h, sw_error *err);
 
-sw_status sw_scene_editable(const sw_scene *scene, sw_error *err);
-
 /* A wire's mesh as drawn, of some segments; frames too. SW_ENOMEM. */
 sw_status sw_scene_draw(sw_scene_wire *wire, size_t segments, sw_mesh *out, sw_error *err);
 /* Take hold of the redrawn mesh anew. The hold is not alive; those that are were there
