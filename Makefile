@@ -2,6 +2,7 @@
 # make            build/softworld (host program) and build/softworld/core.so
 # make spec       all tests            make lint     house rules and checkers
 # make asan       all tests under AddressSanitizer and UBSan
+# make fuzz       random calls of everything, under both; ARGS="seed=7 calls=1e5"
 # make format     clang-format over csrc
 # make bench      speed and accuracy   make chart    draw them
 # make stability  largest stable steps make examples run every example
@@ -64,15 +65,22 @@ lint:
 format:
 	clang-format -i $(wildcard csrc/*.[ch] csrc/*/*.[ch])
 
+MAKE_ASAN = $(MAKE) BUILD=build-asan OPT="-O1 -fno-omit-frame-pointer" \
+  SAN="-fsanitize=address,undefined -fno-sanitize-recover=all" all
+UNDER_ASAN = ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1:detect_stack_use_after_return=1 \
+  UBSAN_OPTIONS=print_stacktrace=1 \
+  LSAN_OPTIONS=suppressions=$(CURDIR)/scripts/lsan.supp:print_suppressions=0 \
+  SOFTWORLD_PRELOAD="$$($(CC) -print-file-name=libasan.so)"
+
 # Stock lua5.4 needs $$SOFTWORLD_PRELOAD as LD_PRELOAD to load this core.so.
 asan:
-	@$(MAKE) BUILD=build-asan OPT="-O1 -fno-omit-frame-pointer" \
-	  SAN="-fsanitize=address,undefined -fno-sanitize-recover=all" all
-	@ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1:detect_stack_use_after_return=1 \
-	  UBSAN_OPTIONS=print_stacktrace=1 \
-	  LSAN_OPTIONS=suppressions=$(CURDIR)/scripts/lsan.supp:print_suppressions=0 \
-	  SOFTWORLD_PRELOAD="$$($(CC) -print-file-name=libasan.so)" \
-	  build-asan/softworld scripts/spec.lua --timeout 3000 $(ARGS)
+	@$(MAKE_ASAN)
+	@$(UNDER_ASAN) build-asan/softworld scripts/spec.lua --timeout 3000 $(ARGS)
+
+# a case takes many times as long here, and memory is what the sanitizers want
+fuzz:
+	@$(MAKE_ASAN)
+	@$(UNDER_ASAN) build-asan/softworld scripts/fuzz.lua cpu=120 slow=60 $(ARGS)
 
 
 examples: all
@@ -89,4 +97,4 @@ chart: all
 stability: all
 	@$(BUILD)/softworld scripts/stability.lua $(ARGS)
 
-.PHONY: bench examples chart stability all clean spec lint format asan install
+.PHONY: bench examples chart stability all clean spec lint format asan fuzz install

@@ -245,7 +245,9 @@ static int meth_call_it(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
   const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
-  lsw_must(L, sw_scene_name_force(scene, f->id, luaL_checkstring(L, 2), &err), &err);
+  if (lua_type(L, 2) != LUA_TSTRING)
+    luaL_error(L, "force:call_it: the name must be a string, got %s", lsw_describe(L, 2));
+  lsw_must(L, sw_scene_name_force(scene, f->id, lua_tostring(L, 2), &err), &err);
   return 0;
 }
 

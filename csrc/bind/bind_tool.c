@@ -61,7 +61,8 @@ static int meth_pads_on(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
   const lsw_child *t = check(L, &scene);
-  luaL_checktype(L, 2, LUA_TBOOLEAN);
+  if (!lua_isboolean(L, 2))
+    luaL_error(L, "tool:pads_on must be true or false, got %s", lsw_describe(L, 2));
   lsw_must(L, sw_scene_tool_pads_on(scene, t->id, lua_toboolean(L, 2), &err), &err);
   return 0;
 }

@@ -486,6 +486,7 @@ static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const
 
 sw_status sw_scene_begin_run(sw_scene *s, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_readable(s, err)); /* a run without steps would not notice */
   sw_scene_reset_extremes(s);
   sw_events_clear(&s->events);
   sw_ledger_begin_run(s);

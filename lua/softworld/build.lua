@@ -22,33 +22,76 @@ function build.data(scene)
   return data
 end
 
-local function finish(level, ok, ...)
-  if ok then return ... end
-  local message = ...
-  if type(message) ~= "string" or message:find "^[^\n]-:%d+: " then error(message, 0) end
-  error(message, level)
+-- Where this library lies, as places in messages begin; long paths are cut there.
+local library = debug.getinfo(1, "S").short_src:match "^(.*)build%.lua$" or "softworld/"
+if library:sub(1, 3) == "..." then library = "softworld/" end
+
+local function is_ours(source) return source:find(library, 1, true) ~= nil end
+
+-- "file:line: " of the script's line that is being done; "" where there is none.
+local function place()
+  for level = 3, 200 do
+    local info = debug.getinfo(level, "Sl")
+    if not info then return "" end
+    if info.currentline > 0 and not is_ours(info.short_src) then
+      return ("%s:%d: "):format(info.short_src, info.currentline)
+    end
+  end
+  return ""
 end
 
---- Call f; an error of the core without a place gets that of the caller `level`
--- calls up, counted from build.call itself as in error().
-function build.call(level, f, ...) return finish(level, pcall(f, ...)) end
+-- What Lua itself says of a mistake in this library: its place must be seen.
+local function is_mistake(text)
+  return text:find "^attempt to " or text:find "^bad argument #%d+ to '[^f]" or text:find "^stack overflow"
+end
+
+local function finish(of_core, ok, ...)
+  if ok then return ... end
+  local message = ...
+  if type(message) ~= "string" then error(message, 0) end
+  local where, text = message:match "^([^\n]-:%d+: )(.*)$"
+  if where and (not is_ours(where) or is_mistake(text)) or not where and of_core then
+    error(message, 0) -- a script's own
+  end
+  text = (text or message):gsub("^bad argument #(%d+) to 'f' %((.*)%)$", "argument %1: %2")
+  error(place() .. text, 0)
+end
+
+local function all(...) return ... end
+
+-- What the core raises has the place of this line; what a script raises within it stays as it is.
+local function of_core(f, ...) return all(f(...)) end
+
+--- Call f; an error of this library or of the core gets the place of the script's line. f as a
+-- function of this library raises errors without a place, error(text, 0).
+function build.call(_, f, ...)
+  if debug.getinfo(f, "S").what == "C" then return finish(true, pcall(of_core, f, ...)) end
+  return finish(false, pcall(f, ...))
+end
+
+--- f, with errors placed as by build.call.
+function build.placed(f)
+  return function(...) return build.call(3, f, ...) end
+end
 
 --- An error's text without the place in this library where it was raised.
 function build.plain(message)
   return (tostring(message):gsub("^[^\n:]*softworld/[%w_]+%.lua:%d+: ", ""))
 end
 
---- Raise unless scene is one that may be changed now.
-function build.check(scene, what, level)
+local function check_scene(scene, what)
   if core.type(scene) ~= "scene" then
-    error(("%s is a method: call it with a colon, scene:%s"):format(what, what:match ":(.*)"), level)
+    error(("%s is a method: call it with a colon, scene:%s"):format(what, what:match ":(.*)"), 0)
   end
   if core.busy(scene) then
     error(("%s: scene '%s' cannot be changed from inside a step or a function of time")
-      :format(what, scene.name), level)
+      :format(what, scene.name), 0)
   end
   if build.guard then build.guard(what) end -- of processes whose steps are kept
 end
+
+--- Raise unless scene is one that may be changed now.
+function build.check(scene, what) build.call(3, check_scene, scene, what) end
 
 local function copy(t)
   local c = {}

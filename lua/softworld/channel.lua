@@ -113,6 +113,7 @@ local LID = 0.7 -- transparency in pictures, so that the wire is seen
 
 -- All of them or none.
 local function raise(self, parts, transparency)
+  for _, part in ipairs(parts) do core.shape{ shape = "hull", points = part[2] } end -- before any stands
   local list, shown = {}, build.data(self.scene).obstacles
   for i, part in ipairs(parts) do
     local ok, made = pcall(self.scene.obstacle, self.scene, { name = part[1], shape = "hull",

@@ -6,6 +6,14 @@ local core = require "softworld.core"
 
 local checks = {}
 
+--- Text of any value, also of tables that cannot say what they are.
+function checks.shown(value)
+  local fine, text = pcall(tostring, value)
+  return fine and text or "a " .. type(value)
+end
+
+local shown = checks.shown
+
 local function names_of(known)
   local names = {}
   for name in pairs(known) do names[#names + 1] = name end
@@ -28,8 +36,8 @@ function checks.keys(what, args, known, level)
   for key in pairs(args) do
     if not known[key] then
       local names = names_of(known)
-      local near = core.nearest(tostring(key), names)
-      error(("%s: there is no parameter '%s'; %s"):format(what, tostring(key), near
+      local near = core.nearest(shown(key), names)
+      error(("%s: there is no parameter '%s'; %s"):format(what, shown(key), near
         and ("did you mean '" .. near .. "'?") or "known are: " .. table.concat(names, " ")), level)
     end
   end
@@ -55,7 +63,7 @@ function checks.number(what, value, low, unit, level, high, above)
   if fine then return value end
   local range = ("%s %g%s"):format(above and "above" or "at least", low, unit)
   if high then range = ("%s and at most %g%s"):format(range, high, unit) end
-  error(("%s = %s%s is not allowed; it must be %s"):format(what, tostring(value),
+  error(("%s = %s%s is not allowed; it must be %s"):format(what, shown(value),
     type(value) == "number" and unit or "", range), level)
 end
 
@@ -64,7 +72,7 @@ function checks.word(what, value, known, level)
   if known[value] then return value end
   local names = names_of(known)
   local near = type(value) == "string" and core.nearest(value, names)
-  error(("%s = '%s' is not one of: %s%s"):format(what, tostring(value), table.concat(names, " "),
+  error(("%s = '%s' is not one of: %s%s"):format(what, shown(value), table.concat(names, " "),
     near and ("; did you mean '%s'?"):format(near) or ""), level)
 end
 

@@ -9,7 +9,7 @@ local conditions = {}
 local kinds = {}
 
 local function number(what, value, unit, level)
-  return checks.number("p:wait_until: " .. what, value, 0, unit, level + 1)
+  return checks.number("p:wait_until: " .. what, value, 0, unit, level)
 end
 
 local function pushes(object)
@@ -65,13 +65,16 @@ end
 
 -- Where something is: a point, a gripper, an obstacle, { wire, s = }.
 local function place_of(what, level)
-  if type(what) == "table" and core.type(what[1]) == "wire" then
+  if type(what) == "table" and core.type(rawget(what, 1)) == "wire" then
     local s = number("between: s", what.s, " m", level + 1)
     check_scene(what[1], "the wire", level + 1)
     return function() return what[1]:position(s) end
   elseif type(what) == "table" and what.position then
     check_scene(what, "a place", level + 1)
-    return function() return what:position() end
+    return function()
+      return what:position() or error(("gripper '%s' is nowhere yet; give it at = {x, y, z} [m], or grasp")
+        :format(tostring(what.name)), 0)
+    end
   elseif core.type(what) == "obstacle" or core.type(what) == "clamp" then
     check_scene(what, "a place", level + 1)
     return function() return (what:pose()) end
@@ -111,7 +114,8 @@ function conditions.of(t, level, scene)
     end
   end
   if not found then error("p:wait_until: wait for what? give force, slip, contact or distance", level) end
-  return kinds[found](t, level + 1)
+  local holds, impossible = kinds[found](t, level + 1)
+  return holds, impossible -- no tail call, which would hide a level
 end
 
 return conditions

@@ -88,11 +88,10 @@ end
 -- name the nearest word for a typo. `own` lists fields that may be nil.
 function fixing.class(kind, properties, own)
   local class = { __name = kind }
-  function class.solids() return {} end -- what pictures show besides obstacles
   local known = {}
   for _, name in ipairs(own or {}) do known[name] = true end
   function class.__index(self, key)
-    if properties[key] then return properties[key](self) end
+    if properties[key] then return build.call(3, properties[key], self) end
     local value = class[key]
     if value ~= nil or known[key] then return value end
     local names = class.__names()
@@ -120,7 +119,12 @@ function fixing.class(kind, properties, own)
     return names
   end
   keep.class(kind, class)
-  return class
+  local meta = { __index = { solids = function() return {} end } } -- pictures show obstacles only
+  function meta.__newindex(_, name, value) -- errors of methods have a place
+    local method = type(value) == "function" and name:sub(1, 2) ~= "__"
+    rawset(class, name, method and build.placed(value) or value)
+  end
+  return setmetatable(class, meta)
 end
 
 --- Raise unless self is of the class and its scene still knows it.

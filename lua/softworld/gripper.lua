@@ -320,6 +320,12 @@ function Gripper:__newindex(key, value)
   rawset(self, key, value)
 end
 
+for name, value in pairs(Gripper) do
+  if type(value) == "function" and name:sub(1, 2) ~= "__" then
+    Gripper[name] = build.placed(value)
+  end
+end
+
 --- Names of methods and measures, for completion at the prompt.
 function Gripper.__names()
   local names = { "name", "width", "events", "wire", "wires" }

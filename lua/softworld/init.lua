@@ -12,6 +12,7 @@
 -- SI units throughout; sw.units converts. sw.help() lists what there is.
 -- @module softworld
 local core = require "softworld.core"
+local build = require "softworld.build" -- adds to the classes: names, files, drawing data
 local methods = require "softworld.methods"
 local remarks = require "softworld.remarks"
 
@@ -26,7 +27,6 @@ local sw = {
   remarks = true, -- false: no remarks on unusual values
 }
 
-require "softworld.build"    -- adds to the classes: names, files, drawing data
 require "softworld.section"  -- wire:section and what belongs to it
 require "softworld.process"  -- scene:process
 require "softworld.window"   -- obstacle:over
@@ -44,7 +44,7 @@ local save = require "softworld.save" -- scene:save, scene:resume, scene:find
 --- A new scene. { name =, gravity = {x, y, z} [m/s2] }
 function sw.scene(args)
   if type(args) == "table" then remarks.gravity(args.gravity) end
-  return core.scene(args)
+  return build.call(3, core.scene, args)
 end
 
 --- The scene that scene:save has written to a file, or a run with save = file.

@@ -15,6 +15,7 @@
 local core = require "softworld.core"
 local methods = require "softworld.methods"
 local build = require "softworld.build"
+local checks = require "softworld.checks"
 local conditions = require "softworld.conditions"
 local waiting = require "softworld.waiting"
 
@@ -32,7 +33,7 @@ end
 local function check_time(what, seconds)
   if type(seconds) ~= "number" or not (seconds >= 0 and seconds < math.huge) then
     error(("%s = %s%s is not allowed; it must be a time of at least 0 s"):format(what,
-      tostring(seconds), type(seconds) == "number" and " s" or ""), 3)
+      checks.shown(seconds), type(seconds) == "number" and " s" or ""), 3)
   end
 end
 
@@ -92,7 +93,7 @@ local function timeout_of(options)
   end
   for key in pairs(options) do
     if key ~= "timeout" then
-      error(("p:wait_until: there is no option '%s'; %s"):format(tostring(key),
+      error(("p:wait_until: there is no option '%s'; %s"):format(checks.shown(key),
         core.nearest(tostring(key), { "timeout" }) and "did you mean 'timeout'?"
           or "known is: timeout"), 3)
     end
@@ -101,7 +102,7 @@ local function timeout_of(options)
   if timeout == nil or timeout == math.huge then return math.huge end
   if type(timeout) ~= "number" or timeout ~= timeout or timeout < 0 then
     error(("p:wait_until: timeout = %s is not allowed; it must be at least 0 s")
-      :format(tostring(timeout)), 3)
+      :format(checks.shown(timeout)), 3)
   end
   return timeout
 end
@@ -114,6 +115,7 @@ function Process:wait_until(condition, options)
   local impossible
   if type(condition) == "table" then
     condition, impossible = conditions.of(condition, 3, self.scene)
+    condition = build.placed(condition)
   end
   if type(condition) ~= "function" then
     error("p:wait_until expects a function or a table, got " .. type(condition), 2)

@@ -116,7 +116,7 @@ local function run_once(scene, args, level)
     wall = 0, cpu = 0 }
   process.check_steps(scene)
   data.origin = data.origin or save.origin(scene)
-  if not data.going then core.begin_run(scene) end -- else the run of the file goes on
+  if not data.going then build.call(3, core.begin_run, scene) end -- else the run of the file goes on
   data.going = nil
   total.drawn = wires_of(data)
   local wall, cpu = core.clock() - total.wall, os.clock() - total.cpu
@@ -436,6 +436,10 @@ function Run.__names()
     if name:sub(1, 2) ~= "__" then names[#names + 1] = name end
   end
   return names
+end
+
+for name, value in pairs(Run) do
+  if type(value) == "function" and name:sub(1, 2) ~= "__" then Run[name] = build.placed(value) end
 end
 
 function Run.__index(self, key)

@@ -101,7 +101,7 @@ end
 --- Write the scene to a file, whole or not at all, also when the computer goes down; run: the
 -- totals of a run under way.
 function save.write(scene, file, run)
-  return sink.write_file(file, core.save(scene, note_of(scene, run)), { safe = true })
+  return sink.write_file(file, build.call(3, core.save, scene, note_of(scene, run)), { safe = true })
 end
 
 -- A process that has begun lives in its coroutine.

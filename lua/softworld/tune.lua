@@ -7,6 +7,7 @@
 --     print(found.x, found.value, found.ok)
 -- @module softworld.tune
 local core = require "softworld.core"
+local build = require "softworld.build"
 local unread = require "softworld.unread"
 
 local tune = {}
@@ -25,6 +26,6 @@ local tune = {}
 -- one) returning a number, and the above
 -- @treturn table `x`, `value`, `ok`, `reason`, `iterations`, `evaluations`, and
 -- `nonfinite`, how many values were not finite
-function tune.minimise(args) return unread.excused(core.minimise, args) end
+function tune.minimise(args) return unread.excused(build.call, 3, core.minimise, args) end
 
 return tune

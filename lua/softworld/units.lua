@@ -31,19 +31,25 @@ local known = {
   Hz = { "Hz", 1, 1 }, kHz = { "Hz", 1000, 1 },
 }
 
-local function convert(value, times, by, name)
+local DEEPEST = 100 -- tables within tables
+
+local function convert(value, times, by, name, depth)
   if type(value) == "number" then return value * times / by end
   if type(value) ~= "table" then
     error(("units.%s takes a number or a table of numbers, got %s"):format(name, type(value)), 0)
   end
+  if depth > DEEPEST then
+    error(("units.%s: the table holds itself, or more than %d tables within each other"):format(name,
+      DEEPEST), 0)
+  end
   local out = {}
-  for key, item in pairs(value) do out[key] = convert(item, times, by, name) end
+  for key, item in pairs(value) do out[key] = convert(item, times, by, name, depth + 1) end
   return out
 end
 
 for name, unit in pairs(known) do
-  units[name] = function(value) return convert(value, unit[2], unit[3], name) end
-  to[name] = function(value) return convert(value, unit[3], unit[2], "to." .. name) end
+  units[name] = function(value) return convert(value, unit[2], unit[3], name, 0) end
+  to[name] = function(value) return convert(value, unit[3], unit[2], "to." .. name, 0) end
 end
 
 -- Steps (insert, delete, replace) that lead from a to b.

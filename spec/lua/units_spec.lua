@@ -29,6 +29,9 @@ describe("units", function()
     assert.error_matches(function() return units.to.mmm end,
       "units.to: there is no unit 'mmm'; did you mean 'mm'")
     assert.error_matches(function() return units.furlong end, "known are")
+    local self = {}
+    self[1] = self
+    assert.error_matches(function() units.mm(self) end, "units.mm: the table holds itself")
     assert.error_matches(function() units.mm "5" end,
       "units.mm takes a number or a table of numbers, got string")
   end)

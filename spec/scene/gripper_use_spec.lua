@@ -124,7 +124,8 @@ describe("a gripper with pads", function()
       run(world, function() said = select(2, pcall(hand.grasp, hand, wire, orders)) end)
       return said
     end)
-    assert.matches("^gripper 'hand' presses on wire 'b' %([45][%d.]* N%), not on wire 'a', which", why)
+    assert.matches("^[^ ]*gripper_use_spec%.lua:%d+: gripper 'hand' presses on wire 'b' %([45][%d.]* N%), "
+      .. "not on wire 'a', which", why)
     assert.is_nil(g.wire)
     assert.equal("grasp", scene:events()[1].kind)
     -- outside of a process nobody waits: the list of the run tells it

@@ -1,0 +1,117 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Errors have the line of the script that called, whatever part of the library raises them, and
+-- leave nothing half made.
+local sw = require "softworld"
+
+local function world()
+  local scene = sw.scene{}
+  local wire = scene:wire{ E = 1e8, density = 1400, radius = 0.002, from = { 0, 0, 0.1 }, to = { 0.4, 0,
+    0.1 },
+    segments = 8 }
+  return scene, wire, scene:gripper{ at = { 0.2, 0, 0.3 } }
+end
+
+describe("an error", function()
+  local scene, wire, gripper = world()
+  local empty, closed = sw.scene{}, sw.scene{}
+  closed:close()
+  local clip = scene:clip{ at = { 0.2, 0, 0.5 }, width = 0.01, insertion = 5, retention = 9 }
+  local tie = scene:tie(wire, { s = 0.1 })
+  tie:release()
+  scene:force{ kind = function() end }
+
+  for name, call in pairs{
+    ["settle without wires"] = function() empty:settle() end,
+    ["a scene that is closed"] = function() closed:wire{} end,
+    ["gravity of a new scene"] = function() sw.scene{ gravity = 3 } end,
+    ["a function in a file"] = function() scene:save "x.sws" end,
+    ["a state without pads"] = function() gripper:state() end,
+    ["an opening that is none"] = function() gripper:close_jaws{ force = {} } end,
+    ["a fixing that is gone"] = function() return tie.peak_force end,
+    ["a wire that is none"] = function() clip:force(12) end,
+    ["a scene that is none"] = function() scene.settle({}) end,
+    ["a gripper that is nowhere"] = function()
+      local other = world()
+      local hand = other:gripper{}
+      other:process(function(p) p:wait_until{ distance = 1, between = { hand, { 0, 0, 0 } } } end)
+      other:run{ dt = 0.005 }
+    end,
+    ["a value that cannot say what it is"] = function()
+      gripper:close_jaws{ force = setmetatable({}, { __tostring = function() return {} end }) }
+    end,
+  } do
+    it("has the caller's place: " .. name, function()
+      local lines = debug.getinfo(call, "S")
+      local ok, message = pcall(call)
+      assert.is_false(ok)
+      local line = tonumber(message:match "places_spec%.lua:(%d+): ")
+      assert.is_true(line ~= nil and line >= lines.linedefined and line <= lines.lastlinedefined, message)
+      assert.is_nil(message:find "softworld/[%w_]+%.lua", message)
+      assert.is_nil(message:find("attempt to", 1, true), message)
+      assert.is_nil(message:find("bad argument", 1, true), message)
+    end)
+  end
+
+  it("in a condition has the place of the process that waits", function()
+    local other, _, hand = world()
+    local line, message
+    other:process(function(p)
+      line = debug.getinfo(1, "l").currentline + 1
+      local _, why = pcall(function() p:wait_until{ slip = 1e-3, on = hand } end)
+      message = why
+      p:wait(0.01)
+    end)
+    assert.is_true(other:run{ dt = 0.005 }.ok)
+    assert.is_truthy(message:find("places_spec.lua:" .. line .. ": ", 1, true), message)
+  end)
+
+  it("of the script's own stays as it is", function()
+    local other, w = world()
+    other:force{ kind = function() error("my own", 0) end, on = w }
+    for _, call in ipairs{ function() other:settle() end, function() other:run{ duration = 0.1 } end } do
+      local ok, message = pcall(call)
+      assert.is_false(ok)
+      assert.equal("my own", message)
+    end
+  end)
+
+  it("of a run without steps tells that the scene diverged before", function()
+    local other, w = world()
+    local clamp = other:clamp(w, { s = 0 })
+    other:clamp(w, { s = 0.25 })
+    clamp:pose{ -0.5, 0, -0.5 } -- far more than the wire can follow
+    assert.is_false(other:run{ duration = 0.05 }.ok)
+    other:process(function() end)
+    local ok, message = pcall(function() other:run() end)
+    assert.is_false(ok)
+    assert.is_truthy(message:find "places_spec.lua:%d+: .*the last run diverged", message)
+  end)
+
+  it("of a channel leaves no part of it, nor its name", function()
+    local other = sw.scene{}
+    local args = { name = "c", width = 0.02, depth = 0.02, points = { { 0, 0, 0 }, { 0.2, 0, 0 }, { 1e9,
+      0.1, 0 } } }
+    local before = table.concat(other:names(), " ")
+    assert.has_error(function() other:channel(args) end)
+    assert.equal(before, table.concat(other:names(), " "))
+    args.points[3] = { 0.4, 0.1, 0 }
+    assert.equal("c", other:channel(args).name)
+  end)
+end)
+
+describe("waiting for a distance", function()
+  it("takes grippers, obstacles and points", function()
+    local scene, wire, gripper = world()
+    local ball = scene:obstacle{ shape = "sphere", radius = 0.01, at = { 0.3, 0, 0.5 } }
+    local seen = 0
+    scene:process(function(p)
+      gripper:grasp(wire, { s = 0.2 })
+      for _, between in ipairs{ { gripper, ball }, { gripper, { 0.2, 0, 0.1 } }, { { wire, s = 0.2 },
+        gripper } } do
+        if p:wait_until({ distance = 1, between = between }, { timeout = 0.01 }) then seen = seen + 1 end
+      end
+    end)
+    assert.is_true(scene:run{ dt = 0.005 }.ok)
+    assert.equal(3, seen)
+  end)
+end)
