@@ -64,7 +64,8 @@ describe("events", function()
   it("refuse what they do not know", function()
     local s = scene()
     assert.has_error(function() s:tell{ kind = "x" } end, "scene:tell: text is required [-]: one sentence")
-    assert.has_error(function() s:tell{ kind = "", text = "x" } end, "scene:tell: kind is empty; it is a word")
+    assert.has_error(function() s:tell{ kind = "", text = "x" } end,
+      "scene:tell: kind is empty; it is a word")
     assert.has_error(function() s:tell{ knd = "x", text = "" } end,
       "scene:tell: there is no parameter 'knd'; did you mean 'kind'?")
   end)
