@@ -21,6 +21,7 @@
 -- it never follows from E and nu, which a bundle of strands does not have.
 -- @module softworld.cable
 local core = require "softworld.core"
+local checks = require "softworld.checks"
 local methods = require "softworld.methods"
 local keep = require "softworld.keep"
 local bendrule = require "softworld.bendrule"
@@ -390,6 +391,10 @@ local function bend_limit(self, use, diameter)
   use, diameter = use or self.bend.use, diameter or self.outer_diameter.value
   local wrong = bendrule.unknown(use)
   if wrong then fail(self.name, "%s", wrong) end
+  if type(diameter) ~= "number" or not (diameter > 0 and diameter < math.huge) then
+    fail(self.name, "bend_limit: diameter = %s is not allowed; it must be a number above 0 m",
+      checks.shown(diameter))
+  end
   local factor = self.bend[use] or self.bend.rule and bendrule.factor(use, diameter)
   if not factor then fail(self.name, "it has no bend limit for the use '%s'", use) end
   return factor * diameter, (factor + 0.5) * diameter, use

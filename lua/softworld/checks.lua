@@ -76,11 +76,20 @@ function checks.word(what, value, known, level)
     near and ("; did you mean '%s'?"):format(near) or ""), level)
 end
 
+local function index(t, key) return t[key] end
+
+--- t[key]; nil where t is no table, or has no such field and says so by an error, as objects do.
+function checks.field(t, key)
+  if type(t) ~= "table" then return nil end
+  local there, value = pcall(index, t, key)
+  return there and value or nil
+end
+
 --- A copy of the vector {x, y, z}.
 function checks.vector(what, value, unit, level)
   local copy = {}
   for k, axis in ipairs{ "x", "y", "z" } do
-    local v = type(value) == "table" and (value[k] or value[axis])
+    local v = checks.field(value, k) or checks.field(value, axis)
     if type(v) ~= "number" or v - v ~= 0 then
       error(("%s must be a table of 3 finite numbers [%s]"):format(what, unit), level)
     end

@@ -13,14 +13,14 @@ local function number(what, value, unit, level)
 end
 
 local function pushes(object)
-  return type(object) == "table" and object.force or core.type(object) == "obstacle"
+  return checks.field(object, "force") or core.type(object) == "obstacle"
     or core.type(object) == "clamp"
 end
 
 -- An object that the run of this scene moves.
 local function check_scene(object, what, level)
   local _, _, _, own = core.number(object)
-  if own == nil and type(object) == "table" then own = object.scene end
+  if own == nil and type(object) == "table" then own = checks.field(object, "scene") end
   if own ~= nil and own ~= conditions.scene then
     error(("p:wait_until: %s is of another scene, which this run does not move"):format(what), level)
   end
@@ -46,7 +46,7 @@ end
 -- The wire has slid so far through a gripper's pads.
 function kinds.slip(t, level)
   local least = number("slip", t.slip, " m", level + 1)
-  if type(t.on) ~= "table" or not t.on.state then
+  if not checks.field(t.on, "state") then
     error("p:wait_until: slip needs on = a gripper", level)
   end
   check_scene(t.on, "the gripper", level + 1)
@@ -69,7 +69,7 @@ local function place_of(what, level)
     local s = number("between: s", what.s, " m", level + 1)
     check_scene(what[1], "the wire", level + 1)
     return function() return what[1]:position(s) end
-  elseif type(what) == "table" and what.position then
+  elseif checks.field(what, "position") then
     check_scene(what, "a place", level + 1)
     return function()
       return what:position() or error(("gripper '%s' is nowhere yet; give it at = {x, y, z} [m], or grasp")

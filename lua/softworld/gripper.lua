@@ -118,30 +118,46 @@ function Gripper:recall(state)
   for i = #self.events, state.events + 1, -1 do self.events[i] = nil end
 end
 
-local function needs_pose(self, verb)
+-- Raise unless the gripper can be moved. Makes nothing: what it is told may be wrong.
+local function check_place(self, verb)
   if getmetatable(self) ~= Gripper then
     error(("gripper:%s is a method: call it with a colon"):format(verb), 3)
   end
   process.guard("gripper:" .. verb)
   grasp.check_scene(self, 4)
-  if self.hold and not self.tool then return self.carrier or self.hold end
-  if not self.tool and not self.carrier and (self.at or self.rotation) then
-    if self.solid then grasp.make_tool(self, 4) else grasp.make_carrier(self) end
-  end
-  if self.tool or self.carrier then return self.tool or self.carrier end
+  if self.hold or self.tool or self.carrier or self.at or self.rotation then return end
   error(("gripper '%s' holds nothing; grasp a wire before you %s, or give the place where it is when "
     .. "you make it: at = {x, y, z} [m]"):format(self.name, verb), 3)
+end
+
+-- What moves, if there is anything yet.
+local function moved(self)
+  if self.hold and not self.tool then return self.carrier or self.hold end
+  return self.tool or self.carrier
+end
+
+-- What moves; made where the gripper is to be when there is nothing yet.
+local function make_moved(self)
+  if moved(self) then return moved(self) end
+  if self.solid then grasp.make_tool(self, 4) else build.call(4, grasp.make_carrier, self) end
+  return moved(self)
+end
+
+local function pose_of(self)
+  local held, at = moved(self), self.at or { 0, 0, 0 }
+  if held then return held:pose() end
+  return { at[1], at[2], at[3] }, self.rotation or not self.solid and self.facing or { 1, 0, 0, 0 }
 end
 
 local move_keys = { path = true, points = true, to = true, by = true, rotation = true, scale = true }
 
 -- The trajectory's table for a move from the present pose.
-local function move_table(held, args)
+local function move_table(self, args)
   local t = {}
   for k, v in pairs(args) do
     if not move_keys[k] and k ~= "on_slip" then t[k] = v end
   end
-  local here, facing = held:pose()
+  local here, facing = pose_of(self)
   here.rotation = facing
   local points = args.points or args.path
   if type(points) == "string" then points = trajectory.read(points, args.scale) end
@@ -175,15 +191,19 @@ local turn_keys = checks.set "axis angle"
 -- speed = [m/s] | duration = [s], law =, blend =, turn = { axis =, angle = [rad] }, on_slip = }.
 -- Inside a process it returns when the move is done, elsewhere at once.
 function Gripper:move(args)
-  local held = needs_pose(self, "move")
+  check_place(self, "move")
   if type(args) ~= "table" then error("gripper:move takes one table of parameters", 2) end
   if not (args.path or args.points or args.to or args.by or args.turn) then
     error(("gripper '%s': move where? give path, points, to, by or turn"):format(self.name), 2)
   end
   if type(args.turn) == "table" then checks.keys("gripper:move: turn", args.turn, turn_keys, 3) end
-  if args.on_slip ~= nil then grasp.set_on_slip(self, args.on_slip, 3) end
+  if args.on_slip ~= nil then
+    grasp.check_reaction("gripper '" .. self.name .. "': on_slip", args.on_slip, 3)
+  end
+  local motion = build.call(3, core.trajectory, move_table(self, args))
   remarks.on("move", ("gripper '%s': move"):format(self.name), args)
-  local motion = build.call(3, core.trajectory, move_table(held, args))
+  local held = make_moved(self)
+  if args.on_slip ~= nil then grasp.set_on_slip(self, args.on_slip, 3) end
   local duration = build.call(3, held.follow, held, motion)
   self.busy_until = self.scene.time + duration
   local p = process.current()
@@ -221,7 +241,7 @@ local press_keys = { direction = true, force = true, speed = true, distance = tr
 -- at most by distance [m]; then stop. Only in a process. Returns the force that was reached and
 -- the way gone; true as a third value when it was the force wanted.
 function Gripper:press(args)
-  local held = needs_pose(self, "press")
+  check_place(self, "press")
   check_keys("gripper:press", args, press_keys, 3)
   local p = process.current()
   if not p then error("gripper:press works inside a process only", 2) end
@@ -236,6 +256,7 @@ function Gripper:press(args)
     local f = self:force()
     return f[1] * way[1] + f[2] * way[2] + f[3] * way[3]
   end
+  local held = make_moved(self)
   local from, start = held:pose(), pushed()
   held:follow{ points = { { 0, 0, 0 }, { most * way[1], most * way[2], most * way[3] } },
     relative = true, speed = speed, law = "linear" }

@@ -149,6 +149,25 @@ describe("a gripper with pads", function()
     assert.same({}, clean:events())
   end)
 
+  it("that is told to move or to press in a wrong way has made nothing", function()
+    for _, given in ipairs{ pads, { width = 0.02 } } do
+      local scene = new_scene()
+      local g = scene:gripper{ name = "hand", at = { 0, 0, 1 }, pads = given }
+      local before = table.concat(scene:names(), " ")
+      for _, act in ipairs{ function() g:move{ to = { 0, 0 }, speed = 1 } end,
+        function() g:move{ to = { 0, 0, 0 }, speed = -1 } end, function() g:move{ path = {} } end,
+        function() g:move{ by = { 0, 0, 1 }, speed = 1, on_slip = "never" } end, function() g:move(g) end,
+        function() g:press{ force = 1 } end, function() g:press{ froce = 1 } end } do
+        assert.has_error(act)
+        assert.equal(before, table.concat(scene:names(), " "))
+        assert.is_nil(g.tool or g.carrier or g.on_slip)
+      end
+      g:move{ to = { 0, 0, 0.9 }, speed = 1 }
+      t.fine(scene:run{ duration = 0.3 })
+      t.near(0.9, g:position()[3], 1e-9, "height")
+    end
+  end)
+
   it("stops before it crushes the wire", function()
     local mesh = { E = 2e6, model = "radial", body = "solid", to = { 0.1, 0, r } }
     for _, model in ipairs{ { E = 2e6 }, mesh } do

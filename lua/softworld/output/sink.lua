@@ -57,13 +57,6 @@ function sink.base(path)
   return path:match("[^/]*$")
 end
 
---- The extension of a path in lower case, without the dot; "" if none.
--- @tparam string path
--- @treturn string
-function sink.extension(path)
-  return (sink.base(path):match("^.+%.([^.]*)$") or ""):lower()
-end
-
 local function check_path(path, verb)
   verb = verb or "write"
   if type(path) ~= "string" or path == "" then
@@ -71,6 +64,14 @@ local function check_path(path, verb)
   end
   if path:find("\0", 1, true) then sink.fail("cannot %s %q: zero byte in the path", verb, path) end
   if sink.base(path) == "" then sink.fail("cannot %s %s: it names a folder, not a file", verb, path) end
+end
+
+--- The extension of a path in lower case, without the dot; "" if none.
+-- @tparam string path
+-- @treturn string
+function sink.extension(path)
+  check_path(path)
+  return (sink.base(path):match("^.+%.([^.]*)$") or ""):lower()
 end
 
 --- A fresh, empty file in the same folder as the path, hidden; sink.commit or
