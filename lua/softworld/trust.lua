@@ -41,7 +41,7 @@ function trust.wanted(args) return type(args) == "table" and type(args.tolerance
 -- level with edges and steps half as long as before.
 -- @tparam table q the quantity: plain or own = true when its order is not known
 -- @tparam table values of the levels, coarsest first
--- @tparam boolean contact does the wire touch anything?
+-- @tparam boolean contact does the wire touch anything, or were steps redone?
 -- @treturn number error, in the quantity's unit
 -- @treturn number by how much a further level makes it smaller
 function trust.estimate(q, values, contact)
@@ -205,6 +205,13 @@ function trust.job(scene, what, args)
   return job
 end
 
+-- Were more than 1 % of the steps redone, by methods of first order? Differences of levels then tell
+-- no more than they are.
+local function was_redone(scene)
+  local l = core.ledger(scene)
+  return l.redone.count > 0.01 * l.steps
+end
+
 local function touches(scene)
   if scene:contacts() > 0 or build.data(scene).touching then return true end
   for _, o in ipairs(build.data(scene).obstacles) do
@@ -220,7 +227,7 @@ end
 -- was asked for: all are met when it is no more than 1.
 local function judge(job, result)
   local worst = 0
-  job.contact = job.contact or touches(job.scene)
+  job.contact = job.contact or touches(job.scene) or was_redone(job.scene)
   job.read = {}
   for _, q in ipairs(job.quantities) do
     local now = q.sample or quantity.read(q, result.start)
