@@ -4,6 +4,7 @@
 -- program; sw.remarks = false silences them.
 -- @module softworld.remarks
 local core = require "softworld.core"
+local checks = require "softworld.checks"
 local place = require "softworld.place"
 local units = require "softworld.units"
 local vec = require "softworld.vec"
@@ -83,8 +84,11 @@ function remarks.on(kind, what, args)
   for key in pairs(rules[kind]) do keys[#keys + 1] = key end
   table.sort(keys)
   for _, key in ipairs(keys) do
-    local value, rule = args[key], rules[kind][key]
-    for _, one in ipairs(type(value) == "table" and value or { value }) do check(what, key, one, rule) end
+    local value, rule = checks.field(args, key), rules[kind][key]
+    if type(value) ~= "table" then check(what, key, value, rule) end
+    for i = 1, type(value) == "table" and rawlen(value) or 0 do -- ipairs may never end
+      check(what, key, rawget(value, i), rule)
+    end
   end
 end
 
@@ -94,7 +98,7 @@ local MOST_GRAVITY = 50 -- [m/s2]
 function remarks.gravity(g)
   if type(g) ~= "table" or not remarks.wanted() then return end
   for k, axis in ipairs{ "x", "y", "z" } do
-    local value = g[k] or g[axis]
+    local value = checks.field(g, k) or checks.field(g, axis)
     if type(value) == "number" then
       check("scene", "gravity", math.abs(value), { "m/s2", 0, MOST_GRAVITY, "mm_per_s2" })
     end
