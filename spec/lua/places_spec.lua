@@ -91,7 +91,7 @@ describe("an error", function()
     local other, w = world()
     local process = other:process(function() end)
     local endless = setmetatable({}, { __index = function(_, key) return key end })
-    local mute = setmetatable({}, { __tostring = function() return 5 end })
+    local mute = setmetatable({}, { __tostring = function() return {} end })
     for text, call in pairs{ ["scene:gripper: at must be"] = function() other:gripper{ at = process } end,
       ["name is missing"] = function() sw.cable.define(process) end,
       ["there is no material 'a table'"] = function() sw.material(mute) end,
