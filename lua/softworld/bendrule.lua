@@ -7,6 +7,7 @@
 -- farther out.
 -- @module softworld.bendrule
 local core = require "softworld.core"
+local checks = require "softworld.checks"
 
 local bendrule = { source = "IEC 62440:2008", unit = "outer diameters" }
 
@@ -37,7 +38,7 @@ end
 function bendrule.unknown(use)
   if bendrule.table[use] then return nil end
   local near = type(use) == "string" and core.nearest(use, bendrule.uses)
-  return ("there is no use '%s'; %s"):format(tostring(use), near
+  return ("there is no use '%s'; %s"):format(checks.shown(use), near
     and ("did you mean '%s'?"):format(near) or "known are " .. table.concat(bendrule.uses, " "))
 end
 

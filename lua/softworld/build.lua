@@ -205,6 +205,7 @@ function class.scene.wire(scene, args)
 end
 
 local function name_of(wire) return wire.name end
+local function bend_of(wire, options) return wire:min_bend_radius(options) end
 
 --- The catalogue entry the wire was made from, or nil.
 function class.wire.cable(wire)
@@ -238,7 +239,7 @@ function class.wire.bend_limit(wire, options)
   end
   local inside, limit, use = build.call(3, cable.bend_limit, kept.cable, options.use or kept.use,
     2 * wire.radius)
-  local radius, s, t = wire:min_bend_radius{ now = options.now }
+  local radius, s, t = build.call(3, bend_of, wire, { now = options.now })
   return setmetatable({ name = wire.name, ok = radius >= limit, radius = radius, s = s, t = t,
     limit = limit, inside = inside, use = use }, Limit)
 end

@@ -265,7 +265,7 @@ local function read(given)
   if type(given) ~= "table" then
     error(("cable.define takes one table of fields, got %s"):format(type(given)), 0)
   end
-  local name = given.name
+  local name = checks.field(given, "name")
   if type(name) ~= "string" or not name:find "%S" then error("cable.define: name is missing (a text)", 0) end
   check_keys(name, "a cable", given, fields)
   local entry = setmetatable({ name = name, description = given.description or "" }, Entry)

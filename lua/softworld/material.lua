@@ -9,6 +9,7 @@
 -- 20 degC, and G = E/3, as for a material that keeps its volume.
 -- @module softworld.material
 local core = require "softworld.core"
+local checks = require "softworld.checks"
 
 local GPa, MPa = 1e9, 1e6
 
@@ -55,7 +56,7 @@ function material.find(name)
   local entry = by_name[name]
   if entry then return entry end
   local near = type(name) == "string" and core.nearest(name, names)
-  return nil, ("there is no material '%s'; %s"):format(tostring(name),
+  return nil, ("there is no material '%s'; %s"):format(checks.shown(name),
     near and ("did you mean '%s'?"):format(near) or "known are " .. table.concat(names, " "))
 end
 

@@ -94,7 +94,7 @@ local function timeout_of(options)
   for key in pairs(options) do
     if key ~= "timeout" then
       error(("p:wait_until: there is no option '%s'; %s"):format(checks.shown(key),
-        core.nearest(tostring(key), { "timeout" }) and "did you mean 'timeout'?"
+        core.nearest(checks.shown(key), { "timeout" }) and "did you mean 'timeout'?"
           or "known is: timeout"), 3)
     end
   end

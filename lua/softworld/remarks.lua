@@ -4,6 +4,7 @@
 -- program; sw.remarks = false silences them.
 -- @module softworld.remarks
 local core = require "softworld.core"
+local checks = require "softworld.checks"
 local place = require "softworld.place"
 local units = require "softworld.units"
 local vec = require "softworld.vec"
@@ -92,9 +93,11 @@ end
 function remarks.on(kind, what, args)
   if type(args) ~= "table" or not remarks.wanted() then return end
   for _, key in ipairs(keys_of(kind)) do
-    local value, rule = args[key], rules[kind][key]
+    local value, rule = checks.field(args, key), rules[kind][key]
     if type(value) ~= "table" then check(what, key, value, rule) end
-    for _, one in ipairs(type(value) == "table" and value or {}) do check(what, key, one, rule) end
+    for i = 1, type(value) == "table" and rawlen(value) or 0 do -- ipairs may never end
+      check(what, key, rawget(value, i), rule)
+    end
   end
 end
 
@@ -104,7 +107,7 @@ local MOST_GRAVITY = 50 -- [m/s2]
 function remarks.gravity(g)
   if type(g) ~= "table" or not remarks.wanted() then return end
   for k, axis in ipairs{ "x", "y", "z" } do
-    local value = g[k] or g[axis]
+    local value = checks.field(g, k) or checks.field(g, axis)
     if type(value) == "number" then
       check("scene", "gravity", math.abs(value), { "m/s2", 0, MOST_GRAVITY, "mm_per_s2" })
     end

@@ -14,6 +14,7 @@
 -- @module softworld.trust
 local core = require "softworld.core"
 local build = require "softworld.build"
+local checks = require "softworld.checks"
 local number = require "softworld.output.number"
 local process = require "softworld.process"
 local quantity = require "softworld.quantity"
@@ -33,7 +34,7 @@ local slowest = 1.5       -- below this rate there is no convergence to rely on
 local rounding = 1e-9     -- of the value
 
 --- Does the argument table ask for error bars?
-function trust.wanted(args) return type(args) == "table" and type(args.tolerance) == "table" end
+function trust.wanted(args) return type(checks.field(args, "tolerance")) == "table" end
 
 -- --- the estimate -----------------------------------------------------------------------
 

@@ -87,6 +87,33 @@ describe("an error", function()
     assert.is_truthy(message:find "places_spec.lua:%d+: .*the last run diverged", message)
   end)
 
+  it("of tables that are something else, or never end, says what is wanted", function()
+    local other, w = world()
+    local process = other:process(function() end)
+    local endless = setmetatable({}, { __index = function(_, key) return key end })
+    local mute = setmetatable({}, { __tostring = function() return {} end })
+    for text, call in pairs{ ["scene:gripper: at must be"] = function() other:gripper{ at = process } end,
+      ["name is missing"] = function() sw.cable.define(process) end,
+      ["there is no material 'a table'"] = function() sw.material(mute) end,
+      ["there is no use 'a table'"] = function() sw.cable "GXL 1.5":bend_limit(mute) end,
+      ["at is required"] = function() other:clip{ width = endless } end } do
+      local ok, message = pcall(call)
+      assert.is_false(ok)
+      assert.is_truthy(message:find(text, 1, true), message)
+      assert.is_nil(message:find("softworld/", 1, true), message)
+    end
+    local said = {}
+    local run = other:run{ duration = 0.01 }
+    for _, condition in ipairs{ { force = 1, on = process }, { slip = 1, on = run },
+      { distance = 1, between = { run, { w, s = 0.1 } } } } do
+      other:process(function(p) said[#said + 1] = select(2, pcall(p.wait_until, p, condition)) end)
+    end
+    other:run{ duration = 0.01 }
+    for i, text in ipairs{ "force needs on =", "slip needs on =", "between: a place must be" } do
+      assert.is_truthy(said[i]:find(text, 1, true), said[i])
+    end
+  end)
+
   it("of a channel leaves no part of it, nor its name", function()
     local other = sw.scene{}
     local args = { name = "c", width = 0.02, depth = 0.02, points = { { 0, 0, 0 }, { 0.2, 0, 0 }, { 1e9,
