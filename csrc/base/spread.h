@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Numbers of nodes, spread over the three components of each. For files with vectors in them:
- * these need a word to the compiler, see solve/band4.c. */
+/* Numbers of nodes, spread over the three components of each. */
 #ifndef SW_BASE_SPREAD_H
 #define SW_BASE_SPREAD_H
 
 #include <string.h>
+
+#pragma GCC diagnostic ignored "-Wpsabi" /* vectors stay inside the files that use them */
 
 typedef double sw_quad __attribute__((vector_size(32), aligned(8)));
 

@@ -5,8 +5,6 @@
 #include "base/spread.h"
 #include "force/force.h"
 
-#pragma GCC diagnostic ignored "-Wpsabi" /* vectors stay inside this file */
-
 SW_HOT
 static double height_energy(size_t n, const double *mass, const double *g, const double *x) {
   const double turning[12] = {g[0], g[1], g[2], g[0], g[1], g[2],

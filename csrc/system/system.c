@@ -16,8 +16,6 @@
 #include "system/twist.h"
 #include "system/web.h"
 
-#pragma GCC diagnostic ignored "-Wpsabi" /* vectors stay inside this file */
-
 size_t sw_system_body_of(const sw_system *s, size_t node) {
   size_t low = 0, high = s->body_count;
   while (high - low > 1) {
