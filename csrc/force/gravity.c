@@ -2,26 +2,40 @@
 /* Weight: f_i = m_i g with lumped masses, which is also what consistent masses
  * give for a uniform field. Potential energy -m g.x, zero at the origin. */
 #include "base/simd.h"
+#include "base/spread.h"
 #include "force/force.h"
 
 SW_HOT
-static double height_energy(size_t n, const double *restrict mass, const double *restrict g,
-                            const double *restrict x) {
-  double sum[3] = {0};
-  for (size_t i = 0; i < n; i++)
-    for (size_t k = 0; k < 3; k++) sum[k] += mass[i] * x[3 * i + k];
-  return -(g[0] * sum[0] + g[1] * sum[1] + g[2] * sum[2]);
+static double height_energy(size_t n, const double *mass, const double *g, const double *x) {
+  const double turning[12] = {g[0], g[1], g[2], g[0], g[1], g[2],
+                              g[0], g[1], g[2], g[0], g[1], g[2]};
+  const sw_spread down = sw_spread_load(turning);
+  sw_quad all = {0};
+  double sum = 0;
+  size_t i = 0;
+  for (; i + 4 <= n; i += 4) {
+    const sw_spread m = sw_spread_of(mass + i), at = sw_spread_load(x + 3 * i);
+    all += m.part[0] * at.part[0] * down.part[0] + m.part[1] * at.part[1] * down.part[1] +
+           m.part[2] * at.part[2] * down.part[2];
+  }
+  for (; i < n; i++) sum += mass[i] * (g[0] * x[3 * i] + g[1] * x[3 * i + 1] + g[2] * x[3 * i + 2]);
+  return -(sum + ((all[0] + all[1]) + (all[2] + all[3])));
 }
 
 SW_HOT
-static void add_weight(size_t n, const double *restrict mass, const double *restrict g,
-                       double *restrict force) {
-  const double gx = g[0], gy = g[1], gz = g[2];
-  for (size_t i = 0; i < n; i++) {
-    force[3 * i] += mass[i] * gx;
-    force[3 * i + 1] += mass[i] * gy;
-    force[3 * i + 2] += mass[i] * gz;
+static void add_weight(size_t n, const double *mass, const double *g, double *force) {
+  const double turning[12] = {g[0], g[1], g[2], g[0], g[1], g[2],
+                              g[0], g[1], g[2], g[0], g[1], g[2]};
+  const sw_spread down = sw_spread_load(turning);
+  size_t i = 0;
+  for (; i + 4 <= n; i += 4) {
+    const sw_spread m = sw_spread_of(mass + i);
+    sw_spread f = sw_spread_load(force + 3 * i);
+    for (int k = 0; k < 3; k++) f.part[k] += m.part[k] * down.part[k];
+    memcpy(force + 3 * i, &f, sizeof f);
   }
+  for (; i < n; i++)
+    for (size_t k = 0; k < 3; k++) force[3 * i + k] += mass[i] * g[k];
 }
 
 static sw_status eval(const void *args, sw_field *field, sw_error *err) {

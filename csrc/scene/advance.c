@@ -226,6 +226,7 @@ static sw_status judged_attempt(loop *p, double h, int smallest, sw_error *err) 
 static void accept(loop *p, double h) {
   sw_scene *s = p->s;
   sw_stepper_accept(&s->stepper, &s->system, h);
+  s->system.judged = s->stepper.trial_x;
   sw_scene_commit_contact(s);
   s->span = h;
   if (s->method->flags & SW_INTEGRATOR_NO_CONTACT) sw_scene_remark_contact(s);
@@ -519,6 +520,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   }
   if (status == SW_OK) status = run_loop(&p, until, interrupted, &why);
   s->running--;
+  s->system.judged = NULL;
   if (status == SW_OK && !args->quasistatic) status = sw_scene_look_for_buckling(s, &why);
   sw_free(p.v_start);
   /* the last good state, for pictures of what went wrong */

@@ -47,6 +47,12 @@ static sw_pose pose_in(sw_pose hold, sw_pose other) {
   return (sw_pose){sw_pose_local(other, hold.p), sw_quat_mul(sw_quat_conj(other.q), hold.q)};
 }
 
+/* 1: a place is farther than this from the bounds along one of their axes. */
+static int is_off(const sw_bounds *b, sw_vec p, double far) {
+  return p.x < b->min.x - far || p.x > b->max.x + far || p.y < b->min.y - far ||
+         p.y > b->max.y + far || p.z < b->min.z - far || p.z > b->max.z + far;
+}
+
 /* The deepest on the way from one pose to the other, both as the shape sees them [m]. */
 static double depth_on_way(const sw_scene_hold *h, const sw_shape *shape, sw_pose from, sw_pose to,
                            double skin) {
@@ -54,8 +60,7 @@ static double depth_on_way(const sw_scene_hold *h, const sw_shape *shape, sw_pos
   const sw_vec turn = sw_quat_log(sw_quat_mul(to.q, sw_quat_conj(from.q)));
   const double reach = reach_of(h), way = sw_dist(from.p, to.p) + sw_norm(turn) * reach;
   const double size = 0.5 * sw_dist(b.min, b.max);
-  const double off = sw_dist(to.p, sw_lerp(b.min, b.max, 0.5));
-  if (off > size + reach + skin + way) return 0; /* half spaces have no size and are never far */
+  if (is_off(&b, to.p, reach + skin + way)) return 0;
   const int looks =
       isfinite(size) ? (int)fmin(MOST_LOOKS, 1.0 + way / fmax(STRIDE * skin, NOTICED)) : 1;
   double depth = 0;

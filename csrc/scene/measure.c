@@ -295,6 +295,7 @@ static int lumped(const sw_scene *s) {
 
 /* Of the forces on one body. */
 static void add_terms(sw_scene *s, size_t body, sw_energy *out) {
+  sw_system_show(&s->system, body);
   for (size_t k = 0; k < s->system.bodies[body].term_count; k++) {
     const sw_term *term = &s->system.bodies[body].terms[k];
     double other;

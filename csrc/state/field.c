@@ -48,6 +48,7 @@ static void geometry(size_t m, const double *restrict x, double *restrict length
 }
 
 void sw_field_geometry(sw_field *field) {
+  field->is_judged = 0;
   geometry(field->plan->edges, field->x, field->length, field->reciprocal, field->tangent[0],
            field->tangent[1], field->tangent[2]);
 }

@@ -74,6 +74,8 @@ typedef struct sw_field {
   double *reciprocal; /* (m) 1 / length [1/m] */
   double *tangent[3]; /* (m) each component [-] */
 
+  int is_judged; /* 1: of the trial whose energies were measured, and of none since */
+
   /* to be added to */
   double *gradient[3]; /* (m) d energy / d edge vector [N] */
   double *own[6];      /* (m) second derivative, upper half xx xy xz yy yz zz [N/m] */

@@ -41,6 +41,7 @@ static void aim(sw_system *s, sw_body *b, int lumped) {
   f->tension = lumped ? NULL : s->tension + b->first_edge;
   f->twist = b->has_twist ? s->twist + b->first_span : NULL;
   sw_field_geometry(f);
+  f->is_judged = 1;
   if (b->spin_block) sw_spin_show(s, b);
 }
 

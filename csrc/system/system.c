@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "base/simd.h"
+#include "base/spread.h"
 #include "system/factors.h"
 #include "system/join.h"
 #include "system/link.h"
@@ -280,15 +281,23 @@ static void aim(sw_system *s, sw_body *b, const double *x, const double *v) {
   f->strain_rate = b->axial_time > 0 ? s->strain_rate + b->first_edge : NULL;
 }
 
+/* 1: its geometry is still that of the trial that became the state. */
+static int is_measured(const sw_system *s, const sw_body *b) {
+  if (!b->field.is_judged || !s->judged) return 0;
+  const double *x = s->judged + 3 * b->first_node;
+  return memcmp(x, b->field.x, 3 * b->plan->nodes * sizeof *x) == 0;
+}
+
 void sw_system_refresh(sw_system *s) {
   sw_system_add_up_pull(s);
   for (size_t b = 0; b < s->body_count; b++) {
     sw_body *body = &s->bodies[b];
     aim(s, body, s->x, s->v);
-    sw_field_geometry(&body->field);
+    if (!is_measured(s, body)) sw_field_geometry(&body->field);
     body->field.twist = body->has_twist ? s->twist + body->first_span : NULL;
     if (body->spin_block) sw_spin_show(s, body);
   }
+  s->judged = NULL;
 }
 
 static int is_kinked(const sw_body *b) {
@@ -335,15 +344,25 @@ void sw_system_axial_from_state(sw_system *s) {
   for (size_t b = 0; b < s->body_count; b++) sw_system_rate_from_velocity(s, b);
 }
 
+/* Sum of m v.v / 2 and of what neighbours have with each other. */
 SW_HOT
-static double kinetic_of_nodes(size_t n, const double *restrict own, const double *restrict next,
-                               const double *restrict v) {
-  double sum[3] = {0};
-  for (size_t i = 0; i + 1 < n; i++)
-    for (size_t k = 0; k < 3; k++)
-      sum[k] += v[3 * i + k] * (0.5 * own[i] * v[3 * i + k] + next[i] * v[3 * i + 3 + k]);
-  for (size_t k = 3 * n - 3; n && k < 3 * n; k++) sum[k % 3] += 0.5 * own[n - 1] * v[k] * v[k];
-  return sum[0] + sum[1] + sum[2];
+static double kinetic_of_nodes(size_t n, const double *own, const double *next, const double *v) {
+  sw_spread sums = {{{0}}};
+  double sum = 0;
+  size_t i = 0;
+  for (; i + 4 < n; i += 4) {
+    const sw_spread o = sw_spread_of(own + i), m = sw_spread_of(next + i);
+    const sw_spread a = sw_spread_load(v + 3 * i), b = sw_spread_load(v + 3 * i + 3);
+    for (int k = 0; k < 3; k++)
+      sums.part[k] += a.part[k] * (0.5 * o.part[k] * a.part[k] + m.part[k] * b.part[k]);
+  }
+  for (; i < n; i++) {
+    const sw_vec vi = sw_load(v + 3 * i);
+    sum += 0.5 * own[i] * sw_norm2(vi);
+    if (i + 1 < n) sum += next[i] * sw_dot(vi, sw_load(v + 3 * i + 3));
+  }
+  const sw_quad all = sums.part[0] + sums.part[1] + sums.part[2];
+  return sum + ((all[0] + all[1]) + (all[2] + all[3]));
 }
 
 double sw_body_kinetic(const sw_system *s, size_t body, int lumped) {
@@ -361,19 +380,21 @@ double sw_system_kinetic(const sw_system *s, int lumped) {
   return sum;
 }
 
-double sw_system_term_energy(sw_system *s, size_t body, size_t term, double *bending) {
+void sw_system_show(sw_system *s, size_t body) {
   sw_body *b = &s->bodies[body];
-  sw_field *f = &b->field;
-  sw_error err;
   aim(s, b, s->x, s->v);
-  sw_field_geometry(f);
-  f->want = SW_WANT_ENERGY;
-  f->tension = s->tension + b->first_edge;
-  f->twist = b->has_twist ? s->twist + b->first_span : NULL;
+  sw_field_geometry(&b->field);
+  b->field.tension = s->tension + b->first_edge;
+  b->field.twist = b->has_twist ? s->twist + b->first_span : NULL;
   if (b->spin_block) sw_spin_show(s, b);
+}
+
+double sw_system_term_energy(sw_system *s, size_t body, size_t term, double *bending) {
+  sw_field *f = &s->bodies[body].field;
+  sw_error err;
+  f->want = SW_WANT_ENERGY;
   f->energy = f->bending = 0;
-  /* hinge cosines for the bending energy come with the force evaluation */
-  sw_term_eval(&b->terms[term], f, &err);
+  sw_term_eval(&s->bodies[body].terms[term], f, &err);
   *bending = f->bending;
   return f->energy;
 }

@@ -167,6 +167,10 @@ struct sw_system {
   size_t follow_size; /* of twist, turn and frames, if there is twist or a frame: else 0 */
   double *aside;      /* (follow_size) room for them */
 
+  /* The trial that was accepted last, until sw_system_refresh: fields that are judged are of it and
+   * need no measuring. NULL at any other time. */
+  const double *judged;
+
   /* work space of a stage (freedoms) */
   double *yhat, *delta, *velocity;
   double *tension_new; /* (edges) */
@@ -326,7 +330,10 @@ void sw_system_rate_from_velocity(sw_system *system, size_t body);
 double sw_system_kinetic(const sw_system *system, int lumped);
 double sw_body_kinetic(const sw_system *system, size_t body, int lumped);
 
-/* Energy of one term of one body at the state; *bending is the part of it that
+/* Bring the field of a body up to the state, with what energies need. */
+void sw_system_show(sw_system *system, size_t body);
+
+/* Energy of one term of one body, after sw_system_show; *bending is the part of it that
  * corrects the wire's own bending [J]. */
 double sw_system_term_energy(sw_system *system, size_t body, size_t term, double *bending);
 
