@@ -53,6 +53,34 @@ static void add_stiffness(double EA, int signs, int statics, size_t m, const dou
   }
 }
 
+enum { LANES = 8 }; /* sums side by side, for the processor [-] */
+
+/* Sum of T^2 l0 over the edges of which it is; that is twice EA times their energy. */
+SW_HOT
+static double squares_of_forces(int signs, size_t m, const double *restrict rest,
+                                const double *restrict T) {
+  const double tension = (signs & SW_AXIAL_TENSION) ? 1.0 : 0.0;
+  const double compression = (signs & SW_AXIAL_COMPRESSION) ? 1.0 : 0.0;
+  double lane[LANES] = {0}, sum = 0;
+  size_t e = 0;
+  for (; e + LANES <= m; e += LANES)
+    for (size_t k = 0; k < LANES; k++)
+      lane[k] += (T[e + k] >= 0 ? tension : compression) * (T[e + k] * T[e + k] * rest[e + k]);
+  for (; e < m; e++) sum += (T[e] >= 0 ? tension : compression) * (T[e] * T[e] * rest[e]);
+  for (size_t k = 0; k < LANES; k++) sum += lane[k];
+  return sum;
+}
+
+static double energy_of(double EA, int signs, const sw_field *f) {
+  const sw_plan *p = f->plan;
+  double *now = f->scratch[3];
+  if (!(EA > 0)) return 0.0;
+  for (size_t e = 0; !f->tension && e < p->edges; e++)
+    now[e] = axial_force(EA, signs, f->length[e], p->rest[e]);
+  const double *T = f->tension ? f->tension : now;
+  return 0.5 * squares_of_forces(signs, p->edges, p->rest, T) / EA;
+}
+
 sw_status sw_axial_eval(double EA, int signs, sw_field *field) {
   const sw_plan *p = field->plan;
   if (field->want & SW_WANT_FORCE)
@@ -63,13 +91,7 @@ sw_status sw_axial_eval(double EA, int signs, sw_field *field) {
                   field->tension, field->tangent[0], field->tangent[1], field->tangent[2],
                   field->own[0], field->own[1], field->own[2], field->own[3], field->own[4],
                   field->own[5]);
-  if (field->want & SW_WANT_ENERGY)
-    for (size_t e = 0; e < p->edges; e++) {
-      const double T =
-          field->tension ? field->tension[e] : axial_force(EA, signs, field->length[e], p->rest[e]);
-      const int mine = T >= 0 ? (signs & SW_AXIAL_TENSION) : (signs & SW_AXIAL_COMPRESSION);
-      if (mine && EA > 0) field->energy += 0.5 * T * T * p->rest[e] / EA;
-    }
+  if (field->want & SW_WANT_ENERGY) field->energy += energy_of(EA, signs, field);
   return SW_OK;
 }
 

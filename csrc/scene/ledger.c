@@ -21,8 +21,11 @@ static const double ROUNDING = 1e-13;
 /* After so many steps that were taken though they made energy the referee is of no use: it costs
  * what the smallest steps cost, and mends nothing. The run's end tells what was made [-]. */
 enum { MOST_ACCEPTED = 16 };
-/* Once steps have gained this share of what is in play, only rounding is allowed [-]. */
-static const double ENOUGH = 0.005;
+/* Once steps have gained the first share of what is in play, little of it is allowed; beyond the
+ * second only rounding [-]. */
+static const double ENOUGH = 0.005, PLENTY = 0.01, LITTLE = 1e-5;
+/* Meshes that land rock on their corners, each time by a little of what was in play [-]. */
+static const double OF_PLAY = 2e-4;
 /* Wires that begin inside of obstacles are let out, which gives them at most this speed and lifts
  * them about as fast as this [m/s]. */
 static const double THROWN = 0.02, LET_OUT = 0.01;
@@ -77,10 +80,12 @@ static double potential(const sw_energies *e, double contact) {
 static void weigh(sw_scene *s) {
   sw_books *b = &s->books;
   b->weight = b->bending = b->mass = b->longest = 0;
+  b->meshes = 0;
   for (size_t k = 0; k < s->system.body_count; k++) {
     const sw_plan *p = s->system.bodies[k].plan;
     const double mg = p->beam.mass * p->length * sw_norm(s->gravity);
     b->longest = fmax(b->longest, p->length);
+    b->meshes |= p->web != NULL;
     if (isfinite(p->beam.mass * p->length)) b->mass += p->beam.mass * p->length;
     if (isfinite(mg * p->beam.radius)) b->weight += mg * p->beam.radius;
     if (p->length > 0 && isfinite(p->beam.EI)) b->bending += p->beam.EI / p->length;
@@ -237,6 +242,14 @@ int sw_ledger_referees(const sw_scene *s) {
   return !lumped(s) && !(s->method->flags & SW_INTEGRATOR_NO_CONTACT);
 }
 
+/* What a full step may make besides: less once steps have made more [J]. */
+static double usual_gain(const sw_books *b) {
+  const double play = b->sums.play;
+  if (b->sums.gained > PLENTY * play) return 0.0;
+  if (b->sums.gained > ENOUGH * play) return LITTLE * play;
+  return OF_KINETIC * b->now.kinetic + OF_WEIGHT * b->weight + (b->meshes ? OF_PLAY * play : 0.0);
+}
+
 double sw_ledger_excess(const sw_scene *s, double h) {
   const sw_books *b = &s->books;
   const sw_step_energy *step = &b->step;
@@ -245,9 +258,7 @@ double sw_ledger_excess(const sw_scene *s, double h) {
   const double size = fabs(b->now.kinetic) + fabs(b->now.gravity) + fabs(b->now.stored) +
                       fabs(step->to.kinetic) + fabs(step->to.gravity) + fabs(step->to.stored);
   const double rounding = ROUNDING * size + OF_BENDING * b->bending * share;
-  const double usual = OF_KINETIC * b->now.kinetic + OF_WEIGHT * b->weight;
-  const int enough = b->sums.gained > ENOUGH * b->sums.play;
-  const double allowed = rounding + OF_WORK * step->work + (enough ? 0.0 : usual * share);
+  const double allowed = rounding + OF_WORK * step->work + share * usual_gain(b);
   if (!isfinite(step->gain)) return step->gain < 0 ? 0.0 : HUGE_VAL;
   const double rise = b->rise + step->gain - b->lowest;
   if (!step->touching && rise <= IN_FLIGHT * b->sums.play) return 0.0;
@@ -430,7 +441,7 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
 /* --- on tape ------------------------------------------------------------------------ */
 
 void sw_tape_ledger(sw_tape *t, sw_books *b) {
-  SW_TAPE_STRUCT(t, sw_books, 856);
+  SW_TAPE_STRUCT(t, sw_books, 864);
   SW_TAPE_STRUCT(t, sw_ledger, 464);
   sw_tape_raw(t, &b->sums, sizeof b->sums);
   sw_tape_raw(t, &b->now, sizeof b->now);

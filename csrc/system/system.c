@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/simd.h"
 #include "system/factors.h"
 #include "system/join.h"
 #include "system/link.h"
@@ -334,15 +335,23 @@ void sw_system_axial_from_state(sw_system *s) {
   for (size_t b = 0; b < s->body_count; b++) sw_system_rate_from_velocity(s, b);
 }
 
+SW_HOT
+static double kinetic_of_nodes(size_t n, const double *restrict own, const double *restrict next,
+                               const double *restrict v) {
+  double sum[3] = {0};
+  for (size_t i = 0; i + 1 < n; i++)
+    for (size_t k = 0; k < 3; k++)
+      sum[k] += v[3 * i + k] * (0.5 * own[i] * v[3 * i + k] + next[i] * v[3 * i + 3 + k]);
+  for (size_t k = 3 * n - 3; n && k < 3 * n; k++) sum[k % 3] += 0.5 * own[n - 1] * v[k] * v[k];
+  return sum[0] + sum[1] + sum[2];
+}
+
 double sw_body_kinetic(const sw_system *s, size_t body, int lumped) {
   const sw_plan *p = s->bodies[body].plan;
   const double *v = s->v + 3 * s->bodies[body].first_node;
   double sum = sw_roll_kinetic(s, &s->bodies[body]);
-  for (size_t i = 0; i < p->nodes; i++) {
-    const sw_vec vi = sw_load(v + 3 * i);
-    sum += 0.5 * (lumped ? p->lumped[i] : p->mass_own[i]) * sw_norm2(vi);
-    if (!lumped && i + 1 < p->nodes) sum += p->mass_next[i] * sw_dot(vi, sw_load(v + 3 * i + 3));
-  }
+  if (!lumped) return sum + kinetic_of_nodes(p->nodes, p->mass_own, p->mass_next, v);
+  for (size_t i = 0; i < p->nodes; i++) sum += 0.5 * p->lumped[i] * sw_norm2(sw_load(v + 3 * i));
   return sum;
 }
 

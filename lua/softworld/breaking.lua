@@ -18,7 +18,8 @@ function breaking.load(entry)
   if not strength or not c.strands or not c.strand_diameter then return nil end
   local area = c.strands * math.pi / 4 * c.strand_diameter ^ 2
   return { value = strength[1] * area, low = strength[2] * area, high = strength[3] * area,
-    unit = "N", flag = "computed", source = ("area of the %s strands times their strength"):format(c.conductor) }
+    unit = "N", flag = "computed",
+    source = ("area of the %s strands times their strength"):format(c.conductor) }
 end
 
 --- Events of wires that were pulled harder in this run.
@@ -30,7 +31,8 @@ function breaking.look(scene)
     if limit and pull > limit.value then
       scene:tell{ kind = "breaking", object = w.name, s = s, value = pull,
         text = ("wire '%s' bore %s at t = %s, more than its conductor's breaking load of about %s (%s)")
-          :format(w.name, number.text(pull, "N"), number.text(t, "s"), number.text(limit.value, "N"), limit.flag) }
+          :format(w.name, number.text(pull, "N"), number.text(t, "s"), number.text(limit.value, "N"),
+            limit.flag) }
     end
   end
 end

@@ -7,6 +7,7 @@
 --     help(scene)       -- methods of an object
 -- @module softworld.help
 local core = require "softworld.core"
+local checks = require "softworld.checks"
 
 local notes = {
   scene = "sw.scene{...}",
@@ -252,9 +253,13 @@ local more = {
   they are on the wire]],
 }
 
--- Pages of the manual.
-for _, name in ipairs(require "softworld.manual") do
-  texts[name] = require("softworld.manual." .. name)
+-- Pages of the manual are read when they are asked for.
+local PAGE = {}
+for _, name in ipairs(require "softworld.manual") do texts[name] = PAGE end
+
+local function text_of(topic)
+  if texts[topic] == PAGE then texts[topic] = require("softworld.manual." .. topic) end
+  return texts[topic]
 end
 
 local function range_of(row)
@@ -343,7 +348,7 @@ local function show_object(object)
     end
   end
   table.sort(names)
-  print(tostring(object))
+  print(checks.shown(object))
   if #names > 0 then print("  " .. table.concat(names, " ")) end
 end
 
@@ -414,7 +419,7 @@ return function(topic)
   if topic == nil then return overview(r) end
   if type(topic) ~= "string" then return show_object(topic) end
   if r.params[topic] then show_rows(notes[topic] or topic, r.params[topic])
-  elseif texts[topic] then print(texts[topic]) end
+  elseif texts[topic] then print(text_of(topic)) end
   if r.params[topic] or texts[topic] then
     if more[topic] then print(more[topic]) end
     if topic == "obstacle" then print("  shapes: " .. names_of(r.shapes)) end

@@ -23,7 +23,6 @@ local sw = {
   trajectory = require "softworld.trajectory",
   cable = require "softworld.cable",
   shape = core.shape,
-  help = require "softworld.help",
   remarks = true, -- false: no remarks on unusual values
 }
 
@@ -58,7 +57,7 @@ methods.guard_core()
 
 -- Loaded when first asked for.
 local lazy = { tune = "softworld.tune", material = "softworld.material",
-  calibrate = "softworld.calibrate" }
+  calibrate = "softworld.calibrate", help = "softworld.help" }
 
 local function unknown(self, key)
   local names = {}

@@ -77,13 +77,22 @@ local function check(what, key, value, rule)
     question(value, rule), known[key] and (" (%s)"):format(known[key]) or ""))
 end
 
+local sorted = {} -- kind -> its keys in order
+
+local function keys_of(kind)
+  if not sorted[kind] then
+    local keys = {}
+    for key in pairs(rules[kind]) do keys[#keys + 1] = key end
+    table.sort(keys)
+    sorted[kind] = keys
+  end
+  return sorted[kind]
+end
+
 --- Remark what is unusual in the arguments of a kind of thing; what: names it.
 function remarks.on(kind, what, args)
   if type(args) ~= "table" or not remarks.wanted() then return end
-  local keys = {}
-  for key in pairs(rules[kind]) do keys[#keys + 1] = key end
-  table.sort(keys)
-  for _, key in ipairs(keys) do
+  for _, key in ipairs(keys_of(kind)) do
     local value, rule = checks.field(args, key), rules[kind][key]
     if type(value) ~= "table" then check(what, key, value, rule) end
     for i = 1, type(value) == "table" and rawlen(value) or 0 do -- ipairs may never end
@@ -113,21 +122,31 @@ local DEEP = 0.5 -- of the radius: a middle nearer to the surface than this is i
 
 local things = setmetatable({}, { __mode = "k" }) -- a scene's data -> its wires' points
 
+-- Points of a path, or both ends of a straight wire.
 local function points_of(args)
   local list = {}
   if type(args.path) == "table" then
     for i = 1, #args.path, math.max(1, #args.path // MOST) do list[#list + 1] = args.path[i] end
   elseif type(args.from) == "table" and type(args.to) == "table" then
-    for i = 0, SAMPLES do
-      local p, u = {}, i / SAMPLES
-      for k, axis in ipairs{ "x", "y", "z" } do
-        local a, b = args.from[k] or args.from[axis], args.to[k] or args.to[axis]
-        if type(a) ~= "number" or type(b) ~= "number" then return {} end
-        p[k] = (1 - u) * a + u * b
-      end
-      list[i + 1] = p
+    for k, axis in ipairs{ "x", "y", "z" } do
+      local a, b = args.from[k] or args.from[axis], args.to[k] or args.to[axis]
+      if type(a) ~= "number" or type(b) ~= "number" then return {} end
+      list[1], list[2] = list[1] or {}, list[2] or {}
+      list[1][k], list[2][k] = a, b
     end
   end
+  return list
+end
+
+-- The same with points between the ends.
+local function along(wire)
+  if not wire.straight or #wire.points ~= 2 then return wire.points end
+  local a, b, list = wire.points[1], wire.points[2], {}
+  for i = 0, SAMPLES do
+    local u = i / SAMPLES
+    list[i + 1] = { (1 - u) * a[1] + u * b[1], (1 - u) * a[2] + u * b[2], (1 - u) * a[3] + u * b[3] }
+  end
+  wire.points = list
   return list
 end
 
@@ -135,7 +154,7 @@ local function look(wire, obstacle)
   if not core.exists(obstacle.object) or not obstacle.object.present then return end
   local at, q = obstacle.object:pose()
   local back, shape = vec.conjugate(q), obstacle.object.shape
-  for i, p in ipairs(wire.points) do
+  for i, p in ipairs(along(wire)) do
     local here = { p[1] or p.x, p[2] or p.y, p[3] or p.z }
     local gap = shape:distance(vec.rotate(back, vec.sub(here, at)))
     if gap and gap < DEEP * wire.radius then
@@ -166,7 +185,8 @@ function remarks.wire(data, wire, args)
   if not remarks.wanted() then return end
   local what = ("wire '%s'"):format(args.name)
   remarks.on("wire", what, args)
-  local mine = { name = args.name, points = points_of(args), radius = args.radius or wire.radius }
+  local mine = { name = args.name, points = points_of(args), straight = args.path == nil,
+    radius = args.radius or wire.radius }
   check(what, "length", length_of(mine.points), rules.wire.length)
   local wires = wires_of(data)
   wires[#wires + 1] = mine

@@ -14,7 +14,6 @@
 -- y z, or x y z qw qx qy qz, or t x y z qw qx qy qz.
 -- @module softworld.trajectory
 local core = require "softworld.core"
-local csv = require "softworld.csv"
 local units = require "softworld.units"
 
 local trajectory = {}
@@ -168,7 +167,7 @@ function trajectory.read(source, scale)
     error(("trajectory: scale = %s is not allowed; it must be a number above 0 [m]")
       :format(tostring(scale)), 0)
   end
-  local data = csv.read(source, { names = function(n) return unnamed[n] end })
+  local data = require("softworld.csv").read(source, { names = function(n) return unnamed[n] end })
   if #data.names == 0 then
     error(("%s: no way-points; expected rows of x, y, z [m]"):format(data.name), 0)
   end
@@ -202,7 +201,7 @@ function trajectory.save(self, path, count)
     columns[name] = {}
     for i = 1, #s.t do columns[name][i] = s.rotation[4 * (i - 1) + k] end
   end
-  csv.write(path, { "t", "x", "y", "z", "qw", "qx", "qy", "qz" }, columns)
+  require("softworld.csv").write(path, { "t", "x", "y", "z", "qw", "qx", "qy", "qz" }, columns)
 end
 
 core.class.trajectory.save = trajectory.save

@@ -95,7 +95,8 @@ describe("stiffness damping of cables", function()
       scene:force{ kind = "damping", on = wire, mass = 3, stiffness = beta }
       scene:clamp(wire, { s = 0 }):follow{ relative = true, func = function(time)
         local u = math.min(2 * time, 1) -- up to 8 rad/s within half a second
-        return { 0, 0, 0 }, { axis = { 0, 0, 1 }, angle = 4 * (u ^ 3 - 0.5 * u ^ 4) + 8 * math.max(time - 0.5, 0) }
+        return { 0, 0, 0 }, { axis = { 0, 0, 1 },
+          angle = 4 * (u ^ 3 - 0.5 * u ^ 4) + 8 * math.max(time - 0.5, 0) }
       end }
       t.fine(scene:run{ duration = 2, dt = dt })
       return wire:tension(0)

@@ -15,7 +15,8 @@ local function fail()
     to = {0.5, 0, 0.1} }
   scene:clamp(wire, { s = 0 })
   local dt = 1.2 * scene:stable_dt()
-  local run = scene:run{ duration = 1, dt = dt, integrator = "velocity-verlet", frame = 0.001 }
+  local run = scene:run{ duration = 1, dt = dt, integrator = "velocity-verlet", unstable = true,
+    frame = 0.001 }
   return run
 end
 ]]
@@ -54,7 +55,8 @@ describe("a run that failed", function()
       local wire = scene:wire{ E = 5e6, density = 1500, radius = 0.0025, segments = 20, from = {0, 0, 0.1},
         to = {0.5, 0, 0.1} }
       scene:clamp(wire, { s = 0 })
-      scene:run{ duration = 0.3, dt = 0.01, integrator = "velocity-verlet", tolerance = { tip = 1e-3 } }]]
+      scene:run{ duration = 0.3, dt = 0.01, integrator = "velocity-verlet", unstable = true,
+        tolerance = { tip = 1e-3 } }]]
     assert.truthy(err:find("run of 'bars'", 1, true), err)
     local _, count = err:gsub("FAILED", "")
     assert.equal(1, count)

@@ -12,7 +12,10 @@ describe("events", function()
   it("of a run are those since its start", function()
     local s = scene()
     s:tell{ kind = "old", text = "before the run" }
-    s:process(function(p) p:wait(0.1) s:tell{ kind = "new", object = "hand", s = 0.2, value = 3, text = "in it" } end)
+    s:process(function(p)
+      p:wait(0.1)
+      s:tell{ kind = "new", object = "hand", s = 0.2, value = 3, text = "in it" }
+    end)
     local run = s:run{}
     assert.equal(1, #run.events)
     local e = run.events[1]
@@ -61,14 +64,18 @@ describe("events", function()
   it("refuse what they do not know", function()
     local s = scene()
     assert.has_error(function() s:tell{ kind = "x" } end, "scene:tell: text is required [-]: one sentence")
-    assert.has_error(function() s:tell{ kind = "", text = "x" } end, "scene:tell: kind is empty; it is a word")
+    assert.has_error(function() s:tell{ kind = "", text = "x" } end,
+      "scene:tell: kind is empty; it is a word")
     assert.has_error(function() s:tell{ knd = "x", text = "" } end,
       "scene:tell: there is no parameter 'knd'; did you mean 'kind'?")
   end)
 
   it("are in the summary", function()
     local s = scene()
-    s:process(function(p) p:wait(0.1) s:tell{ kind = "new", text = "the wire did something" } end)
+    s:process(function(p)
+      p:wait(0.1)
+      s:tell{ kind = "new", text = "the wire did something" }
+    end)
     local run, text = s:run{}, {}
     run:summary{ write = function(_, t) text[#text + 1] = t end }
     assert.matches("! t = 100%.0 ms: the wire did something", table.concat(text))

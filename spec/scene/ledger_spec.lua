@@ -5,7 +5,8 @@ package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
-local soft = { E = 50e6, density = 1500, radius = 0.0025, from = { 0, 0, 0 }, to = { 1, 0, 0 }, segments = 20 }
+local soft = { E = 50e6, density = 1500, radius = 0.0025, from = { 0, 0, 0 }, to = { 1, 0, 0 },
+  segments = 20 }
 
 local function wire_of(scene, more)
   local args = {}
@@ -88,7 +89,8 @@ local cases = {
   end,
   belt = function(dt) -- a board lifts the wire
     local s = sw.scene{}
-    local board = s:obstacle{ shape = "box", size = { 2, 0.2, 0.1 }, at = { 0.5, 0, -0.0525 }, friction = 0.3 }
+    local board = s:obstacle{ shape = "box", size = { 2, 0.2, 0.1 }, at = { 0.5, 0, -0.0525 },
+      friction = 0.3 }
     wire_of(s)
     s:settle()
     board:follow{ points = { { 0.5, 0, -0.0525 }, { 0.5, 0.02, 0.0475 } }, duration = 0.5 }
@@ -289,7 +291,8 @@ describe("energy is not made", function()
     local s = sw.scene{}
     local w = wire_of(s, { segments = 10 })
     s:clamp(w, { s = 0 })
-    local run = s:run{ duration = 0.2, dt = 1.02 * s:stable_dt(), integrator = "velocity-verlet", unstable = true }
+    local run = s:run{ duration = 0.2, dt = 1.02 * s:stable_dt(), integrator = "velocity-verlet",
+      unstable = true }
     assert.is_false(run.ok)
     assert.has_error(function() w:position(1) end)
   end)
