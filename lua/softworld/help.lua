@@ -7,6 +7,7 @@
 --     help(scene)       -- methods of an object
 -- @module softworld.help
 local core = require "softworld.core"
+local checks = require "softworld.checks"
 
 local notes = {
   scene = "sw.scene{...}",
@@ -347,7 +348,7 @@ local function show_object(object)
     end
   end
   table.sort(names)
-  print(tostring(object))
+  print(checks.shown(object))
   if #names > 0 then print("  " .. table.concat(names, " ")) end
 end
 

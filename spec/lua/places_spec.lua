@@ -102,6 +102,11 @@ describe("an error", function()
       assert.is_truthy(message:find(text, 1, true), message)
       assert.is_nil(message:find("softworld/", 1, true), message)
     end
+    local write = print
+    print = function() end -- luacheck: ignore
+    local fine, why = pcall(sw.help, mute)
+    print = write -- luacheck: ignore
+    assert.is_true(fine, why)
     local said = {}
     local run = other:run{ duration = 0.01 }
     for _, condition in ipairs{ { force = 1, on = process }, { slip = 1, on = run },
