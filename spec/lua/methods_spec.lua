@@ -64,6 +64,21 @@ describe("methods", function()
   before_each(function() print, io.write = function() end, function() end end) -- luacheck: ignore
   after_each(function() print, io.write = quiet, write end) -- luacheck: ignore
 
+  -- some of the wrong arguments are good names of files
+  local names, there = { "a", "text", "x" }, {}
+  setup(function()
+    for _, name in ipairs(names) do
+      local file = io.open(name)
+      if file then file:close() end
+      there[name] = file ~= nil
+    end
+  end)
+  teardown(function()
+    for _, name in ipairs(names) do
+      if not there[name] then os.remove(name) end
+    end
+  end)
+
   for kind in pairs(zoo()) do
     it("of " .. kind .. " called with wrong arguments name the call", function()
       local count = 0
