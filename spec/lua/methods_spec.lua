@@ -65,16 +65,16 @@ describe("methods", function()
   after_each(function() print, io.write = quiet, write end) -- luacheck: ignore
 
   -- some of the wrong arguments are good names of files
-  local names, there = { "a", "text", "x" }, {}
+  local files, there = { "a", "text", "x" }, {}
   setup(function()
-    for _, name in ipairs(names) do
+    for _, name in ipairs(files) do
       local file = io.open(name)
       if file then file:close() end
       there[name] = file ~= nil
     end
   end)
   teardown(function()
-    for _, name in ipairs(names) do
+    for _, name in ipairs(files) do
       if not there[name] then os.remove(name) end
     end
   end)
