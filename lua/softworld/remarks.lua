@@ -93,8 +93,11 @@ function remarks.on(kind, what, args)
   if type(args) ~= "table" or not remarks.wanted() then return end
   for _, key in ipairs(keys_of(kind)) do
     local value, rule = args[key], rules[kind][key]
-    if type(value) ~= "table" then check(what, key, value, rule) end
-    for _, one in ipairs(type(value) == "table" and value or {}) do check(what, key, one, rule) end
+    if type(value) == "number" then
+      check(what, key, value, rule)
+    elseif type(value) == "table" then
+      for _, one in ipairs(value) do check(what, key, one, rule) end
+    end
   end
 end
 
