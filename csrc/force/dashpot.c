@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "force/dashpot.h"
 
+#include "base/simd.h"
+
 static sw_vec tangent_of(const sw_field *f, size_t e) {
   return sw_v(f->tangent[0][e], f->tangent[1][e], f->tangent[2][e]);
 }
@@ -24,32 +26,78 @@ static void add_own(sw_field *f, size_t e, double k) {
     for (int j = i; j < 3; j++, at++) f->own[at][e] += k * ((i == j ? 1.0 : 0.0) - t[i] * t[j]);
 }
 
-static void node_hinge(double k, sw_field *f, size_t i) {
-  const sw_vec t1 = tangent_of(f, i - 1), t2 = tangent_of(f, i);
-  const double r1 = f->reciprocal[i - 1], r2 = f->reciprocal[i];
-  if (f->want & (SW_WANT_FORCE | SW_WANT_POWER)) {
-    const sw_vec rate = sw_sub(rotation_of(f, i), rotation_of(f, i - 1)), m = sw_scale(rate, k);
-    if (f->want & SW_WANT_POWER) f->power += k * sw_norm2(rate);
-    if (f->want & SW_WANT_FORCE) {
-      add_gradient(f, i - 1, sw_scale(sw_cross(t1, m), r1));
-      add_gradient(f, i, sw_scale(sw_cross(m, t2), r2));
-    }
+/* own += kr (I - t t') / l^2 of the edge at shift (0: second edge of the hinge, -1: first) */
+SW_HOT
+static void own_of_hinges(size_t n, long shift, double eta, const double *restrict hinge,
+                          const double *restrict rl, const double *restrict tx,
+                          const double *restrict ty, const double *restrict tz, double *restrict o0,
+                          double *restrict o1, double *restrict o2, double *restrict o3,
+                          double *restrict o4, double *restrict o5) {
+  for (long i = 1; i + 1 < (long)n; i++) {
+    const long e = i + shift;
+    const double k = (hinge[i] > 0 ? eta / hinge[i] : 0.0) * rl[e] * rl[e];
+    o0[e] += k * (1.0 - tx[e] * tx[e]);
+    o1[e] -= k * tx[e] * ty[e];
+    o2[e] -= k * tx[e] * tz[e];
+    o3[e] += k * (1.0 - ty[e] * ty[e]);
+    o4[e] -= k * ty[e] * tz[e];
+    o5[e] += k * (1.0 - tz[e] * tz[e]);
   }
-  if (!(f->want & SW_WANT_STIFFNESS)) return;
-  const double kr = k * f->velocity_rate, c = sw_dot(t1, t2);
-  add_own(f, i - 1, kr * r1 * r1);
-  add_own(f, i, kr * r2 * r2);
-  const double a[3] = {t1.x, t1.y, t1.z}, b[3] = {t2.x, t2.y, t2.z};
-  for (int row = 0; row < 3; row++)
-    for (int column = 0; column < 3; column++)
-      f->next[3 * row + column][i] -=
-          kr * r1 * r2 * ((row == column ? c : 0.0) - b[row] * a[column]);
+}
+
+/* next -= kr (t1.t2 I - t2 t1') / (l1 l2) */
+SW_HOT
+static void next_of_hinges(size_t n, double eta, const double *restrict hinge,
+                           const double *restrict rl, const double *restrict tx,
+                           const double *restrict ty, const double *restrict tz,
+                           double *restrict n0, double *restrict n1, double *restrict n2,
+                           double *restrict n3, double *restrict n4, double *restrict n5,
+                           double *restrict n6, double *restrict n7, double *restrict n8) {
+  for (size_t i = 1; i + 1 < n; i++) {
+    const double k = (hinge[i] > 0 ? eta / hinge[i] : 0.0) * rl[i - 1] * rl[i];
+    const double ax = tx[i - 1], ay = ty[i - 1], az = tz[i - 1];
+    const double bx = tx[i], by = ty[i], bz = tz[i], c = ax * bx + ay * by + az * bz;
+    n0[i] -= k * (c - bx * ax);
+    n1[i] += k * bx * ay;
+    n2[i] += k * bx * az;
+    n3[i] += k * by * ax;
+    n4[i] -= k * (c - by * ay);
+    n5[i] += k * by * az;
+    n6[i] += k * bz * ax;
+    n7[i] += k * bz * ay;
+    n8[i] -= k * (c - bz * az);
+  }
+}
+
+/* before, after: rotations of the hinge's edges. */
+static void move_hinge(double k, sw_field *f, size_t i, sw_vec before, sw_vec after) {
+  const sw_vec rate = sw_sub(after, before), m = sw_scale(rate, k);
+  if (f->want & SW_WANT_POWER) f->power += k * sw_norm2(rate);
+  if (!(f->want & SW_WANT_FORCE)) return;
+  add_gradient(f, i - 1, sw_scale(sw_cross(tangent_of(f, i - 1), m), f->reciprocal[i - 1]));
+  add_gradient(f, i, sw_scale(sw_cross(m, tangent_of(f, i)), f->reciprocal[i]));
 }
 
 void sw_dashpot_hinges(double eta, sw_field *f) {
   const sw_plan *p = f->plan;
-  for (size_t i = 1; i + 1 < p->nodes; i++)
-    if (p->hinge[i] > 0) node_hinge(eta / p->hinge[i], f, i);
+  const size_t n = p->nodes;
+  double *const *t = f->tangent, *const *o = f->own, *const *x = f->next;
+  if (n < 3) return;
+  if (f->want & (SW_WANT_FORCE | SW_WANT_POWER)) {
+    sw_vec before = rotation_of(f, 0);
+    for (size_t i = 1; i + 1 < n; i++) {
+      const sw_vec after = rotation_of(f, i);
+      if (p->hinge[i] > 0) move_hinge(eta / p->hinge[i], f, i, before, after);
+      before = after;
+    }
+  }
+  if (!(f->want & SW_WANT_STIFFNESS)) return;
+  const double k = eta * f->velocity_rate;
+  for (long shift = -1; shift <= 0; shift++)
+    own_of_hinges(n, shift, k, p->hinge, f->reciprocal, t[0], t[1], t[2], o[0], o[1], o[2], o[3],
+                  o[4], o[5]);
+  next_of_hinges(n, k, p->hinge, f->reciprocal, t[0], t[1], t[2], x[0], x[1], x[2], x[3], x[4],
+                 x[5], x[6], x[7], x[8]);
 }
 
 /* How fast the edge falls behind the hold, about axes across the edge [rad/s]. */

@@ -62,10 +62,21 @@ local function all(...) return ... end
 -- What the core raises has the place of this line; what a script raises within it stays as it is.
 local function of_core(f, ...) return all(f(...)) end
 
+local kinds = setmetatable({}, { __mode = "k" }) -- function -> "C", "Lua"
+
+local function kind_of(f)
+  local kind = kinds[f]
+  if not kind then
+    kind = debug.getinfo(f, "S").what
+    kinds[f] = kind
+  end
+  return kind
+end
+
 --- Call f; an error of this library or of the core gets the place of the script's line. f as a
 -- function of this library raises errors without a place, error(text, 0).
 function build.call(_, f, ...)
-  if debug.getinfo(f, "S").what == "C" then return finish(true, pcall(of_core, f, ...)) end
+  if kind_of(f) == "C" then return finish(true, pcall(of_core, f, ...)) end
   return finish(false, pcall(f, ...))
 end
 

@@ -94,7 +94,7 @@ function remarks.on(kind, what, args)
   if type(args) ~= "table" or not remarks.wanted() then return end
   for _, key in ipairs(keys_of(kind)) do
     local value, rule = checks.field(args, key), rules[kind][key]
-    if type(value) ~= "table" then check(what, key, value, rule) end
+    if type(value) == "number" then check(what, key, value, rule) end
     for i = 1, type(value) == "table" and rawlen(value) or 0 do -- ipairs may never end
       check(what, key, rawget(value, i), rule)
     end
