@@ -184,7 +184,8 @@ end
 -- peak_moment, mean_moment [N m], impulse (vector), impulse_size [N s] and the times of the
 -- peaks. Means are over the time in which it holds something, of the magnitudes. Peaks are of means
 -- over a window of time, and beside them raw_peak_force, raw_peak_moment of single steps; see help
--- "peaks". Moments are about the tool centre. options: { window = [s], at = point [m] that moments are about }, or that point.
+-- "peaks". Moments are about the tool centre. options: { window = [s], at = point [m] that moments are
+-- about }, or that point.
 -- Of pads also peak_squeeze [N], peak_margin, slip [m].
 function Measures:over(t1, t2, options)
   t1, t2, options = t1 or -math.huge, t2 or math.huge, over_options(options, 3)
