@@ -208,6 +208,10 @@ static sw_status judged_attempt(loop *p, double h, int smallest, sw_error *err) 
   SW_TRY(sw_ledger_open(s, err));
   for (p->redo = AS_IS;;) {
     SW_TRY(yielding_attempt(p, h, err));
+    if (p->interrupted && p->interrupted()) { /* of many nodes each part takes its time */
+      undo(p);
+      return SW_EINTR;
+    }
     SW_TRY(judge(p, h, &excess, err));
     if (!(excess > 0)) return SW_OK;
     const int next = next_redo(p);
