@@ -197,8 +197,7 @@ static double growth(const sw_scene *s, size_t iterations) {
 }
 
 static int stops(sw_status status) {
-  return status == SW_ECALLBACK || status == SW_ENOMEM || status == SW_EINTR ||
-         status == SW_ELIMIT;
+  return status == SW_ECALLBACK || status == SW_ENOMEM || status == SW_EINTR || status == SW_ELIMIT;
 }
 
 static sw_status transient(statics *p, sw_error *err) {

@@ -111,12 +111,12 @@ sw_status sw_scene_tool_finger(sw_scene *scene, sw_handle tool, int finger, cons
 /* A place where a pad presses on a wire. */
 typedef struct sw_tool_touch {
   int finger;
-  sw_vec at;     /* in the tool's axes [m] */
-  sw_vec force;  /* on the wire, in them [N] */
-  double normal; /* part of it across the surface [N] */
-  double s;      /* arc length [m] */
-  double slid;   /* way that the wire slid there since it began to press [m] */
-  size_t wire;   /* slot [-] */
+  sw_vec at;        /* in the tool's axes [m] */
+  sw_vec force;     /* on the wire, in them [N] */
+  double normal;    /* part of it across the surface [N] */
+  double s;         /* arc length [m] */
+  double slid;      /* way that the wire slid there since it began to press [m] */
+  size_t wire;      /* slot [-] */
   const char *name; /* of that wire, the scene's */
 } sw_tool_touch;
 /* How many touches pads have; number k of all touches there are: 0 = not one of a pad's with a

@@ -375,7 +375,7 @@ struct sw_scene {
   double next_frame; /* [s] */
   sw_events events;  /* of the last run */
   sw_watches watches;
-  sw_books books;    /* of the energy in it */
+  sw_books books; /* of the energy in it */
 };
 
 /* What a built scene has besides its objects: a copy of it, put back into a scene that is built

@@ -47,7 +47,7 @@ scene:save(folder .. "/scene.sws")
 local loaded = sw.load(folder .. "/scene.sws")
 put("texts.txt", table.concat({ tostring(sw.cable "GXL 1.5"), tostring(sw.cables()), tostring(wire),
   tostring(scene), tostring(loaded:names()[1]), tostring(run.time), 1.5 .. "", ("%.3f %g"):format(2.5, 0.125),
-  tostring(tonumber "2.5"), (select(2, pcall(scene.wire, scene, { radius = -0.125 })):gsub("^.-:%d+: ", "")), -- without its place
+  tostring(tonumber "2.5"), (select(2, pcall(scene.wire, scene, { radius = -0.125 })):gsub("^.-:%d+: ", "")),
   again:sample(3).position[4] }, "\n"))
 ]]
 
