@@ -233,6 +233,8 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
   const double before = b->now.kinetic + potential(&b->now, b->contact);
   if (changed) step->let_out += jolt(s, step);
   if (has_pads(s)) step->let_out += fmax(0.0, step->contact - b->contact);
+  if (step->feeding)
+    step->let_out = HUGE_VAL; /* what a feed does within a step is not known well */
   most += step->let_out;
   step->gain = step->to.kinetic + potential(&step->to, step->contact) - before - most;
   return status;
@@ -278,6 +280,7 @@ static sw_status log_row(sw_scene *s) {
  * counts is how far the unexplained energy has come from its least. What touches make stays. */
 static void book_gain(sw_scene *s, double gain) {
   sw_books *b = &s->books;
+  if (!isfinite(gain)) return; /* not judged */
   if (sw_ledger_referees(s) && b->step.touching) {
     b->made += fmax(0.0, gain);
     b->lowest = b->rise;
@@ -324,7 +327,7 @@ static void book_step(sw_scene *s) {
   b->work += step->work;
   l->steps++;
   const double given = fmin(fmax(0.0, change - work + lost), step->let_out);
-  l->by_changes += given;
+  *(step->feeding ? &l->by_feeds : &l->by_changes) += given;
   book_left(l, change - work + lost - given, step->steady);
   book_gain(s, step->gain);
   if (step->gain > l->most_gained) l->most_gained = step->gain, l->most_time = s->time;
