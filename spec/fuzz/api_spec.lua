@@ -49,7 +49,7 @@ describe("random calls", function()
       { "load('return nil + 1', '=softworld/x.lua')()", "a raw error" },
       { wire .. " error 'and yet there is a wire'",
         "and yet changed: v[1] (scene) parts" },
-      { "while true do end", "hang", "cpu=1" }, { "os.execute 'kill -KILL $PPID'", "crash signal 9" },
+      { "while true do end", "hang", "cpu=1" }, { "os.execute 'kill -USR1 $PPID'", "crash signal 10" },
       { "os.exit(7)", "crash exit 7" },
       { "local t = os.clock() while os.clock() < t + 0.3 do end", "slow 0.", "slow=0.2" },
     } do
