@@ -206,6 +206,7 @@ static sw_status judged_attempt(loop *p, double h, int smallest, sw_error *err) 
   double excess;
   p->smooth = 0;
   SW_TRY(sw_ledger_open(s, err));
+  if (p->interrupted && p->interrupted()) return SW_EINTR;
   for (p->redo = AS_IS;;) {
     SW_TRY(yielding_attempt(p, h, err));
     if (p->interrupted && p->interrupted()) { /* of many nodes each part takes its time */

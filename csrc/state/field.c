@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/interrupt.h"
 #include "base/simd.h"
 
 enum { ROW = SW_FIELD_ROW, EDGE_ARRAYS = 5 + 3 + 6, NODE_ARRAYS = 9 + 4 };
@@ -53,20 +54,28 @@ void sw_field_geometry(sw_field *field) {
            field->tangent[1], field->tangent[2]);
 }
 
+enum { PIECE = 0x20000 }; /* numbers between two looks at the user's wish to stop [-] */
+
+/* What is seen for the first time may take a second in a million nodes. */
+static void clear(double *numbers, size_t count) {
+  for (size_t at = 0; at < count && !sw_interrupted(); at += PIECE)
+    memset(numbers + at, 0, (count - at < PIECE ? count - at : PIECE) * sizeof *numbers);
+}
+
 void sw_field_clear(sw_field *field) {
   const size_t n = field->plan->nodes, m = field->plan->edges;
   field->energy = field->bending = 0;
   if (field->want & SW_WANT_FORCE) {
-    for (int k = 0; k < 3; k++) memset(field->gradient[k], 0, m * sizeof(double));
-    memset(field->force, 0, 3 * n * sizeof(double));
+    for (int k = 0; k < 3; k++) clear(field->gradient[k], m);
+    clear(field->force, 3 * n);
   }
   if (field->want & SW_WANT_STIFFNESS) {
-    for (int k = 0; k < 6; k++) memset(field->own[k], 0, m * sizeof(double));
-    for (int k = 0; k < 9; k++) memset(field->next[k], 0, n * sizeof(double));
-    memset(field->rows, 0, n * ROW * sizeof(double));
+    for (int k = 0; k < 6; k++) clear(field->own[k], m);
+    for (int k = 0; k < 9; k++) clear(field->next[k], n);
+    clear(field->rows, n * ROW);
   }
   if (field->normals[0]) { /* one block, see sw_spin_new */
-    memset(field->spin, 0, 12 * (n + SW_LANES) * sizeof(double));
-    if (field->spin_node[0]) memset(field->spin_node[0], 0, 6 * (n + SW_LANES) * sizeof(double));
+    clear(field->spin, 12 * (n + SW_LANES));
+    if (field->spin_node[0]) clear(field->spin_node[0], 6 * (n + SW_LANES));
   }
 }

@@ -104,7 +104,8 @@ typedef struct sw_field {
 /* Edge lengths and tangents from positions x. */
 void sw_field_geometry(sw_field *field);
 
-/* Zero everything that is added to. */
+/* Zero everything that is added to; given up half way when the user wants to stop, so look at
+ * sw_interrupted before what follows is believed. */
 void sw_field_clear(sw_field *field);
 
 /* Allocate all arrays of a field for a plan with n nodes, in one block that is

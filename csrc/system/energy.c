@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "system/spin.h"
 
 /* Where what is followed from step to step lies in the state. */
@@ -108,6 +109,7 @@ static sw_status power_of_term(const sw_term *term, sw_field *f, double *power, 
   f->want = knows ? SW_WANT_POWER : SW_WANT_FORCE;
   f->power = 0;
   sw_field_clear(f);
+  if (sw_interrupted()) return SW_EINTR;
   SW_TRY(sw_term_eval(term, f, err));
   *power = knows ? -f->power : power_of(f);
   return SW_OK;

@@ -90,6 +90,15 @@ void sw_body_begin(sw_body *b) {
   if (b->plan->web && b->field.want & SW_WANT_STIFFNESS) sw_web_begin(b);
 }
 
+/* Of many nodes each term takes its time: the user's wish to stop is looked for between them. */
+static sw_status eval_terms(sw_body *b, sw_error *err) {
+  for (size_t k = 0; k < b->term_count; k++) {
+    if (sw_interrupted()) return SW_EINTR;
+    SW_TRY(sw_term_eval(&b->terms[k], &b->field, err));
+  }
+  return SW_OK;
+}
+
 sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, const double *y,
                            const double *v, int statics, int iteration, sw_error *err) {
   sw_field *f = &b->field;
@@ -111,7 +120,7 @@ sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, c
   f->hold_turns = s->directors_rate;
   sw_body_begin(b);
   if (b->has_twist || b->spin_block) sw_system_measure(s, b);
-  for (size_t k = 0; k < b->term_count; k++) SW_TRY(sw_term_eval(&b->terms[k], f, err));
+  SW_TRY(eval_terms(b, err));
   const double *dead = s->dead ? s->dead + 3 * b->first_node : NULL;
   for (size_t i = 0; dead && i < 3 * b->plan->nodes; i++) f->force[i] += dead[i];
   return SW_OK;
@@ -445,7 +454,7 @@ sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const 
     sw_field_clear(f);
     sw_field_geometry(f);
     if (body->has_twist || body->spin_block) sw_system_measure(s, body);
-    for (size_t k = 0; k < body->term_count; k++) SW_TRY(sw_term_eval(&body->terms[k], f, err));
+    SW_TRY(eval_terms(body, err));
   }
   if (s->coupling.eval)
     SW_TRY(s->coupling.eval(s->coupling.user, s, t, HUGE_VAL, x, SW_WANT_FORCE, err));
