@@ -37,7 +37,8 @@ end
 
 describe("energy of wire that is fed", function()
   it("is not made where nodes go into a guide beside a table", function()
-    for _, case in ipairs{ { SOFT, 20, 6.25e-4 }, { SOFT, 20, 2.5e-3 }, { SOFT, 35, 1e-2 }, { STIFF, 35, 1e-3 } } do
+    for _, case in ipairs{ { SOFT, 20, 6.25e-4 }, { SOFT, 20, 2.5e-3 }, { SOFT, 35, 1e-2 },
+      { STIFF, 35, 1e-3 } } do
       for _, speed in ipairs{ -0.3, 0.3 } do
         local sunk, made = drawn(case[1], case[2], speed, case[3])
         if case[1] == SOFT then -- the stiff one falls 2 mm first
