@@ -234,6 +234,13 @@ int sw_contact_memory_fits(const void *memory, size_t bytes, size_t nodes, size_
   return bytes % sizeof(sw_memory) == 0;
 }
 
+int sw_contact_memory_names(const void *memory, size_t bytes, size_t node) {
+  const sw_memory *m = memory;
+  for (size_t i = 0; i < bytes / sizeof *m; i++)
+    if (m[i].node == node) return 1;
+  return 0;
+}
+
 sw_status sw_contact_inherit(sw_contact *c, const void *memory, size_t bytes, int fresh,
                              const size_t *new_node) {
   size_t kept = 0;

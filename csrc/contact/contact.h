@@ -189,6 +189,8 @@ sw_status sw_contact_set_seen(sw_contact *contact, const void *seen, size_t byte
 /* A number that is another one when what these blocks consist of is, to tell files of another
  * version by. */
 size_t sw_contact_layout(void);
+/* 1: it says that a node touches something. */
+int sw_contact_memory_names(const void *memory, size_t bytes, size_t node);
 /* Add what a memory says of nodes from old_first up to old_end, which are now numbered from
  * new_first, and obstacles of these numbers (count). SW_ENOMEM. */
 sw_status sw_contact_add_memory(sw_contact *contact, const void *memory, size_t bytes,

@@ -190,6 +190,13 @@ int sw_pairs_memory_fits(const void *memory, size_t bytes, size_t nodes) {
   return bytes % sizeof(sw_pair_memory) == 0;
 }
 
+int sw_pairs_memory_names(const void *memory, size_t bytes, size_t node) {
+  const sw_pair_memory *m = memory;
+  for (size_t i = 0; i < bytes / sizeof *m; i++)
+    if (m[i].one == node || m[i].two == node) return 1;
+  return 0;
+}
+
 sw_status sw_pairs_inherit(sw_pairs *p, const void *memory, size_t bytes, const size_t *new_node) {
   size_t kept = 0;
   SW_TRY(sw_pairs_set_memory(p, memory, bytes));

@@ -42,6 +42,7 @@ void sw_pairs_commit(sw_pairs *pairs, sw_system *system);
 const void *sw_pairs_memory(const sw_pairs *pairs, size_t *bytes);
 sw_status sw_pairs_set_memory(sw_pairs *pairs, const void *memory, size_t bytes);
 int sw_pairs_memory_fits(const void *memory, size_t bytes, size_t nodes);
+int sw_pairs_memory_names(const void *memory, size_t bytes, size_t node);
 /* As sw_contact_seen, in two blocks: segments, and where they touch. */
 void sw_pairs_seen(const sw_pairs *pairs, const void *blocks[2], size_t bytes[2]);
 sw_status sw_pairs_set_seen(sw_pairs *pairs, const void *const blocks[2], const size_t bytes[2],

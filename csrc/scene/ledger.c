@@ -233,8 +233,6 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
   const double before = b->now.kinetic + potential(&b->now, b->contact);
   if (changed) step->let_out += jolt(s, step);
   if (has_pads(s)) step->let_out += fmax(0.0, step->contact - b->contact);
-  if (step->feeding)
-    step->let_out = HUGE_VAL; /* what a feed does within a step is not known well */
   most += step->let_out;
   step->gain = step->to.kinetic + potential(&step->to, step->contact) - before - most;
   return status;
@@ -327,7 +325,7 @@ static void book_step(sw_scene *s) {
   b->work += step->work;
   l->steps++;
   const double given = fmin(fmax(0.0, change - work + lost), step->let_out);
-  *(step->feeding ? &l->by_feeds : &l->by_changes) += given;
+  l->by_changes += given;
   book_left(l, change - work + lost - given, step->steady);
   book_gain(s, step->gain);
   if (step->gain > l->most_gained) l->most_gained = step->gain, l->most_time = s->time;

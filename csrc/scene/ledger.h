@@ -29,7 +29,6 @@ typedef struct sw_step_energy {
   int steady;     /* 1: no touch began or ended */
   int touching;   /* 1: something touches */
   int changed;    /* 1: the scene was, just before */
-  int feeding;    /* 1: wire was fed */
 } sw_step_energy;
 
 typedef struct sw_books {
