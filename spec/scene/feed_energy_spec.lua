@@ -16,23 +16,23 @@ local function scene_of(cable, segments, from, to)
   return s, w, s:feed(w, { s = 0 })
 end
 
--- A wire on a table, its guide a tenth of a millimetre above: sunk deepest in it, energy made of
--- that in play.
+-- A wire on a table, its guide a tenth of a millimetre above: sunk deepest in it, highest above
+-- it, energy made of that in play.
 local function drawn(cable, segments, speed, dt)
   local height = 0.0031
   local s, w, f = scene_of(cable, segments, { 0, 0, height }, { 1, 0, height })
   s:obstacle{ shape = "plane", friction = 0.3 }
   f:speed(speed)
-  local lowest, made = height, 0
+  local lowest, highest, made = height, height, 0
   for _ = 1, 25 do
     local run = s:run{ duration = 0.02, dt = dt }
     assert.is_true(run.ok, run.reason)
     local x = w:positions()
-    for i = 3, #x, 3 do lowest = math.min(lowest, x[i]) end
+    for i = 3, #x, 3 do lowest, highest = math.min(lowest, x[i]), math.max(highest, x[i]) end
     local l = run:ledger()
     made = math.max(made, l.gained / l.play)
   end
-  return w.radius - lowest, made
+  return w.radius - lowest, highest - w.radius, made
 end
 
 describe("energy of wire that is fed", function()
@@ -40,9 +40,10 @@ describe("energy of wire that is fed", function()
     for _, case in ipairs{ { SOFT, 20, 6.25e-4 }, { SOFT, 20, 2.5e-3 }, { SOFT, 35, 1e-2 },
       { STIFF, 35, 1e-3 } } do
       for _, speed in ipairs{ -0.3, 0.3 } do
-        local sunk, made = drawn(case[1], case[2], speed, case[3])
+        local sunk, up, made = drawn(case[1], case[2], speed, case[3])
         if case[1] == SOFT then -- the stiff one falls 2 mm first
-          assert.is_true(sunk < 3e-5, ("sunk %.3g m at %g m/s, dt %g"):format(sunk, speed, case[3]))
+          local text = ("%.3g m deep, %.3g m up at %g m/s, dt %g"):format(sunk, up, speed, case[3])
+          assert.is_true(sunk < 3e-5 and up < 2e-4, text)
         end
         assert.is_true(made < 0.01, ("made %.3g of what is in play, %g m/s"):format(made, speed))
       end
