@@ -88,8 +88,10 @@ static section section_of(const sw_system *s, const sw_body *b, size_t node) {
   return c;
 }
 
+/* A particle alone has none: what rounding leaves of it is not to count [kg m2]. */
 static double inertia_about(const sw_system *s, const sw_body *b, const section *c, sw_vec axis) {
   double sum = 0;
+  if (c->end - c->first == 1) return 0;
   for (size_t k = c->first; k < c->end; k++) {
     const sw_vec r = sw_sub(sw_load(s->x + 3 * (b->first_node + k)), c->centre);
     if (b->plan->held[k] == SW_FREE) sum += b->plan->lumped[k] * sw_norm2(sw_cross(axis, r));
