@@ -115,10 +115,9 @@ sw_status sw_contact_begin_look(sw_contact *c, sw_system *s, double t, sw_error 
   return SW_OK;
 }
 
-sw_status sw_contact_begin_stage(void *contact, sw_system *s, double time, double hbar,
-                                 const double *y, sw_error *err) {
-  sw_contact *c = contact;
-  (void)s, (void)hbar, (void)y;
+sw_status sw_contact_begin_stage(sw_contact *c, double time, double first, sw_error *err) {
+  c->stage++;
+  c->first = first;
   c->pressed_before = c->pressed_count;
   c->stage_time = time;
   c->updates = c->looked = 0;

@@ -92,7 +92,7 @@ sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar,
   sw_contact *c = contact;
   (void)hbar;
   sw_status status = SW_OK;
-  if (c->regime == SW_CONTACT_EXPLICIT) status = sw_contact_begin_stage(c, s, time, hbar, y, err);
+  if (c->regime == SW_CONTACT_EXPLICIT) status = sw_contact_begin_stage(c, time, 0, err);
   if (status != SW_OK) return status;
   if (!c->looked) SW_TRY(sw_contact_look(c, s, y, err));
   c->looked = 0;

@@ -58,6 +58,12 @@ void sw_press_take_lag(sw_press *p, const sw_press *last) {
     p->lag = last->lag + (last->lag_before - last->lag) * error / (error - error_before);
 }
 
+void sw_press_aim(sw_press *p, sw_vec u, const sw_press *last, int same, double first) {
+  p->carried = !last ? sw_v(0, 0, 0) : same ? last->carried : sw_scale(last->slip, first);
+  u = sw_sub(u, p->carried);
+  p->trial = sw_madd(u, p->normal, -sw_dot(u, p->normal));
+}
+
 void sw_press_begin(sw_press *p, double friction, int known, double felt) {
   const double most = friction * p->lag, grip = sw_press_grip(p), length = sw_norm(p->trial);
   if (!known) p->sliding = grip * length > most;
@@ -80,7 +86,7 @@ sw_vec sw_press_eval(sw_press *p, double friction, int lagged, double K[6]) {
   if (!lagged) p->next_sliding = p->sliding = grip * length > most;
   const sw_vec d = length > 0 ? sw_scale(p->trial, 1.0 / length) : sw_v(0, 0, 0);
   p->tangential = sw_scale(d, p->sliding ? -most : -grip * length);
-  p->slip = sw_madd(p->trial, p->tangential, 1.0 / grip);
+  p->slip = sw_add(p->carried, sw_madd(p->trial, p->tangential, 1.0 / grip));
   if (p->sliding) {
     const double kt = length > 0 ? fmin(most / length, grip) : 0.0;
     stiffness_matrix(p->k, kt, kt, p->normal, d, K);
@@ -101,7 +107,7 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
   p->next_sliding = beyond && !reversed;
   p->reversals += reversed;
   p->tangential = sw_scale(u, -(beyond && length > 0 ? most / length : grip));
-  p->slip = sw_madd(u, p->tangential, 1.0 / grip);
+  p->slip = sw_add(p->carried, sw_madd(u, p->tangential, 1.0 / grip));
   /* the iterate's friction came from lag: it must not matter either */
   if (reversed) return fmax(most, friction * p->lag) <= small;
   if (p->sliding && beyond && along < TURN_TOLERANCE * length * sw_norm(p->trial)) return 0;

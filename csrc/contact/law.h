@@ -18,16 +18,17 @@ typedef struct sw_press {
   double normal_force; /* after the last solve [N] */
   double lag_before, force_before; /* both, one iterate earlier; 0 = not known [N] */
   sw_vec normal;                   /* of the push [-] */
-  sw_vec trial;                    /* tangential displacement from the anchor at this iterate [m] */
-  sw_vec tangential;               /* friction force after the last solve [N] */
-  sw_vec shift;                    /* by the last solve [m] */
-  sw_vec slip;                     /* how far it slid, of the displacement from the anchor [m] */
-  int alternations;                /* of normal_force - lag until the last iterate [-] */
-  int reversals;                   /* of the slide, where a static solve is dragged [-] */
-  int active;                      /* pushes in this iterate */
-  int spare;                       /* so often it stays active though the last solve pulled [-] */
-  int sliding;                     /* assumed in this iterate */
-  int next_sliding;                /* as the last solve found it */
+  sw_vec carried; /* how far the anchor slid in the step until this stage began, by its rule [m] */
+  sw_vec trial;   /* tangential displacement from that anchor at this iterate [m] */
+  sw_vec tangential; /* friction force after the last solve [N] */
+  sw_vec shift;      /* by the last solve [m] */
+  sw_vec slip;       /* how far the anchor slid in the step [m] */
+  int alternations;  /* of normal_force - lag until the last iterate [-] */
+  int reversals;     /* of the slide, where a static solve is dragged [-] */
+  int active;        /* pushes in this iterate */
+  int spare;         /* so often it stays active though the last solve pulled [-] */
+  int sliding;       /* assumed in this iterate */
+  int next_sliding;  /* as the last solve found it */
 } sw_press;
 
 /* Stiffness of friction's spring [N/m]. */
@@ -51,6 +52,13 @@ void sw_press_take_lag(sw_press *press, const sw_press *last);
  * calls every prediction a slide; but one stretched far beyond its limit does slide, were it
  * not stiffer than felt [N/m]. */
 void sw_press_begin(sw_press *press, double friction, int known, double felt);
+
+/* A stage that begins from x0 + first (x1 - x0), where x1 is what the step's first stage led to,
+ * begins from what the anchor slid in that stage just so: friction is against the speed at the
+ * stage's end then, not against the way since the step's start, which would push a slide that stops
+ * to and fro for ever. u: displacement from the anchor at the step's start [m]. last: the touch in
+ * the iterate before, or NULL; same: that was of this stage. */
+void sw_press_aim(sw_press *press, sw_vec u, const sw_press *last, int same, double first);
 
 /* Forces at this iterate. Returns the force, and its stiffness (upper half). lagged: 0 =
  * explicit methods, which take all from this iterate. */

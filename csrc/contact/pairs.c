@@ -92,6 +92,11 @@ sw_status sw_pairs_begin_step(sw_pairs *p, sw_system *s, sw_contact_regime regim
   return status == SW_OK ? SW_OK : sw_pairs_fail(status, err);
 }
 
+void sw_pairs_begin_stage(sw_pairs *p, double first) {
+  p->stage++;
+  p->first = first;
+}
+
 sw_status sw_pairs_begin_look(sw_pairs *p, sw_system *s, sw_error *err) {
   SW_TRY(sw_pairs_begin_step(p, s, SW_CONTACT_STATIC, 0, 0, err));
   for (size_t i = 0; i < p->memory_count; i++) {

@@ -29,6 +29,8 @@ void sw_pairs_free(sw_pairs *pairs); /* NULL is allowed */
 /* These do what those of sw_contact do. */
 sw_status sw_pairs_begin_step(sw_pairs *pairs, sw_system *system, sw_contact_regime regime,
                               double h, double nominal, sw_error *err);
+/* As sw_contact_begin_stage. */
+void sw_pairs_begin_stage(sw_pairs *pairs, double first);
 sw_status sw_pairs_begin_look(sw_pairs *pairs, sw_system *system, sw_error *err);
 sw_status sw_pairs_eval(sw_pairs *pairs, sw_system *system, const double *y, unsigned want,
                         sw_error *err);

@@ -138,7 +138,7 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
     u = sw_add(u, sw_rotate(c->now[t->obstacle].pose.q, m->elastic));
   else if (press->gap >= 0)
     u = sw_v(0, 0, 0);
-  press->trial = sw_madd(u, press->normal, -sw_dot(u, press->normal));
+  sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == c->stage, c->first);
   press->lag = m ? m->normal_force : press->k * fmax(0.0, -press->gap);
   if (last) sw_press_take_lag(press, &last->press);
   const int turned = last && last->press.reversals > 0 && c->regime == SW_CONTACT_STATIC;
@@ -205,6 +205,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
       .stiffer = stiffness,
       .held = sw_contact_is_held(s, k),
       .candidate = (size_t)(k - c->candidates),
+      .stage = c->stage,
       .press = {
           .normal = sw_rotate(pose->q, near->normal), .gap = near->gap - k->skin, .k = stiffness}};
   t.press.gap += sw_contact_aslant(c, k->node, k->other, at, t.press.normal);

@@ -43,6 +43,7 @@ typedef struct sw_touch {
   double slid;      /* way that it slid until the step's start, since it began to press [m] */
   sw_vec seen;      /* where the wire was at this evaluation, in the obstacle's coordinates [m] */
   size_t candidate; /* index of what it was made from */
+  size_t stage;     /* in which it was found */
   sw_press press;   /* its normal is the obstacle's, outward, in the world */
 } sw_touch;
 
@@ -120,6 +121,8 @@ struct sw_contact {
   size_t mark_count, mark_capacity;
   int unmarked;      /* 1: some touch slid, or there was no room: the marks tell nothing */
   int looked;        /* 1: touches are those of the iterate to be evaluated next */
+  size_t stage;      /* number of the stage, counted all along */
+  double first;      /* share of the step's first stage in what this one begins from [-] */
   double time, h;    /* of the step [s] */
   double stage_time; /* that obstacles were last placed for [s] */
   double nominal;    /* the run's full step [s] */

@@ -148,6 +148,7 @@ static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system
     if (p->strain_past) prepare_strains(p, row, s, hbar, p->strain[k]);
     const sw_stage stage = {.time = t + row->time * h,
                             .hbar = hbar,
+                            .first = row->x1,
                             .xhat = p->xhat,
                             .vhat = p->vhat,
                             .y = p->y[k],

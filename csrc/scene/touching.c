@@ -69,9 +69,11 @@ sw_status sw_scene_new_pairs(sw_scene *s) {
 
 /* --- the system's coupling ------------------------------------------------------- */
 
-static sw_status begin_stage(void *user, sw_system *system, double t, double hbar, const double *y,
-                             sw_error *err) {
-  return sw_contact_begin_stage(((sw_scene *)user)->contact, system, t, hbar, y, err);
+static sw_status begin_stage(void *user, sw_system *system, double t, double first, sw_error *err) {
+  const sw_scene *s = user;
+  (void)system;
+  if (s->pairs) sw_pairs_begin_stage(s->pairs, first);
+  return s->contact ? sw_contact_begin_stage(s->contact, t, first, err) : SW_OK;
 }
 
 static sw_status eval(void *user, sw_system *system, double t, double hbar, const double *y,
@@ -101,8 +103,9 @@ static void book(void *user, const sw_booking *booking) {
 }
 
 void sw_scene_couple(sw_scene *s) {
-  if (s->contact) s->system.coupling.begin_stage = begin_stage, s->system.coupling.book = book;
+  if (s->contact) s->system.coupling.book = book;
   if (!sw_scene_has_contact(s)) return;
+  s->system.coupling.begin_stage = begin_stage;
   s->system.coupling.eval = eval;
   s->system.coupling.keeps = keeps;
   s->system.coupling.settled = settled;

@@ -366,7 +366,7 @@ static sw_status begin(sw_system *s, const sw_stage *stage, int statics, sw_erro
   if (!statics) SW_TRY(check_start(s, stage->y, err));
   sw_spin_begin_stage(s, isfinite(stage->hbar) ? 1.0 / (stage->hbar * stage->hbar) : 0.0);
   if (s->coupling.begin_stage)
-    SW_TRY(s->coupling.begin_stage(s->coupling.user, s, stage->time, stage->hbar, stage->y, err));
+    SW_TRY(s->coupling.begin_stage(s->coupling.user, s, stage->time, stage->first, err));
   return SW_OK;
 }
 

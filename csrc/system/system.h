@@ -105,9 +105,8 @@ typedef struct sw_coupling {
   void *user;
   /* Pose of hold number k at a time. */
   sw_status (*place)(void *user, int hold, double time, sw_hold_state *out, sw_error *err);
-  /* A stage begins at y (predicted); hbar is infinite in statics. */
-  sw_status (*begin_stage)(void *user, sw_system *system, double time, double hbar, const double *y,
-                           sw_error *err);
+  /* A stage begins; first: share of the step's first stage in what it begins from [-]. */
+  sw_status (*begin_stage)(void *user, sw_system *system, double time, double first, sw_error *err);
   /* Add forces and matrix rows at y to the bodies' fields. */
   sw_status (*eval)(void *user, sw_system *system, double time, double hbar, const double *y,
                     unsigned want, sw_error *err);
@@ -196,6 +195,7 @@ typedef struct sw_newton {
 typedef struct sw_stage {
   double time;        /* at the stage's end [s] */
   double hbar;        /* [s] */
+  double first;       /* share of the step's first stage in xhat [-] */
   const double *xhat; /* (freedoms): velocity = (y - xhat)/hbar [m], [rad] */
   const double *vhat; /* (nodes x 3): acceleration = (velocity - vhat)/hbar [m/s] */
   double *y;          /* out: positions [m] */
