@@ -361,6 +361,7 @@ sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
   tell_news(s);
   for (size_t w = 0; w < s->wire_count; w++) SW_TRY(observe_wire(s, w, err));
   SW_TRY(sw_watch_forces(s, err));
+  SW_TRY(sw_watch_ties(s, err));
   SW_TRY(log_holds(s, err));
   if (sw_scene_has_contact(s)) SW_TRY(observe_contact(s, err));
   return sw_tool_observe(s, err);

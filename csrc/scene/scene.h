@@ -518,6 +518,9 @@ sw_status sw_scene_obstacle_log(sw_scene *scene, sw_handle obstacle, const doubl
 enum { SW_LOG_WIRE_SIZE = 3, SW_LOG_FORCE_SIZE = 4 };
 sw_status sw_scene_wire_log(sw_scene *scene, sw_handle wire, const double **rows, size_t *count,
                             sw_error *err);
+/* The same of a tie between wires: on the first one. */
+sw_status sw_scene_tie_log(sw_scene *scene, sw_handle join, const double **rows, size_t *count,
+                           sw_error *err);
 sw_status sw_scene_force_log(sw_scene *scene, sw_handle force, const double **rows, size_t *count,
                              sw_error *err);
 
