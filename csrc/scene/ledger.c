@@ -24,8 +24,6 @@ enum { MOST_ACCEPTED = 16 };
 /* Once steps have gained the first share of what is in play, little of it is allowed; beyond the
  * second only rounding [-]. */
 static const double ENOUGH = 0.005, PLENTY = 0.01, LITTLE = 1e-5;
-/* Meshes that land rock on their corners, each time by a little of what was in play [-]. */
-static const double OF_PLAY = 2e-4;
 /* Wires that begin inside of obstacles are let out, which gives them at most this speed and lifts
  * them about as fast as this [m/s]. */
 static const double THROWN = 0.02, LET_OUT = 0.01;
@@ -80,12 +78,10 @@ static double potential(const sw_energies *e, double contact) {
 static void weigh(sw_scene *s) {
   sw_books *b = &s->books;
   b->weight = b->bending = b->mass = b->longest = 0;
-  b->meshes = 0;
   for (size_t k = 0; k < s->system.body_count; k++) {
     const sw_plan *p = s->system.bodies[k].plan;
     const double mg = p->beam.mass * p->length * sw_norm(s->gravity);
     b->longest = fmax(b->longest, p->length);
-    b->meshes |= p->web != NULL;
     if (isfinite(p->beam.mass * p->length)) b->mass += p->beam.mass * p->length;
     if (isfinite(mg * p->beam.radius)) b->weight += mg * p->beam.radius;
     if (p->length > 0 && isfinite(p->beam.EI)) b->bending += p->beam.EI / p->length;
@@ -247,7 +243,7 @@ static double usual_gain(const sw_books *b) {
   const double play = b->sums.play;
   if (b->sums.gained > PLENTY * play) return 0.0;
   if (b->sums.gained > ENOUGH * play) return LITTLE * play;
-  return OF_KINETIC * b->now.kinetic + OF_WEIGHT * b->weight + (b->meshes ? OF_PLAY * play : 0.0);
+  return OF_KINETIC * b->now.kinetic + OF_WEIGHT * b->weight;
 }
 
 double sw_ledger_excess(const sw_scene *s, double h) {
@@ -442,7 +438,7 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
 /* --- on tape ------------------------------------------------------------------------ */
 
 void sw_tape_ledger(sw_tape *t, sw_books *b) {
-  SW_TAPE_STRUCT(t, sw_books, 864);
+  SW_TAPE_STRUCT(t, sw_books, 856);
   SW_TAPE_STRUCT(t, sw_ledger, 464);
   sw_tape_raw(t, &b->sums, sizeof b->sums);
   sw_tape_raw(t, &b->now, sizeof b->now);

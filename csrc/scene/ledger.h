@@ -47,7 +47,6 @@ typedef struct sw_books {
   double longest;      /* of them [m] */
   double weight;       /* of the wires, times their radii [J] */
   double bending;      /* their EI / L [J] */
-  int meshes;          /* 1: there are some of particles */
   int put;             /* 1: a hold was put elsewhere since the last step */
   int has_powers;      /* 1: there are forces without a potential */
   int known;           /* 1: all of the above is of the present state */
