@@ -366,7 +366,8 @@ static sw_status pose_steps(loop *p, double t, int (*interrupted)(void), sw_erro
     const double part = h < (t - s->time) * (1 - 1e-9) ? s->time + h : t;
     if (!(part > s->time)) return sw_fail(err, SW_ENOCONV, "wire is fed too fast to follow it");
     SW_TRY(sw_ledger_open(s, err));
-    SW_TRY(sw_scene_pose(s, part, interrupted, p->report, err));
+    const sw_pose_args how = {interrupted, SHORTEST_BREAK * p->args->dt};
+    SW_TRY(sw_scene_pose(s, part, &how, p->report, err));
     s->span = 0;
     SW_TRY(sw_scene_observe(s, err));
   }

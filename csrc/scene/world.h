@@ -496,6 +496,8 @@ void sw_scene_measure_joins(sw_scene *scene);
 /* Springs and hinges of the living joins for the new system. SW_ENOMEM. */
 sw_status sw_scene_add_joins(sw_scene *scene);
 sw_status sw_scene_add_tie(sw_scene *scene, size_t join);
+/* 1: there is a tie that has a strength, and is not broken. */
+int sw_scene_may_break(const sw_scene *scene);
 /* SW_ENOCONV when a tie is pulled far beyond its strength with nodes at x: it breaks earlier. */
 sw_status sw_scene_check_ties(const sw_scene *scene, const double *x, sw_error *err);
 /* After a step, before histories follow: ties that were pulled too hard break. */
@@ -605,9 +607,14 @@ sw_status sw_scene_squeezed_rest(sw_scene *scene, double since, int *too_far,
                                  sw_settle_report *report, sw_error *why);
 /* Make a pose at t1 an earlier one (cut: 1) where wires between pads could not follow these. */
 sw_status sw_scene_cut_pose(sw_scene *scene, double *t1, int *cut, sw_error *err);
-/* Equilibrium at time t1, which becomes the scene's, in smaller parts where needed; nothing is
- * observed. On failure the scene is at the last pose that went well. */
-sw_status sw_scene_pose(sw_scene *scene, double t1, int (*interrupted)(void), sw_run_report *report,
+typedef struct sw_pose_args {
+  int (*interrupted)(void);
+  double shortest; /* poses are not made shorter to find where a tie breaks [s] */
+} sw_pose_args;
+/* Equilibrium at time t1, which becomes the scene's, in smaller parts where needed; or earlier, to
+ * be observed there, where a tie may break. Nothing is observed. On failure the scene is at the
+ * last pose that went well. */
+sw_status sw_scene_pose(sw_scene *scene, double t1, const sw_pose_args *how, sw_run_report *report,
                         sw_error *err);
 
 /* What frames tell of each node of the wire, SW_FRAME_VALUES numbers; n nodes. */
