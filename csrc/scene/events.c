@@ -46,6 +46,13 @@ static sw_event *append(sw_events *e) {
   return &e->list[e->count++];
 }
 
+int sw_events_go_on(sw_events *e, const char *kind, const char *object, double time) {
+  sw_event *event = latest(e, kind, object);
+  if (!event) return 0;
+  event->count++, event->last = time;
+  return 1;
+}
+
 void sw_scene_tell(sw_scene *s, const char *kind, const char *object, double arc, double value,
                    const char *format, ...) {
   char name[SW_NAME_SIZE], word[SW_NAME_SIZE];

@@ -73,6 +73,10 @@ sw_status sw_strand_take(sw_scene_wire *wire, const sw_system *system, const sw_
 /* Read-outs at arc length s; extremes. */
 void sw_strand_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_body *body, double s,
                   sw_point_state *out);
+/* Bending moment in the slice of a mesh that has a place [m], [N m]. */
+double sw_strand_moment(const sw_plan *plan, const double *x, double place);
+/* Tells of a tube that is folded at one place. */
+void sw_scene_watch_kink(sw_scene *scene, size_t wire, const sw_wire_extremes *now);
 /* tension (rings - 1), or NULL: what is carried between two rings [N]. */
 void sw_strand_extremes(const sw_scene *scene, size_t wire, double *tension, sw_wire_extremes *now);
 

@@ -2,4 +2,4 @@
 --- The pages of the manual: each is a file of this folder, shown by help "name".
 -- @module softworld.manual
 return { "crashes", "damping", "energy", "events", "files",
-  "handling", "peaks", "refused", "remarks", "results", "waiting" }
+  "handling", "kinks", "peaks", "refused", "remarks", "results", "waiting" }
