@@ -46,11 +46,10 @@ static sw_event *append(sw_events *e) {
   return &e->list[e->count++];
 }
 
-int sw_events_go_on(sw_events *e, const char *kind, const char *object, double time) {
+sw_event *sw_events_go_on(sw_events *e, const char *kind, const char *object, double time) {
   sw_event *event = latest(e, kind, object);
-  if (!event) return 0;
-  event->count++, event->last = time;
-  return 1;
+  if (event) event->last = time;
+  return event;
 }
 
 void sw_scene_tell(sw_scene *s, const char *kind, const char *object, double arc, double value,

@@ -29,7 +29,9 @@ void sw_scene_watch_kink(sw_scene *s, size_t wire, const sw_wire_extremes *now) 
   const double moment =
       sw_strand_moment(b->plan, s->system.x + 3 * b->first_node, now->curvature.s);
   const double most = w->beam.EI_axis[0] * BUCKLES * unit * (1.0 - 1.5 * BUCKLES * BUCKLES);
-  if (sw_events_go_on(&s->events, "kink", w->name, s->time)) return;
+  sw_event *known = sw_events_go_on(&s->events, "kink", w->name, s->time);
+  if (known) known->count++;
+  if (known) return;
   sw_scene_tell(s, "kink", w->name, now->curvature.s - w->mesh.s[0], now->curvature.value,
                 "tube '%s' kinks at s = %.4g m: it is bent by %.3g 1/m and bears %.3g N m there; "
                 "its wall buckles at about %.3g 1/m and %.3g N m",

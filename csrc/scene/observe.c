@@ -281,6 +281,7 @@ static sw_status observe_wire(sw_scene *s, size_t w, sw_error *err) {
   sw_scene_keep_extremes(&s->wires[w].extremes, &now);
   keep_tension(s, w, &now);
   sw_scene_watch_kink(s, w, &now);
+  sw_scene_watch_breaking(s, w, &now);
   return sw_watch_wire(s, w, &now, err);
 }
 

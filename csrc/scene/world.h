@@ -29,11 +29,13 @@ typedef struct sw_twisted {
 typedef struct sw_drawing {
   double *points; /* (count x 3) [m] */
   size_t count;
-  double length;     /* of the first mesh [m] */
-  sw_vec normal;     /* of the section; NAN = not given [-] */
-  int rest;          /* SW_REST_STRAIGHT, SW_REST_PATH */
-  int rolls;         /* 1: it turns about itself with inertia */
-  double rest_twist; /* [rad/m] */
+  double length;        /* of the first mesh [m] */
+  sw_vec normal;        /* of the section; NAN = not given [-] */
+  int rest;             /* SW_REST_STRAIGHT, SW_REST_PATH */
+  int rolls;            /* 1: it turns about itself with inertia */
+  double rest_twist;    /* [rad/m] */
+  double breaking_load; /* NAN = not known [N] */
+  int breaking_flag;    /* see sw_wire_args */
 } sw_drawing;
 
 typedef struct sw_scene_wire {
@@ -75,6 +77,12 @@ void sw_strand_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_bod
                   sw_point_state *out);
 /* Bending moment in the slice of a mesh that has a place [m], [N m]. */
 double sw_strand_moment(const sw_plan *plan, const double *x, double place);
+/* Tells of a wire whose largest tension is above its breaking load. */
+void sw_scene_watch_breaking(sw_scene *scene, size_t wire, const sw_wire_extremes *now);
+/* The same at the end of a run, of runs that were shorter than the window. */
+void sw_scene_end_breaking(sw_scene *scene);
+/* And as the end of a sentence, or nothing. */
+void sw_scene_tell_broken(const sw_scene *scene, char *out, size_t size);
 /* Tells of a tube that is folded at one place. */
 void sw_scene_watch_kink(sw_scene *scene, size_t wire, const sw_wire_extremes *now);
 /* tension (rings - 1), or NULL: what is carried between two rings [N]. */
@@ -341,8 +349,10 @@ struct sw_scene {
   const sw_pose *part_from; /* settling: where the holds come from, or NULL */
   double part;              /* share of their way [-] */
 
-  int built;   /* system is valid and holds the state */
-  int running; /* above 0 inside a step or a user's function: edits are refused */
+  int built;      /* system is valid and holds the state */
+  size_t parts;   /* of steps of the run, since it was last asked whether they have collapsed [-] */
+  double covered; /* steps that these make together [-] */
+  int running;    /* above 0 inside a step or a user's function: edits are refused */
   sw_system system;
   int *hold_slot;       /* (system.hold_count) scene slot of each system hold */
   sw_contact *contact;  /* with obstacles, or NULL */
