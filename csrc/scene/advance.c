@@ -480,7 +480,7 @@ static sw_status check_clock(const sw_scene *s, const sw_run_args *args, double 
 }
 
 static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const sw_error *why) {
-  char broken[SW_NAME_SIZE + 100];
+  char broken[SW_NAME_SIZE + 100], pressed[2 * SW_NAME_SIZE + 100];
   report->status = status;
   report->time = s->time;
   if (status == SW_OK || status == SW_EINTR || status == SW_ECALLBACK) return;
@@ -488,8 +488,9 @@ static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const
   if (status == SW_EEMPTY) return;
   report->status = status == SW_ENOMEM ? SW_ENOMEM : SW_EDIVERGED;
   sw_scene_tell_broken(s, broken, sizeof broken);
-  sw_fail(&report->reason, status, "at t = %.6g s: %.400s%s", s->time,
-          why->text[0] ? why->text : sw_status_text(status), broken);
+  sw_scene_tell_pressed(s, pressed, sizeof pressed);
+  sw_fail(&report->reason, status, "at t = %.6g s: %.400s%s%s", s->time,
+          why->text[0] ? why->text : sw_status_text(status), pressed, broken);
   if (report->status != SW_EDIVERGED) return;
   s->diverged = 1;
   s->why = report->reason;

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Wires that are pulled harder than they bear. Nothing breaks here; it is told. */
+/* Wires that are pulled harder than they bear, or pressed hard: what may hold a run back. Nothing
+ * breaks here; it is told. */
+#include <math.h>
 #include <stdio.h>
 
 #include "scene/world.h"
@@ -51,7 +53,30 @@ void sw_scene_tell_broken(const sw_scene *s, char *out, size_t size) {
     const sw_scene_wire *w = &s->wires[k];
     const amount F = force(w->extremes.tension.value), most = force(w->drawing.breaking_load);
     if (w->extremes.tension.value > w->drawing.breaking_load)
-      snprintf(out, size, "; wire '%s' was pulled by %.3g %s, its breaking load is %.3g %s",
+      snprintf(out, size, "; wire '%s' was pulled by %.4g %s, its breaking load is %.4g %s",
                w->name, F.value, F.unit, most.value, most.unit);
   }
+}
+
+/* Pushes of less than this are no reason, of the wire's weight at rest on earth [-]. */
+static const double HARD = 20.0;
+
+void sw_scene_tell_pressed(const sw_scene *s, char *out, size_t size) {
+  sw_contact_push now, most = {.normal_force = 0};
+  size_t wire = 0;
+  out[0] = 0;
+  for (size_t i = 0; s->contact && i < sw_contact_touches(s->contact); i++)
+    if (sw_contact_push_at(s->contact, &s->system, i, &now) && isfinite(now.normal_force) &&
+        now.normal_force > most.normal_force)
+      most = now;
+  while (wire + 1 < s->system.body_count && s->system.bodies[wire + 1].first_node <= most.node)
+    wire++;
+  if (!(most.normal_force > 0) || most.obstacle < 0 || (size_t)most.obstacle >= s->obstacle_count)
+    return;
+  const sw_scene_wire *w = &s->wires[wire];
+  const double weight = 9.81 * w->beam.mass * (w->mesh.s[w->mesh.n - 1] - w->mesh.s[0]);
+  if (!(most.normal_force > HARD * weight)) return;
+  const amount N = force(most.normal_force);
+  snprintf(out, size, "; obstacle '%s' presses '%s' with %.4g %s near s = %.3g m",
+           s->obstacles[most.obstacle].name, w->name, N.value, N.unit, most.place - w->mesh.s[0]);
 }

@@ -83,6 +83,8 @@ void sw_scene_watch_breaking(sw_scene *scene, size_t wire, const sw_wire_extreme
 void sw_scene_end_breaking(sw_scene *scene);
 /* And as the end of a sentence, or nothing. */
 void sw_scene_tell_broken(const sw_scene *scene, char *out, size_t size);
+/* And of the obstacle that presses a wire hardest, if that is hard. */
+void sw_scene_tell_pressed(const sw_scene *scene, char *out, size_t size);
 /* Tells of a tube that is folded at one place. */
 void sw_scene_watch_kink(sw_scene *scene, size_t wire, const sw_wire_extremes *now);
 /* tension (rings - 1), or NULL: what is carried between two rings [N]. */

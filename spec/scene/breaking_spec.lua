@@ -130,7 +130,8 @@ describe("a cable pulled beyond its breaking load", function()
 
   it("has a load that a cable of one's own may state", function()
     local entry = sw.cable.define{ name = "spec of breaking", outer_diameter = 2e-3,
-      mass_per_length = 0.01, EA = 5e4, EI = 1e-4, GJ = 1e-4, friction = 0.3, breaking_load = 42, temperature = { low = 0, high = 60 },
+      mass_per_length = 0.01, EA = 5e4, EI = 1e-4, GJ = 1e-4, friction = 0.3, breaking_load = 42,
+      temperature = { low = 0, high = 60 },
       bend = { fixed = 4, use = "fixed" }, source = "a test", flag = "measured", spread = 0.1 }
     assert.are.equal(42, entry.breaking_load.value)
     assert.matches("breaking_load +42 +N +37.8 .. 46.2 +measured", tostring(entry))
@@ -173,9 +174,63 @@ describe("a run that cannot go on", function()
     t.below(0.3, e.first, "time")
     t.above(1e3, e.value, "pull")
     if not run.ok then
-      assert.is_truthy(run.reason:find("wire 'cord' was pulled by ", 1, true), run.reason)
-      assert.is_truthy(run.reason:find(" kN, its breaking load is 269 N", 1, true), run.reason)
+      assert.matches("; obstacle 'cylinder1' presses 'cord' with [%d.]+ k?N near s = 0.%d+ m", run.reason)
+      assert.is_truthy(run.reason:find("; wire 'cord' was pulled by ", 1, true), run.reason)
+      assert.is_truthy(run.reason:find(" kN, its breaking load is 268.5 N", 1, true), run.reason)
     end
+  end)
+
+  local function duct(scene, width)
+    return scene:channel{ name = "duct", points = { { 0.1, 0, -0.003 }, { 0.4, 0, -0.003 } }, width = width,
+      depth = 0.02, friction = 0.3 }
+  end
+
+  -- The wire is 5 mm thick.
+  it("names the wall of a channel that is too narrow", function()
+    local scene = sw.scene{}
+    duct(scene, 0.004)
+    local wire = scene:wire{ name = "w", from = { 0, 0, 0 }, to = { 0.5, 0, 0 }, E = 5e7, density = 1400,
+      radius = 0.0025, segments = 50 }
+    scene:clamp(wire, { s = 0 })
+    scene:clamp(wire, { s = 0.5 })
+    local run = scene:run{ duration = 0.1, dt = 0.01 }
+    assert.is_false(run.ok)
+    assert.matches("; obstacle 'duct %a+ 1' presses 'w' with [%d.]+ k?N near s = 0.%d+ m", run.reason)
+  end)
+
+  -- A hand draws it sideways over the wall, off a guide that pays out, takes in or slips.
+  it("is never said to be of a feed that is too fast where a channel's wall holds the wire", function()
+    local feeds = { { speed = 0.1 }, { speed = -0.1 }, { speed = 0, force_limit = 2 }, { force = 0.2 } }
+    for _, feed in ipairs(feeds) do
+      local scene = sw.scene{}
+      duct(scene, 0.01)
+      local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.5, 0, 0 },
+        segments = 25 }
+      feed.s, feed.name = 0, "spool"
+      scene:feed(wire, feed)
+      scene:clamp(wire, { s = 0.5, name = "hand" }):follow{ points = { { 0, 0, 0 }, { -0.05, 0.1, 0 } },
+        relative = true, duration = 0.5 }
+      local run = scene:run{ duration = 0.3, dt = 0.01, max_steps = 500 }
+      assert.is_nil(run.reason:find("fast", 1, true), run.reason)
+      if not run.ok then assert.matches("duct", run.reason) end
+      for _, e in ipairs(run.events) do assert.is_nil(e.text:find("fast", 1, true), e.text) end
+    end
+  end)
+
+  it("names the hand that draws a wire against a wall, and what is too much for the wire", function()
+    local scene = sw.scene{}
+    duct(scene, 0.01)
+    local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.5, 0, 0 },
+      segments = 50 }
+    scene:clamp(wire, { s = 0 })
+    scene:clamp(wire, { s = 0.25, name = "hand" }):follow{ points = { { 0, 0, 0 }, { 0, 0.05, 0 } },
+      relative = true, duration = 0.5 }
+    local kinds = {}
+    for _, e in ipairs(scene:run{ duration = 0.3, dt = 0.01 }.events) do kinds[e.kind] = e.text end
+    assert.matches("^clamp 'hand' drives wire 'w' [%d.]+ mm deep into 'duct left 1'", kinds.crash)
+    assert.matches("^clamp 'hand' drives wire 'w' with", kinds.overload)
+    assert.matches("^wire 'w' is pulled by [%d.]+ kN near s = 0.%d+ m, more than its breaking load",
+      kinds.breaking)
   end)
 
   -- A clamp that turns by more than 2.5 rad in a thousandth of a step.
