@@ -156,12 +156,16 @@ struct sw_system {
   /* the state, one block: x v a (nodes x 3, then turns of edges that roll, each), tension (edges),
    * twist (spans) [rad], turn (holds x 4: the holds' orientations that go with it), frames of each
    * body that has them (3 components of all edges, then hinges' and clamps' twist [rad]), strain
-   * and strain_rate, forces' histories */
+   * and strain_rate, even and turning, forces' histories */
   double *state;
   size_t state_size; /* in doubles */
   double *x, *v, *a, *tension, *twist, *turn, *frames;
   /* (edges) axial strain and its rate; NULL when no force has axial dashpots [-], [1/s] */
   double *strain, *strain_rate;
+  /* (edges) axial forces as read out, where they are not those of the state, and between stages,
+   * before they go on to the step's end [N] */
+  double *even, *between;
+  double *turning; /* (SW_TURN_SIZE) */
   size_t span_count;
   size_t follow_size; /* of twist, turn and frames, if there is twist or a frame: else 0 */
   double *aside;      /* (follow_size) room for them */
@@ -316,9 +320,39 @@ void sw_system_axial_from_state(sw_system *system);
 void sw_system_reaction(const sw_system *system, int hold, sw_vec point, sw_vec *force,
                         sw_vec *moment);
 
+/* What is kept from step to step of how a method sees wires that turn, for a unit acceleration
+ * towards the centre: how far the velocity is from that of steady turning, now and a step ago [s];
+ * the axial force of the last stage over what it should be, less one [-]. And of read-outs: 1 if
+ * they are of `even` [-], how far `between` is behind the state [s]. */
+enum {
+  SW_TURN_LAG,
+  SW_TURN_LAG_BEFORE,
+  SW_TURN_EXCESS,
+  SW_TURN_EVEN,
+  SW_TURN_BEHIND,
+  SW_TURN_SIZE
+};
+
 /* Axial forces of a body's edges or springs at the refreshed state, those of dashpots included
  * (sw_plan_axial) [N]. */
 const double *sw_system_pull(const sw_system *system, const sw_body *body);
+/* The same without dashpots' [N]. */
+const double *sw_system_elastic(const sw_system *system, const sw_body *body);
+/* Axial forces of edges or springs, (edges): tension and what dashpots add at these rates (NULL
+ * where there are none) [N], [1/s], [N]. */
+void sw_system_sum_pull(const sw_system *system, const double *tension, const double *rate,
+                        double *out);
+
+/* Read-outs of the state, after a step h, are between the first stage's forces (edges) and those
+ * of the state now, with this share of the latter, which is how it was `behind` ago, and go on
+ * from there as they changed in the last step, if that was evened out too [s], [N], [-], [s]. */
+void sw_system_even_out(sw_system *system, double h, const double *first, double share,
+                        double behind);
+
+/* Read-outs are those of the state. */
+void sw_system_uneven(sw_system *system);
+/* And velocities are what they are said to be, of no method. */
+void sw_system_forget_turning(sw_system *system);
 
 /* The state has just been filled, or has come to rest: strains as its axial forces and lengths
  * have them, and their rates, which are zero then. */
