@@ -177,6 +177,7 @@ int sw_contact_settled(void *contact, sw_system *s, const double *y, const doubl
   c->pressed_count = c->pressed_before;
   c->updates++;
   const int fine = update_all(c, s, delta);
+  if (!fine) sw_contact_peel(c, s);
   if (fine && stiffen(c, s)) return 0;
   for (size_t i = 0; fine && i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];

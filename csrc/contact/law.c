@@ -37,6 +37,10 @@ static const double EASING = 0.8;        /* per step [-] */
 void sw_press_activate(sw_press *p, const sw_press *last) {
   p->active = p->gap < 0 || (last && last->active && last->normal_force > 0);
   if (!last) return;
+  if (last->let_go || last->take_on) {
+    p->active = last->take_on;
+    return;
+  }
   p->spare = last->spare;
   if (p->active || !last->active || !p->spare) return;
   p->active = 1;

@@ -223,6 +223,10 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
   press->gap_after = press->gap;
   if (c->regime == SW_CONTACT_STATIC && m && web && web->per_ring) press->spare = SPARE_PULLS;
   sw_press_activate(press, goes_on(c, k, press, last) ? &last->press : NULL);
+  if (c->regime == SW_CONTACT_STATIC && !last && !web && !press->active) {
+    press->active = 1; /* what just touches may be all that bears the wire */
+    press->active = sw_press_apart(press);
+  }
   t.seen = sw_pose_local(*pose, sw_contact_where(c, y, t.node, t.other, t.at));
   begin_friction(c, s, m, last, y, &t);
   if (t.held) press->active = 0;

@@ -153,6 +153,9 @@ sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw
 /* How deep the touch's place was at the step's start, below 0 when it was outside [m]. */
 double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t);
 
+/* After a static solve: let go of touches at the ends of rows as far as wires lift off there. */
+void sw_contact_peel(sw_contact *c, const sw_system *s);
+
 /* 1: the candidate's node, or both ends of its segment, are held. */
 int sw_contact_is_held(const sw_system *s, const sw_candidate *k);
 

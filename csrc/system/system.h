@@ -124,6 +124,9 @@ typedef struct sw_counters {
   size_t evaluations; /* force evaluations since start [-] */
 } sw_counters;
 
+/* Of sw_system.rough: in statics, an update so large that it is not made; touches learn from it. */
+enum { SW_NOT_MADE = 2 };
+
 struct sw_system {
   size_t nodes, edges;
   size_t rolls;    /* edges of wires that roll */
@@ -138,7 +141,7 @@ struct sw_system {
   double *normals, *normals_now; /* the same: the wire's normals at the holds */
   double fastest_turn;           /* of a hold in this step so far [rad/s] */
   int still;                     /* 1: holds count as standing, whatever they follow (statics) */
-  int rough; /* 1: the last update turned edges by too much to be the stage's last */
+  int rough;                  /* 1: the last update turned edges too far to be the stage's last */
   sw_hold_state *hold_states; /* (hold_count) at the last stage */
   size_t hold_count;
   double gravity[3];  /* [m/s2] */
