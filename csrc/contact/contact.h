@@ -85,6 +85,7 @@ sw_status sw_contact_eval(void *contact, sw_system *system, double time, double 
  */
 sw_status sw_contact_keeps(void *contact, sw_system *system, const double *y, int *out,
                            sw_error *err);
+int sw_contact_follow(void *contact, sw_system *system, const double *delta, double *forces);
 int sw_contact_settled(void *contact, sw_system *system, const double *y, const double *delta);
 
 /* See sw_coupling. */

@@ -82,13 +82,37 @@ sw_vec sw_press_eval(sw_press *p, double friction, int lagged, double K[6]) {
   p->tangential = sw_scale(d, p->sliding ? -most : -grip * length);
   p->slip = sw_madd(p->trial, p->tangential, 1.0 / grip);
   if (p->sliding) {
-    const double kt = length > 0 ? fmin(most / length, grip) : 0.0;
-    stiffness_matrix(p->k, kt, kt, p->normal, d, K);
+    p->turning = length > 0 ? fmin(most / length, grip) : 0.0;
+    stiffness_matrix(p->k, p->turning, p->turning, p->normal, d, K);
   } else {
     stiffness_matrix(p->k, friction > 0 ? grip : 0.0, 0, p->normal, d, K);
     if (!(friction > 0)) p->tangential = sw_v(0, 0, 0);
   }
   return sw_madd(p->tangential, p->normal, p->normal_force);
+}
+
+/* Is the normal force that friction took as given off by less than what keeps an iteration going?
+ */
+static int lag_agrees(const sw_press *p, double force, double force_scale) {
+  return fabs(force - p->lag) <= FORCE_TOLERANCE * force + WEIGHT_TOLERANCE * force_scale;
+}
+
+/* The normal force after an update by shift. */
+static double force_after(const sw_press *p, sw_vec shift) {
+  return fmax(0.0, -p->k * (p->gap + sw_dot(p->normal, shift)));
+}
+
+int sw_press_lags(const sw_press *p, double friction, sw_vec shift, double force_scale) {
+  if (!p->active || !p->sliding || !(friction > 0)) return 0;
+  return !lag_agrees(p, force_after(p, shift), force_scale);
+}
+
+sw_vec sw_press_follow(sw_press *p, double friction, sw_vec shift) {
+  const double length = sw_norm(p->trial);
+  if (!p->active || !p->sliding || !(friction > 0) || !(length > 0)) return sw_v(0, 0, 0);
+  const double before = p->lag;
+  p->lag = force_after(p, shift);
+  return sw_scale(p->trial, friction * (before - p->lag) / length);
 }
 
 static int update_friction(sw_press *p, double friction, sw_vec shift, double force_scale) {
@@ -108,8 +132,7 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
   if (p->sliding != beyond) /* a change of state matters when the force does */
     return fabs(grip * length - most) <=
            small + FORCE_TOLERANCE * most + WEIGHT_TOLERANCE * force_scale;
-  return !beyond || fabs(p->normal_force - p->lag) <=
-                        FORCE_TOLERANCE * p->normal_force + WEIGHT_TOLERANCE * force_scale;
+  return !beyond || lag_agrees(p, p->normal_force, force_scale);
 }
 
 int sw_press_update(sw_press *p, double friction, sw_vec shift, double force_scale) {
@@ -133,7 +156,7 @@ sw_vec sw_press_borne(const sw_press *p, double friction) {
   if (!(length > 0)) return f;
   const sw_vec d = sw_scale(p->trial, 1.0 / length);
   const sw_vec turn = sw_madd(along, d, -sw_dot(along, d));
-  return sw_madd(sw_madd(f, d, -most), turn, -fmin(most / length, grip));
+  return sw_madd(sw_madd(f, d, -most), turn, -p->turning);
 }
 
 int sw_press_apart(const sw_press *p) {

@@ -15,6 +15,7 @@ typedef struct sw_press {
   double k;            /* stiffness, normal and tangential [N/m] */
   double soft;         /* friction's spring is so many times softer; 0 = it is not [-] */
   double lag;          /* normal force that friction takes as given [N] */
+  double turning;      /* stiffness of a sliding one's friction against turns [N/m] */
   double normal_force; /* after the last solve [N] */
   double lag_before, force_before; /* both, one iterate earlier; 0 = not known [N] */
   sw_vec normal;                   /* of the push [-] */
@@ -55,6 +56,13 @@ void sw_press_begin(sw_press *press, double friction, int known, double felt);
 /* Forces at this iterate. Returns the force, and its stiffness (upper half). lagged: 0 =
  * explicit methods, which take all from this iterate. */
 sw_vec sw_press_eval(sw_press *press, double friction, int lagged, double K[6]);
+
+/* Friction of a sliding touch follows its normal force within the linearisation of an iterate. 1:
+ * after an update by shift that is another one than it took as given, by more than what does not
+ * keep an iteration going. force_scale: see below [N]. */
+int sw_press_lags(const sw_press *press, double friction, sw_vec shift, double force_scale);
+/* It then takes that one as given. Returns by how much that changes the force on the wire [N]. */
+sw_vec sw_press_follow(sw_press *press, double friction, sw_vec shift);
 
 /* Part of a depth at the step's start that the step leaves alone, explained being what goes
  * with the touch's force there: what was placed in each other, or comes out of a barrier, is

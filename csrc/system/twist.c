@@ -193,6 +193,18 @@ size_t sw_twist_correct(sw_body *b, double *delta) {
   return fewer;
 }
 
+void sw_twist_correct_again(sw_body *b, double *more) {
+  for (size_t k = 0; k < b->plan->span_count; k++) {
+    const sw_span *span = &b->plan->spans[k];
+    const double stiffness = b->field.twist_stiffness[k];
+    const double self = 1.0 + stiffness * sw_twist_dot(b, span, b->twist_solved);
+    const double share = stiffness * sw_twist_dot(b, span, more) / self;
+    for (size_t i = 3 * span->first; i < 3 * (span->last + 2); i++)
+      more[i] -= share * b->twist_solved[i];
+    b->twist_gain[k] += stiffness * sw_twist_dot(b, span, more);
+  }
+}
+
 static sw_vec slope_at(const sw_body *b, size_t e) {
   double *const *slope = b->field.twist_slope;
   return sw_v(slope[0][e], slope[1][e], slope[2][e]);

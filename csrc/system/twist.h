@@ -11,6 +11,8 @@ void sw_twist_measure(sw_system *system, sw_body *body);
 /* Add the rank-one part of the twist's stiffness to a solved update (nodes x 3).
  * Returns by how much the number of negative directions falls. */
 size_t sw_twist_correct(sw_body *body, double *delta);
+/* Then the same to what another solve with the same factor adds to it. */
+void sw_twist_correct_again(sw_body *body, double *more);
 
 /* Slope of the twist by node, from its slope by edge: into twist_rank, and without
  * held nodes into twist_solved. */
