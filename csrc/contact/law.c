@@ -10,6 +10,8 @@ static const double GAP_TOLERANCE = 2e-8;
 static const double SPRING_TOLERANCE = 1e-11;
 /* Nor turns of the sliding direction with a cosine above this [-]. */
 static const double TURN_TOLERANCE = 0.98;
+/* Nor does the linearisation of the direction, by this share of the force [-]. */
+static const double DIRECTION_TOLERANCE = 0.02;
 /* Nor do changes of a sliding touch's normal force below this share of it, or
  * below this share of the scene's forces [-]. */
 static const double FORCE_TOLERANCE = 0.01;
@@ -65,6 +67,13 @@ void sw_press_begin(sw_press *p, double friction, int known, double felt) {
   if (surely && p->reversals < REVERSALS) p->sliding = 1;
 }
 
+/* Which way a touch slides, and how long its spring is. None that is known: zero. */
+static sw_vec direction(const sw_press *p, double *length) {
+  *length = sw_norm(p->trial);
+  if (!(*length > SPRING_TOLERANCE)) return sw_v(0, 0, 0);
+  return sw_scale(p->trial, 1.0 / *length);
+}
+
 /* K = kn n n' + kt (I - n n') - ks d d' */
 static void stiffness_matrix(double kn, double kt, double ks, sw_vec n, sw_vec d, double K[6]) {
   const double v[3] = {n.x, n.y, n.z}, u[3] = {d.x, d.y, d.z};
@@ -76,13 +85,14 @@ static void stiffness_matrix(double kn, double kt, double ks, sw_vec n, sw_vec d
 sw_vec sw_press_eval(sw_press *p, double friction, int lagged, double K[6]) {
   p->normal_force = -p->k * p->gap;
   if (!lagged) p->lag = p->normal_force;
-  const double most = friction * p->lag, length = sw_norm(p->trial), grip = sw_press_grip(p);
+  const double most = friction * p->lag, grip = sw_press_grip(p);
+  double length;
+  const sw_vec d = direction(p, &length);
   if (!lagged) p->next_sliding = p->sliding = grip * length > most;
-  const sw_vec d = length > 0 ? sw_scale(p->trial, 1.0 / length) : sw_v(0, 0, 0);
-  p->tangential = sw_scale(d, p->sliding ? -most : -grip * length);
+  p->tangential = p->sliding ? sw_scale(d, -most) : sw_scale(p->trial, -grip);
   p->slip = sw_madd(p->trial, p->tangential, 1.0 / grip);
   if (p->sliding) {
-    p->turning = length > 0 ? fmin(most / length, grip) : 0.0;
+    p->turning = length > SPRING_TOLERANCE ? fmin(most / length, grip) : 0.0;
     stiffness_matrix(p->k, p->turning, p->turning, p->normal, d, K);
   } else {
     stiffness_matrix(p->k, friction > 0 ? grip : 0.0, 0, p->normal, d, K);
@@ -108,11 +118,21 @@ int sw_press_lags(const sw_press *p, double friction, sw_vec shift, double force
 }
 
 sw_vec sw_press_follow(sw_press *p, double friction, sw_vec shift) {
-  const double length = sw_norm(p->trial);
-  if (!p->active || !p->sliding || !(friction > 0) || !(length > 0)) return sw_v(0, 0, 0);
   const double before = p->lag;
+  double length;
+  if (!p->active || !p->sliding || !(friction > 0)) return sw_v(0, 0, 0);
   p->lag = force_after(p, shift);
-  return sw_scale(p->trial, friction * (before - p->lag) / length);
+  return sw_scale(direction(p, &length), friction * (before - p->lag));
+}
+
+/* Friction that the last solve reckoned with. */
+static sw_vec rubbed(const sw_press *p, double friction) {
+  const sw_vec along = sw_madd(p->shift, p->normal, -sw_dot(p->normal, p->shift));
+  double length;
+  if (!p->sliding) return sw_scale(sw_add(p->trial, along), -sw_press_grip(p));
+  const sw_vec d = direction(p, &length);
+  const sw_vec turn = sw_madd(along, d, -sw_dot(along, d));
+  return sw_madd(sw_scale(d, -friction * p->lag), turn, -p->turning);
 }
 
 static int update_friction(sw_press *p, double friction, sw_vec shift, double force_scale) {
@@ -129,10 +149,11 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
   /* the iterate's friction came from lag: it must not matter either */
   if (reversed) return fmax(most, friction * p->lag) <= small;
   if (p->sliding && beyond && along < TURN_TOLERANCE * length * sw_norm(p->trial)) return 0;
-  if (p->sliding != beyond) /* a change of state matters when the force does */
-    return fabs(grip * length - most) <=
-           small + FORCE_TOLERANCE * most + WEIGHT_TOLERANCE * force_scale;
-  return !beyond || lag_agrees(p, p->normal_force, force_scale);
+  /* a change of state matters when the force does */
+  const double off = sw_norm(sw_sub(rubbed(p, friction), p->tangential));
+  const double share = p->sliding && beyond ? DIRECTION_TOLERANCE : FORCE_TOLERANCE;
+  if (off > small + share * most + WEIGHT_TOLERANCE * force_scale) return 0;
+  return !p->sliding || !beyond || lag_agrees(p, p->normal_force, force_scale);
 }
 
 int sw_press_update(sw_press *p, double friction, sw_vec shift, double force_scale) {
@@ -148,15 +169,8 @@ int sw_press_update(sw_press *p, double friction, sw_vec shift, double force_sca
 
 sw_vec sw_press_borne(const sw_press *p, double friction) {
   if (!p->active) return sw_v(0, 0, 0);
-  const double most = friction * p->lag, length = sw_norm(p->trial), grip = sw_press_grip(p);
-  const sw_vec along = sw_madd(p->shift, p->normal, -sw_dot(p->normal, p->shift));
-  sw_vec f = sw_scale(p->normal, -p->k * p->gap_after);
-  if (!(friction > 0)) return f;
-  if (!p->sliding) return sw_madd(f, sw_add(p->trial, along), -grip);
-  if (!(length > 0)) return f;
-  const sw_vec d = sw_scale(p->trial, 1.0 / length);
-  const sw_vec turn = sw_madd(along, d, -sw_dot(along, d));
-  return sw_madd(sw_madd(f, d, -most), turn, -p->turning);
+  const sw_vec f = sw_scale(p->normal, -p->k * p->gap_after);
+  return friction > 0 ? sw_add(f, rubbed(p, friction)) : f;
 }
 
 int sw_press_apart(const sw_press *p) {
