@@ -85,7 +85,7 @@ sw_status sw_contact_eval(void *contact, sw_system *system, double time, double 
  */
 sw_status sw_contact_keeps(void *contact, sw_system *system, const double *y, int *out,
                            sw_error *err);
-int sw_contact_follow(void *contact, sw_system *system, const double *delta, double *forces);
+void sw_contact_refine(void *contact, sw_system *system);
 int sw_contact_settled(void *contact, sw_system *system, const double *y, const double *delta);
 
 /* See sw_coupling. */

@@ -33,13 +33,6 @@ static void add_to_field(sw_system *s, const sw_touch *t, sw_vec f, const double
     for (size_t k = 0; k < 9; k++) b->field.rows[ROW * ends[0] + NEXT + k] += between[k];
 }
 
-/* The same of a force alone, to the nodes' forces. */
-static void add_forces(const sw_touch *t, sw_vec f, double *forces) {
-  const double at = t->segment ? t->at : 0.0;
-  sw_accumulate(forces + 3 * t->node, sw_scale(f, 1.0 - at));
-  if (t->segment) sw_accumulate(forces + 3 * t->other, sw_scale(f, at));
-}
-
 static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
   double K[6];
   t->press.normal_force = 0;
@@ -137,52 +130,10 @@ static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *
   return sw_press_apart(&t->press);
 }
 
-/* Of a wire's touches, forces far below the largest one do not matter. Touches are in the
- * order of wires: from the first of one to the first of the next. */
-static double scale_of(const sw_contact *c, size_t first, size_t *end) {
-  const size_t body = c->touches[first].body;
-  double scale = 0;
-  size_t i = first;
-  for (; i < c->touch_count && c->touches[i].body == body; i++)
-    scale = fmax(scale, c->touches[i].press.lag);
-  *end = i;
-  return scale;
-}
-
-/* 1: the body's equations can be solved again with other forces. */
-static int follows(const sw_body *b) { return !b->linked && !b->spin_block && !b->plan->web; }
-
-static int lag(const sw_contact *c, const double *delta, double scale, size_t first, size_t end) {
-  int any = 0;
-  for (size_t i = first; i < end && !any; i++) {
-    const sw_touch *t = &c->touches[i];
-    const sw_vec shift = sw_touch_place(delta, t->node, t->other, t->at);
-    any = sw_press_lags(&t->press, t->friction, shift, scale);
-  }
-  return any;
-}
-
-int sw_contact_follow(void *contact, sw_system *s, const double *delta, double *forces) {
-  sw_contact *c = contact;
-  int any = 0;
-  for (size_t first = 0, end; first < c->touch_count; first = end) {
-    sw_body *b = &s->bodies[c->touches[first].body];
-    const double scale = scale_of(c, first, &end);
-    b->followed = follows(b) && lag(c, delta, scale, first, end);
-    for (size_t i = first; i < end && b->followed; i++) {
-      sw_touch *t = &c->touches[i];
-      const sw_vec shift = sw_touch_place(delta, t->node, t->other, t->at);
-      add_forces(t, sw_press_follow(&t->press, t->friction, shift), forces);
-    }
-    any |= b->followed;
-  }
-  return any;
-}
-
 static int update_all(sw_contact *c, const sw_system *s, const double *delta) {
   int fine = 1;
   for (size_t first = 0, end; first < c->touch_count; first = end) {
-    const double scale = scale_of(c, first, &end);
+    const double scale = sw_contact_scale(c, first, &end);
     for (size_t i = first; i < end; i++) fine &= update(c, s, &c->touches[i], delta, scale);
   }
   return fine;

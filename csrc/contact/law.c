@@ -125,6 +125,20 @@ sw_vec sw_press_follow(sw_press *p, double friction, sw_vec shift) {
   return sw_scale(direction(p, &length), friction * (before - p->lag));
 }
 
+int sw_press_pulls(const sw_press *p, sw_vec shift) {
+  return p->active && p->gap + sw_dot(p->normal, shift) > GAP_TOLERANCE;
+}
+
+int sw_press_opens(const sw_press *p, sw_vec shift, double force_scale) {
+  const double across = sw_dot(p->normal, shift);
+  if (p->gap + across < -GAP_TOLERANCE) return 0;
+  if (!p->sliding) return 1;
+  double length;
+  const sw_vec d = direction(p, &length), along = sw_madd(shift, p->normal, -across);
+  const double turn = sw_norm(sw_madd(along, d, -sw_dot(along, d)));
+  return p->turning * turn <= WEIGHT_TOLERANCE * force_scale;
+}
+
 /* Friction that the last solve reckoned with. */
 static sw_vec rubbed(const sw_press *p, double friction) {
   const sw_vec along = sw_madd(p->shift, p->normal, -sw_dot(p->normal, p->shift));

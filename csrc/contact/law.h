@@ -63,6 +63,11 @@ sw_vec sw_press_eval(sw_press *press, double friction, int lagged, double K[6]);
 int sw_press_lags(const sw_press *press, double friction, sw_vec shift, double force_scale);
 /* It then takes that one as given. Returns by how much that changes the force on the wire [N]. */
 sw_vec sw_press_follow(sw_press *press, double friction, sw_vec shift);
+/* Would the normal force pull after an update by shift? A touch that does is opened: it has no
+ * force any more. */
+int sw_press_pulls(const sw_press *press, sw_vec shift);
+/* Opened, does it stay open after an update by shift, with nothing left of its friction? */
+int sw_press_opens(const sw_press *press, sw_vec shift, double force_scale);
 
 /* Part of a depth at the step's start that the step leaves alone, explained being what goes
  * with the touch's force there: what was placed in each other, or comes out of a barrier, is

@@ -88,8 +88,8 @@ static sw_status keeps(void *user, sw_system *system, const double *y, int *out,
   return s->contact && *out ? sw_contact_keeps(s->contact, system, y, out, err) : SW_OK;
 }
 
-static int follow(void *user, sw_system *system, const double *delta, double *forces) {
-  return sw_contact_follow(((sw_scene *)user)->contact, system, delta, forces);
+static void refine(void *user, sw_system *system) {
+  sw_contact_refine(((sw_scene *)user)->contact, system);
 }
 
 static int settled(void *user, sw_system *system, const double *y, const double *delta) {
@@ -107,7 +107,7 @@ static void book(void *user, const sw_booking *booking) {
 void sw_scene_couple(sw_scene *s) {
   if (s->contact) {
     s->system.coupling.begin_stage = begin_stage;
-    s->system.coupling.follow = follow;
+    s->system.coupling.refine = refine;
     s->system.coupling.book = book;
   }
   if (!sw_scene_has_contact(s)) return;

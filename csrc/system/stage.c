@@ -10,7 +10,6 @@
 #include "base/simd.h"
 #include "solve/band3.h"
 #include "solve/blocks.h"
-#include "system/again.h"
 #include "system/assemble.h"
 #include "system/factors.h"
 #include "system/join.h"
@@ -191,7 +190,7 @@ static sw_status assemble_and_solve(sw_system *s, const sw_stage *stage, const s
     SW_TRY(solve_body(s, body, &negative));
     report->negative += negative;
   }
-  if (s->coupling.follow && !s->goes_on) sw_system_solve_again(s);
+  if (s->coupling.refine && !s->goes_on) s->coupling.refine(s->coupling.user, s);
   if (!s->goes_on) sw_factors_keep(s, stage, newton, report);
   s->counters.newton++;
   s->counters.evaluations++;

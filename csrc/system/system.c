@@ -103,7 +103,7 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
     s->follow_size = s->state_size - 3 * s->freedoms - s->edges;
   s->state = sw_alloc(s->state_size, sizeof(double));
   const size_t kept = sw_factors_room(s);
-  double *w = sw_alloc(4 * s->freedoms + kept + s->edges + s->follow_size, sizeof(double));
+  double *w = sw_alloc(3 * s->freedoms + kept + s->edges + s->follow_size, sizeof(double));
   s->work = w;
   if (!s->held || !s->directors || !s->hold_states || !s->state || !w) return SW_ENOMEM;
   s->directors_now = s->directors + 6 * hold_count;
@@ -114,8 +114,7 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
   s->yhat = w;
   s->delta = s->yhat + s->freedoms;
   s->velocity = s->delta + s->freedoms;
-  s->more = s->velocity + s->freedoms;
-  s->factor_at = s->more + s->freedoms;
+  s->factor_at = s->velocity + s->freedoms;
   s->tension_new = s->factor_at + kept;
   s->aside = s->tension_new + s->edges;
   return SW_OK;

@@ -63,7 +63,6 @@ typedef struct sw_body {
   double *web_room; /* (particles x 15) of a large one, for iterations; or NULL */
   int web_factored; /* 1: there is a factor of this step that leads iterations */
   int web_slow;     /* 1: it did not lead them fast enough in this step */
-  int followed;     /* 1: forces on it changed within the linearisation that is being solved */
   int linked;       /* its matrix is part of the links' (see system/link.h) */
   double pushed;    /* largest push for which the scene looked whether it buckles [N] */
 } sw_body;
@@ -115,10 +114,9 @@ typedef struct sw_coupling {
   /* Before eval at y: out = 1, its stiffness there is that of the last eval that was asked for it,
    * but for small turns. NULL: never. */
   sw_status (*keeps)(void *user, sw_system *system, const double *y, int *out, sw_error *err);
-  /* The last eval's linearisation has the solution delta. Add to forces (nodes x 3) by how much
-   * those of friction differ from what they are to be with it, and mark the bodies that get any; 1:
-   * by so much that it is worth while to solve again. */
-  int (*follow)(void *user, sw_system *system, const double *delta, double *forces);
+  /* The system's delta solves the last eval's linearisation. Make it fit forces that depend on it
+   * in other ways, by solving again with the factors that there are. */
+  void (*refine)(void *user, sw_system *system);
   /* After an update y was reached by the solved delta: 1 = converged. */
   int (*settled)(void *user, sw_system *system, const double *y, const double *delta);
   /* A stage was solved, or an explicit method has evaluated: book the impulse. */
@@ -178,7 +176,6 @@ struct sw_system {
 
   /* work space of a stage (freedoms) */
   double *yhat, *delta, *velocity;
-  double *more; /* (freedoms) forces that changed after a solve; 0 everywhere outside of one [N] */
   double *tension_new; /* (edges) */
   /* of axial dashpots (edges): the stage's, while one is solved that has rates, else NULL; after
    * an update; axial forces of the state with the dashpots' [-], [-], [N] */
