@@ -9,7 +9,9 @@
 #include "contact/touch.h"
 #include "system/again.h"
 
-enum { MOST_OPEN = 4, MOST_ROUNDS = 5 };
+/* Touches opened in an iterate, and solves for friction: the second one gets it right to a percent
+ * or so [-]. */
+enum { MOST_OPEN = 4, MOST_FOLLOW = 2 };
 
 /* A touch that is opened: the force across that takes its pull away, and what one of 1 N does. */
 typedef struct opened {
@@ -88,15 +90,13 @@ static void follow(refined *r) {
 
 /* --- opening -------------------------------------------------------------------- */
 
-static int open_one(refined *r, size_t touch) {
-  sw_touch *t = &r->c->touches[touch];
-  if (r->count == MOST_OPEN || (t->friction > 0 && !t->press.sliding)) return 0;
+static void open_one(refined *r, size_t touch) {
   double *shift = r->more + (1 + r->count) * values(r);
+  const sw_touch *t = &r->c->touches[touch];
   memset(shift, 0, values(r) * sizeof *shift);
   push(r, t, t->press.normal, shift, 0);
   sw_body_solve_again(r->body, shift);
   r->open[r->count++] = (opened){touch, 0, shift};
-  return 1;
 }
 
 static int is_open(const refined *r, size_t touch) {
@@ -105,13 +105,14 @@ static int is_open(const refined *r, size_t touch) {
   return 0;
 }
 
-/* Touches that pull; how many more there are to open now, or -1: they are too many, or stick. */
+/* Open the touches that pull. Returns how many do now; -1: they are too many, or stick. */
 static int open_pulling(refined *r) {
   int more = 0;
   for (size_t i = r->first; i < r->end; i++) {
     const sw_touch *t = &r->c->touches[i];
     if (!sw_press_pulls(&t->press, place(r, t, r->delta)) || is_open(r, i)) continue;
-    if (!open_one(r, i)) return -1;
+    if (r->count == MOST_OPEN || (t->friction > 0 && !t->press.sliding)) return -1;
+    open_one(r, i);
     more++;
   }
   return more;
@@ -162,34 +163,65 @@ static int balance(refined *r) {
   return 1;
 }
 
-/* All stay open, or none is opened. */
-static void conclude(refined *r, int fine) {
-  for (size_t k = 0; k < r->count; k++) {
-    const sw_touch *t = &r->c->touches[r->open[k].touch];
-    fine &= sw_press_opens(&t->press, place(r, t, r->delta), r->scale);
-  }
-  for (size_t k = 0; k < r->count; k++) {
-    const opened *o = &r->open[k];
-    sw_touch *t = &r->c->touches[o->touch];
-    if (fine) {
-      t->press.active = 0;
-      push(r, t, sw_scale(t->press.normal, o->force), NULL, 1);
-    } else {
-      add(values(r), -o->force, o->shift, r->delta);
-    }
+/* Open what pulls, until nothing does. */
+static int open_all(refined *r) {
+  for (;;) {
+    const int more = open_pulling(r);
+    if (more < 0 || (more && !balance(r))) return 0;
+    if (!more) return 1;
   }
 }
 
-static void refine(refined *r) {
-  int changed = 0, fine = 1;
-  for (int k = 0; k < MOST_ROUNDS && fine; k++) {
-    const int opens = open_pulling(r), follows = lags(r);
-    if (!opens && !follows) break;
-    changed = 1;
-    if (follows) follow(r);
-    fine = opens >= 0 && (!r->count || balance(r));
+static void forget_opened(refined *r) {
+  for (size_t k = 0; k < r->count; k++)
+    add(values(r), -r->open[k].force, r->open[k].shift, r->delta);
+  r->count = 0;
+}
+
+/* Do all stay open? */
+static int stay_open(const refined *r) {
+  for (size_t k = 0; k < r->count; k++) {
+    const sw_touch *t = &r->c->touches[r->open[k].touch];
+    if (!sw_press_opens(&t->press, place(r, t, r->delta), r->scale)) return 0;
   }
-  conclude(r, fine);
+  return 1;
+}
+
+static void take_opened(const refined *r) {
+  for (size_t k = 0; k < r->count; k++) {
+    sw_touch *t = &r->c->touches[r->open[k].touch];
+    t->press.active = 0;
+    push(r, t, sw_scale(t->press.normal, r->open[k].force), NULL, 1);
+  }
+}
+
+/* A touch that goes further is at another place in another iterate, and may not pull there; of the
+ * radius [-]. */
+static const double FAR = 0.1;
+
+static int goes_far(const refined *r) {
+  for (size_t i = r->first; i < r->end; i++) {
+    const sw_touch *t = &r->c->touches[i];
+    const double most = FAR * r->c->candidates[t->candidate].radius;
+    if (t->press.active && sw_norm2(place(r, t, r->delta)) > most * most) return 1;
+  }
+  return 0;
+}
+
+static void refine(refined *r) {
+  int opens = !goes_far(r) && open_all(r), changed = r->count > 0;
+  if (!opens) forget_opened(r);
+  for (int k = 0; k < MOST_FOLLOW && lags(r); k++) {
+    changed = 1;
+    follow(r);
+    if (!opens || ((!r->count || balance(r)) && open_all(r))) continue;
+    opens = 0;
+    forget_opened(r);
+  }
+  if (stay_open(r))
+    take_opened(r);
+  else
+    forget_opened(r);
   if (changed) sw_body_take_solution(r->body, r->delta);
 }
 
