@@ -156,6 +156,10 @@ int sw_contact_push_at(const sw_contact *contact, const sw_system *system, size_
                        sw_contact_push *out);
 double sw_contact_energy(const sw_contact *contact); /* stored in the springs [J] */
 
+/* After a step: 1, obstacles' forces at its end are those of a shock, which it does not go on with.
+ */
+int sw_contact_shaken(const sw_contact *contact, const sw_system *system);
+
 /* --- for the energy ledger, after a trial ------------------------------------- */
 
 /* Where obstacle number id is at the step's start and as last placed. 0: there is none. */

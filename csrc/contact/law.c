@@ -182,6 +182,7 @@ int sw_press_update(sw_press *p, double friction, sw_vec shift, double force_sca
 }
 
 sw_vec sw_press_borne(const sw_press *p, double friction) {
+  if (p->opened && friction > 0) return rubbed(p, friction); /* what is left of it */
   if (!p->active) return sw_v(0, 0, 0);
   const sw_vec f = sw_scale(p->normal, -p->k * p->gap_after);
   return friction > 0 ? sw_add(f, rubbed(p, friction)) : f;

@@ -26,6 +26,7 @@ typedef struct sw_press {
   int alternations;                /* of normal_force - lag until the last iterate [-] */
   int reversals;                   /* of the slide, where a static solve is dragged [-] */
   int active;                      /* pushes in this iterate */
+  int opened;                      /* it did, until its solution */
   int spare;                       /* so often it stays active though the last solve pulled [-] */
   int sliding;                     /* assumed in this iterate */
   int next_sliding;                /* as the last solve found it */

@@ -190,7 +190,7 @@ static int stay_open(const refined *r) {
 static void take_opened(const refined *r) {
   for (size_t k = 0; k < r->count; k++) {
     sw_touch *t = &r->c->touches[r->open[k].touch];
-    t->press.active = 0;
+    t->press.active = 0, t->press.opened = 1;
     push(r, t, sw_scale(t->press.normal, r->open[k].force), NULL, 1);
   }
 }

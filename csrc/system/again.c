@@ -4,9 +4,7 @@
 #include "solve/band3.h"
 #include "system/twist.h"
 
-int sw_body_solves_again(const sw_body *b) {
-  return !b->linked && !b->spin_block && !b->plan->web;
-}
+int sw_body_solves_again(const sw_body *b) { return !b->linked && !b->spin_block && !b->plan->web; }
 
 void sw_body_solve_again(sw_body *b, double *more) {
   sw_band3_solve(b->field.rows, b->plan->nodes, more);
