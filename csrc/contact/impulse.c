@@ -87,6 +87,7 @@ static const double SHOCK = 0.3, SHARP = 0.5;
 int sw_contact_shaken(const sw_contact *c, const sw_system *s) {
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
+    if (s->bodies[t->body].plan->web) continue; /* these would hop: see bounces */
     const sw_contact_past *past = &c->loads[t->obstacle].past;
     const double off = sw_norm(sw_sub(past->end.force, past->mean.force));
     const double most = fmax(sw_norm(past->end.force), sw_norm(past->mean.force));
