@@ -7,7 +7,6 @@
 
 #include "base/alloc.h"
 #include "contact/touch.h"
-#include "system/again.h"
 
 /* Touches opened in an iterate, and solves for friction: the second one gets it right to a percent
  * or so [-]. */

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "system/again.h"
-
+/* Solving an iterate's equations again with other forces. */
 #include "solve/band3.h"
+#include "system/system.h"
 #include "system/twist.h"
 
 int sw_body_solves_again(const sw_body *b) { return !b->linked && !b->spin_block && !b->plan->web; }
 
-void sw_body_solve_again(sw_body *b, double *more) {
+void sw_body_solve_again(const sw_body *b, double *more) {
   sw_band3_solve(b->field.rows, b->plan->nodes, more);
   if (b->has_twist) sw_twist_correct_again(b, more);
 }
