@@ -85,6 +85,7 @@ static void stiffness_matrix(double kn, double kt, double ks, sw_vec n, sw_vec d
 sw_vec sw_press_eval(sw_press *p, double friction, int lagged, double K[6]) {
   p->normal_force = -p->k * p->gap;
   if (!lagged) p->lag = p->normal_force;
+  p->lag_at_first = p->lag;
   const double most = friction * p->lag, grip = sw_press_grip(p);
   double length;
   const sw_vec d = direction(p, &length);
@@ -117,12 +118,29 @@ int sw_press_lags(const sw_press *p, double friction, sw_vec shift, double force
   return !lag_agrees(p, force_after(p, shift), force_scale);
 }
 
-sw_vec sw_press_follow(sw_press *p, double friction, sw_vec shift) {
+static int slides(const sw_press *p, double friction) {
+  return p->active && p->sliding && friction > 0;
+}
+
+static sw_vec take_as_given(sw_press *p, double friction, double force) {
   const double before = p->lag;
   double length;
-  if (!p->active || !p->sliding || !(friction > 0)) return sw_v(0, 0, 0);
-  p->lag = force_after(p, shift);
-  return sw_scale(direction(p, &length), friction * (before - p->lag));
+  p->lag = force;
+  return sw_scale(direction(p, &length), friction * (before - force));
+}
+
+sw_vec sw_press_follow(sw_press *p, double friction, sw_vec shift) {
+  if (!slides(p, friction)) return sw_v(0, 0, 0);
+  return take_as_given(p, friction, force_after(p, shift));
+}
+
+sw_vec sw_press_unfollow(sw_press *p, double friction) {
+  if (!slides(p, friction)) return sw_v(0, 0, 0);
+  return take_as_given(p, friction, p->lag_at_first);
+}
+
+double sw_press_off(const sw_press *p, double friction, sw_vec shift) {
+  return slides(p, friction) ? fabs(force_after(p, shift) - p->lag) : 0.0;
 }
 
 int sw_press_pulls(const sw_press *p, sw_vec shift) {

@@ -15,6 +15,7 @@ typedef struct sw_press {
   double k;            /* stiffness, normal and tangential [N/m] */
   double soft;         /* friction's spring is so many times softer; 0 = it is not [-] */
   double lag;          /* normal force that friction takes as given [N] */
+  double lag_at_first; /* the same in the iterate's first solve [N] */
   double turning;      /* stiffness of a sliding one's friction against turns [N/m] */
   double normal_force; /* after the last solve [N] */
   double lag_before, force_before; /* both, one iterate earlier; 0 = not known [N] */
@@ -64,6 +65,10 @@ sw_vec sw_press_eval(sw_press *press, double friction, int lagged, double K[6]);
 int sw_press_lags(const sw_press *press, double friction, sw_vec shift, double force_scale);
 /* It then takes that one as given. Returns by how much that changes the force on the wire [N]. */
 sw_vec sw_press_follow(sw_press *press, double friction, sw_vec shift);
+/* Or the one of the iterate's first solve again, likewise. */
+sw_vec sw_press_unfollow(sw_press *press, double friction);
+/* How far the normal force after an update is from the one that friction took as given [N]. */
+double sw_press_off(const sw_press *press, double friction, sw_vec shift);
 /* Would the normal force pull after an update by shift? A touch that does is opened: it has no
  * force any more. */
 int sw_press_pulls(const sw_press *press, sw_vec shift);

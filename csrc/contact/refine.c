@@ -76,11 +76,24 @@ static int lags(const refined *r) {
   return 0;
 }
 
-static void follow(refined *r) {
+/* How far normal forces are from those that friction took as given [N]. */
+static double off(const refined *r) {
+  double sum = 0;
+  for (size_t i = r->first; i < r->end; i++) {
+    const sw_touch *t = &r->c->touches[i];
+    sum += sw_press_off(&t->press, t->friction, place(r, t, r->delta));
+  }
+  return sum;
+}
+
+/* Friction follows the normal forces; back: it is that of the iterate's first solve again. */
+static void follow(refined *r, int back) {
   memset(r->more, 0, values(r) * sizeof *r->more);
   for (size_t i = r->first; i < r->end; i++) {
     sw_touch *t = &r->c->touches[i];
-    const sw_vec f = sw_press_follow(&t->press, t->friction, place(r, t, r->delta));
+    sw_press *p = &t->press;
+    const sw_vec f = back ? sw_press_unfollow(p, t->friction)
+                          : sw_press_follow(p, t->friction, place(r, t, r->delta));
     push(r, t, f, r->more, 1);
   }
   sw_body_solve_again(r->body, r->more);
@@ -207,15 +220,36 @@ static int goes_far(const refined *r) {
   return 0;
 }
 
+/* Friction that presses its own touch may go to and fro, more at each turn: the iterates find that
+ * out better, by secants. Where a solve leaves more than this of what is off there is no further
+ * one [-]. */
+static const double ENOUGH = 0.5;
+
+/* 1: friction fits, or nearly so. */
+static int follow_all(refined *r, int *opens) {
+  double before = off(r);
+  for (int k = 0; k < MOST_FOLLOW && lags(r); k++) {
+    follow(r, 0);
+    if (*opens && !((!r->count || balance(r)) && open_all(r))) {
+      *opens = 0;
+      forget_opened(r);
+    }
+    const double after = off(r);
+    if (!(after <= ENOUGH * before)) return 0;
+    before = after;
+  }
+  return 1;
+}
+
 static void refine(refined *r) {
   int opens = !goes_far(r) && open_all(r), changed = r->count > 0;
   if (!opens) forget_opened(r);
-  for (int k = 0; k < MOST_FOLLOW && lags(r); k++) {
+  if (lags(r)) {
     changed = 1;
-    follow(r);
-    if (!opens || ((!r->count || balance(r)) && open_all(r))) continue;
-    opens = 0;
-    forget_opened(r);
+    if (!follow_all(r, &opens)) {
+      forget_opened(r);
+      follow(r, 1);
+    }
   }
   if (stay_open(r))
     take_opened(r);
