@@ -25,12 +25,12 @@ typedef struct sw_press {
   sw_vec shift;                    /* by the last solve [m] */
   sw_vec slip;                     /* how far it slid, of the displacement from the anchor [m] */
   int alternations;                /* of normal_force - lag until the last iterate [-] */
-  int reversals;                   /* of the slide, where a static solve is dragged [-] */
-  int active;                      /* pushes in this iterate */
-  int opened;                      /* it did, until its solution */
-  int spare;                       /* so often it stays active though the last solve pulled [-] */
-  int sliding;                     /* assumed in this iterate */
-  int next_sliding;                /* as the last solve found it */
+  int reversals;    /* of the slide in this stage, or where a static solve is dragged [-] */
+  int active;       /* pushes in this iterate */
+  int opened;       /* it did, until its solution */
+  int spare;        /* so often it stays active though the last solve pulled [-] */
+  int sliding;      /* assumed in this iterate */
+  int next_sliding; /* as the last solve found it */
 } sw_press;
 
 /* Stiffness of friction's spring [N/m]. */
