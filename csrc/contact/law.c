@@ -17,6 +17,10 @@ static const double DIRECTION_TOLERANCE = 0.02;
 static const double FORCE_TOLERANCE = 0.01;
 static const double WEIGHT_TOLERANCE = 1e-3;
 
+/* Friction that was so many times the scene's forces at an iterate's first solve leaves its rounding
+ * in the solution [-]. */
+static const double DROWNED = 100.0;
+
 /* A spring stretched this many times over what friction can hold does not stick,
  * whatever the prediction is worth [-]. */
 static const double SURELY_SLIDING = 20.0;
@@ -185,7 +189,9 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
   const double off = sw_norm(sw_sub(rubbed(p, friction), p->tangential));
   const double share = p->sliding && beyond ? DIRECTION_TOLERANCE : FORCE_TOLERANCE;
   if (off > small + share * most + WEIGHT_TOLERANCE * force_scale) return 0;
-  return !p->sliding || !beyond || lag_agrees(p, p->normal_force, force_scale);
+  if (!p->sliding || !beyond) return 1;
+  if (p->lag_at_first > DROWNED * (p->normal_force + force_scale)) return 0;
+  return lag_agrees(p, p->normal_force, force_scale);
 }
 
 int sw_press_update(sw_press *p, double friction, sw_vec shift, double force_scale) {
@@ -200,9 +206,9 @@ int sw_press_update(sw_press *p, double friction, sw_vec shift, double force_sca
 }
 
 sw_vec sw_press_borne(const sw_press *p, double friction) {
-  if (p->opened && friction > 0) return rubbed(p, friction); /* what is left of it */
-  if (!p->active) return sw_v(0, 0, 0);
-  const sw_vec f = sw_scale(p->normal, -p->k * p->gap_after);
+  if (!p->active && !p->opened) return sw_v(0, 0, 0);
+  /* of an opened one, what rounding leaves */
+  const sw_vec f = sw_scale(p->normal, p->lift - p->k * p->gap_after);
   return friction > 0 ? sw_add(f, rubbed(p, friction)) : f;
 }
 

@@ -28,6 +28,7 @@ typedef struct sw_press {
   int reversals;    /* of the slide in this stage, or where a static solve is dragged [-] */
   int active;       /* pushes in this iterate */
   int opened;       /* it did, until its solution */
+  double lift;      /* then: the force that takes its pull away [N] */
   int spare;        /* so often it stays active though the last solve pulled [-] */
   int sliding;      /* assumed in this iterate */
   int next_sliding; /* as the last solve found it */

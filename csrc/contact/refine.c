@@ -117,13 +117,15 @@ static int is_open(const refined *r, size_t touch) {
   return 0;
 }
 
-/* Open the touches that pull. Returns how many do now; -1: they are too many, or stick. */
+/* Open the touches that pull. Returns how many do now; -1: they are too many, or stick. Those
+ * without friction are left to the next iterate, as are those of wires with frames, whose equations
+ * are not solved again: both move alike. */
 static int open_pulling(refined *r) {
   int more = 0;
   for (size_t i = r->first; i < r->end; i++) {
     const sw_touch *t = &r->c->touches[i];
     if (!sw_press_pulls(&t->press, place(r, t, r->delta)) || is_open(r, i)) continue;
-    if (r->count == MOST_OPEN || (t->friction > 0 && !t->press.sliding)) return -1;
+    if (r->count == MOST_OPEN || !(t->friction > 0) || !t->press.sliding) return -1;
     open_one(r, i);
     more++;
   }
@@ -203,6 +205,7 @@ static void take_opened(const refined *r) {
   for (size_t k = 0; k < r->count; k++) {
     sw_touch *t = &r->c->touches[r->open[k].touch];
     t->press.active = 0, t->press.opened = 1;
+    t->press.lift = r->open[k].force;
     push(r, t, sw_scale(t->press.normal, r->open[k].force), NULL, 1);
   }
 }
