@@ -17,8 +17,8 @@ static const double DIRECTION_TOLERANCE = 0.02;
 static const double FORCE_TOLERANCE = 0.01;
 static const double WEIGHT_TOLERANCE = 1e-3;
 
-/* Friction that was so many times the scene's forces at an iterate's first solve leaves its rounding
- * in the solution [-]. */
+/* Friction that was so many times the scene's forces at an iterate's first solve leaves its
+ * rounding in the solution [-]. */
 static const double DROWNED = 100.0;
 
 /* A spring stretched this many times over what friction can hold does not stick,
