@@ -76,6 +76,7 @@ void sw_contact_free(sw_contact *c) {
   sw_free(c->barriers);
   sw_free(c->impacts);
   sw_free(c->marks);
+  sw_free(c->room);
   sw_free(c);
 }
 

@@ -84,6 +84,7 @@ sw_status sw_contact_eval(void *contact, sw_system *system, double time, double 
  */
 sw_status sw_contact_keeps(void *contact, sw_system *system, const double *y, int *out,
                            sw_error *err);
+void sw_contact_refine(void *contact, sw_system *system);
 int sw_contact_settled(void *contact, sw_system *system, const double *y, const double *delta);
 
 /* See sw_coupling. */
@@ -153,6 +154,10 @@ size_t sw_contact_touches(const sw_contact *contact);
 int sw_contact_push_at(const sw_contact *contact, const sw_system *system, size_t k,
                        sw_contact_push *out);
 double sw_contact_energy(const sw_contact *contact); /* stored in the springs [J] */
+
+/* After a step: 1, obstacles' forces at its end are those of a shock, which it does not go on with.
+ */
+int sw_contact_shaken(const sw_contact *contact, const sw_system *system);
 
 /* --- for the energy ledger, after a trial ------------------------------------- */
 

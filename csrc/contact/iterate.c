@@ -130,22 +130,10 @@ static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *
   return sw_press_apart(&t->press);
 }
 
-/* Of a wire's touches, forces far below the largest one do not matter. Touches are in the
- * order of wires: from the first of one to the first of the next. */
-static double scale_of(const sw_contact *c, size_t first, size_t *end) {
-  const size_t body = c->touches[first].body;
-  double scale = 0;
-  size_t i = first;
-  for (; i < c->touch_count && c->touches[i].body == body; i++)
-    scale = fmax(scale, c->touches[i].press.lag);
-  *end = i;
-  return scale;
-}
-
 static int update_all(sw_contact *c, const sw_system *s, const double *delta) {
   int fine = 1;
   for (size_t first = 0, end; first < c->touch_count; first = end) {
-    const double scale = scale_of(c, first, &end);
+    const double scale = sw_contact_scale(c, first, &end);
     for (size_t i = first; i < end; i++) fine &= update(c, s, &c->touches[i], delta, scale);
   }
   return fine;

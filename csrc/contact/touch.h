@@ -118,6 +118,8 @@ struct sw_contact {
   size_t impact_count, impact_capacity;
   sw_mark *marks;
   size_t mark_count, mark_capacity;
+  double *room; /* of an iterate's refinement: solutions of a wire's equations */
+  size_t room_capacity;
   int unmarked;      /* 1: some touch slid, or there was no room: the marks tell nothing */
   int looked;        /* 1: touches are those of the iterate to be evaluated next */
   size_t stage;      /* number of the stage, counted all along */
@@ -132,6 +134,10 @@ struct sw_contact {
   int updates;     /* of the stage so far [-] */
   double widening; /* of the reserve for flight, when nodes went further [-] */
 };
+
+/* Of a wire's touches, forces far below the largest one do not matter: this [N]. Touches are in the
+ * order of wires: from the first of one to the end, that of the next. */
+double sw_contact_scale(const sw_contact *c, size_t first, size_t *end);
 
 /* How far a node of velocity v may go in the step unnoticed [m]. */
 double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v);

@@ -227,11 +227,19 @@ static sw_status judged_attempt(loop *p, double h, int smallest, sw_error *err) 
   }
 }
 
+/* Accelerations at a step's end may be those of a shock that is over: the next step starts without
+ * them, or it pushes with them for half of it and makes energy. A starting step gives no estimate
+ * of its error. */
+static int is_shaken(const sw_scene *s) {
+  return s->contact && !s->stepper.wants_error && sw_contact_shaken(s->contact, &s->system);
+}
+
 static void accept(loop *p, double h) {
   sw_scene *s = p->s;
   sw_stepper_accept(&s->stepper, &s->system, h);
   s->system.judged = s->stepper.trial_x;
   sw_scene_commit_contact(s);
+  if (is_shaken(s)) s->stepper.restart = 1;
   s->span = h;
   if (s->method->flags & SW_INTEGRATOR_NO_CONTACT) sw_scene_remark_contact(s);
   s->discontinuous = p->changed = 0;

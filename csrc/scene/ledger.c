@@ -253,7 +253,9 @@ double sw_ledger_excess(const sw_scene *s, double h) {
   const double size = fabs(b->now.kinetic) + fabs(b->now.gravity) + fabs(b->now.stored) +
                       fabs(step->to.kinetic) + fabs(step->to.gravity) + fabs(step->to.stored);
   const double rounding = ROUNDING * size + OF_BENDING * b->bending * share;
-  const double allowed = rounding + OF_WORK * step->work + share * usual_gain(b);
+  /* what impacts at its start give, of several places at once, no smaller step mends */
+  const double struck = fmin(fmax(0.0, -step->impact), usual_gain(b));
+  const double allowed = rounding + OF_WORK * step->work + share * usual_gain(b) + struck;
   if (!isfinite(step->gain)) return step->gain < 0 ? 0.0 : HUGE_VAL;
   const double rise = b->rise + step->gain - b->lowest;
   if (!step->touching && rise <= IN_FLIGHT * b->sums.play) return 0.0;

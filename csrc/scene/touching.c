@@ -90,6 +90,10 @@ static sw_status keeps(void *user, sw_system *system, const double *y, int *out,
   return s->contact && *out ? sw_contact_keeps(s->contact, system, y, out, err) : SW_OK;
 }
 
+static void refine(void *user, sw_system *system) {
+  sw_contact_refine(((sw_scene *)user)->contact, system);
+}
+
 static int settled(void *user, sw_system *system, const double *y, const double *delta) {
   const sw_scene *s = user;
   int fine = !s->contact || sw_contact_settled(s->contact, system, y, delta);
@@ -103,7 +107,10 @@ static void book(void *user, const sw_booking *booking) {
 }
 
 void sw_scene_couple(sw_scene *s) {
-  if (s->contact) s->system.coupling.book = book;
+  if (s->contact) {
+    s->system.coupling.refine = refine;
+    s->system.coupling.book = book;
+  }
   if (!sw_scene_has_contact(s)) return;
   s->system.coupling.begin_stage = begin_stage;
   s->system.coupling.eval = eval;

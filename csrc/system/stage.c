@@ -192,6 +192,7 @@ static sw_status assemble_and_solve(sw_system *s, const sw_stage *stage, const s
     SW_TRY(solve_body(s, body, &negative));
     report->negative += negative;
   }
+  if (s->coupling.refine && !s->goes_on) s->coupling.refine(s->coupling.user, s);
   if (statics) sw_lead_update(s, stage->y);
   if (!s->goes_on) sw_factors_keep(s, stage, newton, report);
   s->counters.newton++;

@@ -113,6 +113,9 @@ typedef struct sw_coupling {
   /* Before eval at y: out = 1, its stiffness there is that of the last eval that was asked for it,
    * but for small turns. NULL: never. */
   sw_status (*keeps)(void *user, sw_system *system, const double *y, int *out, sw_error *err);
+  /* The system's delta solves the last eval's linearisation. Make it fit forces that depend on it
+   * in other ways, by solving again with the factors that there are. */
+  void (*refine)(void *user, sw_system *system);
   /* After an update y was reached by the solved delta: 1 = converged. */
   int (*settled)(void *user, sw_system *system, const double *y, const double *delta);
   /* A stage was solved, or an explicit method has evaluated: book the impulse. */
@@ -282,6 +285,18 @@ void sw_system_measure_frames(sw_system *system, size_t body);
 
 /* Bring a body's twist or frames up to its field's tangents. */
 void sw_system_measure(sw_system *system, sw_body *body);
+
+/* --- while the coupling refines a solution ----------------------------------- */
+
+/* 1: the body's equations can be solved again by the factors that there are. */
+int sw_body_solves_again(const sw_body *body);
+/* By how much forces that are added change the solution: of the body's nodes (nodes x 3), zero
+ * where held; in place. */
+void sw_body_solve_again(const sw_body *body, double *more);
+/* The solution delta (nodes x 3) is the last one. */
+void sw_body_take_solution(sw_body *body, const double *delta);
+/* A force is added at a held node of the system's: its hold bears it. */
+void sw_system_push_held(sw_system *system, size_t node, sw_vec force);
 
 /* Solve an implicit stage. system->tension is read and updated. Statuses:
  * SW_OK, SW_ENOCONV, SW_ESINGULAR, SW_EDIVERGED, SW_ECALLBACK. */
