@@ -18,18 +18,20 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   c->loads = sw_alloc(count, sizeof *c->loads);
   c->start = sw_alloc(count, sizeof *c->start);
   c->now = sw_alloc(count, sizeof *c->now);
-  c->flat = sw_alloc(count, sizeof *c->flat);
-  c->dense = sw_alloc(count, sizeof *c->dense);
+  c->flat = sw_alloc(4 * count, sizeof *c->flat);
   c->spaced = sw_alloc(count, sizeof *c->spaced);
   c->bounds = (sw_bounds *)sw_alloc(count, sizeof *c->bounds);
-  if (!c->obstacles || !c->loads || !c->start || !c->now || !c->flat || !c->dense || !c->spaced ||
-      !c->bounds) {
+  if (!c->obstacles || !c->loads || !c->start || !c->now || !c->flat || !c->spaced || !c->bounds ||
+      sw_broad_new(&c->broad, count) != SW_OK) {
     sw_contact_free(c);
     return SW_ENOMEM;
   }
+  c->dense = c->flat + count, c->busy = c->dense + count, c->pads = c->busy + count;
   memcpy(c->obstacles, obstacles, count * sizeof *obstacles);
   for (size_t o = 0; o < count; o++)
     c->flat[o] = strcmp(sw_shape_kind(obstacles[o].shape), "plane") == 0;
+  for (size_t o = 0; o < count; o++)
+    if (obstacles[o].grips > 0) c->pads[c->pad_count++] = (int)o;
   c->count = count;
   c->fresh = SW_CONTACT_FRESH;
   c->place = place;
@@ -64,9 +66,9 @@ void sw_contact_free(sw_contact *c) {
   sw_free(c->now);
   sw_free(c->flat);
   sw_free(c->sunk);
-  sw_free(c->dense);
   sw_free(c->spaced);
   sw_free(c->bounds);
+  sw_broad_free(&c->broad);
   sw_free(c->candidates);
   sw_free(c->touches);
   sw_free(c->last);
@@ -81,15 +83,6 @@ void sw_contact_free(sw_contact *c) {
 
 /* --- steps ------------------------------------------------------------------- */
 
-static sw_status place_all(sw_contact *c, double t, sw_contact_at *out, sw_error *err) {
-  for (size_t o = 0; o < c->count; o++) {
-    sw_motion_state m;
-    SW_TRY(c->place(c->user, c->obstacles[o].id, t, &m, err));
-    out[o] = (sw_contact_at){m.pose, m.v, m.omega};
-  }
-  return SW_OK;
-}
-
 sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime regime, double t,
                                 double h, double nominal, sw_error *err) {
   c->time = t;
@@ -101,7 +94,7 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
   c->struck = 0;
   c->widening = 1.0;
   sw_contact_forget_blows(c);
-  SW_TRY(place_all(c, t, c->start, err));
+  SW_TRY(sw_broad_place(c, t, c->start, err));
   if (sw_contact_sink(c, s) != SW_OK) return sw_fail(err, SW_ENOMEM, "contact: out of memory");
   return sw_contact_find_candidates(c, s, err);
 }
@@ -122,11 +115,12 @@ sw_status sw_contact_begin_stage(void *contact, sw_system *s, double time, doubl
   c->pressed_before = c->pressed_count;
   c->stage_time = time;
   c->updates = c->looked = 0;
-  return place_all(c, time, c->now, err);
+  return sw_broad_place(c, time, c->now, err);
 }
 
 int sw_contact_moves(const sw_contact *c) {
-  for (size_t o = 0; o < c->count; o++) {
+  for (size_t k = 0; k < c->broad.mover_count; k++) {
+    const int o = c->broad.mover[k];
     const sw_pose *a = &c->start[o].pose, *b = &c->now[o].pose;
     const sw_quat p = a->q, q = b->q;
     if (sw_dist(a->p, b->p) > 0 || p.w != q.w || p.x != q.x || p.y != q.y || p.z != q.z) return 1;
@@ -197,6 +191,7 @@ sw_status sw_contact_set_memory(sw_contact *c, const void *memory, size_t bytes,
   c->memory_count = n;
   c->fresh = fresh;
   c->touch_count = 0;
+  sw_contact_ask_again(c);
   return SW_OK;
 }
 
@@ -357,12 +352,17 @@ double sw_contact_energy(const sw_contact *c) {
 /* --- for the energy ledger ------------------------------------------------------ */
 
 int sw_contact_poses(const sw_contact *c, int id, sw_pose *from, sw_pose *to) {
-  for (size_t o = 0; o < c->count; o++) {
-    if (c->obstacles[o].id != id) continue;
-    *from = c->start[o].pose, *to = c->now[o].pose;
-    return 1;
+  size_t low = 0, high = c->count; /* ids ascend */
+  while (low < high) {
+    const size_t o = low + (high - low) / 2;
+    if (c->obstacles[o].id < id)
+      low = o + 1;
+    else
+      high = o;
   }
-  return 0;
+  if (low == c->count || c->obstacles[low].id != id) return 0;
+  *from = c->start[low].pose, *to = c->now[low].pose;
+  return 1;
 }
 
 double sw_contact_rubbed(const sw_contact *c) {
@@ -382,7 +382,8 @@ double sw_contact_hardened(const sw_contact *c) {
 
 double sw_contact_fastest(const sw_contact *c) {
   double fastest = 0;
-  for (size_t o = 0; o < c->count; o++) fastest = fmax(fastest, sw_norm(c->now[o].v));
+  for (size_t k = 0; k < c->broad.mover_count; k++)
+    fastest = fmax(fastest, sw_norm(c->now[c->broad.mover[k]].v));
   return fastest;
 }
 

@@ -90,12 +90,20 @@ int sw_contact_settled(void *contact, sw_system *system, const double *y, const 
 /* See sw_coupling. */
 void sw_contact_book(void *contact, const sw_booking *booking);
 
-/* Obstacles that it knows; the owner's number of number k of them. Before a step: what that one
- * remembers; after an accepted one: what it is to remember. */
-size_t sw_contact_obstacles(const sw_contact *contact);
+/* The owner's number of obstacle number k; what that one is to remember of an accepted step. */
 int sw_contact_id(const sw_contact *contact, size_t k);
-void sw_contact_recall(sw_contact *contact, size_t k, const sw_contact_past *past);
 const sw_contact_past *sw_contact_past_of(const sw_contact *contact, size_t k);
+/* Numbers (count) of those that remember anything or may; the others remember nothing. */
+const int *sw_contact_busy(const sw_contact *contact, size_t *count);
+/* By the owner's number: what an obstacle remembers of the last step, and 1 when it may move. */
+typedef const sw_contact_past *(*sw_contact_past_function)(void *user, int id);
+typedef int (*sw_contact_moves_function)(void *user, int id);
+/* Has the owner told that since contact was made, was given a memory, or was told to ask again, for
+ * an obstacle was moved by hand? Before a step it is to tell. */
+int sw_contact_informed(const sw_contact *contact);
+void sw_contact_recall(sw_contact *contact, sw_contact_past_function past,
+                       sw_contact_moves_function moves);
+void sw_contact_ask_again(sw_contact *contact);
 
 /* 1: an obstacle is not where it was at the step's start, as last placed. */
 int sw_contact_moves(const sw_contact *contact);

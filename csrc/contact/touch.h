@@ -3,6 +3,7 @@
 #ifndef SW_CONTACT_TOUCH_H
 #define SW_CONTACT_TOUCH_H
 
+#include "contact/broad.h"
 #include "contact/contact.h"
 #include "contact/law.h"
 
@@ -78,27 +79,29 @@ typedef struct sw_mark {
   sw_vec normal; /* [-] */
 } sw_mark;
 
-typedef struct sw_contact_at {
-  sw_pose pose;
-  sw_vec v, omega; /* [m/s], [rad/s] */
-} sw_contact_at;
-
 /* What an obstacle gets in a step. */
 typedef struct sw_contact_loads {
   sw_contact_past past;
   sw_contact_load stage[SW_BOOK_STAGES]; /* impulse from the step's start, without blows [N s] */
   sw_contact_load blows; /* impulse of impacts that changed velocities at the start [N s] */
+  int busy;              /* 1: it is in the list of those that may get something */
 } sw_contact_loads;
 
 struct sw_contact {
   sw_contact_obstacle *obstacles;
-  sw_contact_loads *loads; /* (count) */
+  sw_contact_loads *loads; /* (count) zero but for those in busy */
+  int *busy;               /* (busy_count) obstacles near wires in this step, or pressed before */
+  size_t busy_count;
+  int informed; /* 1: the owner has told what obstacles remember and which may move */
+  sw_broad broad;
   int last_stage;          /* that was booked in this trial */
   size_t count;
   sw_contact_place place;
   void *user;
   sw_contact_at *start, *now; /* (count) at the step's start and at the stage */
   int *flat;                  /* (count) 1: a half space, no segment contacts */
+  int *pads;                  /* (pad_count) those of grippers */
+  size_t pad_count;
   int *dense;                 /* (count) 1: particles of the body at hand lie close, likewise */
   double *sunk; /* (3 nodes) how far contact sees a node further in, or NULL: nowhere [m] */
   size_t sunk_capacity;
@@ -139,6 +142,8 @@ double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v);
 void sw_contact_add_blow(sw_contact *c, int obstacle, sw_vec point, sw_vec impulse);
 void sw_contact_forget_blows(sw_contact *c);
 void sw_contact_conclude(sw_contact *c);
+/* Wires may press on the obstacle in this step. */
+void sw_contact_expect(sw_contact *c, int obstacle);
 
 /* How far nodes are sunk, with the system where it is. SW_ENOMEM. */
 sw_status sw_contact_sink(sw_contact *c, const sw_system *s);

@@ -109,12 +109,10 @@ static sw_status make_room(sw_scene *s) {
 }
 
 /* What never moves does no work. */
-static int may_move(const sw_drive *drive) { return drive->motion || drive->tool; }
-
 static void note_obstacle(sw_scene *s, size_t k) {
   sw_worker *w = &s->books.obstacles[k];
   *w = (sw_worker){0};
-  if (!s->obstacles[k].alive || !may_move(&s->obstacles[k].drive)) return;
+  if (!s->obstacles[k].alive || !sw_drive_moves(&s->obstacles[k].drive)) return;
   sw_contact_force(s->contact, (int)k, sw_v(0, 0, 0), &w->force, &w->moment);
   w->force = sw_neg(w->force), w->moment = sw_neg(w->moment);
 }

@@ -219,6 +219,7 @@ sw_status sw_scene_obstacle_follow(sw_scene *s, sw_handle obstacle, sw_motion *m
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_drive_follow(s, &o->drive, o->name, motion, relative, err));
   s->discontinuous = 1;
+  if (s->contact) sw_contact_ask_again(s->contact);
   return SW_OK;
 }
 
@@ -248,6 +249,7 @@ sw_status sw_scene_obstacle_set_pose(sw_scene *s, sw_handle obstacle, sw_pose po
   sw_drive_free(&o->drive);
   o->drive.pose = pose;
   s->discontinuous = 1;
+  if (s->contact) sw_contact_ask_again(s->contact);
   return SW_OK;
 }
 

@@ -1,0 +1,132 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Many obstacles, many nodes, many wires: the work of finding what touches, counted, and the same
+-- results as where there are few.
+local sw = require "softworld"
+
+local function wire(scene, o)
+  return scene:wire{ E = 5e6, density = 1500, radius = 0.0025, from = o.from, to = o.to,
+    segments = o.segments or 40 }
+end
+
+-- Every coordinate at so many places, exactly.
+local function bits(...)
+  local list = {}
+  for _, w in ipairs{ ... } do
+    for i = 0, 20 do
+      local p = w:position(w.length * i / 20)
+      list[#list + 1] = ("%a %a %a"):format(p[1], p[2], p[3])
+    end
+  end
+  return table.concat(list, "\n")
+end
+
+describe("many obstacles", function()
+  -- So many small boxes on a table, in a square, and a wire that comes down on some of them.
+  local function bed(count)
+    local s = sw.scene{}
+    s:obstacle{ shape = "plane", friction = 0.3 }
+    local side = math.ceil(math.sqrt(count))
+    for i = 0, count - 1 do
+      s:obstacle{ shape = "box", size = { 0.01, 0.01, 0.02 }, friction = 0.3,
+        at = { i % side * 0.03, i // side * 0.03, 0.01 } }
+    end
+    return s, wire(s, { from = { 0, 0.045, 0.03 }, to = { 0.3, 0.045, 0.03 }, segments = 60 })
+  end
+
+  it("are not looked at one by one", function()
+    local function looks(count)
+      local s = bed(count)
+      return s:advance({ dt = 0.01 }, 0.1).looks
+    end
+    local few, many = looks(100), looks(1600)
+    assert.is_true(few > 0)
+    assert.is_true(many < 3 * few, ("%d looks with 1600 boxes, %d with 100"):format(many, few))
+    assert.is_true(many < 0.1 * 1601 * 61 * 10, ("%d looks"):format(many))
+  end)
+
+  -- The same obstacles, alone or among others that nothing comes near.
+  local near = {
+    { shape = "plane" },
+    { shape = "box", size = { 0.02, 0.2, 0.03 }, at = { 0.15, 0, 0.015 } },
+    { shape = "sphere", radius = 0.02, at = { 0.32, 0.005, 0.01 } },
+    { shape = "cylinder", radius = 0.01, length = 0.2, at = { 0.45, 0, 0.03 },
+      rotation = { axis = { 1, 0, 0 }, angle = 1.5 } },
+  }
+  local function among(others, o)
+    local s, list, at = sw.scene{}, {}, 0
+    local function far(count)
+      for _ = 1, count do
+        at = at + 1
+        local other = s:obstacle{ shape = "box", size = { 0.1, 0.1, 0.1 }, at = { 5 + at, 3, 0.05 } }
+        if o.far and at % 2 == 0 then other:follow(o.far) end
+      end
+    end
+    for i, args in ipairs(near) do
+      far(others)
+      local copy = { friction = 0.3 }
+      for k, v in pairs(args) do copy[k] = v end
+      list[i] = s:obstacle(copy)
+      if o.near and i > 1 then list[i]:follow(o.near) end
+    end
+    far(others)
+    local w = wire(s, { from = { 0, 0, o.height or 0.08 }, to = { 0.6, 0.01, o.height or 0.08 } })
+    w:set_velocity{ 0.1, 0, -1 }
+    local r = s:run(o.run or { duration = 0.2, dt = 0.005 })
+    assert.is_true(r.ok, r.reason)
+    local text, pressed = { bits(w), tostring(r.steps), tostring(r.iterations) }, 0
+    for i, obstacle in ipairs(list) do
+      local log = obstacle:log() -- rows of time, force, span
+      for k = 1, #log do
+        pressed = pressed + (i > 1 and k % 5 ~= 1 and k % 5 ~= 0 and log[k] ~= 0 and 1 or 0)
+        log[k] = ("%a"):format(log[k])
+      end
+      text[3 + i] = table.concat(log, " ")
+    end
+    assert.is_true(pressed > 0, "nothing was touched")
+    return table.concat(text, "\n")
+  end
+  local cases = {
+    ["that stand"] = {},
+    ["that are carried and turned"] = {
+      near = { points = { { 0, 0, 0 }, { 0.03, 0.02, 0.02 } }, duration = 0.2, relative = true,
+        turn = { axis = { 0.2, 0.1, 1 }, angle = 1 } },
+      far = { points = { { 0, 0, 0 }, { 0, 0.5, 0.3 } }, duration = 0.2, relative = true } },
+    ["that spin within the step"] = {
+      near = { points = { { 0, 0, 0 }, { 0.01, 0, 0 } }, duration = 0.2, relative = true,
+        turn = { axis = { 0, 0, 1 }, angle = 30 } },
+      far = { points = { { 0, 0, 0 }, { 0.01, 0, 0 } }, duration = 0.2, relative = true,
+        turn = { axis = { 0, 0, 1 }, angle = 100 } } },
+    ["in explicit steps"] = { height = 0.06,
+      run = { duration = 0.04, dt = 2e-5, integrator = "velocity-verlet", unstable = true } },
+    ["at poses"] = { height = 0.05, run = { duration = 0.06, dt = 0.02, quasistatic = true } },
+  }
+  for what, o in pairs(cases) do
+    it(what .. " act as they do alone", function()
+      assert.equal(among(0, o), among(9, o))
+    end)
+  end
+
+  it("are met where a hand puts them, and after a snapshot", function()
+    local function run(others)
+      local s = sw.scene{}
+      local stop = s:obstacle{ shape = "box", size = { 0.2, 0.2, 0.02 }, at = { 3, 0, 0 } }
+      for i = 1, others do
+        s:obstacle{ shape = "box", size = { 0.1, 0.1, 0.1 }, at = { 5 + i, 3, 0.05 } }
+      end
+      local w = wire(s, { from = { 0, 0, 0.1 }, to = { 0.4, 0, 0.1 } })
+      s:run{ duration = 0.05, dt = 0.005 }
+      local snapshot = s:snapshot()
+      stop:pose{ 0.2, 0, 0 }
+      s:run{ duration = 0.2, dt = 0.005 }
+      local met = bits(w)
+      s:restore(snapshot)
+      s:run{ duration = 0.2, dt = 0.005 }
+      return met, bits(w)
+    end
+    local met, missed = run(0)
+    local also_met, also_missed = run(20)
+    assert.are_not.equal(met, missed)
+    assert.equal(met, also_met)
+    assert.equal(missed, also_missed)
+  end)
+end)
