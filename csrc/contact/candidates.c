@@ -279,6 +279,15 @@ static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t
   }
 }
 
+/* Many nodes may begin to touch at once: lists that grow one by one would be copied again and
+ * again. */
+static sw_status make_room(sw_contact *c) {
+  const size_t n = c->candidate_count;
+  SW_TRY(sw_grow((void **)&c->touches, &c->touch_capacity, n, sizeof *c->touches));
+  SW_TRY(sw_grow((void **)&c->last, &c->last_capacity, n, sizeof *c->last));
+  return sw_grow((void **)&c->pressed, &c->pressed_capacity, n, sizeof *c->pressed);
+}
+
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err) {
   c->candidate_count = c->touch_count = c->last_count = 0;
   c->unmarked = 1;
@@ -294,6 +303,7 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
         status = node_candidates(c, s, b, i);
     set_stiffness(c, s, b, first);
   }
+  if (status == SW_OK) status = make_room(c);
   if (status != SW_OK) return sw_fail(err, status, "contact: %s", sw_status_text(status));
   match_memory(c);
   return SW_OK;

@@ -18,7 +18,7 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   c->loads = sw_alloc(count, sizeof *c->loads);
   c->start = sw_alloc(count, sizeof *c->start);
   c->now = sw_alloc(count, sizeof *c->now);
-  c->flat = sw_alloc(4 * count, sizeof *c->flat);
+  c->flat = sw_alloc(5 * count, sizeof *c->flat);
   c->spaced = sw_alloc(count, sizeof *c->spaced);
   c->bounds = (sw_bounds *)sw_alloc(count, sizeof *c->bounds);
   if (!c->obstacles || !c->loads || !c->start || !c->now || !c->flat || !c->spaced || !c->bounds ||
@@ -27,6 +27,7 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
     return SW_ENOMEM;
   }
   c->dense = c->flat + count, c->busy = c->dense + count, c->pads = c->busy + count;
+  c->pressing = c->pads + count;
   memcpy(c->obstacles, obstacles, count * sizeof *obstacles);
   for (size_t o = 0; o < count; o++)
     c->flat[o] = strcmp(sw_shape_kind(obstacles[o].shape), "plane") == 0;
@@ -77,11 +78,34 @@ void sw_contact_free(sw_contact *c) {
   sw_free(c->pressed);
   sw_free(c->barriers);
   sw_free(c->impacts);
+  sw_free(c->impact_at);
   sw_free(c->marks);
   sw_free(c);
 }
 
 /* --- steps ------------------------------------------------------------------- */
+
+/* The obstacle with the owner's number, or count. */
+static size_t index_of(const sw_contact *c, int id) {
+  size_t low = 0, high = c->count; /* they ascend */
+  while (low < high) {
+    const size_t o = low + (high - low) / 2;
+    if (c->obstacles[o].id < id)
+      low = o + 1;
+    else
+      high = o;
+  }
+  return low < c->count && c->obstacles[low].id == id ? low : c->count;
+}
+
+/* Which pads press on anything at the step's start? */
+static void find_pressing(sw_contact *c) {
+  for (size_t k = 0; k < c->pad_count; k++) c->pressing[c->pads[k]] = 0;
+  for (size_t i = 0; c->pad_count && i < c->memory_count; i++) {
+    const size_t o = index_of(c, c->memory[i].obstacle);
+    if (o < c->count && c->memory[i].normal_force > 0) c->pressing[o] = 1;
+  }
+}
 
 sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime regime, double t,
                                 double h, double nominal, sw_error *err) {
@@ -89,11 +113,14 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
   c->h = h;
   c->nominal = nominal;
   c->regime = regime;
-  c->barrier_count = c->impact_count = c->pressed_count = 0;
+  c->pressed_count = 0;
   c->plastic = 0;
   c->struck = 0;
   c->widening = 1.0;
   sw_contact_forget_blows(c);
+  if (sw_contact_calm(c, s->nodes) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "contact: out of memory");
+  find_pressing(c);
   SW_TRY(sw_broad_place(c, t, c->start, err));
   if (sw_contact_sink(c, s) != SW_OK) return sw_fail(err, SW_ENOMEM, "contact: out of memory");
   return sw_contact_find_candidates(c, s, err);
@@ -323,6 +350,25 @@ size_t sw_contact_count(const sw_contact *c) {
 
 size_t sw_contact_touches(const sw_contact *c) { return c->touch_count; }
 
+/* The first touch of a node that is not before this one: they are in the order of nodes. */
+static size_t first_touch(const sw_contact *c, size_t node) {
+  size_t low = 0, high = c->touch_count;
+  while (low < high) {
+    const size_t i = low + (high - low) / 2;
+    if (c->touches[i].node < node)
+      low = i + 1;
+    else
+      high = i;
+  }
+  return low;
+}
+
+void sw_contact_touches_of(const sw_contact *c, size_t node, size_t end_node, size_t *first,
+                           size_t *end) {
+  *first = first_touch(c, node);
+  *end = first_touch(c, end_node);
+}
+
 int sw_contact_push_at(const sw_contact *c, const sw_system *s, size_t k, sw_contact_push *out) {
   const sw_touch *t = &c->touches[k];
   const sw_press *p = &t->press;
@@ -352,16 +398,9 @@ double sw_contact_energy(const sw_contact *c) {
 /* --- for the energy ledger ------------------------------------------------------ */
 
 int sw_contact_poses(const sw_contact *c, int id, sw_pose *from, sw_pose *to) {
-  size_t low = 0, high = c->count; /* ids ascend */
-  while (low < high) {
-    const size_t o = low + (high - low) / 2;
-    if (c->obstacles[o].id < id)
-      low = o + 1;
-    else
-      high = o;
-  }
-  if (low == c->count || c->obstacles[low].id != id) return 0;
-  *from = c->start[low].pose, *to = c->now[low].pose;
+  const size_t o = index_of(c, id);
+  if (o == c->count) return 0;
+  *from = c->start[o].pose, *to = c->now[o].pose;
   return 1;
 }
 

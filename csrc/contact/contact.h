@@ -159,6 +159,9 @@ typedef struct sw_contact_push {
 } sw_contact_push;
 /* All touches, also those without a force; number k of them: 0 when it has none. */
 size_t sw_contact_touches(const sw_contact *contact);
+/* Those from number *first up to *end are of nodes from node up to end_node. */
+void sw_contact_touches_of(const sw_contact *contact, size_t node, size_t end_node, size_t *first,
+                           size_t *end);
 int sw_contact_push_at(const sw_contact *contact, const sw_system *system, size_t k,
                        sw_contact_push *out);
 double sw_contact_energy(const sw_contact *contact); /* stored in the springs [J] */

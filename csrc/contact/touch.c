@@ -251,20 +251,17 @@ static int keep_side(const sw_contact *c, const sw_candidate *k, sw_vec local, s
  * one: 1 and the touch, else 0. */
 static int behind_barrier(const sw_contact *c, const sw_candidate *k, const double *y,
                           sw_closest *near) {
-  for (size_t i = 0; i < c->barrier_count; i++) {
-    const sw_barrier *b = &c->barriers[i];
-    if (b->obstacle != k->obstacle || b->node != k->node || b->segment != k->segment) continue;
-    const sw_vec local =
-        sw_pose_local(c->now[b->obstacle].pose, sw_contact_where(c, y, b->node, b->other, b->at));
-    const double gap = sw_dot(b->normal, sw_sub(local, b->point));
-    *near = (sw_closest){.gap = gap,
-                         .at = b->at,
-                         .normal = b->normal,
-                         .point = sw_madd(local, b->normal, -gap),
-                         .feature = SW_BEHIND_BARRIER};
-    return 1;
-  }
-  return 0;
+  const sw_barrier *b = sw_contact_barrier(c, k->obstacle, k->node, k->segment);
+  if (!b) return 0;
+  const sw_vec local =
+      sw_pose_local(c->now[b->obstacle].pose, sw_contact_where(c, y, b->node, b->other, b->at));
+  const double gap = sw_dot(b->normal, sw_sub(local, b->point));
+  *near = (sw_closest){.gap = gap,
+                       .at = b->at,
+                       .normal = b->normal,
+                       .point = sw_madd(local, b->normal, -gap),
+                       .feature = SW_BEHIND_BARRIER};
+  return 1;
 }
 
 /* The nearest place of a segment that lies along an obstacle comes and goes with the last

@@ -3,6 +3,8 @@
 #ifndef SW_CONTACT_TOUCH_H
 #define SW_CONTACT_TOUCH_H
 
+#include <stdint.h>
+
 #include "contact/broad.h"
 #include "contact/contact.h"
 #include "contact/law.h"
@@ -70,7 +72,16 @@ typedef struct sw_barrier {
   size_t node, other;
   double at;
   sw_vec normal, point; /* local [-], [m] */
+  uint32_t before;      /* the one before at its node + 1, or 0 */
 } sw_barrier;
+
+/* A touch whose impact was dealt with in this step. */
+typedef struct sw_impact {
+  int obstacle, segment;
+  size_t node;
+  double at;
+  uint32_t before; /* as a barrier's */
+} sw_impact;
 
 /* A touch that was part of the last matrix. */
 typedef struct sw_mark {
@@ -94,7 +105,7 @@ struct sw_contact {
   size_t busy_count;
   int informed; /* 1: the owner has told what obstacles remember and which may move */
   sw_broad broad;
-  int last_stage;          /* that was booked in this trial */
+  int last_stage; /* that was booked in this trial */
   size_t count;
   sw_contact_place place;
   void *user;
@@ -102,7 +113,8 @@ struct sw_contact {
   int *flat;                  /* (count) 1: a half space, no segment contacts */
   int *pads;                  /* (pad_count) those of grippers */
   size_t pad_count;
-  int *dense;                 /* (count) 1: particles of the body at hand lie close, likewise */
+  int *pressing; /* (count) 1: a pad that pressed on something at the step's start */
+  int *dense;   /* (count) 1: particles of the body at hand lie close, likewise */
   double *sunk; /* (3 nodes) how far contact sees a node further in, or NULL: nowhere [m] */
   size_t sunk_capacity;
   double *spaced; /* (count) farthest that samples of the body at hand may be apart; 0: none [m] */
@@ -115,9 +127,13 @@ struct sw_contact {
   size_t pressed_count, pressed_capacity, pressed_before; /* of earlier stages */
   sw_memory *memory, *next_memory;
   size_t memory_count, memory_capacity, next_count, next_capacity;
+  /* impacts and barriers by their nodes: number of each node's last one + 1, or 0, and of the one
+   * before it */
+  uint32_t *impact_at, *barrier_at; /* (places) */
+  size_t places, place_capacity;
   sw_barrier *barriers;
   size_t barrier_count, barrier_capacity;
-  sw_memory *impacts; /* keys of touches whose impact was dealt with in this step */
+  sw_impact *impacts;
   size_t impact_count, impact_capacity;
   sw_mark *marks;
   size_t mark_count, mark_capacity;
@@ -144,6 +160,12 @@ void sw_contact_forget_blows(sw_contact *c);
 void sw_contact_conclude(sw_contact *c);
 /* Wires may press on the obstacle in this step. */
 void sw_contact_expect(sw_contact *c, int obstacle);
+
+/* A step of a system with so many nodes begins without impacts and barriers. SW_ENOMEM. */
+sw_status sw_contact_calm(sw_contact *c, size_t nodes);
+
+/* The barrier that was raised first of those for the node or segment, or NULL. */
+const sw_barrier *sw_contact_barrier(const sw_contact *c, int obstacle, size_t node, int segment);
 
 /* How far nodes are sunk, with the system where it is. SW_ENOMEM. */
 sw_status sw_contact_sink(sw_contact *c, const sw_system *s);

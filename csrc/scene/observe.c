@@ -170,7 +170,10 @@ static void line_values(const sw_system *s, const sw_body *b, double *out) {
 
 static void add_pressed(const sw_scene *s, const sw_body *b, double *out) {
   const sw_web *web = b->plan->web;
-  for (size_t k = 0; s->contact && k < sw_contact_touches(s->contact); k++) {
+  size_t k = 0, end = 0;
+  if (s->contact)
+    sw_contact_touches_of(s->contact, b->first_node, b->first_node + b->plan->nodes, &k, &end);
+  for (; k < end; k++) {
     sw_contact_push p;
     if (!sw_contact_push_at(s->contact, &s->system, k, &p)) continue;
     const size_t at[2] = {p.node, p.other};

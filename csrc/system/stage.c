@@ -297,11 +297,12 @@ static double trusted_shift(const sw_system *s, const sw_body *b, double hbar, i
 }
 
 static int drowned_in_rounding(const sw_system *s, const sw_stage *stage, int statics) {
+  const double shift = largest_shift(s);
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
     if (body->plan->web) continue; /* its springs are no chain that adds rounding up */
     const double trusted = trusted_shift(s, body, stage->hbar, statics);
-    if (trusted < body->plan->length && trusted > 0 && largest_shift(s) > trusted) return 1;
+    if (trusted < body->plan->length && trusted > 0 && shift > trusted) return 1;
   }
   return 0;
 }

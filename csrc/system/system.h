@@ -123,7 +123,7 @@ typedef struct sw_coupling {
 typedef struct sw_counters {
   size_t newton;      /* matrix solves since start [-] */
   size_t evaluations; /* force evaluations since start [-] */
-  size_t looks;       /* at obstacles, by contact that looks for what may touch [-] */
+  size_t looks;       /* at obstacles and lists, by contact that looks for something in them [-] */
 } sw_counters;
 
 struct sw_system {

@@ -130,3 +130,27 @@ describe("many obstacles", function()
     assert.equal(missed, also_missed)
   end)
 end)
+
+describe("many nodes that land at once", function()
+  local grounds = {
+    plane = { shape = "plane" },
+    box = { shape = "box", size = { 100, 1, 0.1 }, at = { 30, 0, -0.05 } },
+  }
+  for what, ground in pairs(grounds) do
+    it("on a " .. what .. " cost in proportion to their number", function()
+      local function looks(nodes)
+        local s = sw.scene{}
+        s:obstacle(ground)
+        local L = 0.01 * nodes
+        wire(s, { from = { 0, 0, 0.05 }, to = { L, 0, 0.05 }, segments = nodes })
+        local r = s:advance({ dt = 0.01 }, 0.13)
+        assert.is_true(r.ok, r.reason)
+        assert.is_true(r.iterations > 2 * 13, "no impact")
+        assert.is_true(s:contacts() > 0.9 * nodes, "it does not lie there")
+        return r.looks
+      end
+      local few, many = looks(400), looks(1600)
+      assert.is_true(many < 6 * few, ("%d looks with 1600 nodes, %d with 400"):format(many, few))
+    end)
+  end
+end)
