@@ -115,6 +115,7 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
   c->regime = regime;
   c->pressed_count = 0;
   c->plastic = 0;
+  c->parts = (sw_contact_parts){.on = 0};
   c->struck = 0;
   c->widening = 1.0;
   sw_contact_forget_blows(c);
@@ -142,6 +143,7 @@ sw_status sw_contact_begin_stage(void *contact, sw_system *s, double time, doubl
   c->pressed_before = c->pressed_count;
   c->stage_time = time;
   c->updates = c->looked = 0;
+  c->parts = (sw_contact_parts){.on = 0};
   return sw_broad_place(c, time, c->now, err);
 }
 

@@ -79,6 +79,7 @@ sw_status sw_contact_begin_look(sw_contact *contact, sw_system *system, double t
 /* The system's coupling functions (see sw_coupling), user = the contact. */
 sw_status sw_contact_begin_stage(void *contact, sw_system *system, double time, double hbar,
                                  const double *y, sw_error *err);
+void sw_contact_part(void *contact, sw_system *system);
 sw_status sw_contact_eval(void *contact, sw_system *system, double time, double hbar,
                           const double *y, unsigned want, sw_error *err);
 /* Its normals and friction are those of the last matrix: no touch slides, and the same ones press.

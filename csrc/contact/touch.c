@@ -325,26 +325,10 @@ static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k,
   return c->regime == SW_CONTACT_EXPLICIT ? SW_OK : keep_pushing(c, s, k, y, first);
 }
 
-static void swap_lists(sw_contact *c) {
-  sw_touch *list = c->last;
-  const size_t capacity = c->last_capacity;
-  c->last = c->touches, c->last_capacity = c->touch_capacity, c->last_count = c->touch_count;
-  c->touches = list, c->touch_capacity = capacity, c->touch_count = 0;
-  size_t i = 0; /* both lists are in the candidates' order */
-  for (size_t n = 0; n < c->candidate_count; n++) {
-    sw_candidate *k = &c->candidates[n];
-    k->last = i;
-    while (i < c->last_count && c->last[i].node == k->node && c->last[i].obstacle == k->obstacle &&
-           c->last[i].segment == k->segment)
-      i++;
-    k->last_end = i;
-  }
-}
-
 sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw_error *err) {
-  sw_status status = SW_OK;
-  swap_lists(c);
-  for (size_t i = 0; i < c->candidate_count && status == SW_OK; i++)
+  size_t first, end;
+  sw_status status = sw_contact_turn_over(c, &first, &end);
+  for (size_t i = first; i < end && status == SW_OK; i++)
     status = sw_interrupted() ? SW_EINTR : query(c, s, &c->candidates[i], y);
   return status == SW_OK ? SW_OK : sw_fail(err, status, "contact: %s", sw_status_text(status));
 }

@@ -98,6 +98,15 @@ typedef struct sw_contact_loads {
   int busy;              /* 1: it is in the list of those that may get something */
 } sw_contact_loads;
 
+/* A stage that is solved by parts: the part at hand. */
+typedef struct sw_contact_parts {
+  int on, begun;     /* 1: there are parts; this one has been looked at */
+  size_t first, end; /* its candidates */
+  size_t touch;      /* its first touch */
+  size_t before;     /* touches of the stage before, of all parts */
+  size_t matched;    /* of those, up to this part's last */
+} sw_contact_parts;
+
 struct sw_contact {
   sw_contact_obstacle *obstacles;
   sw_contact_loads *loads; /* (count) zero but for those in busy */
@@ -114,8 +123,8 @@ struct sw_contact {
   int *pads;                  /* (pad_count) those of grippers */
   size_t pad_count;
   int *pressing; /* (count) 1: a pad that pressed on something at the step's start */
-  int *dense;   /* (count) 1: particles of the body at hand lie close, likewise */
-  double *sunk; /* (3 nodes) how far contact sees a node further in, or NULL: nowhere [m] */
+  int *dense;    /* (count) 1: particles of the body at hand lie close, likewise */
+  double *sunk;  /* (3 nodes) how far contact sees a node further in, or NULL: nowhere [m] */
   size_t sunk_capacity;
   double *spaced; /* (count) farthest that samples of the body at hand may be apart; 0: none [m] */
   sw_bounds *bounds; /* (count) at the step's start, world axes */
@@ -137,6 +146,7 @@ struct sw_contact {
   size_t impact_count, impact_capacity;
   sw_mark *marks;
   size_t mark_count, mark_capacity;
+  sw_contact_parts parts;
   int unmarked;      /* 1: some touch slid, or there was no room: the marks tell nothing */
   int looked;        /* 1: touches are those of the iterate to be evaluated next */
   double time, h;    /* of the step [s] */
@@ -172,6 +182,10 @@ sw_status sw_contact_sink(sw_contact *c, const sw_system *s);
 
 /* Fill the list of candidates for the step. */
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err);
+
+/* An iterate begins: touches become those of the one before, of candidates from *first to *end.
+ * SW_ENOMEM. */
+sw_status sw_contact_turn_over(sw_contact *c, size_t *first, size_t *end);
 
 /* Find the touches at positions y; those of before are then the last ones. SW_ENOMEM. */
 sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw_error *err);

@@ -533,6 +533,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
       s->time > s->frames[s->frame_count - 1].time)
     (void)sw_scene_store_frame(s, &ignored);
   report->evaluations = s->system.counters.evaluations - before.evaluations;
+  report->solves = s->system.counters.solves - before.solves;
   report->looks = s->system.counters.looks - before.looks;
   conclude(s, status, report, &why);
   if (status == SW_ECALLBACK) s->discontinuous = 1;

@@ -74,6 +74,11 @@ static sw_status begin_stage(void *user, sw_system *system, double t, double hba
   return sw_contact_begin_stage(((sw_scene *)user)->contact, system, t, hbar, y, err);
 }
 
+static void part(void *user, sw_system *system) {
+  const sw_scene *s = user;
+  sw_contact_part(s->contact, system);
+}
+
 static sw_status eval(void *user, sw_system *system, double t, double hbar, const double *y,
                       unsigned want, sw_error *err) {
   const sw_scene *s = user;
@@ -103,6 +108,7 @@ static void book(void *user, const sw_booking *booking) {
 void sw_scene_couple(sw_scene *s) {
   if (s->contact) s->system.coupling.begin_stage = begin_stage, s->system.coupling.book = book;
   if (!sw_scene_has_contact(s)) return;
+  if (!s->pairs && !s->crowd) s->system.coupling.part = part;
   s->system.coupling.eval = eval;
   s->system.coupling.keeps = keeps;
   s->system.coupling.settled = settled;
