@@ -154,3 +154,74 @@ describe("many nodes that land at once", function()
     end)
   end
 end)
+
+describe("wires that nothing couples", function()
+  -- One that is lifted off the table, one that swings, one that is thrown; nothing strikes.
+  local function three(s, k)
+    local w
+    if k == 1 then
+      w = wire(s, { from = { 0, 0, 0.0025 }, to = { 0.4, 0, 0.0025 } })
+      s:clamp(w, { s = 0 }):follow{ points = { { 0, 0, 0.0025 }, { 0, 0, 0.0225 } }, duration = 0.4 }
+    elseif k == 2 then
+      w = wire(s, { from = { 0, 1, 1 }, to = { 0.5, 1, 1 }, segments = 30 })
+      s:clamp(w, { s = 0 })
+    else
+      w = wire(s, { from = { 0, 2, 2 }, to = { 0.3, 2, 2.2 }, segments = 20 })
+      w:set_velocity{ 1, 0, 1 }
+    end
+    return w
+  end
+  local function run(...)
+    local s, list = sw.scene{}, {}
+    s:obstacle{ shape = "plane", friction = 0.3 }
+    for _, k in ipairs{ ... } do list[#list + 1] = three(s, k) end
+    local r = s:advance({ dt = 0.005 }, 0.2)
+    assert.is_true(r.ok, r.reason)
+    assert.equal(40, r.steps)
+    return list, r
+  end
+
+  it("go as they would alone, bit for bit", function()
+    local together = run(1, 2, 3)
+    for k = 1, 3 do assert.equal(bits(run(k)[1]), bits(together[k])) end
+  end)
+
+  it("iterate no longer than they would alone", function()
+    local _, all = run(1, 2, 3)
+    local sum, most = 0, 0
+    for k = 1, 3 do
+      local _, alone = run(k)
+      sum, most = sum + alone.solves, math.max(most, alone.iterations)
+      assert.equal(alone.solves, alone.iterations)
+    end
+    assert.equal(sum, all.solves)
+    assert.is_true(all.solves < 3 * all.iterations, "none waited")
+    assert.is_true(all.iterations >= most)
+  end)
+
+  it("keep what they touch when another one iterates longer", function()
+    local s, low = sw.scene{}, {}
+    local plate = s:obstacle{ shape = "plane", friction = 0.3 }
+    for k = 1, 5 do
+      low[k] = wire(s, { from = { 0, 0.05 * k, 0.01 * k }, to = { 0.3, 0.05 * k, 0.008 * k } })
+    end
+    assert.is_true(s:run{ duration = 1.5, dt = 0.01 }.ok)
+    local weight = 5 * 0.3 * 1500 * math.pi * 0.0025 ^ 2 * 9.81
+    assert.is_true(math.abs(plate:force()[3] + weight) < 2e-3 * weight)
+    for k = 1, 5 do
+      assert.is_true(math.abs(low[k]:position(0.15)[3] - 0.0025) < 1e-4)
+    end
+  end)
+
+  it("are looked at for buckling with one linearisation", function()
+    local s = sw.scene{}
+    for k = 1, 6 do
+      s:clamp(wire(s, { from = { 0, k, 0 }, to = { 0, k, 0.5 }, segments = 10 }), { s = 0 })
+    end
+    local r = s:run{ duration = 0.05, dt = 0.01 }
+    local found = 0
+    for _, event in ipairs(r.events) do found = found + (event.kind == "buckling" and 1 or 0) end
+    assert.equal(6, found)
+    assert.equal(r.iterations + 1, r.evaluations)
+  end)
+end)
