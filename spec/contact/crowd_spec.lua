@@ -2,6 +2,7 @@
 -- Many obstacles, many nodes, many wires: the work of finding what touches, counted, and the same
 -- results as where there are few.
 local sw = require "softworld"
+local build = require "softworld.build"
 
 local function wire(scene, o)
   return scene:wire{ E = 5e6, density = 1500, radius = 0.0025, from = o.from, to = o.to,
@@ -42,6 +43,20 @@ describe("many obstacles", function()
     assert.is_true(few > 0)
     assert.is_true(many < 3 * few, ("%d looks with 1600 boxes, %d with 100"):format(many, few))
     assert.is_true(many < 0.1 * 1601 * 61 * 10, ("%d looks"):format(many))
+  end)
+
+  it("are made without reading the list of all for each", function()
+    local s, list, reads = sw.scene{}, {}, 0
+    build.data(s).obstacles = setmetatable({}, { __newindex = list, __len = function() return #list end,
+      __index = function(_, k)
+        reads = reads + 1
+        return list[k]
+      end })
+    for i = 1, 300 do s:obstacle{ shape = "sphere", radius = 0.01, at = { i, 0, 0 } } end
+    assert.equal(300, #list)
+    assert.is_true(reads < 5 * 300, reads .. " reads")
+    assert.has_error(function() s:obstacle{ shape = "plane", name = "sphere7" } end,
+      "scene '" .. s.name .. "' already has something named 'sphere7'")
   end)
 
   -- The same obstacles, alone or among others that nothing comes near.
