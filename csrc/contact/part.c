@@ -30,6 +30,10 @@ static void swap_lists(sw_contact *c) {
 
 void sw_contact_part(void *contact, sw_system *s) {
   sw_contact *c = contact;
+  if (s->part_end - s->part == s->body_count) {
+    c->parts = (sw_contact_parts){.on = 0};
+    return;
+  }
   if (!c->parts.on) {
     swap_lists(c);
     c->parts = (sw_contact_parts){.on = 1, .before = c->last_count};

@@ -69,14 +69,17 @@ sw_status sw_scene_new_pairs(sw_scene *s) {
 
 /* --- the system's coupling ------------------------------------------------------- */
 
-static sw_status begin_stage(void *user, sw_system *system, double t, double hbar, const double *y,
-                             sw_error *err) {
-  return sw_contact_begin_stage(((sw_scene *)user)->contact, system, t, hbar, y, err);
-}
-
 static void part(void *user, sw_system *system) {
   const sw_scene *s = user;
-  sw_contact_part(s->contact, system);
+  if (s->contact) sw_contact_part(s->contact, system);
+}
+
+static sw_status begin_stage(void *user, sw_system *system, double t, double hbar, const double *y,
+                             sw_error *err) {
+  const sw_scene *s = user;
+  const int apart = !s->crowd && (!s->pairs || sw_pairs_idle(s->pairs));
+  system->coupling.part = apart ? part : NULL;
+  return s->contact ? sw_contact_begin_stage(s->contact, system, t, hbar, y, err) : SW_OK;
 }
 
 static sw_status eval(void *user, sw_system *system, double t, double hbar, const double *y,
@@ -84,7 +87,8 @@ static sw_status eval(void *user, sw_system *system, double t, double hbar, cons
   const sw_scene *s = user;
   if (s->contact) SW_TRY(sw_contact_eval(s->contact, system, t, hbar, y, want, err));
   if (s->crowd) sw_crowd_eval(s->crowd, system, y, want);
-  return s->pairs ? sw_pairs_eval(s->pairs, system, y, want, err) : SW_OK;
+  const int pairs = s->pairs && !sw_pairs_idle(s->pairs);
+  return pairs ? sw_pairs_eval(s->pairs, system, y, want, err) : SW_OK;
 }
 
 static sw_status keeps(void *user, sw_system *system, const double *y, int *out, sw_error *err) {
@@ -96,7 +100,7 @@ static sw_status keeps(void *user, sw_system *system, const double *y, int *out,
 static int settled(void *user, sw_system *system, const double *y, const double *delta) {
   const sw_scene *s = user;
   int fine = !s->contact || sw_contact_settled(s->contact, system, y, delta);
-  if (s->pairs) fine &= sw_pairs_settled(s->pairs, system, delta);
+  if (s->pairs && !sw_pairs_idle(s->pairs)) fine &= sw_pairs_settled(s->pairs, system, delta);
   if (s->crowd) fine &= sw_crowd_settled(s->crowd, system, y, delta);
   return fine;
 }
@@ -106,9 +110,9 @@ static void book(void *user, const sw_booking *booking) {
 }
 
 void sw_scene_couple(sw_scene *s) {
-  if (s->contact) s->system.coupling.begin_stage = begin_stage, s->system.coupling.book = book;
+  if (s->contact) s->system.coupling.book = book;
   if (!sw_scene_has_contact(s)) return;
-  if (!s->pairs && !s->crowd) s->system.coupling.part = part;
+  s->system.coupling.begin_stage = begin_stage;
   s->system.coupling.eval = eval;
   s->system.coupling.keeps = keeps;
   s->system.coupling.settled = settled;

@@ -450,6 +450,7 @@ static sw_status iterate_parts(sw_system *s, const sw_stage *stage, const sw_new
     report->negative += own.negative;
   }
   s->part = 0, s->part_end = s->body_count;
+  if (s->coupling.part) s->coupling.part(s->coupling.user, s);
   s->counters.newton = before.newton + (size_t)report->iterations;
   s->counters.evaluations = before.evaluations + (size_t)report->iterations;
   return status;

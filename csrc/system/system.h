@@ -111,7 +111,7 @@ typedef struct sw_coupling {
   sw_status (*begin_stage)(void *user, sw_system *system, double time, double hbar, const double *y,
                            sw_error *err);
   /* It couples no bodies, and from now on acts on system->part alone; parts come in their order,
-   * each once in a stage. NULL: it acts on all together. */
+   * each once in a stage, and then all again. NULL: it acts on all together. */
   void (*part)(void *user, sw_system *system);
   /* Add forces and matrix rows at y to the bodies' fields. */
   sw_status (*eval)(void *user, sw_system *system, double time, double hbar, const double *y,

@@ -186,10 +186,12 @@ describe("wires that nothing couples", function()
     end
     return w
   end
+  local contact
   local function run(...)
     local s, list = sw.scene{}, {}
     s:obstacle{ shape = "plane", friction = 0.3 }
     for _, k in ipairs{ ... } do list[#list + 1] = three(s, k) end
+    if contact then s:wire_contact{ friction = 0.3 } end
     local r = s:advance({ dt = 0.005 }, 0.2)
     assert.is_true(r.ok, r.reason)
     assert.equal(40, r.steps)
@@ -199,6 +201,15 @@ describe("wires that nothing couples", function()
   it("go as they would alone, bit for bit", function()
     local together = run(1, 2, 3)
     for k = 1, 3 do assert.equal(bits(run(k)[1]), bits(together[k])) end
+  end)
+
+  it("do so where they may touch each other but do not", function()
+    contact = true
+    local together, all = run(1, 2, 3)
+    contact = false
+    local without, apart = run(1, 2, 3)
+    assert.equal(bits(table.unpack(without)), bits(table.unpack(together)))
+    assert.equal(apart.solves, all.solves)
   end)
 
   it("iterate no longer than they would alone", function()
