@@ -96,6 +96,8 @@ int sw_contact_id(const sw_contact *contact, size_t k);
 const sw_contact_past *sw_contact_past_of(const sw_contact *contact, size_t k);
 /* Numbers (count) of those that remember anything or may; the others remember nothing. */
 const int *sw_contact_busy(const sw_contact *contact, size_t *count);
+/* The same of those that may move. */
+const int *sw_contact_movers(const sw_contact *contact, size_t *count);
 /* By the owner's number: what an obstacle remembers of the last step, and 1 when it may move. */
 typedef const sw_contact_past *(*sw_contact_past_function)(void *user, int id);
 typedef int (*sw_contact_moves_function)(void *user, int id);

@@ -103,6 +103,11 @@ const int *sw_contact_busy(const sw_contact *c, size_t *count) {
   return c->busy;
 }
 
+const int *sw_contact_movers(const sw_contact *c, size_t *count) {
+  *count = c->broad.mover_count;
+  return c->broad.mover;
+}
+
 int sw_contact_informed(const sw_contact *c) { return c->informed; }
 
 void sw_contact_recall(sw_contact *c, sw_contact_past_function past,
