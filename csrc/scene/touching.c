@@ -129,7 +129,7 @@ static int may_move(void *user, int o) {
 }
 
 /* What nothing touches now remembers nothing of when something did. */
-static void inform(sw_scene *s) {
+void sw_scene_inform_contact(sw_scene *s) {
   for (size_t k = 0; k < s->obstacle_count; k++)
     if (!s->obstacles[k].alive || s->obstacles[k].off) s->obstacles[k].past = (sw_contact_past){0};
   sw_contact_recall(s->contact, past_of, may_move);
@@ -137,7 +137,7 @@ static void inform(sw_scene *s) {
 
 sw_status sw_scene_begin_contact(sw_scene *s, sw_contact_regime regime, double t, double h,
                                  double nominal, sw_error *err) {
-  if (s->contact && !sw_contact_informed(s->contact)) inform(s);
+  if (s->contact && !sw_contact_informed(s->contact)) sw_scene_inform_contact(s);
   if (s->contact) SW_TRY(sw_contact_begin_step(s->contact, &s->system, regime, t, h, nominal, err));
   const sw_status crowd = s->crowd ? sw_crowd_begin_step(s->crowd, &s->system, h) : SW_OK;
   if (crowd != SW_OK)

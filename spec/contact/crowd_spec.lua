@@ -121,6 +121,42 @@ describe("many obstacles", function()
     end)
   end
 
+  it("have a row of their series for every step, touched or not", function()
+    local s = sw.scene{}
+    local near = s:obstacle{ shape = "plane" }
+    local far = s:obstacle{ shape = "sphere", radius = 0.01, at = { 3, 0, 0 } }
+    wire(s, { from = { 0, 0, 0.02 }, to = { 0.3, 0, 0.02 } })
+    local function rows(obstacle)
+      local log, n = obstacle:log()
+      local times, force = {}, 0
+      for k = 1, n do
+        times[k] = log[5 * k - 4] .. " " .. log[5 * k]
+        force = force + math.abs(log[5 * k - 1])
+      end
+      return table.concat(times, "\n"), n, force
+    end
+    s:run{ duration = 0.1, dt = 0.01 }
+    local snapshot = s:snapshot()
+    local late = s:obstacle{ shape = "sphere", radius = 0.01, at = { 4, 0, 0 } }
+    s:run{ duration = 0.1, dt = 0.01 }
+    local times, count, force = rows(near)
+    local far_times, _, far_force = rows(far)
+    assert.is_true(count >= 20 and force > 0)
+    assert.equal(times, far_times)
+    assert.equal(0, far_force)
+    local late_times = rows(late)
+    assert.equal(late_times, times:sub(-#late_times))
+    assert.is_true(#late_times < #times)
+    s:restore(snapshot)
+    local before, kept = rows(far)
+    assert.equal(before, times:sub(1, #before))
+    assert.is_true(kept < count and kept >= 10)
+    s:run{ duration = 0.1, dt = 0.01 }
+    times, count = rows(near)
+    assert.equal(times, (rows(far)))
+    assert.is_true(count > kept)
+  end)
+
   it("are met where a hand puts them, and after a snapshot", function()
     local function run(others)
       local s = sw.scene{}
