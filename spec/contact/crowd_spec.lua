@@ -123,7 +123,7 @@ describe("many obstacles", function()
 
   it("have a row of their series for every step, touched or not", function()
     local s = sw.scene{}
-    local near = s:obstacle{ shape = "plane" }
+    local plate = s:obstacle{ shape = "plane" }
     local far = s:obstacle{ shape = "sphere", radius = 0.01, at = { 3, 0, 0 } }
     wire(s, { from = { 0, 0, 0.02 }, to = { 0.3, 0, 0.02 } })
     local function rows(obstacle)
@@ -139,7 +139,7 @@ describe("many obstacles", function()
     local snapshot = s:snapshot()
     local late = s:obstacle{ shape = "sphere", radius = 0.01, at = { 4, 0, 0 } }
     s:run{ duration = 0.1, dt = 0.01 }
-    local times, count, force = rows(near)
+    local times, count, force = rows(plate)
     local far_times, _, far_force = rows(far)
     assert.is_true(count >= 20 and force > 0)
     assert.equal(times, far_times)
@@ -152,7 +152,7 @@ describe("many obstacles", function()
     assert.equal(before, times:sub(1, #before))
     assert.is_true(kept < count and kept >= 10)
     s:run{ duration = 0.1, dt = 0.01 }
-    times, count = rows(near)
+    times, count = rows(plate)
     assert.equal(times, (rows(far)))
     assert.is_true(count > kept)
   end)
