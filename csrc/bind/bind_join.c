@@ -96,6 +96,19 @@ static int meth_read(lua_State *L) {
   return 1;
 }
 
+/* join:log() of a tie -> flat rows of time, force on the first wire [s], [N]; their number */
+static int meth_log(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const double *rows;
+  size_t count;
+  const lsw_child *j = lsw_check_child(L, 1, &lsw_class_join, &scene);
+  lsw_must(L, sw_scene_tie_log(scene, j->id, &rows, &count, &err), &err);
+  lsw_push_flat(L, rows, count * SW_LOG_FORCE_SIZE);
+  lua_pushinteger(L, (lua_Integer)count);
+  return 2;
+}
+
 static int meth_release(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
@@ -142,11 +155,9 @@ static int meta_describe(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg methods[] = {{"force", meth_force},
-                                   {"moment", meth_moment},
-                                   {"release", meth_release},
-                                   {"read", meth_read},
-                                   {NULL, NULL}};
+static const luaL_Reg methods[] = {{"force", meth_force},     {"moment", meth_moment},
+                                   {"release", meth_release}, {"read", meth_read},
+                                   {"log", meth_log},         {NULL, NULL}};
 static const luaL_Reg properties[] = {{"name", prop_name}, {"held", prop_held}, {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 

@@ -80,6 +80,7 @@ void sw_contact_free(sw_contact *c) {
   sw_free(c->impacts);
   sw_free(c->impact_at);
   sw_free(c->marks);
+  sw_free(c->room);
   sw_free(c);
 }
 
@@ -136,10 +137,9 @@ sw_status sw_contact_begin_look(sw_contact *c, sw_system *s, double t, sw_error 
   return SW_OK;
 }
 
-sw_status sw_contact_begin_stage(void *contact, sw_system *s, double time, double hbar,
-                                 const double *y, sw_error *err) {
-  sw_contact *c = contact;
-  (void)s, (void)hbar, (void)y;
+sw_status sw_contact_begin_stage(sw_contact *c, double time, double first, sw_error *err) {
+  c->stage++;
+  c->first = first;
   c->pressed_before = c->pressed_count;
   c->stage_time = time;
   c->updates = c->looked = 0;
@@ -256,6 +256,13 @@ int sw_contact_memory_fits(const void *memory, size_t bytes, size_t nodes, size_
       return 0;
   }
   return bytes % sizeof(sw_memory) == 0;
+}
+
+int sw_contact_memory_names(const void *memory, size_t bytes, size_t node) {
+  const sw_memory *m = memory;
+  for (size_t i = 0; i < bytes / sizeof *m; i++)
+    if (m[i].node == node) return 1;
+  return 0;
 }
 
 sw_status sw_contact_inherit(sw_contact *c, const void *memory, size_t bytes, int fresh,
@@ -412,12 +419,6 @@ double sw_contact_rubbed(const sw_contact *c) {
     const sw_press *p = &c->touches[i].press;
     if (p->normal_force > 0) sum -= sw_dot(p->tangential, p->slip);
   }
-  return sum;
-}
-
-double sw_contact_hardened(const sw_contact *c) {
-  double sum = 0;
-  for (size_t i = 0; i < c->touch_count; i++) sum += c->touches[i].hardened;
   return sum;
 }
 

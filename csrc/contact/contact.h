@@ -77,15 +77,15 @@ sw_status sw_contact_begin_step(sw_contact *contact, sw_system *system, sw_conta
 sw_status sw_contact_begin_look(sw_contact *contact, sw_system *system, double t, sw_error *err);
 
 /* The system's coupling functions (see sw_coupling), user = the contact. */
-sw_status sw_contact_begin_stage(void *contact, sw_system *system, double time, double hbar,
-                                 const double *y, sw_error *err);
 void sw_contact_part(void *contact, sw_system *system);
+sw_status sw_contact_begin_stage(sw_contact *contact, double time, double first, sw_error *err);
 sw_status sw_contact_eval(void *contact, sw_system *system, double time, double hbar,
                           const double *y, unsigned want, sw_error *err);
 /* Its normals and friction are those of the last matrix: no touch slides, and the same ones press.
  */
 sw_status sw_contact_keeps(void *contact, sw_system *system, const double *y, int *out,
                            sw_error *err);
+void sw_contact_refine(void *contact, sw_system *system);
 int sw_contact_settled(void *contact, sw_system *system, const double *y, const double *delta);
 
 /* See sw_coupling. */
@@ -169,6 +169,10 @@ int sw_contact_push_at(const sw_contact *contact, const sw_system *system, size_
                        sw_contact_push *out);
 double sw_contact_energy(const sw_contact *contact); /* stored in the springs [J] */
 
+/* After a step: 1, obstacles' forces at its end are those of a shock, which it does not go on with.
+ */
+int sw_contact_shaken(const sw_contact *contact, const sw_system *system);
+
 /* --- for the energy ledger, after a trial ------------------------------------- */
 
 /* Where obstacle number id is at the step's start and as last placed. 0: there is none. */
@@ -176,9 +180,6 @@ int sw_contact_poses(const sw_contact *contact, int id, sw_pose *from, sw_pose *
 double sw_contact_rubbed(const sw_contact *contact); /* lost by friction in the step [J] */
 /* 1: the touches that press are those that pressed at the step's start. */
 int sw_contact_steady(const sw_contact *contact);
-/* Given by touches of meshes being stiffer than before, which lets them sink in less, at most [J].
- */
-double sw_contact_hardened(const sw_contact *contact);
 double sw_contact_fastest(const sw_contact *contact); /* of obstacles at the step's end [m/s] */
 /* 1: in this step wires are let out of obstacles that they began in. */
 int sw_contact_emerges(const sw_contact *contact);
@@ -203,6 +204,8 @@ sw_status sw_contact_set_seen(sw_contact *contact, const void *seen, size_t byte
 /* A number that is another one when what these blocks consist of is, to tell files of another
  * version by. */
 size_t sw_contact_layout(void);
+/* 1: it says that a node touches something. */
+int sw_contact_memory_names(const void *memory, size_t bytes, size_t node);
 /* Add what a memory says of nodes from old_first up to old_end, which are now numbered from
  * new_first, and obstacles of these numbers (count). SW_ENOMEM. */
 sw_status sw_contact_add_memory(sw_contact *contact, const void *memory, size_t bytes,

@@ -89,22 +89,59 @@ static sw_vec striking_velocity(const sw_contact *c, const sw_touch *t, sw_vec p
   return start;
 }
 
-/* What strikes a particle of a wire stops the whole section: its springs do that within any step
- * but the shortest, and would throw it back. Returns the mass that was kicked [kg]. */
-static double kick(sw_system *s, const sw_body *b, size_t node, sw_vec dv) {
+/* The free particles of a node's section, or the node alone; mass and centre of mass. */
+typedef struct section {
+  size_t first, end;
+  double mass;   /* [kg] */
+  sw_vec centre; /* [m] */
+} section;
+
+static section section_of(const sw_system *s, const sw_body *b, size_t node) {
   const sw_web *web = b->plan->web;
-  size_t first = node - b->first_node, end = first + 1;
+  section c = {.first = node - b->first_node, .centre = {0, 0, 0}};
+  c.end = c.first + 1;
   if (web && web->per_ring) {
-    const size_t ring = sw_web_ring_of(web, first);
-    first = web->first[ring], end = web->first[ring + 1];
+    const size_t ring = sw_web_ring_of(web, c.first);
+    c.first = web->first[ring], c.end = web->first[ring + 1];
   }
-  double mass = 0;
-  for (size_t k = first; k < end; k++) {
+  for (size_t k = c.first; k < c.end; k++) {
     if (b->plan->held[k] != SW_FREE) continue;
-    sw_accumulate(s->v + 3 * (b->first_node + k), dv);
-    mass += b->plan->lumped[k];
+    c.mass += b->plan->lumped[k];
+    c.centre = sw_madd(c.centre, sw_load(s->x + 3 * (b->first_node + k)), b->plan->lumped[k]);
   }
-  return mass;
+  if (c.mass > 0) c.centre = sw_scale(c.centre, 1.0 / c.mass);
+  return c;
+}
+
+/* A particle alone has none: what rounding leaves of it is not to count [kg m2]. */
+static double inertia_about(const sw_system *s, const sw_body *b, const section *c, sw_vec axis) {
+  double sum = 0;
+  if (c->end - c->first == 1) return 0;
+  for (size_t k = c->first; k < c->end; k++) {
+    const sw_vec r = sw_sub(sw_load(s->x + 3 * (b->first_node + k)), c->centre);
+    if (b->plan->held[k] == SW_FREE) sum += b->plan->lumped[k] * sw_norm2(sw_cross(axis, r));
+  }
+  return sum;
+}
+
+/* Change a node's velocity by dv. What strikes a particle of a wire stops the whole section, as a
+ * rigid one that may turn: its springs do that within any step but the shortest, and would throw it
+ * back. Returns the impulse over |dv| [kg]. */
+static double kick(sw_system *s, const sw_body *b, size_t node, sw_vec dv) {
+  const section c = section_of(s, b, node);
+  const sw_vec arm = sw_sub(sw_load(s->x + 3 * node), c.centre), moment = sw_cross(arm, dv);
+  const sw_vec axis = sw_unit_or(moment, sw_v(0, 0, 0));
+  const double inertia = inertia_about(s, b, &c, axis), lever2 = sw_norm2(moment);
+  const double turns = inertia > 0 ? c.mass * lever2 / (inertia * sw_norm2(dv)) : 0.0;
+  const double share = 1.0 / (1.0 + turns);
+  const sw_vec spin = inertia > 0 ? sw_scale(moment, share * c.mass / inertia) : sw_v(0, 0, 0);
+  for (size_t k = c.first; k < c.end; k++) {
+    const size_t i = b->first_node + k;
+    if (b->plan->held[k] != SW_FREE) continue;
+    const sw_vec turn = sw_cross(spin, sw_sub(sw_load(s->x + 3 * i), c.centre));
+    sw_accumulate(s->v + 3 * i, sw_madd(turn, dv, share));
+  }
+  return share * c.mass;
 }
 
 /* Change the starting velocities so that the touch is reached, not passed.

@@ -2,6 +2,8 @@
 /* What obstacles get in a step: the impulse that changed the wires' momentum. A method's stages
  * make it up from forces in the way they make up the velocity; impacts that change velocities at
  * the step's start add theirs. */
+#include <math.h>
+
 #include "contact/touch.h"
 
 static sw_contact_load sum(sw_contact_load a, double share, sw_contact_load b) {
@@ -19,7 +21,7 @@ static sw_vec force_on(const sw_contact *c, const sw_touch *t) {
 static void add_now(const sw_contact *c, double share, sw_contact_load *(*at)(sw_contact_loads *)) {
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
-    if (!t->press.active) continue;
+    if (!t->press.active && !t->press.opened) continue;
     const sw_vec arm = sw_sub(t->point, c->now[t->obstacle].pose.p);
     const sw_vec f = sw_neg(force_on(c, t));
     sw_contact_load *to = at(&c->loads[t->obstacle]);
@@ -90,6 +92,28 @@ void sw_contact_conclude(sw_contact *c) {
     const sw_vec turned = sw_cross(c->now[c->busy[i]].pose.p, l->past.mean.force);
     l->past.mean.moment = sw_add(l->past.mean.moment, turned);
   }
+}
+
+/* A wire's weight, or the force that bends it. */
+static double usual_force(const sw_system *s, const sw_plan *p) {
+  const double weight = p->beam.mass * p->length * sw_norm(sw_load(s->gravity));
+  return fmax(weight, p->beam.EI / (p->length * p->length));
+}
+
+/* A force at a step's end that differs from its mean by this share of it, and by this of what is
+ * usual, is that of a shock [-]. */
+static const double SHOCK = 0.3, SHARP = 0.5;
+
+int sw_contact_shaken(const sw_contact *c, const sw_system *s) {
+  for (size_t i = 0; i < c->touch_count; i++) {
+    const sw_touch *t = &c->touches[i];
+    if (s->bodies[t->body].plan->web) continue; /* these would hop: see bounces */
+    const sw_contact_past *past = &c->loads[t->obstacle].past;
+    const double off = sw_norm(sw_sub(past->end.force, past->mean.force));
+    const double most = fmax(sw_norm(past->end.force), sw_norm(past->mean.force));
+    if (off > SHOCK * most && off > SHARP * usual_force(s, s->bodies[t->body].plan)) return 1;
+  }
+  return 0;
 }
 
 int sw_contact_id(const sw_contact *c, size_t k) { return c->obstacles[k].id; }

@@ -92,7 +92,7 @@ sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar,
   sw_contact *c = contact;
   (void)hbar;
   sw_status status = SW_OK;
-  if (c->regime == SW_CONTACT_EXPLICIT) status = sw_contact_begin_stage(c, s, time, hbar, y, err);
+  if (c->regime == SW_CONTACT_EXPLICIT) status = sw_contact_begin_stage(c, time, 0, err);
   if (status != SW_OK) return status;
   if (!c->looked) SW_TRY(sw_contact_look(c, s, y, err));
   c->looked = 0;
@@ -130,22 +130,10 @@ static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *
   return sw_press_apart(&t->press);
 }
 
-/* Of a wire's touches, forces far below the largest one do not matter. Touches are in the
- * order of wires: from the first of one to the first of the next. */
-static double scale_of(const sw_contact *c, size_t first, size_t *end) {
-  const size_t body = c->touches[first].body;
-  double scale = 0;
-  size_t i = first;
-  for (; i < c->touch_count && c->touches[i].body == body; i++)
-    scale = fmax(scale, c->touches[i].press.lag);
-  *end = i;
-  return scale;
-}
-
 static int update_all(sw_contact *c, const sw_system *s, const double *delta) {
   int fine = 1;
   for (size_t first = c->parts.touch, end; first < c->touch_count; first = end) {
-    const double scale = scale_of(c, first, &end);
+    const double scale = sw_contact_scale(c, first, &end);
     for (size_t i = first; i < end; i++) fine &= update(c, s, &c->touches[i], delta, scale);
   }
   return fine;
@@ -177,6 +165,7 @@ int sw_contact_settled(void *contact, sw_system *s, const double *y, const doubl
   c->pressed_count = c->pressed_before;
   c->updates++;
   const int fine = update_all(c, s, delta);
+  if (!fine) sw_contact_peel(c, s);
   if (fine && stiffen(c, s)) return 0;
   for (size_t i = c->parts.touch; fine && i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];

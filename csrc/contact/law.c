@@ -10,10 +10,16 @@ static const double GAP_TOLERANCE = 2e-8;
 static const double SPRING_TOLERANCE = 1e-11;
 /* Nor turns of the sliding direction with a cosine above this [-]. */
 static const double TURN_TOLERANCE = 0.98;
+/* Nor does the linearisation of the direction, by this share of the force [-]. */
+static const double DIRECTION_TOLERANCE = 0.02;
 /* Nor do changes of a sliding touch's normal force below this share of it, or
  * below this share of the scene's forces [-]. */
 static const double FORCE_TOLERANCE = 0.01;
 static const double WEIGHT_TOLERANCE = 1e-3;
+
+/* Friction that was so many times the scene's forces at an iterate's first solve leaves its
+ * rounding in the solution [-]. */
+static const double DROWNED = 100.0;
 
 /* A spring stretched this many times over what friction can hold does not stick,
  * whatever the prediction is worth [-]. */
@@ -37,6 +43,10 @@ static const double EASING = 0.8;        /* per step [-] */
 void sw_press_activate(sw_press *p, const sw_press *last) {
   p->active = p->gap < 0 || (last && last->active && last->normal_force > 0);
   if (!last) return;
+  if (last->let_go || last->take_on) {
+    p->active = last->take_on;
+    return;
+  }
   p->spare = last->spare;
   if (p->active || !last->active || !p->spare) return;
   p->active = 1;
@@ -58,11 +68,24 @@ void sw_press_take_lag(sw_press *p, const sw_press *last) {
     p->lag = last->lag + (last->lag_before - last->lag) * error / (error - error_before);
 }
 
+void sw_press_aim(sw_press *p, sw_vec u, const sw_press *last, int same, double first) {
+  p->carried = !last ? sw_v(0, 0, 0) : same ? last->carried : sw_scale(last->slip, first);
+  u = sw_sub(u, p->carried);
+  p->trial = sw_madd(u, p->normal, -sw_dot(u, p->normal));
+}
+
 void sw_press_begin(sw_press *p, double friction, int known, double felt) {
   const double most = friction * p->lag, grip = sw_press_grip(p), length = sw_norm(p->trial);
   if (!known) p->sliding = grip * length > most;
   const int surely = fmin(grip, felt) * length > SURELY_SLIDING * most;
   if (surely && p->reversals < REVERSALS) p->sliding = 1;
+}
+
+/* Which way a touch slides, and how long its spring is. None that is known: zero. */
+static sw_vec direction(const sw_press *p, double *length) {
+  *length = sw_norm(p->trial);
+  if (!(*length > SPRING_TOLERANCE)) return sw_v(0, 0, 0);
+  return sw_scale(p->trial, 1.0 / *length);
 }
 
 /* K = kn n n' + kt (I - n n') - ks d d' */
@@ -76,19 +99,86 @@ static void stiffness_matrix(double kn, double kt, double ks, sw_vec n, sw_vec d
 sw_vec sw_press_eval(sw_press *p, double friction, int lagged, double K[6]) {
   p->normal_force = -p->k * p->gap;
   if (!lagged) p->lag = p->normal_force;
-  const double most = friction * p->lag, length = sw_norm(p->trial), grip = sw_press_grip(p);
+  p->lag_at_first = p->lag;
+  const double most = friction * p->lag, grip = sw_press_grip(p);
+  double length;
+  const sw_vec d = direction(p, &length);
   if (!lagged) p->next_sliding = p->sliding = grip * length > most;
-  const sw_vec d = length > 0 ? sw_scale(p->trial, 1.0 / length) : sw_v(0, 0, 0);
-  p->tangential = sw_scale(d, p->sliding ? -most : -grip * length);
-  p->slip = sw_madd(p->trial, p->tangential, 1.0 / grip);
+  p->tangential = p->sliding ? sw_scale(d, -most) : sw_scale(p->trial, -grip);
+  p->slip = sw_add(p->carried, sw_madd(p->trial, p->tangential, 1.0 / grip));
   if (p->sliding) {
-    const double kt = length > 0 ? fmin(most / length, grip) : 0.0;
-    stiffness_matrix(p->k, kt, kt, p->normal, d, K);
+    p->turning = length > SPRING_TOLERANCE ? fmin(most / length, grip) : 0.0;
+    stiffness_matrix(p->k, p->turning, p->turning, p->normal, d, K);
   } else {
     stiffness_matrix(p->k, friction > 0 ? grip : 0.0, 0, p->normal, d, K);
     if (!(friction > 0)) p->tangential = sw_v(0, 0, 0);
   }
   return sw_madd(p->tangential, p->normal, p->normal_force);
+}
+
+/* Is the normal force that friction took as given off by less than what keeps an iteration going?
+ */
+static int lag_agrees(const sw_press *p, double force, double force_scale) {
+  return fabs(force - p->lag) <= FORCE_TOLERANCE * force + WEIGHT_TOLERANCE * force_scale;
+}
+
+/* The normal force after an update by shift. */
+static double force_after(const sw_press *p, sw_vec shift) {
+  return fmax(0.0, -p->k * (p->gap + sw_dot(p->normal, shift)));
+}
+
+int sw_press_lags(const sw_press *p, double friction, sw_vec shift, double force_scale) {
+  if (!p->active || !p->sliding || !(friction > 0)) return 0;
+  return !lag_agrees(p, force_after(p, shift), force_scale);
+}
+
+static int slides(const sw_press *p, double friction) {
+  return p->active && p->sliding && friction > 0;
+}
+
+static sw_vec take_as_given(sw_press *p, double friction, double force) {
+  const double before = p->lag;
+  double length;
+  p->lag = force;
+  return sw_scale(direction(p, &length), friction * (before - force));
+}
+
+sw_vec sw_press_follow(sw_press *p, double friction, sw_vec shift) {
+  if (!slides(p, friction)) return sw_v(0, 0, 0);
+  return take_as_given(p, friction, force_after(p, shift));
+}
+
+sw_vec sw_press_unfollow(sw_press *p, double friction) {
+  if (!slides(p, friction)) return sw_v(0, 0, 0);
+  return take_as_given(p, friction, p->lag_at_first);
+}
+
+double sw_press_off(const sw_press *p, double friction, sw_vec shift) {
+  return slides(p, friction) ? fabs(force_after(p, shift) - p->lag) : 0.0;
+}
+
+int sw_press_pulls(const sw_press *p, sw_vec shift) {
+  return p->active && p->gap + sw_dot(p->normal, shift) > GAP_TOLERANCE;
+}
+
+int sw_press_opens(const sw_press *p, sw_vec shift, double force_scale) {
+  const double across = sw_dot(p->normal, shift);
+  if (p->gap + across < -GAP_TOLERANCE) return 0;
+  if (!p->sliding) return 1;
+  double length;
+  const sw_vec d = direction(p, &length), along = sw_madd(shift, p->normal, -across);
+  const double turn = sw_norm(sw_madd(along, d, -sw_dot(along, d)));
+  return p->turning * turn <= WEIGHT_TOLERANCE * force_scale;
+}
+
+/* Friction that the last solve reckoned with. */
+static sw_vec rubbed(const sw_press *p, double friction) {
+  const sw_vec along = sw_madd(p->shift, p->normal, -sw_dot(p->normal, p->shift));
+  double length;
+  if (!p->sliding) return sw_scale(sw_add(p->trial, along), -sw_press_grip(p));
+  const sw_vec d = direction(p, &length);
+  const sw_vec turn = sw_madd(along, d, -sw_dot(along, d));
+  return sw_madd(sw_scale(d, -friction * p->lag), turn, -p->turning);
 }
 
 static int update_friction(sw_press *p, double friction, sw_vec shift, double force_scale) {
@@ -101,15 +191,17 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
   p->next_sliding = beyond && !reversed;
   p->reversals += reversed;
   p->tangential = sw_scale(u, -(beyond && length > 0 ? most / length : grip));
-  p->slip = sw_madd(u, p->tangential, 1.0 / grip);
+  p->slip = sw_add(p->carried, sw_madd(u, p->tangential, 1.0 / grip));
   /* the iterate's friction came from lag: it must not matter either */
   if (reversed) return fmax(most, friction * p->lag) <= small;
   if (p->sliding && beyond && along < TURN_TOLERANCE * length * sw_norm(p->trial)) return 0;
-  if (p->sliding != beyond) /* a change of state matters when the force does */
-    return fabs(grip * length - most) <=
-           small + FORCE_TOLERANCE * most + WEIGHT_TOLERANCE * force_scale;
-  return !beyond || fabs(p->normal_force - p->lag) <=
-                        FORCE_TOLERANCE * p->normal_force + WEIGHT_TOLERANCE * force_scale;
+  /* a change of state matters when the force does */
+  const double off = sw_norm(sw_sub(rubbed(p, friction), p->tangential));
+  const double share = p->sliding && beyond ? DIRECTION_TOLERANCE : FORCE_TOLERANCE;
+  if (off > small + share * most + WEIGHT_TOLERANCE * force_scale) return 0;
+  if (!p->sliding || !beyond) return 1;
+  if (p->lag_at_first > DROWNED * (p->normal_force + force_scale)) return 0;
+  return lag_agrees(p, p->normal_force, force_scale);
 }
 
 int sw_press_update(sw_press *p, double friction, sw_vec shift, double force_scale) {
@@ -124,16 +216,10 @@ int sw_press_update(sw_press *p, double friction, sw_vec shift, double force_sca
 }
 
 sw_vec sw_press_borne(const sw_press *p, double friction) {
-  if (!p->active) return sw_v(0, 0, 0);
-  const double most = friction * p->lag, length = sw_norm(p->trial), grip = sw_press_grip(p);
-  const sw_vec along = sw_madd(p->shift, p->normal, -sw_dot(p->normal, p->shift));
-  sw_vec f = sw_scale(p->normal, -p->k * p->gap_after);
-  if (!(friction > 0)) return f;
-  if (!p->sliding) return sw_madd(f, sw_add(p->trial, along), -grip);
-  if (!(length > 0)) return f;
-  const sw_vec d = sw_scale(p->trial, 1.0 / length);
-  const sw_vec turn = sw_madd(along, d, -sw_dot(along, d));
-  return sw_madd(sw_madd(f, d, -most), turn, -fmin(most / length, grip));
+  if (!p->active && !p->opened) return sw_v(0, 0, 0);
+  /* of an opened one, what rounding leaves */
+  const sw_vec f = sw_scale(p->normal, p->lift - p->k * p->gap_after);
+  return friction > 0 ? sw_add(f, rubbed(p, friction)) : f;
 }
 
 int sw_press_apart(const sw_press *p) {

@@ -15,19 +15,26 @@ typedef struct sw_press {
   double k;            /* stiffness, normal and tangential [N/m] */
   double soft;         /* friction's spring is so many times softer; 0 = it is not [-] */
   double lag;          /* normal force that friction takes as given [N] */
+  double lag_at_first; /* the same in the iterate's first solve [N] */
+  double turning;      /* stiffness of a sliding one's friction against turns [N/m] */
   double normal_force; /* after the last solve [N] */
   double lag_before, force_before; /* both, one iterate earlier; 0 = not known [N] */
   sw_vec normal;                   /* of the push [-] */
-  sw_vec trial;                    /* tangential displacement from the anchor at this iterate [m] */
-  sw_vec tangential;               /* friction force after the last solve [N] */
-  sw_vec shift;                    /* by the last solve [m] */
-  sw_vec slip;                     /* how far it slid, of the displacement from the anchor [m] */
-  int alternations;                /* of normal_force - lag until the last iterate [-] */
-  int reversals;                   /* of the slide, where a static solve is dragged [-] */
-  int active;                      /* pushes in this iterate */
-  int spare;                       /* so often it stays active though the last solve pulled [-] */
-  int sliding;                     /* assumed in this iterate */
-  int next_sliding;                /* as the last solve found it */
+  sw_vec carried; /* how far the anchor slid in the step until this stage began, by its rule [m] */
+  sw_vec trial;   /* tangential displacement from that anchor at this iterate [m] */
+  sw_vec tangential; /* friction force after the last solve [N] */
+  sw_vec shift;      /* by the last solve [m] */
+  sw_vec slip;       /* how far the anchor slid in the step [m] */
+  int alternations;  /* of normal_force - lag until the last iterate [-] */
+  int reversals;     /* of the slide in this stage, or where a static solve is dragged [-] */
+  int active;        /* pushes in this iterate */
+  int let_go;        /* 1: not active in the next iterate, whatever its gap */
+  int take_on;       /* 1: active in the next iterate, whatever its gap */
+  int opened;        /* it pushed, until its solution */
+  double lift;       /* then: the force that takes its pull away [N] */
+  int spare;         /* so often it stays active though the last solve pulled [-] */
+  int sliding;       /* assumed in this iterate */
+  int next_sliding;  /* as the last solve found it */
 } sw_press;
 
 /* Stiffness of friction's spring [N/m]. */
@@ -52,9 +59,32 @@ void sw_press_take_lag(sw_press *press, const sw_press *last);
  * not stiffer than felt [N/m]. */
 void sw_press_begin(sw_press *press, double friction, int known, double felt);
 
+/* A stage that begins from x0 + first (x1 - x0), where x1 is what the step's first stage led to,
+ * begins from what the anchor slid in that stage just so: friction is against the speed at the
+ * stage's end then, not against the way since the step's start, which would push a slide that stops
+ * to and fro for ever. u: displacement from the anchor at the step's start [m]. last: the touch in
+ * the iterate before, or NULL; same: that was of this stage. */
+void sw_press_aim(sw_press *press, sw_vec u, const sw_press *last, int same, double first);
+
 /* Forces at this iterate. Returns the force, and its stiffness (upper half). lagged: 0 =
  * explicit methods, which take all from this iterate. */
 sw_vec sw_press_eval(sw_press *press, double friction, int lagged, double K[6]);
+
+/* Friction of a sliding touch follows its normal force within the linearisation of an iterate. 1:
+ * after an update by shift that is another one than it took as given, by more than what does not
+ * keep an iteration going. force_scale: see below [N]. */
+int sw_press_lags(const sw_press *press, double friction, sw_vec shift, double force_scale);
+/* It then takes that one as given. Returns by how much that changes the force on the wire [N]. */
+sw_vec sw_press_follow(sw_press *press, double friction, sw_vec shift);
+/* Or the one of the iterate's first solve again, likewise. */
+sw_vec sw_press_unfollow(sw_press *press, double friction);
+/* How far the normal force after an update is from the one that friction took as given [N]. */
+double sw_press_off(const sw_press *press, double friction, sw_vec shift);
+/* Would the normal force pull after an update by shift? A touch that does is opened: it has no
+ * force any more. */
+int sw_press_pulls(const sw_press *press, sw_vec shift);
+/* Opened, does it stay open after an update by shift, with nothing left of its friction? */
+int sw_press_opens(const sw_press *press, sw_vec shift, double force_scale);
 
 /* Part of a depth at the step's start that the step leaves alone, explained being what goes
  * with the touch's force there: what was placed in each other, or comes out of a barrier, is

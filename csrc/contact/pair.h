@@ -30,6 +30,7 @@ typedef struct sw_pair {
 
 typedef struct sw_pair_touch {
   uint32_t pair;   /* number in the list of pairs */
+  size_t stage;    /* in which it was found */
   double at[2];    /* along the segments [-] */
   int slides[2];   /* 1: the place along that segment follows the nearest points */
   int barred;      /* kept on its side by a barrier */
@@ -61,6 +62,8 @@ struct sw_pairs {
   size_t bodies;
   sw_contact_regime regime;
   double h, nominal;      /* [s] */
+  size_t stage;           /* number of the stage, counted all along */
+  double first;           /* share of the step's first stage in what this one begins from [-] */
   double *base_stiffness; /* (bodies) for the forces of each [N/m] */
   double *largest;        /* (bodies) normal force that its friction takes as given [N] */
   double rate2;           /* stiffness per mass [1/s2] */

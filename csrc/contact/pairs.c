@@ -94,6 +94,11 @@ sw_status sw_pairs_begin_step(sw_pairs *p, sw_system *s, sw_contact_regime regim
   return status == SW_OK ? SW_OK : sw_pairs_fail(status, err);
 }
 
+void sw_pairs_begin_stage(sw_pairs *p, double first) {
+  p->stage++;
+  p->first = first;
+}
+
 sw_status sw_pairs_begin_look(sw_pairs *p, sw_system *s, sw_error *err) {
   SW_TRY(sw_pairs_begin_step(p, s, SW_CONTACT_STATIC, 0, 0, err));
   for (size_t i = 0; i < p->memory_count; i++) {
@@ -190,6 +195,13 @@ int sw_pairs_memory_fits(const void *memory, size_t bytes, size_t nodes) {
     if (m.one >= nodes || m.two >= nodes || !isfinite(m.at[0] + m.at[1])) return 0;
   }
   return bytes % sizeof(sw_pair_memory) == 0;
+}
+
+int sw_pairs_memory_names(const void *memory, size_t bytes, size_t node) {
+  const sw_pair_memory *m = memory;
+  for (size_t i = 0; i < bytes / sizeof *m; i++)
+    if (m[i].one == node || m[i].two == node) return 1;
+  return 0;
 }
 
 sw_status sw_pairs_inherit(sw_pairs *p, const void *memory, size_t bytes, const size_t *new_node) {

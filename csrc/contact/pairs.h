@@ -32,6 +32,8 @@ int sw_pairs_idle(const sw_pairs *pairs);
 /* These do what those of sw_contact do. */
 sw_status sw_pairs_begin_step(sw_pairs *pairs, sw_system *system, sw_contact_regime regime,
                               double h, double nominal, sw_error *err);
+/* As sw_contact_begin_stage. */
+void sw_pairs_begin_stage(sw_pairs *pairs, double first);
 sw_status sw_pairs_begin_look(sw_pairs *pairs, sw_system *system, sw_error *err);
 sw_status sw_pairs_eval(sw_pairs *pairs, sw_system *system, const double *y, unsigned want,
                         sw_error *err);
@@ -45,6 +47,7 @@ void sw_pairs_commit(sw_pairs *pairs, sw_system *system);
 const void *sw_pairs_memory(const sw_pairs *pairs, size_t *bytes);
 sw_status sw_pairs_set_memory(sw_pairs *pairs, const void *memory, size_t bytes);
 int sw_pairs_memory_fits(const void *memory, size_t bytes, size_t nodes);
+int sw_pairs_memory_names(const void *memory, size_t bytes, size_t node);
 /* As sw_contact_seen, in two blocks: segments, and where they touch. */
 void sw_pairs_seen(const sw_pairs *pairs, const void *blocks[2], size_t bytes[2]);
 sw_status sw_pairs_set_seen(sw_pairs *pairs, const void *const blocks[2], const size_t bytes[2],

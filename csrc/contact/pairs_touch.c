@@ -84,6 +84,7 @@ static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, co
   const sw_pair_touch *last = last_for(p, k, at);
   const double friction = sw_pair_rule_of(p, k->body)->friction;
   t.pair = (uint32_t)(k - p->pairs);
+  t.stage = p->stage;
   sw_press *press = &t.press;
   press->gap = gap, press->normal = normal;
   press->k = t.stiffer = stiffness_of(p, k, m, last);
@@ -97,7 +98,7 @@ static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, co
     u = sw_add(u, carry(m->elastic, m->normal, normal));
   else if (press->gap >= 0)
     u = sw_v(0, 0, 0);
-  press->trial = sw_madd(u, normal, -sw_dot(u, normal));
+  sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == p->stage, p->first);
   press->lag = pressed ? m->normal_force : press->k * fmax(0.0, -press->gap);
   if (last) sw_press_take_lag(press, &last->press);
   const int known = (last && last->press.active) || pressed;

@@ -138,11 +138,12 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
     u = sw_add(u, sw_rotate(c->now[t->obstacle].pose.q, m->elastic));
   else if (press->gap >= 0)
     u = sw_v(0, 0, 0);
-  press->trial = sw_madd(u, press->normal, -sw_dot(u, press->normal));
+  sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == c->stage, c->first);
   press->lag = m ? m->normal_force : press->k * fmax(0.0, -press->gap);
   if (last) sw_press_take_lag(press, &last->press);
-  const int turned = last && last->press.reversals > 0 && c->regime == SW_CONTACT_STATIC;
-  if (turned && sw_contact_moves(c)) press->reversals = last->press.reversals;
+  const int turned = last && last->press.reversals > 0, moving = c->regime == SW_CONTACT_IMPLICIT;
+  if (turned && (moving ? c->updates > 0 : sw_contact_moves(c)))
+    press->reversals = last->press.reversals;
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
   const int went_on = last && last->press.active;
   t->friction = m && m->sliding ? o->kinetic : o->friction;
@@ -205,6 +206,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
       .stiffer = stiffness,
       .held = sw_contact_is_held(s, k),
       .candidate = (size_t)(k - c->candidates),
+      .stage = c->stage,
       .press = {
           .normal = sw_rotate(pose->q, near->normal), .gap = near->gap - k->skin, .k = stiffness}};
   t.press.gap += sw_contact_aslant(c, k->node, k->other, at, t.press.normal);
@@ -218,11 +220,14 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
         sw_press_forgiven(depth, explained, slowly ? c->stage_time - c->time : c->h, slowly);
     t.let_out = fmax(0.0, depth - explained - t.forgiven);
   }
-  if (m && web) t.hardened = 0.5 * m->depth * fmax(0.0, stiffness * m->depth - m->normal_force);
   press->gap += t.forgiven;
   press->gap_after = press->gap;
   if (c->regime == SW_CONTACT_STATIC && m && web && web->per_ring) press->spare = SPARE_PULLS;
   sw_press_activate(press, goes_on(c, k, press, last) ? &last->press : NULL);
+  if (c->regime == SW_CONTACT_STATIC && !last && !web && !press->active) {
+    press->active = 1; /* what just touches may be all that bears the wire */
+    press->active = sw_press_apart(press);
+  }
   t.seen = sw_pose_local(*pose, sw_contact_where(c, y, t.node, t.other, t.at));
   begin_friction(c, s, m, last, y, &t);
   if (t.held) press->active = 0;

@@ -38,7 +38,6 @@ typedef struct sw_touch {
   sw_vec local;     /* the same in the obstacle's coordinates [m] */
   double forgiven;  /* part of the true depth left out of the gap in this step [m] */
   double let_out;   /* part of the true depth that nothing explains and this step ends [m] */
-  double hardened;  /* stored at once by its being stiffer than before, of a mesh [J] */
   double stiffer;   /* its stiffness from the next iterate on [N/m] */
   int known;        /* it pressed at the step's start */
   int held;         /* both ends are held: no force */
@@ -46,6 +45,7 @@ typedef struct sw_touch {
   double slid;      /* way that it slid until the step's start, since it began to press [m] */
   sw_vec seen;      /* where the wire was at this evaluation, in the obstacle's coordinates [m] */
   size_t candidate; /* index of what it was made from */
+  size_t stage;     /* in which it was found */
   sw_press press;   /* its normal is the obstacle's, outward, in the world */
 } sw_touch;
 
@@ -147,8 +147,12 @@ struct sw_contact {
   sw_mark *marks;
   size_t mark_count, mark_capacity;
   sw_contact_parts parts;
+  double *room; /* of an iterate's refinement: solutions of a wire's equations */
+  size_t room_capacity;
   int unmarked;      /* 1: some touch slid, or there was no room: the marks tell nothing */
   int looked;        /* 1: touches are those of the iterate to be evaluated next */
+  size_t stage;      /* number of the stage, counted all along */
+  double first;      /* share of the step's first stage in what this one begins from [-] */
   double time, h;    /* of the step [s] */
   double stage_time; /* that obstacles were last placed for [s] */
   double nominal;    /* the run's full step [s] */
@@ -159,6 +163,10 @@ struct sw_contact {
   int updates;     /* of the stage so far [-] */
   double widening; /* of the reserve for flight, when nodes went further [-] */
 };
+
+/* Of a wire's touches, forces far below the largest one do not matter: this [N]. Touches are in the
+ * order of wires: from the first of one to the end, that of the next. */
+double sw_contact_scale(const sw_contact *c, size_t first, size_t *end);
 
 /* How far a node of velocity v may go in the step unnoticed [m]. */
 double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v);
@@ -191,6 +199,9 @@ sw_status sw_contact_turn_over(sw_contact *c, size_t *first, size_t *end);
 sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw_error *err);
 /* How deep the touch's place was at the step's start, below 0 when it was outside [m]. */
 double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t);
+
+/* After a static solve: let go of touches at the ends of rows as far as wires lift off there. */
+void sw_contact_peel(sw_contact *c, const sw_system *s);
 
 /* 1: the candidate's node, or both ends of its segment, are held. */
 int sw_contact_is_held(const sw_system *s, const sw_candidate *k);

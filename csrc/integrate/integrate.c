@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "base/simd.h"
+#include "integrate/turning.h"
 
 #define X(name) extern const sw_integrator sw_integrator_##name;
 #include "integrate/list.def"
@@ -41,7 +42,7 @@ sw_status sw_stepper_new(sw_stepper *p, const sw_integrator *method, const sw_sy
   const int explicit_ = !(method->flags & SW_INTEGRATOR_IMPLICIT);
   const size_t arrays = explicit_ ? 3 + SW_EXTRA : 9, m = system->edges;
   const int strains = !explicit_ && system->strain;
-  double *w = sw_alloc(arrays * p->n + (strains ? 6 : 1) * m, sizeof *w);
+  double *w = sw_alloc(arrays * p->n + (strains ? 7 : 2) * m, sizeof *w);
   if (!w) return SW_ENOMEM;
   p->work = w;
   double **const implicit_arrays[] = {&p->xhat, &p->vhat, &p->y[0], &p->w[0], &p->y[1],
@@ -59,11 +60,13 @@ sw_status sw_stepper_new(sw_stepper *p, const sw_integrator *method, const sw_sy
     for (size_t k = 0; k < 9; k++) *implicit_arrays[k] = w + k * p->n;
   }
   p->tension = w + arrays * p->n;
+  p->first = p->tension + m;
   if (!strains) return SW_OK;
   p->strain_before = w + arrays * p->n; /* beside vp: both go to snapshots */
   p->tension = p->strain_before + m, p->strain_past = p->tension + m;
   p->strain[0] = p->strain_past + m, p->strain[1] = p->strain[0] + m;
   p->strain_rate = p->strain[1] + m;
+  p->first = p->strain_rate + m;
   return SW_OK;
 }
 
@@ -140,6 +143,8 @@ void sw_stepper_book(sw_stepper *p, sw_system *s, double share) {
 
 static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system *s, double t,
                                 double h, sw_error *err) {
+  memcpy(p->turning, s->turning, sizeof p->turning);
+  p->between = sw_turning_step(m, h, p->last_h, p->turning);
   for (size_t k = 0; k < m->stages; k++) {
     const sw_stage_row *row = &m->rows[k];
     const double hbar = row->hbar * h;
@@ -148,6 +153,7 @@ static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system
     if (p->strain_past) prepare_strains(p, row, s, hbar, p->strain[k]);
     const sw_stage stage = {.time = t + row->time * h,
                             .hbar = hbar,
+                            .first = row->x1,
                             .xhat = p->xhat,
                             .vhat = p->vhat,
                             .y = p->y[k],
@@ -160,6 +166,8 @@ static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system
     p->rotation = report.rotation;
     if (status != SW_OK) return status;
     if (p->strain_past) find_rates(p, s, hbar, p->strain[k]);
+    if (k == 0 && !isnan(p->between.share))
+      sw_system_sum_pull(s, s->tension, p->strain_rate, p->first);
     book(s, (sw_booking){.stage = (int)k,
                          .own = hbar,
                          .start = row->xv * hbar,
@@ -244,7 +252,15 @@ void sw_stepper_accept(sw_stepper *p, sw_system *s, double h) {
     memcpy(s->strain, p->trial_strain, s->edges * sizeof(double));
     memcpy(s->strain_rate, p->strain_rate, s->edges * sizeof(double));
   }
-  if (!(p->method->flags & SW_INTEGRATOR_IMPLICIT)) sw_system_axial_from_state(s);
+  if (p->method->flags & SW_INTEGRATOR_IMPLICIT) {
+    memcpy(s->turning, p->turning, sizeof p->turning);
+    if (isnan(p->between.share))
+      sw_system_uneven(s);
+    else
+      sw_system_even_out(s, h, p->first, p->between.share, p->between.behind);
+  } else {
+    sw_system_axial_from_state(s);
+  }
   p->last_h = h;
   p->restart = p->plastic;
   p->plastic = 0;

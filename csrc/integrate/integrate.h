@@ -33,6 +33,12 @@ typedef struct sw_stage_row {
 
 typedef struct sw_stepper sw_stepper;
 
+/* Between the axial forces of two stages: share of the last one's, or NAN: theirs are read out as
+ * they are [-]; how long before the step's end that is [s]. */
+typedef struct sw_between {
+  double share, behind;
+} sw_between;
+
 typedef struct sw_integrator {
   const char *name;
   const char *summary;
@@ -66,9 +72,12 @@ struct sw_stepper {
   /* axial strains (edges): where the stage's rates count from, stages', rates of the last stage,
    * of the state before last; NULL without axial dashpots [-], [1/s] */
   double *strain_past, *strain[SW_STAGES_MAX], *strain_rate, *strain_before;
-  double *tension; /* saved for a rejected step (edges) */
-  double last_h;   /* of the last accepted step; 0 = none [s] */
-  int restart;     /* next step starts anew: a_n is stale */
+  double *tension;              /* saved for a rejected step (edges) */
+  double *first;                /* axial forces of the first of two stages (edges) [N] */
+  sw_between between;           /* where those of the trial are that are read out */
+  double turning[SW_TURN_SIZE]; /* what it keeps of wires that turn */
+  double last_h;                /* of the last accepted step; 0 = none [s] */
+  int restart;                  /* next step starts anew: a_n is stale */
   int plastic;     /* the next trials are of implicit Euler: what strikes does not bounce */
   int booked;      /* 1: an evaluation of the explicit step was booked */
   double error;    /* estimate of the last trial; 0 without one [m] */

@@ -58,7 +58,7 @@ static const double SMALLEST_SHARE = 1.0 / 4096; /* of a step, before giving up 
  * none but where touches go wrong. What a method makes by itself a smaller step mends. */
 enum { AS_IS, BY_START, DULLY, GIVE_UP };
 
-/* So many parts of less than this share of their step, one after another, are no way to go on: the
+/* So many parts of less than this share of their step in the mean are no way to go on: the
  * run stops and says what holds it back [-]. Adaptive steps may be as small as they like for
  * longer. */
 enum { MOST_SMALL = 4000, MOST_SMALL_ADAPTIVE = 20000 };
@@ -70,7 +70,6 @@ typedef struct loop {
   sw_run_report *report;
   double *v_start; /* velocities at the step's start, which impacts change */
   int redo;        /* AS_IS, or how the step is redone, for it made energy */
-  size_t small;    /* small parts one after another [-] */
   sw_error held;   /* what the last rejected part was rejected for */
   int smooth;      /* 1: the step that was rejected last made energy where nothing touches */
   int changed;     /* 1: the scene was, since the last step: its energy is not judged */
@@ -228,11 +227,19 @@ static sw_status judged_attempt(loop *p, double h, int smallest, sw_error *err) 
   }
 }
 
+/* Accelerations at a step's end may be those of a shock that is over: the next step starts without
+ * them, or it pushes with them for half of it and makes energy. A starting step gives no estimate
+ * of its error. */
+static int is_shaken(const sw_scene *s) {
+  return s->contact && !s->stepper.wants_error && sw_contact_shaken(s->contact, &s->system);
+}
+
 static void accept(loop *p, double h) {
   sw_scene *s = p->s;
   sw_stepper_accept(&s->stepper, &s->system, h);
   s->system.judged = s->stepper.trial_x;
   sw_scene_commit_contact(s);
+  if (is_shaken(s)) s->stepper.restart = 1;
   s->span = h;
   if (s->method->flags & SW_INTEGRATOR_NO_CONTACT) sw_scene_remark_contact(s);
   s->discontinuous = p->changed = 0;
@@ -244,12 +251,15 @@ static void accept(loop *p, double h) {
 static sw_status count_small(loop *p, double h, double whole, sw_error *err) {
   const int adaptive = isfinite(p->args->tolerance);
   const size_t most = adaptive ? MOST_SMALL_ADAPTIVE : MOST_SMALL;
-  p->small = h < (adaptive ? SMALL_ADAPTIVE : SMALL) * whole ? p->small + 1 : 0;
-  if (p->small < most) return SW_OK;
+  p->s->covered += h / whole;
+  if (++p->s->parts < most) return SW_OK;
+  const double share = p->s->covered / (double)most;
+  p->s->parts = 0, p->s->covered = 0;
+  if (share >= (adaptive ? SMALL_ADAPTIVE : SMALL)) return SW_OK;
   return sw_fail(
       err, SW_ELIMIT,
-      "steps have collapsed: the last %zu were about %.2g s, of %.3g s asked for%s%.200s", p->small,
-      h, whole, p->held.text[0] ? "; larger ones fail, for " : "", p->held.text);
+      "steps have collapsed: the last %zu were about %.2g s, of %.3g s asked for%s%.200s", most,
+      share * whole, whole, p->held.text[0] ? "; larger ones fail, for " : "", p->held.text);
 }
 
 static sw_status observe(sw_scene *s, sw_error *err) {
@@ -366,7 +376,8 @@ static sw_status pose_steps(loop *p, double t, int (*interrupted)(void), sw_erro
     const double part = h < (t - s->time) * (1 - 1e-9) ? s->time + h : t;
     if (!(part > s->time)) return sw_fail(err, SW_ENOCONV, "wire is fed too fast to follow it");
     SW_TRY(sw_ledger_open(s, err));
-    SW_TRY(sw_scene_pose(s, part, interrupted, p->report, err));
+    const sw_pose_args how = {interrupted, SHORTEST_BREAK * p->args->dt};
+    SW_TRY(sw_scene_pose(s, part, &how, p->report, err));
     s->span = 0;
     SW_TRY(sw_scene_observe(s, err));
   }
@@ -477,14 +488,17 @@ static sw_status check_clock(const sw_scene *s, const sw_run_args *args, double 
 }
 
 static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const sw_error *why) {
+  char broken[SW_NAME_SIZE + 100], pressed[2 * SW_NAME_SIZE + 100];
   report->status = status;
   report->time = s->time;
   if (status == SW_OK || status == SW_EINTR || status == SW_ECALLBACK) return;
   if (status == SW_EEMPTY) report->reason = *why; /* all is well up to here */
   if (status == SW_EEMPTY) return;
   report->status = status == SW_ENOMEM ? SW_ENOMEM : SW_EDIVERGED;
-  sw_fail(&report->reason, status, "at t = %.6g s: %.400s", s->time,
-          why->text[0] ? why->text : sw_status_text(status));
+  sw_scene_tell_broken(s, broken, sizeof broken);
+  sw_scene_tell_pressed(s, pressed, sizeof pressed);
+  sw_fail(&report->reason, status, "at t = %.6g s: %.400s%s%s", s->time,
+          why->text[0] ? why->text : sw_status_text(status), pressed, broken);
   if (report->status != SW_EDIVERGED) return;
   s->diverged = 1;
   s->why = report->reason;
@@ -496,6 +510,7 @@ sw_status sw_scene_begin_run(sw_scene *s, sw_error *err) {
   sw_scene_reset_extremes(s);
   sw_events_clear(&s->events);
   sw_ledger_begin_run(s);
+  s->parts = 0, s->covered = 0;
   return SW_OK;
 }
 

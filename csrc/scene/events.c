@@ -46,6 +46,12 @@ static sw_event *append(sw_events *e) {
   return &e->list[e->count++];
 }
 
+sw_event *sw_events_go_on(sw_events *e, const char *kind, const char *object, double time) {
+  sw_event *event = latest(e, kind, object);
+  if (event) event->last = time;
+  return event;
+}
+
 void sw_scene_tell(sw_scene *s, const char *kind, const char *object, double arc, double value,
                    const char *format, ...) {
   char name[SW_NAME_SIZE], word[SW_NAME_SIZE];

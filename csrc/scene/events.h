@@ -23,6 +23,9 @@ __attribute__((format(printf, 6, 7))) void sw_scene_tell(sw_scene *scene, const 
                                                          const char *object, double arc,
                                                          double value, const char *format, ...);
 
+/* What goes on since it was told of, NULL if it was not: telling it again is a repeat. */
+sw_event *sw_events_go_on(sw_events *events, const char *kind, const char *object, double time);
+
 void sw_events_clear(sw_events *events);
 /* Forget those after a time [s]. */
 void sw_events_back_to(sw_events *events, double time);

@@ -70,6 +70,7 @@ sw_status sw_feed_too_fast(const sw_scene *s, const char *refused, sw_error *err
 
 /* One side of a guide. */
 typedef struct guide {
+  const sw_scene *s;
   sw_scene_hold *h;
   sw_mesh *m;
   int side;
@@ -170,11 +171,26 @@ static sw_vec face_bend(const guide *g, size_t e) {
 enum { REACH = 8, LEAST_REACH = 3 };
 static const double LARGEST_SHIFT = 0.1;
 
+/* Did node k touch something in the last step? A node that has only just come did not. */
+static int touches(const guide *g, long k) {
+  const sw_scene *s = g->s;
+  const double arc = g->m->s[inner(g, k)];
+  if (!s->kept.memory) return 0;
+  for (size_t i = s->kept.first[g->h->wire]; i < s->kept.first[g->h->wire + 1]; i++)
+    if (s->kept.s[i] == arc)
+      return sw_contact_memory_names(s->kept.memory, s->kept.bytes, i) ||
+             sw_pairs_memory_names(s->kept.pairs, s->kept.pair_bytes, i);
+  return 0;
+}
+
 /* Shift node `first` across the wire by delta, and those after it by less and less, with
- * all edges keeping their lengths. */
+ * all edges keeping their lengths. Nodes that touch something stay: they would be pushed into it
+ * or lose it. */
 static void shift_nodes(const guide *g, long first, sw_vec delta) {
   sw_mesh *m = g->m;
-  const long reach = (long)fmin(REACH, (double)g->left - (double)first);
+  const long most = (long)fmin(REACH, (double)g->left - (double)first);
+  long reach = 0;
+  while (reach < most && !touches(g, first + reach)) reach++;
   if (reach < LEAST_REACH || !(sw_norm(delta) < LARGEST_SHIFT * g->h->feed.size)) return;
   sw_vec old = node_at(g, first + reach), now = old;
   for (long k = first + reach - 1; k >= first; k--) {
@@ -300,7 +316,7 @@ static sw_status say_empty(const sw_scene *s, const guide *g, sw_error *err) {
 
 /* The guide's side of hold h; directions are as the holds were last placed. */
 static guide guide_of(sw_scene *s, sw_scene_hold *h, int side, const sw_vec *axes) {
-  guide g = {.h = h, .m = &s->wires[h->wire].mesh, .side = side, .director = axes[0]};
+  guide g = {.s = s, .h = h, .m = &s->wires[h->wire].mesh, .side = side, .director = axes[0]};
   g.normal = g.m->rest ? axes[1] : sw_perpendicular(axes[0]);
   return g;
 }
@@ -352,6 +368,8 @@ sw_status sw_feed_make_room(sw_scene *s, double t, int *changed, sw_error *err) 
     axes[2 * k + 1] = sw_vec_at(s->system.normals_now, 2 * k + 1);
   }
   sw_status status = sw_scene_thaw(s);
+  /* a shift may have put nodes a little way into what they touch: let out slowly, not thrown */
+  if (status == SW_OK && !s->kept.fresh) s->kept.fresh = SW_CONTACT_EMERGING;
   if (status == SW_OK) status = tend_all(s, t, axes, changed, err);
   sw_free(axes);
   if (status == SW_ENOMEM) return sw_fail(err, status, "feed: out of memory");

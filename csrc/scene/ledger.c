@@ -24,8 +24,6 @@ enum { MOST_ACCEPTED = 16 };
 /* Once steps have gained the first share of what is in play, little of it is allowed; beyond the
  * second only rounding [-]. */
 static const double ENOUGH = 0.005, PLENTY = 0.01, LITTLE = 1e-5;
-/* Meshes that land rock on their corners, each time by a little of what was in play [-]. */
-static const double OF_PLAY = 2e-4;
 /* Wires that begin inside of obstacles are let out, which gives them at most this speed and lifts
  * them about as fast as this [m/s]. */
 static const double THROWN = 0.02, LET_OUT = 0.01;
@@ -80,12 +78,10 @@ static double potential(const sw_energies *e, double contact) {
 static void weigh(sw_scene *s) {
   sw_books *b = &s->books;
   b->weight = b->bending = b->mass = b->longest = 0;
-  b->meshes = 0;
   for (size_t k = 0; k < s->system.body_count; k++) {
     const sw_plan *p = s->system.bodies[k].plan;
     const double mg = p->beam.mass * p->length * sw_norm(s->gravity);
     b->longest = fmax(b->longest, p->length);
-    b->meshes |= p->web != NULL;
     if (isfinite(p->beam.mass * p->length)) b->mass += p->beam.mass * p->length;
     if (isfinite(mg * p->beam.radius)) b->weight += mg * p->beam.radius;
     if (p->length > 0 && isfinite(p->beam.EI)) b->bending += p->beam.EI / p->length;
@@ -165,7 +161,6 @@ static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
     step->friction += sw_contact_rubbed(s->contact);
     step->steady &= sw_contact_steady(s->contact);
     step->obstacles += sw_contact_struck(s->contact);
-    step->let_out = sw_contact_hardened(s->contact);
     if (sw_contact_emerges(s->contact))
       step->let_out += b->mass * (THROWN * THROWN + LET_OUT * h * sw_norm(s->gravity));
   }
@@ -233,8 +228,6 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
   const double before = b->now.kinetic + potential(&b->now, b->contact);
   if (changed) step->let_out += jolt(s, step);
   if (has_pads(s)) step->let_out += fmax(0.0, step->contact - b->contact);
-  if (step->feeding)
-    step->let_out = HUGE_VAL; /* what a feed does within a step is not known well */
   most += step->let_out;
   step->gain = step->to.kinetic + potential(&step->to, step->contact) - before - most;
   return status;
@@ -249,7 +242,7 @@ static double usual_gain(const sw_books *b) {
   const double play = b->sums.play;
   if (b->sums.gained > PLENTY * play) return 0.0;
   if (b->sums.gained > ENOUGH * play) return LITTLE * play;
-  return OF_KINETIC * b->now.kinetic + OF_WEIGHT * b->weight + (b->meshes ? OF_PLAY * play : 0.0);
+  return OF_KINETIC * b->now.kinetic + OF_WEIGHT * b->weight;
 }
 
 double sw_ledger_excess(const sw_scene *s, double h) {
@@ -260,7 +253,9 @@ double sw_ledger_excess(const sw_scene *s, double h) {
   const double size = fabs(b->now.kinetic) + fabs(b->now.gravity) + fabs(b->now.stored) +
                       fabs(step->to.kinetic) + fabs(step->to.gravity) + fabs(step->to.stored);
   const double rounding = ROUNDING * size + OF_BENDING * b->bending * share;
-  const double allowed = rounding + OF_WORK * step->work + share * usual_gain(b);
+  /* what impacts at its start give, of several places at once, no smaller step mends */
+  const double struck = fmin(fmax(0.0, -step->impact), usual_gain(b));
+  const double allowed = rounding + OF_WORK * step->work + share * usual_gain(b) + struck;
   if (!isfinite(step->gain)) return step->gain < 0 ? 0.0 : HUGE_VAL;
   const double rise = b->rise + step->gain - b->lowest;
   if (!step->touching && rise <= IN_FLIGHT * b->sums.play) return 0.0;
@@ -327,7 +322,7 @@ static void book_step(sw_scene *s) {
   b->work += step->work;
   l->steps++;
   const double given = fmin(fmax(0.0, change - work + lost), step->let_out);
-  *(step->feeding ? &l->by_feeds : &l->by_changes) += given;
+  l->by_changes += given;
   book_left(l, change - work + lost - given, step->steady);
   book_gain(s, step->gain);
   if (step->gain > l->most_gained) l->most_gained = step->gain, l->most_time = s->time;
@@ -419,6 +414,7 @@ enum { FEW = 2 }; /* steps redone that are not worth a word */
 sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
   const sw_ledger *l = &s->books.sums;
   const double share = l->play > 0 ? l->gained / l->play : 0.0;
+  sw_scene_end_breaking(s);
   tell_retries(s, "taken though they made energy, for smaller ones did too", &l->accepted);
   if (l->redone.count > FEW && (double)l->redone.count > 0.01 * (double)l->steps)
     tell_retries(s, "redone, more than 1 % of all, for they made energy", &l->redone);
@@ -444,7 +440,7 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
 /* --- on tape ------------------------------------------------------------------------ */
 
 void sw_tape_ledger(sw_tape *t, sw_books *b) {
-  SW_TAPE_STRUCT(t, sw_books, 864);
+  SW_TAPE_STRUCT(t, sw_books, 856);
   SW_TAPE_STRUCT(t, sw_ledger, 464);
   sw_tape_raw(t, &b->sums, sizeof b->sums);
   sw_tape_raw(t, &b->now, sizeof b->now);

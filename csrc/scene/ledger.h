@@ -29,7 +29,6 @@ typedef struct sw_step_energy {
   int steady;     /* 1: no touch began or ended */
   int touching;   /* 1: something touches */
   int changed;    /* 1: the scene was, just before */
-  int feeding;    /* 1: wire was fed */
 } sw_step_energy;
 
 typedef struct sw_books {
@@ -48,7 +47,6 @@ typedef struct sw_books {
   double longest;      /* of them [m] */
   double weight;       /* of the wires, times their radii [J] */
   double bending;      /* their EI / L [J] */
-  int meshes;          /* 1: there are some of particles */
   int put;             /* 1: a hold was put elsewhere since the last step */
   int has_powers;      /* 1: there are forces without a potential */
   int known;           /* 1: all of the above is of the present state */

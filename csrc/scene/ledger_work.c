@@ -41,7 +41,6 @@ static double work_of_feed(sw_scene *s, size_t k, double t1, int changed) {
   const sw_scene_hold *h = &s->holds[s->hold_slot[k]];
   const sw_worker *from = &s->books.holds[k];
   const double length = sw_feed_at(h, t1).fed - from->fed;
-  s->books.step.feeding |= length != 0;
   const double drive = sw_feed_drive(s, h, s->system.x);
   const bounds b = work_between(from->drive * length, drive * length, changed);
   s->books.step.feeds += b.mean + brought(s, k, length);

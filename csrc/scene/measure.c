@@ -249,6 +249,7 @@ sw_status sw_scene_wire_set_velocity(sw_scene *s, sw_handle h, sw_vec v, sw_vec 
     sw_store(s->system.v + k, sw_add(v, sw_cross(omega, arm)));
   }
   sw_system_rate_from_velocity(&s->system, h.slot);
+  sw_system_forget_turning(&s->system);
   for (size_t e = 0; b->roll_block && e < b->plan->edges; e++)
     s->system.v[3 * s->system.nodes + b->first_roll + e] = sw_dot(omega, tangent_of(&b->field, e));
   s->discontinuous = 1;

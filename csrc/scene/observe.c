@@ -93,7 +93,7 @@ static void keep_largest(sw_extreme *kept, const sw_extreme *now) {
 /* The same of a wire that is not straight at rest: without the bend that it has then. */
 static void framed_strain(const sw_system *s, const sw_body *b, sw_extreme *out) {
   const sw_plan *p = b->plan;
-  const double *T = s->tension + b->first_edge, EA = p->beam.EA, radius = p->beam.radius;
+  const double *T = sw_system_elastic(s, b), EA = p->beam.EA, radius = p->beam.radius;
   *out = (sw_extreme){.value = T[0] / EA, .s = p->s[0]};
   keep_largest(out, &(sw_extreme){.value = T[p->edges - 1] / EA, .s = p->s[p->edges]});
   for (size_t i = 1; i + 1 < p->nodes; i++) {
@@ -114,7 +114,7 @@ static void strain_extreme(const sw_system *s, const sw_body *b, sw_extreme *out
   }
   const sw_plan *p = b->plan;
   const sw_field *f = &b->field;
-  const double *T = s->tension + b->first_edge, EA = p->beam.EA, radius = p->beam.radius;
+  const double *T = sw_system_elastic(s, b), EA = p->beam.EA, radius = p->beam.radius;
   const double bound = largest_hinge_strain(p->nodes, 0.5 / EA, radius, T, p->hinge, f->tangent[0],
                                             f->tangent[1], f->tangent[2]);
   *out = (sw_extreme){.value = T[0] / EA, .s = p->s[0]}; /* free and pinned ends are not bent */
@@ -156,7 +156,7 @@ static double quick_angle(double chord) {
 /* Tension and curvature at the nodes of a line. */
 static void line_values(const sw_system *s, const sw_body *b, double *out) {
   const sw_plan *p = b->plan;
-  const double *T = s->tension + b->first_edge;
+  const double *T = sw_system_elastic(s, b);
   double before = T[0];
   for (size_t i = 0; i < p->nodes; i++, out += SW_FRAME_VALUES) {
     const double after = i < p->edges ? T[i] : before;
@@ -283,6 +283,8 @@ static sw_status observe_wire(sw_scene *s, size_t w, sw_error *err) {
   wire_now(s, w, tension, &now);
   sw_scene_keep_extremes(&s->wires[w].extremes, &now);
   keep_tension(s, w, &now);
+  sw_scene_watch_kink(s, w, &now);
+  sw_scene_watch_breaking(s, w, &now);
   return sw_watch_wire(s, w, &now, err);
 }
 
@@ -354,6 +356,7 @@ sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
   tell_news(s);
   for (size_t w = 0; w < s->wire_count; w++) SW_TRY(observe_wire(s, w, err));
   SW_TRY(sw_watch_forces(s, err));
+  SW_TRY(sw_watch_ties(s, err));
   SW_TRY(log_holds(s, err));
   if (sw_scene_has_contact(s)) SW_TRY(observe_contact(s, err));
   return sw_tool_observe(s, err);

@@ -103,13 +103,45 @@ sw_status sw_scene_squeezed_rest(sw_scene *s, double since, int *too_far,
   return status;
 }
 
+/* The scene at the start of a pose in which a tie may break. */
+typedef struct kept {
+  sw_live live;
+  sw_jaw *jaws; /* (tools) */
+} kept;
+
+static void drop(kept *k) {
+  sw_live_free(&k->live);
+  sw_free(k->jaws);
+  *k = (kept){0};
+}
+
+static sw_status keep(const sw_scene *s, kept *k, sw_error *err) {
+  k->jaws = sw_alloc(s->tool_count, sizeof *k->jaws);
+  const sw_status status = k->jaws ? sw_live_take(s, &k->live) : SW_ENOMEM;
+  for (size_t i = 0; status == SW_OK && i < s->tool_count; i++) k->jaws[i] = s->tools[i].jaw;
+  if (status == SW_OK) return SW_OK;
+  drop(k);
+  return sw_fail(err, status, "scene '%s': out of memory", s->name);
+}
+
+static sw_status put_back(sw_scene *s, const kept *k, double t0, sw_error *err) {
+  s->time = t0;
+  for (size_t i = 0; i < s->tool_count; i++) s->tools[i].jaw = k->jaws[i];
+  return sw_live_put(s, &k->live, err);
+}
+
+static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
+                      sw_run_report *report, sw_error *err);
+
 /* What drives the wires goes on to t1, the wires to their equilibrium. Without friction the pose
  * step does not matter; with friction it does, and halving it shows how much. */
-static sw_status pose(sw_scene *s, double t1, int halvings, int (*interrupted)(void),
-                      sw_run_report *report, sw_error *err) {
+static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
+                          sw_run_report *report, kept *start, sw_error *err) {
   sw_settle_args args = {.tolerance = 1e-9, .max_iterations = 4000};
   sw_settle_report rest = {0};
+  sw_error why;
   const double t0 = s->time;
+  int (*const interrupted)(void) = how->interrupted;
   int too_far = 0;
   int *const tells = halvings ? &too_far : NULL;
   const int squeezes = sw_jaw_begin(s, t1 - t0);
@@ -123,9 +155,16 @@ static sw_status pose(sw_scene *s, double t1, int halvings, int (*interrupted)(v
     s->time = t0;
     const int helps = too_far || (squeezes && status == SW_ENOCONV); /* jaws then go less far */
     if (!helps || !halvings) return status;
-    SW_TRY(pose(s, 0.5 * (t0 + t1), halvings - 1, interrupted, report, err));
+    SW_TRY(pose(s, 0.5 * (t0 + t1), halvings - 1, how, report, err));
+    if (start->jaws) return SW_OK; /* a tie may be about to break */
     sw_jaw_follow(s);
-    return pose(s, t1, halvings - 1, interrupted, report, err);
+    return pose(s, t1, halvings - 1, how, report, err);
+  }
+  if (start->jaws && t1 - t0 > how->shortest &&
+      sw_scene_check_ties(s, s->system.x, &why) != SW_OK) {
+    SW_TRY(put_back(s, start, t0, err));
+    drop(start);
+    return pose(s, 0.5 * (t0 + t1), halvings, how, report, err);
   }
   report->smallest_dt = fmin(report->smallest_dt, t1 - t0);
   SW_TRY(sw_ledger_pose(s, rest.jumped, err));
@@ -134,6 +173,15 @@ static sw_status pose(sw_scene *s, double t1, int halvings, int (*interrupted)(v
     report->last_jump = t1;
   }
   return SW_OK;
+}
+
+static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
+                      sw_run_report *report, sw_error *err) {
+  kept start = {0};
+  if (sw_scene_may_break(s)) SW_TRY(keep(s, &start, err));
+  const sw_status status = one_pose(s, t1, halvings, how, report, &start, err);
+  drop(&start);
+  return status;
 }
 
 /* Pads that hold a wire are shifted by no more of the thinnest one's radius from one pose to the
@@ -184,7 +232,7 @@ sw_status sw_scene_cut_pose(sw_scene *s, double *t1, int *cut, sw_error *err) {
   return SW_OK;
 }
 
-sw_status sw_scene_pose(sw_scene *s, double t1, int (*interrupted)(void), sw_run_report *report,
+sw_status sw_scene_pose(sw_scene *s, double t1, const sw_pose_args *how, sw_run_report *report,
                         sw_error *err) {
-  return pose(s, t1, MOST_HALVINGS, interrupted, report, err);
+  return pose(s, t1, MOST_HALVINGS, how, report, err);
 }

@@ -92,10 +92,13 @@ static void tape_window(sw_tape *t, sw_window *x) {
 }
 
 static void tape_drawing(sw_tape *t, sw_drawing *x) {
-  SW_TAPE_STRUCT(t, sw_drawing, 64);
+  SW_TAPE_STRUCT(t, sw_drawing, 80);
   sw_tape_count(t, &x->count, 3 * sizeof *x->points);
   SW_TAPE_OPTIONAL(t, x->points, 3 * x->count);
   DOUBLE(length), VEC(normal), INT(rest), INT(rolls), DOUBLE(rest_twist);
+  DOUBLE(breaking_load), INT(breaking_flag);
+  sw_tape_expect(t, x->breaking_flag >= 0 && x->breaking_flag < SW_BREAKING_FLAGS,
+                 "a wire's strength");
   sw_tape_expect(t, x->points || !x->count, "a wire without its drawing");
   if (x->points) sw_tape_finite(t, x->points, 3 * x->count, "a wire's drawing");
 }
@@ -148,7 +151,7 @@ void sw_tape_beam_of(sw_tape *t, sw_scene_wire *x) {
 
 void sw_tape_wire(sw_tape *t, sw_scene_wire *x) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_scene_wire, 808);
+  SW_TAPE_STRUCT(t, sw_scene_wire, 824);
   SW_TAPE_STRUCT(t, sw_twisted, 24);
   UINT32(generation), NAME(name);
   const char *model = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);

@@ -106,14 +106,18 @@ int sw_scene_force_acts(const sw_scene *scene, sw_handle force);
 
 typedef struct sw_wire_args {
   char name[SW_NAME_SIZE];
-  int model;         /* index into sw_wire_all() */
-  sw_vec from, to;   /* straight wire; NAN = not given [m] */
-  long segments;     /* 0 = chosen [-] */
-  int rest;          /* shape without load: SW_REST_STRAIGHT, SW_REST_PATH */
-  sw_vec normal;     /* first axis of the section; NAN = not given [-] */
-  double rest_twist; /* without load [rad/m] */
-  int rolls;         /* 1: spins about its axis, with inertia, under friction */
+  int model;            /* index into sw_wire_all() */
+  sw_vec from, to;      /* straight wire; NAN = not given [m] */
+  long segments;        /* 0 = chosen [-] */
+  int rest;             /* shape without load: SW_REST_STRAIGHT, SW_REST_PATH */
+  sw_vec normal;        /* first axis of the section; NAN = not given [-] */
+  double rest_twist;    /* without load [rad/m] */
+  int rolls;            /* 1: spins about its axis, with inertia, under friction */
+  double breaking_load; /* NAN = not known [N] */
+  int breaking_flag;    /* where that is from: index into sw_breaking_flags */
 } sw_wire_args;
+enum { SW_BREAKING_FLAGS = 4 };
+extern const char *const sw_breaking_flags[];
 enum { SW_REST_STRAIGHT = 0, SW_REST_PATH = 1 };
 extern const sw_params sw_wire_params; /* model, path, segments, ... */
 
@@ -520,6 +524,9 @@ sw_status sw_scene_obstacle_log(sw_scene *scene, sw_handle obstacle, const doubl
 enum { SW_LOG_WIRE_SIZE = 3, SW_LOG_FORCE_SIZE = 4 };
 sw_status sw_scene_wire_log(sw_scene *scene, sw_handle wire, const double **rows, size_t *count,
                             sw_error *err);
+/* The same of a tie between wires: on the first one. */
+sw_status sw_scene_tie_log(sw_scene *scene, sw_handle join, const double **rows, size_t *count,
+                           sw_error *err);
 sw_status sw_scene_force_log(sw_scene *scene, sw_handle force, const double **rows, size_t *count,
                              sw_error *err);
 

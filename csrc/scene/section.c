@@ -122,6 +122,18 @@ static slice slice_of(const sw_plan *p, const double *x, size_t r) {
                  2.0 * asin(fmin(1.0, 0.5 * sw_dist(t0, t1))) / h};
 }
 
+double sw_strand_moment(const sw_plan *p, const double *x, double place) {
+  double f;
+  const size_t r = sw_plan_locate(p, place, &f);
+  const sw_vec about =
+      sw_lerp(sw_strand_middle(p->web, x, r), sw_strand_middle(p->web, x, r + 1), 0.5);
+  const sw_vec axis = sw_unit_or(
+      sw_add(sw_strand_facing(p->web, x, r), sw_strand_facing(p->web, x, r + 1)), sw_v(1, 0, 0));
+  sw_vec force, moment;
+  slice_force(p, x, r, about, &force, &moment);
+  return sw_norm(sw_madd(moment, axis, -sw_dot(moment, axis)));
+}
+
 static slice blend(slice a, slice b, double f) {
   return (slice){a.tension + f * (b.tension - a.tension),
                  a.twist_moment + f * (b.twist_moment - a.twist_moment),

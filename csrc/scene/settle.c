@@ -29,6 +29,7 @@ static const double NUDGE = 1e-4;          /* of the length, off an unstable pla
 enum { MOST_NUDGES = 2 };
 /* Parts of a hold's way from where it was to where it is to be. */
 static const double LONGEST_PART = 0.4; /* of the shortest edge [-] */
+static const double LONG_PART = 0.1;    /* of the longest wire, where nothing rubs [-] */
 static const double WIDEST_PART = 0.5;  /* [rad] */
 static const double MOST_PARTS = 2000;
 
@@ -302,13 +303,13 @@ static double widest_mesh(const sw_system *s) {
 }
 
 /* Into how many parts the way of the holds to their places is to be cut, so that
- * no part shifts a hold by much of an edge or turns it far. lever: what is so far out does not
- * shift by much either when a hold turns [m]. */
-static sw_status count_parts(statics *p, double lever, size_t *parts, sw_error *err) {
+ * no part shifts a hold by more than longest_shift [m] or turns it far. lever: what is so far out
+ * does not shift by more either when a hold turns [m]. */
+static sw_status count_parts(statics *p, double lever, double longest_shift, size_t *parts,
+                             sw_error *err) {
   sw_system *s = &p->s->system;
   double most = 0;
   SW_TRY(sw_system_place_holds(s, p->s->time, NULL, NULL, NULL, err)); /* feeds move nodes */
-  const double longest_shift = LONGEST_PART * shortest_edge(s);
   for (size_t k = 0; k < s->hold_count; k++) {
     const sw_pose *from = &p->from_poses[k], *to = &s->hold_states[k].pose;
     const double turn = sw_norm(sw_quat_log(sw_quat_mul(to->q, sw_quat_conj(from->q))));
@@ -331,15 +332,57 @@ static sw_status follow_in(statics *p, size_t parts, sw_error *err) {
   return status;
 }
 
+/* Does what the wires have been through make no difference to where they come to rest? */
+static int forgets(const sw_scene *s) {
+  if (s->pairs || s->crowd) return 0;
+  for (size_t o = 0; o < s->obstacle_count; o++)
+    if (s->obstacles[o].alive && fmax(s->obstacles[o].friction, s->obstacles[o].kinetic) > 0)
+      return 0;
+  for (size_t b = 0; b < s->system.body_count; b++)
+    if (s->system.bodies[b].plan->web) return 0;
+  return 1;
+}
+
+/* In parts that do not depend on the mesh, as long as each leads from one stable equilibrium
+ * straight to the next. 1: it did; else all is as it was. */
+static sw_status follow_fast(statics *p, size_t parts, int *done, sw_error *err) {
+  sw_live start = {0};
+  const double touched = p->touched;
+  sw_error why = {"out of memory"};
+  sw_status status = sw_live_take(p->s, &start);
+  *done = 0;
+  for (size_t i = 1; status == SW_OK && i <= parts; i++) {
+    p->s->part_from = i < parts ? p->from_poses : NULL;
+    p->s->part = (double)i / (double)parts;
+    status = newton_attempt(p, NEWTON_ITERATIONS, &why);
+    if (status == SW_OK && p->report->negative > 0) status = SW_ENOCONV;
+    if (status == SW_OK && p->interrupted && p->interrupted()) status = SW_EINTR;
+  }
+  p->s->part_from = NULL;
+  *done = status == SW_OK;
+  if (stops(status)) sw_fail(err, status, "%s", why.text);
+  if (!*done && !stops(status)) {
+    p->touched = touched;
+    status = sw_live_put(p->s, &start, err);
+  }
+  sw_live_free(&start);
+  return status;
+}
+
 /* Settle at every part of the holds' way. The parts are only for convergence: what
  * forces remember is brought up to the last one alone. Where particles of a mesh are further from
  * the axis than its slices from each other, the usual parts may be too wide to begin with. */
 static sw_status follow_holds(statics *p, sw_error *err) {
-  size_t parts, more;
-  SW_TRY(count_parts(p, 0.0, &parts, err));
+  size_t parts, more, fewer;
+  int done = 0;
+  const double edge = LONGEST_PART * shortest_edge(&p->s->system);
+  SW_TRY(count_parts(p, 0.0, edge, &parts, err));
+  SW_TRY(count_parts(p, 0.0, fmax(edge, LONG_PART * longest(p->s)), &fewer, err));
+  if (fewer < parts && forgets(p->s)) SW_TRY(follow_fast(p, fewer, &done, err));
+  if (done) return SW_OK;
   const sw_status status = follow_in(p, parts, err);
   if (status != SW_ENOCONV) return status;
-  SW_TRY(count_parts(p, widest_mesh(&p->s->system), &more, err));
+  SW_TRY(count_parts(p, widest_mesh(&p->s->system), edge, &more, err));
   if (more <= parts) return status;
   take_back(p->s, p->begun);
   return follow_in(p, more, err);

@@ -57,6 +57,22 @@ static double proud_of(const sw_strand_plan *p, const sw_lattice *l, double skin
   return fmax(0.0, mean_reach(l) + skin - own_reach(p, radius));
 }
 
+/* --- the wall along the wire --------------------------------------------------------- */
+
+/* Most of the wire's EI that its wall has by itself, whose ring has the rest; that of a wall of a
+ * third of the radius. Thicker ones do not buckle [-]. */
+static const double MOST_ALONG = 0.02;
+
+static double round_of(const sw_beam *beam) {
+  return 2.0 * 3.14159265358979323846 * sqrt(2.0 * beam->EI_axis[0] / beam->EA);
+}
+
+double sw_strand_wall_along(const sw_strand_plan *p, const sw_beam *beam) {
+  /* folds that are a little bent at rest would not know which way */
+  if (isnan(p->wall) || p->curved || p->rest_twist != 0) return 0;
+  return fmin(p->wall, MOST_ALONG * beam->EI_axis[0] / round_of(beam));
+}
+
 /* --- calibration -------------------------------------------------------------------- */
 
 static sw_status calibrate(const sw_strand_plan *p, const sw_beam *beam, double spacing,
@@ -73,7 +89,8 @@ static sw_status calibrate(const sw_strand_plan *p, const sw_beam *beam, double 
   /* with the beam's values all that E tells is the ratio of a composite's materials */
   if (p->body == SW_BODY_SPRINGS || args.mesh != SW_LATTICE_COMPOSITE) section.E = (double)NAN;
   if (p->body == SW_BODY_SPRINGS) section.nu = (double)NAN;
-  section.EA = beam->EA, section.EI = beam->EI_axis[0], section.GJ = beam->GJ;
+  section.EA = beam->EA, section.GJ = beam->GJ;
+  section.EI = beam->EI_axis[0] - sw_strand_wall_along(p, beam) * round_of(beam);
   section.mass_per_length = beam->mass;
   section.radius = (1.0 - inset(p)) * beam->radius;
   if (section.EI2 > 0) lattice.cubic.EI2 = section.EI2;

@@ -29,6 +29,9 @@ static inline int sw_strand_is_line(const sw_strand_maker *m, size_t r) {
   return r < m->mesh->n && m->ring && !m->ring[r];
 }
 
+/* Bending stiffness of a tube's wall along the wire, per length round it; 0: it has none [N m]. */
+double sw_strand_wall_along(const sw_strand_plan *plan, const sw_beam *beam);
+
 /* One more spring, or fold of rest angle rest [N/m], [m]; [N m], [rad]. */
 void sw_strand_add_link(sw_strand_maker *m, size_t a, size_t b, double k, double rest);
 void sw_strand_add_fold(sw_strand_maker *m, size_t a, size_t b, size_t c, double k, double rest);

@@ -107,6 +107,16 @@ static double of_polygon(size_t sides) {
   return 2.0 * b * sin(0.5 * b) / (sin(b) * sin(b)) * lost * lost;
 }
 
+/* The wall along the wire: else nothing but the length of its slices would say how short the waves
+ * are into which its compressed side buckles, and how early. */
+static void add_wall_along(sw_strand_maker *m, size_t r, double chord) {
+  const double k = sw_strand_wall_along(m->plan, m->beam) * chord / m->lattice->spacing;
+  if (!(k > 0) || r == 0 || !sw_strand_is_ring(m, r - 1) || !sw_strand_is_ring(m, r + 1)) return;
+  for (size_t i = 0; i < m->around_count; i++)
+    sw_strand_add_fold(m, m->first[r - 1] + m->around[i], m->first[r] + m->around[i],
+                       m->first[r + 1] + m->around[i], k, 0);
+}
+
 /* Creases round a ring: its wall, bent at each particle as it is drawn. */
 static void add_wall(sw_strand_maker *m, size_t r) {
   const size_t n = m->around_count;
@@ -116,6 +126,7 @@ static void add_wall(sw_strand_maker *m, size_t r) {
   const double chord = hypot(q[0] - p[0], q[1] - p[1]);
   const double k = m->plan->wall * of_polygon(n) * ring_length(m, r) / chord;
   if (!(k > 0)) return; /* a ring alone between lines */
+  add_wall_along(m, r, chord);
   for (size_t i = 0; i < n; i++, m->creases++) {
     if (!m->web) continue;
     const uint32_t a = m->around[(i + n - 1) % n], b = m->around[i], c = m->around[(i + 1) % n];

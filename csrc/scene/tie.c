@@ -36,6 +36,23 @@ static sw_status check_terms(const sw_body *b, const double *x, sw_error *err) {
   return SW_OK;
 }
 
+int sw_scene_may_break(const sw_scene *s) {
+  for (size_t k = 0; k < s->join_count; k++) {
+    const sw_scene_join *j = &s->joins[k];
+    if (j->alive && isfinite(j->slack) && isfinite(j->strength) && !j->broken) return 1;
+  }
+  for (size_t b = 0; s->force_count && b < s->system.body_count; b++) {
+    const sw_body *body = &s->system.bodies[b];
+    for (size_t k = 0; k < body->term_count; k++) {
+      const sw_term *term = &body->terms[k];
+      double bears = 0;
+      if (term->cls->pull) term->cls->pull(term->args, &body->field, term->history, &bears);
+      if (bears > 0) return 1;
+    }
+  }
+  return 0;
+}
+
 sw_status sw_scene_check_ties(const sw_scene *s, const double *x, sw_error *err) {
   for (size_t k = 0; k < s->join_count; k++) {
     const sw_scene_join *j = &s->joins[k];

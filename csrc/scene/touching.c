@@ -74,12 +74,12 @@ static void part(void *user, sw_system *system) {
   if (s->contact) sw_contact_part(s->contact, system);
 }
 
-static sw_status begin_stage(void *user, sw_system *system, double t, double hbar, const double *y,
-                             sw_error *err) {
+static sw_status begin_stage(void *user, sw_system *system, double t, double first, sw_error *err) {
   const sw_scene *s = user;
   const int apart = !s->crowd && (!s->pairs || sw_pairs_idle(s->pairs));
   system->coupling.part = apart ? part : NULL;
-  return s->contact ? sw_contact_begin_stage(s->contact, system, t, hbar, y, err) : SW_OK;
+  if (s->pairs) sw_pairs_begin_stage(s->pairs, first);
+  return s->contact ? sw_contact_begin_stage(s->contact, t, first, err) : SW_OK;
 }
 
 static sw_status eval(void *user, sw_system *system, double t, double hbar, const double *y,
@@ -97,6 +97,10 @@ static sw_status keeps(void *user, sw_system *system, const double *y, int *out,
   return s->contact && *out ? sw_contact_keeps(s->contact, system, y, out, err) : SW_OK;
 }
 
+static void refine(void *user, sw_system *system) {
+  sw_contact_refine(((sw_scene *)user)->contact, system);
+}
+
 static int settled(void *user, sw_system *system, const double *y, const double *delta) {
   const sw_scene *s = user;
   int fine = !s->contact || sw_contact_settled(s->contact, system, y, delta);
@@ -110,7 +114,10 @@ static void book(void *user, const sw_booking *booking) {
 }
 
 void sw_scene_couple(sw_scene *s) {
-  if (s->contact) s->system.coupling.book = book;
+  if (s->contact) {
+    s->system.coupling.refine = refine;
+    s->system.coupling.book = book;
+  }
   if (!sw_scene_has_contact(s)) return;
   s->system.coupling.begin_stage = begin_stage;
   s->system.coupling.eval = eval;

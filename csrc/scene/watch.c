@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene/watch.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "scene/world.h"
+#include "system/join.h"
 
-enum { OF_WIRE, OF_FORCE };
+enum { OF_WIRE, OF_FORCE, OF_TIE };
 
 struct sw_watch {
   int kind;
@@ -84,6 +86,19 @@ sw_status sw_watch_forces(sw_scene *s, sw_error *err) {
   return SW_OK;
 }
 
+sw_status sw_watch_ties(sw_scene *s, sw_error *err) {
+  for (size_t k = 0; k < s->join_count; k++) {
+    const sw_scene_join *j = &s->joins[k];
+    double row[SW_LOG_FORCE_SIZE] = {s->time};
+    if (!j->alive || isnan(j->slack) || !s->system.joins) continue;
+    sw_store(row + 1,
+             j->broken ? sw_v(0, 0, 0)
+                       : sw_join_spring_force(&s->system.joins->springs[j->spring], s->system.x));
+    SW_TRY(add(s, OF_TIE, (sw_handle){(uint32_t)k, j->generation}, row, j->name, err));
+  }
+  return SW_OK;
+}
+
 sw_status sw_watches_measure(const sw_watches *w, size_t **lengths) {
   *lengths = sw_alloc(w->count, sizeof **lengths);
   if (!*lengths) return SW_ENOMEM;
@@ -126,6 +141,14 @@ sw_status sw_scene_force_log(sw_scene *s, sw_handle force, const double **rows, 
   return SW_OK;
 }
 
+sw_status sw_scene_tie_log(sw_scene *s, sw_handle join, const double **rows, size_t *count,
+                           sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  if (!sw_scene_find_join(s, join, err)) return SW_EDEAD;
+  read_log(s, OF_TIE, join, rows, count);
+  return SW_OK;
+}
+
 void sw_tape_watches(sw_tape *t, sw_watches *w) {
   size_t n = w->count;
   SW_TAPE_STRUCT(t, sw_watch, 40);
@@ -140,7 +163,7 @@ void sw_tape_watches(sw_tape *t, sw_watches *w) {
     if (sw_tape_reads(t)) w->count = k + 1;
     sw_tape_int(t, &x->kind), sw_tape_uint32(t, &x->of.slot), sw_tape_uint32(t, &x->of.generation);
     sw_tape_log(t, &x->log);
-    sw_tape_expect(t, x->kind == OF_WIRE || x->kind == OF_FORCE, "a record");
+    sw_tape_expect(t, x->kind >= OF_WIRE && x->kind <= OF_TIE, "a record");
     sw_tape_expect(t, x->log.count % width_of(x->kind) == 0, "a record");
   }
 }

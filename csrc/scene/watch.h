@@ -18,6 +18,8 @@ typedef struct sw_watches {
 sw_status sw_watch_wire(sw_scene *scene, size_t wire, const sw_wire_extremes *now, sw_error *err);
 /* The same of all forces that tell what they do to wires (clips, ties). */
 sw_status sw_watch_forces(sw_scene *scene, sw_error *err);
+/* Ties between wires. */
+sw_status sw_watch_ties(sw_scene *scene, sw_error *err);
 /* How long each log is, for snapshots. SW_ENOMEM. */
 sw_status sw_watches_measure(const sw_watches *watches, size_t **lengths);
 /* Back to these lengths (of the first count logs); those beyond the first `known` go away. */

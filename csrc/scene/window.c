@@ -110,8 +110,8 @@ int sw_window_waits(const sw_window *w) {
 
 size_t sw_window_largest(const sw_window *w, double window, double *mean) {
   const double length = fmin(window, w->now - w->begun), from = w->now - length;
-  size_t k = 0; /* the mark after the window's beginning */
-  while (k < w->marks && w->time[slot(w, k)] < from) k++;
+  size_t k = w->marks; /* the mark after the window's beginning; the newest are looked at first */
+  while (k > 0 && !(w->time[slot(w, k - 1)] < from)) k--;
   const double *sum = sum_of(w), *two = k < w->marks ? mark_of(w, k) : sum;
   const double *one = k > 0 ? mark_of(w, k - 1) : two;
   const double t2 = k < w->marks ? w->time[slot(w, k)] : w->now;

@@ -32,6 +32,11 @@ static const sw_param wire_rows[] = {
      "true: friction also turns the wire about its axis, so that it rolls and is twisted"},
     {"rest_twist", SW_PARAM_NUMBER, "rad/m", 0, -1e6, 1e6, 0, NULL,
      offsetof(sw_wire_args, rest_twist), "twist without load; it is drawn untwisted"},
+    {"breaking_load", SW_PARAM_NUMBER, "N", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(sw_wire_args, breaking_load),
+     "pull above which an event tells that it would break (default: the cable's)"},
+    {"breaking_flag", SW_PARAM_CHOICE, "-", 0, 0, 0, 0, sw_breaking_flags,
+     offsetof(sw_wire_args, breaking_flag), "where that is from"},
 };
 const sw_params sw_wire_params = SW_PARAMS("wire", wire_rows);
 
@@ -142,7 +147,9 @@ static sw_status keep_drawing(sw_scene_wire *w, const sw_wire_args *args, const 
                             .normal = args->normal,
                             .rest = args->rest,
                             .rolls = args->rolls,
-                            .rest_twist = args->rest_twist};
+                            .rest_twist = args->rest_twist,
+                            .breaking_load = args->breaking_load,
+                            .breaking_flag = args->breaking_flag};
   w->drawing.points = sw_alloc(3 * count, sizeof *points);
   if (!w->drawing.points) return SW_ENOMEM;
   memcpy(w->drawing.points, points, 3 * count * sizeof *points);

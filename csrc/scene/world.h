@@ -29,11 +29,13 @@ typedef struct sw_twisted {
 typedef struct sw_drawing {
   double *points; /* (count x 3) [m] */
   size_t count;
-  double length;     /* of the first mesh [m] */
-  sw_vec normal;     /* of the section; NAN = not given [-] */
-  int rest;          /* SW_REST_STRAIGHT, SW_REST_PATH */
-  int rolls;         /* 1: it turns about itself with inertia */
-  double rest_twist; /* [rad/m] */
+  double length;        /* of the first mesh [m] */
+  sw_vec normal;        /* of the section; NAN = not given [-] */
+  int rest;             /* SW_REST_STRAIGHT, SW_REST_PATH */
+  int rolls;            /* 1: it turns about itself with inertia */
+  double rest_twist;    /* [rad/m] */
+  double breaking_load; /* NAN = not known [N] */
+  int breaking_flag;    /* see sw_wire_args */
 } sw_drawing;
 
 typedef struct sw_scene_wire {
@@ -73,6 +75,18 @@ sw_status sw_strand_take(sw_scene_wire *wire, const sw_system *system, const sw_
 /* Read-outs at arc length s; extremes. */
 void sw_strand_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_body *body, double s,
                   sw_point_state *out);
+/* Bending moment in the slice of a mesh that has a place [m], [N m]. */
+double sw_strand_moment(const sw_plan *plan, const double *x, double place);
+/* Tells of a wire whose largest tension is above its breaking load. */
+void sw_scene_watch_breaking(sw_scene *scene, size_t wire, const sw_wire_extremes *now);
+/* The same at the end of a run, of runs that were shorter than the window. */
+void sw_scene_end_breaking(sw_scene *scene);
+/* And as the end of a sentence, or nothing. */
+void sw_scene_tell_broken(const sw_scene *scene, char *out, size_t size);
+/* And of the obstacle that presses a wire hardest, if that is hard. */
+void sw_scene_tell_pressed(const sw_scene *scene, char *out, size_t size);
+/* Tells of a tube that is folded at one place. */
+void sw_scene_watch_kink(sw_scene *scene, size_t wire, const sw_wire_extremes *now);
 /* tension (rings - 1), or NULL: what is carried between two rings [N]. */
 void sw_strand_extremes(const sw_scene *scene, size_t wire, double *tension, sw_wire_extremes *now);
 
@@ -340,8 +354,10 @@ struct sw_scene {
   const sw_pose *part_from; /* settling: where the holds come from, or NULL */
   double part;              /* share of their way [-] */
 
-  int built;   /* system is valid and holds the state */
-  int running; /* above 0 inside a step or a user's function: edits are refused */
+  int built;      /* system is valid and holds the state */
+  size_t parts;   /* of steps of the run, since it was last asked whether they have collapsed [-] */
+  double covered; /* steps that these make together [-] */
+  int running;    /* above 0 inside a step or a user's function: edits are refused */
   sw_system system;
   int *hold_slot;       /* (system.hold_count) scene slot of each system hold */
   sw_contact *contact;  /* with obstacles, or NULL */
@@ -509,6 +525,8 @@ void sw_scene_measure_joins(sw_scene *scene);
 /* Springs and hinges of the living joins for the new system. SW_ENOMEM. */
 sw_status sw_scene_add_joins(sw_scene *scene);
 sw_status sw_scene_add_tie(sw_scene *scene, size_t join);
+/* 1: there is a tie that has a strength, and is not broken. */
+int sw_scene_may_break(const sw_scene *scene);
 /* SW_ENOCONV when a tie is pulled far beyond its strength with nodes at x: it breaks earlier. */
 sw_status sw_scene_check_ties(const sw_scene *scene, const double *x, sw_error *err);
 /* After a step, before histories follow: ties that were pulled too hard break. */
@@ -618,9 +636,14 @@ sw_status sw_scene_squeezed_rest(sw_scene *scene, double since, int *too_far,
                                  sw_settle_report *report, sw_error *why);
 /* Make a pose at t1 an earlier one (cut: 1) where wires between pads could not follow these. */
 sw_status sw_scene_cut_pose(sw_scene *scene, double *t1, int *cut, sw_error *err);
-/* Equilibrium at time t1, which becomes the scene's, in smaller parts where needed; nothing is
- * observed. On failure the scene is at the last pose that went well. */
-sw_status sw_scene_pose(sw_scene *scene, double t1, int (*interrupted)(void), sw_run_report *report,
+typedef struct sw_pose_args {
+  int (*interrupted)(void);
+  double shortest; /* poses are not made shorter to find where a tie breaks [s] */
+} sw_pose_args;
+/* Equilibrium at time t1, which becomes the scene's, in smaller parts where needed; or earlier, to
+ * be observed there, where a tie may break. Nothing is observed. On failure the scene is at the
+ * last pose that went well. */
+sw_status sw_scene_pose(sw_scene *scene, double t1, const sw_pose_args *how, sw_run_report *report,
                         sw_error *err);
 
 /* What frames tell of each node of the wire, SW_FRAME_VALUES numbers; n nodes. */

@@ -170,24 +170,54 @@ sw_status sw_band3_factor(const double *a, size_t n, double *factor, size_t *neg
   return s.bad[0] | s.bad[1] ? SW_ESINGULAR : SW_OK;
 }
 
-static inline void subtract_transposed(pair b[3], const pair w[9], const pair z[3]) {
-  for (int j = 0; j < 3; j++) b[j] -= w[j] * z[0] + w[3 + j] * z[1] + w[6 + j] * z[2];
+/* A pair's factor as it lies in its two rows, and the pair's place in a vector of nodes. */
+typedef double loose __attribute__((vector_size(16), aligned(8), may_alias));
+typedef struct rows {
+  const double *up, *down;
+} rows;
+
+enum { SPLIT = 0, V1 = 6, V2 = 15 }; /* as in kept */
+
+static inline pair part(rows f, int k) {
+  const int half = SW_ROW_SIZE / 2;
+  return *(const loose *)(k < half ? f.up + 2 * k : f.down + 2 * (k - half));
 }
 
-static inline void subtract_times(pair b[3], const pair w[9], const pair z[3]) {
-  for (int j = 0; j < 3; j++) b[j] -= w[3 * j] * z[0] + w[3 * j + 1] * z[1] + w[3 * j + 2] * z[2];
+/* Each pair waits for the one before: terms are subtracted one by one, in the order in which they
+ * come to be known. */
+
+/* b -= w' z, z[2] known last */
+static inline void subtract_transposed(pair b[3], rows f, int w, const pair z[3]) {
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) b[j] -= part(f, w + 3 * i + j) * z[i];
 }
 
-/* z = L^-1 z */
-static inline void forward(const pair s[6], pair z[3]) {
-  z[1] -= s[1] * z[0];
-  z[2] -= s[2] * z[0] + s[4] * z[1];
+/* b -= w z, z[0] known last */
+static inline void subtract_times(pair b[3], rows f, int w, const pair z[3]) {
+  for (int i = 2; i >= 0; i--)
+    for (int j = 0; j < 3; j++) b[j] -= part(f, w + 3 * j + i) * z[i];
 }
 
-/* z = L'^-1 z */
-static inline void backward(const pair s[6], pair z[3]) {
-  z[1] -= s[4] * z[2];
-  z[0] -= s[1] * z[1] + s[2] * z[2];
+/* Elimination of a pair: z is what is left of its right side, first and second are to be added to
+ * that of the next two. */
+static inline void forward(rows f, pair z[3], pair first[3], pair second[3]) {
+  for (int c = 0; c < 3; c++) z[c] += first[c], first[c] = second[c], second[c] = of(0.0, 0.0);
+  z[2] -= part(f, SPLIT + 2) * z[0];
+  z[1] -= part(f, SPLIT + 1) * z[0];
+  z[2] -= part(f, SPLIT + 4) * z[1];
+  subtract_transposed(first, f, V1, z);
+  subtract_transposed(second, f, V2, z);
+}
+
+/* And back: x1 and x2 are the solution at the next two of each chain, and then of this one. */
+static inline void backward(rows f, pair z[3], pair x1[3], pair x2[3]) {
+  z[0] *= part(f, SPLIT), z[1] *= part(f, SPLIT + 3), z[2] *= part(f, SPLIT + 5);
+  subtract_times(z, f, V2, x2);
+  subtract_times(z, f, V1, x1);
+  z[0] -= part(f, SPLIT + 2) * z[2];
+  z[1] -= part(f, SPLIT + 4) * z[2];
+  z[0] -= part(f, SPLIT + 1) * z[1];
+  for (int c = 0; c < 3; c++) x2[c] = x1[c], x1[c] = z[c];
 }
 
 static void solve_middle(const double *factor, double *b, size_t p, const pair first[3],
@@ -211,48 +241,54 @@ static void solve_middle(const double *factor, double *b, size_t p, const pair f
   x[0] -= fa[1] * x[1] + fa[2] * x[2];
 }
 
+/* The first pair of an odd number of nodes has no lane 1. */
+static rows alone(const double *factor, kept *room) {
+  const double *flat = (const double *)room;
+  recall(factor, 3, 0, 3, room);
+  return (rows){flat, flat + SW_ROW_SIZE};
+}
+
+static inline rows rows_of(const double *factor, size_t k, size_t j) {
+  return (rows){factor + SW_ROW_SIZE * k, factor + SW_ROW_SIZE * j};
+}
+
+static inline void take(const double *up, const double *down, pair z[3]) {
+  for (int c = 0; c < 3; c++) z[c] = of(up[c], down[c]);
+}
+
+static inline void give(double *up, double *down, const pair z[3]) {
+  for (int c = 0; c < 3; c++) up[c] = z[c][0], down[c] = z[c][1];
+}
+
 SW_HOT
 void sw_band3_solve(const double *factor, size_t n, double *b) {
-  const size_t odd = odd_of(n), count = pairs_of(n);
-  kept f;
-  pair first[3] = {{0}}, second[3] = {{0}}; /* what is to be added to the next two */
-  for (size_t k = 0; k < count; k++) {
-    const int alone = odd && k == 0;
-    const size_t j = alone ? n : n - 1 - (k - odd);
-    double *up = b + 3 * k, *down = alone ? NULL : b + 3 * j;
-    pair z[3];
-    recall(factor, n, k, j, &f);
-    for (int c = 0; c < 3; c++) z[c] = of(up[c], alone ? 0.0 : down[c]) + first[c];
-    memcpy(first, second, sizeof first);
-    memset(second, 0, sizeof second);
-    forward(f.split, z);
-    subtract_transposed(first, f.v1, z);
-    subtract_transposed(second, f.v2, z);
-    for (int c = 0; c < 3; c++) up[c] = z[c][0];
-    for (int c = 0; c < 3 && !alone; c++) down[c] = z[c][1];
+  const size_t odd = n > 2 ? odd_of(n) : 0, count = pairs_of(n);
+  double nothing[3] = {0};
+  kept room;
+  pair first[3] = {{0}}, second[3] = {{0}}, z[3], x1[3], x2[3];
+  if (odd) {
+    take(b, nothing, z);
+    forward(alone(factor, &room), z, first, second);
+    give(b, nothing, z);
+  }
+  for (size_t k = odd, j = n - 1; k < count; k++, j--) {
+    take(b + 3 * k, b + 3 * j, z);
+    forward(rows_of(factor, k, j), z, first, second);
+    give(b + 3 * k, b + 3 * j, z);
   }
   solve_middle(factor, b, count, first, second);
-  pair x1[3], x2[3]; /* solution at the next two of each chain */
-  for (int c = 0; c < 3; c++) {
-    x1[c] = of(b[3 * count + (size_t)c], b[3 * count + 3 + (size_t)c]);
-    x2[c] = of(b[3 * count + 3 + (size_t)c], b[3 * count + (size_t)c]);
+  take(b + 3 * count, b + 3 * count + 3, x1);
+  take(b + 3 * count + 3, b + 3 * count, x2);
+  for (size_t k = count, j = n - (count - odd); k-- > odd; j++) {
+    take(b + 3 * k, b + 3 * j, z);
+    backward(rows_of(factor, k, j), z, x1, x2);
+    give(b + 3 * k, b + 3 * j, z);
   }
-  for (size_t k = count; k-- > 0;) {
-    const int alone = odd && k == 0;
-    const size_t j = alone ? n : n - 1 - (k - odd);
-    double *up = b + 3 * k, *down = alone ? NULL : b + 3 * j;
-    pair z[3];
-    recall(factor, n, k, j, &f);
-    for (int c = 0; c < 3; c++) z[c] = of(up[c], alone ? 0.0 : down[c]);
-    z[0] *= f.split[0], z[1] *= f.split[3], z[2] *= f.split[5];
-    subtract_times(z, f.v1, x1);
-    subtract_times(z, f.v2, x2);
-    backward(f.split, z);
-    memcpy(x2, x1, sizeof x2);
-    memcpy(x1, z, sizeof x1);
-    for (int c = 0; c < 3; c++) up[c] = z[c][0];
-    for (int c = 0; c < 3 && !alone; c++) down[c] = z[c][1];
-  }
+  if (!odd) return;
+  nothing[0] = nothing[1] = nothing[2] = 0;
+  take(b, nothing, z);
+  backward(alone(factor, &room), z, x1, x2);
+  give(b, nothing, z);
 }
 
 void sw_band3_multiply(const double *a, size_t n, const double *x, double *y) {

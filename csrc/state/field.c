@@ -57,7 +57,11 @@ void sw_field_geometry(sw_field *field) {
 enum { PIECE = 0x20000 }; /* numbers between two looks at the user's wish to stop [-] */
 
 /* What is seen for the first time may take a second in a million nodes. */
-static void clear(double *numbers, size_t count) {
+static inline void clear(double *numbers, size_t count) {
+  if (count <= PIECE) {
+    memset(numbers, 0, count * sizeof *numbers);
+    return;
+  }
   for (size_t at = 0; at < count && !sw_interrupted(); at += PIECE)
     memset(numbers + at, 0, (count - at < PIECE ? count - at : PIECE) * sizeof *numbers);
 }

@@ -22,7 +22,7 @@
 sw_status sw_system_linearise(sw_system *s, double time, sw_error *err) {
   const sw_coupling *c = &s->coupling;
   SW_TRY(sw_system_place_holds(s, time, NULL, NULL, NULL, err));
-  if (c->begin_stage) SW_TRY(c->begin_stage(c->user, s, time, HUGE_VAL, s->x, err));
+  if (c->begin_stage) SW_TRY(c->begin_stage(c->user, s, time, 0, err));
   memset(s->velocity, 0, 3 * s->nodes * sizeof *s->velocity);
   sw_system_begin_step(s);
   for (size_t b = 0; b < s->body_count; b++)

@@ -13,6 +13,7 @@
 #include "system/assemble.h"
 #include "system/factors.h"
 #include "system/join.h"
+#include "system/lead.h"
 #include "system/link.h"
 #include "system/part.h"
 #include "system/spin.h"
@@ -187,6 +188,7 @@ static sw_status assemble_and_solve(sw_system *s, const sw_stage *stage, const s
     if (f->plan->web && !s->goes_on) sw_web_gather(&s->bodies[b]);
   }
   for (size_t b = s->part; b < s->part_end; b++) take_out_held(s, &s->bodies[b]);
+  if (statics) sw_lead_rows(s, stage->y);
   report->negative = 0;
   if (sw_interrupted()) return SW_EINTR;
   if (sw_links_any(s)) SW_TRY(sw_links_solve(s, &report->negative));
@@ -198,6 +200,8 @@ static sw_status assemble_and_solve(sw_system *s, const sw_stage *stage, const s
     report->negative += negative;
     s->counters.solves++;
   }
+  if (s->coupling.refine && !s->goes_on) s->coupling.refine(s->coupling.user, s);
+  if (statics) sw_lead_update(s, stage->y);
   if (!s->goes_on) sw_factors_keep(s, stage, newton, report);
   s->counters.newton++;
   s->counters.evaluations++;
@@ -239,10 +243,9 @@ static int flies_off(const sw_body *b, const double *delta) {
   return largest > most;
 }
 
-/* Apply the update, shortened when an edge would turn too far. Returns the
- * share applied; 0 when the update goes nowhere near, or -1 when it is not finite. */
-static double apply(sw_system *s, const sw_stage *stage, const sw_newton *newton,
-                    sw_stage_report *report) {
+/* Share of the update to be made, less than 1 when an edge would turn too far; 0 when it goes
+ * nowhere near, or -1 when it is not finite. */
+static double share_of(sw_system *s, const sw_newton *newton, sw_stage_report *report) {
   double largest = 0, share = 1.0;
   int flying = 0;
   for (size_t b = s->part; b < s->part_end; b++) {
@@ -263,6 +266,10 @@ static double apply(sw_system *s, const sw_stage *stage, const sw_newton *newton
   report->rotation = sqrt(fmax(largest, 0.0));
   if (report->rotation > newton->limit_rotation)
     share = fmin(share, newton->limit_rotation / report->rotation);
+  return share;
+}
+
+static void apply(sw_system *s, const sw_stage *stage, double share) {
   const size_t end = 3 * sw_part_node(s, s->part_end), edge = sw_part_edge(s, s->part),
                end_edge = sw_part_edge(s, s->part_end);
   for (size_t i = 3 * sw_part_node(s, s->part); i < end; i++) stage->y[i] += share * s->delta[i];
@@ -274,7 +281,6 @@ static double apply(sw_system *s, const sw_stage *stage, const sw_newton *newton
     for (size_t e = edge; e < end_edge; e++)
       s->tension[e] += share * (s->tension_new[e] - s->tension[e]);
   if (s->strain_past) sw_strain_take(s, share);
-  return share;
 }
 
 static double largest_shift(const sw_system *s) {
@@ -377,10 +383,11 @@ static sw_status begin(sw_system *s, const sw_stage *stage, int statics, sw_erro
       const size_t i = 3 * s->held[k].node + c;
       s->yhat[i] = stage->y[i] - h * h * (stage->a ? stage->a[i] : 0.0);
     }
+  if (statics) sw_lead_begin(s, stage);
   if (!statics) SW_TRY(check_start(s, stage->y, err));
   sw_spin_begin_stage(s, isfinite(stage->hbar) ? 1.0 / (stage->hbar * stage->hbar) : 0.0);
   if (s->coupling.begin_stage)
-    SW_TRY(s->coupling.begin_stage(s->coupling.user, s, stage->time, stage->hbar, stage->y, err));
+    SW_TRY(s->coupling.begin_stage(s->coupling.user, s, stage->time, stage->first, err));
   return SW_OK;
 }
 
@@ -422,14 +429,20 @@ enum { STEADY = 7 };
 
 static sw_status iterate(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                          sw_stage_report *report, sw_error *err) {
+  int waits = 0, shortened = 0;
   for (int i = 1; i <= newton->max_iterations; i++) {
     report->iterations = i;
     if (sw_interrupted()) return SW_EINTR;
     if (i == STEADY && !newton->statics) sw_spin_slow_down(s, 1.0 / (stage->hbar * stage->hbar));
     SW_TRY(solve_once(s, stage, newton, report, err));
-    const double share = apply(s, stage, newton, report);
+    const double share = share_of(s, newton, report);
     if (share < 0) return sw_fail(err, SW_EDIVERGED, "the positions left the finite numbers");
     if (share == 0) return sw_fail(err, SW_ENOCONV, "nothing holds a wire where it is");
+    shortened += share < 1.0;
+    if (sw_lead_fails(s, newton, shortened))
+      return sw_fail(err, SW_ENOCONV, "wires would go too far in %d iterations", i);
+    if (sw_lead_waits(s, newton, stage->y, share, &waits)) continue;
+    apply(s, stage, share);
     if (converged(s, stage, newton, report, share)) return SW_OK;
   }
   return sw_fail(err, SW_ENOCONV, "no convergence in %d iterations", newton->max_iterations);

@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "base/simd.h"
 #include "system/part.h"
+#include "system/pull.h"
 
 sw_status sw_system_add_strains(sw_system *s) {
   int any = 0;
@@ -20,10 +21,6 @@ sw_status sw_system_add_strains(sw_system *s) {
   return SW_OK;
 }
 
-const double *sw_system_pull(const sw_system *s, const sw_body *body) {
-  return (body->axial_time > 0 ? s->pull : s->tension) + body->first_edge;
-}
-
 /* Axial force of an edge or spring over its strain [N]. */
 static double stiffness_of(const sw_body *b, size_t e) {
   if (!b->plan->web) return b->EA;
@@ -31,14 +28,7 @@ static double stiffness_of(const sw_body *b, size_t e) {
 }
 
 void sw_system_add_up_pull(sw_system *s) {
-  for (size_t i = 0; i < s->body_count; i++) {
-    const sw_body *b = &s->bodies[i];
-    if (!(b->axial_time > 0)) continue;
-    for (size_t e = 0; e < sw_plan_axial(b->plan); e++) {
-      const size_t at = b->first_edge + e;
-      s->pull[at] = s->tension[at] + b->axial_time * stiffness_of(b, e) * s->strain_rate[at];
-    }
-  }
+  if (s->pull) sw_system_sum_pull(s, s->tension, s->strain_rate, s->pull);
 }
 
 /* Strain of an edge by its nodes' places [-]. */
@@ -50,6 +40,7 @@ static double strain_between(const sw_body *b, const double *x, size_t e) {
 }
 
 void sw_system_strain_from_state(sw_system *s) {
+  sw_system_forget_turning(s);
   for (size_t i = 0; s->strain && i < s->body_count; i++) {
     const sw_body *b = &s->bodies[i];
     if (!(b->axial_time > 0)) continue;

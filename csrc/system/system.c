@@ -10,6 +10,7 @@
 #include "system/factors.h"
 #include "system/join.h"
 #include "system/link.h"
+#include "system/pull.h"
 #include "system/roll.h"
 #include "system/spin.h"
 #include "system/strain.h"
@@ -156,6 +157,10 @@ sw_status sw_system_grow_state(sw_system *s, size_t more, double **added) {
   if (!state) return SW_ENOMEM;
   memcpy(state, s->state, s->state_size * sizeof *state);
   if (s->strain) s->strain = state + (s->strain - s->state), s->strain_rate = s->strain + s->edges;
+  if (s->even) {
+    s->even = state + (s->even - s->state);
+    s->between = s->even + s->edges, s->turning = s->between + s->edges;
+  }
   sw_free(s->state);
   s->state = state;
   *added = state + s->state_size;
@@ -168,6 +173,7 @@ sw_status sw_system_add_histories(sw_system *s) {
   double *next;
   size_t size = 0;
   SW_TRY(sw_system_add_strains(s));
+  SW_TRY(sw_system_add_even(s));
   for (size_t b = 0; b < s->body_count; b++)
     for (size_t k = 0; k < s->bodies[b].term_count; k++)
       if (s->bodies[b].terms[k].cls->state_size)

@@ -107,9 +107,8 @@ typedef struct sw_coupling {
   void *user;
   /* Pose of hold number k at a time. */
   sw_status (*place)(void *user, int hold, double time, sw_hold_state *out, sw_error *err);
-  /* A stage begins at y (predicted); hbar is infinite in statics. */
-  sw_status (*begin_stage)(void *user, sw_system *system, double time, double hbar, const double *y,
-                           sw_error *err);
+  /* A stage begins; first: share of the step's first stage in what it begins from [-]. */
+  sw_status (*begin_stage)(void *user, sw_system *system, double time, double first, sw_error *err);
   /* It couples no bodies, and from now on acts on system->part alone; parts come in their order,
    * each once in a stage, and then all again. NULL: it acts on all together. */
   void (*part)(void *user, sw_system *system);
@@ -119,6 +118,9 @@ typedef struct sw_coupling {
   /* Before eval at y: out = 1, its stiffness there is that of the last eval that was asked for it,
    * but for small turns. NULL: never. */
   sw_status (*keeps)(void *user, sw_system *system, const double *y, int *out, sw_error *err);
+  /* The system's delta solves the last eval's linearisation. Make it fit forces that depend on it
+   * in other ways, by solving again with the factors that there are. */
+  void (*refine)(void *user, sw_system *system);
   /* After an update y was reached by the solved delta: 1 = converged. */
   int (*settled)(void *user, sw_system *system, const double *y, const double *delta);
   /* A stage was solved, or an explicit method has evaluated: book the impulse. */
@@ -131,6 +133,9 @@ typedef struct sw_counters {
   size_t evaluations; /* force evaluations since start [-] */
   size_t looks;       /* at obstacles and lists, by contact that looks for something in them [-] */
 } sw_counters;
+
+/* Of sw_system.rough: in statics, an update so large that it is not made; touches learn from it. */
+enum { SW_NOT_MADE = 2 };
 
 struct sw_system {
   size_t nodes, edges;
@@ -147,7 +152,7 @@ struct sw_system {
   double *normals, *normals_now; /* the same: the wire's normals at the holds */
   double fastest_turn;           /* of a hold in this step so far [rad/s] */
   int still;                     /* 1: holds count as standing, whatever they follow (statics) */
-  int rough; /* 1: the last update turned edges by too much to be the stage's last */
+  int rough;                  /* 1: the last update turned edges too far to be the stage's last */
   sw_hold_state *hold_states; /* (hold_count) at the last stage */
   size_t hold_count;
   double gravity[3];  /* [m/s2] */
@@ -165,12 +170,16 @@ struct sw_system {
   /* the state, one block: x v a (nodes x 3, then turns of edges that roll, each), tension (edges),
    * twist (spans) [rad], turn (holds x 4: the holds' orientations that go with it), frames of each
    * body that has them (3 components of all edges, then hinges' and clamps' twist [rad]), strain
-   * and strain_rate, forces' histories */
+   * and strain_rate, even and turning, forces' histories */
   double *state;
   size_t state_size; /* in doubles */
   double *x, *v, *a, *tension, *twist, *turn, *frames;
   /* (edges) axial strain and its rate; NULL when no force has axial dashpots [-], [1/s] */
   double *strain, *strain_rate;
+  /* (edges) axial forces as read out, where they are not those of the state, and between stages,
+   * before they go on to the step's end [N] */
+  double *even, *between;
+  double *turning; /* (SW_TURN_SIZE) */
   size_t span_count;
   size_t follow_size; /* of twist, turn and frames, if there is twist or a frame: else 0 */
   double *aside;      /* (follow_size) room for them */
@@ -204,6 +213,7 @@ typedef struct sw_newton {
 typedef struct sw_stage {
   double time;        /* at the stage's end [s] */
   double hbar;        /* [s] */
+  double first;       /* share of the step's first stage in xhat [-] */
   const double *xhat; /* (freedoms): velocity = (y - xhat)/hbar [m], [rad] */
   const double *vhat; /* (nodes x 3): acceleration = (velocity - vhat)/hbar [m/s] */
   double *y;          /* out: positions [m] */
@@ -284,6 +294,18 @@ void sw_system_measure_frames(sw_system *system, size_t body);
 /* Bring a body's twist or frames up to its field's tangents. */
 void sw_system_measure(sw_system *system, sw_body *body);
 
+/* --- while the coupling refines a solution ----------------------------------- */
+
+/* 1: the body's equations can be solved again by the factors that there are. */
+int sw_body_solves_again(const sw_body *body);
+/* By how much forces that are added change the solution: of the body's nodes (nodes x 3), zero
+ * where held; in place. */
+void sw_body_solve_again(const sw_body *body, double *more);
+/* The solution delta (nodes x 3) is the last one. */
+void sw_body_take_solution(sw_body *body, const double *delta);
+/* A force is added at a held node of the system's: its hold bears it. */
+void sw_system_push_held(sw_system *system, size_t node, sw_vec force);
+
 /* Solve an implicit stage. system->tension is read and updated. Statuses:
  * SW_OK, SW_ENOCONV, SW_ESINGULAR, SW_EDIVERGED, SW_ECALLBACK. */
 sw_status sw_system_stage(sw_system *system, const sw_stage *stage, const sw_newton *newton,
@@ -324,9 +346,39 @@ void sw_system_axial_from_state(sw_system *system);
 void sw_system_reaction(const sw_system *system, int hold, sw_vec point, sw_vec *force,
                         sw_vec *moment);
 
+/* What is kept from step to step of how a method sees wires that turn, for a unit acceleration
+ * towards the centre: how far the velocity is from that of steady turning, now and a step ago [s];
+ * the axial force of the last stage over what it should be, less one [-]. And of read-outs: 1 if
+ * they are of `even` [-], how far `between` is behind the state [s]. */
+enum {
+  SW_TURN_LAG,
+  SW_TURN_LAG_BEFORE,
+  SW_TURN_EXCESS,
+  SW_TURN_EVEN,
+  SW_TURN_BEHIND,
+  SW_TURN_SIZE
+};
+
 /* Axial forces of a body's edges or springs at the refreshed state, those of dashpots included
  * (sw_plan_axial) [N]. */
 const double *sw_system_pull(const sw_system *system, const sw_body *body);
+/* The same without dashpots' [N]. */
+const double *sw_system_elastic(const sw_system *system, const sw_body *body);
+/* Axial forces of edges or springs, (edges): tension and what dashpots add at these rates (NULL
+ * where there are none) [N], [1/s], [N]. */
+void sw_system_sum_pull(const sw_system *system, const double *tension, const double *rate,
+                        double *out);
+
+/* Read-outs of the state, after a step h, are between the first stage's forces (edges) and those
+ * of the state now, with this share of the latter, which is how it was `behind` ago, and go on
+ * from there as they changed in the last step, if that was evened out too [s], [N], [-], [s]. */
+void sw_system_even_out(sw_system *system, double h, const double *first, double share,
+                        double behind);
+
+/* Read-outs are those of the state. */
+void sw_system_uneven(sw_system *system);
+/* And velocities are what they are said to be, of no method. */
+void sw_system_forget_turning(sw_system *system);
 
 /* The state has just been filled, or has come to rest: strains as its axial forces and lengths
  * have them, and their rates, which are zero then. */

@@ -188,9 +188,25 @@ size_t sw_twist_correct(sw_body *b, double *delta) {
     fewer += self < 0;
     for (size_t i = 3 * span->first; i < 3 * (span->last + 2); i++)
       delta[i] -= share * b->twist_solved[i];
-    b->twist_gain[k] = stiffness * sw_twist_dot(b, span, delta);
   }
+  sw_twist_gain(b, delta);
   return fewer;
+}
+
+void sw_twist_correct_again(const sw_body *b, double *more) {
+  for (size_t k = 0; k < b->plan->span_count; k++) {
+    const sw_span *span = &b->plan->spans[k];
+    const double stiffness = b->field.twist_stiffness[k];
+    const double self = 1.0 + stiffness * sw_twist_dot(b, span, b->twist_solved);
+    const double share = stiffness * sw_twist_dot(b, span, more) / self;
+    for (size_t i = 3 * span->first; i < 3 * (span->last + 2); i++)
+      more[i] -= share * b->twist_solved[i];
+  }
+}
+
+void sw_twist_gain(sw_body *b, const double *delta) {
+  for (size_t k = 0; k < b->plan->span_count; k++)
+    b->twist_gain[k] = b->field.twist_stiffness[k] * sw_twist_dot(b, &b->plan->spans[k], delta);
 }
 
 static sw_vec slope_at(const sw_body *b, size_t e) {

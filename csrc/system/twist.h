@@ -11,6 +11,10 @@ void sw_twist_measure(sw_system *system, sw_body *body);
 /* Add the rank-one part of the twist's stiffness to a solved update (nodes x 3).
  * Returns by how much the number of negative directions falls. */
 size_t sw_twist_correct(sw_body *body, double *delta);
+/* Then the same to another solution by the same factor. */
+void sw_twist_correct_again(const sw_body *body, double *more);
+/* What the solution delta adds to the torques. */
+void sw_twist_gain(sw_body *body, const double *delta);
 
 /* Slope of the twist by node, from its slope by edge: into twist_rank, and without
  * held nodes into twist_solved. */

@@ -192,6 +192,9 @@ local function take_cable(args)
   for key, value in pairs(cable.section(entry, args.stiffness)) do
     if args[key] == nil then args[key] = value end
   end
+  if args.breaking_load == nil and args.breaking_flag == nil and entry.breaking_load then
+    args.breaking_load, args.breaking_flag = entry.breaking_load.value, entry.breaking_load.flag
+  end
   args.cable, args.stiffness, args.use = nil, nil, nil
   return entry, use
 end

@@ -26,6 +26,7 @@ local methods = require "softworld.methods"
 local keep = require "softworld.keep"
 local bendrule = require "softworld.bendrule"
 local material = require "softworld.material"
+local breaking = require "softworld.breaking"
 local stranding = require "softworld.stranding"
 
 local cable = { flags = { "measured", "computed", "guessed" }, twist_ratio = 1.25 }
@@ -46,6 +47,7 @@ local quantities = {
   { key = "GJ", unit = "N m2", least = 0, most = 1e6 },
   { key = "friction", unit = "-", least = 0, most = 3 },
 }
+local breaking_load = { key = "breaking_load", unit = "N", least = 0, most = 1e8 } -- may be unknown
 local densities = { 300, 12000 } -- mean over the section: foam, lead [kg/m3]
 
 local function set(...)
@@ -258,7 +260,7 @@ local function read_bend(name, given, entry)
 end
 
 local fields = { "name", "description", "outer_diameter", "mass_per_length", "EA", "EI", "GJ", "friction",
-  "temperature", "bend", "construction", "source", "flag", "spread" }
+  "breaking_load", "temperature", "bend", "construction", "source", "flag", "spread" }
 
 -- A checked entry, or an error without a place.
 local function read(given)
@@ -295,6 +297,11 @@ local function read(given)
   end
   check_consistency(name, entry)
   if by_parts then add_bounds(name, entry, by_parts) end
+  local load = given.breaking_load or entry.construction and breaking.load(entry.construction)
+  if load then
+    entry.breaking_load = read_quantity(name, breaking_load, load, given)
+    check_range(name, breaking_load, entry.breaking_load)
+  end
   entry.temperature = read_temperature(name, given.temperature, given)
   entry.bend = read_bend(name, given.bend, given)
   return entry
@@ -332,7 +339,8 @@ end
 --- An own entry, from then on known by its name. Fields: `name`; `outer_diameter`
 -- [m], `mass_per_length` [kg/m], `EA` [N], `EI`, `GJ` [N m2], `friction` [-], each
 -- { value =, low =, high =, flag =, source = } (or spread, a share, instead of low
--- and high); `temperature` { low =, high = } [degC]; `bend` { rule = "IEC 62440",
+-- and high); `breaking_load` [N], where that is known;
+-- `temperature` { low =, high = } [degC]; `bend` { rule = "IEC 62440",
 -- use = "fixed" } or multiples of the outer diameter by use; `construction`
 -- { strands =, strand_diameter = [m], conductor = "copper", insulation = "PVC" },
 -- from which what is missing is computed. `flag`, `source` and `spread` of the
@@ -439,6 +447,11 @@ function Entry:__tostring()
       row(lines, "  bounds", "", spec.unit, ("%.3g .. %.3g"):format(q.slip, q.stick), "computed",
         "strands slip .. strands stick")
     end
+  end
+  local load = self.breaking_load
+  if load then
+    row(lines, "breaking_load", ("%.4g"):format(load.value), load.unit,
+      ("%.3g .. %.3g"):format(load.low, load.high), load.flag, load.source)
   end
   local t, b = self.temperature, self.bend
   row(lines, "temperature", "", "degC", ("%g .. %g"):format(t.low, t.high), t.flag, t.source)

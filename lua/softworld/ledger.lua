@@ -2,7 +2,6 @@
 --- The energy ledger of a run: what came in, what is there, what was lost, what nobody explains.
 -- @module softworld.ledger
 local core = require "softworld.core"
-local breaking = require "softworld.breaking"
 local number = require "softworld.output.number"
 
 local ledger = {}
@@ -55,7 +54,7 @@ function ledger.close(run)
   local scene = run.scene
   if run.ok then
     local fine, why = core.end_run(scene)
-    if fine then breaking.look(scene) else run.ok, run.reason = false, why end
+    if not fine then run.ok, run.reason = false, why end
   end
   run.events = scene:events()
   run.books = setmetatable(core.ledger(scene), Ledger)

@@ -83,7 +83,6 @@ end
 
 -- Clips, ties.
 local function add_fixing(list, it, start)
-  if core.type(it.object) ~= "force" then return end
   local rows, count = it.object:log()
   if count == 0 then return end
   local at, times = places(rows, count, 4, start)

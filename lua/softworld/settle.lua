@@ -24,16 +24,32 @@ end
 local Rest = { __name = "rest" }
 Rest.__index = checks.fields("the result of scene:settle",
   "ok reason iterations residual unstable transient jumped",
-  "steps rejected evaluations quantities met levels advice error_bars where refused asked start")
+  "kinked steps rejected evaluations quantities met levels advice error_bars where refused asked start")
 
 function Rest:__tostring()
   if not self.ok then return self.reason end
   local unstable = self.unstable > 0 and (", unstable in %d directions"):format(self.unstable) or ""
-  return ("at rest after %d iterations%s"):format(self.iterations, unstable)
+  local kinked = self.kinked and "; " .. self.kinked or ""
+  return ("at rest after %d iterations%s%s"):format(self.iterations, unstable, kinked)
 end
 
 local core_settle = core.class.scene.settle
-local function settle(scene, args) return setmetatable(build.call(3, core_settle, scene, args), Rest) end
+-- How often each tube was told to be kinked.
+local function kinks(scene)
+  local counts = {}
+  for _, e in ipairs(scene:events()) do if e.kind == "kink" then counts[e.object] = e end end
+  return counts
+end
+
+local function settle(scene, args)
+  build.check(scene, "scene:settle", 4)
+  local before = kinks(scene)
+  local rest = build.call(3, core_settle, scene, args)
+  for tube, e in pairs(rest.ok and kinks(scene) or {}) do
+    if not before[tube] or before[tube].count < e.count then rest.kinked = e.text end
+  end
+  return setmetatable(rest, Rest)
+end
 
 local function with_bars(scene, given)
   local args = {}

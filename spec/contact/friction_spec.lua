@@ -67,6 +67,23 @@ describe("a wire on a table, pulled along", function()
     assert.is_true(math.abs(w:velocity(0.5)[1]) < 1e-6)
   end)
 
+  it("is at rest once it has stopped, wherever in a step it does", function()
+    for _, wire in ipairs{ scenes.wire, scenes.cable "GXL 1.5" } do
+      for _, dt in ipairs{ 0.02, 0.01, 0.005, 0.002 } do
+        for k = 0, 20 do
+          local s, w = scenes.lying{ segments = 5, wire = wire }
+          assert.is_true(s:advance({ dt = dt }, 0.1).ok)
+          w:set_velocity{ 0.3 + 1.3 * k * dt, 0, 0 }
+          s:advance({ dt = dt }, 0.8)
+          local x = w:position(0.5)[1]
+          s:advance({ dt = dt }, 1)
+          assert.is_true(math.abs(w:position(0.5)[1] - x) < 1e-9, ("%g m in 0.2 s: dt %g, number %d"):format(
+            w:position(0.5)[1] - x, dt, k))
+        end
+      end
+    end
+  end)
+
   it("keeps its hold when a clamp elsewhere is put on and taken off", function()
     local s, w, L = pulled(0.9)
     s:advance({ dt = 0.01 }, 2)

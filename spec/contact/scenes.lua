@@ -1,11 +1,22 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Scenes shared by the contact specs.
 local core = require "softworld.core"
+local cable = require "softworld.cable"
 
 local scenes = {}
 
 -- A soft wire of 30 g/m, 5 mm thick.
 scenes.wire = { EA = 2e3, EI = 1e-3, mass_per_length = 0.03, radius = 0.0025 }
+
+-- Cables of the catalogue: thin, usual, thick, very soft.
+scenes.cables = { "GXL 0.5", "GXL 1.5", "FLRY-B 10", "H07V-K 10", "identified white" }
+
+--- What a wire of a cable is made of, as scenes.wire.
+function scenes.cable(name)
+  local c = cable.get(name)
+  return { EA = c.EA.value, EI = c.EI.value, GJ = c.GJ.value, mass_per_length = c.mass_per_length.value,
+    radius = c.outer_diameter.value / 2 }
+end
 
 function scenes.add_wire(scene, from, to, segments, changes)
   local t = { from = from, to = to, segments = segments }

@@ -115,6 +115,50 @@ describe("a thin tube in pure bending", function()
     end
   end)
 
+  -- Its compressed side, less curved the flatter it is, buckles in short waves before Brazier's limit:
+  -- at a (1 - a^2) = (1 - 3 a^2)/sqrt 3, a = 0.381, where strains of kappa r (1 - a^2) are those of a
+  -- cylinder of the radius r/(1 - 3 a^2). Slices are a third and a quarter of the waves' length.
+  -- Without the wall's stiffness along the tube the shortest waves came first, at 0.13 with slices of r/4.
+  it("goes on to where its wall buckles, and kinks there", function()
+    for _, spacing in ipairs{ r / 2, 0.35 * r } do
+      local scene, wire = tube(16, spacing)
+      local bend, moment = bender(scene, wire)
+      for _, kappa in ipairs{ 2, 3, 3.5 } do moment = bend(kappa) end
+      local there = wire:curvature(L / 2)
+      local _, exact = endless_tube(there * r ^ 2 / wall)
+      t.share(exact, moment / (EI * there), 0.01, "moment")
+      assert.same({}, scene:events())
+      assert.is_nil(scene:settle().kinked)
+      if spacing < r / 2 then return end
+      -- a fifth further on: no more than the moment of before bends it, at one place
+      local a, b = wire:min_bend_radius{ now = true }, bend(4.3)
+      t.below(0.5 * moment, b, "moment of the kinked tube")
+      t.below(0.2 * a, (wire:min_bend_radius{ now = true }), "radius at the kink")
+      local told = scene:events()
+      assert.are.equal(1, #told)
+      assert.are.equal("kink", told[1].kind)
+      assert.are.equal(wire.name, told[1].object)
+      assert.matches("^tube 'wire1' kinks at s = [%d.]+ m: it is bent by [%d.]+ 1/m and bears "
+        .. "[%d.]+ N m there; its wall buckles at about 3.81 1/m and 0.0936 N m$", told[1].text)
+      assert.matches("at rest after %d+ iterations.*; tube 'wire1' kinks at s", tostring(scene:settle()))
+    end
+  end)
+
+  it("kinks in motion too, and is told once", function()
+    local scene, wire = tube(16)
+    scene:force{ kind = "damping", on = wire, mass = 20 }
+    scene:clamp(wire, { s = 0 })
+    local hand = scene:clamp(wire, { s = L })
+    hand:follow{ points = { { 0, 0, 0 }, { -0.12, 0, 0.15 }, { -0.3, 0, 0.12 } }, relative = true,
+      duration = 1, turn = { axis = { 0, 1, 0 }, angle = -2.8 } }
+    local run = t.fine(scene:run{ duration = 1.2, dt = 5e-3 })
+    local told = {}
+    for _, e in ipairs(run.events) do if e.kind == "kink" then told[#told + 1] = e end end
+    assert.are.equal(1, #told)
+    t.above(0, told[1].first, "time")
+    t.below(1, told[1].first, "time")
+  end)
+
   it("flattens and loses its stiffness as it should", function()
     local scene, wire = tube(16)
     local bend, R, skin = bender(scene, wire), radius_of(wire), wire:section(0).skin

@@ -158,7 +158,10 @@ describe("a mesh across a slope", function()
     t.fine(scene:run{ duration = 0.1, dt = 2.5e-3 })
     scene:gravity{ G * math.sin(a), 0, -G * math.cos(a) }
     local x = wire:position(l / 2)[1]
-    t.fine(scene:run{ duration = T, dt = 2.5e-3 })
+    local run = t.fine(scene:run{ duration = T, dt = 2.5e-3 })
+    local energy = run:ledger()
+    t.below(0.01, energy.gained / energy.play, "energy made")
+    assert.equal(0, energy.accepted.count)
     -- about the corner that comes down angular momentum is kept: speeds are in the ratio keep; so
     -- v^2 loses (1 - keep^2) of itself with each side and x = ln cosh(sqrt(accel k) T)/k
     local accel = G * math.sin(a) / (1 + inertia)

@@ -145,7 +145,7 @@ describe("peaks of a blow", function()
       end
     end
     t.below(1.6, most / least, "means") -- what rebounds and falls again differs
-    t.above(5, raw_most / raw_least, "raw")
+    t.above(2, raw_most / raw_least, "raw")
   end)
 
   it("are raw where the window is 0, of a run or of a call", function()

@@ -207,6 +207,33 @@ describe("what a run draws and writes besides", function()
     assert.near(scene:find "t1":tension(), tie[last], 1e-9)
   end)
 
+  it("has a column of a tie between two wires, nothing once it broke", function()
+    for _, strength in ipairs{ 1e3, 0.2 } do
+      local scene = sw.scene{}
+      local wires = {}
+      for i, z in ipairs{ 0.1, 0.05 } do
+        wires[i] = scene:wire{ E = 50e6, density = 1500, radius = 0.002, segments = 20, from = { 0, 0, z },
+          to = { 0.4, 0, z } }
+        scene:clamp(wires[i], { s = 0 })
+      end
+      local tie = scene:tie(wires[1], { name = "t1", s = 0.4, to = { wires[2], s = 0.4 }, slack = 0.06,
+        strength = strength })
+      scene:force{ kind = "point", on = wires[2], s = 0.4, force = { 0, 0, -0.5 } }
+      local run = scene:run{ duration = 0.4, dt = 0.005 }
+      local pull = column(run, "t1.force")
+      local last, most = #pull, math.max(table.unpack(pull))
+      assert.near(tie:tension(), pull[last], 1e-9)
+      if strength == 0.2 then
+        assert.is_not_nil(tie.broken)
+        assert.equal(0, pull[last])
+      else
+        assert.near(tie.peak_force, most, 1e-9)
+        assert.near(tie:force()[3], column(run, "t1.force_z")[last], 1e-9)
+        assert.is_true(most > 0.1)
+      end
+    end
+  end)
+
   it("keeps these records in files and gives them back with snapshots", function()
     local scene, wires = scene_with(1)
     scene:clamp(wires[1], { s = 0 })

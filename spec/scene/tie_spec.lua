@@ -202,6 +202,56 @@ describe("a tie of two wires", function()
     end
   end)
 
+  -- As above, in equilibria: poses are cut at the moment, whatever the time between them.
+  local function drawn_down(to_wire)
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = rod(scene, { E = 1e11 })
+    local args = { name = "t", s = 0.2, strength = 8, stiffness = 1e4 }
+    if to_wire then
+      local other = rod(scene, { E = 1e11, from = { 0, 0, 0.006 }, to = { 0.4, 0, 0.006 } })
+      scene:clamp(other, { s = 0.2 })
+      args.to, args.slack = { other, s = 0.2 }, 0.006
+    end
+    local tie = scene:tie(wire, args)
+    return scene, tie, scene:gripper{}, wire
+  end
+
+  it("breaks at the moment between two poses of a quasi-static run", function()
+    for _, to_wire in ipairs{ false, true } do
+      for _, dt in ipairs{ 0.1, 0.02, 0.005 } do
+        local scene, tie, hand, wire = drawn_down(to_wire)
+        scene:process(function(p)
+          hand:grasp(wire, { s = 0.2 })
+          hand:move{ by = { 0, 0, -2.1e-3 }, duration = 0.1, law = "linear" }
+          p:wait(0.05)
+        end)
+        local run = t.fine(scene:run{ dt = dt, quasistatic = true })
+        t.above(8, tie.broken.force, "force")
+        t.below(8.081, tie.broken.force, "force")
+        t.near(0.08 / 2.1, tie.broken.time, 5e-4, "time")
+        t.near(8, tie.peak_force, 0.081, "peak")
+        t.below(1e-6, t.norm(hand:force()), "force of the hand after that")
+        local told = {}
+        for _, e in ipairs(run.events) do if e.kind == "tie" then told[#told + 1] = e end end
+        assert.are.equal(1, #told)
+        assert.matches("breaks at 8.0%d* N; it bears 8 N", told[1].text)
+        t.near(tie.broken.time, told[1].time, 1e-12, "time told")
+      end
+    end
+  end)
+
+  it("breaks at the moment where pads hold the wire too", function()
+    local scene, tie, hand, wire = drawn_down()
+    scene:process(function()
+      hand:grasp(wire, { s = 0.2, approach = "plates", force = 40 })
+      hand:move{ by = { 0, 0, -2.1e-3 }, duration = 0.1, law = "linear" }
+    end)
+    t.fine(scene:run{ dt = 0.02, quasistatic = true })
+    t.above(8, tie.broken.force, "force")
+    t.below(8.081, tie.broken.force, "force")
+    t.share(40, hand:state().squeeze, 2e-3, "force of the pads after that")
+  end)
+
   it("breaks, tells when, and is whole again in a snapshot of before", function()
     local scene, _, lower, ties = hung{ strength = 2 }
     t.fine(scene:run{ duration = 0.5, dt = 5e-3 })

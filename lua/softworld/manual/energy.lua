@@ -4,7 +4,6 @@ run:ledger()     where the energy of a run came from and went [J]; print it for 
   .at_start .total .kinetic .stored .gravity          then; and now
   .work   { holds, obstacles, feeds, forces, changes }
           changes: of the scene itself, as a new velocity; letting a wire out of what it began in
-          feeds: while wire is fed, also what nothing else explains; such steps are not judged
   .lost   { damping, friction, plasticity, impact, contact, integrator, jumps }
           contact: in steps in which touches began or ended; jumps: of quasi-static equilibria
   .gap    from nowhere; .gained the part of it beyond all work

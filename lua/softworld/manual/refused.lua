@@ -12,7 +12,9 @@ buckling         a perfectly straight wire stays so under any push. The event te
                  wire:frequencies() has unstable, growth [1/s] and note when the rest is unstable.
 grasp            pads press on another wire than the one that was to be grasped, or on one more.
                  In a process the first is an error of gripper:grasp.
-tie              a tie breaks, within 1 % of what it bears: steps are cut at that moment.
+breaking         a wire is pulled beyond its breaking load: see help "breaking".
+kink             a tube with wall_bending is folded at one place: see help "kinks".
+tie              a tie breaks, within 1 % of what it bears: steps and poses are cut there.
 integrator       implicit-midpoint in contact: it gains energy there; take tr-bdf2.
 tolerances       run.met is false when one of the tolerances asked for was not met; the summary and
                  print(run) name them, run.advice tells what would help.

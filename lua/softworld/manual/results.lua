@@ -4,7 +4,7 @@ What a run gives: columns of run:series(), run:save "x.csv" and run:chart
   gripper.force .moment, _x _y _z       [N], [N m]; with pads .opening .squeeze .margin .slip
   clamp.force .moment                   also of pins and feeds
   obstacle.contact_force                of wires on it [N]
-  clip.force, tie.force, _x _y _z       on the wire [N] (ties to a fixed point)
+  clip.force, tie.force, _x _y _z       on the wire [N] (of a tie between two: the first)
   wire.tension .bend_radius             largest tension [N], smallest radius [m] of the whole wire
   a value is nan while the thing is not there, the radius inf while the wire is straight
 run:chart{ path = "x.svg", columns = { names }, energy = true, mean = [s], title =, size = }

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Kinks of tubes whose wall is known. Bent, a tube flattens by a^2 of its radius, with a =
+ * curvature R^2/t, and its moment has a limit at a = sqrt(2)/3 (Brazier). Its compressed side, less
+ * curved the flatter it is, buckles in short waves a little before, at a (1 - a^2) = (1 - 3 a^2)/
+ * sqrt 3. Either way there is nothing to be found beyond but a tube that is folded at one place. */
+#include <math.h>
+
+#include "scene/world.h"
+
+static const double LIMIT = 0.4714, BUCKLES = 0.381; /* a [-] */
+/* A fold is far beyond both, where the tube has nowhere that width any more [-]. */
+static const double BEYOND = 1.5, FLAT = 0.35;
+
+/* Curvature by which a is one [1/m]: the wall's thickness, from its bending and axial stiffness
+ * per length round it, over the radius squared. */
+static double unit_curvature(const sw_beam *beam, double wall) {
+  const double R2 = 2.0 * beam->EI_axis[0] / beam->EA;
+  const double Et = beam->EA / (2.0 * 3.14159265358979323846 * sqrt(R2));
+  return sqrt(12.0 * wall / Et) / R2;
+}
+
+void sw_scene_watch_kink(sw_scene *s, size_t wire, const sw_wire_extremes *now) {
+  const sw_scene_wire *w = &s->wires[wire];
+  const sw_web *web = w->strand.web;
+  if (!web || !(web->wall > 0) || !(now->ovalisation.value > FLAT)) return;
+  const double unit = unit_curvature(&w->beam, web->wall);
+  if (!(now->curvature.value > BEYOND * LIMIT * unit)) return;
+  const sw_body *b = &s->system.bodies[wire];
+  const double moment =
+      sw_strand_moment(b->plan, s->system.x + 3 * b->first_node, now->curvature.s);
+  const double most = w->beam.EI_axis[0] * BUCKLES * unit * (1.0 - 1.5 * BUCKLES * BUCKLES);
+  sw_event *known = sw_events_go_on(&s->events, "kink", w->name, s->time);
+  if (known) known->count++;
+  if (known) return;
+  sw_scene_tell(s, "kink", w->name, now->curvature.s - w->mesh.s[0], now->curvature.value,
+                "tube '%s' kinks at s = %.4g m: it is bent by %.3g 1/m and bears %.3g N m there; "
+                "its wall buckles at about %.3g 1/m and %.3g N m",
+                w->name, now->curvature.s - w->mesh.s[0], now->curvature.value, moment,
+                BUCKLES * unit, most);
+}

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Solving an iterate's equations again with other forces. */
+#include "solve/band3.h"
+#include "system/system.h"
+#include "system/twist.h"
+
+int sw_body_solves_again(const sw_body *b) { return !b->linked && !b->spin_block && !b->plan->web; }
+
+void sw_body_solve_again(const sw_body *b, double *more) {
+  sw_band3_solve(b->field.rows, b->plan->nodes, more);
+  if (b->has_twist) sw_twist_correct_again(b, more);
+}
+
+void sw_body_take_solution(sw_body *b, const double *delta) {
+  if (b->has_twist) sw_twist_gain(b, delta);
+}
+
+void sw_system_push_held(sw_system *s, size_t node, sw_vec force) {
+  for (size_t i = 0; i < s->held_count; i++)
+    if (s->held[i].node == node) s->held[i].own_force = sw_sub(s->held[i].own_force, force);
+}
