@@ -3,7 +3,7 @@
 --   build/softworld scripts/bench.lua [quick] [case=..] [model=..] [integrator=..] [n=..] [out=folder]
 -- One CSV row each in out/bench/bench.csv, a summary on the terminal. Values may be lists: case=droop,walls.
 -- case=meshes: what wires that are meshes of particles cost, on the terminal only; case=grip: what
--- grippers do.
+-- grippers do; case=crowds: many obstacles, nodes and wires.
 -- Compare numbers of one run only: machines differ, and so do their loads.
 local bench = require "softworld.bench"
 local benchcases = require "softworld.benchcases"
@@ -175,7 +175,8 @@ for _, name in ipairs(order) do
     if entry.case.name == name and chosen(entry) then jobs[#jobs + 1] = entry end
   end
 end
-if #jobs == 0 and not (wanted.case and (wanted.case.meshes or wanted.case.grip)) then
+if #jobs == 0 and not (wanted.case and (wanted.case.meshes or wanted.case.grip
+  or wanted.case.crowds)) then
   io.stderr:write("bench: nothing fits these options\n")
   os.exit(2)
 end
@@ -436,8 +437,30 @@ local function print_grips()
   sink.write_file(out .. "/grip.csv", table.concat(lines, "\n") .. "\n")
 end
 
+-- Many obstacles, nodes, wires.
+local function print_crowds()
+  local crowds = require "softworld.benchcrowds"
+  for _, count in ipairs{ 10, 1000, 10000 } do
+    local made, step = crowds.boxes(count)
+    print(("%6d boxes: made in %.3f s, %.2f ms a step of 500 segments"):format(count, made, 1e3 * step))
+  end
+  for _, nodes in ipairs{ 10000, 100000 } do
+    print(("%6d nodes land at once: at most %.3f s a step, then %.3f s"):format(nodes, crowds.landing(nodes)))
+  end
+  for _, count in ipairs{ 1, 100, 1000 } do
+    for _, touching in ipairs{ false, true } do
+      local landing, lying = crowds.wires(count, touching)
+      print(("%6d wires on a table%s: %.2f us a node and step landing, %.2f lying"):format(count,
+        touching and ", which may touch" or "", 1e6 * landing, 1e6 * lying))
+    end
+  end
+  local time, solves = crowds.bundle(7)
+  print(("%6d wires in a bundle: %.1f s a simulated second, %.0f solves a step"):format(7, time, solves))
+end
+
 if not next(wanted) or wanted.case and wanted.case.meshes then print_meshes() end
 if not next(wanted) or wanted.case and wanted.case.grip then print_grips() end
+if wanted.case and wanted.case.crowds then print_crowds() end
 local bad = {}
 for _, row in ipairs(rows) do
   if row.status ~= "ok" then bad[row.status] = (bad[row.status] or 0) + 1 end

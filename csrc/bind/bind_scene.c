@@ -200,6 +200,8 @@ static int meth_advance(lua_State *L) {
   lsw_set_integer(L, "rejected", r.rejected);
   lsw_set_integer(L, "iterations", r.iterations);
   lsw_set_integer(L, "evaluations", r.evaluations);
+  lsw_set_integer(L, "solves", r.solves);
+  lsw_set_integer(L, "looks", r.looks);
   lsw_set_number(L, "smallest_dt", r.smallest_dt);
   lsw_set_integer(L, "jumps", r.jumps);
   if (r.jumps) lsw_set_number(L, "last_jump", r.last_jump);

@@ -19,22 +19,7 @@ static const double IMPLICIT_SHARE = 1000.0;
 /* An explicit step is stable while k h^2 / m stays below 4 [-]. */
 static const double EXPLICIT_SHARE = 0.2;
 static const double STAGE_SHARE = 0.3; /* hbar of the default method over the step [-] */
-
-/* Axis-parallel box around a turned box. */
-static sw_bounds world_bounds(const sw_shape *shape, const sw_pose *pose) {
-  const sw_bounds b = sw_shape_bounds(shape);
-  if (!isfinite(b.min.x + b.max.x + b.min.y + b.max.y + b.min.z + b.max.z))
-    return (sw_bounds){{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
-  const sw_vec half = sw_scale(sw_sub(b.max, b.min), 0.5);
-  const sw_vec middle = sw_pose_point(*pose, sw_scale(sw_add(b.max, b.min), 0.5));
-  const sw_vec ex = sw_rotate(pose->q, sw_v(half.x, 0, 0));
-  const sw_vec ey = sw_rotate(pose->q, sw_v(0, half.y, 0));
-  const sw_vec ez = sw_rotate(pose->q, sw_v(0, 0, half.z));
-  const sw_vec reach =
-      sw_v(fabs(ex.x) + fabs(ey.x) + fabs(ez.x), fabs(ex.y) + fabs(ey.y) + fabs(ez.y),
-           fabs(ex.z) + fabs(ey.z) + fabs(ez.z));
-  return (sw_bounds){sw_sub(middle, reach), sw_add(middle, reach)};
-}
+static const double SKIN = 1.5;        /* radii: what is this near is always looked at [-] */
 
 static int outside(const sw_bounds *b, sw_vec low, sw_vec high) {
   return low.x > b->max.x || high.x < b->min.x || low.y > b->max.y || high.y < b->min.y ||
@@ -54,15 +39,21 @@ double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v) {
   return reserve * c->h * (sw_norm(v) + g * c->h) + least;
 }
 
+/* The part of it that is not the obstacle's doing. */
+static double own_reach(const sw_contact *c, const sw_system *s, const sw_body *b, size_t node) {
+  if (c->regime == SW_CONTACT_STATIC)
+    return b->plan->length + (b->plan->web ? 2.0 * b->plan->beam.radius : 0.0);
+  return b->plan->beam.radius * SKIN +
+         c->widening * sw_flight_reserve(c, s, sw_load(s->v + 3 * node));
+}
+
 /* Widest gap at the step's start that can close within it, with reserve. */
 static double reach_of(const sw_contact *c, const sw_system *s, const sw_body *b, size_t node,
                        size_t o) {
-  if (c->regime == SW_CONTACT_STATIC)
-    return b->plan->length + (b->plan->web ? 2.0 * b->plan->beam.radius : 0.0);
+  if (c->regime == SW_CONTACT_STATIC) return own_reach(c, s, b, node);
   const sw_vec x = sw_contact_where(c, s->x, node, node, 0);
   const double wall = sw_norm(sw_obstacle_velocity(&c->start[o], x)) * c->h;
-  const double skin = 1.5; /* of the radius: what is this near is always looked at [-] */
-  return b->plan->beam.radius * skin + wall +
+  return b->plan->beam.radius * SKIN + wall +
          c->widening * sw_flight_reserve(c, s, sw_load(s->v + 3 * node));
 }
 
@@ -70,6 +61,7 @@ static sw_status add_candidate(sw_contact *c, const sw_body *b, size_t body, siz
                                size_t other, int o, int segment) {
   SW_TRY(sw_grow((void **)&c->candidates, &c->candidate_capacity, c->candidate_count + 1,
                  sizeof *c->candidates));
+  sw_contact_expect(c, o);
   c->candidates[c->candidate_count++] =
       (sw_candidate){.obstacle = o,
                      .segment = segment,
@@ -130,31 +122,55 @@ static int has_faces(const sw_shape *shape) {
 
 static void look_at_pads(sw_contact *c, const sw_plan *p) {
   double widest = 0;
-  const int rings = p->web && p->web->per_ring;
+  const int rings = p->web && p->web->per_ring && c->pad_count;
   for (size_t i = 0; rings && i < p->nodes; i++) widest = fmax(widest, p->web->along[i]);
-  for (size_t o = 0; o < c->count; o++) {
+  for (size_t k = 0; k < c->pad_count; k++) {
+    const int o = c->pads[k];
     const sw_bounds b = sw_shape_bounds(c->obstacles[o].shape);
     const double width = fmin(b.max.x - b.min.x, b.max.z - b.min.z);
-    const int pad = c->obstacles[o].grips > 0;
-    c->dense[o] = rings && pad && width > CLOSE * widest;
-    c->spaced[o] = pad && !p->web && has_faces(c->obstacles[o].shape) ? width / SAMPLES : 0.0;
+    c->dense[o] = rings && width > CLOSE * widest;
+    c->spaced[o] = !p->web && has_faces(c->obstacles[o].shape) ? width / SAMPLES : 0.0;
   }
 }
 
-static sw_status node_candidates(sw_contact *c, const sw_system *s, size_t body, size_t i) {
+/* The box of a node and of the other ends of its segments; returns the reach of the farthest
+ * reaching, without what obstacles do [m]. */
+static double look_out(const sw_contact *c, const sw_system *s, const sw_body *b, size_t i,
+                       sw_vec *low, sw_vec *high) {
+  const size_t node = b->first_node + i;
+  double most = own_reach(c, s, b, node);
+  *low = *high = sw_contact_where(c, s->x, node, node, 0);
+  for (int k = 1; other_end(b->plan, i, k) != i; k++) {
+    const size_t other = b->first_node + other_end(b->plan, i, k);
+    const sw_vec y = sw_contact_where(c, s->x, other, other, 0);
+    *low = low_of(*low, y), *high = high_of(*high, y);
+    most = fmax(most, own_reach(c, s, b, other));
+  }
+  return most;
+}
+
+static sw_status obstacle_candidates(sw_contact *c, const sw_system *s, size_t body, size_t i,
+                                     size_t o) {
   const sw_body *b = &s->bodies[body];
   const size_t node = b->first_node + i;
   const sw_vec x = sw_contact_where(c, s->x, node, node, 0);
-  for (size_t o = 0; o < c->count; o++) {
-    const double reach = reach_of(c, s, b, node, o);
-    const sw_vec r = sw_v(reach, reach, reach);
-    sw_closest near;
-    if (c->obstacles[o].off) continue;
-    if (!(c->spaced[o] > 0) && !outside(&c->bounds[o], sw_sub(x, r), sw_add(x, r)) &&
-        sw_shape_point(c->obstacles[o].shape, sw_pose_local(c->start[o].pose, x), reach, &near))
-      SW_TRY(add_candidate(c, b, body, node, node, (int)o, 0));
-    if (!c->flat[o] && !c->dense[o]) SW_TRY(segment_candidates(c, s, body, i, o, reach));
-  }
+  const double reach = reach_of(c, s, b, node, o);
+  const sw_vec r = sw_v(reach, reach, reach);
+  sw_closest near;
+  if (c->obstacles[o].off) return SW_OK;
+  if (!(c->spaced[o] > 0) && !outside(&c->bounds[o], sw_sub(x, r), sw_add(x, r)) &&
+      sw_shape_point(c->obstacles[o].shape, sw_pose_local(c->start[o].pose, x), reach, &near))
+    SW_TRY(add_candidate(c, b, body, node, node, (int)o, 0));
+  if (c->flat[o] || c->dense[o]) return SW_OK;
+  return segment_candidates(c, s, body, i, o, reach);
+}
+
+static sw_status node_candidates(sw_contact *c, sw_system *s, size_t body, size_t i) {
+  sw_vec low, high;
+  size_t count;
+  const double reach = look_out(c, s, &s->bodies[body], i, &low, &high);
+  const int *near = sw_broad_near(&c->broad, low, high, reach, &count, &s->counters.looks);
+  for (size_t k = 0; k < count; k++) SW_TRY(obstacle_candidates(c, s, body, i, (size_t)near[k]));
   return SW_OK;
 }
 
@@ -263,13 +279,19 @@ static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t
   }
 }
 
+/* Many nodes may begin to touch at once: lists that grow one by one would be copied again and
+ * again. */
+static sw_status make_room(sw_contact *c) {
+  const size_t n = c->candidate_count;
+  SW_TRY(sw_grow((void **)&c->touches, &c->touch_capacity, n, sizeof *c->touches));
+  SW_TRY(sw_grow((void **)&c->last, &c->last_capacity, n, sizeof *c->last));
+  return sw_grow((void **)&c->pressed, &c->pressed_capacity, n, sizeof *c->pressed);
+}
+
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err) {
-  sw_bounds *bounds = c->bounds;
-  sw_status status = SW_OK;
   c->candidate_count = c->touch_count = c->last_count = 0;
   c->unmarked = 1;
-  for (size_t o = 0; o < c->count; o++)
-    bounds[o] = world_bounds(c->obstacles[o].shape, &c->start[o].pose);
+  sw_status status = sw_broad_update(c);
   for (size_t b = 0; b < s->body_count && status == SW_OK; b++) {
     const size_t first = c->candidate_count;
     const sw_web *web = s->bodies[b].plan->web;
@@ -281,6 +303,7 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
         status = node_candidates(c, s, b, i);
     set_stiffness(c, s, b, first);
   }
+  if (status == SW_OK) status = make_room(c);
   if (status != SW_OK) return sw_fail(err, status, "contact: %s", sw_status_text(status));
   match_memory(c);
   return SW_OK;

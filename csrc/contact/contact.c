@@ -18,18 +18,21 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   c->loads = sw_alloc(count, sizeof *c->loads);
   c->start = sw_alloc(count, sizeof *c->start);
   c->now = sw_alloc(count, sizeof *c->now);
-  c->flat = sw_alloc(count, sizeof *c->flat);
-  c->dense = sw_alloc(count, sizeof *c->dense);
+  c->flat = sw_alloc(5 * count, sizeof *c->flat);
   c->spaced = sw_alloc(count, sizeof *c->spaced);
   c->bounds = (sw_bounds *)sw_alloc(count, sizeof *c->bounds);
-  if (!c->obstacles || !c->loads || !c->start || !c->now || !c->flat || !c->dense || !c->spaced ||
-      !c->bounds) {
+  if (!c->obstacles || !c->loads || !c->start || !c->now || !c->flat || !c->spaced || !c->bounds ||
+      sw_broad_new(&c->broad, count) != SW_OK) {
     sw_contact_free(c);
     return SW_ENOMEM;
   }
+  c->dense = c->flat + count, c->busy = c->dense + count, c->pads = c->busy + count;
+  c->pressing = c->pads + count;
   memcpy(c->obstacles, obstacles, count * sizeof *obstacles);
   for (size_t o = 0; o < count; o++)
     c->flat[o] = strcmp(sw_shape_kind(obstacles[o].shape), "plane") == 0;
+  for (size_t o = 0; o < count; o++)
+    if (obstacles[o].grips > 0) c->pads[c->pad_count++] = (int)o;
   c->count = count;
   c->fresh = SW_CONTACT_FRESH;
   c->place = place;
@@ -64,9 +67,9 @@ void sw_contact_free(sw_contact *c) {
   sw_free(c->now);
   sw_free(c->flat);
   sw_free(c->sunk);
-  sw_free(c->dense);
   sw_free(c->spaced);
   sw_free(c->bounds);
+  sw_broad_free(&c->broad);
   sw_free(c->candidates);
   sw_free(c->touches);
   sw_free(c->last);
@@ -75,6 +78,7 @@ void sw_contact_free(sw_contact *c) {
   sw_free(c->pressed);
   sw_free(c->barriers);
   sw_free(c->impacts);
+  sw_free(c->impact_at);
   sw_free(c->marks);
   sw_free(c->room);
   sw_free(c);
@@ -82,13 +86,26 @@ void sw_contact_free(sw_contact *c) {
 
 /* --- steps ------------------------------------------------------------------- */
 
-static sw_status place_all(sw_contact *c, double t, sw_contact_at *out, sw_error *err) {
-  for (size_t o = 0; o < c->count; o++) {
-    sw_motion_state m;
-    SW_TRY(c->place(c->user, c->obstacles[o].id, t, &m, err));
-    out[o] = (sw_contact_at){m.pose, m.v, m.omega};
+/* The obstacle with the owner's number, or count. */
+static size_t index_of(const sw_contact *c, int id) {
+  size_t low = 0, high = c->count; /* they ascend */
+  while (low < high) {
+    const size_t o = low + (high - low) / 2;
+    if (c->obstacles[o].id < id)
+      low = o + 1;
+    else
+      high = o;
   }
-  return SW_OK;
+  return low < c->count && c->obstacles[low].id == id ? low : c->count;
+}
+
+/* Which pads press on anything at the step's start? */
+static void find_pressing(sw_contact *c) {
+  for (size_t k = 0; k < c->pad_count; k++) c->pressing[c->pads[k]] = 0;
+  for (size_t i = 0; c->pad_count && i < c->memory_count; i++) {
+    const size_t o = index_of(c, c->memory[i].obstacle);
+    if (o < c->count && c->memory[i].normal_force > 0) c->pressing[o] = 1;
+  }
 }
 
 sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime regime, double t,
@@ -97,12 +114,16 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
   c->h = h;
   c->nominal = nominal;
   c->regime = regime;
-  c->barrier_count = c->impact_count = c->pressed_count = 0;
+  c->pressed_count = 0;
   c->plastic = 0;
+  c->parts = (sw_contact_parts){.on = 0};
   c->struck = 0;
   c->widening = 1.0;
   sw_contact_forget_blows(c);
-  SW_TRY(place_all(c, t, c->start, err));
+  if (sw_contact_calm(c, s->nodes) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "contact: out of memory");
+  find_pressing(c);
+  SW_TRY(sw_broad_place(c, t, c->start, err));
   if (sw_contact_sink(c, s) != SW_OK) return sw_fail(err, SW_ENOMEM, "contact: out of memory");
   return sw_contact_find_candidates(c, s, err);
 }
@@ -122,11 +143,13 @@ sw_status sw_contact_begin_stage(sw_contact *c, double time, double first, sw_er
   c->pressed_before = c->pressed_count;
   c->stage_time = time;
   c->updates = c->looked = 0;
-  return place_all(c, time, c->now, err);
+  c->parts = (sw_contact_parts){.on = 0};
+  return sw_broad_place(c, time, c->now, err);
 }
 
 int sw_contact_moves(const sw_contact *c) {
-  for (size_t o = 0; o < c->count; o++) {
+  for (size_t k = 0; k < c->broad.mover_count; k++) {
+    const int o = c->broad.mover[k];
     const sw_pose *a = &c->start[o].pose, *b = &c->now[o].pose;
     const sw_quat p = a->q, q = b->q;
     if (sw_dist(a->p, b->p) > 0 || p.w != q.w || p.x != q.x || p.y != q.y || p.z != q.z) return 1;
@@ -197,6 +220,7 @@ sw_status sw_contact_set_memory(sw_contact *c, const void *memory, size_t bytes,
   c->memory_count = n;
   c->fresh = fresh;
   c->touch_count = 0;
+  sw_contact_ask_again(c);
   return SW_OK;
 }
 
@@ -335,6 +359,25 @@ size_t sw_contact_count(const sw_contact *c) {
 
 size_t sw_contact_touches(const sw_contact *c) { return c->touch_count; }
 
+/* The first touch of a node that is not before this one: they are in the order of nodes. */
+static size_t first_touch(const sw_contact *c, size_t node) {
+  size_t low = 0, high = c->touch_count;
+  while (low < high) {
+    const size_t i = low + (high - low) / 2;
+    if (c->touches[i].node < node)
+      low = i + 1;
+    else
+      high = i;
+  }
+  return low;
+}
+
+void sw_contact_touches_of(const sw_contact *c, size_t node, size_t end_node, size_t *first,
+                           size_t *end) {
+  *first = first_touch(c, node);
+  *end = first_touch(c, end_node);
+}
+
 int sw_contact_push_at(const sw_contact *c, const sw_system *s, size_t k, sw_contact_push *out) {
   const sw_touch *t = &c->touches[k];
   const sw_press *p = &t->press;
@@ -364,12 +407,10 @@ double sw_contact_energy(const sw_contact *c) {
 /* --- for the energy ledger ------------------------------------------------------ */
 
 int sw_contact_poses(const sw_contact *c, int id, sw_pose *from, sw_pose *to) {
-  for (size_t o = 0; o < c->count; o++) {
-    if (c->obstacles[o].id != id) continue;
-    *from = c->start[o].pose, *to = c->now[o].pose;
-    return 1;
-  }
-  return 0;
+  const size_t o = index_of(c, id);
+  if (o == c->count) return 0;
+  *from = c->start[o].pose, *to = c->now[o].pose;
+  return 1;
 }
 
 double sw_contact_rubbed(const sw_contact *c) {
@@ -383,7 +424,8 @@ double sw_contact_rubbed(const sw_contact *c) {
 
 double sw_contact_fastest(const sw_contact *c) {
   double fastest = 0;
-  for (size_t o = 0; o < c->count; o++) fastest = fmax(fastest, sw_norm(c->now[o].v));
+  for (size_t k = 0; k < c->broad.mover_count; k++)
+    fastest = fmax(fastest, sw_norm(c->now[c->broad.mover[k]].v));
   return fastest;
 }
 

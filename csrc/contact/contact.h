@@ -77,6 +77,7 @@ sw_status sw_contact_begin_step(sw_contact *contact, sw_system *system, sw_conta
 sw_status sw_contact_begin_look(sw_contact *contact, sw_system *system, double t, sw_error *err);
 
 /* The system's coupling functions (see sw_coupling), user = the contact. */
+void sw_contact_part(void *contact, sw_system *system);
 sw_status sw_contact_begin_stage(sw_contact *contact, double time, double first, sw_error *err);
 sw_status sw_contact_eval(void *contact, sw_system *system, double time, double hbar,
                           const double *y, unsigned want, sw_error *err);
@@ -90,12 +91,22 @@ int sw_contact_settled(void *contact, sw_system *system, const double *y, const 
 /* See sw_coupling. */
 void sw_contact_book(void *contact, const sw_booking *booking);
 
-/* Obstacles that it knows; the owner's number of number k of them. Before a step: what that one
- * remembers; after an accepted one: what it is to remember. */
-size_t sw_contact_obstacles(const sw_contact *contact);
+/* The owner's number of obstacle number k; what that one is to remember of an accepted step. */
 int sw_contact_id(const sw_contact *contact, size_t k);
-void sw_contact_recall(sw_contact *contact, size_t k, const sw_contact_past *past);
 const sw_contact_past *sw_contact_past_of(const sw_contact *contact, size_t k);
+/* Numbers (count) of those that remember anything or may; the others remember nothing. */
+const int *sw_contact_busy(const sw_contact *contact, size_t *count);
+/* The same of those that may move. */
+const int *sw_contact_movers(const sw_contact *contact, size_t *count);
+/* By the owner's number: what an obstacle remembers of the last step, and 1 when it may move. */
+typedef const sw_contact_past *(*sw_contact_past_function)(void *user, int id);
+typedef int (*sw_contact_moves_function)(void *user, int id);
+/* Has the owner told that since contact was made, was given a memory, or was told to ask again, for
+ * an obstacle was moved by hand? Before a step it is to tell. */
+int sw_contact_informed(const sw_contact *contact);
+void sw_contact_recall(sw_contact *contact, sw_contact_past_function past,
+                       sw_contact_moves_function moves);
+void sw_contact_ask_again(sw_contact *contact);
 
 /* 1: an obstacle is not where it was at the step's start, as last placed. */
 int sw_contact_moves(const sw_contact *contact);
@@ -151,6 +162,9 @@ typedef struct sw_contact_push {
 } sw_contact_push;
 /* All touches, also those without a force; number k of them: 0 when it has none. */
 size_t sw_contact_touches(const sw_contact *contact);
+/* Those from number *first up to *end are of nodes from node up to end_node. */
+void sw_contact_touches_of(const sw_contact *contact, size_t node, size_t end_node, size_t *first,
+                           size_t *end);
 int sw_contact_push_at(const sw_contact *contact, const sw_system *system, size_t k,
                        sw_contact_push *out);
 double sw_contact_energy(const sw_contact *contact); /* stored in the springs [J] */

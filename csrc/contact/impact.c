@@ -17,14 +17,39 @@ static const double SLOWEST_IMPACT = 5e-4;
  * anything unseen [-]. */
 static const double SAFE_SHIFT = 0.5;
 
-static int dealt_with(const sw_contact *c, int obstacle, size_t node, int segment, double at) {
-  for (size_t i = 0; i < c->impact_count; i++) {
-    const sw_memory *m = &c->impacts[i];
-    if (m->obstacle == obstacle && m->node == node && m->segment == segment &&
-        fabs(m->at - at) < 0.25)
+static int dealt_with(const sw_contact *c, const sw_touch *t, size_t *looks) {
+  for (uint32_t i = c->impact_at[t->node]; i; i = c->impacts[i - 1].before) {
+    const sw_impact *m = &c->impacts[i - 1];
+    ++*looks;
+    if (m->obstacle == t->obstacle && m->segment == t->segment && fabs(m->at - t->at) < 0.25)
       return 1;
   }
   return 0;
+}
+
+static void note_impact(sw_contact *c, const sw_touch *t) {
+  if (sw_grow((void **)&c->impacts, &c->impact_capacity, c->impact_count + 1, sizeof *c->impacts) !=
+      SW_OK)
+    return;
+  c->impacts[c->impact_count++] = (sw_impact){.obstacle = t->obstacle,
+                                              .segment = t->segment,
+                                              .node = t->node,
+                                              .at = t->at,
+                                              .before = c->impact_at[t->node]};
+  c->impact_at[t->node] = (uint32_t)c->impact_count;
+}
+
+sw_status sw_contact_calm(sw_contact *c, size_t nodes) {
+  for (size_t i = 0; i < c->impact_count; i++) c->impact_at[c->impacts[i].node] = 0;
+  for (size_t i = 0; i < c->barrier_count; i++) c->barrier_at[c->barriers[i].node] = 0;
+  c->barrier_count = c->impact_count = 0;
+  if (nodes <= c->places) return SW_OK;
+  c->places = 0;
+  SW_TRY(sw_grow((void **)&c->impact_at, &c->place_capacity, 2 * nodes, sizeof *c->impact_at));
+  memset(c->impact_at, 0, 2 * nodes * sizeof *c->impact_at);
+  c->barrier_at = c->impact_at + nodes;
+  c->places = nodes;
+  return SW_OK;
 }
 
 /* Share of the momentum that each end of a segment takes; held ends take none. */
@@ -119,19 +144,12 @@ static double kick(sw_system *s, const sw_body *b, size_t node, sw_vec dv) {
   return share * c.mass;
 }
 
-/* Did the obstacle press on anything at the step's start? What comes to a pad that holds a wire
- * already only trembles. */
-static int presses(const sw_contact *c, int id) {
-  for (size_t i = 0; i < c->memory_count; i++)
-    if (c->memory[i].obstacle == id && c->memory[i].normal_force > 0) return 1;
-  return 0;
-}
-
 /* Change the starting velocities so that the touch is reached, not passed.
  * Returns 1 when something was changed. */
 static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
-  if (o->grips > 0 && presses(c, o->id)) return 0;
+  /* what comes to a pad that holds a wire already only trembles */
+  if (o->grips > 0 && c->pressing[t->obstacle]) return 0;
   const sw_vec x = sw_contact_where(c, s->x, t->node, t->other, t->at);
   const sw_body *b = &s->bodies[t->body];
   const double radius = sw_plan_skin(b->plan, t->node - b->first_node);
@@ -164,10 +182,7 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   if (levers.count)
     sw_levers_kick(b->plan, &levers, sw_scale(brake, mass),
                    s->delta + 3 * s->nodes + b->first_roll);
-  if (sw_grow((void **)&c->impacts, &c->impact_capacity, c->impact_count + 1, sizeof *c->impacts) ==
-      SW_OK)
-    c->impacts[c->impact_count++] =
-        (sw_memory){.obstacle = t->obstacle, .node = t->node, .segment = t->segment, .at = t->at};
+  note_impact(c, t);
   return 1;
 }
 
@@ -175,27 +190,51 @@ static int review_touches(sw_contact *c, sw_system *s, double h) {
   int changed = 0;
   for (size_t i = 0; i < c->pressed_count; i++) {
     const sw_touch *t = &c->pressed[i];
-    if (dealt_with(c, t->obstacle, t->node, t->segment, t->at)) continue;
+    if (dealt_with(c, t, &s->counters.looks)) continue;
     changed |= strike(c, s, t, h);
   }
   return changed;
 }
 
-static int has_barrier(const sw_contact *c, const sw_barrier *new) {
-  for (size_t i = 0; i < c->barrier_count; i++) {
-    const sw_barrier *b = &c->barriers[i];
-    if (b->obstacle == new->obstacle && b->node == new->node &&
+static int has_barrier(const sw_contact *c, const sw_barrier *new, size_t *looks) {
+  for (uint32_t i = c->barrier_at[new->node]; i; i = c->barriers[i - 1].before) {
+    const sw_barrier *b = &c->barriers[i - 1];
+    ++*looks;
+    if (b->obstacle == new->obstacle &&
         b->segment == new->segment &&sw_dot(b->normal, new->normal) > 0.99)
       return 1;
   }
   return 0;
 }
 
-static int is_candidate(const sw_contact *c, int obstacle, size_t node) {
-  for (size_t i = 0; i < c->candidate_count; i++)
-    if (c->candidates[i].node == node && c->candidates[i].obstacle == obstacle &&
-        !c->candidates[i].segment)
-      return 1;
+const sw_barrier *sw_contact_barrier(const sw_contact *c, int obstacle, size_t node, int segment) {
+  const sw_barrier *first = NULL;
+  for (uint32_t i = c->barrier_at[node]; i; i = c->barriers[i - 1].before) {
+    const sw_barrier *b = &c->barriers[i - 1];
+    if (b->obstacle == obstacle && b->segment == segment) first = b;
+  }
+  return first;
+}
+
+static void add_barrier(sw_contact *c, sw_barrier *b) {
+  b->before = c->barrier_at[b->node];
+  c->barriers[c->barrier_count++] = *b;
+  c->barrier_at[b->node] = (uint32_t)c->barrier_count;
+}
+
+/* Candidates are in the order of their nodes. */
+static int is_candidate(const sw_contact *c, int obstacle, size_t node, size_t *looks) {
+  size_t low = 0, high = c->candidate_count;
+  while (low < high) {
+    const size_t i = low + (high - low) / 2;
+    ++*looks;
+    if (c->candidates[i].node < node)
+      low = i + 1;
+    else
+      high = i;
+  }
+  for (; low < c->candidate_count && c->candidates[low].node == node; low++)
+    if (c->candidates[low].obstacle == obstacle && !c->candidates[low].segment) return 1;
   return 0;
 }
 
@@ -205,18 +244,25 @@ static const double END_SHARE = 1e-6;
 /* Keep a segment on its side for the rest of the step. */
 static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k, const sw_closest *hit,
                          double h) {
-  sw_barrier b = {k->obstacle, k->segment, k->node, k->other, hit->at, hit->normal, hit->point};
+  sw_barrier b = {.obstacle = k->obstacle,
+                  .segment = k->segment,
+                  .node = k->node,
+                  .other = k->other,
+                  .at = hit->at,
+                  .normal = hit->normal,
+                  .point = hit->point};
   const size_t end = hit->at > 0.5 ? k->other : k->node;
-  if ((hit->at < END_SHARE || hit->at > 1.0 - END_SHARE) && is_candidate(c, k->obstacle, end)) {
+  if ((hit->at < END_SHARE || hit->at > 1.0 - END_SHARE) &&
+      is_candidate(c, k->obstacle, end, &s->counters.looks)) {
     b.node = b.other = end;
     b.segment = 0;
     b.at = 0;
   }
-  if (has_barrier(c, &b)) return 0;
+  if (has_barrier(c, &b, &s->counters.looks)) return 0;
   if (sw_grow((void **)&c->barriers, &c->barrier_capacity, c->barrier_count + 1,
               sizeof *c->barriers) != SW_OK)
     return 0;
-  c->barriers[c->barrier_count++] = b;
+  add_barrier(c, &b);
   const sw_pose *pose = &c->now[k->obstacle].pose;
   const sw_touch t = {.obstacle = k->obstacle,
                       .segment = b.segment,
@@ -331,7 +377,7 @@ static int bounces(sw_contact *c, const sw_system *s, const double *v1) {
     const sw_vec wall = sw_obstacle_velocity(&c->now[t->obstacle], t->point);
     const int moves = fabs(sw_dot(wall, t->press.normal)) > SLOWEST_IMPACT;
     if (!moves && !s->bodies[t->body].plan->web) continue;
-    if (c->obstacles[t->obstacle].grips > 0 && presses(c, c->obstacles[t->obstacle].id)) continue;
+    if (c->obstacles[t->obstacle].grips > 0 && c->pressing[t->obstacle]) continue;
     const sw_vec v = sw_sub(sw_touch_place(v1, t->node, t->other, t->at), wall);
     if (sw_dot(v, t->press.normal) > SLOWEST_IMPACT) return c->plastic = 1;
   }

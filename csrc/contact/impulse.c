@@ -36,8 +36,8 @@ static sw_contact_load *end_of(sw_contact_loads *l) { return &l->past.end; }
 void sw_contact_book(void *contact, const sw_booking *b) {
   sw_contact *c = contact;
   const sw_contact_load none = {.force = {.x = 0}};
-  for (size_t o = 0; o < c->count; o++) {
-    sw_contact_loads *l = &c->loads[o];
+  for (size_t i = 0; i < c->busy_count; i++) {
+    sw_contact_loads *l = &c->loads[c->busy[i]];
     sw_contact_load all = sum(none, b->first, l->stage[0]);
     all = sum(all, b->start, l->past.end);
     l->stage[b->stage] = sum(all, -b->before, l->past.gained);
@@ -52,24 +52,44 @@ void sw_contact_add_blow(sw_contact *c, int obstacle, sw_vec point, sw_vec impul
   *to = sum(*to, 1.0, (sw_contact_load){impulse, sw_cross(arm, impulse)});
 }
 
+static int is_none(const sw_contact_load *l) {
+  const sw_vec f = l->force, m = l->moment;
+  return f.x == 0 && f.y == 0 && f.z == 0 && m.x == 0 && m.y == 0 && m.z == 0;
+}
+
+static int remembers(const sw_contact_past *past) {
+  return !is_none(&past->mean) || !is_none(&past->end) || !is_none(&past->gained);
+}
+
+void sw_contact_expect(sw_contact *c, int obstacle) {
+  if (c->loads[obstacle].busy) return;
+  c->loads[obstacle].busy = 1;
+  c->busy[c->busy_count++] = obstacle;
+}
+
 void sw_contact_forget_blows(sw_contact *c) {
-  for (size_t o = 0; o < c->count; o++)
-    c->loads[o].blows = c->loads[o].stage[0] = c->loads[o].stage[1] =
-        (sw_contact_load){.force = {.x = 0}};
+  size_t kept = 0;
+  for (size_t i = 0; i < c->busy_count; i++) {
+    sw_contact_loads *l = &c->loads[c->busy[i]];
+    const int busy = remembers(&l->past);
+    *l = (sw_contact_loads){.past = l->past, .busy = busy};
+    if (busy) c->busy[kept++] = c->busy[i];
+  }
+  c->busy_count = kept;
   c->last_stage = 0;
 }
 
 void sw_contact_conclude(sw_contact *c) {
   const sw_contact_load none = {.force = {.x = 0}};
-  for (size_t o = 0; o < c->count; o++) c->loads[o].past.end = none;
+  for (size_t i = 0; i < c->busy_count; i++) c->loads[c->busy[i]].past.end = none;
   add_now(c, 1.0, end_of);
-  for (size_t o = 0; o < c->count; o++) {
-    sw_contact_loads *l = &c->loads[o];
+  for (size_t i = 0; i < c->busy_count; i++) {
+    sw_contact_loads *l = &c->loads[c->busy[i]];
     const int moves = c->regime != SW_CONTACT_STATIC && c->h > 0;
     const sw_contact_load gained = l->stage[c->last_stage];
     l->past.gained = moves ? gained : none;
     l->past.mean = moves ? sum(none, 1.0 / c->h, sum(gained, 1.0, l->blows)) : l->past.end;
-    const sw_vec turned = sw_cross(c->now[o].pose.p, l->past.mean.force);
+    const sw_vec turned = sw_cross(c->now[c->busy[i]].pose.p, l->past.mean.force);
     l->past.mean.moment = sw_add(l->past.mean.moment, turned);
   }
 }
@@ -96,14 +116,37 @@ int sw_contact_shaken(const sw_contact *c, const sw_system *s) {
   return 0;
 }
 
-size_t sw_contact_obstacles(const sw_contact *c) { return c->count; }
-
 int sw_contact_id(const sw_contact *c, size_t k) { return c->obstacles[k].id; }
-
-void sw_contact_recall(sw_contact *c, size_t k, const sw_contact_past *past) {
-  c->loads[k].past = *past;
-}
 
 const sw_contact_past *sw_contact_past_of(const sw_contact *c, size_t k) {
   return &c->loads[k].past;
+}
+
+const int *sw_contact_busy(const sw_contact *c, size_t *count) {
+  *count = c->busy_count;
+  return c->busy;
+}
+
+const int *sw_contact_movers(const sw_contact *c, size_t *count) {
+  *count = c->broad.mover_count;
+  return c->broad.mover;
+}
+
+int sw_contact_informed(const sw_contact *c) { return c->informed; }
+
+void sw_contact_recall(sw_contact *c, sw_contact_past_function past,
+                       sw_contact_moves_function moves) {
+  c->busy_count = 0;
+  for (size_t o = 0; o < c->count; o++) {
+    const sw_contact_past *own = past(c->user, c->obstacles[o].id);
+    c->loads[o] = (sw_contact_loads){.past = *own};
+    if (remembers(own)) sw_contact_expect(c, (int)o);
+  }
+  sw_broad_know(&c->broad, c, moves);
+  c->informed = 1;
+}
+
+void sw_contact_ask_again(sw_contact *c) {
+  c->informed = 0;
+  sw_broad_forget(&c->broad);
 }

@@ -50,7 +50,7 @@ static int slides(const sw_touch *t) {
 
 static void mark(sw_contact *c) {
   c->mark_count = 0;
-  c->unmarked = 0;
+  c->unmarked = c->parts.on;
   for (size_t i = 0; i < c->touch_count && !c->unmarked; i++) {
     const sw_touch *t = &c->touches[i];
     if (!t->press.active) continue;
@@ -97,7 +97,7 @@ sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar,
   if (!c->looked) SW_TRY(sw_contact_look(c, s, y, err));
   c->looked = 0;
   if (want & SW_WANT_STIFFNESS) mark(c);
-  for (size_t i = 0; i < c->touch_count; i++) apply(c, s, &c->touches[i], want);
+  for (size_t i = c->parts.touch; i < c->touch_count; i++) apply(c, s, &c->touches[i], want);
   return SW_OK;
 }
 
@@ -132,7 +132,7 @@ static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *
 
 static int update_all(sw_contact *c, const sw_system *s, const double *delta) {
   int fine = 1;
-  for (size_t first = 0, end; first < c->touch_count; first = end) {
+  for (size_t first = c->parts.touch, end; first < c->touch_count; first = end) {
     const double scale = sw_contact_scale(c, first, &end);
     for (size_t i = first; i < end; i++) fine &= update(c, s, &c->touches[i], delta, scale);
   }
@@ -148,7 +148,7 @@ static int stiffen(sw_contact *c, const sw_system *s) {
   const int small = c->h > 0 && c->h < SMALL_STEP * c->nominal;
   int any = 0;
   if (c->regime == SW_CONTACT_EXPLICIT || s->rough) return 0;
-  for (size_t i = 0; i < c->touch_count; i++) {
+  for (size_t i = c->parts.touch; i < c->touch_count; i++) {
     sw_touch *t = &c->touches[i];
     const double before = small ? fmax(0.0, sw_contact_depth_before(c, s, t)) : -1.0;
     if (t->held || c->candidates[t->candidate].given) continue;
@@ -167,7 +167,7 @@ int sw_contact_settled(void *contact, sw_system *s, const double *y, const doubl
   const int fine = update_all(c, s, delta);
   if (!fine) sw_contact_peel(c, s);
   if (fine && stiffen(c, s)) return 0;
-  for (size_t i = 0; fine && i < c->touch_count; i++) {
+  for (size_t i = c->parts.touch; fine && i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
     if (t->held || !(t->press.normal_force > 0 || t->press.gap_after < 0)) continue;
     if (sw_grow((void **)&c->pressed, &c->pressed_capacity, c->pressed_count + 1,

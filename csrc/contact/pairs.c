@@ -53,6 +53,8 @@ void sw_pairs_free(sw_pairs *p) {
   sw_free(p);
 }
 
+int sw_pairs_idle(const sw_pairs *p) { return p->pair_count == 0; }
+
 /* --- steps ----------------------------------------------------------------------- */
 
 static int takes_part(const sw_pairs *p, size_t body) {

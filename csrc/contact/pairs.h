@@ -26,6 +26,9 @@ sw_status sw_pairs_new(const sw_pair_rule *rules, size_t count, sw_pairs **out);
 sw_status sw_pairs_copy(const sw_pairs *pairs, sw_pairs **out);
 void sw_pairs_free(sw_pairs *pairs); /* NULL is allowed */
 
+/* No segments are near enough to touch in this step. */
+int sw_pairs_idle(const sw_pairs *pairs);
+
 /* These do what those of sw_contact do. */
 sw_status sw_pairs_begin_step(sw_pairs *pairs, sw_system *system, sw_contact_regime regime,
                               double h, double nominal, sw_error *err);

@@ -9,23 +9,32 @@
 
 /* --- memory ---------------------------------------------------------------------- */
 
-const sw_pair_memory *sw_pair_recall(const sw_pairs *p, const sw_pair *k, const double at[2]) {
+/* Memory is in the order of the segments: the first of these, or what comes after. */
+static size_t first_memory(const sw_pairs *p, uint32_t one, uint32_t two) {
   size_t low = 0, high = p->memory_count;
-  while (low < high) { /* the first that starts at the segment before */
+  while (low < high) {
     const size_t middle = (low + high) / 2;
-    if (p->memory[middle].one + 1 < k->one)
+    const sw_pair_memory *m = &p->memory[middle];
+    if (m->one < one || (m->one == one && m->two < two))
       low = middle + 1;
     else
       high = middle;
   }
+  return low;
+}
+
+const sw_pair_memory *sw_pair_recall(const sw_pairs *p, const sw_pair *k, const double at[2]) {
   const sw_pair_memory *best = NULL;
   const double one = k->one + at[0], two = k->two + at[1];
+  const uint32_t beside = k->two ? k->two - 1 : 0;
   double nearest = 1.0;
-  for (; low < p->memory_count && p->memory[low].one <= k->one + 1; low++) {
-    const sw_pair_memory *m = &p->memory[low];
-    const double d = fmax(fabs(m->one + m->at[0] - one), fabs(m->two + m->at[1] - two));
-    if (d < nearest) best = m, nearest = d;
-  }
+  for (uint32_t i = k->one ? k->one - 1 : 0; i <= k->one + 1; i++) /* and segments beside */
+    for (size_t j = first_memory(p, i, beside); j < p->memory_count; j++) {
+      const sw_pair_memory *m = &p->memory[j];
+      if (m->one != i || m->two > k->two + 1) break;
+      const double d = fmax(fabs(m->one + m->at[0] - one), fabs(m->two + m->at[1] - two));
+      if (d < nearest) best = m, nearest = d;
+    }
   return best;
 }
 

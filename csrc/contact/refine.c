@@ -263,7 +263,7 @@ static void refine(refined *r) {
 
 void sw_contact_refine(void *contact, sw_system *s) {
   sw_contact *c = contact;
-  for (size_t first = 0, end; first < c->touch_count; first = end) {
+  for (size_t first = c->parts.touch, end; first < c->touch_count; first = end) {
     sw_body *b = &s->bodies[c->touches[first].body];
     const double scale = sw_contact_scale(c, first, &end);
     if (!sw_body_solves_again(b)) continue;

@@ -256,20 +256,17 @@ static int keep_side(const sw_contact *c, const sw_candidate *k, sw_vec local, s
  * one: 1 and the touch, else 0. */
 static int behind_barrier(const sw_contact *c, const sw_candidate *k, const double *y,
                           sw_closest *near) {
-  for (size_t i = 0; i < c->barrier_count; i++) {
-    const sw_barrier *b = &c->barriers[i];
-    if (b->obstacle != k->obstacle || b->node != k->node || b->segment != k->segment) continue;
-    const sw_vec local =
-        sw_pose_local(c->now[b->obstacle].pose, sw_contact_where(c, y, b->node, b->other, b->at));
-    const double gap = sw_dot(b->normal, sw_sub(local, b->point));
-    *near = (sw_closest){.gap = gap,
-                         .at = b->at,
-                         .normal = b->normal,
-                         .point = sw_madd(local, b->normal, -gap),
-                         .feature = SW_BEHIND_BARRIER};
-    return 1;
-  }
-  return 0;
+  const sw_barrier *b = sw_contact_barrier(c, k->obstacle, k->node, k->segment);
+  if (!b) return 0;
+  const sw_vec local =
+      sw_pose_local(c->now[b->obstacle].pose, sw_contact_where(c, y, b->node, b->other, b->at));
+  const double gap = sw_dot(b->normal, sw_sub(local, b->point));
+  *near = (sw_closest){.gap = gap,
+                       .at = b->at,
+                       .normal = b->normal,
+                       .point = sw_madd(local, b->normal, -gap),
+                       .feature = SW_BEHIND_BARRIER};
+  return 1;
 }
 
 /* The nearest place of a segment that lies along an obstacle comes and goes with the last
@@ -333,26 +330,10 @@ static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k,
   return c->regime == SW_CONTACT_EXPLICIT ? SW_OK : keep_pushing(c, s, k, y, first);
 }
 
-static void swap_lists(sw_contact *c) {
-  sw_touch *list = c->last;
-  const size_t capacity = c->last_capacity;
-  c->last = c->touches, c->last_capacity = c->touch_capacity, c->last_count = c->touch_count;
-  c->touches = list, c->touch_capacity = capacity, c->touch_count = 0;
-  size_t i = 0; /* both lists are in the candidates' order */
-  for (size_t n = 0; n < c->candidate_count; n++) {
-    sw_candidate *k = &c->candidates[n];
-    k->last = i;
-    while (i < c->last_count && c->last[i].node == k->node && c->last[i].obstacle == k->obstacle &&
-           c->last[i].segment == k->segment)
-      i++;
-    k->last_end = i;
-  }
-}
-
 sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw_error *err) {
-  sw_status status = SW_OK;
-  swap_lists(c);
-  for (size_t i = 0; i < c->candidate_count && status == SW_OK; i++)
+  size_t first, end;
+  sw_status status = sw_contact_turn_over(c, &first, &end);
+  for (size_t i = first; i < end && status == SW_OK; i++)
     status = sw_interrupted() ? SW_EINTR : query(c, s, &c->candidates[i], y);
   return status == SW_OK ? SW_OK : sw_fail(err, status, "contact: %s", sw_status_text(status));
 }

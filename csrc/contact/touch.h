@@ -3,6 +3,9 @@
 #ifndef SW_CONTACT_TOUCH_H
 #define SW_CONTACT_TOUCH_H
 
+#include <stdint.h>
+
+#include "contact/broad.h"
 #include "contact/contact.h"
 #include "contact/law.h"
 
@@ -69,7 +72,16 @@ typedef struct sw_barrier {
   size_t node, other;
   double at;
   sw_vec normal, point; /* local [-], [m] */
+  uint32_t before;      /* the one before at its node + 1, or 0 */
 } sw_barrier;
+
+/* A touch whose impact was dealt with in this step. */
+typedef struct sw_impact {
+  int obstacle, segment;
+  size_t node;
+  double at;
+  uint32_t before; /* as a barrier's */
+} sw_impact;
 
 /* A touch that was part of the last matrix. */
 typedef struct sw_mark {
@@ -78,29 +90,41 @@ typedef struct sw_mark {
   sw_vec normal; /* [-] */
 } sw_mark;
 
-typedef struct sw_contact_at {
-  sw_pose pose;
-  sw_vec v, omega; /* [m/s], [rad/s] */
-} sw_contact_at;
-
 /* What an obstacle gets in a step. */
 typedef struct sw_contact_loads {
   sw_contact_past past;
   sw_contact_load stage[SW_BOOK_STAGES]; /* impulse from the step's start, without blows [N s] */
   sw_contact_load blows; /* impulse of impacts that changed velocities at the start [N s] */
+  int busy;              /* 1: it is in the list of those that may get something */
 } sw_contact_loads;
+
+/* A stage that is solved by parts: the part at hand. */
+typedef struct sw_contact_parts {
+  int on, begun;     /* 1: there are parts; this one has been looked at */
+  size_t first, end; /* its candidates */
+  size_t touch;      /* its first touch */
+  size_t before;     /* touches of the stage before, of all parts */
+  size_t matched;    /* of those, up to this part's last */
+} sw_contact_parts;
 
 struct sw_contact {
   sw_contact_obstacle *obstacles;
-  sw_contact_loads *loads; /* (count) */
-  int last_stage;          /* that was booked in this trial */
+  sw_contact_loads *loads; /* (count) zero but for those in busy */
+  int *busy;               /* (busy_count) obstacles near wires in this step, or pressed before */
+  size_t busy_count;
+  int informed; /* 1: the owner has told what obstacles remember and which may move */
+  sw_broad broad;
+  int last_stage; /* that was booked in this trial */
   size_t count;
   sw_contact_place place;
   void *user;
   sw_contact_at *start, *now; /* (count) at the step's start and at the stage */
   int *flat;                  /* (count) 1: a half space, no segment contacts */
-  int *dense;                 /* (count) 1: particles of the body at hand lie close, likewise */
-  double *sunk; /* (3 nodes) how far contact sees a node further in, or NULL: nowhere [m] */
+  int *pads;                  /* (pad_count) those of grippers */
+  size_t pad_count;
+  int *pressing; /* (count) 1: a pad that pressed on something at the step's start */
+  int *dense;    /* (count) 1: particles of the body at hand lie close, likewise */
+  double *sunk;  /* (3 nodes) how far contact sees a node further in, or NULL: nowhere [m] */
   size_t sunk_capacity;
   double *spaced; /* (count) farthest that samples of the body at hand may be apart; 0: none [m] */
   sw_bounds *bounds; /* (count) at the step's start, world axes */
@@ -112,12 +136,17 @@ struct sw_contact {
   size_t pressed_count, pressed_capacity, pressed_before; /* of earlier stages */
   sw_memory *memory, *next_memory;
   size_t memory_count, memory_capacity, next_count, next_capacity;
+  /* impacts and barriers by their nodes: number of each node's last one + 1, or 0, and of the one
+   * before it */
+  uint32_t *impact_at, *barrier_at; /* (places) */
+  size_t places, place_capacity;
   sw_barrier *barriers;
   size_t barrier_count, barrier_capacity;
-  sw_memory *impacts; /* keys of touches whose impact was dealt with in this step */
+  sw_impact *impacts;
   size_t impact_count, impact_capacity;
   sw_mark *marks;
   size_t mark_count, mark_capacity;
+  sw_contact_parts parts;
   double *room; /* of an iterate's refinement: solutions of a wire's equations */
   size_t room_capacity;
   int unmarked;      /* 1: some touch slid, or there was no room: the marks tell nothing */
@@ -147,12 +176,24 @@ double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v);
 void sw_contact_add_blow(sw_contact *c, int obstacle, sw_vec point, sw_vec impulse);
 void sw_contact_forget_blows(sw_contact *c);
 void sw_contact_conclude(sw_contact *c);
+/* Wires may press on the obstacle in this step. */
+void sw_contact_expect(sw_contact *c, int obstacle);
+
+/* A step of a system with so many nodes begins without impacts and barriers. SW_ENOMEM. */
+sw_status sw_contact_calm(sw_contact *c, size_t nodes);
+
+/* The barrier that was raised first of those for the node or segment, or NULL. */
+const sw_barrier *sw_contact_barrier(const sw_contact *c, int obstacle, size_t node, int segment);
 
 /* How far nodes are sunk, with the system where it is. SW_ENOMEM. */
 sw_status sw_contact_sink(sw_contact *c, const sw_system *s);
 
 /* Fill the list of candidates for the step. */
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err);
+
+/* An iterate begins: touches become those of the one before, of candidates from *first to *end.
+ * SW_ENOMEM. */
+sw_status sw_contact_turn_over(sw_contact *c, size_t *first, size_t *end);
 
 /* Find the touches at positions y; those of before are then the last ones. SW_ENOMEM. */
 sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw_error *err);

@@ -279,13 +279,13 @@ static int hopeless(sw_status status) {
 static sw_status make_room(loop *p, double *h, sw_error *err) {
   sw_scene *s = p->s;
   int changed;
-  const size_t before = s->system.counters.evaluations;
+  const sw_counters before = s->system.counters;
   const int fresh = s->discontinuous > 0 || s->stepper.restart; /* nodes alone are no jump */
   *h = sw_feed_step(s, *h);
   SW_TRY(sw_feed_make_room(s, s->time + *h, &changed, err));
   if (!changed) return SW_OK;
   sw_ledger_forget(s);
-  s->system.counters.evaluations = before;
+  s->system.counters = before;
   SW_TRY(use_integrator(s, p->args, err));
   s->stepper.wants_error = isfinite(p->args->tolerance);
   s->discontinuous = s->stepper.restart = fresh;
@@ -526,7 +526,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   SW_TRY(sw_scene_check_step(s, args, until, err));
   SW_TRY(use_integrator(s, args, err));
   s->window = args->window;
-  const size_t before = s->system.counters.evaluations;
+  const sw_counters before = s->system.counters;
   loop p = {.s = s, .args = args, .report = report, .interrupted = interrupted};
   p.v_start = sw_alloc(sw_scene_has_contact(s) ? s->system.freedoms : 1, sizeof(double));
   if (!p.v_start) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
@@ -547,7 +547,9 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   if (status == SW_ENOCONV && isfinite(args->frame) && s->frame_count &&
       s->time > s->frames[s->frame_count - 1].time)
     (void)sw_scene_store_frame(s, &ignored);
-  report->evaluations = s->system.counters.evaluations - before;
+  report->evaluations = s->system.counters.evaluations - before.evaluations;
+  report->solves = s->system.counters.solves - before.solves;
+  report->looks = s->system.counters.looks - before.looks;
   conclude(s, status, report, &why);
   if (status == SW_ECALLBACK) s->discontinuous = 1;
   return SW_OK;

@@ -434,7 +434,9 @@ sw_status sw_scene_obstacle_log(sw_scene *s, sw_handle obstacle, const double **
   int present; /* a removed obstacle's series can still be read */
   if (!sw_scene_obstacle_name(s, obstacle, &kind, &present))
     return sw_fail(err, SW_EDEAD, "this obstacle is not of scene '%s' any more", s->name);
-  const sw_scene_obstacle *o = &s->obstacles[obstacle.slot];
+  sw_scene_obstacle *o = &s->obstacles[obstacle.slot];
+  if (sw_obstacle_log_fill(s, o) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", o->name);
   *rows = o->log.rows;
   *count = o->log.count / SW_LOG_OBSTACLE_SIZE;
   return SW_OK;

@@ -70,7 +70,10 @@ static sw_vec about(sw_vec moment, sw_vec force, sw_vec place) {
 static double work_of_obstacles(sw_scene *s, int changed) {
   double most = 0;
   if (!s->contact || !sw_contact_moves(s->contact)) return 0;
-  for (size_t k = 0; k < s->obstacle_count; k++) {
+  size_t count;
+  const int *movers = sw_contact_movers(s->contact, &count);
+  for (size_t i = 0; i < count; i++) {
+    const size_t k = (size_t)sw_contact_id(s->contact, (size_t)movers[i]);
     sw_worker from = s->books.obstacles[k];
     sw_vec force, moment;
     sw_pose to;
@@ -108,12 +111,10 @@ static sw_status make_room(sw_scene *s) {
 }
 
 /* What never moves does no work. */
-static int may_move(const sw_drive *drive) { return drive->motion || drive->tool; }
-
 static void note_obstacle(sw_scene *s, size_t k) {
   sw_worker *w = &s->books.obstacles[k];
   *w = (sw_worker){0};
-  if (!s->obstacles[k].alive || !may_move(&s->obstacles[k].drive)) return;
+  if (!s->obstacles[k].alive || !sw_drive_moves(&s->obstacles[k].drive)) return;
   sw_contact_force(s->contact, (int)k, sw_v(0, 0, 0), &w->force, &w->moment);
   w->force = sw_neg(w->force), w->moment = sw_neg(w->moment);
 }
@@ -131,6 +132,9 @@ static void note_hold(sw_scene *s, size_t k, int logged) {
 sw_status sw_ledger_note_workers(sw_scene *s, int logged) {
   SW_TRY(make_room(s));
   for (size_t k = 0; k < s->system.hold_count; k++) note_hold(s, k, logged);
-  for (size_t k = 0; s->contact && k < s->obstacle_count; k++) note_obstacle(s, k);
+  size_t count = 0;
+  const int *movers = s->contact ? sw_contact_movers(s->contact, &count) : NULL;
+  for (size_t i = 0; i < count; i++)
+    note_obstacle(s, (size_t)sw_contact_id(s->contact, (size_t)movers[i]));
   return SW_OK;
 }

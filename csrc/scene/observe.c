@@ -170,7 +170,10 @@ static void line_values(const sw_system *s, const sw_body *b, double *out) {
 
 static void add_pressed(const sw_scene *s, const sw_body *b, double *out) {
   const sw_web *web = b->plan->web;
-  for (size_t k = 0; s->contact && k < sw_contact_touches(s->contact); k++) {
+  size_t k = 0, end = 0;
+  if (s->contact)
+    sw_contact_touches_of(s->contact, b->first_node, b->first_node + b->plan->nodes, &k, &end);
+  for (; k < end; k++) {
     sw_contact_push p;
     if (!sw_contact_push_at(s->contact, &s->system, k, &p)) continue;
     const size_t at[2] = {p.node, p.other};
@@ -321,19 +324,9 @@ static sw_status observe_contact(sw_scene *s, sw_error *err) {
     const double *arc = body->plan->s;
     s->deepest = (sw_extreme){depth, arc[node - body->first_node] - arc[0], s->time};
   }
-  for (size_t k = 0; k < s->obstacle_count; k++) {
-    sw_scene_obstacle *o = &s->obstacles[k];
-    sw_vec force, moment;
-    double row[SW_LOG_OBSTACLE_SIZE];
-    if (!o->alive || !s->contact) continue;
-    sw_obstacle_mean(o, sw_v(0, 0, 0), &force, &moment);
-    row[0] = s->time;
-    sw_store(row + 1, force);
-    row[4] = s->span;
-    if (sw_log_add(&o->log, row, SW_LOG_OBSTACLE_SIZE) != SW_OK)
-      return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", o->name);
-  }
-  return SW_OK;
+  if (sw_obstacle_log_state(s) == SW_OK) return SW_OK;
+  return sw_fail(err, SW_ENOMEM, "out of memory for the forces on obstacles of scene '%s'",
+                 s->name);
 }
 
 /* What forces on wires have found. */

@@ -57,6 +57,7 @@ void sw_scene_free(sw_scene *s) {
   sw_scene_orphan_snapshots(s);
   sw_stepper_free(&s->stepper);
   sw_contact_free(s->contact);
+  sw_free(s->contact_steps.rows);
   sw_pairs_free(s->pairs);
   sw_crowd_free(s->crowd);
   sw_scene_drop_rules(s, 0);
@@ -199,6 +200,7 @@ sw_status sw_scene_add_obstacle(sw_scene *s, sw_shape *shape, const sw_obstacle_
                            .restitution = args->restitution};
   sw_scene_give_name(o->name, args->name, sw_shape_kind(shape), s->obstacle_count);
   o->shape = sw_shape_retain(shape);
+  sw_obstacle_log_begin(s, o);
   *out = (sw_handle){(uint32_t)s->obstacle_count++, s->serial};
   return SW_OK;
 }
@@ -208,6 +210,7 @@ sw_status sw_scene_remove_obstacle(sw_scene *s, sw_handle obstacle, sw_error *er
   sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
   if (!o) return SW_EDEAD;
   SW_TRY(sw_scene_thaw(s));
+  if (sw_obstacle_log_fill(s, o) != SW_OK) return sw_fail(err, SW_ENOMEM, "out of memory");
   o->alive = 0;
   return SW_OK;
 }
@@ -219,6 +222,7 @@ sw_status sw_scene_obstacle_follow(sw_scene *s, sw_handle obstacle, sw_motion *m
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_drive_follow(s, &o->drive, o->name, motion, relative, err));
   s->discontinuous = 1;
+  if (s->contact) sw_contact_ask_again(s->contact);
   return SW_OK;
 }
 
@@ -248,6 +252,7 @@ sw_status sw_scene_obstacle_set_pose(sw_scene *s, sw_handle obstacle, sw_pose po
   sw_drive_free(&o->drive);
   o->drive.pose = pose;
   s->discontinuous = 1;
+  if (s->contact) sw_contact_ask_again(s->contact);
   return SW_OK;
 }
 

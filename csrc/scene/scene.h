@@ -362,10 +362,12 @@ typedef struct sw_run_report {
   sw_status status; /* SW_OK, SW_EDIVERGED, SW_EINTR, SW_ECALLBACK, ... */
   double time;      /* reached [s] */
   size_t steps, rejected, iterations, evaluations; /* [-] */
-  double smallest_dt;                              /* [s] */
-  size_t jumps;     /* quasi-static steps in which wires jumped [-] */
-  double last_jump; /* time of the last one [s] */
-  sw_error reason;  /* why it stopped, when not SW_OK */
+  size_t solves;                                   /* of each body's own matrix [-] */
+  size_t looks;       /* of contact at obstacles and lists, to find what may touch [-] */
+  double smallest_dt; /* [s] */
+  size_t jumps;       /* quasi-static steps in which wires jumped [-] */
+  double last_jump;   /* time of the last one [s] */
+  sw_error reason;    /* why it stopped, when not SW_OK */
 } sw_run_report;
 
 /* Advance to time until. interrupted (may be NULL) is polled between steps. A

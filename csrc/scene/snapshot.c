@@ -188,7 +188,8 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
   p->deepest = s->deepest;
   p->frames = s->frame_count;
   p->rules = s->rule_count;
-  sw_status status = copy_objects(s, p);
+  sw_status status = sw_obstacle_log_fill_all(s);
+  if (status == SW_OK) status = copy_objects(s, p);
   if (status == SW_OK) status = sw_live_take(s, &p->live);
   if (status != SW_OK) {
     sw_snapshot_free(p);
@@ -279,6 +280,7 @@ static void put_objects(sw_scene *s, const sw_snapshot *p) {
   for (size_t k = 0; k < s->obstacle_count; k++) {
     sw_scene_obstacle *o = &s->obstacles[k];
     o->alive = k < p->obstacles && p->obstacle[k].alive;
+    sw_obstacle_log_begin(s, o);
     if (k >= p->obstacles) continue;
     if (o->log.count > p->obstacle[k].log_count) o->log.count = p->obstacle[k].log_count;
     o->off = p->obstacle[k].off;

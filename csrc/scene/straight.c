@@ -35,16 +35,17 @@ static int is_straight(const sw_system *system, const sw_body *b) {
   return 1;
 }
 
-static sw_status look_at(sw_scene *s, size_t w, double push, size_t edge, sw_error *err) {
+static int cannot_be_said(sw_status status) {
+  return status == SW_EDIVERGED || status == SW_EINVAL;
+}
+
+/* With the system linearised. */
+static sw_status look_at(sw_scene *s, size_t w, double push, size_t edge) {
   const sw_body *b = &s->system.bodies[w];
   const double g = fmax(sw_norm(s->gravity), 1.0), rate = SLOWEST * sqrt(g / b->plan->length);
   size_t count = 0;
-  s->running++; /* a force may be a user's function */
-  sw_status status = sw_scene_linearise(s, NULL, 0, err);
-  if (status == SW_OK) status = sw_modal_unstable(&s->system, w, rate * rate, &count);
-  s->running--;
-  sw_system_refresh(&s->system);
-  if (status == SW_EDIVERGED || status == SW_EINVAL) return SW_OK; /* it cannot be said */
+  const sw_status status = sw_modal_unstable(&s->system, w, rate * rate, &count);
+  if (cannot_be_said(status)) return SW_OK;
   if (status != SW_OK || count == 0) return status;
   s->system.bodies[w].pushed = HUGE_VAL;
   sw_scene_tell(s, "buckling", s->wires[w].name, b->plan->s[edge] - b->plan->s[0], push,
@@ -55,16 +56,37 @@ static sw_status look_at(sw_scene *s, size_t w, double push, size_t edge, sw_err
   return SW_OK;
 }
 
-sw_status sw_scene_look_for_buckling(sw_scene *s, sw_error *err) {
+/* Is the wire straight, and pushed by enough more than when it was looked at last? */
+static int is_new_push(const sw_scene *s, size_t w, double *push, size_t *edge) {
+  const sw_body *b = &s->system.bodies[w];
+  if (b->plan->web || sw_scene_joined(s, w)) return 0;
+  *push = largest_push(&s->system, b, edge);
+  if (!(*push * b->plan->length * b->plan->length > LEAST_PUSH * b->plan->beam.EI)) return 0;
+  return *push > GROWN * b->pushed && is_straight(&s->system, b);
+}
+
+/* The system is linearised once for all wires. */
+static sw_status look_at_all(sw_scene *s, int *linear, sw_error *err) {
+  sw_status made = SW_OK;
   for (size_t w = 0; w < s->system.body_count; w++) {
-    sw_body *b = &s->system.bodies[w];
     size_t edge = 0;
-    if (b->plan->web || sw_scene_joined(s, w)) continue;
-    const double push = largest_push(&s->system, b, &edge);
-    if (!(push * b->plan->length * b->plan->length > LEAST_PUSH * b->plan->beam.EI)) continue;
-    if (push <= GROWN * b->pushed || !is_straight(&s->system, b)) continue;
-    b->pushed = push;
-    SW_TRY(look_at(s, w, push, edge, err));
+    double push;
+    if (!is_new_push(s, w, &push, &edge)) continue;
+    s->system.bodies[w].pushed = push;
+    if (!*linear) made = sw_scene_linearise(s, NULL, 0, err);
+    *linear = 1;
+    if (cannot_be_said(made)) continue;
+    SW_TRY(made);
+    SW_TRY(look_at(s, w, push, edge));
   }
   return SW_OK;
+}
+
+sw_status sw_scene_look_for_buckling(sw_scene *s, sw_error *err) {
+  int linear = 0;
+  s->running++; /* a force may be a user's function */
+  const sw_status status = look_at_all(s, &linear, err);
+  s->running--;
+  if (linear) sw_system_refresh(&s->system);
+  return status;
 }

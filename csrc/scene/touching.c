@@ -69,9 +69,15 @@ sw_status sw_scene_new_pairs(sw_scene *s) {
 
 /* --- the system's coupling ------------------------------------------------------- */
 
+static void part(void *user, sw_system *system) {
+  const sw_scene *s = user;
+  if (s->contact) sw_contact_part(s->contact, system);
+}
+
 static sw_status begin_stage(void *user, sw_system *system, double t, double first, sw_error *err) {
   const sw_scene *s = user;
-  (void)system;
+  const int apart = !s->crowd && (!s->pairs || sw_pairs_idle(s->pairs));
+  system->coupling.part = apart ? part : NULL;
   if (s->pairs) sw_pairs_begin_stage(s->pairs, first);
   return s->contact ? sw_contact_begin_stage(s->contact, t, first, err) : SW_OK;
 }
@@ -81,7 +87,8 @@ static sw_status eval(void *user, sw_system *system, double t, double hbar, cons
   const sw_scene *s = user;
   if (s->contact) SW_TRY(sw_contact_eval(s->contact, system, t, hbar, y, want, err));
   if (s->crowd) sw_crowd_eval(s->crowd, system, y, want);
-  return s->pairs ? sw_pairs_eval(s->pairs, system, y, want, err) : SW_OK;
+  const int pairs = s->pairs && !sw_pairs_idle(s->pairs);
+  return pairs ? sw_pairs_eval(s->pairs, system, y, want, err) : SW_OK;
 }
 
 static sw_status keeps(void *user, sw_system *system, const double *y, int *out, sw_error *err) {
@@ -97,7 +104,7 @@ static void refine(void *user, sw_system *system) {
 static int settled(void *user, sw_system *system, const double *y, const double *delta) {
   const sw_scene *s = user;
   int fine = !s->contact || sw_contact_settled(s->contact, system, y, delta);
-  if (s->pairs) fine &= sw_pairs_settled(s->pairs, system, delta);
+  if (s->pairs && !sw_pairs_idle(s->pairs)) fine &= sw_pairs_settled(s->pairs, system, delta);
   if (s->crowd) fine &= sw_crowd_settled(s->crowd, system, y, delta);
   return fine;
 }
@@ -120,10 +127,24 @@ void sw_scene_couple(sw_scene *s) {
 
 int sw_scene_has_contact(const sw_scene *s) { return s->contact || s->pairs || s->crowd; }
 
+static const sw_contact_past *past_of(void *user, int o) {
+  return &((sw_scene *)user)->obstacles[o].past;
+}
+
+static int may_move(void *user, int o) {
+  return sw_drive_moves(&((sw_scene *)user)->obstacles[o].drive);
+}
+
+/* What nothing touches now remembers nothing of when something did. */
+void sw_scene_inform_contact(sw_scene *s) {
+  for (size_t k = 0; k < s->obstacle_count; k++)
+    if (!s->obstacles[k].alive || s->obstacles[k].off) s->obstacles[k].past = (sw_contact_past){0};
+  sw_contact_recall(s->contact, past_of, may_move);
+}
+
 sw_status sw_scene_begin_contact(sw_scene *s, sw_contact_regime regime, double t, double h,
                                  double nominal, sw_error *err) {
-  for (size_t k = 0; s->contact && k < sw_contact_obstacles(s->contact); k++)
-    sw_contact_recall(s->contact, k, &s->obstacles[sw_contact_id(s->contact, k)].past);
+  if (s->contact && !sw_contact_informed(s->contact)) sw_scene_inform_contact(s);
   if (s->contact) SW_TRY(sw_contact_begin_step(s->contact, &s->system, regime, t, h, nominal, err));
   const sw_status crowd = s->crowd ? sw_crowd_begin_step(s->crowd, &s->system, h) : SW_OK;
   if (crowd != SW_OK)
@@ -150,9 +171,12 @@ int sw_scene_review_static(sw_scene *s, const double *x1) {
 void sw_scene_commit_contact(sw_scene *s) {
   if (s->contact) {
     sw_contact_commit(s->contact, &s->system);
-    for (size_t k = 0; k < s->obstacle_count; k++) s->obstacles[k].past = (sw_contact_past){0};
-    for (size_t k = 0; k < sw_contact_obstacles(s->contact); k++)
+    size_t count;
+    const int *busy = sw_contact_busy(s->contact, &count);
+    for (size_t i = 0; i < count; i++) {
+      const size_t k = (size_t)busy[i];
       s->obstacles[sw_contact_id(s->contact, k)].past = *sw_contact_past_of(s->contact, k);
+    }
   }
   if (s->pairs) sw_pairs_commit(s->pairs, &s->system);
 }

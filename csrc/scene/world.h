@@ -269,6 +269,8 @@ typedef struct sw_scene_obstacle {
   int off; /* 1: wires pass through it for the time being */
   sw_contact_past past;
   sw_log log;
+  size_t
+      logged; /* of the scene's steps with contact: those that its log has, or was not there for */
 } sw_scene_obstacle;
 
 typedef struct sw_scene_force {
@@ -341,6 +343,7 @@ struct sw_scene {
   size_t hold_count, hold_capacity;
   sw_scene_obstacle *obstacles;
   size_t obstacle_count, obstacle_capacity;
+  sw_log contact_steps; /* time and span of those observed so far [s] */
   sw_tool *tools;
   size_t tool_count, tool_capacity;
   sw_scene_force *forces;
@@ -426,6 +429,14 @@ sw_status sw_scene_new_pairs(sw_scene *scene);
 void sw_scene_drop_rules(sw_scene *scene, size_t keep);
 void sw_scene_couple(sw_scene *scene);
 int sw_scene_has_contact(const sw_scene *scene);
+/* Contact is to know what obstacles remember and which may move. */
+void sw_scene_inform_contact(sw_scene *scene);
+/* An obstacle's series begins now. The state is observed. Rows that are missing, of one or of all.
+ * SW_ENOMEM. */
+void sw_obstacle_log_begin(const sw_scene *scene, sw_scene_obstacle *obstacle);
+sw_status sw_obstacle_log_state(sw_scene *scene);
+sw_status sw_obstacle_log_fill(sw_scene *scene, sw_scene_obstacle *obstacle);
+sw_status sw_obstacle_log_fill_all(sw_scene *scene);
 sw_status sw_scene_begin_contact(sw_scene *scene, sw_contact_regime regime, double t, double h,
                                  double nominal, sw_error *err);
 sw_contact_verdict sw_scene_review_contact(sw_scene *scene, const double *x1, const double *v1,
@@ -459,6 +470,8 @@ sw_status sw_drive_eval(sw_scene *scene, const sw_drive *drive, double t, sw_mot
 sw_status sw_drive_follow(sw_scene *scene, sw_drive *drive, const char *object, sw_motion *motion,
                           int relative, sw_error *err);
 void sw_drive_free(sw_drive *drive);
+/* 1: it may be elsewhere later without anyone changing it. */
+static inline int sw_drive_moves(const sw_drive *drive) { return drive->motion || drive->tool; }
 
 /* --- tools ------------------------------------------------------------------- */
 

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tree of bounding boxes over a mesh's triangles: halves by count along the
- * longest axis of the centres, so that its depth is the count's logarithm. */
-#include <string.h>
+#include "shape/tree.h"
+
+#include <math.h>
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
-#include "shape/trimesh.h"
+#include "shape/shape_class.h"
 
 typedef struct builder {
-  sw_trimesh *mesh;
-  const double *centres; /* of the triangles, x 3 [m] */
-  int *order;            /* triangle numbers, sorted in place */
+  sw_box_tree *tree;
+  const sw_bounds *boxes;
+  const double *centres; /* of the things, x 3 [m] */
+  int *order;            /* their numbers, sorted in place */
   int stopped;           /* 1: the user wants to stop */
 } builder;
 
@@ -42,35 +43,35 @@ static void select_middle(const builder *b, int low, int high, int middle, int a
   }
 }
 
-static void widen(sw_bounds *box, sw_vec p) {
-  box->min = sw_v(fmin(box->min.x, p.x), fmin(box->min.y, p.y), fmin(box->min.z, p.z));
-  box->max = sw_v(fmax(box->max.x, p.x), fmax(box->max.y, p.y), fmax(box->max.z, p.z));
-}
-
 static const sw_bounds nothing = {{INFINITY, INFINITY, INFINITY},
                                   {-INFINITY, -INFINITY, -INFINITY}};
 
+static void widen(sw_bounds *box, sw_vec low, sw_vec high) {
+  box->min = sw_v(fmin(box->min.x, low.x), fmin(box->min.y, low.y), fmin(box->min.z, low.z));
+  box->max = sw_v(fmax(box->max.x, high.x), fmax(box->max.y, high.y), fmax(box->max.z, high.z));
+}
+
 static int longest_axis(const builder *b, int low, int high) {
   sw_bounds box = nothing;
-  for (int i = low; i <= high; i++) widen(&box, sw_load(b->centres + 3 * (size_t)b->order[i]));
+  for (int i = low; i <= high; i++) {
+    const sw_vec p = sw_load(b->centres + 3 * (size_t)b->order[i]);
+    widen(&box, p, p);
+  }
   const sw_vec e = sw_sub(box.max, box.min);
   return e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
 }
 
-static sw_bounds bounds_of(const builder *b, int low, int high) {
+static sw_bounds bounds_of(const sw_bounds *boxes, const int *order, int low, int high) {
   sw_bounds box = nothing;
-  for (int i = low; i <= high; i++)
-    for (int k = 0; k < 3; k++)
-      widen(&box,
-            sw_trimesh_vertex(b->mesh, b->mesh->indices[3 * (size_t)b->order[i] + (size_t)k]));
+  for (int i = low; i <= high; i++) widen(&box, boxes[order[i]].min, boxes[order[i]].max);
   return box;
 }
 
 static void split(builder *b, int low, int high) {
   b->stopped |= sw_interrupted();
   if (b->stopped) return;
-  sw_tree_node *node = &b->mesh->nodes[b->mesh->node_count++];
-  node->bounds = bounds_of(b, low, high);
+  sw_tree_node *node = &b->tree->nodes[b->tree->node_count++];
+  node->bounds = bounds_of(b->boxes, b->order, low, high);
   if (high - low < SW_TREE_LEAF) {
     node->first = low, node->count = high - low + 1;
     return;
@@ -78,41 +79,71 @@ static void split(builder *b, int low, int high) {
   const int middle = low + (high - low + 1) / 2;
   select_middle(b, low, high, middle, longest_axis(b, low, high));
   split(b, low, middle - 1);
-  node->first = (int)b->mesh->node_count;
+  node->first = (int)b->tree->node_count;
   split(b, middle, high);
 }
 
-/* Put the triangles themselves into the order of the leaves. */
-static void reorder(builder *b, int *indices, double *normals) {
-  sw_trimesh *mesh = b->mesh;
-  for (size_t i = 0; i < mesh->triangle_count; i++) {
-    memcpy(indices + 3 * i, mesh->indices + 3 * (size_t)b->order[i], 3 * sizeof *indices);
-    memcpy(normals + 3 * i, mesh->normals + 3 * (size_t)b->order[i], 3 * sizeof *normals);
-  }
-  sw_free(mesh->indices), sw_free(mesh->normals);
-  mesh->indices = indices, mesh->normals = normals;
+static void find_centres(const sw_bounds *boxes, size_t count, double *out) {
+  for (size_t i = 0; i < count; i++)
+    sw_store(out + 3 * i, sw_scale(sw_add(boxes[i].min, boxes[i].max), 0.5));
 }
 
-sw_status sw_trimesh_tree(sw_trimesh *mesh) {
-  const size_t n = mesh->triangle_count;
-  double *centres = sw_alloc(3 * n, sizeof *centres), *normals = sw_alloc(3 * n, sizeof *normals);
-  int *order = sw_alloc(n, sizeof *order), *indices = sw_alloc(3 * n, sizeof *indices);
-  mesh->nodes = sw_alloc(2 * n, sizeof *mesh->nodes);
-  sw_status status = SW_OK;
-  const int fine = centres && normals && order && indices && mesh->nodes;
-  if (fine) {
-    builder b = {.mesh = mesh, .centres = centres, .order = order};
-    for (size_t i = 0; i < n; i++) {
-      const sw_triangle t = sw_trimesh_triangle(mesh, (int)i);
-      sw_store(centres + 3 * i, sw_scale(sw_add(sw_add(t.v[0], t.v[1]), t.v[2]), 1.0 / 3));
-      order[i] = (int)i;
-    }
-    split(&b, 0, (int)n - 1);
-    reorder(&b, indices, normals);
+sw_status sw_box_tree_new(const sw_bounds *boxes, const double *centres, size_t count,
+                          sw_box_tree *out) {
+  double *own = centres ? NULL : sw_alloc(3 * count, sizeof *own);
+  *out = (sw_box_tree){.count = count};
+  out->nodes = sw_alloc(2 * count, sizeof *out->nodes);
+  out->order = sw_alloc(count, sizeof *out->order);
+  sw_status status = out->nodes && out->order && (centres || own) ? SW_OK : SW_ENOMEM;
+  if (status == SW_OK && count > 0) {
+    builder b = {
+        .tree = out, .boxes = boxes, .centres = centres ? centres : own, .order = out->order};
+    if (!centres) find_centres(boxes, count, own);
+    for (size_t i = 0; i < count; i++) out->order[i] = (int)i;
+    split(&b, 0, (int)count - 1);
     if (b.stopped) status = SW_EINTR;
-  } else {
-    sw_free(normals), sw_free(indices);
   }
-  sw_free(centres), sw_free(order);
-  return fine ? status : SW_ENOMEM;
+  sw_free(own);
+  if (status != SW_OK) sw_box_tree_free(out);
+  return status;
+}
+
+void sw_box_tree_free(sw_box_tree *tree) {
+  sw_free(tree->nodes);
+  sw_free(tree->order);
+  *tree = (sw_box_tree){.count = 0};
+}
+
+void sw_box_tree_refit(sw_box_tree *tree, const sw_bounds *boxes) {
+  for (size_t i = tree->node_count; i-- > 0;) { /* children come after their parents */
+    sw_tree_node *n = &tree->nodes[i];
+    if (n->count > 0) {
+      n->bounds = bounds_of(boxes, tree->order, n->first, n->first + n->count - 1);
+      continue;
+    }
+    n->bounds = tree->nodes[i + 1].bounds;
+    widen(&n->bounds, tree->nodes[n->first].bounds.min, tree->nodes[n->first].bounds.max);
+  }
+}
+
+size_t sw_box_tree_find(const sw_box_tree *tree, const sw_bounds *boxes, const sw_bounds *near,
+                        int *out, size_t *looks) {
+  int stack[SW_TREE_DEPTH], top = 0;
+  size_t found = 0;
+  if (tree->node_count) stack[top++] = 0;
+  while (top > 0) {
+    const int number = stack[--top];
+    const sw_tree_node *node = &tree->nodes[number];
+    ++*looks;
+    if (!sw_bounds_meet(&node->bounds, near)) continue;
+    for (int i = 0; i < node->count; i++) {
+      const int thing = tree->order[node->first + i];
+      ++*looks;
+      if (sw_bounds_meet(&boxes[thing], near)) out[found++] = thing;
+    }
+    if (node->count > 0) continue;
+    stack[top++] = node->first;
+    stack[top++] = number + 1;
+  }
+  return found;
 }

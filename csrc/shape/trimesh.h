@@ -6,18 +6,9 @@
 #define SW_SHAPE_TRIMESH_H
 
 #include "shape/pairs.h"
+#include "shape/tree.h"
 
-enum {
-  SW_TRIMESH_MOST = 1 << 24, /* most triangles or vertices [-] */
-  SW_TREE_LEAF = 4,          /* most triangles in a leaf [-] */
-  SW_TREE_DEPTH = 64         /* more than any tree's depth [-] */
-};
-
-typedef struct sw_tree_node {
-  sw_bounds bounds;
-  int first; /* leaf: first triangle; else the right child (the left one follows) */
-  int count; /* triangles of a leaf; 0 for an inner node */
-} sw_tree_node;
+enum { SW_TRIMESH_MOST = 1 << 24 }; /* most triangles or vertices [-] */
 
 /* Kinds of edges and corners, as flags. */
 enum {

@@ -66,7 +66,7 @@ void sw_spin_begin(sw_system *s, sw_body *b) {
 }
 
 void sw_spin_slow_down(sw_system *s, double rate2) {
-  for (size_t k = 0; k < s->body_count; k++) {
+  for (size_t k = s->part; k < s->part_end; k++) {
     sw_body *b = &s->bodies[k];
     const sw_beam *beam = &b->plan->beam;
     if (!b->spin_block || b->roll_block) continue;

@@ -15,6 +15,7 @@
 #include "system/join.h"
 #include "system/lead.h"
 #include "system/link.h"
+#include "system/part.h"
 #include "system/spin.h"
 #include "system/strain.h"
 #include "system/system.h"
@@ -129,10 +130,13 @@ sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, c
 
 static void stage_velocity(const sw_system *s, const sw_stage *stage, int statics) {
   const double rate = statics ? 0.0 : 1.0 / stage->hbar;
-  for (size_t i = 0; i < 3 * s->nodes; i++) s->velocity[i] = (stage->y[i] - stage->xhat[i]) * rate;
-  for (size_t k = 0; k < s->held_count && !statics; k++)
-    if (s->held[k].slides)
-      sw_system_held_velocity(s, &s->held[k], s->velocity + 3 * s->held[k].node);
+  const size_t end = 3 * sw_part_node(s, s->part_end);
+  for (size_t i = 3 * sw_part_node(s, s->part); i < end; i++)
+    s->velocity[i] = (stage->y[i] - stage->xhat[i]) * rate;
+  for (size_t b = s->part; b < s->part_end && !statics; b++)
+    for (size_t k = s->bodies[b].held; k; k = s->held[k - 1].next)
+      if (s->held[k - 1].slides)
+        sw_system_held_velocity(s, &s->held[k - 1], s->velocity + 3 * s->held[k - 1].node);
 }
 
 /* The update of a body that no link ties to others. */
@@ -150,14 +154,25 @@ static sw_status solve_body(const sw_system *s, sw_body *body, size_t *negative)
   return SW_OK;
 }
 
+static void take_out_held(sw_system *s, const sw_body *b) {
+  double *right = s->delta + 3 * b->first_node;
+  for (size_t k = b->held; k; k = s->held[k - 1].next) {
+    sw_held_node *h = &s->held[k - 1];
+    if (b->plan->web)
+      sw_web_hold(h, b, right);
+    else
+      hold_row(h, b->field.rows, b->plan->nodes, h->node - b->first_node, right);
+  }
+}
+
 static sw_status assemble_and_solve(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                                     sw_stage_report *report, sw_error *err) {
   const int statics = newton->statics;
   const double rate2 = isfinite(stage->hbar) ? 1.0 / (stage->hbar * stage->hbar) : 0.0;
   int velocity = 0;
-  for (size_t b = 0; b < s->body_count; b++) velocity |= s->bodies[b].needs_velocity;
+  for (size_t b = s->part; b < s->part_end; b++) velocity |= s->bodies[b].needs_velocity;
   if (velocity) stage_velocity(s, stage, statics);
-  for (size_t b = 0; b < s->body_count; b++)
+  for (size_t b = s->part; b < s->part_end; b++)
     SW_TRY(sw_body_evaluate(s, &s->bodies[b], stage->time, stage->hbar, stage->y, s->velocity,
                             statics, report->iterations, err));
   sw_links_begin(s);
@@ -165,32 +180,25 @@ static sw_status assemble_and_solve(sw_system *s, const sw_stage *stage, const s
     SW_TRY(s->coupling.eval(s->coupling.user, s, stage->time, stage->hbar, stage->y,
                             SW_WANT_FORCE | (s->goes_on ? 0u : SW_WANT_STIFFNESS), err));
   SW_TRY(sw_joins_eval(s, stage->y));
-  for (size_t b = 0; b < s->body_count; b++) {
+  for (size_t b = s->part; b < s->part_end; b++) {
     sw_field *f = &s->bodies[b].field;
     const size_t at = 3 * s->bodies[b].first_node;
     if (!s->goes_on) sw_gather_rows(f, rate2, f->rows);
     sw_gather_residual(f, rate2, f->x, s->yhat + at, s->delta + at);
     if (f->plan->web && !s->goes_on) sw_web_gather(&s->bodies[b]);
   }
-  for (size_t i = 0; i < s->held_count; i++) {
-    const sw_body *b = &s->bodies[s->held[i].body];
-    if (b->plan->web) {
-      sw_web_hold(&s->held[i], b, s->delta + 3 * b->first_node);
-      continue;
-    }
-    hold_row(&s->held[i], b->field.rows, b->plan->nodes, s->held[i].node - b->first_node,
-             s->delta + 3 * b->first_node);
-  }
+  for (size_t b = s->part; b < s->part_end; b++) take_out_held(s, &s->bodies[b]);
   if (statics) sw_lead_rows(s, stage->y);
   report->negative = 0;
   if (sw_interrupted()) return SW_EINTR;
   if (sw_links_any(s)) SW_TRY(sw_links_solve(s, &report->negative));
-  for (size_t b = 0; b < s->body_count; b++) {
+  for (size_t b = s->part; b < s->part_end; b++) {
     sw_body *body = &s->bodies[b];
     if (body->linked && sw_links_any(s)) continue;
     size_t negative = 0;
     SW_TRY(solve_body(s, body, &negative));
     report->negative += negative;
+    s->counters.solves++;
   }
   if (s->coupling.refine && !s->goes_on) s->coupling.refine(s->coupling.user, s);
   if (statics) sw_lead_update(s, stage->y);
@@ -240,7 +248,7 @@ static int flies_off(const sw_body *b, const double *delta) {
 static double share_of(sw_system *s, const sw_newton *newton, sw_stage_report *report) {
   double largest = 0, share = 1.0;
   int flying = 0;
-  for (size_t b = 0; b < s->body_count; b++) {
+  for (size_t b = s->part; b < s->part_end; b++) {
     const sw_body *body = &s->bodies[b];
     const double turn2 = advance_axial(s, body);
     if (s->strain_past) sw_strain_advance(s, body);
@@ -262,20 +270,24 @@ static double share_of(sw_system *s, const sw_newton *newton, sw_stage_report *r
 }
 
 static void apply(sw_system *s, const sw_stage *stage, double share) {
-  for (size_t i = 0; i < 3 * s->nodes; i++) stage->y[i] += share * s->delta[i];
-  for (size_t b = 0; b < s->body_count; b++)
+  const size_t end = 3 * sw_part_node(s, s->part_end), edge = sw_part_edge(s, s->part),
+               end_edge = sw_part_edge(s, s->part_end);
+  for (size_t i = 3 * sw_part_node(s, s->part); i < end; i++) stage->y[i] += share * s->delta[i];
+  for (size_t b = s->part; b < s->part_end; b++)
     if (s->bodies[b].spin_block) sw_spin_turn(&s->bodies[b], share);
   if (share == 1.0)
-    memcpy(s->tension, s->tension_new, s->edges * sizeof(double));
+    memcpy(s->tension + edge, s->tension_new + edge, (end_edge - edge) * sizeof(double));
   else
-    for (size_t e = 0; e < s->edges; e++)
+    for (size_t e = edge; e < end_edge; e++)
       s->tension[e] += share * (s->tension_new[e] - s->tension[e]);
   if (s->strain_past) sw_strain_take(s, share);
 }
 
 static double largest_shift(const sw_system *s) {
   double largest = 0;
-  for (size_t i = 0; i < 3 * s->nodes; i++) largest = fmax(largest, fabs(s->delta[i]));
+  const size_t end = 3 * sw_part_node(s, s->part_end);
+  for (size_t i = 3 * sw_part_node(s, s->part); i < end; i++)
+    largest = fmax(largest, fabs(s->delta[i]));
   return largest;
 }
 
@@ -303,11 +315,12 @@ static double trusted_shift(const sw_system *s, const sw_body *b, double hbar, i
 }
 
 static int drowned_in_rounding(const sw_system *s, const sw_stage *stage, int statics) {
-  for (size_t b = 0; b < s->body_count; b++) {
+  const double shift = largest_shift(s);
+  for (size_t b = s->part; b < s->part_end; b++) {
     const sw_body *body = &s->bodies[b];
     if (body->plan->web) continue; /* its springs are no chain that adds rounding up */
     const double trusted = trusted_shift(s, body, stage->hbar, statics);
-    if (trusted < body->plan->length && trusted > 0 && largest_shift(s) > trusted) return 1;
+    if (trusted < body->plan->length && trusted > 0 && shift > trusted) return 1;
   }
   return 0;
 }
@@ -322,7 +335,7 @@ static int converged(sw_system *s, const sw_stage *stage, const sw_newton *newto
   if (!settled || s->rough) return 0;
   if (newton->statics && largest_shift(s) > newton->accept_shift) return 0;
   if (drowned_in_rounding(s, stage, newton->statics)) return 0;
-  for (size_t b = 0; b < s->body_count; b++)
+  for (size_t b = s->part; b < s->part_end; b++)
     if ((s->bodies[b].is_explicit || s->bodies[b].is_kinked) &&
         largest_shift(s) > FIXED_POINT * s->bodies[b].plan->length)
       return 0;
@@ -361,6 +374,7 @@ static sw_status check_start(const sw_system *s, const double *y, sw_error *err)
 
 static sw_status begin(sw_system *s, const sw_stage *stage, int statics, sw_error *err) {
   const double h = statics ? 0.0 : stage->hbar;
+  sw_parts_begin(s);
   for (size_t i = 0; i < s->freedoms; i++)
     stage->y[i] = s->yhat[i] = stage->xhat[i] + h * stage->vhat[i];
   SW_TRY(sw_system_place_holds(s, stage->time, stage->y, stage->v, stage->a, err));
@@ -413,9 +427,8 @@ static void finish(sw_system *s, const sw_stage *stage, int statics) {
  * let go. From this iteration on they have it. */
 enum { STEADY = 7 };
 
-static sw_status solve(sw_system *s, const sw_stage *stage, const sw_newton *newton,
-                       sw_stage_report *report, sw_error *err) {
-  SW_TRY(begin(s, stage, newton->statics, err));
+static sw_status iterate(sw_system *s, const sw_stage *stage, const sw_newton *newton,
+                         sw_stage_report *report, sw_error *err) {
   int waits = 0, shortened = 0;
   for (int i = 1; i <= newton->max_iterations; i++) {
     report->iterations = i;
@@ -430,12 +443,41 @@ static sw_status solve(sw_system *s, const sw_stage *stage, const sw_newton *new
       return sw_fail(err, SW_ENOCONV, "wires would go too far in %d iterations", i);
     if (sw_lead_waits(s, newton, stage->y, share, &waits)) continue;
     apply(s, stage, share);
-    if (converged(s, stage, newton, report, share)) {
-      finish(s, stage, newton->statics);
-      return SW_OK;
-    }
+    if (converged(s, stage, newton, report, share)) return SW_OK;
   }
   return sw_fail(err, SW_ENOCONV, "no convergence in %d iterations", newton->max_iterations);
+}
+
+/* The report is of the body that took longest; an evaluation is one of all bodies. */
+static sw_status iterate_parts(sw_system *s, const sw_stage *stage, const sw_newton *newton,
+                               sw_stage_report *report, sw_error *err) {
+  sw_status status = SW_OK;
+  const sw_counters before = s->counters;
+  for (size_t b = 0; b < s->body_count && status == SW_OK; b++) {
+    sw_stage_report own = {0};
+    s->part = b, s->part_end = b + 1;
+    if (s->coupling.part) s->coupling.part(s->coupling.user, s);
+    status = iterate(s, stage, newton, &own, err);
+    if (own.iterations > report->iterations) report->iterations = own.iterations;
+    report->rotation = fmax(report->rotation, own.rotation);
+    report->negative += own.negative;
+  }
+  s->part = 0, s->part_end = s->body_count;
+  if (s->coupling.part) s->coupling.part(s->coupling.user, s);
+  s->counters.newton = before.newton + (size_t)report->iterations;
+  s->counters.evaluations = before.evaluations + (size_t)report->iterations;
+  return status;
+}
+
+static sw_status solve(sw_system *s, const sw_stage *stage, const sw_newton *newton,
+                       sw_stage_report *report, sw_error *err) {
+  SW_TRY(begin(s, stage, newton->statics, err));
+  if (sw_parts_any(s, newton))
+    SW_TRY(iterate_parts(s, stage, newton, report, err));
+  else
+    SW_TRY(iterate(s, stage, newton, report, err));
+  finish(s, stage, newton->statics);
+  return SW_OK;
 }
 
 sw_status sw_system_stage(sw_system *s, const sw_stage *stage, const sw_newton *newton,

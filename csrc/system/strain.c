@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/simd.h"
+#include "system/part.h"
 #include "system/pull.h"
 
 sw_status sw_system_add_strains(sw_system *s) {
@@ -106,6 +107,6 @@ void sw_strain_advance(sw_system *s, const sw_body *b) {
 
 void sw_strain_take(sw_system *s, double share) {
   if (!s->strain_past) return;
-  for (size_t e = 0; e < s->edges; e++)
+  for (size_t e = sw_part_edge(s, s->part); e < sw_part_edge(s, s->part_end); e++)
     s->strain_now[e] += share * (s->strain_new[e] - s->strain_now[e]);
 }

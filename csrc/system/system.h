@@ -55,6 +55,7 @@ typedef struct sw_body {
   int needs_velocity;       /* some force depends on it */
   int is_explicit;          /* some force has no stiffness */
   int is_kinked;            /* some force has a history: its stiffness may jump in this step */
+  size_t held;              /* number of its first held node + 1, or 0; as of a stage */
   struct sw_blocks *blocks; /* the matrix of a body whose plan has a web, or NULL */
   size_t *web_slots;        /* where its forces write into it */
   unsigned char *web_fixed; /* (particles) 1: held */
@@ -83,6 +84,7 @@ typedef struct sw_held_node {
   double saved[36]; /* its matrix couplings to the nodes -2 -1 +1 +2 [N/m] */
   sw_vec own_force; /* inertia minus forces before the last solve [N] */
   sw_vec reaction;  /* force on the wire needed to hold it [N] */
+  size_t next;      /* number of its body's next one + 1, or 0; as of a stage */
 } sw_held_node;
 
 typedef struct sw_system sw_system;
@@ -107,6 +109,9 @@ typedef struct sw_coupling {
   sw_status (*place)(void *user, int hold, double time, sw_hold_state *out, sw_error *err);
   /* A stage begins; first: share of the step's first stage in what it begins from [-]. */
   sw_status (*begin_stage)(void *user, sw_system *system, double time, double first, sw_error *err);
+  /* It couples no bodies, and from now on acts on system->part alone; parts come in their order,
+   * each once in a stage, and then all again. NULL: it acts on all together. */
+  void (*part)(void *user, sw_system *system);
   /* Add forces and matrix rows at y to the bodies' fields. */
   sw_status (*eval)(void *user, sw_system *system, double time, double hbar, const double *y,
                     unsigned want, sw_error *err);
@@ -124,7 +129,9 @@ typedef struct sw_coupling {
 
 typedef struct sw_counters {
   size_t newton;      /* matrix solves since start [-] */
+  size_t solves;      /* the same, each body's own [-] */
   size_t evaluations; /* force evaluations since start [-] */
+  size_t looks;       /* at obstacles and lists, by contact that looks for something in them [-] */
 } sw_counters;
 
 /* Of sw_system.rough: in statics, an update so large that it is not made; touches learn from it. */
@@ -136,6 +143,7 @@ struct sw_system {
   size_t freedoms; /* values in each of x, v, a: 3 x nodes + rolls */
   sw_body *bodies;
   size_t body_count;
+  size_t part, part_end; /* the bodies that are solved now: all, or one after another */
   sw_held_node *held;
   size_t held_count;
   double *directors;             /* (holds x 2 x 3) in hold coordinates: arriving, leaving */

@@ -118,14 +118,23 @@ local function table_of(args, what)
   return copy(args)
 end
 
-local function is_taken(data, name)
-  for _, list in ipairs{ data.wires, data.particles, data.obstacles, data.holds, data.grippers,
-    data.fixings } do
-    for _, entry in ipairs(list) do
-      if entry.name == name then return true end
-    end
+-- Lists only grow, or are made anew.
+local listed = setmetatable({}, { __mode = "k" }) -- a list -> { count =, of the entries, names = }
+
+local function is_in(list, name)
+  local known = listed[list]
+  if not known then
+    known = { count = 0, names = {} }
+    listed[list] = known
   end
-  return false
+  for i = known.count + 1, #list do known.names[list[i].name or false] = true end
+  known.count = #list
+  return known.names[name] or false
+end
+
+local function is_taken(data, name)
+  return is_in(data.wires, name) or is_in(data.particles, name) or is_in(data.obstacles, name)
+    or is_in(data.holds, name) or is_in(data.grippers, name) or is_in(data.fixings, name)
 end
 
 --- The name to use: the given one, which must be new, or kind and a number.

@@ -138,6 +138,31 @@ local function points_of(args)
   return list
 end
 
+-- The middle of a wire's points and how far they are from it.
+local function ball(wire)
+  if wire.middle then return wire.middle, wire.reach end
+  local low, high, far = { 1 / 0, 1 / 0, 1 / 0 }, { -1 / 0, -1 / 0, -1 / 0 }, 0
+  for _, p in ipairs(wire.points) do
+    local here = { p[1] or p.x, p[2] or p.y, p[3] or p.z }
+    for k = 1, 3 do low[k], high[k] = math.min(low[k], here[k]), math.max(high[k], here[k]) end
+  end
+  wire.middle = { 0.5 * (low[1] + high[1]), 0.5 * (low[2] + high[2]), 0.5 * (low[3] + high[3]) }
+  for _, p in ipairs(wire.points) do
+    far = math.max(far, vec.norm(vec.sub({ p[1] or p.x, p[2] or p.y, p[3] or p.z }, wire.middle)))
+  end
+  wire.reach = far
+  return wire.middle, wire.reach
+end
+
+-- A wire so far from an obstacle has no point inside of it. What is inside of an open mesh may be
+-- as near as it likes to what is outside.
+local function is_far(wire, shape, at, back)
+  if shape:kind() == "mesh" or #wire.points == 0 then return false end
+  local middle, reach = ball(wire)
+  local gap = shape:distance(vec.rotate(back, vec.sub(middle, at)))
+  return gap and gap > reach + DEEP * wire.radius
+end
+
 -- The same with points between the ends.
 local function along(wire)
   if not wire.straight or #wire.points ~= 2 then return wire.points end
@@ -154,9 +179,17 @@ local function look(wire, obstacle)
   if not core.exists(obstacle.object) or not obstacle.object.present then return end
   local at, q = obstacle.object:pose()
   local back, shape = vec.conjugate(q), obstacle.object.shape
+  if is_far(wire, shape, at, back) then return end
+  local x, y, z, clear = 0, 0, 0, -1 -- nothing is nearer to this point than that
   for i, p in ipairs(along(wire)) do
     local here = { p[1] or p.x, p[2] or p.y, p[3] or p.z }
-    local gap = shape:distance(vec.rotate(back, vec.sub(here, at)))
+    local dx, dy, dz = here[1] - x, here[2] - y, here[3] - z
+    local skip = clear > 0 and dx * dx + dy * dy + dz * dz < clear * clear
+    local gap = not skip and shape:distance(vec.rotate(back, vec.sub(here, at)))
+    if gap then
+      x, y, z = here[1], here[2], here[3]
+      clear = shape:kind() == "mesh" and -1 or gap - DEEP * wire.radius
+    end
     if gap and gap < DEEP * wire.radius then
       return tell("inside", ("wire '%s' begins inside of '%s': it reaches %.4g mm into it at "
         .. "(%.4g, %.4g, %.4g) m, %s"):format(wire.name, obstacle.name,

@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Touches of an iterate and of the one before it, of all bodies or of those that are solved now. In
+ * a stage that is solved by parts, touches of parts that are done stay in the list, those of the
+ * part at hand are its tail; the list of the ones before begins with those of the stage before. */
+#include <string.h>
+
+#include "base/alloc.h"
+#include "contact/touch.h"
+
+/* Candidates from first to end find their touches of the iterate before, from number i on: both
+ * are in the same order. Returns the number of the first one that is left. */
+static size_t match(sw_contact *c, size_t first, size_t end, size_t i) {
+  for (size_t n = first; n < end; n++) {
+    sw_candidate *k = &c->candidates[n];
+    k->last = i;
+    while (i < c->last_count && c->last[i].node == k->node && c->last[i].obstacle == k->obstacle &&
+           c->last[i].segment == k->segment)
+      i++;
+    k->last_end = i;
+  }
+  return i;
+}
+
+static void swap_lists(sw_contact *c) {
+  sw_touch *list = c->last;
+  const size_t capacity = c->last_capacity;
+  c->last = c->touches, c->last_capacity = c->touch_capacity, c->last_count = c->touch_count;
+  c->touches = list, c->touch_capacity = capacity, c->touch_count = 0;
+}
+
+void sw_contact_part(void *contact, sw_system *s) {
+  sw_contact *c = contact;
+  if (s->part_end - s->part == s->body_count) {
+    c->parts = (sw_contact_parts){.on = 0};
+    return;
+  }
+  if (!c->parts.on) {
+    swap_lists(c);
+    c->parts = (sw_contact_parts){.on = 1, .before = c->last_count};
+  }
+  sw_contact_parts *p = &c->parts;
+  p->first = p->end;
+  while (p->end < c->candidate_count && c->candidates[p->end].body < s->part_end) p->end++;
+  p->touch = c->touch_count;
+  p->matched = match(c, p->first, p->end, p->matched);
+  p->begun = 0;
+  c->pressed_before = c->pressed_count;
+  c->updates = c->looked = 0;
+}
+
+/* The touches of the part at hand become those of the iterate before. */
+static sw_status turn_tail_over(sw_contact *c) {
+  const size_t count = c->touch_count - c->parts.touch, at = c->parts.before;
+  SW_TRY(sw_grow((void **)&c->last, &c->last_capacity, at + count, sizeof *c->last));
+  memcpy(c->last + at, c->touches + c->parts.touch, count * sizeof *c->last);
+  c->last_count = at + count;
+  c->touch_count = c->parts.touch;
+  (void)match(c, c->parts.first, c->parts.end, at);
+  return SW_OK;
+}
+
+sw_status sw_contact_turn_over(sw_contact *c, size_t *first, size_t *end) {
+  *first = c->parts.on ? c->parts.first : 0;
+  *end = c->parts.on ? c->parts.end : c->candidate_count;
+  if (!c->parts.on) {
+    swap_lists(c);
+    (void)match(c, 0, c->candidate_count, 0);
+    return SW_OK;
+  }
+  if (c->parts.begun) return turn_tail_over(c);
+  c->parts.begun = 1;
+  return SW_OK;
+}
