@@ -4,7 +4,7 @@ local core = require "softworld.core"
 
 local R, RADIUS, IN = 0.05, 0.0005, 1 -- cylinder [m], wire [m], pull at the start [N]
 
--- Ratio of the pulls at both ends while the wire slides.
+-- Ratio of the pulls at both ends while the wire slides, and the share by which it swings.
 local function capstan(mu, degrees)
   local angle, path = math.rad(degrees), {}
   local Rw = R + RADIUS
@@ -29,13 +29,14 @@ local function capstan(mu, degrees)
   s:advance({ dt = 0.002 }, 0.2)
   c:follow{ points = { { 0, 0, 0 }, { 0.02 * u[1], 0, 0.02 * u[3] } }, relative = true, speed = 0.02,
     law = "linear" }
-  local sum, n = 0, 0
+  local sum, n, least, most = 0, 0, math.huge, 0
   for i = 1, 20 do -- a mean over the slide's last part
     assert.is_true(s:advance({ dt = 0.002 }, 0.6 + 0.01 * i).ok)
     local f = c:force()
-    sum, n = sum + (f[1] ^ 2 + f[3] ^ 2) ^ 0.5, n + 1
+    local pull = (f[1] ^ 2 + f[3] ^ 2) ^ 0.5
+    sum, n, least, most = sum + pull, n + 1, math.min(least, pull), math.max(most, pull)
   end
-  return sum / n / IN
+  return sum / n / IN, (most - least) * n / sum
 end
 
 describe("a wire over a cylinder", function()
@@ -46,4 +47,9 @@ describe("a wire over a cylinder", function()
         assert.is_true(math.abs(ratio / theory - 1) < 0.02, ratio .. " instead of " .. theory)
       end)
   end
+
+  it("draws steadily", function()
+    local _, swing = capstan(0.3, 90)
+    assert.is_true(swing < 0.04, swing) -- 0.02 measured
+  end)
 end)
