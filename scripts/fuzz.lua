@@ -104,6 +104,7 @@ end
 
 -- What happened without numbers and names, to tell findings apart.
 local function signature(text)
+  text = text:gsub(", in: .*", "")
   local inside = text:match "placed in the library: .-softworld/([%w_/]+%.lua:%d+)"
   if inside then return "error placed in the library: " .. inside end
   text = text:gsub("'[^']*'", "'*'"):gsub("\"[^\"]*\"", "'*'"):gsub("v%[%d+%]", "v"):gsub("0x%x+", "#")

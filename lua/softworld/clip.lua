@@ -15,6 +15,7 @@ local core = require "softworld.core"
 local build = require "softworld.build"
 local fixing = require "softworld.fixing"
 local remarks = require "softworld.remarks"
+local sealed = require "softworld.sealed"
 local vec = require "softworld.vec"
 local fixshape = require "softworld.fixshape"
 
@@ -91,10 +92,10 @@ local function make(scene, given)
   args.name, args.snap, args.kind = nil, nil, "clip"
   local force = scene:force(args)
   force:call_it(name)
-  local self = setmetatable({ name = name, scene = scene, object = force, at = args.at,
+  local self = sealed.new(Clip, { name = name, scene = scene, object = force, at = args.at,
     damper = make_damper(scene, args, time, force), direction = args.direction, axis = args.axis,
     width = args.width, on = args.on, radius = args.radius, insertion = args.insertion,
-    retention = args.retention }, Clip)
+    retention = args.retention })
   fixing.keep(scene, self)
   return self
 end

@@ -206,6 +206,9 @@ local function wait_for_jaws(self, p, order)
   local state, crushed
   local least = self.wire and CRUSHED * 2 * self.wire.radius or 0
   local function done()
+    if not self.tool then -- a snapshot was restored
+      error(("gripper '%s': its pads went while it was waiting for them"):format(self.name), 0)
+    end
     state = self.tool:state()
     crushed = order.force and state.squeeze > 0 and state.opening < least
     return crushed or state.jaws ~= "moves"

@@ -2,6 +2,7 @@
 --- The energy ledger of a run: what came in, what is there, what was lost, what nobody explains.
 -- @module softworld.ledger
 local core = require "softworld.core"
+local build = require "softworld.build"
 local breaking = require "softworld.breaking"
 local number = require "softworld.output.number"
 
@@ -55,7 +56,7 @@ function ledger.close(run)
   local scene = run.scene
   if run.ok then
     local fine, why = core.end_run(scene)
-    if fine then breaking.look(scene) else run.ok, run.reason = false, why end
+    if fine then build.call(3, breaking.look, scene) else run.ok, run.reason = false, why end
   end
   run.events = scene:events()
   run.books = setmetatable(core.ledger(scene), Ledger)
