@@ -4,6 +4,7 @@
 local sw = require "softworld"
 local calls = require "fuzz.calls"
 local checked = require "fuzz.checked"
+local scenes = require "fuzz.scenes"
 local words = require "fuzz.words"
 
 local case = {}
@@ -21,6 +22,7 @@ local function add(self, text)
   if n and self.case.v[n] ~= nil then
     local kind = checked.kind_of(self.case.v[n])
     if kind then
+      if package.loaded["fuzz.reach"] then package.loaded["fuzz.reach"].object(self.case.v[n], kind) end
       self.kinds[n] = kind
       self.of_kind[kind] = self.of_kind[kind] or {}
       table.insert(self.of_kind[kind], n)
@@ -43,13 +45,22 @@ local function slot(self)
   return self.last_slot
 end
 
+-- Slots of things that are there; a few that are not any more stay in it.
+local function live(self, list)
+  local there = {}
+  for _, n in ipairs(list or {}) do
+    if self.case.v[n] ~= nil or n % 20 == 0 then there[#there + 1] = n end
+  end
+  return there
+end
+
 local function pick(self, kind)
   local r = self.r
   if kind == "any" or r.chance(0.1 * r.hostility) then
     if #self.slots == 0 then return "nil" end
     return ("v[%d]"):format(r.of(self.slots))
   end
-  local list = self.of_kind[kind]
+  local list = live(self, self.of_kind[kind])
   if not list or #list == 0 then return "nil" end
   return ("v[%d]"):format(list[r.chance(0.5) and #list or r.whole(1, #list)])
 end
@@ -108,7 +119,31 @@ local function statement(self, depth)
   return use(self, r.of(self.slots)) or "coroutine.yield(1)"
 end
 
+-- What a process engineer would write, on one gripper and wire.
+local function sequence(self)
+  local r, g, w = self.r, pick(self, "gripper"), pick(self, "wire")
+  local lines = { ("v[%d] = %s:process(function(p)"):format(slot(self), pick(self, "scene")) }
+  local function line(text)
+    lines[#lines + 1] = r.chance(0.8) and ("  try(function() %s end)"):format(text) or "  " .. text
+  end
+  local function does(name, first)
+    line(("%s:%s(%s)"):format(g, name, first or calls.arguments(r, "gripper." .. name)))
+  end
+  if r.chance(0.3) then does("approach", ("%s, { s = %s }"):format(w, r.between(0, 0.2))) end
+  does "grasp"
+  for _ = 1, r.whole(1, 4) do
+    does(r.of{ "move", "move", "rotate", "press", "wait", "close_jaws", "open_jaws", "freeze", "thaw", "clip",
+      "handover", "move_to", "state", "squeeze", "pressure_map", "over" })
+    if r.chance(0.2) then line(("v[%d] = %s:snapshot()"):format(slot(self), pick(self, "scene"))) end
+  end
+  does("release", r.of{ "", "", "{ speed = 0.1 }" })
+  if r.chance(0.5) then does "retreat" end
+  lines[#lines + 1] = "end)"
+  return table.concat(lines, "\n")
+end
+
 local function process(self)
+  if self.of_kind.gripper and self.r.chance(0.5) then return sequence(self) end
   local lines = { ("v[%d] = %s:process(function(p)"):format(slot(self), pick(self, "scene")) }
   for _ = 1, self.r.whole(1, 7) do
     local text = statement(self, 0)
@@ -161,8 +196,8 @@ local function step(self)
   if what <= 10 then
     return ("v[%d].%s = %s"):format(r.of(self.slots), r.of(words.names), words.value(r, r.of(words.names)))
   end
-  local list = what <= 60 and self.of_kind.scene or self.slots -- scenes are where all else comes from
-  local n = list and list[r.whole(1, #list)] or r.of(self.slots)
+  local list = live(self, what <= 55 and self.of_kind.scene or self.slots) -- scenes are where all comes from
+  local n = #list > 0 and r.of(list) or r.of(self.slots)
   local text, call = use(self, n)
   self.last = call
   if not text then return process(self) end
@@ -175,17 +210,36 @@ local function step(self)
   return "return " .. text
 end
 
+-- One of the numbers of a call replaced by something hostile.
+local function spoilt(r, text)
+  local places = {}
+  for from, to in text:gmatch "= ()%-?%d[%d%.e%-]*()" do places[#places + 1] = { from, to } end
+  if #places == 0 then return text end
+  local at = r.of(places)
+  return text:sub(1, at[1] - 1) .. words.hostile(r) .. text:sub(at[2])
+end
+
 -- A scene with a wire, so that most calls have something to work on.
 local function begin(self)
-  local r, n = self.r, slot(self)
+  local r = self.r
+  if r.chance(0.8) then
+    r.of(scenes.list)(function(text)
+      local n = slot(self)
+      if r.chance(2 * r.hostility) then text = spoilt(r, text) end
+      add(self, ("v[%d] = %s"):format(n, text))
+      return ("v[%d]"):format(n)
+    end, r)
+    return
+  end
+  local n = slot(self)
   add(self, ("v[%d] = sw.scene(%s)"):format(n, r.chance(0.7) and "{}" or calls.arguments(r, "sw.scene")))
   for _ = 1, r.whole(1, 2) do
-    add(self, ("v[%d] = v[1]:wire(%s)"):format(slot(self), calls.arguments(r, "scene.wire")))
+    add(self, ("v[%d] = v[%d]:wire(%s)"):format(slot(self), n, calls.arguments(r, "scene.wire")))
   end
   if r.chance(0.5) then add(self,
-    ("v[%d] = v[1]:obstacle{ shape = 'plane', friction = 0.3 }"):format(slot(self))) end
-  if r.chance(0.6) then add(self, ("v[%d] = v[1]:gripper{}"):format(slot(self))) end
-  if r.chance(0.5) then add(self, ("v[%d] = v[1]:clamp(v[2], { s = 0 })"):format(slot(self))) end
+    ("v[%d] = v[%d]:obstacle{ shape = 'plane', friction = 0.3 }"):format(slot(self), n)) end
+  if r.chance(0.6) then add(self, ("v[%d] = v[%d]:gripper{}"):format(slot(self), n)) end
+  if r.chance(0.5) then add(self, ("v[%d] = v[%d]:clamp(%s, { s = 0 })"):format(slot(self), n, pick(self, "wire"))) end
 end
 
 --- Make up and do `count` calls. options: files (folder), log(text) before each call, report(kind,
@@ -201,7 +255,7 @@ function case.run(seed, count, options)
   draw.hostility = draw.of{ 0, 0.01, 0.03, 0.08, 0.25 }
   begin(self)
   while self.made < count do
-    add(self, step(self))
+    if #live(self, self.of_kind.scene) == 0 or self.r.chance(0.01) then begin(self) else add(self, step(self)) end
   end
   self.case:finish()
   return self.made

@@ -98,7 +98,7 @@ local no_reading = { close = true, release = true, remove = true, restore = true
     force_limit = true,
   calibration = true, triangles = true, cable = true, pressure_map = true, frame = true, names = true,
   jaws = true, scene = true, evaluate = true, resume = true, clip = true, watch = true, log = true,
-    document = true }
+    document = true, wire_contact = true, summary = true, wait = true, retreat = true }
 
 local of_body = { wire = true, particles = true }
 

@@ -98,7 +98,7 @@ local by_name = {
   ends = function(r) return list_of(r, 2, function() return ("{ %s, s = %s }"):format(r.pick "wire",
     r.of{ "0", "0.1", r.between(0, 0.5) }) end) end,
   name = function(r) return r.of{ "'a'", "'b'", "'c d'", "'%d'", "'\"q'", "'../x'" } end,
-  cable = function(r) return r.of{ "'GXL 1.5'", "'H07V-K 1'", "'gxl'", "'FLRY-B 0.5'",
+  cable = function(r) return r.of{ "'GXL 1.5'", "'H07V-K 1.5'", "'gxl'", "'FLRY-B 0.5'",
     "sw.cable 'GXL 0.5'" } end,
   stiffness = function(r) return r.chance(0.5) and r.size(-1, 4) or r.of{ "'slip'", "'stick'",
     "'default'" } end,
