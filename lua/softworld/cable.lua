@@ -242,7 +242,8 @@ local function read_bend(name, given, entry)
   for _, use in ipairs(bendrule.uses) do
     local factor = given[use]
     if factor ~= nil and not (is_number(factor) and factor > 0) then
-      fail(name, "bend: %s must be a multiple of the outer diameter above 0, got %s", use, checks.shown(factor))
+      fail(name, "bend: %s must be a multiple of the outer diameter above 0, got %s", use,
+        checks.shown(factor))
     end
     bend[use], count = factor, count + (factor and 1 or 0)
   end

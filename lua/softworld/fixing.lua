@@ -93,8 +93,8 @@ function fixing.class(kind, properties, own)
   for _, name in ipairs(own or {}) do known[name] = true end
   sealed.class(class)
   function class.__index(self, key)
-    local own = rawget(sealed.fields(self), key)
-    if own ~= nil then return own end
+    local field = rawget(sealed.fields(self), key)
+    if field ~= nil then return field end
     if properties[key] then return build.call(3, properties[key], self) end
     local value = class[key]
     if value ~= nil or known[key] then return value end

@@ -295,7 +295,9 @@ local by_call = {
   ["tool.freeze"] = function(r) return r.pick "wire" end,
   ["tool.watch"] = function(r) return words.or_hostile(r, "1e-4") .. ", " .. r.of{ "true", "false" } end,
   ["shape.distance"] = function(r) return words.vector(r) .. r.of{ "", ", 0.5" } end,
-  ["shape.segment"] = function(r) return words.vector(r) .. ", " .. words.vector(r) .. r.of{ "", ", 0.5" } end,
+  ["shape.segment"] = function(r)
+    return words.vector(r) .. ", " .. words.vector(r) .. r.of{ "", ", 0.5" }
+  end,
   ["shape.sweep"] = function(r) return ("%s, %s, %s, %s, 0.01"):format(words.vector(r), words.vector(r),
     words.vector(r), words.vector(r)) end,
   ["trajectory.sample"] = function(r) return words.or_hostile(r, tostring(r.whole(1, 30))) end,

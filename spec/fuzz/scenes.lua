@@ -51,8 +51,8 @@ end
 local function clipping(put, r)
   local s = put "sw.scene{}"
   local w = wire(put, s, r, { z = "0.03", text = "" })
-  local clip = put(("%s:clip{ at = { 0.1, 0, 0.02 }, width = 0.01, insertion = %s, retention = 20 }"):format(s,
-    r.between(2, 20)))
+  local clip = put(("%s:clip{ at = { 0.1, 0, 0.02 }, width = 0.01, insertion = %s, retention = 20 }")
+    :format(s, r.between(2, 20)))
   local keeper, guide = put(s .. ":gripper{}"), put(s .. ":gripper{ pads = { width = 0.005 } }")
   process(put, s, ("%s:grasp(%s, { s = 0.19 })"):format(keeper, w),
     ("%s:grasp(%s, { s = 0.11 })"):format(guide, w),
@@ -74,8 +74,8 @@ end
 local function tying(put, r)
   local s = put "sw.scene{}"
   local a = wire(put, s, r)
-  local b = put(("%s:wire{ E = 1e7, density = 1400, radius = 0.003, from = { 0.3, 0, 0.1 }, to = { 0.6, 0, 0.1 "
-    .. "}, segments = 8 }"):format(s))
+  local b = put(("%s:wire{ E = 1e7, density = 1400, radius = 0.003, from = { 0.3, 0, 0.1 }, "
+    .. "to = { 0.6, 0, 0.1 }, segments = 8 }"):format(s))
   put(("%s:clamp(%s, { s = 0 })"):format(s, a))
   put(("%s:pin(%s, { s = 0.2 })"):format(s, b))
   put(("%s:tie(%s, { s = 0.2, to = { 0.2, 0, 0.2 }, strength = %s })"):format(s, a, r.size(-2, 1)))
@@ -142,7 +142,8 @@ local function moving(put, r)
   local o = put(("%s:obstacle{ shape = 'box', size = { 0.05, 0.1, 0.02 }, at = { 0.15, 0, 0.05 }, friction "
     .. "= 0.4 }"):format(s))
   local t = put(("sw.trajectory.new{ points = { { 0, 0, 0 }, { 0.02, 0, 0.02 }, { 0.04, 0.01, 0 } }, "
-    .. "relative = true, speed = %s, law = '%s' }"):format(r.size(-1, 0), r.of{ "linear", "trapezoidal", "minimum-jerk" }))
+    .. "relative = true, speed = %s, law = '%s' }"):format(r.size(-1, 0), r.of{ "linear", "trapezoidal",
+      "minimum-jerk" }))
   put(("%s:follow(%s)"):format(c, t))
   put(("%s:follow(%s)"):format(o, r.of{ "{ points = { { 0, 0, 0 }, { 0, 0, 0.06 } }, relative = true, speed "
     .. "= 0.3 }", "{ func = F.way, duration = 0.1, relative = true }", "{ func = " .. words.callback(r)
@@ -163,7 +164,8 @@ local function saving(put, r)
   local w = wire(put, s, r)
   put(("%s:clamp(%s, { s = 0 })"):format(s, w))
   local g = put(s .. ":gripper{ name = 'hand' }")
-  process(put, s, ("p:step('a', function() %s:grasp(%s, { s = 0.1 }) p:wait(0.02) return 1 end)"):format(g, w),
+  process(put, s, ("p:step('a', function() %s:grasp(%s, { s = 0.1 }) p:wait(0.02) return 1 end)")
+      :format(g, w),
     ("p:step('b', function() %s:move{ by = { 0, 0, 0.01 }, speed = 0.5 } end)"):format(g),
     ("p:step('c', function() %s:release() end)"):format(g))
   put(("%s:run{ save = dir .. '/a.sws', max_steps = %d }"):format(s, r.whole(1, 150)))
@@ -182,7 +184,8 @@ local function resting(put, r)
   put(("%s:clamp(%s, { s = 0 })"):format(s, w))
   put(("%s:obstacle{ shape = 'cylinder', radius = 0.02, length = 0.1, at = { 0.2, 0, -0.05 }, rotation = "
     .. "{ axis = { 1, 0, 0 }, angle = 1.57 } }"):format(s))
-  put(("%s:settle{ max_iterations = 60%s }"):format(s, r.of{ "", "", ", tolerance = { tip = 1e-3 }, levels = 3" }))
+  put(("%s:settle{ max_iterations = 60%s }"):format(s, r.of{ "", "",
+    ", tolerance = { tip = 1e-3 }, levels = 3" }))
   put(w .. ":frequencies{ modes = 2 }")
   put(("%s:run{ duration = 0.05, quasistatic = true, max_steps = %d }"):format(s, r.whole(1, 5)))
   put(("%s:run{ duration = 0.02, tolerance = { ['tip'] = 1e-2 }, levels = 3 }"):format(s))
@@ -190,8 +193,8 @@ end
 
 local function written(put, r)
   local s = put "sw.scene{}"
-  local w = put(("%s:wire{ cable = '%s', from = { 0, 0, 0.1 }, to = { 0.3, 0, 0.1 }, segments = 10 }"):format(s,
-    r.of{ "GXL 1.5", "H07V-K 1.5", "FLRY-B 0.5" }))
+  local w = put(("%s:wire{ cable = '%s', from = { 0, 0, 0.1 }, to = { 0.3, 0, 0.1 }, segments = 10 }")
+    :format(s, r.of{ "GXL 1.5", "H07V-K 1.5", "FLRY-B 0.5" }))
   put(("%s:clamp(%s, { s = 0 })"):format(s, w))
   local result = put(("%s:run{ duration = 0.1, dt = 5e-3, max_steps = 30, frame = 0.02 }"):format(s))
   put(result .. ":save(dir .. '/a.csv')")

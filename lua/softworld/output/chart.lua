@@ -249,7 +249,8 @@ local function check_points(points)
   for i, p in ipairs(points) do
     local function positive(key)
       if not finite(p[key]) or p[key] <= 0 then
-        sink.fail("a chart: point %d: %s = %s cannot stand on a logarithmic axis", i, key, checks.shown(p[key]))
+        sink.fail("a chart: point %d: %s = %s cannot stand on a logarithmic axis", i, key,
+          checks.shown(p[key]))
       end
     end
     positive "x"

@@ -64,7 +64,9 @@ end
 -- Names of tics are formats to gnuplot, unlike all other texts.
 local function tics(names)
   local list = {}
-  for i, name in ipairs(names) do list[i] = gnuplot.quote((checks.shown(name):gsub("%%", "%%%%"))) .. " " .. i end
+  for i, name in ipairs(names) do
+    list[i] = gnuplot.quote((checks.shown(name):gsub("%%", "%%%%"))) .. " " .. i
+  end
   return "(" .. table.concat(list, ", ") .. ")"
 end
 
