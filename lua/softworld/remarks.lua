@@ -202,9 +202,9 @@ function remarks.mesh(wire)
   if not remarks.wanted() or wire.model == "rod" or wire.model == "string" then return end
   local particles = #wire:particles() // 3
   if particles > MANY then
-    tell("mesh", ("wire '%s' as %s has %d particles in %d slices, so steps will be slow; a larger "
-      .. "spacing [m] or remodelling only a region = {s1, s2} [m] of a rod makes fewer"):format(wire.name, wire.model,
-      particles, wire.segments + 1))
+    tell("mesh", ("wire '%s' as %s has %d particles in %d slices, so steps will be slow; a "
+      .. "larger spacing [m], or remodelling only a region = {s1, s2} [m] of a rod, makes fewer")
+      :format(wire.name, wire.model, particles, wire.segments + 1))
   end
 end
 

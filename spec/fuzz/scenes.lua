@@ -23,7 +23,9 @@ local function process(put, s, ...)
   return put(table.concat(lines, "\n"))
 end
 
-local ways = { "", ", approach = 'imposed'", ", approach = 'plates', force = 8, speed = 0.2",
+local ways = { "", ", approach = 'imposed'", ", approach = 'plates', force = 5, speed = 0.1",
+  ", approach = 'plates', force = 20, speed = 0.5", ", approach = 'plates', distance = 0.002, speed = 0.1",
+  ", approach = 'plates', force = 8, speed = 0.2",
   ", approach = 'plates', distance = 0.003, speed = 0.2", ", approach = 'mixed', force = 8, speed = 0.2" }
 
 local function handling(put, r)

@@ -103,8 +103,8 @@ local by_name = {
   stiffness = function(r) return r.chance(0.5) and r.size(-1, 4) or r.of{ "'slip'", "'stick'",
     "'default'" } end,
   use = function(r) return r.of{ "'fixed'", "'movement'", "'load'", "'reeling'" } end,
-  model = function(r) return r.of{ "'rod'", "'rod'", "'rod'", "'string'", "'tube'", "'radial'", "'cubic'",
-    "'composite'" } end,
+  model = function(r) return r.chance(0.85) and r.of{ "'rod'", "'rod'", "'rod'", "'string'" }
+    or r.of{ "'tube'", "'radial'", "'cubic'", "'composite'" } end,
   section = function(r) return r.of{ "'solid'", "'springs'", "'circle'", "'annulus'", "'rectangle'" } end,
   segments = function(r) return tostring(r.whole(1, 24)) end,
   region = function(r) return ("{ %s, %s }"):format(r.between(0, 0.2), r.between(0.1, 0.5)) end,
