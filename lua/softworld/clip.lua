@@ -27,6 +27,8 @@ local known = { name = true, at = true, direction = true, axis = true, width = t
 local EMPTY, INSERTING, SEATED = 0, 1, 2 -- the core's words
 local BROKEN = { "its floor", "a wall", "a wall from outside", [5] = "it within one step" }
 local SNAP = 2e-3 -- [s]
+local STRONGEST = 1e12 -- [N]
+local STEEPEST = 1e6 -- ratio of insertion and retention: flanks of no length have no slope
 local THERE = 0.5 -- share of the clip that a wire in it passes through
 
 local function check_axes(what, args)
@@ -63,6 +65,12 @@ local function checked(scene, args)
   check_axes(what, args)
   for _, name in ipairs{ "insertion", "retention" } do
     fixing.number(what, name, args[name], "N", 0, true)
+  end
+  local larger = math.max(args.insertion, args.retention)
+  if larger > STRONGEST or larger > STEEPEST * math.min(args.insertion, args.retention) then
+    error(("%s: insertion = %g N and retention = %g N are not allowed; they must be at most %g N, and "
+      .. "one at most %g times the other"):format(what, args.insertion, args.retention, STRONGEST,
+      STEEPEST), 0)
   end
   fixing.number(what, "width", args.width, "m", 0, true)
   fixing.number(what, "friction", args.friction, "", 0, false, 0)

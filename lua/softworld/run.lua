@@ -188,7 +188,10 @@ end
 function core.class.scene.run(scene, args)
   build.check(scene, "scene:run", 3)
   if args == nil then args = {} end
-  if checks.kind(args) == "table" then
+  if type(args) == "table" then
+    if checks.kind(args) ~= "table" then
+      error("scene:run takes one table of parameters, got " .. checks.kind(args), 2)
+    end
     local own = {} -- what the table itself has, and nothing that metamethods make up
     for key, value in next, args do own[key] = value end
     args = own

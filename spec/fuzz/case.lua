@@ -86,6 +86,11 @@ local function member_of(self, n)
   return names[#names], true
 end
 
+local function is_thin(wire)
+  local fine, thin = pcall(function() return wire.length > 60 * wire.radius end)
+  return not fine or thin
+end
+
 -- One call or reading of an object, and its "kind.name".
 local function use(self, n)
   local name, method = member_of(self, n)
@@ -93,6 +98,10 @@ local function use(self, n)
   if not method then return ("v[%d].%s"):format(n, name), call end
   if call == "scene.process" then return nil, call end
   local arguments = calls.arguments(self.r, call, self.learned[call])
+  if name == "remodel" and is_thin(self.case.v[n]) then -- tens of thousands of particles
+    arguments = self.r.of{ "{ model = 'string' }", "{ model = 'rod' }",
+      "{ model = 'tube', region = { 0.1, 0.12 } }", "{ model = 'radial', region = { 0, 0.02 } }" }
+  end
   if self.r.chance(0.02 * self.r.hostility) then return ("v[%d].%s(%s)"):format(n, name, arguments), call end
   return ("v[%d]:%s(%s)"):format(n, name, arguments), call
 end
@@ -119,10 +128,28 @@ local function statement(self, depth)
   return use(self, r.of(self.slots)) or "coroutine.yield(1)"
 end
 
+-- The scene of a gripper, and a wire of it, if there are such.
+local function of_one_scene(self, gripper)
+  local g = self.case.v[tonumber(gripper:match "%d+" or 0)]
+  local fine, scene = pcall(function() return g.scene end)
+  if not fine then return pick(self, "scene"), pick(self, "wire") end
+  local function slot_of(list, is)
+    for _, n in ipairs(list or {}) do
+      if self.case.v[n] ~= nil and is(self.case.v[n]) then return ("v[%d]"):format(n) end
+    end
+  end
+  return slot_of(self.of_kind.scene, function(s) return s == scene end) or pick(self, "scene"),
+    slot_of(self.of_kind.wire, function(w) return select(4, sw.core.number(w)) == scene end)
+      or pick(self, "wire")
+end
+
 -- What a process engineer would write, on one gripper and wire.
 local function sequence(self)
-  local r, g, w = self.r, pick(self, "gripper"), pick(self, "wire")
-  local lines = { ("v[%d] = %s:process(function(p)"):format(slot(self), pick(self, "scene")) }
+  local r, g = self.r, pick(self, "gripper")
+  local scene, w = of_one_scene(self, g)
+  self.pending = ("v[%d] = %s:run{ dt = %s, max_steps = %d }"):format(slot(self), scene, r.of{ "4e-3", "0.01",
+    "1e-3" }, r.whole(10, 150))
+  local lines = { ("v[%d] = %s:process(function(p)"):format(slot(self), scene) }
   local function line(text)
     lines[#lines + 1] = r.chance(0.8) and ("  try(function() %s end)"):format(text) or "  " .. text
   end
@@ -134,7 +161,7 @@ local function sequence(self)
   for _ = 1, r.whole(1, 4) do
     does(r.of{ "move", "move", "rotate", "press", "wait", "close_jaws", "open_jaws", "freeze", "thaw", "clip",
       "handover", "move_to", "state", "squeeze", "pressure_map", "over" })
-    if r.chance(0.2) then line(("v[%d] = %s:snapshot()"):format(slot(self), pick(self, "scene"))) end
+    if r.chance(0.2) then line(("v[%d] = %s:snapshot()"):format(slot(self), scene)) end
   end
   does("release", r.of{ "", "", "{ speed = 0.1 }" })
   if r.chance(0.5) then does "retreat" end
@@ -196,6 +223,11 @@ local function is_heavy(self)
 end
 
 local function step(self)
+  if self.pending then
+    local text = self.pending
+    self.pending = nil
+    return text
+  end
   local r = self.r
   local what = r.whole(1, 100)
   self.last = nil

@@ -50,6 +50,23 @@ local function handling(put, r)
   return table_
 end
 
+local function mixed(put, r)
+  local s = put "sw.scene{}"
+  local w = wire(put, s, r)
+  local g = put(s .. ":gripper{ pads = { width = 0.01, friction = 0.8, opening = 0.01 } }")
+  put(("%s:clamp(%s, { s = 0 })"):format(s, w))
+  process(put, s, ("%s:grasp(%s, { s = 0.1, approach = 'mixed', force = %s, speed = 0.2, spacing = 0.002, "
+    .. "region = 0.02, freeze = %s })"):format(g, w, r.of{ "4", "8" },
+    r.of{ "true", "false" }),
+    r.of{ ("try(function() %s:freeze() end)"):format(g), ("p:wait_until(%s, { timeout = 0.05 })"):format(
+      words.callback(r)), ("v.snapshot = %s:snapshot()"):format(s) },
+    ("try(function() %s:move{ by = { 0, 0, %s }, speed = 0.2 } end)"):format(g, r.between(-0.03, 0.03)),
+    r.of{ ("try(function() %s:thaw() end)"):format(g), ("try(function() %s:pressure_map() end)"):format(g),
+      ("try(function() %s:squeeze() %s:state() end)"):format(g, g) },
+    ("%s:release()"):format(g))
+  put(("%s:run{ dt = 4e-3, max_steps = %d }"):format(s, r.whole(20, 150)))
+end
+
 local function clipping(put, r)
   local s = put "sw.scene{}"
   local w = wire(put, s, r, { z = "0.03", text = "" })
@@ -71,6 +88,7 @@ local function feeding(put, r)
   if r.chance(0.5) then process(put, s, ("p:feed(%s, { length = 0.02, speed = 0.5 })"):format(f)) end
   run(put, s, r)
   put(f .. ":fed()")
+  put(f .. ":drive_force()")
 end
 
 local function tying(put, r)
@@ -86,7 +104,7 @@ local function tying(put, r)
   put(("%s:wire_contact{ friction = 0.3 }"):format(s))
   run(put, s, r)
   put(("%s:force(%d)"):format(j, r.whole(1, 2)))
-  put(j .. ":read()")
+  put(("%s:moment(%d)"):format(j, r.whole(1, 2)))
 end
 
 local function trough(put, r)
@@ -107,8 +125,10 @@ local function meshed(put, r)
   put(("%s:clamp(%s, { s = 0 })"):format(s, w))
   put(("%s:obstacle{ shape = 'plane', friction = 0.3 }"):format(s))
   put(("%s:run{ duration = 0.02, max_steps = 4 }"):format(s))
-  put(w .. ":section(0.05)")
-  put(w .. ":von_mises(0.05)")
+  local section = put(w .. ":section(0.05)")
+  put(section .. ":width({ 0, 0, 1 })")
+  put(section .. ":chart{ path = dir .. '/section.svg' }")
+  put(w .. ":calibration()")
   put(w .. ":contact_pressure()")
 end
 
@@ -190,7 +210,8 @@ local function resting(put, r)
     ", tolerance = { tip = 1e-3 }, levels = 3" }))
   put(w .. ":frequencies{ modes = 2 }")
   put(("%s:run{ duration = 0.05, quasistatic = true, max_steps = %d }"):format(s, r.whole(1, 5)))
-  put(("%s:run{ duration = 0.02, tolerance = { ['tip'] = 1e-2 }, levels = 3 }"):format(s))
+  local result = put(("%s:run{ duration = 0.02, tolerance = { ['tip'] = 1e-2 }, levels = 3 }"):format(s))
+  put(result .. ":error_bars()")
 end
 
 local function written(put, r)
@@ -223,7 +244,7 @@ local function shapes(put, r)
   for _, name in ipairs{ "bounds", "triangles", "kind", "close" } do put(("%s:%s()"):format(s, name)) end
 end
 
-scenes.list = { handling, handling, handling, handling, clipping, feeding, tying, trough, meshed, remodelled,
+scenes.list = { handling, handling, handling, handling, mixed, clipping, feeding, feeding, tying, trough, meshed, remodelled,
   web, moving, moving, saving, resting, written, shapes }
 
 return scenes

@@ -100,6 +100,8 @@ describe("an object in the place of a table of parameters", function()
         spread = 0.1, mass_per_length = o.gripper }
     end)
     assert.truthy(message:find("got gripper", 1, true), message)
+    message = told("run", function() s:run(o.clip) end)
+    assert.truthy(message:find("got clip", 1, true), message)
     message = told("clip", function() s:clip(o.clip) end)
     assert.truthy(message:find("got clip", 1, true), message)
   end)
