@@ -244,7 +244,7 @@ local function shapes(put, r)
   for _, name in ipairs{ "bounds", "triangles", "kind", "close" } do put(("%s:%s()"):format(s, name)) end
 end
 
-scenes.list = { handling, handling, handling, handling, mixed, clipping, feeding, feeding, tying, trough, meshed, remodelled,
-  web, moving, moving, saving, resting, written, shapes }
+scenes.list = { handling, handling, handling, handling, mixed, clipping, feeding, feeding, tying, trough,
+  meshed, remodelled, web, moving, moving, saving, resting, written, shapes }
 
 return scenes
