@@ -385,7 +385,7 @@ end
 
 --- Table of results on the terminal.
 function Run:summary(stream)
-  if stream ~= nil and io.type(stream) ~= "file" and not (type(stream) == "table" and stream.write) then
+  if stream ~= nil and io.type(stream) ~= "file" and type(checks.field(stream, "write")) ~= "function" then
     error("run:summary: an open file is wanted, got " .. (io.type(stream) or type(stream)), 2)
   end
   require("softworld.output.summary").print(self:document(), stream or io.stdout)

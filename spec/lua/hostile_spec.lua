@@ -152,6 +152,50 @@ describe("fields of objects", function()
   end)
 end)
 
+describe("a gripper that two processes use", function()
+  local function shared(approach, between)
+    local o = built()
+    local s = o.scene
+    s:clamp(o.wire, { s = 0.25 })
+    local g = s:gripper{ pads = { width = 0.01, opening = 0.008 } }
+    local results = {}
+    s:process(function(p)
+      local how = { s = 0.1, approach = approach, force = 3, speed = 0.1 }
+      if approach == "mixed" then how.freeze, how.spacing, how.region = false, 0.002, 0.02 end
+      g:grasp(o.wire, how)
+      results.grasped = true
+      results[1] = table.pack(pcall(g.release, g, { speed = 0.05 }))
+      p:wait(0.01)
+    end)
+    s:process(function(p)
+      p:wait_until(function() return results.grasped end, { timeout = 2 })
+      results[2] = table.pack(pcall(between, g, p))
+    end)
+    local run = s:run{ dt = 2e-3 }
+    assert.is_true(run.ok, run.reason)
+    return g, results
+  end
+
+  for _, approach in ipairs{ "plates", "mixed" } do
+    it("may be let go by either: " .. approach, function()
+      local g, results = shared(approach, function(g) g:release{ speed = 0.1 } end)
+      for _, result in ipairs(results) do
+        assert.is_true(result[1] or type(result[2]) == "string"
+          and not result[2]:find("attempt to", 1, true), tostring(result[2]))
+      end
+      assert.is_nil(g.wire)
+    end)
+  end
+end)
+
+describe("a stream for the summary", function()
+  it("must be able to write", function()
+    local run = built().run
+    told("a text", function() run:summary(setmetatable({}, { __index = function() return "a" end })) end)
+    told("raises", function() run:summary(setmetatable({}, { __index = raises })) end)
+  end)
+end)
+
 describe("numbers of the core's own functions", function()
   it("that are not whole are told as what they are", function()
     assert.truthy(told("sparse", core.sparse, 0.5):find("must be an integer", 1, true))
