@@ -10,6 +10,7 @@ usage: build/softworld scripts/fuzz.lua [option=value ...]
   out=FOLDER     where failing cases are written (default: out/fuzz)
   replay=FILE    do the calls of a file again and tell what is found
   shrink=0       leave failing cases as long as they are
+  reach=1        tell in the end how often each method was called, and how often without an error
 Every case runs in a process of its own. A failing one is made shorter by leaving out calls, and
 printed. The last line is "N calls, M findings"; the exit status is 1 when there are any.]]
 
@@ -79,8 +80,11 @@ local function child(files)
     write_to(found, kind, " ", (text:gsub("[\r\n]", " ")), "\n")
     flush(found)
   end
+  local reach = options.reach and require "fuzz.reach"
+  if reach then reach.begin() end
   if options.replay then case.replay(from_text(read(options.replay)), doing)
   else case.run(options.seed, options.per, doing) end
+  if reach then write(files .. "/reach", reach.text()) end
   write_to(found, "end\n")
   flush(found)
   -- libraries' own checks at the end of the program see what is left
@@ -104,6 +108,7 @@ end
 
 -- What happened without numbers and names, to tell findings apart.
 local function signature(text)
+  text = text:gsub(", in: .*", "")
   local inside = text:match "placed in the library: .-softworld/([%w_/]+%.lua:%d+)"
   if inside then return "error placed in the library: " .. inside end
   text = text:gsub("'[^']*'", "'*'"):gsub("\"[^\"]*\"", "'*'"):gsub("v%[%d+%]", "v"):gsub("0x%x+", "#")
@@ -124,10 +129,10 @@ end
 local function run(words, cpu)
   empty(place)
   lfs.mkdir(place .. "/tmp")
-  local command = "ulimit -t %d; cd %s && exec %s %s child=%s slow=%s %s >%s 2>&1 </dev/null"
+  local command = "ulimit -t %d; cd %s && exec %s %s child=%s slow=%s %s %s >%s 2>&1 </dev/null"
   local _, why, code = os.execute(command:format(
     cpu or options.cpu, quote(place .. "/tmp"), quote(program), quote(this), quote(place), options.slow,
-      words,
+    options.reach and "reach=1" or "", words,
     quote(place .. "/out")))
   local findings, ended = {}, false
   for line in read(place .. "/found"):gmatch "[^\n]+" do
@@ -210,7 +215,7 @@ local function tell(number, seed, finding, calls)
 end
 
 local function hunt()
-  local seen, count, done, seed = {}, 0, 0, options.seed
+  local seen, count, done, seed, reached = {}, 0, 0, options.seed, {}
   while done < options.calls do
     local findings, calls = run(("seed=%d per=%d"):format(seed, options.per))
     done = done + #calls
@@ -223,8 +228,10 @@ local function hunt()
         tell(count, seed, finding, short)
       end
     end
+    if options.reach then require "fuzz.reach".add(reached, read(place .. "/reach")) end
     seed = seed + 1
   end
+  if options.reach then print(require "fuzz.reach".list(reached)) end
   print(("%d calls, %d findings"):format(done, count))
   return count == 0
 end

@@ -104,7 +104,8 @@ static void read_value(lua_State *L, const char *object, const sw_param *row, vo
 static void read_key(lua_State *L, const char *object, const lsw_section *sections, int count) {
   const int top = lua_gettop(L);
   if (lua_type(L, -2) != LUA_TSTRING) {
-    const char *shown = luaL_tolstring(L, -2, NULL);
+    const int plain = lua_type(L, -2) == LUA_TNUMBER || lua_type(L, -2) == LUA_TBOOLEAN;
+    const char *shown = plain ? luaL_tolstring(L, -2, NULL) : lsw_describe(L, -2);
     luaL_error(L, "%s: parameters have names; [%s] is not one", object, shown);
   }
   const char *key = lua_tostring(L, -2);

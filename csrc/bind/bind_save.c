@@ -112,7 +112,8 @@ static int mod_number(lua_State *L) {
 static int mod_numbered(lua_State *L) {
   lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
   const char *name = luaL_checkstring(L, 2);
-  const lua_Integer slot = luaL_checkinteger(L, 3), generation = luaL_checkinteger(L, 4);
+  const lua_Integer slot = lsw_integer(L, 3, "numbered: the slot"),
+                    generation = lsw_integer(L, 4, "numbered: the generation");
   for (int k = 0; k < CHILDREN; k++) {
     if (strcmp(children[k]->name, name) != 0) continue;
     lsw_child *child = lsw_new_child(L, 1, children[k]);

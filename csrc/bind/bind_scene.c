@@ -154,7 +154,7 @@ static int mod_remesh(lua_State *L) {
   size_t *segments = lua_newuserdatauv(L, (count + 1) * sizeof *segments, 0);
   for (size_t w = 0; w < count; w++) {
     lua_rawgeti(L, 2, (lua_Integer)w + 1);
-    const lua_Integer n = luaL_checkinteger(L, -1);
+    const lua_Integer n = lsw_integer(L, -1, "remesh: segments");
     segments[w] = n > 0 ? (size_t)n : 0;
     lua_pop(L, 1);
   }

@@ -72,7 +72,7 @@ static int mod_sparse(lua_State *L) {
   sw_error err = {""};
   sw_sparse *s = NULL;
   size_t negative = 0;
-  const size_t b = (size_t)luaL_checkinteger(L, 1);
+  const size_t b = (size_t)lsw_integer(L, 1, "sparse: the size of a block");
   luaL_argcheck(L, b == 3 || b == SW_SPARSE_BLOCK_MAX, 1, "3 or 4");
   for (int k = 2; k <= 5; k++) luaL_checktype(L, k, LUA_TTABLE);
   const size_t n = lua_rawlen(L, 5) / b, pairs = lua_rawlen(L, 3) / 2, bb = b * b;
@@ -104,7 +104,7 @@ static int mod_sparse(lua_State *L) {
 
 static size_t field(lua_State *L, const char *name) {
   lua_getfield(L, 1, name);
-  const lua_Integer value = luaL_optinteger(L, -1, 0);
+  const lua_Integer value = lua_isnil(L, -1) ? 0 : lsw_integer(L, -1, name);
   luaL_argcheck(L, value >= 0, 1, name);
   lua_pop(L, 1);
   return (size_t)value;
@@ -208,8 +208,9 @@ static double seconds(void) {
 static int mod_blocks_time(lua_State *L) {
   sw_error err = {""};
   sw_blocks *b = NULL;
-  const lua_Integer size[3] = {luaL_checkinteger(L, 1), luaL_checkinteger(L, 2),
-                               luaL_checkinteger(L, 3)};
+  const lua_Integer size[3] = {lsw_integer(L, 1, "blocks_time: rings"),
+                               lsw_integer(L, 2, "blocks_time: nodes a ring"),
+                               lsw_integer(L, 3, "blocks_time: repeats")};
   for (int k = 0; k < 3; k++) luaL_argcheck(L, size[k] >= 1 && size[k] <= 100000, k + 1, "range");
   const size_t per_ring = (size_t)size[1], count = 3 * (size_t)size[0] * per_ring;
   double least[2] = {HUGE_VAL, HUGE_VAL}, *x = lua_newuserdatauv(L, count * sizeof *x, 0);

@@ -11,7 +11,7 @@ static int mod_allocated(lua_State *L) {
 }
 
 static int mod_fail_allocation(lua_State *L) {
-  sw_alloc_fail_at((long)luaL_checkinteger(L, 1));
+  sw_alloc_fail_at((long)lsw_integer(L, 1, "fail_allocation: the number"));
   return 0;
 }
 

@@ -45,9 +45,12 @@ typedef struct grid {
   double width; /* of a cell [m] */
 } grid;
 
+/* Of a place that is far away or nowhere too, so that cells beside it have numbers. */
+static int32_t cell_number(double x) { return (int32_t)fmax(-1e9, fmin(1e9, floor(x))); }
+
 static cell cell_of(const grid *g, sw_vec p) {
   const double r = 1.0 / g->width;
-  return (cell){(int32_t)floor(p.x * r), (int32_t)floor(p.y * r), (int32_t)floor(p.z * r)};
+  return (cell){cell_number(p.x * r), cell_number(p.y * r), cell_number(p.z * r)};
 }
 
 static size_t bucket_of(const grid *g, cell c) {

@@ -87,7 +87,7 @@ sw_clip_law sw_clip_law_of(double wire, double seat, double insertion, double re
   const double length = isnan(way) ? USUAL_WAY * wire : way;
   sw_clip_law l;
   l.out = length * insertion / (insertion + retention);
-  l.in = length - l.out;
+  l.in = length * retention / (insertion + retention);
   l.top = 2.0 / PI * retention * l.out;
   l.clearance = isnan(seat) ? 0.0 : fmax(0.0, seat - wire);
   l.k = isnan(stiffness) ? USUAL_STIFFNESS * fmax(insertion, retention) / wire : stiffness;

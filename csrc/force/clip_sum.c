@@ -9,6 +9,21 @@ static const double PI = 3.14159265358979323846;
 enum { FINENESS = 16 };                /* places over the clip's width, at least [-] */
 enum { NEXT = 6, ROW = SW_FIELD_ROW }; /* layout of a node's row */
 
+static const double STEEPEST = 1e6;   /* ratio of both forces, so of the lips' flanks [-] */
+static const double STRONGEST = 1e12; /* [N] */
+
+/* Flanks of no length would have no slope. */
+sw_status sw_clip_check_lips(const sw_clip_args *a, const char *kind, sw_error *err) {
+  const double larger = fmax(a->insertion, a->retention);
+  const double smaller = fmin(a->insertion, a->retention);
+  if (larger > STRONGEST || larger > STEEPEST * smaller)
+    return sw_fail(err, SW_EINVAL,
+                   "force %s: insertion = %g N and retention = %g N are not allowed; they must be "
+                   "at most %g N, and one at most %g times the other",
+                   kind, a->insertion, a->retention, STRONGEST, STEEPEST);
+  return SW_OK;
+}
+
 sw_clip sw_clip_of(const sw_clip_args *a, const sw_beam *beam) {
   sw_clip c = {.at = a->at, .width = a->width, .friction = a->friction};
   c.direction = sw_unit_or(a->direction, sw_v(0, 0, 1));

@@ -107,6 +107,9 @@ typedef struct sw_clip {
   double strongest;                   /* of both forces of the lips [N] */
 } sw_clip;
 
+/* Can lips be made of insertion and retention? kind: of the force, for the error. */
+sw_status sw_clip_check_lips(const sw_clip_args *args, const char *kind, sw_error *err);
+
 sw_clip sw_clip_of(const sw_clip_args *args, const sw_beam *beam);
 
 /* What one edge has of the clip; vectors and matrices in the clip's u, v, a. */

@@ -60,10 +60,16 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   return SW_OK;
 }
 
+static sw_status check(const void *args, const sw_beam *beam, sw_error *err) {
+  (void)beam;
+  return sw_clip_check_lips(&((const snap_args *)args)->clip, "snap", err);
+}
+
 const sw_force_class sw_force_snap = {
     .name = "snap",
     .summary = "what a clip's lips take out of a wire that snaps in; part of scene:clip",
     .flags = SW_FORCE_DISSIPATIVE | SW_FORCE_ANY_BODY | SW_FORCE_FROZEN,
     .params = SW_PARAMS("force snap", rows),
+    .check = check,
     .eval = eval,
 };

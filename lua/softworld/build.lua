@@ -224,7 +224,16 @@ function class.scene.wire(scene, args)
     kept.cable, kept.use = entry, use
   end
   remarks.wire(data, wire, args)
+  remarks.mesh(wire)
   return wire
+end
+
+local remodel = class.wire.remodel
+--- wire:remodel{ model =, ... }: see help "remodel".
+function class.wire.remodel(wire, args)
+  local result = build.call(3, remodel, wire, args)
+  remarks.mesh(wire)
+  return result
 end
 
 local function name_of(wire) return wire.name end

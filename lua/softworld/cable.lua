@@ -68,10 +68,11 @@ local function did_you_mean(word, list)
 end
 
 local function check_keys(name, what, t, known)
+  if checks.kind(t) ~= "table" then fail(name, "%s must be a table, got %s", what, checks.kind(t)) end
   local known_set = set(known)
   for key in pairs(t) do
     if not known_set[key] then
-      fail(name, "%s has no field '%s'; %s", what, tostring(key), did_you_mean(key, known))
+      fail(name, "%s has no field '%s'; %s", what, checks.shown(key), did_you_mean(key, known))
     end
   end
 end
@@ -81,7 +82,7 @@ local function is_number(x) return type(x) == "number" and x - x == 0 end
 local function flag_of(name, key, flag)
   if flag == nil then fail(name, "%s has no flag (%s)", key, table.concat(cable.flags, ", ")) end
   if not set(cable.flags)[flag] then
-    fail(name, "%s: there is no flag '%s'; %s", key, tostring(flag), did_you_mean(flag, cable.flags))
+    fail(name, "%s: there is no flag '%s'; %s", key, checks.shown(flag), did_you_mean(flag, cable.flags))
   end
   return flag
 end
@@ -103,12 +104,12 @@ local function read_quantity(name, spec, given, entry)
   end
   check_keys(name, key, given, { "value", "low", "high", "spread", "unit", "flag", "source" })
   if given.unit ~= nil and given.unit ~= unit then
-    fail(name, "%s is in %s, not in %s", key, unit, tostring(given.unit))
+    fail(name, "%s is in %s, not in %s", key, unit, checks.shown(given.unit))
   end
   local value, spread = given.value, given.spread or entry.spread
   if not is_number(value) then fail(name, "%s: its value [%s] is missing", key, unit) end
   if spread ~= nil and not (is_number(spread) and spread >= 0 and spread < 1) then
-    fail(name, "%s: spread is a share of the value, from 0 to below 1, got %s", key, tostring(spread))
+    fail(name, "%s: spread is a share of the value, from 0 to below 1, got %s", key, checks.shown(spread))
   end
   local low = given.low or spread and value * (1 - spread)
   local high = given.high or spread and value * (1 + spread)
@@ -143,10 +144,10 @@ local function read_construction(name, given, entry, diameter)
   for key, value in pairs(given) do c[key] = value end
   c.source = source_of(name, "construction", c.source or entry.source)
   if math.type(c.strands) ~= "integer" or c.strands < 1 then
-    fail(name, "construction: strands must be a whole number from 1, got %s", tostring(c.strands))
+    fail(name, "construction: strands must be a whole number from 1, got %s", checks.shown(c.strands))
   end
   if not (is_number(c.strand_diameter) and c.strand_diameter > 0) then
-    fail(name, "construction: strand_diameter [m] must be above 0, got %s", tostring(c.strand_diameter))
+    fail(name, "construction: strand_diameter [m] must be above 0, got %s", checks.shown(c.strand_diameter))
   end
   for _, part in ipairs { "conductor", "insulation" } do
     local found, why = material.find(c[part])
@@ -221,7 +222,7 @@ local function read_temperature(name, given, entry)
   local low, high = given.low, given.high
   if not (is_number(low) and is_number(high) and low < high and low > -273.15) then
     fail(name, "temperature: low and high [degC] must be numbers with low below high, got %s and %s",
-      tostring(low), tostring(high))
+      checks.shown(low), checks.shown(high))
   end
   return { low = low, high = high, unit = "degC",
     flag = flag_of(name, "temperature", given.flag or entry.flag),
@@ -243,12 +244,13 @@ local function read_bend(name, given, entry)
   for _, use in ipairs(bendrule.uses) do
     local factor = given[use]
     if factor ~= nil and not (is_number(factor) and factor > 0) then
-      fail(name, "bend: %s must be a multiple of the outer diameter above 0, got %s", use, tostring(factor))
+      fail(name, "bend: %s must be a multiple of the outer diameter above 0, got %s", use,
+        checks.shown(factor))
     end
     bend[use], count = factor, count + (factor and 1 or 0)
   end
   if bend.rule ~= nil and bend.rule ~= "IEC 62440" then
-    fail(name, "bend: there is no rule '%s'; known is IEC 62440", tostring(bend.rule))
+    fail(name, "bend: there is no rule '%s'; known is IEC 62440", checks.shown(bend.rule))
   end
   if not bend.rule and count == 0 then fail(name, "bend says neither a rule nor a multiple") end
   local wrong = bendrule.unknown(bend.use)
@@ -383,7 +385,7 @@ local stiffnesses = { "default", "slip", "stick" }
 local function section(self, stiffness)
   stiffness = stiffness or "default"
   if not set(stiffnesses)[stiffness] then
-    fail(self.name, "there is no stiffness '%s'; %s", tostring(stiffness),
+    fail(self.name, "there is no stiffness '%s'; %s", checks.shown(stiffness),
       did_you_mean(stiffness, stiffnesses))
   end
   local which = stiffness == "default" and "value" or stiffness

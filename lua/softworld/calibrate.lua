@@ -37,6 +37,7 @@
 --       if l.slide then touch(l.from, l.to, l.gap, l.direction) end
 --     end
 -- @module softworld.calibrate
+local checks = require "softworld.checks"
 local core = require "softworld.core"
 local cable = require "softworld.cable"
 
@@ -158,7 +159,7 @@ local function sorted_groups(stiffness)
   local names = {}
   for name in pairs(stiffness) do
     if type(name) ~= "string" then
-      error(("cell: groups of stiffness have names; [%s] is not one"):format(tostring(name)), 0)
+      error(("cell: groups of stiffness have names; [%s] is not one"):format(checks.shown(name)), 0)
     end
     names[#names + 1] = name
   end
@@ -174,7 +175,7 @@ local function flat_links(links, names)
     local group = index[l.group]
     if not group then
       local near = type(l.group) == "string" and core.nearest(l.group, names)
-      error(("cell: link %d: stiffness has no group '%s'%s"):format(i, tostring(l.group),
+      error(("cell: link %d: stiffness has no group '%s'%s"):format(i, checks.shown(l.group),
         near and ("; did you mean '%s'?"):format(near) or ""), 0)
     end
     for k, value in ipairs { number("from of link " .. i, l.from), number("to of link " .. i, l.to),
@@ -215,13 +216,15 @@ end
 local cell_keys = { "spacing", "particles", "links", "stiffness", "elements", "modulus", "nu" }
 
 local function check_cell(args)
-  if type(args) ~= "table" then error("cell takes one table of parameters, got " .. type(args), 0) end
+  if checks.kind(args) ~= "table" then
+    error("cell takes one table of parameters, got " .. checks.kind(args), 0)
+  end
   for key in pairs(args) do
     local known = false
     for _, name in ipairs(cell_keys) do known = known or key == name end
     if not known then
       local near = type(key) == "string" and core.nearest(key, cell_keys)
-      error(("cell: there is no parameter '%s'; %s"):format(tostring(key), near
+      error(("cell: there is no parameter '%s'; %s"):format(checks.shown(key), near
         and ("did you mean '%s'?"):format(near) or "known are: " .. table.concat(cell_keys, " ")), 0)
     end
   end

@@ -13,6 +13,7 @@ local checks = require "softworld.checks"
 local build = require "softworld.build"
 local fixing = require "softworld.fixing"
 local remarks = require "softworld.remarks"
+local sealed = require "softworld.sealed"
 local vec = require "softworld.vec"
 
 local dot, cross, add, unit, norm = vec.dot, vec.cross, vec.add, vec.unit, vec.norm
@@ -161,7 +162,7 @@ local function make(scene, given)
   local parts, cover = trough(what, self), lid(what, self)
   self.parts = raise(self, parts)
   self.object = self.parts[1]
-  setmetatable(self, Channel)
+  self = sealed.new(Channel, self)
   if args.lid then
     local ok, lids = pcall(raise, self, cover, LID)
     if not ok then
@@ -184,7 +185,7 @@ local function stands(obstacle) return core.exists(obstacle) and obstacle.presen
 
 function Channel:exists() return stands(self.object) end
 
-local function is_closed(self) return rawget(self, "lids") ~= nil and stands(self.lids[1]) end
+local function is_closed(self) return self.lids ~= nil and stands(self.lids[1]) end
 
 function properties.closed(self) return is_closed(self) end
 
@@ -276,7 +277,7 @@ function Channel:close()
   if is_closed(self) then return self end
   build.call(3, check_lid, self)
   local parts = build.call(3, lid, "channel", self)
-  local count = (rawget(self, "count") or 0) + 1
+  local count = (self.count or 0) + 1
   for _, part in ipairs(parts) do
     if count > 1 then part[1] = ("%s (%d)"):format(part[1], count) end
   end

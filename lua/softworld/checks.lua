@@ -28,10 +28,17 @@ function checks.set(text)
   return set
 end
 
+--- What a value is: the class of an object, also of one that is a table, else its type.
+function checks.kind(value)
+  local meta = type(value) == "table" and getmetatable(value)
+  local name = type(meta) == "table" and rawget(meta, "__name")
+  return type(name) == "string" and name or core.type(value) or type(value)
+end
+
 --- Raise unless args is a table with keys that are known.
 function checks.keys(what, args, known, level)
-  if type(args) ~= "table" then
-    error(("%s takes one table of parameters, got %s"):format(what, type(args)), level)
+  if checks.kind(args) ~= "table" then
+    error(("%s takes one table of parameters, got %s"):format(what, checks.kind(args)), level)
   end
   for key in pairs(args) do
     if not known[key] then
@@ -50,8 +57,8 @@ function checks.fields(what, fields, may_lack)
   for word in fields:gmatch "%S+" do names[#names + 1] = word end
   return function(_, key)
     if silent[key] then return nil end
-    local near = core.nearest(tostring(key), names)
-    error(("%s has no '%s'; %s"):format(what, tostring(key), near and "did you mean '" .. near .. "'?"
+    local near = core.nearest(shown(key), names)
+    error(("%s has no '%s'; %s"):format(what, shown(key), near and "did you mean '" .. near .. "'?"
       or "it has: " .. table.concat(names, " ")), 2)
   end
 end

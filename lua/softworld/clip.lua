@@ -15,6 +15,7 @@ local core = require "softworld.core"
 local build = require "softworld.build"
 local fixing = require "softworld.fixing"
 local remarks = require "softworld.remarks"
+local sealed = require "softworld.sealed"
 local vec = require "softworld.vec"
 local fixshape = require "softworld.fixshape"
 
@@ -26,6 +27,8 @@ local known = { name = true, at = true, direction = true, axis = true, width = t
 local EMPTY, INSERTING, SEATED = 0, 1, 2 -- the core's words
 local BROKEN = { "its floor", "a wall", "a wall from outside", [5] = "it within one step" }
 local SNAP = 2e-3 -- [s]
+local STRONGEST = 1e12 -- [N]
+local STEEPEST = 1e6 -- ratio of insertion and retention: flanks of no length have no slope
 local THERE = 0.5 -- share of the clip that a wire in it passes through
 
 local function check_axes(what, args)
@@ -63,6 +66,12 @@ local function checked(scene, args)
   for _, name in ipairs{ "insertion", "retention" } do
     fixing.number(what, name, args[name], "N", 0, true)
   end
+  local larger = math.max(args.insertion, args.retention)
+  if larger > STRONGEST or larger > STEEPEST * math.min(args.insertion, args.retention) then
+    error(("%s: insertion = %g N and retention = %g N are not allowed; they must be at most %g N, and "
+      .. "one at most %g times the other"):format(what, args.insertion, args.retention, STRONGEST,
+      STEEPEST), 0)
+  end
   fixing.number(what, "width", args.width, "m", 0, true)
   fixing.number(what, "friction", args.friction, "", 0, false, 0)
   args.snap = fixing.number(what, "snap", args.snap, "s", 0, false, SNAP)
@@ -91,10 +100,10 @@ local function make(scene, given)
   args.name, args.snap, args.kind = nil, nil, "clip"
   local force = scene:force(args)
   force:call_it(name)
-  local self = setmetatable({ name = name, scene = scene, object = force, at = args.at,
+  local self = sealed.new(Clip, { name = name, scene = scene, object = force, at = args.at,
     damper = make_damper(scene, args, time, force), direction = args.direction, axis = args.axis,
     width = args.width, on = args.on, radius = args.radius, insertion = args.insertion,
-    retention = args.retention }, Clip)
+    retention = args.retention })
   fixing.keep(scene, self)
   return self
 end

@@ -20,7 +20,7 @@ local function checked(self, args)
   if getmetatable(args.into) ~= Clip or args.into.scene ~= self.scene or not args.into:exists() then
     error(what .. ": into is required, a clip of the gripper's scene that is still there", 0)
   end
-  if not (self.hold or rawget(self, "wire")) then -- imposed, or between pads
+  if not (self.hold or self.wire) then -- imposed, or between pads
     error(what .. ": it holds nothing; grasp a wire before", 0)
   end
   if not process.current() then

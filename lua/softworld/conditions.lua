@@ -29,7 +29,7 @@ end
 -- Why a gripper that has neither hold nor pads feels nothing, or nil. Its own handler may grasp.
 local function holds_nothing(object)
   if type(object) ~= "table" or object.hold or object.tool or object.on_crash then return nil end
-  return ("gripper '%s' holds nothing"):format(tostring(object.name))
+  return ("gripper '%s' holds nothing"):format(checks.shown(object.name))
 end
 
 -- The force that a gripper or a hold puts on its wire, or wires on an obstacle, is so large.
@@ -73,7 +73,7 @@ local function place_of(what, level)
     check_scene(what, "a place", level + 1)
     return function()
       return what:position() or error(("gripper '%s' is nowhere yet; give it at = {x, y, z} [m], or grasp")
-        :format(tostring(what.name)), 0)
+        :format(checks.shown(what.name)), 0)
     end
   elseif core.type(what) == "obstacle" or core.type(what) == "clamp" then
     check_scene(what, "a place", level + 1)

@@ -4,6 +4,7 @@
 -- numbers have a decimal point, `#` starts a comment line, empty lines count for
 -- nothing, a first row that is no number names the columns.
 -- @module softworld.csv
+local checks = require "softworld.checks"
 local sink = require "softworld.output.sink"
 
 local csv = {}
@@ -164,7 +165,7 @@ local function lines_of(names, columns)
   for i, name in ipairs(names) do
     local column = columns[name]
     if type(column) ~= "table" then
-      error(("csv.write: there is no column '%s'"):format(tostring(name)), 0)
+      error(("csv.write: there is no column '%s'"):format(checks.shown(name)), 0)
     end
     head[i], count = cell_text(name), math.max(count, #column)
   end

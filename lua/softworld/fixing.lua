@@ -6,6 +6,7 @@ local core = require "softworld.core"
 local build = require "softworld.build"
 local checks = require "softworld.checks"
 local keep = require "softworld.keep"
+local sealed = require "softworld.sealed"
 
 local fixing = {}
 
@@ -90,23 +91,26 @@ function fixing.class(kind, properties, own)
   local class = { __name = kind }
   local known = {}
   for _, name in ipairs(own or {}) do known[name] = true end
+  sealed.class(class)
   function class.__index(self, key)
+    local field = rawget(sealed.fields(self), key)
+    if field ~= nil then return field end
     if properties[key] then return build.call(3, properties[key], self) end
     local value = class[key]
     if value ~= nil or known[key] then return value end
     local names = class.__names()
-    local near = core.nearest(tostring(key), names)
-    error(("%s has no '%s'; %s"):format(kind, tostring(key), near and "did you mean '" .. near .. "'?"
+    local near = core.nearest(checks.shown(key), names)
+    error(("%s has no '%s'; %s"):format(kind, checks.shown(key), near and "did you mean '" .. near .. "'?"
       or "it has: " .. table.concat(names, " ")), 2)
   end
   function class.__newindex(self, key, value)
-    if not known[key] then
-      local near = core.nearest(tostring(key), class.__names())
-      error(("%s has no '%s' to set%s"):format(kind, tostring(key),
+    if not sealed.by_library() then
+      local near = core.nearest(checks.shown(key), class.__names())
+      error(("%s has no '%s' to set%s"):format(kind, checks.shown(key),
         near and ("; '%s' can only be read"):format(near)
           or "; what it is like is given when it is made"), 2)
     end
-    rawset(self, key, value)
+    rawset(sealed.fields(self), key, value)
   end
   function class.__names()
     local names = { "name" }

@@ -204,8 +204,12 @@ end
 -- Wait until jaws have done what they were told; raises when they cannot.
 local function wait_for_jaws(self, p, order)
   local state, crushed
-  local least = self.wire and CRUSHED * 2 * self.wire.radius or 0
+  local wire = self.wire -- another process may let go of it meanwhile
+  local least = wire and CRUSHED * 2 * wire.radius or 0
   local function done()
+    if not self.tool then -- a snapshot was restored
+      error(("gripper '%s': its pads went while it was waiting for them"):format(self.name), 0)
+    end
     state = self.tool:state()
     crushed = order.force and state.squeeze > 0 and state.opening < least
     return crushed or state.jaws ~= "moves"
@@ -224,14 +228,14 @@ local function wait_for_jaws(self, p, order)
     note(self, "crushed", { opening = state.opening, squeeze = state.squeeze })
     error(("gripper '%s' crushes the wire: %.3g mm are left of its %.3g mm between the pads, at %.4g N "
       .. "per finger; %s is not reached"):format(self.name, 1e3 * state.opening,
-      2e3 * self.wire.radius, state.squeeze, force), 0)
+      2e3 * wire.radius, state.squeeze, force), 0)
   end
   if state.jaws == "empty" then
     note(self, "missed", {})
     local far = ""
-    if self.wire then
-      local _, d = nearest_place(self.wire, (self.tool:pose()))
-      far = (": wire '%s' is %.3g mm from the tool centre"):format(self.wire.name, 1e3 * d)
+    if wire then
+      local _, d = nearest_place(wire, (self.tool:pose()))
+      far = (": wire '%s' is %.3g mm from the tool centre"):format(wire.name, 1e3 * d)
     end
     error(("gripper '%s' closed on nothing%s"):format(self.name, far), 0)
   end
@@ -532,6 +536,7 @@ function grasp.release(self, args)
   if self.frozen then mixed.thaw(self) end
   self.held = false
   self:open_jaws{ speed = args.speed, distance = args.distance }
+  if not self.wire then return self end -- another process let go meanwhile
   if self.way == "mixed" then mixed.finish(self) end
   self.wire, self.grips = nil, {}
   return self

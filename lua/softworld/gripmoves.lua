@@ -6,6 +6,7 @@ local build = require "softworld.build"
 local checks = require "softworld.checks"
 local grasp = require "softworld.grasp"
 local process = require "softworld.process"
+local sealed = require "softworld.sealed"
 local vec = require "softworld.vec"
 
 local Moves = {}
@@ -14,7 +15,7 @@ local SPEED, SLOW = 0.2, 0.05 -- unless told [m/s]
 local DISTANCE = 0.05 -- [m]
 
 local function this_process(self, verb)
-  if type(self) ~= "table" or not rawget(self, "pads") then
+  if type(self) ~= "table" or not rawget(sealed.fields(self), "pads") then
     error(("gripper:%s is a method: call it with a colon"):format(verb), 3)
   end
   grasp.check_scene(self, 4)

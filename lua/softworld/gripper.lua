@@ -25,10 +25,12 @@ local measures = require "softworld.gripmeasures"
 local pads = require "softworld.pads"
 local process = require "softworld.process"
 local remarks = require "softworld.remarks"
+local sealed = require "softworld.sealed"
 local trajectory = require "softworld.trajectory"
 
 local Gripper = { __name = "gripper" }
 keep.class("gripper", Gripper)
+sealed.class(Gripper)
 local check_keys, vector = checks.keys, checks.vector
 
 for _, part in ipairs{ grasp, measures, gripmoves } do
@@ -66,7 +68,7 @@ function core.class.scene.gripper(scene, args)
   if args.arm ~= nil then pads.check_arm(args.arm, "scene:gripper: arm", 3) end
   local at = args.at ~= nil and vector("scene:gripper: at", args.at, "m", 3) or nil
   local data = build.data(scene)
-  local self = setmetatable({}, Gripper)
+  local self = sealed.new(Gripper)
   self.scene = scene
   self.name = build.name(scene, args.name, "gripper", #data.grippers, 3)
   self.pads, self.width = given, given.width
@@ -309,6 +311,8 @@ local fields = { gone = true, wires = true }
 for _, key in ipairs(remembered) do fields[key] = true end
 
 function Gripper:__index(key)
+  local own = rawget(sealed.fields(self), key)
+  if own ~= nil then return own end
   if shortcuts[key] then return self:over()[key] end
   if key == "wires" then -- that it holds
     local list = {}
@@ -320,25 +324,30 @@ function Gripper:__index(key)
   local names = {}
   for name in pairs(Gripper) do names[#names + 1] = name end
   for name in pairs(shortcuts) do names[#names + 1] = name end
-  local near = core.nearest(tostring(key), names)
-  error(("gripper has no '%s'%s"):format(tostring(key),
+  local near = core.nearest(checks.shown(key), names)
+  error(("gripper has no '%s'%s"):format(checks.shown(key),
     near and ("; did you mean '" .. near .. "'?")
       or "; help 'gripper' at the prompt lists what it has"), 2)
 end
 
-local settable = { scene = true, name = true, pads = true, width = true, at = true, rotation = true,
-  arm = true, slip_tolerance = true, past = true, spans = true, events = true, first_at = true,
-  solid = true, gone = true }
-for _, key in ipairs(remembered) do settable[key] = true end
+-- What scripts may set, with what checks it.
+local settable = {
+  slip_tolerance = function(value) checks.number("gripper.slip_tolerance", value, 0, " m", 4, nil, true) end,
+  on_slip = function(value) grasp.check_reaction("gripper.on_slip", value, 4) end,
+  on_crash = function(value) grasp.check_reaction("gripper.on_crash", value, 4) end,
+}
 
 function Gripper:__newindex(key, value)
-  if not settable[key] then
-    local names = { "slip_tolerance", "on_slip", "on_crash" }
-    local near = core.nearest(tostring(key), names)
-    error(("gripper has no '%s' to set%s"):format(tostring(key),
-      near and ("; did you mean '%s'?"):format(near) or "; what it is like is given to scene:gripper"), 2)
+  if not sealed.by_library() then
+    local check = settable[key]
+    if not check then
+      local near = core.nearest(checks.shown(key), { "slip_tolerance", "on_slip", "on_crash" })
+      error(("gripper has no '%s' to set%s"):format(checks.shown(key),
+        near and ("; did you mean '%s'?"):format(near) or "; what it is like is given to scene:gripper"), 2)
+    end
+    if value ~= nil then check(value) end
   end
-  rawset(self, key, value)
+  rawset(sealed.fields(self), key, value)
 end
 
 for name, value in pairs(Gripper) do

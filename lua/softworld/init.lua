@@ -11,6 +11,7 @@
 --
 -- SI units throughout; sw.units converts. sw.help() lists what there is.
 -- @module softworld
+local checks = require "softworld.checks"
 local core = require "softworld.core"
 local build = require "softworld.build" -- adds to the classes: names, files, drawing data
 local methods = require "softworld.methods"
@@ -65,8 +66,8 @@ local function unknown(self, key)
     for name in pairs(list) do names[#names + 1] = name end
   end
   table.sort(names)
-  local near = core.nearest(tostring(key), names)
-  error(("softworld has no '%s'; %s"):format(tostring(key), near and "did you mean '" .. near .. "'?"
+  local near = core.nearest(checks.shown(key), names)
+  error(("softworld has no '%s'; %s"):format(checks.shown(key), near and "did you mean '" .. near .. "'?"
     or "it has: " .. table.concat(names, " ")), 3)
 end
 

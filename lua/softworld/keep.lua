@@ -9,6 +9,7 @@
 -- kept as they are. Functions cannot be kept.
 -- @module softworld.keep
 local core = require "softworld.core"
+local sealed = require "softworld.sealed"
 
 local keep = {}
 local classes, class_names = {}, {}
@@ -41,6 +42,7 @@ local function sorted_keys(value)
 end
 
 local function write_fields(out, value, path, depth)
+  value = sealed.fields(value)
   for key in next, value do
     if type(key) ~= "string" and type(key) ~= "number" and type(key) ~= "boolean" then
       fail(path, "a table with a key of type " .. type(key))
@@ -53,6 +55,8 @@ local function write_fields(out, value, path, depth)
     write(out, rawget(value, key), ("%s.%s"):format(path, tostring(key)), depth)
   end
 end
+
+local function name_of(value) return tostring(rawget(sealed.fields(value), "name") or "") end
 
 local function write_table(out, value, path, depth)
   local number, class = out.numbers[value], nil
@@ -71,7 +75,7 @@ local function write_table(out, value, path, depth)
       fail(path, type(kind) == "string" and "a " .. kind or "a table with a metatable")
     end
   end
-  out[#out + 1] = class and string.pack("<c1s4s4", "C", class, tostring(rawget(value, "name") or ""))
+  out[#out + 1] = class and string.pack("<c1s4s4", "C", class, name_of(value))
     or "T"
   write_fields(out, value, path, depth + 1)
 end
@@ -172,10 +176,11 @@ local readers = {
     if not classes[class] then
       error(("it has a %s, which this SoftWorld does not know"):format(class), 0)
     end
-    local value = from.instance(class, name) or {}
+    local value = from.instance(class, name) or sealed.another(classes[class]) or {}
     remember(from, value)
-    for key in next, value do rawset(value, key, nil) end
-    read_fields(from, value, depth + 1)
+    local fields = sealed.fields(value)
+    for key in next, fields do rawset(fields, key, nil) end
+    read_fields(from, fields, depth + 1)
     return setmetatable(value, classes[class])
   end,
 }
@@ -208,9 +213,8 @@ function keep.instances(value)
     if seen[t] then return end
     seen[t] = true
     local class = class_names[getmetatable(t)]
-    if class then found[class .. " " .. tostring(rawget(t, "name") or "")] = t end
-    for key in next, t do
-      local v = rawget(t, key)
+    if class then found[class .. " " .. name_of(t)] = t end
+    for _, v in next, sealed.fields(t) do
       if type(v) == "table" then walk(v) end
     end
   end

@@ -50,6 +50,9 @@ function mixed.settle(self, args)
   local last, since, quiet = self.tool:state(), self.scene.time, 0
   local late = since + PATIENCE
   p:wait_until(function()
+    if not self.tool or not self.wire then -- let go by another process, or a snapshot was restored
+      error(("gripper '%s': it let go while its grasp was to come to rest"):format(self.name), 0)
+    end
     local now, t = self.tool:state(), self.scene.time
     if t - since < TIME then return t >= late end
     local f = math.max(now.squeeze, 1e-12)

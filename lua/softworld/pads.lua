@@ -79,7 +79,7 @@ function pads.check(args, what, level)
   p.fingers = args.fingers or 2
   if math.type(p.fingers) ~= "integer" or p.fingers < 1 or p.fingers > 6 then
     error(("%s.fingers = %s is not allowed; it must be an integer from 1 to 6"):format(what,
-      tostring(p.fingers)), level)
+      checks.shown(p.fingers)), level)
   end
   for key in pairs(per_finger) do
     if type(p[key]) == "table" and #p[key] ~= p.fingers then

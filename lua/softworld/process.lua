@@ -17,6 +17,7 @@ local methods = require "softworld.methods"
 local build = require "softworld.build"
 local checks = require "softworld.checks"
 local conditions = require "softworld.conditions"
+local sealed = require "softworld.sealed"
 local waiting = require "softworld.waiting"
 
 local process = {}
@@ -204,19 +205,21 @@ end
 
 --- p.time is that of the scene [s].
 function Process:__index(key)
+  local own = rawget(sealed.fields(self), key)
+  if own ~= nil then return own end
   if key == "time" then return self.scene.time end
   local value = Process[key]
   if value ~= nil or fields[key] then return value end
-  local near = core.nearest(tostring(key), Process.__names())
-  error(("a process has no '%s'; %s"):format(tostring(key), near and "did you mean '" .. near .. "'?"
+  local near = core.nearest(checks.shown(key), Process.__names())
+  error(("a process has no '%s'; %s"):format(checks.shown(key), near and "did you mean '" .. near .. "'?"
     or "help 'process' at the prompt lists what it has"), 2)
 end
 
 function Process:__newindex(key, value)
-  if not fields[key] and key ~= "thread" then
-    error(("a process has no '%s' to set; use a local variable"):format(tostring(key)), 2)
+  if not sealed.by_library() then
+    error(("a process has no '%s' to set; use a local variable"):format(checks.shown(key)), 2)
   end
-  rawset(self, key, value)
+  rawset(sealed.fields(self), key, value)
 end
 
 function Process:__tostring()
@@ -232,8 +235,8 @@ function core.class.scene.process(scene, body)
   end
   local data = build.data(scene)
   data.process_count = (data.process_count or 0) + 1
-  local self = setmetatable({ scene = scene, number = data.process_count, body = body,
-    steps = 0 }, Process)
+  local self = sealed.new(Process, { scene = scene, number = data.process_count, body = body,
+    steps = 0 })
   self.thread = coroutine.create(body)
   if not data.from_file then -- of an earlier process of this number nothing is done
     if data.done then data.done[self.number] = nil end

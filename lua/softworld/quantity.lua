@@ -2,6 +2,7 @@
 --- What an error bar can be asked for: the quantities that objects of a scene have, by
 -- name, and the user's own as functions.
 -- @module softworld.quantity
+local checks = require "softworld.checks"
 local core = require "softworld.core"
 local build = require "softworld.build"
 local window = require "softworld.window"
@@ -141,7 +142,7 @@ local function check_value(what, name, value, unit)
   if type(value) ~= "number" or not (value > 0 and value < math.huge) then
     local is_number = type(value) == "number" and unit ~= ""
     error(("%s: tolerance: %s = %s%s is not allowed; it must be a number above 0%s"):format(what, name,
-      tostring(value), is_number and " " .. unit or "", unit ~= "" and " " .. unit or ""), 0)
+      checks.shown(value), is_number and " " .. unit or "", unit ~= "" and " " .. unit or ""), 0)
   end
 end
 
@@ -151,14 +152,14 @@ local own_names = { "name", "value", "unit", "of", "at" }
 -- The user's own: { name =, value =, unit =, of = function, at = [s] }.
 local function own(what, number, given)
   local label = ("%s: tolerance: quantity %d"):format(what, number)
-  if type(given) ~= "table" then
+  if checks.kind(given) ~= "table" then
     error(("%s must be a table { name =, value =, unit =, of = function }, got %s"):format(label,
-      type(given)), 0)
+      checks.kind(given)), 0)
   end
   for key, value in pairs(given) do
     if not own_keys[key] then
-      local near = core.nearest(tostring(key), own_names)
-      error(("%s: there is no parameter '%s'; %s"):format(label, tostring(key), near
+      local near = core.nearest(checks.shown(key), own_names)
+      error(("%s: there is no parameter '%s'; %s"):format(label, checks.shown(key), near
         and ("did you mean '%s'?"):format(near) or "known are: " .. table.concat(own_names, " ")), 0)
     end
     if type(value) ~= own_keys[key] then
@@ -170,7 +171,7 @@ local function own(what, number, given)
   end
   if given.at and not (given.at >= 0 and given.at < math.huge) then
     error(("%s: at = %s s is not allowed; it must be a time of at least 0 s after the start")
-      :format(label, tostring(given.at)), 0)
+      :format(label, checks.shown(given.at)), 0)
   end
   check_value(what, given.name, given.value, given.unit or "")
   return { name = given.name, unit = given.unit or "", tolerance = given.value, of = given.of,
@@ -187,7 +188,7 @@ function quantity.list(scene, tolerance, what)
     if type(key) == "string" then
       words[#words + 1] = key
     elseif math.type(key) ~= "integer" or key < 1 or key > #tolerance then
-      error(("%s: tolerance: the key %s names no quantity"):format(what, tostring(key)), 0)
+      error(("%s: tolerance: the key %s names no quantity"):format(what, checks.shown(key)), 0)
     else
       list[key] = own(what, key, value)
     end
@@ -229,7 +230,7 @@ function quantity.read(q, start)
   if q.own then value = q.of() else value, s, t, note = q.of(start) end
   if not is_value(value) then
     error(("quantity '%s': its function must return a number or a list of numbers, got %s")
-      :format(q.name, type(value) == "number" and tostring(value) or core.type(value) or type(value)), 0)
+      :format(q.name, type(value) == "number" and checks.shown(value) or core.type(value) or type(value)), 0)
   end
   return { value = value, where = s, when = t, note = note }
 end

@@ -228,6 +228,19 @@ end
 
 local paused = false
 
+local MANY = 10000 -- particles of a wire; a step then takes some tenths of a second
+
+--- A wire that became a mesh: finer than was meant?
+function remarks.mesh(wire)
+  if not remarks.wanted() or wire.model == "rod" or wire.model == "string" then return end
+  local particles = #wire:particles() // 3
+  if particles > MANY then
+    tell("mesh", ("wire '%s' as %s has %d particles in %d slices, so steps will be slow; a "
+      .. "larger spacing [m], or remodelling only a region = {s1, s2} [m] of a rod, makes fewer")
+      :format(wire.name, wire.model, particles, wire.segments + 1))
+  end
+end
+
 --- f(...) without remarks on obstacles that it makes: those of grippers' pads.
 function remarks.without(f, ...)
   paused = true

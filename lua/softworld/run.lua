@@ -188,7 +188,15 @@ end
 function core.class.scene.run(scene, args)
   build.check(scene, "scene:run", 3)
   if args == nil then args = {} end
-  if type(args) == "table" then build.call(3, check_files, scene, args) end
+  if type(args) == "table" then
+    if checks.kind(args) ~= "table" then
+      error("scene:run takes one table of parameters, got " .. checks.kind(args), 2)
+    end
+    local own = {} -- what the table itself has, and nothing that metamethods make up
+    for key, value in next, args do own[key] = value end
+    args = own
+    build.call(3, check_files, scene, args)
+  end
   if trust.wanted(args) then
     local job, steps = build.call(3, refine.job, scene, args, check_start)
     return hide_failure(build.call(3, refine.run, job, steps, run_once))
@@ -377,7 +385,7 @@ end
 
 --- Table of results on the terminal.
 function Run:summary(stream)
-  if stream ~= nil and io.type(stream) ~= "file" and not (type(stream) == "table" and stream.write) then
+  if stream ~= nil and io.type(stream) ~= "file" and type(checks.field(stream, "write")) ~= "function" then
     error("run:summary: an open file is wanted, got " .. (io.type(stream) or type(stream)), 2)
   end
   require("softworld.output.summary").print(self:document(), stream or io.stdout)
@@ -452,8 +460,8 @@ function Run.__index(self, key)
     return failure.reason
   end
   if may_lack[key] then return trust.refuse(self, key) end
-  local near = core.nearest(tostring(key), Run.__names())
-  error(("run has no '%s'; %s"):format(tostring(key), near and "did you mean '" .. near .. "'?"
+  local near = core.nearest(checks.shown(key), Run.__names())
+  error(("run has no '%s'; %s"):format(checks.shown(key), near and "did you mean '" .. near .. "'?"
     or "help(run) at the prompt lists what it has"), 2)
 end
 

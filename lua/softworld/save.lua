@@ -14,6 +14,7 @@ local core = require "softworld.core"
 local build = require "softworld.build"
 local keep = require "softworld.keep"
 local process = require "softworld.process"
+local sealed = require "softworld.sealed"
 local sink = require "softworld.output.sink"
 
 local save = {}
@@ -32,8 +33,7 @@ local function known(data)
   local function walk(t)
     if seen[t] then return end
     seen[t] = true
-    for key in next, t do
-      local value = rawget(t, key)
+    for key, value in next, sealed.fields(t) do
       if type(value) == "table" and key ~= "processes" then walk(value) end
       if type(value) == "userdata" and core.type(value) ~= "scene" then
         local kind, slot, generation = core.number(value)
@@ -164,7 +164,7 @@ local function check_lists(data)
   for _, name in ipairs(lists) do
     expect(is_list(data[name]), name)
     for _, entry in ipairs(data[name]) do
-      expect(type(entry) == "table" and type(rawget(entry, "name")) == "string", name)
+      expect(type(entry) == "table" and type(rawget(sealed.fields(entry), "name")) == "string", name)
       if name ~= "grippers" then expect(type(rawget(entry, "object")) == "string", name) end
     end
   end
@@ -337,7 +337,7 @@ local function named(scene)
   end)
   for _, key in ipairs(order) do
     for _, entry in ipairs(data[key]) do
-      local name = type(entry) == "table" and rawget(entry, "name")
+      local name = type(entry) == "table" and rawget(sealed.fields(entry), "name")
       local object = name and (getmetatable(entry) and entry or rawget(entry, "fixing")
         or rawget(entry, "object"))
       if object and not objects[name] then

@@ -7,6 +7,7 @@
 --     for _, p in ipairs(wire:contact_pressure()) do print(p.s, p.pressure) end
 --
 -- @module softworld.section
+local checks = require "softworld.checks"
 local core = require "softworld.core"
 local build = require "softworld.build"
 local methods = require "softworld.methods"
@@ -51,7 +52,7 @@ function Section:chart(options)
     if type(item) ~= "table" or getmetatable(item[2]) ~= Section then
       error(("section:chart: with, item %d, must be { name, section }"):format(i), 2)
     end
-    list[#list + 1] = { tostring(item[1]), item[2] }
+    list[#list + 1] = { checks.shown(item[1]), item[2] }
   end
   return require("softworld.output.outlines").draw(options.path, list, options.title)
 end

@@ -8,10 +8,12 @@
 --
 -- In the core it is the force `tether`, or a join with slack.
 -- @module softworld.tie
+local checks = require "softworld.checks"
 local core = require "softworld.core"
 local build = require "softworld.build"
 local fixing = require "softworld.fixing"
 local remarks = require "softworld.remarks"
+local sealed = require "softworld.sealed"
 local vec = require "softworld.vec"
 
 local properties = {}
@@ -32,7 +34,7 @@ end
 local function other_wire(scene, what, to)
   for key in pairs(to) do
     if key ~= 1 and key ~= "s" then
-      error(("%s: to = { wire, s = } has no '%s'"):format(what, tostring(key)), 0)
+      error(("%s: to = { wire, s = } has no '%s'"):format(what, checks.shown(key)), 0)
     end
   end
   local other = fixing.wire(scene, what, "to[1]", to[1])
@@ -70,7 +72,7 @@ local function make(scene, wire, given)
     self.object = scene:force{ kind = "tether", on = wire, s = a.s, to = a.to, slack = a.slack,
       stiffness = a.stiffness, strength = a.strength }
   end
-  setmetatable(self, Tie)
+  self = sealed.new(Tie, self)
   fixing.keep(scene, self)
   return self
 end

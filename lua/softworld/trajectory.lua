@@ -13,6 +13,7 @@
 -- whose name starts with `_` are left alone. A file without names has x y z, or t x
 -- y z, or x y z qw qx qy qz, or t x y z qw qx qy qz.
 -- @module softworld.trajectory
+local checks = require "softworld.checks"
 local core = require "softworld.core"
 local units = require "softworld.units"
 
@@ -165,7 +166,7 @@ function trajectory.read(source, scale)
   end
   if scale ~= nil and not (type(scale) == "number" and scale > 0 and scale < math.huge) then
     error(("trajectory: scale = %s is not allowed; it must be a number above 0 [m]")
-      :format(tostring(scale)), 0)
+      :format(checks.shown(scale)), 0)
   end
   local data = require("softworld.csv").read(source, { names = function(n) return unnamed[n] end })
   if #data.names == 0 then
@@ -189,7 +190,7 @@ function trajectory.save(self, path, count)
   end
   if count ~= nil and (math.type(count) ~= "integer" or count < 2) then
     error(("trajectory:save: the number of samples = %s must be an integer of 2 or more")
-      :format(tostring(count)), 2)
+      :format(checks.shown(count)), 2)
   end
   local s = self:sample(count or 201)
   local columns = { t = s.t }

@@ -166,7 +166,7 @@ local function take_levels(what, args)
   if math.type(levels) ~= "integer" or levels < least_levels
     or levels > finest_level then
     error(("%s: levels = %s is not allowed; it must be a whole number from %d to %d"):format(what,
-      tostring(levels), least_levels, finest_level), 0)
+      checks.shown(levels), least_levels, finest_level), 0)
   end
   return levels
 end

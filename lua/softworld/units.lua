@@ -3,6 +3,7 @@
 -- Arguments are numbers or (nested) tables of numbers: `units.mm{300, 0, 2}`.
 -- Everything in SoftWorld is in SI units: m, kg, s, rad, N, Pa.
 -- @module softworld.units
+local checks = require "softworld.checks"
 local units = {}
 local to = {}
 
@@ -74,13 +75,13 @@ local function unknown(prefix)
     for other in pairs(known) do names[#names + 1] = other end
     table.sort(names)
     for _, other in ipairs(names) do
-      local steps = distance(tostring(name), other)
-      if other:sub(1, 1) ~= tostring(name):sub(1, 1) then steps = steps + 0.5 end
+      local steps = distance(checks.shown(name), other)
+      if other:sub(1, 1) ~= checks.shown(name):sub(1, 1) then steps = steps + 0.5 end
       if steps < least and steps < #other then nearest, least = other, steps end
     end
     local hint = nearest and ("did you mean '%s'?"):format(nearest)
       or "known are " .. table.concat(names, " ")
-    error(("%s: there is no unit '%s'; %s"):format(prefix, tostring(name), hint), 2)
+    error(("%s: there is no unit '%s'; %s"):format(prefix, checks.shown(name), hint), 2)
   end
 end
 

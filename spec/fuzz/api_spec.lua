@@ -21,6 +21,22 @@ describe("random calls", function()
     end)
   end
 
+  for _, seed in ipairs{ 400000, 720010, 800006 } do -- that found something
+    it(("find nothing any more: seed %d"):format(seed), function()
+      local out, code = fuzz(("seed=%d calls=150 shrink=0 cpu=120 slow=60 out=%s"):format(seed,
+        quote(program.folder())))
+      assert.is_truthy(out:find "\n?1%d%d calls, 0 findings\n$", out)
+      assert.equal(0, code)
+    end)
+  end
+
+  it("tell how often each method was reached", function()
+    local out = fuzz(("seed=1 calls=100 per=100 shrink=0 cpu=120 slow=60 reach=1 out=%s"):format(
+      quote(program.folder())))
+    local fine, called = out:match "(%d+) of +(%d+)  scene%.run\n"
+    assert.is_truthy(tonumber(fine) and tonumber(fine) <= tonumber(called) and tonumber(called) > 0, out)
+  end)
+
   local function replayed(text, options)
     local folder = program.folder()
     program.write(folder .. "/case.lua", text)

@@ -116,13 +116,15 @@ end
 local function run(r)
   local fixed = {}
   if r.chance(0.75) then fixed[1] = { "duration", words.or_hostile(r, r.size(-2.5, -0.5)) } end
-  if r.chance(0.15) then
+  if r.chance(0.12) then
     fixed[#fixed + 1] = { "tolerance", tolerance(r) }
     if fixed[#fixed][2]:find "{" then fixed[#fixed + 1] = { "levels", "3" } end
   end
   local rows = rows_but(params.run, "duration", "tolerance", "max_steps", "frame")
   fixed[#fixed + 1] = { "max_steps", ("%d"):format(r.whole(1, 60)) }
-  return words.table_of(r, rows, 0.15, fixed)
+  local text = words.table_of(r, rows, 0.1, fixed)
+  if text:find "quasistatic = true" then text = text:gsub("max_steps = %d+", "max_steps = 8") end
+  return text
 end
 
 local function settle(r)
@@ -268,6 +270,40 @@ local by_call = {
   ["run.chart"] = function(r) return words.table_of(r, { "title", "columns" }, 0.2,
     { { "path", words.or_hostile(r, r.of{ "dir .. '/a.svg'", words.file(r) }) } }) end,
   ["run.summary"] = function(r) return words.or_hostile(r, "io.stderr") end,
+  ["channel.contains"] = function(r) return r.pick "wire" end,
+  ["channel.moment"] = function(r) return r.of{ "", ("{ at = %s }"):format(words.vector(r)) } end,
+  ["clamp.push"] = function(r) return words.or_hostile(r, r.size(-1, 1)) end,
+  ["clamp.speed"] = function(r) return r.of{ "", words.or_hostile(r, r.size(-2, 0)) } end,
+  ["clamp.force_limit"] = function(r) return words.or_hostile(r, r.size(-1, 2)) end,
+  ["gripper.approach"] = function(r) return ("%s, %s"):format(r.pick "wire", words.table_of(r, { "direction",
+    "speed", "slow", "distance" }, 0.2, { { "s", words.or_hostile(r, place(r)) } })) end,
+  ["gripper.retreat"] = table_with(0.4, "distance", "speed", "direction"),
+  ["gripper.wait"] = function(r) return words.or_hostile(r, r.size(-3, -1)) end,
+  ["gripper.squeeze"] = function(r) return r.of{ "", "", words.hostile(r) } end,
+  ["gripper.state"] = function() return "" end,
+  ["join.force"] = function(r) return words.or_hostile(r, tostring(r.whole(0, 3))) end,
+  ["join.moment"] = function(r) return words.or_hostile(r, tostring(r.whole(0, 3))) end,
+  ["particles.particle"] = function(r) return words.or_hostile(r, tostring(r.whole(0, 6))) end,
+  ["scene.find"] = function(r) return words.or_hostile(r, r.of{ "'wire1'", "'clamp1'", "'gripper1'", "'a'",
+    "'plane1'", "'wier1'" }) end,
+  ["scene.tell"] = function(r) return words.table_of(r, { "s", "value", "text", "time" }, 0.4,
+    { { "kind", words.or_hostile(r, "'note'") }, { "object", words.or_hostile(r, "'wire1'") } }) end,
+  ["scene.stable_dt"] = function(r) return r.of{ "", "", "'velocity-verlet'", words.hostile(r) } end,
+  ["tool.limit"] = function(r) return words.or_hostile(r, r.between(0, 1)) end,
+  ["tool.pads_on"] = function(r) return words.or_hostile(r, r.of{ "true", "false" }) end,
+  ["tool.hold"] = function(r) return r.of{ "", r.pick "clamp" } end,
+  ["tool.freeze"] = function(r) return r.pick "wire" end,
+  ["tool.watch"] = function(r) return words.or_hostile(r, "1e-4") .. ", " .. r.of{ "true", "false" } end,
+  ["shape.distance"] = function(r) return words.vector(r) .. r.of{ "", ", 0.5" } end,
+  ["shape.segment"] = function(r)
+    return words.vector(r) .. ", " .. words.vector(r) .. r.of{ "", ", 0.5" }
+  end,
+  ["shape.sweep"] = function(r) return ("%s, %s, %s, %s, 0.01"):format(words.vector(r), words.vector(r),
+    words.vector(r), words.vector(r)) end,
+  ["trajectory.sample"] = function(r) return words.or_hostile(r, tostring(r.whole(1, 30))) end,
+  ["trajectory.save"] = function(r) return words.or_hostile(r, "dir .. '/way.csv'") end,
+  ["wire.bend_limit"] = function(r) return words.table_of(r, { "use", "now" }, 0.3) end,
+  ["wire.max_ovalisation"] = function(r) return r.of{ "", "{ now = true }" } end,
   ["clip.force"] = function(r) return r.of{ "", r.pick "wire" } end,
   ["sw.scene"] = table_with(0.3, "name", "gravity"), ["trajectory.new"] = trajectory,
   ["sw.load"] = function(r) return words.or_hostile(r, words.file(r)) end,
@@ -285,6 +321,10 @@ local by_call = {
       words.or_hostile(r, "0.003") },
     { "mass_per_length", words.value(r, "mass_per_length") } }) end,
 }
+for _, name in ipairs{ "position", "velocity", "acceleration", "rotation", "angular_velocity",
+  "angular_acceleration", "delayed" } do
+  by_call["trajectory." .. name] = function(r) return words.or_hostile(r, r.size(-3, 0)) end
+end
 for _, name in ipairs{ "position", "tangent", "curvature", "tension", "strain", "stress", "velocity", "spin",
   "twist_moment", "section", "contact_pressure", "von_mises" } do
   by_call["wire." .. name] = at_place
@@ -303,7 +343,10 @@ calls.weights = { ["scene.run"] = 14, ["scene.settle"] = 3, ["scene.wire"] = 3, 
     ["clamp.release"] = 0.7,
   ["obstacle.remove"] = 0.7, ["scene.tool"] = 0.5, ["clamp.follow"] = 4, ["obstacle.follow"] = 2,
     ["wire.set_velocity"] = 2,
-  ["gripper.remember"] = 0, ["gripper.recall"] = 0 }
+  ["gripper.remember"] = 0, ["gripper.recall"] = 0,
+  ["process.wait"] = 0.1, ["process.wait_until"] = 0.1, ["process.feed"] = 0.1, ["process.step"] = 0.1,
+  ["gripper.wait"] = 0.2, ["gripper.press"] = 0.2, ["gripper.clip"] = 0.2, ["gripper.approach"] = 0.3,
+  ["run.vtk"] = 0.3, ["run.summary"] = 0.3, ["trajectory.close"] = 0.2, ["shape.close"] = 0.2 }
 
 local function guess(r, learned)
   local kind = r.whole(1, 9)

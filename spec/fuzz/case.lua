@@ -4,6 +4,7 @@
 local sw = require "softworld"
 local calls = require "fuzz.calls"
 local checked = require "fuzz.checked"
+local scenes = require "fuzz.scenes"
 local words = require "fuzz.words"
 
 local case = {}
@@ -21,6 +22,7 @@ local function add(self, text)
   if n and self.case.v[n] ~= nil then
     local kind = checked.kind_of(self.case.v[n])
     if kind then
+      if package.loaded["fuzz.reach"] then package.loaded["fuzz.reach"].object(self.case.v[n], kind) end
       self.kinds[n] = kind
       self.of_kind[kind] = self.of_kind[kind] or {}
       table.insert(self.of_kind[kind], n)
@@ -43,13 +45,22 @@ local function slot(self)
   return self.last_slot
 end
 
+-- Slots of things that are there; a few that are not any more stay in it.
+local function live(self, list)
+  local there = {}
+  for _, n in ipairs(list or {}) do
+    if self.case.v[n] ~= nil or n % 20 == 0 then there[#there + 1] = n end
+  end
+  return there
+end
+
 local function pick(self, kind)
   local r = self.r
   if kind == "any" or r.chance(0.1 * r.hostility) then
     if #self.slots == 0 then return "nil" end
     return ("v[%d]"):format(r.of(self.slots))
   end
-  local list = self.of_kind[kind]
+  local list = live(self, self.of_kind[kind])
   if not list or #list == 0 then return "nil" end
   return ("v[%d]"):format(list[r.chance(0.5) and #list or r.whole(1, #list)])
 end
@@ -75,6 +86,11 @@ local function member_of(self, n)
   return names[#names], true
 end
 
+local function is_thin(wire)
+  local fine, thin = pcall(function() return wire.length > 60 * wire.radius end)
+  return not fine or thin
+end
+
 -- One call or reading of an object, and its "kind.name".
 local function use(self, n)
   local name, method = member_of(self, n)
@@ -82,6 +98,10 @@ local function use(self, n)
   if not method then return ("v[%d].%s"):format(n, name), call end
   if call == "scene.process" then return nil, call end
   local arguments = calls.arguments(self.r, call, self.learned[call])
+  if name == "remodel" and is_thin(self.case.v[n]) then -- tens of thousands of particles
+    arguments = self.r.of{ "{ model = 'string' }", "{ model = 'rod' }",
+      "{ model = 'tube', region = { 0.1, 0.12 } }", "{ model = 'radial', region = { 0, 0.02 } }" }
+  end
   if self.r.chance(0.02 * self.r.hostility) then return ("v[%d].%s(%s)"):format(n, name, arguments), call end
   return ("v[%d]:%s(%s)"):format(n, name, arguments), call
 end
@@ -108,7 +128,49 @@ local function statement(self, depth)
   return use(self, r.of(self.slots)) or "coroutine.yield(1)"
 end
 
+-- The scene of a gripper, and a wire of it, if there are such.
+local function of_one_scene(self, gripper)
+  local g = self.case.v[tonumber(gripper:match "%d+" or 0)]
+  local fine, scene = pcall(function() return g.scene end)
+  if not fine then return pick(self, "scene"), pick(self, "wire") end
+  local function slot_of(list, is)
+    for _, n in ipairs(list or {}) do
+      if self.case.v[n] ~= nil and is(self.case.v[n]) then return ("v[%d]"):format(n) end
+    end
+  end
+  return slot_of(self.of_kind.scene, function(s) return s == scene end) or pick(self, "scene"),
+    slot_of(self.of_kind.wire, function(w) return select(4, sw.core.number(w)) == scene end)
+      or pick(self, "wire")
+end
+
+-- What a process engineer would write, on one gripper and wire.
+local function sequence(self)
+  local r, g = self.r, pick(self, "gripper")
+  local scene, w = of_one_scene(self, g)
+  self.pending = ("v[%d] = %s:run{ dt = %s, max_steps = %d }"):format(slot(self), scene, r.of{ "4e-3", "0.01",
+    "1e-3" }, r.whole(10, 150))
+  local lines = { ("v[%d] = %s:process(function(p)"):format(slot(self), scene) }
+  local function line(text)
+    lines[#lines + 1] = r.chance(0.8) and ("  try(function() %s end)"):format(text) or "  " .. text
+  end
+  local function does(name, first)
+    line(("%s:%s(%s)"):format(g, name, first or calls.arguments(r, "gripper." .. name)))
+  end
+  if r.chance(0.3) then does("approach", ("%s, { s = %s }"):format(w, r.between(0, 0.2))) end
+  does "grasp"
+  for _ = 1, r.whole(1, 4) do
+    does(r.of{ "move", "move", "rotate", "press", "wait", "close_jaws", "open_jaws", "freeze", "thaw", "clip",
+      "handover", "move_to", "state", "squeeze", "pressure_map", "over" })
+    if r.chance(0.2) then line(("v[%d] = %s:snapshot()"):format(slot(self), scene)) end
+  end
+  does("release", r.of{ "", "", "{ speed = 0.1 }" })
+  if r.chance(0.5) then does "retreat" end
+  lines[#lines + 1] = "end)"
+  return table.concat(lines, "\n")
+end
+
 local function process(self)
+  if self.of_kind.gripper and self.r.chance(0.5) then return sequence(self) end
   local lines = { ("v[%d] = %s:process(function(p)"):format(slot(self), pick(self, "scene")) }
   for _ = 1, self.r.whole(1, 7) do
     local text = statement(self, 0)
@@ -151,7 +213,21 @@ local function of_module(self)
   return ("v[%d] = %s(%s)"):format(slot(self), name, arguments)
 end
 
+-- Wires of thousands of particles take long for a step; they get few.
+local function is_heavy(self)
+  for _, n in ipairs(self.of_kind.wire or {}) do
+    local fine, points = pcall(function() return self.case.v[n]:particles() end)
+    if fine and #points > 3 * 400 then return true end
+  end
+  return false
+end
+
 local function step(self)
+  if self.pending then
+    local text = self.pending
+    self.pending = nil
+    return is_heavy(self) and text:gsub("max_steps = %d+", "max_steps = 10") or text
+  end
   local r = self.r
   local what = r.whole(1, 100)
   self.last = nil
@@ -161,11 +237,16 @@ local function step(self)
   if what <= 10 then
     return ("v[%d].%s = %s"):format(r.of(self.slots), r.of(words.names), words.value(r, r.of(words.names)))
   end
-  local list = what <= 60 and self.of_kind.scene or self.slots -- scenes are where all else comes from
-  local n = list and list[r.whole(1, #list)] or r.of(self.slots)
+  local list = live(self, what <= 55 and self.of_kind.scene or self.slots) -- scenes are where all comes from
+  local n = #list > 0 and r.of(list) or r.of(self.slots)
   local text, call = use(self, n)
   self.last = call
   if not text then return process(self) end
+  if (call == "scene.run" or call == "scene.settle") and is_heavy(self) then
+    text = text:gsub("quasistatic = true", "quasistatic = false")
+      :gsub("max_steps = %d+", "max_steps = 2"):gsub("max_iterations = %d+", "max_iterations = 4")
+      :gsub("duration = [%d.e-]+", "duration = 1e-3")
+  end
   local made = call:match "^scene%.(.*)"
   local count = made and self.of_kind[made] and #self.of_kind[made] or 0
   if made and MOST[made] and count >= MOST[made] and made ~= "run" then text = nil end
@@ -175,17 +256,38 @@ local function step(self)
   return "return " .. text
 end
 
+-- One of the numbers of a call replaced by something hostile.
+local function spoilt(r, text)
+  local places = {}
+  for from, to in text:gmatch "= ()%-?%d[%d%.e%-]*()" do places[#places + 1] = { from, to } end
+  if #places == 0 then return text end
+  local at = r.of(places)
+  return text:sub(1, at[1] - 1) .. words.hostile(r) .. text:sub(at[2])
+end
+
 -- A scene with a wire, so that most calls have something to work on.
 local function begin(self)
-  local r, n = self.r, slot(self)
+  local r = self.r
+  if r.chance(0.8) then
+    r.of(scenes.list)(function(text)
+      local n = slot(self)
+      if r.chance(2 * r.hostility) then text = spoilt(r, text) end
+      add(self, ("v[%d] = %s"):format(n, text))
+      return ("v[%d]"):format(n)
+    end, r)
+    return
+  end
+  local n = slot(self)
   add(self, ("v[%d] = sw.scene(%s)"):format(n, r.chance(0.7) and "{}" or calls.arguments(r, "sw.scene")))
   for _ = 1, r.whole(1, 2) do
-    add(self, ("v[%d] = v[1]:wire(%s)"):format(slot(self), calls.arguments(r, "scene.wire")))
+    add(self, ("v[%d] = v[%d]:wire(%s)"):format(slot(self), n, calls.arguments(r, "scene.wire")))
   end
   if r.chance(0.5) then add(self,
-    ("v[%d] = v[1]:obstacle{ shape = 'plane', friction = 0.3 }"):format(slot(self))) end
-  if r.chance(0.6) then add(self, ("v[%d] = v[1]:gripper{}"):format(slot(self))) end
-  if r.chance(0.5) then add(self, ("v[%d] = v[1]:clamp(v[2], { s = 0 })"):format(slot(self))) end
+    ("v[%d] = v[%d]:obstacle{ shape = 'plane', friction = 0.3 }"):format(slot(self), n)) end
+  if r.chance(0.6) then add(self, ("v[%d] = v[%d]:gripper{}"):format(slot(self), n)) end
+  if r.chance(0.5) then
+    add(self, ("v[%d] = v[%d]:clamp(%s, { s = 0 })"):format(slot(self), n, pick(self, "wire")))
+  end
 end
 
 --- Make up and do `count` calls. options: files (folder), log(text) before each call, report(kind,
@@ -201,7 +303,8 @@ function case.run(seed, count, options)
   draw.hostility = draw.of{ 0, 0.01, 0.03, 0.08, 0.25 }
   begin(self)
   while self.made < count do
-    add(self, step(self))
+    if #live(self, self.of_kind.scene) == 0 or self.r.chance(0.01) then begin(self)
+    else add(self, step(self)) end
   end
   self.case:finish()
   return self.made

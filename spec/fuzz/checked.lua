@@ -98,7 +98,7 @@ local no_reading = { close = true, release = true, remove = true, restore = true
     force_limit = true,
   calibration = true, triangles = true, cable = true, pressure_map = true, frame = true, names = true,
   jaws = true, scene = true, evaluate = true, resume = true, clip = true, watch = true, log = true,
-    document = true }
+    document = true, wire_contact = true, summary = true, wait = true, retreat = true }
 
 local of_body = { wire = true, particles = true }
 
@@ -128,7 +128,8 @@ Case.__index = Case
 
 --- A case; report(kind, text) takes what is found. files: a folder of its own.
 function checked.new(files, report)
-  local self = setmetatable({ v = {}, report = report, slow = 6 }, Case)
+  local self = setmetatable({ v = {}, slow = 6 }, Case)
+  function self.report(kind, text) report(kind, ("%s, in: %s"):format(text, self.doing)) end
   local T, F = hostile.make(self.v)
   self.v.dir = files
   lfs.link("/dev/full", files .. "/full", true) -- a link: a device must not be replaced by mistake
@@ -136,7 +137,7 @@ function checked.new(files, report)
     local results = table.pack(pcall(f, ...))
     if results[1] then return table.unpack(results, 2, results.n) end
     local why = poor(results[2], self.memory)
-    if why then report("error", ("%s: %s"):format(why, tostring(results[2]))) end
+    if why then self.report("error", ("%s: %s"):format(why, tostring(results[2]))) end
   end
   self.env = setmetatable({ v = self.v, T = T, F = F, nan = 0 / 0, huge = math.huge, long = ("x"):rep(300),
     dir = files,
@@ -245,6 +246,7 @@ function Case:call(text)
   if not chunk then return false, why end
   self.memory = text:find "fail_allocation" or text:find "e1[25]" or text:find "2%^" or text:find "integer"
     or text:find "1e300" or text:find "long" or text:find "huge"
+  self.doing = text:sub(1, 300)
   local before = whole(text) and picture(self)
   local began = os.clock()
   local results = table.pack(pcall(chunk))

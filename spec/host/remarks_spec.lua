@@ -31,6 +31,10 @@ describe("remarks", function()
     { "local g = s:gripper{ at = {0, 0, 0} } g:move{ by = {0, 0, 1}, speed = 200 }",
       "did you mean sw.units.mm_per_s(200)?" },
     { "s:clip{ at = {0, 0, 0}, width = 8, insertion = 5, retention = 9 }", "sw.units.mm(8)" },
+    { "local w = " .. wire("E = 5e7, density = 1500, radius = 0.001, from = {0,0,1}, to = {0.4,0,1}")
+      .. " w:remodel{ model = 'composite' }", "wire 'wire1' as composite has 33375 particles" },
+    { wire "model = 'radial', E = 5e7, density = 1500, radius = 0.001, from = {0,0,1}, to = {0.4,0,1}",
+      "wire 'wire1' as radial has 15130 particles" },
   }
   for _, case in ipairs(cases) do
     it("on " .. case[1], function()

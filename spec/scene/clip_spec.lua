@@ -368,6 +368,16 @@ describe("a clip", function()
     it("what makes no sense, by name", function()
       refused("clip 'd': insertion = -3 N is not allowed; it must be a number above 0 N", { insertion = -3 })
       refused("clip 'd': width = 0 m is not allowed", { width = 0 })
+      refused("clip 'd': insertion = 9.2e+18 N and retention = 5 N are not", { insertion = 9.2e18 })
+      refused("one at most 1e+06 times the other", { insertion = 1e-300 })
+      refused("they must be at most 1e+12 N", { insertion = 1e300, retention = 1e300 })
+      for _, kind in ipairs{ "clip", "snap" } do
+        local scene, wire = scene_with()
+        local fine, text = pcall(scene.force, scene, { kind = kind, on = wire, at = { 0, 0, 0.05 },
+          direction = { 0, 0, 1 }, axis = { 1, 0, 0 }, width = 0.01, insertion = 9.2e18, retention = 5 })
+        assert.is_false(fine)
+        assert.is_truthy(text:find("force " .. kind .. ": insertion = 9.2e+18 N", 1, true), text)
+      end
       refused("clip 'd': at must be a table of 3 finite numbers [m]", { at = { 0, 0, 0 / 0 } })
       refused("clip 'd': axis, along the wire, and direction, towards the mouth, are the same",
         { axis = { 0, 0, 1 } })

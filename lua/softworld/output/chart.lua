@@ -5,6 +5,7 @@
 -- Names are drawn as they are, whatever the characters in them.
 -- @module softworld.output.chart
 
+local checks = require "softworld.checks"
 local gnuplot = require "softworld.output.gnuplot"
 local map = require "softworld.output.map"
 local number = require "softworld.output.number"
@@ -75,7 +76,7 @@ local function wanted_columns(data, names)
     if not list[i] then
       local known = {}
       for k, column in ipairs(data.columns) do known[k] = column.name end
-      sink.fail("a chart: the run has no series named %s; it has: %s", tostring(name),
+      sink.fail("a chart: the run has no series named %s; it has: %s", checks.shown(name),
         table.concat(known, ", "))
     end
   end
@@ -248,7 +249,8 @@ local function check_points(points)
   for i, p in ipairs(points) do
     local function positive(key)
       if not finite(p[key]) or p[key] <= 0 then
-        sink.fail("a chart: point %d: %s = %s cannot stand on a logarithmic axis", i, key, tostring(p[key]))
+        sink.fail("a chart: point %d: %s = %s cannot stand on a logarithmic axis", i, key,
+          checks.shown(p[key]))
       end
     end
     positive "x"

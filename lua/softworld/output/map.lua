@@ -3,6 +3,7 @@
 -- Reached as chart.map.
 -- @module softworld.output.map
 
+local checks = require "softworld.checks"
 local gnuplot = require "softworld.output.gnuplot"
 local number = require "softworld.output.number"
 local sink = require "softworld.output.sink"
@@ -35,7 +36,7 @@ local function check(options)
   end
   if #rows == 0 or #columns == 0 then sink.fail("a map: no rows or no columns") end
   for r = 1, #rows do
-    if type(values[r]) ~= "table" then sink.fail("a map: no values for the row %s", tostring(rows[r])) end
+    if type(values[r]) ~= "table" then sink.fail("a map: no values for the row %s", checks.shown(rows[r])) end
   end
 end
 
@@ -63,7 +64,9 @@ end
 -- Names of tics are formats to gnuplot, unlike all other texts.
 local function tics(names)
   local list = {}
-  for i, name in ipairs(names) do list[i] = gnuplot.quote((tostring(name):gsub("%%", "%%%%"))) .. " " .. i end
+  for i, name in ipairs(names) do
+    list[i] = gnuplot.quote((checks.shown(name):gsub("%%", "%%%%"))) .. " " .. i
+  end
   return "(" .. table.concat(list, ", ") .. ")"
 end
 
@@ -89,9 +92,9 @@ end
 local function as_text(options)
   local lines, widths = {}, { 0 }
   local grid = { { options.ylabel and options.xlabel and options.ylabel .. " \\ " .. options.xlabel or "" } }
-  for c, name in ipairs(options.columns) do grid[1][c + 1] = tostring(name) end
+  for c, name in ipairs(options.columns) do grid[1][c + 1] = checks.shown(name) end
   for r, name in ipairs(options.rows) do
-    grid[r + 1] = { tostring(name) }
+    grid[r + 1] = { checks.shown(name) }
     for c = 1, #options.columns do grid[r + 1][c + 1] = cell_text(options.values[r][c]) end
   end
   for _, row in ipairs(grid) do

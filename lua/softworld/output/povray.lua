@@ -4,6 +4,7 @@
 -- by side and writes the captions, so that no other program is needed.
 -- @module softworld.output.povray
 
+local checks = require "softworld.checks"
 local number = require "softworld.output.number"
 local povscene = require "softworld.output.povscene"
 local sink = require "softworld.output.sink"
@@ -169,7 +170,7 @@ local function check(options, purpose)
     sink.fail("%s: run = a run with at least one frame is expected", purpose)
   end
   if sink.extension(options.path or "") ~= "png" then
-    sink.fail("%s: path %s does not end in .png", purpose, tostring(options.path))
+    sink.fail("%s: path %s does not end in .png", purpose, checks.shown(options.path))
   end
   sink.need("povray", "povray", purpose)
   return solid.finite_run(run)
@@ -253,7 +254,7 @@ end
 function povray.picture(options)
   local run = check(options, "a picture")
   local frame = run.frames[options.frame or #run.frames]
-  if not frame then sink.fail("a picture: no frame %s of %d", tostring(options.frame), #run.frames) end
+  if not frame then sink.fail("a picture: no frame %s of %d", checks.shown(options.frame), #run.frames) end
   local size = options.size or { 1200, 800 }
   local sheet = sheet_of(1, 1, size[1] - 2 * gap, size[2] - gap - foot_height - caption_height)
   local look = look_of(run, sheet.panel_width, sheet.panel_height, options)

@@ -8,6 +8,7 @@
 -- Leaving the block by an error clears the bar through the close metamethod.
 -- @module softworld.output.progress
 
+local checks = require "softworld.checks"
 local number = require "softworld.output.number"
 local sink = require "softworld.output.sink"
 
@@ -50,7 +51,7 @@ end
 function progress.new(options)
   options = options or {}
   if options.total ~= nil and not (type(options.total) == "number" and options.total > 0) then
-    sink.fail("progress: total must be a positive time [s], got %s", tostring(options.total))
+    sink.fail("progress: total must be a positive time [s], got %s", checks.shown(options.total))
   end
   local self = setmetatable({}, progress)
   self.total, self.name, self.quiet = options.total, options.name, options.quiet or false

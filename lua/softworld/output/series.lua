@@ -3,6 +3,7 @@
 -- Numbers are written with 17 significant digits and read back unchanged.
 -- @module softworld.output.series
 
+local checks = require "softworld.checks"
 local json = require "softworld.output.json"
 local sink = require "softworld.output.sink"
 
@@ -74,7 +75,7 @@ end
 -- @treturn table a series
 function series.mean(data, width)
   if type(width) ~= "number" or not (width > 0 and width < math.huge) then
-    sink.fail("series: mean = %s is not allowed; it must be a time above 0 s", tostring(width))
+    sink.fail("series: mean = %s is not allowed; it must be a time above 0 s", checks.shown(width))
   end
   local smooth = { time = data.time, columns = {} }
   for i, c in ipairs(data.columns) do

@@ -4,6 +4,7 @@
 -- A solid is `{ vertices = flat {x,y,z,...}, indices = flat 0-based {i,j,k,...} }`.
 -- @module softworld.output.solid
 
+local checks = require "softworld.checks"
 local sink = require "softworld.output.sink"
 
 local solid = {}
@@ -146,7 +147,7 @@ function solid.check(obstacle)
   local name = obstacle.name or "obstacle"
   if obstacle.shape == "plane" then return end
   local needed = needs[obstacle.shape]
-  if not needed then sink.fail("%s: unknown shape %s", name, tostring(obstacle.shape)) end
+  if not needed then sink.fail("%s: unknown shape %s", name, checks.shown(obstacle.shape)) end
   for _, key in ipairs(needed) do
     if not obstacle[key] then sink.fail("%s: a %s needs %s", name, obstacle.shape, key) end
   end
