@@ -61,7 +61,7 @@ enum { AS_IS, BY_START, DULLY, GIVE_UP };
 /* So many parts of less than this share of their step in the mean are no way to go on: the
  * run stops and says what holds it back [-]. Adaptive steps may be as small as they like for
  * longer. */
-enum { MOST_SMALL = 4000, MOST_SMALL_ADAPTIVE = 20000 };
+enum { MOST_SMALL = 20000, MOST_SMALL_ADAPTIVE = 20000 };
 static const double SMALL = 1.0 / 512, SMALL_ADAPTIVE = 2e-5;
 
 typedef struct loop {

@@ -8,6 +8,6 @@ where, when, and since when (first). Nothing breaks: the wire is simulated on. A
   the catalogue: area of the strands times 220 MPa (copper) or 75 MPa (aluminium), annealed: computed;
                  print(sw.cable "GXL 1.5") shows it
 Wires without any of these are never told of. Runs that fail say by what a wire was pulled beyond its
-load, and which obstacle presses one hardest. A run stops when 4000 parts of its steps were shorter
-than dt/512 in the mean (at a tolerance: 20000, dt * 2e-5), and says why larger ones fail.
+load, and which obstacle presses one hardest. A run stops when 20000 parts of its steps were shorter
+than dt/512 in the mean (at a tolerance: dt * 2e-5), and says why larger ones fail.
 ]]
