@@ -335,13 +335,17 @@ local settable = {
   slip_tolerance = function(value) checks.number("gripper.slip_tolerance", value, 0, " m", 4, nil, true) end,
   on_slip = function(value) grasp.check_reaction("gripper.on_slip", value, 4) end,
   on_crash = function(value) grasp.check_reaction("gripper.on_crash", value, 4) end,
+  events = function(value)
+    if type(value) == "table" then return end
+    error("gripper.events: a table is wanted, as {} to forget them, got " .. type(value), 4)
+  end,
 }
 
 function Gripper:__newindex(key, value)
   if not sealed.by_library() then
     local check = settable[key]
     if not check then
-      local near = core.nearest(checks.shown(key), { "slip_tolerance", "on_slip", "on_crash" })
+      local near = core.nearest(checks.shown(key), { "slip_tolerance", "on_slip", "on_crash", "events" })
       error(("gripper has no '%s' to set%s"):format(checks.shown(key),
         near and ("; did you mean '%s'?"):format(near) or "; what it is like is given to scene:gripper"), 2)
     end
