@@ -222,6 +222,9 @@ static void commit(const void *args, const sw_field *f, double *history) {
     history[SW_CLIP_LAST] = m.u;
     if (c.friction > 0) commit_friction(&c, f, history);
   }
+  /* what was over the mouth may come back from anywhere */
+  if (!(history[SW_CLIP_NEAR] > 0) && history[SW_CLIP_STATE] == SW_CLIP_ABOVE)
+    history[SW_CLIP_STATE] = SW_CLIP_EMPTY;
   history[SW_CLIP_BEGUN] = 1;
 }
 

@@ -33,10 +33,13 @@ static const double THERE = 0.5, SETTLED = 0.5;
 
 static void begin(double *h, int state) { h[SW_CLIP_STATE] = state, h[SW_CLIP_PEAK] = 0; }
 
-/* Where a wire is that is not in the clip. */
+/* Where a wire is that is not in the clip. Above it is over the mouth up to where the funnel's walls
+ * end. */
 static int outside(const sw_clip *c, const sw_clip_middle *m) {
   const double way = c->law.out + c->law.in;
+  const double mouth = c->law.clearance + 2.0 * c->law.reach + 0.5 * c->law.in;
   if (m->share < THERE || m->u < -c->law.clearance - c->law.reach) return SW_CLIP_EMPTY;
+  if (fabs(m->v) > mouth) return SW_CLIP_EMPTY;
   return m->u < way ? SW_CLIP_INSERTING : SW_CLIP_ABOVE;
 }
 
@@ -161,7 +164,7 @@ int sw_clip_news(const void *args, const double *history, sw_force_news *out) {
              1e3 * value);
   else
     snprintf(out->text, sizeof out->text,
-             "OVERLOADED, the wire sw_clip_breaks through %s with %.4g N and is free of it",
+             "OVERLOADED, the wire breaks through %s with %.4g N and is free of it",
              how[what], value);
   return 1;
 }

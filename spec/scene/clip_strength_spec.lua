@@ -152,8 +152,10 @@ describe("a clip tells of a wire that", function()
     local scene, _, clip, hands = scene_with(from, to)
     local ways = { { 0, 0, -0.022 }, { 0, 0, 0.03 }, { 0, 0.02, 0 }, { 0, 0, -0.04 }, { 0, -0.02, 0 } }
     for _, way in ipairs(ways) do
-      local _, _, told = move(scene, clip, hands, way, 0.05, { dt = 2e-3 })
+      local result, most, told = move(scene, clip, hands, way, 0.05, { dt = 2e-3 })
       assert.equal(0, #told)
+      if way[2] ~= 0 or way[3] < -0.03 then assert.equal(0, most) end -- aside, and down beside it
+      t.below(0.01 * result:ledger().play, result:ledger().gained, "energy made")
     end
     assert.equal(1, clip.inserted.count)
     assert.equal(1, clip.pulled_out.count)
