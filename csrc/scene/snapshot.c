@@ -277,6 +277,7 @@ static void put_objects(sw_scene *s, const sw_snapshot *p) {
     put_drive(&h->drive, &p->hold[k].drive);
     put_feed(h, &p->hold[k]);
   }
+  s->contact_steps.count = 0; /* series in snapshots are complete */
   for (size_t k = 0; k < s->obstacle_count; k++) {
     sw_scene_obstacle *o = &s->obstacles[k];
     o->alive = k < p->obstacles && p->obstacle[k].alive;
