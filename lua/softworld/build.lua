@@ -22,11 +22,14 @@ function build.data(scene)
   return data
 end
 
--- Where this library lies, as places in messages begin; long paths are cut there.
-local library = debug.getinfo(1, "S").short_src:match "^(.*)build%.lua$" or "softworld/"
-if library:sub(1, 3) == "..." then library = "softworld/" end
+-- Where this library lies, as places in messages begin; long paths are cut there, those of files with
+-- longer names earlier.
+local library = debug.getinfo(1, "S").source:match "^@(.*)build%.lua$" or "softworld/"
 
-local function is_ours(source) return source:find(library, 1, true) ~= nil end
+local function is_ours(source)
+  local cut = source:sub(1, 3) == "..."
+  return source:find(cut and "softworld/" or library, 1, true) ~= nil
+end
 
 -- "file:line: " of the script's line that is being done; "" where there is none.
 local function place()

@@ -2,6 +2,7 @@
 --- What grippers measure: force and moment now and over time, pressure on the pads, squeeze, slip.
 -- @module softworld.gripmeasures
 local core = require "softworld.core"
+local build = require "softworld.build"
 local checks = require "softworld.checks"
 local vec = require "softworld.vec"
 local window = require "softworld.window"
@@ -105,15 +106,15 @@ local function records(self)
   end
   for i, hold in ipairs(self.past) do
     local carried = self.spans[i].carried
-    local rows, count, spans = hold:log()
+    local rows, count, spans = build.call(3, hold.log, hold)
     add(rows, count, spans, carried and function(t) return t < carried end)
   end
   if self.carrier then
-    local rows, count = self.carrier:log()
+    local rows, count = build.call(3, self.carrier.log, self.carrier)
     add(rows, count, nil, function(t) return carried_at(self, t) end)
   end
   if self.tool then
-    local rows, count = self.tool:log()
+    local rows, count = build.call(3, self.tool.log, self.tool)
     add(rows, count, nil, nil, true)
   end
   if #self.past > 1 or self.tool and #self.past > 0 then

@@ -233,7 +233,7 @@ local MANY = 10000 -- particles of a wire; a step then takes some tenths of a se
 --- A wire that became a mesh: finer than was meant?
 function remarks.mesh(wire)
   if not remarks.wanted() or wire.model == "rod" or wire.model == "string" then return end
-  local particles = #wire:particles() // 3
+  local particles = #wire:calibration().particles * (wire.segments + 1) -- reading places builds the scene
   if particles > MANY then
     tell("mesh", ("wire '%s' as %s has %d particles in %d slices, so steps will be slow; a "
       .. "larger spacing [m], or remodelling only a region = {s1, s2} [m] of a rod, makes fewer")

@@ -86,6 +86,7 @@ local function stop(made, body, after)
   local folder = program.folder()
   local name = program.write(folder .. "/script.lua", ([[
     local sw = require "softworld"
+    sw.remarks = false -- of meshes of very many particles
     local s = sw.scene{}
     %s
     local mark = assert(io.open(%q, "w"))
