@@ -610,7 +610,7 @@ describe("a file that lies", function()
     local bytes = small_file(path)
     local scene = small()
     local before, refused = saving.all(scene), 0
-    for _ = 1, 150 do
+    for _ = 1, 300 do
       local at = HEAD + random(#bytes - HEAD)
       local changed = bytes:sub(1, at - 1) .. string.char(random(256) - 1) .. bytes:sub(at + 1)
       saving.write(path, sealed(changed))
