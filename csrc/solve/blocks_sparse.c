@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/clear.h"
 #include "solve/blocks_tree.h"
 
 enum { BLOCK = 9 };
@@ -136,7 +137,7 @@ size_t sw_blocks_sparse_slot(const sw_blocks_sparse *s, size_t i, size_t j) {
 }
 
 void sw_blocks_sparse_clear(sw_blocks_sparse *s) {
-  memset(s->values, 0, BLOCK * (size_t)s->first[s->nodes] * sizeof *s->values);
+  sw_clear(s->values, BLOCK * (size_t)s->first[s->nodes]);
 }
 
 sw_status sw_blocks_sparse_factor(sw_blocks_sparse *s, const unsigned char *fixed,

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/interrupt.h"
+#include "base/clear.h"
 #include "base/simd.h"
 
 enum { ROW = SW_FIELD_ROW, EDGE_ARRAYS = 5 + 3 + 6, NODE_ARRAYS = 9 + 4 };
@@ -54,32 +54,20 @@ void sw_field_geometry(sw_field *field) {
            field->tangent[1], field->tangent[2]);
 }
 
-enum { PIECE = 0x20000 }; /* numbers between two looks at the user's wish to stop [-] */
-
-/* What is seen for the first time may take a second in a million nodes. */
-static inline void clear(double *numbers, size_t count) {
-  if (count <= PIECE) {
-    memset(numbers, 0, count * sizeof *numbers);
-    return;
-  }
-  for (size_t at = 0; at < count && !sw_interrupted(); at += PIECE)
-    memset(numbers + at, 0, (count - at < PIECE ? count - at : PIECE) * sizeof *numbers);
-}
-
 void sw_field_clear(sw_field *field) {
   const size_t n = field->plan->nodes, m = field->plan->edges;
   field->energy = field->bending = 0;
   if (field->want & SW_WANT_FORCE) {
-    for (int k = 0; k < 3; k++) clear(field->gradient[k], m);
-    clear(field->force, 3 * n);
+    for (int k = 0; k < 3; k++) sw_clear(field->gradient[k], m);
+    sw_clear(field->force, 3 * n);
   }
   if (field->want & SW_WANT_STIFFNESS) {
-    for (int k = 0; k < 6; k++) clear(field->own[k], m);
-    for (int k = 0; k < 9; k++) clear(field->next[k], n);
-    clear(field->rows, n * ROW);
+    for (int k = 0; k < 6; k++) sw_clear(field->own[k], m);
+    for (int k = 0; k < 9; k++) sw_clear(field->next[k], n);
+    sw_clear(field->rows, n * ROW);
   }
   if (field->normals[0]) { /* one block, see sw_spin_new */
-    clear(field->spin, 12 * (n + SW_LANES));
-    if (field->spin_node[0]) clear(field->spin_node[0], 6 * (n + SW_LANES));
+    sw_clear(field->spin, 12 * (n + SW_LANES));
+    if (field->spin_node[0]) sw_clear(field->spin_node[0], 6 * (n + SW_LANES));
   }
 }
