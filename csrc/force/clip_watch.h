@@ -34,6 +34,7 @@ enum {
   SW_CLIP_NEWS, /* what is to be told of the last step */
   SW_CLIP_NEWS_VALUE,
   SW_CLIP_NEWS_S,
+  SW_CLIP_PEAK_SLOPE, /* the middle's slope at the largest pull [-] */
   SW_CLIP_HEAD
 };
 enum { SW_CLIP_STRETCH, SW_CLIP_PLACE, SW_CLIP_MOST, SW_CLIP_EACH };
@@ -44,7 +45,8 @@ enum {
   SW_CLIP_THROUGH_WALL,
   SW_CLIP_FROM_OUTSIDE,
   SW_CLIP_CROSSING,
-  SW_CLIP_PASSED
+  SW_CLIP_PASSED,
+  SW_CLIP_COARSE
 };
 
 static inline int sw_clip_is_broken(const double *history) {
@@ -60,6 +62,8 @@ typedef struct sw_clip_middle {
   double passes;  /* share of the width that it passes through, anywhere [-] */
   double at[2];   /* u and v of that [m] */
   double along;   /* of the wire there and the axis, the cosine [-] */
+  double slope;   /* mean of the wire's rise over its way along the axis [-] */
+  double edge;    /* length of the longest edge there [m] */
 } sw_clip_middle;
 
 sw_clip_middle sw_clip_middle_of(const sw_clip *clip, const sw_field *field);

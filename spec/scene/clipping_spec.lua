@@ -96,3 +96,38 @@ describe("gripper:clip", function()
     assert.has_error(function() guide:clip{ into = clip } end)
   end)
 end)
+
+-- Held on one side only, a wire is peeled out of its clip. No formula: the force at which it leaves is
+-- compared with that of edges of a sixteenth of the clip's width.
+describe("a wire that is pulled out askew", function()
+  local function pulled(segments, shift)
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ cable = "GXL 0.5", segments = segments,
+      from = { -0.05 + shift, 0, 0 }, to = { 0.05 + shift, 0, 0 } }
+    scene:force{ kind = "damping", on = wire, mass = 5, stiffness = 1e-3 }
+    local clip = scene:clip{ name = "c", at = { 0, 0, 0 }, width = 0.01, insertion = 8, retention = 25 }
+    local hand = scene:grip(wire, { s = 0.07 - shift, width = 0.008, name = "hand" })
+    hand:follow(sw.trajectory{ points = { { 0, 0, 0 }, { 0, 0, 0.02 } }, duration = 1, law = "linear",
+      relative = true })
+    local run = t.fine(scene:run{ duration = 1, dt = 1e-3 })
+    local told
+    for _, event in ipairs(run.events) do
+      if event.text:find("askew", 1, true) then told = event.text end
+    end
+    return clip.pulled_out.peak_force, told
+  end
+
+  it("leaves at the same force with edges of a quarter of the width, wherever nodes are", function()
+    local fine = pulled(160, 0)
+    for _, shift in ipairs{ 0, 0.7e-3, 1.6e-3 } do
+      local force, told = pulled(40, shift)
+      t.share(fine, force, 0.05, "force")
+      assert.is_nil(told)
+    end
+  end)
+
+  it("says so where edges are longer", function()
+    local _, told = pulled(20, 0)
+    assert.is_truthy(told and told:find("its edges of 5 mm should be a quarter of the clip's width", 1, true), told)
+  end)
+end)
