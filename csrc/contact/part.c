@@ -52,7 +52,7 @@ void sw_contact_part(void *contact, sw_system *s) {
 static sw_status turn_tail_over(sw_contact *c) {
   const size_t count = c->touch_count - c->parts.touch, at = c->parts.before;
   SW_TRY(sw_grow((void **)&c->last, &c->last_capacity, at + count, sizeof *c->last));
-  memcpy(c->last + at, c->touches + c->parts.touch, count * sizeof *c->last);
+  if (count) memcpy(c->last + at, c->touches + c->parts.touch, count * sizeof *c->last);
   c->last_count = at + count;
   c->touch_count = c->parts.touch;
   (void)match(c, c->parts.first, c->parts.end, at);

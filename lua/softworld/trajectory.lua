@@ -13,6 +13,7 @@
 -- whose name starts with `_` are left alone. A file without names has x y z, or t x
 -- y z, or x y z qw qx qy qz, or t x y z qw qx qy qz.
 -- @module softworld.trajectory
+local build = require "softworld.build"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local units = require "softworld.units"
@@ -181,16 +182,15 @@ end
 
 core.trajectory_reader(function(source, scale) return trajectory.read(source, scale) end)
 
---- Write count samples (default 201) of a trajectory as a CSV file that can be read
--- back as way-points with times.
-function trajectory.save(self, path, count)
-  if core.type(self) ~= "trajectory" then error("trajectory:save is a method: call it with a colon", 2) end
+-- Errors have no place, see build.call.
+local function save(self, path, count)
+  if core.type(self) ~= "trajectory" then error("trajectory:save is a method: call it with a colon", 0) end
   if type(path) ~= "string" or path == "" then
-    error("trajectory:save: the name of a file is wanted, got " .. (path == "" and "''" or type(path)), 2)
+    error("trajectory:save: the name of a file is wanted, got " .. (path == "" and "''" or type(path)), 0)
   end
   if count ~= nil and (math.type(count) ~= "integer" or count < 2) then
     error(("trajectory:save: the number of samples = %s must be an integer of 2 or more")
-      :format(checks.shown(count)), 2)
+      :format(checks.shown(count)), 0)
   end
   local s = self:sample(count or 201)
   local columns = { t = s.t }
@@ -205,6 +205,9 @@ function trajectory.save(self, path, count)
   require("softworld.csv").write(path, { "t", "x", "y", "z", "qw", "qx", "qy", "qz" }, columns)
 end
 
+--- Write count samples (default 201) of a trajectory as a CSV file that can be read
+-- back as way-points with times.
+trajectory.save = build.placed(save)
 core.class.trajectory.save = trajectory.save
 
 --- Make a trajectory; see the reference of its parameters.

@@ -15,6 +15,9 @@ describe("an error", function()
   local scene, wire, gripper = world()
   local empty, closed = sw.scene{}, sw.scene{}
   closed:close()
+  local way = sw.trajectory{ points = { { 0, 0, 0 }, { 1, 0, 0 } }, duration = 1 }
+  local path = sw.trajectory{ points = { { 0, 0, 0 }, { 1, 0, 0 } }, duration = 1 }
+  path:close()
   local clip = scene:clip{ at = { 0.2, 0, 0.5 }, width = 0.01, insertion = 5, retention = 9 }
   local tie = scene:tie(wire, { s = 0.1 })
   tie:release()
@@ -23,6 +26,8 @@ describe("an error", function()
   for name, call in pairs{
     ["settle without wires"] = function() empty:settle() end,
     ["a scene that is closed"] = function() closed:wire{} end,
+    ["a trajectory that is closed"] = function() path:save "x.csv" end,
+    ["a file that is none"] = function() way:save {} end,
     ["gravity of a new scene"] = function() sw.scene{ gravity = 3 } end,
     ["a function in a file"] = function() scene:save "x.sws" end,
     ["a state without pads"] = function() gripper:state() end,
