@@ -6,6 +6,7 @@
 # make format     clang-format over csrc
 # make bench      speed and accuracy   make chart    draw them
 # make stability  largest stable steps make examples run every example
+# make manual    the manual as HTML, in build/manual
 # make install PREFIX=/usr/local
 PREFIX = /usr/local
 BUILD = build
@@ -97,4 +98,7 @@ chart: all
 stability: all
 	@$(BUILD)/softworld scripts/stability.lua $(ARGS)
 
-.PHONY: bench examples chart stability all clean spec lint format asan fuzz install
+manual: all
+	@$(BUILD)/softworld scripts/manual.lua folder=$(BUILD)/manual
+
+.PHONY: bench examples chart stability manual all clean spec lint format asan fuzz install
