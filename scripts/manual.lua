@@ -47,7 +47,8 @@ img { max-width: 100%; height: auto; background: #fff; border-radius: .4rem; }
 footer { margin-top: 3rem; padding-top: 1rem; border-top: 1px solid var(--line); display: flex;
   justify-content: space-between; gap: 1rem; }
 @media (max-width: 50rem) { body { display: block; } main { padding: 1.2rem; }
-  nav { position: static; height: auto; max-height: 11rem; border-right: 0; border-bottom: 1px solid var(--line); } }
+  nav { position: static; height: auto; max-height: 11rem; border-right: 0;
+    border-bottom: 1px solid var(--line); } }
 @media print { nav, footer { display: none; } body { display: block; } pre { white-space: pre-wrap; } }
 ]]
 
@@ -76,7 +77,9 @@ local reference = topics.reference()
 local place_of = {} -- of a registered name: page and anchor
 
 for _, group in ipairs(reference) do
-  for _, name in ipairs(group[2]) do place_of[name] = place_of[name] or "ref_" .. group[1] .. ".html#" .. name end
+  for _, name in ipairs(group[2]) do
+    place_of[name] = place_of[name] or "ref_" .. group[1] .. ".html#" .. name
+  end
 end
 
 local function rows_table(rows)
@@ -102,7 +105,9 @@ local function reference_page(group)
   local lines = { "# Parameters: " .. group[1], "" }
   for _, name in ipairs(group[2]) do
     lines[#lines + 1] = ('<h2 id="%s">%s</h2>\n'):format(name, name)
-    if manual.has(name) then lines[#lines + 1] = ("See also [%s](%s.md).\n"):format(manual.title(name), name) end
+    if manual.has(name) then
+      lines[#lines + 1] = ("See also [%s](%s.md).\n"):format(manual.title(name), name)
+    end
     for _, part in ipairs(topics.parts(name)) do lines[#lines + 1] = part_markdown(part) .. "\n" end
   end
   return table.concat(lines, "\n")
@@ -137,9 +142,11 @@ end
 
 local function footer(number)
   local function link(entry, format)
-    return entry and ('<a href="%s">' .. format .. "</a>"):format(entry[1], html_text(entry[2])) or "<span></span>"
+    if not entry then return "<span></span>" end
+    return ('<a href="%s">' .. format .. "</a>"):format(entry[1], html_text(entry[2]))
   end
-  return "<footer>" .. link(order[number - 1], "&larr; %s") .. link(order[number + 1], "%s &rarr;") .. "</footer>"
+  local before, after = link(order[number - 1], "&larr; %s"), link(order[number + 1], "%s &rarr;")
+  return "<footer>" .. before .. after .. "</footer>"
 end
 
 -- Links to pages and pictures lead to files of the folder; help "name" becomes a link.

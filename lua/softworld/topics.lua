@@ -8,7 +8,7 @@ local text_of = require "softworld.manual.text"
 
 local topics = {}
 
--- What the tables of rows are of.
+-- The call that each table of rows belongs to.
 local uses = {
   scene = "sw.scene{...}",
   wire = "scene:wire{...} (and a section, see help 'section', or a cable, see help 'cable')",
@@ -108,7 +108,8 @@ local function how_it_steps(entry)
 end
 
 local function member(family, entry)
-  local part = { title = ("%s %s%s"):format(family[1], entry.name, entry.summary and ": " .. entry.summary or ""),
+  local summary = entry.summary and ": " .. entry.summary or ""
+  local part = { title = ("%s %s%s"):format(family[1], entry.name, summary),
     lines = { family[3]:format(entry.name) } }
   if entry.inner then part.lines = { "part of the wire models that need it" }
   elseif family[1] == "integrator" then

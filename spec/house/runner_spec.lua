@@ -38,7 +38,8 @@ describe("spec runner", function()
       "its output:\n    seen", "0 passed, 1 failed")
   end)
   it("shows what was measured when asked to", function()
-    local file = { a = LUA .. 'it("x", function() print("measured: 42", os.getenv "SOFTWORLD_MEASURED") end)' }
+    local file = { a = LUA
+      .. 'it("x", function() print("measured: 42", os.getenv "SOFTWORLD_MEASURED") end)' }
     assert.falsy((spec(file)):find("measured", 1, true))
     assert.truthy((spec(file, "--measured")):find("\n  measured: 42\t1\n", 1, true))
   end)

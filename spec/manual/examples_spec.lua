@@ -19,7 +19,8 @@ local scene = blocks_of(manual.read "start")[1]
 
 local function run(block)
   local folder = program.folder()
-  program.write(folder .. "/script.lua", block:find('require "softworld"', 1, true) and block or scene .. block)
+  local complete = block:find('require "softworld"', 1, true)
+  program.write(folder .. "/script.lua", complete and block or scene .. block)
   local out, err, code = program.shell(("cd %s && %s script.lua"):format(program.quote(folder),
     program.quote(path)))
   assert.are.equal(0, code, err)

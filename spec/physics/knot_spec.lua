@@ -49,7 +49,7 @@ describe("a twisted rod that coils around itself", function()
       errors[i] = math.abs(T / tension_for(M, B, 0.0015) - 1)
     end
     -- polygons lock into each other a little: 5 % at 10 mm segments, 1 % at 5 mm
-    print(("measured: tension of the coil, 10 and 5 mm: %.2g and %.2g of it off"):format(errors[1], errors[2]))
+    print(("measured: tension of the coil, 10 and 5 mm: %.2g, %.2g of it off"):format(errors[1], errors[2]))
     assert.is_true(errors[1] < 0.08, errors[1])
     assert.is_true(errors[2] < 0.015, errors[2])
     local T, M, B = coil(200, 10, 0.0015)

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Markdown as a terminal shows it: headings underlined, columns of tables in line, code indented,
--- links as what help is to be asked for.
+--- Markdown as a terminal shows it: headings underlined, columns of tables in line, code indented, links as
+-- topics of help.
 -- @module softworld.manual.text
 
 local WIDEST = 104 -- of a table, whose cells are wrapped to fit [characters]
