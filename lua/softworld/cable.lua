@@ -94,7 +94,7 @@ local function source_of(name, key, source)
   return source
 end
 
--- A value as the user wrote it (a number or a table), with what the entry says for all.
+-- A value as the user wrote it (a number or a table), completed by the entry's flag, source and spread.
 local function read_quantity(name, spec, given, entry)
   local key, unit = spec.key, spec.unit
   if type(given) == "number" then given = { value = given } end
@@ -196,7 +196,7 @@ local function add_bounds(name, entry, by_parts)
   end
 end
 
--- What no cable can be, whatever it is made of.
+-- Values that no cable can have, whatever it is made of.
 local function check_consistency(name, e)
   local R = e.outer_diameter.value / 2
   local density = e.mass_per_length.value / (math.pi * R ^ 2)

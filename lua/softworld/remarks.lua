@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Remarks on what is allowed but hardly meant: a radius of 2.5 m, a modulus of 50 Pa, a wire that
--- begins inside of an obstacle. Each is told once per line of the script, on stderr, in the host
--- program; sw.remarks = false silences them.
+--- Remarks on values that are allowed but hardly meant: a radius of 2.5 m, a modulus of 50 Pa, a wire that
+-- begins inside of an obstacle. Each is told once per line of the script, on stderr, in the host program;
+-- sw.remarks = false silences them.
 -- @module softworld.remarks
 local core = require "softworld.core"
 local checks = require "softworld.checks"
@@ -89,7 +89,7 @@ local function keys_of(kind)
   return sorted[kind]
 end
 
---- Remark what is unusual in the arguments of a kind of thing; what: names it.
+--- Remark unusual values in the arguments of a kind of thing, which `what` names.
 function remarks.on(kind, what, args)
   if type(args) ~= "table" or not remarks.wanted() then return end
   for _, key in ipairs(keys_of(kind)) do
@@ -154,8 +154,8 @@ local function ball(wire)
   return wire.middle, wire.reach
 end
 
--- A wire so far from an obstacle has no point inside of it. What is inside of an open mesh may be
--- as near as it likes to what is outside.
+-- A wire so far from an obstacle has no point inside of it. Of an open mesh the inside may touch the
+-- outside, so that distance tells nothing.
 local function is_far(wire, shape, at, back)
   if shape:kind() == "mesh" or #wire.points == 0 then return false end
   local middle, reach = ball(wire)

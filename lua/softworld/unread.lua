@@ -8,7 +8,7 @@ local MOST = 20 -- texts that are kept, and told
 local texts, kept, last = {}, 0, 0
 local more = 0 -- failures beyond those kept
 
---- Remember a failure; gives what stands for it.
+--- Remember a failure; gives its mark.
 function unread.add(text)
   last = last + 1
   local mark = { number = last }
@@ -31,8 +31,7 @@ function unread.seen(mark)
   end
 end
 
---- What f(...) returns; of failures within it that nobody looked at nothing is told: it judges runs by
--- other means.
+--- Call f and return its results. Failures within it need no look: f judges its runs by other means.
 function unread.excused(f, ...)
   local before, more_before = last, more
   local function done(...)
@@ -45,7 +44,7 @@ function unread.excused(f, ...)
   return done(f(...))
 end
 
---- For the end of a script: what is to be told, or nil. Forgets it.
+--- At the end of a script: the text to be told, or nil. Forgets it.
 function unread.finish()
   local numbers, lines = {}, {}
   for number in pairs(texts) do numbers[#numbers + 1] = number end

@@ -92,7 +92,7 @@ function sink.temporary(path, folder, swept)
   return temporary
 end
 
---- A fresh, empty file for what this process needs by itself; sink.discard it.
+--- A fresh, empty file for this process alone; sink.discard it.
 -- @treturn string path
 function sink.scratch()
   local folder = os.getenv "TMPDIR"
@@ -152,7 +152,7 @@ local function fill(file, content)
   if type(content) == "function" then content(writer(file)) else writer(file)(content) end
 end
 
--- Fill an open file and close it: nil, or what went wrong.
+-- Fill an open file and close it: nil, or a message.
 local function fill_and_close(file, content)
   local ok, failure = pcall(fill, file, content)
   local closed, close_why = file:close()
