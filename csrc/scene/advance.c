@@ -32,7 +32,7 @@ static sw_param run_rows[] = {
      "largest forces and tensions are of means over this time; 0: of single steps; see help "
      "'peaks'"},
     {"max_steps", SW_PARAM_INTEGER, "-", 1e15, 1, 1e15, 0, NULL, offsetof(sw_run_args, max_steps),
-     "most steps to take"},
+     "stop after so many steps; one that had to be divided is finished first, and its parts count"},
     {"unstable", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_run_args, unstable),
      "true lets an explicit integrator take steps above its stable one"},
     {"progress", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
