@@ -182,7 +182,7 @@ static sw_status yielding_attempt(loop *p, double h, sw_error *err) {
 static sw_status judge(loop *p, double h, double *excess, sw_error *err) {
   sw_scene *s = p->s;
   const sw_status status = sw_ledger_judge(s, s->time + h, h, p->changed, err);
-  *excess = p->changed || status != SW_OK ? 0.0 : sw_ledger_excess(s, h);
+  *excess = p->changed || status != SW_OK ? 0.0 : sw_ledger_excess(s, h, p->args->dt);
   if (status != SW_OK) undo(p);
   return status;
 }
