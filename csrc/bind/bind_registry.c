@@ -76,10 +76,28 @@ static void holds(lua_State *L) {
   }
 }
 
+static void set_wrong(lua_State *L, const sw_shape_wrong *wrong) {
+  lua_newtable(L);
+  for (int i = 0; wrong[i].args; i++) {
+    lua_createtable(L, 0, 2);
+    set_text(L, "args", wrong[i].args);
+    set_text(L, "message", wrong[i].message);
+    lua_rawseti(L, -2, i + 1);
+  }
+  lua_setfield(L, -2, "wrong");
+}
+
 static void shapes(lua_State *L) {
   for (int i = 0; sw_shape_kinds()[i]; i++) {
     const sw_shape_class *c = sw_shape_class_find(sw_shape_kinds()[i]);
-    push_entry(L, sw_shape_kinds()[i], NULL);
+    const unsigned traits = sw_shape_class_traits(c);
+    push_entry(L, sw_shape_kinds()[i], sw_shape_class_summary(c));
+    set_text(L, "sample", sw_shape_class_sample(c));
+    set_wrong(L, sw_shape_class_wrong(c));
+    set_flag(L, "flat", (traits & SW_SHAPE_FLAT) != 0);
+    set_flag(L, "faced", (traits & SW_SHAPE_FACED) != 0);
+    set_flag(L, "listed", (traits & SW_SHAPE_LISTED) != 0);
+    set_flag(L, "convex", sw_shape_class_convex(c));
     set_params(L, sw_shape_class_params(c));
     lua_rawseti(L, -2, i + 1);
   }
