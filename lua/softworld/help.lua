@@ -377,6 +377,7 @@ local function show_members(r, topic)
           print(title .. "\n  " .. family[3]:format(topic))
         else
           show_rows(title .. "\n  " .. family[3]:format(topic), entry.params or {})
+          if entry.sample and not entry.listed then print("  such as " .. entry.sample) end
           if more[topic] then print(more[topic]) end
         end
       end
