@@ -47,7 +47,7 @@ static void forces(lua_State *L) {
   } flags[] = {{"inner", SW_FORCE_INNER},       {"explicit", SW_FORCE_EXPLICIT},
                {"at_place", SW_FORCE_AT_PLACE}, {"dissipative", SW_FORCE_DISSIPATIVE},
                {"frozen", SW_FORCE_FROZEN},     {"of_web", SW_FORCE_OF_WEB},
-               {"on_some", SW_FORCE_ON_SOME}};
+               {"on_some", SW_FORCE_ON_SOME},   {"driven", SW_FORCE_DRIVEN}};
   for (int i = 0; sw_force_all()[i]; i++) {
     const sw_force_class *f = sw_force_all()[i];
     push_entry(L, f->name, f->summary);

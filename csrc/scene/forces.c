@@ -34,7 +34,8 @@ static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, c
                    "force %s: wire '%s' is a %s; it goes with objects of particles and with models "
                    "that are meshes",
                    cls->name, w->name, w->cls->name);
-  if (w->cls->mesh && !(cls->flags & SW_FORCE_ANY_BODY) && sw_scene_is_loose(w))
+  const int any_body = (cls->flags & SW_FORCE_ANY_BODY) && !(cls->flags & SW_FORCE_OF_AXIS);
+  if (w->cls->mesh && !any_body && sw_scene_is_loose(w))
     return sw_fail(err, SW_EINVAL, "force %s: '%s' is an object of particles; it goes with wires",
                    cls->name, w->name);
   if (w->cls->mesh && !(cls->flags & SW_FORCE_ANY_BODY))

@@ -33,7 +33,8 @@ for _, kind in ipairs(samples.registry.shapes) do
           for k = 1, 3 do assert.is_true(p[k] > low[k] - 1e-7 and p[k] < high[k] + 1e-7) end
         end
         for k = 1, #drawn.indices, 3 do
-          local a, b, c = corner(v, drawn.indices[k]), corner(v, drawn.indices[k + 1]), corner(v, drawn.indices[k + 2])
+          local f = drawn.indices
+          local a, b, c = corner(v, f[k]), corner(v, f[k + 1]), corner(v, f[k + 2])
           volume = volume + vec.dot(a, vec.cross(b, c)) / 6
           for j = 0, 2 do
             local from, to = drawn.indices[k + j], drawn.indices[k + (j + 1) % 3]
@@ -86,8 +87,10 @@ for _, kind in ipairs(samples.registry.shapes) do
         local turn = vec.norm(axis) > 1e-9 and { axis = axis, angle = math.acos(-normal[1]) }
           or { axis = { 0, 0, 1 }, angle = normal[1] < 0 and 0 or math.pi }
         local scene = sw.scene{ gravity = { 0, 0, 0 } }
-        local wire = scene:wire{ E = 2e7, density = 1200, radius = 0.003, from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
-        local g = scene:gripper{ pads = { width = 0.02, opening = 0.009 }, arm = { radius = 0.01, length = 0.1 } }
+        local wire = scene:wire{ E = 2e7, density = 1200, radius = 0.003, from = { 0, 0, 0 },
+          to = { 0.2, 0, 0 } }
+        local g = scene:gripper{ pads = { width = 0.02, opening = 0.009 },
+          arm = { radius = 0.01, length = 0.1 } }
         local obstacle = samples.obstacle(kind)
         obstacle.rotation = turn
         local made = scene:obstacle(obstacle)

@@ -79,7 +79,8 @@ describe("a torus", function()
     for i = 1, 100 do -- along the axis, however fast
       local x, y = 0.1 * random.number(), 0.1 * random.number()
       local far = 10 ^ (1 + random.number())
-      assert.is_nil(ring:sweep({ x, y, -far }, { x, y, -far - 0.1 }, { x, y, far }, { x, y, far - 0.1 }, 0), i)
+      local a0, b0, a1, b1 = { x, y, -far }, { x, y, -far - 0.1 }, { x, y, far }, { x, y, far - 0.1 }
+      assert.is_nil(ring:sweep(a0, b0, a1, b1, 0), i)
     end
   end)
 end)
