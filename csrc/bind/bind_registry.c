@@ -103,6 +103,16 @@ static void shapes(lua_State *L) {
   }
 }
 
+static void readouts(lua_State *L) {
+  for (int i = 0; sw_readout_all()[i]; i++) {
+    const sw_readout *r = sw_readout_all()[i];
+    push_entry(L, r->name, r->summary);
+    set_text(L, "unit", r->unit);
+    set_flag(L, "at_place", r->at_place);
+    lua_rawseti(L, -2, i + 1);
+  }
+}
+
 static void params(lua_State *L) {
   const struct {
     const char *name;
@@ -135,9 +145,9 @@ static int mod_registry(lua_State *L) {
   static const struct {
     const char *name;
     void (*fill)(lua_State *L);
-  } parts[] = {{"integrators", integrators}, {"forces", forces},
-               {"models", models},           {"holds", holds},
-               {"shapes", shapes},           {"params", params}};
+  } parts[] = {
+      {"integrators", integrators}, {"forces", forces},     {"models", models}, {"holds", holds},
+      {"shapes", shapes},           {"readouts", readouts}, {"params", params}};
   lua_newtable(L);
   for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
     lua_newtable(L);

@@ -249,9 +249,10 @@ static int push_triangles(lua_State *L) {
 static int meth_triangles(lua_State *L) {
   enum { LEAST = 8, MOST = 1024, USUAL = 32 };
   drawn made = {check_shape(L), {0}};
-  const lua_Integer around = luaL_optinteger(L, 2, USUAL);
-  if (around < LEAST || around > MOST || around % 4 != 0)
-    return luaL_error(L, "shape:triangles: around = %I must be a multiple of 4 in [%d, %d]", around,
+  const double around =
+      lua_isnoneornil(L, 2) ? USUAL : lsw_number(L, 2, "shape:triangles: around", "-");
+  if (!(around >= LEAST && around <= MOST && fmod(around, 4) == 0))
+    return luaL_error(L, "shape:triangles: around = %f must be a multiple of 4 in [%d, %d]", around,
                       LEAST, MOST);
   if (sw_shape_triangles(made.shape, (int)around, &made.triangles) != SW_OK)
     return luaL_error(L, "shape:triangles: out of memory");

@@ -317,6 +317,7 @@ local function families(r)
     { "obstacle", r.shapes, "scene:obstacle{ shape = '%s', ... }" },
     { "force", r.forces, "scene:force{ kind = '%s', on = wire, ... }" },
     { "integrator", r.integrators, "scene:run{ integrator = '%s', ... }" },
+    { "readout", r.readouts, "wire:%s(...)" },
   }
 end
 
@@ -336,6 +337,7 @@ local function overview(r)
   line("obstacles", r.shapes)
   line("forces", outer(r.forces))
   line("integrators", r.integrators)
+  line("readouts", r.readouts)
 end
 
 local function show_object(object)
@@ -373,6 +375,8 @@ local function show_members(r, topic)
         elseif family[1] == "integrator" then
           print(title .. "\n  " .. family[3]:format(topic))
           show_integrator(entry)
+        elseif family[1] == "readout" then
+          print(("%s [%s]\n  wire:%s(%s)"):format(title, entry.unit, topic, entry.at_place and "s" or ""))
         elseif family[1] == "model" then
           print(title .. "\n  " .. family[3]:format(topic))
         else
@@ -387,7 +391,7 @@ local function show_members(r, topic)
 end
 
 local plural = { models = "model", holds = "hold", obstacles = "obstacle", forces = "force",
-  integrators = "integrator", shapes = "obstacle", shape = "obstacle" }
+  integrators = "integrator", readouts = "readout", shapes = "obstacle", shape = "obstacle" }
 
 -- "force", "models", ...: every member with its summary.
 local function show_family(r, topic)
@@ -406,7 +410,7 @@ end
 local function unknown(r, topic)
   local names = {}
   for _, list in ipairs{ with_names(r.params), with_names(texts), r.models, r.holds, r.shapes,
-    r.forces, r.integrators } do
+    r.forces, r.integrators, r.readouts } do
     for _, entry in ipairs(list) do names[#names + 1] = entry.name end
   end
   local near = core.nearest(topic, names)

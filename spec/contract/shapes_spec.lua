@@ -24,8 +24,8 @@ for _, kind in ipairs(samples.registry.shapes) do
     if not kind.flat then
       it("is drawn as a closed surface that lies on its own, outwards", function()
         local drawn = solid.triangles(args, 64)
-        local v, low, high, edges, volume = drawn.vertices, { shape:bounds() }, nil, {}, 0
-        low, high = low[1], low[2]
+        local v, edges, volume = drawn.vertices, {}, 0
+        local low, high = shape:bounds()
         for i = 0, #v // 3 - 1 do
           local p = corner(v, i)
           local gap = shape:distance(p)

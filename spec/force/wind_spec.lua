@@ -48,7 +48,7 @@ describe("wind", function()
   -- Straight under any mesh: only the iterations' accuracy limits it.
   for _, U in ipairs{ 2, 4, 6 } do
     for _, segments in ipairs{ 7, 40 } do
-      local name = ("blows a hanging wire to the slope of the formula: %g m/s, %d segments"):format(U, segments)
+      local name = ("blows a hanging wire to the formula's slope: %g m/s, %d segments"):format(U, segments)
       it(name, function()
         local scene = sw.scene{ gravity = { 0, 0, -G } }
         local w = wire(scene, { segments = segments })
@@ -143,5 +143,8 @@ describe("wind", function()
     local web = scene:particles{ positions = { 0, 0, 1, 0.1, 0, 1 }, masses = 0.1, radius = 0.01 }
     assert.error_matches(function() scene:force{ kind = "wind", on = web, velocity = { 1, 0, 0 } } end,
       "object of particles")
+    scene:force{ kind = "wind", velocity = { 1, 0, 0 } } -- passes it by where it is of the whole scene
+    t.fine(scene:run{ duration = 0.01 })
+    for _, v in ipairs(scene:evaluate(web).wind.force) do t.near(0, v, 0, "force") end
   end)
 end)

@@ -35,7 +35,8 @@ local readers = {
   wire = function(all, wire)
     for _, list in ipairs{ (wire:positions()), (wire:velocities()) } do add(all, list) end
     for k = 0, 7 do
-      add(all, { wire:tension(wire.length * k / 7), wire:twist_moment(wire.length * k / 7) })
+      local known, moment = pcall(wire.twist_moment, wire, wire.length * k / 7) -- not of strings
+      add(all, { wire:tension(wire.length * k / 7), known and moment or 0 })
     end
     add(all, { wire:min_bend_radius() })
     add(all, { wire:max_tension() })

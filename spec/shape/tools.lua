@@ -140,7 +140,8 @@ end
 --- One of every kind, all about 1 m large, for specs that hold for all of them: that of its
 -- sample, and of those made from lists or files one of many places.
 function tools.every_kind()
-  local rich = { hull = core.shape { shape = "hull", points = cloud() }, mesh = tools.mesh(tools.ball(0.5, 6, 8)) }
+  local rich = { hull = core.shape { shape = "hull", points = cloud() },
+    mesh = tools.mesh(tools.ball(0.5, 6, 8)) }
   local list = {}
   for i, kind in ipairs(core.registry().shapes) do
     local args = assert(load(("return { %s }"):format(kind.sample)))()

@@ -10,6 +10,8 @@ run:ledger()     where the energy of a run came from and went [J]; print it for 
   .play   what was in play: largest kinetic energy, work, energy released
           at_start + work - lost + gap = total, each step booked by itself
   .redone .halved .accepted    { count, largest [J], time [s], object, s [m] }, see below
+wire:bend_energy()   stored in bending now, of any model [J]; in scene:energy() that of meshes is
+                 part of what their springs (stretch) or elements (solid) store
 scene:energy()   kinetic, gravity, stored by kind, and their total, now [J]
 Series have the columns energy.kinetic, .stored, .gravity, .gap, .lost.
 
