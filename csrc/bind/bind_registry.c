@@ -36,6 +36,7 @@ static void integrators(lua_State *L) {
     set_flag(L, "adaptive", (m->flags & SW_INTEGRATOR_EMBEDDED) != 0);
     set_flag(L, "no_contact", (m->flags & SW_INTEGRATOR_NO_CONTACT) != 0);
     lsw_set_number(L, "leapfrog_limit", m->leapfrog_limit);
+    lsw_set_number(L, "at_infinity", m->at_infinity);
     lua_rawseti(L, -2, i + 1);
   }
 }

@@ -357,6 +357,9 @@ end
 local function show_integrator(entry)
   print(("  order %d, %s%s"):format(entry.order, entry.implicit and "implicit" or "explicit",
     entry.adaptive and ", steps by tolerance" or ""))
+  if entry.implicit then
+    print(("  of what is too fast for its steps each leaves %g"):format(entry.at_infinity))
+  end
   if not entry.implicit and entry.leapfrog_limit > 0 then
     print(("  stable up to %.3g times scene:stable_dt()"):format(entry.leapfrog_limit / 2))
   end
