@@ -6,6 +6,7 @@
 # make format     clang-format over csrc
 # make bench      speed and accuracy   make chart    draw them
 # make stability  largest stable steps make examples run every example
+# make manual    the manual as HTML, in build/manual
 # make install PREFIX=/usr/local
 PREFIX = /usr/local
 BUILD = build
@@ -49,7 +50,7 @@ DEST = $(DESTDIR)$(PREFIX)
 install: all
 	install -D $(BUILD)/softworld $(DEST)/bin/softworld
 	install -D -m 644 $(BUILD)/lib/softworld/core.so $(DEST)/lib/lua/5.4/softworld/core.so
-	find lua/softworld -name '*.lua' | while read -r f; do \
+	find lua/softworld -name '*.lua' -o -name '*.md' | while read -r f; do \
 	  install -D -m 644 "$$f" "$(DEST)/share/lua/5.4/$${f#lua/}" || exit 1; done
 
 clean:
@@ -97,4 +98,7 @@ chart: all
 stability: all
 	@$(BUILD)/softworld scripts/stability.lua $(ARGS)
 
-.PHONY: bench examples chart stability all clean spec lint format asan fuzz install
+manual: all
+	@$(BUILD)/softworld scripts/manual.lua folder=$(BUILD)/manual
+
+.PHONY: bench examples chart stability manual all clean spec lint format asan fuzz install

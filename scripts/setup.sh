@@ -5,6 +5,7 @@
 #   sh scripts/setup.sh          what building and running need
 #   sh scripts/setup.sh --test   and what the tests need
 #   sh scripts/setup.sh --lint   and what `make lint` and `make format` need
+#   sh scripts/setup.sh --manual what building, running and `make manual` need
 #
 # POSIX sh and the base system only: on a bare Debian 12 there is no make, sudo,
 # curl, python3 or pkg-config. Nothing is downloaded when nothing is missing.
@@ -26,6 +27,8 @@ build libsuitesparse-dev # order in which to eliminate sparse matrices
 build libreadline-dev  # the interactive prompt
 run   gnuplot-nox      # charts
 run   povray           # ray-traced pictures
+manual cmark-gfm       # Markdown to HTML, for make manual
+test  cmark-gfm        # for the spec of make manual
 test  lua-busted       # the test framework
 test  lua-check        # luacheck, for make lint
 test  lua-filesystem   # directories, for the spec runner
@@ -154,8 +157,9 @@ case ${0##*/} in
       '') need build run ;;
       --test) need build run test ;;
       --lint) need build run test lint ;;
+      --manual) need build run manual ;;
       *)
-        sed -n '2,7s/^# \{0,1\}//p' "$0"
+        sed -n '2,8s/^# \{0,1\}//p' "$0"
         exit 2
         ;;
     esac

@@ -5,6 +5,7 @@ usage: build/softworld scripts/spec.lua [options] [path ...]
   path           only spec files whose path contains this text
   --name TEXT    only tests whose full name contains this text
   --list         print the tests, run none
+  --measured     show what specs measured, in lines that begin with "measured:"
   --slow [N]     afterwards show the N (10) slowest tests
   --jobs N       spec files at a time (default: processors)
   --timeout S    seconds for one spec file (default 600)
@@ -190,6 +191,7 @@ local function options_of(args)
     local a = args[i]
     if a == "--name" then o.name = value(a)
     elseif a == "--list" then o.list = true
+    elseif a == "--measured" then o.measured = true
     elseif a == "--slow" then
       o.slow = 10
       if math.tointeger(tonumber(args[i + 1])) then o.slow = number(a) end
@@ -264,8 +266,9 @@ echo "$1 $? $s $(date +%%s.%%N)"]]):format(o.timeout, child, quote(folder))
   local queue = assert(io.open(folder .. "/queue", "w"))
   for i, file in ipairs(files) do queue:write(i, "\0", file, "\0") end
   queue:close()
-  local pipe = io.popen(("SOFTWORLD_BIN=%s SOFTWORLD_ROOT=%s xargs -0 -a %s/queue -n 2 -P %d sh -c %s sh")
-    :format(quote(host), quote(root), quote(folder), o.jobs, quote(one)))
+  local pipe = io.popen(("SOFTWORLD_BIN=%s SOFTWORLD_ROOT=%s %sxargs -0 -a %s/queue -n 2 -P %d sh -c %s sh")
+    :format(quote(host), quote(root), o.measured and "SOFTWORLD_MEASURED=1 " or "", quote(folder), o.jobs,
+      quote(one)))
   local ended, next_one = {}, 1
   local function advance(all)
     while next_one <= #files and (ended[next_one] or all) do
@@ -382,7 +385,7 @@ local function run_all(o)
     end
     local log = read_all(base .. ".log")
     for line in log:gmatch "[^\n]+" do
-      if line:find "^not tested here:" then print("  " .. line) end
+      if line:find "^not tested here:" or o.measured and line:find "^measured:" then print("  " .. line) end
     end
     if #r.failures > 0 then show_failures(r, log) end
     io.stdout:flush()

@@ -292,33 +292,6 @@ describe("example", function()
     assert.is_true(after(out, "table") > 0.05)
   end)
 
-  -- The wire ends up hanging over the wall, pulled by its own friction: less than its weight, 0.289 N.
-  it("of the README runs as it stands", function()
-    local blocks = {}
-    for block in program.read "README.md":gmatch "```lua\n(.-)```" do blocks[#blocks + 1] = block end
-    local out, err, code = program.script(blocks[1])
-    assert.are.equal(0, code, err)
-    local force = tonumber(out:match "\n(%S+)%s+%S+%s+%S+%s+%S+%s+%S+\n$")
-    assert.is_true(force > 0.05 and force < 0.289, out)
-    local ending = '\nlocal r = scene:run { duration = 0.1 }\nprint(r.ok)'
-    out, err, code = program.script((blocks[1]:gsub("scene:process.*", "")) .. blocks[4] .. ending)
-    assert.are.equal(0, code, err)
-    assert.are.equal("true\n", out)
-    local file = os.tmpname()
-    os.remove(file)
-    local saves = blocks[3]:gsub("laying%.sws", file)
-      .. "\nprint(sw.load '" .. file .. "'.time == scene.time)"
-    for _ = 1, 2 do -- the second time all its steps are done
-      out, err, code = program.script(saves)
-      assert.are.equal(0, code, err)
-      assert.are.equal("true\n", out)
-    end
-    os.remove(file)
-    out, err, code = program.script((blocks[1]:gsub("local run.*", "")) .. blocks[2])
-    assert.are.equal(0, code, err)
-    assert.matches("^sag = .* %(asked for 2.000 mm: met%)\ngripper.mean_moment = .*: met%)\nmin_bend", out)
-  end)
-
   -- Weight 1200 pi r^2 L g. About the place at L/4 the gripper, at L/2, has that weight's moment.
   it("15: two plates squeeze, lift and carry a wire", function()
     local out = example "15_two_plates"

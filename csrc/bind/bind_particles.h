@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reading what an object of particles is made of. Arrays belong to userdata that stay on the
+/* Reading the parts of an object of particles. Arrays belong to userdata that stay on the
  * stack. Of this room only. */
 #ifndef LSW_BIND_PARTICLES_H
 #define LSW_BIND_PARTICLES_H

@@ -69,7 +69,8 @@ int lsw_wire_frequencies(lua_State *L);
 int lsw_wire_remodel(lua_State *L);
 /* Index of the word under `model` of the table: of sw_wire_all(). */
 int lsw_read_model(lua_State *L, int table);
-/* What a model that is a mesh takes besides: rows into out, 0 or 2 of them; defaults into mesh. */
+/* Further parameters of a model that is a mesh: rows into out, 0 or 2 of them; defaults into
+ * mesh. */
 size_t lsw_mesh_sections(const sw_wire_class *cls, sw_wire_mesh_args *mesh, lsw_section *out);
 int lsw_wire_calibration(lua_State *L);
 /* wire:section(s), wire:width(s, direction), wire:contact_pressure([s]), wire:von_mises([s]) */

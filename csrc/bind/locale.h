@@ -3,7 +3,7 @@
 #ifndef LSW_LOCALE_H
 #define LSW_LOCALE_H
 
-/* Take over what the program's locale is by now, its numbers aside. To be called after setlocale. */
+/* Take over the program's present locale, its numbers aside. To be called after setlocale. */
 void lsw_locale_renew(void);
 
 #endif

@@ -13,6 +13,7 @@ typedef struct host_options {
   int argc;
   char **argv;
   int script;      /* index in argv of the script's name, or 0 */
+  int command;     /* index in argv of the word `doc`, or 0 */
   int codes;       /* number of -e options */
   int interactive; /* -i, or nothing to do and a terminal to do it on */
   int version, help;
@@ -62,6 +63,10 @@ int host_report(lua_State *L);
 
 int host_run_code(lua_State *L, const char *code);
 int host_run_script(lua_State *L, const host_options *o);
+
+/* `softworld doc ...`: call the library's module of the command's name with the
+ * words that follow. */
+int host_run_command(lua_State *L, const host_options *o);
 
 /* --- repl.c, line.c, history.c --------------------------------------------- */
 

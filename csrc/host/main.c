@@ -20,10 +20,11 @@ static void open_libraries(lua_State *L) {
   lua_pop(L, 1);
 }
 
-/* -e codes, then the script, then the prompt: as far as asked for. */
+/* A command; or -e codes, then the script, then the prompt: as far as asked for. */
 static int run_all(lua_State *L, const host_options *o) {
   int status = HOST_OK, at = 1;
   const char *code;
+  if (o->command) return host_run_command(L, o);
   while (status == HOST_OK && (code = host_options_code(o, &at))) status = host_run_code(L, code);
   const int nothing = !o->codes && !o->version && !o->interactive;
   if (status == HOST_OK && (o->script || nothing)) status = host_run_script(L, o);

@@ -9,7 +9,9 @@
 
 static const char help_text[] =
     "usage: softworld [options] [script [arguments]]\n"
+    "       softworld doc [topic]\n"
     "  script       run this Lua file; '-' reads it from standard input\n"
+    "  doc          show a topic of the manual, or all topics (./doc is a script of that name)\n"
     "  -e code      run this Lua code first (may be repeated)\n"
     "  -i           go on at the prompt afterwards\n"
     "  -v           show the version (also --version)\n"
@@ -23,8 +25,10 @@ void host_options_help(void) { fputs(help_text, stdout); }
 
 static int usage(const char *what, const char *word) {
   fprintf(stderr, "softworld: %s '%s'\n", what, word);
-  fputs("usage: softworld [-e code] [-i] [-v] [script [arguments]]; softworld --help tells more\n",
-        stderr);
+  fputs(
+      "usage: softworld [-e code] [-i] [-v] [script [arguments]]; softworld doc [topic]; "
+      "softworld --help tells more\n",
+      stderr);
   return HOST_USAGE;
 }
 
@@ -57,8 +61,9 @@ int host_options_read(host_options *o, int argc, char **argv) {
     const int status = read_option(o, &i);
     if (status != HOST_OK) return status;
   }
-  o->script = i < argc ? i : 0;
-  if (!o->script && !o->codes && !o->version) o->interactive |= isatty(STDIN_FILENO);
+  o->command = i == 1 && i < argc && strcmp(argv[i], "doc") == 0 ? i : 0;
+  o->script = i < argc && !o->command ? i : 0;
+  if (!o->script && !o->command && !o->codes && !o->version) o->interactive |= isatty(STDIN_FILENO);
   return HOST_OK;
 }
 

@@ -42,11 +42,11 @@ static int refuse(const char *name, const char *why) {
   return HOST_FAILED;
 }
 
-/* Push the script's arguments (arg[1], ...), give their number. */
-static int push_arguments(lua_State *L, const host_options *o) {
-  const int count = o->script ? o->argc - o->script - 1 : 0;
+/* Push the words after the one at argv[at] (0 = none), give their number. */
+static int push_arguments(lua_State *L, const host_options *o, int at) {
+  const int count = at ? o->argc - at - 1 : 0;
   luaL_checkstack(L, count, "too many arguments to the script");
-  for (int i = 0; i < count; i++) lua_pushstring(L, o->argv[o->script + 1 + i]);
+  for (int i = 0; i < count; i++) lua_pushstring(L, o->argv[at + 1 + i]);
   return count;
 }
 
@@ -88,6 +88,22 @@ int host_run_script(lua_State *L, const host_options *o) {
     lua_pop(L, 1);
     return refuse(name, host_ctrl_c_seen() ? "interrupted" : strerror(errno));
   }
-  if (status == LUA_OK) status = host_call(L, push_arguments(L, o), 0);
+  if (status == LUA_OK) status = host_call(L, push_arguments(L, o, o->script), 0);
   return status == LUA_OK ? tell_unread(L) : host_report(L);
+}
+
+/* Push the module of the command's name; 0 and an error's text when there is none. */
+static int push_command(lua_State *L, const char *name) {
+  lua_getglobal(L, "require");
+  lua_pushfstring(L, "softworld.%s", name);
+  return host_call(L, 1, 1) == LUA_OK;
+}
+
+int host_run_command(lua_State *L, const host_options *o) {
+  host_ctrl_c_reset();
+  if (!push_command(L, o->argv[o->command])) return host_report(L);
+  if (host_call(L, push_arguments(L, o, o->command), 1) != LUA_OK) return host_report(L);
+  const int status = (int)lua_tointeger(L, -1);
+  lua_pop(L, 1);
+  return status;
 }

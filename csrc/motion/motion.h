@@ -12,8 +12,8 @@
  *   minimum-jerk   at rest at both ends only         at rest at every one
  *   spline         smooth curve, at rest at the ends, through every way-point
  *
- * Speeds and accelerations that are given are never exceeded along the path;
- * what a blended corner adds sideways follows from speed and blend. */
+ * Speeds and accelerations that are given are never exceeded along the path; the sideways
+ * acceleration in a blended corner follows from speed and blend. */
 #ifndef SW_MOTION_MOTION_H
 #define SW_MOTION_MOTION_H
 

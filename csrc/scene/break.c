@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Wires that are pulled harder than they bear, or pressed hard: what may hold a run back. Nothing
- * breaks here; it is told. */
+/* Wires that are pulled harder than they bear, or pressed hard, as they may hold a run back.
+ * Nothing breaks here; it is told. */
 #include <math.h>
 #include <stdio.h>
 

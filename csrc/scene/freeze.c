@@ -67,8 +67,8 @@ static sw_status keep(sw_scene *s, const sw_tool *t, sw_handle wire, sw_frozen *
   return sw_frozen_condense(s, t, f, ends, err);
 }
 
-/* The twist that the line has between the grip's ends and where they take it over: what the torque
- * there makes of their length. */
+/* Twist of the line between each of the grip's ends and the ring where that end takes over: the
+ * torque there times their length over GJ. */
 static void take_turns(sw_line *line, const sw_grip_end ends[2]) {
   const double turn[2] = {line->turn[ends[0].ring] - ends[0].turn,
                           line->turn[ends[1].ring] - ends[1].turn};

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What goes on as it was when a wire changes between a mesh and a rod.
+/* Balance of a wire when it changes between a mesh and a rod.
  *
- * A rod and a mesh do not lie quite alike under the same forces. The wire that takes over is put
- * where it is in balance with the inertia that the other one had, by micrometres: else it would
- * begin to swing, and the gripper feel that. */
+ * A rod and a mesh do not lie quite alike under the same forces. So the wire that takes over is
+ * shifted, by micrometres, to where it is in balance with the inertia of the other one. Else it
+ * would begin to swing, and the gripper would feel that. */
 #include <math.h>
 #include <string.h>
 

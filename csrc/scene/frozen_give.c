@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How the wire gives way where it leaves the pads, condensed from the deformed mesh.
  *
- * Between the pads sections are flat, and what sticks to the pads shears: the wire gives way more
- * than from a clamp at the pads' face, and not alike in all directions. On each side the mesh from
- * some rings outside on is moved and turned as one rigid body, in six ways, with all that is inside
- * free to follow between the pads' touches. The forces and moments that this takes, and how a ring
- * between goes along, are the compliance of the cell from the pads to that ring. A rod has the same
- * that is held further inside than the pads' face: so much further as it is to stretch more; and
- * whose bending and twist begin further out than that. */
+ * Between the pads sections are flat, and the surface that sticks to the pads shears. So the
+ * wire gives way more than from a clamp at the pads' face, and not alike in all directions. To
+ * measure it, on each side the mesh beyond some rings is moved and turned as one rigid body, in
+ * six ways; the rings inside follow between the pads' touches. The forces and moments, and the
+ * motion of a ring in between, give the compliance of the cell from the pads to that ring. A
+ * rod has the same compliance when it is held further inside than the pads' face, which lets it
+ * stretch more, and when its bending and twist begin further out. */
 #include <math.h>
 #include <string.h>
 
@@ -108,7 +108,7 @@ static int divide(double b[WAYS][WAYS], double a[WAYS][WAYS], double out[WAYS][W
   return 1;
 }
 
-/* What outside of the ring that is read pulls and turns the cell by, about the ring's middle. */
+/* Force and moment of the part outside of the ring that is read, about the ring's middle. */
 static void load_of(const cell *c, int side, sw_vec middle, sw_vec *force, sw_vec *moment) {
   const size_t ring = c->read[side];
   const size_t from = side ? c->web->first[ring + 1] : 0;

@@ -35,8 +35,8 @@ struct sw_frozen {
 
 /* Accelerations of a wire's rings, or of its nodes (count x 3), to be freed; NULL: no memory. */
 double *sw_frozen_accelerations(const sw_scene *scene, size_t wire, size_t *count);
-/* Put the built scene where it is in balance with the accelerations that it has: of the wire those
- * of its rings or nodes before (count x 3). Velocities stay. */
+/* Put the built scene where it is in balance with its accelerations; those of the wire are
+ * before (count x 3), of its rings or nodes. Velocities stay. */
 sw_status sw_frozen_balance(sw_scene *scene, size_t wire, const double *rings, size_t count);
 
 /* The tool's pads press as they do now. SW_ENOMEM. */
@@ -52,8 +52,8 @@ typedef struct sw_grip_end {
   double turn; /* by which that is turned along the way from there to here [rad] */
 } sw_grip_end;
 
-/* The ends, before and after, with which the rod gives way like the mesh does, and lies at present
- * as that lies outside of the pads. The scene is built; f knows its stations and frames. */
+/* The ends, before and after the pads, with which the rod gives way like the mesh and lies
+ * where the mesh lies outside of the pads. The scene is built; f knows its stations and frames. */
 sw_status sw_frozen_condense(sw_scene *scene, const sw_tool *tool, sw_frozen *f,
                              sw_grip_end ends[2], sw_error *err);
 

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How near a rigid grip is to what the pads that it stands for could bear.
+/* Margin of a rigid grip: its load over the load that its pads could bear.
  *
- * Each touch of the pads, where and as hard as it pressed when the grip was frozen, can bear
- * friction up to mu N, and its normal force N may become anything between 0 and 2 N: what moments
- * towards the pads take from one edge they give to the other. Forces and moments that such touches
- * can balance are a convex set; the margin says how many times too large it is for what the grip
- * bears, as a share. By the kinematic theorem of limit analysis that is the largest value, over all
- * rigid motions of the wire between the pads, of the load's power over what the touches can resist
+ * A touch of the pads stays where it was when the grip was frozen. It can bear friction up to
+ * mu N, and its normal force N may become anything between 0 and 2 N: a moment towards the pads
+ * takes from one edge and gives to the other. The forces and moments that such touches can
+ * balance are a convex set, and the margin is the load as a share of the largest load of its
+ * kind in that set. By the kinematic theorem of limit analysis it is the largest value, over
+ * all rigid motions of the wire between the pads, of the load's power over the power that the
+ * touches can resist
  *
  *     sum_i N_i (mu_i |tangential velocity| + |normal velocity|).
  *

@@ -226,10 +226,10 @@ static beside look(const guide *g) {
   return b;
 }
 
-/* A node comes out of the guide, a usual length before the first one. Bending moment and
- * torque at the guide stay as they are, and so do those at the nodes, which takes a small
- * shift of them: the hinges stand for other stretches of wire now. The way over the new
- * node is longer than the chord that was there by what the feed then holds back again. */
+/* A node comes out of the guide, a usual length before the first one. Bending moment and torque
+ * at the guide stay as they are, and so do those at the nodes, which takes a small shift of
+ * them: the hinges stand for other stretches of wire now. The way over the new node is longer
+ * than the chord that was there; the feed holds the difference back again. */
 static sw_status add_node(guide *g) {
   sw_mesh *m = g->m;
   const double size = g->h->feed.size;

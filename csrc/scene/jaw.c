@@ -67,8 +67,8 @@ int sw_jaw_begin(sw_scene *s, double h) {
   return any;
 }
 
-/* In one equilibrium jaws are not closed by more than this share of the thinnest wire's radius, or
- * of what is left of it between them: wires would be pushed to where they cannot be reached from
+/* From one equilibrium to the next jaws close by no more than this share of the thinnest wire's
+ * radius, or of its squeezed height: further would push wires beyond the reach of the solver
  * [-]. */
 static const double WIDEST_STEP = 0.25, LEFT = 0.25, LEAST = 0.05;
 

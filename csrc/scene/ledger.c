@@ -18,18 +18,18 @@ static const double FULL_STEP = 0.01, OF_KINETIC = 1e-3, OF_WEIGHT = 1e-3, OF_WO
 static const double OF_BENDING = 1e-9;
 /* Energies are sums of large terms, known to this share of these [-]. */
 static const double ROUNDING = 1e-13;
-/* After so many steps that were taken though they made energy the referee is of no use: it costs
- * what the smallest steps cost, and mends nothing. The run's end tells what was made [-]. */
+/* After so many steps that were taken although they made energy the referee rests: it would
+ * cost the smallest steps, and mend nothing. The run's end tells the energy made [-]. */
 enum { MOST_ACCEPTED = 16 };
-/* Once steps have gained the first share of what is in play, little of it is allowed; beyond the
- * second only rounding [-]. */
+/* Once the gains of steps pass the first share of the energy in play, a step may gain only
+ * `LITTLE` of it; beyond the second share, only rounding [-]. */
 static const double ENOUGH = 0.005, PLENTY = 0.01, LITTLE = 1e-5;
 /* Wires that begin inside of obstacles are let out, which gives them at most this speed and lifts
  * them about as fast as this [m/s]. */
 static const double THROWN = 0.02, LET_OUT = 0.01;
-/* What is held is off its hold by more than rounding [m]. */
+/* A held point is off its hold by more than rounding [m]. */
 static const double JUMP = 1e-9;
-/* Where nothing touches, what the method makes by itself may come to this share of it [-]. */
+/* Where nothing touches, the method may make this share of the energy in play [-]. */
 static const double IN_FLIGHT = 0.01;
 /* The least that is in play: the weight times the radius, or this share of EI / L [-]. */
 static const double LEAST_BENDING = 1e-6;
@@ -101,7 +101,7 @@ static void take_as_now(sw_books *b, const sw_energies *e, double contact) {
   b->sums.play = fmax(least, b->most_kinetic + b->work + b->released);
 }
 
-/* 1: a hold is not where what it holds is: it was put elsewhere between two steps. */
+/* 1: a hold was put elsewhere between two steps, away from the wire's held point. */
 static int was_put(sw_scene *s, sw_error *err) {
   sw_system *y = &s->system;
   if (sw_system_place_holds(y, s->time, y->delta, NULL, NULL, err) != SW_OK) return 0;
@@ -190,8 +190,8 @@ static double jolt(const sw_scene *s, const sw_step_energy *step) {
   return fastest > 0 ? s->books.mass * fastest * fastest + step->work : 0.0;
 }
 
-/* Pads are as soft as the wire, and share their force out among as many places as touch: what these
- * store jumps when one comes or goes, by no doing of the wire. */
+/* Pads are as soft as the wire, and share their force out among the places that touch. The
+ * energy stored there jumps when a place comes or goes, though the wire does nothing. */
 static int has_pads(const sw_scene *s) {
   for (size_t k = 0; k < s->tool_count; k++)
     if (s->tools[k].alive && s->tools[k].pads && !s->tools[k].frozen) return 1;
@@ -272,8 +272,8 @@ static sw_status log_row(sw_scene *s) {
   return sw_log_add(&s->books.log, row, SW_LOG_ENERGY_SIZE);
 }
 
-/* What a method makes by itself goes to and fro, also where energy oscillates between kinds: what
- * counts is how far the unexplained energy has come from its least. What touches make stays. */
+/* The energy that a method makes by itself goes to and fro, also where energy oscillates
+ * between kinds. So it counts by its rise above its least value. Energy made by touches stays. */
 static void book_gain(sw_scene *s, double gain) {
   sw_books *b = &s->books;
   if (!isfinite(gain)) return; /* not judged */

@@ -82,8 +82,8 @@ sw_status sw_ledger_pose(sw_scene *scene, int jumped, sw_error *err);
 /* Count a retry for the trial that was judged last. */
 void sw_ledger_retry(const sw_scene *scene, sw_retries *retries, double time, double excess);
 
-/* Work of what holds and drives wires in the judged step, into step; the most that it may have been
- * as forces changed within the step [J]. */
+/* Work of holds, feeds and obstacles in the judged step, into step. Gives the most that it may
+ * have been, as forces change within the step [J]. */
 double sw_ledger_work(sw_scene *scene, double t1, int changed);
 /* Forces and poses at the state, for the next step. logged: holds' forces there are in their logs.
  * SW_ENOMEM. */

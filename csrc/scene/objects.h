@@ -14,7 +14,7 @@ extern const sw_params sw_particles_params;
 /* Particles that push each other apart where they come nearer than a distance. */
 typedef struct sw_repel_pairs {
   double distance;  /* [m] */
-  double stiffness; /* force over what is missing of it; 0 = none [N/m] */
+  double stiffness; /* force over the missing distance; 0 = none [N/m] */
 } sw_repel_pairs;
 extern const sw_params sw_repel_pairs_params;
 
@@ -30,7 +30,7 @@ typedef struct sw_particles_link {
   double k;         /* [N/m] */
   double rest;      /* unstressed length; NAN = as it lies [m] */
   double yield;     /* strain at which it yields; NAN = never [-] */
-  double hardening; /* what that force gains per plastic elongation, of k [-] */
+  double hardening; /* gain of the yield force per plastic elongation, over k [-] */
 } sw_particles_link;
 
 typedef struct sw_particles_fold {

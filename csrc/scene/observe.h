@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is kept of every accepted state; part of the scene's inside, see world.h. */
+/* Records of every accepted state: histories, extremes, logs. Part of the scene's inside, see
+ * world.h. */
 #ifndef SW_SCENE_OBSERVE_H
 #define SW_SCENE_OBSERVE_H
 

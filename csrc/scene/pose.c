@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Poses: equilibria at the places of what drives the wires, one after another. Jaws that obey a
- * force are as open at each as it takes, found by repeating the pose from where it began. */
+/* Poses: holds and obstacles go from place to place, and the wires are in equilibrium at each.
+ * For jaws that obey a force the pose is repeated with other openings, until the force is as
+ * wanted. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -133,8 +134,8 @@ static sw_status put_back(sw_scene *s, const kept *k, double t0, sw_error *err) 
 static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
                       sw_run_report *report, sw_error *err);
 
-/* What drives the wires goes on to t1, the wires to their equilibrium. Without friction the pose
- * step does not matter; with friction it does, and halving it shows how much. */
+/* Holds and obstacles go on to t1, the wires to their equilibrium there. Without friction the
+ * size of the pose step does not matter; with friction halving it shows how much it does. */
 static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
                           sw_run_report *report, kept *start, sw_error *err) {
   sw_settle_args args = {.tolerance = 1e-9, .max_iterations = 4000};
@@ -203,7 +204,8 @@ static double reach_of(const sw_scene *s, const sw_tool *t) {
 
 enum { MOST_CUTS = 60 }; /* of a step, by motions that start slowly and end fast [-] */
 
-/* The largest step up to h in which the tool carries what it presses no further than that. */
+/* The largest step up to h in which the tool carries the wires that it presses no further than
+ * that. */
 static sw_status carried_step(sw_scene *s, const sw_tool *t, double most, double *h,
                               sw_error *err) {
   sw_motion_state from, to;

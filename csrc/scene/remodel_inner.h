@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The inside of what changes a wire's model: the middle line that goes over, and momentum. */
+/* For the files that change a wire's model: the middle line that goes over, and momentum. */
 #ifndef SW_SCENE_REMODEL_INNER_H
 #define SW_SCENE_REMODEL_INNER_H
 
@@ -34,14 +34,14 @@ void sw_line_spin(const sw_line *line, const sw_web *web, const double *x, doubl
 void sw_momentum_of(const sw_scene *scene, size_t wire, sw_vec *about, double out[6]);
 /* The same about a point. */
 void sw_momentum_about(const sw_scene *scene, size_t wire, sw_vec about, double out[6]);
-/* Give what is free of the built wire the momentum wanted, by the smallest rigid motion. */
+/* Give the free nodes of the built wire the momentum wanted, by the smallest rigid motion. */
 sw_status sw_momentum_match(sw_scene *scene, size_t wire, sw_vec about, const double wanted[6]);
 /* Forces of inertia of all wires that go with accelerations a (nodes x 3), into out [N]. */
 void sw_inertia_of(const sw_system *system, const double *a, double *out);
 double sw_scene_total_energy(sw_scene *scene, sw_error *err); /* [J] */
 
-/* The wire is with instead, whose parts it takes; its living holds take hold of that, each where
- * its pose is now. The scene is not built. SW_ENOMEM. */
+/* Replace the wire by `with`, whose parts it takes over. Its living holds take hold of the new
+ * wire, each at its present pose. The scene is not built. SW_ENOMEM. */
 sw_status sw_scene_replace_wire(sw_scene *scene, size_t wire, sw_scene_wire *with, sw_error *err);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a wire that is a mesh of particles does as a wire: the line through the middles of its
- * rings, what its sections carry, and how they are deformed. */
+/* A wire that is a mesh of particles read as a wire: the line through the middles of its rings,
+ * the forces that its sections carry, and their deformation. */
 #include <math.h>
 #include <string.h>
 

@@ -302,9 +302,9 @@ static double widest_mesh(const sw_system *s) {
   return widest;
 }
 
-/* Into how many parts the way of the holds to their places is to be cut, so that
- * no part shifts a hold by more than longest_shift [m] or turns it far. lever: what is so far out
- * does not shift by more either when a hold turns [m]. */
+/* Number of parts into which the way of the holds to their places is cut, so that no part
+ * shifts a hold by more than longest_shift [m] or turns it far. lever: nor may a point so far
+ * from the hold shift by more as the hold turns [m]. */
 static sw_status count_parts(statics *p, double lever, double longest_shift, size_t *parts,
                              sw_error *err) {
   sw_system *s = &p->s->system;
@@ -332,7 +332,7 @@ static sw_status follow_in(statics *p, size_t parts, sw_error *err) {
   return status;
 }
 
-/* Does what the wires have been through make no difference to where they come to rest? */
+/* Is the rest of the wires independent of their past? */
 static int forgets(const sw_scene *s) {
   if (s->pairs || s->crowd) return 0;
   for (size_t o = 0; o < s->obstacle_count; o++)
@@ -369,9 +369,9 @@ static sw_status follow_fast(statics *p, size_t parts, int *done, sw_error *err)
   return status;
 }
 
-/* Settle at every part of the holds' way. The parts are only for convergence: what
- * forces remember is brought up to the last one alone. Where particles of a mesh are further from
- * the axis than its slices from each other, the usual parts may be too wide to begin with. */
+/* Settle at every part of the holds' way. The parts are only for convergence: the memory of
+ * forces is brought up to date at the last one alone. Where particles of a mesh are further
+ * from the axis than its slices from each other, the usual parts may be too wide to begin with. */
 static sw_status follow_holds(statics *p, sw_error *err) {
   size_t parts, more, fewer;
   int done = 0;
@@ -395,7 +395,7 @@ static void conclude(sw_scene *s, sw_status status, sw_settle_report *report, co
   s->discontinuous = 1;
 }
 
-/* Did the wires move much further than what drives them? Then they have left one
+/* Did the wires move much further than their holds and obstacles? Then they have left one
  * equilibrium for another. */
 static const double JUMP = 4.0;           /* largest shift over the drives' own [-] */
 static const double SMALLEST_JUMP = 0.01; /* of the longest wire [-] */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The unloaded shape of wire that is fed: a mesh with frames as it was when a feed took
- * hold of it, and what is on the spool before it. For this room only. */
+/* The unloaded shape of wire that is fed: a mesh with frames as it was when a feed took hold of
+ * it, and the wire on the spool before it. For this room only. */
 #ifndef SW_SCENE_SPOOL_H
 #define SW_SCENE_SPOOL_H
 
@@ -17,7 +17,7 @@ typedef struct sw_rest_place {
 } sw_rest_place;
 
 /* The unloaded wire at arc length s. Beyond its ends it goes on with the curvature and twist
- * that it has there: what is on the spool is like what has come from it. */
+ * that it has there: wire on the spool is like the wire that has come from it. */
 sw_rest_place sw_spool_at(const sw_mesh *shape, double s);
 
 /* Give a node of mesh its unloaded place, and the edges beside it their frames, for its arc

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Wires that are meshes of particles: made of a calibrated lattice along what they are drawn
- * along. The wire's own mesh (sw_mesh) then has one node for each ring, in its middle. */
+/* Wires that are meshes of particles: a calibrated lattice along the drawn path. The wire's own
+ * mesh (sw_mesh) then has one node for each ring, in its middle. */
 #ifndef SW_SCENE_STRAND_H
 #define SW_SCENE_STRAND_H
 
@@ -8,7 +8,7 @@
 #include "state/mesh.h"
 #include "state/web.h"
 
-/* What a mesh was calibrated to, shared by all that have its web. */
+/* The calibration of a mesh, shared by all strands that have its web. */
 typedef struct sw_strand_kit {
   int references;
   sw_calibration calibration;
@@ -23,7 +23,7 @@ typedef struct sw_strand {
   double *rate;      /* (links) of their strains, where dashpots know it; or NULL [1/s] */
 } sw_strand;
 
-/* What a mesh is to be of; the wire's beam gives the rest. */
+/* The mesh to be made; the wire's beam gives the rest. */
 typedef struct sw_strand_plan {
   const char *name;        /* of the wire, for messages */
   const char *mesh;        /* the lattice's name */

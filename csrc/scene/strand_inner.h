@@ -36,9 +36,9 @@ double sw_strand_wall_along(const sw_strand_plan *plan, const sw_beam *beam);
 void sw_strand_add_link(sw_strand_maker *m, size_t a, size_t b, double k, double rest);
 void sw_strand_add_fold(sw_strand_maker *m, size_t a, size_t b, size_t c, double k, double rest);
 
-/* What holds the line at number r to what comes next, and its bending there. */
+/* Springs that join particle r of a line to its successor, and the bending there. */
 void sw_strand_add_line(sw_strand_maker *m, size_t r);
-/* What holds ring r to a line that comes next. */
+/* Springs that join ring r to the line after it. */
 void sw_strand_add_end(sw_strand_maker *m, size_t r);
 /* Mass that ring or line number r has [kg]. */
 double sw_strand_mass(const sw_strand_maker *m, size_t r);

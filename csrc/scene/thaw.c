@@ -30,8 +30,8 @@ static sw_vec turned(const double *from, const double *to, sw_vec a) {
   return sw_madd(sw_madd(sw_scale(t2, sw_dot(a, t)), u2, sw_dot(a, u)), w2, sw_dot(a, w));
 }
 
-/* What pads press on stays where it was between them; the middle goes with the rod that stands for
- * it, and what lies between shears in between. */
+/* Particles that pads press on stay where they were between them. The middle goes with the rod
+ * that stands for it, and the particles between both shear. */
 static void place_pressed(const sw_frozen *f, const sw_motion_state *tool, const sw_line *l,
                           size_t r, const sw_web *web, double *x) {
   const sw_vec middle = sw_pose_local(f->pose, sw_vec_at(f->rod, r));

@@ -119,8 +119,7 @@ typedef struct sw_tool_touch {
   size_t wire;      /* slot [-] */
   const char *name; /* of that wire, the scene's */
 } sw_tool_touch;
-/* How many touches pads have; number k of all touches there are: 0 = not one of a pad's with a
- * force. */
+/* Number of touches that there are. Touch k: 0 when it is not a pad's, or has no force. */
 sw_status sw_scene_tool_touches(sw_scene *scene, sw_handle tool, size_t *count, sw_error *err);
 int sw_scene_tool_touch(const sw_scene *scene, sw_handle tool, size_t k, sw_tool_touch *out);
 

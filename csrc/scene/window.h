@@ -9,8 +9,7 @@
 
 #include "base/status.h"
 
-/* Peaks are of means over this time unless a run says otherwise: blows last less, and what holds a
- * wire or makes it moves more slowly [s]. */
+/* Usual window of peaks: longer than a blow, shorter than any move of a gripper [s]. */
 #define SW_WINDOW 0.01
 
 enum { SW_WINDOW_PARTS = 16, SW_WINDOW_MARKS = SW_WINDOW_PARTS + 2 };
@@ -33,8 +32,7 @@ void sw_window_forget(sw_window *w);
 /* Doubles in its room. */
 static inline size_t sw_window_size(size_t edges) { return (3 + SW_WINDOW_MARKS) * edges; }
 
-/* For so many edges; what is kept goes over to the nearest places. before: nothing changes but
- * in here. SW_ENOMEM. */
+/* Fit the window to so many edges: kept integrals go over to the nearest places. SW_ENOMEM. */
 sw_status sw_window_fit(sw_window *w, size_t edges, const double *places);
 /* Room for the present values, one for an edge. */
 static inline double *sw_window_values(sw_window *w) { return w->room + w->edges; }

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What the Lua side adds when objects are made: names, mesh files, the
--- descriptions that pictures and series need, and what snapshots must know of it.
+--- Making objects, on the Lua side: names, mesh files, descriptions for pictures and series, and the Lua
+-- state that snapshots keep.
 -- @module softworld.build
 local core = require "softworld.core"
 local cable = require "softworld.cable"
@@ -43,7 +43,7 @@ local function place()
   return ""
 end
 
--- What Lua itself says of a mistake in this library: its place must be seen.
+-- Lua's own message on a mistake in this library: its place must be seen.
 local function is_mistake(text)
   return text:find "^attempt to " or text:find "^bad argument #%d+ to '[^f]" or text:find "^stack overflow"
 end
@@ -62,7 +62,7 @@ end
 
 local function all(...) return ... end
 
--- What the core raises has the place of this line; what a script raises within it stays as it is.
+-- An error of the core has the place of this line; an error of a script's function keeps its own.
 local function of_core(f, ...) return all(f(...)) end
 
 local kinds = setmetatable({}, { __mode = "k" }) -- function -> "C", "Lua"
@@ -156,7 +156,7 @@ end
 
 local cable_words, wire_words = { "cable", "stiffness", "use" }, nil
 
--- The core tells what it does not know, but cannot know these words.
+-- The core names unknown keys, but does not know these words, which belong to Lua.
 local function check_cable_words(args)
   if not wire_words then
     wire_words = { from = true, to = true, path = true }

@@ -196,7 +196,7 @@ local function add_bounds(name, entry, by_parts)
   end
 end
 
--- What no cable can be, whatever it is made of.
+-- Values that no cable can have, whatever it is made of.
 local function check_consistency(name, e)
   local R = e.outer_diameter.value / 2
   local density = e.mass_per_length.value / (math.pi * R ^ 2)

@@ -8,11 +8,11 @@
 --       build(l.from, l.to, l.slices, l.weight * c.springs[l.group])
 --     end
 --
--- The beam that an endless mesh of springs is, is known exactly (softworld.calibrate.cell):
--- a slice that repeats is strained, bent and twisted, its particles go where they like, and
--- what they resist with are EA, EI and GJ. The springs are searched until these are those of
--- the wire. body = "solid" fills the mesh with solid elements of one modulus instead, and takes
--- springs only for what these leave of EA, EI and GJ. help "calibrate" lists the parameters.
+-- EA, EI and GJ of an endless mesh of springs are known exactly (softworld.calibrate.cell): a slice that
+-- repeats is strained, bent and twisted while its particles find their places, and its resistance is
+-- measured. The springs are searched until EA, EI and GJ are those of the wire. body = "solid" fills the
+-- mesh with solid elements of one modulus instead, and adds springs only for the rest of EA, EI and GJ.
+-- help "calibrate" lists the parameters.
 --
 -- A composite is a tube of rings as shell around cores, each a line of particles, layers or
 -- voxels. Bonded, springs (group "bond") hold its parts together and the whole has EA, EI and GJ.
@@ -22,14 +22,14 @@
 -- for the cell of the mesh as a whole; of cores off the axis that cell, whose sections stay plane,
 -- has their EA times distance^2 more of EI.
 --
--- With body = "solid" a composite is one core bonded to the shell, in one mesh of layers with the
--- face at the core's radius. E, nu and density are the shell's, core_E, core_nu and core_density
--- the core's, and EA = sum of E_i A_i, EI = sum of E_i I_i, GJ = sum of G_i J_i. Exact: EA, EI, both
--- nu, the ratio of the moduli. Scaled: the section (`scale`, with the face in it) and both moduli by
--- one factor, so that EA and EI are exact in spite of corners, and of what parts with different nu
--- add to EA by pressing on one another. GJ is then within 2 %. From EA, EI and GJ: the moduli that
--- have EA and EI, and nu that makes GJ, unless core_E, core_EA or nu are given. Where that does
--- not do it springs are added, moduli are searched too, and EA, EI and GJ are exact.
+-- With body = "solid" a composite is one core bonded to the shell, in one mesh of layers with the face at
+-- the core's radius. E, nu and density are the shell's, core_E, core_nu and core_density the core's, and
+-- EA = sum of E_i A_i, EI = sum of E_i I_i, GJ = sum of G_i J_i. All three and the ratio of the moduli are
+-- exact, in spite of corners and of the stiffness that parts with different nu add by pressing on one
+-- another: the section is scaled (`scale`, with the face in it), both moduli by one factor, and both nu
+-- are shifted alike. From EA, EI and GJ: the moduli that have EA and EI, and nu that makes GJ, unless
+-- core_E, core_EA or nu are given. Where that does not do it springs are added, moduli are searched too,
+-- and EA, EI and GJ are exact.
 --
 --     local c = sw.calibrate { mesh = "composite", core = "radial", cores = 3, bonded = false,
 --       EA = 5000, EI = 0.02, GJ = 0.015, radius = 0.005 }

@@ -28,7 +28,7 @@ function checks.set(text)
   return set
 end
 
---- What a value is: the class of an object, also of one that is a table, else its type.
+--- The kind of a value: the class of an object, also of one that is a table, else its type.
 function checks.kind(value)
   local meta = type(value) == "table" and getmetatable(value)
   local name = type(meta) == "table" and rawget(meta, "__name")

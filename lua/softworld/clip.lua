@@ -82,7 +82,7 @@ local function checked(scene, args)
   return args
 end
 
--- What damps the wire that snaps in; without it there is to be no clip either.
+-- The damping of the wire that snaps in; without it there is no clip either.
 local function make_damper(scene, args, time, force)
   if time == 0 then return nil end
   local ok, damper = pcall(scene.force, scene, { kind = "snap", at = args.at, direction = args.direction,
@@ -116,7 +116,7 @@ end
 
 function Clip.exists(self) return core.exists(self.object) and self.object.held end
 
---- What there is to read for each wire that the clip acts on: { { wire =, share =, u =, ... } }.
+--- Read-outs of the clip, one row for each wire that it acts on: { { wire =, share =, u =, ... } }.
 local function readings(self)
   local list = {}
   for _, entry in ipairs(build.data(self.scene).wires) do

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What clips, ties and channels share: checks of what they are given, and the scene's list of
--- them, by which runs tell of them and pictures show them.
+--- Shared by clips, ties and channels: checks of what they are given, and the scene's list of them, by
+-- which runs tell of them and pictures show them.
 -- @module softworld.fixing
 local core = require "softworld.core"
 local build = require "softworld.build"
@@ -10,8 +10,8 @@ local sealed = require "softworld.sealed"
 
 local fixing = {}
 
---- Copy of the table of parameters; raises when it is none or has what is not known.
--- Errors have no place yet: call from build.call.
+--- Copy of the table of parameters; raises when it is no table or has unknown keys. Errors have no place
+-- yet: call from build.call.
 function fixing.arguments(what, args, known)
   checks.keys(what, args, known, 0)
   local copy = {}

@@ -87,9 +87,8 @@ function grasp.check_reaction(what, value, level)
   if type(value) ~= "function" then checks.word(what, value, reactions, level + 1) end
 end
 
---- What happens when the wire slips, and when it is lost: "record" (default), "warn", "stop" or a
--- function, called with
--- the gripper and the event.
+--- Reaction to a wire that slips, and to one that is lost: "record" (default), "warn", "stop" or a
+-- function, called with the gripper and the event.
 function grasp.set_on_slip(self, value, level)
   grasp.check_reaction("gripper '" .. self.name .. "': on_slip", value, level + 1)
   self.on_slip = value
@@ -118,7 +117,7 @@ local function lost_text(self, event)
   return ("gripper '%s': nothing is left between the pads at t = %.4g s"):format(self.name, event.time)
 end
 
--- Keep the event and do what is to be done; returns the text when that is to stop.
+-- Keep the event and act on it; returns the text when the run is to stop.
 local function react(self, event, reaction, text)
   self.events[#self.events + 1] = event
   if reaction == "warn" then io.stderr:write("softworld: ", text(self, event), "\n")
@@ -446,7 +445,7 @@ local function wires_of(self, given)
   return seen
 end
 
--- May it hold these wires besides what it holds?
+-- May the gripper hold these wires besides those that it holds?
 local function check_free(self, wires, approach, args)
   if type(args.s) == "table" and #args.s ~= #wires then
     error(("gripper '%s': s has %d places for %d wires"):format(self.name, #args.s, #wires), 0)

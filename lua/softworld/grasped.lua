@@ -21,8 +21,8 @@ local function pressed(self)
   return on, others
 end
 
---- Once the pads press: nil when all is well, else what is not, and true when the wire that was
--- meant is not between them at all. An event of the run tells it.
+--- Once the pads press: nil when all is well; else the trouble as a text, and true when the wire that was
+-- meant is not between the pads at all. An event of the run tells it.
 function grasped.check(self)
   local on, others = pressed(self)
   if #others == 0 then return nil end

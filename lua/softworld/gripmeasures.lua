@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What grippers measure: force and moment now and over time, pressure on the pads, squeeze, slip.
+--- Measurements of grippers: force and moment now and over time, pressure on the pads, squeeze, slip.
 -- @module softworld.gripmeasures
 local core = require "softworld.core"
 local build = require "softworld.build"
@@ -18,7 +18,7 @@ local function in_axes(self, v, axes, what)
   return vec.rotate(vec.conjugate(q), v)
 end
 
--- What of several wires holds the one that is asked for.
+-- The hold of one of several wires.
 local function grip_of(self, wire, what)
   for _, grip in ipairs(self.grips) do
     if grip.wire == wire then return grip end
@@ -43,7 +43,7 @@ local function pads_on(self, wire, at, finger)
   return force, moment
 end
 
--- What carries the wires: pads, or of several wires their holds together.
+-- The carriers of the wires: the pads, or the holds of all wires.
 local function carrier_of(self) return self.tool or self.hold and self.carrier or nil end
 
 --- Force on the wire now [N], of several on all of them; zero while nothing is held. { axes =
@@ -154,8 +154,8 @@ local function over_options(options, level)
   return { at = at, window = options.window }
 end
 
--- Add up force and moment over the time between t1 and t2: what are means by their time, what is of
--- the moment by trapezoids.
+-- Integrate force and moment from t1 to t2: means of steps times their duration, values of a moment by
+-- trapezoids.
 local function add_up(self, m, list, t1, t2)
   local force_time, moment_time, before = 0, 0, nil
   local function add(h, r)

@@ -90,8 +90,7 @@ local remembered = { "hold", "at", "rotation", "tool", "wire", "way", "frozen", 
   "margin", "segments", "mesh_model", "rod_model", "slip_event", "crash_time", "on_crash",
   "grips", "carrier", "facing", "busy_until" }
 
---- What a snapshot must know of the gripper, and the way back; recall(nil) for
--- one that was made later.
+--- The gripper's part of a snapshot, and the way back; recall(nil) for one that was made later.
 function Gripper:remember()
   local state = { grasps = #self.past, events = #self.events }
   for _, key in ipairs(remembered) do state[key] = self[key] end
@@ -120,7 +119,7 @@ function Gripper:recall(state)
   for i = #self.events, state.events + 1, -1 do self.events[i] = nil end
 end
 
--- Raise unless the gripper can be moved. Makes nothing: what it is told may be wrong.
+-- Raise unless the gripper can be moved. Makes nothing yet, for the arguments may be wrong.
 local function check_place(self, verb)
   if getmetatable(self) ~= Gripper then
     error(("gripper:%s is a method: call it with a colon"):format(verb), 3)
@@ -132,13 +131,13 @@ local function check_place(self, verb)
     .. "you make it: at = {x, y, z} [m]"):format(self.name, verb), 3)
 end
 
--- What moves, if there is anything yet.
+-- The thing that moves: tool or hold; nil when there is none yet.
 local function moved(self)
   if self.hold and not self.tool then return self.carrier or self.hold end
   return self.tool or self.carrier
 end
 
--- What moves; made where the gripper is to be when there is nothing yet.
+-- The thing that moves; a new tool at the gripper's place when there is none yet.
 local function make_moved(self)
   if moved(self) then return moved(self) end
   if self.solid then grasp.make_tool(self, 4) else build.call(4, grasp.make_carrier, self) end
@@ -330,7 +329,7 @@ function Gripper:__index(key)
       or "; help 'gripper' at the prompt lists what it has"), 2)
 end
 
--- What scripts may set, with what checks it.
+-- Fields that scripts may set, each with its check.
 local settable = {
   slip_tolerance = function(value) checks.number("gripper.slip_tolerance", value, 0, " m", 4, nil, true) end,
   on_slip = function(value) grasp.check_reaction("gripper.on_slip", value, 4) end,

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Values of Lua as a string and back: what the Lua side knows of a scene, for its file.
--- Numbers keep their bits. Objects of a scene are kept by their numbers, tables that occur more
--- than once stay one table, and tables of a known class (a gripper) get their class again:
+--- Values of Lua as a string and back, for the Lua side's part of a saved scene. Numbers keep their bits.
+-- Objects of a scene are kept by their numbers, tables that occur more than once stay one table, and
+-- tables of a known class (a gripper) get their class again:
 --
 --     keep.class("gripper", Gripper)
 --

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The energy ledger of a run: what came in, what is there, what was lost, what nobody explains.
+--- The energy ledger of a run: work, energy that is there, losses, and the gap that nothing explains.
 -- @module softworld.ledger
 local core = require "softworld.core"
 local number = require "softworld.output.number"

@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The mixed grasp: near the pads the wire becomes a mesh, the pads squeeze it for real, and once
--- nothing moves there any more it is carried on as a rod which the gripper holds rigidly, at the
--- cost of one. Should the load that this takes come near to what the pads could bear, or when the
--- gripper opens, the mesh takes over again as it was.
+--- The mixed grasp: near the pads the wire becomes a mesh, the pads squeeze it for real, and once nothing
+-- moves there any more it is carried on as a rod which the gripper holds rigidly, at the cost of one. When
+-- the load comes near to the most that the pads could bear, or the gripper opens, the mesh takes over
+-- again as it was.
 -- @module softworld.mixed
 local build = require "softworld.build"
 local checks = require "softworld.checks"
@@ -42,7 +42,7 @@ function mixed.prepare(self, args)
   build.call(4, wire.remodel, wire, how)
 end
 
---- Let what the pads did settle, then freeze.
+--- Wait until the squeeze has come to rest, then freeze.
 function mixed.settle(self, args)
   local p = process.current()
   self.margin = args.margin and checks.number(("gripper '%s': margin"):format(self.name), args.margin, 0,

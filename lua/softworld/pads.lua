@@ -61,7 +61,7 @@ local per_finger = { friction = true, kinetic_friction = true } -- may be a list
 local known = { shape = true, fingers = true, file = true }
 for key in pairs(numbers) do known[key] = true end
 
---- The description of pads with what was not given filled in; raises for what cannot be.
+--- The description of pads with defaults filled in; raises for impossible ones.
 function pads.check(args, what, level)
   checks.keys(what, args, known, level + 1)
   local p = { shape = checks.word(what .. ".shape", args.shape or "flat", makers, level + 1) }

@@ -57,8 +57,8 @@ local function done_of(self)
   return data.done[self.number]
 end
 
---- Raise when the process that is running is between two steps and these are kept in a file: what
--- happens there would happen again when a script goes on from the file.
+--- Raise when steps are kept in a file and the running process is between two of them: a script that goes
+-- on from the file would do it a second time.
 function process.guard(what)
   local self = process.current()
   if not self or self.inside then return end
@@ -158,7 +158,7 @@ local function check_step(self, name, work)
   end
 end
 
--- What the step returned when it was done, before the file was written.
+-- The results of the step, from when it was done and the file was written.
 local function recall(self, name, old)
   if old.name == name then return table.unpack(old.results, 1, old.count) end
   error(("p:step '%s': the file '%s' has '%s' as step %d of %s; a script that goes on must have the "
@@ -166,9 +166,9 @@ local function recall(self, name, old)
     self.steps, tostring(self)), 3)
 end
 
---- A named step of the process: work() is called and may let time pass. A run with save = file
--- writes the scene after it; a script that goes on from the file leaves the step out. What
--- work returns is returned, and kept in the file: numbers, strings, tables of these, objects.
+--- A named step of the process: work() is called and may let time pass. A run with save = file writes the
+-- scene after it; a script that goes on from the file leaves the step out. The results of work are
+-- returned, and kept in the file: numbers, strings, tables of these, objects.
 function Process:step(name, work)
   check_step(self, name, work)
   local done = done_of(self)

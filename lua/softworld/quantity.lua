@@ -112,7 +112,7 @@ local function directory(scene)
   return found, names
 end
 
--- The keys alone, which is what most errors are made of.
+-- The keys alone, as most errors are in them.
 local function short_names(names)
   local list = {}
   for _, name in ipairs(names) do

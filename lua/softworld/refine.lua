@@ -14,7 +14,7 @@ local refine = {}
 -- steps' error in a swing about that of the edges.
 local step_share = 0.02
 local longest_step = 0.01 -- default dt [s]
-local at_rest = 1e-6      -- what settling may move a wire that is at rest [of its length]
+local at_rest = 1e-6      -- a settle that moves a wire by less finds it at rest [of its length]
 
 -- The registry's entry of an integrator.
 local function method_of(name)
@@ -23,7 +23,7 @@ local function method_of(name)
   end
 end
 
--- What the steps of level k are made of: options of a run.
+-- Options of the run of level k.
 local function steps_of(job, args)
   local dt = args.dt or longest_step
   local adaptive = not args.quasistatic and method_of(args.integrator).adaptive

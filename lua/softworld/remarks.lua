@@ -154,8 +154,8 @@ local function ball(wire)
   return wire.middle, wire.reach
 end
 
--- A wire so far from an obstacle has no point inside of it. What is inside of an open mesh may be
--- as near as it likes to what is outside.
+-- A wire so far from an obstacle has no point inside of it. Of an open mesh the inside may touch the
+-- outside, so that distance tells nothing.
 local function is_far(wire, shape, at, back)
   if shape:kind() == "mesh" or #wire.points == 0 then return false end
   local middle, reach = ball(wire)

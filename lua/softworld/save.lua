@@ -185,7 +185,7 @@ end
 local totals = { "steps", "rejected", "iterations", "evaluations", "jumps", "smallest_dt", "time",
   "start", "wall", "cpu" }
 
--- What the Lua side will rely on; objects stand there as words, for there are none yet.
+-- Checks of the Lua side's part of the file, in which objects are words, for there are none yet.
 local function check_note(note)
   expect(is_list(note) and is_list(note.data) and is_list(note.beside) and is_list(note.origin), "note")
   for key in pairs(note.data) do expect(not passing[key], "note") end
@@ -375,7 +375,7 @@ end
 
 local function all(...) return ... end
 
--- What changes a scene must happen inside of steps while these are kept.
+-- While steps are kept, a scene is changed only inside of them.
 for kind, methods in pairs{ clamp = { "follow", "release", "feed" },
   obstacle = { "follow", "remove" }, force = { "release" }, join = { "release" },
   wire = { "remodel" }, tool = { "follow", "hold", "pads_on", "jaws", "freeze", "thaw" } } do

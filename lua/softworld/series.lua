@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Time series of a run: what the scene has recorded since the run began, on one time axis.
+--- Time series of a run: the records of the scene since the run began, on one time axis.
 -- @module softworld.series
 local core = require "softworld.core"
 local build = require "softworld.build"
@@ -9,7 +9,7 @@ local series = {}
 
 local axes = { "x", "y", "z" }
 
--- What one object has recorded: times [s] and columns of as many values.
+-- The record of one object: times [s] and columns of as many values.
 local function source(list, name, times)
   local one = { name = name, times = times, columns = {} }
   list[#list + 1] = one

@@ -60,7 +60,7 @@ function trust.estimate(q, values, contact)
   local turns = quantity.agreement(values[n - 2], values[n - 1], values[n]) < 0
   local rate = last > 0 and math.min(second_order, before / last) or second_order
   local off
-  if before > first then -- peaks of blows, for instance: no more than what they change by
+  if before > first then -- peaks of blows, for instance: the bar is their change
     off = math.max(last, before)
     rate = 1
   elseif contact then -- touching places jump from node to node: the plain difference
@@ -224,8 +224,8 @@ local function touches(scene)
   return false
 end
 
--- What the quantities are on the level just computed. Returns the largest bar over what
--- was asked for: all are met when it is no more than 1.
+-- Take the quantities' values on the level just computed. Returns the largest bar over its tolerance: at 1
+-- or less all tolerances are met.
 local function judge(job, result)
   local worst = 0
   job.contact = job.contact or touches(job.scene) or was_redone(job.scene)

@@ -31,8 +31,7 @@ function unread.seen(mark)
   end
 end
 
---- What f(...) returns; of failures within it that nobody looked at nothing is told: it judges runs by
--- other means.
+--- Call f and return its results. Failures within it need no look: f judges its runs by other means.
 function unread.excused(f, ...)
   local before, more_before = last, more
   local function done(...)
@@ -45,7 +44,7 @@ function unread.excused(f, ...)
   return done(f(...))
 end
 
---- For the end of a script: what is to be told, or nil. Forgets it.
+--- At the end of a script: the text to be told, or nil. Forgets it.
 function unread.finish()
   local numbers, lines = {}, {}
   for number in pairs(texts) do numbers[#numbers + 1] = number end

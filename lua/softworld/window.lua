@@ -98,7 +98,7 @@ local function short(x, unit)
   return ("%.3g %s"):format(tonumber(digits), scaled)
 end
 
---- What a peak is the mean of, and the raw one: "10 ms mean; raw 41 N in 0.4 ms".
+--- How a peak was measured, and the raw one: "10 ms mean; raw 41 N in 0.4 ms".
 function window.note(p, unit)
   if p.raw_span == 0 then return "at rest" end
   if p.width == 0 then return ("raw, in %s"):format(short(p.raw_span, "s")) end
@@ -121,7 +121,7 @@ function window.tension(scene, wire)
   return value, s, t, window.note({ raw = raw, raw_span = span, width = core.window(scene) }, "N")
 end
 
---- Put what a peak is into a table of measures, as name = value, name_time, raw_name, ...
+--- Put a peak into a table of measures, as name = value, name_time, raw_name, ...
 function window.fill(m, name, p, unit)
   m[name], m[name .. "_time"] = p.value, p.time
   m["raw_" .. name], m["raw_" .. name .. "_time"] = p.raw, p.raw_time

@@ -44,6 +44,7 @@ describe("a wire over a cylinder", function()
     it(("is drawn with exp(mu angle) times the pull: mu %g, %d degrees"):format(case[1], case[2]),
       function()
         local ratio, theory = capstan(case[1], case[2]), math.exp(case[1] * math.rad(case[2]))
+        print(("measured: pull %.5g, theory %.5g"):format(ratio, theory))
         assert.is_true(math.abs(ratio / theory - 1) < 0.02, ratio .. " instead of " .. theory)
       end)
   end

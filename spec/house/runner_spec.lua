@@ -37,6 +37,12 @@ describe("spec runner", function()
     fails(LUA .. 'it("differs", function() print "seen" assert.equal(1, 2) end)',
       "its output:\n    seen", "0 passed, 1 failed")
   end)
+  it("shows what was measured when asked to", function()
+    local file = { a = LUA
+      .. 'it("x", function() print("measured: 42", os.getenv "SOFTWORLD_MEASURED") end)' }
+    assert.falsy((spec(file)):find("measured", 1, true))
+    assert.truthy((spec(file, "--measured")):find("\n  measured: 42\t1\n", 1, true))
+  end)
   it("names the line of the test when a helper failed", function()
     fails(LUA .. 'local function same(a, b)\n  assert.equal(a, b)\nend\n'
         .. 'it("x", function()\n  same(1, 2)\nend)',

@@ -2,6 +2,12 @@
 -- What the physics specs share: comparisons that tell their figures, orders, momentum.
 local tools = {}
 
+-- scripts/spec.lua --measured: figures are told, not only compared.
+local told = os.getenv "SOFTWORLD_MEASURED"
+local function measured(format, ...)
+  if told then print("measured: " .. format:format(...)) end
+end
+
 -- At level 3: the line of the spec that asked.
 local function check(good, format, ...)
   if not good then error(format:format(...), 3) end
@@ -10,6 +16,7 @@ end
 --- |actual - expected| <= tolerance, told with numbers.
 function tools.near(expected, actual, tolerance, what)
   local off = math.abs(actual - expected)
+  measured("%s: %.6g, %.2g off, allowed %.2g", what or "value", actual, off, tolerance)
   check(off <= tolerance, "%s: expected %.10g, got %.10g: %.3g off, allowed %.3g",
     what or "value", expected, actual, off, tolerance)
 end
@@ -17,15 +24,18 @@ end
 --- Relative to the expected value.
 function tools.share(expected, actual, tolerance, what)
   local off = math.abs(actual / expected - 1)
+  measured("%s: %.6g, %.2g of it off, allowed %.2g", what or "value", actual, off, tolerance)
   check(off <= tolerance, "%s: expected %.10g, got %.10g: %.3g of it off, allowed %.3g",
     what or "value", expected, actual, off, tolerance)
 end
 
 function tools.below(limit, value, what)
+  measured("%s: %.4g, allowed %.4g", what or "value", value, limit)
   check(value <= limit, "%s is %.4g, allowed %.4g", what or "value", value, limit)
 end
 
 function tools.above(limit, value, what)
+  measured("%s: %.4g, wanted %.4g", what or "value", value, limit)
   check(value >= limit, "%s is %.4g, wanted %.4g", what or "value", value, limit)
 end
 

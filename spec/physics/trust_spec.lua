@@ -71,6 +71,8 @@ describe("error bars of", function()
           misses[#misses + 1] = c.misses
         end
       end
+      print(("measured: %s: %d bars, %d hold the true error, %d are at most ten times it"):format(kind[1],
+        sum.n, sum.held, sum.busy))
       assert.is_true(sum.held >= 0.95 * sum.n,
         ("%d of %d hold:\n%s"):format(sum.held, sum.n, table.concat(misses, "\n")))
       assert.is_true(sum.busy >= 0.5 * sum.n, ("%d of %d are within ten times"):format(sum.busy, sum.n))

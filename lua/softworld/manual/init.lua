@@ -1,5 +1,47 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The pages of the manual: each is a file of this folder, shown by help "name".
+--- The pages of the manual: Markdown files beside this one, in the order of the index.
+-- help "name" and `softworld doc name` show them as text, `make manual` as HTML.
 -- @module softworld.manual
-return { "breaking", "crashes", "damping", "energy", "events", "files",
-  "handling", "kinks", "peaks", "refused", "remarks", "results", "waiting" }
+local _, here = ...
+local folder = here:match "^(.*)init%.lua$"
+
+local manual = {}
+
+--- Groups of pages: a title and the names of the group's pages.
+manual.groups = {
+  { "How to", { "start", "lay", "grip", "handling", "mixed", "clip", "tie", "channel", "feed", "wind", "join",
+    "touches", "particles", "process", "waiting", "tuning", "plotting", "save", "snapshot", "mistakes" } },
+  { "Choose", { "models", "wire_mesh", "sections", "cable", "springback", "damping", "integrators",
+    "vibration", "calibrate", "remodel", "units" } },
+  { "Trust", { "accuracy", "tolerance", "limits", "speed", "peaks", "energy", "events", "changes" } },
+  { "What runs tell", { "results", "refused", "remarks", "crashes", "breaking", "kinks", "files" } },
+  { "Grippers' methods", { "gripper" } },
+  { "Inside", { "glossary", "day", "parts" } },
+}
+
+--- Other words under which a page is found.
+manual.also = { manual = "start", contact = "touches", meshes = "wire_mesh", harness = "join",
+  winding = "wind", plastic = "springback", exact = "accuracy", errors = "mistakes", plot = "plotting", charts = "plotting",
+  pictures = "plotting", paraview = "plotting", resume = "save", load = "save", ledger = "energy",
+  changed = "changes", modes = "vibration", stress = "vibration" }
+
+local group_of = {}
+for _, group in ipairs(manual.groups) do
+  for _, name in ipairs(group[2]) do group_of[name] = group[1] end
+end
+
+--- Is there a page of that name?
+function manual.has(name) return group_of[name] ~= nil end
+
+--- The Markdown text of a page.
+function manual.read(name)
+  local file = assert(io.open(folder .. name .. ".md", "rb"))
+  local text = file:read "a"
+  file:close()
+  return text
+end
+
+--- What a page is about: its first heading.
+function manual.title(name) return manual.read(name):match "^# ([^\n]+)" end
+
+return manual

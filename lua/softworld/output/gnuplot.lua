@@ -19,7 +19,7 @@ function gnuplot.quote(text)
   return '"' .. text:gsub('["\\`]', function(c) return ("\\%03o"):format(c:byte()) end) .. '"'
 end
 
---- A number for gnuplot; what is not finite leaves a gap.
+--- A number for gnuplot; one that is not finite leaves a gap.
 -- @tparam ?number x
 -- @treturn string
 function gnuplot.number(x)

@@ -257,7 +257,7 @@ local function grips(add, run, frame, look)
   end
 end
 
--- What stands still, or is moved by hand: w is half of its size, the wire lies along x.
+-- Things that stand still, or are moved by hand: w is half of the size, the wire lies along x.
 local clamp_makers = {}
 
 --- Two plates on a block, one above the wire and one below.

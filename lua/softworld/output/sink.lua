@@ -92,7 +92,7 @@ function sink.temporary(path, folder, swept)
   return temporary
 end
 
---- A fresh, empty file for what this process needs by itself; sink.discard it.
+--- A fresh, empty file for this process alone; sink.discard it.
 -- @treturn string path
 function sink.scratch()
   local folder = os.getenv "TMPDIR"

@@ -49,7 +49,7 @@ end
 
 local most_events = 12 -- lines
 
--- What happened: the first ones, and how many more.
+-- The first events, and the number of the others.
 local function add_events(lines, events)
   for i, e in ipairs(events) do
     if i > most_events and #events > most_events + 1 then

@@ -1,0 +1,261 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- The manual: its pages are listed and shown alike everywhere, and what they and the README name is there.
+local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec/manual"
+local program = dofile(here .. "/../host/program.lua")
+local lfs = require "lfs"
+local sw = require "softworld"
+local manual = require "softworld.manual"
+local text_of = require "softworld.manual.text"
+local topics = require "softworld.topics"
+
+local FOLDER = "lua/softworld/manual/"
+local read = program.read
+
+local pages = {}
+for _, group in ipairs(manual.groups) do
+  for _, name in ipairs(group[2]) do pages[#pages + 1] = name end
+end
+
+-- Calls f with the name and the text of the README and of each page.
+local function each_text(f)
+  f("README.md", read "README.md")
+  for _, name in ipairs(pages) do f(name .. ".md", manual.read(name)) end
+end
+
+local function shown(topic)
+  local lines, print_before = {}, print
+  _G.print = function(...) lines[#lines + 1] = table.concat({ ... }, "\t") end
+  local fine, reason = pcall(sw.help, topic)
+  _G.print = print_before
+  assert.is_true(fine, tostring(reason))
+  return table.concat(lines, "\n")
+end
+
+describe("manual", function()
+  it("lists every page of its folder once, and no other", function()
+    local listed = {}
+    for _, name in ipairs(pages) do
+      assert.is_nil(listed[name], name .. " is listed twice")
+      listed[name] = true
+      assert.is_truthy(manual.title(name), name .. " has no title")
+    end
+    for file in lfs.dir(FOLDER) do
+      local name = file:match "^(.+)%.md$"
+      assert.is_true(not name or listed[name] or false, file .. " is not listed")
+    end
+    for word, name in pairs(manual.also) do
+      assert.is_true(manual.has(name), word .. " leads to no page")
+      assert.is_false(manual.has(word), word .. " is a page itself")
+    end
+  end)
+
+  it("shows each page, of lines that fit a terminal", function()
+    for _, name in ipairs(pages) do
+      local text = text_of(manual.read(name))
+      assert.is_truthy(shown(name):find(text, 1, true), name)
+      for line in text:gmatch "[^\n]+" do assert.is_true(utf8.len(line) <= 110, name .. ": " .. line) end
+    end
+  end)
+
+  it("shows the same by help and by softworld doc", function()
+    for _, topic in ipairs{ "grip", "feed", "wire", "box", "forces", "winding" } do
+      local out, err, code = program.run{ "doc", topic }
+      assert.are.equal(0, code, err)
+      assert.are.equal(shown(topic) .. "\n", out)
+    end
+    local out = program.run{ "doc" }
+    assert.are.equal(shown() .. "\n", out)
+    for _, name in ipairs(pages) do
+      assert.is_truthy(out:find("\n  " .. name .. " +" .. manual.title(name):sub(1, 5)), name)
+    end
+  end)
+
+  it("tells the nearest topic, and exit statuses", function()
+    local out, err, code = program.run{ "doc", "gripp" }
+    assert.are.same({ "", "softworld: no help on 'gripp'; did you mean 'grip'?\n", 1 }, { out, err, code })
+    out, err, code = program.run{ "doc", "qqqqqqqqqq" }
+    assert.are.same({ "", "softworld: no help on 'qqqqqqqqqq'; softworld doc lists the topics\n", 1 },
+      { out, err, code })
+    out, err, code = program.run{ "doc", "grip", "clip" }
+    assert.are.same({ "", 2 }, { out, code })
+    assert.matches("doc takes one topic", err)
+    out, err, code = program.run{ "doc", "../../init" }
+    assert.are.same({ "", 1 }, { out, code })
+    assert.matches("no help on", err)
+  end)
+
+  it("leaves a script of that name to ./doc", function()
+    local folder = program.folder()
+    program.write(folder .. "/doc", "print('mine', ...)")
+    local path = program.path:find "^/" and program.path or lfs.currentdir() .. "/" .. program.path
+    local out = program.shell(("cd %s && %s ./doc a"):format(folder, program.quote(path)))
+    program.clean()
+    assert.are.equal("mine\ta\n", out)
+  end)
+end)
+
+describe("what the manual and the README name:", function()
+  it("files are there", function()
+    local count = 0
+    each_text(function(name, text)
+      for path in text:gmatch "`([%l]+/[%w_%-/%.]+)" do
+        local top = path:match "^(%l+)/"
+        if ("csrc lua spec examples scripts"):find(top, 1, true) and not path:find "magnet"
+          and path ~= "examples/" then
+          count = count + 1
+          assert.is_truthy(lfs.attributes(path, "mode"), name .. ": " .. path)
+        end
+      end
+    end)
+    assert.is_true(count > 80, count) -- day.md alone has fifty
+  end)
+
+  it("links and pictures are there", function()
+    each_text(function(name, text)
+      local base = name == "README.md" and "" or FOLDER
+      for target in text:gmatch "%]%(([^)]*)%)" do
+        if not target:find "^https?:" then
+          local place = target:find "^%.readme/" and target or base .. target:gsub("#.*", "")
+          assert.is_truthy(lfs.attributes(place, "mode"), name .. ": " .. target)
+        end
+      end
+    end)
+  end)
+
+  it("topics of help are there, in sources too", function()
+    local function check(name, text)
+      for _, pattern in ipairs{ 'help "([%w_%-]+)"', "help '([%w_%-]+)'", 'help \\"([%w_%-]+)\\"' } do
+        for topic in text:gmatch(pattern) do
+          if topic ~= "name" and topic ~= "TOPIC" then
+            assert.is_truthy(topics.text(topic), name .. ": help " .. topic)
+          end
+        end
+      end
+      for topic in text:gmatch "softworld doc ([%l_]+)" do
+        if topic ~= "name" and topic ~= "shows" then
+          assert.is_truthy(topics.text(topic), name .. ": " .. topic)
+        end
+      end
+    end
+    each_text(check)
+    local pipe = io.popen "find lua csrc -name '*.lua' -o -name '*.c'"
+    for path in pipe:lines() do check(path, read(path)) end
+    pipe:close()
+  end)
+
+  it("targets of make and cases of the bench are there", function()
+    local makefile, bench = read "Makefile", read "scripts/bench.lua"
+    each_text(function(name, text)
+      for target in text:gmatch "`make ([%l]+)" do
+        assert.is_truthy(makefile:find("\n" .. target .. ":", 1, true), name .. ": make " .. target)
+      end
+      for list in text:gmatch 'ARGS="case=([%w_,]+)"' do
+        for case in list:gmatch "[^,]+" do
+          assert.is_truthy(bench:find("%f[%w_]" .. case .. "%f[^%w_]"), name .. ": case=" .. case)
+        end
+      end
+    end)
+  end)
+end)
+
+-- One object of each kind, under the words by which pages call them.
+local function objects()
+  local scene = sw.scene{ name = "named" }
+  local wire = scene:wire{ E = 50e6, density = 1500, radius = 0.0025, segments = 8, from = { 0, 0, 0.1 },
+    to = { 0.5, 0, 0.1 } }
+  local tube = scene:wire{ model = "tube", core = false, particles = 8, segments = 12, E = 5e6,
+    density = 1200, radius = 0.01, from = { 0, 0.3, 0.3 }, to = { 0.12, 0.3, 0.3 } }
+  local other = scene:wire{ E = 50e6, density = 1500, radius = 0.0025, segments = 8, from = { 0, 0, 0.2 },
+    to = { 0.5, 0, 0.2 } }
+  local hand, clamp = scene:gripper{ name = "hand", at = { 0, 0, 0.3 } }, scene:clamp(wire, { s = 0.5 })
+  local feed = scene:feed(other, { s = 0 })
+  local floor = scene:obstacle{ shape = "plane" }
+  local tie = scene:tie(wire, { s = 0.2 })
+  local clip = scene:clip{ at = { 0, 1, 0.1 }, width = 0.01, insertion = 1, retention = 2 }
+  local channel = scene:channel{ points = { { 0, 2, 0 }, { 1, 2, 0 } }, width = 0.02, depth = 0.02 }
+  local net = scene:particles{ positions = { { 0, 3, 1 }, { 0.1, 3, 1 } }, masses = 0.01,
+    links = { { 1, 2, k = 100 } } }
+  local process
+  scene:process(function(p) process = p end)
+  local run = scene:run{ dt = 0.01 }
+  return { scene = scene, wire = wire, hand = hand, gripper = hand, clamp = clamp, feed = feed, feeder = feed,
+    obstacle = floor, floor = floor, tie = tie, clip = clip, channel = channel, net = net, p = process,
+    run = run, section = tube:section(0.06), sw = sw }
+end
+
+describe("names of methods and parameters", function()
+  it("of objects in the manual and the README exist", function()
+    local known, count = objects(), 0
+    each_text(function(name, text)
+      for object, method in text:gmatch "%f[%w_.\"](%l+):(%l[%w_]*)" do
+        if known[object] then
+          count = count + 1
+          local fine, value = pcall(function() return known[object][method] end)
+          assert.is_true(fine and value ~= nil, ("%s: %s:%s"):format(name, object, method))
+        end
+      end
+    end)
+    assert.is_true(count > 150, count)
+  end)
+
+  -- A parameter is a word before "=" within braces of code. Rows know most of them; those of objects made in
+  -- Lua are words of their sources, whose own specs check them.
+  it("before an equals sign are words of rows or of the library", function()
+    local words = {}
+    local function add(text) for word in text:gmatch "[%a_][%w_]*" do words[word] = true end end
+    local pipe = io.popen "find lua/softworld csrc/bind -name '*.lua' -o -name '*.c' | grep -v /bench"
+    for path in pipe:lines() do add(read(path)) end
+    pipe:close()
+    for _, rows in pairs(sw.core.registry().params) do
+      for _, row in ipairs(rows) do words[row.name] = true end
+    end
+    for _, family in ipairs{ "models", "holds", "shapes", "forces" } do
+      for _, entry in ipairs(sw.core.registry()[family]) do
+        for _, row in ipairs(entry.params or {}) do words[row.name] = true end
+      end
+    end
+    for _, row in ipairs(sw.core.trajectory_parameters()) do words[row.name] = true end
+    for word in pairs{ inner = true, core_layers = true } do words[word] = true end
+    local count = 0
+    each_text(function(name, text)
+      for code in text:gmatch "`[^`\n]+`" do
+        for word in (code:find "^`const" and "" or code):gmatch "([%a_][%w_]*) =%f[ `]" do
+          count = count + 1
+          assert.is_true(words[word] or false, name .. ": " .. word .. " = in " .. code)
+        end
+      end
+    end)
+    assert.is_true(count > 60, count)
+  end)
+end)
+
+describe("README", function()
+  it("has less than 9000 bytes", function() assert.is_true(#read "README.md" < 9000) end)
+end)
+
+describe("the glossary", function()
+  it("has thirty terms or more, in order", function()
+    local last, count = "", 0
+    for word in manual.read("glossary"):gmatch "\n| ([^|]-) |" do
+      if not word:find "^%-" and word ~= "word" then
+        assert.is_true(word:lower() > last, word .. " after " .. last)
+        last, count = word:lower(), count + 1
+      end
+    end
+    assert.is_true(count >= 30, count)
+  end)
+end)
+
+describe("one day in the life of", function()
+  it("has four stories, each under one screen", function()
+    local stories, lines = 0, 0
+    for line in (manual.read "day" .. "\n## end\n"):gmatch "([^\n]*)\n" do
+      if line:find "^## " then
+        assert.is_true(lines <= 24, lines .. " lines before " .. line)
+        stories, lines = stories + 1, 0
+      end
+      lines = lines + 1
+    end
+    assert.are.equal(5, stories) -- and the end
+  end)
+end)
