@@ -319,6 +319,14 @@ static int meta_describe(lua_State *L) {
   return 1;
 }
 
+static const char *word_of(lua_State *L) {
+  sw_scene *scene;
+  const char *kind;
+  int held;
+  const lsw_child *c = lsw_find_child(L, &lsw_class_clamp, &scene);
+  return c && sw_scene_hold_name(scene, c->id, &kind, &held) ? kind : NULL;
+}
+
 static const luaL_Reg methods[] = {{"force", meth_force},
                                    {"moment", meth_moment},
                                    {"pose", meth_pose},
@@ -343,4 +351,5 @@ const lsw_class lsw_class_clamp = {.name = "clamp",
                                    .methods = methods,
                                    .meta = meta,
                                    .properties = properties,
-                                   .gone = "this clamp was never made"};
+                                   .gone = "this clamp was never made",
+                                   .word = word_of};

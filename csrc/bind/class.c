@@ -122,10 +122,16 @@ static int meta_eq(lua_State *L) {
   return 1;
 }
 
+/* What the object at index 1 is called. */
+static const char *word_of(lua_State *L) {
+  const lsw_class *c = class_of(L);
+  const char *word = c->word && lsw_test(L, 1, c) ? c->word(L) : NULL;
+  return word ? word : c->name;
+}
+
 /* Raise for the name at index 2. Upvalues as of meta_index. */
 static int unknown_field(lua_State *L) {
-  if (lua_type(L, 2) != LUA_TSTRING)
-    return luaL_error(L, "%s has no such field", class_of(L)->name);
+  if (lua_type(L, 2) != LUA_TSTRING) return luaL_error(L, "%s has no such field", word_of(L));
   const char *names[64];
   size_t count = 0;
   for (int up = 2; up <= 3; up++) {
@@ -138,10 +144,9 @@ static int unknown_field(lua_State *L) {
   }
   const char *word = lua_tostring(L, 2);
   const char *near = sw_nearest_name(word, names, sizeof names[0], count);
-  if (near)
-    return luaL_error(L, "%s has no '%s'; did you mean '%s'?", class_of(L)->name, word, near);
-  return luaL_error(L, "%s has no '%s'; help(it) at the prompt lists what it has",
-                    class_of(L)->name, word);
+  if (near) return luaL_error(L, "%s has no '%s'; did you mean '%s'?", word_of(L), word, near);
+  return luaL_error(L, "%s has no '%s'; help(it) at the prompt lists what it has", word_of(L),
+                    word);
 }
 
 /* Method or property by name; a name that is neither is an error with a hint.
@@ -168,10 +173,10 @@ static int meta_newindex(lua_State *L) {
     const int there = lua_rawget(L, lua_upvalueindex(up)) != LUA_TNIL;
     if (there && up == 2)
       return luaL_error(L, "%s: '%s' is a method and cannot be set: call it, with a colon",
-                        class_of(L)->name, lua_tostring(L, 2));
+                        word_of(L), lua_tostring(L, 2));
     if (there)
       return luaL_error(L, "%s: '%s' can only be read; what it is made of is given when it is made",
-                        class_of(L)->name, lua_tostring(L, 2));
+                        word_of(L), lua_tostring(L, 2));
     lua_settop(L, 2);
   }
   return unknown_field(L);

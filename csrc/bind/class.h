@@ -20,12 +20,14 @@ typedef struct lsw_class {
   const char *name; /* "scene": the word used in messages, type() and tostring */
   size_t size;      /* of the userdata; starts with an lsw_handle [B] */
   const luaL_Reg *methods;
-  const luaL_Reg *meta;             /* more metamethods, or NULL */
-  const luaL_Reg *properties;       /* getters called as f(object), or NULL */
-  void (*close)(lsw_handle *h);     /* frees h->object; never called with NULL there. NULL: the
-                                     * object is another's, nothing to close */
-  const char *gone;                 /* message for a closed handle: "the scene has been closed" */
-  int (*busy)(const lsw_handle *h); /* 1: must not be closed now; NULL = always may */
+  const luaL_Reg *meta;              /* more metamethods, or NULL */
+  const luaL_Reg *properties;        /* getters called as f(object), or NULL */
+  void (*close)(lsw_handle *h);      /* frees h->object; never called with NULL there. NULL: the
+                                      * object is another's, nothing to close */
+  const char *gone;                  /* message for a closed handle: "the scene has been closed" */
+  int (*busy)(const lsw_handle *h);  /* 1: must not be closed now; NULL = always may */
+  const char *(*word)(lua_State *L); /* for messages on the one at index 1: what it is called; NULL
+                                        = by name, as where it returns NULL. May push */
 } lsw_class;
 
 /* Make a closed handle of the class with the given number of user values and

@@ -231,6 +231,11 @@ double sw_press_forgiven(double depth, double explained, double h, int slowly) {
   return fmax(0.0, depth - explained - speed * h - GAP_TOLERANCE);
 }
 
+double sw_press_let_out(double depth, double explained, double forgiven) {
+  const double left = depth - explained - forgiven;
+  return left > GAP_TOLERANCE ? left : 0.0;
+}
+
 double sw_press_stiffer(const sw_press *p, double usual, double forgiven, double before) {
   const double over = p->gap_after / -DEEPEST;
   if (over <= 1.0 || p->k >= MOST_BOOST * usual) return p->k;

@@ -90,6 +90,9 @@ int sw_press_opens(const sw_press *press, sw_vec shift, double force_scale);
  * with the touch's force there: what was placed in each other, or comes out of a barrier, is
  * let out slowly, for within one step the whole depth would turn into speed [m]. */
 double sw_press_forgiven(double depth, double explained, double h, int slowly);
+/* Part of the same that is let out in this step: 0 where it is no more than a gap's rounding, as
+ * of a wire that is laid on a table [m]. */
+double sw_press_let_out(double depth, double explained, double forgiven);
 
 /* Forces after an update that shifted the touch; 1 = they agree with what the solve
  * assumed. force_scale: of the scene, forces far below which do not matter [N]. */

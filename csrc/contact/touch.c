@@ -218,7 +218,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
     const double depth = sw_contact_depth_before(c, s, &t), explained = m ? m->depth : 0.0;
     t.forgiven =
         sw_press_forgiven(depth, explained, slowly ? c->stage_time - c->time : c->h, slowly);
-    t.let_out = fmax(0.0, depth - explained - t.forgiven);
+    t.let_out = sw_press_let_out(depth, explained, t.forgiven);
   }
   if (m && web) t.hardened = 0.5 * m->depth * fmax(0.0, stiffness * m->depth - m->normal_force);
   press->gap += t.forgiven;

@@ -32,7 +32,7 @@ static sw_param run_rows[] = {
      "largest forces and tensions are of means over this time; 0: of single steps; see help "
      "'peaks'"},
     {"max_steps", SW_PARAM_INTEGER, "-", 1e15, 1, 1e15, 0, NULL, offsetof(sw_run_args, max_steps),
-     "most steps to take"},
+     "stop after so many steps; one that had to be divided is finished first, and its parts count"},
     {"unstable", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_run_args, unstable),
      "true lets an explicit integrator take steps above its stable one"},
     {"progress", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
@@ -182,7 +182,7 @@ static sw_status yielding_attempt(loop *p, double h, sw_error *err) {
 static sw_status judge(loop *p, double h, double *excess, sw_error *err) {
   sw_scene *s = p->s;
   const sw_status status = sw_ledger_judge(s, s->time + h, h, p->changed, err);
-  *excess = p->changed || status != SW_OK ? 0.0 : sw_ledger_excess(s, h);
+  *excess = p->changed || status != SW_OK ? 0.0 : sw_ledger_excess(s, h, p->args->dt);
   if (status != SW_OK) undo(p);
   return status;
 }

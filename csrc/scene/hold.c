@@ -76,6 +76,12 @@ static sw_status refine_gaps(const sw_scene *s, size_t wire, const sw_scene_hold
   return SW_OK;
 }
 
+/* How far arc length s is from the nearest node [m]. */
+static double off_nodes(const sw_mesh *m, double s) {
+  const size_t i = sw_mesh_node(m, s);
+  return i > 0 ? fmin(fabs(m->s[i] - s), s - m->s[i - 1]) : fabs(m->s[i] - s);
+}
+
 static sw_status place_nodes(sw_scene *s, size_t wire, sw_scene_hold *h, const sw_hold_args *a) {
   sw_mesh *m = &s->wires[wire].mesh;
   if (s->wires[wire].strand.web) {
@@ -83,16 +89,19 @@ static sw_status place_nodes(sw_scene *s, size_t wire, sw_scene_hold *h, const s
     sw_strand_rings(m, &h->s1, &h->s2);
     return SW_OK;
   }
-  double s1, s2, *keep = new_places(s, wire);
+  double ends[2], placed[2], *keep = new_places(s, wire);
   if (!keep) return SW_ENOMEM;
   size_t n = kept_places(s, wire, keep);
-  held_interval(m, a, &s1, &s2);
-  sw_status status = sw_mesh_place(m, s1, keep, n, &h->s1);
-  h->s2 = h->s1;
+  held_interval(m, a, &ends[0], &ends[1]);
+  /* an end that is nearer to a node takes it first, from whichever end arc length counts */
+  const int order = off_nodes(m, ends[1]) < off_nodes(m, ends[0]);
+  sw_status status = sw_mesh_place(m, ends[order], keep, n, &placed[order]);
+  placed[!order] = placed[order];
   if (status == SW_OK && a->width > 0) {
-    keep[n++] = h->s1;
-    status = sw_mesh_place(m, s2, keep, n, &h->s2);
+    keep[n++] = placed[order];
+    status = sw_mesh_place(m, ends[!order], keep, n, &placed[!order]);
   }
+  h->s1 = placed[0], h->s2 = placed[1];
   sw_free(keep);
   return status;
 }

@@ -31,6 +31,8 @@ static const double THROWN = 0.02, LET_OUT = 0.01;
 static const double JUMP = 1e-9;
 /* Where nothing touches, the method may make this share of the energy in play [-]. */
 static const double IN_FLIGHT = 0.01;
+/* And then to this share in each whole step: asked for nothing at all, steps would collapse [-]. */
+static const double EACH_IN_FLIGHT = 2e-4;
 /* The least that is in play: the weight times the radius, or this share of EI / L [-]. */
 static const double LEAST_BENDING = 1e-6;
 static const double LEAST = 1e-12; /* and this [J] */
@@ -246,7 +248,7 @@ static double usual_gain(const sw_books *b) {
   return OF_KINETIC * b->now.kinetic + OF_WEIGHT * b->weight;
 }
 
-double sw_ledger_excess(const sw_scene *s, double h) {
+double sw_ledger_excess(const sw_scene *s, double h, double whole) {
   const sw_books *b = &s->books;
   const sw_step_energy *step = &b->step;
   if (!sw_ledger_referees(s) || b->sums.accepted.count >= MOST_ACCEPTED) return 0.0;
@@ -259,7 +261,9 @@ double sw_ledger_excess(const sw_scene *s, double h) {
   const double allowed = rounding + OF_WORK * step->work + share * usual_gain(b) + struck;
   if (!isfinite(step->gain)) return step->gain < 0 ? 0.0 : HUGE_VAL;
   const double rise = b->rise + step->gain - b->lowest;
-  if (!step->touching && rise <= IN_FLIGHT * b->sums.play) return 0.0;
+  if (step->touching) return step->gain > allowed ? step->gain : 0.0;
+  const double little = EACH_IN_FLIGHT * fmin(1.0, h / whole) * b->sums.play;
+  if (rise <= IN_FLIGHT * b->sums.play || step->gain <= little) return 0.0;
   return step->gain > allowed ? step->gain : 0.0;
 }
 

@@ -72,9 +72,9 @@ sw_status sw_ledger_judge(sw_scene *scene, double t1, double h, int changed, sw_
 /* 1: the run's method is judged. Methods that do not damp go to and fro in energy; what they make
  * is only told. */
 int sw_ledger_referees(const sw_scene *scene);
-/* Energy that the judged trial makes beyond what a step of that size is allowed [J]; 0: it is fine.
- */
-double sw_ledger_excess(const sw_scene *scene, double h);
+/* Energy that the judged trial makes beyond what a step of size h is allowed, of whole ones of that
+ * size [J]; 0: it is fine. */
+double sw_ledger_excess(const sw_scene *scene, double h, double whole);
 /* The judged step was accepted, committed and observed. SW_ENOMEM. */
 sw_status sw_ledger_close(sw_scene *scene);
 /* A pose was reached from the state that was opened; jumped: by a jump of equilibrium. */

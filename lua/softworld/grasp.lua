@@ -423,7 +423,10 @@ end
 -- The wire or list of wires as a list.
 local function wires_of(self, given)
   local list = type(given) == "table" and given or { given }
-  if #list == 0 then error("gripper:grasp expects a wire, or a list of wires", 0) end
+  if #list == 0 then
+    error("gripper:grasp expects a wire, or a list of wires, got "
+      .. (given == nil and "nil" or "an empty table"), 0)
+  end
   local ours, seen = {}, {}
   for _, entry in ipairs(build.data(self.scene).wires) do ours[#ours + 1] = entry.object end
   for _, wire in ipairs(list) do

@@ -13,6 +13,7 @@ local place = require "softworld.place"
 local refine = require "softworld.refine"
 local remarks = require "softworld.remarks"
 local save = require "softworld.save"
+local sealed = require "softworld.sealed"
 local series = require "softworld.series"
 local trust = require "softworld.trust"
 local unread = require "softworld.unread"
@@ -99,7 +100,7 @@ end
 
 -- A run that failed keeps ok and reason where reading them is seen.
 local function hide_failure(run)
-  if rawget(run, "ok") ~= false then return run end
+  if sealed.fields(run).ok ~= false then return run end
   local at = place.of_caller()
   local mark = unread.add(("softworld: run of '%s'%s FAILED %s; the script did not look at run.ok")
     :format(run.name, at and " at " .. at or "", run.reason))
@@ -140,7 +141,7 @@ local function run_once(scene, args, level)
     total.reason = ("%s; try %s"):format(total.reason, advice.of(total.reason, args))
   end
   total.restores = data.restores
-  return setmetatable(total, Run)
+  return sealed.new(Run, total)
 end
 
 
@@ -451,9 +452,11 @@ for name, value in pairs(Run) do
 end
 
 function Run.__index(self, key)
-  local value = Run[key]
+  local own = sealed.fields(self)
+  local value = own[key]
+  if value == nil then value = Run[key] end
   if value ~= nil then return value end
-  local failure = rawget(self, "failure")
+  local failure = own.failure
   if failure and (key == "ok" or key == "reason") then
     unread.seen(failure.mark)
     if key == "ok" then return false end
@@ -463,6 +466,13 @@ function Run.__index(self, key)
   local near = core.nearest(checks.shown(key), Run.__names())
   error(("run has no '%s'; %s"):format(checks.shown(key), near and "did you mean '" .. near .. "'?"
     or "help(run) at the prompt lists what it has"), 2)
+end
+
+function Run:__newindex(key, value)
+  if not sealed.by_library() then
+    error(("run has no '%s' to set; what a run found can only be read"):format(checks.shown(key)), 2)
+  end
+  rawset(sealed.fields(self), key, value)
 end
 
 function Run:__tostring()

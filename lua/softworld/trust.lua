@@ -18,6 +18,7 @@ local checks = require "softworld.checks"
 local number = require "softworld.output.number"
 local process = require "softworld.process"
 local quantity = require "softworld.quantity"
+local sealed = require "softworld.sealed"
 
 local trust = {}
 
@@ -109,7 +110,7 @@ end
 
 --- result:error_bars(): the quantities in the order asked for; prints as lines.
 function trust.error_bars(result)
-  if rawget(result, "refused") then
+  if sealed.fields(result).refused then
     error(("there are no numbers: %s (%s)"):format(result.reason, result.advice), 2)
   end
   local asked = result.quantities
@@ -133,7 +134,7 @@ end
 
 --- For the __index of results: raises when the quantities of a refused one are read.
 function trust.refuse(result, key)
-  if key == "quantities" and rawget(result, "refused") then
+  if key == "quantities" and sealed.fields(result).refused then
     error(("there are no numbers: %s (%s)"):format(result.reason, result.advice), 2)
   end
 end

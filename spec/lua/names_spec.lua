@@ -2,7 +2,7 @@
 -- A misspelt key, field or method is an error that names the nearest one, everywhere.
 local sw = require "softworld"
 
-local scene, wire, hand, clamp, run
+local scene, wire, hand, clamp, pin, feed, run
 
 setup(function()
   scene = sw.scene{ name = "names" }
@@ -10,6 +10,10 @@ setup(function()
     to = { 0.5, 0, 0.1 } }
   hand = scene:gripper{ name = "hand", at = { 0.1, 0, 0.2 } }
   clamp = scene:clamp(wire, { s = 0 })
+  pin = scene:pin(wire, { s = 0.3 })
+  local other = scene:wire{ E = 50e6, density = 1500, radius = 0.0025, segments = 8, from = { 0, 0.1, 0.1 },
+    to = { 0.5, 0.1, 0.1 } }
+  feed = scene:feed(other, { s = 0 })
   run = scene:run{ duration = 0.02 }
 end)
 
@@ -73,6 +77,12 @@ describe("an unknown", function()
     end, "did you mean 'use'?" },
     ["method that is set"] = { function() scene.gravity = {} end, "'gravity' is a method" },
     ["field of a clamp that is set"] = { function() clamp.frce = 1 end, "did you mean 'force'?" },
+    ["method of a feed"] = { function() feed:move() end, "feed has no 'move'" },
+    ["method of a pin"] = { function() pin:frce() end, "pin has no 'frce'; did you mean 'force'?" },
+    ["field of a feed that is set"] = { function() feed.speed = 1 end, "feed: 'speed' is a method" },
+    ["result of a run that is set"] = { function() run.ok = true end, "run has no 'ok' to set" },
+    ["result of a run that it may lack"] = { function() run.quantities = {} end,
+      "run has no 'quantities' to set" },
     ["field of a gripper that is set"] = { function() hand.slip_tolerence = 1 end,
       "did you mean 'slip_tolerance'?" },
   }

@@ -72,6 +72,23 @@ describe("a clamp", function()
     end
   end)
 
+  it("has the same nodes for a grip from whichever end arc length counts", function()
+    for _, s in ipairs{ 0.033, 0.23, 0.351, 0.449, 0.5, 0.578 } do
+      for _, width in ipairs{ 0.005, 0.02, 0.13 } do
+        local function nodes(place)
+          local scene = sw.scene{}
+          local wire = scene:wire{ E = 1e7, density = 1000, radius = 0.003, from = { 0, 0, 0 },
+            to = { 1, 0, 0 }, segments = 10 }
+          scene:grip(wire, { s = place, width = width })
+          return select(2, wire:positions())
+        end
+        local list, back = nodes(s), nodes(1 - s)
+        assert.equal(#list, #back)
+        for i = 1, #list do t.near(list[i], 1 - back[#list + 1 - i], 1e-12, "node " .. i) end
+      end
+    end
+  end)
+
   it("turns the wire with it: the stiffness of a beam between two clamps", function()
     for _, gap in ipairs{ 0.08, 0.1, 0.2, 0.5, 0.007, 0.019, 0.04, 0.06 } do
       local scene, wire, p = long(0.5, 50)
