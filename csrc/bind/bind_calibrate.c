@@ -192,7 +192,7 @@ static int push_calibration(lua_State *L) {
   return 1;
 }
 
-/* wire:calibration() -> what its springs were fitted to. */
+/* wire:calibration() -> the targets of its springs, and how they were met. */
 int lsw_wire_calibration(lua_State *L) {
   sw_scene *scene;
   const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the Lua library needs of files beyond io: temporary files whose owner can be seen to be
- * gone, files that are safe on the disk, and what a path names. */
+/* Files, beyond Lua's io: temporary files that tell whether their owner is gone, files that are
+ * safe on the disk, and the kind of thing that a path names. */
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -15,8 +15,9 @@
 
 /* --- locks ---------------------------------------------------------------- */
 
-/* A temporary file is locked by its owner as long as he lives: the system takes the lock away with
- * the process, however it ends. What is not locked was left by one that was killed. */
+/* A temporary file is locked by its owner as long as he lives: the system takes the lock away
+ * with the process, however it ends. A file without a lock was left by a process that was
+ * killed. */
 static const char lock_name[] = "softworld.part";
 
 typedef struct part_lock {
@@ -110,8 +111,8 @@ static int make(const char *path, int folder) {
   return open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
 }
 
-/* Is what was just made still there? Another process may have taken it for one that was left in
- * the moment before it was locked. */
+/* Is the new file still there? Before it was locked, another process may have taken it for a
+ * file that was left, and removed it. */
 static int keep(int fd, const char *path) {
   struct stat own, there;
   if (flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return 0;

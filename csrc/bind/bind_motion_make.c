@@ -138,7 +138,7 @@ static void read_times(lua_State *L, int table, const char *what, sw_waypoint *p
   lua_pop(L, 1);
 }
 
-/* Push what stands for the way-points: `points`, or what `path` leads to; nil. */
+/* Push the way-points: `points`, or those that `path` leads to; nil without both. */
 static void push_points(lua_State *L, int table, const char *what) {
   const int given = lua_getfield(L, table, "points") != LUA_TNIL;
   if (lua_getfield(L, table, "path") == LUA_TNIL) {

@@ -139,8 +139,8 @@ static int group_of(lua_State *L, const kind *k, int entry) {
   return -1;
 }
 
-/* How many parts an entry stands for, and how many particles each has; leaves what group_of
- * pushes. */
+/* Number of parts that an entry stands for, and of particles in each; leaves the values of
+ * group_of on the stack. */
 static size_t parts_of(lua_State *L, const kind *k, int entry, size_t number, size_t *size) {
   if (!lua_istable(L, entry))
     luaL_error(L, "particles: %s, entry %d, must be a table, got %s", k->what, (int)number + 1,

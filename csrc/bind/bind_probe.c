@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* scene:evaluate: what each kind of force does to a wire. */
+/* scene:evaluate: energy, force and stiffness of one kind of force on a wire. */
 #include <stddef.h>
 
 #include "bind/child.h"

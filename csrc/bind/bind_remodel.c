@@ -11,7 +11,7 @@ static void push_momentum(lua_State *L, const char *name, const double p[6]) {
   lua_setfield(L, -2, name);
 }
 
-/* The table of arguments with what is the wire's own left out; `model` is required. */
+/* The table of arguments without those that the wire keeps; `model` is required. */
 static int read_arguments(lua_State *L, sw_wire_args *args, sw_wire_mesh_args *mesh,
                           double region[2]) {
   lsw_section sections[4] = {{&sw_remodel_params, args}};

@@ -74,7 +74,7 @@ static void read_bytes(lua_State *L, const char *object, sw_shape_source *source
   *source = (sw_shape_source){.bytes = bytes, .byte_count = n};
 }
 
-/* What the rows leave to the binding; one value stays on the stack. */
+/* Arguments that rows cannot hold (points, files); one value stays on the stack. */
 static void read_source(lua_State *L, int index, const sw_params *params, sw_shape_source *source) {
   *source = (sw_shape_source){0};
   if (sw_params_find(params, "points")) {

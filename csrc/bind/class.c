@@ -164,7 +164,7 @@ static int meta_index(lua_State *L) {
   return unknown_field(L);
 }
 
-/* Nothing can be put into an object: what it is made of is given when it is made. Upvalues as
+/* Nothing can be put into an object; its parameters are given when it is made. Upvalues as
  * above. */
 static int meta_newindex(lua_State *L) {
   lua_settop(L, 2);

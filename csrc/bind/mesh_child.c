@@ -28,7 +28,8 @@
 #include "softworld.h"
 
 #if defined(__SANITIZE_ADDRESS__)
-/* Its shadow takes more address space than any limit; what is written to can be limited. */
+/* The sanitizer's shadow takes more address space than any limit allows; limited is memory that is
+ * written to. */
 enum { SLOWER = 5, LIMIT_AS = 0 };
 #else
 enum { SLOWER = 1, LIMIT_AS = 1 };

@@ -26,16 +26,16 @@ static const sw_param rows[] = {
     {"mesh", SW_PARAM_CHOICE, "-", NAN, 0, 0, SW_PARAM_REQUIRED, meshes, AT(mesh),
      "how the particles lie: rings, layers and sectors, voxels, or a shell around cores"},
     {"spacing", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(spacing),
-     "of slices along the wire (chosen when not given; that of cubic makes cubes)"},
+     "of slices along the wire (default: chosen; of cubic such that voxels are cubes)"},
     {"squeeze", SW_PARAM_NUMBER, "Pa", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(squeeze),
-     "line force of two plates on opposite sides over their approach, the wire neither stretched "
-     "nor bent (not asked for when not given)"},
+     "stiffness of the section between two plates: force per length over approach, the wire "
+     "neither "
+     "stretched nor bent (default: as the springs come out)"},
     {"tolerance", SW_PARAM_NUMBER, "-", 1e-6, 0, 1, SW_PARAM_ABOVE_MIN, NULL, AT(tolerance),
-     "how far off the springs may be, as a share of each target, before that is an error; 1 takes "
-     "whatever comes nearest"},
+     "largest error of the springs, as a share of each target; 1 takes the nearest ones there are"},
     {"body", SW_PARAM_CHOICE, "-", SW_BODY_SPRINGS, 0, 0, 0, bodies, AT(body),
-     "springs between the particles, or solid elements with Poisson's ratio nu, and springs only "
-     "for what these leave of EA, EI and GJ"},
+     "springs between the particles; or solid elements with Poisson's ratio nu, and springs only "
+     "for the rest of EA, EI and GJ"},
 };
 const sw_params sw_calibrate_params = SW_PARAMS("calibrate", rows);
 
@@ -228,8 +228,8 @@ static void cubic_advice(const sw_cubic_args *cubic, const sw_calibration *c, in
     snprintf(text, n, "make across = %ld more, and even", cubic->across);
 }
 
-/* Springs may have the targets only by letting go of the section's shape. With a squeeze
- * stiffness that was asked for, soft springs are what was asked for. */
+/* Springs may meet the targets only by letting go of the section's shape. Where a squeeze
+ * stiffness was asked for, soft springs are meant. */
 static int is_gone(const sw_calibration *c) {
   return c->fading < FADED && isnan(c->target[SW_TARGET_SQUEEZE]);
 }

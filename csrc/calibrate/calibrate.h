@@ -36,8 +36,8 @@ typedef struct sw_lattice_args {
 const sw_params *sw_lattice_params(int mesh);
 void *sw_lattice_place(sw_lattice_args *args, int mesh); /* what the rows are read into */
 
-/* Where a mesh has several materials: EA, EI, GJ and mass per length into what *section does not
- * give. object names the wire in messages. */
+/* Where a mesh has several materials: puts EA, EI, GJ and mass per length into *section, where
+ * these are not given. object names the wire in messages. */
 sw_status sw_calibrate_materials(const char *object, int mesh, int body,
                                  const sw_lattice_args *args, sw_section *section, sw_error *err);
 
@@ -66,9 +66,9 @@ typedef struct sw_calibration {
  * under bending. */
 sw_status sw_calibrate_check_bent(const sw_calibration *c, sw_error *err);
 
-/* *out is to be freed with sw_calibration_free also after an error. section: as of a wire;
- * EA, EI and GJ must come out of it. SW_EINVAL tells what is out of range, or which target
- * no springs of the mesh can reach and what would help. */
+/* out is to be freed with sw_calibration_free also after an error. section: as of a wire; EA,
+ * EI and GJ must come out of it. SW_EINVAL names the value that is out of range, or the target
+ * that no springs of the mesh can reach and a remedy. */
 sw_status sw_calibrate(const sw_calibrate_args *args, const sw_section *section,
                        sw_lattice_args *mesh, sw_calibration *out, sw_error *err);
 void sw_calibration_free(sw_calibration *calibration);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the files of the calibration share. */
+/* Shared by the files of the calibration. */
 #ifndef SW_CALIBRATE_CALIBRATE_INNER_H
 #define SW_CALIBRATE_CALIBRATE_INNER_H
 

@@ -124,9 +124,9 @@ static double usual_spacing(const task *t) {
   return fmin(0.75 * r, fmax(chord, r / layers));
 }
 
-/* Voxels need not stay squares: their outer corners go to the nearer of the section's circles,
- * for otherwise steps meet what presses on the wire, and GJ is 5 % too small. A corner is outer
- * when it has less than four elements. Masses then go with the elements' areas. */
+/* Voxels need not stay squares: their outer corners go to the nearer of the section's circles.
+ * Else obstacles would press on stairs, and GJ would be 5 % too small. A corner is outer when
+ * it has less than four elements. Masses then go with the elements' areas. */
 static sw_status round_voxels(const task *t, sw_lattice *l, sw_error *err) {
   const double r = t->beam->radius;
   const double inner =
@@ -217,7 +217,7 @@ static sw_status one_that_twists(task *t, sw_error *err) {
   return SW_OK;
 }
 
-/* What unit springs of each group have of EA, EI and GJ. */
+/* Shares of unit springs of each group in EA, EI and GJ. */
 static void measure_springs(task *t) {
   const sw_cell cell = sw_lattice_cell(&t->c->lattice);
   double one[SW_GROUPS], S[SW_CELL_SIZE];
@@ -251,8 +251,8 @@ static int springs_along(task *t, double EA, double EI) {
   return 0;
 }
 
-/* Elements have GJ, springs along the wire what these leave of EA and EI. *possible: 0 when they
- * leave less than nothing. */
+/* Elements make GJ, springs along the wire the rest of EA and EI. *possible: 0 when elements
+ * alone have more than that. */
 static sw_status with_springs(task *t, int *possible, sw_error *err) {
   const double *target = t->c->target, s2 = t->scale * t->scale;
   const double E = target[SW_TARGET_GJ] / (t->unit[SW_TARGET_GJ] * s2 * s2);
@@ -276,7 +276,7 @@ static double room(const task *t, int target, int strain, double power) {
          fmax(own - t->unit[SW_TARGET_GJ] * s4 * per_GJ, LEAST * own);
 }
 
-/* Elements have most of EA or EI, diagonals what these leave of GJ; all are searched. */
+/* Elements make most of EA or EI, diagonals the rest of GJ; all are searched. */
 static sw_status with_diagonals(task *t, sw_error *err) {
   const double *target = t->c->target, s2 = t->scale * t->scale;
   const double least_EA = LEAST * target[SW_TARGET_EA], least_EI = LEAST * target[SW_TARGET_EI];

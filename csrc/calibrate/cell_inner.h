@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the files of the cell share. */
+/* Shared by the files of the cell. */
 #ifndef SW_CALIBRATE_CELL_INNER_H
 #define SW_CALIBRATE_CELL_INNER_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Springs of a shell around cores. A core is fitted by itself to what it is to be; then the
+/* Springs of a shell around cores. First each core is fitted by itself to its targets; then the
  * shell, whose ring has an EA near 2 EI/R^2, by its springs and its radius, so that the whole
  * has EA, EI and GJ. Bonded cores bend about the wire's axis, sliding ones about their own. */
 #include <math.h>
@@ -256,7 +256,7 @@ static void add(sw_cell_result *sum, const sw_cell_result *more, double times) {
   for (int i = 0; i < SW_CELL_SIZE; i++) sum->S[i] += times * more->S[i];
 }
 
-/* What the parts are, alone and together. */
+/* Stiffness of the parts, alone and together. */
 static sw_status read_back(const plan *p, sw_calibration *out, sw_error *err) {
   const sw_cell alone = shell_cell(out), whole = sw_lattice_cell(&out->lattice);
   SW_TRY(sw_cell_stiffness(&alone, out->k, &out->composite.shell, NULL, err));

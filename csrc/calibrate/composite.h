@@ -65,7 +65,7 @@ sw_status sw_composite_core_share(const sw_composite_args *args, const sw_compos
 /* The part that a particle of the slice is of: 0 the shell, 1 the first core [-]. */
 size_t sw_composite_part(const sw_composite *place, size_t particle);
 
-/* What was given of a core's mesh, or is chosen [-]. */
+/* Numbers of a core's mesh, given or chosen [-]. */
 long sw_core_particles(const sw_composite_args *args, const sw_composite *place);
 long sw_core_layers(const sw_composite_args *args, const sw_composite *place);
 long sw_core_across(const sw_composite_args *args, const sw_composite *place);

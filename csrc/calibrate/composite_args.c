@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What may be said of a composite, and which of it goes together. */
+/* Parameters of a composite, and which of them go together. */
 #include <math.h>
 
 #include "calibrate/composite.h"
@@ -17,36 +17,37 @@ static const sw_param rows[] = {
     {"cores", SW_PARAM_INTEGER, "-", 1, 1, SW_COMPOSITE_CORES, 0, NULL, AT(cores),
      "equal cores: one at the axis; 2 to 6 around it; 7 are six around one"},
     VALUE(core_radius, "m",
-          "of each core (not given: 0.6 of the wire's radius; of several 0.95 of what fits)"),
+          "of each core (default: 0.6 of the wire's radius; of several 0.95 of the largest that "
+          "fits)"),
     VALUE(wall, "m",
-          "of the shell (not given: all that a single core leaves; around several 0.2 of the "
-          "wire's radius)"),
-    VALUE(core_EA, "N",
-          "of each core (not given: what a wall that has the rest of EI leaves; of one material "
-          "the areas' share)"),
-    VALUE(core_EI, "N m2",
-          "of each core about its own axis (not given: its share in a section of one material that "
-          "has "
-          "the wire's EI or EA, whichever is less)"),
+          "of the shell (default: down to a single core; around several 0.2 of the wire's radius)"),
+    VALUE(
+        core_EA, "N",
+        "of each core (default: the rest, after a wall that has the rest of EI; of one material by "
+        "areas)"),
+    VALUE(
+        core_EI, "N m2",
+        "of each core about its own axis (default: as of one material that gives the wire's EI or "
+        "EA, the softer of both)"),
     VALUE(core_GJ, "N m2", "of each core, likewise; a line has none"),
-    VALUE(core_mass, "kg/m", "of each core (not given: by areas)"),
+    VALUE(core_mass, "kg/m", "of each core (default: by areas)"),
     VALUE(core_E, "Pa",
-          "of elements: Young's modulus of the core, E [Pa] being the shell's (not given: core_EA "
-          "over its area, else what EA and EI ask for; of one material with E)"),
+          "of elements: Young's modulus of the core, E [Pa] being the shell's (default: core_EA "
+          "over its area, else from EA and EI; with E that of one material)"),
     {"core_nu", SW_PARAM_NUMBER, "-", NAN, 0, 0.4999, 0, NULL, AT(core_nu),
-     "of elements: Poisson's ratio of the core (not given: as nu, the shell's)"},
+     "of elements: Poisson's ratio of the core (default: nu, the shell's)"},
     VALUE(core_density, "kg/m3", "of elements: of the core, density being the shell's"),
     {"bonded", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, AT(bonded),
      "springs hold core and shell together; without them they slide, and sw.calibrate's links with "
      "slide = true name the particles that face each other"},
     {"bond", SW_PARAM_NUMBER, "-", 1, 0, 100, SW_PARAM_ABOVE_MIN, NULL, AT(bond),
-     "stiffness of bonds, over that of bars of the shell's modulus and of what carries at most a "
-     "tenth of the shell's or the cores' EA from slice to slice"},
+     "stiffness of bonds, over the usual one: that of bars of the shell's modulus, which carry at "
+     "most a tenth of the shell's or the cores' EA from slice to slice"},
     {"friction", SW_PARAM_NUMBER, "-", 0, 0, 100, 0, NULL, AT(friction),
      "with bonded = false, in a scene: of shell and cores on one another along the wire"},
     {"grip", SW_PARAM_NUMBER, "N/m", 0, 0, HUGE_VAL, 0, NULL, AT(grip),
-     "likewise: radial force per length that presses each core from the start, besides what bends "
-     "and squeezing press; drawing out a core needs friction * grip * length"},
+     "likewise: radial force per length that presses each core from the start, before bends and "
+     "squeezes add to it; drawing out a core needs friction * grip * length"},
     COUNT(particles, 64,
           "particles of the shell's ring, 3 or more and the same to each core around the axis; 0 "
           "chooses 12 or more"),
@@ -114,7 +115,8 @@ sw_status sw_composite_check_springs(const sw_composite_args *a, sw_error *err) 
   return SW_OK;
 }
 
-/* What elements have no use for: the core is of one material, and part of the same mesh. */
+/* Parameters without a use for elements: the core is of one material, and part of the same
+ * mesh. */
 static sw_status check_unused(const sw_composite_args *a, sw_error *err) {
   const struct {
     const char *name, *unit;

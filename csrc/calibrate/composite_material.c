@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Materials of a core and the shell around it, and what they are together as a beam. Sections
+/* Materials of a core and the shell around it, and the beam that they make together. Sections
  * stay plane, so that EA = sum of E_i A_i, EI = sum of E_i I_i and GJ = sum of G_i J_i. Parts
  * with different Poisson's ratios also press on one another when they are drawn, which makes EA
  * larger (Hill, J. Mech. Phys. Solids 12 (1964) 199): by 0.1 % for nu = 0.3 and 0.4, but by
  * several % where one part is nearly incompressible and the other one is like cork. The mesh
- * has this too; what it is calibrated to are the sums. */
+ * has this too; it is calibrated to the sums. */
 #include <math.h>
 #include <string.h>
 
@@ -49,7 +49,7 @@ sw_status sw_composite_section(const char *object, const sw_composite_args *args
   return SW_OK;
 }
 
-/* The shell has what the core leaves of EA, unless its modulus is given too. */
+/* The shell has the rest of EA, unless its modulus is given too. */
 static sw_status given_ratio(const sw_composite_args *a, const sw_section *section,
                              const sw_beam *beam, const sw_composite_areas *of, double core_E,
                              double *ratio, sw_error *err) {

@@ -40,7 +40,7 @@ sw_status sw_lattice_composite_solid(const sw_composite *place, double spacing, 
 /* Masses of such a slice with this share of them in the core. */
 void sw_composite_weigh(const sw_composite *place, double core_share, sw_lattice *lattice);
 
-/* What the elements of shell and core are by themselves, with these moduli [Pa]. */
+/* Stiffness of the elements of shell and core by themselves, with these moduli [Pa]. */
 sw_status sw_composite_parts(sw_composite *place, const sw_lattice *lattice, const double *k,
                              sw_error *err);
 

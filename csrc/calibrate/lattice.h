@@ -61,9 +61,8 @@ typedef struct sw_cubic_args {
 } sw_cubic_args;
 extern const sw_params sw_cubic_params;
 
-/* Each makes *out, radial and cubic with elements, to be freed with sw_lattice_free also after an
- * error. Arguments are within
- * their rows; what rows cannot tell is SW_EINVAL. */
+/* Each makes *out, radial and cubic with elements, to be freed with sw_lattice_free also after
+ * an error. Arguments are within their rows; SW_EINVAL for values that do not go together. */
 sw_status sw_lattice_tube(const sw_tube_args *args, double spacing, sw_lattice *out, sw_error *err);
 sw_status sw_lattice_radial(const sw_radial_args *args, double radius, double spacing,
                             sw_lattice *out, sw_error *err);

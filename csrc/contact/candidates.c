@@ -59,6 +59,7 @@ static double reach_of(const sw_contact *c, const sw_system *s, const sw_body *b
 
 static sw_status add_candidate(sw_contact *c, const sw_body *b, size_t body, size_t node,
                                size_t other, int o, int segment) {
+  const double *masses = b->plan->lumped;
   SW_TRY(sw_grow((void **)&c->candidates, &c->candidate_capacity, c->candidate_count + 1,
                  sizeof *c->candidates));
   sw_contact_expect(c, o);
@@ -70,7 +71,7 @@ static sw_status add_candidate(sw_contact *c, const sw_body *b, size_t body, siz
                      .body = body,
                      .radius = b->plan->beam.radius,
                      .skin = sw_plan_skin(b->plan, node - b->first_node),
-                     .mass = b->plan->lumped[node - b->first_node]};
+                     .mass = 0.5 * (masses[node - b->first_node] + masses[other - b->first_node])};
   return SW_OK;
 }
 

@@ -261,16 +261,17 @@ int sw_contact_memory_fits(const void *memory, size_t bytes, size_t nodes, size_
 int sw_contact_memory_names(const void *memory, size_t bytes, size_t node) {
   const sw_memory *m = memory;
   for (size_t i = 0; i < bytes / sizeof *m; i++)
-    if (m[i].node == node) return 1;
+    if (m[i].node == node || (m[i].segment && m[i].node + 1 == node)) return 1;
   return 0;
 }
 
 sw_status sw_contact_inherit(sw_contact *c, const void *memory, size_t bytes, int fresh,
-                             const size_t *new_node) {
+                             const size_t *new_node, const size_t *new_edge) {
   size_t kept = 0;
   SW_TRY(sw_contact_set_memory(c, memory, bytes, fresh));
   for (size_t i = 0; i < c->memory_count; i++) {
-    const size_t node = new_node[c->memory[i].node];
+    const size_t *now = c->memory[i].segment ? new_edge : new_node;
+    const size_t node = now[c->memory[i].node];
     if (node == SIZE_MAX) continue;
     c->memory[kept] = c->memory[i];
     c->memory[kept++].node = node;

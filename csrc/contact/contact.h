@@ -207,7 +207,7 @@ sw_status sw_contact_set_seen(sw_contact *contact, const void *seen, size_t byte
 /* A number that is another one when what these blocks consist of is, to tell files of another
  * version by. */
 size_t sw_contact_layout(void);
-/* 1: it says that a node touches something. */
+/* 1: it says that a node of a wire without particles touches something, or a segment beside it. */
 int sw_contact_memory_names(const void *memory, size_t bytes, size_t node);
 /* Add what a memory says of nodes from old_first up to old_end, which are now numbered from
  * new_first, and obstacles of these numbers (count). SW_ENOMEM. */
@@ -215,8 +215,9 @@ sw_status sw_contact_add_memory(sw_contact *contact, const void *memory, size_t 
                                 size_t old_first, size_t old_end, size_t new_first,
                                 const size_t *obstacles, size_t count);
 /* The same from a contact whose nodes had other numbers: new_node gives for each
- * old number the new one, or SIZE_MAX when the node is gone. */
+ * old number the new one, or SIZE_MAX when the node is gone; new_edge the same for
+ * the segments that began there. */
 sw_status sw_contact_inherit(sw_contact *contact, const void *memory, size_t bytes, int fresh,
-                             const size_t *new_node);
+                             const size_t *new_node, const size_t *new_edge);
 
 #endif

@@ -60,33 +60,40 @@ static sw_status keep_contact(sw_scene *s) {
   return SW_OK;
 }
 
-/* Give the kept memory to the new system's contact: a node is the same when its
- * arc length is; a node that was moved for a clamp starts anew. */
+/* What nodes of wire w that contact remembers are now, and segments, by their first nodes: a node
+ * is the same when its arc length is, one that was moved for a clamp starts anew; a segment is
+ * when both of its ends are. */
+static void find_again(const sw_scene *s, size_t w, size_t *new_node, size_t *new_edge) {
+  const sw_body *b = &s->system.bodies[w];
+  const size_t first = s->kept.first[w], end = s->kept.first[w + 1];
+  size_t i = 0;
+  for (size_t k = first; k < end; k++) {
+    new_node[k] = new_edge[k] = SIZE_MAX;
+    if (s->kept.changed == w + 1) continue;
+    if (b->plan->web) { /* its particles stay as they are */
+      new_node[k] = new_edge[k] = b->first_node + k - first;
+      continue;
+    }
+    while (i < b->plan->nodes && b->plan->s[i] < s->kept.s[k]) i++;
+    if (i == b->plan->nodes || b->plan->s[i] != s->kept.s[k]) continue;
+    new_node[k] = b->first_node + i;
+    if (k > first && new_node[k - 1] != SIZE_MAX && new_node[k - 1] + 1 == new_node[k])
+      new_edge[k - 1] = new_node[k - 1];
+  }
+}
+
+/* Give the kept memory to the new system's contact. */
 static sw_status inherit_contact(sw_scene *s) {
   if (!sw_scene_has_contact(s) || !s->kept.memory) return SW_OK;
   const size_t old_nodes = s->kept.first[s->kept.wires];
-  size_t *new_node = sw_alloc(old_nodes, sizeof *new_node);
+  size_t *new_node = sw_alloc(2 * old_nodes, sizeof *new_node);
   if (!new_node) return SW_ENOMEM;
-  for (size_t w = 0; w < s->kept.wires; w++) {
-    const sw_body *b = &s->system.bodies[w];
-    size_t i = 0;
-    for (size_t k = s->kept.first[w]; k < s->kept.first[w + 1]; k++) {
-      if (s->kept.changed == w + 1) {
-        new_node[k] = SIZE_MAX;
-        continue;
-      }
-      if (b->plan->web) { /* its particles stay as they are */
-        new_node[k] = b->first_node + k - s->kept.first[w];
-        continue;
-      }
-      while (i < b->plan->nodes && b->plan->s[i] < s->kept.s[k]) i++;
-      const int same = i < b->plan->nodes && b->plan->s[i] == s->kept.s[k];
-      new_node[k] = same ? b->first_node + i : SIZE_MAX;
-    }
-  }
+  size_t *new_edge = new_node + old_nodes;
+  for (size_t w = 0; w < s->kept.wires; w++) find_again(s, w, new_node, new_edge);
   sw_status status = SW_OK;
   if (s->contact)
-    status = sw_contact_inherit(s->contact, s->kept.memory, s->kept.bytes, s->kept.fresh, new_node);
+    status = sw_contact_inherit(s->contact, s->kept.memory, s->kept.bytes, s->kept.fresh, new_node,
+                                new_edge);
   if (s->pairs && status == SW_OK)
     status = sw_pairs_inherit(s->pairs, s->kept.pairs, s->kept.pair_bytes, new_node);
   sw_free(new_node);

@@ -177,9 +177,11 @@ static int touches(const guide *g, long k) {
   const double arc = g->m->s[inner(g, k)];
   if (!s->kept.memory) return 0;
   for (size_t i = s->kept.first[g->h->wire]; i < s->kept.first[g->h->wire + 1]; i++)
-    if (s->kept.s[i] == arc)
+    if (s->kept.s[i] == arc) /* wires touch each other by segments, named by their first nodes */
       return sw_contact_memory_names(s->kept.memory, s->kept.bytes, i) ||
-             sw_pairs_memory_names(s->kept.pairs, s->kept.pair_bytes, i);
+             sw_pairs_memory_names(s->kept.pairs, s->kept.pair_bytes, i) ||
+             (i > s->kept.first[g->h->wire] &&
+              sw_pairs_memory_names(s->kept.pairs, s->kept.pair_bytes, i - 1));
   return 0;
 }
 

@@ -80,7 +80,7 @@ static sw_status refused(const char *object, int code, char *message, sw_error *
   return sw_fail(err, SW_EINVAL, "%s: no hull could be made (%s)", object, message);
 }
 
-/* Where qhull writes to: what it has to say, and now and then how far it is, where it can be
+/* Receives qhull's output: its messages, and now and then its progress, where it can be
  * stopped. */
 typedef struct listener {
   qhT *qh;

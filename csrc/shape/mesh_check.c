@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a mesh file declares against what it has. Each format is looked at just as closely as it
- * takes to find a file that was cut off; the rest is the reader's. */
+/* Has a mesh file all that it declares? Each format is checked just closely enough to find a
+ * file that was cut off; the rest is up to the reader. */
 #include "base/vec.h"
 #include "shape/mesh_ply.h"
 #include "shape/mesh_read.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What all shapes share: making, counting references, sending queries on. */
+/* Shared by all shapes: making, counting references, sending queries on. */
 #include "shape/shape.h"
 
 #include <stdint.h>

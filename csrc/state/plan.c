@@ -252,9 +252,8 @@ size_t sw_plan_locate(const sw_plan *plan, double s, double *fraction) {
   }
   const double from = plan->s[first ? first[low] : low];
   const double apart = plan->s[first ? first[low + 1] : low + 1] - from;
-  const int rigid = plan->web || (plan->held[low] != SW_FREE && plan->held[low + 1] != SW_FREE);
-  const double f = (s - from) / (rigid ? apart : plan->rest[low]);
-  *fraction = fmin(1.0, fmax(0.0, f));
+  /* not of the rest length, which beside a feed is longer than the arc by what it holds back */
+  *fraction = fmin(1.0, fmax(0.0, (s - from) / apart));
   return low;
 }
 

@@ -202,7 +202,7 @@ local function holds_plan(d, w, still)
   elseif kind == "feed" then
     return { { kind = "feed", share = d.of{ 0, 1 }, speed = d.between(-0.1, 0.4) } }
   elseif kind == "tie" then
-    return { { kind = "tie", share = at, to = scale(d.direction(), 0.05), slack = d.chance(0.5) and 0.01 or nil,
+    return { { kind = "tie", share = at, to = scale(d.direction(), 0.05), slack = d.chance(0.5) and 0.06 or nil,
       stiffness = 10 ^ d.between(2, 5) } }
   elseif kind == "clip" then
     return { { kind = "clip", share = 0.5, width = d.between(0.005, 0.01), insertion = d.between(2, 10),
@@ -289,7 +289,8 @@ end
 -- --- a view of a plan ---------------------------------------------------------------------------
 
 -- view: turn (quaternion), mirror (true: y becomes -y, before the turn), swap (true: s counts from the
--- other end), segments (a function of those planned), shift (of inner nodes, of an edge), nudge (wires begin so far beside [m]).
+-- other end), segments (a function of those planned), shift (of inner nodes, of an edge), nudge (wires begin so far
+-- beside [m]).
 local function seer(view)
   local turn, see = view.turn or { 1, 0, 0, 0 }, {}
   local function mirrored(v) return view.mirror and { v[1], -v[2], v[3] } or v end
@@ -344,7 +345,7 @@ local function shift_nodes(scene, wire, segments, share)
 end
 
 local function put_wire(scene, w, see, view)
-  local path, beside = {}, see.vector(scale({ 0.48, 0.6, 0.64 }, view.nudge or 0))
+  local path, beside = {}, see.vector(view.nudge or { 0, 0, 0 })
   for i, p in ipairs(w.path) do
     path[view.swap and #w.path + 1 - i or i] = add(see.vector(p), beside)
   end
@@ -412,6 +413,67 @@ function random_scenes.scene(plan, view)
     scene:force{ kind = "damping", mass = plan.damping.mass, stiffness = plan.damping.stiffness }
   end
   return scene, wires, obstacles
+end
+
+-- --- what comes of it ---------------------------------------------------------------------------
+
+local PLACES = 20 -- of a wire that are looked at, and its start
+
+local function places_of(wire, view)
+  local back, list = vec.conjugate(view.turn or { 1, 0, 0, 0 }), {}
+  for i = 0, PLACES do
+    local p = vec.rotate(back, wire:position(wire.length * (view.swap and PLACES - i or i) / PLACES))
+    list[i + 1] = view.mirror and { p[1], -p[2], p[3] } or p
+  end
+  return list
+end
+
+-- Energies [J]: what there is, by kinds, what was lost, and what is from nowhere or of the scene's
+-- changes, which is one thing to a wire that is let out of what it began in.
+local function energies_of(run)
+  local l, lost = run:ledger(), 0
+  for _, w in pairs(l.lost) do lost = lost + w end
+  return { kinetic = l.kinetic, stored = l.stored, gravity = l.gravity, lost = lost,
+    gap = l.gap + l.work.changes }, l.play
+end
+
+--- Run a plan as seen in a view. Gives ok and reason; places, of all wires, as the plan's frame has them
+-- [m]; peaks of means over 10 ms: tension of each wire, force on each obstacle [N]; energies and what was
+-- in play [J]; solves per simulated second; the run.
+function random_scenes.outcome(plan, view)
+  view = view or {}
+  local scene <close>, wires, obstacles = random_scenes.scene(plan, view)
+  local run = scene:run{ duration = plan.duration, dt = plan.dt, integrator = plan.integrator,
+    tolerance = plan.tolerance, quasistatic = plan.quasistatic or nil }
+  local out = { ok = run.ok, reason = run.reason, rate = run.iterations / run.time, run = run,
+    places = {}, peaks = {} }
+  if not run.ok then return out end
+  for i, w in ipairs(wires) do
+    table.move(places_of(w, view), 1, PLACES + 1, #out.places + 1, out.places)
+    out.peaks["tension of wire " .. i] = w:max_tension()
+  end
+  for i, o in ipairs(obstacles) do out.peaks["force on obstacle " .. i] = o:over().peak_force end
+  out.energies, out.play = energies_of(run)
+  return out
+end
+
+--- How far two outcomes are apart: largest distance of places over the shortest wire's length; of
+-- peaks, over the largest of them; of energies, over what was in play. And the peak and energy meant.
+function random_scenes.difference(plan, a, b)
+  local length, d = math.huge, { place = 0, peak = 0, energy = 0 }
+  for _, w in ipairs(plan.wires) do length = math.min(length, w.length) end
+  for i, p in ipairs(a.places) do d.place = math.max(d.place, vec.norm(add(p, b.places[i], -1)) / length) end
+  local largest = 0
+  for name, peak in pairs(a.peaks) do largest = math.max(largest, peak, b.peaks[name]) end
+  for name, peak in pairs(a.peaks) do
+    local off = math.abs(peak - b.peaks[name])
+    if off > d.peak * largest then d.peak, d.which = off / largest, name end
+  end
+  for name, energy in pairs(a.energies) do
+    local off = math.abs(energy - b.energies[name]) / a.play
+    if off > d.energy then d.energy, d.what = off, name end
+  end
+  return d
 end
 
 return random_scenes

@@ -259,3 +259,53 @@ describe("one day in the life of", function()
     assert.are.equal(5, stories) -- and the end
   end)
 end)
+
+describe("errors of an engineer's day", function()
+  -- Each message that the page quotes, from the mistake that it names.
+  it("are told in the words of the page", function()
+    local page = manual.read "mistakes"
+    local function quoted(text)
+      assert.is_truthy(page:find("`" .. text, 1, true) or page:find(text .. "`", 1, true), text)
+    end
+    local function told(text, f)
+      quoted(text)
+      local scene = sw.scene{}
+      local wire = scene:wire{ name = "wire", E = 50e6, density = 1500, radius = 0.0025, segments = 8,
+        from = { 0, 0, 0.1 }, to = { 1, 0, 0.1 } }
+      local fine, why = pcall(f, scene, wire)
+      assert.is_false(fine)
+      assert.is_truthy(why:find(text, 1, true), why)
+    end
+    told("obstacle box: there is no parameter 'sise'; did you mean 'size'?", function(scene)
+      scene:obstacle{ shape = "box", sise = { 1, 1, 1 } }
+    end)
+    told("there is no cable 'GXL 1.6'; did you mean 'GXL 1.5'?", function(scene)
+      scene:wire{ cable = "GXL 1.6", from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+    end)
+    told("s = 3 m is not on the wire; it must be in [0, 1] m", function(_, wire) wire:position(3) end)
+    told("gripper 'hand' holds nothing; grasp a wire before you move", function(scene)
+      scene:gripper{ name = "hand" }:move{ by = { 0, 0, 1 }, speed = 1 }
+    end)
+    local remark = "radius = 2.5 m is above 0.1 m; did you mean sw.units.mm(2.5)?"
+    quoted(remark)
+    local _, err = program.script("require 'softworld'.scene{}:wire{ E = 50e6, density = 1500, radius = 2.5, "
+      .. "from = { 0, 0, 0 }, to = { 50, 0, 0 } }")
+    program.clean()
+    assert.is_truthy(err:find(remark, 1, true), err)
+  end)
+
+  it("end with the exit statuses of the page", function()
+    local failing = [[ -- explicit steps somewhat too long: the wire is torn apart
+      local s = require "softworld".scene{}
+      local w = s:wire{ E = 5e6, density = 1500, radius = 0.0025, segments = 20, from = { 0, 0, 0.1 },
+        to = { 0.5, 0, 0.1 } }
+      s:clamp(w, { s = 0 })
+      s:run{ duration = 1, dt = 1.2 * s:stable_dt(), integrator = "velocity-verlet", unstable = true } ]]
+    for text, status in pairs{ [""] = 0, ["error 'no'"] = 1, [failing] = 1 } do
+      local _, err, code = program.script(text)
+      assert.are.equal(status, code, text .. err)
+    end
+    assert.are.equal(2, select(3, program.run{ "--nonsense" }))
+    program.clean()
+  end)
+end)

@@ -21,7 +21,8 @@ manual.groups = {
 
 --- Other words under which a page is found.
 manual.also = { manual = "start", contact = "touches", meshes = "wire_mesh", harness = "join",
-  winding = "wind", plastic = "springback", exact = "accuracy", errors = "mistakes", plot = "plotting", charts = "plotting",
+  winding = "wind", plastic = "springback", exact = "accuracy", errors = "mistakes",
+  plot = "plotting", charts = "plotting",
   pictures = "plotting", paraview = "plotting", resume = "save", load = "save", ledger = "energy",
   changed = "changes", modes = "vibration", stress = "vibration" }
 

@@ -1,0 +1,184 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Two hundred random scenes of contact, seeds 1 to 200, each run as planned, turned with gravity by a
+-- random rotation, mirrored, with its wires' ends swapped, with inner nodes a third of an edge further
+-- on, and with twice the segments: end states, filtered peaks and energies agree. Wires are of the
+-- catalogue or soft, free, thrown, clamped, pinned, gripped, fed, tied and in clips, on boxes, round
+-- shapes, hulls, meshes and planes that stand or move, with friction 0 to 1 and with restitution, in
+-- motion and quasi-static, in steps of 50 to 1 ms. Seeds are never exchanged.
+package.path = "./?.lua;" .. package.path
+local random_scenes = require "contact.random_scenes"
+local samples = require "contract.samples"
+local vec = require "softworld.vec"
+
+local COUNT = 200
+
+-- The first three are the same for the continuum and for the mesh: what differs comes from rounding, of
+-- 1e-16, which a step of an iteration that stops at a tolerance may make 1e-9. Of the shortest wire's
+-- length, the largest peak, what was in play.
+local SAME = { place = 1e-4, peak = 0.01, energy = 0.01 }
+-- So far apart are scenes in which a tolerance or an order decided about more than its own size: hulls
+-- (their distances are found by iteration), friction at quasi-static poses, and, of swapped ends, blows
+-- that come at the same time, which are dealt with one after another along the wire.
+local NEAR = { place = 0.05, peak = 0.2, energy = 0.5 }
+-- So many scenes may be that. Measured: 5, 0, 14.
+local DIFFERENT = { turned = 8, mirrored = 2, swapped = 20 }
+
+-- A scene is branching when a wire that begins 1e-9 m beside ends further away than the end states may
+-- differ. Only the books and what is finite are looked at then.
+local NUDGE, MOST_BRANCHING = 1e-9, 0.15
+
+local function view_turned(seed)
+  local random = samples.random(seed + 5000)
+  local axis = vec.unit{ random(-1, 1), random(-1, 1), random(-1, 1) }
+  return { turn = vec.turn(axis, random(-3, 3)) }
+end
+
+local exact = { turned = view_turned, mirrored = function() return { mirror = true } end,
+  swapped = function() return { swap = true } end }
+local meshes = { shifted = { shift = 1 / 3 }, fine = { segments = function(n) return 2 * n end } }
+
+local function beyond(difference, bounds)
+  for name, bound in pairs(bounds) do
+    if not (difference[name] <= bound) then return true end
+  end
+  return false
+end
+
+local function branches(plan, base)
+  for axis = 1, 3 do
+    for sign = -1, 1, 2 do
+      local nudge = { 0, 0, 0 }
+      nudge[axis] = sign * NUDGE
+      local other = random_scenes.outcome(plan, { nudge = nudge })
+      if not other.ok or random_scenes.difference(plan, base, other).place > SAME.place then return true end
+    end
+  end
+  return false
+end
+
+-- All that is looked at, of one scene. failed: views whose run failed.
+local function judged(seed)
+  local plan = random_scenes.plan(seed)
+  local base = random_scenes.outcome(plan)
+  local scene = { seed = seed, base = base, plan = plan, differences = {}, failed = {} }
+  if not base.ok then return scene end
+  local function compare(name, view)
+    local other = random_scenes.outcome(plan, view)
+    if not other.ok then scene.failed[name] = other.reason return end
+    scene.differences[name] = random_scenes.difference(plan, base, other)
+  end
+  for name, view in pairs(meshes) do compare(name, view) end
+  for name, view in pairs(exact) do
+    compare(name, view(seed))
+    local d = scene.differences[name]
+    if scene.branching == nil and (not d or beyond(d, SAME)) then scene.branching = branches(plan, base) end
+  end
+  return scene
+end
+
+describe("two hundred random scenes", function()
+  local scenes = {}
+
+  setup(function()
+    for seed = 1, COUNT do scenes[seed] = judged(seed) end
+  end)
+
+  -- Differences in a view of those that have them and do not branch.
+  local function each(name)
+    local list = {}
+    for _, scene in ipairs(scenes) do
+      local d = scene.differences[name]
+      if d and not scene.branching then list[#list + 1] = { d = d, seed = scene.seed } end
+    end
+    return list
+  end
+
+  local function share(list, part)
+    table.sort(list)
+    return list[math.ceil(part * #list)]
+  end
+
+  it("end, or say why they cannot be believed", function()
+    local failed = {}
+    for _, scene in ipairs(scenes) do
+      if not scene.base.ok then
+        assert.is_true(#scene.base.reason > 20)
+        failed[#failed + 1] = scene.seed
+      end
+    end
+    -- measured: one, bent wire let go at once in a step too long for it
+    assert.is_true(#failed <= 2, "failed: " .. table.concat(failed, ", "))
+  end)
+
+  it("keep books that balance, and numbers that are finite", function()
+    for _, scene in ipairs(scenes) do
+      local l = scene.base.run:ledger()
+      local sum, size = l.at_start + l.gap, math.abs(l.at_start) + l.gap + math.abs(l.total)
+      for _, w in pairs(l.work) do sum, size = sum + w, size + math.abs(w) end
+      for _, w in pairs(l.lost) do sum, size = sum - w, size + math.abs(w) end
+      assert.is_true(math.abs(l.total - sum) <= 1e-11 * size + 1e-15, "books of " .. scene.seed)
+      for _, p in ipairs(scene.base.places) do
+        assert.is_true(vec.norm(p) < 10, "place of " .. scene.seed) -- they are within half a metre
+      end
+      for name, peak in pairs(scene.base.peaks) do
+        assert.is_true(math.abs(peak) < math.huge, name .. " of " .. scene.seed) -- pressed wires: below 0
+      end
+    end
+  end)
+
+  it("seldom branch", function()
+    local branching = {}
+    for _, scene in ipairs(scenes) do
+      if scene.branching then branching[#branching + 1] = scene.seed end
+    end
+    -- measured: 6 %
+    assert.is_true(#branching <= MOST_BRANCHING * COUNT, "branching: " .. table.concat(branching, ", "))
+  end)
+
+  for name in pairs(exact) do
+    it("are the same " .. name, function()
+      local different = {}
+      for _, scene in ipairs(scenes) do
+        assert.is_true(scene.branching or not scene.failed[name], scene.failed[name])
+      end
+      for _, e in ipairs(each(name)) do
+        local text = ("seed %d: place %.1e, peak %.1e (%s), energy %.1e (%s)"):format(e.seed, e.d.place,
+          e.d.peak, e.d.which, e.d.energy, e.d.what)
+        if beyond(e.d, SAME) then different[#different + 1] = text end
+        assert.is_false(beyond(e.d, NEAR), text)
+      end
+      assert.is_true(#different <= DIFFERENT[name], ("%d: %s"):format(#different,
+        table.concat(different, "\n")))
+    end)
+  end
+
+  -- Where nodes are is a choice, as how many there are is. What a third of an edge changes is an error
+  -- of the mesh, and twice the segments take away most of that: measured, the median of both shares is
+  -- 1.0 for end states, 0.9 for peaks and 0.7 for energies; nine in ten are below 3.0, 3.8 and 2.7.
+  it("change with shifted nodes as they do with finer ones", function()
+    local floors = { place = 5e-5, peak = 1e-3, energy = 1e-3 }
+    for name, floor in pairs(floors) do
+      local list = {}
+      for _, e in ipairs(each "shifted") do
+        local fine = scenes[e.seed].differences.fine
+        if fine then list[#list + 1] = e.d[name] / (fine[name] + floor) end
+      end
+      assert.is_true(#list > 0.75 * COUNT, #list .. " scenes")
+      assert.is_true(share(list, 0.5) < 1.5, ("%s: median %.2f"):format(name, share(list, 0.5)))
+      assert.is_true(share(list, 0.9) < 5, ("%s: nine in ten below %.2f"):format(name, share(list, 0.9)))
+    end
+  end)
+
+  it("do not stall", function()
+    local rates, stalled = {}, {}
+    for i, scene in ipairs(scenes) do rates[i] = scene.base.rate end
+    local median = share(rates, 0.5)
+    for _, scene in ipairs(scenes) do
+      if scene.base.rate > 50 * median then
+        stalled[#stalled + 1] = ("seed %d: %.0f solves per second"):format(scene.seed, scene.base.rate)
+      end
+    end
+    -- measured: one, quasi-static with a clip, 58 times the median of 1390
+    assert.is_true(#stalled <= 1, table.concat(stalled, "\n"))
+  end)
+end)
