@@ -27,7 +27,8 @@ nav ul { list-style: none; margin: 0; padding: 0; }
 nav a { display: block; padding: .08rem .4rem; border-radius: .25rem; text-decoration: none; }
 nav a:hover { text-decoration: underline; }
 nav a[aria-current] { background: var(--link); color: var(--back); }
-main { padding: 2rem 2.5rem 4rem; max-width: 58rem; }
+main { padding: 2rem 2.5rem 4rem; max-width: 66rem; }
+main > p, li { max-width: 52rem; }
 a { color: var(--link); }
 h1 { font-size: 1.7rem; line-height: 1.25; margin: 0 0 1rem; }
 h2 { font-size: 1.25rem; margin: 2.2rem 0 .6rem; }
@@ -152,7 +153,7 @@ end
 -- Links to pages and pictures lead to files of the folder; help "name" becomes a link.
 local function linked(html)
   html = html:gsub('href="([%w_]+)%.md', 'href="%1.html')
-  html = html:gsub('src="%.readme/', 'src="')
+  html = html:gsub('src="[%./]*/%.readme/', 'src="')
   html = html:gsub("<table>", '<div class="wide"><table>'):gsub("</table>", "</table></div>")
   return (html:gsub("help &quot;([%w_%-]+)&quot;", function(name)
     local place = manual.has(name) and name .. ".html" or place_of[name]

@@ -12,7 +12,7 @@
 
 enum { SW_NAME_SIZE = 64 }; /* longest user-given name, with its end [B] */
 
-/* What the row's place in the argument struct holds. */
+/* Type of the row's field in the argument struct. */
 typedef enum sw_param_type {
   SW_PARAM_NUMBER,   /* double */
   SW_PARAM_INTEGER,  /* long */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A tape on which structs are put field by field and from which they come back: one function for
- * each struct says what is on it and serves both ways, so that writing and reading cannot drift
- * apart. A third way only sums up what would be written, to tell two things apart.
+/* A tape on which structs are put field by field and from which they come back: one function
+ * for each struct says what is on it and serves both ways, so that writing and reading cannot
+ * drift apart. A third way only takes a checksum of the fields, to tell two things apart.
  *
  * After the first failure everything is a no-op and reading gives zeros, so that functions need
  * not look at the status after each field; they must before they trust what they read. Reading
@@ -41,7 +41,7 @@ static inline int sw_tape_good(const sw_tape *tape) { return tape->status == SW_
 #define SW_SUM_START 14695981039346656037u
 uint64_t sw_sum(uint64_t sum, const void *bytes, size_t size);
 
-/* What was read makes no sense: SW_EFORMAT and the text. */
+/* The tape makes no sense: SW_EFORMAT and the text. */
 __attribute__((format(printf, 2, 3))) void sw_tape_damaged(sw_tape *tape, const char *format, ...);
 void sw_tape_fail(sw_tape *tape, sw_status status);
 

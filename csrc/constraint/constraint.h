@@ -10,7 +10,7 @@
 #include "base/status.h"
 #include "base/vec.h"
 
-/* What a user may say about a hold. */
+/* A user's arguments for a hold. */
 typedef struct sw_hold_args {
   double s;         /* arc length of the held point [m] */
   double width;     /* of the held interval around s; 0 = a point [m] */

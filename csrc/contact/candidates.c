@@ -39,7 +39,7 @@ double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v) {
   return reserve * c->h * (sw_norm(v) + g * c->h) + least;
 }
 
-/* The part of it that is not the obstacle's doing. */
+/* Widest gap at the step's start that can close within it, with reserve, by the wire's doing. */
 static double own_reach(const sw_contact *c, const sw_system *s, const sw_body *b, size_t node) {
   if (c->regime == SW_CONTACT_STATIC)
     return b->plan->length + (b->plan->web ? 2.0 * b->plan->beam.radius : 0.0);
@@ -47,14 +47,13 @@ static double own_reach(const sw_contact *c, const sw_system *s, const sw_body *
          c->widening * sw_flight_reserve(c, s, sw_load(s->v + 3 * node));
 }
 
-/* Widest gap at the step's start that can close within it, with reserve. */
+/* And by the obstacle's. */
 static double reach_of(const sw_contact *c, const sw_system *s, const sw_body *b, size_t node,
                        size_t o) {
-  if (c->regime == SW_CONTACT_STATIC) return own_reach(c, s, b, node);
+  const double own = own_reach(c, s, b, node);
+  if (c->regime == SW_CONTACT_STATIC) return own;
   const sw_vec x = sw_contact_where(c, s->x, node, node, 0);
-  const double wall = sw_norm(sw_obstacle_velocity(&c->start[o], x)) * c->h;
-  return b->plan->beam.radius * SKIN + wall +
-         c->widening * sw_flight_reserve(c, s, sw_load(s->v + 3 * node));
+  return own + sw_norm(sw_obstacle_velocity(&c->start[o], x)) * c->h;
 }
 
 static sw_status add_candidate(sw_contact *c, const sw_body *b, size_t body, size_t node,

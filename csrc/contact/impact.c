@@ -394,9 +394,7 @@ static int bars_too_hard(const sw_contact *c, const sw_system *s, double h) {
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
     if (t->feature != SW_BEHIND_BARRIER || !(t->press.normal_force > 0)) continue;
-    const sw_plan *p = s->bodies[t->body].plan;
-    const double weight = p->beam.mass * p->length * sw_norm(sw_load(s->gravity));
-    const double usual = fmax(weight, p->beam.EI / (p->length * p->length));
+    const double usual = sw_contact_usual_force(s, s->bodies[t->body].plan);
     if (t->press.normal_force > MOST_BORNE * usual) return 1;
   }
   return 0;

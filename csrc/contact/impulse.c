@@ -94,8 +94,7 @@ void sw_contact_conclude(sw_contact *c) {
   }
 }
 
-/* A wire's weight, or the force that bends it. */
-static double usual_force(const sw_system *s, const sw_plan *p) {
+double sw_contact_usual_force(const sw_system *s, const sw_plan *p) {
   const double weight = p->beam.mass * p->length * sw_norm(sw_load(s->gravity));
   return fmax(weight, p->beam.EI / (p->length * p->length));
 }
@@ -104,14 +103,22 @@ static double usual_force(const sw_system *s, const sw_plan *p) {
  * usual, is that of a shock [-]. */
 static const double SHOCK = 0.3, SHARP = 0.5;
 
-int sw_contact_shaken(const sw_contact *c, const sw_system *s) {
+/* Is a force off by off too much for one of the wires that touch obstacle o? */
+static int shakes(const sw_contact *c, const sw_system *s, int o, double off) {
   for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
-    if (s->bodies[t->body].plan->web) continue; /* these would hop: see bounces */
-    const sw_contact_past *past = &c->loads[t->obstacle].past;
+    const sw_plan *p = s->bodies[c->touches[i].body].plan;
+    if (c->touches[i].obstacle != o || p->web) continue; /* these would hop: see bounces */
+    if (off > SHARP * sw_contact_usual_force(s, p)) return 1;
+  }
+  return 0;
+}
+
+int sw_contact_shaken(const sw_contact *c, const sw_system *s) {
+  for (size_t k = 0; k < c->busy_count && c->touch_count; k++) {
+    const sw_contact_past *past = &c->loads[c->busy[k]].past;
     const double off = sw_norm(sw_sub(past->end.force, past->mean.force));
     const double most = fmax(sw_norm(past->end.force), sw_norm(past->mean.force));
-    if (off > SHOCK * most && off > SHARP * usual_force(s, s->bodies[t->body].plan)) return 1;
+    if (off > SHOCK * most && shakes(c, s, c->busy[k], off)) return 1;
   }
   return 0;
 }

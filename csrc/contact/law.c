@@ -127,13 +127,12 @@ static double force_after(const sw_press *p, sw_vec shift) {
   return fmax(0.0, -p->k * (p->gap + sw_dot(p->normal, shift)));
 }
 
-int sw_press_lags(const sw_press *p, double friction, sw_vec shift, double force_scale) {
-  if (!p->active || !p->sliding || !(friction > 0)) return 0;
-  return !lag_agrees(p, force_after(p, shift), force_scale);
-}
-
 static int slides(const sw_press *p, double friction) {
   return p->active && p->sliding && friction > 0;
+}
+
+int sw_press_lags(const sw_press *p, double friction, sw_vec shift, double force_scale) {
+  return slides(p, friction) && !lag_agrees(p, force_after(p, shift), force_scale);
 }
 
 static sw_vec take_as_given(sw_press *p, double friction, double force) {

@@ -15,7 +15,7 @@ sw_vec sw_axis_at(const sw_field *field, size_t i);       /* [m] */
 sw_vec sw_axis_velocity(const sw_field *field, size_t i); /* [m/s] */
 
 /* Add a force on place i, and its stiffness (whole, or NULL); of a ring each particle has its
- * share, and of the stiffness only what moves the ring as a whole. */
+ * share, and only the stiffness against moves of the whole ring counts. */
 void sw_axis_put(sw_field *field, size_t i, sw_vec force, const double *K);
 /* The same with stiffness k along a unit vector. */
 void sw_axis_push(sw_field *field, size_t i, sw_vec force, sw_vec along, double k);

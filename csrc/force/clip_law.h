@@ -25,13 +25,13 @@ typedef struct sw_clip_law {
   double clearance; /* of the wire in its seat [m] */
   double k;         /* of floor and walls [N/m] */
   double reach;     /* depth at which these hold no more [m] */
-  double strength;  /* what they bear there [N] */
+  double strength;  /* of floor and walls there [N] */
   int caught;       /* 1: the wire came over the mouth */
 } sw_clip_law;
 
 /* For a wire of this radius. seat: radius of the seat, NAN = that of the wire; way: of the wire
- * over the lips, NAN = chosen; stiffness of floor and walls, and what they bear, NAN = chosen [m],
- * [m], [N], [N], [m], [N/m], [N]. */
+ * over the lips, NAN = chosen; stiffness of floor and walls, and their strength, NAN = chosen
+ * [m], [m], [N], [N], [m], [N/m], [N]. */
 sw_clip_law sw_clip_law_of(double wire, double seat, double insertion, double retention, double way,
                            double stiffness, double strength);
 

@@ -22,7 +22,7 @@ typedef struct sw_clip_args {
   double strength;             /* what these bear; NAN = chosen [N] */
 } sw_clip_args;
 
-/* Rows of what every force of a clip takes. */
+/* Rows of parameters that every force of a clip takes. */
 #define SW_CLIP_ROWS                                                                          \
   {"at",                                                                                      \
    SW_PARAM_VECTOR,                                                                           \
@@ -112,7 +112,7 @@ sw_status sw_clip_check_lips(const sw_clip_args *args, const char *kind, sw_erro
 
 sw_clip sw_clip_of(const sw_clip_args *args, const sw_beam *beam);
 
-/* What one edge has of the clip; vectors and matrices in the clip's u, v, a. */
+/* Share of one edge in the clip; vectors and matrices in the clip's u, v, a. */
 typedef struct sw_clip_sum {
   double energy;         /* [J] */
   double g[2][3];        /* derivatives by the two ends [N] */

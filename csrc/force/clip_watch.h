@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a clip remembers of a wire, and what happens to the wire: how it goes in and comes out, and
- * where it meets the clip in ways that the clip does not bear or describe. */
+/* Memory of a clip about a wire, and its events: the wire goes in, comes out, breaks the clip,
+ * or crosses it in a way that the clip does not describe. */
 #ifndef SW_FORCE_CLIP_WATCH_H
 #define SW_FORCE_CLIP_WATCH_H
 

@@ -39,7 +39,7 @@ typedef struct sw_force_news {
 typedef struct sw_force_class {
   const char *name;
   const char *summary;  /* one line for help() */
-  const char *stores;   /* what its energy is called; NULL = as the force */
+  const char *stores;   /* name of its energy; NULL = the force's */
   const char *loses;    /* what the work dissipated in its history is; NULL = plasticity */
   const char *corrects; /* what its field's `bending` is part of; NULL = bend */
   unsigned flags;
@@ -85,8 +85,8 @@ typedef struct sw_force_class {
   void (*commit)(const void *args, const sw_field *field, double *history);
   void (*inherit)(const sw_plan *old, const double *from, const sw_field *field, double *history);
 
-  /* What commit has just found that has to be told: an event of the kind, with the force's name,
-   * where on the wire and a value of the unit that the text says; NULL = nothing. */
+  /* News of the last commit, to be told as an event: its kind, the force's name, the place on
+   * the wire, and a value in the unit that the text says; NULL = none. */
   int (*news)(const void *args, const double *history, sw_force_news *out);
 
   /* Fills the history of a wire that has none yet; geometry as for inherit. NULL = zeros. */
@@ -96,12 +96,12 @@ typedef struct sw_force_class {
    * closely as kinks ask for; NULL = it always may. */
   int (*idle)(const double *history);
 
-  /* Pull on something that breaks, and what it bears: 0 when it is broken or bears anything [N]. Of
-   * the field only places are up to date. NULL = nothing breaks. */
+  /* Pull on something that breaks, and its strength: 0 when it is broken or has no limit [N].
+   * Of the field only places are up to date. NULL = nothing breaks. */
   double (*pull)(const void *args, const sw_field *field, const double *history, double *bears);
 
-  /* What there is to read of it besides its force, on one wire at the accepted state: names,
-   * NULL-terminated, and as many values, each of the unit that its file says. NULL = nothing. */
+  /* Read-outs besides its force, on one wire at the accepted state: names, NULL-terminated, and
+   * as many values, in units that the force's file states. NULL = none. */
   const char *const *outputs;
   void (*read)(const void *args, const sw_field *field, const double *history, double *out);
 } sw_force_class;
@@ -134,7 +134,7 @@ typedef struct sw_bend_args {
   double EI; /* [N m2] */
 } sw_bend_args;
 
-/* What the arguments of a force on some particles begin with. The scene owns the list. */
+/* Head of the arguments of a force on some particles. The scene owns the list. */
 typedef struct sw_force_some {
   const uint32_t *particle; /* (count) numbers in the body, from 0 */
   size_t count;

@@ -19,7 +19,7 @@ typedef struct frame {
   vec t, m1;
 } frame;
 
-/* What there is to compute; everything else is left out. */
+/* Parts to compute; all others are left out. */
 typedef enum kind {
   TWISTED, /* straight at rest, one stiffness: twist is all that bend.c does not know */
   CURVED,  /* one stiffness, bent at rest */
@@ -154,7 +154,7 @@ FLAT void set_gain(hinge *h) {
 
 /* --- energy and first derivatives ----------------------------------------------- */
 
-/* From frames, lengths, twist and rest to energy and what pushes. */
+/* From frames, lengths, twist and rest to energy and generalised forces. */
 FLAT void set_hinge(hinge *h, const frame_args *args, kind what) {
   const lane off = h->twist - h->rest_twist;
   h->twist_stiffness = args->GJ * h->over_length;
@@ -202,7 +202,7 @@ FLAT void set_slopes(hinge *h, kind what) {
   }
 }
 
-/* Sum of push times bend without gain: what the gain's derivatives come with. */
+/* Sum of push times bend without gain, the factor of the gain's derivatives. */
 FLAT lane pushed(const hinge *h) { return h->s * (h->push[0] * h->q[0] + h->push[1] * h->q[1]); }
 
 FLAT slope gradient(const hinge *h, kind what) {

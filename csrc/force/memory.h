@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The slipping hinges of a whole wire: where they are in a history, how they are
- * evaluated, committed and carried over to another plan. Shared by plastic and
- * stick_slip. A history is the work dissipated so far [J], then six numbers for
- * each node and for each clamp hinge: slipped angle [rad] and tangent [-]. Held
- * nodes and ends have no hinge but remember what was slipped there. */
+/* The slipping hinges of a whole wire: where they are in a history, how they are evaluated,
+ * committed and carried over to another plan. Shared by plastic and stick_slip. A history is
+ * the work dissipated so far [J], then six numbers for each node and for each clamp hinge:
+ * slipped angle [rad] and tangent [-]. Held nodes and ends have no hinge but keep the slip of
+ * the hinge that was there. */
 #ifndef SW_FORCE_MEMORY_H
 #define SW_FORCE_MEMORY_H
 

@@ -4,18 +4,18 @@
  * W = mu/2 (tr C - 3) - mu ln J + lambda/2 (ln J)^2.
  *
  * Energy = V W(mean deformation gradient F) + 1/2 e'K e. The mean over the element's volume at
- * rest sees all homogeneous strains and nothing else: neither shear nor volume lock. What it does
- * not see (bending, twist, warping: nodes - 4 patterns of three components, amplitudes q = the
- * patterns' sums over the particles) has the energy of the second part. e = adj(F) q is
- * invariant to turning and follows what a stretched neo-Hookean body does in the same direction:
- * a bar drawn to 1.3 of its length or pressed to 0.7 bends within 7 and 11 % of the exact
- * stiffness (F'q would be 2.7 times too much, or 4.6 times too little). K is condensed once, at
- * rest, from the linear element with enhanced strains: Wilson's nine incompatible modes with
- * constant Jacobian and the three bilinear dilatations for hexahedra; for prisms all section
- * strains that are linear across the triangle and the axial strains that are linear along it.
- * At rest the whole is exactly that linear element (passes the patch test in any shape; bends
- * with EI = E I of its own section at any length and any nu), and K is positive: no zero-energy
- * modes beyond the six rigid ones, at any F with J above 0.
+ * rest sees all homogeneous strains and nothing else: neither shear nor volume lock. Bending,
+ * twist and warping, which it does not see (nodes - 4 patterns of three components, amplitudes
+ * q = the patterns' sums over the particles), have the energy of the second part. e = adj(F) q
+ * is invariant to turning and behaves like a stretched neo-Hookean body: a bar drawn to 1.3 of
+ * its length or pressed to 0.7 bends within 7 and 11 % of the exact stiffness (F'q would be 2.7
+ * times too much, or 4.6 times too little). K is condensed once, at rest, from the linear
+ * element with enhanced strains: Wilson's nine incompatible modes with constant Jacobian and
+ * the three bilinear dilatations for hexahedra; for prisms all section strains that are linear
+ * across the triangle and the axial strains that are linear along it. At rest the whole is
+ * exactly that linear element (passes the patch test in any shape; bends with EI = E I of its
+ * own section at any length and any nu), and K is positive: no zero-energy modes beyond the six
+ * rigid ones, at any F with J above 0.
  *
  * Where it stops being valid: bending and twist within one element are linear in their own
  * strain, so that elements must be small against strain gradients; and the mean of a section
@@ -43,7 +43,7 @@ typedef struct sw_solid {
   int nodes;         /* [-] */
   double volume;     /* at rest [m3] */
   double mu, lambda; /* [Pa] */
-  /* What the particles' places are summed with: three rows for the columns of F [1/m], one for
+  /* Weights of sums over the particles' places: three rows for the columns of F [1/m], one for
    * each pattern [-]. */
   double rows[SW_SOLID_ROWS][SW_SOLID_NODES];
   double K[SW_SOLID_STIFF][SW_SOLID_STIFF]; /* pattern by pattern, x y z each [N/m] */
@@ -60,8 +60,8 @@ sw_status sw_solid_prepare(int nodes, const double *rest, double mu, double lamb
  * [N/m]; what is not wanted may be NULL. */
 double sw_solid_eval(const sw_solid *e, const double *x, unsigned want, double *g, double *H);
 
-/* Largest share in (0, 1] of the move dx [m] on which J stays above a fifth of what it is, or of
- * 1 when that is less; 1 for an element that is inverted already. */
+/* Largest share in (0, 1] of the move dx [m] on which J stays above a fifth of its present
+ * value, or of 1 when that is less; 1 for an element that is inverted already. */
 double sw_solid_step(const sw_solid *e, const double *x, const double *dx);
 
 /* Mean Cauchy stress xx xy xz yy yz zz [Pa], its von Mises value [Pa], J [-]. Any may be NULL. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the files of the solid elements share. */
+/* Shared by the files of the solid elements. */
 #ifndef SW_FORCE_SOLID_INNER_H
 #define SW_FORCE_SOLID_INNER_H
 

@@ -97,7 +97,7 @@ enum { SW_EXTRA = 6 };
 sw_status sw_stepper_new(sw_stepper *stepper, const sw_integrator *method, const sw_system *system);
 void sw_stepper_free(sw_stepper *stepper);
 
-/* What a method with history has to keep: xp and all after it (doubles). */
+/* Size of the history of a method, if it has one: xp and all after it (doubles). */
 size_t sw_stepper_history(const sw_stepper *stepper, const sw_system *system);
 
 /* Compute a trial step from the system's state at t; the state stays untouched

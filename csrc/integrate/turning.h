@@ -5,7 +5,7 @@
 
 #include "integrate/integrate.h"
 
-/* Take a step h of a method, after one of last_h [s]. kept: what is kept from step to step
+/* Take a step h of a method, after one of last_h [s]. kept: memory from step to step
  * (SW_TURN_SIZE). Returns where between both stages its axial force is right. */
 sw_between sw_turning_step(const sw_integrator *method, double h, double last_h, double *kept);
 

@@ -28,9 +28,9 @@ sw_status sw_modal_solve(const sw_system *system, size_t body, size_t modes, dou
 sw_status sw_modal_unstable(const sw_system *system, size_t body, double slow, size_t *count);
 void sw_modes_free(sw_modes *modes);
 
-/* What forces that are out of balance would do to the body within about the time tau
- * [s]: drift, the largest shift of a node, NAN when that cannot be said [m]; axial,
- * the largest change of an axial force as sw_system_axial_error [-]. */
+/* Motion of the body by forces out of balance within about the time tau [s]: drift, the largest
+ * shift of a node, NAN when that cannot be said [m]; axial, the largest change of an axial
+ * force as sw_system_axial_error [-]. */
 sw_status sw_modal_unrest(const sw_system *system, size_t body, double tau, double *drift,
                           double *axial, sw_error *err);
 

@@ -231,7 +231,9 @@ static sw_status judged_attempt(loop *p, double h, int smallest, sw_error *err) 
  * them, or it pushes with them for half of it and makes energy. A starting step gives no estimate
  * of its error. */
 static int is_shaken(const sw_scene *s) {
-  return s->contact && !s->stepper.wants_error && sw_contact_shaken(s->contact, &s->system);
+  const sw_stepper *stepper = &s->stepper;
+  if (!s->contact || stepper->wants_error || stepper->start == stepper->method) return 0;
+  return sw_contact_shaken(s->contact, &s->system);
 }
 
 static void accept(loop *p, double h) {

@@ -306,10 +306,10 @@ typedef struct sw_retries {
   char object[SW_NAME_SIZE]; /* the wire there */
 } sw_retries;
 
-/* Where the energy of a run came from and went. Of every step what is left of
- *   change of energy = work - losses
- * is booked without netting: below 0 as lost by the integrator (or by contact, in steps in which
- * touches began or ended), above 0 as gap. */
+/* Where the energy of a run came from and went. The remainder of each step,
+ *   change of energy - work + losses,
+ * is booked by itself: below 0 as lost by the integrator (or by contact, in steps in which touches
+ * began or ended), above 0 as gap. */
 typedef struct sw_ledger {
   double kinetic, stored, gravity;                                   /* now [J] */
   double at_start;                                                   /* their sum then [J] */

@@ -82,7 +82,7 @@ typedef struct sw_tool_state {
   double margin;       /* friction over that; 0 without any; of a frozen grip force and moment over
                           what its touches could balance [-] */
   double sliding;      /* share of the force that slides [-] */
-  double slip;         /* way that wires slid since the jaws were told what to do, as a vector's
+  double slip;         /* slide of the wires since the last order to the jaws, as a vector's
                           length [m] */
   sw_vec slipped;      /* that vector, of wires in the tool's axes [m] */
   sw_vec centre;       /* of the tool [m] */

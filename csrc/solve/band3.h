@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Symmetric matrices of 3 x 3 blocks with two blocks beside the diagonal: what
- * a chain of nodes with bending gives. Factorised without pivoting as
- * U' D U, so that the signs of the pivots count negative directions. */
+/* Symmetric matrices of 3 x 3 blocks with two blocks beside the diagonal, as of a chain of
+ * nodes with bending. Factorised without pivoting as U' D U, so that the signs of the pivots
+ * count negative directions. */
 #ifndef SW_SOLVE_BAND3_H
 #define SW_SOLVE_BAND3_H
 

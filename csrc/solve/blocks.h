@@ -51,8 +51,8 @@ void sw_blocks_clear(sw_blocks *blocks);
  * negative pivots. SW_ESINGULAR when a pivot vanishes or is not finite, SW_ENOMEM. */
 sw_status sw_blocks_factor(sw_blocks *blocks, const unsigned char *fixed, size_t *negative);
 
-/* Solve in place for x (nodes x 3), after sw_blocks_factor gave SW_OK. What stands at fixed
- * nodes must be 0, and stays 0. */
+/* Solve in place for x (nodes x 3), after sw_blocks_factor gave SW_OK. Values at fixed nodes
+ * must be 0, and stay 0. */
 void sw_blocks_solve(const sw_blocks *blocks, double *x);
 
 /* y = values times x, fixed nodes like all others; y is not x. */

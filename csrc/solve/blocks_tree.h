@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Factors of sparse symmetric matrices of 3 x 3 blocks, L' D L without pivoting, by dense fronts
- * (Duff and Reid 1983): each is made of its part of the matrix and of what its children, the
- * fronts before it, left for it; it eliminates its own nodes and leaves the rest to its parent.
- * Nodes are numbered from the last one eliminated to the first. */
+/* Factors of sparse symmetric matrices of 3 x 3 blocks, L' D L without pivoting, by dense
+ * fronts (Duff and Reid 1983): each is the sum of its part of the matrix and of the remainders
+ * of its children, the fronts before it; it eliminates its own nodes and leaves the rest to its
+ * parent. Nodes are numbered from the last one eliminated to the first. */
 #ifndef SW_SOLVE_BLOCKS_TREE_H
 #define SW_SOLVE_BLOCKS_TREE_H
 

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the forces of one wire see and fill during one evaluation. Forces that
- * depend only on the edges (stretch, bend) write gradients and second
- * derivatives with respect to edge vectors; the system turns those into node
- * forces and matrix blocks once for all of them. Forces on nodes (gravity,
- * drag, contact) write node forces and node blocks.
+/* Input and output of the forces of one wire during one evaluation. Forces that depend only on
+ * the edges (stretch, bend) write gradients and second derivatives with respect to edge
+ * vectors; the system turns those into node forces and matrix blocks once for all of them.
+ * Forces on nodes (gravity, drag, contact) write node forces and node blocks.
  *
  * Edge arrays are one array per component, so that loops over edges vectorise;
  * each has zeros before index 0 and after its last item, so that gathering to
@@ -16,7 +15,7 @@
 #include "base/status.h"
 #include "state/plan.h"
 
-/* What an evaluation must compute. */
+/* Parts that an evaluation must compute. */
 enum {
   SW_WANT_FORCE = 1,     /* gradients and node forces */
   SW_WANT_STIFFNESS = 2, /* second derivatives, with velocity_rate times damping */

@@ -46,7 +46,7 @@ void sw_mesh_free(sw_mesh *mesh);
 /* A copy of its own. SW_ENOMEM. */
 sw_status sw_mesh_copy(const sw_mesh *from, sw_mesh *to);
 
-/* An empty mesh of n nodes with what else the other one has. SW_ENOMEM. */
+/* An empty mesh of n nodes, else like the other one. SW_ENOMEM. */
 sw_status sw_mesh_like(const sw_mesh *other, size_t n, sw_mesh *to);
 
 /* The same wire with nodes at other arc lengths s (count; from 0 to its length), with

@@ -13,7 +13,7 @@
 #include "base/vec.h"
 #include "state/web.h"
 
-/* What a section is made of, in beam terms. */
+/* A section in terms of beams. */
 typedef struct sw_beam {
   double EA;           /* axial stiffness [N] */
   double EI;           /* bending stiffness, the smaller of two [N m2] */
@@ -32,8 +32,8 @@ typedef struct sw_beam {
 /* How a node is held. */
 enum { SW_FREE = 0, SW_HELD = 1 };
 
-/* How what holds a wire gives way on one side, where it is no rigid clamp: as by other lengths of
- * wire. 0: it does not. */
+/* Give of a hold on one side, where it is no rigid clamp, as other lengths of wire. 0: it has
+ * none. */
 typedef struct sw_clamp_give {
   double shorter; /* the bending wire begins so much further out than where it is held [m] */
   double softer;  /* but about the axis so much further in than that [m] */
@@ -86,8 +86,8 @@ typedef struct sw_plan {
   double *rest_twist; /* (n + clamps) and twisted [rad] */
 } sw_plan;
 
-/* What a hold wants of the mesh: nodes at s1 and s2 (equal for a point) and
- * every node between them held; direction fixed too when clamped. */
+/* A hold's demands on the mesh: nodes at s1 and s2 (equal for a point) and every node between
+ * them held; direction fixed too when clamped. */
 typedef struct sw_hold_place {
   double s1, s2; /* [m] */
   int clamped;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What this room has, on a tape. Reading fills an empty struct, which the caller frees also after
- * a failure; what it points to is checked, so that nothing in it leads outside of its arrays. */
+/* Structs of this room on a tape. Reading fills an empty struct, which the caller frees also
+ * after a failure; numbers in it that name other things are checked to be inside of the arrays. */
 #ifndef SW_STATE_STATE_TAPE_H
 #define SW_STATE_STATE_TAPE_H
 

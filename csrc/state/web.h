@@ -34,7 +34,7 @@ typedef struct sw_web_crease {
 
 enum { SW_WEB_SOLID_NODES = 8 }; /* most of one solid element [-] */
 
-/* Corners of a solid element; what else it is lies in the web's shapes. */
+/* Corners of a solid element; its other data are in the web's shapes. */
 typedef struct sw_web_solid {
   uint32_t count; /* [-] */
   uint32_t shape; /* which one of these it has */
@@ -121,7 +121,7 @@ sw_status sw_web_add_surface(sw_web *web);
 /* Once springs and masses are known: the square of a bound on how fast they swing. SW_ENOMEM. */
 sw_status sw_web_bound_rate(sw_web *web);
 
-/* The same of what presses and sticks parts that slide. SW_ENOMEM. */
+/* The same of the springs that press and stick parts that slide. SW_ENOMEM. */
 sw_status sw_web_bound_slides(sw_web *web);
 
 /* Mass-weighted middle of ring i, of positions or anything else that particles have

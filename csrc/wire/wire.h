@@ -32,13 +32,13 @@ typedef struct sw_wire_class {
       *mesh; /* the lattice of particles of room calibrate that it is; NULL: a line of them */
 } sw_wire_class;
 
-/* The recipe of all models that are meshes: what the springs are is in the mesh. */
+/* The recipe of all models that are meshes; their springs are in the mesh. */
 void sw_web_recipe(const sw_beam *beam, sw_recipe *out);
 
 const sw_wire_class *sw_wire_find(const char *name);
 const sw_wire_class *const *sw_wire_all(void); /* NULL-terminated */
 
-/* What a user may say about a wire's section; NAN = not given. */
+/* A user's values for a wire's section; NAN = not given. */
 typedef struct sw_section {
   double EA;              /* [N] */
   double EI;              /* [N m2] */

@@ -34,7 +34,7 @@ function bendrule.factor(use, diameter)
   return bendrule.table[use][column]
 end
 
---- nil when the use is known, else what to say.
+--- nil when the use is known, else a message.
 function bendrule.unknown(use)
   if bendrule.table[use] then return nil end
   local near = type(use) == "string" and core.nearest(use, bendrule.uses)

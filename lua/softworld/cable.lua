@@ -94,7 +94,7 @@ local function source_of(name, key, source)
   return source
 end
 
--- A value as the user wrote it (a number or a table), with what the entry says for all.
+-- A value as the user wrote it (a number or a table), completed by the entry's flag, source and spread.
 local function read_quantity(name, spec, given, entry)
   local key, unit = spec.key, spec.unit
   if type(given) == "number" then given = { value = given } end

@@ -16,7 +16,7 @@
 --
 -- A composite is a tube of rings as shell around cores, each a line of particles, layers or
 -- voxels. Bonded, springs (group "bond") hold its parts together and the whole has EA, EI and GJ.
--- Sliding (`bonded = false`), these are the sums of what the parts have, each core bending about
+-- Sliding (`bonded = false`), EA, EI and GJ are the sums over the parts, each core bending about
 -- its own axis, as strands do that are laid round; links with `slide` then name the particles that
 -- face each other, for a law of contact. They have no stiffness. Of one core all of it also holds
 -- for the cell of the mesh as a whole; of cores off the axis that cell, whose sections stay plane,
@@ -86,7 +86,7 @@ function calibrate.named(c, mesh)
   return setmetatable(c, Calibration)
 end
 
--- A copy of the arguments with the cable's values for what is not given.
+-- A copy of the arguments, completed by the cable's values.
 local function with_cable(args)
   local entry = cable.get(args.cable)
   for _, key in ipairs { "E", "nu", "density" } do

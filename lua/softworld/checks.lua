@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Checks of what users hand in: known keys, numbers in range, vectors. Levels count as in
--- error(), from the function that calls the check.
+--- Checks of users' arguments: known keys, numbers in range, vectors. Levels count as in error(), from the
+-- function that calls the check.
 -- @module softworld.checks
 local core = require "softworld.core"
 

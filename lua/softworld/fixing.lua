@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Shared by clips, ties and channels: checks of what they are given, and the scene's list of them, by
--- which runs tell of them and pictures show them.
+--- Shared by clips, ties and channels: checks of arguments, and the scene's list of such things, by which
+-- runs tell of them and pictures show them.
 -- @module softworld.fixing
 local core = require "softworld.core"
 local build = require "softworld.build"
@@ -24,8 +24,7 @@ local function shown(value, unit)
   return type(value) == "string" and "'" .. value .. "'" or "a " .. type(value)
 end
 
---- The number `name` of what is made: above (or at least) `low`; nil takes `default`, and raises
--- without one.
+--- The parameter `name`, a number above (or at least) `low`; nil takes `default`, and raises without one.
 function fixing.number(what, name, value, unit, low, above, default)
   local limit = ("%s %g%s"):format(above and "above" or "at least", low, unit ~= "" and " " .. unit or "")
   if value == nil then

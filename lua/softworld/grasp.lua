@@ -200,7 +200,7 @@ local function jaw_order(self, args, what, level)
   return { mode = "to", opening = 0, speed = speed, force = contact }
 end
 
--- Wait until jaws have done what they were told; raises when they cannot.
+-- Wait until the jaws are done; raises when they cannot do it.
 local function wait_for_jaws(self, p, order)
   local state, crushed
   local wire = self.wire -- another process may let go of it meanwhile
@@ -286,7 +286,7 @@ end
 
 -- --- grasp --------------------------------------------------------------------------
 
--- It does not move now, so that what is held besides can go with it.
+-- Raise while it moves: wires and things that it holds besides could not go with it.
 local function check_rest(self, what)
   if (self.busy_until or -math.huge) > self.scene.time * (1 + 1e-12) + 1e-12 then
     error(("gripper '%s' moves until t = %g s; %s after that"):format(self.name, self.busy_until, what), 0)

@@ -51,8 +51,8 @@ local keys = { name = true, pads = true, at = true, rotation = true, slip_tolera
 --- scene:gripper{ name =, pads = {...}, at = {x, y, z} [m], rotation =, slip_tolerance = [m],
 -- arm = { radius =, length = [m] }, on_crash = }
 -- at is where the tool is while it holds nothing; grasp without s takes the
--- place of the wire nearest to it. The arm goes up from the pads. on_crash as on_slip: what happens
--- when pads or arm run into an obstacle. See help "gripper" for pads.
+-- place of the wire nearest to it. The arm goes up from the pads. on_crash as on_slip: the
+-- reaction to pads or arm that run into an obstacle. See help "gripper" for pads.
 function core.class.scene.gripper(scene, args)
   build.check(scene, "scene:gripper", 3)
   if args == nil then args = {} end

@@ -195,9 +195,9 @@ end
 
 local function nothing() return nil end
 
---- The value of a string, for a scene. object(class, slot, generation) gives its objects,
--- instance(class, name) what the script has made of a class of keep.class, or nil.
--- Without these two it is only looked through: an error tells what is wrong with it.
+--- The value of a string, for a scene. object(class, slot, generation) gives its objects, instance(class,
+-- name) the object of that class of keep.class and name that the script has made, or nil. Without these
+-- two the string is only checked; an error tells its fault.
 function keep.unpack(text, scene, object, instance)
   local from = { text = text, at = 1, tables = {}, count = 0, scene = scene,
     object = object or nothing, instance = instance or nothing }

@@ -51,7 +51,7 @@ for i, entry in ipairs(known) do by_name[entry.name], names[i] = entry, entry.na
 
 local material = { names = names }
 
---- The material by its name, or nil and what to say about it.
+--- The material by its name, or nil and a message.
 function material.find(name)
   local entry = by_name[name]
   if entry then return entry end

@@ -95,7 +95,7 @@ function mixed.lose(self, state)
   self.events[#self.events].margin = state.margin
 end
 
---- The wire is open: what was a mesh near the pads becomes the rod that it was.
+--- The jaws are open: the mesh near the pads becomes the rod that it was.
 function mixed.finish(self)
   local rod = self.rod_model == "rod" or self.rod_model == "string"
   if rod and self.wire.model == self.mesh_model then

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Remarks on what is allowed but hardly meant: a radius of 2.5 m, a modulus of 50 Pa, a wire that
--- begins inside of an obstacle. Each is told once per line of the script, on stderr, in the host
--- program; sw.remarks = false silences them.
+--- Remarks on values that are allowed but hardly meant: a radius of 2.5 m, a modulus of 50 Pa, a wire that
+-- begins inside of an obstacle. Each is told once per line of the script, on stderr, in the host program;
+-- sw.remarks = false silences them.
 -- @module softworld.remarks
 local core = require "softworld.core"
 local checks = require "softworld.checks"
@@ -89,7 +89,7 @@ local function keys_of(kind)
   return sorted[kind]
 end
 
---- Remark what is unusual in the arguments of a kind of thing; what: names it.
+--- Remark unusual values in the arguments of a kind of thing, which `what` names.
 function remarks.on(kind, what, args)
   if type(args) ~= "table" or not remarks.wanted() then return end
   for _, key in ipairs(keys_of(kind)) do

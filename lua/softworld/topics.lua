@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Topics of help: pages of the manual, and what the core registers with its parameter rows, the same
--- rows that check arguments.
+--- Topics of help: pages of the manual, and the members of the core's registries with their parameter rows,
+-- the same rows that check arguments.
 -- @module softworld.topics
 local core = require "softworld.core"
 local manual = require "softworld.manual"
@@ -126,7 +126,7 @@ local function family_list(family)
   return part
 end
 
---- What is registered under a name: a list of parts { title =, lines = texts, rows = parameter rows }.
+--- Members and tables of rows under a name: a list of { title =, lines = texts, rows = parameter rows }.
 function topics.parts(topic)
   local parts, r = {}, registered()
   if r.params[topic] then
@@ -159,7 +159,7 @@ local function part_text(part)
   return table.concat(lines, "\n")
 end
 
---- Names of what is registered, in groups: a title and a list.
+--- Names of all members and tables of rows, in groups: a title and a list.
 function topics.reference()
   local r = registered()
   return { { "make", sorted_names(r.params) }, { "models", names_of(r.models) },
@@ -184,7 +184,7 @@ function topics.overview()
   return table.concat(lines, "\n")
 end
 
---- What is known under a name: the page of the manual first, then parameters; or nil.
+--- The text under a name: the page of the manual first, then parameters; or nil.
 function topics.text(topic)
   local texts, parts = {}, topics.parts(topic)
   local page = manual.has(topic) and topic or #parts == 0 and manual.also[topic]
@@ -193,7 +193,7 @@ function topics.text(topic)
   return #texts > 0 and table.concat(texts, "\n\n") or nil
 end
 
---- Why there is nothing under a name, with the nearest one that there is.
+--- Message for a name without a topic, with the nearest one that has.
 function topics.unknown(topic)
   local names = sorted_names(manual.also)
   local function add(list) table.move(list, 1, #list, #names + 1, names) end

@@ -8,7 +8,7 @@ local MOST = 20 -- texts that are kept, and told
 local texts, kept, last = {}, 0, 0
 local more = 0 -- failures beyond those kept
 
---- Remember a failure; gives what stands for it.
+--- Remember a failure; gives its mark.
 function unread.add(text)
   last = last + 1
   local mark = { number = last }

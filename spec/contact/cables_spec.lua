@@ -143,12 +143,7 @@ for _, name in ipairs(scenes.cables) do
 
     it("lies in a bundle between rails", function()
       local s, r = core.scene{}, wire.radius
-      local plane = s:obstacle{ shape = "plane", friction = MU }
-      local rails = {}
-      for k, y in ipairs{ -r - 0.005, 5 * r + 0.005 } do
-        rails[k] = s:obstacle{ shape = "box", size = { 1, 0.01, 0.05 }, at = { 0.2, y, 0.025 },
-          friction = MU }
-      end
+      local plane, rails = scenes.railed(s, r, MU)
       for i, p in ipairs{ { 0, 0 }, { 1, 0 }, { 2, 0 }, { 0.5, 1 }, { 1.5, 1 }, { 1, 2 } } do
         local y, z = 2 * r * p[1], r * (1 + 1.7322 * p[2]) + 1e-5 * i
         scenes.add_wire(s, { 0, y, z }, { 0.4, y, z }, 20, wire)

@@ -202,7 +202,8 @@ local function holds_plan(d, w, still)
   elseif kind == "feed" then
     return { { kind = "feed", share = d.of{ 0, 1 }, speed = d.between(-0.1, 0.4) } }
   elseif kind == "tie" then
-    return { { kind = "tie", share = at, to = scale(d.direction(), 0.05), slack = d.chance(0.5) and 0.06 or nil,
+    return { { kind = "tie", share = at, to = scale(d.direction(), 0.05),
+      slack = d.chance(0.5) and 0.06 or nil, -- not less than it is long: it would yank the wire
       stiffness = 10 ^ d.between(2, 5) } }
   elseif kind == "clip" then
     return { { kind = "clip", share = 0.5, width = d.between(0.005, 0.01), insertion = d.between(2, 10),
@@ -267,11 +268,11 @@ function random_scenes.plan(seed)
   local plan = { seed = seed, wires = wires_plan(d), obstacles = {}, gravity = { 0, 0, -9.81 } }
   times_plan(d, plan)
   local from = { 0, 0, -1 }
-  for _, w in ipairs(plan.wires) do
+  for i, w in ipairs(plan.wires) do
     w.holds = holds_plan(d, w, plan.quasistatic)
     if not plan.quasistatic and d.chance(0.5) and #w.holds == 0 then
       w.velocity = scale(d.direction(), 10 ^ d.between(-1, 0.7))
-      if _ == 1 then from = unit(w.velocity) end
+      if i == 1 then from = unit(w.velocity) end
     end
   end
   if dot(from, { 0, 0, 1 }) < 0.3 and d.chance(0.7) then
@@ -289,8 +290,8 @@ end
 -- --- a view of a plan ---------------------------------------------------------------------------
 
 -- view: turn (quaternion), mirror (true: y becomes -y, before the turn), swap (true: s counts from the
--- other end), segments (a function of those planned), shift (of inner nodes, of an edge), nudge (wires begin so far
--- beside [m]).
+-- other end), segments (a function of those planned), shift (of inner nodes, in edges), nudge (vector by
+-- which wires begin beside [m]).
 local function seer(view)
   local turn, see = view.turn or { 1, 0, 0, 0 }, {}
   local function mirrored(v) return view.mirror and { v[1], -v[2], v[3] } or v end
@@ -316,7 +317,9 @@ local function local_shape(o, see, mirror)
   if o.points then args.points = flat(o.points) end
   if o.vertices then
     local faces = {}
-    for i = 1, #o.faces, 3 do faces[i], faces[i + 1], faces[i + 2] = o.faces[i], o.faces[i + 2], o.faces[i + 1] end
+    for i = 1, #o.faces, 3 do
+      faces[i], faces[i + 1], faces[i + 2] = o.faces[i], o.faces[i + 2], o.faces[i + 1]
+    end
     args.data = obj_of(flat(o.vertices), faces)
   end
   if o.normal then args.normal = see.mirrored(o.normal) end

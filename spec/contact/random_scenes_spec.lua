@@ -39,7 +39,8 @@ local meshes = { shifted = { shift = 1 / 3 }, fine = { segments = function(n) re
 
 local function beyond(difference, bounds)
   for name, bound in pairs(bounds) do
-    if not (difference[name] <= bound) then return true end
+    local d = difference[name]
+    if d > bound or d ~= d then return true end
   end
   return false
 end

@@ -35,6 +35,17 @@ function scenes.lying(options)
   return s, w, table_, L
 end
 
+--- A table, and two rails on it with room for three wires of radius r side by side, and two times 5 mm.
+function scenes.railed(s, r, friction)
+  local plane = s:obstacle{ shape = "plane", friction = friction }
+  local rails = {}
+  for k, y in ipairs{ -r - 0.005, 5 * r + 0.005 } do
+    rails[k] = s:obstacle{ shape = "box", size = { 1, 0.01, 0.05 }, at = { 0.2, y, 0.025 },
+      friction = friction }
+  end
+  return plane, rails
+end
+
 --- A wire of 0.4 m with its middle at `at`, turned by two angles, flung at
 -- speed along x against a wall of 10 mm by 1 m by 0.5 m at x = 0.3.
 function scenes.flung(o)

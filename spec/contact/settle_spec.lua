@@ -10,12 +10,7 @@ local R, G, MASS = scenes.wire.radius, 9.81, scenes.wire.mass_per_length
 -- against a rail, one on top.
 local function bundle(friction)
   local s = core.scene{}
-  local plane = s:obstacle{ shape = "plane", friction = friction }
-  local rails = {}
-  for k, y in ipairs{ -R - 0.005, 5 * R + 0.005 } do
-    rails[k] = s:obstacle{ shape = "box", size = { 1, 0.01, 0.05 }, at = { 0.2, y, 0.025 },
-      friction = friction }
-  end
+  local plane, rails = scenes.railed(s, R, friction)
   local wires = {}
   for i, p in ipairs{ { 0, 0 }, { 1, 0 }, { 2, 0 }, { 0.5, 1 }, { 1.5, 1 }, { 1, 2 }, { 0.2, 2 } } do
     local y, z = 2 * R * p[1], R * (1 + 1.7322 * p[2]) + 1e-5 * i

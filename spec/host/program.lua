@@ -113,8 +113,8 @@ local function with_signals(command, times)
   if times.again then
     steps[#steps + 1] = "while sleep 0.2; ticks && [ $state != Z ]; do kill -INT $p 2>/dev/null; done"
   end
-  return ("%s%s & p=$!; (watch %d %d) >/dev/null 2>&1 & w=$!; %s; wait $p; c=$?; kill $w; exit $c")
-    :format(SHELL, command, 100 * MOST_CPU, 5 * MOST_WALL, table.concat(steps, "; "))
+  return ("%s%s & p=$!; (watch %d %d) >/dev/null 2>&1 & w=$!; %s; wait $p; c=$?; kill $w 2>/dev/null; "
+    .. "exit $c"):format(SHELL, command, 100 * MOST_CPU, 5 * MOST_WALL, table.concat(steps, "; "))
 end
 
 -- Run the program with a list of arguments. options: stdin (a text), input (a

@@ -115,7 +115,7 @@ describe("what the manual and the README name:", function()
       local base = name == "README.md" and "" or FOLDER
       for target in text:gmatch "%]%(([^)]*)%)" do
         if not target:find "^https?:" then
-          local place = target:find "^%.readme/" and target or base .. target:gsub("#.*", "")
+          local place = base .. target:gsub("#.*", "")
           assert.is_truthy(lfs.attributes(place, "mode"), name .. ": " .. target)
         end
       end

@@ -25,6 +25,16 @@ local function balanced(run, what)
   return l
 end
 
+-- A cantilever let go, with a force on it.
+local function damped(dt, force)
+  local s = sw.scene{}
+  local w = wire_of(s)
+  force.on = w
+  s:force(force)
+  s:clamp(w, { s = 0 })
+  return s:run{ duration = 0.5, dt = dt }
+end
+
 -- Each makes a scene with one source or sink, and runs it with steps of dt.
 local cases = {
   release = function(dt)
@@ -50,20 +60,8 @@ local cases = {
     end)
     return s:run{ dt = dt }
   end,
-  damping = function(dt)
-    local s = sw.scene{}
-    local w = wire_of(s)
-    s:force{ kind = "damping", on = w, mass = 1, stiffness = 0.01 }
-    s:clamp(w, { s = 0 })
-    return s:run{ duration = 0.5, dt = dt }
-  end,
-  drag = function(dt)
-    local s = sw.scene{}
-    local w = wire_of(s)
-    s:force{ kind = "drag", on = w, linear = 0.05, quadratic = 0.1 }
-    s:clamp(w, { s = 0 })
-    return s:run{ duration = 0.5, dt = dt }
-  end,
+  damping = function(dt) return damped(dt, { kind = "damping", mass = 1, stiffness = 0.01 }) end,
+  drag = function(dt) return damped(dt, { kind = "drag", linear = 0.05, quadratic = 0.1 }) end,
   load = function(dt)
     local s = sw.scene{ gravity = { 0, 0, 0 } }
     local w = wire_of(s)

@@ -42,7 +42,7 @@ function manual.read(name)
   return text
 end
 
---- What a page is about: its first heading.
+--- The title of a page: its first heading.
 function manual.title(name) return manual.read(name):match "^# ([^\n]+)" end
 
 return manual

@@ -34,7 +34,7 @@ local function trace(folder, name, width, height, extra)
   if not ok then sink.fail("povray failed (exit code %d): %s", code, complaint(text)) end
 end
 
--- Only what the internal font has: other characters become question marks.
+-- Characters that the internal font lacks become question marks.
 local function caption_text(text)
   return (text:gsub("[\194-\244][\128-\191]*", "?"):gsub("[^\32-\126]", "?"):gsub('[\\"]', "\\%0"))
 end

@@ -107,7 +107,7 @@ local function front(self)
   return label .. spin[self.turn]
 end
 
--- As many facts as fit; the bar takes what remains, from 10 to 40 columns.
+-- As many facts as fit; the bar takes the rest of the line, from 10 to 40 columns.
 local function bar_line(self, now, columns)
   local room = columns - 1
   local head, parts = front(self), facts(self, now)

@@ -152,7 +152,7 @@ local function fill(file, content)
   if type(content) == "function" then content(writer(file)) else writer(file)(content) end
 end
 
--- Fill an open file and close it: nil, or what went wrong.
+-- Fill an open file and close it: nil, or a message.
 local function fill_and_close(file, content)
   local ok, failure = pcall(fill, file, content)
   local closed, close_why = file:close()

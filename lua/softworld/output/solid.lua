@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Obstacles as triangles, and poses: what the writers of scenes share.
+--- Obstacles as triangles, and poses, for the writers of scenes.
 -- Lengths in m; triangles wind so that their normals point outwards.
 -- A solid is `{ vertices = flat {x,y,z,...}, indices = flat 0-based {i,j,k,...} }`.
 -- @module softworld.output.solid
@@ -24,7 +24,7 @@ end
 local identity = { 1, 0, 0, 0 }
 local origin = { 0, 0, 0 }
 
---- The position and rotation of a pose, with the identity for what is absent.
+--- The position and rotation of a pose; absent ones are the identity.
 -- @tparam ?table pose `{ position = {x,y,z} [m], rotation = {w,x,y,z} }`
 -- @treturn table position
 -- @treturn table rotation, of unit length

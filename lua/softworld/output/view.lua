@@ -99,7 +99,7 @@ local function fit(points, right, up, forward, tx, ty)
   return combine((ax + bx) / 2, right, (ay + by) / 2, up, z, forward)
 end
 
--- Shift the camera sideways until what it sees is in the middle.
+-- Shift the camera sideways until the scene is in its middle.
 local function centre(camera, points)
   for _ = 1, 6 do
     local low, high, depth = { 1, 1 }, { -1, -1 }, 0
