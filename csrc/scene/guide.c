@@ -179,7 +179,8 @@ static int touches(const guide *g, long k) {
   for (size_t i = s->kept.first[g->h->wire]; i < s->kept.first[g->h->wire + 1]; i++)
     if (s->kept.s[i] == arc)
       return sw_contact_memory_names(s->kept.memory, s->kept.bytes, i) ||
-             sw_pairs_memory_names(s->kept.pairs, s->kept.pair_bytes, i);
+             sw_pairs_memory_names(s->kept.pairs, s->kept.pair_bytes, i) ||
+             sw_grains_memory_names(s->kept.grains, s->kept.grain_bytes, i);
   return 0;
 }
 
