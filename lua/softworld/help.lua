@@ -17,7 +17,7 @@ local notes = {
   frequencies = "wire:frequencies{...}: natural frequencies [Hz] about the present equilibrium",
   wire_mesh = "scene:wire{ model = 'tube' | 'radial' | 'cubic' | 'composite' }: what meshes take besides",
   remodel = "wire:remodel{ model =, ... }: another model for a wire in mid-run",
-  wire_contact = "scene:wire_contact{...}: wires that touch each other and themselves",
+  wire_contact = "scene:wire_contact{...}: wires and objects of particles that touch each other and themselves",
   particles = "scene:particles{...}: any object of particles: fabric, foam, nets, chains",
   repel = "repel = {...} of scene:particles",
   join = "scene:join{...}: wires fixed to each other at a point, as in a harness",
@@ -211,7 +211,8 @@ local more = {
   gravity, drag, line, damping and functions act on it too; its length, by which drag and line
   count, is the diagonal of a box around it as it was made, shared out by mass
   yield = 0.02, hardening = 0.1  links that stay longer or shorter beyond that strain
-  only edges and particles touch obstacles, not the inside of a mesh; objects do not touch each other]],
+  only edges and particles touch obstacles, not the inside of a mesh; the same touch wires, other
+  objects and their own after scene:wire_contact{...}, but not what a particle or two join]],
   join = [[
   scene:join{ ends = { { trunk, s = 0.5 }, { branch, s = 0 } } }   2 to 8, which must meet there
   returns a join: .name .held and
