@@ -163,7 +163,6 @@ static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
     step->friction += sw_contact_rubbed(s->contact);
     step->steady &= sw_contact_steady(s->contact);
     step->obstacles += sw_contact_struck(s->contact);
-    step->let_out = sw_contact_hardened(s->contact);
     if (sw_contact_emerges(s->contact))
       step->let_out += b->mass * (THROWN * THROWN + LET_OUT * h * sw_norm(s->gravity));
   }
@@ -171,6 +170,11 @@ static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
     impacts += sw_pairs_impacts(s->pairs);
     step->friction += sw_pairs_rubbed(s->pairs);
     step->steady &= sw_pairs_steady(s->pairs);
+  }
+  if (s->grains) {
+    impacts += sw_grains_impacts(s->grains);
+    step->friction += sw_grains_rubbed(s->grains);
+    step->steady &= sw_grains_steady(s->grains);
   }
   if (impacts) /* these changed the velocities at the step's start */
     step->impact =
@@ -350,6 +354,7 @@ sw_status sw_ledger_pose(sw_scene *s, int jumped, sw_error *err) {
   step->contact = contact_energy(s);
   if (s->contact) step->friction += sw_contact_rubbed(s->contact);
   if (s->pairs) step->friction += sw_pairs_rubbed(s->pairs);
+  if (s->grains) step->friction += sw_grains_rubbed(s->grains);
   sw_ledger_work(s, s->time, 0);
   step->forces = b->now.loads - step->to.loads;
   step->work = fabs(step->holds) + fabs(step->obstacles) + fabs(step->feeds) + fabs(step->forces);

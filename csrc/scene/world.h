@@ -5,6 +5,7 @@
 
 #include "contact/contact.h"
 #include "contact/crowd.h"
+#include "contact/grains.h"
 #include "contact/pairs.h"
 #include "scene/events.h"
 #include "scene/ledger.h"
@@ -61,6 +62,9 @@ static inline int sw_scene_is_loose(const sw_scene_wire *wire) {
 
 /* SW_EINVAL when the wire is a mesh of particles, which does not go with what. */
 sw_status sw_scene_check_line(const sw_scene_wire *wire, const char *what, sw_error *err);
+/* May it touch others? Wires that are lines and objects of particles do, sections of meshes do not.
+ */
+sw_status sw_scene_check_touching(const sw_scene_wire *wire, sw_error *err);
 
 /* Rings between the arc lengths s1 and s2, at least the nearest one to their middle, as those
  * of its first and last [m]. */
@@ -104,6 +108,9 @@ sw_widths sw_outline_widths(const double *outline, size_t count, sw_vec tangent)
 /* See sw_section_shape; and for all rings at once, of the one that is out of round most [-]. */
 double sw_outline_ovalisation(const sw_web *web, const double *outline, sw_vec tangent);
 sw_extreme sw_strand_ovalisation(const sw_web *web, const double *x);
+/* Of a hollow section of one layer at s: how far walls that face each other are apart, 0 when they
+ * cross; others: infinite [m]. */
+double sw_strand_walls_apart(const sw_web *web, const double *x, double s);
 /* How far the worst face of a section of springs is turned over: minus its area over that at rest,
  * above 0 when it is [-]. */
 sw_extreme sw_strand_folding(const sw_web *web, const double *x);
@@ -362,6 +369,7 @@ struct sw_scene {
   int *hold_slot;       /* (system.hold_count) scene slot of each system hold */
   sw_contact *contact;  /* with obstacles, or NULL */
   sw_pairs *pairs;      /* between wires, or NULL */
+  sw_grains *grains;    /* between objects of particles and what else touches them, or NULL */
   sw_crowd *crowd;      /* between particles that repel each other, or NULL */
   sw_scene_rule *rules; /* that pairs are made by */
   size_t rule_count, rule_capacity;
@@ -370,6 +378,8 @@ struct sw_scene {
     size_t bytes;
     void *pairs; /* the same of contact between wires */
     size_t pair_bytes;
+    void *grains; /* the same of objects of particles */
+    size_t grain_bytes;
     double *s;     /* (nodes) arc lengths then [m] */
     size_t *first; /* (wires + 1) first node of each wire then */
     size_t wires;
@@ -412,6 +422,8 @@ typedef struct sw_live {
   int fresh;
   void *pairs; /* the same between wires */
   size_t pairs_size;
+  void *grains; /* the same of objects of particles */
+  size_t grains_size;
   void *seen[3]; /* for read-outs: what touches obstacles, wires that may touch, and do */
   size_t seen_size[3];
 } sw_live;
