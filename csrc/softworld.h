@@ -15,6 +15,7 @@
 #include "force/solid.h"
 #include "motion/motion.h"
 #include "scene/objects.h"
+#include "scene/readout.h"
 #include "scene/scene.h"
 #include "scene/section.h"
 #include "scene/tool.h"

@@ -36,6 +36,7 @@ static void integrators(lua_State *L) {
     set_flag(L, "adaptive", (m->flags & SW_INTEGRATOR_EMBEDDED) != 0);
     set_flag(L, "no_contact", (m->flags & SW_INTEGRATOR_NO_CONTACT) != 0);
     lsw_set_number(L, "leapfrog_limit", m->leapfrog_limit);
+    lsw_set_number(L, "at_infinity", m->at_infinity);
     lua_rawseti(L, -2, i + 1);
   }
 }
@@ -47,7 +48,7 @@ static void forces(lua_State *L) {
   } flags[] = {{"inner", SW_FORCE_INNER},       {"explicit", SW_FORCE_EXPLICIT},
                {"at_place", SW_FORCE_AT_PLACE}, {"dissipative", SW_FORCE_DISSIPATIVE},
                {"frozen", SW_FORCE_FROZEN},     {"of_web", SW_FORCE_OF_WEB},
-               {"on_some", SW_FORCE_ON_SOME}};
+               {"on_some", SW_FORCE_ON_SOME},   {"driven", SW_FORCE_DRIVEN}};
   for (int i = 0; sw_force_all()[i]; i++) {
     const sw_force_class *f = sw_force_all()[i];
     push_entry(L, f->name, f->summary);
@@ -76,11 +77,39 @@ static void holds(lua_State *L) {
   }
 }
 
+static void set_wrong(lua_State *L, const sw_shape_wrong *wrong) {
+  lua_newtable(L);
+  for (int i = 0; wrong[i].args; i++) {
+    lua_createtable(L, 0, 2);
+    set_text(L, "args", wrong[i].args);
+    set_text(L, "message", wrong[i].message);
+    lua_rawseti(L, -2, i + 1);
+  }
+  lua_setfield(L, -2, "wrong");
+}
+
 static void shapes(lua_State *L) {
   for (int i = 0; sw_shape_kinds()[i]; i++) {
     const sw_shape_class *c = sw_shape_class_find(sw_shape_kinds()[i]);
-    push_entry(L, sw_shape_kinds()[i], NULL);
+    const unsigned traits = sw_shape_class_traits(c);
+    push_entry(L, sw_shape_kinds()[i], sw_shape_class_summary(c));
+    set_text(L, "sample", sw_shape_class_sample(c));
+    set_wrong(L, sw_shape_class_wrong(c));
+    set_flag(L, "flat", (traits & SW_SHAPE_FLAT) != 0);
+    set_flag(L, "faced", (traits & SW_SHAPE_FACED) != 0);
+    set_flag(L, "listed", (traits & SW_SHAPE_LISTED) != 0);
+    set_flag(L, "convex", sw_shape_class_convex(c));
     set_params(L, sw_shape_class_params(c));
+    lua_rawseti(L, -2, i + 1);
+  }
+}
+
+static void readouts(lua_State *L) {
+  for (int i = 0; sw_readout_all()[i]; i++) {
+    const sw_readout *r = sw_readout_all()[i];
+    push_entry(L, r->name, r->summary);
+    set_text(L, "unit", r->unit);
+    set_flag(L, "at_place", r->at_place);
     lua_rawseti(L, -2, i + 1);
   }
 }
@@ -117,9 +146,9 @@ static int mod_registry(lua_State *L) {
   static const struct {
     const char *name;
     void (*fill)(lua_State *L);
-  } parts[] = {{"integrators", integrators}, {"forces", forces},
-               {"models", models},           {"holds", holds},
-               {"shapes", shapes},           {"params", params}};
+  } parts[] = {
+      {"integrators", integrators}, {"forces", forces},     {"models", models}, {"holds", holds},
+      {"shapes", shapes},           {"readouts", readouts}, {"params", params}};
   lua_newtable(L);
   for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
     lua_newtable(L);

@@ -228,19 +228,40 @@ static int meth_bounds(lua_State *L) {
   return 2;
 }
 
-/* shape:triangles() -> flat vertices [m], flat indices from 1 */
-static int meth_triangles(lua_State *L) {
-  const double *vertices;
-  const int *indices;
-  size_t n, m;
-  sw_shape_triangles(check_shape(L), &vertices, &n, &indices, &m);
-  lua_createtable(L, (int)(3 * n), 0);
-  for (size_t i = 0; i < 3 * n; i++)
-    lua_pushnumber(L, vertices[i]), lua_rawseti(L, -2, (lua_Integer)i + 1);
-  lua_createtable(L, (int)(3 * m), 0);
-  for (size_t i = 0; i < 3 * m; i++)
-    lua_pushinteger(L, indices[i] + 1), lua_rawseti(L, -2, (lua_Integer)i + 1);
+typedef struct drawn {
+  const sw_shape *shape;
+  sw_triangles triangles;
+} drawn;
+
+static int push_triangles(lua_State *L) {
+  const sw_triangles *t = &((const drawn *)lua_touserdata(L, 1))->triangles;
+  lua_createtable(L, (int)(3 * t->vertex_count), 0);
+  for (size_t i = 0; i < 3 * t->vertex_count; i++)
+    lua_pushnumber(L, t->vertices[i]), lua_rawseti(L, -2, (lua_Integer)i + 1);
+  lua_createtable(L, (int)(3 * t->triangle_count), 0);
+  for (size_t i = 0; i < 3 * t->triangle_count; i++)
+    lua_pushinteger(L, t->indices[i] + 1), lua_rawseti(L, -2, (lua_Integer)i + 1);
   return 2;
+}
+
+/* shape:triangles([around]) -> flat vertices [m], flat indices from 1; round shapes with so many
+ * vertices around (32), a multiple of 4. */
+static int meth_triangles(lua_State *L) {
+  enum { LEAST = 8, MOST = 1024, USUAL = 32 };
+  drawn made = {check_shape(L), {0}};
+  const double around =
+      lua_isnoneornil(L, 2) ? USUAL : lsw_number(L, 2, "shape:triangles: around", "-");
+  if (!(around >= LEAST && around <= MOST && fmod(around, 4) == 0))
+    return luaL_error(L, "shape:triangles: around = %f must be a multiple of 4 in [%d, %d]", around,
+                      LEAST, MOST);
+  if (sw_shape_triangles(made.shape, (int)around, &made.triangles) != SW_OK)
+    return luaL_error(L, "shape:triangles: out of memory");
+  lua_settop(L, 0);
+  lua_pushcfunction(L, push_triangles);
+  lua_pushlightuserdata(L, &made);
+  const int status = lua_pcall(L, 1, 2, 0);
+  sw_triangles_free(&made.triangles);
+  return status == LUA_OK ? 2 : lua_error(L);
 }
 
 static int meta_describe(lua_State *L) {

@@ -141,22 +141,21 @@ static sw_point_state at(lua_State *L) {
 static int meth_position(lua_State *L) { return lsw_push_vector(L, at(L).position), 1; }
 static int meth_tangent(lua_State *L) { return lsw_push_vector(L, at(L).tangent), 1; }
 static int meth_velocity(lua_State *L) { return lsw_push_vector(L, at(L).velocity), 1; }
-static int meth_curvature(lua_State *L) { return lua_pushnumber(L, at(L).curvature), 1; }
-static int meth_tension(lua_State *L) { return lua_pushnumber(L, at(L).tension), 1; }
-static int meth_twist_moment(lua_State *L) { return lua_pushnumber(L, at(L).twist_moment), 1; }
 
-/* Of a wire made with rolls = true, about its tangent [rad/s]. */
-static int meth_spin(lua_State *L) {
+static int push_readout(lua_State *L, const sw_readout *r) {
   sw_scene *scene;
   sw_error err = {""};
-  sw_beam b;
+  double value;
   const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  lsw_must(L, sw_scene_wire_beam(scene, w->id, &b, &err), &err);
-  if (!b.rolls)
-    return luaL_error(L, "wire '%s': spin is known of wires made with rolls = true only",
-                      sw_scene_wire_name(scene, w->id));
-  return lua_pushnumber(L, at(L).spin), 1;
+  const double s = r->at_place ? lsw_number(L, 2, "wire: s", "m") : 0.0;
+  lsw_must(L, r->read(scene, w->id, s, &value, &err), &err);
+  return lua_pushnumber(L, value), 1;
 }
+
+#define READOUT(name) \
+  static int read_##name(lua_State *L) { return push_readout(L, &sw_readout_##name); }
+SW_READOUTS(READOUT)
+#undef READOUT
 
 static double modulus(lua_State *L) {
   sw_scene *scene;
@@ -417,13 +416,10 @@ static int meta_describe(lua_State *L) {
   return 1;
 }
 
+#define READOUT(name) {#name, read_##name},
 static const luaL_Reg methods[] = {{"position", meth_position},
                                    {"tangent", meth_tangent},
                                    {"velocity", meth_velocity},
-                                   {"curvature", meth_curvature},
-                                   {"tension", meth_tension},
-                                   {"twist_moment", meth_twist_moment},
-                                   {"spin", meth_spin},
                                    {"positions", meth_positions},
                                    {"particles", meth_particles},
                                    {"velocities", meth_velocities},
@@ -444,7 +440,7 @@ static const luaL_Reg methods[] = {{"position", meth_position},
                                    {"calibration", lsw_wire_calibration},
                                    {"frequencies", lsw_wire_frequencies},
                                    {"remodel", lsw_wire_remodel},
-                                   {NULL, NULL}};
+                                   SW_READOUTS(READOUT){NULL, NULL}};
 static const luaL_Reg properties[] = {{"length", prop_length},
                                       {"segments", prop_segments},
                                       {"beam", push_beam},

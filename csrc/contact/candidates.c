@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What may touch what within a step, and how stiff new touches are. */
 #include <math.h>
-#include <string.h>
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
@@ -115,11 +114,6 @@ static sw_status segment_candidates(sw_contact *c, const sw_system *s, size_t bo
   return SW_OK;
 }
 
-static int has_faces(const sw_shape *shape) {
-  const char *kind = sw_shape_kind(shape);
-  return strcmp(kind, "box") == 0 || strcmp(kind, "hull") == 0 || strcmp(kind, "mesh") == 0;
-}
-
 static void look_at_pads(sw_contact *c, const sw_plan *p) {
   double widest = 0;
   const int rings = p->web && p->web->per_ring && c->pad_count;
@@ -129,7 +123,8 @@ static void look_at_pads(sw_contact *c, const sw_plan *p) {
     const sw_bounds b = sw_shape_bounds(c->obstacles[o].shape);
     const double width = fmin(b.max.x - b.min.x, b.max.z - b.min.z);
     c->dense[o] = rings && width > CLOSE * widest;
-    c->spaced[o] = !p->web && has_faces(c->obstacles[o].shape) ? width / SAMPLES : 0.0;
+    c->spaced[o] =
+        !p->web && sw_shape_is(c->obstacles[o].shape, SW_SHAPE_FACED) ? width / SAMPLES : 0.0;
   }
 }
 

@@ -29,8 +29,7 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   c->dense = c->flat + count, c->busy = c->dense + count, c->pads = c->busy + count;
   c->pressing = c->pads + count;
   memcpy(c->obstacles, obstacles, count * sizeof *obstacles);
-  for (size_t o = 0; o < count; o++)
-    c->flat[o] = strcmp(sw_shape_kind(obstacles[o].shape), "plane") == 0;
+  for (size_t o = 0; o < count; o++) c->flat[o] = sw_shape_is(obstacles[o].shape, SW_SHAPE_FLAT);
   for (size_t o = 0; o < count; o++)
     if (obstacles[o].grips > 0) c->pads[c->pad_count++] = (int)o;
   c->count = count;

@@ -278,7 +278,7 @@ static sw_vec clamp_moment(const void *args, const sw_field *field, const sw_cla
 const sw_force_class sw_force_bend = {
     .name = "bend",
     .summary = "bending by the angle of each hinge, straight isotropic wire",
-    .flags = SW_FORCE_INNER,
+    .flags = SW_FORCE_INNER | SW_FORCE_BENDING,
     .params = {"force bend", NULL, 0},
     .eval = eval,
     .stable_dt = stable_dt,

@@ -97,7 +97,7 @@ static sw_vec clamp_moment(const void *args, const sw_field *f, const sw_clamp_h
 const sw_force_class sw_force_flex = {
     .name = "flex",
     .summary = "bending of the string model by second differences",
-    .flags = SW_FORCE_INNER,
+    .flags = SW_FORCE_INNER | SW_FORCE_BENDING,
     .params = {"force flex", NULL, 0},
     .eval = eval,
     .stable_dt = stable_dt,

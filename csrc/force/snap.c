@@ -68,7 +68,7 @@ static sw_status check(const void *args, const sw_beam *beam, sw_error *err) {
 const sw_force_class sw_force_snap = {
     .name = "snap",
     .summary = "what a clip's lips take out of a wire that snaps in; part of scene:clip",
-    .flags = SW_FORCE_DISSIPATIVE | SW_FORCE_ANY_BODY | SW_FORCE_FROZEN,
+    .flags = SW_FORCE_DISSIPATIVE | SW_FORCE_ANY_BODY | SW_FORCE_OF_AXIS | SW_FORCE_FROZEN,
     .params = SW_PARAMS("force snap", rows),
     .check = check,
     .eval = eval,

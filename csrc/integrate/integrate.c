@@ -113,6 +113,8 @@ static void prepare_stage(const sw_stepper *p, const sw_stage_row *row, const sw
       combine(p->n, row->xn, s->v, share, sources[k].v, p->vhat);
     }
   }
+  if (row->xa != 0) add(p->n, row->xa * hbar * hbar, s->a, p->xhat);
+  if (row->va != 0) add(p->n, row->va * hbar, s->a, p->vhat);
   if (used) return;
   combine(p->n, row->xn, s->x, 0, s->x, p->xhat);
   combine(p->n, row->xn, s->v, 0, s->v, p->vhat);
@@ -141,6 +143,24 @@ void sw_stepper_book(sw_stepper *p, sw_system *s, double share) {
   p->booked = 1;
 }
 
+/* out = from + reach (out - from) */
+static void extend(size_t n, double reach, const double *from, double *out) {
+  for (size_t i = 0; i < n; i++) out[i] = reach * out[i] + (1.0 - reach) * from[i];
+}
+
+/* From the only stage to the end of the step. */
+static sw_status go_onwards(sw_stepper *p, const sw_integrator *m, sw_system *s, double end,
+                            sw_error *err) {
+  extend(p->n, m->reach, s->x, p->y[0]);
+  extend(p->n, m->reach, s->v, p->w[0]);
+  if (m->keeps > 0) extend(p->n, m->keeps, s->a, p->a);
+  book(s, (sw_booking){.first = m->reach}); /* it has one stage */
+  extend(s->edges, m->reach, p->tension, s->tension);
+  if (p->strain_past) extend(s->edges, m->reach, s->strain, p->strain[0]);
+  if (p->strain_past && m->keeps > 0) extend(s->edges, m->reach, s->strain_rate, p->strain_rate);
+  return sw_system_place_holds(s, end, p->y[0], p->w[0], NULL, err);
+}
+
 static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system *s, double t,
                                 double h, sw_error *err) {
   memcpy(p->turning, s->turning, sizeof p->turning);
@@ -153,6 +173,7 @@ static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system
     if (p->strain_past) prepare_strains(p, row, s, hbar, p->strain[k]);
     const sw_stage stage = {.time = t + row->time * h,
                             .hbar = hbar,
+                            .inertia = row->inertia,
                             .first = row->x1,
                             .xhat = p->xhat,
                             .vhat = p->vhat,
@@ -169,23 +190,13 @@ static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system
     if (k == 0 && !isnan(p->between.share))
       sw_system_sum_pull(s, s->tension, p->strain_rate, p->first);
     book(s, (sw_booking){.stage = (int)k,
-                         .own = hbar,
-                         .start = row->xv * hbar,
+                         .own = row->inertia > 0 ? hbar / row->inertia : hbar,
+                         .start = (row->xv + row->va) * hbar,
                          .first = row->x1,
                          .before = row->xp});
   }
   const size_t last = m->stages - 1;
-  if (m->flags & SW_INTEGRATOR_SECOND_HALF) {
-    for (size_t i = 0; i < p->n; i++) {
-      p->y[last][i] = 2.0 * p->y[last][i] - s->x[i];
-      p->w[last][i] = 2.0 * p->w[last][i] - s->v[i];
-    }
-    book(s, (sw_booking){.first = 2.0}); /* it has one stage */
-    for (size_t e = 0; e < s->edges; e++) s->tension[e] = 2.0 * s->tension[e] - p->tension[e];
-    for (size_t e = 0; p->strain_past && e < s->edges; e++)
-      p->strain[last][e] = 2.0 * p->strain[last][e] - s->strain[e];
-    SW_TRY(sw_system_place_holds(s, t + h, p->y[last], p->w[last], NULL, err));
-  }
+  if (m->flags & SW_INTEGRATOR_ONWARDS) SW_TRY(go_onwards(p, m, s, t + h, err));
   p->trial_x = p->y[last];
   p->trial_v = p->w[last];
   p->trial_a = p->a;

@@ -13,22 +13,25 @@
 
 enum {
   SW_INTEGRATOR_IMPLICIT = 1,
-  SW_INTEGRATOR_HISTORY = 2,     /* uses the state before last: equal steps only */
-  SW_INTEGRATOR_EMBEDDED = 4,    /* gives an error estimate */
-  SW_INTEGRATOR_NO_CONTACT = 8,  /* gains energy in contact */
-  SW_INTEGRATOR_SECOND_HALF = 16 /* result is 2 y - x_n of the only stage */
+  SW_INTEGRATOR_HISTORY = 2,    /* uses the state before last: equal steps only */
+  SW_INTEGRATOR_EMBEDDED = 4,   /* gives an error estimate */
+  SW_INTEGRATOR_NO_CONTACT = 8, /* gains energy in contact */
+  SW_INTEGRATOR_ONWARDS = 16    /* the only stage lies within the step: see reach */
 };
 
 enum { SW_STAGES_MAX = 2 };
 
 /* One stage of an implicit method; shares of the step h and of the states at
  * the step's start (n), after the first stage (1) and before the start (p):
- * xhat = xn x_n + x1 x_1 + xp x_p + xv hbar v_n,
- * vhat = xn v_n + x1 v_1 + xp v_p + xv hbar a_n. */
+ * xhat = xn x_n + x1 x_1 + xp x_p + xv hbar v_n + xa hbar^2 a_n,
+ * vhat = xn v_n + x1 v_1 + xp v_p + (xv + va) hbar a_n.
+ * With inertia above 0 mass acts as so many times itself: the velocity is
+ * (y - xhat)/hbar, the acceleration inertia (velocity - vhat)/hbar. */
 typedef struct sw_stage_row {
   double time; /* of the step, 0..1 */
   double hbar; /* of the step */
   double xn, x1, xp, xv;
+  double inertia, xa, va;
 } sw_stage_row;
 
 typedef struct sw_stepper sw_stepper;
@@ -49,6 +52,11 @@ typedef struct sw_integrator {
   /* embedded: h times the sum of these shares of the velocities at the start and after each
    * stage is the step's error, of one order more than the method [-]. */
   double error[SW_STAGES_MAX + 1];
+  /* onwards: the step ends at x_n + reach (y - x_n), and its velocities; keeps > 0: its
+   * accelerations at a_n + keeps (a - a_n), which the next step begins with [-]. */
+  double reach, keeps;
+  /* Of one step on what is infinitely stiff (implicit): largest size of what it leaves [-]. */
+  double at_infinity;
   const char *start;     /* implicit: method for the first step after a
                             discontinuity; NULL = itself */
   double leapfrog_limit; /* explicit: stable while h omega_max is below; implicit: 0 [-] */

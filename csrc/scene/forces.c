@@ -39,7 +39,8 @@ static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, c
                    "force %s: wire '%s' is a %s; it goes with objects of particles and with models "
                    "that are meshes",
                    cls->name, w->name, w->cls->name);
-  if (w->cls->mesh && !(cls->flags & SW_FORCE_ANY_BODY) && sw_scene_is_loose(w))
+  const int any_body = (cls->flags & SW_FORCE_ANY_BODY) && !(cls->flags & SW_FORCE_OF_AXIS);
+  if (w->cls->mesh && !any_body && sw_scene_is_loose(w))
     return sw_fail(err, SW_EINVAL, "force %s: '%s' is an object of particles; it goes with wires",
                    cls->name, w->name);
   if (w->cls->mesh && !(cls->flags & SW_FORCE_ANY_BODY))
@@ -61,11 +62,18 @@ static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, c
   return cls->check ? cls->check(args, &w->beam, err) : SW_OK;
 }
 
+/* A force of the whole scene that acts on centre lines leaves loose particles alone. */
+static int passes_by(const sw_force_class *cls, const sw_scene_wire *w) {
+  return (cls->flags & SW_FORCE_OF_AXIS) && sw_scene_is_loose(w);
+}
+
 sw_status sw_scene_check_rules(const sw_scene *s, size_t wire, const sw_scene_wire *as,
                                sw_error *err) {
-  for (size_t k = 0; k < s->force_count; k++)
-    if (s->forces[k].alive && (s->forces[k].wire < 0 || s->forces[k].wire == (long)wire))
-      SW_TRY(check_wire(s->forces[k].cls, as, s->forces[k].args, err));
+  for (size_t k = 0; k < s->force_count; k++) {
+    const sw_scene_force *f = &s->forces[k];
+    if (f->alive && (f->wire < 0 ? !passes_by(f->cls, as) : f->wire == (long)wire))
+      SW_TRY(check_wire(f->cls, as, f->args, err));
+  }
   for (size_t k = 0; k < s->rule_count; k++) {
     const sw_scene_rule *r = &s->rules[k];
     int mine = r->count == 0;
@@ -77,8 +85,10 @@ sw_status sw_scene_check_rules(const sw_scene *s, size_t wire, const sw_scene_wi
 
 static sw_status check_force(const sw_scene *s, const sw_force_class *cls, sw_handle wire,
                              const void *args, sw_error *err) {
-  for (size_t w = 0; w < s->wire_count; w++)
-    if (!wire.generation || w == wire.slot) SW_TRY(check_wire(cls, &s->wires[w], args, err));
+  for (size_t w = 0; w < s->wire_count; w++) {
+    if (wire.generation ? w == wire.slot : !passes_by(cls, &s->wires[w]))
+      SW_TRY(check_wire(cls, &s->wires[w], args, err));
+  }
   return SW_OK;
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Do the parts of a tool run into obstacles? Both are rigid and go where they are told, so nothing
- * stops them; it is noticed and told. Parts are looked at by corners and edges: those of boxes,
- * the axis of round ones, the triangles of meshes; and by corners of boxes that they meet. */
+ * stops them; it is noticed and told. Parts are looked at by their
+ * bones, and by the ends of the bones of what they meet. */
 #include <math.h>
 
 #include "scene/events.h"
@@ -12,63 +12,30 @@ static const double NOTICED = 1e-5; /* overlap of less than this is none [m] */
 typedef struct overlap {
   const sw_shape *other;
   sw_pose pose; /* of the part, in the other's coordinates */
-  double skin;  /* of the part around its points and edges [m] */
   double depth; /* so far [m] */
 } overlap;
 
-static void look_at_point(overlap *o, sw_vec local) {
+static void look_at_point(overlap *o, sw_vec local, double skin) {
   sw_closest near;
-  if (sw_shape_point(o->other, sw_pose_point(o->pose, local), o->skin, &near))
-    o->depth = fmax(o->depth, o->skin - near.gap);
+  if (sw_shape_point(o->other, sw_pose_point(o->pose, local), skin, &near))
+    o->depth = fmax(o->depth, skin - near.gap);
 }
 
-static void look_at_edge(overlap *o, sw_vec a, sw_vec b) {
+static void look_at_bone(void *user, sw_vec a, sw_vec b, double skin) {
+  overlap *o = user;
   sw_closest near[SW_CLOSEST_MAX];
-  const int n = sw_shape_segment(o->other, sw_pose_point(o->pose, a), sw_pose_point(o->pose, b),
-                                 o->skin, near);
-  for (int i = 0; i < n; i++) o->depth = fmax(o->depth, o->skin - near[i].gap);
-}
-
-static sw_vec corner(const sw_bounds *b, int k) {
-  return sw_v(k & 1 ? b->max.x : b->min.x, k & 2 ? b->max.y : b->min.y,
-              k & 4 ? b->max.z : b->min.z);
-}
-
-static void look_at_box(overlap *o, const sw_bounds *b) {
-  for (int k = 0; k < 8; k++) {
-    look_at_point(o, corner(b, k));
-    for (int axis = 1; axis < 8; axis *= 2)
-      if (!(k & axis)) look_at_edge(o, corner(b, k), corner(b, k | axis));
+  if (a.x == b.x && a.y == b.y && a.z == b.z) {
+    look_at_point(o, a, skin);
+    return;
   }
+  const int n =
+      sw_shape_segment(o->other, sw_pose_point(o->pose, a), sw_pose_point(o->pose, b), skin, near);
+  for (int i = 0; i < n; i++) o->depth = fmax(o->depth, skin - near[i].gap);
 }
 
-static int is_kind(const sw_shape *shape, const char *kind) {
-  const char *own = sw_shape_kind(shape);
-  while (*own && *own == *kind) own++, kind++;
-  return *own == *kind;
-}
-
-/* The axis of a cylinder or capsule along z, its flat ends left out. */
-static void look_at_axis(overlap *o, const sw_bounds *b) {
-  const double radius = b->max.x, half = b->max.z;
-  o->skin = radius;
-  const sw_vec low = sw_v(0, 0, -fmax(0, half - radius)), high = sw_neg(low);
-  look_at_point(o, low);
-  look_at_point(o, high);
-  look_at_edge(o, low, high);
-}
-
-static void look_at_triangles(overlap *o, const sw_shape *part) {
-  const double *vertices;
-  const int *indices;
-  size_t n, triangles;
-  sw_shape_triangles(part, &vertices, &n, &indices, &triangles);
-  for (size_t i = 0; i < n; i++) look_at_point(o, sw_vec_at(vertices, i));
-  for (size_t k = 0; k < 3 * triangles; k++) {
-    const size_t next = k % 3 == 2 ? k - 2 : k + 1;
-    look_at_edge(o, sw_vec_at(vertices, (size_t)indices[k]),
-                 sw_vec_at(vertices, (size_t)indices[next]));
-  }
+/* Points alone: what sticks out into a face's middle. */
+static void look_at_end(void *user, sw_vec a, sw_vec b, double skin) {
+  if (a.x == b.x && a.y == b.y && a.z == b.z) look_at_point(user, a, skin);
 }
 
 static sw_pose pose_in(sw_pose part, sw_pose other) {
@@ -77,17 +44,11 @@ static sw_pose pose_in(sw_pose part, sw_pose other) {
 
 /* How far a part and an obstacle overlap [m]. */
 static double overlap_of(const sw_shape *part, sw_pose at, const sw_shape *other, sw_pose there) {
-  const sw_bounds b = sw_shape_bounds(part), c = sw_shape_bounds(other);
   overlap o = {.other = other, .pose = pose_in(at, there)};
-  if (is_kind(part, "box"))
-    look_at_box(&o, &b);
-  else if (is_kind(part, "cylinder") || is_kind(part, "capsule"))
-    look_at_axis(&o, &b);
-  else
-    look_at_triangles(&o, part);
-  if (!is_kind(other, "box")) return o.depth;
+  sw_shape_bones(part, look_at_bone, &o);
+  if (sw_shape_is(other, SW_SHAPE_LISTED)) return o.depth; /* too many to be asked one by one */
   overlap back = {.other = part, .pose = pose_in(there, at)};
-  for (int k = 0; k < 8; k++) look_at_point(&back, corner(&c, k));
+  sw_shape_bones(other, look_at_end, &back);
   return fmax(o.depth, back.depth);
 }
 

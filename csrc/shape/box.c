@@ -78,16 +78,61 @@ static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_c
   return sw_convex_bridge(shape, a, b, reach, part, out);
 }
 
+static const signed char quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                        {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}};
+
+/* Corner k: bit 0 of k tells the side along x, bit 1 that along y, bit 2 that along z. */
+static sw_vec corner(const box *self, int k) {
+  const sw_vec h = self->half;
+  return sw_v(k & 1 ? h.x : -h.x, k & 2 ? h.y : -h.y, k & 4 ? h.z : -h.z);
+}
+
+static sw_status triangles(const sw_shape *shape, int around, sw_triangles *out) {
+  (void)around;
+  SW_TRY(sw_triangles_new(8, 12, out));
+  for (int k = 0; k < 8; k++) sw_store(out->vertices + 3 * k, corner((const box *)shape, k));
+  int *to = out->indices;
+  for (int k = 0; k < 6; k++) {
+    const size_t a = (size_t)quads[k][0], c = (size_t)quads[k][2];
+    to = sw_triangle_put(to, a, (size_t)quads[k][1], c);
+    to = sw_triangle_put(to, a, c, (size_t)quads[k][3]);
+  }
+  return SW_OK;
+}
+
+static void bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
+  const box *self = (const box *)shape;
+  for (int k = 0; k < 8; k++) {
+    visit(user, corner(self, k), corner(self, k), 0);
+    for (int axis = 1; axis < 8; axis *= 2)
+      if (!(k & axis)) visit(user, corner(self, k), corner(self, k | axis), 0);
+  }
+}
+
 static const sw_param rows[] = {
     {"size", SW_PARAM_VECTOR, "m", NAN, 0, SW_SHAPE_LARGEST, SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN,
      NULL, offsetof(box_args, size), "lengths of the edges along x, y and z"},
 };
 
-const sw_shape_class sw_shape_class_box = {.kind = "box",
-                                           .params = SW_PARAMS("obstacle box", rows),
-                                           .args_size = sizeof(box_args),
-                                           .size = sizeof(box),
-                                           .create = create,
-                                           .distance = distance,
-                                           .support = support,
-                                           .segment = segment};
+static const sw_shape_wrong wrong[] = {
+    {"size = { 1, -1, 2 }", "obstacle box: size = -1 m is not allowed; it must be in (0, 1e+06] m"},
+    {"size = { 1, 2 }", "obstacle box: size, item 3"},
+    {"", "obstacle box: size is required [m]"},
+    {NULL, NULL}};
+
+const sw_shape_class sw_shape_class_box = {
+    .kind = "box",
+    .summary = "block around the origin, edges along the axes",
+    .sample = "size = { 1, 0.8, 0.6 }",
+    .wrong = wrong,
+    .traits = SW_SHAPE_FACED,
+
+    .params = SW_PARAMS("obstacle box", rows),
+    .args_size = sizeof(box_args),
+    .size = sizeof(box),
+    .create = create,
+    .distance = distance,
+    .support = support,
+    .segment = segment,
+    .triangles = triangles,
+    .bones = bones};

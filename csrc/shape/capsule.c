@@ -75,16 +75,44 @@ static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_c
   return sw_convex_bridge(shape, a, b, reach, part, out);
 }
 
+static sw_status triangles(const sw_shape *shape, int around, sw_triangles *out) {
+  const capsule *self = (const capsule *)shape;
+  const double r = self->radius, h = self->half;
+  sw_ring rings[SW_MOST_AROUND / 2];
+  const int steps = around / 4;
+  const double step = SW_HALF_PI / steps;
+  sw_ring *to = sw_ring_arc(rings, r, -h, step - SW_HALF_PI, 0, steps - 1);
+  sw_ring_arc(to, r, h, 0, SW_HALF_PI - step, steps - 1);
+  return sw_revolve(rings, 2 * (size_t)steps, -h - r, h + r, around, out);
+}
+
+static void bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
+  const capsule *self = (const capsule *)shape;
+  const sw_vec low = sw_v(0, 0, -self->half), high = sw_neg(low);
+  visit(user, low, low, self->radius);
+  visit(user, high, high, self->radius);
+  visit(user, low, high, self->radius);
+}
+
 static const sw_param rows[] = {
     SW_LENGTH_ROW(capsule_args, radius, "distance of the surface from the axis"),
     SW_LENGTH_ROW(capsule_args, length, "distance between the two ball centres, along z"),
 };
 
+static const sw_shape_wrong wrong[] = {{"radius = 1", "obstacle capsule: length is required [m]"},
+                                       {NULL, NULL}};
+
 const sw_shape_class sw_shape_class_capsule = {.kind = "capsule",
+                                               .summary = "all within radius of a segment along z",
+                                               .sample = "radius = 0.2, length = 0.7",
+                                               .wrong = wrong,
+
                                                .params = SW_PARAMS("obstacle capsule", rows),
                                                .args_size = sizeof(capsule_args),
                                                .size = sizeof(capsule),
                                                .create = create,
                                                .distance = distance,
                                                .support = support,
-                                               .segment = segment};
+                                               .segment = segment,
+                                               .triangles = triangles,
+                                               .bones = bones};

@@ -80,16 +80,41 @@ static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_c
   return sw_convex_bridge(shape, a, b, reach, part, out);
 }
 
+static sw_status triangles(const sw_shape *shape, int around, sw_triangles *out) {
+  const cylinder *self = (const cylinder *)shape;
+  const sw_ring rings[] = {{self->radius, -self->half}, {self->radius, self->half}};
+  return sw_revolve(rings, 2, -self->half, self->half, around, out);
+}
+
+/* The middle line of the capsule inside: rims stick out of it. */
+static void bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
+  const cylinder *self = (const cylinder *)shape;
+  const sw_vec low = sw_v(0, 0, -fmax(0, self->half - self->radius)), high = sw_neg(low);
+  visit(user, low, low, self->radius);
+  visit(user, high, high, self->radius);
+  visit(user, low, high, self->radius);
+}
+
 static const sw_param rows[] = {
     SW_LENGTH_ROW(cylinder_args, radius, "radius of the round side"),
     SW_LENGTH_ROW(cylinder_args, length, "distance between the flat ends, along z"),
 };
 
-const sw_shape_class sw_shape_class_cylinder = {.kind = "cylinder",
-                                                .params = SW_PARAMS("obstacle cylinder", rows),
-                                                .args_size = sizeof(cylinder_args),
-                                                .size = sizeof(cylinder),
-                                                .create = create,
-                                                .distance = distance,
-                                                .support = support,
-                                                .segment = segment};
+static const sw_shape_wrong wrong[] = {
+    {"radius = 1, length = 2e6", "length = 2e+06 m is not allowed"}, {NULL, NULL}};
+
+const sw_shape_class sw_shape_class_cylinder = {
+    .kind = "cylinder",
+    .summary = "round rod or disc with flat ends, along z",
+    .sample = "radius = 0.4, length = 0.7",
+    .wrong = wrong,
+
+    .params = SW_PARAMS("obstacle cylinder", rows),
+    .args_size = sizeof(cylinder_args),
+    .size = sizeof(cylinder),
+    .create = create,
+    .distance = distance,
+    .support = support,
+    .segment = segment,
+    .triangles = triangles,
+    .bones = bones};

@@ -118,11 +118,13 @@ static int sweep(const sw_shape *shape, const sw_sweep *path, sw_closest *out, d
   return sw_convex_sweep(shape, path, out, when);
 }
 
-static void triangles(const sw_shape *shape, const double **vertices, size_t *vertex_count,
-                      const int **indices, size_t *triangle_count) {
-  const sw_trimesh *mesh = &((const hull *)shape)->mesh;
-  *vertices = mesh->vertices, *vertex_count = mesh->vertex_count;
-  *indices = mesh->indices, *triangle_count = mesh->triangle_count;
+static sw_status triangles(const sw_shape *shape, int around, sw_triangles *out) {
+  (void)around;
+  return sw_trimesh_triangles(&((const hull *)shape)->mesh, out);
+}
+
+static void bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
+  sw_trimesh_bones(&((const hull *)shape)->mesh, visit, user);
 }
 
 static const sw_param rows[] = {
@@ -130,14 +132,27 @@ static const sw_param rows[] = {
      NULL, 0, "places whose hull is the solid, at least four: {x, y, z, x, y, z, ...}"},
 };
 
-const sw_shape_class sw_shape_class_hull = {.kind = "hull",
-                                            .params = SW_PARAMS(object, rows),
-                                            .args_size = sizeof(hull_args),
-                                            .size = sizeof(hull),
-                                            .create = create,
-                                            .destroy = destroy,
-                                            .distance = distance,
-                                            .support = support,
-                                            .segment = segment,
-                                            .sweep = sweep,
-                                            .triangles = triangles};
+static const sw_shape_wrong wrong[] = {
+    {"points = { 0, 0, 0, 1, 0, 0, 0, 1, 0 }", "a hull needs at least 4"},
+    {"points = { 0, 0, 0, 1 }", "it must have three for each point"},
+    {NULL, NULL}};
+
+const sw_shape_class sw_shape_class_hull = {
+    .kind = "hull",
+    .summary = "smallest convex solid around points",
+    .sample =
+        "points = { -0.4, -0.3, -0.3, 0.4, -0.3, -0.3, 0, 0.5, -0.2, 0, 0.1, 0.5, 0.3, 0.3, 0.3 }",
+    .wrong = wrong,
+    .traits = SW_SHAPE_FACED | SW_SHAPE_LISTED,
+
+    .params = SW_PARAMS(object, rows),
+    .args_size = sizeof(hull_args),
+    .size = sizeof(hull),
+    .create = create,
+    .destroy = destroy,
+    .distance = distance,
+    .support = support,
+    .segment = segment,
+    .sweep = sweep,
+    .triangles = triangles,
+    .bones = bones};

@@ -51,11 +51,13 @@ static int sweep(const sw_shape *shape, const sw_sweep *path, sw_closest *out, d
   return sw_trimesh_sweep(&((const mesh *)shape)->mesh, path, out, when);
 }
 
-static void triangles(const sw_shape *shape, const double **vertices, size_t *vertex_count,
-                      const int **indices, size_t *triangle_count) {
-  const sw_trimesh *self = &((const mesh *)shape)->mesh;
-  *vertices = self->vertices, *vertex_count = self->vertex_count;
-  *indices = self->indices, *triangle_count = self->triangle_count;
+static sw_status triangles(const sw_shape *shape, int around, sw_triangles *out) {
+  (void)around;
+  return sw_trimesh_triangles(&((const mesh *)shape)->mesh, out);
+}
+
+static void bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
+  sw_trimesh_bones(&((const mesh *)shape)->mesh, visit, user);
 }
 
 static const sw_param rows[] = {
@@ -67,13 +69,26 @@ static const sw_param rows[] = {
      offsetof(mesh_args, scale), "metres per unit of the file, 0.001 for millimetres"},
 };
 
-const sw_shape_class sw_shape_class_mesh = {.kind = "mesh",
-                                            .params = SW_PARAMS(object, rows),
-                                            .args_size = sizeof(mesh_args),
-                                            .size = sizeof(mesh),
-                                            .create = create,
-                                            .destroy = destroy,
-                                            .distance = distance,
-                                            .segment = segment,
-                                            .sweep = sweep,
-                                            .triangles = triangles};
+static const sw_shape_wrong wrong[] = {{"data = '', format = 'obj'", "data is empty"},
+                                       {"data = 'x', format = 'dwg'", "format"},
+                                       {NULL, NULL}};
+
+const sw_shape_class sw_shape_class_mesh = {
+    .kind = "mesh",
+    .summary = "triangles of a mesh file, closed or a sheet",
+    .sample =
+        "data = 'v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nv 0 0 1\\nf 1 3 2\\nf 1 2 4\\nf 1 4 3\\nf 2 3 "
+        "4\\n', format = 'obj'",
+    .wrong = wrong,
+    .traits = SW_SHAPE_FACED | SW_SHAPE_LISTED,
+
+    .params = SW_PARAMS(object, rows),
+    .args_size = sizeof(mesh_args),
+    .size = sizeof(mesh),
+    .create = create,
+    .destroy = destroy,
+    .distance = distance,
+    .segment = segment,
+    .sweep = sweep,
+    .triangles = triangles,
+    .bones = bones};

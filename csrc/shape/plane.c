@@ -48,10 +48,21 @@ static const sw_param rows[] = {
      offsetof(plane_args, normal), "direction out of the solid, {0, 0, 1} when not given"},
 };
 
-const sw_shape_class sw_shape_class_plane = {.kind = "plane",
-                                             .params = SW_PARAMS("obstacle plane", rows),
-                                             .args_size = sizeof(plane_args),
-                                             .size = sizeof(plane),
-                                             .create = create,
-                                             .distance = distance,
-                                             .segment = segment};
+static const sw_shape_wrong wrong[] = {
+    {"normal = { 0, 0, 0 }", "normal = {0, 0, 0} has no direction"},
+    {"normal = { 0, 0, 0 / 0 }", "obstacle plane: normal, item 3"},
+    {NULL, NULL}};
+
+const sw_shape_class sw_shape_class_plane = {
+    .kind = "plane",
+    .summary = "half space, below z = 0 where no normal is given",
+    .sample = "normal = { 0.2, -0.1, 1 }",
+    .wrong = wrong,
+    .traits = SW_SHAPE_FLAT,
+
+    .params = SW_PARAMS("obstacle plane", rows),
+    .args_size = sizeof(plane_args),
+    .size = sizeof(plane),
+    .create = create,
+    .distance = distance,
+    .segment = segment};

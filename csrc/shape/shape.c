@@ -29,6 +29,13 @@ const sw_shape_class *sw_shape_class_find(const char *kind) {
 }
 
 const sw_params *sw_shape_class_params(const sw_shape_class *class) { return &class->params; }
+const char *sw_shape_class_summary(const sw_shape_class *class) { return class->summary; }
+const char *sw_shape_class_sample(const sw_shape_class *class) { return class->sample; }
+const sw_shape_wrong *sw_shape_class_wrong(const sw_shape_class *class) { return class->wrong; }
+unsigned sw_shape_class_traits(const sw_shape_class *class) { return class->traits; }
+int sw_shape_class_convex(const sw_shape_class *class) {
+  return class->support != NULL || (class->traits & SW_SHAPE_FLAT);
+}
 
 static sw_status copy(const void *from, size_t bytes, const void **to) {
   if (!from) return SW_OK;
@@ -84,12 +91,17 @@ void sw_shape_release(sw_shape *shape) {
 sw_bounds sw_shape_bounds(const sw_shape *shape) { return shape->bounds; }
 const char *sw_shape_kind(const sw_shape *shape) { return shape->class->kind; }
 
-void sw_shape_triangles(const sw_shape *shape, const double **vertices, size_t *vertex_count,
-                        const int **indices, size_t *triangle_count) {
-  *vertices = NULL, *indices = NULL;
-  *vertex_count = *triangle_count = 0;
-  if (shape->class->triangles)
-    shape->class->triangles(shape, vertices, vertex_count, indices, triangle_count);
+int sw_shape_is(const sw_shape *shape, unsigned trait) {
+  return (shape->class->traits & trait) != 0;
+}
+
+sw_status sw_shape_triangles(const sw_shape *shape, int around, sw_triangles *out) {
+  *out = (sw_triangles){0};
+  return shape->class->triangles ? shape->class->triangles(shape, around, out) : SW_OK;
+}
+
+void sw_shape_bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
+  if (shape->class->bones) shape->class->bones(shape, visit, user);
 }
 
 /* --- files ------------------------------------------------------------------ */
@@ -156,5 +168,6 @@ int sw_shape_sweep(const sw_shape *shape, sw_vec a0, sw_vec b0, sw_vec a1, sw_ve
   const sw_bounds swept = {low.min, high.max};
   if (!sw_bounds_meet(&swept, &shape->bounds)) return 0;
   if (shape->class->sweep) return shape->class->sweep(shape, &path, out, when);
-  return sw_convex_sweep(shape, &path, out, when);
+  if (sw_shape_class_convex(shape->class)) return sw_convex_sweep(shape, &path, out, when);
+  return sw_any_sweep(shape, &path, out, when);
 }

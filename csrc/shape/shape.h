@@ -40,10 +40,41 @@ typedef struct sw_shape_source {
   size_t byte_count;    /* its length [B] */
 } sw_shape_source;
 
+/* A surface of triangles that wind so that their normals point outwards. */
+typedef struct sw_triangles {
+  double *vertices;                    /* vertex_count x 3 [m] */
+  int *indices;                        /* triangle_count x 3, from 0 */
+  size_t vertex_count, triangle_count; /* [-] */
+} sw_triangles;
+void sw_triangles_free(sw_triangles *triangles);
+
+/* Called for each bone of a shape; a = b: a point. All places within skin of it are inside. */
+typedef void (*sw_bone_visit)(void *user, sw_vec a, sw_vec b, double skin);
+
+/* What is particular about a kind. */
+enum {
+  SW_SHAPE_FLAT = 1,  /* a half space: a segment is nearest to it at an end */
+  SW_SHAPE_FACED = 2, /* bounded by flat faces */
+  SW_SHAPE_LISTED = 4 /* made from a list or a file, maybe of very many places */
+};
+
 /* Kinds of shape. Names are NULL-terminated, in the order of list.def. */
 const char *const *sw_shape_kinds(void);
 const sw_shape_class *sw_shape_class_find(const char *kind);         /* NULL when unknown */
 const sw_params *sw_shape_class_params(const sw_shape_class *class); /* "obstacle box" */
+
+/* How a kind introduces itself to help, specs and fuzzers: arguments that it takes, about 1 m
+ * large, and arguments that it refuses with a part of the message, as Lua text of a table's
+ * inside. */
+typedef struct sw_shape_wrong {
+  const char *args, *message; /* args NULL: the end of a list */
+} sw_shape_wrong;
+
+const char *sw_shape_class_summary(const sw_shape_class *class);
+unsigned sw_shape_class_traits(const sw_shape_class *class); /* SW_SHAPE_FLAT | ... */
+int sw_shape_class_convex(const sw_shape_class *class);
+const char *sw_shape_class_sample(const sw_shape_class *class);
+const sw_shape_wrong *sw_shape_class_wrong(const sw_shape_class *class);
 
 /* Room for any kind's argument struct: fill it by the kind's rows. */
 typedef union sw_shape_args {
@@ -96,10 +127,15 @@ int sw_shape_sweep(const sw_shape *shape, sw_vec a0, sw_vec b0, sw_vec a1, sw_ve
 sw_bounds sw_shape_bounds(const sw_shape *shape);
 const char *sw_shape_kind(const sw_shape *shape); /* "box", "mesh", ... */
 
-/* Triangles of a mesh or a hull for drawing: vertices (n x 3) [m] and indices
- * (m x 3); both stay the shape's. Counts of 0 for the other kinds. */
-void sw_shape_triangles(const sw_shape *shape, const double **vertices, size_t *vertex_count,
-                        const int **indices, size_t *triangle_count);
+int sw_shape_is(const sw_shape *shape, unsigned trait);
+
+/* The shape's surface, to be drawn: round ones with so many vertices around (a multiple of 4, at
+ * least 8). Triangles of a mesh or hull are its own. None of a half space. */
+sw_status sw_shape_triangles(const sw_shape *shape, int around, sw_triangles *out);
+
+/* What sticks out of a shape, for looking whether two overlap: its corners and edges, or the
+ * middle line of what is round. A half space has none. */
+void sw_shape_bones(const sw_shape *shape, sw_bone_visit visit, void *user);
 
 /* A shape; reading makes it anew from what it was made from, which gives the same bits. */
 void sw_tape_shape(sw_tape *tape, sw_shape **shape);

@@ -23,6 +23,10 @@ typedef struct sw_sweep {
 
 struct sw_shape_class {
   const char *kind;
+  const char *summary; /* one line without a full stop */
+  const char *sample;  /* see sw_shape_class_sample */
+  const sw_shape_wrong *wrong;
+  unsigned traits; /* SW_SHAPE_FLAT | ... */
   sw_params params;
   size_t args_size; /* of the struct the rows fill [B] */
   size_t size;      /* of the kind's struct [B] */
@@ -38,11 +42,11 @@ struct sw_shape_class {
   sw_vec (*support)(const sw_shape *shape, sw_vec n);
   /* As sw_shape_segment. */
   int (*segment)(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out);
-  /* As sw_shape_sweep; NULL = sw_convex_sweep. */
+  /* As sw_shape_sweep; NULL = sw_convex_sweep of what is convex, else sw_any_sweep. */
   int (*sweep)(const sw_shape *shape, const sw_sweep *path, sw_closest *out, double *when);
-  /* As sw_shape_triangles; NULL = none. */
-  void (*triangles)(const sw_shape *shape, const double **vertices, size_t *vertex_count,
-                    const int **indices, size_t *triangle_count);
+  /* As sw_shape_triangles and sw_shape_bones; NULL = none. */
+  sw_status (*triangles)(const sw_shape *shape, int around, sw_triangles *out);
+  void (*bones)(const sw_shape *shape, sw_bone_visit visit, void *user);
 };
 
 #define X(name) extern const sw_shape_class sw_shape_class_##name;
@@ -74,6 +78,8 @@ static inline void sw_clip(double x, double d, double low, double high, double *
   *to = fmin(*to, fmax(one, two));
 }
 
+static const double SW_HALF_PI = 1.57079632679489661923;
+
 /* For convex kinds: the segment query by the minimum of the distance, which is
  * convex along the segment. */
 int sw_convex_segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out);
@@ -82,6 +88,27 @@ int sw_convex_segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, s
 void sw_convex_nearest(const sw_shape *shape, sw_vec a, sw_vec b, sw_closest *out);
 
 int sw_convex_sweep(const sw_shape *shape, const sw_sweep *path, sw_closest *out, double *when);
+/* The same of any kind, by its point and segment queries; slower where the path grazes it. */
+int sw_any_sweep(const sw_shape *shape, const sw_sweep *path, sw_closest *out, double *when);
+
+/* Room for a surface's lists; nothing when it fails. */
+sw_status sw_triangles_new(size_t vertices, size_t triangles, sw_triangles *out);
+/* Triangles one after the other: where the next one goes. */
+static inline int *sw_triangle_put(int *to, size_t a, size_t b, size_t c) {
+  to[0] = (int)a, to[1] = (int)b, to[2] = (int)c;
+  return to + 3;
+}
+
+/* A body of revolution about z: rings of so many points between two poles. */
+typedef struct sw_ring {
+  double radius, z; /* [m] */
+} sw_ring;
+sw_status sw_revolve(const sw_ring *rings, size_t count, double bottom, double top, int around,
+                     sw_triangles *out);
+/* So many rings from one angle to the other on a circle in the half plane, whose middle is on the
+ * axis at this height; returns the end of what was written. */
+sw_ring *sw_ring_arc(sw_ring *to, double radius, double z, double from, double end, int steps);
+enum { SW_MOST_AROUND = 1024 }; /* vertices around a round shape [-] */
 
 /* The nearest place of the segment a-b to a convex thing; exact. */
 typedef void (*sw_nearest_function)(const void *thing, sw_vec a, sw_vec b, sw_closest *out);

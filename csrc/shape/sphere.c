@@ -48,15 +48,42 @@ static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_c
   return !sw_no_better(out->gap, sw_norm(a) - radius, sw_norm(b) - radius, at, sqrt(length2));
 }
 
+static sw_status triangles(const sw_shape *shape, int around, sw_triangles *out) {
+  const double r = ((const sphere *)shape)->radius;
+  sw_ring rings[SW_MOST_AROUND / 2];
+  const int steps = around / 2;
+  const double step = 2 * SW_HALF_PI / steps;
+  sw_ring_arc(rings, r, 0, step - SW_HALF_PI, SW_HALF_PI - step, steps - 2);
+  return sw_revolve(rings, (size_t)steps - 1, -r, r, around, out);
+}
+
+static void bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
+  const sw_vec middle = sw_v(0, 0, 0);
+  visit(user, middle, middle, ((const sphere *)shape)->radius);
+}
+
 static const sw_param rows[] = {
     SW_LENGTH_ROW(sphere_args, radius, "radius of the ball"),
 };
 
+static const sw_shape_wrong wrong[] = {
+    {"radius = 0", "obstacle sphere: radius = 0 m is not allowed"},
+    {"radius = 1 / 0", "obstacle sphere: radius = inf m"},
+    {"radius = '1'", "radius must be a number [m], got string"},
+    {"radiu = 1", "no parameter 'radiu'; did you mean 'radius'?"},
+    {NULL, NULL}};
+
 const sw_shape_class sw_shape_class_sphere = {.kind = "sphere",
+                                              .summary = "ball around the origin",
+                                              .sample = "radius = 0.5",
+                                              .wrong = wrong,
+
                                               .params = SW_PARAMS("obstacle sphere", rows),
                                               .args_size = sizeof(sphere_args),
                                               .size = sizeof(sphere),
                                               .create = create,
                                               .distance = distance,
                                               .support = support,
-                                              .segment = segment};
+                                              .segment = segment,
+                                              .triangles = triangles,
+                                              .bones = bones};

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* When a moving segment first comes near a convex thing, by conservative
+/* When a moving segment first comes near a thing, by conservative
  * advancement: from the gap now follows a time before which nothing can happen;
  * go there, look again. Two such times are known and the later one is taken:
- * no point moves faster than the faster end, and the thing stays behind the
- * plane through its nearest place, which the segment cannot reach before one of
- * its ends does. */
+ * no point moves faster than the faster end, and a convex thing stays behind
+ * the plane through its nearest place, which the segment cannot reach before
+ * one of its ends does. */
 #include "shape/shape_class.h"
 
 /* Time at which an end, now at p and moving by v per unit of time, gets within
@@ -51,5 +51,33 @@ int sw_convex_sweep(const sw_shape *shape, const sw_sweep *path, sw_closest *out
   const double level = sw_sweep_level(path, start.gap);
   if (!sw_sweep_advance(shape_nearest, shape, path, &start, level, end, out, when)) return 0;
   *when = fmin(*when, 1);
+  return 1;
+}
+
+/* --- what need not be convex ------------------------------------------------- */
+
+static void any_nearest(const sw_shape *shape, sw_vec a, sw_vec b, sw_closest *out) {
+  sw_closest end, inner[SW_CLOSEST_MAX];
+  shape->class->distance(shape, a, HUGE_VAL, out);
+  out->at = 0;
+  shape->class->distance(shape, b, HUGE_VAL, &end);
+  if (end.gap < out->gap) *out = end, out->at = 1;
+  if (sw_norm2(sw_sub(b, a)) == 0) return;
+  if (shape->class->segment(shape, a, b, out->gap, inner) > 0) *out = inner[0];
+}
+
+int sw_any_sweep(const sw_shape *shape, const sw_sweep *path, sw_closest *out, double *when) {
+  const int most = 3000; /* looks before a graze is called a touch [-] */
+  const sw_vec va = sw_sub(path->a1, path->a0), vb = sw_sub(path->b1, path->b0);
+  const double speed = fmax(sw_norm(va), sw_norm(vb));
+  any_nearest(shape, path->a0, path->b0, out);
+  const double level = sw_sweep_level(path, out->gap);
+  double now = 0;
+  for (int look = 0; look < most && out->gap - level > path->tolerance; look++) {
+    if (now == 1) return 0;
+    now = fmin(1, now + (out->gap - level) / speed);
+    any_nearest(shape, sw_madd(path->a0, va, now), sw_madd(path->b0, vb, now), out);
+  }
+  *when = now;
   return 1;
 }

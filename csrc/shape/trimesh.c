@@ -175,3 +175,20 @@ void sw_trimesh_free(sw_trimesh *mesh) {
   sw_free(mesh->nodes);
   memset(mesh, 0, sizeof *mesh);
 }
+
+sw_status sw_trimesh_triangles(const sw_trimesh *mesh, sw_triangles *out) {
+  SW_TRY(sw_triangles_new(mesh->vertex_count, mesh->triangle_count, out));
+  memcpy(out->vertices, mesh->vertices, 3 * mesh->vertex_count * sizeof *out->vertices);
+  memcpy(out->indices, mesh->indices, 3 * mesh->triangle_count * sizeof *out->indices);
+  return SW_OK;
+}
+
+void sw_trimesh_bones(const sw_trimesh *mesh, sw_bone_visit visit, void *user) {
+  for (size_t v = 0; v < mesh->vertex_count; v++) {
+    const sw_vec corner = sw_trimesh_vertex(mesh, (int)v);
+    visit(user, corner, corner, 0);
+  }
+  for (size_t e = 0; e < mesh->edge_count; e++)
+    visit(user, sw_trimesh_vertex(mesh, mesh->edges[e].v[0]),
+          sw_trimesh_vertex(mesh, mesh->edges[e].v[1]), 0);
+}

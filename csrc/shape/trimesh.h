@@ -73,6 +73,10 @@ int sw_trimesh_distance(const sw_trimesh *mesh, sw_vec p, double reach, sw_close
 int sw_trimesh_segment(const sw_trimesh *mesh, sw_vec a, sw_vec b, double reach, sw_closest *out);
 int sw_trimesh_sweep(const sw_trimesh *mesh, const sw_sweep *path, sw_closest *out, double *when);
 
+/* Copies for drawing, and its corners and edges. */
+sw_status sw_trimesh_triangles(const sw_trimesh *mesh, sw_triangles *out);
+void sw_trimesh_bones(const sw_trimesh *mesh, sw_bone_visit visit, void *user);
+
 /* Features are numbered triangles first, then edges, then corners. */
 static inline int sw_trimesh_edge_feature(const sw_trimesh *mesh, int edge) {
   return (int)mesh->triangle_count + edge;

@@ -27,6 +27,11 @@ void sw_system_look_back(sw_system *s, const sw_glance *g) {
   memcpy(followed(s), s->aside, s->follow_size * sizeof *s->aside);
 }
 
+/* Of what has no energy the power is told. */
+static int has_power(const sw_force_class *cls) {
+  return (cls->flags & (SW_FORCE_DISSIPATIVE | SW_FORCE_EXPLICIT | SW_FORCE_DRIVEN)) != 0;
+}
+
 /* --- energies ---------------------------------------------------------------- */
 
 static void aim(sw_system *s, sw_body *b, int lumped) {
@@ -60,7 +65,7 @@ void sw_system_energies(sw_system *s, int lumped, sw_energies *out) {
     b->field.want = SW_WANT_ENERGY;
     for (size_t i = 0; i < b->term_count; i++) {
       const sw_force_class *cls = b->terms[i].cls;
-      if (cls->flags & (SW_FORCE_DISSIPATIVE | SW_FORCE_EXPLICIT)) continue;
+      if (has_power(cls)) continue;
       b->field.energy = b->field.bending = 0;
       if (sw_term_eval(&b->terms[i], &b->field, &ignored) == SW_OK)
         *place_of(cls, out) += b->field.energy;
@@ -80,10 +85,6 @@ double sw_system_rubbed(const sw_system *s) {
 }
 
 /* --- powers ------------------------------------------------------------------ */
-
-static int has_power(const sw_force_class *cls) {
-  return (cls->flags & (SW_FORCE_DISSIPATIVE | SW_FORCE_EXPLICIT)) != 0;
-}
 
 int sw_system_has_powers(const sw_system *s) {
   for (size_t b = 0; b < s->body_count; b++)

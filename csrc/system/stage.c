@@ -128,6 +128,15 @@ sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, c
   return SW_OK;
 }
 
+static double inertia_of(const sw_stage *stage) {
+  return stage->inertia > 0 ? stage->inertia : 1.0;
+}
+
+/* What multiplies the mass [1/s2]. */
+static double mass_rate(const sw_stage *stage) {
+  return isfinite(stage->hbar) ? inertia_of(stage) * (1.0 / (stage->hbar * stage->hbar)) : 0.0;
+}
+
 static void stage_velocity(const sw_system *s, const sw_stage *stage, int statics) {
   const double rate = statics ? 0.0 : 1.0 / stage->hbar;
   const size_t end = 3 * sw_part_node(s, s->part_end);
@@ -168,7 +177,7 @@ static void take_out_held(sw_system *s, const sw_body *b) {
 static sw_status assemble_and_solve(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                                     sw_stage_report *report, sw_error *err) {
   const int statics = newton->statics;
-  const double rate2 = isfinite(stage->hbar) ? 1.0 / (stage->hbar * stage->hbar) : 0.0;
+  const double rate2 = mass_rate(stage);
   int velocity = 0;
   for (size_t b = s->part; b < s->part_end; b++) velocity |= s->bodies[b].needs_velocity;
   if (velocity) stage_velocity(s, stage, statics);
@@ -381,11 +390,11 @@ static sw_status begin(sw_system *s, const sw_stage *stage, int statics, sw_erro
   for (size_t k = 0; k < s->held_count; k++)
     for (size_t c = 0; c < 3; c++) {
       const size_t i = 3 * s->held[k].node + c;
-      s->yhat[i] = stage->y[i] - h * h * (stage->a ? stage->a[i] : 0.0);
+      s->yhat[i] = stage->y[i] - h * h / inertia_of(stage) * (stage->a ? stage->a[i] : 0.0);
     }
   if (statics) sw_lead_begin(s, stage);
   if (!statics) SW_TRY(check_start(s, stage->y, err));
-  sw_spin_begin_stage(s, isfinite(stage->hbar) ? 1.0 / (stage->hbar * stage->hbar) : 0.0);
+  sw_spin_begin_stage(s, mass_rate(stage));
   if (s->coupling.begin_stage)
     SW_TRY(s->coupling.begin_stage(s->coupling.user, s, stage->time, stage->first, err));
   return SW_OK;
@@ -393,12 +402,12 @@ static sw_status begin(sw_system *s, const sw_stage *stage, int statics, sw_erro
 
 /* Velocity and acceleration of the solved stage. */
 SW_HOT
-static void stage_rates(size_t n, double rate, const double *restrict y,
+static void stage_rates(size_t n, double rate, double inertia, const double *restrict y,
                         const double *restrict xhat, const double *restrict yhat,
                         double *restrict v, double *restrict a) {
   for (size_t i = 0; i < n; i++) {
     v[i] = (y[i] - xhat[i]) * rate;
-    a[i] = (y[i] - yhat[i]) * rate * rate;
+    a[i] = (y[i] - yhat[i]) * rate * rate * inertia;
   }
 }
 
@@ -406,7 +415,8 @@ static void finish(sw_system *s, const sw_stage *stage, int statics) {
   const double rate = statics || !isfinite(stage->hbar) ? 0.0 : 1.0 / stage->hbar;
   sw_spin_end_stage(s, stage->y);
   if (stage->a)
-    stage_rates(s->freedoms, rate, stage->y, stage->xhat, s->yhat, stage->v, stage->a);
+    stage_rates(s->freedoms, rate, inertia_of(stage), stage->y, stage->xhat, s->yhat, stage->v,
+                stage->a);
   else
     for (size_t i = 0; i < s->freedoms; i++) stage->v[i] = (stage->y[i] - stage->xhat[i]) * rate;
   for (size_t k = 0; k < s->held_count; k++) {
@@ -433,7 +443,7 @@ static sw_status iterate(sw_system *s, const sw_stage *stage, const sw_newton *n
   for (int i = 1; i <= newton->max_iterations; i++) {
     report->iterations = i;
     if (sw_interrupted()) return SW_EINTR;
-    if (i == STEADY && !newton->statics) sw_spin_slow_down(s, 1.0 / (stage->hbar * stage->hbar));
+    if (i == STEADY && !newton->statics) sw_spin_slow_down(s, mass_rate(stage));
     SW_TRY(solve_once(s, stage, newton, report, err));
     const double share = share_of(s, newton, report);
     if (share < 0) return sw_fail(err, SW_EDIVERGED, "the positions left the finite numbers");

@@ -215,9 +215,11 @@ typedef struct sw_newton {
 typedef struct sw_stage {
   double time;        /* at the stage's end [s] */
   double hbar;        /* [s] */
+  double inertia;     /* mass acts as so many times itself: of methods that take forces and
+                         accelerations at different times; 0 is as 1 [-] */
   double first;       /* share of the step's first stage in xhat [-] */
   const double *xhat; /* (freedoms): velocity = (y - xhat)/hbar [m], [rad] */
-  const double *vhat; /* (nodes x 3): acceleration = (velocity - vhat)/hbar [m/s] */
+  const double *vhat; /* (nodes x 3): acceleration = inertia (velocity - vhat)/hbar [m/s] */
   double *y;          /* out: positions [m] */
   double *v;          /* out: velocities [m/s] */
   double *a;          /* out: accelerations, or NULL [m/s2] */

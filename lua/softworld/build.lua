@@ -7,6 +7,7 @@ local cable = require "softworld.cable"
 local checks = require "softworld.checks"
 local meshfile = require "softworld.meshfile"
 local remarks = require "softworld.remarks"
+local solid = require "softworld.output.solid"
 
 local build = {}
 local class = core.class
@@ -317,10 +318,7 @@ function class.scene.obstacle(scene, args)
   local entry = copy(args)
   entry.object, entry.data = obstacle, nil
   data.obstacles[#data.obstacles + 1] = entry -- in the order of the core's, whatever fails next
-  if args.shape == "mesh" or args.shape == "hull" then
-    entry.vertices, entry.indices = obstacle.shape:triangles()
-    for i, corner in ipairs(entry.indices) do entry.indices[i] = corner - 1 end
-  end
+  solid.keep(entry, obstacle.shape)
   remarks.obstacle(data, entry, scene.time)
   return obstacle
 end

@@ -16,6 +16,7 @@ local keep = require "softworld.keep"
 local process = require "softworld.process"
 local sealed = require "softworld.sealed"
 local sink = require "softworld.output.sink"
+local solid = require "softworld.output.solid"
 
 local save = {}
 local class = core.class
@@ -224,12 +225,10 @@ local function realise(text, scene, have)
 end
 
 local function add_triangles(entry, old)
-  if entry.shape ~= "mesh" and entry.shape ~= "hull" then return end
   if old then
     entry.vertices, entry.indices = old.vertices, old.indices
   elseif core.exists(entry.object) then
-    entry.vertices, entry.indices = entry.object.shape:triangles()
-    for i, corner in ipairs(entry.indices) do entry.indices[i] = corner - 1 end
+    solid.keep(entry, entry.object.shape)
   end
 end
 

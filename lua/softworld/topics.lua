@@ -17,7 +17,7 @@ local uses = {
   frequencies = "wire:frequencies{...}: natural frequencies [Hz] about the present equilibrium",
   wire_mesh = "scene:wire{ model = 'tube' | 'radial' | 'cubic' | 'composite' }: what meshes take besides",
   remodel = "wire:remodel{ model =, ... }: another model for a wire in mid-run",
-  wire_contact = "scene:wire_contact{...}: wires that touch each other and themselves, see help 'touches'",
+  wire_contact = "scene:wire_contact{...}: wires and objects of particles that touch, see help 'touches'",
   particles = "scene:particles{...}: any object of particles: fabric, foam, nets, chains",
   repel = "repel = {...} of scene:particles",
   join = "scene:join{...}: wires fixed to each other at a point, as in a harness",
@@ -55,11 +55,12 @@ local function families()
     { "obstacle", r.shapes, "scene:obstacle{ shape = '%s', ... }" },
     { "force", r.forces, "scene:force{ kind = '%s', on = wire, ... }" },
     { "integrator", r.integrators, "scene:run{ integrator = '%s', ... }" },
+    { "readout", r.readouts, "wire:%s" },
   }
 end
 
 local plural = { models = "model", holds = "hold", obstacles = "obstacle", forces = "force",
-  shapes = "obstacle", shape = "obstacle" } -- integrators has a page
+  shapes = "obstacle", shape = "obstacle", readouts = "readout" } -- integrators has a page
 
 local function sorted_names(set)
   local list = {}
@@ -101,7 +102,9 @@ end
 local function how_it_steps(entry)
   local lines = { ("order %d, %s%s"):format(entry.order, entry.implicit and "implicit" or "explicit",
     entry.adaptive and ", steps by tolerance" or "") }
-  if not entry.implicit and entry.leapfrog_limit > 0 then
+  if entry.implicit then
+    lines[2] = ("of what is too fast for its steps each leaves %g"):format(entry.at_infinity)
+  elseif entry.leapfrog_limit > 0 then
     lines[2] = ("stable up to %.3g times scene:stable_dt()"):format(entry.leapfrog_limit / 2)
   end
   return lines
@@ -114,7 +117,12 @@ local function member(family, entry)
   if entry.inner then part.lines = { "part of the wire models that need it" }
   elseif family[1] == "integrator" then
     table.move(how_it_steps(entry), 1, 2, 2, part.lines)
-  elseif family[1] ~= "model" then part.rows = entry.params or {} end
+  elseif family[1] == "readout" then
+    part.lines[1] = ("wire:%s(%s)   [%s]"):format(entry.name, entry.at_place and "s" or "", entry.unit)
+  elseif family[1] ~= "model" then
+    part.rows = entry.params or {}
+    part.after = entry.sample and not entry.listed and "such as " .. entry.sample or nil
+  end
   return part
 end
 
@@ -164,7 +172,7 @@ function topics.reference()
   local r = registered()
   return { { "make", sorted_names(r.params) }, { "models", names_of(r.models) },
     { "holds", names_of(r.holds) }, { "obstacles", names_of(r.shapes) },
-    { "forces", names_of(outer(r.forces)) }, { "integrators", names_of(r.integrators) } }
+    { "forces", names_of(outer(r.forces)) }, { "integrators", names_of(r.integrators) }, { "readouts", names_of(r.readouts) } }
 end
 
 --- All topics, as text.

@@ -22,8 +22,6 @@ local function fresh()
   sheet = samples.sheet(scene)
 end
 
-local corners = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } }
-local mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 
 local function objects()
   local r, list = samples.registry, {}
@@ -45,14 +43,8 @@ local function objects()
       return scene[hold.name](scene, wire, args)
     end)
   end
-  for i, shape in ipairs(r.shapes) do
-    local good = samples.arguments(shape.params, samples.random(i))
-    for _, row in ipairs(shape.params) do
-      if row.type == "vector" then good[row.name] = { 0.3, 0.4, 0.5 } end
-      if row.name == "points" then good.points = corners end
-      if row.name == "data" then good.data, good.format = mesh, "obj" end
-    end
-    good.shape = shape.name
+  for _, shape in ipairs(r.shapes) do
+    local good = samples.obstacle(shape)
     local all = table.move(r.params.obstacle, 1, #r.params.obstacle, #shape.params + 1,
       table.move(shape.params, 1, #shape.params, 1, {}))
     add("obstacle " .. shape.name, all, good, function(args) return scene:obstacle(args) end)

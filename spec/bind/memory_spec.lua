@@ -17,7 +17,6 @@ end
 
 local WIRE = { EA = 60, EI = 0.02, mass_per_length = 0.1, radius = 0.005, segments = 6,
   from = { 0, 0, 0 }, to = { 1, 0, 0 } }
-local mesh = "v 0 0 -3\nv 1 0 -3\nv 0 1 -3\nv 0 0 -2\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 
 -- A scene with one of everything, that can go through anything.
 local function make()
@@ -30,19 +29,10 @@ local function make()
   return scene, wire, clamp
 end
 
-local function new_shape(kind, seed)
-  for _, shape in ipairs(samples.registry.shapes) do
-    if shape.name == kind then
-      local args = samples.arguments(shape.params, samples.random(seed))
-      for _, row in ipairs(shape.params) do
-        if row.type == "vector" then args[row.name] = { 0.3, 0.4, 0.5 } end
-        if row.name == "points" then args.points = { 0, 0, -3, 1, 0, -3, 0, 1, -3, 0, 0, -2 } end
-        if row.name == "data" then args.data, args.format, args.scale = mesh, "obj", 1 end
-      end
-      args.shape, args.at = kind, { 0, 0, -5 }
-      return args
-    end
-  end
+local function new_shape(shape)
+  local args = samples.obstacle(shape)
+  args.at = { 0, 0, -5 }
+  return args
 end
 
 -- { name, act(scene, wire, clamp) }: what is tried with every request failing.
@@ -207,9 +197,9 @@ for _, hold in ipairs(samples.registry.holds) do
     return scene[hold.name](scene, wire, { s = 0.6123 })
   end }
 end
-for i, shape in ipairs(samples.registry.shapes) do
+for _, shape in ipairs(samples.registry.shapes) do
   acts[#acts + 1] = { "making an obstacle " .. shape.name, function(scene)
-    return scene:obstacle(new_shape(shape.name, i))
+    return scene:obstacle(new_shape(shape))
   end }
 end
 for i, force in ipairs(samples.registry.forces) do

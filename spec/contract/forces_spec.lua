@@ -157,7 +157,8 @@ describe("the force registry", function()
   it("says what it is", function()
     for name, force in pairs(declared) do
       assert.is_true(#force.summary > 10, name)
-      assert.is_false(force.dissipative and force.explicit)
+      local kinds = (force.dissipative and 1 or 0) + (force.explicit and 1 or 0) + (force.driven and 1 or 0)
+      assert.is_true(kinds <= 1, name)
     end
   end)
 end)
@@ -165,7 +166,7 @@ end)
 for _, subject in ipairs(list) do
   local force = declared[subject.kind]
   describe("force " .. subject.name, function()
-    if not force.dissipative and not force.explicit then
+    if not force.dissipative and not force.driven and not force.explicit then
       it("is minus the derivative of its energy", function()
         everywhere(subject, function(ask, x, v, random, what)
           local f = ask(x, v).force
@@ -230,7 +231,20 @@ for _, subject in ipairs(list) do
           assert.are.equal(0, still.energy)
         end)
       end)
+    end
 
+    if force.driven then
+      it("has no energy, and gives its power to the ledger", function()
+        everywhere(subject, function(ask, x, v, _, what) assert.are.equal(0, ask(x, v).energy, what) end)
+        local scene, wire = subject.make(4)
+        scene:clamp(wire, { s = 0 })
+        local ledger = scene:run{ duration = 0.2, dt = 1e-3 }:ledger()
+        assert.is_true(ledger.work.forces ~= 0)
+        small(math.abs(ledger.lost.integrator) / math.abs(ledger.work.forces), 0.01, "unexplained")
+      end)
+    end
+
+    if force.dissipative or force.driven then
       it("adds rate times its damping to the stiffness", function()
         everywhere(subject, function(ask, x, v, random, what)
           local d, rate = samples.flat(#x, 1, random), 50
@@ -238,7 +252,7 @@ for _, subject in ipairs(list) do
           local without = ask(x, v, { direction = d }).product
           local added = along(with, without, -1)
           assert.is_true(dot(added, d) >= 0, what)
-          if force.frozen then return end
+          if force.frozen and not force.driven then return end
           local plus, minus = ask(x, along(v, d, H)).force, ask(x, along(v, d, -H)).force
           local slope = {}
           for i = 1, #x do slope[i] = rate * (minus[i] - plus[i]) / (2 * H) end

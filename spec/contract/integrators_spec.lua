@@ -37,6 +37,27 @@ local function drift(t, _, v, f)
   for i = 1, #f do f[i] = f[i] - 0.05 * v[i] + 0.01 * math.sin(20 * t) end
 end
 
+-- What a step leaves of an axial wave a thousand times too fast for it, by forty steps of equal
+-- size, and what is left after three. The wave is begun by steps that resolve it, as a method's
+-- start may damp it.
+local function left_over(method)
+  local scene = sw.core.scene{ gravity = { 0, 0, 0 } }
+  local wire = scene:wire{ EA = 1e4, EI = 1e-3, GJ = 1e-3, mass_per_length = 0.1, radius = 0.002,
+    segments = 2, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+  scene:pin(wire, { s = 0 })
+  wire:set_velocity{ 0.1, 0, 0 }
+  local period, size = 1 / (4 * (1e4 / 0.1) ^ 0.5), {}
+  scene:advance({ dt = 0.05 * period, integrator = method.name }, period)
+  for i = 1, 60 do
+    local dt = 1000 * period
+    assert.is_true(scene:advance({ dt = dt, integrator = method.name }, period + i * dt).ok)
+    local x, v = wire:positions(), wire:velocities()
+    size[i] = math.abs(x[7] - 1)
+    if i == 3 then size.soon = (v[4] ^ 2 + v[7] ^ 2) ^ 0.5 / 0.1 end
+  end
+  return size[20] > 0 and (size[60] / size[20]) ^ (1 / 40) or 0, size.soon
+end
+
 for _, method in ipairs(samples.registry.integrators) do
   describe("integrator " .. method.name, function()
     it("gives the same bits twice", function()
@@ -79,6 +100,19 @@ for _, method in ipairs(samples.registry.integrators) do
         assert.are.equal(there, bits(scene, wire, clamp))
       end
     end)
+
+    -- A triple root r, as of generalized-alpha, leaves n^2 r^n after n steps; the midpoint's is one.
+    if method.implicit then
+      it("leaves as much of what is too fast as it says", function()
+        local share, soon = left_over(method)
+        if method.at_infinity > 0 then
+          local growth = method.at_infinity < 1 and (60 / 20) ^ (2 / 40) or 1
+          assert.near(method.at_infinity, share / growth, 0.02, "share of a step")
+        else
+          assert.is_true(soon < 1e-4, soon .. " after three steps")
+        end
+      end)
+    end
 
     it("stops at a failing function with the last good state and the same error value", function()
       for call = 1, 12 do

@@ -176,34 +176,11 @@ for _, hold in ipairs(samples.registry.holds) do
   end)
 end
 
-local corners = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 1, 1 } }
-local tetrahedron = [[
-v 0 0 0
-v 1 0 0
-v 0 1 0
-v 0 0 1
-f 1 3 2
-f 1 2 4
-f 1 4 3
-f 2 3 4
-]]
-
-local function shape_arguments(shape, seed)
-  local args = samples.arguments(shape.params, samples.random(seed))
-  for _, row in ipairs(shape.params) do
-    if row.type == "vector" then args[row.name] = { 0.3, 0.4, 0.5 } end
-    if row.name == "points" then args.points = corners end
-    if row.name == "data" then args.data, args.format, args.scale = tetrahedron, "obj", 1 end
-  end
-  args.shape = shape.name
-  return args
-end
-
-for index, shape in ipairs(samples.registry.shapes) do
+for _, shape in ipairs(samples.registry.shapes) do
   describe("obstacle " .. shape.name, function()
     local function make()
       local scene = samples.wire{ segments = 5 }
-      local args = shape_arguments(shape, index)
+      local args = samples.obstacle(shape)
       args.at = { 1, 2, 30 }
       return scene, scene:obstacle(args)
     end

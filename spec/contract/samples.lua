@@ -51,6 +51,25 @@ function samples.force(force, index)
   return args
 end
 
+--- Arguments of an obstacle as its kind gives them; text: others of them.
+function samples.obstacle(shape, text)
+  local args = assert(load(("return { %s }"):format(text or shape.sample)))()
+  args.shape = shape.name
+  return args
+end
+
+--- Names and Lua texts of the values of a shape's sample, in their order.
+function samples.written(shape)
+  local text, at = shape.sample .. ", ", 1
+  return function()
+    local name, value, after = text:match("^(%w+) = (%b{}), ()", at)
+    if not name then name, value, after = text:match("^(%w+) = (%b''), ()", at) end
+    if not name then name, value, after = text:match("^(%w+) = (.-), ()", at) end
+    at = after or at
+    return name, value
+  end
+end
+
 --- Seven particles in a row along x that springs and a fold hold together.
 function samples.sheet(scene)
   return scene:particles{ positions = { 0, 0, 1, 0.1, 0, 1, 0.2, 0, 1, 0.3, 0, 1, 0.4, 0, 1, 0.5, 0, 1,

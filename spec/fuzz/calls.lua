@@ -72,12 +72,7 @@ end
 local function obstacle(r)
   local shape = r.of(samples.registry.shapes)
   local fixed = { { "shape", words.or_hostile(r, "'" .. shape.name .. "'") } }
-  if shape.name == "hull" then
-    fixed[2] = { "points", words.or_hostile(r,
-      "{ { 0, 0, 0 }, { 0.1, 0, 0 }, { 0, 0.1, 0 }, { 0, 0, 0.1 } }") }
-  elseif shape.name == "mesh" then
-    fixed[2], fixed[3] = { "data", words.value(r, "data") }, { "format", words.value(r, "format") }
-  end
+  for name, text in samples.written(shape) do fixed[#fixed + 1] = { name, words.or_hostile(r, text) } end
   return words.table_of(r, join_rows(shape.params, params.obstacle), 0.3, fixed)
 end
 

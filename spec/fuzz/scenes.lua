@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Scenes that work, for random calls to begin from: put(text) does "v[n] = text" and gives "v[n]".
+local samples = require "contract.samples"
 local words = require "fuzz.words"
 
 local scenes = {}
@@ -232,10 +233,8 @@ local function written(put, r)
 end
 
 local function shapes(put, r)
-  local s = put(("core.shape{ shape = '%s'%s }"):format(table.unpack(r.of{ { "sphere", ", radius = 0.1" },
-    { "box", ", size = { 0.1, 0.2, 0.1 }" }, { "cylinder", ", radius = 0.05, length = 0.2" },
-    { "capsule", ", radius = 0.05, length = 0.2" }, { "plane", "" },
-    { "hull", ", points = { { 0, 0, 0 }, { 0.1, 0, 0 }, { 0, 0.1, 0 }, { 0, 0, 0.1 } }" } })))
+  local kind = r.of(samples.registry.shapes)
+  local s = put(("core.shape{ shape = '%s', %s }"):format(kind.name, kind.sample))
   local function v() return words.vector(r, 0.3) end
   put(("%s:distance(%s)"):format(s, v()))
   put(("%s:distance(%s, 0.5)"):format(s, v()))

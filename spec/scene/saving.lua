@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- What the specs of saved scenes share: scenes of all kinds, and all that can be read of one.
 local sw = require "softworld"
+local samples = require "contract.samples"
 
 local saving = {}
 
@@ -34,7 +35,8 @@ local readers = {
   wire = function(all, wire)
     for _, list in ipairs{ (wire:positions()), (wire:velocities()) } do add(all, list) end
     for k = 0, 7 do
-      add(all, { wire:tension(wire.length * k / 7), wire:twist_moment(wire.length * k / 7) })
+      local known, moment = pcall(wire.twist_moment, wire, wire.length * k / 7) -- not of strings
+      add(all, { wire:tension(wire.length * k / 7), known and moment or 0 })
     end
     add(all, { wire:min_bend_radius() })
     add(all, { wire:max_tension() })
@@ -287,6 +289,16 @@ case("obstacles of all shapes, on trajectories of all laws", function(s)
   flat.radius = 0.01
   s:obstacle(flat)
 end)
+for _, kind in ipairs(samples.registry.shapes) do
+  case("a wire lifted by a " .. kind.name, function(s)
+    wire(s, { from = { 0, 0, 0.05 }, to = { L, 0, 0.05 } })
+    s:clamp(s:find "a", { s = 0 })
+    local args = samples.obstacle(kind)
+    local _, high = sw.core.shape(args):bounds()
+    args.at, args.friction = { L / 2, 0, 0.02 - (kind.flat and 0 or high[3]) }, 0.2
+    s:obstacle(args):follow{ points = { { 0, 0, 0 }, { 0, 0, 0.03 } }, duration = 0.1, relative = true }
+  end)
+end
 case("a clip and a tie", function(s)
   local a = wire(s, { from = { 0, 0, 0.01 }, to = { L, 0, 0.01 } })
   local b = wire(s, { name = "b", from = { 0, 0.004, 0.01 }, to = { L, 0.004, 0.01 } })

@@ -47,11 +47,12 @@ describe("segment", function()
 
   it("has none when the nearest place is an end, for convex kinds", function()
     local random = tools.random(42)
+    local kinds = core.registry().shapes
     for i, shape in ipairs(tools.every_kind()) do
       for _ = 1, 300 do
         local a, b = random.vector(1), random.vector(1)
         local _, where = tools.smallest_gap(shape, a, b, 200)
-        if i <= 5 and (where == 0 or where == 1) then
+        if kinds[i].convex and not kinds[i].listed and (where == 0 or where == 1) then
           local contacts = shape:segment(a, b, FAR)
           -- a minimum within half a sample of the end is allowed
           for _, c in ipairs(contacts) do

@@ -128,23 +128,27 @@ function tools.mesh(points, triangles, scale)
     scale = scale }
 end
 
---- One of every kind, all about 1 m large, for specs that hold for all of them.
-function tools.every_kind()
-  local random = tools.random(5)
-  local cloud = {}
+local function cloud()
+  local random, points = tools.random(5), {}
   for _ = 1, 60 do
     local p = random.vector(0.5)
-    for k = 1, 3 do cloud[#cloud + 1] = p[k] end
+    for k = 1, 3 do points[#points + 1] = p[k] end
   end
-  return {
-    core.shape { shape = "plane", normal = { 0.2, -0.1, 1 } },
-    core.shape { shape = "sphere", radius = 0.5 },
-    core.shape { shape = "capsule", radius = 0.2, length = 0.7 },
-    core.shape { shape = "box", size = { 1, 0.8, 0.6 } },
-    core.shape { shape = "cylinder", radius = 0.4, length = 0.7 },
-    core.shape { shape = "hull", points = cloud },
-    tools.mesh(tools.ball(0.5, 6, 8)),
-  }
+  return points
+end
+
+--- One of every kind, all about 1 m large, for specs that hold for all of them: that of its
+-- sample, and of those made from lists or files one of many places.
+function tools.every_kind()
+  local rich = { hull = core.shape { shape = "hull", points = cloud() },
+    mesh = tools.mesh(tools.ball(0.5, 6, 8)) }
+  local list = {}
+  for i, kind in ipairs(core.registry().shapes) do
+    local args = assert(load(("return { %s }"):format(kind.sample)))()
+    args.shape = kind.name
+    list[i] = rich[kind.name] or core.shape(args)
+  end
+  return list
 end
 
 -- Brute force ----------------------------------------------------------------

@@ -122,7 +122,7 @@ end
 
 local function has_plane(run)
   for _, o in ipairs(run.obstacles or {}) do
-    if o.shape == "plane" then return true end
+    if solid.flat(o) then return true end
   end
   return false
 end

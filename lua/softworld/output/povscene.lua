@@ -6,6 +6,7 @@
 -- @module softworld.output.povscene
 
 local solid = require "softworld.output.solid"
+local vec = require "softworld.vec"
 local view = require "softworld.output.view"
 
 local povscene = {}
@@ -115,6 +116,45 @@ local function mesh(add, shape)
   add(format("face_indices { %d,\n%s }\n", #f, table.concat(f, ",\n")))
 end
 
+local function write_list(add, name, items)
+  add(format("%s { %d,\n%s }\n", name, #items, table.concat(items, ",\n")))
+end
+
+-- The unit normal of a triangle, its corners as places in the flat list of vertices.
+local function normal_of(v, a, b, c)
+  local p, q = {}, {}
+  for k = 1, 3 do p[k], q[k] = v[b + k] - v[a + k], v[c + k] - v[a + k] end
+  return vec.unit(vec.cross(p, q)) or { 0, 0, 1 }
+end
+
+local FLAT = math.cos(math.rad(30)) -- faces that meet less flatly have an edge between them [-]
+
+-- Each corner of each triangle has the mean normal of the faces around it that lie as flatly.
+local function smooth(add, shape)
+  local v, f, faces, around = shape.vertices, shape.indices, {}, {}
+  for i = 1, #f, 3 do
+    faces[i] = normal_of(v, 3 * f[i], 3 * f[i + 1], 3 * f[i + 2])
+    for k = i, i + 2 do
+      around[f[k]] = around[f[k]] or {}
+      table.insert(around[f[k]], faces[i])
+    end
+  end
+  local places, normals, list = {}, {}, {}
+  for k, corner in ipairs(f) do
+    local own, sum = faces[k - (k - 1) % 3], { 0, 0, 0 }
+    for _, n in ipairs(around[corner]) do
+      if vec.dot(n, own) > FLAT then sum = vec.add(sum, n) end
+    end
+    places[k] = vector { v[3 * corner + 1], v[3 * corner + 2], v[3 * corner + 3] }
+    normals[k] = vector(sum)
+    if k % 3 == 0 then list[#list + 1] = format("<%d,%d,%d>", k - 3, k - 2, k - 1) end
+  end
+  add "mesh2 {\n"
+  write_list(add, "vertex_vectors", places)
+  write_list(add, "normal_vectors", normals)
+  write_list(add, "face_indices", list)
+end
+
 local openers = {
   box = function(add, o)
     local s = o.size
@@ -130,14 +170,20 @@ local openers = {
     add(format("merge { cylinder { z*%.9g, z*%.9g, %.9g } sphere { z*%.9g, %.9g } sphere { z*%.9g, %.9g }\n",
       -h, h, r, -h, r, h, r))
   end,
-  mesh = mesh, hull = mesh,
 }
+
+-- Any other shape as its triangles; those of round ones are smooth where faces meet flatly.
+local function triangles(add, o)
+  local shape = solid.triangles(o, 64)
+  if o.vertices then mesh(add, shape) else smooth(add, shape) end
+end
 
 local function obstacle(add, o, pose, camera, size)
   solid.check(o)
-  if o.shape == "plane" then return plane(add, o, pose, camera, size) end
+  if solid.flat(o) then return plane(add, o, pose, camera, size) end
   local c = o.color or obstacle_colour
-  openers[o.shape](add, o)
+  local opener = openers[o.shape] or triangles
+  opener(add, o)
   add(format("texture { pigment { %s transmit %.3g } %s }\n%s }\n", colour(c), o.transparency or 0.1, satin,
     matrix(pose)))
 end
@@ -161,10 +207,6 @@ end
 
 local function jaw(add, w, from, to)
   add(format("box { <%.9g,%.9g,%.9g>, <%.9g,%.9g,%.9g> }\n", -w / 2, from, -0.6 * w, w / 2, to, 2 * w))
-end
-
-local function list(add, name, items)
-  add(format("%s { %d,\n%s }\n", name, #items, table.concat(items, ",\n")))
 end
 
 -- A surface's points, away from the middle line by a factor.
@@ -225,9 +267,9 @@ local function tube(add, surface, line, factor, c)
     end
   end
   add "mesh2 {\n"
-  list(add, "vertex_vectors", vertices)
-  list(add, "normal_vectors", across)
-  list(add, "face_indices", faces)
+  write_list(add, "vertex_vectors", vertices)
+  write_list(add, "normal_vectors", across)
+  write_list(add, "face_indices", faces)
   add(format("texture { pigment { %s } %s } }\n", colour(c), glossy))
 end
 

@@ -5,6 +5,7 @@
 -- @module softworld.output.solid
 
 local checks = require "softworld.checks"
+local core = require "softworld.core"
 local sink = require "softworld.output.sink"
 
 local solid = {}
@@ -61,109 +62,61 @@ function solid.normal(obstacle, pose)
   return { solid.rotate(q, n[1] / length, n[2] / length, n[3] / length) }
 end
 
-local function box(size)
-  local a, b, c = size[1] / 2, size[2] / 2, size[3] / 2
-  return {
-    vertices = { -a, -b, -c, a, -b, -c, a, b, -c, -a, b, -c, -a, -b, c, a, -b, c, a, b, c, -a, b, c },
-    indices = {
-      0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
-      1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7,
-    },
-  }
+local kinds = {}
+for _, kind in ipairs(core.registry().shapes) do kinds[kind.name] = kind end
+
+--- Whether an obstacle is a half space, of which a piece is drawn.
+function solid.flat(obstacle)
+  local kind = kinds[obstacle.shape]
+  return kind ~= nil and kind.flat
 end
 
--- A body of revolution about z: rings of `around` points between two poles.
--- profile = { {radius, z}, ... } from bottom to top, without the poles.
-local function revolve(profile, bottom, top, around)
-  local v, f = { 0, 0, bottom }, {}
-  for _, ring in ipairs(profile) do
-    for k = 0, around - 1 do
-      local angle = 2 * math.pi * k / around
-      v[#v + 1], v[#v + 2], v[#v + 3] = ring[1] * math.cos(angle), ring[1] * math.sin(angle), ring[2]
-    end
-  end
-  v[#v + 1], v[#v + 2], v[#v + 3] = 0, 0, top
-  local function face(a, b, c) f[#f + 1], f[#f + 2], f[#f + 3] = a, b, c end
-  local last, rings = #v // 3 - 1, #profile
-  for k = 0, around - 1 do
-    local n = (k + 1) % around
-    face(0, 1 + n, 1 + k)
-    for r = 0, rings - 2 do
-      local low, high = 1 + r * around, 1 + (r + 1) * around
-      face(low + k, low + n, high + n)
-      face(low + k, high + n, high + k)
-    end
-    local ring = 1 + (rings - 1) * around
-    face(ring + k, ring + n, last)
-  end
-  return { vertices = v, indices = f }
+-- The obstacle's shape by what its kind's rows name.
+local function shape_of(obstacle, kind)
+  local args = { shape = kind.name }
+  for _, row in ipairs(kind.params) do args[row.name] = obstacle[row.name] end
+  local fine, shape = pcall(core.shape, args)
+  if not fine then sink.fail("%s: %s", obstacle.name or "obstacle", shape) end
+  return shape
 end
-
-local function arc(profile, radius, z, from, to, steps)
-  for i = 0, steps do
-    local angle = from + (to - from) * i / steps
-    profile[#profile + 1] = { radius * math.cos(angle), z + radius * math.sin(angle) }
-  end
-end
-
-local half_pi = math.pi / 2
-
-local function sphere(r, around)
-  local profile, steps = {}, around // 2
-  local step = math.pi / steps
-  arc(profile, r, 0, step - half_pi, half_pi - step, steps - 2)
-  return revolve(profile, -r, r, around)
-end
-
-local function capsule(r, length, around)
-  local profile, steps, h = {}, around // 4, length / 2
-  local step = half_pi / steps
-  arc(profile, r, -h, step - half_pi, 0, steps - 1)
-  arc(profile, r, h, 0, half_pi - step, steps - 1)
-  return revolve(profile, -h - r, h + r, around)
-end
-
-local function cylinder(r, length, around)
-  return revolve({ { r, -length / 2 }, { r, length / 2 } }, -length / 2, length / 2, around)
-end
-
-local makers = {
-  box = function(o) return box(o.size) end,
-  sphere = function(o, around) return sphere(o.radius, around) end,
-  capsule = function(o, around) return capsule(o.radius, o.length, around) end,
-  cylinder = function(o, around) return cylinder(o.radius, o.length, around) end,
-  mesh = function(o) return o end,
-  hull = function(o) return o end,
-}
-
-local needs = {
-  box = { "size" }, sphere = { "radius" }, capsule = { "radius", "length" },
-  cylinder = { "radius", "length" }, mesh = { "vertices", "indices" }, hull = { "vertices", "indices" },
-}
 
 --- Complain about an obstacle whose shape or measures are missing.
 -- @tparam table obstacle
 function solid.check(obstacle)
-  local name = obstacle.name or "obstacle"
-  if obstacle.shape == "plane" then return end
-  local needed = needs[obstacle.shape]
-  if not needed then sink.fail("%s: unknown shape %s", name, checks.shown(obstacle.shape)) end
-  for _, key in ipairs(needed) do
-    if not obstacle[key] then sink.fail("%s: a %s needs %s", name, obstacle.shape, key) end
+  local kind = kinds[obstacle.shape]
+  if not kind then
+    sink.fail("%s: unknown shape %s", obstacle.name or "obstacle", checks.shown(obstacle.shape))
   end
+  if not obstacle.vertices then shape_of(obstacle, kind):close() end
 end
 
---- An obstacle as triangles in its own axes (cylinder and capsule along z).
--- @tparam table obstacle any shape but plane
+local function triangles_of(shape, around)
+  local vertices, indices = shape:triangles(around)
+  for i, corner in ipairs(indices) do indices[i] = corner - 1 end
+  return vertices, indices
+end
+
+--- Let the entry of an obstacle keep the triangles of a shape that is made from a list or a file,
+-- which would take long again.
+function solid.keep(entry, shape)
+  if kinds[entry.shape].listed then entry.vertices, entry.indices = triangles_of(shape) end
+end
+
+--- An obstacle as triangles in its own axes.
+-- @tparam table obstacle any but a half space
 -- @tparam[opt=32] integer around points around a round shape, a multiple of 4
 -- @treturn table solid
 function solid.triangles(obstacle, around)
   solid.check(obstacle)
-  return makers[obstacle.shape](obstacle, around or 32)
+  if obstacle.vertices then return obstacle end
+  local shape = shape_of(obstacle, kinds[obstacle.shape])
+  local vertices, indices = triangles_of(shape, around or 32)
+  shape:close()
+  return { vertices = vertices, indices = indices }
 end
 
 --- A square piece of a plane, in the world's axes.
--- @tparam table obstacle a plane
+-- @tparam table obstacle a half space
 -- @tparam ?table pose
 -- @tparam {x,y,z} centre a point near which the piece is wanted [m]
 -- @tparam number half half its side [m]
@@ -231,7 +184,7 @@ function solid.bounds(run, visit)
     if visit then visit(points) end
   end
   local shapes, before = {}, {}
-  for i, o in ipairs(run.obstacles or {}) do shapes[i] = o.shape ~= "plane" and solid.triangles(o, 8) end
+  for i, o in ipairs(run.obstacles or {}) do shapes[i] = not solid.flat(o) and solid.triangles(o, 8) end
   for f, frame in ipairs(run.frames) do
     for _, points in ipairs(frame.wires or {}) do see(points) end
     for _, surface in ipairs(frame.surfaces or {}) do

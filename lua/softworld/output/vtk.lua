@@ -210,7 +210,7 @@ local function obstacles_data(run, frame, bounds)
   local data = { points = {}, polys = { connectivity = {}, offsets = {} }, object = {} }
   for i, obstacle in ipairs(run.obstacles) do
     local pose = (frame.obstacles or {})[i] -- false: it is not there
-    if pose ~= false and obstacle.shape == "plane" then
+    if pose ~= false and solid.flat(obstacle) then
       local piece = solid.plane_piece(obstacle, pose, bounds.centre, bounds.size)
       add_solid(data, i, piece.vertices, piece.indices)
     elseif pose ~= false then
