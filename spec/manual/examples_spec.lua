@@ -59,7 +59,7 @@ describe("examples of the manual:", function()
   -- Capstan by its weight-free pull: with friction 0.2 over half a turn the hand pulls less than the pin
   -- when it stops, both in tension, and the peg bears the sum of both.
   it("a wire wound half round a peg presses on it with the pulls of both ends", function()
-    local out = run(blocks_of(manual.read "wind")[1])
+    local out = run(blocks_of(manual.read "winding")[1])
     local peg, radius, hand = out:match "^true\t(%S+)\t(%S+)\t[^\n]-(%S+)\n$"
     assert.is_truthy(peg, out)
     assert.is_true(tonumber(peg) < 0 and tonumber(hand) < 0, out)

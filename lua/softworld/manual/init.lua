@@ -9,7 +9,7 @@ local manual = {}
 
 --- Groups of pages: a title and the names of the group's pages.
 manual.groups = {
-  { "How to", { "start", "lay", "grip", "handling", "mixed", "clip", "tie", "channel", "feed", "wind", "join",
+  { "How to", { "start", "lay", "grip", "handling", "mixed", "clip", "tie", "channel", "feed", "winding", "join",
     "touches", "particles", "process", "waiting", "tuning", "plotting", "save", "snapshot", "mistakes" } },
   { "Choose", { "models", "wire_mesh", "sections", "cable", "springback", "damping", "integrators",
     "vibration", "calibrate", "remodel", "units" } },
@@ -21,7 +21,7 @@ manual.groups = {
 
 --- Other words under which a page is found.
 manual.also = { manual = "start", contact = "touches", meshes = "wire_mesh", harness = "join",
-  winding = "wind", plastic = "springback", exact = "accuracy", errors = "mistakes",
+  plastic = "springback", exact = "accuracy", errors = "mistakes",
   plot = "plotting", charts = "plotting",
   pictures = "plotting", paraview = "plotting", resume = "save", load = "save", ledger = "energy",
   changed = "changes", modes = "vibration", stress = "vibration" }
