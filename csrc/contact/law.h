@@ -21,12 +21,13 @@ typedef struct sw_press {
   double lag_before, force_before; /* both, one iterate earlier; 0 = not known [N] */
   sw_vec normal;                   /* of the push [-] */
   sw_vec carried; /* how far the anchor slid in the step until this stage began, by its rule [m] */
+  sw_vec pulls;   /* friction that the iterate begins with, over what it can be, against it [-] */
   sw_vec trial;   /* tangential displacement from that anchor at this iterate [m] */
   sw_vec tangential; /* friction force after the last solve [N] */
+  sw_vec next_pulls; /* pulls, as the last solve found it [-] */
   sw_vec shift;      /* by the last solve [m] */
   sw_vec slip;       /* how far the anchor slid in the step [m] */
   int alternations;  /* of normal_force - lag until the last iterate [-] */
-  int reversals;     /* of the slide in this stage, or where a static solve is dragged [-] */
   int active;        /* pushes in this iterate */
   int let_go;        /* 1: not active in the next iterate, whatever its gap */
   int take_on;       /* 1: active in the next iterate, whatever its gap */
