@@ -138,13 +138,12 @@ static double force_after(const sw_press *p, sw_vec shift) {
   return fmax(0.0, -p->k * (p->gap + sw_dot(p->normal, shift)));
 }
 
-int sw_press_lags(const sw_press *p, double friction, sw_vec shift, double force_scale) {
-  if (!p->active || !p->sliding || !(friction > 0)) return 0;
-  return !lag_agrees(p, force_after(p, shift), force_scale);
+int sw_press_slides(const sw_press *p, double friction) {
+  return p->active && p->sliding && friction > 0;
 }
 
-static int slides(const sw_press *p, double friction) {
-  return p->active && p->sliding && friction > 0;
+int sw_press_lags(const sw_press *p, double friction, sw_vec shift, double force_scale) {
+  return sw_press_slides(p, friction) && !lag_agrees(p, force_after(p, shift), force_scale);
 }
 
 static sw_vec take_as_given(sw_press *p, double friction, double force) {
@@ -155,17 +154,17 @@ static sw_vec take_as_given(sw_press *p, double friction, double force) {
 }
 
 sw_vec sw_press_follow(sw_press *p, double friction, sw_vec shift) {
-  if (!slides(p, friction)) return sw_v(0, 0, 0);
+  if (!sw_press_slides(p, friction)) return sw_v(0, 0, 0);
   return take_as_given(p, friction, force_after(p, shift));
 }
 
 sw_vec sw_press_unfollow(sw_press *p, double friction) {
-  if (!slides(p, friction)) return sw_v(0, 0, 0);
+  if (!sw_press_slides(p, friction)) return sw_v(0, 0, 0);
   return take_as_given(p, friction, p->lag_at_first);
 }
 
 double sw_press_off(const sw_press *p, double friction, sw_vec shift) {
-  return slides(p, friction) ? fabs(force_after(p, shift) - p->lag) : 0.0;
+  return sw_press_slides(p, friction) ? fabs(force_after(p, shift) - p->lag) : 0.0;
 }
 
 int sw_press_pulls(const sw_press *p, sw_vec shift) {

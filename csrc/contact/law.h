@@ -71,6 +71,9 @@ void sw_press_aim(sw_press *press, sw_vec u, const sw_press *last, int same, dou
  * explicit methods, which take all from this iterate. */
 sw_vec sw_press_eval(sw_press *press, double friction, int lagged, double K[6]);
 
+/* Does it push and slide in this iterate? */
+int sw_press_slides(const sw_press *press, double friction);
+
 /* Friction of a sliding touch follows its normal force within the linearisation of an iterate. 1:
  * after an update by shift that is another one than it took as given, by more than what does not
  * keep an iteration going. force_scale: see below [N]. */

@@ -32,10 +32,9 @@ static double stiffness_of(const sw_pairs *p, const sw_pair *k, const sw_pair_me
 }
 
 static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
-                           sw_pair_touch t, double gap, sw_vec normal) {
+                           sw_pair_touch t, double gap, sw_vec normal, const sw_pair_memory *m,
+                           const sw_pair_touch *last) {
   const double *at = t.at;
-  const sw_pair_memory *m = sw_pair_recall(p, k, at, t.kind);
-  const sw_pair_touch *last = sw_pair_last(p, k, at, t.kind);
   const double friction = sw_pair_rule_of(p, k->body)->friction;
   t.pair = (uint32_t)(k - p->pairs);
   t.stage = p->stage;
@@ -79,11 +78,12 @@ static sw_status touch_at(sw_pairs *p, const sw_system *s, const sw_pair *k, con
   double distance = sw_norm(d);
   if (!(distance < (1.0 + LISTED_GAP) * k->reach)) return SW_OK;
   const sw_pair_memory *m = sw_pair_recall(p, k, at, kind);
+  const sw_pair_touch *last = sw_pair_last(p, k, at, kind);
   sw_vec normal = sw_unit_or(d, m ? m->normal : sw_v(0, 0, 1));
   if (m && distance < PASSED * k->reach && sw_dot(normal, m->normal) < 0)
     normal = sw_neg(normal), distance = -distance;
   const sw_pair_touch t = {.kind = kind, .at = {at[0], at[1]}, .slides = {slides_one, slides_two}};
-  return add_touch(p, s, k, y, t, distance - k->reach, normal);
+  return add_touch(p, s, k, y, t, distance - k->reach, normal, m, last);
 }
 
 static sw_status behind_barrier(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
@@ -96,7 +96,8 @@ static sw_status behind_barrier(sw_pairs *p, const sw_system *s, const sw_pair *
     const double gap = sw_dot(b->normal, d) - k->reach;
     const sw_pair_touch t = {
         .at = {b->at[0], b->at[1]}, .barred = 1, .aslant = sw_norm(d) - k->reach - gap};
-    SW_TRY(add_touch(p, s, k, y, t, gap, b->normal));
+    SW_TRY(add_touch(p, s, k, y, t, gap, b->normal, sw_pair_recall(p, k, b->at, SW_CROSSING),
+                     sw_pair_last(p, k, b->at, SW_CROSSING)));
   }
   return SW_OK;
 }
@@ -299,7 +300,7 @@ void sw_pairs_refine(sw_pairs *p, sw_contact *contact, sw_system *s) {
   for (size_t i = 0; i < p->touch_count; i++) {
     sw_pair_touch *t = &p->touches[i];
     const sw_pair *k = &p->pairs[t->pair];
-    sw_spots_add(&p->spots,
+    sw_spots_add(&p->spots, s, k->body,
                  (sw_spot){.press = &t->press,
                            .friction = sw_pair_rule_of(p, k->body)->friction,
                            .scale = scale_of(p, t),

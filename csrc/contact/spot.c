@@ -18,7 +18,12 @@ void sw_spots_free(sw_spots *g) {
   sw_free(g->more);
 }
 
-void sw_spots_add(sw_spots *g, sw_spot spot) {
+void sw_spots_add(sw_spots *g, const sw_system *s, const uint32_t body[2], sw_spot spot) {
+  if (!sw_press_slides(spot.press, spot.friction)) return;
+  for (int i = 0; i < spot.count; i++) {
+    const sw_body *b = &s->bodies[body[i / 2]];
+    spot.held[i] = b->plan->held[spot.node[i] - b->first_node] != SW_FREE;
+  }
   if (sw_grow((void **)&g->list, &g->capacity, g->count + 1, sizeof *g->list) == SW_OK)
     g->list[g->count++] = spot;
 }
@@ -50,7 +55,7 @@ static double off(const sw_spots *g, const double *delta) {
 static void push(sw_system *s, const sw_spot *t, sw_vec f, double *more) {
   for (int i = 0; i < t->count; i++) {
     const sw_vec part = sw_scale(f, t->weight[i]);
-    if (sw_system_is_held(s, t->node[i]))
+    if (t->held[i])
       sw_system_push_held(s, t->node[i], part);
     else
       sw_accumulate(more + 3 * t->node[i], part);

@@ -18,6 +18,7 @@ typedef struct sw_spot {
   size_t node[SW_SPOT_NODES];   /* of the system; count of them */
   double weight[SW_SPOT_NODES]; /* share of the force; negative on the other wire [-] */
   int count;
+  int held[SW_SPOT_NODES]; /* 1: a hold bears the node's share */
 } sw_spot;
 
 typedef struct sw_spots {
@@ -29,8 +30,9 @@ typedef struct sw_spots {
 
 void sw_spots_free(sw_spots *spots);
 
-/* One more; out of memory it is left out. */
-void sw_spots_add(sw_spots *spots, sw_spot spot);
+/* One more, of two bodies' nodes by halves or of one's, if it slides; out of memory it is left
+ * out. */
+void sw_spots_add(sw_spots *spots, const sw_system *system, const uint32_t body[2], sw_spot spot);
 
 /* Friction of what slides follows the normal forces within the linearisation of the bodies that are
  * solved together, by solves with the factor that there is. */

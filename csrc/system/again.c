@@ -15,11 +15,6 @@ void sw_body_take_solution(sw_body *b, const double *delta) {
   if (b->has_twist) sw_twist_gain(b, delta);
 }
 
-int sw_system_is_held(const sw_system *s, size_t node) {
-  const sw_body *b = &s->bodies[sw_system_body_of(s, node)];
-  return b->plan->held[node - b->first_node] != SW_FREE;
-}
-
 void sw_system_push_held(sw_system *s, size_t node, sw_vec force) {
   for (size_t i = 0; i < s->held_count; i++)
     if (s->held[i].node == node) s->held[i].own_force = sw_sub(s->held[i].own_force, force);

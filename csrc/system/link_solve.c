@@ -48,6 +48,11 @@ static void load_spinning(struct sw_links *l, const sw_body *b, size_t first, si
   }
 }
 
+static int is_held(const sw_system *s, uint32_t node) {
+  const sw_body *body = &s->bodies[sw_system_body_of(s, node)];
+  return body->plan->held[node - body->first_node] != SW_FREE;
+}
+
 static void load(sw_system *s) {
   struct sw_links *l = s->links;
   size_t pair = 0;
@@ -60,7 +65,7 @@ static void load(sw_system *s) {
   }
   for (size_t k = 0; k < l->count; k++) {
     const sw_link *at = &l->list[k];
-    if (sw_system_is_held(s, at->i) || sw_system_is_held(s, at->j)) continue;
+    if (is_held(s, at->i) || is_held(s, at->j)) continue;
     add_pair(l, l->chain_pairs + sw_links_find(l, at->i, at->j), at->k);
   }
 }
@@ -261,7 +266,7 @@ void sw_links_react(sw_system *s) {
   const struct sw_links *l = s->links;
   for (size_t k = 0; l && k < l->count; k++) {
     const sw_link *at = &l->list[k];
-    if (sw_system_is_held(s, at->i)) react(s, at->i, at->k, 0, s->delta + 3 * at->j);
-    if (sw_system_is_held(s, at->j)) react(s, at->j, at->k, 1, s->delta + 3 * at->i);
+    if (is_held(s, at->i)) react(s, at->i, at->k, 0, s->delta + 3 * at->j);
+    if (is_held(s, at->j)) react(s, at->j, at->k, 1, s->delta + 3 * at->i);
   }
 }

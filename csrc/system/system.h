@@ -309,7 +309,6 @@ void sw_body_take_solution(sw_body *body, const double *delta);
 int sw_links_solves_again(const sw_system *system);
 void sw_links_solve_again(sw_system *system, double *more);
 void sw_links_take_solution(sw_system *system);
-int sw_system_is_held(const sw_system *system, size_t node);
 /* A force is added at a held node of the system's: its hold bears it. */
 void sw_system_push_held(sw_system *system, size_t node, sw_vec force);
 
