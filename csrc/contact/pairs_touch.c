@@ -31,9 +31,10 @@ static double stiffness_of(const sw_pairs *p, const sw_pair *k, const sw_pair_me
   return m && m->normal_force > 0 ? m->k : k->usual;
 }
 
-/* What pressed at the step's start does so in the first iterate, unless the prediction opens it by
- * more: a depth far below what wires move in a step says nothing of whether they part. Of the
- * radii's sum [-]. */
+/* Where wires along each other pressed at the step's start they do so in the first iterate, unless
+ * the prediction opens them by more: a depth far below what they move in a step says nothing of
+ * whether they part. Crossings of a tight knot wander along both segments, and do not settle so. Of
+ * the radii's sum [-]. */
 static const double STILL_NEAR = 0.02;
 
 static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
@@ -51,8 +52,8 @@ static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, co
   press->gap_after = press->gap;
   sw_press_activate(press, last && p->regime != SW_CONTACT_EXPLICIT ? &last->press : NULL);
   const int pressed = m && m->normal_force > 0;
-  press->active |=
-      pressed && !last && p->regime == SW_CONTACT_IMPLICIT && press->gap < STILL_NEAR * k->reach;
+  if (pressed && !last && p->regime == SW_CONTACT_IMPLICIT && t.kind != SW_CROSSING)
+    press->active |= press->gap < STILL_NEAR * k->reach;
   sw_vec u = sw_sub(sw_pair_apart(y, k->one, k->two, at), sw_pair_apart(s->x, k->one, k->two, at));
   if (pressed)
     u = sw_add(u, carry(m->elastic, m->normal, normal));

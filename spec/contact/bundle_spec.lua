@@ -24,23 +24,24 @@ local function bundle(o)
 end
 
 describe("ten wires that fall on a table in a bundle", function()
-  local cases = { aligned = {}, ["shifted by a third of an edge"] = { shift = 0.0033 },
-    ["of unequal meshes"] = { mixed = true }, ["ends swapped"] = { swap = true },
-    ["turned by 40 degrees"] = { turn = 0.7 } }
+  local cases = { { "aligned" }, { "shifted by a third of an edge", shift = 0.0033 },
+    { "of unequal meshes", mixed = true }, { "ends swapped, turned by 40 degrees", swap = true, turn = 0.7 } }
+  local ends = {}
 
-  for name, o in pairs(cases) do
-    it("come to rest with few solves: " .. name, function()
+  for _, o in ipairs(cases) do
+    it("come to rest with few solves: " .. o[1], function()
       local s = bundle(o)
       local start = s:energy().total
       local r = s:advance({ dt = 0.01 }, 0.15)
       assert.is_true(r.ok, r.reason)
       -- impacts and all. Places that were handed from one segment to the next lost what they knew of
-      -- friction: 9,000 solves and 150 refused parts of steps
+      -- friction: 9,000 solves and 210 refused parts of steps
       assert.is_true(r.iterations < 600, r.iterations .. " iterations")
       assert.is_true(r.rejected < 10, r.rejected .. " parts of steps refused")
-      local lying = s:advance({ dt = 0.01 }, 0.25)
+      local lying = s:advance({ dt = 0.01 }, 0.2)
       assert.is_true(lying.iterations <= 4 * lying.steps, lying.iterations .. " iterations at rest")
       local energy = s:energy()
+      ends[#ends + 1] = energy.total
       assert.is_true(energy.kinetic < 1e-12, energy.kinetic)
       assert.is_true(energy.total < start, "energy gained")
       assert.is_true(s:penetration() < 2e-5, s:penetration())
@@ -49,15 +50,8 @@ describe("ten wires that fall on a table in a bundle", function()
   end
 
   it("end alike, whatever their meshes", function()
-    local ends = {}
-    for _, o in ipairs{ cases.aligned, cases["ends swapped"], cases["turned by 40 degrees"],
-      cases["shifted by a third of an edge"], cases["of unequal meshes"] } do
-      local s = bundle(o)
-      assert.is_true(s:advance({ dt = 0.01 }, 0.2).ok)
-      ends[#ends + 1] = s:energy().total
-      s:close()
-    end
-    for k = 2, #ends do -- of a fall by 1 mm in 11: rest is found within a few micrometres
+    assert.are.equal(#cases, #ends)
+    for k = 2, #ends do -- they lie 5 mm high in the mean: this is 5 micrometres
       assert.is_true(math.abs(ends[k] / ends[1] - 1) < 1e-3, ends[k] .. " and " .. ends[1])
     end
   end)
@@ -89,11 +83,11 @@ describe("a wire thrown along the groove between two others", function()
     return result, row
   end
 
-  for _, dt in ipairs{ 0.01, 0.001 } do
+  for dt, meshes in pairs{ [0.01] = { 8, 13 }, [0.002] = { 8 } } do
     it(("stops where Coulomb's friction says: dt %g s"):format(dt), function()
       for _, mu in ipairs{ 0.1, 0.3 } do
         for _, shift in ipairs{ 0, 0.3, 0.5 } do
-          for _, segments in ipairs{ 8, 13 } do
+          for _, segments in ipairs(meshes) do
             local ratio, row = way{ dt = dt, mu = mu, shift = shift, segments = segments }
             -- the rails sag by some micrometres, and the step in which it stops is second order
             assert.is_true(math.abs(ratio - 1) < 2e-3, ratio)
@@ -105,4 +99,24 @@ describe("a wire thrown along the groove between two others", function()
       end
     end)
   end
+end)
+
+describe("an overhand knot with friction", function()
+  -- Drawn until its loop is some five radii wide.
+  local function drawn(dt)
+    local row
+    require "softworld.benchtwists".add_all(function(item, run, o)
+      if item == "knot drawn tight, friction 0.3" and o.dt == dt then row = run(o) end
+    end)
+    return row
+  end
+
+  it("is drawn tight without steps being refused all the way", function()
+    local row = drawn(0.005)
+    assert.are.equal("ok", row.status, row.reason)
+    -- 42 of 840; 342 when friction was found by iterations, each with a solve of its own
+    assert.is_true(row.rejected < 0.15 * row.steps, row.rejected .. " of " .. row.steps)
+    local pull = tonumber(row.note:match "pull ([%d.e+-]+) N")
+    assert.is_true(math.abs(pull - 11.1) < 0.3, pull) -- 11.1 also at twice the step
+  end)
 end)
