@@ -88,6 +88,9 @@ sw_status sw_contact_eval(void *contact, sw_system *system, double time, double 
 sw_status sw_contact_keeps(void *contact, sw_system *system, const double *y, int *out,
                            sw_error *err);
 void sw_contact_refine(void *contact, sw_system *system);
+/* Those of the bodies that links tie together are refined with all that these touch. */
+struct sw_spots;
+void sw_contact_add_spots(sw_contact *contact, const sw_system *system, struct sw_spots *spots);
 int sw_contact_settled(void *contact, sw_system *system, const double *y, const double *delta);
 
 /* See sw_coupling. */
