@@ -70,7 +70,8 @@ static sw_status add_candidate(sw_contact *c, const sw_body *b, size_t body, siz
                      .body = body,
                      .radius = b->plan->beam.radius,
                      .skin = sw_plan_skin(b->plan, node - b->first_node),
-                     .mass = b->plan->lumped[node - b->first_node]};
+                     .mass = b->plan->lumped[node - b->first_node],
+                     .smooth = c->sharp[o] && !b->plan->web && !b->plan->beam.rolls};
   return SW_OK;
 }
 
@@ -110,7 +111,9 @@ static sw_status segment_candidates(sw_contact *c, const sw_system *s, size_t bo
     const sw_vec w = sw_v(wide, wide, wide);
     if (outside(&c->bounds[o], sw_sub(low_of(x, y), w), sw_add(high_of(x, y), w))) continue;
     SW_TRY(add_candidate(c, b, body, node, other, (int)o, k));
-    c->candidates[c->candidate_count - 1].samples = samples_of(b->plan, i, c->spaced[o]);
+    sw_candidate *own = &c->candidates[c->candidate_count - 1];
+    own->samples = samples_of(b->plan, i, c->spaced[o]);
+    own->smooth &= !own->samples;
   }
   return SW_OK;
 }

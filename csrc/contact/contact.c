@@ -18,7 +18,7 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   c->loads = sw_alloc(count, sizeof *c->loads);
   c->start = sw_alloc(count, sizeof *c->start);
   c->now = sw_alloc(count, sizeof *c->now);
-  c->flat = sw_alloc(5 * count, sizeof *c->flat);
+  c->flat = sw_alloc(6 * count, sizeof *c->flat);
   c->spaced = sw_alloc(count, sizeof *c->spaced);
   c->bounds = (sw_bounds *)sw_alloc(count, sizeof *c->bounds);
   if (!c->obstacles || !c->loads || !c->start || !c->now || !c->flat || !c->spaced || !c->bounds ||
@@ -27,10 +27,11 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
     return SW_ENOMEM;
   }
   c->dense = c->flat + count, c->busy = c->dense + count, c->pads = c->busy + count;
-  c->pressing = c->pads + count;
+  c->pressing = c->pads + count, c->sharp = c->pressing + count;
   memcpy(c->obstacles, obstacles, count * sizeof *obstacles);
   for (size_t o = 0; o < count; o++)
     c->flat[o] = strcmp(sw_shape_kind(obstacles[o].shape), "plane") == 0;
+  for (size_t o = 0; o < count; o++) c->sharp[o] = sw_shape_has_edges(obstacles[o].shape);
   for (size_t o = 0; o < count; o++)
     if (obstacles[o].grips > 0) c->pads[c->pad_count++] = (int)o;
   c->count = count;
@@ -231,6 +232,12 @@ const void *sw_contact_seen(const sw_contact *c, size_t *bytes) {
   return c->touches;
 }
 
+static int spans(const sw_spot *spot, size_t nodes) {
+  for (size_t i = 0; i < spot->count; i++)
+    if (spot->node[i] >= nodes) return 0;
+  return spot->count > 0;
+}
+
 sw_status sw_contact_set_seen(sw_contact *c, const void *seen, size_t bytes, size_t nodes) {
   const size_t n = bytes / sizeof *c->touches;
   c->touch_count = 0;
@@ -239,7 +246,8 @@ sw_status sw_contact_set_seen(sw_contact *c, const void *seen, size_t bytes, siz
   if (n) memcpy(c->touches, seen, bytes);
   for (size_t i = 0; i < n; i++) {
     const sw_touch *t = &c->touches[i];
-    if (t->obstacle < 0 || (size_t)t->obstacle >= c->count || t->node >= nodes || t->other >= nodes)
+    if (t->obstacle < 0 || (size_t)t->obstacle >= c->count || t->node >= nodes ||
+        t->other >= nodes || t->spot.count > SW_SPOT_MOST || !spans(&t->spot, nodes))
       return SW_EINVAL;
   }
   c->touch_count = n;
@@ -384,7 +392,7 @@ int sw_contact_push_at(const sw_contact *c, const sw_system *s, size_t k, sw_con
   *out = (sw_contact_push){.obstacle = c->obstacles[t->obstacle].id,
                            .node = t->node,
                            .other = t->other,
-                           .at = t->at,
+                           .at = fmin(fmax(t->at, 0.0), 1.0),
                            .normal_force = p->normal_force,
                            .point = t->point,
                            .place = place_of(s, t),

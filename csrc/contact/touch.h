@@ -8,6 +8,7 @@
 #include "contact/broad.h"
 #include "contact/contact.h"
 #include "contact/law.h"
+#include "contact/spot.h"
 
 /* A node, or the inside of a segment that starts there, and an obstacle that
  * it may touch in this step. */
@@ -23,6 +24,7 @@ typedef struct sw_candidate {
   size_t last, last_end;     /* matching range of the last iterate's touches */
   double usual;              /* stiffness of a new touch [N/m] */
   int given;                 /* 1: it keeps that, however deep it gets */
+  int smooth;                /* 1: the wire is the smooth curve there, not its chords */
   int samples; /* it touches at so many places, evenly along the segment; 0: at the nearest ones */
 } sw_candidate;
 
@@ -33,7 +35,10 @@ typedef struct sw_touch {
   int obstacle, segment;
   size_t node, other, body;
   int feature;
-  double at;        /* along the segment [-] */
+  double at;        /* along the segment, of a smooth one perhaps half an edge beyond it [-] */
+  sw_spot spot;     /* the same as a mean of nodes */
+  sw_sharp sharp;   /* of a smooth one: what it touches */
+  sw_vec edge;      /* then: along an edge, in the obstacle's coordinates [-] */
   sw_vec point;     /* on the obstacle, world [m] */
   sw_vec local;     /* the same in the obstacle's coordinates [m] */
   double forgiven;  /* part of the true depth left out of the gap in this step [m] */
@@ -124,6 +129,7 @@ struct sw_contact {
   int *pads;                  /* (pad_count) those of grippers */
   size_t pad_count;
   int *pressing; /* (count) 1: a pad that pressed on something at the step's start */
+  int *sharp;    /* (count) 1: it has faces, edges and corners */
   int *dense;    /* (count) 1: particles of the body at hand lie close, likewise */
   double *sunk;  /* (3 nodes) how far contact sees a node further in, or NULL: nowhere [m] */
   size_t sunk_capacity;
@@ -196,6 +202,26 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
  * SW_ENOMEM. */
 sw_status sw_contact_turn_over(sw_contact *c, size_t *first, size_t *end);
 
+/* Where a smooth candidate is near its obstacle. */
+enum { SW_PLACES_MOST = 3 * SW_CLOSEST_MAX };
+typedef struct sw_place {
+  sw_closest near; /* in the obstacle's coordinates */
+  sw_sharp sharp;
+  sw_vec edge; /* along it, or 0 [-] */
+} sw_place;
+typedef struct sw_places {
+  size_t count;
+  sw_place place[SW_PLACES_MOST];
+} sw_places;
+/* Those less than reach away, with the system's nodes at x [m]. */
+void sw_contact_places(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                       const sw_contact_at *at, const double *x, double reach, sw_places *list);
+/* A place on an edge or corner goes on to where it is with the nodes at x. 0: it is not near. */
+int sw_contact_follow(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                      const double *x, sw_place *place);
+/* A place along a candidate as a mean of nodes. */
+sw_spot sw_contact_spot(const sw_system *s, const sw_candidate *k, double at);
+
 /* Find the touches at positions y; those of before are then the last ones. SW_ENOMEM. */
 sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw_error *err);
 /* How deep the touch's place was at the step's start, below 0 when it was outside [m]. */
@@ -241,6 +267,11 @@ static inline sw_vec sw_contact_where(const sw_contact *c, const double *x, size
                                       size_t other, double at) {
   const sw_vec p = sw_touch_place(x, node, other, at);
   return c->sunk ? sw_sub(p, sw_touch_place(c->sunk, node, other, at)) : p;
+}
+
+static inline sw_vec sw_spot_place(const sw_contact *c, const double *x, const sw_spot *spot) {
+  const sw_vec p = sw_spot_of(x, 0, spot);
+  return c->sunk ? sw_sub(p, sw_spot_of(c->sunk, 0, spot)) : p;
 }
 
 /* What is sunk along the normal n of its surface meets a face of normal -n where that surface is.

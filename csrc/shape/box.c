@@ -78,6 +78,14 @@ static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_c
   return sw_convex_bridge(shape, a, b, reach, part, out);
 }
 
+static sw_sharp sharp(const sw_shape *shape, int feature, sw_vec *along) {
+  (void)shape;
+  const int x = feature % 3, y = feature / Y_DIGIT % 3, z = feature / Z_DIGIT;
+  const int between = (x == 1) + (y == 1) + (z == 1);
+  if (between == 1) *along = sw_v(x == 1, y == 1, z == 1);
+  return between >= 2 ? SW_SHARP_NOT : between ? SW_SHARP_EDGE : SW_SHARP_CORNER;
+}
+
 static const sw_param rows[] = {
     {"size", SW_PARAM_VECTOR, "m", NAN, 0, SW_SHAPE_LARGEST, SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN,
      NULL, offsetof(box_args, size), "lengths of the edges along x, y and z"},
@@ -90,4 +98,5 @@ const sw_shape_class sw_shape_class_box = {.kind = "box",
                                            .create = create,
                                            .distance = distance,
                                            .support = support,
-                                           .segment = segment};
+                                           .segment = segment,
+                                           .sharp = sharp};

@@ -118,6 +118,10 @@ static int sweep(const sw_shape *shape, const sw_sweep *path, sw_closest *out, d
   return sw_convex_sweep(shape, path, out, when);
 }
 
+static sw_sharp sharp(const sw_shape *shape, int feature, sw_vec *along) {
+  return sw_trimesh_sharp(&((const hull *)shape)->mesh, feature, along);
+}
+
 static void triangles(const sw_shape *shape, const double **vertices, size_t *vertex_count,
                       const int **indices, size_t *triangle_count) {
   const sw_trimesh *mesh = &((const hull *)shape)->mesh;
@@ -140,4 +144,5 @@ const sw_shape_class sw_shape_class_hull = {.kind = "hull",
                                             .support = support,
                                             .segment = segment,
                                             .sweep = sweep,
+                                            .sharp = sharp,
                                             .triangles = triangles};

@@ -51,6 +51,10 @@ static int sweep(const sw_shape *shape, const sw_sweep *path, sw_closest *out, d
   return sw_trimesh_sweep(&((const mesh *)shape)->mesh, path, out, when);
 }
 
+static sw_sharp sharp(const sw_shape *shape, int feature, sw_vec *along) {
+  return sw_trimesh_sharp(&((const mesh *)shape)->mesh, feature, along);
+}
+
 static void triangles(const sw_shape *shape, const double **vertices, size_t *vertex_count,
                       const int **indices, size_t *triangle_count) {
   const sw_trimesh *self = &((const mesh *)shape)->mesh;
@@ -76,4 +80,5 @@ const sw_shape_class sw_shape_class_mesh = {.kind = "mesh",
                                             .distance = distance,
                                             .segment = segment,
                                             .sweep = sweep,
+                                            .sharp = sharp,
                                             .triangles = triangles};

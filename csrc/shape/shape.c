@@ -92,6 +92,12 @@ void sw_shape_triangles(const sw_shape *shape, const double **vertices, size_t *
     shape->class->triangles(shape, vertices, vertex_count, indices, triangle_count);
 }
 
+int sw_shape_has_edges(const sw_shape *shape) { return shape->class->sharp != NULL; }
+
+sw_sharp sw_shape_sharp(const sw_shape *shape, int feature, sw_vec *along) {
+  return shape->class->sharp ? shape->class->sharp(shape, feature, along) : SW_SHARP_NOT;
+}
+
 /* --- files ------------------------------------------------------------------ */
 
 /* A count of 0 on the tape: it was made without them. */

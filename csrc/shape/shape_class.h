@@ -40,6 +40,8 @@ struct sw_shape_class {
   int (*segment)(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out);
   /* As sw_shape_sweep; NULL = sw_convex_sweep. */
   int (*sweep)(const sw_shape *shape, const sw_sweep *path, sw_closest *out, double *when);
+  /* As sw_shape_sharp; NULL = not of flat faces. */
+  sw_sharp (*sharp)(const sw_shape *shape, int feature, sw_vec *along);
   /* As sw_shape_triangles; NULL = none. */
   void (*triangles)(const sw_shape *shape, const double **vertices, size_t *vertex_count,
                     const int **indices, size_t *triangle_count);

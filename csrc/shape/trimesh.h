@@ -73,6 +73,9 @@ int sw_trimesh_distance(const sw_trimesh *mesh, sw_vec p, double reach, sw_close
 int sw_trimesh_segment(const sw_trimesh *mesh, sw_vec a, sw_vec b, double reach, sw_closest *out);
 int sw_trimesh_sweep(const sw_trimesh *mesh, const sw_sweep *path, sw_closest *out, double *when);
 
+/* As sw_shape_sharp. */
+sw_sharp sw_trimesh_sharp(const sw_trimesh *mesh, int feature, sw_vec *along);
+
 /* Features are numbered triangles first, then edges, then corners. */
 static inline int sw_trimesh_edge_feature(const sw_trimesh *mesh, int edge) {
   return (int)mesh->triangle_count + edge;
