@@ -160,7 +160,7 @@ int sw_contact_moves(const sw_contact *c) {
 
 /* --- memory ------------------------------------------------------------------- */
 
-static sw_status remember(sw_contact *c, const sw_touch *t) {
+static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_contact_at *o = &c->now[t->obstacle];
   const sw_quat back = sw_quat_conj(o->pose.q);
   SW_TRY(sw_grow((void **)&c->next_memory, &c->next_capacity, c->next_count + 1,
@@ -174,6 +174,7 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
                    .normal_force = t->press.normal_force,
                    .sliding = t->press.next_sliding,
                    .depth = t->press.normal_force / t->press.k,
+                   .steady = t->sharp ? sw_contact_steady_force(s, t, c->h) : 0.0,
                    .k = sw_press_eased(&t->press, c->candidates[t->candidate].usual, t->stiffer),
                    .normal = sw_rotate(back, t->press.normal),
                    .point = t->local,
@@ -194,12 +195,11 @@ static int emerges(const sw_contact *c) {
 }
 
 void sw_contact_commit(sw_contact *c, sw_system *s) {
-  (void)s;
   c->next_count = 0;
   c->fresh = sw_contact_emerges(c) ? SW_CONTACT_EMERGING : 0;
   sw_contact_conclude(c);
   for (size_t i = 0; i < c->touch_count; i++)
-    if (remember(c, &c->touches[i]) != SW_OK) break; /* a lost anchor only starts anew */
+    if (remember(c, s, &c->touches[i]) != SW_OK) break; /* a lost anchor only starts anew */
   sw_memory *swap = c->memory;
   const size_t capacity = c->memory_capacity;
   c->memory = c->next_memory, c->memory_capacity = c->next_capacity;

@@ -89,6 +89,7 @@ static int find_foot(const piece *c, sw_place *place, double low, double high) {
   if (place->sharp == SW_SHARP_CORNER && sw_norm2(w) < SHARP_ENOUGH * length * length)
     n = sw_unit_or(sw_madd(outward, along, -sw_dot(outward, along)), outward);
   if (sw_dot(n, outward) < 0) n = sw_neg(n);
+  place->along = along;
   place->near.at = u;
   place->near.normal = n;
   place->near.gap = sw_dot(n, w);
@@ -176,6 +177,33 @@ static void of_node(const sw_contact *c, const piece *p, const sw_system *s, con
     if (sw_norm2(along) - b * b > PARALLEL * sw_norm2(along)) return;
   }
   take(list, &place);
+}
+
+/* How much the tension keeps an edge from bending, and the most that a touch leans [-]. */
+static const double TAUT = 0.27, MOST_LEAN = 0.1;
+/* What bends between nodes follows the force after so many of its own times [-]. */
+static const double SLOWLY = 4.0;
+
+double sw_contact_lean(const sw_system *s, const sw_candidate *k, double at, double force) {
+  const sw_body *b = &s->bodies[k->body];
+  const sw_plan *p = b->plan;
+  const double place = (double)(k->node - b->first_node) + at;
+  if (!(place > 0.5) || !(place < (double)p->edges - 0.5) || !(p->beam.EI > 0)) return 0;
+  const size_t i = (size_t)(place + 0.5), e = b->first_edge + i;
+  const double v = place + 0.5 - (double)i, h = 0.5 * (p->rest[i - 1] + p->rest[i]);
+  const double T = fmax(0.0, 0.5 * (s->tension[e - 1] + s->tension[e])), h2 = h * h / p->beam.EI;
+  const double lean = 0.25 * force * h2 * v * (1.0 - v) * (1.0 - 2.0 * v) / (1.0 + TAUT * T * h2);
+  return fmin(fmax(lean, -MOST_LEAN), MOST_LEAN);
+}
+
+double sw_contact_steady_force(const sw_system *s, const sw_touch *t, double h) {
+  const sw_plan *p = s->bodies[t->body].plan;
+  const double N = t->press.normal_force;
+  const size_t i = t->node - s->bodies[t->body].first_node;
+  const double edge = p->rest[i < p->edges ? i : i - 1];
+  const double slow = SLOWLY * edge * edge * sqrt(p->beam.mass / p->beam.EI);
+  if (N <= t->steady || !(h > 0)) return N;
+  return t->steady + (N - t->steady) * h / (h + slow);
 }
 
 sw_spot sw_contact_spot(const sw_system *s, const sw_candidate *k, double at) {

@@ -214,6 +214,12 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
       .stage = c->stage,
       .press = {
           .normal = sw_rotate(pose->q, near->normal), .gap = near->gap - k->skin, .k = stiffness}};
+  if (m && place->sharp && m->steady > 0) {
+    const double lean = sw_contact_lean(s, k, at, m->steady);
+    t.steady = m->steady;
+    t.press.normal =
+        sw_unit_or(sw_madd(t.press.normal, sw_rotate(pose->q, place->along), lean), t.press.normal);
+  }
   t.press.gap += sw_contact_aslant(c, k->node, k->other, at, t.press.normal);
   if (web && !web->per_ring) t.press.soft = fmin(SOFTEST, (double)web->particles);
   sw_press *press = &t.press;

@@ -39,6 +39,7 @@ typedef struct sw_touch {
   sw_spot spot;     /* the same as a mean of nodes */
   sw_sharp sharp;   /* of a smooth one: what it touches */
   sw_vec edge;      /* then: along an edge, in the obstacle's coordinates [-] */
+  double steady;    /* then: normal force that it has had for a while [N] */
   sw_vec point;     /* on the obstacle, world [m] */
   sw_vec local;     /* the same in the obstacle's coordinates [m] */
   double forgiven;  /* part of the true depth left out of the gap in this step [m] */
@@ -64,6 +65,7 @@ typedef struct sw_memory {
   double normal_force;  /* 0: near, but without force [N] */
   double depth;         /* that goes with normal_force [m] */
   double k;             /* [N/m] */
+  double steady;        /* as a touch's [N] */
   sw_vec normal, point; /* the side: local [-], [m] */
   int sliding;
   sw_vec elastic; /* displacement of the friction spring, local [m] */
@@ -207,7 +209,8 @@ enum { SW_PLACES_MOST = 3 * SW_CLOSEST_MAX };
 typedef struct sw_place {
   sw_closest near; /* in the obstacle's coordinates */
   sw_sharp sharp;
-  sw_vec edge; /* along it, or 0 [-] */
+  sw_vec edge;  /* along it, or 0 [-] */
+  sw_vec along; /* the curve there [-] */
 } sw_place;
 typedef struct sw_places {
   size_t count;
@@ -219,6 +222,12 @@ void sw_contact_places(const sw_contact *c, const sw_system *s, const sw_candida
 /* A place on an edge or corner goes on to where it is with the nodes at x. 0: it is not near. */
 int sw_contact_follow(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                       const double *x, sw_place *place);
+/* A touch of the smooth curve pushes so much along the wire, of its force across. What bends
+ * between two nodes under a push is not in the curve: it bends deeper in the middle between them,
+ * and without this it would be held there [-]. */
+double sw_contact_lean(const sw_system *s, const sw_candidate *k, double at, double force);
+/* The normal force that a touch has had for a while, after a step of h [N]. */
+double sw_contact_steady_force(const sw_system *s, const sw_touch *t, double h);
 /* A place along a candidate as a mean of nodes. */
 sw_spot sw_contact_spot(const sw_system *s, const sw_candidate *k, double at);
 
