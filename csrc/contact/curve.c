@@ -21,6 +21,7 @@ static const double SHARP_ENOUGH = 1e-6; /* of an edge [-] */
 typedef struct piece {
   sw_vec p[4];      /* [m] */
   int starts, ends; /* 1: the wire does so at p[1] or p[2] */
+  double bulge;     /* the curve stands off the nodes by so much, at most [m] */
 } piece;
 
 static void between(sw_vec a, sw_vec b, double u, sw_vec *x, sw_vec *along) {
@@ -42,24 +43,36 @@ static void at_curve(const piece *c, double u, sw_vec *x, sw_vec *along) {
     around(c->p + 1, u - 0.5, x, along);
 }
 
-static piece piece_of(const sw_contact *c, const sw_system *s, const sw_candidate *k,
-                      const sw_pose *pose, const double *x) {
-  const sw_body *b = &s->bodies[k->body];
-  const size_t i = k->node - b->first_node, n = b->plan->nodes;
-  piece out = {.starts = i == 0, .ends = i + 2 >= n};
-  for (size_t j = 0; j < 4; j++) {
-    const size_t at = i + j < 1 ? 0 : i + j - 1 < n ? i + j - 1 : n - 1;
-    const size_t node = b->first_node + at;
-    out.p[j] = sw_pose_local(*pose, sw_contact_where(c, x, node, node, 0));
-  }
-  return out;
+/* Number j of the four, in the world. */
+static sw_vec node_at(const sw_contact *c, const sw_body *b, size_t i, size_t j, const double *x) {
+  const size_t n = b->plan->nodes, at = i + j < 1 ? 0 : i + j - 1 < n ? i + j - 1 : n - 1;
+  const size_t node = b->first_node + at;
+  return sw_contact_where(c, x, node, node, 0);
 }
 
-/* How far the curve stands off its nodes, at most [m]. */
-static double bulge(const piece *c) {
-  const sw_vec one = sw_add(sw_sub(c->p[0], c->p[1]), sw_sub(c->p[2], c->p[1]));
-  const sw_vec two = sw_add(sw_sub(c->p[1], c->p[2]), sw_sub(c->p[3], c->p[2]));
-  return sqrt(fmax(c->starts ? 0 : sw_norm2(one), c->ends ? 0 : sw_norm2(two))) / 8.0;
+static double off_middle(sw_vec a, sw_vec b, sw_vec c) {
+  return sw_norm2(sw_add(sw_sub(a, b), sw_sub(c, b)));
+}
+
+/* A candidate's piece. 0: it is further off than reach. */
+static int piece_of(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                    const sw_pose *pose, const double *x, double reach, piece *out) {
+  const sw_body *b = &s->bodies[k->body];
+  const size_t i = k->node - b->first_node;
+  sw_vec world[4];
+  for (size_t j = 0; j < 4; j++) world[j] = node_at(c, b, i, j, x);
+  out->starts = i == 0, out->ends = i + 2 >= b->plan->nodes;
+  const double one = out->starts ? 0 : off_middle(world[0], world[1], world[2]);
+  const double two = out->ends ? 0 : off_middle(world[1], world[2], world[3]);
+  out->bulge = sqrt(fmax(one, two)) / 8.0;
+  for (size_t j = 1; j < 3; j++) out->p[j] = sw_pose_local(*pose, world[j]);
+  /* it is also looked at before its first node */
+  const double before = k->segment ? QUARTER * sw_dist(world[0], world[1]) : 0.0;
+  if (!sw_shape_meets(c->obstacles[k->obstacle].shape, out->p[1], out->p[k->segment ? 2 : 1],
+                      reach + out->bulge + before))
+    return 0;
+  for (size_t j = 0; j < 4; j += 3) out->p[j] = sw_pose_local(*pose, world[j]);
+  return 1;
 }
 
 /* Move a place to the curve's foot over its edge or corner. 0: it has none nearby. */
@@ -120,7 +133,7 @@ static void along_piece(const piece *c, const sw_shape *shape, const sw_candidat
                         const sw_vec end[2], const double u[2], sw_places *list) {
   sw_closest near[SW_CLOSEST_MAX];
   const sw_vec d = sw_sub(end[1], end[0]);
-  const int n = sw_shape_segment(shape, end[0], end[1], reach + bulge(c), near);
+  const int n = sw_shape_segment(shape, end[0], end[1], reach + c->bulge, near);
   for (int i = 0; i < n; i++) {
     sw_place place = {.near = near[i], .edge = {0, 0, 0}};
     place.sharp = sw_shape_sharp(shape, near[i].feature, &place.edge);
@@ -148,7 +161,7 @@ static void of_segment(const piece *c, const sw_shape *shape, const sw_candidate
                        sw_places *list) {
   const double out = QUARTER + OVERLAP;
   const double back = c->starts ? 0.5 : out, ahead = c->ends ? 0.5 : out;
-  if (bulge(c) < STRAIGHT * k->radius) {
+  if (c->bulge < STRAIGHT * k->radius) {
     const double u[2] = {c->starts ? 0.0 : -OVERLAP, c->ends ? 1.0 : 1.0 + OVERLAP};
     const sw_vec end[2] = {sw_lerp(c->p[1], c->p[2], u[0]), sw_lerp(c->p[1], c->p[2], u[1])};
     along_piece(c, shape, k, reach, end, u, list);
@@ -156,23 +169,20 @@ static void of_segment(const piece *c, const sw_shape *shape, const sw_candidate
   }
   along_tangent(c, shape, k, reach, 0.5, back, ahead, list);
   if (!c->starts) along_tangent(c, shape, k, reach, 0.0, out, out, list);
-  if (!c->ends) along_tangent(c, shape, k, reach, 1.0, out, out, list);
+  if (!c->ends && k->last_one) along_tangent(c, shape, k, reach, 1.0, out, out, list);
 }
 
-/* A node's place: on faces, and at the wire's ends anywhere. Edges across the wire are the business
- * of segments. */
-static void of_node(const sw_contact *c, const piece *p, const sw_system *s, const sw_shape *shape,
+/* A node's place: on faces, at edges that it lies along, and at the wire's ends anywhere. Edges
+ * across the wire are met by segments. */
+static void of_node(const piece *p, const sw_system *s, const sw_shape *shape,
                     const sw_candidate *k, double reach, sw_places *list) {
   const size_t i = k->node - s->bodies[k->body].first_node;
   const int end = i == 0 || i + 1 == s->bodies[k->body].plan->nodes;
   sw_place place = {.edge = {0, 0, 0}};
-  sw_vec x = p->p[1], along = sw_v(0, 0, 0);
-  (void)c;
-  if (!end) around(p->p, 0.5, &x, &along);
-  x = p->p[1];
-  if (!sw_shape_point(shape, x, reach, &place.near)) return;
+  if (!sw_shape_point(shape, p->p[1], reach, &place.near)) return;
   place.near.at = 0;
   if (!end && sw_shape_sharp(shape, place.near.feature, &place.edge) != SW_SHARP_NOT) {
+    const sw_vec along = sw_sub(p->p[2], p->p[0]);
     const double b = sw_dot(along, place.edge);
     if (sw_norm2(along) - b * b > PARALLEL * sw_norm2(along)) return;
   }
@@ -216,16 +226,18 @@ sw_spot sw_contact_spot(const sw_system *s, const sw_candidate *k, double at) {
 void sw_contact_places(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                        const sw_contact_at *at, const double *x, double reach, sw_places *list) {
   const sw_shape *shape = c->obstacles[k->obstacle].shape;
-  const piece p = piece_of(c, s, k, &at[k->obstacle].pose, x);
+  piece p;
   list->count = 0;
+  if (!piece_of(c, s, k, &at[k->obstacle].pose, x, reach, &p)) return;
   if (k->segment)
     of_segment(&p, shape, k, reach, list);
   else
-    of_node(c, &p, s, shape, k, reach, list);
+    of_node(&p, s, shape, k, reach, list);
 }
 
 int sw_contact_follow(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                       const double *x, sw_place *place) {
-  const piece p = piece_of(c, s, k, &c->now[k->obstacle].pose, x);
+  piece p;
+  if (!piece_of(c, s, k, &c->now[k->obstacle].pose, x, HUGE_VAL, &p)) return 0;
   return find_foot(&p, place, p.starts ? 0.0 : -0.5, p.ends ? 1.0 : 1.5);
 }

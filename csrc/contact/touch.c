@@ -376,10 +376,14 @@ static sw_status add_place(sw_contact *c, const sw_system *s, const sw_candidate
 
 /* What pushed at an edge in the iterate before goes on there, found or not. */
 static sw_status go_on_pushing(sw_contact *c, const sw_system *s, const sw_candidate *k,
-                               const double *y) {
+                               const double *y, size_t first) {
   for (size_t i = k->last; i < k->last_end; i++) {
     const sw_touch *last = &c->last[i];
-    if (!(last->press.normal_force > 0) || !last->sharp) continue;
+    int found = !last->sharp || !(last->press.normal_force > 0);
+    for (size_t j = first; j < c->touch_count && !found; j++)
+      found = c->touches[j].feature == last->feature && c->touches[j].sharp &&
+              fabs(c->touches[j].at - last->at) < SAME_PLACE;
+    if (found) continue;
     const sw_quat back = sw_quat_conj(c->now[k->obstacle].pose.q);
     sw_place place = {.near = {.at = last->at,
                                .point = last->local,
@@ -396,10 +400,11 @@ static sw_status go_on_pushing(sw_contact *c, const sw_system *s, const sw_candi
 /* Along the smooth curve. */
 static sw_status query_curve(sw_contact *c, const sw_system *s, const sw_candidate *k,
                              const double *y, double reach) {
+  const size_t first = c->touch_count;
   sw_places list;
   sw_contact_places(c, s, k, c->now, y, reach, &list);
   for (size_t i = 0; i < list.count; i++) SW_TRY(add_place(c, s, k, y, &list.place[i]));
-  return c->regime == SW_CONTACT_EXPLICIT ? SW_OK : go_on_pushing(c, s, k, y);
+  return c->regime == SW_CONTACT_EXPLICIT ? SW_OK : go_on_pushing(c, s, k, y, first);
 }
 
 static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k, const double *y) {

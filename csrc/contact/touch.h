@@ -25,6 +25,7 @@ typedef struct sw_candidate {
   double usual;              /* stiffness of a new touch [N/m] */
   int given;                 /* 1: it keeps that, however deep it gets */
   int smooth;                /* 1: the wire is the smooth curve there, not its chords */
+  int last_one;              /* 1: then, the segment after it is none of this obstacle's */
   int samples; /* it touches at so many places, evenly along the segment; 0: at the nearest ones */
 } sw_candidate;
 

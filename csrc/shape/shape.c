@@ -132,6 +132,11 @@ void sw_tape_shape(sw_tape *t, sw_shape **shape) {
 
 /* --- queries -------------------------------------------------------------- */
 
+int sw_shape_meets(const sw_shape *shape, sw_vec a, sw_vec b, double reach) {
+  const sw_bounds near = sw_bounds_of(a, b, reach);
+  return sw_bounds_meet(&near, &shape->bounds);
+}
+
 /* Sum of the coordinates' sizes; NaN stays NaN [m] */
 static inline double size_of(sw_vec p) { return fabs(p.x) + fabs(p.y) + fabs(p.z); }
 
