@@ -128,9 +128,18 @@ static void take(sw_places *list, const sw_place *place) {
   if (list->count < SW_PLACES_MOST) list->place[list->count++] = *place;
 }
 
+/* A place found along a line that turns from the curve's tangent there by more than this is looked
+ * for again, along the tangent: which of two edges near each other touch is a matter of its tilt
+ * [-]. */
+static const double TURNED = 0.01;
+
+static void along_tangent(const piece *c, const sw_shape *shape, const sw_candidate *k,
+                          double reach, double u, double back, double ahead, sw_places *list,
+                          int again);
+
 /* Places of a straight piece from u[0] to u[1]. */
 static void along_piece(const piece *c, const sw_shape *shape, const sw_candidate *k, double reach,
-                        const sw_vec end[2], const double u[2], sw_places *list) {
+                        const sw_vec end[2], const double u[2], sw_places *list, int again) {
   sw_closest near[SW_CLOSEST_MAX];
   const sw_vec d = sw_sub(end[1], end[0]);
   const int n = sw_shape_segment(shape, end[0], end[1], reach + c->bulge, near);
@@ -143,18 +152,23 @@ static void along_piece(const piece *c, const sw_shape *shape, const sw_candidat
     }
     place.near.at = u[0] + near[i].at * (u[1] - u[0]);
     if (!find_foot(c, &place, c->starts ? 0.0 : -0.5, c->ends ? 1.0 : 1.5)) continue;
-    if (place.near.gap < reach && is_new(list, k, &place)) take(list, &place);
+    if (!(place.near.gap < reach) || !is_new(list, k, &place)) continue;
+    const int turned = sw_norm2(sw_cross(place.along, d)) > TURNED * TURNED * sw_norm2(d);
+    take(list, &place);
+    if (turned && again)
+      along_tangent(c, shape, k, reach, place.near.at, QUARTER, QUARTER, list, 0);
   }
 }
 
 /* Along the tangent at u, so far to both sides. */
 static void along_tangent(const piece *c, const sw_shape *shape, const sw_candidate *k,
-                          double reach, double u, double back, double ahead, sw_places *list) {
+                          double reach, double u, double back, double ahead, sw_places *list,
+                          int again) {
   sw_vec x, along;
   at_curve(c, u, &x, &along);
   const sw_vec end[2] = {sw_madd(x, along, -back), sw_madd(x, along, ahead)};
   const double from[2] = {u - back, u + ahead};
-  along_piece(c, shape, k, reach, end, from, list);
+  along_piece(c, shape, k, reach, end, from, list, again);
 }
 
 static void of_segment(const piece *c, const sw_shape *shape, const sw_candidate *k, double reach,
@@ -164,12 +178,12 @@ static void of_segment(const piece *c, const sw_shape *shape, const sw_candidate
   if (c->bulge < STRAIGHT * k->radius) {
     const double u[2] = {c->starts ? 0.0 : -OVERLAP, c->ends ? 1.0 : 1.0 + OVERLAP};
     const sw_vec end[2] = {sw_lerp(c->p[1], c->p[2], u[0]), sw_lerp(c->p[1], c->p[2], u[1])};
-    along_piece(c, shape, k, reach, end, u, list);
+    along_piece(c, shape, k, reach, end, u, list, 1);
     return;
   }
-  along_tangent(c, shape, k, reach, 0.5, back, ahead, list);
-  if (!c->starts) along_tangent(c, shape, k, reach, 0.0, out, out, list);
-  if (!c->ends && k->last_one) along_tangent(c, shape, k, reach, 1.0, out, out, list);
+  along_tangent(c, shape, k, reach, 0.5, back, ahead, list, 1);
+  if (!c->starts) along_tangent(c, shape, k, reach, 0.0, out, out, list, 1);
+  if (!c->ends && k->last_one) along_tangent(c, shape, k, reach, 1.0, out, out, list, 1);
 }
 
 /* A node's place: on faces, at edges that it lies along, and at the wire's ends anywhere. Edges

@@ -223,7 +223,8 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
   t.press.gap += sw_contact_aslant(c, k->node, k->other, at, t.press.normal);
   if (web && !web->per_ring) t.press.soft = fmin(SOFTEST, (double)web->particles);
   sw_press *press = &t.press;
-  const int slowly = (web && web->per_ring) || c->fresh;
+  /* what is found at an edge only now, and was there before, must not be thrown off it */
+  const int slowly = (web && web->per_ring) || c->fresh || (place->sharp && !m);
   if (c->regime == SW_CONTACT_IMPLICIT &&
       press->gap < 0) { /* in explicit steps force follows depth */
     const double depth = sw_contact_depth_before(c, s, &t), explained = m ? m->depth : 0.0;
