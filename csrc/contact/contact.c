@@ -232,7 +232,7 @@ const void *sw_contact_seen(const sw_contact *c, size_t *bytes) {
   return c->touches;
 }
 
-static int spans(const sw_spot *spot, size_t nodes) {
+static int spans(const sw_mean *spot, size_t nodes) {
   for (size_t i = 0; i < spot->count; i++)
     if (spot->node[i] >= nodes) return 0;
   return spot->count > 0;
@@ -247,7 +247,7 @@ sw_status sw_contact_set_seen(sw_contact *c, const void *seen, size_t bytes, siz
   for (size_t i = 0; i < n; i++) {
     const sw_touch *t = &c->touches[i];
     if (t->obstacle < 0 || (size_t)t->obstacle >= c->count || t->node >= nodes ||
-        t->other >= nodes || t->spot.count > SW_SPOT_MOST || !spans(&t->spot, nodes))
+        t->other >= nodes || t->spot.count > SW_MEAN_MOST || !spans(&t->spot, nodes))
       return SW_EINVAL;
   }
   c->touch_count = n;

@@ -230,10 +230,10 @@ double sw_contact_steady_force(const sw_system *s, const sw_touch *t, double h) 
   return t->steady + (N - t->steady) * h / (h + slow);
 }
 
-sw_spot sw_contact_spot(const sw_system *s, const sw_candidate *k, double at) {
-  if (!k->smooth || !k->segment) return sw_spot_chord(k->node, k->other, k->segment ? at : 0.0);
+sw_mean sw_contact_spot(const sw_system *s, const sw_candidate *k, double at) {
+  if (!k->smooth || !k->segment) return sw_mean_chord(k->node, k->other, k->segment ? at : 0.0);
   const sw_body *b = &s->bodies[k->body];
-  return sw_spot_curve(b->first_node, b->first_node + b->plan->nodes - 1,
+  return sw_mean_curve(b->first_node, b->first_node + b->plan->nodes - 1,
                        (double)(k->node - b->first_node) + at);
 }
 

@@ -53,7 +53,7 @@ sw_status sw_contact_calm(sw_contact *c, size_t nodes) {
 }
 
 /* Share of the momentum that each node of a touch takes; held ones take none. */
-static void shares(const sw_system *s, const sw_touch *t, double out[SW_SPOT_MOST]) {
+static void shares(const sw_system *s, const sw_touch *t, double out[SW_MEAN_MOST]) {
   const sw_body *b = &s->bodies[t->body];
   double sum = 0;
   for (size_t e = 0; e < t->spot.count; e++) {
@@ -151,7 +151,7 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
   /* what comes to a pad that holds a wire already only trembles */
   if (o->grips > 0 && c->pressing[t->obstacle]) return 0;
-  const sw_vec x = sw_spot_place(c, s->x, &t->spot);
+  const sw_vec x = sw_mean_place(c, s->x, &t->spot);
   const sw_body *b = &s->bodies[t->body];
   const double radius = sw_plan_skin(b->plan, t->node - b->first_node);
   const sw_levers levers = sw_touch_levers(s, t);
@@ -161,7 +161,7 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const double gap = fmax(0.0, sw_dot(t->press.normal, sw_sub(x, plane)) + aslant - radius);
   double slow;
   const sw_vec wall = striking_velocity(c, t, at, gap, &slow);
-  sw_vec v = sw_sub(sw_spot_of(s->v, 0, &t->spot), wall);
+  sw_vec v = sw_sub(sw_mean_of(s->v, 0, &t->spot), wall);
   const double approach = -sw_dot(v, t->press.normal);
   const double allowed = gap / h;
   if (!(approach > allowed + slow)) return 0;
@@ -170,7 +170,7 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_vec along = sw_madd(v, t->press.normal, -sw_dot(v, t->press.normal));
   const sw_vec brake = sw_levers_brake(&b->plan->beam, &levers, along, o->friction * change);
   const sw_vec dv = sw_madd(brake, t->press.normal, change);
-  double w[SW_SPOT_MOST], mass = 0, kicked = 0;
+  double w[SW_MEAN_MOST], mass = 0, kicked = 0;
   shares(s, t, w);
   for (size_t e = 0; e < t->spot.count; e++) {
     if (!(w[e] > 0)) continue;
@@ -283,11 +283,11 @@ static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k, con
 static int cross_part(sw_contact *c, sw_system *s, const sw_candidate *k, const double *x1,
                       double h, double from, double to) {
   const sw_pose *p0 = &c->start[k->obstacle].pose, *p1 = &c->now[k->obstacle].pose;
-  const sw_spot a = sw_contact_spot(s, k, from), b = sw_contact_spot(s, k, to);
-  const sw_vec a0 = sw_pose_local(*p0, sw_spot_place(c, s->x, &a));
-  const sw_vec b0 = sw_pose_local(*p0, sw_spot_place(c, s->x, &b));
-  const sw_vec a1 = sw_pose_local(*p1, sw_spot_place(c, x1, &a));
-  const sw_vec b1 = sw_pose_local(*p1, sw_spot_place(c, x1, &b));
+  const sw_mean a = sw_contact_spot(s, k, from), b = sw_contact_spot(s, k, to);
+  const sw_vec a0 = sw_pose_local(*p0, sw_mean_place(c, s->x, &a));
+  const sw_vec b0 = sw_pose_local(*p0, sw_mean_place(c, s->x, &b));
+  const sw_vec a1 = sw_pose_local(*p1, sw_mean_place(c, x1, &a));
+  const sw_vec b1 = sw_pose_local(*p1, sw_mean_place(c, x1, &b));
   const double shift2 = fmax(sw_norm2(sw_sub(a1, a0)), sw_norm2(sw_sub(b1, b0)));
   if (shift2 < SAFE_SHIFT * SAFE_SHIFT * k->skin * k->skin) return 0;
   sw_closest hit;
@@ -401,7 +401,7 @@ static int bounces(sw_contact *c, const sw_system *s, const double *v1) {
     const int moves = fabs(sw_dot(wall, t->press.normal)) > SLOWEST_IMPACT;
     if (!moves && !s->bodies[t->body].plan->web) continue;
     if (c->obstacles[t->obstacle].grips > 0 && c->pressing[t->obstacle]) continue;
-    const sw_vec v = sw_sub(sw_spot_of(v1, 0, &t->spot), wall);
+    const sw_vec v = sw_sub(sw_mean_of(v1, 0, &t->spot), wall);
     if (sw_dot(v, t->press.normal) > SLOWEST_IMPACT) return c->plastic = 1;
   }
   return 0;

@@ -17,7 +17,7 @@ static void add_to_field(sw_system *s, const sw_touch *t, sw_vec f, const double
                          unsigned want) {
   static const size_t full[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
   sw_body *b = &s->bodies[t->body];
-  const sw_spot *spot = &t->spot;
+  const sw_mean *spot = &t->spot;
   for (size_t e = 0; e < spot->count; e++) {
     const size_t i = spot->node[e] - b->first_node;
     double *row = b->field.rows + ROW * i;
@@ -127,7 +127,7 @@ static int is_first(const sw_contact *c, const sw_touch *t) {
  * solve assumed. */
 static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *delta,
                   double scale) {
-  const sw_vec shift = sw_spot_of(delta, 0, &t->spot);
+  const sw_vec shift = sw_mean_of(delta, 0, &t->spot);
   const sw_vec surface = s->rolls ? surface_shift(s, t, shift) : shift;
   const int agrees = sw_press_update(&t->press, t->friction, surface, scale);
   if (t->held) return 1;

@@ -44,7 +44,7 @@ double sw_contact_scale(const sw_contact *c, size_t first, size_t *end) {
 static size_t values(const refined *r) { return 3 * r->body->plan->nodes; }
 
 static sw_vec place(const refined *r, const sw_touch *t, const double *x) {
-  return sw_spot_of(x, r->body->first_node, &t->spot);
+  return sw_mean_of(x, r->body->first_node, &t->spot);
 }
 
 /* Share of a force at a touch that its nodes get, to free nodes here and to held ones' holds. */

@@ -82,8 +82,8 @@ static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, doub
  * obstacle's material there. */
 static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_touch *t,
                              const double *y) {
-  const sw_vec from = sw_spot_place(c, s->x, &t->spot);
-  const sw_vec to = sw_spot_place(c, y, &t->spot);
+  const sw_vec from = sw_mean_place(c, s->x, &t->spot);
+  const sw_vec to = sw_mean_place(c, y, &t->spot);
   const sw_vec carried =
       sw_pose_point(c->now[t->obstacle].pose, sw_pose_local(c->start[t->obstacle].pose, from));
   const sw_body *b = &s->bodies[t->body];
@@ -103,8 +103,8 @@ static sw_vec shift_since(const sw_contact *c, const sw_system *s, const sw_touc
   const sw_candidate *k = &c->candidates[t->candidate];
   const sw_memory *m = c->regime == SW_CONTACT_EXPLICIT ? memory_for(c, k, t->at) : NULL;
   if (!m) return relative_shift(c, s, t, y);
-  const sw_spot spot = sw_contact_spot(s, k, m->at);
-  const sw_vec now = sw_spot_place(c, y, &spot);
+  const sw_mean spot = sw_contact_spot(s, k, m->at);
+  const sw_vec now = sw_mean_place(c, y, &spot);
   return sw_sub(now, sw_pose_point(c->now[t->obstacle].pose, m->seen));
 }
 
@@ -166,7 +166,7 @@ int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
 
 double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
-  const sw_vec from = sw_spot_place(c, s->x, &t->spot);
+  const sw_vec from = sw_mean_place(c, s->x, &t->spot);
   const double aslant = sw_contact_aslant(c, t->node, t->other, t->at, t->press.normal);
   return c->candidates[t->candidate].skin - aslant - sw_dot(t->press.normal, sw_sub(from, plane));
 }
@@ -241,7 +241,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
     press->active = 1; /* what just touches may be all that bears the wire */
     press->active = sw_press_apart(press);
   }
-  t.seen = sw_pose_local(*pose, sw_spot_place(c, y, &t.spot));
+  t.seen = sw_pose_local(*pose, sw_mean_place(c, y, &t.spot));
   begin_friction(c, s, m, last, y, &t);
   if (t.held) press->active = 0;
   return push(c, &t);
@@ -271,8 +271,8 @@ static int behind_barrier(const sw_contact *c, const sw_system *s, const sw_cand
                           const double *y, sw_place *place) {
   const sw_barrier *b = sw_contact_barrier(c, k->obstacle, k->node, k->segment);
   if (!b) return 0;
-  const sw_spot spot = sw_contact_spot(s, k, b->at);
-  const sw_vec local = sw_pose_local(c->now[b->obstacle].pose, sw_spot_place(c, y, &spot));
+  const sw_mean spot = sw_contact_spot(s, k, b->at);
+  const sw_vec local = sw_pose_local(c->now[b->obstacle].pose, sw_mean_place(c, y, &spot));
   const double gap = sw_dot(b->normal, sw_sub(local, b->point));
   *place = (sw_place){.near = {.gap = gap,
                                .at = b->at,
@@ -369,8 +369,8 @@ static int is_known(const sw_contact *c, const sw_candidate *k, const sw_place *
 static sw_status add_place(sw_contact *c, const sw_system *s, const sw_candidate *k,
                            const double *y, sw_place *place) {
   if (place->sharp && is_known(c, k, place)) return SW_OK;
-  const sw_spot spot = sw_contact_spot(s, k, place->near.at);
-  const sw_vec p = sw_pose_local(c->now[k->obstacle].pose, sw_spot_place(c, y, &spot));
+  const sw_mean spot = sw_contact_spot(s, k, place->near.at);
+  const sw_vec p = sw_pose_local(c->now[k->obstacle].pose, sw_mean_place(c, y, &spot));
   if (!keep_side(c, k, p, &place->near)) return SW_OK;
   return add_touch(c, s, k, y, place);
 }

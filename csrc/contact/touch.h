@@ -8,7 +8,7 @@
 #include "contact/broad.h"
 #include "contact/contact.h"
 #include "contact/law.h"
-#include "contact/spot.h"
+#include "contact/mean.h"
 
 /* A node, or the inside of a segment that starts there, and an obstacle that
  * it may touch in this step. */
@@ -37,7 +37,7 @@ typedef struct sw_touch {
   size_t node, other, body;
   int feature;
   double at;        /* along the segment, of a smooth one perhaps half an edge beyond it [-] */
-  sw_spot spot;     /* the same as a mean of nodes */
+  sw_mean spot;     /* the same as a mean of nodes */
   sw_sharp sharp;   /* of a smooth one: what it touches */
   sw_vec edge;      /* then: along an edge, in the obstacle's coordinates [-] */
   double steady;    /* then: normal force that it has had for a while [N] */
@@ -230,7 +230,7 @@ double sw_contact_lean(const sw_system *s, const sw_candidate *k, double at, dou
 /* The normal force that a touch has had for a while, after a step of h [N]. */
 double sw_contact_steady_force(const sw_system *s, const sw_touch *t, double h);
 /* A place along a candidate as a mean of nodes. */
-sw_spot sw_contact_spot(const sw_system *s, const sw_candidate *k, double at);
+sw_mean sw_contact_spot(const sw_system *s, const sw_candidate *k, double at);
 
 /* Find the touches at positions y; those of before are then the last ones. SW_ENOMEM. */
 sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw_error *err);
@@ -279,9 +279,9 @@ static inline sw_vec sw_contact_where(const sw_contact *c, const double *x, size
   return c->sunk ? sw_sub(p, sw_touch_place(c->sunk, node, other, at)) : p;
 }
 
-static inline sw_vec sw_spot_place(const sw_contact *c, const double *x, const sw_spot *spot) {
-  const sw_vec p = sw_spot_of(x, 0, spot);
-  return c->sunk ? sw_sub(p, sw_spot_of(c->sunk, 0, spot)) : p;
+static inline sw_vec sw_mean_place(const sw_contact *c, const double *x, const sw_mean *spot) {
+  const sw_vec p = sw_mean_of(x, 0, spot);
+  return c->sunk ? sw_sub(p, sw_mean_of(c->sunk, 0, spot)) : p;
 }
 
 /* What is sunk along the normal n of its surface meets a face of normal -n where that surface is.
