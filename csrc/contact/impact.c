@@ -52,15 +52,16 @@ sw_status sw_contact_calm(sw_contact *c, size_t nodes) {
   return SW_OK;
 }
 
-/* Share of the momentum that each end of a segment takes; held ends take none. */
-static void shares(const sw_system *s, const sw_touch *t, double out[2]) {
+/* Share of the momentum that each node of a touch takes; held ones take none. */
+static void shares(const sw_system *s, const sw_touch *t, double out[SW_MEAN_MOST]) {
   const sw_body *b = &s->bodies[t->body];
-  const size_t end[2] = {t->node - b->first_node, t->other - b->first_node};
-  double w[2] = {t->segment ? 1.0 - t->at : 1.0, t->segment ? t->at : 0.0};
-  for (size_t e = 0; e < 2; e++)
-    if (w[e] > 0 && b->plan->held[end[e]] != SW_FREE) w[e] = 0;
-  const double sum = w[0] * w[0] + w[1] * w[1];
-  for (size_t e = 0; e < 2; e++) out[e] = sum > 0 ? w[e] / sum : 0.0;
+  double sum = 0;
+  for (size_t e = 0; e < t->spot.count; e++) {
+    const int held = b->plan->held[t->spot.node[e] - b->first_node] != SW_FREE;
+    out[e] = held ? 0.0 : t->spot.w[e];
+    sum += out[e] * out[e];
+  }
+  for (size_t e = 0; e < t->spot.count; e++) out[e] = sum > 0 ? out[e] / sum : 0.0;
 }
 
 /* A gap this small is none: what touches already takes on the obstacle's speed [m]. */
@@ -150,10 +151,9 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
   /* what comes to a pad that holds a wire already only trembles */
   if (o->grips > 0 && c->pressing[t->obstacle]) return 0;
-  const sw_vec x = sw_contact_where(c, s->x, t->node, t->other, t->at);
+  const sw_vec x = sw_mean_place(c, s->x, &t->spot);
   const sw_body *b = &s->bodies[t->body];
   const double radius = sw_plan_skin(b->plan, t->node - b->first_node);
-  const size_t end[2] = {t->node, t->other};
   const sw_levers levers = sw_touch_levers(s, t);
   const sw_vec at = levers.count ? sw_madd(x, t->press.normal, -radius) : x;
   const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
@@ -161,7 +161,7 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const double gap = fmax(0.0, sw_dot(t->press.normal, sw_sub(x, plane)) + aslant - radius);
   double slow;
   const sw_vec wall = striking_velocity(c, t, at, gap, &slow);
-  sw_vec v = sw_sub(sw_touch_place(s->v, t->node, t->other, t->at), wall);
+  sw_vec v = sw_sub(sw_mean_of(s->v, 0, &t->spot), wall);
   const double approach = -sw_dot(v, t->press.normal);
   const double allowed = gap / h;
   if (!(approach > allowed + slow)) return 0;
@@ -170,12 +170,12 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_vec along = sw_madd(v, t->press.normal, -sw_dot(v, t->press.normal));
   const sw_vec brake = sw_levers_brake(&b->plan->beam, &levers, along, o->friction * change);
   const sw_vec dv = sw_madd(brake, t->press.normal, change);
-  double w[2], mass = 0, kicked = 0;
+  double w[SW_MEAN_MOST], mass = 0, kicked = 0;
   shares(s, t, w);
-  for (size_t e = 0; e < 2; e++) {
+  for (size_t e = 0; e < t->spot.count; e++) {
     if (!(w[e] > 0)) continue;
-    mass += w[e] * b->plan->lumped[end[e] - b->first_node];
-    kicked += w[e] * kick(s, b, end[e], sw_scale(dv, w[e]));
+    mass += w[e] * b->plan->lumped[t->spot.node[e] - b->first_node];
+    kicked += w[e] * kick(s, b, t->spot.node[e], sw_scale(dv, w[e]));
   }
   c->struck += kicked * sw_dot(dv, wall);
   sw_contact_add_blow(c, t->obstacle, at, sw_scale(dv, -kicked));
@@ -263,6 +263,8 @@ static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k, con
               sizeof *c->barriers) != SW_OK)
     return 0;
   add_barrier(c, &b);
+  const sw_candidate at = {
+      .segment = b.segment, .node = b.node, .other = b.other, .body = k->body, .smooth = k->smooth};
   const sw_pose *pose = &c->now[k->obstacle].pose;
   const sw_touch t = {.obstacle = k->obstacle,
                       .segment = b.segment,
@@ -270,10 +272,34 @@ static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k, con
                       .other = b.other,
                       .body = k->body,
                       .at = b.at,
+                      .spot = sw_contact_spot(s, &at, b.at),
                       .local = hit->point,
                       .press = {.normal = sw_rotate(pose->q, hit->normal)}};
   if (h > 0) strike(c, s, &t, h);
   return 1;
+}
+
+/* From place to place along a candidate, in one go. */
+static int cross_part(sw_contact *c, sw_system *s, const sw_candidate *k, const double *x1,
+                      double h, double from, double to) {
+  const sw_pose *p0 = &c->start[k->obstacle].pose, *p1 = &c->now[k->obstacle].pose;
+  const sw_mean a = sw_contact_spot(s, k, from), b = sw_contact_spot(s, k, to);
+  const sw_vec a0 = sw_pose_local(*p0, sw_mean_place(c, s->x, &a));
+  const sw_vec b0 = sw_pose_local(*p0, sw_mean_place(c, s->x, &b));
+  const sw_vec a1 = sw_pose_local(*p1, sw_mean_place(c, x1, &a));
+  const sw_vec b1 = sw_pose_local(*p1, sw_mean_place(c, x1, &b));
+  const double shift2 = fmax(sw_norm2(sw_sub(a1, a0)), sw_norm2(sw_sub(b1, b0)));
+  if (shift2 < SAFE_SHIFT * SAFE_SHIFT * k->skin * k->skin) return 0;
+  sw_closest hit;
+  double when;
+  if (!sw_shape_sweep(c->obstacles[k->obstacle].shape, a0, b0, a1, b1, 0.0, &hit, &when)) return 0;
+  hit.at = from + hit.at * (to - from);
+  return raise_barrier(c, s, k, &hit, h);
+}
+
+static int cross(sw_contact *c, sw_system *s, const sw_candidate *k, const double *x1, double h) {
+  if (!k->smooth) return cross_part(c, s, k, x1, h, 0.0, 1.0);
+  return cross_part(c, s, k, x1, h, 0.0, 0.5) | cross_part(c, s, k, x1, h, 0.5, 1.0);
 }
 
 /* h = 0: statics, there are no speeds to change. */
@@ -282,17 +308,7 @@ static int review_crossings(sw_contact *c, sw_system *s, const double *x1, doubl
   for (size_t i = 0; i < c->candidate_count; i++) {
     const sw_candidate *k = &c->candidates[i];
     if (!k->segment) continue;
-    const sw_pose *p0 = &c->start[k->obstacle].pose, *p1 = &c->now[k->obstacle].pose;
-    const sw_vec a0 = sw_pose_local(*p0, sw_contact_where(c, s->x, k->node, k->node, 0));
-    const sw_vec b0 = sw_pose_local(*p0, sw_contact_where(c, s->x, k->other, k->other, 0));
-    const sw_vec a1 = sw_pose_local(*p1, sw_contact_where(c, x1, k->node, k->node, 0));
-    const sw_vec b1 = sw_pose_local(*p1, sw_contact_where(c, x1, k->other, k->other, 0));
-    const double shift2 = fmax(sw_norm2(sw_sub(a1, a0)), sw_norm2(sw_sub(b1, b0)));
-    if (shift2 < SAFE_SHIFT * SAFE_SHIFT * k->skin * k->skin) continue;
-    sw_closest hit;
-    double when;
-    if (sw_shape_sweep(c->obstacles[k->obstacle].shape, a0, b0, a1, b1, 0.0, &hit, &when))
-      changed |= raise_barrier(c, s, k, &hit, h);
+    changed |= cross(c, s, k, x1, h);
   }
   return changed;
 }
@@ -327,8 +343,15 @@ static double depth_of(const sw_contact *c, const sw_candidate *k, const sw_pose
 }
 
 /* The same with positions x, where it is deepest. */
-static double depth_at(const sw_contact *c, const sw_candidate *k, const sw_contact_at *at,
-                       const double *x) {
+static double depth_at(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                       const sw_contact_at *at, const double *x) {
+  if (k->smooth) {
+    sw_places list;
+    double most = 0;
+    sw_contact_places(c, s, k, at, x, k->skin, &list);
+    for (size_t i = 0; i < list.count; i++) most = fmax(most, k->skin - list.place[i].near.gap);
+    return most;
+  }
   const sw_shape *shape = c->obstacles[k->obstacle].shape;
   const sw_pose *pose = &at[k->obstacle].pose;
   const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, x, k->node, k->node, 0));
@@ -356,9 +379,9 @@ static int cuts_deep(const sw_contact *c, const sw_system *s, const double *x1, 
   for (size_t i = 0; i < c->candidate_count; i++) {
     const sw_candidate *k = &c->candidates[i];
     if (c->flat[k->obstacle] || sw_contact_is_held(s, k)) continue;
-    const double depth = depth_at(c, k, c->now, x1);
+    const double depth = depth_at(c, s, k, c->now, x1);
     const double more = k->given ? SQUEEZED * k->radius : DEEPER;
-    if (depth > more && depth > depth_at(c, k, c->start, s->x) + more) return 1;
+    if (depth > more && depth > depth_at(c, s, k, c->start, s->x) + more) return 1;
   }
   return 0;
 }
@@ -378,7 +401,7 @@ static int bounces(sw_contact *c, const sw_system *s, const double *v1) {
     const int moves = fabs(sw_dot(wall, t->press.normal)) > SLOWEST_IMPACT;
     if (!moves && !s->bodies[t->body].plan->web) continue;
     if (c->obstacles[t->obstacle].grips > 0 && c->pressing[t->obstacle]) continue;
-    const sw_vec v = sw_sub(sw_touch_place(v1, t->node, t->other, t->at), wall);
+    const sw_vec v = sw_sub(sw_mean_of(v1, 0, &t->spot), wall);
     if (sw_dot(v, t->press.normal) > SLOWEST_IMPACT) return c->plastic = 1;
   }
   return 0;

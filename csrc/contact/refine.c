@@ -45,20 +45,19 @@ double sw_contact_scale(const sw_contact *c, size_t first, size_t *end) {
 static size_t values(const refined *r) { return 3 * r->body->plan->nodes; }
 
 static sw_vec place(const refined *r, const sw_touch *t, const double *x) {
-  const size_t from = r->body->first_node;
-  return sw_touch_place(x, t->node - from, t->other - from, t->at);
+  return sw_mean_of(x, r->body->first_node, &t->spot);
 }
 
 /* Share of a force at a touch that its nodes get, to free nodes here and to held ones' holds. */
 static void push(const refined *r, const sw_touch *t, sw_vec f, double *free, int held) {
-  const size_t from = r->body->first_node, end[2] = {t->node, t->other};
-  const double at = t->segment ? t->at : 0.0, w[2] = {1.0 - at, at};
-  for (int e = 0; e < (t->segment ? 2 : 1); e++) {
-    const sw_vec part = sw_scale(f, w[e]);
-    if (r->body->plan->held[end[e] - from] == SW_FREE) {
-      if (free) sw_accumulate(free + 3 * (end[e] - from), part);
+  const size_t from = r->body->first_node;
+  for (size_t e = 0; e < t->spot.count; e++) {
+    const sw_vec part = sw_scale(f, t->spot.w[e]);
+    const size_t node = t->spot.node[e];
+    if (r->body->plan->held[node - from] == SW_FREE) {
+      if (free) sw_accumulate(free + 3 * (node - from), part);
     } else if (held) {
-      sw_system_push_held(r->s, end[e], part);
+      sw_system_push_held(r->s, node, part);
     }
   }
 }

@@ -86,8 +86,8 @@ static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, doub
  * obstacle's material there. */
 static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_touch *t,
                              const double *y) {
-  const sw_vec from = sw_contact_where(c, s->x, t->node, t->other, t->at);
-  const sw_vec to = sw_contact_where(c, y, t->node, t->other, t->at);
+  const sw_vec from = sw_mean_place(c, s->x, &t->spot);
+  const sw_vec to = sw_mean_place(c, y, &t->spot);
   const sw_vec carried =
       sw_pose_point(c->now[t->obstacle].pose, sw_pose_local(c->start[t->obstacle].pose, from));
   const sw_body *b = &s->bodies[t->body];
@@ -107,7 +107,8 @@ static sw_vec shift_since(const sw_contact *c, const sw_system *s, const sw_touc
   const sw_candidate *k = &c->candidates[t->candidate];
   const sw_memory *m = c->regime == SW_CONTACT_EXPLICIT ? memory_for(c, k, t->at) : NULL;
   if (!m) return relative_shift(c, s, t, y);
-  const sw_vec now = sw_contact_where(c, y, t->node, t->other, m->at);
+  const sw_mean spot = sw_contact_spot(s, k, m->at);
+  const sw_vec now = sw_mean_place(c, y, &spot);
   return sw_sub(now, sw_pose_point(c->now[t->obstacle].pose, m->seen));
 }
 
@@ -166,7 +167,7 @@ int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
 
 double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
-  const sw_vec from = sw_contact_where(c, s->x, t->node, t->other, t->at);
+  const sw_vec from = sw_mean_place(c, s->x, &t->spot);
   const double aslant = sw_contact_aslant(c, t->node, t->other, t->at, t->press.normal);
   return c->candidates[t->candidate].skin - aslant - sw_dot(t->press.normal, sw_sub(from, plane));
 }
@@ -186,7 +187,8 @@ static int goes_on(const sw_contact *c, const sw_candidate *k, const sw_press *p
 }
 
 static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
-                           const double *y, const sw_closest *near) {
+                           const double *y, const sw_place *place) {
+  const sw_closest *near = &place->near;
   const sw_pose *pose = &c->now[k->obstacle].pose;
   const double at = k->segment ? near->at : 0.0;
   const sw_memory *m = pressed_memory(c, s, k, at);
@@ -201,6 +203,9 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
       .body = k->body,
       .feature = near->feature,
       .at = at,
+      .spot = sw_contact_spot(s, k, at),
+      .sharp = place->sharp,
+      .edge = place->edge,
       .point = sw_pose_point(*pose, near->point),
       .local = near->point,
       .known = m != NULL,
@@ -210,10 +215,17 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
       .stage = c->stage,
       .press = {
           .normal = sw_rotate(pose->q, near->normal), .gap = near->gap - k->skin, .k = stiffness}};
+  if (m && place->sharp && m->steady > 0) {
+    const double lean = sw_contact_lean(s, k, at, m->steady);
+    t.steady = m->steady;
+    t.press.normal =
+        sw_unit_or(sw_madd(t.press.normal, sw_rotate(pose->q, place->along), lean), t.press.normal);
+  }
   t.press.gap += sw_contact_aslant(c, k->node, k->other, at, t.press.normal);
   if (web) t.press.soft = web->per_ring ? k->hard : fmin(SOFTEST, (double)web->particles);
   sw_press *press = &t.press;
-  const int slowly = (web && web->per_ring) || c->fresh;
+  /* what is found at an edge only now, and was there before, must not be thrown off it */
+  const int slowly = (web && web->per_ring) || c->fresh || (place->sharp && !m);
   if (c->regime == SW_CONTACT_IMPLICIT &&
       press->gap < 0) { /* in explicit steps force follows depth */
     const double depth = sw_contact_depth_before(c, s, &t), explained = m ? m->depth : 0.0;
@@ -229,7 +241,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
     press->active = 1; /* what just touches may be all that bears the wire */
     press->active = sw_press_apart(press);
   }
-  t.seen = sw_pose_local(*pose, sw_contact_where(c, y, t.node, t.other, t.at));
+  t.seen = sw_pose_local(*pose, sw_mean_place(c, y, &t.spot));
   begin_friction(c, s, m, last, y, &t);
   if (t.held) press->active = 0;
   return push(c, &t);
@@ -255,19 +267,26 @@ static int keep_side(const sw_contact *c, const sw_candidate *k, sw_vec local, s
 
 /* The place kept on its side by a barrier of this step, if the candidate has
  * one: 1 and the touch, else 0. */
-static int behind_barrier(const sw_contact *c, const sw_candidate *k, const double *y,
-                          sw_closest *near) {
+static int behind_barrier(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                          const double *y, sw_place *place) {
   const sw_barrier *b = sw_contact_barrier(c, k->obstacle, k->node, k->segment);
   if (!b) return 0;
-  const sw_vec local =
-      sw_pose_local(c->now[b->obstacle].pose, sw_contact_where(c, y, b->node, b->other, b->at));
+  const sw_mean spot = sw_contact_spot(s, k, b->at);
+  const sw_vec local = sw_pose_local(c->now[b->obstacle].pose, sw_mean_place(c, y, &spot));
   const double gap = sw_dot(b->normal, sw_sub(local, b->point));
-  *near = (sw_closest){.gap = gap,
-                       .at = b->at,
-                       .normal = b->normal,
-                       .point = sw_madd(local, b->normal, -gap),
-                       .feature = SW_BEHIND_BARRIER};
+  *place = (sw_place){.near = {.gap = gap,
+                               .at = b->at,
+                               .normal = b->normal,
+                               .point = sw_madd(local, b->normal, -gap),
+                               .feature = SW_BEHIND_BARRIER},
+                      .edge = {0, 0, 0}};
   return 1;
+}
+
+static sw_status add_near(sw_contact *c, const sw_system *s, const sw_candidate *k, const double *y,
+                          sw_closest *near, sw_vec local) {
+  if (!keep_side(c, k, local, near)) return SW_OK;
+  return add_touch(c, s, k, y, &(sw_place){.near = *near, .edge = {0, 0, 0}});
 }
 
 /* The nearest place of a segment that lies along an obstacle comes and goes with the last
@@ -286,7 +305,7 @@ static sw_status keep_pushing(sw_contact *c, const sw_system *s, const sw_candid
     sw_closest near;
     if (found || !sw_shape_point(c->obstacles[k->obstacle].shape, p, k->radius, &near)) continue;
     near.at = last->at;
-    if (keep_side(c, k, p, &near)) SW_TRY(add_touch(c, s, k, y, &near));
+    SW_TRY(add_near(c, s, k, y, &near, p));
   }
   return SW_OK;
 }
@@ -303,32 +322,99 @@ static sw_status query_samples(sw_contact *c, const sw_system *s, const sw_candi
     sw_closest near;
     if (!sw_shape_point(c->obstacles[k->obstacle].shape, p, reach, &near)) continue;
     near.at = at;
-    if (keep_side(c, k, p, &near)) SW_TRY(add_touch(c, s, k, y, &near));
+    SW_TRY(add_near(c, s, k, y, &near, p));
   }
   return SW_OK;
 }
 
-static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k, const double *y) {
-  const sw_shape *shape = c->obstacles[k->obstacle].shape;
+/* Along chords. */
+static sw_status query_segment(sw_contact *c, const sw_system *s, const sw_candidate *k,
+                               const double *y, double reach) {
   const sw_pose *pose = &c->now[k->obstacle].pose;
   const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, y, k->node, k->node, 0));
-  const double reach = 2.0 * k->radius; /* keeps what may begin to touch in the list */
-  sw_closest near[SW_CLOSEST_MAX];
-  if (c->barrier_count && behind_barrier(c, k, y, &near[0])) return add_touch(c, s, k, y, &near[0]);
-  if (k->samples) return query_samples(c, s, k, y, reach);
-  if (!k->segment) {
-    if (!sw_shape_point(shape, a, reach, &near[0])) return SW_OK;
-    near[0].at = 0;
-    return keep_side(c, k, a, &near[0]) ? add_touch(c, s, k, y, &near[0]) : SW_OK;
-  }
   const sw_vec b = sw_pose_local(*pose, sw_contact_where(c, y, k->other, k->other, 0));
   const size_t first = c->touch_count;
-  const int n = sw_shape_segment(shape, a, b, reach, near);
-  for (int i = 0; i < n; i++) {
-    if (keep_side(c, k, sw_lerp(a, b, near[i].at), &near[i]))
-      SW_TRY(add_touch(c, s, k, y, &near[i]));
-  }
+  sw_closest near[SW_CLOSEST_MAX];
+  const int n = sw_shape_segment(c->obstacles[k->obstacle].shape, a, b, reach, near);
+  for (int i = 0; i < n; i++) SW_TRY(add_near(c, s, k, y, &near[i], sw_lerp(a, b, near[i].at)));
   return c->regime == SW_CONTACT_EXPLICIT ? SW_OK : keep_pushing(c, s, k, y, first);
+}
+
+static sw_status query_node(sw_contact *c, const sw_system *s, const sw_candidate *k,
+                            const double *y, double reach) {
+  const sw_pose *pose = &c->now[k->obstacle].pose;
+  const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, y, k->node, k->node, 0));
+  sw_closest near;
+  if (!sw_shape_point(c->obstacles[k->obstacle].shape, a, reach, &near)) return SW_OK;
+  near.at = 0;
+  return add_near(c, s, k, y, &near, a);
+}
+
+/* Touches of one obstacle nearer to each other than this share of the radius, on edges or corners,
+ * are one [-]. */
+static const double ONE_POINT = 0.02;
+
+static int is_known(const sw_contact *c, const sw_candidate *k, const sw_place *place) {
+  const double near = ONE_POINT * k->radius;
+  for (size_t i = c->touch_count; i-- > c->parts.touch;) {
+    const sw_touch *t = &c->touches[i];
+    if (t->body != k->body || t->node + 1 < k->node) break;
+    if (t->obstacle == k->obstacle && t->sharp &&
+        sw_norm2(sw_sub(t->local, place->near.point)) < near * near)
+      return 1;
+  }
+  return 0;
+}
+
+static sw_status add_place(sw_contact *c, const sw_system *s, const sw_candidate *k,
+                           const double *y, sw_place *place) {
+  if (place->sharp && is_known(c, k, place)) return SW_OK;
+  const sw_mean spot = sw_contact_spot(s, k, place->near.at);
+  const sw_vec p = sw_pose_local(c->now[k->obstacle].pose, sw_mean_place(c, y, &spot));
+  if (!keep_side(c, k, p, &place->near)) return SW_OK;
+  return add_touch(c, s, k, y, place);
+}
+
+/* What pushed at an edge in the iterate before goes on there, found or not. */
+static sw_status go_on_pushing(sw_contact *c, const sw_system *s, const sw_candidate *k,
+                               const double *y, size_t first) {
+  for (size_t i = k->last; i < k->last_end; i++) {
+    const sw_touch *last = &c->last[i];
+    int found = !last->sharp || !(last->press.normal_force > 0);
+    for (size_t j = first; j < c->touch_count && !found; j++)
+      found = c->touches[j].feature == last->feature && c->touches[j].sharp &&
+              fabs(c->touches[j].at - last->at) < SAME_PLACE;
+    if (found) continue;
+    const sw_quat back = sw_quat_conj(c->now[k->obstacle].pose.q);
+    sw_place place = {.near = {.at = last->at,
+                               .point = last->local,
+                               .normal = sw_rotate(back, last->press.normal),
+                               .feature = last->feature},
+                      .sharp = last->sharp,
+                      .edge = last->edge};
+    if (sw_contact_follow(c, s, k, y, &place) && place.near.gap < STILL_NEAR * k->radius)
+      SW_TRY(add_place(c, s, k, y, &place));
+  }
+  return SW_OK;
+}
+
+/* Along the smooth curve. */
+static sw_status query_curve(sw_contact *c, const sw_system *s, const sw_candidate *k,
+                             const double *y, double reach) {
+  const size_t first = c->touch_count;
+  sw_places list;
+  sw_contact_places(c, s, k, c->now, y, reach, &list);
+  for (size_t i = 0; i < list.count; i++) SW_TRY(add_place(c, s, k, y, &list.place[i]));
+  return c->regime == SW_CONTACT_EXPLICIT ? SW_OK : go_on_pushing(c, s, k, y, first);
+}
+
+static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k, const double *y) {
+  const double reach = 2.0 * k->radius; /* keeps what may begin to touch in the list */
+  sw_place place;
+  if (c->barrier_count && behind_barrier(c, s, k, y, &place)) return add_touch(c, s, k, y, &place);
+  if (k->samples) return query_samples(c, s, k, y, reach);
+  if (k->smooth) return query_curve(c, s, k, y, reach);
+  return k->segment ? query_segment(c, s, k, y, reach) : query_node(c, s, k, y, reach);
 }
 
 sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw_error *err) {

@@ -8,6 +8,7 @@
 #include "contact/broad.h"
 #include "contact/contact.h"
 #include "contact/law.h"
+#include "contact/mean.h"
 
 /* A node, or the inside of a segment that starts there, and an obstacle that
  * it may touch in this step. */
@@ -24,6 +25,8 @@ typedef struct sw_candidate {
   double usual;              /* stiffness of a new touch [N/m] */
   double hard;               /* so many times that of what holds a mesh's particle, or 0 [-] */
   int given;                 /* 1: it keeps that, however deep it gets */
+  int smooth;                /* 1: the wire is the smooth curve there, not its chords */
+  int last_one;              /* 1: then, the segment after it is none of this obstacle's */
   int samples; /* it touches at so many places, evenly along the segment; 0: at the nearest ones */
 } sw_candidate;
 
@@ -34,7 +37,11 @@ typedef struct sw_touch {
   int obstacle, segment;
   size_t node, other, body;
   int feature;
-  double at;        /* along the segment [-] */
+  double at;        /* along the segment, of a smooth one perhaps half an edge beyond it [-] */
+  sw_mean spot;     /* the same as a mean of nodes */
+  sw_sharp sharp;   /* of a smooth one: what it touches */
+  sw_vec edge;      /* then: along an edge, in the obstacle's coordinates [-] */
+  double steady;    /* then: normal force that it has had for a while [N] */
   sw_vec point;     /* on the obstacle, world [m] */
   sw_vec local;     /* the same in the obstacle's coordinates [m] */
   double forgiven;  /* part of the true depth left out of the gap in this step [m] */
@@ -59,6 +66,7 @@ typedef struct sw_memory {
   double normal_force;  /* 0: near, but without force [N] */
   double depth;         /* that goes with normal_force [m] */
   double k;             /* [N/m] */
+  double steady;        /* as a touch's [N] */
   sw_vec normal, point; /* the side: local [-], [m] */
   int sliding;
   sw_vec elastic; /* displacement of the friction spring, local [m] */
@@ -124,6 +132,7 @@ struct sw_contact {
   int *pads;                  /* (pad_count) those of grippers */
   size_t pad_count;
   int *pressing; /* (count) 1: a pad that pressed on something at the step's start */
+  int *sharp;    /* (count) 1: it has faces, edges and corners */
   int *dense;    /* (count) 1: particles of the body at hand lie close, likewise */
   double *sunk;  /* (3 nodes) how far contact sees a node further in, or NULL: nowhere [m] */
   size_t sunk_capacity;
@@ -198,6 +207,33 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
  * SW_ENOMEM. */
 sw_status sw_contact_turn_over(sw_contact *c, size_t *first, size_t *end);
 
+/* Where a smooth candidate is near its obstacle. */
+enum { SW_PLACES_MOST = 3 * SW_CLOSEST_MAX };
+typedef struct sw_place {
+  sw_closest near; /* in the obstacle's coordinates */
+  sw_sharp sharp;
+  sw_vec edge;  /* along it, or 0 [-] */
+  sw_vec along; /* the curve there [-] */
+} sw_place;
+typedef struct sw_places {
+  size_t count;
+  sw_place place[SW_PLACES_MOST];
+} sw_places;
+/* Those less than reach away, with the system's nodes at x [m]. */
+void sw_contact_places(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                       const sw_contact_at *at, const double *x, double reach, sw_places *list);
+/* A place on an edge or corner goes on to where it is with the nodes at x. 0: it is not near. */
+int sw_contact_follow(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                      const double *x, sw_place *place);
+/* A touch of the smooth curve pushes so much along the wire, of its force across. What bends
+ * between two nodes under a push is not in the curve: it bends deeper in the middle between them,
+ * and without this it would be held there [-]. */
+double sw_contact_lean(const sw_system *s, const sw_candidate *k, double at, double force);
+/* The normal force that a touch has had for a while, after a step of h [N]. */
+double sw_contact_steady_force(const sw_system *s, const sw_touch *t, double h);
+/* A place along a candidate as a mean of nodes. */
+sw_mean sw_contact_spot(const sw_system *s, const sw_candidate *k, double at);
+
 /* Find the touches at positions y; those of before are then the last ones. SW_ENOMEM. */
 sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw_error *err);
 /* How deep the touch's place was at the step's start, below 0 when it was outside [m]. */
@@ -243,6 +279,11 @@ static inline sw_vec sw_contact_where(const sw_contact *c, const double *x, size
                                       size_t other, double at) {
   const sw_vec p = sw_touch_place(x, node, other, at);
   return c->sunk ? sw_sub(p, sw_touch_place(c->sunk, node, other, at)) : p;
+}
+
+static inline sw_vec sw_mean_place(const sw_contact *c, const double *x, const sw_mean *spot) {
+  const sw_vec p = sw_mean_of(x, 0, spot);
+  return c->sunk ? sw_sub(p, sw_mean_of(c->sunk, 0, spot)) : p;
 }
 
 /* What is sunk along the normal n of its surface meets a face of normal -n where that surface is.

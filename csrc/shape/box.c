@@ -109,6 +109,14 @@ static void bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
   }
 }
 
+static sw_sharp sharp(const sw_shape *shape, int feature, sw_vec *along) {
+  (void)shape;
+  const int x = feature % 3, y = feature / Y_DIGIT % 3, z = feature / Z_DIGIT;
+  const int between = (x == 1) + (y == 1) + (z == 1);
+  if (between == 1) *along = sw_v(x == 1, y == 1, z == 1);
+  return between >= 2 ? SW_SHARP_NOT : between ? SW_SHARP_EDGE : SW_SHARP_CORNER;
+}
+
 static const sw_param rows[] = {
     {"size", SW_PARAM_VECTOR, "m", NAN, 0, SW_SHAPE_LARGEST, SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN,
      NULL, offsetof(box_args, size), "lengths of the edges along x, y and z"},
@@ -135,4 +143,5 @@ const sw_shape_class sw_shape_class_box = {
     .support = support,
     .segment = segment,
     .triangles = triangles,
-    .bones = bones};
+    .bones = bones,
+    .sharp = sharp};
