@@ -62,8 +62,12 @@ function solid.normal(obstacle, pose)
   return { solid.rotate(q, n[1] / length, n[2] / length, n[3] / length) }
 end
 
-local kinds = {}
-for _, kind in ipairs(core.registry().shapes) do kinds[kind.name] = kind end
+-- The kinds of shape by name, read when the first one is asked for.
+local kinds = setmetatable({}, { __index = function(all, name)
+  for _, kind in ipairs(core.registry().shapes) do rawset(all, kind.name, kind) end
+  setmetatable(all, nil)
+  return all[name]
+end })
 
 --- Whether an obstacle is a half space, of which a piece is drawn.
 function solid.flat(obstacle)
