@@ -458,11 +458,12 @@ end
 
 local function print_bundles()
   local crowds = require "softworld.benchcrowds"
-  for _, cable in ipairs{ false, "GXL 1.5" } do
-    for _, count in ipairs{ 7, 10, 20 } do
+  for _, count in ipairs{ 7, 10, 20 } do -- twenty take minutes
+    for _, cable in ipairs{ false, "GXL 1.5" } do
       local falling, lying, fell, lay = crowds.bundle(count, cable)
-      print(("%6d wires%s in a bundle: %.2f s a simulated second falling, %.2f lying; %.1f, %.1f solves a step")
-        :format(count, cable and " " .. cable or "", falling, lying, fell, lay))
+      print(("%6d wires%s in a bundle: %.2f s a simulated second falling, %.1f solves each; lying %.2f, %.1f")
+        :format(count, cable and " " .. cable or "", falling, fell, lying, lay))
+      io.stdout:flush()
     end
   end
 end
