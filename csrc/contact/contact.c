@@ -448,5 +448,6 @@ int sw_contact_steady(const sw_contact *c) {
   return before == now && !c->impact_count && !c->plastic;
 }
 
+double sw_contact_soonest(const sw_contact *c) { return c->soonest; }
 size_t sw_contact_impacts(const sw_contact *c) { return c->impact_count; }
 double sw_contact_struck(const sw_contact *c) { return c->struck; }

@@ -117,11 +117,15 @@ typedef enum sw_contact_verdict {
   SW_CONTACT_REDO,   /* impacts or crossings that the step did not know of: the
                         system's starting velocities were changed, contacts added;
                         redo the step from a restart */
+  SW_CONTACT_SOONER, /* something rebounds within the step, when sw_contact_soonest says: the step is
+                        to end there */
   SW_CONTACT_STRIKE, /* something struck: redo the step without bouncing */
   SW_CONTACT_SMALLER /* edges or corners cut too deep: only a smaller step helps */
 } sw_contact_verdict;
 sw_contact_verdict sw_contact_review(sw_contact *contact, sw_system *system, const double *x1,
                                      const double *v1, double h);
+
+double sw_contact_soonest(const sw_contact *contact); /* after the step's start [s] */
 
 /* The same for statics: segments of a solution x1 that went through an obstacle
  * are kept on their side from now on. 1 = there were some, solve again. */

@@ -87,6 +87,18 @@ sw_status sw_contact_keeps(void *contact, sw_system *s, const double *y, int *ou
   return SW_OK;
 }
 
+/* What presses may have struck. With no room for it, an impact is dealt with in the next step. */
+static void note_pressed(sw_contact *c) {
+  for (size_t i = c->parts.touch; i < c->touch_count; i++) {
+    const sw_touch *t = &c->touches[i];
+    if (t->held || !(t->press.normal_force > 0 || t->press.gap_after < 0)) continue;
+    if (sw_grow((void **)&c->pressed, &c->pressed_capacity, c->pressed_count + 1,
+                sizeof *c->pressed) != SW_OK)
+      return;
+    c->pressed[c->pressed_count++] = *t;
+  }
+}
+
 sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar, const double *y,
                           unsigned want, sw_error *err) {
   sw_contact *c = contact;
@@ -98,6 +110,7 @@ sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar,
   c->looked = 0;
   if (want & SW_WANT_STIFFNESS) mark(c);
   for (size_t i = c->parts.touch; i < c->touch_count; i++) apply(c, s, &c->touches[i], want);
+  if (c->regime == SW_CONTACT_EXPLICIT) note_pressed(c);
   return SW_OK;
 }
 
@@ -176,13 +189,6 @@ int sw_contact_settled(void *contact, sw_system *s, const double *y, const doubl
   const int fine = update_all(c, s, delta);
   if (!fine) sw_contact_peel(c, s);
   if (fine && stiffen(c, s)) return 0;
-  for (size_t i = c->parts.touch; fine && i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
-    if (t->held || !(t->press.normal_force > 0 || t->press.gap_after < 0)) continue;
-    if (sw_grow((void **)&c->pressed, &c->pressed_capacity, c->pressed_count + 1,
-                sizeof *c->pressed) != SW_OK)
-      break; /* an impact is then dealt with in the next step */
-    c->pressed[c->pressed_count++] = *t;
-  }
+  if (fine) note_pressed(c);
   return fine;
 }

@@ -70,6 +70,7 @@ typedef struct loop {
   sw_run_report *report;
   double *v_start; /* velocities at the step's start, which impacts change */
   int redo;        /* AS_IS, or how the step is redone, for it made energy */
+  double soonest;  /* a rebound asks the step to end then, after its start; 0 = none does [s] */
   sw_error held;   /* what the last rejected part was rejected for */
   int smooth;      /* 1: the step that was rejected last made energy where nothing touches */
   int changed;     /* 1: the scene was, since the last step: its energy is not judged */
@@ -114,6 +115,7 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
   sw_scene *s = p->s;
   if (s->discontinuous > 0) s->stepper.restart = 1;
   s->stepper.plastic = p->redo == DULLY;
+  p->soonest = 0;
   if (p->redo == BY_START) s->stepper.restart = 1;
   if (!sw_scene_has_contact(s)) return trial(p, h, err);
   memcpy(p->v_start, s->system.v, s->system.freedoms * sizeof(double));
@@ -128,6 +130,11 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
     if (verdict == SW_CONTACT_ACCEPT) return SW_OK;
     if (verdict == SW_CONTACT_STRIKE) s->stepper.plastic = 1;
     sw_stepper_reject(&s->stepper, &s->system);
+    if (verdict == SW_CONTACT_SOONER) {
+      p->soonest = sw_contact_soonest(s->contact);
+      status = sw_fail(err, SW_ENOCONV, "something rebounds within the step");
+      break;
+    }
     if (verdict == SW_CONTACT_SMALLER)
       status = sw_fail(err, SW_ENOCONV, "what the wire touches cuts too deep into it");
     s->stepper.restart = 1;
@@ -300,7 +307,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
   const double t0 = s->time;
   double done = 0, part = h;
   sw_error failed = {""}; /* why a part of this step was refused last */
-  int starts = s->discontinuous && sw_slip_any(s);
+  int starts = s->discontinuous && sw_slip_any(s), cut = 0; /* cut: at a rebound */
   if (starts) part = FIRST_SLIP * h;
   p->changed = s->discontinuous > 0;
   while (done < h) {
@@ -317,16 +324,17 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
       s->time = done < h ? t0 + done : t1;
       SW_TRY(observe(s, err));
       SW_TRY(count_small(p, part, p->args->dt, err));
-      part = starts ? h : 2 * part;
-      starts = 0;
+      part = starts || cut ? h : 2 * part;
+      starts = cut = 0;
       continue;
     }
     if (hopeless(status)) return status;
     failed = *err;
     p->report->rejected++;
     p->held = *err;
-    if (!p->smooth) s->discontinuous = 1;
-    part *= 0.5;
+    cut = p->soonest > 0;
+    if (!p->smooth && !cut) s->discontinuous = 1;
+    part = cut ? p->soonest : 0.5 * part;
     if (part < SMALLEST_SHARE * h) return status;
   }
   return SW_OK;
@@ -339,25 +347,26 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
   double h = s->next_dt > 0 ? fmin(s->next_dt, most) : 0.1 * most;
   SW_TRY(make_room(p, &h, err));
   p->changed = s->discontinuous > 0;
-  for (;;) {
+  for (double uncut = 0;;) { /* uncut: the step that was cut at a rebound [s] */
     const int last = h >= left * (1 - 1e-9);
     const sw_status status =
         judged_attempt(p, h, 0.25 * h < SMALLEST_SHARE * SMALLEST_SHARE * p->args->dt, err);
     if (hopeless(status)) return status;
     const int fine = status == SW_OK && s->stepper.error <= tolerance;
-    const double next = status == SW_OK ? sw_stepper_next_h(&s->stepper, h, tolerance) : 0.25 * h;
+    double next = status == SW_OK ? sw_stepper_next_h(&s->stepper, h, tolerance) : 0.25 * h;
     if (fine) {
       const int unknown = !(s->stepper.error > 0); /* a starting step gives no estimate */
       accept(p, h);
       const double before = s->time;
       s->time = last ? t1 : s->time + h;
       if (!(s->time > before)) return sw_fail(err, SW_ENOCONV, "steps of %g s are no time", h);
-      s->next_dt = unknown ? h : last && next > h ? fmax(next, s->next_dt) : next;
+      s->next_dt = uncut > 0 ? uncut : unknown ? h : last && next > h ? fmax(next, s->next_dt) : next;
       SW_TRY(observe(s, err));
       return count_small(p, h, p->args->dt, err);
     }
     if (status == SW_OK) undo(p);
     if (status != SW_OK) p->held = *err;
+    if (status != SW_OK && p->soonest > 0) uncut = h, next = p->soonest;
     p->report->rejected++;
     h = fmin(next, 0.9 * h);
     if (h < SMALLEST_SHARE * SMALLEST_SHARE * p->args->dt)
