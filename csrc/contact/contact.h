@@ -176,6 +176,8 @@ double sw_contact_energy(const sw_contact *contact); /* stored in the springs [J
 /* After a step: 1, obstacles' forces at its end are those of a shock, which it does not go on with.
  */
 int sw_contact_shaken(const sw_contact *contact, const sw_system *system);
+/* The same of a trial step. */
+int sw_contact_jolts(sw_contact *contact, const sw_system *system);
 
 /* --- for the energy ledger, after a trial ------------------------------------- */
 

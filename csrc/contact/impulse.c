@@ -32,6 +32,7 @@ static void add_now(const sw_contact *c, double share, sw_contact_load *(*at)(sw
 static sw_contact_load *first_of(sw_contact_loads *l) { return &l->stage[0]; }
 static sw_contact_load *second_of(sw_contact_loads *l) { return &l->stage[1]; }
 static sw_contact_load *end_of(sw_contact_loads *l) { return &l->past.end; }
+static sw_contact_load *trial_of(sw_contact_loads *l) { return &l->trial; }
 
 void sw_contact_book(void *contact, const sw_booking *b) {
   sw_contact *c = contact;
@@ -104,14 +105,33 @@ static double usual_force(const sw_system *s, const sw_plan *p) {
  * usual, is that of a shock [-]. */
 static const double SHOCK = 0.3, SHARP = 0.5;
 
+static int is_shock(const sw_system *s, const sw_plan *p, sw_vec end, sw_vec mean) {
+  const double off = sw_norm(sw_sub(end, mean)), most = fmax(sw_norm(end), sw_norm(mean));
+  return off > SHOCK * most && off > SHARP * usual_force(s, p);
+}
+
 int sw_contact_shaken(const sw_contact *c, const sw_system *s) {
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
-    if (s->bodies[t->body].plan->web) continue; /* these would hop: see bounces */
+    const sw_plan *p = s->bodies[t->body].plan;
+    if (p->web) continue; /* these would hop: see bounces */
     const sw_contact_past *past = &c->loads[t->obstacle].past;
-    const double off = sw_norm(sw_sub(past->end.force, past->mean.force));
-    const double most = fmax(sw_norm(past->end.force), sw_norm(past->mean.force));
-    if (off > SHOCK * most && off > SHARP * usual_force(s, s->bodies[t->body].plan)) return 1;
+    if (is_shock(s, p, past->end.force, past->mean.force)) return 1;
+  }
+  return 0;
+}
+
+int sw_contact_jolts(sw_contact *c, const sw_system *s) {
+  const sw_contact_load none = {.force = {.x = 0}};
+  if (c->regime != SW_CONTACT_IMPLICIT || !(c->h > 0)) return 0;
+  for (size_t i = 0; i < c->busy_count; i++) c->loads[c->busy[i]].trial = none;
+  add_now(c, 1.0, trial_of);
+  for (size_t i = 0; i < c->touch_count; i++) {
+    const sw_touch *t = &c->touches[i];
+    const sw_contact_loads *l = &c->loads[t->obstacle];
+    const sw_plan *p = s->bodies[t->body].plan;
+    const sw_vec mean = sw_scale(sw_add(l->stage[c->last_stage].force, l->blows.force), 1.0 / c->h);
+    if (!p->web && is_shock(s, p, l->trial.force, mean)) return 1;
   }
   return 0;
 }

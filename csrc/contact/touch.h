@@ -96,6 +96,7 @@ typedef struct sw_contact_loads {
   sw_contact_past past;
   sw_contact_load stage[SW_BOOK_STAGES]; /* impulse from the step's start, without blows [N s] */
   sw_contact_load blows; /* impulse of impacts that changed velocities at the start [N s] */
+  sw_contact_load trial; /* at the end of a trial [N] */
   int busy;              /* 1: it is in the list of those that may get something */
 } sw_contact_loads;
 

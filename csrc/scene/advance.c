@@ -241,6 +241,18 @@ static int is_shaken(const sw_scene *s) {
   return s->contact && !s->stepper.wants_error && sw_contact_shaken(s->contact, &s->system);
 }
 
+/* Blows are followed in parts of a step of at least this share of it [-]. */
+static const double BLOW_SHARE = 1.0 / 16;
+
+/* A step as long as a blow lasts smears it: what is pressed gives way by no law but that of the
+ * step. */
+static int is_jolted(loop *p, double h) {
+  sw_scene *s = p->s;
+  const double least = BLOW_SHARE * p->args->dt;
+  return s->contact && s->method->flags & SW_INTEGRATOR_IMPLICIT && 0.5 * h >= least * (1 - 1e-9) &&
+         s->window > 0 && h > BLOW_SHARE * s->window && sw_contact_jolts(s->contact, &s->system);
+}
+
 static void accept(loop *p, double h) {
   sw_scene *s = p->s;
   sw_stepper_accept(&s->stepper, &s->system, h);
@@ -318,6 +330,12 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
     if (!(part >= SMALLEST_SHARE * SMALLEST_SHARE * h))
       return sw_feed_too_fast(s, failed.text, err);
     const sw_status status = judged_attempt(p, part, 0.5 * part < SMALLEST_SHARE * h, err);
+    if (status == SW_OK && is_jolted(p, part)) {
+      undo(p);
+      p->report->rejected++;
+      part *= 0.5;
+      continue;
+    }
     if (status == SW_OK) {
       done += part;
       accept(p, part);
