@@ -131,7 +131,8 @@ int sw_contact_jolts(sw_contact *c, const sw_system *s) {
     const sw_contact_loads *l = &c->loads[t->obstacle];
     const sw_plan *p = s->bodies[t->body].plan;
     const sw_vec mean = sw_scale(sw_add(l->stage[c->last_stage].force, l->blows.force), 1.0 / c->h);
-    if (!p->web && is_shock(s, p, l->trial.force, mean)) return 1;
+    const sw_vec middle = sw_scale(sw_add(l->trial.force, l->past.end.force), 0.5);
+    if (!p->web && (is_shock(s, p, l->trial.force, mean) || is_shock(s, p, middle, mean))) return 1;
   }
   return 0;
 }

@@ -50,6 +50,7 @@ __attribute__((constructor)) static void fill_choices(void) {
     if (run_rows[i].type == SW_PARAM_CHOICE) run_rows[i].choices = integrator_names();
 }
 
+static double blow_until=-1, blow_part;
 enum { MOST_REDOS = 40 }; /* impacts found one after another in one step [-] */
 static const double SMALLEST_SHARE = 1.0 / 4096; /* of a step, before giving up [-] */
 
@@ -121,7 +122,7 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
   memcpy(p->v_start, s->system.v, s->system.freedoms * sizeof(double));
   sw_status status = sw_scene_begin_contact(
       s, s->method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
-      s->time, h, p->args->dt, err);
+      s->time, h, s->time < blow_until ? blow_part : p->args->dt, err);
   for (int redo = 0; status == SW_OK && redo < MOST_REDOS; redo++) {
     status = trial(p, h, err);
     if (status != SW_OK) break;
@@ -242,7 +243,7 @@ static int is_shaken(const sw_scene *s) {
 }
 
 /* Blows are followed in parts of a step of at least this share of it [-]. */
-static const double BLOW_SHARE = 1.0 / 16;
+static const double BLOW_SHARE = 1.0 / 64;
 
 /* A step as long as a blow lasts smears it: what is pressed gives way by no law but that of the
  * step. */
@@ -324,6 +325,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
   p->changed = s->discontinuous > 0;
   while (done < h) {
     const double left = h - done;
+    if (s->time < blow_until && part > blow_part) part = blow_part;
     if (part > left * (1 - 1e-12)) part = left;
     if (done > 0 && p->interrupted && p->interrupted()) return SW_EINTR; /* there may be many */
     SW_TRY(make_room(p, &part, err));
@@ -334,6 +336,8 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
       undo(p);
       p->report->rejected++;
       part *= 0.5;
+      blow_until = s->time + s->window;
+      blow_part = part;
       continue;
     }
     if (status == SW_OK) {
