@@ -37,6 +37,7 @@ typedef struct sw_contact_past {
   sw_contact_load mean;   /* over the step, blows included; in statics that of the state; moment
                              about the world's origin [N], [N m] */
   sw_contact_load end;    /* at its end, with which a method may begin the next step [N] */
+  double hardest;         /* mean over a step of the hardest blow that was followed in parts [N] */
   sw_contact_load gained; /* in the step without blows, for methods that look back [N s] */
 } sw_contact_past;
 
@@ -176,8 +177,10 @@ double sw_contact_energy(const sw_contact *contact); /* stored in the springs [J
 /* After a step: 1, obstacles' forces at its end are those of a shock, which it does not go on with.
  */
 int sw_contact_shaken(const sw_contact *contact, const sw_system *system);
-/* The same of a trial step. */
-int sw_contact_jolts(sw_contact *contact, const sw_system *system);
+/* A trial step in which some obstacle gets a blow, harder than any that it got so far: its mean over
+ * the step, over the weight of the wire that strikes or the force that bends it. 0: there is none
+ * [-]. followed: 1, does one that is followed in parts go on? */
+double sw_contact_jolt(sw_contact *contact, const sw_system *system, int followed);
 
 /* --- for the energy ledger, after a trial ------------------------------------- */
 

@@ -121,20 +121,37 @@ int sw_contact_shaken(const sw_contact *c, const sw_system *s) {
   return 0;
 }
 
-int sw_contact_jolts(sw_contact *c, const sw_system *s) {
+/* A blow whose mean over the step is less than so many usual forces is none [-]. */
+static const double LIGHT = 1.5;
+/* One that is followed goes on while such forces come and go that are so many times as hard [-]. */
+static const double GOES_ON = 0.5;
+
+/* Did what an obstacle gets come and go within the step? mean: over it, end: at its end [N]. */
+static int comes_and_goes(const sw_contact_loads *l, const sw_system *s, const sw_plan *p,
+                          sw_vec mean, sw_vec end) {
+  const sw_vec middle = sw_scale(sw_add(end, l->past.end.force), 0.5);
+  return is_shock(s, p, end, mean) || is_shock(s, p, middle, mean);
+}
+
+double sw_contact_jolt(sw_contact *c, const sw_system *s, int followed) {
   const sw_contact_load none = {.force = {.x = 0}};
+  double hardest = 0;
   if (c->regime != SW_CONTACT_IMPLICIT || !(c->h > 0)) return 0;
   for (size_t i = 0; i < c->busy_count; i++) c->loads[c->busy[i]].trial = none;
   add_now(c, 1.0, trial_of);
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
-    const sw_contact_loads *l = &c->loads[t->obstacle];
+    sw_contact_loads *l = &c->loads[t->obstacle];
     const sw_plan *p = s->bodies[t->body].plan;
     const sw_vec mean = sw_scale(sw_add(l->stage[c->last_stage].force, l->blows.force), 1.0 / c->h);
-    const sw_vec middle = sw_scale(sw_add(l->trial.force, l->past.end.force), 0.5);
-    if (!p->web && (is_shock(s, p, l->trial.force, mean) || is_shock(s, p, middle, mean))) return 1;
+    const double size = sw_norm(mean), usual = usual_force(s, p);
+    const double least = followed ? GOES_ON * l->past.hardest : l->past.hardest;
+    if (p->web || !(size > LIGHT * usual) || !(size > least)) continue;
+    if (!comes_and_goes(l, s, p, mean, l->trial.force)) continue;
+    if (!followed) l->past.hardest = size;
+    hardest = fmax(hardest, size / usual);
   }
-  return 0;
+  return hardest;
 }
 
 int sw_contact_id(const sw_contact *c, size_t k) { return c->obstacles[k].id; }

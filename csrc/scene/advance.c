@@ -50,7 +50,6 @@ __attribute__((constructor)) static void fill_choices(void) {
     if (run_rows[i].type == SW_PARAM_CHOICE) run_rows[i].choices = integrator_names();
 }
 
-static double blow_until=-1, blow_part;
 enum { MOST_REDOS = 40 }; /* impacts found one after another in one step [-] */
 static const double SMALLEST_SHARE = 1.0 / 4096; /* of a step, before giving up [-] */
 
@@ -111,6 +110,17 @@ static sw_status trial(loop *p, double h, sw_error *err) {
   return status;
 }
 
+/* A step as long as a blow lasts smears it: what is pressed gives way by no law but that of the step,
+ * and a wire that is pushed on buckles at once instead of bearing the push for a while. Harder ones
+ * than any before are followed in parts for so long [s], in at least so many of them a step [-], but
+ * none shorter than this [s]. */
+static const double BLOW = 0.01, MOST_PARTS = 64, SHORTEST_PART = 1.5e-4;
+
+/* The step to take: one that follows a blow is shorter than asked for [s]. */
+static double followed(const sw_scene *s, double h) {
+  return s->time < s->blow_until ? fmin(h, fmax(s->blow_part, SHORTEST_PART)) : h;
+}
+
 /* One step of size h, redone as long as contact finds impacts. */
 static sw_status attempt(loop *p, double h, sw_error *err) {
   sw_scene *s = p->s;
@@ -122,7 +132,7 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
   memcpy(p->v_start, s->system.v, s->system.freedoms * sizeof(double));
   sw_status status = sw_scene_begin_contact(
       s, s->method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
-      s->time, h, s->time < blow_until ? blow_part : p->args->dt, err);
+      s->time, h, followed(s, p->args->dt), err);
   for (int redo = 0; status == SW_OK && redo < MOST_REDOS; redo++) {
     status = trial(p, h, err);
     if (status != SW_OK) break;
@@ -242,16 +252,17 @@ static int is_shaken(const sw_scene *s) {
   return s->contact && !s->stepper.wants_error && sw_contact_shaken(s->contact, &s->system);
 }
 
-/* Blows are followed in parts of a step of at least this share of it [-]. */
-static const double BLOW_SHARE = 1.0 / 64;
-
-/* A step as long as a blow lasts smears it: what is pressed gives way by no law but that of the
- * step. */
+/* A trial step of size h that went well: does it have to be redone in parts, for something struck?
+ */
 static int is_jolted(loop *p, double h) {
   sw_scene *s = p->s;
-  const double least = BLOW_SHARE * p->args->dt;
-  return s->contact && s->method->flags & SW_INTEGRATOR_IMPLICIT && 0.5 * h >= least * (1 - 1e-9) &&
-         s->window > 0 && h > BLOW_SHARE * s->window && sw_contact_jolts(s->contact, &s->system);
+  const int followed = s->time < s->blow_until;
+  if (!s->contact || (!followed && !(0.5 * h > SHORTEST_PART))) return 0;
+  const double jolt = sw_contact_jolt(s->contact, &s->system, followed);
+  if (!(jolt > 0)) return 0;
+  s->blow_until = s->time + fmax(BLOW, h);
+  if (!followed) s->blow_part = fmax(SHORTEST_PART, h / fmin(2.0 * jolt, MOST_PARTS));
+  return !followed;
 }
 
 static void accept(loop *p, double h) {
@@ -325,7 +336,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
   p->changed = s->discontinuous > 0;
   while (done < h) {
     const double left = h - done;
-    if (s->time < blow_until && part > blow_part) part = blow_part;
+    part = followed(s, part);
     if (part > left * (1 - 1e-12)) part = left;
     if (done > 0 && p->interrupted && p->interrupted()) return SW_EINTR; /* there may be many */
     SW_TRY(make_room(p, &part, err));
@@ -335,9 +346,6 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
     if (status == SW_OK && is_jolted(p, part)) {
       undo(p);
       p->report->rejected++;
-      part *= 0.5;
-      blow_until = s->time + s->window;
-      blow_part = part;
       continue;
     }
     if (status == SW_OK) {
