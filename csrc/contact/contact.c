@@ -173,7 +173,7 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
                    .normal_force = t->press.normal_force,
                    .sliding = t->press.next_sliding,
                    .depth = t->press.normal_force / t->press.k,
-                   .k = sw_press_eased(&t->press, c->candidates[t->candidate].usual, t->stiffer),
+                   .k = sw_press_eased(&t->press, t->usual, t->stiffer),
                    .normal = sw_rotate(back, t->press.normal),
                    .point = t->local,
                    .seen = t->seen};

@@ -174,8 +174,7 @@ static int stiffen(sw_contact *c, const sw_system *s) {
     sw_touch *t = &c->touches[i];
     const double before = small ? fmax(0.0, sw_contact_depth_before(c, s, t)) : -1.0;
     if (t->held || c->candidates[t->candidate].given) continue;
-    t->stiffer =
-        sw_press_stiffer(&t->press, c->candidates[t->candidate].usual, t->forgiven, before);
+    t->stiffer = sw_press_stiffer(&t->press, t->usual, t->forgiven, before);
     any |= t->stiffer > t->press.k;
   }
   return any;
