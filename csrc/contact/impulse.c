@@ -122,7 +122,9 @@ int sw_contact_shaken(const sw_contact *c, const sw_system *s) {
 }
 
 /* A blow whose mean over the step is less than so many usual forces is none [-]. */
-static const double LIGHT = 1.5;
+static const double LIGHT = 1.1;
+/* Of one obstacle only those are followed that are so many times as hard as any before [-]. */
+static const double HARDER = 1.2;
 /* One that is followed goes on while such forces come and go that are so many times as hard [-]. */
 static const double GOES_ON = 0.5;
 
@@ -145,7 +147,7 @@ double sw_contact_jolt(sw_contact *c, const sw_system *s, int followed) {
     const sw_plan *p = s->bodies[t->body].plan;
     const sw_vec mean = sw_scale(sw_add(l->stage[c->last_stage].force, l->blows.force), 1.0 / c->h);
     const double size = sw_norm(mean), usual = usual_force(s, p);
-    const double least = followed ? GOES_ON * l->past.hardest : l->past.hardest;
+    const double least = followed ? GOES_ON * l->past.hardest : HARDER * l->past.hardest;
     if (p->web || !(size > LIGHT * usual) || !(size > least)) continue;
     if (!comes_and_goes(l, s, p, mean, l->trial.force)) continue;
     if (!followed) l->past.hardest = size;
