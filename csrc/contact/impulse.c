@@ -124,9 +124,9 @@ int sw_contact_shaken(const sw_contact *c, const sw_system *s) {
 /* A blow whose mean over the step is less than so many usual forces is none [-]. */
 static const double LIGHT = 1.1;
 /* Of one obstacle only those are followed that are so many times as hard as any before [-]. */
-static const double HARDER = 1.2;
+static const double HARDER = 1.5;
 /* One that is followed goes on while such forces come and go that are so many times as hard [-]. */
-static const double GOES_ON = 0.5;
+static const double GOES_ON = 0.5, HARD = 5.0; /* and this hard, of usual forces */
 
 /* Did what an obstacle gets come and go within the step? mean: over it, end: at its end [N]. */
 static int comes_and_goes(const sw_contact_loads *l, const sw_system *s, const sw_plan *p,
@@ -147,8 +147,9 @@ double sw_contact_jolt(sw_contact *c, const sw_system *s, int followed) {
     const sw_plan *p = s->bodies[t->body].plan;
     const sw_vec mean = sw_scale(sw_add(l->stage[c->last_stage].force, l->blows.force), 1.0 / c->h);
     const double size = sw_norm(mean), usual = usual_force(s, p);
-    const double least = followed ? GOES_ON * l->past.hardest : HARDER * l->past.hardest;
-    if (p->web || !(size > LIGHT * usual) || !(size > least)) continue;
+    const double least = followed ? fmax(HARD * usual, GOES_ON * l->past.hardest)
+                                  : fmax(LIGHT * usual, HARDER * l->past.hardest);
+    if (p->web || !(size > least)) continue;
     if (!comes_and_goes(l, s, p, mean, l->trial.force)) continue;
     if (!followed) l->past.hardest = size;
     hardest = fmax(hardest, size / usual);

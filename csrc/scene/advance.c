@@ -114,7 +114,7 @@ static sw_status trial(loop *p, double h, sw_error *err) {
  * and a wire that is pushed on buckles at once instead of bearing the push for a while. Harder ones
  * than any before are followed in parts for so long [s], in at least so many of them a step [-], but
  * none shorter than this [s]. */
-static const double BLOW = 0.01, MOST_PARTS = 64, SHORTEST_PART = 1.5e-4;
+static const double BLOW = 0.01, MOST_PARTS = 100, SHORTEST_PART = 1e-4;
 
 /* The step to take: one that follows a blow is shorter than asked for [s]. */
 static double followed(const sw_scene *s, double h) {
@@ -257,11 +257,11 @@ static int is_shaken(const sw_scene *s) {
 static int is_jolted(loop *p, double h) {
   sw_scene *s = p->s;
   const int followed = s->time < s->blow_until;
-  if (!s->contact || (!followed && !(0.5 * h > SHORTEST_PART))) return 0;
+  if (!s->contact || (!followed && !(h > 1.01 * SHORTEST_PART))) return 0;
   const double jolt = sw_contact_jolt(s->contact, &s->system, followed);
   if (!(jolt > 0)) return 0;
   s->blow_until = s->time + fmax(BLOW, h);
-  if (!followed) s->blow_part = fmax(SHORTEST_PART, h / fmin(2.0 * jolt, MOST_PARTS));
+  if (!followed) s->blow_part = fmax(SHORTEST_PART, h / fmin(jolt * fmax(2.0, jolt), MOST_PARTS));
   return !followed;
 }
 
