@@ -124,7 +124,7 @@ int sw_contact_shaken(const sw_contact *c, const sw_system *s) {
 /* A blow whose mean over the step is less than so many usual forces is none [-]. */
 static const double LIGHT = 1.1;
 /* Of one obstacle only those are followed that are so many times as hard as any before [-]. */
-static const double HARDER = 1.5;
+static const double HARDER = 1.2;
 /* One that is followed goes on while such forces come and go that are so many times as hard [-]. */
 static const double GOES_ON = 0.5, HARD = 5.0; /* and this hard, of usual forces */
 
@@ -135,6 +135,7 @@ static int comes_and_goes(const sw_contact_loads *l, const sw_system *s, const s
   return is_shock(s, p, end, mean) || is_shock(s, p, middle, mean);
 }
 
+/* A gripper's pads close on a wire: they have ways of their own to do so slowly. */
 double sw_contact_jolt(sw_contact *c, const sw_system *s, int followed) {
   const sw_contact_load none = {.force = {.x = 0}};
   double hardest = 0;
@@ -149,7 +150,7 @@ double sw_contact_jolt(sw_contact *c, const sw_system *s, int followed) {
     const double size = sw_norm(mean), usual = usual_force(s, p);
     const double least = followed ? fmax(HARD * usual, GOES_ON * l->past.hardest)
                                   : fmax(LIGHT * usual, HARDER * l->past.hardest);
-    if (p->web || !(size > least)) continue;
+    if (p->web || c->obstacles[t->obstacle].grips > 0 || !(size > least)) continue;
     if (!comes_and_goes(l, s, p, mean, l->trial.force)) continue;
     if (!followed) l->past.hardest = size;
     hardest = fmax(hardest, size / usual);

@@ -143,8 +143,8 @@ void sw_stepper_book(sw_stepper *p, sw_system *s, double share) {
   p->booked = 1;
 }
 
-/* What the axial forces did to momenta since the step's start: the stages make it up as they make up
- * the velocity. Before a stage is solved, and after. */
+/* What the axial forces did to momenta since the step's start: the stages make it up as they make
+ * up the velocity. Before a stage is solved, and after. */
 static void begin_pull(const sw_stepper *p, size_t k, const sw_stage_row *row, const sw_system *s,
                        double hbar) {
   double *sum = p->pulled[k];

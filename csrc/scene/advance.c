@@ -110,10 +110,10 @@ static sw_status trial(loop *p, double h, sw_error *err) {
   return status;
 }
 
-/* A step as long as a blow lasts smears it: what is pressed gives way by no law but that of the step,
- * and a wire that is pushed on buckles at once instead of bearing the push for a while. Harder ones
- * than any before are followed in parts for so long [s], in at least so many of them a step [-], but
- * none shorter than this [s]. */
+/* A step as long as a blow lasts smears it: what is pressed gives way by no law but that of the
+ * step, and a wire that is pushed on buckles at once instead of bearing the push for a while.
+ * Harder ones than any before are followed in parts for so long [s], in at least so many of them a
+ * step [-], but none shorter than this [s]. */
 static const double BLOW = 0.01, MOST_PARTS = 100, SHORTEST_PART = 1e-4;
 
 /* The step to take: one that follows a blow is shorter than asked for [s]. */
@@ -343,9 +343,8 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
     if (!(part >= SMALLEST_SHARE * SMALLEST_SHARE * h))
       return sw_feed_too_fast(s, failed.text, err);
     const sw_status status = judged_attempt(p, part, 0.5 * part < SMALLEST_SHARE * h, err);
-    if (status == SW_OK && is_jolted(p, part)) {
+    if (status == SW_OK && is_jolted(p, part)) { /* not refused: it only told of the blow */
       undo(p);
-      p->report->rejected++;
       continue;
     }
     if (status == SW_OK) {
@@ -390,7 +389,10 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
       const double before = s->time;
       s->time = last ? t1 : s->time + h;
       if (!(s->time > before)) return sw_fail(err, SW_ENOCONV, "steps of %g s are no time", h);
-      s->next_dt = uncut > 0 ? uncut : unknown ? h : last && next > h ? fmax(next, s->next_dt) : next;
+      s->next_dt = uncut > 0          ? uncut
+                   : unknown          ? h
+                   : last && next > h ? fmax(next, s->next_dt)
+                                      : next;
       SW_TRY(observe(s, err));
       return count_small(p, h, p->args->dt, err);
     }

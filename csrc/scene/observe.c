@@ -266,7 +266,9 @@ static void keep_tension(sw_scene *s, size_t w, const sw_wire_extremes *now) {
     sw_window_forget(&wire->window);
     return;
   }
-  if (sw_window_add(&wire->window, T ? T : sw_window_values(&wire->window), s->time, s->span, s->window) && is_averaged(s))
+  if (sw_window_add(&wire->window, T ? T : sw_window_values(&wire->window), s->time, s->span,
+                    s->window) &&
+      is_averaged(s))
     keep_mean(s, w, &kept->tension);
 }
 
