@@ -87,11 +87,15 @@ sw_status sw_contact_keeps(void *contact, sw_system *s, const double *y, int *ou
   return SW_OK;
 }
 
+/* What a step leaves so near to what it would rebound from does so with its neighbours [m]. */
+static const double NEXT_TO = 1e-6;
+
 /* What presses may have struck. With no room for it, an impact is dealt with in the next step. */
 static void note_pressed(sw_contact *c) {
   for (size_t i = c->parts.touch; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
-    if (t->held || !(t->press.normal_force > 0 || t->press.gap_after < 0)) continue;
+    const double open = c->obstacles[t->obstacle].restitution > 0 ? NEXT_TO : 0.0;
+    if (t->held || !(t->press.normal_force > 0 || t->press.gap_after < open)) continue;
     if (sw_grow((void **)&c->pressed, &c->pressed_capacity, c->pressed_count + 1,
                 sizeof *c->pressed) != SW_OK)
       return;
