@@ -221,7 +221,9 @@ static double watched_place(const sw_body *b, size_t e) {
 
 /* Are means to be taken of the step that led here? Longer steps, and equilibria, count as they
  * are. */
-static int is_averaged(const sw_scene *s) { return s->span > 0 && s->span < s->window; }
+static int is_averaged(const sw_scene *s) {
+  return s->span > 0 && s->span < (1 - 1e-9) * s->window; /* times are rounded */
+}
 
 static sw_status fit_window(sw_scene *s, size_t w) {
   sw_window *window = &s->wires[w].window;
@@ -245,11 +247,13 @@ static void keep_mean(const sw_scene *s, size_t w, sw_extreme *kept) {
   keep_largest(kept, &mean);
 }
 
-/* Axial forces of the step that led here: the mean over it, for that of a blow at its end says
- * nothing of how long it lasts. NULL: of a mesh, or at rest, there are only those of the state. */
+/* Axial forces of the step that led here. One as long as the window counts with its mean over
+ * time: that at its end, of a blow, says nothing of how long it lasts. NULL: of a mesh, or at rest,
+ * there are only those of the state. */
 static const double *step_tension(const sw_scene *s, const sw_body *b) {
   if (b->plan->web || !(s->span > 0)) return NULL;
-  return s->stepper.mean ? s->stepper.mean + b->first_edge : sw_system_pull(&s->system, b);
+  const double *mean = is_averaged(s) ? NULL : s->stepper.mean;
+  return mean ? mean + b->first_edge : sw_system_pull(&s->system, b);
 }
 
 static void keep_tension(sw_scene *s, size_t w, const sw_wire_extremes *now) {
@@ -275,6 +279,9 @@ static void keep_tension(sw_scene *s, size_t w, const sw_wire_extremes *now) {
 void sw_scene_run_tension(const sw_scene *s, size_t w, const sw_wire_extremes *now,
                           sw_wire_extremes *run) {
   const sw_window *window = &s->wires[w].window;
+  /* a coarse step counted with its mean: what it ended with does not count again */
+  const int counted = isfinite(run->raw.value) && s->span > 0 && !is_averaged(s);
+  if (counted) return;
   if (now->tension.value > run->raw.value) run->raw = now->tension, run->raw_span = s->span;
   const int fits = window->marks && window->edges == watched_edges(&s->system.bodies[w]);
   if (!fits)
