@@ -247,12 +247,15 @@ static void keep_mean(const sw_scene *s, size_t w, sw_extreme *kept) {
   keep_largest(kept, &mean);
 }
 
-/* Axial forces of the step that led here. One as long as the window counts with its mean over
- * time: that at its end, of a blow, says nothing of how long it lasts. NULL: of a mesh, or at rest,
- * there are only those of the state. */
+/* Was the step that led here one that smears blows? */
+static int is_coarse(const sw_scene *s) { return s->span >= (1 - 1e-9) * SW_WINDOW; }
+
+/* Axial forces of the step that led here. A coarse one counts with its mean over time: that at its
+ * end, of a blow, says nothing of how long it lasts. NULL: of a mesh, or at rest, there are only
+ * those of the state. */
 static const double *step_tension(const sw_scene *s, const sw_body *b) {
   if (b->plan->web || !(s->span > 0)) return NULL;
-  const double *mean = is_averaged(s) ? NULL : s->stepper.mean;
+  const double *mean = is_coarse(s) ? s->stepper.mean : NULL;
   return mean ? mean + b->first_edge : sw_system_pull(&s->system, b);
 }
 
@@ -279,9 +282,7 @@ static void keep_tension(sw_scene *s, size_t w, const sw_wire_extremes *now) {
 void sw_scene_run_tension(const sw_scene *s, size_t w, const sw_wire_extremes *now,
                           sw_wire_extremes *run) {
   const sw_window *window = &s->wires[w].window;
-  /* a coarse step counted with its mean: what it ended with does not count again */
-  const int counted = isfinite(run->raw.value) && s->span > 0 && !is_averaged(s);
-  if (counted) return;
+  if (isfinite(run->raw.value) && is_coarse(s)) return; /* it counted with its mean */
   if (now->tension.value > run->raw.value) run->raw = now->tension, run->raw_span = s->span;
   const int fits = window->marks && window->edges == watched_edges(&s->system.bodies[w]);
   if (!fits)
