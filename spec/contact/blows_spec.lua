@@ -141,7 +141,8 @@ end
 describe("a cable's end poked at a wall", function()
   -- (friction, tilt): ends that slide at once, and ends that stick and buckle. Where the tilt is
   -- that of friction either may happen, and where it sticks the buckled wire may slip off later.
-  for _, case in ipairs{ { "clamp", 0.06, 0.25, 0.3 }, { "clamp", 0.1, 0.25, 0.3 },
+  for _, case in ipairs{ { "clamp", 0.06, 0.25, 0.3 },
+    { "clamp", 0.1, 0.25, 0.3 },
     { "clamp", 0.06, 0.5, 0.3 }, { "gripper", 0.06, 0.25, 0.3 }, { "gripper", 0.1, 0.15, 0.3 },
     { "gripper", 0.06, 0.5, 0.3 }, { "gripper", 0.15, 0.45, 0.5 }, { "clamp", 0.045, 0.45, 0.1 } } do
     local by, free, tilt, friction = case[1], case[2], case[3], case[4]

@@ -33,6 +33,13 @@ force as a vector, and each edge's tension.
   A blow of impulse J that is shorter than the window counts as J/window, however short its steps.
   A step as long as the window or longer counts as it is, and this is said: "raw, in a step of 20 ms,
   longer than the window of 10 ms". So do equilibria: "at rest".
+  Hard blows are followed in parts of a step, of 0.1 ms at the shortest: where an obstacle gets more in
+  a step than the weight of the wire (or the force that bends it), and than ever before, and it comes or
+  goes within the step. Lighter ones are smeared over two steps; with steps as long as the window that may
+  be half of the peak. So are the forces of grippers and clamps that start or stop with a jerk: they are
+  those at the step's end, and too large by up to 3.4 where the step is long. "make stability" lists what
+  depends on the step.
+  Of a step of 10 ms or more a tension counts with its mean over the step.
   Steps may be uneven. max_tension looks at windows that end with a step, at least 1/16 of the window
   apart; the others at all windows that begin or end with a step.
 ]]
