@@ -448,6 +448,7 @@ int sw_contact_steady(const sw_contact *c) {
   return before == now && !c->impact_count && !c->plastic;
 }
 
+void sw_contact_cut(sw_contact *c, double least) { c->least = least; }
 double sw_contact_soonest(const sw_contact *c) { return c->soonest; }
 size_t sw_contact_impacts(const sw_contact *c) { return c->impact_count; }
 double sw_contact_struck(const sw_contact *c) { return c->struck; }

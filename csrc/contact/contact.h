@@ -127,6 +127,8 @@ sw_contact_verdict sw_contact_review(sw_contact *contact, sw_system *system, con
                                      const double *v1, double h);
 
 double sw_contact_soonest(const sw_contact *contact); /* after the step's start [s] */
+/* A step that began is not to be cut shorter than this [s]. */
+void sw_contact_cut(sw_contact *contact, double least);
 
 /* The same for statics: segments of a solution x1 that went through an obstacle
  * are kept on their side from now on. 1 = there were some, solve again. */

@@ -161,8 +161,6 @@ static meeting meet(double gap, double approach, double pull) {
 static const double HEIGHT_ERROR = 0.02;
 /* So is this share of the way in a whole step, which is an error of time [-]. */
 static const double WAY_ERROR = 1.0 / 8;
-/* Impacts closer than this share of a whole step are one [-]. */
-static const double SAME_TIME = 1.0 / 1024;
 /* A step that is cut ends this share of the time before the surface is met: the next one strikes at
  * its start [-]. */
 static const double LEFT_OPEN = 0.02;
@@ -175,7 +173,7 @@ static int is_too_early(sw_contact *c, double e, double gap, double pull, meetin
   if (c->regime == SW_CONTACT_EXPLICIT || gap <= CLOSED) return 0;
   if (fallen <= HEIGHT_ERROR * height && gap <= WAY_ERROR * m.speed * c->nominal) return 0;
   const double end = m.after < h ? (1.0 - LEFT_OPEN) * m.after : CUT_AGAIN * h;
-  if (end < SAME_TIME * c->nominal) return 0;
+  if (end < c->least) return 0;
   c->soonest = fmin(c->soonest, end);
   return 1;
 }

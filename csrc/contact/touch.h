@@ -162,6 +162,7 @@ struct sw_contact {
   sw_contact_regime regime;
   int plastic;     /* 1: the step is one that does not bounce */
   double soonest;  /* rebound that is not at the step's start, after it [s] */
+  double least;    /* rebounds sooner than this after the start are at the start [s] */
   double struck;   /* work of moving obstacles in the step's impacts [J] */
   int fresh;       /* SW_CONTACT_FRESH, or SW_CONTACT_EMERGING, or 0 */
   int updates;     /* of the stage so far [-] */

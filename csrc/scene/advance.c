@@ -50,6 +50,8 @@ __attribute__((constructor)) static void fill_choices(void) {
     if (run_rows[i].type == SW_PARAM_CHOICE) run_rows[i].choices = integrator_names();
 }
 
+/* Rebounds closer than this share of a step are one [-]. */
+static const double SAME_TIME = 1.0 / 1024;
 enum { MOST_REDOS = 40 }; /* impacts found one after another in one step [-] */
 static const double SMALLEST_SHARE = 1.0 / 4096; /* of a step, before giving up [-] */
 
@@ -133,6 +135,7 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
   sw_status status = sw_scene_begin_contact(
       s, s->method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
       s->time, h, followed(s, p->args->dt), err);
+  if (s->contact) sw_contact_cut(s->contact, SAME_TIME * p->args->dt);
   for (int redo = 0; status == SW_OK && redo < MOST_REDOS; redo++) {
     status = trial(p, h, err);
     if (status != SW_OK) break;

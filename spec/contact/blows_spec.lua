@@ -146,7 +146,8 @@ describe("a cable's end poked at a wall", function()
     { "clamp", 0.06, 0.5, 0.3 }, { "gripper", 0.06, 0.25, 0.3 }, { "gripper", 0.1, 0.15, 0.3 },
     { "gripper", 0.06, 0.5, 0.3 }, { "gripper", 0.15, 0.45, 0.5 }, { "clamp", 0.045, 0.45, 0.1 } } do
     local by, free, tilt, friction = case[1], case[2], case[3], case[4]
-    it(("bears the same force at every step: %s, %g m, %g rad, %g"):format(by, free, tilt, friction), function()
+    local title = ("bears the same force at every step: %s, %g m, %g rad, %g"):format(by, free, tilt, friction)
+    it(title, function()
       local least, most, ends = math.huge, 0, {}
       for _, dt in ipairs{ 0.01, 0.005, 0.002, 0.0005, 0.0002 } do
         local force, place = poked{ by = by, free = free, tilt = tilt, friction = friction, dt = dt }
