@@ -255,12 +255,19 @@ static int is_shaken(const sw_scene *s) {
   return s->contact && !s->stepper.wants_error && sw_contact_shaken(s->contact, &s->system);
 }
 
+/* Nodes that go into a guide press on what is beside it by no blow. */
+static int any_feed(const sw_scene *s) {
+  for (size_t k = 0; k < s->hold_count; k++)
+    if (s->holds[k].alive && s->holds[k].cls->feeds) return 1;
+  return 0;
+}
+
 /* A trial step of size h that went well: does it have to be redone in parts, for something struck?
  */
 static int is_jolted(loop *p, double h) {
   sw_scene *s = p->s;
   const int followed = s->time < s->blow_until;
-  if (!s->contact || (!followed && !(h > 1.01 * SHORTEST_PART))) return 0;
+  if (!s->contact || (!followed && !(h > 1.01 * SHORTEST_PART)) || any_feed(s)) return 0;
   const double jolt = sw_contact_jolt(s->contact, &s->system, followed);
   if (!(jolt > 0)) return 0;
   s->blow_until = s->time + fmax(BLOW, h);
