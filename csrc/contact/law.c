@@ -198,6 +198,7 @@ static sw_vec pulled(const sw_press *p, sw_vec u, sw_vec along, double most) {
   double length;
   const sw_vec d = direction(p, &length);
   sw_vec w;
+  if (p->by_place) return sw_norm(u) > SPRING_TOLERANCE ? sw_unit_or(u, u) : sw_v(0, 0, 0);
   if (p->sliding && length > SPRING_TOLERANCE)
     w = sw_scale(sw_madd(u, p->pulls, -sw_dot(d, along)), 1.0 / length);
   else

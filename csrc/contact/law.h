@@ -25,17 +25,19 @@ typedef struct sw_press {
   sw_vec trial;   /* tangential displacement from that anchor at this iterate [m] */
   sw_vec tangential; /* friction force after the last solve [N] */
   sw_vec next_pulls; /* pulls, as the last solve found it [-] */
-  sw_vec shift;      /* by the last solve [m] */
-  sw_vec slip;       /* how far the anchor slid in the step [m] */
-  int alternations;  /* of normal_force - lag until the last iterate [-] */
-  int active;        /* pushes in this iterate */
-  int let_go;        /* 1: not active in the next iterate, whatever its gap */
-  int take_on;       /* 1: active in the next iterate, whatever its gap */
-  int opened;        /* it pushed, until its solution */
-  double lift;       /* then: the force that takes its pull away [N] */
-  int spare;         /* so often it stays active though the last solve pulled [-] */
-  int sliding;       /* assumed in this iterate */
-  int next_sliding;  /* as the last solve found it */
+  int by_place; /* 1: pulls is the place's direction. Sections of meshes on a table, whose particles
+                   hold each other, do not settle with the other */
+  sw_vec shift; /* by the last solve [m] */
+  sw_vec slip;  /* how far the anchor slid in the step [m] */
+  int alternations; /* of normal_force - lag until the last iterate [-] */
+  int active;       /* pushes in this iterate */
+  int let_go;       /* 1: not active in the next iterate, whatever its gap */
+  int take_on;      /* 1: active in the next iterate, whatever its gap */
+  int opened;       /* it pushed, until its solution */
+  double lift;      /* then: the force that takes its pull away [N] */
+  int spare;        /* so often it stays active though the last solve pulled [-] */
+  int sliding;      /* assumed in this iterate */
+  int next_sliding; /* as the last solve found it */
 } sw_press;
 
 /* Stiffness of friction's spring [N/m]. */

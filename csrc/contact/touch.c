@@ -240,6 +240,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
         sw_unit_or(sw_madd(t.press.normal, sw_rotate(pose->q, place->along), lean), t.press.normal);
   }
   t.press.gap += sw_contact_aslant(c, k->node, k->other, at, t.press.normal);
+  t.press.by_place = web && web->per_ring;
   if (web) t.press.soft = web->per_ring ? k->hard : fmin(SOFTEST, (double)web->particles);
   sw_press *press = &t.press;
   /* what is found at an edge only now, and was there before, must not be thrown off it */
