@@ -319,27 +319,56 @@ static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k, con
   return 1;
 }
 
-/* From place to place along a candidate, in one go. */
+enum { ANYTHING, EDGES, FACES };
+
+/* Which part of a segment may cross what of an obstacle. */
+typedef struct crossing {
+  double from, to; /* along the segment [-] */
+  int on;          /* ANYTHING, EDGES, FACES */
+} crossing;
+
+/* From place to place along a candidate, in one go. Edges are met by the smooth curve, faces by
+ * chords: a wire that lands flat meets them with its nodes, and shares of three of these would kick
+ * it more than once. 1: there is something, changed is set if it is new. */
 static int cross_part(sw_contact *c, sw_system *s, const sw_candidate *k, const double *x1,
-                      double h, double from, double to) {
+                      double h, crossing part, int *changed) {
   const sw_pose *p0 = &c->start[k->obstacle].pose, *p1 = &c->now[k->obstacle].pose;
-  const sw_mean a = sw_contact_spot(s, k, from), b = sw_contact_spot(s, k, to);
+  const sw_mean a = sw_contact_spot(s, k, part.from), b = sw_contact_spot(s, k, part.to);
   const sw_vec a0 = sw_pose_local(*p0, sw_mean_place(c, s->x, &a));
   const sw_vec b0 = sw_pose_local(*p0, sw_mean_place(c, s->x, &b));
   const sw_vec a1 = sw_pose_local(*p1, sw_mean_place(c, x1, &a));
   const sw_vec b1 = sw_pose_local(*p1, sw_mean_place(c, x1, &b));
   const double shift2 = fmax(sw_norm2(sw_sub(a1, a0)), sw_norm2(sw_sub(b1, b0)));
   if (shift2 < SAFE_SHIFT * SAFE_SHIFT * k->skin * k->skin) return 0;
+  const sw_shape *shape = c->obstacles[k->obstacle].shape;
   sw_closest hit;
   double when;
-  if (!sw_shape_sweep(c->obstacles[k->obstacle].shape, a0, b0, a1, b1, 0.0, &hit, &when)) return 0;
-  hit.at = from + hit.at * (to - from);
-  return raise_barrier(c, s, k, &hit, h);
+  if (!sw_shape_sweep(shape, a0, b0, a1, b1, 0.0, &hit, &when)) return 0;
+  hit.at = part.from + hit.at * (part.to - part.from);
+  sw_vec along;
+  const int sharp =
+      part.on != ANYTHING && sw_shape_sharp(shape, hit.feature, &along) != SW_SHARP_NOT;
+  if (part.on != ANYTHING && sharp != (part.on == EDGES)) return 0;
+  *changed |= raise_barrier(c, s, k, &hit, h);
+  return 1;
 }
 
 static int cross(sw_contact *c, sw_system *s, const sw_candidate *k, const double *x1, double h) {
-  if (!k->smooth) return cross_part(c, s, k, x1, h, 0.0, 1.0);
-  return cross_part(c, s, k, x1, h, 0.0, 0.5) | cross_part(c, s, k, x1, h, 0.5, 1.0);
+  const crossing whole = {0.0, 1.0, FACES}, first = {0.0, 0.5, EDGES}, second = {0.5, 1.0, EDGES};
+  int changed = 0;
+  if (!k->smooth) {
+    cross_part(c, s, k, x1, h, (crossing){0.0, 1.0, ANYTHING}, &changed);
+    return changed;
+  }
+  sw_candidate chord = *k;
+  chord.smooth = 0;
+  int found = cross_part(c, s, &chord, x1, h, whole, &changed);
+  found |= cross_part(c, s, k, x1, h, first, &changed);
+  found |= cross_part(c, s, k, x1, h, second, &changed);
+  /* where the chord meets an edge and the curve a face */
+  if (!found) cross_part(c, s, k, x1, h, (crossing){0.0, 0.5, ANYTHING}, &changed);
+  if (!found) cross_part(c, s, k, x1, h, (crossing){0.5, 1.0, ANYTHING}, &changed);
+  return changed;
 }
 
 /* h = 0: statics, there are no speeds to change. */

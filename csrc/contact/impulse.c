@@ -143,7 +143,8 @@ static int comes_and_goes(const sw_contact_loads *l, const sw_system *s, const s
   return is_shock(s, p, end, mean) || is_shock(s, p, middle, mean);
 }
 
-/* A gripper's pads close on a wire: they have ways of their own to do so slowly. */
+/* A gripper's pads close on a wire: they have ways of their own to do so slowly. Places on edges go
+ * with the curve, and in the shortest parts of a crash cut too deep for it. */
 double sw_contact_jolt(sw_contact *c, const sw_system *s, int followed) {
   const sw_contact_load none = {.force = {.x = 0}};
   double hardest = 0;
@@ -158,7 +159,7 @@ double sw_contact_jolt(sw_contact *c, const sw_system *s, int followed) {
     const double size = sw_norm(mean), usual = sw_contact_usual_force(s, p);
     const double least = followed ? fmax(HARD * usual, GOES_ON * l->past.hardest)
                                   : fmax(LIGHT * usual, HARDER * l->past.hardest);
-    if (p->web || c->obstacles[t->obstacle].grips > 0 || !(size > least)) continue;
+    if (p->web || t->sharp || c->obstacles[t->obstacle].grips > 0 || !(size > least)) continue;
     if (!comes_and_goes(l, s, p, mean, l->trial.force)) continue;
     if (!followed) l->past.hardest = size;
     hardest = fmax(hardest, size / usual);

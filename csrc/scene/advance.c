@@ -52,6 +52,8 @@ __attribute__((constructor)) static void fill_choices(void) {
 
 /* Rebounds closer than this share of a step are one [-]. */
 static const double SAME_TIME = 1.0 / 1024;
+static const double SAME_TIME_CONTROLLED = 1.0 / 4; /* of the longest, in steps by tolerance [-] */
+enum { MOST_CUTS = 8 };   /* at rebounds, of a step: what rattles is followed no further [-] */
 enum { MOST_REDOS = 40 }; /* impacts found one after another in one step [-] */
 static const double SMALLEST_SHARE = 1.0 / 4096; /* of a step, before giving up [-] */
 
@@ -73,6 +75,7 @@ typedef struct loop {
   double *v_start; /* velocities at the step's start, which impacts change */
   int redo;        /* AS_IS, or how the step is redone, for it made energy */
   double soonest;  /* a rebound asks the step to end then, after its start; 0 = none does [s] */
+  int cuts;        /* of this step, at rebounds [-] */
   sw_error held;   /* what the last rejected part was rejected for */
   int smooth;      /* 1: the step that was rejected last made energy where nothing touches */
   int changed;     /* 1: the scene was, since the last step: its energy is not judged */
@@ -117,10 +120,23 @@ static sw_status trial(loop *p, double h, sw_error *err) {
  * Harder ones than any before are followed in parts for so long [s], in at least so many of them a
  * step [-], but none shorter than this [s]. */
 static const double BLOW = 0.01, MOST_PARTS = 100, SHORTEST_PART = 1e-4;
+/* What goes on longer is no blow but a rattle, and costs too much to be followed [s]. */
+static const double LONGEST_BLOW = 0.03;
+/* From one that is followed to the next: a wire that tumbles would be followed all the time [s]. */
+static const double BETWEEN_BLOWS = 0.1;
+
+/* A blow of which no part succeeds that is this share of the usual ones is not followed [-]. */
+static const double SMALLEST_FOLLOWED = 1.0 / 16;
 
 /* The step to take: one that follows a blow is shorter than asked for [s]. */
 static double followed(const sw_scene *s, double h) {
   return s->time < s->blow_until ? fmin(h, fmax(s->blow_part, SHORTEST_PART)) : h;
+}
+
+/* The shortest part of a step that may end at a rebound [s]. */
+static double shortest_cut(const loop *p) {
+  if (isfinite(p->args->tolerance)) return SAME_TIME_CONTROLLED * p->args->dt;
+  return p->cuts < MOST_CUTS ? SAME_TIME * p->args->dt : HUGE_VAL;
 }
 
 /* One step of size h, redone as long as contact finds impacts. */
@@ -135,7 +151,7 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
   sw_status status = sw_scene_begin_contact(
       s, s->method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
       s->time, h, followed(s, p->args->dt), err);
-  if (s->contact) sw_contact_cut(s->contact, SAME_TIME * p->args->dt);
+  if (s->contact) sw_contact_cut(s->contact, shortest_cut(p));
   for (int redo = 0; status == SW_OK && redo < MOST_REDOS; redo++) {
     status = trial(p, h, err);
     if (status != SW_OK) break;
@@ -269,10 +285,13 @@ static int any_feed(const sw_scene *s) {
 static int is_jolted(loop *p, double h) {
   sw_scene *s = p->s;
   const int followed = s->time < s->blow_until;
-  if (!s->contact || (!followed && !(h > 1.01 * SHORTEST_PART)) || any_feed(s)) return 0;
+  if (!s->contact || s->pairs || (!followed && !(h > 1.01 * SHORTEST_PART)) || any_feed(s))
+    return 0;
+  if (!followed && s->blow_until > 0 && s->time < s->blow_since + BETWEEN_BLOWS) return 0;
   const double jolt = sw_contact_jolt(s->contact, &s->system, followed);
   if (!(jolt > 0)) return 0;
-  s->blow_until = s->time + fmax(BLOW, h);
+  if (!followed) s->blow_since = s->time;
+  s->blow_until = fmin(s->time + fmax(BLOW, h), s->blow_since + fmax(LONGEST_BLOW, h));
   if (!followed) s->blow_part = fmax(SHORTEST_PART, h / fmin(jolt * fmax(2.0, jolt), MOST_PARTS));
   return !followed;
 }
@@ -344,6 +363,8 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
   double done = 0, part = h;
   sw_error failed = {""}; /* why a part of this step was refused last */
   int starts = s->discontinuous && sw_slip_any(s), cut = 0; /* cut: at a rebound */
+  int follows = 1;                                          /* blows */
+  p->cuts = 0;
   if (starts) part = FIRST_SLIP * h;
   p->changed = s->discontinuous > 0;
   while (done < h) {
@@ -355,7 +376,8 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
     if (!(part >= SMALLEST_SHARE * SMALLEST_SHARE * h))
       return sw_feed_too_fast(s, failed.text, err);
     const sw_status status = judged_attempt(p, part, 0.5 * part < SMALLEST_SHARE * h, err);
-    if (status == SW_OK && is_jolted(p, part)) { /* not refused: it only told of the blow */
+    if (status == SW_OK && follows &&
+        is_jolted(p, part)) { /* not refused: it only told of the blow */
       undo(p);
       continue;
     }
@@ -374,6 +396,11 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
     p->report->rejected++;
     p->held = *err;
     cut = p->soonest > 0;
+    p->cuts += cut;
+    if (follows && !cut && s->time < s->blow_until && part < SMALLEST_FOLLOWED * s->blow_part) {
+      follows = 0, part = 2.0 * h;
+      s->blow_until = s->time;
+    }
     if (!p->smooth && !cut) s->discontinuous = 1;
     part = cut ? p->soonest : 0.5 * part;
     if (part < SMALLEST_SHARE * h) return status;
