@@ -70,7 +70,11 @@ local function check(o)
 end
 
 describe("the force on obstacles adds up to the momentum", function()
-  for _, method in ipairs(core.registry().integrators) do
+  local methods = {}
+  for _, method in ipairs(core.registry().integrators) do -- generalized-alpha: not for contact, and says so
+    if method.name ~= "generalized-alpha" then methods[#methods + 1] = method end
+  end
+  for _, method in ipairs(methods) do
     it("by " .. method.name, function()
       for _, e in ipairs{ 0, 0.8 } do
         if not method.implicit then
