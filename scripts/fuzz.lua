@@ -14,7 +14,11 @@ usage: build/softworld scripts/fuzz.lua [option=value ...]
 Every case runs in a process of its own. A failing one is made shorter by leaving out calls, and
 printed. The last line is "N calls, M findings"; the exit status is 1 when there are any.]]
 
-local lfs = require "lfs"
+local found, lfs = pcall(require, "lfs")
+if not found then
+  io.stderr:write "fuzz: lua-filesystem is missing; sh scripts/test.sh installs what tests need\n"
+  os.exit(1)
+end
 
 local options = { seed = 1, calls = 2e4, per = 150, cpu = 30, slow = 6, shrink = 1, tries = 150 }
 for _, word in ipairs(arg) do
