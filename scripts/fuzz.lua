@@ -14,8 +14,8 @@ usage: build/softworld scripts/fuzz.lua [option=value ...]
 Every case runs in a process of its own. A failing one is made shorter by leaving out calls, and
 printed. The last line is "N calls, M findings"; the exit status is 1 when there are any.]]
 
-local found, lfs = pcall(require, "lfs")
-if not found then
+local has_lfs, lfs = pcall(require, "lfs")
+if not has_lfs then
   io.stderr:write "fuzz: lua-filesystem is missing; sh scripts/test.sh installs what tests need\n"
   os.exit(1)
 end
