@@ -211,7 +211,7 @@ void sw_contact_stiffness(sw_contact_regime regime, double force, double nominal
  * gives way by that much less than the mesh beside it does: no force makes it sink in any deeper
  * than that. Between plates the force of a fine section is less by 3 % at 1, by 0.4 % at 10 than at
  * 100, whatever its size, modulus and slices [-]. */
-static const double HARDER = 10.0;
+static const double HARDER = 15.0;
 /* Of objects of particles, which are pressed as a whole: a block of foam ten elements high is
  * softer by 3 % at 10, by 1 % at 30 [-]. */
 static const double HARDER_LOOSE = 30.0;

@@ -24,6 +24,8 @@ static const double DROWNED = 100.0;
 /* A spring stretched this many times over what friction can hold does not stick,
  * whatever the prediction is worth [-]. */
 static const double SURELY_SLIDING = 20.0;
+/* Where the direction comes from the place, a slide may turn round so often, then it sticks [-]. */
+enum { REVERSALS = 3 };
 
 /* Wires that are deeper inside than their force explains are let out at this speed; meshes, whose
  * sections may stand off the line that they come from, so slowly that they are not thrown [m/s]. */
@@ -81,7 +83,8 @@ void sw_press_aim(sw_press *p, sw_vec u, const sw_press *last, int same, double 
 void sw_press_begin(sw_press *p, double friction, int known, double felt) {
   const double most = friction * p->lag, grip = sw_press_grip(p), length = sw_norm(p->trial);
   if (!known) p->sliding = grip * length > most, p->pulls = sw_v(0, 0, 0);
-  if (fmin(grip, felt) * length > SURELY_SLIDING * most) p->sliding = 1;
+  const int surely = fmin(grip, felt) * length > SURELY_SLIDING * most;
+  if (surely && p->reversals < REVERSALS) p->sliding = 1;
 }
 
 /* Which way a touch slides, and how long its spring is. None that is known: zero. */
@@ -114,6 +117,7 @@ sw_vec sw_press_eval(sw_press *p, double friction, int lagged, double K[6]) {
   const double most = friction * p->lag, grip = sw_press_grip(p);
   double length;
   const sw_vec d = direction(p, &length);
+  if (p->by_place) p->pulls = d;
   if (!lagged) p->next_sliding = p->sliding = grip * length > most;
   p->tangential = p->sliding ? sw_scale(d, -most) : sw_scale(p->trial, -grip);
   p->slip = sw_add(p->carried, sw_madd(p->trial, p->tangential, 1.0 / grip));
@@ -211,7 +215,11 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
   const double length = sw_norm(u), most = friction * p->normal_force;
   const double grip = sw_press_grip(p), small = grip * SPRING_TOLERANCE;
   const int beyond = grip * length > most;
-  p->next_sliding = beyond;
+  /* that of by_place is found by its state: one that turns round in an iterate sticks in the next
+   */
+  const int reversed = p->by_place && p->sliding && sw_dot(u, p->trial) < 0;
+  p->next_sliding = beyond && !reversed;
+  p->reversals += reversed;
   p->next_pulls = pulled(p, u, moved, most);
   p->tangential = sw_scale(u, -(beyond && length > 0 ? most / length : grip));
   p->slip = sw_add(p->carried, sw_madd(u, p->tangential, 1.0 / grip));

@@ -30,13 +30,14 @@ typedef struct sw_press {
   sw_vec shift; /* by the last solve [m] */
   sw_vec slip;  /* how far the anchor slid in the step [m] */
   int alternations; /* of normal_force - lag until the last iterate [-] */
-  int active;       /* pushes in this iterate */
-  int let_go;       /* 1: not active in the next iterate, whatever its gap */
-  int take_on;      /* 1: active in the next iterate, whatever its gap */
-  int opened;       /* it pushed, until its solution */
-  double lift;      /* then: the force that takes its pull away [N] */
-  int spare;        /* so often it stays active though the last solve pulled [-] */
-  int sliding;      /* assumed in this iterate */
+  int reversals; /* by_place: of the slide in this stage, or where a static solve is dragged [-] */
+  int active;    /* pushes in this iterate */
+  int let_go;    /* 1: not active in the next iterate, whatever its gap */
+  int take_on;   /* 1: active in the next iterate, whatever its gap */
+  int opened;    /* it pushed, until its solution */
+  double lift;   /* then: the force that takes its pull away [N] */
+  int spare;     /* so often it stays active though the last solve pulled [-] */
+  int sliding;   /* assumed in this iterate */
   int next_sliding; /* as the last solve found it */
 } sw_press;
 

@@ -146,6 +146,9 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == c->stage, c->first);
   press->lag = m ? m->normal_force : press->k * fmax(0.0, -press->gap);
   if (last) sw_press_take_lag(press, &last->press);
+  const int turned = last && last->press.reversals > 0, moving = c->regime == SW_CONTACT_IMPLICIT;
+  if (turned && (moving ? c->updates > 0 : sw_contact_moves(c)))
+    press->reversals = last->press.reversals;
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
   const int went_on = last && last->press.active;
   t->friction = m && m->sliding ? o->kinetic : o->friction;
