@@ -172,7 +172,8 @@ function topics.reference()
   local r = registered()
   return { { "make", sorted_names(r.params) }, { "models", names_of(r.models) },
     { "holds", names_of(r.holds) }, { "obstacles", names_of(r.shapes) },
-    { "forces", names_of(outer(r.forces)) }, { "integrators", names_of(r.integrators) }, { "readouts", names_of(r.readouts) } }
+    { "forces", names_of(outer(r.forces)) }, { "integrators", names_of(r.integrators) },
+    { "readouts", names_of(r.readouts) } }
 end
 
 --- All topics, as text.

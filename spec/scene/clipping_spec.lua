@@ -128,6 +128,7 @@ describe("a wire that is pulled out askew", function()
 
   it("says so where edges are longer", function()
     local _, told = pulled(20, 0)
-    assert.is_truthy(told and told:find("its edges of 5 mm should be a quarter of the clip's width", 1, true), told)
+    local advice = "its edges of 5 mm should be a quarter of the clip's width"
+    assert.is_truthy(told and told:find(advice, 1, true), told)
   end)
 end)

@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A wire of the scene, and read-outs of one that is a mesh of particles. Shared by the files of
+ * this room only. */
+#ifndef SW_SCENE_LINE_H
+#define SW_SCENE_LINE_H
+
+#include "scene/scene.h"
+#include "scene/section.h"
+#include "scene/strand.h"
+#include "scene/window.h"
+#include "state/mesh.h"
+#include "system/system.h"
+
+/* A twisted stretch of wire while the scene is not built. */
+typedef struct sw_twisted {
+  double s1, s2; /* [m] */
+  double twist;  /* total [rad] */
+} sw_twisted;
+
+/* What a wire was drawn along, to be meshed again as if it were made now. */
+typedef struct sw_drawing {
+  double *points; /* (count x 3) [m] */
+  size_t count;
+  double length;        /* of the first mesh [m] */
+  sw_vec normal;        /* of the section; NAN = not given [-] */
+  int rest;             /* SW_REST_STRAIGHT, SW_REST_PATH */
+  int rolls;            /* 1: it turns about itself with inertia */
+  double rest_twist;    /* [rad/m] */
+  double breaking_load; /* NAN = not known [N] */
+  int breaking_flag;    /* see sw_wire_args */
+} sw_drawing;
+
+typedef struct sw_scene_wire {
+  uint32_t generation;
+  char name[SW_NAME_SIZE];
+  const sw_wire_class *cls;
+  sw_beam beam;
+  sw_mesh mesh;     /* authoritative while the scene is not built */
+  sw_strand strand; /* of a model that is a mesh of particles; else without a web */
+  sw_drawing drawing;
+  sw_wire_extremes extremes;
+  sw_window window; /* of the tension */
+  sw_twisted *twisted;
+  size_t twisted_count;
+  int untwisted; /* 1: lies as it was drawn, without the twist it has unloaded; nothing has moved */
+} sw_scene_wire;
+
+/* 1: an object of particles in no order along a wire. It has no arc length, and its mesh is a
+ * straight line of its size. */
+static inline int sw_scene_is_loose(const sw_scene_wire *wire) {
+  return wire->strand.web && !wire->strand.web->per_ring;
+}
+
+/* SW_EINVAL when the wire is a mesh of particles, which does not go with what. */
+sw_status sw_scene_check_line(const sw_scene_wire *wire, const char *what, sw_error *err);
+
+/* Rings between the arc lengths s1 and s2, at least the nearest one to their middle, as those
+ * of its first and last [m]. */
+void sw_strand_rings(const sw_mesh *mesh, double *s1, double *s2);
+/* 1: a hold of this class holds the particle. */
+static inline int sw_strand_holds(const sw_web *web, const sw_hold_class *cls, size_t particle) {
+  const size_t ring = sw_web_ring_of(web, particle);
+  return cls->clamped || !sw_web_is_ring(web, ring) || particle - web->first[ring] == web->axis;
+}
+/* The system's state to the strand and the middles of its rings. SW_ENOMEM. */
+sw_status sw_strand_take(sw_scene_wire *wire, const sw_system *system, const sw_body *body);
+/* Read-outs at arc length s; extremes. */
+void sw_strand_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_body *body, double s,
+                  sw_point_state *out);
+/* Bending moment in the slice of a mesh that has a place [m], [N m]. */
+double sw_strand_moment(const sw_plan *plan, const double *x, double place);
+/* Tells of a wire whose largest tension is above its breaking load. */
+void sw_scene_watch_breaking(sw_scene *scene, size_t wire, const sw_wire_extremes *now);
+/* The same at the end of a run, of runs that were shorter than the window. */
+void sw_scene_end_breaking(sw_scene *scene);
+/* And as the end of a sentence, or nothing. */
+void sw_scene_tell_broken(const sw_scene *scene, char *out, size_t size);
+/* Tells of a tube that is folded at one place. */
+void sw_scene_watch_kink(sw_scene *scene, size_t wire, const sw_wire_extremes *now);
+/* tension (rings - 1), or NULL: what is carried between two rings [N]. */
+void sw_strand_extremes(const sw_scene *scene, size_t wire, double *tension, sw_wire_extremes *now);
+
+/* Middle of ring number r of particles at x, and the direction across the area that its surface
+ * encloses [m], [-]. */
+sw_vec sw_strand_middle(const sw_web *web, const double *x, size_t ring);
+sw_vec sw_strand_facing(const sw_web *web, const double *x, size_t ring);
+/* How wide an outline (count x 3) is across the tangent. */
+typedef struct sw_widths {
+  double least, largest;         /* [m] */
+  sw_vec least_way, largest_way; /* [-] */
+} sw_widths;
+enum { SW_OUTLINE = SW_CELL_PARTICLES }; /* most points of an outline [-] */
+sw_widths sw_outline_widths(const double *outline, size_t count, sw_vec tangent);
+/* See sw_section_shape; and for all rings at once, of the one that is out of round most [-]. */
+double sw_outline_ovalisation(const sw_web *web, const double *outline, sw_vec tangent);
+sw_extreme sw_strand_ovalisation(const sw_web *web, const double *x);
+/* How far the worst face of a section of springs is turned over: minus its area over that at rest,
+ * above 0 when it is [-]. */
+sw_extreme sw_strand_folding(const sw_web *web, const double *x);
+/* Points of the outline (count x 3) moved outwards by skin. */
+void sw_outline_widen(const double *outline, size_t count, sw_vec tangent, double skin,
+                      double *out);
+/* The outline of ring number r [m]. */
+void sw_strand_outline(const sw_web *web, const double *x, size_t ring, double *out);
+/* Forces of obstacles on the particles of a body: across the surface (particles) and, unless
+ * NULL, in all (particles x 3) [N]. */
+void sw_strand_pressed(const sw_scene *scene, const sw_body *body, double *normal, double *force);
+
+/* The wire of a handle, in a scene that is built, readable and refreshed. */
+sw_status sw_scene_open_wire(sw_scene *scene, sw_handle h, sw_scene_wire **wire, sw_error *err);
+/* SW_EINVAL when place is no arc length of the wire. */
+sw_status sw_scene_check_place(const sw_scene_wire *wire, double place, sw_error *err);
+
+/* What a mesh of this class for the wire is to be of. */
+sw_strand_plan sw_scene_strand_plan(const sw_scene_wire *wire, const sw_wire_class *cls,
+                                    const sw_wire_mesh_args *mesh);
+
+/* The wire is as drawn: not twisted anywhere. SW_ENOMEM. */
+sw_status sw_scene_draw_untwisted(sw_scene_wire *wire);
+
+/* The object of a handle, or NULL with err set. A body is a wire or an object of particles. */
+sw_scene_wire *sw_scene_find_body(const sw_scene *scene, sw_handle h, sw_error *err);
+sw_scene_wire *sw_scene_find_wire(const sw_scene *scene, sw_handle h, sw_error *err);
+/* A wire's mesh as drawn, of some segments; frames too. SW_ENOMEM. */
+sw_status sw_scene_draw(sw_scene_wire *wire, size_t segments, sw_mesh *out, sw_error *err);
+/* May the wire, as it is given, be in the scene with its forces and rules? */
+sw_status sw_scene_check_rules(const sw_scene *scene, size_t wire, const sw_scene_wire *as,
+                               sw_error *err);
+/* The body of a handle, in a scene that is built, readable and refreshed. */
+sw_status sw_scene_open_body(sw_scene *scene, sw_handle h, sw_scene_wire **body, sw_error *err);
+/* Free what these slots own. */
+void sw_scene_clear_body(sw_scene_wire *body);
+/* What frames tell of each node of the wire, SW_FRAME_VALUES numbers; n nodes. */
+void sw_scene_node_values(sw_scene *scene, size_t wire, size_t n, double *out);
+/* The class of a wire or of objects of particles; NULL: there is none of this name. */
+const sw_wire_class *sw_scene_body_class(const char *name);
+
+#endif
