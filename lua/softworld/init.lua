@@ -43,7 +43,7 @@ local save = require "softworld.save" -- scene:save, scene:resume, scene:find
 
 --- A new scene. { name =, gravity = {x, y, z} [m/s2] }
 function sw.scene(args)
-  if type(args) == "table" then remarks.gravity(args.gravity) end
+  if type(args) == "table" then remarks.gravity(rawget(args, "gravity")) end
   return build.call(3, core.scene, args)
 end
 
