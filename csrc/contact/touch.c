@@ -220,7 +220,6 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
         sw_press_forgiven(depth, explained, slowly ? c->stage_time - c->time : c->h, slowly);
     t.let_out = sw_press_let_out(depth, explained, t.forgiven);
   }
-  if (m && web) t.hardened = 0.5 * m->depth * fmax(0.0, stiffness * m->depth - m->normal_force);
   press->gap += t.forgiven;
   press->gap_after = press->gap;
   if (c->regime == SW_CONTACT_STATIC && m && web && web->per_ring) press->spare = SPARE_PULLS;
