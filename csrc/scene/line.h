@@ -53,6 +53,9 @@ static inline int sw_scene_is_loose(const sw_scene_wire *wire) {
 
 /* SW_EINVAL when the wire is a mesh of particles, which does not go with what. */
 sw_status sw_scene_check_line(const sw_scene_wire *wire, const char *what, sw_error *err);
+/* May it touch others? Wires that are lines and objects of particles do, sections of meshes do not.
+ */
+sw_status sw_scene_check_touching(const sw_scene_wire *wire, sw_error *err);
 
 /* Rings between the arc lengths s1 and s2, at least the nearest one to their middle, as those
  * of its first and last [m]. */
