@@ -249,7 +249,10 @@ static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t
     k->usual = fmax(base, rate2 * k->mass);
     if (k->samples) k->usual *= LEAST_SAMPLES / (double)k->samples;
     k->given = p->web && c->regime != SW_CONTACT_EXPLICIT;
-    if (k->given) k->usual = fmax(k->usual, sw_contact_hardness(p->web, k->node - first_node));
+    if (k->given) {
+      k->usual = fmax(k->usual, sw_contact_hardness(p->web, k->node - first_node));
+      k->hard = HARDER;
+    }
     if (!(grips > 0) || p->web) continue;
     const double soft = pad_stiffness(p, k, k->node - first_node, grips);
     k->given = c->regime != SW_CONTACT_EXPLICIT;

@@ -61,8 +61,7 @@ static void add_outer(double out[9], sw_vec a, sw_vec b, double f) {
 static void block(const lever *l, sw_vec n, const double K[6], int i, int j, double out[9]) {
   const double P[6] = {1 - n.x * n.x, -n.x * n.y, -n.x * n.z,
                        1 - n.y * n.y, -n.y * n.z, 1 - n.z * n.z};
-  for (int m = 0; m < 9; m++)
-    out[m] = l->w[i] * l->w[j] * (K[FULL[m]] + l->f * P[FULL[m]]);
+  for (int m = 0; m < 9; m++) out[m] = l->w[i] * l->w[j] * (K[FULL[m]] + l->f * P[FULL[m]]);
   if (l->f == 0) return;
   add_outer(out, l->g[0][i], l->g[0][j], -l->f * l->Q[0]);
   add_outer(out, l->g[1][i], l->g[1][j], -l->f * l->Q[2]);

@@ -32,8 +32,8 @@ static const sw_grain_touch *recall(const sw_grains *g, const sw_system *s, cons
     if (m->pair.node[0] != k->node[0] || m->pair.end[0] != k->end[0]) break;
     if (m->pair.node[1] > k->node[1] + (wire ? 1u : 0u)) break;
     if (m->pair.body[1] != k->body[1] || (!wire && m->pair.end[1] != k->end[1])) continue;
-    const double d = wire ? fabs((double)m->pair.node[1] + m->at[1] - (double)k->node[1] - at[1])
-                          : 0.0;
+    const double d =
+        wire ? fabs((double)m->pair.node[1] + m->at[1] - (double)k->node[1] - at[1]) : 0.0;
     if (d < nearest) best = m, nearest = d;
   }
   return best;
@@ -97,8 +97,7 @@ static void set_touch(sw_grains *g, const sw_system *s, const double *y, size_t 
   const sw_grain_touch *m = recall(g, s, k, at), *last = g->last[i].stage ? &g->last[i] : NULL;
   const int pressed = m && m->press.normal_force > 0;
   const int is_explicit = g->regime == SW_CONTACT_EXPLICIT;
-  *t = (sw_grain_touch){
-      .pair = *k, .at = {at[0], at[1]}, .stage = g->stage, .barred = barred};
+  *t = (sw_grain_touch){.pair = *k, .at = {at[0], at[1]}, .stage = g->stage, .barred = barred};
   for (int n = 0; n < 2; n++) t->slides[n] = slides && at[n] > 0 && at[n] < 1;
   sw_press *press = &t->press;
   press->gap = gap, press->normal = normal;
@@ -163,7 +162,7 @@ static int crosses(const double *y, const sw_grain_pair *k, double at[2]) {
   const sw_vec v = sw_sub(sw_vec_at(y, k->end[1]), sw_vec_at(y, k->node[1]));
   if (!(sw_norm2(sw_cross(u, v)) > PARALLEL * sw_norm2(u) * sw_norm2(v))) return 0;
   sw_grain_nearest(y, k, at);
-  return at[0] > 0 && at[0]<1 && at[1]> 0 && at[1] < 1;
+  return at[0] > 0 && at[0] < 1 && at[1] > 0 && at[1] < 1;
 }
 
 /* Where the two touch; 0: that is for others to say. Edges cross within both. A point has its place

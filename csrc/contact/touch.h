@@ -22,6 +22,7 @@ typedef struct sw_candidate {
   size_t memory, memory_end; /* matching range of the memory */
   size_t last, last_end;     /* matching range of the last iterate's touches */
   double usual;              /* stiffness of a new touch [N/m] */
+  double hard;               /* so many times that of what holds a mesh's particle, or 0 [-] */
   int given;                 /* 1: it keeps that, however deep it gets */
   int samples; /* it touches at so many places, evenly along the segment; 0: at the nearest ones */
 } sw_candidate;

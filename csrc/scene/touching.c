@@ -9,7 +9,7 @@
 
 static const sw_param rows[] = {
     {"between", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
-     "a wire or a list of wires (default: every wire, those to come too)"},
+     "a wire, an object of particles or a list of these (default: all, those to come too)"},
     {"friction", SW_PARAM_NUMBER, "-", 0.3, 0, 100, 0, NULL,
      offsetof(sw_wire_contact_args, friction), "Coulomb friction coefficient"},
     {"self", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, offsetof(sw_wire_contact_args, self),
@@ -262,8 +262,9 @@ static sw_pair_place loose_first(const sw_scene *s, sw_pair_place p) {
 
 void sw_scene_wire_touch(sw_scene *s, size_t number, sw_wire_touch *out) {
   const size_t wires = s->pairs ? sw_pairs_count(s->pairs) : 0;
-  const sw_pair_place p = number < wires ? sw_pairs_place(s->pairs, number)
-                                         : loose_first(s, sw_grains_place(s->grains, number - wires));
+  const sw_pair_place p = number < wires
+                              ? sw_pairs_place(s->pairs, number)
+                              : loose_first(s, sw_grains_place(s->grains, number - wires));
   sw_vec at[2];
   for (int k = 0; k < 2; k++) {
     at[k] = touched_at(s, &p, k, &out->s[k]);

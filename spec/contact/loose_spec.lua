@@ -183,8 +183,8 @@ describe("an object of particles", function()
     local strip = scene:particles{ positions = positions, masses = 1e-5, links = links, radius = R }
     local hand = scene:hold(strip, { particles = { 1, 2 } })
     scene:wire_contact{ friction = 0.3 }
-    hand:follow{ points = { { 0, 0, 0 }, { 20 * R, 0, 30 * R }, { 50 * R, 0, 20 * R }, { 50 * R, 0, 2.5 * R } },
-      duration = 1, relative = true }
+    hand:follow{ points = { { 0, 0, 0 }, { 20 * R, 0, 30 * R }, { 50 * R, 0, 20 * R },
+      { 50 * R, 0, 2.5 * R } }, duration = 1, relative = true }
     t.fine(scene:run{ duration = 1.5, dt = 5e-3 })
     assert.is_true(scene:contacts() > 20)
     t.below(0.1 * R, (scene:penetration()), "penetration")
