@@ -114,6 +114,7 @@ sw_status sw_grains_begin_look(sw_grains *g, sw_system *s, sw_error *err) {
 
 sw_status sw_grains_eval(sw_grains *g, sw_system *s, const double *y, unsigned want,
                          sw_error *err) {
+  if (g->regime == SW_CONTACT_EXPLICIT) sw_grains_begin_stage(g, 0); /* nobody else does */
   sw_status status = sw_grains_look(g, s, y);
   for (size_t i = 0; i < g->pair_count && status == SW_OK; i++) {
     sw_grain_touch *t = &g->now[i];

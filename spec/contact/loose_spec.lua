@@ -88,6 +88,22 @@ describe("an object of particles", function()
     end)
   end
 
+  it("is kept up by a wire with explicit methods too", function()
+    for _, method in ipairs{ "symplectic-euler", "velocity-verlet" } do
+      local scene = sw.scene{ gravity = { 0, 0, -G } }
+      local wire = scene:wire{ model = "string", E = 1e7, density = 1200, radius = R, from = { -0.02, 0, 0 },
+        to = { 0.02, 0, 0 }, segments = 8 }
+      scene:clamp(wire, { s = 0 })
+      scene:clamp(wire, { s = 0.04 })
+      local object = scene:particles{ positions = { { -R, 0, 2.05 * R }, { 3 * R, 0, 2.05 * R } }, masses = 1e-4,
+        links = { { 1, 2, k = 100 } }, radius = R }
+      scene:wire_contact{ friction = 0.3 }
+      t.fine(scene:run{ duration = 0.02, dt = 2e-5, integrator = method })
+      -- free, it would have fallen by 2 mm
+      t.above(1.6 * R, (object:particle(1))[3], method .. ": height")
+    end
+  end)
+
   it("slides along wires as Coulomb has it", function()
     for _, share in ipairs{ 0.95, 1.1 } do
       local mu, a = 0.4, math.atan(0.4 * share)
