@@ -196,10 +196,13 @@ static double jolt(const sw_scene *s, const sw_step_energy *step) {
   return fastest > 0 ? s->books.mass * fastest * fastest + step->work : 0.0;
 }
 
-/* Pads are as soft as the wire, and share their force out among the places that touch. The
- * energy stored there jumps when a place comes or goes, though the wire does nothing. */
+/* Pads on a wire without a section are as soft as that would be, and share their force out among the
+ * places that touch. The energy stored there jumps when a place comes or goes, though the wire does
+ * nothing. */
 static int has_pads(const sw_scene *s) {
-  for (size_t k = 0; k < s->tool_count; k++)
+  int lines = 0;
+  for (size_t b = 0; b < s->system.body_count; b++) lines |= !s->system.bodies[b].plan->web;
+  for (size_t k = 0; lines && k < s->tool_count; k++)
     if (s->tools[k].alive && s->tools[k].pads && !s->tools[k].frozen) return 1;
   return 0;
 }
