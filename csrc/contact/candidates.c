@@ -204,19 +204,32 @@ void sw_contact_stiffness(sw_contact_regime regime, double force, double nominal
   }
 }
 
-/* A touch of a mesh is so many times as stiff as what holds its particle to the others, and so
- * gives way by that much less than the mesh beside it does: no force makes it sink in any deeper
- * than that. Between plates the force of a fine section is less by 3 % at 1, by 0.4 % at 10 than at
- * 100, whatever its size, modulus and slices [-]. */
-static const double HARDER = 10.0;
+/* Touches of an object of particles are at least as stiff as this share of a bound on what holds
+ * a particle: it may be without weight [-]. */
+static const double HARD_SHARE = 1.0;
+
+/* A mesh shorter than so many radii is a slice, there for its section, which does not bend [-]. Its
+ * touches are so many times as stiff as a solid section of its EA is against squeezing [-]. */
+static const double SLICE = 1.0, HARDER = 100.0;
+/* Of a ring with a wall: as its wall times length over radius^3 [-]. */
+static const double HARDER_WALL = 1e5;
+
+/* Where objects of particles touch each other and wires: so many times as stiff as what holds a
+ * particle to the others, so that no force makes it sink in deeper than a tenth of what the object
+ * itself gives way by [-]. */
+static const double HARDER_GRAIN = 10.0;
 
 double sw_contact_hardness(const sw_web *web, size_t particle) {
-  return HARDER * web->behind[particle];
+  return HARDER_GRAIN * web->behind[particle];
 }
 
-/* Force that a touch is to carry of the body; what bends a mesh is behind its particles [N]. */
+/* Force that a touch is to carry of the body [N]. */
 static double usual_force(const sw_plan *p, double weight) {
-  return p->web ? weight : fmax(weight, p->beam.EI / (p->length * p->length));
+  const double L = p->length, r = p->beam.radius;
+  if (!p->web || L >= SLICE * r) return fmax(weight, p->beam.EI / (L * L));
+  const double solid = HARDER * p->beam.EA * L / (PI * r * r);
+  const double ring = HARDER_WALL * p->web->wall * L / (r * r * r);
+  return fmax(weight, ALLOWED_PENETRATION * (ring > 0 ? ring : solid));
 }
 
 /* Line stiffness of one side of a round section between plates, of its mean modulus: a solid
@@ -226,6 +239,17 @@ static const double SECTION = 2.0 * 0.084 / 0.2;
 
 /* With the force wanted a pad's samples sink in by about this [m]. */
 static const double PRESSED_IN = 5e-6;
+
+/* A pad on a particle of a mesh is so many times as stiff as the section behind it: one that gave
+ * way as much as that would be made stiffer in the middle of a squeeze, whose force would jump [-].
+ */
+static const double STIFFER = 3.0;
+
+static double mesh_pad_stiffness(const sw_plan *p, size_t particle) {
+  const double r = p->beam.radius;
+  if (!p->web->per_ring) return 0;
+  return STIFFER * SECTION * p->beam.EA / (PI * r * r) * p->web->along[particle];
+}
 
 /* A pad on a wire without a section: as soft as the section would be, and not stiffer than its
  * force needs. Rigid against rigid, no force could be set [N/m]. */
@@ -239,22 +263,21 @@ static double pad_stiffness(const sw_plan *p, const sw_candidate *k, size_t edge
 /* Of a wire's new touches: for its weight or for what bends it, or as pads want it. */
 static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t first) {
   const sw_plan *p = s->bodies[body].plan;
-  const size_t first_node = s->bodies[body].first_node;
-  const double weight = p->beam.mass * p->length * sw_norm(sw_load(s->gravity));
+  const double L = p->length, weight = p->beam.mass * L * sw_norm(sw_load(s->gravity));
   double base, rate2;
   sw_contact_stiffness(c->regime, usual_force(p, weight), c->nominal, &base, &rate2);
+  if (p->web && !p->web->per_ring && c->regime != SW_CONTACT_EXPLICIT)
+    rate2 = fmax(rate2, HARD_SHARE * 0.5 * (p->web->rate2 + p->web->solid_rate2));
   for (size_t i = first; i < c->candidate_count; i++) {
     sw_candidate *k = &c->candidates[i];
     const double grips = c->obstacles[k->obstacle].grips;
     k->usual = fmax(base, rate2 * k->mass);
     if (k->samples) k->usual *= LEAST_SAMPLES / (double)k->samples;
-    k->given = p->web && c->regime != SW_CONTACT_EXPLICIT;
-    if (k->given) {
-      k->usual = fmax(k->usual, sw_contact_hardness(p->web, k->node - first_node));
-      k->hard = HARDER;
-    }
-    if (!(grips > 0) || p->web) continue;
-    const double soft = pad_stiffness(p, k, k->node - first_node, grips);
+    if (!(grips > 0)) continue;
+    if (p->web && c->regime != SW_CONTACT_EXPLICIT)
+      k->usual = fmax(k->usual, mesh_pad_stiffness(p, k->node - s->bodies[body].first_node));
+    if (p->web) continue;
+    const double soft = pad_stiffness(p, k, k->node - s->bodies[body].first_node, grips);
     k->given = c->regime != SW_CONTACT_EXPLICIT;
     k->usual = k->given ? soft : fmin(soft, k->usual); /* explicit steps may not bear it */
   }

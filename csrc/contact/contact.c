@@ -422,6 +422,12 @@ double sw_contact_rubbed(const sw_contact *c) {
   return sum;
 }
 
+double sw_contact_hardened(const sw_contact *c) {
+  double sum = 0;
+  for (size_t i = 0; i < c->touch_count; i++) sum += c->touches[i].hardened;
+  return sum;
+}
+
 double sw_contact_fastest(const sw_contact *c) {
   double fastest = 0;
   for (size_t k = 0; k < c->broad.mover_count; k++)

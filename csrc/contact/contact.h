@@ -65,7 +65,8 @@ typedef enum sw_contact_regime {
  * [N/m], [1/s2]. */
 void sw_contact_stiffness(sw_contact_regime regime, double force, double nominal, double *base,
                           double *rate2);
-/* Stiffness that touches of a particle of a mesh have at least, but in explicit steps [N/m]. */
+/* Stiffness that touches of a particle with other objects have at least, but in explicit steps
+ * [N/m]. */
 double sw_contact_hardness(const sw_web *web, size_t particle);
 
 /* A step of size h from time t begins at the system's state: candidates. nominal
@@ -182,6 +183,9 @@ int sw_contact_poses(const sw_contact *contact, int id, sw_pose *from, sw_pose *
 double sw_contact_rubbed(const sw_contact *contact); /* lost by friction in the step [J] */
 /* 1: the touches that press are those that pressed at the step's start. */
 int sw_contact_steady(const sw_contact *contact);
+/* Given by touches of meshes being stiffer than before, which lets them sink in less, at most [J].
+ */
+double sw_contact_hardened(const sw_contact *contact);
 double sw_contact_fastest(const sw_contact *contact); /* of obstacles at the step's end [m/s] */
 /* 1: in this step wires are let out of obstacles that they began in. */
 int sw_contact_emerges(const sw_contact *contact);

@@ -18,10 +18,6 @@ static const double STILL_NEAR = 0.5, SAME_SIDE = 0.7;
  * its weight, and comes back [-]. */
 static const double SOFTEST = 1000.0;
 
-/* Those of a wire's section are as stiff as what holds the particle. One as stiff as its touch, of
- * which it is known only that it is far stiffer, would change nothing but the number of iterations:
- * a soft section in quasi-static jaws took 4,000 a pose instead of some dozens. */
-
 /* What has pressed a mesh up to now is not let go of by the first static solve in which it pulls:
  * that one may only have met too many touches at once, and then nothing holds the mesh. */
 enum { SPARE_PULLS = 1 };
@@ -214,7 +210,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
       .press = {
           .normal = sw_rotate(pose->q, near->normal), .gap = near->gap - k->skin, .k = stiffness}};
   t.press.gap += sw_contact_aslant(c, k->node, k->other, at, t.press.normal);
-  if (web) t.press.soft = web->per_ring ? k->hard : fmin(SOFTEST, (double)web->particles);
+  if (web && !web->per_ring) t.press.soft = fmin(SOFTEST, (double)web->particles);
   sw_press *press = &t.press;
   const int slowly = (web && web->per_ring) || c->fresh;
   if (c->regime == SW_CONTACT_IMPLICIT &&
@@ -224,6 +220,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
         sw_press_forgiven(depth, explained, slowly ? c->stage_time - c->time : c->h, slowly);
     t.let_out = sw_press_let_out(depth, explained, t.forgiven);
   }
+  if (m && web) t.hardened = 0.5 * m->depth * fmax(0.0, stiffness * m->depth - m->normal_force);
   press->gap += t.forgiven;
   press->gap_after = press->gap;
   if (c->regime == SW_CONTACT_STATIC && m && web && web->per_ring) press->spare = SPARE_PULLS;

@@ -22,7 +22,6 @@ typedef struct sw_candidate {
   size_t memory, memory_end; /* matching range of the memory */
   size_t last, last_end;     /* matching range of the last iterate's touches */
   double usual;              /* stiffness of a new touch [N/m] */
-  double hard;               /* so many times that of what holds a mesh's particle, or 0 [-] */
   int given;                 /* 1: it keeps that, however deep it gets */
   int samples; /* it touches at so many places, evenly along the segment; 0: at the nearest ones */
 } sw_candidate;
@@ -39,6 +38,7 @@ typedef struct sw_touch {
   sw_vec local;     /* the same in the obstacle's coordinates [m] */
   double forgiven;  /* part of the true depth left out of the gap in this step [m] */
   double let_out;   /* part of the true depth that nothing explains and this step ends [m] */
+  double hardened;  /* stored at once by its being stiffer than before, of a mesh [J] */
   double stiffer;   /* its stiffness from the next iterate on [N/m] */
   int known;        /* it pressed at the step's start */
   int held;         /* both ends are held: no force */

@@ -163,6 +163,7 @@ static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
     step->friction += sw_contact_rubbed(s->contact);
     step->steady &= sw_contact_steady(s->contact);
     step->obstacles += sw_contact_struck(s->contact);
+    step->let_out = sw_contact_hardened(s->contact);
     if (sw_contact_emerges(s->contact))
       step->let_out += b->mass * (THROWN * THROWN + LET_OUT * h * sw_norm(s->gravity));
   }
@@ -196,13 +197,10 @@ static double jolt(const sw_scene *s, const sw_step_energy *step) {
   return fastest > 0 ? s->books.mass * fastest * fastest + step->work : 0.0;
 }
 
-/* Pads on a wire without a section are as soft as that would be, and share their force out among the
- * places that touch. The energy stored there jumps when a place comes or goes, though the wire does
- * nothing. */
+/* Pads are as soft as the wire, and share their force out among the places that touch. The
+ * energy stored there jumps when a place comes or goes, though the wire does nothing. */
 static int has_pads(const sw_scene *s) {
-  int lines = 0;
-  for (size_t b = 0; b < s->system.body_count; b++) lines |= !s->system.bodies[b].plan->web;
-  for (size_t k = 0; lines && k < s->tool_count; k++)
+  for (size_t k = 0; k < s->tool_count; k++)
     if (s->tools[k].alive && s->tools[k].pads && !s->tools[k].frozen) return 1;
   return 0;
 }
