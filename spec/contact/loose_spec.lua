@@ -95,7 +95,8 @@ describe("an object of particles", function()
         to = { 0.02, 0, 0 }, segments = 8 }
       scene:clamp(wire, { s = 0 })
       scene:clamp(wire, { s = 0.04 })
-      local object = scene:particles{ positions = { { -R, 0, 2.05 * R }, { 3 * R, 0, 2.05 * R } }, masses = 1e-4,
+      local positions = { { -R, 0, 2.05 * R }, { 3 * R, 0, 2.05 * R } }
+      local object = scene:particles{ positions = positions, masses = 1e-4,
         links = { { 1, 2, k = 100 } }, radius = R }
       scene:wire_contact{ friction = 0.3 }
       t.fine(scene:run{ duration = 0.02, dt = 2e-5, integrator = method })
