@@ -9,9 +9,10 @@ static sw_scene *check(lua_State *L) {
 /* One wire or a list of them, at the top -> handles (in a userdata) and their number. */
 static sw_handle *read_wires(lua_State *L, const sw_scene *scene, size_t *count) {
   static const char what[] = "scene:wire_contact: between";
-  const int at = lua_gettop(L), single = lsw_test(L, at, &lsw_class_wire) != NULL;
+  const int at = lua_gettop(L);
+  const int single = lsw_test(L, at, &lsw_class_wire) || lsw_test(L, at, &lsw_class_particles);
   if (!single && !lua_istable(L, at))
-    luaL_error(L, "%s is a wire or a list of wires, got %s", what, lsw_describe(L, at));
+    luaL_error(L, "%s is a wire, an object of particles or a list of these, got %s", what, lsw_describe(L, at));
   *count = single ? 1 : lua_rawlen(L, at);
   if (!*count) luaL_error(L, "%s lists no wire; leave it out for all wires", what);
   sw_handle *wires = lua_newuserdatauv(L, *count * sizeof *wires, 0);
@@ -20,7 +21,7 @@ static sw_handle *read_wires(lua_State *L, const sw_scene *scene, size_t *count)
       lua_pushvalue(L, at);
     else
       lua_rawgeti(L, at, (lua_Integer)k + 1);
-    wires[k] = lsw_check_child_of(L, lua_gettop(L), &lsw_class_wire, scene, what)->id;
+    wires[k] = lsw_check_body_of(L, lua_gettop(L), scene, what)->id;
     lua_pop(L, 1);
   }
   return wires;

@@ -214,6 +214,15 @@ static const double SLICE = 1.0, HARDER = 100.0;
 /* Of a ring with a wall: as its wall times length over radius^3 [-]. */
 static const double HARDER_WALL = 1e5;
 
+/* Where objects of particles touch each other and wires: so many times as stiff as what holds a
+ * particle to the others, so that no force makes it sink in deeper than a tenth of what the object
+ * itself gives way by [-]. */
+static const double HARDER_GRAIN = 10.0;
+
+double sw_contact_hardness(const sw_web *web, size_t particle) {
+  return HARDER_GRAIN * web->behind[particle];
+}
+
 /* Force that a touch is to carry of the body [N]. */
 static double usual_force(const sw_plan *p, double weight) {
   const double L = p->length, r = p->beam.radius;

@@ -65,6 +65,9 @@ typedef enum sw_contact_regime {
  * [N/m], [1/s2]. */
 void sw_contact_stiffness(sw_contact_regime regime, double force, double nominal, double *base,
                           double *rate2);
+/* Stiffness that touches of a particle with other objects have at least, but in explicit steps
+ * [N/m]. */
+double sw_contact_hardness(const sw_web *web, size_t particle);
 
 /* A step of size h from time t begins at the system's state: candidates. nominal
  * is the run's full step, from which the stiffness is derived; in statics both

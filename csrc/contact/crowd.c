@@ -8,6 +8,7 @@
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
+#include "contact/joined.h"
 
 /* Pairs are looked for up to the distance and this much of the way that they may come nearer in
  * the step [-]; in statics up to so many distances. */
@@ -22,9 +23,8 @@ typedef struct couple {
 typedef struct group {
   size_t body;
   double distance, stiffness; /* [m], [N/m] */
-  size_t *first;              /* (particles + 1) where the partners of each begin */
-  uint32_t *partner;          /* those joined to it, of larger numbers, sorted */
-  couple *near;               /* of this step */
+  sw_joined joined;
+  couple *near; /* of this step */
   size_t count, capacity;
   uint32_t *head, *next; /* particles of each cell, as lists; UINT32_MAX ends them */
   size_t cells;          /* power of 2 */
@@ -35,66 +35,10 @@ struct sw_crowd {
   size_t count;
 };
 
-/* --- who is joined to whom -------------------------------------------------------------- */
-
-/* All joined pairs into out (may be NULL), smaller number first; how many. */
-static size_t joined(const sw_web *w, couple *out) {
-  size_t n = 0;
-  for (size_t e = 0; e < w->links; e++, n++)
-    if (out) out[n] = (couple){w->link[e].a, w->link[e].b};
-  for (size_t k = 0; k < w->folds; k++) {
-    const sw_web_fold *f = &w->fold[k];
-    const couple three[3] = {{f->a, f->b}, {f->b, f->c}, {f->a, f->c}};
-    for (int i = 0; i < 3; i++, n++)
-      if (out) out[n] = three[i];
-  }
-  for (size_t k = 0; k < w->solids; k++)
-    for (uint32_t i = 1; i < w->solid[k].count; i++)
-      for (uint32_t j = 0; j < i; j++, n++)
-        if (out) out[n] = (couple){w->solid[k].node[j], w->solid[k].node[i]};
-  for (size_t i = 0; out && i < n; i++)
-    if (out[i].a > out[i].b) out[i] = (couple){out[i].b, out[i].a};
-  return n;
-}
-
 static int by_number(const void *left, const void *right) {
   const couple *p = left, *q = right;
   if (p->a != q->a) return p->a < q->a ? -1 : 1;
   return p->b < q->b ? -1 : p->b > q->b;
-}
-
-static sw_status list_partners(group *g, const sw_web *w) {
-  const size_t n = joined(w, NULL);
-  couple *all = sw_alloc(n, sizeof *all);
-  g->first = sw_alloc(w->particles + 1, sizeof *g->first);
-  g->partner = sw_alloc(n, sizeof *g->partner);
-  if (!all || !g->first || !g->partner) {
-    sw_free(all);
-    return SW_ENOMEM;
-  }
-  joined(w, all);
-  qsort(all, n, sizeof *all, by_number);
-  size_t at = 0;
-  for (size_t p = 0; p < w->particles; p++) {
-    g->first[p] = at;
-    for (; at < n && all[at].a == p; at++) g->partner[at] = all[at].b;
-  }
-  g->first[w->particles] = at;
-  sw_free(all);
-  return SW_OK;
-}
-
-static int are_joined(const group *g, uint32_t a, uint32_t b) {
-  size_t low = g->first[a], high = g->first[a + 1];
-  while (low < high) {
-    const size_t middle = (low + high) / 2;
-    if (g->partner[middle] == b) return 1;
-    if (g->partner[middle] < b)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return 0;
 }
 
 static sw_status new_group(group *g, size_t body, const sw_web *w) {
@@ -102,7 +46,7 @@ static sw_status new_group(group *g, size_t body, const sw_web *w) {
   for (g->cells = 16; g->cells < 2 * w->particles;) g->cells *= 2;
   g->head = sw_alloc(g->cells, sizeof *g->head);
   g->next = sw_alloc(w->particles, sizeof *g->next);
-  return g->head && g->next ? list_partners(g, w) : SW_ENOMEM;
+  return g->head && g->next ? sw_joined_new(w, &g->joined) : SW_ENOMEM;
 }
 
 sw_status sw_crowd_new(const sw_system *s, sw_crowd **out) {
@@ -130,7 +74,8 @@ void sw_crowd_free(sw_crowd *c) {
   if (!c) return;
   for (size_t k = 0; c->groups && k < c->count; k++) {
     group *g = &c->groups[k];
-    void *const blocks[] = {g->first, g->partner, g->near, g->head, g->next};
+    void *const blocks[] = {g->near, g->head, g->next};
+    sw_joined_free(&g->joined);
     for (size_t i = 0; i < sizeof blocks / sizeof blocks[0]; i++) sw_free(blocks[i]);
   }
   sw_free(c->groups);
@@ -181,7 +126,7 @@ static sw_status look_at(group *g, const double *x, const double *v, double h, u
   const uint32_t a = i < j ? i : j, b = i < j ? j : i;
   const double speed = sw_dist(sw_vec_at(v, a), sw_vec_at(v, b));
   if (!(sw_dist(sw_vec_at(x, a), sw_vec_at(x, b)) < reach_of(g, speed, h))) return SW_OK;
-  if (are_joined(g, a, b)) return SW_OK;
+  if (sw_joined_are(&g->joined, a, b)) return SW_OK;
   if (g->count == MOST_NEAR) return SW_ELIMIT;
   SW_TRY(sw_grow((void **)&g->near, &g->capacity, g->count + 1, sizeof *g->near));
   g->near[g->count++] = (couple){a, b};

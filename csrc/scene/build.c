@@ -17,6 +17,8 @@ static void drop(sw_scene *s) {
   s->contact = NULL;
   sw_pairs_free(s->pairs);
   s->pairs = NULL;
+  sw_grains_free(s->grains);
+  s->grains = NULL;
   sw_crowd_free(s->crowd);
   s->crowd = NULL;
   sw_free(s->hold_slot);
@@ -27,6 +29,7 @@ static void drop(sw_scene *s) {
 void sw_scene_forget_contact(sw_scene *s) {
   sw_free(s->kept.memory);
   sw_free(s->kept.pairs);
+  sw_free(s->kept.grains);
   sw_free(s->kept.s);
   sw_free(s->kept.first);
   memset(&s->kept, 0, sizeof s->kept);
@@ -36,19 +39,22 @@ void sw_scene_forget_contact(sw_scene *s) {
 static sw_status keep_contact(sw_scene *s) {
   sw_scene_forget_contact(s);
   if (!sw_scene_has_contact(s)) return SW_OK;
-  const void *memory = NULL, *pairs = NULL;
+  const void *memory = NULL, *pairs = NULL, *grains = NULL;
   s->kept.fresh = s->contact ? sw_contact_is_fresh(s->contact) : SW_CONTACT_FRESH;
   if (s->contact) memory = sw_contact_memory(s->contact, &s->kept.bytes);
   if (s->pairs) pairs = sw_pairs_memory(s->pairs, &s->kept.pair_bytes);
+  if (s->grains) grains = sw_grains_memory(s->grains, &s->kept.grain_bytes);
+  s->kept.grains = sw_alloc(s->kept.grain_bytes, 1);
   s->kept.memory = sw_alloc(s->kept.bytes, 1);
   s->kept.pairs = sw_alloc(s->kept.pair_bytes, 1);
   s->kept.s = sw_alloc(s->system.nodes, sizeof *s->kept.s);
   s->kept.first = sw_alloc(s->wire_count + 1, sizeof *s->kept.first);
-  if (!s->kept.memory || !s->kept.pairs || !s->kept.s || !s->kept.first) {
+  if (!s->kept.memory || !s->kept.pairs || !s->kept.grains || !s->kept.s || !s->kept.first) {
     sw_scene_forget_contact(s);
     return SW_ENOMEM;
   }
   if (memory && s->kept.bytes) memcpy(s->kept.memory, memory, s->kept.bytes);
+  if (grains && s->kept.grain_bytes) memcpy(s->kept.grains, grains, s->kept.grain_bytes);
   if (pairs && s->kept.pair_bytes) memcpy(s->kept.pairs, pairs, s->kept.pair_bytes);
   s->kept.wires = s->system.body_count;
   for (size_t w = 0; w < s->system.body_count; w++) {
@@ -96,6 +102,8 @@ static sw_status inherit_contact(sw_scene *s) {
                                 new_edge);
   if (s->pairs && status == SW_OK)
     status = sw_pairs_inherit(s->pairs, s->kept.pairs, s->kept.pair_bytes, new_node);
+  if (s->grains && status == SW_OK)
+    status = sw_grains_inherit(s->grains, s->kept.grains, s->kept.grain_bytes, new_node);
   sw_free(new_node);
   return status;
 }

@@ -163,8 +163,7 @@ sw_status sw_scene_check_trial(const sw_scene *s, sw_error *err) {
 
 void sw_scene_remark_contact(sw_scene *s) {
   const sw_event *e;
-  if (!(s->contact && sw_contact_count(s->contact)) && !(s->pairs && sw_pairs_count(s->pairs)))
-    return;
+  if (!sw_scene_touches(s)) return;
   for (size_t k = 0; (e = sw_scene_event(s, k)) != NULL; k++)
     if (strcmp(e->kind, "integrator") == 0) return;
   sw_scene_tell(s, "integrator", s->method->name, NAN, NAN,

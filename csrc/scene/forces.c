@@ -18,6 +18,11 @@ sw_status sw_scene_check_line(const sw_scene_wire *w, const char *what, sw_error
                  what, w->name, w->cls->name);
 }
 
+sw_status sw_scene_check_touching(const sw_scene_wire *w, sw_error *err) {
+  if (sw_scene_is_loose(w)) return SW_OK;
+  return sw_scene_check_line(w, "scene:wire_contact", err);
+}
+
 /* Can the force act on the wire? */
 static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, const void *args,
                             sw_error *err) {
@@ -73,7 +78,7 @@ sw_status sw_scene_check_rules(const sw_scene *s, size_t wire, const sw_scene_wi
     const sw_scene_rule *r = &s->rules[k];
     int mine = r->count == 0;
     for (size_t i = 0; i < r->count; i++) mine |= r->wires[i] == wire;
-    if (mine && r->rule.on) SW_TRY(sw_scene_check_line(as, "scene:wire_contact", err));
+    if (mine && r->rule.on) SW_TRY(sw_scene_check_touching(as, err));
   }
   return SW_OK;
 }

@@ -181,7 +181,8 @@ static int touches(const guide *g, long k) {
       return sw_contact_memory_names(s->kept.memory, s->kept.bytes, i) ||
              sw_pairs_memory_names(s->kept.pairs, s->kept.pair_bytes, i) ||
              (i > s->kept.first[g->h->wire] &&
-              sw_pairs_memory_names(s->kept.pairs, s->kept.pair_bytes, i - 1));
+              sw_pairs_memory_names(s->kept.pairs, s->kept.pair_bytes, i - 1)) ||
+             sw_grains_memory_names(s->kept.grains, s->kept.grain_bytes, i);
   return 0;
 }
 

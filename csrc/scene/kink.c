@@ -11,18 +11,46 @@ static const double LIMIT = 0.4714, BUCKLES = 0.381; /* a [-] */
 /* A fold is far beyond both, where the tube has nowhere that width any more [-]. */
 static const double BEYOND = 1.5, FLAT = 0.35;
 
-/* Curvature by which a is one [1/m]: the wall's thickness, from its bending and axial stiffness
- * per length round it, over the radius squared. */
+static double radius2(const sw_beam *beam) { return 2.0 * beam->EI_axis[0] / beam->EA; }
+
+/* The wall's thickness, from its bending and axial stiffness per length round it [m]. */
+static double thickness(const sw_beam *beam, double wall) {
+  const double Et = beam->EA / (2.0 * 3.14159265358979323846 * sqrt(radius2(beam)));
+  return sqrt(12.0 * wall / Et);
+}
+
+/* Curvature by which a is one [1/m]. */
 static double unit_curvature(const sw_beam *beam, double wall) {
-  const double R2 = 2.0 * beam->EI_axis[0] / beam->EA;
-  const double Et = beam->EA / (2.0 * 3.14159265358979323846 * sqrt(R2));
-  return sqrt(12.0 * wall / Et) / R2;
+  return thickness(beam, wall) / radius2(beam);
+}
+
+/* A tube that is pressed or bent flat: nothing keeps its walls from passing through each other, so
+ * what it does beyond that is not right, and is told. */
+static void watch_walls(sw_scene *s, size_t wire, const sw_wire_extremes *now) {
+  const sw_scene_wire *w = &s->wires[wire];
+  const sw_body *b = &s->system.bodies[wire];
+  const sw_web *web = w->strand.web;
+  const double *x = s->system.x + 3 * b->first_node, at = now->ovalisation.s;
+  const double apart = sw_strand_walls_apart(web, x, at);
+  const double wall = web->wall > 0 ? thickness(&w->beam, web->wall) : 0.0;
+  if (!(apart <= wall)) return;
+  sw_event *known = sw_events_go_on(&s->events, "walls", w->name, s->time);
+  if (known) known->count++;
+  if (known) return;
+  sw_scene_tell(
+      s, "walls", w->name, at - w->mesh.s[0], apart,
+      "tube '%s' is flat at s = %.4g m: the middles of opposite walls are %.3g m apart, "
+      "which are %.3g m thick; they do not touch each other, so that it is too soft there "
+      "from now on",
+      w->name, at - w->mesh.s[0], apart, wall);
 }
 
 void sw_scene_watch_kink(sw_scene *s, size_t wire, const sw_wire_extremes *now) {
   const sw_scene_wire *w = &s->wires[wire];
   const sw_web *web = w->strand.web;
-  if (!web || !(web->wall > 0) || !(now->ovalisation.value > FLAT)) return;
+  if (!web || !web->per_ring || !(now->ovalisation.value > FLAT)) return;
+  watch_walls(s, wire, now);
+  if (!(web->wall > 0)) return;
   const double unit = unit_curvature(&w->beam, web->wall);
   if (!(now->curvature.value > BEYOND * LIMIT * unit)) return;
   const sw_body *b = &s->system.bodies[wire];

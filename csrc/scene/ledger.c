@@ -172,6 +172,11 @@ static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
     step->friction += sw_pairs_rubbed(s->pairs);
     step->steady &= sw_pairs_steady(s->pairs);
   }
+  if (s->grains) {
+    impacts += sw_grains_impacts(s->grains);
+    step->friction += sw_grains_rubbed(s->grains);
+    step->steady &= sw_grains_steady(s->grains);
+  }
   if (impacts) /* these changed the velocities at the step's start */
     step->impact =
         s->books.now.kinetic + step->obstacles - sw_system_kinetic(&s->system, lumped(s));
@@ -350,6 +355,7 @@ sw_status sw_ledger_pose(sw_scene *s, int jumped, sw_error *err) {
   step->contact = contact_energy(s);
   if (s->contact) step->friction += sw_contact_rubbed(s->contact);
   if (s->pairs) step->friction += sw_pairs_rubbed(s->pairs);
+  if (s->grains) step->friction += sw_grains_rubbed(s->grains);
   sw_ledger_work(s, s->time, 0);
   step->forces = b->now.loads - step->to.loads;
   step->work = fabs(step->holds) + fabs(step->obstacles) + fabs(step->feeds) + fabs(step->forces);

@@ -53,6 +53,9 @@ static inline int sw_scene_is_loose(const sw_scene_wire *wire) {
 
 /* SW_EINVAL when the wire is a mesh of particles, which does not go with what. */
 sw_status sw_scene_check_line(const sw_scene_wire *wire, const char *what, sw_error *err);
+/* May it touch others? Wires that are lines and objects of particles do, sections of meshes do not.
+ */
+sw_status sw_scene_check_touching(const sw_scene_wire *wire, sw_error *err);
 
 /* Rings between the arc lengths s1 and s2, at least the nearest one to their middle, as those
  * of its first and last [m]. */
@@ -94,6 +97,9 @@ sw_widths sw_outline_widths(const double *outline, size_t count, sw_vec tangent)
 /* See sw_section_shape; and for all rings at once, of the one that is out of round most [-]. */
 double sw_outline_ovalisation(const sw_web *web, const double *outline, sw_vec tangent);
 sw_extreme sw_strand_ovalisation(const sw_web *web, const double *x);
+/* Of a hollow section of one layer at s: how far walls that face each other are apart, 0 when they
+ * cross; others: infinite [m]. */
+double sw_strand_walls_apart(const sw_web *web, const double *x, double s);
 /* How far the worst face of a section of springs is turned over: minus its area over that at rest,
  * above 0 when it is [-]. */
 sw_extreme sw_strand_folding(const sw_web *web, const double *x);

@@ -32,6 +32,10 @@ sw_status sw_live_take(const sw_scene *s, sw_live *p) {
     for (size_t k = 0; k < 2; k++)
       SW_TRY(copy_block(seen[k], p->seen_size[k + 1], &p->seen[k + 1]));
   }
+  if (s->grains) {
+    const void *memory = sw_grains_memory(s->grains, &p->grains_size);
+    SW_TRY(copy_block(memory, p->grains_size, &p->grains));
+  }
   if (!s->has_stepper) return SW_OK;
   p->method = s->method;
   p->last_h = s->stepper.last_h;
@@ -46,6 +50,7 @@ static sw_status put_contact(sw_scene *s, const sw_live *p) {
     SW_TRY(sw_contact_set_memory(s->contact, p->memory, p->memory_size, p->fresh));
     SW_TRY(sw_contact_set_seen(s->contact, p->seen[0], p->seen_size[0], s->system.nodes));
   }
+  if (s->grains) SW_TRY(sw_grains_set_memory(s->grains, p->grains, p->grains_size));
   if (!s->pairs) return SW_OK;
   const void *const seen[2] = {p->seen[1], p->seen[2]};
   SW_TRY(sw_pairs_set_memory(s->pairs, p->pairs, p->pairs_size));
@@ -77,12 +82,24 @@ sw_status sw_live_put(sw_scene *s, const sw_live *p, sw_error *err) {
   return sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err);
 }
 
+static int grains_fit(const sw_scene *s, const sw_live *p) {
+  const size_t n = s->system.body_count;
+  if (!p->grains_size) return 1;
+  size_t *first = sw_alloc(n + 1, sizeof *first);
+  if (!first) return 0;
+  for (size_t b = 0; b < n; b++) first[b] = s->system.bodies[b].first_node;
+  first[n] = s->system.nodes;
+  const int fits = sw_grains_memory_fits(p->grains, p->grains_size, first, n);
+  sw_free(first);
+  return fits;
+}
+
 int sw_live_fits(const sw_scene *s, const sw_live *p) {
   const size_t n = 2 * s->system.freedoms + (s->system.strain ? s->system.edges : 0);
   const int history = p->method && (p->method->flags & SW_INTEGRATOR_HISTORY);
   return p->state_size == s->system.state_size && p->history_size == (history ? n : 0) &&
          sw_contact_memory_fits(p->memory, p->memory_size, s->system.nodes, s->obstacle_count) &&
-         sw_pairs_memory_fits(p->pairs, p->pairs_size, s->system.nodes);
+         sw_pairs_memory_fits(p->pairs, p->pairs_size, s->system.nodes) && grains_fit(s, p);
 }
 
 void sw_live_free(sw_live *p) {
@@ -90,6 +107,7 @@ void sw_live_free(sw_live *p) {
   sw_free(p->history);
   sw_free(p->memory);
   sw_free(p->pairs);
+  sw_free(p->grains);
   for (size_t k = 0; k < 3; k++) sw_free(p->seen[k]);
   memset(p, 0, sizeof *p);
 }

@@ -277,8 +277,10 @@ static sw_status fill_solids(const maker *m) {
               m->name, i + 1);
     if (status == SW_OK) bound_solid(&shape[i], &w->solid[i], x, sums);
   }
-  for (size_t k = 0; k < 3 * w->particles && status == SW_OK; k++)
+  for (size_t k = 0; k < 3 * w->particles && status == SW_OK; k++) {
     w->solid_rate2 = fmax(w->solid_rate2, sums[k] / w->mass[k / 3]);
+    w->behind[k / 3] += 0.5 * sums[k] / 3.0;
+  }
   sw_free(sums);
   return status;
 }

@@ -155,10 +155,12 @@ static void check_kept(sw_tape *t, const sw_scene *s) {
   if (!sw_tape_good(t)) return;
   const size_t nodes = first[s->kept.wires];
   sw_tape_finite(t, s->kept.s, nodes, "contact");
-  sw_tape_expect(t,
-                 sw_contact_memory_fits(s->kept.memory, s->kept.bytes, nodes, s->obstacle_count) &&
-                     sw_pairs_memory_fits(s->kept.pairs, s->kept.pair_bytes, nodes),
-                 "contact");
+  sw_tape_expect(
+      t,
+      sw_contact_memory_fits(s->kept.memory, s->kept.bytes, nodes, s->obstacle_count) &&
+          sw_pairs_memory_fits(s->kept.pairs, s->kept.pair_bytes, nodes) &&
+          sw_grains_memory_fits(s->kept.grains, s->kept.grain_bytes, first, s->kept.wires),
+      "contact");
 }
 
 void sw_tape_check_scene(sw_tape *t, sw_scene *s) {

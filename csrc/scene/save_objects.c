@@ -365,6 +365,9 @@ void sw_tape_kept_contact(sw_tape *t, sw_scene *s) {
   sw_tape_count(t, &s->kept.bytes, 1), sw_tape_count(t, &s->kept.pair_bytes, 1);
   sw_tape_array(t, &s->kept.memory, s->kept.bytes, 1);
   sw_tape_array(t, &s->kept.pairs, s->kept.pair_bytes, 1);
+  sw_tape_mark(t, "contact of particles", sw_grains_layout());
+  sw_tape_count(t, &s->kept.grain_bytes, 1);
+  sw_tape_array(t, &s->kept.grains, s->kept.grain_bytes, 1);
   sw_tape_count(t, &s->kept.wires, sizeof *s->kept.first);
   SW_TAPE_ARRAY(t, s->kept.first, s->kept.wires + 1);
   const size_t expected = s->kept.first ? s->kept.first[s->kept.wires] : 0;
@@ -405,7 +408,7 @@ void sw_tape_kept_history(sw_tape *t, sw_scene *s, sw_kept_history *x) {
 
 void sw_tape_live(sw_tape *t, sw_live *x) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_live, 144);
+  SW_TAPE_STRUCT(t, sw_live, 160);
   sw_tape_mark(t, "contact", sw_contact_layout());
   sw_tape_mark(t, "contact of wires", sw_pairs_layout());
   sw_tape_count(t, &x->state_size, sizeof *x->state);
@@ -421,6 +424,9 @@ void sw_tape_live(sw_tape *t, sw_live *x) {
   sw_tape_optional(t, &x->memory, x->memory_size, 1);
   INT(fresh);
   sw_tape_optional(t, &x->pairs, x->pairs_size, 1);
+  sw_tape_mark(t, "contact of particles", sw_grains_layout());
+  sw_tape_count(t, &x->grains_size, 1);
+  sw_tape_optional(t, &x->grains, x->grains_size, 1);
   for (size_t k = 0; k < 3; k++) {
     sw_tape_count(t, &x->seen_size[k], 1);
     sw_tape_optional(t, &x->seen[k], x->seen_size[k], 1);
@@ -428,7 +434,7 @@ void sw_tape_live(sw_tape *t, sw_live *x) {
   }
   sw_tape_expect(t,
                  (x->history || !x->history_size) && (x->memory || !x->memory_size) &&
-                     (x->pairs || !x->pairs_size),
+                     (x->pairs || !x->pairs_size) && (x->grains || !x->grains_size),
                  "the state of a scene");
   if (sw_tape_reads(t) && sw_tape_good(t))
     sw_tape_finite(t, x->state, x->state_size, "the state of a scene");

@@ -59,6 +59,7 @@ void sw_scene_free(sw_scene *s) {
   sw_contact_free(s->contact);
   sw_free(s->contact_steps.rows);
   sw_pairs_free(s->pairs);
+  sw_grains_free(s->grains);
   sw_crowd_free(s->crowd);
   sw_scene_drop_rules(s, 0);
   sw_free(s->rules);

@@ -167,6 +167,37 @@ sw_extreme sw_strand_ovalisation(const sw_web *w, const double *x) {
                       .s = w->s[w->first[ring]]};
 }
 
+/* Distance of p from the side from a to b [m]. */
+static double from_side(point p, point a, point b) {
+  const double x = b.x - a.x, y = b.y - a.y, l2 = x * x + y * y;
+  const double along = l2 > 0 ? ((p.x - a.x) * x + (p.y - a.y) * y) / l2 : 0.0;
+  const double at = fmax(0.0, fmin(1.0, along));
+  return hypot(p.x - a.x - at * x, p.y - a.y - at * y);
+}
+
+static int sides_cross(point a, point b, point c, point d) {
+  return turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
+}
+
+double sw_strand_walls_apart(const sw_web *w, const double *x, double s) {
+  double outline[3 * SW_OUTLINE], least = HUGE_VAL;
+  point p[SW_OUTLINE];
+  const size_t n = w->around_count;
+  size_t r = 0;
+  while (r + 1 < w->rings && !(sw_web_is_ring(w, r) && w->s[w->first[r]] >= s)) r++;
+  if (w->per_ring != n || !sw_web_is_ring(w, r)) return least;
+  sw_strand_outline(w, x, r, outline);
+  const sw_vec tangent = sw_strand_facing(w, x, r), u = sw_perpendicular(tangent);
+  flatten(outline, n, u, sw_cross(tangent, u), p);
+  for (size_t i = 0; i < n; i++)
+    for (size_t away = n / 4 + 1; away + n / 4 + 1 < n; away++) { /* beyond what bends at a fold */
+      const size_t j = (i + away) % n;
+      const point a = p[i], b = p[(i + 1) % n], c = p[j], d = p[(j + 1) % n];
+      least = fmin(least, sides_cross(a, b, c, d) ? 0.0 : from_side(a, c, d));
+    }
+  return least;
+}
+
 void sw_outline_widen(const double *outline, size_t n, sw_vec tangent, double skin, double *out) {
   for (size_t i = 0; i < n; i++) {
     const sw_vec a = sw_vec_at(outline, (i + n - 1) % n), p = sw_vec_at(outline, i);

@@ -334,7 +334,7 @@ static sw_status follow_in(statics *p, size_t parts, sw_error *err) {
 
 /* Is the rest of the wires independent of their past? */
 static int forgets(const sw_scene *s) {
-  if (s->pairs || s->crowd) return 0;
+  if (s->pairs || s->crowd || s->grains) return 0;
   for (size_t o = 0; o < s->obstacle_count; o++)
     if (s->obstacles[o].alive && fmax(s->obstacles[o].friction, s->obstacles[o].kinetic) > 0)
       return 0;

@@ -254,8 +254,10 @@ sw_status sw_strand_bound_solids(sw_web *w, const double *x) {
     }
   }
   w->solid_rate2 = 0;
-  for (size_t p = 0; p < w->particles; p++)
+  for (size_t p = 0; p < w->particles; p++) {
     w->solid_rate2 = fmax(w->solid_rate2, sum[p] / w->mass[p]);
+    w->behind[p] += 0.5 * sum[p];
+  }
   sw_free(sum);
   return SW_OK;
 }

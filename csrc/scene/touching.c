@@ -9,7 +9,7 @@
 
 static const sw_param rows[] = {
     {"between", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
-     "a wire or a list of wires (default: every wire, those to come too)"},
+     "a wire, an object of particles or a list of these (default: all, those to come too)"},
     {"friction", SW_PARAM_NUMBER, "-", 0.3, 0, 100, 0, NULL,
      offsetof(sw_wire_contact_args, friction), "Coulomb friction coefficient"},
     {"self", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, offsetof(sw_wire_contact_args, self),
@@ -23,9 +23,9 @@ sw_status sw_scene_wire_contact(sw_scene *s, const sw_wire_contact_args *args,
                                 const sw_handle *wires, size_t count, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   for (size_t k = 0; k < count; k++)
-    if (!sw_scene_find_wire(s, wires[k], err)) return SW_EDEAD;
+    if (!sw_scene_find_body(s, wires[k], err)) return SW_EDEAD;
   for (size_t k = 0; args->on && k < (count ? count : s->wire_count); k++)
-    SW_TRY(sw_scene_check_line(&s->wires[count ? wires[k].slot : k], "scene:wire_contact", err));
+    SW_TRY(sw_scene_check_touching(&s->wires[count ? wires[k].slot : k], err));
   SW_TRY(sw_scene_thaw(s));
   uint32_t *slots = sw_alloc(count, sizeof *slots);
   if (!slots || sw_grow((void **)&s->rules, &s->rule_capacity, s->rule_count + 1,
@@ -62,7 +62,8 @@ sw_status sw_scene_new_pairs(sw_scene *s) {
   if (!table) return SW_ENOMEM;
   for (size_t k = 0; k < s->rule_count; k++) state_rule(&s->rules[k], n, table);
   for (size_t k = 0; k < n * n; k++) any |= table[k].on;
-  const sw_status status = any ? sw_pairs_new(table, n, &s->pairs) : SW_OK;
+  sw_status status = any ? sw_pairs_new(table, n, &s->pairs) : SW_OK;
+  if (any && status == SW_OK) status = sw_grains_new(&s->system, table, &s->grains);
   sw_free(table);
   return status;
 }
@@ -76,9 +77,10 @@ static void part(void *user, sw_system *system) {
 
 static sw_status begin_stage(void *user, sw_system *system, double t, double first, sw_error *err) {
   const sw_scene *s = user;
-  const int apart = !s->crowd && (!s->pairs || sw_pairs_idle(s->pairs));
+  const int apart = !s->crowd && !s->grains && (!s->pairs || sw_pairs_idle(s->pairs));
   system->coupling.part = apart ? part : NULL;
   if (s->pairs) sw_pairs_begin_stage(s->pairs, first);
+  if (s->grains) sw_grains_begin_stage(s->grains, first);
   return s->contact ? sw_contact_begin_stage(s->contact, t, first, err) : SW_OK;
 }
 
@@ -87,13 +89,14 @@ static sw_status eval(void *user, sw_system *system, double t, double hbar, cons
   const sw_scene *s = user;
   if (s->contact) SW_TRY(sw_contact_eval(s->contact, system, t, hbar, y, want, err));
   if (s->crowd) sw_crowd_eval(s->crowd, system, y, want);
+  if (s->grains) SW_TRY(sw_grains_eval(s->grains, system, y, want, err));
   const int pairs = s->pairs && !sw_pairs_idle(s->pairs);
   return pairs ? sw_pairs_eval(s->pairs, system, y, want, err) : SW_OK;
 }
 
 static sw_status keeps(void *user, sw_system *system, const double *y, int *out, sw_error *err) {
   const sw_scene *s = user;
-  *out = !s->crowd && !s->pairs;
+  *out = !s->crowd && !s->pairs && !s->grains;
   return s->contact && *out ? sw_contact_keeps(s->contact, system, y, out, err) : SW_OK;
 }
 
@@ -106,6 +109,7 @@ static int settled(void *user, sw_system *system, const double *y, const double 
   int fine = !s->contact || sw_contact_settled(s->contact, system, y, delta);
   if (s->pairs && !sw_pairs_idle(s->pairs)) fine &= sw_pairs_settled(s->pairs, system, delta);
   if (s->crowd) fine &= sw_crowd_settled(s->crowd, system, y, delta);
+  if (s->grains) fine &= sw_grains_settled(s->grains, system, delta);
   return fine;
 }
 
@@ -125,7 +129,9 @@ void sw_scene_couple(sw_scene *s) {
   s->system.coupling.settled = settled;
 }
 
-int sw_scene_has_contact(const sw_scene *s) { return s->contact || s->pairs || s->crowd; }
+int sw_scene_has_contact(const sw_scene *s) {
+  return s->contact || s->pairs || s->crowd || s->grains;
+}
 
 static const sw_contact_past *past_of(void *user, int o) {
   return &((sw_scene *)user)->obstacles[o].past;
@@ -150,21 +156,31 @@ sw_status sw_scene_begin_contact(sw_scene *s, sw_contact_regime regime, double t
   if (crowd != SW_OK)
     return sw_fail(err, crowd, "particles that repel each other: %s",
                    crowd == SW_ELIMIT ? "too many are near each other" : sw_status_text(crowd));
-  return s->pairs ? sw_pairs_begin_step(s->pairs, &s->system, regime, h, nominal, err) : SW_OK;
+  if (s->pairs) SW_TRY(sw_pairs_begin_step(s->pairs, &s->system, regime, h, nominal, err));
+  if (!s->grains) return SW_OK;
+  if (!s->pairs) SW_TRY(sw_system_begin_plan(&s->system));
+  return sw_grains_begin_step(s->grains, &s->system, regime, h, nominal, err);
 }
 
 sw_contact_verdict sw_scene_review_contact(sw_scene *s, const double *x1, const double *v1,
                                            double h) {
   sw_contact_verdict verdict = SW_CONTACT_ACCEPT;
   if (s->contact) verdict = sw_contact_review(s->contact, &s->system, x1, v1, h);
-  if (!s->pairs || verdict == SW_CONTACT_SMALLER) return verdict;
-  const sw_contact_verdict other = sw_pairs_review(s->pairs, &s->system, x1, h);
-  return other == SW_CONTACT_ACCEPT ? verdict : other;
+  if (s->pairs && verdict != SW_CONTACT_SMALLER) {
+    const sw_contact_verdict other = sw_pairs_review(s->pairs, &s->system, x1, h);
+    if (other != SW_CONTACT_ACCEPT) verdict = other;
+  }
+  if (s->grains && verdict != SW_CONTACT_SMALLER) {
+    const sw_contact_verdict other = sw_grains_review(s->grains, &s->system, x1, h);
+    if (other != SW_CONTACT_ACCEPT) verdict = other;
+  }
+  return verdict;
 }
 
 int sw_scene_review_static(sw_scene *s, const double *x1) {
   int again = s->contact && sw_contact_review_static(s->contact, &s->system, x1);
   if (s->pairs) again |= sw_pairs_review_static(s->pairs, &s->system, x1);
+  if (s->grains) again |= sw_grains_review_static(s->grains, &s->system, x1);
   return again;
 }
 
@@ -179,6 +195,7 @@ void sw_scene_commit_contact(sw_scene *s) {
     }
   }
   if (s->pairs) sw_pairs_commit(s->pairs, &s->system);
+  if (s->grains) sw_grains_commit(s->grains);
 }
 
 /* --- read-outs ------------------------------------------------------------------- */
@@ -186,7 +203,7 @@ void sw_scene_commit_contact(sw_scene *s) {
 size_t sw_scene_touches(sw_scene *s) {
   if (!s->built) return 0;
   return (s->contact ? sw_contact_count(s->contact) : 0) +
-         (s->pairs ? sw_pairs_count(s->pairs) : 0);
+         (s->pairs ? sw_pairs_count(s->pairs) : 0) + (s->grains ? sw_grains_count(s->grains) : 0);
 }
 
 double sw_scene_deepest(const sw_scene *s, size_t *node) {
@@ -194,33 +211,66 @@ double sw_scene_deepest(const sw_scene *s, size_t *node) {
   const double obstacle = s->contact ? sw_contact_penetration(s->contact, node) : 0.0;
   const double wire = s->pairs ? sw_pairs_penetration(s->pairs, &other) : 0.0;
   if (wire > obstacle && node) *node = other;
-  return fmax(obstacle, wire);
+  const double grain = s->grains ? sw_grains_penetration(s->grains, &other) : 0.0;
+  if (grain > fmax(obstacle, wire) && node) *node = other;
+  return fmax(grain, fmax(obstacle, wire));
 }
 
 double sw_scene_contact_energy(const sw_scene *s) {
   return (s->contact ? sw_contact_energy(s->contact) : 0.0) +
-         (s->pairs ? sw_pairs_energy(s->pairs) : 0.0);
+         (s->pairs ? sw_pairs_energy(s->pairs) : 0.0) +
+         (s->grains ? sw_grains_energy(s->grains) : 0.0);
 }
 
 sw_status sw_scene_wire_touch_count(sw_scene *s, size_t *count, sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
   SW_TRY(sw_scene_editable(s, err));
   *count = s->built && s->pairs ? sw_pairs_count(s->pairs) : 0;
+  if (s->built && s->grains) *count += sw_grains_count(s->grains);
   return SW_OK;
 }
 
-void sw_scene_wire_touch(sw_scene *s, size_t number, sw_wire_touch *out) {
-  const sw_pair_place p = sw_pairs_place(s->pairs, number);
-  sw_vec at[2];
-  for (size_t k = 0; k < 2; k++) {
-    const sw_body *b = &s->system.bodies[p.body[k]];
-    const size_t i = p.node[k] - b->first_node;
-    const double *x = s->system.x + 3 * p.node[k];
-    at[k] = sw_lerp(sw_load(x), sw_load(x + 3), p.at[k]);
-    memcpy(out->wire[k], s->wires[p.body[k]].name, SW_NAME_SIZE);
-    out->s[k] = b->plan->s[i] - b->plan->s[0] + p.at[k] * b->plan->rest[i];
+/* Where a touch is on a body: place and arc length; of a particle its place along the object. */
+static sw_vec touched_at(const sw_scene *s, const sw_pair_place *p, int k, double *arc) {
+  const sw_body *b = &s->system.bodies[p->body[k]];
+  const size_t i = p->node[k] - b->first_node;
+  const double *x = s->system.x + 3 * p->node[k];
+  if (b->plan->web) {
+    *arc = b->plan->web->s[i];
+    return sw_load(x);
   }
-  const double r1 = s->wires[p.body[0]].beam.radius, r2 = s->wires[p.body[1]].beam.radius;
+  *arc = b->plan->s[i] - b->plan->s[0] + p->at[k] * b->plan->rest[i];
+  return sw_lerp(sw_load(x), sw_load(x + 3), p->at[k]);
+}
+
+static double touching_radius(const sw_scene *s, size_t body) {
+  const sw_plan *p = s->system.bodies[body].plan;
+  return p->web ? p->web->skin : p->beam.radius;
+}
+
+/* Of a wire and an object of particles the object comes first, whichever has the edge there. */
+static sw_pair_place loose_first(const sw_scene *s, sw_pair_place p) {
+  if (s->system.bodies[p.body[0]].plan->web) return p;
+  return (sw_pair_place){.body = {p.body[1], p.body[0]},
+                         .node = {p.node[1], p.node[0]},
+                         .at = {p.at[1], p.at[0]},
+                         .normal = sw_neg(p.normal),
+                         .normal_force = p.normal_force,
+                         .friction = sw_neg(p.friction),
+                         .gap = p.gap};
+}
+
+void sw_scene_wire_touch(sw_scene *s, size_t number, sw_wire_touch *out) {
+  const size_t wires = s->pairs ? sw_pairs_count(s->pairs) : 0;
+  const sw_pair_place p = number < wires
+                              ? sw_pairs_place(s->pairs, number)
+                              : loose_first(s, sw_grains_place(s->grains, number - wires));
+  sw_vec at[2];
+  for (int k = 0; k < 2; k++) {
+    at[k] = touched_at(s, &p, k, &out->s[k]);
+    memcpy(out->wire[k], s->wires[p.body[k]].name, SW_NAME_SIZE);
+  }
+  const double r1 = touching_radius(s, p.body[0]), r2 = touching_radius(s, p.body[1]);
   out->point = sw_lerp(at[1], at[0], r2 / (r1 + r2));
   out->normal = p.normal;
   out->force = sw_madd(p.friction, p.normal, p.normal_force);

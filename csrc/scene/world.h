@@ -5,6 +5,7 @@
 
 #include "contact/contact.h"
 #include "contact/crowd.h"
+#include "contact/grains.h"
 #include "contact/pairs.h"
 #include "scene/events.h"
 #include "scene/feed.h"
@@ -108,6 +109,7 @@ struct sw_scene {
   int *hold_slot;       /* (system.hold_count) scene slot of each system hold */
   sw_contact *contact;  /* with obstacles, or NULL */
   sw_pairs *pairs;      /* between wires, or NULL */
+  sw_grains *grains;    /* between objects of particles and what else touches them, or NULL */
   sw_crowd *crowd;      /* between particles that repel each other, or NULL */
   sw_scene_rule *rules; /* that pairs are made by */
   size_t rule_count, rule_capacity;
@@ -116,6 +118,8 @@ struct sw_scene {
     size_t bytes;
     void *pairs; /* the same of contact between wires */
     size_t pair_bytes;
+    void *grains; /* the same of objects of particles */
+    size_t grain_bytes;
     double *s;     /* (nodes) arc lengths then [m] */
     size_t *first; /* (wires + 1) first node of each wire then */
     size_t wires;
@@ -158,6 +162,8 @@ typedef struct sw_live {
   int fresh;
   void *pairs; /* the same between wires */
   size_t pairs_size;
+  void *grains; /* the same of objects of particles */
+  size_t grains_size;
   void *seen[3]; /* for read-outs: what touches obstacles, wires that may touch, and do */
   size_t seen_size[3];
 } sw_live;

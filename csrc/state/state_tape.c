@@ -55,7 +55,7 @@ void sw_tape_mesh(sw_tape *t, sw_mesh *x) {
 /* --- webs ------------------------------------------------------------------------ */
 
 static void tape_sizes(sw_tape *t, sw_web *x) {
-  SW_TAPE_STRUCT(t, sw_web, 376);
+  SW_TAPE_STRUCT(t, sw_web, 384);
   sw_tape_count(t, &x->particles, sizeof *x->mass);
   SIZE(rings), SIZE(per_ring), INT(banded);
   sw_tape_count(t, &x->links, sizeof *x->link);
@@ -81,7 +81,7 @@ static void tape_lists(sw_tape *t, sw_web *x, size_t shape_size) {
       OPTIONAL(hardening, x->links);
   sw_tape_optional(t, &x->shapes, x->shape_count, shape_size);
   OPTIONAL(ring_links, x->rings + 1), OPTIONAL(ring_solids, x->rings + 1);
-  ARRAY(mass, n), ARRAY(s, n), OPTIONAL(along, n);
+  ARRAY(mass, n), ARRAY(s, n), ARRAY(behind, n), OPTIONAL(along, n);
   OPTIONAL(share, x->per_ring), OPTIONAL(section, 2 * x->per_ring);
   OPTIONAL(around, x->around_count), OPTIONAL(face, 3 * x->faces);
   ARRAY(outer, n), ARRAY(side_first, n + 1);
@@ -166,6 +166,7 @@ static void check_web(sw_tape *t, const sw_web *w) {
   if (w->shape_count && !w->shapes) sw_tape_damaged(t, "a mesh without its elements");
   sw_tape_finite(t, w->mass, w->particles, "mass");
   sw_tape_finite(t, w->s, w->particles, "arc length");
+  sw_tape_finite(t, w->behind, w->particles, "stiffness");
   if (!sw_tape_good(t)) return;
   sw_tape_expect(t, are_rings(w), "the rings of a mesh");
   if (sw_tape_good(t)) sw_tape_expect(t, are_parts(w), "the parts of a mesh");

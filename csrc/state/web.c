@@ -15,9 +15,11 @@ sw_status sw_web_new(size_t particles, size_t links, size_t folds, size_t solids
   w->solid = sw_alloc(solids, sizeof *w->solid);
   w->mass = sw_alloc(particles, sizeof *w->mass);
   w->s = sw_alloc(particles, sizeof *w->s);
+  w->behind = sw_alloc(particles, sizeof *w->behind);
   w->outer = sw_alloc(particles, sizeof *w->outer);
   w->side_first = sw_alloc(particles + 1, sizeof *w->side_first);
-  if (!w->link || !w->fold || !w->solid || !w->mass || !w->s || !w->outer || !w->side_first) {
+  if (!w->link || !w->fold || !w->solid || !w->mass || !w->s || !w->behind || !w->outer ||
+      !w->side_first) {
     sw_web_release(w);
     return SW_ENOMEM;
   }
@@ -32,10 +34,11 @@ sw_web *sw_web_retain(sw_web *web) {
 
 void sw_web_release(sw_web *w) {
   if (!w || --w->references > 0) return;
-  void *const blocks[] = {
-      w->link,       w->first, w->fold,      w->solid,       w->shapes, w->ring_links, w->mass,
-      w->s,          w->share, w->section,   w->ring_solids, w->outer,  w->around,     w->side,
-      w->side_first, w->yield, w->hardening, w->along,       w->slide,  w->face,       w->crease};
+  void *const blocks[] = {w->link,        w->first,     w->fold,   w->solid, w->shapes,
+                          w->ring_links,  w->mass,      w->s,      w->share, w->section,
+                          w->ring_solids, w->outer,     w->around, w->side,  w->side_first,
+                          w->yield,       w->hardening, w->along,  w->slide, w->face,
+                          w->crease,      w->behind};
   for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) sw_free(blocks[k]);
   sw_free(w);
 }
@@ -88,7 +91,10 @@ sw_status sw_web_bound_rate(sw_web *w) {
     sum[w->link[e].b] += w->link[e].k;
   }
   w->rate2 = 0;
-  for (size_t p = 0; p < w->particles; p++) w->rate2 = fmax(w->rate2, 2.0 * sum[p] / w->mass[p]);
+  for (size_t p = 0; p < w->particles; p++) {
+    w->rate2 = fmax(w->rate2, 2.0 * sum[p] / w->mass[p]);
+    w->behind[p] += sum[p];
+  }
   sw_free(sum);
   return SW_OK;
 }

@@ -90,6 +90,7 @@ typedef struct sw_web {
   uint32_t axis;      /* a section's particle on the axis; per_ring: there is none */
   double solid_rate2; /* the same of the solid elements [1/s2] */
   double rate2;       /* most of twice the springs of a particle over its mass [1/s2] */
+  double *behind;     /* (particles) bound on the stiffness of what holds each to others [N/m] */
   double repel_distance, repel_stiffness; /* particles nearer than that push each other apart;
                                              stiffness 0: they do not [m], [N/m] */
   double wall;          /* bending stiffness of a ring's wall per length, 0: none [N m] */

@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "system/join.h"
+#include "system/web.h"
 
 static const uint32_t NONE = UINT32_MAX;
 
@@ -152,16 +153,33 @@ static sw_status number_nodes(sw_system *s) {
   return sw_grow((void **)&l->x, &l->x_capacity, l->block * l->nodes, sizeof *l->x);
 }
 
-/* All pairs of the matrix: two along each chain's node, then the links. */
+/* Of a web, in the matrix' numbers. */
+static size_t list_couples(sw_body *b, size_t first, sw_sparse_pair *out) {
+  const size_t count = sw_web_couples(b, out);
+  for (size_t k = 0; k < count; k++) {
+    out[k].i += (uint32_t)first;
+    out[k].j += (uint32_t)first;
+  }
+  b->web_replanned = 0;
+  return count;
+}
+
+/* All pairs of the matrix: two along each chain's node or a web's own, then the links. */
 static sw_status list_pairs(sw_system *s) {
   struct sw_links *l = s->links;
-  size_t n = 0;
-  SW_TRY(sw_grow((void **)&l->pairs, &l->pair_capacity, 2 * l->nodes + l->known_count,
-                 sizeof *l->pairs));
+  size_t n = 0, room = 2 * l->nodes + l->known_count;
+  for (size_t b = 0; b < s->body_count; b++)
+    if (s->bodies[b].linked && s->bodies[b].plan->web) room += sw_web_couples_room(&s->bodies[b]);
+  SW_TRY(sw_grow((void **)&l->pairs, &l->pair_capacity, room, sizeof *l->pairs));
   for (size_t b = 0; b < s->body_count; b++) {
     if (!s->bodies[b].linked) continue;
     const size_t count = s->bodies[b].plan->nodes;
     const uint32_t first = (uint32_t)l->first[b];
+    if (s->bodies[b].plan->web) {
+      s->bodies[b].web_couples = list_couples(&s->bodies[b], first, l->pairs + n);
+      n += s->bodies[b].web_couples;
+      continue;
+    }
     for (uint32_t i = 0; i + 1 < count; i++) {
       l->pairs[n++] = (sw_sparse_pair){first + i, first + i + 1};
       if (i + 2 < count) l->pairs[n++] = (sw_sparse_pair){first + i, first + i + 2};
@@ -174,12 +192,18 @@ static sw_status list_pairs(sw_system *s) {
   return SW_OK;
 }
 
+static int replanned(const sw_system *s) {
+  for (size_t b = 0; b < s->body_count; b++)
+    if (s->bodies[b].linked && s->bodies[b].web_replanned) return 1;
+  return 0;
+}
+
 sw_status sw_links_prepare(sw_system *s) {
   struct sw_links *l = s->links;
   SW_TRY(take_plan(l));
   const size_t before = l->known_count;
   for (size_t k = 0; k < l->count; k++) SW_TRY(add_known(l, l->list[k].i, l->list[k].j));
-  if (l->matrix && l->known_count == before) return SW_OK;
+  if (l->matrix && l->known_count == before && !replanned(s)) return SW_OK;
   sw_sparse_free(l->matrix);
   l->matrix = NULL;
   SW_TRY(number_nodes(s));

@@ -9,6 +9,7 @@
 #include "system/link.h"
 #include "system/spin.h"
 #include "system/twist.h"
+#include "system/web.h"
 
 /* --- values --------------------------------------------------------------------- */
 
@@ -48,6 +49,25 @@ static void load_spinning(struct sw_links *l, const sw_body *b, size_t first, si
   }
 }
 
+/* A web has its blocks in its own matrix; held particles are taken out. */
+static void load_web(struct sw_links *l, const sw_body *b, size_t first, size_t *pair) {
+  static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  double block[9];
+  for (size_t i = 0; i < b->plan->nodes; i++) {
+    double *to = sw_sparse_own(l->matrix, first + i);
+    if (!b->web_fixed[i]) sw_web_block(b, i, i, block);
+    for (int k = 0; k < 9; k++)
+      to[l->block > 3 ? k + k / 3 : k] = b->web_fixed[i] ? one[k] : block[k];
+    if (l->block > 3) to[15] = 1.0;
+  }
+  for (size_t k = 0; k < b->web_couples; k++, ++*pair) {
+    const size_t i = l->pairs[*pair].i - first, j = l->pairs[*pair].j - first;
+    if (b->web_fixed[i] || b->web_fixed[j]) continue;
+    sw_web_block(b, i, j, block);
+    add_pair(l, *pair, block);
+  }
+}
+
 static int is_held(const sw_system *s, uint32_t node) {
   const sw_body *body = &s->bodies[sw_system_body_of(s, node)];
   return body->plan->held[node - body->first_node] != SW_FREE;
@@ -61,7 +81,8 @@ static void load(sw_system *s) {
     sw_body *body = &s->bodies[b];
     if (!body->linked) continue;
     if (body->spin_block) sw_spin_load(s, body, s->delta + 3 * body->first_node);
-    (body->spin_block ? load_spinning : load_chain)(l, body, l->first[b], &pair);
+    const int web = body->plan->web != NULL;
+    (web ? load_web : body->spin_block ? load_spinning : load_chain)(l, body, l->first[b], &pair);
   }
   for (size_t k = 0; k < l->count; k++) {
     const sw_link *at = &l->list[k];

@@ -61,6 +61,8 @@ typedef struct sw_body {
   unsigned char *web_fixed; /* (particles) 1: held */
   uint32_t *web_pairs;      /* (web_pair_count x 2) that it has besides the web's */
   size_t web_pair_count;
+  size_t web_couples; /* pairs of its particles in the matrix of what is linked */
+  int web_replanned;  /* 1: it has other pairs than these were listed for */
   double *web_room; /* (particles x 15) of a large one, for iterations; or NULL */
   int web_factored; /* 1: there is a factor of this step that leads iterations */
   int web_slow;     /* 1: it did not lead them fast enough in this step */

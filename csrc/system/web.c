@@ -2,6 +2,7 @@
 #include "system/web.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -151,7 +152,7 @@ sw_status sw_body_plan_pairs(sw_body *b, const uint32_t *pairs, size_t count) {
   sw_blocks_free(b->blocks);
   sw_free(b->web_pairs);
   b->blocks = blocks, b->web_pairs = copy, b->web_pair_count = count;
-  b->web_factored = 0;
+  b->web_factored = 0, b->web_replanned = 1;
   use_blocks(b);
   return SW_OK;
 }
@@ -162,6 +163,40 @@ void sw_web_discard(sw_body *b) {
   sw_free(b->web_fixed);
   sw_free(b->web_pairs);
   sw_free(b->web_room);
+}
+
+size_t sw_web_couples_room(const sw_body *b) {
+  return pairs_of(b->plan->web, NULL) + b->web_pair_count;
+}
+
+static int by_nodes(const void *left, const void *right) {
+  const sw_sparse_pair *p = left, *q = right;
+  if (p->i != q->i) return p->i < q->i ? -1 : 1;
+  return p->j < q->j ? -1 : p->j > q->j;
+}
+
+size_t sw_web_couples(const sw_body *b, sw_sparse_pair *out) {
+  _Static_assert(sizeof(sw_sparse_pair) == sizeof(sw_blocks_pair), "both are two numbers");
+  const sw_web *w = b->plan->web;
+  size_t n = pairs_of(w, (sw_blocks_pair *)(void *)out), kept = 0;
+  for (size_t k = 0; k < b->web_pair_count; k++)
+    out[n++] = (sw_sparse_pair){b->web_pairs[2 * k], b->web_pairs[2 * k + 1]};
+  for (size_t k = 0; k < n; k++)
+    if (out[k].i > out[k].j) out[k] = (sw_sparse_pair){out[k].j, out[k].i};
+  if (n) qsort(out, n, sizeof *out, by_nodes);
+  for (size_t k = 0; k < n; k++)
+    if (k == 0 || by_nodes(&out[k], &out[kept - 1])) out[kept++] = out[k];
+  return kept;
+}
+
+/* Stored with the rows of the larger one; of a particle's own only the lower half counts. */
+void sw_web_block(const sw_body *b, size_t i, size_t j, double out[9]) {
+  const size_t slot = sw_blocks_slot(b->blocks, j, i), stride = b->field.block_stride;
+  for (size_t r = 0; r < 3; r++)
+    for (size_t c = 0; c < 3; c++) {
+      const int swap = i != j || c > r;
+      out[3 * r + c] = b->field.blocks[slot + stride * (swap ? c : r) + (swap ? r : c)];
+    }
 }
 
 void sw_web_begin(sw_body *b) { sw_blocks_clear(b->blocks); }

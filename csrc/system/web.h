@@ -4,11 +4,19 @@
 #ifndef SW_SYSTEM_WEB_H
 #define SW_SYSTEM_WEB_H
 
+#include "solve/sparse.h"
 #include "system/system.h"
 
 /* The matrix of a body whose plan has a web, and where its forces write. SW_ENOMEM. */
 sw_status sw_web_prepare(sw_body *body);
 void sw_web_discard(sw_body *body);
+
+/* For a matrix in which webs are tied to other bodies: the pairs of particles that have a block,
+ * each once, i < j, into out (room for sw_web_couples_room); their number. */
+size_t sw_web_couples_room(const sw_body *body);
+size_t sw_web_couples(const sw_body *body, sw_sparse_pair *out);
+/* The 3 x 3 block of rows of i and columns of j, i <= j. */
+void sw_web_block(const sw_body *body, size_t i, size_t j, double out[9]);
 
 /* An evaluation with stiffness begins; it is over, and what nodes have in the field's rows
  * joins the rest. */

@@ -17,7 +17,7 @@ local uses = {
   frequencies = "wire:frequencies{...}: natural frequencies [Hz] about the present equilibrium",
   wire_mesh = "scene:wire{ model = 'tube' | 'radial' | 'cubic' | 'composite' }: what meshes take besides",
   remodel = "wire:remodel{ model =, ... }: another model for a wire in mid-run",
-  wire_contact = "scene:wire_contact{...}: wires that touch each other and themselves, see help 'touches'",
+  wire_contact = "scene:wire_contact{...}: wires and objects of particles that touch, see help 'touches'",
   particles = "scene:particles{...}: any object of particles: fabric, foam, nets, chains",
   repel = "repel = {...} of scene:particles",
   join = "scene:join{...}: wires fixed to each other at a point, as in a harness",

@@ -348,7 +348,7 @@ describe("wire_contact", function()
       { { friction = -1 }, "friction = %-1 is not allowed" },
       { { frictoin = 1 }, "did you mean 'friction'" },
       { { self = 2 }, "self must be" },
-      { { between = 3 }, "a wire or a list of wires, got" },
+      { { between = 3 }, "a wire, an object of particles or a list of these, got" },
       { { between = {} }, "lists no wire" },
       { { between = { w, 3 } }, "between" },
       { { between = { w, foreign } }, "another scene" },

@@ -186,6 +186,38 @@ describe("a tube's section between plates", function()
   end)
 end)
 
+describe("a hollow tube pressed flat", function()
+  it("says that its walls meet, for they do not touch each other", function()
+    local r, wall, length = 0.01, 0.001, 0.03
+    local EI, outer = math.pi * r ^ 3 * 1e7 * wall, r + 1.3e-3
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ name = "hose", model = "tube", core = false, particles = 16,
+      EA = 2 * math.pi * r * 1e7 * wall, EI = EI, GJ = EI / 2, wall_bending = 1e7 * wall ^ 3 / 12,
+      radius = outer, mass_per_length = 0.1, from = { 0, 0, 0 }, to = { length, 0, 0 }, normal = { 0, 0, 1 } }
+    scene:force{ kind = "plane_strain", on = wire, direction = { 1, 0, 0 } }
+    local plates, told = {}, nil
+    for k = 1, 2 do
+      plates[k] = scene:obstacle{ shape = "box", size = { 0.2, 0.1, 0.02 }, friction = 0.3,
+        at = { length / 2, 0, (2 * k - 3) * (outer + 0.01) } }
+    end
+    for i = 1, 19 do
+      local half = outer * (1 - i * 0.045)
+      plates[1]:pose{ length / 2, 0, -half - 0.01 }
+      plates[2]:pose{ length / 2, 0, half + 0.01 }
+      t.fine(scene:settle())
+      told = scene:events()[1]
+      -- the middles of the walls are a skin inside of the plates where they lie on them, and may come
+      -- nearer only where they have folded inwards
+      if half > outer - r + 3 * wall then assert.is_nil(told) end
+    end
+    assert.equal(1, #scene:events())
+    assert.equal("walls", told.kind)
+    assert.equal("hose", told.object)
+    assert.matches("^tube 'hose' is flat at s = [%d.]+ m: the middles of opposite walls are %S+ m apart, "
+      .. "which are 0.001 m thick", told.text)
+  end)
+end)
+
 describe("a free mesh without weight between plates", function()
   it("is not thrown out of them where nothing else holds it", function()
     -- six directions without stiffness, in which rounding decides

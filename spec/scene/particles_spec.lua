@@ -302,8 +302,6 @@ describe("forces on particles", function()
     refuses("goes with objects of particles", scene.force, scene, { kind = "push", on = wire,
       particles = { 1 }, force = any })
     refuses("got particles", scene.join, scene, { ends = { { wire, s = 0 }, { object, s = 0 } } })
-    refuses("got particles", scene.wire_contact, scene, { between = { wire, object } })
-    refuses("'net' is an object of particles", scene.wire_contact, scene, {})
     for _, kind in ipairs{ "pin", "grip", "feed" } do
       refuses("scene:hold", scene[kind], scene, object, { s = 0 })
     end
