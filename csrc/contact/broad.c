@@ -213,7 +213,7 @@ const int *sw_broad_near(sw_broad *b, sw_vec low, sw_vec high, double reach, siz
                          size_t *looks) {
   *count = b->aside_count;
   *looks += b->aside_count;
-  if (!sw_broad_trees(b)) return b->aside;
+  if (!b->group[0].count && !b->group[1].count) return b->aside;
   size_t n = 0;
   for (int k = 0; k < 2; k++) {
     const sw_broad_group *g = &b->group[k];

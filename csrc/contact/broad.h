@@ -53,11 +53,6 @@ sw_status sw_broad_place(sw_contact *c, double t, sw_contact_at *out, sw_error *
  * SW_EINTR. */
 sw_status sw_broad_update(sw_contact *c);
 
-/* Are there any that are looked for? Else all are always near. */
-static inline int sw_broad_trees(const sw_broad *b) {
-  return b->group[0].count || b->group[1].count;
-}
-
 /* Obstacles that may be as near as reach (besides their own way) to the box from low to high, in
  * their order; valid until the next search. Adds to *looks the boxes looked at. */
 const int *sw_broad_near(sw_broad *broad, sw_vec low, sw_vec high, double reach, size_t *count,

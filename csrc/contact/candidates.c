@@ -135,45 +135,53 @@ static void look_at_pads(sw_contact *c, const sw_plan *p) {
   }
 }
 
-/* The box of a node and of the other ends of its segments; returns the reach of the farthest
- * reaching, without what obstacles do [m]. */
-static double look_out(const sw_contact *c, const sw_system *s, const sw_body *b, size_t i,
-                       sw_vec *low, sw_vec *high) {
+/* A node and the other ends of its segments. */
+typedef struct outlook {
+  sw_vec x, low, high; /* the node's place, the box of all [m] */
+  double reach;        /* of the farthest reaching, without what obstacles do [m] */
+} outlook;
+
+static outlook look_out(const sw_contact *c, const sw_system *s, const sw_body *b, size_t i) {
   const size_t node = b->first_node + i;
-  double most = c->reach[node];
-  *low = *high = sw_contact_where(c, s->x, node, node, 0);
+  const sw_vec x = sw_contact_where(c, s->x, node, node, 0);
+  outlook out = {x, x, x, c->reach[node]};
   for (int k = 1; other_end(b->plan, i, k) != i; k++) {
     const size_t other = b->first_node + other_end(b->plan, i, k);
     const sw_vec y = sw_contact_where(c, s->x, other, other, 0);
-    *low = low_of(*low, y), *high = high_of(*high, y);
-    most = larger(most, c->reach[other]);
+    out.low = low_of(out.low, y), out.high = high_of(out.high, y);
+    out.reach = larger(out.reach, c->reach[other]);
   }
-  return most;
+  return out;
+}
+
+static int out_of_reach(const sw_bounds *b, const outlook *at) {
+  const sw_vec r = sw_v(at->reach, at->reach, at->reach);
+  return outside(b, sw_sub(at->low, r), sw_add(at->high, r));
 }
 
 static sw_status obstacle_candidates(sw_contact *c, const sw_system *s, size_t body, size_t i,
-                                     size_t o) {
+                                     const outlook *at, size_t o) {
   const sw_body *b = &s->bodies[body];
   const size_t node = b->first_node + i;
-  const sw_vec x = sw_contact_where(c, s->x, node, node, 0);
-  const double reach = reach_of(c, s, node, o);
-  const sw_vec r = sw_v(reach, reach, reach);
   sw_closest near;
   if (c->obstacles[o].off) return SW_OK;
-  if (!(c->spaced[o] > 0) && !outside(&c->bounds[o], sw_sub(x, r), sw_add(x, r)) &&
-      sw_shape_point(c->obstacles[o].shape, sw_pose_local(c->start[o].pose, x), reach, &near))
+  if (!c->broad.moves[o] && out_of_reach(&c->bounds[o], at)) return SW_OK;
+  const double reach = reach_of(c, s, node, o);
+  const sw_vec r = sw_v(reach, reach, reach);
+  if (!(c->spaced[o] > 0) && !outside(&c->bounds[o], sw_sub(at->x, r), sw_add(at->x, r)) &&
+      sw_shape_point(c->obstacles[o].shape, sw_pose_local(c->start[o].pose, at->x), reach, &near))
     SW_TRY(add_candidate(c, b, body, node, node, (int)o, 0));
   if (c->flat[o] || c->dense[o]) return SW_OK;
   return segment_candidates(c, s, body, i, o, reach);
 }
 
 static sw_status node_candidates(sw_contact *c, sw_system *s, size_t body, size_t i) {
-  sw_vec low = {0}, high = {0};
   size_t count;
-  const double reach =
-      sw_broad_trees(&c->broad) ? look_out(c, s, &s->bodies[body], i, &low, &high) : 0.0;
-  const int *near = sw_broad_near(&c->broad, low, high, reach, &count, &s->counters.looks);
-  for (size_t k = 0; k < count; k++) SW_TRY(obstacle_candidates(c, s, body, i, (size_t)near[k]));
+  const outlook at = look_out(c, s, &s->bodies[body], i);
+  const int *near =
+      sw_broad_near(&c->broad, at.low, at.high, at.reach, &count, &s->counters.looks);
+  for (size_t k = 0; k < count; k++)
+    SW_TRY(obstacle_candidates(c, s, body, i, &at, (size_t)near[k]));
   return SW_OK;
 }
 

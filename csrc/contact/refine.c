@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/simd.h"
 #include "contact/touch.h"
 
 /* Touches opened and closed in an iterate, for more of them the next one costs less; and solves for
@@ -65,7 +66,8 @@ static void push(const refined *r, const sw_touch *t, sw_vec f, double *free, in
   }
 }
 
-static void add(size_t n, double share, const double *x, double *to) {
+SW_HOT
+static void add(size_t n, double share, const double *restrict x, double *restrict to) {
   for (size_t i = 0; i < n; i++) to[i] += share * x[i];
 }
 
