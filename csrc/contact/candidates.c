@@ -25,11 +25,14 @@ static int outside(const sw_bounds *b, sw_vec low, sw_vec high) {
          low.z > b->max.z || high.z < b->min.z;
 }
 
-static sw_vec low_of(sw_vec a, sw_vec b) {
-  return sw_v(fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z));
+static inline double larger(double a, double b) { return a > b ? a : b; }
+static inline double smaller(double a, double b) { return a < b ? a : b; }
+
+static inline sw_vec low_of(sw_vec a, sw_vec b) {
+  return sw_v(smaller(a.x, b.x), smaller(a.y, b.y), smaller(a.z, b.z));
 }
-static sw_vec high_of(sw_vec a, sw_vec b) {
-  return sw_v(fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z));
+static inline sw_vec high_of(sw_vec a, sw_vec b) {
+  return sw_v(larger(a.x, b.x), larger(a.y, b.y), larger(a.z, b.z));
 }
 
 double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v) {
@@ -38,21 +41,25 @@ double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v) {
   return reserve * c->h * (sw_norm(v) + g * c->h) + least;
 }
 
-/* Widest gap at the step's start that can close within it, with reserve, by the wire's doing. */
-static double own_reach(const sw_contact *c, const sw_system *s, const sw_body *b, size_t node) {
-  if (c->regime == SW_CONTACT_STATIC)
-    return b->plan->length + (b->plan->web ? 2.0 * b->plan->beam.radius : 0.0);
-  return b->plan->beam.radius * SKIN +
-         c->widening * sw_flight_reserve(c, s, sw_load(s->v + 3 * node));
+/* Widest gap of each node at the step's start that can close within it, with reserve, but for what
+ * obstacles do. */
+static void reach_out(sw_contact *c, const sw_system *s, const sw_body *b) {
+  const double radius = b->plan->beam.radius;
+  double *const reach = c->reach + b->first_node;
+  const double *const v = s->v + 3 * b->first_node;
+  const double whole = b->plan->length + (b->plan->web ? 2.0 * radius : 0.0);
+  const double still = radius * SKIN + c->widening * sw_flight_reserve(c, s, sw_v(0, 0, 0));
+  const double time = c->widening * (sw_flight_reserve(c, s, sw_v(1, 0, 0)) -
+                                     sw_flight_reserve(c, s, sw_v(0, 0, 0)));
+  for (size_t i = 0; i < b->plan->nodes; i++)
+    reach[i] = c->regime == SW_CONTACT_STATIC ? whole : still + time * sw_norm(sw_load(v + 3 * i));
 }
 
-/* And by the obstacle's. */
-static double reach_of(const sw_contact *c, const sw_system *s, const sw_body *b, size_t node,
-                       size_t o) {
-  const double own = own_reach(c, s, b, node);
-  if (c->regime == SW_CONTACT_STATIC) return own;
+/* The same with what the obstacle does. */
+static double reach_of(const sw_contact *c, const sw_system *s, size_t node, size_t o) {
+  if (c->regime == SW_CONTACT_STATIC || !c->broad.moves[o]) return c->reach[node];
   const sw_vec x = sw_contact_where(c, s->x, node, node, 0);
-  return own + sw_norm(sw_obstacle_velocity(&c->start[o], x)) * c->h;
+  return c->reach[node] + sw_norm(sw_obstacle_velocity(&c->start[o], x)) * c->h;
 }
 
 static sw_status add_candidate(sw_contact *c, const sw_body *b, size_t body, size_t node,
@@ -105,7 +112,7 @@ static sw_status segment_candidates(sw_contact *c, const sw_system *s, size_t bo
   for (int k = 1; other_end(b->plan, i, k) != i; k++) {
     const size_t other = b->first_node + other_end(b->plan, i, k);
     const sw_vec y = sw_contact_where(c, s->x, other, other, 0);
-    const double wide = fmax(reach, reach_of(c, s, b, other, o));
+    const double wide = larger(reach, reach_of(c, s, other, o));
     const sw_vec w = sw_v(wide, wide, wide);
     if (outside(&c->bounds[o], sw_sub(low_of(x, y), w), sw_add(high_of(x, y), w))) continue;
     SW_TRY(add_candidate(c, b, body, node, other, (int)o, k));
@@ -128,44 +135,53 @@ static void look_at_pads(sw_contact *c, const sw_plan *p) {
   }
 }
 
-/* The box of a node and of the other ends of its segments; returns the reach of the farthest
- * reaching, without what obstacles do [m]. */
-static double look_out(const sw_contact *c, const sw_system *s, const sw_body *b, size_t i,
-                       sw_vec *low, sw_vec *high) {
+/* A node and the other ends of its segments. */
+typedef struct outlook {
+  sw_vec x, low, high; /* the node's place, the box of all [m] */
+  double reach;        /* of the farthest reaching, without what obstacles do [m] */
+} outlook;
+
+static outlook look_out(const sw_contact *c, const sw_system *s, const sw_body *b, size_t i) {
   const size_t node = b->first_node + i;
-  double most = own_reach(c, s, b, node);
-  *low = *high = sw_contact_where(c, s->x, node, node, 0);
+  const sw_vec x = sw_contact_where(c, s->x, node, node, 0);
+  outlook out = {x, x, x, c->reach[node]};
   for (int k = 1; other_end(b->plan, i, k) != i; k++) {
     const size_t other = b->first_node + other_end(b->plan, i, k);
     const sw_vec y = sw_contact_where(c, s->x, other, other, 0);
-    *low = low_of(*low, y), *high = high_of(*high, y);
-    most = fmax(most, own_reach(c, s, b, other));
+    out.low = low_of(out.low, y), out.high = high_of(out.high, y);
+    out.reach = larger(out.reach, c->reach[other]);
   }
-  return most;
+  return out;
+}
+
+static int out_of_reach(const sw_bounds *b, const outlook *at) {
+  const sw_vec r = sw_v(at->reach, at->reach, at->reach);
+  return outside(b, sw_sub(at->low, r), sw_add(at->high, r));
 }
 
 static sw_status obstacle_candidates(sw_contact *c, const sw_system *s, size_t body, size_t i,
-                                     size_t o) {
+                                     const outlook *at, size_t o) {
   const sw_body *b = &s->bodies[body];
   const size_t node = b->first_node + i;
-  const sw_vec x = sw_contact_where(c, s->x, node, node, 0);
-  const double reach = reach_of(c, s, b, node, o);
-  const sw_vec r = sw_v(reach, reach, reach);
   sw_closest near;
   if (c->obstacles[o].off) return SW_OK;
-  if (!(c->spaced[o] > 0) && !outside(&c->bounds[o], sw_sub(x, r), sw_add(x, r)) &&
-      sw_shape_point(c->obstacles[o].shape, sw_pose_local(c->start[o].pose, x), reach, &near))
+  if (!c->broad.moves[o] && out_of_reach(&c->bounds[o], at)) return SW_OK;
+  const double reach = reach_of(c, s, node, o);
+  const sw_vec r = sw_v(reach, reach, reach);
+  if (!(c->spaced[o] > 0) && !outside(&c->bounds[o], sw_sub(at->x, r), sw_add(at->x, r)) &&
+      sw_shape_point(c->obstacles[o].shape, sw_pose_local(c->start[o].pose, at->x), reach, &near))
     SW_TRY(add_candidate(c, b, body, node, node, (int)o, 0));
   if (c->flat[o] || c->dense[o]) return SW_OK;
   return segment_candidates(c, s, body, i, o, reach);
 }
 
 static sw_status node_candidates(sw_contact *c, sw_system *s, size_t body, size_t i) {
-  sw_vec low, high;
   size_t count;
-  const double reach = look_out(c, s, &s->bodies[body], i, &low, &high);
-  const int *near = sw_broad_near(&c->broad, low, high, reach, &count, &s->counters.looks);
-  for (size_t k = 0; k < count; k++) SW_TRY(obstacle_candidates(c, s, body, i, (size_t)near[k]));
+  const outlook at = look_out(c, s, &s->bodies[body], i);
+  const int *near =
+      sw_broad_near(&c->broad, at.low, at.high, at.reach, &count, &s->counters.looks);
+  for (size_t k = 0; k < count; k++)
+    SW_TRY(obstacle_candidates(c, s, body, i, &at, (size_t)near[k]));
   return SW_OK;
 }
 
@@ -295,11 +311,13 @@ static sw_status make_room(sw_contact *c) {
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err) {
   c->candidate_count = c->touch_count = c->last_count = 0;
   c->unmarked = 1;
-  sw_status status = sw_broad_update(c);
+  sw_status status = sw_grow((void **)&c->reach, &c->reach_capacity, s->nodes, sizeof *c->reach);
+  if (status == SW_OK) status = sw_broad_update(c);
   for (size_t b = 0; b < s->body_count && status == SW_OK; b++) {
     const size_t first = c->candidate_count;
     const sw_web *web = s->bodies[b].plan->web;
     look_at_pads(c, s->bodies[b].plan);
+    reach_out(c, s, &s->bodies[b]);
     for (size_t i = 0; i < s->bodies[b].plan->nodes && status == SW_OK; i++)
       if (sw_interrupted())
         status = SW_EINTR;

@@ -18,7 +18,7 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   c->loads = sw_alloc(count, sizeof *c->loads);
   c->start = sw_alloc(count, sizeof *c->start);
   c->now = sw_alloc(count, sizeof *c->now);
-  c->flat = sw_alloc(5 * count, sizeof *c->flat);
+  c->flat = sw_alloc(6 * count, sizeof *c->flat);
   c->spaced = sw_alloc(count, sizeof *c->spaced);
   c->bounds = (sw_bounds *)sw_alloc(count, sizeof *c->bounds);
   if (!c->obstacles || !c->loads || !c->start || !c->now || !c->flat || !c->spaced || !c->bounds ||
@@ -27,9 +27,12 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
     return SW_ENOMEM;
   }
   c->dense = c->flat + count, c->busy = c->dense + count, c->pads = c->busy + count;
-  c->pressing = c->pads + count;
+  c->pressing = c->pads + count, c->straight = c->pressing + count;
   memcpy(c->obstacles, obstacles, count * sizeof *obstacles);
-  for (size_t o = 0; o < count; o++) c->flat[o] = sw_shape_is(obstacles[o].shape, SW_SHAPE_FLAT);
+  for (size_t o = 0; o < count; o++) {
+    c->flat[o] = sw_shape_is(obstacles[o].shape, SW_SHAPE_FLAT);
+    c->straight[o] = sw_shape_is(obstacles[o].shape, SW_SHAPE_SQUARE);
+  }
   for (size_t o = 0; o < count; o++)
     if (obstacles[o].grips > 0) c->pads[c->pad_count++] = (int)o;
   c->count = count;
@@ -80,6 +83,7 @@ void sw_contact_free(sw_contact *c) {
   sw_free(c->impact_at);
   sw_free(c->marks);
   sw_free(c->room);
+  sw_free(c->reach);
   sw_free(c);
 }
 

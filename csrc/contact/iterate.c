@@ -113,7 +113,7 @@ static sw_vec surface_shift(const sw_system *s, const sw_touch *t, sw_vec shift)
  * small share of the radius: it is then off by less than its own size for that step [-]. */
 enum { PATIENCE = 6 };
 
-/* The first update of a stage starts from a prediction, where the normals of what is not flat are a
+/* The first update of a stage starts from a prediction, where the normals of what is round are a
  * little off. Accepted, that shakes ropes which slide round a cylinder: their force then swings by
  * 12 % instead of 1 %. A mesh that rocks on a peg gains energy by it. Pads of a gripper are pressed
  * on meshes to a force, which is found within fewer trials as it is. */
@@ -123,29 +123,39 @@ static int is_first(const sw_contact *c, const sw_system *s, const sw_touch *t) 
          t->press.active;
 }
 
+/* On what is not flat the touch may have got another place and another normal. */
+static int may_change(const sw_contact *c, const sw_touch *t, double shift) {
+  const double radius = c->candidates[t->candidate].radius;
+  return !c->flat[t->obstacle] && t->press.gap_after < radius && !(shift <= SMALL_SHIFT * radius);
+}
+
 /* Bring a touch's forces up to the solved update; 1 = it agrees with what the
  * solve assumed. */
-static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *delta,
-                  double scale) {
+static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *y,
+                  const double *delta, double scale) {
   const sw_vec shift = sw_touch_place(delta, t->node, t->other, t->at);
   const sw_vec surface = s->rolls ? surface_shift(s, t, shift) : shift;
   const int agrees = sw_press_update(&t->press, t->friction, surface, scale);
   if (t->held) return 1;
-  const double radius = c->candidates[t->candidate].radius;
-  const int small = sw_norm(shift) <= SMALL_SHIFT * radius;
-  if (!c->flat[t->obstacle] && t->press.gap_after < radius && !small)
-    return 0; /* place and normal of the touch may have changed */
+  const double way = sw_norm(shift);
   const sw_web *web = s->bodies[t->body].plan->web;
-  if (is_first(c, s, t)) return 0;
-  if (agrees || !small || c->updates <= PATIENCE || !web || web->per_ring) return agrees;
-  return sw_press_apart(&t->press);
+  const int changes = may_change(c, t, way);
+  const int first = is_first(c, s, t);
+  if (web || c->regime != SW_CONTACT_IMPLICIT) {
+    if (changes || first) return 0;
+    const int small = way <= SMALL_SHIFT * c->candidates[t->candidate].radius;
+    if (agrees || !small || c->updates <= PATIENCE || !web || web->per_ring) return agrees;
+    return sw_press_apart(&t->press);
+  }
+  if (!agrees || (first && !c->straight[t->obstacle])) return 0;
+  return !(changes || first) || sw_contact_stays(c, t, y, way, scale);
 }
 
-static int update_all(sw_contact *c, const sw_system *s, const double *delta) {
+static int update_all(sw_contact *c, const sw_system *s, const double *y, const double *delta) {
   int fine = 1;
   for (size_t first = c->parts.touch, end; first < c->touch_count; first = end) {
     const double scale = sw_contact_scale(c, first, &end);
-    for (size_t i = first; i < end; i++) fine &= update(c, s, &c->touches[i], delta, scale);
+    for (size_t i = first; i < end; i++) fine &= update(c, s, &c->touches[i], y, delta, scale);
   }
   return fine;
 }
@@ -172,10 +182,9 @@ static int stiffen(sw_contact *c, const sw_system *s) {
 
 int sw_contact_settled(void *contact, sw_system *s, const double *y, const double *delta) {
   sw_contact *c = contact;
-  (void)y;
   c->pressed_count = c->pressed_before;
   c->updates++;
-  const int fine = update_all(c, s, delta);
+  const int fine = update_all(c, s, y, delta);
   if (!fine) sw_contact_peel(c, s);
   if (fine && stiffen(c, s)) return 0;
   for (size_t i = c->parts.touch; fine && i < c->touch_count; i++) {

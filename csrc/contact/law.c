@@ -160,6 +160,15 @@ int sw_press_pulls(const sw_press *p, sw_vec shift) {
   return p->active && p->gap + sw_dot(p->normal, shift) > GAP_TOLERANCE;
 }
 
+int sw_press_closes(const sw_press *p, sw_vec shift) {
+  return !p->active && p->gap + sw_dot(p->normal, shift) < -GAP_TOLERANCE;
+}
+
+void sw_press_close(sw_press *p) {
+  p->active = p->sliding = 1;
+  p->lag = p->lag_at_first = p->turning = 0;
+}
+
 int sw_press_opens(const sw_press *p, sw_vec shift, double force_scale) {
   const double across = sw_dot(p->normal, shift);
   if (p->gap + across < -GAP_TOLERANCE) return 0;

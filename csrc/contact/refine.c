@@ -1,23 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Touches agree with the solution of an iterate's equations within its linearisation, where a solve
- * with the same factor does that: friction of what slides follows the normal force, and touches
- * that would pull open. What is left to do after that is up to the next iterate. */
+ * with the same factor does that: friction of what slides follows the normal force, touches that
+ * would pull open, and those that would be gone through close. What is left to do after that is up
+ * to the next iterate. */
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/simd.h"
 #include "contact/touch.h"
 
-/* Touches opened in an iterate, and solves for friction: the second one gets it right to a percent
- * or so [-]. */
-enum { MOST_OPEN = 4, MOST_FOLLOW = 2 };
+/* Touches opened and closed in an iterate, for more of them the next one costs less; and solves for
+ * friction: the second one gets it right to a percent or so [-]. */
+enum { MOST_CHANGED = 6, MOST_FOLLOW = 2 };
 
-/* A touch that is opened: the force across that takes its pull away, and what one of 1 N does. */
-typedef struct opened {
+/* A touch that is opened or closed: the force across that takes its pull away or is its push, and
+ * what one of 1 N does. */
+typedef struct changed {
   size_t touch;
+  int closes;
   double force;  /* [N] */
   double *shift; /* (nodes x 3) [m/N] */
-} opened;
+} changed;
 
 typedef struct refined {
   sw_contact *c;
@@ -27,7 +31,7 @@ typedef struct refined {
   double scale;      /* [N] */
   double *delta;     /* (nodes x 3) its solution [m] */
   double *more;      /* (nodes x 3) [N], [m] */
-  opened open[MOST_OPEN];
+  changed list[MOST_CHANGED];
   size_t count;
 } refined;
 
@@ -62,7 +66,8 @@ static void push(const refined *r, const sw_touch *t, sw_vec f, double *free, in
   }
 }
 
-static void add(size_t n, double share, const double *x, double *to) {
+SW_HOT
+static void add(size_t n, double share, const double *restrict x, double *restrict to) {
   for (size_t i = 0; i < n; i++) to[i] += share * x[i];
 }
 
@@ -100,40 +105,44 @@ static void follow(refined *r, int back) {
   add(values(r), 1.0, r->more, r->delta);
 }
 
-/* --- opening -------------------------------------------------------------------- */
+/* --- opening and closing ---------------------------------------------------------- */
 
-static void open_one(refined *r, size_t touch) {
-  double *shift = r->more + (1 + r->count) * values(r);
-  const sw_touch *t = &r->c->touches[touch];
-  memset(shift, 0, values(r) * sizeof *shift);
-  push(r, t, t->press.normal, shift, 0);
-  sw_body_solve_again(r->body, shift);
-  r->open[r->count++] = (opened){touch, 0, shift};
-}
-
-static int is_open(const refined *r, size_t touch) {
+static int is_changed(const refined *r, size_t touch) {
   for (size_t k = 0; k < r->count; k++)
-    if (r->open[k].touch == touch) return 1;
+    if (r->list[k].touch == touch) return 1;
   return 0;
 }
 
-/* Open the touches that pull. Returns how many do now; -1: they are too many, or stick. Those
- * without friction are left to the next iterate, as are those of wires with frames, whose equations
- * are not solved again: both move alike. */
-static int open_pulling(refined *r) {
-  int more = 0;
+/* Touches that are to change and have not; -1: they are too many, or stick. Those without friction
+ * are left to the next iterate, as are those of wires with frames, whose equations are not solved
+ * again: both move alike. */
+static int find_changes(const refined *r, size_t *touch) {
+  int count = 0;
   for (size_t i = r->first; i < r->end; i++) {
     const sw_touch *t = &r->c->touches[i];
-    if (!sw_press_pulls(&t->press, place(r, t, r->delta)) || is_open(r, i)) continue;
-    if (r->count == MOST_OPEN || !(t->friction > 0) || !t->press.sliding) return -1;
-    open_one(r, i);
-    more++;
+    const sw_vec shift = place(r, t, r->delta);
+    const int closes = !t->held && sw_press_closes(&t->press, shift);
+    if (!closes && !sw_press_pulls(&t->press, shift)) continue;
+    if (is_changed(r, i)) continue;
+    if (r->count + (size_t)count == MOST_CHANGED || !(t->friction > 0)) return -1;
+    if (!closes && !t->press.sliding) return -1;
+    touch[count++] = i;
   }
-  return more;
+  return count;
+}
+
+static void change_one(refined *r, size_t touch) {
+  double *shift = r->more + (1 + r->count) * values(r);
+  sw_touch *t = &r->c->touches[touch];
+  memset(shift, 0, values(r) * sizeof *shift);
+  push(r, t, t->press.normal, shift, 0);
+  sw_body_solve_again(r->body, shift);
+  r->list[r->count++] = (changed){touch, !t->press.active, 0, shift};
+  if (!t->press.active) sw_press_close(&t->press);
 }
 
 /* S z = z in place, with the largest pivots; 0: it cannot be solved. */
-static int eliminate(size_t m, double S[MOST_OPEN][MOST_OPEN], double *z) {
+static int eliminate(size_t m, double S[MOST_CHANGED][MOST_CHANGED], double *z) {
   for (size_t k = 0; k < m; k++) {
     size_t best = k;
     for (size_t i = k + 1; i < m; i++)
@@ -159,54 +168,76 @@ static int eliminate(size_t m, double S[MOST_OPEN][MOST_OPEN], double *z) {
   return 1;
 }
 
-/* Opened touches' forces, so that nothing of their springs is left. */
+/* Forces of those that have changed: nothing is left of an opened one's spring, and a closed one
+ * has got one. */
 static int balance(refined *r) {
-  double S[MOST_OPEN][MOST_OPEN], z[MOST_OPEN];
+  double S[MOST_CHANGED][MOST_CHANGED], z[MOST_CHANGED];
   for (size_t k = 0; k < r->count; k++) {
-    const sw_touch *t = &r->c->touches[r->open[k].touch];
+    const sw_touch *t = &r->c->touches[r->list[k].touch];
     const sw_press *p = &t->press;
-    z[k] = p->k * (p->gap + sw_dot(p->normal, place(r, t, r->delta))) - r->open[k].force;
+    const double spring = r->list[k].closes ? -p->k : p->k;
+    z[k] = spring * (p->gap + sw_dot(p->normal, place(r, t, r->delta))) - r->list[k].force;
     for (size_t j = 0; j < r->count; j++)
-      S[k][j] = (k == j) - p->k * sw_dot(p->normal, place(r, t, r->open[j].shift));
+      S[k][j] = (k == j) - spring * sw_dot(p->normal, place(r, t, r->list[j].shift));
   }
   if (!eliminate(r->count, S, z)) return 0;
   for (size_t k = 0; k < r->count; k++) {
-    r->open[k].force += z[k];
-    add(values(r), z[k], r->open[k].shift, r->delta);
+    r->list[k].force += z[k];
+    add(values(r), z[k], r->list[k].shift, r->delta);
   }
   return 1;
 }
 
-/* Open what pulls, until nothing does. */
-static int open_all(refined *r) {
+/* Open what pulls and close what is gone through, until there is nothing to change. */
+static int change_all(refined *r) {
   for (;;) {
-    const int more = open_pulling(r);
+    size_t touch[MOST_CHANGED];
+    const int more = find_changes(r, touch);
+    for (int k = 0; k < more; k++) change_one(r, touch[k]);
     if (more < 0 || (more && !balance(r))) return 0;
     if (!more) return 1;
   }
 }
 
-static void forget_opened(refined *r) {
-  for (size_t k = 0; k < r->count; k++)
-    add(values(r), -r->open[k].force, r->open[k].shift, r->delta);
+/* As if nothing had been opened or closed. */
+static void forget_changes(refined *r) {
+  int rubbed = 0;
+  memset(r->more, 0, values(r) * sizeof *r->more);
+  for (size_t k = 0; k < r->count; k++) {
+    const changed *one = &r->list[k];
+    sw_touch *t = &r->c->touches[one->touch];
+    add(values(r), -one->force, one->shift, r->delta);
+    if (!one->closes) continue;
+    const sw_vec f = sw_press_unfollow(&t->press, t->friction);
+    rubbed |= sw_norm2(f) > 0;
+    push(r, t, f, r->more, 1);
+    t->press.active = 0;
+  }
   r->count = 0;
+  if (!rubbed) return;
+  sw_body_solve_again(r->body, r->more);
+  add(values(r), 1.0, r->more, r->delta);
 }
 
-/* Do all stay open? */
-static int stay_open(const refined *r) {
+/* Do all stay as they have been changed? */
+static int stay(const refined *r) {
   for (size_t k = 0; k < r->count; k++) {
-    const sw_touch *t = &r->c->touches[r->open[k].touch];
-    if (!sw_press_opens(&t->press, place(r, t, r->delta), r->scale)) return 0;
+    const sw_touch *t = &r->c->touches[r->list[k].touch];
+    const sw_vec shift = place(r, t, r->delta);
+    if (r->list[k].closes ? sw_press_pulls(&t->press, shift)
+                          : !sw_press_opens(&t->press, shift, r->scale))
+      return 0;
   }
   return 1;
 }
 
-static void take_opened(const refined *r) {
+static void take_changes(const refined *r) {
   for (size_t k = 0; k < r->count; k++) {
-    sw_touch *t = &r->c->touches[r->open[k].touch];
+    sw_touch *t = &r->c->touches[r->list[k].touch];
+    push(r, t, sw_scale(t->press.normal, r->list[k].force), NULL, 1);
+    if (r->list[k].closes) continue;
     t->press.active = 0, t->press.opened = 1;
-    t->press.lift = r->open[k].force;
-    push(r, t, sw_scale(t->press.normal, r->open[k].force), NULL, 1);
+    t->press.lift = r->list[k].force;
   }
 }
 
@@ -229,13 +260,13 @@ static int goes_far(const refined *r) {
 static const double ENOUGH = 0.5;
 
 /* 1: friction fits, or nearly so. */
-static int follow_all(refined *r, int *opens) {
+static int follow_all(refined *r, int *changes) {
   double before = off(r);
   for (int k = 0; k < MOST_FOLLOW && lags(r); k++) {
     follow(r, 0);
-    if (*opens && !((!r->count || balance(r)) && open_all(r))) {
-      *opens = 0;
-      forget_opened(r);
+    if (*changes && !((!r->count || balance(r)) && change_all(r))) {
+      *changes = 0;
+      forget_changes(r);
     }
     const double after = off(r);
     if (!(after <= ENOUGH * before)) return 0;
@@ -245,20 +276,20 @@ static int follow_all(refined *r, int *opens) {
 }
 
 static void refine(refined *r) {
-  int opens = !goes_far(r) && open_all(r), changed = r->count > 0;
-  if (!opens) forget_opened(r);
+  int changes = !goes_far(r) && change_all(r), any = r->count > 0;
+  if (!changes) forget_changes(r);
   if (lags(r)) {
-    changed = 1;
-    if (!follow_all(r, &opens)) {
-      forget_opened(r);
+    any = 1;
+    if (!follow_all(r, &changes)) {
+      forget_changes(r);
       follow(r, 1);
     }
   }
-  if (stay_open(r))
-    take_opened(r);
+  if (stay(r))
+    take_changes(r);
   else
-    forget_opened(r);
-  if (changed) sw_body_take_solution(r->body, r->delta);
+    forget_changes(r);
+  if (any) sw_body_take_solution(r->body, r->delta);
 }
 
 void sw_contact_refine(void *contact, sw_system *s) {
@@ -268,7 +299,7 @@ void sw_contact_refine(void *contact, sw_system *s) {
     const double scale = sw_contact_scale(c, first, &end);
     if (!sw_body_solves_again(b)) continue;
     const size_t n = 3 * b->plan->nodes;
-    if (sw_grow((void **)&c->room, &c->room_capacity, (1 + MOST_OPEN) * n, sizeof *c->room) !=
+    if (sw_grow((void **)&c->room, &c->room_capacity, (1 + MOST_CHANGED) * n, sizeof *c->room) !=
         SW_OK)
       return; /* the next iterate does without */
     refined r = {.c = c,

@@ -136,7 +136,7 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
   sw_vec u = shift_since(c, s, t, y);
   if (m)
     u = sw_add(u, sw_rotate(c->now[t->obstacle].pose.q, m->elastic));
-  else if (press->gap >= 0)
+  else if (press->gap >= 0 && press->active)
     u = sw_v(0, 0, 0);
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == c->stage, c->first);
   press->lag = m ? m->normal_force : press->k * fmax(0.0, -press->gap);

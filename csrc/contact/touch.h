@@ -121,12 +121,15 @@ struct sw_contact {
   void *user;
   sw_contact_at *start, *now; /* (count) at the step's start and at the stage */
   int *flat;                  /* (count) 1: a half space, no segment contacts */
+  int *straight;              /* (count) 1: its faces meet at right angles */
   int *pads;                  /* (pad_count) those of grippers */
   size_t pad_count;
   int *pressing; /* (count) 1: a pad that pressed on something at the step's start */
   int *dense;    /* (count) 1: particles of the body at hand lie close, likewise */
   double *sunk;  /* (3 nodes) how far contact sees a node further in, or NULL: nowhere [m] */
   size_t sunk_capacity;
+  double *reach; /* (nodes) widest gap that may close in the step, but for obstacles' moving [m] */
+  size_t reach_capacity;
   double *spaced; /* (count) farthest that samples of the body at hand may be apart; 0: none [m] */
   sw_bounds *bounds; /* (count) at the step's start, world axes */
   sw_candidate *candidates;
@@ -202,6 +205,11 @@ sw_status sw_contact_turn_over(sw_contact *c, size_t *first, size_t *end);
 sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw_error *err);
 /* How deep the touch's place was at the step's start, below 0 when it was outside [m]. */
 double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t);
+
+/* Has the touch the place and the normal that its equations had, after an update by shift [m] to
+ * positions y? scale: forces far below do not matter [N]. */
+int sw_contact_stays(const sw_contact *c, const sw_touch *t, const double *y, double shift,
+                     double scale);
 
 /* After a static solve: let go of touches at the ends of rows as far as wires lift off there. */
 void sw_contact_peel(sw_contact *c, const sw_system *s);

@@ -125,7 +125,7 @@ const sw_shape_class sw_shape_class_box = {
     .summary = "block around the origin, edges along the axes",
     .sample = "size = { 1, 0.8, 0.6 }",
     .wrong = wrong,
-    .traits = SW_SHAPE_FACED,
+    .traits = SW_SHAPE_FACED | SW_SHAPE_SQUARE,
 
     .params = SW_PARAMS("obstacle box", rows),
     .args_size = sizeof(box_args),

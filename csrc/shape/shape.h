@@ -53,9 +53,10 @@ typedef void (*sw_bone_visit)(void *user, sw_vec a, sw_vec b, double skin);
 
 /* What is particular about a kind. */
 enum {
-  SW_SHAPE_FLAT = 1,  /* a half space: a segment is nearest to it at an end */
-  SW_SHAPE_FACED = 2, /* bounded by flat faces */
-  SW_SHAPE_LISTED = 4 /* made from a list or a file, maybe of very many places */
+  SW_SHAPE_FLAT = 1,   /* a half space: a segment is nearest to it at an end */
+  SW_SHAPE_FACED = 2,  /* bounded by flat faces */
+  SW_SHAPE_LISTED = 4, /* made from a list or a file, maybe of very many places */
+  SW_SHAPE_SQUARE = 8  /* its faces meet at right angles: never nearly round */
 };
 
 /* Kinds of shape. Names are NULL-terminated, in the order of list.def. */

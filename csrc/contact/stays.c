@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Does a touch stay where an iterate had it? Its equations have its place and its normal fixed. On
+ * what is not flat a shift may change both, or hardly: looking there again costs far less than
+ * another iterate. */
+#include <math.h>
+
+#include "contact/touch.h"
+
+/* A touch has stayed when its normal turned by no more than this, and when no larger share of its
+ * force goes to another end of its segment than before [-]. */
+static const double TURNED = 0.01, MOVED = 0.01;
+/* And when its gap is off by less than makes this share of its force, or of the scene's [-]. */
+static const double OFF = 0.01, LITTLE = 1e-3;
+
+/* A wire that goes further may meet what the iterate has not seen; of the radius [-]. */
+static const double FAR = 0.5;
+
+/* A nearest place further along the segment is another touch [-]. */
+static const double SAME_PLACE = 0.25;
+
+/* Where the wire is nearest now; 0: nowhere. */
+static int find(const sw_contact *c, const sw_touch *t, const double *y, sw_closest *out) {
+  const sw_candidate *k = &c->candidates[t->candidate];
+  const sw_shape *shape = c->obstacles[t->obstacle].shape;
+  const sw_pose *pose = &c->now[t->obstacle].pose;
+  const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, y, t->node, t->node, 0));
+  const sw_vec b = sw_pose_local(*pose, sw_contact_where(c, y, t->other, t->other, 0));
+  const double reach = 2.0 * k->radius;
+  sw_closest near[SW_CLOSEST_MAX];
+  const int n = t->segment && !k->samples ? sw_shape_segment(shape, a, b, reach, near) : 0;
+  double nearest = SAME_PLACE;
+  for (int i = 0; i < n; i++) {
+    const double away = fabs(near[i].at - t->at);
+    if (away < nearest) *out = near[i], nearest = away;
+  }
+  if (nearest < SAME_PLACE) return 1;
+  out->at = t->at; /* a sample, a node, or a place that goes on pushing where it was */
+  return sw_shape_point(shape, t->segment ? sw_lerp(a, b, t->at) : a, reach, out);
+}
+
+int sw_contact_stays(const sw_contact *c, const sw_touch *t, const double *y, double shift,
+                     double scale) {
+  const sw_candidate *k = &c->candidates[t->candidate];
+  const sw_press *p = &t->press;
+  sw_closest near;
+  if (!(shift < FAR * k->radius)) return 0;
+  if (t->feature == SW_BEHIND_BARRIER) return 1;
+  if (!find(c, t, y, &near)) return !p->active;
+  if (near.gap < 0) return 0; /* inside, the side is found anew */
+  const sw_vec normal = sw_rotate(c->now[t->obstacle].pose.q, near.normal);
+  const double aslant = sw_contact_aslant(c, t->node, t->other, near.at, normal);
+  const double gap = near.gap - k->skin + aslant + t->forgiven;
+  if (!p->active) return gap >= 0;
+  return fabs(near.at - t->at) < MOVED &&
+         p->k * fabs(gap - p->gap_after) <= OFF * p->normal_force + LITTLE * scale &&
+         sw_norm2(sw_sub(normal, p->normal)) < TURNED * TURNED;
+}
