@@ -412,10 +412,14 @@ static void next_frame(sw_scene *s, double every, double t) {
   if (!(s->next_frame > t)) s->next_frame = nextafter(t, HUGE_VAL);
 }
 
+/* Less than that is no time: steps of it would underflow [s]. */
+static const double SHORTEST_STEP = 1e-20;
+
 static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_error *err) {
   sw_scene *s = p->s;
   const double t0 = s->time, span = until - t0;
   const double count = fmax(1.0, ceil(span / p->args->dt - 1e-9));
+  if (span > 0 && span < SHORTEST_STEP) s->time = until;
   const int adaptive = isfinite(p->args->tolerance);
   s->stepper.wants_error = adaptive;
   const double slack = 1e-12 * fmax(fabs(until), span);
@@ -474,8 +478,7 @@ static sw_status check_run(const sw_scene *s, const sw_run_args *args, sw_error 
 
 /* A clock near t advances in parts of t times this [-]; a step must be some of them. */
 static const double CLOCK = 2.3e-16, TICKS = 64;
-static const double MOST_STEPS = 1e15;     /* [-] */
-static const double SHORTEST_STEP = 1e-20; /* [s] */
+static const double MOST_STEPS = 1e15; /* [-] */
 
 /* Steps that add up to the time they are to cover. */
 static sw_status check_clock(const sw_scene *s, const sw_run_args *args, double until,

@@ -51,11 +51,11 @@ describe("the time of a run", function()
 
   it("may be hardly any, and end", function()
     local scene = make()
-    for _, duration in ipairs{ 1e-300, 1e-17, 0 } do
+    for _, duration in ipairs{ 5e-324, 1e-300, 1e-17, 0 } do
       assert.is_true(scene:run{ duration = duration }.ok)
     end
     scene:process(function(p)
-      for _ = 1, 10 do p:wait(1e-300) end
+      for _ = 1, 10 do p:wait(1e-300) p:wait(5e-324) end
       p:wait(0.05)
       p:wait(1e-17)
     end)
