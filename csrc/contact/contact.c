@@ -176,7 +176,7 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
                    .normal_force = t->press.normal_force,
                    .sliding = t->press.next_sliding,
                    .depth = t->press.normal_force / t->press.k,
-                   .k = sw_press_eased(&t->press, c->candidates[t->candidate].usual, t->stiffer),
+                   .k = sw_press_eased(&t->press, t->usual, t->stiffer),
                    .normal = sw_rotate(back, t->press.normal),
                    .point = t->local,
                    .seen = t->seen};
@@ -452,5 +452,7 @@ int sw_contact_steady(const sw_contact *c) {
   return before == now && !c->impact_count && !c->plastic;
 }
 
+void sw_contact_cut(sw_contact *c, double least) { c->least = least; }
+double sw_contact_soonest(const sw_contact *c) { return c->soonest; }
 size_t sw_contact_impacts(const sw_contact *c) { return c->impact_count; }
 double sw_contact_struck(const sw_contact *c) { return c->struck; }

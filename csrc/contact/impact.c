@@ -144,6 +144,40 @@ static double kick(sw_system *s, const sw_body *b, size_t node, sw_vec dv) {
   return share * c.mass;
 }
 
+/* How a touch with restitution meets its obstacle within a step. */
+typedef struct meeting {
+  double after; /* so long after the step's start [s] */
+  double speed; /* approach at that moment [m/s] */
+} meeting;
+
+/* Gravity goes on until the surfaces meet, pull being how much of it is towards the obstacle. */
+static meeting meet(double gap, double approach, double pull) {
+  const double speed = sqrt(fmax(0.0, approach * fabs(approach) + 2.0 * pull * gap));
+  return (meeting){speed + approach > 0 ? 2.0 * gap / (speed + approach) : HUGE_VAL, speed};
+}
+
+/* A rebound from above the surface, where the step began, keeps the height that it did not fall
+ * through: this share of the rebound's own is let pass [-]. */
+static const double HEIGHT_ERROR = 0.02;
+/* So is this share of the way in a whole step, which is an error of time [-]. */
+static const double WAY_ERROR = 1.0 / 8;
+/* A step that is cut ends this share of the time before the surface is met: the next one strikes at
+ * its start [-]. */
+static const double LEFT_OPEN = 0.02;
+/* What meets the surface sooner than by gravity alone is pushed there: so much of the step [-]. */
+static const double CUT_AGAIN = 0.7;
+
+/* Is the rebound wrong if it is from where the step begins? Notes when the step is to end then. */
+static int is_too_early(sw_contact *c, double e, double gap, double pull, meeting m, double h) {
+  const double height = e * e * m.speed * m.speed, fallen = 2.0 * (1.0 - e * e) * pull * gap;
+  if (c->regime == SW_CONTACT_EXPLICIT || gap <= CLOSED) return 0;
+  if (fallen <= HEIGHT_ERROR * height && gap <= WAY_ERROR * m.speed * c->nominal) return 0;
+  const double end = m.after < h ? (1.0 - LEFT_OPEN) * m.after : CUT_AGAIN * h;
+  if (end < c->least) return 0;
+  c->soonest = fmin(c->soonest, end);
+  return 1;
+}
+
 /* Change the starting velocities so that the touch is reached, not passed.
  * Returns 1 when something was changed. */
 static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
@@ -163,19 +197,25 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_vec wall = striking_velocity(c, t, at, gap, &slow);
   sw_vec v = sw_sub(sw_touch_place(s->v, t->node, t->other, t->at), wall);
   const double approach = -sw_dot(v, t->press.normal);
-  const double allowed = gap / h;
-  if (!(approach > allowed + slow)) return 0;
-  const double change = o->restitution > 0 ? approach * (1.0 + o->restitution) : approach - allowed;
+  const double allowed = gap / h, e = o->restitution;
+  const double pull = fmax(0.0, -sw_dot(sw_load(s->gravity), t->press.normal));
+  const meeting m = meet(gap, approach, pull);
+  if (e > 0 ? !(m.speed > slow) : !(approach > allowed + slow)) return 0;
+  /* a rebound shorter than a step would be none */
+  const int rebounds = e * m.speed > 0.5 * pull * h;
+  if (rebounds && is_too_early(c, e, gap, pull, m, h)) return 0;
+  const double change = rebounds ? approach * (1.0 + e) : approach - allowed;
+  if (!(change > 0)) return 0;
   if (levers.count) v = sw_add(v, sw_levers_shift(&levers, s->v + 3 * s->nodes + b->first_roll, 1));
   const sw_vec along = sw_madd(v, t->press.normal, -sw_dot(v, t->press.normal));
   const sw_vec brake = sw_levers_brake(&b->plan->beam, &levers, along, o->friction * change);
   const sw_vec dv = sw_madd(brake, t->press.normal, change);
   double w[2], mass = 0, kicked = 0;
   shares(s, t, w);
-  for (size_t e = 0; e < 2; e++) {
-    if (!(w[e] > 0)) continue;
-    mass += w[e] * b->plan->lumped[end[e] - b->first_node];
-    kicked += w[e] * kick(s, b, end[e], sw_scale(dv, w[e]));
+  for (size_t k = 0; k < 2; k++) {
+    if (!(w[k] > 0)) continue;
+    mass += w[k] * b->plan->lumped[end[k] - b->first_node];
+    kicked += w[k] * kick(s, b, end[k], sw_scale(dv, w[k]));
   }
   c->struck += kicked * sw_dot(dv, wall);
   sw_contact_add_blow(c, t->obstacle, at, sw_scale(dv, -kicked));
@@ -410,10 +450,12 @@ sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *
   /* impulses must not see what their neighbours did to the edges between them */
   double *kicks = s->delta + 3 * s->nodes, *rates = s->v + 3 * s->nodes;
   for (size_t e = 0; e < s->rolls; e++) kicks[e] = 0;
+  c->soonest = HUGE_VAL;
   const int crossed = review_crossings(c, s, x1, h);
   const int struck = review_touches(c, s, h);
   for (size_t e = 0; e < s->rolls; e++) rates[e] += kicks[e];
   c->pressed_count = 0;
+  if (c->soonest < h) return SW_CONTACT_SOONER;
   if (crossed || struck) return SW_CONTACT_REDO;
   if (bounces(c, s, v1)) return SW_CONTACT_STRIKE;
   const int smaller = bars_too_hard(c, s, h) || cuts_deep(c, s, x1, h);

@@ -87,6 +87,22 @@ sw_status sw_contact_keeps(void *contact, sw_system *s, const double *y, int *ou
   return SW_OK;
 }
 
+/* What a step leaves so near to what it would rebound from does so with its neighbours [m]. */
+static const double NEXT_TO = 1e-6;
+
+/* What presses may have struck. With no room for it, an impact is dealt with in the next step. */
+static void note_pressed(sw_contact *c) {
+  for (size_t i = c->parts.touch; i < c->touch_count; i++) {
+    const sw_touch *t = &c->touches[i];
+    const double open = c->obstacles[t->obstacle].restitution > 0 ? NEXT_TO : 0.0;
+    if (t->held || !(t->press.normal_force > 0 || t->press.gap_after < open)) continue;
+    if (sw_grow((void **)&c->pressed, &c->pressed_capacity, c->pressed_count + 1,
+                sizeof *c->pressed) != SW_OK)
+      return;
+    c->pressed[c->pressed_count++] = *t;
+  }
+}
+
 sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar, const double *y,
                           unsigned want, sw_error *err) {
   sw_contact *c = contact;
@@ -98,6 +114,7 @@ sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar,
   c->looked = 0;
   if (want & SW_WANT_STIFFNESS) mark(c);
   for (size_t i = c->parts.touch; i < c->touch_count; i++) apply(c, s, &c->touches[i], want);
+  if (c->regime == SW_CONTACT_EXPLICIT) note_pressed(c);
   return SW_OK;
 }
 
@@ -173,8 +190,7 @@ static int stiffen(sw_contact *c, const sw_system *s) {
     sw_touch *t = &c->touches[i];
     const double before = small ? fmax(0.0, sw_contact_depth_before(c, s, t)) : -1.0;
     if (t->held || c->candidates[t->candidate].given) continue;
-    t->stiffer =
-        sw_press_stiffer(&t->press, c->candidates[t->candidate].usual, t->forgiven, before);
+    t->stiffer = sw_press_stiffer(&t->press, t->usual, t->forgiven, before);
     any |= t->stiffer > t->press.k;
   }
   return any;
@@ -187,13 +203,6 @@ int sw_contact_settled(void *contact, sw_system *s, const double *y, const doubl
   const int fine = update_all(c, s, y, delta);
   if (!fine) sw_contact_peel(c, s);
   if (fine && stiffen(c, s)) return 0;
-  for (size_t i = c->parts.touch; fine && i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
-    if (t->held || !(t->press.normal_force > 0 || t->press.gap_after < 0)) continue;
-    if (sw_grow((void **)&c->pressed, &c->pressed_capacity, c->pressed_count + 1,
-                sizeof *c->pressed) != SW_OK)
-      break; /* an impact is then dealt with in the next step */
-    c->pressed[c->pressed_count++] = *t;
-  }
+  if (fine) note_pressed(c);
   return fine;
 }

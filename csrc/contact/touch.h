@@ -39,6 +39,7 @@ typedef struct sw_touch {
   double forgiven;  /* part of the true depth left out of the gap in this step [m] */
   double let_out;   /* part of the true depth that nothing explains and this step ends [m] */
   double hardened;  /* stored at once by its being stiffer than before, of a mesh [J] */
+  double usual;     /* of a new touch here [N/m] */
   double stiffer;   /* its stiffness from the next iterate on [N/m] */
   int known;        /* it pressed at the step's start */
   int held;         /* both ends are held: no force */
@@ -96,6 +97,7 @@ typedef struct sw_contact_loads {
   sw_contact_past past;
   sw_contact_load stage[SW_BOOK_STAGES]; /* impulse from the step's start, without blows [N s] */
   sw_contact_load blows; /* impulse of impacts that changed velocities at the start [N s] */
+  sw_contact_load trial; /* at the end of a trial [N] */
   int busy;              /* 1: it is in the list of those that may get something */
 } sw_contact_loads;
 
@@ -162,6 +164,8 @@ struct sw_contact {
   double nominal;    /* the run's full step [s] */
   sw_contact_regime regime;
   int plastic;     /* 1: the step is one that does not bounce */
+  double soonest;  /* rebound that is not at the step's start, after it [s] */
+  double least;    /* rebounds sooner than this after the start are at the start [s] */
   double struck;   /* work of moving obstacles in the step's impacts [J] */
   int fresh;       /* SW_CONTACT_FRESH, or SW_CONTACT_EMERGING, or 0 */
   int updates;     /* of the stage so far [-] */

@@ -166,6 +166,7 @@ sw_contact_verdict sw_scene_review_contact(sw_scene *s, const double *x1, const 
                                            double h) {
   sw_contact_verdict verdict = SW_CONTACT_ACCEPT;
   if (s->contact) verdict = sw_contact_review(s->contact, &s->system, x1, v1, h);
+  if (verdict == SW_CONTACT_SOONER) return verdict;
   if (s->pairs && verdict != SW_CONTACT_SMALLER) {
     const sw_contact_verdict other = sw_pairs_review(s->pairs, &s->system, x1, h);
     if (other != SW_CONTACT_ACCEPT) verdict = other;

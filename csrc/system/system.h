@@ -373,6 +373,10 @@ const double *sw_system_elastic(const sw_system *system, const sw_body *body);
 void sw_system_sum_pull(const sw_system *system, const double *tension, const double *rate,
                         double *out);
 
+/* Add share times these, of wires that are lines [-]. */
+void sw_system_add_pull(const sw_system *system, const double *tension, const double *rate,
+                        double share, double *sum);
+
 /* Read-outs of the state, after a step h, are between the first stage's forces (edges) and those
  * of the state now, with this share of the latter, which is how it was `behind` ago, and go on
  * from there as they changed in the last step, if that was evened out too [s], [N], [-], [s]. */
