@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "scene/blow.h"
 #include "scene/world.h"
 
 static const char *const *integrator_names(void) {
@@ -115,24 +116,6 @@ static sw_status trial(loop *p, double h, sw_error *err) {
   return status;
 }
 
-/* A step as long as a blow lasts smears it: what is pressed gives way by no law but that of the
- * step, and a wire that is pushed on buckles at once instead of bearing the push for a while.
- * Harder ones than any before are followed in parts for so long [s], in at least so many of them a
- * step [-], but none shorter than this [s]. */
-static const double BLOW = 0.01, MOST_PARTS = 100, SHORTEST_PART = 1e-4;
-/* What goes on longer is no blow but a rattle, and costs too much to be followed [s]. */
-static const double LONGEST_BLOW = 0.03;
-/* From one that is followed to the next: a wire that tumbles would be followed all the time [s]. */
-static const double BETWEEN_BLOWS = 0.1;
-
-/* A blow of which no part succeeds that is this share of the usual ones is not followed [-]. */
-static const double SMALLEST_FOLLOWED = 1.0 / 16;
-
-/* The step to take: one that follows a blow is shorter than asked for [s]. */
-static double followed(const sw_scene *s, double h) {
-  return s->time < s->blow_until ? fmin(h, fmax(s->blow_part, SHORTEST_PART)) : h;
-}
-
 /* The shortest part of a step that may end at a rebound [s]. */
 static double shortest_cut(const loop *p) {
   if (isfinite(p->args->tolerance)) return SAME_TIME_CONTROLLED * p->args->dt;
@@ -150,7 +133,7 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
   memcpy(p->v_start, s->system.v, s->system.freedoms * sizeof(double));
   sw_status status = sw_scene_begin_contact(
       s, s->method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
-      s->time, h, followed(s, p->args->dt), err);
+      s->time, h, sw_blow_part(s, p->args->dt), err);
   if (s->contact) sw_contact_cut(s->contact, shortest_cut(p));
   for (int redo = 0; status == SW_OK && redo < MOST_REDOS; redo++) {
     status = trial(p, h, err);
@@ -273,36 +256,6 @@ static int is_shaken(const sw_scene *s) {
   return sw_contact_shaken(s->contact, &s->system);
 }
 
-/* Nodes that go into a guide press on what is beside it by no blow. */
-static int any_feed(const sw_scene *s) {
-  for (size_t k = 0; k < s->hold_count; k++)
-    if (s->holds[k].alive && s->holds[k].cls->feeds) return 1;
-  return 0;
-}
-
-/* Parts of a step with such a jolt: a power of two, so that scenes which differ by little take the
- * same steps [-]. */
-static double parts_for(double jolt) {
-  return exp2(ceil(log2(fmin(jolt * fmax(2.0, jolt), MOST_PARTS))));
-}
-
-/* A trial step of size h that went well: does it have to be redone in parts, for something struck?
- */
-static int is_jolted(loop *p, double h) {
-  sw_scene *s = p->s;
-  const int followed = s->time < s->blow_until;
-  if (!s->contact || s->pairs || s->grains || (!followed && !(h > 1.01 * SHORTEST_PART)) ||
-      any_feed(s))
-    return 0;
-  if (!followed && s->blow_until > 0 && s->time < s->blow_since + BETWEEN_BLOWS) return 0;
-  const double jolt = sw_contact_jolt(s->contact, &s->system, followed);
-  if (!(jolt > 0)) return 0;
-  if (!followed) s->blow_since = s->time;
-  s->blow_until = fmin(s->time + fmax(BLOW, h), s->blow_since + fmax(LONGEST_BLOW, h));
-  if (!followed) s->blow_part = fmax(SHORTEST_PART, h / parts_for(jolt));
-  return !followed;
-}
-
 static void accept(loop *p, double h) {
   sw_scene *s = p->s;
   sw_stepper_accept(&s->stepper, &s->system, h);
@@ -370,21 +323,19 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
   double done = 0, part = h;
   sw_error failed = {""}; /* why a part of this step was refused last */
   int starts = s->discontinuous && sw_slip_any(s), cut = 0; /* cut: at a rebound */
-  int follows = 1;                                          /* blows */
   p->cuts = 0;
   if (starts) part = FIRST_SLIP * h;
   p->changed = s->discontinuous > 0;
   while (done < h) {
     const double left = h - done;
-    part = followed(s, part);
+    part = sw_blow_part(s, part);
     if (part > left * (1 - 1e-12)) part = left;
     if (done > 0 && p->interrupted && p->interrupted()) return SW_EINTR; /* there may be many */
     SW_TRY(make_room(p, &part, err));
     if (!(part >= SMALLEST_SHARE * SMALLEST_SHARE * h))
       return sw_feed_too_fast(s, failed.text, err);
     const sw_status status = judged_attempt(p, part, 0.5 * part < SMALLEST_SHARE * h, err);
-    if (status == SW_OK && follows &&
-        is_jolted(p, part)) { /* not refused: it only told of the blow */
+    if (status == SW_OK && sw_blow_begins(s, part)) { /* not refused: it only told of the blow */
       undo(p);
       continue;
     }
@@ -392,6 +343,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
       done += part;
       accept(p, part);
       s->time = done < h ? t0 + done : t1;
+      if (p->redo != AS_IS) sw_blow_refused(s);
       SW_TRY(observe(s, err));
       SW_TRY(count_small(p, part, p->args->dt, err));
       part = starts || cut ? h : 2 * part;
@@ -404,10 +356,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
     p->held = *err;
     cut = p->soonest > 0;
     p->cuts += cut;
-    if (follows && !cut && s->time < s->blow_until && part < SMALLEST_FOLLOWED * s->blow_part) {
-      follows = 0, part = 2.0 * h;
-      s->blow_until = s->time;
-    }
+    if (!cut) sw_blow_refused(s);
     if (!p->smooth && !cut) s->discontinuous = 1;
     part = cut ? p->soonest : 0.5 * part;
     if (part < SMALLEST_SHARE * h) return status;

@@ -140,14 +140,15 @@ end
 
 describe("a cable's end poked at a wall", function()
   -- (friction, tilt): ends that slide at once, and ends that stick and buckle. Where the tilt is
-  -- that of friction either may happen, and where it sticks the buckled wire may slip off later.
+  -- that of friction either may happen, and where it sticks the buckled wire may slip off later. At
+  -- 0.15 rad a wire of 0.1 m buckles up or down (9.7 or 11.7 N), as a shift of 10 um has it.
   for _, case in ipairs{ { "clamp", 0.06, 0.25, 0.3 },
     { "clamp", 0.1, 0.25, 0.3 },
-    { "clamp", 0.06, 0.5, 0.3 }, { "gripper", 0.06, 0.25, 0.3 }, { "gripper", 0.1, 0.15, 0.3 },
+    { "clamp", 0.06, 0.5, 0.3 }, { "gripper", 0.06, 0.25, 0.3 }, { "gripper", 0.1, 0.25, 0.3 },
     { "gripper", 0.06, 0.5, 0.3 }, { "gripper", 0.15, 0.45, 0.5 }, { "clamp", 0.045, 0.45, 0.1 } } do
     local by, free, tilt, friction = case[1], case[2], case[3], case[4]
-    local title = ("bears the same force at every step: %s, %g m, %g rad, %g"):format(by, free, tilt, friction)
-    it(title, function()
+    local title = "bears the same force at every step: %s, %g m, %g rad, %g"
+    it(title:format(by, free, tilt, friction), function()
       local least, most, ends = math.huge, 0, {}
       for _, dt in ipairs{ 0.01, 0.005, 0.002, 0.0005, 0.0002 } do
         local force, place = poked{ by = by, free = free, tilt = tilt, friction = friction, dt = dt }
