@@ -5,6 +5,7 @@
  * the integrator never sees the shock that would make it bounce. A swept test
  * finds segments that passed through an obstacle unseen. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -178,34 +179,57 @@ static int is_too_early(sw_contact *c, double e, double gap, double pull, meetin
   return 1;
 }
 
+/* A touch and its obstacle, at the step's start. */
+typedef struct encounter {
+  sw_vec at;             /* on the wire's surface, if it can roll; else on its axis [m] */
+  double gap;            /* [m] */
+  sw_vec wall;           /* the obstacle's velocity there [m/s] */
+  sw_vec speed;          /* the wire's against it [m/s] */
+  double approach, slow; /* how fast the gap closes, and what is none [m/s] */
+} encounter;
+
+static encounter encounter_of(const sw_contact *c, const sw_system *s, const sw_touch *t,
+                              const sw_levers *levers) {
+  encounter e;
+  const sw_vec x = sw_contact_where(c, s->x, t->node, t->other, t->at);
+  const sw_body *b = &s->bodies[t->body];
+  const double radius = sw_plan_skin(b->plan, t->node - b->first_node);
+  const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
+  const double aslant = sw_contact_aslant(c, t->node, t->other, t->at, t->press.normal);
+  e.at = levers->count ? sw_madd(x, t->press.normal, -radius) : x;
+  e.gap = fmax(0.0, sw_dot(t->press.normal, sw_sub(x, plane)) + aslant - radius);
+  e.wall = striking_velocity(c, t, e.at, e.gap, &e.slow);
+  e.speed = sw_sub(sw_touch_place(s->v, t->node, t->other, t->at), e.wall);
+  e.approach = -sw_dot(e.speed, t->press.normal);
+  return e;
+}
+
+/* How much of its velocity towards the obstacle a touch is to lose; 0: it strikes nothing [m/s]. */
+static double velocity_lost(sw_contact *c, const sw_system *s, const sw_touch *t,
+                            const encounter *meets, double h) {
+  const double allowed = meets->gap / h, e = c->obstacles[t->obstacle].restitution;
+  const double pull = fmax(0.0, -sw_dot(sw_load(s->gravity), t->press.normal));
+  const meeting m = meet(meets->gap, meets->approach, pull);
+  if (e > 0 ? !(m.speed > meets->slow) : !(meets->approach > allowed + meets->slow)) return 0;
+  /* a rebound shorter than a step would be none */
+  const int rebounds = e * m.speed > 0.5 * pull * h;
+  if (rebounds && is_too_early(c, e, meets->gap, pull, m, h)) return 0;
+  return fmax(0.0, rebounds ? meets->approach * (1.0 + e) : meets->approach - allowed);
+}
+
 /* Change the starting velocities so that the touch is reached, not passed.
  * Returns 1 when something was changed. */
 static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
   /* what comes to a pad that holds a wire already only trembles */
   if (o->grips > 0 && c->pressing[t->obstacle]) return 0;
-  const sw_vec x = sw_contact_where(c, s->x, t->node, t->other, t->at);
   const sw_body *b = &s->bodies[t->body];
-  const double radius = sw_plan_skin(b->plan, t->node - b->first_node);
   const size_t end[2] = {t->node, t->other};
   const sw_levers levers = sw_touch_levers(s, t);
-  const sw_vec at = levers.count ? sw_madd(x, t->press.normal, -radius) : x;
-  const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
-  const double aslant = sw_contact_aslant(c, t->node, t->other, t->at, t->press.normal);
-  const double gap = fmax(0.0, sw_dot(t->press.normal, sw_sub(x, plane)) + aslant - radius);
-  double slow;
-  const sw_vec wall = striking_velocity(c, t, at, gap, &slow);
-  sw_vec v = sw_sub(sw_touch_place(s->v, t->node, t->other, t->at), wall);
-  const double approach = -sw_dot(v, t->press.normal);
-  const double allowed = gap / h, e = o->restitution;
-  const double pull = fmax(0.0, -sw_dot(sw_load(s->gravity), t->press.normal));
-  const meeting m = meet(gap, approach, pull);
-  if (e > 0 ? !(m.speed > slow) : !(approach > allowed + slow)) return 0;
-  /* a rebound shorter than a step would be none */
-  const int rebounds = e * m.speed > 0.5 * pull * h;
-  if (rebounds && is_too_early(c, e, gap, pull, m, h)) return 0;
-  const double change = rebounds ? approach * (1.0 + e) : approach - allowed;
+  const encounter e = encounter_of(c, s, t, &levers);
+  const double change = velocity_lost(c, s, t, &e, h);
   if (!(change > 0)) return 0;
+  sw_vec v = e.speed;
   if (levers.count) v = sw_add(v, sw_levers_shift(&levers, s->v + 3 * s->nodes + b->first_roll, 1));
   const sw_vec along = sw_madd(v, t->press.normal, -sw_dot(v, t->press.normal));
   const sw_vec brake = sw_levers_brake(&b->plan->beam, &levers, along, o->friction * change);
@@ -217,8 +241,8 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
     mass += w[k] * b->plan->lumped[end[k] - b->first_node];
     kicked += w[k] * kick(s, b, end[k], sw_scale(dv, w[k]));
   }
-  c->struck += kicked * sw_dot(dv, wall);
-  sw_contact_add_blow(c, t->obstacle, at, sw_scale(dv, -kicked));
+  c->struck += kicked * sw_dot(dv, e.wall);
+  sw_contact_add_blow(c, t->obstacle, e.at, sw_scale(dv, -kicked));
   if (levers.count)
     sw_levers_kick(b->plan, &levers, sw_scale(brake, mass),
                    s->delta + 3 * s->nodes + b->first_roll);
@@ -226,8 +250,24 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   return 1;
 }
 
+static int by_meeting(const void *left, const void *right) {
+  const sw_touch *p = left, *q = right;
+  if (p->meets != q->meets) return p->meets < q->meets ? -1 : 1;
+  if (p->node != q->node) return p->node < q->node ? -1 : 1;
+  return p->obstacle - q->obstacle;
+}
+
+/* What meets its obstacle first strikes first, whichever end the wire's nodes are counted from:
+ * places of neighbouring segments share nodes. */
 static int review_touches(sw_contact *c, sw_system *s, double h) {
   int changed = 0;
+  for (size_t i = 0; i < c->pressed_count; i++) {
+    sw_touch *t = &c->pressed[i];
+    const sw_levers levers = sw_touch_levers(s, t);
+    const encounter e = encounter_of(c, s, t, &levers);
+    t->meets = e.approach > 0 ? e.gap / e.approach : HUGE_VAL;
+  }
+  if (c->pressed_count) qsort(c->pressed, c->pressed_count, sizeof *c->pressed, by_meeting);
   for (size_t i = 0; i < c->pressed_count; i++) {
     const sw_touch *t = &c->pressed[i];
     if (dealt_with(c, t, &s->counters.looks)) continue;
@@ -417,7 +457,6 @@ static int bounces(sw_contact *c, const sw_system *s, const double *v1) {
     const sw_vec wall = sw_obstacle_velocity(&c->now[t->obstacle], t->point);
     const int moves = fabs(sw_dot(wall, t->press.normal)) > SLOWEST_IMPACT;
     if (!moves && !s->bodies[t->body].plan->web) continue;
-    if (c->obstacles[t->obstacle].grips > 0 && c->pressing[t->obstacle]) continue;
     const sw_vec v = sw_sub(sw_touch_place(v1, t->node, t->other, t->at), wall);
     if (sw_dot(v, t->press.normal) > SLOWEST_IMPACT) return c->plastic = 1;
   }

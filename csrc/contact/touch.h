@@ -42,6 +42,7 @@ typedef struct sw_touch {
   double usual;     /* of a new touch here [N/m] */
   double stiffer;   /* its stiffness from the next iterate on [N/m] */
   int known;        /* it pressed at the step's start */
+  double meets;     /* of one that may strike: when it would, after the step's start [s] */
   int held;         /* both ends are held: no force */
   double friction;  /* coefficient in this step: kinetic when it slid before [-] */
   double slid;      /* way that it slid until the step's start, since it began to press [m] */
