@@ -90,6 +90,9 @@ sw_status sw_contact_eval(void *contact, sw_system *system, double time, double 
 sw_status sw_contact_keeps(void *contact, sw_system *system, const double *y, int *out,
                            sw_error *err);
 void sw_contact_refine(void *contact, sw_system *system);
+/* Those of the bodies that links tie together are refined with all that these touch. */
+struct sw_spots;
+void sw_contact_add_spots(sw_contact *contact, const sw_system *system, struct sw_spots *spots);
 int sw_contact_settled(void *contact, sw_system *system, const double *y, const double *delta);
 
 /* See sw_coupling. */
@@ -121,8 +124,8 @@ typedef enum sw_contact_verdict {
   SW_CONTACT_REDO,   /* impacts or crossings that the step did not know of: the
                         system's starting velocities were changed, contacts added;
                         redo the step from a restart */
-  SW_CONTACT_SOONER, /* something rebounds within the step, when sw_contact_soonest says: the step is
-                        to end there */
+  SW_CONTACT_SOONER, /* something rebounds within the step, when sw_contact_soonest says: the step
+                        is to end there */
   SW_CONTACT_STRIKE, /* something struck: redo the step without bouncing */
   SW_CONTACT_SMALLER /* edges or corners cut too deep: only a smaller step helps */
 } sw_contact_verdict;
@@ -182,8 +185,9 @@ double sw_contact_energy(const sw_contact *contact); /* stored in the springs [J
 /* After a step: 1, obstacles' forces at its end are those of a shock, which it does not go on with.
  */
 int sw_contact_shaken(const sw_contact *contact, const sw_system *system);
-/* A trial step in which some obstacle gets a blow, harder than any that it got so far: its mean over
- * the step, over the weight of the wire that strikes or the force that bends it. 0: there is none
+/* A trial step in which some obstacle gets a blow, harder than any that it got so far: its mean
+ * over the step, over the weight of the wire that strikes or the force that bends it. 0: there is
+ * none
  * [-]. followed: 1, does one that is followed in parts go on? */
 double sw_contact_jolt(sw_contact *contact, const sw_system *system, int followed);
 

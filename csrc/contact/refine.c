@@ -8,6 +8,7 @@
 
 #include "base/alloc.h"
 #include "base/simd.h"
+#include "contact/spot.h"
 #include "contact/touch.h"
 
 /* Touches opened and closed in an iterate, for more of them the next one costs less; and solves for
@@ -311,5 +312,24 @@ void sw_contact_refine(void *contact, sw_system *s) {
                  .delta = s->delta + 3 * b->first_node,
                  .more = c->room};
     refine(&r);
+  }
+}
+
+void sw_contact_add_spots(sw_contact *c, const sw_system *s, sw_spots *to) {
+  for (size_t first = 0, end; first < c->touch_count; first = end) {
+    const double scale = sw_contact_scale(c, first, &end);
+    const uint32_t body[2] = {(uint32_t)c->touches[first].body};
+    if (!s->bodies[body[0]].linked) continue;
+    for (size_t i = first; i < end; i++) {
+      sw_touch *t = &c->touches[i];
+      const double at = t->segment ? t->at : 0.0;
+      sw_spots_add(to, s, body,
+                   (sw_spot){.press = &t->press,
+                             .friction = t->friction,
+                             .scale = scale,
+                             .node = {t->node, t->other},
+                             .weight = {1.0 - at, at},
+                             .count = t->segment ? 2 : 1});
+    }
   }
 }

@@ -209,24 +209,25 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
   const double usual = end_stiffness(c, s, k, y, sw_rotate(pose->q, near->normal));
   const double stiffness = stiffness_of(c, k, m, last, usual);
   const sw_web *web = s->bodies[k->body].plan->web;
-  sw_touch t = {
-      .obstacle = k->obstacle,
-      .segment = k->segment,
-      .node = k->node,
-      .other = k->other,
-      .body = k->body,
-      .feature = near->feature,
-      .at = at,
-      .point = sw_pose_point(*pose, near->point),
-      .local = near->point,
-      .known = m != NULL,
-      .stiffer = stiffness,
-      .usual = usual,
-      .held = sw_contact_is_held(s, k),
-      .candidate = (size_t)(k - c->candidates),
-      .stage = c->stage,
-      .press = {
-          .normal = sw_rotate(pose->q, near->normal), .gap = near->gap - k->skin, .k = stiffness}};
+  sw_touch t = {.obstacle = k->obstacle,
+                .segment = k->segment,
+                .node = k->node,
+                .other = k->other,
+                .body = k->body,
+                .feature = near->feature,
+                .at = at,
+                .point = sw_pose_point(*pose, near->point),
+                .local = near->point,
+                .known = m != NULL,
+                .stiffer = stiffness,
+                .usual = usual,
+                .held = sw_contact_is_held(s, k),
+                .candidate = (size_t)(k - c->candidates),
+                .stage = c->stage,
+                .press = {.normal = sw_rotate(pose->q, near->normal),
+                          .gap = near->gap - k->skin,
+                          .k = stiffness,
+                          .by_place = 1}};
   t.press.gap += sw_contact_aslant(c, k->node, k->other, at, t.press.normal);
   if (web && !web->per_ring) t.press.soft = fmin(SOFTEST, (double)web->particles);
   sw_press *press = &t.press;

@@ -101,7 +101,9 @@ static sw_status keeps(void *user, sw_system *system, const double *y, int *out,
 }
 
 static void refine(void *user, sw_system *system) {
-  sw_contact_refine(((sw_scene *)user)->contact, system);
+  const sw_scene *s = user;
+  if (s->contact) sw_contact_refine(s->contact, system);
+  if (s->pairs && !sw_pairs_idle(s->pairs)) sw_pairs_refine(s->pairs, s->contact, system);
 }
 
 static int settled(void *user, sw_system *system, const double *y, const double *delta) {
@@ -118,11 +120,9 @@ static void book(void *user, const sw_booking *booking) {
 }
 
 void sw_scene_couple(sw_scene *s) {
-  if (s->contact) {
-    s->system.coupling.refine = refine;
-    s->system.coupling.book = book;
-  }
+  if (s->contact) s->system.coupling.book = book;
   if (!sw_scene_has_contact(s)) return;
+  s->system.coupling.refine = refine;
   s->system.coupling.begin_stage = begin_stage;
   s->system.coupling.eval = eval;
   s->system.coupling.keeps = keeps;

@@ -307,6 +307,12 @@ int sw_body_solves_again(const sw_body *body);
 void sw_body_solve_again(const sw_body *body, double *more);
 /* The solution delta (nodes x 3) is the last one. */
 void sw_body_take_solution(sw_body *body, const double *delta);
+/* The same of the bodies that links tie together: 1, they can be solved again; by how much forces
+ * (of the system's nodes x 3) change the solution, those of other bodies to zero; the system's
+ * delta is the last one. */
+int sw_links_solves_again(const sw_system *system);
+void sw_links_solve_again(sw_system *system, double *more);
+void sw_links_take_solution(sw_system *system);
 /* A force is added at a held node of the system's: its hold bears it. */
 void sw_system_push_held(sw_system *system, size_t node, sw_vec force);
 
