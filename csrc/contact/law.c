@@ -83,9 +83,10 @@ void sw_press_begin(sw_press *p, double friction, int known, double felt) {
 
 /* Which way a touch slides, and how long its spring is. None that is known: zero. */
 static sw_vec direction(const sw_press *p, double *length) {
-  *length = sw_norm(p->trial);
+  const sw_vec u = sw_add(p->trial, p->ahead);
+  *length = sw_norm(u);
   if (!(*length > SPRING_TOLERANCE)) return sw_v(0, 0, 0);
-  return sw_scale(p->trial, 1.0 / *length);
+  return sw_scale(u, 1.0 / *length);
 }
 
 /* K = kn n n' + kt (I - n n') - ks d d' */
@@ -109,6 +110,8 @@ sw_vec sw_press_eval(sw_press *p, double friction, int lagged, double K[6]) {
   if (p->sliding) {
     p->turning = length > SPRING_TOLERANCE ? fmin(most / length, grip) : 0.0;
     stiffness_matrix(p->k, p->turning, p->turning, p->normal, d, K);
+    const sw_vec back = sw_madd(p->ahead, d, -sw_dot(p->ahead, d));
+    return sw_madd(sw_madd(p->tangential, p->normal, p->normal_force), back, p->turning);
   } else {
     stiffness_matrix(p->k, friction > 0 ? grip : 0.0, 0, p->normal, d, K);
     if (!(friction > 0)) p->tangential = sw_v(0, 0, 0);
@@ -174,7 +177,8 @@ int sw_press_opens(const sw_press *p, sw_vec shift, double force_scale) {
   if (p->gap + across < -GAP_TOLERANCE) return 0;
   if (!p->sliding) return 1;
   double length;
-  const sw_vec d = direction(p, &length), along = sw_madd(shift, p->normal, -across);
+  const sw_vec d = direction(p, &length),
+               along = sw_sub(sw_madd(shift, p->normal, -across), p->ahead);
   const double turn = sw_norm(sw_madd(along, d, -sw_dot(along, d)));
   return p->turning * turn <= WEIGHT_TOLERANCE * force_scale;
 }
@@ -185,7 +189,7 @@ static sw_vec rubbed(const sw_press *p, double friction) {
   double length;
   if (!p->sliding) return sw_scale(sw_add(p->trial, along), -sw_press_grip(p));
   const sw_vec d = direction(p, &length);
-  const sw_vec turn = sw_madd(along, d, -sw_dot(along, d));
+  const sw_vec way = sw_sub(along, p->ahead), turn = sw_madd(way, d, -sw_dot(way, d));
   return sw_madd(sw_scale(d, -friction * p->lag), turn, -p->turning);
 }
 
@@ -193,7 +197,8 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
   const sw_vec u = sw_madd(sw_add(p->trial, shift), p->normal, -sw_dot(shift, p->normal));
   const double length = sw_norm(u), most = friction * p->normal_force;
   const double grip = sw_press_grip(p), small = grip * SPRING_TOLERANCE;
-  const double along = sw_dot(u, p->trial);
+  const sw_vec from = sw_add(p->trial, p->ahead);
+  const double along = sw_dot(u, from);
   const int beyond = grip * length > most;
   const int reversed = p->sliding && along < 0;
   p->next_sliding = beyond && !reversed;
@@ -202,7 +207,7 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
   p->slip = sw_add(p->carried, sw_madd(u, p->tangential, 1.0 / grip));
   /* the iterate's friction came from lag: it must not matter either */
   if (reversed) return fmax(most, friction * p->lag) <= small;
-  if (p->sliding && beyond && along < TURN_TOLERANCE * length * sw_norm(p->trial)) return 0;
+  if (p->sliding && beyond && along < TURN_TOLERANCE * length * sw_norm(from)) return 0;
   /* a change of state matters when the force does */
   const double off = sw_norm(sw_sub(rubbed(p, friction), p->tangential));
   const double share = p->sliding && beyond ? DIRECTION_TOLERANCE : FORCE_TOLERANCE;

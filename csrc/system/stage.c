@@ -448,10 +448,10 @@ static sw_status iterate(sw_system *s, const sw_stage *stage, const sw_newton *n
     const double share = share_of(s, newton, report);
     if (share < 0) return sw_fail(err, SW_EDIVERGED, "the positions left the finite numbers");
     if (share == 0) return sw_fail(err, SW_ENOCONV, "nothing holds a wire where it is");
+    if (sw_lead_waits(s, newton, stage->y, share, &waits)) continue;
     shortened += share < 1.0;
     if (sw_lead_fails(s, newton, shortened))
       return sw_fail(err, SW_ENOCONV, "wires would go too far in %d iterations", i);
-    if (sw_lead_waits(s, newton, stage->y, share, &waits)) continue;
     apply(s, stage, share);
     if (converged(s, stage, newton, report, share)) return SW_OK;
   }

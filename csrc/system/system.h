@@ -134,8 +134,9 @@ typedef struct sw_counters {
   size_t looks;       /* at obstacles and lists, by contact that looks for something in them [-] */
 } sw_counters;
 
-/* Of sw_system.rough: in statics, an update so large that it is not made; touches learn from it. */
-enum { SW_NOT_MADE = 2 };
+/* Of sw_system.rough: in statics, an update so large that it is not made, touches learn from it; and
+ * one that is made if they agree to it. */
+enum { SW_NOT_MADE = 2, SW_MAY_BE_MADE };
 
 struct sw_system {
   size_t nodes, edges;
