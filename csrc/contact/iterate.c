@@ -178,6 +178,17 @@ static int stiffen(sw_contact *c, const sw_system *s) {
   return any;
 }
 
+/* So few touches do not lie but stand, on a bent wire that may be about to slip: what they do then
+ * is up to how it bends [-]. */
+enum { SINGLE = 4 };
+
+static int stands(const sw_contact *c) {
+  int rubs = 0;
+  for (size_t i = 0; i < c->touch_count; i++)
+    rubs += c->touches[i].press.active && c->touches[i].friction > 0;
+  return rubs > 0 && rubs <= SINGLE;
+}
+
 /* Is friction all that may be nonlinear about touches? Where they slide is found before the update
  * is made, or it leads astray; places on edges and round sides are found by updates. */
 static int rubs_on_flat(const sw_contact *c, const sw_system *s) {
@@ -198,12 +209,13 @@ enum { EASY_PASSES = 8, EASY_UPDATES = 14, SOME_UPDATES = 8, FEW_WRONG = 4 };
 
 /* An update need not be made: is it better to have touches agree first? */
 static int rather_waits(const sw_contact *c, const sw_system *s) {
+  if (stands(c)) return 0;
   if (c->softer || rubs_on_flat(c, s) || c->made >= EASY_UPDATES) return 1;
   return c->made >= SOME_UPDATES && sw_contact_wrong(c) <= FEW_WRONG;
 }
 
 static int searches(sw_contact *c, const sw_system *s) {
-  if (s->rough < SW_NOT_MADE) return 0;
+  if (s->rough < SW_NOT_MADE || stands(c)) return 0;
   return ++c->passes > EASY_PASSES || s->rough == SW_MAY_BE_MADE || !sw_contact_wrong(c);
 }
 
