@@ -163,8 +163,12 @@ int sw_press_pulls(const sw_press *p, sw_vec shift) {
   return p->active && p->gap + sw_dot(p->normal, shift) > GAP_TOLERANCE;
 }
 
+int sw_press_sinks(const sw_press *p, sw_vec shift) {
+  return p->gap + sw_dot(p->normal, shift) < -GAP_TOLERANCE;
+}
+
 int sw_press_closes(const sw_press *p, sw_vec shift) {
-  return !p->active && p->gap + sw_dot(p->normal, shift) < -GAP_TOLERANCE;
+  return !p->active && sw_press_sinks(p, shift);
 }
 
 void sw_press_close(sw_press *p) {
@@ -174,7 +178,7 @@ void sw_press_close(sw_press *p) {
 
 int sw_press_opens(const sw_press *p, sw_vec shift, double force_scale) {
   const double across = sw_dot(p->normal, shift);
-  if (p->gap + across < -GAP_TOLERANCE) return 0;
+  if (sw_press_sinks(p, shift)) return 0;
   if (!p->sliding) return 1;
   double length;
   const sw_vec d = direction(p, &length),

@@ -84,6 +84,8 @@ double sw_press_off(const sw_press *press, double friction, sw_vec shift);
 /* Would the normal force pull after an update by shift? A touch that does is opened: it has no
  * force any more. */
 int sw_press_pulls(const sw_press *press, sw_vec shift);
+/* Would the wire be inside after an update by shift? */
+int sw_press_sinks(const sw_press *press, sw_vec shift);
 /* Would the wire go through where nothing pushes after an update by shift? Such a touch is closed:
  * it has been moving freely and slides, with friction for the normal force to come. */
 int sw_press_closes(const sw_press *press, sw_vec shift);
