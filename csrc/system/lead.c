@@ -71,6 +71,7 @@ int sw_lead_waits(sw_system *s, const sw_newton *newton, const double *y, double
   return 0;
 }
 
-int sw_lead_fails(const sw_system *s, const sw_newton *newton, int shortened) {
-  return newton->statics && shortened > MOST_SHORTENED && wires_touch(s);
+int sw_lead_fails(const sw_system *s, const sw_newton *newton, int far, int shortened) {
+  const int lost = newton->most_far && far > newton->most_far;
+  return newton->statics && (lost || shortened > MOST_SHORTENED) && wires_touch(s);
 }

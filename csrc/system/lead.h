@@ -23,7 +23,8 @@ void sw_lead_update(sw_system *system, const double *y);
 int sw_lead_waits(sw_system *system, const sw_newton *newton, const double *y, double share,
                   int *waits);
 
-/* Updates of wires that touch something were shortened this often: is it hopeless? */
-int sw_lead_fails(const sw_system *system, const sw_newton *newton, int shortened);
+/* Updates of wires that touch something were too large so often, far, and made shortened so often:
+ * is it hopeless? */
+int sw_lead_fails(const sw_system *system, const sw_newton *newton, int far, int shortened);
 
 #endif

@@ -134,8 +134,8 @@ typedef struct sw_counters {
   size_t looks;       /* at obstacles and lists, by contact that looks for something in them [-] */
 } sw_counters;
 
-/* Of sw_system.rough: in statics, an update so large that it is not made, touches learn from it; and
- * one that is made if they agree to it. */
+/* Of sw_system.rough: in statics, an update so large that it is not made, touches learn from it;
+ * and one that is made if they agree to it. */
 enum { SW_NOT_MADE = 2, SW_MAY_BE_MADE };
 
 struct sw_system {
@@ -208,6 +208,8 @@ typedef struct sw_newton {
   double accept_rotation; /* largest edge rotation of the last update [rad] */
   double limit_rotation;  /* larger updates are shortened to this [rad] */
   int statics;            /* 1: no inertia */
+  int most_far;           /* statics: updates beyond limit_rotation, made or not, after which wires
+                             that touch something are given up; 0: as many as it takes [-] */
   double accept_shift;    /* statics: largest node shift of the last update [m] */
 } sw_newton;
 

@@ -102,6 +102,19 @@ describe("a quasi-static run", function()
     end
   end)
 
+  -- Poses on the way of a long pose need not be exact, and a jump is not looked for by Newton's
+  -- iteration: 15 iterations a pose without.
+  it("lays a wire over walls in few iterations a pose", function()
+    for _, n in ipairs{ 50, 100 } do
+      local c = require("softworld.cases").laying{ segments = n }
+      local run = c.run{ dt = 0.02, quasistatic = true }
+      assert.is_true(run.ok, run.reason)
+      local each = run.iterations / run.steps -- 8 and 10 measured
+      assert.is_true(each < 12, each .. " iterations a pose")
+      c.scene:close()
+    end
+  end)
+
   local function on_belt(held, way, dt)
     local s, mu = sw.scene{}, 0.3
     local belt = s:obstacle{ shape = "box", size = { 4, 4, 0.1 }, at = { 0, 0, -0.05 }, friction = mu }
