@@ -84,6 +84,7 @@ void sw_contact_free(sw_contact *c) {
   sw_free(c->marks);
   sw_free(c->room);
   sw_free(c->reach);
+  sw_free(c->ahead);
   sw_free(c);
 }
 
@@ -145,7 +146,8 @@ sw_status sw_contact_begin_stage(sw_contact *c, double time, double first, sw_er
   c->first = first;
   c->pressed_before = c->pressed_count;
   c->stage_time = time;
-  c->updates = c->looked = 0;
+  c->updates = c->looked = c->passes = c->softer = c->made = 0;
+  c->ahead_count = 0;
   c->parts = (sw_contact_parts){.on = 0};
   return sw_broad_place(c, time, c->now, err);
 }

@@ -90,9 +90,10 @@ void sw_press_begin(sw_press *p, double friction, int known, double felt) {
 
 /* Which way a touch slides, and how long its spring is. None that is known: zero. */
 static sw_vec direction(const sw_press *p, double *length) {
-  *length = sw_norm(p->trial);
+  const sw_vec u = sw_add(p->trial, p->ahead);
+  *length = sw_norm(u);
   if (!(*length > SPRING_TOLERANCE)) return sw_v(0, 0, 0);
-  return sw_scale(p->trial, 1.0 / *length);
+  return sw_scale(u, 1.0 / *length);
 }
 
 /* K = kn n n' + kt (I - n n') - ks (d w' + w d')/2 */
@@ -125,6 +126,8 @@ sw_vec sw_press_eval(sw_press *p, double friction, int lagged, double K[6]) {
   if (p->sliding) {
     p->turning = length > SPRING_TOLERANCE ? fmin(most / length, grip) : 0.0;
     stiffness_matrix(p->k, p->turning, p->turning, p->normal, d, p->pulls, K);
+    const sw_vec back = turned(p, d, p->ahead);
+    return sw_add(sw_madd(p->tangential, p->normal, p->normal_force), back);
   } else {
     stiffness_matrix(p->k, friction > 0 ? grip : 0.0, 0, p->normal, d, d, K);
     if (!(friction > 0)) p->tangential = sw_v(0, 0, 0);
@@ -176,8 +179,12 @@ int sw_press_pulls(const sw_press *p, sw_vec shift) {
   return p->active && p->gap + sw_dot(p->normal, shift) > GAP_TOLERANCE;
 }
 
+int sw_press_sinks(const sw_press *p, sw_vec shift) {
+  return p->gap + sw_dot(p->normal, shift) < -GAP_TOLERANCE;
+}
+
 int sw_press_closes(const sw_press *p, sw_vec shift) {
-  return !p->active && p->gap + sw_dot(p->normal, shift) < -GAP_TOLERANCE;
+  return !p->active && sw_press_sinks(p, shift);
 }
 
 void sw_press_close(sw_press *p) {
@@ -186,10 +193,11 @@ void sw_press_close(sw_press *p) {
 }
 
 int sw_press_opens(const sw_press *p, sw_vec shift, double force_scale) {
-  if (p->gap + sw_dot(p->normal, shift) < -GAP_TOLERANCE) return 0;
+  if (sw_press_sinks(p, shift)) return 0;
   if (!p->sliding) return 1;
   double length;
-  const sw_vec turn = turned(p, direction(p, &length), across(shift, p->normal));
+  const sw_vec d = direction(p, &length);
+  const sw_vec turn = turned(p, d, sw_sub(across(shift, p->normal), p->ahead));
   return sw_norm(turn) <= WEIGHT_TOLERANCE * force_scale;
 }
 
@@ -199,7 +207,7 @@ static sw_vec rubbed(const sw_press *p, double friction) {
   double length;
   if (!p->sliding) return sw_scale(sw_add(p->trial, along), -sw_press_grip(p));
   const sw_vec d = direction(p, &length);
-  return sw_sub(sw_scale(d, -friction * p->lag), turned(p, d, along));
+  return sw_sub(sw_scale(d, -friction * p->lag), turned(p, d, sw_sub(along, p->ahead)));
 }
 
 /* Friction that the linearised law gives at displacement u, over what it can be and against it.
@@ -223,18 +231,19 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
   const sw_vec moved = across(shift, p->normal), u = sw_add(p->trial, moved);
   const double length = sw_norm(u), most = friction * p->normal_force;
   const double grip = sw_press_grip(p), small = grip * SPRING_TOLERANCE;
+  const sw_vec from = sw_add(p->trial, p->ahead);
+  const double along = sw_dot(u, from);
   const int beyond = grip * length > most;
   /* what goes by its place turns round in an iterate where it is to stick */
-  const int reversed = p->by_place && p->sliding && sw_dot(u, p->trial) < 0;
+  const int reversed = p->by_place && p->sliding && along < 0;
   p->next_sliding = beyond && !reversed;
   p->reversals += reversed;
   p->next_pulls = pulled(p, u, moved, most);
   p->tangential = sw_scale(u, -(beyond && length > 0 ? most / length : grip));
   p->slip = sw_add(p->carried, sw_madd(u, p->tangential, 1.0 / grip));
-  const double along = sw_dot(u, p->trial);
   /* one that turned round in the iterate: its friction, which came from lag, must not matter */
   if (p->sliding && along < 0) return fmax(most, friction * p->lag) <= small;
-  if (p->sliding && beyond && along < TURN_TOLERANCE * length * sw_norm(p->trial)) return 0;
+  if (p->sliding && beyond && along < TURN_TOLERANCE * length * sw_norm(from)) return 0;
   /* a change of state matters when the force does */
   const double off = sw_norm(sw_sub(rubbed(p, friction), p->tangential));
   const double share = p->sliding && beyond ? DIRECTION_TOLERANCE : FORCE_TOLERANCE;

@@ -23,6 +23,7 @@ typedef struct sw_press {
   sw_vec carried; /* how far the anchor slid in the step until this stage began, by its rule [m] */
   sw_vec pulls;   /* friction that the iterate begins with, over what it can be, against it [-] */
   sw_vec trial;   /* tangential displacement from that anchor at this iterate [m] */
+  sw_vec ahead;   /* statics: how far from that its friction is linearised, along the surface [m] */
   sw_vec tangential; /* friction force after the last solve [N] */
   sw_vec next_pulls; /* pulls, as the last solve found it [-] */
   sw_vec shift;      /* by the last solve [m] */
@@ -89,6 +90,8 @@ double sw_press_off(const sw_press *press, double friction, sw_vec shift);
 /* Would the normal force pull after an update by shift? A touch that does is opened: it has no
  * force any more. */
 int sw_press_pulls(const sw_press *press, sw_vec shift);
+/* Would the wire be inside after an update by shift? */
+int sw_press_sinks(const sw_press *press, sw_vec shift);
 /* Would the wire go through where nothing pushes after an update by shift? Such a touch is closed:
  * it has been moving freely and slides, with friction for the normal force to come. */
 int sw_press_closes(const sw_press *press, sw_vec shift);

@@ -145,16 +145,17 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
   if (turned && (moving ? c->updates > 0 : sw_contact_moves(c)))
     press->reversals = last->press.reversals;
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
-  const int went_on = last && last->press.active;
+  const int went_on = last && last->press.active, searches = last && c->ahead_count;
   t->friction = m && m->sliding ? o->kinetic : o->friction;
   t->slid = m ? m->slid : 0.0;
-  if (went_on)
+  if (searches) press->ahead = last->press.ahead;
+  if (went_on || searches)
     press->sliding = last->press.next_sliding;
   else if (m)
     press->sliding = m->sliding;
   const int held = m && !m->sliding &&
                    (s->bodies[t->body].roll_block || (!last && c->regime == SW_CONTACT_STATIC));
-  if (!held) sw_press_begin(press, t->friction, went_on || m, felt_stiffness(c, s, t));
+  if (!held && !searches) sw_press_begin(press, t->friction, went_on || m, felt_stiffness(c, s, t));
 }
 
 int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
@@ -228,6 +229,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
                           .gap = near->gap - k->skin,
                           .k = stiffness,
                           .by_place = 1}};
+  if (c->softer) t.press.k = sw_contact_softer(c, s, k, stiffness);
   t.press.gap += sw_contact_aslant(c, k->node, k->other, at, t.press.normal);
   if (web && !web->per_ring) t.press.soft = fmin(SOFTEST, (double)web->particles);
   sw_press *press = &t.press;

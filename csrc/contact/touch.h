@@ -93,6 +93,12 @@ typedef struct sw_mark {
   sw_vec normal; /* [-] */
 } sw_mark;
 
+/* Statics: where the search for the touches' states goes on from. */
+typedef struct sw_ahead {
+  sw_vec shift; /* of the touch, from where the wires are [m] */
+  sw_vec force; /* on the wire there, that solves have reckoned with [N] */
+} sw_ahead;
+
 /* What an obstacle gets in a step. */
 typedef struct sw_contact_loads {
   sw_contact_past past;
@@ -131,6 +137,10 @@ struct sw_contact {
   int *dense;    /* (count) 1: particles of the body at hand lie close, likewise */
   double *sunk;  /* (3 nodes) how far contact sees a node further in, or NULL: nowhere [m] */
   size_t sunk_capacity;
+  sw_ahead *ahead; /* (2 ahead_count) of the touches; and room for the next ones */
+  size_t ahead_count, ahead_capacity; /* 0: there is no search */
+  int softer;    /* stage of the search in which touches are softer than they are; 0: no more [-] */
+  int passes;    /* of touches looking for their states at one place [-] */
   double *reach; /* (nodes) widest gap that may close in the step, but for obstacles' moving [m] */
   size_t reach_capacity;
   double *spaced; /* (count) farthest that samples of the body at hand may be apart; 0: none [m] */
@@ -170,6 +180,7 @@ struct sw_contact {
   double struck;   /* work of moving obstacles in the step's impacts [J] */
   int fresh;       /* SW_CONTACT_FRESH, or SW_CONTACT_EMERGING, or 0 */
   int updates;     /* of the stage so far [-] */
+  int made;        /* of those, that positions took [-] */
   double widening; /* of the reserve for flight, when nodes went further [-] */
 };
 
@@ -218,6 +229,16 @@ int sw_contact_stays(const sw_contact *c, const sw_touch *t, const double *y, do
 
 /* After a static solve: let go of touches at the ends of rows as far as wires lift off there. */
 void sw_contact_peel(sw_contact *c, const sw_system *s);
+
+/* After a static solve whose update is not made: on the way to it touches find states to go on
+ * from. 0: there is no room for that. */
+int sw_contact_search(sw_contact *c, const sw_system *s, const double *delta);
+
+/* How many touches do not press where they should, or pull. */
+size_t sw_contact_wrong(const sw_contact *c);
+/* The stiffness k of a touch in the search. */
+double sw_contact_softer(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                         double stiffness);
 
 /* 1: the candidate's node, or both ends of its segment, are held. */
 int sw_contact_is_held(const sw_system *s, const sw_candidate *k);

@@ -108,6 +108,7 @@ static void refine(void *user, sw_system *system) {
 
 static int settled(void *user, sw_system *system, const double *y, const double *delta) {
   const sw_scene *s = user;
+  if (system->rough == SW_MAY_BE_MADE && (s->pairs || s->crowd || !s->contact)) return 1;
   int fine = !s->contact || sw_contact_settled(s->contact, system, y, delta);
   if (s->pairs && !sw_pairs_idle(s->pairs)) fine &= sw_pairs_settled(s->pairs, system, delta);
   if (s->crowd) fine &= sw_crowd_settled(s->crowd, system, y, delta);

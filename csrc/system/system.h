@@ -136,8 +136,9 @@ typedef struct sw_counters {
   size_t looks;       /* at obstacles and lists, by contact that looks for something in them [-] */
 } sw_counters;
 
-/* Of sw_system.rough: in statics, an update so large that it is not made; touches learn from it. */
-enum { SW_NOT_MADE = 2 };
+/* Of sw_system.rough: in statics, an update so large that it is not made, touches learn from it;
+ * and one that is made if they agree to it. */
+enum { SW_NOT_MADE = 2, SW_MAY_BE_MADE };
 
 struct sw_system {
   size_t nodes, edges;
@@ -209,6 +210,8 @@ typedef struct sw_newton {
   double accept_rotation; /* largest edge rotation of the last update [rad] */
   double limit_rotation;  /* larger updates are shortened to this [rad] */
   int statics;            /* 1: no inertia */
+  int most_far;           /* statics: updates beyond limit_rotation, made or not, after which wires
+                             that touch something are given up; 0: as many as it takes [-] */
   double accept_shift;    /* statics: largest node shift of the last update [m] */
 } sw_newton;
 
