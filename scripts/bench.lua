@@ -3,7 +3,7 @@
 --   build/softworld scripts/bench.lua [quick] [case=..] [model=..] [integrator=..] [n=..] [out=folder]
 -- One CSV row each in out/bench/bench.csv, a summary on the terminal. Values may be lists: case=droop,walls.
 -- case=meshes: what wires that are meshes of particles cost, on the terminal only; case=grip: what
--- grippers do; case=crowds: many obstacles, nodes and wires.
+-- grippers do; case=crowds: many obstacles, nodes and wires; case=bundle: wires that lie along each other.
 -- Compare numbers of one run only: machines differ, and so do their loads.
 local bench = require "softworld.bench"
 local benchcases = require "softworld.benchcases"
@@ -176,7 +176,7 @@ for _, name in ipairs(order) do
   end
 end
 if #jobs == 0 and not (wanted.case and (wanted.case.meshes or wanted.case.grip
-  or wanted.case.crowds)) then
+  or wanted.case.crowds or wanted.case.bundle)) then
   io.stderr:write("bench: nothing fits these options\n")
   os.exit(2)
 end
@@ -454,13 +454,24 @@ local function print_crowds()
         touching and ", which may touch" or "", 1e6 * landing, 1e6 * lying))
     end
   end
-  local time, solves = crowds.bundle(7)
-  print(("%6d wires in a bundle: %.1f s a simulated second, %.0f solves a step"):format(7, time, solves))
+end
+
+local function print_bundles()
+  local crowds = require "softworld.benchcrowds"
+  for _, count in ipairs{ 7, 10, 20 } do -- twenty take minutes
+    for _, cable in ipairs{ false, "GXL 1.5" } do
+      local falling, lying, fell, lay = crowds.bundle(count, cable)
+      print(("%6d wires%s in a bundle: %.2f s a simulated second falling, %.1f solves each; lying %.2f, %.1f")
+        :format(count, cable and " " .. cable or "", falling, fell, lying, lay))
+      io.stdout:flush()
+    end
+  end
 end
 
 if not next(wanted) or wanted.case and wanted.case.meshes then print_meshes() end
 if not next(wanted) or wanted.case and wanted.case.grip then print_grips() end
 if wanted.case and wanted.case.crowds then print_crowds() end
+if wanted.case and wanted.case.bundle then print_bundles() end
 local bad = {}
 for _, row in ipairs(rows) do
   if row.status ~= "ok" then bad[row.status] = (bad[row.status] or 0) + 1 end

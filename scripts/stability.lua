@@ -5,6 +5,7 @@
 local bench = require "softworld.bench"
 local benchcases = require "softworld.benchcases"
 local benchenergy = require "softworld.benchenergy"
+local benchpeaks = require "softworld.benchpeaks"
 local benchlimits = require "softworld.benchlimits"
 local benchsqueeze = require "softworld.benchsqueeze"
 local benchstable = require "softworld.benchstable"
@@ -193,12 +194,14 @@ measure_meshes()
 measure_implicit()
 if not quick then measure_limits() end
 benchenergy.measure(implicit, quick, add, say)
+benchpeaks.measure(quick, add, say)
 bench.write(out .. "/stability.csv", rows, columns)
 print_explicit()
 print_meshes()
 print_implicit()
 if not quick then print_limits() end
 benchenergy.print(rows)
+benchpeaks.print(rows)
 draw(explicit_map, "stability_explicit", "Largest stable step times the highest natural frequency [-]")
 if not quick then
   draw(energy_map "release 1 s", "energy_release",

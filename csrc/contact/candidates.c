@@ -178,8 +178,7 @@ static sw_status obstacle_candidates(sw_contact *c, const sw_system *s, size_t b
 static sw_status node_candidates(sw_contact *c, sw_system *s, size_t body, size_t i) {
   size_t count;
   const outlook at = look_out(c, s, &s->bodies[body], i);
-  const int *near =
-      sw_broad_near(&c->broad, at.low, at.high, at.reach, &count, &s->counters.looks);
+  const int *near = sw_broad_near(&c->broad, at.low, at.high, at.reach, &count, &s->counters.looks);
   for (size_t k = 0; k < count; k++)
     SW_TRY(obstacle_candidates(c, s, body, i, &at, (size_t)near[k]));
   return SW_OK;

@@ -84,6 +84,7 @@ void sw_contact_free(sw_contact *c) {
   sw_free(c->marks);
   sw_free(c->room);
   sw_free(c->reach);
+  sw_free(c->ahead);
   sw_free(c);
 }
 
@@ -145,7 +146,8 @@ sw_status sw_contact_begin_stage(sw_contact *c, double time, double first, sw_er
   c->first = first;
   c->pressed_before = c->pressed_count;
   c->stage_time = time;
-  c->updates = c->looked = 0;
+  c->updates = c->looked = c->passes = c->softer = c->made = 0;
+  c->ahead_count = 0;
   c->parts = (sw_contact_parts){.on = 0};
   return sw_broad_place(c, time, c->now, err);
 }
@@ -176,7 +178,7 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
                    .normal_force = t->press.normal_force,
                    .sliding = t->press.next_sliding,
                    .depth = t->press.normal_force / t->press.k,
-                   .k = sw_press_eased(&t->press, c->candidates[t->candidate].usual, t->stiffer),
+                   .k = sw_press_eased(&t->press, t->usual, t->stiffer),
                    .normal = sw_rotate(back, t->press.normal),
                    .point = t->local,
                    .seen = t->seen};
@@ -452,5 +454,7 @@ int sw_contact_steady(const sw_contact *c) {
   return before == now && !c->impact_count && !c->plastic;
 }
 
+void sw_contact_cut(sw_contact *c, double least) { c->least = least; }
+double sw_contact_soonest(const sw_contact *c) { return c->soonest; }
 size_t sw_contact_impacts(const sw_contact *c) { return c->impact_count; }
 double sw_contact_struck(const sw_contact *c) { return c->struck; }

@@ -37,6 +37,7 @@ typedef struct sw_contact_past {
   sw_contact_load mean;   /* over the step, blows included; in statics that of the state; moment
                              about the world's origin [N], [N m] */
   sw_contact_load end;    /* at its end, with which a method may begin the next step [N] */
+  double hardest;         /* mean over a step of the hardest blow that was followed in parts [N] */
   sw_contact_load gained; /* in the step without blows, for methods that look back [N s] */
 } sw_contact_past;
 
@@ -89,6 +90,9 @@ sw_status sw_contact_eval(void *contact, sw_system *system, double time, double 
 sw_status sw_contact_keeps(void *contact, sw_system *system, const double *y, int *out,
                            sw_error *err);
 void sw_contact_refine(void *contact, sw_system *system);
+/* Those of the bodies that links tie together are refined with all that these touch. */
+struct sw_spots;
+void sw_contact_add_spots(sw_contact *contact, const sw_system *system, struct sw_spots *spots);
 int sw_contact_settled(void *contact, sw_system *system, const double *y, const double *delta);
 
 /* See sw_coupling. */
@@ -120,11 +124,17 @@ typedef enum sw_contact_verdict {
   SW_CONTACT_REDO,   /* impacts or crossings that the step did not know of: the
                         system's starting velocities were changed, contacts added;
                         redo the step from a restart */
+  SW_CONTACT_SOONER, /* something rebounds within the step, when sw_contact_soonest says: the step
+                        is to end there */
   SW_CONTACT_STRIKE, /* something struck: redo the step without bouncing */
   SW_CONTACT_SMALLER /* edges or corners cut too deep: only a smaller step helps */
 } sw_contact_verdict;
 sw_contact_verdict sw_contact_review(sw_contact *contact, sw_system *system, const double *x1,
                                      const double *v1, double h);
+
+double sw_contact_soonest(const sw_contact *contact); /* after the step's start [s] */
+/* A step that began is not to be cut shorter than this [s]. */
+void sw_contact_cut(sw_contact *contact, double least);
 
 /* The same for statics: segments of a solution x1 that went through an obstacle
  * are kept on their side from now on. 1 = there were some, solve again. */
@@ -175,6 +185,11 @@ double sw_contact_energy(const sw_contact *contact); /* stored in the springs [J
 /* After a step: 1, obstacles' forces at its end are those of a shock, which it does not go on with.
  */
 int sw_contact_shaken(const sw_contact *contact, const sw_system *system);
+/* A trial step in which some obstacle gets a blow, harder than any that it got so far: its mean
+ * over the step, over the weight of the wire that strikes or the force that bends it. 0: there is
+ * none
+ * [-]. followed: 1, does one that is followed in parts go on? */
+double sw_contact_jolt(sw_contact *contact, const sw_system *system, int followed);
 
 /* --- for the energy ledger, after a trial ------------------------------------- */
 

@@ -101,7 +101,7 @@ static void set_touch(sw_grains *g, const sw_system *s, const double *y, size_t 
   for (int n = 0; n < 2; n++) t->slides[n] = slides && at[n] > 0 && at[n] < 1;
   sw_press *press = &t->press;
   press->gap = gap, press->normal = normal;
-  press->soft = softness(s, k);
+  press->soft = softness(s, k), press->by_place = 1;
   press->k = is_explicit ? k->usual : last ? last->stiffer : pressed ? m->press.k : k->usual;
   t->stiffer = press->k;
   t->forgiven = forgiven(g, s, t, m);

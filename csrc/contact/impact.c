@@ -5,6 +5,7 @@
  * the integrator never sees the shock that would make it bounce. A swept test
  * finds segments that passed through an obstacle unseen. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -144,41 +145,104 @@ static double kick(sw_system *s, const sw_body *b, size_t node, sw_vec dv) {
   return share * c.mass;
 }
 
+/* How a touch with restitution meets its obstacle within a step. */
+typedef struct meeting {
+  double after; /* so long after the step's start [s] */
+  double speed; /* approach at that moment [m/s] */
+} meeting;
+
+/* Gravity goes on until the surfaces meet, pull being how much of it is towards the obstacle. */
+static meeting meet(double gap, double approach, double pull) {
+  const double speed = sqrt(fmax(0.0, approach * fabs(approach) + 2.0 * pull * gap));
+  return (meeting){speed + approach > 0 ? 2.0 * gap / (speed + approach) : HUGE_VAL, speed};
+}
+
+/* A rebound from above the surface, where the step began, keeps the height that it did not fall
+ * through: this share of the rebound's own is let pass [-]. */
+static const double HEIGHT_ERROR = 0.02;
+/* So is this share of the way in a whole step, which is an error of time [-]. */
+static const double WAY_ERROR = 1.0 / 8;
+/* A step that is cut ends this share of the time before the surface is met: the next one strikes at
+ * its start [-]. */
+static const double LEFT_OPEN = 0.02;
+/* What meets the surface sooner than by gravity alone is pushed there: so much of the step [-]. */
+static const double CUT_AGAIN = 0.7;
+
+/* Is the rebound wrong if it is from where the step begins? Notes when the step is to end then. */
+static int is_too_early(sw_contact *c, double e, double gap, double pull, meeting m, double h) {
+  const double height = e * e * m.speed * m.speed, fallen = 2.0 * (1.0 - e * e) * pull * gap;
+  if (c->regime == SW_CONTACT_EXPLICIT || gap <= CLOSED) return 0;
+  if (fallen <= HEIGHT_ERROR * height && gap <= WAY_ERROR * m.speed * c->nominal) return 0;
+  const double end = m.after < h ? (1.0 - LEFT_OPEN) * m.after : CUT_AGAIN * h;
+  if (end < c->least) return 0;
+  c->soonest = fmin(c->soonest, end);
+  return 1;
+}
+
+/* A touch and its obstacle, at the step's start. */
+typedef struct encounter {
+  sw_vec at;             /* on the wire's surface, if it can roll; else on its axis [m] */
+  double gap;            /* [m] */
+  sw_vec wall;           /* the obstacle's velocity there [m/s] */
+  sw_vec speed;          /* the wire's against it [m/s] */
+  double approach, slow; /* how fast the gap closes, and what is none [m/s] */
+} encounter;
+
+static encounter encounter_of(const sw_contact *c, const sw_system *s, const sw_touch *t,
+                              const sw_levers *levers) {
+  encounter e;
+  const sw_vec x = sw_contact_where(c, s->x, t->node, t->other, t->at);
+  const sw_body *b = &s->bodies[t->body];
+  const double radius = sw_plan_skin(b->plan, t->node - b->first_node);
+  const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
+  const double aslant = sw_contact_aslant(c, t->node, t->other, t->at, t->press.normal);
+  e.at = levers->count ? sw_madd(x, t->press.normal, -radius) : x;
+  e.gap = fmax(0.0, sw_dot(t->press.normal, sw_sub(x, plane)) + aslant - radius);
+  e.wall = striking_velocity(c, t, e.at, e.gap, &e.slow);
+  e.speed = sw_sub(sw_touch_place(s->v, t->node, t->other, t->at), e.wall);
+  e.approach = -sw_dot(e.speed, t->press.normal);
+  return e;
+}
+
+/* How much of its velocity towards the obstacle a touch is to lose; 0: it strikes nothing [m/s]. */
+static double velocity_lost(sw_contact *c, const sw_system *s, const sw_touch *t,
+                            const encounter *meets, double h) {
+  const double allowed = meets->gap / h, e = c->obstacles[t->obstacle].restitution;
+  const double pull = fmax(0.0, -sw_dot(sw_load(s->gravity), t->press.normal));
+  const meeting m = meet(meets->gap, meets->approach, pull);
+  if (e > 0 ? !(m.speed > meets->slow) : !(meets->approach > allowed + meets->slow)) return 0;
+  /* a rebound shorter than a step would be none */
+  const int rebounds = e * m.speed > 0.5 * pull * h;
+  if (rebounds && is_too_early(c, e, meets->gap, pull, m, h)) return 0;
+  return fmax(0.0, rebounds ? meets->approach * (1.0 + e) : meets->approach - allowed);
+}
+
 /* Change the starting velocities so that the touch is reached, not passed.
  * Returns 1 when something was changed. */
 static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
   /* what comes to a pad that holds a wire already only trembles */
   if (o->grips > 0 && c->pressing[t->obstacle]) return 0;
-  const sw_vec x = sw_contact_where(c, s->x, t->node, t->other, t->at);
   const sw_body *b = &s->bodies[t->body];
-  const double radius = sw_plan_skin(b->plan, t->node - b->first_node);
   const size_t end[2] = {t->node, t->other};
   const sw_levers levers = sw_touch_levers(s, t);
-  const sw_vec at = levers.count ? sw_madd(x, t->press.normal, -radius) : x;
-  const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
-  const double aslant = sw_contact_aslant(c, t->node, t->other, t->at, t->press.normal);
-  const double gap = fmax(0.0, sw_dot(t->press.normal, sw_sub(x, plane)) + aslant - radius);
-  double slow;
-  const sw_vec wall = striking_velocity(c, t, at, gap, &slow);
-  sw_vec v = sw_sub(sw_touch_place(s->v, t->node, t->other, t->at), wall);
-  const double approach = -sw_dot(v, t->press.normal);
-  const double allowed = gap / h;
-  if (!(approach > allowed + slow)) return 0;
-  const double change = o->restitution > 0 ? approach * (1.0 + o->restitution) : approach - allowed;
+  const encounter e = encounter_of(c, s, t, &levers);
+  const double change = velocity_lost(c, s, t, &e, h);
+  if (!(change > 0)) return 0;
+  sw_vec v = e.speed;
   if (levers.count) v = sw_add(v, sw_levers_shift(&levers, s->v + 3 * s->nodes + b->first_roll, 1));
   const sw_vec along = sw_madd(v, t->press.normal, -sw_dot(v, t->press.normal));
   const sw_vec brake = sw_levers_brake(&b->plan->beam, &levers, along, o->friction * change);
   const sw_vec dv = sw_madd(brake, t->press.normal, change);
   double w[2], mass = 0, kicked = 0;
   shares(s, t, w);
-  for (size_t e = 0; e < 2; e++) {
-    if (!(w[e] > 0)) continue;
-    mass += w[e] * b->plan->lumped[end[e] - b->first_node];
-    kicked += w[e] * kick(s, b, end[e], sw_scale(dv, w[e]));
+  for (size_t k = 0; k < 2; k++) {
+    if (!(w[k] > 0)) continue;
+    mass += w[k] * b->plan->lumped[end[k] - b->first_node];
+    kicked += w[k] * kick(s, b, end[k], sw_scale(dv, w[k]));
   }
-  c->struck += kicked * sw_dot(dv, wall);
-  sw_contact_add_blow(c, t->obstacle, at, sw_scale(dv, -kicked));
+  c->struck += kicked * sw_dot(dv, e.wall);
+  sw_contact_add_blow(c, t->obstacle, e.at, sw_scale(dv, -kicked));
   if (levers.count)
     sw_levers_kick(b->plan, &levers, sw_scale(brake, mass),
                    s->delta + 3 * s->nodes + b->first_roll);
@@ -186,8 +250,24 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   return 1;
 }
 
+static int by_meeting(const void *left, const void *right) {
+  const sw_touch *p = left, *q = right;
+  if (p->meets != q->meets) return p->meets < q->meets ? -1 : 1;
+  if (p->node != q->node) return p->node < q->node ? -1 : 1;
+  return p->obstacle - q->obstacle;
+}
+
+/* What meets its obstacle first strikes first, whichever end the wire's nodes are counted from:
+ * places of neighbouring segments share nodes. */
 static int review_touches(sw_contact *c, sw_system *s, double h) {
   int changed = 0;
+  for (size_t i = 0; i < c->pressed_count; i++) {
+    sw_touch *t = &c->pressed[i];
+    const sw_levers levers = sw_touch_levers(s, t);
+    const encounter e = encounter_of(c, s, t, &levers);
+    t->meets = e.approach > 0 ? e.gap / e.approach : HUGE_VAL;
+  }
+  if (c->pressed_count) qsort(c->pressed, c->pressed_count, sizeof *c->pressed, by_meeting);
   for (size_t i = 0; i < c->pressed_count; i++) {
     const sw_touch *t = &c->pressed[i];
     if (dealt_with(c, t, &s->counters.looks)) continue;
@@ -377,7 +457,6 @@ static int bounces(sw_contact *c, const sw_system *s, const double *v1) {
     const sw_vec wall = sw_obstacle_velocity(&c->now[t->obstacle], t->point);
     const int moves = fabs(sw_dot(wall, t->press.normal)) > SLOWEST_IMPACT;
     if (!moves && !s->bodies[t->body].plan->web) continue;
-    if (c->obstacles[t->obstacle].grips > 0 && c->pressing[t->obstacle]) continue;
     const sw_vec v = sw_sub(sw_touch_place(v1, t->node, t->other, t->at), wall);
     if (sw_dot(v, t->press.normal) > SLOWEST_IMPACT) return c->plastic = 1;
   }
@@ -410,10 +489,12 @@ sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *
   /* impulses must not see what their neighbours did to the edges between them */
   double *kicks = s->delta + 3 * s->nodes, *rates = s->v + 3 * s->nodes;
   for (size_t e = 0; e < s->rolls; e++) kicks[e] = 0;
+  c->soonest = HUGE_VAL;
   const int crossed = review_crossings(c, s, x1, h);
   const int struck = review_touches(c, s, h);
   for (size_t e = 0; e < s->rolls; e++) rates[e] += kicks[e];
   c->pressed_count = 0;
+  if (c->soonest < h) return SW_CONTACT_SOONER;
   if (crossed || struck) return SW_CONTACT_REDO;
   if (bounces(c, s, v1)) return SW_CONTACT_STRIKE;
   const int smaller = bars_too_hard(c, s, h) || cuts_deep(c, s, x1, h);

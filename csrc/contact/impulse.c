@@ -32,6 +32,7 @@ static void add_now(const sw_contact *c, double share, sw_contact_load *(*at)(sw
 static sw_contact_load *first_of(sw_contact_loads *l) { return &l->stage[0]; }
 static sw_contact_load *second_of(sw_contact_loads *l) { return &l->stage[1]; }
 static sw_contact_load *end_of(sw_contact_loads *l) { return &l->past.end; }
+static sw_contact_load *trial_of(sw_contact_loads *l) { return &l->trial; }
 
 void sw_contact_book(void *contact, const sw_booking *b) {
   sw_contact *c = contact;
@@ -103,6 +104,11 @@ double sw_contact_usual_force(const sw_system *s, const sw_plan *p) {
  * usual, is that of a shock [-]. */
 static const double SHOCK = 0.3, SHARP = 0.5;
 
+static int is_shock(const sw_system *s, const sw_plan *p, sw_vec end, sw_vec mean) {
+  const double off = sw_norm(sw_sub(end, mean)), most = fmax(sw_norm(end), sw_norm(mean));
+  return off > SHOCK * most && off > SHARP * sw_contact_usual_force(s, p);
+}
+
 /* Is a force off by off too much for one of the wires that touch obstacle o? */
 static int shakes(const sw_contact *c, const sw_system *s, int o, double off) {
   for (size_t i = 0; i < c->touch_count; i++) {
@@ -121,6 +127,45 @@ int sw_contact_shaken(const sw_contact *c, const sw_system *s) {
     if (off > SHOCK * most && shakes(c, s, c->busy[k], off)) return 1;
   }
   return 0;
+}
+
+/* A blow whose mean over the step is less than so many usual forces is none [-]. */
+static const double LIGHT = 1.1;
+/* Of one obstacle only those are followed that are so many times as hard as any before [-]. */
+static const double HARDER = 1.2;
+/* One that is followed goes on while such forces come and go that are so many times as hard [-]. */
+static const double GOES_ON = 0.5, HARD = 5.0; /* and this hard, of usual forces */
+
+/* Did what an obstacle gets come and go within the step? mean: over it, end: at its end [N]. */
+static int comes_and_goes(const sw_contact_loads *l, const sw_system *s, const sw_plan *p,
+                          sw_vec mean, sw_vec end) {
+  const sw_vec middle = sw_scale(sw_add(end, l->past.end.force), 0.5);
+  return is_shock(s, p, end, mean) || is_shock(s, p, middle, mean);
+}
+
+/* A gripper's pads close on a wire: they have ways of their own to do so slowly. */
+double sw_contact_jolt(sw_contact *c, const sw_system *s, int followed) {
+  const sw_contact_load none = {.force = {.x = 0}};
+  double hardest = 0;
+  if (c->regime != SW_CONTACT_IMPLICIT || !(c->h > 0)) return 0;
+  for (size_t i = 0; i < c->busy_count; i++) c->loads[c->busy[i]].trial = none;
+  add_now(c, 1.0, trial_of);
+  for (size_t i = 0; i < c->touch_count; i++) {
+    const sw_touch *t = &c->touches[i];
+    sw_contact_loads *l = &c->loads[t->obstacle];
+    const sw_plan *p = s->bodies[t->body].plan;
+    const sw_vec mean = sw_scale(sw_add(l->stage[c->last_stage].force, l->blows.force), 1.0 / c->h);
+    const double size = sw_norm(mean), usual = sw_contact_usual_force(s, p);
+    const double least = followed ? fmax(HARD * usual, GOES_ON * l->past.hardest)
+                                  : fmax(LIGHT * usual, HARDER * l->past.hardest);
+    if (p->web || c->obstacles[t->obstacle].grips > 0 || !(size > least)) continue;
+    if (size > p->beam.EA) continue;     /* driven into it by a hold: no blow of a wire has that */
+    if (!followed && t->known) continue; /* what slips or sticks here strikes nothing */
+    if (!comes_and_goes(l, s, p, mean, l->trial.force)) continue;
+    if (!followed) l->past.hardest = size;
+    hardest = fmax(hardest, size / usual);
+  }
+  return hardest;
 }
 
 int sw_contact_id(const sw_contact *c, size_t k) { return c->obstacles[k].id; }

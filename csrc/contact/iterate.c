@@ -87,6 +87,22 @@ sw_status sw_contact_keeps(void *contact, sw_system *s, const double *y, int *ou
   return SW_OK;
 }
 
+/* What a step leaves so near to what it would rebound from does so with its neighbours [m]. */
+static const double NEXT_TO = 1e-6;
+
+/* What presses may have struck. With no room for it, an impact is dealt with in the next step. */
+static void note_pressed(sw_contact *c) {
+  for (size_t i = c->parts.touch; i < c->touch_count; i++) {
+    const sw_touch *t = &c->touches[i];
+    const double open = c->obstacles[t->obstacle].restitution > 0 ? NEXT_TO : 0.0;
+    if (t->held || !(t->press.normal_force > 0 || t->press.gap_after < open)) continue;
+    if (sw_grow((void **)&c->pressed, &c->pressed_capacity, c->pressed_count + 1,
+                sizeof *c->pressed) != SW_OK)
+      return;
+    c->pressed[c->pressed_count++] = *t;
+  }
+}
+
 sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar, const double *y,
                           unsigned want, sw_error *err) {
   sw_contact *c = contact;
@@ -94,10 +110,12 @@ sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar,
   sw_status status = SW_OK;
   if (c->regime == SW_CONTACT_EXPLICIT) status = sw_contact_begin_stage(c, time, 0, err);
   if (status != SW_OK) return status;
+  if (s->rough < SW_NOT_MADE) c->ahead_count = 0, c->passes = c->softer = 0;
   if (!c->looked) SW_TRY(sw_contact_look(c, s, y, err));
   c->looked = 0;
   if (want & SW_WANT_STIFFNESS) mark(c);
   for (size_t i = c->parts.touch; i < c->touch_count; i++) apply(c, s, &c->touches[i], want);
+  if (c->regime == SW_CONTACT_EXPLICIT) note_pressed(c);
   return SW_OK;
 }
 
@@ -142,7 +160,7 @@ static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *
   const int changes = may_change(c, t, way);
   const int first = is_first(c, s, t);
   if (web || c->regime != SW_CONTACT_IMPLICIT) {
-    if (changes || first) return 0;
+    if ((changes && s->rough < SW_NOT_MADE) || first) return 0;
     const int small = way <= SMALL_SHIFT * c->candidates[t->candidate].radius;
     if (agrees || !small || c->updates <= PATIENCE || !web || web->per_ring) return agrees;
     return sw_press_apart(&t->press);
@@ -173,27 +191,65 @@ static int stiffen(sw_contact *c, const sw_system *s) {
     sw_touch *t = &c->touches[i];
     const double before = small ? fmax(0.0, sw_contact_depth_before(c, s, t)) : -1.0;
     if (t->held || c->candidates[t->candidate].given) continue;
-    t->stiffer =
-        sw_press_stiffer(&t->press, c->candidates[t->candidate].usual, t->forgiven, before);
+    t->stiffer = sw_press_stiffer(&t->press, t->usual, t->forgiven, before);
     any |= t->stiffer > t->press.k;
   }
   return any;
+}
+
+/* So few touches do not lie but stand, on a bent wire that may be about to slip: what they do then
+ * is up to how it bends [-]. */
+enum { SINGLE = 4 };
+
+static int stands(const sw_contact *c) {
+  int rubs = 0;
+  for (size_t i = 0; i < c->touch_count; i++)
+    rubs += c->touches[i].press.active && c->touches[i].friction > 0;
+  return rubs > 0 && rubs <= SINGLE;
+}
+
+/* Is friction all that may be nonlinear about touches? Where they slide is found before the update
+ * is made, or it leads astray; places on edges and round sides are found by updates. */
+static int rubs_on_flat(const sw_contact *c, const sw_system *s) {
+  int rubs = 0;
+  if (s->rolls) return 0;
+  for (size_t i = 0; i < c->touch_count; i++) {
+    const sw_touch *t = &c->touches[i];
+    if (!t->press.active) continue;
+    if (!c->flat[t->obstacle]) return 0;
+    rubs |= t->friction > 0;
+  }
+  return rubs;
+}
+
+/* Touches that find no agreement in so many solves at one place search for it; nor do they go on
+ * like that when positions took so many updates, or some with few of them wrong [-]. */
+enum { EASY_PASSES = 8, EASY_UPDATES = 14, SOME_UPDATES = 8, FEW_WRONG = 4 };
+
+/* An update need not be made: is it better to have touches agree first? */
+static int rather_waits(const sw_contact *c, const sw_system *s) {
+  if (stands(c)) return 0;
+  if (c->softer || rubs_on_flat(c, s) || c->made >= EASY_UPDATES) return 1;
+  return c->made >= SOME_UPDATES && sw_contact_wrong(c) <= FEW_WRONG;
+}
+
+static int searches(sw_contact *c, const sw_system *s) {
+  if (s->rough < SW_NOT_MADE || stands(c)) return 0;
+  return ++c->passes > EASY_PASSES || s->rough == SW_MAY_BE_MADE || !sw_contact_wrong(c);
 }
 
 int sw_contact_settled(void *contact, sw_system *s, const double *y, const double *delta) {
   sw_contact *c = contact;
   c->pressed_count = c->pressed_before;
   c->updates++;
-  const int fine = update_all(c, s, y, delta);
-  if (!fine) sw_contact_peel(c, s);
-  if (fine && stiffen(c, s)) return 0;
-  for (size_t i = c->parts.touch; fine && i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
-    if (t->held || !(t->press.normal_force > 0 || t->press.gap_after < 0)) continue;
-    if (sw_grow((void **)&c->pressed, &c->pressed_capacity, c->pressed_count + 1,
-                sizeof *c->pressed) != SW_OK)
-      break; /* an impact is then dealt with in the next step */
-    c->pressed[c->pressed_count++] = *t;
+  const int fine = update_all(c, s, y, delta) && !c->softer;
+  c->made += s->rough < SW_NOT_MADE;
+  if (!fine && s->rough == SW_MAY_BE_MADE && !rather_waits(c, s)) {
+    c->updates--;
+    return 1;
   }
+  if (!fine && !(searches(c, s) && sw_contact_search(c, s, delta))) sw_contact_peel(c, s);
+  if (fine && stiffen(c, s)) return 0;
+  if (fine) note_pressed(c);
   return fine;
 }

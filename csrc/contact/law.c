@@ -24,8 +24,8 @@ static const double DROWNED = 100.0;
 /* A spring stretched this many times over what friction can hold does not stick,
  * whatever the prediction is worth [-]. */
 static const double SURELY_SLIDING = 20.0;
-/* Unless the slide has turned round so often: friction then pushes it back by more than that
- * stretch each time, and it is held [-]. */
+/* Unless the slide has turned round so often, of those that go by their place: friction then pushes
+ * it back by more than that stretch each time, and it is held [-]. */
 enum { REVERSALS = 3 };
 
 /* Wires that are deeper inside than their force explains are let out at this speed; meshes, whose
@@ -68,32 +68,48 @@ void sw_press_take_lag(sw_press *p, const sw_press *last) {
     p->lag = last->lag + (last->lag_before - last->lag) * error / (error - error_before);
 }
 
+/* What a vector has across a normal. */
+static sw_vec across(sw_vec v, sw_vec n) { return sw_madd(v, n, -sw_dot(v, n)); }
+
 void sw_press_aim(sw_press *p, sw_vec u, const sw_press *last, int same, double first) {
   p->carried = !last ? sw_v(0, 0, 0) : same ? last->carried : sw_scale(last->slip, first);
   u = sw_sub(u, p->carried);
-  p->trial = sw_madd(u, p->normal, -sw_dot(u, p->normal));
+  p->trial = across(u, p->normal);
+  if (last && last->active)
+    p->pulls = across(last->next_pulls, p->normal);
+  else
+    p->pulls = sw_unit_or(p->trial, sw_v(0, 0, 0));
 }
 
 void sw_press_begin(sw_press *p, double friction, int known, double felt) {
   const double most = friction * p->lag, grip = sw_press_grip(p), length = sw_norm(p->trial);
-  if (!known) p->sliding = grip * length > most;
+  if (!known) p->sliding = grip * length > most, p->pulls = sw_v(0, 0, 0);
   const int surely = fmin(grip, felt) * length > SURELY_SLIDING * most;
   if (surely && p->reversals < REVERSALS) p->sliding = 1;
 }
 
 /* Which way a touch slides, and how long its spring is. None that is known: zero. */
 static sw_vec direction(const sw_press *p, double *length) {
-  *length = sw_norm(p->trial);
+  const sw_vec u = sw_add(p->trial, p->ahead);
+  *length = sw_norm(u);
   if (!(*length > SPRING_TOLERANCE)) return sw_v(0, 0, 0);
-  return sw_scale(p->trial, 1.0 / *length);
+  return sw_scale(u, 1.0 / *length);
 }
 
-/* K = kn n n' + kt (I - n n') - ks d d' */
-static void stiffness_matrix(double kn, double kt, double ks, sw_vec n, sw_vec d, double K[6]) {
-  const double v[3] = {n.x, n.y, n.z}, u[3] = {d.x, d.y, d.z};
+/* K = kn n n' + kt (I - n n') - ks (d w' + w d')/2 */
+static void stiffness_matrix(double kn, double kt, double ks, sw_vec n, sw_vec d, sw_vec w,
+                             double K[6]) {
+  const double v[3] = {n.x, n.y, n.z}, u[3] = {d.x, d.y, d.z}, q[3] = {w.x, w.y, w.z};
   for (int i = 0, at = 0; i < 3; i++)
     for (int j = i; j < 3; j++, at++)
-      K[at] = (kn - kt) * v[i] * v[j] + (i == j ? kt : 0.0) - ks * u[i] * u[j];
+      K[at] =
+          (kn - kt) * v[i] * v[j] + (i == j ? kt : 0.0) - 0.5 * ks * (u[i] * q[j] + q[i] * u[j]);
+}
+
+/* The same stiffness of a sliding touch, times a shift along the surface: how friction turns. */
+static sw_vec turned(const sw_press *p, sw_vec d, sw_vec along) {
+  const double by = -0.5 * sw_dot(d, along), more = -0.5 * sw_dot(p->pulls, along);
+  return sw_scale(sw_madd(sw_madd(along, p->pulls, by), d, more), p->turning);
 }
 
 sw_vec sw_press_eval(sw_press *p, double friction, int lagged, double K[6]) {
@@ -103,14 +119,17 @@ sw_vec sw_press_eval(sw_press *p, double friction, int lagged, double K[6]) {
   const double most = friction * p->lag, grip = sw_press_grip(p);
   double length;
   const sw_vec d = direction(p, &length);
+  if (p->by_place) p->pulls = d;
   if (!lagged) p->next_sliding = p->sliding = grip * length > most;
   p->tangential = p->sliding ? sw_scale(d, -most) : sw_scale(p->trial, -grip);
   p->slip = sw_add(p->carried, sw_madd(p->trial, p->tangential, 1.0 / grip));
   if (p->sliding) {
     p->turning = length > SPRING_TOLERANCE ? fmin(most / length, grip) : 0.0;
-    stiffness_matrix(p->k, p->turning, p->turning, p->normal, d, K);
+    stiffness_matrix(p->k, p->turning, p->turning, p->normal, d, p->pulls, K);
+    const sw_vec back = turned(p, d, p->ahead);
+    return sw_add(sw_madd(p->tangential, p->normal, p->normal_force), back);
   } else {
-    stiffness_matrix(p->k, friction > 0 ? grip : 0.0, 0, p->normal, d, K);
+    stiffness_matrix(p->k, friction > 0 ? grip : 0.0, 0, p->normal, d, d, K);
     if (!(friction > 0)) p->tangential = sw_v(0, 0, 0);
   }
   return sw_madd(p->tangential, p->normal, p->normal_force);
@@ -127,12 +146,12 @@ static double force_after(const sw_press *p, sw_vec shift) {
   return fmax(0.0, -p->k * (p->gap + sw_dot(p->normal, shift)));
 }
 
-static int slides(const sw_press *p, double friction) {
+int sw_press_slides(const sw_press *p, double friction) {
   return p->active && p->sliding && friction > 0;
 }
 
 int sw_press_lags(const sw_press *p, double friction, sw_vec shift, double force_scale) {
-  return slides(p, friction) && !lag_agrees(p, force_after(p, shift), force_scale);
+  return sw_press_slides(p, friction) && !lag_agrees(p, force_after(p, shift), force_scale);
 }
 
 static sw_vec take_as_given(sw_press *p, double friction, double force) {
@@ -143,25 +162,29 @@ static sw_vec take_as_given(sw_press *p, double friction, double force) {
 }
 
 sw_vec sw_press_follow(sw_press *p, double friction, sw_vec shift) {
-  if (!slides(p, friction)) return sw_v(0, 0, 0);
+  if (!sw_press_slides(p, friction)) return sw_v(0, 0, 0);
   return take_as_given(p, friction, force_after(p, shift));
 }
 
 sw_vec sw_press_unfollow(sw_press *p, double friction) {
-  if (!slides(p, friction)) return sw_v(0, 0, 0);
+  if (!sw_press_slides(p, friction)) return sw_v(0, 0, 0);
   return take_as_given(p, friction, p->lag_at_first);
 }
 
 double sw_press_off(const sw_press *p, double friction, sw_vec shift) {
-  return slides(p, friction) ? fabs(force_after(p, shift) - p->lag) : 0.0;
+  return sw_press_slides(p, friction) ? fabs(force_after(p, shift) - p->lag) : 0.0;
 }
 
 int sw_press_pulls(const sw_press *p, sw_vec shift) {
   return p->active && p->gap + sw_dot(p->normal, shift) > GAP_TOLERANCE;
 }
 
+int sw_press_sinks(const sw_press *p, sw_vec shift) {
+  return p->gap + sw_dot(p->normal, shift) < -GAP_TOLERANCE;
+}
+
 int sw_press_closes(const sw_press *p, sw_vec shift) {
-  return !p->active && p->gap + sw_dot(p->normal, shift) < -GAP_TOLERANCE;
+  return !p->active && sw_press_sinks(p, shift);
 }
 
 void sw_press_close(sw_press *p) {
@@ -170,39 +193,57 @@ void sw_press_close(sw_press *p) {
 }
 
 int sw_press_opens(const sw_press *p, sw_vec shift, double force_scale) {
-  const double across = sw_dot(p->normal, shift);
-  if (p->gap + across < -GAP_TOLERANCE) return 0;
+  if (sw_press_sinks(p, shift)) return 0;
   if (!p->sliding) return 1;
   double length;
-  const sw_vec d = direction(p, &length), along = sw_madd(shift, p->normal, -across);
-  const double turn = sw_norm(sw_madd(along, d, -sw_dot(along, d)));
-  return p->turning * turn <= WEIGHT_TOLERANCE * force_scale;
+  const sw_vec d = direction(p, &length);
+  const sw_vec turn = turned(p, d, sw_sub(across(shift, p->normal), p->ahead));
+  return sw_norm(turn) <= WEIGHT_TOLERANCE * force_scale;
 }
 
 /* Friction that the last solve reckoned with. */
 static sw_vec rubbed(const sw_press *p, double friction) {
-  const sw_vec along = sw_madd(p->shift, p->normal, -sw_dot(p->normal, p->shift));
+  const sw_vec along = across(p->shift, p->normal);
   double length;
   if (!p->sliding) return sw_scale(sw_add(p->trial, along), -sw_press_grip(p));
   const sw_vec d = direction(p, &length);
-  const sw_vec turn = sw_madd(along, d, -sw_dot(along, d));
-  return sw_madd(sw_scale(d, -friction * p->lag), turn, -p->turning);
+  return sw_sub(sw_scale(d, -friction * p->lag), turned(p, d, sw_sub(along, p->ahead)));
+}
+
+/* Friction that the linearised law gives at displacement u, over what it can be and against it.
+ * Sums of many directions u/|u| mislead an iteration that takes each one's curvature from its place
+ * alone, for along u there is none: touches that are to stick are thrown past their place and back,
+ * hundreds at once. With this beside the place as an unknown of its own, |w| <= 1, |u| w = u is
+ * what is linearised, and the curvature goes only where friction is at its limit (Chan, Golub and
+ * Mulet 1999, for sums of norms in images). */
+static sw_vec pulled(const sw_press *p, sw_vec u, sw_vec along, double most) {
+  double length;
+  const sw_vec d = direction(p, &length);
+  sw_vec w;
+  if (p->sliding && length > SPRING_TOLERANCE)
+    w = sw_scale(sw_madd(u, p->pulls, -sw_dot(d, along)), 1.0 / length);
+  else
+    w = most > 0 ? sw_scale(u, sw_press_grip(p) / most) : sw_v(0, 0, 0);
+  return sw_scale(w, 1.0 / fmax(1.0, sw_norm(w)));
 }
 
 static int update_friction(sw_press *p, double friction, sw_vec shift, double force_scale) {
-  const sw_vec u = sw_madd(sw_add(p->trial, shift), p->normal, -sw_dot(shift, p->normal));
+  const sw_vec moved = across(shift, p->normal), u = sw_add(p->trial, moved);
   const double length = sw_norm(u), most = friction * p->normal_force;
   const double grip = sw_press_grip(p), small = grip * SPRING_TOLERANCE;
-  const double along = sw_dot(u, p->trial);
+  const sw_vec from = sw_add(p->trial, p->ahead);
+  const double along = sw_dot(u, from);
   const int beyond = grip * length > most;
-  const int reversed = p->sliding && along < 0;
+  /* what goes by its place turns round in an iterate where it is to stick */
+  const int reversed = p->by_place && p->sliding && along < 0;
   p->next_sliding = beyond && !reversed;
   p->reversals += reversed;
+  p->next_pulls = pulled(p, u, moved, most);
   p->tangential = sw_scale(u, -(beyond && length > 0 ? most / length : grip));
   p->slip = sw_add(p->carried, sw_madd(u, p->tangential, 1.0 / grip));
-  /* the iterate's friction came from lag: it must not matter either */
-  if (reversed) return fmax(most, friction * p->lag) <= small;
-  if (p->sliding && beyond && along < TURN_TOLERANCE * length * sw_norm(p->trial)) return 0;
+  /* one that turned round in the iterate: its friction, which came from lag, must not matter */
+  if (p->sliding && along < 0) return fmax(most, friction * p->lag) <= small;
+  if (p->sliding && beyond && along < TURN_TOLERANCE * length * sw_norm(from)) return 0;
   /* a change of state matters when the force does */
   const double off = sw_norm(sw_sub(rubbed(p, friction), p->tangential));
   const double share = p->sliding && beyond ? DIRECTION_TOLERANCE : FORCE_TOLERANCE;

@@ -21,12 +21,16 @@ typedef struct sw_press {
   double lag_before, force_before; /* both, one iterate earlier; 0 = not known [N] */
   sw_vec normal;                   /* of the push [-] */
   sw_vec carried; /* how far the anchor slid in the step until this stage began, by its rule [m] */
+  sw_vec pulls;   /* friction that the iterate begins with, over what it can be, against it [-] */
   sw_vec trial;   /* tangential displacement from that anchor at this iterate [m] */
+  sw_vec ahead;   /* statics: how far from that its friction is linearised, along the surface [m] */
   sw_vec tangential; /* friction force after the last solve [N] */
+  sw_vec next_pulls; /* pulls, as the last solve found it [-] */
   sw_vec shift;      /* by the last solve [m] */
   sw_vec slip;       /* how far the anchor slid in the step [m] */
   int alternations;  /* of normal_force - lag until the last iterate [-] */
-  int reversals;     /* of the slide in this stage, or where a static solve is dragged [-] */
+  int by_place;      /* 1: friction's direction is that of the place, no unknown of its own */
+  int reversals;     /* then: of the slide in this stage, or where a static solve is dragged [-] */
   int active;        /* pushes in this iterate */
   int let_go;        /* 1: not active in the next iterate, whatever its gap */
   int take_on;       /* 1: active in the next iterate, whatever its gap */
@@ -70,6 +74,9 @@ void sw_press_aim(sw_press *press, sw_vec u, const sw_press *last, int same, dou
  * explicit methods, which take all from this iterate. */
 sw_vec sw_press_eval(sw_press *press, double friction, int lagged, double K[6]);
 
+/* Does it push and slide in this iterate? */
+int sw_press_slides(const sw_press *press, double friction);
+
 /* Friction of a sliding touch follows its normal force within the linearisation of an iterate. 1:
  * after an update by shift that is another one than it took as given, by more than what does not
  * keep an iteration going. force_scale: see below [N]. */
@@ -83,8 +90,10 @@ double sw_press_off(const sw_press *press, double friction, sw_vec shift);
 /* Would the normal force pull after an update by shift? A touch that does is opened: it has no
  * force any more. */
 int sw_press_pulls(const sw_press *press, sw_vec shift);
-/* Would the wire go through where nothing pushes after an update by shift? Such a touch is closed: it
- * has been moving freely and slides, with friction for the normal force to come. */
+/* Would the wire be inside after an update by shift? */
+int sw_press_sinks(const sw_press *press, sw_vec shift);
+/* Would the wire go through where nothing pushes after an update by shift? Such a touch is closed:
+ * it has been moving freely and slides, with friction for the normal force to come. */
 int sw_press_closes(const sw_press *press, sw_vec shift);
 void sw_press_close(sw_press *press);
 /* Opened, does it stay open after an update by shift, with nothing left of its friction? */

@@ -7,6 +7,7 @@
 
 #include "contact/law.h"
 #include "contact/pairs.h"
+#include "contact/spot.h"
 
 /* Two segments, by their first nodes in the system's arrays; one < two. */
 typedef struct sw_near {
@@ -17,19 +18,29 @@ typedef struct sw_near {
   double travel;   /* of the four nodes together until then [m] */
 } sw_near;
 
+enum { SW_NO_PAIR = UINT32_MAX };
+
 /* Segments that may touch in this step. */
 typedef struct sw_pair {
   uint32_t one, two;
   uint32_t body[2];
-  int parallel;          /* nearly, at the step's start */
-  int held;              /* all four nodes are: no force */
-  double reach;          /* sum of the radii [m] */
-  double usual;          /* stiffness of a new touch [N/m] */
+  uint32_t before, after; /* pairs of the segment before one or after it with two, or SW_NO_PAIR */
+  uint32_t memory[3]; /* where memory of two, or of the segment before it, begins: with the segment
+                         before one, one itself, the one after it */
+  int parallel;       /* nearly, at the step's start */
+  int held;           /* all four nodes are: no force */
+  double reach;       /* sum of the radii [m] */
+  double usual;       /* stiffness of a new touch [N/m] */
   size_t last, last_end; /* its touches of the iterate before */
 } sw_pair;
 
+/* Where wires cross they touch at their nearest places; where they lie along each other, nodes of
+ * both do at the places nearest to them. */
+typedef enum sw_pair_kind { SW_CROSSING, SW_NODE_OF_ONE, SW_NODE_OF_TWO } sw_pair_kind;
+
 typedef struct sw_pair_touch {
-  uint32_t pair;   /* number in the list of pairs */
+  uint32_t pair; /* number in the list of pairs */
+  sw_pair_kind kind;
   size_t stage;    /* in which it was found */
   double at[2];    /* along the segments [-] */
   int slides[2];   /* 1: the place along that segment follows the nearest points */
@@ -43,6 +54,7 @@ typedef struct sw_pair_touch {
 /* Kept between steps. */
 typedef struct sw_pair_memory {
   uint32_t one, two;
+  sw_pair_kind kind;
   double at[2];
   double normal_force, depth, k; /* [N], [m], [N/m] */
   sw_vec normal;                 /* [-] */
@@ -83,14 +95,14 @@ struct sw_pairs {
   size_t pair_count, pair_capacity;
   sw_pair_touch *touches, *last; /* of this iterate and of the one before */
   size_t touch_count, touch_capacity, last_count, last_capacity;
+  sw_spots spots;         /* work of the refinement */
   sw_pair_touch *pressed; /* with a force at the end of a stage of this trial */
   size_t pressed_count, pressed_capacity;
   sw_pair_memory *memory, *next_memory;
   size_t memory_count, memory_capacity, next_count, next_capacity;
   sw_pair_barrier *barriers;
   size_t barrier_count, barrier_capacity;
-  sw_pair_barrier *impacts; /* places whose impact was dealt with in this step */
-  size_t impact_count, impact_capacity;
+  size_t impact_count;  /* places that struck in this step */
   double fall;          /* that gravity closes in the step, with reserve [m] */
   double least_left;    /* minus the least gap of segments not chosen [m] */
   double least_reserve; /* gap up to which all are chosen in this step [m] */
@@ -107,9 +119,17 @@ sw_status sw_pairs_choose(sw_pairs *pairs, sw_system *system);
 sw_status sw_pair_add(sw_system *system, const sw_pair *pair, const sw_pair_touch *touch,
                       const double *y, sw_vec force, const double *K);
 
+/* The pairs were chosen: where each finds its neighbours and its memory. */
+void sw_pairs_match(sw_pairs *pairs);
 /* Of a place on two wires: the nearest one remembered, within a segment on both, or NULL. */
-const sw_pair_memory *sw_pair_recall(const sw_pairs *pairs, const sw_pair *pair,
-                                     const double at[2]);
+const sw_pair_memory *sw_pair_recall(const sw_pairs *pairs, const sw_pair *pair, const double at[2],
+                                     sw_pair_kind kind);
+/* The same touch in the iterate before, or NULL. */
+const sw_pair_touch *sw_pair_last(const sw_pairs *pairs, const sw_pair *pair, const double at[2],
+                                  sw_pair_kind kind);
+/* Two places along segments of pairs are one. */
+int sw_pair_is_same(const sw_pair *pair, const double at[2], const sw_pair *other,
+                    const double there[2]);
 
 /* Nearest points of two segments: places along them, distance returned [m]. */
 double sw_segments_nearest(sw_vec a0, sw_vec a1, sw_vec b0, sw_vec b1, double at[2]);

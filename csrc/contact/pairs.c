@@ -49,7 +49,7 @@ void sw_pairs_free(sw_pairs *p) {
   sw_free(p->memory);
   sw_free(p->next_memory);
   sw_free(p->barriers);
-  sw_free(p->impacts);
+  sw_spots_free(&p->spots);
   sw_free(p);
 }
 
@@ -123,6 +123,7 @@ void sw_pairs_commit(sw_pairs *p, sw_system *s) {
     sw_pair_memory *m = &p->next_memory[p->next_count++];
     *m = (sw_pair_memory){.one = k->one,
                           .two = k->two,
+                          .kind = t->kind,
                           .at = {t->at[0], t->at[1]},
                           .normal_force = t->press.normal_force,
                           .depth = t->press.normal_force / t->press.k,

@@ -37,6 +37,8 @@ void sw_pairs_begin_stage(sw_pairs *pairs, double first);
 sw_status sw_pairs_begin_look(sw_pairs *pairs, sw_system *system, sw_error *err);
 sw_status sw_pairs_eval(sw_pairs *pairs, sw_system *system, const double *y, unsigned want,
                         sw_error *err);
+/* As sw_contact_refine, with what linked bodies touch besides (contact; NULL: nothing). */
+void sw_pairs_refine(sw_pairs *pairs, sw_contact *contact, sw_system *system);
 int sw_pairs_settled(sw_pairs *pairs, sw_system *system, const double *delta);
 sw_contact_verdict sw_pairs_review(sw_pairs *pairs, sw_system *system, const double *x1, double h);
 /* 1 = solve again. */

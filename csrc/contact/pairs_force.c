@@ -23,9 +23,14 @@ static void add_outer(double out[9], sw_vec a, sw_vec b, double f) {
     for (int j = 0; j < 3; j++) out[3 * i + j] += x[i] * y[j];
 }
 
+/* The touch of a node does nothing to the other node of its segment. */
+static int takes_part(const double w[4], const int slides[2], int i) {
+  return w[i] != 0 || slides[i / 2];
+}
+
 static void add_law(blocks *b, const double w[4], const double K[6]) {
   for (int i = 0; i < 4; i++)
-    for (int j = 0; j < 4; j++)
+    for (int j = 0; j < 4 && w[i] != 0; j++)
       for (int m = 0; m < 9; m++) b->k[i][j][m] += w[i] * w[j] * K[FULL[m]];
 }
 
@@ -59,7 +64,8 @@ static void add_turning(blocks *out, const double w[4], sw_vec a, sw_vec b, sw_v
   for (int q = 0; q < 2; q++)
     for (int i = 0; i < 4; i++) g[q][i] = sw_madd(sw_scale(along[q], w[i]), n, d * by_place[q][i]);
   for (int i = 0; i < 4; i++)
-    for (int j = 0; j < 4; j++) {
+    for (int j = 0; j < 4 && takes_part(w, slides, i); j++) {
+      if (!takes_part(w, slides, j)) continue;
       double *k = out->k[i][j];
       for (int m = 0; m < 9; m++) k[m] += f * w[i] * w[j] * P[FULL[m]];
       add_outer(k, g[0][i], g[0][j], -f * Q[0]);
@@ -81,10 +87,12 @@ static void add_force(sw_body *body, size_t i, double at, sw_vec f) {
   sw_accumulate(body->field.force + 3 * i + 3, sw_scale(f, at));
 }
 
-static sw_status link_nodes(sw_system *s, const sw_pair *k, double block[4][4][9]) {
+static sw_status link_nodes(sw_system *s, const sw_pair *k, const double w[4], const int slides[2],
+                            double block[4][4][9]) {
   for (uint32_t i = 0; i < 2; i++)
-    for (uint32_t j = 0; j < 2; j++)
-      SW_TRY(sw_system_add_link(s, k->one + i, k->two + j, block[i][2 + j]));
+    for (uint32_t j = 0; j < 2 && takes_part(w, slides, (int)i); j++)
+      if (takes_part(w, slides, 2 + (int)j))
+        SW_TRY(sw_system_add_link(s, k->one + i, k->two + j, block[i][2 + j]));
   return SW_OK;
 }
 
@@ -109,5 +117,5 @@ sw_status sw_pair_add(sw_system *s, const sw_pair *k, const sw_pair_touch *t, co
   }
   add_to_rows(one, i, b.k, 0);
   add_to_rows(two, j, b.k, 2);
-  return link_nodes(s, k, b.k);
+  return link_nodes(s, k, w, t->slides, b.k);
 }

@@ -340,5 +340,6 @@ sw_status sw_pairs_choose(sw_pairs *p, sw_system *s) {
     else
       p->least_left = larger(p->least_left, sum - n->distance);
   }
+  sw_pairs_match(p);
   return SW_OK;
 }

@@ -15,19 +15,20 @@ static const double SLOWEST_IMPACT = 5e-4;
 /* Places this near to each other along both segments are one [-]. */
 static const double BESIDE = 0.25;
 
-static int is_listed(const sw_pair_barrier *list, size_t count, const sw_pair *k,
-                     const double at[2], double within) {
-  for (size_t i = 0; i < count; i++)
-    if (list[i].one == k->one && list[i].two == k->two && fabs(list[i].at[0] - at[0]) < within &&
-        fabs(list[i].at[1] - at[1]) < within)
+static int is_barred(const sw_pairs *p, const sw_pair *k, const double at[2]) {
+  const sw_pair_barrier *b = p->barriers;
+  for (size_t i = 0; i < p->barrier_count; i++)
+    if (b[i].one == k->one && b[i].two == k->two && fabs(b[i].at[0] - at[0]) < BESIDE &&
+        fabs(b[i].at[1] - at[1]) < BESIDE)
       return 1;
   return 0;
 }
 
-static int list(sw_pair_barrier **to, size_t *count, size_t *capacity, const sw_pair *k,
-                const double at[2], sw_vec normal) {
-  if (sw_grow((void **)to, capacity, *count + 1, sizeof **to) != SW_OK) return 0;
-  (*to)[(*count)++] = (sw_pair_barrier){k->one, k->two, {at[0], at[1]}, normal};
+static int raise_barrier(sw_pairs *p, const sw_pair *k, const double at[2], sw_vec normal) {
+  if (sw_grow((void **)&p->barriers, &p->barrier_capacity, p->barrier_count + 1,
+              sizeof *p->barriers) != SW_OK)
+    return 0;
+  p->barriers[p->barrier_count++] = (sw_pair_barrier){k->one, k->two, {at[0], at[1]}, normal};
   return 1;
 }
 
@@ -39,21 +40,14 @@ static double excess(const sw_system *s, const sw_pair *k, const double at[2], s
   return approach - (gap > 0 ? gap : 0.0) / h;
 }
 
-/* Deal with an impact once: 1 = the step is to be one that does not bounce. */
-static int strike(sw_pairs *p, const sw_system *s, const sw_pair *k, const double at[2],
-                  sw_vec normal, double h) {
-  if (is_listed(p->impacts, p->impact_count, k, at, BESIDE)) return 0;
-  if (!(excess(s, k, at, normal, h) > SLOWEST_IMPACT)) return 0;
-  return list(&p->impacts, &p->impact_count, &p->impact_capacity, k, at, normal);
-}
-
-static int review_touches(sw_pairs *p, const sw_system *s, double h) {
-  int struck = 0;
-  for (size_t i = 0; i < p->pressed_count; i++) {
+/* How many touches strike. Once in a step: the one that does not bounce deals with all of them. */
+static size_t strikes(const sw_pairs *p, const sw_system *s, double h) {
+  size_t count = 0;
+  for (size_t i = 0; i < p->pressed_count && !p->impact_count; i++) {
     const sw_pair_touch *t = &p->pressed[i];
-    struck |= strike(p, s, &p->pairs[t->pair], t->at, t->press.normal, h);
+    count += excess(s, &p->pairs[t->pair], t->at, t->press.normal, h) > SLOWEST_IMPACT;
   }
-  return struck;
+  return count;
 }
 
 /* The largest change of the distance between two segments from positions x0 to x1. */
@@ -111,8 +105,8 @@ static int review_crossings(sw_pairs *p, const sw_system *s, const double *x1) {
     sw_vec normal;
     if (k->held || approach_bound(s->x, x1, k->one, k->two) < TOO_NEAR * k->reach) continue;
     if (!sweep(s->x, x1, k, at, &normal)) continue;
-    if (is_listed(p->barriers, p->barrier_count, k, at, BESIDE)) return -1;
-    if (list(&p->barriers, &p->barrier_count, &p->barrier_capacity, k, at, normal)) changed = 1;
+    if (is_barred(p, k, at)) return -1;
+    changed |= raise_barrier(p, k, at, normal);
   }
   return changed;
 }
@@ -199,7 +193,8 @@ sw_contact_verdict sw_pairs_review(sw_pairs *p, sw_system *s, const double *x1, 
     p->pressed_count = 0;
     return SW_CONTACT_SMALLER;
   }
-  const int struck = review_touches(p, s, h);
+  const size_t struck = strikes(p, s, h);
+  p->impact_count += struck;
   p->pressed_count = 0;
   if (crossed || struck) return SW_CONTACT_STRIKE;
   return cuts_deep(p, s, x1, h) ? SW_CONTACT_SMALLER : SW_CONTACT_ACCEPT;

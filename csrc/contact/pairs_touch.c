@@ -7,52 +7,6 @@
 #include "base/interrupt.h"
 #include "contact/pair.h"
 
-/* --- memory ---------------------------------------------------------------------- */
-
-/* Memory is in the order of the segments: the first of these, or what comes after. */
-static size_t first_memory(const sw_pairs *p, uint32_t one, uint32_t two) {
-  size_t low = 0, high = p->memory_count;
-  while (low < high) {
-    const size_t middle = (low + high) / 2;
-    const sw_pair_memory *m = &p->memory[middle];
-    if (m->one < one || (m->one == one && m->two < two))
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low;
-}
-
-const sw_pair_memory *sw_pair_recall(const sw_pairs *p, const sw_pair *k, const double at[2]) {
-  const sw_pair_memory *best = NULL;
-  const double one = k->one + at[0], two = k->two + at[1];
-  const uint32_t beside = k->two ? k->two - 1 : 0;
-  double nearest = 1.0;
-  for (uint32_t i = k->one ? k->one - 1 : 0; i <= k->one + 1; i++) /* and segments beside */
-    for (size_t j = first_memory(p, i, beside); j < p->memory_count; j++) {
-      const sw_pair_memory *m = &p->memory[j];
-      if (m->one != i || m->two > k->two + 1) break;
-      const double d = fmax(fabs(m->one + m->at[0] - one), fabs(m->two + m->at[1] - two));
-      if (d < nearest) best = m, nearest = d;
-    }
-  return best;
-}
-
-/* A touch of the iterate before is the same one up to this far along the segments: others of
- * the same two, which may come and go, have nothing to do with it [-]. */
-static const double SAME_PLACE = 0.25;
-
-static const sw_pair_touch *last_for(const sw_pairs *p, const sw_pair *k, const double at[2]) {
-  const sw_pair_touch *best = NULL;
-  double nearest = SAME_PLACE;
-  for (size_t i = k->last; i < k->last_end; i++) {
-    const sw_pair_touch *t = &p->last[i];
-    const double d = fabs(t->at[0] - at[0]) + fabs(t->at[1] - at[1]);
-    if (d < nearest) best = t, nearest = d;
-  }
-  return best;
-}
-
 /* A tangential vector that went with normal from, taken along to normal to. */
 static sw_vec carry(sw_vec v, sw_vec from, sw_vec to) {
   const double share = sw_dot(to, v) / fmax(1.0 + sw_dot(from, to), 1e-12);
@@ -77,11 +31,16 @@ static double stiffness_of(const sw_pairs *p, const sw_pair *k, const sw_pair_me
   return m && m->normal_force > 0 ? m->k : k->usual;
 }
 
+/* Where wires along each other pressed at the step's start they do so in the first iterate, unless
+ * the prediction opens them by more: a depth far below what they move in a step says nothing of
+ * whether they part. Crossings of a tight knot wander along both segments, and do not settle so. Of
+ * the radii's sum [-]. */
+static const double STILL_NEAR = 0.02;
+
 static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
-                           sw_pair_touch t, double gap, sw_vec normal) {
+                           sw_pair_touch t, double gap, sw_vec normal, const sw_pair_memory *m,
+                           const sw_pair_touch *last) {
   const double *at = t.at;
-  const sw_pair_memory *m = sw_pair_recall(p, k, at);
-  const sw_pair_touch *last = last_for(p, k, at);
   const double friction = sw_pair_rule_of(p, k->body)->friction;
   t.pair = (uint32_t)(k - p->pairs);
   t.stage = p->stage;
@@ -93,10 +52,12 @@ static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, co
   press->gap_after = press->gap;
   sw_press_activate(press, last && p->regime != SW_CONTACT_EXPLICIT ? &last->press : NULL);
   const int pressed = m && m->normal_force > 0;
+  if (pressed && !last && p->regime == SW_CONTACT_IMPLICIT && t.kind != SW_CROSSING)
+    press->active |= press->gap < STILL_NEAR * k->reach;
   sw_vec u = sw_sub(sw_pair_apart(y, k->one, k->two, at), sw_pair_apart(s->x, k->one, k->two, at));
   if (pressed)
     u = sw_add(u, carry(m->elastic, m->normal, normal));
-  else if (press->gap >= 0)
+  else if (!press->active)
     u = sw_v(0, 0, 0);
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == p->stage, p->first);
   press->lag = pressed ? m->normal_force : press->k * fmax(0.0, -press->gap);
@@ -120,16 +81,17 @@ static const double PASSED = 0.5;
 /* The touch at given places, unless the wires are apart there. Axes that have got
  * through each other within the iteration are told by the remembered normal. */
 static sw_status touch_at(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
-                          const double at[2], int slides_one, int slides_two) {
+                          sw_pair_kind kind, const double at[2], int slides_one, int slides_two) {
   const sw_vec d = sw_pair_apart(y, k->one, k->two, at);
   double distance = sw_norm(d);
   if (!(distance < (1.0 + LISTED_GAP) * k->reach)) return SW_OK;
-  const sw_pair_memory *m = sw_pair_recall(p, k, at);
+  const sw_pair_memory *m = sw_pair_recall(p, k, at, kind);
+  const sw_pair_touch *last = sw_pair_last(p, k, at, kind);
   sw_vec normal = sw_unit_or(d, m ? m->normal : sw_v(0, 0, 1));
   if (m && distance < PASSED * k->reach && sw_dot(normal, m->normal) < 0)
     normal = sw_neg(normal), distance = -distance;
-  const sw_pair_touch t = {.at = {at[0], at[1]}, .slides = {slides_one, slides_two}};
-  return add_touch(p, s, k, y, t, distance - k->reach, normal);
+  const sw_pair_touch t = {.kind = kind, .at = {at[0], at[1]}, .slides = {slides_one, slides_two}};
+  return add_touch(p, s, k, y, t, distance - k->reach, normal, m, last);
 }
 
 static sw_status behind_barrier(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
@@ -142,7 +104,8 @@ static sw_status behind_barrier(sw_pairs *p, const sw_system *s, const sw_pair *
     const double gap = sw_dot(b->normal, d) - k->reach;
     const sw_pair_touch t = {
         .at = {b->at[0], b->at[1]}, .barred = 1, .aslant = sw_norm(d) - k->reach - gap};
-    SW_TRY(add_touch(p, s, k, y, t, gap, b->normal));
+    SW_TRY(add_touch(p, s, k, y, t, gap, b->normal, sw_pair_recall(p, k, b->at, SW_CROSSING),
+                     sw_pair_last(p, k, b->at, SW_CROSSING)));
   }
   return SW_OK;
 }
@@ -177,7 +140,7 @@ static sw_status touch_crossing(sw_pairs *p, const sw_system *s, const sw_pair *
   if (!owns_end(s, k->body[0], k->one, at[0], away, y) ||
       !owns_end(s, k->body[1], k->two, at[1], sw_neg(away), y))
     return SW_OK;
-  return touch_at(p, s, k, y, at, at[0] > 0 && at[0]<1, at[1]> 0 && at[1] < 1);
+  return touch_at(p, s, k, y, SW_CROSSING, at, at[0] > 0 && at[0]<1, at[1]> 0 && at[1] < 1);
 }
 
 static double along(const double *y, uint32_t e, sw_vec q) {
@@ -185,34 +148,39 @@ static double along(const double *y, uint32_t e, sw_vec q) {
   return sw_dot(u, sw_sub(q, sw_vec_at(y, e))) / fmax(sw_norm2(u), 1e-300);
 }
 
-/* The place along segment e of a wire that is nearest to point q, when it is this segment's:
- * beside it, or at its first node where the one before does not reach, or beyond the wire's
- * end. */
+/* Beside a bend there are two places, one on each segment. So near the joint [-] they are one, and
+ * that of the first segment; further off, as where the point is the middle of a circle that the
+ * wire goes round, they are not. */
+static const double AT_JOINT = 0.25;
+
+/* The place along segment e of a wire that is nearest to point q, when it is this segment's: beside
+ * it, or at its first node where the one before does not reach, or beyond the wire's end. */
 static int beside(const sw_system *s, uint32_t body, uint32_t e, const double *y, sw_vec q,
                   double *at) {
-  *at = along(y, e, q);
-  if (*at >= 1) {
-    *at = 1;
-    return is_last(s, body, e);
-  }
-  if (*at > 0) return 1;
-  *at = 0;
-  return e == s->bodies[body].first_node || along(y, e - 1, q) >= 1;
+  const double here = along(y, e, q);
+  *at = fmin(1.0, fmax(0.0, here));
+  if (here >= 1) return is_last(s, body, e);
+  if (here >= AT_JOINT || e == s->bodies[body].first_node) return 1;
+  const double before = along(y, e - 1, q);
+  return before >= 1 || (here > 0 && before < 1 - AT_JOINT);
 }
 
 /* Each segment's first node against the other; at a wire's end its last node too. */
 static sw_status touch_parallel(sw_pairs *p, const sw_system *s, const sw_pair *k,
                                 const double *y) {
-  const int last[2] = {is_last(s, k->body[0], k->one), is_last(s, k->body[1], k->two)};
-  for (uint32_t end = 0; end < 2; end++) {
-    double at[2] = {end, 0};
-    if ((!end || last[0]) && beside(s, k->body[1], k->two, y, sw_vec_at(y, k->one + end), &at[1]))
-      SW_TRY(touch_at(p, s, k, y, at, 0, at[1] > 0 && at[1] < 1));
-    at[1] = end;
-    if ((!end || last[1]) && beside(s, k->body[0], k->one, y, sw_vec_at(y, k->two + end), &at[0]) &&
-        at[0] > 0 && at[0] < 1) /* node on node came first */
-      SW_TRY(touch_at(p, s, k, y, at, 1, 0));
-  }
+  const uint32_t ends[2] = {1u + (uint32_t)is_last(s, k->body[0], k->one),
+                            1u + (uint32_t)is_last(s, k->body[1], k->two)};
+  double at[2];
+  for (uint32_t end = 0; end < ends[0]; end++)
+    if (beside(s, k->body[1], k->two, y, sw_vec_at(y, k->one + end), &at[1])) {
+      at[0] = end;
+      SW_TRY(touch_at(p, s, k, y, SW_NODE_OF_ONE, at, 0, at[1] > 0 && at[1] < 1));
+    }
+  for (uint32_t end = 0; end < ends[1]; end++)
+    if (beside(s, k->body[0], k->one, y, sw_vec_at(y, k->two + end), &at[0])) {
+      at[1] = end;
+      SW_TRY(touch_at(p, s, k, y, SW_NODE_OF_TWO, at, at[0] > 0 && at[0] < 1, 0));
+    }
   return SW_OK;
 }
 
@@ -226,9 +194,8 @@ static sw_status keep_pushing(sw_pairs *p, const sw_system *s, const sw_pair *k,
     int found = 0;
     if (!(last->press.normal_force > 0)) continue;
     for (size_t j = first; j < p->touch_count; j++)
-      found |= fabs(p->touches[j].at[0] - last->at[0]) + fabs(p->touches[j].at[1] - last->at[1]) <
-               SAME_PLACE;
-    if (!found) SW_TRY(touch_at(p, s, k, y, last->at, 0, 0));
+      found |= sw_pair_is_same(k, last->at, k, p->touches[j].at);
+    if (!found) SW_TRY(touch_at(p, s, k, y, last->kind, last->at, 0, 0));
   }
   return SW_OK;
 }
@@ -332,6 +299,24 @@ static void find_scales(sw_pairs *p) {
 static double scale_of(const sw_pairs *p, const sw_pair_touch *t) {
   const uint32_t *body = p->pairs[t->pair].body;
   return fmin(p->largest[body[0]], p->largest[body[1]]);
+}
+
+void sw_pairs_refine(sw_pairs *p, sw_contact *contact, sw_system *s) {
+  p->spots.count = 0;
+  if (contact) sw_contact_add_spots(contact, s, &p->spots);
+  find_scales(p);
+  for (size_t i = 0; i < p->touch_count; i++) {
+    sw_pair_touch *t = &p->touches[i];
+    const sw_pair *k = &p->pairs[t->pair];
+    sw_spots_add(&p->spots, s, k->body,
+                 (sw_spot){.press = &t->press,
+                           .friction = sw_pair_rule_of(p, k->body)->friction,
+                           .scale = scale_of(p, t),
+                           .node = {k->one, k->one + 1u, k->two, k->two + 1u},
+                           .weight = {1.0 - t->at[0], t->at[0], t->at[1] - 1.0, -t->at[1]},
+                           .count = 4});
+  }
+  sw_spots_follow(&p->spots, s);
 }
 
 int sw_pairs_settled(sw_pairs *p, sw_system *s, const double *delta) {

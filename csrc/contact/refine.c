@@ -8,19 +8,21 @@
 
 #include "base/alloc.h"
 #include "base/simd.h"
+#include "contact/spot.h"
 #include "contact/touch.h"
 
-/* Touches opened and closed in an iterate, for more of them the next one costs less; and solves for
- * friction: the second one gets it right to a percent or so [-]. */
-enum { MOST_CHANGED = 6, MOST_FOLLOW = 2 };
+/* Touches opened and closed in an iterate, for more of them the next one costs less; passes over
+ * them: after the quick ones they change one by one, for together they may go to and fro; and
+ * solves for friction: the second one gets it right to a percent or so [-]. */
+enum { MOST_CHANGED = 12, QUICK_PASSES = 4, MOST_PASSES = 20, MOST_FOLLOW = 2 };
 
 /* A touch that is opened or closed: the force across that takes its pull away or is its push, and
  * what one of 1 N does. */
 typedef struct changed {
   size_t touch;
-  int closes;
-  double force;  /* [N] */
-  double *shift; /* (nodes x 3) [m/N] */
+  int closes, on; /* on 0: it has been put back */
+  double force;   /* [N] */
+  double *shift;  /* (nodes x 3) [m/N] */
 } changed;
 
 typedef struct refined {
@@ -107,38 +109,82 @@ static void follow(refined *r, int back) {
 
 /* --- opening and closing ---------------------------------------------------------- */
 
-static int is_changed(const refined *r, size_t touch) {
+static changed *listed(refined *r, size_t touch) {
   for (size_t k = 0; k < r->count; k++)
-    if (r->list[k].touch == touch) return 1;
-  return 0;
+    if (r->list[k].touch == touch) return &r->list[k];
+  return NULL;
 }
 
-/* Touches that are to change and have not; -1: they are too many, or stick. Those without friction
- * are left to the next iterate, as are those of wires with frames, whose equations are not solved
- * again: both move alike. */
-static int find_changes(const refined *r, size_t *touch) {
-  int count = 0;
-  for (size_t i = r->first; i < r->end; i++) {
-    const sw_touch *t = &r->c->touches[i];
-    const sw_vec shift = place(r, t, r->delta);
-    const int closes = !t->held && sw_press_closes(&t->press, shift);
-    if (!closes && !sw_press_pulls(&t->press, shift)) continue;
-    if (is_changed(r, i)) continue;
-    if (r->count + (size_t)count == MOST_CHANGED || !(t->friction > 0)) return -1;
-    if (!closes && !t->press.sliding) return -1;
-    touch[count++] = i;
-  }
-  return count;
+/* Is the touch other than it is taken for? */
+static int is_wrong(const refined *r, const sw_touch *t, const changed *one) {
+  const sw_vec shift = place(r, t, r->delta);
+  if (one && one->on && !one->closes) return sw_press_sinks(&t->press, shift);
+  return sw_press_pulls(&t->press, shift) || (!t->held && sw_press_closes(&t->press, shift));
 }
 
-static void change_one(refined *r, size_t touch) {
+/* May its state change? Those without friction are left to the next iterate, as are those of wires
+ * with frames, whose equations are not solved again: both move alike. */
+static int may_change(const sw_touch *t) {
+  return t->friction > 0 && (!t->press.active || t->press.sliding);
+}
+
+/* A touch that has not been changed yet is to be: with what a force of 1 N there does. */
+static void add_change(refined *r, size_t touch) {
   double *shift = r->more + (1 + r->count) * values(r);
-  sw_touch *t = &r->c->touches[touch];
+  const sw_touch *t = &r->c->touches[touch];
   memset(shift, 0, values(r) * sizeof *shift);
   push(r, t, t->press.normal, shift, 0);
   sw_body_solve_again(r->body, shift);
-  r->list[r->count++] = (changed){touch, !t->press.active, 0, shift};
-  if (!t->press.active) sw_press_close(&t->press);
+  r->list[r->count++] = (changed){touch, !t->press.active, 0, 0, shift};
+}
+
+/* A changed touch is as it was, but for its friction: that comes back into r->more, and 1. */
+static int put_back(refined *r, changed *one) {
+  sw_touch *t = &r->c->touches[one->touch];
+  if (!one->on) return 0;
+  add(values(r), -one->force, one->shift, r->delta);
+  one->on = 0, one->force = 0;
+  if (!one->closes) return 0;
+  const sw_vec f = sw_press_unfollow(&t->press, t->friction);
+  push(r, t, f, r->more, 1);
+  t->press.active = 0;
+  return sw_norm2(f) > 0;
+}
+
+/* Friction in r->more comes back, if there is any. */
+static void rub_back(refined *r, int rubbed) {
+  if (!rubbed) return;
+  sw_body_solve_again(r->body, r->more);
+  add(values(r), 1.0, r->more, r->delta);
+}
+
+/* Change the first touches, most of them at once, that are other than they are taken for. Returns
+ * how many there are; -1: they are too many, or stick. */
+static int change_wrong(refined *r, int most) {
+  size_t wrong[MOST_CHANGED];
+  size_t all = r->count;
+  int count = 0, rubbed = 0;
+  for (size_t i = r->first; i < r->end && count < most; i++) {
+    const sw_touch *t = &r->c->touches[i];
+    const changed *one = listed(r, i);
+    if (!is_wrong(r, t, one)) continue;
+    if (!one && (all++ == MOST_CHANGED || !may_change(t))) return -1;
+    wrong[count++] = i;
+  }
+  if (!count) return 0;
+  memset(r->more, 0, values(r) * sizeof *r->more);
+  for (int i = 0; i < count; i++) {
+    changed *one = listed(r, wrong[i]);
+    if (!one) add_change(r, wrong[i]), one = &r->list[r->count - 1];
+    if (one->on) {
+      rubbed |= put_back(r, one);
+    } else {
+      one->on = 1;
+      if (one->closes) sw_press_close(&r->c->touches[one->touch].press);
+    }
+  }
+  rub_back(r, rubbed);
+  return count;
 }
 
 /* S z = z in place, with the largest pivots; 0: it cannot be solved. */
@@ -172,51 +218,43 @@ static int eliminate(size_t m, double S[MOST_CHANGED][MOST_CHANGED], double *z) 
  * has got one. */
 static int balance(refined *r) {
   double S[MOST_CHANGED][MOST_CHANGED], z[MOST_CHANGED];
-  for (size_t k = 0; k < r->count; k++) {
-    const sw_touch *t = &r->c->touches[r->list[k].touch];
+  changed *on[MOST_CHANGED];
+  size_t m = 0;
+  for (size_t k = 0; k < r->count; k++)
+    if (r->list[k].on) on[m++] = &r->list[k];
+  for (size_t k = 0; k < m; k++) {
+    const sw_touch *t = &r->c->touches[on[k]->touch];
     const sw_press *p = &t->press;
-    const double spring = r->list[k].closes ? -p->k : p->k;
-    z[k] = spring * (p->gap + sw_dot(p->normal, place(r, t, r->delta))) - r->list[k].force;
-    for (size_t j = 0; j < r->count; j++)
-      S[k][j] = (k == j) - spring * sw_dot(p->normal, place(r, t, r->list[j].shift));
+    const double spring = on[k]->closes ? -p->k : p->k;
+    z[k] = spring * (p->gap + sw_dot(p->normal, place(r, t, r->delta))) - on[k]->force;
+    for (size_t j = 0; j < m; j++)
+      S[k][j] = (k == j) - spring * sw_dot(p->normal, place(r, t, on[j]->shift));
   }
-  if (!eliminate(r->count, S, z)) return 0;
-  for (size_t k = 0; k < r->count; k++) {
-    r->list[k].force += z[k];
-    add(values(r), z[k], r->list[k].shift, r->delta);
+  if (!eliminate(m, S, z)) return 0;
+  for (size_t k = 0; k < m; k++) {
+    on[k]->force += z[k];
+    add(values(r), z[k], on[k]->shift, r->delta);
   }
   return 1;
 }
 
 /* Open what pulls and close what is gone through, until there is nothing to change. */
 static int change_all(refined *r) {
-  for (;;) {
-    size_t touch[MOST_CHANGED];
-    const int more = find_changes(r, touch);
-    for (int k = 0; k < more; k++) change_one(r, touch[k]);
-    if (more < 0 || (more && !balance(r))) return 0;
+  for (int pass = 0; pass < MOST_PASSES; pass++) {
+    const int more = change_wrong(r, pass < QUICK_PASSES ? MOST_CHANGED : 1);
     if (!more) return 1;
+    if (more < 0 || !balance(r)) return 0;
   }
+  return 0;
 }
 
 /* As if nothing had been opened or closed. */
 static void forget_changes(refined *r) {
   int rubbed = 0;
   memset(r->more, 0, values(r) * sizeof *r->more);
-  for (size_t k = 0; k < r->count; k++) {
-    const changed *one = &r->list[k];
-    sw_touch *t = &r->c->touches[one->touch];
-    add(values(r), -one->force, one->shift, r->delta);
-    if (!one->closes) continue;
-    const sw_vec f = sw_press_unfollow(&t->press, t->friction);
-    rubbed |= sw_norm2(f) > 0;
-    push(r, t, f, r->more, 1);
-    t->press.active = 0;
-  }
+  for (size_t k = 0; k < r->count; k++) rubbed |= put_back(r, &r->list[k]);
   r->count = 0;
-  if (!rubbed) return;
-  sw_body_solve_again(r->body, r->more);
-  add(values(r), 1.0, r->more, r->delta);
+  rub_back(r, rubbed);
 }
 
 /* Do all stay as they have been changed? */
@@ -224,6 +262,7 @@ static int stay(const refined *r) {
   for (size_t k = 0; k < r->count; k++) {
     const sw_touch *t = &r->c->touches[r->list[k].touch];
     const sw_vec shift = place(r, t, r->delta);
+    if (!r->list[k].on) continue;
     if (r->list[k].closes ? sw_press_pulls(&t->press, shift)
                           : !sw_press_opens(&t->press, shift, r->scale))
       return 0;
@@ -233,6 +272,7 @@ static int stay(const refined *r) {
 
 static void take_changes(const refined *r) {
   for (size_t k = 0; k < r->count; k++) {
+    if (!r->list[k].on) continue;
     sw_touch *t = &r->c->touches[r->list[k].touch];
     push(r, t, sw_scale(t->press.normal, r->list[k].force), NULL, 1);
     if (r->list[k].closes) continue;
@@ -241,15 +281,16 @@ static void take_changes(const refined *r) {
   }
 }
 
-/* A touch that goes further is at another place in another iterate, and may not pull there; of the
- * radius [-]. */
+/* A touch that goes further is at another place in another iterate, and may not pull there, except
+ * on a plane; of the radius [-]. */
 static const double FAR = 0.1;
 
 static int goes_far(const refined *r) {
   for (size_t i = r->first; i < r->end; i++) {
     const sw_touch *t = &r->c->touches[i];
     const double most = FAR * r->c->candidates[t->candidate].radius;
-    if (t->press.active && sw_norm2(place(r, t, r->delta)) > most * most) return 1;
+    if (!t->press.active || r->c->flat[t->obstacle]) continue;
+    if (sw_norm2(place(r, t, r->delta)) > most * most) return 1;
   }
   return 0;
 }
@@ -264,7 +305,7 @@ static int follow_all(refined *r, int *changes) {
   double before = off(r);
   for (int k = 0; k < MOST_FOLLOW && lags(r); k++) {
     follow(r, 0);
-    if (*changes && !((!r->count || balance(r)) && change_all(r))) {
+    if (*changes && !(balance(r) && change_all(r))) {
       *changes = 0;
       forget_changes(r);
     }
@@ -311,5 +352,24 @@ void sw_contact_refine(void *contact, sw_system *s) {
                  .delta = s->delta + 3 * b->first_node,
                  .more = c->room};
     refine(&r);
+  }
+}
+
+void sw_contact_add_spots(sw_contact *c, const sw_system *s, sw_spots *to) {
+  for (size_t first = 0, end; first < c->touch_count; first = end) {
+    const double scale = sw_contact_scale(c, first, &end);
+    const uint32_t body[2] = {(uint32_t)c->touches[first].body};
+    if (!s->bodies[body[0]].linked) continue;
+    for (size_t i = first; i < end; i++) {
+      sw_touch *t = &c->touches[i];
+      const double at = t->segment ? t->at : 0.0;
+      sw_spots_add(to, s, body,
+                   (sw_spot){.press = &t->press,
+                             .friction = t->friction,
+                             .scale = scale,
+                             .node = {t->node, t->other},
+                             .weight = {1.0 - at, at},
+                             .count = t->segment ? 2 : 1});
+    }
   }
 }

@@ -145,16 +145,17 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
   if (turned && (moving ? c->updates > 0 : sw_contact_moves(c)))
     press->reversals = last->press.reversals;
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
-  const int went_on = last && last->press.active;
+  const int went_on = last && last->press.active, searches = last && c->ahead_count;
   t->friction = m && m->sliding ? o->kinetic : o->friction;
   t->slid = m ? m->slid : 0.0;
-  if (went_on)
+  if (searches) press->ahead = last->press.ahead;
+  if (went_on || searches)
     press->sliding = last->press.next_sliding;
   else if (m)
     press->sliding = m->sliding;
   const int held = m && !m->sliding &&
                    (s->bodies[t->body].roll_block || (!last && c->regime == SW_CONTACT_STATIC));
-  if (!held) sw_press_begin(press, t->friction, went_on || m, felt_stiffness(c, s, t));
+  if (!held && !searches) sw_press_begin(press, t->friction, went_on || m, felt_stiffness(c, s, t));
 }
 
 int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
@@ -170,11 +171,27 @@ double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw
   return c->candidates[t->candidate].skin - aslant - sw_dot(t->press.normal, sw_sub(from, plane));
 }
 
+/* A wire that is pushed on with its end bears far more than its weight, and a touch that is made
+ * stiffer once that has driven it in would throw the end back. As stiff as the wire is there, it
+ * is stiff enough from the beginning [N/m]. */
+static double end_stiffness(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                            const double *y, sw_vec normal) {
+  const sw_body *b = &s->bodies[k->body];
+  const size_t i = k->node - b->first_node, last = b->plan->nodes - 1;
+  if (c->regime != SW_CONTACT_IMPLICIT || b->plan->web || k->segment || (i > 0 && i < last))
+    return k->usual;
+  const size_t e = i ? last - 1 : 0, at = b->first_node + e;
+  const sw_vec edge = sw_sub(sw_vec_at(y, at + 1), sw_vec_at(y, at));
+  const double along = sw_dot(sw_unit_or(edge, sw_v(0, 0, 0)), normal);
+  return fmax(k->usual, along * along * b->EA / b->plan->rest[e]);
+}
+
+/* usual: of a new touch [N/m]. */
 static double stiffness_of(const sw_contact *c, const sw_candidate *k, const sw_memory *m,
-                           const sw_touch *last) {
+                           const sw_touch *last, double usual) {
   if (c->regime == SW_CONTACT_EXPLICIT) return k->usual;
   if (last) return last->stiffer;
-  return m ? m->k : k->usual;
+  return m ? m->k : usual;
 }
 
 /* Is a touch the one of the iterate before, moved a little? */
@@ -190,25 +207,29 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
   const double at = k->segment ? near->at : 0.0;
   const sw_memory *m = pressed_memory(c, s, k, at);
   const sw_touch *last = last_for(c, k, at);
-  const double stiffness = stiffness_of(c, k, m, last);
+  const double usual = end_stiffness(c, s, k, y, sw_rotate(pose->q, near->normal));
+  const double stiffness = stiffness_of(c, k, m, last, usual);
   const sw_web *web = s->bodies[k->body].plan->web;
-  sw_touch t = {
-      .obstacle = k->obstacle,
-      .segment = k->segment,
-      .node = k->node,
-      .other = k->other,
-      .body = k->body,
-      .feature = near->feature,
-      .at = at,
-      .point = sw_pose_point(*pose, near->point),
-      .local = near->point,
-      .known = m != NULL,
-      .stiffer = stiffness,
-      .held = sw_contact_is_held(s, k),
-      .candidate = (size_t)(k - c->candidates),
-      .stage = c->stage,
-      .press = {
-          .normal = sw_rotate(pose->q, near->normal), .gap = near->gap - k->skin, .k = stiffness}};
+  sw_touch t = {.obstacle = k->obstacle,
+                .segment = k->segment,
+                .node = k->node,
+                .other = k->other,
+                .body = k->body,
+                .feature = near->feature,
+                .at = at,
+                .point = sw_pose_point(*pose, near->point),
+                .local = near->point,
+                .known = m != NULL,
+                .stiffer = stiffness,
+                .usual = usual,
+                .held = sw_contact_is_held(s, k),
+                .candidate = (size_t)(k - c->candidates),
+                .stage = c->stage,
+                .press = {.normal = sw_rotate(pose->q, near->normal),
+                          .gap = near->gap - k->skin,
+                          .k = stiffness,
+                          .by_place = 1}};
+  if (c->softer) t.press.k = sw_contact_softer(c, s, k, stiffness);
   t.press.gap += sw_contact_aslant(c, k->node, k->other, at, t.press.normal);
   if (web && !web->per_ring) t.press.soft = fmin(SOFTEST, (double)web->particles);
   sw_press *press = &t.press;

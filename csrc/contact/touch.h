@@ -39,8 +39,10 @@ typedef struct sw_touch {
   double forgiven;  /* part of the true depth left out of the gap in this step [m] */
   double let_out;   /* part of the true depth that nothing explains and this step ends [m] */
   double hardened;  /* stored at once by its being stiffer than before, of a mesh [J] */
+  double usual;     /* of a new touch here [N/m] */
   double stiffer;   /* its stiffness from the next iterate on [N/m] */
   int known;        /* it pressed at the step's start */
+  double meets;     /* of one that may strike: when it would, after the step's start [s] */
   int held;         /* both ends are held: no force */
   double friction;  /* coefficient in this step: kinetic when it slid before [-] */
   double slid;      /* way that it slid until the step's start, since it began to press [m] */
@@ -91,11 +93,18 @@ typedef struct sw_mark {
   sw_vec normal; /* [-] */
 } sw_mark;
 
+/* Statics: where the search for the touches' states goes on from. */
+typedef struct sw_ahead {
+  sw_vec shift; /* of the touch, from where the wires are [m] */
+  sw_vec force; /* on the wire there, that solves have reckoned with [N] */
+} sw_ahead;
+
 /* What an obstacle gets in a step. */
 typedef struct sw_contact_loads {
   sw_contact_past past;
   sw_contact_load stage[SW_BOOK_STAGES]; /* impulse from the step's start, without blows [N s] */
   sw_contact_load blows; /* impulse of impacts that changed velocities at the start [N s] */
+  sw_contact_load trial; /* at the end of a trial [N] */
   int busy;              /* 1: it is in the list of those that may get something */
 } sw_contact_loads;
 
@@ -128,6 +137,10 @@ struct sw_contact {
   int *dense;    /* (count) 1: particles of the body at hand lie close, likewise */
   double *sunk;  /* (3 nodes) how far contact sees a node further in, or NULL: nowhere [m] */
   size_t sunk_capacity;
+  sw_ahead *ahead; /* (2 ahead_count) of the touches; and room for the next ones */
+  size_t ahead_count, ahead_capacity; /* 0: there is no search */
+  int softer;    /* stage of the search in which touches are softer than they are; 0: no more [-] */
+  int passes;    /* of touches looking for their states at one place [-] */
   double *reach; /* (nodes) widest gap that may close in the step, but for obstacles' moving [m] */
   size_t reach_capacity;
   double *spaced; /* (count) farthest that samples of the body at hand may be apart; 0: none [m] */
@@ -162,9 +175,12 @@ struct sw_contact {
   double nominal;    /* the run's full step [s] */
   sw_contact_regime regime;
   int plastic;     /* 1: the step is one that does not bounce */
+  double soonest;  /* rebound that is not at the step's start, after it [s] */
+  double least;    /* rebounds sooner than this after the start are at the start [s] */
   double struck;   /* work of moving obstacles in the step's impacts [J] */
   int fresh;       /* SW_CONTACT_FRESH, or SW_CONTACT_EMERGING, or 0 */
   int updates;     /* of the stage so far [-] */
+  int made;        /* of those, that positions took [-] */
   double widening; /* of the reserve for flight, when nodes went further [-] */
 };
 
@@ -213,6 +229,16 @@ int sw_contact_stays(const sw_contact *c, const sw_touch *t, const double *y, do
 
 /* After a static solve: let go of touches at the ends of rows as far as wires lift off there. */
 void sw_contact_peel(sw_contact *c, const sw_system *s);
+
+/* After a static solve whose update is not made: on the way to it touches find states to go on
+ * from. 0: there is no room for that. */
+int sw_contact_search(sw_contact *c, const sw_system *s, const double *delta);
+
+/* How many touches do not press where they should, or pull. */
+size_t sw_contact_wrong(const sw_contact *c);
+/* The stiffness k of a touch in the search. */
+double sw_contact_softer(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                         double stiffness);
 
 /* 1: the candidate's node, or both ends of its segment, are held. */
 int sw_contact_is_held(const sw_system *s, const sw_candidate *k);

@@ -42,7 +42,7 @@ sw_status sw_stepper_new(sw_stepper *p, const sw_integrator *method, const sw_sy
   const int explicit_ = !(method->flags & SW_INTEGRATOR_IMPLICIT);
   const size_t arrays = explicit_ ? 3 + SW_EXTRA : 9, m = system->edges;
   const int strains = !explicit_ && system->strain;
-  double *w = sw_alloc(arrays * p->n + (strains ? 7 : 2) * m, sizeof *w);
+  double *w = sw_alloc(arrays * p->n + (strains ? 9 : 4) * m, sizeof *w);
   if (!w) return SW_ENOMEM;
   p->work = w;
   double **const implicit_arrays[] = {&p->xhat, &p->vhat, &p->y[0], &p->w[0], &p->y[1],
@@ -61,12 +61,14 @@ sw_status sw_stepper_new(sw_stepper *p, const sw_integrator *method, const sw_sy
   }
   p->tension = w + arrays * p->n;
   p->first = p->tension + m;
+  p->pulled[0] = p->first + m, p->pulled[1] = p->pulled[0] + m;
   if (!strains) return SW_OK;
   p->strain_before = w + arrays * p->n; /* beside vp: both go to snapshots */
   p->tension = p->strain_before + m, p->strain_past = p->tension + m;
   p->strain[0] = p->strain_past + m, p->strain[1] = p->strain[0] + m;
   p->strain_rate = p->strain[1] + m;
   p->first = p->strain_rate + m;
+  p->pulled[0] = p->first + m, p->pulled[1] = p->pulled[0] + m;
   return SW_OK;
 }
 
@@ -161,6 +163,28 @@ static sw_status go_onwards(sw_stepper *p, const sw_integrator *m, sw_system *s,
   return sw_system_place_holds(s, end, p->y[0], p->w[0], NULL, err);
 }
 
+/* What the axial forces did to momenta since the step's start: the stages make it up as they make
+ * up the velocity. Before a stage is solved, and after. */
+static void begin_pull(const sw_stepper *p, size_t k, const sw_stage_row *row, const sw_system *s,
+                       double hbar) {
+  double *sum = p->pulled[k];
+  memset(sum, 0, s->edges * sizeof *sum);
+  if (row->x1 != 0) add(s->edges, row->x1, p->pulled[0], sum);
+  if (row->xv != 0) sw_system_add_pull(s, s->tension, s->strain_rate, row->xv * hbar, sum);
+}
+
+static void end_pull(const sw_stepper *p, size_t k, const sw_system *s, double hbar) {
+  sw_system_add_pull(s, s->tension, p->strain_rate, hbar, p->pulled[k]);
+}
+
+/* The mean over the step. Methods that look back would have to know that of the step before. */
+static void find_mean(sw_stepper *p, const sw_integrator *m, const sw_system *s, double h) {
+  double *sum = p->pulled[m->stages - 1];
+  const double share = m->flags & SW_INTEGRATOR_ONWARDS ? m->reach : 1.0;
+  p->mean = (m->flags & SW_INTEGRATOR_HISTORY) || m->keeps > 0 ? NULL : sum;
+  for (size_t e = 0; p->mean && e < s->edges; e++) sum[e] *= share / h;
+}
+
 static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system *s, double t,
                                 double h, sw_error *err) {
   memcpy(p->turning, s->turning, sizeof p->turning);
@@ -182,11 +206,13 @@ static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system
                             .a = p->a,
                             .strain_past = p->strain_past,
                             .strain = p->strain[k]};
+    begin_pull(p, k, row, s, hbar);
     const sw_status status = sw_system_stage(s, &stage, &p->newton, &report, err);
     p->iterations += (size_t)report.iterations;
     p->rotation = report.rotation;
     if (status != SW_OK) return status;
     if (p->strain_past) find_rates(p, s, hbar, p->strain[k]);
+    end_pull(p, k, s, hbar);
     if (k == 0 && !isnan(p->between.share))
       sw_system_sum_pull(s, s->tension, p->strain_rate, p->first);
     book(s, (sw_booking){.stage = (int)k,
@@ -195,6 +221,7 @@ static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system
                          .first = row->x1,
                          .before = row->xp});
   }
+  find_mean(p, m, s, h);
   const size_t last = m->stages - 1;
   if (m->flags & SW_INTEGRATOR_ONWARDS) SW_TRY(go_onwards(p, m, s, t + h, err));
   p->trial_x = p->y[last];
@@ -228,6 +255,7 @@ sw_status sw_stepper_trial(sw_stepper *p, sw_system *s, double t, double h, sw_e
   p->rotation = 0;
   p->error = 0;
   p->booked = 0;
+  p->mean = NULL;
   if (!(p->method->flags & SW_INTEGRATOR_IMPLICIT)) {
     memcpy(p->y[0], s->x, p->n * sizeof(double));
     memcpy(p->w[0], s->v, p->n * sizeof(double));

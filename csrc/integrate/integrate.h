@@ -81,6 +81,9 @@ struct sw_stepper {
    * of the state before last; NULL without axial dashpots [-], [1/s] */
   double *strain_past, *strain[SW_STAGES_MAX], *strain_rate, *strain_before;
   double *tension;              /* saved for a rejected step (edges) */
+  /* axial forces times time since the step's start, of stages (edges); mean over the last step, or
+   * NULL: the method's end is all there is [N s], [N] */
+  double *pulled[SW_STAGES_MAX], *mean;
   double *first;                /* axial forces of the first of two stages (edges) [N] */
   sw_between between;           /* where those of the trial are that are read out */
   double turning[SW_TURN_SIZE]; /* what it keeps of wires that turn */

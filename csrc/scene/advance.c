@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "scene/blow.h"
 #include "scene/world.h"
 
 static const char *const *integrator_names(void) {
@@ -50,6 +51,10 @@ __attribute__((constructor)) static void fill_choices(void) {
     if (run_rows[i].type == SW_PARAM_CHOICE) run_rows[i].choices = integrator_names();
 }
 
+/* Rebounds closer than this share of a step are one [-]. */
+static const double SAME_TIME = 1.0 / 1024;
+static const double SAME_TIME_CONTROLLED = 1.0 / 4; /* of the longest, in steps by tolerance [-] */
+enum { MOST_CUTS = 8 };   /* at rebounds, of a step: what rattles is followed no further [-] */
 enum { MOST_REDOS = 40 }; /* impacts found one after another in one step [-] */
 static const double SMALLEST_SHARE = 1.0 / 4096; /* of a step, before giving up [-] */
 
@@ -70,6 +75,8 @@ typedef struct loop {
   sw_run_report *report;
   double *v_start; /* velocities at the step's start, which impacts change */
   int redo;        /* AS_IS, or how the step is redone, for it made energy */
+  double soonest;  /* a rebound asks the step to end then, after its start; 0 = none does [s] */
+  int cuts;        /* of this step, at rebounds [-] */
   sw_error held;   /* what the last rejected part was rejected for */
   int smooth;      /* 1: the step that was rejected last made energy where nothing touches */
   int changed;     /* 1: the scene was, since the last step: its energy is not judged */
@@ -109,17 +116,25 @@ static sw_status trial(loop *p, double h, sw_error *err) {
   return status;
 }
 
+/* The shortest part of a step that may end at a rebound [s]. */
+static double shortest_cut(const loop *p) {
+  if (isfinite(p->args->tolerance)) return SAME_TIME_CONTROLLED * p->args->dt;
+  return p->cuts < MOST_CUTS ? SAME_TIME * p->args->dt : HUGE_VAL;
+}
+
 /* One step of size h, redone as long as contact finds impacts. */
 static sw_status attempt(loop *p, double h, sw_error *err) {
   sw_scene *s = p->s;
   if (s->discontinuous > 0) s->stepper.restart = 1;
   s->stepper.plastic = p->redo == DULLY;
+  p->soonest = 0;
   if (p->redo == BY_START) s->stepper.restart = 1;
   if (!sw_scene_has_contact(s)) return trial(p, h, err);
   memcpy(p->v_start, s->system.v, s->system.freedoms * sizeof(double));
   sw_status status = sw_scene_begin_contact(
       s, s->method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
-      s->time, h, p->args->dt, err);
+      s->time, h, sw_blow_part(s, p->args->dt), err);
+  if (s->contact) sw_contact_cut(s->contact, shortest_cut(p));
   for (int redo = 0; status == SW_OK && redo < MOST_REDOS; redo++) {
     status = trial(p, h, err);
     if (status != SW_OK) break;
@@ -128,6 +143,11 @@ static sw_status attempt(loop *p, double h, sw_error *err) {
     if (verdict == SW_CONTACT_ACCEPT) return SW_OK;
     if (verdict == SW_CONTACT_STRIKE) s->stepper.plastic = 1;
     sw_stepper_reject(&s->stepper, &s->system);
+    if (verdict == SW_CONTACT_SOONER) {
+      p->soonest = sw_contact_soonest(s->contact);
+      status = sw_fail(err, SW_ENOCONV, "something rebounds within the step");
+      break;
+    }
     if (verdict == SW_CONTACT_SMALLER)
       status = sw_fail(err, SW_ENOCONV, "what the wire touches cuts too deep into it");
     s->stepper.restart = 1;
@@ -302,33 +322,43 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
   const double t0 = s->time;
   double done = 0, part = h;
   sw_error failed = {""}; /* why a part of this step was refused last */
-  int starts = s->discontinuous && sw_slip_any(s);
+  int starts = s->discontinuous && sw_slip_any(s), cut = 0; /* cut: at a rebound */
+  p->cuts = 0;
   if (starts) part = FIRST_SLIP * h;
   p->changed = s->discontinuous > 0;
   while (done < h) {
     const double left = h - done;
+    part = sw_blow_part(s, part);
     if (part > left * (1 - 1e-12)) part = left;
     if (done > 0 && p->interrupted && p->interrupted()) return SW_EINTR; /* there may be many */
     SW_TRY(make_room(p, &part, err));
     if (!(part >= SMALLEST_SHARE * SMALLEST_SHARE * h))
       return sw_feed_too_fast(s, failed.text, err);
     const sw_status status = judged_attempt(p, part, 0.5 * part < SMALLEST_SHARE * h, err);
+    if (status == SW_OK && sw_blow_begins(s, part)) { /* not refused: it only told of the blow */
+      undo(p);
+      continue;
+    }
     if (status == SW_OK) {
       done += part;
       accept(p, part);
       s->time = done < h ? t0 + done : t1;
+      if (p->redo != AS_IS) sw_blow_refused(s);
       SW_TRY(observe(s, err));
       SW_TRY(count_small(p, part, p->args->dt, err));
-      part = starts ? h : 2 * part;
-      starts = 0;
+      part = starts || cut ? h : 2 * part;
+      starts = cut = 0;
       continue;
     }
     if (hopeless(status)) return status;
     failed = *err;
     p->report->rejected++;
     p->held = *err;
-    if (!p->smooth) s->discontinuous = 1;
-    part *= 0.5;
+    cut = p->soonest > 0;
+    p->cuts += cut;
+    if (!cut) sw_blow_refused(s);
+    if (!p->smooth && !cut) s->discontinuous = 1;
+    part = cut ? p->soonest : 0.5 * part;
     if (part < SMALLEST_SHARE * h) return status;
   }
   return SW_OK;
@@ -341,25 +371,29 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
   double h = s->next_dt > 0 ? fmin(s->next_dt, most) : 0.1 * most;
   SW_TRY(make_room(p, &h, err));
   p->changed = s->discontinuous > 0;
-  for (;;) {
+  for (double uncut = 0;;) { /* uncut: the step that was cut at a rebound [s] */
     const int last = h >= left * (1 - 1e-9);
     const sw_status status =
         judged_attempt(p, h, 0.25 * h < SMALLEST_SHARE * SMALLEST_SHARE * p->args->dt, err);
     if (hopeless(status)) return status;
     const int fine = status == SW_OK && s->stepper.error <= tolerance;
-    const double next = status == SW_OK ? sw_stepper_next_h(&s->stepper, h, tolerance) : 0.25 * h;
+    double next = status == SW_OK ? sw_stepper_next_h(&s->stepper, h, tolerance) : 0.25 * h;
     if (fine) {
       const int unknown = !(s->stepper.error > 0); /* a starting step gives no estimate */
       accept(p, h);
       const double before = s->time;
       s->time = last ? t1 : s->time + h;
       if (!(s->time > before)) return sw_fail(err, SW_ENOCONV, "steps of %g s are no time", h);
-      s->next_dt = unknown ? h : last && next > h ? fmax(next, s->next_dt) : next;
+      s->next_dt = uncut > 0          ? uncut
+                   : unknown          ? h
+                   : last && next > h ? fmax(next, s->next_dt)
+                                      : next;
       SW_TRY(observe(s, err));
       return count_small(p, h, p->args->dt, err);
     }
     if (status == SW_OK) undo(p);
     if (status != SW_OK) p->held = *err;
+    if (status != SW_OK && p->soonest > 0) uncut = h, next = p->soonest;
     p->report->rejected++;
     h = fmin(next, 0.9 * h);
     if (h < SMALLEST_SHARE * SMALLEST_SHARE * p->args->dt)

@@ -152,6 +152,8 @@ static sw_status check_edges(const sw_scene *s, size_t b, const double *x, sw_er
 sw_status sw_scene_check_trial(const sw_scene *s, sw_error *err) {
   if (!has_edges_alone(s)) SW_TRY(check_finite(s, s->stepper.trial_x, "the place", err));
   SW_TRY(check_finite(s, s->stepper.trial_v, "the velocity", err));
+  if (s->stepper.trial_a) /* the next step starts from them */
+    SW_TRY(check_finite(s, s->stepper.trial_a, "the acceleration", err));
   for (size_t b = 0; b < s->system.body_count; b++) {
     const sw_body *body = &s->system.bodies[b];
     const double *x = s->stepper.trial_x + 3 * body->first_node;

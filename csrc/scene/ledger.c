@@ -437,12 +437,14 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
                   l->gained, 100.0 * share);
     return SW_OK;
   }
+  char pressed[2 * SW_NAME_SIZE + 100]; /* what is wedged makes energy with steps of any size */
   s->diverged = 1;
+  sw_scene_tell_pressed(s, pressed, sizeof pressed);
   sw_fail(
       &s->why, SW_EDIVERGED,
-      "steps made %.3g J from nowhere, %.3g %% of the %.3g J in play, most of it at t = %.6g s; "
+      "steps made %.3g J from nowhere, %.3g %% of the %.3g J in play, most of it at t = %.6g s%s; "
       "take smaller steps%s",
-      l->gained, 100.0 * share, l->play, l->most_time,
+      l->gained, 100.0 * share, l->play, l->most_time, pressed,
       lumped(s) ? ", or an implicit integrator such as tr-bdf2" : "");
   *why = s->why;
   return SW_EDIVERGED;

@@ -60,8 +60,8 @@ static void curvature_extreme(const sw_system *s, const sw_body *b, sw_extreme *
   }
 }
 
-static void tension_extreme(const sw_system *s, const sw_body *b, sw_extreme *out) {
-  const double *T = sw_system_pull(s, b);
+/* T: of a wire's edges. */
+static void largest_tension(const sw_body *b, const double *T, sw_extreme *out) {
   *out = (sw_extreme){.value = -HUGE_VAL};
   for (size_t e = 0; e < b->plan->edges; e++)
     if (T[e] > out->value)
@@ -141,7 +141,8 @@ static void wire_now(sw_scene *s, size_t w, double *tension, sw_wire_extremes *n
     return;
   }
   curvature_extreme(&s->system, &s->system.bodies[w], &now->curvature);
-  tension_extreme(&s->system, &s->system.bodies[w], &now->tension);
+  const sw_body *b = &s->system.bodies[w];
+  largest_tension(b, sw_system_pull(&s->system, b), &now->tension);
   strain_extreme(&s->system, &s->system.bodies[w], &now->strain);
   now->ovalisation = now->folding = (sw_extreme){.value = -HUGE_VAL};
   now->curvature.time = now->tension.time = now->strain.time = s->time;
@@ -220,7 +221,9 @@ static double watched_place(const sw_body *b, size_t e) {
 
 /* Are means to be taken of the step that led here? Longer steps, and equilibria, count as they
  * are. */
-static int is_averaged(const sw_scene *s) { return s->span > 0 && s->span < s->window; }
+static int is_averaged(const sw_scene *s) {
+  return s->span > 0 && s->span < (1 - 1e-9) * s->window; /* times are rounded */
+}
 
 static sw_status fit_window(sw_scene *s, size_t w) {
   sw_window *window = &s->wires[w].window;
@@ -244,26 +247,42 @@ static void keep_mean(const sw_scene *s, size_t w, sw_extreme *kept) {
   keep_largest(kept, &mean);
 }
 
+/* Was the step that led here one that smears blows? */
+static int is_coarse(const sw_scene *s) { return s->span >= (1 - 1e-9) * SW_WINDOW; }
+
+/* Axial forces of the step that led here. A coarse one counts with its mean over time: that at its
+ * end, of a blow, says nothing of how long it lasts. NULL: of a mesh, or at rest, there are only
+ * those of the state. */
+static const double *step_tension(const sw_scene *s, const sw_body *b) {
+  if (b->plan->web || !(s->span > 0)) return NULL;
+  const double *mean = is_coarse(s) ? s->stepper.mean : NULL;
+  return mean ? mean + b->first_edge : sw_system_pull(&s->system, b);
+}
+
 static void keep_tension(sw_scene *s, size_t w, const sw_wire_extremes *now) {
   sw_scene_wire *wire = &s->wires[w];
   sw_wire_extremes *kept = &wire->extremes;
   const sw_body *b = &s->system.bodies[w];
-  if (now->tension.value > kept->raw.value) kept->raw = now->tension, kept->raw_span = s->span;
-  if (!is_averaged(s)) keep_largest(&kept->tension, &now->tension);
+  const double *T = step_tension(s, b);
+  sw_extreme step = now->tension;
+  if (T) largest_tension(b, T, &step), step.time = s->time;
+  if (step.value > kept->raw.value) kept->raw = step, kept->raw_span = s->span;
+  if (!is_averaged(s)) keep_largest(&kept->tension, &step);
   if (!is_averaged(s) && !wire->window.marks) return;
   if (!(s->span > 0)) {
     sw_window_forget(&wire->window);
     return;
   }
-  const double *T =
-      wire->strand.web ? sw_window_values(&wire->window) : sw_system_pull(&s->system, b);
-  if (sw_window_add(&wire->window, T, s->time, s->span, s->window) && is_averaged(s))
+  if (sw_window_add(&wire->window, T ? T : sw_window_values(&wire->window), s->time, s->span,
+                    s->window) &&
+      is_averaged(s))
     keep_mean(s, w, &kept->tension);
 }
 
 void sw_scene_run_tension(const sw_scene *s, size_t w, const sw_wire_extremes *now,
                           sw_wire_extremes *run) {
   const sw_window *window = &s->wires[w].window;
+  if (isfinite(run->raw.value) && is_coarse(s)) return; /* it counted with its mean */
   if (now->tension.value > run->raw.value) run->raw = now->tension, run->raw_span = s->span;
   const int fits = window->marks && window->edges == watched_edges(&s->system.bodies[w]);
   if (!fits)

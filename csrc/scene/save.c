@@ -46,14 +46,19 @@ static size_t tape_list(sw_tape *t, void *list_pointer, size_t *count, size_t *c
   } while (0)
 
 static void tape_objects(sw_tape *t, sw_scene *s) {
-  SW_TAPE_STRUCT(t, sw_scene, 2976);
+  SW_TAPE_STRUCT(t, sw_scene, 3024);
   sw_tape_name(t, s->name);
   sw_tape_uint32(t, &s->serial);
   sw_tape_vec(t, &s->gravity);
   sw_tape_double(t, &s->time), sw_tape_double(t, &s->span), sw_tape_double(t, &s->window),
-      sw_tape_double(t, &s->next_dt), sw_tape_double(t, &s->next_frame);
+      sw_tape_double(t, &s->blow_part), sw_tape_double(t, &s->blow_since),
+      sw_tape_double(t, &s->blow_until), sw_tape_double(t, &s->next_dt),
+      sw_tape_double(t, &s->next_frame);
   sw_tape_expect(t, s->span >= 0 && s->span <= 1e9, "the length of a step");
   sw_tape_expect(t, s->window >= 0 && s->window <= 1e9, "a window");
+  sw_tape_expect(
+      t, s->blow_part >= 0 && s->blow_part <= 1e9 && !isnan(s->blow_since) && !isnan(s->blow_until),
+      "a blow");
   sw_tape_int(t, &s->discontinuous);
   sw_tape_extreme(t, &s->deepest);
   LIST(rules, rule_count, rule_capacity, sw_tape_rule(t, &s->rules[k]));

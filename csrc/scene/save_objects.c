@@ -234,8 +234,8 @@ static void tape_load(sw_tape *t, sw_contact_load *x) {
 }
 
 void sw_tape_obstacle(sw_tape *t, sw_scene *s, sw_scene_obstacle *x) {
-  SW_TAPE_STRUCT(t, sw_contact_past, 144);
-  SW_TAPE_STRUCT(t, sw_scene_obstacle, 392);
+  SW_TAPE_STRUCT(t, sw_contact_past, 152);
+  SW_TAPE_STRUCT(t, sw_scene_obstacle, 400);
   UINT32(generation), INT(alive), NAME(name);
   sw_tape_shape(t, &x->shape);
   tape_drive(t, s, &x->drive);
@@ -243,6 +243,7 @@ void sw_tape_obstacle(sw_tape *t, sw_scene *s, sw_scene_obstacle *x) {
   if (!sw_tape_reads(t) && sw_obstacle_log_fill(s, x) != SW_OK) sw_tape_fail(t, SW_ENOMEM);
   if (sw_tape_reads(t)) sw_obstacle_log_begin(s, x);
   tape_load(t, &x->past.mean), tape_load(t, &x->past.end), tape_load(t, &x->past.gained);
+  sw_tape_double(t, &x->past.hardest);
   sw_tape_log(t, &x->log);
   sw_tape_expect(t, x->kinetic >= 0 && x->kinetic <= 100, "friction of an obstacle");
   sw_tape_expect(t, x->friction >= 0 && x->friction <= 100, "friction of an obstacle");

@@ -27,19 +27,28 @@ static const double STATIC_TURN = 1e-7;       /* last rotation of a converged so
 static const double SLOWEST_GROWTH = 30.0; /* of sqrt(length/g) [-] */
 static const double NUDGE = 1e-4;          /* of the length, off an unstable place [-] */
 enum { MOST_NUDGES = 2 };
+/* Wires that rub follow their holds to the next pose without going far, or they jump: which
+ * continuation finds sooner than many more updates that would take them far [-]. */
+enum { FAR_IN_POSES = 6 };
 /* Parts of a hold's way from where it was to where it is to be. */
 static const double LONGEST_PART = 0.4; /* of the shortest edge [-] */
 static const double LONG_PART = 0.1;    /* of the longest wire, where nothing rubs [-] */
 static const double WIDEST_PART = 0.5;  /* [rad] */
 static const double MOST_PARTS = 2000;
+/* Where holds are on their way wires need not come to rest as closely as where they arrive: their
+ * nodes to so much, of an edge [-]. */
+static const double PASSING = 1e-4;
 
 typedef struct statics {
   sw_scene *s;
   const sw_settle_args *args;
   sw_settle_report *report;
   int (*interrupted)(void);
-  double touched;              /* time up to which contact has followed the obstacles [s] */
-  int *too_far;                /* see sw_scene_rest; or NULL */
+  int most_far;   /* see sw_newton */
+  double passing; /* share of an edge that nodes of a place on the way may be off [-] */
+  double edge;    /* the shortest [m] */
+  double touched; /* time up to which contact has followed the obstacles [s] */
+  int *too_far;   /* see sw_scene_rest; or NULL */
   double *zero, *from, *y, *v; /* (freedoms) */
   double *tension;             /* (edges) at the start of an attempt */
   double *kept, *begun;        /* (state) put aside; as settling found it */
@@ -146,10 +155,11 @@ static const double LITTLE = 1e-5;
 
 static sw_status newton_attempt(statics *p, int iterations, sw_error *err) {
   const sw_newton newton = {.max_iterations = iterations,
-                            .accept_rotation = STATIC_TURN,
+                            .accept_rotation = fmax(STATIC_TURN, p->passing),
                             .limit_rotation = 1.0,
                             .statics = 1,
-                            .accept_shift = p->args->tolerance};
+                            .accept_shift = fmax(p->args->tolerance, p->passing * p->edge),
+                            .most_far = p->most_far};
   const double slowest = SLOWEST_GROWTH * time_scale(p->s);
   const int massive = loose(p->s);
   SW_TRY(solve(p, massive ? slowest : HUGE_VAL, &newton, err));
@@ -325,10 +335,12 @@ static sw_status follow_in(statics *p, size_t parts, sw_error *err) {
   for (size_t i = 1; status == SW_OK && i <= parts; i++) {
     p->s->part_from = i < parts ? p->from_poses : NULL;
     p->s->part = (double)i / (double)parts;
+    p->passing = i < parts ? PASSING : 0.0;
     status = find_rest(p, err);
     if (status == SW_OK && p->interrupted && p->interrupted()) status = SW_EINTR;
   }
   p->s->part_from = NULL;
+  p->passing = 0;
   return status;
 }
 
@@ -369,14 +381,29 @@ static sw_status follow_fast(statics *p, size_t parts, int *done, sw_error *err)
   return status;
 }
 
+/* How far the holds went, a turn counting as what it does to half a wire. */
+static double drive_shift(const statics *p) {
+  const sw_system *s = &p->s->system;
+  double largest = 0;
+  for (size_t k = 0; k < s->hold_count; k++) {
+    const sw_pose *from = &p->from_poses[k], *to = &s->hold_states[k].pose;
+    const double turn = sw_norm(sw_quat_log(sw_quat_mul(to->q, sw_quat_conj(from->q))));
+    largest = fmax(largest, sw_dist(from->p, to->p) + 0.5 * longest(p->s) * turn);
+  }
+  return largest;
+}
+
 /* Settle at every part of the holds' way. The parts are only for convergence: the memory of
  * forces is brought up to date at the last one alone. Where particles of a mesh are further
  * from the axis than its slices from each other, the usual parts may be too wide to begin with. */
 static sw_status follow_holds(statics *p, sw_error *err) {
   size_t parts, more, fewer;
   int done = 0;
-  const double edge = LONGEST_PART * shortest_edge(&p->s->system);
+  p->edge = shortest_edge(&p->s->system);
+  const double edge = LONGEST_PART * p->edge;
   SW_TRY(count_parts(p, 0.0, edge, &parts, err));
+  const int poses = p->touched != p->s->time;
+  if (poses && !forgets(p->s) && drive_shift(p) > 0) p->most_far = FAR_IN_POSES;
   SW_TRY(count_parts(p, 0.0, fmax(edge, LONG_PART * longest(p->s)), &fewer, err));
   if (fewer < parts && forgets(p->s)) SW_TRY(follow_fast(p, fewer, &done, err));
   if (done) return SW_OK;
@@ -405,18 +432,6 @@ static double largest_shift_since(const statics *p) {
   double largest = 0;
   for (size_t i = 0; i < s->nodes; i++)
     largest = fmax(largest, sw_dist(sw_vec_at(s->x, i), sw_vec_at(p->begun, i)));
-  return largest;
-}
-
-/* How far the holds went, a turn counting as what it does to half a wire. */
-static double drive_shift(const statics *p) {
-  const sw_system *s = &p->s->system;
-  double largest = 0;
-  for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_pose *from = &p->from_poses[k], *to = &s->hold_states[k].pose;
-    const double turn = sw_norm(sw_quat_log(sw_quat_mul(to->q, sw_quat_conj(from->q))));
-    largest = fmax(largest, sw_dist(from->p, to->p) + 0.5 * longest(p->s) * turn);
-  }
   return largest;
 }
 

@@ -28,7 +28,7 @@ typedef struct saved_obstacle {
 struct sw_snapshot {
   sw_scene *scene; /* NULL once it is gone */
   sw_snapshot *next;
-  double time, span, window, next_dt, next_frame;
+  double time, span, window, next_dt, blow_part, blow_since, blow_until, next_frame;
   sw_vec gravity;
   size_t wires, holds, obstacles, forces, frames;
   sw_mesh *meshes;
@@ -182,6 +182,7 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
   sw_snapshot *p = sw_alloc(1, sizeof *p);
   if (!p) return sw_fail(err, SW_ENOMEM, "snapshot: out of memory");
   p->time = s->time, p->span = s->span, p->window = s->window;
+  p->blow_part = s->blow_part, p->blow_since = s->blow_since, p->blow_until = s->blow_until;
   p->next_dt = s->next_dt, p->next_frame = s->next_frame;
   p->gravity = s->gravity;
   p->discontinuous = s->discontinuous;
@@ -432,6 +433,7 @@ sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   drop_newer(s, p);
   sw_scene_drop_rules(s, p->rules);
   s->time = p->time, s->span = p->span, s->window = p->window;
+  s->blow_part = p->blow_part, s->blow_since = p->blow_since, s->blow_until = p->blow_until;
   s->next_dt = p->next_dt, s->next_frame = p->next_frame;
   s->gravity = p->gravity;
   s->deepest = p->deepest;

@@ -101,11 +101,14 @@ static sw_status keeps(void *user, sw_system *system, const double *y, int *out,
 }
 
 static void refine(void *user, sw_system *system) {
-  sw_contact_refine(((sw_scene *)user)->contact, system);
+  const sw_scene *s = user;
+  if (s->contact) sw_contact_refine(s->contact, system);
+  if (s->pairs && !sw_pairs_idle(s->pairs)) sw_pairs_refine(s->pairs, s->contact, system);
 }
 
 static int settled(void *user, sw_system *system, const double *y, const double *delta) {
   const sw_scene *s = user;
+  if (system->rough == SW_MAY_BE_MADE && (s->pairs || s->crowd || !s->contact)) return 1;
   int fine = !s->contact || sw_contact_settled(s->contact, system, y, delta);
   if (s->pairs && !sw_pairs_idle(s->pairs)) fine &= sw_pairs_settled(s->pairs, system, delta);
   if (s->crowd) fine &= sw_crowd_settled(s->crowd, system, y, delta);
@@ -118,11 +121,9 @@ static void book(void *user, const sw_booking *booking) {
 }
 
 void sw_scene_couple(sw_scene *s) {
-  if (s->contact) {
-    s->system.coupling.refine = refine;
-    s->system.coupling.book = book;
-  }
+  if (s->contact) s->system.coupling.book = book;
   if (!sw_scene_has_contact(s)) return;
+  s->system.coupling.refine = refine;
   s->system.coupling.begin_stage = begin_stage;
   s->system.coupling.eval = eval;
   s->system.coupling.keeps = keeps;
@@ -166,6 +167,7 @@ sw_contact_verdict sw_scene_review_contact(sw_scene *s, const double *x1, const 
                                            double h) {
   sw_contact_verdict verdict = SW_CONTACT_ACCEPT;
   if (s->contact) verdict = sw_contact_review(s->contact, &s->system, x1, v1, h);
+  if (verdict == SW_CONTACT_SOONER) return verdict;
   if (s->pairs && verdict != SW_CONTACT_SMALLER) {
     const sw_contact_verdict other = sw_pairs_review(s->pairs, &s->system, x1, h);
     if (other != SW_CONTACT_ACCEPT) verdict = other;

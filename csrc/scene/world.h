@@ -134,6 +134,8 @@ struct sw_scene {
   int discontinuous; /* the acceleration is stale: restart the integrator; or SW_GOES_ON */
   double window;     /* of the present or last run, see sw_run_args [s] */
   double span;       /* of the step that led here; 0: the state is an equilibrium [s] */
+  /* a blow that began at blow_since is followed in parts of blow_part until blow_until [s] */
+  double blow_part, blow_since, blow_until;
   double next_dt;    /* of an adaptive run; 0 = not known [s] */
 
   int diverged;

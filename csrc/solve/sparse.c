@@ -10,12 +10,18 @@
 #include "base/alloc.h"
 #include "base/interrupt.h"
 #include "base/simd.h"
+#include "solve/blocks.h"
 
 /* Two right-hand sides go through together: the way through a chain is one of waiting. */
 typedef double two __attribute__((vector_size(16)));
 
+/* From so many blocks a column of L on, factors are made by dense fronts, many numbers at once
+ * [-]. */
+static const size_t DENSE = 12;
+
 struct sw_sparse {
   size_t n, block, pairs;
+  sw_blocks *fronts;     /* the matrix, where L is that dense; nothing but slot is used besides */
   uint32_t *place;       /* (n) node -> its number in the elimination */
   uint32_t *start, *row; /* (n + 1), (fill): rows of each column of L, ascending */
   uint32_t *slot;        /* (pairs) block of L, times 2, + 1 when given transposed */
@@ -28,6 +34,7 @@ struct sw_sparse {
 
 void sw_sparse_free(sw_sparse *s) {
   if (!s) return;
+  sw_blocks_free(s->fronts);
   sw_free(s->place);
   sw_free(s->start);
   sw_free(s->row);
@@ -158,6 +165,22 @@ static sw_status analyse(sw_sparse *s, const sw_sparse_pair *pairs, size_t count
   return find_targets(s);
 }
 
+/* slot[k]: where the block of pair k begins in the fronts' values, times 2, + 1 when given
+ * transposed. */
+static sw_status use_fronts(sw_sparse *s, const sw_sparse_pair *pairs, size_t count) {
+  sw_blocks_pair *same = sw_alloc(count, sizeof *same);
+  if (!same) return SW_ENOMEM;
+  for (size_t k = 0; k < count; k++) same[k] = (sw_blocks_pair){pairs[k].i, pairs[k].j};
+  const sw_status status = sw_blocks_new_sparse(s->n, same, count, &s->fronts);
+  sw_free(same);
+  for (size_t k = 0; k < count && status == SW_OK; k++) {
+    const uint32_t i = pairs[k].i, j = pairs[k].j;
+    const size_t at = i > j ? sw_blocks_slot(s->fronts, i, j) : sw_blocks_slot(s->fronts, j, i);
+    s->slot[k] = (uint32_t)(2 * at) + (i < j);
+  }
+  return status;
+}
+
 sw_status sw_sparse_new(size_t nodes, size_t block, const sw_sparse_pair *pairs, size_t count,
                         sw_sparse **out) {
   analysis a = {0};
@@ -171,7 +194,9 @@ sw_status sw_sparse_new(size_t nodes, size_t block, const sw_sparse_pair *pairs,
   sw_free(a.order);
   sw_free(a.seen);
   const size_t bb = block * block;
-  if (status == SW_OK) {
+  if (status == SW_OK && block == 3 && s->fill > DENSE * nodes) {
+    status = use_fronts(s, pairs, count);
+  } else if (status == SW_OK) {
     s->x = sw_alloc(bb * (s->n + s->fill + s->widest) + 2 * block * s->n, sizeof *s->own);
     if (!s->x) status = SW_ENOMEM;
   }
@@ -179,26 +204,32 @@ sw_status sw_sparse_new(size_t nodes, size_t block, const sw_sparse_pair *pairs,
     sw_sparse_free(s);
     return status;
   }
+  *out = s;
+  if (s->fronts) return SW_OK;
   s->own = (double *)(s->x + block * s->n);
   s->off = s->own + bb * s->n;
   s->column = s->off + bb * s->fill;
-  *out = s;
   return SW_OK;
 }
 
 /* --- values --------------------------------------------------------------------- */
 
 void sw_sparse_clear(sw_sparse *s) {
-  memset(s->own, 0, s->block * s->block * (s->n + s->fill) * sizeof *s->own);
+  if (s->fronts)
+    sw_blocks_clear(s->fronts);
+  else
+    memset(s->own, 0, s->block * s->block * (s->n + s->fill) * sizeof *s->own);
 }
 
 double *sw_sparse_own(sw_sparse *s, size_t node) {
+  if (s->fronts) return sw_blocks_values(s->fronts) + sw_blocks_slot(s->fronts, node, node);
   return s->own + s->block * s->block * s->place[node];
 }
 
 void sw_sparse_add(sw_sparse *s, size_t pair, const double *values) {
   const size_t b = s->block;
-  double *to = s->off + b * b * (s->slot[pair] / 2);
+  double *to = s->fronts ? sw_blocks_values(s->fronts) + s->slot[pair] / 2
+                         : s->off + b * b * (s->slot[pair] / 2);
   const int turned = s->slot[pair] % 2;
   if (b == 3 && turned) { /* the usual ones, unrolled */
     static const int column[9] = {0, 3, 6, 1, 4, 7, 2, 5, 8};
@@ -289,6 +320,7 @@ static sw_status factor4(sw_sparse *s, size_t *negative) { return factor(s, nega
 
 sw_status sw_sparse_factor(sw_sparse *s, size_t *negative) {
   size_t count = 0;
+  if (s->fronts) return sw_blocks_factor(s->fronts, NULL, negative);
   const sw_status status = s->block == 3 ? factor3(s, &count) : factor4(s, &count);
   if (negative) *negative = count;
   return status;
@@ -338,6 +370,11 @@ static void solve4(const sw_sparse *s, two *x) { solve(s, x, 4); }
 
 void sw_sparse_solve_two(sw_sparse *s, double *one, double *other) {
   const size_t m = s->block;
+  if (s->fronts) {
+    sw_blocks_solve(s->fronts, one);
+    if (other) sw_blocks_solve(s->fronts, other);
+    return;
+  }
   for (size_t i = 0; i < s->n; i++)
     for (size_t c = 0; c < m; c++)
       s->x[m * s->place[i] + c] = (two){one[m * i + c], other ? other[m * i + c] : 0.0};

@@ -2,7 +2,7 @@
 #include "system/lead.h"
 
 /* Solves at one place while touches come and go. */
-enum { MOST_WAITS = 12 };
+enum { MOST_WAITS = 40 };
 /* Solves that come to rest need up to 7. */
 enum { MOST_SHORTENED = 16 };
 
@@ -61,15 +61,17 @@ static int wires_touch(const sw_system *s) {
 
 int sw_lead_waits(sw_system *s, const sw_newton *newton, const double *y, double share,
                   int *waits) {
-  if (newton->statics && share < 1.0 && *waits < MOST_WAITS && wires_touch(s)) {
-    s->rough = SW_NOT_MADE;
+  if (newton->statics && *waits < MOST_WAITS && wires_touch(s)) {
+    s->rough = share < 1.0 ? SW_NOT_MADE : SW_MAY_BE_MADE;
     ++*waits;
     if (!s->coupling.settled(s->coupling.user, s, y, s->delta)) return 1;
   }
+  s->rough = 0;
   *waits = 0;
   return 0;
 }
 
-int sw_lead_fails(const sw_system *s, const sw_newton *newton, int shortened) {
-  return newton->statics && shortened > MOST_SHORTENED && wires_touch(s);
+int sw_lead_fails(const sw_system *s, const sw_newton *newton, int far, int shortened) {
+  const int lost = newton->most_far && far > newton->most_far;
+  return newton->statics && (lost || shortened > MOST_SHORTENED) && wires_touch(s);
 }

@@ -18,11 +18,13 @@ void sw_lead_rows(sw_system *system, const double *y);
 void sw_lead_update(sw_system *system, const double *y);
 
 /* An update too large to be made whole may be so because other touches press than was assumed.
- * 1: they are told of it and it is not made; so many times in a row at most, which this counts. */
+ * 1: they are told of it and it is not made; so many times in a row at most, which this counts.
+ * Of one that is not too large they say whether they would rather have it not made. */
 int sw_lead_waits(sw_system *system, const sw_newton *newton, const double *y, double share,
                   int *waits);
 
-/* Updates of wires that touch something were shortened this often: is it hopeless? */
-int sw_lead_fails(const sw_system *system, const sw_newton *newton, int shortened);
+/* Updates of wires that touch something were too large so often, far, and made shortened so often:
+ * is it hopeless? */
+int sw_lead_fails(const sw_system *system, const sw_newton *newton, int far, int shortened);
 
 #endif

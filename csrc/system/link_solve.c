@@ -91,13 +91,13 @@ static void load(sw_system *s) {
   }
 }
 
-/* The linked bodies' right-hand sides, from delta or with spins, into x. */
-static void load_right(const sw_system *s) {
+/* The linked bodies' right-hand sides, from nodes' (nodes x 3) or with spins, into x. */
+static void load_right(const sw_system *s, const double *nodes) {
   struct sw_links *l = s->links;
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
     double *x = l->x + l->block * l->first[b];
-    const double *delta = s->delta + 3 * body->first_node;
+    const double *delta = nodes + 3 * body->first_node;
     if (!body->linked) continue;
     if (body->spin_block)
       memcpy(x, body->spin_delta, 4 * body->plan->nodes * sizeof *x);
@@ -110,12 +110,12 @@ static void load_right(const sw_system *s) {
 }
 
 /* And the solution back. */
-static void take_solution(sw_system *s) {
+static void take_solution(sw_system *s, double *nodes) {
   const struct sw_links *l = s->links;
   for (size_t b = 0; b < s->body_count; b++) {
     sw_body *body = &s->bodies[b];
     const double *x = l->x + l->block * l->first[b];
-    double *delta = s->delta + 3 * body->first_node;
+    double *delta = nodes + 3 * body->first_node;
     if (!body->linked) continue;
     if (body->spin_block) memcpy(body->spin_delta, x, 4 * body->plan->nodes * sizeof *x);
     for (size_t i = 0; i < body->plan->nodes; i++)
@@ -235,13 +235,32 @@ sw_status sw_links_solve(sw_system *s, size_t *negative) {
   const size_t spans = count_spans(s);
   load(s);
   SW_TRY(sw_sparse_factor(l->matrix, &found));
-  load_right(s);
+  load_right(s, s->delta);
   SW_TRY(solve_slopes(s, spans));
   const size_t fewer = spans ? correct_twist(s, spans) : 0;
   keep_gains(s);
-  take_solution(s);
+  take_solution(s, s->delta);
   *negative += found - fewer;
   return SW_OK;
+}
+
+int sw_links_solves_again(const sw_system *s) { return sw_links_any(s) && s->links->block == 3; }
+
+void sw_links_solve_again(sw_system *s, double *more) {
+  struct sw_links *l = s->links;
+  const size_t spans = count_spans(s);
+  load_right(s, more);
+  sw_sparse_solve(l->matrix, l->x);
+  if (spans) correct_twist(s, spans);
+  for (size_t b = 0; b < s->body_count; b++)
+    if (!s->bodies[b].linked)
+      memset(more + 3 * s->bodies[b].first_node, 0, 3 * s->bodies[b].plan->nodes * sizeof *more);
+  take_solution(s, more);
+}
+
+void sw_links_take_solution(sw_system *s) {
+  load_right(s, s->delta);
+  keep_gains(s);
 }
 
 /* --- reactions ------------------------------------------------------------------ */

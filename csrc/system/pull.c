@@ -35,6 +35,18 @@ void sw_system_sum_pull(const sw_system *s, const double *tension, const double 
   }
 }
 
+void sw_system_add_pull(const sw_system *s, const double *tension, const double *rate,
+                        double share, double *sum) {
+  for (size_t i = 0; i < s->body_count; i++) {
+    const sw_body *b = &s->bodies[i];
+    if (b->plan->web) continue;
+    const double c = b->axial_time > 0 ? share * b->axial_time * b->EA : 0.0;
+    const size_t end = b->first_edge + sw_plan_axial(b->plan);
+    for (size_t e = b->first_edge; e < end; e++) sum[e] += share * tension[e];
+    for (size_t e = b->first_edge; c > 0 && e < end; e++) sum[e] += c * rate[e];
+  }
+}
+
 void sw_system_even_out(sw_system *s, double h, const double *first, double share, double behind) {
   const double apart = h - behind + s->turning[SW_TURN_BEHIND];
   const double on = s->turning[SW_TURN_EVEN] > 0 && apart > 0 ? behind / apart : 0.0;

@@ -439,7 +439,7 @@ enum { STEADY = 7 };
 
 static sw_status iterate(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                          sw_stage_report *report, sw_error *err) {
-  int waits = 0, shortened = 0;
+  int waits = 0, far = 0, shortened = 0;
   for (int i = 1; i <= newton->max_iterations; i++) {
     report->iterations = i;
     if (sw_interrupted()) return SW_EINTR;
@@ -448,10 +448,11 @@ static sw_status iterate(sw_system *s, const sw_stage *stage, const sw_newton *n
     const double share = share_of(s, newton, report);
     if (share < 0) return sw_fail(err, SW_EDIVERGED, "the positions left the finite numbers");
     if (share == 0) return sw_fail(err, SW_ENOCONV, "nothing holds a wire where it is");
-    shortened += share < 1.0;
-    if (sw_lead_fails(s, newton, shortened))
+    far += share < 1.0;
+    if (sw_lead_fails(s, newton, far, shortened))
       return sw_fail(err, SW_ENOCONV, "wires would go too far in %d iterations", i);
     if (sw_lead_waits(s, newton, stage->y, share, &waits)) continue;
+    shortened += share < 1.0;
     apply(s, stage, share);
     if (converged(s, stage, newton, report, share)) return SW_OK;
   }

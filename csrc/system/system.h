@@ -136,8 +136,9 @@ typedef struct sw_counters {
   size_t looks;       /* at obstacles and lists, by contact that looks for something in them [-] */
 } sw_counters;
 
-/* Of sw_system.rough: in statics, an update so large that it is not made; touches learn from it. */
-enum { SW_NOT_MADE = 2 };
+/* Of sw_system.rough: in statics, an update so large that it is not made, touches learn from it;
+ * and one that is made if they agree to it. */
+enum { SW_NOT_MADE = 2, SW_MAY_BE_MADE };
 
 struct sw_system {
   size_t nodes, edges;
@@ -209,6 +210,8 @@ typedef struct sw_newton {
   double accept_rotation; /* largest edge rotation of the last update [rad] */
   double limit_rotation;  /* larger updates are shortened to this [rad] */
   int statics;            /* 1: no inertia */
+  int most_far;           /* statics: updates beyond limit_rotation, made or not, after which wires
+                             that touch something are given up; 0: as many as it takes [-] */
   double accept_shift;    /* statics: largest node shift of the last update [m] */
 } sw_newton;
 
@@ -307,6 +310,12 @@ int sw_body_solves_again(const sw_body *body);
 void sw_body_solve_again(const sw_body *body, double *more);
 /* The solution delta (nodes x 3) is the last one. */
 void sw_body_take_solution(sw_body *body, const double *delta);
+/* The same of the bodies that links tie together: 1, they can be solved again; by how much forces
+ * (of the system's nodes x 3) change the solution, those of other bodies to zero; the system's
+ * delta is the last one. */
+int sw_links_solves_again(const sw_system *system);
+void sw_links_solve_again(sw_system *system, double *more);
+void sw_links_take_solution(sw_system *system);
 /* A force is added at a held node of the system's: its hold bears it. */
 void sw_system_push_held(sw_system *system, size_t node, sw_vec force);
 
@@ -372,6 +381,10 @@ const double *sw_system_elastic(const sw_system *system, const sw_body *body);
  * where there are none) [N], [1/s], [N]. */
 void sw_system_sum_pull(const sw_system *system, const double *tension, const double *rate,
                         double *out);
+
+/* Add share times these, of wires that are lines [-]. */
+void sw_system_add_pull(const sw_system *system, const double *tension, const double *rate,
+                        double share, double *sum);
 
 /* Read-outs of the state, after a step h, are between the first stage's forces (edges) and those
  * of the state now, with this share of the latter, which is how it was `behind` ago, and go on

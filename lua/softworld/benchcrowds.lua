@@ -65,18 +65,25 @@ function benchcrowds.wires(count, touching)
   return landing / 30 / (51 * count), lying / 30 / (51 * count)
 end
 
--- So many wires in a bundle on a table: time per simulated second [s/s], solves of a step.
-function benchcrowds.bundle(count)
+-- So many wires fall on a table in a bundle, then lie there: time per simulated second of the first
+-- 0.2 s and of the next [s/s], solves of a step in both; cable: an entry of the catalogue.
+function benchcrowds.bundle(count, cable)
   local scene = sw.scene{}
   scene:obstacle{ shape = "plane", friction = 0.3 }
   for i = 0, count - 1 do
     local row, y = i // 4, i % 4 * 0.0052 + i // 4 % 2 * 0.0026
-    wire(scene, { 0, y, 0.0035 + 0.0055 * row }, { 0.5, y, 0.0035 + 0.0055 * row }, 50)
+    local from, to = { 0, y, 0.0035 + 0.0055 * row }, { 0.5, y, 0.0035 + 0.0055 * row }
+    if cable then
+      scene:wire{ cable = cable, from = from, to = to, segments = 50 }
+    else
+      wire(scene, from, to, 50)
+    end
   end
   scene:wire_contact{ friction = 0.3 }
-  local time, row = cost(scene, 0.05)
+  local falling, fell = cost(scene, 0.2)
+  local lying, lay = cost(scene, 0.2)
   scene:close()
-  return time / 0.05, row.iterations / row.steps
+  return falling / 0.2, lying / 0.2, fell.iterations / fell.steps, lay.iterations / lay.steps
 end
 
 return benchcrowds

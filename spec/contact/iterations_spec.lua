@@ -28,9 +28,9 @@ describe("laying over walls at the default step", function()
   local sum
   setup(function() sum = laid() end)
 
-  it("takes less than six iterations a step", function()
+  it("takes less than four and a half iterations a step", function()
     local each = sum.iterations / sum.steps -- 9.1 when each change of a touch took one
-    assert.is_true(each < 6, each .. " iterations a step")
+    assert.is_true(each < 4.5, each .. " iterations a step")
   end)
 
   it("needs the referee in less than one step of a hundred", function()

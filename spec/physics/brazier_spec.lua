@@ -135,8 +135,9 @@ describe("a thin tube in pure bending", function()
       t.below(0.5 * moment, b, "moment of the kinked tube")
       t.below(0.2 * a, (wire:min_bend_radius{ now = true }), "radius at the kink")
       local told = scene:events()
-      assert.are.equal(1, #told)
       assert.are.equal("kink", told[1].kind)
+      -- of a kink that is folded further its walls' meeting is told too
+      assert.is_true(#told == 1 or (#told == 2 and told[2].kind == "walls"))
       assert.are.equal(wire.name, told[1].object)
       assert.matches("^tube 'wire1' kinks at s = [%d.]+ m: it is bent by [%d.]+ 1/m and bears "
         .. "[%d.]+ N m there; its wall buckles at about 3.81 1/m and 0.0936 N m$", told[1].text)

@@ -80,6 +80,41 @@ describe("a quasi-static run", function()
     assert.is_true(math.abs(coarse - fine) <= 0.05, coarse .. " and " .. fine)
   end)
 
+  -- Each pose slides almost all of the wire, some of it under a push. Where each place slides is
+  -- found before the wire is moved; else up to 176 iterations a pose were counted.
+  it("drags a wire over a rough table in few iterations a pose", function()
+    for _, row in ipairs{ { nil, 50 }, { nil, 100 }, { "GXL 1.5", 50 }, { "GXL 1.5", 100 } } do
+      for _, way in ipairs{ { -0.05, 0.1, 0.05 }, { 0.05, 0.1, 0.05 }, { 0, 0.1, 0 } } do
+        local s = sw.scene{}
+        s:obstacle{ shape = "plane", friction = 0.3 }
+        local args = { from = { 0, 0, 0.0025 }, to = { 2, 0, 0.0025 }, segments = row[2] }
+        if row[1] then args.cable = row[1] else args.E, args.density, args.radius = 1e8, 1400, 0.0025 end
+        local w = s:wire(args)
+        local c = s:clamp(w, { s = 2 })
+        s:settle()
+        c:follow{ points = { { 0, 0, 0 }, way }, relative = true, duration = 1, law = "linear" }
+        local run = s:run{ duration = 1, dt = 0.02, quasistatic = true }
+        assert.is_true(run.ok, run.reason)
+        local each = run.iterations / run.steps -- 5 to 9 measured
+        assert.is_true(each < 12, each .. " iterations a pose")
+        s:close()
+      end
+    end
+  end)
+
+  -- Poses on the way of a long pose need not be exact, and a jump is not looked for by Newton's
+  -- iteration: 15 iterations a pose without.
+  it("lays a wire over walls in few iterations a pose", function()
+    for _, n in ipairs{ 50, 100 } do
+      local c = require("softworld.cases").laying{ segments = n }
+      local run = c.run{ dt = 0.02, quasistatic = true }
+      assert.is_true(run.ok, run.reason)
+      local each = run.iterations / run.steps -- 8 and 10 measured
+      assert.is_true(each < 12, each .. " iterations a pose")
+      c.scene:close()
+    end
+  end)
+
   local function on_belt(held, way, dt)
     local s, mu = sw.scene{}, 0.3
     local belt = s:obstacle{ shape = "box", size = { 4, 4, 0.1 }, at = { 0, 0, -0.05 }, friction = mu }

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A touch as equations see it, whatever touches what: a law, and up to four nodes that share its
+ * force. */
+#ifndef SW_CONTACT_SPOT_H
+#define SW_CONTACT_SPOT_H
+
+#include <stddef.h>
+
+#include "contact/law.h"
+#include "system/system.h"
+
+enum { SW_SPOT_NODES = 4 };
+
+typedef struct sw_spot {
+  sw_press *press;
+  double friction;              /* [-] */
+  double scale;                 /* forces far below this do not matter [N] */
+  size_t node[SW_SPOT_NODES];   /* of the system; count of them */
+  double weight[SW_SPOT_NODES]; /* share of the force; negative on the other wire [-] */
+  int count;
+  int held[SW_SPOT_NODES]; /* 1: a hold bears the node's share */
+} sw_spot;
+
+typedef struct sw_spots {
+  sw_spot *list;
+  size_t count, capacity;
+  double *more; /* (nodes x 3) room for a solution [m] */
+  size_t room;
+} sw_spots;
+
+void sw_spots_free(sw_spots *spots);
+
+/* One more, of two bodies' nodes by halves or of one's, if it slides; out of memory it is left
+ * out. */
+void sw_spots_add(sw_spots *spots, const sw_system *system, const uint32_t body[2], sw_spot spot);
+
+/* Friction of what slides follows the normal forces within the linearisation of the bodies that are
+ * solved together, by solves with the factor that there is. */
+void sw_spots_follow(sw_spots *spots, sw_system *system);
+
+#endif
