@@ -4,10 +4,7 @@
 local core = require "softworld.core"
 local tools = require "shape.tools"
 
-local function near(expected, value, tolerance, text)
-  assert.is_true(math.abs(expected - value) <= tolerance,
-    ("%s: expected %.12g, got %.12g"):format(text or "value", expected, value))
-end
+local near = tools.near
 
 describe("a torus", function()
   it("has the distance of its formula, on its axis and circle too", function()
