@@ -17,8 +17,8 @@ static int unknown_key(lua_State *L, const char *object, const lsw_section *sect
   luaL_buffinit(L, &b);
   for (int k = 0; k < count; k++)
     for (size_t i = 0; i < sections[k].params->count; i++) {
+      if (k || i) luaL_addchar(&b, ' ');
       luaL_addstring(&b, sections[k].params->rows[i].name);
-      luaL_addchar(&b, ' ');
     }
   luaL_pushresult(&b);
   return luaL_error(L, "%s: there is no parameter '%s'; known are: %s", object, key,
@@ -49,7 +49,7 @@ static int read_choice(lua_State *L, const char *object, const sw_param *row) {
 static void read_text(lua_State *L, const char *object, const sw_param *row, char *place) {
   size_t length = 0;
   if (lua_type(L, -1) != LUA_TSTRING)
-    luaL_error(L, "%s: %s must be a string, got %s", object, row->name, luaL_typename(L, -1));
+    luaL_error(L, "%s: %s must be a string, got %s", object, row->name, lsw_describe(L, -1));
   const char *text = lua_tolstring(L, -1, &length);
   if (length >= SW_NAME_SIZE || strlen(text) != length)
     luaL_error(L, "%s: %s is too long; at most %d bytes without zeros", object, row->name,
@@ -76,7 +76,7 @@ static void read_value(lua_State *L, const char *object, const sw_param *row, vo
     case SW_PARAM_INTEGER: {
       if (lua_type(L, -1) != LUA_TNUMBER)
         luaL_error(L, "%s: %s must be a number [%s], got %s", object, row->name, row->unit,
-                   luaL_typename(L, -1));
+                   lsw_describe(L, -1));
       const double value = lua_tonumber(L, -1);
       if (sw_param_check(object, row, value, &err) != SW_OK) luaL_error(L, "%s", err.text);
       sw_param_store(row, args, value);
@@ -85,7 +85,7 @@ static void read_value(lua_State *L, const char *object, const sw_param *row, vo
     case SW_PARAM_BOOLEAN:
       if (!lua_isboolean(L, -1))
         luaL_error(L, "%s: %s must be true or false, got %s", object, row->name,
-                   luaL_typename(L, -1));
+                   lsw_describe(L, -1));
       sw_param_store(row, args, lua_toboolean(L, -1));
       break;
     case SW_PARAM_CHOICE: sw_param_store(row, args, read_choice(L, object, row)); break;
@@ -135,7 +135,7 @@ void lsw_sections(lua_State *L, int index, const char *object, const lsw_section
   const int given = !lua_isnoneornil(L, index);
   index = given ? lua_absindex(L, index) : 0;
   if (given && !lua_istable(L, index))
-    luaL_error(L, "%s takes one table of parameters, got %s", object, luaL_typename(L, index));
+    luaL_error(L, "%s takes one table of parameters, got %s", object, lsw_describe(L, index));
   if (given) {
     lua_pushnil(L);
     while (lua_next(L, index)) {

@@ -44,7 +44,7 @@ void *lsw_test(lua_State *L, int index, const lsw_class *c);
 /* The class of the userdata at index, or NULL for anything that is not ours. */
 const lsw_class *lsw_class_of(lua_State *L, int index);
 
-/* Push a name for a wrong argument, for messages: "number 3", "scene", "table". */
+/* Push a name for a wrong argument, for messages: "number 3", "string '3'", "scene", "table". */
 const char *lsw_describe(lua_State *L, int index);
 
 /* Make the metatables of every class in classes.def and push a table of

@@ -19,11 +19,6 @@ function fixing.arguments(what, args, known)
   return copy
 end
 
-local function shown(value, unit)
-  if type(value) == "number" then return ("%.6g%s"):format(value, unit ~= "" and " " .. unit or "") end
-  return type(value) == "string" and "'" .. value .. "'" or "a " .. type(value)
-end
-
 --- The parameter `name`, a number above (or at least) `low`; nil takes `default`, and raises without one.
 function fixing.number(what, name, value, unit, low, above, default)
   local limit = ("%s %g%s"):format(above and "above" or "at least", low, unit ~= "" and " " .. unit or "")
@@ -35,7 +30,7 @@ function fixing.number(what, name, value, unit, low, above, default)
     or not above and value >= low)
   if not fine then
     error(("%s: %s = %s is not allowed; it must be a number %s"):format(what, name,
-      shown(value, unit), limit), 0)
+      checks.got(value, unit ~= "" and " " .. unit), limit), 0)
   end
   return value
 end
@@ -61,7 +56,7 @@ end
 --- The name to use, see build.name; errors have no place yet.
 function fixing.name(scene, what, given, kind)
   if given ~= nil and (type(given) ~= "string" or given == "" or #given > 40) then
-    error(("%s: name must be a string of 1 to 40 characters, got %s"):format(what, shown(given, "")), 0)
+    error(("%s: name must be a string of 1 to 40 characters, got %s"):format(what, checks.got(given)), 0)
   end
   local ok, name = pcall(build.name, scene, given, kind, #build.data(scene).fixings, 0)
   if not ok then error(name, 0) end

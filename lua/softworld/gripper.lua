@@ -67,6 +67,7 @@ function core.class.scene.gripper(scene, args)
   if args.on_crash ~= nil then grasp.check_reaction("scene:gripper: on_crash", args.on_crash, 3) end
   if args.arm ~= nil then pads.check_arm(args.arm, "scene:gripper: arm", 3) end
   local at = args.at ~= nil and vector("scene:gripper: at", args.at, "m", 3) or nil
+  if args.rotation ~= nil then checks.rotation("scene:gripper: rotation", args.rotation, 3) end
   local data = build.data(scene)
   local self = sealed.new(Gripper)
   self.scene = scene
@@ -186,6 +187,14 @@ local function move_table(self, args)
   return t
 end
 
+-- The trajectory of a move; errors name the move.
+local function motion_of(args)
+  local fine, result = pcall(core.trajectory, args)
+  if fine then return result end
+  if type(result) ~= "string" then error(result, 0) end
+  error((build.plain(result):gsub("^trajectory: ", "gripper:move: ", 1)), 0)
+end
+
 local turn_keys = checks.set "axis angle"
 
 --- Move the tool: { path = "file.csv" | points = {...} | to = point | by = vector,
@@ -201,7 +210,7 @@ function Gripper:move(args)
   if args.on_slip ~= nil then
     grasp.check_reaction("gripper '" .. self.name .. "': on_slip", args.on_slip, 3)
   end
-  local motion = build.call(3, core.trajectory, move_table(self, args))
+  local motion = build.call(3, motion_of, move_table(self, args))
   remarks.on("move", ("gripper '%s': move"):format(self.name), args)
   local held = make_moved(self)
   if args.on_slip ~= nil then grasp.set_on_slip(self, args.on_slip, 3) end
@@ -230,6 +239,7 @@ local rotate_keys = checks.set [[axis angle speed angular_speed acceleration ang
 function Gripper:rotate(args)
   if type(args) ~= "table" then error("gripper:rotate takes { axis =, angle = [rad] }", 2) end
   checks.keys("gripper:rotate", args, rotate_keys, 3)
+  checks.rotation("gripper:rotate: turn", { axis = args.axis or {}, angle = args.angle }, 3)
   local t = {}
   for k, v in pairs(args) do t[k] = v end
   t.turn, t.axis, t.angle = { axis = args.axis, angle = args.angle }, nil, nil

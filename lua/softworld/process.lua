@@ -31,13 +31,6 @@ function process.reached(scene, t)
   return scene.time >= t - SAME_TIME * math.max(1, math.abs(t))
 end
 
-local function check_time(what, seconds)
-  if type(seconds) ~= "number" or not (seconds >= 0 and seconds < math.huge) then
-    error(("%s = %s%s is not allowed; it must be a time of at least 0 s"):format(what,
-      checks.shown(seconds), type(seconds) == "number" and " s" or ""), 3)
-  end
-end
-
 --- The process that is running now, or nil outside of one.
 function process.current()
   return current[coroutine.running()]
@@ -82,7 +75,7 @@ end
 
 --- Let time pass [s].
 function Process:wait(seconds)
-  check_time("p:wait: seconds", seconds)
+  checks.number("p:wait: seconds", seconds, 0, " s", 3)
   check_inside(self, "p:wait")
   process.sleep_until(self, self.scene.time + seconds)
 end
@@ -101,11 +94,7 @@ local function timeout_of(options)
   end
   local timeout = options.timeout
   if timeout == nil or timeout == math.huge then return math.huge end
-  if type(timeout) ~= "number" or timeout ~= timeout or timeout < 0 then
-    error(("p:wait_until: timeout = %s is not allowed; it must be at least 0 s")
-      :format(checks.shown(timeout)), 3)
-  end
-  return timeout
+  return checks.number("p:wait_until: timeout", timeout, 0, " s", 4)
 end
 
 --- Wait until condition() is true; asked once per step. A condition may also be a table, see help

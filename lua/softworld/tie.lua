@@ -48,7 +48,7 @@ local function checked(scene, wire, args)
   fixing.wire(scene, what, "the first argument", wire)
   local here = place(what, wire, args.s, "")
   local there
-  if type(args.to) == "table" and type(args.to[1]) == "userdata" then
+  if type(args.to) == "table" and (type(args.to[1]) == "userdata" or args.to.s ~= nil) then
     args.other, args.other_s, there = other_wire(scene, what, args.to)
   else
     args.to = fixing.vector(what, "to", args.to, "m", here)
