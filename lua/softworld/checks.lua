@@ -16,7 +16,7 @@ local shown = checks.shown
 
 local function names_of(known)
   local names = {}
-  for name in pairs(known) do names[#names + 1] = name end
+  for name in pairs(known) do names[#names + 1] = shown(name) end
   table.sort(names)
   return names
 end
