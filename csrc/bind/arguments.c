@@ -152,6 +152,77 @@ void lsw_arguments(lua_State *L, int index, const char *object, const sw_params 
   lsw_sections(L, index, object, &one, 1);
 }
 
+static int refuse_change(lua_State *L, const char *object, const sw_params *params,
+                         const char *name) {
+  luaL_Buffer b;
+  luaL_buffinit(L, &b);
+  for (size_t i = 0; i < params->count; i++)
+    if (params->rows[i].flags & SW_PARAM_CHANGES) {
+      luaL_addchar(&b, ' ');
+      luaL_addstring(&b, params->rows[i].name);
+    }
+  luaL_pushresult(&b);
+  return luaL_error(L, "%s: %s is given when it is made; what may be set is:%s", object, name,
+                    lua_tostring(L, -1));
+}
+
+void lsw_changes(lua_State *L, int index, const char *object, const sw_params *params, void *args) {
+  const lsw_section one = {params, args};
+  if (!lua_istable(L, index))
+    luaL_error(L, "%s takes one table of parameters, got %s", object, lsw_describe(L, index));
+  lua_pushnil(L);
+  while (lua_next(L, index)) {
+    const sw_param *row =
+        lua_type(L, -2) == LUA_TSTRING ? sw_params_find(params, lua_tostring(L, -2)) : NULL;
+    if (row && !(row->flags & SW_PARAM_CHANGES)) refuse_change(L, object, params, row->name);
+    read_key(L, object, &one, 1);
+    lua_pop(L, 1);
+  }
+}
+
+/* Pushes nil for what was not given and what the binding reads itself. */
+static void push_value(lua_State *L, const sw_param *row, const void *args) {
+  const char *place = (const char *)args + row->offset;
+  double x;
+  long whole;
+  int flag;
+  sw_vec v;
+  sw_quat q;
+  switch (row->type) {
+    case SW_PARAM_NUMBER:
+      memcpy(&x, place, sizeof x);
+      if (isnan(x))
+        lua_pushnil(L);
+      else
+        lua_pushnumber(L, x);
+      break;
+    case SW_PARAM_INTEGER:
+      memcpy(&whole, place, sizeof whole);
+      lua_pushinteger(L, whole);
+      break;
+    case SW_PARAM_BOOLEAN:
+    case SW_PARAM_CHOICE:
+      memcpy(&flag, place, sizeof flag);
+      if (row->type == SW_PARAM_BOOLEAN)
+        lua_pushboolean(L, flag);
+      else
+        lua_pushstring(L, row->choices[flag]);
+      break;
+    case SW_PARAM_TEXT: lua_pushstring(L, place); break;
+    case SW_PARAM_VECTOR: memcpy(&v, place, sizeof v), lsw_push_vector(L, v); break;
+    case SW_PARAM_ROTATION: memcpy(&q, place, sizeof q), lsw_push_quaternion(L, q); break;
+    case SW_PARAM_OTHER: lua_pushnil(L); break;
+  }
+}
+
+void lsw_push_values(lua_State *L, const sw_params *params, const void *args) {
+  lua_createtable(L, 0, (int)params->count);
+  for (size_t i = 0; i < params->count; i++) {
+    push_value(L, &params->rows[i], args);
+    lua_setfield(L, -2, params->rows[i].name);
+  }
+}
+
 static const char *const type_names[] = {"number", "integer", "boolean",  "choice",
                                          "text",   "vector",  "rotation", "other"};
 
@@ -172,12 +243,13 @@ void lsw_push_params(lua_State *L, const sw_params *params) {
   lua_createtable(L, (int)params->count, 0);
   for (size_t i = 0; i < params->count; i++) {
     const sw_param *row = &params->rows[i];
-    lua_createtable(L, 0, 10);
+    lua_createtable(L, 0, 11);
     lua_pushstring(L, row->name), lua_setfield(L, -2, "name");
     lua_pushstring(L, type_names[row->type]), lua_setfield(L, -2, "type");
     lua_pushstring(L, row->unit), lua_setfield(L, -2, "unit");
     lua_pushstring(L, row->doc), lua_setfield(L, -2, "doc");
     lua_pushboolean(L, (row->flags & SW_PARAM_REQUIRED) != 0), lua_setfield(L, -2, "required");
+    lua_pushboolean(L, (row->flags & SW_PARAM_CHANGES) != 0), lua_setfield(L, -2, "changes");
     if (!isnan(row->def)) lua_pushnumber(L, row->def), lua_setfield(L, -2, "default");
     if (has_range(row)) push_range(L, row);
     if (row->choices) {

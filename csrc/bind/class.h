@@ -72,6 +72,12 @@ typedef struct lsw_section {
 void lsw_sections(lua_State *L, int index, const char *object, const lsw_section *sections,
                   int count);
 
+/* object:set{...}: read over what args has; rows that do not change raise. */
+void lsw_changes(lua_State *L, int index, const char *object, const sw_params *params, void *args);
+
+/* object:get(): push a table of what args has. */
+void lsw_push_values(lua_State *L, const sw_params *params, const void *args);
+
 /* Read three finite numbers {x, y, z} (or fields x, y, z) at index. what is for
  * messages: "scene:wire: from". */
 sw_vec lsw_vector(lua_State *L, int index, const char *what, const char *unit);

@@ -2,6 +2,7 @@
 -- Rows of what is made in Lua: every public method and field has one and every row is there; wrong arguments
 -- of every row are refused by name; help and completion show them.
 local sw = require "softworld"
+local core = require "softworld.core"
 local repl = require "softworld.repl"
 local rows = require "softworld.rows"
 local topics = require "softworld.topics"
@@ -17,7 +18,7 @@ local function objects()
   local tie = scene:tie(wire, { s = 0.1 })
   local run = scene:run{ dt = 0.01 }
   return { scene = scene, wire = wire, hand = hand, gripper = hand, process = process, clip = clip,
-    channel = channel, tie = tie, run = run }
+    channel = channel, tie = tie, run = run, obstacle = scene:obstacle{ shape = "plane", at = { 0, 0, -1 } } }
 end
 
 -- Of the library, not of scripts: what runs and pictures ask of things.
@@ -37,7 +38,7 @@ describe("rows of calls", function()
         assert.is_true(fine, ("%s: %s"):format(call.name, why))
       end
       local meta = debug.getmetatable(made[class])
-      for _, name in ipairs(class ~= "scene" and meta.__names(made[class]) or {}) do
+      for _, name in ipairs(not core.class[class] and meta.__names(made[class]) or {}) do
         local plain = class == results and type(made[class][name]) ~= "function"
         assert.is_true(known[name] or inner[name] or plain or false, class .. " has no row " .. name)
       end
