@@ -27,7 +27,8 @@ typedef enum sw_param_type {
 enum {
   SW_PARAM_REQUIRED = 1,  /* must be given */
   SW_PARAM_ABOVE_MIN = 2, /* min itself is not allowed */
-  SW_PARAM_BELOW_MAX = 4  /* max itself is not allowed */
+  SW_PARAM_BELOW_MAX = 4, /* max itself is not allowed */
+  SW_PARAM_CHANGES = 8    /* may be set between steps, too */
 };
 
 typedef struct sw_param {

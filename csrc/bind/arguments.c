@@ -17,8 +17,8 @@ static int unknown_key(lua_State *L, const char *object, const lsw_section *sect
   luaL_buffinit(L, &b);
   for (int k = 0; k < count; k++)
     for (size_t i = 0; i < sections[k].params->count; i++) {
+      if (k || i) luaL_addchar(&b, ' ');
       luaL_addstring(&b, sections[k].params->rows[i].name);
-      luaL_addchar(&b, ' ');
     }
   luaL_pushresult(&b);
   return luaL_error(L, "%s: there is no parameter '%s'; known are: %s", object, key,
@@ -49,7 +49,7 @@ static int read_choice(lua_State *L, const char *object, const sw_param *row) {
 static void read_text(lua_State *L, const char *object, const sw_param *row, char *place) {
   size_t length = 0;
   if (lua_type(L, -1) != LUA_TSTRING)
-    luaL_error(L, "%s: %s must be a string, got %s", object, row->name, luaL_typename(L, -1));
+    luaL_error(L, "%s: %s must be a string, got %s", object, row->name, lsw_describe(L, -1));
   const char *text = lua_tolstring(L, -1, &length);
   if (length >= SW_NAME_SIZE || strlen(text) != length)
     luaL_error(L, "%s: %s is too long; at most %d bytes without zeros", object, row->name,
@@ -76,7 +76,7 @@ static void read_value(lua_State *L, const char *object, const sw_param *row, vo
     case SW_PARAM_INTEGER: {
       if (lua_type(L, -1) != LUA_TNUMBER)
         luaL_error(L, "%s: %s must be a number [%s], got %s", object, row->name, row->unit,
-                   luaL_typename(L, -1));
+                   lsw_describe(L, -1));
       const double value = lua_tonumber(L, -1);
       if (sw_param_check(object, row, value, &err) != SW_OK) luaL_error(L, "%s", err.text);
       sw_param_store(row, args, value);
@@ -85,7 +85,7 @@ static void read_value(lua_State *L, const char *object, const sw_param *row, vo
     case SW_PARAM_BOOLEAN:
       if (!lua_isboolean(L, -1))
         luaL_error(L, "%s: %s must be true or false, got %s", object, row->name,
-                   luaL_typename(L, -1));
+                   lsw_describe(L, -1));
       sw_param_store(row, args, lua_toboolean(L, -1));
       break;
     case SW_PARAM_CHOICE: sw_param_store(row, args, read_choice(L, object, row)); break;
@@ -135,7 +135,7 @@ void lsw_sections(lua_State *L, int index, const char *object, const lsw_section
   const int given = !lua_isnoneornil(L, index);
   index = given ? lua_absindex(L, index) : 0;
   if (given && !lua_istable(L, index))
-    luaL_error(L, "%s takes one table of parameters, got %s", object, luaL_typename(L, index));
+    luaL_error(L, "%s takes one table of parameters, got %s", object, lsw_describe(L, index));
   if (given) {
     lua_pushnil(L);
     while (lua_next(L, index)) {
@@ -150,6 +150,77 @@ void lsw_arguments(lua_State *L, int index, const char *object, const sw_params 
                    void *args) {
   const lsw_section one = {params, args};
   lsw_sections(L, index, object, &one, 1);
+}
+
+static int refuse_change(lua_State *L, const char *object, const sw_params *params,
+                         const char *name) {
+  luaL_Buffer b;
+  luaL_buffinit(L, &b);
+  for (size_t i = 0; i < params->count; i++)
+    if (params->rows[i].flags & SW_PARAM_CHANGES) {
+      luaL_addchar(&b, ' ');
+      luaL_addstring(&b, params->rows[i].name);
+    }
+  luaL_pushresult(&b);
+  return luaL_error(L, "%s: %s is given when it is made; what may be set is:%s", object, name,
+                    lua_tostring(L, -1));
+}
+
+void lsw_changes(lua_State *L, int index, const char *object, const sw_params *params, void *args) {
+  const lsw_section one = {params, args};
+  if (!lua_istable(L, index))
+    luaL_error(L, "%s takes one table of parameters, got %s", object, lsw_describe(L, index));
+  lua_pushnil(L);
+  while (lua_next(L, index)) {
+    const sw_param *row =
+        lua_type(L, -2) == LUA_TSTRING ? sw_params_find(params, lua_tostring(L, -2)) : NULL;
+    if (row && !(row->flags & SW_PARAM_CHANGES)) refuse_change(L, object, params, row->name);
+    read_key(L, object, &one, 1);
+    lua_pop(L, 1);
+  }
+}
+
+/* Pushes nil for what was not given and what the binding reads itself. */
+static void push_value(lua_State *L, const sw_param *row, const void *args) {
+  const char *place = (const char *)args + row->offset;
+  double x;
+  long whole;
+  int flag;
+  sw_vec v;
+  sw_quat q;
+  switch (row->type) {
+    case SW_PARAM_NUMBER:
+      memcpy(&x, place, sizeof x);
+      if (isnan(x))
+        lua_pushnil(L);
+      else
+        lua_pushnumber(L, x);
+      break;
+    case SW_PARAM_INTEGER:
+      memcpy(&whole, place, sizeof whole);
+      lua_pushinteger(L, whole);
+      break;
+    case SW_PARAM_BOOLEAN:
+    case SW_PARAM_CHOICE:
+      memcpy(&flag, place, sizeof flag);
+      if (row->type == SW_PARAM_BOOLEAN)
+        lua_pushboolean(L, flag);
+      else
+        lua_pushstring(L, row->choices[flag]);
+      break;
+    case SW_PARAM_TEXT: lua_pushstring(L, place); break;
+    case SW_PARAM_VECTOR: memcpy(&v, place, sizeof v), lsw_push_vector(L, v); break;
+    case SW_PARAM_ROTATION: memcpy(&q, place, sizeof q), lsw_push_quaternion(L, q); break;
+    case SW_PARAM_OTHER: lua_pushnil(L); break;
+  }
+}
+
+void lsw_push_values(lua_State *L, const sw_params *params, const void *args) {
+  lua_createtable(L, 0, (int)params->count);
+  for (size_t i = 0; i < params->count; i++) {
+    push_value(L, &params->rows[i], args);
+    lua_setfield(L, -2, params->rows[i].name);
+  }
 }
 
 static const char *const type_names[] = {"number", "integer", "boolean",  "choice",
@@ -172,12 +243,13 @@ void lsw_push_params(lua_State *L, const sw_params *params) {
   lua_createtable(L, (int)params->count, 0);
   for (size_t i = 0; i < params->count; i++) {
     const sw_param *row = &params->rows[i];
-    lua_createtable(L, 0, 10);
+    lua_createtable(L, 0, 11);
     lua_pushstring(L, row->name), lua_setfield(L, -2, "name");
     lua_pushstring(L, type_names[row->type]), lua_setfield(L, -2, "type");
     lua_pushstring(L, row->unit), lua_setfield(L, -2, "unit");
     lua_pushstring(L, row->doc), lua_setfield(L, -2, "doc");
     lua_pushboolean(L, (row->flags & SW_PARAM_REQUIRED) != 0), lua_setfield(L, -2, "required");
+    lua_pushboolean(L, (row->flags & SW_PARAM_CHANGES) != 0), lua_setfield(L, -2, "changes");
     if (!isnan(row->def)) lua_pushnumber(L, row->def), lua_setfield(L, -2, "default");
     if (has_range(row)) push_range(L, row);
     if (row->choices) {

@@ -92,6 +92,45 @@ static int meth_follow(lua_State *L) {
   return 1;
 }
 
+/* obstacle:get() -> a table of its rows, as it is now */
+static int meth_get(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_obstacle_args args;
+  const lsw_child *o = check(L, &scene);
+  lsw_must(L, sw_scene_obstacle_args(scene, o->id, &args, &err), &err);
+  lsw_push_values(L, &sw_obstacle_params, &args);
+  return 1;
+}
+
+static int given(lua_State *L, const char *name) {
+  const int there = lua_getfield(L, 2, name) != LUA_TNIL;
+  lua_pop(L, 1);
+  return there;
+}
+
+/* obstacle:set{ friction =, restitution =, at =, ... }: from now on. Friction given alone is that
+ * of what slides, too. */
+static int meth_set(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_obstacle_args args;
+  const lsw_child *o = check(L, &scene);
+  lua_settop(L, 2);
+  lsw_must(L, sw_scene_editable(scene, &err), &err);
+  lsw_must(L, sw_scene_obstacle_args(scene, o->id, &args, &err), &err);
+  lsw_changes(L, 2, "obstacle:set", &sw_obstacle_params, &args);
+  const int rubs = given(L, "friction"), slides = given(L, "kinetic_friction");
+  if (rubs && !slides) args.kinetic = args.friction;
+  if (given(L, "at") || given(L, "rotation")) {
+    const sw_pose pose = {args.at, args.rotation};
+    lsw_must(L, sw_scene_obstacle_set_pose(scene, o->id, pose, &err), &err);
+  }
+  if (rubs || slides || given(L, "restitution"))
+    lsw_must(L, sw_scene_obstacle_set_surface(scene, o->id, &args, &err), &err);
+  return 0;
+}
+
 static int meth_remove(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
@@ -126,8 +165,9 @@ static int prop_shape(lua_State *L) {
 }
 
 static const luaL_Reg methods[] = {
-    {"force", meth_force},   {"moment", meth_moment}, {"pose", meth_pose}, {"follow", meth_follow},
-    {"remove", meth_remove}, {"log", meth_log},       {NULL, NULL}};
+    {"force", meth_force},   {"moment", meth_moment}, {"pose", meth_pose},
+    {"follow", meth_follow}, {"remove", meth_remove}, {"log", meth_log},
+    {"get", meth_get},       {"set", meth_set},       {NULL, NULL}};
 
 static int prop_name(lua_State *L) {
   sw_scene *scene;

@@ -129,6 +129,7 @@ static void params(lua_State *L) {
                 {"frequencies", &sw_modes_params},
                 {"wire_contact", &sw_wire_contact_params},
                 {"join", &sw_join_params},
+                {"minimise", &sw_minimise_params},
                 {"particles", &sw_particles_params},
                 {"repel", &sw_repel_pairs_params},
                 {"calibrate", &sw_calibrate_params},

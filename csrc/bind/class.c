@@ -36,12 +36,26 @@ const lsw_class *lsw_class_of(lua_State *L, int index) {
   return NULL;
 }
 
+enum { LONGEST_SHOWN = 32 }; /* text in a message [B] */
+
+/* A short text of plain characters, as it may be shown. */
+static int may_be_shown(const char *text, size_t length) {
+  for (size_t i = 0; i < length; i++)
+    if (text[i] < ' ' || text[i] > '~') return 0;
+  return length <= LONGEST_SHOWN;
+}
+
 const char *lsw_describe(lua_State *L, int index) {
   index = lua_absindex(L, index);
   const int type = lua_type(L, index);
   if (type == LUA_TNUMBER || type == LUA_TBOOLEAN) {
     const char *text = luaL_tolstring(L, index, NULL);
     return lua_pushfstring(L, "%s %s", luaL_typename(L, index), text);
+  }
+  if (type == LUA_TSTRING) {
+    size_t length;
+    const char *text = lua_tolstring(L, index, &length);
+    if (may_be_shown(text, length)) return lua_pushfstring(L, "string '%s'", text);
   }
   if (type == LUA_TUSERDATA && luaL_getmetafield(L, index, "__name") == LUA_TSTRING)
     return lua_tostring(L, -1);

@@ -44,7 +44,7 @@ void *lsw_test(lua_State *L, int index, const lsw_class *c);
 /* The class of the userdata at index, or NULL for anything that is not ours. */
 const lsw_class *lsw_class_of(lua_State *L, int index);
 
-/* Push a name for a wrong argument, for messages: "number 3", "scene", "table". */
+/* Push a name for a wrong argument, for messages: "number 3", "string '3'", "scene", "table". */
 const char *lsw_describe(lua_State *L, int index);
 
 /* Make the metatables of every class in classes.def and push a table of
@@ -71,6 +71,12 @@ typedef struct lsw_section {
 } lsw_section;
 void lsw_sections(lua_State *L, int index, const char *object, const lsw_section *sections,
                   int count);
+
+/* object:set{...}: read over what args has; rows that do not change raise. */
+void lsw_changes(lua_State *L, int index, const char *object, const sw_params *params, void *args);
+
+/* object:get(): push a table of what args has. */
+void lsw_push_values(lua_State *L, const sw_params *params, const void *args);
 
 /* Read three finite numbers {x, y, z} (or fields x, y, z) at index. what is for
  * messages: "scene:wire: from". */

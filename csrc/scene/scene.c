@@ -173,16 +173,17 @@ void sw_scene_give_name(char *out, const char *wanted, const char *kind, size_t 
 static const sw_param obstacle_rows[] = {
     {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_obstacle_args, name),
      "name used in messages and series"},
-    {"at", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(sw_obstacle_args, at),
-     "place of the shape's origin"},
-    {"rotation", SW_PARAM_ROTATION, "rad", 0, 0, 0, 0, NULL, offsetof(sw_obstacle_args, rotation),
+    {"at", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_CHANGES, NULL,
+     offsetof(sw_obstacle_args, at), "place of the shape's origin"},
+    {"rotation", SW_PARAM_ROTATION, "rad", 0, 0, 0, SW_PARAM_CHANGES, NULL,
+     offsetof(sw_obstacle_args, rotation),
      "turn of the shape: { axis = {x, y, z}, angle = } or quaternion {w, x, y, z}"},
-    {"friction", SW_PARAM_NUMBER, "-", 0.3, 0, 100, 0, NULL, offsetof(sw_obstacle_args, friction),
-     "Coulomb friction coefficient"},
-    {"kinetic_friction", SW_PARAM_NUMBER, "-", NAN, 0, 100, 0, NULL,
+    {"friction", SW_PARAM_NUMBER, "-", 0.3, 0, 100, SW_PARAM_CHANGES, NULL,
+     offsetof(sw_obstacle_args, friction), "Coulomb friction coefficient"},
+    {"kinetic_friction", SW_PARAM_NUMBER, "-", NAN, 0, 100, SW_PARAM_CHANGES, NULL,
      offsetof(sw_obstacle_args, kinetic), "of what slides already (default: friction)"},
-    {"restitution", SW_PARAM_NUMBER, "-", 0, 0, 1, 0, NULL, offsetof(sw_obstacle_args, restitution),
-     "share of the approach speed kept in an impact"},
+    {"restitution", SW_PARAM_NUMBER, "-", 0, 0, 1, SW_PARAM_CHANGES, NULL,
+     offsetof(sw_obstacle_args, restitution), "share of the approach speed kept in an impact"},
 };
 const sw_params sw_obstacle_params = SW_PARAMS("obstacle", obstacle_rows);
 
@@ -254,6 +255,32 @@ sw_status sw_scene_obstacle_set_pose(sw_scene *s, sw_handle obstacle, sw_pose po
   o->drive.pose = pose;
   s->discontinuous = 1;
   if (s->contact) sw_contact_ask_again(s->contact);
+  return SW_OK;
+}
+
+sw_status sw_scene_obstacle_args(sw_scene *s, sw_handle obstacle, sw_obstacle_args *out,
+                                 sw_error *err) {
+  sw_pose pose;
+  const sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
+  if (!o) return SW_EDEAD;
+  SW_TRY(sw_scene_obstacle_pose(s, obstacle, &pose, err));
+  *out = (sw_obstacle_args){.at = pose.p,
+                            .rotation = pose.q,
+                            .friction = o->friction,
+                            .kinetic = o->kinetic,
+                            .restitution = o->restitution};
+  memcpy(out->name, o->name, sizeof out->name);
+  return SW_OK;
+}
+
+sw_status sw_scene_obstacle_set_surface(sw_scene *s, sw_handle obstacle,
+                                        const sw_obstacle_args *args, sw_error *err) {
+  sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
+  if (!o) return SW_EDEAD;
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_thaw(s));
+  o->friction = args->friction, o->kinetic = args->kinetic, o->restitution = args->restitution;
+  s->discontinuous = 1;
   return SW_OK;
 }
 

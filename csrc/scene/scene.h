@@ -227,6 +227,12 @@ sw_status sw_scene_obstacle_follow(sw_scene *scene, sw_handle obstacle, sw_motio
 sw_status sw_scene_obstacle_pose(sw_scene *scene, sw_handle obstacle, sw_pose *out, sw_error *err);
 sw_status sw_scene_obstacle_set_pose(sw_scene *scene, sw_handle obstacle, sw_pose pose,
                                      sw_error *err);
+/* What it is like now, by its rows. */
+sw_status sw_scene_obstacle_args(sw_scene *scene, sw_handle obstacle, sw_obstacle_args *out,
+                                 sw_error *err);
+/* Friction and restitution of the arguments from now on; touches keep what they remember. */
+sw_status sw_scene_obstacle_set_surface(sw_scene *scene, sw_handle obstacle,
+                                        const sw_obstacle_args *args, sw_error *err);
 /* Total contact force and its moment about a point, on the obstacle [N, N m]. */
 sw_status sw_scene_obstacle_force(sw_scene *scene, sw_handle obstacle, sw_vec about, sw_vec *force,
                                   sw_vec *moment, sw_error *err);

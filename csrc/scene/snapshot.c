@@ -23,6 +23,7 @@ typedef struct saved_obstacle {
   sw_drive drive;
   size_t log_count;
   sw_contact_past past;
+  double friction, kinetic, restitution; /* [-] */
 } saved_obstacle;
 
 struct sw_snapshot {
@@ -158,7 +159,8 @@ static sw_status copy_objects(const sw_scene *s, sw_snapshot *p) {
   for (; p->obstacles < s->obstacle_count; p->obstacles++) {
     const sw_scene_obstacle *o = &s->obstacles[p->obstacles];
     p->obstacle[p->obstacles] =
-        (saved_obstacle){o->alive, o->off, copy_drive(&o->drive), o->log.count, o->past};
+        (saved_obstacle){o->alive,    o->off,     copy_drive(&o->drive), o->log.count, o->past,
+                         o->friction, o->kinetic, o->restitution};
   }
   SW_TRY(copy_block(s->tools, s->tool_count * sizeof *p->tool, &p->tool));
   for (; p->tools < s->tool_count; p->tools++) {
@@ -203,6 +205,11 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
   return SW_OK;
 }
 
+static int same_surface(const sw_scene_obstacle *o, const saved_obstacle *saved) {
+  return o->friction == saved->friction && o->kinetic == saved->kinetic &&
+         o->restitution == saved->restitution;
+}
+
 /* Is the built system of the same plan as the snapshot's? */
 static int same_plan(const sw_scene *s, const sw_snapshot *p) {
   if (!s->built || s->wire_count != p->wires || s->rule_count != p->rules) return 0;
@@ -217,7 +224,8 @@ static int same_plan(const sw_scene *s, const sw_snapshot *p) {
       return 0;
   for (size_t k = 0; k < s->obstacle_count; k++)
     if (s->obstacles[k].alive != (k < p->obstacles && p->obstacle[k].alive) ||
-        (k < p->obstacles && s->obstacles[k].off != p->obstacle[k].off))
+        (k < p->obstacles && (s->obstacles[k].off != p->obstacle[k].off ||
+                              !same_surface(&s->obstacles[k], &p->obstacle[k]))))
       return 0;
   for (size_t k = 0; k < s->force_count; k++)
     if (s->forces[k].alive != (k < p->forces && p->force_alive[k])) return 0;
@@ -286,6 +294,8 @@ static void put_objects(sw_scene *s, const sw_snapshot *p) {
     if (k >= p->obstacles) continue;
     if (o->log.count > p->obstacle[k].log_count) o->log.count = p->obstacle[k].log_count;
     o->off = p->obstacle[k].off;
+    o->friction = p->obstacle[k].friction, o->kinetic = p->obstacle[k].kinetic;
+    o->restitution = p->obstacle[k].restitution;
     o->past = p->obstacle[k].past;
     put_drive(&o->drive, &p->obstacle[k].drive);
   }

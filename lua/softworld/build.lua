@@ -295,6 +295,20 @@ end
 
 local new_obstacle = class.scene.obstacle
 
+-- The core takes a mesh's content and does not know this word, which belongs to Lua.
+local function check_mesh_words(args)
+  if args.shape ~= "mesh" or args.file ~= nil then return end
+  for key in pairs(args) do
+    if core.nearest(checks.shown(key), { "file" }) then
+      error(("obstacle mesh: there is no parameter '%s'; did you mean 'file'?"):format(checks.shown(key)), 0)
+    end
+  end
+  if args.data == nil then
+    error(("obstacle mesh: file is required, the name of a mesh file (%s), or data, its content")
+      :format(table.concat(meshfile.formats, " ")), 0)
+  end
+end
+
 local function obstacle_from(scene, args, path)
   if not path then return new_obstacle(scene, args) end
   local fine, result = pcall(new_obstacle, scene, args)
@@ -308,6 +322,7 @@ function class.scene.obstacle(scene, args)
   args = table_of(args, "scene:obstacle")
   local data = build.data(scene)
   local path = args.file
+  build.call(3, check_mesh_words, args)
   if path ~= nil then
     local mesh = build.call(3, meshfile.read, path)
     args.data, args.format, args.file = mesh.data, args.format or mesh.format, nil

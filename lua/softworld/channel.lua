@@ -8,11 +8,12 @@
 --     duct:close()
 --
 -- @module softworld.channel
-local core = require "softworld.core"
 local checks = require "softworld.checks"
+local core = require "softworld.core"
 local build = require "softworld.build"
 local fixing = require "softworld.fixing"
 local remarks = require "softworld.remarks"
+local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local vec = require "softworld.vec"
 
@@ -20,9 +21,33 @@ local dot, cross, add, unit, norm = vec.dot, vec.cross, vec.add, vec.unit, vec.n
 
 local properties = {}
 local Channel = fixing.class("channel", properties, { "lids", "count" })
-local known = { name = true, points = true, width = true, depth = true, thickness = true,
-  friction = true, restitution = true, up = true, lid = true }
 local SHARPEST = 0.3 -- cosine between a leg and the mitre's normal; below it corners are spikes
+
+local new = rows.call("scene:channel", "{...}", "a trough along points, with mitred corners and a lid", {
+  gives = "a channel",
+  example = "scene:channel { points = { { 0, 0, 0 }, { 0.3, 0, 0 } }, width = 0.015, depth = 0.012 }",
+  { "name", "text", "-", "what messages call it", usual = "channel1, ..." },
+  { "points", "points", "m", "of the middle of its floor, two or more" },
+  { "width", "number", "m", "inside", min = 0, above = true, required = true },
+  { "depth", "number", "m", "inside", min = 0, above = true, required = true },
+  { "thickness", "number", "m", "of floor and walls", min = 0, above = true, default = 0.002 },
+  { "up", "vector", "-", "where it is open", default = { 0, 0, 1 } },
+  { "friction", "number", "-", "on the wire", min = 0, default = 0 },
+  { "restitution", "number", "-", "share of speed kept after a blow", min = 0, max = 1, default = 0 },
+  { "lid", "boolean", "-", "closed from the beginning", usual = "false" },
+})
+
+rows.calls{
+  { "channel:contains", "wire", "share of the wire's length inside, in steps of 1/200", "-" },
+  { "channel:close", "", "puts the lid on; refused while a wire stands out", "the channel" },
+  { "channel:open", "", "takes the lid off", "the channel" },
+  { "channel:force", "", "of all wires on it", "{x, y, z} [N]" },
+  { "channel:release", "", "takes the channel away" },
+  { "channel.name", nil, "by which messages call it" },
+  { "channel:exists", "", "is it there still", "true or false" },
+  { "channel.closed", nil, "is the lid on", "true or false" },
+  { "channel.parts", nil, "what it is made of", "a list of obstacles" },
+}
 
 -- --- geometry ----------------------------------------------------------------------
 
@@ -31,7 +56,7 @@ local function read_points(what, given)
     error(what .. ": points is required, a list of at least two {x, y, z} [m]", 0)
   end
   local points = {}
-  for i, p in ipairs(given) do points[i] = fixing.vector(what, ("points[%d]"):format(i), p, "m") end
+  for i, p in ipairs(given) do points[i] = checks.vector(("%s: points[%d]"):format(what, i), p, "m", 0) end
   return points
 end
 
@@ -132,23 +157,11 @@ end
 -- --- making --------------------------------------------------------------------------
 
 local function checked(scene, args)
-  args = fixing.arguments("scene:channel", args, known)
-  args.name = fixing.name(scene, "scene:channel", args.name, "channel")
-  local what = ("channel '%s'"):format(args.name)
+  local what
+  args, what = fixing.arguments(scene, new, "channel", args)
   args.points = read_points(what, args.points)
-  fixing.number(what, "width", args.width, "m", 0, true)
-  fixing.number(what, "depth", args.depth, "m", 0, true)
-  args.thickness = fixing.number(what, "thickness", args.thickness, "m", 0, true, 0.002)
-  args.friction = fixing.number(what, "friction", args.friction, "", 0, false, 0)
-  args.restitution = fixing.number(what, "restitution", args.restitution, "", 0, false, 0)
-  if args.restitution > 1 then
-    error(("%s: restitution = %g is not allowed; it must be at most 1"):format(what, args.restitution), 0)
-  end
-  args.up = unit(fixing.vector(what, "up", args.up, "-", { 0, 0, 1 }))
+  args.up = unit(args.up)
   if not args.up then error(what .. ": up must not be a zero vector", 0) end
-  if args.lid ~= nil and type(args.lid) ~= "boolean" then
-    error(("%s: lid must be true or false, got %s"):format(what, type(args.lid)), 0)
-  end
   return args, what
 end
 
@@ -203,12 +216,13 @@ function Channel:force()
   return sum
 end
 
---- Moment of all wires on the channel about a point (default: its first one) [N m].
+local moment = rows.call("channel:moment", "{...}", "of all wires on it", {
+  gives = "{x, y, z} [N m]", { "at", "vector", "m", "point that it is about", usual = "its first one" } })
+
+--- Moment of all wires on the channel about a point.
 function Channel:moment(args)
   fixing.check(self, Channel, "moment")
-  if args ~= nil then checks.keys("channel:moment", args, { at = true }, 3) end
-  local at = args and args.at and build.call(3, fixing.vector, "channel:moment", "at", args.at, "m")
-    or self.legs[1].from
+  local at = moment:read(args == nil and {} or args).at or self.legs[1].from
   local sum = { 0, 0, 0 }
   for _, part in ipairs(all_parts(self)) do
     sum = add(sum, build.call(3, part.moment, part, { at = at }))

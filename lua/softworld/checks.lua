@@ -16,7 +16,7 @@ local shown = checks.shown
 
 local function names_of(known)
   local names = {}
-  for name in pairs(known) do names[#names + 1] = name end
+  for name in pairs(known) do names[#names + 1] = shown(name) end
   table.sort(names)
   return names
 end
@@ -63,15 +63,30 @@ function checks.fields(what, fields, may_lack)
   end
 end
 
+local LONGEST = 32 -- text in a message [characters]
+
+--- A wrong value for messages: 3 m, '3', a table. unit: with a space in front.
+function checks.got(value, unit)
+  local kind = checks.kind(value)
+  if kind == "number" then return ("%.9g%s"):format(value, unit or "") end
+  if kind == "nil" then return kind end
+  if kind == "string" then
+    return #value <= LONGEST and not value:find "%c" and ("'%s'"):format(value) or "a string"
+  end
+  return "a " .. kind
+end
+
 --- Raise unless value is a number from low to high (default: any); above: low itself is not allowed.
 function checks.number(what, value, low, unit, level, high, above)
   local fine = type(value) == "number" and value >= low and value < math.huge
     and not (above and value == low) and not (high and value > high)
   if fine then return value end
-  local range = ("%s %g%s"):format(above and "above" or "at least", low, unit)
+  local range = low == -math.huge and "that is finite"
+    or ("%s %g%s"):format(above and "above" or "at least", low, unit)
   if high then range = ("%s and at most %g%s"):format(range, high, unit) end
-  error(("%s = %s%s is not allowed; it must be %s"):format(what, shown(value),
-    type(value) == "number" and unit or "", range), level)
+  if value == nil then error(("%s is required, %s"):format(what, range), level) end
+  error(("%s = %s is not allowed; it must be %s%s"):format(what, checks.got(value, unit),
+    type(value) == "number" and "" or "a number ", range), level)
 end
 
 --- One of the words in known (a table with them as keys).
@@ -98,11 +113,33 @@ function checks.vector(what, value, unit, level)
   for k, axis in ipairs{ "x", "y", "z" } do
     local v = checks.field(value, k) or checks.field(value, axis)
     if type(v) ~= "number" or v - v ~= 0 then
-      error(("%s must be a table of 3 finite numbers [%s]"):format(what, unit), level)
+      local got = type(value) ~= "table" and checks.got(value) or ("%s as item %d"):format(checks.got(v), k)
+      error(("%s must be a table of 3 finite numbers [%s], got %s"):format(what, unit, got), level)
     end
     copy[k] = v
   end
   return copy
+end
+
+--- Raise unless value is a rotation: { w, x, y, z }, or { axis = {x, y, z}, angle = [rad] }.
+function checks.rotation(what, value, level)
+  if checks.field(value, "axis") then
+    local axis = checks.vector(what .. ".axis", value.axis, "-", level + 1)
+    if axis[1] == 0 and axis[2] == 0 and axis[3] == 0 then
+      error(what .. ".axis must not be the zero vector", level)
+    end
+    checks.number(what .. ".angle", value.angle, -math.huge, " rad", level + 1)
+    return
+  end
+  local size = 0
+  for k, name in ipairs{ "w", "x", "y", "z" } do
+    local v = checks.field(value, k) or checks.field(value, name)
+    size = size + (type(v) == "number" and v * v or 0 / 0)
+  end
+  if not (size > 0 and size < math.huge) then
+    error(("%s must be a rotation, { w, x, y, z } or { axis = {x, y, z}, angle = [rad] }, got %s")
+      :format(what, checks.got(value)), level)
+  end
 end
 
 return checks

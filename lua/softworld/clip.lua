@@ -15,15 +15,13 @@ local core = require "softworld.core"
 local build = require "softworld.build"
 local fixing = require "softworld.fixing"
 local remarks = require "softworld.remarks"
+local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local vec = require "softworld.vec"
 local fixshape = require "softworld.fixshape"
 
 local properties = {}
 local Clip = fixing.class("clip", properties, { "on", "radius", "damper" })
-local known = { name = true, at = true, direction = true, axis = true, width = true,
-  insertion = true, retention = true, radius = true, friction = true, way = true,
-  stiffness = true, strength = true, snap = true, on = true }
 local EMPTY, INSERTING, SEATED = 0, 1, 2 -- the core's words
 local BROKEN = { "its floor", "a wall", "a wall from outside", [5] = "it within one step" }
 local SNAP = 2e-3 -- [s]
@@ -31,9 +29,48 @@ local STRONGEST = 1e12 -- [N]
 local STEEPEST = 1e6 -- ratio of insertion and retention: flanks of no length have no slope
 local THERE = 0.5 -- share of the clip that a wire in it passes through
 
+local new = rows.call("scene:clip", "{...}", "a snap-in clip along the way of a wire", {
+  gives = "a clip",
+  example = "scene:clip { at = { 0.2, 0, 0.03 }, width = 0.008, insertion = 12, retention = 40 }",
+  { "name", "text", "-", "what messages call it", usual = "clip1, ..." },
+  { "at", "vector", "m", "the wire's centre line in the seat", required = true },
+  { "direction", "vector", "-", "from the seat to the mouth", default = { 0, 0, 1 } },
+  { "axis", "vector", "-", "along the wire", default = { 1, 0, 0 } },
+  { "width", "number", "m", "along the axis", min = 0, above = true, required = true },
+  { "insertion", "number", "N", "largest force of the lips on the way in", min = 0, above = true,
+    required = true },
+  { "retention", "number", "N", "largest force of the lips on the way out", min = 0, above = true,
+    required = true },
+  { "friction", "number", "-", "against sliding along the axis", min = 0, default = 0 },
+  { "radius", "number", "m", "of the seat", min = 0, above = true, usual = "that of each wire" },
+  { "way", "number", "m", "over the lips", min = 0, above = true, usual = "1.5 of the radius" },
+  { "stiffness", "number", "N/m", "of floor and side walls", min = 0, above = true,
+    usual = "50 times the larger force over the radius" },
+  { "strength", "number", "N", "of floor and walls; beyond it they break, from outside too", min = 0,
+    above = true, usual = "20 times the larger force" },
+  { "snap", "number", "s", "time that the lips take to pull a wire in", min = 0, default = SNAP },
+  { "on", "wire", "-", "that it is for", usual = "all of the scene" },
+})
+
+rows.calls{
+  { "clip:seated", "wire", "is there a wire, or this one, in the seat", "true or false" },
+  { "clip:state", "wire", "of this wire, or of all", "empty, inserting (under the lips), seated or broken" },
+  { "clip:force", "wire", "on the wire, with friction; without one on all", "{x, y, z} [N]" },
+  { "clip:ratio", "wire", "largest pull so far over retention; at 1 it came out", "-" },
+  { "clip:height", "wire", "over the seat, and the lips' height; nil when no wire passes", "m, m" },
+  { "clip:release", "", "takes the clip away" },
+  { "clip.name", nil, "by which messages call it" },
+  { "clip:exists", "", "is it there still", "true or false" },
+  { "clip.wire", nil, "in the seat", "a wire, or nil" },
+  { "clip.inserted", nil, "the last insertion", "nil, or time [s], s [m], peak_force [N], wire, count" },
+  { "clip.pulled_out", nil, "the last time a wire came out",
+    "nil, or time [s], peak_force [N], wire, count" },
+  { "clip.overloaded", nil, "how it broke", "nil, or time [s], force [N], by, wire, strength [N]" },
+  { "clip.peak_insertion_force", nil, "of the last insertion, or of that under way", "N" },
+}
+
 local function check_axes(what, args)
-  args.direction = vec.unit(fixing.vector(what, "direction", args.direction, "-", { 0, 0, 1 }))
-  args.axis = vec.unit(fixing.vector(what, "axis", args.axis, "-", { 1, 0, 0 }))
+  args.direction, args.axis = vec.unit(args.direction), vec.unit(args.axis)
   if not args.direction or not args.axis then
     error(what .. ": direction and axis must not be zero vectors", 0)
   end
@@ -58,25 +95,14 @@ local function check_wires(scene, what, args)
 end
 
 local function checked(scene, args)
-  args = fixing.arguments("scene:clip", args, known)
-  args.name = fixing.name(scene, "scene:clip", args.name, "clip")
-  local what = ("clip '%s'"):format(args.name)
-  args.at = fixing.vector(what, "at", args.at, "m")
+  local what
+  args, what = fixing.arguments(scene, new, "clip", args)
   check_axes(what, args)
-  for _, name in ipairs{ "insertion", "retention" } do
-    fixing.number(what, name, args[name], "N", 0, true)
-  end
   local larger = math.max(args.insertion, args.retention)
   if larger > STRONGEST or larger > STEEPEST * math.min(args.insertion, args.retention) then
     error(("%s: insertion = %g N and retention = %g N are not allowed; they must be at most %g N, and "
       .. "one at most %g times the other"):format(what, args.insertion, args.retention, STRONGEST,
       STEEPEST), 0)
-  end
-  fixing.number(what, "width", args.width, "m", 0, true)
-  fixing.number(what, "friction", args.friction, "", 0, false, 0)
-  args.snap = fixing.number(what, "snap", args.snap, "s", 0, false, SNAP)
-  for name, unit in pairs{ radius = "m", way = "m", stiffness = "N/m", strength = "N" } do
-    if args[name] ~= nil then fixing.number(what, name, args[name], unit, 0, true) end
   end
   check_wires(scene, what, args)
   return args

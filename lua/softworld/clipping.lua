@@ -3,19 +3,30 @@
 -- @module softworld.clipping
 local build = require "softworld.build"
 local process = require "softworld.process"
-local fixing = require "softworld.fixing"
+local rows = require "softworld.rows"
+local checks = require "softworld.checks"
 local vec = require "softworld.vec"
 local Clip = require "softworld.clip"
 local Gripper = require "softworld.gripper"
 
-local known = { into = true, speed = true, approach_speed = true, max_force = true,
-  overtravel = true, align = true, fail = true }
+local into = rows.call("gripper:clip", "{...}", "presses its wire into a clip; in a process only", {
+  gives = "force of the gripper, peak_force of the lips [N], s [m], duration [s]",
+  example = "hand:clip { into = clip, speed = 0.1, max_force = 40 }",
+  { "into", "clip", "-", "that the wire goes into", required = true },
+  { "speed", "number", "m/s", "into the mouth", min = 0, above = true, default = 0.02 },
+  { "approach_speed", "number", "m/s", "before, over the mouth", min = 0, above = true, default = 0.1 },
+  { "align", "boolean", "-", "line up over the mouth before", usual = "true" },
+  { "max_force", "number", "N", "beyond it an error says what was reached", min = 0, above = true,
+    usual = "5 times insertion" },
+  { "overtravel", "number", "m", "beyond the seat", min = 0, usual = "the wire's radius" },
+  { "fail", "boolean", "-", "false: returns nil and why where it does not go in", usual = "true" },
+})
 local STEPS = 20 -- looks at the force on the way over the lips
 local USUAL_LIMIT = 5 -- of the insertion force
 
 local function checked(self, args)
   if getmetatable(self) ~= Gripper then error("gripper:clip is a method: call it with a colon", 0) end
-  args = fixing.arguments("gripper:clip", args, known)
+  checks.keys(into.name, args, into.known, 0)
   local what = ("gripper '%s': clip"):format(self.name)
   if getmetatable(args.into) ~= Clip or args.into.scene ~= self.scene or not args.into:exists() then
     error(what .. ": into is required, a clip of the gripper's scene that is still there", 0)
@@ -26,13 +37,8 @@ local function checked(self, args)
   if not process.current() then
     error(what .. ": works inside a process only, as it watches the force on the way", 0)
   end
-  args.speed = fixing.number(what, "speed", args.speed, "m/s", 0, true, 0.02)
-  args.approach_speed = fixing.number(what, "approach_speed", args.approach_speed, "m/s", 0, true, 0.1)
-  args.max_force = fixing.number(what, "max_force", args.max_force, "N", 0, true,
-    USUAL_LIMIT * args.into.insertion)
-  if args.overtravel ~= nil then
-    fixing.number(what, "overtravel", args.overtravel, "m", 0, false)
-  end
+  args = into:read(args, what)
+  args.max_force = args.max_force or USUAL_LIMIT * args.into.insertion
   return args, what
 end
 

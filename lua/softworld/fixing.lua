@@ -10,41 +10,15 @@ local sealed = require "softworld.sealed"
 
 local fixing = {}
 
---- Copy of the table of parameters; raises when it is no table or has unknown keys. Errors have no place
--- yet: call from build.call.
-function fixing.arguments(what, args, known)
-  checks.keys(what, args, known, 0)
-  local copy = {}
-  for key, value in pairs(args) do copy[key] = value end
-  return copy
-end
-
-local function shown(value, unit)
-  if type(value) == "number" then return ("%.6g%s"):format(value, unit ~= "" and " " .. unit or "") end
-  return type(value) == "string" and "'" .. value .. "'" or "a " .. type(value)
-end
-
---- The parameter `name`, a number above (or at least) `low`; nil takes `default`, and raises without one.
-function fixing.number(what, name, value, unit, low, above, default)
-  local limit = ("%s %g%s"):format(above and "above" or "at least", low, unit ~= "" and " " .. unit or "")
-  if value == nil then
-    if default == nil then error(("%s: %s is required, %s"):format(what, name, limit), 0) end
-    return default
-  end
-  local fine = type(value) == "number" and value < math.huge and (above and value > low
-    or not above and value >= low)
-  if not fine then
-    error(("%s: %s = %s is not allowed; it must be a number %s"):format(what, name,
-      shown(value, unit), limit), 0)
-  end
-  return value
-end
-
---- A copy of the vector {x, y, z}.
-function fixing.vector(what, name, value, unit, default)
-  if value == nil and default then return { default[1], default[2], default[3] } end
-  if value == nil then error(("%s: %s is required, {x, y, z} [%s]"):format(what, name, unit), 0) end
-  return checks.vector(("%s: %s"):format(what, name), value, unit, 0)
+--- The parameters of a new thing by its rows, and what messages call it. Errors have no place yet: call
+-- from build.call.
+function fixing.arguments(scene, call, kind, args)
+  checks.keys(call.name, args, call.known, 0)
+  local name = fixing.name(scene, call.name, args.name, kind)
+  local what = ("%s '%s'"):format(kind, name)
+  local copy = call:read(args, what)
+  copy.name = name
+  return copy, what
 end
 
 --- A wire of the scene, or an error.
@@ -61,7 +35,7 @@ end
 --- The name to use, see build.name; errors have no place yet.
 function fixing.name(scene, what, given, kind)
   if given ~= nil and (type(given) ~= "string" or given == "" or #given > 40) then
-    error(("%s: name must be a string of 1 to 40 characters, got %s"):format(what, shown(given, "")), 0)
+    error(("%s: name must be a string of 1 to 40 characters, got %s"):format(what, checks.got(given)), 0)
   end
   local ok, name = pcall(build.name, scene, given, kind, #build.data(scene).fixings, 0)
   if not ok then error(name, 0) end

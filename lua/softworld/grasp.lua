@@ -9,12 +9,12 @@ local mixed = require "softworld.mixed"
 local pads = require "softworld.pads"
 local process = require "softworld.process"
 local remarks = require "softworld.remarks"
+local rows = require "softworld.rows"
 local vec = require "softworld.vec"
 
 local grasp = { methods = {} }
 local Methods = grasp.methods
 
-local approaches = { imposed = true, plates = true, mixed = true }
 local JAW_SPEED = 0.02 -- of the opening, unless told [m/s]
 local PATIENCE = 2 -- a force is waited for so long after jaws could have closed [s]
 local CRUSHED = 0.2 -- opening over the wire's diameter at which it is [-]
@@ -81,10 +81,14 @@ end
 
 -- --- slip ---------------------------------------------------------------------------
 
-local reactions = { stop = true, warn = true, record = true }
+grasp.reactions = { "record", "warn", "stop" }
+grasp.on_slip_row = { "on_slip", "reaction", "-",
+  "to a wire that slips or is lost: one of these, or a function(gripper, event)", choices = grasp.reactions,
+  usual = "as before" }
 
 function grasp.check_reaction(what, value, level)
-  if type(value) ~= "function" then checks.word(what, value, reactions, level + 1) end
+  local known = checks.set(table.concat(grasp.reactions, " "))
+  if type(value) ~= "function" then checks.word(what, value, known, level + 1) end
 end
 
 --- Reaction to a wire that slips, and to one that is lost: "record" (default), "warn", "stop" or a
@@ -176,19 +180,26 @@ local function note(self, kind, fields)
   self.events[#self.events + 1] = fields
 end
 
-local jaw_keys = { distance = true, speed = true, force = true }
+local force_row = { "force", "number", "N", "of each finger on the wire, kept from then on", min = 0,
+  above = true }
+local distance_row = { "distance", "number", "m", "opening to go to, unless force stops them before",
+  min = 0 }
+local speed_row = { "speed", "number", "m/s", "of the opening; alone: until there is contact", min = 0,
+  above = true, usual = JAW_SPEED }
 
--- The core's order for close_jaws' words.
-local function jaw_order(self, args, what, level)
-  checks.keys(what, args, jaw_keys, level + 1)
-  local function number(key, above)
-    local unit = key == "force" and " N" or key == "speed" and " m/s" or " m"
-    return args[key] and checks.number(what .. ": " .. key, args[key], 0, unit, level + 1, nil, above)
-  end
-  local distance, force = number("distance"), number("force", true)
-  local speed = number("speed", true) or JAW_SPEED
+local close = rows.call("gripper:close_jaws", "{...}", "closes the jaws", {
+  gives = "the gripper; in a process once that is done", force_row, distance_row, speed_row })
+local open = rows.call("gripper:open_jaws", "{...}", "opens the jaws", {
+  gives = "the gripper; in a process once that is done",
+  { "distance", "number", "m", "between the faces", min = 0, usual = "pads' opening" },
+  { "speed", "number", "m/s", "of the opening", min = 0, above = true, usual = JAW_SPEED },
+})
+
+-- The core's order for close_jaws' words, which are checked.
+local function jaw_order(self, args, what)
+  local distance, force, speed = args.distance, args.force, args.speed or JAW_SPEED
   if not (distance or force or args.speed) then
-    error(("%s: how far? give force [N], distance [m] or speed [m/s]"):format(what), level)
+    error(("%s: how far? give force [N], distance [m] or speed [m/s]"):format(what), 0)
   end
   if distance then return { mode = "to", opening = distance, speed = speed, force = force } end
   if force then return { mode = "force", speed = speed, force = force } end
@@ -250,13 +261,10 @@ local function move_jaws(self, order)
   return p and wait_for_jaws(self, p, order)
 end
 
---- Close the jaws: { force = [N] } until each finger presses so hard, and keep it so;
--- { distance = [m] } to an opening, unless force [N] stops them before; { speed = [m/s] } alone
--- until there is contact. speed of the opening in all of them. In a process it returns when
--- that is done; errors tell what is in the way.
+--- Close the jaws, see help "gripper:close_jaws". Errors tell what is in the way.
 function Methods:close_jaws(args)
   grasp.check_scene(self, 3)
-  local order = jaw_order(self, args, "gripper:close_jaws", 3)
+  local order = jaw_order(self, close:read(args), "gripper:close_jaws")
   if self.frozen then mixed.thaw(self) end
   if self.hold and not self.tool then
     error(("gripper '%s' holds its wire by imposed handling: there are no jaws to close"):format(
@@ -267,11 +275,10 @@ function Methods:close_jaws(args)
   return self
 end
 
---- Open the jaws: { distance = [m] (default: pads' opening), speed = [m/s] }.
+--- Open the jaws, see help "gripper:open_jaws".
 function Methods:open_jaws(args)
   grasp.check_scene(self, 3)
-  args = args or {}
-  checks.keys("gripper:open_jaws", args, { distance = true, speed = true }, 3)
+  args = open:read(args or {})
   if not self.tool and not self.hold and self.at then grasp.make_tool(self, 3) end
   if not self.tool then
     error(("gripper '%s' has no pads yet: grasp with approach = 'plates' or 'mixed'"):format(self.name),
@@ -280,7 +287,7 @@ function Methods:open_jaws(args)
   if self.frozen then mixed.thaw(self) end
   self.held = false
   move_jaws(self, jaw_order(self, { distance = args.distance or self.opening, speed = args.speed },
-    "gripper:open_jaws", 3))
+    "gripper:open_jaws"))
   return self
 end
 
@@ -381,8 +388,7 @@ local function grasp_by_pads(self, wires, args)
     error(("gripper '%s': its jaws are %.3g mm open, less than the wire's diameter of %.3g mm; open "
       .. "them (pads.opening)"):format(self.name, 1e3 * opening, 2e3 * wire.radius), 3)
   end
-  local order = jaw_order(self, { force = args.force, distance = args.distance, speed = args.speed },
-    "gripper:grasp", 4)
+  local order = jaw_order(self, args, "gripper:grasp")
   place_tool(self, wire, s, 4)
   self.wire, self.grips = wire, {}
   for i, one in ipairs(wires) do self.grips[i] = { wire = one } end
@@ -401,18 +407,36 @@ local function grasp_by_pads(self, wires, args)
   if missed then error(text, 0) end
 end
 
-local grasp_keys = { s = true, approach = true, force = true, distance = true, speed = true,
-  on_slip = true, region = true, model = true, section = true, spacing = true, particles = true,
-  layers = true, across = true, margin = true, freeze = true }
+local take = rows.call("gripper:grasp", "wire, {...}", "takes hold of a wire, or of a list of wires", {
+  gives = "the gripper; in a process once the wire is held",
+  example = 'hand:grasp(wire, { s = 0.1, approach = "plates", force = 5 })',
+  { "s", "arc length", "m", "place along the wire, of several wires also a list",
+    usual = "nearest to the tool" },
+  { "approach", "choice", "-", "one with the wire, by the pads' friction, or squeezed first and then carried",
+    choices = { "imposed", "plates", "mixed" }, usual = "imposed" },
+  force_row, distance_row, speed_row,
+  grasp.on_slip_row,
+  { "freeze", "boolean", "-", "of mixed: false stays with the pads until gripper:freeze()", usual = "true" },
+  { "margin", "number", "-", "of mixed: share of what the pads bear at which they take over again", min = 0,
+    max = 1, above = true, usual = "0.9" },
+  { "region", "number", "m", "of mixed: length of the wire that becomes a mesh", min = 0, above = true,
+    usual = "pads and 6 radii on both sides" },
+  { "model", "text", "-", "of mixed: of the mesh", usual = "radial" },
+  { "section", "mesh", "-", "of mixed, as of wire:remodel" },
+  { "spacing", "mesh", "m", "of mixed, as of wire:remodel" },
+  { "particles", "mesh", "-", "of mixed, as of wire:remodel" },
+  { "layers", "mesh", "-", "of mixed, as of wire:remodel" },
+  { "across", "mesh", "-", "of mixed, as of wire:remodel" },
+})
 local pad_words = { "force", "distance", "speed" }
 local mesh_words = { "region", "model", "section", "spacing", "particles", "layers", "across",
   "margin", "freeze" }
 
-local function check_words(self, approach, args, level)
+local function check_words(self, approach, args)
   local function refuse(words, wanted)
     for _, word in ipairs(words) do
       if args[word] ~= nil then
-        error(("gripper '%s': %s goes with approach = %s"):format(self.name, word, wanted), level + 1)
+        error(("gripper '%s': %s goes with approach = %s"):format(self.name, word, wanted), 0)
       end
     end
   end
@@ -470,24 +494,19 @@ local function check_free(self, wires, approach, args)
   end
 end
 
---- Take hold of wire around arc length s [m] (default: where the tool is). approach = "imposed"
--- (default), "plates" or "mixed"; for both of these force = [N] per finger or distance = [m],
--- with speed = [m/s] of the opening; on_slip = "record", "warn", "stop" or a function. "mixed"
--- takes what wire:remodel does of the mesh near the pads (model, section, ...), region = [m] its
--- length, and freeze = false to stay with the plates until gripper:freeze().
--- A list of wires, with one s or a list of them, is taken at once; an imposed grip also takes one
--- wire after another. In a process it returns when the wire is held; elsewhere jaws begin to close.
+--- Take hold of a wire, see help "gripper:grasp". A list of wires, with one s or a list of them, is taken at
+-- once; an imposed grip also takes one wire after another. In a process it returns when the wire is held;
+-- elsewhere jaws begin to close.
 function Methods:grasp(wire, args)
   if args == nil then args = {} end
   if type(self) ~= "table" or not self.pads then error("gripper:grasp: call it with a colon", 2) end
   grasp.check_scene(self, 3)
   local wires = build.call(3, wires_of, self, wire)
-  checks.keys("gripper:grasp", args, grasp_keys, 3)
+  args = take:read(args)
   local approach = args.approach or "imposed"
-  checks.word(("gripper '%s': approach"):format(self.name), approach, approaches, 3)
   build.call(3, check_free, self, wires, approach, args)
   remarks.on("grasp", ("gripper '%s': grasp"):format(self.name), args)
-  check_words(self, approach, args, 3)
+  check_words(self, approach, args)
   if approach == "mixed" and not process.current() then
     error(("gripper '%s': a mixed grasp takes its time; call it in a process"):format(self.name), 2)
   end
@@ -511,10 +530,16 @@ function Methods:grasp(wire, args)
   return self
 end
 
+local let_go = rows.call("gripper:release", "{...}", "lets go", {
+  gives = "the gripper; in a process once the jaws are open",
+  { "wire", "wire", "-", "of several that are held without pads", usual = "all" },
+  { "distance", "number", "m", "between the faces", min = 0, usual = "pads' opening" },
+  { "speed", "number", "m/s", "of the opening", min = 0, above = true, usual = JAW_SPEED },
+})
+
 --- Let go; see gripper:release.
 function grasp.release(self, args)
-  args = args or {}
-  checks.keys("gripper:release", args, { speed = true, distance = true, wire = true }, 4)
+  args = let_go:read(args or {})
   local one = args.wire
   if one ~= nil then
     local held = false
@@ -543,6 +568,11 @@ function grasp.release(self, args)
   self.wire, self.grips = nil, {}
   return self
 end
+
+rows.calls{
+  { "gripper:freeze", "", "holds the wire rigidly as the pads of a mixed grasp hold it now", "the gripper" },
+  { "gripper:thaw", "", "goes back to the pads and the mesh between them", "the gripper" },
+}
 
 Methods.freeze = mixed.freeze
 Methods.thaw = mixed.thaw

@@ -4,14 +4,14 @@
 local core = require "softworld.core"
 local build = require "softworld.build"
 local checks = require "softworld.checks"
+local rows = require "softworld.rows"
 local vec = require "softworld.vec"
 local window = require "softworld.window"
 
 local Measures = {}
 
-local function in_axes(self, v, axes, what)
+local function in_axes(self, v, axes)
   if axes == nil or axes == "world" then return v end
-  checks.word(what .. ": axes", axes, { world = true, gripper = true }, 4)
   local held = self.tool or self.hold and (self.carrier or self.hold)
   if not held then return v end
   local _, q = held:pose()
@@ -46,12 +46,19 @@ end
 -- The carriers of the wires: the pads, or the holds of all wires.
 local function carrier_of(self) return self.tool or self.hold and self.carrier or nil end
 
---- Force on the wire now [N], of several on all of them; zero while nothing is held. { axes =
--- "gripper" } for the tool's own axes, { finger = number } for that of one finger, { wire = } for
--- that on one of several wires.
+local axes = { "axes", "choice", "-", "of the result", choices = { "world", "gripper" }, usual = "world" }
+local finger = { "finger", "integer", "-", "of this one alone", min = 1, max = 6, usual = "all" }
+local one_wire = { "wire", "wire", "-", "on this one of several", usual = "all" }
+
+local force = rows.call("gripper:force", "{...}", "of the gripper on its wires, or zero", {
+  gives = "{x, y, z} [N]", axes, finger, one_wire })
+local moment = rows.call("gripper:moment", "{...}", "of the gripper on its wires now", {
+  gives = "{x, y, z} [N m]",
+  { "at", "vector", "m", "point that it is about", usual = "the tool's centre" }, axes, finger, one_wire })
+
+--- Force on the wire now, of several on all of them.
 function Measures:force(args)
-  args = args or {}
-  checks.keys("gripper:force", args, { axes = true, finger = true, wire = true }, 3)
+  args = force:read(args or {})
   local f, carrier = { 0, 0, 0 }, carrier_of(self)
   if args.wire ~= nil then
     local grip = grip_of(self, args.wire, "gripper:force")
@@ -59,14 +66,12 @@ function Measures:force(args)
       or pads_on(self, args.wire, nil, args.finger)
   elseif carrier then f = carrier:force(args.finger)
   elseif self.hold then f = self.hold:force() end
-  return in_axes(self, f, args.axes, "gripper:force")
+  return in_axes(self, f, args.axes)
 end
 
---- Moment on the wire now, about the tool centre or { at = point } [N m]; axes, finger, wire as for
--- force.
+--- Moment on the wire now.
 function Measures:moment(args)
-  args = args or {}
-  checks.keys("gripper:moment", args, { at = true, axes = true, finger = true, wire = true }, 3)
+  args = moment:read(args or {})
   local m, carrier = { 0, 0, 0 }, carrier_of(self)
   if args.wire ~= nil then
     local grip = grip_of(self, args.wire, "gripper:moment")
@@ -75,7 +80,7 @@ function Measures:moment(args)
     else m = select(2, pads_on(self, args.wire, args.at, args.finger)) end
   elseif carrier then m = carrier:moment(args.at, args.finger)
   elseif self.hold then m = self.hold:moment(args.at and { at = args.at } or nil) end
-  return in_axes(self, m, args.axes, "gripper:moment")
+  return in_axes(self, m, args.axes)
 end
 
 -- While it held something by this carrier.
@@ -91,31 +96,31 @@ end
 -- is the force, 0 at an equilibrium.
 local function records(self)
   local list = {}
-  local function add(rows, count, spans, wanted, jaws)
+  local function add(log, count, spans, wanted, jaws)
     local width = spans and 10 or 15
     for i = 0, count - 1 do
       local b = width * i
-      if not wanted or wanted(rows[b + 1]) then
-        list[#list + 1] = { t = rows[b + 1], rows[b + 2], rows[b + 3], rows[b + 4], rows[b + 5],
-          rows[b + 6], rows[b + 7], at = { rows[b + 8], rows[b + 9], rows[b + 10] },
-          span = spans and spans[i + 1] or rows[b + 11],
-          opening = jaws and rows[b + 12] or nil, squeeze = jaws and rows[b + 13] or nil,
-          margin = jaws and rows[b + 14] or nil, slip = jaws and rows[b + 15] or nil }
+      if not wanted or wanted(log[b + 1]) then
+        list[#list + 1] = { t = log[b + 1], log[b + 2], log[b + 3], log[b + 4], log[b + 5],
+          log[b + 6], log[b + 7], at = { log[b + 8], log[b + 9], log[b + 10] },
+          span = spans and spans[i + 1] or log[b + 11],
+          opening = jaws and log[b + 12] or nil, squeeze = jaws and log[b + 13] or nil,
+          margin = jaws and log[b + 14] or nil, slip = jaws and log[b + 15] or nil }
       end
     end
   end
   for i, hold in ipairs(self.past) do
     local carried = self.spans[i].carried
-    local rows, count, spans = build.call(3, hold.log, hold)
-    add(rows, count, spans, carried and function(t) return t < carried end)
+    local log, count, spans = build.call(3, hold.log, hold)
+    add(log, count, spans, carried and function(t) return t < carried end)
   end
   if self.carrier then
-    local rows, count = build.call(3, self.carrier.log, self.carrier)
-    add(rows, count, nil, function(t) return carried_at(self, t) end)
+    local log, count = build.call(3, self.carrier.log, self.carrier)
+    add(log, count, nil, function(t) return carried_at(self, t) end)
   end
   if self.tool then
-    local rows, count = build.call(3, self.tool.log, self.tool)
-    add(rows, count, nil, nil, true)
+    local log, count = build.call(3, self.tool.log, self.tool)
+    add(log, count, nil, nil, true)
   end
   if #self.past > 1 or self.tool and #self.past > 0 then
     table.sort(list, function(a, b) return a.t < b.t end)
@@ -140,18 +145,22 @@ local function moment_about(r, at)
   return vec.add({ r[4], r[5], r[6] }, vec.cross(vec.sub(r.at, at), { r[1], r[2], r[3] }))
 end
 
-local over_keys = { at = true, window = true }
+local over = rows.call("gripper:over", "t1, t2, {...}",
+  "what it bore between two times [s], which may be left out", {
+  gives = "peak_force, mean_force [N], peak_moment, mean_moment [N m], impulse, impulse_size [N s], "
+    .. "duration, times of the peaks [s]; raw_peak_force, ... of single steps; of pads peak_squeeze [N], "
+    .. "peak_margin, slip [m]",
+  { "window", "number", "s", "of the mean whose peak is looked for", min = 0, usual = "that of the run" },
+  { "at", "vector", "m", "point that moments are about", usual = "the tool's centre" },
+})
 
 -- The third argument of gripper:over: a point, or a table of options.
-local function over_options(options, level)
+local function over_options(options)
   if options == nil then return {} end
   if type(options) ~= "table" or options[1] ~= nil or options.x ~= nil then
-    return { at = checks.vector("gripper:over: at", options, "m", level + 1) }
+    return { at = checks.vector("gripper:over: at", options, "m", 0) }
   end
-  checks.keys("gripper:over", options, over_keys, level + 1)
-  local at = options.at
-  if at ~= nil then at = checks.vector("gripper:over: at", at, "m", level + 1) end
-  return { at = at, window = options.window }
+  return over:read(options)
 end
 
 -- Integrate force and moment from t1 to t2: means of steps times their duration, values of a moment by
@@ -189,7 +198,7 @@ end
 -- about }, or that point.
 -- Of pads also peak_squeeze [N], peak_margin, slip [m].
 function Measures:over(t1, t2, options)
-  t1, t2, options = t1 or -math.huge, t2 or math.huge, over_options(options, 3)
+  t1, t2, options = t1 or -math.huge, t2 or math.huge, over_options(options)
   for name, time in pairs{ t1 = t1, t2 = t2 } do
     if type(time) ~= "number" then
       error(("gripper:over: %s must be a time [s], got %s"):format(name, type(time)), 2)
@@ -273,14 +282,30 @@ function Measures:squeeze()
   return result
 end
 
+rows.calls{
+  { "gripper:series", "", "every recorded step",
+    "t [s], force, moment; of pads opening, squeeze, margin, slip" },
+  { "gripper:state", "", "what the pads do", "jaws, opening [m], squeeze, normal [N], margin, sliding [-], "
+    .. "slip [m], slip_time [s], slip_place, place [m]" },
+  { "gripper:squeeze", "", "how far the wire is squeezed", "height, width [m], share [-]" },
+  { "gripper.peak_force", nil, "over all of its time, see gripper:over", "N" },
+  { "gripper.mean_force", nil, "over all of its time", "N" },
+  { "gripper.peak_moment", nil, "over all of its time", "N m" },
+  { "gripper.mean_moment", nil, "over all of its time", "N m" },
+  { "gripper.impulse", nil, "over all of its time", "{x, y, z} [N s]" },
+}
+
+local pressure = rows.call("gripper:pressure_map", "{...}", "where the pads press", {
+  gives = "{ finger, x, z [m], pressure [Pa] }, ... with largest [Pa], force [N], touches",
+  { "cell", "list", "m", "size along and across", usual = "an eighth of the width" },
+})
+
 --- Where the pads press: a map of the mean pressure [Pa] over cells of the pads,
 -- { { finger =, x =, z =, pressure = }, ... } in the tool's axes [m], with
 -- .largest, .force (sum of normal forces [N]) and .touches, the single places with { finger, at
 -- (in the tool's axes), normal [N], force, s, slid [m] }. Options: cell = { along, across } [m].
 function Measures:pressure_map(args)
-  args = args or {}
-  checks.keys("gripper:pressure_map", args, { cell = true }, 3)
-  local cell = args.cell or { self.width / 8, self.width / 8 }
+  local cell = pressure:read(args or {}).cell or { self.width / 8, self.width / 8 }
   for k = 1, 2 do
     checks.number("gripper:pressure_map: cell", type(cell) == "table" and cell[k], 0, " m", 3, nil, true)
   end

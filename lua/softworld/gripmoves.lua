@@ -6,6 +6,7 @@ local build = require "softworld.build"
 local checks = require "softworld.checks"
 local grasp = require "softworld.grasp"
 local process = require "softworld.process"
+local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local vec = require "softworld.vec"
 
@@ -32,12 +33,20 @@ function Moves:wait(seconds)
   return self
 end
 
-local function direction_of(what, value, default, level)
-  local way = vec.unit(checks.vector(what .. ": direction", value or default, "-", level + 1))
-  return way or error(what .. ": direction must not be zero", level)
+rows.calls{ { "gripper:wait", "seconds", "lets time pass [s]; in a process only", "the gripper" } }
+
+local function direction_of(what, value)
+  return vec.unit(value) or error(what .. ": direction must not be zero", 0)
 end
 
-local approach_keys = { s = true, distance = true, direction = true, speed = true, slow = true }
+local come = rows.call("gripper:approach", "place, {...}", "goes to a wire or point, slowly at last", {
+  gives = "the gripper",
+  { "s", "number", "m", "place along the wire", min = 0, usual = "nearest to the tool" },
+  { "distance", "number", "m", "last way, along direction", min = 0, default = DISTANCE },
+  { "direction", "vector", "-", "of the last way", default = { 0, 0, -1 } },
+  { "speed", "number", "m/s", "before", min = 0, above = true, default = SPEED },
+  { "slow", "number", "m/s", "on the last way", min = 0, above = true, usual = SLOW },
+})
 
 -- The point to go to: itself, or a wire's place.
 local function target(self, what, args, level)
@@ -55,18 +64,12 @@ local function target(self, what, args, level)
   return what:position(checks.number("gripper:approach: s", s, 0, " m", level + 1, what.length))
 end
 
---- Go to a place of a wire or a point, the last distance [m] (0.05) along direction (downwards)
--- and at the speed slow [m/s] (0.05) instead of speed (0.2). One that is nowhere yet begins
--- there. Only in a process.
+--- Go to a place of a wire or a point, see help "gripper:approach". One that is nowhere yet begins before it.
 function Moves:approach(where, args)
   this_process(self, "approach")
-  if args == nil then args = {} end
-  checks.keys("gripper:approach", args, approach_keys, 3)
-  local way = direction_of("gripper:approach", args.direction, { 0, 0, -1 }, 3)
-  local distance = checks.number("gripper:approach: distance", args.distance or DISTANCE, 0, " m", 3)
-  local speed = checks.number("gripper:approach: speed", args.speed or SPEED, 0, " m/s", 3, nil, true)
-  local slow = checks.number("gripper:approach: slow", args.slow or math.min(SLOW, speed), 0, " m/s", 3,
-    nil, true)
+  args = come:read(args == nil and {} or args)
+  local way, distance, speed = direction_of("gripper:approach", args.direction), args.distance, args.speed
+  local slow = args.slow or math.min(SLOW, speed)
   local goal = target(self, where, args, 3)
   local before = vec.add(goal, way, -distance)
   local here = self:position()
@@ -79,17 +82,49 @@ function Moves:approach(where, args)
   return self
 end
 
-local retreat_keys = { distance = true, direction = true, speed = true }
+local go = rows.call("gripper:retreat", "{...}", "goes away from where it is", {
+  gives = "the gripper",
+  { "distance", "number", "m", "of the way", min = 0, above = true, default = DISTANCE },
+  { "direction", "vector", "-", "of the way", default = { 0, 0, 1 } },
+  { "speed", "number", "m/s", "on the way", min = 0, above = true, default = SPEED },
+})
 
---- Go away: distance = [m] (0.05) along direction (upwards) at speed [m/s] (0.2).
+--- Go away, see help "gripper:retreat".
 function Moves:retreat(args)
-  if args == nil then args = {} end
-  checks.keys("gripper:retreat", args, retreat_keys, 3)
-  local way = direction_of("gripper:retreat", args.direction, { 0, 0, 1 }, 3)
-  local distance = checks.number("gripper:retreat: distance", args.distance or DISTANCE, 0, " m", 3, nil,
-    true)
-  local speed = checks.number("gripper:retreat: speed", args.speed or SPEED, 0, " m/s", 3, nil, true)
-  return build.call(3, self.move, self, { by = vec.scale(way, distance), speed = speed })
+  args = go:read(args == nil and {} or args)
+  local way = direction_of("gripper:retreat", args.direction)
+  return build.call(3, self.move, self, { by = vec.scale(way, args.distance), speed = args.speed })
+end
+
+--- Move the tool's centre to a point: move_to({x, y, z}, { speed =, rotation =, ... }).
+function Moves:move_to(point, args)
+  local t = {}
+  if args ~= nil and type(args) ~= "table" then
+    error("gripper:move_to takes a point and a table of parameters", 2)
+  end
+  for k, v in pairs(args or {}) do t[k] = v end
+  t.to = point
+  return self:move(t)
+end
+
+rows.calls{
+  { "gripper:move_to", "point, {...}", "moves to a point [m], as gripper:move", "the gripper" },
+  { "gripper:handover", "gripper, {...}", "the other one grasps, see gripper:grasp, then this lets go",
+    "the other gripper" },
+}
+
+--- Hand the wire over to another gripper, which takes hold with args (see grasp), then let go.
+function Moves:handover(other, args)
+  if getmetatable(other) ~= getmetatable(self) then
+    error("gripper:handover expects the gripper that takes over", 2)
+  end
+  if not self.wire then error(("gripper '%s' holds nothing to hand over"):format(self.name), 2) end
+  if other == self then error(("gripper '%s' cannot hand over to itself"):format(self.name), 2) end
+  local wires = {}
+  for i, grip in ipairs(self.grips) do wires[i] = grip.wire end
+  build.call(3, other.grasp, other, #wires == 1 and wires[1] or wires, args)
+  build.call(3, self.release, self)
+  return other
 end
 
 return { methods = Moves }

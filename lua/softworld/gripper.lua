@@ -25,13 +25,14 @@ local measures = require "softworld.gripmeasures"
 local pads = require "softworld.pads"
 local process = require "softworld.process"
 local remarks = require "softworld.remarks"
+local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local trajectory = require "softworld.trajectory"
+local vec = require "softworld.vec"
 
 local Gripper = { __name = "gripper" }
 keep.class("gripper", Gripper)
 sealed.class(Gripper)
-local check_keys, vector = checks.keys, checks.vector
 
 for _, part in ipairs{ grasp, measures, gripmoves } do
   for name, f in pairs(part.methods) do Gripper[name] = f end
@@ -45,44 +46,43 @@ local function has_pads(given)
   return false
 end
 
-local keys = { name = true, pads = true, at = true, rotation = true, slip_tolerance = true, arm = true,
-  on_crash = true }
+local new = rows.call("scene:gripper", "{...}", "takes hold of wires, moves them, lets go", {
+  gives = "a gripper", example = 'scene:gripper { name = "left", pads = { friction = 0.6 } }',
+  { "name", "text", "-", "what messages and series call it", usual = "gripper1, ..." },
+  { "pads", "table", "-", "its fingers", rows = pads.rows },
+  { "at", "vector", "m", "the tool's centre while it holds nothing" },
+  { "rotation", "rotation", "-", "of the tool there: x along the wire, fingers close along y, z up" },
+  { "arm", "table", "-", "a capsule that goes up from the pads", rows = pads.arm_rows },
+  { "slip_tolerance", "number", "m", "slides below this are none", min = 0, above = true, default = 1e-4 },
+  { "on_crash", "reaction", "-",
+    "to pads or arm that run into an obstacle: one of these, or a function(gripper, event)",
+    choices = grasp.reactions, usual = "record" },
+})
 
---- scene:gripper{ name =, pads = {...}, at = {x, y, z} [m], rotation =, slip_tolerance = [m],
--- arm = { radius =, length = [m] }, on_crash = }
--- at is where the tool is while it holds nothing; grasp without s takes the
--- place of the wire nearest to it. The arm goes up from the pads. on_crash as on_slip: the
--- reaction to pads or arm that run into an obstacle. See help "gripper" for pads.
-function core.class.scene.gripper(scene, args)
-  build.check(scene, "scene:gripper", 3)
-  if args == nil then args = {} end
-  check_keys("scene:gripper", args, keys, 3)
-  local given = pads.check(args.pads or {}, "scene:gripper: pads", 3)
-  if args.name ~= nil and type(args.name) ~= "string" then
-    error("scene:gripper: name must be a string, got " .. type(args.name), 2)
-  end
-  if args.slip_tolerance ~= nil then
-    checks.number("scene:gripper: slip_tolerance", args.slip_tolerance, 0, " m", 3, nil, true)
-  end
-  if args.on_crash ~= nil then grasp.check_reaction("scene:gripper: on_crash", args.on_crash, 3) end
-  if args.arm ~= nil then pads.check_arm(args.arm, "scene:gripper: arm", 3) end
-  local at = args.at ~= nil and vector("scene:gripper: at", args.at, "m", 3) or nil
+local function make(scene, args)
+  local a = new:read(args == nil and {} or args)
   local data = build.data(scene)
+  local given = pads.check(a.pads or {}, "scene:gripper: pads")
   local self = sealed.new(Gripper)
   self.scene = scene
-  self.name = build.name(scene, args.name, "gripper", #data.grippers, 3)
+  self.name = build.name(scene, a.name, "gripper", #data.grippers, 0)
   self.pads, self.width = given, given.width
-  remarks.on("pads", ("gripper '%s': pads"):format(self.name), args.pads or {})
-  self.at, self.rotation = at, args.rotation
-  self.arm, self.on_crash = args.arm or false, args.on_crash
-  self.slip_tolerance = args.slip_tolerance or 1e-4
+  remarks.on("pads", ("gripper '%s': pads"):format(self.name), a.pads or {})
+  self.at, self.rotation, self.arm, self.on_crash = a.at, a.rotation, a.arm or false, a.on_crash
+  self.slip_tolerance = a.slip_tolerance
   self.past, self.spans = {}, {} -- clamps of all grasps, and { from =, to = [s] } of each
   self.grips = {} -- what is held: { wire =, hold = }
-  self.first_at = at or false
-  self.solid = args.arm ~= nil or args.on_crash ~= nil or has_pads(args.pads) -- also while empty
+  self.first_at = a.at or false
+  self.solid = a.arm ~= nil or a.on_crash ~= nil or has_pads(args and args.pads) -- also while empty
   self.events = {} -- what happened: { kind =, time =, s =, ... }
   data.grippers[#data.grippers + 1] = self
   return self
+end
+
+--- scene:gripper{ ... }: see help "scene:gripper".
+function core.class.scene.gripper(scene, args)
+  build.check(scene, "scene:gripper", 3)
+  return (build.call(3, make, scene, args))
 end
 
 local remembered = { "hold", "at", "rotation", "tool", "wire", "way", "frozen", "on_slip", "opening",
@@ -166,11 +166,11 @@ local function move_table(self, args)
     error("gripper:move: rotation goes with to; way-points have their own", 3)
   end
   if args.to then
-    local to = vector("gripper:move: to", args.to, "m", 4)
+    local to = args.to
     to.rotation = args.rotation
     points = { here, to }
   elseif args.by then
-    points, t.relative = { { 0, 0, 0 }, vector("gripper:move: by", args.by, "m", 4) }, true
+    points, t.relative = { { 0, 0, 0 }, args.by }, true
   elseif not points and t.turn then
     points, t.relative = { { 0, 0, 0 }, { 0, 0, 0 } }, true
   elseif type(points) == "table" and type(points[1]) == "table" and not t.relative then
@@ -186,22 +186,35 @@ local function move_table(self, args)
   return t
 end
 
-local turn_keys = checks.set "axis angle"
+-- The trajectory of a move; errors name the move.
+local function motion_of(args)
+  local fine, result = pcall(core.trajectory, args)
+  if fine then return result end
+  if type(result) ~= "string" then error(result, 0) end
+  error((build.plain(result):gsub("^trajectory: ", "gripper:move: ", 1)), 0)
+end
 
---- Move the tool: { path = "file.csv" | points = {...} | to = point | by = vector,
--- speed = [m/s] | duration = [s], law =, blend =, turn = { axis =, angle = [rad] }, on_slip = }.
--- Inside a process it returns when the move is done, elsewhere at once.
+local move = rows.call("gripper:move", "{...}", "moves the tool; in a process it returns when that is done", {
+  gives = "the gripper", also = "trajectory", example = "hand:move { by = { 0, 0, 0.1 }, speed = 0.2 }",
+  { "by", "vector", "m", "way to go" },
+  { "to", "vector", "m", "place to go to" },
+  { "rotation", "rotation", "-", "of the tool at `to`" },
+  { "points", "list", "m", "way-points {x, y, z}, with times t or rotations where wanted" },
+  { "path", "file or list", "-", "CSV file of way-points, or the way-points" },
+  { "scale", "number", "m", "unit of the file's lengths that name none", min = 0, above = true },
+  { "turn", "table", "-", "turn about the tool's centre, on the way or in place", rows = rows.list{
+    { "axis", "vector", "-", "of the turn" }, { "angle", "number", "rad", "of the turn" } } },
+  grasp.on_slip_row,
+})
+
+--- Move the tool, see help "gripper:move".
 function Gripper:move(args)
   check_place(self, "move")
-  if type(args) ~= "table" then error("gripper:move takes one table of parameters", 2) end
+  args = move:read(args)
   if not (args.path or args.points or args.to or args.by or args.turn) then
     error(("gripper '%s': move where? give path, points, to, by or turn"):format(self.name), 2)
   end
-  if type(args.turn) == "table" then checks.keys("gripper:move: turn", args.turn, turn_keys, 3) end
-  if args.on_slip ~= nil then
-    grasp.check_reaction("gripper '" .. self.name .. "': on_slip", args.on_slip, 3)
-  end
-  local motion = build.call(3, core.trajectory, move_table(self, args))
+  local motion = build.call(3, motion_of, move_table(self, args))
   remarks.on("move", ("gripper '%s': move"):format(self.name), args)
   local held = make_moved(self)
   if args.on_slip ~= nil then grasp.set_on_slip(self, args.on_slip, 3) end
@@ -212,47 +225,46 @@ function Gripper:move(args)
   return self
 end
 
---- Move the tool's centre to a point: move_to({x, y, z}, { speed =, rotation =, ... }).
-function Gripper:move_to(point, args)
-  local t = {}
-  if args ~= nil and type(args) ~= "table" then
-    error("gripper:move_to takes a point and a table of parameters", 2)
-  end
-  for k, v in pairs(args or {}) do t[k] = v end
-  t.to = point
-  return self:move(t)
-end
+local rotate = rows.call("gripper:rotate", "{...}", "turns the tool about its centre, as gripper:move", {
+  gives = "the gripper",
+  { "axis", "vector", "-", "of the turn", required = true },
+  { "angle", "number", "rad", "of the turn", required = true },
+  { "duration", "number", "s", "of the turn" },
+  { "angular_speed", "number", "rad/s", "instead of a duration" },
+  { "angular_acceleration", "number", "rad/s2", "of law = 'trapezoidal'" },
+  { "speed", "number", "m/s", "as of gripper:move" },
+  { "acceleration", "number", "m/s2", "as of gripper:move" },
+  { "law", "text", "-", "as of gripper:move" },
+  { "blend", "number", "m", "as of gripper:move" },
+  { "stop", "boolean", "-", "as of gripper:move" },
+  { "on_slip", "reaction", "-", "as of gripper:move", choices = grasp.reactions },
+})
 
-local rotate_keys = checks.set [[axis angle speed angular_speed acceleration angular_acceleration duration
-  law blend stop on_slip]]
-
---- Turn the tool about its centre by angle [rad] around axis.
+--- Turn the tool, see help "gripper:rotate".
 function Gripper:rotate(args)
-  if type(args) ~= "table" then error("gripper:rotate takes { axis =, angle = [rad] }", 2) end
-  checks.keys("gripper:rotate", args, rotate_keys, 3)
+  rotate:read(args)
   local t = {}
   for k, v in pairs(args) do t[k] = v end
   t.turn, t.axis, t.angle = { axis = args.axis, angle = args.angle }, nil, nil
   return self:move(t)
 end
 
-local press_keys = { direction = true, force = true, speed = true, distance = true }
+local press = rows.call("gripper:press", "{...}", "goes on until the wire pushes back; in a process only", {
+  gives = "force reached [N], way gone [m], whether it was the force wanted",
+  { "force", "number", "N", "push of the wire at which it stops", min = 0, above = true, required = true },
+  { "direction", "vector", "-", "of the way", default = { 0, 0, -1 } },
+  { "speed", "number", "m/s", "on the way", min = 0, above = true, default = 0.02 },
+  { "distance", "number", "m", "longest way", min = 0, above = true, default = 0.1 },
+})
 
---- Move along direction (default: down) at speed [m/s] until the wire pushes back with force [N],
--- at most by distance [m]; then stop. Only in a process. Returns the force that was reached and
--- the way gone; true as a third value when it was the force wanted.
+--- Press on the wire, see help "gripper:press".
 function Gripper:press(args)
   check_place(self, "press")
-  check_keys("gripper:press", args, press_keys, 3)
+  args = press:read(args)
   local p = process.current()
   if not p then error("gripper:press works inside a process only", 2) end
-  local force = checks.number("gripper:press: force", args.force, 0, " N", 3, nil, true)
-  local speed = checks.number("gripper:press: speed", args.speed or 0.02, 0, " m/s", 3, nil, true)
-  local most = checks.number("gripper:press: distance", args.distance or 0.1, 0, " m", 3, nil, true)
-  local way = vector("gripper:press: direction", args.direction or { 0, 0, -1 }, "-", 3)
-  local length = (way[1] ^ 2 + way[2] ^ 2 + way[3] ^ 2) ^ 0.5
-  if length == 0 then error("gripper:press: direction must not be zero", 2) end
-  for k = 1, 3 do way[k] = way[k] / length end
+  local force, speed, most, way = args.force, args.speed, args.distance, vec.unit(args.direction)
+  if not way then error("gripper:press: direction must not be zero", 2) end
   local function pushed() -- the gripper pushes the wire along its way
     local f = self:force()
     return f[1] * way[1] + f[2] * way[2] + f[3] * way[3]
@@ -269,22 +281,9 @@ function Gripper:press(args)
   return pushed() - start, gone, done
 end
 
---- Hand the wire over to another gripper, which takes hold with args (see grasp), then let go.
-function Gripper:handover(other, args)
-  if getmetatable(other) ~= Gripper then
-    error("gripper:handover expects the gripper that takes over", 2)
-  end
-  if not self.wire then error(("gripper '%s' holds nothing to hand over"):format(self.name), 2) end
-  if other == self then error(("gripper '%s' cannot hand over to itself"):format(self.name), 2) end
-  local wires = {}
-  for i, grip in ipairs(self.grips) do wires[i] = grip.wire end
-  build.call(3, other.grasp, other, #wires == 1 and wires[1] or wires, args)
-  build.call(3, self.release, self)
-  return other
-end
+rows.calls{ { "gripper:position", "", "the tool's centre, or where it will be", "{x, y, z} [m], or nil" } }
 
---- Let go: jaws open (by pads' opening, at speed [m/s]); in a process it returns when they have.
--- { wire = } lets go of one of several wires that are held without pads.
+--- Let go, see help "gripper:release".
 function Gripper:release(args)
   if getmetatable(self) ~= Gripper then
     error("gripper:release is a method: call it with a colon", 2)
@@ -352,6 +351,18 @@ function Gripper:__newindex(key, value)
   end
   rawset(sealed.fields(self), key, value)
 end
+
+rows.calls{
+  { "gripper.name", nil, "by which messages and series call it" },
+  { "gripper.width", nil, "of the pads along the wire", "m" },
+  { "gripper.wire", nil, "that it holds, the first of several", "a wire, or nil" },
+  { "gripper.wires", nil, "all that it holds", "a list" },
+  { "gripper.events", nil, "what happened; may be set to {}",
+    "{ kind = 'slip', 'lost', 'crash', ..., time [s] }, ..." },
+  { "gripper.slip_tolerance", nil, "see scene:gripper; may be set", "m" },
+  { "gripper.on_slip", nil, "see gripper:grasp; may be set" },
+  { "gripper.on_crash", nil, "see scene:gripper; may be set" },
+}
 
 for name, value in pairs(Gripper) do
   if type(value) == "function" and name:sub(1, 2) ~= "__" then

@@ -5,11 +5,17 @@
 --     help "grip"       -- a page of the manual
 --     help "wire"       -- parameters of scene:wire; of an obstacle, a force, a clamp, ...
 --     help(scene)       -- methods of an object
+--     help "press"      -- a method with all that it takes
 -- @module softworld.help
 local checks = require "softworld.checks"
 local topics = require "softworld.topics"
 
 local function show_object(object)
+  local known = topics.object(checks.kind(object))
+  if known then
+    print(checks.shown(object) .. "\n" .. known)
+    return
+  end
   local meta = debug.getmetatable(object)
   local list = type(meta) == "table" and rawget(meta, "__names")
   local names = list and list(object) or {}

@@ -39,6 +39,7 @@ local made = {
 }
 require "softworld.clipping" -- gripper:clip
 require "softworld.settle"   -- scene:settle with error bars
+require "softworld.changes"  -- get and set of scenes and grippers
 local save = require "softworld.save" -- scene:save, scene:resume, scene:find
 
 --- A new scene. { name =, gravity = {x, y, z} [m/s2] }

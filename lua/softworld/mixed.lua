@@ -5,7 +5,6 @@
 -- again as it was.
 -- @module softworld.mixed
 local build = require "softworld.build"
-local checks = require "softworld.checks"
 local process = require "softworld.process"
 
 local mixed = {}
@@ -34,7 +33,7 @@ function mixed.prepare(self, args)
   if wire.model ~= "rod" and wire.model ~= "string" then return end -- it is a mesh already
   local half = self.width / 2 + BESIDE * wire.radius
   if args.region ~= nil then
-    half = checks.number(("gripper '%s': region"):format(self.name), args.region, 0, " m", 4, nil, true) / 2
+    half = args.region / 2
   end
   how.region = { math.max(0, self.s - half), math.min(wire.length, self.s + half) }
   how.segments = wire.segments
@@ -45,8 +44,7 @@ end
 --- Wait until the squeeze has come to rest, then freeze.
 function mixed.settle(self, args)
   local p = process.current()
-  self.margin = args.margin and checks.number(("gripper '%s': margin"):format(self.name), args.margin, 0,
-    "", 4, 1, true) or LIMIT
+  self.margin = args.margin or LIMIT
   local last, since, quiet = self.tool:state(), self.scene.time, 0
   local late = since + PATIENCE
   p:wait_until(function()

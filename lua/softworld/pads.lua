@@ -4,8 +4,8 @@
 -- @module softworld.pads
 local core = require "softworld.core"
 local build = require "softworld.build"
-local checks = require "softworld.checks"
 local meshfile = require "softworld.meshfile"
+local rows = require "softworld.rows"
 local vec = require "softworld.vec"
 
 local pads = {}
@@ -49,64 +49,56 @@ end
 
 pads.kinds = makers
 
-local numbers = { -- default, lowest, unit, what it is
-  width = { 0.02, 0, " m" }, height = { nil, 0, " m" }, thickness = { 0.008, 0, " m" },
-  radius = { 0.004, 0, " m" }, angle = { 2 * math.pi / 3, 0, " rad" }, scale = { 1, 0, "" },
-  friction = { 0.5, 0, "" }, kinetic_friction = { nil, 0, "" }, opening = { nil, 0, " m" },
-  below = { nil, 0, " m" }, restitution = { 0, 0, "" } }
-local highest = { angle = math.pi, friction = 100, kinetic_friction = 100, restitution = 1 }
-local may_be_zero = { friction = true, kinetic_friction = true, restitution = true, below = true,
-  width = true }
-local per_finger = { friction = true, kinetic_friction = true } -- may be a list, one for each
-local known = { shape = true, fingers = true, file = true }
-for key in pairs(numbers) do known[key] = true end
+--- What can be said of pads.
+pads.rows = rows.list{
+  { "shape", "choice", "-", "of a finger", choices = { "flat", "mesh", "round", "v" }, default = "flat" },
+  { "fingers", "integer", "-", "how many close on the wire", min = 1, max = 6, default = 2 },
+  { "width", "number", "m", "along the wire", min = 0, default = 0.02 },
+  { "height", "number", "m", "across the wire", min = 0, above = true,
+    usual = "0.02; of v twice the wire's radius" },
+  { "thickness", "number", "m", "of flat and v", min = 0, above = true, default = 0.008 },
+  { "below", "number", "m", "how far fingers reach below the tool's centre", min = 0,
+    usual = "half of height, or 0.9 of the wire's radius" },
+  { "opening", "number", "m", "between facing fingers while open", min = 0, above = true,
+    usual = "4 times the wire's radius" },
+  { "radius", "number", "m", "of round ones", min = 0, above = true, default = 0.004 },
+  { "angle", "number", "rad", "of v, between its sides", min = 0, max = math.pi, above = true,
+    default = 2 * math.pi / 3 },
+  { "file", "text", "-", "mesh file of a finger, in the tool's axes, for the one at +y" },
+  { "scale", "number", "-", "of the mesh file's lengths", min = 0, above = true, default = 1 },
+  { "friction", "numbers", "-", "on the wire; a list has one for each finger", min = 0, max = 100,
+    default = 0.5 },
+  { "kinetic_friction", "numbers", "-", "while it slides; a list has one for each finger", min = 0,
+    max = 100, usual = "friction" },
+  { "restitution", "number", "-", "share of speed kept after a blow", min = 0, max = 1, default = 0 },
+}
 
---- The description of pads with defaults filled in; raises for impossible ones.
-function pads.check(args, what, level)
-  checks.keys(what, args, known, level + 1)
-  local p = { shape = checks.word(what .. ".shape", args.shape or "flat", makers, level + 1) }
-  for key, row in pairs(numbers) do
-    p[key] = args[key]
-    if p[key] == nil then
-      p[key] = row[1]
-    else
-      for i, value in ipairs(per_finger[key] and type(p[key]) == "table" and p[key] or { p[key] }) do
-        checks.number(("%s.%s%s"):format(what, key, type(p[key]) == "table" and ("[%d]"):format(i) or ""),
-          value, row[2], row[3], level + 1, highest[key], not may_be_zero[key])
-      end
-    end
-  end
-  p.fingers = args.fingers or 2
-  if math.type(p.fingers) ~= "integer" or p.fingers < 1 or p.fingers > 6 then
-    error(("%s.fingers = %s is not allowed; it must be an integer from 1 to 6"):format(what,
-      checks.shown(p.fingers)), level)
-  end
-  for key in pairs(per_finger) do
+--- What can be said of an arm.
+pads.arm_rows = rows.list{
+  { "radius", "number", "m", "of the capsule", min = 0, above = true, required = true },
+  { "length", "number", "m", "upwards from the fingers", min = 0, above = true, required = true },
+}
+
+--- The description of pads with defaults filled in; raises for impossible ones. Errors have no place.
+function pads.check(args, what)
+  local p = pads.rows:read(args, what, what .. ".")
+  for _, key in ipairs{ "friction", "kinetic_friction" } do -- may be lists, one for each finger
     if type(p[key]) == "table" and #p[key] ~= p.fingers then
       error(("%s.%s has %d values; it must have one, or one for each of %d fingers"):format(what, key,
-        #p[key], p.fingers), level)
+        #p[key], p.fingers), 0)
     end
   end
   if (p.shape == "mesh") ~= (args.file ~= nil) then
-    error(("%s: file goes with shape = 'mesh'"):format(what), level)
+    error(("%s: file goes with shape = 'mesh'"):format(what), 0)
   end
-  p.file = args.file
   if p.file ~= nil then -- what is wrong with it is told now, not when the pads are needed
     local fine, why = pcall(function()
       local mesh = meshfile.read(p.file)
       core.shape{ shape = "mesh", data = mesh.data, format = mesh.format, scale = p.scale }
     end)
-    if not fine then error(("%s: %s"):format(what, meshfile.named(build.plain(why), p.file)), level) end
+    if not fine then error(("%s: %s"):format(what, meshfile.named(build.plain(why), p.file)), 0) end
   end
   return p
-end
-
---- The same for { radius =, length = } of an arm.
-function pads.check_arm(args, what, level)
-  checks.keys(what, args, { radius = true, length = true }, level + 1)
-  for _, key in ipairs{ "radius", "length" } do
-    checks.number(what .. "." .. key, args[key], 0, " m", level + 1, nil, true)
-  end
 end
 
 -- A capsule that goes up from the fingers.

@@ -14,6 +14,7 @@
 -- @module softworld.process
 local core = require "softworld.core"
 local methods = require "softworld.methods"
+local rows = require "softworld.rows"
 local build = require "softworld.build"
 local checks = require "softworld.checks"
 local conditions = require "softworld.conditions"
@@ -29,13 +30,6 @@ local SAME_TIME = 1e-12 -- of the time: the core's own rounding [-]
 --- Has the scene's time reached t, but for rounding?
 function process.reached(scene, t)
   return scene.time >= t - SAME_TIME * math.max(1, math.abs(t))
-end
-
-local function check_time(what, seconds)
-  if type(seconds) ~= "number" or not (seconds >= 0 and seconds < math.huge) then
-    error(("%s = %s%s is not allowed; it must be a time of at least 0 s"):format(what,
-      checks.shown(seconds), type(seconds) == "number" and " s" or ""), 3)
-  end
 end
 
 --- The process that is running now, or nil outside of one.
@@ -82,30 +76,34 @@ end
 
 --- Let time pass [s].
 function Process:wait(seconds)
-  check_time("p:wait: seconds", seconds)
+  checks.number("p:wait: seconds", seconds, 0, " s", 3)
   check_inside(self, "p:wait")
   process.sleep_until(self, self.scene.time + seconds)
 end
 
+local until_then = rows.call("p:wait_until", "condition, {...}",
+  "waits for a function that returns true, or a condition told as a table, see help 'waiting'", {
+    gives = "true, or false after the timeout",
+    example = "p:wait_until({ force = 0.02, on = hand }, { timeout = 0.5 })",
+    { "timeout", "number", "s", "longest wait", min = 0, usual = "no end" },
+  })
+
+rows.calls{
+  { "scene:process", "function(p) ... end", "what happens, in order; several run at once", "a process" },
+  { "p:wait", "seconds", "lets time pass [s]" },
+  { "p:step", "name, function", "a step after which a saved run begins again, see help 'save'",
+    "what the function returns",
+    example = 'p:step("lift", function() hand:move { by = { 0, 0, 0.1 } } end)' },
+  { "p:finish", "", "ends the process where it waits" },
+  { "p.time", nil, "of the scene", "s" },
+  { "p.scene", nil, "of the process", "a scene" },
+  { "p.number", nil, "of the process in its scene, from 1" },
+}
+
 local function timeout_of(options)
   if options == nil then return math.huge end
-  if type(options) ~= "table" then
-    error("p:wait_until takes a table of options, got " .. type(options), 3)
-  end
-  for key in pairs(options) do
-    if key ~= "timeout" then
-      error(("p:wait_until: there is no option '%s'; %s"):format(checks.shown(key),
-        core.nearest(checks.shown(key), { "timeout" }) and "did you mean 'timeout'?"
-          or "known is: timeout"), 3)
-    end
-  end
-  local timeout = options.timeout
-  if timeout == nil or timeout == math.huge then return math.huge end
-  if type(timeout) ~= "number" or timeout ~= timeout or timeout < 0 then
-    error(("p:wait_until: timeout = %s is not allowed; it must be at least 0 s")
-      :format(checks.shown(timeout)), 3)
-  end
-  return timeout
+  if type(options) == "table" and options.timeout == math.huge then options = {} end
+  return build.call(4, until_then.read, until_then, options).timeout or math.huge
 end
 
 --- Wait until condition() is true; asked once per step. A condition may also be a table, see help
@@ -134,8 +132,15 @@ function Process:wait_until(condition, options)
   return true
 end
 
---- Pay out (length > 0) or draw in (< 0) a length of wire through a feed and wait until it
--- is done: { length = [m], speed = [m/s] or duration = [s], law = }.
+rows.call("p:feed", "feed, {...}", "pays wire out or draws it in, and waits until that is done", {
+  example = "p:feed(feed, { length = 0.1, speed = 0.05 })",
+  { "length", "number", "m", "to pay out; below zero it is drawn in", required = true },
+  { "speed", "number", "m/s", "of the wire" },
+  { "duration", "number", "s", "instead of a speed" },
+  { "law", "text", "-", "of the motion, as of a trajectory" },
+})
+
+--- Pay out or draw in wire through a feed, see help "p:feed".
 function Process:feed(feed, args)
   if core.type(feed) ~= "clamp" then
     error("p:feed expects what scene:feed returns, got " .. (core.type(feed) or type(feed)), 2)

@@ -91,17 +91,18 @@ local function names_of(value, methods_only)
   return names
 end
 
---- The names that can stand for word after the text before it on the line.
+--- The names that can stand for word after the text before it on the line; within braces of a call, its
+-- parameters.
 function repl.complete(before, word, globals)
   globals = globals or _G
   local text, mark = before:match "^(.-)%s*([%.:])%s*$"
-  local names
-  if text and not text:find "%.$" then
+  local names = package.loaded["softworld"]
+    and require("softworld.braces").names(before, value_before, globals)
+  if not names and text and not text:find "%.$" then
     local value = value_before(text, globals)
     names = value ~= nil and names_of(value, mark == ":") or {}
-  else
-    names = names_of(globals, false)
   end
+  names = names or names_of(globals, false)
   local found = {}
   for name in pairs(names) do
     if name:sub(1, #word) == word and name:find(NAME) and not keywords[name]

@@ -12,6 +12,7 @@ local number = require "softworld.output.number"
 local place = require "softworld.place"
 local refine = require "softworld.refine"
 local remarks = require "softworld.remarks"
+local runfiles = require "softworld.runfiles"
 local save = require "softworld.save"
 local sealed = require "softworld.sealed"
 local series = require "softworld.series"
@@ -24,6 +25,7 @@ local window = require "softworld.window"
 local progress = require "softworld.output.progress"
 
 local Run = { __name = "run" }
+local readable = runfiles.readable
 local chunk = 64 -- steps between two looks at progress; fixed, so that results never depend on it
 local default_frame = 1 / 30 -- [s]
 local progress_after = 1 -- of computing [s]
@@ -209,16 +211,6 @@ function core.class.scene.run(scene, args)
   return hide_failure(run_once(scene, args))
 end
 
-local function readable(self, what, even_failed)
-  if not self.ok and not even_failed then
-    error(("run of '%s' failed %s; it has no %s"):format(self.name, self.reason, what), 3)
-  end
-  if build.data(self.scene).restores ~= self.restores then
-    error(("run of '%s': its %s went when a snapshot was restored; read them before that")
-      :format(self.name, what), 3)
-  end
-end
-
 --- Time series of the run: { time = {...} [s], columns = {{ name, unit, values }} }.
 function Run:series()
   readable(self, "series")
@@ -339,15 +331,8 @@ function Run:document()
   return doc
 end
 
-local function options_of(what, options)
-  if options ~= nil and type(options) ~= "table" then
-    error(("%s takes one table of parameters, got %s"):format(what, type(options)), 3)
-  end
-  return options or {}
-end
-
 -- The document, with the frames of a run that failed.
-local function pictured(self)
+function runfiles.pictured(self)
   local doc = self:document()
   if not self.ok then
     readable(self, "frames", true)
@@ -356,79 +341,7 @@ local function pictured(self)
   return doc
 end
 
-local function check_path(path, what, wanted)
-  if type(path) == "string" and path ~= "" then return end
-  error(("%s expects %s, got %s"):format(what, wanted, path == "" and "''" or type(path)), 3)
-end
-
-local chart_keys = checks.set "path columns energy mean title size"
-local picture_keys = checks.set
-  "path count times captions caption columns width height camera thickness draft threads"
-local camera_keys = checks.set "from to direction turn elevation angle"
-
-local function check_camera(camera, what, level)
-  if camera == nil or camera == "auto" then return end
-  if type(camera) ~= "table" then
-    error(("%s must be 'auto' or a table, got %s"):format(what,
-      type(camera) == "string" and "'" .. camera .. "'" or type(camera)), level)
-  end
-  checks.keys(what, camera, camera_keys, level + 1)
-  for _, key in ipairs{ "from", "to", "direction" } do
-    if camera[key] ~= nil then checks.vector(("%s.%s"):format(what, key), camera[key], "m", level + 1) end
-  end
-  for _, key in ipairs{ "turn", "elevation", "angle" } do
-    if camera[key] ~= nil then
-      checks.number(("%s.%s"):format(what, key), camera[key], key == "angle" and 1 or -360, " deg",
-        level + 1, key == "angle" and 150 or 360)
-    end
-  end
-end
-
---- Table of results on the terminal.
-function Run:summary(stream)
-  if stream ~= nil and io.type(stream) ~= "file" and type(checks.field(stream, "write")) ~= "function" then
-    error("run:summary: an open file is wanted, got " .. (io.type(stream) or type(stream)), 2)
-  end
-  require("softworld.output.summary").print(self:document(), stream or io.stdout)
-end
-
---- Series as CSV or JSON, by the file's extension.
-function Run:save(path)
-  check_path(path, "run:save", "the name of a .csv or .json file")
-  readable(self, "series")
-  require("softworld.output.series").write(self:document(), path)
-  return path
-end
-
---- ParaView series (.pvd).
-function Run:vtk(path)
-  check_path(path, "run:vtk", "the name of a .pvd file")
-  readable(self, "frames", true)
-  require("softworld.output.vtk").write(pictured(self), path)
-  return path
-end
-
---- Chart of series: { path = "x.svg", columns = { names }, title = }.
-function Run:chart(options)
-  checks.keys("run:chart", options or {}, chart_keys, 3)
-  readable(self, "series")
-  local o = {}
-  for k, v in pairs(options_of("run:chart", options)) do o[k] = v end
-  o.run = self:document()
-  return require("softworld.output.chart").series(o)
-end
-
---- A strip of ray-traced pictures: { path = "x.png", count = 6, ... }.
-function Run:pictures(options)
-  checks.keys("run:pictures", options or {}, picture_keys, 3)
-  check_camera((options or {}).camera, "run:pictures: camera", 3)
-  readable(self, "frames", true)
-  local o = {}
-  for k, v in pairs(options_of("run:pictures", options)) do o[k] = v end
-  o.run = pictured(self)
-  return require("softworld.output.povray").strip(o)
-end
-
+for name, method in pairs(runfiles.methods) do Run[name] = method end
 Run.error_bars = trust.error_bars
 Run.ledger = ledger.of
 

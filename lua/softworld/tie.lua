@@ -13,16 +13,41 @@ local core = require "softworld.core"
 local build = require "softworld.build"
 local fixing = require "softworld.fixing"
 local remarks = require "softworld.remarks"
+local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local vec = require "softworld.vec"
 
 local properties = {}
 local Tie = fixing.class("tie", properties, { "other" })
-local known = { name = true, s = true, to = true, slack = true, stiffness = true, strength = true }
 local STIFFNESS = 1e5 -- of a nylon tie round a few millimetres [N/m]
 
+local new = rows.call("scene:tie", "wire, {...}", "keeps a place of a wire at a point or at another wire", {
+  gives = "a tie", example = "scene:tie(wire, { s = 0.5, to = { 0, 0, 0.1 }, strength = 80 })",
+  { "name", "text", "-", "what messages call it", usual = "tie1, ..." },
+  { "s", "number", "m", "place along the wire", min = 0, required = true },
+  { "to", "point or { wire, s = }", "m", "what it is tied to, another one a rod or string",
+    usual = "where it is now" },
+  { "slack", "number", "m", "distance up to which it does not pull", min = 0, usual = "the present one" },
+  { "stiffness", "number", "N/m", "beyond the slack", min = 0, above = true, default = STIFFNESS },
+  { "strength", "number", "N", "pull at which it breaks", min = 0, above = true, usual = "never" },
+})
+local other_end = rows.list{
+  { 1, "wire", "-", "the other one" },
+  { "s", "number", "m", "place along it", min = 0, required = true },
+}
+
+rows.calls{
+  { "tie:tension", "", "its pull now; 0 while it is slack or broken", "N" },
+  { "tie:distance", "", "of the tied places", "m" },
+  { "tie:force", "", "on the wire that was tied", "{x, y, z} [N]" },
+  { "tie:release", "", "cuts it" },
+  { "tie.name", nil, "by which messages call it" },
+  { "tie:exists", "", "is it there still", "true or false" },
+  { "tie.peak_force", nil, "largest pull so far", "N" },
+  { "tie.broken", nil, "how it broke", "nil, or time [s], force [N]" },
+}
+
 local function place(what, wire, s, whose)
-  fixing.number(what, whose .. "s", s, "m", 0, false)
   if s > wire.length * (1 + 1e-12) then
     error(("%s: %ss = %.6g m is beyond the end of wire '%s' at %.6g m"):format(what, whose, s, wire.name,
       wire.length), 0)
@@ -32,32 +57,24 @@ end
 
 -- to = { wire, s = }: the wire, s and where that is.
 local function other_wire(scene, what, to)
-  for key in pairs(to) do
-    if key ~= 1 and key ~= "s" then
-      error(("%s: to = { wire, s = } has no '%s'"):format(what, checks.shown(key)), 0)
-    end
-  end
+  other_end:read(to, what .. ": to", what .. ": to.")
   local other = fixing.wire(scene, what, "to[1]", to[1])
   return other, to.s, place(what, other, to.s, "to.")
 end
 
 local function checked(scene, wire, args)
-  args = fixing.arguments("scene:tie", args, known)
-  args.name = fixing.name(scene, "scene:tie", args.name, "tie")
-  local what = ("tie '%s'"):format(args.name)
+  local what
+  args, what = fixing.arguments(scene, new, "tie", args)
   fixing.wire(scene, what, "the first argument", wire)
   local here = place(what, wire, args.s, "")
   local there
-  if type(args.to) == "table" and type(args.to[1]) == "userdata" then
+  if type(args.to) == "table" and (type(args.to[1]) == "userdata" or args.to.s ~= nil) then
     args.other, args.other_s, there = other_wire(scene, what, args.to)
   else
-    args.to = fixing.vector(what, "to", args.to, "m", here)
+    args.to = checks.vector(what .. ": to", args.to == nil and here or args.to, "m", 0)
     there = args.to
   end
-  args.slack = fixing.number(what, "slack", args.slack, "m", 0, false,
-    vec.norm(vec.add(here, there, -1)))
-  args.stiffness = fixing.number(what, "stiffness", args.stiffness, "N/m", 0, true, STIFFNESS)
-  if args.strength ~= nil then fixing.number(what, "strength", args.strength, "N", 0, true) end
+  args.slack = args.slack or vec.norm(vec.add(here, there, -1))
   return args
 end
 

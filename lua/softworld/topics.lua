@@ -2,8 +2,10 @@
 --- Topics of help: pages of the manual, and the members of the core's registries with their parameter rows,
 -- the same rows that check arguments.
 -- @module softworld.topics
+require "softworld" -- its objects tell their rows
 local core = require "softworld.core"
 local manual = require "softworld.manual"
+local rows = require "softworld.rows"
 local text_of = require "softworld.manual.text"
 
 local topics = {}
@@ -27,6 +29,7 @@ local uses = {
   calibrate_cubic = "sw.calibrate{ mesh = 'cubic', ... }: voxels of a section",
   calibrate_composite = "sw.calibrate{ mesh = 'composite', ... }: a shell around cores, bonded or not",
   trajectory = "sw.trajectory{...}; clamps, obstacles and grippers take the table itself",
+  minimise = "sw.tune.minimise{ f =, ... }: where is f smallest, see help 'tuning'",
 }
 
 local registry
@@ -59,7 +62,7 @@ local function families()
   }
 end
 
-local plural = { models = "model", holds = "hold", obstacles = "obstacle", forces = "force",
+local plural = { models = "model", holds = "hold", obstacles = "obstacle", forces = "force", force = "force",
   shapes = "obstacle", shape = "obstacle", readouts = "readout" } -- integrators has a page
 
 local function sorted_names(set)
@@ -75,28 +78,33 @@ local function names_of(list)
   return names
 end
 
+local HUGE = 1e300 -- a limit beyond it is none [-]
+
 --- The range that a row allows, as text.
 function topics.range(row)
   if row.choices then return "one of " .. table.concat(row.choices, ", ") end
-  if row.min and row.max then
-    return ("%s%g, %g%s"):format(row.above and "(" or "[", row.min, row.max, row.below and ")" or "]")
+  local low, high = row.min and row.min > -HUGE and row.min, row.max and row.max < HUGE and row.max
+  if low and high then
+    return ("%s%g, %g%s"):format(row.above and "(" or "[", low, high, row.below and ")" or "]")
   end
-  if row.min then return (row.above and "> %g" or ">= %g"):format(row.min) end
-  if row.max then return (row.below and "< %g" or "<= %g"):format(row.max) end
+  if low then return (row.above and "> %g" or ">= %g"):format(low) end
+  if high then return (row.below and "< %g" or "<= %g"):format(high) end
   return ""
 end
 
 --- A row's default, as text.
 function topics.default(row)
   if row.required then return "required" end
+  local usual = row.usual or type(row.default) ~= "number" and row.default
+  if type(usual) == "string" then return "= " .. usual end
+  if type(usual) == "table" then return ("= {%g, %g, %g}"):format(table.unpack(usual)) end
+  if row.usual then return ("= %.6g"):format(row.usual) end
   if row.type == "choice" and row.choices then
     local name = row.choices[(row.default or -1) + 1]
     return name and "= " .. name or ""
   end
-  if row.default and (row.type == "number" or row.type == "integer") then
-    return ("= %.6g"):format(row.default)
-  end
-  return ""
+  local plain = row.type == "number" or row.type == "integer" or row.type == "numbers"
+  return plain and row.default and ("= %.6g"):format(row.default) or ""
 end
 
 local function how_it_steps(entry)
@@ -134,6 +142,71 @@ local function family_list(family)
   return part
 end
 
+-- Rows with those of tables within them, under names like pads.width.
+local function flat(list, prefix, into)
+  for _, row in ipairs(list) do
+    local shown = setmetatable({ name = prefix .. row.name }, { __index = row })
+    into[#into + 1] = shown
+    if row.rows then flat(row.rows.rows, shown.name .. ".", into) end
+  end
+  return into
+end
+
+local function signature(call)
+  if not call.arguments then return call.name end
+  local braces = call.arguments:find "^{"
+  return (braces and "%s%s" or "%s(%s)"):format(call.name, call.arguments)
+end
+
+local function call_part(call)
+  local part = { title = ("%s: %s"):format(signature(call), call.doc), lines = {},
+    rows = flat(call.rows, "", {}) }
+  if call.gives then part.lines[1] = (call.arguments and "returns " or "") .. call.gives end
+  if call.example then part.lines[#part.lines + 1] = "such as " .. call.example end
+  for _, row in ipairs(call.also and registered().params[call.also] or {}) do
+    if not call.known[row.name] then part.rows[#part.rows + 1] = row end
+  end
+  if #part.rows == 0 then part.rows = nil end
+  return part
+end
+
+local SHORT = 24 -- results that are told beside what they are of [characters]
+
+-- What an object of a class does: a line for each method and field.
+local function class_part(class)
+  local part = { title = ("what a %s has"):format(class), lines = {} }
+  for i, call in ipairs(rows.classes[class]) do
+    part.lines[i] = ("%-26s %s%s"):format(signature(call):gsub("^%w+", "", 1), call.doc,
+      call.gives and #call.gives < SHORT and not call.gives:find "^the " and " -> " .. call.gives or "")
+  end
+  return part
+end
+
+-- Calls made in Lua under a name: the whole one; how an object of that class is made, and what it has; all
+-- methods of that name, where it is nothing else.
+local function add_calls(topic, parts)
+  local made = rows.all["scene:" .. topic]
+  if rows.all[topic] then parts[#parts + 1] = call_part(rows.all[topic]) end
+  if made then parts[#parts + 1] = call_part(made) end
+  local is_class = rows.classes[topic] and topic ~= "scene"
+  if is_class then parts[#parts + 1] = class_part(topic) end
+  if not is_class and (parts[1] or manual.has(topic) or plural[topic]) then return end
+  for _, class in ipairs(sorted_names(rows.classes)) do
+    for _, call in ipairs(rows.classes[class]) do
+      if call ~= made and call.name:match "[:.](.*)$" == topic then parts[#parts + 1] = call_part(call) end
+    end
+  end
+end
+
+-- Classes of objects made in Lua.
+local function object_names()
+  local names = sorted_names(rows.classes)
+  for i = #names, 1, -1 do
+    if names[i] == "scene" then table.remove(names, i) end
+  end
+  return names
+end
+
 --- Members and tables of rows under a name: a list of { title =, lines = texts, rows = parameter rows }.
 function topics.parts(topic)
   local parts, r = {}, registered()
@@ -146,6 +219,7 @@ function topics.parts(topic)
       if entry.name == topic then parts[#parts + 1] = member(family, entry) end
     end
   end
+  add_calls(topic, parts)
   for _, family in ipairs(families()) do
     if not parts[1] and not manual.has(topic) and family[1] == (plural[topic] or topic) then
       parts[1] = family_list(family)
@@ -158,13 +232,20 @@ local function part_text(part)
   local lines = { part.title }
   for _, line in ipairs(part.lines) do lines[#lines + 1] = "  " .. line end
   for _, row in ipairs(part.rows or {}) do
-    local range = topics.range(row)
-    lines[#lines + 1] = ("  %-16s %-9s %-12s %s%s"):format(row.name, row.unit == "-" and ""
-      or "[" .. row.unit .. "]", topics.default(row), row.doc, range ~= "" and "; " .. range or "")
+    local range, default = topics.range(row), topics.default(row)
+    local long = #default > 12 -- does not fit into its column
+    lines[#lines + 1] = ("  %-16s %-9s %-12s %s%s%s"):format(row.name, row.unit == "-" and ""
+      or "[" .. row.unit .. "]", long and "" or default, row.doc, range ~= "" and "; " .. range or "",
+      long and default:gsub("^=", "; default:") or "")
   end
   if part.rows and #part.rows == 0 then lines[#lines + 1] = "  takes no parameters" end
   if part.after then lines[#lines + 1] = "  " .. part.after end
   return table.concat(lines, "\n")
+end
+
+--- What an object of a class made in Lua has, as text; nil for other classes.
+function topics.object(class)
+  return rows.classes[class] and class ~= "scene" and part_text(class_part(class)) or nil
 end
 
 --- Names of all members and tables of rows, in groups: a title and a list.
@@ -173,7 +254,7 @@ function topics.reference()
   return { { "make", sorted_names(r.params) }, { "models", names_of(r.models) },
     { "holds", names_of(r.holds) }, { "obstacles", names_of(r.shapes) },
     { "forces", names_of(outer(r.forces)) }, { "integrators", names_of(r.integrators) },
-    { "readouts", names_of(r.readouts) } }
+    { "readouts", names_of(r.readouts) }, { "objects", object_names() } }
 end
 
 --- All topics, as text.

@@ -214,19 +214,20 @@ core.class.trajectory.save = trajectory.save
 trajectory.new = core.trajectory
 
 -- Errors about way-points of a file name it.
-local function of_file(path, level, ok, result)
+local function of_file(path, args)
+  local ok, result = pcall(core.trajectory, args)
   if ok then return result end
   local text = tostring(result):gsub("^[^\n:]*%.lua:%d+: ", "")
   if not text:find(path, 1, true) then
     text = text:gsub("^trajectory: ", function() return ("trajectory: '%s': "):format(path) end)
   end
-  error(text, level + 1)
+  error(text, 0)
 end
 
 local function make(_, args, ...)
   local path = type(args) == "table" and rawget(args, "path")
   if type(path) ~= "string" or path:find "\n" then return core.trajectory(args, ...) end
-  return of_file(path, 2, pcall(core.trajectory, args))
+  return (build.call(3, of_file, path, args))
 end
 
 return setmetatable(trajectory, { __call = make })

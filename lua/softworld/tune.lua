@@ -8,6 +8,7 @@
 -- @module softworld.tune
 local core = require "softworld.core"
 local build = require "softworld.build"
+local checks = require "softworld.checks"
 local unread = require "softworld.unread"
 
 local tune = {}
@@ -28,4 +29,4 @@ local tune = {}
 -- `nonfinite`, how many values were not finite
 function tune.minimise(args) return unread.excused(build.call, 3, core.minimise, args) end
 
-return tune
+return setmetatable(tune, { __index = checks.fields("tune", "minimise") })

@@ -140,11 +140,11 @@ function core.class.obstacle.over(obstacle, t1, t2, options)
   if core.type(obstacle) ~= "obstacle" then
     error("obstacle:over is a method: call it with a colon", 2)
   end
+  local rows, count = build.call(3, obstacle.log, obstacle)
   options = options or {}
   checks.keys("obstacle:over", options, over_keys, 3)
   t1 = t1 == nil and -math.huge or checks.number("obstacle:over: t1", t1, -math.huge, " s", 3)
   t2 = t2 == nil and math.huge or checks.number("obstacle:over: t2", t2, -math.huge, " s", 3)
-  local rows, count = build.call(3, obstacle.log, obstacle)
   local width = window.of(obstacle, options.window, "obstacle:over", 3)
   local m, steps = { impulse = { 0, 0, 0 }, duration = 0, window = width }, {}
   local sum, before = 0, nil

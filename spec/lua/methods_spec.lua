@@ -129,7 +129,7 @@ describe("methods", function()
     says("clamp:log: the first row must be an integer, got string", call, "clamp", "log", "x")
     says("run:save expects the name of a .csv or .json file, got nil", call, "run", "save")
     says("run:chart takes one table of parameters, got number", call, "run", "chart", 5)
-    says("a file path (a non-empty string) is expected, got table", call, "run", "chart", { path = {} })
+    says("run:chart: path must be a string, got a table", call, "run", "chart", { path = {} })
     local entry = sw.cable "GXL 1.5"
     says("bend_limit: diameter = table", entry.bend_limit, entry, "fixed", {})
     says("bend_limit: diameter = -1 is not allowed; it must be a number above 0 m", entry.bend_limit,

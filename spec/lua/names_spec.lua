@@ -56,7 +56,7 @@ describe("what is no option:", function()
     ["a word for a camera"] = { function() run:pictures{ path = path, camera = "front" } end, "'auto'" },
     ["an angle of a camera that is none"] = { function()
       run:pictures{ path = path, camera = { angle = "wide" } }
-    end, "camera.angle = wide" },
+    end, "camera.angle = 'wide'" },
     ["a text for a table"] = { function() run:chart "x.svg" end, "one table of parameters, got string" },
     ["a table for a path"] = { function() run:save{ path = "x.csv" } end, "the name of a .csv" },
     ["a table for a .pvd"] = { function() run:vtk{} end, "the name of a .pvd" },

@@ -172,7 +172,7 @@ describe("a channel", function()
     refused("leg 2 is too short for the bends", { points = { { 0, 0, 0 }, { 0.1, 0, 0 }, { 0.1, 0.005, 0 },
       { 0, 0.005, 0 } } })
     refused("there is no parameter 'widht'; did you mean 'width'?", { widht = 1 })
-    refused("channel 'd': lid must be true or false, got number", { lid = 1 })
+    refused("channel 'd': lid must be true or false, got 1", { lid = 1 })
     refused("restitution = 2 is not allowed", { restitution = 2 })
   end)
 end)

@@ -366,7 +366,7 @@ describe("a clip", function()
     end
 
     it("what makes no sense, by name", function()
-      refused("clip 'd': insertion = -3 N is not allowed; it must be a number above 0 N", { insertion = -3 })
+      refused("clip 'd': insertion = -3 N is not allowed; it must be above 0 N", { insertion = -3 })
       refused("clip 'd': width = 0 m is not allowed", { width = 0 })
       refused("clip 'd': insertion = 9.2e+18 N and retention = 5 N are not", { insertion = 9.2e18 })
       refused("one at most 1e+06 times the other", { insertion = 1e-300 })

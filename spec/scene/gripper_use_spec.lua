@@ -40,7 +40,7 @@ describe("a gripper with pads", function()
       ["pads.fingers = 9 is not allowed; it must be an integer from 1 to 6"] = { pads = { fingers = 9 } },
       ["pads: file goes with shape = 'mesh'"] = { pads = { file = "finger.stl" } },
       ["pads: mesh file 'nothere.stl': No such file"] = { pads = { shape = "mesh", file = "nothere.stl" } },
-      ["arm.length = nil is not allowed"] = { arm = { radius = 0.01 } },
+      ["arm.length is required, above 0 m"] = { arm = { radius = 0.01 } },
       ["slip_tolerance = 0 m is not allowed; it must be above 0 m"] = { slip_tolerance = 0 },
       ["on_crash = 'halt' is not one of: record stop warn"] = { on_crash = "halt" },
     } do

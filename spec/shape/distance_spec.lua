@@ -3,10 +3,7 @@
 local core = require "softworld.core"
 local tools = require "shape.tools"
 
-local function near(expected, value, tolerance, text)
-  assert.is_true(math.abs(expected - value) <= tolerance,
-    ("%s: expected %.12g, got %.12g"):format(text or "value", expected, value))
-end
+local near = tools.near
 
 describe("point distance", function()
   it("gives the known values of simple places", function()

@@ -3,12 +3,9 @@
 local core = require "softworld.core"
 local tools = require "shape.tools"
 
-local FAR = 10 -- reach that finds everything [m]
+local near = tools.near
 
-local function near(expected, value, tolerance, text)
-  assert.is_true(math.abs(expected - value) <= tolerance,
-    ("%s: expected %.12g, got %.12g"):format(text or "value", expected, value))
-end
+local FAR = 10 -- reach that finds everything [m]
 
 local function check_contact(shape, a, b, c, text)
   near(1, tools.norm(c.normal), 1e-9, text .. " unit normal")

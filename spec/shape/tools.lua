@@ -1,6 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Vectors, random numbers with a fixed seed, mesh files and brute force for the shape specs.
+local assert = require "luassert"
 local core = require "softworld.core"
+local vec = require "softworld.vec"
 local tools = {}
 
 -- Vectors --------------------------------------------------------------------
@@ -164,5 +166,35 @@ function tools.smallest_gap(shape, a, b, n)
 end
 
 function tools.finite(x) return x == x and x > -math.huge and x < math.huge end
+
+-- Assertions -----------------------------------------------------------------
+
+--- As assert.near of Busted, whose bound is not part of the range; text names the value.
+function tools.near(expected, value, tolerance, text)
+  assert.is_true(math.abs(expected - value) <= tolerance,
+    ("%s: expected %.12g, got %.12g"):format(text or "value", expected, value))
+end
+
+--- Every edge of the triangles { vertices =, indices = from 0 } is passed once each way: the surface is
+-- closed, and wound alike everywhere. Returns the volume inside, positive when wound outwards.
+function tools.closed_volume(drawn)
+  local function at(i)
+    local v = drawn.vertices
+    return { v[3 * i + 1], v[3 * i + 2], v[3 * i + 3] }
+  end
+  local edges, volume = {}, 0
+  for k = 1, #drawn.indices, 3 do
+    local a, b, c = table.unpack(drawn.indices, k, k + 2)
+    volume = volume + vec.dot(at(a), vec.cross(at(b), at(c))) / 6 -- the divergence theorem
+    for _, edge in ipairs { a .. " " .. b, b .. " " .. c, c .. " " .. a } do
+      edges[edge] = (edges[edge] or 0) + 1
+    end
+  end
+  for edge, n in pairs(edges) do
+    assert.equal(1, n)
+    assert.equal(1, edges[edge:gsub("(%d+) (%d+)", "%2 %1")])
+  end
+  return volume
+end
 
 return tools

@@ -1,0 +1,158 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Rows of what is made in Lua, like the core's parameter rows: calls, their tables of parameters, results.
+-- Checks of arguments, help, `softworld doc`, completion within braces and the manual's reference read them.
+--
+--     local press = rows.call("gripper:press", "{...}", "goes on until the wire pushes back", {
+--       gives = "force [N], way [m], was it reached",
+--       { "force", "number", "N", "push of the wire that ends it", min = 0, above = true, required = true },
+--       { "speed", "number", "m/s", "of the way", min = 0, above = true, default = 0.02 },
+--     })
+--     local t = press:read(args) -- a copy with defaults; errors have no place, see build.call
+--
+-- A row: name, type, unit, one line; then default, min, max, above (min itself is not allowed), required,
+-- choices, rows (of a table within), usual (the default in words, where a number cannot tell it), empty (a
+-- text may be). Types: number, integer, boolean, text, choice, vector, rotation, function, table; numbers
+-- (one, or a list of them), list (of = "number" checks its items), reaction (a choice or a function); others
+-- are told here, and checked by who reads them.
+-- @module softworld.rows
+local checks = require "softworld.checks"
+
+local rows = {
+  all = {},     -- name -> Call
+  classes = {}, -- class -> list of its calls and fields, in order
+}
+local Call = {}
+Call.__index = Call
+
+local function complete(given)
+  local row = { name = given[1], type = given[2], unit = given[3], doc = given[4],
+    required = given.required or false }
+  for key, value in pairs(given) do
+    if type(key) == "string" then row[key] = value end
+  end
+  return row
+end
+
+--- A table of parameters within another one: pads, arm, camera.
+function rows.list(list)
+  local self = setmetatable({ rows = {}, known = {} }, Call)
+  for i, given in ipairs(list) do
+    self.rows[i] = complete(given)
+    self.known[given[1]] = self.rows[i]
+  end
+  return self
+end
+
+--- A call: "scene:clip" or "gripper:press", its arguments in words, what it does, and rows of its table if it
+-- takes one. list.gives: what it returns; list.example: a line of a script; list.also: a table of the
+-- core's rows that it takes besides, whose names and values the core checks.
+function rows.call(name, arguments, doc, list)
+  local self = rows.list(list or {})
+  self.name, self.arguments, self.doc = name, arguments, doc
+  if list then self.gives, self.example, self.also = list.gives, list.example, list.also end
+  local class = name:match "^([%w_]+)[:.]"
+  if class == "p" then class = "process" end -- by the name that scripts give it
+  rows.all[name] = self
+  rows.classes[class] = rows.classes[class] or {}
+  table.insert(rows.classes[class], self)
+  return self
+end
+
+--- Calls and fields that take no table: { { "clip:force", "wire", "what it is", "N" }, ... }.
+function rows.calls(list)
+  for _, c in ipairs(list) do rows.call(c[1], c[2], c[3], { gives = c[4], example = c.example }) end
+end
+
+-- --- checks -----------------------------------------------------------------------------
+
+local function spaced(unit) return unit == "-" and "" or " " .. unit end
+
+local function number(what, row, value)
+  checks.number(what, value, row.min or -math.huge, spaced(row.unit), 0, row.max, row.above)
+end
+
+local function of_type(lua_type, words)
+  return function(what, _, value)
+    if type(value) == lua_type then return end
+    error(("%s must be %s, got %s"):format(what, words, checks.got(value)), 0)
+  end
+end
+
+local function choice(what, row, value)
+  local known = {}
+  for _, word in ipairs(row.choices) do known[word] = true end
+  checks.word(what, value, known, 0)
+end
+
+local check = { number = number, choice = choice, boolean = of_type("boolean", "true or false"),
+  ["function"] = of_type("function", "a function") }
+
+function check.integer(what, row, value)
+  if math.type(value) == "integer" and value >= row.min and value <= (row.max or value) then return end
+  error(("%s = %s is not allowed; it must be an integer %s"):format(what, checks.got(value), row.max
+    and ("from %d to %d"):format(row.min, row.max) or ("of %d or more"):format(row.min)), 0)
+end
+
+function check.list(what, row, value)
+  if type(value) ~= "table" then error(("%s must be a list, got %s"):format(what, checks.got(value)), 0) end
+  for i, item in ipairs(row.of == "number" and value or {}) do
+    number(("%s[%d]"):format(what, i), row, item)
+  end
+end
+
+function check.text(what, row, value)
+  if type(value) == "string" and (value ~= "" or row.empty) then return end
+  error(("%s must be a string, got %s"):format(what, checks.got(value)), 0)
+end
+
+function check.vector(what, row, value) return checks.vector(what, value, row.unit, 0) end
+
+function check.rotation(what, _, value) checks.rotation(what, value, 0) end
+
+function check.numbers(what, row, value)
+  if type(value) ~= "table" then return number(what, row, value) end
+  for i, item in ipairs(value) do number(("%s[%d]"):format(what, i), row, item) end
+end
+
+function check.reaction(what, row, value)
+  if type(value) ~= "function" then choice(what, row, value) end
+end
+
+check["table"] = function(what, row, value)
+  return row.rows and row.rows:read(value, what, what .. ".") or checks.keys(what, value, value, 0)
+end
+
+local function missing(prefix, row)
+  local range = row.min and (" %s %g%s"):format(row.above and "above" or "at least", row.min,
+    spaced(row.unit))
+    or row.type == "vector" and (" {x, y, z} [%s]"):format(row.unit) or " " .. row.doc
+  error(("%s%s is required,%s"):format(prefix, row.name, range), 0)
+end
+
+--- A copy of the arguments with defaults, once their names and values are right. what: of unknown names,
+-- else the call's name; prefix: what stands before a name.
+function Call:read(args, what, prefix)
+  what = what or self.name
+  prefix = prefix or what .. ": "
+  checks.keys(what, args, self.also and args or self.known, 0)
+  local copy = {}
+  for key, value in pairs(args) do copy[key] = value end
+  for _, row in ipairs(self.rows) do
+    local value = args[row.name]
+    if value ~= nil then
+      local look = check[row.type]
+      local read = look and look(prefix .. row.name, row, value)
+      if read ~= nil then copy[row.name] = read end
+    elseif row.required then
+      missing(prefix, row)
+    elseif row.default ~= nil then
+      copy[row.name] = type(row.default) == "table" and check.vector("", row, row.default) or row.default
+    end
+  end
+  return copy
+end
+
+--- The rows of a call by its name, or nil.
+function rows.of(name) return rows.all[name] and rows.all[name].rows end
+
+return rows

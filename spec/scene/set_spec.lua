@@ -1,0 +1,153 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- object:get() and object:set{} between steps: friction, restitution and places of obstacles, gravity, the
+-- force of a gripper; in snapshots, and refused by name.
+package.path = "./?.lua;" .. package.path
+local sw = require "softworld"
+local t = require "spec.physics.tools"
+
+local G = 9.80665
+
+-- A rod that slides along a floor at 2 m/s, pressed by its weight.
+local function sliding(friction)
+  local scene = sw.scene{ gravity = { 0, 0, -G } }
+  local floor = scene:obstacle{ name = "floor", shape = "plane", friction = friction }
+  local wire = scene:wire{ E = 1e8, density = 1500, radius = 0.005, segments = 6, from = { 0, 0, 0.005 },
+    to = { 0.2, 0, 0.005 } }
+  t.fine(scene:settle())
+  wire:set_velocity{ 0, 2, 0 }
+  return scene, floor, wire
+end
+
+-- How much slower it gets in a time [m/s2].
+local function braked(scene, wire)
+  local before = wire:velocity(0.1)[2]
+  t.fine(scene:run{ duration = 0.04, dt = 1e-3 })
+  return (before - wire:velocity(0.1)[2]) / 0.04
+end
+
+describe("obstacle:set", function()
+  -- mu g to 1 %: the rod slides as a whole, its touches sink by less than 1e-5 m meanwhile.
+  it("changes friction in mid-run", function()
+    local scene, floor, wire = sliding(0.2)
+    t.share(0.2 * G, braked(scene, wire), 0.01, "as made")
+    floor:set{ friction = 0.5 }
+    t.share(0.5 * G, braked(scene, wire), 0.01, "as set")
+    floor:set{ friction = 0 }
+    t.near(0, braked(scene, wire), 0.001 * G, "without") -- what friction bent swings on, 2e-4 g
+    floor:set{ friction = 0.4, kinetic_friction = 0.3 }
+    t.share(0.3 * G, braked(scene, wire), 0.01, "sliding")
+  end)
+
+  it("is in snapshots, with the same bits afterwards", function()
+    local scene, floor, wire = sliding(0.2)
+    t.fine(scene:run{ duration = 0.02, dt = 1e-3 })
+    local before = scene:snapshot()
+    t.fine(scene:run{ duration = 0.02, dt = 1e-3 })
+    local there = table.concat(wire:positions(), " ")
+    floor:set{ friction = 0.7, restitution = 0.5 }
+    t.fine(scene:run{ duration = 0.02, dt = 1e-3 })
+    scene:restore(before)
+    assert.equal(0.2, floor:get().friction)
+    assert.equal(0, floor:get().restitution)
+    t.fine(scene:run{ duration = 0.02, dt = 1e-3 })
+    assert.equal(there, table.concat(wire:positions(), " "))
+  end)
+
+  it("is in the file of a run that breaks off, which goes on with it", function()
+    local file = os.tmpname()
+    local function laid(crash)
+      local scene, floor, wire = sliding(0.2)
+      scene:process(function(p)
+        p:step("rough", function()
+          floor:set{ friction = 0.5 }
+          p:wait(0.02)
+        end)
+        if crash then error "broken off" end
+        p:step("on", function() p:wait(0.02) end)
+      end)
+      return scene, floor, wire
+    end
+    local scene, _, wire = laid(false)
+    t.fine(scene:run{ dt = 1e-3 })
+    local whole = table.concat(wire:positions(), " ")
+    assert.is_false(pcall(scene.run, (laid(true)), { dt = 1e-3, save = file }))
+    local again, floor, other = laid(false)
+    t.fine(again:run{ dt = 1e-3, resume = file })
+    os.remove(file)
+    assert.equal(0.5, floor:get().friction)
+    assert.equal(whole, table.concat(other:positions(), " "))
+  end)
+
+  it("moves it, and leaves what is not given", function()
+    local scene = sw.scene{}
+    local ball = scene:obstacle{ name = "ball", shape = "sphere", radius = 0.1, friction = 0.4,
+      rotation = { axis = { 0, 0, 1 }, angle = 1 } }
+    local turned = ball:get().rotation
+    ball:set{ at = { 1, 2, 3 } }
+    local now = ball:get()
+    assert.same({ 1, 2, 3 }, now.at)
+    assert.same(turned, now.rotation)
+    assert.same({ "ball", 0.4, 0.4, 0 }, { now.name, now.friction, now.kinetic_friction, now.restitution })
+  end)
+
+  it("refuses what is no row, not changeable or out of range", function()
+    local scene = sw.scene{}
+    local floor = scene:obstacle{ shape = "plane" }
+    for text, args in pairs{
+      ["obstacle:set: there is no parameter 'fricton'; did you mean 'friction'?"] = { fricton = 1 },
+      ["obstacle:set: friction = -1 is not allowed; it must be in [0, 100]"] = { friction = -1 },
+      ["obstacle:set: name is given when it is made; what may be set is: at rotation friction "
+        .. "kinetic_friction restitution"] = { name = "x" },
+      ["obstacle:set: at must be a table of 3 numbers [m], got number 1"] = { at = 1 },
+    } do
+      local fine, why = pcall(floor.set, floor, args)
+      assert.is_false(fine)
+      assert.is_truthy(why:find(text, 1, true), why)
+    end
+    assert.equal(0.3, floor:get().friction)
+  end)
+end)
+
+describe("scene:set", function()
+  it("changes gravity from now on", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ E = 1e8, density = 1500, radius = 0.005, from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
+    t.fine(scene:run{ duration = 0.1, dt = 0.01 })
+    scene:set{ gravity = { 0, 0, -2 } }
+    t.fine(scene:run{ duration = 0.1, dt = 0.01 })
+    t.near(-0.2, wire:velocity(0.1)[3], 1e-9, "speed")
+    assert.same({ name = "scene", gravity = { 0, 0, -2 } }, scene:get())
+    assert.error_matches(function() scene:set{ gravty = { 0, 0, 0 } } end, "did you mean 'gravity'?")
+  end)
+end)
+
+describe("gripper:set", function()
+  it("changes the force that jaws keep", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ E = 1e7, density = 1200, radius = 0.003, segments = 20, from = { 0, 0, 0.1 },
+      to = { 0.2, 0, 0.1 } }
+    local hand = scene:gripper{ name = "hand", pads = { width = 0.02, opening = 0.009 } }
+    assert.error_matches(function() hand:set{ force = 5 } end, "no jaws that keep a force")
+    scene:process(function(p)
+      hand:grasp(wire, { s = 0.1, approach = "plates", force = 10 })
+      p:wait(0.2)
+      t.share(10, hand:state().squeeze, 2e-3, "as grasped")
+      assert.equal(10, hand:get().force)
+      hand:set{ force = 15 }
+      p:wait(0.2)
+      t.share(15, hand:state().squeeze, 2e-3, "as set")
+    end)
+    t.fine(scene:run{ dt = 0.01 })
+  end)
+
+  it("changes reactions and tolerance, and shows what it is like", function()
+    local hand = sw.scene{}:gripper{ name = "hand", at = { 0, 0, 1 } }
+    hand:set{ slip_tolerance = 1e-3, on_slip = "warn", on_crash = "stop" }
+    local now = hand:get()
+    assert.same({ 1e-3, "warn", "stop", 0.5 }, { now.slip_tolerance, now.on_slip, now.on_crash,
+      now.pads.friction })
+    assert.same({ 0, 0, 1 }, now.at)
+    assert.error_matches(function() hand:set{ on_slip = "halt" } end, "on_slip = 'halt' is not one of")
+    assert.error_matches(function() hand:set{ slip_tolerence = 1 } end, "did you mean 'slip_tolerance'?")
+  end)
+end)
