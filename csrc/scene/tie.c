@@ -22,14 +22,20 @@ sw_status sw_scene_add_tie(sw_scene *s, size_t join) {
 /* A tie is to break when it is pulled by no more than this above its strength [-]. */
 static const double CLOSE = 0.01;
 
+/* Pull of a tie to a point with nodes at x, and what it bears, 0 once it is broken. A body's own field
+ * may still name the places of a trial that is gone [N]. */
+static double pull_of(const sw_body *b, const sw_term *term, const double *x, double *bears) {
+  sw_field at = b->field;
+  at.x = x + 3 * b->first_node;
+  return term->cls->pull(term->args, &at, term->history, bears);
+}
+
 static sw_status check_terms(const sw_body *b, const double *x, sw_error *err) {
   for (size_t k = 0; k < b->term_count; k++) {
     const sw_term *term = &b->terms[k];
     if (!term->cls->pull) continue;
     double bears;
-    sw_field at = b->field;
-    at.x = x + 3 * b->first_node;
-    const double pull = term->cls->pull(term->args, &at, term->history, &bears);
+    const double pull = pull_of(b, term, x, &bears);
     if (bears > 0 && pull > (1.0 + CLOSE) * bears)
       return sw_fail(err, SW_ENOCONV, "a tie breaks within the step");
   }
@@ -46,7 +52,7 @@ int sw_scene_may_break(const sw_scene *s) {
     for (size_t k = 0; k < body->term_count; k++) {
       const sw_term *term = &body->terms[k];
       double bears = 0;
-      if (term->cls->pull) term->cls->pull(term->args, &body->field, term->history, &bears);
+      if (term->cls->pull) pull_of(body, term, s->system.x, &bears);
       if (bears > 0) return 1;
     }
   }
@@ -73,7 +79,7 @@ static void tell_of_terms(sw_scene *s, size_t body) {
     const sw_term *term = &b->terms[k];
     double bears;
     if (!term->cls->pull) continue;
-    const double pull = term->cls->pull(term->args, &b->field, term->history, &bears);
+    const double pull = pull_of(b, term, s->system.x, &bears);
     if (bears > 0 && pull > bears)
       sw_scene_tell(s, "tie", s->wires[body].name, NAN, pull,
                     "a tie of wire '%s' breaks at %.4g N; it bears %.4g N", s->wires[body].name,

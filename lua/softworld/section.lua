@@ -23,8 +23,8 @@ local function dot(a, b) return a[1] * b[1] + a[2] * b[2] + a[3] * b[3] end
 -- @treturn number [m]
 function Section:width(direction)
   local d, t = direction, self.tangent
-  local numbers = type(d) == "table" and type(d[1]) == "number" and type(d[2]) == "number"
-    and type(d[3]) == "number"
+  local numbers = type(checks.field(d, 1)) == "number" and type(checks.field(d, 2)) == "number"
+    and type(checks.field(d, 3)) == "number"
   if not numbers then error("section:width: direction must be {x, y, z}, got " .. type(d), 2) end
   local along, size = dot(d, t), dot(d, d)
   local across = { d[1] - along * t[1], d[2] - along * t[2], d[3] - along * t[3] }

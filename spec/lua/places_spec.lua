@@ -41,6 +41,11 @@ describe("an error", function()
       other:process(function(p) p:wait_until{ distance = 1, between = { hand, { 0, 0, 0 } } } end)
       other:run{ dt = 0.005 }
     end,
+    ["a run as a direction"] = function()
+      local other, wire = world()
+      wire:remodel{ model = "radial" }
+      wire:section(0.1):width(other:run{ duration = 0.001 })
+    end,
     ["the library as a table of parameters"] = function() sw.scene(sw) end,
     ["a value that cannot say what it is"] = function()
       gripper:close_jaws{ force = setmetatable({}, { __tostring = function() return {} end }) }
