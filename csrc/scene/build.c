@@ -22,7 +22,8 @@ static void drop(sw_scene *s) {
   sw_crowd_free(s->crowd);
   s->crowd = NULL;
   sw_free(s->hold_slot);
-  s->hold_slot = NULL;
+  sw_free(s->hold_loads);
+  s->hold_slot = NULL, s->hold_loads = NULL;
   s->built = 0;
 }
 
@@ -295,7 +296,8 @@ static sw_status add_terms(sw_scene *s, size_t w) {
 
 static sw_status add_holds(sw_scene *s, size_t alive) {
   s->hold_slot = sw_alloc(alive, sizeof *s->hold_slot);
-  if (!s->hold_slot) return SW_ENOMEM;
+  s->hold_loads = sw_alloc(alive, sizeof *s->hold_loads);
+  if (!s->hold_slot || !s->hold_loads) return SW_ENOMEM;
   int number = 0;
   for (size_t k = 0; k < s->hold_count; k++) {
     sw_scene_hold *h = &s->holds[k];

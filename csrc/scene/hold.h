@@ -17,6 +17,13 @@ typedef struct sw_hold_watch {
   sw_crash crash; /* the last one, of no part; depth 0: none */
 } sw_hold_watch;
 
+/* What a hold bears up to each stage of a trial step, as its momentum adds up [N s], [N m s]. */
+typedef struct sw_hold_sums {
+  sw_vec force[SW_BOOK_STAGES], moment[SW_BOOK_STAGES];
+  int last;  /* stage booked last */
+  int known; /* 1: they are those of the step that led here */
+} sw_hold_sums;
+
 struct sw_scene_hold {
   uint32_t generation;
   int alive;
@@ -40,10 +47,16 @@ struct sw_scene_hold {
   sw_feed feed;           /* of a class that feeds */
   sw_vec force, moment;   /* last, kept after release [N], [N m] */
   sw_hold_watch watch;
+  sw_hold_sums sums; /* of the present step */
   sw_pose last_pose;
   sw_log log;
 };
 
+/* A stage was solved, see sw_coupling. */
+void sw_hold_book(sw_scene *scene, const sw_booking *booking);
+/* The step that led here had a jerk: what the hold bore in it is not what it bears at its end.
+ * Means over it, about its place [N], [N m]. */
+int sw_hold_jerked(const sw_scene *scene, const sw_scene_hold *hold, sw_vec *force, sw_vec *moment);
 /* Looks at a hold of the accepted state: is it driven into obstacles, does it push too hard? */
 sw_status sw_hold_look_out(sw_scene *scene, sw_scene_hold *hold, sw_error *err);
 /* 1: one was driven into an obstacle in the last step. */

@@ -322,8 +322,10 @@ static sw_status log_holds(sw_scene *s, sw_error *err) {
     sw_system_reaction(&s->system, (int)k, at->pose.p, &h->force, &h->moment);
     SW_TRY(sw_hold_look_out(s, h, err));
     row[SW_LOG_TIME] = s->time;
-    sw_store(row + SW_LOG_FORCE, h->force);
-    sw_store(row + SW_LOG_MOMENT, h->moment);
+    sw_vec force = h->force, moment = h->moment;
+    sw_hold_jerked(s, h, &force, &moment);
+    sw_store(row + SW_LOG_FORCE, force);
+    sw_store(row + SW_LOG_MOMENT, moment);
     sw_store(row + SW_LOG_POINT, at->pose.p);
     row[SW_LOG_SPAN] = -s->span;
     if (h->cls->feeds) h->feed.drive = sw_feed_drive(s, h, s->system.x);

@@ -72,6 +72,7 @@ void sw_scene_free(sw_scene *s) {
   sw_watches_clear(&s->watches);
   sw_ledger_free(&s->books);
   sw_free(s->hold_slot);
+  sw_free(s->hold_loads);
   sw_free(s->wires);
   sw_free(s->holds);
   sw_free(s->obstacles);

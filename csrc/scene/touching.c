@@ -117,11 +117,13 @@ static int settled(void *user, sw_system *system, const double *y, const double 
 }
 
 static void book(void *user, const sw_booking *booking) {
-  sw_contact_book(((sw_scene *)user)->contact, booking);
+  sw_scene *s = user;
+  if (s->contact) sw_contact_book(s->contact, booking);
+  sw_hold_book(s, booking);
 }
 
 void sw_scene_couple(sw_scene *s) {
-  if (s->contact) s->system.coupling.book = book;
+  if (s->contact || s->system.hold_count) s->system.coupling.book = book;
   if (!sw_scene_has_contact(s)) return;
   s->system.coupling.refine = refine;
   s->system.coupling.begin_stage = begin_stage;

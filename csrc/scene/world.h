@@ -106,12 +106,13 @@ struct sw_scene {
   double covered; /* steps that these make together [-] */
   int running;    /* above 0 inside a step or a user's function: edits are refused */
   sw_system system;
-  int *hold_slot;       /* (system.hold_count) scene slot of each system hold */
-  sw_contact *contact;  /* with obstacles, or NULL */
-  sw_pairs *pairs;      /* between wires, or NULL */
-  sw_grains *grains;    /* between objects of particles and what else touches them, or NULL */
-  sw_crowd *crowd;      /* between particles that repel each other, or NULL */
-  sw_scene_rule *rules; /* that pairs are made by */
+  int *hold_slot;           /* (system.hold_count) scene slot of each system hold */
+  sw_hold_load *hold_loads; /* (system.hold_count) of the stage that was solved last */
+  sw_contact *contact;      /* with obstacles, or NULL */
+  sw_pairs *pairs;          /* between wires, or NULL */
+  sw_grains *grains;        /* between objects of particles and what else touches them, or NULL */
+  sw_crowd *crowd;          /* between particles that repel each other, or NULL */
+  sw_scene_rule *rules;     /* that pairs are made by */
   size_t rule_count, rule_capacity;
   struct {        /* contact memory of the last built system, for the next one */
     void *memory; /* copy, or NULL */
@@ -136,7 +137,7 @@ struct sw_scene {
   double span;       /* of the step that led here; 0: the state is an equilibrium [s] */
   /* a blow that began at blow_since is followed in parts of blow_part until blow_until [s] */
   double blow_part, blow_since, blow_until;
-  double next_dt;    /* of an adaptive run; 0 = not known [s] */
+  double next_dt; /* of an adaptive run; 0 = not known [s] */
 
   int diverged;
   sw_error why;

@@ -249,28 +249,49 @@ void sw_system_held_velocity(const sw_system *s, const sw_held_node *held, doubl
   place_node(&s->hold_states[held->hold], held->local, NULL, v, NULL);
 }
 
-void sw_system_reaction(const sw_system *s, int hold, sw_vec point, sw_vec *force, sw_vec *moment) {
-  sw_vec f = sw_v(0, 0, 0), m = sw_v(0, 0, 0);
-  for (size_t i = 0; i < s->held_count; i++) {
-    const sw_held_node *h = &s->held[i];
-    if (h->hold != hold) continue;
-    f = sw_add(f, h->reaction);
-    m = sw_add(m, sw_cross(sw_sub(sw_load(s->x + 3 * h->node), point), h->reaction));
-  }
+/* Adds what clamps that have a hold (-1: all) do to directions to out, of each hold or of this. */
+static void add_clamp_moments(const sw_system *s, int hold, sw_hold_load *out) {
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
     for (size_t c = 0; c < body->plan->clamp_count; c++) {
-      if (body->plan->clamps[c].hold != hold) continue;
+      const int own = body->plan->clamps[c].hold;
+      sw_hold_load *to = hold < 0 ? &out[own] : out;
+      if (hold >= 0 && own != hold) continue;
       for (size_t k = 0; k < body->term_count; k++) {
         const sw_term *term = &body->terms[k];
         if (!term->cls->clamp_moment) continue;
         s->bodies[b].field.history = term->history;
-        m = sw_add(m, term->cls->clamp_moment(term->args, &body->field, &body->plan->clamps[c]));
+        to->moment = sw_add(
+            to->moment, term->cls->clamp_moment(term->args, &body->field, &body->plan->clamps[c]));
       }
     }
   }
-  *force = f;
-  *moment = m;
+}
+
+void sw_system_reaction(const sw_system *s, int hold, sw_vec point, sw_vec *force, sw_vec *moment) {
+  sw_hold_load sum = {.force = {0, 0, 0}};
+  for (size_t i = 0; i < s->held_count; i++) {
+    const sw_held_node *h = &s->held[i];
+    if (h->hold != hold) continue;
+    const sw_vec arm = sw_sub(sw_load(s->x + 3 * h->node), point);
+    sum.force = sw_add(sum.force, h->reaction);
+    sum.moment = sw_add(sum.moment, sw_cross(arm, h->reaction));
+  }
+  add_clamp_moments(s, hold, &sum);
+  *force = sum.force;
+  *moment = sum.moment;
+}
+
+void sw_system_hold_loads(const sw_system *s, sw_hold_load *out) {
+  for (size_t k = 0; k < s->hold_count; k++) out[k] = (sw_hold_load){.force = {0, 0, 0}};
+  for (size_t i = 0; i < s->held_count; i++) {
+    const sw_held_node *h = &s->held[i];
+    sw_hold_load *to = &out[h->hold];
+    const sw_vec arm = sw_rotate(s->hold_states[h->hold].pose.q, h->local);
+    to->force = sw_add(to->force, h->reaction);
+    to->moment = sw_add(to->moment, sw_cross(arm, h->reaction));
+  }
+  add_clamp_moments(s, -1, out);
 }
 
 /* --- read-outs of the state -------------------------------------------------- */

@@ -63,11 +63,11 @@ typedef struct sw_body {
   size_t web_pair_count;
   size_t web_couples; /* pairs of its particles in the matrix of what is linked */
   int web_replanned;  /* 1: it has other pairs than these were listed for */
-  double *web_room; /* (particles x 15) of a large one, for iterations; or NULL */
-  int web_factored; /* 1: there is a factor of this step that leads iterations */
-  int web_slow;     /* 1: it did not lead them fast enough in this step */
-  int linked;       /* its matrix is part of the links' (see system/link.h) */
-  double pushed;    /* largest push for which the scene looked whether it buckles [N] */
+  double *web_room;   /* (particles x 15) of a large one, for iterations; or NULL */
+  int web_factored;   /* 1: there is a factor of this step that leads iterations */
+  int web_slow;       /* 1: it did not lead them fast enough in this step */
+  int linked;         /* its matrix is part of the links' (see system/link.h) */
+  double pushed;      /* largest push for which the scene looked whether it buckles [N] */
 } sw_body;
 
 /* Where a hold is, for all nodes it holds. */
@@ -358,6 +358,11 @@ void sw_system_axial_from_state(sw_system *system);
  * solved stage [N], [N m]. */
 void sw_system_reaction(const sw_system *system, int hold, sw_vec point, sw_vec *force,
                         sw_vec *moment);
+/* The same of all holds about their places, from the stage that was solved last; out: (holds). */
+typedef struct sw_hold_load {
+  sw_vec force, moment; /* [N], [N m] */
+} sw_hold_load;
+void sw_system_hold_loads(const sw_system *system, sw_hold_load *out);
 
 /* What is kept from step to step of how a method sees wires that turn, for a unit acceleration
  * towards the centre: how far the velocity is from that of steady turning, now and a step ago [s];

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What holds bear in a step with a jerk. A hold that starts or stops at once gives its wire an
+ * impulse, which the forces of the stages make up as they make up the velocity: each of them grows
+ * without end as steps get shorter, and that at the step's end says nothing of the impulse. */
+#include <math.h>
+
+#include "scene/world.h"
+
+static sw_vec booked(const sw_booking *b, sw_vec now, sw_vec before, sw_vec first) {
+  return sw_madd(sw_madd(sw_scale(now, b->own), before, b->start), first, b->first);
+}
+
+/* Methods that look back would have to know the sums of the step before. */
+void sw_hold_book(sw_scene *s, const sw_booking *b) {
+  sw_system_hold_loads(&s->system, s->hold_loads);
+  for (size_t k = 0; k < s->system.hold_count; k++) {
+    sw_scene_hold *h = &s->holds[s->hold_slot[k]];
+    sw_hold_sums *sums = &h->sums;
+    const sw_hold_load *now = &s->hold_loads[k];
+    sums->force[b->stage] = booked(b, now->force, h->force, sums->force[0]);
+    sums->moment[b->stage] = booked(b, now->moment, h->moment, sums->moment[0]);
+    sums->last = b->stage;
+    sums->known = b->before == 0;
+  }
+}
+
+/* A force at a step's end that differs from its mean by this share of the larger one, and by this
+ * of what is usual for the wire, is that of a jerk [-]. */
+static const double JERK = 0.05, SHARP = 0.1;
+
+static double usual_force(const sw_scene *s, size_t wire) {
+  const sw_plan *p = s->system.bodies[wire].plan;
+  const double weight = p->beam.mass * p->length * sw_norm(sw_load(s->system.gravity));
+  return fmax(weight, p->beam.EI / (p->length * p->length));
+}
+
+int sw_hold_jerked(const sw_scene *s, const sw_scene_hold *h, sw_vec *force, sw_vec *moment) {
+  const sw_hold_sums *sums = &h->sums;
+  if (!sums->known || !(s->span > 0) || h->cls->feeds) return 0;
+  const sw_vec mean = sw_scale(sums->force[sums->last], 1.0 / s->span);
+  const double off = sw_norm(sw_sub(h->force, mean));
+  if (!(off > JERK * fmax(sw_norm(h->force), sw_norm(mean)))) return 0;
+  if (!(off > SHARP * usual_force(s, h->wire))) return 0;
+  *force = mean;
+  *moment = sw_scale(sums->moment[sums->last], 1.0 / s->span);
+  return 1;
+}
