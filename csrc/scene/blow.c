@@ -42,6 +42,9 @@ static int any_feed(const sw_scene *s) {
   return 0;
 }
 
+/* Of more wires one strikes all the time, and all would take the parts of each [-]. */
+enum { MOST_WIRES = 32 };
+
 /* Parts of a step with such a jolt: a power of two, so that scenes which differ by little take the
  * same steps [-]. */
 static double parts_for(double jolt) {
@@ -50,8 +53,8 @@ static double parts_for(double jolt) {
 
 int sw_blow_begins(sw_scene *s, double h) {
   const int followed = s->time < s->blow_until;
-  if (!s->contact || s->pairs || s->grains || (!followed && !(h > 1.01 * SHORTEST_PART)) ||
-      any_feed(s))
+  if (s->wire_count > MOST_WIRES || !s->contact || s->pairs || s->grains ||
+      (!followed && !(h > 1.01 * SHORTEST_PART)) || any_feed(s))
     return 0;
   if (!followed && s->blow_until > 0 && s->time < s->blow_since + BETWEEN_BLOWS) return 0;
   const double jolt = sw_contact_jolt(s->contact, &s->system, followed);
