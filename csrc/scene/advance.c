@@ -343,7 +343,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
       done += part;
       accept(p, part);
       s->time = done < h ? t0 + done : t1;
-      if (p->redo != AS_IS) sw_blow_refused(s);
+      if (p->redo != AS_IS) sw_blow_refused(s, part);
       SW_TRY(observe(s, err));
       SW_TRY(count_small(p, part, p->args->dt, err));
       part = starts || cut ? h : 2 * part;
@@ -356,7 +356,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
     p->held = *err;
     cut = p->soonest > 0;
     p->cuts += cut;
-    if (!cut) sw_blow_refused(s);
+    if (!cut) sw_blow_refused(s, part);
     if (!p->smooth && !cut) s->discontinuous = 1;
     part = cut ? p->soonest : 0.5 * part;
     if (part < SMALLEST_SHARE * h) return status;

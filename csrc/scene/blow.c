@@ -24,8 +24,13 @@ double sw_blow_part(const sw_scene *s, double h) {
  * followed for: a wire that is driven into something makes energy in parts of any size [-]. */
 static const double REFUSED = 1.0 / 16;
 
-void sw_blow_refused(sw_scene *s) {
+/* Parts refused down to this share of those that follow it: it is not followed any more, for
+ * contact takes depth as it comes only in far smaller ones yet [-]. */
+static const double SMALLEST_FOLLOWED = 1.0 / 16;
+
+void sw_blow_refused(sw_scene *s, double part) {
   if (!(s->time < s->blow_until)) return;
+  if (part < SMALLEST_FOLLOWED * s->blow_part) s->blow_until = s->time;
   s->blow_since -= REFUSED * LONGEST_BLOW;
   s->blow_until = fmin(s->blow_until, s->blow_since + LONGEST_BLOW);
 }
