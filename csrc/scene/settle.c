@@ -44,11 +44,12 @@ typedef struct statics {
   const sw_settle_args *args;
   sw_settle_report *report;
   int (*interrupted)(void);
-  int most_far;   /* see sw_newton */
-  double passing; /* share of an edge that nodes of a place on the way may be off [-] */
-  double edge;    /* the shortest [m] */
-  double touched; /* time up to which contact has followed the obstacles [s] */
-  int *too_far;   /* see sw_scene_rest; or NULL */
+  int most_far;    /* see sw_newton */
+  double passing;  /* share of an edge that nodes of a place on the way may be off [-] */
+  double edge;     /* the shortest [m] */
+  size_t farthest; /* node that the last step moved most */
+  double touched;  /* time up to which contact has followed the obstacles [s] */
+  int *too_far;    /* see sw_scene_rest; or NULL */
   double *zero, *from, *y, *v; /* (freedoms) */
   double *tension;             /* (edges) at the start of an attempt */
   double *kept, *begun;        /* (state) put aside; as settling found it */
@@ -120,8 +121,10 @@ static sw_status solve(statics *p, double hbar, const sw_newton *newton, sw_erro
 static double take(statics *p, int trial) {
   sw_scene *s = p->s;
   double shift = 0;
-  for (size_t i = 0; i < 3 * s->system.nodes; i++)
-    shift = fmax(shift, fabs(p->y[i] - s->system.x[i]));
+  for (size_t i = 0; i < 3 * s->system.nodes; i++) {
+    const double own = fabs(p->y[i] - s->system.x[i]);
+    if (own > shift) shift = own, p->farthest = i / 3;
+  }
   sw_system_follow(&s->system, p->y);
   memcpy(s->system.x, p->y, s->system.freedoms * sizeof(double));
   memset(s->system.v, 0, s->system.freedoms * sizeof(double));
@@ -207,8 +210,27 @@ static double growth(const sw_scene *s, size_t iterations) {
   return iterations <= 14 ? 1.1 : 0.7;
 }
 
+/* Where wires touch. A pseudo step that failed takes many iterations for nothing, and would so
+ * again: the next ones are no longer than this share of it, more with every one that does well [-].
+ */
+static const double AFTER_FAILURE = 0.7, EASES = 1.1;
+
 static int stops(sw_status status) {
   return status == SW_ECALLBACK || status == SW_ENOMEM || status == SW_EINTR || status == SW_ELIMIT;
+}
+
+/* Where the last step still moved. */
+static sw_status not_at_rest(const statics *p, sw_error *err) {
+  const sw_system *s = &p->s->system;
+  size_t b = 0;
+  if (!(p->report->residual > 0))
+    return sw_fail(err, SW_ENOCONV, "not at rest after %zu iterations", p->report->iterations);
+  while (b + 1 < s->body_count && s->bodies[b + 1].first_node <= p->farthest) b++;
+  return sw_fail(err, SW_ENOCONV,
+                 "not at rest after %zu iterations: the last step still moved %.3g m at s = %.4g m "
+                 "of wire '%s'",
+                 p->report->iterations, p->report->residual,
+                 s->bodies[b].plan->s[p->farthest - s->bodies[b].first_node], p->s->wires[b].name);
 }
 
 static sw_status transient(statics *p, sw_error *err) {
@@ -218,6 +240,7 @@ static sw_status transient(statics *p, sw_error *err) {
       .max_iterations = 30, .accept_rotation = 0.01, .limit_rotation = 0.3, .statics = 0};
   /* what is dragged along must not be kept from it by inertia */
   double tau = dragged(p) ? SLOWEST_GROWTH * time_scale(s) : first;
+  double most = LARGEST_GROWTH * first;
   p->report->transient = 1;
   while (p->report->iterations < (size_t)p->args->max_iterations) {
     if (p->interrupted && p->interrupted()) return SW_EINTR;
@@ -225,6 +248,7 @@ static sw_status transient(statics *p, sw_error *err) {
     const sw_status status = solve(p, tau, &newton, err);
     if (stops(status)) return status;
     if (status != SW_OK) {
+      if (sw_scene_has_contact(s)) most = AFTER_FAILURE * tau;
       tau *= 0.25;
       if (p->too_far && tau < time_scale(s) && dragged(p)) {
         *p->too_far = 1;
@@ -237,11 +261,10 @@ static sw_status transient(statics *p, sw_error *err) {
     /* in a shorter step than the first one what is out of balance shifts by tau^2 */
     const double reserve = fmax(1.0, first * first / (tau * tau));
     if (p->report->residual * reserve <= p->args->tolerance) return SW_OK;
-    tau = fmin(tau * growth(s, p->report->iterations - before), LARGEST_GROWTH * first);
+    most = fmin(EASES * most, LARGEST_GROWTH * first);
+    tau = fmin(tau * growth(s, p->report->iterations - before), most);
   }
-  return sw_fail(err, SW_ENOCONV,
-                 "not at rest after %zu iterations: the last step still moved %.3g m",
-                 p->report->iterations, p->report->residual);
+  return not_at_rest(p, err);
 }
 
 /* Newton's iteration from where continuation came to rest, which stays when that fails: the
