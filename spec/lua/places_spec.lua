@@ -42,9 +42,9 @@ describe("an error", function()
       other:run{ dt = 0.005 }
     end,
     ["a run as a direction"] = function()
-      local other, wire = world()
-      wire:remodel{ model = "radial" }
-      wire:section(0.1):width(other:run{ duration = 0.001 })
+      local other, tube = world()
+      tube:remodel{ model = "radial" }
+      tube:section(0.1):width(other:run{ duration = 0.001 })
     end,
     ["the library as a table of parameters"] = function() sw.scene(sw) end,
     ["a value that cannot say what it is"] = function()
