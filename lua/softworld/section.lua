@@ -44,7 +44,7 @@ end
 --- Draw its outline, and those of others over it: { path = "x.svg" | ".png" | ".pdf", name =,
 -- with = { { name, section }, ... }, title = }. Returns the path.
 function Section:chart(options)
-  if type(options) ~= "table" or type(options.path) ~= "string" then
+  if type(checks.field(options, "path")) ~= "string" then
     error("section:chart takes { path = 'file.svg', name =, with = { { name, section }, ... } }", 2)
   end
   local list = { { options.name or ("s = %.4g m"):format(self.s), self } }

@@ -46,6 +46,11 @@ describe("an error", function()
       tube:remodel{ model = "radial" }
       tube:section(0.1):width(other:run{ duration = 0.001 })
     end,
+    ["a run as options of a section's chart"] = function()
+      local other, tube = world()
+      tube:remodel{ model = "radial" }
+      tube:section(0.1):chart(other:run{ duration = 0.001 })
+    end,
     ["the library as a table of parameters"] = function() sw.scene(sw) end,
     ["a value that cannot say what it is"] = function()
       gripper:close_jaws{ force = setmetatable({}, { __tostring = function() return {} end }) }
