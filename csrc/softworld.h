@@ -14,6 +14,7 @@
 #include "calibrate/minimise.h"
 #include "force/solid.h"
 #include "motion/motion.h"
+#include "scene/file.h"
 #include "scene/objects.h"
 #include "scene/readout.h"
 #include "scene/scene.h"

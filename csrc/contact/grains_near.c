@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
+#include "contact/cell.h"
 #include "contact/grain.h"
 
 static const double RESERVE = 1.5; /* of what gravity and speeds can close in the step [-] */
@@ -25,14 +26,10 @@ static double radius_of(const sw_body *b) {
 
 /* --- the grid --------------------------------------------------------------------- */
 
-typedef struct cell {
-  int32_t x, y, z;
-} cell;
-
 /* A point (node == end) or an edge. */
 typedef struct thing {
   uint32_t node, end, body, next; /* next: in its cell's list + 1 */
-  cell at;
+  sw_cell at;
 } thing;
 
 typedef struct grid {
@@ -42,24 +39,11 @@ typedef struct grid {
   double width; /* of a cell [m] */
 } grid;
 
-static int32_t cell_number(double x) { return (int32_t)fmax(-1e9, fmin(1e9, floor(x))); }
-
-static cell cell_of(const grid *g, sw_vec p) {
-  const double r = 1.0 / g->width;
-  return (cell){cell_number(p.x * r), cell_number(p.y * r), cell_number(p.z * r)};
-}
-
-static size_t bucket_of(const grid *g, cell c) {
-  const uint32_t h =
-      (uint32_t)c.x * 73856093u ^ (uint32_t)c.y * 19349663u ^ (uint32_t)c.z * 83492791u;
-  return (h * 2654435761u) >> 7 & (g->size - 1);
-}
-
 static void put(grid *g, const double *x, uint32_t body, size_t node, size_t end) {
   thing *t = &g->things[g->count++];
   *t = (thing){.node = (uint32_t)node, .end = (uint32_t)end, .body = body};
-  t->at = cell_of(g, sw_lerp(sw_vec_at(x, node), sw_vec_at(x, end), 0.5));
-  uint32_t *head = &g->head[bucket_of(g, t->at)];
+  t->at = sw_cell_of(g->width, sw_lerp(sw_vec_at(x, node), sw_vec_at(x, end), 0.5));
+  uint32_t *head = &g->head[sw_cell_bucket(t->at, g->size)];
   t->next = *head;
   *head = (uint32_t)g->count;
 }
@@ -205,11 +189,11 @@ static sw_status look_at(sw_grains *g, const sw_system *s, const thing *t, const
 /* What is in the cells around a thing: points look for edges, of two alike the first one looks. */
 static sw_status look_around(sw_grains *g, const sw_system *s, const grid *all, size_t k) {
   const thing *t = &all->things[k];
-  for (int32_t d = 0; d < 27; d++) {
-    const cell at = {t->at.x + d % 3 - 1, t->at.y + d / 3 % 3 - 1, t->at.z + d / 9 - 1};
-    for (uint32_t m = all->head[bucket_of(all, at)]; m; m = all->things[m - 1].next) {
+  for (int d = 0; d < SW_CELL_NEIGHBOURS; d++) {
+    const sw_cell at = sw_cell_beside(t->at, d);
+    for (uint32_t m = all->head[sw_cell_bucket(at, all->size)]; m; m = all->things[m - 1].next) {
       const thing *u = &all->things[m - 1];
-      if (u->at.x != at.x || u->at.y != at.y || u->at.z != at.z) continue;
+      if (!sw_cell_same(u->at, at)) continue;
       const int point = t->node == t->end, other = u->node == u->end;
       const int line = !s->bodies[t->body].plan->web && !point; /* is the second of two edges */
       if (point == other ? m - 1 > k : point) SW_TRY(look_at(g, s, line ? u : t, line ? t : u));

@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "base/interrupt.h"
 #include "base/simd.h"
+#include "contact/cell.h"
 #include "contact/pair.h"
 #include "system/join.h"
 
@@ -31,33 +32,15 @@ double sw_segments_nearest(sw_vec a0, sw_vec a1, sw_vec b0, sw_vec b1, double at
 
 /* --- grid ------------------------------------------------------------------------ */
 
-typedef struct cell {
-  int32_t x, y, z;
-} cell;
-
 /* Work of one search: segments by cell, in a hash table of lists. */
 typedef struct grid {
   size_t size;           /* of the table, a power of two */
   uint32_t *head, *next; /* (size) first segment + 1; (segments) the one after + 1 */
   uint32_t *node, *body; /* (segments) */
-  cell *cells;           /* (segments) */
+  sw_cell *cells;        /* (segments) */
   size_t count;
   double width; /* of a cell [m] */
 } grid;
-
-/* Of a place that is far away or nowhere too, so that cells beside it have numbers. */
-static int32_t cell_number(double x) { return (int32_t)fmax(-1e9, fmin(1e9, floor(x))); }
-
-static cell cell_of(const grid *g, sw_vec p) {
-  const double r = 1.0 / g->width;
-  return (cell){cell_number(p.x * r), cell_number(p.y * r), cell_number(p.z * r)};
-}
-
-static size_t bucket_of(const grid *g, cell c) {
-  const uint32_t h =
-      (uint32_t)c.x * 73856093u ^ (uint32_t)c.y * 19349663u ^ (uint32_t)c.z * 83492791u;
-  return (h * 2654435761u) >> 7 & (g->size - 1);
-}
 
 static sw_vec middle_of(const double *x, uint32_t node) {
   return sw_lerp(sw_vec_at(x, node), sw_vec_at(x, node + 1u), 0.5);
@@ -98,7 +81,7 @@ static sw_status fill_grid(sw_pairs *p, const sw_system *s, double width, grid *
   g->head = p->grid;
   g->next = g->head + g->size;
   g->node = g->next + s->nodes, g->body = g->node + s->nodes;
-  g->cells = (cell *)(g->body + s->nodes);
+  g->cells = (sw_cell *)(g->body + s->nodes);
   memset(g->head, 0, g->size * sizeof *g->head);
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
@@ -106,8 +89,8 @@ static sw_status fill_grid(sw_pairs *p, const sw_system *s, double width, grid *
     for (size_t e = 0; e < body->plan->edges; e++) {
       const size_t k = g->count++;
       g->node[k] = (uint32_t)(body->first_node + e), g->body[k] = (uint32_t)b;
-      g->cells[k] = cell_of(g, middle_of(s->x, g->node[k]));
-      uint32_t *head = &g->head[bucket_of(g, g->cells[k])];
+      g->cells[k] = sw_cell_of(g->width, middle_of(s->x, g->node[k]));
+      uint32_t *head = &g->head[sw_cell_bucket(g->cells[k], g->size)];
       g->next[k] = *head;
       *head = (uint32_t)k + 1;
     }
@@ -160,14 +143,13 @@ static void sort_from(sw_near *a, size_t n) {
 
 /* All later segments in the 27 cells around segment k, in ascending order. */
 static sw_status look_around(sw_pairs *p, const sw_system *s, const grid *g, size_t k) {
-  const cell c = g->cells[k];
+  const sw_cell c = g->cells[k];
   const size_t first = p->near_count;
-  for (int32_t d = 0; d < 27; d++) {
-    const cell at = {c.x + d % 3 - 1, c.y + d / 3 % 3 - 1, c.z + d / 9 - 1};
-    for (uint32_t m = g->head[bucket_of(g, at)]; m; m = g->next[m - 1]) {
-      const cell *own = &g->cells[m - 1];
-      if (m - 1 > k && own->x == at.x && own->y == at.y && own->z == at.z)
-        SW_TRY(look_at(p, s, g, k, m - 1));
+  for (int d = 0; d < SW_CELL_NEIGHBOURS; d++) {
+    const sw_cell at = sw_cell_beside(c, d);
+    for (uint32_t m = g->head[sw_cell_bucket(at, g->size)]; m; m = g->next[m - 1]) {
+      const sw_cell *own = &g->cells[m - 1];
+      if (m - 1 > k && sw_cell_same(*own, at)) SW_TRY(look_at(p, s, g, k, m - 1));
     }
   }
   sort_from(p->near + first, p->near_count - first);

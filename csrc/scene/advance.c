@@ -5,51 +5,8 @@
 
 #include "base/alloc.h"
 #include "scene/blow.h"
+#include "scene/run_check.h"
 #include "scene/world.h"
-
-static const char *const *integrator_names(void) {
-  static const char *names[32];
-  for (size_t i = 0; i + 1 < sizeof names / sizeof names[0] && sw_integrator_all()[i]; i++)
-    names[i] = sw_integrator_all()[i]->name;
-  return names;
-}
-
-static sw_param run_rows[] = {
-    {"duration", SW_PARAM_NUMBER, "s", NAN, 0, 1e9, 0, NULL, offsetof(sw_run_args, duration),
-     "simulated time; without it until the processes end"},
-    {"dt", SW_PARAM_NUMBER, "s", 0.01, 0, 1e3, SW_PARAM_ABOVE_MIN, NULL, offsetof(sw_run_args, dt),
-     "time step; with tolerance the largest one"},
-    {"tolerance", SW_PARAM_NUMBER, "m", NAN, 0, 1e3, SW_PARAM_ABOVE_MIN, NULL,
-     offsetof(sw_run_args, tolerance),
-     "error allowed in one step; controls the step size (or quantities, see help 'tolerance')"},
-    {"integrator", SW_PARAM_CHOICE, "-", 0, 0, 0, 0, NULL, offsetof(sw_run_args, integrator),
-     "time integration method"},
-    {"frame", SW_PARAM_NUMBER, "s", NAN, 0, 1e9, SW_PARAM_ABOVE_MIN, NULL,
-     offsetof(sw_run_args, frame), "time between stored frames (default 1/30 s)"},
-    {"quasistatic", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_run_args, quasistatic),
-     "true: equilibrium at every step instead of motion; dt is then the pose step, less where "
-     "pads hold a wire"},
-    {"window", SW_PARAM_NUMBER, "s", SW_WINDOW, 0, 1e9, 0, NULL, offsetof(sw_run_args, window),
-     "largest forces and tensions are of means over this time; 0: of single steps; see help "
-     "'peaks'"},
-    {"max_steps", SW_PARAM_INTEGER, "-", 1e15, 1, 1e15, 0, NULL, offsetof(sw_run_args, max_steps),
-     "stop after so many steps; one that had to be divided is finished first, and its parts count"},
-    {"unstable", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_run_args, unstable),
-     "true lets an explicit integrator take steps above its stable one"},
-    {"progress", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
-     "true shows a progress bar (default: when on a terminal and longer than a second)"},
-    {"save", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
-     "file to which the scene is written after every step of its processes; see help 'save'"},
-    {"resume", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
-     "file from which the scene goes on, if it is there; see help 'save'"},
-};
-const sw_params sw_run_params = SW_PARAMS("scene:run", run_rows);
-
-/* The choice row takes its names from the registry when first needed. */
-__attribute__((constructor)) static void fill_choices(void) {
-  for (size_t i = 0; i < sizeof run_rows / sizeof run_rows[0]; i++)
-    if (run_rows[i].type == SW_PARAM_CHOICE) run_rows[i].choices = integrator_names();
-}
 
 /* Rebounds closer than this share of a step are one [-]. */
 static const double SAME_TIME = 1.0 / 1024;
@@ -446,14 +403,11 @@ static void next_frame(sw_scene *s, double every, double t) {
   if (!(s->next_frame > t)) s->next_frame = nextafter(t, HUGE_VAL);
 }
 
-/* Less than that is no time: steps of it would underflow [s]. */
-static const double SHORTEST_STEP = 1e-20;
-
 static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_error *err) {
   sw_scene *s = p->s;
   const double t0 = s->time, span = until - t0;
   const double count = fmax(1.0, ceil(span / p->args->dt - 1e-9));
-  if (span > 0 && span < SHORTEST_STEP) s->time = until;
+  if (span > 0 && span < SW_SHORTEST_STEP) s->time = until;
   const int adaptive = isfinite(p->args->tolerance);
   s->stepper.wants_error = adaptive;
   const double slack = 1e-12 * fmax(fabs(until), span);
@@ -474,56 +428,6 @@ static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_er
     if (isfinite(p->args->frame)) next_frame(s, p->args->frame, s->time + slack);
   }
   return SW_OK;
-}
-
-static sw_status check_run(const sw_scene *s, const sw_run_args *args, sw_error *err) {
-  const sw_integrator *m = sw_integrator_all()[args->integrator];
-  if (!s->wire_count) return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", s->name);
-  for (size_t w = 0; w < s->wire_count; w++)
-    if (s->wires[w].beam.framed && !args->quasistatic && !(m->flags & SW_INTEGRATOR_IMPLICIT))
-      return sw_fail(
-          err, SW_EINVAL,
-          "scene:run: integrator '%s' is explicit; wire '%s', which is curved at rest, has two "
-          "values of EI or rolls, needs an implicit one",
-          m->name, s->wires[w].name);
-  const sw_scene_join *join = NULL;
-  for (size_t w = 0; w < s->wire_count && !join; w++) join = sw_scene_joined(s, w);
-  if (join && !args->quasistatic && !(m->flags & SW_INTEGRATOR_IMPLICIT))
-    return sw_fail(err, SW_EINVAL,
-                   "scene:run: integrator '%s' is explicit; '%s', which joins wires, needs an "
-                   "implicit one",
-                   m->name, join->name);
-  if (args->quasistatic && sw_slip_any(s))
-    return sw_fail(
-        err, SW_EINVAL,
-        "scene:run: a feed with force or force_limit needs motion; give it a speed for a "
-        "quasi-static run");
-  if (args->quasistatic && isfinite(args->tolerance))
-    return sw_fail(err, SW_EINVAL,
-                   "scene:run: tolerance controls the time step of motion; a quasi-static run "
-                   "takes dt, the time between two poses");
-  if (isfinite(args->tolerance) && !(m->flags & SW_INTEGRATOR_EMBEDDED))
-    return sw_fail(err, SW_EINVAL,
-                   "scene:run: integrator '%s' has no error estimate; give dt instead of "
-                   "tolerance, or integrator = 'tr-bdf2'",
-                   m->name);
-  return SW_OK;
-}
-
-/* A clock near t advances in parts of t times this [-]; a step must be some of them. */
-static const double CLOCK = 2.3e-16, TICKS = 64;
-static const double MOST_STEPS = 1e15; /* [-] */
-
-/* Steps that add up to the time they are to cover. */
-static sw_status check_clock(const sw_scene *s, const sw_run_args *args, double until,
-                             sw_error *err) {
-  const double latest = fmax(fabs(s->time), fabs(until)), span = until - s->time;
-  const double least = fmax(SHORTEST_STEP, fmax(TICKS * CLOCK * latest, span / MOST_STEPS));
-  if (args->dt >= least || !(span > 0)) return SW_OK;
-  return sw_fail(err, SW_EINVAL,
-                 "scene:run: dt = %g s is too short for t = %.6g to %.6g s; it must be at least "
-                 "%.2g s, or the clock would not advance by it or never arrive",
-                 args->dt, s->time, until, least);
 }
 
 static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const sw_error *why) {
@@ -559,8 +463,8 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   *report = (sw_run_report){.smallest_dt = HUGE_VAL, .time = s->time};
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
-  SW_TRY(check_run(s, args, err));
-  SW_TRY(check_clock(s, args, until, err));
+  SW_TRY(sw_run_check(s, args, err));
+  SW_TRY(sw_run_check_clock(s, args, until, err));
   SW_TRY(sw_scene_build(s, err));
   SW_TRY(sw_scene_check_step(s, args, until, err));
   SW_TRY(use_integrator(s, args, err));

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "scene/file.h"
 
 typedef struct head {
   char magic[16];
