@@ -266,25 +266,38 @@ static int meth_min_bend_radius(lua_State *L) {
   return push_extreme(L, x.value > 0 ? 1.0 / x.value : HUGE_VAL, &x);
 }
 
-/* Largest tension [N], where [m], when [s]: of means over the run's window. { raw = true }: of
- * single steps, and how long that one was [s]. */
+typedef struct tension_args {
+  int now, raw;
+  double window; /* [s] */
+} tension_args;
+
+static const sw_param tension_rows[] = {
+    {"now", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(tension_args, now),
+     "present value instead of the run's extreme"},
+    {"raw", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(tension_args, raw),
+     "of single steps instead of means over the run's window"},
+    {"window", SW_PARAM_NUMBER, "s", NAN, 0, 1e9, 0, NULL, offsetof(tension_args, window),
+     "0: raw; else the window of the run, the only one whose means are kept"}};
+static const sw_params tension_params = SW_PARAMS("wire:max_tension", tension_rows);
+
+/* Largest tension [N], where [m], when [s]: of means over the run's window. { raw = true } or
+ * { window = 0 }: of single steps, and how long that one was [s]. */
 static int meth_max_tension(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
   sw_wire_extremes now, run;
-  struct {
-    int now, raw;
-  } args;
-  static const sw_param rows[] = {{"now", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, 0,
-                                   "present value instead of the run's extreme"},
-                                  {"raw", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, sizeof(int),
-                                   "of single steps instead of means over the run's window"}};
-  static const sw_params params = SW_PARAMS("wire:max_tension", rows);
+  tension_args args;
   const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  lsw_arguments(L, 2, "wire:max_tension", &params, &args);
+  lsw_arguments(L, 2, "wire:max_tension", &tension_params, &args);
+  const double kept = sw_scene_window(scene);
+  if (args.window > 0 && fabs(args.window - kept) > 1e-9 * kept)
+    luaL_error(L,
+               "wire:max_tension: window = %f s: of this run means over %f s are kept, and raw "
+               "values (window = 0); give it to scene:run{ window = } to have others",
+               args.window, kept);
   lsw_must(L, sw_scene_wire_extremes(scene, w->id, &now, &run, &err), &err);
   if (args.now) return push_extreme(L, now.tension.value, &now.tension);
-  if (!args.raw) return push_extreme(L, run.tension.value, &run.tension);
+  if (!args.raw && args.window != 0) return push_extreme(L, run.tension.value, &run.tension);
   push_extreme(L, run.raw.value, &run.raw);
   lua_pushnumber(L, run.raw_span);
   return 4;

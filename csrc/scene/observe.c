@@ -282,13 +282,15 @@ static void keep_tension(sw_scene *s, size_t w, const sw_wire_extremes *now) {
 void sw_scene_run_tension(const sw_scene *s, size_t w, const sw_wire_extremes *now,
                           sw_wire_extremes *run) {
   const sw_window *window = &s->wires[w].window;
-  if (isfinite(run->raw.value) && is_coarse(s)) return; /* it counted with its mean */
-  if (now->tension.value > run->raw.value) run->raw = now->tension, run->raw_span = s->span;
+  const int counted = isfinite(run->raw.value) && is_coarse(s); /* with its mean */
+  if (!counted && now->tension.value > run->raw.value)
+    run->raw = now->tension, run->raw_span = s->span;
   const int fits = window->marks && window->edges == watched_edges(&s->system.bodies[w]);
-  if (!fits)
+  const int missing = !isfinite(run->tension.value); /* a record shorter than the window */
+  if (!fits && (missing || !counted))
     keep_largest(&run->tension, &now->tension);
-  else if (!isfinite(run->tension.value) ||
-           (sw_window_waits(window) && is_averaged(s) && sw_window_full(window, s->window)))
+  else if (fits && (missing || (sw_window_waits(window) && is_averaged(s) &&
+                                sw_window_full(window, s->window))))
     keep_mean(s, w, &run->tension);
 }
 

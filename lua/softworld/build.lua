@@ -84,6 +84,10 @@ function build.call(_, f, ...)
   return finish(false, pcall(f, ...))
 end
 
+--- The same of a function of this library that places its errors itself, but counts levels as if the
+-- script called it.
+function build.through(f, ...) return finish(true, pcall(of_core, f, ...)) end
+
 --- f, with errors placed as by build.call.
 function build.placed(f)
   return function(...) return build.call(3, f, ...) end

@@ -15,6 +15,7 @@ local checks = require "softworld.checks"
 local core = require "softworld.core"
 local build = require "softworld.build" -- adds to the classes: names, files, drawing data
 local methods = require "softworld.methods"
+local record = require "softworld.record" -- of calls, for scene:script and scene:describe
 local remarks = require "softworld.remarks"
 
 local sw = {
@@ -45,7 +46,9 @@ local save = require "softworld.save" -- scene:save, scene:resume, scene:find
 --- A new scene. { name =, gravity = {x, y, z} [m/s2] }
 function sw.scene(args)
   if type(args) == "table" then remarks.gravity(rawget(args, "gravity")) end
-  return build.call(3, core.scene, args)
+  local scene = build.call(3, core.scene, args)
+  record.begin(scene, args)
+  return scene
 end
 
 --- The scene that scene:save has written to a file, or a run with save = file.
@@ -53,6 +56,10 @@ function sw.load(file) return save.load(file) end
 
 --- The names of all cables of the catalogue; print shows them as a table.
 function sw.cables() return sw.cable.list() end
+
+require "softworld.script"   -- scene:script
+require "softworld.describe" -- scene:describe
+record.install(made)
 
 for kind, class in pairs(made) do methods.guard_table(kind, class) end
 methods.guard_core()

@@ -347,3 +347,28 @@ describe("peaks are printed with the raw ones", function()
     assert.matches("max_tension = .*%(10 ms mean; raw .*%)", text)
   end)
 end)
+
+describe("a run shorter than its window", function()
+  -- A rod that hangs from one end: m g of what hangs below the first edge. A window longer than the run
+  -- counts as the run, at steps below and above the usual window of 10 ms.
+  for _, dt in ipairs{ 2e-3, 0.01, 0.02 } do
+    for _, width in ipairs{ 0.05, 2 } do
+      it(("of %g s with steps of %g s has the mean of all"):format(width, dt), function()
+        local scene = sw.scene{}
+        local wire = scene:wire{ E = 1e8, density = 1000, radius = 0.003, segments = 10, from = { 0, 0, 0 },
+          to = { 0, 0, -0.5 } }
+        scene:clamp(wire, { s = 0 })
+        t.fine(scene:settle())
+        local run = scene:run{ duration = 0.1, dt = dt, window = width }
+        t.fine(run)
+        local held = 1000 * math.pi * 0.003 ^ 2 * 0.5 * G * 0.95 -- the middle of the first edge
+        t.share(held, (wire:max_tension()), 1e-3, "mean")
+        t.share(held, (wire:max_tension{ window = 0 }), 1e-3, "raw")
+        t.share(held, (wire:max_tension{ window = width }), 1e-3, "by name")
+        local fine, message = pcall(wire.max_tension, wire, { window = 0.03 })
+        assert.is_false(fine)
+        assert.is_truthy(message:find("scene:run{ window = }", 1, true), message)
+      end)
+    end
+  end
+end)
