@@ -1,7 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- What a script made and changed in a scene, call by call, for scene:script and scene:describe.
--- A record has { self =, method =, args = { n = }, results = { n = } } of each call that returned, arguments
--- copied. Calls that are made by others of the library, and those from within a run, are not in it.
+-- A record has { self =, method =, args = { n = }, results = { n = }, late = } of each call that returned,
+-- arguments copied; late: it came after the first step. Calls that are made by others of the library, and
+-- those from within a run, are not in it.
 -- @module softworld.record
 local core = require "softworld.core"
 local build = require "softworld.build"
@@ -26,8 +27,7 @@ local table_methods = {
   clip = "release", tie = "release", channel = "open close release",
 }
 
--- scene's data -> { calls, late = number of the first one after the first step, missed = calls beyond MOST,
--- made = table of sw.scene }
+-- scene's data -> { calls, missed = calls beyond MOST, made = table of sw.scene }
 local logs = setmetatable({}, { __mode = "k" })
 local marks = setmetatable({}, { __mode = "k" })    -- snapshot -> how long the record was
 local made_by = setmetatable({}, { __mode = "k" })  -- trajectory -> { self =, method =, args = }
@@ -86,7 +86,7 @@ local function recorded(name, method, scene_of)
     if inside or plain ~= name and select("#", ...) == 0 then return method(self, ...) end
     local scene = scene_of(self)
     if not scene or build.data(scene).running then return method(self, ...) end
-    local call = { self = self, method = plain, args = arguments(...) }
+    local call = { self = self, method = plain, args = arguments(...), late = scene.time > 0 }
     inside = true
     return finish(scene, call, pcall(build.through, method, self, ...))
   end
@@ -119,25 +119,13 @@ local function scene_of_table(class)
   end
 end
 
--- The first step ends what a script builds; what is done later is told apart.
-local function note_first_step(name)
-  local method = core.class.scene[name]
-  core.class.scene[name] = function(scene, ...)
-    if not inside and is_open(scene) then
-      local log = record.of(scene)
-      log.late = log.late or #log + 1
-    end
-    return method(scene, ...)
-  end
-end
-
 local function follow_snapshots()
   local class = core.class.scene
   local snapshot, restore = class.snapshot, class.restore
   function class.snapshot(scene)
     local result = snapshot(scene)
     local log = record.of(scene)
-    marks[result] = { count = #log, late = log.late, missed = log.missed }
+    marks[result] = { count = #log, missed = log.missed }
     return result
   end
   function class.restore(scene, from)
@@ -145,11 +133,11 @@ local function follow_snapshots()
       local log, mark = record.of(scene), marks[from]
       if mark then
         for i = #log, mark.count + 1, -1 do log[i] = nil end
-        log.late, log.missed = mark.late, mark.missed
+        log.missed = mark.missed
       end
       return ...
     end
-    return go(restore(scene, from))
+    return go(build.through(restore, scene, from))
   end
 end
 
@@ -175,7 +163,6 @@ end
 function record.install(made)
   for kind, names in pairs(core_methods) do install(core.class[kind], names, scene_of_core(kind)) end
   for kind, names in pairs(table_methods) do install(made[kind], names, scene_of_table(made[kind])) end
-  for _, name in ipairs{ "run", "advance", "resume" } do note_first_step(name) end
   follow_snapshots()
   follow_trajectories()
 end

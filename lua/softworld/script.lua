@@ -148,13 +148,13 @@ local function commented(text) return "-- " .. text:gsub("\n", "\n-- ") end
 
 local function body(log, lines, list, words, object)
   for k, call in ipairs(log) do
-    if log.late and k >= log.late then
+    if call.late then
       local fine, text = pcall(line_of, call, k, list, words, object)
       lines[#lines + 1] = commented(fine and text or ("%s: %s"):format(call.method, text))
     else
       lines[#lines + 1] = line_of(call, k, list, words, object)
     end
-    if k + 1 == log.late and log[k + 1] then
+    if not call.late and log[k + 1] and log[k + 1].late then
       lines[#lines + 1] = "\n-- After the first step; these lines build nothing:"
     end
   end
@@ -177,7 +177,7 @@ end
 
 local function text_of(scene)
   local log = record.of(scene)
-  if log.missed > 0 and not log.late then
+  if log.missed > 0 and not log[#log].late then
     error(("scene:script: scene '%s' was changed %d times; the first %d are known"):format(scene.name,
       #log + log.missed, #log), 0)
   end
