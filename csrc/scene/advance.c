@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "scene/blow.h"
+#include "scene/passing.h"
 #include "scene/run_check.h"
 #include "scene/world.h"
 
@@ -289,11 +290,18 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
     if (part > left * (1 - 1e-12)) part = left;
     if (done > 0 && p->interrupted && p->interrupted()) return SW_EINTR; /* there may be many */
     SW_TRY(make_room(p, &part, err));
+    if ((s->jerks = sw_scene_jerks(s))) s->stepper.restart = 1;
     if (!(part >= SMALLEST_SHARE * SMALLEST_SHARE * h))
       return sw_feed_too_fast(s, failed.text, err);
     const sw_status status = judged_attempt(p, part, 0.5 * part < SMALLEST_SHARE * h, err);
     if (status == SW_OK && sw_blow_begins(s, part)) { /* not refused: it only told of the blow */
       undo(p);
+      continue;
+    }
+    const double over = status == SW_OK ? sw_passing_of(s, s->stepper.trial_x) : 0;
+    if (sw_passing_part(part, over) < part) { /* nor is this */
+      undo(p);
+      part = sw_passing_part(part, over);
       continue;
     }
     if (status == SW_OK) {
@@ -303,7 +311,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
       if (p->redo != AS_IS) sw_blow_refused(s, part);
       SW_TRY(observe(s, err));
       SW_TRY(count_small(p, part, p->args->dt, err));
-      part = starts || cut ? h : 2 * part;
+      part = starts || cut ? h : over > 0.5 ? part : 2 * part;
       starts = cut = 0;
       continue;
     }
@@ -327,6 +335,7 @@ static sw_status controlled_step(loop *p, double left, double t1, sw_error *err)
   const double tolerance = p->args->tolerance, most = fmin(p->args->dt, left);
   double h = s->next_dt > 0 ? fmin(s->next_dt, most) : 0.1 * most;
   SW_TRY(make_room(p, &h, err));
+  if ((s->jerks = sw_scene_jerks(s))) s->stepper.restart = 1;
   p->changed = s->discontinuous > 0;
   for (double uncut = 0;;) { /* uncut: the step that was cut at a rebound [s] */
     const int last = h >= left * (1 - 1e-9);

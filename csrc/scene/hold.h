@@ -57,6 +57,9 @@ void sw_hold_book(sw_scene *scene, const sw_booking *booking);
 /* The step that led here had a jerk: what the hold bore in it is not what it bears at its end.
  * Means over it, about its place [N], [N m]. */
 int sw_hold_jerked(const sw_scene *scene, const sw_scene_hold *hold, sw_vec *force, sw_vec *moment);
+/* What is written beside a force: above 0 the time that it is the mean of, below 0 the step at whose
+ * end it is the force [s]. */
+double sw_hold_span(const sw_scene *scene, int mean);
 /* Looks at a hold of the accepted state: is it driven into obstacles, does it push too hard? */
 sw_status sw_hold_look_out(sw_scene *scene, sw_scene_hold *hold, sw_error *err);
 /* 1: one was driven into an obstacle in the last step. */

@@ -34,13 +34,21 @@ static double usual_force(const sw_scene *s, size_t wire) {
   return fmax(weight, p->beam.EI / (p->length * p->length));
 }
 
+/* A method that only looks on from the middle of a step rings after a jerk: what rings counts as
+ * values at the steps' ends, whose mean over two steps is right. */
+double sw_hold_span(const sw_scene *s, int mean) {
+  const int rings = s->has_stepper && (s->method->flags & SW_INTEGRATOR_ONWARDS);
+  return mean && !rings ? s->span : -s->span;
+}
+
 int sw_hold_jerked(const sw_scene *s, const sw_scene_hold *h, sw_vec *force, sw_vec *moment) {
   const sw_hold_sums *sums = &h->sums;
   if (!sums->known || !(s->span > 0) || h->cls->feeds) return 0;
   const sw_vec mean = sw_scale(sums->force[sums->last], 1.0 / s->span);
   const double off = sw_norm(sw_sub(h->force, mean));
-  if (!(off > JERK * fmax(sw_norm(h->force), sw_norm(mean)))) return 0;
-  if (!(off > SHARP * usual_force(s, h->wire))) return 0;
+  const int sharp =
+      off > JERK * fmax(sw_norm(h->force), sw_norm(mean)) && off > SHARP * usual_force(s, h->wire);
+  if (!sharp && !s->jerks) return 0;
   *force = mean;
   *moment = sw_scale(sums->moment[sums->last], 1.0 / s->span);
   return 1;

@@ -76,6 +76,8 @@ typedef struct sw_tool {
  * the motion may be a user's function. */
 sw_status sw_drive_eval(sw_scene *scene, const sw_drive *drive, double t, sw_motion_state *out,
                         sw_error *err);
+/* 1: something that holds a wire starts, stops or turns a corner at once at the present time. */
+int sw_scene_jerks(sw_scene *scene);
 /* Follow the motion from the scene's time on. */
 sw_status sw_drive_follow(sw_scene *scene, sw_drive *drive, const char *object, sw_motion *motion,
                           int relative, sw_error *err);

@@ -325,11 +325,11 @@ static sw_status log_holds(sw_scene *s, sw_error *err) {
     SW_TRY(sw_hold_look_out(s, h, err));
     row[SW_LOG_TIME] = s->time;
     sw_vec force = h->force, moment = h->moment;
-    sw_hold_jerked(s, h, &force, &moment);
+    const int mean = sw_hold_jerked(s, h, &force, &moment);
     sw_store(row + SW_LOG_FORCE, force);
     sw_store(row + SW_LOG_MOMENT, moment);
     sw_store(row + SW_LOG_POINT, at->pose.p);
-    row[SW_LOG_SPAN] = -s->span;
+    row[SW_LOG_SPAN] = sw_hold_span(s, mean);
     if (h->cls->feeds) h->feed.drive = sw_feed_drive(s, h, s->system.x);
     if (sw_log_add(&h->log, row, SW_LOG_SIZE) != SW_OK)
       return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", h->name);

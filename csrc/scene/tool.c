@@ -207,16 +207,19 @@ static void pads_mean(const sw_scene *s, const sw_tool *t, sw_vec about, sw_vec 
   }
 }
 
+/* Those of its holds; mean: NULL, or means of steps with a jerk count and it says whether one did.
+ */
 static sw_status holds_force(sw_scene *s, size_t slot, sw_vec about, sw_vec *force, sw_vec *moment,
-                             sw_error *err) {
+                             int *mean, sw_error *err) {
   for (size_t k = 0; k < s->hold_count; k++) {
     const sw_scene_hold *h = &s->holds[k];
     sw_motion_state at;
     if (!h->alive || h->drive.tool != 1 + slot) continue;
     SW_TRY(sw_drive_eval(s, &h->drive, s->time, &at, err));
-    const sw_vec turned = sw_cross(sw_sub(at.pose.p, about), h->force);
-    *force = sw_add(*force, h->force);
-    *moment = sw_add(*moment, sw_add(h->moment, turned));
+    sw_vec F = h->force, M = h->moment;
+    if (mean) *mean |= sw_hold_jerked(s, h, &F, &M);
+    *force = sw_add(*force, F);
+    *moment = sw_add(*moment, sw_add(M, sw_cross(sw_sub(at.pose.p, about), F)));
   }
   return SW_OK;
 }
@@ -229,7 +232,7 @@ sw_status sw_scene_tool_force(sw_scene *s, sw_handle tool, const sw_vec *about, 
   const sw_vec point = about ? *about : pose.p;
   *force = *moment = sw_v(0, 0, 0);
   pads_force(s, &s->tools[tool.slot], -1, point, force, moment);
-  return holds_force(s, tool.slot, point, force, moment, err);
+  return holds_force(s, tool.slot, point, force, moment, NULL, err);
 }
 
 sw_status sw_scene_tool_finger(sw_scene *s, sw_handle tool, int finger, const sw_vec *about,
@@ -290,7 +293,8 @@ sw_status sw_tool_observe(sw_scene *s, sw_error *err) {
     t->now.q = at.pose.q;
     sw_vec force = sw_v(0, 0, 0), moment = force;
     pads_mean(s, t, at.pose.p, &force, &moment);
-    SW_TRY(holds_force(s, k, at.pose.p, &force, &moment, err));
+    int mean = 0;
+    SW_TRY(holds_force(s, k, at.pose.p, &force, &moment, &mean, err));
     if (t->frozen)
       hold_frozen(s, t, force, moment);
     else
@@ -302,7 +306,7 @@ sw_status sw_tool_observe(sw_scene *s, sw_error *err) {
     sw_store(row + SW_LOG_POINT, at.pose.p);
     row[SW_LOG_OPENING] = t->now.opening, row[SW_LOG_SQUEEZE] = t->now.squeeze;
     row[SW_LOG_MARGIN] = t->now.margin, row[SW_LOG_SLIP] = t->now.slip;
-    row[SW_LOG_SPAN] = holds_any(s, k) ? -s->span : s->span;
+    row[SW_LOG_SPAN] = holds_any(s, k) ? sw_hold_span(s, mean) : s->span;
     if (sw_log_add(&t->log, row, SW_LOG_TOOL_SIZE) != SW_OK)
       return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", t->name);
   }

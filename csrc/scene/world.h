@@ -132,6 +132,7 @@ struct sw_scene {
   const sw_integrator *method; /* of stepper */
   sw_stepper stepper;
   int has_stepper;
+  int jerks;         /* the present step begins where a hold starts or stops at once, see jerk.c */
   int discontinuous; /* the acceleration is stale: restart the integrator; or SW_GOES_ON */
   double window;     /* of the present or last run, see sw_run_args [s] */
   double span;       /* of the step that led here; 0: the state is an equilibrium [s] */

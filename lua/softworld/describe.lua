@@ -24,20 +24,23 @@ local function name_of(value)
   return fine and name or nil
 end
 
--- Objects become their names, functions the word.
-local function plain(value, depth)
+-- Objects become their names, functions the word. above: tables that the value is in.
+local function plain(value, above)
   local kind = type(value)
   if kind == "number" or kind == "string" or kind == "boolean" then return value end
   if value == record.a_function then return "function" end
+  above = above or {}
   local of = record.trajectory(value)
-  if of then return plain(of.args[1], depth) end
-  if kind ~= "table" or getmetatable(value) ~= nil or depth > 20 then
+  if of then return plain(of.args[1], above) end
+  if kind ~= "table" or getmetatable(value) ~= nil or above[value] then
     return name_of(value) or tostring(value)
   end
   local copy = {}
+  above[value] = true
   for key, item in next, value do
-    copy[type(key) == "userdata" and tostring(key) or key] = plain(item, depth + 1)
+    copy[type(key) == "userdata" and tostring(key) or key] = plain(item, above)
   end
+  above[value] = nil
   return copy
 end
 
@@ -67,8 +70,8 @@ local function of_hold(hold) return { kind = hold.kind, held = hold.held } end
 
 local function item(object, name, given, now)
   local made = given[object]
-  local one = { name = name, given = made and plain(made.args, 0) or nil,
-    wire = made and made.wire and plain(made.wire, 0) or nil }
+  local one = { name = name, given = made and plain(made.args) or nil,
+    wire = made and made.wire and plain(made.wire) or nil }
   one.now = now(object)
   return one
 end
@@ -82,7 +85,7 @@ local function list_of(entries, given, now)
 end
 
 local function obstacles_of(data, given)
-  local list = list_of(data.obstacles, given, function(o) return plain(o:get(), 0) end)
+  local list = list_of(data.obstacles, given, function(o) return plain(o:get()) end)
   local at = 0
   for _, entry in ipairs(data.obstacles) do
     if core.exists(entry.object) then
@@ -97,7 +100,7 @@ local function forces_of(forces, given)
   local list = {}
   for _, force in ipairs(forces) do
     if core.exists(force) then
-      list[#list + 1] = { kind = force.kind, given = plain(given[force].args, 0),
+      list[#list + 1] = { kind = force.kind, given = plain(given[force].args),
         now = { held = force.held } }
     end
   end
@@ -117,7 +120,7 @@ end
 local function grippers_of(data, given)
   local list = {}
   for i, gripper in ipairs(data.grippers) do
-    list[i] = item(gripper, gripper.name, given, function(g) return plain(g:get(), 0) end)
+    list[i] = item(gripper, gripper.name, given, function(g) return plain(g:get()) end)
   end
   return list
 end

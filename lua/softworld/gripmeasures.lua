@@ -164,7 +164,7 @@ local function over_options(options)
 end
 
 -- Integrate force and moment from t1 to t2: means of steps times their duration, values of a moment by
--- trapezoids.
+-- trapezoids; of the step after a mean, whose start is not known, the end counts for all of it.
 local function add_up(self, m, list, t1, t2)
   local force_time, moment_time, before = 0, 0, nil
   local function add(h, r)
@@ -179,8 +179,9 @@ local function add_up(self, m, list, t1, t2)
       before = r.t >= t1 and r.t <= t2 and r or nil
     elseif r.t >= t1 and r.t <= t2 then
       if before and not is_gap(self, 0.5 * (before.t + r.t)) then
-        add(0.5 * (r.t - before.t), before)
-        add(0.5 * (r.t - before.t), r)
+        local share = before.span > 0 and 0 or 0.5
+        add(share * (r.t - before.t), before)
+        add((1 - share) * (r.t - before.t), r)
       end
       before = r
     end

@@ -4,7 +4,7 @@
 local literal = {}
 
 local WIDTH = 100 -- of a line [characters]
-local DEEPEST = 40 -- tables in tables
+local DEEPEST = 100 -- tables in tables
 
 local reserved = {}
 for word in ([[and break do else elseif end false for function goto if in local nil not or repeat return then
@@ -72,23 +72,26 @@ end
 
 --- A value as source. object(value, path): source of what is neither plain nor a plain table, may raise;
 -- path names the value in messages. Raises a text without a place.
-function literal.of(value, object, path, indent, depth)
+function literal.of(value, object, path, indent, above)
   local kind = type(value)
   if kind == "number" then return literal.number(value) end
   if kind == "string" then return (("%q"):format(value):gsub("\\\n", "\\n")) end
   if kind == "boolean" or kind == "nil" then return tostring(value) end
   if kind ~= "table" or getmetatable(value) ~= nil then return object(value, path) end
-  indent, depth = indent or "", depth or 0
-  if depth > DEEPEST then error(path .. " is too deep in other tables", 0) end
+  indent, above = indent or "", above or {}
+  if above[value] then error(path .. " is a table that contains itself", 0) end
+  if #indent > 2 * DEEPEST then error(path .. " is too deep in other tables", 0) end
+  above[value] = true
   local items = {}
   for i, item in ipairs(value) do
-    items[i] = literal.of(item, object, ("%s[%d]"):format(path, i), indent .. "  ", depth + 1)
+    items[i] = literal.of(item, object, ("%s[%d]"):format(path, i), indent .. "  ", above)
   end
   for _, key in ipairs(sorted_keys(value, #items)) do
     local inner = ("%s.%s"):format(path, tostring(key))
     items[#items + 1] = key_text(key, object, path)
-      .. literal.of(value[key], object, inner, indent .. "  ", depth + 1)
+      .. literal.of(value[key], object, inner, indent .. "  ", above)
   end
+  above[value] = nil
   return in_braces(items, indent)
 end
 

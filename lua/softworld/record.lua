@@ -10,8 +10,8 @@ local trajectory = require "softworld.trajectory"
 
 local record = {}
 
+local DEEPEST = 100 -- tables in tables that are copied
 local MOST = 20000 -- calls of a scene; a loop that changes something at each step would fill the memory
-local DEEPEST = 20 -- tables in tables
 
 -- Methods that make or change something. "name?" only does with an argument; else it reads.
 local core_methods = {
@@ -37,18 +37,21 @@ local inside = false
 local Function = { __name = "function" }
 record.a_function = setmetatable({}, Function)
 
--- Scripts may change their tables after the call. Objects stay what they are.
-local function copied(value, depth)
+-- Scripts may change their tables after the call. Objects stay what they are. seen: table -> its copy, for
+-- tables may contain themselves.
+local function copied(value, seen, depth)
   if type(value) == "function" then return record.a_function end
   if type(value) ~= "table" or getmetatable(value) ~= nil or depth > DEEPEST then return value end
+  if seen[value] then return seen[value] end
   local copy = {}
-  for key, item in next, value do copy[key] = copied(item, depth + 1) end
+  seen[value] = copy
+  for key, item in next, value do copy[key] = copied(item, seen, depth + 1) end
   return copy
 end
 
 local function arguments(...)
-  local args = table.pack(...)
-  for i = 1, args.n do args[i] = copied(args[i], 0) end
+  local args, seen = table.pack(...), {}
+  for i = 1, args.n do args[i] = copied(args[i], seen, 0) end
   return args
 end
 
@@ -79,13 +82,19 @@ local function finish(scene, call, fine, ...)
   return ...
 end
 
+-- As if the script called it: a tail call where the method is Lua's, else its errors are placed anew.
+local function unrecorded(method)
+  if debug.getinfo(method, "S").what == "Lua" then return method end
+  return function(self, ...) return build.through(method, self, ...) end
+end
+
 -- scene_of(self): the scene to be told; nil when self is no such object, or is gone.
 local function recorded(name, method, scene_of)
-  local plain = name:gsub("%?$", "")
+  local plain, other = name:gsub("%?$", ""), unrecorded(method)
   return plain, function(self, ...)
-    if inside or plain ~= name and select("#", ...) == 0 then return method(self, ...) end
+    if inside or plain ~= name and select("#", ...) == 0 then return other(self, ...) end
     local scene = scene_of(self)
-    if not scene or build.data(scene).running then return method(self, ...) end
+    if not scene or build.data(scene).running then return other(self, ...) end
     local call = { self = self, method = plain, args = arguments(...), late = scene.time > 0 }
     inside = true
     return finish(scene, call, pcall(build.through, method, self, ...))

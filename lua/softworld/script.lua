@@ -41,21 +41,22 @@ end
 
 -- Numbers of the calls whose object a later one needs.
 local function needed(log, made)
-  local list = {}
-  local function walk(value, depth)
-    if value == nil or depth > 40 then return end
+  local list, seen = {}, {}
+  local function walk(value)
+    if type(value) ~= "table" and type(value) ~= "userdata" or seen[value] then return end
+    seen[value] = true
     if made[value] then list[made[value]] = true end
     local of = record.trajectory(value)
     if of then
-      walk(of.self, depth + 1)
-      for k = 1, of.args.n do walk(of.args[k], depth + 1) end
+      walk(of.self)
+      for k = 1, of.args.n do walk(of.args[k]) end
     end
     if type(value) ~= "table" or getmetatable(value) ~= nil then return end
-    for _, item in next, value do walk(item, depth + 1) end
+    for _, item in next, value do walk(item) end
   end
   for _, call in ipairs(log) do
-    walk(call.self, 0)
-    for k = 1, call.args.n do walk(call.args[k], 0) end
+    walk(call.self)
+    for k = 1, call.args.n do walk(call.args[k]) end
   end
   return list
 end

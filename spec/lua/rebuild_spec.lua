@@ -204,3 +204,35 @@ describe("scene:describe", function()
     assert.equal(laid(false), laid(true))
   end)
 end)
+
+describe("tables that contain themselves", function()
+  it("are copied, described, and refused by name", function()
+    local scene, wire = hung()
+    local args = { s = 0 }
+    for i = 1, 8 do args[i] = args end
+    assert.is_false(pcall(scene.clamp, scene, wire, args))
+    local marks = {}
+    for i = 1, 8 do marks[i] = marks end
+    scene:gripper{ name = "hand", pads = { width = 0.01 } }:set{ on_slip = function() return marks end }
+    same(hung())
+  end)
+end)
+
+describe("errors of calls that are recorded", function()
+  it("stand at the script's line, whoever raises them", function()
+    local scene, wire = hung()
+    local pin = scene:pin(wire, { s = 0.1 })
+    scene:force{ kind = "damping", mass = 1 }
+    local closed = hung()
+    closed:close()
+    for _, call in ipairs{ function() return pin:speed() end, function() return closed:gravity() end,
+      function() return closed:gravity{ 0, 0, 0 } end, function() scene:restore(nil) end,
+      function() pin:follow(7) end, function() scene:clamp(wire, { s = 9 }) end,
+      function() scene:clamp(wire, 7) end } do
+      local fine, message = pcall(call)
+      assert.is_false(fine)
+      assert.is_truthy(tostring(message):find("rebuild_spec.lua:%d+: "), message)
+      assert.is_nil(message:find("softworld/record", 1, true), message)
+    end
+  end)
+end)
