@@ -12,6 +12,7 @@ local number = require "softworld.output.number"
 local place = require "softworld.place"
 local refine = require "softworld.refine"
 local remarks = require "softworld.remarks"
+local tables = require "softworld.rows"
 local runfiles = require "softworld.runfiles"
 local save = require "softworld.save"
 local sealed = require "softworld.sealed"
@@ -28,6 +29,10 @@ local Run = { __name = "run" }
 local readable = runfiles.readable
 local chunk = 64 -- steps between two looks at progress; fixed, so that results never depend on it
 local default_frame = 1 / 30 -- [s]
+local frames_rows = tables.list{
+  { "memory", "number", "B", "that all frames of the scene may take; when full every second one goes",
+    min = 1e4, max = 1e12, default = 256e6 },
+}
 local progress_after = 1 -- of computing [s]
 
 local function merge(total, part)
@@ -60,7 +65,9 @@ local function drive(scene, args, total, bar)
   local options = {}
   for k, v in pairs(args) do options[k] = v end
   options.progress, options.duration, options.save, options.resume = nil, nil, nil, nil
-  options.frame = options.frame or default_frame
+  options.frame = args.frames ~= false and (options.frame or default_frame) or nil
+  options.frames = nil
+  core.keep_frames(scene, args.frames and frames_rows:read(args.frames, "scene:run: frames").memory or nil)
   local left = (args.max_steps or math.huge) - total.steps
   while true do
     local alive, wake, watching = process.step(scene)
@@ -163,6 +170,16 @@ local function check_start(scene, args)
   end
 end
 
+-- What frames it is to store.
+local function check_frames(args)
+  if args.frames == nil or args.frames == false then return end
+  if type(args.frames) ~= "table" then
+    error("scene:run: frames must be a table such as { memory = 256e6 }, or false, got "
+      .. checks.got(args.frames), 0)
+  end
+  frames_rows:read(args.frames, "scene:run: frames")
+end
+
 -- The files that it is to be written to and to go on from.
 local function check_files(scene, args)
   if trust.wanted(args) and build.data(scene).from_file then
@@ -199,6 +216,7 @@ function core.class.scene.run(scene, args)
     for key, value in next, args do own[key] = value end
     args = own
     build.call(3, check_files, scene, args)
+    build.call(3, check_frames, args)
   end
   if trust.wanted(args) then
     local job, steps = build.call(3, refine.job, scene, args, check_start)
@@ -275,6 +293,11 @@ local function summary_of(self)
   end
   for _, f in ipairs(fixing.all(self.scene)) do f:report(add) end
   ledger.report(self, add)
+  local thinned = core.frames_thinned(self.scene)
+  if thinned > 1 then
+    add("frames: one of so many is kept, for want of memory", thinned, "-", nil, nil,
+      "see frames = { memory = }")
+  end
   for _, q in ipairs(self.quantities and self:error_bars() or {}) do
     rows[#rows + 1] = { label = q.name, value = type(q.value) == "number" and q.value or q:text(),
       unit = type(q.value) == "number" and q.unit or "",
