@@ -51,7 +51,8 @@ $(PAGE): $(PAGE_SRC) scripts/page.lua Makefile
 	@mkdir -p $(@D)
 	esbuild lua/softworld/page/main.js --bundle --minify --format=iife --target=chrome90,firefox113 \
 	  --legal-comments=inline --log-level=warning --outfile=$(@D)/player.js \
-	  --alias:three=$(WEB)/three/three.module.js --alias:dygraphs=$(WEB)/dygraphs/dygraph.min.js \
+	  --alias:three=$(WEB)/three/three.module.js \
+	  --alias:three-controls=$(WEB)/three/examples/jsm/controls/OrbitControls.js --alias:dygraphs=$(WEB)/dygraphs/dygraph.min.js \
 	  --alias:dygraphs.css=$(WEB)/dygraphs/dygraph.css
 	lua5.4 scripts/page.lua lua/softworld/page $(@D) $@
 

@@ -30,8 +30,7 @@ static void *keeper(lua_State *L, size_t size, const char *name, lua_CFunction e
 /* core.film(scene, from, to, values) -> bytes, frames, those left out as broken */
 static int mod_film(lua_State *L) {
   const sw_scene *scene = ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
-  const sw_film_args args = {luaL_checknumber(L, 2), luaL_checknumber(L, 3),
-                             lua_toboolean(L, 4)};
+  const sw_film_args args = {luaL_checknumber(L, 2), luaL_checknumber(L, 3), lua_toboolean(L, 4)};
   sw_error err = {""};
   sw_film *film = keeper(L, sizeof *film, "softworld.film", free_film);
   lsw_must(L, sw_film_make(scene, &args, sw_interrupted, film, &err), &err);
@@ -40,6 +39,18 @@ static int mod_film(lua_State *L) {
   lua_pushinteger(L, (lua_Integer)film->broken);
   sw_film_free(film);
   return 3;
+}
+
+/* core.edges(particles) -> edges of the surface: pairs of numbers from 0, 32 bits each */
+static int mod_edges(lua_State *L) {
+  sw_scene *scene;
+  luaL_Buffer b;
+  const lsw_child *p = lsw_check_child(L, 1, &lsw_class_particles, &scene);
+  const size_t count = sw_scene_particles_edges(scene, p->id, NULL), size = 2 * sizeof(uint32_t);
+  char *out = luaL_buffinitsize(L, &b, count * size);
+  sw_scene_particles_edges(scene, p->id, (uint32_t *)(void *)out);
+  luaL_pushresultsize(&b, count * size);
+  return 1;
 }
 
 /* core.deflate(bytes) -> fewer bytes (zlib) */
@@ -77,10 +88,8 @@ static int mod_page(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg functions[] = {{"film", mod_film},
-                                     {"deflate", mod_deflate},
-                                     {"base64", mod_base64},
-                                     {"page", mod_page},
-                                     {NULL, NULL}};
+static const luaL_Reg functions[] = {{"film", mod_film},       {"edges", mod_edges},
+                                     {"deflate", mod_deflate}, {"base64", mod_base64},
+                                     {"page", mod_page},       {NULL, NULL}};
 
 void lsw_open_film(lua_State *L) { luaL_setfuncs(L, functions, 0); }

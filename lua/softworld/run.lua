@@ -307,6 +307,17 @@ local function summary_of(self)
   return rows
 end
 
+-- Entries of obstacles without the objects.
+local function obstacles_of(data)
+  local list = {}
+  for i, o in ipairs(data.obstacles) do
+    list[i] = {}
+    for k, v in pairs(o) do list[i][k] = v end
+    list[i].object = nil
+  end
+  return list
+end
+
 -- Clips are shown as obstacles that stand still.
 local function add_fixings(scene, doc)
   for _, f in ipairs(fixing.all(scene)) do
@@ -322,27 +333,19 @@ end
 -- What pictures show.
 local function draw(self, doc, wires)
   doc.wires = wires
-  for i, o in ipairs(build.data(self.scene).obstacles) do
-    local entry = {}
-    for k, v in pairs(o) do entry[k] = v end
-    entry.object = nil
-    doc.obstacles[i] = entry
-  end
+  doc.obstacles = obstacles_of(build.data(self.scene))
   for i = 1, self.scene:frame_count() do doc.frames[i] = self.scene:frame(i) end
   drawn.add(self.scene, doc)
   add_fixings(self.scene, doc)
 end
 
---- Plain tables of everything that charts, pictures and files need.
-function Run:document()
-  if self.ok then readable(self, "results") end
-  local data = build.data(self.scene)
+-- What a run has beside its frames.
+local function outline(self)
   local doc = { name = self.name, ok = self.ok, reason = self.reason, time = self.time,
     events = self.events,
     steps = self.steps, wall = self.wall, cpu = self.cpu, gravity = self.scene:gravity(),
     wires = {}, obstacles = {}, grips = {}, clamps = {}, frames = {} }
   if not self.ok then return doc end
-  draw(self, doc, wires_of(data))
   doc.series, doc.summary = self:series(), summary_of(self)
   local unmet = trust.unmet(self)
   doc.met, doc.unmet = self.met, unmet and ("%s (%s)"):format(unmet, self.advice)
@@ -350,6 +353,31 @@ function Run:document()
     doc.quantities = doc.quantities or {}
     doc.quantities[i] = { name = q.name, value = q.value, error = q.error, unit = q.unit,
       asked = q.tolerance, met = q.met, where = q.where, when = q.when }
+  end
+  return doc
+end
+
+--- Plain tables of everything that charts, pictures and files need.
+function Run:document()
+  if self.ok then readable(self, "results") end
+  local doc = outline(self)
+  if self.ok then draw(self, doc, wires_of(build.data(self.scene))) end
+  return doc
+end
+
+-- For a player: without frames, which it takes from the core.
+function runfiles.described(self)
+  readable(self, "frames", true)
+  local doc, data = outline(self), build.data(self.scene)
+  doc.scene, doc.start, doc.from, doc.to = self.scene, self.start, self.start - 1e-9, self.time + 1e-9
+  doc.wires = self.ok and wires_of(data) or self.drawn
+  doc.obstacles = obstacles_of(data)
+  drawn.describe(self.scene, doc)
+  for _, f in ipairs(fixing.all(self.scene)) do
+    for _, one in ipairs(f:solids()) do
+      one.name, one.part = one.name or f.name, f.name
+      doc.obstacles[#doc.obstacles + 1] = one
+    end
   end
   return doc
 end

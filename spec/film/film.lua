@@ -68,7 +68,8 @@ function film.inflate(bytes)
     for i = 1, 30 do distances[i] = 5 end
     return huffman(lengths), huffman(distances)
   end
-  local out, last = {}, nil
+  local out = {}
+  local last
   repeat
     last = bits(1)
     local kind = bits(2)
