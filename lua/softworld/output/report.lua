@@ -116,7 +116,7 @@ local function summary_of(run)
   for i, row in ipairs(run.summary or {}) do
     local value, unit = row.value, ""
     if type(value) == "number" then value, unit = number.engineering(value, row.unit) end
-    list[i] = json.object{ label = row.label, value = tostring(value), unit = unit, raw = row.value,
+    list[i] = json.object{ label = row.label, value = tostring(value), unit = (unit:gsub("^u", "µ")), raw = row.value,
       raw_unit = row.unit, where = row.where, when = row.when,
       wrong = row.label:find "EXCEEDED" ~= nil or row.label:find "FOLDED" ~= nil
         or row.label:find "SLIPPED" ~= nil or row.label:find "LOST" ~= nil or nil }

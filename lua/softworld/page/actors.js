@@ -54,9 +54,13 @@ export class Wire extends Actor {
       pressed: run.film.get("pressed", index) });
     this.material = new THREE.MeshPhongMaterial({ vertexColors: THREE.VertexColors, shininess: 34,
       specular: new THREE.Color(0.09, 0.09, 0.09), side: THREE.DoubleSide });
-    this.surface = this.skin ? new Skin(this.material) : new Tube(this.material);
-    this.surface.mesh.userData.actor = this;
-    this.group.add(this.surface.mesh);
+    this.tube = new Tube(this.material); // a mesh that is frozen between pads is a line for a while
+    this.shell = this.skin ? new Skin(this.material) : null;
+    for (const s of [this.tube, this.shell]) {
+      if (!s) continue;
+      s.mesh.userData.actor = this;
+      this.group.add(s.mesh);
+    }
     this.plain = linear(RUNS[run.index % RUNS.length]);
   }
 
@@ -78,10 +82,12 @@ export class Wire extends Actor {
       const v = f > 0 && i + 1 < this.count ? values[i] + (values[i + 1] - values[i]) * f : values[i];
       scale.put(v, C, c);
     };
-    if (this.skin) {
-      const points = this.reader.read(this.skin, at);
-      this.surface.update(points, this.skin.count(at.frame), this.skin.line, paint);
-    } else {
+    const points = this.skin ? this.reader.read(this.skin, at) : null;
+    this.surface = points ? this.shell : this.tube;
+    this.tube.mesh.visible = !points;
+    if (this.shell) this.shell.mesh.visible = Boolean(points);
+    if (points) this.shell.update(points, this.skin.count(at.frame), this.skin.line, paint);
+    else {
       const radius = Math.max(this.wire.radius * look.thick, look.least);
       this.surface.update(x, this.count, radius, this.count > 2000 ? 6 : SIDES, paint);
     }
@@ -136,7 +142,15 @@ export class Particles extends Actor {
     this.lines.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * most), 3));
     if (given.pairs) this.lines.geometry.setIndex(new THREE.BufferAttribute(given.pairs, 1));
     this.lines.visible = Boolean(given.pairs);
-    this.group.add(this.balls, this.lines);
+    this.cloth = new THREE.Mesh(new THREE.BufferGeometry(), solid(RUNS[run.index % RUNS.length],
+      { transparent: true, opacity: 0.82, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
+    this.cloth.geometry.setAttribute("position", this.lines.geometry.attributes.position);
+    this.cloth.geometry.setIndex(new THREE.BufferAttribute(trianglesOf(given.pairs || []), 1));
+    this.cloth.frustumCulled = false;
+    this.cloth.castShadow = true;
+    this.cloth.visible = this.cloth.geometry.index.count > 0;
+    for (const mesh of [this.balls, this.cloth]) mesh.userData.actor = this;
+    this.group.add(this.cloth, this.balls, this.lines);
   }
 
   update(at, look, hidden) {
@@ -155,7 +169,24 @@ export class Particles extends Actor {
     const p = this.lines.geometry.attributes.position;
     p.array.set(x.subarray(0, 3 * n));
     p.needsUpdate = true;
+    if (this.cloth.visible) this.cloth.geometry.computeVertexNormals();
   }
+}
+
+/** Triangles that the edges of a surface enclose: pairs of numbers -> corners. */
+function trianglesOf(pairs) {
+  const beside = new Map(), out = [];
+  for (let i = 0; i < pairs.length; i += 2) {
+    const a = Math.min(pairs[i], pairs[i + 1]), b = Math.max(pairs[i], pairs[i + 1]);
+    if (!beside.has(a)) beside.set(a, new Set());
+    beside.get(a).add(b);
+  }
+  for (const [a, others] of beside) {
+    for (const b of others) {
+      for (const c of beside.get(b) || []) if (others.has(c)) out.push(a, b, c);
+    }
+  }
+  return new Uint32Array(out);
 }
 
 /** What has a pose: kind and number of its tracks. */
@@ -333,6 +364,7 @@ export class Hold extends OnWire {
       let first = 0;
       while (!this.places.count(first)) first++;
       this.group.quaternion.multiply(this.lean(this.places, this.turns, 0, first, this.up));
+      this.group.scale.setScalar(Math.max(1, look.thick * 0.7));
     }
     this.show(there, hidden);
   }
@@ -381,6 +413,7 @@ export class Gripper extends OnWire {
       this.pose(i >= 0 ? i : this.last);
     } else if (!this.seen && this.given.first_at) this.group.position.set(...this.given.first_at);
     this.seen = Boolean(p);
+    this.jaws.scale.set(Math.max(1, look.thick / 2), look.thick, look.thick);
     this.jaws.visible = this.given.tool === undefined || !this.reader.read(this.run.film.get("tool", this.given.tool), at);
     this.show(Boolean(p) || Boolean(this.given.first_at && t <= (this.spans[0]?.from ?? 0)), hidden);
   }

@@ -90,11 +90,11 @@ class Chart {
       visibility: group.curves.map((c) => c.on),
       legend: "never", strokeWidth: 1.4, highlightCircleSize: 2.5, rangeSelectorHeight: 0,
       connectSeparatedPoints: this.all.runs > 1, logscale: group.radius, digitsAfterDecimal: 4,
-      axisLabelWidth: 52, xRangePad: 2, yRangePad: 6, labelsKMB: false, gridLineWidth: 1,
+      axisLabelWidth: 52, gridLineColor: "#80808038", axisLineColor: "#80808066", xRangePad: 2, yRangePad: 6, labelsKMB: false, gridLineWidth: 1,
       series: Object.fromEntries(group.curves.map((c, i) => [`${c.label}${" ".repeat(i)}`,
         c.r ? { strokePattern: [[7, 3], [2, 2], [9, 3, 2, 3]][(c.r - 1) % 3] } : {}])),
       axes: { x: { axisLabelFormatter: (t) => `${Number(t.toPrecision(6))}`, pixelsPerLabel: 56 },
-        y: { axisLabelFormatter: (y) => short(y), pixelsPerLabel: 26 } },
+        y: { axisLabelFormatter: (y) => short(y), pixelsPerLabel: 19 } },
       clickCallback: (e, t) => this.state.set({ time: t, playing: false }),
       drawCallback: (g, first) => {
         this.place(this.state.get("time"));

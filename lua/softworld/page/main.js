@@ -11,8 +11,8 @@ import { savePicture, saveTable, saveFilm, linkOf, readLink } from "./exports.js
 
 const $ = (id) => document.getElementById(id);
 const THEMES = {
-  dark: { background: "#161a20", floor: "#1c2129", line: "#475162", shade: 0.55, bounce: "#2c3440", accent: "#2cc5bd" },
-  light: { background: "#eef1f4", floor: "#f6f8fa", line: "#b9c2cd", shade: 0.24, bounce: "#b9bec6", accent: "#0b7f7a" },
+  dark: { background: "#161a20", floor: "#1c2129", line: "#475162", shade: 0.55, bounce: "#2c3440", accent: "#2cc5bd", sky: 0.5, sun: 0.52 },
+  light: { background: "#eef1f4", floor: "#f6f8fa", line: "#b9c2cd", shade: 0.24, bounce: "#b9bec6", accent: "#0b7f7a", sky: 0.62, sun: 0.62 },
 };
 
 function say(text) {
@@ -233,6 +233,8 @@ function openView(data, state, span) {
     viewButtons(view);
     tools(view, state);
     objectTree($("objects"), view, data, state);
+    // thin wires are drawn thicker at first, so that they can be seen
+    state.set({ thick: Math.min(10, Math.max(1, Math.round((2 * view.stage.size) / 420 / view.radius) / 2)) });
     view.update();
     return view;
   } catch (error) {
@@ -248,7 +250,8 @@ async function start() {
   const data = await load(), span = spanOf(data), given = readLink(location.hash);
   const known = knownQuantities(data, "all", 0, null).map((q) => q.key);
   const state = new State({ time: span[0], playing: false, speed: 1, loop: false, theme: firstTheme(), left: true, right: true,
-    tab: data.runs.every((run) => run.series) ? "charts" : "results", quantity: known.includes(given.quantity) ? given.quantity : known[0] || null,
+    tab: data.runs.every((run) => run.series) ? "charts" : "results", quantity: known.includes(given.quantity) ? given.quantity
+      : data.runs.length === 1 && known[0] || null, // several runs are told apart by their colours
     range: "all", custom: null, thick: 1, arrows: false, ways: true, glass: false, hidden: new Set(), selected: null, probe: null,
     tool: null, cut: null, cutAt: 0.5, flip: false });
   header(data, state);

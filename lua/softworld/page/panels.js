@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What stands around the stage: objects, colours and legend, probe, results, events, script.
 import { h, iconButton } from "./dom.js";
-import { QUANTITIES, format, knownQuantities } from "./model.js";
+import { format, knownQuantities } from "./model.js";
+import { RUNS } from "./colours.js";
 
 const GROUPS = [["wire", "Wires"], ["particles", "Particles"], ["gripper", "Grippers"], ["hold", "Holds"],
-  ["pad", "Grippers' parts"], ["obstacle", "Obstacles"]];
+  ["pad", "Grippers' parts"], ["clip", "Clips"], ["obstacle", "Obstacles"]];
 
-const groupOf = (actor) => (actor.kind === "obstacle" && actor.given.part ? "pad" : actor.kind);
+const groupOf = (actor) => (actor.kind !== "obstacle" ? actor.kind : actor.fixed ? "clip" : actor.given.part ? "pad"
+  : actor.kind);
 
 /** The tree of objects: to hide and to pick. */
 export function objectTree(host, view, data, state) {
@@ -18,7 +20,10 @@ export function objectTree(host, view, data, state) {
   };
   for (const run of data.runs) {
     const list = h("div.tree", { role: "group", "aria-label": `Objects of ${run.name}` });
-    if (data.runs.length > 1) list.append(h("h3.run-name", {}, `${run.index + 1}  ${run.name}`));
+    if (data.runs.length > 1) {
+      list.append(h("h3.run-name", {}, h("span.swatch", { style: { background: RUNS[run.index % RUNS.length] } }),
+        `${run.index + 1}  ${run.name}`));
+    }
     for (const [kind, words] of GROUPS) {
       const own = view.actors.filter((a) => a.run === run && groupOf(a) === kind);
       if (!own.length) continue;
@@ -119,7 +124,7 @@ export class Legend {
 /** Numbers at a picked place of a wire, or of what else is picked. */
 export class ProbeCard {
   constructor(host, view, state) {
-    Object.assign(this, { view, state });
+    Object.assign(this, { view, state, known: knownQuantities(view.data, "all", 0, null) });
     this.title = h("strong");
     this.slider = h("input", { type: "range", min: 0, step: "any", "aria-label": "Place along the wire",
       oninput: () => this.move(Number(this.slider.value)) });
@@ -169,7 +174,7 @@ export class ProbeCard {
       return;
     }
     this.row("Place", vector(at.point.toArray(), "m"));
-    for (const q of QUANTITIES) {
+    for (const q of this.known) {
       const x = wire.value(q.channel, Math.min(probe.s, length));
       if (Number.isNaN(x)) continue;
       this.row(q.label, format(x, q.unit));

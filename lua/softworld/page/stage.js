@@ -33,9 +33,10 @@ export function roundLength(x) {
 }
 
 export class Stage {
-  constructor(host, bounds, up) {
+  constructor(host, bounds, points, up) {
     this.host = host;
     this.bounds = bounds;
+    this.points = points; // some of what is to be seen, at all times
     this.up = up;
     this.size = Math.max(bounds.getSize(new THREE.Vector3()).length(), 1e-4);
     this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: false, preserveDrawingBuffer: false });
@@ -126,6 +127,8 @@ export class Stage {
     // a background is no lit colour: it is given as it is to be seen
     this.renderer.setClearColor(new THREE.Color(theme.background), 1);
     this.sky.groundColor.setRGB(...linear(theme.bounce));
+    this.sky.intensity = theme.sky;
+    this.sun.intensity = theme.sun;
     this.paintGround();
     this.touch();
   }
@@ -166,25 +169,31 @@ export class Stage {
     }
   }
 
-  /** Look from a standard side at all there is, or at a box. */
-  look(name, box = this.bounds) {
+  /** Look from a standard side, or from where the camera is, at all there is: as near as it may be. Each
+   * bound of the picture is linear in the camera's coordinates. */
+  look(name) {
     const away = name ? this.directionOf(name).normalize()
       : this.camera.position.clone().sub(this.controls.target).normalize();
-    const centre = box.getCenter(new THREE.Vector3());
     const right = new THREE.Vector3().crossVectors(this.up, away);
     if (right.lengthSq() < 1e-6) right.set(1, 0, 0);
     right.normalize();
     const top = new THREE.Vector3().crossVectors(away, right);
-    const ty = Math.tan((FOV / 2) * (Math.PI / 180)) * 0.86, tx = ty * this.camera.aspect;
-    let distance = this.size / 1000;
-    for (let k = 0; k < 8; k++) {
-      const corner = new THREE.Vector3(k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y,
-        k & 4 ? box.max.z : box.min.z).sub(centre);
-      const ahead = corner.dot(away);
-      distance = Math.max(distance, ahead + Math.abs(corner.dot(right)) / tx, ahead + Math.abs(corner.dot(top)) / ty);
+    const ty = Math.tan((FOV / 2) * (Math.PI / 180)) * 0.84, tx = ty * this.camera.aspect;
+    let [ax, bx, ay, by, nearest] = [-Infinity, Infinity, -Infinity, Infinity, -Infinity];
+    for (const p of this.points) {
+      const x = p.dot(right), y = p.dot(top), z = p.dot(away);
+      ax = Math.max(ax, x + z * tx);
+      bx = Math.min(bx, x - z * tx);
+      ay = Math.max(ay, y + z * ty);
+      by = Math.min(by, y - z * ty);
+      nearest = Math.max(nearest, z);
     }
-    this.controls.target.copy(centre);
-    this.camera.position.copy(centre).addScaledVector(away, distance);
+    const middle = this.bounds.getCenter(new THREE.Vector3()).dot(away);
+    const z = Math.max((ax - bx) / (2 * tx), (ay - by) / (2 * ty), nearest + this.size / 1000);
+    const place = (depth) => new THREE.Vector3().addScaledVector(right, (ax + bx) / 2)
+      .addScaledVector(top, (ay + by) / 2).addScaledVector(away, depth);
+    this.controls.target.copy(place(middle));
+    this.camera.position.copy(place(z));
     this.controls.update();
     this.touch();
   }

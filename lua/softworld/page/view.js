@@ -8,16 +8,18 @@ import { Stage } from "./stage.js";
 import { Wire, Particles, Obstacle, Hold, Gripper, Way, Reader } from "./actors.js";
 import { Arrows } from "./arrows.js";
 
-/** The box around all wires at all times, and obstacles that are near. */
+/** The box around all wires at all times, and some of their points. */
 function boundsOf(data) {
-  const box = new THREE.Box3(), point = new THREE.Vector3(), room = [];
+  const box = new THREE.Box3(), points = [], room = [];
   const see = (track, frames) => {
-    if (!track) return;
     const step = Math.max(1, Math.floor(frames / 80));
     for (let f = 0; f < frames; f += step) {
-      const n = track.sample(f, 0, room);
-      const skip = Math.max(1, Math.floor(n / 60));
-      for (let i = 0; i < n; i += i + skip < n || i === n - 1 ? skip : Math.max(1, n - 1 - i)) box.expandByPoint(point.fromArray(room, 3 * i));
+      const n = track.sample(f, 0, room), skip = Math.max(1, Math.floor((n - 1) / 40));
+      for (let i = 0; i < n; i += skip) {
+        const point = new THREE.Vector3().fromArray(room, 3 * i);
+        points.push(point);
+        box.expandByPoint(point);
+      }
     }
   };
   for (const run of data.runs) {
@@ -28,10 +30,16 @@ function boundsOf(data) {
   }
   if (box.isEmpty()) box.set(new THREE.Vector3(-0.5, -0.5, -0.5), new THREE.Vector3(0.5, 0.5, 0.5));
   const size = box.getSize(new THREE.Vector3()).length();
-  return { box, size };
+  return { box, size, points };
 }
 
-function withObstacles(data, { box, size }) {
+/** The same with obstacles, as far as they are near. */
+function withObstacles(data, { box, size, points }) {
+  const corners = (b) => {
+    for (let k = 0; k < 8; k++) {
+      points.push(new THREE.Vector3(k & 1 ? b.max.x : b.min.x, k & 2 ? b.max.y : b.min.y, k & 4 ? b.max.z : b.min.z));
+    }
+  };
   const whole = box.clone(), reach = box.clone().expandByScalar(0.25 * size), room = [];
   for (const run of data.runs) {
     for (const o of run.obstacles) {
@@ -47,11 +55,14 @@ function withObstacles(data, { box, size }) {
           there.applyMatrix4(new THREE.Matrix4().compose(p, new THREE.Quaternion(room[1], room[2], room[3], room[0]),
             new THREE.Vector3(1, 1, 1)));
         } else if (places) continue;
-        if (there.intersectsBox(reach)) whole.union(there.intersect(reach));
+        if (!there.intersectsBox(reach)) continue;
+        whole.union(there.intersect(reach));
+        corners(there);
       }
     }
   }
-  return whole;
+  if (!points.length) corners(whole);
+  return { box: whole, points };
 }
 
 export class View {
@@ -60,7 +71,8 @@ export class View {
     const wires = boundsOf(data), g = data.runs[0].gravity || [0, 0, 0];
     const up = new THREE.Vector3(-g[0], -g[1], -g[2]);
     if (up.lengthSq() < 1e-12) up.set(0, 0, 1);
-    this.stage = new Stage(host, withObstacles(data, wires), up.normalize());
+    const all = withObstacles(data, wires);
+    this.stage = new Stage(host, all.box, all.points, up.normalize());
     this.radius = Math.min(...data.runs.flatMap((r) => r.wires.map((w) => w.radius)).filter((r) => r > 0), this.stage.size / 40);
     this.actors = [];
     this.ways = [];
@@ -132,7 +144,7 @@ export class View {
 
   scaleMarks() {
     for (const mark of [this.probeMark, ...this.ends]) {
-      mark.scale.setScalar(0.007 * this.stage.camera.position.distanceTo(mark.position));
+      mark.scale.setScalar(0.0052 * this.stage.camera.position.distanceTo(mark.position));
     }
   }
 
