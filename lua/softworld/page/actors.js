@@ -143,7 +143,7 @@ export class Particles extends Actor {
     if (given.pairs) this.lines.geometry.setIndex(new THREE.BufferAttribute(given.pairs, 1));
     this.lines.visible = Boolean(given.pairs);
     this.cloth = new THREE.Mesh(new THREE.BufferGeometry(), solid(RUNS[run.index % RUNS.length],
-      { transparent: true, opacity: 0.82, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
+      { flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
     this.cloth.geometry.setAttribute("position", this.lines.geometry.attributes.position);
     this.cloth.geometry.setIndex(new THREE.BufferAttribute(trianglesOf(given.pairs || []), 1));
     this.cloth.frustumCulled = false;
@@ -169,7 +169,6 @@ export class Particles extends Actor {
     const p = this.lines.geometry.attributes.position;
     p.array.set(x.subarray(0, 3 * n));
     p.needsUpdate = true;
-    if (this.cloth.visible) this.cloth.geometry.computeVertexNormals();
   }
 }
 
@@ -456,7 +455,10 @@ export class Way {
     this.behind = new THREE.Line(g.clone(), new THREE.LineBasicMaterial({ color: accent }));
     this.group = new THREE.Group();
     this.group.add(whole, this.behind);
-    for (const line of this.group.children) line.frustumCulled = false;
+    for (const line of this.group.children) {
+      line.frustumCulled = false;
+      line.userData.whole = true;
+    }
   }
   update(at, look, hidden) {
     this.group.visible = this.moves && look.ways && !hidden.has(this.actor.id);

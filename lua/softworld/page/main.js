@@ -75,7 +75,7 @@ function tools(view, state) {
   const flip = h("button", { type: "button", onclick: () => state.set({ flip: !state.get("flip") }) }, "Flip");
   const panel = h("div.tool-panel", { hidden: true }, axis, place, flip);
   const hint = h("div.tool-panel", { hidden: true });
-  host.append(panel, hint);
+  host.after(h("div", { id: "tool-panels" }, panel, hint));
   state.watch(["cut", "cutAt", "flip"], ({ cut, cutAt, flip: other }) => {
     cut === null || (axis.value = cut);
     panel.hidden = cut === null;

@@ -42,6 +42,8 @@ export class Stage {
     this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: false, preserveDrawingBuffer: false });
     this.renderer.gammaOutput = true;
     this.renderer.gammaFactor = 2.2;
+    this.renderer.localClippingEnabled = true;
+    this.planes = []; // of the section
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
@@ -108,6 +110,7 @@ export class Stage {
     const shade = new THREE.Mesh(shape, new THREE.ShadowMaterial({ opacity: 0.3, depthWrite: false }));
     shade.receiveShadow = true;
     shade.renderOrder = -1;
+    floor.userData.whole = shade.userData.whole = true;
     group.add(floor, shade);
     group.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), n);
     // lines of the grid go through the origin
@@ -230,14 +233,19 @@ export class Stage {
   /** Cut away what is beyond a plane across an axis at a share of the bounds; null: nothing. */
   section(axis, share, flip) {
     if (axis === null) {
-      this.renderer.clippingPlanes = [];
+      this.planes = [];
     } else {
       const at = this.bounds.min.getComponent(axis)
         + share * (this.bounds.max.getComponent(axis) - this.bounds.min.getComponent(axis));
       this.clip.normal.set(0, 0, 0).setComponent(axis, flip ? 1 : -1);
       this.clip.constant = flip ? -at : at;
-      this.renderer.clippingPlanes = [this.clip];
+      this.planes = [this.clip];
     }
+    this.scene.traverse((o) => { // grounds, marks and ways stay whole
+      if (!o.material || o.userData.whole) return;
+      o.material.clippingPlanes = this.planes;
+      o.material.needsUpdate = true;
+    });
     this.touch();
   }
 
@@ -247,7 +255,7 @@ export class Stage {
     const at = new THREE.Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2);
     const ray = new THREE.Raycaster();
     ray.setFromCamera(at, this.camera);
-    const planes = this.renderer.clippingPlanes;
+    const { planes } = this;
     return ray.intersectObjects(objects, true)
       .filter((hit) => planes.every((p) => p.distanceToPoint(hit.point) >= 0));
   }

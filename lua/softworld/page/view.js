@@ -122,6 +122,7 @@ export class View {
       const mesh = new THREE.Mesh(new THREE.SphereBufferGeometry(1, 20, 14),
         new THREE.MeshBasicMaterial({ color: new THREE.Color(...linear(hex)), depthTest: false, transparent: true }));
       mesh.renderOrder = 5;
+      mesh.userData.whole = true;
       mesh.visible = false;
       this.stage.scene.add(mesh);
       return mesh;
@@ -132,6 +133,7 @@ export class View {
       new THREE.BufferAttribute(new Float32Array(6), 3)),
     new THREE.LineBasicMaterial({ color: new THREE.Color(...linear("#d9a520")), depthTest: false, transparent: true }));
     this.tape.frustumCulled = false;
+    this.tape.userData.whole = true;
     this.tape.renderOrder = 5;
     this.tape.visible = false;
     this.stage.scene.add(this.tape);
