@@ -230,6 +230,8 @@ function openView(data, state, span) {
     view.onprobe = (actor, at, probe) => card.show(actor, at, probe);
     state.watch(["selected"], () => view.updateProbe());
     state.watch(["theme"], ({ theme }) => view.paint(THEMES[theme]));
+    state.set({ shadows: !view.stage.isSoftware() });
+    state.watch(["shadows"], ({ shadows }) => view.stage.shadows(shadows));
     viewButtons(view);
     tools(view, state);
     objectTree($("objects"), view, data, state);
@@ -252,7 +254,7 @@ async function start() {
   const state = new State({ time: span[0], playing: false, speed: 1, loop: false, theme: firstTheme(), left: true, right: true,
     tab: data.runs.every((run) => run.series) ? "charts" : "results", quantity: known.includes(given.quantity) ? given.quantity
       : data.runs.length === 1 && known[0] || null, // several runs are told apart by their colours
-    range: "all", custom: null, thick: 1, arrows: false, ways: true, glass: false, hidden: new Set(), selected: null, probe: null,
+    range: "all", custom: null, thick: 1, arrows: false, ways: true, glass: false, shadows: true, hidden: new Set(), selected: null, probe: null,
     tool: null, cut: null, cutAt: 0.5, flip: false });
   header(data, state);
   const transport = new Transport($("transport"), data, state, span, frameTimes(data));

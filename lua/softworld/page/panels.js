@@ -75,7 +75,8 @@ export function lookPanel(host, data, state) {
     known.length ? h("label.field", {}, h("span", {}, "Colour"), select) : null,
     known.length ? h("label.field", {}, h("span", {}, "Range"), range) : null,
     h("label.field", {}, h("span", {}, "Thickness"), thick, times),
-    forces ? check("arrows", "Forces") : null, check("ways", "Trajectories"), check("glass", "See through obstacles")));
+    forces ? check("arrows", "Forces") : null, check("ways", "Trajectories"), check("glass", "See through obstacles"),
+    check("shadows", "Shadows")));
   state.watch(["quantity", "range", "thick"], (v) => {
     select.value = v.quantity || "";
     range.value = v.range;

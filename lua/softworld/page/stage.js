@@ -92,6 +92,19 @@ export class Stage {
     this.scene.add(this.sky, this.sun, this.sun.target, this.camera);
   }
 
+  /** Without a graphics card shadows cost more than all the rest. */
+  isSoftware() {
+    const gl = this.renderer.getContext(), more = gl.getExtension("WEBGL_debug_renderer_info");
+    return /swiftshader|llvmpipe|software|basic render/i.test(gl.getParameter(more ? more.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
+  }
+
+  shadows(on) {
+    this.renderer.shadowMap.enabled = this.sun.castShadow = on;
+    for (const g of this.grounds) g.shade.visible = on;
+    this.scene.traverse((o) => { if (o.material) o.material.needsUpdate = true; });
+    this.touch();
+  }
+
   /** A piece of a plane: grid and shadows. */
   addGround(point, normal) {
     const n = normal.clone().normalize();
@@ -119,6 +132,7 @@ export class Stage {
     local.x = Math.round(local.x / step / 5) * step * 5;
     local.y = Math.round(local.y / step / 5) * step * 5;
     group.position.copy(local.applyQuaternion(group.quaternion));
+    shade.visible = this.renderer.shadowMap.enabled;
     this.grounds.push({ group, floor, shade, step });
     this.paintGround();
     return group;
