@@ -11,7 +11,7 @@
 PREFIX = /usr/local
 BUILD = build
 CC = gcc
-PKG = lua5.4 gsl ccd assimp
+PKG = lua5.4 gsl ccd assimp zlib
 
 # Value-safe speed only: no -ffast-math, NaN checks and reproducible bits need IEEE rules.
 OPT = -O3 -fno-math-errno -fno-trapping-math -ffp-contract=fast
@@ -20,12 +20,13 @@ WARN = -Wall -Wextra -Wshadow -Wmissing-prototypes -Wstrict-prototypes -Wdouble-
   -Wpointer-arith -Wwrite-strings -Wvla -Wno-psabi
 CPPFLAGS = -Icsrc -D_GNU_SOURCE $(shell pkg-config --cflags $(PKG))
 CFLAGS = -std=c11 -g $(OPT) $(WARN) $(SAN) -fPIC
-LIBS = $(shell pkg-config --libs gsl ccd assimp) -lqhull_r -lcholmod -lamd -lm
+LIBS = $(shell pkg-config --libs gsl ccd assimp zlib) -lqhull_r -lcholmod -lamd -lm
 LUALIB = $(shell pkg-config --libs lua5.4)
 
 SRC = $(filter-out $(wildcard csrc/host/*.c),$(wildcard csrc/*/*.c))
 HOST = $(wildcard csrc/host/*.c)
-OBJ = $(SRC:csrc/%.c=$(BUILD)/obj/%.o)
+PAGE = $(BUILD)/page/player.html
+OBJ = $(SRC:csrc/%.c=$(BUILD)/obj/%.o) $(BUILD)/obj/page.o
 HOSTOBJ = $(HOST:csrc/%.c=$(BUILD)/obj/%.o)
 
 all: $(BUILD)/softworld $(BUILD)/lib/softworld/core.so
@@ -41,6 +42,25 @@ $(BUILD)/lib/softworld/core.so: $(OBJ)
 $(BUILD)/obj/%.o: csrc/%.c Makefile
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
+
+# The player's page, without network and in one file: scripts and styles are bundled into it. It is
+# a part of the program, which then need not look for it.
+WEB = /usr/share/javascript
+PAGE_SRC = $(wildcard lua/softworld/page/*)
+$(PAGE): $(PAGE_SRC) scripts/page.lua Makefile
+	@mkdir -p $(@D)
+	esbuild lua/softworld/page/main.js --bundle --minify --format=iife --target=chrome90,firefox113 \
+	  --legal-comments=inline --log-level=warning --outfile=$(@D)/player.js \
+	  --alias:three=$(WEB)/three/three.module.js \
+	  --alias:three-controls=$(WEB)/three/examples/jsm/controls/OrbitControls.js --alias:dygraphs=$(WEB)/dygraphs/dygraph.min.js \
+	  --alias:dygraphs.css=$(WEB)/dygraphs/dygraph.css
+	lua5.4 scripts/page.lua lua/softworld/page $(@D) $@
+
+$(BUILD)/obj/page.o: $(PAGE)
+	@mkdir -p $(@D)
+	printf '%s\n' '.section .rodata' '.global lsw_page_start' '.global lsw_page_end' \
+	  '.hidden lsw_page_start' '.hidden lsw_page_end' 'lsw_page_start: .incbin "$<"' \
+	  'lsw_page_end:' '.section .note.GNU-stack,"",%progbits' | $(CC) -x assembler -c -o $@ -
 
 -include $(OBJ:.o=.d) $(HOSTOBJ:.o=.d)
 

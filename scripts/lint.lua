@@ -23,6 +23,7 @@ local ROOMS = {
   calibrate = { "base", "wire", "force", "solve" },
   scene = { "base", "motion", "shape", "state", "wire", "force", "solve", "system", "integrate",
     "contact", "constraint", "calibrate", "modal" },
+  film = { "base", "scene" },
   bind = {}, -- the core through softworld.h
   host = { "bind" },
 }
@@ -30,6 +31,7 @@ local ROOMS = {
 -- Headers other rooms may see: <room>/<room>.h, unless listed here (true = all of them).
 -- state and solve have no single header: their parts have different users.
 local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "grains.h", "pairs.h" },
+  film = { "film.h", "pack.h" }, scene = { "frames.h" },
   force = { "force.h", "solid.h" }, shape = { "tree.h" },
   state = { "angle.h", "clamp.h", "crease.h", "field.h", "hinge.h", "mesh.h", "plan.h", "slide.h",
     "state_tape.h", "web.h" },
@@ -55,6 +57,7 @@ local OUTSIDE = {
   { "^suitesparse/", "^solve/cholmod_adapter%.c$" },
   { "^cholmod", "^solve/cholmod_adapter%.c$" },
   { "^readline/", "^host/" },
+  { "^zlib%.h$", "^film/pack_zlib%.c$" },
 }
 
 -- Words a file outside csrc/host may not use, with what to do instead.

@@ -25,6 +25,10 @@ build libassimp-dev    # reads STL, OBJ, PLY and glTF meshes
 build libqhull-dev     # convex hulls of point sets
 build libsuitesparse-dev # order in which to eliminate sparse matrices
 build libreadline-dev  # the interactive prompt
+build zlib1g-dev       # makes the frames in a player small
+build esbuild          # bundles the player's page
+build libjs-three      # draws in it
+build libjs-dygraphs   # charts in it
 run   gnuplot-nox      # charts
 run   povray           # ray-traced pictures
 manual cmark-gfm       # Markdown to HTML, for make manual
@@ -32,6 +36,10 @@ test  cmark-gfm        # for the spec of make manual
 test  lua-busted       # the test framework
 test  lua-check        # luacheck, for make lint
 test  lua-filesystem   # directories, for the spec runner
+test  chromium         # opens the player in specs
+test  chromium-driver  # and lets them use it
+test  lua-socket       # specs talk to it
+test  lua-dkjson       # in JSON
 lint  clang-tidy       # checks the C code
 lint  clang-format     # make format
 LIST

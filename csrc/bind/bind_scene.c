@@ -283,140 +283,6 @@ static int prop_name(lua_State *L) {
   return 1;
 }
 
-/* --- frames -------------------------------------------------------------------- */
-
-static void push_pose(lua_State *L, const double *p) {
-  lua_createtable(L, 0, 3);
-  lsw_set_vector(L, "position", sw_load(p));
-  lsw_push_quaternion(L, (sw_quat){p[3], p[4], p[5], p[6]});
-  lua_setfield(L, -2, "rotation");
-}
-
-/* Wires, or objects of particles. */
-static void push_frame_bodies(lua_State *L, const sw_scene *scene, size_t frame, int loose) {
-  size_t count;
-  const double *x;
-  lua_Integer number = 0;
-  lua_newtable(L);
-  for (size_t w = 0; (x = sw_scene_frame_wire(scene, frame, w, &count)) != NULL; w++) {
-    if (sw_scene_frame_is_loose(scene, w) != loose) continue;
-    lsw_push_flat(L, x, 3 * count);
-    lua_rawseti(L, -2, ++number);
-  }
-}
-
-/* Of each wire its surface { around =, points = flat [m], force = flat [N] }, or false. */
-static void push_frame_surfaces(lua_State *L, const sw_scene *scene, size_t frame) {
-  size_t count, around;
-  lua_newtable(L);
-  for (size_t w = 0; sw_scene_frame_wire(scene, frame, w, &count) != NULL; w++) {
-    const double *p = sw_scene_frame_surface(scene, frame, w, &count, &around);
-    if (p) {
-      lua_createtable(L, 0, 3);
-      lsw_set_integer(L, "around", around);
-      lua_createtable(L, 3 * (int)count, 0);
-      lua_createtable(L, (int)count, 0);
-      for (size_t i = 0; i < count; i++, p += SW_FRAME_SURFACE) {
-        for (size_t k = 0; k < 3; k++) {
-          lua_pushnumber(L, p[k]);
-          lua_rawseti(L, -3, 3 * (lua_Integer)i + (lua_Integer)k + 1);
-        }
-        lua_pushnumber(L, p[3]);
-        lua_rawseti(L, -2, (lua_Integer)i + 1);
-      }
-      lua_setfield(L, -3, "force");
-      lua_setfield(L, -2, "points");
-    } else {
-      lua_pushboolean(L, 0);
-    }
-    lua_rawseti(L, -2, (lua_Integer)w + 1);
-  }
-}
-
-/* Of each wire { tension =, curvature =, contact = }, flat, at each node [N], [1/m], [N]. */
-static void push_frame_values(lua_State *L, const sw_scene *scene, size_t frame) {
-  static const char *const names[SW_FRAME_VALUES] = {"tension", "curvature", "contact"};
-  size_t count;
-  lua_Integer number = 0;
-  lua_newtable(L);
-  for (size_t w = 0; sw_scene_frame_wire(scene, frame, w, &count) != NULL; w++) {
-    const double *p = sw_scene_frame_values(scene, frame, w, &count);
-    if (!p) continue;
-    lua_createtable(L, 0, SW_FRAME_VALUES);
-    for (size_t k = 0; k < SW_FRAME_VALUES; k++) {
-      lua_createtable(L, (int)count, 0);
-      for (size_t i = 0; i < count; i++) {
-        lua_pushnumber(L, p[SW_FRAME_VALUES * i + k]);
-        lua_rawseti(L, -2, (lua_Integer)i + 1);
-      }
-      lua_setfield(L, -2, names[k]);
-    }
-    lua_rawseti(L, -2, ++number);
-  }
-}
-
-/* scene:frame(i) -> { t, wires, values, surfaces, particles, obstacles (false: taken away), holds,
- * tools, energy }, or nil past the end. */
-static int meth_frame(lua_State *L) {
-  const sw_scene *scene = check(L);
-  const lua_Integer i = lsw_integer(L, 2, "scene:frame: the number of the frame");
-  const double *p;
-  int held;
-  if (i < 1 || (size_t)i > sw_scene_frames(scene)) return 0;
-  const size_t frame = (size_t)i - 1;
-  lua_createtable(L, 0, 9);
-  lsw_set_number(L, "t", sw_scene_frame_time(scene, frame));
-  push_frame_bodies(L, scene, frame, 0);
-  lua_setfield(L, -2, "wires");
-  push_frame_values(L, scene, frame);
-  lua_setfield(L, -2, "values");
-  push_frame_surfaces(L, scene, frame);
-  lua_setfield(L, -2, "surfaces");
-  push_frame_bodies(L, scene, frame, 1);
-  lua_setfield(L, -2, "particles");
-  lua_newtable(L);
-  for (size_t o = 0; (p = sw_scene_frame_obstacle(scene, frame, o, &held)) != NULL; o++) {
-    if (held)
-      push_pose(L, p);
-    else
-      lua_pushboolean(L, 0);
-    lua_rawseti(L, -2, (lua_Integer)o + 1);
-  }
-  lua_setfield(L, -2, "obstacles");
-  lua_newtable(L);
-  for (size_t h = 0; (p = sw_scene_frame_hold(scene, frame, h, &held)) != NULL; h++) {
-    push_pose(L, p);
-    lua_pushboolean(L, held);
-    lua_setfield(L, -2, "held");
-    lua_rawseti(L, -2, (lua_Integer)h + 1);
-  }
-  lua_setfield(L, -2, "holds");
-  lua_newtable(L);
-  for (size_t k = 0; (p = sw_scene_frame_tool(scene, frame, k)) != NULL; k++) {
-    push_pose(L, p);
-    lua_rawseti(L, -2, (lua_Integer)k + 1);
-  }
-  lua_setfield(L, -2, "tools");
-  const double *e = sw_scene_frame_energy(scene, frame);
-  lua_createtable(L, 0, SW_FRAME_ENERGIES);
-  lsw_set_number(L, "kinetic", e[0]);
-  lsw_set_number(L, "elastic", e[1]);
-  lsw_set_number(L, "gravity", e[2]);
-  lua_setfield(L, -2, "energy");
-  return 1;
-}
-
-static int meth_frame_count(lua_State *L) {
-  lua_pushinteger(L, (lua_Integer)sw_scene_frames(check(L)));
-  return 1;
-}
-
-static int meth_clear_frames(lua_State *L) {
-  sw_error err = {""};
-  lsw_must(L, sw_scene_clear_frames(check(L), &err), &err);
-  return 0;
-}
-
 /* --- snapshots ------------------------------------------------------------------ */
 
 static int meth_snapshot(lua_State *L) {
@@ -486,9 +352,9 @@ static const luaL_Reg methods[] = {{"wire", lsw_scene_wire},
                                    {"contacts", lsw_scene_contacts},
                                    {"stable_dt", meth_stable_dt},
                                    {"gravity", meth_gravity},
-                                   {"frame", meth_frame},
-                                   {"frame_count", meth_frame_count},
-                                   {"clear_frames", meth_clear_frames},
+                                   {"frame", lsw_scene_frame},
+                                   {"frame_count", lsw_scene_frame_count},
+                                   {"clear_frames", lsw_scene_clear_frames},
                                    {"snapshot", meth_snapshot},
                                    {"restore", meth_restore},
                                    {NULL, NULL}};

@@ -65,6 +65,9 @@ int lsw_scene_contacts(lua_State *L);
 /* scene:tell{...} books an event; scene:events() -> those of the run */
 int lsw_scene_tell(lua_State *L);
 int lsw_scene_events(lua_State *L);
+int lsw_scene_frame(lua_State *L);
+int lsw_scene_frame_count(lua_State *L);
+int lsw_scene_clear_frames(lua_State *L);
 int lsw_wire_frequencies(lua_State *L);
 int lsw_wire_remodel(lua_State *L);
 /* Index of the word under `model` of the table: of sw_wire_all(). */

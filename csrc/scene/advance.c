@@ -407,6 +407,7 @@ static sw_status whole_pose_step(loop *p, double t1, int (*interrupted)(void), s
 
 /* The next frame is due after t; frames that steps have passed are left out. */
 static void next_frame(sw_scene *s, double every, double t) {
+  every *= (double)s->frame_stride;
   if (s->next_frame <= t) s->next_frame += every;
   if (s->next_frame <= t) s->next_frame += every * ceil((t - s->next_frame) / every);
   if (!(s->next_frame > t)) s->next_frame = nextafter(t, HUGE_VAL);
@@ -488,7 +489,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
       sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, &why);
   if (status == SW_OK && isfinite(args->frame) && s->frame_count == 0) {
     status = sw_scene_store_frame(s, &why);
-    s->next_frame = s->time + args->frame;
+    s->next_frame = s->time + args->frame * (double)s->frame_stride;
   }
   if (status == SW_OK) status = run_loop(&p, until, interrupted, &why);
   s->running--;

@@ -1,20 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Frames: what a picture or a player needs, stored at even times of a run. One
- * block a frame: energies, obstacle poses with a flag (there), hold poses with one (held), tool
- * poses, then for each wire its node count and positions, how many values each node has and these,
- * the number of its surface's points in a section (0: it is no mesh of particles), and these points
- * with the force across the surface at each. */
+/* Frames: what a picture or a player needs, stored at even times of a run. One block of floats a
+ * frame: obstacles and holds (SW_FRAME_BODY numbers and a flag: there, held), tools, then for each
+ * wire its node count and positions, how many values each node has and these, the number of its
+ * surface's points in a section (0: it is no mesh of particles), and these points with the force
+ * across the surface at each. */
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "scene/world.h"
 
-enum { POSE = 7, HOLD = POSE + 1 };
+enum { TOOL = SW_FRAME_BODY, HOLD = SW_FRAME_BODY + 1, LEAST = 3 };
+
+const double SW_FRAME_MEMORY = 256e6;
 
 void sw_scene_drop_frames(sw_scene *s) {
   for (size_t i = 0; i < s->frame_count; i++) sw_free(s->frames[i].data);
   s->frame_count = 0;
+  s->frame_stride = 1;
+  s->frame_bytes = 0;
 }
 
 sw_status sw_scene_clear_frames(sw_scene *s, sw_error *err) {
@@ -23,32 +27,75 @@ sw_status sw_scene_clear_frames(sw_scene *s, sw_error *err) {
   return SW_OK;
 }
 
-static void store_pose(double *out, sw_pose pose) {
-  sw_store(out, pose.p);
-  out[3] = pose.q.w, out[4] = pose.q.x, out[5] = pose.q.y, out[6] = pose.q.z;
+sw_status sw_scene_keep_frames(sw_scene *s, double memory, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  s->frame_memory = memory;
+  return SW_OK;
+}
+
+size_t sw_scene_frames_thinned(const sw_scene *s) { return s->frame_stride; }
+
+static double bytes_of(const sw_frame *f) {
+  return (double)(f->size * sizeof *f->data + sizeof *f);
+}
+
+/* Every second one goes. The last one stays: what is due next is two of them later. */
+static void thin(sw_scene *s) {
+  size_t kept = 0;
+  for (size_t i = 0; i < s->frame_count; i++) {
+    if (i % 2 == 0) {
+      s->frames[kept++] = s->frames[i];
+      continue;
+    }
+    s->frame_bytes -= bytes_of(&s->frames[i]);
+    sw_free(s->frames[i].data);
+  }
+  s->frame_count = kept;
+  s->frame_stride *= 2;
+}
+
+void sw_scene_frames_back_to(sw_scene *s, size_t count, size_t stride) {
+  const size_t ratio = s->frame_stride > stride && stride ? s->frame_stride / stride : 1;
+  const size_t kept = (count + ratio - 1) / ratio;
+  while (s->frame_count > kept) {
+    s->frame_bytes -= bytes_of(&s->frames[--s->frame_count]);
+    sw_free(s->frames[s->frame_count].data);
+  }
+}
+
+static void store_vec(float *out, sw_vec a) {
+  out[0] = (float)a.x, out[1] = (float)a.y, out[2] = (float)a.z;
+}
+
+static void store_body(float *out, sw_pose pose, sw_vec force) {
+  store_vec(out, pose.p);
+  out[3] = (float)pose.q.w, out[4] = (float)pose.q.x;
+  out[5] = (float)pose.q.y, out[6] = (float)pose.q.z;
+  store_vec(out + SW_FRAME_POSE, force);
 }
 
 /* The middle line of a mesh and its surface. */
-static sw_status fill_strand(sw_scene *s, const sw_body *b, double **to, sw_error *err) {
+static sw_status fill_strand(sw_scene *s, const sw_body *b, float **to, sw_error *err) {
   const sw_web *web = b->plan->web;
   const size_t around = web->around_count;
   const double *x = s->system.x + 3 * b->first_node;
-  double outline[3 * SW_OUTLINE], wide[3 * SW_OUTLINE], *p = *to;
+  double outline[3 * SW_OUTLINE], wide[3 * SW_OUTLINE];
+  float *p = *to;
   double *pressed = sw_alloc(b->plan->nodes, sizeof *pressed);
   if (!pressed) return sw_fail(err, SW_ENOMEM, "out of memory for frames");
   sw_strand_pressed(s, b, pressed, NULL);
-  *p++ = (double)web->rings;
-  for (size_t r = 0; r < web->rings; r++, p += 3) sw_store(p, sw_strand_middle(web, x, r));
+  *p++ = (float)web->rings;
+  for (size_t r = 0; r < web->rings; r++, p += 3) store_vec(p, sw_strand_middle(web, x, r));
   *p++ = SW_FRAME_VALUES;
   sw_scene_node_values(s, (size_t)(b - s->system.bodies), web->rings, p);
   p += SW_FRAME_VALUES * web->rings;
-  *p++ = (double)around;
+  *p++ = (float)around;
   for (size_t r = 0; r < web->rings; r++) {
     sw_strand_outline(web, x, r, outline);
     sw_outline_widen(outline, around, sw_strand_facing(web, x, r), web->skin - web->proud, wide);
     for (size_t k = 0; k < around; k++, p += SW_FRAME_SURFACE) {
-      sw_store(p, sw_vec_at(wide, k));
-      p[3] = pressed[web->first[r] + (sw_web_is_ring(web, r) ? web->around[k] : 0)];
+      store_vec(p, sw_vec_at(wide, k));
+      p[3] = (float)pressed[web->first[r] + (sw_web_is_ring(web, r) ? web->around[k] : 0)];
     }
   }
   sw_free(pressed);
@@ -63,25 +110,37 @@ static size_t size_of(const sw_plan *p) {
   return 3 + (3 + SW_FRAME_VALUES + SW_FRAME_SURFACE * p->web->around_count) * p->web->rings;
 }
 
-static sw_status fill(sw_scene *s, double *p, sw_error *err) {
+static sw_status fill_bodies(sw_scene *s, float **to, sw_error *err) {
+  float *p = *to;
   sw_motion_state at;
-  sw_scene_frame_energies(s, p);
-  p += SW_FRAME_ENERGIES;
+  sw_vec force, moment;
+  sw_error unknown;
   for (size_t k = 0; k < s->obstacle_count; k++, p += HOLD) {
     SW_TRY(sw_drive_eval(s, &s->obstacles[k].drive, s->time, &at, err));
-    store_pose(p, at.pose);
-    p[POSE] = s->obstacles[k].alive;
+    sw_obstacle_mean(&s->obstacles[k], at.pose.p, &force, &moment);
+    store_body(p, at.pose, force);
+    p[SW_FRAME_BODY] = (float)s->obstacles[k].alive;
   }
   for (size_t k = 0; k < s->hold_count; k++, p += HOLD) {
-    at.pose = s->holds[k].last_pose;
-    if (s->holds[k].alive) SW_TRY(sw_drive_eval(s, &s->holds[k].drive, s->time, &at, err));
-    store_pose(p, at.pose);
-    p[POSE] = s->holds[k].alive;
+    const sw_scene_hold *h = &s->holds[k];
+    at.pose = h->last_pose;
+    if (h->alive) SW_TRY(sw_drive_eval(s, &h->drive, s->time, &at, err));
+    store_body(p, at.pose, h->alive ? h->force : sw_v(0, 0, 0));
+    p[SW_FRAME_BODY] = (float)h->alive;
   }
-  for (size_t k = 0; k < s->tool_count; k++, p += POSE) {
+  for (size_t k = 0; k < s->tool_count; k++, p += TOOL) {
+    const sw_handle tool = {(uint32_t)k, s->tools[k].generation};
     SW_TRY(sw_drive_eval(s, &s->tools[k].drive, s->time, &at, err));
-    store_pose(p, at.pose);
+    if (sw_scene_tool_force(s, tool, NULL, &force, &moment, &unknown) != SW_OK)
+      force = sw_v(0, 0, 0);
+    store_body(p, at.pose, force);
   }
+  *to = p;
+  return SW_OK;
+}
+
+static sw_status fill(sw_scene *s, float *p, sw_error *err) {
+  SW_TRY(fill_bodies(s, &p, err));
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_body *b = &s->system.bodies[w];
     const sw_web *web = b->plan->web;
@@ -89,9 +148,9 @@ static sw_status fill(sw_scene *s, double *p, sw_error *err) {
       SW_TRY(fill_strand(s, b, &p, err));
       continue;
     }
-    *p++ = (double)b->plan->nodes;
-    memcpy(p, s->system.x + 3 * b->first_node, 3 * b->plan->nodes * sizeof *p);
-    p += 3 * b->plan->nodes;
+    const double *x = s->system.x + 3 * b->first_node;
+    *p++ = (float)b->plan->nodes;
+    for (size_t i = 0; i < 3 * b->plan->nodes; i++) *p++ = (float)x[i];
     *p++ = web ? 0 : SW_FRAME_VALUES;
     if (!web) sw_scene_node_values(s, w, b->plan->nodes, p);
     if (!web) p += SW_FRAME_VALUES * b->plan->nodes;
@@ -101,26 +160,34 @@ static sw_status fill(sw_scene *s, double *p, sw_error *err) {
 }
 
 sw_status sw_scene_store_frame(sw_scene *s, sw_error *err) {
-  size_t size =
-      SW_FRAME_ENERGIES + POSE * s->tool_count + HOLD * (s->obstacle_count + s->hold_count);
-  for (size_t w = 0; w < s->wire_count; w++) size += size_of(s->system.bodies[w].plan);
+  sw_frame f = {.time = s->time,
+                .size = TOOL * s->tool_count + HOLD * (s->obstacle_count + s->hold_count),
+                .wires = s->wire_count,
+                .obstacles = s->obstacle_count,
+                .holds = s->hold_count,
+                .tools = s->tool_count};
+  for (size_t w = 0; w < s->wire_count; w++) f.size += size_of(s->system.bodies[w].plan);
   if (sw_grow((void **)&s->frames, &s->frame_capacity, s->frame_count + 1, sizeof *s->frames) !=
       SW_OK)
     return sw_fail(err, SW_ENOMEM, "out of memory for frames");
-  double *data = sw_alloc(size, sizeof *data);
-  if (!data) return sw_fail(err, SW_ENOMEM, "out of memory for frames");
-  const sw_status status = fill(s, data, err);
+  f.data = sw_alloc(f.size, sizeof *f.data);
+  if (!f.data) return sw_fail(err, SW_ENOMEM, "out of memory for frames");
+  sw_scene_frame_energies(s, f.energy);
+  const sw_status status = fill(s, f.data, err);
   if (status != SW_OK) {
-    sw_free(data);
+    sw_free(f.data);
     return status;
   }
-  s->frames[s->frame_count++] =
-      (sw_frame){s->time, data, s->wire_count, s->obstacle_count, s->hold_count, s->tool_count};
+  s->frames[s->frame_count++] = f;
+  s->frame_bytes += bytes_of(&f);
+  if (s->frame_count % 2 && s->frame_count > LEAST &&
+      s->frame_bytes + 2 * bytes_of(&f) > s->frame_memory)
+    thin(s);
   return SW_OK;
 }
 
 static size_t before_wires(const sw_frame *f) {
-  return SW_FRAME_ENERGIES + POSE * f->tools + HOLD * (f->obstacles + f->holds);
+  return TOOL * f->tools + HOLD * (f->obstacles + f->holds);
 }
 
 int sw_scene_frame_walk(const sw_frame *f, size_t room, size_t *size) {
@@ -145,38 +212,42 @@ int sw_scene_frame_walk(const sw_frame *f, size_t room, size_t *size) {
 size_t sw_scene_frames(const sw_scene *s) { return s->frame_count; }
 double sw_scene_frame_time(const sw_scene *s, size_t frame) { return s->frames[frame].time; }
 const double *sw_scene_frame_energy(const sw_scene *s, size_t frame) {
-  return s->frames[frame].data;
+  return s->frames[frame].energy;
 }
 
-const double *sw_scene_frame_obstacle(const sw_scene *s, size_t frame, size_t o, int *there) {
+const float *sw_scene_frame_obstacle(const sw_scene *s, size_t frame, size_t o, int *there) {
   const sw_frame *f = &s->frames[frame];
   if (o >= f->obstacles) return NULL;
-  const double *p = f->data + SW_FRAME_ENERGIES + HOLD * o;
-  *there = p[POSE] > 0;
+  const float *p = f->data + HOLD * o;
+  *there = p[SW_FRAME_BODY] > 0;
   return p;
 }
 
-const double *sw_scene_frame_hold(const sw_scene *s, size_t frame, size_t h, int *held) {
+const float *sw_scene_frame_hold(const sw_scene *s, size_t frame, size_t h, int *held) {
   const sw_frame *f = &s->frames[frame];
   if (h >= f->holds) return NULL;
-  const double *p = f->data + SW_FRAME_ENERGIES + HOLD * (f->obstacles + h);
-  *held = p[POSE] > 0;
+  const float *p = f->data + HOLD * (f->obstacles + h);
+  *held = p[SW_FRAME_BODY] > 0;
   return p;
 }
 
-const double *sw_scene_frame_tool(const sw_scene *s, size_t frame, size_t k) {
+const float *sw_scene_frame_tool(const sw_scene *s, size_t frame, size_t k) {
   const sw_frame *f = &s->frames[frame];
-  return k < f->tools ? f->data + before_wires(f) - POSE * (f->tools - k) : NULL;
+  return k < f->tools ? f->data + before_wires(f) - TOOL * (f->tools - k) : NULL;
 }
+
+size_t sw_scene_frame_wires(const sw_scene *s) { return s->wire_count; }
+
+double sw_scene_frame_radius(const sw_scene *s, size_t w) { return s->wires[w].beam.radius; }
 
 int sw_scene_frame_is_loose(const sw_scene *s, size_t w) {
   return w < s->wire_count && sw_scene_is_loose(&s->wires[w]);
 }
 
-const double *sw_scene_frame_wire(const sw_scene *s, size_t frame, size_t w, size_t *count) {
+const float *sw_scene_frame_wire(const sw_scene *s, size_t frame, size_t w, size_t *count) {
   const sw_frame *f = &s->frames[frame];
   if (w >= f->wires) return NULL;
-  const double *p = f->data + before_wires(f);
+  const float *p = f->data + before_wires(f);
   for (size_t k = 0; k < w; k++) {
     const size_t nodes = (size_t)*p;
     p += 1 + 3 * nodes;
@@ -187,16 +258,16 @@ const double *sw_scene_frame_wire(const sw_scene *s, size_t frame, size_t w, siz
   return p + 1;
 }
 
-const double *sw_scene_frame_values(const sw_scene *s, size_t frame, size_t w, size_t *count) {
-  const double *p = sw_scene_frame_wire(s, frame, w, count);
+const float *sw_scene_frame_values(const sw_scene *s, size_t frame, size_t w, size_t *count) {
+  const float *p = sw_scene_frame_wire(s, frame, w, count);
   if (!p) return NULL;
   p += 3 * *count;
   return *p > 0 ? p + 1 : NULL;
 }
 
-const double *sw_scene_frame_surface(const sw_scene *s, size_t frame, size_t w, size_t *count,
-                                     size_t *around) {
-  const double *p = sw_scene_frame_wire(s, frame, w, count);
+const float *sw_scene_frame_surface(const sw_scene *s, size_t frame, size_t w, size_t *count,
+                                    size_t *around) {
+  const float *p = sw_scene_frame_wire(s, frame, w, count);
   if (!p) return NULL;
   p += 3 * *count;
   p += 1 + *count * (size_t)*p;

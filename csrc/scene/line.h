@@ -136,8 +136,6 @@ sw_status sw_scene_check_rules(const sw_scene *scene, size_t wire, const sw_scen
 sw_status sw_scene_open_body(sw_scene *scene, sw_handle h, sw_scene_wire **body, sw_error *err);
 /* Free what these slots own. */
 void sw_scene_clear_body(sw_scene_wire *body);
-/* What frames tell of each node of the wire, SW_FRAME_VALUES numbers; n nodes. */
-void sw_scene_node_values(sw_scene *scene, size_t wire, size_t n, double *out);
 /* The class of a wire or of objects of particles; NULL: there is none of this name. */
 const sw_wire_class *sw_scene_body_class(const char *name);
 

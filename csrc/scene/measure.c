@@ -155,7 +155,7 @@ static double node_flexure(const sw_system *s, const sw_body *b, size_t node, si
 }
 
 /* Torque of the span that holds arc length at; 0 outside of spans. */
-static double torque_at(const sw_system *s, const sw_body *b, double at) {
+double sw_scene_torque(const sw_system *s, const sw_body *b, double at) {
   if (b->spin_block) {
     double f;
     const size_t e = sw_plan_locate(b->plan, at, &f);
@@ -213,7 +213,7 @@ sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double place, sw_point_stat
   const double bent = (k0 + f * (k1 - k0)) * w->beam.radius;
   out->strain = out->elastic / w->beam.EA + bent;
   out->least_strain = out->elastic / w->beam.EA - bent;
-  out->twist_moment = torque_at(&s->system, b, at);
+  out->twist_moment = sw_scene_torque(&s->system, b, at);
   return SW_OK;
 }
 

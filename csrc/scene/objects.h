@@ -79,6 +79,8 @@ sw_status sw_scene_particle(sw_scene *scene, sw_handle object, size_t particle, 
 /* (particles x 3); held ones keep theirs [m/s]. */
 sw_status sw_scene_particles_set_velocities(sw_scene *scene, sw_handle object,
                                             const double *velocities, sw_error *err);
+/* Edges of the object's surface: pairs of particles (2 x count), or NULL; returns count. */
+size_t sw_scene_particles_edges(const sw_scene *scene, sw_handle object, uint32_t *pairs);
 /* Of all links: force pulling [N], elongation over rest length [-], plastic part of it [-]; each
  * may be NULL. */
 sw_status sw_scene_particles_links(sw_scene *scene, sw_handle object, double *force, double *strain,

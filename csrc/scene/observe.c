@@ -25,7 +25,7 @@ static double largest_curvature2(size_t n, const double *restrict hinge, const d
 
 static double angle_of_chord(double chord) { return 2.0 * asin(fmin(1.0, 0.5 * chord)); }
 
-static double hinge_chord(const sw_field *f, size_t i) {
+double sw_scene_hinge_chord(const sw_field *f, size_t i) {
   double d2 = 0;
   for (int k = 0; k < 3; k++) {
     const double d = f->tangent[k][i] - f->tangent[k][i - 1];
@@ -34,7 +34,7 @@ static double hinge_chord(const sw_field *f, size_t i) {
   return sqrt(d2);
 }
 
-static double clamp_curvature(const sw_system *s, const sw_body *b, const sw_clamp_hinge *h) {
+double sw_scene_clamp_curvature(const sw_system *s, const sw_body *b, const sw_clamp_hinge *h) {
   const sw_field *f = &b->field;
   const sw_vec t = sw_v(f->tangent[0][h->edge], f->tangent[1][h->edge], f->tangent[2][h->edge]);
   return sw_clamp_curvature(h, s->directors_now, s->normals_now, t);
@@ -48,14 +48,14 @@ static void curvature_extreme(const sw_system *s, const sw_body *b, sw_extreme *
   *out = (sw_extreme){.s = p->s[0]};
   for (size_t i = 1; i + 1 < p->nodes; i++) {
     if (!(p->hinge[i] > 0)) continue;
-    const double chord = hinge_chord(f, i);
+    const double chord = sw_scene_hinge_chord(f, i);
     if (chord * chord < (1 - 1e-12) * bound2 * p->hinge[i] * p->hinge[i]) continue;
     *out = (sw_extreme){.value = angle_of_chord(chord) / p->hinge[i], .s = p->s[i]};
     break;
   }
   for (size_t c = 0; c < p->clamp_count; c++) {
     const sw_clamp_hinge *h = &p->clamps[c];
-    const double value = clamp_curvature(s, b, h);
+    const double value = sw_scene_clamp_curvature(s, b, h);
     if (value > out->value) *out = (sw_extreme){.value = value, .s = p->s[h->node]};
   }
 }
@@ -120,7 +120,7 @@ static void strain_extreme(const sw_system *s, const sw_body *b, sw_extreme *out
   *out = (sw_extreme){.value = T[0] / EA, .s = p->s[0]}; /* free and pinned ends are not bent */
   keep_largest(out, &(sw_extreme){.value = T[p->edges - 1] / EA, .s = p->s[p->edges]});
   for (size_t i = 1; i + 1 < p->nodes && bound > out->value; i++) {
-    const double chord = hinge_chord(f, i), mean = 0.5 * (T[i] + T[i - 1]) / EA;
+    const double chord = sw_scene_hinge_chord(f, i), mean = 0.5 * (T[i] + T[i - 1]) / EA;
     const double per_length = p->hinge[i] > 0 ? radius / p->hinge[i] : 0.0;
     if (mean + per_length * chord < bound - 1e-12 * fabs(bound)) continue;
     *out = (sw_extreme){.value = mean + per_length * angle_of_chord(chord), .s = p->s[i]};
@@ -128,7 +128,7 @@ static void strain_extreme(const sw_system *s, const sw_body *b, sw_extreme *out
   }
   for (size_t c = 0; c < p->clamp_count; c++) {
     const sw_clamp_hinge *h = &p->clamps[c];
-    const double bent = radius * clamp_curvature(s, b, h);
+    const double bent = radius * sw_scene_clamp_curvature(s, b, h);
     keep_largest(out, &(sw_extreme){.value = T[h->edge] / EA + bent, .s = p->s[h->node]});
   }
 }
@@ -146,62 +146,6 @@ static void wire_now(sw_scene *s, size_t w, double *tension, sw_wire_extremes *n
   strain_extreme(&s->system, &s->system.bodies[w], &now->strain);
   now->ovalisation = now->folding = (sw_extreme){.value = -HUGE_VAL};
   now->curvature.time = now->tension.time = now->strain.time = s->time;
-}
-
-/* As angle_of_chord, within 5e-9 of it and without its cost where it is small. */
-static double quick_angle(double chord) {
-  const double c2 = chord * chord;
-  return c2 < 1e-3 ? chord * (1 + c2 / 24) : angle_of_chord(chord);
-}
-
-/* Tension and curvature at the nodes of a line. */
-static void line_values(const sw_system *s, const sw_body *b, double *out) {
-  const sw_plan *p = b->plan;
-  const double *T = sw_system_elastic(s, b);
-  double before = T[0];
-  for (size_t i = 0; i < p->nodes; i++, out += SW_FRAME_VALUES) {
-    const double after = i < p->edges ? T[i] : before;
-    const int inner = i > 0 && i + 1 < p->nodes && p->hinge[i] > 0;
-    out[0] = 0.5 * (before + after);
-    out[1] = inner ? quick_angle(hinge_chord(&b->field, i)) / p->hinge[i] : 0.0;
-    out[2] = 0;
-    before = after;
-  }
-}
-
-static void add_pressed(const sw_scene *s, const sw_body *b, double *out) {
-  const sw_web *web = b->plan->web;
-  size_t k = 0, end = 0;
-  if (s->contact)
-    sw_contact_touches_of(s->contact, b->first_node, b->first_node + b->plan->nodes, &k, &end);
-  for (; k < end; k++) {
-    sw_contact_push p;
-    if (!sw_contact_push_at(s->contact, &s->system, k, &p)) continue;
-    const size_t at[2] = {p.node, p.other};
-    const double share[2] = {1 - p.at, p.at};
-    for (size_t e = 0; e < 2; e++) {
-      if (at[e] < b->first_node || at[e] >= b->first_node + b->plan->nodes) continue;
-      const size_t i = at[e] - b->first_node, ring = web ? sw_web_ring_of(web, i) : i;
-      out[SW_FRAME_VALUES * ring + 2] += share[e] * p.normal_force;
-    }
-  }
-}
-
-void sw_scene_node_values(sw_scene *s, size_t w, size_t n, double *out) {
-  const sw_body *b = &s->system.bodies[w];
-  if (!b->plan->web) line_values(&s->system, b, out);
-  for (size_t i = 0; b->plan->web && i < n; i++) {
-    sw_point_state at;
-    double *values = out + SW_FRAME_VALUES * i;
-    sw_strand_at(s, &s->wires[w], b, s->wires[w].mesh.s[i], &at);
-    values[0] = at.tension, values[1] = at.curvature, values[2] = 0;
-  }
-  for (size_t c = 0; !b->plan->web && c < b->plan->clamp_count; c++) {
-    const sw_clamp_hinge *h = &b->plan->clamps[c];
-    double *bent = out + SW_FRAME_VALUES * h->node + 1;
-    *bent = fmax(*bent, clamp_curvature(&s->system, b, h));
-  }
-  add_pressed(s, b, out);
 }
 
 void sw_scene_wire_now(sw_scene *s, size_t w, sw_wire_extremes *now) { wire_now(s, w, NULL, now); }

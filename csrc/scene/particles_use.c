@@ -71,6 +71,17 @@ sw_status sw_scene_particles_set_velocities(sw_scene *s, sw_handle h, const doub
   return SW_OK;
 }
 
+size_t sw_scene_particles_edges(const sw_scene *s, sw_handle h, uint32_t *pairs) {
+  sw_error unknown;
+  const sw_scene_wire *w = sw_scene_find_body(s, h, &unknown);
+  const sw_web *web = w ? w->strand.web : NULL;
+  size_t n = 0;
+  for (size_t p = 0; web && web->side_first && p < web->particles; p++)
+    for (size_t k = web->side_first[p]; k < web->side_first[p + 1]; k++, n++)
+      if (pairs) pairs[2 * n] = (uint32_t)p, pairs[2 * n + 1] = (uint32_t)web->side[k];
+  return n;
+}
+
 /* What the links' plastic elongations are, or NULL: none can yield. */
 static const double *plastic_of(const sw_body *b) {
   for (size_t k = 0; k < b->term_count; k++)

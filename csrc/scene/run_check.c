@@ -24,6 +24,9 @@ static sw_param run_rows[] = {
      "time integration method"},
     {"frame", SW_PARAM_NUMBER, "s", NAN, 0, 1e9, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(sw_run_args, frame), "time between stored frames (default 1/30 s)"},
+    {"frames", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
+     "{ memory = [B] } that they may take (default 256e6), when full every second one goes; false: "
+     "none"},
     {"quasistatic", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_run_args, quasistatic),
      "true: equilibrium at every step instead of motion; dt is then the pose step, less where "
      "pads hold a wire"},

@@ -47,7 +47,7 @@ static size_t tape_list(sw_tape *t, void *list_pointer, size_t *count, size_t *c
   } while (0)
 
 static void tape_objects(sw_tape *t, sw_scene *s) {
-  SW_TAPE_STRUCT(t, sw_scene, 3040);
+  SW_TAPE_STRUCT(t, sw_scene, 3064);
   sw_tape_name(t, s->name);
   sw_tape_uint32(t, &s->serial);
   sw_tape_vec(t, &s->gravity);
@@ -70,6 +70,9 @@ static void tape_objects(sw_tape *t, sw_scene *s) {
   LIST(forces, force_count, force_capacity, sw_tape_force(t, &s->forces[k]));
   LIST(joins, join_count, join_capacity, sw_tape_join(t, &s->joins[k]));
   LIST(frames, frame_count, frame_capacity, sw_tape_frame(t, s, &s->frames[k]));
+  sw_tape_size(t, &s->frame_stride), sw_tape_double(t, &s->frame_bytes);
+  sw_tape_expect(t, s->frame_stride >= 1 && s->frame_stride < 1u << 30 && s->frame_bytes >= 0,
+                 "frames");
   LIST(events.list, events.count, events.capacity, sw_tape_event(t, &s->events.list[k]));
   sw_tape_size(t, &s->events.dropped);
   sw_tape_watches(t, &s->watches);

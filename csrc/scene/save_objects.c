@@ -341,17 +341,17 @@ void sw_tape_rule(sw_tape *t, sw_scene_rule *x) {
 }
 
 void sw_tape_frame(sw_tape *t, const sw_scene *s, sw_frame *x) {
-  SW_TAPE_STRUCT(t, sw_frame, 48);
-  size_t count = 0, size = 0;
-  if (!sw_tape_reads(t)) sw_scene_frame_walk(x, SIZE_MAX, &count);
+  SW_TAPE_STRUCT(t, sw_frame, 80);
+  size_t size = 0;
   DOUBLE(time), SIZE(wires), SIZE(obstacles), SIZE(holds), SIZE(tools);
-  sw_tape_count(t, &count, sizeof *x->data);
-  SW_TAPE_ARRAY(t, x->data, count);
+  for (int k = 0; k < SW_FRAME_ENERGIES; k++) DOUBLE(energy[k]);
+  sw_tape_count(t, &x->size, sizeof *x->data);
+  SW_TAPE_ARRAY(t, x->data, x->size);
   if (!sw_tape_reads(t) || !sw_tape_good(t)) return;
   sw_tape_expect(t,
                  x->wires <= s->wire_count && x->obstacles <= s->obstacle_count &&
                      x->holds <= s->hold_count && x->tools <= s->tool_count &&
-                     sw_scene_frame_walk(x, count, &size) && size == count,
+                     sw_scene_frame_walk(x, x->size, &size) && size == x->size,
                  "a frame");
 }
 

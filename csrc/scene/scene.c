@@ -25,6 +25,7 @@ sw_status sw_scene_new(const sw_scene_args *args, sw_scene **out, sw_error *err)
   memcpy(s->name, args->name[0] ? args->name : "scene", args->name[0] ? sizeof s->name : 6);
   s->gravity = isnan(args->gravity.x) ? sw_v(0, 0, -STANDARD_GRAVITY) : args->gravity;
   s->window = SW_WINDOW;
+  s->frame_stride = 1, s->frame_memory = SW_FRAME_MEMORY;
   *out = s;
   return SW_OK;
 }

@@ -536,33 +536,6 @@ sw_status sw_scene_tie_log(sw_scene *scene, sw_handle join, const double **rows,
 sw_status sw_scene_force_log(sw_scene *scene, sw_handle force, const double **rows, size_t *count,
                              sw_error *err);
 
-/* Frames stored while running. */
-size_t sw_scene_frames(const sw_scene *scene);
-double sw_scene_frame_time(const sw_scene *scene, size_t frame);
-/* Node positions of wire number w in that frame; count = nodes. NULL when the
- * wire did not exist. */
-const double *sw_scene_frame_wire(const sw_scene *scene, size_t frame, size_t w, size_t *count);
-/* Tension [N], curvature [1/m] and force of obstacles across it [N] at each node; NULL: of an
- * object of particles, or none. */
-enum { SW_FRAME_VALUES = 3 };
-const double *sw_scene_frame_values(const sw_scene *scene, size_t frame, size_t w, size_t *count);
-/* The surface of wire number w in that frame: around points for each section, x y z and the
- * force of obstacles across it [m], [N] each. NULL: it is no mesh of particles. */
-enum { SW_FRAME_SURFACE = 4 };
-const double *sw_scene_frame_surface(const sw_scene *scene, size_t frame, size_t w, size_t *count,
-                                     size_t *around);
-/* 1: number w of the scene is an object of particles, which the frame then lists. */
-int sw_scene_frame_is_loose(const sw_scene *scene, size_t w);
-/* Poses: 7 doubles (x y z, qw qx qy qz) per obstacle and per hold slot; there: 0 once it was taken
- * away. */
-const double *sw_scene_frame_obstacle(const sw_scene *scene, size_t frame, size_t o, int *there);
-const double *sw_scene_frame_hold(const sw_scene *scene, size_t frame, size_t h, int *held);
-/* The same of grippers' tools: slot k. */
-const double *sw_scene_frame_tool(const sw_scene *scene, size_t frame, size_t k);
-enum { SW_FRAME_ENERGIES = 3 }; /* kinetic, elastic, gravity [J] */
-const double *sw_scene_frame_energy(const sw_scene *scene, size_t frame);
-sw_status sw_scene_clear_frames(sw_scene *scene, sw_error *err);
-
 /* --- snapshots -------------------------------------------------------------- */
 
 /* Restoring takes back what was made after the snapshot: its handles are stale

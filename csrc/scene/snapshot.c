@@ -31,7 +31,7 @@ struct sw_snapshot {
   sw_snapshot *next;
   double time, span, window, next_dt, blow_part, blow_since, blow_until, next_frame;
   sw_vec gravity;
-  size_t wires, holds, obstacles, forces, frames;
+  size_t wires, holds, obstacles, forces, frames, frame_stride;
   sw_mesh *meshes;
   sw_strand *strands;           /* (wires), their places those of some state or other */
   const sw_wire_class **models; /* (wires) */
@@ -189,7 +189,7 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
   p->gravity = s->gravity;
   p->discontinuous = s->discontinuous;
   p->deepest = s->deepest;
-  p->frames = s->frame_count;
+  p->frames = s->frame_count, p->frame_stride = s->frame_stride;
   p->rules = s->rule_count;
   sw_status status = sw_obstacle_log_fill_all(s);
   if (status == SW_OK) status = copy_objects(s, p);
@@ -456,6 +456,6 @@ sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   s->discontinuous = p->discontinuous;
   sw_events_back_to(&s->events, p->time);
   sw_ledger_forget(s);
-  while (s->frame_count > p->frames) sw_free(s->frames[--s->frame_count].data);
+  sw_scene_frames_back_to(s, p->frames, p->frame_stride);
   return SW_OK;
 }

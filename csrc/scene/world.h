@@ -9,6 +9,7 @@
 #include "contact/pairs.h"
 #include "scene/events.h"
 #include "scene/feed.h"
+#include "scene/frames.h"
 #include "scene/hold.h"
 #include "scene/jaws.h"
 #include "scene/join.h"
@@ -60,8 +61,10 @@ typedef struct sw_scene_rule {
 } sw_scene_rule;
 
 typedef struct sw_frame {
-  double time;
-  double *data; /* one block */
+  double time;                      /* [s] */
+  double energy[SW_FRAME_ENERGIES]; /* [J] */
+  float *data;                      /* one block, see frames.c */
+  size_t size;                      /* of the block [-] */
   size_t wires, obstacles, holds, tools;
 } sw_frame;
 
@@ -145,8 +148,11 @@ struct sw_scene {
   sw_extreme deepest; /* penetration */
   sw_frame *frames;
   size_t frame_count, frame_capacity;
-  double next_frame; /* [s] */
-  sw_events events;  /* of the last run */
+  double next_frame;   /* [s] */
+  size_t frame_stride; /* one of so many is kept: 1, 2, 4 ... [-] */
+  double frame_bytes;  /* that they take [B] */
+  double frame_memory; /* that they may take [B] */
+  sw_events events;    /* of the last run */
   sw_watches watches;
   sw_books books; /* of the energy in it */
 };
@@ -245,7 +251,7 @@ sw_status sw_scene_look_for_buckling(sw_scene *scene, sw_error *err);
 /* SW_EINVAL when an explicit method would take steps above its limit on the way to a time. */
 sw_status sw_scene_check_step(const sw_scene *scene, const sw_run_args *args, double until,
                               sw_error *err);
-/* How many doubles the frame's block has; 0: more than room, or its counts make no sense. */
+/* How many numbers the frame's block has; 0: more than room, or its counts make no sense. */
 int sw_scene_frame_walk(const sw_frame *frame, size_t room, size_t *size);
 
 #include "scene/observe.h"

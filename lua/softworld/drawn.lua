@@ -97,6 +97,41 @@ local function show(list, kind, frames, shown, poses)
   for f, frame in ipairs(frames) do frame[kind][#list] = poses[f] end
 end
 
+-- Of a gripper: when it held what, and where it is otherwise; slots from 0.
+local function gripper_of(gripper)
+  local spans = {}
+  for i, span in ipairs(gripper.spans) do
+    spans[i] = { from = span.from, to = span.to, carried = span.carried, hold = slot_of(gripper.past[i]) - 1 }
+  end
+  return { name = gripper.name, width = gripper.width or 0.02, spans = spans, first_at = gripper.first_at,
+    carrier = gripper.carrier and slot_of(gripper.carrier) - 1,
+    tool = gripper.tool and slot_of(gripper.tool) - 1 }
+end
+
+--- Add to a document what a player draws besides wires: doc.grips, doc.holds, doc.particles; in
+-- doc.obstacles their slots, and of which gripper they are a part.
+function drawn.describe(scene, doc)
+  local data, theirs = build.data(scene), {}
+  doc.grips, doc.holds, doc.particles = {}, {}, {}
+  for _, g in ipairs(data.grippers) do
+    for _, hold in ipairs(g.past) do theirs[hold] = true end
+    doc.grips[#doc.grips + 1] = gripper_of(g)
+    for _, o in ipairs(g.obstacles or {}) do
+      local slot = slot_of(o)
+      if slot and doc.obstacles[slot] then doc.obstacles[slot].part = g.name end
+    end
+  end
+  for i, o in ipairs(doc.obstacles) do o.slot = i - 1 end
+  for _, h in ipairs(data.holds) do
+    if not theirs[h.object] and core.exists(h.object) then
+      doc.holds[#doc.holds + 1] = { name = h.name, kind = h.kind, width = h.width, slot = slot_of(h.object) - 1 }
+    end
+  end
+  for i, p in ipairs(data.particles) do
+    doc.particles[i] = { name = p.name, radius = p.object.radius, edges = core.edges(p.object) }
+  end
+end
+
 --- Add grips and clamps to a document with frames (of scene:frame): lists doc.grips and doc.clamps of
 -- { name, width, kind }, and in each frame as many poses, false where it is not there.
 function drawn.add(scene, doc)

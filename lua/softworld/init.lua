@@ -54,6 +54,11 @@ end
 --- The scene that scene:save has written to a file, or a run with save = file.
 function sw.load(file) return save.load(file) end
 
+--- One page that shows runs moving, one laid over the other: { run1, run2, path = "x.html", title = }.
+function sw.report(args)
+  return require("softworld.runfiles").report(args)
+end
+
 --- The names of all cables of the catalogue; print shows them as a table.
 function sw.cables() return sw.cable.list() end
 

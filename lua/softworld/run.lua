@@ -12,6 +12,7 @@ local number = require "softworld.output.number"
 local place = require "softworld.place"
 local refine = require "softworld.refine"
 local remarks = require "softworld.remarks"
+local tables = require "softworld.rows"
 local runfiles = require "softworld.runfiles"
 local save = require "softworld.save"
 local sealed = require "softworld.sealed"
@@ -28,6 +29,10 @@ local Run = { __name = "run" }
 local readable = runfiles.readable
 local chunk = 64 -- steps between two looks at progress; fixed, so that results never depend on it
 local default_frame = 1 / 30 -- [s]
+local frames_rows = tables.list{
+  { "memory", "number", "B", "that all frames of the scene may take; when full every second one goes",
+    min = 1e4, max = 1e12, default = 256e6 },
+}
 local progress_after = 1 -- of computing [s]
 
 local function merge(total, part)
@@ -60,7 +65,9 @@ local function drive(scene, args, total, bar)
   local options = {}
   for k, v in pairs(args) do options[k] = v end
   options.progress, options.duration, options.save, options.resume = nil, nil, nil, nil
-  options.frame = options.frame or default_frame
+  options.frame = args.frames ~= false and (options.frame or default_frame) or nil
+  options.frames = nil
+  core.keep_frames(scene, args.frames and frames_rows:read(args.frames, "scene:run: frames").memory or nil)
   local left = (args.max_steps or math.huge) - total.steps
   while true do
     local alive, wake, watching = process.step(scene)
@@ -163,6 +170,16 @@ local function check_start(scene, args)
   end
 end
 
+-- What frames it is to store.
+local function check_frames(args)
+  if args.frames == nil or args.frames == false then return end
+  if type(args.frames) ~= "table" then
+    error("scene:run: frames must be a table such as { memory = 256e6 }, or false, got "
+      .. checks.got(args.frames), 0)
+  end
+  frames_rows:read(args.frames, "scene:run: frames")
+end
+
 -- The files that it is to be written to and to go on from.
 local function check_files(scene, args)
   if trust.wanted(args) and build.data(scene).from_file then
@@ -199,6 +216,7 @@ function core.class.scene.run(scene, args)
     for key, value in next, args do own[key] = value end
     args = own
     build.call(3, check_files, scene, args)
+    build.call(3, check_frames, args)
   end
   if trust.wanted(args) then
     local job, steps = build.call(3, refine.job, scene, args, check_start)
@@ -275,6 +293,11 @@ local function summary_of(self)
   end
   for _, f in ipairs(fixing.all(self.scene)) do f:report(add) end
   ledger.report(self, add)
+  local thinned = core.frames_thinned(self.scene)
+  if thinned > 1 then
+    add("frames: one of so many is kept, for want of memory", thinned, "-", nil, nil,
+      "see frames = { memory = }")
+  end
   for _, q in ipairs(self.quantities and self:error_bars() or {}) do
     rows[#rows + 1] = { label = q.name, value = type(q.value) == "number" and q.value or q:text(),
       unit = type(q.value) == "number" and q.unit or "",
@@ -282,6 +305,17 @@ local function summary_of(self)
         .. (q.note and (" (%s)"):format(q.note) or "") }
   end
   return rows
+end
+
+-- Entries of obstacles without the objects.
+local function obstacles_of(data)
+  local list = {}
+  for i, o in ipairs(data.obstacles) do
+    list[i] = {}
+    for k, v in pairs(o) do list[i][k] = v end
+    list[i].object = nil
+  end
+  return list
 end
 
 -- Clips are shown as obstacles that stand still.
@@ -299,27 +333,19 @@ end
 -- What pictures show.
 local function draw(self, doc, wires)
   doc.wires = wires
-  for i, o in ipairs(build.data(self.scene).obstacles) do
-    local entry = {}
-    for k, v in pairs(o) do entry[k] = v end
-    entry.object = nil
-    doc.obstacles[i] = entry
-  end
+  doc.obstacles = obstacles_of(build.data(self.scene))
   for i = 1, self.scene:frame_count() do doc.frames[i] = self.scene:frame(i) end
   drawn.add(self.scene, doc)
   add_fixings(self.scene, doc)
 end
 
---- Plain tables of everything that charts, pictures and files need.
-function Run:document()
-  if self.ok then readable(self, "results") end
-  local data = build.data(self.scene)
+-- What a run has beside its frames.
+local function outline(self)
   local doc = { name = self.name, ok = self.ok, reason = self.reason, time = self.time,
     events = self.events,
     steps = self.steps, wall = self.wall, cpu = self.cpu, gravity = self.scene:gravity(),
     wires = {}, obstacles = {}, grips = {}, clamps = {}, frames = {} }
   if not self.ok then return doc end
-  draw(self, doc, wires_of(data))
   doc.series, doc.summary = self:series(), summary_of(self)
   local unmet = trust.unmet(self)
   doc.met, doc.unmet = self.met, unmet and ("%s (%s)"):format(unmet, self.advice)
@@ -327,6 +353,31 @@ function Run:document()
     doc.quantities = doc.quantities or {}
     doc.quantities[i] = { name = q.name, value = q.value, error = q.error, unit = q.unit,
       asked = q.tolerance, met = q.met, where = q.where, when = q.when }
+  end
+  return doc
+end
+
+--- Plain tables of everything that charts, pictures and files need.
+function Run:document()
+  if self.ok then readable(self, "results") end
+  local doc = outline(self)
+  if self.ok then draw(self, doc, wires_of(build.data(self.scene))) end
+  return doc
+end
+
+-- For a player: without frames, which it takes from the core.
+function runfiles.described(self)
+  readable(self, "frames", true)
+  local doc, data = outline(self), build.data(self.scene)
+  doc.scene, doc.start, doc.from, doc.to = self.scene, self.start, self.start - 1e-9, self.time + 1e-9
+  doc.wires = self.ok and wires_of(data) or self.drawn
+  doc.obstacles = obstacles_of(data)
+  drawn.describe(self.scene, doc)
+  for _, f in ipairs(fixing.all(self.scene)) do
+    for _, one in ipairs(f:solids()) do
+      one.name, one.part = one.name or f.name, f.name
+      doc.obstacles[#doc.obstacles + 1] = one
+    end
   end
   return doc
 end

@@ -51,6 +51,8 @@ rows.calls{
   { "run:summary", "file", "peaks, means and events, on the terminal or into an open file" },
   { "run:save", "path", "every column at every step, as .csv or .json", "the path" },
   { "run:vtk", "path", "an animation for ParaView, a .pvd file", "the path" },
+  { "run:report", "path", "a page that shows the run moving, with charts and numbers: one .html file", "the path",
+    example = 'run:report "run.html"' },
   { "run:series", "", "time series", "time [s], columns of name, unit, values" },
   { "run:frames", "", "stored while running", "t [s], wires, obstacles, holds, energy; ..." },
   { "run:document", "", "plain tables of all that charts, pictures and files need" },
@@ -120,6 +122,38 @@ function Run:vtk(path)
   readable(self, "frames", true)
   require("softworld.output.vtk").write(runfiles.pictured(self), path)
   return path
+end
+
+--- The player: one .html file that needs no network.
+function Run:report(path)
+  check_path(path, "run:report", "the name of an .html file")
+  return require("softworld.output.report").write({ runfiles.described(self) }, path)
+end
+
+local several = rows.call("sw.report", "{ run, ..., ... }", "lays runs over one another in one page that shows them moving", {
+  gives = "the path", example = 'sw.report { before, after, path = "both.html" }',
+  { "path", "text", "-", "an .html file", required = true },
+  { "title", "text", "-", "of the page", usual = "the runs' names" },
+})
+
+--- Several runs in one page: sw.report{ run1, run2, path =, title = }.
+function runfiles.report(args)
+  if type(args) ~= "table" or getmetatable(args) then
+    error("sw.report takes a table such as { run1, run2, path = 'both.html' }, got " .. checks.got(args), 3)
+  end
+  local named, list = {}, {}
+  for key, value in next, args do
+    if math.type(key) ~= "integer" then named[key] = value end
+  end
+  local o = build.call(4, several.read, several, named)
+  for i = 1, #args do
+    if rawget(getmetatable(args[i]) or {}, "__name") ~= "run" then
+      error(("sw.report: [%d] must be a run, got %s"):format(i, checks.got(args[i])), 3)
+    end
+    list[i] = runfiles.described(args[i])
+  end
+  if #list == 0 then error("sw.report: a run is wanted, such as { run1, run2, path = 'both.html' }", 3) end
+  return build.call(4, require("softworld.output.report").write, list, o.path, { title = o.title })
 end
 
 --- Chart of series: { path = "x.svg", columns = { names }, title = }.

@@ -18,7 +18,7 @@ local function objects()
   local tie = scene:tie(wire, { s = 0.1 })
   local run = scene:run{ dt = 0.01 }
   return { scene = scene, wire = wire, hand = hand, gripper = hand, process = process, clip = clip,
-    channel = channel, tie = tie, run = run, obstacle = scene:obstacle{ shape = "plane", at = { 0, 0, -1 } } }
+    channel = channel, tie = tie, run = run, sw = sw, obstacle = scene:obstacle{ shape = "plane", at = { 0, 0, -1 } } }
 end
 
 -- Of the library, not of scripts: what runs and pictures ask of things.
@@ -38,7 +38,7 @@ describe("rows of calls", function()
         assert.is_true(fine, ("%s: %s"):format(call.name, why))
       end
       local meta = debug.getmetatable(made[class])
-      for _, name in ipairs(not core.class[class] and meta.__names(made[class]) or {}) do
+      for _, name in ipairs(not core.class[class] and meta.__names and meta.__names(made[class]) or {}) do
         local plain = class == results and type(made[class][name]) ~= "function"
         assert.is_true(known[name] or inner[name] or plain or false, class .. " has no row " .. name)
       end

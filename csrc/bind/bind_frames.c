@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Frames of a run as Lua tables, and how much memory they may take. */
+#include "bind/child.h"
+#include "bind/module.h"
+
+static sw_scene *check(lua_State *L) {
+  return ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
+}
+
+static sw_vec vec_of(const float *p) { return sw_v((double)p[0], (double)p[1], (double)p[2]); }
+
+static void push_floats(lua_State *L, const float *x, size_t count, size_t stride) {
+  lua_createtable(L, (int)count, 0);
+  for (size_t i = 0; i < count; i++) {
+    lua_pushnumber(L, (double)x[stride * i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+}
+
+static void push_pose(lua_State *L, const float *p) {
+  lua_createtable(L, 0, 4);
+  lsw_set_vector(L, "position", vec_of(p));
+  lsw_set_vector(L, "force", vec_of(p + SW_FRAME_POSE));
+  lsw_push_quaternion(L, (sw_quat){(double)p[3], (double)p[4], (double)p[5], (double)p[6]});
+  lua_setfield(L, -2, "rotation");
+}
+
+/* Wires, or objects of particles. */
+static void push_frame_bodies(lua_State *L, const sw_scene *scene, size_t frame, int loose) {
+  size_t count;
+  const float *x;
+  lua_Integer number = 0;
+  lua_newtable(L);
+  for (size_t w = 0; (x = sw_scene_frame_wire(scene, frame, w, &count)) != NULL; w++) {
+    if (sw_scene_frame_is_loose(scene, w) != loose) continue;
+    push_floats(L, x, 3 * count, 1);
+    lua_rawseti(L, -2, ++number);
+  }
+}
+
+/* Of each wire its surface { around =, points = flat [m], force = flat [N] }, or false. */
+static void push_frame_surfaces(lua_State *L, const sw_scene *scene, size_t frame) {
+  size_t count, around;
+  lua_newtable(L);
+  for (size_t w = 0; sw_scene_frame_wire(scene, frame, w, &count) != NULL; w++) {
+    const float *p = sw_scene_frame_surface(scene, frame, w, &count, &around);
+    if (p) {
+      lua_createtable(L, 0, 3);
+      lsw_set_integer(L, "around", around);
+      lua_createtable(L, 3 * (int)count, 0);
+      lua_createtable(L, (int)count, 0);
+      for (size_t i = 0; i < count; i++, p += SW_FRAME_SURFACE) {
+        for (size_t k = 0; k < 3; k++) {
+          lua_pushnumber(L, (double)p[k]);
+          lua_rawseti(L, -3, 3 * (lua_Integer)i + (lua_Integer)k + 1);
+        }
+        lua_pushnumber(L, (double)p[3]);
+        lua_rawseti(L, -2, (lua_Integer)i + 1);
+      }
+      lua_setfield(L, -3, "force");
+      lua_setfield(L, -2, "points");
+    } else {
+      lua_pushboolean(L, 0);
+    }
+    lua_rawseti(L, -2, (lua_Integer)w + 1);
+  }
+}
+
+/* Of each wire { tension =, curvature =, contact =, twist_moment =, stress = }, flat, at each node
+ * [N], [1/m], [N], [N m], [Pa]. */
+static void push_frame_values(lua_State *L, const sw_scene *scene, size_t frame) {
+  static const char *const names[SW_FRAME_FORCE] = {"tension", "curvature", "contact",
+                                                    "twist_moment", "stress"};
+  size_t count;
+  lua_Integer number = 0;
+  lua_newtable(L);
+  for (size_t w = 0; sw_scene_frame_wire(scene, frame, w, &count) != NULL; w++) {
+    const float *p = sw_scene_frame_values(scene, frame, w, &count);
+    if (!p) continue;
+    lua_createtable(L, 0, SW_FRAME_FORCE);
+    for (size_t k = 0; k < SW_FRAME_FORCE; k++) {
+      push_floats(L, p + k, count, SW_FRAME_VALUES);
+      lua_setfield(L, -2, names[k]);
+    }
+    lua_rawseti(L, -2, ++number);
+  }
+}
+
+/* scene:frame(i) -> { t, wires, values, surfaces, particles, obstacles (false: taken away), holds,
+ * tools, energy }, or nil past the end. */
+int lsw_scene_frame(lua_State *L) {
+  const sw_scene *scene = check(L);
+  const lua_Integer i = lsw_integer(L, 2, "scene:frame: the number of the frame");
+  const float *p;
+  int held;
+  if (i < 1 || (size_t)i > sw_scene_frames(scene)) return 0;
+  const size_t frame = (size_t)i - 1;
+  lua_createtable(L, 0, 9);
+  lsw_set_number(L, "t", sw_scene_frame_time(scene, frame));
+  push_frame_bodies(L, scene, frame, 0);
+  lua_setfield(L, -2, "wires");
+  push_frame_values(L, scene, frame);
+  lua_setfield(L, -2, "values");
+  push_frame_surfaces(L, scene, frame);
+  lua_setfield(L, -2, "surfaces");
+  push_frame_bodies(L, scene, frame, 1);
+  lua_setfield(L, -2, "particles");
+  lua_newtable(L);
+  for (size_t o = 0; (p = sw_scene_frame_obstacle(scene, frame, o, &held)) != NULL; o++) {
+    if (held)
+      push_pose(L, p);
+    else
+      lua_pushboolean(L, 0);
+    lua_rawseti(L, -2, (lua_Integer)o + 1);
+  }
+  lua_setfield(L, -2, "obstacles");
+  lua_newtable(L);
+  for (size_t h = 0; (p = sw_scene_frame_hold(scene, frame, h, &held)) != NULL; h++) {
+    push_pose(L, p);
+    lua_pushboolean(L, held);
+    lua_setfield(L, -2, "held");
+    lua_rawseti(L, -2, (lua_Integer)h + 1);
+  }
+  lua_setfield(L, -2, "holds");
+  lua_newtable(L);
+  for (size_t k = 0; (p = sw_scene_frame_tool(scene, frame, k)) != NULL; k++) {
+    push_pose(L, p);
+    lua_rawseti(L, -2, (lua_Integer)k + 1);
+  }
+  lua_setfield(L, -2, "tools");
+  const double *e = sw_scene_frame_energy(scene, frame);
+  lua_createtable(L, 0, SW_FRAME_ENERGIES);
+  lsw_set_number(L, "kinetic", e[0]);
+  lsw_set_number(L, "elastic", e[1]);
+  lsw_set_number(L, "gravity", e[2]);
+  lua_setfield(L, -2, "energy");
+  return 1;
+}
+
+int lsw_scene_frame_count(lua_State *L) {
+  lua_pushinteger(L, (lua_Integer)sw_scene_frames(check(L)));
+  return 1;
+}
+
+int lsw_scene_clear_frames(lua_State *L) {
+  sw_error err = {""};
+  lsw_must(L, sw_scene_clear_frames(check(L), &err), &err);
+  return 0;
+}
+
+/* core.keep_frames(scene[, memory [B]]): that they may take from now on. */
+static int mod_keep_frames(lua_State *L) {
+  sw_error err = {""};
+  const double memory =
+      lua_isnoneornil(L, 2) ? SW_FRAME_MEMORY : lsw_number(L, 2, "keep_frames: memory", "B");
+  lsw_must(L, sw_scene_keep_frames(check(L), memory, &err), &err);
+  return 0;
+}
+
+/* core.frames_thinned(scene) -> one of how many is still there */
+static int mod_frames_thinned(lua_State *L) {
+  lua_pushinteger(L, (lua_Integer)sw_scene_frames_thinned(check(L)));
+  return 1;
+}
+
+static const luaL_Reg functions[] = {
+    {"keep_frames", mod_keep_frames}, {"frames_thinned", mod_frames_thinned}, {NULL, NULL}};
+
+void lsw_open_frames(lua_State *L) { luaL_setfuncs(L, functions, 0); }

@@ -1,0 +1,205 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- The player: one HTML file that shows runs moving, with charts and numbers; lua/softworld/page has its
+-- sources. Frames go from the core into the page as bytes, see csrc/film/film.h.
+-- @module softworld.output.report
+local core = require "softworld.core"
+local json = require "softworld.output.json"
+local number = require "softworld.output.number"
+local sink = require "softworld.output.sink"
+local solid = require "softworld.output.solid"
+
+local report = {}
+
+local most_rows = 3000    -- of series in a page
+local longest = 400000    -- of a script that is shown [B]
+
+-- --- bytes ------------------------------------------------------------------------------
+
+-- Bytes that the page has beside its data, by number from 0.
+local function add_blob(page, bytes)
+  page.blobs[#page.blobs + 1] = core.base64(bytes)
+  return #page.blobs - 1
+end
+
+local function packed(format, values)
+  local parts = {}
+  for i = 1, #values, 200 do
+    local n = math.min(200, #values - i + 1)
+    parts[#parts + 1] = ("<" .. format:rep(n)):pack(table.unpack(values, i, i + n - 1))
+  end
+  return table.concat(parts)
+end
+
+-- --- series -----------------------------------------------------------------------------
+
+-- Where a column has its least and its largest number in rows from .. to, in their order.
+local function ends_of(values, from, to)
+  local low, high
+  for i = from, to do
+    local x = values[i]
+    if x == x then
+      if not low or x < values[low] then low = i end
+      if not high or x > values[high] then high = i end
+    end
+  end
+  if not low then return 0 / 0, 0 / 0 end
+  if low > high then low, high = high, low end
+  return values[low], values[high]
+end
+
+-- Not more rows than a screen can show: two for each bucket, with what is least and largest in it.
+local function thinned(series)
+  local count = #series.time
+  if count <= most_rows then return series, 1 end
+  local buckets = most_rows // 2
+  local few = { time = {}, columns = {} }
+  local function bucket(k) return 1 + (k - 1) * count // buckets, k * count // buckets end
+  for k = 1, buckets do
+    local from, to = bucket(k)
+    few.time[2 * k - 1], few.time[2 * k] = series.time[from], series.time[(from + to + 1) // 2]
+  end
+  for c, column in ipairs(series.columns) do
+    local values = {}
+    for k = 1, buckets do values[2 * k - 1], values[2 * k] = ends_of(column.values, bucket(k)) end
+    few.columns[c] = { name = column.name, unit = column.unit, values = values }
+  end
+  return few, count / #few.time
+end
+
+local function series_of(page, run)
+  if not run.series or #run.series.time == 0 then return nil end
+  local series, every = thinned(run.series)
+  local bytes, columns = { packed("d", series.time) }, {}
+  for c, column in ipairs(series.columns) do
+    columns[c] = { name = column.name, unit = column.unit or "" }
+    bytes[#bytes + 1] = packed("f", column.values)
+  end
+  return { rows = #series.time, of = #run.series.time, thinned = every > 1, columns = columns,
+    blob = add_blob(page, core.deflate(table.concat(bytes))) }
+end
+
+-- --- what is in the scene ------------------------------------------------------------------
+
+local function shape_of(page, entry)
+  if solid.flat(entry) then return { normal = solid.normal(entry) } end
+  local shape = solid.triangles(entry, 48)
+  local bytes = packed("f", shape.vertices) .. packed("I4", shape.indices)
+  return { vertices = #shape.vertices // 3, indices = #shape.indices, blob = add_blob(page, core.deflate(bytes)) }
+end
+
+-- Equal shapes are put into the page once.
+local function add_shape(page, entry)
+  local key = {}
+  for name, value in pairs(entry) do
+    if type(value) == "table" and #value <= 4 then value = table.concat(value, " ") end
+    if name ~= "name" and name ~= "at" and name ~= "rotation" then
+      key[#key + 1] = ("%s=%s"):format(name, tostring(value))
+    end
+  end
+  table.sort(key)
+  key = table.concat(key, ";")
+  page.shapes[key] = page.shapes[key] or shape_of(page, entry)
+  return page.shapes[key]
+end
+
+local function obstacles_of(page, run)
+  local list = {}
+  for i, o in ipairs(run.obstacles) do
+    list[i] = json.object{ name = o.name, kind = o.shape, slot = o.slot, part = o.part,
+      friction = o.friction, shape = add_shape(page, o) }
+  end
+  return list
+end
+
+local function summary_of(run)
+  local list = {}
+  for i, row in ipairs(run.summary or {}) do
+    local value, unit = row.value, ""
+    if type(value) == "number" then value, unit = number.engineering(value, row.unit) end
+    list[i] = json.object{ label = row.label, value = tostring(value), unit = (unit:gsub("^u", "µ")), raw = row.value,
+      raw_unit = row.unit, where = row.where, when = row.when,
+      wrong = row.label:find "EXCEEDED" ~= nil or row.label:find "FOLDED" ~= nil
+        or row.label:find "SLIPPED" ~= nil or row.label:find "LOST" ~= nil or nil }
+  end
+  return list
+end
+
+local function particles_of(page, run)
+  local list = {}
+  for i, p in ipairs(run.particles) do
+    list[i] = json.object{ name = p.name, radius = p.radius, edges = #p.edges // 8,
+      blob = #p.edges > 0 and add_blob(page, core.deflate(p.edges)) or nil }
+  end
+  return list
+end
+
+local function film_of(page, run)
+  local bytes, frames, broken = core.film(run.scene, run.from, run.to, run.ok)
+  return { frames = frames, broken = broken, thinned = core.frames_thinned(run.scene),
+    blob = frames > 0 and add_blob(page, bytes) or nil }
+end
+
+local function add_run(page, run)
+  local one = json.object{ name = run.name, ok = run.ok, reason = run.reason, time = run.time,
+    start = run.start, steps = run.steps, wall = run.wall, unmet = run.unmet, gravity = run.gravity,
+    wires = run.wires, particles = particles_of(page, run), grips = run.grips, holds = run.holds,
+    events = run.events, film = film_of(page, run), obstacles = obstacles_of(page, run) }
+  if run.ok then one.summary, one.series, one.quantities = summary_of(run), series_of(page, run), run.quantities end
+  page.data.runs[#page.data.runs + 1] = one
+end
+
+-- The script that is running, or nil.
+local function script()
+  local path = type(rawget(_G, "arg")) == "table" and rawget(_G, "arg")[0]
+  if type(path) ~= "string" or core.kind(path) ~= "file" then return nil end
+  local fine, text = pcall(sink.read_file, path)
+  if not fine or #text > longest or text:find "\0" then return nil end
+  return { name = sink.base(path), text = text }
+end
+
+-- --- the page ------------------------------------------------------------------------------
+
+-- Text within HTML.
+local function escaped(text)
+  return (text:gsub('[&<>"]', { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;" }))
+end
+
+local function write_page(page, write)
+  local template = core.page()
+  local title_from, title_to = template:find("@title@", 1, true)
+  local data_from, data_to = template:find("@data@", 1, true)
+  write(template:sub(1, title_from - 1))
+  write(escaped(page.data.title))
+  write(template:sub(title_to + 1, data_from - 1))
+  for i, text in ipairs(page.blobs) do
+    write(('<script type="text/plain" id="blob-%d">'):format(i - 1))
+    write(text)
+    write "</script>\n"
+  end
+  write '<script type="application/json" id="data">'
+  -- nothing within can end the script, or open a comment in it
+  write((json.encode(page.data):gsub("[<>&]", { ["<"] = "\\u003c", [">"] = "\\u003e", ["&"] = "\\u0026" })))
+  write "</script>"
+  write(template:sub(data_to + 1))
+end
+
+--- Write runs into one page.
+-- @tparam {table,...} runs as softworld.runfiles describes them for it
+-- @tparam string path ending in .html
+-- @tparam[opt] table options title
+-- @treturn string the path
+function report.write(runs, path, options)
+  local kind = sink.extension(path)
+  if kind ~= "html" and kind ~= "htm" and (core.kind(path) or "file") == "file" then
+    sink.fail("report: %s does not end in .html", path)
+  end
+  local names = {}
+  for i, run in ipairs(runs) do names[i] = run.name end
+  local page = { blobs = {}, shapes = {}, data = json.object{ version = core.version, runs = {},
+    title = options and options.title or table.concat(names, ", "), made = os.date "%Y-%m-%d %H:%M",
+    script = script() } }
+  for _, run in ipairs(runs) do add_run(page, run) end
+  return sink.write_file(path, function(write) write_page(page, write) end)
+end
+
+return report

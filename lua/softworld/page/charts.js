@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Charts of the runs' series: one for each unit, with one cursor that is the player's time.
+import Dygraph from "dygraphs";
+import { h } from "./dom.js";
+import { format } from "./model.js";
+import { CURVES } from "./colours.js";
+
+const MANY = 8;       // curves of a unit beyond which components of vectors wait to be asked for
+const STRAIGHT = 100; // times the smallest bend radius: what is drawn of radii
+
+/** Columns of all runs by unit; radii have a chart of their own. */
+function groupsOf(data) {
+  const groups = new Map();
+  data.runs.forEach((run, r) => {
+    if (!run.series) return;
+    for (const column of run.series.columns) {
+      const radius = /bend_radius$/.test(column.name);
+      const key = radius ? "radius" : column.unit;
+      if (!groups.has(key)) groups.set(key, { unit: column.unit, radius, curves: [] });
+      if (!column.values.some((x) => !Number.isNaN(x))) continue;
+      groups.get(key).curves.push({ ...column, run, r,
+        label: data.runs.length > 1 ? `${r + 1}: ${column.name}` : column.name });
+    }
+  });
+  return [...groups.values()].filter((g) => g.curves.length);
+}
+
+/** Rows of all curves on the union of their times. */
+function rowsOf(group) {
+  const runs = [...new Set(group.curves.map((c) => c.run))];
+  let top = Infinity;
+  if (group.radius) {
+    const least = Math.min(...group.curves.flatMap((c) => [Math.min(...c.values.filter((x) => !Number.isNaN(x)))]));
+    top = STRAIGHT * least;
+  }
+  const shown = (x) => (Number.isNaN(x) || !(x <= top) ? NaN : x);
+  if (runs.length === 1) {
+    const { time } = runs[0].series;
+    return Array.from(time, (t, i) => [t, ...group.curves.map((c) => shown(c.values[i]))]);
+  }
+  const times = [...new Set(runs.flatMap((run) => [...run.series.time]))].sort((a, b) => a - b);
+  const index = new Map(times.map((t, i) => [t, i]));
+  const rows = times.map((t) => [t, ...group.curves.map(() => null)]);
+  group.curves.forEach((c, k) => {
+    c.run.series.time.forEach((t, i) => { rows[index.get(t)][k + 1] = shown(c.values[i]); });
+  });
+  return rows;
+}
+
+const title = (group) => (group.radius ? "Bend radius" : {
+  N: "Forces", "N m": "Moments", J: "Energy", m: "Lengths", W: "Power", "-": "Ratios", Pa: "Stress",
+}[group.unit] || "Series");
+
+class Chart {
+  constructor(group, state, all) {
+    Object.assign(this, { group, state, all });
+    const many = group.curves.length > MANY;
+    group.curves.forEach((c, k) => {
+      c.colour = CURVES[(data_index(group, c)) % CURVES.length];
+      c.on = !(many && /_[xyz]$/.test(c.name)) && !(many && k > 24);
+    });
+    this.plot = h("div.plot");
+    this.cursor = h("div.cursor", { "aria-hidden": "true" });
+    this.chips = h("div.chips");
+    this.element = h("section.chart", { "aria-label": `Chart of ${title(group).toLowerCase()}` },
+      h("h3", {}, title(group), h("span.unit", {}, group.unit && group.unit !== "-" ? ` ${group.unit}` : "")),
+      h("div.plot-box", {}, this.plot, this.cursor), this.chips);
+    for (const c of group.curves) this.addChip(c);
+  }
+
+  addChip(curve) {
+    curve.reading = h("span.reading");
+    curve.chip = h("button.chip", { type: "button", "aria-pressed": String(curve.on), title: `Show or hide ${curve.label}`,
+      onclick: () => {
+        curve.on = !curve.on;
+        curve.chip.setAttribute("aria-pressed", String(curve.on));
+        this.graph?.setVisibility(this.group.curves.indexOf(curve), curve.on);
+        this.read(this.state.get("time"));
+      } },
+    h("span.swatch", { style: { background: curve.colour } }), h("span.name", {}, curve.label), curve.reading);
+    this.chips.append(curve.chip);
+  }
+
+  /** Once it is on the page. */
+  draw() {
+    const { group } = this;
+    this.graph = new Dygraph(this.plot, rowsOf(group), {
+      labels: ["t", ...group.curves.map((c, i) => `${c.label}${" ".repeat(i)}`)], // names may be the same
+      colors: group.curves.map((c) => c.colour),
+      visibility: group.curves.map((c) => c.on),
+      legend: "never", strokeWidth: 1.4, highlightCircleSize: 2.5, rangeSelectorHeight: 0,
+      connectSeparatedPoints: this.all.runs > 1, logscale: group.radius, digitsAfterDecimal: 4,
+      axisLabelWidth: 52, gridLineColor: "#80808038", axisLineColor: "#80808066", xRangePad: 2, yRangePad: 6, labelsKMB: false, gridLineWidth: 1,
+      series: Object.fromEntries(group.curves.map((c, i) => [`${c.label}${" ".repeat(i)}`,
+        c.r ? { strokePattern: [[7, 3], [2, 2], [9, 3, 2, 3]][(c.r - 1) % 3] } : {}])),
+      axes: { x: { axisLabelFormatter: (t) => `${Number(t.toPrecision(6))}`, pixelsPerLabel: 56 },
+        y: { axisLabelFormatter: (y) => short(y), pixelsPerLabel: 19 } },
+      clickCallback: (e, t) => this.state.set({ time: t, playing: false }),
+      drawCallback: (g, first) => {
+        this.place(this.state.get("time"));
+        if (!first) this.all.zoomed(this, g.xAxisRange());
+      },
+    });
+    this.read(this.state.get("time"));
+  }
+
+  place(t) {
+    if (!this.graph) return;
+    const x = this.graph.toDomXCoord(t), area = this.graph.getArea();
+    const inside = x >= area.x - 0.5 && x <= area.x + area.w + 0.5;
+    this.cursor.hidden = !inside;
+    this.cursor.style.transform = `translateX(${x}px)`;
+    Object.assign(this.cursor.style, { top: `${area.y}px`, height: `${area.h}px` });
+  }
+
+  /** Numbers of the curves at the cursor. */
+  read(t) {
+    for (const c of this.group.curves) {
+      if (!c.on) {
+        c.reading.textContent = "";
+        continue;
+      }
+      const { time } = c.run.series;
+      let low = 0, high = time.length - 1;
+      while (high - low > 1) {
+        const middle = (low + high) >> 1;
+        if (time[middle] <= t) low = middle; else high = middle;
+      }
+      const i = t - time[low] <= time[high] - t ? low : high;
+      c.reading.textContent = format(c.values[i], c.unit);
+    }
+  }
+
+  resize() {
+    this.graph?.resize();
+    this.place(this.state.get("time"));
+  }
+}
+
+function data_index(group, curve) {
+  const names = [...new Set(group.curves.map((c) => c.name))];
+  return names.indexOf(curve.name); // the same colour in all runs
+}
+
+function short(y) {
+  if (y === 0) return "0";
+  const a = Math.abs(y);
+  return a >= 1e4 || a < 1e-3 ? y.toExponential(0).replace("e+", "e") : `${Number(y.toPrecision(3))}`;
+}
+
+export class Charts {
+  constructor(host, data, state) {
+    this.host = host;
+    this.state = state;
+    this.runs = data.runs.filter((r) => r.series).length;
+    this.list = groupsOf(data).map((g) => new Chart(g, state, this));
+    const few = data.runs.find((r) => r.series?.thinned);
+    if (this.list.length) {
+      host.append(h("p.hint", {}, "Click sets the time, drag zooms, double click shows all.",
+        few ? ` Of ${few.series.of} rows, those with the least and the largest values are shown.` : ""));
+    }
+    host.append(...this.list.map((c) => c.element));
+    if (!this.list.length) host.append(h("p.empty", {}, "This run has no series."));
+    state.watch(["time"], ({ time }) => {
+      for (const c of this.list) {
+        c.place(time);
+        if (c.graph) c.read(time);
+      }
+    });
+  }
+
+  /** Called when the charts can be seen. */
+  shown() {
+    for (const c of this.list) if (c.graph) c.resize(); else c.draw();
+  }
+
+  /** One has been zoomed: the others follow. */
+  zoomed(chart, window) {
+    if (this.following) return;
+    this.following = true;
+    for (const c of this.list) {
+      if (c === chart || !c.graph) continue;
+      const now = c.graph.xAxisRange();
+      if (Math.abs(now[0] - window[0]) + Math.abs(now[1] - window[1]) > 1e-9) c.graph.updateOptions({ dateWindow: window });
+    }
+    this.following = false;
+  }
+}

@@ -1,0 +1,158 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- run:report and sw.report without a browser: what is refused, what a full disk leaves, how much is written.
+local core = require "softworld.core"
+local files = require "spec.output.files"
+local film = require "spec.film.film"
+local runs = require "spec.page.runs"
+local sw = require "softworld"
+
+local function read(path)
+  local file = assert(io.open(path, "rb"))
+  local text = file:read "a"
+  file:close()
+  return text
+end
+
+describe("run:report", function()
+  local folder, run
+
+  setup(function() run = runs.laying() end)
+  before_each(function() folder = files.folder() end)
+  after_each(function() files.remove(folder) end)
+
+  it("writes one file and nothing else", function()
+    assert.equal(folder .. "/x.html", run:report(folder .. "/x.html"))
+    assert.same({ "x.html" }, files.list(folder))
+    local html = read(folder .. "/x.html")
+    assert.truthy(html:find("^<!doctype html>"))
+    for _, place in ipairs { "NOTICES", "STYLES", "SCRIPTS", "title", "data" } do
+      assert.is_nil(html:find("@" .. place .. "@", 1, true), place)
+    end
+  end)
+
+  it("tells which file cannot be written, and why", function()
+    local told = { [folder .. "/no/x.html"] = "No such file or directory", [folder .. "/x.txt"] = "does not end in .html" }
+    for path, why in pairs(told) do
+      local ok, text = pcall(run.report, run, path)
+      assert.is_false(ok)
+      assert.truthy(text:find(path, 1, true) and text:find(why, 1, true), text)
+    end
+    for given, why in pairs { [""] = "''", [7] = "number", [true] = "boolean" } do
+      local ok, text = pcall(run.report, run, given)
+      assert.is_false(ok)
+      assert.truthy(text:find("run:report expects the name of an .html file, got " .. why, 1, true), text)
+    end
+    assert.same({}, files.list(folder))
+  end)
+
+  it("leaves the old file when the disk is full", function()
+    local open = io.open
+    local path = folder .. "/x.html"
+    local file = assert(open(path, "wb"))
+    file:write "old"
+    file:close()
+    io.open = function(name, mode) return open(mode == "wb" and "/dev/full" or name, mode) end
+    local ok, text = pcall(run.report, run, path)
+    io.open = open
+    assert.is_false(ok)
+    assert.truthy(text:find("No space left on device", 1, true), text)
+    assert.equal("old", read(path))
+    assert.same({ "x.html" }, files.list(folder))
+  end)
+
+  it("writes through a device, and tells when that is full", function()
+    local ok, text = pcall(run.report, run, "/dev/full")
+    assert.is_false(ok)
+    assert.truthy(text:find("/dev/full: No space left on device", 1, true), text)
+  end)
+
+  it("keeps a million frames within their memory, and the page small", function()
+    local scene = sw.scene {}
+    scene:wire { E = 1e8, density = 1500, radius = 1e-3, from = { 0, 0, 0 }, to = { 1, 0, 0 }, segments = 20 }
+    local long = scene:run { duration = 0.5, dt = 1e-5, frame = 5e-7, frames = { memory = 1e6 } }
+    assert.is_true(long.ok)
+    -- a frame: 21 nodes of 12 numbers of 4 bytes and what is beside them; a million were asked for
+    local count = scene:frame_count()
+    assert.is_true(count * 21 * 12 * 4 < 1e6 and count > 200, count)
+    assert.is_true(core.frames_thinned(scene) >= 32)
+    long:report(folder .. "/x.html")
+    assert.is_true(#read(folder .. "/x.html") < 2.5e6)
+  end)
+
+  it("leaves frames out whose places are no numbers", function()
+    local scene = sw.scene {}
+    scene:wire { E = 1e8, density = 1500, radius = 1e-3, from = { 0, 0, 0 }, to = { 1, 0, 0 }, segments = 20 }
+    local far = scene:obstacle { name = "far", shape = "sphere", radius = 0.1, at = { 0, 5, 0 } }
+    scene:run { duration = 0.1, dt = 0.01, frame = 0.02 }
+    far:pose { 0, 1e39, 0 } -- beyond what 32 bits hold
+    local rest = scene:run { duration = 0.1, dt = 0.01, frame = 0.02 }
+    local packed, whole, broken = core.film(scene, -math.huge, math.huge, true)
+    assert.is_true(whole >= 5 and broken >= 5, whole .. " " .. broken)
+    for _, t in ipairs(film.read(packed).tracks) do
+      for _, flat in ipairs(t.frames) do
+        for _, x in ipairs(flat) do assert.is_true(math.abs(x) < 1e3 or x ~= x) end
+      end
+    end
+    assert.equal(folder .. "/x.html", rest:report(folder .. "/x.html"))
+    assert.truthy(read(folder .. "/x.html"):find('"broken":' .. broken, 1, true))
+  end)
+
+  it("refuses a run whose frames went with a snapshot", function()
+    local scene = sw.scene {}
+    scene:wire { E = 1e8, density = 1500, radius = 1e-3, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+    local snapshot = scene:snapshot()
+    local gone = scene:run { duration = 0.1 }
+    scene:restore(snapshot)
+    local ok, text = pcall(gone.report, gone, folder .. "/x.html")
+    assert.is_false(ok)
+    assert.truthy(text:find("snapshot was restored", 1, true), text)
+  end)
+
+  it("has the peaks of series that are too long to be all shown", function()
+    local scene = sw.scene {}
+    local wire = scene:wire { E = 1e7, density = 1500, radius = 1e-3, from = { 0, 0, 0 }, to = { 0.5, 0, 0 },
+      segments = 10 }
+    scene:clamp(wire, { s = 0 })
+    local long = scene:run { duration = 4, dt = 5e-4, frame = 0.1 }
+    local series, most = long:series(), -math.huge
+    for _, c in ipairs(series.columns) do
+      if c.name == "wire1.tension" then for _, x in ipairs(c.values) do most = math.max(most, x) end end
+    end
+    long:report(folder .. "/x.html")
+    local html = read(folder .. "/x.html")
+    local blob, of, rows = html:match '"series":{"blob":(%d+),.-"of":(%d+),"rows":(%d+)'
+    assert.equal(#series.time, tonumber(of))
+    assert.is_true(tonumber(rows) <= 3000)
+    local text = html:match('id="blob%-' .. blob .. '">([^<]*)<')
+    local pipe = folder .. "/b64"
+    local file = assert(io.open(pipe, "wb"))
+    file:write(text)
+    file:close()
+    local popen = assert(io.popen("base64 -d " .. pipe, "r"))
+    local bytes = film.inflate(popen:read "a")
+    popen:close()
+    local number
+    for i, c in ipairs(series.columns) do if c.name == "wire1.tension" then number = i end end
+    local kept = -math.huge
+    for i = 1, tonumber(rows) do
+      local x = ("<f"):unpack(bytes, 8 * rows + 4 * rows * (number - 1) + 4 * (i - 1) + 1)
+      if x == x then kept = math.max(kept, x) end
+    end
+    assert.near(most, kept, 1e-7 * most)
+  end)
+end)
+
+describe("sw.report", function()
+  it("refuses what are no runs, at the script's line", function()
+    local run = runs.laying()
+    for told, args in pairs { ["[1] must be a run, got"] = { 3, path = "x.html" }, ["path is required"] = { run },
+      ["a run is wanted"] = { path = "x.html" }, ["did you mean 'path'"] = { run, pat = "x.html" } } do
+      local ok, text = pcall(sw.report, args)
+      assert.is_false(ok)
+      assert.truthy(text:find(told, 1, true), text)
+      assert.truthy(text:find("report_spec.lua:", 1, true), text)
+    end
+    assert.is_false(pcall(sw.report, 3))
+    assert.is_false(pcall(sw.report))
+  end)
+end)

@@ -1,0 +1,395 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- The player in a real browser: it is opened from disk, shows, moves, tells, and is used by keys and pointer.
+local browser = require "spec.page.browser"
+local files = require "spec.output.files"
+local runs = require "spec.page.runs"
+local sw = require "softworld"
+
+local folder, page
+
+setup(function()
+  folder = files.folder()
+  page = browser.open(1280, 720)
+end)
+
+teardown(function()
+  if page then page:close() end
+  files.remove(folder)
+end)
+
+local function address(name) return "file://" .. folder .. "/" .. name end
+
+-- Nothing was complained of since the last look.
+local function assert_calm()
+  for _, line in ipairs(page:console()) do
+    assert.is_true(line.level ~= "SEVERE" and line.level ~= "WARNING", line.level .. ": " .. line.message)
+  end
+end
+
+-- How many different colours the stage has, read off a picture of it; more than count only.
+local colours = [[
+  const view = player.view, from = view.stage.canvas, to = document.createElement("canvas");
+  to.width = from.width; to.height = from.height;
+  view.stage.draw();
+  const c = to.getContext("2d");
+  c.drawImage(from, 0, 0);
+  const data = new Uint32Array(c.getImageData(0, 0, to.width, to.height).data.buffer);
+]]
+
+local function colour_count() return page:run(colours .. "return new Set(data).size;") end
+
+-- A sum of the picture, to tell whether it has changed.
+local function fingerprint()
+  return page:run(colours .. "let h = 0; for (const x of data) h = (Math.imul(h, 31) + x) | 0; return h;")
+end
+
+local function time() return page:run "return player.state.get('time')" end
+local function text(selector) return page:run("return document.querySelector(arguments[0]).innerText", selector) end
+
+describe("the player", function()
+  local run
+
+  setup(function()
+    run = runs.laying()
+    assert.equal(folder .. "/laying.html", run:report(folder .. "/laying.html"))
+    page:go(address "laying.html")
+  end)
+
+  before_each(function()
+    page:run "player.state.set({ time: 0, playing: false, tab: 'charts', probe: null, selected: null, tool: null })"
+  end)
+
+  it("draws the scene, without a word on the console and without network", function()
+    assert.is_true(colour_count() > 200)
+    assert.equal("laying", text "h1")
+    assert.equal("ok", text "#status")
+    assert.equal(0, page:run "return performance.getEntriesByType('resource').filter(e => !/^(data|blob):/.test(e.name)).length")
+    local html = io.open(folder .. "/laying.html"):read "a"
+    assert.is_nil(html:find('src="http', 1, true) or html:find('href="http', 1, true))
+    assert.truthy(html:find("three.js authors", 1, true) and html:find("Dan Vanderkam", 1, true))
+    assert.truthy(html:find("The above copyright notice", 1, true))
+    assert_calm()
+  end)
+
+  it("has the wire where the run had it, at every frame", function()
+    local frames = run:frames()
+    for _, f in ipairs { 1, #frames // 2, #frames } do
+      local x = page:run([[
+        player.state.set({ time: arguments[0] });
+        const w = player.view.actors.find((a) => a.kind === "wire");
+        return [...w.nodes.slice(0, 3 * w.count)];]], frames[f].t)
+      assert.equal(#frames[f].wires[1], #x)
+      -- half a thousandth of the radius, and 32 bits
+      for i, given in ipairs(frames[f].wires[1]) do assert.near(given, x[i], 0.5e-3 * 0.003 + 1e-7) end
+    end
+  end)
+
+  it("moves the wire and the cursor of the charts by its slider", function()
+    local before = fingerprint()
+    local where = page:run "const b = document.querySelector('#time').getBoundingClientRect(); return [b.left, b.top, b.width, b.height]"
+    local y = where[2] + where[4] / 2
+    page:pointer({ { where[1] + 0.3 * where[3], y }, { where[1] + 0.5 * where[3], y } }, true)
+    local t, last = time(), run.time
+    assert.near(0.5 * last, t, 0.02 * last)
+    assert.is_true(fingerprint() ~= before)
+    local shown = page:run [[
+      const c = player.charts.list[0], m = /translateX\(([-\d.]+)px\)/.exec(c.cursor.style.transform);
+      return [Number(m[1]), c.graph.toDomXCoord(player.state.get("time")), c.cursor.getBoundingClientRect().height];]]
+    assert.near(shown[2], shown[1], 0.01)
+    assert.is_true(shown[3] > 50)
+  end)
+
+  it("takes its time from a click on a chart, and numbers follow", function()
+    local spot = page:run [[
+      const c = player.charts.list[0], a = c.graph.getArea(), b = c.plot.getBoundingClientRect();
+      return [b.left + a.x + 0.25 * a.w, b.top + a.y + a.h / 2, c.graph.toDataXCoord(a.x + 0.25 * a.w)];]]
+    page:pointer({ { spot[1], spot[2] } }, true)
+    assert.near(spot[3], time(), 0.01 * run.time)
+    local series, column = run:series(), nil
+    for _, c in ipairs(series.columns) do if c.name == "hand.force" then column = c end end
+    local nearest = 1
+    for i, t in ipairs(series.time) do
+      if math.abs(t - time()) < math.abs(series.time[nearest] - time()) then nearest = i end
+    end
+    local told = page:run [[
+      const c = player.charts.list[0].group.curves.find((k) => k.name === "hand.force"), time = c.run.series.time;
+      let i = 0;
+      time.forEach((t, k) => { if (Math.abs(t - player.state.get("time")) < Math.abs(time[i] - player.state.get("time"))) i = k; });
+      return c.values[i];]]
+    assert.near(column.values[nearest], told, 1e-6 * math.abs(column.values[nearest]))
+  end)
+
+  it("zooms all its charts together", function()
+    local box = page:run [[
+      const c = player.charts.list[0], a = c.graph.getArea(), b = c.plot.getBoundingClientRect();
+      return [b.left + a.x, b.top + a.y + a.h / 2, a.w];]]
+    page:pointer({ { box[1] + 0.2 * box[3], box[2] }, { box[1] + 0.5 * box[3], box[2] }, { box[1] + 0.6 * box[3], box[2] } }, true)
+    local windows = page:run "return player.charts.list.map((c) => c.graph.xAxisRange())"
+    assert.is_true(#windows > 1)
+    for _, w in ipairs(windows) do
+      assert.near(0.2 * run.time, w[1], 0.05 * run.time)
+      assert.near(0.6 * run.time, w[2], 0.05 * run.time)
+    end
+    page:run "player.charts.list[0].graph.resetZoom()"
+  end)
+
+  it("is played, stepped and turned by keys", function()
+    page:run "document.activeElement.blur()"
+    local frames = run:frames()
+    page:keys "ArrowRight"
+    assert.near(frames[2].t, time(), 1e-9)
+    page:keys("ArrowRight", "ArrowRight", "ArrowLeft")
+    assert.near(frames[3].t, time(), 1e-9)
+    page:keys "End"
+    assert.near(run.time, time(), 1e-6)
+    page:keys "Home"
+    assert.near(0, time(), 1e-9)
+    page:keys " "
+    page:wait "return player.state.get('time') > 0.05"
+    page:keys " "
+    assert.is_false(page:run "return player.state.get('playing')")
+    local before = fingerprint()
+    page:keys "d"
+    assert.is_true(fingerprint() ~= before)
+    page:keys("4", "1", "v", "m", "x", "c")
+    assert.same({ true, "measure", 0, "tension" },
+      page:run "const v = player.state.values; return [v.arrows, v.tool, v.cut, v.quantity]")
+    page:keys("v", "m", "x")
+    page:run "player.state.set({ quantity: 'curvature' })"
+    assert_calm()
+  end)
+
+  it("plays to the end and stops, or begins again", function()
+    page:run "player.state.set({ time: player.transport.span[1] - 0.05, playing: true })"
+    page:wait "return !player.state.get('playing')"
+    assert.near(run.time, time(), 1e-6)
+    page:run "player.state.set({ loop: true, time: player.transport.span[1] - 0.05, playing: true })"
+    page:wait "return player.state.get('time') < 0.5"
+    page:run "player.state.set({ playing: false, loop: false })"
+  end)
+
+  it("goes round by the tab key, with a visible focus and a name for everything", function()
+    page:run "document.activeElement.blur()"
+    local seen = {}
+    for _ = 1, 14 do
+      page:keys "Tab"
+      local name, outline = table.unpack(page:run [[
+        const e = document.activeElement, s = getComputedStyle(e);
+        return [e.id || e.getAttribute("aria-label") || e.textContent || e.tagName, s.outlineStyle];]])
+      seen[#seen + 1] = name
+      assert.equal("solid", outline, name)
+    end
+    assert.is_true(#seen == 14 and seen[1] ~= seen[2])
+    local nameless = page:run [[
+      return [...document.querySelectorAll("button, input, select, [role=tab], [role=img]")].filter((e) =>
+        getComputedStyle(e).display !== "none" && !(e.getAttribute("aria-label") || e.textContent.trim() || e.title || (e.labels && e.labels.length)))
+        .map((e) => e.outerHTML);]]
+    assert.same({}, nameless)
+  end)
+
+  it("marks events on the slider, and goes there", function()
+    assert.equal(1, page:run "return document.querySelectorAll('.mark').length")
+    local words = page:run "return document.querySelector('.mark').title"
+    assert.truthy(words:find("the hand is up", 1, true))
+    page:run "document.querySelector('.mark').click()"
+    assert.near(run.events[1].time, time(), 1e-9)
+    page:run "document.querySelector('#tab-events').click()"
+    assert.truthy(text "#panel-events":find("the hand is up", 1, true))
+  end)
+
+  it("shows results, script and version", function()
+    page:run "document.querySelector('#tab-results').click()"
+    local shown = text "#panel-results"
+    for _, row in ipairs(run:document().summary) do assert.truthy(shown:find(row.label, 1, true), row.label) end
+    page:run "document.querySelector('#tab-script').click()"
+    assert.truthy(text "#panel-script":find("SoftWorld " .. sw.version, 1, true))
+  end)
+
+  it("reads a wire where it is clicked on", function()
+    local spot = page:run [[
+      player.state.set({ time: 1.0 });
+      player.view.stage.look("front");
+      const w = player.view.actors.find((a) => a.kind === "wire"), p = w.place(0.15).point;
+      player.view.stage.draw();
+      const at = player.view.stage.onScreen(p), b = player.view.stage.canvas.getBoundingClientRect();
+      return [at[0] + b.left, at[1] + b.top];]]
+    page:pointer({ { spot[1] + 0.5, spot[2] + 0.5 } }, true)
+    local probe = page:run "return player.state.get('probe')"
+    assert.truthy(probe)
+    assert.near(0.15, probe.s, 0.02)
+    local card = text ".card"
+    assert.truthy(card:find("Tension", 1, true) and card:find("Bend radius", 1, true), card)
+    local told = page:run("return player.view.find(arguments[0].id).value(0, arguments[0].s)", probe)
+    local frames, best = run:frames(), nil
+    for _, f in ipairs(frames) do if not best or math.abs(f.t - 1.0) < math.abs(best.t - 1.0) then best = f end end
+    local low, high = math.huge, -math.huge
+    for _, x in ipairs(best.values[1].tension) do low, high = math.min(low, x), math.max(high, x) end
+    assert.is_true(told > low - 0.01 * (high - low) and told < high + 0.01 * (high - low))
+  end)
+
+  it("measures between two points, along with what they are on", function()
+    local length = page:run [[
+      const w = player.view.actors.find((a) => a.kind === "wire");
+      player.state.set({ time: 0, tool: "measure" });
+      player.view.measured = [{ actor: w, s: 0.1 }, { actor: w, s: 0.4 }];
+      player.view.update();
+      return player.view.label.textContent;]]
+    assert.equal("300.0 mm", length) -- the wire lies straight
+    page:run "player.state.set({ time: 1.2 })"
+    assert.is_true(page:run "return parseFloat(player.view.label.textContent)" < 300)
+  end)
+
+  it("hides what is not wanted, cuts, and colours by other quantities", function()
+    local before = fingerprint()
+    page:run "document.querySelector('input[aria-label=\"Show wall\"]').click()"
+    local without = fingerprint()
+    assert.is_true(before ~= without)
+    page:run "document.querySelector('input[aria-label=\"Show wall\"]').click()"
+    assert.equal(before, fingerprint())
+    page:run "player.state.set({ cut: 0, cutAt: 0.6 })"
+    assert.is_true(before ~= fingerprint())
+    page:run "player.state.set({ cut: null })"
+    page:run "player.state.set({ time: 1, quantity: 'tension' })"
+    local first = text ".legend-name"
+    assert.truthy(first:find("Tension", 1, true))
+    local tension = fingerprint()
+    page:run "player.state.set({ quantity: 'stress' })"
+    assert.is_true(tension ~= fingerprint())
+    page:run "player.state.set({ quantity: 'curvature' })"
+  end)
+
+  it("gives pictures, tables and links", function()
+    local png = page:call [[
+      const old = URL.createObjectURL;
+      URL.createObjectURL = (blob) => {
+        URL.createObjectURL = old;
+        blob.arrayBuffer().then((b) => done([blob.type, new Uint8Array(b).slice(1, 4).join(), b.byteLength]));
+        return old.call(URL, blob);
+      };
+      [...document.querySelectorAll("#menu [role=menuitem]")].find((b) => /PNG/.test(b.textContent)).click();]]
+    assert.equal("image/png", png[1])
+    assert.equal("80,78,71", png[2])
+    assert.is_true(png[3] > 5000)
+    local csv = page:call [[
+      const old = URL.createObjectURL;
+      URL.createObjectURL = (blob) => {
+        URL.createObjectURL = old;
+        blob.text().then(done);
+        return old.call(URL, blob);
+      };
+      [...document.querySelectorAll("#menu [role=menuitem]")].find((b) => /CSV/.test(b.textContent)).click();]]
+    local lines = select(2, csv:gsub("\n", ""))
+    assert.is_true(lines > 100)
+    assert.truthy(csv:match "^t %[s%],hand%.force %[N%]")
+    page:go(address "laying.html" .. "#t=1.25&camera=1,-2,1.5,0.1,0,0.05")
+    page:run "document.title" -- the same page: only its hash has changed
+    page:wait "return Math.abs(player.state.get('time') - 1.25) < 1e-9"
+    local pose = page:run "return player.view.stage.pose()"
+    for i, x in ipairs { 1, -2, 1.5, 0.1, 0, 0.05 } do assert.near(x, pose[i], 1e-6) end
+  end)
+
+  it("records a film", function()
+    local size = page:call [[
+      const old = URL.createObjectURL;
+      URL.createObjectURL = (blob) => {
+        if (blob.type === "video/webm") { URL.createObjectURL = old; done(blob.size); }
+        return old.call(URL, blob);
+      };
+      player.state.set({ speed: 4 });
+      [...document.querySelectorAll("#menu [role=menuitem]")].find((b) => /WebM/.test(b.textContent)).click();]]
+    assert.is_true(size > 10000)
+    page:run "player.state.set({ speed: 1 })"
+    assert_calm()
+  end)
+
+  it("is dark or light", function()
+    page:run "player.state.set({ theme: 'dark' })"
+    local dark = page:run "return getComputedStyle(document.body).backgroundColor"
+    page:run "player.state.set({ theme: 'light' })"
+    assert.is_true(dark ~= page:run "return getComputedStyle(document.body).backgroundColor")
+  end)
+end)
+
+describe("a page of", function()
+  it("several runs has all of them, in one time", function()
+    local a, b = runs.laying(), runs.laying { name = "farther", far = 1.4 }
+    sw.report { a, b, path = folder .. "/both.html", title = "two ways" }
+    page:go(address "both.html")
+    assert.equal("two ways", text "h1")
+    assert.equal(2, page:run "return player.view.actors.filter((a) => a.kind === 'wire' && a.there).length")
+    page:run "player.state.set({ time: 1.2 })"
+    local apart = page:run [[
+      const [a, b] = player.view.actors.filter((w) => w.kind === "wire");
+      return a.place(0).point.distanceTo(b.place(0).point);]]
+    assert.is_true(apart >= 0)
+    local labels = page:run "return player.charts.list[0].group.curves.map((c) => c.label)"
+    assert.truthy(table.concat(labels, " "):find("1: hand.force", 1, true))
+    assert.truthy(table.concat(labels, " "):find("2: hand.force", 1, true))
+    page:run "document.querySelector('#tab-results').click()"
+    assert.truthy(text "#panel-results":find("farther", 1, true))
+    assert.near(b.time, page:run "return player.transport.span[1]", 1e-6)
+    assert_calm()
+  end)
+
+  it("a mesh has its surface", function()
+    local run = runs.mesh()
+    run:report(folder .. "/mesh.html")
+    page:go(address "mesh.html")
+    assert.is_true(colour_count() > 200)
+    local frame = run:frames()[3]
+    local points = page:run([[
+      player.state.set({ time: arguments[0] });
+      const w = player.view.actors.find((a) => a.kind === "wire");
+      return [...w.surface.geometry.attributes.position.array.slice(0, 60)];]], frame.t)
+    for i, x in ipairs(points) do assert.near(frame.surfaces[1].points[i], x, 0.5e-3 * 0.005 + 1e-7) end
+    assert_calm()
+  end)
+
+  it("a run that failed tells why, shows how far it came, and has no numbers", function()
+    local run = runs.failed()
+    run:report(folder .. "/torn.html")
+    page:go(address "torn.html")
+    assert.equal("FAILED", text "#status")
+    assert.truthy(text "#banner":find(run.reason, 1, true))
+    assert.truthy(text "#panel-results":find(run.reason, 1, true))
+    assert.truthy(page:run "return getComputedStyle(document.querySelector('.watermark')).display !== 'none'")
+    assert.is_true(page:run "return player.data.runs[0].film.times.length" > 2)
+    assert.is_true(colour_count() > 50)
+    local one = page:run "const r = player.data.runs[0]; return [r.series === null, r.summary === undefined, document.querySelectorAll('td.number').length, [...r.film.tracks.values()].filter((t) => t.kind === 'value' && t.channel !== 8).length]"
+    assert.same({ true, true, 0, 0 }, one)
+    page:run "player.state.set({ probe: { id: '0 wire 0', s: 0.2 } })"
+    assert.truthy(text ".card":find("no numbers", 1, true))
+    assert.is_nil(text ".card":find("Tension", 1, true))
+    page:run "document.querySelector('#tab-charts').click()"
+    assert.truthy(text "#panel-charts":find("no series", 1, true))
+    assert_calm()
+  end)
+
+  it("a run without frames has charts only, and says so", function()
+    local run = runs.laying { frames = false }
+    run:report(folder .. "/plain.html")
+    page:go(address "plain.html")
+    assert.truthy(text "#stage":find("No frames were stored", 1, true))
+    assert.is_true(page:run "return player.charts.list.length > 0 && player.charts.list.every((c) => c.graph)")
+    page:run "document.querySelector('.mark').click()"
+    assert.near(run.events[1].time, time(), 1e-9)
+    page:run "document.activeElement.blur()"
+    page:keys("Home", "t", "c", "f", "ArrowRight")
+    assert_calm()
+  end)
+
+  it("names with quotes, tags and the end of a script is harmless", function()
+    local nasty = [["</script><script>window.hit=1</script><img src=x onerror=window.hit=1>'\ <!-- &amp; @data@ %1]]
+    local run = runs.laying { name = nasty:sub(1, 60), wall = nasty:sub(1, 60), wire = nasty:sub(10, 60), note = nasty }
+    sw.report { run, path = folder .. "/nasty.html", title = nasty }
+    page:go(address "nasty.html")
+    assert.equal(nasty, page:run "return document.querySelector('h1').textContent")
+    assert.equal(nasty, page:run "return document.title")
+    page:run "document.querySelector('#tab-events').click()"
+    assert.truthy(page:run("return document.querySelector('#panel-events').textContent.includes(arguments[0])", nasty))
+    page:run "document.querySelector('#tab-results').click()"
+    assert.is_nil(page:run "return window.hit")
+    assert.equal(0, page:run "return document.querySelectorAll('img').length")
+    assert_calm()
+  end)
+end)
