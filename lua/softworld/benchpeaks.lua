@@ -101,6 +101,7 @@ local function measure(item, cable, dt)
   else
     local m, l = part:over(), run:ledger()
     row.peak, row.impulse, row.tension = m.peak_force, m.impulse_size, (wire:max_tension())
+    row.coarse = m.peak_force_coarse or false
     row.weight = 9.81 * wire.beam.mass_per_length * wire.length
     row.gain, row.steps, row.rejected, row.wall = l.gained / l.play, run.steps, run.rejected, run.cpu
   end

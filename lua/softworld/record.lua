@@ -159,11 +159,11 @@ local function follow_trajectories()
   end
   local meta = getmetatable(trajectory)
   local make = meta.__call
-  meta.__call = function(self, ...) return noted(nil, nil, arguments(...), (make(self, ...))) end
+  meta.__call = function(self, ...) return noted(nil, nil, arguments(...), (build.through(make, self, ...))) end
   for _, name in ipairs{ "delayed", "placed", "relative" } do
     local method = core.class.trajectory[name]
     core.class.trajectory[name] = function(self, ...)
-      return noted(self, name, arguments(...), (method(self, ...)))
+      return noted(self, name, arguments(...), (build.through(method, self, ...)))
     end
   end
 end

@@ -66,13 +66,49 @@ local function largest_mean(steps, width)
   return most, time
 end
 
+local FEW = 3 -- steps in the window of a peak tell a blow to 15 % (make stability: laying, drops, pegs) [-]
+local SHARP = 0.7 -- before a blow there is less than this share of its mean [-]
+
+-- A blow that is told by few steps: with shorter ones it may be another.
+local function is_coarse(steps, p, width)
+  local long = math.max(width, p.span)
+  if p.span * FEW < long then return false end
+  local till, first = p.time - long, steps[1].t0
+  local from = math.max(till - long, first)
+  if till - from < 0.25 * long then return false end -- nothing is known before
+  local to = integral(steps, sums_of(steps))
+  local x0, y0, z0 = to(from)
+  local x1, y1, z1 = to(till)
+  return size(x1 - x0, y1 - y0, z1 - z0) / (till - from) < SHARP * p.value
+end
+
+-- The longest step within the window that ends at a time.
+local function longest(steps, time, width)
+  local most = 0
+  for _, s in ipairs(steps) do
+    if s.t1 > time - width * (1 - SLACK) and s.t0 < time then most = math.max(most, s.t1 - s.t0) end
+  end
+  return most
+end
+
 --- Peaks of a vector.
 -- @tparam table steps { { t0 =, t1 =, x, y, z }, ... } in order: each of what it was from t0 to t1 [s];
 -- t0 = t1 at an equilibrium
 -- @tparam number width of the window [s]
 -- @treturn table value of the largest mean and its time, raw (of single steps) with raw_time and raw_span;
--- steps as long as the window, and equilibria, count as they are; whole: the record, where it is shorter
+-- steps as long as the window, and equilibria, count as they are; whole: the record, where it is shorter;
+-- coarse: it is of a blow that lasts few steps
 function window.peak(steps, width)
+  local p = window.largest(steps, width)
+  if p.time and p.value > 0 and width > 0 then
+    p.span = longest(steps, p.time, width)
+    p.coarse = is_coarse(steps, p, width) or nil
+  end
+  return p
+end
+
+--- The same without coarse.
+function window.largest(steps, width)
   local p = { value = 0, raw = 0, raw_span = 0, width = width }
   local averaged = false
   for _, s in ipairs(steps) do
@@ -98,8 +134,8 @@ local function short(x, unit)
   return ("%.3g %s"):format(tonumber(digits), scaled)
 end
 
---- How a peak was measured, and the raw one: "10 ms mean; raw 41 N in 0.4 ms".
-function window.note(p, unit)
+-- How a peak was measured, and the raw one: "10 ms mean; raw 41 N in 0.4 ms".
+local function note(p, unit)
   if p.raw_span == 0 then return "at rest" end
   if p.width == 0 then return ("raw, in %s"):format(short(p.raw_span, "s")) end
   if p.raw_span >= p.width * (1 - SLACK) then
@@ -109,6 +145,12 @@ function window.note(p, unit)
   local mean = p.whole and ("mean of all %s"):format(short(p.whole, "s"))
     or ("%s mean"):format(short(p.width, "s"))
   return ("%s; raw %s in %s"):format(mean, short(p.raw, unit), short(p.raw_span, "s"))
+end
+
+--- How a peak was measured, and whether steps are short enough for it.
+function window.note(p, unit)
+  if not p.coarse then return note(p, unit) end
+  return ("%s; a blow of few steps: shorter ones may tell another"):format(note(p, unit))
 end
 
 --- The same with the value in front: "12.3 N (10 ms mean; raw 41 N in 0.4 ms)".
@@ -126,6 +168,7 @@ function window.fill(m, name, p, unit)
   m[name], m[name .. "_time"] = p.value, p.time
   m["raw_" .. name], m["raw_" .. name .. "_time"] = p.raw, p.raw_time
   m["raw_" .. name .. "_span"] = p.raw_span
+  m[name .. "_coarse"] = p.coarse
   m[name .. "_note"], m[name .. "_text"] = window.note(p, unit), window.text(p, unit)
 end
 

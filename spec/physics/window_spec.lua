@@ -372,3 +372,24 @@ describe("a run shorter than its window", function()
     end
   end
 end)
+
+describe("a blow of few steps", function()
+  -- A pulse of 8 ms on a small steady force, in even steps; and a force that is steady.
+  local function peak(h, f)
+    return window.peak(steps(even(h, 0.2), f), W)
+  end
+  local function blow(time) return time > 0.1 and time < 0.108 and 5 or 0.5 end
+
+  it("is told, a fine one and a steady force are not", function()
+    for _, h in ipairs{ 4e-3, 0.01, 0.02 } do
+      local p = peak(h, blow)
+      assert.is_true(p.coarse, ("%g s"):format(h))
+      assert.is_truthy(window.text(p, "N"):find "a blow of few steps: shorter ones may tell another%)$")
+    end
+    for _, h in ipairs{ 1e-4, 1e-3, 2e-3 } do assert.is_nil(peak(h, blow).coarse, ("%g s"):format(h)) end
+    for _, h in ipairs{ 1e-3, 0.01, 0.02 } do
+      assert.is_nil(peak(h, function() return 3 end).coarse)
+      assert.is_nil(peak(h, function(time) return 3 + time end).coarse)
+    end
+  end)
+end)
