@@ -159,7 +159,9 @@ local function follow_trajectories()
   end
   local meta = getmetatable(trajectory)
   local make = meta.__call
-  meta.__call = function(self, ...) return noted(nil, nil, arguments(...), (build.through(make, self, ...))) end
+  meta.__call = function(self, ...)
+    return noted(nil, nil, arguments(...), (build.through(make, self, ...)))
+  end
   for _, name in ipairs{ "delayed", "placed", "relative" } do
     local method = core.class.trajectory[name]
     core.class.trajectory[name] = function(self, ...)

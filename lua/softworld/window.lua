@@ -67,7 +67,7 @@ local function largest_mean(steps, width)
 end
 
 local FEW = 3 -- steps in the window of a peak tell a blow to 15 % (make stability: laying, drops, pegs) [-]
-local SHARP = 0.7 -- before a blow there is less than this share of its mean [-]
+local SHARP = 0.55 -- before a blow there is less than this share of its mean [-]
 
 -- A blow that is told by few steps: with shorter ones it may be another.
 local function is_coarse(steps, p, width)
