@@ -3,7 +3,8 @@
 --   build/softworld scripts/bench.lua [quick] [case=..] [model=..] [integrator=..] [n=..] [out=folder]
 -- One CSV row each in out/bench/bench.csv, a summary on the terminal. Values may be lists: case=droop,walls.
 -- case=meshes: what wires that are meshes of particles cost, on the terminal only; case=grip: what
--- grippers do; case=crowds: many obstacles, nodes and wires; case=bundle: wires that lie along each other.
+-- grippers do; case=crowds: many obstacles, nodes and wires; case=report: the
+-- player's page; case=bundle: wires that lie along each other.
 -- Compare numbers of one run only: machines differ, and so do their loads.
 local bench = require "softworld.bench"
 local benchcases = require "softworld.benchcases"
@@ -176,7 +177,7 @@ for _, name in ipairs(order) do
   end
 end
 if #jobs == 0 and not (wanted.case and (wanted.case.meshes or wanted.case.grip
-  or wanted.case.crowds or wanted.case.bundle)) then
+  or wanted.case.crowds or wanted.case.report or wanted.case.bundle)) then
   io.stderr:write("bench: nothing fits these options\n")
   os.exit(2)
 end
@@ -468,6 +469,35 @@ local function print_bundles()
   end
 end
 
+-- What a player's page costs, and in a browser that computes its graphics in software.
+local function print_report()
+  local report = require "softworld.benchreport"
+  local function aim(value, most) return value <= most and "met" or "missed" end
+  local run, scene = report.run(2000)
+  sink.make_folder(out)
+  local r = report.write(run, scene, out .. "/report.html")
+  print(("\nplayer: %d frames of %d nodes, %d series of %d rows"):format(r.frames, r.nodes, r.columns, r.rows))
+  print(("  page      %8.2f MB  within %.1f MB: %s"):format(1e-6 * r.size, 1e-6 * report.aims.size,
+    aim(r.size, report.aims.size)))
+  print(("  written in %7.2f s   within %.1f s: %s"):format(r.write, report.aims.write, aim(r.write, report.aims.write)))
+  local found, browser = pcall(require, "spec.page.browser")
+  local opened, page = pcall(found and browser.open or error, 1280, 720)
+  if not opened then return print "  no Chromium to open it with: sh scripts/setup.sh --test" end
+  local here = io.popen "pwd":read "l"
+  page:go("file://" .. (r.path:sub(1, 1) == "/" and "" or here .. "/") .. r.path)
+  local first = page:run "return Number(document.body.dataset.picture)" / 1000
+  local tube = page:run [[
+    const w = player.view.actors.find((a) => a.kind === "wire"), look = { thick: 1, least: 0, ...player.view.colouring() };
+    const begun = performance.now(), count = 100;
+    for (let i = 0; i < count; i++) w.update({ frame: 10 * i, part: 0.5, time: 0 }, look, new Set());
+    return (performance.now() - begun) / count;]] / 1000
+  page:close()
+  print(("  first picture %4.2f s   within %.1f s: %s"):format(first, report.aims.picture, aim(first, report.aims.picture)))
+  print(("  new tube   %7.3f ms  within %.1f ms: %s"):format(1e3 * tube, 1e3 * report.aims.tube,
+    aim(tube, report.aims.tube)))
+end
+
+if not next(wanted) or wanted.case and wanted.case.report then print_report() end
 if not next(wanted) or wanted.case and wanted.case.meshes then print_meshes() end
 if not next(wanted) or wanted.case and wanted.case.grip then print_grips() end
 if wanted.case and wanted.case.crowds then print_crowds() end

@@ -259,6 +259,11 @@ async function start() {
   header(data, state);
   const transport = new Transport($("transport"), data, state, span, frameTimes(data));
   const view = openView(data, state, span);
+  if (view) { // the scene first, charts when there is time
+    view.stage.draw();
+    document.body.dataset.picture = String(Math.round(performance.now()));
+    await new Promise((resolve) => { setTimeout(resolve, 0); });
+  }
   lookPanel($("look"), data, state);
   const charts = new Charts($("panel-charts"), data, state);
   resultsPanel($("panel-results"), data, state);
@@ -275,11 +280,8 @@ async function start() {
   follow(given);
   addEventListener("hashchange", () => follow(readLink(location.hash)));
   window.player = { state, view, charts, transport, data };
-  const ready = () => {
-    document.body.dataset.ready = String(Math.round(performance.now()));
-    document.body.classList.add("ready");
-  };
-  if (view) { view.stage.draw(); ready(); } else ready();
+  document.body.dataset.ready = String(Math.round(performance.now()));
+  document.body.classList.add("ready");
 }
 
 start().catch((error) => {
