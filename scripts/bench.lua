@@ -472,29 +472,31 @@ end
 -- What a player's page costs, and in a browser that computes its graphics in software.
 local function print_report()
   local report = require "softworld.benchreport"
-  local function aim(value, most) return value <= most and "met" or "missed" end
+  local function line(what, value, most, unit)
+    print(("  %-14s %7.2f %-2s  within %g %s: %s"):format(what, value, unit, most, unit,
+      value <= most and "met" or "missed"))
+  end
   local run, scene = report.run(2000)
   sink.make_folder(out)
-  local r = report.write(run, scene, out .. "/report.html")
-  print(("\nplayer: %d frames of %d nodes, %d series of %d rows"):format(r.frames, r.nodes, r.columns, r.rows))
-  print(("  page      %8.2f MB  within %.1f MB: %s"):format(1e-6 * r.size, 1e-6 * report.aims.size,
-    aim(r.size, report.aims.size)))
-  print(("  written in %7.2f s   within %.1f s: %s"):format(r.write, report.aims.write, aim(r.write, report.aims.write)))
+  local r, aims = report.write(run, scene, out .. "/report.html"), report.aims
+  print(("\nplayer: %d frames of %d nodes, %d series of %d rows"):format(r.frames, r.nodes, r.columns,
+    r.rows))
+  line("page", 1e-6 * r.size, 1e-6 * aims.size, "MB")
+  line("written in", r.write, aims.write, "s")
   local found, browser = pcall(require, "spec.page.browser")
   local opened, page = pcall(found and browser.open or error, 1280, 720)
   if not opened then return print "  no Chromium to open it with: sh scripts/setup.sh --test" end
   local here = io.popen "pwd":read "l"
   page:go("file://" .. (r.path:sub(1, 1) == "/" and "" or here .. "/") .. r.path)
-  local first = page:run "return Number(document.body.dataset.picture)" / 1000
-  local tube = page:run [[
-    const w = player.view.actors.find((a) => a.kind === "wire"), look = { thick: 1, least: 0, ...player.view.colouring() };
+  local shown = page:run "return Number(document.body.dataset.picture)"
+  line("first picture", shown / 1000, aims.picture, "s")
+  line("new tube", page:run [[
+    const w = player.view.actors.find((a) => a.kind === "wire");
+    const look = { thick: 1, least: 0, ...player.view.colouring() };
     const begun = performance.now(), count = 100;
     for (let i = 0; i < count; i++) w.update({ frame: 10 * i, part: 0.5, time: 0 }, look, new Set());
-    return (performance.now() - begun) / count;]] / 1000
+    return (performance.now() - begun) / count;]], 1e3 * aims.tube, "ms")
   page:close()
-  print(("  first picture %4.2f s   within %.1f s: %s"):format(first, report.aims.picture, aim(first, report.aims.picture)))
-  print(("  new tube   %7.3f ms  within %.1f ms: %s"):format(1e3 * tube, 1e3 * report.aims.tube,
-    aim(tube, report.aims.tube)))
 end
 
 if not next(wanted) or wanted.case and wanted.case.report then print_report() end
