@@ -6,7 +6,7 @@ import { load, State, spanOf, frameTimes, knownQuantities } from "./model.js";
 import { Transport } from "./transport.js";
 import { Charts } from "./charts.js";
 import { View } from "./view.js";
-import { Legend, ProbeCard, objectTree, lookPanel, resultsPanel, eventsPanel, scriptPanel } from "./panels.js";
+import { Legend, ProbeCard, compass, objectTree, lookPanel, resultsPanel, eventsPanel, scriptPanel } from "./panels.js";
 import { savePicture, saveTable, saveFilm, linkOf, readLink } from "./exports.js";
 
 const $ = (id) => document.getElementById(id);
@@ -233,6 +233,7 @@ function openView(data, state, span) {
     state.set({ shadows: !view.stage.isSoftware() });
     state.watch(["shadows"], ({ shadows }) => view.stage.shadows(shadows));
     viewButtons(view);
+    compass($("stage"), view.stage);
     tools(view, state);
     objectTree($("objects"), view, data, state);
     // thin wires are drawn thicker at first, so that they can be seen
