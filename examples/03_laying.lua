@@ -48,6 +48,7 @@ if quick then
   return
 end
 
+run:report(out .. "/laying.html") -- open it in a browser: the run moves
 run:chart { path = out .. "/gripper.svg", title = "What the gripper bears",
   columns = { "gripper.force", "gripper.force_x", "gripper.force_z", "gripper.moment" } }
 run:chart { path = out .. "/contacts.svg", title = "What table, walls and guide bear", mean = 0.05,

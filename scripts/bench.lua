@@ -3,7 +3,8 @@
 --   build/softworld scripts/bench.lua [quick] [case=..] [model=..] [integrator=..] [n=..] [out=folder]
 -- One CSV row each in out/bench/bench.csv, a summary on the terminal. Values may be lists: case=droop,walls.
 -- case=meshes: what wires that are meshes of particles cost, on the terminal only; case=grip: what
--- grippers do; case=crowds: many obstacles, nodes and wires; case=bundle: wires that lie along each other.
+-- grippers do; case=crowds: many obstacles, nodes and wires; case=report: the
+-- player's page; case=bundle: wires that lie along each other.
 -- Compare numbers of one run only: machines differ, and so do their loads.
 local bench = require "softworld.bench"
 local benchcases = require "softworld.benchcases"
@@ -176,7 +177,7 @@ for _, name in ipairs(order) do
   end
 end
 if #jobs == 0 and not (wanted.case and (wanted.case.meshes or wanted.case.grip
-  or wanted.case.crowds or wanted.case.bundle)) then
+  or wanted.case.crowds or wanted.case.report or wanted.case.bundle)) then
   io.stderr:write("bench: nothing fits these options\n")
   os.exit(2)
 end
@@ -468,6 +469,37 @@ local function print_bundles()
   end
 end
 
+-- What a player's page costs, and in a browser that computes its graphics in software.
+local function print_report()
+  local report = require "softworld.benchreport"
+  local function line(what, value, most, unit)
+    print(("  %-14s %7.2f %-2s  within %g %s: %s"):format(what, value, unit, most, unit,
+      value <= most and "met" or "missed"))
+  end
+  local run, scene = report.run(2000)
+  sink.make_folder(out)
+  local r, aims = report.write(run, scene, out .. "/report.html"), report.aims
+  print(("\nplayer: %d frames of %d nodes, %d series of %d rows"):format(r.frames, r.nodes, r.columns,
+    r.rows))
+  line("page", 1e-6 * r.size, 1e-6 * aims.size, "MB")
+  line("written in", r.write, aims.write, "s")
+  local found, browser = pcall(require, "spec.page.browser")
+  local opened, page = pcall(found and browser.open or error, 1280, 720)
+  if not opened then return print "  no Chromium to open it with: sh scripts/setup.sh --test" end
+  local here = io.popen "pwd":read "l"
+  page:go("file://" .. (r.path:sub(1, 1) == "/" and "" or here .. "/") .. r.path)
+  local shown = page:run "return Number(document.body.dataset.picture)"
+  line("first picture", shown / 1000, aims.picture, "s")
+  line("new tube", page:run [[
+    const w = player.view.actors.find((a) => a.kind === "wire");
+    const look = { thick: 1, least: 0, ...player.view.colouring() };
+    const begun = performance.now(), count = 100;
+    for (let i = 0; i < count; i++) w.update({ frame: 10 * i, part: 0.5, time: 0 }, look, new Set());
+    return (performance.now() - begun) / count;]], 1e3 * aims.tube, "ms")
+  page:close()
+end
+
+if not next(wanted) or wanted.case and wanted.case.report then print_report() end
 if not next(wanted) or wanted.case and wanted.case.meshes then print_meshes() end
 if not next(wanted) or wanted.case and wanted.case.grip then print_grips() end
 if wanted.case and wanted.case.crowds then print_crowds() end

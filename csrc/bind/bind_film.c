@@ -12,10 +12,14 @@ static int free_film(lua_State *L) {
   return 0;
 }
 
+typedef struct packer {
+  sw_pack *pack;
+} packer;
+
 static int free_pack(lua_State *L) {
-  sw_pack **pack = lua_touserdata(L, 1);
-  sw_pack_free(*pack);
-  *pack = NULL;
+  packer *p = lua_touserdata(L, 1);
+  sw_pack_free(p->pack);
+  p->pack = NULL;
   return 0;
 }
 
@@ -58,12 +62,14 @@ static int mod_deflate(lua_State *L) {
   size_t size;
   sw_error err = {"out of memory for deflated data"};
   const char *bytes = luaL_checklstring(L, 1, &size);
-  sw_pack **pack = keeper(L, sizeof *pack, "softworld.pack", free_pack);
+  packer *p = keeper(L, sizeof *p, "softworld.pack", free_pack);
   const unsigned char *out;
-  lsw_must(L, sw_pack_new(pack), &err);
-  sw_pack_put(*pack, bytes, size);
-  lsw_must(L, sw_pack_end(*pack, &out, &size), &err);
+  lsw_must(L, sw_pack_new(&p->pack), &err);
+  sw_pack_put(p->pack, bytes, size);
+  lsw_must(L, sw_pack_end(p->pack, &out, &size), &err);
   lua_pushlstring(L, (const char *)out, size);
+  sw_pack_free(p->pack);
+  p->pack = NULL;
   return 1;
 }
 

@@ -124,7 +124,8 @@ function drawn.describe(scene, doc)
   for i, o in ipairs(doc.obstacles) do o.slot = i - 1 end
   for _, h in ipairs(data.holds) do
     if not theirs[h.object] and core.exists(h.object) then
-      doc.holds[#doc.holds + 1] = { name = h.name, kind = h.kind, width = h.width, slot = slot_of(h.object) - 1 }
+      doc.holds[#doc.holds + 1] = { name = h.name, kind = h.kind, width = h.width,
+        slot = slot_of(h.object) - 1 }
     end
   end
   for i, p in ipairs(data.particles) do

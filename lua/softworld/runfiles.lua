@@ -51,8 +51,8 @@ rows.calls{
   { "run:summary", "file", "peaks, means and events, on the terminal or into an open file" },
   { "run:save", "path", "every column at every step, as .csv or .json", "the path" },
   { "run:vtk", "path", "an animation for ParaView, a .pvd file", "the path" },
-  { "run:report", "path", "a page that shows the run moving, with charts and numbers: one .html file", "the path",
-    example = 'run:report "run.html"' },
+  { "run:report", "path", "a page that shows the run moving, with charts and numbers: one .html file",
+    "the path", example = 'run:report "run.html"' },
   { "run:series", "", "time series", "time [s], columns of name, unit, values" },
   { "run:frames", "", "stored while running", "t [s], wires, obstacles, holds, energy; ..." },
   { "run:document", "", "plain tables of all that charts, pictures and files need" },
@@ -130,7 +130,8 @@ function Run:report(path)
   return require("softworld.output.report").write({ runfiles.described(self) }, path)
 end
 
-local several = rows.call("sw.report", "{ run, ..., ... }", "lays runs over one another in one page that shows them moving", {
+local several = rows.call("sw.report", "{ run, ..., ... }",
+  "lays runs over one another in one page that shows them moving", {
   gives = "the path", example = 'sw.report { before, after, path = "both.html" }',
   { "path", "text", "-", "an .html file", required = true },
   { "title", "text", "-", "of the page", usual = "the runs' names" },

@@ -58,6 +58,11 @@ local acts = {
     scene:restore(snapshot)
     scene:run{ duration = 0.02 }
   end },
+  { "storing frames within little memory, and packing them", function(scene)
+    scene:run{ duration = 0.2, dt = 0.01, frame = 0.01, frames = { memory = 1e4 } }
+    local film = core.film(scene, 0, 1, true)
+    return #core.deflate(film) + #core.base64(film)
+  end },
   { "meshing anew as drawn", function(scene) core.remesh(scene, { 9 }) end },
   { "meshing anew what has moved", function(scene, wire)
     scene:grip(wire, { s = 0.5, width = 0.1 })

@@ -31,7 +31,8 @@ describe("run:report", function()
   end)
 
   it("tells which file cannot be written, and why", function()
-    local told = { [folder .. "/no/x.html"] = "No such file or directory", [folder .. "/x.txt"] = "does not end in .html" }
+    local told = { [folder .. "/no/x.html"] = "No such file or directory",
+      [folder .. "/x.txt"] = "does not end in .html" }
     for path, why in pairs(told) do
       local ok, text = pcall(run.report, run, path)
       assert.is_false(ok)
@@ -51,9 +52,9 @@ describe("run:report", function()
     local file = assert(open(path, "wb"))
     file:write "old"
     file:close()
-    io.open = function(name, mode) return open(mode == "wb" and "/dev/full" or name, mode) end
+    rawset(io, "open", function(name, mode) return open(mode == "wb" and "/dev/full" or name, mode) end)
     local ok, text = pcall(run.report, run, path)
-    io.open = open
+    rawset(io, "open", open)
     assert.is_false(ok)
     assert.truthy(text:find("No space left on device", 1, true), text)
     assert.equal("old", read(path))
@@ -145,8 +146,9 @@ end)
 describe("sw.report", function()
   it("refuses what are no runs, at the script's line", function()
     local run = runs.laying()
-    for told, args in pairs { ["[1] must be a run, got"] = { 3, path = "x.html" }, ["path is required"] = { run },
-      ["a run is wanted"] = { path = "x.html" }, ["did you mean 'path'"] = { run, pat = "x.html" } } do
+    for told, args in pairs { ["[1] must be a run, got"] = { 3, path = "x.html" },
+      ["path is required"] = { run }, ["a run is wanted"] = { path = "x.html" },
+      ["did you mean 'path'"] = { run, pat = "x.html" } } do
       local ok, text = pcall(sw.report, args)
       assert.is_false(ok)
       assert.truthy(text:find(told, 1, true), text)

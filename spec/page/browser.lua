@@ -27,6 +27,7 @@ end
 
 --- A browser with a window of so many pixels; close it.
 function browser.open(width, height)
+  local w, h = width or 1280, height or 720
   local self = setmetatable({ folder = os.tmpname() }, browser)
   os.remove(self.folder)
   assert(os.execute("mkdir -p '" .. self.folder .. "'"))
@@ -41,15 +42,15 @@ function browser.open(width, height)
   assert(self.root, "chromedriver does not start: sh scripts/setup.sh --test")
   self.address = self.root
   local session = order(self, "POST", "/session", { capabilities = { alwaysMatch = {
-    browserName = "chrome", ["goog:loggingPrefs"] = { browser = "ALL" },
+    browserName = "chrome",
+    ["goog:loggingPrefs"] = { browser = "ALL" },
     ["goog:chromeOptions"] = { args = { "--headless=new", "--no-sandbox", "--disable-dev-shm-usage",
       "--use-angle=swiftshader", "--use-gl=angle", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist",
       "--hide-scrollbars", "--no-first-run", "--disable-background-networking", "--lang=en",
-      "--user-data-dir=" .. self.folder, ("--window-size=%d,%d"):format(width or 1280, height or 720) } } } } })
+      "--user-data-dir=" .. self.folder, ("--window-size=%d,%d"):format(w, h) } } } } })
   self.address = self.root .. "/session/" .. session.sessionId
   order(self, "POST", "/timeouts", { script = 60000, pageLoad = 60000 })
   local size = self:run "return [window.innerWidth, window.innerHeight]"
-  local w, h = width or 1280, height or 720
   order(self, "POST", "/window/rect", { width = 2 * w - size[1], height = 2 * h - size[2] })
   return self
 end

@@ -9,10 +9,10 @@ function runs.laying(options)
   options = options or {}
   local scene = sw.scene { name = options.name or "laying" }
   scene:obstacle { name = "table", shape = "plane", friction = 0.3 }
-  scene:obstacle { name = options.wall or "wall", shape = "box", size = { 0.02, 0.3, 0.08 }, at = { 0.2, 0, 0.04 },
-    friction = 0.3 }
-  local wire = scene:wire { name = options.wire or "wire", E = 50e6, density = 1500, radius = 0.003, segments = 60,
-    from = { 0, 0, 0.003 }, to = { -0.6, 0, 0.003 } }
+  scene:obstacle { name = options.wall or "wall", shape = "box", size = { 0.02, 0.3, 0.08 },
+    at = { 0.2, 0, 0.04 }, friction = 0.3 }
+  local wire = scene:wire { name = options.wire or "wire", E = 50e6, density = 1500, radius = 0.003,
+    segments = 60, from = { 0, 0, 0.003 }, to = { -0.6, 0, 0.003 } }
   local hand = scene:gripper { name = "hand" }
   scene:process(function(p)
     hand:grasp(wire, { s = 0.03 })
@@ -45,8 +45,8 @@ end
 function runs.mesh()
   local scene = sw.scene { name = "mesh" }
   scene:obstacle { name = "table", shape = "plane" }
-  scene:wire { name = "hose", E = 5e6, density = 1200, radius = 0.005, from = { 0, 0, 0.006 }, to = { 0.08, 0, 0.006 },
-    model = "tube", ring_radius = 0.0045 }
+  scene:wire { name = "hose", E = 5e6, density = 1200, radius = 0.005, from = { 0, 0, 0.006 },
+    to = { 0.08, 0, 0.006 }, model = "tube", ring_radius = 0.0045 }
   local run = scene:run { duration = 0.06, dt = 0.002, frame = 0.01 }
   assert(run.ok, run.reason)
   return run

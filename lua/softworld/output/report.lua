@@ -84,7 +84,8 @@ local function shape_of(page, entry)
   if solid.flat(entry) then return { normal = solid.normal(entry) } end
   local shape = solid.triangles(entry, 48)
   local bytes = packed("f", shape.vertices) .. packed("I4", shape.indices)
-  return { vertices = #shape.vertices // 3, indices = #shape.indices, blob = add_blob(page, core.deflate(bytes)) }
+  return { vertices = #shape.vertices // 3, indices = #shape.indices,
+    blob = add_blob(page, core.deflate(bytes)) }
 end
 
 -- Equal shapes are put into the page once.
@@ -116,8 +117,8 @@ local function summary_of(run)
   for i, row in ipairs(run.summary or {}) do
     local value, unit = row.value, ""
     if type(value) == "number" then value, unit = number.engineering(value, row.unit) end
-    list[i] = json.object{ label = row.label, value = tostring(value), unit = (unit:gsub("^u", "µ")), raw = row.value,
-      raw_unit = row.unit, where = row.where, when = row.when,
+    list[i] = json.object{ label = row.label, value = tostring(value), unit = (unit:gsub("^u", "µ")),
+      raw = row.value, raw_unit = row.unit, where = row.where, when = row.when,
       wrong = row.label:find "EXCEEDED" ~= nil or row.label:find "FOLDED" ~= nil
         or row.label:find "SLIPPED" ~= nil or row.label:find "LOST" ~= nil or nil }
   end
@@ -144,7 +145,9 @@ local function add_run(page, run)
     start = run.start, steps = run.steps, wall = run.wall, unmet = run.unmet, gravity = run.gravity,
     wires = run.wires, particles = particles_of(page, run), grips = run.grips, holds = run.holds,
     events = run.events, film = film_of(page, run), obstacles = obstacles_of(page, run) }
-  if run.ok then one.summary, one.series, one.quantities = summary_of(run), series_of(page, run), run.quantities end
+  if run.ok then
+    one.summary, one.series, one.quantities = summary_of(run), series_of(page, run), run.quantities
+  end
   page.data.runs[#page.data.runs + 1] = one
 end
 

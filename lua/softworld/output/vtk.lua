@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- A run as a ParaView series: `laying.pvd` and a folder `laying.vtk` of `.vtp` files.
 -- Part 0 holds the wires as polylines with point data radius [m] and s (arc
--- length [m]), tension [N], bend_radius [m] and contact_force, that of obstacles across the wire at
+-- length [m]), tension [N], bend_radius [m] and contact_force, that of obstacles and other wires across it at
 -- each node [N]; its field data are all columns of the series at the frame's time. Part 1 holds
 -- obstacles as triangles; part 2, where wires are meshes of particles, their surfaces, with point data
 -- s [m] and contact_force, that of obstacles across the surface [N]. Cell data object counts wires or

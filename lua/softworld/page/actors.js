@@ -89,7 +89,7 @@ export class Wire extends Actor {
     if (points) this.shell.update(points, this.skin.count(at.frame), this.skin.line, paint);
     else {
       const radius = Math.max(this.wire.radius * look.thick, look.least);
-      this.surface.update(x, this.count, radius, this.count > 2000 ? 6 : SIDES, paint);
+      this.surface.update(x, this.count, radius, this.count > 2000 ? 6 : this.count > 300 ? 10 : SIDES, paint);
     }
   }
 

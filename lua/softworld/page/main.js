@@ -6,7 +6,7 @@ import { load, State, spanOf, frameTimes, knownQuantities } from "./model.js";
 import { Transport } from "./transport.js";
 import { Charts } from "./charts.js";
 import { View } from "./view.js";
-import { Legend, ProbeCard, objectTree, lookPanel, resultsPanel, eventsPanel, scriptPanel } from "./panels.js";
+import { Legend, ProbeCard, compass, objectTree, lookPanel, resultsPanel, eventsPanel, scriptPanel } from "./panels.js";
 import { savePicture, saveTable, saveFilm, linkOf, readLink } from "./exports.js";
 
 const $ = (id) => document.getElementById(id);
@@ -233,6 +233,7 @@ function openView(data, state, span) {
     state.set({ shadows: !view.stage.isSoftware() });
     state.watch(["shadows"], ({ shadows }) => view.stage.shadows(shadows));
     viewButtons(view);
+    compass($("stage"), view.stage);
     tools(view, state);
     objectTree($("objects"), view, data, state);
     // thin wires are drawn thicker at first, so that they can be seen
@@ -259,6 +260,11 @@ async function start() {
   header(data, state);
   const transport = new Transport($("transport"), data, state, span, frameTimes(data));
   const view = openView(data, state, span);
+  if (view) { // the scene first, charts when there is time
+    view.stage.draw();
+    document.body.dataset.picture = String(Math.round(performance.now()));
+    await new Promise((resolve) => { setTimeout(resolve, 0); });
+  }
   lookPanel($("look"), data, state);
   const charts = new Charts($("panel-charts"), data, state);
   resultsPanel($("panel-results"), data, state);
@@ -275,11 +281,8 @@ async function start() {
   follow(given);
   addEventListener("hashchange", () => follow(readLink(location.hash)));
   window.player = { state, view, charts, transport, data };
-  const ready = () => {
-    document.body.dataset.ready = String(Math.round(performance.now()));
-    document.body.classList.add("ready");
-  };
-  if (view) { view.stage.draw(); ready(); } else ready();
+  document.body.dataset.ready = String(Math.round(performance.now()));
+  document.body.classList.add("ready");
 }
 
 start().catch((error) => {

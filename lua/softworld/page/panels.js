@@ -122,6 +122,35 @@ export class Legend {
   }
 }
 
+/** Which way x, y and z go, and how wide the grid is. */
+export function compass(host, stage) {
+  const NS = "http://www.w3.org/2000/svg", svg = document.createElementNS(NS, "svg");
+  svg.setAttribute("viewBox", "-32 -32 64 64");
+  svg.setAttribute("class", "compass");
+  svg.setAttribute("aria-hidden", "true");
+  const axes = ["x", "y", "z"].map((name, i) => {
+    const line = document.createElementNS(NS, "line"), text = document.createElementNS(NS, "text");
+    text.textContent = name;
+    svg.append(line, text);
+    for (const part of [line, text]) part.setAttribute("class", `axis-${name}`);
+    return { line, text, i };
+  });
+  const grid = h("span.grid-step");
+  host.append(h("div.compass-box", {}, svg, grid));
+  stage.after.push(() => {
+    const m = stage.camera.matrixWorldInverse.elements;
+    for (const { line, text, i } of axes) {
+      const x = m[4 * i], y = -m[4 * i + 1];
+      line.setAttribute("x2", 20 * x);
+      line.setAttribute("y2", 20 * y);
+      text.setAttribute("x", 27 * x);
+      text.setAttribute("y", 27 * y);
+    }
+    const step = stage.grounds[0]?.step;
+    grid.textContent = step ? `grid ${format(step, "m").replace(/\.?0+ /, " ")}` : "";
+  });
+}
+
 /** Numbers at a picked place of a wire, or of what else is picked. */
 export class ProbeCard {
   constructor(host, view, state) {
@@ -184,7 +213,12 @@ export class ProbeCard {
   }
 }
 
-const vector = (v, unit) => `${v.map((x) => (Math.abs(x) < 5e-7 ? "0" : Number(x.toPrecision(4)).toString().replace("-", "−"))).join(", ")} ${unit}`;
+/** Components as far as the largest of them has four digits. */
+function vector(v, unit) {
+  const largest = Math.max(...v.map(Math.abs));
+  const digits = largest > 0 ? Math.max(0, Math.min(9, 3 - Math.floor(Math.log10(largest)))) : 0;
+  return `${v.map((x) => Number(x.toFixed(digits)).toString().replace("-", "−")).join(", ")} ${unit}`;
+}
 
 /* --- results ---------------------------------------------------------------------------- */
 
