@@ -403,6 +403,10 @@ local function grasp_by_pads(self, wires, args)
     self.free_height = wire:width(self.s, vec.rotate(q, { 0, 1, 0 }))
   end
   if not move_jaws(self, order) then return end
+  if self.wire ~= wire then
+    error(("gripper '%s': something let go of wire '%s' while its jaws moved to grasp it"):format(self.name,
+      wire.name), 0)
+  end
   local text, missed = grasped.check(self)
   if missed then error(text, 0) end
 end

@@ -24,6 +24,7 @@ end
 --- Once the pads press: nil when all is well; else the trouble as a text, and true when the wire that was
 -- meant is not between the pads at all. An event of the run tells it.
 function grasped.check(self)
+  if not self.wire then return nil end
   local on, others = pressed(self)
   if #others == 0 then return nil end
   local missed = not on[self.wire.name]

@@ -336,3 +336,24 @@ describe("a gripper with pads", function()
     assert.are.same(series.squeeze, again.squeeze)
   end)
 end)
+
+describe("a gripper that two processes use", function()
+  it("says that its wire was let go of while its jaws closed", function()
+    for _, time in ipairs{ 0.001, 0.05, 0.3 } do
+      local scene = sw.scene{}
+      local wire = scene:wire{ E = 1e7, density = 1000, radius = 0.003, segments = 6, from = { 0, 0, 0.1 },
+        to = { 0.3, 0, 0.1 } }
+      scene:clamp(wire, { s = 0 })
+      local hand = scene:gripper{ name = "hand" }
+      scene:process(function(p)
+        p:wait(time)
+        pcall(hand.release, hand, { speed = 0.1 })
+      end)
+      scene:process(function() hand:grasp(wire, { s = 0.1, approach = "plates", distance = 0.05 }) end)
+      local fine, message = pcall(scene.run, scene, { dt = 0.01, duration = 1 })
+      assert.is_false(fine)
+      assert.is_truthy(message:find("gripper 'hand': something let go of wire 'wire1' while its jaws", 1, true),
+        message)
+    end
+  end)
+end)
