@@ -8,11 +8,11 @@
 #include "base/alloc.h"
 #include "film/pack.h"
 
-const double SW_FILM_PLACE = 1e-3, SW_FILM_VALUES = 1.0 / 4095;
-
 enum { LEVELS = 4095, ARC_LEVELS = 1 << 20, FAR = 1 << 29 };
+static const double PLACE = 1e-3;           /* step of places, of the radius [-] */
+static const double EXTENT = 1e-6;          /* or of how far they reach, without a radius [-] */
+static const double SMALLEST = 1e-12;       /* [m] */
 static const double TURN = 1.0 / (1 << 20); /* step of a rotation's numbers [-] */
-static const double SMALLEST = 1e-9;        /* step of places where no radius is known [m] */
 
 typedef struct track {
   uint8_t kind, channel;
@@ -107,7 +107,8 @@ static sw_status add_places(maker *m, track t, double step) {
   double low, high;
   t.width = 3, t.line = t.line ? t.line : 1;
   if (!range_of(m, &t, &low, &high)) return SW_OK;
-  t.scale = fmax(step > 0 ? step : SMALLEST, fmax(fabs(low), fabs(high)) / FAR);
+  const double reach = fmax(fabs(low), fabs(high));
+  t.scale = fmax(fmax(step > 0 ? step : EXTENT * reach, reach / FAR), SMALLEST);
   return add_track(m, t);
 }
 
@@ -121,7 +122,7 @@ static sw_status add_values(maker *m, track t, double levels) {
 }
 
 static sw_status add_wire(maker *m, size_t slot, uint32_t object, int values) {
-  const double step = SW_FILM_PLACE * sw_scene_frame_radius(m->s, slot);
+  const double step = PLACE * sw_scene_frame_radius(m->s, slot);
   const track t = {.object = object, .slot = slot};
   track own = t;
   if (sw_scene_frame_is_loose(m->s, slot)) {
@@ -169,7 +170,7 @@ static sw_status add_all(maker *m, int values) {
     const double radius = sw_scene_frame_radius(m->s, w);
     const int loose = sw_scene_frame_is_loose(m->s, w);
     SW_TRY(add_wire(m, w, number[loose]++, values));
-    if (radius > 0) finest = fmin(finest, SW_FILM_PLACE * radius);
+    if (radius > 0) finest = fmin(finest, PLACE * radius);
   }
   if (!isfinite(finest)) finest = 0;
   for (int kind = SW_FILM_OBSTACLE; kind < SW_FILM_KINDS; kind++)

@@ -39,9 +39,7 @@ typedef struct sw_film {
   size_t frames, broken; /* in it; left out since they have places that are no numbers */
 } sw_film;
 
-/* Largest error of a place, as a share of the wire's radius; of a value, of its range [-]. */
-extern const double SW_FILM_PLACE, SW_FILM_VALUES;
-
+/* Places are rounded to a thousandth of the wire's radius, values to a 4095th of their range. */
 /* Wires and objects of particles are numbered each by themselves, in the order made; obstacles,
  * holds, tools by slot. interrupted (may be NULL) is polled. SW_ENOMEM, SW_EINTR. */
 sw_status sw_film_make(const sw_scene *scene, const sw_film_args *args, int (*interrupted)(void),

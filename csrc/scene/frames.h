@@ -46,7 +46,7 @@ int sw_scene_frame_is_loose(const sw_scene *scene, size_t w);
 /* What a frame tells of an obstacle, a hold or a gripper's tool: x y z [m], qw qx qy qz, force: of
  * wires on an obstacle, of a hold or tool on wires [N]; of the first two at last 1 while it is
  * there, or holds. NULL: it did not exist. */
-enum { SW_FRAME_POSE = 7, SW_FRAME_BODY = SW_FRAME_POSE + 3, SW_FRAME_ALIVE };
+enum { SW_FRAME_POSE = 7, SW_FRAME_BODY = SW_FRAME_POSE + 3 };
 const float *sw_scene_frame_obstacle(const sw_scene *scene, size_t frame, size_t o, int *there);
 const float *sw_scene_frame_hold(const sw_scene *scene, size_t frame, size_t h, int *held);
 const float *sw_scene_frame_tool(const sw_scene *scene, size_t frame, size_t k);

@@ -360,6 +360,11 @@ describe("a page of", function()
       const w = player.view.actors.find((a) => a.kind === "wire");
       return [...w.surface.geometry.attributes.position.array.slice(0, 60)];]], frame.t)
     for i, x in ipairs(points) do assert.near(frame.surfaces[1].points[i], x, 0.5e-3 * 0.005 + 1e-7) end
+    page:run "player.state.set({ time: player.transport.span[1], quantity: null })"
+    local plain = fingerprint()
+    page:run "player.state.set({ quantity: 'pressed' })"
+    assert.equal("Surface contact [N]", text ".legend-name")
+    assert.is_true(plain ~= fingerprint())
     assert_calm()
   end)
 

@@ -63,6 +63,7 @@ class Track {
   sample(f, part, out) {
     const { codes, starts, scale, offset, gaps } = this;
     const base = starts[f], n = starts[f + 1] - base;
+    if (part > 0 && this.width === 4 && n === 4) part = this.turned(f) ? 0 : part;
     const next = part > 0 && f + 1 < this.counts.length && this.counts[f + 1] === this.counts[f]
       ? starts[f + 1] : base;
     for (let i = 0; i < n; i++) {
@@ -70,6 +71,15 @@ class Track {
       out[i] = gaps && (a === 0 || b === 0) ? NaN : (a + (b - a) * part) * scale + offset;
     }
     return this.counts[f];
+  }
+
+  /** A rotation whose numbers change their sign towards the next frame: there is nothing between them. */
+  turned(f) {
+    const { codes, starts } = this, a = starts[f], b = starts[f + 1];
+    if (b + 4 > codes.length) return false;
+    let dot = 0;
+    for (let k = 0; k < 4; k++) dot += codes[a + k] * codes[b + k];
+    return dot < 0;
   }
 
   /** Least and largest of its numbers, over all frames or one; share: of those left out at the ends. */

@@ -9,6 +9,7 @@ export const QUANTITIES = [
   { key: "contact", channel: 2, label: "Contact force", unit: "N" },
   { key: "twist", channel: 3, label: "Twist moment", unit: "N m" },
   { key: "stress", channel: 4, label: "Stress", unit: "Pa" },
+  { key: "pressed", channel: 0, kind: "pressed", label: "Surface contact", unit: "N" }, // at the points of a mesh
 ];
 export const FORCE = 5, ARC = 8;
 
@@ -105,7 +106,7 @@ export function knownQuantities(data, mode, time, hidden) {
     let low = Infinity, high = -Infinity;
     for (const run of data.runs) {
       run.wires.forEach((w, i) => {
-        const track = run.film.get("value", i, q.channel);
+        const track = run.film.get(q.kind || "value", i, q.channel);
         if (!track || (hidden && hidden.has(`${run.index} wire ${i}`))) return;
         const frame = mode === "frame" ? locate(run.film.times, time).frame : -1;
         const [a, b] = track.range(frame, mode === "most" ? 0.005 : 0);

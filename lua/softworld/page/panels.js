@@ -205,6 +205,7 @@ export class ProbeCard {
     }
     this.row("Place", vector(at.point.toArray(), "m"));
     for (const q of this.known) {
+      if (q.kind) continue;
       const x = wire.value(q.channel, Math.min(probe.s, length));
       if (Number.isNaN(x)) continue;
       this.row(q.label, format(x, q.unit));

@@ -5,7 +5,8 @@ import { locate } from "./film.js";
 import { knownQuantities } from "./model.js";
 import { scaleOf, linear } from "./colours.js";
 import { Stage } from "./stage.js";
-import { Wire, Particles, Obstacle, Hold, Gripper, Way, Reader } from "./actors.js";
+import { Wire, Particles, Reader } from "./actors.js";
+import { Obstacle, Hold, Gripper, Way } from "./bodies.js";
 import { Arrows } from "./arrows.js";
 
 /** The box around all wires at all times, and some of their points. */
