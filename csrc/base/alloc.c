@@ -45,9 +45,15 @@ void *sw_alloc(size_t count, size_t size) {
   return start + ALIGNMENT;
 }
 
+static const header *header_of(const void *p) {
+  return (const header *)(const void *)((const char *)p - ALIGNMENT);
+}
+
+size_t sw_alloc_size(const void *p) { return header_of(p)->bytes; }
+
 void sw_free(void *p) {
   if (!p) return;
-  const header *h = (const header *)(void *)((char *)p - ALIGNMENT);
+  const header *h = header_of(p);
   live_bytes -= h->bytes;
   free(h->raw);
 }

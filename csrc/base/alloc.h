@@ -16,6 +16,9 @@ void *sw_alloc(size_t count, size_t size);
 /* NULL is allowed. */
 void sw_free(void *p);
 
+/* Bytes that were asked for [B]. */
+size_t sw_alloc_size(const void *p);
+
 /* Grow *p (count *capacity of size) so that it holds at least need items,
  * doubling; old content is kept, new content is zero. SW_ENOMEM leaves both
  * untouched. */

@@ -53,7 +53,7 @@ void sw_ledger_begin_run(sw_scene *s) {
 void sw_ledger_free(sw_books *b) {
   sw_free(b->holds);
   sw_free(b->obstacles);
-  sw_free(b->log.rows);
+  sw_log_free(&b->log);
   *b = (sw_books){0};
 }
 

@@ -21,19 +21,12 @@ void sw_tape_extreme(sw_tape *t, sw_extreme *x) {
   DOUBLE(value), DOUBLE(s), DOUBLE(time);
 }
 
-void sw_tape_log(sw_tape *t, sw_log *x) {
-  SW_TAPE_STRUCT(t, sw_log, 24);
-  sw_tape_count(t, &x->count, sizeof *x->rows);
-  SW_TAPE_ARRAY(t, x->rows, x->count);
-  if (sw_tape_reads(t)) x->capacity = x->rows ? x->count : 0;
-}
-
 /* A function that is over stands where it ended; one under way is refused before. */
 static void tape_drive(sw_tape *t, sw_scene *s, sw_drive *x) {
   sw_drive now = *x;
   sw_motion_state at;
   SW_TAPE_STRUCT(t, sw_drive, 104);
-  if (!sw_tape_reads(t) && x->motion && sw_motion_is_function(x->motion)) {
+  if (!sw_tape_reads(t) && !t->home && x->motion && sw_motion_is_function(x->motion)) {
     const sw_status status = sw_drive_eval(s, x, s->time, &at, t->err);
     if (status != SW_OK) sw_tape_fail(t, status);
     now = (sw_drive){.pose = at.pose};
@@ -59,38 +52,6 @@ static void tape_extremes(sw_tape *t, sw_wire_extremes *x) {
   sw_tape_expect(t, x->raw_span >= 0 && x->raw_span <= 1e9, "the length of a step");
 }
 
-/* Places that rise along the wire, and numbers. */
-static void expect_window(sw_tape *t, const sw_window *x, const double *room, size_t edges) {
-  sw_tape_finite(t, room, (2 + x->marks) * edges, "a window");
-  for (size_t e = 0; e + 1 < edges && sw_tape_good(t); e++)
-    sw_tape_expect(t, room[e] < room[e + 1], "a window");
-}
-
-/* A record that is to begin anew leaves nothing to be kept; of another one what is in use. */
-static void tape_window(sw_tape *t, sw_window *x) {
-  size_t edges = x->marks ? x->edges : 0;
-  SW_TAPE_STRUCT(t, sw_window, 192);
-  sw_tape_count(t, &edges, 3 * sizeof *x->room);
-  if (!edges) x->marks = 0;
-  if (!edges) return;
-  SIZE(marks), DOUBLE(now), DOUBLE(begun);
-  sw_tape_expect(t, x->marks > 0 && x->marks <= SW_WINDOW_MARKS && x->begun <= x->now, "a window");
-  double *room = NULL, before = x->begun;
-  if (!sw_tape_reads(t)) room = sw_window_used(x);
-  if (!sw_tape_reads(t) && !room) sw_tape_fail(t, SW_ENOMEM);
-  for (size_t k = 0; k < x->marks && sw_tape_good(t); k++) {
-    double *time = &x->time[sw_tape_reads(t) ? k : (x->first + k) % SW_WINDOW_MARKS];
-    sw_tape_double(t, time);
-    sw_tape_expect(t, *time >= before && *time <= x->now, "a window");
-    before = *time;
-  }
-  if (sw_tape_good(t)) SW_TAPE_ARRAY(t, room, (2 + x->marks) * edges);
-  if (sw_tape_good(t)) expect_window(t, x, room, edges);
-  if (sw_tape_reads(t) && sw_tape_good(t) && sw_window_use(x, edges, room) != SW_OK)
-    sw_tape_fail(t, SW_ENOMEM);
-  sw_free(room);
-}
-
 static void tape_drawing(sw_tape *t, sw_drawing *x) {
   SW_TAPE_STRUCT(t, sw_drawing, 80);
   sw_tape_count(t, &x->count, 3 * sizeof *x->points);
@@ -104,6 +65,8 @@ static void tape_drawing(sw_tape *t, sw_drawing *x) {
 }
 
 static void tape_kit(sw_tape *t, sw_strand_kit **kit) {
+  static const sw_sharing sharing = {sw_strand_kit_retain, sw_strand_kit_release};
+  if (sw_tape_share(t, kit, &sharing)) return;
   int there = !sw_tape_reads(t) && *kit != NULL;
   SW_TAPE_STRUCT(t, sw_strand_kit, 1296);
   sw_tape_int(t, &there);
@@ -119,7 +82,8 @@ static void tape_kit(sw_tape *t, sw_strand_kit **kit) {
   sw_tape_calibration(t, &(*kit)->calibration);
 }
 
-void sw_tape_strand(sw_tape *t, sw_strand *x) {
+/* placed: it says where the particles are, for nothing else does. */
+void sw_tape_strand(sw_tape *t, sw_strand *x, int placed) {
   int there = !sw_tape_reads(t) && x->web != NULL;
   SW_TAPE_STRUCT(t, sw_strand, 56);
   SW_TAPE_STRUCT(t, sw_solid, 1632);
@@ -128,11 +92,13 @@ void sw_tape_strand(sw_tape *t, sw_strand *x) {
   sw_tape_web(t, &x->web, sizeof(sw_solid));
   tape_kit(t, &x->kit);
   if (!sw_tape_good(t)) return;
-  const size_t n = x->web->particles;
-  SW_TAPE_ARRAY(t, x->x, 3 * n), SW_TAPE_ARRAY(t, x->v, 3 * n), SW_TAPE_ARRAY(t, x->a, 3 * n);
-  SW_TAPE_ARRAY(t, x->axial, x->web->links);
-  SW_TAPE_OPTIONAL(t, x->rate, x->web->links);
-  if (!sw_tape_reads(t) || !sw_tape_good(t)) return;
+  const size_t n = placed ? x->web->particles : 0;
+  if (placed) {
+    SW_TAPE_ARRAY(t, x->x, 3 * n), SW_TAPE_ARRAY(t, x->v, 3 * n), SW_TAPE_ARRAY(t, x->a, 3 * n);
+    SW_TAPE_ARRAY(t, x->axial, x->web->links);
+    SW_TAPE_OPTIONAL(t, x->rate, x->web->links);
+  }
+  if (!sw_tape_reads(t) || t->home || !sw_tape_good(t)) return;
   sw_tape_finite(t, x->x, 3 * n, "particles");
   sw_tape_finite(t, x->v, 3 * n, "particles");
   for (size_t k = 0; k < x->web->solids && sw_tape_good(t); k++) {
@@ -149,7 +115,7 @@ void sw_tape_beam_of(sw_tape *t, sw_scene_wire *x) {
   tape_drawing(t, &x->drawing);
 }
 
-void sw_tape_wire(sw_tape *t, sw_scene_wire *x) {
+void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
   char word[SW_NAME_SIZE];
   SW_TAPE_STRUCT(t, sw_scene_wire, 824);
   SW_TAPE_STRUCT(t, sw_twisted, 24);
@@ -159,13 +125,11 @@ void sw_tape_wire(sw_tape *t, sw_scene_wire *x) {
   sw_tape_expect(t, x->cls != NULL, "a wire of an unknown model");
   sw_tape_beam_of(t, x);
   sw_tape_mesh(t, &x->mesh);
-  sw_tape_strand(t, &x->strand);
+  sw_tape_strand(t, &x->strand, placed);
   tape_extremes(t, &x->extremes);
-  tape_window(t, &x->window);
+  sw_tape_window(t, &x->window);
   INT(untwisted);
-  sw_tape_count(t, &x->twisted_count, sizeof *x->twisted);
-  SW_TAPE_OPTIONAL(t, x->twisted, x->twisted_count);
-  sw_tape_expect(t, x->twisted || !x->twisted_count, "a wire without its twist");
+  sw_tape_list(t, &x->twisted, &x->twisted_count, sizeof *x->twisted);
 }
 
 /* --- holds ------------------------------------------------------------------------- */
@@ -202,6 +166,14 @@ static void tape_give(sw_tape *t, sw_clamp_give *x) {
   sw_tape_expect(t, fine, "how a clamp gives way");
 }
 
+static void tape_sums(sw_tape *t, sw_hold_sums *x) {
+  SW_TAPE_STRUCT(t, sw_hold_sums, 104);
+  INT(known);
+  if (!x->known) return;
+  INT(last), sw_tape_raw(t, x->force, sizeof x->force), sw_tape_raw(t, x->moment, sizeof x->moment);
+  sw_tape_expect(t, x->last >= 0 && x->last < SW_BOOK_STAGES, "what a clamp bears");
+}
+
 void sw_tape_hold(sw_tape *t, sw_scene *s, sw_scene_hold *x) {
   char word[SW_NAME_SIZE];
   SW_TAPE_STRUCT(t, sw_scene_hold, 1424);
@@ -222,6 +194,7 @@ void sw_tape_hold(sw_tape *t, sw_scene *s, sw_scene_hold *x) {
   SW_TAPE_STRUCT(t, sw_hold_watch, 56);
   INT(watch.looking), INT(watch.crashing), DOUBLE(watch.looked), DOUBLE(watch.given);
   DOUBLE(watch.crash.time), DOUBLE(watch.crash.depth), SIZE(watch.crash.obstacle);
+  tape_sums(t, &x->sums);
   tape_feed(t, &x->feed);
   sw_tape_log(t, &x->log);
 }
@@ -290,18 +263,19 @@ void sw_tape_tool(sw_tape *t, sw_scene *s, sw_tool *x) {
 static void tape_force_args(sw_tape *t, sw_scene_force *x) {
   double args[SW_FORCE_ARGS_MAX / sizeof(double)];
   const int some = x->cls->flags & SW_FORCE_ON_SOME;
+  const int function = !x->cls->params.count;
   sw_force_some list = {NULL, 0};
   memcpy(args, x->args, sizeof args);
   if (some) memcpy(&list, args, sizeof list);
   if (some) memcpy(args, &(sw_force_some){NULL, 0}, sizeof list);
-  if (!x->cls->params.count) memset(args, 0, sizeof args); /* a function */
+  if (function && !t->home) memset(args, 0, sizeof args);
   sw_tape_raw(t, args, sizeof args);
   sw_tape_count(t, &list.count, sizeof *x->particle);
   if (some) SW_TAPE_ARRAY(t, x->particle, list.count);
   if (!sw_tape_reads(t)) return;
   memcpy(x->args, args, sizeof args);
   if (!sw_tape_good(t)) return;
-  t->status = sw_params_check(&x->cls->params, x->args, 1, t->err);
+  if (!t->home) t->status = sw_params_check(&x->cls->params, x->args, 1, t->err);
   list.particle = x->particle;
   if (some) memcpy(x->args, &list, sizeof list);
 }
@@ -407,36 +381,33 @@ void sw_tape_kept_history(sw_tape *t, sw_scene *s, sw_kept_history *x) {
   SW_TAPE_ARRAY(t, x->data, count);
 }
 
+static void block(sw_tape *t, const void **p, size_t *size) {
+  sw_tape_count(t, size, 1);
+  sw_tape_view(t, p, *size);
+}
+
 void sw_tape_live(sw_tape *t, sw_live *x) {
   char word[SW_NAME_SIZE];
   SW_TAPE_STRUCT(t, sw_live, 160);
   sw_tape_mark(t, "contact", sw_contact_layout());
   sw_tape_mark(t, "contact of wires", sw_pairs_layout());
-  sw_tape_count(t, &x->state_size, sizeof *x->state);
-  SW_TAPE_ARRAY(t, x->state, x->state_size);
+  sw_tape_mark(t, "contact of particles", sw_grains_layout());
+  sw_tape_count(t, &x->state_size, sizeof(double));
+  sw_tape_view(t, &x->state, x->state_size * sizeof(double));
   const char *method =
       sw_tape_word(t, !sw_tape_reads(t) && x->method ? x->method->name : NULL, word);
   if (sw_tape_reads(t)) x->method = method[0] ? sw_integrator_find(method) : NULL;
   sw_tape_expect(t, x->method || !method[0], "an unknown integrator");
   DOUBLE(last_h), INT(restart);
-  sw_tape_count(t, &x->history_size, sizeof *x->history);
-  SW_TAPE_OPTIONAL(t, x->history, x->history_size);
-  sw_tape_count(t, &x->memory_size, 1), sw_tape_count(t, &x->pairs_size, 1);
-  sw_tape_optional(t, &x->memory, x->memory_size, 1);
-  INT(fresh);
-  sw_tape_optional(t, &x->pairs, x->pairs_size, 1);
-  sw_tape_mark(t, "contact of particles", sw_grains_layout());
-  sw_tape_count(t, &x->grains_size, 1);
-  sw_tape_optional(t, &x->grains, x->grains_size, 1);
-  for (size_t k = 0; k < 3; k++) {
-    sw_tape_count(t, &x->seen_size[k], 1);
-    sw_tape_optional(t, &x->seen[k], x->seen_size[k], 1);
-    sw_tape_expect(t, x->seen[k] || !x->seen_size[k], "contact");
+  sw_tape_count(t, &x->history_size, sizeof(double));
+  sw_tape_view(t, &x->history, x->history_size * sizeof(double));
+  block(t, &x->memory, &x->memory_size), INT(fresh);
+  block(t, &x->pairs, &x->pairs_size), block(t, &x->grains, &x->grains_size);
+  for (size_t k = 0; k < 3; k++) block(t, &x->seen[k], &x->seen_size[k]);
+  if (!sw_tape_reads(t) || t->home) return;
+  for (size_t i = 0; i < x->state_size && sw_tape_good(t); i++) {
+    double value;
+    memcpy(&value, (const char *)x->state + i * sizeof value, sizeof value);
+    sw_tape_expect(t, isfinite(value), "the state of a scene");
   }
-  sw_tape_expect(t,
-                 (x->history || !x->history_size) && (x->memory || !x->memory_size) &&
-                     (x->pairs || !x->pairs_size) && (x->grains || !x->grains_size),
-                 "the state of a scene");
-  if (sw_tape_reads(t) && sw_tape_good(t))
-    sw_tape_finite(t, x->state, x->state_size, "the state of a scene");
 }

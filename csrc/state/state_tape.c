@@ -180,7 +180,12 @@ static void check_web(sw_tape *t, const sw_web *w) {
     sw_tape_expect(t, w->mass[i] > 0, "a particle without mass");
 }
 
+static void retain_web(void *web) { sw_web_retain(web); }
+static void release_web(void *web) { sw_web_release(web); }
+
 void sw_tape_web(sw_tape *t, sw_web **web, size_t shape_size) {
+  static const sw_sharing sharing = {retain_web, release_web};
+  if (sw_tape_share(t, web, &sharing)) return;
   if (sw_tape_reads(t)) {
     *web = sw_tape_good(t) ? sw_alloc(1, sizeof **web) : NULL;
     if (!*web) {
@@ -226,7 +231,12 @@ static void tape_plan_web(sw_tape *t, sw_plan *p, sw_web *own, size_t shape_size
   p->web = sw_web_retain(own);
 }
 
+static void retain_plan(void *plan) { sw_plan_retain(plan); }
+static void release_plan(void *plan) { sw_plan_release(plan); }
+
 void sw_tape_plan(sw_tape *t, sw_plan **plan, sw_web *own, size_t shape_size) {
+  static const sw_sharing sharing = {retain_plan, release_plan};
+  if (sw_tape_share(t, plan, &sharing)) return;
   if (sw_tape_reads(t)) {
     *plan = sw_tape_good(t) ? sw_alloc(1, sizeof **plan) : NULL;
     if (!*plan) {
