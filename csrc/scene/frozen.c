@@ -40,7 +40,7 @@ static void tape_fields(sw_tape *t, sw_frozen *f) {
   tape_handle(t, &f->wire), tape_handle(t, &f->hold);
   const char *model = sw_tape_word(t, sw_tape_reads(t) ? NULL : f->cls->name, word);
   if (sw_tape_reads(t)) f->cls = sw_wire_find(model);
-  sw_tape_mesh(t, &f->mesh);
+  sw_tape_mesh(t, &f->mesh, 1);
   sw_tape_strand(t, &f->strand, 1);
   sw_tape_pose(t, &f->pose), sw_tape_vec(t, &f->across);
   sw_tape_size(t, &f->first), sw_tape_size(t, &f->last);

@@ -124,7 +124,7 @@ void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
   if (sw_tape_reads(t)) x->cls = sw_scene_body_class(model);
   sw_tape_expect(t, x->cls != NULL, "a wire of an unknown model");
   sw_tape_beam_of(t, x);
-  sw_tape_mesh(t, &x->mesh);
+  sw_tape_mesh(t, &x->mesh, placed);
   sw_tape_strand(t, &x->strand, placed);
   tape_extremes(t, &x->extremes);
   sw_tape_window(t, &x->window);
@@ -151,7 +151,7 @@ static void tape_feed(sw_tape *t, sw_feed *x) {
   DOUBLE(slope), DOUBLE(spare[0]), DOUBLE(spare[1]), DOUBLE(spare_fed[0]), DOUBLE(spare_fed[1]);
   DOUBLE(size), DOUBLE(drive);
   sw_tape_int(t, &shaped);
-  if (shaped) sw_tape_mesh(t, &x->shape);
+  if (shaped) sw_tape_mesh(t, &x->shape, 1);
   sw_tape_expect(t, x->last_side >= -1 && x->last_side <= 1, "a feed");
   if (!sw_tape_reads(t)) return;
   const double all = x->label + x->fed + x->since + x->speed + x->start + x->slip + x->slip_since +

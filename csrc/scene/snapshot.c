@@ -54,7 +54,7 @@ static size_t size_of(const sw_scene *s) {
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_scene_wire *wire = &s->wires[w];
     const size_t records = wire->window.marks ? (2 + wire->window.marks) * wire->window.edges : 0;
-    const size_t each = wire->mesh.rest ? 24 : 12; /* doubles for a node */
+    const size_t each = wire->mesh.rest ? 17 : 7; /* doubles for a node */
     size += sizeof *wire + (each * wire->mesh.n + records) * sizeof(double);
   }
   return size + s->hold_count * sizeof *s->holds + s->obstacle_count * sizeof *s->obstacles +

@@ -180,8 +180,8 @@ sw_status sw_live_put(sw_scene *scene, const sw_live *live, sw_error *err);
 sw_status sw_live_take(const sw_scene *scene, sw_tape *out);
 sw_status sw_live_back(sw_scene *scene, const sw_tape *taken, sw_error *err);
 int sw_live_fits(const sw_scene *scene, const sw_live *live);
-/* Particles of meshes to where they are in it; a scene that is not built has them nowhere else.
- * SW_ENOMEM. */
+/* Particles of meshes to where they are in it, before the scene is built. SW_ENOMEM; SW_EINVAL: it
+ * has not so many. */
 sw_status sw_live_place(sw_scene *scene, const sw_live *live);
 
 /* Leave the built state: the meshes become authoritative again. */
