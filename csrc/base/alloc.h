@@ -13,6 +13,9 @@
  * of 0 bytes gives a pointer that may be freed. Free with sw_free. */
 void *sw_alloc(size_t count, size_t size);
 
+/* The same of bytes that are not zero, for what is written at once. */
+void *sw_alloc_bytes(size_t bytes);
+
 /* NULL is allowed. */
 void sw_free(void *p);
 

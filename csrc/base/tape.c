@@ -17,7 +17,7 @@ sw_tape sw_tape_summer(void) { return (sw_tape){.mode = SW_TAPE_SUM, .sum = SW_S
 
 sw_tape sw_tape_at_home(size_t room, sw_error *err) {
   sw_tape t = {.mode = SW_TAPE_WRITE, .home = 1, .capacity = room, .err = err};
-  t.bytes = sw_alloc(room, 1);
+  t.bytes = sw_alloc_bytes(room);
   if (!t.bytes) t.capacity = 0, sw_tape_fail(&t, SW_ENOMEM);
   return t;
 }
@@ -160,7 +160,7 @@ void sw_tape_array(sw_tape *t, void *items_pointer, size_t count, size_t item) {
     sw_tape_damaged(t, "a list of %zu items does not fit into it", count);
   if (!sw_tape_good(t)) return;
   if (!*items || sw_alloc_size(*items) != count * item) {
-    void *block = sw_alloc(count, item);
+    void *block = sw_alloc_bytes(count * item);
     if (!block) {
       sw_tape_fail(t, SW_ENOMEM);
       return;
