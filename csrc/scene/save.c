@@ -86,7 +86,9 @@ static sw_status check_head(const void *bytes, size_t size, sw_error *err) {
   if (h.order != ORDER)
     return sw_fail(err, SW_EFORMAT, "it is of a machine with another order of bytes");
   if (h.version != VERSION)
-    return sw_fail(err, SW_EFORMAT, "it is of version %lu of the format; this SoftWorld reads %d",
+    return sw_fail(err, SW_EFORMAT,
+                   "it is of version %lu of the format; this SoftWorld reads %d; let the scene's "
+                   "script write it again, or read it with the SoftWorld that wrote it",
                    (unsigned long)h.version, VERSION);
   if (h.size > size)
     return sw_fail(err, SW_EFORMAT, "it is cut off: %zu of its %llu bytes are there", size,
