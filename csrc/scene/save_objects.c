@@ -169,6 +169,7 @@ static void tape_give(sw_tape *t, sw_clamp_give *x) {
 static void tape_sums(sw_tape *t, sw_hold_sums *x) {
   SW_TAPE_STRUCT(t, sw_hold_sums, 104);
   INT(known);
+  if (sw_tape_reads(t) && !x->known) *x = (sw_hold_sums){.known = 0};
   if (!x->known) return;
   INT(last), sw_tape_raw(t, x->force, sizeof x->force), sw_tape_raw(t, x->moment, sizeof x->moment);
   sw_tape_expect(t, x->last >= 0 && x->last < SW_BOOK_STAGES, "what a clamp bears");

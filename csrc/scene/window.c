@@ -144,6 +144,7 @@ void sw_tape_window(sw_tape *t, sw_window *w) {
     if (!w->room) sw_tape_fail(t, SW_ENOMEM);
     w->edges = w->room ? edges : 0;
   }
+  if (sw_tape_reads(t)) memset(w->time, 0, sizeof w->time);
   if (sw_tape_reads(t)) w->marks = w->edges ? marks : 0, w->first = 0;
   if (!w->marks || !sw_tape_good(t)) return;
   tape_times(t, w);

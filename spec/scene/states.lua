@@ -74,6 +74,12 @@ end, function(s)
   run(0.04)(s)
 end, run(0.05))
 
+case("a wire drawn without the twist that it has unloaded", function(s)
+  local w = rod(s, { rest_twist = 20, EI = { 0.001, 0.002 }, GJ = 0.001, normal = { 0, 0, 1 } })
+  s:clamp(w, { s = 0 })
+  s:clamp(w, { s = 0.4 })
+end, function() end, run(0.02, { dt = 0.001 }))
+
 -- --- what happens on the way -------------------------------------------------------------
 
 case("in the middle of a blow", function(s)
