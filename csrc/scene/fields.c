@@ -17,21 +17,14 @@ static void blank_scene(sw_scene *s) {
   s->frames = NULL, s->events.list = NULL, s->watches.list = NULL;
   memset(&s->why, 0, sizeof s->why);
   s->contact = NULL, s->pairs = NULL, s->grains = NULL, s->crowd = NULL, s->hold_loads = NULL;
-  sw_books *b = &s->books; /* measured anew, but for sums */
-  const sw_books sums = {.sums = b->sums,
-                         .highest = b->highest,
-                         .most_kinetic = b->most_kinetic,
-                         .work = b->work,
-                         .released = b->released,
-                         .made = b->made,
-                         .rise = b->rise,
-                         .lowest = b->lowest,
-                         .highest_rise = b->highest_rise,
-                         .begun = b->begun};
-  memset(b, 0, sizeof *b);
-  b->sums = sums.sums, b->highest = sums.highest, b->most_kinetic = sums.most_kinetic;
-  b->work = sums.work, b->released = sums.released, b->made = sums.made, b->rise = sums.rise;
-  b->lowest = sums.lowest, b->highest_rise = sums.highest_rise, b->begun = sums.begun;
+  sw_books *b = &s->books; /* what it measures anew */
+  memset(&b->now, 0, sizeof b->now);
+  memset(&b->powers, 0, sizeof b->powers);
+  memset(&b->step, 0, sizeof b->step);
+  b->dissipated = b->rubbed_off = b->mass = b->longest = b->weight = b->bending = 0;
+  b->has_powers = b->known = 0;
+  b->contact = 0, b->hold_room = b->obstacle_room = 0;
+  b->holds = NULL, b->obstacles = NULL;
 }
 
 static void blank_wire(sw_scene_wire *w) {
