@@ -83,6 +83,12 @@ static inline void sw_tape_raw(sw_tape *t, void *p, size_t bytes) {
   }
 }
 
+/* On a tape at home: the address at p, of what lives as long as the program, and 1. On others
+ * nothing, and 0. */
+static inline int sw_tape_address(sw_tape *t, void *p) {
+  if (t->home) sw_tape_raw(t, p, sizeof(void *));
+  return t->home;
+}
 /* On a tape at home: a reference to *p, which may be NULL, and 1. On others nothing, and 0. */
 int sw_tape_share(sw_tape *tape, void *p_pointer, const sw_sharing *how);
 /* Bytes that are not copied when they are read: *p is then within the tape, on any address. */

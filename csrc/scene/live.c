@@ -139,3 +139,38 @@ int sw_live_fits(const sw_scene *s, const sw_live *p) {
          sw_contact_memory_fits(p->memory, p->memory_size, s->system.nodes, s->obstacle_count) &&
          sw_pairs_memory_fits(p->pairs, p->pairs_size, s->system.nodes) && grains_fit(s, p);
 }
+
+/* --- on a tape ------------------------------------------------------------------------ */
+
+static void block(sw_tape *t, const void **p, size_t *size) {
+  sw_tape_count(t, size, 1);
+  sw_tape_view(t, p, *size);
+}
+
+void sw_tape_live(sw_tape *t, sw_live *x) {
+  char word[SW_NAME_SIZE];
+  SW_TAPE_STRUCT(t, sw_live, 160);
+  sw_tape_mark(t, "contact", sw_contact_layout());
+  sw_tape_mark(t, "contact of wires", sw_pairs_layout());
+  sw_tape_mark(t, "contact of particles", sw_grains_layout());
+  sw_tape_count(t, &x->state_size, sizeof(double));
+  sw_tape_view(t, &x->state, x->state_size * sizeof(double));
+  if (!sw_tape_address(t, &x->method)) {
+    const char *method =
+        sw_tape_word(t, !sw_tape_reads(t) && x->method ? x->method->name : NULL, word);
+    if (sw_tape_reads(t)) x->method = method[0] ? sw_integrator_find(method) : NULL;
+    sw_tape_expect(t, x->method || !method[0], "an unknown integrator");
+  }
+  sw_tape_double(t, &x->last_h), sw_tape_int(t, &x->restart);
+  sw_tape_count(t, &x->history_size, sizeof(double));
+  sw_tape_view(t, &x->history, x->history_size * sizeof(double));
+  block(t, &x->memory, &x->memory_size), sw_tape_int(t, &x->fresh);
+  block(t, &x->pairs, &x->pairs_size), block(t, &x->grains, &x->grains_size);
+  for (size_t k = 0; k < 3; k++) block(t, &x->seen[k], &x->seen_size[k]);
+  if (!sw_tape_reads(t) || t->home) return;
+  for (size_t i = 0; i < x->state_size && sw_tape_good(t); i++) {
+    double value;
+    memcpy(&value, (const char *)x->state + i * sizeof value, sizeof value);
+    sw_tape_expect(t, isfinite(value), "the state of a scene");
+  }
+}

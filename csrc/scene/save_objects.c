@@ -120,8 +120,10 @@ void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
   SW_TAPE_STRUCT(t, sw_scene_wire, 824);
   SW_TAPE_STRUCT(t, sw_twisted, 24);
   UINT32(generation), NAME(name);
-  const char *model = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
-  if (sw_tape_reads(t)) x->cls = sw_scene_body_class(model);
+  if (!sw_tape_address(t, &x->cls)) {
+    const char *model = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
+    if (sw_tape_reads(t)) x->cls = sw_scene_body_class(model);
+  }
   sw_tape_expect(t, x->cls != NULL, "a wire of an unknown model");
   sw_tape_beam_of(t, x);
   sw_tape_mesh(t, &x->mesh, placed);
@@ -179,8 +181,10 @@ void sw_tape_hold(sw_tape *t, sw_scene *s, sw_scene_hold *x) {
   char word[SW_NAME_SIZE];
   SW_TAPE_STRUCT(t, sw_scene_hold, 1424);
   UINT32(generation), INT(alive), NAME(name);
-  const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
-  if (sw_tape_reads(t)) x->cls = sw_hold_find(kind);
+  if (!sw_tape_address(t, &x->cls)) {
+    const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
+    if (sw_tape_reads(t)) x->cls = sw_hold_find(kind);
+  }
   sw_tape_expect(t, x->cls != NULL, "a clamp of an unknown kind");
   SIZE(wire), DOUBLE(scale), UINT32(shape), INT(formed), DOUBLE(s1), DOUBLE(s2);
   sw_tape_hold_args(t, &x->args);
@@ -285,8 +289,10 @@ void sw_tape_force(sw_tape *t, sw_scene_force *x) {
   char word[SW_NAME_SIZE];
   SW_TAPE_STRUCT(t, sw_scene_force, 248);
   UINT32(generation), INT(alive), NAME(name), sw_tape_long(t, &x->wire), DOUBLE(scale);
-  const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
-  if (sw_tape_reads(t)) x->cls = sw_force_find(kind);
+  if (!sw_tape_address(t, &x->cls)) {
+    const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
+    if (sw_tape_reads(t)) x->cls = sw_force_find(kind);
+  }
   sw_tape_expect(t, x->cls != NULL, "a force of an unknown kind");
   sw_tape_expect(t, isfinite(x->scale) && x->scale > 0, "a force without scale");
   if (x->cls) tape_force_args(t, x);
@@ -328,87 +334,4 @@ void sw_tape_frame(sw_tape *t, const sw_scene *s, sw_frame *x) {
                      x->holds <= s->hold_count && x->tools <= s->tool_count &&
                      sw_scene_frame_walk(x, count, &size) && size == count,
                  "a frame");
-}
-
-/* --- the state between and during runs ------------------------------------------------ */
-
-void sw_tape_kept_contact(sw_tape *t, sw_scene *s) {
-  int there = !sw_tape_reads(t) && s->kept.memory != NULL;
-  sw_tape_int(t, &there);
-  if (!there) return;
-  sw_tape_mark(t, "contact", sw_contact_layout());
-  sw_tape_mark(t, "contact of wires", sw_pairs_layout());
-  sw_tape_count(t, &s->kept.bytes, 1), sw_tape_count(t, &s->kept.pair_bytes, 1);
-  sw_tape_array(t, &s->kept.memory, s->kept.bytes, 1);
-  sw_tape_array(t, &s->kept.pairs, s->kept.pair_bytes, 1);
-  sw_tape_mark(t, "contact of particles", sw_grains_layout());
-  sw_tape_count(t, &s->kept.grain_bytes, 1);
-  sw_tape_array(t, &s->kept.grains, s->kept.grain_bytes, 1);
-  sw_tape_count(t, &s->kept.wires, sizeof *s->kept.first);
-  SW_TAPE_ARRAY(t, s->kept.first, s->kept.wires + 1);
-  const size_t expected = s->kept.first ? s->kept.first[s->kept.wires] : 0;
-  size_t nodes = expected;
-  sw_tape_count(t, &nodes, sizeof *s->kept.s);
-  sw_tape_expect(t, nodes == expected, "contact");
-  SW_TAPE_ARRAY(t, s->kept.s, nodes);
-  sw_tape_int(t, &s->kept.fresh), sw_tape_size(t, &s->kept.changed);
-}
-
-/* May a force of this class have a history of the plan, and give it to the wire's next one? */
-static int remembers(const sw_force_class *cls, const sw_plan *plan, const sw_scene_wire *w) {
-  if (!cls->state_size || (cls->applies && !cls->applies(plan))) return 0;
-  if (!(cls->flags & SW_FORCE_OF_WEB)) return 1;
-  return plan->web && w->strand.web && plan->web->links == w->strand.web->links;
-}
-
-void sw_tape_kept_history(sw_tape *t, sw_scene *s, sw_kept_history *x) {
-  char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_kept_history, 48);
-  SIZE(force), SIZE(wire), UINT32(generation);
-  const char *inner = sw_tape_word(t, !sw_tape_reads(t) && x->inner ? x->inner->name : NULL, word);
-  if (sw_tape_reads(t)) x->inner = inner[0] ? sw_force_find(inner) : NULL;
-  sw_tape_expect(t, x->wire < s->wire_count && (x->inner || !inner[0]), "what a force remembers");
-  sw_tape_expect(t, x->inner || x->force < s->force_count, "what a force remembers");
-  if (!sw_tape_good(t)) return;
-  sw_tape_plan(t, &x->plan, s->wires[x->wire].strand.web, sizeof(sw_solid));
-  if (!sw_tape_good(t)) return;
-  const sw_force_class *cls = x->inner ? x->inner : s->forces[x->force].cls;
-  sw_tape_expect(t, remembers(cls, x->plan, &s->wires[x->wire]), "what a force remembers");
-  if (!sw_tape_good(t)) return;
-  size_t count = cls->state_size(x->plan);
-  const size_t expected = count;
-  sw_tape_count(t, &count, sizeof *x->data);
-  sw_tape_expect(t, count == expected, "what a force remembers");
-  SW_TAPE_ARRAY(t, x->data, count);
-}
-
-static void block(sw_tape *t, const void **p, size_t *size) {
-  sw_tape_count(t, size, 1);
-  sw_tape_view(t, p, *size);
-}
-
-void sw_tape_live(sw_tape *t, sw_live *x) {
-  char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_live, 160);
-  sw_tape_mark(t, "contact", sw_contact_layout());
-  sw_tape_mark(t, "contact of wires", sw_pairs_layout());
-  sw_tape_mark(t, "contact of particles", sw_grains_layout());
-  sw_tape_count(t, &x->state_size, sizeof(double));
-  sw_tape_view(t, &x->state, x->state_size * sizeof(double));
-  const char *method =
-      sw_tape_word(t, !sw_tape_reads(t) && x->method ? x->method->name : NULL, word);
-  if (sw_tape_reads(t)) x->method = method[0] ? sw_integrator_find(method) : NULL;
-  sw_tape_expect(t, x->method || !method[0], "an unknown integrator");
-  DOUBLE(last_h), INT(restart);
-  sw_tape_count(t, &x->history_size, sizeof(double));
-  sw_tape_view(t, &x->history, x->history_size * sizeof(double));
-  block(t, &x->memory, &x->memory_size), INT(fresh);
-  block(t, &x->pairs, &x->pairs_size), block(t, &x->grains, &x->grains_size);
-  for (size_t k = 0; k < 3; k++) block(t, &x->seen[k], &x->seen_size[k]);
-  if (!sw_tape_reads(t) || t->home) return;
-  for (size_t i = 0; i < x->state_size && sw_tape_good(t); i++) {
-    double value;
-    memcpy(&value, (const char *)x->state + i * sizeof value, sizeof value);
-    sw_tape_expect(t, isfinite(value), "the state of a scene");
-  }
 }
