@@ -91,7 +91,7 @@ sw_status sw_live_put(sw_scene *s, const sw_live *p, sw_error *err) {
   if (p->method) {
     s->stepper.last_h = p->last_h;
     s->stepper.restart = p->restart;
-    if (p->history) memcpy(s->stepper.xp, p->history, p->history_size * sizeof(double));
+    if (p->history_size) memcpy(s->stepper.xp, p->history, p->history_size * sizeof(double));
   } else if (s->has_stepper) { /* taken before the first run */
     sw_stepper_free(&s->stepper);
     s->has_stepper = 0;
