@@ -30,24 +30,34 @@ void sw_alloc_passed(size_t count) {
     fail_countdown -= count < (size_t)fail_countdown ? (long)count : fail_countdown;
 }
 
-void *sw_alloc(size_t count, size_t size) {
+static void *make(size_t count, size_t size, int zero) {
   requests++;
   if (fail_countdown > 0 && --fail_countdown == 0) return NULL;
   if (size != 0 && count > (SIZE_MAX / 2) / size) return NULL;
   const size_t bytes = count * size;
   const size_t total = ALIGNMENT + (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
-  char *raw = total < LARGE ? aligned_alloc(ALIGNMENT, total) : calloc(1, total + ALIGNMENT);
+  char *raw =
+      total < LARGE || !zero ? aligned_alloc(ALIGNMENT, total) : calloc(1, total + ALIGNMENT);
   if (!raw) return NULL;
-  if (total < LARGE) memset(raw, 0, total);
+  if (total < LARGE && zero) memset(raw, 0, total);
   char *start = raw + (ALIGNMENT - (uintptr_t)raw % ALIGNMENT) % ALIGNMENT;
   *(header *)(void *)start = (header){bytes, raw};
   live_bytes += bytes;
   return start + ALIGNMENT;
 }
 
+void *sw_alloc(size_t count, size_t size) { return make(count, size, 1); }
+void *sw_alloc_bytes(size_t bytes) { return make(bytes, 1, 0); }
+
+static const header *header_of(const void *p) {
+  return (const header *)(const void *)((const char *)p - ALIGNMENT);
+}
+
+size_t sw_alloc_size(const void *p) { return header_of(p)->bytes; }
+
 void sw_free(void *p) {
   if (!p) return;
-  const header *h = (const header *)(void *)((char *)p - ALIGNMENT);
+  const header *h = header_of(p);
   live_bytes -= h->bytes;
   free(h->raw);
 }

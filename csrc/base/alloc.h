@@ -13,8 +13,14 @@
  * of 0 bytes gives a pointer that may be freed. Free with sw_free. */
 void *sw_alloc(size_t count, size_t size);
 
+/* The same of bytes that are not zero, for what is written at once. */
+void *sw_alloc_bytes(size_t bytes);
+
 /* NULL is allowed. */
 void sw_free(void *p);
+
+/* Bytes that were asked for [B]. */
+size_t sw_alloc_size(const void *p);
 
 /* Grow *p (count *capacity of size) so that it holds at least need items,
  * doubling; old content is kept, new content is zero. SW_ENOMEM leaves both

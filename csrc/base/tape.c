@@ -15,10 +15,24 @@ sw_tape sw_tape_reader(const void *bytes, size_t size, sw_error *err) {
 
 sw_tape sw_tape_summer(void) { return (sw_tape){.mode = SW_TAPE_SUM, .sum = SW_SUM_START}; }
 
+sw_tape sw_tape_at_home(size_t room, sw_error *err) {
+  sw_tape t = {.mode = SW_TAPE_WRITE, .home = 1, .capacity = room, .err = err};
+  t.bytes = sw_alloc_bytes(room);
+  if (!t.bytes) t.capacity = 0, sw_tape_fail(&t, SW_ENOMEM);
+  return t;
+}
+
+sw_tape sw_tape_read_home(const sw_tape *from, sw_error *err) {
+  return (sw_tape){
+      .mode = SW_TAPE_READ, .home = 1, .from = from->bytes, .size = from->size, .err = err};
+}
+
 void sw_tape_free(sw_tape *t) {
+  for (size_t k = 0; k < t->shared_count; k++) t->shared[k].how->release(t->shared[k].what);
+  sw_free(t->shared);
   sw_free(t->bytes);
-  t->bytes = NULL;
-  t->size = t->capacity = 0;
+  t->shared = NULL, t->bytes = NULL;
+  t->shared_count = t->shared_capacity = t->size = t->capacity = 0;
 }
 
 uint64_t sw_sum(uint64_t sum, const void *bytes, size_t size) {
@@ -44,10 +58,10 @@ void sw_tape_damaged(sw_tape *t, const char *format, ...) {
 }
 
 void sw_tape_expect(sw_tape *t, int good, const char *what) {
-  if (sw_tape_reads(t) && sw_tape_good(t) && !good) sw_tape_damaged(t, "%s", what);
+  if (sw_tape_reads(t) && !t->home && sw_tape_good(t) && !good) sw_tape_damaged(t, "%s", what);
 }
 
-void sw_tape_raw(sw_tape *t, void *p, size_t bytes) {
+void sw_tape_raw_slow(sw_tape *t, void *p, size_t bytes) {
   if (t->mode == SW_TAPE_SUM) {
     t->sum = sw_sum(t->sum, p, bytes);
   } else if (sw_tape_reads(t)) {
@@ -68,18 +82,43 @@ void sw_tape_raw(sw_tape *t, void *p, size_t bytes) {
   }
 }
 
-void sw_tape_double(sw_tape *t, double *x) { sw_tape_raw(t, x, sizeof *x); }
-void sw_tape_int(sw_tape *t, int *x) { sw_tape_raw(t, x, sizeof *x); }
-void sw_tape_uint32(sw_tape *t, uint32_t *x) { sw_tape_raw(t, x, sizeof *x); }
-void sw_tape_vec(sw_tape *t, sw_vec *x) { sw_tape_raw(t, x, sizeof *x); }
-void sw_tape_quat(sw_tape *t, sw_quat *x) { sw_tape_raw(t, x, sizeof *x); }
-void sw_tape_pose(sw_tape *t, sw_pose *x) { sw_tape_raw(t, x, sizeof *x); }
-void sw_tape_size(sw_tape *t, size_t *x) { sw_tape_raw(t, x, sizeof *x); }
-void sw_tape_long(sw_tape *t, long *x) { sw_tape_raw(t, x, sizeof *x); }
+int sw_tape_share(sw_tape *t, void *p_pointer, const sw_sharing *how) {
+  void **p = p_pointer, *what = *p;
+  if (!t->home) return 0;
+  if (!sw_tape_reads(t) && what) {
+    if (sw_grow((void **)&t->shared, &t->shared_capacity, t->shared_count + 1, sizeof *t->shared) !=
+        SW_OK) {
+      sw_tape_fail(t, SW_ENOMEM);
+      return 1;
+    }
+    how->retain(what);
+    t->shared[t->shared_count++] = (sw_shared){what, how};
+  }
+  sw_tape_raw(t, &what, sizeof what);
+  if (!sw_tape_reads(t) || !sw_tape_good(t) || what == *p) return 1;
+  if (what) how->retain(what);
+  if (*p) how->release(*p);
+  *p = what;
+  return 1;
+}
+
+void sw_tape_view(sw_tape *t, const void **p, size_t bytes) {
+  if (!sw_tape_reads(t)) {
+    sw_tape_raw(t, (void *)(uintptr_t)*p, bytes);
+    return;
+  }
+  if (sw_tape_good(t) && bytes > t->size - t->at) sw_tape_damaged(t, "it ends too early");
+  *p = sw_tape_good(t) ? (const unsigned char *)t->from + t->at : NULL;
+  if (sw_tape_good(t)) t->at += bytes;
+}
 
 /* What follows a name's end does not count, and must not make files differ. */
 void sw_tape_name(sw_tape *t, char *x) {
   char clean[SW_NAME_SIZE] = {0};
+  if (t->home) {
+    sw_tape_raw(t, x, SW_NAME_SIZE);
+    return;
+  }
   if (!sw_tape_reads(t)) memcpy(clean, x, strnlen(x, SW_NAME_SIZE - 1));
   sw_tape_raw(t, clean, sizeof clean);
   clean[SW_NAME_SIZE - 1] = '\0';
@@ -104,7 +143,7 @@ void sw_tape_mark(sw_tape *t, const char *what, size_t size) {
 
 void sw_tape_count(sw_tape *t, size_t *count, size_t least) {
   sw_tape_size(t, count);
-  if (sw_tape_reads(t) && *count > (t->size - t->at) / least) {
+  if (sw_tape_reads(t) && !t->home && *count > (t->size - t->at) / least) {
     sw_tape_damaged(t, "a list of %zu things does not fit into it", *count);
     *count = 0;
   }
@@ -112,20 +151,31 @@ void sw_tape_count(sw_tape *t, size_t *count, size_t least) {
 
 void sw_tape_array(sw_tape *t, void *items_pointer, size_t count, size_t item) {
   void **items = items_pointer;
-  sw_tape_mark(t, "an item", item);
+  if (!t->home) sw_tape_mark(t, "an item", item);
   if (!sw_tape_reads(t)) {
     if (count) sw_tape_raw(t, *items, count * item);
     return;
   }
-  *items = NULL;
   if (sw_tape_good(t) && count > (t->size - t->at) / item)
     sw_tape_damaged(t, "a list of %zu items does not fit into it", count);
   if (!sw_tape_good(t)) return;
-  *items = sw_alloc(count, item);
-  if (!*items)
-    sw_tape_fail(t, SW_ENOMEM);
-  else
-    sw_tape_raw(t, *items, count * item);
+  if (!*items || sw_alloc_size(*items) != count * item) {
+    void *block = sw_alloc_bytes(count * item);
+    if (!block) {
+      sw_tape_fail(t, SW_ENOMEM);
+      return;
+    }
+    sw_free(*items);
+    *items = block;
+  }
+  sw_tape_raw(t, *items, count * item);
+}
+
+void sw_tape_list(sw_tape *t, void *items_pointer, size_t *count, size_t item) {
+  size_t n = *count;
+  sw_tape_count(t, &n, item);
+  sw_tape_array(t, items_pointer, n, item);
+  if (sw_tape_good(t)) *count = n;
 }
 
 void sw_tape_optional(sw_tape *t, void *items_pointer, size_t count, size_t item) {
@@ -134,12 +184,12 @@ void sw_tape_optional(sw_tape *t, void *items_pointer, size_t count, size_t item
   sw_tape_int(t, &there);
   if (there)
     sw_tape_array(t, items_pointer, count, item);
-  else if (sw_tape_reads(t))
-    *items = NULL;
+  else if (sw_tape_reads(t) && sw_tape_good(t))
+    sw_free(*items), *items = NULL;
 }
 
 void sw_tape_finite(sw_tape *t, const double *x, size_t count, const char *what) {
-  if (!sw_tape_reads(t) || !sw_tape_good(t)) return;
+  if (!sw_tape_reads(t) || t->home || !sw_tape_good(t)) return;
   for (size_t i = 0; i < count; i++)
     if (!isfinite(x[i])) {
       sw_tape_damaged(t, "%s: number %zu is not finite", what, i + 1);

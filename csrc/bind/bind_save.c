@@ -22,6 +22,14 @@ static sw_scene *check_scene(lua_State *L) {
   return ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
 }
 
+static int give_block(lua_State *L, block *b) {
+  lua_pushcfunction(L, push_block); /* protected: the block must be freed whatever happens */
+  lua_pushlightuserdata(L, b);
+  const int status = lua_pcall(L, 1, 1, 0);
+  sw_free(b->bytes);
+  return status == LUA_OK ? 1 : lua_error(L);
+}
+
 /* core.save(scene, note) -> string */
 static int mod_save(lua_State *L) {
   sw_scene *scene = check_scene(L);
@@ -30,11 +38,15 @@ static int mod_save(lua_State *L) {
   size_t note_size;
   const char *note = luaL_checklstring(L, 2, &note_size);
   lsw_must(L, sw_scene_save(scene, note, note_size, &b.bytes, &b.size, &err), &err);
-  lua_pushcfunction(L, push_block); /* protected: the block must be freed whatever happens */
-  lua_pushlightuserdata(L, &b);
-  const int status = lua_pcall(L, 1, 1, 0);
-  sw_free(b.bytes);
-  return status == LUA_OK ? 1 : lua_error(L);
+  return give_block(L, &b);
+}
+
+/* core.fields(scene) -> string, for specs: the objects' fields in memory */
+static int mod_fields(lua_State *L) {
+  sw_error err = {""};
+  block b = {NULL, 0};
+  lsw_must(L, sw_scene_fields(check_scene(L), &b.bytes, &b.size), &err);
+  return give_block(L, &b);
 }
 
 /* core.saved_note(string) -> the note */
@@ -124,9 +136,9 @@ static int mod_numbered(lua_State *L) {
   return luaL_error(L, "a scene has no objects of class '%s'", name);
 }
 
-static const luaL_Reg functions[] = {{"save", mod_save},         {"saved_note", mod_saved_note},
-                                     {"load", mod_load},         {"resume", mod_resume},
-                                     {"items", mod_items},       {"number", mod_number},
-                                     {"numbered", mod_numbered}, {NULL, NULL}};
+static const luaL_Reg functions[] = {
+    {"save", mod_save},     {"fields", mod_fields},     {"saved_note", mod_saved_note},
+    {"load", mod_load},     {"resume", mod_resume},     {"items", mod_items},
+    {"number", mod_number}, {"numbered", mod_numbered}, {NULL, NULL}};
 
 void lsw_open_save(lua_State *L) { luaL_setfuncs(L, functions, 0); }

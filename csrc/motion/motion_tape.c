@@ -75,8 +75,13 @@ static void tape_view(sw_tape *t, sw_motion **motion) {
   sw_tape_pose(t, &view->base);
 }
 
+static void retain(void *motion) { sw_motion_retain(motion); }
+static void release(void *motion) { sw_motion_release(motion); }
+
 void sw_tape_motion(sw_tape *t, sw_motion **motion) {
+  static const sw_sharing sharing = {retain, release};
   int kind = NOTHING;
+  if (sw_tape_share(t, motion, &sharing)) return;
   if (sw_tape_reads(t))
     *motion = NULL;
   else if (*motion)

@@ -432,6 +432,7 @@ sw_status sw_scene_build(sw_scene *s, sw_error *err) {
     inherit_twist(s);
     sw_scene_frame_in(s);
     s->built = 1;
+    s->build = ++s->builds;
     sw_scene_forget_contact(s);
     sw_scene_inherit_histories(s);
     sw_scene_forget_histories(s);

@@ -18,13 +18,6 @@ void sw_events_clear(sw_events *e) {
   *e = (sw_events){0};
 }
 
-void sw_events_back_to(sw_events *e, double time) {
-  size_t kept = 0;
-  for (size_t i = 0; i < e->count; i++)
-    if (e->list[i].first <= time) e->list[kept++] = e->list[i];
-  e->count = kept;
-}
-
 static void copy_name(char *out, const char *name) {
   snprintf(out, SW_NAME_SIZE, "%s", name ? name : "");
 }

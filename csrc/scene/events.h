@@ -27,8 +27,6 @@ __attribute__((format(printf, 6, 7))) void sw_scene_tell(sw_scene *scene, const 
 sw_event *sw_events_go_on(sw_events *events, const char *kind, const char *object, double time);
 
 void sw_events_clear(sw_events *events);
-/* Forget those after a time [s]. */
-void sw_events_back_to(sw_events *events, double time);
 void sw_tape_event(sw_tape *tape, sw_event *event);
 
 #endif

@@ -40,8 +40,8 @@ static void tape_fields(sw_tape *t, sw_frozen *f) {
   tape_handle(t, &f->wire), tape_handle(t, &f->hold);
   const char *model = sw_tape_word(t, sw_tape_reads(t) ? NULL : f->cls->name, word);
   if (sw_tape_reads(t)) f->cls = sw_wire_find(model);
-  sw_tape_mesh(t, &f->mesh);
-  sw_tape_strand(t, &f->strand);
+  sw_tape_mesh(t, &f->mesh, 1);
+  sw_tape_strand(t, &f->strand, 1);
   sw_tape_pose(t, &f->pose), sw_tape_vec(t, &f->across);
   sw_tape_size(t, &f->first), sw_tape_size(t, &f->last);
   sw_tape_count(t, &f->stations.n, sizeof *f->stations.s);
@@ -56,7 +56,12 @@ static void tape_fields(sw_tape *t, sw_frozen *f) {
   sw_tape_jaw(t, &f->jaw);
 }
 
+static void retain(void *frozen) { sw_frozen_retain(frozen); }
+static void release(void *frozen) { sw_frozen_release(frozen); }
+
 void sw_tape_frozen(sw_tape *t, sw_frozen **frozen) {
+  static const sw_sharing sharing = {retain, release};
+  if (sw_tape_share(t, frozen, &sharing)) return;
   int there = !sw_tape_reads(t) && *frozen != NULL;
   sw_tape_int(t, &there);
   if (!there) return;

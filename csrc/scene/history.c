@@ -4,7 +4,9 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "scene/world.h"
+#include "force/solid.h"
+#include "scene/save.h"
+#include "state/state_tape.h"
 
 void sw_scene_forget_histories(sw_scene *s) {
   for (size_t k = 0; k < s->kept_history_count; k++) {
@@ -81,4 +83,56 @@ void sw_scene_inherit_histories(sw_scene *s) {
       else if (term->cls->begin)
         term->cls->begin(term->args, field, term->history);
     }
+}
+
+/* --- on a tape, with what contact remembers ---------------------------------------------- */
+
+void sw_tape_kept_contact(sw_tape *t, sw_scene *s) {
+  int there = !sw_tape_reads(t) && s->kept.memory != NULL;
+  sw_tape_int(t, &there);
+  if (!there) return;
+  sw_tape_mark(t, "contact", sw_contact_layout());
+  sw_tape_mark(t, "contact of wires", sw_pairs_layout());
+  sw_tape_count(t, &s->kept.bytes, 1), sw_tape_count(t, &s->kept.pair_bytes, 1);
+  sw_tape_array(t, &s->kept.memory, s->kept.bytes, 1);
+  sw_tape_array(t, &s->kept.pairs, s->kept.pair_bytes, 1);
+  sw_tape_mark(t, "contact of particles", sw_grains_layout());
+  sw_tape_count(t, &s->kept.grain_bytes, 1);
+  sw_tape_array(t, &s->kept.grains, s->kept.grain_bytes, 1);
+  sw_tape_count(t, &s->kept.wires, sizeof *s->kept.first);
+  SW_TAPE_ARRAY(t, s->kept.first, s->kept.wires + 1);
+  const size_t expected = s->kept.first ? s->kept.first[s->kept.wires] : 0;
+  size_t nodes = expected;
+  sw_tape_count(t, &nodes, sizeof *s->kept.s);
+  sw_tape_expect(t, nodes == expected, "contact");
+  SW_TAPE_ARRAY(t, s->kept.s, nodes);
+  sw_tape_int(t, &s->kept.fresh), sw_tape_size(t, &s->kept.changed);
+}
+
+/* May a force of this class have a history of the plan, and give it to the wire's next one? */
+static int remembers(const sw_force_class *cls, const sw_plan *plan, const sw_scene_wire *w) {
+  if (!cls->state_size || (cls->applies && !cls->applies(plan))) return 0;
+  if (!(cls->flags & SW_FORCE_OF_WEB)) return 1;
+  return plan->web && w->strand.web && plan->web->links == w->strand.web->links;
+}
+
+void sw_tape_kept_history(sw_tape *t, sw_scene *s, sw_kept_history *x) {
+  char word[SW_NAME_SIZE];
+  SW_TAPE_STRUCT(t, sw_kept_history, 48);
+  sw_tape_size(t, &x->force), sw_tape_size(t, &x->wire), sw_tape_uint32(t, &x->generation);
+  const char *inner = sw_tape_word(t, !sw_tape_reads(t) && x->inner ? x->inner->name : NULL, word);
+  if (sw_tape_reads(t)) x->inner = inner[0] ? sw_force_find(inner) : NULL;
+  sw_tape_expect(t, x->wire < s->wire_count && (x->inner || !inner[0]), "what a force remembers");
+  sw_tape_expect(t, x->inner || x->force < s->force_count, "what a force remembers");
+  if (!sw_tape_good(t)) return;
+  sw_tape_plan(t, &x->plan, s->wires[x->wire].strand.web, sizeof(sw_solid));
+  if (!sw_tape_good(t)) return;
+  const sw_force_class *cls = x->inner ? x->inner : s->forces[x->force].cls;
+  sw_tape_expect(t, remembers(cls, x->plan, &s->wires[x->wire]), "what a force remembers");
+  if (!sw_tape_good(t)) return;
+  size_t count = cls->state_size(x->plan);
+  const size_t expected = count;
+  sw_tape_count(t, &count, sizeof *x->data);
+  sw_tape_expect(t, count == expected, "what a force remembers");
+  SW_TAPE_ARRAY(t, x->data, count);
 }

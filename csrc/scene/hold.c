@@ -451,9 +451,3 @@ sw_status sw_scene_obstacle_log(sw_scene *s, sw_handle obstacle, const double **
   return SW_OK;
 }
 
-sw_status sw_log_add(sw_log *log, const double *row, size_t n) {
-  SW_TRY(sw_grow((void **)&log->rows, &log->capacity, log->count + n, sizeof *log->rows));
-  memcpy(log->rows + log->count, row, n * sizeof *row);
-  log->count += n;
-  return SW_OK;
-}

@@ -53,7 +53,7 @@ void sw_ledger_begin_run(sw_scene *s) {
 void sw_ledger_free(sw_books *b) {
   sw_free(b->holds);
   sw_free(b->obstacles);
-  sw_free(b->log.rows);
+  sw_log_free(&b->log);
   *b = (sw_books){0};
 }
 
@@ -461,7 +461,7 @@ void sw_tape_ledger(sw_tape *t, sw_books *b) {
   sw_tape_double(t, &b->most_kinetic), sw_tape_double(t, &b->work);
   sw_tape_double(t, &b->released), sw_tape_double(t, &b->made);
   sw_tape_double(t, &b->rise), sw_tape_double(t, &b->lowest), sw_tape_double(t, &b->highest_rise);
-  sw_tape_int(t, &b->begun);
+  sw_tape_int(t, &b->begun), sw_tape_int(t, &b->put);
   sw_tape_log(t, &b->log);
   b->known = sw_tape_reads(t) ? 0 : b->known;
 }

@@ -4,45 +4,63 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "scene/world.h"
+#include "scene/save.h"
 
-static sw_status copy_block(const void *from, size_t bytes, void *to_pointer) {
-  void *copy = sw_alloc(bytes, 1);
-  if (!copy) return SW_ENOMEM;
-  if (bytes) memcpy(copy, from, bytes);
-  *(void **)to_pointer = copy;
+sw_live sw_live_of(const sw_scene *s) {
+  sw_live p = {.state = s->system.state, .state_size = s->system.state_size};
+  if (s->contact) {
+    p.fresh = sw_contact_is_fresh(s->contact);
+    p.memory = sw_contact_memory(s->contact, &p.memory_size);
+    p.seen[0] = sw_contact_seen(s->contact, &p.seen_size[0]);
+  }
+  if (s->pairs) {
+    p.pairs = sw_pairs_memory(s->pairs, &p.pairs_size);
+    sw_pairs_seen(s->pairs, p.seen + 1, p.seen_size + 1);
+  }
+  if (s->grains) p.grains = sw_grains_memory(s->grains, &p.grains_size);
+  if (!s->has_stepper) return p;
+  p.method = s->method;
+  p.last_h = s->stepper.last_h;
+  p.restart = s->stepper.restart;
+  if (!(s->method->flags & SW_INTEGRATOR_HISTORY)) return p;
+  p.history_size = sw_stepper_history(&s->stepper, &s->system);
+  p.history = s->stepper.xp;
+  return p;
+}
+
+/* A block of n doubles of the state, from a number on. */
+static sw_status copy_out(const sw_live *p, size_t from, size_t n, double **to) {
+  if (n > p->state_size || from > p->state_size - n) return SW_EINVAL;
+  sw_free(*to);
+  *to = sw_alloc(n, sizeof **to);
+  if (!*to) return SW_ENOMEM;
+  if (n) memcpy(*to, (const char *)p->state + from * sizeof **to, n * sizeof **to);
   return SW_OK;
 }
 
-sw_status sw_live_take(const sw_scene *s, sw_live *p) {
-  p->state_size = s->system.state_size;
-  SW_TRY(copy_block(s->system.state, p->state_size * sizeof(double), &p->state));
-  if (s->contact) {
-    p->fresh = sw_contact_is_fresh(s->contact);
-    const void *memory = sw_contact_memory(s->contact, &p->memory_size);
-    SW_TRY(copy_block(memory, p->memory_size, &p->memory));
-    const void *seen = sw_contact_seen(s->contact, &p->seen_size[0]);
-    SW_TRY(copy_block(seen, p->seen_size[0], &p->seen[0]));
+static size_t particles_of(const sw_scene_wire *w) {
+  return w->strand.web ? w->strand.web->particles : w->mesh.n;
+}
+
+sw_status sw_live_place(sw_scene *s, const sw_live *p) {
+  size_t freedoms = 0, node = 0, edge = 0;
+  for (size_t w = 0; w < s->wire_count; w++) {
+    const sw_scene_wire *wire = &s->wires[w];
+    freedoms += 3 * particles_of(wire) + (wire->beam.rolls ? wire->mesh.n - 1 : 0);
   }
-  if (s->pairs) {
-    const void *memory = sw_pairs_memory(s->pairs, &p->pairs_size);
-    SW_TRY(copy_block(memory, p->pairs_size, &p->pairs));
-    const void *seen[2];
-    sw_pairs_seen(s->pairs, seen, p->seen_size + 1);
-    for (size_t k = 0; k < 2; k++)
-      SW_TRY(copy_block(seen[k], p->seen_size[k + 1], &p->seen[k + 1]));
+  for (size_t w = 0; w < s->wire_count; w++) {
+    sw_strand *strand = &s->wires[w].strand;
+    const sw_web *web = strand->web;
+    const size_t n = particles_of(&s->wires[w]), edges = web ? web->links : n - 1;
+    if (web) {
+      SW_TRY(copy_out(p, 3 * node, 3 * n, &strand->x));
+      SW_TRY(copy_out(p, freedoms + 3 * node, 3 * n, &strand->v));
+      SW_TRY(copy_out(p, 2 * freedoms + 3 * node, 3 * n, &strand->a));
+      SW_TRY(copy_out(p, 3 * freedoms + edge, edges, &strand->axial));
+    }
+    node += n, edge += edges;
   }
-  if (s->grains) {
-    const void *memory = sw_grains_memory(s->grains, &p->grains_size);
-    SW_TRY(copy_block(memory, p->grains_size, &p->grains));
-  }
-  if (!s->has_stepper) return SW_OK;
-  p->method = s->method;
-  p->last_h = s->stepper.last_h;
-  p->restart = s->stepper.restart;
-  if (!(s->method->flags & SW_INTEGRATOR_HISTORY)) return SW_OK;
-  p->history_size = sw_stepper_history(&s->stepper, &s->system);
-  return copy_block(s->stepper.xp, p->history_size * sizeof(double), &p->history);
+  return SW_OK;
 }
 
 static sw_status put_contact(sw_scene *s, const sw_live *p) {
@@ -73,13 +91,33 @@ sw_status sw_live_put(sw_scene *s, const sw_live *p, sw_error *err) {
   if (p->method) {
     s->stepper.last_h = p->last_h;
     s->stepper.restart = p->restart;
-    if (p->history) memcpy(s->stepper.xp, p->history, p->history_size * sizeof(double));
+    if (p->history_size) memcpy(s->stepper.xp, p->history, p->history_size * sizeof(double));
   } else if (s->has_stepper) { /* taken before the first run */
     sw_stepper_free(&s->stepper);
     s->has_stepper = 0;
     s->method = NULL;
   }
   return sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err);
+}
+
+size_t sw_live_size(const sw_live *p) {
+  return sizeof(double) * (p->state_size + p->history_size) + p->memory_size + p->pairs_size +
+         p->grains_size + p->seen_size[0] + p->seen_size[1] + p->seen_size[2];
+}
+
+sw_status sw_live_take(const sw_scene *s, sw_tape *out) {
+  sw_live live = sw_live_of(s);
+  *out = sw_tape_at_home(sw_live_size(&live) + 256, NULL);
+  sw_tape_live(out, &live);
+  return out->status;
+}
+
+sw_status sw_live_back(sw_scene *s, const sw_tape *taken, sw_error *err) {
+  sw_live live = {0};
+  sw_tape t = sw_tape_read_home(taken, err);
+  sw_tape_live(&t, &live);
+  SW_TRY(t.status);
+  return sw_live_put(s, &live, err);
 }
 
 static int grains_fit(const sw_scene *s, const sw_live *p) {
@@ -102,12 +140,37 @@ int sw_live_fits(const sw_scene *s, const sw_live *p) {
          sw_pairs_memory_fits(p->pairs, p->pairs_size, s->system.nodes) && grains_fit(s, p);
 }
 
-void sw_live_free(sw_live *p) {
-  sw_free(p->state);
-  sw_free(p->history);
-  sw_free(p->memory);
-  sw_free(p->pairs);
-  sw_free(p->grains);
-  for (size_t k = 0; k < 3; k++) sw_free(p->seen[k]);
-  memset(p, 0, sizeof *p);
+/* --- on a tape ------------------------------------------------------------------------ */
+
+static void block(sw_tape *t, const void **p, size_t *size) {
+  sw_tape_count(t, size, 1);
+  sw_tape_view(t, p, *size);
+}
+
+void sw_tape_live(sw_tape *t, sw_live *x) {
+  char word[SW_NAME_SIZE];
+  SW_TAPE_STRUCT(t, sw_live, 160);
+  sw_tape_mark(t, "contact", sw_contact_layout());
+  sw_tape_mark(t, "contact of wires", sw_pairs_layout());
+  sw_tape_mark(t, "contact of particles", sw_grains_layout());
+  sw_tape_count(t, &x->state_size, sizeof(double));
+  sw_tape_view(t, &x->state, x->state_size * sizeof(double));
+  if (!sw_tape_address(t, &x->method)) {
+    const char *method =
+        sw_tape_word(t, !sw_tape_reads(t) && x->method ? x->method->name : NULL, word);
+    if (sw_tape_reads(t)) x->method = method[0] ? sw_integrator_find(method) : NULL;
+    sw_tape_expect(t, x->method || !method[0], "an unknown integrator");
+  }
+  sw_tape_double(t, &x->last_h), sw_tape_int(t, &x->restart);
+  sw_tape_count(t, &x->history_size, sizeof(double));
+  sw_tape_view(t, &x->history, x->history_size * sizeof(double));
+  block(t, &x->memory, &x->memory_size), sw_tape_int(t, &x->fresh);
+  block(t, &x->pairs, &x->pairs_size), block(t, &x->grains, &x->grains_size);
+  for (size_t k = 0; k < 3; k++) block(t, &x->seen[k], &x->seen_size[k]);
+  if (!sw_tape_reads(t) || t->home) return;
+  for (size_t i = 0; i < x->state_size && sw_tape_good(t); i++) {
+    double value;
+    memcpy(&value, (const char *)x->state + i * sizeof value, sizeof value);
+    sw_tape_expect(t, isfinite(value), "the state of a scene");
+  }
 }

@@ -5,6 +5,8 @@
 
 #include "base/tape.h"
 
+/* Its block may be shared with snapshots, each of which has some of the rows: rows that another
+ * one has are never written over, the log takes a block of its own first. */
 typedef struct sw_log {
   double *rows;
   size_t count, capacity; /* in doubles */
@@ -12,6 +14,7 @@ typedef struct sw_log {
 
 /* Add a row of n. SW_ENOMEM. */
 sw_status sw_log_add(sw_log *log, const double *row, size_t n);
+void sw_log_free(sw_log *log);
 void sw_tape_log(sw_tape *tape, sw_log *log);
 
 #endif

@@ -241,7 +241,7 @@ void sw_scene_run_tension(const sw_scene *s, size_t w, const sw_wire_extremes *n
 static sw_status observe_wire(sw_scene *s, size_t w, sw_error *err) {
   sw_wire_extremes now;
   double *tension = NULL;
-  if (is_averaged(s) && fit_window(s, w) != SW_OK)
+  if ((is_averaged(s) || s->wires[w].window.marks) && fit_window(s, w) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "out of memory for the tension of '%s'", s->wires[w].name);
   if (s->wires[w].strand.web && s->wires[w].window.edges == watched_edges(&s->system.bodies[w]))
     tension = sw_window_values(&s->wires[w].window);

@@ -19,7 +19,7 @@ typedef struct poser {
   const sw_settle_args *args;
   int (*interrupted)(void);
   sw_settle_report *report;
-  sw_live start;  /* what all trials begin with */
+  sw_tape start;  /* what all trials begin with */
   sw_jaw *before; /* (tools) as the pose found them */
   double *speed;  /* (tools) of jaws in the trial that came nearest [m/s] */
   double nearest; /* how far its force was off; INFINITY = none went well [-] */
@@ -41,7 +41,7 @@ static sw_status try(poser *p, double since, int *too_far, sw_error *err) {
 
 /* The nearest trial again, for the last one did not come to rest. */
 static sw_status fall_back(poser *p, double since, sw_error *err) {
-  SW_TRY(sw_live_put(p->s, &p->start, err));
+  SW_TRY(sw_live_back(p->s, &p->start, err));
   for (size_t k = 0; k < p->s->tool_count; k++) p->s->tools[k].jaw.speed = p->speed[k];
   return try(p, since, NULL, err);
 }
@@ -58,7 +58,7 @@ static sw_status search(poser *p, double since, int *too_far, sw_error *err) {
       status = fall_back(p, since, &why);
       if (status == SW_OK) return SW_OK;
     }
-    const sw_status back = sw_live_put(p->s, &p->start, err);
+    const sw_status back = sw_live_back(p->s, &p->start, err);
     if (status != SW_OK) return sw_fail(err, status, "%s", why.text);
     SW_TRY(back);
   }
@@ -67,7 +67,7 @@ static sw_status search(poser *p, double since, int *too_far, sw_error *err) {
 /* Where the force jumped: look for it from there on. What is found without it counts too. */
 static sw_status search_on(poser *p, sw_error *err) {
   for (int round = 1; round < MOST_ROUNDS && sw_jaw_again(p->s); round++) {
-    sw_live_free(&p->start);
+    sw_tape_free(&p->start);
     SW_TRY(sw_live_take(p->s, &p->start));
     const sw_status status = search(p, p->s->time, NULL, err);
     if (status == SW_ENOCONV || status == SW_EINTR) {
@@ -98,7 +98,7 @@ sw_status sw_scene_squeezed_rest(sw_scene *s, double since, int *too_far,
   if (status == SW_OK) status = search_on(&p, err);
   for (size_t k = 0; status != SW_OK && p.before && k < s->tool_count; k++)
     s->tools[k].jaw = p.before[k];
-  sw_live_free(&p.start);
+  sw_tape_free(&p.start);
   sw_free(p.before);
   sw_free(p.speed);
   return status;
@@ -106,12 +106,12 @@ sw_status sw_scene_squeezed_rest(sw_scene *s, double since, int *too_far,
 
 /* The scene at the start of a pose in which a tie may break. */
 typedef struct kept {
-  sw_live live;
+  sw_tape live;
   sw_jaw *jaws; /* (tools) */
 } kept;
 
 static void drop(kept *k) {
-  sw_live_free(&k->live);
+  sw_tape_free(&k->live);
   sw_free(k->jaws);
   *k = (kept){0};
 }
@@ -128,7 +128,7 @@ static sw_status keep(const sw_scene *s, kept *k, sw_error *err) {
 static sw_status put_back(sw_scene *s, const kept *k, double t0, sw_error *err) {
   s->time = t0;
   for (size_t i = 0; i < s->tool_count; i++) s->tools[i].jaw = k->jaws[i];
-  return sw_live_put(s, &k->live, err);
+  return sw_live_back(s, &k->live, err);
 }
 
 static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,

@@ -17,75 +17,7 @@ typedef struct head {
 } head;
 
 static const char MAGIC[16] = "SoftWorld scene";
-enum { VERSION = 3, ORDER = 0x01020304 };
-
-enum { LEAST = 32 }; /* no object takes less on a tape [B] */
-
-/* --- objects ------------------------------------------------------------------------- */
-
-/* A list of slots: its count, then room for them when reading. Reading counts them one by one,
- * so that those that exist are freed whatever happens. */
-static size_t tape_list(sw_tape *t, void *list_pointer, size_t *count, size_t *capacity,
-                        size_t item) {
-  void **list = list_pointer;
-  size_t n = *count;
-  sw_tape_count(t, &n, LEAST);
-  if (!sw_tape_reads(t) || !sw_tape_good(t)) return n;
-  *list = sw_alloc(n, item);
-  *capacity = *list ? n : 0;
-  if (!*list) sw_tape_fail(t, SW_ENOMEM);
-  return n;
-}
-
-#define LIST(list, count, capacity, call)                                               \
-  do {                                                                                  \
-    const size_t n_ = tape_list(t, &s->list, &s->count, &s->capacity, sizeof *s->list); \
-    for (size_t k = 0; k < n_ && sw_tape_good(t); k++) {                                \
-      if (sw_tape_reads(t)) s->count = k + 1;                                           \
-      call;                                                                             \
-    }                                                                                   \
-  } while (0)
-
-static void tape_objects(sw_tape *t, sw_scene *s) {
-  SW_TAPE_STRUCT(t, sw_scene, 3064);
-  sw_tape_name(t, s->name);
-  sw_tape_uint32(t, &s->serial);
-  sw_tape_vec(t, &s->gravity);
-  sw_tape_double(t, &s->time), sw_tape_double(t, &s->span), sw_tape_double(t, &s->window),
-      sw_tape_double(t, &s->blow_part), sw_tape_double(t, &s->blow_since),
-      sw_tape_double(t, &s->blow_until), sw_tape_double(t, &s->next_dt),
-      sw_tape_double(t, &s->next_frame);
-  sw_tape_expect(t, s->span >= 0 && s->span <= 1e9, "the length of a step");
-  sw_tape_expect(t, s->window >= 0 && s->window <= 1e9, "a window");
-  sw_tape_expect(
-      t, s->blow_part >= 0 && s->blow_part <= 1e9 && !isnan(s->blow_since) && !isnan(s->blow_until),
-      "a blow");
-  sw_tape_int(t, &s->discontinuous);
-  sw_tape_extreme(t, &s->deepest);
-  LIST(rules, rule_count, rule_capacity, sw_tape_rule(t, &s->rules[k]));
-  LIST(wires, wire_count, wire_capacity, sw_tape_wire(t, &s->wires[k]));
-  LIST(holds, hold_count, hold_capacity, sw_tape_hold(t, s, &s->holds[k]));
-  LIST(obstacles, obstacle_count, obstacle_capacity, sw_tape_obstacle(t, s, &s->obstacles[k]));
-  LIST(tools, tool_count, tool_capacity, sw_tape_tool(t, s, &s->tools[k]));
-  LIST(forces, force_count, force_capacity, sw_tape_force(t, &s->forces[k]));
-  LIST(joins, join_count, join_capacity, sw_tape_join(t, &s->joins[k]));
-  LIST(frames, frame_count, frame_capacity, sw_tape_frame(t, s, &s->frames[k]));
-  sw_tape_size(t, &s->frame_stride), sw_tape_double(t, &s->frame_bytes);
-  sw_tape_expect(t, s->frame_stride >= 1 && s->frame_stride < 1u << 30 && s->frame_bytes >= 0,
-                 "frames");
-  LIST(events.list, events.count, events.capacity, sw_tape_event(t, &s->events.list[k]));
-  sw_tape_size(t, &s->events.dropped);
-  sw_tape_watches(t, &s->watches);
-  sw_tape_ledger(t, &s->books);
-  sw_tape_kept_contact(t, s);
-  size_t unused = 0;
-  const size_t n =
-      tape_list(t, &s->kept_histories, &s->kept_history_count, &unused, sizeof *s->kept_histories);
-  for (size_t k = 0; k < n && sw_tape_good(t); k++) {
-    if (sw_tape_reads(t)) s->kept_history_count = k + 1;
-    sw_tape_kept_history(t, s, &s->kept_histories[k]);
-  }
-}
+enum { VERSION = 4, ORDER = 0x01020304 };
 
 /* --- writing --------------------------------------------------------------------------- */
 
@@ -130,22 +62,13 @@ static sw_status check_functions(const sw_scene *s, sw_error *err) {
 
 static void write_all(sw_tape *t, sw_scene *s, const void *note, size_t note_size) {
   head h = {.version = VERSION, .order = ORDER};
-  sw_live live = {0};
-  int built = s->built;
+  sw_live live;
+  int built;
   memcpy(h.magic, MAGIC, sizeof h.magic);
   sw_tape_raw(t, &h, sizeof h);
   sw_tape_size(t, &note_size);
   sw_tape_raw(t, (void *)(uintptr_t)note, note_size);
-  tape_objects(t, s);
-  sw_tape_int(t, &built);
-  if (built) {
-    const sw_status status = sw_live_take(s, &live);
-    if (status != SW_OK)
-      sw_tape_fail(t, status);
-    else
-      sw_tape_live(t, &live);
-    sw_live_free(&live);
-  }
+  sw_tape_scene(t, s, &built, &live);
   if (!sw_tape_good(t)) return;
   h.size = t->size;
   h.sum = sw_sum(SW_SUM_START, t->bytes + sizeof h, t->size - sizeof h);
@@ -163,7 +86,9 @@ static sw_status check_head(const void *bytes, size_t size, sw_error *err) {
   if (h.order != ORDER)
     return sw_fail(err, SW_EFORMAT, "it is of a machine with another order of bytes");
   if (h.version != VERSION)
-    return sw_fail(err, SW_EFORMAT, "it is of version %lu of the format; this SoftWorld reads %d",
+    return sw_fail(err, SW_EFORMAT,
+                   "it is of version %lu of the format; this SoftWorld reads %d; let the scene's "
+                   "script write it again, or read it with the SoftWorld that wrote it",
                    (unsigned long)h.version, VERSION);
   if (h.size > size)
     return sw_fail(err, SW_EFORMAT, "it is cut off: %zu of its %llu bytes are there", size,
@@ -199,9 +124,7 @@ static sw_status read_scene(const void *bytes, size_t size, sw_scene *s, sw_live
   size_t note_size;
   sw_tape t;
   SW_TRY(open_tape(bytes, size, &note, &note_size, &t, err));
-  tape_objects(&t, s);
-  sw_tape_int(&t, built);
-  if (*built) sw_tape_live(&t, live);
+  sw_tape_scene(&t, s, built, live);
   sw_tape_expect(&t, t.at == t.size, "more than a scene");
   if (sw_tape_good(&t)) sw_tape_check_scene(&t, s);
   return t.status;
@@ -214,7 +137,6 @@ static sw_status read_back(const sw_tape *t, sw_error *err) {
   sw_scene *copy = sw_alloc(1, sizeof *copy);
   if (!copy) return sw_fail(err, SW_ENOMEM, "out of memory");
   const sw_status status = read_scene(t->bytes, t->size, copy, &live, &built, err);
-  sw_live_free(&live);
   sw_scene_free(copy);
   return status;
 }
@@ -244,26 +166,10 @@ sw_status sw_scene_save(sw_scene *s, const void *note, size_t note_size, unsigne
   return SW_OK;
 }
 
-/* Go on where the saved scene was. What was edited since it was built stays to be built. */
-static sw_status go_on(sw_scene *s, const sw_live *live, int built, sw_error *err) {
-  if (!built) return SW_OK;
-  const int discontinuous = s->discontinuous;
-  SW_TRY(sw_scene_build(s, err));
-  if (!sw_live_fits(s, live))
-    return sw_fail(err, SW_EFORMAT, "its state does not go with its objects");
-  SW_TRY(sw_live_put(s, live, err));
-  s->discontinuous = discontinuous;
-  return SW_OK;
-}
-
 sw_status sw_scene_load(const void *bytes, size_t size, sw_scene **out, sw_error *err) {
-  sw_live live = {0};
-  int built = 0;
   sw_scene *s = sw_alloc(1, sizeof *s);
   if (!s) return sw_fail(err, SW_ENOMEM, "out of memory");
-  sw_status status = read_scene(bytes, size, s, &live, &built, err);
-  if (status == SW_OK) status = go_on(s, &live, built, err);
-  sw_live_free(&live);
+  const sw_status status = sw_scene_resume(s, bytes, size, err);
   if (status == SW_OK)
     *out = s;
   else
@@ -278,19 +184,7 @@ sw_status sw_scene_resume(sw_scene *s, const void *bytes, size_t size, sw_error 
   sw_scene *other = sw_alloc(1, sizeof *other);
   if (!other) return sw_fail(err, SW_ENOMEM, "out of memory");
   sw_status status = read_scene(bytes, size, other, &live, &built, err);
-  if (status == SW_OK) {
-    /* handles name the scene by its address: the contents change places */
-    const sw_scene old = *s;
-    *s = *other;
-    status = go_on(s, &live, built, err);
-    if (status == SW_OK) {
-      *other = old;
-    } else {
-      *other = *s;
-      *s = old;
-    }
-  }
-  sw_live_free(&live);
+  if (status == SW_OK) status = sw_scene_take_place(s, other, &live, built, NULL, err);
   sw_scene_free(other);
   return status;
 }

@@ -1,16 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a scene has, on a tape; of the files save*.c only. */
+/* What a scene has, on a tape: that of a file, or a snapshot's, which stays at home. */
 #ifndef SW_SCENE_SAVE_H
 #define SW_SCENE_SAVE_H
 
 #include "base/tape.h"
 #include "scene/world.h"
 
-/* Each puts one object on the tape, or fills an empty slot from it, which the caller frees also
- * after a failure. */
-void sw_tape_wire(sw_tape *tape, sw_scene_wire *wire);
+/* The whole scene. Reading fills an empty one, or, from a tape at home, one whose system is that of
+ * the tape, which stays then. live: of a scene that is built (then or now): its state. */
+void sw_tape_scene(sw_tape *tape, sw_scene *scene, int *built, sw_live *live);
+
+/* Each puts one object on the tape, or fills a slot from it, which the caller frees also after a
+ * failure. placed: it says where particles are, for the scene is not built. */
+void sw_tape_wire(sw_tape *tape, sw_scene_wire *wire, int placed);
 void sw_tape_hold(sw_tape *tape, sw_scene *scene, sw_scene_hold *hold);
-void sw_tape_strand(sw_tape *tape, sw_strand *strand);
+void sw_tape_strand(sw_tape *tape, sw_strand *strand, int placed);
 void sw_tape_tool(sw_tape *tape, sw_scene *scene, sw_tool *tool);
 void sw_tape_jaw(sw_tape *tape, sw_jaw *jaw);
 void sw_tape_frozen(sw_tape *tape, sw_frozen **frozen); /* or NULL */
@@ -32,6 +36,11 @@ void sw_tape_live(sw_tape *tape, sw_live *live);
 /* Parts that say what an object is, not where it is. */
 void sw_tape_beam_of(sw_tape *tape, sw_scene_wire *wire);
 void sw_tape_hold_args(sw_tape *tape, sw_hold_args *args);
+
+/* The contents of two scenes change places, for handles name a scene by its address, and the first
+ * goes on where a tape says. On failure they are what they were. */
+sw_status sw_scene_take_place(sw_scene *scene, sw_scene *other, const sw_live *live, int built,
+                              const sw_snapshot *restoring, sw_error *err);
 
 /* Everything was read: do the objects fit each other? SW_EFORMAT. */
 void sw_tape_check_scene(sw_tape *tape, sw_scene *scene);

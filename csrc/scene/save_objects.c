@@ -21,19 +21,12 @@ void sw_tape_extreme(sw_tape *t, sw_extreme *x) {
   DOUBLE(value), DOUBLE(s), DOUBLE(time);
 }
 
-void sw_tape_log(sw_tape *t, sw_log *x) {
-  SW_TAPE_STRUCT(t, sw_log, 24);
-  sw_tape_count(t, &x->count, sizeof *x->rows);
-  SW_TAPE_ARRAY(t, x->rows, x->count);
-  if (sw_tape_reads(t)) x->capacity = x->rows ? x->count : 0;
-}
-
 /* A function that is over stands where it ended; one under way is refused before. */
 static void tape_drive(sw_tape *t, sw_scene *s, sw_drive *x) {
   sw_drive now = *x;
   sw_motion_state at;
   SW_TAPE_STRUCT(t, sw_drive, 104);
-  if (!sw_tape_reads(t) && x->motion && sw_motion_is_function(x->motion)) {
+  if (!sw_tape_reads(t) && !t->home && x->motion && sw_motion_is_function(x->motion)) {
     const sw_status status = sw_drive_eval(s, x, s->time, &at, t->err);
     if (status != SW_OK) sw_tape_fail(t, status);
     now = (sw_drive){.pose = at.pose};
@@ -59,38 +52,6 @@ static void tape_extremes(sw_tape *t, sw_wire_extremes *x) {
   sw_tape_expect(t, x->raw_span >= 0 && x->raw_span <= 1e9, "the length of a step");
 }
 
-/* Places that rise along the wire, and numbers. */
-static void expect_window(sw_tape *t, const sw_window *x, const double *room, size_t edges) {
-  sw_tape_finite(t, room, (2 + x->marks) * edges, "a window");
-  for (size_t e = 0; e + 1 < edges && sw_tape_good(t); e++)
-    sw_tape_expect(t, room[e] < room[e + 1], "a window");
-}
-
-/* A record that is to begin anew leaves nothing to be kept; of another one what is in use. */
-static void tape_window(sw_tape *t, sw_window *x) {
-  size_t edges = x->marks ? x->edges : 0;
-  SW_TAPE_STRUCT(t, sw_window, 192);
-  sw_tape_count(t, &edges, 3 * sizeof *x->room);
-  if (!edges) x->marks = 0;
-  if (!edges) return;
-  SIZE(marks), DOUBLE(now), DOUBLE(begun);
-  sw_tape_expect(t, x->marks > 0 && x->marks <= SW_WINDOW_MARKS && x->begun <= x->now, "a window");
-  double *room = NULL, before = x->begun;
-  if (!sw_tape_reads(t)) room = sw_window_used(x);
-  if (!sw_tape_reads(t) && !room) sw_tape_fail(t, SW_ENOMEM);
-  for (size_t k = 0; k < x->marks && sw_tape_good(t); k++) {
-    double *time = &x->time[sw_tape_reads(t) ? k : (x->first + k) % SW_WINDOW_MARKS];
-    sw_tape_double(t, time);
-    sw_tape_expect(t, *time >= before && *time <= x->now, "a window");
-    before = *time;
-  }
-  if (sw_tape_good(t)) SW_TAPE_ARRAY(t, room, (2 + x->marks) * edges);
-  if (sw_tape_good(t)) expect_window(t, x, room, edges);
-  if (sw_tape_reads(t) && sw_tape_good(t) && sw_window_use(x, edges, room) != SW_OK)
-    sw_tape_fail(t, SW_ENOMEM);
-  sw_free(room);
-}
-
 static void tape_drawing(sw_tape *t, sw_drawing *x) {
   SW_TAPE_STRUCT(t, sw_drawing, 80);
   sw_tape_count(t, &x->count, 3 * sizeof *x->points);
@@ -104,6 +65,8 @@ static void tape_drawing(sw_tape *t, sw_drawing *x) {
 }
 
 static void tape_kit(sw_tape *t, sw_strand_kit **kit) {
+  static const sw_sharing sharing = {sw_strand_kit_retain, sw_strand_kit_release};
+  if (sw_tape_share(t, kit, &sharing)) return;
   int there = !sw_tape_reads(t) && *kit != NULL;
   SW_TAPE_STRUCT(t, sw_strand_kit, 1296);
   sw_tape_int(t, &there);
@@ -119,7 +82,8 @@ static void tape_kit(sw_tape *t, sw_strand_kit **kit) {
   sw_tape_calibration(t, &(*kit)->calibration);
 }
 
-void sw_tape_strand(sw_tape *t, sw_strand *x) {
+/* placed: it says where the particles are, for nothing else does. */
+void sw_tape_strand(sw_tape *t, sw_strand *x, int placed) {
   int there = !sw_tape_reads(t) && x->web != NULL;
   SW_TAPE_STRUCT(t, sw_strand, 56);
   SW_TAPE_STRUCT(t, sw_solid, 1632);
@@ -128,11 +92,13 @@ void sw_tape_strand(sw_tape *t, sw_strand *x) {
   sw_tape_web(t, &x->web, sizeof(sw_solid));
   tape_kit(t, &x->kit);
   if (!sw_tape_good(t)) return;
-  const size_t n = x->web->particles;
-  SW_TAPE_ARRAY(t, x->x, 3 * n), SW_TAPE_ARRAY(t, x->v, 3 * n), SW_TAPE_ARRAY(t, x->a, 3 * n);
-  SW_TAPE_ARRAY(t, x->axial, x->web->links);
-  SW_TAPE_OPTIONAL(t, x->rate, x->web->links);
-  if (!sw_tape_reads(t) || !sw_tape_good(t)) return;
+  const size_t n = placed ? x->web->particles : 0;
+  if (placed) {
+    SW_TAPE_ARRAY(t, x->x, 3 * n), SW_TAPE_ARRAY(t, x->v, 3 * n), SW_TAPE_ARRAY(t, x->a, 3 * n);
+    SW_TAPE_ARRAY(t, x->axial, x->web->links);
+    SW_TAPE_OPTIONAL(t, x->rate, x->web->links);
+  }
+  if (!sw_tape_reads(t) || t->home || !sw_tape_good(t)) return;
   sw_tape_finite(t, x->x, 3 * n, "particles");
   sw_tape_finite(t, x->v, 3 * n, "particles");
   for (size_t k = 0; k < x->web->solids && sw_tape_good(t); k++) {
@@ -149,23 +115,23 @@ void sw_tape_beam_of(sw_tape *t, sw_scene_wire *x) {
   tape_drawing(t, &x->drawing);
 }
 
-void sw_tape_wire(sw_tape *t, sw_scene_wire *x) {
+void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
   char word[SW_NAME_SIZE];
   SW_TAPE_STRUCT(t, sw_scene_wire, 824);
   SW_TAPE_STRUCT(t, sw_twisted, 24);
   UINT32(generation), NAME(name);
-  const char *model = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
-  if (sw_tape_reads(t)) x->cls = sw_scene_body_class(model);
+  if (!sw_tape_address(t, &x->cls)) {
+    const char *model = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
+    if (sw_tape_reads(t)) x->cls = sw_scene_body_class(model);
+  }
   sw_tape_expect(t, x->cls != NULL, "a wire of an unknown model");
   sw_tape_beam_of(t, x);
-  sw_tape_mesh(t, &x->mesh);
-  sw_tape_strand(t, &x->strand);
+  sw_tape_mesh(t, &x->mesh, placed);
+  sw_tape_strand(t, &x->strand, placed);
   tape_extremes(t, &x->extremes);
-  tape_window(t, &x->window);
+  sw_tape_window(t, &x->window);
   INT(untwisted);
-  sw_tape_count(t, &x->twisted_count, sizeof *x->twisted);
-  SW_TAPE_OPTIONAL(t, x->twisted, x->twisted_count);
-  sw_tape_expect(t, x->twisted || !x->twisted_count, "a wire without its twist");
+  sw_tape_list(t, &x->twisted, &x->twisted_count, sizeof *x->twisted);
 }
 
 /* --- holds ------------------------------------------------------------------------- */
@@ -187,7 +153,7 @@ static void tape_feed(sw_tape *t, sw_feed *x) {
   DOUBLE(slope), DOUBLE(spare[0]), DOUBLE(spare[1]), DOUBLE(spare_fed[0]), DOUBLE(spare_fed[1]);
   DOUBLE(size), DOUBLE(drive);
   sw_tape_int(t, &shaped);
-  if (shaped) sw_tape_mesh(t, &x->shape);
+  if (shaped) sw_tape_mesh(t, &x->shape, 1);
   sw_tape_expect(t, x->last_side >= -1 && x->last_side <= 1, "a feed");
   if (!sw_tape_reads(t)) return;
   const double all = x->label + x->fed + x->since + x->speed + x->start + x->slip + x->slip_since +
@@ -202,12 +168,23 @@ static void tape_give(sw_tape *t, sw_clamp_give *x) {
   sw_tape_expect(t, fine, "how a clamp gives way");
 }
 
+static void tape_sums(sw_tape *t, sw_hold_sums *x) {
+  SW_TAPE_STRUCT(t, sw_hold_sums, 104);
+  INT(known);
+  if (sw_tape_reads(t) && !x->known) *x = (sw_hold_sums){.known = 0};
+  if (!x->known) return;
+  INT(last), sw_tape_raw(t, x->force, sizeof x->force), sw_tape_raw(t, x->moment, sizeof x->moment);
+  sw_tape_expect(t, x->last >= 0 && x->last < SW_BOOK_STAGES, "what a clamp bears");
+}
+
 void sw_tape_hold(sw_tape *t, sw_scene *s, sw_scene_hold *x) {
   char word[SW_NAME_SIZE];
   SW_TAPE_STRUCT(t, sw_scene_hold, 1424);
   UINT32(generation), INT(alive), NAME(name);
-  const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
-  if (sw_tape_reads(t)) x->cls = sw_hold_find(kind);
+  if (!sw_tape_address(t, &x->cls)) {
+    const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
+    if (sw_tape_reads(t)) x->cls = sw_hold_find(kind);
+  }
   sw_tape_expect(t, x->cls != NULL, "a clamp of an unknown kind");
   SIZE(wire), DOUBLE(scale), UINT32(shape), INT(formed), DOUBLE(s1), DOUBLE(s2);
   sw_tape_hold_args(t, &x->args);
@@ -222,6 +199,7 @@ void sw_tape_hold(sw_tape *t, sw_scene *s, sw_scene_hold *x) {
   SW_TAPE_STRUCT(t, sw_hold_watch, 56);
   INT(watch.looking), INT(watch.crashing), DOUBLE(watch.looked), DOUBLE(watch.given);
   DOUBLE(watch.crash.time), DOUBLE(watch.crash.depth), SIZE(watch.crash.obstacle);
+  tape_sums(t, &x->sums);
   tape_feed(t, &x->feed);
   sw_tape_log(t, &x->log);
 }
@@ -290,18 +268,19 @@ void sw_tape_tool(sw_tape *t, sw_scene *s, sw_tool *x) {
 static void tape_force_args(sw_tape *t, sw_scene_force *x) {
   double args[SW_FORCE_ARGS_MAX / sizeof(double)];
   const int some = x->cls->flags & SW_FORCE_ON_SOME;
+  const int function = !x->cls->params.count;
   sw_force_some list = {NULL, 0};
   memcpy(args, x->args, sizeof args);
   if (some) memcpy(&list, args, sizeof list);
   if (some) memcpy(args, &(sw_force_some){NULL, 0}, sizeof list);
-  if (!x->cls->params.count) memset(args, 0, sizeof args); /* a function */
+  if (function && !t->home) memset(args, 0, sizeof args);
   sw_tape_raw(t, args, sizeof args);
   sw_tape_count(t, &list.count, sizeof *x->particle);
   if (some) SW_TAPE_ARRAY(t, x->particle, list.count);
   if (!sw_tape_reads(t)) return;
   memcpy(x->args, args, sizeof args);
   if (!sw_tape_good(t)) return;
-  t->status = sw_params_check(&x->cls->params, x->args, 1, t->err);
+  if (!t->home) t->status = sw_params_check(&x->cls->params, x->args, 1, t->err);
   list.particle = x->particle;
   if (some) memcpy(x->args, &list, sizeof list);
 }
@@ -310,8 +289,10 @@ void sw_tape_force(sw_tape *t, sw_scene_force *x) {
   char word[SW_NAME_SIZE];
   SW_TAPE_STRUCT(t, sw_scene_force, 248);
   UINT32(generation), INT(alive), NAME(name), sw_tape_long(t, &x->wire), DOUBLE(scale);
-  const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
-  if (sw_tape_reads(t)) x->cls = sw_force_find(kind);
+  if (!sw_tape_address(t, &x->cls)) {
+    const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
+    if (sw_tape_reads(t)) x->cls = sw_force_find(kind);
+  }
   sw_tape_expect(t, x->cls != NULL, "a force of an unknown kind");
   sw_tape_expect(t, isfinite(x->scale) && x->scale > 0, "a force without scale");
   if (x->cls) tape_force_args(t, x);
@@ -353,90 +334,4 @@ void sw_tape_frame(sw_tape *t, const sw_scene *s, sw_frame *x) {
                      x->holds <= s->hold_count && x->tools <= s->tool_count &&
                      sw_scene_frame_walk(x, x->size, &size) && size == x->size,
                  "a frame");
-}
-
-/* --- the state between and during runs ------------------------------------------------ */
-
-void sw_tape_kept_contact(sw_tape *t, sw_scene *s) {
-  int there = !sw_tape_reads(t) && s->kept.memory != NULL;
-  sw_tape_int(t, &there);
-  if (!there) return;
-  sw_tape_mark(t, "contact", sw_contact_layout());
-  sw_tape_mark(t, "contact of wires", sw_pairs_layout());
-  sw_tape_count(t, &s->kept.bytes, 1), sw_tape_count(t, &s->kept.pair_bytes, 1);
-  sw_tape_array(t, &s->kept.memory, s->kept.bytes, 1);
-  sw_tape_array(t, &s->kept.pairs, s->kept.pair_bytes, 1);
-  sw_tape_mark(t, "contact of particles", sw_grains_layout());
-  sw_tape_count(t, &s->kept.grain_bytes, 1);
-  sw_tape_array(t, &s->kept.grains, s->kept.grain_bytes, 1);
-  sw_tape_count(t, &s->kept.wires, sizeof *s->kept.first);
-  SW_TAPE_ARRAY(t, s->kept.first, s->kept.wires + 1);
-  const size_t expected = s->kept.first ? s->kept.first[s->kept.wires] : 0;
-  size_t nodes = expected;
-  sw_tape_count(t, &nodes, sizeof *s->kept.s);
-  sw_tape_expect(t, nodes == expected, "contact");
-  SW_TAPE_ARRAY(t, s->kept.s, nodes);
-  sw_tape_int(t, &s->kept.fresh), sw_tape_size(t, &s->kept.changed);
-}
-
-/* May a force of this class have a history of the plan, and give it to the wire's next one? */
-static int remembers(const sw_force_class *cls, const sw_plan *plan, const sw_scene_wire *w) {
-  if (!cls->state_size || (cls->applies && !cls->applies(plan))) return 0;
-  if (!(cls->flags & SW_FORCE_OF_WEB)) return 1;
-  return plan->web && w->strand.web && plan->web->links == w->strand.web->links;
-}
-
-void sw_tape_kept_history(sw_tape *t, sw_scene *s, sw_kept_history *x) {
-  char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_kept_history, 48);
-  SIZE(force), SIZE(wire), UINT32(generation);
-  const char *inner = sw_tape_word(t, !sw_tape_reads(t) && x->inner ? x->inner->name : NULL, word);
-  if (sw_tape_reads(t)) x->inner = inner[0] ? sw_force_find(inner) : NULL;
-  sw_tape_expect(t, x->wire < s->wire_count && (x->inner || !inner[0]), "what a force remembers");
-  sw_tape_expect(t, x->inner || x->force < s->force_count, "what a force remembers");
-  if (!sw_tape_good(t)) return;
-  sw_tape_plan(t, &x->plan, s->wires[x->wire].strand.web, sizeof(sw_solid));
-  if (!sw_tape_good(t)) return;
-  const sw_force_class *cls = x->inner ? x->inner : s->forces[x->force].cls;
-  sw_tape_expect(t, remembers(cls, x->plan, &s->wires[x->wire]), "what a force remembers");
-  if (!sw_tape_good(t)) return;
-  size_t count = cls->state_size(x->plan);
-  const size_t expected = count;
-  sw_tape_count(t, &count, sizeof *x->data);
-  sw_tape_expect(t, count == expected, "what a force remembers");
-  SW_TAPE_ARRAY(t, x->data, count);
-}
-
-void sw_tape_live(sw_tape *t, sw_live *x) {
-  char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_live, 160);
-  sw_tape_mark(t, "contact", sw_contact_layout());
-  sw_tape_mark(t, "contact of wires", sw_pairs_layout());
-  sw_tape_count(t, &x->state_size, sizeof *x->state);
-  SW_TAPE_ARRAY(t, x->state, x->state_size);
-  const char *method =
-      sw_tape_word(t, !sw_tape_reads(t) && x->method ? x->method->name : NULL, word);
-  if (sw_tape_reads(t)) x->method = method[0] ? sw_integrator_find(method) : NULL;
-  sw_tape_expect(t, x->method || !method[0], "an unknown integrator");
-  DOUBLE(last_h), INT(restart);
-  sw_tape_count(t, &x->history_size, sizeof *x->history);
-  SW_TAPE_OPTIONAL(t, x->history, x->history_size);
-  sw_tape_count(t, &x->memory_size, 1), sw_tape_count(t, &x->pairs_size, 1);
-  sw_tape_optional(t, &x->memory, x->memory_size, 1);
-  INT(fresh);
-  sw_tape_optional(t, &x->pairs, x->pairs_size, 1);
-  sw_tape_mark(t, "contact of particles", sw_grains_layout());
-  sw_tape_count(t, &x->grains_size, 1);
-  sw_tape_optional(t, &x->grains, x->grains_size, 1);
-  for (size_t k = 0; k < 3; k++) {
-    sw_tape_count(t, &x->seen_size[k], 1);
-    sw_tape_optional(t, &x->seen[k], x->seen_size[k], 1);
-    sw_tape_expect(t, x->seen[k] || !x->seen_size[k], "contact");
-  }
-  sw_tape_expect(t,
-                 (x->history || !x->history_size) && (x->memory || !x->memory_size) &&
-                     (x->pairs || !x->pairs_size) && (x->grains || !x->grains_size),
-                 "the state of a scene");
-  if (sw_tape_reads(t) && sw_tape_good(t))
-    sw_tape_finite(t, x->state, x->state_size, "the state of a scene");
 }

@@ -36,7 +36,7 @@ void sw_scene_clear_hold(sw_scene_hold *h) {
   sw_free(h->s);
   sw_free(h->local);
   sw_free(h->particle);
-  sw_free(h->log.rows);
+  sw_log_free(&h->log);
   sw_drive_free(&h->drive);
   sw_motion_release(h->feed.motion);
   sw_mesh_free(&h->feed.shape);
@@ -45,7 +45,7 @@ void sw_scene_clear_hold(sw_scene_hold *h) {
 void sw_scene_clear_obstacle(sw_scene_obstacle *o) {
   sw_shape_release(o->shape);
   sw_drive_free(&o->drive);
-  sw_free(o->log.rows);
+  sw_log_free(&o->log);
 }
 
 void sw_scene_free(sw_scene *s) {
@@ -58,7 +58,7 @@ void sw_scene_free(sw_scene *s) {
   sw_scene_orphan_snapshots(s);
   sw_stepper_free(&s->stepper);
   sw_contact_free(s->contact);
-  sw_free(s->contact_steps.rows);
+  sw_log_free(&s->contact_steps);
   sw_pairs_free(s->pairs);
   sw_grains_free(s->grains);
   sw_crowd_free(s->crowd);

@@ -248,13 +248,13 @@ static sw_status transient(statics *p, sw_error *err) {
  * equilibrium is then not isolated, or (unstable: 1) not stable. What touches there is kept too. */
 static sw_status polish(statics *p, int *unstable, sw_error *err) {
   sw_error why = {"out of memory"};
-  sw_live rest = {0};
+  sw_tape rest = {0};
   sw_status status = sw_live_take(p->s, &rest);
   if (status == SW_OK) status = newton_attempt(p, NEWTON_ITERATIONS, &why);
   if (stops(status)) sw_fail(err, status, "%s", why.text);
   *unstable = status == SW_OK && p->report->negative > 0;
-  if (status == SW_OK ? *unstable : !stops(status)) status = sw_live_put(p->s, &rest, err);
-  sw_live_free(&rest);
+  if (status == SW_OK ? *unstable : !stops(status)) status = sw_live_back(p->s, &rest, err);
+  sw_tape_free(&rest);
   return status;
 }
 
@@ -358,7 +358,7 @@ static int forgets(const sw_scene *s) {
 /* In parts that do not depend on the mesh, as long as each leads from one stable equilibrium
  * straight to the next. 1: it did; else all is as it was. */
 static sw_status follow_fast(statics *p, size_t parts, int *done, sw_error *err) {
-  sw_live start = {0};
+  sw_tape start = {0};
   const double touched = p->touched;
   sw_error why = {"out of memory"};
   sw_status status = sw_live_take(p->s, &start);
@@ -375,9 +375,9 @@ static sw_status follow_fast(statics *p, size_t parts, int *done, sw_error *err)
   if (stops(status)) sw_fail(err, status, "%s", why.text);
   if (!*done && !stops(status)) {
     p->touched = touched;
-    status = sw_live_put(p->s, &start, err);
+    status = sw_live_back(p->s, &start, err);
   }
-  sw_live_free(&start);
+  sw_tape_free(&start);
   return status;
 }
 

@@ -272,12 +272,18 @@ sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const s
   return SW_OK;
 }
 
+void sw_strand_kit_retain(void *kit) { ((sw_strand_kit *)kit)->references++; }
+
+void sw_strand_kit_release(void *kit) {
+  sw_strand_kit *k = kit;
+  if (!k || --k->references > 0) return;
+  sw_calibration_free(&k->calibration);
+  sw_free(k);
+}
+
 void sw_strand_free(sw_strand *s) {
   sw_web_release(s->web);
-  if (s->kit && --s->kit->references == 0) {
-    sw_calibration_free(&s->kit->calibration);
-    sw_free(s->kit);
-  }
+  sw_strand_kit_release(s->kit);
   sw_free(s->x);
   sw_free(s->v);
   sw_free(s->a);

@@ -57,6 +57,8 @@ typedef struct sw_strand_lie {
 sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const sw_mesh *mesh,
                         const sw_strand_lie *lie, sw_strand *out, sw_error *err);
 void sw_strand_free(sw_strand *strand);
+void sw_strand_kit_retain(void *kit);
+void sw_strand_kit_release(void *kit); /* NULL is allowed */
 /* A copy that shares what never changes; of a strand without a web nothing. SW_ENOMEM. */
 sw_status sw_strand_copy(const sw_strand *from, sw_strand *to);
 

@@ -22,8 +22,8 @@ sw_status sw_scene_add_tie(sw_scene *s, size_t join) {
 /* A tie is to break when it is pulled by no more than this above its strength [-]. */
 static const double CLOSE = 0.01;
 
-/* Pull of a tie to a point with nodes at x, and what it bears, 0 once it is broken. A body's own field
- * may still name the places of a trial that is gone [N]. */
+/* Pull of a tie to a point with nodes at x, and what it bears, 0 once it is broken. A body's own
+ * field may still name the places of a trial that is gone [N]. */
 static double pull_of(const sw_body *b, const sw_term *term, const double *x, double *bears) {
   sw_field at = b->field;
   at.x = x + 3 * b->first_node;
@@ -99,6 +99,7 @@ void sw_scene_watch_ties(sw_scene *s) {
     j->broken = 1, j->broken_time = s->time, j->broken_force = pull;
     p->k = 0;
     s->discontinuous = 1;
+    s->build = ++s->builds; /* the system is another one */
     sw_scene_tell(s, "tie", j->name, NAN, pull, "tie '%s' breaks at %.4g N; it bears %.4g N",
                   j->name, pull, j->strength);
   }

@@ -11,7 +11,7 @@
 void sw_scene_clear_tool(sw_tool *t) {
   sw_drive_free(&t->drive);
   sw_frozen_release(t->frozen);
-  sw_free(t->log.rows);
+  sw_log_free(&t->log);
 }
 
 sw_tool *sw_scene_find_tool(const sw_scene *s, sw_handle h, sw_error *err) {

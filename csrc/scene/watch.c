@@ -99,21 +99,8 @@ sw_status sw_watch_ties(sw_scene *s, sw_error *err) {
   return SW_OK;
 }
 
-sw_status sw_watches_measure(const sw_watches *w, size_t **lengths) {
-  *lengths = sw_alloc(w->count, sizeof **lengths);
-  if (!*lengths) return SW_ENOMEM;
-  for (size_t k = 0; k < w->count; k++) (*lengths)[k] = w->list[k].log.count;
-  return SW_OK;
-}
-
-void sw_watches_back_to(sw_watches *w, const size_t *lengths, size_t count, size_t known) {
-  for (size_t k = 0; k < w->count && k < count; k++)
-    if (w->list[k].log.count > lengths[k]) w->list[k].log.count = lengths[k];
-  while (w->count > known) sw_free(w->list[--w->count].log.rows);
-}
-
 void sw_watches_clear(sw_watches *w) {
-  for (size_t k = 0; k < w->count; k++) sw_free(w->list[k].log.rows);
+  for (size_t k = 0; k < w->count; k++) sw_log_free(&w->list[k].log);
   sw_free(w->list);
   *w = (sw_watches){0};
 }
@@ -153,14 +140,14 @@ void sw_tape_watches(sw_tape *t, sw_watches *w) {
   size_t n = w->count;
   SW_TAPE_STRUCT(t, sw_watch, 40);
   sw_tape_count(t, &n, 16);
-  if (sw_tape_reads(t) && sw_tape_good(t)) {
-    w->list = sw_alloc(n, sizeof *w->list);
-    w->capacity = w->list ? n : 0;
-    if (!w->list) sw_tape_fail(t, SW_ENOMEM);
-  }
+  if (sw_tape_reads(t) && sw_tape_good(t) &&
+      sw_grow((void **)&w->list, &w->capacity, n, sizeof *w->list) != SW_OK)
+    sw_tape_fail(t, SW_ENOMEM);
+  if (sw_tape_reads(t) && sw_tape_good(t))
+    while (w->count > n) sw_log_free(&w->list[--w->count].log);
   for (size_t k = 0; k < n && sw_tape_good(t); k++) {
+    if (k == w->count) w->list[w->count++] = (sw_watch){0};
     sw_watch *x = &w->list[k];
-    if (sw_tape_reads(t)) w->count = k + 1;
     sw_tape_int(t, &x->kind), sw_tape_uint32(t, &x->of.slot), sw_tape_uint32(t, &x->of.generation);
     sw_tape_log(t, &x->log);
     sw_tape_expect(t, x->kind >= OF_WIRE && x->kind <= OF_TIE, "a record");

@@ -20,10 +20,6 @@ sw_status sw_watch_wire(sw_scene *scene, size_t wire, const sw_wire_extremes *no
 sw_status sw_watch_forces(sw_scene *scene, sw_error *err);
 /* Ties between wires. */
 sw_status sw_watch_ties(sw_scene *scene, sw_error *err);
-/* How long each log is, for snapshots. SW_ENOMEM. */
-sw_status sw_watches_measure(const sw_watches *watches, size_t **lengths);
-/* Back to these lengths (of the first count logs); those beyond the first `known` go away. */
-void sw_watches_back_to(sw_watches *watches, const size_t *lengths, size_t count, size_t known);
 void sw_watches_clear(sw_watches *watches);
 void sw_tape_watches(sw_tape *tape, sw_watches *watches);
 

@@ -23,19 +23,6 @@ void sw_window_free(sw_window *w) {
   memset(w, 0, sizeof *w);
 }
 
-sw_status sw_window_copy(const sw_window *from, sw_window *to) {
-  double *room = NULL;
-  if (from->edges) {
-    room = sw_alloc(sw_window_size(from->edges), sizeof *room);
-    if (!room) return SW_ENOMEM;
-    memcpy(room, from->room, sw_window_size(from->edges) * sizeof *room);
-  }
-  sw_free(to->room);
-  *to = *from;
-  to->room = room;
-  return SW_OK;
-}
-
 void sw_window_forget(sw_window *w) { w->marks = 0; }
 
 sw_status sw_window_fit(sw_window *w, size_t edges, const double *places) {
@@ -128,23 +115,43 @@ size_t sw_window_largest(const sw_window *w, double window, double *mean) {
   return edge;
 }
 
-double *sw_window_used(const sw_window *w) {
-  const size_t n = w->edges;
-  double *used = sw_alloc((2 + w->marks) * n, sizeof *used);
-  if (!used) return NULL;
-  memcpy(used, w->room, n * sizeof *used);
-  memcpy(used + n, sum_of(w), n * sizeof *used);
-  for (size_t k = 0; k < w->marks; k++) memcpy(used + (2 + k) * n, mark_of(w, k), n * sizeof *used);
-  return used;
+/* --- on a tape ------------------------------------------------------------------- */
+
+static void tape_times(sw_tape *t, sw_window *w) {
+  double before;
+  sw_tape_double(t, &w->now), sw_tape_double(t, &w->begun);
+  sw_tape_expect(t, w->begun <= w->now, "a window");
+  before = w->begun;
+  for (size_t k = 0; k < w->marks && sw_tape_good(t); k++) {
+    double *time = &w->time[slot(w, k)];
+    sw_tape_double(t, time);
+    sw_tape_expect(t, *time >= before && *time <= w->now, "a window");
+    before = *time;
+  }
 }
 
-sw_status sw_window_use(sw_window *w, size_t edges, const double *used) {
-  const size_t marks = w->marks;
-  SW_TRY(sw_window_fit(w, edges, used));
-  w->marks = marks;
-  w->first = 0;
-  memcpy(sum_of(w), used + edges, edges * sizeof *used);
-  for (size_t k = 0; k < marks; k++)
-    memcpy(mark_of(w, k), used + (2 + k) * edges, edges * sizeof *used);
-  return SW_OK;
+/* A record that is to begin anew leaves nothing to be kept; of another one what is in use. */
+void sw_tape_window(sw_tape *t, sw_window *w) {
+  size_t edges = w->marks ? w->edges : 0, marks = w->marks;
+  SW_TAPE_STRUCT(t, sw_window, 192);
+  sw_tape_count(t, &edges, 3 * sizeof *w->room);
+  sw_tape_size(t, &marks);
+  sw_tape_expect(t, (marks > 0) == (edges > 0) && marks <= SW_WINDOW_MARKS, "a window");
+  if (!sw_tape_good(t)) return;
+  if (sw_tape_reads(t) && marks && w->edges != edges) {
+    sw_window_free(w);
+    w->room = sw_alloc(sw_window_size(edges), sizeof *w->room);
+    if (!w->room) sw_tape_fail(t, SW_ENOMEM);
+    w->edges = w->room ? edges : 0;
+  }
+  if (sw_tape_reads(t)) memset(w->time, 0, sizeof w->time);
+  if (sw_tape_reads(t)) w->marks = w->edges ? marks : 0, w->first = 0;
+  if (!w->marks || !sw_tape_good(t)) return;
+  tape_times(t, w);
+  sw_tape_raw(t, w->room, edges * sizeof *w->room);
+  sw_tape_raw(t, sum_of(w), edges * sizeof *w->room);
+  for (size_t k = 0; k < w->marks; k++) sw_tape_raw(t, mark_of(w, k), edges * sizeof *w->room);
+  if (!sw_tape_reads(t) || t->home) return;
+  sw_tape_finite(t, w->room, sw_window_size(edges), "a window");
+  for (size_t e = 0; e + 1 < edges; e++) sw_tape_expect(t, w->room[e] < w->room[e + 1], "a window");
 }

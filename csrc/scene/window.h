@@ -8,6 +8,7 @@
 #include <stddef.h>
 
 #include "base/status.h"
+#include "base/tape.h"
 
 /* Usual window of peaks: longer than a blow, shorter than any move of a gripper [s]. */
 #define SW_WINDOW 0.01
@@ -24,8 +25,6 @@ typedef struct sw_window {
 } sw_window;
 
 void sw_window_free(sw_window *w);
-/* SW_ENOMEM leaves to as it was. */
-sw_status sw_window_copy(const sw_window *from, sw_window *to);
 /* The record is to begin anew. */
 void sw_window_forget(sw_window *w);
 
@@ -48,9 +47,6 @@ int sw_window_full(const sw_window *w, double window);
 /* 1: something was added since the mean was due to be looked at. */
 int sw_window_waits(const sw_window *w);
 
-/* For files: a copy of the room that is in use, places, integral and marks, the oldest first; NULL
- * without memory. And back: marks and their times, the oldest first, are set. SW_ENOMEM. */
-double *sw_window_used(const sw_window *w);
-sw_status sw_window_use(sw_window *w, size_t edges, const double *used);
+void sw_tape_window(sw_tape *tape, sw_window *w);
 
 #endif

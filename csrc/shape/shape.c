@@ -116,10 +116,15 @@ static void tape_source(sw_tape *t, sw_shape_source *source) {
   source->points = points, source->bytes = bytes;
 }
 
+static void retain(void *shape) { sw_shape_retain(shape); }
+static void release(void *shape) { sw_shape_release(shape); }
+
 void sw_tape_shape(sw_tape *t, sw_shape **shape) {
+  static const sw_sharing sharing = {retain, release};
   char word[SW_NAME_SIZE];
   sw_shape_args args = {0};
   sw_shape_source source = {0};
+  if (sw_tape_share(t, shape, &sharing)) return;
   if (!sw_tape_reads(t)) args = (*shape)->args, source = (*shape)->source;
   SW_TAPE_STRUCT(t, sw_shape_args, 64);
   SW_TAPE_STRUCT(t, sw_shape_source, 32);

@@ -30,21 +30,31 @@ static void expect_rising(sw_tape *t, const double *s, size_t n) {
   for (size_t i = 0; i + 1 < n; i++) sw_tape_expect(t, s[i] < s[i + 1], "arc lengths do not rise");
 }
 
-void sw_tape_mesh(sw_tape *t, sw_mesh *x) {
+/* What a system has anew, where it has not said yet. */
+static void fill_up(sw_tape *t, sw_mesh *x) {
+  double **const lists[] = {&x->a, &x->tension, &x->rate, &x->turn, &x->spin};
+  const size_t width[] = {3, 1, 1, 1, 1}, count = x->rest ? 5 : 3;
+  for (size_t k = 0; k < count && sw_tape_reads(t) && sw_tape_good(t); k++) {
+    if (!*lists[k]) *lists[k] = sw_alloc(width[k] * x->n, sizeof **lists[k]);
+    if (!*lists[k]) sw_tape_fail(t, SW_ENOMEM);
+  }
+}
+
+void sw_tape_mesh(sw_tape *t, sw_mesh *x, int alone) {
   SW_TAPE_STRUCT(t, sw_mesh, 144);
   sw_tape_count(t, &x->n, sizeof *x->s);
   DOUBLE(EA), DOUBLE(spacing), DOUBLE(scale), INT(drawn);
   const size_t n = x->n;
   int framed = x->rest != NULL;
   sw_tape_int(t, &framed);
-  ARRAY(s, n), ARRAY(x, 3 * n), ARRAY(v, 3 * n), ARRAY(a, 3 * n), ARRAY(tension, n), ARRAY(rate, n);
-  if (framed) {
-    ARRAY(rest, 3 * n), ARRAY(normal, 3 * n), ARRAY(rest_normal, 3 * n);
-    ARRAY(twist, n), ARRAY(turn, n), ARRAY(spin, n);
-  }
+  ARRAY(s, n), ARRAY(x, 3 * n), ARRAY(v, 3 * n);
+  if (framed) ARRAY(rest, 3 * n), ARRAY(normal, 3 * n), ARRAY(rest_normal, 3 * n), ARRAY(twist, n);
+  if (alone) ARRAY(a, 3 * n), ARRAY(tension, n), ARRAY(rate, n);
+  if (alone && framed) ARRAY(turn, n), ARRAY(spin, n);
+  if (!alone) fill_up(t, x);
   if (!sw_tape_reads(t)) return;
   x->capacity = n;
-  if (!sw_tape_good(t)) return;
+  if (t->home || !sw_tape_good(t)) return;
   expect_rising(t, x->s, n);
   const double *const lists[] = {x->x, x->v, x->a, x->rest, x->normal, x->rest_normal};
   for (size_t k = 0; k < sizeof lists / sizeof lists[0]; k++)
@@ -180,7 +190,12 @@ static void check_web(sw_tape *t, const sw_web *w) {
     sw_tape_expect(t, w->mass[i] > 0, "a particle without mass");
 }
 
+static void retain_web(void *web) { sw_web_retain(web); }
+static void release_web(void *web) { sw_web_release(web); }
+
 void sw_tape_web(sw_tape *t, sw_web **web, size_t shape_size) {
+  static const sw_sharing sharing = {retain_web, release_web};
+  if (sw_tape_share(t, web, &sharing)) return;
   if (sw_tape_reads(t)) {
     *web = sw_tape_good(t) ? sw_alloc(1, sizeof **web) : NULL;
     if (!*web) {
@@ -226,7 +241,12 @@ static void tape_plan_web(sw_tape *t, sw_plan *p, sw_web *own, size_t shape_size
   p->web = sw_web_retain(own);
 }
 
+static void retain_plan(void *plan) { sw_plan_retain(plan); }
+static void release_plan(void *plan) { sw_plan_release(plan); }
+
 void sw_tape_plan(sw_tape *t, sw_plan **plan, sw_web *own, size_t shape_size) {
+  static const sw_sharing sharing = {retain_plan, release_plan};
+  if (sw_tape_share(t, plan, &sharing)) return;
   if (sw_tape_reads(t)) {
     *plan = sw_tape_good(t) ? sw_alloc(1, sizeof **plan) : NULL;
     if (!*plan) {

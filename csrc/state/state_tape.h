@@ -10,7 +10,8 @@
 #include "state/web.h"
 
 void sw_tape_beam(sw_tape *tape, sw_beam *beam);
-void sw_tape_mesh(sw_tape *tape, sw_mesh *mesh);
+/* alone: no system knows how its nodes move and turn, so that it says so itself. */
+void sw_tape_mesh(sw_tape *tape, sw_mesh *mesh, int alone);
 void sw_tape_mesh_frame(sw_tape *tape, sw_mesh_frame *frame);
 /* *web NULL when reading; of one reference then. shape_size: of one of its shapes [B]. */
 void sw_tape_web(sw_tape *tape, sw_web **web, size_t shape_size);

@@ -5,6 +5,7 @@
 local core = require "softworld.core"
 local cable = require "softworld.cable"
 local checks = require "softworld.checks"
+local keep = require "softworld.keep"
 local meshfile = require "softworld.meshfile"
 local remarks = require "softworld.remarks"
 local solid = require "softworld.output.solid"
@@ -12,12 +13,23 @@ local solid = require "softworld.output.solid"
 local build = {}
 local class = core.class
 
+--- Lists of build.data, to which only is added: { object =, name =, ... } of what was made.
+build.lists = { "wires", "particles", "obstacles", "holds", "grippers", "joins", "fixings" }
+--- Parts of build.data that belong to the process, not to the scene.
+build.passing = { processes = true, process_count = true, running = true, saving = true, going = true,
+  restores = true, from_file = true }
+-- How snapshots keep it, see keep.image.
+local imaged = { lists = build.lists, things = { "grippers", "fixings" }, whole = { "origin" },
+  passing = { origin = true } }
+for name in pairs(build.passing) do imaged.passing[name] = true end
+for _, name in ipairs(build.lists) do imaged.passing[name] = true end
+
 --- What is known of a scene: lists of { object =, name =, ... }.
 function build.data(scene)
   local data = core.data(scene)
   if not data.wires then
-    data.wires, data.particles, data.obstacles, data.holds = {}, {}, {}, {}
-    data.grippers, data.processes, data.joins, data.fixings = {}, {}, {}, {}
+    for _, name in ipairs(build.lists) do data[name] = {} end
+    data.processes = {}
     data.restores = 0 -- how often a snapshot was restored
   end
   return data
@@ -394,20 +406,8 @@ local new_snapshot = class.scene.snapshot
 -- of it: restoring ends them.
 function class.scene.snapshot(scene)
   local snapshot = build.call(3, new_snapshot, scene)
-  local grippers = {}
-  for i, gripper in ipairs(build.data(scene).grippers) do
-    grippers[i] = { gripper = gripper, state = gripper:remember() }
-  end
-  core.data(snapshot).grippers = grippers
+  core.data(snapshot).image = keep.image(build.data(scene), imaged)
   return snapshot
-end
-
-local function keep_existing(list)
-  local kept = {}
-  for _, entry in ipairs(list) do
-    if core.exists(entry.object) then kept[#kept + 1] = entry end
-  end
-  return kept
 end
 
 local restore = class.scene.restore
@@ -423,18 +423,10 @@ function class.scene.restore(scene, snapshot)
   end
   build.call(3, restore, scene, snapshot)
   data.restores, data.going = data.restores + 1, nil
-  data.holds, data.obstacles = keep_existing(data.holds), keep_existing(data.obstacles)
-  data.joins = keep_existing(data.joins)
-  data.fixings = keep_existing(data.fixings)
   for _, process in ipairs(data.processes) do process:finish() end
   data.processes = {}
-  local kept = {}
-  for _, gripper in ipairs(data.grippers) do gripper:recall(nil) end
-  for i, saved in ipairs(core.data(snapshot).grippers or {}) do
-    saved.gripper:recall(saved.state)
-    kept[i] = saved.gripper
-  end
-  data.grippers = kept
+  for _, gripper in ipairs(data.grippers) do gripper:leave() end
+  keep.back(data, core.data(snapshot).image, imaged)
 end
 
 return build

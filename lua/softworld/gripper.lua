@@ -59,6 +59,10 @@ local new = rows.call("scene:gripper", "{...}", "takes hold of wires, moves them
     choices = grasp.reactions, usual = "record" },
 })
 
+-- What a gripper keeps that a snapshot does not know.
+local lasting = { scene = true, name = true, pads = true, width = true, arm = true, first_at = true,
+  solid = true, slip_tolerance = true }
+
 local function make(scene, args)
   local a = new:read(args == nil and {} or args)
   local data = build.data(scene)
@@ -85,38 +89,13 @@ function core.class.scene.gripper(scene, args)
   return (build.call(3, make, scene, args))
 end
 
-local remembered = { "hold", "at", "rotation", "tool", "wire", "way", "frozen", "on_slip", "opening",
-  "order", "obstacles", "held", "unchecked", "s", "free_height",
-  "margin", "segments", "mesh_model", "rod_model", "slip_event", "crash_time", "on_crash",
-  "grips", "carrier", "facing", "busy_until" }
-
---- The gripper's part of a snapshot, and the way back; recall(nil) for one that was made later.
-function Gripper:remember()
-  local state = { grasps = #self.past, events = #self.events }
-  for _, key in ipairs(remembered) do state[key] = self[key] end
-  state.spans = {}
-  for i, span in ipairs(self.spans) do
-    state.spans[i] = { from = span.from, to = span.to, carried = span.carried }
+--- A snapshot from before it was made is restored.
+function Gripper:leave()
+  local own = sealed.fields(self)
+  for key in pairs(own) do
+    if not lasting[key] then own[key] = nil end
   end
-  return state
-end
-
-function Gripper:recall(state)
-  if state ~= nil and (type(state) ~= "table" or not state.grasps or not state.events) then
-    error("gripper:recall takes what gripper:remember gave, got " .. type(state), 2)
-  end
-  self.gone = state == nil or nil
-  for _, key in ipairs(remembered) do self[key] = state and state[key] end
-  if not state then
-    self.grips = {}
-    return
-  end
-  for i = #self.past, state.grasps + 1, -1 do self.past[i] = nil end
-  self.spans = {}
-  for i, span in ipairs(state.spans) do
-    self.spans[i] = { from = span.from, to = span.to, carried = span.carried }
-  end
-  for i = #self.events, state.events + 1, -1 do self.events[i] = nil end
+  own.grips, own.past, own.spans, own.events, own.gone = {}, {}, {}, {}, true
 end
 
 -- Raise unless the gripper can be moved. Makes nothing yet, for the arguments may be wrong.
@@ -305,8 +284,13 @@ local shortcuts = { peak_force = true, mean_force = true, peak_moment = true, me
   impulse = true }
 
 -- Fields that may be nil.
-local fields = { gone = true, wires = true }
-for _, key in ipairs(remembered) do fields[key] = true end
+local fields = {}
+for _, key in ipairs{ "gone", "wires", "hold", "at", "rotation", "tool", "wire", "way", "frozen", "on_slip",
+  "opening", "order", "obstacles", "held", "unchecked", "s", "free_height", "margin", "segments",
+  "mesh_model", "rod_model", "slip_event", "crash_time", "on_crash", "carrier", "facing",
+  "busy_until" } do
+  fields[key] = true
+end
 
 function Gripper:__index(key)
   local own = rawget(sealed.fields(self), key)
@@ -374,7 +358,7 @@ end
 function Gripper.__names()
   local names = { "name", "width", "events", "wire", "wires" }
   for name in pairs(Gripper) do
-    if name:sub(1, 2) ~= "__" and name ~= "remember" and name ~= "recall" then
+    if name:sub(1, 2) ~= "__" and name ~= "leave" then
       names[#names + 1] = name
     end
   end

@@ -206,6 +206,83 @@ function keep.unpack(text, scene, object, instance)
   return value
 end
 
+-- --- in the process ----------------------------------------------------------------
+
+-- Plain tables are copied. Tables of a known class stay the same tables, and what they have goes to
+-- `own`; records { object =, ... } of what was made never change.
+local function copy(value, seen, own)
+  if type(value) ~= "table" then return value end
+  if seen[value] then return seen[value] end
+  local metatable, to, from = getmetatable(value), {}, value
+  seen[value] = value
+  if class_names[metatable] then
+    own[value], from = to, sealed.fields(value)
+  elseif metatable ~= nil or value.object ~= nil then
+    return value
+  else
+    seen[value] = to
+  end
+  for key, part in next, from do to[key] = copy(part, seen, own) end
+  return seen[value]
+end
+
+-- Of the things in a list what they have; nil when it has none.
+local function things(list, own, seen)
+  for k = 1, #list do
+    own, seen = own or {}, seen or {}
+    local thing = list[k]
+    copy(class_names[getmetatable(thing)] and thing or thing.fixing, seen, own)
+  end
+  return own, seen
+end
+
+--- The fields of a table as they are, with all that belongs to them, for keep.back. imaged says how:
+-- `lists` names those that only get longer, `things` those of them that have objects of a known class,
+-- `whole` what never changes, `passing` all these and what is left out. Objects and functions are only
+-- referred to.
+function keep.image(data, imaged)
+  local image, own, seen = {}, nil, nil
+  for i = 1, #imaged.lists do
+    local list = data[imaged.lists[i]]
+    image[2 * i - 1], image[2 * i] = list, #list
+  end
+  for i = 1, #imaged.whole do image[imaged.whole[i]] = data[imaged.whole[i]] end
+  for i = 1, #imaged.things do own, seen = things(data[imaged.things[i]], own, seen) end
+  for key, value in next, data do
+    if not imaged.passing[key] then
+      own, seen, image.rest = own or {}, seen or {}, image.rest or {}
+      image.rest[key] = copy(value, seen, own)
+    end
+  end
+  image.own = own
+  return image
+end
+
+local function refill(to, from, seen)
+  for key in next, to do
+    if from[key] == nil then rawset(to, key, nil) end
+  end
+  for key, value in next, from do rawset(to, key, copy(value, seen, {})) end
+end
+
+--- The table again as keep.image found it, and all of a known class that it had.
+function keep.back(data, image, imaged)
+  local seen, rest = {}, image.rest or {}
+  for i = 1, #imaged.lists do
+    local list, count = image[2 * i - 1], image[2 * i]
+    if data[imaged.lists[i]] ~= list or #list ~= count then
+      data[imaged.lists[i]] = table.move(list, 1, count, 1, {})
+    end
+  end
+  for i = 1, #imaged.whole do data[imaged.whole[i]] = image[imaged.whole[i]] end
+  for object in next, image.own or {} do seen[object] = object end
+  for object, fields in next, image.own or {} do refill(sealed.fields(object), fields, seen) end
+  for key in next, data do
+    if not imaged.passing[key] and rest[key] == nil then data[key] = nil end
+  end
+  for key, value in next, rest do data[key] = copy(value, seen, {}) end
+end
+
 --- Every table of a class of keep.class within a value: { [class .. " " .. name] = it }.
 function keep.instances(value)
   local found, seen = {}, {}

@@ -21,9 +21,9 @@ local solid = require "softworld.output.solid"
 local save = {}
 local class = core.class
 
--- Parts of build.data that belong to the process, not to the scene.
-local passing = { processes = true, process_count = true, running = true, saving = true,
-  going = true, origin = true, restores = true, from_file = true }
+-- Parts of build.data that are not in the file's, the origin because it stands beside it.
+local passing = { origin = true }
+for key in pairs(build.passing) do passing[key] = true end
 
 -- --- what a script has made -----------------------------------------------------------
 

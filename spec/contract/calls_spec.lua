@@ -23,7 +23,7 @@ local function objects()
 end
 
 -- Of the library, not of scripts: what runs and pictures ask of things.
-local inner = { remember = true, recall = true, report = true, solids = true }
+local inner = { leave = true, report = true, solids = true }
 -- Fields of a run, which help "results" tells.
 local results = "run"
 

@@ -338,7 +338,7 @@ calls.weights = { ["scene.run"] = 14, ["scene.settle"] = 3, ["scene.wire"] = 3, 
     ["clamp.release"] = 0.7,
   ["obstacle.remove"] = 0.7, ["scene.tool"] = 0.5, ["clamp.follow"] = 4, ["obstacle.follow"] = 2,
     ["wire.set_velocity"] = 2,
-  ["gripper.remember"] = 0, ["gripper.recall"] = 0,
+  ["gripper.leave"] = 0,
   ["process.wait"] = 0.1, ["process.wait_until"] = 0.1, ["process.feed"] = 0.1, ["process.step"] = 0.1,
   ["gripper.wait"] = 0.2, ["gripper.press"] = 0.2, ["gripper.clip"] = 0.2, ["gripper.approach"] = 0.3,
   ["run.vtk"] = 0.3, ["run.summary"] = 0.3, ["trajectory.close"] = 0.2, ["shape.close"] = 0.2 }

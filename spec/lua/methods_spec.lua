@@ -124,7 +124,6 @@ describe("methods", function()
     end
     local function call(name, method, ...) return objects[name][method](objects[name], ...) end
     says("channel:moment takes one table of parameters, got number", call, "channel", "moment", 5)
-    says("gripper:recall takes what gripper:remember gave, got number", call, "gripper", "recall", 5)
     says("scene:frame: the number of the frame must be an integer, got 0.5", call, "scene", "frame", 0.5)
     says("clamp:log: the first row must be an integer, got string", call, "clamp", "log", "x")
     says("run:save expects the name of a .csv or .json file, got nil", call, "run", "save")

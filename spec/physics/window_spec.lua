@@ -393,3 +393,26 @@ describe("a blow of few steps", function()
     end
   end)
 end)
+
+describe("edges that change within a run", function()
+  -- After a step that counts in a mean come ones as long as the window, of a wire with other edges.
+  it("have their own tension", function()
+    for _, segments in ipairs{ 4, 40 } do
+      local scene = sw.scene{}
+      local wire = scene:wire{ E = 1e8, density = 1000, radius = 0.003, segments = 12, from = { 0, 0, 0 },
+        to = { 0, 0, -0.5 } }
+      scene:clamp(wire, { s = 0 })
+      t.fine(scene:settle())
+      scene:process(function(p)
+        p:wait(0.005)
+        wire:remodel{ segments = segments }
+        p:wait(0.06)
+      end)
+      t.fine(scene:run{ dt = 0.01 })
+      local held = 1000 * math.pi * 0.003 ^ 2 * 0.5 * G
+      t.share(held, (wire:max_tension()), 0.15, segments .. " segments") -- half an edge, and the change
+      t.share(held, (wire:max_tension{ window = 0 }), 0.15, segments .. " segments, raw")
+      scene:save(os.tmpname())
+    end
+  end)
+end)

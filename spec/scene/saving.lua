@@ -2,6 +2,7 @@
 -- What the specs of saved scenes share: scenes of all kinds, and all that can be read of one.
 local sw = require "softworld"
 local samples = require "contract.samples"
+local sink = require "softworld.output.sink"
 
 local saving = {}
 
@@ -312,5 +313,82 @@ case("a function of time that is over", function(s)
   s:clamp(s:find "a", { s = 0, name = "root" }):follow{ duration = 0.03, step = 1e-4,
     func = function(time) return { 0.1 * time, 0, R } end }
 end)
+
+-- --- what the specs of files share ------------------------------------------------------
+
+local files = {}
+--- A name for a file that is gone after the test; saving.clean does that.
+function saving.temporary()
+  files[#files + 1] = saving.file()
+  return files[#files]
+end
+
+function saving.clean()
+  for _, name in ipairs(files) do os.remove(name) end
+  files = {}
+end
+
+--- Raises an error that has all these texts in it. The error.
+function saving.fails(texts, f, ...)
+  local fine, message = pcall(f, ...)
+  assert(not fine, "no error")
+  message = tostring(message)
+  for _, text in ipairs(type(texts) == "table" and texts or { texts }) do
+    assert(message:find(text, 1, true), ("'%s' is not in: %s"):format(text, message))
+  end
+  return message
+end
+
+--- Raises unless two lists of saving.all are the same.
+function saving.same(a, b)
+  local where = saving.difference(a, b)
+  assert(not where, where)
+end
+
+--- A script: its scene and processes; more(p, c) comes at the end of the first process.
+function saving.script(more)
+  local c = { log = {}, scene = sw.scene{ name = "laying" } }
+  c.scene:obstacle{ shape = "plane", friction = 0.3 }
+  c.wire = c.scene:wire{ cable = "GXL 1.5", from = { 0, 0, 0.0021 }, to = { 0.6, 0, 0.0021 },
+    segments = 30 }
+  c.left = c.scene:gripper{ name = "left" }
+  local function step(p, name, work)
+    return p:step(name, function()
+      c.log[#c.log + 1] = name
+      return work()
+    end)
+  end
+  c.scene:process(function(p)
+    step(p, "grasp", function() c.left:grasp(c.wire, { s = 0.02 }) end)
+    c.end_of_lift = step(p, "lift", function()
+      c.left:move{ by = { 0.05, 0, 0.1 }, duration = 0.3 }
+      return c.wire:position(0.6), c.left
+    end)
+    step(p, "back", function()
+      c.left:move{ by = { 0, 0.05, -0.05 }, duration = 0.15 }
+      p:wait(0.05)
+    end)
+    step(p, "release", function() c.left:release() end)
+    step(p, "again", function()
+      c.left:grasp(c.wire, { s = 0.3 })
+      c.left:move{ by = { 0, 0, 0.05 }, duration = 0.1 }
+    end)
+    if more then more(p, c, step) end
+  end)
+  return c
+end
+
+--- The files that a run wrote, one after each step.
+function saving.files_of(c, args)
+  local written, write = {}, sink.write_file
+  sink.write_file = function(path, bytes)
+    written[#written + 1] = bytes
+    return write(path, bytes)
+  end
+  local fine, done = pcall(c.scene.run, c.scene, args)
+  sink.write_file = write
+  assert(fine, done)
+  return written, done
+end
 
 return saving
