@@ -405,7 +405,7 @@ describe("edges that change within a run", function()
       t.fine(scene:settle())
       scene:process(function(p)
         p:wait(0.005)
-        wire:remodel{ segments = segments }
+        wire:remodel{ model = "rod", segments = segments }
         p:wait(0.06)
       end)
       t.fine(scene:run{ dt = 0.01 })
