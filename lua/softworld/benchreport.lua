@@ -41,7 +41,8 @@ function report.write(run, scene, path)
   local size = file:seek "end"
   file:close()
   return { frames = scene:frame_count(), nodes = #scene:frame(scene:frame_count()).values[1].tension,
-    columns = #run:series().columns, rows = #run:series().time, write = t, cpu = cpu, size = size, path = path }
+    columns = #run:series().columns, rows = #run:series().time, write = t, cpu = cpu, size = size,
+    path = path }
 end
 
 return report
