@@ -483,6 +483,7 @@ local function print_report()
     r.rows))
   line("page", 1e-6 * r.size, 1e-6 * aims.size, "MB")
   line("written in", r.write, aims.write, "s")
+  line("  of CPU time", r.cpu, aims.write, "s")
   local found, browser = pcall(require, "spec.page.browser")
   local opened, page = pcall(found and browser.open or error, 1280, 720)
   if not opened then return print "  no Chromium to open it with: sh scripts/setup.sh --test" end

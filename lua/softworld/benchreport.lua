@@ -32,16 +32,17 @@ function report.run(frames)
   return scene:run{ dt = 0.002, frame = duration / frames }, scene
 end
 
---- { frames, nodes, columns, write [s], size [B], path } of a page written into a folder.
+--- { frames, nodes, columns, write [s], cpu [s], size [B], path } of a page written into a folder.
 function report.write(run, scene, path)
-  local t = core.clock()
+  local t, cpu = core.clock(), os.clock()
   run:report(path)
-  t = core.clock() - t
+  t, cpu = core.clock() - t, os.clock() - cpu
   local file = assert(io.open(path, "rb"))
   local size = file:seek "end"
   file:close()
   return { frames = scene:frame_count(), nodes = #scene:frame(scene:frame_count()).values[1].tension,
-    columns = #run:series().columns, rows = #run:series().time, write = t, size = size, path = path }
+    columns = #run:series().columns, rows = #run:series().time, write = t, cpu = cpu, size = size,
+    path = path }
 end
 
 return report
