@@ -62,6 +62,11 @@ static double reach_of(const sw_contact *c, const sw_system *s, size_t node, siz
   return c->reach[node] + sw_norm(sw_obstacle_velocity(&c->start[o], x)) * c->h;
 }
 
+/* Does the wire meet edges of obstacle o with its smooth curve? */
+static int is_smooth(const sw_contact *c, const sw_plan *p, int o) {
+  return c->sharp[o] && !c->chords && !p->web && !p->beam.rolls;
+}
+
 static sw_status add_candidate(sw_contact *c, const sw_body *b, size_t body, size_t node,
                                size_t other, int o, int segment) {
   const double *masses = b->plan->lumped;
@@ -76,7 +81,8 @@ static sw_status add_candidate(sw_contact *c, const sw_body *b, size_t body, siz
                      .body = body,
                      .radius = b->plan->beam.radius,
                      .skin = sw_plan_skin(b->plan, node - b->first_node),
-                     .mass = 0.5 * (masses[node - b->first_node] + masses[other - b->first_node])};
+                     .mass = 0.5 * (masses[node - b->first_node] + masses[other - b->first_node]),
+                     .smooth = is_smooth(c, b->plan, o)};
   return SW_OK;
 }
 
@@ -116,7 +122,9 @@ static sw_status segment_candidates(sw_contact *c, const sw_system *s, size_t bo
     const sw_vec w = sw_v(wide, wide, wide);
     if (outside(&c->bounds[o], sw_sub(low_of(x, y), w), sw_add(high_of(x, y), w))) continue;
     SW_TRY(add_candidate(c, b, body, node, other, (int)o, k));
-    c->candidates[c->candidate_count - 1].samples = samples_of(b->plan, i, c->spaced[o]);
+    sw_candidate *own = &c->candidates[c->candidate_count - 1];
+    own->samples = samples_of(b->plan, i, c->spaced[o]);
+    own->smooth &= !own->samples;
   }
   return SW_OK;
 }
@@ -298,6 +306,19 @@ static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t
   }
 }
 
+/* Which segments are the last ones of a row near an obstacle? Candidates are in the order of nodes.
+ */
+static void mark_last(sw_contact *c) {
+  for (size_t i = 0, j = 0; i < c->candidate_count; i++) {
+    sw_candidate *k = &c->candidates[i];
+    if (!k->smooth || !k->segment) continue;
+    while (j < c->candidate_count && c->candidates[j].node <= k->node) j++;
+    k->last_one = 1;
+    for (size_t n = j; n < c->candidate_count && c->candidates[n].node == k->node + 1; n++)
+      if (c->candidates[n].obstacle == k->obstacle && c->candidates[n].segment) k->last_one = 0;
+  }
+}
+
 /* Many nodes may begin to touch at once: lists that grow one by one would be copied again and
  * again. */
 static sw_status make_room(sw_contact *c) {
@@ -327,5 +348,6 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
   if (status == SW_OK) status = make_room(c);
   if (status != SW_OK) return sw_fail(err, status, "contact: %s", sw_status_text(status));
   match_memory(c);
+  mark_last(c);
   return SW_OK;
 }

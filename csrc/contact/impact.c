@@ -18,14 +18,27 @@ static const double SLOWEST_IMPACT = 5e-4;
  * anything unseen [-]. */
 static const double SAFE_SHIFT = 0.5;
 
-static int dealt_with(const sw_contact *c, const sw_touch *t, size_t *looks) {
-  for (uint32_t i = c->impact_at[t->node]; i; i = c->impacts[i - 1].before) {
+/* An impact this near to a touch along the wire was its own [-]. */
+static const double SAME_IMPACT = 0.25;
+
+static int was_struck(const sw_contact *c, const sw_touch *t, size_t node, size_t *looks) {
+  for (uint32_t i = c->impact_at[node]; i; i = c->impacts[i - 1].before) {
     const sw_impact *m = &c->impacts[i - 1];
+    const double ahead = node < t->node ? -1.0 : node > t->node ? 1.0 : 0.0;
     ++*looks;
-    if (m->obstacle == t->obstacle && m->segment == t->segment && fabs(m->at - t->at) < 0.25)
+    if (m->obstacle == t->obstacle && m->segment == t->segment &&
+        fabs(ahead + m->at - t->at) < SAME_IMPACT)
       return 1;
   }
   return 0;
+}
+
+/* On the smooth curve, another iterate may find the same touch from the segment beside. */
+static int dealt_with(const sw_contact *c, const sw_touch *t, size_t *looks) {
+  if (was_struck(c, t, t->node, looks)) return 1;
+  if (!t->sharp) return 0;
+  return (t->node > 0 && was_struck(c, t, t->node - 1, looks)) ||
+         (t->node + 1 < c->places && was_struck(c, t, t->node + 1, looks));
 }
 
 static void note_impact(sw_contact *c, const sw_touch *t) {
@@ -53,15 +66,16 @@ sw_status sw_contact_calm(sw_contact *c, size_t nodes) {
   return SW_OK;
 }
 
-/* Share of the momentum that each end of a segment takes; held ends take none. */
-static void shares(const sw_system *s, const sw_touch *t, double out[2]) {
+/* Share of the momentum that each node of a touch takes; held ones take none. */
+static void shares(const sw_system *s, const sw_touch *t, double out[SW_MEAN_MOST]) {
   const sw_body *b = &s->bodies[t->body];
-  const size_t end[2] = {t->node - b->first_node, t->other - b->first_node};
-  double w[2] = {t->segment ? 1.0 - t->at : 1.0, t->segment ? t->at : 0.0};
-  for (size_t e = 0; e < 2; e++)
-    if (w[e] > 0 && b->plan->held[end[e]] != SW_FREE) w[e] = 0;
-  const double sum = w[0] * w[0] + w[1] * w[1];
-  for (size_t e = 0; e < 2; e++) out[e] = sum > 0 ? w[e] / sum : 0.0;
+  double sum = 0;
+  for (size_t e = 0; e < t->spot.count; e++) {
+    const int held = b->plan->held[t->spot.node[e] - b->first_node] != SW_FREE;
+    out[e] = held ? 0.0 : t->spot.w[e];
+    sum += out[e] * out[e];
+  }
+  for (size_t e = 0; e < t->spot.count; e++) out[e] = sum > 0 ? out[e] / sum : 0.0;
 }
 
 /* A gap this small is none: what touches already takes on the obstacle's speed [m]. */
@@ -191,7 +205,7 @@ typedef struct encounter {
 static encounter encounter_of(const sw_contact *c, const sw_system *s, const sw_touch *t,
                               const sw_levers *levers) {
   encounter e;
-  const sw_vec x = sw_contact_where(c, s->x, t->node, t->other, t->at);
+  const sw_vec x = sw_mean_place(c, s->x, &t->spot);
   const sw_body *b = &s->bodies[t->body];
   const double radius = sw_plan_skin(b->plan, t->node - b->first_node);
   const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
@@ -199,7 +213,7 @@ static encounter encounter_of(const sw_contact *c, const sw_system *s, const sw_
   e.at = levers->count ? sw_madd(x, t->press.normal, -radius) : x;
   e.gap = fmax(0.0, sw_dot(t->press.normal, sw_sub(x, plane)) + aslant - radius);
   e.wall = striking_velocity(c, t, e.at, e.gap, &e.slow);
-  e.speed = sw_sub(sw_touch_place(s->v, t->node, t->other, t->at), e.wall);
+  e.speed = sw_sub(sw_mean_of(s->v, 0, &t->spot), e.wall);
   e.approach = -sw_dot(e.speed, t->press.normal);
   return e;
 }
@@ -224,7 +238,6 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   /* what comes to a pad that holds a wire already only trembles */
   if (o->grips > 0 && c->pressing[t->obstacle]) return 0;
   const sw_body *b = &s->bodies[t->body];
-  const size_t end[2] = {t->node, t->other};
   const sw_levers levers = sw_touch_levers(s, t);
   const encounter e = encounter_of(c, s, t, &levers);
   const double change = velocity_lost(c, s, t, &e, h);
@@ -234,12 +247,12 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_vec along = sw_madd(v, t->press.normal, -sw_dot(v, t->press.normal));
   const sw_vec brake = sw_levers_brake(&b->plan->beam, &levers, along, o->friction * change);
   const sw_vec dv = sw_madd(brake, t->press.normal, change);
-  double w[2], mass = 0, kicked = 0;
+  double w[SW_MEAN_MOST], mass = 0, kicked = 0;
   shares(s, t, w);
-  for (size_t k = 0; k < 2; k++) {
+  for (size_t k = 0; k < t->spot.count; k++) {
     if (!(w[k] > 0)) continue;
-    mass += w[k] * b->plan->lumped[end[k] - b->first_node];
-    kicked += w[k] * kick(s, b, end[k], sw_scale(dv, w[k]));
+    mass += w[k] * b->plan->lumped[t->spot.node[k] - b->first_node];
+    kicked += w[k] * kick(s, b, t->spot.node[k], sw_scale(dv, w[k]));
   }
   c->struck += kicked * sw_dot(dv, e.wall);
   sw_contact_add_blow(c, t->obstacle, e.at, sw_scale(dv, -kicked));
@@ -343,6 +356,8 @@ static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k, con
               sizeof *c->barriers) != SW_OK)
     return 0;
   add_barrier(c, &b);
+  const sw_candidate at = {
+      .segment = b.segment, .node = b.node, .other = b.other, .body = k->body, .smooth = k->smooth};
   const sw_pose *pose = &c->now[k->obstacle].pose;
   const sw_touch t = {.obstacle = k->obstacle,
                       .segment = b.segment,
@@ -350,10 +365,67 @@ static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k, con
                       .other = b.other,
                       .body = k->body,
                       .at = b.at,
+                      .spot = sw_contact_spot(s, &at, b.at),
                       .local = hit->point,
                       .press = {.normal = sw_rotate(pose->q, hit->normal)}};
   if (h > 0) strike(c, s, &t, h);
   return 1;
+}
+
+/* How a part of a candidate from place to place crosses its obstacle, as if straight. */
+typedef struct crossing {
+  sw_closest hit;
+  double when; /* share of the step [-] */
+} crossing;
+
+static int cross_part(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                      const double *x1, double from, double to, crossing *out) {
+  const sw_pose *p0 = &c->start[k->obstacle].pose, *p1 = &c->now[k->obstacle].pose;
+  const sw_mean a = sw_contact_spot(s, k, from), b = sw_contact_spot(s, k, to);
+  const sw_vec a0 = sw_pose_local(*p0, sw_mean_place(c, s->x, &a));
+  const sw_vec b0 = sw_pose_local(*p0, sw_mean_place(c, s->x, &b));
+  const sw_vec a1 = sw_pose_local(*p1, sw_mean_place(c, x1, &a));
+  const sw_vec b1 = sw_pose_local(*p1, sw_mean_place(c, x1, &b));
+  const double shift2 = fmax(sw_norm2(sw_sub(a1, a0)), sw_norm2(sw_sub(b1, b0)));
+  const sw_shape *shape = c->obstacles[k->obstacle].shape;
+  if (shift2 < SAFE_SHIFT * SAFE_SHIFT * k->skin * k->skin) return 0;
+  if (!sw_shape_sweep(shape, a0, b0, a1, b1, 0.0, &out->hit, &out->when)) return 0;
+  out->hit.at = from + out->hit.at * (to - from);
+  return 1;
+}
+
+/* No way of a piece of the smooth curve meets the box of an obstacle that stands. */
+static int stays_away(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                      const double *x1) {
+  const sw_body *b = &s->bodies[k->body];
+  const sw_bounds *box = &c->bounds[k->obstacle];
+  const size_t last = b->first_node + b->plan->nodes - 1;
+  if (c->broad.moves[k->obstacle]) return 0;
+  const size_t from = k->node > b->first_node ? k->node - 1 : k->node;
+  const size_t to = k->other < last ? k->other + 1 : k->other;
+  sw_vec low = sw_contact_where(c, x1, from, from, 0), high = low;
+  for (size_t i = from; i <= to; i++)
+    for (int end = 0; end < 2; end++) {
+      const sw_vec p = sw_contact_where(c, end ? x1 : s->x, i, i, 0);
+      low = sw_v(p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y, p.z < low.z ? p.z : low.z);
+      high = sw_v(p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y,
+                  p.z > high.z ? p.z : high.z);
+    }
+  return low.x > box->max.x || high.x < box->min.x || low.y > box->max.y || high.y < box->min.y ||
+         low.z > box->max.z || high.z < box->min.z;
+}
+
+/* Of the two halves of the smooth curve's piece, what crosses first counts: a barrier holds it. */
+static int cross(sw_contact *c, sw_system *s, const sw_candidate *k, const double *x1, double h) {
+  crossing one, two;
+  if (!k->smooth)
+    return cross_part(c, s, k, x1, 0.0, 1.0, &one) && raise_barrier(c, s, k, &one.hit, h);
+  if (stays_away(c, s, k, x1)) return 0;
+  const int first = cross_part(c, s, k, x1, 0.0, 0.5, &one);
+  const int second = cross_part(c, s, k, x1, 0.5, 1.0, &two);
+  if (!first && !second) return 0;
+  const int earlier = first && (!second || one.when <= two.when);
+  return raise_barrier(c, s, k, earlier ? &one.hit : &two.hit, h);
 }
 
 /* h = 0: statics, there are no speeds to change. */
@@ -362,17 +434,7 @@ static int review_crossings(sw_contact *c, sw_system *s, const double *x1, doubl
   for (size_t i = 0; i < c->candidate_count; i++) {
     const sw_candidate *k = &c->candidates[i];
     if (!k->segment) continue;
-    const sw_pose *p0 = &c->start[k->obstacle].pose, *p1 = &c->now[k->obstacle].pose;
-    const sw_vec a0 = sw_pose_local(*p0, sw_contact_where(c, s->x, k->node, k->node, 0));
-    const sw_vec b0 = sw_pose_local(*p0, sw_contact_where(c, s->x, k->other, k->other, 0));
-    const sw_vec a1 = sw_pose_local(*p1, sw_contact_where(c, x1, k->node, k->node, 0));
-    const sw_vec b1 = sw_pose_local(*p1, sw_contact_where(c, x1, k->other, k->other, 0));
-    const double shift2 = fmax(sw_norm2(sw_sub(a1, a0)), sw_norm2(sw_sub(b1, b0)));
-    if (shift2 < SAFE_SHIFT * SAFE_SHIFT * k->skin * k->skin) continue;
-    sw_closest hit;
-    double when;
-    if (sw_shape_sweep(c->obstacles[k->obstacle].shape, a0, b0, a1, b1, 0.0, &hit, &when))
-      changed |= raise_barrier(c, s, k, &hit, h);
+    changed |= cross(c, s, k, x1, h);
   }
   return changed;
 }
@@ -406,16 +468,31 @@ static double depth_of(const sw_contact *c, const sw_candidate *k, const sw_pose
   return k->skin - near->gap - sw_contact_aslant(c, k->node, k->other, near->at, normal);
 }
 
+static double depth_of_curve(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                             const sw_contact_at *at, const double *x) {
+  sw_piece piece;
+  sw_places list;
+  double most = 0;
+  if (!sw_contact_piece(c, s, k, at, x, k->skin, &piece)) return 0;
+  sw_contact_places(c, k, &piece, k->skin, &list);
+  for (size_t i = 0; i < list.count; i++) most = fmax(most, k->skin - list.place[i].near.gap);
+  return most;
+}
+
 /* The same with positions x, where it is deepest. */
-static double depth_at(const sw_contact *c, const sw_candidate *k, const sw_contact_at *at,
-                       const double *x) {
+static double depth_at(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                       const sw_contact_at *at, const double *x) {
+  if (k->smooth && k->segment) return depth_of_curve(c, s, k, at, x);
   const sw_shape *shape = c->obstacles[k->obstacle].shape;
   const sw_pose *pose = &at[k->obstacle].pose;
   const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, x, k->node, k->node, 0));
   sw_closest near[SW_CLOSEST_MAX];
   near[0].at = 0;
-  if (!k->segment)
-    return sw_shape_point(shape, a, k->skin, &near[0]) ? depth_of(c, k, pose, &near[0]) : 0.0;
+  if (!k->segment) {
+    if (!sw_shape_point(shape, a, k->skin, &near[0])) return 0;
+    if (k->smooth && sw_contact_is_segments(c, s, k, at, x, &near[0])) return 0;
+    return depth_of(c, k, pose, &near[0]);
+  }
   const sw_vec b = sw_pose_local(*pose, sw_contact_where(c, x, k->other, k->other, 0));
   double deepest = 0;
   for (int i = 0; i < k->samples; i++) {
@@ -429,6 +506,18 @@ static double depth_at(const sw_contact *c, const sw_candidate *k, const sw_cont
   return deepest;
 }
 
+/* Did the wire come far enough in the step to be deeper by so much? If not its place was only
+ * missed before, where the smooth curve lies along an edge, and no smaller step would help. */
+static int may_sink(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                    const double *x1, double more) {
+  if (!k->smooth || c->broad.moves[k->obstacle]) return 1;
+  const sw_body *b = &s->bodies[k->body];
+  const size_t end = b->first_node + b->plan->nodes;
+  for (size_t i = k->node > b->first_node ? k->node - 1 : k->node; i < end && i <= k->node + 2; i++)
+    if (sw_dist(sw_vec_at(x1, i), sw_vec_at(s->x, i)) >= more) return 1;
+  return 0;
+}
+
 /* The law works with places and normals of the last iterate; on edges and
  * corners these may be stale at the step's end. */
 static int cuts_deep(const sw_contact *c, const sw_system *s, const double *x1, double h) {
@@ -436,9 +525,11 @@ static int cuts_deep(const sw_contact *c, const sw_system *s, const double *x1, 
   for (size_t i = 0; i < c->candidate_count; i++) {
     const sw_candidate *k = &c->candidates[i];
     if (c->flat[k->obstacle] || sw_contact_is_held(s, k)) continue;
-    const double depth = depth_at(c, k, c->now, x1);
+    const double depth = depth_at(c, s, k, c->now, x1);
     const double more = k->given ? SQUEEZED * k->radius : DEEPER;
-    if (depth > more && depth > depth_at(c, k, c->start, s->x) + more) return 1;
+    if (depth > more && depth > depth_at(c, s, k, c->start, s->x) + more &&
+        may_sink(c, s, k, x1, more))
+      return 1;
   }
   return 0;
 }
@@ -457,7 +548,7 @@ static int bounces(sw_contact *c, const sw_system *s, const double *v1) {
     const sw_vec wall = sw_obstacle_velocity(&c->now[t->obstacle], t->point);
     const int moves = fabs(sw_dot(wall, t->press.normal)) > SLOWEST_IMPACT;
     if (!moves && !s->bodies[t->body].plan->web) continue;
-    const sw_vec v = sw_sub(sw_touch_place(v1, t->node, t->other, t->at), wall);
+    const sw_vec v = sw_sub(sw_mean_of(v1, 0, &t->spot), wall);
     if (sw_dot(v, t->press.normal) > SLOWEST_IMPACT) return c->plastic = 1;
   }
   return 0;

@@ -8,6 +8,16 @@
 #include "contact/broad.h"
 #include "contact/contact.h"
 #include "contact/law.h"
+#include "contact/mean.h"
+
+/* Four nodes in a row of a smooth wire in an obstacle's coordinates; u counts edges from the
+ * second.
+ */
+typedef struct sw_piece {
+  sw_vec p[4];      /* [m] */
+  int starts, ends; /* 1: the wire does so at p[1] or p[2] */
+  double bulge;     /* the curve stands off the nodes by so much, at most [m] */
+} sw_piece;
 
 /* A node, or the inside of a segment that starts there, and an obstacle that
  * it may touch in this step. */
@@ -23,6 +33,10 @@ typedef struct sw_candidate {
   size_t last, last_end;     /* matching range of the last iterate's touches */
   double usual;              /* stiffness of a new touch [N/m] */
   int given;                 /* 1: it keeps that, however deep it gets */
+  int smooth;                /* 1: the wire is the smooth curve there, not its chords */
+  int last_one;              /* 1: then, the segment after it is none of this obstacle's */
+  int searched;              /* 1: then, it was so all along where known is */
+  sw_vec known[4];           /* nodes of its piece then, in the obstacle's coordinates [m] */
   int samples; /* it touches at so many places, evenly along the segment; 0: at the nearest ones */
 } sw_candidate;
 
@@ -33,7 +47,11 @@ typedef struct sw_touch {
   int obstacle, segment;
   size_t node, other, body;
   int feature;
-  double at;        /* along the segment [-] */
+  double at;        /* along the segment, of a smooth one perhaps half an edge beyond it [-] */
+  sw_mean spot;     /* the same as a mean of nodes */
+  sw_sharp sharp;   /* of a smooth one: what it touches */
+  sw_vec edge;      /* then: along an edge, in the obstacle's coordinates [-] */
+  double steady;    /* then: normal force that it has had for a while [N] */
   sw_vec point;     /* on the obstacle, world [m] */
   sw_vec local;     /* the same in the obstacle's coordinates [m] */
   double forgiven;  /* part of the true depth left out of the gap in this step [m] */
@@ -61,6 +79,7 @@ typedef struct sw_memory {
   double normal_force;  /* 0: near, but without force [N] */
   double depth;         /* that goes with normal_force [m] */
   double k;             /* [N/m] */
+  double steady;        /* as a touch's [N] */
   sw_vec normal, point; /* the side: local [-], [m] */
   int sliding;
   sw_vec elastic; /* displacement of the friction spring, local [m] */
@@ -134,6 +153,7 @@ struct sw_contact {
   int *pads;                  /* (pad_count) those of grippers */
   size_t pad_count;
   int *pressing; /* (count) 1: a pad that pressed on something at the step's start */
+  int *sharp;    /* (count) 1: it has faces, edges and corners */
   int *dense;    /* (count) 1: particles of the body at hand lie close, likewise */
   double *sunk;  /* (3 nodes) how far contact sees a node further in, or NULL: nowhere [m] */
   size_t sunk_capacity;
@@ -173,6 +193,7 @@ struct sw_contact {
   double time, h;    /* of the step [s] */
   double stage_time; /* that obstacles were last placed for [s] */
   double nominal;    /* the run's full step [s] */
+  int chords;        /* 1: edges meet a wire's chords, not its smooth curve */
   sw_contact_regime regime;
   int plastic;     /* 1: the step is one that does not bounce */
   double soonest;  /* rebound that is not at the step's start, after it [s] */
@@ -217,6 +238,56 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
  * SW_ENOMEM. */
 sw_status sw_contact_turn_over(sw_contact *c, size_t *first, size_t *end);
 
+/* Where a smooth candidate is near its obstacle. */
+enum { SW_PLACES_MOST = 3 * SW_CLOSEST_MAX };
+typedef struct sw_place {
+  sw_closest near; /* in the obstacle's coordinates */
+  sw_sharp sharp;
+  sw_vec edge;  /* along it, or 0 [-] */
+  sw_vec along; /* the curve there [-] */
+} sw_place;
+typedef struct sw_places {
+  size_t count;
+  sw_place place[SW_PLACES_MOST];
+} sw_places;
+/* A segment's piece with the system's nodes at x. 0: no edge or corner is less than reach away. */
+int sw_contact_piece(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                     const sw_contact_at *at, const double *x, double reach, sw_piece *out);
+/* Its places less than reach away [m]. */
+void sw_contact_places(const sw_contact *c, const sw_candidate *k, const sw_piece *piece,
+                       double reach, sw_places *list);
+/* A place on an edge or corner goes on to where it is on the piece. 0: it has none nearby. */
+int sw_contact_follow(const sw_piece *piece, sw_place *place);
+/* How deep the wire was at an edge or corner at the step's start, wherever along it that was: what
+ * slides and turns was not where the tangent of now says. 0: not at all [m]. */
+double sw_contact_depth_at_edge(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                                const sw_place *place);
+/* 1: a node's nearest place is on an edge across the wire, which the segments meet. */
+int sw_contact_is_segments(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                           const sw_contact_at *at, const double *x, const sw_closest *near);
+/* The same of a touch. */
+int sw_contact_follow_touch(const sw_contact *c, const sw_touch *t, const sw_piece *piece,
+                            sw_place *out);
+/* A place's normal in the world, that of a touch that has had this normal force for a while [N].
+ * What bends between two nodes under a push is not in the curve: it bends deeper in the middle
+ * between them, and would be held there if it did not push a little along the wire. */
+sw_vec sw_contact_leaning(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                          const sw_place *place, double steady);
+/* The normal force that a touch has had for a while, after a step of h [N]. */
+double sw_contact_steady_force(const sw_system *s, const sw_touch *t, double h);
+/* A place along a candidate as a mean of nodes. */
+sw_mean sw_contact_spot(const sw_system *s, const sw_candidate *k, double at);
+
+/* A touch of the iterate before is the same one up to this far along the segment, and goes on into
+ * the next iterate up to this gap, of the radius [-]. */
+#define SW_SAME_PLACE 0.25
+#define SW_STILL_NEAR 0.5
+/* What a candidate's touch that was nearest to this place left at the last accepted step, or NULL.
+ */
+const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k, double at);
+/* SW_ENOMEM. */
+sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
+                               const double *y, const sw_place *place);
 /* Find the touches at positions y; those of before are then the last ones. SW_ENOMEM. */
 sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw_error *err);
 /* How deep the touch's place was at the step's start, below 0 when it was outside [m]. */
@@ -224,8 +295,8 @@ double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw
 
 /* Has the touch the place and the normal that its equations had, after an update by shift [m] to
  * positions y? scale: forces far below do not matter [N]. */
-int sw_contact_stays(const sw_contact *c, const sw_touch *t, const double *y, double shift,
-                     double scale);
+int sw_contact_stays(const sw_contact *c, const sw_system *s, const sw_touch *t, const double *y,
+                     double shift, double scale);
 
 /* After a static solve: let go of touches at the ends of rows as far as wires lift off there. */
 void sw_contact_peel(sw_contact *c, const sw_system *s);
@@ -277,6 +348,11 @@ static inline sw_vec sw_contact_where(const sw_contact *c, const double *x, size
                                       size_t other, double at) {
   const sw_vec p = sw_touch_place(x, node, other, at);
   return c->sunk ? sw_sub(p, sw_touch_place(c->sunk, node, other, at)) : p;
+}
+
+static inline sw_vec sw_mean_place(const sw_contact *c, const double *x, const sw_mean *spot) {
+  const sw_vec p = sw_mean_of(x, 0, spot);
+  return c->sunk ? sw_sub(p, sw_mean_of(c->sunk, 0, spot)) : p;
 }
 
 /* What is sunk along the normal n of its surface meets a face of normal -n where that surface is.

@@ -127,6 +127,10 @@ static void bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
   sw_trimesh_bones(&((const hull *)shape)->mesh, visit, user);
 }
 
+static sw_sharp sharp(const sw_shape *shape, int feature, sw_vec *along) {
+  return sw_trimesh_sharp(&((const hull *)shape)->mesh, feature, along);
+}
+
 static const sw_param rows[] = {
     {"points", SW_PARAM_OTHER, "m", NAN, -SW_SHAPE_LARGEST, SW_SHAPE_LARGEST, SW_PARAM_REQUIRED,
      NULL, 0, "places whose hull is the solid, at least four: {x, y, z, x, y, z, ...}"},
@@ -155,4 +159,5 @@ const sw_shape_class sw_shape_class_hull = {
     .segment = segment,
     .sweep = sweep,
     .triangles = triangles,
-    .bones = bones};
+    .bones = bones,
+    .sharp = sharp};

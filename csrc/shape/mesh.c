@@ -60,6 +60,10 @@ static void bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
   sw_trimesh_bones(&((const mesh *)shape)->mesh, visit, user);
 }
 
+static sw_sharp sharp(const sw_shape *shape, int feature, sw_vec *along) {
+  return sw_trimesh_sharp(&((const mesh *)shape)->mesh, feature, along);
+}
+
 static const sw_param rows[] = {
     {"data", SW_PARAM_OTHER, "-", NAN, -INFINITY, INFINITY, SW_PARAM_REQUIRED, NULL, 0,
      "content of a mesh file, as meshfile.read gives it"},
@@ -91,4 +95,5 @@ const sw_shape_class sw_shape_class_mesh = {
     .segment = segment,
     .sweep = sweep,
     .triangles = triangles,
-    .bones = bones};
+    .bones = bones,
+    .sharp = sharp};

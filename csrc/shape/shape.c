@@ -104,6 +104,16 @@ void sw_shape_bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
   if (shape->class->bones) shape->class->bones(shape, visit, user);
 }
 
+int sw_shape_has_edges(const sw_shape *shape) { return shape->class->sharp != NULL; }
+
+int sw_shape_over_face(const sw_shape *shape, const sw_vec *p, size_t count) {
+  return shape->class->over_face && shape->class->over_face(shape, p, count);
+}
+
+sw_sharp sw_shape_sharp(const sw_shape *shape, int feature, sw_vec *along) {
+  return shape->class->sharp ? shape->class->sharp(shape, feature, along) : SW_SHARP_NOT;
+}
+
 /* --- files ------------------------------------------------------------------ */
 
 /* A count of 0 on the tape: it was made without them. */
@@ -137,6 +147,11 @@ void sw_tape_shape(sw_tape *t, sw_shape **shape) {
 }
 
 /* --- queries -------------------------------------------------------------- */
+
+int sw_shape_meets(const sw_shape *shape, sw_vec a, sw_vec b, double reach) {
+  const sw_bounds near = sw_bounds_of(a, b, reach);
+  return sw_bounds_meet(&near, &shape->bounds);
+}
 
 /* Sum of the coordinates' sizes; NaN stays NaN [m] */
 static inline double size_of(sw_vec p) { return fabs(p.x) + fabs(p.y) + fabs(p.z); }

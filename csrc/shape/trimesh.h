@@ -77,6 +77,9 @@ int sw_trimesh_sweep(const sw_trimesh *mesh, const sw_sweep *path, sw_closest *o
 sw_status sw_trimesh_triangles(const sw_trimesh *mesh, sw_triangles *out);
 void sw_trimesh_bones(const sw_trimesh *mesh, sw_bone_visit visit, void *user);
 
+/* As sw_shape_sharp. */
+sw_sharp sw_trimesh_sharp(const sw_trimesh *mesh, int feature, sw_vec *along);
+
 /* Features are numbered triangles first, then edges, then corners. */
 static inline int sw_trimesh_edge_feature(const sw_trimesh *mesh, int edge) {
   return (int)mesh->triangle_count + edge;
