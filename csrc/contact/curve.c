@@ -83,7 +83,7 @@ static int find_foot(const sw_piece *c, sw_place *place, double low, double high
     const double ahead = -sw_dot(on.along, off) / (rise > 0 ? rise : across2);
     if (turn == MOST_TURNS || fabs(ahead) < SHARP_ENOUGH) break;
     const double next = fmin(fmax(u + ahead, low), high);
-    if (next == u) break;
+    if (next == u) return 0; /* it is beyond the piece */
     u = next;
   }
   const double length = sw_norm(on.along), back = sw_dot(e, w);
@@ -237,16 +237,14 @@ int sw_contact_follow(const sw_piece *piece, sw_place *place) {
   return find_foot(piece, place, piece->starts ? 0.0 : -0.5, piece->ends ? 1.0 : 1.5);
 }
 
-int sw_contact_follow_touch(const sw_contact *c, const sw_touch *t, const sw_piece *piece,
-                            sw_place *out) {
+sw_place sw_contact_place_of(const sw_contact *c, const sw_touch *t) {
   const sw_quat back = sw_quat_conj(c->now[t->obstacle].pose.q);
-  *out = (sw_place){.near = {.at = t->at,
+  return (sw_place){.near = {.at = t->at,
                              .point = t->local,
                              .normal = sw_rotate(back, t->press.normal),
                              .feature = t->feature},
                     .sharp = t->sharp,
                     .edge = t->edge};
-  return sw_contact_follow(piece, out);
 }
 
 sw_vec sw_contact_leaning(const sw_contact *c, const sw_system *s, const sw_candidate *k,

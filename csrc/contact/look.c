@@ -135,17 +135,39 @@ static sw_status add_place(sw_contact *c, const sw_system *s, const sw_candidate
   return sw_contact_add_touch(c, s, k, y, place);
 }
 
-/* What pushed at an edge in the iterate before goes on there, found or not. all: and what was less
- * than reach away. */
+/* A place on an edge or corner is one wherever the wire is lowest: not only where that is nearest
+ * to the obstacle, as a search finds it. One that pushed would come and go as the wire tilts. */
+static sw_status follow(sw_contact *c, const sw_system *s, const sw_candidate *k, const double *y,
+                        const sw_piece *piece, sw_place *place, double reach) {
+  if (!sw_contact_follow(piece, place) || !(place->near.gap < reach)) return SW_OK;
+  return add_place(c, s, k, y, place);
+}
+
+/* What pushed in the step before. */
+static sw_status begin_with(sw_contact *c, const sw_system *s, const sw_candidate *k,
+                            const double *y, const sw_piece *piece, double reach) {
+  const sw_shape *shape = c->obstacles[k->obstacle].shape;
+  for (size_t i = k->memory; c->memory && i < k->memory_end; i++) {
+    const sw_memory *m = &c->memory[i];
+    if (!(m->normal_force > 0) || m->feature == SW_BEHIND_BARRIER) continue;
+    sw_place place = {
+        .near = {.at = m->at, .point = m->point, .normal = m->normal, .feature = m->feature}};
+    place.sharp = sw_shape_sharp(shape, m->feature, &place.edge);
+    if (place.sharp) SW_TRY(follow(c, s, k, y, piece, &place, reach));
+  }
+  return SW_OK;
+}
+
+/* What pushed in the iterate before, found or not. all: and what was less than reach away. */
 static sw_status go_on(sw_contact *c, const sw_system *s, const sw_candidate *k, const double *y,
                        const sw_piece *piece, int all, double reach) {
-  const double near = all ? reach : SW_STILL_NEAR * k->radius;
-  sw_place place;
+  const double near = all ? reach : k->skin + SW_STILL_NEAR * k->radius;
+  if (k->last == k->last_end) return begin_with(c, s, k, y, piece, near);
   for (size_t i = k->last; i < k->last_end; i++) {
     const sw_touch *last = &c->last[i];
     if (!last->sharp || (!all && !(last->press.normal_force > 0))) continue;
-    if (sw_contact_follow_touch(c, last, piece, &place) && place.near.gap < near)
-      SW_TRY(add_place(c, s, k, y, &place));
+    sw_place place = sw_contact_place_of(c, last);
+    SW_TRY(follow(c, s, k, y, piece, &place, near));
   }
   return SW_OK;
 }

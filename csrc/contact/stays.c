@@ -23,8 +23,9 @@ static int find_on_curve(const sw_contact *c, const sw_system *s, const sw_touch
                          const double *y, sw_place *out) {
   const sw_candidate *k = &c->candidates[t->candidate];
   sw_piece piece;
+  *out = sw_contact_place_of(c, t);
   return sw_contact_piece(c, s, k, c->now, y, 2.0 * k->radius, &piece) &&
-         sw_contact_follow_touch(c, t, &piece, out);
+         sw_contact_follow(&piece, out);
 }
 
 /* Where the wire is nearest now; 0: nowhere. */

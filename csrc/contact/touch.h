@@ -265,9 +265,8 @@ double sw_contact_depth_at_edge(const sw_contact *c, const sw_system *s, const s
 /* 1: a node's nearest place is on an edge across the wire, which the segments meet. */
 int sw_contact_is_segments(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                            const sw_contact_at *at, const double *x, const sw_closest *near);
-/* The same of a touch. */
-int sw_contact_follow_touch(const sw_contact *c, const sw_touch *t, const sw_piece *piece,
-                            sw_place *out);
+/* That of a touch. */
+sw_place sw_contact_place_of(const sw_contact *c, const sw_touch *t);
 /* A place's normal in the world, that of a touch that has had this normal force for a while [N].
  * What bends between two nodes under a push is not in the curve: it bends deeper in the middle
  * between them, and would be held there if it did not push a little along the wire. */
