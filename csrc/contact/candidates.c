@@ -306,19 +306,6 @@ static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t
   }
 }
 
-/* Which segments are the last ones of a row near an obstacle? Candidates are in the order of nodes.
- */
-static void mark_last(sw_contact *c) {
-  for (size_t i = 0, j = 0; i < c->candidate_count; i++) {
-    sw_candidate *k = &c->candidates[i];
-    if (!k->smooth || !k->segment) continue;
-    while (j < c->candidate_count && c->candidates[j].node <= k->node) j++;
-    k->last_one = 1;
-    for (size_t n = j; n < c->candidate_count && c->candidates[n].node == k->node + 1; n++)
-      if (c->candidates[n].obstacle == k->obstacle && c->candidates[n].segment) k->last_one = 0;
-  }
-}
-
 /* Many nodes may begin to touch at once: lists that grow one by one would be copied again and
  * again. */
 static sw_status make_room(sw_contact *c) {
@@ -348,6 +335,5 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
   if (status == SW_OK) status = make_room(c);
   if (status != SW_OK) return sw_fail(err, status, "contact: %s", sw_status_text(status));
   match_memory(c);
-  mark_last(c);
   return SW_OK;
 }

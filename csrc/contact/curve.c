@@ -1,16 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where the smooth curve of a wire is near edges and corners. Found with straight pieces that touch
- * the curve, places are then moved to the curve's own foot: the same whichever piece found it. */
+/* The smooth curve of a wire, its feet over edges and corners, and how a touch there pushes. */
 #include <math.h>
 
 #include "contact/touch.h"
 
-/* A wire that stands off its chords by less than this share of its radius is found by the chords
- * [-]. */
-static const double STRAIGHT = 0.02;
-/* Pieces go on beyond their ends by this share of an edge, so that none is missed between two [-].
- */
-static const double OVERLAP = 0.08;
 static const double QUARTER = 0.25;
 /* Lines closer to parallel than this have no foot [-]: squared sine. */
 static const double PARALLEL = 0.01;
@@ -102,82 +95,6 @@ static int find_foot(const sw_piece *c, sw_place *place, double low, double high
   return 1;
 }
 
-/* A place known before is this one when the obstacle's are nearer than this share of the radius
- * [-]. */
-static const double SAME_POINT = 0.01;
-
-static int is_new(const sw_places *list, const sw_candidate *k, const sw_place *place) {
-  const double near = SAME_POINT * k->radius;
-  for (size_t i = 0; i < list->count; i++)
-    if (list->place[i].sharp &&
-        sw_norm2(sw_sub(list->place[i].near.point, place->near.point)) < near * near &&
-        sw_dot(list->place[i].near.normal, place->near.normal) > 0)
-      return 0;
-  return 1;
-}
-
-static void take(sw_places *list, const sw_place *place) {
-  if (list->count < SW_PLACES_MOST) list->place[list->count++] = *place;
-}
-
-/* A place found along a line that turns from the curve's tangent there by more than this is looked
- * for again, along the tangent: which of two edges near each other touch is a matter of its tilt
- * [-]. */
-static const double TURNED = 0.01;
-
-static void along_tangent(const sw_piece *c, const sw_shape *shape, const sw_candidate *k,
-                          double reach, double u, double back, double ahead, sw_places *list,
-                          int again);
-
-/* Places of a straight piece from u[0] to u[1]. */
-static void along_piece(const sw_piece *c, const sw_shape *shape, const sw_candidate *k,
-                        double reach, const sw_vec end[2], const double u[2], sw_places *list,
-                        int again) {
-  sw_closest near[SW_CLOSEST_MAX];
-  const sw_vec d = sw_sub(end[1], end[0]);
-  const int n = sw_shape_segment(shape, end[0], end[1], reach + c->bulge, near);
-  for (int i = 0; i < n; i++) {
-    sw_place place = {.near = near[i], .edge = {0, 0, 0}};
-    place.sharp = sw_shape_sharp(shape, near[i].feature, &place.edge);
-    if (place.sharp == SW_SHARP_NOT) {
-      place.sharp = SW_SHARP_EDGE;
-      place.edge = sw_unit_or(sw_cross(near[i].normal, d), sw_v(0, 0, 0));
-    }
-    place.near.at = u[0] + near[i].at * (u[1] - u[0]);
-    if (!find_foot(c, &place, c->starts ? 0.0 : -0.5, c->ends ? 1.0 : 1.5)) continue;
-    if (!(place.near.gap < reach) || !is_new(list, k, &place)) continue;
-    const int turned = sw_norm2(sw_cross(place.along, d)) > TURNED * TURNED * sw_norm2(d);
-    take(list, &place);
-    if (turned && again)
-      along_tangent(c, shape, k, reach, place.near.at, QUARTER, QUARTER, list, 0);
-  }
-}
-
-/* Along the tangent at u, so far to both sides. */
-static void along_tangent(const sw_piece *c, const sw_shape *shape, const sw_candidate *k,
-                          double reach, double u, double back, double ahead, sw_places *list,
-                          int again) {
-  const spot on = at_curve(c, u);
-  const sw_vec end[2] = {sw_madd(on.x, on.along, -back), sw_madd(on.x, on.along, ahead)};
-  const double from[2] = {u - back, u + ahead};
-  along_piece(c, shape, k, reach, end, from, list, again);
-}
-
-static void of_segment(const sw_piece *c, const sw_shape *shape, const sw_candidate *k,
-                       double reach, sw_places *list) {
-  const double out = QUARTER + OVERLAP;
-  const double back = c->starts ? 0.5 : out, ahead = c->ends ? 0.5 : out;
-  if (c->bulge < STRAIGHT * k->radius) {
-    const double u[2] = {c->starts ? 0.0 : -OVERLAP, c->ends ? 1.0 : 1.0 + OVERLAP};
-    const sw_vec end[2] = {sw_lerp(c->p[1], c->p[2], u[0]), sw_lerp(c->p[1], c->p[2], u[1])};
-    along_piece(c, shape, k, reach, end, u, list, 1);
-    return;
-  }
-  along_tangent(c, shape, k, reach, 0.5, back, ahead, list, 1);
-  if (!c->starts) along_tangent(c, shape, k, reach, 0.0, out, out, list, 1);
-  if (!c->ends && k->last_one) along_tangent(c, shape, k, reach, 1.0, out, out, list, 1);
-}
-
 /* Nodes meet faces, edges that the wire lies along and, at its ends, all. */
 int sw_contact_is_segments(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                            const sw_contact_at *at, const double *x, const sw_closest *near) {
@@ -227,10 +144,10 @@ sw_mean sw_contact_spot(const sw_system *s, const sw_candidate *k, double at) {
                        (double)(k->node - b->first_node) + at);
 }
 
-void sw_contact_places(const sw_contact *c, const sw_candidate *k, const sw_piece *piece,
-                       double reach, sw_places *list) {
-  list->count = 0;
-  of_segment(piece, c->obstacles[k->obstacle].shape, k, reach, list);
+sw_vec sw_contact_curve(const sw_piece *piece, double u, sw_vec *along) {
+  const spot on = at_curve(piece, u);
+  *along = on.along;
+  return on.x;
 }
 
 int sw_contact_follow(const sw_piece *piece, sw_place *place) {

@@ -266,18 +266,20 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
 static int by_meeting(const void *left, const void *right) {
   const sw_touch *p = left, *q = right;
   if (p->meets != q->meets) return p->meets < q->meets ? -1 : 1;
+  if (p->closes != q->closes) return p->closes > q->closes ? -1 : 1;
   if (p->node != q->node) return p->node < q->node ? -1 : 1;
   return p->obstacle - q->obstacle;
 }
 
-/* What meets its obstacle first strikes first, whichever end the wire's nodes are counted from:
- * places of neighbouring segments share nodes. */
+/* What meets its obstacle first strikes first, and what does so at once, the fastest first,
+ * whichever end the wire's nodes are counted from: places of neighbouring segments share nodes. */
 static int review_touches(sw_contact *c, sw_system *s, double h) {
   int changed = 0;
   for (size_t i = 0; i < c->pressed_count; i++) {
     sw_touch *t = &c->pressed[i];
     const sw_levers levers = sw_touch_levers(s, t);
     const encounter e = encounter_of(c, s, t, &levers);
+    t->closes = e.approach;
     t->meets = e.approach > 0 ? e.gap / e.approach : HUGE_VAL;
   }
   if (c->pressed_count) qsort(c->pressed, c->pressed_count, sizeof *c->pressed, by_meeting);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Touches of an iterate: where wires are near obstacles. */
 #include <math.h>
-#include <string.h>
 
 #include "base/interrupt.h"
 #include "contact/touch.h"
@@ -126,81 +125,49 @@ static int is_known(const sw_contact *c, const sw_candidate *k, const sw_place *
   return 0;
 }
 
+/* The same obstacle's candidate of the segment before (by -1) or after (by 1), or NULL. */
+static const sw_candidate *beside(const sw_contact *c, const sw_candidate *k, int by) {
+  const sw_candidate *const end = by < 0 ? c->candidates - 1 : c->candidates + c->candidate_count;
+  const size_t node = by < 0 ? k->node - 1 : k->node + 1;
+  for (const sw_candidate *n = k + by; n != end && n->body == k->body; n += by) {
+    if (by < 0 ? n->node + 1 < k->node : n->node > node) break;
+    if (n->node == node && n->obstacle == k->obstacle && n->segment && n->smooth) return n;
+  }
+  return NULL;
+}
+
+/* A place is the segment's that it lies in, whichever one beside has found it: what it remembers
+ * and what struck it must not depend on the end that nodes are counted from. */
+static const sw_candidate *owner(const sw_contact *c, const sw_candidate *k, sw_place *place) {
+  const int by = place->near.at < 0 ? -1 : place->near.at > 1 ? 1 : 0;
+  const sw_candidate *own = by ? beside(c, k, by) : NULL;
+  if (!own) return k;
+  place->near.at -= by;
+  return own;
+}
+
 static sw_status add_place(sw_contact *c, const sw_system *s, const sw_candidate *k,
                            const double *y, sw_place *place) {
   if (is_known(c, k, place)) return SW_OK;
+  k = owner(c, k, place);
   const sw_mean spot = sw_contact_spot(s, k, place->near.at);
   const sw_vec p = sw_pose_local(c->now[k->obstacle].pose, sw_mean_place(c, y, &spot));
   if (!keep_side(c, k, p, &place->near)) return SW_OK;
   return sw_contact_add_touch(c, s, k, y, place);
 }
 
-/* A place on an edge or corner is one wherever the wire is lowest: not only where that is nearest
- * to the obstacle, as a search finds it. One that pushed would come and go as the wire tilts. */
-static sw_status follow(sw_contact *c, const sw_system *s, const sw_candidate *k, const double *y,
-                        const sw_piece *piece, sw_place *place, double reach) {
-  if (!sw_contact_follow(piece, place) || !(place->near.gap < reach)) return SW_OK;
-  return add_place(c, s, k, y, place);
-}
-
-/* What pushed in the step before. */
-static sw_status begin_with(sw_contact *c, const sw_system *s, const sw_candidate *k,
-                            const double *y, const sw_piece *piece, double reach) {
-  const sw_shape *shape = c->obstacles[k->obstacle].shape;
-  for (size_t i = k->memory; c->memory && i < k->memory_end; i++) {
-    const sw_memory *m = &c->memory[i];
-    if (!(m->normal_force > 0) || m->feature == SW_BEHIND_BARRIER) continue;
-    sw_place place = {
-        .near = {.at = m->at, .point = m->point, .normal = m->normal, .feature = m->feature}};
-    place.sharp = sw_shape_sharp(shape, m->feature, &place.edge);
-    if (place.sharp) SW_TRY(follow(c, s, k, y, piece, &place, reach));
-  }
-  return SW_OK;
-}
-
-/* What pushed in the iterate before, found or not. all: and what was less than reach away. */
-static sw_status go_on(sw_contact *c, const sw_system *s, const sw_candidate *k, const double *y,
-                       const sw_piece *piece, int all, double reach) {
-  const double near = all ? reach : k->skin + SW_STILL_NEAR * k->radius;
-  if (k->last == k->last_end) return begin_with(c, s, k, y, piece, near);
-  for (size_t i = k->last; i < k->last_end; i++) {
-    const sw_touch *last = &c->last[i];
-    if (!last->sharp || (!all && !(last->press.normal_force > 0))) continue;
-    sw_place place = sw_contact_place_of(c, last);
-    SW_TRY(follow(c, s, k, y, piece, &place, near));
-  }
-  return SW_OK;
-}
-
-/* Where the nodes of a segment's piece have moved by less than this share of the radius since its
- * places were looked for, these are still all [-]. */
-static const double STILL = 0.005;
-
-static int is_still(const sw_candidate *k, const sw_piece *piece) {
-  const double most = STILL * STILL * k->radius * k->radius;
-  for (size_t j = 0; j < 4; j++)
-    if (!(sw_norm2(sw_sub(piece->p[j], k->known[j])) < most)) return 0;
-  return 1;
-}
-
 /* Along the smooth curve. */
-static sw_status query_curve(sw_contact *c, const sw_system *s, sw_candidate *k, const double *y,
-                             double reach) {
+static sw_status query_curve(sw_contact *c, const sw_system *s, const sw_candidate *k,
+                             const double *y, double reach) {
   sw_piece piece;
   sw_places list;
-  if (!sw_contact_piece(c, s, k, c->now, y, reach, &piece)) {
-    k->searched = 0;
-    return SW_OK;
-  }
-  if (k->searched && is_still(k, &piece)) return go_on(c, s, k, y, &piece, 1, reach);
+  if (!sw_contact_piece(c, s, k, c->now, y, reach, &piece)) return SW_OK;
   sw_contact_places(c, k, &piece, reach, &list);
-  k->searched = 1;
-  memcpy(k->known, piece.p, sizeof k->known);
   for (size_t i = 0; i < list.count; i++) SW_TRY(add_place(c, s, k, y, &list.place[i]));
-  return c->regime == SW_CONTACT_EXPLICIT ? SW_OK : go_on(c, s, k, y, &piece, 0, reach);
+  return SW_OK;
 }
 
-static sw_status query(sw_contact *c, const sw_system *s, sw_candidate *k, const double *y) {
+static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k, const double *y) {
   const double reach = 2.0 * k->radius; /* keeps what may begin to touch in the list */
   sw_place place;
   if (c->barrier_count && behind_barrier(c, s, k, y, &place))

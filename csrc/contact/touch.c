@@ -21,9 +21,13 @@ static const double SOFTEST = 1000.0;
  * that one may only have met too many touches at once, and then nothing holds the mesh. */
 enum { SPARE_PULLS = 1 };
 
+/* Touches are in the order of candidates: a segment may find one of the segment beside. */
 static sw_status push(sw_contact *c, const sw_touch *t) {
   SW_TRY(sw_grow((void **)&c->touches, &c->touch_capacity, c->touch_count + 1, sizeof *c->touches));
-  c->touches[c->touch_count++] = *t;
+  size_t i = c->touch_count++;
+  for (; i > c->parts.touch && c->touches[i - 1].candidate > t->candidate; i--)
+    c->touches[i] = c->touches[i - 1];
+  c->touches[i] = *t;
   return SW_OK;
 }
 

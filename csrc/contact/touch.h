@@ -34,9 +34,6 @@ typedef struct sw_candidate {
   double usual;              /* stiffness of a new touch [N/m] */
   int given;                 /* 1: it keeps that, however deep it gets */
   int smooth;                /* 1: the wire is the smooth curve there, not its chords */
-  int last_one;              /* 1: then, the segment after it is none of this obstacle's */
-  int searched;              /* 1: then, it was so all along where known is */
-  sw_vec known[4];           /* nodes of its piece then, in the obstacle's coordinates [m] */
   int samples; /* it touches at so many places, evenly along the segment; 0: at the nearest ones */
 } sw_candidate;
 
@@ -61,6 +58,7 @@ typedef struct sw_touch {
   double stiffer;   /* its stiffness from the next iterate on [N/m] */
   int known;        /* it pressed at the step's start */
   double meets;     /* of one that may strike: when it would, after the step's start [s] */
+  double closes;    /* then: how fast its gap closes there [m/s] */
   int held;         /* both ends are held: no force */
   double friction;  /* coefficient in this step: kinetic when it slid before [-] */
   double slid;      /* way that it slid until the step's start, since it began to press [m] */
@@ -256,6 +254,8 @@ int sw_contact_piece(const sw_contact *c, const sw_system *s, const sw_candidate
 /* Its places less than reach away [m]. */
 void sw_contact_places(const sw_contact *c, const sw_candidate *k, const sw_piece *piece,
                        double reach, sw_places *list);
+/* Where the piece's curve is, and its derivative by u [m]. */
+sw_vec sw_contact_curve(const sw_piece *piece, double u, sw_vec *along);
 /* A place on an edge or corner goes on to where it is on the piece. 0: it has none nearby. */
 int sw_contact_follow(const sw_piece *piece, sw_place *place);
 /* How deep the wire was at an edge or corner at the step's start, wherever along it that was: what

@@ -194,6 +194,43 @@ static sw_sharp sharp(const sw_shape *shape, int feature, sw_vec *along) {
   return between >= 2 ? SW_SHARP_NOT : between ? SW_SHARP_EDGE : SW_SHARP_CORNER;
 }
 
+/* Is an edge or corner of this sign along axis k within the bounds there? 0: it goes along k. */
+static int within(const double half[3], const double low[3], const double high[3], int k,
+                  int sign) {
+  if (!sign) return low[k] <= half[k] && high[k] >= -half[k];
+  return low[k] <= sign * half[k] && high[k] >= sign * half[k];
+}
+
+static void ridges(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_ridge_visit visit,
+                   void *user) {
+  const sw_vec h = ((const box *)shape)->half;
+  const sw_bounds near = sw_bounds_of(a, b, reach);
+  const double half[3] = {h.x, h.y, h.z}, low[3] = {near.min.x, near.min.y, near.min.z};
+  const double high[3] = {near.max.x, near.max.y, near.max.z};
+  for (int x = -1; x <= 1; x++)
+    for (int y = -1; y <= 1 && within(half, low, high, 0, x); y++)
+      for (int z = -1; z <= 1 && within(half, low, high, 1, y); z++) {
+        const int between = !x + !y + !z;
+        if (between > 1 || !within(half, low, high, 2, z)) continue;
+        const sw_vec along = between ? sw_v(!x, !y, !z) : sw_v(0, 0, 0);
+        const sw_vec from = sw_v((x ? x : -1) * h.x, (y ? y : -1) * h.y, (z ? z : -1) * h.z);
+        const sw_ridge r = {.sharp = between ? SW_SHARP_EDGE : SW_SHARP_CORNER,
+                            .feature = MIDDLE + X_DIGIT * x + Y_DIGIT * y + Z_DIGIT * z,
+                            .from = from,
+                            .along = along,
+                            .length = 2.0 * sw_dot(along, h)};
+        visit(user, &r);
+      }
+}
+
+static int points_out(const sw_shape *shape, const sw_ridge *ridge, sw_vec n, double share) {
+  (void)shape;
+  const int x = ridge->feature % 3 - 1, y = ridge->feature / Y_DIGIT % 3 - 1;
+  const int z = ridge->feature / Z_DIGIT - 1;
+  return x * n.x >= -share && y * n.y >= -share && z * n.z >= -share &&
+         x * n.x + y * n.y + z * n.z > 0;
+}
+
 static const sw_param rows[] = {
     {"size", SW_PARAM_VECTOR, "m", NAN, 0, SW_SHAPE_LARGEST, SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN,
      NULL, offsetof(box_args, size), "lengths of the edges along x, y and z"},
@@ -222,4 +259,6 @@ const sw_shape_class sw_shape_class_box = {
     .triangles = triangles,
     .bones = bones,
     .over_face = over_face,
-    .sharp = sharp};
+    .sharp = sharp,
+    .ridges = ridges,
+    .points_out = points_out};

@@ -64,6 +64,15 @@ static sw_sharp sharp(const sw_shape *shape, int feature, sw_vec *along) {
   return sw_trimesh_sharp(&((const mesh *)shape)->mesh, feature, along);
 }
 
+static void ridges(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_ridge_visit visit,
+                   void *user) {
+  sw_trimesh_ridges(&((const mesh *)shape)->mesh, a, b, reach, visit, user);
+}
+
+static int points_out(const sw_shape *shape, const sw_ridge *ridge, sw_vec n, double share) {
+  return sw_trimesh_points_out(&((const mesh *)shape)->mesh, ridge, n, share);
+}
+
 static const sw_param rows[] = {
     {"data", SW_PARAM_OTHER, "-", NAN, -INFINITY, INFINITY, SW_PARAM_REQUIRED, NULL, 0,
      "content of a mesh file, as meshfile.read gives it"},
@@ -96,4 +105,6 @@ const sw_shape_class sw_shape_class_mesh = {
     .sweep = sweep,
     .triangles = triangles,
     .bones = bones,
-    .sharp = sharp};
+    .sharp = sharp,
+    .ridges = ridges,
+    .points_out = points_out};

@@ -114,6 +114,15 @@ sw_sharp sw_shape_sharp(const sw_shape *shape, int feature, sw_vec *along) {
   return shape->class->sharp ? shape->class->sharp(shape, feature, along) : SW_SHARP_NOT;
 }
 
+void sw_shape_ridges(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_ridge_visit visit,
+                     void *user) {
+  if (shape->class->ridges) shape->class->ridges(shape, a, b, reach, visit, user);
+}
+
+int sw_shape_points_out(const sw_shape *shape, const sw_ridge *ridge, sw_vec n, double share) {
+  return shape->class->points_out && shape->class->points_out(shape, ridge, n, share);
+}
+
 /* --- files ------------------------------------------------------------------ */
 
 /* A count of 0 on the tape: it was made without them. */

@@ -51,6 +51,10 @@ struct sw_shape_class {
   int (*over_face)(const sw_shape *shape, const sw_vec *p, size_t count);
   /* As sw_shape_sharp; NULL = not of flat faces. */
   sw_sharp (*sharp)(const sw_shape *shape, int feature, sw_vec *along);
+  /* As sw_shape_ridges and sw_shape_points_out, of what has edges. */
+  void (*ridges)(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_ridge_visit visit,
+                 void *user);
+  int (*points_out)(const sw_shape *shape, const sw_ridge *ridge, sw_vec n, double share);
 };
 
 #define X(name) extern const sw_shape_class sw_shape_class_##name;

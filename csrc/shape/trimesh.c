@@ -192,14 +192,3 @@ void sw_trimesh_bones(const sw_trimesh *mesh, sw_bone_visit visit, void *user) {
     visit(user, sw_trimesh_vertex(mesh, mesh->edges[e].v[0]),
           sw_trimesh_vertex(mesh, mesh->edges[e].v[1]), 0);
 }
-
-sw_sharp sw_trimesh_sharp(const sw_trimesh *mesh, int feature, sw_vec *along) {
-  const int edge = feature - sw_trimesh_edge_feature(mesh, 0);
-  const int corner = feature - sw_trimesh_corner_feature(mesh, 0);
-  if (corner >= 0) return mesh->corners[corner].flags & SW_CONVEX ? SW_SHARP_CORNER : SW_SHARP_NOT;
-  if (edge < 0 || !(mesh->edges[edge].flags & SW_CONVEX)) return SW_SHARP_NOT;
-  const int *v = mesh->edges[edge].v;
-  *along = sw_unit_or(sw_sub(sw_trimesh_vertex(mesh, v[1]), sw_trimesh_vertex(mesh, v[0])),
-                      sw_v(1, 0, 0));
-  return SW_SHARP_EDGE;
-}
