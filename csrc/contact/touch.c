@@ -71,27 +71,33 @@ static const sw_memory *inherited(const sw_contact *c, const sw_candidate *k, do
   return best;
 }
 
-/* That place of the iterate before if it is nearer than the nearest one. */
+/* That place of the iterate before if it is an edge's of the same obstacle and nearer than the
+ * nearest one. */
 static const sw_touch *nearer(const sw_touch *last, const sw_candidate *k, double at,
                               double *nearest, const sw_touch *best) {
+  if (!last->sharp || last->obstacle != k->obstacle || last->body != k->body) return best;
   const double d = fabs(((double)last->node - (double)k->node) + last->at - at);
   if (!(d < *nearest)) return best;
   *nearest = d;
   return last;
 }
 
-/* What a touch was in the iterate before; on the smooth curve perhaps of the segment beside. */
+/* What a touch was in the iterate before; on the smooth curve perhaps of the segment beside. Of a
+ * stage that is solved by parts, touches of the stage before are in the same list. */
 static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, double at) {
   const sw_touch *best = NULL;
   double nearest = within(k, SW_SAME_PLACE);
-  for (size_t i = k->last; i < k->last_end; i++) best = nearer(&c->last[i], k, at, &nearest, best);
+  for (size_t i = k->last; i < k->last_end; i++) {
+    const double d = fabs(c->last[i].at - at);
+    if (d < nearest) best = &c->last[i], nearest = d;
+  }
   if (!k->smooth || !k->segment) return best;
-  for (size_t i = k->last; i-- > 0 && c->last[i].node + 1 >= k->node;)
-    if (c->last[i].sharp && c->last[i].obstacle == k->obstacle)
-      best = nearer(&c->last[i], k, at, &nearest, best);
-  for (size_t i = k->last_end; i < c->last_count && c->last[i].node <= k->node + 1; i++)
-    if (c->last[i].sharp && c->last[i].obstacle == k->obstacle)
-      best = nearer(&c->last[i], k, at, &nearest, best);
+  const size_t before = c->parts.on ? c->parts.before : 0, now = k->last >= before;
+  const size_t low = now ? before : 0, high = now ? c->last_count : before;
+  for (size_t i = k->last; i-- > low && c->last[i].node + 1 >= k->node;)
+    best = nearer(&c->last[i], k, at, &nearest, best);
+  for (size_t i = k->last_end; i < high && c->last[i].node <= k->node + 1; i++)
+    best = nearer(&c->last[i], k, at, &nearest, best);
   return best;
 }
 
