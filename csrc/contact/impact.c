@@ -396,33 +396,51 @@ static int cross_part(const sw_contact *c, const sw_system *s, const sw_candidat
   return 1;
 }
 
-/* No way of a piece of the smooth curve meets the box of an obstacle that stands. */
+/* All that an obstacle may pass in the step, world. One that turns far goes through no straight way
+ * between its places, as the swept test takes it. */
+static sw_bounds passed(const sw_contact *c, size_t o) {
+  if (!c->broad.moves[o]) return c->bounds[o];
+  const sw_bounds own = sw_shape_bounds(c->obstacles[o].shape);
+  const sw_vec corner =
+      sw_v(fmax(-own.min.x, own.max.x), fmax(-own.min.y, own.max.y), fmax(-own.min.z, own.max.z));
+  const sw_contact_at *from = &c->start[o], *to = &c->now[o];
+  const double way = fmax(sw_dist(from->pose.p, to->pose.p), sw_norm(from->v) * c->h);
+  const double most = sw_norm(corner) + 2.0 * way;
+  const sw_vec wide = sw_v(most, most, most);
+  return (sw_bounds){sw_sub(from->pose.p, wide), sw_add(from->pose.p, wide)};
+}
+
+static void widen(sw_bounds *b, sw_vec p) {
+  b->min = sw_v(p.x < b->min.x ? p.x : b->min.x, p.y < b->min.y ? p.y : b->min.y,
+                p.z < b->min.z ? p.z : b->min.z);
+  b->max = sw_v(p.x > b->max.x ? p.x : b->max.x, p.y > b->max.y ? p.y : b->max.y,
+                p.z > b->max.z ? p.z : b->max.z);
+}
+
+/* No way of the candidate's part of the wire, and of the smooth curve there, meets the obstacle. */
 static int stays_away(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                       const double *x1) {
   const sw_body *b = &s->bodies[k->body];
-  const sw_bounds *box = &c->bounds[k->obstacle];
+  const sw_bounds box = passed(c, (size_t)k->obstacle);
   const size_t last = b->first_node + b->plan->nodes - 1;
-  if (c->broad.moves[k->obstacle]) return 0;
-  const size_t from = k->node > b->first_node ? k->node - 1 : k->node;
-  const size_t to = k->other < last ? k->other + 1 : k->other;
-  sw_vec low = sw_contact_where(c, x1, from, from, 0), high = low;
-  for (size_t i = from; i <= to; i++)
-    for (int end = 0; end < 2; end++) {
-      const sw_vec p = sw_contact_where(c, end ? x1 : s->x, i, i, 0);
-      low = sw_v(p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y, p.z < low.z ? p.z : low.z);
-      high = sw_v(p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y,
-                  p.z > high.z ? p.z : high.z);
-    }
-  return low.x > box->max.x || high.x < box->min.x || low.y > box->max.y || high.y < box->min.y ||
-         low.z > box->max.z || high.z < box->min.z;
+  const size_t list[4] = {k->node, k->other, k->node > b->first_node ? k->node - 1 : k->node,
+                          k->other < last ? k->other + 1 : k->other};
+  const sw_vec first = sw_contact_where(c, x1, k->node, k->node, 0);
+  sw_bounds way = {first, first};
+  for (size_t i = 0; i < (k->smooth ? 4 : 2); i++) {
+    widen(&way, sw_contact_where(c, x1, list[i], list[i], 0));
+    widen(&way, sw_contact_where(c, s->x, list[i], list[i], 0));
+  }
+  return way.min.x > box.max.x || way.max.x < box.min.x || way.min.y > box.max.y ||
+         way.max.y < box.min.y || way.min.z > box.max.z || way.max.z < box.min.z;
 }
 
 /* Of the two halves of the smooth curve's piece, what crosses first counts: a barrier holds it. */
 static int cross(sw_contact *c, sw_system *s, const sw_candidate *k, const double *x1, double h) {
   crossing one, two;
+  if ((k->smooth || c->broad.moves[k->obstacle]) && stays_away(c, s, k, x1)) return 0;
   if (!k->smooth)
     return cross_part(c, s, k, x1, 0.0, 1.0, &one) && raise_barrier(c, s, k, &one.hit, h);
-  if (stays_away(c, s, k, x1)) return 0;
   const int first = cross_part(c, s, k, x1, 0.0, 0.5, &one);
   const int second = cross_part(c, s, k, x1, 0.5, 1.0, &two);
   if (!first && !second) return 0;
