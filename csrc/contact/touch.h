@@ -223,6 +223,14 @@ void sw_contact_expect(sw_contact *c, int obstacle);
 /* A step of a system with so many nodes begins without impacts and barriers. SW_ENOMEM. */
 sw_status sw_contact_calm(sw_contact *c, size_t nodes);
 
+/* Change the velocities at the step's start so that the touch is reached, not passed. Returns 1
+ * when something was changed. */
+int sw_contact_strike(sw_contact *c, sw_system *s, const sw_touch *t, double h);
+
+/* Raise barriers where wires cross obstacles on their way to x1. h: of the step, 0 in statics,
+ * where there are no speeds to change. Returns 1 when there are new ones. */
+int sw_contact_cross(sw_contact *c, sw_system *s, const double *x1, double h);
+
 /* The barrier that was raised first of those for the node or segment, or NULL. */
 const sw_barrier *sw_contact_barrier(const sw_contact *c, int obstacle, size_t node, int segment);
 
