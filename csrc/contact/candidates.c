@@ -64,7 +64,7 @@ static double reach_of(const sw_contact *c, const sw_system *s, size_t node, siz
 
 /* Does the wire meet edges of obstacle o with its smooth curve? */
 static int is_smooth(const sw_contact *c, const sw_plan *p, int o) {
-  return c->sharp[o] && !c->chords && !p->web && !p->beam.rolls;
+  return c->sharp[o] && !p->web && !p->beam.rolls;
 }
 
 static sw_status add_candidate(sw_contact *c, const sw_body *b, size_t body, size_t node,

@@ -463,7 +463,6 @@ int sw_contact_steady(const sw_contact *c) {
   return before == now && !c->impact_count && !c->plastic;
 }
 
-void sw_contact_chords(sw_contact *c, int on) { c->chords = on; }
 void sw_contact_cut(sw_contact *c, double least) { c->least = least; }
 double sw_contact_soonest(const sw_contact *c) { return c->soonest; }
 size_t sw_contact_impacts(const sw_contact *c) { return c->impact_count; }

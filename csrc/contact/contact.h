@@ -201,9 +201,6 @@ int sw_contact_steady(const sw_contact *contact);
 /* Given by touches of meshes being stiffer than before, which lets them sink in less, at most [J].
  */
 double sw_contact_hardened(const sw_contact *contact);
-/* 1: from the next step on edges meet a wire's chords, not its smooth curve; for equilibria that
- * are not found with that. */
-void sw_contact_chords(sw_contact *contact, int on);
 double sw_contact_fastest(const sw_contact *contact); /* of obstacles at the step's end [m/s] */
 /* 1: in this step wires are let out of obstacles that they began in. */
 int sw_contact_emerges(const sw_contact *contact);

@@ -5,8 +5,9 @@
 #include "contact/touch.h"
 
 static const double QUARTER = 0.25;
-/* Lines closer to parallel than this have no foot [-]: squared sine. */
-static const double PARALLEL = 0.01;
+/* Lines closer to parallel than this have no foot, and nodes meet edges up to that, for they know
+ * another tangent than the curve and no place may be left to neither [-]: squared sines. */
+static const double PARALLEL = 0.005, NEARLY = 0.02;
 enum { MOST_TURNS = 6 };                 /* of the search for the foot [-] */
 static const double SHARP_ENOUGH = 1e-9; /* of an edge [-] */
 static const double NO_LENGTH = 1e-6;    /* of an edge, squared [-] */
@@ -107,7 +108,7 @@ int sw_contact_is_segments(const sw_contact *c, const sw_system *s, const sw_can
   const sw_vec world = sw_sub(node_at(c, b, i, 2, x), node_at(c, b, i, 0, x));
   const sw_vec along = sw_unrotate(at[k->obstacle].pose.q, world);
   const double share = sw_dot(along, edge);
-  return sw_norm2(along) - share * share > PARALLEL * sw_norm2(along);
+  return sw_norm2(along) - share * share > NEARLY * sw_norm2(along);
 }
 
 /* How much the tension keeps an edge from bending, and the most that a touch leans [-]. */

@@ -74,7 +74,7 @@ static void begin_friction(const sw_grains *g, const sw_system *s, const double 
   }
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == g->stage, g->first);
   press->lag = pressed ? m->press.normal_force : press->k * fmax(0.0, -press->gap);
-  if (last) sw_press_take_lag(press, &last->press, last->stage == g->stage);
+  if (last) sw_press_take_lag(press, &last->press);
   if (went_on || pressed)
     press->sliding = went_on ? last->press.next_sliding : m->press.next_sliding;
   sw_press_begin(press, sw_grain_rule(g, k->body)->friction, went_on || pressed, HUGE_VAL);

@@ -57,12 +57,11 @@ void sw_press_activate(sw_press *p, const sw_press *last) {
  * themselves, and among many touches the slope of one says little of the others [-]. */
 enum { ALTERNATIONS = 4 };
 
-void sw_press_take_lag(sw_press *p, const sw_press *last, int same) {
-  p->lag = last->normal_force;
-  if (!same) return; /* alternations there say nothing of those to come */
+void sw_press_take_lag(sw_press *p, const sw_press *last) {
   const double error = last->normal_force - last->lag;
   const double error_before = last->force_before - last->lag_before;
   p->lag_before = last->lag, p->force_before = last->normal_force;
+  p->lag = last->normal_force;
   if (!(last->lag_before > 0) || !(error * error_before < 0)) return;
   p->alternations = last->alternations + 1;
   if (p->alternations >= ALTERNATIONS)

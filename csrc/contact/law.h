@@ -54,8 +54,8 @@ void sw_press_activate(sw_press *press, const sw_press *last);
 
 /* The normal force for friction to take as given, from the same touch in the iterate
  * before. Taking just its force may go to and fro for ever, more at each turn where friction
- * presses the touch: then by the secant through the last two. same: that was of this stage. */
-void sw_press_take_lag(sw_press *press, const sw_press *last, int same);
+ * presses the touch: then by the secant through the last two. */
+void sw_press_take_lag(sw_press *press, const sw_press *last);
 
 /* Friction begins at an iterate: k, lag and trial are set. known: 1 = it slides as sliding
  * says, 0 = find out. A predicted place says little about sticking, as a spring this stiff

@@ -35,10 +35,12 @@ static inline sw_mean sw_mean_curve(size_t first, size_t last, double s) {
 
 /* The same mean of what nodes have (n x 3), the first of which has this number. */
 static inline sw_vec sw_mean_of(const double *x, size_t first, const sw_mean *spot) {
-  sw_vec sum = sw_scale(sw_vec_at(x, spot->node[0] - first), spot->w[0]);
-  for (size_t k = 1; k < spot->count; k++)
-    sum = sw_madd(sum, sw_vec_at(x, spot->node[k] - first), spot->w[k]);
-  return sum;
+  const sw_vec one = sw_vec_at(x, spot->node[0] - first);
+  if (spot->count == 1) return one;
+  if (spot->count == 2) return sw_lerp(one, sw_vec_at(x, spot->node[1] - first), spot->w[1]);
+  return sw_madd(
+      sw_madd(sw_scale(one, spot->w[0]), sw_vec_at(x, spot->node[1] - first), spot->w[1]),
+      sw_vec_at(x, spot->node[2] - first), spot->w[2]);
 }
 
 #endif

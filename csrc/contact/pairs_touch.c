@@ -61,7 +61,7 @@ static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, co
     u = sw_v(0, 0, 0);
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == p->stage, p->first);
   press->lag = pressed ? m->normal_force : press->k * fmax(0.0, -press->gap);
-  if (last) sw_press_take_lag(press, &last->press, last->stage == p->stage);
+  if (last) sw_press_take_lag(press, &last->press);
   const int known = (last && last->press.active) || pressed;
   if (known) press->sliding = last && last->press.active ? last->press.next_sliding : m->sliding;
   sw_press_begin(press, friction, known, HUGE_VAL);

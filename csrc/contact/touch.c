@@ -169,7 +169,7 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
     u = sw_v(0, 0, 0);
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == c->stage, c->first);
   press->lag = m ? m->normal_force : press->k * fmax(0.0, -press->gap);
-  if (last) sw_press_take_lag(press, &last->press, last->stage == c->stage);
+  if (last) sw_press_take_lag(press, &last->press);
   const int turned = last && last->press.reversals > 0, moving = c->regime == SW_CONTACT_IMPLICIT;
   if (turned && (moving ? c->updates > 0 : sw_contact_moves(c)))
     press->reversals = last->press.reversals;

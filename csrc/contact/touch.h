@@ -191,7 +191,6 @@ struct sw_contact {
   double time, h;    /* of the step [s] */
   double stage_time; /* that obstacles were last placed for [s] */
   double nominal;    /* the run's full step [s] */
-  int chords;        /* 1: edges meet a wire's chords, not its smooth curve */
   sw_contact_regime regime;
   int plastic;     /* 1: the step is one that does not bounce */
   double soonest;  /* rebound that is not at the step's start, after it [s] */

@@ -458,17 +458,7 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
   find_from_poses(&p);
   put_aside(s, p.begun);
   s->system.still = 1;
-  sw_status status = follow_holds(&p, why);
-  /* edges that a wire is pressed on hard may have it no rest on its smooth curve */
-  if (status == SW_ENOCONV && s->contact && !(too_far && *too_far)) {
-    const size_t before = report->iterations;
-    take_back(s, p.begun);
-    report->iterations = 0;
-    sw_contact_chords(s->contact, 1);
-    status = follow_holds(&p, why);
-    sw_contact_chords(s->contact, 0);
-    report->iterations += before;
-  }
+  const sw_status status = follow_holds(&p, why);
   s->system.still = 0;
   if (status == SW_OK) {
     const double shift = largest_shift_since(&p);
