@@ -158,7 +158,7 @@ double sw_contact_jolt(sw_contact *c, const sw_system *s, int followed) {
     const double size = sw_norm(mean), usual = sw_contact_usual_force(s, p);
     const double least = followed ? fmax(HARD * usual, GOES_ON * l->past.hardest)
                                   : fmax(LIGHT * usual, HARDER * l->past.hardest);
-    if (p->web || t->sharp || c->obstacles[t->obstacle].grips > 0 || !(size > least)) continue;
+    if (p->web || c->obstacles[t->obstacle].grips > 0 || !(size > least)) continue;
     if (size > p->beam.EA) continue;     /* driven into it by a hold: no blow of a wire has that */
     if (!followed && t->known) continue; /* what slips or sticks here strikes nothing */
     if (!comes_and_goes(l, s, p, mean, l->trial.force)) continue;
