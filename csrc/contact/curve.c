@@ -173,11 +173,3 @@ sw_vec sw_contact_leaning(const sw_contact *c, const sw_system *s, const sw_cand
   const double lean = lean_of(s, k, place->near.at, steady);
   return sw_unit_or(sw_madd(normal, sw_rotate(q, place->along), lean), normal);
 }
-
-double sw_contact_depth_at_edge(const sw_contact *c, const sw_system *s, const sw_candidate *k,
-                                const sw_place *place) {
-  sw_piece piece;
-  sw_place before = *place;
-  if (!sw_contact_piece(c, s, k, c->start, s->x, k->skin, &piece)) return 0;
-  return sw_contact_follow(&piece, &before) ? fmax(0.0, k->skin - before.near.gap) : 0.0;
-}

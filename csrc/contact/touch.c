@@ -268,13 +268,10 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   t.press.gap += sw_contact_aslant(c, k->node, k->other, at, t.press.normal);
   if (web && !web->per_ring) t.press.soft = fmin(SOFTEST, (double)web->particles);
   sw_press *press = &t.press;
-  /* what is found at an edge only now, and was there before, must not be thrown off it */
-  const int slowly = (web && web->per_ring) || c->fresh || (place->sharp && !m);
+  const int slowly = (web && web->per_ring) || c->fresh;
   if (c->regime == SW_CONTACT_IMPLICIT &&
       press->gap < 0) { /* in explicit steps force follows depth */
-    const double explained = m ? m->depth : 0.0;
-    const double depth = place->sharp && !m ? sw_contact_depth_at_edge(c, s, k, place)
-                                            : sw_contact_depth_before(c, s, &t);
+    const double depth = sw_contact_depth_before(c, s, &t), explained = m ? m->depth : 0.0;
     t.forgiven =
         sw_press_forgiven(depth, explained, slowly ? c->stage_time - c->time : c->h, slowly);
     t.let_out = sw_press_let_out(depth, explained, t.forgiven);

@@ -265,10 +265,6 @@ void sw_contact_places(const sw_contact *c, const sw_candidate *k, const sw_piec
 sw_vec sw_contact_curve(const sw_piece *piece, double u, sw_vec *along);
 /* A place on an edge or corner goes on to where it is on the piece. 0: it has none nearby. */
 int sw_contact_follow(const sw_piece *piece, sw_place *place);
-/* How deep the wire was at an edge or corner at the step's start, wherever along it that was: what
- * slides and turns was not where the tangent of now says. 0: not at all [m]. */
-double sw_contact_depth_at_edge(const sw_contact *c, const sw_system *s, const sw_candidate *k,
-                                const sw_place *place);
 /* 1: a node's nearest place is on an edge across the wire, which the segments meet. */
 int sw_contact_is_segments(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                            const sw_contact_at *at, const double *x, const sw_closest *near);
