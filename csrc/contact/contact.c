@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "contact/touch.h"
+#include "contact/curve.h"
 
 sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_contact_place place,
                          void *user, sw_contact **out) {

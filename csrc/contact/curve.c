@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The smooth curve of a wire, its feet over edges and corners, and how a touch there pushes. */
-#include <math.h>
+#include "contact/curve.h"
 
-#include "contact/touch.h"
+#include <math.h>
 
 static const double QUARTER = 0.25;
 /* Lines closer to parallel than this have no foot, and nodes meet edges up to that, for they know

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "contact/touch.h"
+#include "contact/curve.h"
 
 /* Slower approaches are left to the integrator; their energy does not matter
  * [m/s]. */
@@ -360,8 +360,7 @@ static int cuts_deep(const sw_contact *c, const sw_system *s, const double *x1, 
     if (c->flat[k->obstacle] || sw_contact_is_held(s, k)) continue;
     const double depth = depth_at(c, s, k, c->now, x1);
     const double more = k->given ? SQUEEZED * k->radius : DEEPER;
-    if (depth > more && depth > depth_at(c, s, k, c->start, s->x) + more)
-      return 1;
+    if (depth > more && depth > depth_at(c, s, k, c->start, s->x) + more) return 1;
   }
   return 0;
 }

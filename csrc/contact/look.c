@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/interrupt.h"
-#include "contact/touch.h"
+#include "contact/curve.h"
 
 /* When the wire's axis is inside the obstacle the nearest face may be the wrong
  * one: stay with the side that is remembered from the last accepted step.

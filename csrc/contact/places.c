@@ -6,7 +6,7 @@
  */
 #include <math.h>
 
-#include "contact/touch.h"
+#include "contact/curve.h"
 
 /* A wire that stands off its chords by less than this share of its radius is found by the chords
  * [-]. */
@@ -35,7 +35,14 @@ static int is_new(const sw_places *list, const sw_candidate *k, const sw_place *
 }
 
 static void take(sw_places *list, const sw_place *place) {
-  if (list->count < SW_PLACES_MOST) list->place[list->count++] = *place;
+  size_t at = list->count;
+  if (at < SW_PLACES_MOST) {
+    list->place[list->count++] = *place;
+    return;
+  }
+  for (size_t i = at = 0; i < list->count; i++)
+    if (list->place[i].near.gap > list->place[at].near.gap) at = i;
+  if (place->near.gap < list->place[at].near.gap) list->place[at] = *place;
 }
 
 /* A place found along a line that turns from the curve's tangent there by more than this is looked
@@ -106,24 +113,24 @@ typedef struct search {
   int doubt; /* 1: the curve passes an edge or corner on the wrong side */
 } search;
 
-/* Where the chord is nearest to a line, or to a point, where there is no direction along it. */
-static double nearest_of_chord(const sw_piece *c, sw_vec from, sw_vec along) {
-  const sw_vec d = sw_sub(c->p[2], c->p[1]), w = sw_sub(c->p[1], from);
-  const sw_vec across = sw_madd(d, along, -sw_dot(along, d));
-  const double size2 = sw_norm2(across);
-  return size2 > 0 ? fmin(fmax(-sw_dot(across, w) / size2, 0.0), 1.0) : 0.5;
+/* Where the chord is nearest to a line, or to a point, where there is no direction along it. 0: the
+ * curve stays too far off for a place. */
+static int begin_at(const search *q, const sw_ridge *r, double *u) {
+  const sw_vec *p = q->piece->p, d = sw_sub(p[2], p[1]), w = sw_sub(p[1], r->from);
+  const sw_vec across = sw_madd(d, r->along, -sw_dot(r->along, d));
+  const double size2 = sw_norm2(across), most = q->reach + q->piece->bulge;
+  *u = size2 > 0 ? fmin(fmax(-sw_dot(across, w) / size2, 0.0), 1.0) : 0.5;
+  const sw_vec off = sw_madd(w, d, *u);
+  return sw_norm2(sw_madd(off, r->along, -sw_dot(r->along, off))) < most * most;
 }
 
 static void try_ridge(void *user, const sw_ridge *r) {
   search *q = user;
-  sw_place place = {.near = {.at = nearest_of_chord(q->piece, r->from, r->along),
-                             .point = r->from,
-                             .normal = {0, 0, 0},
-                             .feature = r->feature},
+  sw_place place = {.near = {.point = r->from, .normal = {0, 0, 0}, .feature = r->feature},
                     .sharp = r->sharp,
                     .edge = r->along};
   sw_closest *near = &place.near;
-  if (!sw_contact_follow(q->piece, &place)) return;
+  if (!begin_at(q, r, &near->at) || !sw_contact_follow(q->piece, &place)) return;
   if (near->at < -BESIDE || near->at > 1.0 + BESIDE || !(fabs(near->gap) < q->reach)) return;
   const double t = sw_dot(r->along, sw_sub(near->point, r->from));
   if (t < 0 || t > r->length) return;

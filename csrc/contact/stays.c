@@ -4,7 +4,7 @@
  * another iterate. */
 #include <math.h>
 
-#include "contact/touch.h"
+#include "contact/curve.h"
 
 /* A touch has stayed when its normal turned by no more than this, and when no larger share of its
  * force goes to another end of its segment than before [-]. */

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a touch remembers, of the steps before and of the iterate before. */
-#include "contact/touch.h"
-
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "contact/curve.h"
 
 /* A touch goes on into the next iterate while its normal turns by an angle with a cosine above this
  * [-]. */

@@ -10,15 +10,6 @@
 #include "contact/law.h"
 #include "contact/mean.h"
 
-/* Four nodes in a row of a smooth wire in an obstacle's coordinates; u counts edges from the
- * second.
- */
-typedef struct sw_piece {
-  sw_vec p[4];      /* [m] */
-  int starts, ends; /* 1: the wire does so at p[1] or p[2] */
-  double bulge;     /* the curve stands off the nodes by so much, at most [m] */
-} sw_piece;
-
 /* A node, or the inside of a segment that starts there, and an obstacle that
  * it may touch in this step. */
 typedef struct sw_candidate {
@@ -243,43 +234,6 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
  * SW_ENOMEM. */
 sw_status sw_contact_turn_over(sw_contact *c, size_t *first, size_t *end);
 
-/* Where a smooth candidate is near its obstacle. */
-enum { SW_PLACES_MOST = 3 * SW_CLOSEST_MAX };
-typedef struct sw_place {
-  sw_closest near; /* in the obstacle's coordinates */
-  sw_sharp sharp;
-  sw_vec edge;  /* along it, or 0 [-] */
-  sw_vec along; /* the curve there [-] */
-} sw_place;
-typedef struct sw_places {
-  size_t count;
-  sw_place place[SW_PLACES_MOST];
-} sw_places;
-/* A segment's piece with the system's nodes at x. 0: no edge or corner is less than reach away. */
-int sw_contact_piece(const sw_contact *c, const sw_system *s, const sw_candidate *k,
-                     const sw_contact_at *at, const double *x, double reach, sw_piece *out);
-/* Its places less than reach away [m]. */
-void sw_contact_places(const sw_contact *c, const sw_candidate *k, const sw_piece *piece,
-                       double reach, sw_places *list);
-/* Where the piece's curve is, and its derivative by u [m]. */
-sw_vec sw_contact_curve(const sw_piece *piece, double u, sw_vec *along);
-/* A place on an edge or corner goes on to where it is on the piece. 0: it has none nearby. */
-int sw_contact_follow(const sw_piece *piece, sw_place *place);
-/* 1: a node's nearest place is on an edge across the wire, which the segments meet. */
-int sw_contact_is_segments(const sw_contact *c, const sw_system *s, const sw_candidate *k,
-                           const sw_contact_at *at, const double *x, const sw_closest *near);
-/* That of a touch. */
-sw_place sw_contact_place_of(const sw_contact *c, const sw_touch *t);
-/* A place's normal in the world, that of a touch that has had this normal force for a while [N].
- * What bends between two nodes under a push is not in the curve: it bends deeper in the middle
- * between them, and would be held there if it did not push a little along the wire. */
-sw_vec sw_contact_leaning(const sw_contact *c, const sw_system *s, const sw_candidate *k,
-                          const sw_place *place, double steady);
-/* The normal force that a touch has had for a while, after a step of h [N]. */
-double sw_contact_steady_force(const sw_system *s, const sw_touch *t, double h);
-/* A place along a candidate as a mean of nodes. */
-sw_mean sw_contact_spot(const sw_system *s, const sw_candidate *k, double at);
-
 /* A touch of the iterate before is the same one up to this far along the segment, and goes on into
  * the next iterate up to this gap, of the radius [-]. */
 #define SW_SAME_PLACE 0.25
@@ -287,9 +241,13 @@ sw_mean sw_contact_spot(const sw_system *s, const sw_candidate *k, double at);
 /* What a candidate's touch that was nearest to this place left at the last accepted step, or NULL.
  */
 const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k, double at);
+/* A place along a candidate as a mean of nodes. */
+sw_mean sw_contact_spot(const sw_system *s, const sw_candidate *k, double at);
+
+struct sw_place;
 /* SW_ENOMEM. */
 sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
-                               const double *y, const sw_place *place);
+                               const double *y, const struct sw_place *place);
 /* Find the touches at positions y; those of before are then the last ones. SW_ENOMEM. */
 sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw_error *err);
 /* How deep the touch's place was at the step's start, below 0 when it was outside [m]. */
