@@ -351,6 +351,19 @@ static double depth_at(const sw_contact *c, const sw_system *s, const sw_candida
   return deepest;
 }
 
+/* Did the wire come far enough in the step to be deeper by so much? If not, a node has come from an
+ * edge, over which the smooth curve counts, to a face, where it is the node: no smaller step would
+ * help. */
+static int may_sink(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                    const double *x1, double more) {
+  if (!k->smooth || c->broad.moves[k->obstacle]) return 1;
+  const sw_body *b = &s->bodies[k->body];
+  const size_t end = b->first_node + b->plan->nodes;
+  for (size_t i = k->node > b->first_node ? k->node - 1 : k->node; i < end && i <= k->node + 2; i++)
+    if (sw_dist(sw_vec_at(x1, i), sw_vec_at(s->x, i)) >= more) return 1;
+  return 0;
+}
+
 /* The law works with places and normals of the last iterate; on edges and
  * corners these may be stale at the step's end. */
 static int cuts_deep(const sw_contact *c, const sw_system *s, const double *x1, double h) {
@@ -360,7 +373,9 @@ static int cuts_deep(const sw_contact *c, const sw_system *s, const double *x1, 
     if (c->flat[k->obstacle] || sw_contact_is_held(s, k)) continue;
     const double depth = depth_at(c, s, k, c->now, x1);
     const double more = k->given ? SQUEEZED * k->radius : DEEPER;
-    if (depth > more && depth > depth_at(c, s, k, c->start, s->x) + more) return 1;
+    if (depth > more && depth > depth_at(c, s, k, c->start, s->x) + more &&
+        may_sink(c, s, k, x1, more))
+      return 1;
   }
   return 0;
 }
