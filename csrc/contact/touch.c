@@ -6,9 +6,9 @@
 #include "base/alloc.h"
 #include "contact/curve.h"
 
-/* A touch goes on into the next iterate while its normal turns by an angle with a cosine above this
- * [-]. */
-static const double SAME_SIDE = 0.7;
+/* A touch goes on into the next iterate up to this gap, of the radius, and while its normal
+ * turns by an angle with a cosine above this [-]. */
+static const double STILL_NEAR = 0.5, SAME_SIDE = 0.7;
 
 /* Friction's springs in an object of many particles are softer than its touches, by their number
  * and up to this: hundreds of touches at once whose springs are as stiff as they themselves go to
@@ -225,7 +225,7 @@ static double stiffness_of(const sw_contact *c, const sw_candidate *k, const sw_
 /* Is a touch the one of the iterate before, moved a little? */
 static int goes_on(const sw_contact *c, const sw_candidate *k, const sw_press *press,
                    const sw_touch *last) {
-  return last && c->regime != SW_CONTACT_EXPLICIT && press->gap < SW_STILL_NEAR * k->radius &&
+  return last && c->regime != SW_CONTACT_EXPLICIT && press->gap < STILL_NEAR * k->radius &&
          sw_dot(press->normal, last->press.normal) > SAME_SIDE;
 }
 
