@@ -64,6 +64,10 @@ static sw_sharp sharp(const sw_shape *shape, int feature, sw_vec *along) {
   return sw_trimesh_sharp(&((const mesh *)shape)->mesh, feature, along);
 }
 
+static int faceted(const sw_shape *shape) {
+  return sw_trimesh_faceted(&((const mesh *)shape)->mesh);
+}
+
 static void ridges(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_ridge_visit visit,
                    void *user) {
   sw_trimesh_ridges(&((const mesh *)shape)->mesh, a, b, reach, visit, user);
@@ -106,5 +110,6 @@ const sw_shape_class sw_shape_class_mesh = {
     .triangles = triangles,
     .bones = bones,
     .sharp = sharp,
+    .faceted = faceted,
     .ridges = ridges,
     .points_out = points_out};

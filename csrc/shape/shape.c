@@ -104,7 +104,10 @@ void sw_shape_bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
   if (shape->class->bones) shape->class->bones(shape, visit, user);
 }
 
-int sw_shape_has_edges(const sw_shape *shape) { return shape->class->sharp != NULL; }
+int sw_shape_has_edges(const sw_shape *shape) {
+  const sw_shape_class *k = shape->class;
+  return k->sharp && !(k->faceted && k->faceted(shape));
+}
 
 int sw_shape_over_face(const sw_shape *shape, const sw_vec *p, size_t count) {
   return shape->class->over_face && shape->class->over_face(shape, p, count);

@@ -148,7 +148,8 @@ int sw_shape_meets(const sw_shape *shape, sw_vec a, sw_vec b, double reach);
 /* 1: of all places, and of all between them, one and the same face is what is nearest, and they are
  * outside of it. 0: perhaps not. */
 int sw_shape_over_face(const sw_shape *shape, const sw_vec *p, size_t count);
-/* 1: all that is not flat about it are edges and corners. */
+/* 1: all that is not flat about it are edges and corners: none that many small faces stand for what
+ * is round. */
 int sw_shape_has_edges(const sw_shape *shape);
 
 sw_bounds sw_shape_bounds(const sw_shape *shape);

@@ -51,6 +51,8 @@ struct sw_shape_class {
   int (*over_face)(const sw_shape *shape, const sw_vec *p, size_t count);
   /* As sw_shape_sharp; NULL = not of flat faces. */
   sw_sharp (*sharp)(const sw_shape *shape, int feature, sw_vec *along);
+  /* Are some of its edges there for what is round? NULL = none. */
+  int (*faceted)(const sw_shape *shape);
   /* As sw_shape_ridges and sw_shape_points_out, of what has edges. */
   void (*ridges)(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_ridge_visit visit,
                  void *user);

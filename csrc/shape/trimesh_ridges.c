@@ -2,11 +2,25 @@
 /* The convex edges and corners of a mesh, for what meets them as lines and points. */
 #include "shape/trimesh.h"
 
+/* Sines of the angle between the faces at an edge: below the first one the faces are one, which a
+ * file has rounded; below the second one (25 degrees) they stand for what is round [-]. */
+static const double LEVEL = 0.01, BLUNT = 0.42;
+
+static int sticks_out(const sw_trimesh_edge *edge) {
+  return (edge->flags & SW_CONVEX) && edge->sine > LEVEL;
+}
+
+int sw_trimesh_faceted(const sw_trimesh *mesh) {
+  for (size_t e = 0; e < mesh->edge_count; e++)
+    if (sticks_out(&mesh->edges[e]) && mesh->edges[e].sine < BLUNT) return 1;
+  return 0;
+}
+
 sw_sharp sw_trimesh_sharp(const sw_trimesh *mesh, int feature, sw_vec *along) {
   const int edge = feature - sw_trimesh_edge_feature(mesh, 0);
   const int corner = feature - sw_trimesh_corner_feature(mesh, 0);
   if (corner >= 0) return mesh->corners[corner].flags & SW_CONVEX ? SW_SHARP_CORNER : SW_SHARP_NOT;
-  if (edge < 0 || !(mesh->edges[edge].flags & SW_CONVEX)) return SW_SHARP_NOT;
+  if (edge < 0 || !sticks_out(&mesh->edges[edge])) return SW_SHARP_NOT;
   const int *v = mesh->edges[edge].v;
   *along = sw_unit_or(sw_sub(sw_trimesh_vertex(mesh, v[1]), sw_trimesh_vertex(mesh, v[0])),
                       sw_v(1, 0, 0));
@@ -24,7 +38,7 @@ static void show_edge(const tour *t, int number) {
   const sw_vec from = sw_trimesh_vertex(t->mesh, edge->v[0]);
   const sw_vec along = sw_sub(sw_trimesh_vertex(t->mesh, edge->v[1]), from);
   const double length = sw_norm(along);
-  if (!(edge->flags & SW_CONVEX) || !(length > 0)) return;
+  if (!sticks_out(edge) || !(length > 0)) return;
   const sw_ridge r = {.sharp = SW_SHARP_EDGE,
                       .feature = sw_trimesh_edge_feature(t->mesh, number),
                       .from = from,

@@ -146,3 +146,24 @@ describe("a wire dropped on a thin wall", function()
     end
   end
 end)
+
+-- Facets stand for what is round: the wire meets some of them with its chords, each for itself they
+-- would only be in each other's way.
+describe("a wire that falls on a round peg of 256 facets", function()
+  it("takes no more iterations than there is to find out", function()
+    local s, points, R = core.scene{}, {}, 0.03
+    for i = 0, 255 do
+      local a = 2 * math.pi * (i + 0.37) / 256
+      for _, y in ipairs{ -0.05, 0.05 } do
+        points[#points + 1], points[#points + 2], points[#points + 3] = R * math.cos(a), y, R * math.sin(a)
+      end
+    end
+    s:obstacle{ shape = "hull", points = points, friction = 0.3 }
+    local w = s:wire{ EA = 1e3, EI = 1.5e-4, mass_per_length = 0.03, radius = 0.0025,
+      from = { -0.45, 0, R + 0.01 }, to = { 0.55, 0, R + 0.01 }, segments = 100 }
+    local r = s:advance({ dt = 0.002 }, 0.6)
+    assert.is_true(r.ok, r.reason)
+    assert.is_true(w:position(0)[3] > 0, "it has slid off")
+    assert.is_true(r.iterations < 4000, r.iterations) -- measured: 2570; with its smooth curve 6700
+  end)
+end)
