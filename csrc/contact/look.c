@@ -127,10 +127,10 @@ static int is_known(const sw_contact *c, const sw_candidate *k, const sw_place *
 
 /* The same obstacle's candidate of the segment before (by -1) or after (by 1), or NULL. */
 static const sw_candidate *beside(const sw_contact *c, const sw_candidate *k, int by) {
-  const sw_candidate *const end = by < 0 ? c->candidates - 1 : c->candidates + c->candidate_count;
-  const size_t node = by < 0 ? k->node - 1 : k->node + 1;
-  for (const sw_candidate *n = k + by; n != end && n->body == k->body; n += by) {
-    if (by < 0 ? n->node + 1 < k->node : n->node > node) break;
+  const size_t node = k->node + (size_t)by, from = (size_t)(k - c->candidates);
+  for (size_t i = from + (size_t)by; i < c->candidate_count; i += (size_t)by) {
+    const sw_candidate *n = &c->candidates[i];
+    if (n->body != k->body || (by < 0 ? n->node < node : n->node > node)) break;
     if (n->node == node && n->obstacle == k->obstacle && n->segment && n->smooth) return n;
   }
   return NULL;
