@@ -62,6 +62,11 @@ static double reach_of(const sw_contact *c, const sw_system *s, size_t node, siz
   return c->reach[node] + sw_norm(sw_obstacle_velocity(&c->start[o], x)) * c->h;
 }
 
+/* Does the wire meet edges of obstacle o with its smooth curve? */
+static int is_smooth(const sw_contact *c, const sw_plan *p, int o) {
+  return c->sharp[o] && !p->web && !p->beam.rolls;
+}
+
 static sw_status add_candidate(sw_contact *c, const sw_body *b, size_t body, size_t node,
                                size_t other, int o, int segment) {
   const double *masses = b->plan->lumped;
@@ -76,7 +81,8 @@ static sw_status add_candidate(sw_contact *c, const sw_body *b, size_t body, siz
                      .body = body,
                      .radius = b->plan->beam.radius,
                      .skin = sw_plan_skin(b->plan, node - b->first_node),
-                     .mass = 0.5 * (masses[node - b->first_node] + masses[other - b->first_node])};
+                     .mass = 0.5 * (masses[node - b->first_node] + masses[other - b->first_node]),
+                     .smooth = is_smooth(c, b->plan, o)};
   return SW_OK;
 }
 
@@ -116,7 +122,9 @@ static sw_status segment_candidates(sw_contact *c, const sw_system *s, size_t bo
     const sw_vec w = sw_v(wide, wide, wide);
     if (outside(&c->bounds[o], sw_sub(low_of(x, y), w), sw_add(high_of(x, y), w))) continue;
     SW_TRY(add_candidate(c, b, body, node, other, (int)o, k));
-    c->candidates[c->candidate_count - 1].samples = samples_of(b->plan, i, c->spaced[o]);
+    sw_candidate *own = &c->candidates[c->candidate_count - 1];
+    own->samples = samples_of(b->plan, i, c->spaced[o]);
+    own->smooth &= !own->samples;
   }
   return SW_OK;
 }

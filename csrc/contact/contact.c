@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "contact/touch.h"
+#include "contact/curve.h"
 
 sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_contact_place place,
                          void *user, sw_contact **out) {
@@ -18,7 +18,7 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   c->loads = sw_alloc(count, sizeof *c->loads);
   c->start = sw_alloc(count, sizeof *c->start);
   c->now = sw_alloc(count, sizeof *c->now);
-  c->flat = sw_alloc(6 * count, sizeof *c->flat);
+  c->flat = sw_alloc(7 * count, sizeof *c->flat);
   c->spaced = sw_alloc(count, sizeof *c->spaced);
   c->bounds = (sw_bounds *)sw_alloc(count, sizeof *c->bounds);
   if (!c->obstacles || !c->loads || !c->start || !c->now || !c->flat || !c->spaced || !c->bounds ||
@@ -28,10 +28,12 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   }
   c->dense = c->flat + count, c->busy = c->dense + count, c->pads = c->busy + count;
   c->pressing = c->pads + count, c->straight = c->pressing + count;
+  c->sharp = c->straight + count;
   memcpy(c->obstacles, obstacles, count * sizeof *obstacles);
   for (size_t o = 0; o < count; o++) {
     c->flat[o] = sw_shape_is(obstacles[o].shape, SW_SHAPE_FLAT);
     c->straight[o] = sw_shape_is(obstacles[o].shape, SW_SHAPE_SQUARE);
+    c->sharp[o] = sw_shape_has_edges(obstacles[o].shape);
   }
   for (size_t o = 0; o < count; o++)
     if (obstacles[o].grips > 0) c->pads[c->pad_count++] = (int)o;
@@ -164,7 +166,7 @@ int sw_contact_moves(const sw_contact *c) {
 
 /* --- memory ------------------------------------------------------------------- */
 
-static sw_status remember(sw_contact *c, const sw_touch *t) {
+static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_contact_at *o = &c->now[t->obstacle];
   const sw_quat back = sw_quat_conj(o->pose.q);
   SW_TRY(sw_grow((void **)&c->next_memory, &c->next_capacity, c->next_count + 1,
@@ -178,6 +180,7 @@ static sw_status remember(sw_contact *c, const sw_touch *t) {
                    .normal_force = t->press.normal_force,
                    .sliding = t->press.next_sliding,
                    .depth = t->press.normal_force / t->press.k,
+                   .steady = t->sharp ? sw_contact_steady_force(s, t, c->h) : 0.0,
                    .k = sw_press_eased(&t->press, t->usual, t->stiffer),
                    .normal = sw_rotate(back, t->press.normal),
                    .point = t->local,
@@ -198,12 +201,11 @@ static int emerges(const sw_contact *c) {
 }
 
 void sw_contact_commit(sw_contact *c, sw_system *s) {
-  (void)s;
   c->next_count = 0;
   c->fresh = sw_contact_emerges(c) ? SW_CONTACT_EMERGING : 0;
   sw_contact_conclude(c);
   for (size_t i = 0; i < c->touch_count; i++)
-    if (remember(c, &c->touches[i]) != SW_OK) break; /* a lost anchor only starts anew */
+    if (remember(c, s, &c->touches[i]) != SW_OK) break; /* a lost anchor only starts anew */
   sw_memory *swap = c->memory;
   const size_t capacity = c->memory_capacity;
   c->memory = c->next_memory, c->memory_capacity = c->next_capacity;
@@ -236,6 +238,12 @@ const void *sw_contact_seen(const sw_contact *c, size_t *bytes) {
   return c->touches;
 }
 
+static int spans(const sw_mean *spot, size_t nodes) {
+  for (size_t i = 0; i < spot->count; i++)
+    if (spot->node[i] >= nodes) return 0;
+  return spot->count > 0;
+}
+
 sw_status sw_contact_set_seen(sw_contact *c, const void *seen, size_t bytes, size_t nodes) {
   const size_t n = bytes / sizeof *c->touches;
   c->touch_count = 0;
@@ -244,7 +252,8 @@ sw_status sw_contact_set_seen(sw_contact *c, const void *seen, size_t bytes, siz
   if (n) memcpy(c->touches, seen, bytes);
   for (size_t i = 0; i < n; i++) {
     const sw_touch *t = &c->touches[i];
-    if (t->obstacle < 0 || (size_t)t->obstacle >= c->count || t->node >= nodes || t->other >= nodes)
+    if (t->obstacle < 0 || (size_t)t->obstacle >= c->count || t->node >= nodes ||
+        t->other >= nodes || t->spot.count > SW_MEAN_MOST || !spans(&t->spot, nodes))
       return SW_EINVAL;
   }
   c->touch_count = n;
@@ -390,7 +399,7 @@ int sw_contact_push_at(const sw_contact *c, const sw_system *s, size_t k, sw_con
   *out = (sw_contact_push){.obstacle = c->obstacles[t->obstacle].id,
                            .node = t->node,
                            .other = t->other,
-                           .at = t->at,
+                           .at = fmin(fmax(t->at, 0.0), 1.0),
                            .normal_force = p->normal_force,
                            .point = t->point,
                            .place = place_of(s, t),

@@ -1,31 +1,39 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Impacts and crossings. A step that meets an obstacle it did not touch before
+/* Impacts. A step that meets an obstacle it did not touch before
  * is redone with the approach speed cut to what just reaches the surface (or
  * turned round by the restitution): the impulse acts at the step's start, and
- * the integrator never sees the shock that would make it bounce. A swept test
- * finds segments that passed through an obstacle unseen. */
+ * the integrator never sees the shock that would make it bounce. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/alloc.h"
-#include "contact/touch.h"
+#include "contact/curve.h"
 
 /* Slower approaches are left to the integrator; their energy does not matter
  * [m/s]. */
 static const double SLOWEST_IMPACT = 5e-4;
-/* A segment that moves less than this share of its skin cannot get through
- * anything unseen [-]. */
-static const double SAFE_SHIFT = 0.5;
+/* An impact this near to a touch along the wire was its own [-]. */
+static const double SAME_IMPACT = 0.25;
 
-static int dealt_with(const sw_contact *c, const sw_touch *t, size_t *looks) {
-  for (uint32_t i = c->impact_at[t->node]; i; i = c->impacts[i - 1].before) {
+static int was_struck(const sw_contact *c, const sw_touch *t, size_t node, size_t *looks) {
+  for (uint32_t i = c->impact_at[node]; i; i = c->impacts[i - 1].before) {
     const sw_impact *m = &c->impacts[i - 1];
+    const double ahead = node < t->node ? -1.0 : node > t->node ? 1.0 : 0.0;
     ++*looks;
-    if (m->obstacle == t->obstacle && m->segment == t->segment && fabs(m->at - t->at) < 0.25)
+    if (m->obstacle == t->obstacle && m->segment == t->segment &&
+        fabs(ahead + m->at - t->at) < SAME_IMPACT)
       return 1;
   }
   return 0;
+}
+
+/* On the smooth curve, another iterate may find the same touch from the segment beside. */
+static int dealt_with(const sw_contact *c, const sw_touch *t, size_t *looks) {
+  if (was_struck(c, t, t->node, looks)) return 1;
+  if (!t->sharp) return 0;
+  return (t->node > 0 && was_struck(c, t, t->node - 1, looks)) ||
+         (t->node + 1 < c->places && was_struck(c, t, t->node + 1, looks));
 }
 
 static void note_impact(sw_contact *c, const sw_touch *t) {
@@ -53,15 +61,16 @@ sw_status sw_contact_calm(sw_contact *c, size_t nodes) {
   return SW_OK;
 }
 
-/* Share of the momentum that each end of a segment takes; held ends take none. */
-static void shares(const sw_system *s, const sw_touch *t, double out[2]) {
+/* Share of the momentum that each node of a touch takes; held ones take none. */
+static void shares(const sw_system *s, const sw_touch *t, double out[SW_MEAN_MOST]) {
   const sw_body *b = &s->bodies[t->body];
-  const size_t end[2] = {t->node - b->first_node, t->other - b->first_node};
-  double w[2] = {t->segment ? 1.0 - t->at : 1.0, t->segment ? t->at : 0.0};
-  for (size_t e = 0; e < 2; e++)
-    if (w[e] > 0 && b->plan->held[end[e]] != SW_FREE) w[e] = 0;
-  const double sum = w[0] * w[0] + w[1] * w[1];
-  for (size_t e = 0; e < 2; e++) out[e] = sum > 0 ? w[e] / sum : 0.0;
+  double sum = 0;
+  for (size_t e = 0; e < t->spot.count; e++) {
+    const int held = b->plan->held[t->spot.node[e] - b->first_node] != SW_FREE;
+    out[e] = held ? 0.0 : t->spot.w[e];
+    sum += out[e] * out[e];
+  }
+  for (size_t e = 0; e < t->spot.count; e++) out[e] = sum > 0 ? out[e] / sum : 0.0;
 }
 
 /* A gap this small is none: what touches already takes on the obstacle's speed [m]. */
@@ -191,7 +200,7 @@ typedef struct encounter {
 static encounter encounter_of(const sw_contact *c, const sw_system *s, const sw_touch *t,
                               const sw_levers *levers) {
   encounter e;
-  const sw_vec x = sw_contact_where(c, s->x, t->node, t->other, t->at);
+  const sw_vec x = sw_mean_place(c, s->x, &t->spot);
   const sw_body *b = &s->bodies[t->body];
   const double radius = sw_plan_skin(b->plan, t->node - b->first_node);
   const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
@@ -199,7 +208,7 @@ static encounter encounter_of(const sw_contact *c, const sw_system *s, const sw_
   e.at = levers->count ? sw_madd(x, t->press.normal, -radius) : x;
   e.gap = fmax(0.0, sw_dot(t->press.normal, sw_sub(x, plane)) + aslant - radius);
   e.wall = striking_velocity(c, t, e.at, e.gap, &e.slow);
-  e.speed = sw_sub(sw_touch_place(s->v, t->node, t->other, t->at), e.wall);
+  e.speed = sw_sub(sw_mean_of(s->v, 0, &t->spot), e.wall);
   e.approach = -sw_dot(e.speed, t->press.normal);
   return e;
 }
@@ -217,14 +226,11 @@ static double velocity_lost(sw_contact *c, const sw_system *s, const sw_touch *t
   return fmax(0.0, rebounds ? meets->approach * (1.0 + e) : meets->approach - allowed);
 }
 
-/* Change the starting velocities so that the touch is reached, not passed.
- * Returns 1 when something was changed. */
-static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
+int sw_contact_strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
   /* what comes to a pad that holds a wire already only trembles */
   if (o->grips > 0 && c->pressing[t->obstacle]) return 0;
   const sw_body *b = &s->bodies[t->body];
-  const size_t end[2] = {t->node, t->other};
   const sw_levers levers = sw_touch_levers(s, t);
   const encounter e = encounter_of(c, s, t, &levers);
   const double change = velocity_lost(c, s, t, &e, h);
@@ -234,12 +240,12 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_vec along = sw_madd(v, t->press.normal, -sw_dot(v, t->press.normal));
   const sw_vec brake = sw_levers_brake(&b->plan->beam, &levers, along, o->friction * change);
   const sw_vec dv = sw_madd(brake, t->press.normal, change);
-  double w[2], mass = 0, kicked = 0;
+  double w[SW_MEAN_MOST], mass = 0, kicked = 0;
   shares(s, t, w);
-  for (size_t k = 0; k < 2; k++) {
+  for (size_t k = 0; k < t->spot.count; k++) {
     if (!(w[k] > 0)) continue;
-    mass += w[k] * b->plan->lumped[end[k] - b->first_node];
-    kicked += w[k] * kick(s, b, end[k], sw_scale(dv, w[k]));
+    mass += w[k] * b->plan->lumped[t->spot.node[k] - b->first_node];
+    kicked += w[k] * kick(s, b, t->spot.node[k], sw_scale(dv, w[k]));
   }
   c->struck += kicked * sw_dot(dv, e.wall);
   sw_contact_add_blow(c, t->obstacle, e.at, sw_scale(dv, -kicked));
@@ -253,126 +259,27 @@ static int strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
 static int by_meeting(const void *left, const void *right) {
   const sw_touch *p = left, *q = right;
   if (p->meets != q->meets) return p->meets < q->meets ? -1 : 1;
+  if (p->closes != q->closes) return p->closes > q->closes ? -1 : 1;
   if (p->node != q->node) return p->node < q->node ? -1 : 1;
   return p->obstacle - q->obstacle;
 }
 
-/* What meets its obstacle first strikes first, whichever end the wire's nodes are counted from:
- * places of neighbouring segments share nodes. */
+/* What meets its obstacle first strikes first, and what does so at once, the fastest first,
+ * whichever end the wire's nodes are counted from: places of neighbouring segments share nodes. */
 static int review_touches(sw_contact *c, sw_system *s, double h) {
   int changed = 0;
   for (size_t i = 0; i < c->pressed_count; i++) {
     sw_touch *t = &c->pressed[i];
     const sw_levers levers = sw_touch_levers(s, t);
     const encounter e = encounter_of(c, s, t, &levers);
+    t->closes = e.approach;
     t->meets = e.approach > 0 ? e.gap / e.approach : HUGE_VAL;
   }
   if (c->pressed_count) qsort(c->pressed, c->pressed_count, sizeof *c->pressed, by_meeting);
   for (size_t i = 0; i < c->pressed_count; i++) {
     const sw_touch *t = &c->pressed[i];
     if (dealt_with(c, t, &s->counters.looks)) continue;
-    changed |= strike(c, s, t, h);
-  }
-  return changed;
-}
-
-static int has_barrier(const sw_contact *c, const sw_barrier *new, size_t *looks) {
-  for (uint32_t i = c->barrier_at[new->node]; i; i = c->barriers[i - 1].before) {
-    const sw_barrier *b = &c->barriers[i - 1];
-    ++*looks;
-    if (b->obstacle == new->obstacle &&
-        b->segment == new->segment &&sw_dot(b->normal, new->normal) > 0.99)
-      return 1;
-  }
-  return 0;
-}
-
-const sw_barrier *sw_contact_barrier(const sw_contact *c, int obstacle, size_t node, int segment) {
-  const sw_barrier *first = NULL;
-  for (uint32_t i = c->barrier_at[node]; i; i = c->barriers[i - 1].before) {
-    const sw_barrier *b = &c->barriers[i - 1];
-    if (b->obstacle == obstacle && b->segment == segment) first = b;
-  }
-  return first;
-}
-
-static void add_barrier(sw_contact *c, sw_barrier *b) {
-  b->before = c->barrier_at[b->node];
-  c->barriers[c->barrier_count++] = *b;
-  c->barrier_at[b->node] = (uint32_t)c->barrier_count;
-}
-
-/* Candidates are in the order of their nodes. */
-static int is_candidate(const sw_contact *c, int obstacle, size_t node, size_t *looks) {
-  size_t low = 0, high = c->candidate_count;
-  while (low < high) {
-    const size_t i = low + (high - low) / 2;
-    ++*looks;
-    if (c->candidates[i].node < node)
-      low = i + 1;
-    else
-      high = i;
-  }
-  for (; low < c->candidate_count && c->candidates[low].node == node; low++)
-    if (c->candidates[low].obstacle == obstacle && !c->candidates[low].segment) return 1;
-  return 0;
-}
-
-/* A hit this near to a segment's end is the node's [-]. */
-static const double END_SHARE = 1e-6;
-
-/* Keep a segment on its side for the rest of the step. */
-static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k, const sw_closest *hit,
-                         double h) {
-  sw_barrier b = {.obstacle = k->obstacle,
-                  .segment = k->segment,
-                  .node = k->node,
-                  .other = k->other,
-                  .at = hit->at,
-                  .normal = hit->normal,
-                  .point = hit->point};
-  const size_t end = hit->at > 0.5 ? k->other : k->node;
-  if ((hit->at < END_SHARE || hit->at > 1.0 - END_SHARE) &&
-      is_candidate(c, k->obstacle, end, &s->counters.looks)) {
-    b.node = b.other = end;
-    b.segment = 0;
-    b.at = 0;
-  }
-  if (has_barrier(c, &b, &s->counters.looks)) return 0;
-  if (sw_grow((void **)&c->barriers, &c->barrier_capacity, c->barrier_count + 1,
-              sizeof *c->barriers) != SW_OK)
-    return 0;
-  add_barrier(c, &b);
-  const sw_pose *pose = &c->now[k->obstacle].pose;
-  const sw_touch t = {.obstacle = k->obstacle,
-                      .segment = b.segment,
-                      .node = b.node,
-                      .other = b.other,
-                      .body = k->body,
-                      .at = b.at,
-                      .local = hit->point,
-                      .press = {.normal = sw_rotate(pose->q, hit->normal)}};
-  if (h > 0) strike(c, s, &t, h);
-  return 1;
-}
-
-/* h = 0: statics, there are no speeds to change. */
-static int review_crossings(sw_contact *c, sw_system *s, const double *x1, double h) {
-  int changed = 0;
-  for (size_t i = 0; i < c->candidate_count; i++) {
-    const sw_candidate *k = &c->candidates[i];
-    if (!k->segment) continue;
-    const sw_pose *p0 = &c->start[k->obstacle].pose, *p1 = &c->now[k->obstacle].pose;
-    const sw_vec a0 = sw_pose_local(*p0, sw_contact_where(c, s->x, k->node, k->node, 0));
-    const sw_vec b0 = sw_pose_local(*p0, sw_contact_where(c, s->x, k->other, k->other, 0));
-    const sw_vec a1 = sw_pose_local(*p1, sw_contact_where(c, x1, k->node, k->node, 0));
-    const sw_vec b1 = sw_pose_local(*p1, sw_contact_where(c, x1, k->other, k->other, 0));
-    const double shift2 = fmax(sw_norm2(sw_sub(a1, a0)), sw_norm2(sw_sub(b1, b0)));
-    if (shift2 < SAFE_SHIFT * SAFE_SHIFT * k->skin * k->skin) continue;
-    sw_closest hit;
-    double when;
-    if (sw_shape_sweep(c->obstacles[k->obstacle].shape, a0, b0, a1, b1, 0.0, &hit, &when))
-      changed |= raise_barrier(c, s, k, &hit, h);
+    changed |= sw_contact_strike(c, s, t, h);
   }
   return changed;
 }
@@ -406,16 +313,31 @@ static double depth_of(const sw_contact *c, const sw_candidate *k, const sw_pose
   return k->skin - near->gap - sw_contact_aslant(c, k->node, k->other, near->at, normal);
 }
 
+static double depth_of_curve(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                             const sw_contact_at *at, const double *x) {
+  sw_piece piece;
+  sw_places list;
+  double most = 0;
+  if (!sw_contact_piece(c, s, k, at, x, k->skin, &piece)) return 0;
+  sw_contact_places(c, k, &piece, k->skin, &list);
+  for (size_t i = 0; i < list.count; i++) most = fmax(most, k->skin - list.place[i].near.gap);
+  return most;
+}
+
 /* The same with positions x, where it is deepest. */
-static double depth_at(const sw_contact *c, const sw_candidate *k, const sw_contact_at *at,
-                       const double *x) {
+static double depth_at(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                       const sw_contact_at *at, const double *x) {
+  if (k->smooth && k->segment) return depth_of_curve(c, s, k, at, x);
   const sw_shape *shape = c->obstacles[k->obstacle].shape;
   const sw_pose *pose = &at[k->obstacle].pose;
   const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, x, k->node, k->node, 0));
   sw_closest near[SW_CLOSEST_MAX];
   near[0].at = 0;
-  if (!k->segment)
-    return sw_shape_point(shape, a, k->skin, &near[0]) ? depth_of(c, k, pose, &near[0]) : 0.0;
+  if (!k->segment) {
+    if (!sw_shape_point(shape, a, k->skin, &near[0])) return 0;
+    if (k->smooth && sw_contact_is_segments(c, s, k, at, x, &near[0])) return 0;
+    return depth_of(c, k, pose, &near[0]);
+  }
   const sw_vec b = sw_pose_local(*pose, sw_contact_where(c, x, k->other, k->other, 0));
   double deepest = 0;
   for (int i = 0; i < k->samples; i++) {
@@ -429,6 +351,19 @@ static double depth_at(const sw_contact *c, const sw_candidate *k, const sw_cont
   return deepest;
 }
 
+/* Did the wire come far enough in the step to be deeper by so much? If not, a node has come from an
+ * edge, over which the smooth curve counts, to a face, where it is the node: no smaller step would
+ * help. */
+static int may_sink(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                    const double *x1, double more) {
+  if (!k->smooth || c->broad.moves[k->obstacle]) return 1;
+  const sw_body *b = &s->bodies[k->body];
+  const size_t end = b->first_node + b->plan->nodes;
+  for (size_t i = k->node > b->first_node ? k->node - 1 : k->node; i < end && i <= k->node + 2; i++)
+    if (sw_dist(sw_vec_at(x1, i), sw_vec_at(s->x, i)) >= more) return 1;
+  return 0;
+}
+
 /* The law works with places and normals of the last iterate; on edges and
  * corners these may be stale at the step's end. */
 static int cuts_deep(const sw_contact *c, const sw_system *s, const double *x1, double h) {
@@ -436,9 +371,11 @@ static int cuts_deep(const sw_contact *c, const sw_system *s, const double *x1, 
   for (size_t i = 0; i < c->candidate_count; i++) {
     const sw_candidate *k = &c->candidates[i];
     if (c->flat[k->obstacle] || sw_contact_is_held(s, k)) continue;
-    const double depth = depth_at(c, k, c->now, x1);
+    const double depth = depth_at(c, s, k, c->now, x1);
     const double more = k->given ? SQUEEZED * k->radius : DEEPER;
-    if (depth > more && depth > depth_at(c, k, c->start, s->x) + more) return 1;
+    if (depth > more && depth > depth_at(c, s, k, c->start, s->x) + more &&
+        may_sink(c, s, k, x1, more))
+      return 1;
   }
   return 0;
 }
@@ -457,7 +394,7 @@ static int bounces(sw_contact *c, const sw_system *s, const double *v1) {
     const sw_vec wall = sw_obstacle_velocity(&c->now[t->obstacle], t->point);
     const int moves = fabs(sw_dot(wall, t->press.normal)) > SLOWEST_IMPACT;
     if (!moves && !s->bodies[t->body].plan->web) continue;
-    const sw_vec v = sw_sub(sw_touch_place(v1, t->node, t->other, t->at), wall);
+    const sw_vec v = sw_sub(sw_mean_of(v1, 0, &t->spot), wall);
     if (sw_dot(v, t->press.normal) > SLOWEST_IMPACT) return c->plastic = 1;
   }
   return 0;
@@ -490,7 +427,7 @@ sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *
   double *kicks = s->delta + 3 * s->nodes, *rates = s->v + 3 * s->nodes;
   for (size_t e = 0; e < s->rolls; e++) kicks[e] = 0;
   c->soonest = HUGE_VAL;
-  const int crossed = review_crossings(c, s, x1, h);
+  const int crossed = sw_contact_cross(c, s, x1, h);
   const int struck = review_touches(c, s, h);
   for (size_t e = 0; e < s->rolls; e++) rates[e] += kicks[e];
   c->pressed_count = 0;
@@ -502,5 +439,5 @@ sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *
 }
 
 int sw_contact_review_static(sw_contact *c, sw_system *s, const double *x1) {
-  return review_crossings(c, s, x1, 0.0);
+  return sw_contact_cross(c, s, x1, 0.0);
 }

@@ -10,27 +10,29 @@
  * as they are; of the radius [-]. */
 static const double SMALL_SHIFT = 0.05;
 
-enum { OWN = 0, NEXT = 6, ROW = 24 }; /* layout of the system's block rows */
+enum { OWN = 0, NEXT = 6, SECOND = 15, ROW = 24 }; /* layout of the system's block rows */
 
 /* Add force f and symmetric stiffness K (upper half) at a touch. */
 static void add_to_field(sw_system *s, const sw_touch *t, sw_vec f, const double K[6],
                          unsigned want) {
-  sw_body *b = &s->bodies[t->body];
-  const size_t ends[2] = {t->node - b->first_node, t->other - b->first_node};
-  const double w[2] = {1.0 - t->at, t->at};
-  for (size_t e = 0; e < (t->segment ? 2u : 1u); e++) {
-    sw_accumulate(b->field.force + 3 * ends[e], sw_scale(f, w[e]));
-    if (want & SW_WANT_STIFFNESS)
-      for (size_t k = 0; k < 6; k++) b->field.rows[ROW * ends[e] + OWN + k] += w[e] * w[e] * K[k];
-  }
-  if (!t->segment || !(want & SW_WANT_STIFFNESS)) return;
   static const size_t full[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
-  double between[9];
-  for (size_t k = 0; k < 9; k++) between[k] = w[0] * w[1] * K[full[k]];
-  if (b->plan->web)
-    sw_body_couple(b, ends[0], ends[1], between);
-  else
-    for (size_t k = 0; k < 9; k++) b->field.rows[ROW * ends[0] + NEXT + k] += between[k];
+  sw_body *b = &s->bodies[t->body];
+  const sw_mean *spot = &t->spot;
+  for (size_t e = 0; e < spot->count; e++) {
+    const size_t i = spot->node[e] - b->first_node;
+    double *row = b->field.rows + ROW * i;
+    sw_accumulate(b->field.force + 3 * i, sw_scale(f, spot->w[e]));
+    if (!(want & SW_WANT_STIFFNESS)) continue;
+    for (size_t k = 0; k < 6; k++) row[OWN + k] += spot->w[e] * spot->w[e] * K[k];
+    for (size_t g = e + 1; g < spot->count; g++) {
+      double between[9];
+      for (size_t k = 0; k < 9; k++) between[k] = spot->w[e] * spot->w[g] * K[full[k]];
+      if (b->plan->web)
+        sw_body_couple(b, i, spot->node[g] - b->first_node, between);
+      else
+        for (size_t k = 0; k < 9; k++) row[(g == e + 1 ? NEXT : SECOND) + k] += between[k];
+    }
+  }
 }
 
 static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
@@ -151,7 +153,7 @@ static int may_change(const sw_contact *c, const sw_touch *t, double shift) {
  * solve assumed. */
 static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *y,
                   const double *delta, double scale) {
-  const sw_vec shift = sw_touch_place(delta, t->node, t->other, t->at);
+  const sw_vec shift = sw_mean_of(delta, 0, &t->spot);
   const sw_vec surface = s->rolls ? surface_shift(s, t, shift) : shift;
   const int agrees = sw_press_update(&t->press, t->friction, surface, scale);
   if (t->held) return 1;
@@ -166,7 +168,7 @@ static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *
     return sw_press_apart(&t->press);
   }
   if (!agrees || (first && !c->straight[t->obstacle])) return 0;
-  return !(changes || first) || sw_contact_stays(c, t, y, way, scale);
+  return !(changes || first) || sw_contact_stays(c, s, t, y, way, scale);
 }
 
 static int update_all(sw_contact *c, const sw_system *s, const double *y, const double *delta) {

@@ -50,20 +50,19 @@ double sw_contact_scale(const sw_contact *c, size_t first, size_t *end) {
 static size_t values(const refined *r) { return 3 * r->body->plan->nodes; }
 
 static sw_vec place(const refined *r, const sw_touch *t, const double *x) {
-  const size_t from = r->body->first_node;
-  return sw_touch_place(x, t->node - from, t->other - from, t->at);
+  return sw_mean_of(x, r->body->first_node, &t->spot);
 }
 
 /* Share of a force at a touch that its nodes get, to free nodes here and to held ones' holds. */
 static void push(const refined *r, const sw_touch *t, sw_vec f, double *free, int held) {
-  const size_t from = r->body->first_node, end[2] = {t->node, t->other};
-  const double at = t->segment ? t->at : 0.0, w[2] = {1.0 - at, at};
-  for (int e = 0; e < (t->segment ? 2 : 1); e++) {
-    const sw_vec part = sw_scale(f, w[e]);
-    if (r->body->plan->held[end[e] - from] == SW_FREE) {
-      if (free) sw_accumulate(free + 3 * (end[e] - from), part);
+  const size_t from = r->body->first_node;
+  for (size_t e = 0; e < t->spot.count; e++) {
+    const sw_vec part = sw_scale(f, t->spot.w[e]);
+    const size_t node = t->spot.node[e];
+    if (r->body->plan->held[node - from] == SW_FREE) {
+      if (free) sw_accumulate(free + 3 * (node - from), part);
     } else if (held) {
-      sw_system_push_held(r->s, end[e], part);
+      sw_system_push_held(r->s, node, part);
     }
   }
 }
@@ -358,18 +357,15 @@ void sw_contact_refine(void *contact, sw_system *s) {
 void sw_contact_add_spots(sw_contact *c, const sw_system *s, sw_spots *to) {
   for (size_t first = 0, end; first < c->touch_count; first = end) {
     const double scale = sw_contact_scale(c, first, &end);
-    const uint32_t body[2] = {(uint32_t)c->touches[first].body};
+    const uint32_t one = (uint32_t)c->touches[first].body, body[2] = {one, one};
     if (!s->bodies[body[0]].linked) continue;
     for (size_t i = first; i < end; i++) {
       sw_touch *t = &c->touches[i];
-      const double at = t->segment ? t->at : 0.0;
-      sw_spots_add(to, s, body,
-                   (sw_spot){.press = &t->press,
-                             .friction = t->friction,
-                             .scale = scale,
-                             .node = {t->node, t->other},
-                             .weight = {1.0 - at, at},
-                             .count = t->segment ? 2 : 1});
+      sw_spot spot = {
+          .press = &t->press, .friction = t->friction, .scale = scale, .count = (int)t->spot.count};
+      memcpy(spot.node, t->spot.node, t->spot.count * sizeof *spot.node);
+      memcpy(spot.weight, t->spot.w, t->spot.count * sizeof *spot.weight);
+      sw_spots_add(to, s, body, spot);
     }
   }
 }

@@ -127,7 +127,7 @@ int sw_contact_search(sw_contact *c, const sw_system *s, const double *delta) {
   if (s->rolls) return 0; /* surfaces shift by turns too */
   for (size_t i = 0; i < n; i++) {
     const sw_touch *t = &c->touches[i];
-    to[i].shift = sw_touch_place(delta, t->node, t->other, t->at);
+    to[i].shift = sw_mean_of(delta, 0, &t->spot);
     to[i].force = sw_press_borne(&t->press, t->friction);
   }
   const double share = goes_on ? least(c, to) : 1.0;

@@ -4,7 +4,7 @@
  * another iterate. */
 #include <math.h>
 
-#include "contact/touch.h"
+#include "contact/curve.h"
 
 /* A touch has stayed when its normal turned by no more than this, and when no larger share of its
  * force goes to another end of its segment than before [-]. */
@@ -18,9 +18,22 @@ static const double FAR = 0.5;
 /* A nearest place further along the segment is another touch [-]. */
 static const double SAME_PLACE = 0.25;
 
-/* Where the wire is nearest now; 0: nowhere. */
-static int find(const sw_contact *c, const sw_touch *t, const double *y, sw_closest *out) {
+/* Where the smooth curve is nearest now. */
+static int find_on_curve(const sw_contact *c, const sw_system *s, const sw_touch *t,
+                         const double *y, sw_place *out) {
   const sw_candidate *k = &c->candidates[t->candidate];
+  sw_piece piece;
+  *out = sw_contact_place_of(c, t);
+  return sw_contact_piece(c, s, k, c->now, y, 2.0 * k->radius, &piece) &&
+         sw_contact_follow(&piece, out);
+}
+
+/* Where the wire is nearest now; 0: nowhere. */
+static int find(const sw_contact *c, const sw_system *s, const sw_touch *t, const double *y,
+                sw_place *place) {
+  const sw_candidate *k = &c->candidates[t->candidate];
+  if (t->sharp) return find_on_curve(c, s, t, y, place);
+  sw_closest *out = &place->near;
   const sw_shape *shape = c->obstacles[t->obstacle].shape;
   const sw_pose *pose = &c->now[t->obstacle].pose;
   const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, y, t->node, t->node, 0));
@@ -38,16 +51,17 @@ static int find(const sw_contact *c, const sw_touch *t, const double *y, sw_clos
   return sw_shape_point(shape, t->segment ? sw_lerp(a, b, t->at) : a, reach, out);
 }
 
-int sw_contact_stays(const sw_contact *c, const sw_touch *t, const double *y, double shift,
-                     double scale) {
+int sw_contact_stays(const sw_contact *c, const sw_system *s, const sw_touch *t, const double *y,
+                     double shift, double scale) {
   const sw_candidate *k = &c->candidates[t->candidate];
   const sw_press *p = &t->press;
-  sw_closest near;
+  sw_place place = {.sharp = SW_SHARP_NOT};
   if (!(shift < FAR * k->radius)) return 0;
   if (t->feature == SW_BEHIND_BARRIER) return 1;
-  if (!find(c, t, y, &near)) return !p->active;
+  if (!find(c, s, t, y, &place)) return !p->active;
+  const sw_closest near = place.near;
   if (near.gap < 0) return 0; /* inside, the side is found anew */
-  const sw_vec normal = sw_rotate(c->now[t->obstacle].pose.q, near.normal);
+  const sw_vec normal = sw_contact_leaning(c, s, k, &place, t->steady);
   const double aslant = sw_contact_aslant(c, t->node, t->other, near.at, normal);
   const double gap = near.gap - k->skin + aslant + t->forgiven;
   if (!p->active) return gap >= 0;

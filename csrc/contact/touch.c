@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Touches of an iterate: where wires are near obstacles, and what the touches there remember. */
-#include "contact/touch.h"
-
+/* What a touch remembers, of the steps before and of the iterate before. */
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/interrupt.h"
+#include "contact/curve.h"
 
 /* A touch goes on into the next iterate up to this gap, of the radius, and while its normal
  * turns by an angle with a cosine above this [-]. */
@@ -22,9 +20,13 @@ static const double SOFTEST = 1000.0;
  * that one may only have met too many touches at once, and then nothing holds the mesh. */
 enum { SPARE_PULLS = 1 };
 
+/* Touches are in the order of candidates: a segment may find one of the segment beside. */
 static sw_status push(sw_contact *c, const sw_touch *t) {
   SW_TRY(sw_grow((void **)&c->touches, &c->touch_capacity, c->touch_count + 1, sizeof *c->touches));
-  c->touches[c->touch_count++] = *t;
+  size_t i = c->touch_count++;
+  for (; i > c->parts.touch && c->touches[i - 1].candidate > t->candidate; i--)
+    c->touches[i] = c->touches[i - 1];
+  c->touches[i] = *t;
   return SW_OK;
 }
 
@@ -34,7 +36,7 @@ static double within(const sw_candidate *k, double share) {
   return k->samples ? fmin(share, 0.5 / k->samples) : share;
 }
 
-static const sw_memory *memory_for(const sw_contact *c, const sw_candidate *k, double at) {
+const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k, double at) {
   const sw_memory *best = NULL;
   double nearest = within(k, HUGE_VAL);
   for (size_t i = k->memory; c->memory && i < k->memory_end; i++) {
@@ -44,36 +46,57 @@ static const sw_memory *memory_for(const sw_contact *c, const sw_candidate *k, d
   return best;
 }
 
+/* How far along the wire what is remembered was from a candidate's place, in edges [-]. */
+static double away(const sw_memory *m, const sw_candidate *k, double at) {
+  return fabs(((double)m->node - (double)k->node) + m->at - at);
+}
+
 /* A touch that slid off one segment onto its neighbour, or onto the node
  * between them, keeps its friction spring: look at the entries around. */
 static const sw_memory *inherited(const sw_contact *c, const sw_candidate *k, double at) {
   const int id = c->obstacles[k->obstacle].id;
-  const double place = (double)k->node + at;
   const sw_memory *best = NULL;
   double nearest = 1.0; /* at most one segment away */
   for (size_t i = k->memory; i-- > 0 && c->memory[i].node + 2 >= k->node;) {
-    const double d = fabs((double)c->memory[i].node + c->memory[i].at - place);
+    const double d = away(&c->memory[i], k, at);
     if (c->memory[i].obstacle == id && c->memory[i].normal_force > 0 && d < nearest)
       best = &c->memory[i], nearest = d;
   }
   for (size_t i = k->memory_end; i < c->memory_count && c->memory[i].node <= k->node + 1; i++) {
-    const double d = fabs((double)c->memory[i].node + c->memory[i].at - place);
+    const double d = away(&c->memory[i], k, at);
     if (c->memory[i].obstacle == id && c->memory[i].normal_force > 0 && d < nearest)
       best = &c->memory[i], nearest = d;
   }
   return best;
 }
 
-/* A touch of the iterate before is the same one up to this far along the segment [-]. */
-static const double SAME_PLACE = 0.25;
+/* That place of the iterate before if it is an edge's of the same obstacle and nearer than the
+ * nearest one. */
+static const sw_touch *nearer(const sw_touch *last, const sw_candidate *k, double at,
+                              double *nearest, const sw_touch *best) {
+  if (!last->sharp || last->obstacle != k->obstacle || last->body != k->body) return best;
+  const double d = fabs(((double)last->node - (double)k->node) + last->at - at);
+  if (!(d < *nearest)) return best;
+  *nearest = d;
+  return last;
+}
 
+/* What a touch was in the iterate before; on the smooth curve perhaps of the segment beside. Of a
+ * stage that is solved by parts, touches of the stage before are in the same list. */
 static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, double at) {
   const sw_touch *best = NULL;
-  double nearest = within(k, SAME_PLACE);
+  double nearest = within(k, SW_SAME_PLACE);
   for (size_t i = k->last; i < k->last_end; i++) {
     const double d = fabs(c->last[i].at - at);
     if (d < nearest) best = &c->last[i], nearest = d;
   }
+  if (!k->smooth || !k->segment) return best;
+  const size_t before = c->parts.on ? c->parts.before : 0, now = k->last >= before;
+  const size_t low = now ? before : 0, high = now ? c->last_count : before;
+  for (size_t i = k->last; i-- > low && c->last[i].node + 1 >= k->node;)
+    best = nearer(&c->last[i], k, at, &nearest, best);
+  for (size_t i = k->last_end; i < high && c->last[i].node <= k->node + 1; i++)
+    best = nearer(&c->last[i], k, at, &nearest, best);
   return best;
 }
 
@@ -82,8 +105,8 @@ static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, doub
  * obstacle's material there. */
 static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_touch *t,
                              const double *y) {
-  const sw_vec from = sw_contact_where(c, s->x, t->node, t->other, t->at);
-  const sw_vec to = sw_contact_where(c, y, t->node, t->other, t->at);
+  const sw_vec from = sw_mean_place(c, s->x, &t->spot);
+  const sw_vec to = sw_mean_place(c, y, &t->spot);
   const sw_vec carried =
       sw_pose_point(c->now[t->obstacle].pose, sw_pose_local(c->start[t->obstacle].pose, from));
   const sw_body *b = &s->bodies[t->body];
@@ -101,18 +124,23 @@ static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_t
 static sw_vec shift_since(const sw_contact *c, const sw_system *s, const sw_touch *t,
                           const double *y) {
   const sw_candidate *k = &c->candidates[t->candidate];
-  const sw_memory *m = c->regime == SW_CONTACT_EXPLICIT ? memory_for(c, k, t->at) : NULL;
+  const sw_memory *m = c->regime == SW_CONTACT_EXPLICIT ? sw_contact_remembered(c, k, t->at) : NULL;
   if (!m) return relative_shift(c, s, t, y);
-  const sw_vec now = sw_contact_where(c, y, t->node, t->other, m->at);
+  const sw_mean spot = sw_contact_spot(s, k, m->at);
+  const sw_vec now = sw_mean_place(c, y, &spot);
   return sw_sub(now, sw_pose_point(c->now[t->obstacle].pose, m->seen));
 }
 
 /* The memory of a touch that pressed, on whatever part of the wire it was. */
 static const sw_memory *pressed_memory(const sw_contact *c, const sw_system *s,
                                        const sw_candidate *k, double at) {
-  const sw_memory *own = memory_for(c, k, at);
-  if (own && own->normal_force > 0) return own;
-  return s->bodies[k->body].plan->web || k->samples ? NULL : inherited(c, k, at);
+  const sw_memory *own = sw_contact_remembered(c, k, at);
+  const int pressed = own && own->normal_force > 0;
+  if (pressed && !(k->smooth && k->segment)) return own;
+  if (s->bodies[k->body].plan->web || k->samples) return NULL;
+  const sw_memory *other = inherited(c, k, at);
+  if (!pressed) return other;
+  return other && other->segment && away(other, k, at) < away(own, k, at) ? other : own;
 }
 
 /* A particle of a mesh that sticks is predicted off its place by far more than what its touch's
@@ -166,7 +194,7 @@ int sw_contact_is_held(const sw_system *s, const sw_candidate *k) {
 
 double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
-  const sw_vec from = sw_contact_where(c, s->x, t->node, t->other, t->at);
+  const sw_vec from = sw_mean_place(c, s->x, &t->spot);
   const double aslant = sw_contact_aslant(c, t->node, t->other, t->at, t->press.normal);
   return c->candidates[t->candidate].skin - aslant - sw_dot(t->press.normal, sw_sub(from, plane));
 }
@@ -201,14 +229,16 @@ static int goes_on(const sw_contact *c, const sw_candidate *k, const sw_press *p
          sw_dot(press->normal, last->press.normal) > SAME_SIDE;
 }
 
-static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
-                           const double *y, const sw_closest *near) {
+sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
+                               const double *y, const sw_place *place) {
+  const sw_closest *near = &place->near;
   const sw_pose *pose = &c->now[k->obstacle].pose;
   const double at = k->segment ? near->at : 0.0;
   const sw_memory *m = pressed_memory(c, s, k, at);
   const sw_touch *last = last_for(c, k, at);
   const double usual = end_stiffness(c, s, k, y, sw_rotate(pose->q, near->normal));
   const double stiffness = stiffness_of(c, k, m, last, usual);
+  const double steady = m && place->sharp ? m->steady : 0.0;
   const sw_web *web = s->bodies[k->body].plan->web;
   sw_touch t = {.obstacle = k->obstacle,
                 .segment = k->segment,
@@ -217,6 +247,10 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
                 .body = k->body,
                 .feature = near->feature,
                 .at = at,
+                .spot = sw_contact_spot(s, k, at),
+                .sharp = place->sharp,
+                .edge = place->edge,
+                .steady = steady,
                 .point = sw_pose_point(*pose, near->point),
                 .local = near->point,
                 .known = m != NULL,
@@ -225,7 +259,7 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
                 .held = sw_contact_is_held(s, k),
                 .candidate = (size_t)(k - c->candidates),
                 .stage = c->stage,
-                .press = {.normal = sw_rotate(pose->q, near->normal),
+                .press = {.normal = sw_contact_leaning(c, s, k, place, steady),
                           .gap = near->gap - k->skin,
                           .k = stiffness,
                           .by_place = 1}};
@@ -250,112 +284,8 @@ static sw_status add_touch(sw_contact *c, const sw_system *s, const sw_candidate
     press->active = 1; /* what just touches may be all that bears the wire */
     press->active = sw_press_apart(press);
   }
-  t.seen = sw_pose_local(*pose, sw_contact_where(c, y, t.node, t.other, t.at));
+  t.seen = sw_pose_local(*pose, sw_mean_place(c, y, &t.spot));
   begin_friction(c, s, m, last, y, &t);
   if (t.held) press->active = 0;
   return push(c, &t);
-}
-
-/* When the wire's axis is inside the obstacle the nearest face may be the wrong
- * one: stay with the side that is remembered from the last accepted step.
- * Without a memory the axis got there unseen within this step; the swept test
- * will tell from which side, so the touch is left out: 0. A wire that starts
- * inside (nothing accepted yet) is pushed out the nearest way. */
-static int keep_side(const sw_contact *c, const sw_candidate *k, sw_vec local, sw_closest *near) {
-  if (near->gap >= 0 || c->flat[k->obstacle]) return 1; /* a half space has one side */
-  const sw_memory *m = memory_for(c, k, near->at);
-  if (!m) return c->fresh == SW_CONTACT_FRESH;
-  if (sw_dot(m->normal, near->normal) > 0.7) return 1; /* within 45 degrees: the same face */
-  const double gap = sw_dot(m->normal, sw_sub(local, m->point));
-  near->gap = gap;
-  near->normal = m->normal;
-  near->point = sw_madd(local, m->normal, -gap);
-  near->feature = m->feature;
-  return 1;
-}
-
-/* The place kept on its side by a barrier of this step, if the candidate has
- * one: 1 and the touch, else 0. */
-static int behind_barrier(const sw_contact *c, const sw_candidate *k, const double *y,
-                          sw_closest *near) {
-  const sw_barrier *b = sw_contact_barrier(c, k->obstacle, k->node, k->segment);
-  if (!b) return 0;
-  const sw_vec local =
-      sw_pose_local(c->now[b->obstacle].pose, sw_contact_where(c, y, b->node, b->other, b->at));
-  const double gap = sw_dot(b->normal, sw_sub(local, b->point));
-  *near = (sw_closest){.gap = gap,
-                       .at = b->at,
-                       .normal = b->normal,
-                       .point = sw_madd(local, b->normal, -gap),
-                       .feature = SW_BEHIND_BARRIER};
-  return 1;
-}
-
-/* The nearest place of a segment that lies along an obstacle comes and goes with the last
- * nanometre. One that pushed in the iterate before stays where it was. first: of the touches
- * found in this iterate. */
-static sw_status keep_pushing(sw_contact *c, const sw_system *s, const sw_candidate *k,
-                              const double *y, size_t first) {
-  const sw_pose *pose = &c->now[k->obstacle].pose;
-  for (size_t i = k->last; i < k->last_end; i++) {
-    const sw_touch *last = &c->last[i];
-    if (!(last->press.normal_force > 0)) continue;
-    int found = 0;
-    for (size_t j = first; j < c->touch_count; j++)
-      found |= fabs(c->touches[j].at - last->at) < SAME_PLACE;
-    const sw_vec p = sw_pose_local(*pose, sw_contact_where(c, y, k->node, k->other, last->at));
-    sw_closest near;
-    if (found || !sw_shape_point(c->obstacles[k->obstacle].shape, p, k->radius, &near)) continue;
-    near.at = last->at;
-    if (keep_side(c, k, p, &near)) SW_TRY(add_touch(c, s, k, y, &near));
-  }
-  return SW_OK;
-}
-
-/* Touches at a candidate's samples. */
-static sw_status query_samples(sw_contact *c, const sw_system *s, const sw_candidate *k,
-                               const double *y, double reach) {
-  const sw_pose *pose = &c->now[k->obstacle].pose;
-  const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, y, k->node, k->node, 0));
-  const sw_vec b = sw_pose_local(*pose, sw_contact_where(c, y, k->other, k->other, 0));
-  for (int i = 0; i < k->samples; i++) {
-    const double at = sw_sample_at(k, i);
-    const sw_vec p = sw_lerp(a, b, at);
-    sw_closest near;
-    if (!sw_shape_point(c->obstacles[k->obstacle].shape, p, reach, &near)) continue;
-    near.at = at;
-    if (keep_side(c, k, p, &near)) SW_TRY(add_touch(c, s, k, y, &near));
-  }
-  return SW_OK;
-}
-
-static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k, const double *y) {
-  const sw_shape *shape = c->obstacles[k->obstacle].shape;
-  const sw_pose *pose = &c->now[k->obstacle].pose;
-  const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, y, k->node, k->node, 0));
-  const double reach = 2.0 * k->radius; /* keeps what may begin to touch in the list */
-  sw_closest near[SW_CLOSEST_MAX];
-  if (c->barrier_count && behind_barrier(c, k, y, &near[0])) return add_touch(c, s, k, y, &near[0]);
-  if (k->samples) return query_samples(c, s, k, y, reach);
-  if (!k->segment) {
-    if (!sw_shape_point(shape, a, reach, &near[0])) return SW_OK;
-    near[0].at = 0;
-    return keep_side(c, k, a, &near[0]) ? add_touch(c, s, k, y, &near[0]) : SW_OK;
-  }
-  const sw_vec b = sw_pose_local(*pose, sw_contact_where(c, y, k->other, k->other, 0));
-  const size_t first = c->touch_count;
-  const int n = sw_shape_segment(shape, a, b, reach, near);
-  for (int i = 0; i < n; i++) {
-    if (keep_side(c, k, sw_lerp(a, b, near[i].at), &near[i]))
-      SW_TRY(add_touch(c, s, k, y, &near[i]));
-  }
-  return c->regime == SW_CONTACT_EXPLICIT ? SW_OK : keep_pushing(c, s, k, y, first);
-}
-
-sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw_error *err) {
-  size_t first, end;
-  sw_status status = sw_contact_turn_over(c, &first, &end);
-  for (size_t i = first; i < end && status == SW_OK; i++)
-    status = sw_interrupted() ? SW_EINTR : query(c, s, &c->candidates[i], y);
-  return status == SW_OK ? SW_OK : sw_fail(err, status, "contact: %s", sw_status_text(status));
 }

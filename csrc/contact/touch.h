@@ -8,6 +8,7 @@
 #include "contact/broad.h"
 #include "contact/contact.h"
 #include "contact/law.h"
+#include "contact/mean.h"
 
 /* A node, or the inside of a segment that starts there, and an obstacle that
  * it may touch in this step. */
@@ -23,6 +24,7 @@ typedef struct sw_candidate {
   size_t last, last_end;     /* matching range of the last iterate's touches */
   double usual;              /* stiffness of a new touch [N/m] */
   int given;                 /* 1: it keeps that, however deep it gets */
+  int smooth;                /* 1: the wire is the smooth curve there, not its chords */
   int samples; /* it touches at so many places, evenly along the segment; 0: at the nearest ones */
 } sw_candidate;
 
@@ -33,7 +35,11 @@ typedef struct sw_touch {
   int obstacle, segment;
   size_t node, other, body;
   int feature;
-  double at;        /* along the segment [-] */
+  double at;        /* along the segment, of a smooth one perhaps half an edge beyond it [-] */
+  sw_mean spot;     /* the same as a mean of nodes */
+  sw_sharp sharp;   /* of a smooth one: what it touches */
+  sw_vec edge;      /* then: along an edge, in the obstacle's coordinates [-] */
+  double steady;    /* then: normal force that it has had for a while [N] */
   sw_vec point;     /* on the obstacle, world [m] */
   sw_vec local;     /* the same in the obstacle's coordinates [m] */
   double forgiven;  /* part of the true depth left out of the gap in this step [m] */
@@ -43,6 +49,7 @@ typedef struct sw_touch {
   double stiffer;   /* its stiffness from the next iterate on [N/m] */
   int known;        /* it pressed at the step's start */
   double meets;     /* of one that may strike: when it would, after the step's start [s] */
+  double closes;    /* then: how fast its gap closes there [m/s] */
   int held;         /* both ends are held: no force */
   double friction;  /* coefficient in this step: kinetic when it slid before [-] */
   double slid;      /* way that it slid until the step's start, since it began to press [m] */
@@ -61,6 +68,7 @@ typedef struct sw_memory {
   double normal_force;  /* 0: near, but without force [N] */
   double depth;         /* that goes with normal_force [m] */
   double k;             /* [N/m] */
+  double steady;        /* as a touch's [N] */
   sw_vec normal, point; /* the side: local [-], [m] */
   int sliding;
   sw_vec elastic; /* displacement of the friction spring, local [m] */
@@ -134,6 +142,7 @@ struct sw_contact {
   int *pads;                  /* (pad_count) those of grippers */
   size_t pad_count;
   int *pressing; /* (count) 1: a pad that pressed on something at the step's start */
+  int *sharp;    /* (count) 1: it has faces, edges and corners */
   int *dense;    /* (count) 1: particles of the body at hand lie close, likewise */
   double *sunk;  /* (3 nodes) how far contact sees a node further in, or NULL: nowhere [m] */
   size_t sunk_capacity;
@@ -204,6 +213,14 @@ void sw_contact_expect(sw_contact *c, int obstacle);
 /* A step of a system with so many nodes begins without impacts and barriers. SW_ENOMEM. */
 sw_status sw_contact_calm(sw_contact *c, size_t nodes);
 
+/* Change the velocities at the step's start so that the touch is reached, not passed. Returns 1
+ * when something was changed. */
+int sw_contact_strike(sw_contact *c, sw_system *s, const sw_touch *t, double h);
+
+/* Raise barriers where wires cross obstacles on their way to x1. h: of the step, 0 in statics,
+ * where there are no speeds to change. Returns 1 when there are new ones. */
+int sw_contact_cross(sw_contact *c, sw_system *s, const double *x1, double h);
+
 /* The barrier that was raised first of those for the node or segment, or NULL. */
 const sw_barrier *sw_contact_barrier(const sw_contact *c, int obstacle, size_t node, int segment);
 
@@ -217,6 +234,18 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
  * SW_ENOMEM. */
 sw_status sw_contact_turn_over(sw_contact *c, size_t *first, size_t *end);
 
+/* A touch of the iterate before is the same one up to this far along the segment [-]. */
+#define SW_SAME_PLACE 0.25
+/* What a candidate's touch that was nearest to this place left at the last accepted step, or NULL.
+ */
+const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k, double at);
+/* A place along a candidate as a mean of nodes. */
+sw_mean sw_contact_spot(const sw_system *s, const sw_candidate *k, double at);
+
+struct sw_place;
+/* SW_ENOMEM. */
+sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
+                               const double *y, const struct sw_place *place);
 /* Find the touches at positions y; those of before are then the last ones. SW_ENOMEM. */
 sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw_error *err);
 /* How deep the touch's place was at the step's start, below 0 when it was outside [m]. */
@@ -224,8 +253,8 @@ double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw
 
 /* Has the touch the place and the normal that its equations had, after an update by shift [m] to
  * positions y? scale: forces far below do not matter [N]. */
-int sw_contact_stays(const sw_contact *c, const sw_touch *t, const double *y, double shift,
-                     double scale);
+int sw_contact_stays(const sw_contact *c, const sw_system *s, const sw_touch *t, const double *y,
+                     double shift, double scale);
 
 /* After a static solve: let go of touches at the ends of rows as far as wires lift off there. */
 void sw_contact_peel(sw_contact *c, const sw_system *s);
@@ -277,6 +306,11 @@ static inline sw_vec sw_contact_where(const sw_contact *c, const double *x, size
                                       size_t other, double at) {
   const sw_vec p = sw_touch_place(x, node, other, at);
   return c->sunk ? sw_sub(p, sw_touch_place(c->sunk, node, other, at)) : p;
+}
+
+static inline sw_vec sw_mean_place(const sw_contact *c, const double *x, const sw_mean *spot) {
+  const sw_vec p = sw_mean_of(x, 0, spot);
+  return c->sunk ? sw_sub(p, sw_mean_of(c->sunk, 0, spot)) : p;
 }
 
 /* What is sunk along the normal n of its surface meets a face of normal -n where that surface is.

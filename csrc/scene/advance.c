@@ -274,6 +274,10 @@ static sw_status make_room(loop *p, double *h, sw_error *err) {
   return p->v_start ? SW_OK : sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
 }
 
+/* Parts end with their step: the difference of two times is known to no more than so much of a
+ * part, and what that leaves is no part [-]. */
+static const double ROUNDING = 1e-6;
+
 /* Advance by h, in smaller parts where needed. t1 is the exact end time. */
 static sw_status step(loop *p, double h, double t1, sw_error *err) {
   sw_scene *s = p->s;
@@ -287,7 +291,7 @@ static sw_status step(loop *p, double h, double t1, sw_error *err) {
   while (done < h) {
     const double left = h - done;
     part = sw_blow_part(s, part);
-    if (part > left * (1 - 1e-12)) part = left;
+    if (part > left * (1 - ROUNDING)) part = left;
     if (done > 0 && p->interrupted && p->interrupted()) return SW_EINTR; /* there may be many */
     SW_TRY(make_room(p, &part, err));
     if ((s->jerks = sw_scene_jerks(s))) s->stepper.restart = 1;

@@ -65,8 +65,62 @@ static sw_vec support(const sw_shape *shape, sw_vec n) {
   return sw_v(copysign(half.x, n.x), copysign(half.y, n.y), copysign(half.z, n.z));
 }
 
-static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out) {
-  if (!sw_convex_segment(shape, a, b, reach, out)) return 0;
+/* -1, 0 or 1: a place is on that side of an axis, or between them. */
+static int side(double normal, double place, double half) {
+  const double leans = 1e-6, on_side = 1e-9; /* [-] */
+  if (fabs(normal) > leans) return normal < 0 ? -1 : 1;
+  return fabs(place) < half * (1 - on_side) ? 0 : place < 0 ? -1 : 1;
+}
+
+/* A segment's nearest place on an edge is one, though what was looked at just beside it, perhaps
+ * over a face, has named it. */
+static void name_feature(sw_vec half, sw_closest *c) {
+  const sw_vec n = c->normal, p = c->point;
+  c->feature = MIDDLE + X_DIGIT * side(n.x, p.x, half.x) + Y_DIGIT * side(n.y, p.y, half.y) +
+               Z_DIGIT * side(n.z, p.z, half.z);
+}
+
+/* Where a segment has its nearest place on an edge along axis k, which is over j and i: nearest in
+ * their plane. 0: it has none there. */
+static int over_edge(const double half[3], const double a[3], const double d[3], int k,
+                     double *at) {
+  const int i = (k + 1) % 3, j = (k + 2) % 3;
+  const double length2 = d[i] * d[i] + d[j] * d[j];
+  if (!(length2 > 0)) return 0;
+  for (int corner = 0; corner < 4; corner++) {
+    const double si = corner & 1 ? 1 : -1, sj = corner & 2 ? 1 : -1;
+    const double wi = a[i] - si * half[i], wj = a[j] - sj * half[j];
+    const double u = -(wi * d[i] + wj * d[j]) / length2;
+    if (!(u > 0 && u < 1)) continue;
+    if (si * (wi + u * d[i]) > 0 && sj * (wj + u * d[j]) > 0 && fabs(a[k] + u * d[k]) < half[k]) {
+      *at = u;
+      return 1;
+    }
+  }
+  return 0;
+}
+
+/* As sw_convex_segment, of which the search takes long. A distance that is least along the segment
+ * in the room of an edge is least of all. */
+static int nearest(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out) {
+  const sw_vec half = ((const box *)shape)->half, d = sw_sub(b, a);
+  const double h[3] = {half.x, half.y, half.z}, from[3] = {a.x, a.y, a.z}, way[3] = {d.x, d.y, d.z};
+  sw_closest ends[2];
+  double at;
+  distance(shape, a, HUGE_VAL, &ends[0]);
+  if (!(sw_dot(ends[0].normal, d) < 0)) return 0;
+  distance(shape, b, HUGE_VAL, &ends[1]);
+  if (!(sw_dot(ends[1].normal, d) > 0)) return 0;
+  int k = 0;
+  while (k < 3 && !over_edge(h, from, way, k, &at)) k++;
+  if (k == 3) return sw_convex_segment(shape, a, b, reach, out);
+  if (!distance(shape, sw_madd(a, d, at), reach, out)) return 0;
+  out->at = at;
+  return !sw_no_better(out->gap, ends[0].gap, ends[1].gap, at, sw_norm(d));
+}
+
+static int places(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out) {
+  if (!nearest(shape, a, b, reach, out)) return 0;
   const sw_vec half = ((const box *)shape)->half, d = sw_sub(b, a), n = out[0].normal;
   const double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);
   const double most = fmax(fmax(x, y), z);
@@ -76,6 +130,12 @@ static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_c
   if (most != y) sw_clip(a.y, d.y, -half.y, half.y, &part[0], &part[1]);
   if (most != z) sw_clip(a.z, d.z, -half.z, half.z, &part[0], &part[1]);
   return sw_convex_bridge(shape, a, b, reach, part, out);
+}
+
+static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out) {
+  const int count = places(shape, a, b, reach, out);
+  for (int i = 0; i < count; i++) name_feature(((const box *)shape)->half, &out[i]);
+  return count;
 }
 
 static const signed char quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
@@ -109,6 +169,68 @@ static void bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
   }
 }
 
+static double least(double a, double b) { return a < b ? a : b; }
+static double largest(double a, double b) { return a > b ? a : b; }
+
+static int over_face(const sw_shape *shape, const sw_vec *p, size_t count) {
+  const sw_vec half = ((const box *)shape)->half;
+  sw_vec low = p[0], high = p[0];
+  for (size_t i = 1; i < count; i++) {
+    low = sw_v(least(low.x, p[i].x), least(low.y, p[i].y), least(low.z, p[i].z));
+    high = sw_v(largest(high.x, p[i].x), largest(high.y, p[i].y), largest(high.z, p[i].z));
+  }
+  const int x = low.x >= -half.x && high.x <= half.x, y = low.y >= -half.y && high.y <= half.y;
+  const int z = low.z >= -half.z && high.z <= half.z;
+  if (x + y + z != 2) return 0;
+  return x ? y ? low.z > half.z || high.z < -half.z : low.y > half.y || high.y < -half.y
+           : low.x > half.x || high.x < -half.x;
+}
+
+static sw_sharp sharp(const sw_shape *shape, int feature, sw_vec *along) {
+  (void)shape;
+  const int x = feature % 3, y = feature / Y_DIGIT % 3, z = feature / Z_DIGIT;
+  const int between = (x == 1) + (y == 1) + (z == 1);
+  if (between == 1) *along = sw_v(x == 1, y == 1, z == 1);
+  return between >= 2 ? SW_SHARP_NOT : between ? SW_SHARP_EDGE : SW_SHARP_CORNER;
+}
+
+/* Is an edge or corner of this sign along axis k within the bounds there? 0: it goes along k. */
+static int within(const double half[3], const double low[3], const double high[3], int k,
+                  int sign) {
+  if (!sign) return low[k] <= half[k] && high[k] >= -half[k];
+  return low[k] <= sign * half[k] && high[k] >= sign * half[k];
+}
+
+static void ridges(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_ridge_visit visit,
+                   void *user) {
+  const sw_vec h = ((const box *)shape)->half;
+  const sw_bounds near = sw_bounds_of(a, b, reach);
+  const double half[3] = {h.x, h.y, h.z}, low[3] = {near.min.x, near.min.y, near.min.z};
+  const double high[3] = {near.max.x, near.max.y, near.max.z};
+  for (int x = -1; x <= 1; x++)
+    for (int y = -1; y <= 1 && within(half, low, high, 0, x); y++)
+      for (int z = -1; z <= 1 && within(half, low, high, 1, y); z++) {
+        const int between = !x + !y + !z;
+        if (between > 1 || !within(half, low, high, 2, z)) continue;
+        const sw_vec along = between ? sw_v(!x, !y, !z) : sw_v(0, 0, 0);
+        const sw_vec from = sw_v((x ? x : -1) * h.x, (y ? y : -1) * h.y, (z ? z : -1) * h.z);
+        const sw_ridge r = {.sharp = between ? SW_SHARP_EDGE : SW_SHARP_CORNER,
+                            .feature = MIDDLE + X_DIGIT * x + Y_DIGIT * y + Z_DIGIT * z,
+                            .from = from,
+                            .along = along,
+                            .length = 2.0 * sw_dot(along, h)};
+        visit(user, &r);
+      }
+}
+
+static int points_out(const sw_shape *shape, const sw_ridge *ridge, sw_vec n, double share) {
+  (void)shape;
+  const int x = ridge->feature % 3 - 1, y = ridge->feature / Y_DIGIT % 3 - 1;
+  const int z = ridge->feature / Z_DIGIT - 1;
+  return x * n.x >= -share && y * n.y >= -share && z * n.z >= -share &&
+         x * n.x + y * n.y + z * n.z > 0;
+}
+
 static const sw_param rows[] = {
     {"size", SW_PARAM_VECTOR, "m", NAN, 0, SW_SHAPE_LARGEST, SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN,
      NULL, offsetof(box_args, size), "lengths of the edges along x, y and z"},
@@ -135,4 +257,8 @@ const sw_shape_class sw_shape_class_box = {
     .support = support,
     .segment = segment,
     .triangles = triangles,
-    .bones = bones};
+    .bones = bones,
+    .over_face = over_face,
+    .sharp = sharp,
+    .ridges = ridges,
+    .points_out = points_out};

@@ -127,6 +127,23 @@ static void bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
   sw_trimesh_bones(&((const hull *)shape)->mesh, visit, user);
 }
 
+static sw_sharp sharp(const sw_shape *shape, int feature, sw_vec *along) {
+  return sw_trimesh_sharp(&((const hull *)shape)->mesh, feature, along);
+}
+
+static int faceted(const sw_shape *shape) {
+  return sw_trimesh_faceted(&((const hull *)shape)->mesh);
+}
+
+static void ridges(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_ridge_visit visit,
+                   void *user) {
+  sw_trimesh_ridges(&((const hull *)shape)->mesh, a, b, reach, visit, user);
+}
+
+static int points_out(const sw_shape *shape, const sw_ridge *ridge, sw_vec n, double share) {
+  return sw_trimesh_points_out(&((const hull *)shape)->mesh, ridge, n, share);
+}
+
 static const sw_param rows[] = {
     {"points", SW_PARAM_OTHER, "m", NAN, -SW_SHAPE_LARGEST, SW_SHAPE_LARGEST, SW_PARAM_REQUIRED,
      NULL, 0, "places whose hull is the solid, at least four: {x, y, z, x, y, z, ...}"},
@@ -155,4 +172,8 @@ const sw_shape_class sw_shape_class_hull = {
     .segment = segment,
     .sweep = sweep,
     .triangles = triangles,
-    .bones = bones};
+    .bones = bones,
+    .sharp = sharp,
+    .faceted = faceted,
+    .ridges = ridges,
+    .points_out = points_out};

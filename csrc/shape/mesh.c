@@ -60,6 +60,23 @@ static void bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
   sw_trimesh_bones(&((const mesh *)shape)->mesh, visit, user);
 }
 
+static sw_sharp sharp(const sw_shape *shape, int feature, sw_vec *along) {
+  return sw_trimesh_sharp(&((const mesh *)shape)->mesh, feature, along);
+}
+
+static int faceted(const sw_shape *shape) {
+  return sw_trimesh_faceted(&((const mesh *)shape)->mesh);
+}
+
+static void ridges(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_ridge_visit visit,
+                   void *user) {
+  sw_trimesh_ridges(&((const mesh *)shape)->mesh, a, b, reach, visit, user);
+}
+
+static int points_out(const sw_shape *shape, const sw_ridge *ridge, sw_vec n, double share) {
+  return sw_trimesh_points_out(&((const mesh *)shape)->mesh, ridge, n, share);
+}
+
 static const sw_param rows[] = {
     {"data", SW_PARAM_OTHER, "-", NAN, -INFINITY, INFINITY, SW_PARAM_REQUIRED, NULL, 0,
      "content of a mesh file, as meshfile.read gives it"},
@@ -91,4 +108,8 @@ const sw_shape_class sw_shape_class_mesh = {
     .segment = segment,
     .sweep = sweep,
     .triangles = triangles,
-    .bones = bones};
+    .bones = bones,
+    .sharp = sharp,
+    .faceted = faceted,
+    .ridges = ridges,
+    .points_out = points_out};

@@ -104,6 +104,28 @@ void sw_shape_bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
   if (shape->class->bones) shape->class->bones(shape, visit, user);
 }
 
+int sw_shape_has_edges(const sw_shape *shape) {
+  const sw_shape_class *k = shape->class;
+  return k->sharp && !(k->faceted && k->faceted(shape));
+}
+
+int sw_shape_over_face(const sw_shape *shape, const sw_vec *p, size_t count) {
+  return shape->class->over_face && shape->class->over_face(shape, p, count);
+}
+
+sw_sharp sw_shape_sharp(const sw_shape *shape, int feature, sw_vec *along) {
+  return shape->class->sharp ? shape->class->sharp(shape, feature, along) : SW_SHARP_NOT;
+}
+
+void sw_shape_ridges(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_ridge_visit visit,
+                     void *user) {
+  if (shape->class->ridges) shape->class->ridges(shape, a, b, reach, visit, user);
+}
+
+int sw_shape_points_out(const sw_shape *shape, const sw_ridge *ridge, sw_vec n, double share) {
+  return shape->class->points_out && shape->class->points_out(shape, ridge, n, share);
+}
+
 /* --- files ------------------------------------------------------------------ */
 
 /* A count of 0 on the tape: it was made without them. */
@@ -142,6 +164,11 @@ void sw_tape_shape(sw_tape *t, sw_shape **shape) {
 }
 
 /* --- queries -------------------------------------------------------------- */
+
+int sw_shape_meets(const sw_shape *shape, sw_vec a, sw_vec b, double reach) {
+  const sw_bounds near = sw_bounds_of(a, b, reach);
+  return sw_bounds_meet(&near, &shape->bounds);
+}
 
 /* Sum of the coordinates' sizes; NaN stays NaN [m] */
 static inline double size_of(sw_vec p) { return fabs(p.x) + fabs(p.y) + fabs(p.z); }

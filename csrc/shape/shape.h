@@ -125,6 +125,33 @@ int sw_shape_segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach,
 int sw_shape_sweep(const sw_shape *shape, sw_vec a0, sw_vec b0, sw_vec a1, sw_vec b1, double margin,
                    sw_closest *out, double *when);
 
+/* What a feature is. Of an edge: its unit direction. Places found inside of a solid may name a face
+ * where they lie on an edge. */
+typedef enum sw_sharp { SW_SHARP_NOT, SW_SHARP_EDGE, SW_SHARP_CORNER } sw_sharp;
+sw_sharp sw_shape_sharp(const sw_shape *shape, int feature, sw_vec *along);
+/* A convex edge or corner. */
+typedef struct sw_ridge {
+  sw_sharp sharp;
+  int feature;
+  sw_vec from, along; /* its first end [m]; unit, of an edge [-] */
+  double length;      /* of an edge [m] */
+} sw_ridge;
+typedef void (*sw_ridge_visit)(void *user, const sw_ridge *ridge);
+/* All that are less than reach away from the segment a-b, and perhaps some more. */
+void sw_shape_ridges(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_ridge_visit visit,
+                     void *user);
+/* 1: n points away from all that meets at the edge or corner, or leans inward by no more than this
+ * share of the angle of its faces, of small angles [-]. */
+int sw_shape_points_out(const sw_shape *shape, const sw_ridge *ridge, sw_vec n, double share);
+/* 0: no place of the segment a-b is nearer than reach to the shape's box. */
+int sw_shape_meets(const sw_shape *shape, sw_vec a, sw_vec b, double reach);
+/* 1: of all places, and of all between them, one and the same face is what is nearest, and they are
+ * outside of it. 0: perhaps not. */
+int sw_shape_over_face(const sw_shape *shape, const sw_vec *p, size_t count);
+/* 1: all that is not flat about it are edges and corners: none that many small faces stand for what
+ * is round. */
+int sw_shape_has_edges(const sw_shape *shape);
+
 sw_bounds sw_shape_bounds(const sw_shape *shape);
 const char *sw_shape_kind(const sw_shape *shape); /* "box", "mesh", ... */
 

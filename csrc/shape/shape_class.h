@@ -47,6 +47,16 @@ struct sw_shape_class {
   /* As sw_shape_triangles and sw_shape_bones; NULL = none. */
   sw_status (*triangles)(const sw_shape *shape, int around, sw_triangles *out);
   void (*bones)(const sw_shape *shape, sw_bone_visit visit, void *user);
+  /* As sw_shape_over_face; NULL = it is not known. */
+  int (*over_face)(const sw_shape *shape, const sw_vec *p, size_t count);
+  /* As sw_shape_sharp; NULL = not of flat faces. */
+  sw_sharp (*sharp)(const sw_shape *shape, int feature, sw_vec *along);
+  /* Are some of its edges there for what is round? NULL = none. */
+  int (*faceted)(const sw_shape *shape);
+  /* As sw_shape_ridges and sw_shape_points_out, of what has edges. */
+  void (*ridges)(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_ridge_visit visit,
+                 void *user);
+  int (*points_out)(const sw_shape *shape, const sw_ridge *ridge, sw_vec n, double share);
 };
 
 #define X(name) extern const sw_shape_class sw_shape_class_##name;

@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The smooth curve of a wire, its feet over edges and corners, and how a touch there pushes. */
+#include "contact/curve.h"
+
+#include <math.h>
+
+static const double QUARTER = 0.25;
+/* Lines closer to parallel than this have no foot, and nodes meet edges up to that, for they know
+ * another tangent than the curve and no place may be left to neither [-]: squared sines. */
+static const double PARALLEL = 0.005, NEARLY = 0.02;
+enum { MOST_TURNS = 6 };                 /* of the search for the foot [-] */
+static const double SHARP_ENOUGH = 1e-9; /* of an edge [-] */
+static const double NO_LENGTH = 1e-6;    /* of an edge, squared [-] */
+
+/* A place of the curve and what its derivatives by u are there [m]. */
+typedef struct spot {
+  sw_vec x, along, bend;
+} spot;
+
+static spot between(sw_vec a, sw_vec b, double u) {
+  return (spot){sw_lerp(a, b, u), sw_sub(b, a), {0, 0, 0}};
+}
+
+static spot around(const sw_vec *p, double v) {
+  const double a = 0.5 * (1.0 - v) * (1.0 - v), e = 0.5 * v * v;
+  const sw_vec before = sw_sub(p[1], p[0]), after = sw_sub(p[2], p[1]);
+  return (spot){sw_madd(sw_madd(sw_scale(p[1], 1.0 - a - e), p[0], a), p[2], e),
+                sw_lerp(before, after, v), sw_sub(after, before)};
+}
+
+static spot at_curve(const sw_piece *c, double u) {
+  if (u < 0.5 ? c->starts : c->ends) return between(c->p[1], c->p[2], u);
+  return u < 0.5 ? around(c->p, u + 0.5) : around(c->p + 1, u - 0.5);
+}
+
+/* Number j of the four, in the world. */
+static sw_vec node_at(const sw_contact *c, const sw_body *b, size_t i, size_t j, const double *x) {
+  const size_t n = b->plan->nodes, at = i + j < 1 ? 0 : i + j - 1 < n ? i + j - 1 : n - 1;
+  const size_t node = b->first_node + at;
+  return sw_contact_where(c, x, node, node, 0);
+}
+
+static double off_middle(sw_vec a, sw_vec b, sw_vec c) {
+  return sw_norm2(sw_add(sw_sub(a, b), sw_sub(c, b)));
+}
+
+int sw_contact_piece(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                     const sw_contact_at *at, const double *x, double reach, sw_piece *out) {
+  const sw_body *b = &s->bodies[k->body];
+  const sw_shape *shape = c->obstacles[k->obstacle].shape;
+  const size_t i = k->node - b->first_node;
+  for (size_t j = 0; j < 4; j++)
+    out->p[j] = sw_pose_local(at[k->obstacle].pose, node_at(c, b, i, j, x));
+  if (sw_shape_over_face(shape, out->p, 4)) return 0;
+  out->starts = i == 0, out->ends = i + 2 >= b->plan->nodes;
+  const double one = out->starts ? 0 : off_middle(out->p[0], out->p[1], out->p[2]);
+  const double two = out->ends ? 0 : off_middle(out->p[1], out->p[2], out->p[3]);
+  out->bulge = sqrt(fmax(one, two)) / 8.0;
+  /* it is also looked at before its first node and behind its last one */
+  const double beyond = QUARTER * sw_dist(out->p[1], out->p[2]);
+  return sw_shape_meets(shape, out->p[1], out->p[2], reach + out->bulge + beyond);
+}
+
+/* Move a place to the curve's foot over its edge or corner. 0: it has none nearby. */
+static int find_foot(const sw_piece *c, sw_place *place, double low, double high) {
+  double u = place->near.at;
+  const sw_vec q = place->near.point, e = place->edge;
+  spot on;
+  sw_vec w;
+  for (int turn = 0;; turn++) {
+    on = at_curve(c, u);
+    w = sw_sub(on.x, q);
+    const sw_vec off = sw_madd(w, e, -sw_dot(e, w));
+    const double across2 = sw_norm2(sw_madd(on.along, e, -sw_dot(e, on.along)));
+    if (!(across2 > PARALLEL * sw_norm2(on.along))) return 0;
+    const double rise = across2 + sw_dot(on.bend, off);
+    const double ahead = -sw_dot(on.along, off) / (rise > 0 ? rise : across2);
+    if (turn == MOST_TURNS || fabs(ahead) < SHARP_ENOUGH) break;
+    const double next = fmin(fmax(u + ahead, low), high);
+    if (next == u) return 0; /* it is beyond the piece */
+    u = next;
+  }
+  const double length = sw_norm(on.along), back = sw_dot(e, w);
+  const sw_vec along = sw_scale(on.along, 1.0 / length);
+  const sw_vec across = place->sharp == SW_SHARP_EDGE ? sw_cross(along, e) : w;
+  const sw_vec outward = place->near.normal;
+  sw_vec n = sw_unit_or(sw_madd(across, along, -sw_dot(across, along)), outward);
+  if (place->sharp == SW_SHARP_CORNER && sw_norm2(w) < NO_LENGTH * length * length)
+    n = sw_unit_or(sw_madd(outward, along, -sw_dot(outward, along)), outward);
+  if (sw_dot(n, outward) < 0) n = sw_neg(n);
+  place->along = along;
+  place->near.at = u;
+  place->near.normal = n;
+  place->near.gap = sw_dot(n, w);
+  place->near.point = sw_madd(q, e, back);
+  return 1;
+}
+
+/* Nodes meet faces, edges that the wire lies along and, at its ends, all. */
+int sw_contact_is_segments(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                           const sw_contact_at *at, const double *x, const sw_closest *near) {
+  const sw_body *b = &s->bodies[k->body];
+  const size_t i = k->node - b->first_node;
+  sw_vec edge = {0, 0, 0};
+  if (i == 0 || i + 1 == b->plan->nodes) return 0;
+  if (sw_shape_sharp(c->obstacles[k->obstacle].shape, near->feature, &edge) == SW_SHARP_NOT)
+    return 0;
+  const sw_vec world = sw_sub(node_at(c, b, i, 2, x), node_at(c, b, i, 0, x));
+  const sw_vec along = sw_unrotate(at[k->obstacle].pose.q, world);
+  const double share = sw_dot(along, edge);
+  return sw_norm2(along) - share * share > NEARLY * sw_norm2(along);
+}
+
+/* How much the tension keeps an edge from bending, and the most that a touch leans [-]. */
+static const double TAUT = 0.27, MOST_LEAN = 0.1;
+/* What bends between nodes follows the force after so many of its own times [-]. */
+static const double SLOWLY = 4.0;
+
+static double lean_of(const sw_system *s, const sw_candidate *k, double at, double force) {
+  const sw_body *b = &s->bodies[k->body];
+  const sw_plan *p = b->plan;
+  const double place = (double)(k->node - b->first_node) + at;
+  if (!(place > 0.5) || !(place < (double)p->edges - 0.5) || !(p->beam.EI > 0)) return 0;
+  const size_t i = (size_t)(place + 0.5), e = b->first_edge + i;
+  const double v = place + 0.5 - (double)i, h = 0.5 * (p->rest[i - 1] + p->rest[i]);
+  const double T = fmax(0.0, 0.5 * (s->tension[e - 1] + s->tension[e])), h2 = h * h / p->beam.EI;
+  const double lean = 0.25 * force * h2 * v * (1.0 - v) * (1.0 - 2.0 * v) / (1.0 + TAUT * T * h2);
+  return fmin(fmax(lean, -MOST_LEAN), MOST_LEAN);
+}
+
+double sw_contact_steady_force(const sw_system *s, const sw_touch *t, double h) {
+  const sw_plan *p = s->bodies[t->body].plan;
+  const double N = t->press.normal_force;
+  const size_t i = t->node - s->bodies[t->body].first_node;
+  const double edge = p->rest[i < p->edges ? i : i - 1];
+  const double slow = SLOWLY * edge * edge * sqrt(p->beam.mass / p->beam.EI);
+  if (N <= t->steady || !(h > 0)) return N;
+  return t->steady + (N - t->steady) * h / (h + slow);
+}
+
+sw_mean sw_contact_spot(const sw_system *s, const sw_candidate *k, double at) {
+  if (!k->smooth || !k->segment) return sw_mean_chord(k->node, k->other, k->segment ? at : 0.0);
+  const sw_body *b = &s->bodies[k->body];
+  return sw_mean_curve(b->first_node, b->first_node + b->plan->nodes - 1,
+                       (double)(k->node - b->first_node) + at);
+}
+
+sw_vec sw_contact_curve(const sw_piece *piece, double u, sw_vec *along) {
+  const spot on = at_curve(piece, u);
+  *along = on.along;
+  return on.x;
+}
+
+int sw_contact_follow(const sw_piece *piece, sw_place *place) {
+  return find_foot(piece, place, piece->starts ? 0.0 : -0.5, piece->ends ? 1.0 : 1.5);
+}
+
+sw_place sw_contact_place_of(const sw_contact *c, const sw_touch *t) {
+  const sw_quat back = sw_quat_conj(c->now[t->obstacle].pose.q);
+  return (sw_place){.near = {.at = t->at,
+                             .point = t->local,
+                             .normal = sw_rotate(back, t->press.normal),
+                             .feature = t->feature},
+                    .sharp = t->sharp,
+                    .edge = t->edge};
+}
+
+sw_vec sw_contact_leaning(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                          const sw_place *place, double steady) {
+  const sw_quat q = c->now[k->obstacle].pose.q;
+  const sw_vec normal = sw_rotate(q, place->near.normal);
+  if (!place->sharp || !(steady > 0)) return normal;
+  const double lean = lean_of(s, k, place->near.at, steady);
+  return sw_unit_or(sw_madd(normal, sw_rotate(q, place->along), lean), normal);
+}

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The smooth curve of a wire, and where it is near edges and corners. */
+#ifndef SW_CONTACT_CURVE_H
+#define SW_CONTACT_CURVE_H
+
+#include "contact/touch.h"
+
+/* Four nodes in a row of a smooth wire in an obstacle's coordinates; u counts edges from the second
+ * one. */
+typedef struct sw_piece {
+  sw_vec p[4];      /* [m] */
+  int starts, ends; /* 1: the wire does so at p[1] or p[2] */
+  double bulge;     /* the curve stands off the nodes by so much, at most [m] */
+} sw_piece;
+
+/* Where a wire is near an obstacle. */
+typedef struct sw_place {
+  sw_closest near; /* in the obstacle's coordinates */
+  sw_sharp sharp;
+  sw_vec edge;  /* along it, or 0 [-] */
+  sw_vec along; /* the curve there [-] */
+} sw_place;
+
+/* Of a segment, those that are nearest. */
+enum { SW_PLACES_MOST = 3 * SW_CLOSEST_MAX };
+typedef struct sw_places {
+  size_t count;
+  sw_place place[SW_PLACES_MOST];
+} sw_places;
+
+/* A segment's piece with the system's nodes at x. 0: no edge or corner is less than reach away. */
+int sw_contact_piece(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                     const sw_contact_at *at, const double *x, double reach, sw_piece *out);
+/* Its places less than reach away [m]. */
+void sw_contact_places(const sw_contact *c, const sw_candidate *k, const sw_piece *piece,
+                       double reach, sw_places *list);
+/* Where the piece's curve is, and its derivative by u [m]. */
+sw_vec sw_contact_curve(const sw_piece *piece, double u, sw_vec *along);
+/* A place on an edge or corner goes on to where it is on the piece. 0: it has none nearby. */
+int sw_contact_follow(const sw_piece *piece, sw_place *place);
+/* 1: a node's nearest place is on an edge across the wire, which the segments meet. */
+int sw_contact_is_segments(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                           const sw_contact_at *at, const double *x, const sw_closest *near);
+/* The place of a touch. */
+sw_place sw_contact_place_of(const sw_contact *c, const sw_touch *t);
+/* A place's normal in the world, that of a touch that has had this normal force for a while [N].
+ * What bends between two nodes under a push is not in the curve: it bends deeper in the middle
+ * between them, and would be held there if it did not push a little along the wire. */
+sw_vec sw_contact_leaning(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                          const sw_place *place, double steady);
+/* The normal force that a touch has had for a while, after a step of h [N]. */
+double sw_contact_steady_force(const sw_system *s, const sw_touch *t, double h);
+
+#endif
