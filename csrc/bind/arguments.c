@@ -162,6 +162,8 @@ static int refuse_change(lua_State *L, const char *object, const sw_params *para
       luaL_addstring(&b, params->rows[i].name);
     }
   luaL_pushresult(&b);
+  if (!*lua_tostring(L, -1))
+    return luaL_error(L, "%s: %s is given when it is made; nothing may be set", object, name);
   return luaL_error(L, "%s: %s is given when it is made; what may be set is:%s", object, name,
                     lua_tostring(L, -1));
 }

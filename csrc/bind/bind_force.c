@@ -279,11 +279,39 @@ static int meta_describe(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg methods[] = {{"release", meth_release},
-                                   {"read", meth_read},
-                                   {"log", meth_log},
-                                   {"call_it", meth_call_it},
-                                   {NULL, NULL}};
+/* force:get() -> a table of its rows, as they are now */
+static int meth_get(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  double args[SW_FORCE_ARGS_MAX / sizeof(double)];
+  const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
+  lsw_must(L, sw_scene_force_args(scene, f->id, args, &err), &err);
+  const sw_force_class *cls = sw_scene_force_class(scene, f->id);
+  lsw_push_values(L, &cls->params, args);
+  lua_pushstring(L, cls->name);
+  lua_setfield(L, -2, "kind");
+  return 1;
+}
+
+/* force:set{ stiffness =, ... }: values of its rows from now on */
+static int meth_set(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  double args[SW_FORCE_ARGS_MAX / sizeof(double)];
+  const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
+  lua_settop(L, 2);
+  lsw_must(L, sw_scene_editable(scene, &err), &err);
+  lsw_must(L, sw_scene_force_args(scene, f->id, args, &err), &err);
+  const sw_force_class *cls = sw_scene_force_class(scene, f->id);
+  const char *name = lua_pushfstring(L, "force %s: set", cls->name);
+  lsw_changes(L, 2, name, &cls->params, args);
+  lsw_must(L, sw_scene_set_force(scene, f->id, args, &err), &err);
+  return 0;
+}
+
+static const luaL_Reg methods[] = {
+    {"release", meth_release}, {"get", meth_get},         {"set", meth_set}, {"read", meth_read},
+    {"log", meth_log},         {"call_it", meth_call_it}, {NULL, NULL}};
 static const luaL_Reg properties[] = {{"kind", prop_kind}, {"held", prop_held}, {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 

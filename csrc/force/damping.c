@@ -16,10 +16,10 @@ typedef struct damping_args {
 } damping_args;
 
 static const sw_param rows[] = {
-    {"mass", SW_PARAM_NUMBER, "1/s", 0, 0, HUGE_VAL, 0, NULL, offsetof(damping_args, mass),
-     "damping proportional to mass (Rayleigh's alpha)"},
-    {"stiffness", SW_PARAM_NUMBER, "s", 0, 0, HUGE_VAL, 0, NULL, offsetof(damping_args, stiffness),
-     "damping proportional to stiffness (Rayleigh's beta)"},
+    {"mass", SW_PARAM_NUMBER, "1/s", 0, 0, HUGE_VAL, SW_PARAM_CHANGES, NULL,
+     offsetof(damping_args, mass), "damping proportional to mass (Rayleigh's alpha)"},
+    {"stiffness", SW_PARAM_NUMBER, "s", 0, 0, HUGE_VAL, SW_PARAM_CHANGES, NULL,
+     offsetof(damping_args, stiffness), "damping proportional to stiffness (Rayleigh's beta)"},
 };
 
 static void mass_term(double alpha, sw_field *f) {

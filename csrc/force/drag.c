@@ -13,9 +13,9 @@ typedef struct drag_args {
 } drag_args;
 
 static const sw_param rows[] = {
-    {"linear", SW_PARAM_NUMBER, "N s/m2", 0, 0, HUGE_VAL, 0, NULL, offsetof(drag_args, linear),
-     "drag per length and speed"},
-    {"quadratic", SW_PARAM_NUMBER, "N s2/m3", 0, 0, HUGE_VAL, 0, NULL,
+    {"linear", SW_PARAM_NUMBER, "N s/m2", 0, 0, HUGE_VAL, SW_PARAM_CHANGES, NULL,
+     offsetof(drag_args, linear), "drag per length and speed"},
+    {"quadratic", SW_PARAM_NUMBER, "N s2/m3", 0, 0, HUGE_VAL, SW_PARAM_CHANGES, NULL,
      offsetof(drag_args, quadratic),
      "drag per length and speed squared; 1/2 rho Cd d for a cylinder across the flow"},
 };

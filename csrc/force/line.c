@@ -11,8 +11,8 @@ typedef struct line_args {
 } line_args;
 
 static const sw_param rows[] = {
-    {"force", SW_PARAM_VECTOR, "N/m", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
-     offsetof(line_args, force), "force per length of wire, fixed in world axes"},
+    {"force", SW_PARAM_VECTOR, "N/m", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED | SW_PARAM_CHANGES,
+     NULL, offsetof(line_args, force), "force per length of wire, fixed in world axes"},
 };
 
 static sw_status eval(const void *args, sw_field *f, sw_error *err) {

@@ -18,8 +18,9 @@ typedef struct moment_args {
 static const sw_param rows[] = {
     {"s", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_REQUIRED, NULL, offsetof(moment_args, s),
      "arc length where the couple acts"},
-    {"moment", SW_PARAM_VECTOR, "N m", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
-     offsetof(moment_args, moment), "the couple, fixed in world axes; it bends, it does not twist"},
+    {"moment", SW_PARAM_VECTOR, "N m", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED | SW_PARAM_CHANGES,
+     NULL, offsetof(moment_args, moment),
+     "the couple, fixed in world axes; it bends, it does not twist"},
 };
 
 /* Below this share of its length across the axis an edge has no azimuth [-]. */

@@ -15,8 +15,8 @@ typedef struct point_args {
 static const sw_param rows[] = {
     {"s", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_REQUIRED, NULL, offsetof(point_args, s),
      "arc length where the force acts"},
-    {"force", SW_PARAM_VECTOR, "N", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
-     offsetof(point_args, force), "the force, fixed in world axes"},
+    {"force", SW_PARAM_VECTOR, "N", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED | SW_PARAM_CHANGES,
+     NULL, offsetof(point_args, force), "the force, fixed in world axes"},
 };
 
 static void on_ring(const sw_web *web, size_t ring, sw_vec force, sw_field *f) {

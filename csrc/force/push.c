@@ -13,8 +13,8 @@ typedef struct push_args {
 static const sw_param rows[] = {
     {"particles", SW_PARAM_OTHER, "-", 0, 0, 0, SW_PARAM_REQUIRED, NULL, 0,
      "list of the particles' numbers, from 1 on"},
-    {"force", SW_PARAM_VECTOR, "N", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
-     offsetof(push_args, force), "the force on all of them together, fixed in world axes"},
+    {"force", SW_PARAM_VECTOR, "N", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED | SW_PARAM_CHANGES,
+     NULL, offsetof(push_args, force), "the force on all of them together, fixed in world axes"},
 };
 
 static sw_status eval(const void *args, sw_field *f, sw_error *err) {

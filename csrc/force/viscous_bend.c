@@ -13,7 +13,7 @@ typedef struct viscous_args {
 } viscous_args;
 
 static const sw_param rows[] = {
-    {"eta", SW_PARAM_NUMBER, "N m2 s", 0, 0, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
+    {"eta", SW_PARAM_NUMBER, "N m2 s", 0, 0, HUGE_VAL, SW_PARAM_REQUIRED | SW_PARAM_CHANGES, NULL,
      offsetof(viscous_args, eta), "bending moment per rate of curvature"},
 };
 

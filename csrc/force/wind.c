@@ -28,20 +28,20 @@ static const double PI = 3.14159265358979323846;
 
 #define AT(field) offsetof(wind_args, field)
 static const sw_param rows[] = {
-    {"velocity", SW_PARAM_VECTOR, "m/s", 0, -1e3, 1e3, SW_PARAM_REQUIRED, NULL, AT(velocity),
-     "mean velocity of the wind, where it blows to"},
-    {"gust", SW_PARAM_VECTOR, "m/s", 0, -1e3, 1e3, 0, NULL, AT(gust),
+    {"velocity", SW_PARAM_VECTOR, "m/s", 0, -1e3, 1e3, SW_PARAM_REQUIRED | SW_PARAM_CHANGES, NULL,
+     AT(velocity), "mean velocity of the wind, where it blows to"},
+    {"gust", SW_PARAM_VECTOR, "m/s", 0, -1e3, 1e3, SW_PARAM_CHANGES, NULL, AT(gust),
      "largest velocity of gusts, which come and go as a sine of time"},
-    {"frequency", SW_PARAM_NUMBER, "Hz", 1, 0, HUGE_VAL, 0, NULL, AT(frequency),
+    {"frequency", SW_PARAM_NUMBER, "Hz", 1, 0, HUGE_VAL, SW_PARAM_CHANGES, NULL, AT(frequency),
      "frequency of gusts"},
-    {"density", SW_PARAM_NUMBER, "kg/m3", 1.2, 0, HUGE_VAL, 0, NULL, AT(density),
+    {"density", SW_PARAM_NUMBER, "kg/m3", 1.2, 0, HUGE_VAL, SW_PARAM_CHANGES, NULL, AT(density),
      "density of what streams: air; water has 1000"},
-    {"normal", SW_PARAM_NUMBER, "-", 1.2, 0, HUGE_VAL, 0, NULL, AT(normal),
+    {"normal", SW_PARAM_NUMBER, "-", 1.2, 0, HUGE_VAL, SW_PARAM_CHANGES, NULL, AT(normal),
      "drag coefficient across the wire, by its diameter; 1.2 is a smooth cylinder's"},
-    {"tangential", SW_PARAM_NUMBER, "-", 0.02, 0, HUGE_VAL, 0, NULL, AT(tangential),
+    {"tangential", SW_PARAM_NUMBER, "-", 0.02, 0, HUGE_VAL, SW_PARAM_CHANGES, NULL, AT(tangential),
      "drag coefficient along the wire, by its surface; 0.02 is rough"},
-    {"diameter", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(diameter),
-     "diameter in the wind where it is not the wire's, as of a cover"},
+    {"diameter", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN | SW_PARAM_CHANGES,
+     NULL, AT(diameter), "diameter in the wind where it is not the wire's, as of a cover"},
 };
 #undef AT
 

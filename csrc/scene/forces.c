@@ -199,6 +199,42 @@ sw_status sw_scene_name_force(sw_scene *s, sw_handle force, const char *name, sw
   return SW_OK;
 }
 
+/* Where it acts, from the wire's start: its own place counts from where the wire was first begun.
+ */
+static double place_of(const sw_scene *s, const sw_scene_force *f) {
+  const sw_mesh *m = &s->wires[f->wire].mesh;
+  return f->args[0] * m->scale / f->scale - m->s[0];
+}
+
+sw_status sw_scene_force_args(const sw_scene *s, sw_handle force, void *args, sw_error *err) {
+  if (!sw_scene_force_class(s, force))
+    return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
+  const sw_scene_force *f = &s->forces[force.slot];
+  memcpy(args, f->args, sizeof f->args);
+  if (!(f->cls->flags & SW_FORCE_AT_PLACE)) return SW_OK;
+  const double place = place_of(s, f);
+  memcpy(args, &place, sizeof place);
+  return SW_OK;
+}
+
+sw_status sw_scene_set_force(sw_scene *s, sw_handle force, const void *args, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  if (!sw_scene_force_class(s, force))
+    return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
+  sw_scene_force *f = &s->forces[force.slot];
+  const sw_handle wire = f->wire < 0 ? (sw_handle){0, 0}
+                                     : (sw_handle){(uint32_t)f->wire, s->wires[f->wire].generation};
+  if (!f->alive)
+    return sw_fail(err, SW_EINVAL, "force %s: it was released; make another one", f->cls->name);
+  SW_TRY(check_force(s, f->cls, wire, args, err));
+  SW_TRY(sw_scene_thaw(s));
+  const double place = f->args[0];
+  memcpy(f->args, args, sizeof f->args);
+  if (f->cls->flags & SW_FORCE_AT_PLACE) f->args[0] = place;
+  s->discontinuous = 1;
+  return SW_OK;
+}
+
 sw_status sw_scene_remove_force(sw_scene *s, sw_handle force, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   if (!sw_scene_force_class(s, force))

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- get and set of scenes and grippers: values of their rows, those marked changeable to be set between steps.
--- Obstacles have theirs in the core.
+-- Obstacles and forces have theirs in the core.
 -- @module softworld.changes
 local core = require "softworld.core"
 local build = require "softworld.build"
@@ -42,6 +42,12 @@ rows.calls{
     "name, at [m], rotation, friction, kinetic_friction, restitution" },
   { "obstacle:set", "{...}", "at, rotation, friction, kinetic_friction, restitution from now on",
     example = "plane:set { friction = 0.5 }" },
+}
+
+rows.calls{
+  { "force:get", "", "values of its rows, as they are now", "kind, and its parameters" },
+  { "force:set", "{...}", "values of drag, wind, damping, viscous_bend, push, point, line, moment from now on",
+    example = "damping:set { stiffness = 2e-3 }" },
 }
 
 -- --- grippers ---------------------------------------------------------------------------------

@@ -101,7 +101,8 @@ local function forces_of(forces, given)
   for _, force in ipairs(forces) do
     if core.exists(force) then
       list[#list + 1] = { kind = force.kind, given = plain(given[force].args),
-        now = { held = force.held } }
+        now = plain(force:get()) }
+      list[#list].now.held = force.held
     end
   end
   return list

@@ -17,7 +17,7 @@ local MOST = 20000 -- calls of a scene; a loop that changes something at each st
 local core_methods = {
   scene = "wire particles obstacle clamp pin grip feed hold wire_contact join force gripper clip "
     .. "channel tie set gravity? settle",
-  wire = "remodel set_velocity", particles = "set_velocity", force = "release call_it",
+  wire = "remodel set_velocity", particles = "set_velocity", force = "release call_it set",
   obstacle = "follow pose? set remove", join = "release",
   clamp = "follow pose? release feed push? force_limit? drive_force? speed?",
 }

@@ -151,3 +151,83 @@ describe("gripper:set", function()
     assert.error_matches(function() hand:set{ slip_tolerence = 1 } end, "did you mean 'slip_tolerance'?")
   end)
 end)
+
+describe("force:set", function()
+  local V = 0.3
+
+  -- A wire that flies at V along itself; damping of mass slows it by exp(-rate t).
+  local function flying()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ E = 1e7, density = 1200, radius = 0.003, segments = 10, from = { 0, 0, 0 },
+      to = { 0.3, 0, 0 } }
+    local damping = scene:force{ kind = "damping", on = wire, mass = 1 }
+    wire:set_velocity{ V, 0, 0 }
+    return scene, wire, damping
+  end
+
+  it("changes damping in mid-run, and snapshots take it back", function()
+    local scene, wire, damping = flying()
+    t.fine(scene:run{ duration = 0.1, dt = 1e-3 })
+    t.share(V * math.exp(-0.1), wire:velocity(0.1)[1], 1e-4, "as made") -- h^2 of the method: 1e-7
+    local before = scene:snapshot()
+    damping:set{ mass = 20 }
+    assert.same({ 20, 0, "damping" }, { damping:get().mass, damping:get().stiffness, damping:get().kind })
+    t.fine(scene:run{ duration = 0.1, dt = 1e-3 })
+    t.share(V * math.exp(-2.1), wire:velocity(0.1)[1], 1e-3, "as set")
+    scene:restore(before)
+    assert.equal(1, damping:get().mass)
+    t.fine(scene:run{ duration = 0.1, dt = 1e-3 })
+    t.share(V * math.exp(-0.2), wire:velocity(0.1)[1], 1e-4, "taken back")
+  end)
+
+  -- m v' = F: 0.1 s of F along the wire, then 0.1 s of -2 F.
+  it("changes loads, whose work is their force times the way", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ E = 1e7, density = 1200, radius = 0.003, segments = 10, from = { 0, 0, 0 },
+      to = { 0.3, 0, 0 } }
+    local push = scene:force{ kind = "line", on = wire, force = { 0.01, 0, 0 } }
+    local line = wire.beam.mass_per_length
+    t.fine(scene:run{ duration = 0.1, dt = 1e-3 })
+    t.share(0.1 * 0.01 / line, wire:velocity(0.1)[1], 1e-6, "pushed")
+    push:set{ force = { -0.02, 0, 0 } }
+    local run = scene:run{ duration = 0.1, dt = 1e-3 }
+    t.fine(run)
+    t.share(-0.1 * 0.01 / line, wire:velocity(0.1)[1], 1e-6, "pulled")
+    assert.is_true(run:ledger().gained < 1e-6 * run:ledger().play)
+  end)
+
+  it("keeps places on the wire", function()
+    local scene, wire = flying()
+    local point = scene:force{ kind = "point", on = wire, s = 0.12, force = { 0, 0, 1 } }
+    point:set{ force = { 0, 0, 2 } }
+    t.near(0.12, point:get().s, 1e-12, "s")
+    assert.same({ 0, 0, 2 }, point:get().force)
+  end)
+
+  it("is refused by name", function()
+    local scene, wire, damping = flying()
+    local point = scene:force{ kind = "point", on = wire, s = 0.12, force = { 0, 0, 1 } }
+    local own = scene:force{ kind = function() end, on = wire }
+    local strain = scene:force{ kind = "plastic", on = wire, yield_moment = 1, hardening = 0.1 }
+    local gone = scene:force{ kind = "drag", on = wire, linear = 1 }
+    gone:release()
+    for text, call in pairs{
+      ["force point: set: s is given when it is made; what may be set is: force"] =
+        function() point:set{ s = 0.2 } end,
+      ["force damping: set: there is no parameter 'mas'; did you mean 'mass'?"] =
+        function() damping:set{ mas = 2 } end,
+      ["mass = -1"] = function() damping:set{ mass = -1 } end,
+      ["nan s is not allowed"] = function() damping:set{ mass = 2, stiffness = 0 / 0 } end,
+      ["yield_moment is given when it is made; nothing may be set"] =
+        function() strain:set{ yield_moment = 2 } end,
+      ["force drag: it was released; make another one"] = function() gone:set{ linear = 2 } end,
+      ["force damping: set takes one table of parameters"] = function() damping:set(7) end,
+      ["there is no parameter 'x'"] = function() own:set{ x = 1 } end,
+    } do
+      local fine, message = pcall(call)
+      assert.is_false(fine, text)
+      assert.is_truthy(message:find(text, 1, true), message)
+    end
+    assert.equal(1, damping:get().mass)
+  end)
+end)
