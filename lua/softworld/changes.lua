@@ -46,7 +46,7 @@ rows.calls{
 
 rows.calls{
   { "force:get", "", "values of its rows, as they are now", "kind, and its parameters" },
-  { "force:set", "{...}", "values of drag, wind, damping, viscous_bend, push, point, line, moment from now on",
+  { "force:set", "{...}", "new values of drag, wind, damping, viscous_bend, push, point, line, moment",
     example = "damping:set { stiffness = 2e-3 }" },
 }
 

@@ -19,7 +19,8 @@ local function objects()
   local run = scene:run{ dt = 0.01 }
   return { scene = scene, wire = wire, hand = hand, gripper = hand, process = process, clip = clip,
     channel = channel, tie = tie, run = run, sw = sw,
-    force = scene:force{ kind = "damping", on = wire }, obstacle = scene:obstacle{ shape = "plane", at = { 0, 0, -1 } } }
+    force = scene:force{ kind = "damping", on = wire },
+    obstacle = scene:obstacle{ shape = "plane", at = { 0, 0, -1 } } }
 end
 
 -- Of the library, not of scripts: what runs and pictures ask of things.
