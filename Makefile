@@ -101,7 +101,7 @@ asan:
 # a case takes many times as long here, and memory is what the sanitizers want
 fuzz:
 	@$(MAKE_ASAN)
-	@$(UNDER_ASAN) build-asan/softworld scripts/fuzz.lua cpu=400 slow=200 $(ARGS)
+	@$(UNDER_ASAN) build-asan/softworld scripts/fuzz.lua cpu=1500 slow=1000 $(ARGS)
 
 
 examples: all
