@@ -17,7 +17,6 @@ local sink = require "softworld.output.sink"
 
 local script = {}
 local MOST_LOCALS = 150 -- Lua allows 200 in a function
-local Entry = getmetatable(require "softworld.cable".get "GXL 1.5")
 
 rows.calls{
   { "scene:script", "file", "writes the Lua that builds the scene again, as it was before its first step",
@@ -92,6 +91,10 @@ local function of_cable(entry, path)
   error(("%s is the cable '%s', which is not of the catalogue any more"):format(path, entry.name), 0)
 end
 
+local function is_cable(value)
+  return type(value) == "table" and (getmetatable(value) or {}).__name == "cable"
+end
+
 local function call_text(self, method, args, object, path)
   local list = {}
   for k = 1, args.n do
@@ -111,7 +114,7 @@ local function namer(scene, words)
     local of = record.trajectory(value)
     if of and of.self then return call_text(object(of.self, path), of.method, of.args, object, path) end
     if of then return "sw.trajectory " .. literal.of(of.args[1], object, path) end
-    if getmetatable(value) == Entry then return of_cable(value, path) end
+    if is_cable(value) then return of_cable(value, path) end
     if value == record.a_function then
       error(path .. " is a Lua function, which cannot be written as Lua", 0)
     end
