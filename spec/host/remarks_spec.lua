@@ -35,6 +35,11 @@ describe("remarks", function()
       .. " w:remodel{ model = 'composite' }", "wire 'wire1' as composite has 33375 particles" },
     { wire "model = 'radial', E = 5e7, density = 1500, radius = 0.001, from = {0,0,1}, to = {0.4,0,1}",
       "wire 'wire1' as radial has 15130 particles" },
+    { wire(good .. ", segments = 20") .. " s:obstacle{ name = 'peg', shape = 'cylinder', radius = 0.01, "
+      .. "length = 1, at = {0.5, 0, -1} }", "wire 'wire1': its edges of 50 mm are longer than the radius of "
+      .. "'peg', 10 mm: round that it is a polygon" },
+    { "s:obstacle{ name = 'peg', shape = 'capsule', radius = 0.01, length = 1, at = {0.5, 0, -3} } "
+      .. wire(good .. ", segments = 20"), "segments = 200 makes edges half as long as the radius" },
   }
   for _, case in ipairs(cases) do
     it("on " .. case[1], function()
@@ -57,6 +62,7 @@ describe("remarks", function()
     local _, err = script(start .. [[
       s:obstacle{ shape = "plane", friction = 0.4 }
       s:obstacle{ shape = "box", size = {0.1, 0.1, 0.1}, at = {0.5, 0, 0.05} }
+      s:obstacle{ shape = "cylinder", radius = 0.05, length = 0.1, at = {0.5, 2, 0.05} }
       s:wire{ cable = "GXL 1.5", from = {0, 0.2, 0.0014}, to = {1, 0.2, 0.0014} }
       s:wire{ E = 50e6, density = 1500, radius = 0.0025, from = {0, 0, 0.1025}, to = {1, 0, 0.1025} }
       local g = s:gripper{ at = {0.5, 0, 0.1025}, pads = { width = 0.02, friction = 0.6 } }
