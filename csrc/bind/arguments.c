@@ -8,6 +8,7 @@ static int unknown_key(lua_State *L, const char *object, const lsw_section *sect
                        const char *key) {
   for (int k = 0; k < count; k++) {
     const sw_params *params = sections[k].params;
+    if (!params->count) continue; /* there may be no rows to point at */
     const char *near =
         sw_nearest_name(key, &params->rows[0].name, sizeof params->rows[0], params->count);
     if (near)

@@ -303,6 +303,7 @@ static int meth_set(lua_State *L) {
   lsw_must(L, sw_scene_editable(scene, &err), &err);
   lsw_must(L, sw_scene_force_args(scene, f->id, args, &err), &err);
   const sw_force_class *cls = sw_scene_force_class(scene, f->id);
+  if (!cls->params.count) luaL_error(L, "force %s: it has no parameters to set", cls->name);
   const char *name = lua_pushfstring(L, "force %s: set", cls->name);
   lsw_changes(L, 2, name, &cls->params, args);
   lsw_must(L, sw_scene_set_force(scene, f->id, args, &err), &err);

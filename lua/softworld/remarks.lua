@@ -206,8 +206,8 @@ local function look_round(wire, obstacle)
   local radius = round[obstacle.shape] and obstacle.radius
   if type(radius) ~= "number" or not wire.edge or wire.edge <= radius + wire.radius then return end
   tell("round", ("wire '%s': its edges of %.3g mm are longer than the radius of '%s', %.3g mm: round that "
-    .. "it is a polygon, and the pull that draws it comes out 10 %% and more too small; segments = %d makes edges "
-    .. "half as long as the radius"):format(wire.name, 1e3 * wire.edge, obstacle.name, 1e3 * radius,
+    .. "it is a polygon, and the pull that draws it comes out 10 %% and more too small; segments = %d makes "
+    .. "edges half as long as the radius"):format(wire.name, 1e3 * wire.edge, obstacle.name, 1e3 * radius,
     math.min(1e6, math.ceil(2 * wire.length / radius))))
 end
 

@@ -222,7 +222,7 @@ describe("force:set", function()
         function() strain:set{ yield_moment = 2 } end,
       ["force drag: it was released; make another one"] = function() gone:set{ linear = 2 } end,
       ["force damping: set takes one table of parameters"] = function() damping:set(7) end,
-      ["there is no parameter 'x'"] = function() own:set{ x = 1 } end,
+      ["it has no parameters to set"] = function() own:set{ x = 1 } end,
     } do
       local fine, message = pcall(call)
       assert.is_false(fine, text)
