@@ -30,6 +30,29 @@ describe("run:report", function()
     end
   end)
 
+  it("marks what grippers met on the way", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ cable = "GXL 1.5", from = { 0, 0, 0.1 }, to = { 0.3, 0, 0.1 }, segments = 12 }
+    scene:clamp(wire, { s = 0 })
+    local hand = scene:gripper{ name = "hand", pads = { width = 0.01, friction = 0.05 } }
+    scene:process(function(p)
+      hand:grasp(wire, { s = 0.25, approach = "plates", force = 2 })
+      hand:move{ by = { 0.03, 0, 0 }, speed = 0.1 }
+      p:wait(0.05)
+    end)
+    local slid = scene:run{ dt = 0.005 }
+    assert.is_true(slid.ok, slid.reason)
+    local html = read(slid:report(folder .. "/x.html"))
+    local events = html:match '"events":(%b[])'
+    assert.truthy(events:find("the wire slips in gripper 'hand' at s = 0.25 m", 1, true), events)
+    assert.truthy(events:find '"kind":"slip"', events)
+    local last = -1
+    for time in events:gmatch '"time":([%d.e+-]+)' do
+      assert.is_true(tonumber(time) >= last)
+      last = tonumber(time)
+    end
+  end)
+
   it("tells which file cannot be written, and why", function()
     local told = { [folder .. "/no/x.html"] = "No such file or directory",
       [folder .. "/x.txt"] = "does not end in .html" }

@@ -3,6 +3,7 @@
 -- sources. Frames go from the core into the page as bytes, see csrc/film/film.h.
 -- @module softworld.output.report
 local core = require "softworld.core"
+local build = require "softworld.build"
 local json = require "softworld.output.json"
 local number = require "softworld.output.number"
 local sink = require "softworld.output.sink"
@@ -140,11 +141,40 @@ local function film_of(page, run)
     blob = frames > 0 and add_blob(page, bytes) or nil }
 end
 
+local words = {
+  slip = function(g, e) return ("the wire slips in gripper '%s' at s = %.4g m"):format(g.name, e.s) end,
+  lost = function(g) return ("gripper '%s' loses the wire"):format(g.name) end,
+  crash = function(_, e) return ("%s runs into %s"):format(e.part, e.obstacle) end,
+  crushed = function(g) return ("gripper '%s' crushes the wire"):format(g.name) end,
+  missed = function(g) return ("gripper '%s' closes on nothing"):format(g.name) end,
+  unreached = function(g) return ("gripper '%s' does not reach its force"):format(g.name) end,
+  frozen = function(g) return ("gripper '%s' carries the wire as one with it"):format(g.name) end,
+  thawed = function(g) return ("gripper '%s' holds the wire by its pads again"):format(g.name) end,
+}
+
+-- Those of the run and of its grippers, in the order of time; a crash is told by the run as well.
+local function events_of(run)
+  local list, told = {}, {}
+  for _, e in ipairs(run.events) do
+    list[#list + 1], told[e.kind .. e.time] = e, true
+  end
+  for _, g in ipairs(build.data(run.scene).grippers) do
+    for _, e in ipairs(g.events) do
+      if words[e.kind] and e.time >= run.start and e.time <= run.time and not told[e.kind .. e.time] then
+        list[#list + 1] = { kind = e.kind, time = e.time, object = g.name, s = e.s,
+          text = words[e.kind](g, e) }
+      end
+    end
+  end
+  table.sort(list, function(a, b) return a.time < b.time end)
+  return list
+end
+
 local function add_run(page, run)
   local one = json.object{ name = run.name, ok = run.ok, reason = run.reason, time = run.time,
     start = run.start, steps = run.steps, wall = run.wall, unmet = run.unmet, gravity = run.gravity,
     wires = run.wires, particles = particles_of(page, run), grips = run.grips, holds = run.holds,
-    events = run.events, film = film_of(page, run), obstacles = obstacles_of(page, run) }
+    events = events_of(run), film = film_of(page, run), obstacles = obstacles_of(page, run) }
   if run.ok then
     one.summary, one.series, one.quantities = summary_of(run), series_of(page, run), run.quantities
   end
