@@ -49,19 +49,21 @@ end
 
 pads.kinds = makers
 
+local MOST = 1e3 -- longer ones are no obstacles that the core makes [m]
+
 --- What can be said of pads.
 pads.rows = rows.list{
   { "shape", "choice", "-", "of a finger", choices = { "flat", "mesh", "round", "v" }, default = "flat" },
   { "fingers", "integer", "-", "how many close on the wire", min = 1, max = 6, default = 2 },
-  { "width", "number", "m", "along the wire", min = 0, default = 0.02 },
-  { "height", "number", "m", "across the wire", min = 0, above = true,
+  { "width", "number", "m", "along the wire", min = 0, max = MOST, default = 0.02 },
+  { "height", "number", "m", "across the wire", min = 0, max = MOST, above = true,
     usual = "0.02; of v twice the wire's radius" },
-  { "thickness", "number", "m", "of flat and v", min = 0, above = true, default = 0.008 },
-  { "below", "number", "m", "how far fingers reach below the tool's centre", min = 0,
+  { "thickness", "number", "m", "of flat and v", min = 0, max = MOST, above = true, default = 0.008 },
+  { "below", "number", "m", "how far fingers reach below the tool's centre", min = 0, max = MOST,
     usual = "half of height, or 0.9 of the wire's radius" },
-  { "opening", "number", "m", "between facing fingers while open", min = 0, above = true,
+  { "opening", "number", "m", "between facing fingers while open", min = 0, max = MOST, above = true,
     usual = "4 times the wire's radius" },
-  { "radius", "number", "m", "of round ones", min = 0, above = true, default = 0.004 },
+  { "radius", "number", "m", "of round ones", min = 0, max = MOST, above = true, default = 0.004 },
   { "angle", "number", "rad", "of v, between its sides", min = 0, max = math.pi, above = true,
     default = 2 * math.pi / 3 },
   { "file", "text", "-", "mesh file of a finger, in the tool's axes, for the one at +y" },
@@ -75,8 +77,8 @@ pads.rows = rows.list{
 
 --- What can be said of an arm.
 pads.arm_rows = rows.list{
-  { "radius", "number", "m", "of the capsule", min = 0, above = true, required = true },
-  { "length", "number", "m", "upwards from the fingers", min = 0, above = true, required = true },
+  { "radius", "number", "m", "of the capsule", min = 0, max = MOST, above = true, required = true },
+  { "length", "number", "m", "upwards from the fingers", min = 0, max = MOST, above = true, required = true },
 }
 
 --- The description of pads with defaults filled in; raises for impossible ones. Errors have no place.

@@ -38,6 +38,8 @@ local cases = {
     "scene:gripper: rotation must be a rotation, { w, x, y, z } or { axis = {x, y, z}, angle = [rad] }, "
       .. "got 'up'" },
   ["a rotation of no size"] = { function() scene:gripper{ rotation = { 0, 0, 0, 0 } } end, "got a table" },
+  ["pads of a light year"] = { function() scene:gripper{ pads = { width = 1e16 } } end,
+    "scene:gripper: pads.width = 1e+16 m is not allowed; it must be at least 0 m and at most 1000 m" },
   ["a mesh without a file"] = { function() scene:obstacle{ shape = "mesh" } end,
     "obstacle mesh: file is required" },
   ["a mesh with a misspelt file"] = { function() scene:obstacle{ shape = "mesh", fil = "x.stl" } end,
