@@ -60,9 +60,13 @@ static double split_stiffness(lua_State *L) {
     EI[k] = lua_type(L, -1) == LUA_TNUMBER ? lua_tonumber(L, -1) : 0;
     lua_pop(L, 1);
   }
-  for (int k = 0; k < 2; k++)
-    if (!(EI[k] > 0) || !(EI[k] < HUGE_VAL))
+  for (int k = 0; k < 2; k++) {
+    if (!(EI[k] > 0))
       luaL_error(L, "wire: EI must be a number [N m2] or {EI1, EI2}, both above 0, got table");
+    if (!(EI[k] <= SW_EI_MOST))
+      luaL_error(L, "wire: EI%d = %f N m2 is not allowed; it must be in (0, %f] N m2", k + 1, EI[k],
+                 SW_EI_MOST);
+  }
   lua_newtable(L);
   for (lua_pushnil(L); lua_next(L, 2);) {
     lua_pushvalue(L, -2);

@@ -6,26 +6,24 @@
 
 #include "wire/wire.h"
 
-#define POSITIVE(name, unit, doc)                                             \
-  {                                                                           \
-#name, SW_PARAM_NUMBER, unit, NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, \
-        offsetof(sw_section, name), doc                                       \
-  }
+/* Far beyond all that a wire can be; products of these stay finite. */
+#define ROW(name, unit, least, most, doc) \
+  { #name, SW_PARAM_NUMBER, unit, NAN, least, most, 0, NULL, offsetof(sw_section, name), doc }
 
 static const sw_param rows[] = {
-    POSITIVE(EA, "N", "axial stiffness"),
-    {"EI", SW_PARAM_NUMBER, "N m2", NAN, 0, HUGE_VAL, 0, NULL, offsetof(sw_section, EI),
+    ROW(EA, "N", 1e-12, 1e15, "axial stiffness"),
+    {"EI", SW_PARAM_NUMBER, "N m2", NAN, 0, SW_EI_MOST, 0, NULL, offsetof(sw_section, EI),
      "bending stiffness, or {EI1, EI2} with normal; 0 only with model = 'string'"},
-    POSITIVE(GJ, "N m2", "twist stiffness"),
-    POSITIVE(mass_per_length, "kg/m", "mass per length"),
-    POSITIVE(radius, "m", "outer radius"),
-    POSITIVE(E, "Pa", "Young's modulus of a solid round wire"),
+    ROW(GJ, "N m2", 1e-30, 1e15, "twist stiffness"),
+    ROW(mass_per_length, "kg/m", 1e-12, 1e9, "mass per length"),
+    ROW(radius, "m", 1e-9, 1e3, "outer radius"),
+    ROW(E, "Pa", 1e-3, 1e15, "Young's modulus of a solid round wire"),
     {"nu", SW_PARAM_NUMBER, "-", NAN, -1, 0.5, SW_PARAM_ABOVE_MIN, NULL, offsetof(sw_section, nu),
      "Poisson's ratio of a solid round wire (0.35 when not given)"},
-    POSITIVE(density, "kg/m3", "density of a solid round wire"),
-    POSITIVE(spin_inertia, "kg m",
-             "with rolls: inertia per length against turning about the axis (that of a solid wire, "
-             "mass_per_length radius^2/2, when not given)"),
+    ROW(density, "kg/m3", 1e-6, 1e9, "density of a solid round wire"),
+    ROW(spin_inertia, "kg m", 1e-30, 1e15,
+        "with rolls: inertia per length against turning about the axis (that of a solid wire, "
+        "mass_per_length radius^2/2, when not given)"),
 };
 
 const sw_params sw_section_params = SW_PARAMS("wire", rows);

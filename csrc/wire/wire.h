@@ -52,6 +52,7 @@ typedef struct sw_section {
   double spin_inertia;    /* of turning about the axis, per length [kg m] */
 } sw_section;
 
+#define SW_EI_MOST 1e15                   /* [N m2] */
 extern const sw_params sw_section_params; /* rows of sw_section */
 
 /* Beam values from what was given: E, nu, density, radius of a solid circle,
