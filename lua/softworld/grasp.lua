@@ -389,10 +389,10 @@ local function grasp_by_pads(self, wires, args)
       .. "them (pads.opening)"):format(self.name, 1e3 * opening, 2e3 * wire.radius), 3)
   end
   local order = jaw_order(self, args, "gripper:grasp")
+  local nearest = s or nearest_place(wire, self.tool and self.tool:pose() or self:position())
   place_tool(self, wire, s, 4)
-  self.wire, self.grips = wire, {}
+  self.wire, self.grips, self.s = wire, {}, nearest
   for i, one in ipairs(wires) do self.grips[i] = { wire = one } end
-  self.s = s or nearest_place(wire, (self.tool:pose()))
   self.free_height = nil
   if self.way == "mixed" then
     mixed.prepare(self, args)

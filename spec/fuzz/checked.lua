@@ -259,7 +259,7 @@ function Case:call(text)
     if bad then self.report("error", ("%s: %s"):format(bad, tostring(message))) end
     if before then
       local after = picture(self)
-      for i = 1, math.max(#before, #after) do
+      for i = 1, #after < #before and 0 or #after do -- a callback may forget its objects
         if before[i] ~= after[i] then
           self.report("changed", ("an error, and yet changed: %s (%s)"):format(
             tostring(before[i]):match "^[^)]*%) %a+", tostring(message)))

@@ -25,6 +25,18 @@ local function run(scene, body, dt)
 end
 
 describe("a gripper with pads", function()
+  it("makes no pads in a scene that diverged", function()
+    local scene, wire = new_scene()
+    local g = scene:gripper{ name = "hand", pads = pads, at = { 0.1, 0, r } }
+    local clamp = scene:clamp(wire, { s = 0 })
+    scene:clamp(wire, { s = 0.2 })
+    clamp:pose{ -0.5, 0, -0.5 } -- far more than the wire can follow
+    assert.is_false(scene:run{ duration = 0.05 }.ok)
+    local before = table.concat(require("softworld.core").items(scene), " ")
+    assert.error_matches(function() g:grasp(wire, { approach = "plates", force = 1 }) end, "diverged")
+    assert.are.equal(before, table.concat(require("softworld.core").items(scene), " "))
+  end)
+
   it("is refused what cannot be, by name", function()
     local scene, wire = new_scene()
     local function refused(text, f)
