@@ -20,6 +20,10 @@ static const double SOFTEST = 1000.0;
  * that one may only have met too many touches at once, and then nothing holds the mesh. */
 enum { SPARE_PULLS = 1 };
 
+/* Sine of the turn of chords that still stand for an arc; a chord beside one counts in full from
+ * this share of its force on, 1/BESIDE: all at once they would come and go with it [-]. */
+static const double MOST_ARC = 0.8, BESIDE = 10.0;
+
 /* Touches are in the order of candidates: a segment may find one of the segment beside. */
 static sw_status push(sw_contact *c, const sw_touch *t) {
   SW_TRY(sw_grow((void **)&c->touches, &c->touch_capacity, c->touch_count + 1, sizeof *c->touches));
@@ -155,6 +159,44 @@ static double felt_stiffness(const sw_contact *c, const sw_system *s, const sw_t
   return NEIGHBOURS * c->candidates[t->candidate].mass / (c->h * c->h);
 }
 
+/* Normal force of the candidate's obstacle on the segment before (by -1) or after (by 1) [N]. */
+static double force_beside(const sw_contact *c, const sw_candidate *k, int by) {
+  const int id = c->obstacles[k->obstacle].id;
+  const size_t node = k->node + (size_t)by;
+  double sum = 0;
+  for (size_t i = by < 0 ? k->memory : k->memory_end;
+       by < 0 ? i-- > 0 : i<c->memory_count; i += by> 0) {
+    const sw_memory *m = &c->memory[i];
+    if (by < 0 ? m->node < node : m->node > node) break;
+    if (m->node == node && m->obstacle == id && m->segment) sum += m->normal_force;
+  }
+  return sum;
+}
+
+/* Chords around what is round touch it in their middles, and friction there turns with them, while
+ * that of a wire follows the arc. Where the chord at hand and those beside it that press, too, turn
+ * by phi from middle to middle, ln(T2/T1) = mu phi takes sinh(mu phi)/sin(phi) of the normal force
+ * instead of mu (balance of a polygon's corners) [-]. */
+static double of_arc(const sw_contact *c, const sw_system *s, const sw_memory *m, const sw_touch *t,
+                     double mu) {
+  const sw_candidate *k = &c->candidates[t->candidate];
+  const sw_body *b = &s->bodies[t->body];
+  const size_t i = k->node - b->first_node;
+  if (!m || !(m->normal_force > 0) || !k->segment || k->smooth || k->samples || b->plan->web)
+    return mu;
+  const sw_vec zero = sw_v(0, 0, 0);
+  double turn = 0;
+  for (int by = -1; by <= 1; by += 2) {
+    if (by < 0 ? i == 0 : i + 1 >= b->plan->edges) continue;
+    const size_t n = k->node + (size_t)by;
+    const sw_vec edge = sw_sub(sw_vec_at(s->x, n + 1), sw_vec_at(s->x, n));
+    const double in = -by * sw_dot(t->press.normal, sw_unit_or(edge, zero));
+    const double share = fmin(1.0, BESIDE * force_beside(c, k, by) / m->normal_force);
+    turn += 0.5 * share * asin(fmin(fmax(in, 0.0), MOST_ARC));
+  }
+  return turn > 0 && mu > 0 ? sinh(mu * turn) / sin(turn) : mu;
+}
+
 /* What only now begins to touch has been moving freely: it slides first. A wire that has been
  * rolling is not called a slide for a long spring: on a curved surface both its shift and its
  * turn are predicted less exactly than that. */
@@ -174,7 +216,7 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
     press->reversals = last->press.reversals;
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
   const int went_on = last && last->press.active, searches = last && c->ahead_count;
-  t->friction = m && m->sliding ? o->kinetic : o->friction;
+  t->friction = of_arc(c, s, m, t, m && m->sliding ? o->kinetic : o->friction);
   t->slid = m ? m->slid : 0.0;
   if (searches) press->ahead = last->press.ahead;
   if (went_on || searches)

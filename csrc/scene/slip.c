@@ -46,7 +46,8 @@ void sw_slip_give_up(sw_scene *s) {
 
 /* The next guess: between a trial with too little force and one with too much, as the false
  * position has it (halving the weight of a side that stays), else by the slope known so far.
- * Returns 1 when both are one place: the force jumps there, as in an impact. */
+ * Returns 1 when both are one place: the force jumps there, as in an impact; or in very short
+ * steps, when the next guess is the same place. */
 static int improve(sw_feed *f, double off, int first, double mass, double step) {
   const int side = off > 0;
   const double before = f->slip_growth;
@@ -62,6 +63,7 @@ static int improve(sw_feed *f, double off, int first, double mass, double step) 
   } else {
     const double slope = isfinite(seen) ? (off - seen) / (before - at) : f->slope;
     f->slope = slope > 0 ? slope : mass; /* all of the wire is pushed along */
+    if (!first && fabs(off / f->slope) * step * step < SAME_PLACE) return 1;
     f->slip_growth -= off / f->slope;
   }
   f->last_side = side;

@@ -201,12 +201,12 @@ end
 local round = { cylinder = true, capsule = true }
 
 -- A wire goes round a peg as a polygon: with edges as long as the peg's radius the pull that draws it
--- round is 11 % too small (mu 0.3, half a turn), with half of that 4 % (spec/contact/capstan_spec).
+-- round is right to 5 % (mu 0.3, half a turn), with half of that to 1 % (spec/contact/capstan_spec).
 local function look_round(wire, obstacle)
   local radius = round[obstacle.shape] and obstacle.radius
   if type(radius) ~= "number" or not wire.edge or wire.edge <= radius + wire.radius then return end
   tell("round", ("wire '%s': its edges of %.3g mm are longer than the radius of '%s', %.3g mm: round that "
-    .. "it is a polygon, and the pull that draws it comes out 10 %% and more too small; segments = %d makes "
+    .. "it is a polygon, and the pull that draws it may be 5 %% off and more; segments = %d makes "
     .. "edges half as long as the radius"):format(wire.name, 1e3 * wire.edge, obstacle.name, 1e3 * radius,
     math.min(1e6, math.ceil(2 * wire.length / radius))))
 end
