@@ -80,6 +80,7 @@ void sw_contact_free(sw_contact *c) {
   sw_free(c->memory);
   sw_free(c->next_memory);
   sw_free(c->pressed);
+  sw_free(c->turns);
   sw_free(c->barriers);
   sw_free(c->impacts);
   sw_free(c->impact_at);

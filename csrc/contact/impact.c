@@ -226,10 +226,14 @@ static double velocity_lost(sw_contact *c, const sw_system *s, const sw_touch *t
   return fmax(0.0, rebounds ? meets->approach * (1.0 + e) : meets->approach - allowed);
 }
 
+/* What comes to a pad that holds a wire already only trembles. */
+static int trembles(const sw_contact *c, const sw_touch *t) {
+  return c->obstacles[t->obstacle].grips > 0 && c->pressing[t->obstacle];
+}
+
 int sw_contact_strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
-  /* what comes to a pad that holds a wire already only trembles */
-  if (o->grips > 0 && c->pressing[t->obstacle]) return 0;
+  if (trembles(c, t)) return 0;
   const sw_body *b = &s->bodies[t->body];
   const sw_levers levers = sw_touch_levers(s, t);
   const encounter e = encounter_of(c, s, t, &levers);
@@ -257,27 +261,44 @@ int sw_contact_strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) 
 }
 
 static int by_meeting(const void *left, const void *right) {
-  const sw_touch *p = left, *q = right;
+  const sw_turn *p = left, *q = right;
   if (p->meets != q->meets) return p->meets < q->meets ? -1 : 1;
   if (p->closes != q->closes) return p->closes > q->closes ? -1 : 1;
   if (p->node != q->node) return p->node < q->node ? -1 : 1;
-  return p->obstacle - q->obstacle;
+  if (p->obstacle != q->obstacle) return p->obstacle - q->obstacle;
+  return (p->touch > q->touch) - (p->touch < q->touch);
+}
+
+/* Does any touch strike, with velocities as they are? Fills their turns. */
+static int any_strikes(sw_contact *c, sw_system *s, double h) {
+  const double soonest = c->soonest;
+  int any = 0;
+  for (size_t i = 0; i < c->pressed_count; i++) {
+    const sw_touch *t = &c->pressed[i];
+    const sw_levers levers = sw_touch_levers(s, t);
+    const encounter e = encounter_of(c, s, t, &levers);
+    any |= !trembles(c, t) && !dealt_with(c, t, &s->counters.looks) &&
+           velocity_lost(c, s, t, &e, h) > 0;
+    c->turns[i] = (sw_turn){.meets = e.approach > 0 ? e.gap / e.approach : HUGE_VAL,
+                            .closes = e.approach,
+                            .node = t->node,
+                            .obstacle = t->obstacle,
+                            .touch = (uint32_t)i};
+  }
+  if (any) c->soonest = soonest; /* all are asked again, one after the other */
+  return any;
 }
 
 /* What meets its obstacle first strikes first, and what does so at once, the fastest first,
  * whichever end the wire's nodes are counted from: places of neighbouring segments share nodes. */
 static int review_touches(sw_contact *c, sw_system *s, double h) {
+  const size_t n = c->pressed_count;
   int changed = 0;
-  for (size_t i = 0; i < c->pressed_count; i++) {
-    sw_touch *t = &c->pressed[i];
-    const sw_levers levers = sw_touch_levers(s, t);
-    const encounter e = encounter_of(c, s, t, &levers);
-    t->closes = e.approach;
-    t->meets = e.approach > 0 ? e.gap / e.approach : HUGE_VAL;
-  }
-  if (c->pressed_count) qsort(c->pressed, c->pressed_count, sizeof *c->pressed, by_meeting);
-  for (size_t i = 0; i < c->pressed_count; i++) {
-    const sw_touch *t = &c->pressed[i];
+  if (!n || sw_grow((void **)&c->turns, &c->turn_capacity, n, sizeof *c->turns) != SW_OK) return 0;
+  if (!any_strikes(c, s, h)) return 0;
+  qsort(c->turns, n, sizeof *c->turns, by_meeting);
+  for (size_t i = 0; i < n; i++) {
+    const sw_touch *t = &c->pressed[c->turns[i].touch];
     if (dealt_with(c, t, &s->counters.looks)) continue;
     changed |= sw_contact_strike(c, s, t, h);
   }

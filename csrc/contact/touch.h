@@ -48,8 +48,6 @@ typedef struct sw_touch {
   double usual;     /* of a new touch here [N/m] */
   double stiffer;   /* its stiffness from the next iterate on [N/m] */
   int known;        /* it pressed at the step's start */
-  double meets;     /* of one that may strike: when it would, after the step's start [s] */
-  double closes;    /* then: how fast its gap closes there [m/s] */
   int held;         /* both ends are held: no force */
   double friction;  /* coefficient in this step: kinetic when it slid before [-] */
   double slid;      /* way that it slid until the step's start, since it began to press [m] */
@@ -93,6 +91,14 @@ typedef struct sw_impact {
   double at;
   uint32_t before; /* as a barrier's */
 } sw_impact;
+
+/* When a touch would strike. */
+typedef struct sw_turn {
+  double meets, closes; /* after the step's start [s]; how fast its gap closes there [m/s] */
+  size_t node;
+  int obstacle;
+  uint32_t touch; /* of those that pressed */
+} sw_turn;
 
 /* A touch that was part of the last matrix. */
 typedef struct sw_mark {
@@ -160,6 +166,8 @@ struct sw_contact {
   size_t touch_count, touch_capacity, last_count, last_capacity;
   sw_touch *pressed; /* touches with a force at the end of a stage of this trial */
   size_t pressed_count, pressed_capacity, pressed_before; /* of earlier stages */
+  sw_turn *turns;                                         /* (pressed_count) of a review */
+  size_t turn_capacity;
   sw_memory *memory, *next_memory;
   size_t memory_count, memory_capacity, next_count, next_capacity;
   /* impacts and barriers by their nodes: number of each node's last one + 1, or 0, and of the one
