@@ -9,7 +9,8 @@ local R, BRAKE, TURNS, TIME, LENGTH = 0.05, 4, 1.5, 3, 0.8 -- [m], [N], [-], [s]
 
 -- The drum turns and goes sideways by 2.5 wire radii a turn; the wire is clamped on its top.
 local function wound(edges, dt)
-  local r = sw.scene{}:wire{ cable = "GXL 1.5", from = { 0, 1, 0 }, to = { 1, 1, 0 }, segments = 2 }.radius
+  local other = sw.scene{}:wire{ cable = "GXL 1.5", from = { 0, 1, 0 }, to = { 1, 1, 0 }, segments = 2 }
+  local r = other.radius
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
   local top, turned = R + r, 2 * math.pi * TURNS
   local wire = scene:wire{ cable = "GXL 1.5", from = { 0, 0, top }, to = { LENGTH, 0, top }, segments = edges }
