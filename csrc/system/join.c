@@ -35,7 +35,7 @@ static int in_band(const sw_system *s, uint32_t i, uint32_t j) {
 
 static sw_status plan(sw_system *s, uint32_t i, uint32_t j) {
   const uint32_t low = i < j ? i : j, high = i < j ? j : i;
-  return in_band(s, low, high) ? SW_OK : sw_system_plan_link(s, low, high);
+  return in_band(s, low, high) ? SW_OK : sw_system_plan_bridge(s, low, high);
 }
 
 static sw_status plan_hub(sw_system *s, const sw_join_hub *h) {
@@ -88,7 +88,7 @@ static sw_status add_block(sw_system *s, uint32_t i, uint32_t j, const double k[
     const double turned[9] = {k[0], k[3], k[6], k[1], k[4], k[7], k[2], k[5], k[8]};
     return add_block(s, j, i, turned);
   }
-  if (!in_band(s, i, j)) return sw_system_add_link(s, i, j, k);
+  if (!in_band(s, i, j)) return sw_system_add_bridge(s, i, j, k);
   sw_body *b = &s->bodies[sw_system_body_of(s, i)];
   double *row = b->field.rows + SW_ROW_SIZE * (i - b->first_node);
   for (size_t m = 0; i == j && m < 6; m++) row[SW_ROW_OWN + m] += k[upper[m]];

@@ -11,10 +11,10 @@
 #include "solve/band3.h"
 #include "solve/blocks.h"
 #include "system/assemble.h"
+#include "system/bridge.h"
 #include "system/factors.h"
 #include "system/join.h"
 #include "system/lead.h"
-#include "system/link.h"
 #include "system/part.h"
 #include "system/spin.h"
 #include "system/strain.h"
@@ -184,7 +184,7 @@ static sw_status assemble_and_solve(sw_system *s, const sw_stage *stage, const s
   for (size_t b = s->part; b < s->part_end; b++)
     SW_TRY(sw_body_evaluate(s, &s->bodies[b], stage->time, stage->hbar, stage->y, s->velocity,
                             statics, report->iterations, err));
-  sw_links_begin(s);
+  sw_bridges_begin(s);
   if (s->coupling.eval)
     SW_TRY(s->coupling.eval(s->coupling.user, s, stage->time, stage->hbar, stage->y,
                             SW_WANT_FORCE | (s->goes_on ? 0u : SW_WANT_STIFFNESS), err));
@@ -200,10 +200,10 @@ static sw_status assemble_and_solve(sw_system *s, const sw_stage *stage, const s
   if (statics) sw_lead_rows(s, stage->y);
   report->negative = 0;
   if (sw_interrupted()) return SW_EINTR;
-  if (sw_links_any(s)) SW_TRY(sw_links_solve(s, &report->negative));
+  if (sw_bridges_any(s)) SW_TRY(sw_bridges_solve(s, &report->negative));
   for (size_t b = s->part; b < s->part_end; b++) {
     sw_body *body = &s->bodies[b];
-    if (body->linked && sw_links_any(s)) continue;
+    if (body->bridged && sw_bridges_any(s)) continue;
     size_t negative = 0;
     SW_TRY(solve_body(s, body, &negative));
     report->negative += negative;
@@ -430,7 +430,7 @@ static void finish(sw_system *s, const sw_stage *stage, int statics) {
     if (s->bodies[h->body].spin_block) sw_spin_react(h, &s->bodies[h->body]);
     sw_system_held_velocity(s, h, stage->v + 3 * h->node);
   }
-  sw_links_react(s);
+  sw_bridges_react(s);
 }
 
 /* Spins without inertia may have no equilibrium near by, as when a flat wire on edge is

@@ -7,9 +7,9 @@
 #include "base/alloc.h"
 #include "base/simd.h"
 #include "base/spread.h"
+#include "system/bridge.h"
 #include "system/factors.h"
 #include "system/join.h"
-#include "system/link.h"
 #include "system/pull.h"
 #include "system/roll.h"
 #include "system/spin.h"
@@ -39,7 +39,7 @@ void sw_system_free(sw_system *system) {
     sw_free(system->bodies[b].roll_block);
     sw_web_discard(&system->bodies[b]);
   }
-  sw_links_free(system);
+  sw_bridges_free(system);
   sw_joins_free(system);
   sw_free(system->bodies);
   sw_free(system->held);
