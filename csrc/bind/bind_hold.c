@@ -9,7 +9,7 @@
 
 static int new_hold(lua_State *L, const char *kind) {
   lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
-  const sw_hold_class *cls = sw_hold_find(kind);
+  const sw_link_class *cls = sw_link_find(kind);
   sw_hold_args args = {
       .s = 0, .direction = {NAN, NAN, NAN}, .speed = NAN, .force = NAN, .force_limit = NAN};
   sw_error err = {""};
@@ -181,7 +181,7 @@ static int meth_drive_force(lua_State *L) {
 /* The argument at 2, checked as the parameter of that name of scene:feed is. */
 static double feed_argument(lua_State *L, const char *name) {
   sw_error err;
-  const sw_params *rows = &sw_hold_find("feed")->params;
+  const sw_params *rows = &sw_link_find("feed")->params;
   size_t i = 0;
   while (i + 1 < rows->count && strcmp(rows->rows[i].name, name) != 0) i++;
   const sw_param *row = &rows->rows[i];

@@ -70,10 +70,11 @@ static void models(lua_State *L) {
 }
 
 static void holds(lua_State *L) {
-  for (int i = 0; sw_hold_all()[i]; i++) {
-    push_entry(L, sw_hold_all()[i]->name, sw_hold_all()[i]->summary);
-    set_params(L, &sw_hold_all()[i]->params);
-    lua_rawseti(L, -2, i + 1);
+  for (int i = 0, n = 0; sw_link_all()[i]; i++) {
+    if (!sw_link_all()[i]->hold) continue;
+    push_entry(L, sw_link_all()[i]->name, sw_link_all()[i]->summary);
+    set_params(L, &sw_link_all()[i]->params);
+    lua_rawseti(L, -2, ++n);
   }
 }
 

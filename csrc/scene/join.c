@@ -96,7 +96,7 @@ static sw_status check_end(const sw_scene *s, const sw_join_end *ends, size_t k,
                      "three segments apart",
                      w->name, ends[i].s, ends[k].s);
   for (size_t h = 0; h < s->hold_count; h++)
-    if (s->holds[h].alive && s->holds[h].wire == ends[k].wire.slot && s->holds[h].cls->feeds)
+    if (s->holds[h].alive && s->holds[h].wire == ends[k].wire.slot && sw_hold_passes(&s->holds[h]))
       return sw_fail(err, SW_EINVAL, "scene:join: wire '%s' is fed by '%s': it cannot be joined",
                      w->name, s->holds[h].name);
   return SW_OK;

@@ -144,7 +144,7 @@ void sw_tape_hold_args(sw_tape *t, sw_hold_args *x) {
 
 static void tape_feed(sw_tape *t, sw_feed *x) {
   int shaped = x->shape.n > 0;
-  SW_TAPE_STRUCT(t, sw_feed, 384); /* node and number are found when the scene is built */
+  SW_TAPE_STRUCT(t, sw_feed, 368);
   INT(outward), DOUBLE(label), DOUBLE(fed), DOUBLE(since), DOUBLE(speed), DOUBLE(start);
   sw_tape_motion(t, &x->motion);
   DOUBLE(slip), DOUBLE(slip_since), DOUBLE(slip_speed), DOUBLE(slip_growth), DOUBLE(slip_before);
@@ -177,15 +177,15 @@ static void tape_sums(sw_tape *t, sw_hold_sums *x) {
   sw_tape_expect(t, x->last >= 0 && x->last < SW_BOOK_STAGES, "what a clamp bears");
 }
 
-void sw_tape_hold(sw_tape *t, sw_scene *s, sw_scene_hold *x) {
+void sw_tape_hold(sw_tape *t, sw_scene *s, sw_hold *x) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_scene_hold, 1424);
+  SW_TAPE_STRUCT(t, sw_hold, 1424); /* node and number are found when it is built */
   UINT32(generation), INT(alive), NAME(name);
   if (!sw_tape_address(t, &x->cls)) {
     const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
-    if (sw_tape_reads(t)) x->cls = sw_hold_find(kind);
+    if (sw_tape_reads(t)) x->cls = sw_link_find(kind);
   }
-  sw_tape_expect(t, x->cls != NULL, "a clamp of an unknown kind");
+  sw_tape_expect(t, x->cls && x->cls->hold, "a clamp of an unknown kind");
   SIZE(wire), DOUBLE(scale), UINT32(shape), INT(formed), DOUBLE(s1), DOUBLE(s2);
   sw_tape_hold_args(t, &x->args);
   tape_drive(t, s, &x->drive);

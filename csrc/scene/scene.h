@@ -13,9 +13,9 @@
 #include "base/status.h"
 #include "base/vec.h"
 #include "calibrate/calibrate.h"
-#include "constraint/constraint.h"
 #include "force/force.h"
 #include "integrate/integrate.h"
+#include "link/link.h"
 #include "motion/motion.h"
 #include "shape/shape.h"
 #include "wire/wire.h"
@@ -167,7 +167,7 @@ const char *sw_scene_wire_model(const sw_scene *scene, sw_handle wire);
 
 /* --- holds ------------------------------------------------------------------ */
 
-sw_status sw_scene_add_hold(sw_scene *scene, const sw_hold_class *cls, sw_handle wire,
+sw_status sw_scene_add_hold(sw_scene *scene, const sw_link_class *cls, sw_handle wire,
                             const sw_hold_args *args, sw_handle *out, sw_error *err);
 sw_status sw_scene_release_hold(sw_scene *scene, sw_handle hold, sw_error *err);
 

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Holds: constraints that impose a motion on part of a wire. A member is one
- * file ending in one sw_hold_class and one X(name) line in list.def. */
-#ifndef SW_CONSTRAINT_CONSTRAINT_H
-#define SW_CONSTRAINT_CONSTRAINT_H
+/* Links: what keeps wires somewhere, or at each other. A member is one file: what it holds or
+ * pulls, how it reacts, what is read of it, its parameters; it ends in one sw_link_class and has
+ * one X(name) line in list.def. Holds keep part of one wire (hold.h), joints two wires or more
+ * (joint.h). */
+#ifndef SW_LINK_LINK_H
+#define SW_LINK_LINK_H
 
 #include <stddef.h>
 
@@ -23,15 +25,15 @@ typedef struct sw_hold_args {
   double force_limit; /* beyond it the wire slips; NAN = none [N] */
 } sw_hold_args;
 
-typedef struct sw_hold_class {
+typedef struct sw_link_class {
   const char *name;
   const char *summary;
-  int clamped; /* 1: direction held too */
-  int feeds;   /* 1: the wire slides through */
   sw_params params;
-} sw_hold_class;
+  const struct sw_hold_acts *hold;   /* of one wire, or NULL */
+  const struct sw_joint_acts *joint; /* of more wires, or NULL */
+} sw_link_class;
 
-const sw_hold_class *sw_hold_find(const char *name);
-const sw_hold_class *const *sw_hold_all(void); /* NULL-terminated */
+const sw_link_class *sw_link_find(const char *name); /* NULL: there is none */
+const sw_link_class *const *sw_link_all(void);       /* NULL-terminated */
 
 #endif
