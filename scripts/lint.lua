@@ -32,7 +32,7 @@ local ROOMS = {
 -- state and solve have no single header: their parts have different users.
 local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "grains.h", "pairs.h" },
   film = { "film.h", "pack.h" }, scene = { "frames.h" },
-  force = { "force.h", "solid.h" }, link = { "hold.h", "spool.h" }, shape = { "tree.h" },
+  force = { "force.h", "solid.h" }, link = { "hold.h", "joint.h", "spool.h" }, shape = { "tree.h" },
   state = { "angle.h", "clamp.h", "crease.h", "field.h", "hinge.h", "mesh.h", "plan.h", "slide.h",
     "state_tape.h", "tie.h", "web.h" },
   solve = { "band3.h", "band4.h", "blocks.h", "cholesky.h", "rotation.h", "sparse.h" },

@@ -129,7 +129,7 @@ static void params(lua_State *L) {
                 {"settle", &sw_settle_params},
                 {"frequencies", &sw_modes_params},
                 {"wire_contact", &sw_wire_contact_params},
-                {"join", &sw_join_params},
+                {"join", &sw_link_find("join")->params},
                 {"minimise", &sw_minimise_params},
                 {"particles", &sw_particles_params},
                 {"repel", &sw_repel_pairs_params},

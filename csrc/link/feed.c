@@ -7,10 +7,9 @@
  * integrator, so that the first edge grows or shrinks smoothly while all other nodes keep to their
  * material. The wire's velocity at the guide is that of the guide and the feeding speed along it.
  * Nodes are inserted and removed between steps (scene/guide.c). */
-#include "link/feed.h"
-
 #include <math.h>
 
+#include "link/feeding.h"
 #include "link/hold.h"
 #include "link/spool.h"
 #include "state/hinge.h"

@@ -4,7 +4,7 @@
 #define SW_LINK_HOLD_H
 
 #include "base/log.h"
-#include "link/feed.h"
+#include "link/feeding.h"
 #include "link/link.h"
 #include "motion/motion.h"
 #include "state/mesh.h"
@@ -15,6 +15,7 @@ typedef struct sw_link_wire {
   const char *name;
   sw_mesh *mesh;
   const sw_beam *beam;
+  int bends;   /* 1: it resists bending; of joints only */
   double time; /* of the scene [s] */
   /* while it is built */
   sw_system *system;

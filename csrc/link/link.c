@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "link/link.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
-#include "link/hold.h"
+#include "link/joint.h"
 
 #define X(name) extern const sw_link_class sw_link_##name;
 #include "link/list.def"
@@ -31,4 +32,8 @@ void sw_hold_clear(sw_hold *h) {
   sw_free(h->particle);
   sw_log_free(&h->log);
   sw_motion_release(h->drive.motion);
+}
+
+const sw_link_class *sw_joint_class(double slack) {
+  return isnan(slack) ? &sw_link_join : &sw_link_tie;
 }

@@ -25,6 +25,17 @@ typedef struct sw_hold_args {
   double force_limit; /* beyond it the wire slips; NAN = none [N] */
 } sw_hold_args;
 
+enum { SW_JOIN_ENDS = 8 }; /* most wires in a join */
+
+/* A user's arguments for a joint. */
+typedef struct sw_join_args {
+  int rigid; /* 1: angles between the wires are kept */
+  char name[SW_NAME_SIZE];
+  double slack;     /* a tie of two wires: how far apart they may be; NAN = none [m] */
+  double stiffness; /* of a tie [N/m] */
+  double strength;  /* pull at which a tie breaks; NAN = never [N] */
+} sw_join_args;
+
 typedef struct sw_link_class {
   const char *name;
   const char *summary;

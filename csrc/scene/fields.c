@@ -65,7 +65,7 @@ sw_status sw_scene_fields(const sw_scene *s, unsigned char **out, size_t *size) 
   put_list(&t, s->tools, s->tool_count, sizeof *s->tools);
   put_list(&t, s->forces, s->force_count, sizeof *s->forces);
   for (size_t k = 0; k < s->join_count; k++) {
-    sw_scene_join join = s->joins[k];
+    sw_joint join = s->joins[k];
     join.spring = 0;
     sw_tape_raw(&t, &join, sizeof join);
   }

@@ -236,7 +236,7 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_link_class *cls, sw_handle wir
   SW_TRY(check_axis(&s->wires[wire.slot], cls, cls->name, err));
   const sw_link_wire on_wire = sw_scene_link_wire(s, wire.slot);
   if (acts->check) SW_TRY(acts->check(&on_wire, &own, err));
-  const sw_scene_join *join = acts->passes ? sw_scene_joined(s, wire.slot) : NULL;
+  const sw_joint *join = acts->passes ? sw_scene_joined(s, wire.slot) : NULL;
   if (join)
     return sw_fail(err, SW_EINVAL, "feed: wire '%s' is joined to others by '%s': it cannot be fed",
                    s->wires[wire.slot].name, join->name);

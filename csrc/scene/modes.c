@@ -97,7 +97,7 @@ static sw_status check_rest(sw_scene *s, size_t w, double tolerance, sw_error *e
 }
 
 static sw_status check_joins(const sw_scene *s, size_t w, sw_error *err) {
-  const sw_scene_join *join = sw_scene_joined(s, w);
+  const sw_joint *join = sw_scene_joined(s, w);
   if (!join) return SW_OK;
   return sw_fail(err, SW_EINVAL,
                  "frequencies: wire '%s' is joined to others by '%s' and moves with them; only "

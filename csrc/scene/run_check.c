@@ -62,7 +62,7 @@ sw_status sw_run_check(const sw_scene *s, const sw_run_args *args, sw_error *err
           "scene:run: integrator '%s' is explicit; wire '%s', which is curved at rest, has two "
           "values of EI or rolls, needs an implicit one",
           m->name, s->wires[w].name);
-  const sw_scene_join *join = NULL;
+  const sw_joint *join = NULL;
   for (size_t w = 0; w < s->wire_count && !join; w++) join = sw_scene_joined(s, w);
   if (join && !args->quasistatic && !(m->flags & SW_INTEGRATOR_IMPLICIT))
     return sw_fail(err, SW_EINVAL,

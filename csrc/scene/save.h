@@ -21,7 +21,7 @@ void sw_tape_frozen(sw_tape *tape, sw_frozen **frozen); /* or NULL */
 int sw_frozen_fits(const sw_frozen *frozen, const sw_scene *scene);
 void sw_tape_obstacle(sw_tape *tape, sw_scene *scene, sw_scene_obstacle *obstacle);
 void sw_tape_force(sw_tape *tape, sw_scene_force *force);
-void sw_tape_join(sw_tape *tape, sw_scene_join *join);
+void sw_tape_join(sw_tape *tape, sw_joint *join);
 void sw_tape_rule(sw_tape *tape, sw_scene_rule *rule);
 void sw_tape_frame(sw_tape *tape, const sw_scene *scene, sw_frame *frame);
 void sw_tape_extreme(sw_tape *tape, sw_extreme *extreme);

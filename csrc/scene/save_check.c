@@ -93,9 +93,9 @@ static void check_hold(sw_tape *t, const sw_scene *s, const sw_hold *h) {
 
 /* --- all else ---------------------------------------------------------------------- */
 
-static void check_join(sw_tape *t, const sw_scene *s, const sw_scene_join *j) {
+static void check_join(sw_tape *t, const sw_scene *s, const sw_joint *j) {
   for (size_t k = 0; k < j->count && sw_tape_good(t); k++) {
-    const struct sw_scene_join_end *e = &j->ends[k];
+    const sw_joint_end *e = &j->ends[k];
     sw_tape_expect(t, e->wire < s->wire_count && e->scale > 0, "a join");
     if (!sw_tape_good(t) || !j->alive) continue;
     const sw_scene_wire *w = &s->wires[e->wire];

@@ -299,14 +299,18 @@ void sw_tape_force(sw_tape *t, sw_scene_force *x) {
   sw_tape_expect(t, x->cls && (!x->alive || x->cls->params.count), "a force that is a function");
 }
 
-void sw_tape_join(sw_tape *t, sw_scene_join *x) {
-  SW_TAPE_STRUCT(t, sw_scene_join, 792);
+void sw_tape_join(sw_tape *t, sw_joint *x) {
+  int broken = x->fate[SW_TIE_BROKEN] > 0;
+  SW_TAPE_STRUCT(t, sw_joint, 800);
   UINT32(generation), INT(alive), INT(rigid), NAME(name), SIZE(count);
   DOUBLE(slack), DOUBLE(stiffness), DOUBLE(strength); /* its spring is found when it is built */
-  INT(broken), DOUBLE(broken_time), DOUBLE(broken_force), DOUBLE(peak);
+  if (sw_tape_reads(t)) x->cls = sw_joint_class(x->slack);
+  sw_tape_int(t, &broken);
+  x->fate[SW_TIE_BROKEN] = broken;
+  DOUBLE(fate[SW_TIE_BROKEN_TIME]), DOUBLE(fate[SW_TIE_BROKEN_FORCE]), DOUBLE(fate[SW_TIE_PEAK]);
   sw_tape_expect(t, x->count >= 2 && x->count <= SW_JOIN_ENDS, "a join");
   for (size_t k = 0; k < x->count && sw_tape_good(t); k++) {
-    struct sw_scene_join_end *e = &x->ends[k];
+    sw_joint_end *e = &x->ends[k];
     sw_tape_size(t, &e->wire);
     sw_tape_double(t, &e->s), sw_tape_double(t, &e->asked), sw_tape_double(t, &e->scale);
     sw_tape_vec(t, &e->offset), sw_tape_vec(t, &e->rest);

@@ -50,17 +50,6 @@ sw_status sw_scene_readable(const sw_scene *scene, sw_error *err);
 
 /* --- joins ------------------------------------------------------------------ */
 
-enum { SW_JOIN_ENDS = 8 }; /* most wires in a join */
-
-typedef struct sw_join_args {
-  int rigid; /* 1: angles between the wires are kept */
-  char name[SW_NAME_SIZE];
-  double slack;     /* a tie of two wires: how far apart they may be; NAN = none [m] */
-  double stiffness; /* of a tie [N/m] */
-  double strength;  /* pull at which a tie breaks; NAN = never [N] */
-} sw_join_args;
-extern const sw_params sw_join_params;
-
 typedef struct sw_join_end {
   sw_handle wire;
   double s; /* [m] */

@@ -98,7 +98,7 @@ struct sw_scene {
   size_t tool_count, tool_capacity;
   sw_scene_force *forces;
   size_t force_count, force_capacity;
-  sw_scene_join *joins;
+  sw_joint *joins;
   size_t join_count, join_capacity;
 
   const sw_pose *part_from; /* settling: where the holds come from, or NULL */

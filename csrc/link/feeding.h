@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a hold that feeds remembers. */
-#ifndef SW_LINK_FEED_H
-#define SW_LINK_FEED_H
+#ifndef SW_LINK_FEEDING_H
+#define SW_LINK_FEEDING_H
 
 #include "motion/motion.h"
 #include "state/mesh.h"
