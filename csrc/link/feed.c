@@ -136,7 +136,7 @@ static void place(sw_hold *h, const sw_link_wire *w, double t, sw_hold_state *st
   state->a = sw_madd(state->a, sw_cross(state->omega, along), 2.0 * now.speed);
 }
 
-static void follow(sw_hold *h, const sw_link_wire *w) {
+static int follow(sw_hold *h, const sw_link_wire *w) {
   sw_feed *f = &h->feed;
   const double u = w->time - f->slip_since;
   f->slip += (f->slip_speed + 0.5 * f->slip_growth * u) * u;
@@ -145,6 +145,7 @@ static void follow(sw_hold *h, const sw_link_wire *w) {
   const double arc = arc_at(f, sw_feed_at(h, w->time).fed);
   w->mesh->s[h->node] = arc;
   h->s1 = h->s2 = h->s[0] = arc;
+  return 0;
 }
 
 static void undo(sw_hold *h, const sw_link_wire *w) {

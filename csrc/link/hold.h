@@ -4,6 +4,7 @@
 #define SW_LINK_HOLD_H
 
 #include "base/log.h"
+#include "link/curve.h"
 #include "link/feeding.h"
 #include "link/link.h"
 #include "motion/motion.h"
@@ -76,6 +77,7 @@ typedef struct sw_hold {
   sw_quat turn;           /* orientation that goes with the wire's twist, while not built */
   size_t node, number;    /* first node in the wire's plan, among the system's; while built */
   sw_feed feed;           /* of a class that feeds */
+  sw_slider slider;       /* of one with a rail */
   sw_vec force, moment;   /* last, kept after release [N], [N m] */
   sw_hold_watch watch;
   sw_hold_sums sums; /* of the present step */
@@ -100,13 +102,20 @@ typedef struct sw_hold_acts {
   void (*clear)(sw_hold *hold);
   /* At time t: adds what the wire does in the frame of the hold to its state. */
   void (*place)(sw_hold *hold, const sw_link_wire *wire, double t, sw_hold_state *state);
-  /* The scene's time is that of an accepted state: mesh and hold follow. */
-  void (*follow)(sw_hold *hold, const sw_link_wire *wire);
+  /* The scene's time is that of an accepted state: mesh and hold follow. 1: velocities jumped. */
+  int (*follow)(sw_hold *hold, const sw_link_wire *wire);
   /* The plan back to the mesh, before this is read. */
   void (*undo)(sw_hold *hold, const sw_link_wire *wire);
   /* Wire goes through it, so that nodes come and go: its way at time t, with nodes at x (NULL:
    * without the force). */
   sw_hold_way (*passes)(const sw_hold *hold, const sw_link_wire *wire, double t, const double *x);
+  /* It keeps its node on a curve, as a rail of the system; place and force of that. */
+  void (*rail)(const sw_hold *hold, sw_rail *out);
+  /* Arguments as they are now; those that change from now on. */
+  void (*get)(const sw_hold *hold, sw_hold_args *args);
+  void (*set)(sw_hold *hold, const sw_hold_args *args);
+  /* What is taken on a tape besides what all holds have. */
+  void (*tape)(sw_tape *tape, sw_hold *hold);
 } sw_hold_acts;
 
 /* 1: wire goes through the hold. */

@@ -23,6 +23,14 @@ typedef struct sw_hold_args {
   double speed;       /* wire paid out per time; NAN = not given [m/s] */
   double force;       /* pushing the wire out; NAN = not given [N] */
   double force_limit; /* beyond it the wire slips; NAN = none [N] */
+
+  /* of a hold along which the wire slides; not kept with the others */
+  sw_vec line;          /* direction of a straight rail; NAN = not given [-] */
+  double from, to;      /* its ends, from the wire's place [m] */
+  const double *points; /* (count x 3) of a curved one, or NULL [m] */
+  size_t count;
+  int closed;      /* 1: the last point is followed by the first */
+  double friction; /* [-] */
 } sw_hold_args;
 
 enum { SW_JOIN_ENDS = 8 }; /* most wires in a join */

@@ -294,10 +294,8 @@ static sw_status add_terms(sw_scene *s, size_t w) {
   return SW_OK;
 }
 
-static sw_status add_holds(sw_scene *s, size_t alive) {
-  s->hold_slot = sw_alloc(alive, sizeof *s->hold_slot);
-  s->hold_loads = sw_alloc(alive, sizeof *s->hold_loads);
-  if (!s->hold_slot || !s->hold_loads) return SW_ENOMEM;
+static sw_status put_holds(sw_scene *s, sw_rail *rails) {
+  size_t rail_count = 0;
   int number = 0;
   for (size_t k = 0; k < s->hold_count; k++) {
     sw_hold *h = &s->holds[k];
@@ -322,9 +320,23 @@ static sw_status add_holds(sw_scene *s, size_t alive) {
       node.node = b->first_node + i, node.local = local_of(h, b->plan->s[i]);
       s->system.held[s->system.held_count++] = node;
     }
+    if (h->cls->hold->rail) {
+      h->slider.rail = rail_count;
+      h->cls->hold->rail(h, &rails[rail_count]);
+      rails[rail_count++].held = s->system.held_count - 1;
+    }
     s->hold_slot[number++] = (int)k;
   }
-  return SW_OK;
+  return sw_system_set_rails(&s->system, rails, rail_count);
+}
+
+static sw_status add_holds(sw_scene *s, size_t alive) {
+  s->hold_slot = sw_alloc(alive, sizeof *s->hold_slot);
+  s->hold_loads = sw_alloc(alive, sizeof *s->hold_loads);
+  sw_rail *rails = sw_alloc(alive, sizeof *rails);
+  const sw_status status = s->hold_slot && s->hold_loads && rails ? put_holds(s, rails) : SW_ENOMEM;
+  sw_free(rails);
+  return status;
 }
 
 static sw_pose part_way(const sw_pose *from, const sw_pose *to, double share) {
@@ -411,13 +423,16 @@ static sw_status fill(sw_scene *s, size_t alive) {
 
 sw_status sw_scene_build(sw_scene *s, sw_error *err) {
   if (!s->built) {
-    size_t alive = 0;
+    size_t alive = 0, rails = 0;
     SW_TRY(sw_scene_check_holds(s, err));
-    for (size_t k = 0; k < s->hold_count; k++) alive += s->holds[k].alive != 0;
+    for (size_t k = 0; k < s->hold_count; k++) {
+      alive += s->holds[k].alive != 0;
+      rails += s->holds[k].alive && s->holds[k].cls->hold->rail;
+    }
     sw_plan **plans = sw_alloc(s->wire_count, sizeof(sw_plan *));
     sw_status status = plans ? new_plans(s, plans) : SW_ENOMEM;
     if (status == SW_OK) status = stopped(s);
-    if (status == SW_OK) status = sw_system_new(&s->system, plans, s->wire_count, alive);
+    if (status == SW_OK) status = sw_system_new(&s->system, plans, s->wire_count, alive, rails);
     if (status == SW_OK) status = stopped(s);
     if (status == SW_OK) status = fill(s, alive);
     if (status == SW_OK) status = stopped(s);

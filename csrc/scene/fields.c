@@ -59,7 +59,7 @@ sw_status sw_scene_fields(const sw_scene *s, unsigned char **out, size_t *size) 
   }
   for (size_t k = 0; k < s->hold_count; k++) {
     sw_hold hold = s->holds[k];
-    hold.node = hold.number = 0;
+    hold.node = hold.number = hold.slider.rail = 0;
     sw_tape_raw(&t, &hold, sizeof hold);
   }
   put_list(&t, s->tools, s->tool_count, sizeof *s->tools);

@@ -29,7 +29,7 @@ void sw_scene_follow_holds(sw_scene *s) {
   for (size_t k = 0; k < s->hold_count; k++) {
     sw_hold *h = &s->holds[k];
     const sw_link_wire w = sw_scene_link_wire(s, h->wire);
-    if (h->alive && h->cls->hold->follow) h->cls->hold->follow(h, &w);
+    if (h->alive && h->cls->hold->follow && h->cls->hold->follow(h, &w)) s->discontinuous = 1;
   }
 }
 
@@ -463,6 +463,38 @@ sw_status sw_scene_hold_force(sw_scene *s, sw_handle hold, const sw_vec *about, 
   if (about) SW_TRY(sw_scene_hold_pose(s, hold, &pose, err));
   *force = h->force;
   *moment = about ? sw_add(h->moment, sw_cross(sw_sub(pose.p, *about), h->force)) : h->moment;
+  return SW_OK;
+}
+
+sw_status sw_scene_hold_args(const sw_scene *s, sw_handle hold, const sw_params **rows,
+                             sw_hold_args *out, sw_error *err) {
+  const sw_hold *h = sw_scene_living_hold(s, hold, err);
+  if (!h) return SW_EDEAD;
+  *rows = &h->cls->params;
+  *out = h->args;
+  out->s -= s->wires[h->wire].mesh.s[0];
+  memcpy(out->name, h->name, sizeof out->name);
+  if (h->cls->hold->get) h->cls->hold->get(h, out);
+  return SW_OK;
+}
+
+sw_status sw_scene_set_hold(sw_scene *s, sw_handle hold, const sw_hold_args *args, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  sw_hold *h = sw_scene_living_hold(s, hold, err);
+  if (!h) return SW_EDEAD;
+  SW_TRY(sw_scene_thaw(s));
+  if (h->cls->hold->set) h->cls->hold->set(h, args);
+  return SW_OK;
+}
+
+sw_status sw_scene_slide_state(sw_scene *s, sw_handle hold, sw_slide_state *out, sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  const sw_hold *h = sw_scene_living_hold(s, hold, err);
+  if (!h) return SW_EDEAD;
+  if (!h->cls->hold->rail)
+    return sw_fail(err, SW_EINVAL, "%s '%s' has no rail: wires slide along those of scene:slider",
+                   h->cls->name, h->name);
+  *out = (sw_slide_state){h->slider.p, h->slider.v, h->slider.force};
   return SW_OK;
 }
 

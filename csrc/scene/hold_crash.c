@@ -109,7 +109,7 @@ sw_status sw_hold_look_out(sw_scene *s, sw_hold *h, sw_error *err) {
   sw_crash now;
   const double arc = 0.5 * (h->s1 + h->s2) - s->wires[h->wire].mesh.s[0];
   watch_force(s, h, arc);
-  if (!s->obstacle_count) return SW_OK;
+  if (!s->obstacle_count || h->cls->hold->rail) return SW_OK; /* rails lead where they lead */
   SW_TRY(find_crash(s, h, &now, err));
   if (!h->watch.looking) h->watch.given = now.depth;
   h->watch.looking = 1, h->watch.looked = s->time;

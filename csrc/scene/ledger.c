@@ -106,6 +106,7 @@ static void take_as_now(sw_books *b, const sw_energies *e, double contact) {
 /* 1: a hold was put elsewhere between two steps, away from the wire's held point. */
 static int was_put(sw_scene *s, sw_error *err) {
   sw_system *y = &s->system;
+  for (size_t i = 3 * y->nodes; i < y->freedoms; i++) y->delta[i] = y->x[i];
   if (sw_system_place_holds(y, s->time, y->delta, NULL, NULL, err) != SW_OK) return 0;
   for (size_t k = 0; k < y->held_count; k++) {
     const size_t at = 3 * y->held[k].node;

@@ -265,14 +265,17 @@ static sw_status log_holds(sw_scene *s, sw_error *err) {
     sw_hold *h = &s->holds[s->hold_slot[k]];
     const sw_hold_state *at = &s->system.hold_states[k];
     double row[SW_LOG_SIZE];
-    sw_system_reaction(&s->system, (int)k, at->pose.p, &h->force, &h->moment);
+    const sw_vec point =
+        h->cls->hold->rail ? sw_vec_at(s->system.x, s->system.bodies[h->wire].first_node + h->node)
+                           : at->pose.p;
+    sw_system_reaction(&s->system, (int)k, point, &h->force, &h->moment);
     SW_TRY(sw_hold_look_out(s, h, err));
     row[SW_LOG_TIME] = s->time;
     sw_vec force = h->force, moment = h->moment;
     const int mean = sw_hold_jerked(s, h, &force, &moment);
     sw_store(row + SW_LOG_FORCE, force);
     sw_store(row + SW_LOG_MOMENT, moment);
-    sw_store(row + SW_LOG_POINT, at->pose.p);
+    sw_store(row + SW_LOG_POINT, point);
     row[SW_LOG_SPAN] = sw_hold_span(s, mean);
     if (sw_hold_passes(h)) h->feed.drive = sw_hold_way_of(s, h, s->time, s->system.x).force;
     if (sw_log_add(&h->log, row, SW_LOG_SIZE) != SW_OK)

@@ -84,6 +84,10 @@ static sw_status check(const sw_scene *s, size_t wire, const sw_wire_class *cls,
     if (s->holds[k].alive && s->holds[k].wire == wire && sw_hold_passes(&s->holds[k]))
       return sw_fail(err, SW_EINVAL, "remodel: wire '%s' is fed by '%s'", w->name,
                      s->holds[k].name);
+  for (size_t k = 0; k < s->hold_count; k++)
+    if (s->holds[k].alive && s->holds[k].wire == wire && s->holds[k].cls->hold->rail)
+      return sw_fail(err, SW_EINVAL, "remodel: wire '%s' slides along '%s'", w->name,
+                     s->holds[k].name);
   return sw_scene_check_rules(s, wire, &as, err);
 }
 

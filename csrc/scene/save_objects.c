@@ -137,7 +137,7 @@ void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
 /* --- holds ------------------------------------------------------------------------- */
 
 void sw_tape_hold_args(sw_tape *t, sw_hold_args *x) {
-  SW_TAPE_STRUCT(t, sw_hold_args, 128);
+  SW_TAPE_STRUCT(t, sw_hold_args, 200); /* those of a slider become its own */
   DOUBLE(s), DOUBLE(width), VEC(direction), NAME(name);
   DOUBLE(speed), DOUBLE(force), DOUBLE(force_limit);
 }
@@ -179,7 +179,7 @@ static void tape_sums(sw_tape *t, sw_hold_sums *x) {
 
 void sw_tape_hold(sw_tape *t, sw_scene *s, sw_hold *x) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_hold, 1424); /* node and number are found when it is built */
+  SW_TAPE_STRUCT(t, sw_hold, 1568); /* node and number are found when it is built */
   UINT32(generation), INT(alive), NAME(name);
   if (!sw_tape_address(t, &x->cls)) {
     const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
@@ -201,6 +201,7 @@ void sw_tape_hold(sw_tape *t, sw_scene *s, sw_hold *x) {
   DOUBLE(watch.crash.time), DOUBLE(watch.crash.depth), SIZE(watch.crash.obstacle);
   tape_sums(t, &x->sums);
   tape_feed(t, &x->feed);
+  if (sw_tape_good(t) && x->cls->hold->tape) x->cls->hold->tape(t, x);
   sw_tape_log(t, &x->log);
 }
 

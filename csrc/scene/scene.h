@@ -176,6 +176,19 @@ sw_status sw_scene_hold_crash(const sw_scene *scene, sw_handle hold, double *tim
 sw_status sw_scene_hold_force(sw_scene *scene, sw_handle hold, const sw_vec *about, sw_vec *force,
                               sw_vec *moment, sw_error *err);
 
+/* What it is like now, by its class's rows; SW_EDEAD once it is released. */
+sw_status sw_scene_hold_args(const sw_scene *scene, sw_handle hold, const sw_params **rows,
+                             sw_hold_args *out, sw_error *err);
+/* What may be changed of the arguments from now on. */
+sw_status sw_scene_set_hold(sw_scene *scene, sw_handle hold, const sw_hold_args *args,
+                            sw_error *err);
+/* Of a hold along which the wire slides; SW_EINVAL: it does not. */
+typedef struct sw_slide_state {
+  double place, speed; /* along the rail [m], [m/s] */
+  double force;        /* of friction and ends on the wire, along it [N] */
+} sw_slide_state;
+sw_status sw_scene_slide_state(sw_scene *scene, sw_handle hold, sw_slide_state *out, sw_error *err);
+
 /* --- feeds ------------------------------------------------------------------- */
 
 /* From now on the wire is paid out at this speed; negative: drawn in [m/s]. */

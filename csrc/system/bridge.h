@@ -54,6 +54,10 @@ int sw_bridges_any(const sw_system *system);
  * out: solve for the bridged bodies, twist included; marks them. Adds to negative. */
 sw_status sw_bridges_solve(sw_system *system, size_t *negative);
 
+/* By how much forces on nodes (nodes x 3) and spins (nodes) change the solution of the bridged
+ * bodies, by the factors that there are; in place. */
+void sw_bridges_solve_shift(sw_system *system, double *nodes, double *spins);
+
 /* What the last update makes bridges pull at the held nodes, added to their reactions. */
 void sw_bridges_react(sw_system *system);
 

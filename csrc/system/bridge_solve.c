@@ -11,6 +11,8 @@
 #include "system/twist.h"
 #include "system/web.h"
 
+static const uint32_t NONE = UINT32_MAX;
+
 /* --- values --------------------------------------------------------------------- */
 
 /* A block of three unknowns among those of the matrix. */
@@ -258,6 +260,22 @@ void sw_bridges_solve_again(sw_system *s, double *more) {
     if (!s->bodies[b].bridged)
       memset(more + 3 * s->bodies[b].first_node, 0, 3 * s->bodies[b].plan->nodes * sizeof *more);
   take_solution(s, more);
+}
+
+void sw_bridges_solve_shift(sw_system *s, double *nodes, double *spins) {
+  struct sw_bridges *l = s->bridges;
+  const size_t count = count_spans(s);
+  for (int back = 0; back < 2; back++) {
+    for (size_t i = 0; i < s->nodes; i++) {
+      double *x = l->number[i] == NONE ? NULL : l->x + l->block * l->number[i];
+      if (x && !back) memcpy(x, nodes + 3 * i, 3 * sizeof *x);
+      if (x && !back && l->block == 4) x[3] = spins[i];
+      if (x && back) memcpy(nodes + 3 * i, x, 3 * sizeof *x);
+      if (x && back && l->block == 4) spins[i] = x[3];
+    }
+    if (!back) sw_sparse_solve(l->matrix, l->x);
+    if (!back && count) correct_twist(s, count);
+  }
 }
 
 void sw_bridges_take_solution(sw_system *s) {

@@ -81,6 +81,7 @@ typedef struct sw_held_node {
   size_t node; /* in the system's arrays */
   size_t body;
   int hold;
+  size_t rail;      /* number of its rail + 1, or 0 (see system/rail.h) */
   int slides;       /* wire slides through: its velocity is not how the node moves */
   sw_vec local;     /* [m] */
   double saved[36]; /* its matrix couplings to the nodes -2 -1 +1 +2 [N/m] */
@@ -142,8 +143,9 @@ enum { SW_NOT_MADE = 2, SW_MAY_BE_MADE };
 
 struct sw_system {
   size_t nodes, edges;
-  size_t rolls;    /* edges of wires that roll */
-  size_t freedoms; /* values in each of x, v, a: 3 x nodes + rolls */
+  size_t rolls; /* edges of wires that roll */
+  size_t rail_count;
+  size_t freedoms; /* values in each of x, v, a: 3 x nodes + rolls + rails */
   sw_body *bodies;
   size_t body_count;
   size_t part, part_end; /* the bodies that are solved now: all, or one after another */
@@ -162,7 +164,9 @@ struct sw_system {
   const double *dead; /* (nodes x 3) forces on nodes besides, as those of inertia; or NULL [N] */
   sw_coupling coupling;
   struct sw_bridges *bridges; /* between bodies, or NULL while there never were any */
-  struct sw_joins *joins;     /* what holds wires together (see system/join.h), or NULL */
+  struct sw_rail *rails;      /* of held nodes that keep on curves (see system/rail.h), or NULL */
+  double *rail_room;
+  struct sw_joins *joins; /* what holds wires together (see system/join.h), or NULL */
   sw_counters counters;
   double factor_hbar;   /* bodies' factors are of this step, made for it; 0: there are none [s] */
   int factor_solves;    /* with factors of before, one after another in this stage [-] */
@@ -241,7 +245,7 @@ typedef struct sw_stage_report {
 /* Make arrays for bodies whose plans are set (takes over a retained plan each).
  * The caller fills x, v and terms. SW_ENOMEM leaves nothing behind. */
 sw_status sw_system_new(sw_system *system, sw_plan *const *plans, size_t body_count,
-                        size_t hold_count);
+                        size_t hold_count, size_t rail_count);
 void sw_system_free(sw_system *system);
 
 /* The body that has a node of the system's arrays. */
