@@ -19,10 +19,10 @@ local ROOMS = {
   modal = { "base", "state", "solve", "system" },
   integrate = { "base", "state", "solve", "system" }, -- a system, never a force or a wire
   contact = { "base", "state", "shape", "motion", "system" }, -- a coupling of the system
-  constraint = { "base", "state", "shape", "motion", "contact" },
+  link = { "base", "motion", "state", "system" }, -- a wire of the system, never the scene
   calibrate = { "base", "wire", "force", "solve" },
   scene = { "base", "motion", "shape", "state", "wire", "force", "solve", "system", "integrate",
-    "contact", "constraint", "calibrate", "modal" },
+    "contact", "link", "calibrate", "modal" },
   film = { "base", "scene" },
   bind = {}, -- the core through softworld.h
   host = { "bind" },
@@ -32,9 +32,9 @@ local ROOMS = {
 -- state and solve have no single header: their parts have different users.
 local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "grains.h", "pairs.h" },
   film = { "film.h", "pack.h" }, scene = { "frames.h" },
-  force = { "force.h", "solid.h" }, shape = { "tree.h" },
+  force = { "force.h", "solid.h" }, link = { "hold.h", "joint.h", "spool.h" }, shape = { "tree.h" },
   state = { "angle.h", "clamp.h", "crease.h", "field.h", "hinge.h", "mesh.h", "plan.h", "slide.h",
-    "state_tape.h", "web.h" },
+    "state_tape.h", "tie.h", "web.h" },
   solve = { "band3.h", "band4.h", "blocks.h", "cholesky.h", "rotation.h", "sparse.h" },
   system = { "energy.h", "join.h", "system.h" } }
 
@@ -42,7 +42,7 @@ local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "gr
 local USES_CORE = { bind = true, host = true }
 
 -- One file per member (X(name) in the room's list.def): members do not include one another.
-local FAMILIES = { wire = true, force = true, shape = true, integrate = true, constraint = true }
+local FAMILIES = { wire = true, force = true, shape = true, integrate = true, link = true }
 
 -- Outside headers and the only files that may include them (patterns on the path in csrc).
 local OUTSIDE = {

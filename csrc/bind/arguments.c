@@ -264,3 +264,23 @@ void lsw_push_params(lua_State *L, const sw_params *params) {
     lua_rawseti(L, -2, (int)i + 1);
   }
 }
+
+double *lsw_read_points(lua_State *L, int table, const char *key, const char *object,
+                        size_t *count) {
+  *count = 0;
+  if (lua_getfield(L, table, key) == LUA_TNIL) return NULL;
+  if (!lua_istable(L, -1))
+    luaL_error(L, "%s: %s must be a list of points {x, y, z} [m], got %s", object, key,
+               lsw_describe(L, -1));
+  const size_t n = lua_rawlen(L, -1);
+  if (n > 10000000) luaL_error(L, "%s: %s has %d points; at most 10000000", object, key, (int)n);
+  double *points = lua_newuserdatauv(L, (3 * n + 1) * sizeof *points, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_geti(L, -2, (lua_Integer)i + 1);
+    const char *what = lua_pushfstring(L, "%s: %s, point %d", object, key, (int)i + 1);
+    sw_store(points + 3 * i, lsw_vector(L, -2, what, "m"));
+    lua_pop(L, 2);
+  }
+  *count = n;
+  return points;
+}

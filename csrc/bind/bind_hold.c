@@ -7,11 +7,17 @@
 #include "bind/bind_motion.h"
 #include "bind/child.h"
 
-static int new_hold(lua_State *L, const char *kind) {
+/* scene:clamp, pin, ...: one of each class of holds, which is the upvalue. */
+static int new_hold(lua_State *L) {
   lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
-  const sw_hold_class *cls = sw_hold_find(kind);
-  sw_hold_args args = {
-      .s = 0, .direction = {NAN, NAN, NAN}, .speed = NAN, .force = NAN, .force_limit = NAN};
+  const sw_link_class *cls = lua_touserdata(L, lua_upvalueindex(1));
+  const char *kind = cls->name;
+  sw_hold_args args = {.s = 0,
+                       .direction = {NAN, NAN, NAN},
+                       .line = {NAN, NAN, NAN},
+                       .speed = NAN,
+                       .force = NAN,
+                       .force_limit = NAN};
   sw_error err = {""};
   if (lsw_test(L, 2, &lsw_class_particles)) {
     if (strcmp(kind, "clamp") == 0) return lsw_hold_particles(L);
@@ -20,16 +26,21 @@ static int new_hold(lua_State *L, const char *kind) {
   const char *what = lua_pushfstring(L, "scene:%s", kind);
   const lsw_child *wire = lsw_check_child_of(L, 2, &lsw_class_wire, owner->h.object, what);
   lsw_arguments(L, 3, what, &cls->params, &args);
+  if (lua_istable(L, 3)) args.points = lsw_read_points(L, 3, "path", kind, &args.count);
   lsw_child *child = lsw_new_child(L, 1, &lsw_class_clamp);
   lsw_must(L, sw_scene_add_hold(owner->h.object, cls, wire->id, &args, &child->id, &err), &err);
   child->h.object = owner;
   return 1;
 }
 
-int lsw_scene_clamp(lua_State *L) { return new_hold(L, "clamp"); }
-int lsw_scene_pin(lua_State *L) { return new_hold(L, "pin"); }
-int lsw_scene_grip(lua_State *L) { return new_hold(L, "grip"); }
-int lsw_scene_feed(lua_State *L) { return new_hold(L, "feed"); }
+void lsw_add_holds(lua_State *L) {
+  for (int i = 0; sw_link_all()[i]; i++) {
+    if (!sw_link_all()[i]->hold) continue;
+    lua_pushlightuserdata(L, (void *)sw_link_all()[i]);
+    lua_pushcclosure(L, new_hold, 1);
+    lua_setfield(L, -2, sw_link_all()[i]->name);
+  }
+}
 
 static void read_force(lua_State *L, int with_point, sw_vec *force, sw_vec *moment) {
   sw_scene *scene;
@@ -155,6 +166,48 @@ static int meth_log(lua_State *L) {
   return 3;
 }
 
+/* clamp:get() -> a table of its rows, as it is now */
+static int meth_get(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_hold_args args;
+  const sw_params *rows;
+  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
+  lsw_must(L, sw_scene_hold_args(scene, c->id, &rows, &args, &err), &err);
+  lsw_push_values(L, rows, &args);
+  return 1;
+}
+
+/* clamp:set{ friction = }: from now on. */
+static int meth_set(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_hold_args args;
+  const sw_params *rows;
+  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
+  lua_settop(L, 2);
+  lsw_must(L, sw_scene_editable(scene, &err), &err);
+  lsw_must(L, sw_scene_hold_args(scene, c->id, &rows, &args, &err), &err);
+  lsw_changes(L, 2, lua_pushfstring(L, "%s:set", rows->object), rows, &args);
+  lsw_must(L, sw_scene_set_hold(scene, c->id, &args, &err), &err);
+  return 0;
+}
+
+/* --- sliders -------------------------------------------------------------------- */
+
+/* slider:place() -> place along the rail, speed, force on the wire along it [m], [m/s], [N] */
+static int meth_place(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_slide_state state;
+  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
+  lsw_must(L, sw_scene_slide_state(scene, c->id, &state, &err), &err);
+  lua_pushnumber(L, state.place);
+  lua_pushnumber(L, state.speed);
+  lua_pushnumber(L, state.force);
+  return 3;
+}
+
 /* --- feeds ---------------------------------------------------------------------- */
 
 static sw_feed_state feed_state(lua_State *L) {
@@ -181,7 +234,7 @@ static int meth_drive_force(lua_State *L) {
 /* The argument at 2, checked as the parameter of that name of scene:feed is. */
 static double feed_argument(lua_State *L, const char *name) {
   sw_error err;
-  const sw_params *rows = &sw_hold_find("feed")->params;
+  const sw_params *rows = &sw_link_find("feed")->params;
   size_t i = 0;
   while (i + 1 < rows->count && strcmp(rows->rows[i].name, name) != 0) i++;
   const sw_param *row = &rows->rows[i];
@@ -334,6 +387,9 @@ static const luaL_Reg methods[] = {{"force", meth_force},
                                    {"release", meth_release},
                                    {"log", meth_log},
                                    {"crash", meth_crash},
+                                   {"get", meth_get},
+                                   {"set", meth_set},
+                                   {"place", meth_place},
                                    {"fed", meth_fed},
                                    {"feed", meth_feed},
                                    {"speed", meth_speed},

@@ -39,7 +39,7 @@ int lsw_scene_join(lua_State *L) {
   sw_join_end ends[SW_JOIN_ENDS];
   sw_error err = {""};
   lua_settop(L, 2);
-  lsw_arguments(L, 2, "scene:join", &sw_join_params, &args);
+  lsw_arguments(L, 2, "scene:join", &sw_link_find("join")->params, &args);
   if (!lua_istable(L, 2) || lua_getfield(L, 2, "ends") != LUA_TTABLE)
     return luaL_error(L, "scene:join: ends is required: a list of { wire, s = arc length }");
   const size_t count = lua_rawlen(L, 3);

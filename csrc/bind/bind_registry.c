@@ -70,10 +70,11 @@ static void models(lua_State *L) {
 }
 
 static void holds(lua_State *L) {
-  for (int i = 0; sw_hold_all()[i]; i++) {
-    push_entry(L, sw_hold_all()[i]->name, sw_hold_all()[i]->summary);
-    set_params(L, &sw_hold_all()[i]->params);
-    lua_rawseti(L, -2, i + 1);
+  for (int i = 0, n = 0; sw_link_all()[i]; i++) {
+    if (!sw_link_all()[i]->hold) continue;
+    push_entry(L, sw_link_all()[i]->name, sw_link_all()[i]->summary);
+    set_params(L, &sw_link_all()[i]->params);
+    lua_rawseti(L, -2, ++n);
   }
 }
 
@@ -128,7 +129,7 @@ static void params(lua_State *L) {
                 {"settle", &sw_settle_params},
                 {"frequencies", &sw_modes_params},
                 {"wire_contact", &sw_wire_contact_params},
-                {"join", &sw_join_params},
+                {"join", &sw_link_find("join")->params},
                 {"minimise", &sw_minimise_params},
                 {"particles", &sw_particles_params},
                 {"repel", &sw_repel_pairs_params},

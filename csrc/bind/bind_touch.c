@@ -12,7 +12,8 @@ static sw_handle *read_wires(lua_State *L, const sw_scene *scene, size_t *count)
   const int at = lua_gettop(L);
   const int single = lsw_test(L, at, &lsw_class_wire) || lsw_test(L, at, &lsw_class_particles);
   if (!single && !lua_istable(L, at))
-    luaL_error(L, "%s is a wire, an object of particles or a list of these, got %s", what, lsw_describe(L, at));
+    luaL_error(L, "%s is a wire, an object of particles or a list of these, got %s", what,
+               lsw_describe(L, at));
   *count = single ? 1 : lua_rawlen(L, at);
   if (!*count) luaL_error(L, "%s lists no wire; leave it out for all wires", what);
   sw_handle *wires = lua_newuserdatauv(L, *count * sizeof *wires, 0);

@@ -5,26 +5,6 @@
 
 #include "bind/child.h"
 
-/* The points under key `path` as a flat array owned by a new userdata on the
- * stack (so that errors free it), or NULL without the key. */
-static double *read_path(lua_State *L, int table, size_t *count) {
-  *count = 0;
-  if (lua_getfield(L, table, "path") == LUA_TNIL) return NULL;
-  if (!lua_istable(L, -1))
-    luaL_error(L, "wire: path must be a list of points {x, y, z} [m], got %s", lsw_describe(L, -1));
-  const size_t n = lua_rawlen(L, -1);
-  if (n > 10000000) luaL_error(L, "wire: path has %d points; at most 10000000", (int)n);
-  double *points = lua_newuserdatauv(L, (3 * n + 1) * sizeof *points, 0);
-  for (size_t i = 0; i < n; i++) {
-    lua_geti(L, -2, (lua_Integer)i + 1);
-    const char *what = lua_pushfstring(L, "wire: path, point %d", (int)i + 1);
-    sw_store(points + 3 * i, lsw_vector(L, -2, what, "m"));
-    lua_pop(L, 2);
-  }
-  *count = n;
-  return points;
-}
-
 int lsw_read_model(lua_State *L, int table) {
   const char *names[32];
   size_t count = 0;
@@ -121,7 +101,7 @@ int lsw_scene_wire(lua_State *L) {
   lsw_must(L, sw_section_beam(object, &section, &beam, &err), &err);
   if (beam.EI == 0 && strcmp(sw_wire_all()[args.model]->name, "string") != 0)
     luaL_error(L, "%s: EI = 0 N m2 is allowed with model = 'string' only", object);
-  const double *points = read_path(L, 2, &count);
+  const double *points = lsw_read_points(L, 2, "path", "wire", &count);
   lsw_child *child = lsw_new_child(L, 1, &lsw_class_wire);
   lsw_must(L,
            sw_scene_add_wire(owner->h.object, &args, &beam, &mesh, points, count, &child->id, &err),

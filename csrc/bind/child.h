@@ -43,13 +43,10 @@ const lsw_child *lsw_find_child(lua_State *L, const lsw_class *c, sw_scene **sce
 void lsw_must(lua_State *L, sw_status status, const sw_error *err);
 
 /* scene:<kind>(wire, {...}) for holds; scene:obstacle{...}; scene:force{...} */
-int lsw_scene_clamp(lua_State *L);
-int lsw_scene_pin(lua_State *L);
-int lsw_scene_grip(lua_State *L);
-int lsw_scene_feed(lua_State *L);
 int lsw_scene_wire(lua_State *L);
 int lsw_scene_particles(lua_State *L);
 int lsw_hold_particles(lua_State *L);
+void lsw_add_holds(lua_State *L); /* a method of scene for each class of holds */
 int lsw_scene_join(lua_State *L);
 int lsw_scene_obstacle(lua_State *L);
 int lsw_scene_tool(lua_State *L);

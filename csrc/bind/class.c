@@ -236,6 +236,7 @@ static void open_class(lua_State *L, const lsw_class *c) {
   lua_setfield(L, -2, "__name");
   lua_newtable(L);
   luaL_setfuncs(L, c->methods, 0);
+  if (c->more) c->more(L);
   if (c->close) {
     lua_pushlightuserdata(L, (void *)c);
     lua_pushcclosure(L, meta_gc, 1);

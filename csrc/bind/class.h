@@ -20,6 +20,7 @@ typedef struct lsw_class {
   const char *name; /* "scene": the word used in messages, type() and tostring */
   size_t size;      /* of the userdata; starts with an lsw_handle [B] */
   const luaL_Reg *methods;
+  void (*more)(lua_State *L);        /* adds methods to the table on top, or NULL */
   const luaL_Reg *meta;              /* more metamethods, or NULL */
   const luaL_Reg *properties;        /* getters called as f(object), or NULL */
   void (*close)(lsw_handle *h);      /* frees h->object; never called with NULL there. NULL: the
@@ -74,6 +75,11 @@ void lsw_sections(lua_State *L, int index, const char *object, const lsw_section
 
 /* object:set{...}: read over what args has; rows that do not change raise. */
 void lsw_changes(lua_State *L, int index, const char *object, const sw_params *params, void *args);
+
+/* The points under a key of the table as a flat array owned by a new userdata on the stack (so that
+ * errors free it), or NULL without the key. */
+double *lsw_read_points(lua_State *L, int table, const char *key, const char *object,
+                        size_t *count);
 
 /* object:get(): push a table of what args has. */
 void lsw_push_values(lua_State *L, const sw_params *params, const void *args);

@@ -72,7 +72,7 @@ static void block(const lever *l, sw_vec n, const double K[6], int i, int j, dou
 /* Between nodes i < j of a touch: of one edge, or of both things. */
 static sw_status couple(sw_system *s, const sw_grain_pair *k, int i, int j, const uint32_t *node,
                         const double K[9]) {
-  if (i < 2 && j >= 2) return sw_system_add_link(s, node[i], node[j], K);
+  if (i < 2 && j >= 2) return sw_system_add_bridge(s, node[i], node[j], K);
   sw_body *b = &s->bodies[k->body[i / 2]];
   const size_t first = b->first_node;
   if (b->plan->web) {

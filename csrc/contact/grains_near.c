@@ -226,7 +226,7 @@ static sw_status search(sw_grains *g, const sw_system *s) {
 static sw_status plan_links(sw_system *s, const sw_grain_pair *k) {
   for (int i = 0; i < (k->end[0] != k->node[0] ? 2 : 1); i++)
     for (int j = 0; j < (k->end[1] != k->node[1] ? 2 : 1); j++)
-      SW_TRY(sw_system_plan_link(s, i ? k->end[0] : k->node[0], j ? k->end[1] : k->node[1]));
+      SW_TRY(sw_system_plan_bridge(s, i ? k->end[0] : k->node[0], j ? k->end[1] : k->node[1]));
   return SW_OK;
 }
 

@@ -92,7 +92,7 @@ static sw_status link_nodes(sw_system *s, const sw_pair *k, const double w[4], c
   for (uint32_t i = 0; i < 2; i++)
     for (uint32_t j = 0; j < 2 && takes_part(w, slides, (int)i); j++)
       if (takes_part(w, slides, 2 + (int)j))
-        SW_TRY(sw_system_add_link(s, k->one + i, k->two + j, block[i][2 + j]));
+        SW_TRY(sw_system_add_bridge(s, k->one + i, k->two + j, block[i][2 + j]));
   return SW_OK;
 }
 

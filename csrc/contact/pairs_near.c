@@ -292,7 +292,7 @@ static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double su
                  .usual = fmax(fmin(p->base_stiffness[n->body[0]], p->base_stiffness[n->body[1]]),
                                p->rate2 * lighter_mass(s, n))};
   for (uint32_t i = 0; i < 2 && !k->held; i++)
-    for (uint32_t j = 0; j < 2; j++) SW_TRY(sw_system_plan_link(s, k->one + i, k->two + j));
+    for (uint32_t j = 0; j < 2; j++) SW_TRY(sw_system_plan_bridge(s, k->one + i, k->two + j));
   return SW_OK;
 }
 

@@ -358,7 +358,7 @@ void sw_contact_add_spots(sw_contact *c, const sw_system *s, sw_spots *to) {
   for (size_t first = 0, end; first < c->touch_count; first = end) {
     const double scale = sw_contact_scale(c, first, &end);
     const uint32_t one = (uint32_t)c->touches[first].body, body[2] = {one, one};
-    if (!s->bodies[body[0]].linked) continue;
+    if (!s->bodies[body[0]].bridged) continue;
     for (size_t i = first; i < end; i++) {
       sw_touch *t = &c->touches[i];
       sw_spot spot = {

@@ -71,12 +71,12 @@ static void follow(sw_spots *g, sw_system *s, int back) {
                           : sw_press_follow(t->press, t->friction, shift_of(t, s->delta));
     if (sw_norm2(f) > 0) push(s, t, f, g->more);
   }
-  sw_links_solve_again(s, g->more);
+  sw_bridges_solve_again(s, g->more);
   for (size_t i = 0; i < 3 * s->nodes; i++) s->delta[i] += g->more[i];
 }
 
 void sw_spots_follow(sw_spots *g, sw_system *s) {
-  if (!sw_links_solves_again(s) || !lags(g, s->delta)) return;
+  if (!sw_bridges_solves_again(s) || !lags(g, s->delta)) return;
   if (sw_grow((void **)&g->more, &g->room, 3 * s->nodes, sizeof *g->more) != SW_OK) return;
   double before = off(g, s->delta);
   for (int k = 0; k < MOST_FOLLOW && lags(g, s->delta); k++) {
@@ -89,5 +89,5 @@ void sw_spots_follow(sw_spots *g, sw_system *s) {
     if (!(after <= ENOUGH * before)) break;
     before = after;
   }
-  sw_links_take_solution(s);
+  sw_bridges_take_solution(s);
 }

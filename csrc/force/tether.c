@@ -8,6 +8,7 @@
 
 #include "force/axis.h"
 #include "force/force.h"
+#include "state/tie.h"
 
 typedef struct tether_args {
   double s;         /* [m] */
@@ -24,13 +25,13 @@ static const sw_param rows[] = {
      offsetof(tether_args, to), "the point"},
     {"slack", SW_PARAM_NUMBER, "m", 0, 0, HUGE_VAL, 0, NULL, offsetof(tether_args, slack),
      "distance up to which it does not pull"},
-    {"stiffness", SW_PARAM_NUMBER, "N/m", 1e5, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
+    {"stiffness", SW_PARAM_NUMBER, "N/m", SW_TIE_STIFFNESS, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(tether_args, stiffness), "when it is taut"},
     {"strength", SW_PARAM_NUMBER, "N", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(tether_args, strength), "pull at which it breaks (default: never)"},
 };
 
-enum { DISSIPATED, BROKEN, BROKEN_TIME, BROKEN_FORCE, PEAK, HISTORY };
+enum { DISSIPATED, FATE, HISTORY = FATE + SW_TIE_FATE };
 
 static size_t state_size(const sw_plan *plan) {
   (void)plan;
@@ -41,7 +42,7 @@ static size_t state_size(const sw_plan *plan) {
 typedef struct tied {
   size_t i;
   double part[2];  /* shares of both [-] */
-  sw_vec n;        /* from the point to it, of length 1; or none [-] */
+  sw_vec apart;    /* from the point to it [m] */
   double distance; /* [m] */
   double pull;     /* [N] */
 } tied;
@@ -52,18 +53,15 @@ static tied tied_of(const tether_args *a, const sw_field *f) {
   t.i = sw_plan_locate(f->plan, a->s, &fraction);
   t.part[0] = 1.0 - fraction, t.part[1] = fraction;
   const sw_vec at = sw_lerp(sw_axis_at(f, t.i), sw_axis_at(f, t.i + 1), fraction);
-  t.distance = sw_dist(at, a->to);
-  t.n = sw_unit_or(sw_sub(at, a->to), sw_v(0, 0, 0));
-  t.pull = a->stiffness * fmax(0.0, t.distance - a->slack);
+  t.apart = sw_sub(at, a->to);
+  t.distance = sw_norm(t.apart);
+  t.pull = sw_tie_pull(a->stiffness, a->slack, t.distance);
   return t;
 }
 
-/* k (n n' + (1 - slack/d) (I - n n')), times w. */
-static void stiffness_of(const tether_args *a, const tied *t, double w, double K[9]) {
-  const double k = w * a->stiffness, n[3] = {t->n.x, t->n.y, t->n.z};
-  const double across = t->distance > 0 ? k * (1.0 - a->slack / t->distance) : k;
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) K[3 * i + j] = (k - across) * n[i] * n[j] + (i == j ? across : 0.0);
+/* Force on it [N]. */
+static sw_vec force_of(const tied *t, double pull) {
+  return sw_scale(sw_unit_or(t->apart, sw_v(0, 0, 0)), -pull);
 }
 
 enum { NEXT = 6 };
@@ -72,15 +70,15 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   const tether_args *a = args;
   double K[9];
   (void)err;
-  if (f->history && f->history[BROKEN] > 0) return SW_OK;
+  if (f->history && f->history[FATE + SW_TIE_BROKEN] > 0) return SW_OK;
   const tied t = tied_of(a, f);
   if (t.distance <= a->slack && a->slack > 0) return SW_OK;
   const int stiff = (f->want & SW_WANT_STIFFNESS) != 0, web = f->plan->web != NULL;
   for (size_t end = 0; end < 2; end++) {
-    stiffness_of(a, &t, t.part[end] * (web ? 1.0 : t.part[end]), K);
-    sw_axis_put(f, t.i + end, sw_scale(t.n, -t.pull * t.part[end]), stiff ? K : NULL);
+    sw_tie_stiffness(a->stiffness, a->slack, t.apart, t.part[end] * (web ? 1.0 : t.part[end]), K);
+    sw_axis_put(f, t.i + end, force_of(&t, t.pull * t.part[end]), stiff ? K : NULL);
   }
-  stiffness_of(a, &t, t.part[0] * t.part[1], K);
+  sw_tie_stiffness(a->stiffness, a->slack, t.apart, t.part[0] * t.part[1], K);
   for (size_t k = 0; stiff && !web && k < 9; k++) f->rows[SW_FIELD_ROW * t.i + NEXT + k] += K[k];
   if (f->want & SW_WANT_ENERGY) f->energy += 0.5 * t.pull * t.pull / a->stiffness;
   return SW_OK;
@@ -88,17 +86,14 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
 
 static double pull(const void *args, const sw_field *f, const double *h, double *bears) {
   const tether_args *a = args;
-  *bears = h[BROKEN] > 0 || isnan(a->strength) ? 0.0 : a->strength;
+  *bears = h[FATE + SW_TIE_BROKEN] > 0 || isnan(a->strength) ? 0.0 : a->strength;
   return *bears > 0 ? tied_of(a, f).pull : 0.0;
 }
 
 static void commit(const void *args, const sw_field *f, double *h) {
   const tether_args *a = args;
   const tied t = tied_of(a, f);
-  if (h[BROKEN] > 0) return;
-  h[PEAK] = fmax(h[PEAK], t.pull);
-  if (!(t.pull > a->strength)) return;
-  h[BROKEN] = 1, h[BROKEN_TIME] = f->time, h[BROKEN_FORCE] = t.pull;
+  if (!sw_tie_suffers(t.pull, a->strength, f->time, h + FATE)) return;
   h[DISSIPATED] += 0.5 * t.pull * t.pull / a->stiffness;
 }
 
@@ -114,10 +109,17 @@ static const char *const outputs[] = {
 
 static void read(const void *args, const sw_field *f, const double *h, double *out) {
   const tied t = tied_of(args, f);
-  const double tension = h[BROKEN] > 0 ? 0.0 : t.pull;
-  const double values[] = {t.distance,       tension,          h[PEAK],
-                           h[BROKEN],        h[BROKEN_TIME],   h[BROKEN_FORCE],
-                           -tension * t.n.x, -tension * t.n.y, -tension * t.n.z};
+  const double *fate = h + FATE, tension = fate[SW_TIE_BROKEN] > 0 ? 0.0 : t.pull;
+  const sw_vec force = force_of(&t, tension);
+  const double values[] = {t.distance,
+                           tension,
+                           fate[SW_TIE_PEAK],
+                           fate[SW_TIE_BROKEN],
+                           fate[SW_TIE_BROKEN_TIME],
+                           fate[SW_TIE_BROKEN_FORCE],
+                           force.x,
+                           force.y,
+                           force.z};
   for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) out[k] = values[k];
 }
 

@@ -38,7 +38,7 @@ void sw_blow_refused(sw_scene *s, double part) {
 /* Nodes that go into a guide press on what is beside it by no blow. */
 static int any_feed(const sw_scene *s) {
   for (size_t k = 0; k < s->hold_count; k++)
-    if (s->holds[k].alive && s->holds[k].cls->feeds) return 1;
+    if (s->holds[k].alive && sw_hold_passes(&s->holds[k])) return 1;
   return 0;
 }
 

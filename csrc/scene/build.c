@@ -175,7 +175,7 @@ static void inherit_twist(sw_scene *s) {
 
 sw_status sw_scene_thaw(sw_scene *s) {
   if (!s->built) return SW_OK;
-  sw_feed_undo(s);
+  sw_scene_undo_holds(s);
   SW_TRY(keep_contact(s));
   SW_TRY(sw_scene_keep_histories(s));
   for (size_t w = 0; w < s->wire_count; w++) {
@@ -210,7 +210,7 @@ static sw_status new_web_plan(const sw_scene *s, size_t w, sw_plan **out) {
   int *held = sw_alloc(web->particles, sizeof *held);
   if (!held) return SW_ENOMEM;
   for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_scene_hold *h = &s->holds[k];
+    const sw_hold *h = &s->holds[k];
     if (!h->alive || h->wire != w) continue;
     for (size_t i = 0; i < h->count; i++) held[h->particle[i]] = SW_HELD;
   }
@@ -220,7 +220,7 @@ static sw_status new_web_plan(const sw_scene *s, size_t w, sw_plan **out) {
 }
 
 /* Place of arc length s in the hold's frame. */
-static sw_vec local_of(const sw_scene_hold *h, double s) {
+static sw_vec local_of(const sw_hold *h, double s) {
   size_t i = 0;
   while (i + 2 < h->count && h->s[i + 1] <= s) i++;
   if (h->count == 1) return sw_load(h->local);
@@ -231,7 +231,7 @@ static sw_vec local_of(const sw_scene_hold *h, double s) {
 /* What a hold has formed is as long as it lies there. */
 static void form(const sw_scene *s, size_t w, sw_plan *plan) {
   for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_scene_hold *h = &s->holds[k];
+    const sw_hold *h = &s->holds[k];
     if (!h->alive || h->wire != w || !h->formed) continue;
     for (size_t e = sw_plan_first(plan, h->s1); e < plan->edges && plan->s[e + 1] <= h->s2; e++)
       plan->rest[e] = sw_dist(local_of(h, plan->s[e]), local_of(h, plan->s[e + 1]));
@@ -252,11 +252,11 @@ static sw_status new_plans(sw_scene *s, sw_plan **plans) {
     size_t n = 0;
     int number = 0;
     for (size_t k = 0; k < s->hold_count; k++) {
-      const sw_scene_hold *h = &s->holds[k];
+      const sw_hold *h = &s->holds[k];
       if (!h->alive) continue;
       if (h->wire == w)
-        places[n++] =
-            (sw_hold_place){h->s1, h->s2, h->cls->clamped, number, {h->give[0], h->give[1]}};
+        places[n++] = (sw_hold_place){
+            h->s1, h->s2, h->cls->hold->direction, number, {h->give[0], h->give[1]}};
       number++;
     }
     status = wire->strand.web
@@ -294,24 +294,22 @@ static sw_status add_terms(sw_scene *s, size_t w) {
   return SW_OK;
 }
 
-static sw_status add_holds(sw_scene *s, size_t alive) {
-  s->hold_slot = sw_alloc(alive, sizeof *s->hold_slot);
-  s->hold_loads = sw_alloc(alive, sizeof *s->hold_loads);
-  if (!s->hold_slot || !s->hold_loads) return SW_ENOMEM;
+static sw_status put_holds(sw_scene *s, sw_rail *rails) {
+  size_t rail_count = 0;
   int number = 0;
   for (size_t k = 0; k < s->hold_count; k++) {
-    sw_scene_hold *h = &s->holds[k];
+    sw_hold *h = &s->holds[k];
     if (!h->alive) continue;
     const sw_body *b = &s->system.bodies[h->wire];
-    h->feed.node = sw_mesh_node(&s->wires[h->wire].mesh, h->s1);
-    h->feed.number = (size_t)number;
+    h->node = sw_mesh_node(&s->wires[h->wire].mesh, h->s1);
+    h->number = (size_t)number;
     for (size_t side = 0; side < 2; side++) {
       const size_t at = 3 * (2 * (size_t)number + side);
       sw_store(s->system.directors + at, h->director[side]);
       sw_store(s->system.normals + at,
                h->give[side].softer > 0 ? h->give[side].axis : h->frame[side].normal);
     }
-    sw_held_node node = {.body = h->wire, .hold = number, .slides = h->cls->feeds};
+    sw_held_node node = {.body = h->wire, .hold = number, .slides = sw_hold_passes(h)};
     for (size_t i = 0; b->plan->web && i < h->count; i++) {
       node.node = b->first_node + h->particle[i], node.local = sw_vec_at(h->local, i);
       s->system.held[s->system.held_count++] = node;
@@ -322,9 +320,23 @@ static sw_status add_holds(sw_scene *s, size_t alive) {
       node.node = b->first_node + i, node.local = local_of(h, b->plan->s[i]);
       s->system.held[s->system.held_count++] = node;
     }
+    if (h->cls->hold->rail) {
+      h->slider.rail = rail_count;
+      h->cls->hold->rail(h, &rails[rail_count]);
+      rails[rail_count++].held = s->system.held_count - 1;
+    }
     s->hold_slot[number++] = (int)k;
   }
-  return SW_OK;
+  return sw_system_set_rails(&s->system, rails, rail_count);
+}
+
+static sw_status add_holds(sw_scene *s, size_t alive) {
+  s->hold_slot = sw_alloc(alive, sizeof *s->hold_slot);
+  s->hold_loads = sw_alloc(alive, sizeof *s->hold_loads);
+  sw_rail *rails = sw_alloc(alive, sizeof *rails);
+  const sw_status status = s->hold_slot && s->hold_loads && rails ? put_holds(s, rails) : SW_ENOMEM;
+  sw_free(rails);
+  return status;
 }
 
 static sw_pose part_way(const sw_pose *from, const sw_pose *to, double share) {
@@ -336,10 +348,13 @@ static sw_pose part_way(const sw_pose *from, const sw_pose *to, double share) {
 static sw_status place_hold(void *user, int hold, double t, sw_hold_state *out, sw_error *err) {
   sw_scene *s = user;
   sw_motion_state m;
-  sw_scene_hold *h = &s->holds[s->hold_slot[hold]];
+  sw_hold *h = &s->holds[s->hold_slot[hold]];
   SW_TRY(sw_drive_eval(s, &h->drive, t, &m, err));
   *out = (sw_hold_state){m.pose, m.v, m.a, m.omega, m.alpha};
-  if (h->cls->feeds) sw_feed_place(s, h, t, out);
+  if (h->cls->hold->place) {
+    const sw_link_wire w = sw_scene_link_wire(s, h->wire);
+    h->cls->hold->place(h, &w, t, out);
+  }
   if (s->part_from) out->pose = part_way(&s->part_from[hold], &m.pose, s->part);
   return SW_OK;
 }
@@ -408,13 +423,16 @@ static sw_status fill(sw_scene *s, size_t alive) {
 
 sw_status sw_scene_build(sw_scene *s, sw_error *err) {
   if (!s->built) {
-    size_t alive = 0;
+    size_t alive = 0, rails = 0;
     SW_TRY(sw_scene_check_holds(s, err));
-    for (size_t k = 0; k < s->hold_count; k++) alive += s->holds[k].alive != 0;
+    for (size_t k = 0; k < s->hold_count; k++) {
+      alive += s->holds[k].alive != 0;
+      rails += s->holds[k].alive && s->holds[k].cls->hold->rail;
+    }
     sw_plan **plans = sw_alloc(s->wire_count, sizeof(sw_plan *));
     sw_status status = plans ? new_plans(s, plans) : SW_ENOMEM;
     if (status == SW_OK) status = stopped(s);
-    if (status == SW_OK) status = sw_system_new(&s->system, plans, s->wire_count, alive);
+    if (status == SW_OK) status = sw_system_new(&s->system, plans, s->wire_count, alive, rails);
     if (status == SW_OK) status = stopped(s);
     if (status == SW_OK) status = fill(s, alive);
     if (status == SW_OK) status = stopped(s);

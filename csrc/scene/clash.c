@@ -10,7 +10,7 @@ static const double SAME_PLACE = 1e-9; /* of the wire's length: rounding [-] */
 /* Wire between two holds, of the whole: its edges, a quarter as long, must be told from nothing. */
 static const double LEAST_BETWEEN = 1e-6; /* [-] */
 
-static sw_status say_held(const sw_scene_wire *w, const sw_scene_hold *by, const char *what,
+static sw_status say_held(const sw_scene_wire *w, const sw_hold *by, const char *what,
                           sw_error *err) {
   const double start = w->mesh.s[0];
   return sw_fail(err, SW_EINVAL,
@@ -18,12 +18,12 @@ static sw_status say_held(const sw_scene_wire *w, const sw_scene_hold *by, const
                  by->name, by->s1 - start, by->s2 - start);
 }
 
-sw_status sw_scene_check_clear(const sw_scene *s, size_t wire, const sw_scene_hold *self,
+sw_status sw_scene_check_clear(const sw_scene *s, size_t wire, const sw_hold *self,
                                const char *what, double s1, double s2, sw_error *err) {
   const sw_scene_wire *w = &s->wires[wire];
   const double start = w->mesh.s[0], length = w->mesh.s[w->mesh.n - 1] - start;
   for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_scene_hold *h = &s->holds[k];
+    const sw_hold *h = &s->holds[k];
     if (!h->alive || h->wire != wire || h == self) continue;
     const double between = fmax(s1 - h->s2, h->s1 - s2);
     if (!(between > SAME_PLACE * length)) return say_held(w, h, what, err);
@@ -36,8 +36,7 @@ sw_status sw_scene_check_clear(const sw_scene *s, size_t wire, const sw_scene_ho
   return SW_OK;
 }
 
-static sw_status say_twice(const sw_scene *s, const sw_scene_hold *a, const sw_scene_hold *b,
-                           sw_error *err) {
+static sw_status say_twice(const sw_scene *s, const sw_hold *a, const sw_hold *b, sw_error *err) {
   const sw_scene_wire *w = &s->wires[a->wire];
   const double start = w->mesh.s[0];
   return sw_fail(err, SW_EINVAL,
@@ -48,16 +47,15 @@ static sw_status say_twice(const sw_scene *s, const sw_scene_hold *a, const sw_s
 }
 
 /* Of a wire that is a line. */
-static sw_status check_line(const sw_scene *s, const sw_scene_hold *h, sw_error *err) {
-  for (const sw_scene_hold *o = s->holds; o < h; o++)
+static sw_status check_line(const sw_scene *s, const sw_hold *h, sw_error *err) {
+  for (const sw_hold *o = s->holds; o < h; o++)
     if (o->alive && o->wire == h->wire && o->s1 <= h->s2 && h->s1 <= o->s2)
       return say_twice(s, o, h, err);
   return SW_OK;
 }
 
 /* Of a mesh: taken (particles) has 1 + the slot of what holds a particle. */
-static sw_status take_particles(const sw_scene *s, const sw_scene_hold *h, size_t *taken,
-                                sw_error *err) {
+static sw_status take_particles(const sw_scene *s, const sw_hold *h, size_t *taken, sw_error *err) {
   const size_t particles = s->wires[h->wire].strand.web->particles;
   for (size_t i = 0; i < h->count; i++) {
     const size_t p = h->particle ? h->particle[i] : particles;

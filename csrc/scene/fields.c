@@ -58,14 +58,14 @@ sw_status sw_scene_fields(const sw_scene *s, unsigned char **out, size_t *size) 
     sw_tape_raw(&t, &obstacle, sizeof obstacle);
   }
   for (size_t k = 0; k < s->hold_count; k++) {
-    sw_scene_hold hold = s->holds[k];
-    hold.feed.node = hold.feed.number = 0;
+    sw_hold hold = s->holds[k];
+    hold.node = hold.number = hold.slider.rail = 0;
     sw_tape_raw(&t, &hold, sizeof hold);
   }
   put_list(&t, s->tools, s->tool_count, sizeof *s->tools);
   put_list(&t, s->forces, s->force_count, sizeof *s->forces);
   for (size_t k = 0; k < s->join_count; k++) {
-    sw_scene_join join = s->joins[k];
+    sw_joint join = s->joins[k];
     join.spring = 0;
     sw_tape_raw(&t, &join, sizeof join);
   }

@@ -122,7 +122,7 @@ static sw_status fill_bodies(sw_scene *s, float **to, sw_error *err) {
     p[SW_FRAME_BODY] = (float)s->obstacles[k].alive;
   }
   for (size_t k = 0; k < s->hold_count; k++, p += HOLD) {
-    const sw_scene_hold *h = &s->holds[k];
+    const sw_hold *h = &s->holds[k];
     at.pose = h->last_pose;
     if (h->alive) SW_TRY(sw_drive_eval(s, &h->drive, s->time, &at, err));
     store_body(p, at.pose, h->alive ? h->force : sw_v(0, 0, 0));

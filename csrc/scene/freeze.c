@@ -95,7 +95,7 @@ static sw_status become_rod(sw_scene *s, sw_handle wire, const sw_line *line, sw
 /* The tool's grip on the rod. */
 static sw_status grip(sw_scene *s, sw_handle tool, const sw_frozen *f, const sw_grip_end ends[2],
                       sw_freeze_report *out, sw_error *err) {
-  const sw_hold_class *cls = sw_hold_find("grip");
+  const sw_link_class *cls = sw_link_find("grip");
   sw_hold_args args;
   sw_params_default(&cls->params, &args);
   out->s1 = ends[0].s, out->s2 = ends[1].s;
@@ -103,7 +103,7 @@ static sw_status grip(sw_scene *s, sw_handle tool, const sw_frozen *f, const sw_
   args.width = out->s2 - out->s1;
   args.direction = sw_v(NAN, NAN, NAN);
   SW_TRY(sw_scene_add_hold(s, cls, f->wire, &args, &out->hold, err));
-  sw_scene_hold *h = &s->holds[out->hold.slot];
+  sw_hold *h = &s->holds[out->hold.slot];
   h->formed = 1;
   for (size_t k = 0; k < 2; k++) {
     const sw_vec at = sw_sub(ends[k].at, h->drive.pose.p);
@@ -145,7 +145,7 @@ static sw_status change_to_rod(sw_scene *s, sw_handle tool, sw_frozen *f, const 
   sw_momentum_about(s, f->wire.slot, about, out->after);
   out->energy_after = sw_scene_total_energy(s, err);
   SW_TRY(keep_rod(s, f, err));
-  sw_scene_hold *h = &s->holds[out->hold.slot];
+  sw_hold *h = &s->holds[out->hold.slot];
   sw_motion_state at;
   SW_TRY(sw_drive_eval(s, &h->drive, s->time, &at, err));
   h->force = out->force; /* until a step tells: what the pads did */

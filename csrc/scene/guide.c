@@ -3,30 +3,9 @@
 #include <math.h>
 
 #include "base/alloc.h"
-#include "scene/spool.h"
+#include "link/spool.h"
 #include "scene/world.h"
 #include "state/hinge.h"
-
-void sw_feed_rest(sw_scene_hold *h, double s) {
-  const sw_quat q = sw_spool_at(&h->feed.shape, s).q;
-  for (int side = 0; side < 2; side++) {
-    h->frame[side].rest_tangent = sw_spool_tangent(q);
-    h->frame[side].rest_normal = sw_spool_normal(q);
-  }
-}
-
-void sw_feed_shape(sw_scene *s, sw_scene_hold *h) {
-  sw_mesh *m = &s->wires[h->wire].mesh;
-  sw_plan *p = s->system.bodies[h->wire].plan;
-  const size_t node = h->feed.node;
-  if (!m->rest) return;
-  const double kept = m->s[node];
-  m->s[node] = p->s[node];
-  sw_spool_node(m, &h->feed.shape, node);
-  m->s[node] = kept;
-  sw_feed_rest(h, p->s[node]);
-  sw_scene_unloaded_near(s, h->wire, p, node);
-}
 
 /* First edges between these shares of the second one keep the clamp's quadrature good; beyond
  * that nodes are made and removed. Apart by more than one, so that a feed that goes to and fro
@@ -40,8 +19,8 @@ enum { LEAST_FREE = 2, LEAST_HELD = 3 }; /* edges to keep before a free end and 
 
 double sw_feed_step(const sw_scene *s, double h) {
   for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_scene_hold *o = &s->holds[k];
-    if (!o->alive || !o->cls->feeds) continue;
+    const sw_hold *o = &s->holds[k];
+    if (!o->alive || !sw_hold_passes(o)) continue;
     const double most = LARGEST_SHARE * o->feed.size, now = sw_feed_at(o, s->time).fed;
     double way = fabs(sw_feed_at(o, s->time + h).fed - now);
     for (int i = 0; way > most && i < 60; i++) { /* in even parts: a tiny one would be a kick */
@@ -53,11 +32,11 @@ double sw_feed_step(const sw_scene *s, double h) {
 }
 
 sw_status sw_feed_too_fast(const sw_scene *s, const char *refused, sw_error *err) {
-  const sw_scene_hold *fastest = NULL;
+  const sw_hold *fastest = NULL;
   double most = -1;
   for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_scene_hold *o = &s->holds[k];
-    if (!o->alive || !o->cls->feeds) continue;
+    const sw_hold *o = &s->holds[k];
+    if (!o->alive || !sw_hold_passes(o)) continue;
     const double speed = fabs(sw_feed_at(o, s->time).speed);
     if (speed > most) most = speed, fastest = o;
   }
@@ -71,7 +50,7 @@ sw_status sw_feed_too_fast(const sw_scene *s, const char *refused, sw_error *err
 /* One side of a guide. */
 typedef struct guide {
   const sw_scene *s;
-  sw_scene_hold *h;
+  sw_hold *h;
   sw_mesh *m;
   int side;
   sw_vec director, normal; /* of the wire in the guide [-] */
@@ -90,12 +69,12 @@ static double edge_length(const guide *g, long k) {
 }
 
 /* Edges up to the wire's end or the next hold, and that hold. */
-static size_t edges_left(const sw_scene *s, const guide *g, const sw_scene_hold **next) {
+static size_t edges_left(const sw_scene *s, const guide *g, const sw_hold **next) {
   const double from = g->h->s1;
   double to = g->side > 0 ? g->m->s[g->m->n - 1] : g->m->s[0];
   *next = NULL;
   for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_scene_hold *o = &s->holds[k];
+    const sw_hold *o = &s->holds[k];
     if (!o->alive || o == g->h || o->wire != g->h->wire) continue;
     const double near = g->side > 0 ? o->s1 : o->s2;
     if ((near - from) * g->side < 0 || (near - to) * g->side > 0) continue;
@@ -294,7 +273,7 @@ enum { FINE = 0, ADD = 1, TAKE = 2, EMPTY = 3 };
 
 /* What a guide's side needs for first edges between two lengths; that now is one of them. */
 static int needs(const sw_scene *s, const guide *g, double change) {
-  const sw_scene_hold *next;
+  const sw_hold *next;
   const double now = edge_length(g, 0), then = now + change, second = edge_length(g, 1);
   if (!(now > 0)) return FINE; /* no wire there: the spool's side */
   if (now > LONGEST * g->h->feed.size) return ADD;
@@ -305,7 +284,7 @@ static int needs(const sw_scene *s, const guide *g, double change) {
 }
 
 static sw_status say_empty(const sw_scene *s, const guide *g, sw_error *err) {
-  const sw_scene_hold *next;
+  const sw_hold *next;
   const double from = g->h->s1;
   edges_left(s, g, &next);
   const double end = g->side > 0 ? g->m->s[g->m->n - 1] : g->m->s[0];
@@ -318,14 +297,14 @@ static sw_status say_empty(const sw_scene *s, const guide *g, sw_error *err) {
 }
 
 /* The guide's side of hold h; directions are as the holds were last placed. */
-static guide guide_of(sw_scene *s, sw_scene_hold *h, int side, const sw_vec *axes) {
+static guide guide_of(sw_scene *s, sw_hold *h, int side, const sw_vec *axes) {
   guide g = {.s = s, .h = h, .m = &s->wires[h->wire].mesh, .side = side, .director = axes[0]};
   g.normal = g.m->rest ? axes[1] : sw_perpendicular(axes[0]);
   return g;
 }
 
 /* Work on one hold: side by side, as long as something is needed. With edit 0 only look. */
-static sw_status tend(sw_scene *s, sw_scene_hold *h, double fed, int edit, const sw_vec *axes,
+static sw_status tend(sw_scene *s, sw_hold *h, double fed, int edit, const sw_vec *axes,
                       int *wanted, sw_error *err) {
   for (int side = -1; side < 2; side += 2) {
     guide g = guide_of(s, h, side, axes);
@@ -335,7 +314,7 @@ static sw_status tend(sw_scene *s, sw_scene_hold *h, double fed, int edit, const
       if (need == EMPTY) return say_empty(s, &g, err);
       *wanted = 1;
       if (!edit) break;
-      const sw_scene_hold *next;
+      const sw_hold *next;
       g.left = edges_left(s, &g, &next);
       if (need == TAKE)
         take_node(&g);
@@ -350,10 +329,10 @@ static sw_status tend(sw_scene *s, sw_scene_hold *h, double fed, int edit, const
 static sw_status tend_all(sw_scene *s, double t, const sw_vec *axes, int *wanted, sw_error *err) {
   static const sw_vec looking[2] = {{1, 0, 0}, {0, 1, 0}};
   for (size_t k = 0; k < s->hold_count; k++) {
-    sw_scene_hold *h = &s->holds[k];
-    if (!h->alive || !h->cls->feeds) continue;
+    sw_hold *h = &s->holds[k];
+    if (!h->alive || !sw_hold_passes(h)) continue;
     const double fed = sw_feed_at(h, t).fed - sw_feed_at(h, s->time).fed;
-    SW_TRY(tend(s, h, fed, axes != NULL, axes ? axes + 2 * h->feed.number : looking, wanted, err));
+    SW_TRY(tend(s, h, fed, axes != NULL, axes ? axes + 2 * h->number : looking, wanted, err));
   }
   return SW_OK;
 }

@@ -8,6 +8,44 @@
 #include "scene/world.h"
 #include "state/hinge.h"
 
+static void reshaped(void *user, size_t wire, size_t node) {
+  const sw_scene *s = user;
+  sw_scene_unloaded_near(s, wire, s->system.bodies[wire].plan, node);
+}
+
+sw_link_wire sw_scene_link_wire(const sw_scene *s, size_t wire) {
+  sw_scene_wire *w = &s->wires[wire];
+  return (sw_link_wire){.name = w->name,
+                        .mesh = &w->mesh,
+                        .beam = &w->beam,
+                        .time = s->time,
+                        .system = (sw_system *)&s->system,
+                        .body = wire,
+                        .user = (void *)s,
+                        .reshaped = reshaped};
+}
+
+void sw_scene_follow_holds(sw_scene *s) {
+  for (size_t k = 0; k < s->hold_count; k++) {
+    sw_hold *h = &s->holds[k];
+    const sw_link_wire w = sw_scene_link_wire(s, h->wire);
+    if (h->alive && h->cls->hold->follow && h->cls->hold->follow(h, &w)) s->discontinuous = 1;
+  }
+}
+
+void sw_scene_undo_holds(sw_scene *s) {
+  for (size_t k = 0; k < s->hold_count; k++) {
+    sw_hold *h = &s->holds[k];
+    const sw_link_wire w = sw_scene_link_wire(s, h->wire);
+    if (h->alive && h->cls->hold->undo) h->cls->hold->undo(h, &w);
+  }
+}
+
+sw_hold_way sw_hold_way_of(const sw_scene *s, const sw_hold *h, double t, const double *x) {
+  const sw_link_wire w = sw_scene_link_wire(s, h->wire);
+  return h->cls->hold->passes(h, &w, t, x);
+}
+
 /* All arc lengths of a wire that other holds and joins need as nodes. */
 static size_t kept_places(const sw_scene *s, size_t wire, double *out) {
   size_t n = 0;
@@ -30,7 +68,7 @@ static void held_interval(const sw_mesh *m, const sw_hold_args *a, double *s1, d
   *s2 = sw_mesh_snap(m, a->s + 0.5 * a->width);
 }
 
-static sw_status check_place(const sw_scene *s, const sw_hold_class *cls, size_t wire,
+static sw_status check_place(const sw_scene *s, const sw_link_class *cls, size_t wire,
                              const sw_hold_args *a, sw_error *err) {
   const sw_scene_wire *w = &s->wires[wire];
   const double start = w->mesh.s[0], length = w->mesh.s[w->mesh.n - 1] - start;
@@ -62,9 +100,9 @@ static sw_status halve_edges(sw_mesh *m, double low, double high) {
 }
 
 /* Enough edges between h and the holds beside it. */
-static sw_status refine_gaps(const sw_scene *s, size_t wire, const sw_scene_hold *h, sw_mesh *m) {
+static sw_status refine_gaps(const sw_scene *s, size_t wire, const sw_hold *h, sw_mesh *m) {
   for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_scene_hold *o = &s->holds[k];
+    const sw_hold *o = &s->holds[k];
     if (!o->alive || o->wire != wire || o == h) continue;
     const double low = o->s2 < h->s1 ? o->s2 : h->s2, high = o->s2 < h->s1 ? h->s1 : o->s1;
     for (size_t before = 0; low < high && before < m->n;) { /* ends when nothing is halved */
@@ -82,7 +120,7 @@ static double off_nodes(const sw_mesh *m, double s) {
   return i > 0 ? fmin(fabs(m->s[i] - s), s - m->s[i - 1]) : fabs(m->s[i] - s);
 }
 
-static sw_status place_nodes(sw_scene *s, size_t wire, sw_scene_hold *h, const sw_hold_args *a) {
+static sw_status place_nodes(sw_scene *s, size_t wire, sw_hold *h, const sw_hold_args *a) {
   sw_mesh *m = &s->wires[wire].mesh;
   if (s->wires[wire].strand.web) {
     held_interval(m, a, &h->s1, &h->s2);
@@ -108,7 +146,7 @@ static sw_status place_nodes(sw_scene *s, size_t wire, sw_scene_hold *h, const s
 
 /* Where the held places are in the hold's frame, whose origin is the point at
  * s and whose axes are the world's at this moment. */
-static sw_status take_hold(const sw_mesh *m, sw_scene_hold *h, const sw_hold_args *a) {
+static sw_status take_hold(const sw_mesh *m, sw_hold *h, const sw_hold_args *a) {
   const size_t first = sw_mesh_node(m, h->s1), last = sw_mesh_node(m, h->s2);
   h->count = last - first + 1;
   h->s = sw_alloc(h->count, sizeof *h->s);
@@ -131,7 +169,7 @@ static sw_status take_hold(const sw_mesh *m, sw_scene_hold *h, const sw_hold_arg
 
 /* The same of the particles of a mesh. With a direction given the hold's pose is turned to it,
  * while the wire is not yet. */
-static sw_status take_particles(const sw_scene_wire *w, sw_scene_hold *h, const sw_hold_args *a) {
+static sw_status take_particles(const sw_scene_wire *w, sw_hold *h, const sw_hold_args *a) {
   const sw_web *web = w->strand.web;
   const sw_mesh *m = &w->mesh;
   const size_t first = sw_mesh_node(m, h->s1), last = sw_mesh_node(m, h->s2);
@@ -159,7 +197,7 @@ static sw_status take_particles(const sw_scene_wire *w, sw_scene_hold *h, const 
 
 /* The held directions, taken before nodes move: a moved node turns the edges
  * beside it. */
-static void take_directions(const sw_mesh *m, sw_scene_hold *h, const sw_hold_args *a) {
+static void take_directions(const sw_mesh *m, sw_hold *h, const sw_hold_args *a) {
   double s[2];
   held_interval(m, a, &s[0], &s[1]);
   const int given = isfinite(a->direction.x) && sw_norm(a->direction) > 0;
@@ -174,38 +212,37 @@ static void take_directions(const sw_mesh *m, sw_scene_hold *h, const sw_hold_ar
   }
 }
 
-static sw_status check_axis(const sw_scene_wire *w, const sw_hold_class *cls, const char *what,
+static sw_status check_axis(const sw_scene_wire *w, const sw_link_class *cls, const char *what,
                             sw_error *err) {
   const sw_web *web = w->strand.web;
-  if (!web || cls->clamped || web->axis != web->per_ring) return SW_OK;
+  if (!web || cls->hold->direction || web->axis != web->per_ring) return SW_OK;
   return sw_fail(err, SW_EINVAL,
                  "%s: wire '%s' has no particle on its axis to be held; give the mesh a middle "
                  "(tube: core = true; cubic: across even)",
                  what, w->name);
 }
 
-sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wire,
+sw_status sw_scene_add_hold(sw_scene *s, const sw_link_class *cls, sw_handle wire,
                             const sw_hold_args *given, sw_handle *out, sw_error *err) {
   sw_hold_args own = *given;
   const sw_hold_args *args = &own;
+  const sw_hold_acts *acts = cls->hold;
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
   if (!sw_scene_find_wire(s, wire, err)) return SW_EDEAD;
   own.s += s->wires[wire.slot].mesh.s[0];
   SW_TRY(check_place(s, cls, wire.slot, args, err));
-  if (cls->feeds) SW_TRY(sw_scene_check_line(&s->wires[wire.slot], "feed", err));
+  if (acts->lines) SW_TRY(sw_scene_check_line(&s->wires[wire.slot], cls->name, err));
   SW_TRY(check_axis(&s->wires[wire.slot], cls, cls->name, err));
-  if (cls->feeds && isfinite(args->speed) && isfinite(args->force))
-    return sw_fail(err, SW_EINVAL, "feed: give speed or force, not both; the other one follows");
-  const sw_scene_join *join = cls->feeds ? sw_scene_joined(s, wire.slot) : NULL;
+  const sw_link_wire on_wire = sw_scene_link_wire(s, wire.slot);
+  if (acts->check) SW_TRY(acts->check(&on_wire, &own, err));
+  const sw_joint *join = acts->passes ? sw_scene_joined(s, wire.slot) : NULL;
   if (join)
     return sw_fail(err, SW_EINVAL, "feed: wire '%s' is joined to others by '%s': it cannot be fed",
                    s->wires[wire.slot].name, join->name);
-  if (cls->feeds && sw_feed_outward(&s->wires[wire.slot].mesh, args->s) < 0)
-    own.direction = sw_neg(own.direction); /* it points out of the guide */
   SW_TRY(sw_scene_thaw(s));
   SW_TRY(sw_grow((void **)&s->holds, &s->hold_capacity, s->hold_count + 1, sizeof *s->holds));
-  sw_scene_hold h = {.generation = s->serial + 1, .alive = 1, .cls = cls, .wire = wire.slot};
+  sw_hold h = {.generation = s->serial + 1, .alive = 1, .cls = cls, .wire = wire.slot};
   h.args = *args, h.scale = s->wires[wire.slot].mesh.scale, h.shape = s->serial + 1;
   if (args->name[0])
     memcpy(h.name, args->name, sizeof h.name);
@@ -220,9 +257,12 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wir
     status = take_hold(&on->mesh, &h, args);
   if (status == SW_OK && !on->strand.web)
     status = refine_gaps(s, wire.slot, &h, &s->wires[wire.slot].mesh);
-  if (status == SW_OK && cls->feeds) status = sw_feed_begin(s, &h, args);
+  if (status == SW_OK && acts->begin) {
+    const sw_link_wire of = sw_scene_link_wire(s, wire.slot);
+    status = acts->begin(&h, &of);
+  }
   if (status != SW_OK) {
-    sw_scene_clear_hold(&h);
+    sw_hold_clear(&h);
     return sw_fail(err, status, "%s: out of memory", cls->name);
   }
   *out = (sw_handle){(uint32_t)s->hold_count, ++s->serial};
@@ -231,7 +271,7 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_hold_class *cls, sw_handle wir
 }
 
 /* Places and directions as they are now, in a frame at a pose. */
-static void seen_from(sw_scene_hold *h, sw_pose pose) {
+static void seen_from(sw_hold *h, sw_pose pose) {
   for (size_t i = 0; i < h->count; i++) {
     const sw_vec world = sw_add(sw_vec_at(h->local, i), h->drive.pose.p);
     sw_store(h->local + 3 * i, sw_pose_local(pose, world));
@@ -245,7 +285,7 @@ static void seen_from(sw_scene_hold *h, sw_pose pose) {
 }
 
 /* Can a hold take the wire that has become another one? Those that are alive have done so. */
-static sw_status check_again(const sw_scene *s, const sw_scene_hold *h, const sw_hold_args *a,
+static sw_status check_again(const sw_scene *s, const sw_hold *h, const sw_hold_args *a,
                              sw_error *err) {
   const sw_scene_wire *w = &s->wires[h->wire];
   const sw_web *web = w->strand.web;
@@ -258,10 +298,10 @@ static sw_status check_again(const sw_scene *s, const sw_scene_hold *h, const sw
   return sw_scene_check_clear(s, h->wire, h, what, s1, s2, err);
 }
 
-sw_status sw_scene_rehold(sw_scene *s, sw_scene_hold *h, sw_pose pose, sw_error *err) {
+sw_status sw_scene_rehold(sw_scene *s, sw_hold *h, sw_pose pose, sw_error *err) {
   const sw_scene_wire *w = &s->wires[h->wire];
   sw_hold_args a = h->args;
-  sw_scene_hold new = *h;
+  sw_hold new = *h;
   a.s = 0.5 * (h->s1 + h->s2), a.direction = sw_v(NAN, NAN, NAN);
   new.s = new.local = NULL, new.particle = NULL, new.count = 0;
   h->alive = 0; /* its own places are not in its way */
@@ -292,7 +332,7 @@ sw_status sw_scene_rehold(sw_scene *s, sw_scene_hold *h, sw_pose pose, sw_error 
 
 /* --- another mesh ------------------------------------------------------------------ */
 
-sw_status sw_scene_copy_shape(const sw_scene_hold *from, sw_scene_hold *to) {
+sw_status sw_scene_copy_shape(const sw_hold *from, sw_hold *to) {
   double *s = sw_alloc(from->count, sizeof *s), *local = sw_alloc(3 * from->count, sizeof *local);
   uint32_t *particle = from->particle ? sw_alloc(from->count, sizeof *particle) : NULL;
   if (!s || !local || (from->particle && !particle)) {
@@ -313,10 +353,10 @@ sw_status sw_scene_copy_shape(const sw_scene_hold *from, sw_scene_hold *to) {
   return SW_OK;
 }
 
-sw_status sw_scene_retake_hold(sw_scene *s, sw_scene_hold *h) {
+sw_status sw_scene_retake_hold(sw_scene *s, sw_hold *h) {
   sw_mesh *m = &s->wires[h->wire].mesh;
   sw_hold_args a = h->args;
-  sw_scene_hold new = *h;
+  sw_hold new = *h;
   a.s = fmin(a.s * m->scale / h->scale, m->s[m->n - 1]);
   new.s = new.local = NULL;
   take_directions(m, &new, &a);
@@ -357,8 +397,8 @@ sw_status sw_scene_make_places(const sw_scene *s, size_t wire, sw_mesh *m) {
   return status;
 }
 
-sw_scene_hold *sw_scene_living_hold(const sw_scene *s, sw_handle hold, sw_error *err) {
-  sw_scene_hold *h = sw_scene_find_hold(s, hold, err);
+sw_hold *sw_scene_living_hold(const sw_scene *s, sw_handle hold, sw_error *err) {
+  sw_hold *h = sw_scene_find_hold(s, hold, err);
   if (h && !h->alive) {
     sw_fail(err, SW_EDEAD, "%s '%s' has been released", h->cls->name, h->name);
     return NULL;
@@ -368,7 +408,7 @@ sw_scene_hold *sw_scene_living_hold(const sw_scene *s, sw_handle hold, sw_error 
 
 sw_status sw_scene_release_hold(sw_scene *s, sw_handle hold, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_scene_hold *h = sw_scene_find_hold(s, hold, err);
+  sw_hold *h = sw_scene_find_hold(s, hold, err);
   if (!h) return SW_EDEAD;
   if (!h->alive) return SW_OK;
   sw_motion_state now;
@@ -382,7 +422,7 @@ sw_status sw_scene_release_hold(sw_scene *s, sw_handle hold, sw_error *err) {
 
 sw_status sw_scene_follow(sw_scene *s, sw_handle hold, sw_motion *motion, int relative,
                           sw_error *err) {
-  sw_scene_hold *h = sw_scene_living_hold(s, hold, err);
+  sw_hold *h = sw_scene_living_hold(s, hold, err);
   if (!h) return SW_EDEAD;
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_drive_follow(s, &h->drive, h->name, motion, relative, err));
@@ -391,7 +431,7 @@ sw_status sw_scene_follow(sw_scene *s, sw_handle hold, sw_motion *motion, int re
 }
 
 sw_status sw_scene_set_pose(sw_scene *s, sw_handle hold, sw_pose pose, sw_error *err) {
-  sw_scene_hold *h = sw_scene_living_hold(s, hold, err);
+  sw_hold *h = sw_scene_living_hold(s, hold, err);
   if (!h) return SW_EDEAD;
   SW_TRY(sw_scene_editable(s, err));
   if (h->drive.tool)
@@ -405,7 +445,7 @@ sw_status sw_scene_set_pose(sw_scene *s, sw_handle hold, sw_pose pose, sw_error 
 
 sw_status sw_scene_hold_pose(sw_scene *s, sw_handle hold, sw_pose *out, sw_error *err) {
   sw_motion_state now;
-  sw_scene_hold *h = sw_scene_find_hold(s, hold, err);
+  sw_hold *h = sw_scene_find_hold(s, hold, err);
   if (!h) return SW_EDEAD;
   *out = h->last_pose;
   if (!h->alive) return SW_OK;
@@ -418,7 +458,7 @@ sw_status sw_scene_hold_force(sw_scene *s, sw_handle hold, const sw_vec *about, 
                               sw_vec *moment, sw_error *err) {
   sw_pose pose;
   SW_TRY(sw_scene_readable(s, err));
-  sw_scene_hold *h = sw_scene_living_hold(s, hold, err);
+  sw_hold *h = sw_scene_living_hold(s, hold, err);
   if (!h) return SW_EDEAD;
   if (about) SW_TRY(sw_scene_hold_pose(s, hold, &pose, err));
   *force = h->force;
@@ -426,10 +466,42 @@ sw_status sw_scene_hold_force(sw_scene *s, sw_handle hold, const sw_vec *about, 
   return SW_OK;
 }
 
+sw_status sw_scene_hold_args(const sw_scene *s, sw_handle hold, const sw_params **rows,
+                             sw_hold_args *out, sw_error *err) {
+  const sw_hold *h = sw_scene_living_hold(s, hold, err);
+  if (!h) return SW_EDEAD;
+  *rows = &h->cls->params;
+  *out = h->args;
+  out->s -= s->wires[h->wire].mesh.s[0];
+  memcpy(out->name, h->name, sizeof out->name);
+  if (h->cls->hold->get) h->cls->hold->get(h, out);
+  return SW_OK;
+}
+
+sw_status sw_scene_set_hold(sw_scene *s, sw_handle hold, const sw_hold_args *args, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  sw_hold *h = sw_scene_living_hold(s, hold, err);
+  if (!h) return SW_EDEAD;
+  SW_TRY(sw_scene_thaw(s));
+  if (h->cls->hold->set) h->cls->hold->set(h, args);
+  return SW_OK;
+}
+
+sw_status sw_scene_slide_state(sw_scene *s, sw_handle hold, sw_slide_state *out, sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  const sw_hold *h = sw_scene_living_hold(s, hold, err);
+  if (!h) return SW_EDEAD;
+  if (!h->cls->hold->rail)
+    return sw_fail(err, SW_EINVAL, "%s '%s' has no rail: wires slide along those of scene:slider",
+                   h->cls->name, h->name);
+  *out = (sw_slide_state){h->slider.p, h->slider.v, h->slider.force};
+  return SW_OK;
+}
+
 sw_status sw_scene_hold_log(sw_scene *s, sw_handle hold, const double **rows, size_t *count,
                             sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
-  const sw_scene_hold *h = sw_scene_find_hold(s, hold, err);
+  const sw_hold *h = sw_scene_find_hold(s, hold, err);
   if (!h) return SW_EDEAD;
   *rows = h->log.rows;
   *count = h->log.count / SW_LOG_SIZE;
@@ -450,4 +522,3 @@ sw_status sw_scene_obstacle_log(sw_scene *s, sw_handle obstacle, const double **
   *count = o->log.count / SW_LOG_OBSTACLE_SIZE;
   return SW_OK;
 }
-

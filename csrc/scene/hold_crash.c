@@ -17,11 +17,11 @@ static const double NOTICED = 1e-5; /* at least [m] */
 static const double STRIDE = 0.5;
 enum { MOST_LOOKS = 32 };
 
-static double skin_of(const sw_scene *s, const sw_scene_hold *h) {
+static double skin_of(const sw_scene *s, const sw_hold *h) {
   return sw_plan_skin(s->system.bodies[h->wire].plan, h->particle ? h->particle[0] : 0);
 }
 
-static double reach_of(const sw_scene_hold *h) {
+static double reach_of(const sw_hold *h) {
   double far = 0;
   for (size_t i = 0; i < h->count; i++) far = fmax(far, sw_norm(sw_vec_at(h->local, i)));
   return far;
@@ -29,7 +29,7 @@ static double reach_of(const sw_scene_hold *h) {
 
 /* How deep the held places, and what is between them, are in a shape in which the hold has this
  * pose [m]. */
-static double depth_at(const sw_scene_hold *h, const sw_shape *shape, sw_pose pose, double skin) {
+static double depth_at(const sw_hold *h, const sw_shape *shape, sw_pose pose, double skin) {
   double depth = 0;
   sw_vec before = sw_v(0, 0, 0);
   for (size_t i = 0; i < h->count; i++) {
@@ -54,7 +54,7 @@ static int is_off(const sw_bounds *b, sw_vec p, double far) {
 }
 
 /* The deepest on the way from one pose to the other, both as the shape sees them [m]. */
-static double depth_on_way(const sw_scene_hold *h, const sw_shape *shape, sw_pose from, sw_pose to,
+static double depth_on_way(const sw_hold *h, const sw_shape *shape, sw_pose from, sw_pose to,
                            double skin) {
   const sw_bounds b = sw_shape_bounds(shape);
   const sw_vec turn = sw_quat_log(sw_quat_mul(to.q, sw_quat_conj(from.q)));
@@ -74,7 +74,7 @@ static double depth_on_way(const sw_scene_hold *h, const sw_shape *shape, sw_pos
 }
 
 /* The obstacle that the hold is deepest in. */
-static sw_status find_crash(sw_scene *s, const sw_scene_hold *h, sw_crash *out, sw_error *err) {
+static sw_status find_crash(sw_scene *s, const sw_hold *h, sw_crash *out, sw_error *err) {
   const double skin = skin_of(s, h), before = h->watch.looking ? h->watch.looked : s->time;
   sw_motion_state to, from, there, was;
   *out = (sw_crash){.time = s->time};
@@ -95,7 +95,7 @@ static sw_status find_crash(sw_scene *s, const sw_scene_hold *h, sw_crash *out, 
 /* What no wire bears: of the strongest steel there is, or twice as long as it is [Pa]. */
 static const double STRONGEST = 4e9;
 
-static void watch_force(sw_scene *s, const sw_scene_hold *h, double arc) {
+static void watch_force(sw_scene *s, const sw_hold *h, double arc) {
   const sw_beam *b = &s->wires[h->wire].beam;
   const double force = sw_norm(h->force);
   const double most = fmin(b->EA, STRONGEST * 3.14159265358979 * b->radius * b->radius);
@@ -105,11 +105,11 @@ static void watch_force(sw_scene *s, const sw_scene_hold *h, double arc) {
                 h->cls->name, h->name, s->wires[h->wire].name, force, most);
 }
 
-sw_status sw_hold_look_out(sw_scene *s, sw_scene_hold *h, sw_error *err) {
+sw_status sw_hold_look_out(sw_scene *s, sw_hold *h, sw_error *err) {
   sw_crash now;
   const double arc = 0.5 * (h->s1 + h->s2) - s->wires[h->wire].mesh.s[0];
   watch_force(s, h, arc);
-  if (!s->obstacle_count) return SW_OK;
+  if (!s->obstacle_count || h->cls->hold->rail) return SW_OK; /* rails lead where they lead */
   SW_TRY(find_crash(s, h, &now, err));
   if (!h->watch.looking) h->watch.given = now.depth;
   h->watch.looking = 1, h->watch.looked = s->time;
@@ -134,7 +134,7 @@ int sw_hold_crashed(const sw_scene *s) {
 
 sw_status sw_scene_hold_crash(const sw_scene *s, sw_handle hold, double *time, double *depth,
                               const char **obstacle, sw_error *err) {
-  const sw_scene_hold *h = sw_scene_find_hold(s, hold, err);
+  const sw_hold *h = sw_scene_find_hold(s, hold, err);
   if (!h) return SW_EDEAD;
   const sw_crash *c = &h->watch.crash;
   *time = c->depth > 0 ? c->time : (double)NAN;

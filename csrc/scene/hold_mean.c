@@ -14,7 +14,7 @@ static sw_vec booked(const sw_booking *b, sw_vec now, sw_vec before, sw_vec firs
 void sw_hold_book(sw_scene *s, const sw_booking *b) {
   sw_system_hold_loads(&s->system, s->hold_loads);
   for (size_t k = 0; k < s->system.hold_count; k++) {
-    sw_scene_hold *h = &s->holds[s->hold_slot[k]];
+    sw_hold *h = &s->holds[s->hold_slot[k]];
     sw_hold_sums *sums = &h->sums;
     const sw_hold_load *now = &s->hold_loads[k];
     sums->force[b->stage] = booked(b, now->force, h->force, sums->force[0]);
@@ -41,9 +41,9 @@ double sw_hold_span(const sw_scene *s, int mean) {
   return mean && !rings ? s->span : -s->span;
 }
 
-int sw_hold_jerked(const sw_scene *s, const sw_scene_hold *h, sw_vec *force, sw_vec *moment) {
+int sw_hold_jerked(const sw_scene *s, const sw_hold *h, sw_vec *force, sw_vec *moment) {
   const sw_hold_sums *sums = &h->sums;
-  if (!sums->known || !(s->span > 0) || h->cls->feeds) return 0;
+  if (!sums->known || !(s->span > 0) || sw_hold_passes(h)) return 0;
   const sw_vec mean = sw_scale(sums->force[sums->last], 1.0 / s->span);
   const double off = sw_norm(sw_sub(h->force, mean));
   const int sharp =

@@ -4,18 +4,9 @@
 #ifndef SW_SCENE_JAWS_H
 #define SW_SCENE_JAWS_H
 
-#include "scene/log.h"
+#include "link/hold.h"
 #include "scene/scene.h"
 #include "scene/tool.h"
-
-/* Where something driven is: at rest at a pose or following a motion. */
-typedef struct sw_drive {
-  sw_pose pose;      /* at rest */
-  sw_motion *motion; /* NULL = at rest */
-  double start;      /* scene time of the motion's zero [s] */
-  size_t tool;       /* 1 + slot of the tool that carries it, in whose frame pose is; 0 = none */
-  sw_vec opens;      /* how it moves in that frame with the jaws' opening [m/m] */
-} sw_drive;
 
 /* The jaws of a tool. Their opening at time t is opening + speed (t - since). */
 typedef struct sw_jaw {
@@ -39,11 +30,6 @@ typedef struct sw_tool_pad {
   size_t obstacle; /* slot */
   int finger;      /* [-] */
 } sw_tool_pad;
-
-typedef struct sw_crash {
-  double time, depth;    /* when a part ran into an obstacle, how far then [s], [m] */
-  size_t part, obstacle; /* slots */
-} sw_crash;
 
 typedef struct sw_frozen sw_frozen; /* what pads held, see frozen_inner.h; shared and immutable */
 void sw_frozen_retain(sw_frozen *frozen);

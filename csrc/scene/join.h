@@ -3,31 +3,11 @@
 #ifndef SW_SCENE_JOIN_H
 #define SW_SCENE_JOIN_H
 
-#include "scene/objects.h"
+#include "link/joint.h"
 #include "scene/scene.h"
 
-/* Wires joined at a point. */
-typedef struct sw_scene_join {
-  uint32_t generation;
-  int alive, rigid;
-  char name[SW_NAME_SIZE];
-  double slack, stiffness, strength; /* of a tie, see sw_join_args; slack NAN: it is none */
-  int broken;
-  double broken_time, broken_force, peak; /* [s], [N], [N] */
-  size_t spring;                          /* of a tie: its number in the system, while built */
-  size_t count;
-  struct sw_scene_join_end {
-    size_t wire;
-    double s;      /* a node of its mesh [m] */
-    double asked;  /* where that was asked for, [m] */
-    double scale;  /* of the mesh then [-] */
-    sw_vec offset; /* of its node from that of the first end [m] */
-    sw_vec rest;   /* where the wire went there, see arm_of [-] */
-  } ends[SW_JOIN_ENDS];
-} sw_scene_join;
-
 /* The living join that has the wire, or NULL. */
-const sw_scene_join *sw_scene_joined(const sw_scene *scene, size_t wire);
+const sw_joint *sw_scene_joined(const sw_scene *scene, size_t wire);
 /* The arc lengths of a wire's living joins into out (may be NULL); their number. */
 size_t sw_scene_join_places(const sw_scene *scene, size_t wire, double *out);
 /* Make their nodes anew in a wire that was drawn again and has its holds. SW_ENOMEM. */
@@ -36,7 +16,6 @@ sw_status sw_scene_retake_joins(sw_scene *scene, size_t wire);
 void sw_scene_measure_joins(sw_scene *scene);
 /* Springs and hinges of the living joins for the new system. SW_ENOMEM. */
 sw_status sw_scene_add_joins(sw_scene *scene);
-sw_status sw_scene_add_tie(sw_scene *scene, size_t join);
 /* 1: there is a tie that has a strength, and is not broken. */
 int sw_scene_may_break(const sw_scene *scene);
 /* SW_ENOCONV when a tie is pulled far beyond its strength with nodes at x: it breaks earlier. */
@@ -44,8 +23,6 @@ sw_status sw_scene_check_ties(const sw_scene *scene, const double *x, sw_error *
 /* After a step, before histories follow: ties that were pulled too hard break. */
 void sw_scene_watch_ties(sw_scene *scene);
 /* NULL: the scene does not know it. */
-sw_scene_join *sw_scene_find_join(const sw_scene *scene, sw_handle join, sw_error *err);
-/* Node of an end in the system. */
-uint32_t sw_scene_join_node(const sw_scene *scene, const struct sw_scene_join_end *end);
+sw_joint *sw_scene_find_join(const sw_scene *scene, sw_handle join, sw_error *err);
 
 #endif

@@ -106,6 +106,7 @@ static void take_as_now(sw_books *b, const sw_energies *e, double contact) {
 /* 1: a hold was put elsewhere between two steps, away from the wire's held point. */
 static int was_put(sw_scene *s, sw_error *err) {
   sw_system *y = &s->system;
+  for (size_t i = 3 * y->nodes; i < y->freedoms; i++) y->delta[i] = y->x[i];
   if (sw_system_place_holds(y, s->time, y->delta, NULL, NULL, err) != SW_OK) return 0;
   for (size_t k = 0; k < y->held_count; k++) {
     const size_t at = 3 * y->held[k].node;
@@ -187,8 +188,8 @@ static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
 static double jolt(const sw_scene *s, const sw_step_energy *step) {
   double fastest = 0;
   for (size_t k = 0; k < s->system.hold_count; k++) {
-    const sw_scene_hold *h = &s->holds[s->hold_slot[k]];
-    const double fed = h->cls->feeds ? fabs(sw_feed_at(h, s->time).speed) : 0.0;
+    const sw_hold *h = &s->holds[s->hold_slot[k]];
+    const double fed = sw_hold_passes(h) ? fabs(sw_hold_way_of(s, h, s->time, NULL).speed) : 0.0;
     const sw_hold_state *at = &s->system.hold_states[k];
     fastest = fmax(fastest, sw_norm(at->v) + fed + sw_norm(at->omega) * s->books.longest);
   }

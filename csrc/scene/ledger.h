@@ -4,8 +4,8 @@
 #ifndef SW_SCENE_LEDGER_H
 #define SW_SCENE_LEDGER_H
 
+#include "base/log.h"
 #include "base/tape.h"
-#include "scene/log.h"
 #include "scene/scene.h"
 #include "system/energy.h"
 

@@ -38,11 +38,11 @@ static double brought(const sw_scene *s, size_t k, double length) {
 }
 
 static double work_of_feed(sw_scene *s, size_t k, double t1, int changed) {
-  const sw_scene_hold *h = &s->holds[s->hold_slot[k]];
+  const sw_hold *h = &s->holds[s->hold_slot[k]];
   const sw_worker *from = &s->books.holds[k];
-  const double length = sw_feed_at(h, t1).fed - from->fed;
-  const double drive = sw_feed_drive(s, h, s->system.x);
-  const bounds b = work_between(from->drive * length, drive * length, changed);
+  const sw_hold_way now = sw_hold_way_of(s, h, t1, s->system.x);
+  const double length = now.way - from->fed;
+  const bounds b = work_between(from->drive * length, now.force * length, changed);
   s->books.step.feeds += b.mean + brought(s, k, length);
   return b.most + brought(s, k, length);
 }
@@ -51,7 +51,7 @@ static double work_of_holds(sw_scene *s, double t1, int changed) {
   double most = 0;
   for (size_t k = 0; k < s->system.hold_count; k++) {
     const sw_pose *to = &s->system.hold_states[k].pose;
-    if (s->holds[s->hold_slot[k]].cls->feeds) most += work_of_feed(s, k, t1, changed);
+    if (sw_hold_passes(&s->holds[s->hold_slot[k]])) most += work_of_feed(s, k, t1, changed);
     if (same_pose(&s->books.holds[k].pose, to)) continue;
     sw_vec force, moment;
     sw_system_reaction(&s->system, (int)k, to->p, &force, &moment);
@@ -120,13 +120,14 @@ static void note_obstacle(sw_scene *s, size_t k) {
 }
 
 static void note_hold(sw_scene *s, size_t k, int logged) {
-  const sw_scene_hold *h = &s->holds[s->hold_slot[k]];
+  const sw_hold *h = &s->holds[s->hold_slot[k]];
   sw_worker *w = &s->books.holds[k];
   *w = (sw_worker){s->system.hold_states[k].pose, h->force, h->moment, 0, 0};
   if (!logged) sw_system_reaction(&s->system, (int)k, w->pose.p, &w->force, &w->moment);
-  if (!h->cls->feeds) return;
-  w->fed = sw_feed_at(h, s->time).fed;
-  w->drive = logged ? h->feed.drive : sw_feed_drive(s, h, s->system.x);
+  if (!sw_hold_passes(h)) return;
+  const sw_hold_way now = sw_hold_way_of(s, h, s->time, logged ? NULL : s->system.x);
+  w->fed = now.way;
+  w->drive = logged ? h->feed.drive : now.force;
 }
 
 sw_status sw_ledger_note_workers(sw_scene *s, int logged) {

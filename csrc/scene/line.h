@@ -4,6 +4,7 @@
 #ifndef SW_SCENE_LINE_H
 #define SW_SCENE_LINE_H
 
+#include "link/hold.h"
 #include "scene/scene.h"
 #include "scene/section.h"
 #include "scene/strand.h"
@@ -61,9 +62,10 @@ sw_status sw_scene_check_touching(const sw_scene_wire *wire, sw_error *err);
  * of its first and last [m]. */
 void sw_strand_rings(const sw_mesh *mesh, double *s1, double *s2);
 /* 1: a hold of this class holds the particle. */
-static inline int sw_strand_holds(const sw_web *web, const sw_hold_class *cls, size_t particle) {
+static inline int sw_strand_holds(const sw_web *web, const sw_link_class *cls, size_t particle) {
   const size_t ring = sw_web_ring_of(web, particle);
-  return cls->clamped || !sw_web_is_ring(web, ring) || particle - web->first[ring] == web->axis;
+  return cls->hold->direction || !sw_web_is_ring(web, ring) ||
+         particle - web->first[ring] == web->axis;
 }
 /* The system's state to the strand and the middles of its rings. SW_ENOMEM. */
 sw_status sw_strand_take(sw_scene_wire *wire, const sw_system *system, const sw_body *body);

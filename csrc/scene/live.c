@@ -48,6 +48,8 @@ sw_status sw_live_place(sw_scene *s, const sw_live *p) {
     const sw_scene_wire *wire = &s->wires[w];
     freedoms += 3 * particles_of(wire) + (wire->beam.rolls ? wire->mesh.n - 1 : 0);
   }
+  for (size_t k = 0; k < s->hold_count; k++)
+    freedoms += s->holds[k].alive && s->holds[k].cls->hold->rail;
   for (size_t w = 0; w < s->wire_count; w++) {
     sw_strand *strand = &s->wires[w].strand;
     const sw_web *web = strand->web;

@@ -262,19 +262,22 @@ void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now)
 
 static sw_status log_holds(sw_scene *s, sw_error *err) {
   for (size_t k = 0; k < s->system.hold_count; k++) {
-    sw_scene_hold *h = &s->holds[s->hold_slot[k]];
+    sw_hold *h = &s->holds[s->hold_slot[k]];
     const sw_hold_state *at = &s->system.hold_states[k];
     double row[SW_LOG_SIZE];
-    sw_system_reaction(&s->system, (int)k, at->pose.p, &h->force, &h->moment);
+    const sw_vec point =
+        h->cls->hold->rail ? sw_vec_at(s->system.x, s->system.bodies[h->wire].first_node + h->node)
+                           : at->pose.p;
+    sw_system_reaction(&s->system, (int)k, point, &h->force, &h->moment);
     SW_TRY(sw_hold_look_out(s, h, err));
     row[SW_LOG_TIME] = s->time;
     sw_vec force = h->force, moment = h->moment;
     const int mean = sw_hold_jerked(s, h, &force, &moment);
     sw_store(row + SW_LOG_FORCE, force);
     sw_store(row + SW_LOG_MOMENT, moment);
-    sw_store(row + SW_LOG_POINT, at->pose.p);
+    sw_store(row + SW_LOG_POINT, point);
     row[SW_LOG_SPAN] = sw_hold_span(s, mean);
-    if (h->cls->feeds) h->feed.drive = sw_feed_drive(s, h, s->system.x);
+    if (sw_hold_passes(h)) h->feed.drive = sw_hold_way_of(s, h, s->time, s->system.x).force;
     if (sw_log_add(&h->log, row, SW_LOG_SIZE) != SW_OK)
       return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", h->name);
   }
@@ -313,7 +316,7 @@ static void tell_news(sw_scene *s) {
 }
 
 sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
-  sw_feed_follow(s);
+  sw_scene_follow_holds(s);
   sw_jaw_follow(s);
   for (size_t w = 0; w < s->wire_count; w++) s->wires[w].untwisted = 0;
   SW_TRY(sw_system_place_holds(&s->system, s->time, s->system.x, NULL, NULL, err));

@@ -114,7 +114,7 @@ static sw_status check_hold(const sw_scene *s, const sw_scene_wire *w, size_t sl
   if (!count) return sw_fail(err, SW_EINVAL, "clamp: particles of '%s' to be held: none", w->name);
   unsigned char *taken = sw_alloc(n, 1);
   if (!taken) return sw_fail(err, SW_ENOMEM, "clamp: out of memory");
-  const sw_scene_hold *by = NULL;
+  const sw_hold *by = NULL;
   sw_status status = SW_OK;
   for (size_t i = 0; i < count && status == SW_OK; i++) {
     if (particles[i] >= n)
@@ -142,8 +142,8 @@ static int by_number(const void *a, const void *b) {
 }
 
 /* Where they are in the hold's frame. */
-static sw_status take(const sw_scene_wire *w, sw_scene_hold *h, const uint32_t *particles,
-                      size_t count, sw_vec at) {
+static sw_status take(const sw_scene_wire *w, sw_hold *h, const uint32_t *particles, size_t count,
+                      sw_vec at) {
   const sw_strand *p = &w->strand;
   h->s = sw_alloc(count, sizeof *h->s);
   h->local = sw_alloc(3 * count, sizeof *h->local);
@@ -174,13 +174,13 @@ sw_status sw_scene_hold_particles(sw_scene *s, sw_handle object, const char *nam
   const sw_scene_wire *w = find(s, object, err);
   if (!w) return SW_EDEAD;
   SW_TRY(check_hold(s, w, object.slot, particles, count, err));
-  sw_scene_hold h = {.generation = s->serial + 1,
-                     .alive = 1,
-                     .cls = sw_hold_find("clamp"),
-                     .wire = object.slot,
-                     .args = {.direction = {NAN, NAN, NAN}},
-                     .scale = 1,
-                     .shape = s->serial + 1};
+  sw_hold h = {.generation = s->serial + 1,
+               .alive = 1,
+               .cls = sw_link_find("clamp"),
+               .wire = object.slot,
+               .args = {.direction = {NAN, NAN, NAN}},
+               .scale = 1,
+               .shape = s->serial + 1};
   char usual[SW_NAME_SIZE];
   snprintf(usual, sizeof usual, "clamp%zu", s->hold_count + 1);
   snprintf(h.name, sizeof h.name, "%s", name[0] ? name : usual);
@@ -189,7 +189,7 @@ sw_status sw_scene_hold_particles(sw_scene *s, sw_handle object, const char *nam
     status = sw_grow((void **)&s->holds, &s->hold_capacity, s->hold_count + 1, sizeof *s->holds);
   if (status == SW_OK) status = take(w, &h, particles, count, at);
   if (status != SW_OK) {
-    sw_scene_clear_hold(&h);
+    sw_hold_clear(&h);
     return sw_fail(err, status, "clamp: out of memory");
   }
   *out = (sw_handle){(uint32_t)s->hold_count, ++s->serial};

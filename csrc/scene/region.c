@@ -29,8 +29,8 @@ static size_t find_parts(const sw_scene *s, size_t wire, const double region[2],
   size_t n = 0, kept = 0;
   out[n++] = (part){region[0], region[1], (double)NAN};
   for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_scene_hold *hold = &s->holds[k];
-    if (!hold->alive || hold->wire != wire || !hold->cls->clamped) continue;
+    const sw_hold *hold = &s->holds[k];
+    if (!hold->alive || hold->wire != wire || !hold->cls->hold->direction) continue;
     out[n++] = (part){hold->s1 - BESIDE * h, hold->s2 + BESIDE * h, hold->s1};
   }
   qsort(out, n, sizeof *out, before);

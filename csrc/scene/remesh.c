@@ -14,7 +14,7 @@ static const double SAME_PLACE = 1e-9; /* of the wire's length [-] */
 
 typedef struct kept_hold {
   size_t slot;
-  sw_scene_hold shape;
+  sw_hold shape;
 } kept_hold;
 
 /* The wire's living holds, with copies of where they hold. */
@@ -39,8 +39,8 @@ static sw_status retake_holds(sw_scene *s, const kept_hold *kept, size_t count) 
 
 static void put_back(sw_scene *s, kept_hold *kept, size_t count) {
   for (size_t k = 0; k < count; k++) {
-    sw_scene_hold *h = &s->holds[kept[k].slot];
-    sw_scene_hold *old = &kept[k].shape;
+    sw_hold *h = &s->holds[kept[k].slot];
+    sw_hold *old = &kept[k].shape;
     double *arrays[2] = {h->s, h->local};
     h->alive = 1;
     h->shape = old->shape, h->s1 = old->s1, h->s2 = old->s2, h->count = old->count;
@@ -75,7 +75,7 @@ static sw_status redraw(sw_scene *s, size_t wire, size_t segments, sw_error *err
       sw_mesh_free(&old);
     }
   }
-  for (size_t k = 0; kept && k < count; k++) sw_scene_clear_hold(&kept[k].shape);
+  for (size_t k = 0; kept && k < count; k++) sw_hold_clear(&kept[k].shape);
   sw_free(kept);
   return status;
 }
@@ -114,8 +114,8 @@ static sw_vec carry_along(const sw_mesh *m, size_t a, size_t b, sw_vec from, sw_
 /* The wire's direction at the end s of a living hold, which leaves or arrives there. */
 static sw_vec held_direction(const sw_scene *s, size_t wire, double at, int leaves) {
   for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_scene_hold *h = &s->holds[k];
-    if (h->alive && h->wire == wire && h->cls->clamped && (leaves ? h->s2 : h->s1) == at)
+    const sw_hold *h = &s->holds[k];
+    if (h->alive && h->wire == wire && h->cls->hold->direction && (leaves ? h->s2 : h->s1) == at)
       return sw_rotate(h->turn, h->director[leaves]);
   }
   return sw_v(0, 0, 0);
@@ -175,7 +175,7 @@ static sw_status check_fed(const sw_scene *s, sw_error *err) {
   for (size_t w = 0; w < s->wire_count; w++)
     SW_TRY(sw_scene_check_line(&s->wires[w], "another number of segments", err));
   for (size_t k = 0; k < s->hold_count; k++)
-    if (s->holds[k].alive && s->holds[k].cls->feeds)
+    if (s->holds[k].alive && sw_hold_passes(&s->holds[k]))
       return sw_fail(err, SW_EINVAL, "wire '%s' is fed by '%s': it cannot be meshed anew",
                      s->wires[s->holds[k].wire].name, s->holds[k].name);
   for (size_t w = 0; w < s->wire_count; w++)

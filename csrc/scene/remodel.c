@@ -39,7 +39,7 @@ static sw_status retake(sw_scene *s, size_t wire, sw_error *err) {
   unsigned char *waits = sw_alloc(s->hold_count, 1);
   if (!waits) return SW_ENOMEM;
   for (size_t k = 0; k < s->hold_count; k++) {
-    sw_scene_hold *h = &s->holds[k];
+    sw_hold *h = &s->holds[k];
     waits[k] = h->alive && h->wire == wire;
     if (waits[k]) h->alive = 0; /* where it held the wire that was is not in the others' way */
   }
@@ -81,8 +81,12 @@ static sw_status check(const sw_scene *s, size_t wire, const sw_wire_class *cls,
   if (w->mesh.s[0] != 0) return sw_fail(err, SW_EINVAL, "remodel: wire '%s' has been fed", w->name);
   if (cls->mesh && sw_scene_joined(s, wire)) return sw_scene_check_line(&as, "scene:join", err);
   for (size_t k = 0; k < s->hold_count; k++)
-    if (s->holds[k].alive && s->holds[k].wire == wire && s->holds[k].cls->feeds)
+    if (s->holds[k].alive && s->holds[k].wire == wire && sw_hold_passes(&s->holds[k]))
       return sw_fail(err, SW_EINVAL, "remodel: wire '%s' is fed by '%s'", w->name,
+                     s->holds[k].name);
+  for (size_t k = 0; k < s->hold_count; k++)
+    if (s->holds[k].alive && s->holds[k].wire == wire && s->holds[k].cls->hold->rail)
+      return sw_fail(err, SW_EINVAL, "remodel: wire '%s' slides along '%s'", w->name,
                      s->holds[k].name);
   return sw_scene_check_rules(s, wire, &as, err);
 }

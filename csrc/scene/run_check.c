@@ -62,7 +62,17 @@ sw_status sw_run_check(const sw_scene *s, const sw_run_args *args, sw_error *err
           "scene:run: integrator '%s' is explicit; wire '%s', which is curved at rest, has two "
           "values of EI or rolls, needs an implicit one",
           m->name, s->wires[w].name);
-  const sw_scene_join *join = NULL;
+  for (size_t k = 0; k < s->hold_count && !args->quasistatic; k++) {
+    const sw_hold *h = &s->holds[k];
+    if (!h->alive || !h->cls->hold->rail) continue;
+    const int jumps = h->slider.friction > 0 || isfinite(h->slider.to - h->slider.from);
+    if (!(m->flags & SW_INTEGRATOR_IMPLICIT) || (jumps && m->flags & SW_INTEGRATOR_NO_CONTACT))
+      return sw_fail(err, SW_EINVAL,
+                     "scene:run: integrator '%s' is %s; %s '%s' needs another one, as tr-bdf2",
+                     m->name, jumps ? "not meant for what sticks or stops" : "explicit",
+                     h->cls->name, h->name);
+  }
+  const sw_joint *join = NULL;
   for (size_t w = 0; w < s->wire_count && !join; w++) join = sw_scene_joined(s, w);
   if (join && !args->quasistatic && !(m->flags & SW_INTEGRATOR_IMPLICIT))
     return sw_fail(err, SW_EINVAL,

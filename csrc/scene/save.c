@@ -147,7 +147,7 @@ sw_status sw_scene_save(sw_scene *s, const void *note, size_t note_size, unsigne
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
   SW_TRY(check_functions(s, err));
-  if (s->built) sw_feed_undo(s);
+  if (s->built) sw_scene_undo_holds(s);
   sw_tape t = sw_tape_writer(&why);
   write_all(&t, s, note, note_size);
   if (!sw_tape_good(&t)) {
@@ -223,7 +223,7 @@ static void sum_object(sw_tape *t, sw_scene *s, size_t k, sw_scene_item *out) {
     sw_tape_uint32(t, &o->generation), sw_tape_shape(t, &o->shape);
     sw_tape_double(t, &o->friction), sw_tape_double(t, &o->restitution);
   } else if ((k -= s->obstacle_count) < s->hold_count) {
-    sw_scene_hold *h = &s->holds[k];
+    sw_hold *h = &s->holds[k];
     item(out, h->cls->name, h->name);
     sw_tape_uint32(t, &h->generation), sw_tape_size(t, &h->wire), sw_tape_hold_args(t, &h->args);
   } else if ((k -= s->hold_count) < s->force_count) {

@@ -13,7 +13,7 @@ void sw_tape_scene(sw_tape *tape, sw_scene *scene, int *built, sw_live *live);
 /* Each puts one object on the tape, or fills a slot from it, which the caller frees also after a
  * failure. placed: it says where particles are, for the scene is not built. */
 void sw_tape_wire(sw_tape *tape, sw_scene_wire *wire, int placed);
-void sw_tape_hold(sw_tape *tape, sw_scene *scene, sw_scene_hold *hold);
+void sw_tape_hold(sw_tape *tape, sw_scene *scene, sw_hold *hold);
 void sw_tape_strand(sw_tape *tape, sw_strand *strand, int placed);
 void sw_tape_tool(sw_tape *tape, sw_scene *scene, sw_tool *tool);
 void sw_tape_jaw(sw_tape *tape, sw_jaw *jaw);
@@ -21,7 +21,7 @@ void sw_tape_frozen(sw_tape *tape, sw_frozen **frozen); /* or NULL */
 int sw_frozen_fits(const sw_frozen *frozen, const sw_scene *scene);
 void sw_tape_obstacle(sw_tape *tape, sw_scene *scene, sw_scene_obstacle *obstacle);
 void sw_tape_force(sw_tape *tape, sw_scene_force *force);
-void sw_tape_join(sw_tape *tape, sw_scene_join *join);
+void sw_tape_join(sw_tape *tape, sw_joint *join);
 void sw_tape_rule(sw_tape *tape, sw_scene_rule *rule);
 void sw_tape_frame(sw_tape *tape, const sw_scene *scene, sw_frame *frame);
 void sw_tape_extreme(sw_tape *tape, sw_extreme *extreme);

@@ -49,9 +49,9 @@ static void check_particles(sw_tape *t, const sw_scene *s, size_t wire) {
   unsigned char *taken = sw_alloc(web->particles, 1);
   if (!taken) sw_tape_fail(t, SW_ENOMEM);
   for (size_t k = 0; k < s->hold_count && sw_tape_good(t); k++) {
-    const sw_scene_hold *h = &s->holds[k];
+    const sw_hold *h = &s->holds[k];
     if (!h->alive || h->wire != wire) continue;
-    sw_tape_expect(t, h->particle && !h->cls->feeds, "a clamp on a mesh");
+    sw_tape_expect(t, h->particle && !h->cls->hold->lines, "a clamp on a mesh");
     for (size_t i = 0; taken && h->particle && i < h->count && sw_tape_good(t); i++)
       sw_tape_expect(t, h->particle[i] < web->particles && !taken[h->particle[i]]++,
                      "a clamp's particles");
@@ -59,27 +59,27 @@ static void check_particles(sw_tape *t, const sw_scene *s, size_t wire) {
   sw_free(taken);
 }
 
-static void check_crash(sw_tape *t, const sw_scene *s, const sw_scene_hold *h) {
+static void check_crash(sw_tape *t, const sw_scene *s, const sw_hold *h) {
   const int fine = !(h->watch.crash.depth > 0) || h->watch.crash.obstacle < s->obstacle_count;
   sw_tape_expect(t, fine && isfinite(h->watch.looked), "what a clamp ran into");
 }
 
-static void check_places(sw_tape *t, const sw_scene *s, const sw_scene_hold *h) {
+static void check_places(sw_tape *t, const sw_scene *s, const sw_hold *h) {
   const sw_scene_wire *w = &s->wires[h->wire];
   sw_tape_expect(t, h->s1 <= h->s2 && is_node(&w->mesh, h->s1) && is_node(&w->mesh, h->s2),
                  "where a clamp is");
   for (size_t i = 0; i + 1 < h->count; i++)
     sw_tape_expect(t, h->s[i] < h->s[i + 1], "where a clamp is");
-  for (const sw_scene_hold *o = s->holds; o < h; o++)
+  for (const sw_hold *o = s->holds; o < h; o++)
     if (o->alive && o->wire == h->wire)
       sw_tape_expect(t, o->s2 < h->s1 || h->s2 < o->s1, "two clamps at one place");
-  if (!h->cls->feeds) return;
+  if (!sw_hold_passes(h)) return;
   sw_tape_expect(t, h->s1 == h->s2 && h->count == 1, "a feed");
   sw_tape_expect(t, h->feed.size > 0 && (h->feed.outward == 1 || h->feed.outward == -1), "a feed");
   sw_tape_expect(t, (w->mesh.rest != NULL) == (h->feed.shape.rest != NULL), "a feed");
 }
 
-static void check_hold(sw_tape *t, const sw_scene *s, const sw_scene_hold *h) {
+static void check_hold(sw_tape *t, const sw_scene *s, const sw_hold *h) {
   sw_tape_expect(t, h->wire < s->wire_count && h->log.count % SW_LOG_SIZE == 0, "a clamp");
   if (!sw_tape_good(t) || !h->alive) return;
   sw_tape_expect(t, h->count > 0 && h->scale > 0, "a clamp that holds nothing");
@@ -93,9 +93,9 @@ static void check_hold(sw_tape *t, const sw_scene *s, const sw_scene_hold *h) {
 
 /* --- all else ---------------------------------------------------------------------- */
 
-static void check_join(sw_tape *t, const sw_scene *s, const sw_scene_join *j) {
+static void check_join(sw_tape *t, const sw_scene *s, const sw_joint *j) {
   for (size_t k = 0; k < j->count && sw_tape_good(t); k++) {
-    const struct sw_scene_join_end *e = &j->ends[k];
+    const sw_joint_end *e = &j->ends[k];
     sw_tape_expect(t, e->wire < s->wire_count && e->scale > 0, "a join");
     if (!sw_tape_good(t) || !j->alive) continue;
     const sw_scene_wire *w = &s->wires[e->wire];

@@ -137,14 +137,14 @@ void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
 /* --- holds ------------------------------------------------------------------------- */
 
 void sw_tape_hold_args(sw_tape *t, sw_hold_args *x) {
-  SW_TAPE_STRUCT(t, sw_hold_args, 128);
+  SW_TAPE_STRUCT(t, sw_hold_args, 200); /* those of a slider become its own */
   DOUBLE(s), DOUBLE(width), VEC(direction), NAME(name);
   DOUBLE(speed), DOUBLE(force), DOUBLE(force_limit);
 }
 
 static void tape_feed(sw_tape *t, sw_feed *x) {
   int shaped = x->shape.n > 0;
-  SW_TAPE_STRUCT(t, sw_feed, 384); /* node and number are found when the scene is built */
+  SW_TAPE_STRUCT(t, sw_feed, 368);
   INT(outward), DOUBLE(label), DOUBLE(fed), DOUBLE(since), DOUBLE(speed), DOUBLE(start);
   sw_tape_motion(t, &x->motion);
   DOUBLE(slip), DOUBLE(slip_since), DOUBLE(slip_speed), DOUBLE(slip_growth), DOUBLE(slip_before);
@@ -177,15 +177,15 @@ static void tape_sums(sw_tape *t, sw_hold_sums *x) {
   sw_tape_expect(t, x->last >= 0 && x->last < SW_BOOK_STAGES, "what a clamp bears");
 }
 
-void sw_tape_hold(sw_tape *t, sw_scene *s, sw_scene_hold *x) {
+void sw_tape_hold(sw_tape *t, sw_scene *s, sw_hold *x) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_scene_hold, 1424);
+  SW_TAPE_STRUCT(t, sw_hold, 1568); /* node and number are found when it is built */
   UINT32(generation), INT(alive), NAME(name);
   if (!sw_tape_address(t, &x->cls)) {
     const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
-    if (sw_tape_reads(t)) x->cls = sw_hold_find(kind);
+    if (sw_tape_reads(t)) x->cls = sw_link_find(kind);
   }
-  sw_tape_expect(t, x->cls != NULL, "a clamp of an unknown kind");
+  sw_tape_expect(t, x->cls && x->cls->hold, "a clamp of an unknown kind");
   SIZE(wire), DOUBLE(scale), UINT32(shape), INT(formed), DOUBLE(s1), DOUBLE(s2);
   sw_tape_hold_args(t, &x->args);
   tape_drive(t, s, &x->drive);
@@ -201,6 +201,7 @@ void sw_tape_hold(sw_tape *t, sw_scene *s, sw_scene_hold *x) {
   DOUBLE(watch.crash.time), DOUBLE(watch.crash.depth), SIZE(watch.crash.obstacle);
   tape_sums(t, &x->sums);
   tape_feed(t, &x->feed);
+  if (sw_tape_good(t) && x->cls->hold->tape) x->cls->hold->tape(t, x);
   sw_tape_log(t, &x->log);
 }
 
@@ -299,14 +300,18 @@ void sw_tape_force(sw_tape *t, sw_scene_force *x) {
   sw_tape_expect(t, x->cls && (!x->alive || x->cls->params.count), "a force that is a function");
 }
 
-void sw_tape_join(sw_tape *t, sw_scene_join *x) {
-  SW_TAPE_STRUCT(t, sw_scene_join, 792);
+void sw_tape_join(sw_tape *t, sw_joint *x) {
+  int broken = x->fate[SW_TIE_BROKEN] > 0;
+  SW_TAPE_STRUCT(t, sw_joint, 800);
   UINT32(generation), INT(alive), INT(rigid), NAME(name), SIZE(count);
   DOUBLE(slack), DOUBLE(stiffness), DOUBLE(strength); /* its spring is found when it is built */
-  INT(broken), DOUBLE(broken_time), DOUBLE(broken_force), DOUBLE(peak);
+  if (sw_tape_reads(t)) x->cls = sw_joint_class(x->slack);
+  sw_tape_int(t, &broken);
+  x->fate[SW_TIE_BROKEN] = broken;
+  DOUBLE(fate[SW_TIE_BROKEN_TIME]), DOUBLE(fate[SW_TIE_BROKEN_FORCE]), DOUBLE(fate[SW_TIE_PEAK]);
   sw_tape_expect(t, x->count >= 2 && x->count <= SW_JOIN_ENDS, "a join");
   for (size_t k = 0; k < x->count && sw_tape_good(t); k++) {
-    struct sw_scene_join_end *e = &x->ends[k];
+    sw_joint_end *e = &x->ends[k];
     sw_tape_size(t, &e->wire);
     sw_tape_double(t, &e->s), sw_tape_double(t, &e->asked), sw_tape_double(t, &e->scale);
     sw_tape_vec(t, &e->offset), sw_tape_vec(t, &e->rest);

@@ -32,16 +32,6 @@ sw_status sw_scene_new(const sw_scene_args *args, sw_scene **out, sw_error *err)
 
 double sw_scene_window(const sw_scene *s) { return s->window; }
 
-void sw_scene_clear_hold(sw_scene_hold *h) {
-  sw_free(h->s);
-  sw_free(h->local);
-  sw_free(h->particle);
-  sw_log_free(&h->log);
-  sw_drive_free(&h->drive);
-  sw_motion_release(h->feed.motion);
-  sw_mesh_free(&h->feed.shape);
-}
-
 void sw_scene_clear_obstacle(sw_scene_obstacle *o) {
   sw_shape_release(o->shape);
   sw_drive_free(&o->drive);
@@ -52,7 +42,7 @@ void sw_scene_free(sw_scene *s) {
   if (!s) return;
   for (size_t i = 0; i < s->wire_count; i++) sw_scene_clear_body(&s->wires[i]);
   for (size_t i = 0; i < s->force_count; i++) sw_scene_clear_force(&s->forces[i]);
-  for (size_t i = 0; i < s->hold_count; i++) sw_scene_clear_hold(&s->holds[i]);
+  for (size_t i = 0; i < s->hold_count; i++) sw_hold_clear(&s->holds[i]);
   for (size_t i = 0; i < s->obstacle_count; i++) sw_scene_clear_obstacle(&s->obstacles[i]);
   for (size_t i = 0; i < s->tool_count; i++) sw_scene_clear_tool(&s->tools[i]);
   sw_scene_orphan_snapshots(s);
@@ -126,7 +116,7 @@ sw_scene_wire *sw_scene_find_wire(const sw_scene *s, sw_handle h, sw_error *err)
   return NULL;
 }
 
-sw_scene_hold *sw_scene_find_hold(const sw_scene *s, sw_handle h, sw_error *err) {
+sw_hold *sw_scene_find_hold(const sw_scene *s, sw_handle h, sw_error *err) {
   if (h.slot < s->hold_count && s->holds[h.slot].generation == h.generation)
     return &s->holds[h.slot];
   sw_fail(err, SW_EDEAD, "this clamp is not of scene '%s' any more", s->name);
@@ -147,7 +137,7 @@ const char *sw_scene_wire_name(const sw_scene *s, sw_handle h) {
 }
 
 const char *sw_scene_hold_name(const sw_scene *s, sw_handle h, const char **kind, int *held) {
-  const sw_scene_hold *hold = sw_scene_find_hold(s, h, NULL);
+  const sw_hold *hold = sw_scene_find_hold(s, h, NULL);
   if (!hold) return NULL;
   *kind = hold->cls->name;
   *held = hold->alive;

@@ -13,9 +13,9 @@
 #include "base/status.h"
 #include "base/vec.h"
 #include "calibrate/calibrate.h"
-#include "constraint/constraint.h"
 #include "force/force.h"
 #include "integrate/integrate.h"
+#include "link/link.h"
 #include "motion/motion.h"
 #include "shape/shape.h"
 #include "wire/wire.h"
@@ -49,17 +49,6 @@ int sw_scene_busy(const sw_scene *scene);
 sw_status sw_scene_readable(const sw_scene *scene, sw_error *err);
 
 /* --- joins ------------------------------------------------------------------ */
-
-enum { SW_JOIN_ENDS = 8 }; /* most wires in a join */
-
-typedef struct sw_join_args {
-  int rigid; /* 1: angles between the wires are kept */
-  char name[SW_NAME_SIZE];
-  double slack;     /* a tie of two wires: how far apart they may be; NAN = none [m] */
-  double stiffness; /* of a tie [N/m] */
-  double strength;  /* pull at which a tie breaks; NAN = never [N] */
-} sw_join_args;
-extern const sw_params sw_join_params;
 
 typedef struct sw_join_end {
   sw_handle wire;
@@ -167,7 +156,7 @@ const char *sw_scene_wire_model(const sw_scene *scene, sw_handle wire);
 
 /* --- holds ------------------------------------------------------------------ */
 
-sw_status sw_scene_add_hold(sw_scene *scene, const sw_hold_class *cls, sw_handle wire,
+sw_status sw_scene_add_hold(sw_scene *scene, const sw_link_class *cls, sw_handle wire,
                             const sw_hold_args *args, sw_handle *out, sw_error *err);
 sw_status sw_scene_release_hold(sw_scene *scene, sw_handle hold, sw_error *err);
 
@@ -186,6 +175,19 @@ sw_status sw_scene_hold_crash(const sw_scene *scene, sw_handle hold, double *tim
 /* Force and moment on the wire about the held point, or about *about [N, N m]. */
 sw_status sw_scene_hold_force(sw_scene *scene, sw_handle hold, const sw_vec *about, sw_vec *force,
                               sw_vec *moment, sw_error *err);
+
+/* What it is like now, by its class's rows; SW_EDEAD once it is released. */
+sw_status sw_scene_hold_args(const sw_scene *scene, sw_handle hold, const sw_params **rows,
+                             sw_hold_args *out, sw_error *err);
+/* What may be changed of the arguments from now on. */
+sw_status sw_scene_set_hold(sw_scene *scene, sw_handle hold, const sw_hold_args *args,
+                            sw_error *err);
+/* Of a hold along which the wire slides; SW_EINVAL: it does not. */
+typedef struct sw_slide_state {
+  double place, speed; /* along the rail [m], [m/s] */
+  double force;        /* of friction and ends on the wire, along it [N] */
+} sw_slide_state;
+sw_status sw_scene_slide_state(sw_scene *scene, sw_handle hold, sw_slide_state *out, sw_error *err);
 
 /* --- feeds ------------------------------------------------------------------- */
 

@@ -12,8 +12,8 @@ static const double PRECISION = 1e-7; /* of the force, the wire's weight or EI/L
 
 static const double SAME_PLACE = 1e-13; /* way of the wire in a step [m] */
 
-static int yields(const sw_scene_hold *h) {
-  return h->alive && h->cls->feeds && (isfinite(h->feed.push) || isfinite(h->feed.limit));
+static int yields(const sw_hold *h) {
+  return h->alive && sw_hold_passes(h) && (isfinite(h->feed.push) || isfinite(h->feed.limit));
 }
 
 int sw_slip_any(const sw_scene *s) {
@@ -79,10 +79,12 @@ static int stops(sw_feed *f, double h) {
   return 1;
 }
 
-static int correct(sw_scene *s, sw_scene_hold *h, double step, int first) {
+static int correct(sw_scene *s, sw_hold *h, double step, int first) {
   sw_feed *f = &h->feed;
   const sw_plan *p = s->system.bodies[h->wire].plan;
-  const double drive = sw_feed_drive(s, h, s->stepper.trial_x), L = p->length;
+  const sw_link_wire w = sw_scene_link_wire(s, h->wire);
+  const double drive = h->cls->hold->passes(h, &w, s->time, s->stepper.trial_x).force;
+  const double L = p->length;
   const double weight = p->beam.mass * L * sw_norm(s->gravity);
   if (!isfinite(f->push) && f->slip_way == 0) {
     if (f->way_before != 0 || fabs(drive) <= f->limit) return 1; /* stopped, or holds */

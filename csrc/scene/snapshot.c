@@ -68,7 +68,7 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
   SW_TRY(sw_scene_build(s, err));
-  sw_feed_undo(s);
+  sw_scene_undo_holds(s);
   sw_snapshot *p = sw_alloc(1, sizeof *p);
   uint32_t *force = sw_alloc(s->force_count, sizeof *force);
   if (!p || !force) {
@@ -99,7 +99,7 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
 static int same_system(const sw_scene *s, const sw_snapshot *p) {
   if (!s->built || s->build != p->build || s->hold_count != p->holds) return 0;
   for (size_t k = 0; k < s->hold_count; k++)
-    if (s->holds[k].alive && s->holds[k].cls->feeds) return 0;
+    if (s->holds[k].alive && sw_hold_passes(&s->holds[k])) return 0;
   return s->obstacle_count == p->obstacles && s->tool_count == p->tools &&
          s->force_count == p->forces && s->join_count == p->joins && s->rule_count == p->rules;
 }

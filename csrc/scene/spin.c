@@ -12,7 +12,7 @@ static sw_edge_frame edge_frame(const double *nodes, const double *normals, size
 }
 
 /* The scene's hold with this number among the living. */
-static const sw_scene_hold *hold_number(const sw_scene *s, int number) {
+static const sw_hold *hold_number(const sw_scene *s, int number) {
   for (size_t k = 0; k < s->hold_count; k++)
     if (s->holds[k].alive && number-- == 0) return &s->holds[k];
   return NULL;

@@ -1,26 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Ties: joins of two wires that only may not be further apart than their slack, which break when
- * they are pulled harder than they bear. A broken tie stays in the system without stiffness until
- * that is made anew. */
+/* What breaks when it is pulled harder than it bears: joints, and forces that say so. */
 #include <math.h>
 
 #include "scene/world.h"
-#include "system/join.h"
-
-sw_status sw_scene_add_tie(sw_scene *s, size_t join) {
-  sw_scene_join *j = &s->joins[join];
-  const sw_join_spring spring = {.i = sw_scene_join_node(s, &j->ends[0]),
-                                 .j = sw_scene_join_node(s, &j->ends[1]),
-                                 .k = j->broken ? 0.0 : j->stiffness,
-                                 .tie = 1,
-                                 .slack = j->slack};
-  SW_TRY(sw_system_add_spring(&s->system, &spring));
-  j->spring = s->system.joins->spring_count - 1;
-  return SW_OK;
-}
-
-/* A tie is to break when it is pulled by no more than this above its strength [-]. */
-static const double CLOSE = 0.01;
 
 /* Pull of a tie to a point with nodes at x, and what it bears, 0 once it is broken. A body's own
  * field may still name the places of a trial that is gone [N]. */
@@ -36,22 +18,32 @@ static sw_status check_terms(const sw_body *b, const double *x, sw_error *err) {
     if (!term->cls->pull) continue;
     double bears;
     const double pull = pull_of(b, term, x, &bears);
-    if (bears > 0 && pull > (1.0 + CLOSE) * bears)
+    if (bears > 0 && sw_tie_breaks_early(pull, bears))
       return sw_fail(err, SW_ENOCONV, "a tie breaks within the step");
   }
   return SW_OK;
 }
 
+static int breakable(const sw_scene *s, size_t joint) {
+  return s->joins[joint].alive && s->joins[joint].cls->joint->pull;
+}
+
+static double pull_of_joint(const sw_scene *s, size_t joint, const double *x, double *bears) {
+  return s->joins[joint].cls->joint->pull(&s->joins[joint], &s->system, x, bears);
+}
+
 int sw_scene_may_break(const sw_scene *s) {
+  double bears = 0;
   for (size_t k = 0; k < s->join_count; k++) {
-    const sw_scene_join *j = &s->joins[k];
-    if (j->alive && isfinite(j->slack) && isfinite(j->strength) && !j->broken) return 1;
+    if (breakable(s, k)) pull_of_joint(s, k, s->system.x, &bears);
+    if (bears > 0 && isfinite(bears)) return 1;
+    bears = 0;
   }
   for (size_t b = 0; s->force_count && b < s->system.body_count; b++) {
     const sw_body *body = &s->system.bodies[b];
     for (size_t k = 0; k < body->term_count; k++) {
       const sw_term *term = &body->terms[k];
-      double bears = 0;
+      bears = 0;
       if (term->cls->pull) pull_of(body, term, s->system.x, &bears);
       if (bears > 0) return 1;
     }
@@ -61,11 +53,11 @@ int sw_scene_may_break(const sw_scene *s) {
 
 sw_status sw_scene_check_ties(const sw_scene *s, const double *x, sw_error *err) {
   for (size_t k = 0; k < s->join_count; k++) {
-    const sw_scene_join *j = &s->joins[k];
-    if (!j->alive || isnan(j->slack) || j->broken) continue;
-    const sw_join_spring *p = &s->system.joins->springs[j->spring];
-    if (sw_norm(sw_join_spring_force(p, x)) > (1.0 + CLOSE) * j->strength)
-      return sw_fail(err, SW_ENOCONV, "tie '%s' breaks within the step", j->name);
+    double bears;
+    if (!breakable(s, k)) continue;
+    const double pull = pull_of_joint(s, k, x, &bears);
+    if (bears > 0 && sw_tie_breaks_early(pull, bears))
+      return sw_fail(err, SW_ENOCONV, "tie '%s' breaks within the step", s->joins[k].name);
   }
   for (size_t b = 0; s->force_count && b < s->system.body_count; b++)
     SW_TRY(check_terms(&s->system.bodies[b], x, err));
@@ -90,14 +82,12 @@ static void tell_of_terms(sw_scene *s, size_t body) {
 void sw_scene_watch_ties(sw_scene *s) {
   for (size_t b = 0; s->force_count && b < s->system.body_count; b++) tell_of_terms(s, b);
   for (size_t k = 0; k < s->join_count; k++) {
-    sw_scene_join *j = &s->joins[k];
-    if (!j->alive || isnan(j->slack) || j->broken) continue;
-    sw_join_spring *p = &s->system.joins->springs[j->spring];
-    const double pull = sw_norm(sw_join_spring_force(p, s->system.x));
-    j->peak = fmax(j->peak, pull);
-    if (!(pull > j->strength)) continue;
-    j->broken = 1, j->broken_time = s->time, j->broken_force = pull;
-    p->k = 0;
+    sw_joint *j = &s->joins[k];
+    double bears;
+    if (!breakable(s, k)) continue;
+    const double pull = pull_of_joint(s, k, s->system.x, &bears);
+    if (!sw_tie_suffers(pull, bears, s->time, j->fate)) continue;
+    j->cls->joint->breaks(j, &s->system);
     s->discontinuous = 1;
     s->build = ++s->builds; /* the system is another one */
     sw_scene_tell(s, "tie", j->name, NAN, pull, "tie '%s' breaks at %.4g N; it bears %.4g N",
@@ -108,19 +98,21 @@ void sw_scene_watch_ties(sw_scene *s) {
 sw_status sw_scene_tie_state(sw_scene *s, sw_handle h, sw_tie_state *out, sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
   SW_TRY(sw_scene_editable(s, err));
-  const sw_scene_join *j = sw_scene_find_join(s, h, err);
+  const sw_joint *j = sw_scene_find_join(s, h, err);
   if (!j) return SW_EDEAD;
-  if (isnan(j->slack))
+  if (!j->cls->joint->pull)
     return sw_fail(err, SW_EINVAL, "join '%s' is no tie: it was made without slack", j->name);
-  *out = (sw_tie_state){.peak = j->peak,
-                        .broken = j->broken,
-                        .broken_time = j->broken_time,
-                        .broken_force = j->broken_force};
+  *out = (sw_tie_state){.peak = j->fate[SW_TIE_PEAK],
+                        .broken = j->fate[SW_TIE_BROKEN] > 0,
+                        .broken_time = j->fate[SW_TIE_BROKEN_TIME],
+                        .broken_force = j->fate[SW_TIE_BROKEN_FORCE]};
   SW_TRY(sw_scene_build(s, err));
   const double *x = s->system.x;
-  const uint32_t one = sw_scene_join_node(s, &j->ends[0]), two = sw_scene_join_node(s, &j->ends[1]);
-  out->distance = sw_dist(sw_vec_at(x, one), sw_vec_at(x, two));
-  if (j->alive)
-    out->tension = sw_norm(sw_join_spring_force(&s->system.joins->springs[j->spring], x));
+  const sw_link_wire one = sw_scene_link_wire(s, j->ends[0].wire);
+  const sw_link_wire two = sw_scene_link_wire(s, j->ends[1].wire);
+  double bears;
+  out->distance = sw_dist(sw_vec_at(x, sw_joint_node(&j->ends[0], &one)),
+                          sw_vec_at(x, sw_joint_node(&j->ends[1], &two)));
+  if (j->alive) out->tension = j->cls->joint->pull(j, &s->system, x, &bears);
   return SW_OK;
 }

@@ -83,7 +83,7 @@ sw_status sw_scene_tool_pad(sw_scene *s, sw_handle tool, sw_handle obstacle, int
 sw_status sw_scene_tool_hold(sw_scene *s, sw_handle tool, sw_handle hold, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   const sw_tool *t = sw_scene_find_tool(s, tool, err);
-  sw_scene_hold *h = t ? sw_scene_living_hold(s, hold, err) : NULL;
+  sw_hold *h = t ? sw_scene_living_hold(s, hold, err) : NULL;
   sw_motion_state now;
   sw_pose pose;
   if (!h) return SW_EDEAD;
@@ -212,7 +212,7 @@ static void pads_mean(const sw_scene *s, const sw_tool *t, sw_vec about, sw_vec 
 static sw_status holds_force(sw_scene *s, size_t slot, sw_vec about, sw_vec *force, sw_vec *moment,
                              int *mean, sw_error *err) {
   for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_scene_hold *h = &s->holds[k];
+    const sw_hold *h = &s->holds[k];
     sw_motion_state at;
     if (!h->alive || h->drive.tool != 1 + slot) continue;
     SW_TRY(sw_drive_eval(s, &h->drive, s->time, &at, err));

@@ -6,7 +6,6 @@
 
 #include "base/alloc.h"
 #include "scene/world.h"
-#include "system/join.h"
 
 enum { OF_WIRE, OF_FORCE, OF_TIE };
 
@@ -88,12 +87,13 @@ sw_status sw_watch_forces(sw_scene *s, sw_error *err) {
 
 sw_status sw_watch_ties(sw_scene *s, sw_error *err) {
   for (size_t k = 0; k < s->join_count; k++) {
-    const sw_scene_join *j = &s->joins[k];
+    const sw_joint *j = &s->joins[k];
     double row[SW_LOG_FORCE_SIZE] = {s->time};
-    if (!j->alive || isnan(j->slack) || !s->system.joins) continue;
-    sw_store(row + 1,
-             j->broken ? sw_v(0, 0, 0)
-                       : sw_join_spring_force(&s->system.joins->springs[j->spring], s->system.x));
+    if (!j->alive || !j->cls->joint->pull || !s->system.joins) continue;
+    sw_vec force, moment;
+    const sw_link_wire w = sw_scene_link_wire(s, j->ends[0].wire);
+    j->cls->joint->force(j, &w, 0, &force, &moment);
+    sw_store(row + 1, j->fate[SW_TIE_BROKEN] > 0 ? sw_v(0, 0, 0) : force);
     SW_TRY(add(s, OF_TIE, (sw_handle){(uint32_t)k, j->generation}, row, j->name, err));
   }
   return SW_OK;

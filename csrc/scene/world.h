@@ -3,6 +3,7 @@
 #ifndef SW_SCENE_WORLD_H
 #define SW_SCENE_WORLD_H
 
+#include "base/log.h"
 #include "contact/contact.h"
 #include "contact/crowd.h"
 #include "contact/grains.h"
@@ -15,7 +16,6 @@
 #include "scene/join.h"
 #include "scene/ledger.h"
 #include "scene/line.h"
-#include "scene/log.h"
 #include "scene/objects.h"
 #include "scene/rest.h"
 #include "scene/scene.h"
@@ -89,7 +89,7 @@ struct sw_scene {
   double time;
   sw_scene_wire *wires;
   size_t wire_count, wire_capacity;
-  sw_scene_hold *holds;
+  sw_hold *holds;
   size_t hold_count, hold_capacity;
   sw_scene_obstacle *obstacles;
   size_t obstacle_count, obstacle_capacity;
@@ -98,7 +98,7 @@ struct sw_scene {
   size_t tool_count, tool_capacity;
   sw_scene_force *forces;
   size_t force_count, force_capacity;
-  sw_scene_join *joins;
+  sw_joint *joins;
   size_t join_count, join_capacity;
 
   const sw_pose *part_from; /* settling: where the holds come from, or NULL */

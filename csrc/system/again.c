@@ -4,7 +4,9 @@
 #include "system/system.h"
 #include "system/twist.h"
 
-int sw_body_solves_again(const sw_body *b) { return !b->linked && !b->spin_block && !b->plan->web; }
+int sw_body_solves_again(const sw_body *b) {
+  return !b->bridged && !b->spin_block && !b->plan->web;
+}
 
 void sw_body_solve_again(const sw_body *b, double *more) {
   sw_band3_solve(b->field.rows, b->plan->nodes, more);

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "system/link.h"
+#include "system/bridge.h"
 #include "system/web.h"
 
 /* Factors serve while no edge has changed by more than this share of its length [-], and for so
@@ -32,7 +32,7 @@ static int is_smooth(const sw_body *b) {
 }
 
 static int may_serve(const sw_system *s, const sw_newton *newton) {
-  if (newton->statics || s->joins || sw_links_any(s)) return 0;
+  if (newton->statics || s->joins || sw_bridges_any(s)) return 0;
   for (size_t b = 0; b < s->body_count; b++)
     if (!is_smooth(&s->bodies[b])) return 0;
   return 1;

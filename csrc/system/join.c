@@ -12,6 +12,7 @@
 #include "base/alloc.h"
 #include "solve/band3.h"
 #include "solve/rotation.h"
+#include "state/tie.h"
 
 void sw_joins_free(sw_system *s) {
   if (!s->joins) return;
@@ -35,7 +36,7 @@ static int in_band(const sw_system *s, uint32_t i, uint32_t j) {
 
 static sw_status plan(sw_system *s, uint32_t i, uint32_t j) {
   const uint32_t low = i < j ? i : j, high = i < j ? j : i;
-  return in_band(s, low, high) ? SW_OK : sw_system_plan_link(s, low, high);
+  return in_band(s, low, high) ? SW_OK : sw_system_plan_bridge(s, low, high);
 }
 
 static sw_status plan_hub(sw_system *s, const sw_join_hub *h) {
@@ -88,7 +89,7 @@ static sw_status add_block(sw_system *s, uint32_t i, uint32_t j, const double k[
     const double turned[9] = {k[0], k[3], k[6], k[1], k[4], k[7], k[2], k[5], k[8]};
     return add_block(s, j, i, turned);
   }
-  if (!in_band(s, i, j)) return sw_system_add_link(s, i, j, k);
+  if (!in_band(s, i, j)) return sw_system_add_bridge(s, i, j, k);
   sw_body *b = &s->bodies[sw_system_body_of(s, i)];
   double *row = b->field.rows + SW_ROW_SIZE * (i - b->first_node);
   for (size_t m = 0; i == j && m < 6; m++) row[SW_ROW_OWN + m] += k[upper[m]];
@@ -101,19 +102,17 @@ sw_vec sw_join_spring_force(const sw_join_spring *p, const double *x) {
   const sw_vec apart = sw_sub(sw_sub(sw_vec_at(x, p->i), sw_vec_at(x, p->j)), p->offset);
   if (!p->tie) return sw_scale(apart, -p->k);
   const double d = sw_norm(apart);
-  return d > p->slack ? sw_scale(apart, -p->k * (d - p->slack) / d) : sw_v(0, 0, 0);
+  return d > p->slack ? sw_scale(apart, -sw_tie_pull(p->k, p->slack, d) / d) : sw_v(0, 0, 0);
 }
 
-/* Of the nodes' difference, whole: k I; of a tie k (n n' + (1 - slack / d) (I - n n')). */
+/* Of the nodes' difference, times a sign. */
 static void spring_stiffness(const sw_join_spring *p, const double *x, double sign, double out[9]) {
   const sw_vec apart = sw_sub(sw_vec_at(x, p->i), sw_vec_at(x, p->j));
-  const double d = sw_norm(apart), n[3] = {apart.x, apart.y, apart.z};
-  const double taut = !p->tie || d > p->slack ? sign * p->k : 0.0;
-  const double across = p->tie && d > 0 ? taut * (1.0 - p->slack / d) : taut;
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++)
-      out[3 * i + j] = (i == j ? across : 0.0) +
-                       (taut != across ? (taut - across) * n[i] * n[j] / (d * d) : 0.0);
+  memset(out, 0, 9 * sizeof *out);
+  if (!p->tie)
+    out[0] = out[4] = out[8] = sign * p->k;
+  else if (sw_norm(apart) > p->slack)
+    sw_tie_stiffness(p->k, p->slack, apart, sign, out);
 }
 
 static sw_status eval_spring(sw_system *s, const sw_join_spring *p, const double *y) {

@@ -39,14 +39,14 @@ struct sw_joins {
   size_t hub_count, hub_capacity;
 };
 
-/* Add one, and plan the links it makes. SW_ENOMEM. */
+/* Add one, and plan the bridges it makes. SW_ENOMEM. */
 sw_status sw_system_add_spring(sw_system *system, const sw_join_spring *spring);
 sw_status sw_system_add_hub(sw_system *system, const sw_join_hub *hub);
 
 /* Plan all of them again. SW_ENOMEM. */
 sw_status sw_joins_plan(sw_system *system);
 
-/* Add forces and stiffness at y to the bodies' fields and to the links. SW_ENOMEM. */
+/* Add forces and stiffness at y to the bodies' fields and to the bridges. SW_ENOMEM. */
 sw_status sw_joins_eval(sw_system *system, const double *y);
 
 /* Force of a spring on its node i at x [N]. */

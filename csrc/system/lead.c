@@ -7,7 +7,7 @@ enum { MOST_WAITS = 40 };
 enum { MOST_SHORTENED = 16 };
 
 static int is_led(const sw_system *s, const sw_held_node *h) {
-  return !s->bodies[h->body].plan->web;
+  return !s->bodies[h->body].plan->web && !h->rail;
 }
 
 void sw_lead_begin(sw_system *s, const sw_stage *stage) {

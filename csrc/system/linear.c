@@ -13,7 +13,7 @@
 #include "solve/band4.h"
 #include "solve/blocks.h"
 #include "system/assemble.h"
-#include "system/link.h"
+#include "system/bridge.h"
 #include "system/spin.h"
 #include "system/system.h"
 #include "system/twist.h"
@@ -27,7 +27,7 @@ sw_status sw_system_linearise(sw_system *s, double time, sw_error *err) {
   sw_system_begin_step(s);
   for (size_t b = 0; b < s->body_count; b++)
     SW_TRY(sw_body_evaluate(s, &s->bodies[b], time, HUGE_VAL, s->x, s->velocity, 1, 0, err));
-  sw_links_begin(s);
+  sw_bridges_begin(s);
   if (c->eval)
     SW_TRY(c->eval(c->user, s, time, HUGE_VAL, s->x, SW_WANT_FORCE | SW_WANT_STIFFNESS, err));
   for (size_t b = 0; b < s->body_count; b++) {

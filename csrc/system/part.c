@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "system/part.h"
 
-#include "system/link.h"
+#include "system/bridge.h"
 
 int sw_parts_any(const sw_system *s, const sw_newton *newton) {
   const sw_coupling *c = &s->coupling;
-  if (s->body_count < 2 || newton->statics || s->joins || sw_links_any(s)) return 0;
+  if (s->body_count < 2 || newton->statics || s->joins || sw_bridges_any(s)) return 0;
   if ((c->eval || c->settled) && !c->part) return 0;
   for (size_t b = 0; b < s->body_count; b++)
     if (s->bodies[b].plan->web) return 0; /* their factors serve from stage to stage */

@@ -11,11 +11,12 @@
 #include "solve/band3.h"
 #include "solve/blocks.h"
 #include "system/assemble.h"
+#include "system/bridge.h"
 #include "system/factors.h"
 #include "system/join.h"
 #include "system/lead.h"
-#include "system/link.h"
 #include "system/part.h"
+#include "system/rail.h"
 #include "system/spin.h"
 #include "system/strain.h"
 #include "system/system.h"
@@ -146,6 +147,7 @@ static void stage_velocity(const sw_system *s, const sw_stage *stage, int static
     for (size_t k = s->bodies[b].held; k; k = s->held[k - 1].next)
       if (s->held[k - 1].slides)
         sw_system_held_velocity(s, &s->held[k - 1], s->velocity + 3 * s->held[k - 1].node);
+  if (!statics) sw_rails_velocity(s, stage, s->velocity);
 }
 
 /* The update of a body that no link ties to others. */
@@ -167,6 +169,7 @@ static void take_out_held(sw_system *s, const sw_body *b) {
   double *right = s->delta + 3 * b->first_node;
   for (size_t k = b->held; k; k = s->held[k - 1].next) {
     sw_held_node *h = &s->held[k - 1];
+    if (h->rail) sw_rail_take(&s->rails[h->rail - 1], b, h->node - b->first_node);
     if (b->plan->web)
       sw_web_hold(h, b, right);
     else
@@ -184,7 +187,7 @@ static sw_status assemble_and_solve(sw_system *s, const sw_stage *stage, const s
   for (size_t b = s->part; b < s->part_end; b++)
     SW_TRY(sw_body_evaluate(s, &s->bodies[b], stage->time, stage->hbar, stage->y, s->velocity,
                             statics, report->iterations, err));
-  sw_links_begin(s);
+  sw_bridges_begin(s);
   if (s->coupling.eval)
     SW_TRY(s->coupling.eval(s->coupling.user, s, stage->time, stage->hbar, stage->y,
                             SW_WANT_FORCE | (s->goes_on ? 0u : SW_WANT_STIFFNESS), err));
@@ -200,15 +203,16 @@ static sw_status assemble_and_solve(sw_system *s, const sw_stage *stage, const s
   if (statics) sw_lead_rows(s, stage->y);
   report->negative = 0;
   if (sw_interrupted()) return SW_EINTR;
-  if (sw_links_any(s)) SW_TRY(sw_links_solve(s, &report->negative));
+  if (sw_bridges_any(s)) SW_TRY(sw_bridges_solve(s, &report->negative));
   for (size_t b = s->part; b < s->part_end; b++) {
     sw_body *body = &s->bodies[b];
-    if (body->linked && sw_links_any(s)) continue;
+    if (body->bridged && sw_bridges_any(s)) continue;
     size_t negative = 0;
     SW_TRY(solve_body(s, body, &negative));
     report->negative += negative;
     s->counters.solves++;
   }
+  sw_rails_solve(s, stage, &report->negative);
   if (s->coupling.refine && !s->goes_on) s->coupling.refine(s->coupling.user, s);
   if (statics) sw_lead_update(s, stage->y);
   if (!s->goes_on) sw_factors_keep(s, stage, newton, report);
@@ -220,6 +224,7 @@ static sw_status assemble_and_solve(sw_system *s, const sw_stage *stage, const s
 /* One iterate; delta is the full update. */
 static sw_status solve_once(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                             sw_stage_report *report, sw_error *err) {
+  sw_rails_follow(s, stage, newton->statics);
   SW_TRY(sw_factors_serve(s, stage, newton, report, &s->goes_on, err));
   const sw_status status = assemble_and_solve(s, stage, newton, report, err);
   s->goes_on = 0;
@@ -290,6 +295,7 @@ static void apply(sw_system *s, const sw_stage *stage, double share) {
     for (size_t e = edge; e < end_edge; e++)
       s->tension[e] += share * (s->tension_new[e] - s->tension[e]);
   if (s->strain_past) sw_strain_take(s, share);
+  sw_rails_apply(s, stage, share);
 }
 
 static double largest_shift(const sw_system *s) {
@@ -343,6 +349,7 @@ static int converged(sw_system *s, const sw_stage *stage, const sw_newton *newto
       !s->coupling.settled || s->coupling.settled(s->coupling.user, s, stage->y, s->delta);
   if (!settled || s->rough) return 0;
   if (newton->statics && largest_shift(s) > newton->accept_shift) return 0;
+  if (!sw_rails_settled(s)) return 0;
   if (drowned_in_rounding(s, stage, newton->statics)) return 0;
   for (size_t b = s->part; b < s->part_end; b++)
     if ((s->bodies[b].is_explicit || s->bodies[b].is_kinked) &&
@@ -392,6 +399,7 @@ static sw_status begin(sw_system *s, const sw_stage *stage, int statics, sw_erro
       const size_t i = 3 * s->held[k].node + c;
       s->yhat[i] = stage->y[i] - h * h / inertia_of(stage) * (stage->a ? stage->a[i] : 0.0);
     }
+  sw_rails_begin(s, stage, statics);
   if (statics) sw_lead_begin(s, stage);
   if (!statics) SW_TRY(check_start(s, stage->y, err));
   sw_spin_begin_stage(s, mass_rate(stage));
@@ -413,6 +421,7 @@ static void stage_rates(size_t n, double rate, double inertia, const double *res
 
 static void finish(sw_system *s, const sw_stage *stage, int statics) {
   const double rate = statics || !isfinite(stage->hbar) ? 0.0 : 1.0 / stage->hbar;
+  sw_rails_follow(s, stage, statics);
   sw_spin_end_stage(s, stage->y);
   if (stage->a)
     stage_rates(s->freedoms, rate, inertia_of(stage), stage->y, stage->xhat, s->yhat, stage->v,
@@ -430,7 +439,8 @@ static void finish(sw_system *s, const sw_stage *stage, int statics) {
     if (s->bodies[h->body].spin_block) sw_spin_react(h, &s->bodies[h->body]);
     sw_system_held_velocity(s, h, stage->v + 3 * h->node);
   }
-  sw_links_react(s);
+  sw_bridges_react(s);
+  sw_rails_finish(s, stage);
 }
 
 /* Spins without inertia may have no equilibrium near by, as when a flat wire on edge is

@@ -7,10 +7,11 @@
 #include "base/alloc.h"
 #include "base/simd.h"
 #include "base/spread.h"
+#include "system/bridge.h"
 #include "system/factors.h"
 #include "system/join.h"
-#include "system/link.h"
 #include "system/pull.h"
+#include "system/rail.h"
 #include "system/roll.h"
 #include "system/spin.h"
 #include "system/strain.h"
@@ -39,10 +40,12 @@ void sw_system_free(sw_system *system) {
     sw_free(system->bodies[b].roll_block);
     sw_web_discard(&system->bodies[b]);
   }
-  sw_links_free(system);
+  sw_bridges_free(system);
   sw_joins_free(system);
   sw_free(system->bodies);
   sw_free(system->held);
+  sw_free(system->rails);
+  sw_free(system->rail_room);
   sw_free(system->directors);
   sw_free(system->hold_states);
   sw_free(system->state);
@@ -71,7 +74,7 @@ static sw_status new_bodies(sw_system *s, sw_plan *const *plans, size_t count) {
     s->nodes += plans[b]->nodes;
     s->edges += sw_plan_axial(plans[b]);
   }
-  s->freedoms = 3 * s->nodes + s->rolls;
+  s->freedoms = 3 * s->nodes + s->rolls + s->rail_count;
   return SW_OK;
 }
 
@@ -122,8 +125,9 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
 }
 
 sw_status sw_system_new(sw_system *system, sw_plan *const *plans, size_t body_count,
-                        size_t hold_count) {
+                        size_t hold_count, size_t rail_count) {
   memset(system, 0, sizeof *system);
+  system->rail_count = rail_count;
   sw_status status = new_bodies(system, plans, body_count);
   if (status == SW_OK) status = new_arrays(system, hold_count);
   if (status != SW_OK) sw_system_free(system);
@@ -242,6 +246,7 @@ sw_status sw_system_place_holds(sw_system *s, double t, double *x, double *v, do
     place_node(&s->hold_states[h->hold], h->local, x ? x + 3 * h->node : NULL,
                v ? v + 3 * h->node : NULL, a ? a + 3 * h->node : NULL);
   }
+  if (x) sw_rails_place(s, x, v, a, x);
   return SW_OK;
 }
 

@@ -61,12 +61,12 @@ typedef struct sw_body {
   unsigned char *web_fixed; /* (particles) 1: held */
   uint32_t *web_pairs;      /* (web_pair_count x 2) that it has besides the web's */
   size_t web_pair_count;
-  size_t web_couples; /* pairs of its particles in the matrix of what is linked */
+  size_t web_couples; /* pairs of its particles in the matrix of what is bridged */
   int web_replanned;  /* 1: it has other pairs than these were listed for */
   double *web_room;   /* (particles x 15) of a large one, for iterations; or NULL */
   int web_factored;   /* 1: there is a factor of this step that leads iterations */
   int web_slow;       /* 1: it did not lead them fast enough in this step */
-  int linked;         /* its matrix is part of the links' (see system/link.h) */
+  int bridged;        /* its matrix is part of the bridges' (see system/bridge.h) */
   double pushed;      /* largest push for which the scene looked whether it buckles [N] */
 } sw_body;
 
@@ -81,6 +81,7 @@ typedef struct sw_held_node {
   size_t node; /* in the system's arrays */
   size_t body;
   int hold;
+  size_t rail;      /* number of its rail + 1, or 0 (see system/rail.h) */
   int slides;       /* wire slides through: its velocity is not how the node moves */
   sw_vec local;     /* [m] */
   double saved[36]; /* its matrix couplings to the nodes -2 -1 +1 +2 [N/m] */
@@ -142,8 +143,9 @@ enum { SW_NOT_MADE = 2, SW_MAY_BE_MADE };
 
 struct sw_system {
   size_t nodes, edges;
-  size_t rolls;    /* edges of wires that roll */
-  size_t freedoms; /* values in each of x, v, a: 3 x nodes + rolls */
+  size_t rolls; /* edges of wires that roll */
+  size_t rail_count;
+  size_t freedoms; /* values in each of x, v, a: 3 x nodes + rolls + rails */
   sw_body *bodies;
   size_t body_count;
   size_t part, part_end; /* the bodies that are solved now: all, or one after another */
@@ -161,7 +163,9 @@ struct sw_system {
   double gravity[3];  /* [m/s2] */
   const double *dead; /* (nodes x 3) forces on nodes besides, as those of inertia; or NULL [N] */
   sw_coupling coupling;
-  struct sw_links *links; /* between bodies, or NULL while there never were any */
+  struct sw_bridges *bridges; /* between bodies, or NULL while there never were any */
+  struct sw_rail *rails;      /* of held nodes that keep on curves (see system/rail.h), or NULL */
+  double *rail_room;
   struct sw_joins *joins; /* what holds wires together (see system/join.h), or NULL */
   sw_counters counters;
   double factor_hbar;   /* bodies' factors are of this step, made for it; 0: there are none [s] */
@@ -241,7 +245,7 @@ typedef struct sw_stage_report {
 /* Make arrays for bodies whose plans are set (takes over a retained plan each).
  * The caller fills x, v and terms. SW_ENOMEM leaves nothing behind. */
 sw_status sw_system_new(sw_system *system, sw_plan *const *plans, size_t body_count,
-                        size_t hold_count);
+                        size_t hold_count, size_t rail_count);
 void sw_system_free(sw_system *system);
 
 /* The body that has a node of the system's arrays. */
@@ -258,7 +262,7 @@ sw_status sw_system_add_histories(sw_system *system);
 /* While the coupling evaluates: stiffness between nodes i and j that are not neighbours,
  * i != j, row by row with i's rows [N/m]; the nodes' own parts go to their bodies' rows.
  * SW_ENOMEM. */
-sw_status sw_system_add_link(sw_system *system, size_t i, size_t j, const double k[9]);
+sw_status sw_system_add_bridge(sw_system *system, size_t i, size_t j, const double k[9]);
 
 /* While the coupling evaluates: stiffness between nodes i and j of a body with a web, of the
  * body's own numbers, i != j, row by row with i's rows [N/m]. They are an edge of its surface. */
@@ -269,10 +273,10 @@ void sw_body_couple(sw_body *body, size_t i, size_t j, const double K[9]);
  * SW_ENOMEM leaves the old ones. */
 sw_status sw_body_plan_pairs(sw_body *body, const uint32_t *pairs, size_t count);
 
-/* Before a step: between which nodes there may be links in it, anew from begin_plan on, so
+/* Before a step: between which nodes there may be bridges in it, anew from begin_plan on, so
  * that the matrix is made for them and that its order does not depend on earlier steps. */
 sw_status sw_system_begin_plan(sw_system *system);
-sw_status sw_system_plan_link(sw_system *system, size_t i, size_t j);
+sw_status sw_system_plan_bridge(sw_system *system, size_t i, size_t j);
 
 /* Add what a term gives to its body's field. */
 static inline sw_status sw_term_eval(const sw_term *term, sw_field *field, sw_error *err) {
@@ -310,12 +314,12 @@ int sw_body_solves_again(const sw_body *body);
 void sw_body_solve_again(const sw_body *body, double *more);
 /* The solution delta (nodes x 3) is the last one. */
 void sw_body_take_solution(sw_body *body, const double *delta);
-/* The same of the bodies that links tie together: 1, they can be solved again; by how much forces
+/* The same of the bodies that bridges tie together: 1, they can be solved again; by how much forces
  * (of the system's nodes x 3) change the solution, those of other bodies to zero; the system's
  * delta is the last one. */
-int sw_links_solves_again(const sw_system *system);
-void sw_links_solve_again(sw_system *system, double *more);
-void sw_links_take_solution(sw_system *system);
+int sw_bridges_solves_again(const sw_system *system);
+void sw_bridges_solve_again(sw_system *system, double *more);
+void sw_bridges_take_solution(sw_system *system);
 /* A force is added at a held node of the system's: its hold bears it. */
 void sw_system_push_held(sw_system *system, size_t node, sw_vec force);
 

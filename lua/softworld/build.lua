@@ -354,8 +354,10 @@ function class.scene.obstacle(scene, args)
   return obstacle
 end
 
--- clamp, pin, grip and feed; hold takes particles
-for _, kind in ipairs{ "clamp", "pin", "grip", "feed", "hold" } do
+-- clamp, pin, ...; hold takes particles
+local kinds = { "hold" }
+for _, hold in ipairs(core.registry().holds) do kinds[#kinds + 1] = hold.name end
+for _, kind in ipairs(kinds) do
   local new_hold = class.scene[kind]
   class.scene[kind] = function(scene, wire, args)
     build.check(scene, "scene:" .. kind, 3)

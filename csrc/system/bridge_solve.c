@@ -1,31 +1,33 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The equations of bodies that links tie together: values of their matrix, twist, solution,
+/* The equations of bodies that bridges tie together: values of their matrix, twist, solution,
  * reactions. */
 #include <string.h>
 
 #include "base/alloc.h"
 #include "solve/band3.h"
 #include "solve/band4.h"
-#include "system/link.h"
+#include "system/bridge.h"
 #include "system/spin.h"
 #include "system/twist.h"
 #include "system/web.h"
 
+static const uint32_t NONE = UINT32_MAX;
+
 /* --- values --------------------------------------------------------------------- */
 
 /* A block of three unknowns among those of the matrix. */
-static void widen(const struct sw_links *l, const double *from, double *to) {
+static void widen(const struct sw_bridges *l, const double *from, double *to) {
   for (size_t i = 0; i < 3; i++)
     for (size_t j = 0; j < 3; j++) to[l->block * i + j] = from[3 * i + j];
 }
 
-static void add_pair(struct sw_links *l, size_t pair, const double *from) {
+static void add_pair(struct sw_bridges *l, size_t pair, const double *from) {
   double block[SW_SPARSE_BLOCK_MAX * SW_SPARSE_BLOCK_MAX] = {0};
   if (l->block > 3) widen(l, from, block);
   sw_sparse_add(l->matrix, pair, l->block > 3 ? block : from);
 }
 
-static void load_chain(struct sw_links *l, const sw_body *b, size_t first, size_t *pair) {
+static void load_chain(struct sw_bridges *l, const sw_body *b, size_t first, size_t *pair) {
   static const int full[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
   const size_t n = b->plan->nodes;
   for (size_t i = 0; i < n; i++) {
@@ -39,7 +41,7 @@ static void load_chain(struct sw_links *l, const sw_body *b, size_t first, size_
 }
 
 /* The same of a body with frames, whose rows have spins already. */
-static void load_spinning(struct sw_links *l, const sw_body *b, size_t first, size_t *pair) {
+static void load_spinning(struct sw_bridges *l, const sw_body *b, size_t first, size_t *pair) {
   const size_t n = b->plan->nodes;
   for (size_t i = 0; i < n; i++) {
     const double *row = b->spin_rows + SW_ROW4_SIZE * i;
@@ -50,7 +52,7 @@ static void load_spinning(struct sw_links *l, const sw_body *b, size_t first, si
 }
 
 /* A web has its blocks in its own matrix; held particles are taken out. */
-static void load_web(struct sw_links *l, const sw_body *b, size_t first, size_t *pair) {
+static void load_web(struct sw_bridges *l, const sw_body *b, size_t first, size_t *pair) {
   static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   double block[9];
   for (size_t i = 0; i < b->plan->nodes; i++) {
@@ -74,31 +76,31 @@ static int is_held(const sw_system *s, uint32_t node) {
 }
 
 static void load(sw_system *s) {
-  struct sw_links *l = s->links;
+  struct sw_bridges *l = s->bridges;
   size_t pair = 0;
   sw_sparse_clear(l->matrix);
   for (size_t b = 0; b < s->body_count; b++) {
     sw_body *body = &s->bodies[b];
-    if (!body->linked) continue;
+    if (!body->bridged) continue;
     if (body->spin_block) sw_spin_load(s, body, s->delta + 3 * body->first_node);
     const int web = body->plan->web != NULL;
     (web ? load_web : body->spin_block ? load_spinning : load_chain)(l, body, l->first[b], &pair);
   }
   for (size_t k = 0; k < l->count; k++) {
-    const sw_link *at = &l->list[k];
+    const sw_bridge *at = &l->list[k];
     if (is_held(s, at->i) || is_held(s, at->j)) continue;
-    add_pair(l, l->chain_pairs + sw_links_find(l, at->i, at->j), at->k);
+    add_pair(l, l->chain_pairs + sw_bridges_find(l, at->i, at->j), at->k);
   }
 }
 
-/* The linked bodies' right-hand sides, from nodes' (nodes x 3) or with spins, into x. */
+/* The bridged bodies' right-hand sides, from nodes' (nodes x 3) or with spins, into x. */
 static void load_right(const sw_system *s, const double *nodes) {
-  struct sw_links *l = s->links;
+  struct sw_bridges *l = s->bridges;
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
     double *x = l->x + l->block * l->first[b];
     const double *delta = nodes + 3 * body->first_node;
-    if (!body->linked) continue;
+    if (!body->bridged) continue;
     if (body->spin_block)
       memcpy(x, body->spin_delta, 4 * body->plan->nodes * sizeof *x);
     else
@@ -111,12 +113,12 @@ static void load_right(const sw_system *s, const double *nodes) {
 
 /* And the solution back. */
 static void take_solution(sw_system *s, double *nodes) {
-  const struct sw_links *l = s->links;
+  const struct sw_bridges *l = s->bridges;
   for (size_t b = 0; b < s->body_count; b++) {
     sw_body *body = &s->bodies[b];
     const double *x = l->x + l->block * l->first[b];
     double *delta = nodes + 3 * body->first_node;
-    if (!body->linked) continue;
+    if (!body->bridged) continue;
     if (body->spin_block) memcpy(body->spin_delta, x, 4 * body->plan->nodes * sizeof *x);
     for (size_t i = 0; i < body->plan->nodes; i++)
       memcpy(delta + 3 * i, x + l->block * i, 3 * sizeof *x);
@@ -125,11 +127,11 @@ static void take_solution(sw_system *s, double *nodes) {
 
 /* --- twist ---------------------------------------------------------------------- */
 
-/* The linked bodies' spans, one after another. */
+/* The bridged bodies' spans, one after another. */
 static size_t count_spans(const sw_system *s) {
   size_t count = 0;
   for (size_t b = 0; b < s->body_count; b++)
-    if (s->bodies[b].linked && s->bodies[b].has_twist) count += s->bodies[b].plan->span_count;
+    if (s->bodies[b].bridged && s->bodies[b].has_twist) count += s->bodies[b].plan->span_count;
   return count;
 }
 
@@ -154,8 +156,8 @@ static size_t solve_dense(double *S, size_t m, double *z) {
 }
 
 /* A span's slope among the matrix' unknowns, held nodes zero. */
-static void put_slope(const struct sw_links *l, const sw_body *b, size_t first, const sw_span *span,
-                      double *out) {
+static void put_slope(const struct sw_bridges *l, const sw_body *b, size_t first,
+                      const sw_span *span, double *out) {
   memset(out, 0, l->block * l->nodes * sizeof *out);
   for (size_t i = span->first; i <= span->last + 1; i++)
     if (b->plan->held[i] == SW_FREE)
@@ -163,7 +165,7 @@ static void put_slope(const struct sw_links *l, const sw_body *b, size_t first, 
 }
 
 /* The slope times x, of the matrix' unknowns. */
-static double slope_dot(const struct sw_links *l, const sw_body *b, size_t first,
+static double slope_dot(const struct sw_bridges *l, const sw_body *b, size_t first,
                         const sw_span *span, const double *x) {
   double sum = 0;
   for (size_t i = span->first; i <= span->last + 1; i++)
@@ -174,13 +176,13 @@ static double slope_dot(const struct sw_links *l, const sw_body *b, size_t first
 
 /* The right-hand sides l->x and, with them, the spans' slopes are solved for. */
 static sw_status solve_slopes(sw_system *s, size_t count) {
-  struct sw_links *l = s->links;
+  struct sw_bridges *l = s->bridges;
   const size_t n = l->block * l->nodes;
   size_t k = 0;
   SW_TRY(sw_grow((void **)&l->spans, &l->span_capacity, count * (n + count + 1), sizeof *l->spans));
   for (size_t b = 0; b < s->body_count; b++) {
     sw_body *body = &s->bodies[b];
-    if (!body->linked || !body->has_twist) continue;
+    if (!body->bridged || !body->has_twist) continue;
     sw_twist_gather(body);
     for (size_t j = 0; j < body->plan->span_count; j++, k++)
       put_slope(l, body, l->first[b], &body->plan->spans[j], l->spans + n * k);
@@ -193,16 +195,16 @@ static sw_status solve_slopes(sw_system *s, size_t count) {
 
 /* Each span adds stiffness g g' to the matrix K: with the compliances C^-1 and the
  * solved slopes K^-1 g, Sherman, Morrison and Woodbury's formula for all at once, as
- * links carry the twist of one wire to the next. Returns how many directions are not
+ * bridges carry the twist of one wire to the next. Returns how many directions are not
  * negative any more. */
 static size_t correct_twist(sw_system *s, size_t m) {
-  struct sw_links *l = s->links;
+  struct sw_bridges *l = s->bridges;
   const size_t n = l->block * l->nodes;
   size_t k = 0;
   double *S = l->spans + m * n, *z = S + m * m;
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
-    for (size_t j = 0; body->linked && body->has_twist && j < body->plan->span_count; j++, k++) {
+    for (size_t j = 0; body->bridged && body->has_twist && j < body->plan->span_count; j++, k++) {
       const sw_span *span = &body->plan->spans[j];
       for (size_t i = 0; i < m; i++)
         S[m * k + i] = slope_dot(l, body, l->first[b], span, l->spans + n * i);
@@ -219,19 +221,19 @@ static size_t correct_twist(sw_system *s, size_t m) {
 static void keep_gains(sw_system *s) {
   for (size_t b = 0; b < s->body_count; b++) {
     sw_body *body = &s->bodies[b];
-    for (size_t j = 0; body->linked && body->has_twist && j < body->plan->span_count; j++)
+    for (size_t j = 0; body->bridged && body->has_twist && j < body->plan->span_count; j++)
       body->twist_gain[j] =
           body->field.twist_stiffness[j] *
-          slope_dot(s->links, body, s->links->first[b], &body->plan->spans[j], s->links->x);
+          slope_dot(s->bridges, body, s->bridges->first[b], &body->plan->spans[j], s->bridges->x);
   }
 }
 
 /* --- solution ------------------------------------------------------------------- */
 
-sw_status sw_links_solve(sw_system *s, size_t *negative) {
-  struct sw_links *l = s->links;
+sw_status sw_bridges_solve(sw_system *s, size_t *negative) {
+  struct sw_bridges *l = s->bridges;
   size_t found = 0;
-  SW_TRY(sw_links_prepare(s));
+  SW_TRY(sw_bridges_prepare(s));
   const size_t spans = count_spans(s);
   load(s);
   SW_TRY(sw_sparse_factor(l->matrix, &found));
@@ -244,21 +246,39 @@ sw_status sw_links_solve(sw_system *s, size_t *negative) {
   return SW_OK;
 }
 
-int sw_links_solves_again(const sw_system *s) { return sw_links_any(s) && s->links->block == 3; }
+int sw_bridges_solves_again(const sw_system *s) {
+  return sw_bridges_any(s) && s->bridges->block == 3;
+}
 
-void sw_links_solve_again(sw_system *s, double *more) {
-  struct sw_links *l = s->links;
+void sw_bridges_solve_again(sw_system *s, double *more) {
+  struct sw_bridges *l = s->bridges;
   const size_t spans = count_spans(s);
   load_right(s, more);
   sw_sparse_solve(l->matrix, l->x);
   if (spans) correct_twist(s, spans);
   for (size_t b = 0; b < s->body_count; b++)
-    if (!s->bodies[b].linked)
+    if (!s->bodies[b].bridged)
       memset(more + 3 * s->bodies[b].first_node, 0, 3 * s->bodies[b].plan->nodes * sizeof *more);
   take_solution(s, more);
 }
 
-void sw_links_take_solution(sw_system *s) {
+void sw_bridges_solve_shift(sw_system *s, double *nodes, double *spins) {
+  struct sw_bridges *l = s->bridges;
+  const size_t count = count_spans(s);
+  for (int back = 0; back < 2; back++) {
+    for (size_t i = 0; i < s->nodes; i++) {
+      double *x = l->number[i] == NONE ? NULL : l->x + l->block * l->number[i];
+      if (x && !back) memcpy(x, nodes + 3 * i, 3 * sizeof *x);
+      if (x && !back && l->block == 4) x[3] = spins[i];
+      if (x && back) memcpy(nodes + 3 * i, x, 3 * sizeof *x);
+      if (x && back && l->block == 4) spins[i] = x[3];
+    }
+    if (!back) sw_sparse_solve(l->matrix, l->x);
+    if (!back && count) correct_twist(s, count);
+  }
+}
+
+void sw_bridges_take_solution(sw_system *s) {
   load_right(s, s->delta);
   keep_gains(s);
 }
@@ -283,10 +303,10 @@ static void react(sw_system *s, uint32_t node, const double k[9], int transposed
   h->reaction = f;
 }
 
-void sw_links_react(sw_system *s) {
-  const struct sw_links *l = s->links;
+void sw_bridges_react(sw_system *s) {
+  const struct sw_bridges *l = s->bridges;
   for (size_t k = 0; l && k < l->count; k++) {
-    const sw_link *at = &l->list[k];
+    const sw_bridge *at = &l->list[k];
     if (is_held(s, at->i)) react(s, at->i, at->k, 0, s->delta + 3 * at->j);
     if (is_held(s, at->j)) react(s, at->j, at->k, 1, s->delta + 3 * at->i);
   }

@@ -3,7 +3,7 @@
  * the shape it had when grasped; each face is a corrected clamp. */
 #include <math.h>
 
-#include "constraint/constraint.h"
+#include "link/hold.h"
 
 static const sw_param rows[] = {
     {"s", SW_PARAM_NUMBER, "m", 0, 0, HUGE_VAL, 0, NULL, offsetof(sw_hold_args, s),
@@ -14,9 +14,11 @@ static const sw_param rows[] = {
      "name used in messages and series"},
 };
 
-const sw_hold_class sw_hold_grip = {
+static const sw_hold_acts acts = {.direction = 1};
+
+const sw_link_class sw_link_grip = {
     .name = "grip",
     .summary = "holds an interval of the wire rigidly",
-    .clamped = 1,
     .params = SW_PARAMS("grip", rows),
+    .hold = &acts,
 };

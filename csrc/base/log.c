@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/log.h"
+#include "base/log.h"
 
 #include "base/alloc.h"
 

@@ -2,7 +2,7 @@
 /* Holds the position at one arc length; the wire turns freely there. */
 #include <math.h>
 
-#include "constraint/constraint.h"
+#include "link/hold.h"
 
 static const sw_param rows[] = {
     {"s", SW_PARAM_NUMBER, "m", 0, 0, HUGE_VAL, 0, NULL, offsetof(sw_hold_args, s),
@@ -11,9 +11,11 @@ static const sw_param rows[] = {
      "name used in messages and series"},
 };
 
-const sw_hold_class sw_hold_pin = {
+static const sw_hold_acts acts = {.direction = 0};
+
+const sw_link_class sw_link_pin = {
     .name = "pin",
     .summary = "holds the position at one arc length",
-    .clamped = 0,
     .params = SW_PARAMS("pin", rows),
+    .hold = &acts,
 };

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The unloaded shape of wire that is fed, behind the guide too. */
-#include "scene/spool.h"
+#include "link/spool.h"
 
 #include <math.h>
 
-#include "scene/world.h"
 #include "state/hinge.h"
 
 sw_quat sw_spool_turn(sw_vec t, sw_vec m1) {

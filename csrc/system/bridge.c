@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "system/link.h"
+#include "system/bridge.h"
 
 #include <string.h>
 
@@ -9,8 +9,8 @@
 
 static const uint32_t NONE = UINT32_MAX;
 
-void sw_links_free(sw_system *s) {
-  struct sw_links *l = s->links;
+void sw_bridges_free(sw_system *s) {
+  struct sw_bridges *l = s->bridges;
   if (!l) return;
   sw_sparse_free(l->matrix);
   sw_free(l->list);
@@ -24,27 +24,27 @@ void sw_links_free(sw_system *s) {
   sw_free(l->x);
   sw_free(l->spans);
   sw_free(l);
-  s->links = NULL;
+  s->bridges = NULL;
 }
 
-void sw_links_begin(sw_system *s) {
-  if (s->links) s->links->count = 0;
+void sw_bridges_begin(sw_system *s) {
+  if (s->bridges) s->bridges->count = 0;
 }
 
-int sw_links_any(const sw_system *s) { return s->links && s->links->count > 0; }
+int sw_bridges_any(const sw_system *s) { return s->bridges && s->bridges->count > 0; }
 
-static struct sw_links *links_of(sw_system *s) {
-  if (!s->links) s->links = sw_alloc(1, sizeof *s->links);
-  return s->links;
+static struct sw_bridges *bridges_of(sw_system *s) {
+  if (!s->bridges) s->bridges = sw_alloc(1, sizeof *s->bridges);
+  return s->bridges;
 }
 
 sw_status sw_system_begin_plan(sw_system *s) {
-  if (s->links) s->links->planned_count = 0;
+  if (s->bridges) s->bridges->planned_count = 0;
   return sw_joins_plan(s);
 }
 
-sw_status sw_system_plan_link(sw_system *s, size_t i, size_t j) {
-  struct sw_links *l = links_of(s);
+sw_status sw_system_plan_bridge(sw_system *s, size_t i, size_t j) {
+  struct sw_bridges *l = bridges_of(s);
   if (!l) return SW_ENOMEM;
   SW_TRY(sw_grow((void **)&l->planned, &l->planned_capacity, l->planned_count + 1,
                  sizeof *l->planned));
@@ -53,16 +53,16 @@ sw_status sw_system_plan_link(sw_system *s, size_t i, size_t j) {
   return SW_OK;
 }
 
-sw_status sw_system_add_link(sw_system *s, size_t i, size_t j, const double k[9]) {
-  struct sw_links *l = links_of(s);
+sw_status sw_system_add_bridge(sw_system *s, size_t i, size_t j, const double k[9]) {
+  struct sw_bridges *l = bridges_of(s);
   if (!l) return SW_ENOMEM;
   SW_TRY(sw_grow((void **)&l->list, &l->capacity, l->count + 1, sizeof *l->list));
-  sw_link *at = &l->list[l->count++];
+  sw_bridge *at = &l->list[l->count++];
   if (i < j) {
-    *at = (sw_link){(uint32_t)i, (uint32_t)j, {0}};
+    *at = (sw_bridge){(uint32_t)i, (uint32_t)j, {0}};
     memcpy(at->k, k, sizeof at->k);
   } else {
-    *at = (sw_link){(uint32_t)j, (uint32_t)i, {0}};
+    *at = (sw_bridge){(uint32_t)j, (uint32_t)i, {0}};
     for (int r = 0; r < 3; r++)
       for (int c = 0; c < 3; c++) at->k[3 * r + c] = k[3 * c + r];
   }
@@ -71,13 +71,13 @@ sw_status sw_system_add_link(sw_system *s, size_t i, size_t j, const double k[9]
 
 /* --- pattern -------------------------------------------------------------------- */
 
-static size_t hash_of(const struct sw_links *l, uint32_t i, uint32_t j) {
+static size_t hash_of(const struct sw_bridges *l, uint32_t i, uint32_t j) {
   uint64_t h = ((uint64_t)i << 32 | j) * 0x9E3779B97F4A7C15u;
   return (size_t)(h >> 20) & (l->table_size - 1);
 }
 
 /* Number of the pair in the pattern, or NONE. */
-uint32_t sw_links_find(const struct sw_links *l, uint32_t i, uint32_t j) {
+uint32_t sw_bridges_find(const struct sw_bridges *l, uint32_t i, uint32_t j) {
   if (!l->table_size) return NONE;
   for (size_t h = hash_of(l, i, j); l->table[h]; h = (h + 1) & (l->table_size - 1)) {
     const sw_sparse_pair *k = &l->known[l->table[h] - 1];
@@ -86,7 +86,7 @@ uint32_t sw_links_find(const struct sw_links *l, uint32_t i, uint32_t j) {
   return NONE;
 }
 
-static void enter(struct sw_links *l, uint32_t number) {
+static void enter(struct sw_bridges *l, uint32_t number) {
   const sw_sparse_pair *k = &l->known[number];
   size_t h = hash_of(l, k->i, k->j);
   while (l->table[h]) h = (h + 1) & (l->table_size - 1);
@@ -94,7 +94,7 @@ static void enter(struct sw_links *l, uint32_t number) {
 }
 
 /* A table for at least count pairs, holding those known now. */
-static sw_status make_table(struct sw_links *l, size_t count) {
+static sw_status make_table(struct sw_bridges *l, size_t count) {
   size_t size = 64;
   while (size < 2 * count) size *= 2;
   SW_TRY(sw_grow((void **)&l->table, &l->table_capacity, size, sizeof *l->table));
@@ -104,9 +104,9 @@ static sw_status make_table(struct sw_links *l, size_t count) {
   return SW_OK;
 }
 
-/* One more link for the pattern. */
-static sw_status add_known(struct sw_links *l, uint32_t i, uint32_t j) {
-  if (sw_links_find(l, i, j) != NONE) return SW_OK;
+/* One more bridge for the pattern. */
+static sw_status add_known(struct sw_bridges *l, uint32_t i, uint32_t j) {
+  if (sw_bridges_find(l, i, j) != NONE) return SW_OK;
   SW_TRY(sw_grow((void **)&l->known, &l->known_capacity, l->known_count + 1, sizeof *l->known));
   if (2 * l->known_count >= l->table_size) SW_TRY(make_table(l, 2 * l->known_count + 1));
   l->known[l->known_count] = (sw_sparse_pair){i, j};
@@ -115,7 +115,7 @@ static sw_status add_known(struct sw_links *l, uint32_t i, uint32_t j) {
 }
 
 /* The pattern that was planned, unless it is the present one. */
-static sw_status take_plan(struct sw_links *l) {
+static sw_status take_plan(struct sw_bridges *l) {
   const size_t n = l->planned_count;
   if (n == l->taken_count && (!n || !memcmp(l->planned, l->taken, n * sizeof *l->planned)))
     return SW_OK;
@@ -130,25 +130,25 @@ static sw_status take_plan(struct sw_links *l) {
   return SW_OK;
 }
 
-/* Mark the linked bodies and number their nodes one after another. */
+/* Mark the bridged bodies and number their nodes one after another. */
 static sw_status number_nodes(sw_system *s) {
-  struct sw_links *l = s->links;
+  struct sw_bridges *l = s->bridges;
   if (!l->number) l->number = sw_alloc(s->nodes, sizeof *l->number);
   if (!l->first) l->first = sw_alloc(s->body_count, sizeof *l->first);
   if (!l->number || !l->first) return SW_ENOMEM;
-  for (size_t b = 0; b < s->body_count; b++) s->bodies[b].linked = 0;
+  for (size_t b = 0; b < s->body_count; b++) s->bodies[b].bridged = 0;
   for (size_t k = 0; k < l->known_count; k++) {
-    s->bodies[sw_system_body_of(s, l->known[k].i)].linked = 1;
-    s->bodies[sw_system_body_of(s, l->known[k].j)].linked = 1;
+    s->bodies[sw_system_body_of(s, l->known[k].i)].bridged = 1;
+    s->bodies[sw_system_body_of(s, l->known[k].j)].bridged = 1;
   }
   l->nodes = 0;
   l->block = 3;
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
     l->first[b] = l->nodes;
-    if (body->linked && body->spin_block) l->block = 4;
+    if (body->bridged && body->spin_block) l->block = 4;
     for (size_t i = 0; i < body->plan->nodes; i++)
-      l->number[body->first_node + i] = body->linked ? (uint32_t)l->nodes++ : NONE;
+      l->number[body->first_node + i] = body->bridged ? (uint32_t)l->nodes++ : NONE;
   }
   return sw_grow((void **)&l->x, &l->x_capacity, l->block * l->nodes, sizeof *l->x);
 }
@@ -164,15 +164,15 @@ static size_t list_couples(sw_body *b, size_t first, sw_sparse_pair *out) {
   return count;
 }
 
-/* All pairs of the matrix: two along each chain's node or a web's own, then the links. */
+/* All pairs of the matrix: two along each chain's node or a web's own, then the bridges. */
 static sw_status list_pairs(sw_system *s) {
-  struct sw_links *l = s->links;
+  struct sw_bridges *l = s->bridges;
   size_t n = 0, room = 2 * l->nodes + l->known_count;
   for (size_t b = 0; b < s->body_count; b++)
-    if (s->bodies[b].linked && s->bodies[b].plan->web) room += sw_web_couples_room(&s->bodies[b]);
+    if (s->bodies[b].bridged && s->bodies[b].plan->web) room += sw_web_couples_room(&s->bodies[b]);
   SW_TRY(sw_grow((void **)&l->pairs, &l->pair_capacity, room, sizeof *l->pairs));
   for (size_t b = 0; b < s->body_count; b++) {
-    if (!s->bodies[b].linked) continue;
+    if (!s->bodies[b].bridged) continue;
     const size_t count = s->bodies[b].plan->nodes;
     const uint32_t first = (uint32_t)l->first[b];
     if (s->bodies[b].plan->web) {
@@ -194,12 +194,12 @@ static sw_status list_pairs(sw_system *s) {
 
 static int replanned(const sw_system *s) {
   for (size_t b = 0; b < s->body_count; b++)
-    if (s->bodies[b].linked && s->bodies[b].web_replanned) return 1;
+    if (s->bodies[b].bridged && s->bodies[b].web_replanned) return 1;
   return 0;
 }
 
-sw_status sw_links_prepare(sw_system *s) {
-  struct sw_links *l = s->links;
+sw_status sw_bridges_prepare(sw_system *s) {
+  struct sw_bridges *l = s->bridges;
   SW_TRY(take_plan(l));
   const size_t before = l->known_count;
   for (size_t k = 0; k < l->count; k++) SW_TRY(add_known(l, l->list[k].i, l->list[k].j));

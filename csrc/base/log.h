@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A log: rows of a fixed number of doubles, growing. */
-#ifndef SW_SCENE_LOG_H
-#define SW_SCENE_LOG_H
+#ifndef SW_BASE_LOG_H
+#define SW_BASE_LOG_H
 
 #include "base/tape.h"
 

@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A point where wires are fixed to each other: springs far stiffer than the wires keep their nodes
+ * together, and a hub, in which they stick, keeps the angles between them. */
+#include <math.h>
+
+#include "link/joint.h"
+
+static const sw_param rows[] = {
+    {"ends", SW_PARAM_OTHER, "m", 0, 0, 0, 0, NULL, 0,
+     "list of { wire, s = arc length } that meet in the point"},
+    {"rigid", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, offsetof(sw_join_args, rigid),
+     "the angles between the wires are kept; false: they turn freely"},
+    {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_join_args, name),
+     "name used in messages"},
+    {"slack", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, 0, NULL, offsetof(sw_join_args, slack),
+     "a tie: two wires that only may not be further apart than this, and need not meet"},
+    {"stiffness", SW_PARAM_NUMBER, "N/m", SW_TIE_STIFFNESS, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(sw_join_args, stiffness), "of a tie that is taut"},
+    {"strength", SW_PARAM_NUMBER, "N", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(sw_join_args, strength), "pull at which a tie breaks (default: never)"},
+};
+
+/* Stiffer than the stiffest segment there by so much. Ends go apart by that share of what this
+ * segment gives way; at twice of it by half as much, with one digit less for rounding to take from
+ * the forces [-]. */
+static const double STIFFER = 100.0;
+
+typedef sw_joint_end end;
+
+size_t sw_joint_mesh_node(const end *e, const sw_link_wire *w) {
+  return sw_mesh_node(w->mesh, e->s);
+}
+
+static uint32_t system_node(const sw_link_wire *w, size_t node) {
+  return (uint32_t)(w->system->bodies[w->body].first_node + node);
+}
+
+uint32_t sw_joint_node(const end *e, const sw_link_wire *w) {
+  return system_node(w, sw_joint_mesh_node(e, w));
+}
+
+/* The nodes between which the wire's direction at the join is taken: the edge there where it
+ * ends, the two beside it in mid-wire. */
+static void arm_of(const end *e, const sw_link_wire *w, size_t nodes[2]) {
+  const size_t i = sw_joint_mesh_node(e, w), last = w->mesh->n - 1;
+  nodes[0] = i == 0 ? 0 : i - 1;
+  nodes[1] = i == last ? last : i + 1;
+}
+
+/* --- what it keeps ---------------------------------------------------------------- */
+
+/* Where a wire that is straight at rest goes there, or its edges where they are bent without
+ * load. */
+static sw_vec direction_of(const end *e, const sw_link_wire *w) {
+  size_t nodes[2];
+  arm_of(e, w, nodes);
+  if (!w->beam->curved) return sw_mesh_tangent(w->mesh, sw_joint_mesh_node(e, w));
+  return sw_unit_or(sw_sub(sw_vec_at(w->mesh->x, nodes[1]), sw_vec_at(w->mesh->x, nodes[0])),
+                    sw_v(1, 0, 0));
+}
+
+static sw_vec place_of(const end *e, const sw_link_wire *w) {
+  return sw_vec_at(w->mesh->x, sw_joint_mesh_node(e, w));
+}
+
+static void measure(sw_joint *j, const sw_link_wire *wires) {
+  for (size_t k = 0; k < j->count; k++) {
+    end *e = &j->ends[k];
+    e->offset = sw_sub(place_of(e, &wires[k]), place_of(&j->ends[0], &wires[0]));
+    e->rest = direction_of(e, &wires[k]);
+  }
+}
+
+/* --- into the system -------------------------------------------------------------- */
+
+/* Stiffness of the stiffest edge beside the join [N/m]. */
+static double stiffest(const sw_joint *j, const sw_link_wire *wires) {
+  double most = 0;
+  for (size_t k = 0; k < j->count; k++) {
+    const sw_link_wire *w = &wires[k];
+    size_t nodes[2];
+    arm_of(&j->ends[k], w, nodes);
+    for (size_t i = nodes[0]; i < nodes[1]; i++)
+      most = fmax(most, w->beam->EA / (w->mesh->s[i + 1] - w->mesh->s[i]));
+  }
+  return most;
+}
+
+static sw_status add_springs(const sw_joint *j, const sw_link_wire *wires) {
+  const double k = STIFFER * stiffest(j, wires);
+  for (size_t a = 0; a < j->count; a++)
+    for (size_t b = a + 1; b < j->count; b++) {
+      const end *p = &j->ends[a], *q = &j->ends[b];
+      const sw_join_spring spring = {.i = sw_joint_node(p, &wires[a]),
+                                     .j = sw_joint_node(q, &wires[b]),
+                                     .k = k,
+                                     .offset = sw_sub(p->offset, q->offset)};
+      SW_TRY(sw_system_add_spring(wires->system, &spring));
+    }
+  return SW_OK;
+}
+
+/* From the join to the middles of the edges beside it a wire is bent by its own stiffness,
+ * which sticks in the hub: EI over half an edge, of both sides in mid-wire. There the wire's
+ * own hinge takes care of the angle between both, and the hub of their mean. [N m] */
+static double arm_stiffness(const sw_link_wire *w, const size_t nodes[2]) {
+  double sum = 0;
+  if (!w->bends) return 0; /* a string */
+  for (size_t i = nodes[0]; i < nodes[1]; i++)
+    sum += 2.0 * w->beam->EI / (w->mesh->s[i + 1] - w->mesh->s[i]);
+  return sum;
+}
+
+static sw_status add_hub(const sw_joint *j, const sw_link_wire *wires) {
+  sw_join_hub hub = {0};
+  for (size_t k = 0; k < j->count; k++) {
+    const sw_link_wire *w = &wires[k];
+    size_t nodes[2];
+    arm_of(&j->ends[k], w, nodes);
+    const double stiffness = arm_stiffness(w, nodes);
+    if (!(stiffness > 0)) continue;
+    hub.arms[hub.count++] = (struct sw_join_arm){.from = system_node(w, nodes[0]),
+                                                 .to = system_node(w, nodes[1]),
+                                                 .k = stiffness,
+                                                 .rest = j->ends[k].rest};
+  }
+  return hub.count > 1 ? sw_system_add_hub(wires->system, &hub) : SW_OK;
+}
+
+static sw_status add(sw_joint *j, const sw_link_wire *wires) {
+  SW_TRY(add_springs(j, wires));
+  return j->rigid ? add_hub(j, wires) : SW_OK;
+}
+
+/* --- what it bears ------------------------------------------------------------------ */
+
+static void force(const sw_joint *j, const sw_link_wire *wires, size_t k, sw_vec *force,
+                  sw_vec *moment) {
+  const sw_link_wire *w = &wires[k];
+  const struct sw_joins *all = w->system->joins;
+  const double *x = w->system->x;
+  const uint32_t node = sw_joint_node(&j->ends[k], w);
+  size_t nodes[2];
+  arm_of(&j->ends[k], w, nodes);
+  for (size_t i = 0; i < all->spring_count; i++) {
+    const sw_vec f = sw_join_spring_force(&all->springs[i], x);
+    if (all->springs[i].i == node) *force = sw_add(*force, f);
+    if (all->springs[i].j == node) *force = sw_sub(*force, f);
+  }
+  for (size_t i = 0; i < all->hub_count; i++)
+    for (size_t a = 0; a < all->hubs[i].count; a++)
+      if (all->hubs[i].arms[a].from == system_node(w, nodes[0]) &&
+          all->hubs[i].arms[a].to == system_node(w, nodes[1]))
+        *moment = sw_add(*moment, sw_join_hub_moment(&all->hubs[i], a, x));
+}
+
+static const sw_joint_acts acts = {.measure = measure, .add = add, .force = force};
+
+const sw_link_class sw_link_join = {
+    .name = "join",
+    .summary = "fixes wires to each other where they meet",
+    .params = SW_PARAMS("scene:join", rows),
+    .joint = &acts,
+};

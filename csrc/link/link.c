@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "link/link.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "link/joint.h"
+
+#define X(name) extern const sw_link_class sw_link_##name;
+#include "link/list.def"
+#undef X
+
+static const sw_link_class *const all[] = {
+#define X(name) &sw_link_##name,
+#include "link/list.def"
+#undef X
+    NULL};
+
+const sw_link_class *const *sw_link_all(void) { return all; }
+
+const sw_link_class *sw_link_find(const char *name) {
+  for (size_t i = 0; all[i]; i++)
+    if (strcmp(all[i]->name, name) == 0) return all[i];
+  return NULL;
+}
+
+void sw_hold_clear(sw_hold *h) {
+  if (h->cls && h->cls->hold->clear) h->cls->hold->clear(h);
+  sw_free(h->s);
+  sw_free(h->local);
+  sw_free(h->particle);
+  sw_log_free(&h->log);
+  sw_motion_release(h->drive.motion);
+}
+
+const sw_link_class *sw_joint_class(double slack) {
+  return isnan(slack) ? &sw_link_join : &sw_link_tie;
+}

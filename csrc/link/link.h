@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Links: what keeps wires somewhere, or at each other. A member is one file: what it holds or
+ * pulls, how it reacts, what is read of it, its parameters; it ends in one sw_link_class and has
+ * one X(name) line in list.def. Holds keep part of one wire (hold.h), joints two wires or more
+ * (joint.h). */
+#ifndef SW_LINK_LINK_H
+#define SW_LINK_LINK_H
+
+#include <stddef.h>
+
+#include "base/param.h"
+#include "base/status.h"
+#include "base/vec.h"
+
+/* A user's arguments for a hold. */
+typedef struct sw_hold_args {
+  double s;         /* arc length of the held point [m] */
+  double width;     /* of the held interval around s; 0 = a point [m] */
+  sw_vec direction; /* held tangent; NAN = as the wire is [-] */
+  char name[SW_NAME_SIZE];
+
+  /* of a hold that feeds */
+  double speed;       /* wire paid out per time; NAN = not given [m/s] */
+  double force;       /* pushing the wire out; NAN = not given [N] */
+  double force_limit; /* beyond it the wire slips; NAN = none [N] */
+
+  /* of a hold along which the wire slides; not kept with the others */
+  sw_vec line;          /* direction of a straight rail; NAN = not given [-] */
+  double from, to;      /* its ends, from the wire's place [m] */
+  const double *points; /* (count x 3) of a curved one, or NULL [m] */
+  size_t count;
+  int closed;      /* 1: the last point is followed by the first */
+  double friction; /* [-] */
+} sw_hold_args;
+
+enum { SW_JOIN_ENDS = 8 }; /* most wires in a join */
+
+/* A user's arguments for a joint. */
+typedef struct sw_join_args {
+  int rigid; /* 1: angles between the wires are kept */
+  char name[SW_NAME_SIZE];
+  double slack;     /* a tie of two wires: how far apart they may be; NAN = none [m] */
+  double stiffness; /* of a tie [N/m] */
+  double strength;  /* pull at which a tie breaks; NAN = never [N] */
+} sw_join_args;
+
+typedef struct sw_link_class {
+  const char *name;
+  const char *summary;
+  sw_params params;
+  const struct sw_hold_acts *hold;   /* of one wire, or NULL */
+  const struct sw_joint_acts *joint; /* of more wires, or NULL */
+} sw_link_class;
+
+const sw_link_class *sw_link_find(const char *name); /* NULL: there is none */
+const sw_link_class *const *sw_link_all(void);       /* NULL-terminated */
+
+#endif

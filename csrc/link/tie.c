@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A tie of two wires that only may not be further apart than its slack, and that breaks when it is
+ * pulled harder than it bears. A broken one stays in the system without stiffness until that is
+ * made anew. One to a fixed point is the force tether. */
+#include <math.h>
+
+#include "link/joint.h"
+
+static const sw_param rows[] = {
+    {"slack", SW_PARAM_NUMBER, "m", 0, 0, HUGE_VAL, 0, NULL, offsetof(sw_join_args, slack),
+     "distance up to which it does not pull"},
+    {"stiffness", SW_PARAM_NUMBER, "N/m", SW_TIE_STIFFNESS, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(sw_join_args, stiffness), "when it is taut"},
+    {"strength", SW_PARAM_NUMBER, "N", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(sw_join_args, strength), "pull at which it breaks (default: never)"},
+};
+
+static sw_status add(sw_joint *j, const sw_link_wire *wires) {
+  const sw_join_spring spring = {.i = sw_joint_node(&j->ends[0], &wires[0]),
+                                 .j = sw_joint_node(&j->ends[1], &wires[1]),
+                                 .k = j->fate[SW_TIE_BROKEN] > 0 ? 0.0 : j->stiffness,
+                                 .tie = 1,
+                                 .slack = j->slack};
+  SW_TRY(sw_system_add_spring(wires->system, &spring));
+  j->spring = wires->system->joins->spring_count - 1;
+  return SW_OK;
+}
+
+static void force(const sw_joint *j, const sw_link_wire *wires, size_t k, sw_vec *force,
+                  sw_vec *moment) {
+  const sw_system *s = wires->system;
+  const sw_vec f = sw_join_spring_force(&s->joins->springs[j->spring], s->x);
+  *force = k ? sw_neg(f) : f;
+  *moment = sw_v(0, 0, 0);
+}
+
+static double pull(const sw_joint *j, const sw_system *s, const double *x, double *bears) {
+  *bears = j->fate[SW_TIE_BROKEN] > 0 ? 0.0 : isnan(j->strength) ? HUGE_VAL : j->strength;
+  return sw_norm(sw_join_spring_force(&s->joins->springs[j->spring], x));
+}
+
+static void breaks(sw_joint *j, sw_system *s) { s->joins->springs[j->spring].k = 0; }
+
+static const sw_joint_acts acts = {
+    .apart = 1, .add = add, .force = force, .pull = pull, .breaks = breaks};
+
+const sw_link_class sw_link_tie = {
+    .name = "tie",
+    .summary = "keeps places of two wires from going further apart than its slack",
+    .params = SW_PARAMS("tie", rows),
+    .joint = &acts,
+};
