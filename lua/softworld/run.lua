@@ -9,6 +9,7 @@ local grasp = require "softworld.grasp"
 local ledger = require "softworld.ledger"
 local process = require "softworld.process"
 local number = require "softworld.output.number"
+local observe = require "softworld.observe"
 local place = require "softworld.place"
 local refine = require "softworld.refine"
 local remarks = require "softworld.remarks"
@@ -83,12 +84,13 @@ local function drive(scene, args, total, bar)
       target = scene.time + (args.dt or 0.01)
     end
     options.max_steps = math.min(left, watching and 1 or chunk)
-    local part = build.call(6, advance, scene, options, target)
+    local part = build.call(6, advance, scene, options, target, observe.arguments(scene))
     merge(total, part)
     left = left - part.steps
     bar:update(scene.time - start, total.steps)
     if not part.ok then return part.reason end
-    local stopped = grasp.look(scene)
+    local asked = observe.settle(scene)
+    local stopped = grasp.look(scene) or asked
     if stopped then return stopped end
     if left <= 0 then
       waiting.at_end(scene)
@@ -128,6 +130,7 @@ local function run_once(scene, args, level)
   data.origin = data.origin or save.origin(scene)
   if not data.going then build.call(3, core.begin_run, scene) end -- else the run of the file goes on
   data.going = nil
+  observe.begin(scene)
   total.drawn = wires_of(data)
   local wall, cpu = core.clock() - total.wall, os.clock() - total.cpu
   local fine, reason
