@@ -56,7 +56,8 @@ function websocket:send(text, options)
   options = options or {}
   local size, first = options.size or #text, (options.last == false and 0 or 128) + (options.opcode or 1)
   local head = size < 126 and string.pack(">BB", first, 128 + size)
-    or size < 65536 and string.pack(">BBI2", first, 128 + 126, size) or string.pack(">BBI8", first, 128 + 127, size)
+    or size < 65536 and string.pack(">BBI2", first, 128 + 126, size)
+    or string.pack(">BBI8", first, 128 + 127, size)
   return self.socket:send(head .. "\0\0\0\0" .. text) -- a mask of zeros
 end
 
@@ -69,8 +70,11 @@ function websocket:receive(seconds)
   local head, why = self.socket:receive(2)
   if not head then return nil, why end
   local first, size = head:byte(1, 2)
-  if size == 126 then size = (">I2"):unpack((self.socket:receive(2)))
-  elseif size == 127 then size = (">I8"):unpack((self.socket:receive(8))) end
+  if size == 126 then
+    size = (">I2"):unpack((self.socket:receive(2)))
+  elseif size == 127 then
+    size = (">I8"):unpack((self.socket:receive(8)))
+  end
   local body = size > 0 and self.socket:receive(size) or ""
   if first & 15 == 9 then -- ping
     self:send(body or "", { opcode = 10 })
