@@ -63,7 +63,8 @@ end
 
 -- Times that steps have passed are left out.
 local function set_next(own, now)
-  if own.every then
+  own.at = own.each and -math.huge or own.wall and math.huge or -math.huge
+  if own.every and not own.each then
     local count = math.floor((now - own.from) / own.every * (1 + 1e-12) + 1e-9)
     own.at = own.from + (count + 1) * own.every
   end
@@ -71,7 +72,7 @@ local function set_next(own, now)
 end
 
 local function begin(own, now)
-  own.from, own.at = now, own.every and now + own.every or own.wall and math.huge or -math.huge
+  own.from, own.at = now, own.each and -math.huge or own.every and now + own.every or own.wall and math.huge or -math.huge
   own.at_wall = own.wall and core.clock() + own.wall or math.huge
 end
 
@@ -83,8 +84,19 @@ end
 
 -- --- in a run -----------------------------------------------------------------------------------
 
+--- Functions that are told of runs: begin(scene, args), finish(scene, ok, reason).
+observe.followers = {}
+
+local function tell(what, ...)
+  for _, follower in ipairs(observe.followers) do follower[what](...) end
+end
+
+--- A run has come to its end.
+function observe.finish(scene, ok, reason) tell("finish", scene, ok, reason) end
+
 --- A run begins: times are counted from now on.
-function observe.begin(scene)
+function observe.begin(scene, args)
+  tell("begin", scene, args)
   for _, observer in ipairs(list_of(scene)) do
     local own = fields(observer)
     own.wants, own.reason = nil, nil
