@@ -29,5 +29,6 @@
 #include "solve/band4.h"
 #include "solve/blocks.h"
 #include "solve/sparse.h"
+#include "view/server.h"
 
 #endif

@@ -24,6 +24,7 @@ local ROOMS = {
   scene = { "base", "motion", "shape", "state", "wire", "force", "solve", "system", "integrate",
     "contact", "link", "calibrate", "modal" },
   film = { "base", "scene" },
+  view = { "base" }, -- bytes for pages; never a scene
   bind = {}, -- the core through softworld.h
   host = { "bind" },
 }
@@ -31,7 +32,7 @@ local ROOMS = {
 -- Headers other rooms may see: <room>/<room>.h, unless listed here (true = all of them).
 -- state and solve have no single header: their parts have different users.
 local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "grains.h", "pairs.h" },
-  film = { "film.h", "pack.h" }, scene = { "frames.h" },
+  film = { "film.h", "pack.h" }, view = { "server.h" }, scene = { "frames.h" },
   force = { "force.h", "solid.h" }, link = { "hold.h", "joint.h", "spool.h" }, shape = { "tree.h" },
   state = { "angle.h", "clamp.h", "crease.h", "field.h", "hinge.h", "mesh.h", "plan.h", "slide.h",
     "state_tape.h", "tie.h", "web.h" },
@@ -58,6 +59,7 @@ local OUTSIDE = {
   { "^cholmod", "^solve/cholmod_adapter%.c$" },
   { "^readline/", "^host/" },
   { "^zlib%.h$", "^film/pack_zlib%.c$" },
+  { "^civetweb%.h$", "^view/server_civetweb%.c$" },
 }
 
 -- Words a file outside csrc/host may not use, with what to do instead.

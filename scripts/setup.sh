@@ -26,6 +26,7 @@ build libqhull-dev     # convex hulls of point sets
 build libsuitesparse-dev # order in which to eliminate sparse matrices
 build libreadline-dev  # the interactive prompt
 build zlib1g-dev       # makes the frames in a player small
+build libcivetweb-dev  # serves the live view to browsers of this machine
 build esbuild          # bundles the player's page
 build libjs-three      # draws in it
 build libjs-dygraphs   # charts in it

@@ -34,7 +34,7 @@ static void *keeper(lua_State *L, size_t size, const char *name, lua_CFunction e
 /* core.film(scene, from, to, values) -> bytes, frames, those left out as broken */
 static int mod_film(lua_State *L) {
   const sw_scene *scene = ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
-  const sw_film_args args = {luaL_checknumber(L, 2), luaL_checknumber(L, 3), lua_toboolean(L, 4)};
+  const sw_film_args args = {luaL_checknumber(L, 2), luaL_checknumber(L, 3), lua_toboolean(L, 4), 0};
   sw_error err = {""};
   sw_film *film = keeper(L, sizeof *film, "softworld.film", free_film);
   lsw_must(L, sw_film_make(scene, &args, sw_interrupted, film, &err), &err);

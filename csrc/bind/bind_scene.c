@@ -93,10 +93,19 @@ static int mod_interrupted(lua_State *L) {
 
 /* Monotonic wall clock [s]. */
 static int mod_clock(lua_State *L) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  lua_pushnumber(L, (double)t.tv_sec + 1e-9 * (double)t.tv_nsec);
+  lua_pushnumber(L, sw_wall_clock());
   return 1;
+}
+
+/* core.sleep(s): do nothing for so long; Ctrl-C ends it with an error [s]. */
+static int mod_sleep(lua_State *L) {
+  const double end = sw_wall_clock() + lsw_number(L, 1, "sleep: the time", "s");
+  for (double left; (left = end - sw_wall_clock()) > 0;) {
+    const double part = left < 0.02 ? left : 0.02; /* the signal may come to another thread */
+    nanosleep(&(struct timespec){0, (long)(1e9 * part)}, NULL);
+    lsw_poll(L);
+  }
+  return 0;
 }
 
 /* nearest(word, names) -> the name that word may be a typo of, or nil */
@@ -175,7 +184,36 @@ static int mod_segments(lua_State *L) {
 
 /* --- running ------------------------------------------------------------------- */
 
-/* scene:advance({...}, until) -> report. The clock's exact end is `until` [s]. */
+/* Of an observer: where the function is on the stack. */
+typedef struct watcher {
+  lua_State *L;
+  int function;
+} watcher;
+
+/* Runs protected: the function, the observer -> stop, next time, next time on the clock. */
+static int call_observer(lua_State *L) {
+  sw_observer *o = lua_touserdata(L, 2);
+  lua_pushvalue(L, 1);
+  lua_call(L, 0, 3);
+  o->stop = lua_toboolean(L, -3);
+  o->at = luaL_checknumber(L, -2);
+  o->wall = luaL_checknumber(L, -1);
+  return 0;
+}
+
+static sw_status look(sw_observer *o, sw_error *err) {
+  const watcher *w = o->user;
+  if (!lua_checkstack(w->L, 8)) return sw_fail(err, SW_ENOMEM, "observer: out of stack");
+  lua_pushcfunction(w->L, call_observer);
+  lua_pushvalue(w->L, w->function);
+  lua_pushlightuserdata(w->L, o);
+  if (lua_pcall(w->L, 2, 0, 0) == LUA_OK) return SW_OK;
+  return lsw_motion_keep_error(w->L, err);
+}
+
+/* scene:advance({...}, until[, look, at, wall]) -> report. The clock's exact end is `until` [s].
+ * look() is called at the first step's end from time at on, or once core.clock() has come to wall;
+ * returns stop, and the next at and wall [s]. */
 static int meth_advance(lua_State *L) {
   sw_scene *scene = check(L);
   sw_run_args args;
@@ -183,8 +221,13 @@ static int meth_advance(lua_State *L) {
   sw_error err = {""};
   lsw_arguments(L, 2, "scene:run", &sw_run_params, &args);
   const double until = lsw_number(L, 3, "scene:advance: until", "s");
+  watcher w = {L, 4};
+  sw_observer o = {.look = look, .user = &w};
+  const int watched = lua_isfunction(L, 4);
+  if (watched) o.at = luaL_checknumber(L, 5), o.wall = luaL_checknumber(L, 6);
   lua_State *outer = lsw_begin_forces(L);
-  const sw_status status = sw_scene_advance(scene, &args, until, sw_interrupted, &r, &err);
+  const sw_status status =
+      sw_scene_advance(scene, &args, until, sw_interrupted, watched ? &o : NULL, &r, &err);
   lsw_end_forces(outer);
   lsw_must(L, status, &err);
   if (r.status == SW_EINTR || r.status == SW_ECALLBACK || r.status == SW_ENOMEM ||
@@ -384,6 +427,7 @@ static const luaL_Reg functions[] = {{"scene", mod_scene},
                                      {"exists", mod_exists},
                                      {"interrupted", mod_interrupted},
                                      {"clock", mod_clock},
+                                     {"sleep", mod_sleep},
                                      {"nearest", mod_nearest},
                                      {"check_run", mod_check_run},
                                      {"check_settle", mod_check_settle},

@@ -280,7 +280,7 @@ static sw_status choose(maker *m, const sw_film_args *args) {
   const size_t count = sw_scene_frames(m->s);
   m->frame = sw_alloc(count, sizeof *m->frame);
   if (!m->frame) return SW_ENOMEM;
-  for (size_t f = 0; f < count; f++) {
+  for (size_t f = args->first; f < count; f++) {
     const double t = sw_scene_frame_time(m->s, f);
     if (!(t >= args->from && t <= args->to)) continue;
     if (is_whole(m->s, f))
@@ -306,6 +306,14 @@ sw_status sw_film_make(const sw_scene *s, const sw_film_args *args, int (*interr
   sw_pack_free(m.pack);
   sw_free(m.frame), sw_free(m.tracks), sw_free(m.codes[0]), sw_free(m.codes[1]);
   if (status == SW_ENOMEM) return sw_fail(err, status, "out of memory for the film");
+  return status;
+}
+
+sw_status sw_film_now(sw_scene *s, int values, sw_film *out, sw_error *err) {
+  SW_TRY(sw_scene_frame_now(s, err));
+  const sw_film_args args = {-HUGE_VAL, HUGE_VAL, values, sw_scene_frames(s) - 1};
+  const sw_status status = sw_film_make(s, &args, NULL, out, err);
+  sw_scene_drop_last_frame(s);
   return status;
 }
 

@@ -31,6 +31,7 @@ enum {
 typedef struct sw_film_args {
   double from, to; /* frames of these times only [s] */
   int values;      /* 0: places only, nothing that is a result */
+  size_t first;    /* frames from this number on only [-] */
 } sw_film_args;
 
 typedef struct sw_film {
@@ -44,6 +45,8 @@ typedef struct sw_film {
  * holds, tools by slot. interrupted (may be NULL) is polled. SW_ENOMEM, SW_EINTR. */
 sw_status sw_film_make(const sw_scene *scene, const sw_film_args *args, int (*interrupted)(void),
                        sw_film *out, sw_error *err);
+/* The same of the state as it is, as the only frame. */
+sw_status sw_film_now(sw_scene *scene, int values, sw_film *out, sw_error *err);
 void sw_film_free(sw_film *film);
 
 #endif

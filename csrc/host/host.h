@@ -16,6 +16,7 @@ typedef struct host_options {
   int command;     /* index in argv of the word `doc`, or 0 */
   int codes;       /* number of -e options */
   int interactive; /* -i, or nothing to do and a terminal to do it on */
+  int view;        /* --view: scenes are shown in a browser while they run */
   int version, help;
 } host_options;
 

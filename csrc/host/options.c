@@ -14,6 +14,7 @@ static const char help_text[] =
     "  doc          show a topic of the manual, or all topics (./doc is a script of that name)\n"
     "  -e code      run this Lua code first (may be repeated)\n"
     "  -i           go on at the prompt afterwards\n"
+    "  --view       show the script's scenes in a browser while they run, until Ctrl-C\n"
     "  -v           show the version (also --version)\n"
     "  -h           show this text (also --help)\n"
     "  --           end of the options\n"
@@ -26,7 +27,7 @@ void host_options_help(void) { fputs(help_text, stdout); }
 static int usage(const char *what, const char *word) {
   fprintf(stderr, "softworld: %s '%s'\n", what, word);
   fputs(
-      "usage: softworld [-e code] [-i] [-v] [script [arguments]]; softworld doc [topic]; "
+      "usage: softworld [-e code] [-i] [-v] [--view] [script [arguments]]; softworld doc [topic]; "
       "softworld --help tells more\n",
       stderr);
   return HOST_USAGE;
@@ -40,6 +41,8 @@ static int read_option(host_options *o, int *at) {
     o->codes++;
   } else if (strcmp(word, "-i") == 0) {
     o->interactive = 1;
+  } else if (strcmp(word, "--view") == 0) {
+    o->view = 1;
   } else if (strcmp(word, "-v") == 0 || strcmp(word, "--version") == 0) {
     o->version = 1;
   } else if (strcmp(word, "-h") == 0 || strcmp(word, "--help") == 0) {
@@ -63,6 +66,7 @@ int host_options_read(host_options *o, int argc, char **argv) {
   }
   o->command = i == 1 && i < argc && strcmp(argv[i], "doc") == 0 ? i : 0;
   o->script = i < argc && !o->command ? i : 0;
+  if (o->view && !o->script) return usage("a script is missing after", "--view");
   if (!o->script && !o->command && !o->codes && !o->version) o->interactive |= isatty(STDIN_FILENO);
   return HOST_OK;
 }

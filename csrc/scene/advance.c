@@ -39,6 +39,7 @@ typedef struct loop {
   int smooth;      /* 1: the step that was rejected last made energy where nothing touches */
   int changed;     /* 1: the scene was, since the last step: its energy is not judged */
   int (*interrupted)(void);
+  sw_observer *observer; /* or NULL */
 } loop;
 
 static sw_status use_integrator(sw_scene *s, const sw_run_args *args, sw_error *err) {
@@ -440,6 +441,10 @@ static sw_status run_loop(loop *p, double until, int (*interrupted)(void), sw_er
     if (isfinite(p->args->frame) && s->time >= s->next_frame - slack)
       SW_TRY(sw_scene_store_frame(s, err));
     if (isfinite(p->args->frame)) next_frame(s, p->args->frame, s->time + slack);
+    if (p->observer) {
+      SW_TRY(sw_scene_look(s, p->observer, slack, err));
+      if (p->observer->stop) return SW_OK;
+    }
   }
   return SW_OK;
 }
@@ -472,7 +477,8 @@ sw_status sw_scene_begin_run(sw_scene *s, sw_error *err) {
 }
 
 sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
-                           int (*interrupted)(void), sw_run_report *report, sw_error *err) {
+                           int (*interrupted)(void), sw_observer *observer, sw_run_report *report,
+                           sw_error *err) {
   sw_error why = {""}, ignored;
   *report = (sw_run_report){.smallest_dt = HUGE_VAL, .time = s->time};
   SW_TRY(sw_scene_editable(s, err));
@@ -484,7 +490,8 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   SW_TRY(use_integrator(s, args, err));
   s->window = args->window;
   const sw_counters before = s->system.counters;
-  loop p = {.s = s, .args = args, .report = report, .interrupted = interrupted};
+  loop p = {
+      .s = s, .args = args, .report = report, .interrupted = interrupted, .observer = observer};
   p.v_start = sw_alloc(sw_scene_has_contact(s) ? s->system.freedoms : 1, sizeof(double));
   if (!p.v_start) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
   s->running++;

@@ -175,7 +175,7 @@ int sw_scene_force_acts(const sw_scene *s, sw_handle h) {
 sw_status sw_scene_read_force(sw_scene *s, sw_handle force, sw_handle wire, double *out,
                               sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
-  SW_TRY(sw_scene_editable(s, err)); /* inside of a step the fields are the solver's */
+  SW_TRY(sw_scene_still(s, err)); /* inside of a step the fields are the solver's */
   const sw_force_class *cls = sw_scene_force_class(s, force);
   if (!cls) return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
   const sw_scene_wire *w = sw_scene_find_body(s, wire, err);

@@ -54,13 +54,15 @@ static void thin(sw_scene *s) {
   s->frame_stride *= 2;
 }
 
+void sw_scene_drop_last_frame(sw_scene *s) {
+  s->frame_bytes -= bytes_of(&s->frames[--s->frame_count]);
+  sw_free(s->frames[s->frame_count].data);
+}
+
 void sw_scene_frames_back_to(sw_scene *s, size_t count, size_t stride) {
   const size_t ratio = s->frame_stride > stride && stride ? s->frame_stride / stride : 1;
   const size_t kept = (count + ratio - 1) / ratio;
-  while (s->frame_count > kept) {
-    s->frame_bytes -= bytes_of(&s->frames[--s->frame_count]);
-    sw_free(s->frames[s->frame_count].data);
-  }
+  while (s->frame_count > kept) sw_scene_drop_last_frame(s);
 }
 
 static void store_vec(float *out, sw_vec a) {
@@ -159,7 +161,7 @@ static sw_status fill(sw_scene *s, float *p, sw_error *err) {
   return SW_OK;
 }
 
-sw_status sw_scene_store_frame(sw_scene *s, sw_error *err) {
+static sw_status add_frame(sw_scene *s, sw_error *err) {
   sw_frame f = {.time = s->time,
                 .size = TOOL * s->tool_count + HOLD * (s->obstacle_count + s->hold_count),
                 .wires = s->wire_count,
@@ -180,6 +182,20 @@ sw_status sw_scene_store_frame(sw_scene *s, sw_error *err) {
   }
   s->frames[s->frame_count++] = f;
   s->frame_bytes += bytes_of(&f);
+  return SW_OK;
+}
+
+sw_status sw_scene_frame_now(sw_scene *s, sw_error *err) {
+  SW_TRY(sw_scene_still(s, err));
+  SW_TRY(sw_scene_build(s, err));
+  SW_TRY(sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err));
+  sw_system_refresh(&s->system);
+  return add_frame(s, err);
+}
+
+sw_status sw_scene_store_frame(sw_scene *s, sw_error *err) {
+  SW_TRY(add_frame(s, err));
+  const sw_frame f = s->frames[s->frame_count - 1];
   if (s->frame_count % 2 && s->frame_count > LEAST &&
       s->frame_bytes + 2 * bytes_of(&f) > s->frame_memory)
     thin(s);

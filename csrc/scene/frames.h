@@ -17,6 +17,11 @@ sw_status sw_scene_keep_frames(sw_scene *scene, double memory, sw_error *err);
 /* One of how many is still there: 1, or a power of 2 once they were thinned [-]. */
 size_t sw_scene_frames_thinned(const sw_scene *scene);
 
+/* A frame of the state as it is, after all others, for who drops it at once: the memory of frames is
+ * as it was then. From inside a step SW_EBUSY. */
+sw_status sw_scene_frame_now(sw_scene *scene, sw_error *err);
+void sw_scene_drop_last_frame(sw_scene *scene);
+
 /* Node positions of wire number w in that frame [m]; count = nodes. NULL when the wire did not
  * exist. */
 const float *sw_scene_frame_wire(const sw_scene *scene, size_t frame, size_t w, size_t *count);

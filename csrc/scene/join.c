@@ -249,7 +249,7 @@ sw_status sw_scene_release_join(sw_scene *s, sw_handle h, sw_error *err) {
 sw_status sw_scene_join_force(sw_scene *s, sw_handle h, size_t k, sw_vec *force, sw_vec *moment,
                               sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
-  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_still(s, err));
   const sw_joint *j = sw_scene_find_join(s, h, err);
   if (!j) return SW_EDEAD;
   *force = *moment = sw_v(0, 0, 0);

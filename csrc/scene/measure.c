@@ -11,7 +11,7 @@ sw_status sw_scene_open_body(sw_scene *s, sw_handle h, sw_scene_wire **body, sw_
   SW_TRY(sw_scene_readable(s, err));
   *body = sw_scene_find_body(s, h, err);
   if (!*body) return SW_EDEAD;
-  if (s->running) return sw_scene_editable(s, err);
+  if (s->running) return sw_scene_still(s, err);
   SW_TRY(sw_scene_build(s, err));
   SW_TRY(sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err));
   sw_system_refresh(&s->system);
@@ -318,7 +318,7 @@ static void collect_energy(sw_scene *s, sw_energy *out) {
 
 sw_status sw_scene_energy(sw_scene *s, sw_energy *out, sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
-  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_still(s, err));
   SW_TRY(sw_scene_build(s, err));
   SW_TRY(sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err));
   collect_energy(s, out);
@@ -327,7 +327,7 @@ sw_status sw_scene_energy(sw_scene *s, sw_energy *out, sw_error *err) {
 
 sw_status sw_scene_body_energy(sw_scene *s, sw_handle h, sw_energy *out, sw_error *err) {
   sw_scene_wire *w;
-  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_still(s, err));
   SW_TRY(sw_scene_open_body(s, h, &w, err));
   *out = (sw_energy){0};
   add_energy(out, "kinetic", sw_body_kinetic(&s->system, h.slot, lumped(s)));

@@ -62,7 +62,7 @@ static sw_status read(sw_scene *s, sw_handle h, double place, double *out, sw_er
   const sw_body *b = &s->system.bodies[h.slot];
   const sw_beam *beam = &w->beam;
   if (!b->plan->web) {
-    SW_TRY(sw_scene_editable(s, err)); /* inside of a step the fields are the solver's */
+    SW_TRY(sw_scene_still(s, err)); /* inside of a step the fields are the solver's */
     sw_system_show(&s->system, h.slot);
     *out = of_line(s, h.slot);
     return SW_OK;

@@ -91,14 +91,25 @@ sw_status sw_scene_readable(const sw_scene *s, sw_error *err) {
                  s->name, s->why.text);
 }
 
-int sw_scene_busy(const sw_scene *s) { return s->running > 0; }
+int sw_scene_busy(const sw_scene *s) { return s->running > 0 || s->looking; }
 
-sw_status sw_scene_editable(const sw_scene *s, sw_error *err) {
+sw_status sw_scene_still(const sw_scene *s, sw_error *err) {
   if (s->running)
     return sw_fail(err, SW_EBUSY,
                    "scene '%s' cannot be changed or measured from inside a step or a function of "
                    "time",
                    s->name);
+  return SW_OK;
+}
+
+sw_status sw_scene_editable(const sw_scene *s, sw_error *err) {
+  SW_TRY(sw_scene_still(s, err));
+  if (s->looking)
+    return sw_fail(
+        err, SW_EBUSY,
+        "scene '%s' cannot be changed while an observer looks at it; hand the change in: "
+        "observer:change(function() ... end)",
+        s->name);
   return SW_OK;
 }
 

@@ -284,8 +284,11 @@ sw_status sw_scene_set_force(sw_scene *scene, sw_handle force, const void *args,
 sw_status sw_scene_read_force(sw_scene *scene, sw_handle force, sw_handle wire, double *out,
                               sw_error *err);
 
-/* SW_EBUSY from inside a step or a user's function: the scene must not be changed now. */
+/* SW_EBUSY from inside a step, a user's function or an observer: the scene must not be changed
+ * now. */
 sw_status sw_scene_editable(const sw_scene *scene, sw_error *err);
+/* SW_EBUSY from inside a step or a function of time, where its fields are the solver's. */
+sw_status sw_scene_still(const sw_scene *scene, sw_error *err);
 
 /* --- running ---------------------------------------------------------------- */
 
@@ -382,11 +385,25 @@ typedef struct sw_run_report {
   sw_error reason;    /* why it stopped, when not SW_OK */
 } sw_run_report;
 
-/* Advance to time until. interrupted (may be NULL) is polled between steps. A
- * divergence is told in the report and the function returns SW_OK; a returned
+/* Somebody who looks at the scene between two steps: it can be read then, and not be changed. */
+typedef struct sw_observer {
+  double at;   /* due at the first step's end from then on [s] */
+  double wall; /* or once sw_wall_clock() is there [s] */
+  int stop;    /* 1: advance no further, all is well */
+  /* Called when it is due; sets what is due next, and stop. Any failure ends the run. */
+  sw_status (*look)(struct sw_observer *observer, sw_error *err);
+  void *user;
+} sw_observer;
+
+/* A clock that is never set [s]. */
+double sw_wall_clock(void);
+
+/* Advance to time until. interrupted (may be NULL) is polled between steps; observer may be NULL.
+ * A divergence is told in the report and the function returns SW_OK; a returned
  * error means that nothing was done. */
 sw_status sw_scene_advance(sw_scene *scene, const sw_run_args *args, double until,
-                           int (*interrupted)(void), sw_run_report *report, sw_error *err);
+                           int (*interrupted)(void), sw_observer *observer, sw_run_report *report,
+                           sw_error *err);
 
 typedef struct sw_settle_args {
   double tolerance;    /* largest node shift of the last iteration [m] */

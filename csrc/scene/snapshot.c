@@ -65,7 +65,7 @@ static size_t size_of(const sw_scene *s) {
 sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
   sw_live live;
   int built;
-  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_still(s, err));
   SW_TRY(sw_scene_readable(s, err));
   SW_TRY(sw_scene_build(s, err));
   sw_scene_undo_holds(s);

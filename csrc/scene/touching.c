@@ -228,7 +228,7 @@ double sw_scene_contact_energy(const sw_scene *s) {
 
 sw_status sw_scene_wire_touch_count(sw_scene *s, size_t *count, sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
-  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_still(s, err));
   *count = s->built && s->pairs ? sw_pairs_count(s->pairs) : 0;
   if (s->built && s->grains) *count += sw_grains_count(s->grains);
   return SW_OK;

@@ -110,6 +110,7 @@ struct sw_scene {
   size_t parts;   /* of steps of the run, since it was last asked whether they have collapsed [-] */
   double covered; /* steps that these make together [-] */
   int running;    /* above 0 inside a step or a user's function: edits are refused */
+  int looking;    /* 1: an observer looks at it: the same, but it can be read */
   sw_system system;
   int *hold_slot;           /* (system.hold_count) scene slot of each system hold */
   sw_hold_load *hold_loads; /* (system.hold_count) of the stage that was solved last */

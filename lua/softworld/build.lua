@@ -423,6 +423,12 @@ function class.scene.restore(scene, snapshot)
   if core.type(snapshot) ~= "snapshot" then
     error("scene:restore expects a snapshot, got " .. (core.type(snapshot) or type(snapshot)), 2)
   end
+  build.back(scene, snapshot)
+end
+
+--- The same between two steps of a run. Its processes end.
+function build.back(scene, snapshot)
+  local data = build.data(scene)
   build.call(3, restore, scene, snapshot)
   data.restores, data.going = data.restores + 1, nil
   for _, process in ipairs(data.processes) do process:finish() end

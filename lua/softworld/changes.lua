@@ -75,7 +75,7 @@ local function kept_force(self)
 end
 
 function Gripper:get()
-  grasp.check_scene(self, 3)
+  grasp.check_there(self, 3)
   return { name = self.name, pads = copied(self.pads), at = self:position(), rotation = copied(self.rotation),
     arm = copied(self.arm), slip_tolerance = self.slip_tolerance, on_slip = self.on_slip,
     on_crash = self.on_crash, force = kept_force(self) }

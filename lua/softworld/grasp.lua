@@ -20,11 +20,16 @@ local PATIENCE = 2 -- a force is waited for so long after jaws could have closed
 local CRUSHED = 0.2 -- opening over the wire's diameter at which it is [-]
 
 --- Raise when the gripper was taken back with a snapshot.
-function grasp.check_scene(self, level)
+function grasp.check_there(self, level)
   if self.gone then
     error(("gripper '%s' was made after the snapshot that was restored; make it anew")
       :format(self.name), level)
   end
+end
+
+--- The same, and when the scene may not be changed now.
+function grasp.check_scene(self, level)
+  grasp.check_there(self, level + 1)
   build.check(self.scene, "gripper '" .. self.name .. "'", level + 1)
 end
 

@@ -40,6 +40,7 @@ local made = {
 }
 require "softworld.clipping" -- gripper:clip
 require "softworld.settle"   -- scene:settle with error bars
+require "softworld.view"     -- scene:view
 require "softworld.changes"  -- get and set of scenes and grippers
 local save = require "softworld.save" -- scene:save, scene:resume, scene:find
 

@@ -9,6 +9,7 @@ local grasp = require "softworld.grasp"
 local ledger = require "softworld.ledger"
 local process = require "softworld.process"
 local number = require "softworld.output.number"
+local observe = require "softworld.observe"
 local place = require "softworld.place"
 local refine = require "softworld.refine"
 local remarks = require "softworld.remarks"
@@ -83,12 +84,13 @@ local function drive(scene, args, total, bar)
       target = scene.time + (args.dt or 0.01)
     end
     options.max_steps = math.min(left, watching and 1 or chunk)
-    local part = build.call(6, advance, scene, options, target)
+    local part = build.call(6, advance, scene, options, target, observe.arguments(scene))
     merge(total, part)
     left = left - part.steps
     bar:update(scene.time - start, total.steps)
     if not part.ok then return part.reason end
-    local stopped = grasp.look(scene)
+    local asked = observe.settle(scene)
+    local stopped = grasp.look(scene) or asked
     if stopped then return stopped end
     if left <= 0 then
       waiting.at_end(scene)
@@ -128,6 +130,7 @@ local function run_once(scene, args, level)
   data.origin = data.origin or save.origin(scene)
   if not data.going then build.call(3, core.begin_run, scene) end -- else the run of the file goes on
   data.going = nil
+  observe.begin(scene, args)
   total.drawn = wires_of(data)
   local wall, cpu = core.clock() - total.wall, os.clock() - total.cpu
   local fine, reason
@@ -141,6 +144,7 @@ local function run_once(scene, args, level)
     fine, reason = pcall(drive, scene, args, total, bar)
     data.running, data.saving = nil, nil
     if fine and total.ok then bar:finish() elseif fine then bar:fail(reason) end
+    observe.finish(scene, fine and total.ok, reason)
   end
   if not fine then error(reason, 0) end
   total.wall, total.cpu = core.clock() - wall, os.clock() - cpu
@@ -365,21 +369,33 @@ function Run:document()
   return doc
 end
 
--- For a player: without frames, which it takes from the core.
-function runfiles.described(self)
-  readable(self, "frames", true)
-  local doc, data = outline(self), build.data(self.scene)
-  doc.scene, doc.start, doc.from, doc.to = self.scene, self.start, self.start - 1e-9, self.time + 1e-9
-  doc.wires = self.ok and wires_of(data) or self.drawn
-  doc.obstacles = obstacles_of(data)
-  drawn.describe(self.scene, doc)
-  for _, f in ipairs(fixing.all(self.scene)) do
+-- What a player draws of a scene.
+local function describe(scene, doc)
+  local data = build.data(scene)
+  doc.scene, doc.wires, doc.obstacles = scene, doc.wires or wires_of(data), obstacles_of(data)
+  drawn.describe(scene, doc)
+  for _, f in ipairs(fixing.all(scene)) do
     for _, one in ipairs(f:solids()) do
       one.name, one.part = one.name or f.name, f.name
       doc.obstacles[#doc.obstacles + 1] = one
     end
   end
   return doc
+end
+
+-- For a player: without frames, which it takes from the core.
+function runfiles.described(self)
+  readable(self, "frames", true)
+  local doc = outline(self)
+  doc.start, doc.from, doc.to = self.start, self.start - 1e-9, self.time + 1e-9
+  if not self.ok then doc.wires = self.drawn end
+  return describe(self.scene, doc)
+end
+
+-- The same of a scene as it is now, with or without a run under way.
+function runfiles.scene_described(scene)
+  return describe(scene, { name = scene.name, ok = true, start = scene.time, time = scene.time,
+    gravity = scene:gravity(), events = {} })
 end
 
 -- The document, with the frames of a run that failed.

@@ -18,7 +18,7 @@ local function objects()
   local tie = scene:tie(wire, { s = 0.1 })
   local run = scene:run{ dt = 0.01 }
   return { scene = scene, wire = wire, hand = hand, gripper = hand, process = process, clip = clip,
-    channel = channel, tie = tie, run = run, sw = sw,
+    channel = channel, tie = tie, run = run, sw = sw, observer = scene:observe{ call = print },
     force = scene:force{ kind = "damping", on = wire },
     obstacle = scene:obstacle{ shape = "plane", at = { 0, 0, -1 } } }
 end

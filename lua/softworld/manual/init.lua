@@ -10,8 +10,8 @@ local manual = {}
 --- Groups of pages: a title and the names of the group's pages.
 manual.groups = {
   { "How to", { "start", "lay", "grip", "handling", "mixed", "clip", "tie", "channel", "feed", "winding",
-    "join", "touches", "particles", "process", "waiting", "tuning", "player", "plotting", "save", "snapshot",
-    "mistakes" } },
+    "join", "touches", "particles", "process", "waiting", "observe", "tuning", "player",
+    "plotting", "save", "snapshot", "mistakes" } },
   { "Choose", { "models", "wire_mesh", "sections", "cable", "springback", "damping", "integrators",
     "vibration", "calibrate", "remodel", "units" } },
   { "Trust", { "accuracy", "tolerance", "limits", "speed", "peaks", "energy", "events", "changes" } },
@@ -25,6 +25,7 @@ manual.also = { manual = "start", contact = "touches", meshes = "wire_mesh", har
   plastic = "springback", exact = "accuracy", errors = "mistakes",
   plot = "plotting", charts = "plotting",
   pictures = "plotting", paraview = "plotting", resume = "save", load = "save", ledger = "energy",
+  observer = "observe",
   report = "player", page = "player", html = "player", film = "player", frames = "player",
   changed = "changes", modes = "vibration", stress = "vibration" }
 

@@ -170,11 +170,17 @@ local function events_of(run)
   return list
 end
 
-local function add_run(page, run)
-  local one = json.object{ name = run.name, ok = run.ok, reason = run.reason, time = run.time,
+-- Without what it has of its time: film, events, numbers.
+local function outline_of(page, run)
+  return json.object{ name = run.name, ok = run.ok, reason = run.reason, time = run.time,
     start = run.start, steps = run.steps, wall = run.wall, unmet = run.unmet, gravity = run.gravity,
     wires = run.wires, particles = particles_of(page, run), grips = run.grips, holds = run.holds,
-    events = events_of(run), film = film_of(page, run), obstacles = obstacles_of(page, run) }
+    obstacles = obstacles_of(page, run) }
+end
+
+local function add_run(page, run)
+  local one = outline_of(page, run)
+  one.events, one.film = events_of(run), film_of(page, run)
   if run.ok then
     one.summary, one.series, one.quantities = summary_of(run), series_of(page, run), run.quantities
   end
@@ -214,6 +220,23 @@ local function write_page(page, write)
   write((json.encode(page.data):gsub("[<>&]", { ["<"] = "\\u003c", [">"] = "\\u003e", ["&"] = "\\u0026" })))
   write "</script>"
   write(template:sub(data_to + 1))
+end
+
+--- What a live page draws of a scene that runfiles describes: JSON of { run =, blobs = base64 }, a list of
+-- which the run's shapes are numbers from 0.
+function report.outline(run)
+  local page = { blobs = {}, shapes = {} }
+  local one = outline_of(page, run)
+  one.events, one.film = {}, { frames = 0, broken = 0, thinned = 1 }
+  return one, page.blobs
+end
+
+--- A page without runs, which gets what it shows through a socket: HTML. data: what it is to know.
+function report.live(title, data)
+  local parts = {}
+  write_page({ blobs = {}, data = json.object{ version = core.version, runs = {}, title = title,
+    made = os.date "%Y-%m-%d %H:%M", live = data } }, function(text) parts[#parts + 1] = text end)
+  return table.concat(parts)
 end
 
 --- Write runs into one page.

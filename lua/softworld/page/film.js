@@ -3,14 +3,20 @@
 
 const KINDS = ["wire", "value", "surface", "pressed", "particles", "obstacle", "hold", "tool"];
 
-/** The bytes of blob number n: base64 in the page, deflated. */
-export async function blob(n) {
-  const text = atob(document.getElementById(`blob-${n}`).textContent);
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new Response(stream).arrayBuffer();
+/** What was deflated, as it was. */
+export function inflated(bytes) {
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
 }
+
+/** The bytes of a text in base64, deflated. */
+export function unpacked(base64) {
+  const text = atob(base64), bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
+  return inflated(bytes);
+}
+
+/** The bytes of blob number n of the page. */
+export const blob = (n) => unpacked(document.getElementById(`blob-${n}`).textContent);
 
 /** Numbers of one kind, of one object, in all frames. */
 class Track {

@@ -7,6 +7,7 @@ import { Transport } from "./transport.js";
 import { Charts } from "./charts.js";
 import { View } from "./view.js";
 import { Legend, ProbeCard, compass, objectTree, lookPanel, resultsPanel, eventsPanel, scriptPanel } from "./panels.js";
+import { startLive } from "./live.js";
 import { savePicture, saveTable, saveFilm, linkOf, readLink } from "./exports.js";
 
 const $ = (id) => document.getElementById(id);
@@ -112,8 +113,8 @@ function menu(view, data, state, span) {
     onclick: () => { toggle(false); action(); } }, words));
   if (view) item("Picture (PNG)", () => savePicture(view, data, state, view.colouring()));
   if (data.runs.some((run) => run.series)) item("Series (CSV)", () => saveTable(data));
-  if (view) item("Film (WebM)", () => { say("Recording: the run is played once."); saveFilm(view, data, state, span, say); });
-  item("Link to this moment", () => {
+  if (view && !data.live) item("Film (WebM)", () => { say("Recording: the run is played once."); saveFilm(view, data, state, span, say); });
+  if (!data.live) item("Link to this moment", () => {
     history.replaceState(null, "", linkOf(state, view));
     navigator.clipboard?.writeText(location.href).then(() => say("The link is copied."), () => say("The link is in the address line."));
   });
@@ -134,7 +135,10 @@ const KEYS = [["Space", "play, pause"], ["← →", "one frame back, on; with sh
   ["W A S D", "turn the view"], ["Q E", "nearer, farther"], ["C", "next quantity"], ["V", "forces"], ["M", "measure"],
   ["X", "section plane"], ["[ ]", "hide objects, charts"], ["T", "dark, light"], ["?", "these keys"]];
 
-function keys(state, transport, view, data) {
+const LIVE_KEYS = [["Space", "hold the run, go on"], ["→", "one step"], ["← →", "look back, frame by frame"], ["End", "to the present"],
+  ["+ −", "faster, slower"], ["K", "keep this state"], ["H", "pull wires, or only turn the view"]];
+
+function keys(state, transport, view, data, more = {}) {
   const help = $("help");
   const quantities = [null, ...knownQuantities(data, "all", 0, null).map((q) => q.key)];
   const flip = (key) => state.set({ [key]: !state.get(key) });
@@ -155,6 +159,7 @@ function keys(state, transport, view, data) {
       a: () => view.stage.turn(-0.12, 0), d: () => view.stage.turn(0.12, 0), w: () => view.stage.turn(0, -0.1),
       s: () => view.stage.turn(0, 0.1), q: () => view.stage.zoom(0.9), e: () => view.stage.zoom(1.11) });
   }
+  Object.assign(actions, more);
   document.addEventListener("keydown", (e) => {
     if (e.ctrlKey || e.metaKey || e.altKey || help.open) return;
     const { target } = e, typing = target.matches("input:not([type=range]):not([type=checkbox]), select, textarea");
@@ -166,7 +171,8 @@ function keys(state, transport, view, data) {
     action(e);
   });
   const list = $("keys");
-  for (const [key, words] of KEYS) list.append(h("dt", {}, ...key.split(" ").map((k) => h("kbd", {}, k))), h("dd", {}, words));
+  const known = data.live ? [...LIVE_KEYS, ...KEYS.slice(KEYS.findIndex(([key]) => key === "1 … 6"))] : KEYS;
+  for (const [key, words] of known) list.append(h("dt", {}, ...key.split(" ").map((k) => h("kbd", {}, k))), h("dd", {}, words));
   $("help-button").append(icon("help"));
   $("help-button").addEventListener("click", () => help.showModal());
   $("help-close").append(icon("close"));
@@ -190,6 +196,11 @@ function header(data, state) {
     run.film.thinned > 1 ? `Of the frames of ${run.name} one of ${run.film.thinned} was kept.` : null]).filter(Boolean);
   $("notes").textContent = notes.join(" ");
   $("notes").hidden = !notes.length;
+  frame(state);
+}
+
+/** Theme, and the sides that can be hidden. */
+function frame(state) {
   const button = $("theme");
   button.addEventListener("click", () => state.set({ theme: state.get("theme") === "dark" ? "light" : "dark" }));
   const side = (id, key) => {
@@ -248,15 +259,45 @@ function openView(data, state, span) {
   }
 }
 
+const usual = (data) => ({ playing: false, speed: 1, loop: false, theme: firstTheme(), left: true, right: true, range: "all",
+  custom: null, thick: 1, arrows: false, ways: true, glass: false, shadows: true, hidden: new Set(), selected: null, probe: null,
+  tool: null, cut: null, cutAt: 0.5, flip: false, quantity: data.runs.length === 1 && knownQuantities(data, "all", 0, null)[0]?.key || null });
+
+/** What the live page takes of the player. */
+const shared = {
+  say, frame,
+  openView: (data, state) => openView(data, state),
+  newState: (data, more) => new State({ ...usual(data), ...more }),
+  renew(view, data, state) {
+    view.renew();
+    $("objects").replaceChildren();
+    objectTree($("objects"), view, data, state);
+  },
+  finish(data, state, view, transport, more) {
+    $("title").textContent = data.title;
+    if (view) view.stage.draw();
+    lookPanel($("look"), data, state);
+    tabs(state, { shown() {} });
+    menu(view, data, state, null);
+    keys(state, transport, view, data, more);
+    document.body.dataset.picture = document.body.dataset.ready = String(Math.round(performance.now()));
+    document.body.classList.add("ready", "live");
+  },
+};
+
 async function start() {
   if (!window.DecompressionStream) throw new Error("this browser is too old: it knows no DecompressionStream");
-  const data = await load(), span = spanOf(data), given = readLink(location.hash);
+  const data = await load();
+  if (data.live) {
+    await startLive(data, shared);
+    return;
+  }
+  $("tab-live").remove();
+  $("panel-live").remove();
+  const span = spanOf(data), given = readLink(location.hash);
   const known = knownQuantities(data, "all", 0, null).map((q) => q.key);
-  const state = new State({ time: span[0], playing: false, speed: 1, loop: false, theme: firstTheme(), left: true, right: true,
-    tab: data.runs.every((run) => run.series) ? "charts" : "results", quantity: known.includes(given.quantity) ? given.quantity
-      : data.runs.length === 1 && known[0] || null, // several runs are told apart by their colours
-    range: "all", custom: null, thick: 1, arrows: false, ways: true, glass: false, shadows: true, hidden: new Set(), selected: null, probe: null,
-    tool: null, cut: null, cutAt: 0.5, flip: false });
+  const state = new State({ ...usual(data), time: span[0], tab: data.runs.every((run) => run.series) ? "charts" : "results" });
+  if (known.includes(given.quantity)) state.set({ quantity: given.quantity });
   header(data, state);
   const transport = new Transport($("transport"), data, state, span, frameTimes(data));
   const view = openView(data, state, span);

@@ -23,16 +23,24 @@ async function readSeries(given) {
   return { ...given, time, columns };
 }
 
-async function readShape(cache, shape) {
+async function readShape(cache, shape, read = blob) {
   if (shape.blob === undefined) return shape;
   if (!cache.has(shape.blob)) {
-    const buffer = await blob(shape.blob);
+    const buffer = await read(shape.blob);
     cache.set(shape.blob, {
       points: new Float32Array(buffer, 0, 3 * shape.vertices),
       corners: new Uint32Array(buffer, 12 * shape.vertices, shape.indices),
     });
   }
   return { ...shape, ...cache.get(shape.blob) };
+}
+
+/** What a run has in its scene: shapes of obstacles, edges of particles; read(n): bytes of blob n. */
+export async function readThings(run, shapes, read) {
+  for (const o of run.obstacles) o.shape = await readShape(shapes, o.shape, read);
+  for (const p of run.particles) {
+    if (p.blob !== undefined) p.pairs = new Uint32Array(await read(p.blob));
+  }
 }
 
 /** The page's data with all that is beside it. */
@@ -44,10 +52,7 @@ export async function load() {
     if (run.film.blob !== undefined) Object.assign(run.film, readFilm(await blob(run.film.blob)));
     else Object.assign(run.film, { times: new Float64Array(0), tracks: new Map(), get: () => undefined });
     run.series = await readSeries(run.series);
-    for (const o of run.obstacles) o.shape = await readShape(shapes, o.shape);
-    for (const p of run.particles) {
-      if (p.blob !== undefined) p.pairs = new Uint32Array(await blob(p.blob));
-    }
+    await readThings(run, shapes, blob);
   }
   return data;
 }
@@ -114,7 +119,7 @@ export function knownQuantities(data, mode, time, hidden) {
         high = Math.max(high, b);
       });
     }
-    if (low <= high && (high > low || mode === "frame")) known.push({ ...q, low, high });
+    if (low <= high && (high > low || mode === "frame" || data.live)) known.push({ ...q, low, high });
   }
   return known;
 }

@@ -110,7 +110,23 @@ export class View {
     });
   }
 
+  /** What is in the scene has changed: everything is made anew, the camera stays where it is. */
+  renew() {
+    const { scene, grounds } = this.stage;
+    for (const a of [...this.actors, ...this.ways]) scene.remove(a.group);
+    this.actors = [];
+    this.ways = [];
+    grounds.length = 0;
+    this.colourKey = null;
+    for (const run of this.data.runs) this.addRun(run);
+    this.stage.shadows(this.state.get("shadows"));
+    this.update();
+    const { cut, cutAt, flip } = this.state.values;
+    this.stage.section(cut, cutAt, flip);
+  }
+
   addWay(actor, lists) {
+    if (this.data.live) return; // where it will go is not known
     const way = new Way(actor, lists, this.accent);
     if (!way.moves) return;
     this.ways.push(way);
@@ -167,7 +183,7 @@ export class View {
   colouring() {
     const { quantity, range, time, hidden, custom } = this.state.values;
     if (!quantity) return { quantity: null, scale: null };
-    const key = `${quantity} ${range} ${range === "frame" ? time : ""} ${custom || ""} ${[...hidden].join()}`;
+    const key = `${quantity} ${range} ${range === "frame" ? time : ""} ${custom || ""} ${[...hidden].join()} ${Math.floor((this.data.runs[0].film.version || 0) / 5)}`;
     if (this.colourKey !== key) {
       this.colourKey = key;
       const q = knownQuantities(this.data, range, time, hidden).find((k) => k.key === quantity);
@@ -192,7 +208,9 @@ export class View {
 
   /** The largest force of a run's tracks, found once. */
   largest(kind) {
-    this.most = this.most || {};
+    const version = Math.floor((this.data.runs[0].film.version || 0) / 30);
+    if (!this.most || this.version !== version) this.most = {};
+    this.version = version;
     if (this.most[kind] === undefined) {
       let most = 0;
       for (const run of this.data.runs) {
@@ -201,13 +219,13 @@ export class View {
             : (track.kind === "hold" || track.kind === "tool") && track.channel === 2;
           if (!wanted) continue;
           // blows are rare and far larger: what is not exceeded in 99.8 % of the frames is shown in full
-          const sizes = [];
-          for (let f = 0; f < track.counts.length; f++) {
+          const sizes = [], room = [], { counts } = track;
+          for (let f = 0; f < counts.length; f++) {
+            const n = 3 * track.sample(f, 0, room);
             let own = 0;
-            for (let i = track.starts[f]; i < track.starts[f + 1]; i += 3) {
-              let sum = 0;
-              for (let c = 0; c < 3; c++) sum += (track.codes[i + c] ? track.codes[i + c] * track.scale + track.offset : 0) ** 2;
-              own = Math.max(own, sum);
+            for (let i = 0; i < n; i += 3) {
+              const sum = room[i] ** 2 + room[i + 1] ** 2 + room[i + 2] ** 2;
+              if (sum > own) own = sum; // what is no number is not
             }
             sizes.push(Math.sqrt(own));
           }
