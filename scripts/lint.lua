@@ -24,6 +24,7 @@ local ROOMS = {
   scene = { "base", "motion", "shape", "state", "wire", "force", "solve", "system", "integrate",
     "contact", "constraint", "calibrate", "modal" },
   film = { "base", "scene" },
+  draw = { "base", "film" }, -- of film: bytes made few
   bind = {}, -- the core through softworld.h
   host = { "bind" },
 }

@@ -159,7 +159,7 @@ static sw_status fill(sw_scene *s, float *p, sw_error *err) {
   return SW_OK;
 }
 
-sw_status sw_scene_store_frame(sw_scene *s, sw_error *err) {
+static sw_status take(sw_scene *s, sw_error *err) {
   sw_frame f = {.time = s->time,
                 .size = TOOL * s->tool_count + HOLD * (s->obstacle_count + s->hold_count),
                 .wires = s->wire_count,
@@ -180,10 +180,30 @@ sw_status sw_scene_store_frame(sw_scene *s, sw_error *err) {
   }
   s->frames[s->frame_count++] = f;
   s->frame_bytes += bytes_of(&f);
-  if (s->frame_count % 2 && s->frame_count > LEAST &&
-      s->frame_bytes + 2 * bytes_of(&f) > s->frame_memory)
+  return SW_OK;
+}
+
+sw_status sw_scene_store_frame(sw_scene *s, sw_error *err) {
+  SW_TRY(take(s, err));
+  const double size = bytes_of(&s->frames[s->frame_count - 1]);
+  if (s->frame_count % 2 && s->frame_count > LEAST && s->frame_bytes + 2 * size > s->frame_memory)
     thin(s);
   return SW_OK;
+}
+
+sw_status sw_scene_lend_frame(sw_scene *s, sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_build(s, err));
+  SW_TRY(sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err));
+  sw_system_refresh(&s->system);
+  return take(s, err);
+}
+
+void sw_scene_end_lending(sw_scene *s) {
+  if (!s->frame_count) return;
+  s->frame_bytes -= bytes_of(&s->frames[--s->frame_count]);
+  sw_free(s->frames[s->frame_count].data);
 }
 
 static size_t before_wires(const sw_frame *f) {

@@ -11,6 +11,10 @@ size_t sw_scene_frames(const sw_scene *scene);
 double sw_scene_frame_time(const sw_scene *scene, size_t frame);
 sw_status sw_scene_clear_frames(sw_scene *scene, sw_error *err);
 
+/* One more, of the scene as it is; it goes again by the second call, before anything else is done. */
+sw_status sw_scene_lend_frame(sw_scene *scene, sw_error *err);
+void sw_scene_end_lending(sw_scene *scene);
+
 /* Memory that they may take from now on, all together; three always stay [B]. */
 extern const double SW_FRAME_MEMORY;
 sw_status sw_scene_keep_frames(sw_scene *scene, double memory, sw_error *err);
