@@ -66,6 +66,7 @@ function sw.cables() return sw.cable.list() end
 rows.later(core.class.scene, "softworld.script", "script")
 rows.later(core.class.scene, "softworld.describe", "describe")
 rows.later(core.class.scene, "softworld.pictures", "picture")
+rows.later(sw, "softworld.plot", "plot")
 record.install(made)
 
 for kind, class in pairs(made) do methods.guard_table(kind, class) end
