@@ -26,7 +26,7 @@ LUALIB = $(shell pkg-config --libs lua5.4)
 SRC = $(filter-out $(wildcard csrc/host/*.c),$(wildcard csrc/*/*.c))
 HOST = $(wildcard csrc/host/*.c)
 PAGE = $(BUILD)/page/player.html
-OBJ = $(SRC:csrc/%.c=$(BUILD)/obj/%.o) $(BUILD)/obj/page.o
+OBJ = $(SRC:csrc/%.c=$(BUILD)/obj/%.o) $(BUILD)/obj/page.o $(BUILD)/obj/font.o
 HOSTOBJ = $(HOST:csrc/%.c=$(BUILD)/obj/%.o)
 
 all: $(BUILD)/softworld $(BUILD)/lib/softworld/core.so
@@ -61,6 +61,17 @@ $(BUILD)/obj/page.o: $(PAGE)
 	printf '%s\n' '.section .rodata' '.global lsw_page_start' '.global lsw_page_end' \
 	  '.hidden lsw_page_start' '.hidden lsw_page_end' 'lsw_page_start: .incbin "$<"' \
 	  'lsw_page_end:' '.section .note.GNU-stack,"",%progbits' | $(CC) -x assembler -c -o $@ -
+
+# Letters in pictures: outlines of a font, also a part of the program.
+FONT = /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf
+$(BUILD)/font.bin: $(FONT) scripts/font.lua Makefile
+	@mkdir -p $(@D)
+	lua5.4 scripts/font.lua $(FONT) $@
+
+$(BUILD)/obj/font.o: $(BUILD)/font.bin
+	@mkdir -p $(@D)
+	printf '%s\n' '.section .rodata' '.global sw_font_start' '.hidden sw_font_start' \
+	  'sw_font_start: .incbin "$<"' '.section .note.GNU-stack,"",%progbits' | $(CC) -x assembler -c -o $@ -
 
 -include $(OBJ:.o=.d) $(HOSTOBJ:.o=.d)
 

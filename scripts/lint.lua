@@ -25,6 +25,7 @@ local ROOMS = {
     "contact", "link", "calibrate", "modal" },
   film = { "base", "scene" },
   view = { "base" }, -- bytes for pages; never a scene
+  draw = { "base", "film" }, -- of film: bytes made few
   bind = {}, -- the core through softworld.h
   host = { "bind" },
 }

@@ -30,8 +30,10 @@ build libcivetweb-dev  # serves the live view to browsers of this machine
 build esbuild          # bundles the player's page
 build libjs-three      # draws in it
 build libjs-dygraphs   # charts in it
+build fonts-dejavu-core # letters in pictures
 run   gnuplot-nox      # charts
 run   povray           # ray-traced pictures
+run   ffmpeg           # films
 manual cmark-gfm       # Markdown to HTML, for make manual
 test  cmark-gfm        # for the spec of make manual
 test  lua-busted       # the test framework

@@ -1,7 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Frames of a run as Lua tables, and how much memory they may take. */
+#include <math.h>
+
 #include "bind/child.h"
 #include "bind/module.h"
+
+static const char *const channels[SW_FRAME_FORCE + 1] = {"tension",      "curvature", "contact",
+                                                         "twist_moment", "stress",    NULL};
 
 static sw_scene *check(lua_State *L) {
   return ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
@@ -69,8 +74,6 @@ static void push_frame_surfaces(lua_State *L, const sw_scene *scene, size_t fram
 /* Of each wire { tension =, curvature =, contact =, twist_moment =, stress = }, flat, at each node
  * [N], [1/m], [N], [N m], [Pa]. */
 static void push_frame_values(lua_State *L, const sw_scene *scene, size_t frame) {
-  static const char *const names[SW_FRAME_FORCE] = {"tension", "curvature", "contact",
-                                                    "twist_moment", "stress"};
   size_t count;
   lua_Integer number = 0;
   lua_newtable(L);
@@ -80,7 +83,7 @@ static void push_frame_values(lua_State *L, const sw_scene *scene, size_t frame)
     lua_createtable(L, 0, SW_FRAME_FORCE);
     for (size_t k = 0; k < SW_FRAME_FORCE; k++) {
       push_floats(L, p + k, count, SW_FRAME_VALUES);
-      lua_setfield(L, -2, names[k]);
+      lua_setfield(L, -2, channels[k]);
     }
     lua_rawseti(L, -2, ++number);
   }
@@ -148,6 +151,28 @@ int lsw_scene_clear_frames(lua_State *L) {
   return 0;
 }
 
+static int last_frame(lua_State *L) {
+  lua_pushinteger(L, (lua_Integer)sw_scene_frames(check(L)));
+  return lsw_scene_frame(L);
+}
+
+/* core.frame_now(scene) -> as scene:frame, of the scene as it is */
+static int mod_frame_now(lua_State *L) {
+  sw_scene *scene = check(L);
+  sw_error err = {""};
+  lua_settop(L, 1);
+  lsw_must(L, sw_scene_readable(scene, &err), &err);
+  lua_State *outer = lsw_begin_forces(L);
+  const sw_status status = sw_scene_frame_now(scene, &err);
+  lsw_end_forces(outer);
+  lsw_must(L, status, &err);
+  lua_pushcfunction(L, last_frame);
+  lua_pushvalue(L, 1);
+  const int failed = lua_pcall(L, 1, 1, 0);
+  sw_scene_drop_last_frame(scene);
+  return failed ? lua_error(L) : 1;
+}
+
 /* core.keep_frames(scene[, memory [B]]): that they may take from now on. */
 static int mod_keep_frames(lua_State *L) {
   sw_error err = {""};
@@ -163,7 +188,40 @@ static int mod_frames_thinned(lua_State *L) {
   return 1;
 }
 
+/* core.frame_times(scene) -> of all frames [s] */
+static int mod_frame_times(lua_State *L) {
+  const sw_scene *scene = check(L);
+  const size_t count = sw_scene_frames(scene);
+  lua_createtable(L, (int)count, 0);
+  for (size_t f = 0; f < count; f++) {
+    lua_pushnumber(L, sw_scene_frame_time(scene, f));
+    lua_rawseti(L, -2, (lua_Integer)f + 1);
+  }
+  return 1;
+}
+
+/* core.frame_range(scene, quantity) -> least and largest value in all frames; nothing: none */
+static int mod_frame_range(lua_State *L) {
+  const sw_scene *scene = check(L);
+  const int channel = luaL_checkoption(L, 2, NULL, channels);
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (size_t f = 0; f < sw_scene_frames(scene); f++)
+    for (size_t w = 0; w < sw_scene_frame_wires(scene); w++) {
+      size_t count;
+      const float *p = sw_scene_frame_values(scene, f, w, &count);
+      for (size_t i = 0; p && i < count; i++) {
+        const double x = (double)p[SW_FRAME_VALUES * i + (size_t)channel];
+        if (isfinite(x)) low = fmin(low, x), high = fmax(high, x);
+      }
+    }
+  if (!(low <= high)) return 0;
+  lua_pushnumber(L, low), lua_pushnumber(L, high);
+  return 2;
+}
+
 static const luaL_Reg functions[] = {
-    {"keep_frames", mod_keep_frames}, {"frames_thinned", mod_frames_thinned}, {NULL, NULL}};
+    {"frame_now", mod_frame_now},           {"frame_times", mod_frame_times},
+    {"frame_range", mod_frame_range},       {"keep_frames", mod_keep_frames},
+    {"frames_thinned", mod_frames_thinned}, {NULL, NULL}};
 
 void lsw_open_frames(lua_State *L) { luaL_setfuncs(L, functions, 0); }

@@ -6,7 +6,7 @@
 #include "base/alloc.h"
 #include "film/pack.h"
 
-enum { LEVEL = 6, ROOM = 1 << 16 };
+enum { LEVEL = 6, FAST = 3, ROOM = 1 << 16 };
 
 struct sw_pack {
   z_stream z;
@@ -27,17 +27,20 @@ static void give(void *unused, void *p) {
   sw_free(p);
 }
 
-sw_status sw_pack_new(sw_pack **out) {
+static sw_status pack_new(sw_pack **out, int level) {
   sw_pack *p = sw_alloc(1, sizeof *p);
   if (!p) return SW_ENOMEM;
   p->z.zalloc = take, p->z.zfree = give;
-  if (deflateInit(&p->z, LEVEL) != Z_OK) {
+  if (deflateInit(&p->z, level) != Z_OK) {
     sw_free(p);
     return SW_ENOMEM;
   }
   *out = p;
   return SW_OK;
 }
+
+sw_status sw_pack_new(sw_pack **out) { return pack_new(out, LEVEL); }
+sw_status sw_pack_new_fast(sw_pack **out) { return pack_new(out, FAST); }
 
 void sw_pack_free(sw_pack *p) {
   if (!p) return;
@@ -73,6 +76,8 @@ sw_status sw_pack_end(sw_pack *p, const unsigned char **bytes, size_t *size) {
   *bytes = p->out, *size = p->size;
   return p->status;
 }
+
+uint32_t sw_crc32(const void *bytes, size_t size) { return (uint32_t)crc32_z(0, bytes, size); }
 
 size_t sw_base64_size(size_t bytes) { return (bytes + 2) / 3 * 4; }
 

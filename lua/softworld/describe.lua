@@ -139,6 +139,6 @@ local function of_scene(scene)
 end
 
 --- scene:describe(): see help "scene:describe".
-core.class.scene.describe = build.placed(of_scene)
+describe.describe = build.placed(of_scene)
 
 return describe

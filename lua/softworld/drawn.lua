@@ -108,11 +108,19 @@ local function gripper_of(gripper)
     tool = gripper.tool and slot_of(gripper.tool) - 1 }
 end
 
+--- doc.particles: { name, radius, edges of the surface } of each object of particles.
+function drawn.add_particles(scene, doc)
+  doc.particles = {}
+  for i, p in ipairs(build.data(scene).particles) do
+    doc.particles[i] = { name = p.name, radius = p.object.radius, edges = core.edges(p.object) }
+  end
+end
+
 --- Add to a document what a player draws besides wires: doc.grips, doc.holds, doc.particles; in
 -- doc.obstacles their slots, and of which gripper they are a part.
 function drawn.describe(scene, doc)
   local data, theirs = build.data(scene), {}
-  doc.grips, doc.holds, doc.particles = {}, {}, {}
+  doc.grips, doc.holds = {}, {}
   for _, g in ipairs(data.grippers) do
     for _, hold in ipairs(g.past) do theirs[hold] = true end
     doc.grips[#doc.grips + 1] = gripper_of(g)
@@ -128,9 +136,7 @@ function drawn.describe(scene, doc)
         slot = slot_of(h.object) - 1 }
     end
   end
-  for i, p in ipairs(data.particles) do
-    doc.particles[i] = { name = p.name, radius = p.object.radius, edges = core.edges(p.object) }
-  end
+  drawn.add_particles(scene, doc)
 end
 
 --- Add grips and clamps to a document with frames (of scene:frame): lists doc.grips and doc.clamps of

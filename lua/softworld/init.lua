@@ -17,6 +17,7 @@ local build = require "softworld.build" -- adds to the classes: names, files, dr
 local methods = require "softworld.methods"
 local record = require "softworld.record" -- of calls, for scene:script and scene:describe
 local remarks = require "softworld.remarks"
+local rows = require "softworld.rows"
 
 local sw = {
   version = core.version,
@@ -63,8 +64,10 @@ end
 --- The names of all cables of the catalogue; print shows them as a table.
 function sw.cables() return sw.cable.list() end
 
-require "softworld.script"   -- scene:script
-require "softworld.describe" -- scene:describe
+rows.later(core.class.scene, "softworld.script", "script")
+rows.later(core.class.scene, "softworld.describe", "describe")
+rows.later(core.class.scene, "softworld.pictures", "picture")
+rows.later(sw, "softworld.plot", "plot")
 record.install(made)
 
 for kind, class in pairs(made) do methods.guard_table(kind, class) end

@@ -152,6 +152,23 @@ function Call:read(args, what, prefix)
   return copy
 end
 
+-- --- methods whose module is read late ------------------------------------------------------
+
+local late = {} -- module -> true
+
+--- Let a class have methods of a module, a table of functions, that is read when the first is called.
+function rows.later(class, module, names)
+  late[module] = true
+  for name in names:gmatch "%S+" do
+    class[name] = function(...) return require(module)[name](...) end
+  end
+end
+
+--- Read these modules, which have rows too: for help, completion and checks.
+function rows.load()
+  for module in pairs(late) do require(module) end
+end
+
 --- The rows of a call by its name, or nil.
 function rows.of(name) return rows.all[name] and rows.all[name].rows end
 

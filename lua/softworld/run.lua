@@ -334,11 +334,13 @@ local function add_fixings(scene, doc)
   end
 end
 
--- What pictures show.
-local function draw(self, doc, wires)
+-- What pictures show, of frames of these numbers; nil: of all.
+local function draw(self, doc, wires, numbers)
   doc.wires = wires
   doc.obstacles = obstacles_of(build.data(self.scene))
-  for i = 1, self.scene:frame_count() do doc.frames[i] = self.scene:frame(i) end
+  for i = 1, numbers and #numbers or self.scene:frame_count() do
+    doc.frames[i] = self.scene:frame(numbers and numbers[i] or i)
+  end
   drawn.add(self.scene, doc)
   add_fixings(self.scene, doc)
 end
@@ -398,6 +400,27 @@ function runfiles.scene_described(scene)
     gravity = scene:gravity(), events = {} })
 end
 
+-- What pictures of some frames need, without series and numbers.
+function runfiles.moments(self, numbers)
+  readable(self, "frames", true)
+  local doc = { name = self.name, ok = self.ok, reason = self.reason, time = self.time,
+    gravity = self.scene:gravity(), frames = {}, seen = {} }
+  draw(self, doc, self.ok and wires_of(build.data(self.scene)) or self.drawn, numbers)
+  drawn.add_particles(self.scene, doc)
+  return doc
+end
+
+-- The same of a scene as it is now.
+function runfiles.present(scene)
+  local doc = { name = scene.name, ok = true, time = scene.time, gravity = scene:gravity(),
+    wires = wires_of(build.data(scene)), obstacles = obstacles_of(build.data(scene)),
+    frames = { core.frame_now(scene) }, seen = {} }
+  drawn.add(scene, doc)
+  drawn.add_particles(scene, doc)
+  add_fixings(scene, doc)
+  return doc
+end
+
 -- The document, with the frames of a run that failed.
 function runfiles.pictured(self)
   local doc = self:document()
@@ -409,6 +432,7 @@ function runfiles.pictured(self)
 end
 
 for name, method in pairs(runfiles.methods) do Run[name] = method end
+tables.later(Run, "softworld.pictures", "picture film")
 Run.error_bars = trust.error_bars
 Run.ledger = ledger.of
 

@@ -60,12 +60,15 @@ rows.calls{
   { "run:error_bars", "", "of the quantities asked for, see help 'tolerance'" },
 }
 
-local function check_camera(given)
+runfiles.camera = camera
+
+--- Raise unless it is a camera: nil, "auto" or a table of its rows.
+function runfiles.check_camera(given, what)
   if given == nil or given == "auto" then return end
   if type(given) ~= "table" then
-    error("run:pictures: camera must be 'auto' or a table, got " .. checks.got(given), 0)
+    error(("%s: camera must be 'auto' or a table, got %s"):format(what, checks.got(given)), 0)
   end
-  camera:read(given, "run:pictures: camera", "run:pictures: camera.")
+  camera:read(given, what .. ": camera", what .. ": camera.")
 end
 
 -- { width, height }, both above 0.
@@ -170,7 +173,7 @@ end
 --- A strip of ray-traced pictures: { path = "x.png", count = 6, ... }.
 function Run:pictures(options)
   local o = pictures:read(options or {})
-  check_camera(o.camera)
+  runfiles.check_camera(o.camera, "run:pictures")
   readable(self, "frames", true)
   o.run = runfiles.pictured(self)
   return require("softworld.output.povray").strip(o)

@@ -212,6 +212,6 @@ end
 
 --- scene:script(file) -> text: see help "scene:script". Lua functions cannot be written: an error names the
 -- first one, and nothing is written.
-core.class.scene.script = build.placed(write)
+script.script = build.placed(write)
 
 return script

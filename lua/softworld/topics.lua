@@ -8,6 +8,8 @@ local manual = require "softworld.manual"
 local rows = require "softworld.rows"
 local text_of = require "softworld.manual.text"
 
+rows.load()
+
 local topics = {}
 
 -- The call that each table of rows belongs to.

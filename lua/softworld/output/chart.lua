@@ -187,7 +187,7 @@ local function key_room(panels)
       longest = math.max(longest, number.columns(column.name))
     end
   end
-  return longest > 0 and 60 + 8.2 * longest or 26
+  return longest > 0 and 68 + 8.2 * longest or 26
 end
 
 local key_line = 20 -- height of a name in a key [px]
@@ -398,5 +398,9 @@ end
 --- A map of coloured cells; see softworld.output.map.
 -- @function chart.map
 chart.map = map.draw
+
+--- For softworld.output.plot.
+chart.parts = { size_of = size_of, finite = finite, thinned = thinned, stack = stack,
+  natural_size = natural_size, quantities = quantities, narrow_tics = narrow_tics, point_types = point_types }
 
 return chart

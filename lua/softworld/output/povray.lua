@@ -5,17 +5,14 @@
 -- @module softworld.output.povray
 
 local checks = require "softworld.checks"
-local number = require "softworld.output.number"
+local looks = require "softworld.output.looks"
 local povscene = require "softworld.output.povscene"
 local sink = require "softworld.output.sink"
 local solid = require "softworld.output.solid"
-local view = require "softworld.output.view"
 
 local povray = {}
 
 local gap, caption_height, foot_height = 10, 34, 24 -- [px]
-local least_pixels = 3.2 -- a thinner wire is drawn thicker, and the picture says so
-local least_grip = 10    -- [px] a smaller gripper is drawn larger, and the picture says so
 
 local function complaint(text)
   local lines = {}
@@ -67,103 +64,6 @@ local function flat_scene(sheet)
   return table.concat(parts)
 end
 
--- The frame nearest to each time, or count frames evenly spread, first and last included; of a run
--- that failed the last ones.
-local function chosen_frames(run, count, times)
-  local total, list = #run.frames, {}
-  for k, t in ipairs(times or {}) do
-    for _, frame in ipairs(run.frames) do
-      if not list[k] or math.abs(frame.t - t) < math.abs(list[k].t - t) then list[k] = frame end
-    end
-  end
-  if times and #list > 0 then return list end
-  count = math.min(count, total)
-  for k = 1, run.ok == false and count or 0 do list[k] = run.frames[total - count + k] end
-  for k = #list, count - 1 do
-    list[k + 1] = run.frames[count > 1 and 1 + math.floor(k * (total - 1) / (count - 1) + 0.5) or total]
-  end
-  return list
-end
-
--- Points that the drawn grippers reach, for the camera to hold.
-local function grip_points(run, smallest)
-  local points = {}
-  for _, frame in ipairs(run.frames) do
-    for i, pose in ipairs(frame.grips or {}) do
-      local width = math.max(smallest, (run.grips and run.grips[i] or {}).width or 0)
-      local p, q = solid.pose(pose or nil)
-      for _, side in ipairs(pose and { -1, 1 } or {}) do
-        local x, y, z = solid.rotate(q, 0, 1.5 * side * width, povscene.grip_reach * width)
-        points[#points + 1] = { p[1] + x, p[2] + y, p[3] + z }
-      end
-    end
-  end
-  return points
-end
-
-local function thickness_of(run, per_metre)
-  local thinnest = math.huge
-  for _, wire in ipairs(run.wires) do thinnest = math.min(thinnest, wire.radius) end
-  local wanted = least_pixels / (2 * thinnest * per_metre)
-  return wanted <= 1.1 and 1 or math.ceil(wanted * 2) / 2
-end
-
-local function look_of(run, width, height, options)
-  local setting = type(options.camera) == "table" and options.camera or nil
-  local look = { size = solid.bounds(run).size, smallest_grip = 0 }
-  for _ = 1, 2 do -- the second time with grippers of the size that will be drawn
-    look.camera = view.camera(run, width / height, setting, grip_points(run, look.smallest_grip))
-    look.per_metre = view.scale(look.camera, width)
-    look.smallest_grip = least_grip / look.per_metre
-  end
-  look.thickness = options.thickness or thickness_of(run, look.per_metre)
-  return look
-end
-
-local function has_plane(run)
-  for _, o in ipairs(run.obstacles or {}) do
-    if solid.flat(o) then return true end
-  end
-  return false
-end
-
-local foot_letter = 7.6 -- width of a letter of the foot [px]
-
--- What stands below the pictures, on a sheet of this width [px].
-local function foot_of(run, look, width)
-  local notes = {}
-  if has_plane(run) then
-    local side = number.text(povscene.square(look.size), "m"):gsub("(%d)%.0+ ", "%1 ")
-    notes[1] = "squares of " .. side
-  end
-  if look.thickness ~= 1 then
-    notes[#notes + 1] = string.format("wire drawn %g times as thick", look.thickness)
-  end
-  for _, grip in ipairs(run.grips or {}) do
-    if (grip.width or 0) < look.smallest_grip then
-      notes[#notes + 1] = "grippers not to scale"
-      break
-    end
-  end
-  if run.ok == false then
-    local text, most = "FAILED " .. tostring(run.reason), (width - 2 * gap) // foot_letter
-    text = #notes > 0 and text .. "; " .. table.concat(notes, ", ") or text
-    return #text > most and text:sub(1, most - 3) .. "..." or text
-  end
-  return table.concat(notes, ", ")
-end
-
-local function time_caption(run, frame)
-  local digits = (run.time or 1) < 0.1 and 4 or 2
-  return string.format("t = %." .. digits .. "f s", frame.t)
-end
-
-local function caption_of(run, frame, i, options)
-  local words = options.captions and options.captions[i]
-  local failed = run.ok == false and frame == run.frames[#run.frames] and ", the run FAILED" or ""
-  return options.caption or time_caption(run, frame) .. failed .. (words and ": " .. words or "")
-end
-
 local function check(options, purpose)
   local run = type(options) == "table" and options.run
   if type(run) ~= "table" or not run.frames or #run.frames == 0 then
@@ -186,7 +86,7 @@ local function render(sheet, run, frames, look, options)
       names[#names + 1], names[#names + 2] = name .. ".pov", name .. ".png"
       sink.write_file(folder .. "/" .. name .. ".pov", povscene.text(run, frame, look))
       trace(folder, name, sheet.panel_width, sheet.panel_height, settings)
-      sheet.panels[i] = { name = name, caption = caption_of(run, frame, i, options) }
+      sheet.panels[i] = { name = name, caption = looks.caption(run, frame, i, options) }
     end
     sink.write_file(folder .. "/sheet.pov", flat_scene(sheet))
     settings.aa = "+A0.1 +AM1 +R4 -J"
@@ -228,7 +128,7 @@ end
 -- @raise if povray is missing or fails, or the file cannot be written
 function povray.strip(options)
   local run = check(options, "a strip of pictures")
-  local frames = chosen_frames(run, options.count or 6, options.times)
+  local frames = looks.frames(run, options.count or 6, options.times)
   local columns = math.min(options.columns or 3, #frames)
   local rows = (#frames + columns - 1) // columns
   local width, height = options.width or 1500, options.height or 380 * rows
@@ -237,13 +137,13 @@ function povray.strip(options)
   if panel_width < 40 or panel_height < 40 then
     sink.fail("a strip of pictures: %d x %d px is too small", width, height)
   end
-  local look = look_of(run, panel_width, panel_height, options)
+  local look = looks.of(run, panel_width, panel_height, options)
   if not options.height then
     panel_height = trimmed(look, panel_width, panel_height)
-    look = look_of(run, panel_width, panel_height, options)
+    look = looks.of(run, panel_width, panel_height, options)
   end
   local sheet = sheet_of(columns, rows, panel_width, panel_height)
-  sheet.foot = foot_of(run, look, sheet.width)
+  sheet.foot = looks.foot(run, look, sheet.width)
   return render(sheet, run, frames, look, options)
 end
 
@@ -257,8 +157,8 @@ function povray.picture(options)
   if not frame then sink.fail("a picture: no frame %s of %d", checks.shown(options.frame), #run.frames) end
   local size = options.size or { 1200, 800 }
   local sheet = sheet_of(1, 1, size[1] - 2 * gap, size[2] - gap - foot_height - caption_height)
-  local look = look_of(run, sheet.panel_width, sheet.panel_height, options)
-  sheet.foot = foot_of(run, look, sheet.width)
+  local look = looks.of(run, sheet.panel_width, sheet.panel_height, options)
+  sheet.foot = looks.foot(run, look, sheet.width)
   return render(sheet, run, { frame }, look, options)
 end
 

@@ -33,6 +33,10 @@ local obstacle_colour = { 0.52, 0.69, 0.87 }
 local table_colour = { 0.82, 0.80, 0.765 }
 local jaw_colour, palm_colour = { 0.33, 0.37, 0.43 }, { 0.70, 0.73, 0.77 }
 
+--- Colours, sRGB: of wires one after the other, obstacles, planes, jaws, palms and stems of grippers.
+povscene.colours = { wires = wire_colours, obstacle = obstacle_colour, plane = table_colour,
+  jaw = jaw_colour, palm = palm_colour }
+
 -- Finishes: how much of the light of all around, of the lamps, and which gloss.
 local matt = "finish { ambient 0.13 diffuse 0.72 }"
 local satin = "finish { ambient 0.16 diffuse 0.75 specular 0.15 roughness 0.05 }"

@@ -43,7 +43,7 @@ end
 -- @tparam[opt] table options
 -- `after` real time before anything is shown, and nothing at all of what ends sooner [s];
 -- `total` simulated time to reach [s], nil if the processes decide;
--- `name` shown in front; `quiet = true` shows nothing;
+-- `name` shown in front; `word` what steps are called; `quiet = true` shows nothing;
 -- `stream` (default io.stderr); `terminal` true or false (default: asked of
 -- the system for stderr, false for another stream);
 -- `width` columns or a function giving them; `clock` a function giving real time [s]
@@ -57,6 +57,7 @@ function progress.new(options)
   self.total, self.name, self.quiet = options.total, options.name, options.quiet or false
   self.stream = options.stream or io.stderr
   self.clock = options.clock or fallback_clock()
+  self.word = options.word or "steps"
   self.start, self.time, self.steps = self.clock(), 0.0, 0
   self.after = options.after or 0
   self.early = self.after > 0
@@ -86,7 +87,7 @@ local function facts(self, now)
   local parts = { number.text(self.time, "s") }
   if self.total then parts[1] = string.format("t = %s of %s", parts[1], number.text(self.total, "s"))
   else parts[1] = "t = " .. parts[1] end
-  parts[#parts + 1] = string.format("%d steps", self.steps)
+  parts[#parts + 1] = string.format("%d %s", self.steps, self.word)
   if elapsed > 0 and self.time > 0 then
     parts[#parts + 1] = number.digits(self.time / elapsed, 3) .. " x real time"
     local share = share_of(self)
@@ -174,14 +175,14 @@ end
 
 --- The run has ended well: clears the bar and prints one last line.
 function progress:finish()
-  last_line(self, "t = %s, %d steps in %s", number.text(self.time, "s"), self.steps,
+  last_line(self, "t = %s, %d %s in %s", number.text(self.time, "s"), self.steps, self.word,
     number.duration(self.clock() - self.start))
 end
 
 --- The run has ended badly: clears the bar and prints why.
 -- @tparam string reason
 function progress:fail(reason)
-  last_line(self, "stopped at t = %s after %d steps: %s", number.text(self.time, "s"), self.steps,
+  last_line(self, "stopped at t = %s after %d %s: %s", number.text(self.time, "s"), self.steps, self.word,
     (tostring(reason):gsub("%c", " ")))
 end
 

@@ -180,8 +180,10 @@ end
 -- @tparam table run
 -- @tparam[opt] function visit called with each flat list of points as well;
 -- an obstacle at rest is visited once
+-- (run.seen: a table in which the box may be kept, for the run stays as it is)
 -- @treturn table `{ low = {x,y,z}, high = {x,y,z}, centre = {x,y,z}, size = diagonal }` [m]
 function solid.bounds(run, visit)
+  if run.seen and run.seen.bounds and not visit then return run.seen.bounds end
   local bounds = { low = { math.huge, math.huge, math.huge }, high = { -math.huge, -math.huge, -math.huge } }
   local function see(points)
     widen(bounds, points)
@@ -191,6 +193,7 @@ function solid.bounds(run, visit)
   for i, o in ipairs(run.obstacles or {}) do shapes[i] = not solid.flat(o) and solid.triangles(o, 8) end
   for f, frame in ipairs(run.frames) do
     for _, points in ipairs(frame.wires or {}) do see(points) end
+    for _, points in ipairs(frame.particles or {}) do see(points) end
     for _, surface in ipairs(frame.surfaces or {}) do
       if surface then see_surface(surface, see) end
     end
@@ -215,6 +218,7 @@ function solid.bounds(run, visit)
     square = square + (high[c] - low[c]) ^ 2
   end
   bounds.size = math.max(math.sqrt(square), 1e-6)
+  if run.seen and not visit then run.seen.bounds = bounds end
   return bounds
 end
 
@@ -251,6 +255,7 @@ function solid.finite_run(run)
   for _, frame in ipairs(run.frames) do
     local fine = true
     for _, points in ipairs(frame.wires or {}) do fine = fine and all_finite(points) end
+    for _, points in ipairs(frame.particles or {}) do fine = fine and all_finite(points) end
     for _, surface in ipairs(frame.surfaces or {}) do
       fine = fine and (not surface or all_finite(surface.points))
     end

@@ -71,9 +71,35 @@ local function sample(flat, points)
   end
 end
 
+-- One point of each cell of a grid, 64 of them along the longest side, and those furthest along each axis:
+-- wires pass the same places in many frames.
+local function fewer(points)
+  local low, high, all = { table.unpack(points[1]) }, { table.unpack(points[1]) }, {}
+  local first, last = {}, {}
+  for _, p in ipairs(points) do
+    for c = 1, 3 do
+      if p[c] <= low[c] then low[c], first[c] = p[c], p end
+      if p[c] >= high[c] then high[c], last[c] = p[c], p end
+    end
+  end
+  local cell = math.max(high[1] - low[1], high[2] - low[2], high[3] - low[3]) / 64 + 1e-12
+  for _, p in ipairs(points) do
+    local key = ("%d %d %d"):format((p[1] - low[1]) // cell, (p[2] - low[2]) // cell, (p[3] - low[3]) // cell)
+    all[key] = all[key] or p
+  end
+  local kept = {}
+  for _, p in pairs(all) do kept[#kept + 1] = p end
+  for c = 1, 3 do table.move({ first[c], last[c] }, 1, 2, #kept + 1, kept) end
+  table.sort(kept, function(p, q) -- the same in each process
+    for c = 1, 3 do if p[c] ~= q[c] then return p[c] < q[c] end end
+    return false
+  end)
+  return kept
+end
+
 -- About 60 frames: a camera needs no more.
-local function fit_points(run, extra)
-  local frames, points = {}, extra or {}
+local function points_of(run)
+  local frames, points = {}, {}
   local total = #run.frames
   local count = math.min(total, 60)
   for k = 0, count - 1 do
@@ -84,6 +110,18 @@ local function fit_points(run, extra)
   end)
   if #points == 0 then points[1] = { 0, 0, 0 } end
   return points
+end
+
+-- run.seen: a table in which they may be kept, for the run stays as it is.
+local function fit_points(run, extra)
+  local seen = run.seen
+  local points = seen and seen.points or points_of(run)
+  if seen and not seen.points then
+    points = fewer(points)
+    seen.points = points
+  end
+  points = table.move(points, 1, #points, 1, {})
+  return extra and table.move(extra, 1, #extra, #points + 1, points) or points
 end
 
 -- The nearest camera that sees every point within +-tx, +-ty (tangents of the
