@@ -395,6 +395,8 @@ local function grasp_by_pads(self, wires, args)
   end
   local order = jaw_order(self, args, "gripper:grasp")
   local nearest = s or nearest_place(wire, self.tool and self.tool:pose() or self:position())
+  local is_mesh = wire.model ~= "rod" and wire.model ~= "string" -- its section is not quite round
+  if is_mesh then wire:width(nearest, { 0, 1, 0 }) end -- refused where it is a line: before pads are made
   place_tool(self, wire, s, 4)
   self.wire, self.grips, self.s = wire, {}, nearest
   for i, one in ipairs(wires) do self.grips[i] = { wire = one } end
@@ -403,7 +405,7 @@ local function grasp_by_pads(self, wires, args)
     mixed.prepare(self, args)
     grasp.watch(self)
   end
-  if wire.model ~= "rod" and wire.model ~= "string" then -- a mesh's section is not quite round
+  if is_mesh then
     local _, q = self.tool:pose()
     self.free_height = wire:width(self.s, vec.rotate(q, { 0, 1, 0 }))
   end

@@ -25,6 +25,15 @@ local function run(scene, body, dt)
 end
 
 describe("a gripper with pads", function()
+  it("makes no pads where a wire that is a mesh in its middle is a line", function()
+    local scene, wire = new_scene()
+    wire:remodel{ model = "radial", region = { 0.08, 0.12 } }
+    local g = scene:gripper{ name = "hand", pads = pads }
+    local before = table.concat(require("softworld.core").items(scene), " ")
+    assert.error_matches(function() g:grasp(wire, { s = 0.19, approach = "plates", force = 1 }) end, "line")
+    assert.are.equal(before, table.concat(require("softworld.core").items(scene), " "))
+  end)
+
   it("makes no pads in a scene that diverged", function()
     local scene, wire = new_scene()
     local g = scene:gripper{ name = "hand", pads = pads, at = { 0.1, 0, r } }
