@@ -38,7 +38,7 @@ local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "gr
   state = { "angle.h", "clamp.h", "crease.h", "field.h", "hinge.h", "mesh.h", "plan.h", "slide.h",
     "state_tape.h", "tie.h", "web.h" },
   solve = { "band3.h", "band4.h", "blocks.h", "cholesky.h", "rotation.h", "sparse.h" },
-  system = { "energy.h", "join.h", "system.h" } }
+  system = { "energy.h", "join.h", "rail.h", "system.h" } }
 
 -- May include softworld.h.
 local USES_CORE = { bind = true, host = true }

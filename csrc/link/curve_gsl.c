@@ -179,7 +179,9 @@ void sw_tape_curve(sw_tape *t, sw_curve **curve) {
   sw_curve_release(*curve);
   *curve = NULL;
   sw_status status = SW_OK;
+  sw_tape_expect(t, count || fabs(sw_norm(direction) - 1.0) < 1e-9, "a rail");
   if (sw_tape_good(t) && is_line) status = sw_curve_line(direction, curve);
+  if (*curve && is_line) (*curve)->direction = direction; /* as it was to the last bit */
   if (sw_tape_good(t) && count) status = sw_curve_spline(points, count, closed, curve);
   sw_free(points);
   if (status == SW_EINVAL) sw_tape_damaged(t, "a rail");

@@ -122,5 +122,7 @@ typedef struct sw_hold_acts {
 static inline int sw_hold_passes(const sw_hold *hold) { return hold->cls->hold->passes != NULL; }
 
 void sw_hold_clear(sw_hold *hold); /* what it owns */
+/* Arguments that are not kept with the others. */
+void sw_hold_forget(sw_hold_args *args);
 
 #endif

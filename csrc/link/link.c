@@ -25,6 +25,11 @@ const sw_link_class *sw_link_find(const char *name) {
   return NULL;
 }
 
+void sw_hold_forget(sw_hold_args *a) {
+  a->line = sw_v(0, 0, 0), a->from = a->to = a->friction = 0;
+  a->points = NULL, a->count = 0, a->closed = 0;
+}
+
 void sw_hold_clear(sw_hold *h) {
   if (h->cls && h->cls->hold->clear) h->cls->hold->clear(h);
   sw_free(h->s);

@@ -88,8 +88,6 @@ static sw_status begin(sw_hold *h, const sw_link_wire *w) {
   x->to = isfinite(end) ? end : h->args.points ? HUGE_VAL : h->args.to;
   x->friction = h->args.friction;
   x->p = sw_curve_nearest(x->curve, sw_v(0, 0, 0));
-  h->args.line = sw_v(0, 0, 0), h->args.from = h->args.to = h->args.friction = 0;
-  h->args.points = NULL, h->args.count = 0, h->args.closed = 0;
   return SW_OK;
 }
 
@@ -116,13 +114,13 @@ static void take(sw_hold *h, const sw_link_wire *w) {
   const sw_system *s = w->system;
   const size_t at = sw_rail_freedom(s, h->slider.rail);
   h->slider.p = s->x[at], h->slider.v = s->v[at], h->slider.a = s->a[at];
-  h->slider.force = s->rails[h->slider.rail].force;
 }
 
 static int follow(sw_hold *h, const sw_link_wire *w) {
   sw_system *s = w->system;
   const size_t at = sw_rail_freedom(s, h->slider.rail);
   take(h, w);
+  h->slider.force = s->rails[h->slider.rail].force, h->slider.rubs = s->rails[h->slider.rail].rubs;
   if (!stops(&h->slider)) return 0;
   s->v[at] = s->a[at] = h->slider.v = h->slider.a = 0;
   sw_rails_place(s, s->x, s->v, NULL, NULL);
@@ -140,11 +138,11 @@ static void set(sw_hold *h, const sw_hold_args *a) { h->slider.friction = a->fri
 
 static void tape(sw_tape *t, sw_hold *h) {
   sw_slider *x = &h->slider;
-  SW_TAPE_STRUCT(t, sw_slider, 72); /* rail is found when the scene is built */
+  SW_TAPE_STRUCT(t, sw_slider, 80); /* rail is found when the scene is built */
   sw_tape_curve(t, &x->curve);
   sw_tape_double(t, &x->from), sw_tape_double(t, &x->to), sw_tape_double(t, &x->friction);
   sw_tape_double(t, &x->p), sw_tape_double(t, &x->v), sw_tape_double(t, &x->a);
-  sw_tape_double(t, &x->force);
+  sw_tape_double(t, &x->force), sw_tape_double(t, &x->rubs);
   sw_tape_expect(t, x->curve && x->from <= x->to && x->friction >= 0 && x->friction <= 100,
                  "a rail");
   sw_tape_expect(t, isfinite(x->p + x->v + x->a), "a rail");

@@ -66,6 +66,11 @@ static sw_status trial(loop *p, double h, sw_error *err) {
   sw_scene *s = p->s;
   sw_status status = sw_stepper_trial(&s->stepper, &s->system, s->time, h, err);
   p->report->iterations += s->stepper.iterations;
+  if (status == SW_OK && !s->stepper.plastic && sw_rails_struck(&s->system)) {
+    sw_stepper_reject(&s->stepper, &s->system);
+    s->stepper.plastic = s->stepper.restart = 1; /* what strikes does not bounce */
+    return trial(p, h, err);
+  }
   if (status == SW_OK) status = sw_scene_check_trial(s, err);
   if (status == SW_OK && s->system.fastest_turn * h > WIDEST_TURN)
     status = sw_fail(err, SW_ENOCONV, "what holds a wire turns too far in one step");

@@ -29,7 +29,11 @@ void sw_scene_follow_holds(sw_scene *s) {
   for (size_t k = 0; k < s->hold_count; k++) {
     sw_hold *h = &s->holds[k];
     const sw_link_wire w = sw_scene_link_wire(s, h->wire);
-    if (h->alive && h->cls->hold->follow && h->cls->hold->follow(h, &w)) s->discontinuous = 1;
+    const double before = s->books.step.to.kinetic;
+    if (!h->alive || !h->cls->hold->follow || !h->cls->hold->follow(h, &w)) continue;
+    s->discontinuous = 1;
+    s->books.step.to.kinetic = sw_system_kinetic(&s->system, 0);
+    s->books.step.impact += before - s->books.step.to.kinetic;
   }
 }
 
@@ -261,6 +265,7 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_link_class *cls, sw_handle wir
     const sw_link_wire of = sw_scene_link_wire(s, wire.slot);
     status = acts->begin(&h, &of);
   }
+  sw_hold_forget(&h.args);
   if (status != SW_OK) {
     sw_hold_clear(&h);
     return sw_fail(err, status, "%s: out of memory", cls->name);

@@ -47,11 +47,21 @@ static double work_of_feed(sw_scene *s, size_t k, double t1, int changed) {
   return b.most + brought(s, k, length);
 }
 
+/* What friction on a rail takes. */
+static void rub_on_rail(sw_scene *s, size_t k) {
+  const sw_slider *x = &s->holds[s->hold_slot[k]].slider;
+  const sw_worker *from = &s->books.holds[k];
+  const double way = s->system.x[sw_rail_freedom(&s->system, x->rail)] - from->fed;
+  const double now = s->system.rails[x->rail].rubs;
+  if (x->friction > 0) s->books.step.friction += fmax(0.0, -0.5 * (from->drive + now) * way);
+}
+
 static double work_of_holds(sw_scene *s, double t1, int changed) {
   double most = 0;
   for (size_t k = 0; k < s->system.hold_count; k++) {
     const sw_pose *to = &s->system.hold_states[k].pose;
     if (sw_hold_passes(&s->holds[s->hold_slot[k]])) most += work_of_feed(s, k, t1, changed);
+    if (s->holds[s->hold_slot[k]].cls->hold->rail) rub_on_rail(s, k);
     if (same_pose(&s->books.holds[k].pose, to)) continue;
     sw_vec force, moment;
     sw_system_reaction(&s->system, (int)k, to->p, &force, &moment);
@@ -124,6 +134,7 @@ static void note_hold(sw_scene *s, size_t k, int logged) {
   sw_worker *w = &s->books.holds[k];
   *w = (sw_worker){s->system.hold_states[k].pose, h->force, h->moment, 0, 0};
   if (!logged) sw_system_reaction(&s->system, (int)k, w->pose.p, &w->force, &w->moment);
+  if (h->cls->hold->rail) w->fed = h->slider.p, w->drive = h->slider.rubs;
   if (!sw_hold_passes(h)) return;
   const sw_hold_way now = sw_hold_way_of(s, h, s->time, logged ? NULL : s->system.x);
   w->fed = now.way;

@@ -45,6 +45,10 @@ static sw_vec times(const double K[9], sw_vec d) {
               K[6] * d.x + K[7] * d.y + K[8] * d.z);
 }
 
+static sw_vec across(const sw_rail *r, sw_vec f) {
+  return sw_madd(f, r->along, -sw_dot(f, r->along));
+}
+
 /* --- where nodes are ---------------------------------------------------------------- */
 
 /* At place p with rates v and a; what is not NULL is filled. */
@@ -153,6 +157,7 @@ void sw_rails_finish(sw_system *s, const sw_stage *stage) {
     const double p[3] = {stage->y[at], stage->v[at], 0.0};
     place(s, r, p, NULL, stage->v + 3 * h->node, NULL);
     r->force = sw_dot(r->along, h->reaction);
+    r->rubs = -r->way * r->friction * sw_norm(across(r, h->reaction));
   }
 }
 
@@ -290,10 +295,6 @@ static sw_vec reaction_now(const sw_system *s, const sw_rail *r, sw_vec d) {
 }
 
 /* --- the rails' own equations ----------------------------------------------------------- */
-
-static sw_vec across(const sw_rail *r, sw_vec f) {
-  return sw_madd(f, r->along, -sw_dot(f, r->along));
-}
 
 /* Friction on what goes is that of the force across, which is taken in its present direction. */
 static sw_vec test_of(const sw_rail *r) {
@@ -480,4 +481,14 @@ int sw_rails_settled(const sw_system *s) {
   for (size_t k = 0; k < s->rail_count; k++)
     if (is_part(s, &s->rails[k]) && (s->rails[k].open || is_long(s, &s->rails[k]))) return 0;
   return 1;
+}
+
+int sw_rails_struck(const sw_system *s) {
+  for (size_t k = 0; k < s->rail_count; k++) {
+    const sw_rail *r = &s->rails[k];
+    const size_t at = sw_rail_freedom(s, k);
+    const int was_at_end = s->v[at] == 0 && (s->x[at] == r->from || s->x[at] == r->to);
+    if (r->state == SW_RAIL_GOES ? was_at_end : s->v[at] != 0) return 1;
+  }
+  return 0;
 }

@@ -25,6 +25,7 @@ typedef struct sw_rail {
   double from, to;    /* ends that stop it; infinite: none [m] */
   double friction;    /* [-] */
   double p, v, a;     /* as it is when the system is made [m], [m/s], [m/s2] */
+  double rubs;        /* friction alone, of it [N] */
   double force;       /* along the curve on the node, of the last stage [N] */
   int state;          /* of the iterate: SW_RAIL_GOES, ... */
   double way;         /* where it goes, +1 or -1 [-] */
@@ -53,6 +54,8 @@ void sw_rail_take(sw_rail *rail, const sw_body *body, size_t i);
 /* The other unknowns are solved for: the rails, and what follows them. */
 void sw_rails_solve(sw_system *system, const sw_stage *stage, size_t *negative);
 void sw_rails_apply(sw_system *system, const sw_stage *stage, double share);
+/* 1: one that was moving has stuck, come to an end, or left it, in the trial. */
+int sw_rails_struck(const sw_system *system);
 int sw_rails_settled(const sw_system *system);
 
 #endif

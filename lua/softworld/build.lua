@@ -355,9 +355,9 @@ function class.scene.obstacle(scene, args)
 end
 
 -- clamp, pin, ...; hold takes particles
-local kinds = { "hold" }
-for _, hold in ipairs(core.registry().holds) do kinds[#kinds + 1] = hold.name end
-for _, kind in ipairs(kinds) do
+local hold_kinds = { "hold" }
+for _, hold in ipairs(core.registry().holds) do hold_kinds[#hold_kinds + 1] = hold.name end
+for _, kind in ipairs(hold_kinds) do
   local new_hold = class.scene[kind]
   class.scene[kind] = function(scene, wire, args)
     build.check(scene, "scene:" .. kind, 3)

@@ -15,12 +15,15 @@ local MOST = 20000 -- calls of a scene; a loop that changes something at each st
 
 -- Methods that make or change something. "name?" only does with an argument; else it reads.
 local core_methods = {
-  scene = "wire particles obstacle clamp pin grip feed hold wire_contact join force gripper clip "
+  scene = "wire particles obstacle hold wire_contact join force gripper clip "
     .. "channel tie set gravity? settle",
   wire = "remodel set_velocity", particles = "set_velocity", force = "release call_it set",
   obstacle = "follow pose? set remove", join = "release",
-  clamp = "follow pose? release feed push? force_limit? drive_force? speed?",
+  clamp = "follow pose? release feed push? force_limit? drive_force? speed? set",
 }
+for _, hold in ipairs(core.registry().holds) do
+  core_methods.scene = core_methods.scene .. " " .. hold.name
+end
 local table_methods = {
   gripper = "grasp release freeze thaw close_jaws open_jaws move move_to rotate approach retreat "
     .. "handover set",

@@ -78,10 +78,12 @@ for _, model in ipairs(samples.registry.models) do
   end)
 end
 
+-- A rail has friction that holds what these wires weigh and swing.
 local function hold_arguments(hold)
   local args = { s = 0.37 }
   for _, row in ipairs(hold.params) do
     if row.name == "width" then args.width = 0.1 end
+    if row.name == "path" then args.direction, args.friction = { 0, 1, 0 }, 0.1 end
   end
   return args
 end

@@ -194,6 +194,16 @@ case("a twisted wire with frames, that rolls", function(s)
   s:clamp(w, { s = 0, name = "near" }):follow{ turn = { axis = { 1, 0, 0 }, angle = 2 },
     points = { { 0, 0, 0 }, { 0.01, 0, 0.02 } }, relative = true, duration = 0.1 }
 end)
+case("sliders on a line and on a curve, with friction", function(s)
+  local w = wire(s)
+  s:slider(w, { s = 0.02, direction = { 1, 0, -1 }, friction = 0.2, to = 0.05, name = "line" })
+  local p, points = w:position(0.3), {}
+  for i = 0, 23 do
+    local a = i * math.pi / 12
+    points[i + 1] = { p[1] + 0.1 * math.sin(a), p[2] + 0.05 * (1 - math.cos(a)), p[3] - 0.1 * math.sin(a) }
+  end
+  s:slider(w, { s = 0.3, path = points, closed = true, name = "ring" })
+end)
 case("a twisted wire without frames", function(s)
   local w = wire(s)
   s:clamp(w, { s = L, name = "far" })

@@ -9,8 +9,8 @@ local manual = {}
 
 --- Groups of pages: a title and the names of the group's pages.
 manual.groups = {
-  { "How to", { "start", "lay", "grip", "handling", "mixed", "clip", "tie", "channel", "feed", "winding",
-    "join", "touches", "particles", "process", "waiting", "observe", "tuning", "player",
+  { "How to", { "start", "lay", "grip", "handling", "mixed", "clip", "tie", "channel", "slider", "feed",
+    "winding", "join", "touches", "particles", "process", "waiting", "observe", "tuning", "player",
     "plotting", "save", "snapshot", "mistakes" } },
   { "Choose", { "models", "wire_mesh", "sections", "cable", "springback", "damping", "integrators",
     "vibration", "calibrate", "remodel", "units" } },
@@ -23,7 +23,7 @@ manual.groups = {
 --- Other words under which a page is found.
 manual.also = { manual = "start", contact = "touches", meshes = "wire_mesh", harness = "join",
   plastic = "springback", exact = "accuracy", errors = "mistakes",
-  plot = "plotting", charts = "plotting",
+  rail = "slider", plot = "plotting", charts = "plotting",
   pictures = "plotting", paraview = "plotting", resume = "save", load = "save", ledger = "energy",
   observer = "observe",
   report = "player", page = "player", html = "player", film = "player", frames = "player",
