@@ -183,7 +183,7 @@ void lsw_changes(lua_State *L, int index, const char *object, const sw_params *p
   }
 }
 
-/* Pushes nil for what was not given and what the binding reads itself. */
+/* Pushes nil for what was not given, is not limited or is read by the binding itself. */
 static void push_value(lua_State *L, const sw_param *row, const void *args) {
   const char *place = (const char *)args + row->offset;
   double x;
@@ -194,7 +194,7 @@ static void push_value(lua_State *L, const sw_param *row, const void *args) {
   switch (row->type) {
     case SW_PARAM_NUMBER:
       memcpy(&x, place, sizeof x);
-      if (isnan(x))
+      if (!isfinite(x))
         lua_pushnil(L);
       else
         lua_pushnumber(L, x);
@@ -212,8 +212,20 @@ static void push_value(lua_State *L, const sw_param *row, const void *args) {
         lua_pushstring(L, row->choices[flag]);
       break;
     case SW_PARAM_TEXT: lua_pushstring(L, place); break;
-    case SW_PARAM_VECTOR: memcpy(&v, place, sizeof v), lsw_push_vector(L, v); break;
-    case SW_PARAM_ROTATION: memcpy(&q, place, sizeof q), lsw_push_quaternion(L, q); break;
+    case SW_PARAM_VECTOR:
+      memcpy(&v, place, sizeof v);
+      if (isnan(v.x))
+        lua_pushnil(L);
+      else
+        lsw_push_vector(L, v);
+      break;
+    case SW_PARAM_ROTATION:
+      memcpy(&q, place, sizeof q);
+      if (isnan(q.w))
+        lua_pushnil(L);
+      else
+        lsw_push_quaternion(L, q);
+      break;
     case SW_PARAM_OTHER: lua_pushnil(L); break;
   }
 }

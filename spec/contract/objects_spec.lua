@@ -166,6 +166,16 @@ for _, hold in ipairs(samples.registry.holds) do
       assert.are.equal(1, #sw.core.data(scene).holds)
     end)
 
+    it("tells what it was made of in finite numbers, and nothing of what was not given", function()
+      local _, _, handle = make()
+      local function finite(value)
+        if type(value) == "table" then for _, v in pairs(value) do finite(v) end end
+        if math.type(value) == "float" then assert.is_true(value - value == 0) end
+      end
+      assert.are.equal("table", type(handle:get()))
+      finite(handle:get())
+    end)
+
     it("tells who it is", function()
       local scene, wire = make()
       local args = hold_arguments(hold)

@@ -203,7 +203,8 @@ end
 local function check_run(self, result)
   if not (kind_of(result) == "run" and result.ok) then return end
   for _, entry in ipairs(objects(self)) do
-    if entry.kind ~= "run" and entry.kind ~= "process" and entry.kind ~= "snapshot" and entry.kind ~= "shape"
+    -- what a ledger says is checked below: scripts may write into the table
+    if entry.kind ~= "run" and entry.kind ~= "ledger" and entry.kind ~= "process" and entry.kind ~= "snapshot" and entry.kind ~= "shape"
       and entry.kind ~= "trajectory" then
       local mine = true
       if entry.kind == "scene" then mine = entry.object == result.scene end
