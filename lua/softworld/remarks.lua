@@ -46,14 +46,19 @@ function remarks.wanted()
     and not (type(sw) == "table" and rawget(sw, "remarks") == false)
 end
 
+--- Where remarks go; softworld.lint and softworld.log have their own.
+function remarks.write(at, text)
+  io.stdout:flush()
+  io.stderr:write(at, ": remark: ", text, "\n")
+end
+
 -- A script's line tells a thing once; lines typed at the prompt have no numbers of their own.
 local function tell(topic, text)
   local at = place.of_caller() or "?"
   local key = at .. " " .. (at:find "^input:" and text or topic)
   if told[key] or count >= ANSWERS then return end
   told[key], count = true, count + 1
-  io.stdout:flush()
-  io.stderr:write(at, ": remark: ", text, "\n")
+  remarks.write(at, text)
 end
 
 -- The first unit in which the value would be usual, as a question.
