@@ -32,7 +32,7 @@ local ROOMS = {
 -- Headers other rooms may see: <room>/<room>.h, unless listed here (true = all of them).
 -- state and solve have no single header: their parts have different users.
 local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "grains.h", "pairs.h" },
-  film = { "film.h", "pack.h" }, scene = { "frames.h" },
+  film = { "film.h", "pack.h", "skin.h" }, scene = { "frames.h" },
   force = { "force.h", "solid.h" }, shape = { "tree.h" },
   state = { "angle.h", "clamp.h", "crease.h", "field.h", "hinge.h", "mesh.h", "plan.h", "slide.h",
     "state_tape.h", "web.h" },

@@ -131,7 +131,8 @@ end
 local function check_edges(w, o)
   local wire, entry = w.object, o.entry
   local edge = wire.length / wire.segments
-  local thickness = entry.shape == "box" and type(entry.size) == "table" and math.min(table.unpack(entry.size))
+  local is_box = entry.shape == "box" and type(entry.size) == "table"
+  local thickness = is_box and math.min(table.unpack(entry.size))
   local at, q = o.object:pose()
   local start = vec.rotate(vec.conjugate(q), vec.sub(wire:position(0), at))
   local gap = thickness and o.object.shape:distance(start)
