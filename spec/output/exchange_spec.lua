@@ -219,7 +219,7 @@ describe("exchange", function()
     assert.equal(84 + 50 * count, #text)
     local volume = 0 -- by the divergence theorem
     for k = 0, count - 1 do
-      v = { ("<ffffffffffff"):unpack(text, 85 + 50 * k) }
+      local v = { ("<ffffffffffff"):unpack(text, 85 + 50 * k) }
       local a, b, c = { v[4], v[5], v[6] }, { v[7], v[8], v[9] }, { v[10], v[11], v[12] }
       local n = { b[2] * c[3] - b[3] * c[2], b[3] * c[1] - b[1] * c[3], b[1] * c[2] - b[2] * c[1] }
       local open = a[2] >= 3 -- the cloth, which encloses nothing
