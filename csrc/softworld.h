@@ -15,6 +15,7 @@
 #include "draw/draw.h"
 #include "film/film.h"
 #include "film/pack.h"
+#include "film/skin.h"
 #include "force/solid.h"
 #include "motion/motion.h"
 #include "scene/file.h"

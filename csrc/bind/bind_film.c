@@ -45,6 +45,67 @@ static int mod_film(lua_State *L) {
   return 3;
 }
 
+static int free_skin(lua_State *L) {
+  sw_skin_free(lua_touserdata(L, 1));
+  return 0;
+}
+
+/* Numbers of frames, from 1 in Lua; their memory is pushed. */
+static size_t *frames_at(lua_State *L, int index, const sw_scene *scene, size_t *count) {
+  luaL_checktype(L, index, LUA_TTABLE);
+  *count = lua_rawlen(L, index);
+  size_t *list = lua_newuserdatauv(L, *count * sizeof *list + 1, 0);
+  for (size_t i = 0; i < *count; i++) {
+    lua_rawgeti(L, index, (lua_Integer)i + 1);
+    const lua_Integer number = lua_tointeger(L, -1);
+    if (number < 1 || (size_t)number > sw_scene_frames(scene))
+      luaL_error(L, "core.skin: there is no frame %d", (int)number);
+    list[i] = (size_t)number - 1;
+    lua_pop(L, 1);
+  }
+  return list;
+}
+
+static void push_skin(lua_State *L, const sw_skin *skin, size_t frames) {
+  lua_createtable(L, 0, 6);
+  lua_pushlstring(L, (const char *)skin->data,
+                  3 * skin->corners * (skin->normals ? 2 : 1) * frames * sizeof *skin->data);
+  lua_setfield(L, -2, "data");
+  lua_pushlstring(L, (const char *)skin->triangle, 3 * skin->triangles * sizeof *skin->triangle);
+  lua_setfield(L, -2, "triangles");
+  lsw_set_integer(L, "corners", skin->corners);
+  lsw_set_integer(L, "count", skin->triangles);
+  lua_pushboolean(L, skin->normals);
+  lua_setfield(L, -2, "normals");
+  lua_createtable(L, 6 * (int)frames, 0);
+  for (size_t i = 0; i < 6 * frames; i++) {
+    lua_pushnumber(L, (double)skin->bounds[i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  lua_setfield(L, -2, "bounds");
+}
+
+/* core.skin(scene, wire from 0, frames, sides, thickness, differences) -> { data =, triangles =,
+ * corners =, count =, normals =, bounds = }: see film/skin.h, bytes little-endian; or nil: it is in
+ * no frame */
+static int mod_skin(lua_State *L) {
+  const sw_scene *scene = ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
+  sw_error err = {""};
+  sw_skin_args args = {.wire = (size_t)luaL_checkinteger(L, 2),
+                       .sides = (size_t)luaL_checkinteger(L, 4),
+                       .thickness = luaL_checknumber(L, 5),
+                       .differences = lua_toboolean(L, 6)};
+  if (args.sides < 3 || args.sides > 64) return luaL_error(L, "core.skin: 3 to 64 sides");
+  args.frames = frames_at(L, 3, scene, &args.count);
+  sw_skin *skin = keeper(L, sizeof *skin, "softworld.skin", free_skin);
+  const sw_status status = sw_skin_make(scene, &args, sw_interrupted, skin, &err);
+  if (status == SW_EINVAL) return 0;
+  lsw_must(L, status, &err);
+  push_skin(L, skin, args.count);
+  sw_skin_free(skin);
+  return 1;
+}
+
 /* core.edges(particles) -> edges of the surface: pairs of numbers from 0, 32 bits each */
 static int mod_edges(lua_State *L) {
   sw_scene *scene;
@@ -94,8 +155,8 @@ static int mod_page(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg functions[] = {{"film", mod_film},       {"edges", mod_edges},
-                                     {"deflate", mod_deflate}, {"base64", mod_base64},
-                                     {"page", mod_page},       {NULL, NULL}};
+static const luaL_Reg functions[] = {
+    {"film", mod_film},     {"edges", mod_edges}, {"skin", mod_skin}, {"deflate", mod_deflate},
+    {"base64", mod_base64}, {"page", mod_page},   {NULL, NULL}};
 
 void lsw_open_film(lua_State *L) { luaL_setfuncs(L, functions, 0); }

@@ -13,11 +13,12 @@ typedef struct host_options {
   int argc;
   char **argv;
   int script;      /* index in argv of the script's name, or 0 */
-  int command;     /* index in argv of the word `doc`, or 0 */
+  int command;     /* index in argv of a word such as `doc`, or 0 */
   int codes;       /* number of -e options */
   int interactive; /* -i, or nothing to do and a terminal to do it on */
   int view;        /* --view: scenes are shown in a browser while they run */
   int version, help;
+  const char *log; /* file of --log, or NULL */
 } host_options;
 
 /* Read the command line; HOST_USAGE after telling the user what is wrong. */
@@ -40,6 +41,11 @@ void host_paths_open(lua_State *L, const host_options *o);
 
 /* Is this chunk source ("@/usr/share/...") a file of the library? */
 int host_is_library(lua_State *L, const char *source);
+
+/* --- run.c, of --log --------------------------------------------------------- */
+
+/* Begin the file; HOST_FAILED after telling why it cannot be written. */
+int host_log_open(lua_State *L, const host_options *o);
 
 /* --- traceback.c ----------------------------------------------------------- */
 

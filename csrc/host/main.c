@@ -24,6 +24,7 @@ static void open_libraries(lua_State *L) {
 static int run_all(lua_State *L, const host_options *o) {
   int status = HOST_OK, at = 1;
   const char *code;
+  if (o->log && host_log_open(L, o) != HOST_OK) return HOST_FAILED;
   if (o->command) return host_run_command(L, o);
   while (status == HOST_OK && (code = host_options_code(o, &at))) status = host_run_code(L, code);
   const int nothing = !o->codes && !o->version && !o->interactive;

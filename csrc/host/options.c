@@ -9,9 +9,12 @@
 
 static const char help_text[] =
     "usage: softworld [options] [script [arguments]]\n"
-    "       softworld doc [topic]\n"
+    "       softworld doc [topic] | new name | lint script [arguments]\n"
     "  script       run this Lua file; '-' reads it from standard input\n"
     "  doc          show a topic of the manual, or all topics (./doc is a script of that name)\n"
+    "  new          write a starting script name.lua\n"
+    "  lint         build the scenes of a script, run nothing, and warn of what is hardly meant\n"
+    "  --log file   append to this file what is run, when, and how it ended\n"
     "  -e code      run this Lua code first (may be repeated)\n"
     "  -i           go on at the prompt afterwards\n"
     "  --view       show the script's scenes in a browser while they run, until Ctrl-C\n"
@@ -27,7 +30,8 @@ void host_options_help(void) { fputs(help_text, stdout); }
 static int usage(const char *what, const char *word) {
   fprintf(stderr, "softworld: %s '%s'\n", what, word);
   fputs(
-      "usage: softworld [-e code] [-i] [-v] [--view] [script [arguments]]; softworld doc [topic]; "
+      "usage: softworld [-e code] [-i] [-v] [--view] [--log file] [script [arguments]]; softworld "
+      "doc [topic]; "
       "softworld --help tells more\n",
       stderr);
   return HOST_USAGE;
@@ -39,6 +43,9 @@ static int read_option(host_options *o, int *at) {
   if (strncmp(word, "-e", 2) == 0) {
     if (!word[2] && ++*at >= o->argc) return usage("code is missing after", "-e");
     o->codes++;
+  } else if (strcmp(word, "--log") == 0) {
+    if (++*at >= o->argc) return usage("a file is missing after", "--log");
+    o->log = o->argv[*at];
   } else if (strcmp(word, "-i") == 0) {
     o->interactive = 1;
   } else if (strcmp(word, "--view") == 0) {
@@ -53,6 +60,13 @@ static int read_option(host_options *o, int *at) {
   return HOST_OK;
 }
 
+static int is_command(const char *word) {
+  static const char *const commands[] = {"doc", "new", "lint"};
+  for (size_t k = 0; k < sizeof commands / sizeof *commands; k++)
+    if (strcmp(word, commands[k]) == 0) return 1;
+  return 0;
+}
+
 int host_options_read(host_options *o, int argc, char **argv) {
   *o = (host_options){.argc = argc, .argv = argv};
   int i = 1;
@@ -64,7 +78,7 @@ int host_options_read(host_options *o, int argc, char **argv) {
     const int status = read_option(o, &i);
     if (status != HOST_OK) return status;
   }
-  o->command = i == 1 && i < argc && strcmp(argv[i], "doc") == 0 ? i : 0;
+  o->command = i == 1 && i < argc && is_command(argv[i]) ? i : 0;
   o->script = i < argc && !o->command ? i : 0;
   if (o->view && !o->script) return usage("a script is missing after", "--view");
   if (!o->script && !o->command && !o->codes && !o->version) o->interactive |= isatty(STDIN_FILENO);
@@ -75,7 +89,9 @@ const char *host_options_code(const host_options *o, int *at) {
   const int end = o->script ? o->script : o->argc;
   for (int i = *at; i < end; i++) {
     if (strcmp(o->argv[i], "--") == 0) break;
-    if (strncmp(o->argv[i], "-e", 2) != 0) continue;
+    if (strcmp(o->argv[i], "--log") == 0) i++; /* its file may be called -e */
+    if (i >= end || strncmp(o->argv[i], "-e", 2) != 0 || strcmp(o->argv[i - 1], "--log") == 0)
+      continue;
     const char *code = o->argv[i][2] ? o->argv[i] + 2 : o->argv[++i];
     *at = i + 1;
     return code;

@@ -25,12 +25,37 @@ int host_call(lua_State *L, int count, int results) {
   return status;
 }
 
+/* Let softworld.log, if it is there, have a text; nothing is left on the stack. */
+static void log_text(lua_State *L, const char *text) {
+  const int top = lua_gettop(L);
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
+  if (lua_getfield(L, -1, "softworld.log") == LUA_TTABLE &&
+      lua_getfield(L, -1, "line") == LUA_TFUNCTION) {
+    lua_pushstring(L, text);
+    (void)lua_pcall(L, 1, 0, 0);
+  }
+  lua_settop(L, top);
+}
+
+int host_log_open(lua_State *L, const host_options *o) {
+  lua_getglobal(L, "require");
+  lua_pushliteral(L, "softworld.log");
+  if (host_call(L, 1, 1) == LUA_OK) {
+    lua_getfield(L, -1, "open");
+    lua_pushstring(L, o->log);
+    lua_pushstring(L, o->script ? o->argv[o->script] : "softworld");
+    if (host_call(L, 2, 0) == LUA_OK) return lua_pop(L, 1), HOST_OK;
+  }
+  return host_report(L), HOST_FAILED;
+}
+
 int host_report(lua_State *L) {
   size_t length = 0;
   const char *text = lua_tolstring(L, -1, &length);
   fflush(stdout); /* what the script printed comes before */
   fwrite(text ? text : "(no message)", 1, text ? length : 12, stderr);
   fputc('\n', stderr);
+  if (text) log_text(L, text);
   const int stopped = host_ctrl_c_seen() && text && strstr(text, "interrupted");
   lua_pop(L, 1);
   return stopped ? HOST_INTERRUPTED : HOST_FAILED;
@@ -62,6 +87,7 @@ static int tell_unread(lua_State *L) {
     } else if (lua_isstring(L, -1)) {
       fflush(stdout);
       fprintf(stderr, "%s\n", lua_tostring(L, -1));
+      log_text(L, lua_tostring(L, -1));
       status = HOST_FAILED;
     }
   }

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- scene:picture, run:picture and run:film: what they take, and which frames they need.
+--- scene:picture, run:picture, run:film, run:gltf, run:obj, run:stl: what they take, which frames they need.
 -- @module softworld.pictures
 local core = require "softworld.core"
 local build = require "softworld.build"
@@ -7,6 +7,7 @@ local rows = require "softworld.rows"
 local runfiles = require "softworld.runfiles"
 local scale = require "softworld.output.scale"
 local sink = require "softworld.output.sink"
+local solid = require "softworld.output.solid"
 
 local pictures = {}
 
@@ -57,6 +58,20 @@ local of_film = rows.call("run:film", "path, {...}", "the run as a film, a .webm
     { "rate", "number", "1/s", "pictures a second", min = 1, max = 60, usual = "30, of .gif 15" },
     { "progress", "boolean", "-", "shown while it is made", usual = "on a terminal" },
   })
+
+local of_gltf = rows.call("run:gltf", "path, {...}",
+  "the run as a scene that moves, a .glb file for other programs", {
+  gives = "the path", example = 'run:gltf "run.glb"',
+  { "frames", "integer", "-", "at most so many moments", min = 1, max = 2000, default = 120 },
+  { "thickness", "number", "-", "times the wires' radius", min = 0, above = true, max = 1000, default = 1 },
+})
+
+local of_moment = { { "t", "number", "s", "of the moment", usual = "the last one" },
+  { "thickness", "number", "-", "times the wires' radius", min = 0, above = true, max = 1000, default = 1 } }
+local of_obj = rows.call("run:obj", "path, {...}", "the shapes at a moment, an .obj file of triangles", {
+  gives = "the path", example = 'run:obj("end.obj", { t = 0.5 })', of_moment[1], of_moment[2] })
+local of_stl = rows.call("run:stl", "path, {...}", "the shapes at a moment, an .stl file of triangles", {
+  gives = "the path", example = 'run:stl("end.stl", { t = 0.5 })', of_moment[1], of_moment[2] })
 
 -- --- checks -------------------------------------------------------------------------------
 
@@ -218,5 +233,60 @@ pictures.film = build.placed(function(self, path, args)
   function doc.range(quantity) return core.frame_range(self.scene, quantity) end
   return require("softworld.output.film").write(doc, o)
 end)
+
+-- --- exchange -----------------------------------------------------------------------------------
+
+-- What exchange wants besides: the scene, and the numbers of its wires in it, from 0.
+local function exchanged(self, numbers)
+  local doc, data = runfiles.moments(self, numbers), build.data(self.scene)
+  if #doc.frames == 0 then
+    error(("the run of '%s' has no frames; it was made with frames = false, or its scene has forgotten them")
+      :format(self.name), 0)
+  end
+  doc = solid.finite_run(doc)
+  for _, kind in ipairs { "wires", "particles" } do
+    for i, shown in ipairs(doc[kind]) do
+      local _, slot = core.number(data[kind][i].object)
+      shown.slot = slot
+      if shown.edges then shown.corners = solid.enclosed(shown.edges) end
+    end
+  end
+  doc.scene = self.scene
+  return doc
+end
+
+local function check_path(path, what, kind)
+  if type(path) == "string" and path ~= "" then return end
+  error(("%s expects the name of a .%s file, got %s"):format(what, kind, path == "" and "''" or type(path)),
+    0)
+end
+
+--- run:gltf(path, { frames =, thickness = })
+pictures.gltf = build.placed(function(self, path, args)
+  check_path(path, "run:gltf", "glb")
+  local o = of_gltf:read(args or {})
+  runfiles.readable(self, "frames", true)
+  local total, numbers = self.scene:frame_count(), {}
+  local count = math.min(o.frames, total)
+  for k = 1, count do
+    numbers[k] = count == 1 and total or 1 + math.floor((k - 1) * (total - 1) / (count - 1) + 0.5)
+  end
+  return require("softworld.output.gltf").write(exchanged(self, numbers), path, o)
+end)
+
+local function of_one(kind, list)
+  return build.placed(function(self, path, args)
+    check_path(path, "run:" .. kind, kind)
+    local o = list:read(args or {})
+    runfiles.readable(self, "frames", true)
+    local times, numbers = core.frame_times(self.scene), {}
+    o.t = o.t or times[#times] or 0
+    if #times > 0 then numbers = numbers_of(self, times, { nearest(times, o.t) }) end
+    return require("softworld.output.triangles").write(exchanged(self, numbers), path, kind, o)
+  end)
+end
+
+--- run:obj(path, { t =, thickness = }), run:stl the same.
+pictures.obj, pictures.stl = of_one("obj", of_obj), of_one("stl", of_stl)
 
 return pictures

@@ -46,14 +46,19 @@ function remarks.wanted()
     and not (type(sw) == "table" and rawget(sw, "remarks") == false)
 end
 
+--- Where remarks go; softworld.lint and softworld.log have their own.
+function remarks.write(at, text)
+  io.stdout:flush()
+  io.stderr:write(at, ": remark: ", text, "\n")
+end
+
 -- A script's line tells a thing once; lines typed at the prompt have no numbers of their own.
 local function tell(topic, text)
   local at = place.of_caller() or "?"
   local key = at .. " " .. (at:find "^input:" and text or topic)
   if told[key] or count >= ANSWERS then return end
   told[key], count = true, count + 1
-  io.stdout:flush()
-  io.stderr:write(at, ": remark: ", text, "\n")
+  remarks.write(at, text)
 end
 
 -- The first unit in which the value would be usual, as a question.
@@ -268,10 +273,29 @@ function remarks.without(f, ...)
   return table.unpack(result, 2, result.n)
 end
 
+local usual_mesh = { 1e-3, 20 } -- largest side of what stands where wires are laid [m]
+
+-- A mesh of a file has no unit: one in mm that is read as m is a thousand times too large.
+local function look_at_size(entry)
+  if entry.shape ~= "mesh" and entry.shape ~= "hull" or type(entry.vertices) ~= "table" then return end
+  local v, size = entry.vertices, 0
+  for c = 1, 3 do
+    local low, high = math.huge, -math.huge
+    for i = c, #v, 3 do low, high = math.min(low, v[i]), math.max(high, v[i]) end
+    size = math.max(size, high - low)
+  end
+  if size >= usual_mesh[1] and size <= usual_mesh[2] then return end
+  local scale = type(entry.scale) == "number" and entry.scale or 1
+  local better = size > usual_mesh[2] and 1e-3 * scale or 1e3 * scale
+  tell("size", ("obstacle '%s' is %.4g m long; which unit has its file? scale = %g makes it %.4g m"):format(
+    entry.name, size, better, size * better / scale))
+end
+
 --- A new obstacle, an entry of the scene's data; time of the scene [s].
 function remarks.obstacle(data, entry, time)
   if not remarks.wanted() or paused then return end
   remarks.on("obstacle", ("obstacle '%s'"):format(entry.name), entry)
+  look_at_size(entry)
   if time > 0 then return end -- wires are no longer where they began
   for _, wire in ipairs(wires_of(data)) do
     look(wire, entry)

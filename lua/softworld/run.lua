@@ -340,6 +340,7 @@ local function draw(self, doc, wires, numbers)
   doc.obstacles = obstacles_of(build.data(self.scene))
   for i = 1, numbers and #numbers or self.scene:frame_count() do
     doc.frames[i] = self.scene:frame(numbers and numbers[i] or i)
+    doc.frames[i].number = numbers and numbers[i] or i
   end
   drawn.add(self.scene, doc)
   add_fixings(self.scene, doc)
@@ -432,7 +433,7 @@ function runfiles.pictured(self)
 end
 
 for name, method in pairs(runfiles.methods) do Run[name] = method end
-tables.later(Run, "softworld.pictures", "picture film")
+tables.later(Run, "softworld.pictures", "picture film gltf obj stl")
 Run.error_bars = trust.error_bars
 Run.ledger = ledger.of
 

@@ -148,31 +148,12 @@ local function add_wires(drawing, run, frame, look)
   end
 end
 
--- Triangles that the edges of a surface enclose.
-local function enclosed(edges)
-  local beside, corners = {}, {}
-  for i = 1, #edges, 8 do
-    local a, b = ("<I4I4"):unpack(edges, i)
-    a, b = math.min(a, b), math.max(a, b)
-    beside[a] = beside[a] or {}
-    beside[a][b] = true
-  end
-  for i = 1, #edges, 8 do
-    local a, b = ("<I4I4"):unpack(edges, i)
-    a, b = math.min(a, b), math.max(a, b)
-    for c in pairs(beside[b] or {}) do
-      if beside[a][c] then table.move({ a, b, c }, 1, 3, #corners + 1, corners) end
-    end
-  end
-  return corners
-end
-
 local function add_particles(drawing, run, frame, look)
   for i, points in ipairs(frame.particles or {}) do
     local p = run.particles and run.particles[i] or { edges = "" }
     local colours = povscene.colours.wires
     local colour = p.color or colours[(#run.wires + i - 1) % #colours + 1]
-    p.corners = p.corners or enclosed(p.edges)
+    p.corners = p.corners or solid.enclosed(p.edges)
     local radius = math.max(p.radius or 0, 0.75 / look.per_metre)
     if look.technique == "shaded" and #p.corners > 0 then
       drawing:mesh(points, p.corners, nowhere, upright, colour, 0.05)

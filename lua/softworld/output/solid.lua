@@ -239,6 +239,27 @@ function solid.tube_faces(surface)
   return quads, ends
 end
 
+--- Triangles that the edges of a surface enclose.
+-- @tparam string edges pairs of numbers from 0, 32 bits each
+-- @treturn table flat list of corners from 0
+function solid.enclosed(edges)
+  local beside, corners = {}, {}
+  for i = 1, #edges, 8 do
+    local a, b = ("<I4I4"):unpack(edges, i)
+    a, b = math.min(a, b), math.max(a, b)
+    beside[a] = beside[a] or {}
+    beside[a][b] = true
+  end
+  for i = 1, #edges, 8 do
+    local a, b = ("<I4I4"):unpack(edges, i)
+    a, b = math.min(a, b), math.max(a, b)
+    for c in pairs(beside[b] or {}) do
+      if beside[a][c] then table.move({ a, b, c }, 1, 3, #corners + 1, corners) end
+    end
+  end
+  return corners
+end
+
 local function all_finite(points)
   for i = 1, #points do
     local x = points[i]

@@ -54,20 +54,28 @@ local function longest(points, up)
   return dot(best, e1) < -1e-9 and combine(-1, best, 0, best, 0, best) or best
 end
 
--- About 50 points of a list, and those furthest along each axis.
-local function sample(flat, points)
-  local low, high = { 1, 2, 3 }, { 1, 2, 3 }
-  local function put(i) points[#points + 1] = { flat[i], flat[i + 1], flat[i + 2] } end
-  for i = 1, #flat, 3 * math.max(1, #flat // 150) do put(i) end
-  for i = 1, #flat, 3 do
-    for c = 0, 2 do
-      if flat[i + c] < flat[low[c + 1]] then low[c + 1] = i + c end
-      if flat[i + c] > flat[high[c + 1]] then high[c + 1] = i + c end
+-- Directions in which corners of things are looked for: along the axes and between them.
+local outward = {}
+for x = -1, 1 do
+  for y = -1, 1 do
+    for z = -1, 1 do
+      if x ~= 0 or y ~= 0 or z ~= 0 then outward[#outward + 1] = { x, y, z } end
     end
   end
-  for c = 0, 2 do
-    put(low[c + 1] - c)
-    put(high[c + 1] - c)
+end
+
+-- About 50 points of a list, and those furthest outwards.
+local function sample(flat, points)
+  local function put(i) points[#points + 1] = { flat[i], flat[i + 1], flat[i + 2] } end
+  for i = 1, #flat, 3 * math.max(1, #flat // 150) do put(i) end
+  if #flat <= 150 then return end -- that were all of them
+  for _, d in ipairs(outward) do
+    local best, most = 1, -math.huge
+    for i = 1, #flat, 3 do
+      local x = d[1] * flat[i] + d[2] * flat[i + 1] + d[3] * flat[i + 2]
+      if x > most then best, most = i, x end
+    end
+    put(best)
   end
 end
 
