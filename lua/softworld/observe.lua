@@ -72,7 +72,8 @@ local function set_next(own, now)
 end
 
 local function begin(own, now)
-  own.from, own.at = now, own.each and -math.huge or own.every and now + own.every or own.wall and math.huge or -math.huge
+  own.from = now
+  own.at = own.each and -math.huge or own.every and now + own.every or own.wall and math.huge or -math.huge
   own.at_wall = own.wall and core.clock() + own.wall or math.huge
 end
 

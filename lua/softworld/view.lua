@@ -5,7 +5,6 @@
 local core = require "softworld.core"
 local build = require "softworld.build"
 local checks = require "softworld.checks"
-local json = require "softworld.output.json"
 local jsonread = require "softworld.output.jsonread"
 local literal = require "softworld.literal"
 local methods = require "softworld.methods"
@@ -13,8 +12,8 @@ local observe = require "softworld.observe"
 local orders = require "softworld.vieworders"
 local report = require "softworld.output.report"
 local rows = require "softworld.rows"
-local runfiles = require "softworld.runfiles"
 local sealed = require "softworld.sealed"
+local show = require "softworld.viewshow"
 
 local view = {}
 local View = { __name = "view" }
@@ -22,20 +21,19 @@ local View = { __name = "view" }
 local GAP = 1 / 30        -- between two looks, on the clock [s]
 local IDLE = 0.1          -- longest wait for a message [s]
 local MOST_LINES = 5000   -- changes that are kept
-local SHOWN = 200         -- of them in a page
 local MOST_SNAPSHOTS = 20
-local FRAME, SCENE, STATE, LINES, FORMS, EVENTS = 0, 1, 2, 3, 4, 5 -- slots of the server
 
 local new = rows.call("scene:view", "{...}", "shows the scene in a browser of this machine while it runs", {
   gives = "a view",
   example = "scene:view()",
-  { "port", "integer", "-", "of this machine, where the page is", min = 0, max = 65535, usual = "any that is free" },
+  { "port", "integer", "-", "of this machine, where the page is", min = 0, max = 65535,
+    usual = "any that is free" },
   { "open", "boolean", "-", "opens a browser; else the address is told only", usual = "true" },
   { "paused", "boolean", "-", "runs begin when the page says so", usual = "false" },
 })
 
 rows.calls{
-  { "view:wait", "seconds", "shows the scene as it is, and does what pages ask for, until Ctrl-C or so long [s]" },
+  { "view:wait", "seconds", "shows the scene and does what pages ask for, until Ctrl-C or so long [s]" },
   { "view:close", "", "pages are told nothing more; the scene stays" },
   { "view.address", nil, "of the page, with its secret; for this machine only", "a text" },
   { "view.pages", nil, "that are open", "a number" },
@@ -44,114 +42,7 @@ rows.calls{
 
 local function fields(self) return sealed.fields(self) end
 
--- --- what pages see -----------------------------------------------------------------------------------
-
-local function put(own, slot, value) own.server:put(slot, json.encode(value)) end
-
--- Changes when something was made or taken away, or a gripper took hold.
-local function signature(scene)
-  local data, parts = build.data(scene), {}
-  for i, name in ipairs(build.lists) do parts[i] = #data[name] end
-  for _, g in ipairs(data.grippers) do
-    local last = g.spans[#g.spans]
-    parts[#parts + 1] = ("%d %s %s"):format(#g.spans, last and last.to or "", g.tool and 1 or 0)
-  end
-  for _, w in ipairs(data.wires) do parts[#parts + 1] = w.object.model end
-  return table.concat(parts, " ")
-end
-
--- How hard a hand pulls that takes hold: a few times the weight of all wires, over a tenth of their length.
-local function hand_of(scene)
-  local weight, length = 0, 0
-  for _, w in ipairs(build.data(scene).wires) do
-    local fine, mass = pcall(function() return w.object:section().mass_per_length end)
-    if not fine then mass = math.pi * w.object.radius ^ 2 * 1500 end
-    weight = weight + 9.81 * mass * w.object.length
-    length = math.max(length, w.object.length)
-  end
-  local force = tonumber(("%.1g"):format(math.max(3 * weight, 1e-3)))
-  return { force = force, stiffness = tonumber(("%.2g"):format(force / math.max(0.05 * length, 1e-4))) }
-end
-
-local function show_scene(own)
-  local now = signature(own.scene)
-  if now == own.signature then return end
-  own.signature, own.outline = now, own.outline + 1
-  local run, blobs = report.outline(runfiles.scene_described(own.scene))
-  put(own, SCENE, json.object{ kind = "scene", outline = own.outline, session = own.session, run = run, blobs = blobs,
-    hand = hand_of(own.scene) })
-  own.forms_due = true
-end
-
-local function show_forms(own)
-  if not own.forms_due then return end
-  own.forms_due = nil
-  local fine, forms = pcall(orders.forms, own.scene)
-  put(own, FORMS, { kind = "forms", forms = fine and forms or {} })
-end
-
-local function alive(scene)
-  local count = 0
-  for _, p in ipairs(build.data(scene).processes) do
-    if coroutine.status(p.thread) ~= "dead" then count = count + 1 end
-  end
-  return count
-end
-
-local function show_state(own)
-  local snapshots = {}
-  for i, s in ipairs(own.snapshots) do snapshots[i] = { id = s.id, time = s.time } end
-  local text = json.encode(json.object{ kind = "state", running = own.running, paused = own.paused, speed = own.speed,
-    ok = own.ok, reason = own.reason, snapshots = snapshots, waits = own.waits,
-    back = alive(own.scene) == 0, done = own.done, holds = own.holds })
-  if text == own.state then return end
-  own.state = text
-  own.server:put(STATE, text)
-end
-
-local function show_lines(own)
-  if not own.lines_due then return end
-  own.lines_due = nil
-  local shown, undo = {}, false
-  for i = math.max(1, #own.shown - SHOWN + 1), #own.shown do shown[#shown + 1] = own.shown[i] end
-  for _, line in ipairs(own.shown) do undo = undo or line.undo and not line.undone or false end
-  local some = #own.lines > 0
-  put(own, LINES, { kind = "lines", lines = shown, undo = undo, total = #own.lines,
-    script = some and orders.script(own.scene, own.lines, own.args) or nil })
-end
-
-local function show_events(own)
-  local events = own.scene:events()
-  local last = events[#events]
-  local mark = ("%d %s"):format(#events, last and last.count or "")
-  if mark == own.events then return end
-  own.events = mark
-  local list = {}
-  for i = math.max(1, #events - 199), #events do
-    local e = events[i]
-    list[#list + 1] = { kind = e.kind, time = e.time, text = e.text, count = e.count, last = e.last }
-  end
-  put(own, EVENTS, { kind = "events", events = list })
-end
-
--- Send what has changed, and the state of the scene to those who wait for it.
-local function show(own)
-  local pages, waiting = own.server:pages()
-  if pages == 0 then return end
-  show_scene(own)
-  show_state(own)
-  show_lines(own)
-  show_forms(own)
-  show_events(own)
-  if waiting == 0 or own.failed then return end
-  local mark = ("%d %a %d"):format(own.outline, own.scene.time, own.changes)
-  if mark == own.frame then return end
-  own.frame = mark
-  local film, frames = core.film_now(own.scene, true)
-  if frames > 0 then own.server:put(FRAME, ("<I4I4"):pack(own.outline, own.session) .. film) end
-end
-
--- --- what they ask for ----------------------------------------------------------------------------------
+-- --- what they ask for ---------------------------------------------------------------------------
 
 local function note(own, line)
   own.lines_due, own.forms_due = true, true
@@ -187,7 +78,8 @@ end
 
 local function refused(own, message)
   own.lines_due = true
-  own.shown[#own.shown + 1] = { time = own.scene.time, text = "", ok = false, error = build.plain(message), count = 1 }
+  own.shown[#own.shown + 1] = { time = own.scene.time, text = "", ok = false, error = build.plain(message),
+    count = 1 }
 end
 
 local function touched(own, m, words)
@@ -207,8 +99,8 @@ end
 local function back(own, m)
   for _, s in ipairs(own.snapshots) do
     if s.id == m.id then
-      if alive(own.scene) > 0 then
-        return refused(own, "a process is under way, and a Lua function has no way back; begin the script again")
+      if show.alive(own.scene) > 0 then
+        return refused(own, "a process is under way, and a Lua function has no way back")
       end
       build.back(own.scene, s.snapshot)
       own.names.hand = nil
@@ -217,7 +109,8 @@ local function back(own, m)
       end
       own.changes, own.lines_due, own.forms_due, own.pulled = own.changes + 1, true, true, nil
       own.base = nil
-      own.shown[#own.shown + 1] = { time = s.time, text = ("-- back to %g s"):format(s.time), ok = true, count = 1 }
+      own.shown[#own.shown + 1] = { time = s.time, text = ("-- back to %g s"):format(s.time), ok = true,
+        count = 1 }
       return
     end
   end
@@ -246,6 +139,15 @@ local function work(own)
       end
     end
   end
+end
+
+-- The same while a run goes on: where it was left counts for its rounding, even if nothing came of it.
+local function work_inside(own)
+  work(own)
+  local last = own.lines[#own.lines]
+  if last and last.time == own.scene.time or #own.lines >= MOST_LINES then return end
+  own.lines[#own.lines + 1] = { time = own.scene.time, text = "" }
+  own.lines_due = true
 end
 
 local function keep(own)
@@ -288,7 +190,7 @@ local function hear(own)
   end
 end
 
--- --- while a run goes on ------------------------------------------------------------------------------------
+-- --- while a run goes on -------------------------------------------------------------------------
 
 -- For how long it is to be held now [s].
 local function holding(own)
@@ -312,7 +214,7 @@ local function hold(own)
     if #own.queue > 0 then return true end
     local left = holding(own)
     own.holds = left > 0 and own.paused
-    show(own)
+    show.all(own)
     if left <= 0 then
       own.steps = math.max(0, own.steps - 1)
       return false
@@ -328,7 +230,7 @@ local function look(own, observer)
   own.stopped = nil
   if changes then
     observer:change(function()
-      repeat work(own) until not hold(own)
+      repeat work_inside(own) until not hold(own)
       if own.stopped then fields(observer).reason = "stopped from the page" end
       own.stopped = nil
     end)
@@ -338,15 +240,15 @@ local function look(own, observer)
   o.each = own.paused or nil
 end
 
--- --- views -----------------------------------------------------------------------------------------------------
+-- --- views ---------------------------------------------------------------------------------------
 
 local views = setmetatable({}, { __mode = "k" }) -- scene's data -> its view
 
 local function of_scene(scene) return views[build.data(scene)] end
 
-local POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
-  .. "media-src blob:; connect-src ws://127.0.0.1:%d ws://localhost:%d; base-uri 'none'; form-action 'none'; "
-  .. "frame-ancestors 'none'"
+local POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
+  .. "img-src data: blob:; media-src blob:; connect-src ws://127.0.0.1:%d ws://localhost:%d; "
+  .. "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 
 -- The page has a policy of its own, for files; here the server's is the one, which is as narrow.
 local function page_of(own)
@@ -418,7 +320,10 @@ function follower.begin(scene, args)
   if #own.snapshots == 0 and not own.failed then keep(own) end
   own.observer = scene:observe { wall = GAP, call = function(observer) look(own, observer) end }
   fields(own.observer).each = own.paused or nil
-  if own.paused then hold(own) end
+  fields(own.observer).at = -math.huge -- the first step is looked at
+  if own.paused then
+    while hold(own) do work(own) end
+  end
 end
 
 function follower.finish(scene, ok, reason)
@@ -429,7 +334,7 @@ function follower.finish(scene, ok, reason)
   own.observer, own.running, own.done, own.ok, own.reason = nil, false, true, ok or false, tostring(reason)
   own.failed = not ok or nil
   own.frame = nil
-  if own.server then pcall(show, own) end
+  if own.server then pcall(show.all, own) end
 end
 
 -- Between runs: what pages ask for is done at once.
@@ -438,12 +343,12 @@ local function idle(own, due)
     hear(own)
     if #own.queue > 0 and not own.failed then work(own) end
     own.queue = {}
-    show(own)
+    show.all(own)
     if own.wants_run then
       local duration = own.wants_run
       own.wants_run = nil
-      local args = { duration = duration, dt = own.args and own.args.dt, tolerance = own.args and own.args.tolerance,
-        progress = false }
+      local given = own.args or {}
+      local args = { duration = duration, dt = given.dt, tolerance = given.tolerance, progress = false }
       if type(args.tolerance) == "table" then args.tolerance = nil end
       own.shown[#own.shown + 1] = { time = own.scene.time, ok = true, count = 1,
         text = ("scene:run { duration = %s }"):format(literal.number(duration)) }

@@ -48,8 +48,8 @@ local function value_of(row, value)
   return nil
 end
 
---- What can be changed in a scene: { { name, kind, rows = { { name, unit, doc, type, min, max, above, choices,
--- value } } } }; the scene itself has the name "".
+--- What can be changed in a scene: { { name, kind, rows = { { name, unit, doc, type, min, max, above,
+-- choices, value } } } }; the scene itself has the name "".
 function orders.forms(scene)
   local list = {}
   local function add(name, kind, object)
@@ -94,7 +94,9 @@ local function vector_of(what, value)
   return { value[1], value[2], value[3] }
 end
 
-local function source(value) return literal.of(value, function() fail "this cannot be written" end, "value") end
+local function source(value)
+  return literal.of(value, function() fail "this cannot be written" end, "value")
+end
 
 local function reference(name) return name == "" and "scene" or ("scene:find(%q)"):format(name) end
 
@@ -152,9 +154,9 @@ function make.pull(scene, m)
   local wire = scene:find(text_of("wire", m.wire))
   if core.type(wire) ~= "wire" then fail("'%s' is no wire", m.wire) end
   local s = math.max(0, math.min(number_of("s", m.s), wire.length))
-  return ('hand = scene:force { kind = "pull", on = %s, s = %s, to = %s, force = %s, stiffness = %s }'):format(
-    reference(m.wire), source(s), source(vector_of("to", m.to)), source(number_of("force", m.force)),
-    source(number_of("stiffness", m.stiffness)))
+  local line = 'hand = scene:force { kind = "pull", on = %s, s = %s, to = %s, force = %s, stiffness = %s }'
+  return line:format(reference(m.wire), source(s), source(vector_of("to", m.to)),
+    source(number_of("force", m.force)), source(number_of("stiffness", m.stiffness)))
 end
 
 --- { to = }: the hand goes there.

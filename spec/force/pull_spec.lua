@@ -38,7 +38,9 @@ describe("the force pull", function()
   end)
 
   it("refuses what is no force and no place", function()
-    assert.error_matches(function() pulled { height = 1, force = 0, stiffness = 50 } end, "force = 0 N is not allowed")
-    assert.error_matches(function() pulled { height = 1, force = 1, stiffness = -1 } end, "stiffness = %-1 N/m")
+    assert.error_matches(function() pulled { height = 1, force = 0, stiffness = 50 } end,
+      "force = 0 N is not allowed")
+    assert.error_matches(function() pulled { height = 1, force = 1, stiffness = -1 } end,
+      "stiffness = %-1 N/m")
   end)
 end)

@@ -67,14 +67,14 @@ local function read_array(text, at, depth)
 end
 
 local function read_object(text, at, depth)
-  local object, key = {}, nil
+  local object = {}
   at = space(text, at)
   if text:sub(at, at) == "}" then return object, at + 1 end
   while true do
     at = space(text, at)
     if text:sub(at, at) ~= '"' then fail "a key that is no string" end
-    key, at = read_string(text, at + 1)
-    at = space(text, at)
+    local key, after = read_string(text, at + 1)
+    at = space(text, after)
     if text:sub(at, at) ~= ":" then fail "a key without a value" end
     object[key], at = read(text, at + 1, depth)
     local c = text:sub(at, at)
