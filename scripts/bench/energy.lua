@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Energy from nowhere, by integrator, cable and step: a wire thrown at a wall, a wire dropped on one.
--- @module softworld.benchenergy
+-- @module bench.energy
 local sw = require "softworld"
 
 local energy = {}

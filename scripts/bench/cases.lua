@@ -4,7 +4,7 @@
 --
 -- A case: name, title, static; make(config) gives a state with `scene` and `duration`; run(state,
 -- options) computes it and gives a report; judge(state, row) fills in the row's error.
--- @module softworld.benchcases
+-- @module bench.cases
 local cases = require "softworld.cases"
 
 local benchcases = {}

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Grippers measured: the two-plate test (a wire on a table is gripped, lifted, carried, laid down) by
 -- each way of handling, and grips treated as no gripper should be.
--- @module softworld.benchgrip
+-- @module bench.grip
 local core = require "softworld.core"
 
 local benchgrip = {}

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Scenes in which methods are known to fail, each reported as a row: it survives, it fails and
 -- says so, or it gains energy that nobody put in.
--- @module softworld.benchlimits
+-- @module bench.limits
 local core = require "softworld.core"
 
 local limits = {}
@@ -129,9 +129,9 @@ local function add_all(implicit)
     add("edges of 1 mm", release, { segments = 1000, dt = 0.005, model = model })
   end
   add("N = 900", release, { segments = 900, dt = 0.01, integrator = "implicit-midpoint" })
-  require("softworld.benchtwists").add_all(add)
-  require("softworld.benchsqueeze").add_all(add)
-  require("softworld.benchgrip").add_all(add)
+  require("bench.twists").add_all(add)
+  require("bench.squeeze").add_all(add)
+  require("bench.grip").add_all(add)
 end
 
 --- All rows, in order. progress(k, count, item) is called before each.

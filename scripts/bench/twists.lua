@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Scenes with twist, snap-through, self-contact and high speed, in which methods are known to
 -- fail: each survives, or says why not. What they are judged by is in the note.
--- @module softworld.benchtwists
+-- @module bench.twists
 local core = require "softworld.core"
 
 local twists = {}

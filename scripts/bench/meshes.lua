@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- What wires that are meshes of particles cost: by the second, by the ring, by the model.
 -- Times are of the processor, the least of several repeats; compare those of one run only.
--- @module softworld.benchmeshes
+-- @module bench.meshes
 local core = require "softworld.core"
 local sw = require "softworld"
 

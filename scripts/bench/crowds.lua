@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- What crowds cost: many obstacles, many nodes that land at once, many wires, a bundle of them.
--- @module softworld.benchcrowds
+-- @module bench.crowds
 local sw = require "softworld"
 
 local benchcrowds = {}

@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Measuring error against time: one configuration in, one row out.
--- A case (softworld.benchcases) makes a scene and knows its exact result; here it is run once for
+-- A case (bench.cases) makes a scene and knows its exact result; here it is run once for
 -- the error and then, from the same snapshot, as often as a steady time needs.
--- @module softworld.bench
+-- @module bench.rows
 local core = require "softworld.core"
 local csv = require "softworld.csv"
 

@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Wires that are meshes of particles, treated as no mesh likes it: squeezed, twisted, bent, turned
 -- inside out, flung onto an edge. What each is judged by is in the note.
--- @module softworld.benchsqueeze
+-- @module bench.squeeze
 local core = require "softworld.core"
-local stable = require "softworld.benchstable"
+local stable = require "bench.stable"
 
 local squeeze = {}
 

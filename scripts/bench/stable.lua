@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Largest stable steps: found by bisection, and expected from the largest natural frequency.
--- @module softworld.benchstable
-local bench = require "softworld.bench"
+-- @module bench.stable
+local bench = require "bench.rows"
 
 local stable = {}
 

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Peaks by step: what a table, a wall, a gripper gets and what a wire bears, through the window of
 -- 10 ms, in scenes with blows; which of them still depend on the step.
--- @module softworld.benchpeaks
+-- @module bench.peaks
 local sw = require "softworld"
 
 local peaks = {}

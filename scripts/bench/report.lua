@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- What a player's page costs: its size, the time to write it, and new geometry for each picture.
--- @module softworld.benchreport
+-- @module bench.report
 local sw = require "softworld"
 local core = sw.core
 

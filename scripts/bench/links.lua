@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- What it costs that nodes of different places are solved together: a wire that touches itself,
 -- wires that are joined. Each against the same wire without, in turns.
--- @module softworld.benchlinks
+-- @module bench.links
 local sw = require "softworld"
 
 local length, radius, modulus = 1, 0.003, 1e8 -- [m], [m], [Pa]
