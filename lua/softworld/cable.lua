@@ -23,11 +23,11 @@
 local core = require "softworld.core"
 local checks = require "softworld.checks"
 local methods = require "softworld.methods"
-local keep = require "softworld.keep"
-local bendrule = require "softworld.bendrule"
-local material = require "softworld.material"
-local breaking = require "softworld.breaking"
-local stranding = require "softworld.stranding"
+local keep = require "softworld.scene.keep"
+local bendrule = require "softworld.wire.bendrule"
+local material = require "softworld.wire.material"
+local breaking = require "softworld.run.breaking"
+local stranding = require "softworld.wire.stranding"
 
 local cable = { flags = { "measured", "computed", "guessed" }, twist_ratio = 1.25 }
 local Entry = { __name = "cable" }

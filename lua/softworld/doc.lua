@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- The command `softworld doc [TOPIC]`: the same text as help "TOPIC" at the prompt.
 -- @module softworld.doc
-local topics = require "softworld.topics"
+local topics = require "softworld.prompt.topics"
 
 --- Gives the exit status: 0; 1 where there is no such topic; 2 for more words than one.
 return function(topic, more)

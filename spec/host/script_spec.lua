@@ -40,7 +40,7 @@ describe("softworld script.lua", function()
     local folder = program.folder()
     os.execute("mkdir " .. folder .. "/softworld")
     program.write(folder .. "/softworld/pretty.lua", "return 'wrong'")
-    local name = program.write(folder .. "/s.lua", "print(type(require 'softworld.pretty'))")
+    local name = program.write(folder .. "/s.lua", "print(type(require 'softworld.prompt.pretty'))")
     assert.equal("function\n", (run { name }))
   end)
 

@@ -12,7 +12,7 @@ local function errors(text, options)
 end
 
 -- A call that fails inside a file of the library.
-local LIBRARY = "local pretty = require 'softworld.pretty'\n"
+local LIBRARY = "local pretty = require 'softworld.prompt.pretty'\n"
 local FAILING = "pretty({}, { width = {} })"
 
 describe("an error", function()
