@@ -6,8 +6,9 @@
 -- grippers do; case=crowds: many obstacles, nodes and wires; case=report: the
 -- player's page; case=bundle: wires that lie along each other.
 -- Compare numbers of one run only: machines differ, and so do their loads.
-local bench = require "softworld.bench"
-local benchcases = require "softworld.benchcases"
+package.path = (arg[0]:match "^(.*/)" or "") .. "?.lua;" .. package.path
+local bench = require "bench.rows"
+local benchcases = require "bench.cases"
 local sink = require "softworld.output.sink"
 
 -- What to run --------------------------------------------------------------------
@@ -352,7 +353,7 @@ end
 -- What it costs that wires touch or are joined.
 local function print_links()
   print "\nlinked nodes, N = 100            places   us/iteration  over the same without"
-  for _, r in ipairs(require "softworld.benchlinks".rows()) do
+  for _, r in ipairs(require "bench.links".rows()) do
     if r.ok then
       print(("  %-30s %6d  %13.2f  %19.2f x  %s"):format(r.name, r.places, 1e6 * r.linked, r.ratio,
         r.aim and ("within %gx: %s"):format(r.aim, r.ratio <= r.aim and "met" or "missed") or ""))
@@ -369,7 +370,7 @@ end
 
 -- What wires that are meshes of particles cost.
 local function print_meshes()
-  local meshes = require "softworld.benchmeshes"
+  local meshes = require "bench.meshes"
   print "\nmeshes of particles                       s/simulated s  rejected  us/iteration"
   local seconds = meshes.squeezes()
   table.insert(seconds, 1, meshes.second())
@@ -411,7 +412,7 @@ if not next(wanted) then
 end
 -- What each way of handling costs and gives in the two-plate test; also as out/bench/grip.csv.
 local function print_grips()
-  local grip = require "softworld.benchgrip"
+  local grip = require "bench.grip"
   local lines, carry = { "way,dt,carry,all,error" }, {}
   print("\ntwo-plate test, s/simulated s         dt    grasp     lift    carry      lay      all"
     .. "      force N  moment mN m  height mm  end's droop")
@@ -440,7 +441,7 @@ end
 
 -- Many obstacles, nodes, wires.
 local function print_crowds()
-  local crowds = require "softworld.benchcrowds"
+  local crowds = require "bench.crowds"
   for _, count in ipairs{ 10, 1000, 10000 } do
     local made, step = crowds.boxes(count)
     print(("%6d boxes: made in %.3f s, %.2f ms a step of 500 segments"):format(count, made, 1e3 * step))
@@ -458,7 +459,7 @@ local function print_crowds()
 end
 
 local function print_bundles()
-  local crowds = require "softworld.benchcrowds"
+  local crowds = require "bench.crowds"
   for _, count in ipairs{ 7, 10, 20 } do -- twenty take minutes
     for _, cable in ipairs{ false, "GXL 1.5" } do
       local falling, lying, fell, lay = crowds.bundle(count, cable)
@@ -471,7 +472,7 @@ end
 
 -- What a player's page costs, and in a browser that computes its graphics in software.
 local function print_report()
-  local report = require "softworld.benchreport"
+  local report = require "bench.report"
   local function line(what, value, most, unit)
     print(("  %-14s %7.2f %-2s  within %g %s: %s"):format(what, value, unit, most, unit,
       value <= most and "met" or "missed"))

@@ -1,8 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Draws error against time from the rows of scripts/bench.lua.
 --   build/softworld scripts/chart.lua [from=out/bench/bench.csv] [out=out/bench] [readme=.readme]
-local bench = require "softworld.bench"
-local benchcases = require "softworld.benchcases"
+package.path = (arg[0]:match "^(.*/)" or "") .. "?.lua;" .. package.path
+local bench = require "bench.rows"
+local benchcases = require "bench.cases"
 local chart = require "softworld.output.chart"
 local gnuplot = require "softworld.output.gnuplot"
 local sink = require "softworld.output.sink"

@@ -3,7 +3,7 @@
 --   build/softworld scripts/manual.lua [folder=build/manual]
 local manual = require "softworld.manual"
 local sink = require "softworld.output.sink"
-local topics = require "softworld.topics"
+local topics = require "softworld.prompt.topics"
 local core = require "softworld.core"
 
 local folder = (arg[1] or "folder=build/manual"):match "^folder=(.+)$"

@@ -67,8 +67,8 @@ local function run_child(file, sink, name, list)
     flush(sink)
   end
 
-  package.path = ("%s/lua/?.lua;%s/lua/?/init.lua;%s/spec/?.lua;"):gsub("%%s", (root:gsub("%%", "%%%%")))
-    .. package.path
+  local places = "%s/lua/?.lua;%s/lua/?/init.lua;%s/spec/?.lua;%s/scripts/?.lua;"
+  package.path = places:gsub("%%s", (root:gsub("%%", "%%%%"))) .. package.path
   if not package.preload["softworld.core"] then -- stock Lua: the module beside the host
     package.cpath = host:match "^(.*)/" .. "/lib/?.so;" .. package.cpath
   end

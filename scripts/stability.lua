@@ -2,13 +2,14 @@
 -- Largest stable steps, and what happens where methods are known to fail.
 --   build/softworld scripts/stability.lua [quick] [out=folder]
 -- Rows in out/bench/stability.csv, maps beside it, tables on the terminal.
-local bench = require "softworld.bench"
-local benchcases = require "softworld.benchcases"
-local benchenergy = require "softworld.benchenergy"
-local benchpeaks = require "softworld.benchpeaks"
-local benchlimits = require "softworld.benchlimits"
-local benchsqueeze = require "softworld.benchsqueeze"
-local benchstable = require "softworld.benchstable"
+package.path = (arg[0]:match "^(.*/)" or "") .. "?.lua;" .. package.path
+local bench = require "bench.rows"
+local benchcases = require "bench.cases"
+local benchenergy = require "bench.energy"
+local benchpeaks = require "bench.peaks"
+local benchlimits = require "bench.limits"
+local benchsqueeze = require "bench.squeeze"
+local benchstable = require "bench.stable"
 local chart = require "softworld.output.chart"
 local sink = require "softworld.output.sink"
 

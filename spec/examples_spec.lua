@@ -108,7 +108,7 @@ describe("example", function()
       local wall, fz = column(series, "wall 1.contact_force"), column(series, "gripper.force_z")
       local fx, moment = column(series, "gripper.force_x"), column(series, "gripper.moment")
       local load = column(series, "table.contact_force")
-      local rows = require("softworld.build").data(scene).grippers[1].past[1]:log()
+      local rows = require("softworld.scene.build").data(scene).grippers[1].past[1]:log()
       local mean = { fx = 0, fz = 0, load = 0, moment = 0, moment_expected = 0 }
       local time, pad, front, i = 0, 0.01, 0.02, 2
       while wall[i] == 0 do

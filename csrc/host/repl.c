@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The prompt: read a chunk, run it, print its values, again. What is pleasant
- * about it (completion, printing of tables) is in lua/softworld/repl.lua; it
+ * about it (completion, printing of tables) is in lua/softworld/prompt/repl.lua; it
  * also works, plainly, without that. */
 #include <lauxlib.h>
 #include <stdio.h>
@@ -40,9 +40,9 @@ static int set_globals(lua_State *L) {
   return 0;
 }
 
-/* Show and completion from softworld.repl. */
+/* Show and completion from softworld.prompt.repl. */
 static int set_tools(lua_State *L) {
-  require_module(L, "softworld.repl");
+  require_module(L, "softworld.prompt.repl");
   if (!lua_istable(L, -1)) lua_newtable(L);
   lua_getfield(L, -1, "show");
   lua_rawsetp(L, LUA_REGISTRYINDEX, &show_key);

@@ -25,11 +25,11 @@ int host_call(lua_State *L, int count, int results) {
   return status;
 }
 
-/* Let softworld.log, if it is there, have a text; nothing is left on the stack. */
+/* Let softworld.program.log, if it is there, have a text; nothing is left on the stack. */
 static void log_text(lua_State *L, const char *text) {
   const int top = lua_gettop(L);
   luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
-  if (lua_getfield(L, -1, "softworld.log") == LUA_TTABLE &&
+  if (lua_getfield(L, -1, "softworld.program.log") == LUA_TTABLE &&
       lua_getfield(L, -1, "line") == LUA_TFUNCTION) {
     lua_pushstring(L, text);
     (void)lua_pcall(L, 1, 0, 0);
@@ -39,7 +39,7 @@ static void log_text(lua_State *L, const char *text) {
 
 int host_log_open(lua_State *L, const host_options *o) {
   lua_getglobal(L, "require");
-  lua_pushliteral(L, "softworld.log");
+  lua_pushliteral(L, "softworld.program.log");
   if (host_call(L, 1, 1) == LUA_OK) {
     lua_getfield(L, -1, "open");
     lua_pushstring(L, o->log);
@@ -121,7 +121,7 @@ int host_run_script(lua_State *L, const host_options *o) {
 /* Push the module of the command's name; 0 and an error's text when there is none. */
 static int push_command(lua_State *L, const char *name) {
   lua_getglobal(L, "require");
-  lua_pushfstring(L, "softworld.%s", name);
+  lua_pushfstring(L, "softworld.program.%s", name);
   return host_call(L, 1, 1) == LUA_OK;
 }
 

@@ -169,7 +169,7 @@ static int value_text(lua_State *L) {
 
 static int shown_value(lua_State *L) {
   lua_getglobal(L, "require");
-  lua_pushliteral(L, "softworld.pretty");
+  lua_pushliteral(L, "softworld.prompt.pretty");
   lua_call(L, 1, 1);
   lua_pushvalue(L, 1);
   lua_call(L, 1, 1);

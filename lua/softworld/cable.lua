@@ -8,7 +8,7 @@
 --
 -- Every value is a table { value =, low =, high =, unit =, flag =, source = }. flag
 -- says how far to trust it: "measured" (or given by the named standard or maker),
--- "computed" (by the formulas of softworld.stranding) or "guessed". Where the
+-- "computed" (by the formulas of softworld.wire.stranding) or "guessed". Where the
 -- construction is known, EI and GJ carry two bounds besides: `slip`, when the
 -- strands slide on one another, and `stick`, when they do not. The stick bound is
 -- seldom reached: a power cable's EI falls about tenfold while its strands begin to
@@ -23,11 +23,11 @@
 local core = require "softworld.core"
 local checks = require "softworld.checks"
 local methods = require "softworld.methods"
-local keep = require "softworld.keep"
-local bendrule = require "softworld.bendrule"
-local material = require "softworld.material"
-local breaking = require "softworld.breaking"
-local stranding = require "softworld.stranding"
+local keep = require "softworld.scene.keep"
+local bendrule = require "softworld.wire.bendrule"
+local material = require "softworld.wire.material"
+local breaking = require "softworld.run.breaking"
+local stranding = require "softworld.wire.stranding"
 
 local cable = { flags = { "measured", "computed", "guessed" }, twist_ratio = 1.25 }
 local Entry = { __name = "cable" }

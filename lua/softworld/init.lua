@@ -13,9 +13,9 @@
 -- @module softworld
 local checks = require "softworld.checks"
 local core = require "softworld.core"
-local build = require "softworld.build" -- adds to the classes: names, files, drawing data
+local build = require "softworld.scene.build" -- adds to the classes: names, files, drawing data
 local methods = require "softworld.methods"
-local record = require "softworld.record" -- of calls, for scene:script and scene:describe
+local record = require "softworld.scene.record" -- of calls, for scene:script and scene:describe
 local remarks = require "softworld.remarks"
 local rows = require "softworld.rows"
 
@@ -29,21 +29,21 @@ local sw = {
   remarks = true, -- false: no remarks on unusual values
 }
 
-require "softworld.section"  -- wire:section and what belongs to it
-require "softworld.process"  -- scene:process
-require "softworld.window"   -- obstacle:over
+require "softworld.wire.section"  -- wire:section and what belongs to it
+require "softworld.run.process"  -- scene:process
+require "softworld.run.window"   -- obstacle:over
 local made = {
-  gripper = require "softworld.gripper", -- scene:gripper
-  run = require "softworld.run",         -- scene:run
-  clip = require "softworld.clip",       -- scene:clip
-  channel = require "softworld.channel", -- scene:channel
-  tie = require "softworld.tie",         -- scene:tie
+  gripper = require "softworld.grip.gripper", -- scene:gripper
+  run = require "softworld.run.run",         -- scene:run
+  clip = require "softworld.link.clip",       -- scene:clip
+  channel = require "softworld.link.channel", -- scene:channel
+  tie = require "softworld.link.tie",         -- scene:tie
 }
-require "softworld.clipping" -- gripper:clip
-require "softworld.settle"   -- scene:settle with error bars
-require "softworld.view"     -- scene:view
-require "softworld.changes"  -- get and set of scenes and grippers
-local save = require "softworld.save" -- scene:save, scene:resume, scene:find
+require "softworld.link.clipping" -- gripper:clip
+require "softworld.scene.settle"   -- scene:settle with error bars
+require "softworld.view.view"           -- scene:view
+require "softworld.scene.changes"  -- get and set of scenes and grippers
+local save = require "softworld.scene.save" -- scene:save, scene:resume, scene:find
 
 --- A new scene. { name =, gravity = {x, y, z} [m/s2] }
 function sw.scene(args)
@@ -58,24 +58,24 @@ function sw.load(file) return save.load(file) end
 
 --- One page that shows runs moving, one laid over the other: { run1, run2, path = "x.html", title = }.
 function sw.report(args)
-  return require("softworld.runfiles").report(args)
+  return require("softworld.run.files").report(args)
 end
 
 --- The names of all cables of the catalogue; print shows them as a table.
 function sw.cables() return sw.cable.list() end
 
-rows.later(core.class.scene, "softworld.script", "script")
-rows.later(core.class.scene, "softworld.describe", "describe")
-rows.later(core.class.scene, "softworld.pictures", "picture")
-rows.later(sw, "softworld.plot", "plot")
+rows.later(core.class.scene, "softworld.scene.script", "script")
+rows.later(core.class.scene, "softworld.scene.describe", "describe")
+rows.later(core.class.scene, "softworld.run.pictures", "picture")
+rows.later(sw, "softworld.run.plot", "plot")
 record.install(made)
 
 for kind, class in pairs(made) do methods.guard_table(kind, class) end
 methods.guard_core()
 
 -- Loaded when first asked for.
-local lazy = { tune = "softworld.tune", material = "softworld.material",
-  calibrate = "softworld.calibrate", help = "softworld.help" }
+local lazy = { tune = "softworld.run.tune", material = "softworld.wire.material",
+  calibrate = "softworld.wire.calibrate", help = "softworld.prompt.help" }
 
 local function unknown(self, key)
   local names = {}

@@ -4,8 +4,8 @@
 -- @module softworld.quantity
 local checks = require "softworld.checks"
 local core = require "softworld.core"
-local build = require "softworld.build"
-local window = require "softworld.window"
+local build = require "softworld.scene.build"
+local window = require "softworld.run.window"
 
 local quantity = {}
 

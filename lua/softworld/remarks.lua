@@ -46,7 +46,7 @@ function remarks.wanted()
     and not (type(sw) == "table" and rawget(sw, "remarks") == false)
 end
 
---- Where remarks go; softworld.lint and softworld.log have their own.
+--- Where remarks go; softworld.program.lint and softworld.program.log have their own.
 function remarks.write(at, text)
   io.stdout:flush()
   io.stderr:write(at, ": remark: ", text, "\n")

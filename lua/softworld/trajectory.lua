@@ -13,7 +13,7 @@
 -- whose name starts with `_` are left alone. A file without names has x y z, or t x
 -- y z, or x y z qw qx qy qz, or t x y z qw qx qy qz.
 -- @module softworld.trajectory
-local build = require "softworld.build"
+local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local units = require "softworld.units"

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
-local bench = require "softworld.bench"
-local benchcases = require "softworld.benchcases"
+local bench = require "bench.rows"
+local benchcases = require "bench.cases"
 local core = require "softworld.core"
 local program = require "spec.host.program"
 local sw = require "softworld"
@@ -176,7 +176,7 @@ end)
 
 describe("benchlinks.rows", function()
   it("compares a wire that touches itself and one in two pieces with plain ones", function()
-    local links = require "softworld.benchlinks"
+    local links = require "bench.links"
     local kept = links.batches
     links.batches = 2
     local rows = links.rows()
@@ -192,7 +192,7 @@ describe("benchlinks.rows", function()
 end)
 
 describe("benchmeshes", function()
-  local meshes = require "softworld.benchmeshes"
+  local meshes = require "bench.meshes"
   local kept = {}
 
   before_each(function()

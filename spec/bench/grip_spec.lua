@@ -2,7 +2,7 @@
 -- The benchmark of grippers: every way of handling gets through the two-plate test, hard grips end as
 -- they must.
 local sw = require "softworld"
-local benchgrip = require "softworld.benchgrip"
+local benchgrip = require "bench.grip"
 
 describe("the two-plate test", function()
   for _, way in ipairs(benchgrip.ways) do

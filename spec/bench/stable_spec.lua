@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
-local benchstable = require "softworld.benchstable"
+local benchstable = require "bench.stable"
 
 local cord = { name = "cord", E = 1e7, density = 1500, radius = 0.0025, length = 1, segments = 8 }
 -- Edges shorter than the radius: bending sets the limit.
@@ -55,7 +55,7 @@ describe("the largest stable step", function()
 end)
 
 describe("benchsqueeze", function()
-  local squeeze = require "softworld.benchsqueeze"
+  local squeeze = require "bench.squeeze"
 
   local function row_of(item, model)
     local found

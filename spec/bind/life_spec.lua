@@ -280,7 +280,7 @@ describe("handles", function()
   end)
 
   it("complete at the prompt and describe themselves", function()
-    local repl = require "softworld.repl"
+    local repl = require "softworld.prompt.repl"
     local scene, wire = make{ name = "bench" }
     local globals = { scene = scene, wire = wire, clamp = scene:clamp(wire, { s = 0 }),
       left = scene:gripper{ name = "left" } }

@@ -105,7 +105,7 @@ describe("an overhand knot with friction", function()
   -- Drawn until its loop is some five radii wide.
   local function drawn(dt)
     local row
-    require "softworld.benchtwists".add_all(function(item, run, o)
+    require "bench.twists".add_all(function(item, run, o)
       if item == "knot drawn tight, friction 0.3" and o.dt == dt then row = run(o) end
     end)
     return row

@@ -2,7 +2,7 @@
 -- Many obstacles, many nodes, many wires: the work of finding what touches, counted, and the same
 -- results as where there are few.
 local sw = require "softworld"
-local build = require "softworld.build"
+local build = require "softworld.scene.build"
 
 local function wire(scene, o)
   return scene:wire{ E = 5e6, density = 1500, radius = 0.0025, from = o.from, to = o.to,

@@ -3,9 +3,9 @@
 -- of every row are refused by name; help and completion show them.
 local sw = require "softworld"
 local core = require "softworld.core"
-local repl = require "softworld.repl"
+local repl = require "softworld.prompt.repl"
 local rows = require "softworld.rows"
-local topics = require "softworld.topics"
+local topics = require "softworld.prompt.topics"
 
 -- One object of each class, and what it is called in scripts.
 local function objects()

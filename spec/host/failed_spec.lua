@@ -106,7 +106,7 @@ describe("frames of a run that failed", function()
 end)
 
 describe("what to try next", function()
-  local advice = require "softworld.advice"
+  local advice = require "softworld.run.advice"
   local cases = {
     { "wire 'w' is torn apart", { integrator = "rk4" }, "scene:stable_dt()" },
     { "no convergence in 30 iterations", { dt = 0.02 }, "dt = 5 ms" },

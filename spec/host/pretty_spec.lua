@@ -2,8 +2,8 @@
 -- How the prompt shows values, and which names it offers.
 
 package.path = "lua/?.lua;lua/?/init.lua;" .. package.path
-local pretty = require "softworld.pretty"
-local repl = require "softworld.repl"
+local pretty = require "softworld.prompt.pretty"
+local repl = require "softworld.prompt.repl"
 
 describe("pretty()", function()
   it("shows plain values as print does", function()

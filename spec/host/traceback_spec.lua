@@ -12,7 +12,7 @@ local function errors(text, options)
 end
 
 -- A call that fails inside a file of the library.
-local LIBRARY = "local pretty = require 'softworld.pretty'\n"
+local LIBRARY = "local pretty = require 'softworld.prompt.pretty'\n"
 local FAILING = "pretty({}, { width = {} })"
 
 describe("an error", function()
@@ -51,8 +51,8 @@ describe("an error", function()
 
   it("shows everything when asked", function()
     local text = errors(LIBRARY .. FAILING, { before = "SOFTWORLD_TRACEBACK=full" })
-    assert.matches("/softworld/pretty.lua:%d+: .*\nstack traceback:\n", text)
-    assert.matches("traceback:\n.*/softworld/pretty.lua:.*%[C%]: in %?", text)
+    assert.matches("/softworld/prompt/pretty.lua:%d+: .*\nstack traceback:\n", text)
+    assert.matches("traceback:\n.*/softworld/prompt/pretty.lua:.*%[C%]: in %?", text)
   end)
 
   it("may be any value", function()

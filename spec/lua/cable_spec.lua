@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 local sw = require "softworld"
-local bendrule = require "softworld.bendrule"
-local stranding = require "softworld.stranding"
+local bendrule = require "softworld.wire.bendrule"
+local stranding = require "softworld.wire.stranding"
 
 local units = { outer_diameter = "m", mass_per_length = "kg/m", EA = "N", EI = "N m2", GJ = "N m2",
   friction = "-" }

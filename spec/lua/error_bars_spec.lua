@@ -2,7 +2,7 @@
 -- Asking for error bars: names, answers, refusals, and a scene that is never left half done.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
-local trust = require "softworld.trust"
+local trust = require "softworld.run.trust"
 local program = require "spec.host.program"
 local t = require "spec.physics.tools"
 local core = sw.core

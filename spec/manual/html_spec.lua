@@ -4,7 +4,7 @@ local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec/manual"
 local program = dofile(here .. "/../host/program.lua")
 local lfs = require "lfs"
 local manual = require "softworld.manual"
-local topics = require "softworld.topics"
+local topics = require "softworld.prompt.topics"
 
 describe("make manual", function()
   local folder, pages

@@ -6,7 +6,7 @@ local lfs = require "lfs"
 local sw = require "softworld"
 local manual = require "softworld.manual"
 local text_of = require "softworld.manual.text"
-local topics = require "softworld.topics"
+local topics = require "softworld.prompt.topics"
 
 local FOLDER = "lua/softworld/manual/"
 local read = program.read

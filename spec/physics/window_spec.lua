@@ -3,7 +3,7 @@
 -- and edges get shorter, and that the raw ones are told beside them.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
-local window = require "softworld.window"
+local window = require "softworld.run.window"
 local t = require "spec.physics.tools"
 
 local W, G = 0.01, 9.81

@@ -3,7 +3,7 @@
 -- own limit.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
-local bench = require "softworld.bench"
+local bench = require "bench.rows"
 local samples = require "contract.samples"
 local t = require "spec.physics.tools"
 

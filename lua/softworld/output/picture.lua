@@ -311,7 +311,7 @@ local function check(run, options)
 end
 
 --- One moment, or several side by side, in a file.
--- @tparam table run as softworld.runfiles makes it for pictures: `range(quantity)` gives least and largest
+-- @tparam table run as softworld.run.files makes it for pictures: `range(quantity)` gives least and largest
 -- @tparam table options path, technique, colour, range, camera, thickness, times or count, columns, width,
 -- height, caption, captions
 -- @treturn table `path, width, height [px], thickness, note`; with a colour `low, high`

@@ -112,7 +112,7 @@ end
 
 --- Draw curves.
 -- @tparam table o `curves`: { name, unit, x, y, error, style, of_run, what }; path, title, xlabel,
--- ylabel, log, size, see softworld.plot
+-- ylabel, log, size, see softworld.run.plot
 -- @treturn string the path, or the drawing
 function plot.draw(o)
   local log = { x = (o.log or ""):find "x" ~= nil, y = (o.log or ""):find "y" ~= nil }

@@ -3,7 +3,7 @@
 -- sources. Frames go from the core into the page as bytes, see csrc/film/film.h.
 -- @module softworld.output.report
 local core = require "softworld.core"
-local build = require "softworld.build"
+local build = require "softworld.scene.build"
 local json = require "softworld.output.json"
 local number = require "softworld.output.number"
 local sink = require "softworld.output.sink"
@@ -240,7 +240,7 @@ function report.live(title, data)
 end
 
 --- Write runs into one page.
--- @tparam {table,...} runs as softworld.runfiles describes them for it
+-- @tparam {table,...} runs as softworld.run.files describes them for it
 -- @tparam string path ending in .html
 -- @tparam[opt] table options title
 -- @treturn string the path

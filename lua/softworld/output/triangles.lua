@@ -89,7 +89,7 @@ end
 local kinds = { obj = obj, stl = stl }
 
 --- Write the frame of a run that is nearest to a time.
--- @tparam table run as softworld.runfiles makes it for exchange, of the wanted frame
+-- @tparam table run as softworld.run.files makes it for exchange, of the wanted frame
 -- @tparam string path ending in .obj or .stl
 -- @tparam string kind "obj" or "stl"
 -- @tparam table options thickness, t

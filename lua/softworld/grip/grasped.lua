@@ -1,0 +1,42 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Do the pads press on the wire that was to be grasped, or on another one?
+-- @module softworld.grip.grasped
+local grasped = {}
+
+-- Normal forces on each wire [N per finger], and the names of those that were not meant, the largest first.
+local function pressed(self)
+  local on, others, fingers, count, meant = {}, {}, {}, 0, { [self.wire.name] = true }
+  for _, grip in ipairs(self.grips) do meant[grip.wire.name] = true end
+  for _, touch in ipairs(self.tool:touches()) do
+    local name = touch.wire_name
+    if not on[name] and not meant[name] then others[#others + 1] = name end
+    on[name] = (on[name] or 0) + touch.normal
+    if not fingers[touch.finger] then fingers[touch.finger], count = true, count + 1 end
+  end
+  for name, force in pairs(on) do on[name] = force / count end
+  table.sort(others, function(a, b)
+    if on[a] ~= on[b] then return on[a] > on[b] end
+    return a < b
+  end)
+  return on, others
+end
+
+--- Once the pads press: nil when all is well; else the trouble as a text, and true when the wire that was
+-- meant is not between the pads at all. An event of the run tells it.
+function grasped.check(self)
+  if not self.wire then return nil end
+  local on, others = pressed(self)
+  if #others == 0 then return nil end
+  local missed = not on[self.wire.name]
+  local list = {}
+  for i, name in ipairs(others) do list[i] = ("'%s' (%.3g N)"):format(name, on[name]) end
+  local text = missed
+    and ("gripper '%s' presses on wire %s, not on wire '%s', which it was to grasp"):format(self.name,
+      table.concat(list, ", "), self.wire.name)
+    or ("gripper '%s' presses on wire %s besides wire '%s', which it was to grasp"):format(self.name,
+      table.concat(list, ", "), self.wire.name)
+  self.scene:tell{ kind = "grasp", object = self.name, value = on[others[1]], text = text }
+  return text, missed
+end
+
+return grasped

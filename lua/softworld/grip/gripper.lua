@@ -1,0 +1,377 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Grippers. Three ways to take hold of a wire: "imposed", where the wire between the pads is one
+-- with the gripper and follows its trajectory; "plates", where rigid pads squeeze it and carry it
+-- by friction; "mixed", which squeezes it for real and then carries it as imposed.
+--
+--     local left = scene:gripper{ name = "left", pads = { width = 0.02, friction = 0.6 } }
+--     scene:process(function(p)
+--       left:grasp(wire, { s = 0.02, approach = "plates", force = 5 })
+--       left:move{ by = {0.3, 0, 0}, speed = 0.2 }
+--       left:release()
+--     end)
+--     scene:run()
+--     print(left.peak_force, left.mean_moment)
+--
+-- Forces and moments are those of the gripper on the wire, moments about the
+-- tool centre (the held point) unless another point is named [N], [N m].
+-- @module softworld.grip.gripper
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
+local grasp = require "softworld.grip.grasp"
+local gripmoves = require "softworld.grip.moves"
+local keep = require "softworld.scene.keep"
+local measures = require "softworld.grip.measures"
+local pads = require "softworld.grip.pads"
+local process = require "softworld.run.process"
+local remarks = require "softworld.remarks"
+local rows = require "softworld.rows"
+local sealed = require "softworld.sealed"
+local trajectory = require "softworld.trajectory"
+local vec = require "softworld.vec"
+
+local Gripper = { __name = "gripper" }
+keep.class("gripper", Gripper)
+sealed.class(Gripper)
+
+for _, part in ipairs{ grasp, measures, gripmoves } do
+  for name, f in pairs(part.methods) do Gripper[name] = f end
+end
+
+-- Are there real pads, or just how wide an imposed grip is?
+local function has_pads(given)
+  for key in pairs(given or {}) do
+    if key ~= "width" then return true end
+  end
+  return false
+end
+
+local new = rows.call("scene:gripper", "{...}", "takes hold of wires, moves them, lets go", {
+  gives = "a gripper", example = 'scene:gripper { name = "left", pads = { friction = 0.6 } }',
+  { "name", "text", "-", "what messages and series call it", usual = "gripper1, ..." },
+  { "pads", "table", "-", "its fingers", rows = pads.rows },
+  { "at", "vector", "m", "the tool's centre while it holds nothing" },
+  { "rotation", "rotation", "-", "of the tool there: x along the wire, fingers close along y, z up" },
+  { "arm", "table", "-", "a capsule that goes up from the pads", rows = pads.arm_rows },
+  { "slip_tolerance", "number", "m", "slides below this are none", min = 0, above = true, default = 1e-4 },
+  { "on_crash", "reaction", "-",
+    "to pads or arm that run into an obstacle: one of these, or a function(gripper, event)",
+    choices = grasp.reactions, usual = "record" },
+})
+
+-- What a gripper keeps that a snapshot does not know.
+local lasting = { scene = true, name = true, pads = true, width = true, arm = true, first_at = true,
+  solid = true, slip_tolerance = true }
+
+local function make(scene, args)
+  local a = new:read(args == nil and {} or args)
+  local data = build.data(scene)
+  local given = pads.check(a.pads or {}, "scene:gripper: pads")
+  local self = sealed.new(Gripper)
+  self.scene = scene
+  self.name = build.name(scene, a.name, "gripper", #data.grippers, 0)
+  self.pads, self.width = given, given.width
+  remarks.on("pads", ("gripper '%s': pads"):format(self.name), a.pads or {})
+  self.at, self.rotation, self.arm, self.on_crash = a.at, a.rotation, a.arm or false, a.on_crash
+  self.slip_tolerance = a.slip_tolerance
+  self.past, self.spans = {}, {} -- clamps of all grasps, and { from =, to = [s] } of each
+  self.grips = {} -- what is held: { wire =, hold = }
+  self.first_at = a.at or false
+  self.solid = a.arm ~= nil or a.on_crash ~= nil or has_pads(args and args.pads) -- also while empty
+  self.events = {} -- what happened: { kind =, time =, s =, ... }
+  data.grippers[#data.grippers + 1] = self
+  return self
+end
+
+--- scene:gripper{ ... }: see help "scene:gripper".
+function core.class.scene.gripper(scene, args)
+  build.check(scene, "scene:gripper", 3)
+  return (build.call(3, make, scene, args))
+end
+
+--- A snapshot from before it was made is restored.
+function Gripper:leave()
+  local own = sealed.fields(self)
+  for key in pairs(own) do
+    if not lasting[key] then own[key] = nil end
+  end
+  own.grips, own.past, own.spans, own.events, own.gone = {}, {}, {}, {}, true
+end
+
+-- Raise unless the gripper can be moved. Makes nothing yet, for the arguments may be wrong.
+local function check_place(self, verb)
+  if getmetatable(self) ~= Gripper then
+    error(("gripper:%s is a method: call it with a colon"):format(verb), 3)
+  end
+  process.guard("gripper:" .. verb)
+  grasp.check_scene(self, 4)
+  if self.hold or self.tool or self.carrier or self.at or self.rotation then return end
+  error(("gripper '%s' holds nothing; grasp a wire before you %s, or give the place where it is when "
+    .. "you make it: at = {x, y, z} [m]"):format(self.name, verb), 3)
+end
+
+-- The thing that moves: tool or hold; nil when there is none yet.
+local function moved(self)
+  if self.hold and not self.tool then return self.carrier or self.hold end
+  return self.tool or self.carrier
+end
+
+-- The thing that moves; a new tool at the gripper's place when there is none yet.
+local function make_moved(self)
+  if moved(self) then return moved(self) end
+  if self.solid then grasp.make_tool(self, 4) else build.call(4, grasp.make_carrier, self) end
+  return moved(self)
+end
+
+local function pose_of(self)
+  local held, at = moved(self), self.at or { 0, 0, 0 }
+  if held then return held:pose() end
+  return { at[1], at[2], at[3] }, self.rotation or not self.solid and self.facing or { 1, 0, 0, 0 }
+end
+
+local move_keys = { path = true, points = true, to = true, by = true, rotation = true, scale = true }
+
+-- The trajectory's table for a move from the present pose.
+local function move_table(self, args)
+  local t = {}
+  for k, v in pairs(args) do
+    if not move_keys[k] and k ~= "on_slip" then t[k] = v end
+  end
+  local here, facing = pose_of(self)
+  here.rotation = facing
+  local points = args.points or args.path
+  if type(points) == "string" then points = trajectory.read(points, args.scale) end
+  if args.rotation ~= nil and args.to == nil then
+    error("gripper:move: rotation goes with to; way-points have their own", 3)
+  end
+  if args.to then
+    local to = args.to
+    to.rotation = args.rotation
+    points = { here, to }
+  elseif args.by then
+    points, t.relative = { { 0, 0, 0 }, args.by }, true
+  elseif not points and t.turn then
+    points, t.relative = { { 0, 0, 0 }, { 0, 0, 0 } }, true
+  elseif type(points) == "table" and type(points[1]) == "table" and not t.relative then
+    local first = points[1]
+    local x, y, z = first.x or first[1], first.y or first[2], first.z or first[3]
+    local numbers = type(x) == "number" and type(y) == "number" and type(z) == "number"
+    local gap = numbers and ((x - here[1]) ^ 2 + (y - here[2]) ^ 2 + (z - here[3]) ^ 2) ^ 0.5 or 0
+    if gap > 1e-9 and not (first.t or t.times) then
+      points = table.move(points, 1, #points, 2, { here }) -- the caller's stays as it is
+    end
+  end
+  t.points = points
+  return t
+end
+
+-- The trajectory of a move; errors name the move.
+local function motion_of(args)
+  local fine, result = pcall(core.trajectory, args)
+  if fine then return result end
+  if type(result) ~= "string" then error(result, 0) end
+  error((build.plain(result):gsub("^trajectory: ", "gripper:move: ", 1)), 0)
+end
+
+local move = rows.call("gripper:move", "{...}", "moves the tool; in a process it returns when that is done", {
+  gives = "the gripper", also = "trajectory", example = "hand:move { by = { 0, 0, 0.1 }, speed = 0.2 }",
+  { "by", "vector", "m", "way to go" },
+  { "to", "vector", "m", "place to go to" },
+  { "rotation", "rotation", "-", "of the tool at `to`" },
+  { "points", "list", "m", "way-points {x, y, z}, with times t or rotations where wanted" },
+  { "path", "file or list", "-", "CSV file of way-points, or the way-points" },
+  { "scale", "number", "m", "unit of the file's lengths that name none", min = 0, above = true },
+  { "turn", "table", "-", "turn about the tool's centre, on the way or in place", rows = rows.list{
+    { "axis", "vector", "-", "of the turn" }, { "angle", "number", "rad", "of the turn" } } },
+  grasp.on_slip_row,
+})
+
+--- Move the tool, see help "gripper:move".
+function Gripper:move(args)
+  check_place(self, "move")
+  args = move:read(args)
+  if not (args.path or args.points or args.to or args.by or args.turn) then
+    error(("gripper '%s': move where? give path, points, to, by or turn"):format(self.name), 2)
+  end
+  local motion = build.call(3, motion_of, move_table(self, args))
+  remarks.on("move", ("gripper '%s': move"):format(self.name), args)
+  local held = make_moved(self)
+  if args.on_slip ~= nil then grasp.set_on_slip(self, args.on_slip, 3) end
+  local duration = build.call(3, held.follow, held, motion)
+  self.busy_until = self.scene.time + duration
+  local p = process.current()
+  if p then process.sleep_until(p, self.scene.time + duration) end
+  return self
+end
+
+local rotate = rows.call("gripper:rotate", "{...}", "turns the tool about its centre, as gripper:move", {
+  gives = "the gripper",
+  { "axis", "vector", "-", "of the turn", required = true },
+  { "angle", "number", "rad", "of the turn", required = true },
+  { "duration", "number", "s", "of the turn" },
+  { "angular_speed", "number", "rad/s", "instead of a duration" },
+  { "angular_acceleration", "number", "rad/s2", "of law = 'trapezoidal'" },
+  { "speed", "number", "m/s", "as of gripper:move" },
+  { "acceleration", "number", "m/s2", "as of gripper:move" },
+  { "law", "text", "-", "as of gripper:move" },
+  { "blend", "number", "m", "as of gripper:move" },
+  { "stop", "boolean", "-", "as of gripper:move" },
+  { "on_slip", "reaction", "-", "as of gripper:move", choices = grasp.reactions },
+})
+
+--- Turn the tool, see help "gripper:rotate".
+function Gripper:rotate(args)
+  rotate:read(args)
+  local t = {}
+  for k, v in pairs(args) do t[k] = v end
+  t.turn, t.axis, t.angle = { axis = args.axis, angle = args.angle }, nil, nil
+  return self:move(t)
+end
+
+local press = rows.call("gripper:press", "{...}", "goes on until the wire pushes back; in a process only", {
+  gives = "force reached [N], way gone [m], whether it was the force wanted",
+  { "force", "number", "N", "push of the wire at which it stops", min = 0, above = true, required = true },
+  { "direction", "vector", "-", "of the way", default = { 0, 0, -1 } },
+  { "speed", "number", "m/s", "on the way", min = 0, above = true, default = 0.02 },
+  { "distance", "number", "m", "longest way", min = 0, above = true, default = 0.1 },
+})
+
+--- Press on the wire, see help "gripper:press".
+function Gripper:press(args)
+  check_place(self, "press")
+  args = press:read(args)
+  local p = process.current()
+  if not p then error("gripper:press works inside a process only", 2) end
+  local force, speed, most, way = args.force, args.speed, args.distance, vec.unit(args.direction)
+  if not way then error("gripper:press: direction must not be zero", 2) end
+  local function pushed() -- the gripper pushes the wire along its way
+    local f = self:force()
+    return f[1] * way[1] + f[2] * way[2] + f[3] * way[3]
+  end
+  local held = make_moved(self)
+  local from, start = held:pose(), pushed()
+  held:follow{ points = { { 0, 0, 0 }, { most * way[1], most * way[2], most * way[3] } },
+    relative = true, speed = speed, law = "linear" }
+  local done = p:wait_until(function() return pushed() - start >= force end,
+    { timeout = most / speed })
+  held:follow(nil)
+  local at, gone = held:pose(), 0
+  for k = 1, 3 do gone = gone + (at[k] - from[k]) * way[k] end
+  return pushed() - start, gone, done
+end
+
+rows.calls{ { "gripper:position", "", "the tool's centre, or where it will be", "{x, y, z} [m], or nil" } }
+
+--- Let go, see help "gripper:release".
+function Gripper:release(args)
+  if getmetatable(self) ~= Gripper then
+    error("gripper:release is a method: call it with a colon", 2)
+  end
+  grasp.check_scene(self, 3)
+  if not self.wire then
+    error(("gripper '%s' holds nothing; grasp a wire before you release"):format(self.name), 2)
+  end
+  return grasp.release(self, args)
+end
+
+function Gripper:position()
+  local carrier = self.tool or self.carrier
+  if carrier then return (carrier:pose()) end
+  return self.hold and (self.hold:pose()) or self.at
+end
+
+local shortcuts = { peak_force = true, mean_force = true, peak_moment = true, mean_moment = true,
+  impulse = true }
+
+-- Fields that may be nil.
+local fields = {}
+for _, key in ipairs{ "gone", "wires", "hold", "at", "rotation", "tool", "wire", "way", "frozen", "on_slip",
+  "opening", "order", "obstacles", "held", "unchecked", "s", "free_height", "margin", "segments",
+  "mesh_model", "rod_model", "slip_event", "crash_time", "on_crash", "carrier", "facing",
+  "busy_until" } do
+  fields[key] = true
+end
+
+function Gripper:__index(key)
+  local own = rawget(sealed.fields(self), key)
+  if own ~= nil then return own end
+  if shortcuts[key] then return self:over()[key] end
+  if key == "wires" then -- that it holds
+    local list = {}
+    for i, grip in ipairs(self.grips) do list[i] = grip.wire end
+    return list
+  end
+  local value = Gripper[key]
+  if value ~= nil or fields[key] then return value end
+  local names = {}
+  for name in pairs(Gripper) do names[#names + 1] = name end
+  for name in pairs(shortcuts) do names[#names + 1] = name end
+  local near = core.nearest(checks.shown(key), names)
+  error(("gripper has no '%s'%s"):format(checks.shown(key),
+    near and ("; did you mean '" .. near .. "'?")
+      or "; help 'gripper' at the prompt lists what it has"), 2)
+end
+
+-- Fields that scripts may set, each with its check.
+local settable = {
+  slip_tolerance = function(value) checks.number("gripper.slip_tolerance", value, 0, " m", 4, nil, true) end,
+  on_slip = function(value) grasp.check_reaction("gripper.on_slip", value, 4) end,
+  on_crash = function(value) grasp.check_reaction("gripper.on_crash", value, 4) end,
+  events = function(value)
+    if type(value) == "table" then return end
+    error("gripper.events: a table is wanted, as {} to forget them, got " .. type(value), 4)
+  end,
+}
+
+function Gripper:__newindex(key, value)
+  if not sealed.by_library() then
+    local check = settable[key]
+    if not check then
+      local near = core.nearest(checks.shown(key), { "slip_tolerance", "on_slip", "on_crash", "events" })
+      error(("gripper has no '%s' to set%s"):format(checks.shown(key),
+        near and ("; did you mean '%s'?"):format(near) or "; what it is like is given to scene:gripper"), 2)
+    end
+    if value ~= nil then check(value) end
+  end
+  rawset(sealed.fields(self), key, value)
+end
+
+rows.calls{
+  { "gripper.name", nil, "by which messages and series call it" },
+  { "gripper.width", nil, "of the pads along the wire", "m" },
+  { "gripper.wire", nil, "that it holds, the first of several", "a wire, or nil" },
+  { "gripper.wires", nil, "all that it holds", "a list" },
+  { "gripper.events", nil, "what happened; may be set to {}",
+    "{ kind = 'slip', 'lost', 'crash', ..., time [s] }, ..." },
+  { "gripper.slip_tolerance", nil, "see scene:gripper; may be set", "m" },
+  { "gripper.on_slip", nil, "see gripper:grasp; may be set" },
+  { "gripper.on_crash", nil, "see scene:gripper; may be set" },
+}
+
+for name, value in pairs(Gripper) do
+  if type(value) == "function" and name:sub(1, 2) ~= "__" then
+    Gripper[name] = build.placed(value)
+  end
+end
+
+--- Names of methods and measures, for completion at the prompt.
+function Gripper.__names()
+  local names = { "name", "width", "events", "wire", "wires" }
+  for name in pairs(Gripper) do
+    if name:sub(1, 2) ~= "__" and name ~= "leave" then
+      names[#names + 1] = name
+    end
+  end
+  for name in pairs(shortcuts) do names[#names + 1] = name end
+  return names
+end
+
+function Gripper:__tostring()
+  local doing = "open"
+  local names = {}
+  for i, grip in ipairs(self.grips) do names[i] = ("'%s'"):format(grip.wire.name) end
+  if #names > 0 then doing = ("holding %s, %s"):format(table.concat(names, " and "), self.way) end
+  return ("gripper '%s' (%s)"):format(self.name, doing)
+end
+
+return Gripper

@@ -1,0 +1,331 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Measurements of grippers: force and moment now and over time, pressure on the pads, squeeze, slip.
+-- @module softworld.grip.measures
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
+local rows = require "softworld.rows"
+local vec = require "softworld.vec"
+local window = require "softworld.run.window"
+
+local Measures = {}
+
+local function in_axes(self, v, axes)
+  if axes == nil or axes == "world" then return v end
+  local held = self.tool or self.hold and (self.carrier or self.hold)
+  if not held then return v end
+  local _, q = held:pose()
+  return vec.rotate(vec.conjugate(q), v)
+end
+
+-- The hold of one of several wires.
+local function grip_of(self, wire, what)
+  for _, grip in ipairs(self.grips) do
+    if grip.wire == wire then return grip end
+  end
+  error(("%s: gripper '%s' does not hold %s"):format(what, self.name,
+    core.type(wire) == "wire" and ("wire '%s'"):format(wire.name) or "this: wire must be a wire"), 3)
+end
+
+-- Force and moment about a point (nil: the centre) by the pads on one of several wires.
+local function pads_on(self, wire, at, finger)
+  local force, moment = { 0, 0, 0 }, { 0, 0, 0 }
+  local centre, q = self.tool:pose()
+  local _, slot = core.number(wire)
+  for _, touch in ipairs(self.tool:touches()) do
+    if touch.wire == slot and (finger == nil or finger == touch.finger) then
+      local f = vec.rotate(q, touch.force)
+      local arm = vec.rotate(q, touch.at)
+      if at then arm = vec.add(arm, vec.sub(centre, at)) end
+      force, moment = vec.add(force, f), vec.add(moment, vec.cross(arm, f))
+    end
+  end
+  return force, moment
+end
+
+-- The carriers of the wires: the pads, or the holds of all wires.
+local function carrier_of(self) return self.tool or self.hold and self.carrier or nil end
+
+local axes = { "axes", "choice", "-", "of the result", choices = { "world", "gripper" }, usual = "world" }
+local finger = { "finger", "integer", "-", "of this one alone", min = 1, max = 6, usual = "all" }
+local one_wire = { "wire", "wire", "-", "on this one of several", usual = "all" }
+
+local force = rows.call("gripper:force", "{...}", "of the gripper on its wires, or zero", {
+  gives = "{x, y, z} [N]", axes, finger, one_wire })
+local moment = rows.call("gripper:moment", "{...}", "of the gripper on its wires now", {
+  gives = "{x, y, z} [N m]",
+  { "at", "vector", "m", "point that it is about", usual = "the tool's centre" }, axes, finger, one_wire })
+
+--- Force on the wire now, of several on all of them.
+function Measures:force(args)
+  args = force:read(args or {})
+  local f, carrier = { 0, 0, 0 }, carrier_of(self)
+  if args.wire ~= nil then
+    local grip = grip_of(self, args.wire, "gripper:force")
+    f = grip.hold and grip.hold:force() or #self.grips == 1 and self.tool:force(args.finger)
+      or pads_on(self, args.wire, nil, args.finger)
+  elseif carrier then f = carrier:force(args.finger)
+  elseif self.hold then f = self.hold:force() end
+  return in_axes(self, f, args.axes)
+end
+
+--- Moment on the wire now.
+function Measures:moment(args)
+  args = moment:read(args or {})
+  local m, carrier = { 0, 0, 0 }, carrier_of(self)
+  if args.wire ~= nil then
+    local grip = grip_of(self, args.wire, "gripper:moment")
+    if grip.hold then m = grip.hold:moment{ at = args.at or self:position() }
+    elseif #self.grips == 1 then m = self.tool:moment(args.at, args.finger)
+    else m = select(2, pads_on(self, args.wire, args.at, args.finger)) end
+  elseif carrier then m = carrier:moment(args.at, args.finger)
+  elseif self.hold then m = self.hold:moment(args.at and { at = args.at } or nil) end
+  return in_axes(self, m, args.axes)
+end
+
+-- While it held something by this carrier.
+local function carried_at(self, t)
+  for _, span in ipairs(self.spans) do
+    if span.carried and t >= span.carried and (not span.to or t <= span.to) then return true end
+  end
+  return false
+end
+
+-- Every recorded step: t, span, force, moment; of a tool also opening, squeeze, margin, slip. span:
+-- above 0 the time up to t that the force is the mean of, below 0 that of the step at whose end it
+-- is the force, 0 at an equilibrium.
+local function records(self)
+  local list = {}
+  local function add(log, count, spans, wanted, jaws)
+    local width = spans and 10 or 15
+    for i = 0, count - 1 do
+      local b = width * i
+      if not wanted or wanted(log[b + 1]) then
+        list[#list + 1] = { t = log[b + 1], log[b + 2], log[b + 3], log[b + 4], log[b + 5],
+          log[b + 6], log[b + 7], at = { log[b + 8], log[b + 9], log[b + 10] },
+          span = spans and spans[i + 1] or log[b + 11],
+          opening = jaws and log[b + 12] or nil, squeeze = jaws and log[b + 13] or nil,
+          margin = jaws and log[b + 14] or nil, slip = jaws and log[b + 15] or nil }
+      end
+    end
+  end
+  for i, hold in ipairs(self.past) do
+    local carried = self.spans[i].carried
+    local log, count, spans = build.call(3, hold.log, hold)
+    add(log, count, spans, carried and function(t) return t < carried end)
+  end
+  if self.carrier then
+    local log, count = build.call(3, self.carrier.log, self.carrier)
+    add(log, count, nil, function(t) return carried_at(self, t) end)
+  end
+  if self.tool then
+    local log, count = build.call(3, self.tool.log, self.tool)
+    add(log, count, nil, nil, true)
+  end
+  if #self.past > 1 or self.tool and #self.past > 0 then
+    table.sort(list, function(a, b) return a.t < b.t end)
+  end
+  return list
+end
+
+local function norm(r, first) return (r[first] ^ 2 + r[first + 1] ^ 2 + r[first + 2] ^ 2) ^ 0.5 end
+
+-- Did a gripper without pads hold nothing at this time?
+local function is_gap(self, t)
+  if self.tool then return false end
+  for _, span in ipairs(self.spans) do
+    if t >= span.from and (not span.to or t <= span.to) then return false end
+  end
+  return true
+end
+
+-- Moment of a row about a fixed point.
+local function moment_about(r, at)
+  if not at then return { r[4], r[5], r[6] } end
+  return vec.add({ r[4], r[5], r[6] }, vec.cross(vec.sub(r.at, at), { r[1], r[2], r[3] }))
+end
+
+local over = rows.call("gripper:over", "t1, t2, {...}",
+  "what it bore between two times [s], which may be left out", {
+  gives = "peak_force, mean_force [N], peak_moment, mean_moment [N m], impulse, impulse_size [N s], "
+    .. "duration, times of the peaks [s]; raw_peak_force, ... of single steps; of pads peak_squeeze [N], "
+    .. "peak_margin, slip [m]",
+  { "window", "number", "s", "of the mean whose peak is looked for", min = 0, usual = "that of the run" },
+  { "at", "vector", "m", "point that moments are about", usual = "the tool's centre" },
+})
+
+-- The third argument of gripper:over: a point, or a table of options.
+local function over_options(options)
+  if options == nil then return {} end
+  if type(options) ~= "table" or options[1] ~= nil or options.x ~= nil then
+    return { at = checks.vector("gripper:over: at", options, "m", 0) }
+  end
+  return over:read(options)
+end
+
+-- Integrate force and moment from t1 to t2: means of steps times their duration, values of a moment by
+-- trapezoids; of the step after a mean, whose start is not known, the end counts for all of it.
+local function add_up(self, m, list, t1, t2)
+  local force_time, moment_time, before = 0, 0, nil
+  local function add(h, r)
+    m.duration = m.duration + h
+    force_time, moment_time = force_time + h * norm(r, 1), moment_time + h * vec.norm(r.moment)
+    for k = 1, 3 do m.impulse[k] = m.impulse[k] + h * r[k] end
+  end
+  for _, r in ipairs(list) do
+    if r.span > 0 then
+      local h = math.min(r.t, t2) - math.max(r.t - r.span, t1)
+      if h > 0 then add(h, r) end
+      before = r.t >= t1 and r.t <= t2 and r or nil
+    elseif r.t >= t1 and r.t <= t2 then
+      if before and not is_gap(self, 0.5 * (before.t + r.t)) then
+        local share = before.span > 0 and 0 or 0.5
+        add(share * (r.t - before.t), before)
+        add((1 - share) * (r.t - before.t), r)
+      end
+      before = r
+    end
+  end
+  m.mean_force = m.duration > 0 and force_time / m.duration or m.raw_peak_force
+  m.mean_moment = m.duration > 0 and moment_time / m.duration or m.raw_peak_moment
+  m.impulse_size = vec.norm(m.impulse)
+end
+
+--- Measures over [t1, t2] [s]: a table with peak_force, mean_force [N],
+-- peak_moment, mean_moment [N m], impulse (vector), impulse_size [N s] and the times of the
+-- peaks. Means are over the time in which it holds something, of the magnitudes. Peaks are of means
+-- over a window of time, and beside them raw_peak_force, raw_peak_moment of single steps; see help
+-- "peaks". Moments are about the tool centre. options: { window = [s], at = point [m] that moments are
+-- about }, or that point.
+-- Of pads also peak_squeeze [N], peak_margin, slip [m].
+function Measures:over(t1, t2, options)
+  t1, t2, options = t1 or -math.huge, t2 or math.huge, over_options(options)
+  for name, time in pairs{ t1 = t1, t2 = t2 } do
+    if type(time) ~= "number" then
+      error(("gripper:over: %s must be a time [s], got %s"):format(name, type(time)), 2)
+    end
+  end
+  local width = window.of(self.scene, options.window, "gripper:over", 3)
+  local m = { impulse = { 0, 0, 0 }, duration = 0, window = width }
+  local list, forces, moments, last = records(self), {}, {}, -math.huge
+  for _, r in ipairs(list) do
+    r.moment = moment_about(r, options.at)
+    if r.t >= t1 and r.t <= t2 then
+      local t0 = math.max(r.t - math.abs(r.span), math.min(last, r.t))
+      forces[#forces + 1] = { t0 = t0, t1 = r.t, r[1], r[2], r[3] }
+      moments[#moments + 1] = { t0 = t0, t1 = r.t, table.unpack(r.moment) }
+      last = r.t
+      if r.squeeze then
+        m.peak_squeeze = math.max(m.peak_squeeze or 0, r.squeeze)
+        m.peak_margin, m.slip = math.max(m.peak_margin or 0, r.margin), r.slip
+      end
+    end
+  end
+  window.fill(m, "peak_force", window.peak(forces, width), "N")
+  window.fill(m, "peak_moment", window.peak(moments, width), "N m")
+  add_up(self, m, list, t1, t2)
+  return m
+end
+
+--- Series: { t =, force = {{x, y, z}, ...}, moment = } and, of pads, opening, squeeze, margin, slip.
+function Measures:series()
+  local s = { t = {}, force = {}, moment = {} }
+  for i, r in ipairs(records(self)) do
+    s.t[i], s.force[i], s.moment[i] = r.t, { r[1], r[2], r[3] }, { r[4], r[5], r[6] }
+    for _, key in ipairs{ "opening", "squeeze", "margin", "slip" } do
+      if self.tool then
+        s[key] = s[key] or {}
+        s[key][i] = r[key] or 0 / 0
+      end
+    end
+  end
+  return s
+end
+
+local function needs_tool(self, verb)
+  if self.tool then return self.tool end
+  error(("gripper '%s' has no pads yet, so no %s: grasp with approach = 'plates' or 'mixed'")
+    :format(self.name, verb), 3)
+end
+
+--- What the pads do: a table with jaws ("rests", "moves", "holds", "stopped", "empty"), opening
+-- [m], squeeze (force per finger [N]), normal (sum over pads [N]), margin (|friction| over what
+-- the normal forces allow; of a frozen grip force and moment over what its touches could balance
+-- [-]), sliding (share of the normal force that slides [-]), slip [m] with its vector slipped in
+-- the tool's axes, and, once it exceeds the gripper's slip_tolerance, slip_time [s] and slip_place
+-- (arc length [m]).
+function Measures:state()
+  local now = needs_tool(self, "state"):state()
+  if self.frozen then
+    for _, key in ipairs{ "squeeze", "normal", "most", "opening" } do now[key] = self.frozen[key] end
+    now.jaws = "holds"
+  end
+  return now
+end
+
+--- How far the wire is squeezed at the pads: height from pad to pad and width across that [m], and
+-- the share of the height that is missing [-].
+function Measures:squeeze()
+  needs_tool(self, "squeeze")
+  local state = self:state()
+  if not self.wire then error(("gripper '%s' holds nothing"):format(self.name), 2) end
+  local d, result = 2 * self.wire.radius
+  if self.frozen then
+    result = { height = self.frozen.section.height, width = self.frozen.section.width }
+  elseif self.wire.model ~= "rod" and self.wire.model ~= "string" then
+    local _, q = self.tool:pose()
+    result = { height = self.wire:width(state.place, vec.rotate(q, { 0, 1, 0 })),
+      width = self.wire:width(state.place, vec.rotate(q, { 0, 0, 1 })) }
+  else
+    result = { height = math.min(d, state.opening), width = d }
+  end
+  result.share = 1 - result.height / (self.free_height or d)
+  return result
+end
+
+rows.calls{
+  { "gripper:series", "", "every recorded step",
+    "t [s], force, moment; of pads opening, squeeze, margin, slip" },
+  { "gripper:state", "", "what the pads do", "jaws, opening [m], squeeze, normal [N], margin, sliding [-], "
+    .. "slip [m], slip_time [s], slip_place, place [m]" },
+  { "gripper:squeeze", "", "how far the wire is squeezed", "height, width [m], share [-]" },
+  { "gripper.peak_force", nil, "over all of its time, see gripper:over", "N" },
+  { "gripper.mean_force", nil, "over all of its time", "N" },
+  { "gripper.peak_moment", nil, "over all of its time", "N m" },
+  { "gripper.mean_moment", nil, "over all of its time", "N m" },
+  { "gripper.impulse", nil, "over all of its time", "{x, y, z} [N s]" },
+}
+
+local pressure = rows.call("gripper:pressure_map", "{...}", "where the pads press", {
+  gives = "{ finger, x, z [m], pressure [Pa] }, ... with largest [Pa], force [N], touches",
+  { "cell", "list", "m", "size along and across", usual = "an eighth of the width" },
+})
+
+--- Where the pads press: a map of the mean pressure [Pa] over cells of the pads,
+-- { { finger =, x =, z =, pressure = }, ... } in the tool's axes [m], with
+-- .largest, .force (sum of normal forces [N]) and .touches, the single places with { finger, at
+-- (in the tool's axes), normal [N], force, s, slid [m] }. Options: cell = { along, across } [m].
+function Measures:pressure_map(args)
+  local cell = pressure:read(args or {}).cell or { self.width / 8, self.width / 8 }
+  for k = 1, 2 do
+    checks.number("gripper:pressure_map: cell", type(cell) == "table" and cell[k], 0, " m", 3, nil, true)
+  end
+  local touches, cells, map = needs_tool(self, "pressure map"):touches(), {}, { largest = 0, force = 0 }
+  for _, touch in ipairs(touches) do
+    local i, j = touch.at[1] // cell[1], touch.at[3] // cell[2]
+    local key = ("%d %d %d"):format(touch.finger, i, j)
+    local entry = cells[key]
+    if not entry then
+      entry = { finger = touch.finger, x = (i + 0.5) * cell[1], z = (j + 0.5) * cell[2], pressure = 0 }
+      cells[key] = entry
+      map[#map + 1] = entry
+    end
+    entry.pressure = entry.pressure + touch.normal / (cell[1] * cell[2])
+    map.largest = math.max(map.largest, entry.pressure)
+    map.force = map.force + touch.normal
+  end
+  map.touches = touches
+  return map
+end
+
+return { methods = Measures, records = records }

@@ -1,0 +1,104 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- The mixed grasp: near the pads the wire becomes a mesh, the pads squeeze it for real, and once nothing
+-- moves there any more it is carried on as a rod which the gripper holds rigidly, at the cost of one. When
+-- the load comes near to the most that the pads could bear, or the gripper opens, the mesh takes over
+-- again as it was.
+-- @module softworld.grip.mixed
+local build = require "softworld.scene.build"
+local process = require "softworld.run.process"
+
+local mixed = {}
+
+local mesh_words = { "section", "spacing", "particles", "layers", "across", "model" }
+local BESIDE = 6 -- the mesh reaches so many radii beyond the pads, unless region says else [-]
+local LIMIT = 0.9 -- margin, forces and moments together, at which the pads take over again [-]
+local STEADY = 0.005 -- change of the force in TIME that counts as none, of the force [-]
+local TIME = 0.02 -- [s]
+local PATIENCE = 2 -- steady or not, a grasp is not frozen later than this [s]
+
+local function note(self, kind, report)
+  self.events[#self.events + 1] = { kind = kind, time = self.scene.time, s = self.s,
+    energy = report.energy_after - report.energy_before, before = report.before,
+    after = report.after, force = report.force, moment = report.moment }
+end
+
+--- Make the wire a mesh around the pads.
+function mixed.prepare(self, args)
+  local wire, how = self.wire, {}
+  for _, word in ipairs(mesh_words) do how[word] = args[word] end
+  how.model = how.model or "radial"
+  how.body, how.section = how.section or "solid", nil
+  if how.model == "tube" or how.model == "composite" then how.body = args.section end
+  self.mesh_model, self.rod_model = how.model, wire.model
+  if wire.model ~= "rod" and wire.model ~= "string" then return end -- it is a mesh already
+  local half = self.width / 2 + BESIDE * wire.radius
+  if args.region ~= nil then
+    half = args.region / 2
+  end
+  how.region = { math.max(0, self.s - half), math.min(wire.length, self.s + half) }
+  how.segments = wire.segments
+  self.segments = wire.segments
+  build.call(4, wire.remodel, wire, how)
+end
+
+--- Wait until the squeeze has come to rest, then freeze.
+function mixed.settle(self, args)
+  local p = process.current()
+  self.margin = args.margin or LIMIT
+  local last, since, quiet = self.tool:state(), self.scene.time, 0
+  local late = since + PATIENCE
+  p:wait_until(function()
+    if not self.tool or not self.wire then -- let go by another process, or a snapshot was restored
+      error(("gripper '%s': it let go while its grasp was to come to rest"):format(self.name), 0)
+    end
+    local now, t = self.tool:state(), self.scene.time
+    if t - since < TIME then return t >= late end
+    local f = math.max(now.squeeze, 1e-12)
+    local steady = math.abs(now.squeeze - last.squeeze) < STEADY * f
+      and math.abs(now.margin - last.margin) < STEADY and now.slip - last.slip < 1e-6
+    quiet = steady and quiet + 1 or 0
+    last, since = now, t
+    return quiet >= 2 or t >= late
+  end)
+  mixed.freeze(self)
+end
+
+--- Hold the wire rigidly as the pads hold it now; see grasp{ freeze = false }.
+function mixed.freeze(self)
+  if not self.tool or not self.wire or self.way ~= "mixed" then
+    error(("gripper '%s': only a mixed grasp can be frozen"):format(self.name), 2)
+  end
+  if self.frozen then return self end
+  local state, squeeze = self.tool:state(), self:squeeze()
+  local report = build.call(3, self.tool.freeze, self.tool, self.wire)
+  self.frozen = { squeeze = state.squeeze, normal = state.normal, most = state.most,
+    opening = state.opening, section = squeeze, s1 = report.s1, s2 = report.s2 }
+  self.tool:limit(self.margin or LIMIT)
+  note(self, "frozen", report)
+  return self
+end
+
+--- Back to the pads and the mesh between them.
+function mixed.thaw(self)
+  if not self.frozen then return self end
+  local report = build.call(3, self.tool.thaw, self.tool)
+  self.frozen = nil
+  note(self, "thawed", report)
+  return self
+end
+
+--- A frozen grip that the pads could not give any more goes back to them.
+function mixed.lose(self, state)
+  mixed.thaw(self)
+  self.events[#self.events].margin = state.margin
+end
+
+--- The jaws are open: the mesh near the pads becomes the rod that it was.
+function mixed.finish(self)
+  local rod = self.rod_model == "rod" or self.rod_model == "string"
+  if rod and self.wire.model == self.mesh_model then
+    build.call(4, self.wire.remodel, self.wire, { model = self.rod_model, segments = self.segments })
+  end
+end
+
+return mixed

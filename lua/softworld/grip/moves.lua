@@ -1,0 +1,130 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Moves of grippers around a grasp: waiting, approaching and retreating.
+-- @module softworld.grip.moves
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
+local grasp = require "softworld.grip.grasp"
+local process = require "softworld.run.process"
+local rows = require "softworld.rows"
+local sealed = require "softworld.sealed"
+local vec = require "softworld.vec"
+
+local Moves = {}
+
+local SPEED, SLOW = 0.2, 0.05 -- unless told [m/s]
+local DISTANCE = 0.05 -- [m]
+
+local function this_process(self, verb)
+  if type(self) ~= "table" or not rawget(sealed.fields(self), "pads") then
+    error(("gripper:%s is a method: call it with a colon"):format(verb), 3)
+  end
+  grasp.check_scene(self, 4)
+  local p = process.current()
+  if not p then error(("gripper:%s takes its time; call it in a process"):format(verb), 3) end
+  return p
+end
+
+--- Stay for a time [s].
+function Moves:wait(seconds)
+  local p = this_process(self, "wait")
+  checks.number("gripper:wait: seconds", seconds, 0, " s", 3)
+  process.sleep_until(p, self.scene.time + seconds)
+  return self
+end
+
+rows.calls{ { "gripper:wait", "seconds", "lets time pass [s]; in a process only", "the gripper" } }
+
+local function direction_of(what, value)
+  return vec.unit(value) or error(what .. ": direction must not be zero", 0)
+end
+
+local come = rows.call("gripper:approach", "place, {...}", "goes to a wire or point, slowly at last", {
+  gives = "the gripper",
+  { "s", "number", "m", "place along the wire", min = 0, usual = "nearest to the tool" },
+  { "distance", "number", "m", "last way, along direction", min = 0, default = DISTANCE },
+  { "direction", "vector", "-", "of the last way", default = { 0, 0, -1 } },
+  { "speed", "number", "m/s", "before", min = 0, above = true, default = SPEED },
+  { "slow", "number", "m/s", "on the last way", min = 0, above = true, usual = SLOW },
+})
+
+-- The point to go to: itself, or a wire's place.
+local function target(self, what, args, level)
+  if core.type(what) ~= "wire" then
+    return checks.vector("gripper:approach: where, a wire or a point,", what, "m", level + 1)
+  end
+  local s = args.s
+  if s == nil then
+    local at = self:position()
+    if not at then
+      error(("gripper '%s': give s [m], the place of the wire to approach"):format(self.name), level)
+    end
+    s = grasp.nearest_place(what, at)
+  end
+  return what:position(checks.number("gripper:approach: s", s, 0, " m", level + 1, what.length))
+end
+
+--- Go to a place of a wire or a point, see help "gripper:approach". One that is nowhere yet begins before it.
+function Moves:approach(where, args)
+  this_process(self, "approach")
+  args = come:read(args == nil and {} or args)
+  local way, distance, speed = direction_of("gripper:approach", args.direction), args.distance, args.speed
+  local slow = args.slow or math.min(SLOW, speed)
+  local goal = target(self, where, args, 3)
+  local before = vec.add(goal, way, -distance)
+  local here = self:position()
+  if not here then
+    self.at, here = before, before
+    self.first_at = self.first_at or before
+  end
+  if vec.norm(vec.sub(before, here)) > 1e-9 then self:move{ to = before, speed = speed } end
+  if distance > 1e-9 then self:move{ to = goal, speed = slow } end
+  return self
+end
+
+local go = rows.call("gripper:retreat", "{...}", "goes away from where it is", {
+  gives = "the gripper",
+  { "distance", "number", "m", "of the way", min = 0, above = true, default = DISTANCE },
+  { "direction", "vector", "-", "of the way", default = { 0, 0, 1 } },
+  { "speed", "number", "m/s", "on the way", min = 0, above = true, default = SPEED },
+})
+
+--- Go away, see help "gripper:retreat".
+function Moves:retreat(args)
+  args = go:read(args == nil and {} or args)
+  local way = direction_of("gripper:retreat", args.direction)
+  return build.call(3, self.move, self, { by = vec.scale(way, args.distance), speed = args.speed })
+end
+
+--- Move the tool's centre to a point: move_to({x, y, z}, { speed =, rotation =, ... }).
+function Moves:move_to(point, args)
+  local t = {}
+  if args ~= nil and type(args) ~= "table" then
+    error("gripper:move_to takes a point and a table of parameters", 2)
+  end
+  for k, v in pairs(args or {}) do t[k] = v end
+  t.to = point
+  return self:move(t)
+end
+
+rows.calls{
+  { "gripper:move_to", "point, {...}", "moves to a point [m], as gripper:move", "the gripper" },
+  { "gripper:handover", "gripper, {...}", "the other one grasps, see gripper:grasp, then this lets go",
+    "the other gripper" },
+}
+
+--- Hand the wire over to another gripper, which takes hold with args (see grasp), then let go.
+function Moves:handover(other, args)
+  if getmetatable(other) ~= getmetatable(self) then
+    error("gripper:handover expects the gripper that takes over", 2)
+  end
+  if not self.wire then error(("gripper '%s' holds nothing to hand over"):format(self.name), 2) end
+  if other == self then error(("gripper '%s' cannot hand over to itself"):format(self.name), 2) end
+  local wires = {}
+  for i, grip in ipairs(self.grips) do wires[i] = grip.wire end
+  build.call(3, other.grasp, other, #wires == 1 and wires[1] or wires, args)
+  build.call(3, self.release, self)
+  return other
+end
+
+return { methods = Moves }

@@ -1,0 +1,155 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Pads of grippers: rigid fingers in the tool's axes. x is along the wire, fingers close along
+-- y (more than two: around x), z is up; the opening is between the faces of facing fingers.
+-- @module softworld.grip.pads
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local meshfile = require "softworld.meshfile"
+local rows = require "softworld.rows"
+local vec = require "softworld.vec"
+
+local pads = {}
+local turn = vec.turn
+local X = { 1, 0, 0 }
+
+-- Parts of one finger that opens towards +y: shape, with its place at an opening of zero.
+local makers = {}
+
+--- A plate: width along the wire, height, thickness.
+function makers.flat(p)
+  return { { shape = "box", size = { p.width, p.thickness, p.height },
+    at = { 0, p.thickness / 2, p.height / 2 - p.below } } }
+end
+
+--- A groove along the wire between two plates at an angle; the opening is between the bottoms.
+function makers.v(p)
+  local parts, lean = {}, math.pi / 2 - p.angle / 2
+  for _, side in ipairs{ -1, 1 } do
+    local q = turn(X, side * lean) -- the plate's outward normal is -y turned by this
+    local along, out = vec.rotate(q, { 0, 0, side }), vec.rotate(q, { 0, 1, 0 })
+    local at = vec.add(vec.scale(along, p.height / 2), out, p.thickness / 2)
+    parts[#parts + 1] = { shape = "box", size = { p.width, p.thickness, p.height }, at = at,
+      rotation = q }
+  end
+  return parts
+end
+
+--- A pin across the wire.
+function makers.round(p)
+  return { { shape = "cylinder", radius = p.radius, length = p.height,
+    at = { 0, p.radius, p.height / 2 - p.below } } }
+end
+
+--- A finger from a mesh file; its own axes are the tool's, for the finger at +y.
+function makers.mesh(p)
+  local mesh = meshfile.read(p.file)
+  return { { shape = "mesh", data = mesh.data, format = mesh.format, scale = p.scale,
+    at = { 0, 0, 0 } } }
+end
+
+pads.kinds = makers
+
+local MOST = 1e3 -- longer ones are no obstacles that the core makes [m]
+
+--- What can be said of pads.
+pads.rows = rows.list{
+  { "shape", "choice", "-", "of a finger", choices = { "flat", "mesh", "round", "v" }, default = "flat" },
+  { "fingers", "integer", "-", "how many close on the wire", min = 1, max = 6, default = 2 },
+  { "width", "number", "m", "along the wire", min = 0, max = MOST, default = 0.02 },
+  { "height", "number", "m", "across the wire", min = 0, max = MOST, above = true,
+    usual = "0.02; of v twice the wire's radius" },
+  { "thickness", "number", "m", "of flat and v", min = 0, max = MOST, above = true, default = 0.008 },
+  { "below", "number", "m", "how far fingers reach below the tool's centre", min = 0, max = MOST,
+    usual = "half of height, or 0.9 of the wire's radius" },
+  { "opening", "number", "m", "between facing fingers while open", min = 0, max = MOST, above = true,
+    usual = "4 times the wire's radius" },
+  { "radius", "number", "m", "of round ones", min = 0, max = MOST, above = true, default = 0.004 },
+  { "angle", "number", "rad", "of v, between its sides", min = 0, max = math.pi, above = true,
+    default = 2 * math.pi / 3 },
+  { "file", "text", "-", "mesh file of a finger, in the tool's axes, for the one at +y" },
+  { "scale", "number", "-", "of the mesh file's lengths", min = 0, above = true, default = 1 },
+  { "friction", "numbers", "-", "on the wire; a list has one for each finger", min = 0, max = 100,
+    default = 0.5 },
+  { "kinetic_friction", "numbers", "-", "while it slides; a list has one for each finger", min = 0,
+    max = 100, usual = "friction" },
+  { "restitution", "number", "-", "share of speed kept after a blow", min = 0, max = 1, default = 0 },
+}
+
+--- What can be said of an arm.
+pads.arm_rows = rows.list{
+  { "radius", "number", "m", "of the capsule", min = 0, max = MOST, above = true, required = true },
+  { "length", "number", "m", "upwards from the fingers", min = 0, max = MOST, above = true, required = true },
+}
+
+--- The description of pads with defaults filled in; raises for impossible ones. Errors have no place.
+function pads.check(args, what)
+  local p = pads.rows:read(args, what, what .. ".")
+  for _, key in ipairs{ "friction", "kinetic_friction" } do -- may be lists, one for each finger
+    if type(p[key]) == "table" and #p[key] ~= p.fingers then
+      error(("%s.%s has %d values; it must have one, or one for each of %d fingers"):format(what, key,
+        #p[key], p.fingers), 0)
+    end
+  end
+  if (p.shape == "mesh") ~= (args.file ~= nil) then
+    error(("%s: file goes with shape = 'mesh'"):format(what), 0)
+  end
+  if p.file ~= nil then -- what is wrong with it is told now, not when the pads are needed
+    local fine, why = pcall(function()
+      local mesh = meshfile.read(p.file)
+      core.shape{ shape = "mesh", data = mesh.data, format = mesh.format, scale = p.scale }
+    end)
+    if not fine then error(("%s: %s"):format(what, meshfile.named(build.plain(why), p.file)), 0) end
+  end
+  return p
+end
+
+-- A capsule that goes up from the fingers.
+local function add_arm(scene, tool, name, arm, at, q, base)
+  local middle = { 0, 0, base + arm.radius + arm.length / 2 }
+  local obstacle = scene:obstacle{ name = name .. ".arm", shape = "capsule", radius = arm.radius,
+    length = arm.length, at = vec.add(at, vec.rotate(q, middle)), rotation = q, friction = 0.3 }
+  tool:pad(obstacle, 0, { 0, 0, 0 })
+  return obstacle
+end
+
+--- Make a gripper's tool and fingers in the scene, open, at a pose. Returns the tool and what its
+-- obstacles are.
+function pads.make(scene, gripper, at, rotation, radius)
+  local name, p = gripper.name, gripper.pads
+  radius = radius or 0.005
+  local opening = p.opening or 4 * radius
+  local height = p.height or (p.shape == "v" and 2 * radius or 0.02)
+  local given = { width = p.width, height = height, thickness = p.thickness, radius = p.radius,
+    angle = p.angle, file = p.file, scale = p.scale,
+    below = p.below or math.min(height / 2, 0.9 * radius) }
+  local tool = scene:tool{ name = name, at = at, rotation = rotation, opening = opening }
+  local obstacles, _, q = {}, tool:pose()
+  for finger = 1, p.fingers do
+    local around = turn(X, 2 * math.pi * (finger - 1) / p.fingers)
+    local opens = vec.rotate(around, { 0, 0.5, 0 })
+    for number, part in ipairs(makers[p.shape](given)) do
+      local mirrored = p.fingers == 2 and finger == 2 and p.shape ~= "mesh"
+      local place = mirrored and { part.at[1], -part.at[2], part.at[3] }
+        or vec.rotate(around, part.at)
+      local facing = part.rotation or { 1, 0, 0, 0 }
+      if mirrored then facing = { facing[1], -facing[2], facing[3], -facing[4] }
+      else facing = vec.multiply(around, facing) end
+      part.at = vec.add(at, vec.rotate(q, vec.add(place, opens, opening)))
+      part.rotation = vec.multiply(q, facing)
+      part.friction = type(p.friction) == "table" and p.friction[finger] or p.friction
+      part.kinetic_friction = type(p.kinetic_friction) == "table" and p.kinetic_friction[finger]
+        or p.kinetic_friction
+      part.restitution = p.restitution
+      part.name = ("%s.finger%d%s"):format(name, finger, number > 1 and "." .. number or "")
+      local obstacle = scene:obstacle(part)
+      tool:pad(obstacle, finger, opens)
+      obstacles[#obstacles + 1] = obstacle
+    end
+  end
+  if gripper.arm then
+    obstacles[#obstacles + 1] = add_arm(scene, tool, name, gripper.arm, at, q, height - given.below)
+  end
+  return tool, obstacles, opening
+end
+
+return pads

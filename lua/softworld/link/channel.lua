@@ -1,0 +1,338 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Channels: troughs along a way, made of obstacles: for each leg a floor and two walls, cut to mitres
+-- where legs meet, and a lid when it is closed.
+--
+--     local duct = scene:channel{ name = "duct", points = { {0, 0, 0}, {0.3, 0, 0}, {0.3, 0.2, 0} },
+--       width = 0.015, depth = 0.012, friction = 0.2 }
+--     print(duct:contains(wire), duct:force()[3])
+--     duct:close()
+--
+-- @module softworld.link.channel
+local checks = require "softworld.checks"
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local fixing = require "softworld.link.fixing"
+local remarks = require "softworld.remarks"
+local rows = require "softworld.rows"
+local sealed = require "softworld.sealed"
+local vec = require "softworld.vec"
+
+local dot, cross, add, unit, norm = vec.dot, vec.cross, vec.add, vec.unit, vec.norm
+
+local properties = {}
+local Channel = fixing.class("channel", properties, { "lids", "count" })
+local SHARPEST = 0.3 -- cosine between a leg and the mitre's normal; below it corners are spikes
+
+local new = rows.call("scene:channel", "{...}", "a trough along points, with mitred corners and a lid", {
+  gives = "a channel",
+  example = "scene:channel { points = { { 0, 0, 0 }, { 0.3, 0, 0 } }, width = 0.015, depth = 0.012 }",
+  { "name", "text", "-", "what messages call it", usual = "channel1, ..." },
+  { "points", "points", "m", "of the middle of its floor, two or more" },
+  { "width", "number", "m", "inside", min = 0, above = true, required = true },
+  { "depth", "number", "m", "inside", min = 0, above = true, required = true },
+  { "thickness", "number", "m", "of floor and walls", min = 0, above = true, default = 0.002 },
+  { "up", "vector", "-", "where it is open", default = { 0, 0, 1 } },
+  { "friction", "number", "-", "on the wire", min = 0, default = 0 },
+  { "restitution", "number", "-", "share of speed kept after a blow", min = 0, max = 1, default = 0 },
+  { "lid", "boolean", "-", "closed from the beginning", usual = "false" },
+})
+
+rows.calls{
+  { "channel:contains", "wire", "share of the wire's length inside, in steps of 1/200", "-" },
+  { "channel:close", "", "puts the lid on; refused while a wire stands out", "the channel" },
+  { "channel:open", "", "takes the lid off", "the channel" },
+  { "channel:force", "", "of all wires on it", "{x, y, z} [N]" },
+  { "channel:release", "", "takes the channel away" },
+  { "channel.name", nil, "by which messages call it" },
+  { "channel:exists", "", "is it there still", "true or false" },
+  { "channel.closed", nil, "is the lid on", "true or false" },
+  { "channel.parts", nil, "what it is made of", "a list of obstacles" },
+}
+
+-- --- geometry ----------------------------------------------------------------------
+
+local function read_points(what, given)
+  if type(given) ~= "table" or #given < 2 then
+    error(what .. ": points is required, a list of at least two {x, y, z} [m]", 0)
+  end
+  local points = {}
+  for i, p in ipairs(given) do points[i] = checks.vector(("%s: points[%d]"):format(what, i), p, "m", 0) end
+  return points
+end
+
+-- Each leg: from, to, along, side (to the left) and up, all unit vectors across each other.
+local function legs_of(what, points, up)
+  local legs = {}
+  for i = 1, #points - 1 do
+    local along = unit(add(points[i + 1], points[i], -1))
+    if not along then error(("%s: points %d and %d are the same"):format(what, i, i + 1), 0) end
+    local side = unit(cross(up, along))
+    if not side or norm(cross(up, along)) < 0.2 then
+      error(("%s: leg %d goes along up; the open side must be across it"):format(what, i), 0)
+    end
+    legs[i] = { from = points[i], to = points[i + 1], along = along, side = side, up = cross(along, side) }
+  end
+  return legs
+end
+
+-- Normals of the planes in which legs meet, and the ends'.
+local function mitres_of(what, legs)
+  local mitres = { legs[1].along }
+  for i = 2, #legs do
+    local normal = unit(add(legs[i - 1].along, legs[i].along))
+    if not normal or dot(normal, legs[i].along) < SHARPEST then
+      error(("%s: legs %d and %d meet at %.0f degrees; the way may turn by up to %.0f there"):format(what,
+        i - 1, i, math.deg(math.acos(math.max(-1, dot(legs[i - 1].along, legs[i].along)))),
+        2 * math.deg(math.acos(SHARPEST))), 0)
+    end
+    mitres[i] = normal
+  end
+  mitres[#legs + 1] = legs[#legs].along
+  return mitres
+end
+
+-- Where the line along the leg that is y to the left and z up meets the mitre at one of its ends.
+local function corner(leg, at, normal, y, z)
+  local offset = add(add({ 0, 0, 0 }, leg.side, y), leg.up, z)
+  return add(add(at, offset), leg.along, -dot(offset, normal) / dot(leg.along, normal))
+end
+
+-- The prism from y1 to y2 and z1 to z2 of a leg as flat points of a hull.
+local function prism(what, self, i, y1, y2, z1, z2)
+  local leg, points = self.legs[i], {}
+  for _, p in ipairs{ { y1, z1 }, { y2, z1 }, { y2, z2 }, { y1, z2 } } do
+    local a = corner(leg, leg.from, self.mitres[i], p[1], p[2])
+    local b = corner(leg, leg.to, self.mitres[i + 1], p[1], p[2])
+    if dot(add(b, a, -1), leg.along) <= 0 then
+      error(("%s: leg %d is too short for the bends at its ends with this width"):format(what, i), 0)
+    end
+    for k = 1, 3 do points[#points + 1] = a[k] end
+    for k = 1, 3 do points[#points + 1] = b[k] end
+  end
+  return points
+end
+
+-- The parts of the trough, each { name, points }.
+local function trough(what, self)
+  local half, t, parts = self.width / 2, self.thickness, {}
+  local list = { { "floor", -half - t, half + t, -t, 0 }, { "left", half, half + t, 0, self.depth },
+    { "right", -half - t, -half, 0, self.depth } }
+  for i = 1, #self.legs do
+    for _, p in ipairs(list) do
+      local points = prism(what, self, i, table.unpack(p, 2))
+      parts[#parts + 1] = { ("%s %s %d"):format(self.name, p[1], i), points }
+    end
+  end
+  return parts
+end
+
+local function lid(what, self)
+  local half, t, parts = self.width / 2 + self.thickness, self.thickness, {}
+  for i = 1, #self.legs do
+    parts[i] = { ("%s lid %d"):format(self.name, i),
+      prism(what, self, i, -half, half, self.depth, self.depth + t) }
+  end
+  return parts
+end
+
+local LID = 0.7 -- transparency in pictures, so that the wire is seen
+
+-- All of them or none.
+local function raise(self, parts, transparency)
+  for _, part in ipairs(parts) do core.shape{ shape = "hull", points = part[2] } end -- before any stands
+  local list, shown = {}, build.data(self.scene).obstacles
+  for i, part in ipairs(parts) do
+    local ok, made = pcall(self.scene.obstacle, self.scene, { name = part[1], shape = "hull",
+      points = part[2], friction = self.friction, restitution = self.restitution })
+    if not ok then
+      for k = i - 1, 1, -1 do list[k]:remove() end
+      error(made, 0)
+    end
+    list[i] = made
+    shown[#shown].transparency = transparency
+  end
+  return list
+end
+
+-- --- making --------------------------------------------------------------------------
+
+local function checked(scene, args)
+  local what
+  args, what = fixing.arguments(scene, new, "channel", args)
+  args.points = read_points(what, args.points)
+  args.up = unit(args.up)
+  if not args.up then error(what .. ": up must not be a zero vector", 0) end
+  return args, what
+end
+
+local function make(scene, given)
+  remarks.on("channel", "scene:channel", given)
+  local args, what = checked(scene, given)
+  local self = { name = args.name, scene = scene, width = args.width, depth = args.depth,
+    thickness = args.thickness, friction = args.friction, restitution = args.restitution }
+  self.legs = legs_of(what, args.points, args.up)
+  self.mitres = mitres_of(what, self.legs)
+  local parts, cover = trough(what, self), lid(what, self)
+  self.parts = raise(self, parts)
+  self.object = self.parts[1]
+  self = sealed.new(Channel, self)
+  if args.lid then
+    local ok, lids = pcall(raise, self, cover, LID)
+    if not ok then
+      self:release()
+      error(lids, 0)
+    end
+    self.lids = lids
+  end
+  fixing.keep(scene, self)
+  return self
+end
+
+--- scene:channel{ points = {{x, y, z}, ...}, width =, depth =, ... }: see help "channel".
+function core.class.scene.channel(scene, args)
+  build.check(scene, "scene:channel", 3)
+  return (build.call(3, make, scene, args))
+end
+
+local function stands(obstacle) return core.exists(obstacle) and obstacle.present end
+
+function Channel:exists() return stands(self.object) end
+
+local function is_closed(self) return self.lids ~= nil and stands(self.lids[1]) end
+
+function properties.closed(self) return is_closed(self) end
+
+local function all_parts(self)
+  local list = table.move(self.parts, 1, #self.parts, 1, {})
+  if is_closed(self) then table.move(self.lids, 1, #self.lids, #list + 1, list) end
+  return list
+end
+
+--- Force of all wires on the channel and its lid [N].
+function Channel:force()
+  fixing.check(self, Channel, "force")
+  local sum = { 0, 0, 0 }
+  for _, part in ipairs(all_parts(self)) do sum = add(sum, (part:force())) end
+  return sum
+end
+
+local moment = rows.call("channel:moment", "{...}", "of all wires on it", {
+  gives = "{x, y, z} [N m]", { "at", "vector", "m", "point that it is about", usual = "its first one" } })
+
+--- Moment of all wires on the channel about a point.
+function Channel:moment(args)
+  fixing.check(self, Channel, "moment")
+  local at = moment:read(args == nil and {} or args).at or self.legs[1].from
+  local sum = { 0, 0, 0 }
+  for _, part in ipairs(all_parts(self)) do
+    sum = add(sum, build.call(3, part.moment, part, { at = at }))
+  end
+  return sum
+end
+
+-- Is the point between the mitres of the leg, the walls, floor and `top`?
+local function within(self, i, p, top)
+  local leg = self.legs[i]
+  if dot(add(p, leg.from, -1), self.mitres[i]) < 0 or dot(add(p, leg.to, -1), self.mitres[i + 1]) > 0 then
+    return false
+  end
+  local d = add(p, leg.from, -1)
+  local z = dot(d, leg.up)
+  return math.abs(dot(d, leg.side)) <= self.width / 2 and z >= 0 and z <= top
+end
+
+local SAMPLES = 200
+
+-- Share of the wire's length whose centre line is within, up to `top`.
+local function share(self, wire, top)
+  local inside = 0
+  for k = 1, SAMPLES do
+    local p = wire:position(wire.length * (k - 0.5) / SAMPLES)
+    for i = 1, #self.legs do
+      if within(self, i, p, top) then
+        inside = inside + 1
+        break
+      end
+    end
+  end
+  return inside / SAMPLES
+end
+
+--- Share of the wire's length whose centre line lies in the channel, in steps of 1/200.
+function Channel:contains(wire)
+  fixing.check(self, Channel, "contains")
+  build.call(3, fixing.wire, self.scene, "channel:contains", "the argument", wire)
+  return share(self, wire, self.depth)
+end
+
+-- Would the lid be put into a wire?
+local function check_lid(self)
+  for _, entry in ipairs(build.data(self.scene).wires) do
+    local wire = entry.object
+    for k = 0, SAMPLES do
+      local p = wire:position(math.min(wire.length, wire.length * k / SAMPLES))
+      for i, leg in ipairs(self.legs) do
+        local top = dot(add(p, leg.from, -1), leg.up) + wire.radius
+        local low = top - 2 * wire.radius
+        if top > self.depth * (1 + 1e-6) + 1e-5 and low < self.depth + self.thickness
+          and within(self, i, add(p, leg.up, -(low + wire.radius)), self.depth) then
+          error(("channel '%s': wire '%s' stands out by %.3g m at s = %.4g m; press it in before the lid "
+            .. "goes on"):format(self.name, entry.name, top - self.depth, wire.length * k / SAMPLES), 0)
+        end
+      end
+    end
+  end
+end
+
+--- Put the lid on. Refused while a wire stands out.
+function Channel:close()
+  fixing.check(self, Channel, "close")
+  build.check(self.scene, "channel:close", 3)
+  if is_closed(self) then return self end
+  build.call(3, check_lid, self)
+  local parts = build.call(3, lid, "channel", self)
+  local count = (self.count or 0) + 1
+  for _, part in ipairs(parts) do
+    if count > 1 then part[1] = ("%s (%d)"):format(part[1], count) end
+  end
+  self.lids, self.count = build.call(3, raise, self, parts, LID), count
+  return self
+end
+
+--- Take the lid off.
+function Channel:open()
+  fixing.check(self, Channel, "open")
+  build.check(self.scene, "channel:open", 3)
+  for _, part in ipairs(is_closed(self) and self.lids or {}) do part:remove() end
+  return self
+end
+
+--- Take the channel away.
+function Channel:release()
+  fixing.check(self, Channel, "release")
+  build.check(self.scene, "channel:release", 3)
+  for _, part in ipairs(all_parts(self)) do part:remove() end
+end
+
+--- Rows of a run's summary.
+function Channel:report(add_row)
+  if type(add_row) ~= "function" then
+    error("channel:report: a function that adds a row is wanted, got " .. type(add_row), 2)
+  end
+  for _, entry in ipairs(build.data(self.scene).wires) do
+    if core.exists(entry.object) then
+      local part = share(self, entry.object, self.depth)
+      if part > 0 then
+        add_row(("%s: share of '%s' in it"):format(self.name, entry.name), part, "")
+      end
+    end
+  end
+end
+
+function Channel:__tostring()
+  if not self:exists() then return ("channel '%s' (released)"):format(self.name) end
+  return ("channel '%s' of %d legs, %.4g m wide, %.4g m deep%s"):format(self.name, #self.legs, self.width,
+    self.depth, is_closed(self) and ", closed" or "")
+end
+
+return Channel

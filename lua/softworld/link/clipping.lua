@@ -1,0 +1,151 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- gripper:clip: press the wire that a gripper holds through the mouth of a clip.
+-- @module softworld.link.clipping
+local build = require "softworld.scene.build"
+local process = require "softworld.run.process"
+local rows = require "softworld.rows"
+local checks = require "softworld.checks"
+local vec = require "softworld.vec"
+local Clip = require "softworld.link.clip"
+local Gripper = require "softworld.grip.gripper"
+
+local into = rows.call("gripper:clip", "{...}", "presses its wire into a clip; in a process only", {
+  gives = "force of the gripper, peak_force of the lips [N], s [m], duration [s]",
+  example = "hand:clip { into = clip, speed = 0.1, max_force = 40 }",
+  { "into", "clip", "-", "that the wire goes into", required = true },
+  { "speed", "number", "m/s", "into the mouth", min = 0, above = true, default = 0.02 },
+  { "approach_speed", "number", "m/s", "before, over the mouth", min = 0, above = true, default = 0.1 },
+  { "align", "boolean", "-", "line up over the mouth before", usual = "true" },
+  { "max_force", "number", "N", "beyond it an error says what was reached", min = 0, above = true,
+    usual = "5 times insertion" },
+  { "overtravel", "number", "m", "beyond the seat", min = 0, usual = "the wire's radius" },
+  { "fail", "boolean", "-", "false: returns nil and why where it does not go in", usual = "true" },
+})
+local STEPS = 20 -- looks at the force on the way over the lips
+local USUAL_LIMIT = 5 -- of the insertion force
+
+local function checked(self, args)
+  if getmetatable(self) ~= Gripper then error("gripper:clip is a method: call it with a colon", 0) end
+  checks.keys(into.name, args, into.known, 0)
+  local what = ("gripper '%s': clip"):format(self.name)
+  if getmetatable(args.into) ~= Clip or args.into.scene ~= self.scene or not args.into:exists() then
+    error(what .. ": into is required, a clip of the gripper's scene that is still there", 0)
+  end
+  if not (self.hold or self.wire) then -- imposed, or between pads
+    error(what .. ": it holds nothing; grasp a wire before", 0)
+  end
+  if not process.current() then
+    error(what .. ": works inside a process only, as it watches the force on the way", 0)
+  end
+  args = into:read(args, what)
+  args.max_force = args.max_force or USUAL_LIMIT * args.into.insertion
+  return args, what
+end
+
+-- How far the tool is over the seat, towards the mouth [m].
+local function place(self, clip)
+  return vec.dot(vec.add(self:position(), clip.at, -1), clip.direction)
+end
+
+-- Where the wire that is nearest to the seat passes the clip: height, offset across [m], its
+-- radius and the lips' height for it [m]. nil when none does.
+local function passing(clip)
+  local best, across = nil, vec.cross(clip.direction, clip.axis)
+  local function look(wire, a, b, along_a, along_b)
+    local d = vec.add(a, vec.add(b, a, -1), along_a / (along_a - along_b))
+    local u, v = vec.dot(d, clip.direction), vec.dot(d, across)
+    if not best or u * u + v * v < best.u ^ 2 + best.v ^ 2 then best = { u = u, v = v, wire = wire } end
+  end
+  for _, entry in ipairs(build.data(clip.scene).wires) do
+    local x = (clip.on == nil or clip.on == entry.object) and entry.object:positions() or {}
+    local last, before
+    for i = 1, #x, 3 do
+      local d = vec.add({ x[i], x[i + 1], x[i + 2] }, clip.at, -1)
+      local along = vec.dot(d, clip.axis)
+      if last and (along > 0) ~= (before > 0) then look(entry.object, last, d, before, along) end
+      last, before = d, along
+    end
+  end
+  if not best then return nil end
+  return best.u, best.v, best.wire.radius, clip.object:read(best.wire).way
+end
+
+local LINED_UP = 0.02 -- offset of the wire over the mouth that is good enough, of its radius
+local ROUNDS = 3
+
+-- Over the mouth, first upwards, then across until the wire there is over it.
+local function line_up(self, clip, args, what)
+  local tool = place(self, clip)
+  local u, _, radius, way = passing(clip)
+  if not u then
+    error(("%s: no wire passes '%s'; move the one that it holds over its mouth before"):format(what,
+      clip.name), 0)
+  end
+  if math.min(u, tool) < 0.5 * way then
+    error(("%s: the wire is %.4g m over the seat of '%s' and the tool %.4g m, below the lips at %.4g m; "
+      .. "move it over the mouth before"):format(what, u, clip.name, tool, way), 0)
+  end
+  if args.align == false then return way, radius end
+  local function go(direction, by)
+    self:move{ by = vec.add({ 0, 0, 0 }, direction, by), speed = args.approach_speed }
+  end
+  if u < way + radius then go(clip.direction, way + radius - u) end
+  for _ = 1, ROUNDS do
+    local _, v = passing(clip)
+    if not v or math.abs(v) < LINED_UP * radius then break end
+    go(vec.cross(clip.axis, clip.direction), v)
+  end
+  return way, radius
+end
+
+-- Returns the largest force of the gripper towards the seat, and why it did not go in.
+local function press(self, clip, args, way, radius)
+  local goal = -(args.overtravel or radius)
+  local most, u = 0, place(self, clip)
+  while not clip:seated() do
+    local step = math.min(way / STEPS, u - goal)
+    if step < 1e-9 then
+      return most, ("the tool went %.4g m beyond the seat with at most %.4g N, and the wire did not go in "
+        .. "beside it; hold it nearer to the clip, or give more overtravel"):format(-goal, most)
+    end
+    self:move{ by = vec.add({ 0, 0, 0 }, clip.direction, -step), speed = args.speed, law = "linear" }
+    u = place(self, clip)
+    most = math.max(most, -vec.dot(self:force(), clip.direction))
+    if most > args.max_force and not clip:seated() then
+      return most, ("%.4g N was reached, above max_force = %.4g N, with the tool %.4g m over the seat; the "
+        .. "lips had given %.4g N"):format(most, args.max_force, u, clip.peak_insertion_force)
+    end
+  end
+  return most
+end
+
+local function run(self, given)
+  local args, what = checked(self, given)
+  local clip = args.into
+  if clip:seated() then
+    error(("%s: '%s' already has wire '%s'"):format(what, clip.name, clip.wire.name), 0)
+  end
+  local way, radius = line_up(self, clip, args, what)
+  local begun = self.scene.time
+  local most, why = press(self, clip, args, way, radius)
+  if why and args.fail == false then return nil, why end
+  if why then error(("%s: wire not in '%s': %s"):format(what, clip.name, why), 0) end
+  return { clip = clip, force = most, duration = self.scene.time - begun,
+    peak_force = clip.peak_insertion_force, s = clip.inserted and clip.inserted.s }
+end
+
+--- Press the wire into a clip: { into = clip, speed = [m/s], max_force = [N], overtravel = [m] }.
+-- The tool lines up over the mouth (align = false: it does not), goes towards the seat until the
+-- wire snaps in, and stays there. Returns { force = largest of the gripper [N], peak_force = largest of
+-- the lips [N], s = [m], duration = [s] }; where it does not go in it stops and raises an error that
+-- says which force was reached, or with fail = false returns nil and that.
+function Gripper.clip(self, args)
+  -- not by build.call: the process sleeps on the way
+  local result = table.pack(pcall(run, self, args))
+  if result[1] then return table.unpack(result, 2, result.n) end
+  local message = result[2]
+  if type(message) ~= "string" or message:find "^[^\n]-:%d+: " then error(message, 0) end
+  error(message, 2)
+end
+
+return Gripper

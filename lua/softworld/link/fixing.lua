@@ -1,0 +1,118 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Shared by clips, ties and channels: checks of arguments, and the scene's list of such things, by which
+-- runs tell of them and pictures show them.
+-- @module softworld.link.fixing
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
+local keep = require "softworld.scene.keep"
+local sealed = require "softworld.sealed"
+
+local fixing = {}
+
+--- The parameters of a new thing by its rows, and what messages call it. Errors have no place yet: call
+-- from build.call.
+function fixing.arguments(scene, call, kind, args)
+  checks.keys(call.name, args, call.known, 0)
+  local name = fixing.name(scene, call.name, args.name, kind)
+  local what = ("%s '%s'"):format(kind, name)
+  local copy = call:read(args, what)
+  copy.name = name
+  return copy, what
+end
+
+--- A wire of the scene, or an error.
+function fixing.wire(scene, what, name, value)
+  if core.type(value) ~= "wire" then
+    error(("%s: %s must be a wire, got %s"):format(what, name, core.type(value) or type(value)), 0)
+  end
+  for _, entry in ipairs(build.data(scene).wires) do
+    if entry.object == value then return value end
+  end
+  error(("%s: %s is a wire of another scene"):format(what, name), 0)
+end
+
+--- The name to use, see build.name; errors have no place yet.
+function fixing.name(scene, what, given, kind)
+  if given ~= nil and (type(given) ~= "string" or given == "" or #given > 40) then
+    error(("%s: name must be a string of 1 to 40 characters, got %s"):format(what, checks.got(given)), 0)
+  end
+  local ok, name = pcall(build.name, scene, given, kind, #build.data(scene).fixings, 0)
+  if not ok then error(name, 0) end
+  return name
+end
+
+--- Note it in the scene's list. It has name, object (what it is in the core), exists(), and
+-- report(add) for the summary.
+function fixing.keep(scene, it)
+  local list = build.data(scene).fixings
+  list[#list + 1] = { fixing = it, object = it.object, name = it.name }
+end
+
+--- Those that there are.
+function fixing.all(scene)
+  local list = {}
+  for _, entry in ipairs(build.data(scene).fixings) do
+    if entry.fixing:exists() then list[#list + 1] = entry.fixing end
+  end
+  return list
+end
+
+--- A class whose objects answer methods, then properties (functions of the object), and
+-- name the nearest word for a typo. `own` lists fields that may be nil.
+function fixing.class(kind, properties, own)
+  local class = { __name = kind }
+  local known = {}
+  for _, name in ipairs(own or {}) do known[name] = true end
+  sealed.class(class)
+  function class.__index(self, key)
+    local field = rawget(sealed.fields(self), key)
+    if field ~= nil then return field end
+    if properties[key] then return build.call(3, properties[key], self) end
+    local value = class[key]
+    if value ~= nil or known[key] then return value end
+    local names = class.__names()
+    local near = core.nearest(checks.shown(key), names)
+    error(("%s has no '%s'; %s"):format(kind, checks.shown(key), near and "did you mean '" .. near .. "'?"
+      or "it has: " .. table.concat(names, " ")), 2)
+  end
+  function class.__newindex(self, key, value)
+    if not sealed.by_library() then
+      local near = core.nearest(checks.shown(key), class.__names())
+      error(("%s has no '%s' to set%s"):format(kind, checks.shown(key),
+        near and ("; '%s' can only be read"):format(near)
+          or "; what it is like is given when it is made"), 2)
+    end
+    rawset(sealed.fields(self), key, value)
+  end
+  function class.__names()
+    local names = { "name" }
+    for _, list in ipairs{ class, properties } do
+      for name in pairs(list) do
+        if name:sub(1, 2) ~= "__" then names[#names + 1] = name end
+      end
+    end
+    table.sort(names)
+    return names
+  end
+  keep.class(kind, class)
+  local meta = { __index = { solids = function() return {} end } } -- pictures show obstacles only
+  function meta.__newindex(_, name, value) -- errors of methods have a place
+    local method = type(value) == "function" and name:sub(1, 2) ~= "__"
+    rawset(class, name, method and build.placed(value) or value)
+  end
+  return setmetatable(class, meta)
+end
+
+--- Raise unless self is of the class and its scene still knows it.
+function fixing.check(self, class, verb)
+  if getmetatable(self) ~= class then
+    error(("%s:%s is a method: call it with a colon"):format(class.__name, verb), 3)
+  end
+  if not self:exists() then
+    error(("%s '%s' was released, or taken back when a snapshot was restored"):format(class.__name,
+      self.name), 3)
+  end
+end
+
+return fixing

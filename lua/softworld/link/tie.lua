@@ -1,0 +1,170 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Ties: from now on a place of a wire is kept at a fixed point, or two wires at each other, up to a
+-- slack, and until they are pulled harder than the tie bears.
+--
+--     local tie = scene:tie(wire, { s = 0.3, to = { 0.3, 0, 0.05 }, strength = 80 })
+--     local pair = scene:tie(wire, { s = 0.5, to = { other, s = 0.5 } })
+--     print(tie:tension(), pair.peak_force, tie.broken and tie.broken.time)
+--
+-- In the core it is the force `tether`, or a join with slack.
+-- @module softworld.link.tie
+local checks = require "softworld.checks"
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local fixing = require "softworld.link.fixing"
+local remarks = require "softworld.remarks"
+local rows = require "softworld.rows"
+local sealed = require "softworld.sealed"
+local vec = require "softworld.vec"
+
+local properties = {}
+local Tie = fixing.class("tie", properties, { "other" })
+local STIFFNESS = 1e5 -- of a nylon tie round a few millimetres [N/m]
+
+local new = rows.call("scene:tie", "wire, {...}", "keeps a place of a wire at a point or at another wire", {
+  gives = "a tie", example = "scene:tie(wire, { s = 0.5, to = { 0, 0, 0.1 }, strength = 80 })",
+  { "name", "text", "-", "what messages call it", usual = "tie1, ..." },
+  { "s", "number", "m", "place along the wire", min = 0, required = true },
+  { "to", "point or { wire, s = }", "m", "what it is tied to, another one a rod or string",
+    usual = "where it is now" },
+  { "slack", "number", "m", "distance up to which it does not pull", min = 0, usual = "the present one" },
+  { "stiffness", "number", "N/m", "beyond the slack", min = 0, above = true, default = STIFFNESS },
+  { "strength", "number", "N", "pull at which it breaks", min = 0, above = true, usual = "never" },
+})
+local other_end = rows.list{
+  { 1, "wire", "-", "the other one" },
+  { "s", "number", "m", "place along it", min = 0, required = true },
+}
+
+rows.calls{
+  { "tie:tension", "", "its pull now; 0 while it is slack or broken", "N" },
+  { "tie:distance", "", "of the tied places", "m" },
+  { "tie:force", "", "on the wire that was tied", "{x, y, z} [N]" },
+  { "tie:release", "", "cuts it" },
+  { "tie.name", nil, "by which messages call it" },
+  { "tie:exists", "", "is it there still", "true or false" },
+  { "tie.peak_force", nil, "largest pull so far", "N" },
+  { "tie.broken", nil, "how it broke", "nil, or time [s], force [N]" },
+}
+
+local function place(what, wire, s, whose)
+  if s > wire.length * (1 + 1e-12) then
+    error(("%s: %ss = %.6g m is beyond the end of wire '%s' at %.6g m"):format(what, whose, s, wire.name,
+      wire.length), 0)
+  end
+  return wire:position(math.min(s, wire.length))
+end
+
+-- to = { wire, s = }: the wire, s and where that is.
+local function other_wire(scene, what, to)
+  other_end:read(to, what .. ": to", what .. ": to.")
+  local other = fixing.wire(scene, what, "to[1]", to[1])
+  return other, to.s, place(what, other, to.s, "to.")
+end
+
+local function checked(scene, wire, args)
+  local what
+  args, what = fixing.arguments(scene, new, "tie", args)
+  fixing.wire(scene, what, "the first argument", wire)
+  local here = place(what, wire, args.s, "")
+  local there
+  if type(args.to) == "table" and (type(args.to[1]) == "userdata" or args.to.s ~= nil) then
+    args.other, args.other_s, there = other_wire(scene, what, args.to)
+  else
+    args.to = checks.vector(what .. ": to", args.to == nil and here or args.to, "m", 0)
+    there = args.to
+  end
+  args.slack = args.slack or vec.norm(vec.add(here, there, -1))
+  return args
+end
+
+local function make(scene, wire, given)
+  remarks.on("tie", "scene:tie", given)
+  local a = checked(scene, wire, given)
+  local self = { name = a.name, scene = scene, wire = wire, s = a.s, other = a.other }
+  if a.other then
+    self.object = scene:join{ ends = { { wire, s = a.s }, { a.other, s = a.other_s } }, slack = a.slack,
+      stiffness = a.stiffness, strength = a.strength, name = a.name }
+  else
+    self.object = scene:force{ kind = "tether", on = wire, s = a.s, to = a.to, slack = a.slack,
+      stiffness = a.stiffness, strength = a.strength }
+  end
+  self = sealed.new(Tie, self)
+  fixing.keep(scene, self)
+  return self
+end
+
+--- scene:tie(wire, { s =, to = {x, y, z} or { wire, s = }, slack =, strength = }): see help "tie".
+function core.class.scene.tie(scene, wire, args)
+  build.check(scene, "scene:tie", 3)
+  return (build.call(3, make, scene, wire, args))
+end
+
+function Tie:exists() return core.exists(self.object) and self.object.held end
+
+local function reading(self)
+  if self.other then return self.object:read() end
+  return self.object:read(self.wire)
+end
+
+--- Pull of the tie [N]; 0 while it is slack, and once it is broken.
+function Tie:tension()
+  fixing.check(self, Tie, "tension")
+  return build.call(3, reading, self).tension
+end
+
+--- How far the tied places are apart [m].
+function Tie:distance()
+  fixing.check(self, Tie, "distance")
+  return build.call(3, reading, self).distance
+end
+
+--- Force on the wire that was tied (not on the other one) [N].
+function Tie:force()
+  fixing.check(self, Tie, "force")
+  if self.other then return build.call(3, self.object.force, self.object, 1) end
+  local r = build.call(3, reading, self)
+  return { r.force_x, r.force_y, r.force_z }
+end
+
+--- Cut it.
+function Tie:release()
+  fixing.check(self, Tie, "release")
+  build.call(3, self.object.release, self.object)
+end
+
+--- Largest pull so far [N].
+function properties.peak_force(self)
+  fixing.check(self, Tie, "peak_force")
+  return reading(self).peak
+end
+
+--- { time = [s], force = [N] } once it broke, or nil.
+function properties.broken(self)
+  fixing.check(self, Tie, "broken")
+  local r = reading(self)
+  return r.broken > 0 and { time = r.broken_time, force = r.broken_force } or nil
+end
+
+--- Rows of a run's summary.
+function Tie:report(add)
+  if type(add) ~= "function" then
+    error("tie:report: a function that adds a row is wanted, got " .. type(add), 2)
+  end
+  local broken = self.broken
+  if broken then
+    add(self.name .. ": BROKE at", broken.force, "N", nil, broken.time)
+  else
+    add(self.name .. ": largest pull", self.peak_force, "N", self.s)
+  end
+end
+
+function Tie:__tostring()
+  if not self:exists() then return ("tie '%s' (released)"):format(self.name) end
+  local ok, r = pcall(reading, self)
+  return ("tie '%s' of '%s' at s = %.4g m%s%s"):format(self.name, self.wire.name, self.s,
+    self.other and (" to '%s'"):format(self.other.name) or "",
+    ok and (r.broken > 0 and ", broken" or (": %.4g N"):format(r.tension)) or "")
+end
+
+return Tie

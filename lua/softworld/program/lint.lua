@@ -1,0 +1,284 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- The command `softworld lint SCRIPT [ARGUMENTS]`: the script builds its scenes, nothing is run, and what is
+-- hardly meant is told with the line of the script that made it. Runs give a placeholder that takes every
+-- call; where a script needs a number of one, it ends there, and lint says so.
+-- @module softworld.program.lint
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local place = require "softworld.place"
+local remarks = require "softworld.remarks"
+local vec = require "softworld.vec"
+
+local lint = {}
+
+local least_modulus, most_modulus = 1e4, 2e12 -- of what wires are made of [Pa]
+local step = 0.25                             -- of the radius: between points where a wire is looked at [-]
+local most_points = 20000
+local deep = 0.5 -- of the radius: a middle nearer to the surface than this is inside
+
+-- --- findings -----------------------------------------------------------------------------
+
+local found, known = {}, {}
+
+local function tell(at, text)
+  at = at or "?"
+  local key = at .. text
+  if known[key] then return end
+  known[key] = true
+  found[#found + 1] = { at = at, text = text, line = tonumber(at:match ":(%d+)$") or 0, number = #found }
+end
+
+-- --- a run that was not made -----------------------------------------------------------------
+
+local Nothing = {}
+local nothing = setmetatable({}, Nothing)
+Nothing.__name = "result of a run that lint leaves out"
+local used = false -- something was left out
+local function itself()
+  used = true
+  return nothing
+end
+for _, event in ipairs { "add", "sub", "mul", "div", "mod", "pow", "unm", "idiv", "index", "call",
+  "concat" } do
+  Nothing["__" .. event] = itself
+end
+function Nothing.__lt() return false end
+function Nothing.__le() return true end
+function Nothing.__len() return 0 end
+function Nothing.__newindex() end
+function Nothing.__tostring() return "?" end
+
+-- --- what scenes are made of -------------------------------------------------------------------
+
+local scenes = {} -- in order: { scene =, wires =, obstacles =, holds = }
+local by_data = setmetatable({}, { __mode = "k" })
+
+local function record_of(scene)
+  local data = build.data(scene)
+  if not by_data[data] then
+    by_data[data] = { scene = scene, data = data, wires = {}, obstacles = {}, holds = {} }
+    scenes[#scenes + 1] = by_data[data]
+  end
+  return by_data[data]
+end
+
+local function follow(class, name, note)
+  local method = class[name]
+  class[name] = function(scene, ...)
+    local at = place.of_caller()
+    local function done(...)
+      note(at, scene, ...)
+      return ...
+    end
+    return done(build.through(method, scene, ...))
+  end
+end
+
+local function follow_scenes(class)
+  follow(class, "wire", function(at, scene, wire)
+    local list = record_of(scene).wires
+    list[#list + 1] = { object = wire, at = at }
+  end)
+  follow(class, "obstacle", function(at, scene, obstacle)
+    local list, data = record_of(scene).obstacles, build.data(scene)
+    list[#list + 1] = { object = obstacle, at = at, entry = data.obstacles[#data.obstacles] }
+  end)
+  for _, kind in ipairs { "clamp", "pin", "feed" } do
+    local method = class[kind]
+    class[kind] = function(scene, wire, args)
+      local at, hold = place.of_caller(), build.through(method, scene, wire, args)
+      local data = build.data(scene)
+      local entry = data.holds[#data.holds]
+      local list = record_of(scene).holds
+      list[#list + 1] = { wire = wire, s = args and args.s, width = entry.width or 0, name = entry.name,
+        kind = kind, at = at }
+      return hold
+    end
+  end
+end
+
+-- --- checks ---------------------------------------------------------------------------------------
+
+-- Walk along a wire in steps that no surface is nearer than.
+local function walk(wire, radius, obstacle)
+  local at, q = obstacle:pose()
+  local back, shape = vec.conjugate(q), obstacle.shape
+  local x, s, count = wire:positions(), 0, 0
+  for i = 1, #x - 5, 3 do
+    local a, b = { x[i], x[i + 1], x[i + 2] }, { x[i + 3], x[i + 4], x[i + 5] }
+    local length, t = vec.norm(vec.sub(b, a)), 0
+    while t < length and count < most_points do
+      local here = vec.add(a, vec.scale(vec.sub(b, a), t / length))
+      local gap = shape:distance(vec.rotate(back, vec.sub(here, at)))
+      if not gap then return end
+      if gap < deep * radius then return s + t, here, gap end
+      t, count = t + math.max(step * radius, gap - deep * radius), count + 1
+    end
+    s = s + length
+  end
+end
+
+local function check_through(w, o)
+  local wire, obstacle = w.object, o.object
+  if not core.exists(obstacle) or not obstacle.present then return end
+  local s, p, gap = walk(wire, wire.radius, obstacle)
+  if not s then return end
+  tell(w.at, ("wire '%s' goes through '%s': at s = %.4g m, (%.4g, %.4g, %.4g) m, it reaches %.3g mm into "
+    .. "it"):format(wire.name, o.entry.name, s, p[1], p[2], p[3], 1e3 * (wire.radius - gap)))
+end
+
+-- Edges longer than what they have to go round or over.
+local function check_edges(w, o)
+  local wire, entry = w.object, o.entry
+  local edge = wire.length / wire.segments
+  local is_box = entry.shape == "box" and type(entry.size) == "table"
+  local thickness = is_box and math.min(table.unpack(entry.size))
+  local at, q = o.object:pose()
+  local start = vec.rotate(vec.conjugate(q), vec.sub(wire:position(0), at))
+  local gap = thickness and o.object.shape:distance(start)
+  if gap and gap < wire.length and edge > 1.001 * thickness then -- it may come to lie on it
+    tell(w.at, ("wire '%s': its edges of %.3g mm are longer than '%s' is thick, %.3g mm; segments = %d makes "
+      .. "them as short"):format(wire.name, 1e3 * edge, entry.name, 1e3 * thickness,
+      math.ceil(wire.length / thickness - 1e-9)))
+  end
+end
+
+-- The modulus that a full round section of its radius would have.
+local function check_stiffness(w)
+  local wire = w.object
+  local fine, beam = pcall(function() return wire.beam end)
+  if not fine then return end
+  local r = beam.radius
+  local area, inertia = math.pi * r ^ 2, math.pi * r ^ 4 / 4
+  local bending = type(beam.EI) == "table" and math.max(table.unpack(beam.EI)) or beam.EI
+  local known_modulus = false -- told already
+  for _, f in ipairs(found) do
+    known_modulus = known_modulus or f.at == w.at and f.text:find(": E = ", 1, true) ~= nil
+  end
+  for name, case in pairs { EA = { beam.EA, area, "pi r^2", "N" },
+    EI = { bending, inertia, "pi r^4 / 4", "N m2" } } do
+    local value, of, words, unit = table.unpack(case)
+    local modulus = not known_modulus and type(value) == "number" and value > 0 and value / of
+    if modulus and (modulus < least_modulus or modulus > most_modulus) then
+      local soft = modulus < least_modulus
+      tell(w.at, ("wire '%s': %s = %.4g %s with a radius of %.3g mm is a modulus of %.2g Pa (%s / (%s)), "
+        .. "%s %g Pa; soft rubber has 1e6 Pa, steel 2e11 Pa"):format(wire.name, name, value, unit, 1e3 * r,
+        modulus, name, words, soft and "below" or "above", soft and least_modulus or most_modulus))
+    end
+  end
+  local density = beam.mass_per_length / area
+  if density < 5 or density > 25000 then
+    tell(w.at, ("wire '%s': %.4g kg/m with a radius of %.3g mm is a density of %.3g kg/m3; steel has "
+      .. "7850 kg/m3"):format(wire.name, beam.mass_per_length, 1e3 * r, density))
+  end
+end
+
+local function check_holds(holds)
+  for i, a in ipairs(holds) do
+    for k = 1, i - 1 do
+      local b = holds[k]
+      local room = (a.width + b.width) / 2
+      if a.wire == b.wire and type(a.s) == "number" and type(b.s) == "number"
+        and (math.abs(a.s - b.s) < room or a.s == b.s) then
+        tell(a.at, ("%s '%s' at s = %.4g m overlaps %s '%s' at s = %.4g m%s"):format(a.kind, a.name, a.s,
+          b.kind, b.name, b.s,
+            room > 0 and (", which together are %.3g mm wide"):format(1e3 * 2 * room) or ""))
+      end
+    end
+  end
+end
+
+local function check_scene(record)
+  if record.checked or not pcall(function() return record.scene.name end) then return end
+  for _, w in ipairs(record.wires) do
+    if core.exists(w.object) and w.object.radius > 0 then
+      for _, o in ipairs(record.obstacles) do
+        check_through(w, o)
+        check_edges(w, o)
+      end
+      check_stiffness(w)
+    end
+  end
+  check_holds(record.holds)
+  record.checked = true
+end
+
+-- --- the script -----------------------------------------------------------------------------------
+
+-- Nothing is computed: a run ends what is built of its scene, as far as lint can tell.
+local function leave_out(class)
+  for _, name in ipairs { "run", "settle", "advance", "resume" } do
+    class[name] = function(scene)
+      used = true
+      if core.type(scene) == "scene" then pcall(check_scene, record_of(scene)) end
+      return nothing
+    end
+  end
+  core.class.wire.frequencies = itself
+  for _, name in ipairs { "picture", "save", "script" } do class[name] = itself end
+end
+
+local function prepare()
+  local sw = require "softworld"
+  follow_scenes(core.class.scene)
+  leave_out(core.class.scene)
+  for _, name in ipairs { "report", "plot", "calibrate" } do rawset(sw, name, itself) end
+  rawset(sw, "tune", nothing)
+  function remarks.write(at, text) tell(at, text) end
+  rawset(_G, "print", function() end)
+  rawset(os, "exit", function() error(nothing, 0) end)
+end
+
+-- Gives nil, or what stopped it.
+local function go(path, ...)
+  local chunk, why = loadfile(path, "t")
+  if not chunk then return why end
+  local fine, problem = xpcall(chunk, function(e)
+    return type(e) == "string" and e or e == nothing and nothing or tostring(e)
+  end, ...)
+  if fine or problem == nothing then return nil end
+  return problem
+end
+
+local function report(path, problem)
+  for _, record in ipairs(scenes) do
+    local fine, why = pcall(check_scene, record)
+    if not fine then problem = problem or why end
+  end
+  table.sort(found, function(a, b)
+    if a.line ~= b.line then return a.line < b.line end
+    return a.number < b.number
+  end)
+  for _, f in ipairs(found) do io.write(f.at, ": ", f.text, "\n") end
+  local stopped = problem and used -- it may only have wanted a number of what was left out
+  if stopped then
+    io.write(("%s: looked at as far as here, since runs were left out (%s)\n"):format(
+      problem:match "^([^\n]-:%d+):" or path, (problem:gsub("^[^\n]-:%d+: ", ""):gsub("\n.*", ""))))
+  elseif problem then
+    io.stderr:write("softworld: ", problem, "\n")
+  end
+  local count = #found == 1 and "1 warning" or ("%d warnings"):format(#found)
+  io.write(("%s: %s, %d %s\n"):format(path, count, #scenes, #scenes == 1 and "scene" or "scenes"))
+  return (problem and not stopped or #found > 0) and 1 or 0
+end
+
+--- Gives the exit status: 0 when there is nothing to say, 1 for warnings or an error, 2 for a wrong call.
+function lint.run(path, ...)
+  if not path then
+    io.stderr:write "softworld: lint wants a script; usage: softworld lint SCRIPT [ARGUMENTS]\n"
+    return 2
+  end
+  if core.kind(path) ~= "file" then
+    io.stderr:write(("softworld: cannot read '%s': %s\n"):format(path, core.kind(path) and "it is a "
+      .. core.kind(path) or "No such file or directory"))
+    return 1
+  end
+  local write = io.stdout
+  arg = { [0] = path, ... } -- luacheck: globals arg
+  prepare()
+  local problem = go(path, ...)
+  io.output(write)
+  return report(path, problem)
+end
+
+return lint.run

@@ -1,0 +1,117 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- The pleasant half of the prompt: printing results and completing names. The
+-- host program (csrc/host/repl.c) reads the lines and runs them.
+
+local pretty = require "softworld.prompt.pretty"
+
+local repl = {}
+
+local function width()
+  local host = package.loaded["softworld.host"]
+  return host and host.columns() or 80
+end
+
+--- Print results as the prompt does: values side by side, tables readable.
+function repl.show(...)
+  local values = table.pack(...)
+  local texts, separator = {}, "\t"
+  for i = 1, values.n do
+    texts[i] = pretty(values[i], { width = width() })
+    if texts[i]:find("\n", 1, true) then separator = "\n" end
+  end
+  io.write(table.concat(texts, separator), "\n")
+end
+
+-- --- completion ------------------------------------------------------------
+
+local NAME = "^[%a_][%w_]*$"
+
+local keywords = {}
+for word in ([[and break do else elseif end false for function goto if in local nil not or repeat
+  return then true until while]]):gmatch "%a+" do
+  keywords[word] = true
+end
+
+local function index(value, key) return value[key] end
+
+-- The value of "a.b[1]:" at the end of the text; nil when it cannot be told
+-- without running calls.
+local function value_before(text, globals)
+  local chain = text:match "[%a_][%w_%.%[%]]*$"
+  if not chain then return nil end
+  local before = text:sub(1, -#chain - 1)
+  if before:find "[%w_%.:%)%]\"']$" then return nil end -- the end of a longer expression
+  local name, rest = chain:match "^([%w_]+)(.*)$"
+  local value = globals[name]
+  while rest ~= "" and value ~= nil do
+    local key, after = rest:match "^%.([%a_][%w_]*)(.*)$"
+    if not key then
+      key, after = rest:match "^%[(%d+)%](.*)$"
+      key = math.tointeger(tonumber(key))
+    end
+    if not key then return nil end
+    local ok, inner = pcall(index, value, key)
+    value, rest = ok and inner or nil, after
+  end
+  return value
+end
+
+local function add_fields(names, fields, methods_only)
+  for key, value in next, fields do
+    if type(key) == "string" and (not methods_only or type(value) == "function") then
+      names[key] = true
+    end
+  end
+end
+
+-- What a metamethod __names lists: properties and methods that no table holds.
+local function add_listed(names, value, list)
+  if type(list) == "function" then
+    local ok, answer = pcall(list, value)
+    list = ok and answer or nil
+  end
+  if type(list) ~= "table" then return end
+  for _, name in ipairs(list) do
+    if type(name) == "string" then names[name] = true end
+  end
+end
+
+-- Every name that may follow value and "." or ":" (methods only).
+local function names_of(value, methods_only)
+  local names, seen = {}, {}
+  while value ~= nil and not seen[value] do
+    seen[value] = true
+    if type(value) == "table" then add_fields(names, value, methods_only) end
+    local meta = debug.getmetatable(value)
+    if type(meta) ~= "table" then break end
+    add_listed(names, value, rawget(meta, "__names"))
+    value = rawget(meta, "__index")
+    if type(value) == "function" then break end
+  end
+  return names
+end
+
+--- The names that can stand for word after the text before it on the line; within braces of a call, its
+-- parameters.
+function repl.complete(before, word, globals)
+  globals = globals or _G
+  local text, mark = before:match "^(.-)%s*([%.:])%s*$"
+  local names = package.loaded["softworld"]
+    and require("softworld.prompt.braces").names(before, value_before, globals)
+  if not names and text and not text:find "%.$" then
+    local value = value_before(text, globals)
+    names = value ~= nil and names_of(value, mark == ":") or {}
+  end
+  names = names or names_of(globals, false)
+  local found = {}
+  for name in pairs(names) do
+    if name:sub(1, #word) == word and name:find(NAME) and not keywords[name]
+      and (word ~= "" or not name:find "^__") then
+      found[#found + 1] = name
+    end
+  end
+  table.sort(found)
+  return found
+end
+
+return repl

@@ -1,0 +1,182 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- What runs write: tables, charts, pictures, files for ParaView. Methods of Run, see softworld.run.run.
+-- @module softworld.run.files
+local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
+local rows = require "softworld.rows"
+
+local runfiles = { methods = {} }
+local Run = runfiles.methods
+
+local camera = rows.list{
+  { "from", "vector", "m", "where it stands" },
+  { "to", "vector", "m", "what it looks at" },
+  { "direction", "vector", "-", "it looks in" },
+  { "turn", "number", "deg", "about the vertical", min = -360, max = 360 },
+  { "elevation", "number", "deg", "above the horizon", min = -360, max = 360 },
+  { "angle", "number", "deg", "of its view", min = 1, max = 150 },
+}
+
+local chart = rows.call("run:chart", "{...}", "draws series over time; needs gnuplot", {
+  gives = "the path, or without one the drawing in characters",
+  example = 'run:chart { path = "run.svg", columns = { "hand.force" }, mean = 0.02 }',
+  { "path", "text", "-", "a .svg, .png or .pdf file", usual = "drawn in characters" },
+  { "columns", "names", "-", "of series, see help 'results'", usual = "all" },
+  { "energy", "boolean", "-", "energies of the run's frames instead", usual = "false" },
+  { "mean", "number", "s", "time of running means that are drawn instead of samples", min = 0, above = true },
+  { "title", "text", "-", "above the chart", empty = true, usual = "the scene's name" },
+  { "size", "size", "px", "{ width, height }; of .pdf in inches, without path in characters",
+    usual = "as the curves need" },
+})
+
+local pictures = rows.call("run:pictures", "{...}", "a strip of ray-traced pictures; needs POV-Ray", {
+  gives = "path, width, height [px], thickness, note",
+  example = 'run:pictures { path = "run.png", count = 6 }',
+  { "path", "text", "-", "a .png file", required = true },
+  { "count", "integer", "-", "moments from the first to the last frame", min = 1, max = 1000, usual = 6 },
+  { "times", "list", "s", "of the moments instead", of = "number", min = 0 },
+  { "captions", "list", "-", "words after the times" },
+  { "caption", "text", "-", "of a single picture", empty = true },
+  { "columns", "integer", "-", "pictures side by side", min = 1, max = 1000, usual = 3 },
+  { "width", "number", "px", "of the strip", min = 1, usual = 1500 },
+  { "height", "number", "px", "of the strip", min = 1, usual = "as the view needs" },
+  { "camera", "camera", "-", "'auto' or where it stands", rows = camera, usual = "auto" },
+  { "thickness", "number", "-", "times the wires' radius", min = 0, above = true,
+    usual = "1, or more to be seen" },
+  { "draft", "boolean", "-", "fast and rough", usual = "false" },
+  { "threads", "integer", "-", "of POV-Ray", min = 1, max = 1024, usual = 2 },
+})
+
+rows.calls{
+  { "run:summary", "file", "peaks, means and events, on the terminal or into an open file" },
+  { "run:save", "path", "every column at every step, as .csv or .json", "the path" },
+  { "run:vtk", "path", "an animation for ParaView, a .pvd file", "the path" },
+  { "run:report", "path", "a page that shows the run moving, with charts and numbers: one .html file",
+    "the path", example = 'run:report "run.html"' },
+  { "run:series", "", "time series", "time [s], columns of name, unit, values" },
+  { "run:frames", "", "stored while running", "t [s], wires, obstacles, holds, energy; ..." },
+  { "run:document", "", "plain tables of all that charts, pictures and files need" },
+  { "run:ledger", "", "the energy balance, see help 'energy'", "J" },
+  { "run:error_bars", "", "of the quantities asked for, see help 'tolerance'" },
+}
+
+runfiles.camera = camera
+
+--- Raise unless it is a camera: nil, "auto" or a table of its rows.
+function runfiles.check_camera(given, what)
+  if given == nil or given == "auto" then return end
+  if type(given) ~= "table" then
+    error(("%s: camera must be 'auto' or a table, got %s"):format(what, checks.got(given)), 0)
+  end
+  camera:read(given, what .. ": camera", what .. ": camera.")
+end
+
+-- { width, height }, both above 0.
+local function check_size(given)
+  if given == nil then return end
+  if type(given) ~= "table" then
+    error("run:chart: size must be { width, height }, got " .. checks.got(given), 0)
+  end
+  for k = 1, 2 do checks.number(("run:chart: size[%d]"):format(k), given[k], 0, "", 0, nil, true) end
+end
+
+local function check_names(given)
+  if given == nil or type(given) == "table" then return end
+  error("run:chart: columns must be a list of names of series, got " .. checks.got(given), 0)
+end
+
+-- Raise when the run has no such results, or has lost them.
+local function readable(self, what, even_failed)
+  if not self.ok and not even_failed then
+    error(("run of '%s' failed %s; it has no %s"):format(self.name, self.reason, what), 3)
+  end
+  if build.data(self.scene).restores ~= self.restores then
+    error(("run of '%s': its %s went when a snapshot was restored; read them before that")
+      :format(self.name, what), 3)
+  end
+end
+
+runfiles.readable = readable
+
+local function check_path(path, what, wanted)
+  if type(path) == "string" and path ~= "" then return end
+  error(("%s expects %s, got %s"):format(what, wanted, path == "" and "''" or type(path)), 3)
+end
+
+--- Table of results on the terminal.
+function Run:summary(stream)
+  if stream ~= nil and io.type(stream) ~= "file" and type(checks.field(stream, "write")) ~= "function" then
+    error("run:summary: an open file is wanted, got " .. (io.type(stream) or type(stream)), 2)
+  end
+  require("softworld.output.summary").print(self:document(), stream or io.stdout)
+end
+
+--- Series as CSV or JSON, by the file's extension.
+function Run:save(path)
+  check_path(path, "run:save", "the name of a .csv or .json file")
+  readable(self, "series")
+  require("softworld.output.series").write(self:document(), path)
+  return path
+end
+
+--- ParaView series (.pvd).
+function Run:vtk(path)
+  check_path(path, "run:vtk", "the name of a .pvd file")
+  readable(self, "frames", true)
+  require("softworld.output.vtk").write(runfiles.pictured(self), path)
+  return path
+end
+
+--- The player: one .html file that needs no network.
+function Run:report(path)
+  check_path(path, "run:report", "the name of an .html file")
+  return require("softworld.output.report").write({ runfiles.described(self) }, path)
+end
+
+local several = rows.call("sw.report", "{ run, ..., ... }",
+  "lays runs over one another in one page that shows them moving", {
+  gives = "the path", example = 'sw.report { before, after, path = "both.html" }',
+  { "path", "text", "-", "an .html file", required = true },
+  { "title", "text", "-", "of the page", usual = "the runs' names" },
+})
+
+--- Several runs in one page: sw.report{ run1, run2, path =, title = }.
+function runfiles.report(args)
+  if type(args) ~= "table" or getmetatable(args) then
+    error("sw.report takes a table such as { run1, run2, path = 'both.html' }, got " .. checks.got(args), 3)
+  end
+  local named, list = {}, {}
+  for key, value in next, args do
+    if math.type(key) ~= "integer" then named[key] = value end
+  end
+  local o = build.call(4, several.read, several, named)
+  for i = 1, #args do
+    if rawget(getmetatable(args[i]) or {}, "__name") ~= "run" then
+      error(("sw.report: [%d] must be a run, got %s"):format(i, checks.got(args[i])), 3)
+    end
+    list[i] = runfiles.described(args[i])
+  end
+  if #list == 0 then error("sw.report: a run is wanted, such as { run1, run2, path = 'both.html' }", 3) end
+  return build.call(4, require("softworld.output.report").write, list, o.path, { title = o.title })
+end
+
+--- Chart of series: { path = "x.svg", columns = { names }, title = }.
+function Run:chart(options)
+  local o = chart:read(options or {})
+  check_size(o.size)
+  check_names(o.columns)
+  readable(self, "series")
+  o.run = self:document()
+  return require("softworld.output.chart").series(o)
+end
+
+--- A strip of ray-traced pictures: { path = "x.png", count = 6, ... }.
+function Run:pictures(options)
+  local o = pictures:read(options or {})
+  runfiles.check_camera(o.camera, "run:pictures")
+  readable(self, "frames", true)
+  o.run = runfiles.pictured(self)
+  return require("softworld.output.povray").strip(o)
+end
+
+return runfiles

@@ -1,0 +1,238 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Observers: functions that look at a scene while it runs. They are called between two steps without the
+-- run being left, so that it keeps every bit; what they hand in is done between two calls of the core.
+-- @module softworld.run.observe
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
+local methods = require "softworld.methods"
+local rows = require "softworld.rows"
+local sealed = require "softworld.sealed"
+
+local observe = {}
+local Observer = { __name = "observer" }
+
+local new = rows.call("scene:observe", "{...}",
+  "calls a function while the scene runs, between two steps; without every and wall at each", {
+    gives = "an observer",
+    example = "scene:observe { every = 0.01, call = function() print(scene.time) end }",
+    { "call", "function", "-", "what is called, with the observer", required = true },
+    { "every", "number", "s", "between two calls, of simulated time", min = 0, above = true },
+    { "wall", "number", "s", "between two calls, on the clock on the wall", min = 0, above = true },
+  })
+
+local pause = rows.call("observer:pause", "{...}", "holds the run; Ctrl-C ends that", {
+  example = "observer:pause { wall = 0.5 }",
+  { "wall", "number", "s", "so long, on the clock on the wall", min = 0, required = true },
+})
+
+rows.calls{
+  { "observer:stop", "reason", "ends the run with the step that was made; its numbers are good" },
+  { "observer:change", "function() ... end",
+    "is called between this step and the next, and may change the scene",
+    example = "observer:change(function() plane:set { friction = 0.5 } end)" },
+  { "observer:remove", "", "it is called no more" },
+  { "observer.scene", nil, "that it looks at", "a scene" },
+  { "observer.every", nil, "between two calls, of simulated time", "s, or nil" },
+  { "observer.wall", nil, "between two calls, on the clock on the wall", "s, or nil" },
+  { "observer.calls", nil, "of its function, so far", "a number" },
+}
+
+-- scene's data -> { its observers, in the order made }
+local watching = setmetatable({}, { __mode = "k" })
+
+local function list_of(scene)
+  local data = build.data(scene)
+  watching[data] = watching[data] or {}
+  return watching[data]
+end
+
+local function fields(self) return sealed.fields(self) end
+
+-- --- when ---------------------------------------------------------------------------------------
+
+-- The least of what is due next: a simulated time [s], a time on the clock [s].
+local function next_of(list)
+  local at, wall = math.huge, math.huge
+  for _, observer in ipairs(list) do
+    local own = fields(observer)
+    at, wall = math.min(at, own.at), math.min(wall, own.at_wall)
+  end
+  return at, wall
+end
+
+-- Times that steps have passed are left out.
+local function set_next(own, now)
+  own.at = own.each and -math.huge or own.wall and math.huge or -math.huge
+  if own.every and not own.each then
+    local count = math.floor((now - own.from) / own.every * (1 + 1e-12) + 1e-9)
+    own.at = own.from + (count + 1) * own.every
+  end
+  own.at_wall = own.wall and core.clock() + own.wall or math.huge
+end
+
+local function begin(own, now)
+  own.from = now
+  own.at = own.each and -math.huge or own.every and now + own.every or own.wall and math.huge or -math.huge
+  own.at_wall = own.wall and core.clock() + own.wall or math.huge
+end
+
+local SAME_TIME = 1e-12 -- of the time: the core's own rounding [-]
+
+local function is_due(own, now)
+  return now >= own.at - SAME_TIME * math.max(1, math.abs(now)) or core.clock() >= own.at_wall
+end
+
+-- --- in a run -----------------------------------------------------------------------------------
+
+--- Functions that are told of runs: begin(scene, args), finish(scene, ok, reason).
+observe.followers = {}
+
+local function tell(what, ...)
+  for _, follower in ipairs(observe.followers) do follower[what](...) end
+end
+
+--- A run has come to its end.
+function observe.finish(scene, ok, reason) tell("finish", scene, ok, reason) end
+
+--- A run begins: times are counted from now on.
+function observe.begin(scene, args)
+  tell("begin", scene, args)
+  for _, observer in ipairs(list_of(scene)) do
+    local own = fields(observer)
+    own.wants, own.reason = nil, nil
+    begin(own, scene.time)
+  end
+end
+
+-- Call those that are due. Others may be made or removed meanwhile.
+local function look(scene)
+  local list, wanted = list_of(scene), false
+  for _, observer in ipairs(table.move(list, 1, #list, 1, {})) do
+    local own = fields(observer)
+    if not own.gone and is_due(own, scene.time) then
+      own.calls, own.inside = own.calls + 1, true
+      local fine, message = pcall(own.call, observer)
+      own.inside = nil
+      if not fine then error(message, 0) end
+      if not own.gone then set_next(own, scene.time) end
+    end
+    wanted = wanted or own.reason ~= nil or own.wants ~= nil
+  end
+  return wanted, next_of(list)
+end
+
+--- What scene:advance takes besides: the function that looks, and when it is due; nothing without observers.
+function observe.arguments(scene)
+  local list = list_of(scene)
+  if #list == 0 then return end
+  return function() return look(scene) end, next_of(list)
+end
+
+--- Do what observers have handed in. Returns why the run is to stop, or nil.
+function observe.settle(scene)
+  local reason
+  local list = list_of(scene)
+  for _, observer in ipairs(table.move(list, 1, #list, 1, {})) do
+    local own = fields(observer)
+    local wants = own.wants
+    own.wants = nil
+    for _, change in ipairs(wants or {}) do change() end
+    reason, own.reason = reason or own.reason, nil
+  end
+  return reason
+end
+
+-- --- observers ------------------------------------------------------------------------------------
+
+local function make(scene, args)
+  local own = new:read(args)
+  own.scene, own.calls = scene, 0
+  begin(own, scene.time)
+  local list = list_of(scene)
+  list[#list + 1] = sealed.new(Observer, own)
+  return list[#list]
+end
+
+local function name_of(scene) return scene.name end
+
+--- scene:observe{ every = [s], wall = [s], call = f }: see help "scene:observe". At any time, also by
+-- an observer.
+function core.class.scene.observe(scene, args)
+  if core.type(scene) ~= "scene" then error("scene:observe is a method: call it with a colon", 2) end
+  build.call(3, name_of, scene) -- raises when it has been closed
+  return build.call(3, make, scene, args)
+end
+
+local function check_inside(self, what)
+  if fields(self).inside then return end
+  error(what .. " works only inside the function of the observer, while a run goes on", 3)
+end
+
+--- The run ends with this step.
+function Observer:stop(reason)
+  if reason ~= nil and type(reason) ~= "string" then
+    error("observer:stop expects a text, the reason, got " .. checks.got(reason), 2)
+  end
+  check_inside(self, "observer:stop")
+  fields(self).reason = reason or "stopped by an observer"
+end
+
+--- Hand in a change, to be done before the next step.
+function Observer:change(change)
+  if type(change) ~= "function" then
+    error("observer:change expects a function, got " .. checks.got(change), 2)
+  end
+  check_inside(self, "observer:change")
+  local own = fields(self)
+  own.wants = own.wants or {}
+  own.wants[#own.wants + 1] = change
+end
+
+--- Hold the run for a time on the clock [s].
+function Observer:pause(args)
+  local given = build.call(3, pause.read, pause, args)
+  check_inside(self, "observer:pause")
+  build.call(3, core.sleep, given.wall)
+end
+
+--- It is called no more.
+function Observer:remove()
+  local own = fields(self)
+  own.gone, own.wants, own.reason = true, nil, own.inside and own.reason or nil
+  local list = list_of(own.scene)
+  for i = #list, 1, -1 do
+    if list[i] == self then table.remove(list, i) end
+  end
+end
+
+local names = { "scene", "every", "wall", "calls", "stop", "change", "pause", "remove" }
+local known = { scene = true, every = true, wall = true, calls = true }
+
+--- Names of methods and fields, for completion at the prompt.
+function Observer.__names() return table.move(names, 1, #names, 1, {}) end
+
+function Observer:__index(key)
+  if known[key] then return rawget(fields(self), key) end
+  local value = Observer[key]
+  if value ~= nil then return value end
+  local near = core.nearest(checks.shown(key), names)
+  error(("an observer has no '%s'; %s"):format(checks.shown(key), near and "did you mean '" .. near .. "'?"
+    or "it has: " .. table.concat(names, " ")), 2)
+end
+
+function Observer.__newindex(_, key)
+  error(("an observer has no '%s' to set"):format(checks.shown(key)), 2)
+end
+
+function Observer:__tostring()
+  local own, when = fields(self), {}
+  if own.every then when[1] = ("every %g s"):format(own.every) end
+  if own.wall then when[#when + 1] = ("every %g s on the clock"):format(own.wall) end
+  return ("observer of '%s', %s, %d calls%s"):format(own.scene.name, #when > 0 and table.concat(when, " and ")
+    or "at each step", own.calls, own.gone and ", removed" or "")
+end
+
+methods.guard_table("observer", Observer)
+
+return observe

@@ -1,0 +1,378 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Processes: sequences of handling steps, as coroutines. Several run at once,
+-- each with its own clock of waits; the run advances the scene from one wake-up
+-- to the next.
+--
+--     scene:process(function(p)
+--       p:wait(0.5)
+--       p:wait_until(function() return left:force()[3] > 0.2 end, { timeout = 2 })
+--       p:step("lay", function() left:move{ by = {0.3, 0, 0}, speed = 0.2 } end)
+--     end)
+--
+-- A process that yields by itself goes on after the next step. Named steps (p:step) are what a
+-- file of the scene can begin again after: see softworld.scene.save.
+-- @module softworld.run.process
+local core = require "softworld.core"
+local methods = require "softworld.methods"
+local rows = require "softworld.rows"
+local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
+local conditions = require "softworld.run.conditions"
+local sealed = require "softworld.sealed"
+local waiting = require "softworld.run.waiting"
+
+local process = {}
+local Process = { __name = "process" }
+
+local current = setmetatable({}, { __mode = "k" }) -- coroutine -> its process
+local SAME_TIME = 1e-12 -- of the time: the core's own rounding [-]
+
+--- Has the scene's time reached t, but for rounding?
+function process.reached(scene, t)
+  return scene.time >= t - SAME_TIME * math.max(1, math.abs(t))
+end
+
+--- The process that is running now, or nil outside of one.
+function process.current()
+  return current[coroutine.running()]
+end
+
+local function check_inside(self, what)
+  if process.current() ~= self then
+    error(what .. " works only inside its own process, not in a function or coroutine beside it", 3)
+  end
+end
+
+-- The steps of a process that are done, in order.
+local function done_of(self)
+  local data = build.data(self.scene)
+  data.done = data.done or {}
+  data.done[self.number] = data.done[self.number] or {}
+  return data.done[self.number]
+end
+
+--- Raise when steps are kept in a file and the running process is between two of them: a script that goes
+-- on from the file would do it a second time.
+function process.guard(what)
+  local self = process.current()
+  if not self or self.inside then return end
+  local data = build.data(self.scene)
+  if not data.saving and self.steps >= #done_of(self) then return end
+  error(("%s: this is between two steps of %s, and what happens there would happen again when the "
+    .. "scene goes on from its file; put it into a step: p:step('name', function() ... end)")
+    :format(what, tostring(self)), 0)
+end
+
+build.guard = process.guard
+
+-- Sleep until the scene's time reaches wake [s].
+function process.sleep_until(self, wake)
+  if not process.reached(self.scene, wake) then process.guard "to let time pass" end
+  while not process.reached(self.scene, wake) do
+    self.wake = wake
+    coroutine.yield()
+  end
+end
+
+--- Let time pass [s].
+function Process:wait(seconds)
+  checks.number("p:wait: seconds", seconds, 0, " s", 3)
+  check_inside(self, "p:wait")
+  process.sleep_until(self, self.scene.time + seconds)
+end
+
+local until_then = rows.call("p:wait_until", "condition, {...}",
+  "waits for a function that returns true, or a condition told as a table, see help 'waiting'", {
+    gives = "true, or false after the timeout",
+    example = "p:wait_until({ force = 0.02, on = hand }, { timeout = 0.5 })",
+    { "timeout", "number", "s", "longest wait", min = 0, usual = "no end" },
+  })
+
+rows.calls{
+  { "scene:process", "function(p) ... end", "what happens, in order; several run at once", "a process" },
+  { "p:wait", "seconds", "lets time pass [s]" },
+  { "p:step", "name, function", "a step after which a saved run begins again, see help 'save'",
+    "what the function returns",
+    example = 'p:step("lift", function() hand:move { by = { 0, 0, 0.1 } } end)' },
+  { "p:finish", "", "ends the process where it waits" },
+  { "p.time", nil, "of the scene", "s" },
+  { "p.scene", nil, "of the process", "a scene" },
+  { "p.number", nil, "of the process in its scene, from 1" },
+}
+
+local function timeout_of(options)
+  if options == nil then return math.huge end
+  if type(options) == "table" and options.timeout == math.huge then options = {} end
+  return build.call(4, until_then.read, until_then, options).timeout or math.huge
+end
+
+--- Wait until condition() is true; asked once per step. A condition may also be a table, see help
+-- "wait_until": { force = [N], on = gripper or obstacle }, { slip = [m], on = gripper },
+-- { contact = obstacle }, { distance = [m], between = { a, b } }. Returns true, or false
+-- when timeout [s] passed first.
+function Process:wait_until(condition, options)
+  local impossible
+  if type(condition) == "table" then
+    condition, impossible = conditions.of(condition, 3, self.scene)
+    condition = build.placed(condition)
+  end
+  if type(condition) ~= "function" then
+    error("p:wait_until expects a function or a table, got " .. type(condition), 2)
+  end
+  local last = self.scene.time + timeout_of(options)
+  check_inside(self, "p:wait_until")
+  process.guard "p:wait_until"
+  while not condition() do
+    if process.reached(self.scene, last) then return false end
+    if last == math.huge then waiting.goes_on(self, impossible) end
+    self.watching, self.wake = true, last
+    coroutine.yield()
+  end
+  waiting.ended(self)
+  return true
+end
+
+rows.call("p:feed", "feed, {...}", "pays wire out or draws it in, and waits until that is done", {
+  example = "p:feed(feed, { length = 0.1, speed = 0.05 })",
+  { "length", "number", "m", "to pay out; below zero it is drawn in", required = true },
+  { "speed", "number", "m/s", "of the wire" },
+  { "duration", "number", "s", "instead of a speed" },
+  { "law", "text", "-", "of the motion, as of a trajectory" },
+})
+
+--- Pay out or draw in wire through a feed, see help "p:feed".
+function Process:feed(feed, args)
+  if core.type(feed) ~= "clamp" then
+    error("p:feed expects what scene:feed returns, got " .. (core.type(feed) or type(feed)), 2)
+  end
+  check_inside(self, "p:feed")
+  process.sleep_until(self, self.scene.time + build.call(3, feed.feed, feed, args))
+end
+
+local function check_step(self, name, work)
+  if type(name) ~= "string" or name == "" then
+    error(("p:step expects a name and a function, got %s"):format(name == "" and "''" or type(name)), 3)
+  end
+  if type(work) ~= "function" then
+    error(("p:step '%s' expects a function, got %s"):format(name, type(work)), 3)
+  end
+  check_inside(self, "p:step")
+  if self.inside then
+    error(("p:step '%s' begins inside of step '%s'; steps follow one another"):format(name,
+      self.inside), 3)
+  end
+end
+
+-- The results of the step, from when it was done and the file was written.
+local function recall(self, name, old)
+  if old.name == name then return table.unpack(old.results, 1, old.count) end
+  error(("p:step '%s': the file '%s' has '%s' as step %d of %s; a script that goes on must have the "
+    .. "same steps"):format(name, tostring(build.data(self.scene).from_file), tostring(old.name),
+    self.steps, tostring(self)), 3)
+end
+
+--- A named step of the process: work() is called and may let time pass. A run with save = file writes the
+-- scene after it; a script that goes on from the file leaves the step out. The results of work are
+-- returned, and kept in the file: numbers, strings, tables of these, objects.
+function Process:step(name, work)
+  check_step(self, name, work)
+  local done = done_of(self)
+  self.steps = self.steps + 1
+  if done[self.steps] then return recall(self, name, done[self.steps]) end
+  self.inside = name
+  local results = table.pack(work())
+  self.inside = nil
+  local count = results.n
+  results.n = nil
+  done[self.steps] = { name = name, results = results, count = count }
+  self.between, self.wake = true, self.scene.time -- all that end a step now do so before any goes on
+  coroutine.yield()
+  return table.unpack(results, 1, count)
+end
+
+--- End the process where it waits.
+function Process:finish()
+  if coroutine.status(self.thread) == "suspended" then coroutine.close(self.thread) end
+end
+
+-- Fields that may be nil.
+local fields = { wake = true, watching = true, begun = true, between = true, inside = true,
+  failed = true, traceback = true }
+
+--- Names of methods and fields, for completion at the prompt.
+function Process.__names()
+  local names = { "time", "scene", "number" }
+  for name in pairs(Process) do
+    if name:sub(1, 2) ~= "__" then names[#names + 1] = name end
+  end
+  return names
+end
+
+--- p.time is that of the scene [s].
+function Process:__index(key)
+  local own = rawget(sealed.fields(self), key)
+  if own ~= nil then return own end
+  if key == "time" then return self.scene.time end
+  local value = Process[key]
+  if value ~= nil or fields[key] then return value end
+  local near = core.nearest(checks.shown(key), Process.__names())
+  error(("a process has no '%s'; %s"):format(checks.shown(key), near and "did you mean '" .. near .. "'?"
+    or "help 'process' at the prompt lists what it has"), 2)
+end
+
+function Process:__newindex(key, value)
+  if not sealed.by_library() then
+    error(("a process has no '%s' to set; use a local variable"):format(checks.shown(key)), 2)
+  end
+  rawset(sealed.fields(self), key, value)
+end
+
+function Process:__tostring()
+  return ("process %d (%s)"):format(self.number,
+    self.failed and "failed" or coroutine.status(self.thread))
+end
+
+--- scene:process(function(p) ... end) -> process
+function core.class.scene.process(scene, body)
+  build.check(scene, "scene:process", 3)
+  if type(body) ~= "function" then
+    error("scene:process expects a function, got " .. type(body), 2)
+  end
+  local data = build.data(scene)
+  data.process_count = (data.process_count or 0) + 1
+  local self = sealed.new(Process, { scene = scene, number = data.process_count, body = body,
+    steps = 0 })
+  self.thread = coroutine.create(body)
+  if not data.from_file then -- of an earlier process of this number nothing is done
+    if data.done then data.done[self.number] = nil end
+    if data.ended then data.ended[self.number] = nil end
+  end
+  current[self.thread] = self
+  data.processes[#data.processes + 1] = self
+  return self
+end
+
+--- The functions of the scene's processes, to be begun again later by process.renew. A
+-- process that is under way has no way back: nil and it.
+function process.bodies(scene)
+  local bodies = {}
+  for i, p in ipairs(build.data(scene).processes) do
+    if p.begun then return nil, p end
+    bodies[i] = p.body
+  end
+  return bodies
+end
+
+--- Put these processes in place of those that there are.
+function process.renew(scene, bodies)
+  local data = build.data(scene)
+  for _, p in ipairs(data.processes) do p:finish() end
+  data.processes = {}
+  for _, body in ipairs(bodies) do scene:process(body) end
+end
+
+local library = debug.getinfo(1, "S").short_src:match "^(.*)process%.lua$" or "softworld/"
+
+-- Where in the user's script the library was called that failed a process:
+-- "file:line: "; "" when the script's own code failed, whose errors stay as they are.
+local function place_in(thread)
+  local inside = false
+  for level = 0, 50 do
+    local info = debug.getinfo(thread, level, "Sl")
+    if not info then break end
+    if info.currentline > 0 then
+      local ours = info.short_src:sub(1, #library) == library
+      if not ours then
+        return inside and ("%s:%d: "):format(info.short_src, info.currentline) or ""
+      end
+      inside = true
+    end
+  end
+  return ""
+end
+
+-- A process that has come to its end must have had all the steps that the file has.
+local function check_end(self)
+  local done, data = done_of(self), build.data(self.scene)
+  if self.steps < #done then
+    error(("%s has ended before step '%s', which the file '%s' has; a script that goes on must have "
+      .. "the same steps"):format(tostring(self), tostring(done[self.steps + 1].name),
+      tostring(data.from_file)), 0)
+  end
+  data.ended = data.ended or {}
+  data.ended[self.number] = true
+end
+
+local function resume(self)
+  self.wake, self.watching, self.begun, self.between = nil, nil, true, nil
+  local ok, message = coroutine.resume(self.thread, self)
+  if not ok then
+    self.failed, self.traceback = true, debug.traceback(self.thread)
+    if type(message) == "string" and not message:find "^[^\n:]+:%d+: " then
+      message = place_in(self.thread) .. message
+    end
+    error(message, 0)
+  end
+  if coroutine.status(self.thread) == "dead" then check_end(self) end
+  if not self.wake then self.watching, self.wake = true, math.huge end -- a plain yield
+end
+
+local function is_due(p, second)
+  if coroutine.status(p.thread) ~= "suspended" then return false end
+  if second then return p.between or not p.begun end
+  return not p.wake or p.watching or process.reached(p.scene, p.wake)
+end
+
+-- Let those go on whose time has come; second: those that ended a step just now.
+local function go_on(data, second)
+  local alive, wake, watching, between, inside = {}, math.huge, false, false, false
+  for _, p in ipairs(data.processes) do
+    if is_due(p, second) then resume(p) end
+    if coroutine.status(p.thread) == "suspended" then
+      alive[#alive + 1] = p
+      wake = math.min(wake, p.wake)
+      watching = watching or p.watching or false
+      between = between or p.between or false
+      inside = inside or not p.between
+    end
+  end
+  data.processes = alive
+  return wake, watching, between, inside
+end
+
+--- Let every process whose time has come go on. Returns the number of living
+-- processes, the next wake-up time [s] and whether one watches a condition.
+function process.step(scene)
+  local data = build.data(scene)
+  local wake, watching, between, inside = go_on(data, false)
+  while between do
+    if data.saving and not inside then data.saving() end
+    wake, watching, between, inside = go_on(data, true)
+  end
+  return #data.processes, wake, watching
+end
+
+--- After a file was read: processes that had ended without steps are not to begin again.
+function process.take_up(scene)
+  local data = build.data(scene)
+  for _, p in ipairs(data.processes) do
+    if data.ended and data.ended[p.number] and #done_of(p) == 0 then p:finish() end
+  end
+end
+
+--- Before a run: every process whose steps the file has must be there.
+function process.check_steps(scene)
+  local data = build.data(scene)
+  process.take_up(scene)
+  for number, done in pairs(data.done or {}) do
+    if #done > 0 and number > (data.process_count or 0) then
+      error(("scene:run: the file '%s' has process %d with step '%s', which this script has not made; "
+        .. "make all processes before the run that goes on"):format(tostring(data.from_file), number,
+        tostring(done[1].name)), 0)
+    end
+  end
+end
+
+methods.guard_table("process", Process)
+
+return process

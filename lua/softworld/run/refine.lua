@@ -1,0 +1,133 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- scene:run with error bars: the same run on level after level, edges and time steps
+-- halved together, so that both their errors shrink alike.
+-- @module softworld.run.refine
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local process = require "softworld.run.process"
+local quantity = require "softworld.quantity"
+local trust = require "softworld.run.trust"
+
+local refine = {}
+
+-- Error of one step that goes with n segments: this share of L / n^3, which makes the
+-- steps' error in a swing about that of the edges.
+local step_share = 0.02
+local longest_step = 0.01 -- default dt [s]
+local at_rest = 1e-6      -- a settle that moves a wire by less finds it at rest [of its length]
+
+-- The registry's entry of an integrator.
+local function method_of(name)
+  for _, m in ipairs(core.registry().integrators) do
+    if m.name == (name or "tr-bdf2") then return m end
+  end
+end
+
+-- Options of the run of level k.
+local function steps_of(job, args)
+  local dt = args.dt or longest_step
+  local adaptive = not args.quasistatic and method_of(args.integrator).adaptive
+  local error_of_step = math.huge
+  for i, w in ipairs(build.data(job.scene).wires) do
+    error_of_step = math.min(error_of_step, step_share * w.object.length / job.first[i] ^ 3)
+  end
+  return function(k)
+    local options = {}
+    for key, value in pairs(args) do options[key] = value end
+    options.dt = dt / job.share / 2 ^ (k - 1)
+    if adaptive then options.tolerance = error_of_step / 8 ^ (k - 1) end
+    return options
+  end
+end
+
+local function positions_of(scene)
+  local list = {}
+  for i, w in ipairs(build.data(scene).wires) do list[i] = (w.object:positions()) end
+  return list
+end
+
+local function moves(scene)
+  for _, w in ipairs(build.data(scene).wires) do
+    for _, v in ipairs(w.object:velocities()) do
+      if v ~= 0 then return true end
+    end
+  end
+  return false
+end
+
+-- Is the scene in the equilibrium that settling finds? Then so is each level to begin.
+local function is_at_rest(scene)
+  if moves(scene) then return false end
+  local before, wires = positions_of(scene), build.data(scene).wires
+  local settled = scene:settle{ max_iterations = 100 }
+  local rest = settled.ok
+  for i, now in ipairs(rest and positions_of(scene) or {}) do
+    local limit = at_rest * wires[i].object.length
+    for k, x in ipairs(now) do rest = rest and math.abs(x - before[i][k]) <= limit end
+  end
+  return rest
+end
+
+-- Quantities that are asked for at a time of their own are read by a process.
+local function sample(job)
+  for _, q in ipairs(job.quantities) do
+    if q.at then
+      q.sample = nil
+      job.scene:process(function(p)
+        p:wait(q.at)
+        q.sample = quantity.read(q, p.scene.time - q.at)
+        q.sample.when = p.scene.time
+      end)
+    end
+  end
+end
+
+--- Check everything; returns the job for trust.work and the steps of its levels.
+function refine.job(scene, given, check)
+  local args = {}
+  for key, value in pairs(given) do args[key] = value end
+  local job = trust.job(scene, "scene:run", args)
+  check(scene, args)
+  if args.max_steps then
+    error("scene:run: max_steps does not go with error bars: finer levels need more steps", 0)
+  end
+  for _, q in ipairs(job.quantities) do
+    if q.at and args.duration and q.at > args.duration then
+      error(("scene:run: tolerance: quantity '%s': at = %g s is after the end of the run, %g s")
+        :format(q.name, q.at, args.duration), 0)
+    end
+  end
+  job.advice = method_of(args.integrator).implicit
+    and "a smaller dt [s], more segments or a gentler motion may help"
+    or "a dt [s] below scene:stable_dt() or an implicit integrator may help"
+  return job, steps_of(job, args)
+end
+
+--- The run of the finest level, with quantities.
+function refine.run(job, steps, run_once)
+  local scene, wall, cpu, rests = job.scene, 0, 0, false
+  function job.prepare(start)
+    if steps(1).quasistatic then return end
+    rests = is_at_rest(scene)
+    job.restore(start)
+  end
+  local function compute(k, name)
+    process.renew(scene, {}) -- settling is not for them
+    if rests then
+      local settled = scene:settle()
+      if not settled.ok then
+        return { ok = false, reason = "no equilibrium to begin with: " .. settled.reason }
+      end
+    end
+    job.begin_processes()
+    sample(job)
+    local r = run_once(scene, steps(k), name)
+    wall, cpu = wall + r.wall, cpu + r.cpu
+    return r
+  end
+  local result = trust.work(job, compute)
+  result.wall, result.cpu = wall, cpu
+  return result
+end
+
+return refine

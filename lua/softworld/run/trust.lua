@@ -1,0 +1,360 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Error bars: scene:settle and scene:run with tolerance = { quantity = value }.
+--
+--     local run = scene:run{ tolerance = { ["left.peak_force"] = 0.05, max_tension = 0.1,
+--       { name = "sag", value = 1e-4, unit = "m",
+--         of = function() return -wire:position(0.5)[3] end } } }
+--     print(run:error_bars())
+--     print(run.quantities.sag.value, run.quantities.sag.error)
+--
+-- The scene is computed from the same start on coarser and finer meshes, in a run with
+-- time steps that are halved with the edges. How the quantities change from level to
+-- level tells how far the finest is off. A level that fails is left out as long as a
+-- finer one does not; otherwise there are no numbers.
+-- @module softworld.run.trust
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
+local number = require "softworld.output.number"
+local process = require "softworld.run.process"
+local quantity = require "softworld.quantity"
+local sealed = require "softworld.sealed"
+
+local trust = {}
+
+local first_share = 1 / 4 -- of the segments asked for, on the coarsest level
+local fewest = 6          -- segments of the coarsest level, if so many were asked for
+local least_levels = 3    -- to see how fast the quantities converge
+local most_levels = { ["scene:settle"] = 7, ["scene:run"] = 5 } -- default
+local finest_level = 12   -- edges of 1/512 of those asked for
+local hoped = 8           -- bars get no smaller than by this from level to level
+local failures = 3        -- levels that may fail before giving up
+local safety = 1.5
+local second_order = 4    -- error of a level over that of the next one
+local slowest = 1.5       -- below this rate there is no convergence to rely on
+local rounding = 1e-9     -- of the value
+
+--- Does the argument table ask for error bars?
+function trust.wanted(args) return type(checks.field(args, "tolerance")) == "table" end
+
+-- --- the estimate -----------------------------------------------------------------------
+
+--- How far the last of the values of a quantity may be off, one value per level, each
+-- level with edges and steps half as long as before.
+-- @tparam table q the quantity: plain or own = true when its order is not known
+-- @tparam table values of the levels, coarsest first
+-- @tparam boolean contact does the wire touch anything, or were steps redone?
+-- @treturn number error, in the quantity's unit
+-- @treturn number by how much a further level makes it smaller
+function trust.estimate(q, values, contact)
+  local n = #values
+  if n < 2 then return math.huge, second_order end
+  local last = quantity.distance(values[n - 1], values[n])
+  local size = quantity.size(values[n]) -- infinite: the bend radius of a straight wire
+  local floor = size < math.huge and rounding * size or 0
+  if n == 2 then
+    local rate = (q.plain or q.own or contact) and 2 or second_order
+    return safety * last / (rate - 1) + floor, rate
+  end
+  local before = quantity.distance(values[n - 2], values[n - 1])
+  local first = n > 3 and quantity.distance(values[n - 3], values[n - 2]) or math.huge
+  local turns = quantity.agreement(values[n - 2], values[n - 1], values[n]) < 0
+  local rate = last > 0 and math.min(second_order, before / last) or second_order
+  local off
+  if before > first then -- peaks of blows, for instance: the bar is their change
+    off = math.max(last, before)
+    rate = 1
+  elseif contact then -- touching places jump from node to node: the plain difference
+    off = math.max(last, before / 8)
+  elseif turns or rate < slowest then
+    off = math.max(last, before / 2)
+  else -- a small last change may be chance, where the one before was large
+    off = math.max(last / (rate - 1), before / (second_order * (second_order - 1)))
+  end
+  return safety * off + floor, math.max(rate, 1)
+end
+
+-- --- results ----------------------------------------------------------------------------
+
+local function text_of(value, unit)
+  if type(value) == "number" then return number.text(value, unit) end
+  if type(value[1]) ~= "number" then return ("%d points"):format(#value) end
+  local list = {}
+  for i, x in ipairs(value) do list[i] = number.digits(x) end
+  return ("(%s)%s"):format(table.concat(list, ", "), unit ~= "" and " " .. unit or "")
+end
+
+local Quantity = { __name = "quantity" }
+Quantity.__index = Quantity
+
+function Quantity:__tostring()
+  return ("%s +- %s"):format(text_of(self.value, self.unit), number.text(self.error, self.unit))
+end
+
+--- The value for people: a vector as one text.
+function Quantity:text() return text_of(self.value, self.unit) end
+
+local Bars = { __name = "error bars" }
+Bars.__index = Bars
+
+function Bars:__tostring()
+  local lines = {}
+  for i, q in ipairs(self) do
+    local place = (q.where and (", s = %.4g m"):format(q.where) or "")
+      .. (q.when and (", t = %.4g s"):format(q.when) or "") .. (q.note and (" (%s)"):format(q.note) or "")
+    lines[i] = ("%s = %s (asked for %s: %s)%s"):format(q.name, tostring(q),
+      number.text(q.tolerance, q.unit), q.met and "met" or "NOT met", place)
+  end
+  return table.concat(lines, "\n")
+end
+
+--- result:error_bars(): the quantities in the order asked for; prints as lines.
+function trust.error_bars(result)
+  if sealed.fields(result).refused then
+    error(("there are no numbers: %s (%s)"):format(result.reason, result.advice), 2)
+  end
+  local asked = result.quantities
+  if not asked then
+    error("no error bars were asked for: give tolerance = { quantity = value }", 2)
+  end
+  local list = {}
+  for i, name in ipairs(result.asked) do list[i] = asked[name] end
+  return setmetatable(list, Bars)
+end
+
+--- Which tolerances were not met, in words; nil when all were, or none was asked for.
+function trust.unmet(result)
+  local names = {}
+  for _, name in ipairs(result.quantities and result.asked or {}) do
+    if not result.quantities[name].met then names[#names + 1] = name end
+  end
+  if #names == 0 then return nil end
+  return ("%d of %d tolerances NOT met: %s"):format(#names, #result.asked, table.concat(names, ", "))
+end
+
+--- For the __index of results: raises when the quantities of a refused one are read.
+function trust.refuse(result, key)
+  if key == "quantities" and sealed.fields(result).refused then
+    error(("there are no numbers: %s (%s)"):format(result.reason, result.advice), 2)
+  end
+end
+
+-- --- levels -----------------------------------------------------------------------------
+
+-- Even segments of every wire on level k, counted from 1.
+local function counts_of(job, k)
+  local list = {}
+  for i, n in ipairs(job.first) do list[i] = n << (k - 1) end
+  return list
+end
+
+local function first_counts(scene)
+  local counts, least = {}, math.huge
+  for i, w in ipairs(build.data(scene).wires) do
+    counts[i] = core.segments(w.object)
+    least = math.min(least, counts[i])
+  end
+  local share = math.min(1, math.max(first_share, fewest / least))
+  for i, n in ipairs(counts) do counts[i] = math.max(2, math.ceil(n * share - 1e-9)) end
+  return counts, share
+end
+
+-- Levels of the table of arguments, checked; taken out of it.
+local function take_levels(what, args)
+  local levels = args.levels
+  args.levels = nil
+  if levels == nil then return most_levels[what] end
+  if math.type(levels) ~= "integer" or levels < least_levels
+    or levels > finest_level then
+    error(("%s: levels = %s is not allowed; it must be a whole number from %d to %d"):format(what,
+      checks.shown(levels), least_levels, finest_level), 0)
+  end
+  return levels
+end
+
+--- A computation to be done level by level.
+-- @tparam table args a copy of the caller's, from which tolerance and levels are taken
+-- @treturn table a job; its advice, for when nothing can be computed, is the caller's to set
+function trust.job(scene, what, args)
+  local data = build.data(scene)
+  if data.running then
+    error(("%s: a run of scene '%s' is under way; error bars need computations from their start: ask "
+      .. "for them outside of processes"):format(what, scene.name), 0)
+  end
+  local bodies, under_way = process.bodies(scene)
+  if not bodies then
+    error(("%s: %s is under way and cannot begin again, as error bars need; run the scene without them "
+      .. "until it has ended, or ask for them from the start"):format(what, tostring(under_way)), 0)
+  end
+  if #data.wires + #data.particles == 0 then
+    error(("%s: scene '%s': there is no wire"):format(what, scene.name), 0)
+  end
+  local job = { scene = scene, what = what, values = {}, levels = {} }
+  local count = (data.process_count or 0) - #bodies
+  function job.begin_processes()
+    data.process_count = count -- the same numbers again
+    process.renew(scene, bodies)
+  end
+  job.quantities = quantity.list(scene, args.tolerance, what)
+  if #data.particles > 0 then
+    error(("%s: error bars go with wires only, and '%s' is an object of particles; give dt, or tolerance "
+      .. "as a number"):format(what, data.particles[1].name), 0)
+  end
+  args.tolerance = nil
+  job.most = take_levels(what, args)
+  job.first, job.share = first_counts(scene)
+  for _, q in ipairs(job.quantities) do job.values[q.name] = {} end
+  return job
+end
+
+-- Were more than 1 % of the steps redone, by methods of first order? Differences of levels then tell
+-- no more than they are.
+local function was_redone(scene)
+  local l = core.ledger(scene)
+  return l.redone.count > 0.01 * l.steps
+end
+
+local function touches(scene)
+  if scene:contacts() > 0 or build.data(scene).touching then return true end
+  for _, o in ipairs(build.data(scene).obstacles) do
+    local rows, count = o.object:log()
+    for i = 0, count - 1 do
+      if rows[5 * i + 2] ~= 0 or rows[5 * i + 3] ~= 0 or rows[5 * i + 4] ~= 0 then return true end
+    end
+  end
+  return false
+end
+
+-- Take the quantities' values on the level just computed. Returns the largest bar over its tolerance: at 1
+-- or less all tolerances are met.
+local function judge(job, result)
+  local worst = 0
+  job.contact = job.contact or touches(job.scene) or was_redone(job.scene)
+  job.read = {}
+  for _, q in ipairs(job.quantities) do
+    local now = q.sample or quantity.read(q, result.start)
+    local values = job.values[q.name]
+    if #values > 0 and not quantity.alike(values[#values], now.value) then
+      error(("quantity '%s': its list is not as long on every mesh; compare at the same places"):format(
+        q.name), 0)
+    end
+    values[#values + 1] = now.value
+    now.error, now.rate = trust.estimate(q, values, job.contact)
+    job.read[q.name] = now
+    worst = math.max(worst, now.error / q.tolerance)
+  end
+  return worst
+end
+
+local function describe(job, k)
+  local most = 0
+  for _, n in ipairs(counts_of(job, k)) do most = math.max(most, n) end
+  return ("level %d, %d segments"):format(k, most)
+end
+
+-- Wires cannot be taken away, so that a run that makes some cannot be repeated.
+local function check_wires(job)
+  local wires = build.data(job.scene).wires
+  local new = wires[#job.first + 1]
+  if not new then return end
+  error(("%s: wire '%s' was made on the way, so that the computation cannot be repeated for error bars; "
+    .. "make it before"):format(job.what, new.name), 0)
+end
+
+-- Compute level after level until the bars are met. Returns the last result.
+local function climb(job, start, compute)
+  local good, bad, result = 0, 0, nil
+  if job.prepare then job.prepare(start) end
+  for k = 1, job.most do
+    if k > 1 then
+      check_wires(job)
+      job.restore(start)
+    end
+    core.remesh(job.scene, counts_of(job, k))
+    local begun = os.clock()
+    result = compute(k, describe(job, k))
+    job.levels[#job.levels + 1] = { segments = counts_of(job, k), ok = result.ok, reason = result.reason,
+      cpu = os.clock() - begun }
+    if result.ok then
+      good, bad, job.finest = good + 1, 0, k
+      local worst = judge(job, result)
+      if good >= least_levels and (worst <= 1 or worst > hoped ^ (job.most - k)) then break end
+    else
+      good, bad, job.failure = 0, bad + 1, result.reason
+      for name in pairs(job.values) do job.values[name] = {} end
+      if bad == failures then break end
+    end
+  end
+  return result
+end
+
+-- What to do about bars that are too long.
+local function advice_of(job)
+  local worst, slow = 0, nil
+  for _, q in ipairs(job.quantities) do
+    local now = job.read[q.name]
+    local levels = math.log(now.error / q.tolerance) / math.log(now.rate)
+    if levels > worst then worst, slow = levels, q end
+  end
+  if not slow then return nil end
+  local now, more = job.read[slow.name], math.ceil(worst)
+  local k = job.finest + more
+  local reached = ("%s has a bar of %s on %s; "):format(slow.name, number.text(now.error, slow.unit),
+    describe(job, job.finest))
+  if now.rate <= 1 then
+    return reached .. "it does not converge: look at what jumps there, or ask for less"
+  end
+  local asked = number.text(slow.tolerance, slow.unit)
+  if k > finest_level then
+    return reached .. ("%s needs more than levels = %d: ask for less"):format(asked, finest_level)
+  end
+  return reached .. ("%s needs about levels = %d (%s)"):format(asked, k, describe(job, k))
+end
+
+local function conclude(job, result)
+  result.asked, result.levels = {}, job.levels
+  for i, q in ipairs(job.quantities) do result.asked[i] = q.name end
+  if not result.ok or #job.values[job.quantities[1].name] < 2 then
+    if result.ok then result.reason = "all levels but the last failed: " .. job.failure end
+    result.ok, result.refused, result.met = false, true, false
+    result.where = ("%s: %s"):format(describe(job, #job.levels), result.reason)
+    result.advice = job.advice
+    return result
+  end
+  result.quantities, result.met = {}, true
+  for _, q in ipairs(job.quantities) do
+    local now = job.read[q.name]
+    local met = now.error <= q.tolerance
+    result.met = result.met and met
+    result.quantities[q.name] = setmetatable({ name = q.name, value = now.value, error = now.error,
+      unit = q.unit, tolerance = q.tolerance, met = met, where = now.where, when = now.when, note = now.note,
+      levels = job.values[q.name] }, Quantity)
+  end
+  if not result.met then result.advice = advice_of(job) end
+  return result
+end
+
+--- Do the job: compute(level, name) gives a result with ok and reason. After an error or
+-- a refusal the scene is as it was before; else at the finest level's end.
+function trust.work(job, compute)
+  local scene, data = job.scene, build.data(job.scene)
+  local restores = data.restores
+  local start = scene:snapshot()
+  job.restore = function(snapshot)
+    scene:restore(snapshot)
+    data.restores = restores -- what earlier runs have recorded is still there
+  end
+  local fine, result = pcall(climb, job, start, compute)
+  if fine then result = conclude(job, result) end
+  local tidy, why = true, nil
+  if not fine or result.refused then
+    tidy, why = pcall(job.restore, start)
+    job.begin_processes()
+  end
+  start:close()
+  if not fine then error(result, 0) end
+  if not tidy then error(why, 0) end
+  return result
+end
+
+return trust

@@ -1,0 +1,440 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Making objects, on the Lua side: names, mesh files, descriptions for pictures and series, and the Lua
+-- state that snapshots keep.
+-- @module softworld.scene.build
+local core = require "softworld.core"
+local cable = require "softworld.cable"
+local checks = require "softworld.checks"
+local keep = require "softworld.scene.keep"
+local meshfile = require "softworld.meshfile"
+local remarks = require "softworld.remarks"
+local solid = require "softworld.output.solid"
+
+local build = {}
+local class = core.class
+
+--- Lists of build.data, to which only is added: { object =, name =, ... } of what was made.
+build.lists = { "wires", "particles", "obstacles", "holds", "grippers", "joins", "fixings" }
+--- Parts of build.data that belong to the process, not to the scene.
+build.passing = { processes = true, process_count = true, running = true, saving = true, going = true,
+  restores = true, from_file = true }
+-- How snapshots keep it, see keep.image.
+local imaged = { lists = build.lists, things = { "grippers", "fixings" }, whole = { "origin" },
+  passing = { origin = true } }
+for name in pairs(build.passing) do imaged.passing[name] = true end
+for _, name in ipairs(build.lists) do imaged.passing[name] = true end
+
+--- What is known of a scene: lists of { object =, name =, ... }.
+function build.data(scene)
+  local data = core.data(scene)
+  if not data.wires then
+    for _, name in ipairs(build.lists) do data[name] = {} end
+    data.processes = {}
+    data.restores = 0 -- how often a snapshot was restored
+  end
+  return data
+end
+
+-- Where this library lies, as places in messages begin; long paths are cut there, those of files with
+-- longer names earlier.
+local library = debug.getinfo(1, "S").source:match "^@(.*)build%.lua$" or "softworld/"
+
+local function is_ours(source)
+  local cut = source:sub(1, 3) == "..."
+  return source:find(cut and "softworld/" or library, 1, true) ~= nil
+end
+
+-- "file:line: " of the script's line that is being done; "" where there is none.
+local function place()
+  for level = 3, 200 do
+    local info = debug.getinfo(level, "Sl")
+    if not info then return "" end
+    if info.currentline > 0 and not is_ours(info.short_src) then
+      return ("%s:%d: "):format(info.short_src, info.currentline)
+    end
+  end
+  return ""
+end
+
+-- Lua's own message on a mistake in this library: its place must be seen.
+local function is_mistake(text)
+  return text:find "^attempt to " or text:find "^bad argument #%d+ to '[^f]" or text:find "^stack overflow"
+end
+
+local function finish(of_core, ok, ...)
+  if ok then return ... end
+  local message = ...
+  if type(message) ~= "string" then error(message, 0) end
+  local where, text = message:match "^([^\n]-:%d+: )(.*)$"
+  if where and (not is_ours(where) or is_mistake(text)) or not where and of_core then
+    error(message, 0) -- a script's own
+  end
+  text = (text or message):gsub("^bad argument #(%d+) to 'f' %((.*)%)$", "argument %1: %2")
+  error(place() .. text, 0)
+end
+
+local function all(...) return ... end
+
+-- An error of the core has the place of this line; an error of a script's function keeps its own.
+local function of_core(f, ...) return all(f(...)) end
+
+local kinds = setmetatable({}, { __mode = "k" }) -- function -> "C", "Lua"
+
+local function kind_of(f)
+  local kind = kinds[f]
+  if not kind then
+    kind = debug.getinfo(f, "S").what
+    kinds[f] = kind
+  end
+  return kind
+end
+
+--- Call f; an error of this library or of the core gets the place of the script's line. f as a
+-- function of this library raises errors without a place, error(text, 0).
+function build.call(_, f, ...)
+  if kind_of(f) == "C" then return finish(true, pcall(of_core, f, ...)) end
+  return finish(false, pcall(f, ...))
+end
+
+--- The same of a function of this library that places its errors itself, but counts levels as if the
+-- script called it.
+function build.through(f, ...) return finish(true, pcall(of_core, f, ...)) end
+
+--- f, with errors placed as by build.call.
+function build.placed(f)
+  return function(...) return build.call(3, f, ...) end
+end
+
+--- An error's text without the place in this library where it was raised.
+function build.plain(message)
+  return (tostring(message):gsub("^[^\n:]*softworld/[%w_]+%.lua:%d+: ", ""))
+end
+
+local function check_scene(scene, what)
+  if core.type(scene) ~= "scene" then
+    error(("%s is a method: call it with a colon, scene:%s"):format(what, what:match ":(.*)"), 0)
+  end
+  if core.busy(scene) then
+    error(("%s: scene '%s' cannot be changed from inside a step or a function of time")
+      :format(what, scene.name), 0)
+  end
+  if build.guard then build.guard(what) end -- of processes whose steps are kept
+end
+
+--- Raise unless scene is one that may be changed now.
+function build.check(scene, what) build.call(3, check_scene, scene, what) end
+
+local function copy(t)
+  local c = {}
+  for k, v in pairs(t) do c[k] = v end
+  return c
+end
+
+local function table_of(args, what)
+  if args == nil then return {} end
+  if type(args) ~= "table" then
+    error(("%s takes one table of parameters, got %s"):format(what, type(args)), 3)
+  end
+  return copy(args)
+end
+
+-- Lists only grow, or are made anew.
+local listed = setmetatable({}, { __mode = "k" }) -- a list -> { count =, of the entries, names = }
+
+local function is_in(list, name)
+  local known = listed[list]
+  if not known then
+    known = { count = 0, names = {} }
+    listed[list] = known
+  end
+  for i = known.count + 1, #list do known.names[list[i].name or false] = true end
+  known.count = #list
+  return known.names[name] or false
+end
+
+local function is_taken(data, name)
+  return is_in(data.wires, name) or is_in(data.particles, name) or is_in(data.obstacles, name)
+    or is_in(data.holds, name) or is_in(data.grippers, name) or is_in(data.fixings, name)
+end
+
+--- The name to use: the given one, which must be new, or kind and a number.
+-- Names tell objects apart in series and messages.
+function build.name(scene, given, kind, count, level)
+  local data = build.data(scene)
+  if given == nil then
+    repeat count = count + 1 until not is_taken(data, kind .. count)
+    return kind .. count
+  end
+  if type(given) == "string" and is_taken(data, given) then
+    error(("scene '%s' already has something named '%s'"):format(scene.name, given), level)
+  end
+  return given
+end
+
+local cable_words, wire_words = { "cable", "stiffness", "use" }, nil
+
+-- The core names unknown keys, but does not know these words, which belong to Lua.
+local function check_cable_words(args)
+  if not wire_words then
+    wire_words = { from = true, to = true, path = true }
+    local rows = core.registry().params
+    for _, list in ipairs{ rows.wire, rows.section, rows.wire_mesh, rows.calibrate_tube,
+      rows.calibrate_radial, rows.calibrate_cubic, rows.calibrate_composite } do
+      for _, row in ipairs(list) do wire_words[row.name] = true end
+    end
+    for _, word in ipairs(cable_words) do wire_words[word] = true end
+  end
+  for key in pairs(args) do
+    local near = type(key) == "string" and not wire_words[key] and core.nearest(key, cable_words)
+    if near then error(("wire: there is no parameter '%s'; did you mean '%s'?"):format(key, near), 0) end
+  end
+end
+
+-- Replaces cable, stiffness and use by the section they stand for; what is given
+-- besides stays. Returns the entry and the use.
+local function take_cable(args)
+  check_cable_words(args)
+  local entry = args.cable
+  if entry == nil then
+    for _, key in ipairs{ "stiffness", "use" } do
+      if args[key] ~= nil then error(("wire: %s goes with cable = 'name'"):format(key), 0) end
+    end
+    return nil
+  end
+  entry = cable.get(entry)
+  for _, key in ipairs{ "E", "nu", "density" } do
+    if args[key] ~= nil and not (key == "nu" and args.body == "solid") then
+      error(("wire: %s is of a solid round wire and does not go with cable = '%s'; give EA, EI, GJ or "
+        .. "mass_per_length to override"):format(key, entry.name), 0)
+    end
+  end
+  local _, _, use = cable.bend_limit(entry, args.use)
+  for key, value in pairs(cable.section(entry, args.stiffness)) do
+    if args[key] == nil then args[key] = value end
+  end
+  if args.breaking_load == nil and args.breaking_flag == nil and entry.breaking_load then
+    args.breaking_load, args.breaking_flag = entry.breaking_load.value, entry.breaking_load.flag
+  end
+  args.cable, args.stiffness, args.use = nil, nil, nil
+  return entry, use
+end
+
+-- section = "solid" and "springs" say the same as body; other sections are shapes of a cubic mesh.
+local function take_body(args)
+  if args.section ~= "solid" and args.section ~= "springs" then return end
+  args.body, args.section = args.body or args.section, nil
+end
+
+local new_wire = class.scene.wire
+--- scene:wire{...}: see help "wire" for the parameters. `cable`, a name or entry of
+-- the catalogue, gives EA, EI, GJ, mass_per_length and radius that are not given;
+-- `stiffness` = "default", "slip" or "stick" chooses among its EI and GJ; `use` is
+-- what its bend radius is judged by. See help "cable".
+function class.scene.wire(scene, args)
+  build.check(scene, "scene:wire", 3)
+  args = table_of(args, "scene:wire")
+  local data = build.data(scene)
+  take_body(args)
+  local entry, use = build.call(3, take_cable, args)
+  args.name = build.name(scene, args.name, "wire", #data.wires, 3)
+  local wire = build.call(3, new_wire, scene, args)
+  data.wires[#data.wires + 1] = { object = wire, name = args.name }
+  if entry then
+    local kept = core.data(wire)
+    kept.cable, kept.use = entry, use
+  end
+  remarks.wire(data, wire, args)
+  remarks.mesh(wire)
+  return wire
+end
+
+local remodel = class.wire.remodel
+--- wire:remodel{ model =, ... }: see help "remodel".
+function class.wire.remodel(wire, args)
+  local result = build.call(3, remodel, wire, args)
+  remarks.mesh(wire)
+  return result
+end
+
+local function name_of(wire) return wire.name end
+local function bend_of(wire, options) return wire:min_bend_radius(options) end
+
+--- The catalogue entry the wire was made from, or nil.
+function class.wire.cable(wire)
+  if core.type(wire) ~= "wire" then error("wire:cable is a method: call it with a colon", 2) end
+  build.call(3, name_of, wire) -- raises when the scene has been closed
+  return core.data(wire).cable
+end
+
+local Limit = { __name = "bend limit" }
+Limit.__index = checks.fields("bend limit", "name ok radius s t limit inside use")
+
+function Limit.__tostring(l)
+  return ("%s: smallest bend radius %.4g m, limit %.4g m (%s): %s"):format(l.name, l.radius, l.limit,
+    l.use, l.ok and "kept" or "NOT kept")
+end
+
+--- Is the wire bent more tightly than its cable allows?
+-- @tparam[opt] table options `use` (default: that of the wire), `now` = true for the
+-- present shape instead of the tightest of the run
+-- @treturn table `ok`, `radius` (smallest radius of the centre line [m]) at `s` [m]
+-- and `t` [s], `limit` (of the centre line [m]), `inside` (the rule's own radius, of
+-- the inside of the bend [m]), `use`
+function class.wire.bend_limit(wire, options)
+  if core.type(wire) ~= "wire" then error("wire:bend_limit is a method: call it with a colon", 2) end
+  build.call(3, name_of, wire)
+  options = table_of(options, "wire:bend_limit")
+  checks.keys("wire:bend_limit", options, { use = true, now = true }, 3)
+  local kept = core.data(wire)
+  if not kept.cable then
+    error(("wire '%s' was not made from a cable of the catalogue: it has no bend limit"):format(wire.name), 2)
+  end
+  local inside, limit, use = build.call(3, cable.bend_limit, kept.cable, options.use or kept.use,
+    2 * wire.radius)
+  local radius, s, t = build.call(3, bend_of, wire, { now = options.now })
+  return setmetatable({ name = wire.name, ok = radius >= limit, radius = radius, s = s, t = t,
+    limit = limit, inside = inside, use = use }, Limit)
+end
+
+local new_particles = class.scene.particles
+--- scene:particles{ positions =, masses =, links =, ... }: any object of particles; see help
+-- "particles".
+function class.scene.particles(scene, args)
+  build.check(scene, "scene:particles", 3)
+  args = table_of(args, "scene:particles")
+  local data = build.data(scene)
+  args.name = build.name(scene, args.name, "particles", #data.particles, 3)
+  local object = build.call(3, new_particles, scene, args)
+  data.particles[#data.particles + 1] = { object = object, name = args.name }
+  return object
+end
+
+local new_obstacle = class.scene.obstacle
+
+-- The core takes a mesh's content and does not know this word, which belongs to Lua.
+local function check_mesh_words(args)
+  if args.shape ~= "mesh" or args.file ~= nil then return end
+  for key in pairs(args) do
+    if core.nearest(checks.shown(key), { "file" }) then
+      error(("obstacle mesh: there is no parameter '%s'; did you mean 'file'?"):format(checks.shown(key)), 0)
+    end
+  end
+  if args.data == nil then
+    error(("obstacle mesh: file is required, the name of a mesh file (%s), or data, its content")
+      :format(table.concat(meshfile.formats, " ")), 0)
+  end
+end
+
+local function obstacle_from(scene, args, path)
+  if not path then return new_obstacle(scene, args) end
+  local fine, result = pcall(new_obstacle, scene, args)
+  if not fine then error(meshfile.named(result, path), 0) end
+  return result
+end
+
+--- scene:obstacle{ shape =, ... }: see help "obstacle". `file` reads a mesh.
+function class.scene.obstacle(scene, args)
+  build.check(scene, "scene:obstacle", 3)
+  args = table_of(args, "scene:obstacle")
+  local data = build.data(scene)
+  local path = args.file
+  build.call(3, check_mesh_words, args)
+  if path ~= nil then
+    local mesh = build.call(3, meshfile.read, path)
+    args.data, args.format, args.file = mesh.data, args.format or mesh.format, nil
+  end
+  local kind = type(args.shape) == "string" and args.shape or "obstacle"
+  args.name = build.name(scene, args.name, kind, #data.obstacles, 3)
+  local obstacle = build.call(3, obstacle_from, scene, args, path)
+  local entry = copy(args)
+  entry.object, entry.data = obstacle, nil
+  data.obstacles[#data.obstacles + 1] = entry -- in the order of the core's, whatever fails next
+  solid.keep(entry, obstacle.shape)
+  remarks.obstacle(data, entry, scene.time)
+  return obstacle
+end
+
+-- clamp, pin, ...; hold takes particles
+local hold_kinds = { "hold" }
+for _, hold in ipairs(core.registry().holds) do hold_kinds[#hold_kinds + 1] = hold.name end
+for _, kind in ipairs(hold_kinds) do
+  local new_hold = class.scene[kind]
+  class.scene[kind] = function(scene, wire, args)
+    build.check(scene, "scene:" .. kind, 3)
+    args = table_of(args, "scene:" .. kind)
+    local data = build.data(scene)
+    if kind ~= "grip" or args.name == nil then -- a gripper's holds have its name
+      args.name = build.name(scene, args.name, kind == "hold" and "clamp" or kind, #data.holds, 3)
+    end
+    local hold = build.call(3, new_hold, scene, wire, args)
+    data.holds[#data.holds + 1] =
+      { object = hold, name = args.name, kind = kind, width = args.width }
+    return hold
+  end
+end
+
+local new_contact = class.scene.wire_contact
+--- scene:wire_contact{ between = wires, friction =, ... }: wires touch each other and
+-- themselves from now on; see help "wire_contact".
+function class.scene.wire_contact(scene, args)
+  build.check(scene, "scene:wire_contact", 3)
+  remarks.on("wire_contact", "wire_contact", args)
+  build.call(3, new_contact, scene, args)
+  build.data(scene).touching = true
+end
+
+local new_join = class.scene.join
+--- scene:join{ ends = { { wire, s = }, ... }, rigid =, name = }: wires fixed to each other
+-- where they meet; see help "join".
+function class.scene.join(scene, args)
+  build.check(scene, "scene:join", 3)
+  local join = build.call(3, new_join, scene, args)
+  local data = build.data(scene)
+  data.joins[#data.joins + 1] = { object = join, name = join.name }
+  return join
+end
+
+local new_force = class.scene.force
+--- scene:force{ kind =, on =, ... }: see help "force".
+function class.scene.force(scene, args)
+  build.check(scene, "scene:force", 3)
+  return (build.call(3, new_force, scene, args))
+end
+
+-- --- snapshots ------------------------------------------------------------------
+
+local new_snapshot = class.scene.snapshot
+--- The scene as it is, to be restored as often as wanted. Processes are not part
+-- of it: restoring ends them.
+function class.scene.snapshot(scene)
+  local snapshot = build.call(3, new_snapshot, scene)
+  core.data(snapshot).image = keep.image(build.data(scene), imaged)
+  return snapshot
+end
+
+local restore = class.scene.restore
+--- Back to the snapshot, bit by bit. What was made after it is taken back.
+function class.scene.restore(scene, snapshot)
+  build.check(scene, "scene:restore", 3)
+  local data = build.data(scene)
+  if data.running then
+    error(("scene:restore: a run of scene '%s' is under way"):format(scene.name), 2)
+  end
+  if core.type(snapshot) ~= "snapshot" then
+    error("scene:restore expects a snapshot, got " .. (core.type(snapshot) or type(snapshot)), 2)
+  end
+  build.back(scene, snapshot)
+end
+
+--- The same between two steps of a run. Its processes end.
+function build.back(scene, snapshot)
+  local data = build.data(scene)
+  build.call(3, restore, scene, snapshot)
+  data.restores, data.going = data.restores + 1, nil
+  for _, process in ipairs(data.processes) do process:finish() end
+  data.processes = {}
+  for _, gripper in ipairs(data.grippers) do gripper:leave() end
+  keep.back(data, core.data(snapshot).image, imaged)
+end
+
+return build

@@ -1,0 +1,101 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- get and set of scenes and grippers: values of their rows, those marked changeable to be set between steps.
+-- Obstacles and forces have theirs in the core.
+-- @module softworld.scene.changes
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
+local grasp = require "softworld.grip.grasp"
+local remarks = require "softworld.remarks"
+local rows = require "softworld.rows"
+local Gripper = require "softworld.grip.gripper"
+
+-- --- scenes -----------------------------------------------------------------------------------
+
+local of_scene = rows.call("scene:set", "{...}", "changes the scene from now on", {
+  example = "scene:set { gravity = { 0, 0, 0 } }",
+  { "gravity", "vector", "m/s2", "on everything" },
+})
+rows.calls{ { "scene:get", "", "what a scene is made of, as it is now", "name, gravity [m/s2]" } }
+
+--- scene:get() -> { name =, gravity = {x, y, z} [m/s2] }
+function core.class.scene.get(scene)
+  return { name = scene.name, gravity = build.call(3, scene.gravity, scene) }
+end
+
+local function set_scene(scene, args)
+  local given = of_scene:read(args)
+  remarks.gravity(given.gravity)
+  if given.gravity then scene:gravity(given.gravity) end
+end
+
+--- scene:set{ gravity = }: see help "scene:set".
+function core.class.scene.set(scene, args)
+  build.check(scene, "scene:set", 3)
+  build.call(3, set_scene, scene, args)
+end
+
+-- --- obstacles --------------------------------------------------------------------------------
+
+rows.calls{
+  { "obstacle:get", "", "values of its rows, as it is now",
+    "name, at [m], rotation, friction, kinetic_friction, restitution" },
+  { "obstacle:set", "{...}", "at, rotation, friction, kinetic_friction, restitution from now on",
+    example = "plane:set { friction = 0.5 }" },
+}
+
+rows.calls{
+  { "force:get", "", "values of its rows, as they are now", "kind, and its parameters" },
+  { "force:set", "{...}", "new values of drag, wind, damping, viscous_bend, push, point, line, moment",
+    example = "damping:set { stiffness = 2e-3 }" },
+}
+
+-- --- grippers ---------------------------------------------------------------------------------
+
+local of_gripper = rows.call("gripper:set", "{...}", "changes the gripper from now on", {
+  example = "hand:set { force = 12 }",
+  { "force", "number", "N", "that jaws closed by a force keep on the wire", min = 0, above = true },
+  { "slip_tolerance", "number", "m", "slides below this are none", min = 0, above = true },
+  grasp.on_slip_row,
+  { "on_crash", "reaction", "-", "to pads or arm that run into an obstacle: one of these, or a function",
+    choices = grasp.reactions },
+})
+rows.calls{ { "gripper:get", "", "what it was made of, as it is now",
+  "name, pads, at [m], rotation, arm, slip_tolerance [m], on_slip, on_crash, force [N]" } }
+
+local function copied(t)
+  if type(t) ~= "table" then return t or nil end
+  local copy = {}
+  for key, value in pairs(t) do copy[key] = copied(value) end
+  return copy
+end
+
+local function kept_force(self)
+  return self.order and self.order.mode == "force" and self.order.force or nil
+end
+
+function Gripper:get()
+  grasp.check_there(self, 3)
+  return { name = self.name, pads = copied(self.pads), at = self:position(), rotation = copied(self.rotation),
+    arm = copied(self.arm), slip_tolerance = self.slip_tolerance, on_slip = self.on_slip,
+    on_crash = self.on_crash, force = kept_force(self) }
+end
+
+function Gripper:set(args)
+  grasp.check_scene(self, 3)
+  local given = of_gripper:read(args)
+  if given.force and (not self.tool or self.frozen or not kept_force(self)) then
+    error(("gripper:set: force: gripper '%s' has no jaws that keep a force on a wire; grasp with force [N]")
+      :format(checks.shown(self.name)), 0)
+  end
+  self.slip_tolerance = given.slip_tolerance or self.slip_tolerance
+  if given.on_crash ~= nil then self.on_crash = given.on_crash end
+  if given.on_slip ~= nil then self.on_slip = given.on_slip end
+  if given.slip_tolerance or given.on_slip ~= nil then grasp.watch(self) end
+  if given.force then
+    self.order = { mode = "force", speed = self.order.speed, force = given.force }
+    self.tool:jaws(self.order)
+  end
+end
+
+for _, name in ipairs{ "get", "set" } do Gripper[name] = build.placed(Gripper[name]) end

@@ -1,0 +1,144 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- scene:describe: what a scene is made of, as a plain table.
+-- @module softworld.scene.describe
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local fixing = require "softworld.link.fixing"
+local record = require "softworld.scene.record"
+local rows = require "softworld.rows"
+local sealed = require "softworld.sealed"
+
+local describe = {}
+
+rows.calls{
+  { "scene:describe", "", "what the scene is made of, as a plain table: no objects, no functions",
+    "name, time [s], gravity [m/s2], and lists: wires, particles, obstacles, holds, forces, joins, fixings, "
+      .. "grippers; each item has name or kind, given (as the script gave it), now (as it is)",
+    example = "for _, w in ipairs(scene:describe().wires) do print(w.name, w.now.length) end" },
+}
+
+local function name_of(value)
+  local fine, name = pcall(function()
+    return type(value) == "table" and rawget(sealed.fields(value), "name") or value.name
+  end)
+  return fine and name or nil
+end
+
+-- Objects become their names, functions the word. above: tables that the value is in.
+local function plain(value, above)
+  local kind = type(value)
+  if kind == "number" or kind == "string" or kind == "boolean" then return value end
+  if value == record.a_function then return "function" end
+  above = above or {}
+  local of = record.trajectory(value)
+  if of then return plain(of.args[1], above) end
+  if kind ~= "table" or getmetatable(value) ~= nil or above[value] then
+    return name_of(value) or tostring(value)
+  end
+  local copy = {}
+  above[value] = true
+  for key, item in next, value do
+    copy[type(key) == "userdata" and tostring(key) or key] = plain(item, above)
+  end
+  above[value] = nil
+  return copy
+end
+
+-- Tables of parameters by the object that a call of the scene made.
+local function given_of(scene)
+  local given, forces = {}, {}
+  for _, call in ipairs(record.of(scene)) do
+    local object = call.results[1]
+    local args = call.args[call.args.n]
+    if rawequal(call.self, scene) and object ~= nil then
+      given[object] = { kind = call.method, args = type(args) == "table" and args or {},
+        wire = call.args.n > 1 and call.args[1] or nil }
+      if call.method == "force" then forces[#forces + 1] = object end
+    end
+  end
+  return given, forces
+end
+
+local function of_wire(w)
+  return { model = w.model, length = w.length, radius = w.radius, segments = w.segments,
+    cable = w:cable() and w:cable().name or nil }
+end
+
+local function of_particles(p) return { count = p.count, mass = p.mass, radius = p.radius } end
+
+local function of_hold(hold) return { kind = hold.kind, held = hold.held } end
+
+local function item(object, name, given, now)
+  local made = given[object]
+  local one = { name = name, given = made and plain(made.args) or nil,
+    wire = made and made.wire and plain(made.wire) or nil }
+  one.now = now(object)
+  return one
+end
+
+local function list_of(entries, given, now)
+  local list = {}
+  for _, entry in ipairs(entries) do
+    if core.exists(entry.object) then list[#list + 1] = item(entry.object, entry.name, given, now) end
+  end
+  return list
+end
+
+local function obstacles_of(data, given)
+  local list = list_of(data.obstacles, given, function(o) return plain(o:get()) end)
+  local at = 0
+  for _, entry in ipairs(data.obstacles) do
+    if core.exists(entry.object) then
+      at = at + 1
+      list[at].shape, list[at].now.present = entry.shape, entry.object.present
+    end
+  end
+  return list
+end
+
+local function forces_of(forces, given)
+  local list = {}
+  for _, force in ipairs(forces) do
+    if core.exists(force) then
+      list[#list + 1] = { kind = force.kind, given = plain(given[force].args),
+        now = plain(force:get()) }
+      list[#list].now.held = force.held
+    end
+  end
+  return list
+end
+
+local function fixings_of(scene, given)
+  local list = {}
+  for _, it in ipairs(fixing.all(scene)) do
+    local one = item(it, it.name, given, function() return {} end)
+    one.kind = given[it] and given[it].kind
+    list[#list + 1] = one
+  end
+  return list
+end
+
+local function grippers_of(data, given)
+  local list = {}
+  for i, gripper in ipairs(data.grippers) do
+    list[i] = item(gripper, gripper.name, given, function(g) return plain(g:get()) end)
+  end
+  return list
+end
+
+local function of_scene(scene)
+  if core.type(scene) ~= "scene" then error("scene:describe is a method: call it with a colon", 0) end
+  local data = build.data(scene)
+  local given, forces = given_of(scene)
+  return { name = scene.name, time = scene.time, gravity = scene:gravity(),
+    wires = list_of(data.wires, given, of_wire),
+    particles = list_of(data.particles, given, of_particles),
+    obstacles = obstacles_of(data, given), holds = list_of(data.holds, given, of_hold),
+    forces = forces_of(forces, given), joins = list_of(data.joins, given, function() return {} end),
+    fixings = fixings_of(scene, given), grippers = grippers_of(data, given) }
+end
+
+--- scene:describe(): see help "scene:describe".
+describe.describe = build.placed(of_scene)
+
+return describe

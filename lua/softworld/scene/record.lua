@@ -1,0 +1,184 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- What a script made and changed in a scene, call by call, for scene:script and scene:describe.
+-- A record has { self =, method =, args = { n = }, results = { n = }, late = } of each call that returned,
+-- arguments copied; late: it came after the first step. Calls that are made by others of the library, and
+-- those from within a run, are not in it.
+-- @module softworld.scene.record
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local trajectory = require "softworld.trajectory"
+
+local record = {}
+
+local DEEPEST = 100 -- tables in tables that are copied
+local MOST = 20000 -- calls of a scene; a loop that changes something at each step would fill the memory
+
+-- Methods that make or change something. "name?" only does with an argument; else it reads.
+local core_methods = {
+  scene = "wire particles obstacle hold wire_contact join force gripper clip "
+    .. "channel tie set gravity? settle",
+  wire = "remodel set_velocity", particles = "set_velocity", force = "release call_it set",
+  obstacle = "follow pose? set remove", join = "release",
+  clamp = "follow pose? release feed push? force_limit? drive_force? speed? set",
+}
+for _, hold in ipairs(core.registry().holds) do
+  core_methods.scene = core_methods.scene .. " " .. hold.name
+end
+local table_methods = {
+  gripper = "grasp release freeze thaw close_jaws open_jaws move move_to rotate approach retreat "
+    .. "handover set",
+  clip = "release", tie = "release", channel = "open close release",
+}
+
+-- scene's data -> { calls, missed = calls beyond MOST, made = table of sw.scene }
+local logs = setmetatable({}, { __mode = "k" })
+local marks = setmetatable({}, { __mode = "k" })    -- snapshot -> how long the record was
+local made_by = setmetatable({}, { __mode = "k" })  -- trajectory -> { self =, method =, args = }
+local inside = false
+
+-- What stands for a function, which must not live on because it was an argument once.
+local Function = { __name = "function" }
+record.a_function = setmetatable({}, Function)
+
+-- Scripts may change their tables after the call. Objects stay what they are. seen: table -> its copy, for
+-- tables may contain themselves.
+local function copied(value, seen, depth)
+  if type(value) == "function" then return record.a_function end
+  if type(value) ~= "table" or getmetatable(value) ~= nil or depth > DEEPEST then return value end
+  if seen[value] then return seen[value] end
+  local copy = {}
+  seen[value] = copy
+  for key, item in next, value do copy[key] = copied(item, seen, depth + 1) end
+  return copy
+end
+
+local function arguments(...)
+  local args, seen = table.pack(...), {}
+  for i = 1, args.n do args[i] = copied(args[i], seen, 0) end
+  return args
+end
+
+--- The record of a scene.
+function record.of(scene)
+  local data = build.data(scene)
+  logs[data] = logs[data] or { missed = 0 }
+  return logs[data]
+end
+
+--- Note what a scene was made with.
+function record.begin(scene, args)
+  record.of(scene).made = arguments(args or {})[1]
+end
+
+--- What a scene was made with: the table of sw.scene; nil for one that was read from a file.
+function record.made_as(scene) return record.of(scene).made end
+
+--- The call that a trajectory was made by, or nil.
+function record.trajectory(object) return made_by[object] end
+
+local function finish(scene, call, fine, ...)
+  inside = false
+  if not fine then error((...), 0) end
+  call.results = table.pack(...)
+  local log = record.of(scene)
+  if #log < MOST then log[#log + 1] = call else log.missed = log.missed + 1 end
+  return ...
+end
+
+-- As if the script called it: a tail call where the method is Lua's, else its errors are placed anew.
+local function unrecorded(method)
+  if debug.getinfo(method, "S").what == "Lua" then return method end
+  return function(self, ...) return build.through(method, self, ...) end
+end
+
+-- scene_of(self): the scene to be told; nil when self is no such object, or is gone.
+local function recorded(name, method, scene_of)
+  local plain, other = name:gsub("%?$", ""), unrecorded(method)
+  return plain, function(self, ...)
+    if inside or plain ~= name and select("#", ...) == 0 then return other(self, ...) end
+    local scene = scene_of(self)
+    if not scene or build.data(scene).running then return other(self, ...) end
+    local call = { self = self, method = plain, args = arguments(...), late = scene.time > 0 }
+    inside = true
+    return finish(scene, call, pcall(build.through, method, self, ...))
+  end
+end
+
+local function install(class, names, scene_of)
+  for name in names:gmatch "%S+" do
+    local plain, method = recorded(name, class[name:gsub("%?$", "")], scene_of)
+    class[plain] = method
+  end
+end
+
+local function name_of(scene) return scene.name end
+
+local function is_open(scene) return core.type(scene) == "scene" and (pcall(name_of, scene)) end
+
+-- The scene of an object of the core, nil for other values; the class's own check tells of these.
+local function scene_of_core(kind)
+  return function(self)
+    if core.type(self) ~= kind then return nil end
+    local scene = self
+    if kind ~= "scene" then scene = select(4, core.number(self)) end
+    return is_open(scene) and scene or nil
+  end
+end
+
+local function scene_of_table(class)
+  return function(self)
+    return type(self) == "table" and getmetatable(self) == class and self.scene or nil
+  end
+end
+
+local function follow_snapshots()
+  local class = core.class.scene
+  local snapshot, restore = class.snapshot, class.restore
+  function class.snapshot(scene)
+    local result = snapshot(scene)
+    local log = record.of(scene)
+    marks[result] = { count = #log, missed = log.missed }
+    return result
+  end
+  function class.restore(scene, from)
+    local function go(...)
+      local log, mark = record.of(scene), marks[from]
+      if mark then
+        for i = #log, mark.count + 1, -1 do log[i] = nil end
+        log.missed = mark.missed
+      end
+      return ...
+    end
+    return go(build.through(restore, scene, from))
+  end
+end
+
+local function follow_trajectories()
+  local function noted(self, method, args, object)
+    if core.type(object) == "trajectory" then
+      made_by[object] = { self = self, method = method, args = args }
+    end
+    return object
+  end
+  local meta = getmetatable(trajectory)
+  local make = meta.__call
+  meta.__call = function(self, ...)
+    return noted(nil, nil, arguments(...), (build.through(make, self, ...)))
+  end
+  for _, name in ipairs{ "delayed", "placed", "relative" } do
+    local method = core.class.trajectory[name]
+    core.class.trajectory[name] = function(self, ...)
+      return noted(self, name, arguments(...), (build.through(method, self, ...)))
+    end
+  end
+end
+
+--- Begin to record. made: classes of objects made in Lua, by name.
+function record.install(made)
+  for kind, names in pairs(core_methods) do install(core.class[kind], names, scene_of_core(kind)) end
+  for kind, names in pairs(table_methods) do install(made[kind], names, scene_of_table(made[kind])) end
+  follow_snapshots()
+  follow_trajectories()
+end
+
+return record

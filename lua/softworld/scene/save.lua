@@ -1,0 +1,390 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Scenes in files: scene:save, scene:resume, sw.load.
+--
+--     scene:process(function(p)
+--       p:step("grasp", function() left:grasp(wire, { s = 0.02 }) end)
+--       p:step("lay", function() left:move{ by = {0.3, 0, 0}, speed = 0.2 } end)
+--     end)
+--     scene:run{ save = "laying.sws", resume = "laying.sws" }
+--
+-- writes the scene after every step. Killed and started again, the script builds the scene,
+-- takes its state from the file, leaves out the steps that are done and goes on with the same bits.
+-- @module softworld.scene.save
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local keep = require "softworld.scene.keep"
+local process = require "softworld.run.process"
+local sealed = require "softworld.sealed"
+local sink = require "softworld.output.sink"
+local solid = require "softworld.output.solid"
+
+local save = {}
+local class = core.class
+
+-- Parts of build.data that are not in the file's, the origin because it stands beside it.
+local passing = { origin = true }
+for key in pairs(build.passing) do passing[key] = true end
+
+-- --- what a script has made -----------------------------------------------------------
+
+-- Every object and every table of a class within the data, by class and number or name.
+local function known(data)
+  local found = keep.instances(data)
+  local seen = {}
+  local function walk(t)
+    if seen[t] then return end
+    seen[t] = true
+    for key, value in next, sealed.fields(t) do
+      if type(value) == "table" and key ~= "processes" then walk(value) end
+      if type(value) == "userdata" and core.type(value) ~= "scene" then
+        local kind, slot, generation = core.number(value)
+        if kind then found[("%s %d %d"):format(kind, slot, generation)] = value end
+      end
+    end
+  end
+  walk(data)
+  return found
+end
+
+--- What the scene is made of when its first run begins: { name, sum, name, sum, ... }.
+function save.origin(scene)
+  local data = build.data(scene)
+  if data.origin then return data.origin end
+  local list = core.items(scene)
+  local instances, names = keep.instances(data), {}
+  for name in pairs(instances) do names[#names + 1] = name end
+  table.sort(names)
+  for _, name in ipairs(names) do
+    local fine, text = keep.may(instances[name], scene, name)
+    list[#list + 1] = name:gsub(" (.*)$", " '%1'")
+    list[#list + 1] = fine and text or 0
+  end
+  list[#list + 1], list[#list + 2] = "gravity", keep.pack(scene:gravity(), scene, "gravity")
+  return list
+end
+
+-- --- writing ---------------------------------------------------------------------------
+
+-- The obstacles' triangles come from their shapes.
+local function without_triangles(obstacles)
+  local list = {}
+  for i, entry in ipairs(obstacles) do
+    list[i] = {}
+    for key, value in pairs(entry) do
+      if key ~= "vertices" and key ~= "indices" then list[i][key] = value end
+    end
+  end
+  return list
+end
+
+-- What is kept beside each object: its cable and so on.
+local function beside(data)
+  local list = {}
+  for _, name in ipairs{ "wires", "particles", "obstacles", "holds" } do
+    for _, entry in ipairs(data[name]) do
+      local own = core.data(entry.object)
+      if next(own) ~= nil then list[#list + 1] = { object = entry.object, own = own } end
+    end
+  end
+  return list
+end
+
+local function note_of(scene, run)
+  local data, kept = build.data(scene), {}
+  for key, value in pairs(data) do
+    if not passing[key] then kept[key] = value end
+  end
+  kept.obstacles = without_triangles(data.obstacles)
+  return keep.pack({ origin = save.origin(scene), data = kept, beside = beside(data), run = run },
+    scene, ("scene '%s'"):format(scene.name))
+end
+
+--- Write the scene to a file, whole or not at all, also when the computer goes down; run: the
+-- totals of a run under way.
+function save.write(scene, file, run)
+  return sink.write_file(file, build.call(3, core.save, scene, note_of(scene, run)), { safe = true })
+end
+
+-- A process that has begun lives in its coroutine.
+local function check_processes(scene)
+  for _, p in ipairs(build.data(scene).processes) do
+    if p.begun and coroutine.status(p.thread) ~= "dead" then
+      error(("scene '%s' cannot be saved: %s is under way; run it to its end, or have the scene "
+        .. "written after every step: scene:run{ save = 'file' }"):format(scene.name, tostring(p)), 0)
+    end
+  end
+end
+
+local function check_file(what, file)
+  if type(file) ~= "string" or file == "" then
+    error(("%s: the name of a file is wanted, got %s"):format(what, file == "" and "''" or type(file)), 0)
+  end
+end
+
+local function save_now(scene, file)
+  check_file("scene:save", file)
+  local data = build.data(scene)
+  if data.running then
+    error(("scene:save: a run of scene '%s' is under way; scene:run{ save = 'file' } writes the scene "
+      .. "after every step of its processes"):format(scene.name), 0)
+  end
+  check_processes(scene)
+  data.origin = save.origin(scene)
+  return save.write(scene, file, data.going)
+end
+
+--- scene:save(file): everything that the scene is, for scene:resume and sw.load.
+function class.scene.save(scene, file)
+  build.check(scene, "scene:save", 3)
+  return build.call(3, save_now, scene, file)
+end
+
+-- --- reading ---------------------------------------------------------------------------
+
+local function read(what, file)
+  check_file(what, file)
+  return sink.read_file(file)
+end
+
+-- Errors of the core say "it is ...".
+local function tell(what, file, f, ...)
+  local fine, result = pcall(f, ...)
+  if fine then return result end
+  error(("%s: '%s' cannot be read: %s"):format(what, file, (tostring(result):gsub("^[^\n:]+:%d+: ", ""))), 0)
+end
+
+local lists = { "wires", "particles", "obstacles", "holds", "grippers", "joins" }
+
+local function expect(good, what)
+  if not good then error(("its content makes no sense (%s)"):format(what), 0) end
+end
+
+local function is_list(t) return type(t) == "table" and getmetatable(t) == nil end
+
+local function check_lists(data)
+  for _, name in ipairs(lists) do
+    expect(is_list(data[name]), name)
+    for _, entry in ipairs(data[name]) do
+      expect(type(entry) == "table" and type(rawget(sealed.fields(entry), "name")) == "string", name)
+      if name ~= "grippers" then expect(type(rawget(entry, "object")) == "string", name) end
+    end
+  end
+end
+
+local function check_steps(data)
+  expect(data.ended == nil or is_list(data.ended), "processes")
+  expect(data.done == nil or is_list(data.done), "steps")
+  for number, done in pairs(data.done or {}) do
+    expect(math.type(number) == "integer" and is_list(done), "steps")
+    for _, step in ipairs(done) do
+      expect(is_list(step) and type(step.name) == "string" and is_list(step.results)
+        and math.type(step.count) == "integer" and step.count >= 0 and step.count < 1000, "steps")
+    end
+  end
+end
+
+local totals = { "steps", "rejected", "iterations", "evaluations", "jumps", "smallest_dt", "time",
+  "start", "wall", "cpu" }
+
+-- Checks of the Lua side's part of the file, in which objects are words, for there are none yet.
+local function check_note(note)
+  expect(is_list(note) and is_list(note.data) and is_list(note.beside) and is_list(note.origin), "note")
+  for key in pairs(note.data) do expect(not passing[key], "note") end
+  check_lists(note.data)
+  check_steps(note.data)
+  for _, entry in ipairs(note.beside) do
+    expect(is_list(entry) and type(entry.object) == "string" and is_list(entry.own), "note")
+  end
+  for k, value in ipairs(note.origin) do expect(k % 2 == 0 or type(value) == "string", "note") end
+  expect(note.run == nil or is_list(note.run) and type(note.run.ok) == "boolean", "run")
+  for _, name in ipairs(note.run and totals or {}) do expect(type(note.run[name]) == "number", "run") end
+end
+
+local kinds = { wire = true, particles = true, clamp = true, obstacle = true, force = true, join = true,
+  tool = true }
+
+-- The note, looked through so that nothing that follows from it fails.
+local function note_from(bytes, scene)
+  local text = core.saved_note(bytes)
+  local note = keep.unpack(text, scene, function(kind, slot, generation)
+    expect(kinds[kind], kind)
+    return ("%s %d %d"):format(kind, slot, generation)
+  end)
+  check_note(note)
+  return text, note
+end
+
+-- Objects of a scene by number: those the script has, or new ones.
+local function realise(text, scene, have)
+  local function object(kind, slot, generation)
+    local key = ("%s %d %d"):format(kind, slot, generation)
+    if not have[key] then have[key] = core.numbered(scene, kind, slot, generation) end
+    return have[key]
+  end
+  return keep.unpack(text, scene, object, function(kind, name) return have[kind .. " " .. name] end)
+end
+
+local function add_triangles(entry, old)
+  if old then
+    entry.vertices, entry.indices = old.vertices, old.indices
+  elseif core.exists(entry.object) then
+    solid.keep(entry, entry.object.shape)
+  end
+end
+
+-- The scene's data from a note.
+local function take(scene, text)
+  local data = build.data(scene)
+  local have, old = known(data), {}
+  for _, entry in ipairs(data.obstacles) do old[entry.object] = entry end
+  local note = realise(text, scene, have)
+  for key, value in pairs(data) do -- lists stay lists, whether the file knows them or not
+    if not passing[key] then data[key] = is_list(value) and {} or nil end
+  end
+  for key, value in pairs(note.data) do data[key] = value end
+  for _, entry in ipairs(data.obstacles) do add_triangles(entry, old[entry.object]) end
+  for _, entry in ipairs(note.beside) do
+    local own = core.data(entry.object)
+    for key, value in pairs(entry.own) do
+      if own[key] == nil then own[key] = value end
+    end
+  end
+  return note
+end
+
+-- Is the script's scene what the file's was before its first run?
+local function compare(scene, note, file)
+  local now, then_ = save.origin(scene), note.origin
+  for i = 1, math.max(#now, #then_), 2 do
+    local a, b = now[i], then_[i]
+    if a ~= b or now[i + 1] ~= then_[i + 1] then
+      local what = a == b and ("%s is not as it was"):format(a)
+        or not a and ("%s of the file is missing"):format(b)
+        or not b and ("%s is not in the file"):format(a)
+        or ("%s is there instead of %s"):format(a, b)
+      error(("scene:resume: '%s' is of another scene: %s. A script must build the same scene again "
+        .. "before it goes on; take the file away to start anew, or read it by sw.load")
+        :format(file, what), 0)
+    end
+  end
+end
+
+local function check_before(scene)
+  local data = build.data(scene)
+  if data.running then
+    error(("scene:resume: a run of scene '%s' is under way"):format(scene.name), 0)
+  end
+  for _, p in ipairs(data.processes) do
+    if p.begun then
+      error(("scene:resume: %s has begun already; resume before the run"):format(tostring(p)), 0)
+    end
+  end
+end
+
+--- Go on from a file: false when there is none.
+function save.resume(scene, file)
+  check_file("scene:resume", file)
+  check_before(scene)
+  if not core.kind(file) then return false end
+  local bytes = read("scene:resume", file)
+  local text, note
+  tell("scene:resume", file, function() text, note = note_from(bytes, scene) end)
+  compare(scene, note, file)
+  tell("scene:resume", file, core.resume, scene, bytes)
+  local data = build.data(scene)
+  note = take(scene, text)
+  data.origin, data.going, data.from_file = note.origin, note.run, file
+  data.restores = data.restores + 1
+  process.take_up(scene)
+  return true
+end
+
+--- scene:resume(file) -> true, or false when there is no such file: the scene, built by the
+-- same script, as it was when the file was written.
+function class.scene.resume(scene, file)
+  build.check(scene, "scene:resume", 3)
+  return build.call(3, save.resume, scene, file)
+end
+
+local function load(file)
+  local bytes = read("sw.load", file)
+  return tell("sw.load", file, function()
+    local text = note_from(bytes)
+    local scene = core.load(bytes)
+    local note = take(scene, text)
+    local data = build.data(scene)
+    data.origin, data.done, data.ended = note.origin, nil, nil -- its processes are not there
+    return scene
+  end)
+end
+
+--- sw.load(file) -> the scene that was saved; scene:find(name) gives what is in it.
+function save.load(file) return build.call(3, load, file) end
+
+-- --- finding ---------------------------------------------------------------------------
+
+-- All that has a name: { name = object }, and the names in order. The holds of a gripper have its
+-- name: they come last.
+local function named(scene)
+  local objects, names, data, order = {}, {}, build.data(scene), {}
+  for key, list in pairs(data) do
+    if type(list) == "table" and not passing[key] then order[#order + 1] = key end
+  end
+  table.sort(order, function(a, b)
+    if (a == "holds") ~= (b == "holds") then return b == "holds" end
+    return a < b
+  end)
+  for _, key in ipairs(order) do
+    for _, entry in ipairs(data[key]) do
+      local name = type(entry) == "table" and rawget(sealed.fields(entry), "name")
+      local object = name and (getmetatable(entry) and entry or rawget(entry, "fixing")
+        or rawget(entry, "object"))
+      if object and not objects[name] then
+        objects[name], names[#names + 1] = object, name
+      end
+    end
+  end
+  table.sort(names)
+  return objects, names
+end
+
+local function name_of(scene) return scene.name end
+
+--- scene:find(name) -> the wire, obstacle, clamp, gripper, ... of this name
+function class.scene.find(scene, name)
+  if core.type(scene) ~= "scene" then error("scene:find is a method: call it with a colon", 2) end
+  build.call(3, name_of, scene) -- raises when it has been closed
+  if type(name) ~= "string" then error("scene:find expects a name, got " .. type(name), 2) end
+  local objects, names = named(scene)
+  if objects[name] then return objects[name] end
+  local near = core.nearest(name, names)
+  error(("scene '%s' has nothing named '%s'; %s"):format(scene.name, name,
+    near and ("did you mean '%s'?"):format(near)
+      or #names > 0 and "it has: " .. table.concat(names, ", ") or "it is empty"), 2)
+end
+
+--- scene:names() -> the names that scene:find knows, in order
+function class.scene.names(scene)
+  if core.type(scene) ~= "scene" then error("scene:names is a method: call it with a colon", 2) end
+  build.call(3, name_of, scene)
+  return (select(2, named(scene)))
+end
+
+-- --- steps -----------------------------------------------------------------------------
+
+local function all(...) return ... end
+
+-- While steps are kept, a scene is changed only inside of them.
+for kind, methods in pairs{ clamp = { "follow", "release", "feed" },
+  obstacle = { "follow", "remove" }, force = { "release" }, join = { "release" },
+  wire = { "remodel" }, tool = { "follow", "hold", "pads_on", "jaws", "freeze", "thaw" } } do
+  for _, name in ipairs(methods) do
+    local method = class[kind][name]
+    class[kind][name] = function(object, ...)
+      process.guard(kind .. ":" .. name)
+      return all(build.call(3, method, object, ...))
+    end
+  end
+end
+
+return save

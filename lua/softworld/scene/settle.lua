@@ -1,0 +1,96 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- scene:settle with error bars.
+-- @module softworld.scene.settle
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
+local process = require "softworld.run.process"
+local trust = require "softworld.run.trust"
+
+local Settled = { __name = "settled" }
+
+function Settled.__index(result, key)
+  if key == "error_bars" then return trust.error_bars end
+  return trust.refuse(result, key)
+end
+
+function Settled:__tostring()
+  if not self.ok then return ("not settled: %s"):format(self.reason) end
+  local unmet = trust.unmet(self)
+  return ("settled on %d levels%s\n%s"):format(#self.levels, unmet and ", " .. unmet or "",
+    tostring(self:error_bars()))
+end
+
+local Rest = { __name = "rest" }
+Rest.__index = checks.fields("the result of scene:settle",
+  "ok reason iterations residual unstable transient jumped",
+  "kinked steps rejected evaluations quantities met levels advice error_bars where refused asked start")
+
+function Rest:__tostring()
+  if not self.ok then return self.reason end
+  local unstable = self.unstable > 0 and (", unstable in %d directions"):format(self.unstable) or ""
+  local kinked = self.kinked and "; " .. self.kinked or ""
+  return ("at rest after %d iterations%s%s"):format(self.iterations, unstable, kinked)
+end
+
+local core_settle = core.class.scene.settle
+-- How often each tube was told to be kinked.
+local function kinks(scene)
+  local counts = {}
+  for _, e in ipairs(scene:events()) do if e.kind == "kink" then counts[e.object] = e end end
+  return counts
+end
+
+local function settle(scene, args)
+  build.check(scene, "scene:settle", 4)
+  local before = kinks(scene)
+  local rest = build.call(3, core_settle, scene, args)
+  for tube, e in pairs(rest.ok and kinks(scene) or {}) do
+    if not before[tube] or before[tube].count < e.count then rest.kinked = e.text end
+  end
+  return setmetatable(rest, Rest)
+end
+
+local function with_bars(scene, given)
+  local args = {}
+  for k, v in pairs(given) do args[k] = v end
+  local job = trust.job(scene, "scene:settle", args)
+  local shown = args.progress
+  if shown ~= nil and type(shown) ~= "boolean" then
+    error("scene:settle: progress must be true or false, got " .. type(shown), 0)
+  end
+  args.progress = nil
+  for _, q in ipairs(job.quantities) do
+    if q.at then
+      error(("scene:settle: tolerance: quantity '%s': at is a time in a run"):format(q.name), 0)
+    end
+  end
+  job.advice = "hold what moves freely, come nearer in smaller moves, or allow more max_iterations"
+  core.check_settle(args)
+  local iterations = 0
+  local result = trust.work(job, function(_, level)
+    local r = settle(scene, args)
+    if shown then
+      io.stderr:write(("%s, %s: %s, %d iterations\n"):format(scene.name, level, r.reason, r.iterations))
+    end
+    iterations = iterations + r.iterations
+    r.start = scene.time
+    return r
+  end)
+  job.begin_processes() -- none of them had begun
+  result.iterations = iterations
+  return setmetatable(result, Settled)
+end
+
+--- Static equilibrium: { tolerance = [m], max_iterations = }. Jaws of grippers that hold with a
+-- force go on with it; others stay as open as they are. With a table of
+-- quantities as tolerance the result has error bars, see help "tolerance"; progress =
+-- true then tells every level.
+function core.class.scene.settle(scene, args)
+  process.guard "scene:settle"
+  if not trust.wanted(args) then return settle(scene, args) end
+  build.check(scene, "scene:settle", 3)
+  return build.call(3, with_bars, scene, args)
+end
+
+return settle

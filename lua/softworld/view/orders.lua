@@ -1,0 +1,225 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- What pages of a live view may ask for. A change is made into the line of Lua that does it; this line is
+-- what is run, shown and saved. Nothing of a message ever becomes Lua but numbers, and names in quotes.
+-- @module softworld.view.orders
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local literal = require "softworld.scene.literal"
+local rows = require "softworld.rows"
+
+local orders = {}
+
+local MOST_NUMBERS = 4
+
+local function fail(text, ...) error(text:format(...), 0) end
+
+-- --- what can be changed -------------------------------------------------------------------------
+
+local function changeable(list)
+  local some = {}
+  for _, row in ipairs(list) do
+    if row.changes then some[#some + 1] = row end
+  end
+  return some
+end
+
+local registry
+
+-- Rows of what an object's set takes.
+local function rows_of(object)
+  registry = registry or core.registry()
+  local kind = core.type(object)
+  if kind == "scene" then return rows.of "scene:set" end
+  if kind == "obstacle" then return changeable(registry.params.obstacle) end
+  if type(object) == "table" and (getmetatable(object) or {}).__name == "gripper" then
+    return rows.of "gripper:set"
+  end
+  return nil
+end
+
+local function is_told(row)
+  return row.type == "number" or row.type == "vector" or row.type == "choice" or row.type == "reaction"
+end
+
+local function value_of(row, value)
+  local kind = type(value)
+  if kind == "number" or kind == "string" then return value end
+  if kind == "table" and row.type == "vector" then return { value[1], value[2], value[3] } end
+  return nil
+end
+
+--- What can be changed in a scene: { { name, kind, rows = { { name, unit, doc, type, min, max, above,
+-- choices, value } } } }; the scene itself has the name "".
+function orders.forms(scene)
+  local list = {}
+  local function add(name, kind, object)
+    local known = rows_of(object)
+    if not known then return end
+    local now, form = object:get(), { name = name, kind = kind, rows = {} }
+    for _, row in ipairs(known) do
+      if is_told(row) then
+        form.rows[#form.rows + 1] = { name = row.name, unit = row.unit, doc = row.doc, type = row.type,
+          min = row.min and row.min > -1e300 and row.min or nil,
+          max = row.max and row.max < 1e300 and row.max or nil,
+          above = row.above, choices = row.choices, value = value_of(row, now[row.name]) }
+      end
+    end
+    list[#list + 1] = form
+  end
+  add("", "scene", scene)
+  for _, o in ipairs(build.data(scene).obstacles) do
+    if core.exists(o.object) and o.object.present then add(o.name, "obstacle", o.object) end
+  end
+  for _, g in ipairs(build.data(scene).grippers) do
+    if not g.gone then add(g.name, "gripper", g) end
+  end
+  return list
+end
+
+-- --- lines -----------------------------------------------------------------------------------------
+
+local function text_of(what, value)
+  if type(value) ~= "string" or #value > 200 then fail("%s is no name", what) end
+  return value
+end
+
+local function number_of(what, value)
+  if type(value) ~= "number" then fail("%s is no number", what) end
+  return value
+end
+
+local function vector_of(what, value)
+  if type(value) ~= "table" then fail("%s is no list of 3 numbers", what) end
+  for k = 1, 3 do number_of(what, value[k]) end
+  return { value[1], value[2], value[3] }
+end
+
+local function source(value)
+  return literal.of(value, function() fail "this cannot be written" end, "value")
+end
+
+local function reference(name) return name == "" and "scene" or ("scene:find(%q)"):format(name) end
+
+local function object_of(scene, name)
+  if name == "" then return scene end
+  return scene:find(name)
+end
+
+local function plain_value(name, value)
+  if type(value) ~= "table" then return value end
+  if #value < 1 or #value > MOST_NUMBERS then fail("%s is no list of numbers", name) end
+  local copy = {}
+  for k = 1, #value do copy[k] = number_of(name, value[k]) end
+  return copy
+end
+
+local make = {}
+
+local function same(a, b)
+  if type(a) ~= "table" or type(b) ~= "table" then return a == b end
+  for k = 1, math.max(#a, #b) do
+    if a[k] ~= b[k] then return false end
+  end
+  return true
+end
+
+-- The line that gives back what a change has changed, one thing by another too; nil: nothing.
+local function undoing(name, object, known, before)
+  return function()
+    local now, differs = object:get(), {}
+    for key in pairs(known) do
+      if before[key] ~= nil and not same(before[key], now[key]) then differs[key] = before[key] end
+    end
+    return next(differs) ~= nil and ("%s:set %s"):format(reference(name), source(differs)) or nil
+  end
+end
+
+--- { object =, values = { row = value } }: object:set{...}.
+function make.set(scene, m)
+  local name = text_of("object", m.object)
+  if type(m.values) ~= "table" then fail "values is no table" end
+  local object, given, known = object_of(scene, name), {}, {}
+  for _, row in ipairs(rows_of(object) or fail("'%s' has nothing to set", name)) do
+    known[row.name] = is_told(row) or nil
+  end
+  for key, value in pairs(m.values) do
+    if not known[key] then fail("'%s' has no '%s' to set", name, tostring(key)) end
+    given[key] = plain_value(key, value)
+  end
+  return ("%s:set %s"):format(reference(name), source(given)), undoing(name, object, known, object:get())
+end
+
+--- { wire =, s =, to =, force =, stiffness = }: a hand takes hold of a place of a wire.
+function make.pull(scene, m)
+  local wire = scene:find(text_of("wire", m.wire))
+  if core.type(wire) ~= "wire" then fail("'%s' is no wire", m.wire) end
+  local s = math.max(0, math.min(number_of("s", m.s), wire.length))
+  local line = 'hand = scene:force { kind = "pull", on = %s, s = %s, to = %s, force = %s, stiffness = %s }'
+  return line:format(reference(m.wire), source(s), source(vector_of("to", m.to)),
+    source(number_of("force", m.force)), source(number_of("stiffness", m.stiffness)))
+end
+
+--- { to = }: the hand goes there.
+function make.reach(_, m) return ("hand:set { to = %s }"):format(source(vector_of("to", m.to))) end
+
+--- The hand lets go.
+function make.let() return "hand:release()" end
+
+--- The line of an order, and what gives the one that undoes it once it is done, or nil; raises a text without
+-- a place.
+function orders.line(scene, m)
+  return (make[m["do"]] or fail("there is no order '%s'", tostring(m["do"])))(scene, m)
+end
+
+--- Is it an order that changes the scene?
+function orders.changes(m) return make[m["do"]] ~= nil end
+
+-- --- saving ------------------------------------------------------------------------------------------
+
+local follow = [[
+  local next = 1
+  local function due() return changes[next] and scene.time >= changes[next][1] end
+  while due() do
+    changes[next][2]()
+    next = next + 1
+  end
+  scene:observe { call = function(observer)
+    while due() do
+      observer:change(changes[next][2])
+      next = next + 1
+    end
+  end }
+]]
+
+local function changes_of(lines)
+  local list = { "  local hand", "  local changes = {" }
+  for _, line in ipairs(lines) do
+    list[#list + 1] = ("    { %s, function() %s end },"):format(literal.number(line.time), line.text)
+  end
+  list[#list + 1] = "  }"
+  return table.concat(list, "\n") .. "\n" .. follow
+end
+
+--- A script that does the run again with what was changed by hand; of a scene whose processes are functions,
+-- which cannot be written, the part that is to be run before scene:run.
+-- lines: { { time =, text = } }; args: of scene:run.
+function orders.script(scene, lines, args)
+  local fine, text = pcall(scene.script, scene)
+  local count = build.data(scene).process_count
+  if fine and not count and args then
+    local own = {}
+    for key, value in pairs(args) do
+      if key ~= "progress" then own[key] = value end
+    end
+    local run_fine, run = pcall(source, own)
+    if run_fine then
+      return text:gsub("\n*return scene%s*$", "\n\n") .. "-- What was changed by hand, and when.\ndo\n"
+        .. changes_of(lines) .. "end\n\nlocal run = scene:run " .. run .. "\nrun:summary()\n"
+    end
+  end
+  return ("-- What was changed by hand in the run of '%s', and when: before scene:run,\n"
+    .. '--   dofile "by_hand.lua" (scene)\nreturn function(scene)\n'):format(scene.name:gsub("[\r\n]", " "))
+    .. changes_of(lines) .. "end\n"
+end
+
+return orders

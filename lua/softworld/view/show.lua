@@ -1,0 +1,123 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- What pages of a live view see: what is in the scene, frames, the state of the run, changes made by hand,
+-- forms and events, each in a slot of the server that holds the latest only.
+-- @module softworld.view.show
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local json = require "softworld.output.json"
+local orders = require "softworld.view.orders"
+local report = require "softworld.output.report"
+local runfiles = require "softworld.run.files"
+
+local show = {}
+
+local SHOWN = 200 -- changes in a page
+local FRAME, SCENE, STATE, LINES, FORMS, EVENTS = 0, 1, 2, 3, 4, 5 -- slots of the server
+
+local function put(own, slot, value) own.server:put(slot, json.encode(value)) end
+
+-- Changes when something was made or taken away, or a gripper took hold.
+local function signature(scene)
+  local data, parts = build.data(scene), {}
+  for i, name in ipairs(build.lists) do parts[i] = #data[name] end
+  for _, g in ipairs(data.grippers) do
+    local last = g.spans[#g.spans]
+    parts[#parts + 1] = ("%d %s %s"):format(#g.spans, last and last.to or "", g.tool and 1 or 0)
+  end
+  for _, w in ipairs(data.wires) do parts[#parts + 1] = w.object.model end
+  return table.concat(parts, " ")
+end
+
+-- How hard a hand pulls that takes hold: a few times the weight of all wires, over a tenth of their length.
+local function hand_of(scene)
+  local weight, length = 0, 0
+  for _, w in ipairs(build.data(scene).wires) do
+    local fine, mass = pcall(function() return w.object:section().mass_per_length end)
+    if not fine then mass = math.pi * w.object.radius ^ 2 * 1500 end
+    weight = weight + 9.81 * mass * w.object.length
+    length = math.max(length, w.object.length)
+  end
+  local force = tonumber(("%.1g"):format(math.max(3 * weight, 1e-3)))
+  return { force = force, stiffness = tonumber(("%.2g"):format(force / math.max(0.05 * length, 1e-4))) }
+end
+
+local function show_scene(own)
+  local now = signature(own.scene)
+  if now == own.signature then return end
+  own.signature, own.outline = now, own.outline + 1
+  local run, blobs = report.outline(runfiles.scene_described(own.scene))
+  put(own, SCENE, json.object{ kind = "scene", outline = own.outline, session = own.session, run = run,
+    blobs = blobs, hand = hand_of(own.scene) })
+  own.forms_due = true
+end
+
+local function show_forms(own)
+  if not own.forms_due then return end
+  own.forms_due = nil
+  local fine, forms = pcall(orders.forms, own.scene)
+  put(own, FORMS, { kind = "forms", forms = fine and forms or {} })
+end
+
+--- How many processes of the scene have not ended.
+function show.alive(scene)
+  local count = 0
+  for _, p in ipairs(build.data(scene).processes) do
+    if coroutine.status(p.thread) ~= "dead" then count = count + 1 end
+  end
+  return count
+end
+
+local function show_state(own)
+  local snapshots = {}
+  for i, s in ipairs(own.snapshots) do snapshots[i] = { id = s.id, time = s.time } end
+  local text = json.encode(json.object{ kind = "state", running = own.running, paused = own.paused,
+    speed = own.speed, ok = own.ok, reason = own.reason, snapshots = snapshots,
+    back = show.alive(own.scene) == 0, done = own.done, holds = own.holds })
+  if text == own.state then return end
+  own.state = text
+  own.server:put(STATE, text)
+end
+
+local function show_lines(own)
+  if not own.lines_due then return end
+  own.lines_due = nil
+  local shown, undo = {}, false
+  for i = math.max(1, #own.shown - SHOWN + 1), #own.shown do shown[#shown + 1] = own.shown[i] end
+  for _, line in ipairs(own.shown) do undo = undo or line.undo and not line.undone or false end
+  local some = #own.lines > 0
+  put(own, LINES, { kind = "lines", lines = shown, undo = undo, total = #own.lines,
+    script = some and orders.script(own.scene, own.lines, own.args) or nil })
+end
+
+local function show_events(own)
+  local events = own.scene:events()
+  local last = events[#events]
+  local mark = ("%d %s"):format(#events, last and last.count or "")
+  if mark == own.events then return end
+  own.events = mark
+  local list = {}
+  for i = math.max(1, #events - 199), #events do
+    local e = events[i]
+    list[#list + 1] = { kind = e.kind, time = e.time, text = e.text, count = e.count, last = e.last }
+  end
+  put(own, EVENTS, { kind = "events", events = list })
+end
+
+--- Send what has changed, and the state of the scene to those who wait for it.
+function show.all(own)
+  local pages, waiting = own.server:pages()
+  if pages == 0 then return end
+  show_scene(own)
+  show_state(own)
+  show_lines(own)
+  show_forms(own)
+  show_events(own)
+  if waiting == 0 or own.failed then return end
+  local mark = ("%d %a %d"):format(own.outline, own.scene.time, own.changes)
+  if mark == own.frame then return end
+  own.frame = mark
+  local film, frames = core.film_now(own.scene, true)
+  if frames > 0 then own.server:put(FRAME, ("<I4I4"):pack(own.outline, own.session) .. film) end
+end
+
+return show

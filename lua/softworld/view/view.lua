@@ -1,0 +1,424 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- scene:view and `softworld --view`: the player's page, fed while a scene runs. An observer looks 30 times a
+-- second, sends the state to pages that wait for it, and takes what they ask for: between two steps.
+-- @module softworld.view.view
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
+local jsonread = require "softworld.output.jsonread"
+local literal = require "softworld.scene.literal"
+local methods = require "softworld.methods"
+local observe = require "softworld.run.observe"
+local orders = require "softworld.view.orders"
+local report = require "softworld.output.report"
+local rows = require "softworld.rows"
+local sealed = require "softworld.sealed"
+local show = require "softworld.view.show"
+
+local view = {}
+local View = { __name = "view" }
+
+local GAP = 1 / 30        -- between two looks, on the clock [s]
+local IDLE = 0.1          -- longest wait for a message [s]
+local MOST_LINES = 5000   -- changes that are kept
+local MOST_SNAPSHOTS = 20
+
+local new = rows.call("scene:view", "{...}", "shows the scene in a browser of this machine while it runs", {
+  gives = "a view",
+  example = "scene:view()",
+  { "port", "integer", "-", "of this machine, where the page is", min = 0, max = 65535,
+    usual = "any that is free" },
+  { "open", "boolean", "-", "opens a browser; else the address is told only", usual = "true" },
+  { "paused", "boolean", "-", "runs begin when the page says so", usual = "false" },
+})
+
+rows.calls{
+  { "view:wait", "seconds", "shows the scene and does what pages ask for, until Ctrl-C or so long [s]" },
+  { "view:close", "", "pages are told nothing more; the scene stays" },
+  { "view.address", nil, "of the page, with its secret; for this machine only", "a text" },
+  { "view.pages", nil, "that are open", "a number" },
+  { "view.scene", nil, "that it shows", "a scene" },
+}
+
+local function fields(self) return sealed.fields(self) end
+
+-- --- what they ask for ---------------------------------------------------------------------------
+
+local function note(own, line)
+  own.lines_due, own.forms_due = true, true
+  local last = own.shown[#own.shown]
+  local again = last and line.ok and last.ok and line.text:find "^hand:set" and last.text:find "^hand:set"
+  if again then
+    last.text, last.time, last.count = line.text, line.time, last.count + 1
+  else
+    line.count = 1
+    own.shown[#own.shown + 1] = line
+    if #own.shown > MOST_LINES then table.remove(own.shown, 1) end
+  end
+end
+
+-- Run the line itself: what is shown is what was done.
+local function run_line(own, text)
+  local chunk = assert(load(text, "=by hand", "t", own.names))
+  chunk()
+end
+
+local function do_line(own, text, inverse)
+  local time = own.scene.time
+  local fine, message = pcall(run_line, own, text)
+  if not fine then message = build.plain(message):gsub("^by hand:%d+: ", "") end
+  if fine then
+    own.changes = own.changes + 1
+    if #own.lines < MOST_LINES then own.lines[#own.lines + 1] = { time = time, text = text } end
+  end
+  note(own, { time = time, text = text, ok = fine, error = not fine and message or nil,
+    undo = fine and inverse and inverse() or nil })
+  return fine
+end
+
+local function refused(own, message)
+  own.lines_due = true
+  own.shown[#own.shown + 1] = { time = own.scene.time, text = "", ok = false, error = build.plain(message),
+    count = 1 }
+end
+
+local function touched(own, m, words)
+  pcall(own.scene.tell, own.scene, { kind = "hand", object = m.wire or own.pulled, text = words })
+end
+
+local function undo(own)
+  for i = #own.shown, 1, -1 do
+    local line = own.shown[i]
+    if line.undo and not line.undone then
+      line.undone = true
+      return do_line(own, line.undo)
+    end
+  end
+end
+
+local function back(own, m)
+  for _, s in ipairs(own.snapshots) do
+    if s.id == m.id then
+      if show.alive(own.scene) > 0 then
+        return refused(own, "a process is under way, and a Lua function has no way back")
+      end
+      build.back(own.scene, s.snapshot)
+      own.names.hand = nil
+      for k = #own.lines, 1, -1 do
+        if own.lines[k].time > s.time or k > s.lines then own.lines[k] = nil end
+      end
+      own.changes, own.lines_due, own.forms_due, own.pulled = own.changes + 1, true, true, nil
+      own.base = nil
+      own.shown[#own.shown + 1] = { time = s.time, text = ("-- back to %g s"):format(s.time), ok = true,
+        count = 1 }
+      return
+    end
+  end
+end
+
+-- Orders that change the scene, one after the other; it may be changed now.
+local function work(own)
+  local queue = own.queue
+  own.queue = {}
+  for _, m in ipairs(queue) do
+    if m["do"] == "undo" then undo(own)
+    elseif m["do"] == "back" then back(own, m)
+    elseif m["do"] ~= "reach" and m["do"] ~= "let" or own.names.hand then
+      if m["do"] == "pull" and own.names.hand then do_line(own, "hand:release()") end
+      local fine, text, inverse = pcall(orders.line, own.scene, m)
+      if not fine then
+        refused(own, text)
+      elseif do_line(own, text, inverse) then
+        if m["do"] == "pull" then
+          own.pulled = m.wire
+          touched(own, m, ("wire '%s' is pulled by hand at s = %.4g m"):format(m.wire, m.s))
+        elseif m["do"] == "let" then
+          touched(own, m, ("wire '%s' is let go by hand"):format(tostring(own.pulled)))
+          own.names.hand, own.pulled = nil, nil
+        end
+      end
+    end
+  end
+end
+
+-- The same while a run goes on: where it was left counts for its rounding, even if nothing came of it.
+local function work_inside(own)
+  work(own)
+  local last = own.lines[#own.lines]
+  if last and last.time == own.scene.time or #own.lines >= MOST_LINES then return end
+  own.lines[#own.lines + 1] = { time = own.scene.time, text = "" }
+  own.lines_due = true
+end
+
+local function keep(own)
+  own.count = own.count + 1
+  own.snapshots[#own.snapshots + 1] =
+    { id = own.count, time = own.scene.time, snapshot = own.scene:snapshot(), lines = #own.lines }
+  if #own.snapshots > MOST_SNAPSHOTS then table.remove(own.snapshots, 2) end -- the first one stays
+end
+
+local now = {} -- orders that are done at once: nothing of the scene changes by them
+
+function now.pause(own) own.paused = true end
+function now.go(own) own.paused, own.base = false, nil end
+function now.step(own) own.paused, own.steps = true, 1 end
+function now.keep(own) keep(own) end
+function now.stop(own) own.stopped = true end
+function now.run(own, m)
+  if type(m.duration) == "number" and m.duration > 0 and m.duration <= 1e6 then own.wants_run = m.duration end
+end
+function now.speed(own, m)
+  local speed = m.value
+  own.speed = type(speed) == "number" and speed > 1e-6 and speed < 1e6 and speed or nil
+  own.base = nil
+end
+
+local MOST_AT_ONCE = 500
+
+local function hear(own)
+  for _ = 1, MOST_AT_ONCE do
+    local text = own.server:take()
+    if not text then return end
+    local fine, m = pcall(jsonread.decode, text)
+    local word = fine and type(m) == "table" and m["do"]
+    if now[word] then
+      local done, message = pcall(now[word], own, m)
+      if not done then refused(own, message) end
+    elseif type(word) == "string" and (orders.changes(m) or word == "undo" or word == "back") then
+      own.queue[#own.queue + 1] = m
+    end -- all else is nobody's business
+  end
+end
+
+-- --- while a run goes on -------------------------------------------------------------------------
+
+-- For how long it is to be held now [s].
+local function holding(own)
+  if own.stopped then return 0 end
+  if own.paused then
+    if own.steps > 0 then return 0 end
+    return IDLE
+  end
+  if not own.speed then return 0 end
+  local clock = core.clock()
+  own.base = own.base or { time = own.scene.time, clock = clock }
+  local ahead = (own.scene.time - own.base.time) / own.speed - (clock - own.base.clock)
+  if ahead < -0.5 then own.base = nil end -- it cannot go so fast: nothing is to be made up for
+  return math.max(0, ahead)
+end
+
+-- Show and listen as long as the run is held. Returns whether something is to be changed.
+local function hold(own)
+  while true do
+    hear(own)
+    if #own.queue > 0 then return true end
+    local left = holding(own)
+    own.holds = left > 0 and own.paused
+    show.all(own)
+    if left <= 0 then
+      own.steps = math.max(0, own.steps - 1)
+      return false
+    end
+    own.server:wait(math.min(left, IDLE))
+  end
+end
+
+local function look(own, observer)
+  local changes = hold(own)
+  local o = fields(observer)
+  if own.stopped then observer:stop "stopped from the page" end
+  own.stopped = nil
+  if changes then
+    observer:change(function()
+      repeat work_inside(own) until not hold(own)
+      if own.stopped then fields(observer).reason = "stopped from the page" end
+      own.stopped = nil
+    end)
+  end
+  -- each step counts while it is held or goes slowly
+  o.every = own.speed and own.speed * GAP or nil
+  o.each = own.paused or nil
+end
+
+-- --- views ---------------------------------------------------------------------------------------
+
+local views = setmetatable({}, { __mode = "k" }) -- scene's data -> its view
+
+local function of_scene(scene) return views[build.data(scene)] end
+
+local POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
+  .. "img-src data: blob:; media-src blob:; connect-src ws://127.0.0.1:%d ws://localhost:%d; "
+  .. "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+
+-- The page has a policy of its own, for files; here the server's is the one, which is as narrow.
+local function page_of(own)
+  local html = report.live(own.scene.name, { session = own.session })
+  local from, to = html:find('<meta http%-equiv="Content%-Security%-Policy"[^>]*>')
+  if from then html = html:sub(1, from - 1) .. html:sub(to + 1) end
+  own.server:page(html, POLICY:format(own.port, own.port))
+end
+
+local function attach(own, scene)
+  own.session = own.session + 1
+  own.scene, own.signature, own.state, own.frame, own.events = scene, nil, nil, nil, nil
+  own.queue, own.lines, own.shown, own.snapshots = {}, {}, {}, {}
+  own.changes, own.count, own.steps = 0, 0, 0
+  own.names = setmetatable({ scene = scene }, { __index = { math = math } })
+  own.lines_due, own.forms_due, own.failed, own.running, own.done = true, true, nil, false, nil
+  page_of(own)
+end
+
+local function address_of(own) return ("http://127.0.0.1:%d/%s/"):format(own.port, own.token) end
+
+local function open_browser(address)
+  os.execute(("command -v xdg-open >/dev/null 2>&1 && xdg-open '%s' >/dev/null 2>&1 &"):format(address))
+end
+
+local function serve(scene, args)
+  local given = new:read(args == nil and {} or args)
+  local fine, server, port, token = pcall(core.serve, given.port or 0)
+  if not fine then error("scene:view: " .. build.plain(server), 0) end
+  local own = { server = server, port = port, token = token, session = math.random(1, 1 << 30), outline = 0,
+    paused = given.paused or false, open = given.open ~= false }
+  attach(own, scene)
+  local self = sealed.new(View, own)
+  views[build.data(scene)] = self
+  io.stderr:write(("view of '%s': %s\n"):format(scene.name, address_of(own)))
+  if own.open then open_browser(address_of(own)) end
+  return self
+end
+
+local function name_of(scene) return scene.name end
+
+--- scene:view{ port =, open = }: see help "scene:view".
+function core.class.scene.view(scene, args)
+  if core.type(scene) ~= "scene" then error("scene:view is a method: call it with a colon", 2) end
+  build.call(3, name_of, scene) -- raises when it has been closed
+  if of_scene(scene) then return of_scene(scene) end
+  return build.call(3, serve, scene, args)
+end
+
+local follower = {}
+observe.followers[#observe.followers + 1] = follower
+
+local shared -- of `softworld --view`: { view, args }
+
+function follower.begin(scene, args)
+  if shared and not of_scene(scene) then
+    if shared.view then
+      attach(fields(shared.view), scene)
+      views[build.data(scene)] = shared.view
+    else
+      shared.view = core.class.scene.view(scene, shared.args)
+    end
+  end
+  local self = of_scene(scene)
+  local own = self and fields(self)
+  if not own or not own.server or own.scene ~= scene then return end
+  own.running, own.done, own.ok, own.reason, own.base = true, nil, nil, nil, nil
+  if not own.args then own.args = args end
+  if #own.snapshots == 0 and not own.failed then keep(own) end
+  own.observer = scene:observe { wall = GAP, call = function(observer) look(own, observer) end }
+  fields(own.observer).each = own.paused or nil
+  fields(own.observer).at = -math.huge -- the first step is looked at
+  if own.paused then
+    while hold(own) do work(own) end
+  end
+end
+
+function follower.finish(scene, ok, reason)
+  local self = of_scene(scene)
+  local own = self and fields(self)
+  if not own or own.scene ~= scene or not own.observer then return end
+  own.observer:remove()
+  own.observer, own.running, own.done, own.ok, own.reason = nil, false, true, ok or false, tostring(reason)
+  own.failed = not ok or nil
+  own.frame = nil
+  if own.server then pcall(show.all, own) end
+end
+
+-- Between runs: what pages ask for is done at once.
+local function idle(own, due)
+  repeat
+    hear(own)
+    if #own.queue > 0 and not own.failed then work(own) end
+    own.queue = {}
+    show.all(own)
+    if own.wants_run then
+      local duration = own.wants_run
+      own.wants_run = nil
+      local given = own.args or {}
+      local args = { duration = duration, dt = given.dt, tolerance = given.tolerance, progress = false }
+      if type(args.tolerance) == "table" then args.tolerance = nil end
+      own.shown[#own.shown + 1] = { time = own.scene.time, ok = true, count = 1,
+        text = ("scene:run { duration = %s }"):format(literal.number(duration)) }
+      local fine, run = pcall(own.scene.run, own.scene, args)
+      if not fine and core.interrupted() then error(run, 0) end
+      if fine then fine = run.ok end -- a run that failed was looked at
+      if not fine then own.failed = true end
+      own.lines_due = true
+    end
+    own.server:wait(IDLE)
+  until core.clock() >= due
+end
+
+--- Show the scene as it is until Ctrl-C, or for so long [s].
+function View:wait(seconds)
+  if seconds ~= nil then checks.number("view:wait: seconds", seconds, 0, " s", 2) end
+  local own = fields(self)
+  if not own.server then error("view:wait: the view has been closed", 2) end
+  if own.running then error("view:wait: a run is under way", 2) end
+  build.call(3, idle, own, seconds and core.clock() + seconds or math.huge)
+end
+
+--- Pages are told nothing more.
+function View:close()
+  local own = fields(self)
+  if own.observer then own.observer:remove() end
+  if own.server then own.server:stop() end
+  own.server, own.observer = nil, nil
+  if of_scene(own.scene) == self then views[build.data(own.scene)] = nil end
+end
+
+local names = { "address", "pages", "scene", "wait", "close" }
+
+--- Names of methods and fields, for completion at the prompt.
+function View.__names() return table.move(names, 1, #names, 1, {}) end
+
+function View:__index(key)
+  local own = fields(self)
+  if key == "address" then return address_of(own) end
+  if key == "pages" then return own.server and (own.server:pages()) or 0 end
+  if key == "scene" then return own.scene end
+  if key == "wait" or key == "close" then return View[key] end
+  local near = core.nearest(checks.shown(key), names)
+  error(("a view has no '%s'; %s"):format(checks.shown(key), near and "did you mean '" .. near .. "'?"
+    or "it has: " .. table.concat(names, " ")), 2)
+end
+
+function View.__newindex(_, key) error(("a view has no '%s' to set"):format(checks.shown(key)), 2) end
+
+function View:__tostring()
+  local own = fields(self)
+  return own.server and ("view of '%s' at %s"):format(own.scene.name, address_of(own)) or "view, closed"
+end
+
+methods.guard_table("view", View)
+
+--- `softworld --view script.lua`: every scene that runs is shown, one after the other, from now on.
+function view.all(args) shared = { args = args } end
+
+--- Then, when the script has come to its end: show the last scene until Ctrl-C.
+function view.stay()
+  local own = shared and shared.view and fields(shared.view)
+  if not own or not own.server then
+    io.stderr:write "softworld: the script has run no scene: there is nothing to view\n"
+    return
+  end
+  io.stderr:write "the script has ended; Ctrl-C ends the view\n"
+  local fine, message = pcall(idle, own, math.huge)
+  shared.view:close()
+  if not fine and not tostring(message):find "interrupted" then error(message, 0) end
+end
+
+return view

@@ -1,0 +1,109 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Sections of wires that are meshes of particles: shape, torsion, strain, contact pressure.
+--
+--     local section = wire:section(0.5)
+--     print(section)                        -- widths, ovalisation, torsion, strains
+--     print(section:width{ 0, 0, 1 })       -- between plates above and below [m]
+--     for _, p in ipairs(wire:contact_pressure()) do print(p.s, p.pressure) end
+--
+-- @module softworld.wire.section
+local checks = require "softworld.checks"
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local methods = require "softworld.methods"
+
+local class = core.class
+local Section = { __name = "section" }
+Section.__index = Section
+
+local function dot(a, b) return a[1] * b[1] + a[2] * b[2] + a[3] * b[3] end
+
+--- How wide it is between two planes across a direction, of which the part across the wire counts.
+-- @tparam {x,y,z} direction
+-- @treturn number [m]
+function Section:width(direction)
+  local d, t = direction, self.tangent
+  local numbers = type(checks.field(d, 1)) == "number" and type(checks.field(d, 2)) == "number"
+    and type(checks.field(d, 3)) == "number"
+  if not numbers then error("section:width: direction must be {x, y, z}, got " .. type(d), 2) end
+  local along, size = dot(d, t), dot(d, d)
+  local across = { d[1] - along * t[1], d[2] - along * t[2], d[3] - along * t[3] }
+  local norm = dot(across, across) ^ 0.5
+  if norm ~= norm or norm <= 1e-9 * size ^ 0.5 then
+    error(("section:width: direction {%g, %g, %g} must not be along the wire or zero"):format(d[1],
+      d[2], d[3]), 2)
+  end
+  local low, high = math.huge, -math.huge
+  for _, p in ipairs(self.particles) do
+    local at = dot(p, across) / norm
+    low, high = math.min(low, at), math.max(high, at)
+  end
+  return high - low + 2 * self.skin
+end
+
+--- Draw its outline, and those of others over it: { path = "x.svg" | ".png" | ".pdf", name =,
+-- with = { { name, section }, ... }, title = }. Returns the path.
+function Section:chart(options)
+  if type(checks.field(options, "path")) ~= "string" then
+    error("section:chart takes { path = 'file.svg', name =, with = { { name, section }, ... } }", 2)
+  end
+  local list = { { options.name or ("s = %.4g m"):format(self.s), self } }
+  for i, item in ipairs(options.with or {}) do
+    if type(item) ~= "table" or getmetatable(item[2]) ~= Section then
+      error(("section:chart: with, item %d, must be { name, section }"):format(i), 2)
+    end
+    list[#list + 1] = { checks.shown(item[1]), item[2] }
+  end
+  return require("softworld.output.outlines").draw(options.path, list, options.title)
+end
+
+local function range(list)
+  return math.min(table.unpack(list)), math.max(table.unpack(list))
+end
+
+function Section:__tostring()
+  local lines = { ("section at s = %.6g m, %d particles round it"):format(self.s, #self.particles) }
+  local function add(name, value, unit) lines[#lines + 1] = ("  %-16s %s %s"):format(name, value, unit) end
+  add("width", ("%.6g to %.6g"):format(self.least_width, self.largest_width), "m")
+  if self.height then add("height", ("%.6g"):format(self.height), "m") end
+  add("ovalisation", ("%.4g"):format(self.ovalisation), "")
+  add("area", ("%.6g"):format(self.area), "m2")
+  add("torsion", ("%.6g"):format(self.torsion), "rad")
+  add("twist rate", ("%.6g"):format(self.twist_rate), "rad/m")
+  add("axial strain", ("%.4g to %.4g"):format(range(self.axial_strain)), "")
+  add("hoop strain", ("%.4g to %.4g"):format(range(self.hoop_strain)), "")
+  add("stress", ("%.4g to %.4g"):format(range(self.stress)), "Pa, E times axial strain")
+  return table.concat(lines, "\n")
+end
+
+local section = class.wire.section
+--- A section of a wire that is a mesh of particles (model = "tube", "radial", "cubic", ...), as it
+-- is now, at arc length s.
+-- @tparam number s [m]
+-- @treturn table `outline`, points of the surface in their order {x, y, z}, and `particles`, those
+-- that lie `skin` inside of them [m]; `middle` [m], `tangent`, `axis` (where the section's own x
+-- has turned to); `least_width` and `largest_width` between two parallel plates [m], with
+-- `least_direction` and `largest_direction`; `width(direction)`; `height`, the width upwards [m];
+-- `ovalisation`, (largest - least)/(largest + least) of widths as in API RP 1111 (other rules take
+-- twice that), for round sections of the smooth curve through the particles, so that an
+-- undeformed one has none; `area` within the surface [m2]; `torsion`, the section's turn about
+-- the tangent since the wire's start, beyond that of a line that is bent only [rad], and
+-- `twist_rate` [rad/m], both of the shape as it lies; of each of the `particles` `axial_strain`
+-- and `hoop_strain`, and `stress` = E times axial strain, an estimate [Pa]
+function class.wire.section(wire, s)
+  return setmetatable(build.call(3, section, wire, s), Section)
+end
+
+for _, name in ipairs { "width", "contact_pressure", "von_mises", "max_ovalisation" } do
+  local read = class.wire[name]
+  class.wire[name] = function(...) return build.call(3, read, ...) end
+end
+
+local calibration = class.wire.calibration
+--- The springs of a wire that is a mesh, as sw.calibrate gives them.
+function class.wire.calibration(wire)
+  local c = build.call(3, calibration, wire)
+  return require("softworld.wire.calibrate").named(c, wire.model)
+end
+
+methods.guard_table("section", Section)
