@@ -45,7 +45,7 @@ struct sw_server {
   page pages[SW_SERVER_PAGES];
   parcel *html, *slots[SW_SERVER_SLOTS], *old;
   unsigned long numbers[SW_SERVER_SLOTS];
-  int stopping, count, stirred;
+  int stopping, stopped, count, stirred;
   size_t filled; /* of the inbox: page, size, bytes; again and again [B] */
   char inbox[INBOX];
 };
@@ -344,13 +344,45 @@ static void retire(sw_server *s, parcel *p) {
   if (p) p->next = s->old, s->old = p;
 }
 
+/* Its listening thread looks at the wish to stop every two seconds, or when somebody comes: so
+ * somebody comes, until it has stopped. */
+static void *wake(void *user) {
+  sw_server *s = user;
+  struct sockaddr_in at = {.sin_family = AF_INET, .sin_port = htons((unsigned short)s->port)};
+  at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  for (int stopped = 0; !stopped;) {
+    const int fd = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    if (fd >= 0) (void)connect(fd, (struct sockaddr *)&at, sizeof at);
+    nanosleep(&(struct timespec){0, 20000000}, NULL);
+    if (fd >= 0) close(fd);
+    pthread_mutex_lock(&s->lock);
+    stopped = s->stopped;
+    pthread_mutex_unlock(&s->lock);
+  }
+  return NULL;
+}
+
+static void stop_context(sw_server *s) {
+  pthread_t waker;
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  const int helped = pthread_create(&waker, NULL, wake, s) == 0;
+  pthread_sigmask(SIG_SETMASK, &before, NULL);
+  mg_stop(s->context);
+  pthread_mutex_lock(&s->lock);
+  s->stopped = 1;
+  pthread_mutex_unlock(&s->lock);
+  if (helped) pthread_join(waker, NULL);
+}
+
 void sw_server_stop(sw_server *s) {
   if (!s) return;
   pthread_mutex_lock(&s->lock);
   s->stopping = 1;
   stir(s);
   pthread_mutex_unlock(&s->lock);
-  if (s->context) mg_stop(s->context);
+  if (s->context) stop_context(s);
   for (int k = 0; k < SW_SERVER_SLOTS; k++) retire(s, s->slots[k]);
   retire(s, s->html);
   free_old(s);

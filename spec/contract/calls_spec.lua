@@ -19,6 +19,7 @@ local function objects()
   local run = scene:run{ dt = 0.01 }
   return { scene = scene, wire = wire, hand = hand, gripper = hand, process = process, clip = clip,
     channel = channel, tie = tie, run = run, sw = sw, observer = scene:observe{ call = print },
+    view = scene:view{ open = false },
     force = scene:force{ kind = "damping", on = wire },
     obstacle = scene:obstacle{ shape = "plane", at = { 0, 0, -1 } } }
 end

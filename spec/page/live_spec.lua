@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The live view in a real browser: a run in a process of its own is watched, held, pulled by hand and changed;
--- what was done is saved as a script that gives the same numbers.
+-- The live view in a real browser: a run in a process of its own is watched, held, pulled by hand and
+-- changed; what was done is saved as a script that gives the same numbers.
 package.path = "./?.lua;" .. package.path
 local browser = require "spec.page.browser"
 local program = dofile "spec/host/program.lua"
@@ -12,7 +12,8 @@ local SCENE = [[
 local sw = require "softworld"
 local scene = sw.scene { name = "by hand" }
 local floor = scene:obstacle { name = "floor", shape = "plane", friction = 0.3 }
-scene:obstacle { name = "wall", shape = "box", size = { 0.02, 0.3, 0.08 }, at = { 0.2, 0, 0.04 }, friction = 0.3 }
+scene:obstacle { name = "wall", shape = "box", size = { 0.02, 0.3, 0.08 }, at = { 0.2, 0, 0.04 },
+  friction = 0.3 }
 local wire = scene:wire { name = "wire", E = 5e7, density = 1500, radius = 0.004, segments = 30,
   from = { 0.5, 0, 0.12 }, to = { -0.2, 0, 0.12 } }
 scene:clamp(wire, { s = 0, name = "fixed" })
@@ -151,8 +152,9 @@ describe("the live view", function()
     order "go"
     local s, before = 0.65, place(0.65)
     local at = on_screen(s)
-    page:pointer({ at, { at[1], at[2] - 20 }, { at[1], at[2] - 60 }, { at[1], at[2] - 110 }, { at[1], at[2] - 110 },
-      { at[1], at[2] - 110 }, { at[1], at[2] - 110 } }, true)
+    local way = { at }
+    for _, up in ipairs { 20, 60, 110, 110, 110, 110 } do way[#way + 1] = { at[1], at[2] - up } end
+    page:pointer(way, true)
     page:wait "return player.panel.lines.script && /hand:release/.test(player.panel.lines.script)"
     order "pause"
     page:wait "return player.state.get('run').holds"
@@ -223,7 +225,7 @@ describe("the live view", function()
     order "go"
     local numbers = finish(run)
     program.write(folder .. "/again.lua", script .. TELL)
-    local out, err, code = program.shell(("%s %s"):format(program.quote(program.path), program.quote(folder .. "/again.lua")))
+    local out, err, code = program.run { folder .. "/again.lua" }
     assert.equal(0, code, err)
     assert.equal(numbers:match "[^\n]*\n$", out:match "[^\n]*\n$")
   end)

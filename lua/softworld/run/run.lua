@@ -373,9 +373,9 @@ function Run:document()
 end
 
 -- What a player draws of a scene.
-local function describe(scene, doc)
+local function describe(scene, doc, wires)
   local data = build.data(scene)
-  doc.scene, doc.wires, doc.obstacles = scene, doc.wires or wires_of(data), obstacles_of(data)
+  doc.scene, doc.wires, doc.obstacles = scene, wires or wires_of(data), obstacles_of(data)
   drawn.describe(scene, doc)
   for _, f in ipairs(fixing.all(scene)) do
     for _, one in ipairs(f:solids()) do
@@ -391,8 +391,7 @@ function runfiles.described(self)
   readable(self, "frames", true)
   local doc = outline(self)
   doc.start, doc.from, doc.to = self.start, self.start - 1e-9, self.time + 1e-9
-  if not self.ok then doc.wires = self.drawn end
-  return describe(self.scene, doc)
+  return describe(self.scene, doc, not self.ok and self.drawn or nil)
 end
 
 -- The same of a scene as it is now, with or without a run under way.

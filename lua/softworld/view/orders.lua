@@ -3,6 +3,7 @@
 -- what is run, shown and saved. Nothing of a message ever becomes Lua but numbers, and names in quotes.
 -- @module softworld.view.orders
 local core = require "softworld.core"
+local checks = require "softworld.checks"
 local build = require "softworld.scene.build"
 local literal = require "softworld.scene.literal"
 local rows = require "softworld.rows"
@@ -88,6 +89,10 @@ local function number_of(what, value)
   return value
 end
 
+local function positive(what, value)
+  return checks.number(what, number_of(what, value), 0, "", 0, nil, true)
+end
+
 local function vector_of(what, value)
   if type(value) ~= "table" then fail("%s is no list of 3 numbers", what) end
   for k = 1, 3 do number_of(what, value[k]) end
@@ -103,6 +108,18 @@ local function reference(name) return name == "" and "scene" or ("scene:find(%q)
 local function object_of(scene, name)
   if name == "" then return scene end
   return scene:find(name)
+end
+
+-- As the object itself would say it; but asking that would mean to leave the run.
+local function check_range(name, row, value)
+  if row.type == "vector" then
+    if type(value) ~= "table" or #value ~= 3 then fail("%s must be 3 numbers", name) end
+  elseif row.type == "number" then
+    checks.number(name, value, row.min or -math.huge, row.unit == "-" and "" or " " .. row.unit, 0, row.max,
+      row.above)
+  else
+    checks.word(name, value, checks.set(table.concat(row.choices or {}, " ")), 0)
+  end
 end
 
 local function plain_value(name, value)
@@ -140,11 +157,12 @@ function make.set(scene, m)
   if type(m.values) ~= "table" then fail "values is no table" end
   local object, given, known = object_of(scene, name), {}, {}
   for _, row in ipairs(rows_of(object) or fail("'%s' has nothing to set", name)) do
-    known[row.name] = is_told(row) or nil
+    known[row.name] = is_told(row) and row or nil
   end
   for key, value in pairs(m.values) do
     if not known[key] then fail("'%s' has no '%s' to set", name, tostring(key)) end
     given[key] = plain_value(key, value)
+    check_range(("%s.%s"):format(name == "" and "scene" or name, key), known[key], given[key])
   end
   return ("%s:set %s"):format(reference(name), source(given)), undoing(name, object, known, object:get())
 end
@@ -156,7 +174,7 @@ function make.pull(scene, m)
   local s = math.max(0, math.min(number_of("s", m.s), wire.length))
   local line = 'hand = scene:force { kind = "pull", on = %s, s = %s, to = %s, force = %s, stiffness = %s }'
   return line:format(reference(m.wire), source(s), source(vector_of("to", m.to)),
-    source(number_of("force", m.force)), source(number_of("stiffness", m.stiffness)))
+    source(positive("force", m.force)), source(positive("stiffness", m.stiffness)))
 end
 
 --- { to = }: the hand goes there.

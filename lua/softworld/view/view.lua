@@ -80,6 +80,7 @@ local function refused(own, message)
   own.lines_due = true
   own.shown[#own.shown + 1] = { time = own.scene.time, text = "", ok = false, error = build.plain(message),
     count = 1 }
+  if #own.shown > MOST_LINES then table.remove(own.shown, 1) end
 end
 
 local function touched(own, m, words)
@@ -99,11 +100,8 @@ end
 local function back(own, m)
   for _, s in ipairs(own.snapshots) do
     if s.id == m.id then
-      if show.alive(own.scene) > 0 then
-        return refused(own, "a process is under way, and a Lua function has no way back")
-      end
       build.back(own.scene, s.snapshot)
-      own.names.hand = nil
+      own.names.hand, own.hand = nil, nil
       for k = #own.lines, 1, -1 do
         if own.lines[k].time > s.time or k > s.lines then own.lines[k] = nil end
       end
@@ -173,6 +171,40 @@ function now.speed(own, m)
   own.base = nil
 end
 
+-- --- hearing ---------------------------------------------------------------------------------------
+
+local function has_undo(own)
+  for _, line in ipairs(own.shown) do
+    if line.undo and not line.undone then return true end
+  end
+  return false
+end
+
+local function has_way_back(own, m)
+  for _, s in ipairs(own.snapshots) do
+    if s.id == m.id then
+      if show.alive(own.scene) == 0 then return true end
+      refused(own, "a process is under way, and a Lua function has no way back")
+    end
+  end
+  return false
+end
+
+-- Will something come of an order? To leave a run for nothing would change the last bits of its steps.
+local function is_good(own, m)
+  local word = m["do"]
+  if word == "undo" then return has_undo(own) end
+  if word == "back" then return has_way_back(own, m) end
+  if (word == "reach" or word == "let") and not own.hand then return false end
+  local fine, message = pcall(orders.line, own.scene, m)
+  if not fine then
+    refused(own, message)
+  elseif word == "pull" or word == "let" then
+    own.hand = word == "pull"
+  end
+  return fine
+end
+
 local MOST_AT_ONCE = 500
 
 local function hear(own)
@@ -185,7 +217,7 @@ local function hear(own)
       local done, message = pcall(now[word], own, m)
       if not done then refused(own, message) end
     elseif type(word) == "string" and (orders.changes(m) or word == "undo" or word == "back") then
-      own.queue[#own.queue + 1] = m
+      if is_good(own, m) then own.queue[#own.queue + 1] = m end
     end -- all else is nobody's business
   end
 end
@@ -261,7 +293,7 @@ end
 local function attach(own, scene)
   own.session = own.session + 1
   own.scene, own.signature, own.state, own.frame, own.events = scene, nil, nil, nil, nil
-  own.queue, own.lines, own.shown, own.snapshots = {}, {}, {}, {}
+  own.queue, own.lines, own.shown, own.snapshots, own.hand = {}, {}, {}, {}, nil
   own.changes, own.count, own.steps = 0, 0, 0
   own.names = setmetatable({ scene = scene }, { __index = { math = math } })
   own.lines_due, own.forms_due, own.failed, own.running, own.done = true, true, nil, false, nil
@@ -283,8 +315,10 @@ local function serve(scene, args)
   attach(own, scene)
   local self = sealed.new(View, own)
   views[build.data(scene)] = self
-  io.stderr:write(("view of '%s': %s\n"):format(scene.name, address_of(own)))
-  if own.open then open_browser(address_of(own)) end
+  if own.open then
+    io.stderr:write(("view of '%s': %s\n"):format(scene.name, address_of(own)))
+    open_browser(address_of(own))
+  end
   return self
 end
 
@@ -320,7 +354,7 @@ function follower.begin(scene, args)
   if #own.snapshots == 0 and not own.failed then keep(own) end
   own.observer = scene:observe { wall = GAP, call = function(observer) look(own, observer) end }
   fields(own.observer).each = own.paused or nil
-  fields(own.observer).at = -math.huge -- the first step is looked at
+  fields(own.observer).soon = true
   if own.paused then
     while hold(own) do work(own) end
   end
