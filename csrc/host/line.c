@@ -86,10 +86,12 @@ static char **complete(const char *word, int start, int end) {
   char **matches = NULL;
   (void)end;
   rl_completion_append_character = 0;
-  if (in_string()) return NULL; /* readline goes on with file names */
-  rl_attempted_completion_over = 1;
+  const int quoted =
+      in_string(); /* choices of a parameter, else readline goes on with file names */
+  rl_attempted_completion_over = !quoted;
   if (!lua_checkstack(state, 8)) return NULL;
   if (ask_completer(word, start)) matches = rl_completion_matches(word, next_candidate);
+  if (quoted && matches) rl_attempted_completion_over = rl_completion_suppress_append = 1;
   lua_pop(state, 1);
   return matches;
 }

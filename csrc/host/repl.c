@@ -26,7 +26,7 @@ static void require_module(lua_State *L, const char *name) {
   lua_pushnil(L);
 }
 
-/* The globals sw and help. */
+/* The globals sw, help and time. */
 static int set_globals(lua_State *L) {
   require_module(L, "softworld");
   if (lua_isnil(L, -1)) return 0;
@@ -36,6 +36,12 @@ static int set_globals(lua_State *L) {
       lua_getglobal(L, "help") == LUA_TNIL) {
     lua_pop(L, 1);
     lua_setglobal(L, "help");
+  }
+  require_module(L, "softworld.repl");
+  if (lua_istable(L, -1) && lua_getfield(L, -1, "time") == LUA_TFUNCTION &&
+      lua_getglobal(L, "time") == LUA_TNIL) {
+    lua_pop(L, 1);
+    lua_setglobal(L, "time");
   }
   return 0;
 }
@@ -55,7 +61,8 @@ static void set_up(lua_State *L) {
   lua_CFunction parts[] = {set_tools, set_globals};
   if (isatty(STDIN_FILENO))
     fputs("SoftWorld " SW_VERSION " (" LUA_RELEASE
-          ")  Tab completes, Ctrl-C stops, Ctrl-D leaves\n",
+          ")  Tab completes, Ctrl-C stops, Ctrl-D leaves\n"
+          "Try:  help()   ?wire   help \"start\"\n",
           isatty(STDOUT_FILENO) ? stdout : stderr);
   for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
     host_ctrl_c_reset();
@@ -107,10 +114,18 @@ static int load_text(lua_State *L) {
   return status;
 }
 
-/* A line "=x" means "return x". */
-static void expand_equals(lua_State *L) {
+/* A line "=x" means "return x", a line "?x" asks for help on x. */
+static void expand_mark(lua_State *L) {
   size_t length;
   const char *line = lua_tolstring(L, -1, &length);
+  if (*line == '?') {
+    lua_pushliteral(L, "require 'softworld.repl'.ask [=========[");
+    lua_pushlstring(L, line + 1, length - 1);
+    lua_pushliteral(L, "]=========]");
+    lua_concat(L, 3);
+    lua_remove(L, -2);
+    return;
+  }
   if (*line != '=') return;
   lua_pushliteral(L, "return ");
   lua_pushlstring(L, line + 1, length - 1);
@@ -122,7 +137,7 @@ static void expand_equals(lua_State *L) {
  * (LUA_OK), a message (LUA_ERRSYNTAX) or nothing (LUA_YIELD: given up). */
 static int read_rest(lua_State *L) {
   const int text = lua_gettop(L);
-  expand_equals(L);
+  expand_mark(L);
   for (;;) {
     int status = load_text(L);
     if (status != LUA_YIELD) return status;

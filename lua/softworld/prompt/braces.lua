@@ -8,6 +8,8 @@ local rows = require "softworld.rows"
 
 local braces = {}
 
+local loaded = false
+
 -- Tables of the core's rows that belong to calls.
 local of_core = { ["scene:wire"] = { "wire", "section", "wire_mesh" },
   ["wire:remodel"] = { "remodel", "wire_mesh" },
@@ -91,13 +93,15 @@ local function name_of(chain, value_before, globals)
   return mark == ":" and (kind == "process" and "p" or kind) .. ":" .. method or nil
 end
 
---- A set of names of parameters, or nil where none can stand. value_before: of the prompt's names.
-function braces.names(text, value_before, globals)
+-- All rows that belong where a key can stand at the end of the text; nil: nowhere. Second, the call.
+local function rows_at(text, value_before, globals)
   if not text:find "[{,]%s*$" then return nil end
+  if not loaded then rows.load() end
+  loaded = true
   local chain, keys, place = call_before(text)
   local call = chain and name_of(chain, value_before, globals)
   if not call then return nil end
-  local names
+  local all
   for _, list in ipairs(tables_of(call, text:sub(place))) do
     for _, key in ipairs(keys) do
       local inner
@@ -105,11 +109,45 @@ function braces.names(text, value_before, globals)
       list = inner or {}
     end
     for _, row in ipairs(list) do
-      names = names or {}
-      names[row.name] = true
+      all = all or {}
+      all[#all + 1] = row
     end
   end
+  return all, call, #keys == 0
+end
+
+--- A set of names of parameters, or nil where none can stand. value_before: of the prompt's names.
+function braces.names(text, value_before, globals)
+  local list = rows_at(text, value_before, globals)
+  if not list then return nil end
+  local names = {}
+  for _, row in ipairs(list) do names[row.name] = true end
   return names
+end
+
+-- Words that stand for members of a registry, or for entries of the catalogue.
+local function members(call, key)
+  local family = chosen[call]
+  local list = {}
+  if family and family[1] == key then
+    for _, entry in ipairs(core.registry()[family[2] ]) do
+      if not entry.inner then list[#list + 1] = entry.name end
+    end
+  elseif call == "scene:wire" and key == "cable" then
+    list = package.loaded["softworld"].cable.list()
+  end
+  return list
+end
+
+--- The words that can stand in quotes at the end of the text, `scene:wire{ model = `, or nil.
+function braces.choices(text, value_before, globals)
+  local before, key = text:match "^(.*[{,]%s*)([%a_][%w_]*)%s*=%s*$"
+  if not before then return nil end
+  local list, call, outermost = rows_at(before, value_before, globals)
+  for _, row in ipairs(list or {}) do
+    if row.name == key and row.choices then return row.choices end
+  end
+  return list and outermost and members(call, key) or nil
 end
 
 return braces

@@ -11,15 +11,50 @@ local function width()
   return host and host.columns() or 80
 end
 
---- Print results as the prompt does: values side by side, tables readable.
+-- What an object says at the prompt: a wire, a scene or a gripper more than tostring tells of it.
+local function text_of(value)
+  local more = package.loaded["softworld"] and type(value) ~= "number" and type(value) ~= "string"
+    and require("softworld.portrait")(value)
+  return pretty(value, { width = width() }) .. (more or "")
+end
+
+--- Print results as the prompt does: values side by side, tables readable. The first is `_` from then on.
 function repl.show(...)
   local values = table.pack(...)
   local texts, separator = {}, "\t"
+  if values[1] ~= nil then _G._ = values[1] end
   for i = 1, values.n do
-    texts[i] = pretty(values[i], { width = width() })
+    texts[i] = text_of(values[i])
     if texts[i]:find("\n", 1, true) then separator = "\n" end
   end
   io.write(table.concat(texts, separator), "\n")
+end
+
+--- `?x` at the prompt: help on the value of x, else on the topic of that name.
+function repl.ask(text)
+  local sw = require "softworld"
+  text = text:match "^%s*(.-)%s*$"
+  if text == "" then return sw.help() end
+  local topic = text:match "^[\"'](.*)[\"']$" or text
+  local chunk = load("return " .. text, "=?", "t")
+  local fine, value
+  if chunk then fine, value = pcall(chunk) end
+  if fine and value ~= nil and type(value) ~= "number" and type(value) ~= "function"
+    and type(value) ~= "boolean" and value ~= sw then
+    return sw.help(value)
+  end
+  sw.help(topic:match "^sw%.([%w_]+)$" or topic:match "^[%w_]+[:.]([%w_]+)$" or topic)
+end
+
+--- time(f, ...): call f, say how long that took, return what it returns.
+function repl.time(f, ...)
+  local clock = package.loaded["softworld"] and package.loaded["softworld"].core.clock or os.clock
+  local wall, cpu = clock(), os.clock()
+  local function done(...)
+    io.write(("%.4g s, %.4g s of computing\n"):format(clock() - wall, os.clock() - cpu))
+    return ...
+  end
+  return done(f(...))
 end
 
 -- --- completion ------------------------------------------------------------
@@ -95,6 +130,16 @@ end
 -- parameters.
 function repl.complete(before, word, globals)
   globals = globals or _G
+  if package.loaded["softworld"] and before:find "[\"']$" then -- the choices of a parameter, or nothing
+    local choices = require("softworld.braces").choices(before:sub(1, -2), value_before, globals)
+    local found = {}
+    for _, name in ipairs(choices or {}) do
+      if name:sub(1, #word) == word then found[#found + 1] = name end
+    end
+    table.sort(found)
+    return found
+  end
+  if select(2, before:gsub("[\"']", "")) % 2 == 1 then return {} end -- within a text
   local text, mark = before:match "^(.-)%s*([%.:])%s*$"
   local names = package.loaded["softworld"]
     and require("softworld.prompt.braces").names(before, value_before, globals)

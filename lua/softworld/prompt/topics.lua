@@ -174,11 +174,20 @@ end
 
 local SHORT = 24 -- results that are told beside what they are of [characters]
 
+-- The width of a column for these texts: of the longest one, between two bounds.
+local function column(list, least, most, of)
+  local wide = least
+  for _, entry in ipairs(list) do wide = math.max(wide, math.min(#of(entry), most)) end
+  return wide
+end
+
 -- What an object of a class does: a line for each method and field.
 local function class_part(class)
   local part = { title = ("what a %s has"):format(class), lines = {} }
+  local function short(call) return (signature(call):gsub("^%w+", "", 1)) end
+  local shape = ("%%-%ds %%s%%s"):format(column(rows.classes[class], 20, 32, short))
   for i, call in ipairs(rows.classes[class]) do
-    part.lines[i] = ("%-26s %s%s"):format(signature(call):gsub("^%w+", "", 1), call.doc,
+    part.lines[i] = shape:format(short(call), call.doc,
       call.gives and #call.gives < SHORT and not call.gives:find "^the " and " -> " .. call.gives or "")
   end
   return part
@@ -230,14 +239,18 @@ function topics.parts(topic)
   return parts
 end
 
+local function unit_of(row) return row.unit == "-" and "" or "[" .. row.unit .. "]" end
+
 local function part_text(part)
   local lines = { part.title }
+  local name_column = column(part.rows or {}, 16, 28, function(row) return row.name end)
+  local unit_column = column(part.rows or {}, 9, 12, unit_of)
+  local shape = ("  %%-%ds %%-%ds %%-12s %%s%%s%%s"):format(name_column, unit_column)
   for _, line in ipairs(part.lines) do lines[#lines + 1] = "  " .. line end
   for _, row in ipairs(part.rows or {}) do
     local range, default = topics.range(row), topics.default(row)
     local long = #default > 12 -- does not fit into its column
-    lines[#lines + 1] = ("  %-16s %-9s %-12s %s%s%s"):format(row.name, row.unit == "-" and ""
-      or "[" .. row.unit .. "]", long and "" or default, row.doc, range ~= "" and "; " .. range or "",
+    lines[#lines + 1] = shape:format(row.name, unit_of(row), long and "" or default, row.doc, range ~= "" and "; " .. range or "",
       long and default:gsub("^=", "; default:") or "")
   end
   if part.rows and #part.rows == 0 then lines[#lines + 1] = "  takes no parameters" end
