@@ -117,10 +117,10 @@ typedef struct sw_force_class {
 
 /* How many there are. */
 enum {
-  SW_FORCE_CLASSES = 0
-#define X(name) +1
+#define X(name) SW_FORCE_NUMBER_##name,
 #include "force/list.def"
 #undef X
+  SW_FORCE_CLASSES
 };
 
 /* The class called name, or NULL. */

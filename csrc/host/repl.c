@@ -37,7 +37,7 @@ static int set_globals(lua_State *L) {
     lua_pop(L, 1);
     lua_setglobal(L, "help");
   }
-  require_module(L, "softworld.repl");
+  require_module(L, "softworld.prompt.repl");
   if (lua_istable(L, -1) && lua_getfield(L, -1, "time") == LUA_TFUNCTION &&
       lua_getglobal(L, "time") == LUA_TNIL) {
     lua_pop(L, 1);
@@ -119,7 +119,7 @@ static void expand_mark(lua_State *L) {
   size_t length;
   const char *line = lua_tolstring(L, -1, &length);
   if (*line == '?') {
-    lua_pushliteral(L, "require 'softworld.repl'.ask [=========[");
+    lua_pushliteral(L, "require 'softworld.prompt.repl'.ask [=========[");
     lua_pushlstring(L, line + 1, length - 1);
     lua_pushliteral(L, "]=========]");
     lua_concat(L, 3);

@@ -39,7 +39,7 @@ local function objects()
       return scene:particles(args)
     end)
   for _, hold in ipairs(r.holds) do
-    add("hold " .. hold.name, hold.params, { s = 0.5 }, function(args)
+    add("hold " .. hold.name, hold.params, samples.hold(hold), function(args)
       return scene[hold.name](scene, wire, args)
     end)
   end

@@ -199,7 +199,7 @@ local acts = {
 }
 for _, hold in ipairs(samples.registry.holds) do
   acts[#acts + 1] = { "making a " .. hold.name, function(scene, wire)
-    return scene[hold.name](scene, wire, { s = 0.6123 })
+    return scene[hold.name](scene, wire, samples.hold(hold, 0.6123))
   end }
 end
 for _, shape in ipairs(samples.registry.shapes) do

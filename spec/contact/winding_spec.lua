@@ -13,7 +13,8 @@ local function wound(edges, dt)
   local r = other.radius
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
   local top, turned = R + r, 2 * math.pi * TURNS
-  local wire = scene:wire{ cable = "GXL 1.5", from = { 0, 0, top }, to = { LENGTH, 0, top }, segments = edges }
+  local wire = scene:wire{ cable = "GXL 1.5", from = { 0, 0, top }, to = { LENGTH, 0, top },
+    segments = edges }
   local drum = scene:obstacle{ shape = "cylinder", radius = R, length = 0.2, friction = 0.25,
     rotation = { axis = { 1, 0, 0 }, angle = math.pi / 2 } }
   scene:force{ kind = "damping", on = wire, mass = 2, stiffness = 1e-3 }

@@ -37,6 +37,11 @@ function samples.arguments(rows, random)
   return args
 end
 
+--- Arguments of a hold at s [m]; a slider also needs its rail.
+function samples.hold(hold, s)
+  return { s = s or 0.5, direction = hold.name == "slider" and { 1, 0, 0 } or nil }
+end
+
 --- Arguments of a force as scene:force takes them.
 function samples.force(force, index)
   local args = samples.arguments(force.params, samples.random(index))

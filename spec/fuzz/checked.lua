@@ -200,12 +200,14 @@ local function whole(text)
   return true
 end
 
+-- What gives no numbers of the state.
+local PLAIN = { run = true, ledger = true, process = true, snapshot = true, shape = true, trajectory = true }
+
 local function check_run(self, result)
   if not (kind_of(result) == "run" and result.ok) then return end
   for _, entry in ipairs(objects(self)) do
     -- what a ledger says is checked below: scripts may write into the table
-    if entry.kind ~= "run" and entry.kind ~= "ledger" and entry.kind ~= "process" and entry.kind ~= "snapshot" and entry.kind ~= "shape"
-      and entry.kind ~= "trajectory" then
+    if not PLAIN[entry.kind] then
       local mine = true
       if entry.kind == "scene" then mine = entry.object == result.scene end
       local found = mine and read_outs(entry.object, entry.kind)

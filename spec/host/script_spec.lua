@@ -38,7 +38,7 @@ describe("softworld script.lua", function()
 
   it("finds its own library before one beside the script", function()
     local folder = program.folder()
-    os.execute("mkdir " .. folder .. "/softworld")
+    os.execute("mkdir -p " .. folder .. "/softworld/prompt")
     program.write(folder .. "/softworld/prompt/pretty.lua", "return 'wrong'")
     local name = program.write(folder .. "/s.lua", "print(type(require 'softworld.prompt.pretty'))")
     assert.equal("function\n", (run { name }))

@@ -284,7 +284,8 @@ local function write_chunks(file, text, write)
 end
 
 --- Write a run.
--- @tparam table run as softworld.run.files makes it for exchange: scene, slots and colours of wires, particles
+-- @tparam table run as softworld.run.files makes it for exchange: scene, slots and colours of wires,
+-- particles
 -- @tparam string path ending in .glb
 -- @tparam table options thickness
 -- @treturn string the path

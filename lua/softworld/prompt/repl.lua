@@ -14,7 +14,7 @@ end
 -- What an object says at the prompt: a wire, a scene or a gripper more than tostring tells of it.
 local function text_of(value)
   local more = package.loaded["softworld"] and type(value) ~= "number" and type(value) ~= "string"
-    and require("softworld.portrait")(value)
+    and require("softworld.prompt.portrait")(value)
   return pretty(value, { width = width() }) .. (more or "")
 end
 
@@ -131,7 +131,7 @@ end
 function repl.complete(before, word, globals)
   globals = globals or _G
   if package.loaded["softworld"] and before:find "[\"']$" then -- the choices of a parameter, or nothing
-    local choices = require("softworld.braces").choices(before:sub(1, -2), value_before, globals)
+    local choices = require("softworld.prompt.braces").choices(before:sub(1, -2), value_before, globals)
     local found = {}
     for _, name in ipairs(choices or {}) do
       if name:sub(1, #word) == word then found[#found + 1] = name end

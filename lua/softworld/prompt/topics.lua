@@ -250,8 +250,8 @@ local function part_text(part)
   for _, row in ipairs(part.rows or {}) do
     local range, default = topics.range(row), topics.default(row)
     local long = #default > 12 -- does not fit into its column
-    lines[#lines + 1] = shape:format(row.name, unit_of(row), long and "" or default, row.doc, range ~= "" and "; " .. range or "",
-      long and default:gsub("^=", "; default:") or "")
+    lines[#lines + 1] = shape:format(row.name, unit_of(row), long and "" or default, row.doc,
+      range ~= "" and "; " .. range or "", long and default:gsub("^=", "; default:") or "")
   end
   if part.rows and #part.rows == 0 then lines[#lines + 1] = "  takes no parameters" end
   if part.after then lines[#lines + 1] = "  " .. part.after end

@@ -271,7 +271,7 @@ function process.renew(scene, bodies)
   for _, body in ipairs(bodies) do scene:process(body) end
 end
 
-local library = debug.getinfo(1, "S").short_src:match "^(.*)process%.lua$" or "softworld/"
+local library = debug.getinfo(1, "S").source:match "^(.*)run/process%.lua$" or "@softworld/"
 
 -- Where in the user's script the library was called that failed a process:
 -- "file:line: "; "" when the script's own code failed, whose errors stay as they are.
@@ -281,7 +281,7 @@ local function place_in(thread)
     local info = debug.getinfo(thread, level, "Sl")
     if not info then break end
     if info.currentline > 0 then
-      local ours = info.short_src:sub(1, #library) == library
+      local ours = info.source:sub(1, #library) == library
       if not ours then
         return inside and ("%s:%d: "):format(info.short_src, info.currentline) or ""
       end

@@ -11,14 +11,14 @@ local waits = setmetatable({}, { __mode = "k" }) -- process -> { since =, where 
 local FIRST = 10 -- first told of after so much simulated time, then after ten times as much [s]
 local PATIENCE = 10 -- and on the terminal after so much real time, then after twice as much [s]
 
-local library = debug.getinfo(1, "S").short_src:match "^(.*)waiting%.lua$" or "softworld/"
+local library = debug.getinfo(1, "S").source:match "^(.*)run/waiting%.lua$" or "@softworld/"
 
 -- The line of the user's script that called the library.
 local function place()
   for level = 3, 50 do
     local info = debug.getinfo(level, "Sl")
     if not info then break end
-    if info.currentline > 0 and info.short_src:sub(1, #library) ~= library then
+    if info.currentline > 0 and info.source:sub(1, #library) ~= library then
       return (" at %s:%d"):format(info.short_src, info.currentline)
     end
   end

@@ -37,7 +37,7 @@ end
 
 -- Where this library lies, as places in messages begin; long paths are cut there, those of files with
 -- longer names earlier.
-local library = debug.getinfo(1, "S").source:match "^@(.*)build%.lua$" or "softworld/"
+local library = debug.getinfo(1, "S").source:match "^@(.*)scene/build%.lua$" or "softworld/"
 
 local function is_ours(source)
   local cut = source:sub(1, 3) == "..."
@@ -107,7 +107,7 @@ end
 
 --- An error's text without the place in this library where it was raised.
 function build.plain(message)
-  return (tostring(message):gsub("^[^\n:]*softworld/[%w_]+%.lua:%d+: ", ""))
+  return (tostring(message):gsub("^[^\n:]*softworld/[%w_/]+%.lua:%d+: ", ""))
 end
 
 local function check_scene(scene, what)

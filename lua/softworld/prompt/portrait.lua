@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- What the prompt tells of an object below its name: what it is made of, how it is, its extremes so far.
--- @module softworld.portrait
+-- @module softworld.prompt.portrait
 local core = require "softworld.core"
-local build = require "softworld.build"
+local build = require "softworld.scene.build"
 local number = require "softworld.output.number"
 
 local portrait = {}
@@ -12,6 +12,8 @@ local function try(f, ...)
   local result = table.pack(pcall(f, ...))
   if result[1] then return table.unpack(result, 2, result.n) end
 end
+
+local function vector(v) return ("(%.4g, %.4g, %.4g)"):format(v[1], v[2], v[3]) end
 
 local function at(s, t)
   local words = {}
@@ -31,8 +33,7 @@ function portrait.wire(wire)
   end
   local from, to = try(wire.position, wire, 0), try(wire.position, wire, wire.length)
   if from and to then
-    lines[#lines + 1] = ("from (%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g) m"):format(from[1], from[2], from[3],
-      to[1], to[2], to[3])
+    lines[#lines + 1] = ("from %s to %s m"):format(vector(from), vector(to))
   end
   local radius, s, t = try(wire.min_bend_radius, wire)
   if radius and radius < math.huge then
@@ -65,19 +66,23 @@ function portrait.obstacle(obstacle)
   local p = try(obstacle.pose, obstacle)
   local f = try(obstacle.force, obstacle)
   local lines = {}
-  if p then lines[1] = ("at (%.4g, %.4g, %.4g) m%s"):format(p[1], p[2], p[3], obstacle.present and "" or ", removed") end
-  if f then lines[#lines + 1] = ("force of wires on it (%.4g, %.4g, %.4g) N"):format(f[1], f[2], f[3]) end
+  if p then
+    lines[1] = ("at %s m%s"):format(vector(p), obstacle.present and "" or ", removed")
+  end
+  if f then lines[#lines + 1] = ("force of wires on it %s N"):format(vector(f)) end
   return lines
 end
 
 function portrait.gripper(gripper)
   local lines = {}
   local p = try(gripper.position, gripper)
-  if p then lines[1] = ("at (%.4g, %.4g, %.4g) m"):format(p[1], p[2], p[3]) end
+  if p then lines[1] = ("at %s m"):format(vector(p)) end
   local f = try(gripper.force, gripper)
-  if f then lines[#lines + 1] = ("force on its wires (%.4g, %.4g, %.4g) N"):format(f[1], f[2], f[3]) end
+  if f then lines[#lines + 1] = ("force on its wires %s N"):format(vector(f)) end
   local peak = try(function() return gripper.peak_force end)
-  if type(peak) == "number" then lines[#lines + 1] = ("peak force so far %s"):format(number.text(peak, "N")) end
+  if type(peak) == "number" then
+    lines[#lines + 1] = ("peak force so far %s"):format(number.text(peak, "N"))
+  end
   return lines
 end
 
