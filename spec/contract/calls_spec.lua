@@ -146,6 +146,21 @@ describe("completion within braces", function()
     offers("modes", "wire:frequencies{ mo")
   end)
 
+  it("offers the choices of a parameter within quotes", function()
+    local function quoted(expected, line)
+      local before, word = line:match "^(.-)([^'\"]*)$"
+      assert.equal(expected, table.concat(repl.complete(before, word, made), " "))
+    end
+    quoted("radial rod", "scene:wire{ model = 'r")
+    quoted("path straight", 'scene:wire{ model = "rod", rest = "')
+    quoted("torus", "scene:obstacle{ shape = 'to")
+    quoted("wind", "scene:force{ kind = 'w")
+    quoted("tr-bdf2", "scene:run{ integrator = 'tr")
+    quoted("", "scene:wire{ name = 'r") -- any text: no choices
+    quoted("", "print('r")
+    assert.is_truthy(table.concat(repl.complete("scene:wire{ cable = '", "GXL", made), ","):find "GXL 1.5")
+  end)
+
   it("offers names of the script where a value is wanted", function()
     offers("hand", "scene:force{ on = ha")
     offers("hand", "print{ ha")

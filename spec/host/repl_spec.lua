@@ -77,6 +77,42 @@ describe("the prompt through a pipe", function()
     assert.equal("1\nnil\n", out)
   end)
 
+  it("keeps the last result as _", function()
+    prints("5\n10\nnil\n10\n", "5\n_ * 2\nnil\n_\n")
+  end)
+
+  it("asks for help with ?", function()
+    local out, err = session "?clip\nscene = sw.scene{}\n?scene\n?scene:clamp\n?no_such_topic\n"
+    assert.matches("scene:clip{", out)
+    assert.matches("\nscene 'scene' at t = 0 s\n", out)
+    assert.matches("\n  scene:clamp%(wire", out)
+    assert.matches("no help on 'no_such_topic'", out .. err)
+    prints((session "help()\n"), "?\n")
+  end)
+
+  it("times a call, and gives what it gives", function()
+    local out = session "time(math.max, 3, 4)\ntime(error, 'boo')\n1\n"
+    assert.matches("^[%d.e-]+ s, [%d.e-]+ s of computing\n4\n1\n$", out)
+  end)
+
+  it("tells of an object what it is made of, how it is, and its extremes", function()
+    local out = session [[
+      scene = sw.scene{}
+      wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+      clamp = scene:clamp(wire, { s = 0 })
+      run = scene:run{ duration = 0.1 }
+      wire
+      scene
+      scene:obstacle{ name = "floor", shape = "plane", at = { 0, 0, -2 } }
+    ]]
+    assert.matches("\n  rod, radius 1%.5%d* mm, cable 'GXL 1%.5', EI [%d.]+ N m2, [%d.]+ kg/m\n", out)
+    assert.matches("\n  from %(0, 0, 0%) to %([%d.]+, 0, %-0%.%d+%) m\n", out)
+    assert.matches("\n  smallest bend radius so far [%d.]+ %a+ %(s = ", out)
+    assert.matches("\n  largest tension so far [%d.]+ m?N %(s = ", out)
+    assert.matches("\n  wires: w\n  holds: clamp1\n", out)
+    assert.matches("plane 'floor'[^\n]*\n  at %(0, 0, %-2%) m\n", out)
+  end)
+
   it("tells when a result cannot be shown", function()
     prints("<table whose __tostring fails>\n1\n", "setmetatable({}, { __tostring = error })\n1\n")
   end)

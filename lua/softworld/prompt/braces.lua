@@ -129,8 +129,10 @@ end
 local function members(call, key)
   local family = chosen[call]
   local list = {}
-  if family and family[1] == key then
-    for _, entry in ipairs(core.registry()[family[2] ]) do
+  local registry = family and family[1] == key and family[2]
+    or (call == "scene:wire" or call == "wire:remodel") and key == "model" and "models"
+  if registry then
+    for _, entry in ipairs(core.registry()[registry]) do
       if not entry.inner then list[#list + 1] = entry.name end
     end
   elseif call == "scene:wire" and key == "cable" then

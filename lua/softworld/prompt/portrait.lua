@@ -58,18 +58,15 @@ function portrait.scene(scene)
   for _, kind in ipairs { "wires", "particles", "obstacles", "holds", "grippers", "fixings" } do
     if #data[kind] > 0 then lines[#lines + 1] = ("%s: %s"):format(kind, names_of(data[kind])) end
   end
-  if scene.time > 0 then lines[#lines + 1] = ("t = %.6g s"):format(scene.time) end
   return lines
 end
 
 function portrait.obstacle(obstacle)
   local p = try(obstacle.pose, obstacle)
-  local f = try(obstacle.force, obstacle)
   local lines = {}
   if p then
     lines[1] = ("at %s m%s"):format(vector(p), obstacle.present and "" or ", removed")
   end
-  if f then lines[#lines + 1] = ("force of wires on it %s N"):format(vector(f)) end
   return lines
 end
 
