@@ -310,7 +310,7 @@ static void set_class(lua_State *L, const char *name, const luaL_Reg *methods, l
 
 /* core.drawing() -> a drawing with nothing in it */
 static int mod_drawing(lua_State *L) {
-  sw_drawing **d = lua_newuserdatauv(L, sizeof *d, 0);
+  sw_drawing **d = lua_newuserdatauv(L, sizeof(void *), 0);
   *d = NULL;
   set_class(L, DRAWING, drawing_methods, free_drawing);
   must(L, sw_drawing_new(d), "drawing");

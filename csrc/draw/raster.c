@@ -89,10 +89,12 @@ SW_HOT static void fill(sw_layer *layer, const double p[3][3], uint32_t id) {
     uint32_t *ids = layer->id ? layer->id + layer->width * y : NULL;
     float w = (float)(p[0][2] + dy * (at - p[0][1]) + dx * ((double)from + 0.5 - p[0][0]));
     const float step = (float)dx;
-    for (size_t x = from; x < to; x++, w += step) {
-      if (!(w > near[x])) continue;
-      near[x] = w;
-      if (ids) ids[x] = id;
+    for (size_t x = from; x < to; x++) {
+      if (w > near[x]) {
+        near[x] = w;
+        if (ids) ids[x] = id;
+      }
+      w += step;
     }
   }
 }

@@ -190,9 +190,9 @@ INSIDE void shade_dot(const stage *g, size_t x, size_t y, float out[3]) {
     double sx = 0, sy = 0, near = 0;
     int n = 0;
     for (size_t j = k; j < SAMPLES && !done[k]; j++) {
-      const size_t other = l->width * (y + j / SS) + x + j % SS;
+      const size_t column = x + j % SS, row = y + j / SS, other = l->width * row + column;
       if (done[j] || object_of(g->d, l->id[other]) != own) continue;
-      sx += (double)(x + j % SS) + 0.5, sy += (double)(y + j / SS) + 0.5;
+      sx += (double)column + 0.5, sy += (double)row + 0.5;
       near += (double)l->near[other];
       n++;
       if (j != k) done[j] = 1;

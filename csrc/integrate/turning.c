@@ -26,7 +26,8 @@ sw_between sw_turning_step(const sw_integrator *m, double h, double last_h, doub
   double found[SW_STAGES_MAX] = {1, 1};
   kept[SW_TURN_LAG_BEFORE] = lag;
   kept[SW_TURN_LAG] = kept[SW_TURN_EXCESS] = 0;
-  if (!(m->flags & SW_INTEGRATOR_IMPLICIT) || m->flags & SW_INTEGRATOR_ONWARDS) return none;
+  if (!m->stages || !(m->flags & SW_INTEGRATOR_IMPLICIT) || m->flags & SW_INTEGRATOR_ONWARDS)
+    return none;
   for (size_t k = 0; k < m->stages; k++) {
     const sw_stage_row *row = &m->rows[k];
     const double t = row->time * h, hbar = row->hbar * h;

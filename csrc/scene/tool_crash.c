@@ -84,7 +84,7 @@ static sw_status find_crash(sw_scene *s, size_t slot, sw_crash *out, sw_error *e
 
 sw_status sw_tool_look_out(sw_scene *s, size_t slot, sw_error *err) {
   sw_tool *t = &s->tools[slot];
-  sw_crash now;
+  sw_crash now = {0};
   SW_TRY(find_crash(s, slot, &now, err));
   if (now.depth > 0 && !t->crashing) t->crash = now; /* a new one */
   t->crashing = now.depth > 0;

@@ -190,8 +190,11 @@ local function draw(doc, o)
   return require("softworld.output.picture").write(doc, o)
 end
 
+local function name_of(scene) return scene.name end
+
 local function picture_of_scene(scene, args)
   if core.type(scene) ~= "scene" then error("scene:picture is a method: call it with a colon", 0) end
+  name_of(scene) -- raises when it has been closed
   local o = of_scene:read(args or {})
   check(o, "scene:picture")
   local doc = runfiles.present(scene)
