@@ -145,7 +145,7 @@ describe("a wire and a ring", function()
     return turned(ring:force()), 0.05 * w.length * 9.80665, function(by) -- moved by that, turned half way
       ring:follow{ points = { { 0, 0, 0 }, vec.rotate(q, by) }, relative = true, speed = 0.5,
         turn = { axis = vec.rotate(q, { 0, 0, 1 }), angle = math.pi } }
-      assert.is_true(s:advance({ dt = 0.005 }, 2).ok)
+      assert.is_true(s:advance({ dt = 0.005 }, 6).ok) -- it swings for three seconds after the way
       return turned(vec.sub(w:position(w.length / 2), (ring:pose()))), turned(ring:force())
     end
   end
@@ -156,10 +156,12 @@ describe("a wire and a ring", function()
     near(0, f[2], 1e-3)
   end)
 
-  -- Rounding of places at 1 km, 1e-13 m, grows with slides and touches; 1e-5 m after a second of it.
+  -- Rounding of places at 1 km, 1e-13 m, grows with slides and touches; 1e-5 m after a second of it. While it
+  -- slides, 1e-7 m are EA 1e-7 m / 0.4 m = 3e-3 N, so forces are compared at rest, where they are the weight.
   it("do the same a kilometre away, turned, and carried on by a trajectory", function()
     local f0, weight, carry0 = hung({ 0, 0, 0 }, { 1, 0, 0, 0 })
     local place0, after0 = carry0{ 0.3, 0, 0.2 }
+    near(-weight, after0[3], 1e-4 * weight, "the weight, after the way")
     for _, case in ipairs{ { { 1000, -500, 300 }, { 1, 0, 0, 0 } }, { { 3, 4, 5 }, { 0.5, 0.5, 0.5, 0.5 } },
       { { -20, 4, 5 }, vec.turn({ 0.6, 0, 0.8 }, 1.1) } } do
       local f, _, carry = hung(table.unpack(case))
@@ -167,7 +169,7 @@ describe("a wire and a ring", function()
       for k = 1, 3 do
         near(f0[k], f[k], 1e-5 * weight, "force at rest")
         near(place0[k], place[k], 1e-5, "place of the wire's middle in the ring")
-        near(after0[k], after[k], 1e-2 * weight, "force after the way")
+        near(after0[k], after[k], 1e-4 * weight, "force after the way")
       end
     end
   end)
