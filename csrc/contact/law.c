@@ -141,8 +141,7 @@ static int lag_agrees(const sw_press *p, double force, double force_scale) {
   return fabs(force - p->lag) <= FORCE_TOLERANCE * force + WEIGHT_TOLERANCE * force_scale;
 }
 
-/* The normal force after an update by shift. */
-static double force_after(const sw_press *p, sw_vec shift) {
+double sw_press_push(const sw_press *p, sw_vec shift) {
   return fmax(0.0, -p->k * (p->gap + sw_dot(p->normal, shift)));
 }
 
@@ -151,10 +150,10 @@ int sw_press_slides(const sw_press *p, double friction) {
 }
 
 int sw_press_lags(const sw_press *p, double friction, sw_vec shift, double force_scale) {
-  return sw_press_slides(p, friction) && !lag_agrees(p, force_after(p, shift), force_scale);
+  return sw_press_slides(p, friction) && !lag_agrees(p, sw_press_push(p, shift), force_scale);
 }
 
-static sw_vec take_as_given(sw_press *p, double friction, double force) {
+sw_vec sw_press_assume(sw_press *p, double friction, double force) {
   const double before = p->lag;
   double length;
   p->lag = force;
@@ -163,16 +162,16 @@ static sw_vec take_as_given(sw_press *p, double friction, double force) {
 
 sw_vec sw_press_follow(sw_press *p, double friction, sw_vec shift) {
   if (!sw_press_slides(p, friction)) return sw_v(0, 0, 0);
-  return take_as_given(p, friction, force_after(p, shift));
+  return sw_press_assume(p, friction, sw_press_push(p, shift));
 }
 
 sw_vec sw_press_unfollow(sw_press *p, double friction) {
   if (!sw_press_slides(p, friction)) return sw_v(0, 0, 0);
-  return take_as_given(p, friction, p->lag_at_first);
+  return sw_press_assume(p, friction, p->lag_at_first);
 }
 
 double sw_press_off(const sw_press *p, double friction, sw_vec shift) {
-  return sw_press_slides(p, friction) ? fabs(force_after(p, shift) - p->lag) : 0.0;
+  return sw_press_slides(p, friction) ? fabs(sw_press_push(p, shift) - p->lag) : 0.0;
 }
 
 int sw_press_pulls(const sw_press *p, sw_vec shift) {

@@ -83,6 +83,10 @@ int sw_press_slides(const sw_press *press, double friction);
 int sw_press_lags(const sw_press *press, double friction, sw_vec shift, double force_scale);
 /* It then takes that one as given. Returns by how much that changes the force on the wire [N]. */
 sw_vec sw_press_follow(sw_press *press, double friction, sw_vec shift);
+/* The same in two parts: the normal force after an update by shift [N], and one that friction takes
+ * as given instead. */
+double sw_press_push(const sw_press *press, sw_vec shift);
+sw_vec sw_press_assume(sw_press *press, double friction, double force);
 /* Or the one of the iterate's first solve again, likewise. */
 sw_vec sw_press_unfollow(sw_press *press, double friction);
 /* How far the normal force after an update is from the one that friction took as given [N]. */

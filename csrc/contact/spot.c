@@ -6,16 +6,15 @@
 
 #include "base/alloc.h"
 
-/* Solves for friction in an iterate: where hundreds of touches wedge each other each one takes off
- * a third of what is left, and a solve costs a tenth of a factor. Where one leaves more than ENOUGH
- * of what is off, friction that presses its own touches goes to and fro: there is no further
- * one [-]. */
+/* Solves for friction in an iterate: one costs a tenth of a factor [-]. */
 enum { MOST_FOLLOW = 8 };
-static const double ENOUGH = 0.8;
+/* A direction with less than this left of its length beside earlier ones is rounding [-]. */
+static const double NOTHING_NEW = 1e-6;
 
 void sw_spots_free(sw_spots *g) {
   sw_free(g->list);
   sw_free(g->more);
+  sw_free(g->mixed);
 }
 
 void sw_spots_add(sw_spots *g, const sw_system *s, const uint32_t body[2], sw_spot spot) {
@@ -42,16 +41,6 @@ static int lags(const sw_spots *g, const double *delta) {
   return 0;
 }
 
-/* How far normal forces are from those that friction took as given [N]. */
-static double off(const sw_spots *g, const double *delta) {
-  double sum = 0;
-  for (size_t i = 0; i < g->count; i++) {
-    const sw_spot *t = &g->list[i];
-    sum += sw_press_off(t->press, t->friction, shift_of(t, delta));
-  }
-  return sum;
-}
-
 static void push(sw_system *s, const sw_spot *t, sw_vec f, double *more) {
   for (int i = 0; i < t->count; i++) {
     const sw_vec part = sw_scale(f, t->weight[i]);
@@ -62,32 +51,103 @@ static void push(sw_system *s, const sw_spot *t, sw_vec f, double *more) {
   }
 }
 
-/* back: friction is that of the iterate's first solve again. */
-static void follow(sw_spots *g, sw_system *s, int back) {
+/* Change what friction takes as given at each touch: to `forces`, or back to that of the iterate's
+ * first solve (NULL); and the solution with it. */
+static void assume(sw_spots *g, sw_system *s, const double *forces) {
   memset(g->more, 0, 3 * s->nodes * sizeof *g->more);
   for (size_t i = 0; i < g->count; i++) {
     const sw_spot *t = &g->list[i];
-    const sw_vec f = back ? sw_press_unfollow(t->press, t->friction)
-                          : sw_press_follow(t->press, t->friction, shift_of(t, s->delta));
+    const sw_vec f = forces ? sw_press_assume(t->press, t->friction, forces[i])
+                            : sw_press_unfollow(t->press, t->friction);
     if (sw_norm2(f) > 0) push(s, t, f, g->more);
   }
   sw_bridges_solve_again(s, g->more);
   for (size_t i = 0; i < 3 * s->nodes; i++) s->delta[i] += g->more[i];
 }
 
+static double dot(const double *a, const double *b, size_t n) {
+  double sum = 0;
+  for (size_t i = 0; i < n; i++) sum += a[i] * b[i];
+  return sum;
+}
+
+static void add(double *a, double share, const double *b, size_t n) {
+  for (size_t i = 0; i < n; i++) a[i] += share * b[i];
+}
+
+/* The fixed point of forces -> forces found with them, by Anderson's mixing (1965; type II of Fang
+ * and Saad 2009): where touches wedge each other the plain iteration goes to and fro for long, or
+ * for ever. All vectors have one number a touch [N]. */
+typedef struct mixing {
+  size_t n, columns;
+  double *found, *off, *next; /* forces found, less those assumed; those to be assumed next */
+  double *found_before, *off_before;
+  double *change[MOST_FOLLOW]; /* of off, orthonormal */
+  double *with[MOST_FOLLOW];   /* of found, when off changes so */
+} mixing;
+
+enum { VECTORS = 5 + 2 * MOST_FOLLOW };
+
+static mixing mixing_in(double *room, size_t n) {
+  mixing m = {.n = n};
+  double **const all[] = {&m.found, &m.off, &m.next, &m.found_before, &m.off_before};
+  for (size_t k = 0; k < 5; k++, room += n) *all[k] = room;
+  for (int k = 0; k < MOST_FOLLOW; k++, room += 2 * n) m.change[k] = room, m.with[k] = room + n;
+  return m;
+}
+
+static void look(mixing *m, const sw_spots *g, const double *delta) {
+  for (size_t i = 0; i < g->count; i++) {
+    const sw_spot *t = &g->list[i];
+    m->found[i] = sw_press_push(t->press, shift_of(t, delta));
+    m->off[i] = m->found[i] - t->press->lag;
+  }
+}
+
+/* One more direction, by the last change. */
+static void learn(mixing *m) {
+  const size_t n = m->n, k = m->columns;
+  double *change = m->change[k], *with = m->with[k];
+  for (size_t i = 0; i < n; i++) {
+    change[i] = m->off[i] - m->off_before[i];
+    with[i] = m->found[i] - m->found_before[i];
+  }
+  const double length = sqrt(dot(change, change, n));
+  for (size_t j = 0; j < k; j++) {
+    const double along = dot(change, m->change[j], n);
+    add(change, -along, m->change[j], n), add(with, -along, m->with[j], n);
+  }
+  const double left = sqrt(dot(change, change, n));
+  if (!(left > NOTHING_NEW * length)) return;
+  for (size_t i = 0; i < n; i++) change[i] /= left, with[i] /= left;
+  m->columns++;
+}
+
+/* What to assume next: all that is off along known directions is taken away. */
+static void mix(mixing *m) {
+  const size_t n = m->n;
+  memcpy(m->next, m->found, n * sizeof *m->next);
+  for (size_t j = 0; j < m->columns; j++)
+    add(m->next, -dot(m->off, m->change[j], n), m->with[j], n);
+  for (size_t i = 0; i < n; i++) m->next[i] = fmax(m->next[i], 0.0);
+  memcpy(m->found_before, m->found, n * sizeof *m->found);
+  memcpy(m->off_before, m->off, n * sizeof *m->off);
+}
+
 void sw_spots_follow(sw_spots *g, sw_system *s) {
   if (!sw_bridges_solves_again(s) || !lags(g, s->delta)) return;
   if (sw_grow((void **)&g->more, &g->room, 3 * s->nodes, sizeof *g->more) != SW_OK) return;
-  double before = off(g, s->delta);
+  if (sw_grow((void **)&g->mixed, &g->mixed_room, VECTORS * g->count, sizeof *g->mixed) != SW_OK)
+    return;
+  mixing m = mixing_in(g->mixed, g->count);
+  look(&m, g, s->delta);
+  const double before = dot(m.off, m.off, m.n);
   for (int k = 0; k < MOST_FOLLOW && lags(g, s->delta); k++) {
-    follow(g, s, 0);
-    const double after = off(g, s->delta);
-    if (k == 0 && !(after <= before)) {
-      follow(g, s, 1);
-      break;
-    }
-    if (!(after <= ENOUGH * before)) break;
-    before = after;
+    mix(&m);
+    assume(g, s, m.next);
+    look(&m, g, s->delta);
+    learn(&m);
   }
+  if (!(dot(m.off, m.off, m.n) <= before)) assume(g, s, NULL);
   sw_bridges_take_solution(s);
 }

@@ -26,6 +26,8 @@ typedef struct sw_spots {
   size_t count, capacity;
   double *more; /* (nodes x 3) room for a solution [m] */
   size_t room;
+  double *mixed; /* room for forces [N] */
+  size_t mixed_room;
 } sw_spots;
 
 void sw_spots_free(sw_spots *spots);
