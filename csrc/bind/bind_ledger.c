@@ -65,8 +65,8 @@ static int mod_ledger(lua_State *L) {
   return 1;
 }
 
-/* core.energy_log(scene) -> flat rows of time, kinetic, stored, gravity, gap, lost by the
- * integrator, and their number */
+/* core.energy_log(scene) -> flat rows of time, kinetic, stored, gravity, gap, all losses so
+ * far, and their number */
 static int mod_energy_log(lua_State *L) {
   size_t rows;
   const double *log = sw_scene_energy_log(check(L), &rows);

@@ -277,8 +277,9 @@ double sw_ledger_excess(const sw_scene *s, double h, double whole) {
 
 static sw_status log_row(sw_scene *s) {
   const sw_ledger *l = &s->books.sums;
-  const double row[SW_LOG_ENERGY_SIZE] = {s->time,    l->kinetic, l->stored,
-                                          l->gravity, l->gap,     l->integrator};
+  const double lost =
+      l->damping + l->friction + l->plasticity + l->impact + l->contact + l->integrator + l->jumps;
+  const double row[SW_LOG_ENERGY_SIZE] = {s->time, l->kinetic, l->stored, l->gravity, l->gap, lost};
   return sw_log_add(&s->books.log, row, SW_LOG_ENERGY_SIZE);
 }
 

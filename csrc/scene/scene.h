@@ -345,8 +345,8 @@ typedef struct sw_ledger {
 
 /* Of the last run, or the one under way. */
 sw_status sw_scene_ledger(sw_scene *scene, sw_ledger *out, sw_error *err);
-/* Rows (their number) of time [s], kinetic, stored and gravity energy, gap and loss by the
- * integrator so far [J], one a step. */
+/* Rows (their number) of time [s], kinetic, stored and gravity energy, gap and all losses so
+ * far [J], one a step. */
 const double *sw_scene_energy_log(const sw_scene *scene, size_t *rows);
 enum { SW_LOG_ENERGY_SIZE = 6 };
 /* Share of what was in play that steps gained; above it a remark, and a failure [-]. */

@@ -122,6 +122,21 @@ describe("energy ledger", function()
     t.share(0.3 * mass * 9.80665 * way, run:ledger().lost.friction, 5e-3, "friction")
   end)
 
+  it("tells in the series, at each step, where the energy is: kept, lost, or from nowhere", function()
+    local s = sw.scene{}
+    wire_of(s, { from = { 0, 0, 0.05 }, to = { 1, 0, 0.05 } })
+    s:obstacle{ shape = "plane", friction = 0.3 }
+    local run = s:run{ duration = 0.4, dt = 0.002 }
+    local rows, count = sw.core.energy_log(s)
+    local start = run:ledger().at_start
+    assert.is_true(count >= 200)
+    for i = 0, count - 1 do
+      local _, kinetic, stored, gravity, gap, lost = table.unpack(rows, 6 * i + 1, 6 * i + 6)
+      t.near(start, kinetic + stored + gravity + lost - gap, 1e-11 * start, "sum of a row")
+    end
+    assert.is_true(rows[#rows] > 0.9 * start) -- it lies there: all but its height of 2.5 mm is lost
+  end)
+
   it("knows the work of a hold: what lifts a wire gives it height", function()
     local s = sw.scene{}
     s:force{ kind = "damping", mass = 20 }
