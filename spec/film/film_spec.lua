@@ -136,11 +136,13 @@ describe("frames", function()
     local scene = sw.scene {}
     scene:wire { E = 1e8, density = 1500, radius = 1e-3, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
     for given, told in pairs { [{ memory = 10 }] = "memory", [{ memry = 1e6 }] = "did you mean 'memory'",
-      [{ memory = 0 / 0 }] = "memory", [7] = "must be a table", [true] = "must be a table" } do
+      [{ memory = 0 / 0 }] = "memory", [7] = "must be a table", yes = "must be a table" } do
       local ok, text = pcall(scene.run, scene, { duration = 0.1, frames = given })
       assert.is_false(ok)
       assert.truthy(text:find(told, 1, true), text)
     end
+    assert.is_true(scene:run { duration = 0.1, frames = true }.ok)
+    assert.is_true(scene:frame_count() > 1)
   end)
 end)
 

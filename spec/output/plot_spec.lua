@@ -34,6 +34,17 @@ describe("sw.plot", function()
   end)
   teardown(function() files.remove(folder) end)
 
+  it("leaves out bend radii of what is as good as straight, as run:chart does", function()
+    local scene = sw.scene {}
+    scene:clamp(scene:wire { name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.3, 0, 0 } }, { s = 0 })
+    local script = script_of { scene:run { duration = 0.2, dt = 0.005 }, columns = { "w.bend_radius" } }
+    local least, most = math.huge, 0
+    for value in script:gmatch "\n%S+ ([%d.e+-]+)%f[\n]" do
+      least, most = math.min(least, tonumber(value)), math.max(most, tonumber(value))
+    end
+    assert.is_true(most <= 100 * least and least > 0, most .. " of " .. least)
+  end)
+
   it("lays runs over one another, one panel for each unit", function()
     local script = script_of { a, b, path = "x.svg",
       columns = { "wall.force", "wall.moment", "wall.force_z" } }

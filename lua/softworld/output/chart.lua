@@ -93,25 +93,28 @@ end
 local steep = 100 -- radii of bends above so many times the smallest are as good as straight
 
 -- Radii of bends that matter: those of almost straight wire would leave no room for them.
-local function tight(column)
+local function tight(all)
   local least, values = math.huge, {}
-  for _, x in ipairs(column.values) do if x > 0 then least = math.min(least, x) end end
-  for i, x in ipairs(column.values) do values[i] = x <= steep * least and x or 0 / 0 end
-  return { name = column.name, unit = column.unit, values = values }
+  for _, x in ipairs(all) do if x > 0 then least = math.min(least, x) end end
+  for i, x in ipairs(all) do values[i] = x <= steep * least and x or 0 / 0 end
+  return values
 end
+
+local function is_bend(name) return name:find "%.bend_radius$" ~= nil end
 
 -- One panel for each unit, in the order of first use; radii of bends have one of their own.
 local function panels_of(columns)
   local panels, by_unit = {}, {}
   for _, column in ipairs(columns) do
     if has_values(column) then
-      local unit, bend = column.unit or "", column.name:find "%.bend_radius$" ~= nil
+      local unit, bend = column.unit or "", is_bend(column.name)
       local key = bend and "bend" or unit
       if not by_unit[key] then
         by_unit[key] = { unit = unit, bend = bend }
         panels[#panels + 1] = by_unit[key]
       end
-      table.insert(by_unit[key], bend and tight(column) or column)
+      table.insert(by_unit[key],
+        bend and { name = column.name, unit = column.unit, values = tight(column.values) } or column)
     end
   end
   if #panels == 0 then sink.fail("a chart: no series with a finite value to draw") end
@@ -400,7 +403,8 @@ end
 chart.map = map.draw
 
 --- For softworld.output.plot.
-chart.parts = { size_of = size_of, finite = finite, thinned = thinned, stack = stack,
-  natural_size = natural_size, quantities = quantities, narrow_tics = narrow_tics, point_types = point_types }
+chart.parts = { size_of = size_of, finite = finite, thinned = thinned, stack = stack, tight = tight,
+  is_bend = is_bend, natural_size = natural_size, quantities = quantities, narrow_tics = narrow_tics,
+  point_types = point_types }
 
 return chart

@@ -115,6 +115,9 @@ end
 -- ylabel, log, size, see softworld.run.plot
 -- @treturn string the path, or the drawing
 function plot.draw(o)
+  for _, c in ipairs(o.curves) do
+    if c.of_run and parts.is_bend(c.what) then c.y = parts.tight(c.y) end
+  end
   local log = { x = (o.log or ""):find "x" ~= nil, y = (o.log or ""):find "y" ~= nil }
   check(o, log)
   local panels, script, text = panels_of(o), gnuplot.script(), not o.path

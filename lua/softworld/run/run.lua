@@ -68,7 +68,8 @@ local function drive(scene, args, total, bar)
   options.progress, options.duration, options.save, options.resume = nil, nil, nil, nil
   options.frame = args.frames ~= false and (options.frame or default_frame) or nil
   options.frames = nil
-  core.keep_frames(scene, args.frames and frames_rows:read(args.frames, "scene:run: frames").memory or nil)
+  local bounds = type(args.frames) == "table" and frames_rows:read(args.frames, "scene:run: frames")
+  core.keep_frames(scene, bounds and bounds.memory or nil)
   local left = (args.max_steps or math.huge) - total.steps
   while true do
     local alive, wake, watching = process.step(scene)
@@ -176,9 +177,9 @@ end
 
 -- What frames it is to store.
 local function check_frames(args)
-  if args.frames == nil or args.frames == false then return end
+  if args.frames == nil or type(args.frames) == "boolean" then return end
   if type(args.frames) ~= "table" then
-    error("scene:run: frames must be a table such as { memory = 256e6 }, or false, got "
+    error("scene:run: frames must be a table such as { memory = 256e6 }, true or false, got "
       .. checks.got(args.frames), 0)
   end
   frames_rows:read(args.frames, "scene:run: frames")
