@@ -188,6 +188,23 @@ local function section_words(r)
 end
 
 --- Arguments by "kind.method".
+-- A picture or a film of a few pixels, into the case's folder; none that other programs draw for minutes.
+local function drawing(name, ...)
+  local keys = { ... }
+  return function(r)
+    local path = r.of{ ("dir .. '/%s.png'"):format(name), ("dir .. '/%s.svg'"):format(name), words.file(r) }
+    local technique = r.of{ "'shaded'", "'wireframe'", "'particles'" }
+    local colour = r.chance(0.3) and r.of{ "'curvature'", "'tension'", "'model'" }
+    return words.table_of(r, keys, 0.15, { { "path", words.or_hostile(r, path) },
+      { "width", words.or_hostile(r, "200") }, { "technique", words.or_hostile(r, technique) },
+      colour and { "colour", words.or_hostile(r, colour) } or nil })
+  end
+end
+
+local function export(ending)
+  return function(r) return words.or_hostile(r, r.of{ ("dir .. '/x.%s'"):format(ending), words.file(r) }) end
+end
+
 local by_call = {
   ["scene.wire"] = wire, ["scene.particles"] = particles, ["scene.obstacle"] = obstacle,
   ["scene.clamp"] = hold "clamp", ["scene.pin"] = hold "pin", ["scene.grip"] = hold "grip",
@@ -264,6 +281,23 @@ local by_call = {
   ["run.vtk"] = function(r) return words.or_hostile(r, r.of{ "dir .. '/a.pvd'", words.file(r) }) end,
   ["run.chart"] = function(r) return words.table_of(r, { "title", "columns" }, 0.2,
     { { "path", words.or_hostile(r, r.of{ "dir .. '/a.svg'", words.file(r) }) } }) end,
+  ["run.picture"] = drawing("run", "camera", "t", "count", "height"),
+  ["scene.picture"] = drawing("scene", "camera", "height"),
+  ["run.film"] = function(r) return export "gif"(r) .. ", " .. words.table_of(r, { "speed", "rate" }, 0.2,
+    { { "width", "100" }, { "frames", "3" } }) end,
+  ["run.gltf"] = export "glb", ["run.obj"] = export "obj", ["run.stl"] = export "stl",
+  ["run.report"] = export "html",
+  ["sw.plot"] = function(r) return ("{ %s, path = %s, log = %s }"):format(r.chance(0.5) and r.pick "run"
+    or words.or_hostile(r, "{ x = { 1, 2, 3 }, y = { 1, 4, 9 } }"), words.or_hostile(r, "dir .. '/p.svg'"),
+    words.or_hostile(r, r.of{ "nil", "'x'", "'xy'" })) end,
+  ["scene.observe"] = function(r) return words.table_of(r, { "every", "wall" }, 0.4,
+    { { "call", words.callback(r) } }) end,
+  ["scene.view"] = function(r) return words.table_of(r, { "port" }, 0.1, { { "open", "false" } }) end,
+  ["scene.slider"] = function(r) return ("%s, %s"):format(r.pick "wire", words.table_of(r,
+    rows_but(member("holds", "slider").params, "s", "from", "to"), 0.15,
+    { { "s", words.or_hostile(r, place(r)) },
+    r.chance(0.8) and { "direction", words.or_hostile(r, r.of{ "{ 1, 0, 0 }", "{ 0, 1, 1 }" }) }
+      or { "path", words.value(r, "points") } })) end,
   ["run.summary"] = function(r) return words.or_hostile(r, "io.stderr") end,
   ["channel.contains"] = function(r) return r.pick "wire" end,
   ["channel.moment"] = function(r) return r.of{ "", ("{ at = %s }"):format(words.vector(r)) } end,
@@ -338,7 +372,8 @@ calls.weights = { ["scene.run"] = 14, ["scene.settle"] = 3, ["scene.wire"] = 3, 
     ["clamp.release"] = 0.7,
   ["obstacle.remove"] = 0.7, ["scene.tool"] = 0.5, ["clamp.follow"] = 4, ["obstacle.follow"] = 2,
     ["wire.set_velocity"] = 2,
-  ["gripper.leave"] = 0,
+  ["gripper.leave"] = 0, ["view.wait"] = 0, ["scene.view"] = 0.3, ["run.film"] = 0.05, ["sw.plot"] = 0.1,
+  ["run.picture"] = 0.3, ["scene.picture"] = 0.3, ["run.report"] = 0.3, ["scene.slider"] = 2,
   ["process.wait"] = 0.1, ["process.wait_until"] = 0.1, ["process.feed"] = 0.1, ["process.step"] = 0.1,
   ["gripper.wait"] = 0.2, ["gripper.press"] = 0.2, ["gripper.clip"] = 0.2, ["gripper.approach"] = 0.3,
   ["run.vtk"] = 0.3, ["run.summary"] = 0.3, ["trajectory.close"] = 0.2, ["shape.close"] = 0.2 }

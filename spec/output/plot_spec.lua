@@ -36,7 +36,8 @@ describe("sw.plot", function()
 
   it("leaves out bend radii of what is as good as straight, as run:chart does", function()
     local scene = sw.scene {}
-    scene:clamp(scene:wire { name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.3, 0, 0 } }, { s = 0 })
+    local wire = scene:wire { name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.3, 0, 0 } }
+    scene:clamp(wire, { s = 0 })
     local script = script_of { scene:run { duration = 0.2, dt = 0.005 }, columns = { "w.bend_radius" } }
     local least, most = math.huge, 0
     for value in script:gmatch "\n%S+ ([%d.e+-]+)%f[\n]" do
