@@ -4,7 +4,7 @@
 -- One CSV row each in out/bench/bench.csv, a summary on the terminal. Values may be lists: case=droop,walls.
 -- case=meshes: what wires that are meshes of particles cost, on the terminal only; case=grip: what
 -- grippers do; case=crowds: many obstacles, nodes and wires; case=report: the
--- player's page; case=bundle: wires that lie along each other.
+-- player's page; case=bundle: wires that lie along each other; case=view: what a live view costs a run.
 -- Compare numbers of one run only: machines differ, and so do their loads.
 package.path = (arg[0]:match "^(.*/)" or "") .. "?.lua;" .. package.path
 local bench = require "bench.rows"
@@ -178,7 +178,7 @@ for _, name in ipairs(order) do
   end
 end
 if #jobs == 0 and not (wanted.case and (wanted.case.meshes or wanted.case.grip
-  or wanted.case.crowds or wanted.case.report or wanted.case.bundle)) then
+  or wanted.case.crowds or wanted.case.report or wanted.case.bundle or wanted.case.view)) then
   io.stderr:write("bench: nothing fits these options\n")
   os.exit(2)
 end
@@ -501,9 +501,20 @@ local function print_report()
   page:close()
 end
 
+-- What a live view costs a run.
+local function print_view()
+  local view = require "bench.view"
+  local plain, alone, page, rate = view.costs(5)
+  print(("\nlive view: %.2f s of CPU time without, %+.1f %% with a view that no page looks at,"):format(plain,
+    100 * (alone / plain - 1)))
+  print(("  %+.1f %% with a page that gets %.0f frames a second (within %g %%: %s)"):format(
+    100 * (page / plain - 1), rate, 100 * view.aim, page / plain - 1 <= view.aim and "met" or "missed"))
+end
+
 if not next(wanted) or wanted.case and wanted.case.report then print_report() end
 if not next(wanted) or wanted.case and wanted.case.meshes then print_meshes() end
 if not next(wanted) or wanted.case and wanted.case.grip then print_grips() end
+if wanted.case and wanted.case.view then print_view() end
 if wanted.case and wanted.case.crowds then print_crowds() end
 if wanted.case and wanted.case.bundle then print_bundles() end
 local bad = {}

@@ -1,0 +1,78 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- What a live view costs a run: CPU time of the whole program, its server's threads included, without a
+-- view, with one that no page looks at, and with one page that takes 30 frames a second.
+-- @module bench.view
+local sw = require "softworld"
+
+local view = {}
+
+view.aim = 0.03 -- of the run's CPU time, with one page [-]
+
+-- A wire of 500 nodes that is drawn over three walls for some seconds of CPU time.
+local function scene_of()
+  local scene = sw.scene{ name = "view" }
+  scene:obstacle{ name = "table", shape = "plane", friction = 0.3 }
+  for i, x in ipairs{ 0.15, 0.45, 0.75 } do
+    scene:obstacle{ name = "wall " .. i, shape = "box", size = { 0.01, 1, 0.1 }, at = { x, 0, 0.05 },
+      friction = 0.3 }
+  end
+  local wire = scene:wire{ name = "wire", E = 50e6, density = 1500, radius = 0.0025, segments = 499,
+    from = { 0, 0, 0.0025 }, to = { -1.25, 0, 0.0025 } }
+  scene:force{ kind = "damping", on = wire, stiffness = 5e-3 }
+  local hand = scene:gripper{ name = "hand" }
+  scene:process(function()
+    hand:grasp(wire, { s = 0.03 })
+    hand:move{ by = { 0.1, 0, 0.15 }, speed = 0.25 }
+    hand:move{ by = { 0.85, 0, 0 }, speed = 0.25 }
+  end)
+  return scene
+end
+
+-- Another program that takes each frame, says so, and waits for the next, until the server ends.
+local READER = [[
+package.path = "./?.lua;" .. package.path
+local page = assert(require("spec.page.websocket").open(%d, "%s" .. "s"))
+local frames = 0
+while true do
+  local text, opcode = page:receive(60)
+  if not text then break end
+  if opcode == 2 then frames = frames + 1 page:send "a" end
+end
+print(frames)]]
+
+local function reader_of(shown)
+  local port, path = shown.address:match "^http://127%.0%.0%.1:(%d+)(/%x+/)$"
+  local reader = io.popen(("%s -e '%s'"):format(arg[-1], READER:format(port, path)), "r")
+  local due = sw.core.clock() + 10
+  while shown.pages == 0 and sw.core.clock() < due do sw.core.sleep(0.02) end
+  return reader
+end
+
+--- CPU time of a run [s], how long it took [s], and frames that the page got; pages: nil (no view), 0, 1.
+function view.cost(pages)
+  local scene = scene_of()
+  local shown = pages and scene:view{ open = false }
+  local reader = pages == 1 and reader_of(shown)
+  local wall, cpu = sw.core.clock(), os.clock()
+  assert(scene:run{ dt = 0.001 }.ok)
+  wall, cpu = sw.core.clock() - wall, os.clock() - cpu
+  if shown then shown:close() end
+  local frames = reader and tonumber(reader:read "a")
+  if reader then reader:close() end
+  scene:close()
+  return cpu, wall, frames
+end
+
+--- Least CPU times of so many runs of each kind, by turns: without a view, without a page, with one [s];
+-- frames a second that the page got.
+function view.costs(times)
+  local plain, alone, page, rate = math.huge, math.huge, math.huge, 0
+  for _ = 1, times do
+    plain, alone = math.min(plain, (view.cost())), math.min(alone, (view.cost(0)))
+    local cpu, wall, frames = view.cost(1)
+    page, rate = math.min(page, cpu), math.max(rate, frames / wall)
+  end
+  return plain, alone, page, rate
+end
+
+return view
