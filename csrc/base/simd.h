@@ -5,7 +5,7 @@
 #define SW_BASE_SIMD_H
 
 #if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(SW_NO_CLONES)
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(SW_NO_CLONES)
 #define SW_HOT __attribute__((target_clones("default", "arch=x86-64-v3")))
 #else
 #define SW_HOT
