@@ -18,7 +18,7 @@ local ROOMS = {
   system = { "base", "state", "solve", "force" }, -- it evaluates the wires' forces
   modal = { "base", "state", "solve", "system" },
   integrate = { "base", "state", "solve", "system" }, -- a system, never a force or a wire
-  contact = { "base", "state", "shape", "motion", "system" }, -- a coupling of the system
+  contact = { "base", "state", "shape", "motion", "solve", "system" }, -- a coupling of the system
   link = { "base", "motion", "state", "system" }, -- a wire of the system, never the scene
   calibrate = { "base", "wire", "force", "solve" },
   scene = { "base", "motion", "shape", "state", "wire", "force", "solve", "system", "integrate",
@@ -37,7 +37,7 @@ local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "gr
   force = { "force.h", "solid.h" }, link = { "hold.h", "joint.h", "spool.h" }, shape = { "tree.h" },
   state = { "angle.h", "clamp.h", "crease.h", "field.h", "hinge.h", "mesh.h", "plan.h", "slide.h",
     "state_tape.h", "tie.h", "web.h" },
-  solve = { "band3.h", "band4.h", "blocks.h", "cholesky.h", "rotation.h", "sparse.h" },
+  solve = { "band3.h", "band4.h", "blocks.h", "cholesky.h", "dense.h", "rotation.h", "sparse.h" },
   system = { "energy.h", "join.h", "rail.h", "system.h" } }
 
 -- May include softworld.h.

@@ -10,6 +10,7 @@
 #include "base/simd.h"
 #include "contact/spot.h"
 #include "contact/touch.h"
+#include "solve/dense.h"
 
 /* Touches opened and closed in an iterate, for more of them the next one costs less; passes over
  * them: after the quick ones they change one by one, for together they may go to and fro; and
@@ -186,37 +187,10 @@ static int change_wrong(refined *r, int most) {
   return count;
 }
 
-/* S z = z in place, with the largest pivots; 0: it cannot be solved. */
-static int eliminate(size_t m, double S[MOST_CHANGED][MOST_CHANGED], double *z) {
-  for (size_t k = 0; k < m; k++) {
-    size_t best = k;
-    for (size_t i = k + 1; i < m; i++)
-      if (fabs(S[i][k]) > fabs(S[best][k])) best = i;
-    for (size_t j = k; j < m; j++) {
-      const double swap = S[k][j];
-      S[k][j] = S[best][j], S[best][j] = swap;
-    }
-    const double swap = z[k];
-    z[k] = z[best], z[best] = swap;
-    if (!(fabs(S[k][k]) > 0)) return 0;
-    for (size_t i = k + 1; i < m; i++) {
-      const double f = S[i][k] / S[k][k];
-      for (size_t j = k; j < m; j++) S[i][j] -= f * S[k][j];
-      z[i] -= f * z[k];
-    }
-  }
-  for (size_t k = m; k-- > 0;) {
-    for (size_t j = k + 1; j < m; j++) z[k] -= S[k][j] * z[j];
-    z[k] /= S[k][k];
-    if (!isfinite(z[k])) return 0;
-  }
-  return 1;
-}
-
 /* Forces of those that have changed: nothing is left of an opened one's spring, and a closed one
  * has got one. */
 static int balance(refined *r) {
-  double S[MOST_CHANGED][MOST_CHANGED], z[MOST_CHANGED];
+  double S[MOST_CHANGED * MOST_CHANGED], z[MOST_CHANGED];
   changed *on[MOST_CHANGED];
   size_t m = 0;
   for (size_t k = 0; k < r->count; k++)
@@ -227,9 +201,9 @@ static int balance(refined *r) {
     const double spring = on[k]->closes ? -p->k : p->k;
     z[k] = spring * (p->gap + sw_dot(p->normal, place(r, t, r->delta))) - on[k]->force;
     for (size_t j = 0; j < m; j++)
-      S[k][j] = (k == j) - spring * sw_dot(p->normal, place(r, t, on[j]->shift));
+      S[m * k + j] = (k == j) - spring * sw_dot(p->normal, place(r, t, on[j]->shift));
   }
-  if (!eliminate(m, S, z)) return 0;
+  if (!sw_dense_solve(S, m, z)) return 0;
   for (size_t k = 0; k < m; k++) {
     on[k]->force += z[k];
     add(values(r), z[k], on[k]->shift, r->delta);

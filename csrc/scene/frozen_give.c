@@ -13,6 +13,7 @@
 
 #include "base/alloc.h"
 #include "scene/frozen_inner.h"
+#include "solve/dense.h"
 
 enum { READ = 3, MOVED = 5, WAYS = 6 }; /* so many rings outside the pads; see above [-] */
 static const double MOST = 0.45;        /* a rod is held further inside by, of the pressed length */
@@ -86,24 +87,14 @@ static void try_ways(const cell *c, int side, double load[WAYS][WAYS], double mo
   }
 }
 
-/* out = b / a, by elimination of columns with pivots; a is lost. 0: there is none. */
+/* out = b / a; 0: there is none. Row by row: a' out' = b'. */
 static int divide(double b[WAYS][WAYS], double a[WAYS][WAYS], double out[WAYS][WAYS]) {
-  memcpy(out, b, sizeof(double[WAYS][WAYS]));
-  for (int k = 0; k < WAYS; k++) {
-    int pivot = k;
-    for (int j = k; j < WAYS; j++)
-      if (fabs(a[k][j]) > fabs(a[k][pivot])) pivot = j;
-    const double p = a[k][pivot];
-    if (!isfinite(p) || p == 0) return 0;
-    for (int i = 0; i < WAYS; i++) {
-      const double one = a[i][pivot], two = out[i][pivot];
-      a[i][pivot] = a[i][k], out[i][pivot] = out[i][k];
-      a[i][k] = one / p, out[i][k] = two / p;
-    }
-    for (int j = 0; j < WAYS; j++) {
-      const double f = a[k][j];
-      for (int i = 0; i < WAYS && j != k; i++) a[i][j] -= f * a[i][k], out[i][j] -= f * out[i][k];
-    }
+  for (int row = 0; row < WAYS; row++) {
+    double turned[WAYS * WAYS];
+    for (int i = 0; i < WAYS; i++)
+      for (int j = 0; j < WAYS; j++) turned[WAYS * j + i] = a[i][j];
+    memcpy(out[row], b[row], sizeof out[row]);
+    if (!sw_dense_solve(turned, WAYS, out[row])) return 0;
   }
   return 1;
 }

@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "scene/remodel_inner.h"
+#include "solve/dense.h"
 
 /* Momentum of velocities v and its moment about a point: out, 6 numbers [N s], [N m s]. */
 static void momentum(const sw_plan *p, const double *x, const double *v, sw_vec about,
@@ -21,44 +22,9 @@ static void momentum(const sw_plan *p, const double *x, const double *v, sw_vec 
   sw_store(out + 3, L);
 }
 
-/* Solves A y = b by elimination with full pivoting; directions in which A all but vanishes get
- * nothing. */
-static void solve6(double A[6][6], double b[6], double y[6]) {
-  static const double LEAST = 1e-10; /* of the largest pivot [-] */
-  size_t column[6] = {0, 1, 2, 3, 4, 5}, rank = 0;
-  double most = 0;
-  for (; rank < 6; rank++) {
-    size_t pi = rank, pj = rank;
-    for (size_t i = rank; i < 6; i++)
-      for (size_t j = rank; j < 6; j++)
-        if (fabs(A[i][j]) > fabs(A[pi][pj])) pi = i, pj = j;
-    if (rank == 0) most = fabs(A[pi][pj]);
-    if (!(fabs(A[pi][pj]) > LEAST * most)) break;
-    for (size_t j = 0; j < 6; j++) {
-      const double t = A[rank][j];
-      A[rank][j] = A[pi][j], A[pi][j] = t;
-    }
-    const double t = b[rank];
-    b[rank] = b[pi], b[pi] = t;
-    for (size_t i = 0; i < 6; i++) {
-      const double u = A[i][rank];
-      A[i][rank] = A[i][pj], A[i][pj] = u;
-    }
-    const size_t c = column[rank];
-    column[rank] = column[pj], column[pj] = c;
-    for (size_t i = rank + 1; i < 6; i++) {
-      const double f = A[i][rank] / A[rank][rank];
-      for (size_t j = rank; j < 6; j++) A[i][j] -= f * A[rank][j];
-      b[i] -= f * b[rank];
-    }
-  }
-  memset(y, 0, 6 * sizeof *y);
-  for (size_t i = rank; i-- > 0;) {
-    double sum = b[i];
-    for (size_t j = i + 1; j < rank; j++) sum -= A[i][j] * y[column[j]];
-    y[column[i]] = sum / A[i][i];
-  }
-}
+/* Rigid motions that have less of what the most massive one has are none: of a straight wire about
+ * itself [-]. */
+static const double LEAST = 1e-10;
 
 /* A rigid motion of what is free: number k < 3 shifts, else turns about a point; the turn's
  * speed is that at a distance. */
@@ -76,7 +42,7 @@ static void rigid(const sw_plan *p, const double *x, sw_vec about, double distan
 sw_status sw_momentum_match(sw_scene *s, size_t wire, sw_vec about, const double wanted[6]) {
   const sw_body *b = &s->system.bodies[wire];
   const double *x = s->system.x + 3 * b->first_node, size = b->plan->length;
-  double *v = s->system.v + 3 * b->first_node, A[6][6], off[6], now[6], y[6], column[6];
+  double *v = s->system.v + 3 * b->first_node, A[6][6], y[6], now[6], column[6];
   double *field = sw_alloc(3 * b->plan->nodes, sizeof *field);
   if (!field) return SW_ENOMEM;
   momentum(b->plan, x, v, about, now);
@@ -84,9 +50,9 @@ sw_status sw_momentum_match(sw_scene *s, size_t wire, sw_vec about, const double
     rigid(b->plan, x, about, size, k, field);
     momentum(b->plan, x, field, about, column);
     for (size_t i = 0; i < 6; i++) A[i][k] = column[i] / (i < 3 ? 1.0 : size);
-    off[k] = (wanted[k] - now[k]) / (k < 3 ? 1.0 : size);
+    y[k] = (wanted[k] - now[k]) / (k < 3 ? 1.0 : size);
   }
-  solve6(A, off, y);
+  if (!sw_dense_least(A[0], 6, y, LEAST)) memset(y, 0, sizeof y);
   for (size_t k = 0; k < 6; k++) {
     rigid(b->plan, x, about, size, k, field);
     for (size_t i = 0; i < 3 * b->plan->nodes; i++) v[i] += y[k] * field[i];

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Small dense matrices of any kind. */
+#ifndef SW_SOLVE_DENSE_H
+#define SW_SOLVE_DENSE_H
+
+#include <stddef.h>
+
+enum { SW_DENSE_MOST = 16 }; /* rows [-] */
+
+/* Solve a x = b (n <= SW_DENSE_MOST) in place: b becomes x; a (n x n, row by row) is lost. 0: there
+ * is no solution. Nothing is allocated. */
+int sw_dense_solve(double *a, size_t n, double *b);
+
+/* x, or the shortest of those that come nearest: directions in which a is less than `least` of what
+ * it is along its longest one get nothing. Otherwise as sw_dense_solve. */
+int sw_dense_least(double *a, size_t n, double *b, double least);
+
+#endif
