@@ -23,13 +23,13 @@ CFLAGS = -std=c11 -g $(OPT) $(WARN) $(SAN) -fPIC
 LIBS = $(shell pkg-config --libs gsl ccd assimp zlib) -lqhull_r -lcholmod -lamd -lcivetweb -lm
 LUALIB = $(shell pkg-config --libs lua5.4)
 
-SRC = $(filter-out $(wildcard csrc/host/*.c),$(wildcard csrc/*/*.c))
+SRC = $(filter-out $(wildcard csrc/host/*.c csrc/probe/*.c),$(wildcard csrc/*/*.c))
 HOST = $(wildcard csrc/host/*.c)
 PAGE = $(BUILD)/page/player.html
 OBJ = $(SRC:csrc/%.c=$(BUILD)/obj/%.o) $(BUILD)/obj/page.o $(BUILD)/obj/font.o
 HOSTOBJ = $(HOST:csrc/%.c=$(BUILD)/obj/%.o)
 
-all: $(BUILD)/softworld $(BUILD)/lib/softworld/core.so
+all: $(BUILD)/softworld $(BUILD)/lib/softworld/core.so $(BUILD)/lib/softworld/probe.so
 
 $(BUILD)/softworld: $(OBJ) $(HOSTOBJ)
 	$(CC) $(SAN) -Wl,-E -o $@ $^ $(LIBS) $(LUALIB) -lreadline
@@ -38,6 +38,11 @@ $(BUILD)/softworld: $(OBJ) $(HOSTOBJ)
 $(BUILD)/lib/softworld/core.so: $(OBJ)
 	@mkdir -p $(@D)
 	$(CC) $(SAN) -shared -Wl,-z,nodelete -o $@ $^ $(LIBS)
+
+# For specs and benches, within the program only, which has the core; not installed.
+$(BUILD)/lib/softworld/probe.so: $(BUILD)/obj/probe/probe.o
+	@mkdir -p $(@D)
+	$(CC) $(SAN) -shared -o $@ $^
 
 $(BUILD)/obj/%.o: csrc/%.c Makefile
 	@mkdir -p $(@D)
@@ -73,7 +78,7 @@ $(BUILD)/obj/font.o: $(BUILD)/font.bin
 	printf '%s\n' '.section .rodata' '.global sw_font_start' '.hidden sw_font_start' \
 	  'sw_font_start: .incbin "$<"' '.section .note.GNU-stack,"",%progbits' | $(CC) -x assembler -c -o $@ -
 
--include $(OBJ:.o=.d) $(HOSTOBJ:.o=.d)
+-include $(OBJ:.o=.d) $(HOSTOBJ:.o=.d) $(BUILD)/obj/probe/probe.d
 
 # The host finds share/lua/5.4 beside its own bin; stock lua5.4 has both folders
 # on its default paths when PREFIX is /usr/local or /usr.

@@ -27,10 +27,6 @@
 #include "scene/tool.h"
 #include "shape/mesh_read.h"
 #include "shape/shape.h"
-#include "solve/band3.h"
-#include "solve/band4.h"
-#include "solve/blocks.h"
-#include "solve/sparse.h"
 #include "view/server.h"
 
 #endif

@@ -7,6 +7,7 @@
 -- player's page; case=bundle: wires that lie along each other; case=view: what a live view costs a run.
 -- Compare numbers of one run only: machines differ, and so do their loads.
 package.path = (arg[0]:match "^(.*/)" or "") .. "?.lua;" .. package.path
+package.cpath = (arg[-1]:match "^(.*/)" or "") .. "lib/?.so;" .. package.cpath -- softworld.probe
 local bench = require "bench.rows"
 local benchcases = require "bench.cases"
 local sink = require "softworld.output.sink"

@@ -27,6 +27,7 @@ local ROOMS = {
   view = { "base" }, -- bytes for pages; never a scene
   draw = { "base", "film" }, -- of film: bytes made few
   bind = {}, -- the core through softworld.h
+  probe = { "bind", "solve" }, -- of specs and benches; not installed
   host = { "bind" },
 }
 
@@ -48,8 +49,8 @@ local FAMILIES = { wire = true, force = true, shape = true, integrate = true, li
 
 -- Outside headers and the only files that may include them (patterns on the path in csrc).
 local OUTSIDE = {
-  { "^lua%.h$", "^bind/", "^host/" },
-  { "^lauxlib%.h$", "^bind/", "^host/" },
+  { "^lua%.h$", "^bind/", "^host/", "^probe/" },
+  { "^lauxlib%.h$", "^bind/", "^host/", "^probe/" },
   { "^lualib%.h$", "^host/" },
   { "^gsl/", "_gsl%.c$" },
   { "^ccd/", "^shape/ccd_adapter%.c$" },

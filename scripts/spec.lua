@@ -69,9 +69,8 @@ local function run_child(file, sink, name, list)
 
   local places = "%s/lua/?.lua;%s/lua/?/init.lua;%s/spec/?.lua;%s/scripts/?.lua;"
   package.path = places:gsub("%%s", (root:gsub("%%", "%%%%"))) .. package.path
-  if not package.preload["softworld.core"] then -- stock Lua: the module beside the host
-    package.cpath = host:match "^(.*)/" .. "/lib/?.so;" .. package.cpath
-  end
+  -- beside the host: softworld.probe, and of stock Lua the core
+  package.cpath = host:match "^(.*)/" .. "/lib/?.so;" .. package.cpath
   rawset(_G, "arg", { [0] = file })
 
   local busted = require "busted.core"()

@@ -2,7 +2,6 @@
 --- What wires that are meshes of particles cost: by the second, by the ring, by the model.
 -- Times are of the processor, the least of several repeats; compare those of one run only.
 -- @module bench.meshes
-local core = require "softworld.core"
 local sw = require "softworld"
 
 -- repeats [-], after which long ones [s of the processor] are enough, factorisations [-], share of
@@ -64,7 +63,7 @@ function benchmeshes.blocks()
   local rows = {}
   for i, entry in ipairs(known) do
     local n = entry[1]
-    local factor, solve = core.blocks_time(100, n // 3, benchmeshes.solves)
+    local factor, solve = require("softworld.probe").blocks_time(100, n // 3, benchmeshes.solves)
     rows[i] = { n = n, factor = factor / 100, solve = solve / 100, aim = 1.5,
       ratio = 1e4 * (factor + solve) / (entry[2] + known_solve(n)) }
   end

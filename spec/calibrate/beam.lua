@@ -116,7 +116,7 @@ local function solve(matrix, c, motion)
   for i = first, last - 1 do
     for k = 1, 3 do right[3 * (i - first) + k] = -force[i][k] end
   end
-  local solved, negative = core.sparse(3, own, pairs_, values, right)
+  local solved, negative = require("softworld.probe").sparse(3, own, pairs_, values, right)
   assert(negative == 0, "the mesh has a direction without stiffness")
   for i = first, last - 1 do
     for k = 1, 3 do u[i][k] = solved[3 * (i - first) + k] end

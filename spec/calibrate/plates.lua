@@ -78,7 +78,7 @@ local function solve(m, gradient, blocks)
     end
     right[3 * p + 1], right[3 * p + 2], right[3 * p + 3] = -gradient[2 * p + 1], -gradient[2 * p + 2], 0
   end
-  return core.sparse(3, own, pairs_, values, right)
+  return require("softworld.probe").sparse(3, own, pairs_, values, right)
 end
 
 -- Largest share of the move that no element forbids.

@@ -189,8 +189,7 @@ local modules = { "sw.scene", "sw.load", "sw.cable", "sw.cables", "sw.calibrate"
 
 local core_names = {}
 for name, value in pairs(sw.core) do
-  if type(value) == "function" and name ~= "fail_allocation" and name ~= "blocks_time"
-    and name ~= "class" then
+  if type(value) == "function" and name ~= "fail_allocation" then
     core_names[#core_names + 1] = name
   end
 end

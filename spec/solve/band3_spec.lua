@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- The block band solver: solutions against the product, pivot signs against the
 -- signs of a matrix that is diagonal in a known basis.
-local core = require "softworld.core"
+local probe = require "softworld.probe"
 
 -- Round-off of a solve with condition numbers up to about 1e3.
 local TOLERANCE = 1e-11
@@ -37,8 +37,8 @@ describe("band3", function()
       local x = {}
       for i = 1, 3 * n do x[i] = math.random() - 0.5 end
       local rows = random_rows(n, function() return 1 end)
-      local _, _, right = core.band3(rows, x)
-      local solved, negative = core.band3(rows, right)
+      local _, _, right = probe.band3(rows, x)
+      local solved, negative = probe.band3(rows, right)
       assert.is_true(largest_difference(solved, x) < TOLERANCE, "n = " .. n)
       assert.are.equal(0, negative)
     end
@@ -74,8 +74,8 @@ describe("band3", function()
         add(i - 1, 2, 0, bend)
       end
       for i = 1, 3 * n do x[i] = math.sin(i) end
-      local _, _, right = core.band3(rows, x)
-      local solved, negative = core.band3(rows, right)
+      local _, _, right = probe.band3(rows, x)
+      local solved, negative = probe.band3(rows, right)
       assert.are.equal(0, negative)
       assert.is_true(largest_difference(solved, x) < 1e-7, n .. ": " .. largest_difference(solved, x))
     end
@@ -92,8 +92,8 @@ describe("band3", function()
         end)
         local x = {}
         for i = 1, 3 * n do x[i] = math.random() end
-        local _, _, right = core.band3(rows, x)
-        local solved, negative = core.band3(rows, right)
+        local _, _, right = probe.band3(rows, x)
+        local solved, negative = probe.band3(rows, right)
         assert.are.equal(wanted, negative, ("n = %d, every %d"):format(n, every))
         assert.is_true(largest_difference(solved, x) < TOLERANCE)
       end
@@ -103,10 +103,10 @@ describe("band3", function()
   it("refuses a singular matrix and one that is not finite", function()
     local rows, right = {}, { 1, 1, 1, 1, 1, 1, 1, 1, 1 }
     for i = 1, 72 do rows[i] = 0 end
-    assert.has_error(function() core.band3(rows, right) end)
+    assert.has_error(function() probe.band3(rows, right) end)
     for i = 0, 2 do for k = 1, 3 do rows[24 * i + upper[k][k]] = 1 end end
-    core.band3(rows, right)
+    probe.band3(rows, right)
     rows[1] = 0 / 0
-    assert.has_error(function() core.band3(rows, right) end)
+    assert.has_error(function() probe.band3(rows, right) end)
   end)
 end)

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- The band solver with four unknowns a node: solutions against the product, pivot
 -- signs against those of dominant diagonals.
-local core = require "softworld.core"
+local probe = require "softworld.probe"
 
 -- A dense matrix as the solver wants it.
 local function rows_of(dense, n)
@@ -41,7 +41,7 @@ local function check(n, dense, wanted, tolerance)
     right[i] = 0
     for j = 1, 4 * n do right[i] = right[i] + dense[i][j] * x[j] end
   end
-  local solved, negative = core.band4(rows_of(dense, n), right)
+  local solved, negative = probe.band4(rows_of(dense, n), right)
   for i = 1, 4 * n do
     assert.is_true(math.abs(solved[i] - x[i]) < (tolerance or 1e-11), "n = " .. n)
   end
@@ -100,10 +100,10 @@ describe("band4", function()
   it("refuses a singular matrix and one that is not finite", function()
     local rows, right = {}, { 1, 1, 1, 1, 1, 1, 1, 1 }
     for i = 1, 96 do rows[i] = 0 end
-    assert.has_error(function() core.band4(rows, right) end)
+    assert.has_error(function() probe.band4(rows, right) end)
     for i = 0, 1 do for k = 0, 3 do rows[48 * i + 5 * k + 1] = 1 end end
-    core.band4(rows, right)
+    probe.band4(rows, right)
     rows[1] = 0 / 0
-    assert.has_error(function() core.band4(rows, right) end)
+    assert.has_error(function() probe.band4(rows, right) end)
   end)
 end)

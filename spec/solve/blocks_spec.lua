@@ -2,6 +2,7 @@
 -- Matrices of blocks, in rings and with pairs of nodes: solutions, products and the count of
 -- negative directions against dense arithmetic.
 local core = require "softworld.core"
+local probe = require "softworld.probe"
 
 local function rings(count, per_ring) return { rings = count, per_ring = per_ring } end
 
@@ -124,7 +125,7 @@ for kind, layout_of in pairs { rings = function(layout) return layout end, pairs
           local a, x = with_signs(layout, sign), random_vector(n)
           local b = times(a, x)
           local label = shape[1] .. " rings of " .. shape[2]
-          local solved, negative, product, rows = core.blocks(layout_of(layout), a, b)
+          local solved, negative, product, rows = probe.blocks(layout_of(layout), a, b)
           assert.is_true(difference(solved, x) < 1e-10, label .. ": " .. difference(solved, x))
           assert.are.equal(negatives(n, sign), negative, label)
           local expected = times(a, b)
@@ -145,7 +146,7 @@ for kind, layout_of in pairs { rings = function(layout) return layout end, pairs
           return (i - 1) // m - (j - 1) // m < 2 and math.random() - 0.5 or 0
         end)
         local x = random_vector(n)
-        local solved, negative = core.blocks(layout_of(rings(shape[1], shape[2])), a, times(a, x))
+        local solved, negative = probe.blocks(layout_of(rings(shape[1], shape[2])), a, times(a, x))
         assert.is_true(difference(solved, x) < 1e-11, difference(solved, x))
         assert.are.equal(negatives(n, mixed), negative)
       end
@@ -156,7 +157,7 @@ for kind, layout_of in pairs { rings = function(layout) return layout end, pairs
       for _, sign in ipairs { plus, mixed } do
         local layout = rings(4, 5)
         local a, b = with_signs(layout, sign), random_vector(60)
-        assert.is_true(difference(core.blocks(layout_of(layout), a, b), eliminate(a, b)) < 1e-12)
+        assert.is_true(difference(probe.blocks(layout_of(layout), a, b), eliminate(a, b)) < 1e-12)
       end
     end)
 
@@ -175,8 +176,8 @@ for kind, layout_of in pairs { rings = function(layout) return layout end, pairs
           if fixed[(i + 2) // 3] == 1 or fixed[(j + 2) // 3] == 1 then return i == j and 1 or 0 end
           return a[(i - 1) * n + j]
         end)
-        local solved, negative, product, rows = core.blocks(layout_of(layout), a, b, fixed, before)
-        local _, expected = core.blocks(layout_of(layout), reduced, b)
+        local solved, negative, product, rows = probe.blocks(layout_of(layout), a, b, fixed, before)
+        local _, expected = probe.blocks(layout_of(layout), reduced, b)
         assert.is_true(difference(solved, eliminate(reduced, b)) < 1e-10)
         assert.are.equal(expected, negative)
         assert.is_true(difference(product, times(a, b)) < 1e-12)
@@ -208,7 +209,7 @@ for kind, layout_of in pairs { rings = function(layout) return layout end, pairs
         end
       end
       local b = random_vector(n)
-      local solved, negative = core.blocks(layout_of(rings(count, m)), a, b)
+      local solved, negative = probe.blocks(layout_of(rings(count, m)), a, b)
       assert.are.equal(0, negative)
       local most = 0 -- rounding of the product alone: 1e-16 * 1e8 * |x|
       for i = 1, n do most = math.max(most, math.abs(solved[i])) end
@@ -218,7 +219,7 @@ for kind, layout_of in pairs { rings = function(layout) return layout end, pairs
     it("refuse what is singular or not finite", function()
       local layout = layout_of(rings(2, 3))
       local n = 18
-      local function try(f) return core.blocks(layout, symmetric(n, f), random_vector(n)) end
+      local function try(f) return probe.blocks(layout, symmetric(n, f), random_vector(n)) end
       local function unit(i, j) return i == j and 1 or 0 end
       try(unit)
       assert.has_error(function() try(function() return 0 end) end, "singular matrix")
@@ -237,13 +238,13 @@ for kind, layout_of in pairs { rings = function(layout) return layout end, pairs
     it("leave nothing behind when memory runs out", function()
       local layout = layout_of(rings(3, 2))
       local a, b = symmetric(18, function(i, j) return i == j and 4 or 0.1 end), random_vector(18)
-      core.blocks(layout, a, b)
+      probe.blocks(layout, a, b)
       collectgarbage()
       local before, n, failures = core.allocated(), 0, 0
       repeat
         n = n + 1
         core.fail_allocation(n)
-        local ok, message = pcall(core.blocks, layout, a, b)
+        local ok, message = pcall(probe.blocks, layout, a, b)
         core.fail_allocation(0)
         if not ok then
           failures = failures + 1
@@ -258,21 +259,21 @@ end
 
 describe("blocks", function()
   it("exist where they should", function()
-    local _, _, _, _, count = core.blocks(rings(3, 2), symmetric(18, function(i, j)
+    local _, _, _, _, count = probe.blocks(rings(3, 2), symmetric(18, function(i, j)
       return i == j and 1 or 0
     end), random_vector(18))
     assert.are.equal(3 * 3 + 2 * 4, count)
-    _, _, _, _, count = core.blocks({ nodes = 4, pairs = { 0, 3, 2, 3, 3, 0 } },
+    _, _, _, _, count = probe.blocks({ nodes = 4, pairs = { 0, 3, 2, 3, 3, 0 } },
       symmetric(12, function(i, j) return i == j and 1 or 0 end), random_vector(12))
     assert.are.equal(4 + 2, count)
   end)
 
   it("refuse nodes that do not exist", function()
     local a, b = symmetric(6, function(i, j) return i == j and 1 or 0 end), random_vector(6)
-    core.blocks({ nodes = 2, pairs = {} }, a, b)
-    assert.has_error(function() core.blocks({ nodes = 2, pairs = { 0, 2 } }, a, b) end)
-    assert.has_error(function() core.blocks({ nodes = 2, pairs = { 1, 1 } }, a, b) end)
-    assert.has_error(function() core.blocks({ nodes = 0, pairs = {} }, {}, {}) end)
-    assert.has_error(function() core.blocks(rings(0, 2), {}, {}) end)
+    probe.blocks({ nodes = 2, pairs = {} }, a, b)
+    assert.has_error(function() probe.blocks({ nodes = 2, pairs = { 0, 2 } }, a, b) end)
+    assert.has_error(function() probe.blocks({ nodes = 2, pairs = { 1, 1 } }, a, b) end)
+    assert.has_error(function() probe.blocks({ nodes = 0, pairs = {} }, {}, {}) end)
+    assert.has_error(function() probe.blocks(rings(0, 2), {}, {}) end)
   end)
 end)

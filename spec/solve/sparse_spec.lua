@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- The sparse solver: solutions against dense products for chains with links, pivot
 -- signs against those of dominant diagonals, sparsity of the factor.
-local core = require "softworld.core"
+local probe = require "softworld.probe"
 
 -- A chain with two neighbours each way and `links` more pairs: blocks as flat lists
 -- and the whole matrix as dense rows.
@@ -52,7 +52,7 @@ local function check(n, b, links, sign)
     right[i] = 0
     for j = 1, b * n do right[i] = right[i] + dense[i][j] * x[j] end
   end
-  local solved, negative, fill = core.sparse(b, own, pairs, values, right)
+  local solved, negative, fill = probe.sparse(b, own, pairs, values, right)
   for i = 1, b * n do assert.is_true(math.abs(solved[i] - x[i]) < 1e-11, "n = " .. n) end
   return negative, fill
 end
@@ -116,7 +116,7 @@ describe("sparse", function()
       right[i] = 0
       for j = 1, 3 * n do right[i] = right[i] + dense[i][j] * x[j] end
     end
-    local solved, negative = core.sparse(3, own, pairs, values, right)
+    local solved, negative = probe.sparse(3, own, pairs, values, right)
     assert.are.equal(0, negative)
     -- rounding of the right-hand side alone: 1e-16 * 1e9 / 1e2 = 1e-9
     for i = 1, 3 * n do assert.is_near(x[i], solved[i], 1e-7) end
@@ -141,10 +141,10 @@ describe("sparse", function()
   it("refuses a singular matrix and one that is not finite", function()
     local own, zeros = {}, { 0, 0, 0, 0, 0, 0, 0, 0, 0 }
     for i = 1, 18 do own[i] = 0 end
-    assert.has_error(function() core.sparse(3, own, { 0, 1 }, zeros, { 1, 1, 1, 1, 1, 1 }) end)
+    assert.has_error(function() probe.sparse(3, own, { 0, 1 }, zeros, { 1, 1, 1, 1, 1, 1 }) end)
     for i = 0, 1 do for k = 0, 2 do own[9 * i + 4 * k + 1] = 1 end end
-    core.sparse(3, own, { 0, 1 }, zeros, { 1, 1, 1, 1, 1, 1 })
+    probe.sparse(3, own, { 0, 1 }, zeros, { 1, 1, 1, 1, 1, 1 })
     own[1] = 0 / 0
-    assert.has_error(function() core.sparse(3, own, { 0, 1 }, zeros, { 1, 1, 1, 1, 1, 1 }) end)
+    assert.has_error(function() probe.sparse(3, own, { 0, 1 }, zeros, { 1, 1, 1, 1, 1, 1 }) end)
   end)
 end)

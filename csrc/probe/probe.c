@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The solvers for specs: core.band3(rows, right) -> x, negative pivots,
- * product. rows: flat, 24 numbers a node as in solve/band3.h; right: flat, 3 a
+/* The Lua module softworld.probe: the solvers as specs and benches see them. It is no part of what is
+ * installed, and takes the core from the program that loads it. band3(rows, right) -> x, negative
+ * pivots, product. rows: flat, 24 numbers a node as in solve/band3.h; right: flat, 3 a
  * node. product is rows times right. */
 #include <math.h>
 #include <string.h>
 #include <time.h>
 
 #include "bind/class.h"
-#include "bind/module.h"
+#include "solve/band3.h"
+#include "solve/band4.h"
+#include "solve/blocks.h"
+#include "solve/sparse.h"
 
 static double *read_flat(lua_State *L, int index, size_t n) {
   double *p = lua_newuserdatauv(L, (n + 1) * sizeof *p, 0);
@@ -47,7 +51,7 @@ static int mod_band3(lua_State *L) {
   return 3;
 }
 
-/* core.band4(rows, right) -> x, negative pivots. rows: flat, 48 numbers a node. */
+/* band4(rows, right) -> x, negative pivots. rows: flat, 48 numbers a node. */
 static int mod_band4(lua_State *L) {
   sw_error err = {""};
   size_t negative = 0;
@@ -65,7 +69,7 @@ static int mod_band4(lua_State *L) {
   return 2;
 }
 
-/* core.sparse(block, own, pairs, values, right) -> x, negative pivots, fill. own: flat,
+/* sparse(block, own, pairs, values, right) -> x, negative pivots, fill. own: flat,
  * block * block numbers a node; pairs: flat, two node numbers from 0 each; values: flat,
  * block * block numbers a pair; right: flat, block numbers a node. */
 static int mod_sparse(lua_State *L) {
@@ -142,7 +146,7 @@ static size_t write_blocks(sw_blocks *b, const double *dense) {
   return count;
 }
 
-/* core.blocks(layout, dense, right, fixed, before) -> x, negative pivots, product, the same row
+/* blocks(layout, dense, right, fixed, before) -> x, negative pivots, product, the same row
  * by row, blocks. dense: flat, all numbers of the matrix; fixed, and before, with which it is
  * factorised once more beforehand: a number a node, or nil. product is of all values with
  * right. */
@@ -204,7 +208,7 @@ static double seconds(void) {
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* core.blocks_time(rings, per ring, repeats) -> least time of a factorisation, of a solve [s] */
+/* blocks_time(rings, per ring, repeats) -> least time of a factorisation, of a solve [s] */
 static int mod_blocks_time(lua_State *L) {
   sw_error err = {""};
   sw_blocks *b = NULL;
@@ -239,4 +243,9 @@ static const luaL_Reg functions[] = {{"band3", mod_band3},
                                      {"blocks_time", mod_blocks_time},
                                      {NULL, NULL}};
 
-void lsw_open_solve(lua_State *L) { luaL_setfuncs(L, functions, 0); }
+int luaopen_softworld_probe(lua_State *L);
+
+int luaopen_softworld_probe(lua_State *L) {
+  luaL_newlib(L, functions);
+  return 1;
+}
