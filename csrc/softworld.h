@@ -31,6 +31,7 @@
 #include "solve/band4.h"
 #include "solve/blocks.h"
 #include "solve/sparse.h"
+#include "step/step.h"
 #include "view/server.h"
 
 #endif

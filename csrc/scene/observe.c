@@ -316,8 +316,6 @@ static void tell_news(sw_scene *s) {
 }
 
 sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
-  sw_scene_follow_holds(s);
-  sw_jaw_follow(s);
   for (size_t w = 0; w < s->wire_count; w++) s->wires[w].untwisted = 0;
   SW_TRY(sw_system_place_holds(&s->system, s->time, s->system.x, NULL, NULL, err));
   sw_system_refresh(&s->system);

@@ -11,7 +11,7 @@
 
 struct sw_scene_obstacle;
 
-/* After an accepted state: histories, extremes, logs. */
+/* After an accepted state, which holds and jaws follow: histories, extremes, logs. */
 sw_status sw_scene_observe(sw_scene *scene, sw_error *err);
 /* Extremes of wire w at the refreshed state. */
 void sw_scene_wire_now(sw_scene *scene, size_t w, sw_wire_extremes *now);
@@ -21,8 +21,6 @@ void sw_scene_run_tension(const sw_scene *scene, size_t wire, const sw_wire_extr
 /* Keep the larger ones, but for the tension. */
 void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now);
 void sw_scene_reset_extremes(sw_scene *scene);
-/* Let the observer look, if it is due; times within slack are the same [s]. */
-sw_status sw_scene_look(sw_scene *scene, sw_observer *observer, double slack, sw_error *err);
 
 /* Kinetic, elastic, gravity energy of the state [J]. */
 void sw_scene_frame_energies(sw_scene *scene, double out[SW_FRAME_ENERGIES]);

@@ -17,7 +17,6 @@
 #include "scene/ledger.h"
 #include "scene/line.h"
 #include "scene/objects.h"
-#include "scene/rest.h"
 #include "scene/scene.h"
 #include "scene/section.h"
 #include "scene/strand.h"
@@ -250,17 +249,9 @@ void sw_scene_clear_obstacle(sw_scene_obstacle *obstacle);
 /* The scene goes away: its snapshots live on, good for nothing. */
 void sw_scene_orphan_snapshots(sw_scene *scene);
 
-/* SW_EDIVERGED when the stepper's trial is no believable state, SW_ENOCONV when a smaller step may
- * mend it. */
-sw_status sw_scene_check_trial(const sw_scene *scene, sw_error *err);
-/* Tells that the run's method is not meant for contact, once, when there is some. */
-void sw_scene_remark_contact(sw_scene *scene);
 /* Tells of wires that are perfectly straight, and pushed beyond buckling. SW_ENOMEM, SW_ECALLBACK.
  */
 sw_status sw_scene_look_for_buckling(sw_scene *scene, sw_error *err);
-/* SW_EINVAL when an explicit method would take steps above its limit on the way to a time. */
-sw_status sw_scene_check_step(const sw_scene *scene, const sw_run_args *args, double until,
-                              sw_error *err);
 /* How many numbers the frame's block has; 0: more than room, or its counts make no sense. */
 int sw_scene_frame_walk(const sw_frame *frame, size_t room, size_t *size);
 

@@ -3,6 +3,8 @@
  * With a force to be reached or not to be exceeded, the speed of the step is the one for which the
  * fingers' force at its end is as wanted, found by false position between a speed with too little
  * force and one with too much, like feeds that yield to a force (see slip.c). */
+#include "step/jaw.h"
+
 #include <math.h>
 
 #include "scene/world.h"
@@ -19,8 +21,6 @@ enum { BEFORE_JUMPS = 4 }; /* later trials are about a jump of the force, if the
 static const double BEYOND = 1.3; /* a guess goes so much further than the slope says [-] */
 static const double WIDER =
     4.0; /* and so many times as far with every trial that is too short [-] */
-
-double sw_jaw_at(const sw_jaw *j, double t) { return j->opening + j->speed * (t - j->since); }
 
 /* May this step end with another force than the one that comes with its first guess? */
 static int yields(const sw_jaw *j) {

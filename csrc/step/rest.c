@@ -3,11 +3,15 @@
  * (mechanisms, snap-through, sliding contact) or ends in an equilibrium that is
  * not stable, pseudo-transient continuation from the start, which is implicit
  * Euler with velocities forgotten and a growing step. */
+#include "step/rest.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "scene/world.h"
+#include "step/jaw.h"
+#include "step/run.h"
 
 static const sw_param rows[] = {
     {"tolerance", SW_PARAM_NUMBER, "m", 1e-9, 0, 1, SW_PARAM_ABOVE_MIN, NULL,
@@ -473,6 +477,12 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
   return status;
 }
 
+sw_status sw_scene_balance(sw_scene *s, double tolerance, long most, sw_error *err) {
+  const sw_settle_args args = {.tolerance = tolerance, .max_iterations = most};
+  sw_settle_report report = {0};
+  return sw_scene_rest(s, s->time, NULL, &args, NULL, &report, err);
+}
+
 enum { MOST_ROUNDS = 100 };
 
 /* Jaws that hold with a force go on holding with it. */
@@ -502,7 +512,7 @@ sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interru
   s->running--;
   sw_scene_reset_extremes(s);
   s->span = 0;
-  if (status == SW_OK) status = sw_scene_observe(s, &why);
+  if (status == SW_OK) status = sw_step_observe(s, &why);
   conclude(s, status, report, &why);
   return status == SW_ECALLBACK || status == SW_ENOMEM ? sw_fail(err, status, "%s", why.text)
                                                        : SW_OK;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Is a trial of a step believable? What has diverged is refused here, and never becomes the
  * scene's state. */
+#include "step/believe.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -171,19 +173,4 @@ void sw_scene_remark_contact(sw_scene *s) {
   sw_scene_tell(s, "integrator", s->method->name, NAN, NAN,
                 "integrator '%s' gains energy where wires touch something; take 'tr-bdf2' there",
                 s->method->name);
-}
-
-sw_status sw_scene_check_step(const sw_scene *s, const sw_run_args *args, double until,
-                              sw_error *err) {
-  const sw_integrator *m = sw_integrator_all()[args->integrator];
-  if (args->quasistatic || args->unstable || !(m->leapfrog_limit > 0)) return SW_OK;
-  const double most = 0.5 * m->leapfrog_limit * sw_system_stable_dt(&s->system);
-  const double h = fmin(args->dt, until - s->time);
-  if (!(h > most * (1.0 + 1e-9))) return SW_OK;
-  return sw_fail(
-      err, SW_EINVAL,
-      "scene:run: dt = %.3g s is above %.3g s, up to which integrator '%s' is stable here "
-      "(%.3g times scene:stable_dt()); give a smaller dt [s], an implicit integrator, or "
-      "unstable = true to try it all the same",
-      h, most, m->name, 0.5 * m->leapfrog_limit);
 }

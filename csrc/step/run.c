@@ -1,13 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Running: steps to a given time, with retries, contact review, observation. */
+#include "step/run.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
-#include "scene/blow.h"
-#include "scene/passing.h"
-#include "scene/run_check.h"
 #include "scene/world.h"
+#include "step/believe.h"
+#include "step/blow.h"
+#include "step/energy.h"
+#include "step/jaw.h"
+#include "step/passing.h"
+#include "step/rest.h"
+#include "step/restart.h"
+#include "step/run_check.h"
+#include "step/slip.h"
 
 /* Rebounds closer than this share of a step are one [-]. */
 static const double SAME_TIME = 1.0 / 1024;
@@ -248,8 +256,14 @@ static sw_status count_small(loop *p, double h, double whole, sw_error *err) {
       share * whole, whole, p->held.text[0] ? "; larger ones fail, for " : "", p->held.text);
 }
 
+sw_status sw_step_observe(sw_scene *s, sw_error *err) {
+  sw_scene_follow_holds(s);
+  sw_jaw_follow(s);
+  return sw_scene_observe(s, err);
+}
+
 static sw_status observe(sw_scene *s, sw_error *err) {
-  SW_TRY(sw_scene_observe(s, err));
+  SW_TRY(sw_step_observe(s, err));
   if (sw_ledger_close(s) == SW_OK) return SW_OK;
   return sw_fail(err, SW_ENOMEM, "out of memory for the energy of scene '%s'", s->name);
 }
@@ -391,7 +405,7 @@ static sw_status pose_steps(loop *p, double t, int (*interrupted)(void), sw_erro
     const sw_pose_args how = {interrupted, SHORTEST_BREAK * p->args->dt};
     SW_TRY(sw_scene_pose(s, part, &how, p->report, err));
     s->span = 0;
-    SW_TRY(sw_scene_observe(s, err));
+    SW_TRY(sw_step_observe(s, err));
   }
   return SW_OK;
 }

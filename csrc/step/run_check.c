@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/run_check.h"
+#include "step/run_check.h"
 
 #include <math.h>
 
 #include "scene/world.h"
+#include "step/slip.h"
 
 static const char *const *integrator_names(void) {
   static const char *names[32];
@@ -109,4 +110,19 @@ sw_status sw_run_check_clock(const sw_scene *s, const sw_run_args *args, double 
                  "scene:run: dt = %g s is too short for t = %.6g to %.6g s; it must be at least "
                  "%.2g s, or the clock would not advance by it or never arrive",
                  args->dt, s->time, until, least);
+}
+
+sw_status sw_scene_check_step(const sw_scene *s, const sw_run_args *args, double until,
+                              sw_error *err) {
+  const sw_integrator *m = sw_integrator_all()[args->integrator];
+  if (args->quasistatic || args->unstable || !(m->leapfrog_limit > 0)) return SW_OK;
+  const double most = 0.5 * m->leapfrog_limit * sw_system_stable_dt(&s->system);
+  const double h = fmin(args->dt, until - s->time);
+  if (!(h > most * (1.0 + 1e-9))) return SW_OK;
+  return sw_fail(
+      err, SW_EINVAL,
+      "scene:run: dt = %.3g s is above %.3g s, up to which integrator '%s' is stable here "
+      "(%.3g times scene:stable_dt()); give a smaller dt [s], an implicit integrator, or "
+      "unstable = true to try it all the same",
+      h, most, m->name, 0.5 * m->leapfrog_limit);
 }

@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "scene/world.h"
+#include "step/restart.h"
 
 static const double BESIDE = 1e-9; /* so long before and after the moment is looked at [s] */
 /* Velocities that jump by less are none: 10 nm in a step of 10 ms [m/s], [rad/s]. */

@@ -4,6 +4,8 @@
  * at the step's end is the one wanted: found by false position, since the force is nearly
  * linear in it. With a limit wire slips until it has the speed asked for
  * again, like a slipping clutch. */
+#include "step/slip.h"
+
 #include <math.h>
 
 #include "scene/world.h"

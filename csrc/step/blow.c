@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Blows of wires on obstacles, followed in parts of a step. */
-#include "scene/blow.h"
+#include "step/blow.h"
 
 #include <math.h>
 

@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "scene/world.h"
+#include "step/energy.h"
 
 /* A work over a step and its bounds: by the forces at either end alone. */
 typedef struct bounds {

@@ -6,6 +6,9 @@
 
 #include "base/alloc.h"
 #include "scene/world.h"
+#include "step/energy.h"
+#include "step/jaw.h"
+#include "step/rest.h"
 
 enum { MOST_HALVINGS = 6 }; /* of a pose step [-] */
 
