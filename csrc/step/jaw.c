@@ -8,6 +8,7 @@
 #include <math.h>
 
 #include "scene/world.h"
+#include "step/ladder.h"
 
 static const double PRECISION = 1e-3;    /* of the force wanted [-] */
 static const double ROUGHLY = 0.015;     /* likewise, when it is reached first [-] */
@@ -255,4 +256,15 @@ void sw_jaw_follow(sw_scene *s) {
       s->tools[k].jaw.since = s->time;
     else if (s->tools[k].alive)
       follow(s, &s->tools[k]);
+}
+
+/* One step of size h in which jaws close with a force. */
+sw_status sw_rung_squeeze(sw_ladder *p, const sw_rung *below, double h, sw_error *err) {
+  sw_scene *s = p->s;
+  const int squeezes = sw_jaw_begin(s, h);
+  for (;;) {
+    const sw_status status = sw_rung_go(p, below, h, err);
+    if (status != SW_OK || !squeezes || sw_jaw_correct(s, 0)) return status;
+    sw_ladder_undo(p);
+  }
 }

@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "scene/world.h"
+#include "step/ladder.h"
 
 static const double PRECISION = 1e-7; /* of the force, the wire's weight or EI/L2 [-] */
 
@@ -103,4 +104,24 @@ int sw_slip_correct(sw_scene *s, double h, int first) {
   for (size_t k = 0; k < s->hold_count; k++)
     if (yields(&s->holds[k])) good &= correct(s, &s->holds[k], h, first);
   return good;
+}
+
+enum { MOST_SLIP_TRIALS = 25 };
+
+/* One step of size h in which feeds slip that yield to a force. */
+sw_status sw_rung_slip(sw_ladder *p, const sw_rung *below, double h, sw_error *err) {
+  sw_scene *s = p->s;
+  if (!sw_slip_begin(s)) return sw_rung_go(p, below, h, err);
+  for (int i = 0; i < MOST_SLIP_TRIALS; i++) {
+    const sw_status status = sw_rung_go(p, below, h, err);
+    if (status != SW_OK) {
+      sw_slip_give_up(s);
+      return status;
+    }
+    if (sw_slip_correct(s, h, i == 0)) return SW_OK;
+    sw_ladder_undo(p);
+    if (sw_feed_step(s, h) < h) break; /* further than nodes can follow */
+  }
+  sw_slip_give_up(s);
+  return sw_fail(err, SW_ENOCONV, "the speed at which a feed slips was not found");
 }
