@@ -4,6 +4,7 @@
 #ifndef SW_SCENE_JAWS_H
 #define SW_SCENE_JAWS_H
 
+#include "base/root.h"
 #include "link/hold.h"
 #include "scene/scene.h"
 #include "scene/tool.h"
@@ -21,9 +22,8 @@ typedef struct sw_jaw {
   double force;     /* per finger: wanted, or at which they stop [N] */
   double now;       /* force per finger of the accepted state [N] */
   double stiffness; /* of what they hold, last found; 0 = not known [N/m] */
-  double tried[2];  /* speeds with too little force and with too much [m/s] */
-  double off[2];    /* how far their forces were off; NAN = not tried [N] */
-  int last_side, trials, guessed;
+  sw_bracket found; /* speeds with too little force and with too much [m/s], [N] */
+  int trials, guessed;
 } sw_jaw;
 
 /* How far they are open at time t [m]. */

@@ -5,11 +5,7 @@
 
 #include "scene/scene.h"
 
-/* Steps of feeds that yield to a force: begin one (0: there are none), correct the slips
- * after a trial (1: they were right), or put them back. */
+/* 1: there are feeds that yield to a force. */
 int sw_slip_any(const sw_scene *scene);
-int sw_slip_begin(sw_scene *scene);
-int sw_slip_correct(sw_scene *scene, double h, int first);
-void sw_slip_give_up(sw_scene *scene);
 
 #endif
