@@ -9,9 +9,9 @@
 #include "scene/world.h"
 
 static void drop(sw_scene *s) {
-  sw_stepper_free(&s->stepper);
-  s->has_stepper = 0;
-  s->method = NULL;
+  sw_stepper_free(&s->course.stepper);
+  s->course.has_stepper = 0;
+  s->course.method = NULL;
   sw_system_free(&s->system);
   sw_contact_free(s->contact);
   s->contact = NULL;
@@ -200,7 +200,7 @@ sw_status sw_scene_thaw(sw_scene *s) {
   }
   SW_TRY(keep_twist(s));
   drop(s);
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
   return SW_OK;
 }
 
@@ -454,7 +454,7 @@ sw_status sw_scene_build(sw_scene *s, sw_error *err) {
     sw_scene_forget_contact(s);
     sw_scene_inherit_histories(s);
     sw_scene_forget_histories(s);
-    s->discontinuous = 1;
+    sw_course_jump(&s->course);
   }
   s->system.gravity[0] = s->gravity.x;
   s->system.gravity[1] = s->gravity.y;

@@ -21,7 +21,7 @@ static sw_status open_feed(sw_scene *s, sw_handle hold, sw_hold **h, sw_error *e
 
 static void stop(sw_scene *s, sw_hold *h) {
   sw_feed_stop(h, s->time);
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
 }
 
 sw_status sw_scene_feed_speed(sw_scene *s, sw_handle hold, double speed, sw_error *err) {

@@ -9,10 +9,10 @@
 static void blank_scene(sw_scene *s) {
   s->serial = 0, s->snapshots = NULL, s->restoring = NULL;
   s->contact_steps = (sw_log){0};
-  s->parts = 0, s->covered = 0, s->part = 0;
-  s->jerks = 0;
+  s->course.parts = 0, s->course.covered = 0, s->part = 0;
+  s->course.jerks = 0;
   memset(&s->system, 0, sizeof s->system);
-  memset(&s->stepper, 0, sizeof s->stepper);
+  memset(&s->course.stepper, 0, sizeof s->course.stepper);
   s->builds = 0;
   s->frame_capacity = s->events.capacity = s->watches.capacity = s->watches.next = 0;
   s->frames = NULL, s->events.list = NULL, s->watches.list = NULL;

@@ -231,7 +231,7 @@ sw_status sw_scene_set_force(sw_scene *s, sw_handle force, const void *args, sw_
   const double place = f->args[0];
   memcpy(f->args, args, sizeof f->args);
   if (f->cls->flags & SW_FORCE_AT_PLACE) f->args[0] = place;
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
   return SW_OK;
 }
 

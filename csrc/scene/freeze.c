@@ -198,7 +198,7 @@ sw_status sw_scene_tool_freeze(sw_scene *s, sw_handle tool, sw_handle wire, sw_b
   sw_line_free(&line);
   if (status == SW_OK) {
     s->tools[tool.slot].frozen = f;
-    s->discontinuous = SW_GOES_ON;
+    sw_course_go_on(&s->course);
     sw_tool_state *now = &s->tools[tool.slot].now;
     now->margin = sw_frozen_margin(f, sw_unrotate(f->pose.q, out->force),
                                    sw_unrotate(f->pose.q, out->moment));

@@ -31,7 +31,7 @@ void sw_scene_follow_holds(sw_scene *s) {
     const sw_link_wire w = sw_scene_link_wire(s, h->wire);
     const double before = s->books.step.to.kinetic;
     if (!h->alive || !h->cls->hold->follow || !h->cls->hold->follow(h, &w)) continue;
-    s->discontinuous = 1;
+    sw_course_jump(&s->course);
     s->books.step.to.kinetic = sw_system_kinetic(&s->system, 0);
     s->books.step.impact += before - s->books.step.to.kinetic;
   }
@@ -431,7 +431,7 @@ sw_status sw_scene_follow(sw_scene *s, sw_handle hold, sw_motion *motion, int re
   if (!h) return SW_EDEAD;
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_drive_follow(s, &h->drive, h->name, motion, relative, err));
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
   return SW_OK;
 }
 
@@ -444,7 +444,7 @@ sw_status sw_scene_set_pose(sw_scene *s, sw_handle hold, sw_pose pose, sw_error 
                    s->tools[h->drive.tool - 1].name);
   sw_drive_free(&h->drive);
   h->drive = (sw_drive){.pose = pose};
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
   return SW_OK;
 }
 

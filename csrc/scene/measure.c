@@ -252,7 +252,7 @@ sw_status sw_scene_wire_set_velocity(sw_scene *s, sw_handle h, sw_vec v, sw_vec 
   sw_system_forget_turning(&s->system);
   for (size_t e = 0; b->roll_block && e < b->plan->edges; e++)
     s->system.v[3 * s->system.nodes + b->first_roll + e] = sw_dot(omega, tangent_of(&b->field, e));
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
   return SW_OK;
 }
 
@@ -291,7 +291,7 @@ static void add_energy(sw_energy *out, const char *kind, double value) {
 
 /* Explicit methods have lumped masses. */
 static int lumped(const sw_scene *s) {
-  return s->has_stepper && !(s->method->flags & SW_INTEGRATOR_IMPLICIT);
+  return s->course.has_stepper && !(s->course.method->flags & SW_INTEGRATOR_IMPLICIT);
 }
 
 /* Of the forces on one body. */

@@ -166,7 +166,8 @@ static double watched_place(const sw_body *b, size_t e) {
 /* Are means to be taken of the step that led here? Longer steps, and equilibria, count as they
  * are. */
 static int is_averaged(const sw_scene *s) {
-  return s->span > 0 && s->span < (1 - 1e-9) * s->window; /* times are rounded */
+  return s->course.span > 0 &&
+         s->course.span < (1 - 1e-9) * s->course.window; /* times are rounded */
 }
 
 static sw_status fit_window(sw_scene *s, size_t w) {
@@ -186,20 +187,20 @@ static sw_status fit_window(sw_scene *s, size_t w) {
 static void keep_mean(const sw_scene *s, size_t w, sw_extreme *kept) {
   const sw_window *window = &s->wires[w].window;
   sw_extreme mean = {.time = window->now};
-  const size_t e = sw_window_largest(window, s->window, &mean.value);
+  const size_t e = sw_window_largest(window, s->course.window, &mean.value);
   mean.s = watched_place(&s->system.bodies[w], e);
   keep_largest(kept, &mean);
 }
 
 /* Was the step that led here one that smears blows? */
-static int is_coarse(const sw_scene *s) { return s->span >= (1 - 1e-9) * SW_WINDOW; }
+static int is_coarse(const sw_scene *s) { return s->course.span >= (1 - 1e-9) * SW_WINDOW; }
 
 /* Axial forces of the step that led here. A coarse one counts with its mean over time: that at its
  * end, of a blow, says nothing of how long it lasts. NULL: of a mesh, or at rest, there are only
  * those of the state. */
 static const double *step_tension(const sw_scene *s, const sw_body *b) {
-  if (b->plan->web || !(s->span > 0)) return NULL;
-  const double *mean = is_coarse(s) ? s->stepper.mean : NULL;
+  if (b->plan->web || !(s->course.span > 0)) return NULL;
+  const double *mean = is_coarse(s) ? s->course.stepper.mean : NULL;
   return mean ? mean + b->first_edge : sw_system_pull(&s->system, b);
 }
 
@@ -210,15 +211,15 @@ static void keep_tension(sw_scene *s, size_t w, const sw_wire_extremes *now) {
   const double *T = step_tension(s, b);
   sw_extreme step = now->tension;
   if (T) largest_tension(b, T, &step), step.time = s->time;
-  if (step.value > kept->raw.value) kept->raw = step, kept->raw_span = s->span;
+  if (step.value > kept->raw.value) kept->raw = step, kept->raw_span = s->course.span;
   if (!is_averaged(s)) keep_largest(&kept->tension, &step);
   if (!is_averaged(s) && !wire->window.marks) return;
-  if (!(s->span > 0)) {
+  if (!(s->course.span > 0)) {
     sw_window_forget(&wire->window);
     return;
   }
-  if (sw_window_add(&wire->window, T ? T : sw_window_values(&wire->window), s->time, s->span,
-                    s->window) &&
+  if (sw_window_add(&wire->window, T ? T : sw_window_values(&wire->window), s->time, s->course.span,
+                    s->course.window) &&
       is_averaged(s))
     keep_mean(s, w, &kept->tension);
 }
@@ -228,13 +229,13 @@ void sw_scene_run_tension(const sw_scene *s, size_t w, const sw_wire_extremes *n
   const sw_window *window = &s->wires[w].window;
   const int counted = isfinite(run->raw.value) && is_coarse(s); /* with its mean */
   if (!counted && now->tension.value > run->raw.value)
-    run->raw = now->tension, run->raw_span = s->span;
+    run->raw = now->tension, run->raw_span = s->course.span;
   const int fits = window->marks && window->edges == watched_edges(&s->system.bodies[w]);
   const int missing = !isfinite(run->tension.value); /* a record shorter than the window */
   if (!fits && (missing || !counted))
     keep_largest(&run->tension, &now->tension);
   else if (fits && (missing || (sw_window_waits(window) && is_averaged(s) &&
-                                sw_window_full(window, s->window))))
+                                sw_window_full(window, s->course.window))))
     keep_mean(s, w, &run->tension);
 }
 

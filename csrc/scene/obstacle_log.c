@@ -36,7 +36,7 @@ sw_status sw_obstacle_log_fill_all(sw_scene *s) {
 }
 
 sw_status sw_obstacle_log_state(sw_scene *s) {
-  const double step[STEP] = {[TIME] = s->time, [SPAN] = s->span};
+  const double step[STEP] = {[TIME] = s->time, [SPAN] = s->course.span};
   size_t count;
   if (!s->contact) return SW_OK;
   if (!sw_contact_informed(s->contact)) sw_scene_inform_contact(s);

@@ -67,7 +67,7 @@ sw_status sw_scene_particles_set_velocities(sw_scene *s, sw_handle h, const doub
   for (size_t i = 0; i < b->plan->nodes; i++)
     if (b->plan->held[i] == SW_FREE)
       sw_store(s->system.v + 3 * (b->first_node + i), sw_vec_at(velocities, i));
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
   return SW_OK;
 }
 

@@ -24,13 +24,13 @@ sw_status sw_scene_new(const sw_scene_args *args, sw_scene **out, sw_error *err)
   if (!s) return sw_fail(err, SW_ENOMEM, "scene: out of memory");
   memcpy(s->name, args->name[0] ? args->name : "scene", args->name[0] ? sizeof s->name : 6);
   s->gravity = isnan(args->gravity.x) ? sw_v(0, 0, -STANDARD_GRAVITY) : args->gravity;
-  s->window = SW_WINDOW;
+  s->course.window = SW_WINDOW;
   s->frame_stride = 1, s->frame_memory = SW_FRAME_MEMORY;
   *out = s;
   return SW_OK;
 }
 
-double sw_scene_window(const sw_scene *s) { return s->window; }
+double sw_scene_window(const sw_scene *s) { return s->course.window; }
 
 void sw_scene_clear_obstacle(sw_scene_obstacle *o) {
   sw_shape_release(o->shape);
@@ -46,7 +46,7 @@ void sw_scene_free(sw_scene *s) {
   for (size_t i = 0; i < s->obstacle_count; i++) sw_scene_clear_obstacle(&s->obstacles[i]);
   for (size_t i = 0; i < s->tool_count; i++) sw_scene_clear_tool(&s->tools[i]);
   sw_scene_orphan_snapshots(s);
-  sw_stepper_free(&s->stepper);
+  sw_stepper_free(&s->course.stepper);
   sw_contact_free(s->contact);
   sw_log_free(&s->contact_steps);
   sw_pairs_free(s->pairs);
@@ -79,7 +79,7 @@ sw_vec sw_scene_gravity(const sw_scene *s) { return s->gravity; }
 sw_status sw_scene_set_gravity(sw_scene *s, sw_vec gravity, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   s->gravity = gravity;
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
   return SW_OK;
 }
 
@@ -226,7 +226,7 @@ sw_status sw_scene_obstacle_follow(sw_scene *s, sw_handle obstacle, sw_motion *m
   if (!o) return SW_EDEAD;
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_drive_follow(s, &o->drive, o->name, motion, relative, err));
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
   if (s->contact) sw_contact_ask_again(s->contact);
   return SW_OK;
 }
@@ -256,7 +256,7 @@ sw_status sw_scene_obstacle_set_pose(sw_scene *s, sw_handle obstacle, sw_pose po
                    s->tools[o->drive.tool - 1].name);
   sw_drive_free(&o->drive);
   o->drive.pose = pose;
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
   if (s->contact) sw_contact_ask_again(s->contact);
   return SW_OK;
 }
@@ -283,7 +283,7 @@ sw_status sw_scene_obstacle_set_surface(sw_scene *s, sw_handle obstacle,
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_thaw(s));
   o->friction = args->friction, o->kinetic = args->kinetic, o->restitution = args->restitution;
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
   return SW_OK;
 }
 

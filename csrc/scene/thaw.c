@@ -154,7 +154,7 @@ sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_balance *balance,
     thawed->jaw = f->jaw;
     thawed->jaw.since = s->time, thawed->jaw.speed = 0;
     thawed->frozen = NULL;
-    s->discontinuous = SW_GOES_ON;
+    sw_course_go_on(&s->course);
     thawed->now.lost_time = NAN;
     sw_frozen_release(f);
   } else if (before) {

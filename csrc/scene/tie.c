@@ -88,7 +88,7 @@ void sw_scene_watch_ties(sw_scene *s) {
     const double pull = pull_of_joint(s, k, s->system.x, &bears);
     if (!sw_tie_suffers(pull, bears, s->time, j->fate)) continue;
     j->cls->joint->breaks(j, &s->system);
-    s->discontinuous = 1;
+    sw_course_jump(&s->course);
     s->build = ++s->builds; /* the system is another one */
     sw_scene_tell(s, "tie", j->name, NAN, pull, "tie '%s' breaks at %.4g N; it bears %.4g N",
                   j->name, pull, j->strength);

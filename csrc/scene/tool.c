@@ -91,7 +91,7 @@ sw_status sw_scene_tool_hold(sw_scene *s, sw_handle tool, sw_handle hold, sw_err
   SW_TRY(local_pose(s, t, now.pose, &pose, err));
   sw_drive_free(&h->drive);
   h->drive = (sw_drive){.pose = pose, .tool = 1 + tool.slot};
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
   return SW_OK;
 }
 
@@ -111,7 +111,7 @@ sw_status sw_scene_tool_follow(sw_scene *s, sw_handle tool, sw_motion *motion, i
   if (!t) return SW_EDEAD;
   SW_TRY(sw_drive_follow(s, &t->drive, t->name, motion, relative, err));
   for (size_t k = 0; k < s->hold_count; k++) /* pads alone push by where they are, not how fast */
-    if (s->holds[k].alive && s->holds[k].drive.tool == 1 + tool.slot) s->discontinuous = 1;
+    if (s->holds[k].alive && s->holds[k].drive.tool == 1 + tool.slot) sw_course_jump(&s->course);
   return SW_OK;
 }
 
@@ -130,7 +130,7 @@ sw_status sw_scene_tool_set_pose(sw_scene *s, sw_handle tool, sw_pose pose, sw_e
   if (!t) return SW_EDEAD;
   sw_drive_free(&t->drive);
   t->drive = (sw_drive){.pose = pose};
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
   return SW_OK;
 }
 
@@ -306,7 +306,7 @@ sw_status sw_tool_observe(sw_scene *s, sw_error *err) {
     sw_store(row + SW_LOG_POINT, at.pose.p);
     row[SW_LOG_OPENING] = t->now.opening, row[SW_LOG_SQUEEZE] = t->now.squeeze;
     row[SW_LOG_MARGIN] = t->now.margin, row[SW_LOG_SLIP] = t->now.slip;
-    row[SW_LOG_SPAN] = holds_any(s, k) ? sw_hold_span(s, mean) : s->span;
+    row[SW_LOG_SPAN] = holds_any(s, k) ? sw_hold_span(s, mean) : s->course.span;
     if (sw_log_add(&t->log, row, SW_LOG_TOOL_SIZE) != SW_OK)
       return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", t->name);
   }

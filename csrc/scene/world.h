@@ -8,6 +8,7 @@
 #include "contact/crowd.h"
 #include "contact/grains.h"
 #include "contact/pairs.h"
+#include "scene/course.h"
 #include "scene/events.h"
 #include "scene/feed.h"
 #include "scene/frames.h"
@@ -76,9 +77,6 @@ typedef struct sw_kept_history {
   double *data;
 } sw_kept_history;
 
-/* The system is a new one, but its accelerations are those of its forces. */
-enum { SW_GOES_ON = -1 };
-
 struct sw_scene {
   char name[SW_NAME_SIZE];
   uint32_t serial;              /* generation of the object made last */
@@ -103,13 +101,11 @@ struct sw_scene {
   const sw_pose *part_from; /* settling: where the holds come from, or NULL */
   double part;              /* share of their way [-] */
 
-  int built;      /* system is valid and holds the state */
-  size_t build;   /* number of the system: one made alike has the same */
-  size_t builds;  /* numbers given */
-  size_t parts;   /* of steps of the run, since it was last asked whether they have collapsed [-] */
-  double covered; /* steps that these make together [-] */
-  int running;    /* above 0 inside a step or a user's function: edits are refused */
-  int looking;    /* 1: an observer looks at it: the same, but it can be read */
+  int built;     /* system is valid and holds the state */
+  size_t build;  /* number of the system: one made alike has the same */
+  size_t builds; /* numbers given */
+  int running;   /* above 0 inside a step or a user's function: edits are refused */
+  int looking;   /* 1: an observer looks at it: the same, but it can be read */
   sw_system system;
   int *hold_slot;           /* (system.hold_count) scene slot of each system hold */
   sw_hold_load *hold_loads; /* (system.hold_count) of the stage that was solved last */
@@ -134,16 +130,7 @@ struct sw_scene {
   } kept;
   sw_kept_history *kept_histories; /* of the last built system, for the next one */
   size_t kept_history_count;
-  const sw_integrator *method; /* of stepper */
-  sw_stepper stepper;
-  int has_stepper;
-  int jerks;         /* the present step begins where a hold starts or stops at once, see jerk.c */
-  int discontinuous; /* the acceleration is stale: restart the integrator; or SW_GOES_ON */
-  double window;     /* of the present or last run, see sw_run_args [s] */
-  double span;       /* of the step that led here; 0: the state is an equilibrium [s] */
-  /* a blow that began at blow_since is followed in parts of blow_part until blow_until [s] */
-  double blow_part, blow_since, blow_until;
-  double next_dt; /* of an adaptive run; 0 = not known [s] */
+  sw_course course; /* of its steps */
 
   int diverged;
   sw_error why;

@@ -7,6 +7,7 @@
 #include "step/energy.h"
 #include "step/jaw.h"
 #include "step/ladder.h"
+#include "step/restart.h"
 #include "step/run.h"
 
 /* So many parts of less than this share of their step in the mean are no way to go on: the
@@ -15,24 +16,15 @@
 enum { MOST_SMALL = 20000, MOST_SMALL_ADAPTIVE = 20000 };
 static const double SMALL = 1.0 / 512, SMALL_ADAPTIVE = 2e-5;
 
-/* Accelerations at a step's end may be those of a shock that is over: the next step starts without
- * them, or it pushes with them for half of it and makes energy. A starting step gives no estimate
- * of its error. */
-static int is_shaken(const sw_scene *s) {
-  const sw_stepper *stepper = &s->stepper;
-  if (!s->contact || stepper->wants_error || stepper->start == stepper->method) return 0;
-  return sw_contact_shaken(s->contact, &s->system);
-}
-
 void sw_ladder_accept(sw_ladder *p, double h, double t) {
   sw_scene *s = p->s;
-  sw_stepper_accept(&s->stepper, &s->system, h);
-  s->system.judged = s->stepper.trial_x;
+  sw_stepper_accept(&s->course.stepper, &s->system, h);
+  s->system.judged = s->course.stepper.trial_x;
   sw_scene_commit_contact(s);
-  if (is_shaken(s)) s->stepper.restart = 1;
-  s->span = h;
-  if (s->method->flags & SW_INTEGRATOR_NO_CONTACT) sw_scene_remark_contact(s);
-  s->discontinuous = p->changed = 0;
+  sw_restart_taken(s);
+  s->course.span = h;
+  if (s->course.method->flags & SW_INTEGRATOR_NO_CONTACT) sw_scene_remark_contact(s);
+  p->changed = 0;
   p->report->steps++;
   if (h < p->report->smallest_dt) p->report->smallest_dt = h;
   s->time = t;
@@ -42,10 +34,10 @@ void sw_ladder_accept(sw_ladder *p, double h, double t) {
 static sw_status count_small(sw_ladder *p, double h, double whole, sw_error *err) {
   const int adaptive = isfinite(p->args->tolerance);
   const size_t most = adaptive ? MOST_SMALL_ADAPTIVE : MOST_SMALL;
-  p->s->covered += h / whole;
-  if (++p->s->parts < most) return SW_OK;
-  const double share = p->s->covered / (double)most;
-  p->s->parts = 0, p->s->covered = 0;
+  p->s->course.covered += h / whole;
+  if (++p->s->course.parts < most) return SW_OK;
+  const double share = p->s->course.covered / (double)most;
+  p->s->course.parts = 0, p->s->course.covered = 0;
   if (share >= (adaptive ? SMALL_ADAPTIVE : SMALL)) return SW_OK;
   return sw_fail(
       err, SW_ELIMIT,

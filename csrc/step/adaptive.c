@@ -10,26 +10,26 @@
 sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) {
   sw_scene *s = p->s;
   const double tolerance = p->args->tolerance, most = fmin(p->args->dt, left);
-  double h = s->next_dt > 0 ? fmin(s->next_dt, most) : 0.1 * most;
+  double h = s->course.next_dt > 0 ? fmin(s->course.next_dt, most) : 0.1 * most;
   SW_TRY(sw_ladder_make_room(p, &h, err));
-  if ((s->jerks = sw_scene_jerks(s))) s->stepper.restart = 1;
-  p->changed = s->discontinuous > 0;
+  sw_restart_at_jerk(s);
+  p->changed = sw_restart_changed(s);
   for (double uncut = 0;;) { /* uncut: the step that was cut at a rebound [s] */
     const int last = h >= left * (1 - 1e-9);
     const sw_status status =
         sw_ladder_try(p, h, 0.25 * h < SW_SMALLEST_SHARE * SW_SMALLEST_SHARE * p->args->dt, err);
     if (sw_ladder_hopeless(status)) return status;
-    const int fine = status == SW_OK && s->stepper.error <= tolerance;
-    double next = status == SW_OK ? sw_stepper_next_h(&s->stepper, h, tolerance) : 0.25 * h;
+    const int fine = status == SW_OK && s->course.stepper.error <= tolerance;
+    double next = status == SW_OK ? sw_stepper_next_h(&s->course.stepper, h, tolerance) : 0.25 * h;
     if (fine) {
-      const int unknown = !(s->stepper.error > 0); /* a starting step gives no estimate */
+      const int unknown = !(s->course.stepper.error > 0); /* a starting step gives no estimate */
       const double before = s->time;
       sw_ladder_accept(p, h, last ? t1 : before + h);
       if (!(s->time > before)) return sw_fail(err, SW_ENOCONV, "steps of %g s are no time", h);
-      s->next_dt = uncut > 0          ? uncut
-                   : unknown          ? h
-                   : last && next > h ? fmax(next, s->next_dt)
-                                      : next;
+      s->course.next_dt = uncut > 0          ? uncut
+                          : unknown          ? h
+                          : last && next > h ? fmax(next, s->course.next_dt)
+                                             : next;
       return sw_ladder_record(p, h, err);
     }
     if (status == SW_OK) sw_ladder_undo(p);

@@ -136,7 +136,7 @@ static long bad_edges(size_t m, const double *restrict rest, const double *restr
 static sw_status check_edges(const sw_scene *s, size_t b, const double *x, sw_error *err) {
   const sw_plan *plan = s->system.bodies[b].plan;
   if (!bad_edges(plan->edges, plan->rest, x)) return SW_OK;
-  SW_TRY(check_finite(s, s->stepper.trial_x, "the place", err));
+  SW_TRY(check_finite(s, s->course.stepper.trial_x, "the place", err));
   for (size_t e = 0; e < plan->edges; e++) {
     const double l2 = sw_norm2(sw_sub(sw_load(x + 3 * e + 3), sw_load(x + 3 * e)));
     const double most = (1.0 + LARGEST_STRAIN) * plan->rest[e];
@@ -152,13 +152,13 @@ static sw_status check_edges(const sw_scene *s, size_t b, const double *x, sw_er
 }
 
 sw_status sw_scene_check_trial(const sw_scene *s, sw_error *err) {
-  if (!has_edges_alone(s)) SW_TRY(check_finite(s, s->stepper.trial_x, "the place", err));
-  SW_TRY(check_finite(s, s->stepper.trial_v, "the velocity", err));
-  if (s->stepper.trial_a) /* the next step starts from them */
-    SW_TRY(check_finite(s, s->stepper.trial_a, "the acceleration", err));
+  if (!has_edges_alone(s)) SW_TRY(check_finite(s, s->course.stepper.trial_x, "the place", err));
+  SW_TRY(check_finite(s, s->course.stepper.trial_v, "the velocity", err));
+  if (s->course.stepper.trial_a) /* the next step starts from them */
+    SW_TRY(check_finite(s, s->course.stepper.trial_a, "the acceleration", err));
   for (size_t b = 0; b < s->system.body_count; b++) {
     const sw_body *body = &s->system.bodies[b];
-    const double *x = s->stepper.trial_x + 3 * body->first_node;
+    const double *x = s->course.stepper.trial_x + 3 * body->first_node;
     if (body->plan->web) SW_TRY(check_web(s, b, x, err));
     SW_TRY(check_edges(s, b, x, err));
   }
@@ -170,7 +170,7 @@ void sw_scene_remark_contact(sw_scene *s) {
   if (!sw_scene_touches(s)) return;
   for (size_t k = 0; (e = sw_scene_event(s, k)) != NULL; k++)
     if (strcmp(e->kind, "integrator") == 0) return;
-  sw_scene_tell(s, "integrator", s->method->name, NAN, NAN,
+  sw_scene_tell(s, "integrator", s->course.method->name, NAN, NAN,
                 "integrator '%s' gains energy where wires touch something; take 'tr-bdf2' there",
-                s->method->name);
+                s->course.method->name);
 }

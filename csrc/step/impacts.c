@@ -6,6 +6,7 @@
 #include "scene/world.h"
 #include "step/blow.h"
 #include "step/ladder.h"
+#include "step/restart.h"
 
 /* Rebounds closer than this share of a step are one [-]. */
 static const double SAME_TIME = 1.0 / 1024;
@@ -22,24 +23,22 @@ static double shortest_cut(const sw_ladder *p) {
 /* One step of size h, redone as long as contact finds impacts. */
 sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error *err) {
   sw_scene *s = p->s;
-  if (s->discontinuous > 0) s->stepper.restart = 1;
-  s->stepper.plastic = p->redo == SW_DULLY;
   p->soonest = 0;
-  if (p->redo == SW_BY_START) s->stepper.restart = 1;
+  sw_restart_try(p);
   if (!sw_scene_has_contact(s)) return sw_rung_go(p, below, h, err);
   memcpy(p->v_start, s->system.v, s->system.freedoms * sizeof(double));
   sw_status status = sw_scene_begin_contact(
-      s, s->method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
+      s,
+      s->course.method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
       s->time, h, sw_blow_part(s, p->args->dt), err);
   if (s->contact) sw_contact_cut(s->contact, shortest_cut(p));
   for (int redo = 0; status == SW_OK && redo < MOST_REDOS; redo++) {
     status = sw_rung_go(p, below, h, err);
     if (status != SW_OK) break;
     const sw_contact_verdict verdict =
-        sw_scene_review_contact(s, s->stepper.trial_x, s->stepper.trial_v, h);
+        sw_scene_review_contact(s, s->course.stepper.trial_x, s->course.stepper.trial_v, h);
     if (verdict == SW_CONTACT_ACCEPT) return SW_OK;
-    if (verdict == SW_CONTACT_STRIKE) s->stepper.plastic = 1;
-    sw_stepper_reject(&s->stepper, &s->system);
+    sw_stepper_reject(&s->course.stepper, &s->system);
     if (verdict == SW_CONTACT_SOONER) {
       p->soonest = sw_contact_soonest(s->contact);
       status = sw_fail(err, SW_ENOCONV, "something rebounds within the step");
@@ -47,7 +46,7 @@ sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error 
     }
     if (verdict == SW_CONTACT_SMALLER)
       status = sw_fail(err, SW_ENOCONV, "what the wire touches cuts too deep into it");
-    s->stepper.restart = 1;
+    sw_restart_struck(s, verdict == SW_CONTACT_STRIKE);
   }
   memcpy(s->system.v, p->v_start, s->system.freedoms * sizeof(double));
   return status != SW_OK ? status

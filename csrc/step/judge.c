@@ -15,7 +15,7 @@ static sw_status judge(sw_ladder *p, double h, double *excess, sw_error *err) {
 /* What to try after a step that made energy, tried as it is now. Where nothing touches only a
  * smaller one helps, and what is known at its start stays so. */
 static int next_redo(sw_ladder *p) {
-  const sw_stepper *stepper = &p->s->stepper;
+  const sw_stepper *stepper = &p->s->course.stepper;
   p->smooth = !p->s->books.step.touching;
   if (p->smooth) return SW_GIVE_UP;
   if (p->redo == SW_AS_IS && stepper->start != stepper->method && !stepper->restart)

@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "scene/world.h"
 #include "step/energy.h"
+#include "step/restart.h"
 
 static const sw_rung LADDER[] = {
 #define SW_RUNG(name, file, what) {sw_rung_##name},
@@ -21,7 +22,7 @@ sw_status sw_ladder_try(sw_ladder *p, double h, int smallest, sw_error *err) {
 
 void sw_ladder_undo(sw_ladder *p) {
   sw_scene *s = p->s;
-  sw_stepper_reject(&s->stepper, &s->system);
+  sw_stepper_reject(&s->course.stepper, &s->system);
   if (sw_scene_has_contact(s)) memcpy(s->system.v, p->v_start, s->system.freedoms * sizeof(double));
 }
 
@@ -32,14 +33,14 @@ int sw_ladder_hopeless(sw_status status) {
 
 sw_status sw_ladder_method(sw_scene *s, const sw_run_args *args, sw_error *err) {
   const sw_integrator *m = sw_integrator_all()[args->integrator];
-  if (s->has_stepper && s->method == m) return SW_OK;
-  sw_stepper_free(&s->stepper);
-  s->has_stepper = 0;
-  if (sw_stepper_new(&s->stepper, m, &s->system) != SW_OK)
+  if (s->course.has_stepper && s->course.method == m) return SW_OK;
+  sw_stepper_free(&s->course.stepper);
+  s->course.has_stepper = 0;
+  if (sw_stepper_new(&s->course.stepper, m, &s->system) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
-  s->has_stepper = 1;
-  s->method = m;
-  if (s->discontinuous == SW_GOES_ON) s->stepper.restart = 0;
+  s->course.has_stepper = 1;
+  s->course.method = m;
+  sw_restart_stepper(s);
   return SW_OK;
 }
 
@@ -47,15 +48,15 @@ sw_status sw_ladder_make_room(sw_ladder *p, double *h, sw_error *err) {
   sw_scene *s = p->s;
   int changed;
   const sw_counters before = s->system.counters;
-  const int fresh = s->discontinuous > 0 || s->stepper.restart; /* nodes alone are no jump */
+  const int pending = sw_restart_pending(s);
   *h = sw_feed_step(s, *h);
   SW_TRY(sw_feed_make_room(s, s->time + *h, &changed, err));
   if (!changed) return SW_OK;
   sw_ledger_forget(s);
   s->system.counters = before;
   SW_TRY(sw_ladder_method(s, p->args, err));
-  s->stepper.wants_error = isfinite(p->args->tolerance);
-  s->discontinuous = s->stepper.restart = fresh;
+  s->course.stepper.wants_error = isfinite(p->args->tolerance);
+  sw_restart_resume(s, pending);
   sw_free(p->v_start);
   p->v_start = sw_alloc(sw_scene_has_contact(s) ? s->system.freedoms : 1, sizeof(double));
   return p->v_start ? SW_OK : sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);

@@ -24,17 +24,17 @@ sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
   const double t0 = s->time;
   double done = 0, part = h;
   sw_error failed = {""}; /* why a part of this step was refused last */
-  int starts = s->discontinuous && sw_slip_any(s), cut = 0; /* cut: at a rebound */
+  int starts = s->course.next && sw_slip_any(s), cut = 0; /* cut: at a rebound */
   p->cuts = 0;
   if (starts) part = FIRST_SLIP * h;
-  p->changed = s->discontinuous > 0;
+  p->changed = sw_restart_changed(s);
   while (done < h) {
     const double left = h - done;
     part = sw_blow_part(s, part);
     if (part > left * (1 - ROUNDING)) part = left;
     if (done > 0 && p->interrupted && p->interrupted()) return SW_EINTR; /* there may be many */
     SW_TRY(sw_ladder_make_room(p, &part, err));
-    if ((s->jerks = sw_scene_jerks(s))) s->stepper.restart = 1;
+    sw_restart_at_jerk(s);
     if (!(part >= SW_SMALLEST_SHARE * SW_SMALLEST_SHARE * h))
       return sw_feed_too_fast(s, failed.text, err);
     const sw_status status = sw_ladder_try(p, part, 0.5 * part < SW_SMALLEST_SHARE * h, err);
@@ -42,7 +42,7 @@ sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
       sw_ladder_undo(p);
       continue;
     }
-    const double over = status == SW_OK ? sw_passing_of(s, s->stepper.trial_x) : 0;
+    const double over = status == SW_OK ? sw_passing_of(s, s->course.stepper.trial_x) : 0;
     if (sw_passing_part(part, over) < part) { /* nor is this */
       sw_ladder_undo(p);
       part = sw_passing_part(part, over);
@@ -64,7 +64,7 @@ sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
     cut = p->soonest > 0;
     p->cuts += cut;
     if (!cut) sw_blow_refused(s, part);
-    if (!p->smooth && !cut) s->discontinuous = 1;
+    sw_restart_refused(p, cut);
     part = cut ? p->soonest : 0.5 * part;
     if (part < SW_SMALLEST_SHARE * h) return status;
   }

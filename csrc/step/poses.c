@@ -18,7 +18,7 @@ static sw_status pose_steps(sw_ladder *p, double t, sw_error *err) {
     SW_TRY(sw_ledger_open(s, err));
     const sw_pose_args how = {p->interrupted, SW_SHORTEST_BREAK * p->args->dt};
     SW_TRY(sw_scene_pose(s, part, &how, p->report, err));
-    s->span = 0;
+    s->course.span = 0;
     SW_TRY(sw_step_observe(s, err));
   }
   return SW_OK;

@@ -29,7 +29,7 @@ static const double IN_FLIGHT = 0.01;
 static const double EACH_IN_FLIGHT = 2e-4;
 
 int sw_ledger_lumped(const sw_scene *s) {
-  return s->has_stepper && !(s->method->flags & SW_INTEGRATOR_IMPLICIT);
+  return s->course.has_stepper && !(s->course.method->flags & SW_INTEGRATOR_IMPLICIT);
 }
 
 /* Stored between bodies and obstacles. */
@@ -112,8 +112,8 @@ static sw_status look_at_end(sw_scene *s, double t1, sw_error *err) {
   sw_system *y = &s->system;
   SW_TRY(sw_system_place_holds(y, t1, NULL, NULL, NULL, err));
   if (!y->coupling.eval) return SW_OK;
-  return y->coupling.eval(y->coupling.user, y, t1, HUGE_VAL, s->stepper.trial_x, SW_WANT_FORCE,
-                          err);
+  return y->coupling.eval(y->coupling.user, y, t1, HUGE_VAL, s->course.stepper.trial_x,
+                          SW_WANT_FORCE, err);
 }
 
 sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_error *err) {
@@ -125,8 +125,8 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
   if (sw_ledger_lumped(s)) SW_TRY(look_at_end(s, t1, err));
   if (sw_scene_has_contact(s)) judge_touches(s, h, step);
   double most = step->obstacles;
-  sw_system_look_at(&s->system, &glance, s->stepper.trial_x, s->stepper.trial_v,
-                    s->stepper.strain_rate);
+  sw_system_look_at(&s->system, &glance, s->course.stepper.trial_x, s->course.stepper.trial_v,
+                    s->course.stepper.strain_rate);
   sw_system_energies(&s->system, sw_ledger_lumped(s), &step->to);
   step->contact = sw_ledger_contact(s);
   step->touching |= b->contact != 0 || step->contact != 0; /* ties that are taut too */
@@ -144,7 +144,7 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
 }
 
 int sw_ledger_referees(const sw_scene *s) {
-  return !sw_ledger_lumped(s) && !(s->method->flags & SW_INTEGRATOR_NO_CONTACT);
+  return !sw_ledger_lumped(s) && !(s->course.method->flags & SW_INTEGRATOR_NO_CONTACT);
 }
 
 /* What a full step may make besides: less once steps have made more [J]. */
@@ -176,7 +176,7 @@ double sw_ledger_excess(const sw_scene *s, double h, double whole) {
 
 /* The node whose kinetic energy grew most in the trial. */
 static size_t fastest_gain(const sw_scene *s) {
-  const double *v0 = s->system.v, *v1 = s->stepper.trial_v;
+  const double *v0 = s->system.v, *v1 = s->course.stepper.trial_v;
   double largest = -HUGE_VAL;
   size_t node = 0;
   for (size_t b = 0; b < s->system.body_count; b++) {

@@ -205,7 +205,7 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
   } else if (status != SW_EINTR) {
     sw_rest_take_back(s, p.begun);
   }
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
   sw_free(block);
   sw_free(poses);
   return status;

@@ -25,7 +25,7 @@ static sw_status run_loop(sw_ladder *p, double until, int (*interrupted)(void), 
   const double count = fmax(1.0, ceil(span / p->args->dt - 1e-9));
   if (span > 0 && span < SW_SHORTEST_STEP) s->time = until;
   const int adaptive = isfinite(p->args->tolerance);
-  s->stepper.wants_error = adaptive;
+  s->course.stepper.wants_error = adaptive;
   const double slack = 1e-12 * fmax(fabs(until), span);
   const size_t first = p->report->steps;
   for (size_t k = 1; s->time < until - slack;) {
@@ -73,7 +73,7 @@ sw_status sw_scene_begin_run(sw_scene *s, sw_error *err) {
   sw_scene_reset_extremes(s);
   sw_events_clear(&s->events);
   sw_ledger_begin_run(s);
-  s->parts = 0, s->covered = 0;
+  s->course.parts = 0, s->course.covered = 0;
   return SW_OK;
 }
 
@@ -89,7 +89,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   SW_TRY(sw_scene_build(s, err));
   SW_TRY(sw_scene_check_step(s, args, until, err));
   SW_TRY(sw_ladder_method(s, args, err));
-  s->window = args->window;
+  s->course.window = args->window;
   const sw_counters before = s->system.counters;
   sw_ladder p = {
       .s = s, .args = args, .report = report, .interrupted = interrupted, .observer = observer};
@@ -116,7 +116,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   report->solves = s->system.counters.solves - before.solves;
   report->looks = s->system.counters.looks - before.looks;
   conclude(s, status, report, &why);
-  if (status == SW_ECALLBACK) s->discontinuous = 1;
+  if (status == SW_ECALLBACK) sw_course_jump(&s->course);
   return SW_OK;
 }
 

@@ -20,7 +20,7 @@ static void conclude(sw_scene *s, sw_status status, sw_settle_report *report, co
   report->ok = status == SW_OK;
   if (status != SW_OK)
     sw_fail(&report->reason, status, "%.400s", why->text[0] ? why->text : sw_status_text(status));
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
 }
 
 enum { MOST_ROUNDS = 100 };
@@ -51,7 +51,7 @@ sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interru
   sw_status status = settle_held(s, args, interrupted, report, &why);
   s->running--;
   sw_scene_reset_extremes(s);
-  s->span = 0;
+  s->course.span = 0;
   if (status == SW_OK) status = sw_step_observe(s, &why);
   conclude(s, status, report, &why);
   return status == SW_ECALLBACK || status == SW_ENOMEM ? sw_fail(err, status, "%s", why.text)

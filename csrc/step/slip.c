@@ -86,7 +86,7 @@ static int correct_feed(sw_scene *s, sw_hold *h, double step, int first) {
   sw_feed *f = &h->feed;
   const sw_plan *p = s->system.bodies[h->wire].plan;
   const sw_link_wire w = sw_scene_link_wire(s, h->wire);
-  const double drive = h->cls->hold->passes(h, &w, s->time, s->stepper.trial_x).force;
+  const double drive = h->cls->hold->passes(h, &w, s->time, s->course.stepper.trial_x).force;
   const double L = p->length;
   const double weight = p->beam.mass * L * sw_norm(s->gravity);
   if (!isfinite(f->push) && f->slip_way == 0) {
