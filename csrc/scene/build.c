@@ -6,7 +6,21 @@
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
+#include "base/log.h"
+#include "base/tape.h"
+#include "link/hold.h"
+#include "scene/forces.h"
+#include "scene/history.h"
+#include "scene/hold.h"
+#include "scene/jaws.h"
+#include "scene/join.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
+#include "scene/spin.h"
+#include "scene/touching.h"
 #include "scene/world.h"
+#include "state/field.h"
+#include "state/mesh.h"
 
 static void drop(sw_scene *s) {
   sw_stepper_free(&s->course.stepper);

@@ -2,7 +2,11 @@
 /* What a user asks of a feed (link/feed.c). */
 #include <math.h>
 
+#include "link/hold.h"
+#include "scene/hold.h"
+#include "scene/line.h"
 #include "scene/world.h"
+#include "state/clamp.h"
 
 static sw_hold *feeding(sw_scene *s, sw_handle hold, sw_error *err) {
   sw_hold *h = sw_scene_living_hold(s, hold, err);

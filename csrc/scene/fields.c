@@ -2,8 +2,13 @@
 /* The fields of a scene's objects as they lie in memory, for specs that look whether a tape has
  * them all: those of a scene that was restored in place are those of before. */
 #include "base/alloc.h"
+#include "link/joint.h"
 #include "scene/file.h"
+#include "scene/forces.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
 #include "scene/save.h"
+#include "scene/touching.h"
 
 /* What need not come back: it is found anew, or grows as it likes. */
 static void blank_scene(sw_scene *s) {

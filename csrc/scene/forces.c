@@ -1,11 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Forces of a scene, and which of them go with which wires. */
+#include "scene/forces.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "scene/line.h"
+#include "scene/touching.h"
 #include "scene/world.h"
+#include "state/mesh.h"
 
 sw_status sw_scene_check_line(const sw_scene_wire *w, const char *what, sw_error *err) {
   if (!w->cls->mesh) return SW_OK;

@@ -4,11 +4,19 @@
  * wire its node count and positions, how many values each node has and these, the number of its
  * surface's points in a section (0: it is no mesh of particles), and these points with the force
  * across the surface at each. */
+#include "scene/frames.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "link/hold.h"
+#include "scene/jaws.h"
+#include "scene/kept_frames.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
 #include "scene/world.h"
+#include "state/web.h"
 
 enum { TOOL = SW_FRAME_BODY, HOLD = SW_FRAME_BODY + 1, LEAST = 3 };
 

@@ -6,7 +6,9 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "contact/contact.h"
 #include "scene/frozen_inner.h"
+#include "scene/line.h"
 #include "state/hinge.h"
 
 /* Rings that the tool presses; 0: there are none. */

@@ -4,7 +4,11 @@
 #ifndef SW_SCENE_FROZEN_INNER_H
 #define SW_SCENE_FROZEN_INNER_H
 
+#include "scene/jaws.h"
 #include "scene/remodel_inner.h"
+#include "scene/strand.h"
+#include "state/mesh.h"
+#include "system/energy.h"
 
 /* Where a pad pressed; in the tool's axes, from its centre. */
 typedef struct sw_frozen_touch {

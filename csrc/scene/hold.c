@@ -1,12 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Holds of the scene: taking hold of a wire, driving, releasing. */
+#include "link/hold.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "link/joint.h"
+#include "scene/hold.h"
+#include "scene/jaws.h"
+#include "scene/join.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
+#include "scene/spin.h"
 #include "scene/world.h"
+#include "state/field.h"
 #include "state/hinge.h"
+#include "state/mesh.h"
+#include "system/system.h"
 
 static void reshaped(void *user, size_t wire, size_t node) {
   const sw_scene *s = user;

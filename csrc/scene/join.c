@@ -1,13 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Joins: points where wires are fixed to each other. */
-#include "system/join.h"
+#include "scene/join.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "link/hold.h"
+#include "link/joint.h"
+#include "scene/hold.h"
+#include "scene/line.h"
 #include "scene/world.h"
+#include "state/mesh.h"
+#include "system/join.h"
 
 /* How far from each other the ends may be, of the shortest segment there [-]. */
 static const double LARGEST_GAP = 0.02;

@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "contact/grains.h"
+#include "scene/line.h"
 #include "scene/save.h"
 
 sw_live sw_live_of(const sw_scene *s) {

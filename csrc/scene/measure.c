@@ -3,6 +3,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/kept_frames.h"
+#include "scene/line.h"
+#include "scene/observe.h"
+#include "scene/spin.h"
+#include "scene/touching.h"
 #include "scene/world.h"
 #include "state/clamp.h"
 #include "system/join.h"

@@ -1,11 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is kept of every accepted state: extremes, forces, frames. */
+#include "scene/observe.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/log.h"
 #include "base/simd.h"
-#include "scene/events.h"
+#include "link/hold.h"
+#include "scene/forces.h"
+#include "scene/hold.h"
+#include "scene/jaws.h"
+#include "scene/join.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
+#include "scene/spin.h"
+#include "scene/touching.h"
 #include "scene/world.h"
 #include "state/clamp.h"
 

@@ -6,7 +6,11 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "link/hold.h"
+#include "scene/line.h"
+#include "scene/objects.h"
 #include "scene/world.h"
+#include "state/field.h"
 
 static sw_scene_wire *find(const sw_scene *s, sw_handle h, sw_error *err) {
   sw_scene_wire *w = sw_scene_find_body(s, h, err);

@@ -8,7 +8,13 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "link/hold.h"
+#include "scene/hold.h"
+#include "scene/jaws.h"
+#include "scene/join.h"
+#include "scene/line.h"
 #include "scene/remodel_inner.h"
+#include "state/plan.h"
 
 static const sw_param rows[] = {
     {"model", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0, "the model that the wire is to have"},

@@ -4,7 +4,14 @@
 
 #include "base/alloc.h"
 #include "force/solid.h"
+#include "link/joint.h"
+#include "scene/forces.h"
+#include "scene/frames.h"
+#include "scene/kept_frames.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
 #include "scene/save.h"
+#include "scene/touching.h"
 #include "state/state_tape.h"
 
 #define DOUBLE(field) sw_tape_double(t, &x->field)

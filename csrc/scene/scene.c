@@ -7,7 +7,19 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/log.h"
+#include "base/tape.h"
+#include "link/hold.h"
+#include "scene/forces.h"
+#include "scene/history.h"
+#include "scene/hold.h"
+#include "scene/jaws.h"
+#include "scene/kept_frames.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
+#include "scene/touching.h"
 #include "scene/world.h"
+#include "state/field.h"
 
 static const sw_param scene_rows[] = {
     {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_scene_args, name),

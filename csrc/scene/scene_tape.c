@@ -3,7 +3,14 @@
  * objects, and the state of the built scene or what an edited one remembers. A scene that is not
  * built is put on it as it is: building it between two edits would not give the same bits. */
 #include "base/alloc.h"
+#include "link/joint.h"
+#include "scene/forces.h"
+#include "scene/history.h"
+#include "scene/kept_frames.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
 #include "scene/save.h"
+#include "scene/touching.h"
 
 enum { LEAST = 32 }; /* no object takes less on a tape [B] */
 

@@ -6,7 +6,10 @@
 
 #include "base/alloc.h"
 #include "force/solid.h"
+#include "scene/line.h"
 #include "scene/world.h"
+#include "state/mesh.h"
+#include "system/system.h"
 
 void sw_strand_rings(const sw_mesh *m, double *s1, double *s2) {
   const double middle = 0.5 * (*s1 + *s2), slack = 1e-9 * m->s[m->n - 1];

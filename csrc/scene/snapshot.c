@@ -4,7 +4,14 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "link/joint.h"
+#include "scene/forces.h"
+#include "scene/hold.h"
+#include "scene/kept_frames.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
 #include "scene/save.h"
+#include "scene/scene.h"
 
 struct sw_snapshot {
   sw_scene *scene; /* NULL once it is gone */

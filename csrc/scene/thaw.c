@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "contact/contact.h"
 #include "scene/frozen_inner.h"
+#include "scene/line.h"
 #include "state/hinge.h"
 
 /* Directions across the rod's line start anywhere: turn them so that the ring that the tool holds

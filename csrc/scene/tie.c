@@ -2,6 +2,11 @@
 /* What breaks when it is pulled harder than it bears: joints, and forces that say so. */
 #include <math.h>
 
+#include "link/hold.h"
+#include "link/joint.h"
+#include "scene/hold.h"
+#include "scene/join.h"
+#include "scene/line.h"
 #include "scene/world.h"
 
 /* Pull of a tie to a point with nodes at x, and what it bears, 0 once it is broken. A body's own

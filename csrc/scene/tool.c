@@ -6,7 +6,13 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "link/hold.h"
+#include "scene/hold.h"
+#include "scene/jaws.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
 #include "scene/world.h"
+#include "state/clamp.h"
 
 void sw_scene_clear_tool(sw_tool *t) {
   sw_drive_free(&t->drive);

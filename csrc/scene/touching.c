@@ -1,11 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What wires touch: obstacles, each other, themselves. Which wires touch each other is a
  * list of statements, the later ones overruling the earlier; the system gets a table. */
+#include "scene/touching.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/tape.h"
+#include "scene/hold.h"
+#include "scene/jaws.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
 #include "scene/world.h"
+#include "state/plan.h"
+#include "system/system.h"
 
 static const sw_param rows[] = {
     {"between", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,

@@ -2,11 +2,13 @@
 /* A trial becomes the state: it is committed, observed and booked. */
 #include <math.h>
 
+#include "scene/hold.h"
+#include "scene/observe.h"
+#include "scene/touching.h"
 #include "scene/world.h"
 #include "step/believe.h"
 #include "step/energy.h"
 #include "step/jaw.h"
-#include "step/ladder.h"
 #include "step/restart.h"
 #include "step/run.h"
 

@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "scene/world.h"
-#include "step/ladder.h"
 #include "step/restart.h"
 
 /* An adaptive step of at most `left`; refuses steps whose error is too large. */

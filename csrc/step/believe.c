@@ -8,6 +8,7 @@
 
 #include "base/simd.h"
 #include "force/solid.h"
+#include "scene/line.h"
 #include "scene/world.h"
 
 static const double LARGEST_STRAIN = 10.0; /* beyond it a run has diverged [-] */

@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+#include "contact/contact.h"
+#include "link/hold.h"
 #include "scene/world.h"
 
 /* A step as long as a blow lasts smears it: what is pressed gives way by no law but that of the

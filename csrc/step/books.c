@@ -4,6 +4,9 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "contact/grains.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
 #include "scene/world.h"
 #include "step/energy.h"
 #include "step/step.h"

@@ -6,7 +6,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "scene/world.h"
+#include "scene/join.h"
+#include "scene/line.h"
+#include "scene/live.h"
+#include "scene/touching.h"
+#include "state/mesh.h"
 #include "step/statics.h"
 
 enum { SLIDES = 8, MOST_REDOS = 20 };

@@ -3,9 +3,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "force/force.h"
+#include "scene/touching.h"
 #include "scene/world.h"
 #include "step/blow.h"
-#include "step/ladder.h"
 #include "step/restart.h"
 
 /* Rebounds closer than this share of a step are one [-]. */

@@ -7,6 +7,8 @@
 
 #include <math.h>
 
+#include "scene/jaws.h"
+#include "scene/line.h"
 #include "scene/world.h"
 #include "step/obey.h"
 

@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "scene/feed.h"
+#include "scene/touching.h"
 #include "scene/world.h"
 #include "step/energy.h"
 #include "step/restart.h"

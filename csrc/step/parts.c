@@ -3,9 +3,9 @@
  * what wires pass ask for it. */
 #include <math.h>
 
+#include "scene/feed.h"
 #include "scene/world.h"
 #include "step/blow.h"
-#include "step/ladder.h"
 #include "step/passing.h"
 #include "step/restart.h"
 #include "step/slip.h"

@@ -3,6 +3,11 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "contact/contact.h"
+#include "scene/jaws.h"
+#include "scene/join.h"
+#include "scene/line.h"
+#include "scene/live.h"
 #include "scene/world.h"
 #include "step/energy.h"
 #include "step/jaw.h"

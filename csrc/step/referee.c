@@ -3,6 +3,11 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "link/hold.h"
+#include "scene/hold.h"
+#include "scene/jaws.h"
+#include "scene/line.h"
+#include "scene/touching.h"
 #include "scene/world.h"
 #include "step/energy.h"
 #include "system/join.h"

@@ -7,7 +7,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "scene/world.h"
+#include "scene/live.h"
+#include "scene/obstacle.h"
 #include "step/statics.h"
 
 /* Wires that rub follow their holds to the next pose without going far, or they jump: which

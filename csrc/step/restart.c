@@ -3,6 +3,9 @@
 
 #include <math.h>
 
+#include "contact/contact.h"
+#include "link/hold.h"
+#include "scene/jaws.h"
 #include "scene/world.h"
 
 /* --- jerks ----------------------------------------------------------------------- */

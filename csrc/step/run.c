@@ -5,6 +5,14 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "scene/hold.h"
+#include "scene/jaws.h"
+#include "scene/kept_frames.h"
+#include "scene/line.h"
+#include "scene/linear.h"
+#include "scene/observe.h"
+#include "scene/obstacle.h"
+#include "scene/touching.h"
 #include "scene/world.h"
 #include "step/energy.h"
 #include "step/ladder.h"

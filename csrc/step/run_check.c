@@ -3,6 +3,10 @@
 
 #include <math.h>
 
+#include "link/hold.h"
+#include "link/joint.h"
+#include "scene/join.h"
+#include "scene/line.h"
 #include "scene/world.h"
 #include "step/slip.h"
 

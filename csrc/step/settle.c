@@ -2,6 +2,7 @@
 /* scene:settle: the equilibrium where the scene is. */
 #include <string.h>
 
+#include "scene/observe.h"
 #include "scene/world.h"
 #include "step/jaw.h"
 #include "step/rest.h"

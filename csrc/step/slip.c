@@ -8,7 +8,11 @@
 
 #include <math.h>
 
+#include "link/hold.h"
+#include "scene/feed.h"
+#include "scene/hold.h"
 #include "scene/world.h"
+#include "state/field.h"
 #include "step/obey.h"
 
 static const double PRECISION = 1e-7; /* of the force, the wire's weight or EI/L2 [-] */

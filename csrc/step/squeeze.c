@@ -4,6 +4,8 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "scene/jaws.h"
+#include "scene/live.h"
 #include "scene/world.h"
 #include "step/jaw.h"
 #include "step/rest.h"

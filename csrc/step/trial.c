@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One trial by the run's method, whose stages the system solves: is it one to believe? */
+#include "scene/join.h"
 #include "scene/world.h"
 #include "step/believe.h"
-#include "step/ladder.h"
 #include "step/restart.h"
 #include "system/rail.h"
 

@@ -4,6 +4,12 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/tape.h"
+#include "link/hold.h"
+#include "scene/hold.h"
+#include "scene/jaws.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
 #include "scene/world.h"
 #include "step/energy.h"
 
