@@ -242,6 +242,26 @@ local function check_own_include(file, number, room, stem, included, members)
   end
 end
 
+-- A room that leads back to itself by the rows above, or nothing.
+local function circle_of_rooms(rooms)
+  local state = {}
+  local function visit(room, path)
+    path = path .. " -> " .. room
+    if state[room] == "open" then return path:match("-> (" .. room .. " .*)$") end
+    if state[room] then return end
+    state[room] = "open"
+    for _, other in ipairs(rooms[room]) do
+      local found = visit(other, path)
+      if found then return found end
+    end
+    state[room] = "done"
+  end
+  for room in pairs(rooms) do
+    local found = visit(room, "")
+    if found then return found end
+  end
+end
+
 local function outside_rule(included)
   for _, rule in ipairs(OUTSIDE) do
     if included:find(rule[1]) then return rule end
@@ -260,6 +280,8 @@ end
 
 function check.includes()
   local members = {}
+  local circle = circle_of_rooms(ROOMS)
+  if circle then finding("scripts/lint.lua", 1, "rooms include one another in a circle: %s", circle) end
   for room in pairs(FAMILIES) do members[room] = members_of(room) end
   for _, file in ipairs(files("csrc", "*.c", "*.h", "*.def")) do
     local path = file:match "^csrc/(.*)$"

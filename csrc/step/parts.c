@@ -18,55 +18,75 @@ static const double FIRST_SLIP = 1e-3;
  * part, and what that leaves is no part [-]. */
 static const double ROUNDING = 1e-6;
 
-/* Advance by h, in smaller parts where needed. t1 is the exact end time. */
+typedef struct parts {
+  double h, t0, t1;  /* of the whole step: size, start, exact end [s] */
+  double done, part; /* so much is behind; what is tried now [s] */
+  int starts, cut;   /* 1: the part is short, for reactions are to be known; for a rebound */
+  sw_error failed;   /* why a part was refused last */
+} parts;
+
+/* The part may be shorter than asked for; there are nodes for it. */
+static sw_status begin(sw_ladder *p, parts *k, sw_error *err) {
+  const double left = k->h - k->done;
+  k->part = sw_blow_part(p->s, k->part);
+  if (k->part > left * (1 - ROUNDING)) k->part = left;
+  /* there may be many parts */
+  if (k->done > 0 && p->interrupted && p->interrupted()) return SW_EINTR;
+  SW_TRY(sw_ladder_make_room(p, &k->part, err));
+  sw_restart_at_jerk(p->s);
+  if (k->part >= SW_SMALLEST_SHARE * SW_SMALLEST_SHARE * k->h) return SW_OK;
+  return sw_feed_too_fast(p->s, k->failed.text, err);
+}
+
+/* The trial went well, but it only tells of a blow, or went past a force. over: how far, of what
+ * forces allow [-]. */
+static int is_too_long(const sw_ladder *p, parts *k, double *over) {
+  if (sw_blow_begins(p->s, k->part)) return 1;
+  *over = sw_passing_of(p->s, p->s->course.stepper.trial_x);
+  const double shorter = sw_passing_part(k->part, *over);
+  if (!(shorter < k->part)) return 0;
+  k->part = shorter;
+  return 1;
+}
+
+static sw_status take(sw_ladder *p, parts *k, double over, sw_error *err) {
+  k->done += k->part;
+  sw_ladder_accept(p, k->part, k->done < k->h ? k->t0 + k->done : k->t1);
+  if (p->redo != SW_AS_IS) sw_blow_refused(p->s, k->part);
+  SW_TRY(sw_ladder_record(p, k->part, err));
+  k->part = k->starts || k->cut ? k->h : over > 0.5 ? k->part : 2 * k->part;
+  k->starts = k->cut = 0;
+  return SW_OK;
+}
+
+/* The status, unless a smaller part may go well. */
+static sw_status refuse(sw_ladder *p, parts *k, sw_status status, const sw_error *err) {
+  if (sw_ladder_hopeless(status)) return status;
+  k->failed = p->held = *err;
+  p->report->rejected++;
+  k->cut = p->soonest > 0;
+  p->cuts += k->cut;
+  if (!k->cut) sw_blow_refused(p->s, k->part);
+  sw_restart_refused(p, k->cut);
+  k->part = k->cut ? p->soonest : 0.5 * k->part;
+  return k->part < SW_SMALLEST_SHARE * k->h ? status : SW_OK;
+}
+
 sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
-  sw_scene *s = p->s;
-  const double t0 = s->time;
-  double done = 0, part = h;
-  sw_error failed = {""}; /* why a part of this step was refused last */
-  int starts = s->course.next && sw_slip_any(s), cut = 0; /* cut: at a rebound */
+  parts k = {.h = h, .t0 = p->s->time, .t1 = t1, .part = h};
+  k.starts = p->s->course.next && sw_slip_any(p->s);
+  if (k.starts) k.part = FIRST_SLIP * h;
   p->cuts = 0;
-  if (starts) part = FIRST_SLIP * h;
-  p->changed = sw_restart_changed(s);
-  while (done < h) {
-    const double left = h - done;
-    part = sw_blow_part(s, part);
-    if (part > left * (1 - ROUNDING)) part = left;
-    if (done > 0 && p->interrupted && p->interrupted()) return SW_EINTR; /* there may be many */
-    SW_TRY(sw_ladder_make_room(p, &part, err));
-    sw_restart_at_jerk(s);
-    if (!(part >= SW_SMALLEST_SHARE * SW_SMALLEST_SHARE * h))
-      return sw_feed_too_fast(s, failed.text, err);
-    const sw_status status = sw_ladder_try(p, part, 0.5 * part < SW_SMALLEST_SHARE * h, err);
-    if (status == SW_OK && sw_blow_begins(s, part)) { /* not refused: it only told of the blow */
+  p->changed = sw_restart_changed(p->s);
+  while (k.done < h) {
+    double over = 0;
+    SW_TRY(begin(p, &k, err));
+    const int smallest = 0.5 * k.part < SW_SMALLEST_SHARE * h;
+    const sw_status status = sw_ladder_try(p, k.part, smallest, err);
+    if (status == SW_OK && is_too_long(p, &k, &over))
       sw_ladder_undo(p);
-      continue;
-    }
-    const double over = status == SW_OK ? sw_passing_of(s, s->course.stepper.trial_x) : 0;
-    if (sw_passing_part(part, over) < part) { /* nor is this */
-      sw_ladder_undo(p);
-      part = sw_passing_part(part, over);
-      continue;
-    }
-    if (status == SW_OK) {
-      done += part;
-      sw_ladder_accept(p, part, done < h ? t0 + done : t1);
-      if (p->redo != SW_AS_IS) sw_blow_refused(s, part);
-      SW_TRY(sw_ladder_record(p, part, err));
-      part = starts || cut ? h : over > 0.5 ? part : 2 * part;
-      starts = cut = 0;
-      continue;
-    }
-    if (sw_ladder_hopeless(status)) return status;
-    failed = *err;
-    p->report->rejected++;
-    p->held = *err;
-    cut = p->soonest > 0;
-    p->cuts += cut;
-    if (!cut) sw_blow_refused(s, part);
-    sw_restart_refused(p, cut);
-    part = cut ? p->soonest : 0.5 * part;
-    if (part < SW_SMALLEST_SHARE * h) return status;
+    else
+      SW_TRY(status == SW_OK ? take(p, &k, over, err) : refuse(p, &k, status, err));
   }
   return SW_OK;
 }
