@@ -85,11 +85,8 @@ sw_status sw_scene_begin_run(sw_scene *s, sw_error *err) {
   return SW_OK;
 }
 
-sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
-                           int (*interrupted)(void), sw_observer *observer, sw_run_report *report,
-                           sw_error *err) {
-  sw_error why = {""}, ignored;
-  *report = (sw_run_report){.smallest_dt = HUGE_VAL, .time = s->time};
+/* The scene is built and can be run like this. */
+static sw_status prepare(sw_scene *s, const sw_run_args *args, double until, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
   SW_TRY(sw_run_check(s, args, err));
@@ -98,6 +95,15 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   SW_TRY(sw_scene_check_step(s, args, until, err));
   SW_TRY(sw_ladder_method(s, args, err));
   s->course.window = args->window;
+  return SW_OK;
+}
+
+sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
+                           int (*interrupted)(void), sw_observer *observer, sw_run_report *report,
+                           sw_error *err) {
+  sw_error why = {""}, ignored;
+  *report = (sw_run_report){.smallest_dt = HUGE_VAL, .time = s->time};
+  SW_TRY(prepare(s, args, until, err));
   const sw_counters before = s->system.counters;
   sw_ladder p = {
       .s = s, .args = args, .report = report, .interrupted = interrupted, .observer = observer};
