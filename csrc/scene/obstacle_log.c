@@ -54,3 +54,10 @@ sw_status sw_obstacle_log_state(sw_scene *s) {
   }
   return SW_OK;
 }
+
+void sw_obstacle_mean(const sw_scene_obstacle *o, sw_vec about, sw_vec *force, sw_vec *moment) {
+  *force = *moment = sw_v(0, 0, 0);
+  if (o->off) return;
+  *force = o->past.mean.force;
+  *moment = sw_sub(o->past.mean.moment, sw_cross(about, *force));
+}
