@@ -2,7 +2,6 @@
 /* Forces of a scene, and which of them go with which wires. */
 #include "scene/forces.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -11,22 +10,6 @@
 #include "scene/touching.h"
 #include "scene/world.h"
 #include "state/mesh.h"
-
-sw_status sw_scene_check_line(const sw_scene_wire *w, const char *what, sw_error *err) {
-  if (!w->cls->mesh) return SW_OK;
-  if (sw_scene_is_loose(w))
-    return sw_fail(err, SW_EINVAL, "%s: '%s' is an object of particles; it goes with wires only",
-                   what, w->name);
-  return sw_fail(err, SW_EINVAL,
-                 "%s: wire '%s' is a %s, a mesh of particles; it goes with rods "
-                 "and strings only",
-                 what, w->name, w->cls->name);
-}
-
-sw_status sw_scene_check_touching(const sw_scene_wire *w, sw_error *err) {
-  if (sw_scene_is_loose(w)) return SW_OK;
-  return sw_scene_check_line(w, "scene:wire_contact", err);
-}
 
 /* Can the force act on the wire? */
 static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, const void *args,

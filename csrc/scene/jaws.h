@@ -77,7 +77,11 @@ static inline int sw_drive_moves(const sw_drive *drive) { return drive->motion |
 void sw_scene_clear_tool(sw_tool *tool);
 sw_tool *sw_scene_find_tool(const sw_scene *scene, sw_handle h, sw_error *err);
 /* 1: the obstacle of this number is one of its pads. */
-int sw_tool_is_pad(const sw_tool *tool, int obstacle);
+static inline int sw_tool_is_pad(const sw_tool *t, int obstacle) {
+  for (size_t k = 0; k < t->pads; k++)
+    if (t->pad[k].obstacle == (size_t)obstacle) return 1;
+  return 0;
+}
 /* Force per finger as of the last trial, which ended at time t [N]. */
 double sw_tool_squeeze(sw_scene *scene, const sw_tool *tool, double t);
 /* What tools hold at the accepted state; their logs. */

@@ -5,6 +5,9 @@
 
 #include "scene/frames.h"
 
+/* Numbers of a tool, and of a hold or an obstacle, in its block [-]. */
+enum { SW_FRAME_TOOL = SW_FRAME_BODY, SW_FRAME_HOLD = SW_FRAME_BODY + 1 };
+
 typedef struct sw_frame {
   double time;                      /* [s] */
   double energy[SW_FRAME_ENERGIES]; /* [J] */

@@ -4,7 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "link/joint.h"
 #include "scene/hold.h"
+#include "scene/join.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/world.h"
@@ -100,4 +102,36 @@ void sw_scene_give_name(char *out, const char *wanted, const char *kind, size_t 
     memcpy(out, wanted, SW_NAME_SIZE);
   else
     snprintf(out, SW_NAME_SIZE, "%s%zu", kind, number + 1);
+}
+
+sw_hold *sw_scene_living_hold(const sw_scene *s, sw_handle hold, sw_error *err) {
+  sw_hold *h = sw_scene_find_hold(s, hold, err);
+  if (h && !h->alive) {
+    sw_fail(err, SW_EDEAD, "%s '%s' has been released", h->cls->name, h->name);
+    return NULL;
+  }
+  return h;
+}
+
+sw_joint *sw_scene_find_join(const sw_scene *s, sw_handle h, sw_error *err) {
+  if (h.slot < s->join_count && s->joins[h.slot].generation == h.generation)
+    return &s->joins[h.slot];
+  sw_fail(err, SW_EDEAD, "this join is not of scene '%s' any more", s->name);
+  return NULL;
+}
+
+sw_status sw_scene_check_line(const sw_scene_wire *w, const char *what, sw_error *err) {
+  if (!w->cls->mesh) return SW_OK;
+  if (sw_scene_is_loose(w))
+    return sw_fail(err, SW_EINVAL, "%s: '%s' is an object of particles; it goes with wires only",
+                   what, w->name);
+  return sw_fail(err, SW_EINVAL,
+                 "%s: wire '%s' is a %s, a mesh of particles; it goes with rods "
+                 "and strings only",
+                 what, w->name, w->cls->name);
+}
+
+sw_status sw_scene_check_touching(const sw_scene_wire *w, sw_error *err) {
+  if (sw_scene_is_loose(w)) return SW_OK;
+  return sw_scene_check_line(w, "scene:wire_contact", err);
 }

@@ -18,6 +18,8 @@ void sw_scene_run_tension(const sw_scene *scene, size_t wire, const sw_wire_extr
 /* Keep the larger ones, but for the tension. */
 void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now);
 void sw_scene_reset_extremes(sw_scene *scene);
+/* Those of wire w at an accepted state into *now, and kept. SW_ENOMEM. */
+sw_status sw_scene_note_extremes(sw_scene *scene, size_t w, sw_wire_extremes *now, sw_error *err);
 
 /* The moment about the wire's axis at arc length at of its mesh [N m]. */
 double sw_scene_torque(const sw_system *system, const sw_body *body, double at);

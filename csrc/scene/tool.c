@@ -167,12 +167,6 @@ sw_status sw_scene_tool_watch(sw_scene *s, sw_handle tool, double tolerance, int
 
 /* --- what it holds ---------------------------------------------------------------- */
 
-int sw_tool_is_pad(const sw_tool *t, int obstacle) {
-  for (size_t k = 0; k < t->pads; k++)
-    if (t->pad[k].obstacle == (size_t)obstacle) return 1;
-  return 0;
-}
-
 double sw_tool_squeeze(sw_scene *s, const sw_tool *t, double time) {
   double sum = 0;
   sw_motion_state at;
