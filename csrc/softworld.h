@@ -27,6 +27,7 @@
 #include "scene/tool.h"
 #include "shape/mesh_read.h"
 #include "shape/shape.h"
+#include "step/step.h"
 #include "view/server.h"
 
 #endif

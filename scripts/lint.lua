@@ -23,6 +23,7 @@ local ROOMS = {
   calibrate = { "base", "wire", "force", "solve" },
   scene = { "base", "motion", "shape", "state", "wire", "force", "solve", "system", "integrate",
     "contact", "link", "calibrate", "modal" },
+  step = { "base", "motion", "state", "force", "solve", "system", "integrate", "contact", "link", "scene" },
   film = { "base", "scene" },
   view = { "base" }, -- bytes for pages; never a scene
   draw = { "base", "film" }, -- of film: bytes made few
@@ -40,6 +41,10 @@ local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "gr
     "state_tape.h", "tie.h", "web.h" },
   solve = { "band3.h", "band4.h", "blocks.h", "cholesky.h", "dense.h", "rotation.h", "sparse.h" },
   system = { "energy.h", "join.h", "rail.h", "system.h" } }
+
+-- Headers of a room that one other room alone may see: what makes a scene go on sees its inside.
+local OPEN_TO = { step = { scene = { "feed.h", "hold.h", "jaws.h", "join.h", "kept_frames.h", "ledger.h",
+  "line.h", "linear.h", "live.h", "observe.h", "obstacle.h", "touching.h", "world.h" } } }
 
 -- May include softworld.h.
 local USES_CORE = { bind = true, host = true }
@@ -232,8 +237,29 @@ local function check_own_include(file, number, room, stem, included, members)
   elseif not set_of(ROOMS[room])[other] then
     say("%s may not include %s (it may: %s); move the code or pass the data in", room, included,
       #ROOMS[room] > 0 and table.concat(ROOMS[room], " ") or "nothing else")
-  elseif not (OPEN[other] == true or name == other .. ".h" or set_of(OPEN[other] or {})[name]) then
+  elseif not (OPEN[other] == true or name == other .. ".h" or set_of(OPEN[other] or {})[name]
+      or set_of((OPEN_TO[room] or {})[other] or {})[name]) then
     say("%s is private to %s; use %s/%s.h", included, other, other, other)
+  end
+end
+
+-- A room that leads back to itself by the rows above, or nothing.
+local function circle_of_rooms(rooms)
+  local state = {}
+  local function visit(room, path)
+    path = path .. " -> " .. room
+    if state[room] == "open" then return path:match("-> (" .. room .. " .*)$") end
+    if state[room] then return end
+    state[room] = "open"
+    for _, other in ipairs(rooms[room]) do
+      local found = visit(other, path)
+      if found then return found end
+    end
+    state[room] = "done"
+  end
+  for room in pairs(rooms) do
+    local found = visit(room, "")
+    if found then return found end
   end
 end
 
@@ -255,6 +281,8 @@ end
 
 function check.includes()
   local members = {}
+  local circle = circle_of_rooms(ROOMS)
+  if circle then finding("scripts/lint.lua", 1, "rooms include one another in a circle: %s", circle) end
   for room in pairs(FAMILIES) do members[room] = members_of(room) end
   for _, file in ipairs(files("csrc", "*.c", "*.h", "*.def")) do
     local path = file:match "^csrc/(.*)$"

@@ -279,7 +279,7 @@ static int meth_freeze(lua_State *L) {
   sw_freeze_report r;
   const lsw_child *t = check(L, &scene);
   const lsw_child *w = lsw_check_child_of(L, 2, &lsw_class_wire, scene, "tool:freeze");
-  lsw_must(L, sw_scene_tool_freeze(scene, t->id, w->id, &r, &err), &err);
+  lsw_must(L, sw_scene_tool_freeze(scene, t->id, w->id, sw_scene_balance, &r, &err), &err);
   return push_report(L, &r);
 }
 
@@ -288,7 +288,7 @@ static int meth_thaw(lua_State *L) {
   sw_error err = {""};
   sw_freeze_report r;
   const lsw_child *t = check(L, &scene);
-  lsw_must(L, sw_scene_tool_thaw(scene, t->id, &r, &err), &err);
+  lsw_must(L, sw_scene_tool_thaw(scene, t->id, sw_scene_balance, &r, &err), &err);
   return push_report(L, &r);
 }
 

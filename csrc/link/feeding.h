@@ -3,6 +3,7 @@
 #ifndef SW_LINK_FEEDING_H
 #define SW_LINK_FEEDING_H
 
+#include "base/root.h"
 #include "motion/motion.h"
 #include "state/mesh.h"
 
@@ -26,9 +27,7 @@ typedef struct sw_feed {
   double push, limit;  /* force on the wire, the largest one; NAN = none [N] */
   double slip_way;     /* sign of the force against which it slips; 0 = it does not [-] */
   double way_before;   /* that of the step before [-] */
-  double tried[2];     /* slip_growths with too little force and with too much [m/s2] */
-  double off[2];       /* how far their forces were off; NAN = not tried yet [N] */
-  int last_side;       /* which of both was tried last [-] */
+  sw_bracket found;    /* slip_growths with too little force and with too much [m/s2], [N] */
   double slope;        /* of the force over slip_growth, last found; 0 = not known [kg] */
   double spare[2];     /* length given to the edge before and after the guide when nodes came
                           and went, so that no axial force jumps [m] */

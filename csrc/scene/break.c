@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "scene/line.h"
+#include "scene/obstacle.h"
 #include "scene/world.h"
 
 const char *const sw_breaking_flags[] = {"given", "measured", "computed", "guessed", NULL};

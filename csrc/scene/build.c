@@ -6,12 +6,26 @@
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
+#include "base/log.h"
+#include "base/tape.h"
+#include "link/hold.h"
+#include "scene/forces.h"
+#include "scene/history.h"
+#include "scene/hold.h"
+#include "scene/jaws.h"
+#include "scene/join.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
+#include "scene/spin.h"
+#include "scene/touching.h"
 #include "scene/world.h"
+#include "state/field.h"
+#include "state/mesh.h"
 
 static void drop(sw_scene *s) {
-  sw_stepper_free(&s->stepper);
-  s->has_stepper = 0;
-  s->method = NULL;
+  sw_stepper_free(&s->course.stepper);
+  s->course.has_stepper = 0;
+  s->course.method = NULL;
   sw_system_free(&s->system);
   sw_contact_free(s->contact);
   s->contact = NULL;
@@ -200,7 +214,7 @@ sw_status sw_scene_thaw(sw_scene *s) {
   }
   SW_TRY(keep_twist(s));
   drop(s);
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
   return SW_OK;
 }
 
@@ -454,7 +468,7 @@ sw_status sw_scene_build(sw_scene *s, sw_error *err) {
     sw_scene_forget_contact(s);
     sw_scene_inherit_histories(s);
     sw_scene_forget_histories(s);
-    s->discontinuous = 1;
+    sw_course_jump(&s->course);
   }
   s->system.gravity[0] = s->gravity.x;
   s->system.gravity[1] = s->gravity.y;

@@ -4,6 +4,9 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "link/hold.h"
+#include "scene/hold.h"
+#include "scene/line.h"
 #include "scene/world.h"
 
 static const double SAME_PLACE = 1e-9; /* of the wire's length: rounding [-] */

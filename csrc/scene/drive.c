@@ -3,7 +3,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "link/hold.h"
+#include "scene/jaws.h"
 #include "scene/world.h"
+#include "state/clamp.h"
 
 void sw_drive_free(sw_drive *d) {
   sw_motion_release(d->motion);

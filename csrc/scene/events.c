@@ -51,7 +51,8 @@ void sw_scene_tell(sw_scene *s, const char *kind, const char *object, double arc
   copy_name(name, object);
   copy_name(word, kind);
   sw_event *e = latest(&s->events, word, name);
-  const double soon = fmax(REPEAT, s->has_stepper ? REPEAT_STEPS * s->stepper.last_h : 0.0);
+  const double soon =
+      fmax(REPEAT, s->course.has_stepper ? REPEAT_STEPS * s->course.stepper.last_h : 0.0);
   if (e && (s->time - e->last > soon && s->events.count < SW_EVENTS_MOST)) e = NULL;
   const int repeat = e != NULL;
   if (!e && !(e = append(&s->events))) return;

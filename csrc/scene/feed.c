@@ -2,7 +2,11 @@
 /* What a user asks of a feed (link/feed.c). */
 #include <math.h>
 
+#include "link/hold.h"
+#include "scene/hold.h"
+#include "scene/line.h"
 #include "scene/world.h"
+#include "state/clamp.h"
 
 static sw_hold *feeding(sw_scene *s, sw_handle hold, sw_error *err) {
   sw_hold *h = sw_scene_living_hold(s, hold, err);
@@ -21,7 +25,7 @@ static sw_status open_feed(sw_scene *s, sw_handle hold, sw_hold **h, sw_error *e
 
 static void stop(sw_scene *s, sw_hold *h) {
   sw_feed_stop(h, s->time);
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
 }
 
 sw_status sw_scene_feed_speed(sw_scene *s, sw_handle hold, double speed, sw_error *err) {

@@ -13,11 +13,4 @@ sw_status sw_feed_too_fast(const sw_scene *scene, const char *refused, sw_error 
 /* Insert and remove nodes beside guides as a step to time t needs. changed: the system was
  * made anew. SW_EEMPTY: no wire left to draw in. */
 sw_status sw_feed_make_room(sw_scene *scene, double t, int *changed, sw_error *err);
-/* Steps of feeds that yield to a force: begin one (0: there are none), correct the slips
- * after a trial (1: they were right), or put them back. */
-int sw_slip_any(const sw_scene *scene);
-int sw_slip_begin(sw_scene *scene);
-int sw_slip_correct(sw_scene *scene, double h, int first);
-void sw_slip_give_up(sw_scene *scene);
-
 #endif

@@ -2,17 +2,22 @@
 /* The fields of a scene's objects as they lie in memory, for specs that look whether a tape has
  * them all: those of a scene that was restored in place are those of before. */
 #include "base/alloc.h"
+#include "link/joint.h"
 #include "scene/file.h"
+#include "scene/forces.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
 #include "scene/save.h"
+#include "scene/touching.h"
 
 /* What need not come back: it is found anew, or grows as it likes. */
 static void blank_scene(sw_scene *s) {
   s->serial = 0, s->snapshots = NULL, s->restoring = NULL;
   s->contact_steps = (sw_log){0};
-  s->parts = 0, s->covered = 0, s->part = 0;
-  s->jerks = 0;
+  s->course.parts = 0, s->course.covered = 0, s->part = 0;
+  s->course.jerks = 0;
   memset(&s->system, 0, sizeof s->system);
-  memset(&s->stepper, 0, sizeof s->stepper);
+  memset(&s->course.stepper, 0, sizeof s->course.stepper);
   s->builds = 0;
   s->frame_capacity = s->events.capacity = s->watches.capacity = s->watches.next = 0;
   s->frames = NULL, s->events.list = NULL, s->watches.list = NULL;

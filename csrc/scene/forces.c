@@ -1,27 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Forces of a scene, and which of them go with which wires. */
-#include <math.h>
+#include "scene/forces.h"
+
 #include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "scene/line.h"
+#include "scene/touching.h"
 #include "scene/world.h"
-
-sw_status sw_scene_check_line(const sw_scene_wire *w, const char *what, sw_error *err) {
-  if (!w->cls->mesh) return SW_OK;
-  if (sw_scene_is_loose(w))
-    return sw_fail(err, SW_EINVAL, "%s: '%s' is an object of particles; it goes with wires only",
-                   what, w->name);
-  return sw_fail(err, SW_EINVAL,
-                 "%s: wire '%s' is a %s, a mesh of particles; it goes with rods "
-                 "and strings only",
-                 what, w->name, w->cls->name);
-}
-
-sw_status sw_scene_check_touching(const sw_scene_wire *w, sw_error *err) {
-  if (sw_scene_is_loose(w)) return SW_OK;
-  return sw_scene_check_line(w, "scene:wire_contact", err);
-}
+#include "state/mesh.h"
 
 /* Can the force act on the wire? */
 static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, const void *args,
@@ -231,7 +219,7 @@ sw_status sw_scene_set_force(sw_scene *s, sw_handle force, const void *args, sw_
   const double place = f->args[0];
   memcpy(f->args, args, sizeof f->args);
   if (f->cls->flags & SW_FORCE_AT_PLACE) f->args[0] = place;
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
   return SW_OK;
 }
 

@@ -4,8 +4,16 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/tape.h"
+#include "contact/grains.h"
+#include "scene/kept_frames.h"
+#include "scene/line.h"
+#include "scene/observe.h"
+#include "scene/spin.h"
 #include "scene/world.h"
 #include "state/clamp.h"
+#include "state/field.h"
+#include "state/plan.h"
 
 static double angle_of_chord(double chord) { return 2.0 * asin(fmin(1.0, 0.5 * chord)); }
 

@@ -6,7 +6,9 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "contact/contact.h"
 #include "scene/frozen_inner.h"
+#include "scene/line.h"
 #include "state/hinge.h"
 
 /* Rings that the tool presses; 0: there are none. */
@@ -131,7 +133,7 @@ static sw_status keep_rod(sw_scene *s, sw_frozen *f, sw_error *err) {
 
 static sw_status change_to_rod(sw_scene *s, sw_handle tool, sw_frozen *f, const sw_line *line,
                                const sw_grip_end ends[2], const double *a, size_t count,
-                               sw_freeze_report *out, sw_error *err) {
+                               sw_balance *balance, sw_freeze_report *out, sw_error *err) {
   sw_vec about;
   sw_momentum_of(s, f->wire.slot, &about, out->before);
   out->energy_before = sw_scene_total_energy(s, err);
@@ -140,7 +142,7 @@ static sw_status change_to_rod(sw_scene *s, sw_handle tool, sw_frozen *f, const 
   f->hold = out->hold;
   SW_TRY(sw_scene_tool_pads_on(s, tool, 0, err));
   SW_TRY(sw_scene_build(s, err));
-  SW_TRY(sw_frozen_balance(s, f->wire.slot, a, count));
+  SW_TRY(sw_frozen_balance(s, f->wire.slot, a, count, balance));
   SW_TRY(sw_momentum_match(s, f->wire.slot, about, out->before));
   sw_momentum_about(s, f->wire.slot, about, out->after);
   out->energy_after = sw_scene_total_energy(s, err);
@@ -165,8 +167,8 @@ static sw_status check_freeze(const sw_scene *s, const sw_tool *t, sw_handle wir
   return SW_OK;
 }
 
-sw_status sw_scene_tool_freeze(sw_scene *s, sw_handle tool, sw_handle wire, sw_freeze_report *out,
-                               sw_error *err) {
+sw_status sw_scene_tool_freeze(sw_scene *s, sw_handle tool, sw_handle wire, sw_balance *balance,
+                               sw_freeze_report *out, sw_error *err) {
   sw_line line = {0};
   sw_grip_end ends[2];
   sw_snapshot *before = NULL;
@@ -193,12 +195,12 @@ sw_status sw_scene_tool_freeze(sw_scene *s, sw_handle tool, sw_handle wire, sw_f
   double *a = status == SW_OK ? sw_frozen_accelerations(s, wire.slot, &count) : NULL;
   if (status == SW_OK && !a) status = SW_ENOMEM;
   if (status == SW_OK) take_turns(&line, ends);
-  if (status == SW_OK) status = change_to_rod(s, tool, f, &line, ends, a, count, out, err);
+  if (status == SW_OK) status = change_to_rod(s, tool, f, &line, ends, a, count, balance, out, err);
   sw_free(a);
   sw_line_free(&line);
   if (status == SW_OK) {
     s->tools[tool.slot].frozen = f;
-    s->discontinuous = SW_GOES_ON;
+    sw_course_go_on(&s->course);
     sw_tool_state *now = &s->tools[tool.slot].now;
     now->margin = sw_frozen_margin(f, sw_unrotate(f->pose.q, out->force),
                                    sw_unrotate(f->pose.q, out->moment));

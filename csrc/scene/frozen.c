@@ -5,7 +5,9 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "contact/contact.h"
 #include "scene/frozen_inner.h"
+#include "scene/line.h"
 #include "scene/save.h"
 #include "state/state_tape.h"
 

@@ -31,12 +31,11 @@ static sw_status add_friction_of_motion(sw_scene *s, double *force, double *work
 
 /* Put the built scene where it is in balance with the accelerations that it has: of the wire those
  * of its rings or nodes before (rings x 3). Velocities stay. */
-sw_status sw_frozen_balance(sw_scene *s, size_t wire, const double *rings, size_t count) {
-  const sw_settle_args args = {.tolerance = BALANCED, .max_iterations = MOST_POSES};
+sw_status sw_frozen_balance(sw_scene *s, size_t wire, const double *rings, size_t count,
+                            sw_balance *balance) {
   const size_t n = s->system.freedoms;
   const sw_body *b = &s->system.bodies[wire];
   const sw_web *web = b->plan->web;
-  sw_settle_report report = {0};
   sw_error ignored = {""};
   double *dead = sw_alloc(5 * n, sizeof *dead);
   if (!dead) return SW_ENOMEM;
@@ -54,7 +53,7 @@ sw_status sw_frozen_balance(sw_scene *s, size_t wire, const double *rings, size_
     return SW_OK;
   }
   s->system.dead = dead;
-  const sw_status status = sw_scene_rest(s, s->time, NULL, &args, NULL, &report, &ignored);
+  const sw_status status = balance(s, BALANCED, MOST_POSES, &ignored);
   s->system.dead = NULL;
   memcpy(s->system.v, v, n * sizeof *v);
   memcpy(s->system.a, a, n * sizeof *a);

@@ -13,7 +13,11 @@
 
 #include "base/alloc.h"
 #include "scene/frozen_inner.h"
+#include "scene/line.h"
+#include "scene/linear.h"
+#include "scene/obstacle.h"
 #include "solve/dense.h"
+#include "system/system.h"
 
 enum { READ = 3, MOVED = 5, WAYS = 6 }; /* so many rings outside the pads; see above [-] */
 static const double MOST = 0.45;        /* a rod is held further inside by, of the pressed length */

@@ -4,7 +4,11 @@
 #ifndef SW_SCENE_FROZEN_INNER_H
 #define SW_SCENE_FROZEN_INNER_H
 
+#include "scene/jaws.h"
 #include "scene/remodel_inner.h"
+#include "scene/strand.h"
+#include "state/mesh.h"
+#include "system/energy.h"
 
 /* Where a pad pressed; in the tool's axes, from its centre. */
 typedef struct sw_frozen_touch {
@@ -37,7 +41,8 @@ struct sw_frozen {
 double *sw_frozen_accelerations(const sw_scene *scene, size_t wire, size_t *count);
 /* Put the built scene where it is in balance with its accelerations; those of the wire are
  * before (count x 3), of its rings or nodes. Velocities stay. */
-sw_status sw_frozen_balance(sw_scene *scene, size_t wire, const double *rings, size_t count);
+sw_status sw_frozen_balance(sw_scene *scene, size_t wire, const double *rings, size_t count,
+                            sw_balance *balance);
 
 /* The tool's pads press as they do now. SW_ENOMEM. */
 sw_status sw_frozen_keep_touches(sw_scene *scene, const sw_tool *tool, sw_frozen *f, sw_error *err);

@@ -20,6 +20,8 @@
 
 #include "base/alloc.h"
 #include "scene/frozen_inner.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
 #include "solve/cholesky.h"
 
 enum { SIX = 6, MOST_ROUNDS = 20 };

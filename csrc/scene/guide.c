@@ -3,7 +3,11 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "contact/grains.h"
+#include "link/hold.h"
 #include "link/spool.h"
+#include "scene/feed.h"
+#include "scene/line.h"
 #include "scene/world.h"
 #include "state/hinge.h"
 

@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What forces remember outlives a change of the system: clamps put on and taken
  * off, nodes moved and inserted, other forces made. */
+#include "scene/history.h"
+
 #include <string.h>
 
 #include "base/alloc.h"
+#include "contact/grains.h"
 #include "force/solid.h"
+#include "scene/forces.h"
+#include "scene/line.h"
 #include "scene/save.h"
 #include "state/state_tape.h"
 

@@ -1,56 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Holds of the scene: taking hold of a wire, driving, releasing. */
+#include "link/hold.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "link/joint.h"
+#include "scene/hold.h"
+#include "scene/jaws.h"
+#include "scene/join.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
 #include "scene/world.h"
+#include "state/field.h"
 #include "state/hinge.h"
+#include "state/mesh.h"
+#include "system/system.h"
 
-static void reshaped(void *user, size_t wire, size_t node) {
-  const sw_scene *s = user;
-  sw_scene_unloaded_near(s, wire, s->system.bodies[wire].plan, node);
-}
-
-sw_link_wire sw_scene_link_wire(const sw_scene *s, size_t wire) {
-  sw_scene_wire *w = &s->wires[wire];
-  return (sw_link_wire){.name = w->name,
-                        .mesh = &w->mesh,
-                        .beam = &w->beam,
-                        .time = s->time,
-                        .system = (sw_system *)&s->system,
-                        .body = wire,
-                        .user = (void *)s,
-                        .reshaped = reshaped};
-}
-
-void sw_scene_follow_holds(sw_scene *s) {
-  for (size_t k = 0; k < s->hold_count; k++) {
-    sw_hold *h = &s->holds[k];
-    const sw_link_wire w = sw_scene_link_wire(s, h->wire);
-    const double before = s->books.step.to.kinetic;
-    if (!h->alive || !h->cls->hold->follow || !h->cls->hold->follow(h, &w)) continue;
-    s->discontinuous = 1;
-    s->books.step.to.kinetic = sw_system_kinetic(&s->system, 0);
-    s->books.step.impact += before - s->books.step.to.kinetic;
-  }
-}
-
-void sw_scene_undo_holds(sw_scene *s) {
-  for (size_t k = 0; k < s->hold_count; k++) {
-    sw_hold *h = &s->holds[k];
-    const sw_link_wire w = sw_scene_link_wire(s, h->wire);
-    if (h->alive && h->cls->hold->undo) h->cls->hold->undo(h, &w);
-  }
-}
-
-sw_hold_way sw_hold_way_of(const sw_scene *s, const sw_hold *h, double t, const double *x) {
-  const sw_link_wire w = sw_scene_link_wire(s, h->wire);
-  return h->cls->hold->passes(h, &w, t, x);
-}
-
-/* All arc lengths of a wire that other holds and joins need as nodes. */
 static size_t kept_places(const sw_scene *s, size_t wire, double *out) {
   size_t n = 0;
   for (size_t k = 0; k < s->hold_count; k++) {
@@ -402,15 +370,6 @@ sw_status sw_scene_make_places(const sw_scene *s, size_t wire, sw_mesh *m) {
   return status;
 }
 
-sw_hold *sw_scene_living_hold(const sw_scene *s, sw_handle hold, sw_error *err) {
-  sw_hold *h = sw_scene_find_hold(s, hold, err);
-  if (h && !h->alive) {
-    sw_fail(err, SW_EDEAD, "%s '%s' has been released", h->cls->name, h->name);
-    return NULL;
-  }
-  return h;
-}
-
 sw_status sw_scene_release_hold(sw_scene *s, sw_handle hold, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   sw_hold *h = sw_scene_find_hold(s, hold, err);
@@ -431,7 +390,7 @@ sw_status sw_scene_follow(sw_scene *s, sw_handle hold, sw_motion *motion, int re
   if (!h) return SW_EDEAD;
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_drive_follow(s, &h->drive, h->name, motion, relative, err));
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
   return SW_OK;
 }
 
@@ -444,7 +403,7 @@ sw_status sw_scene_set_pose(sw_scene *s, sw_handle hold, sw_pose pose, sw_error 
                    s->tools[h->drive.tool - 1].name);
   sw_drive_free(&h->drive);
   h->drive = (sw_drive){.pose = pose};
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
   return SW_OK;
 }
 

@@ -4,7 +4,11 @@
  * with more than any wire bears? Both are noticed and told. */
 #include <math.h>
 
-#include "scene/events.h"
+#include "link/hold.h"
+#include "scene/hold.h"
+#include "scene/jaws.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
 #include "scene/world.h"
 
 /* A held place may be so much deeper in an obstacle than where it was taken hold of, of the

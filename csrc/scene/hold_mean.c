@@ -4,6 +4,8 @@
  * without end as steps get shorter, and that at the step's end says nothing of the impulse. */
 #include <math.h>
 
+#include "link/hold.h"
+#include "scene/hold.h"
 #include "scene/world.h"
 
 static sw_vec booked(const sw_booking *b, sw_vec now, sw_vec before, sw_vec first) {
@@ -37,19 +39,19 @@ static double usual_force(const sw_scene *s, size_t wire) {
 /* A method that only looks on from the middle of a step rings after a jerk: what rings counts as
  * values at the steps' ends, whose mean over two steps is right. */
 double sw_hold_span(const sw_scene *s, int mean) {
-  const int rings = s->has_stepper && (s->method->flags & SW_INTEGRATOR_ONWARDS);
-  return mean && !rings ? s->span : -s->span;
+  const int rings = s->course.has_stepper && (s->course.method->flags & SW_INTEGRATOR_ONWARDS);
+  return mean && !rings ? s->course.span : -s->course.span;
 }
 
 int sw_hold_jerked(const sw_scene *s, const sw_hold *h, sw_vec *force, sw_vec *moment) {
   const sw_hold_sums *sums = &h->sums;
-  if (!sums->known || !(s->span > 0) || sw_hold_passes(h)) return 0;
-  const sw_vec mean = sw_scale(sums->force[sums->last], 1.0 / s->span);
+  if (!sums->known || !(s->course.span > 0) || sw_hold_passes(h)) return 0;
+  const sw_vec mean = sw_scale(sums->force[sums->last], 1.0 / s->course.span);
   const double off = sw_norm(sw_sub(h->force, mean));
   const int sharp =
       off > JERK * fmax(sw_norm(h->force), sw_norm(mean)) && off > SHARP * usual_force(s, h->wire);
-  if (!sharp && !s->jerks) return 0;
+  if (!sharp && !s->course.jerks) return 0;
   *force = mean;
-  *moment = sw_scale(sums->moment[sums->last], 1.0 / s->span);
+  *moment = sw_scale(sums->moment[sums->last], 1.0 / s->course.span);
   return 1;
 }

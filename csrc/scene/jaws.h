@@ -4,6 +4,7 @@
 #ifndef SW_SCENE_JAWS_H
 #define SW_SCENE_JAWS_H
 
+#include "base/root.h"
 #include "link/hold.h"
 #include "scene/scene.h"
 #include "scene/tool.h"
@@ -21,10 +22,14 @@ typedef struct sw_jaw {
   double force;     /* per finger: wanted, or at which they stop [N] */
   double now;       /* force per finger of the accepted state [N] */
   double stiffness; /* of what they hold, last found; 0 = not known [N/m] */
-  double tried[2];  /* speeds with too little force and with too much [m/s] */
-  double off[2];    /* how far their forces were off; NAN = not tried [N] */
-  int last_side, trials, guessed;
+  sw_bracket found; /* speeds with too little force and with too much [m/s], [N] */
+  int trials, guessed;
 } sw_jaw;
+
+/* How far they are open at time t [m]. */
+static inline double sw_jaw_at(const sw_jaw *jaw, double t) {
+  return jaw->opening + jaw->speed * (t - jaw->since);
+}
 
 typedef struct sw_tool_pad {
   size_t obstacle; /* slot */
@@ -62,8 +67,6 @@ typedef struct sw_tool {
  * the motion may be a user's function. */
 sw_status sw_drive_eval(sw_scene *scene, const sw_drive *drive, double t, sw_motion_state *out,
                         sw_error *err);
-/* 1: something that holds a wire starts, stops or turns a corner at once at the present time. */
-int sw_scene_jerks(sw_scene *scene);
 /* Follow the motion from the scene's time on. */
 sw_status sw_drive_follow(sw_scene *scene, sw_drive *drive, const char *object, sw_motion *motion,
                           int relative, sw_error *err);
@@ -73,27 +76,12 @@ static inline int sw_drive_moves(const sw_drive *drive) { return drive->motion |
 
 void sw_scene_clear_tool(sw_tool *tool);
 sw_tool *sw_scene_find_tool(const sw_scene *scene, sw_handle h, sw_error *err);
-/* Their jaws at the start of a step of size h; 1: a trial may have to be corrected. After a
- * trial: 1 = the forces are as wanted, or cannot be. After an accepted one, or one given up. */
-int sw_jaw_begin(sw_scene *scene, double h);
-int sw_jaw_correct(sw_scene *scene, int rests); /* rests: trials are equilibria */
-/* How far the forces of a trial are off, the worst over what is wanted [-]. */
-double sw_jaw_off(sw_scene *scene);
-/* After an equilibrium that is taken: 1 = its force is not as wanted, for that jumped, and the jaws
- * have begun to look for it from there on. */
-int sw_jaw_again(sw_scene *scene);
-void sw_jaw_follow(sw_scene *scene);
-/* The same of an equilibrium at the scene's time: jaws that hold with a force open or close at
- * once, by a small part of the wires' thickness. After it: 1 = they have to go further. */
-int sw_jaw_begin_rest(sw_scene *scene);
-int sw_jaw_end_rest(sw_scene *scene, int went_well);
-/* The largest pose step up to h in which jaws that close with a force go no further than a small
- * part of the wires' thickness [s]. */
-double sw_jaw_step(const sw_scene *scene, double h);
-/* How far they are open at time t, and how fast that changes [m], [m/s]. */
-double sw_jaw_at(const sw_jaw *jaw, double t);
 /* 1: the obstacle of this number is one of its pads. */
-int sw_tool_is_pad(const sw_tool *tool, int obstacle);
+static inline int sw_tool_is_pad(const sw_tool *t, int obstacle) {
+  for (size_t k = 0; k < t->pads; k++)
+    if (t->pad[k].obstacle == (size_t)obstacle) return 1;
+  return 0;
+}
 /* Force per finger as of the last trial, which ended at time t [N]. */
 double sw_tool_squeeze(sw_scene *scene, const sw_tool *tool, double t);
 /* What tools hold at the accepted state; their logs. */

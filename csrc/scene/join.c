@@ -1,32 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Joins: points where wires are fixed to each other. */
-#include "system/join.h"
+#include "scene/join.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "link/hold.h"
+#include "link/joint.h"
+#include "scene/line.h"
 #include "scene/world.h"
+#include "state/mesh.h"
+#include "system/join.h"
 
 /* How far from each other the ends may be, of the shortest segment there [-]. */
 static const double LARGEST_GAP = 0.02;
 typedef sw_joint_end end;
 
-/* The wires of a joint, as links see them. */
-static void wires_of(const sw_scene *s, const sw_joint *j, sw_link_wire out[SW_JOIN_ENDS]) {
-  for (size_t k = 0; k < j->count; k++) {
-    const sw_scene_wire *w = &s->wires[j->ends[k].wire];
-    sw_recipe recipe;
-    w->cls->recipe(&w->beam, &recipe);
-    out[k] = sw_scene_link_wire(s, j->ends[k].wire);
-    out[k].bends = recipe.push != 0;
-  }
-}
-
 static void measure(const sw_scene *s, sw_joint *j) {
   sw_link_wire wires[SW_JOIN_ENDS];
-  wires_of(s, j, wires);
+  sw_scene_joint_wires(s, j, wires);
   if (j->cls->joint->measure) j->cls->joint->measure(j, wires);
 }
 
@@ -170,24 +164,6 @@ sw_status sw_scene_add_join(sw_scene *s, const sw_join_args *args, const sw_join
 
 /* --- another mesh ----------------------------------------------------------------- */
 
-const sw_joint *sw_scene_joined(const sw_scene *s, size_t wire) {
-  for (size_t k = 0; k < s->join_count; k++)
-    for (size_t i = 0; s->joins[k].alive && i < s->joins[k].count; i++)
-      if (s->joins[k].ends[i].wire == wire) return &s->joins[k];
-  return NULL;
-}
-
-size_t sw_scene_join_places(const sw_scene *s, size_t wire, double *out) {
-  size_t n = 0;
-  for (size_t k = 0; k < s->join_count; k++)
-    for (size_t i = 0; s->joins[k].alive && i < s->joins[k].count; i++) {
-      if (s->joins[k].ends[i].wire != wire) continue;
-      if (out) out[n] = s->joins[k].ends[i].s;
-      n++;
-    }
-  return n;
-}
-
 sw_status sw_scene_retake_joins(sw_scene *s, size_t wire) {
   sw_mesh *m = &s->wires[wire].mesh;
   size_t count;
@@ -207,26 +183,7 @@ sw_status sw_scene_retake_joins(sw_scene *s, size_t wire) {
   return status;
 }
 
-/* --- into the system -------------------------------------------------------------- */
-
-sw_status sw_scene_add_joins(sw_scene *s) {
-  sw_link_wire wires[SW_JOIN_ENDS];
-  for (size_t k = 0; k < s->join_count; k++) {
-    if (!s->joins[k].alive) continue;
-    wires_of(s, &s->joins[k], wires);
-    SW_TRY(s->joins[k].cls->joint->add(&s->joins[k], wires));
-  }
-  return SW_OK;
-}
-
 /* --- handles ---------------------------------------------------------------------- */
-
-sw_joint *sw_scene_find_join(const sw_scene *s, sw_handle h, sw_error *err) {
-  if (h.slot < s->join_count && s->joins[h.slot].generation == h.generation)
-    return &s->joins[h.slot];
-  sw_fail(err, SW_EDEAD, "this join is not of scene '%s' any more", s->name);
-  return NULL;
-}
 
 const char *sw_scene_join_name(const sw_scene *s, sw_handle h, int *held, size_t *ends) {
   const sw_joint *j = sw_scene_find_join(s, h, NULL);
@@ -259,7 +216,7 @@ sw_status sw_scene_join_force(sw_scene *s, sw_handle h, size_t k, sw_vec *force,
   if (!j->alive) return SW_OK;
   SW_TRY(sw_scene_build(s, err));
   sw_link_wire wires[SW_JOIN_ENDS];
-  wires_of(s, j, wires);
+  sw_scene_joint_wires(s, j, wires);
   j->cls->joint->force(j, wires, k, force, moment);
   return SW_OK;
 }

@@ -14,6 +14,9 @@ size_t sw_scene_join_places(const sw_scene *scene, size_t wire, double *out);
 sw_status sw_scene_retake_joins(sw_scene *scene, size_t wire);
 /* Meshes are others: joins of wires that lie as drawn keep what these have now. */
 void sw_scene_measure_joins(sw_scene *scene);
+/* The wires of a joint, as links see them. */
+void sw_scene_joint_wires(const sw_scene *scene, const sw_joint *join,
+                          sw_link_wire out[SW_JOIN_ENDS]);
 /* Springs and hinges of the living joins for the new system. SW_ENOMEM. */
 sw_status sw_scene_add_joins(sw_scene *scene);
 /* 1: there is a tie that has a strength, and is not broken. */

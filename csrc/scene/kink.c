@@ -5,6 +5,7 @@
  * sqrt 3. Either way there is nothing to be found beyond but a tube that is folded at one place. */
 #include <math.h>
 
+#include "scene/line.h"
 #include "scene/world.h"
 
 static const double LIMIT = 0.4714, BUCKLES = 0.381; /* a [-] */

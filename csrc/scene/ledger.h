@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The energy ledger of a run, and the referee: steps that make energy are told from those that do
- * not. A step is opened before it is tried, judged as a trial, and closed once it is accepted. */
+/* The energy ledger of a run, as the scene keeps it. Steps write it. Of the scene's inside. */
 #ifndef SW_SCENE_LEDGER_H
 #define SW_SCENE_LEDGER_H
 
@@ -57,36 +56,7 @@ typedef struct sw_books {
   sw_log log; /* rows of SW_LOG_ENERGY_SIZE */
 } sw_books;
 
-/* A run begins; the scene goes. */
-void sw_ledger_begin_run(sw_scene *scene);
 void sw_ledger_free(sw_books *books);
 void sw_tape_ledger(sw_tape *tape, sw_books *books);
-
-/* The scene may have been changed since the last step: measure anew before the next. */
-void sw_ledger_forget(sw_scene *scene);
-/* A step begins at the state. SW_ENOMEM, SW_ECALLBACK. */
-sw_status sw_ledger_open(sw_scene *scene, sw_error *err);
-/* The trial of size h that ends at t1. changed: the scene was, just before; forces at the start are
- * not known then. */
-sw_status sw_ledger_judge(sw_scene *scene, double t1, double h, int changed, sw_error *err);
-/* 1: the run's method is judged. Methods that do not damp go to and fro in energy; what they make
- * is only told. */
-int sw_ledger_referees(const sw_scene *scene);
-/* Energy that the judged trial makes beyond what a step of size h is allowed, of whole ones of that
- * size [J]; 0: it is fine. */
-double sw_ledger_excess(const sw_scene *scene, double h, double whole);
-/* The judged step was accepted, committed and observed. SW_ENOMEM. */
-sw_status sw_ledger_close(sw_scene *scene);
-/* A pose was reached from the state that was opened; jumped: by a jump of equilibrium. */
-sw_status sw_ledger_pose(sw_scene *scene, int jumped, sw_error *err);
-/* Count a retry for the trial that was judged last. */
-void sw_ledger_retry(const sw_scene *scene, sw_retries *retries, double time, double excess);
-
-/* Work of holds, feeds and obstacles in the judged step, into step. Gives the most that it may
- * have been, as forces change within the step [J]. */
-double sw_ledger_work(sw_scene *scene, double t1, int changed);
-/* Forces and poses at the state, for the next step. logged: holds' forces there are in their logs.
- * SW_ENOMEM. */
-sw_status sw_ledger_note_workers(sw_scene *scene, int logged);
 
 #endif

@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "contact/grains.h"
+#include "scene/line.h"
 #include "scene/save.h"
 
 sw_live sw_live_of(const sw_scene *s) {
@@ -18,13 +20,13 @@ sw_live sw_live_of(const sw_scene *s) {
     sw_pairs_seen(s->pairs, p.seen + 1, p.seen_size + 1);
   }
   if (s->grains) p.grains = sw_grains_memory(s->grains, &p.grains_size);
-  if (!s->has_stepper) return p;
-  p.method = s->method;
-  p.last_h = s->stepper.last_h;
-  p.restart = s->stepper.restart;
-  if (!(s->method->flags & SW_INTEGRATOR_HISTORY)) return p;
-  p.history_size = sw_stepper_history(&s->stepper, &s->system);
-  p.history = s->stepper.xp;
+  if (!s->course.has_stepper) return p;
+  p.method = s->course.method;
+  p.last_h = s->course.stepper.last_h;
+  p.restart = s->course.stepper.restart;
+  if (!(s->course.method->flags & SW_INTEGRATOR_HISTORY)) return p;
+  p.history_size = sw_stepper_history(&s->course.stepper, &s->system);
+  p.history = s->course.stepper.xp;
   return p;
 }
 
@@ -83,21 +85,21 @@ sw_status sw_live_put(sw_scene *s, const sw_live *p, sw_error *err) {
   if (status == SW_EINVAL)
     return sw_fail(err, SW_EFORMAT, "its contact does not go with its objects");
   SW_TRY(status);
-  if (p->method && (!s->has_stepper || s->method != p->method)) {
-    sw_stepper_free(&s->stepper);
-    s->has_stepper = 0;
-    SW_TRY(sw_stepper_new(&s->stepper, p->method, &s->system));
-    s->has_stepper = 1;
-    s->method = p->method;
+  if (p->method && (!s->course.has_stepper || s->course.method != p->method)) {
+    sw_stepper_free(&s->course.stepper);
+    s->course.has_stepper = 0;
+    SW_TRY(sw_stepper_new(&s->course.stepper, p->method, &s->system));
+    s->course.has_stepper = 1;
+    s->course.method = p->method;
   }
   if (p->method) {
-    s->stepper.last_h = p->last_h;
-    s->stepper.restart = p->restart;
-    if (p->history_size) memcpy(s->stepper.xp, p->history, p->history_size * sizeof(double));
-  } else if (s->has_stepper) { /* taken before the first run */
-    sw_stepper_free(&s->stepper);
-    s->has_stepper = 0;
-    s->method = NULL;
+    s->course.stepper.last_h = p->last_h;
+    s->course.stepper.restart = p->restart;
+    if (p->history_size) memcpy(s->course.stepper.xp, p->history, p->history_size * sizeof(double));
+  } else if (s->course.has_stepper) { /* taken before the first run */
+    sw_stepper_free(&s->course.stepper);
+    s->course.has_stepper = 0;
+    s->course.method = NULL;
   }
   return sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err);
 }

@@ -3,26 +3,14 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/kept_frames.h"
+#include "scene/line.h"
+#include "scene/observe.h"
+#include "scene/spin.h"
+#include "scene/touching.h"
 #include "scene/world.h"
 #include "state/clamp.h"
 #include "system/join.h"
-
-sw_status sw_scene_open_body(sw_scene *s, sw_handle h, sw_scene_wire **body, sw_error *err) {
-  SW_TRY(sw_scene_readable(s, err));
-  *body = sw_scene_find_body(s, h, err);
-  if (!*body) return SW_EDEAD;
-  if (s->running) return sw_scene_still(s, err);
-  SW_TRY(sw_scene_build(s, err));
-  SW_TRY(sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err));
-  sw_system_refresh(&s->system);
-  return SW_OK;
-}
-
-/* The same of a wire only. */
-sw_status sw_scene_open_wire(sw_scene *s, sw_handle h, sw_scene_wire **wire, sw_error *err) {
-  if (!sw_scene_find_wire(s, h, err)) return SW_EDEAD;
-  return sw_scene_open_body(s, h, wire, err);
-}
 
 sw_status sw_scene_wire_length(sw_scene *s, sw_handle h, double *length, sw_error *err) {
   const sw_scene_wire *w = sw_scene_find_wire(s, h, err);
@@ -169,14 +157,6 @@ double sw_scene_torque(const sw_system *s, const sw_body *b, double at) {
   return 0.0;
 }
 
-sw_status sw_scene_check_place(const sw_scene_wire *w, double place, sw_error *err) {
-  const double length = w->mesh.s[w->mesh.n - 1] - w->mesh.s[0];
-  if (place >= 0 && place <= length * (1 + 1e-12)) return SW_OK;
-  return sw_fail(err, SW_EINVAL,
-                 "wire '%s': s = %.6g m is not on the wire; it must be in [0, %.6g] m", w->name,
-                 place, length);
-}
-
 sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double place, sw_point_state *out,
                            sw_error *err) {
   sw_scene_wire *w;
@@ -252,7 +232,7 @@ sw_status sw_scene_wire_set_velocity(sw_scene *s, sw_handle h, sw_vec v, sw_vec 
   sw_system_forget_turning(&s->system);
   for (size_t e = 0; b->roll_block && e < b->plan->edges; e++)
     s->system.v[3 * s->system.nodes + b->first_roll + e] = sw_dot(omega, tangent_of(&b->field, e));
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
   return SW_OK;
 }
 
@@ -291,7 +271,7 @@ static void add_energy(sw_energy *out, const char *kind, double value) {
 
 /* Explicit methods have lumped masses. */
 static int lumped(const sw_scene *s) {
-  return s->has_stepper && !(s->method->flags & SW_INTEGRATOR_IMPLICIT);
+  return s->course.has_stepper && !(s->course.method->flags & SW_INTEGRATOR_IMPLICIT);
 }
 
 /* Of the forces on one body. */

@@ -3,7 +3,14 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/tape.h"
+#include "contact/grains.h"
+#include "link/hold.h"
+#include "link/joint.h"
 #include "modal/modal.h"
+#include "scene/join.h"
+#include "scene/line.h"
+#include "scene/linear.h"
 #include "scene/world.h"
 
 static const sw_param rows[] = {

@@ -1,17 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Records of every accepted state: histories, extremes, logs. Part of the scene's inside, see
- * world.h. */
+/* Records of every accepted state: histories, extremes, logs. Of the scene's inside. */
 #ifndef SW_SCENE_OBSERVE_H
 #define SW_SCENE_OBSERVE_H
 
-#include "scene/frames.h"
+#include "scene/scene.h"
 #include "state/clamp.h"
 #include "state/field.h"
 #include "system/system.h"
 
-struct sw_scene_obstacle;
-
-/* After an accepted state: histories, extremes, logs. */
+/* After an accepted state, which holds and jaws follow: histories, extremes, logs. */
 sw_status sw_scene_observe(sw_scene *scene, sw_error *err);
 /* Extremes of wire w at the refreshed state. */
 void sw_scene_wire_now(sw_scene *scene, size_t w, sw_wire_extremes *now);
@@ -21,27 +18,14 @@ void sw_scene_run_tension(const sw_scene *scene, size_t wire, const sw_wire_extr
 /* Keep the larger ones, but for the tension. */
 void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now);
 void sw_scene_reset_extremes(sw_scene *scene);
-/* Let the observer look, if it is due; times within slack are the same [s]. */
-sw_status sw_scene_look(sw_scene *scene, sw_observer *observer, double slack, sw_error *err);
+/* Those of wire w at an accepted state into *now, and kept. SW_ENOMEM. */
+sw_status sw_scene_note_extremes(sw_scene *scene, size_t w, sw_wire_extremes *now, sw_error *err);
 
-/* Kinetic, elastic, gravity energy of the state [J]. */
-void sw_scene_frame_energies(sw_scene *scene, double out[SW_FRAME_ENERGIES]);
-sw_status sw_scene_store_frame(sw_scene *scene, sw_error *err);
-void sw_scene_drop_frames(sw_scene *scene);
-/* A snapshot with so many frames, one of stride, is restored: what came later goes. */
-void sw_scene_frames_back_to(sw_scene *scene, size_t count, size_t stride);
-/* What frames tell of each node of the wire, SW_FRAME_VALUES numbers; n nodes. */
-void sw_scene_node_values(sw_scene *scene, size_t wire, size_t n, float *out);
 /* The moment about the wire's axis at arc length at of its mesh [N m]. */
 double sw_scene_torque(const sw_system *system, const sw_body *body, double at);
 /* |t2 - t1| at inner node i of a line [-]; the curvature beside a clamp [1/m]. */
 double sw_scene_hinge_chord(const sw_field *field, size_t i);
 double sw_scene_clamp_curvature(const sw_system *system, const sw_body *body,
                                 const sw_clamp_hinge *hinge);
-
-/* Mean force of wires on an obstacle over the last step, blows included, and its moment about a
- * point [N], [N m]. */
-void sw_obstacle_mean(const struct sw_scene_obstacle *obstacle, sw_vec about, sw_vec *force,
-                      sw_vec *moment);
 
 #endif

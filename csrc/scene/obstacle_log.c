@@ -3,6 +3,8 @@
  * a force are added when something does, or when the series is read. */
 #include <string.h>
 
+#include "scene/obstacle.h"
+#include "scene/touching.h"
 #include "scene/world.h"
 
 enum { TIME, SPAN, STEP }; /* a row of the scene's steps with contact */
@@ -36,7 +38,7 @@ sw_status sw_obstacle_log_fill_all(sw_scene *s) {
 }
 
 sw_status sw_obstacle_log_state(sw_scene *s) {
-  const double step[STEP] = {[TIME] = s->time, [SPAN] = s->span};
+  const double step[STEP] = {[TIME] = s->time, [SPAN] = s->course.span};
   size_t count;
   if (!s->contact) return SW_OK;
   if (!sw_contact_informed(s->contact)) sw_scene_inform_contact(s);
@@ -51,4 +53,11 @@ sw_status sw_obstacle_log_state(sw_scene *s) {
     SW_TRY(add(s, o, force));
   }
   return SW_OK;
+}
+
+void sw_obstacle_mean(const sw_scene_obstacle *o, sw_vec about, sw_vec *force, sw_vec *moment) {
+  *force = *moment = sw_v(0, 0, 0);
+  if (o->off) return;
+  *force = o->past.mean.force;
+  *moment = sw_sub(o->past.mean.moment, sw_cross(about, *force));
 }

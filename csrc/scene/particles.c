@@ -10,6 +10,11 @@
 
 #include "base/alloc.h"
 #include "force/solid.h"
+#include "scene/line.h"
+#include "scene/scene.h"
+#include "scene/world.h"
+#include "state/mesh.h"
+#include "system/system.h"
 
 static const sw_param rows[] = {
     {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_particles_args, name),

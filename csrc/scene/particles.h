@@ -3,7 +3,7 @@
 #ifndef SW_SCENE_PARTICLES_H
 #define SW_SCENE_PARTICLES_H
 
-#include "scene/world.h"
+#include "scene/objects.h"
 
 typedef struct maker {
   const char *name;

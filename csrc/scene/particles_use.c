@@ -6,7 +6,11 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "link/hold.h"
+#include "scene/line.h"
+#include "scene/objects.h"
 #include "scene/world.h"
+#include "state/field.h"
 
 static sw_scene_wire *find(const sw_scene *s, sw_handle h, sw_error *err) {
   sw_scene_wire *w = sw_scene_find_body(s, h, err);
@@ -67,7 +71,7 @@ sw_status sw_scene_particles_set_velocities(sw_scene *s, sw_handle h, const doub
   for (size_t i = 0; i < b->plan->nodes; i++)
     if (b->plan->held[i] == SW_FREE)
       sw_store(s->system.v + 3 * (b->first_node + i), sw_vec_at(velocities, i));
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
   return SW_OK;
 }
 

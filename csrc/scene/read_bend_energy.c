@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/line.h"
 #include "scene/readout.h"
 #include "scene/world.h"
 

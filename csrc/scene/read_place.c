@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a wire has at a place, and the list of all read-outs. */
+#include "scene/line.h"
 #include "scene/readout.h"
 #include "scene/world.h"
 

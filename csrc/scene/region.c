@@ -8,6 +8,8 @@
 #include <stdlib.h>
 
 #include "base/alloc.h"
+#include "link/hold.h"
+#include "scene/line.h"
 
 enum { BESIDE = 2 };              /* slices beside what clamps [-] */
 static const double NARROW = 4.0; /* parts nearer than this are one, of slices [-] */

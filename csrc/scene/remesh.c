@@ -5,8 +5,14 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "link/hold.h"
+#include "scene/hold.h"
+#include "scene/join.h"
+#include "scene/line.h"
 #include "scene/world.h"
+#include "state/field.h"
 #include "state/hinge.h"
+#include "state/mesh.h"
 
 static const double SAME_PLACE = 1e-9; /* of the wire's length [-] */
 

@@ -8,7 +8,13 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "link/hold.h"
+#include "scene/hold.h"
+#include "scene/jaws.h"
+#include "scene/join.h"
+#include "scene/line.h"
 #include "scene/remodel_inner.h"
+#include "state/plan.h"
 
 static const sw_param rows[] = {
     {"model", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0, "the model that the wire is to have"},
@@ -64,7 +70,7 @@ static void replace(sw_scene *s, size_t wire, sw_scene_wire *with) {
   w->cls = with->cls, w->mesh = with->mesh, w->strand = with->strand;
   w->twisted = with->twisted, w->twisted_count = with->twisted_count, w->untwisted = 0;
   s->kept.changed = wire + 1;
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
 }
 
 static sw_status check(const sw_scene *s, size_t wire, const sw_wire_class *cls, sw_error *err) {

@@ -4,7 +4,7 @@
 #define SW_SCENE_REMODEL_INNER_H
 
 #include "scene/region.h"
-#include "scene/world.h"
+#include "state/mesh.h"
 
 /* The middle line at even arc lengths, or at given ones. */
 typedef struct sw_line {

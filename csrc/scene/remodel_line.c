@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
+#include "scene/line.h"
 #include "scene/remodel_inner.h"
 #include "state/hinge.h"
 

@@ -8,7 +8,13 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "link/joint.h"
 #include "scene/file.h"
+#include "scene/forces.h"
+#include "scene/hold.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
+#include "scene/touching.h"
 
 typedef struct head {
   char magic[16];

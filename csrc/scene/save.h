@@ -4,7 +4,11 @@
 #define SW_SCENE_SAVE_H
 
 #include "base/tape.h"
+#include "scene/jaws.h"
+#include "scene/live.h"
+#include "scene/strand.h"
 #include "scene/world.h"
+#include "system/system.h"
 
 /* The whole scene. Reading fills an empty one, or, from a tape at home, one whose system is that of
  * the tape, which stays then. live: of a scene that is built (then or now): its state. */

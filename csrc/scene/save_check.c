@@ -4,7 +4,12 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "link/joint.h"
+#include "scene/forces.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
 #include "scene/save.h"
+#include "scene/touching.h"
 
 static int is_node(const sw_mesh *m, double s) { return m->s[sw_mesh_node(m, s)] == s; }
 

@@ -4,7 +4,14 @@
 
 #include "base/alloc.h"
 #include "force/solid.h"
+#include "link/joint.h"
+#include "scene/forces.h"
+#include "scene/frames.h"
+#include "scene/kept_frames.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
 #include "scene/save.h"
+#include "scene/touching.h"
 #include "state/state_tape.h"
 
 #define DOUBLE(field) sw_tape_double(t, &x->field)
@@ -142,6 +149,11 @@ void sw_tape_hold_args(sw_tape *t, sw_hold_args *x) {
   DOUBLE(speed), DOUBLE(force), DOUBLE(force_limit);
 }
 
+static void tape_bracket(sw_tape *t, sw_bracket *x, const char *what) {
+  DOUBLE(tried[0]), DOUBLE(tried[1]), DOUBLE(off[0]), DOUBLE(off[1]), INT(last_side);
+  sw_tape_expect(t, x->last_side >= -1 && x->last_side <= 1, what);
+}
+
 static void tape_feed(sw_tape *t, sw_feed *x) {
   int shaped = x->shape.n > 0;
   SW_TAPE_STRUCT(t, sw_feed, 368);
@@ -149,12 +161,11 @@ static void tape_feed(sw_tape *t, sw_feed *x) {
   sw_tape_motion(t, &x->motion);
   DOUBLE(slip), DOUBLE(slip_since), DOUBLE(slip_speed), DOUBLE(slip_growth), DOUBLE(slip_before);
   DOUBLE(push), DOUBLE(limit), DOUBLE(slip_way), DOUBLE(way_before);
-  DOUBLE(tried[0]), DOUBLE(tried[1]), DOUBLE(off[0]), DOUBLE(off[1]), INT(last_side);
+  tape_bracket(t, &x->found, "a feed");
   DOUBLE(slope), DOUBLE(spare[0]), DOUBLE(spare[1]), DOUBLE(spare_fed[0]), DOUBLE(spare_fed[1]);
   DOUBLE(size), DOUBLE(drive);
   sw_tape_int(t, &shaped);
   if (shaped) sw_tape_mesh(t, &x->shape, 1);
-  sw_tape_expect(t, x->last_side >= -1 && x->last_side <= 1, "a feed");
   if (!sw_tape_reads(t)) return;
   const double all = x->label + x->fed + x->since + x->speed + x->start + x->slip + x->slip_since +
                      x->slip_speed + x->slip_growth + x->slip_before + x->slope + x->size;
@@ -233,11 +244,10 @@ void sw_tape_jaw(sw_tape *t, sw_jaw *x) {
   SW_TAPE_STRUCT(t, sw_jaw, 128);
   INT(mode), INT(status), DOUBLE(opening), DOUBLE(since), DOUBLE(step), DOUBLE(speed);
   DOUBLE(most), DOUBLE(goal), DOUBLE(force), DOUBLE(now), DOUBLE(stiffness);
-  DOUBLE(tried[0]), DOUBLE(tried[1]), DOUBLE(off[0]), DOUBLE(off[1]), INT(last_side), INT(trials),
-      INT(guessed);
+  tape_bracket(t, &x->found, "jaws");
+  INT(trials), INT(guessed);
   sw_tape_expect(t, x->mode >= SW_JAW_STILL && x->mode <= SW_JAW_FORCE, "jaws");
   sw_tape_expect(t, x->status >= SW_JAW_RESTS && x->status <= SW_JAW_EMPTY, "jaws");
-  sw_tape_expect(t, x->last_side >= -1 && x->last_side <= 1, "jaws");
   sw_tape_expect(t, isfinite(x->opening + x->since + x->speed), "jaws");
 }
 

@@ -292,24 +292,8 @@ sw_status sw_scene_still(const sw_scene *scene, sw_error *err);
 
 /* --- running ---------------------------------------------------------------- */
 
-typedef struct sw_run_args {
-  double duration;  /* [s] */
-  double dt;        /* step, or largest step with a tolerance [s] */
-  double tolerance; /* on the step error; NAN = fixed steps [m] */
-  int integrator;   /* index into sw_integrator_all() */
-  double frame;     /* time between stored frames; NAN = none [s] */
-  int quasistatic;  /* 1: equilibrium at every step's end instead of motion */
-  long max_steps;   /* stop after this many [-] */
-  double window;    /* peaks are of means over this time; 0: of values of single steps [s] */
-  int unstable;     /* 1: an explicit method may take steps above its limit */
-} sw_run_args;
-extern const sw_params sw_run_params;
-
 /* The window of the last run, or that of runs that say nothing [s]. */
 double sw_scene_window(const sw_scene *scene);
-
-/* A run begins: extremes of wires and of penetration start anew. */
-sw_status sw_scene_begin_run(sw_scene *scene, sw_error *err);
 
 /* --- energy ------------------------------------------------------------------- */
 
@@ -349,12 +333,6 @@ sw_status sw_scene_ledger(sw_scene *scene, sw_ledger *out, sw_error *err);
  * far [J], one a step. */
 const double *sw_scene_energy_log(const sw_scene *scene, size_t *rows);
 enum { SW_LOG_ENERGY_SIZE = 6 };
-/* Share of what was in play that steps gained; above it a remark, and a failure [-]. */
-extern const double SW_LEDGER_REMARK, SW_LEDGER_FAILURE;
-/* The run has ended: tell what there is to tell. SW_EDIVERGED when it made too much energy to be
- * believed; the scene then refuses to be read. */
-sw_status sw_scene_end_run(sw_scene *scene, sw_error *why);
-
 /* --- events ------------------------------------------------------------------- */
 
 /* Something that happened, once or again and again. */
@@ -372,57 +350,6 @@ const sw_event *sw_scene_event(const sw_scene *scene, size_t k);
 /* Book one at the scene's time; value and arc may be NAN. */
 sw_status sw_scene_book_event(sw_scene *scene, const char *kind, const char *object, double arc,
                               double value, const char *text, sw_error *err);
-
-typedef struct sw_run_report {
-  sw_status status; /* SW_OK, SW_EDIVERGED, SW_EINTR, SW_ECALLBACK, ... */
-  double time;      /* reached [s] */
-  size_t steps, rejected, iterations, evaluations; /* [-] */
-  size_t solves;                                   /* of each body's own matrix [-] */
-  size_t looks;       /* of contact at obstacles and lists, to find what may touch [-] */
-  double smallest_dt; /* [s] */
-  size_t jumps;       /* quasi-static steps in which wires jumped [-] */
-  double last_jump;   /* time of the last one [s] */
-  sw_error reason;    /* why it stopped, when not SW_OK */
-} sw_run_report;
-
-/* Somebody who looks at the scene between two steps: it can be read then, and not be changed. */
-typedef struct sw_observer {
-  double at;   /* due at the first step's end from then on [s] */
-  double wall; /* or once sw_wall_clock() is there [s] */
-  int stop;    /* 1: advance no further, all is well */
-  /* Called when it is due; sets what is due next, and stop. Any failure ends the run. */
-  sw_status (*look)(struct sw_observer *observer, sw_error *err);
-  void *user;
-} sw_observer;
-
-/* A clock that is never set [s]. */
-double sw_wall_clock(void);
-
-/* Advance to time until. interrupted (may be NULL) is polled between steps; observer may be NULL.
- * A divergence is told in the report and the function returns SW_OK; a returned
- * error means that nothing was done. */
-sw_status sw_scene_advance(sw_scene *scene, const sw_run_args *args, double until,
-                           int (*interrupted)(void), sw_observer *observer, sw_run_report *report,
-                           sw_error *err);
-
-typedef struct sw_settle_args {
-  double tolerance;    /* largest node shift of the last iteration [m] */
-  long max_iterations; /* [-] */
-} sw_settle_args;
-extern const sw_params sw_settle_params;
-
-typedef struct sw_settle_report {
-  int ok;
-  size_t iterations; /* matrix solves [-] */
-  size_t negative;   /* unstable directions of the equilibrium found [-] */
-  int transient;     /* 1: pseudo-transient continuation was needed */
-  double residual;   /* largest node shift of the last iteration [m] */
-  int jumped;        /* 1: the wires moved much further than what drives them */
-  sw_error reason;
-} sw_settle_report;
-
-sw_status sw_scene_settle(sw_scene *scene, const sw_settle_args *args, int (*interrupted)(void),
-                          sw_settle_report *report, sw_error *err);
 
 /* --- reading ---------------------------------------------------------------- */
 
@@ -508,9 +435,6 @@ sw_status sw_scene_body_energy(sw_scene *scene, sw_handle body, sw_energy *out, 
 sw_status sw_scene_penetration(sw_scene *scene, double *now, sw_extreme *deepest, sw_error *err);
 /* Number of contact points with a force now. */
 size_t sw_scene_touches(sw_scene *scene);
-
-/* Largest stable step of leapfrog [s]. */
-sw_status sw_scene_stable_dt(sw_scene *scene, double *dt, sw_error *err);
 
 /* Where a force is asked; NULL = the scene's own state. Arrays are (nodes x 3). */
 typedef struct sw_probe {

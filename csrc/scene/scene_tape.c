@@ -3,7 +3,14 @@
  * objects, and the state of the built scene or what an edited one remembers. A scene that is not
  * built is put on it as it is: building it between two edits would not give the same bits. */
 #include "base/alloc.h"
+#include "link/joint.h"
+#include "scene/forces.h"
+#include "scene/history.h"
+#include "scene/kept_frames.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
 #include "scene/save.h"
+#include "scene/touching.h"
 
 enum { LEAST = 32 }; /* no object takes less on a tape [B] */
 
@@ -32,16 +39,17 @@ static void tape_numbers(sw_tape *t, sw_scene *s) {
   sw_tape_name(t, s->name);
   sw_tape_uint32(t, &s->serial);
   sw_tape_vec(t, &s->gravity);
-  sw_tape_double(t, &s->time), sw_tape_double(t, &s->span), sw_tape_double(t, &s->window),
-      sw_tape_double(t, &s->blow_part), sw_tape_double(t, &s->blow_since),
-      sw_tape_double(t, &s->blow_until), sw_tape_double(t, &s->next_dt),
-      sw_tape_double(t, &s->next_frame);
-  sw_tape_expect(t, s->span >= 0 && s->span <= 1e9, "the length of a step");
-  sw_tape_expect(t, s->window >= 0 && s->window <= 1e9, "a window");
-  sw_tape_expect(
-      t, s->blow_part >= 0 && s->blow_part <= 1e9 && !isnan(s->blow_since) && !isnan(s->blow_until),
-      "a blow");
-  sw_tape_int(t, &s->discontinuous);
+  sw_tape_double(t, &s->time), sw_tape_double(t, &s->course.span),
+      sw_tape_double(t, &s->course.window), sw_tape_double(t, &s->course.blow_part),
+      sw_tape_double(t, &s->course.blow_since), sw_tape_double(t, &s->course.blow_until),
+      sw_tape_double(t, &s->course.next_dt), sw_tape_double(t, &s->next_frame);
+  sw_tape_expect(t, s->course.span >= 0 && s->course.span <= 1e9, "the length of a step");
+  sw_tape_expect(t, s->course.window >= 0 && s->course.window <= 1e9, "a window");
+  sw_tape_expect(t,
+                 s->course.blow_part >= 0 && s->course.blow_part <= 1e9 &&
+                     !isnan(s->course.blow_since) && !isnan(s->course.blow_until),
+                 "a blow");
+  sw_tape_int(t, &s->course.next);
   sw_tape_extreme(t, &s->deepest);
 }
 
@@ -96,7 +104,7 @@ void sw_tape_scene(sw_tape *t, sw_scene *s, int *built, sw_live *live) {
 /* Go on where the scene of a tape was. What was edited since it was built stays to be built. */
 static sw_status go_on(sw_scene *s, const sw_live *live, int built, sw_error *err) {
   static const char OFF[] = "its state does not go with its objects";
-  const int discontinuous = s->discontinuous;
+  const int next = s->course.next;
   if (!built) return SW_OK;
   const sw_status status = sw_live_place(s, live);
   if (status == SW_EINVAL) return sw_fail(err, SW_EFORMAT, OFF);
@@ -104,7 +112,7 @@ static sw_status go_on(sw_scene *s, const sw_live *live, int built, sw_error *er
   SW_TRY(sw_scene_build(s, err));
   if (!sw_live_fits(s, live)) return sw_fail(err, SW_EFORMAT, OFF);
   SW_TRY(sw_live_put(s, live, err));
-  s->discontinuous = discontinuous;
+  s->course.next = next;
   return SW_OK;
 }
 

@@ -3,7 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "contact/contact.h"
 #include "force/solid.h"
+#include "scene/line.h"
 #include "scene/world.h"
 
 static sw_status open_mesh(sw_scene *s, sw_handle h, const char *what, const sw_body **body,

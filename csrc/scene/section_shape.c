@@ -3,6 +3,7 @@
  * of the surface. */
 #include <math.h>
 
+#include "scene/line.h"
 #include "scene/world.h"
 #include "state/hinge.h"
 

@@ -4,7 +4,14 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "link/joint.h"
+#include "scene/forces.h"
+#include "scene/hold.h"
+#include "scene/kept_frames.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
 #include "scene/save.h"
+#include "scene/scene.h"
 
 struct sw_snapshot {
   sw_scene *scene; /* NULL once it is gone */
@@ -112,13 +119,13 @@ static sw_status put_back(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   sw_tape t = sw_tape_read_home(&p->tape, err);
   sw_tape_scene(&t, s, &built, &live);
   s->serial = serial;
-  const int discontinuous = s->discontinuous;
+  const int next = s->course.next;
   sw_status status = t.status;
   s->restoring = p; /* placing the holds may call a user's function */
   if (status == SW_OK) status = sw_scene_build(s, err);
   if (status == SW_OK) status = sw_live_put(s, &live, err);
   s->restoring = NULL;
-  s->discontinuous = discontinuous;
+  s->course.next = next;
   return status;
 }
 

@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Material frames between the meshes and the system. */
+#include "scene/spin.h"
+
 #include <math.h>
 #include <string.h>
 
+#include "link/hold.h"
+#include "scene/line.h"
 #include "scene/world.h"
 #include "state/hinge.h"
+#include "state/mesh.h"
 
 static sw_edge_frame edge_frame(const double *nodes, const double *normals, size_t e) {
   const sw_vec t = sw_unit_or(sw_sub(sw_vec_at(nodes, e + 1), sw_vec_at(nodes, e)), sw_v(1, 0, 0));

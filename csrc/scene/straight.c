@@ -4,7 +4,11 @@
 #include <math.h>
 
 #include "modal/modal.h"
+#include "scene/join.h"
+#include "scene/line.h"
+#include "scene/linear.h"
 #include "scene/world.h"
+#include "system/system.h"
 
 /* Tangents that differ by less than this are those of a straight wire [-]. */
 static const double STRAIGHT = 1e-9;

@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "contact/contact.h"
 #include "scene/frozen_inner.h"
+#include "scene/line.h"
 #include "state/hinge.h"
 
 /* Directions across the rod's line start anywhere: turn them so that the ring that the tool holds
@@ -99,8 +101,8 @@ static sw_status become_mesh(sw_scene *s, const sw_frozen *f, const sw_motion_st
 }
 
 static sw_status change_to_mesh(sw_scene *s, sw_handle tool, const sw_frozen *f, sw_line *line,
-                                const double *a, size_t count, sw_freeze_report *out,
-                                sw_error *err) {
+                                const double *a, size_t count, sw_balance *balance,
+                                sw_freeze_report *out, sw_error *err) {
   const sw_tool *t = &s->tools[tool.slot];
   size_t pads[SW_TOOL_PADS];
   sw_motion_state now;
@@ -118,14 +120,15 @@ static sw_status change_to_mesh(sw_scene *s, sw_handle tool, const sw_frozen *f,
   const size_t first = s->system.bodies[f->wire.slot].first_node;
   SW_TRY(sw_contact_add_memory(s->contact, f->memory, f->bytes, f->node, f->node + f->nodes, first,
                                pads, t->pads));
-  SW_TRY(sw_frozen_balance(s, f->wire.slot, a, count));
+  SW_TRY(sw_frozen_balance(s, f->wire.slot, a, count, balance));
   SW_TRY(sw_momentum_match(s, f->wire.slot, about, out->before));
   sw_momentum_about(s, f->wire.slot, about, out->after);
   out->energy_after = sw_scene_total_energy(s, err);
   return SW_OK;
 }
 
-sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_freeze_report *out, sw_error *err) {
+sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_balance *balance,
+                             sw_freeze_report *out, sw_error *err) {
   sw_line line = {0};
   sw_snapshot *before = NULL;
   sw_error ignored;
@@ -145,7 +148,7 @@ sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_freeze_report *out,
   size_t count = 0;
   double *a = status == SW_OK ? sw_frozen_accelerations(s, f->wire.slot, &count) : NULL;
   if (status == SW_OK && !a) status = SW_ENOMEM;
-  if (status == SW_OK) status = change_to_mesh(s, tool, f, &line, a, count, out, err);
+  if (status == SW_OK) status = change_to_mesh(s, tool, f, &line, a, count, balance, out, err);
   sw_free(a);
   sw_line_free(&line);
   if (status == SW_OK) {
@@ -153,7 +156,7 @@ sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_freeze_report *out,
     thawed->jaw = f->jaw;
     thawed->jaw.since = s->time, thawed->jaw.speed = 0;
     thawed->frozen = NULL;
-    s->discontinuous = SW_GOES_ON;
+    sw_course_go_on(&s->course);
     thawed->now.lost_time = NAN;
     sw_frozen_release(f);
   } else if (before) {

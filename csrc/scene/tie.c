@@ -2,6 +2,11 @@
 /* What breaks when it is pulled harder than it bears: joints, and forces that say so. */
 #include <math.h>
 
+#include "link/hold.h"
+#include "link/joint.h"
+#include "scene/hold.h"
+#include "scene/join.h"
+#include "scene/line.h"
 #include "scene/world.h"
 
 /* Pull of a tie to a point with nodes at x, and what it bears, 0 once it is broken. A body's own
@@ -88,7 +93,7 @@ void sw_scene_watch_ties(sw_scene *s) {
     const double pull = pull_of_joint(s, k, s->system.x, &bears);
     if (!sw_tie_suffers(pull, bears, s->time, j->fate)) continue;
     j->cls->joint->breaks(j, &s->system);
-    s->discontinuous = 1;
+    sw_course_jump(&s->course);
     s->build = ++s->builds; /* the system is another one */
     sw_scene_tell(s, "tie", j->name, NAN, pull, "tie '%s' breaks at %.4g N; it bears %.4g N",
                   j->name, pull, j->strength);

@@ -6,7 +6,13 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "link/hold.h"
+#include "scene/hold.h"
+#include "scene/jaws.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
 #include "scene/world.h"
+#include "state/clamp.h"
 
 void sw_scene_clear_tool(sw_tool *t) {
   sw_drive_free(&t->drive);
@@ -91,7 +97,7 @@ sw_status sw_scene_tool_hold(sw_scene *s, sw_handle tool, sw_handle hold, sw_err
   SW_TRY(local_pose(s, t, now.pose, &pose, err));
   sw_drive_free(&h->drive);
   h->drive = (sw_drive){.pose = pose, .tool = 1 + tool.slot};
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
   return SW_OK;
 }
 
@@ -111,7 +117,7 @@ sw_status sw_scene_tool_follow(sw_scene *s, sw_handle tool, sw_motion *motion, i
   if (!t) return SW_EDEAD;
   SW_TRY(sw_drive_follow(s, &t->drive, t->name, motion, relative, err));
   for (size_t k = 0; k < s->hold_count; k++) /* pads alone push by where they are, not how fast */
-    if (s->holds[k].alive && s->holds[k].drive.tool == 1 + tool.slot) s->discontinuous = 1;
+    if (s->holds[k].alive && s->holds[k].drive.tool == 1 + tool.slot) sw_course_jump(&s->course);
   return SW_OK;
 }
 
@@ -130,7 +136,7 @@ sw_status sw_scene_tool_set_pose(sw_scene *s, sw_handle tool, sw_pose pose, sw_e
   if (!t) return SW_EDEAD;
   sw_drive_free(&t->drive);
   t->drive = (sw_drive){.pose = pose};
-  s->discontinuous = 1;
+  sw_course_jump(&s->course);
   return SW_OK;
 }
 
@@ -160,12 +166,6 @@ sw_status sw_scene_tool_watch(sw_scene *s, sw_handle tool, double tolerance, int
 }
 
 /* --- what it holds ---------------------------------------------------------------- */
-
-int sw_tool_is_pad(const sw_tool *t, int obstacle) {
-  for (size_t k = 0; k < t->pads; k++)
-    if (t->pad[k].obstacle == (size_t)obstacle) return 1;
-  return 0;
-}
 
 double sw_tool_squeeze(sw_scene *s, const sw_tool *t, double time) {
   double sum = 0;
@@ -306,7 +306,7 @@ sw_status sw_tool_observe(sw_scene *s, sw_error *err) {
     sw_store(row + SW_LOG_POINT, at.pose.p);
     row[SW_LOG_OPENING] = t->now.opening, row[SW_LOG_SQUEEZE] = t->now.squeeze;
     row[SW_LOG_MARGIN] = t->now.margin, row[SW_LOG_SLIP] = t->now.slip;
-    row[SW_LOG_SPAN] = holds_any(s, k) ? sw_hold_span(s, mean) : s->span;
+    row[SW_LOG_SPAN] = holds_any(s, k) ? sw_hold_span(s, mean) : s->course.span;
     if (sw_log_add(&t->log, row, SW_LOG_TOOL_SIZE) != SW_OK)
       return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", t->name);
   }

@@ -4,7 +4,9 @@
  * bones, and by the ends of the bones of what they meet. */
 #include <math.h>
 
-#include "scene/events.h"
+#include "link/hold.h"
+#include "scene/jaws.h"
+#include "scene/obstacle.h"
 #include "scene/world.h"
 
 static const double NOTICED = 1e-5; /* overlap of less than this is none [m] */

@@ -5,6 +5,12 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "link/hold.h"
+#include "link/joint.h"
+#include "scene/forces.h"
+#include "scene/hold.h"
+#include "scene/join.h"
+#include "scene/line.h"
 #include "scene/world.h"
 
 enum { OF_WIRE, OF_FORCE, OF_TIE };

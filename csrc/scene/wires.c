@@ -5,7 +5,11 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/log.h"
+#include "scene/line.h"
 #include "scene/world.h"
+#include "state/mesh.h"
+#include "state/plan.h"
 
 static const char *const rest_names[] = {"straight", "path", NULL};
 

@@ -4,6 +4,7 @@
 #include <time.h>
 
 #include "scene/world.h"
+#include "step/run.h"
 
 double sw_wall_clock(void) {
   struct timespec t;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/passing.h"
+#include "step/passing.h"
 
 #include <math.h>
 

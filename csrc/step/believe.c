@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Is a trial of a step believable? What has diverged is refused here, and never becomes the
  * scene's state. */
+#include "step/believe.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "base/simd.h"
 #include "force/solid.h"
+#include "scene/line.h"
 #include "scene/world.h"
 
 static const double LARGEST_STRAIN = 10.0; /* beyond it a run has diverged [-] */
@@ -134,7 +137,7 @@ static long bad_edges(size_t m, const double *restrict rest, const double *restr
 static sw_status check_edges(const sw_scene *s, size_t b, const double *x, sw_error *err) {
   const sw_plan *plan = s->system.bodies[b].plan;
   if (!bad_edges(plan->edges, plan->rest, x)) return SW_OK;
-  SW_TRY(check_finite(s, s->stepper.trial_x, "the place", err));
+  SW_TRY(check_finite(s, s->course.stepper.trial_x, "the place", err));
   for (size_t e = 0; e < plan->edges; e++) {
     const double l2 = sw_norm2(sw_sub(sw_load(x + 3 * e + 3), sw_load(x + 3 * e)));
     const double most = (1.0 + LARGEST_STRAIN) * plan->rest[e];
@@ -150,13 +153,13 @@ static sw_status check_edges(const sw_scene *s, size_t b, const double *x, sw_er
 }
 
 sw_status sw_scene_check_trial(const sw_scene *s, sw_error *err) {
-  if (!has_edges_alone(s)) SW_TRY(check_finite(s, s->stepper.trial_x, "the place", err));
-  SW_TRY(check_finite(s, s->stepper.trial_v, "the velocity", err));
-  if (s->stepper.trial_a) /* the next step starts from them */
-    SW_TRY(check_finite(s, s->stepper.trial_a, "the acceleration", err));
+  if (!has_edges_alone(s)) SW_TRY(check_finite(s, s->course.stepper.trial_x, "the place", err));
+  SW_TRY(check_finite(s, s->course.stepper.trial_v, "the velocity", err));
+  if (s->course.stepper.trial_a) /* the next step starts from them */
+    SW_TRY(check_finite(s, s->course.stepper.trial_a, "the acceleration", err));
   for (size_t b = 0; b < s->system.body_count; b++) {
     const sw_body *body = &s->system.bodies[b];
-    const double *x = s->stepper.trial_x + 3 * body->first_node;
+    const double *x = s->course.stepper.trial_x + 3 * body->first_node;
     if (body->plan->web) SW_TRY(check_web(s, b, x, err));
     SW_TRY(check_edges(s, b, x, err));
   }
@@ -168,22 +171,7 @@ void sw_scene_remark_contact(sw_scene *s) {
   if (!sw_scene_touches(s)) return;
   for (size_t k = 0; (e = sw_scene_event(s, k)) != NULL; k++)
     if (strcmp(e->kind, "integrator") == 0) return;
-  sw_scene_tell(s, "integrator", s->method->name, NAN, NAN,
+  sw_scene_tell(s, "integrator", s->course.method->name, NAN, NAN,
                 "integrator '%s' gains energy where wires touch something; take 'tr-bdf2' there",
-                s->method->name);
-}
-
-sw_status sw_scene_check_step(const sw_scene *s, const sw_run_args *args, double until,
-                              sw_error *err) {
-  const sw_integrator *m = sw_integrator_all()[args->integrator];
-  if (args->quasistatic || args->unstable || !(m->leapfrog_limit > 0)) return SW_OK;
-  const double most = 0.5 * m->leapfrog_limit * sw_system_stable_dt(&s->system);
-  const double h = fmin(args->dt, until - s->time);
-  if (!(h > most * (1.0 + 1e-9))) return SW_OK;
-  return sw_fail(
-      err, SW_EINVAL,
-      "scene:run: dt = %.3g s is above %.3g s, up to which integrator '%s' is stable here "
-      "(%.3g times scene:stable_dt()); give a smaller dt [s], an implicit integrator, or "
-      "unstable = true to try it all the same",
-      h, most, m->name, 0.5 * m->leapfrog_limit);
+                s->course.method->name);
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Equilibria of the scene, and poses of slow handling. Shared by the files of this room only. */
-#ifndef SW_SCENE_REST_H
-#define SW_SCENE_REST_H
+#ifndef SW_STEP_REST_H
+#define SW_STEP_REST_H
 
-#include "scene/scene.h"
+#include "step/step.h"
 
 /* Equilibrium of the built scene at its time, obstacles having moved since a time before;
  * nothing is observed. On failure the state is as before. too_far (may be NULL) is set when

@@ -4,7 +4,14 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/tape.h"
+#include "link/hold.h"
+#include "scene/hold.h"
+#include "scene/jaws.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
 #include "scene/world.h"
+#include "step/energy.h"
 
 /* A work over a step and its bounds: by the forces at either end alone. */
 typedef struct bounds {

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a run takes, and whether a scene can be run with it. Shared by the files of this room only.
  */
-#ifndef SW_SCENE_RUN_CHECK_H
-#define SW_SCENE_RUN_CHECK_H
+#ifndef SW_STEP_RUN_CHECK_H
+#define SW_STEP_RUN_CHECK_H
 
-#include "scene/scene.h"
+#include "step/step.h"
 
 /* Less than that is no time: steps of it would underflow [s]. */
 static const double SW_SHORTEST_STEP = 1e-20;
@@ -14,5 +14,8 @@ sw_status sw_run_check(const sw_scene *scene, const sw_run_args *args, sw_error 
 /* SW_EINVAL when steps do not add up to the time that they are to cover [s]. */
 sw_status sw_run_check_clock(const sw_scene *scene, const sw_run_args *args, double until,
                              sw_error *err);
+/* SW_EINVAL when an explicit method would take steps above its limit on the way to a time. */
+sw_status sw_scene_check_step(const sw_scene *scene, const sw_run_args *args, double until,
+                              sw_error *err);
 
 #endif

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Blows of wires on obstacles, followed in parts of a step. */
-#include "scene/blow.h"
+#include "step/blow.h"
 
 #include <math.h>
 
+#include "contact/contact.h"
+#include "link/hold.h"
 #include "scene/world.h"
 
 /* A step as long as a blow lasts smears it: what is pressed gives way by no law but that of the
@@ -17,7 +19,7 @@ static const double LONGEST_BLOW = 0.03;
 static const double BETWEEN_BLOWS = 0.1;
 
 double sw_blow_part(const sw_scene *s, double h) {
-  return s->time < s->blow_until ? fmin(h, fmax(s->blow_part, SHORTEST_PART)) : h;
+  return s->time < s->course.blow_until ? fmin(h, fmax(s->course.blow_part, SHORTEST_PART)) : h;
 }
 
 /* Every part that is refused, or makes energy, takes this share off the time that a blow is
@@ -29,10 +31,10 @@ static const double REFUSED = 1.0 / 16;
 static const double SMALLEST_FOLLOWED = 1.0 / 16;
 
 void sw_blow_refused(sw_scene *s, double part) {
-  if (!(s->time < s->blow_until)) return;
-  if (part < SMALLEST_FOLLOWED * s->blow_part) s->blow_until = s->time;
-  s->blow_since -= REFUSED * LONGEST_BLOW;
-  s->blow_until = fmin(s->blow_until, s->blow_since + LONGEST_BLOW);
+  if (!(s->time < s->course.blow_until)) return;
+  if (part < SMALLEST_FOLLOWED * s->course.blow_part) s->course.blow_until = s->time;
+  s->course.blow_since -= REFUSED * LONGEST_BLOW;
+  s->course.blow_until = fmin(s->course.blow_until, s->course.blow_since + LONGEST_BLOW);
 }
 
 /* Nodes that go into a guide press on what is beside it by no blow. */
@@ -52,15 +54,17 @@ static double parts_for(double jolt) {
 }
 
 int sw_blow_begins(sw_scene *s, double h) {
-  const int followed = s->time < s->blow_until;
+  const int followed = s->time < s->course.blow_until;
   if (s->wire_count > MOST_WIRES || !s->contact || s->pairs || s->grains ||
       (!followed && !(h > 1.01 * SHORTEST_PART)) || any_feed(s))
     return 0;
-  if (!followed && s->blow_until > 0 && s->time < s->blow_since + BETWEEN_BLOWS) return 0;
+  if (!followed && s->course.blow_until > 0 && s->time < s->course.blow_since + BETWEEN_BLOWS)
+    return 0;
   const double jolt = sw_contact_jolt(s->contact, &s->system, followed);
   if (!(jolt > 0)) return 0;
-  if (!followed) s->blow_since = s->time;
-  s->blow_until = fmin(s->time + fmax(BLOW, h), s->blow_since + fmax(LONGEST_BLOW, h));
-  if (!followed) s->blow_part = fmax(SHORTEST_PART, h / parts_for(jolt));
+  if (!followed) s->course.blow_since = s->time;
+  s->course.blow_until =
+      fmin(s->time + fmax(BLOW, h), s->course.blow_since + fmax(LONGEST_BLOW, h));
+  if (!followed) s->course.blow_part = fmax(SHORTEST_PART, h / parts_for(jolt));
   return !followed;
 }

@@ -4,9 +4,16 @@
  * at the step's end is the one wanted: found by false position, since the force is nearly
  * linear in it. With a limit wire slips until it has the speed asked for
  * again, like a slipping clutch. */
+#include "step/slip.h"
+
 #include <math.h>
 
+#include "link/hold.h"
+#include "scene/feed.h"
+#include "scene/hold.h"
 #include "scene/world.h"
+#include "state/field.h"
+#include "step/obey.h"
 
 static const double PRECISION = 1e-7; /* of the force, the wire's weight or EI/L2 [-] */
 
@@ -22,8 +29,9 @@ int sw_slip_any(const sw_scene *s) {
   return 0;
 }
 
-int sw_slip_begin(sw_scene *s) {
+static int begin(sw_scene *s, double h) {
   int any = 0;
+  (void)h;
   for (size_t k = 0; k < s->hold_count; k++) {
     sw_feed *f = &s->holds[k].feed;
     if (!yields(&s->holds[k])) continue;
@@ -35,7 +43,7 @@ int sw_slip_begin(sw_scene *s) {
   return any;
 }
 
-void sw_slip_give_up(sw_scene *s) {
+static void give_up(sw_scene *s) {
   for (size_t k = 0; k < s->hold_count; k++) {
     sw_feed *f = &s->holds[k].feed;
     if (!yields(&s->holds[k])) continue;
@@ -45,28 +53,27 @@ void sw_slip_give_up(sw_scene *s) {
 }
 
 /* The next guess: between a trial with too little force and one with too much, as the false
- * position has it (halving the weight of a side that stays), else by the slope known so far.
+ * position has it, else by the slope known so far.
  * Returns 1 when both are one place: the force jumps there, as in an impact; or in very short
  * steps, when the next guess is the same place. */
 static int improve(sw_feed *f, double off, int first, double mass, double step) {
-  const int side = off > 0;
+  sw_bracket *b = &f->found;
   const double before = f->slip_growth;
-  if (first) f->off[0] = f->off[1] = NAN, f->last_side = -1;
-  const double seen = f->off[side], at = f->tried[side];
-  f->tried[side] = before, f->off[side] = off;
-  const double gap = f->tried[1] - f->tried[0];
-  if (isfinite(f->off[!side])) {
-    if (fabs(gap) * step * step < SAME_PLACE) return 1;
-    if (f->last_side == side) f->off[!side] *= 0.5;
-    f->slope = (f->off[1] - f->off[0]) / gap;
-    f->slip_growth = f->tried[0] - f->off[0] / f->slope;
-  } else {
-    const double slope = isfinite(seen) ? (off - seen) / (before - at) : f->slope;
-    f->slope = slope > 0 ? slope : mass; /* all of the wire is pushed along */
-    if (!first && fabs(off / f->slope) * step * step < SAME_PLACE) return 1;
-    f->slip_growth -= off / f->slope;
+  if (first) sw_bracket_clear(b);
+  const double seen = b->off[off > 0], at = b->tried[off > 0];
+  const int side = sw_bracket_add(b, before, off);
+  if (sw_bracket_closed(b)) {
+    if (fabs(sw_bracket_width(b)) * step * step < SAME_PLACE) return 1;
+    sw_bracket_weigh(b, side);
+    f->slope = sw_bracket_slope(b);
+    f->slip_growth = b->tried[0] - b->off[0] / f->slope; /* their root */
+    return 0;
   }
-  f->last_side = side;
+  const double slope = isfinite(seen) ? (off - seen) / (before - at) : f->slope;
+  f->slope = slope > 0 ? slope : mass; /* all of the wire is pushed along */
+  if (!first && fabs(off / f->slope) * step * step < SAME_PLACE) return 1;
+  sw_bracket_weigh(b, side);
+  f->slip_growth -= off / f->slope;
   return 0;
 }
 
@@ -79,11 +86,11 @@ static int stops(sw_feed *f, double h) {
   return 1;
 }
 
-static int correct(sw_scene *s, sw_hold *h, double step, int first) {
+static int correct_feed(sw_scene *s, sw_hold *h, double step, int first) {
   sw_feed *f = &h->feed;
   const sw_plan *p = s->system.bodies[h->wire].plan;
   const sw_link_wire w = sw_scene_link_wire(s, h->wire);
-  const double drive = h->cls->hold->passes(h, &w, s->time, s->stepper.trial_x).force;
+  const double drive = h->cls->hold->passes(h, &w, s->time, s->course.stepper.trial_x).force;
   const double L = p->length;
   const double weight = p->beam.mass * L * sw_norm(s->gravity);
   if (!isfinite(f->push) && f->slip_way == 0) {
@@ -96,9 +103,25 @@ static int correct(sw_scene *s, sw_hold *h, double step, int first) {
   return improve(f, off, first, p->beam.mass * L, step);
 }
 
-int sw_slip_correct(sw_scene *s, double h, int first) {
+static int correct(sw_scene *s, double h, int first) {
   int good = 1;
   for (size_t k = 0; k < s->hold_count; k++)
-    if (yields(&s->holds[k])) good &= correct(s, &s->holds[k], h, first);
+    if (yields(&s->holds[k])) good &= correct_feed(s, &s->holds[k], h, first);
   return good;
+}
+
+/* --- the rung --------------------------------------------------------------------- */
+
+/* Not further than nodes can follow. */
+static int follows(const sw_scene *s, double h) { return !(sw_feed_step(s, h) < h); }
+
+static const sw_obeyer FEEDS = {.begin = begin,
+                                .correct = correct,
+                                .goes_on = follows,
+                                .give_up = give_up,
+                                .most = 25,
+                                .failure = "the speed at which a feed slips was not found"};
+
+sw_status sw_rung_slip(sw_ladder *p, const sw_rung *below, double h, sw_error *err) {
+  return sw_obey(p, below, h, &FEEDS, err);
 }

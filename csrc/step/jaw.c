@@ -1,11 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Jaws of tools in a step, or from one pose to the next. Their opening changes evenly within it.
  * With a force to be reached or not to be exceeded, the speed of the step is the one for which the
- * fingers' force at its end is as wanted, found by false position between a speed with too little
- * force and one with too much, like feeds that yield to a force (see slip.c). */
+ * fingers' force at its end is as wanted, found between a speed with too little force and one with
+ * too much. */
+#include "step/jaw.h"
+
 #include <math.h>
 
+#include "scene/jaws.h"
+#include "scene/line.h"
 #include "scene/world.h"
+#include "step/obey.h"
 
 static const double PRECISION = 1e-3;    /* of the force wanted [-] */
 static const double ROUGHLY = 0.015;     /* likewise, when it is reached first [-] */
@@ -19,8 +24,6 @@ enum { BEFORE_JUMPS = 4 }; /* later trials are about a jump of the force, if the
 static const double BEYOND = 1.3; /* a guess goes so much further than the slope says [-] */
 static const double WIDER =
     4.0; /* and so many times as far with every trial that is too short [-] */
-
-double sw_jaw_at(const sw_jaw *j, double t) { return j->opening + j->speed * (t - j->since); }
 
 /* May this step end with another force than the one that comes with its first guess? */
 static int yields(const sw_jaw *j) {
@@ -50,11 +53,10 @@ static void begin(sw_jaw *j, double since, double step) {
   j->since = since;
   j->step = step;
   j->speed = step > 0 ? first_guess(j) : 0.0;
-  j->off[0] = j->off[1] = NAN;
-  j->last_side = -1;
+  sw_bracket_clear(&j->found);
   j->trials = 0;
   j->guessed = j->now < j->force; /* that standing still goes on giving too little force */
-  if (j->guessed) j->tried[0] = 0, j->off[0] = j->now - j->force;
+  if (j->guessed) sw_bracket_add(&j->found, 0, j->now - j->force);
 }
 
 int sw_jaw_begin(sw_scene *s, double h) {
@@ -122,32 +124,30 @@ static double guess_beyond(const sw_jaw *j, double off) {
 
 /* The next speed to try. Returns 1 when both sides are one place: the force jumps there. */
 static int improve(sw_jaw *j, double off, int rests) {
-  const int side = off > 0;
-  if (isfinite(j->off[!side]) && (j->speed - j->tried[!side]) * (side ? 1 : -1) >= 0)
-    j->off[!side] = NAN;
-  if (j->guessed && side && j->trials > 2) j->off[0] = NAN; /* a wrong guess */
-  if (!side || j->trials > 2) j->guessed = 0;
-  j->tried[side] = j->speed, j->off[side] = off;
-  if (!isfinite(j->off[!side])) {
+  sw_bracket *b = &j->found;
+  sw_bracket_mend(b, 1, j->speed, off);
+  if (j->guessed && off > 0 && j->trials > 2) b->off[0] = NAN; /* a wrong guess */
+  if (!(off > 0) || j->trials > 2) j->guessed = 0;
+  const int side = sw_bracket_add(b, j->speed, off);
+  if (!sw_bracket_closed(b)) {
     const double before = j->speed;
     j->speed = guess_beyond(j, off);
     return j->speed == before;
   }
-  const double gap = j->tried[0] - j->tried[1];
+  const double gap = -sw_bracket_width(b);
   if (gap * j->step < (rests ? TELLS : SAME_OPENING)) return 1;
   const int tells = gap * j->step > TELLS && (!rests || j->trials <= BEFORE_JUMPS);
-  if (j->trials > 1 && tells) j->stiffness = (j->off[1] - j->off[0]) / (gap * j->step);
-  if (j->last_side == side) j->off[!side] *= 0.5;
-  j->last_side = side;
-  j->speed = j->tried[0] - gap * j->off[0] / (j->off[0] - j->off[1]);
+  if (j->trials > 1 && tells) j->stiffness = (b->off[1] - b->off[0]) / (gap * j->step);
+  sw_bracket_weigh(b, side);
+  j->speed = sw_bracket_root(b);
   return 0;
 }
 
 /* The last trial. Where the force jumps over the one wanted it is beyond that: from there on the
  * jaws can come back. */
 static int give_up(sw_jaw *j, double off, int rests) {
-  if (!rests || off > 0 || !isfinite(j->off[1]) || j->trials > MOST_RESTS) return 1;
-  j->speed = j->tried[1];
+  if (!rests || off > 0 || !isfinite(j->found.off[1]) || j->trials > MOST_RESTS) return 1;
+  j->speed = j->found.tried[1];
   j->trials = MOST_RESTS;
   return 0;
 }
@@ -255,4 +255,17 @@ void sw_jaw_follow(sw_scene *s) {
       s->tools[k].jaw.since = s->time;
     else if (s->tools[k].alive)
       follow(s, &s->tools[k]);
+}
+
+/* --- the rung --------------------------------------------------------------------- */
+
+static int correct_step(sw_scene *s, double h, int first) {
+  (void)h, (void)first;
+  return sw_jaw_correct(s, 0);
+}
+
+static const sw_obeyer JAWS = {.begin = sw_jaw_begin, .correct = correct_step};
+
+sw_status sw_rung_squeeze(sw_ladder *p, const sw_rung *below, double h, sw_error *err) {
+  return sw_obey(p, below, h, &JAWS, err);
 }

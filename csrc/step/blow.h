@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Blows of wires on obstacles, followed in parts of a step. Shared by the files of this room only.
  */
-#ifndef SW_SCENE_BLOW_H
-#define SW_SCENE_BLOW_H
+#ifndef SW_STEP_BLOW_H
+#define SW_STEP_BLOW_H
 
 #include "scene/scene.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Steps that would take a wire past a force of short reach are taken in parts. Shared by the files
  * of this room only. */
-#ifndef SW_SCENE_PASSING_H
-#define SW_SCENE_PASSING_H
+#ifndef SW_STEP_PASSING_H
+#define SW_STEP_PASSING_H
 
 #include "scene/scene.h"
 

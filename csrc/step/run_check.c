@@ -1,9 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/run_check.h"
+#include "step/run_check.h"
 
 #include <math.h>
 
+#include "link/hold.h"
+#include "link/joint.h"
+#include "scene/join.h"
+#include "scene/line.h"
 #include "scene/world.h"
+#include "step/slip.h"
 
 static const char *const *integrator_names(void) {
   static const char *names[32];
@@ -52,6 +57,21 @@ __attribute__((constructor)) static void fill_choices(void) {
     if (run_rows[i].type == SW_PARAM_CHOICE) run_rows[i].choices = integrator_names();
 }
 
+/* What a wire slides along sticks, and has ends. */
+static sw_status check_rails(const sw_scene *s, const sw_integrator *m, sw_error *err) {
+  for (size_t k = 0; k < s->hold_count; k++) {
+    const sw_hold *h = &s->holds[k];
+    if (!h->alive || !h->cls->hold->rail) continue;
+    const int jumps = h->slider.friction > 0 || isfinite(h->slider.to - h->slider.from);
+    if (!(m->flags & SW_INTEGRATOR_IMPLICIT) || (jumps && m->flags & SW_INTEGRATOR_NO_CONTACT))
+      return sw_fail(err, SW_EINVAL,
+                     "scene:run: integrator '%s' is %s; %s '%s' needs another one, as tr-bdf2",
+                     m->name, jumps ? "not meant for what sticks or stops" : "explicit",
+                     h->cls->name, h->name);
+  }
+  return SW_OK;
+}
+
 sw_status sw_run_check(const sw_scene *s, const sw_run_args *args, sw_error *err) {
   const sw_integrator *m = sw_integrator_all()[args->integrator];
   if (!s->wire_count) return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", s->name);
@@ -62,16 +82,7 @@ sw_status sw_run_check(const sw_scene *s, const sw_run_args *args, sw_error *err
           "scene:run: integrator '%s' is explicit; wire '%s', which is curved at rest, has two "
           "values of EI or rolls, needs an implicit one",
           m->name, s->wires[w].name);
-  for (size_t k = 0; k < s->hold_count && !args->quasistatic; k++) {
-    const sw_hold *h = &s->holds[k];
-    if (!h->alive || !h->cls->hold->rail) continue;
-    const int jumps = h->slider.friction > 0 || isfinite(h->slider.to - h->slider.from);
-    if (!(m->flags & SW_INTEGRATOR_IMPLICIT) || (jumps && m->flags & SW_INTEGRATOR_NO_CONTACT))
-      return sw_fail(err, SW_EINVAL,
-                     "scene:run: integrator '%s' is %s; %s '%s' needs another one, as tr-bdf2",
-                     m->name, jumps ? "not meant for what sticks or stops" : "explicit",
-                     h->cls->name, h->name);
-  }
+  if (!args->quasistatic) SW_TRY(check_rails(s, m, err));
   const sw_joint *join = NULL;
   for (size_t w = 0; w < s->wire_count && !join; w++) join = sw_scene_joined(s, w);
   if (join && !args->quasistatic && !(m->flags & SW_INTEGRATOR_IMPLICIT))
@@ -109,4 +120,19 @@ sw_status sw_run_check_clock(const sw_scene *s, const sw_run_args *args, double 
                  "scene:run: dt = %g s is too short for t = %.6g to %.6g s; it must be at least "
                  "%.2g s, or the clock would not advance by it or never arrive",
                  args->dt, s->time, until, least);
+}
+
+sw_status sw_scene_check_step(const sw_scene *s, const sw_run_args *args, double until,
+                              sw_error *err) {
+  const sw_integrator *m = sw_integrator_all()[args->integrator];
+  if (args->quasistatic || args->unstable || !(m->leapfrog_limit > 0)) return SW_OK;
+  const double most = 0.5 * m->leapfrog_limit * sw_system_stable_dt(&s->system);
+  const double h = fmin(args->dt, until - s->time);
+  if (!(h > most * (1.0 + 1e-9))) return SW_OK;
+  return sw_fail(
+      err, SW_EINVAL,
+      "scene:run: dt = %.3g s is above %.3g s, up to which integrator '%s' is stable here "
+      "(%.3g times scene:stable_dt()); give a smaller dt [s], an implicit integrator, or "
+      "unstable = true to try it all the same",
+      h, most, m->name, 0.5 * m->leapfrog_limit);
 }

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The course of a scene: what it remembers of its last steps for the next one. Steps write it (see
+ * step/stages.def); the scene only says that it was changed. Of the scene's inside. */
+#ifndef SW_SCENE_COURSE_H
+#define SW_SCENE_COURSE_H
+
+#include "integrate/integrate.h"
+
+/* How the next step begins: with the state's accelerations; anew, for the scene was changed and
+ * they are stale; or with them although the system is a new one, for they are those of its forces.
+ */
+enum { SW_GOES_ON = -1, SW_AS_BEFORE = 0, SW_ANEW = 1 };
+
+typedef struct sw_course {
+  int next;        /* SW_AS_BEFORE, ...: how the next step begins */
+  int has_stepper; /* 1: there is one, of the method */
+  int jerks; /* the present step begins where a hold starts or stops at once, see step/restart.h */
+  const sw_integrator *method; /* of stepper */
+  sw_stepper stepper;
+  double window; /* of the present or last run, see sw_run_args [s] */
+  double span;   /* of the step that led here; 0: the state is an equilibrium [s] */
+  /* a blow that began at blow_since is followed in parts of blow_part until blow_until [s] */
+  double blow_part, blow_since, blow_until;
+  double next_dt; /* of an adaptive run; 0 = not known [s] */
+  size_t parts;   /* of steps of the run, since it was last asked whether they have collapsed [-] */
+  double covered; /* steps that these make together [-] */
+} sw_course;
+
+/* The scene was changed, or its state jumped. */
+static inline void sw_course_jump(sw_course *course) { course->next = SW_ANEW; }
+/* It was changed, but goes on as if it were not. */
+static inline void sw_course_go_on(sw_course *course) { course->next = SW_GOES_ON; }
+
+#endif

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A force of the scene. Of its inside. */
+#ifndef SW_SCENE_FORCES_H
+#define SW_SCENE_FORCES_H
+
+#include "scene/scene.h"
+
+typedef struct sw_scene_force {
+  uint32_t generation;
+  int alive;
+  char name[SW_NAME_SIZE]; /* for events, or "" */
+  const sw_force_class *cls;
+  long wire;    /* -1 = all */
+  double scale; /* of the wire's mesh when it was made [-] */
+  double args[SW_FORCE_ARGS_MAX / sizeof(double)];
+  uint32_t *particle; /* of a force on some particles: its list, which args name; or NULL */
+} sw_scene_force;
+
+void sw_scene_clear_force(sw_scene_force *force);
+
+#endif

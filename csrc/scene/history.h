@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What forces remember outlives a change of the system. Of the scene's inside. */
+#ifndef SW_SCENE_HISTORY_H
+#define SW_SCENE_HISTORY_H
+
+#include "force/force.h"
+#include "scene/scene.h"
+#include "state/plan.h"
+
+/* What a force on a wire remembers between two systems. */
+typedef struct sw_kept_history {
+  size_t force, wire;
+  const sw_force_class *inner; /* of a wire's recipe, or NULL: one of the scene's forces */
+  uint32_t generation;         /* of the force */
+  sw_plan *plan;               /* retained */
+  double *data;
+} sw_kept_history;
+
+/* Put the forces' histories aside, give them to the new system, forget them. */
+sw_status sw_scene_keep_histories(sw_scene *scene);
+void sw_scene_inherit_histories(sw_scene *scene);
+void sw_scene_forget_histories(sw_scene *scene);
+
+#endif

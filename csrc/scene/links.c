@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Holds and joins as the built scene sees them, and wires as these do. */
+#include "link/hold.h"
+#include "link/joint.h"
+#include "scene/hold.h"
+#include "scene/join.h"
+#include "scene/line.h"
+#include "scene/spin.h"
+#include "scene/world.h"
+#include "system/system.h"
+
+static void reshaped(void *user, size_t wire, size_t node) {
+  const sw_scene *s = user;
+  sw_scene_unloaded_near(s, wire, s->system.bodies[wire].plan, node);
+}
+
+sw_link_wire sw_scene_link_wire(const sw_scene *s, size_t wire) {
+  sw_scene_wire *w = &s->wires[wire];
+  return (sw_link_wire){.name = w->name,
+                        .mesh = &w->mesh,
+                        .beam = &w->beam,
+                        .time = s->time,
+                        .system = (sw_system *)&s->system,
+                        .body = wire,
+                        .user = (void *)s,
+                        .reshaped = reshaped};
+}
+
+void sw_scene_follow_holds(sw_scene *s) {
+  for (size_t k = 0; k < s->hold_count; k++) {
+    sw_hold *h = &s->holds[k];
+    const sw_link_wire w = sw_scene_link_wire(s, h->wire);
+    const double before = s->books.step.to.kinetic;
+    if (!h->alive || !h->cls->hold->follow || !h->cls->hold->follow(h, &w)) continue;
+    sw_course_jump(&s->course);
+    s->books.step.to.kinetic = sw_system_kinetic(&s->system, 0);
+    s->books.step.impact += before - s->books.step.to.kinetic;
+  }
+}
+
+void sw_scene_undo_holds(sw_scene *s) {
+  for (size_t k = 0; k < s->hold_count; k++) {
+    sw_hold *h = &s->holds[k];
+    const sw_link_wire w = sw_scene_link_wire(s, h->wire);
+    if (h->alive && h->cls->hold->undo) h->cls->hold->undo(h, &w);
+  }
+}
+
+sw_hold_way sw_hold_way_of(const sw_scene *s, const sw_hold *h, double t, const double *x) {
+  const sw_link_wire w = sw_scene_link_wire(s, h->wire);
+  return h->cls->hold->passes(h, &w, t, x);
+}
+
+/* All arc lengths of a wire that other holds and joins need as nodes. */
+const sw_joint *sw_scene_joined(const sw_scene *s, size_t wire) {
+  for (size_t k = 0; k < s->join_count; k++)
+    for (size_t i = 0; s->joins[k].alive && i < s->joins[k].count; i++)
+      if (s->joins[k].ends[i].wire == wire) return &s->joins[k];
+  return NULL;
+}
+
+size_t sw_scene_join_places(const sw_scene *s, size_t wire, double *out) {
+  size_t n = 0;
+  for (size_t k = 0; k < s->join_count; k++)
+    for (size_t i = 0; s->joins[k].alive && i < s->joins[k].count; i++) {
+      if (s->joins[k].ends[i].wire != wire) continue;
+      if (out) out[n] = s->joins[k].ends[i].s;
+      n++;
+    }
+  return n;
+}
+
+void sw_scene_joint_wires(const sw_scene *s, const sw_joint *j, sw_link_wire out[SW_JOIN_ENDS]) {
+  for (size_t k = 0; k < j->count; k++) {
+    const sw_scene_wire *w = &s->wires[j->ends[k].wire];
+    sw_recipe recipe;
+    w->cls->recipe(&w->beam, &recipe);
+    out[k] = sw_scene_link_wire(s, j->ends[k].wire);
+    out[k].bends = recipe.push != 0;
+  }
+}
+
+sw_status sw_scene_add_joins(sw_scene *s) {
+  sw_link_wire wires[SW_JOIN_ENDS];
+  for (size_t k = 0; k < s->join_count; k++) {
+    if (!s->joins[k].alive) continue;
+    sw_scene_joint_wires(s, &s->joins[k], wires);
+    SW_TRY(s->joins[k].cls->joint->add(&s->joins[k], wires));
+  }
+  return SW_OK;
+}

@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is found in a scene: objects by their handles, their names, and whether it may be changed or
+ * read now. */
+#include <stdio.h>
+#include <string.h>
+
+#include "link/joint.h"
+#include "scene/hold.h"
+#include "scene/join.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
+#include "scene/world.h"
+
+const char *sw_scene_name(const sw_scene *s) { return s->name; }
+double sw_scene_time(const sw_scene *s) { return s->time; }
+sw_vec sw_scene_gravity(const sw_scene *s) { return s->gravity; }
+double sw_scene_window(const sw_scene *s) { return s->course.window; }
+
+sw_status sw_scene_readable(const sw_scene *s, sw_error *err) {
+  if (!s->diverged) return SW_OK;
+  return sw_fail(err, SW_EDIVERGED,
+                 "scene '%s': the last run diverged (%.300s); its numbers mean nothing, restore a "
+                 "snapshot or build the scene anew",
+                 s->name, s->why.text);
+}
+
+int sw_scene_busy(const sw_scene *s) { return s->running > 0 || s->looking; }
+
+sw_status sw_scene_still(const sw_scene *s, sw_error *err) {
+  if (s->running)
+    return sw_fail(err, SW_EBUSY,
+                   "scene '%s' cannot be changed or measured from inside a step or a function of "
+                   "time",
+                   s->name);
+  return SW_OK;
+}
+
+sw_status sw_scene_editable(const sw_scene *s, sw_error *err) {
+  SW_TRY(sw_scene_still(s, err));
+  if (s->looking)
+    return sw_fail(
+        err, SW_EBUSY,
+        "scene '%s' cannot be changed while an observer looks at it; hand the change in: "
+        "observer:change(function() ... end)",
+        s->name);
+  return SW_OK;
+}
+
+sw_scene_wire *sw_scene_find_body(const sw_scene *s, sw_handle h, sw_error *err) {
+  if (h.slot < s->wire_count && s->wires[h.slot].generation == h.generation)
+    return &s->wires[h.slot];
+  sw_fail(err, SW_EDEAD, "this object is not of scene '%s' any more", s->name);
+  return NULL;
+}
+
+sw_scene_wire *sw_scene_find_wire(const sw_scene *s, sw_handle h, sw_error *err) {
+  sw_scene_wire *w = sw_scene_find_body(s, h, err);
+  if (!w || !sw_scene_is_loose(w)) return w;
+  sw_fail(err, SW_EINVAL, "'%s' is an object of particles, not a wire", w->name);
+  return NULL;
+}
+
+sw_hold *sw_scene_find_hold(const sw_scene *s, sw_handle h, sw_error *err) {
+  if (h.slot < s->hold_count && s->holds[h.slot].generation == h.generation)
+    return &s->holds[h.slot];
+  sw_fail(err, SW_EDEAD, "this clamp is not of scene '%s' any more", s->name);
+  return NULL;
+}
+
+sw_scene_obstacle *sw_scene_find_obstacle(const sw_scene *s, sw_handle h, sw_error *err) {
+  if (h.slot < s->obstacle_count && s->obstacles[h.slot].generation == h.generation &&
+      s->obstacles[h.slot].alive)
+    return &s->obstacles[h.slot];
+  sw_fail(err, SW_EDEAD, "this obstacle is not of scene '%s' any more", s->name);
+  return NULL;
+}
+
+const char *sw_scene_wire_name(const sw_scene *s, sw_handle h) {
+  const sw_scene_wire *w = sw_scene_find_body(s, h, NULL);
+  return w ? w->name : NULL;
+}
+
+const char *sw_scene_hold_name(const sw_scene *s, sw_handle h, const char **kind, int *held) {
+  const sw_hold *hold = sw_scene_find_hold(s, h, NULL);
+  if (!hold) return NULL;
+  *kind = hold->cls->name;
+  *held = hold->alive;
+  return hold->name;
+}
+
+const char *sw_scene_obstacle_name(const sw_scene *s, sw_handle h, const char **kind,
+                                   int *present) {
+  if (h.slot >= s->obstacle_count || s->obstacles[h.slot].generation != h.generation) return NULL;
+  *kind = sw_shape_kind(s->obstacles[h.slot].shape);
+  *present = s->obstacles[h.slot].alive;
+  return s->obstacles[h.slot].name;
+}
+
+/* A name for an unnamed object: "wire1", "box2", ... */
+void sw_scene_give_name(char *out, const char *wanted, const char *kind, size_t number) {
+  if (wanted[0])
+    memcpy(out, wanted, SW_NAME_SIZE);
+  else
+    snprintf(out, SW_NAME_SIZE, "%s%zu", kind, number + 1);
+}
+
+sw_hold *sw_scene_living_hold(const sw_scene *s, sw_handle hold, sw_error *err) {
+  sw_hold *h = sw_scene_find_hold(s, hold, err);
+  if (h && !h->alive) {
+    sw_fail(err, SW_EDEAD, "%s '%s' has been released", h->cls->name, h->name);
+    return NULL;
+  }
+  return h;
+}
+
+sw_joint *sw_scene_find_join(const sw_scene *s, sw_handle h, sw_error *err) {
+  if (h.slot < s->join_count && s->joins[h.slot].generation == h.generation)
+    return &s->joins[h.slot];
+  sw_fail(err, SW_EDEAD, "this join is not of scene '%s' any more", s->name);
+  return NULL;
+}
+
+sw_status sw_scene_check_line(const sw_scene_wire *w, const char *what, sw_error *err) {
+  if (!w->cls->mesh) return SW_OK;
+  if (sw_scene_is_loose(w))
+    return sw_fail(err, SW_EINVAL, "%s: '%s' is an object of particles; it goes with wires only",
+                   what, w->name);
+  return sw_fail(err, SW_EINVAL,
+                 "%s: wire '%s' is a %s, a mesh of particles; it goes with rods "
+                 "and strings only",
+                 what, w->name, w->cls->name);
+}
+
+sw_status sw_scene_check_touching(const sw_scene_wire *w, sw_error *err) {
+  if (sw_scene_is_loose(w)) return SW_OK;
+  return sw_scene_check_line(w, "scene:wire_contact", err);
+}

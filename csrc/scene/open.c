@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Wires are opened to be read: the scene is built, their state refreshed. */
+#include "scene/line.h"
+#include "scene/world.h"
+
+sw_status sw_scene_open_body(sw_scene *s, sw_handle h, sw_scene_wire **body, sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  *body = sw_scene_find_body(s, h, err);
+  if (!*body) return SW_EDEAD;
+  if (s->running) return sw_scene_still(s, err);
+  SW_TRY(sw_scene_build(s, err));
+  SW_TRY(sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err));
+  sw_system_refresh(&s->system);
+  return SW_OK;
+}
+
+/* The same of a wire only. */
+sw_status sw_scene_open_wire(sw_scene *s, sw_handle h, sw_scene_wire **wire, sw_error *err) {
+  if (!sw_scene_find_wire(s, h, err)) return SW_EDEAD;
+  return sw_scene_open_body(s, h, wire, err);
+}
+
+sw_status sw_scene_check_place(const sw_scene_wire *w, double place, sw_error *err) {
+  const double length = w->mesh.s[w->mesh.n - 1] - w->mesh.s[0];
+  if (place >= 0 && place <= length * (1 + 1e-12)) return SW_OK;
+  return sw_fail(err, SW_EINVAL,
+                 "wire '%s': s = %.6g m is not on the wire; it must be in [0, %.6g] m", w->name,
+                 place, length);
+}

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Frames of wires that turn about themselves. Of the scene's inside. */
+#ifndef SW_SCENE_SPIN_H
+#define SW_SCENE_SPIN_H
+
+#include "scene/scene.h"
+#include "system/system.h"
+
+/* What the frames of wires are when unloaded, into the plan; their present ones into
+ * the system's state and back into the meshes. */
+sw_status sw_scene_unloaded(const sw_scene *scene, size_t wire, sw_plan *plan);
+/* The same for what depends on the edges beside one node. */
+void sw_scene_unloaded_near(const sw_scene *scene, size_t wire, sw_plan *plan, size_t node);
+void sw_scene_frame_in(sw_scene *scene);
+void sw_scene_frame_out(sw_scene *scene, size_t wire);
+/* Bend of a hinge beyond that at rest, over its length [1/m]; number: of the plan's
+ * list with clamps after nodes. For refreshed bodies with frames. */
+double sw_scene_flexure(const sw_system *system, const sw_body *body, size_t number);
+
+#endif

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the wires touch: obstacles and wires in one (see sw_contact and sw_pairs). Of the scene's
+ * inside. */
+#ifndef SW_SCENE_TOUCHING_H
+#define SW_SCENE_TOUCHING_H
+
+#include "contact/contact.h"
+#include "contact/crowd.h"
+#include "contact/grains.h"
+#include "contact/pairs.h"
+#include "scene/scene.h"
+
+/* Which wires touch each other, as stated. */
+typedef struct sw_scene_rule {
+  uint32_t *wires; /* (count) slots; count 0 = all */
+  size_t count;
+  int self; /* each with itself too */
+  sw_pair_rule rule;
+} sw_scene_rule;
+
+/* Drop the contact memory kept for the next system. */
+void sw_scene_forget_contact(sw_scene *scene);
+/* SW_ENOMEM. */
+sw_status sw_scene_new_pairs(sw_scene *scene);
+void sw_scene_drop_rules(sw_scene *scene, size_t keep);
+void sw_scene_couple(sw_scene *scene);
+int sw_scene_has_contact(const sw_scene *scene);
+/* Contact is to know what obstacles remember and which may move. */
+void sw_scene_inform_contact(sw_scene *scene);
+/* The life of a step or an equilibrium for what touches: it begins, is reviewed and taken. */
+sw_status sw_scene_begin_contact(sw_scene *scene, sw_contact_regime regime, double t, double h,
+                                 double nominal, sw_error *err);
+sw_contact_verdict sw_scene_review_contact(sw_scene *scene, const double *x1, const double *v1,
+                                           double h);
+int sw_scene_review_static(sw_scene *scene, const double *x1);
+void sw_scene_commit_contact(sw_scene *scene);
+double sw_scene_deepest(const sw_scene *scene, size_t *node); /* [m] */
+double sw_scene_contact_energy(const sw_scene *scene);        /* [J] */
+
+#endif

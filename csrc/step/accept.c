@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A trial becomes the state: it is committed, observed and booked. */
+#include <math.h>
+
+#include "scene/hold.h"
+#include "scene/observe.h"
+#include "scene/touching.h"
+#include "scene/world.h"
+#include "step/believe.h"
+#include "step/energy.h"
+#include "step/jaw.h"
+#include "step/restart.h"
+#include "step/run.h"
+
+/* So many parts of less than this share of their step in the mean are no way to go on: the
+ * run stops and says what holds it back [-]. Adaptive steps may be as small as they like for
+ * longer. */
+enum { MOST_SMALL = 20000, MOST_SMALL_ADAPTIVE = 20000 };
+static const double SMALL = 1.0 / 512, SMALL_ADAPTIVE = 2e-5;
+
+void sw_ladder_accept(sw_ladder *p, double h, double t) {
+  sw_scene *s = p->s;
+  sw_stepper_accept(&s->course.stepper, &s->system, h);
+  s->system.judged = s->course.stepper.trial_x;
+  sw_scene_commit_contact(s);
+  sw_restart_taken(s);
+  s->course.span = h;
+  if (s->course.method->flags & SW_INTEGRATOR_NO_CONTACT) sw_scene_remark_contact(s);
+  p->changed = 0;
+  p->report->steps++;
+  if (h < p->report->smallest_dt) p->report->smallest_dt = h;
+  s->time = t;
+}
+
+/* A part h of a step that was to be whole is taken. SW_ELIMIT: steps have collapsed. */
+static sw_status count_small(sw_ladder *p, double h, double whole, sw_error *err) {
+  const int adaptive = isfinite(p->args->tolerance);
+  const size_t most = adaptive ? MOST_SMALL_ADAPTIVE : MOST_SMALL;
+  p->s->course.covered += h / whole;
+  if (++p->s->course.parts < most) return SW_OK;
+  const double share = p->s->course.covered / (double)most;
+  p->s->course.parts = 0, p->s->course.covered = 0;
+  if (share >= (adaptive ? SMALL_ADAPTIVE : SMALL)) return SW_OK;
+  return sw_fail(
+      err, SW_ELIMIT,
+      "steps have collapsed: the last %zu were about %.2g s, of %.3g s asked for%s%.200s", most,
+      share * whole, whole, p->held.text[0] ? "; larger ones fail, for " : "", p->held.text);
+}
+
+sw_status sw_step_observe(sw_scene *s, sw_error *err) {
+  sw_scene_follow_holds(s);
+  sw_jaw_follow(s);
+  return sw_scene_observe(s, err);
+}
+
+sw_status sw_ladder_record(sw_ladder *p, double h, sw_error *err) {
+  SW_TRY(sw_step_observe(p->s, err));
+  if (sw_ledger_close(p->s) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "out of memory for the energy of scene '%s'", p->s->name);
+  return count_small(p, h, p->args->dt, err);
+}

@@ -1,0 +1,229 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The ledger of a run's energy is kept: a step is opened before it is tried and closed once it is
+ * accepted. */
+#include <math.h>
+
+#include "base/alloc.h"
+#include "contact/grains.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
+#include "scene/world.h"
+#include "step/energy.h"
+#include "step/step.h"
+
+const double SW_LEDGER_REMARK = 0.02, SW_LEDGER_FAILURE = 0.05;
+
+/* A held point is off its hold by more than rounding [m]. */
+static const double JUMP = 1e-9;
+/* The least that is in play: the weight times the radius, or this share of EI / L [-]. */
+static const double LEAST_BENDING = 1e-6;
+static const double LEAST = 1e-12; /* and this [J] */
+
+void sw_ledger_begin_run(sw_scene *s) {
+  sw_books *b = &s->books;
+  sw_log log = b->log;
+  log.count = 0;
+  *b = (sw_books){.holds = b->holds,
+                  .obstacles = b->obstacles,
+                  .log = log,
+                  .hold_room = b->hold_room,
+                  .obstacle_room = b->obstacle_room};
+}
+
+void sw_ledger_forget(sw_scene *s) { s->books.known = 0; }
+
+static void weigh(sw_scene *s) {
+  sw_books *b = &s->books;
+  b->weight = b->bending = b->mass = b->longest = 0;
+  for (size_t k = 0; k < s->system.body_count; k++) {
+    const sw_plan *p = s->system.bodies[k].plan;
+    const double mg = p->beam.mass * p->length * sw_norm(s->gravity);
+    b->longest = fmax(b->longest, p->length);
+    if (isfinite(p->beam.mass * p->length)) b->mass += p->beam.mass * p->length;
+    if (isfinite(mg * p->beam.radius)) b->weight += mg * p->beam.radius;
+    if (p->length > 0 && isfinite(p->beam.EI)) b->bending += p->beam.EI / p->length;
+  }
+}
+
+static void take_as_now(sw_books *b, const sw_energies *e, double contact) {
+  b->now = *e;
+  b->contact = contact;
+  const double pot = sw_ledger_potential(e, contact);
+  b->highest = fmax(b->highest, pot);
+  b->released = fmax(b->released, b->highest - pot);
+  b->most_kinetic = fmax(b->most_kinetic, e->kinetic);
+  b->sums.kinetic = e->kinetic, b->sums.gravity = e->gravity;
+  b->sums.stored = e->stored + contact;
+  const double least = LEAST + fmax(b->weight, LEAST_BENDING * b->bending);
+  b->sums.play = fmax(least, b->most_kinetic + b->work + b->released);
+}
+
+/* 1: a hold was put elsewhere between two steps, away from the wire's held point. */
+static int was_put(sw_scene *s, sw_error *err) {
+  sw_system *y = &s->system;
+  for (size_t i = 3 * y->nodes; i < y->freedoms; i++) y->delta[i] = y->x[i];
+  if (sw_system_place_holds(y, s->time, y->delta, NULL, NULL, err) != SW_OK) return 0;
+  for (size_t k = 0; k < y->held_count; k++) {
+    const size_t at = 3 * y->held[k].node;
+    if (sw_dist(sw_load(y->delta + at), sw_load(y->x + at)) > JUMP) return 1;
+  }
+  return 0;
+}
+
+sw_status sw_ledger_open(sw_scene *s, sw_error *err) {
+  sw_books *b = &s->books;
+  int any;
+  if (b->known) return SW_OK;
+  sw_energies e;
+  weigh(s);
+  sw_system_energies(&s->system, sw_ledger_lumped(s), &e);
+  b->has_powers = sw_system_has_powers(&s->system);
+  if (b->has_powers) SW_TRY(sw_system_powers(&s->system, s->time, &b->powers, err));
+  const double contact = sw_ledger_contact(s), now = e.kinetic + sw_ledger_potential(&e, contact);
+  const double last = b->now.kinetic + sw_ledger_potential(&b->now, b->contact);
+  if (!b->begun) b->sums.at_start = now, b->highest = sw_ledger_potential(&e, contact);
+  if (b->begun) b->sums.by_changes += now - last, b->highest += fmax(0.0, now - last);
+  b->begun = 1;
+  take_as_now(b, &e, contact);
+  b->put = was_put(s, err);
+  b->dissipated = sw_system_dissipated(&s->system, &any);
+  b->rubbed_off = sw_system_rubbed(&s->system);
+  if (sw_ledger_note_workers(s, 1) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
+  b->known = 1;
+  return SW_OK;
+}
+
+/* --- booking ------------------------------------------------------------------- */
+
+static sw_status log_row(sw_scene *s) {
+  const sw_ledger *l = &s->books.sums;
+  const double lost =
+      l->damping + l->friction + l->plasticity + l->impact + l->contact + l->integrator + l->jumps;
+  const double row[SW_LOG_ENERGY_SIZE] = {s->time, l->kinetic, l->stored, l->gravity, l->gap, lost};
+  return sw_log_add(&s->books.log, row, SW_LOG_ENERGY_SIZE);
+}
+
+/* The energy that a method makes by itself goes to and fro, also where energy oscillates
+ * between kinds. So it counts by its rise above its least value. Energy made by touches stays. */
+static void book_gain(sw_scene *s, double gain) {
+  sw_books *b = &s->books;
+  if (!isfinite(gain)) return; /* not judged */
+  if (sw_ledger_referees(s) && b->step.touching) {
+    b->made += fmax(0.0, gain);
+    b->lowest = b->rise;
+  } else {
+    b->rise += gain;
+    b->lowest = b->step.changed ? b->rise : fmin(b->lowest, b->rise);
+    b->highest_rise = fmax(b->highest_rise, b->rise - b->lowest);
+  }
+  b->sums.gained = b->made + b->highest_rise;
+}
+
+static void book_left(sw_ledger *l, double left, int steady) {
+  if (left > 0)
+    l->gap += left;
+  else if (steady)
+    l->integrator -= left;
+  else
+    l->contact -= left;
+}
+
+/* Losses that histories count, since the last step. */
+static double book_histories(sw_scene *s) {
+  sw_books *b = &s->books;
+  int any;
+  const double all = sw_system_dissipated(&s->system, &any), before = b->dissipated;
+  const double rubbed = sw_system_rubbed(&s->system);
+  b->sums.friction += rubbed - b->rubbed_off;
+  b->sums.plasticity += all - before - (rubbed - b->rubbed_off);
+  b->dissipated = all, b->rubbed_off = rubbed;
+  return all - before;
+}
+
+static void book_step(sw_scene *s) {
+  sw_books *b = &s->books;
+  const sw_step_energy *step = &b->step;
+  sw_ledger *l = &b->sums;
+  const double work = step->holds + step->obstacles + step->feeds + step->forces;
+  const double change = step->to.kinetic - b->now.kinetic +
+                        sw_ledger_potential(&step->to, step->contact) -
+                        sw_ledger_potential(&b->now, b->contact);
+  l->by_holds += step->holds, l->by_obstacles += step->obstacles;
+  l->by_feeds += step->feeds, l->by_forces += step->forces;
+  l->damping += step->damping, l->friction += step->friction, l->impact += step->impact;
+  const double lost = step->damping + step->friction + step->impact + book_histories(s);
+  b->work += step->work;
+  l->steps++;
+  const double given = fmin(fmax(0.0, change - work + lost), step->let_out);
+  l->by_changes += given;
+  book_left(l, change - work + lost - given, step->steady);
+  book_gain(s, step->gain);
+  if (step->gain > l->most_gained) l->most_gained = step->gain, l->most_time = s->time;
+  take_as_now(b, &step->to, step->contact);
+  b->powers = step->powers;
+}
+
+sw_status sw_ledger_close(sw_scene *s) {
+  book_step(s);
+  SW_TRY(sw_ledger_note_workers(s, 1));
+  return log_row(s);
+}
+
+sw_status sw_ledger_pose(sw_scene *s, int jumped, sw_error *err) {
+  sw_books *b = &s->books;
+  sw_step_energy *step = &b->step;
+  *step = (sw_step_energy){.steady = 1};
+  sw_system_energies(&s->system, 0, &step->to);
+  step->to.kinetic = 0;
+  step->contact = sw_ledger_contact(s);
+  if (s->contact) step->friction += sw_contact_rubbed(s->contact);
+  if (s->pairs) step->friction += sw_pairs_rubbed(s->pairs);
+  if (s->grains) step->friction += sw_grains_rubbed(s->grains);
+  sw_ledger_work(s, s->time, 0);
+  step->forces = b->now.loads - step->to.loads;
+  step->work = fabs(step->holds) + fabs(step->obstacles) + fabs(step->feeds) + fabs(step->forces);
+  const double before = b->sums.integrator;
+  step->gain = 0; /* poses are not judged */
+  book_step(s);
+  if (jumped) b->sums.jumps += b->sums.integrator - before, b->sums.integrator = before;
+  if (sw_ledger_note_workers(s, 0) != SW_OK || log_row(s) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
+  return SW_OK;
+}
+
+static void tell_retries(sw_scene *s, const char *what, const sw_retries *r) {
+  if (!r->count) return;
+  sw_scene_tell(s, "energy", r->object, r->s, r->largest,
+                "%zu steps were %s, the worst at t = %.6g s", r->count, what, r->time);
+}
+
+enum { FEW = 2 }; /* steps redone that are not worth a word */
+
+sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
+  const sw_ledger *l = &s->books.sums;
+  const double share = l->play > 0 ? l->gained / l->play : 0.0;
+  sw_scene_end_breaking(s);
+  tell_retries(s, "taken though they made energy, for smaller ones did too", &l->accepted);
+  if (l->redone.count > FEW && (double)l->redone.count > 0.01 * (double)l->steps)
+    tell_retries(s, "redone, more than 1 % of all, for they made energy", &l->redone);
+  if (!(share > SW_LEDGER_REMARK)) return SW_OK;
+  if (!(share > SW_LEDGER_FAILURE)) {
+    sw_scene_tell(s, "energy", "", NAN, share,
+                  "steps made %.3g J from nowhere, %.2g %% of what was in play; smaller steps show "
+                  "what that changes",
+                  l->gained, 100.0 * share);
+    return SW_OK;
+  }
+  char pressed[2 * SW_NAME_SIZE + 100]; /* what is wedged makes energy with steps of any size */
+  s->diverged = 1;
+  sw_scene_tell_pressed(s, pressed, sizeof pressed);
+  sw_fail(
+      &s->why, SW_EDIVERGED,
+      "steps made %.3g J from nowhere, %.3g %% of the %.3g J in play, most of it at t = %.6g s%s; "
+      "take smaller steps%s",
+      l->gained, 100.0 * share, l->play, l->most_time, pressed,
+      sw_ledger_lumped(s) ? ", or an implicit integrator such as tr-bdf2" : "");
+  *why = s->why;
+  return SW_EDIVERGED;
+}

@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Static equilibrium: the mixed Newton from where the scene is; when that fails
+ * (mechanisms, snap-through, sliding contact) or ends in an equilibrium that is
+ * not stable, pseudo-transient continuation from the start, which is implicit
+ * Euler with velocities forgotten and a growing step. */
+#include <math.h>
+#include <string.h>
+
+#include "scene/join.h"
+#include "scene/line.h"
+#include "scene/live.h"
+#include "scene/touching.h"
+#include "state/mesh.h"
+#include "step/statics.h"
+
+enum { SLIDES = 8, MOST_REDOS = 20 };
+static const double FIRST_PSEUDO_STEP = 0.02; /* of sqrt(length/g) [-] */
+static const double LARGEST_GROWTH = 1e6;     /* of the first pseudo step [-] */
+static const double STATIC_TURN = 1e-7;       /* last rotation of a converged solve [rad] */
+/* A direction in which a disturbance needs longer to grow than this counts as
+ * neutral, not as unstable. */
+static const double SLOWEST_GROWTH = 30.0; /* of sqrt(length/g) [-] */
+static const double NUDGE = 1e-4;          /* of the length, off an unstable place [-] */
+enum { MOST_NUDGES = 2 };
+
+double sw_rest_longest(const sw_scene *s) {
+  double length = 0;
+  for (size_t w = 0; w < s->wire_count; w++) {
+    const sw_mesh *m = &s->wires[w].mesh;
+    length = fmax(length, m->s[m->n - 1] - m->s[0]);
+  }
+  return length;
+}
+
+/* sqrt(length/g); weightless scenes: any scale will do. */
+static double time_scale(const sw_scene *s) {
+  return sqrt(sw_rest_longest(s) / fmax(sw_norm(s->gravity), 1.0));
+}
+
+static double first_step(const sw_scene *s) { return FIRST_PSEUDO_STEP * time_scale(s); }
+
+/* A loose mesh that an obstacle touches on one side is pushed on for as long as the pseudo step
+ * is. Is it further than its own size away from where it was? */
+static int thrown(const sw_statics *p) {
+  const sw_system *s = &p->s->system;
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_body *body = &s->bodies[b];
+    const double size = body->plan->length + 2.0 * body->plan->beam.radius;
+    double least = HUGE_VAL;
+    for (size_t i = 0; body->plan->web && i < body->plan->nodes; i++) {
+      const size_t n = body->first_node + i;
+      const int is_free = body->plan->held[i] == SW_FREE;
+      least = fmin(least, is_free ? sw_dist(sw_vec_at(p->y, n), sw_vec_at(s->x, n)) : 0.0);
+    }
+    if (isfinite(least) && least > size) return 1;
+  }
+  return 0;
+}
+
+static sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newton, sw_error *err) {
+  sw_scene *s = p->s;
+  sw_stage_report r = {0};
+  const sw_stage stage = {
+      .time = s->time, .hbar = hbar, .xhat = p->from, .vhat = p->zero, .y = p->y, .v = p->v};
+  memcpy(p->from, s->system.x, s->system.freedoms * sizeof(double));
+  memcpy(p->tension, s->system.tension, s->system.edges * sizeof(double));
+  sw_system_begin_step(&s->system);
+  sw_status status = SW_OK;
+  const double h = isfinite(hbar) ? hbar : 0.0;
+  status = sw_scene_begin_contact(s, SW_CONTACT_STATIC, p->touched, h, first_step(s), err);
+  for (int redo = 0; status == SW_OK; redo++) {
+    status = sw_system_stage(&s->system, &stage, newton, &r, err);
+    p->report->iterations += (size_t)r.iterations;
+    if (status != SW_OK || !sw_scene_review_static(s, p->y)) break;
+    if (newton->statics || redo == MOST_REDOS)
+      status = sw_fail(err, SW_ENOCONV, "the wire would pass through an obstacle");
+  }
+  if (status == SW_OK && !newton->statics && hbar > first_step(s) && sw_scene_has_contact(s) &&
+      thrown(p))
+    status = sw_fail(err, SW_ENOCONV, "a loose mesh would be thrown far");
+  p->report->negative = r.negative;
+  if (status != SW_OK) memcpy(s->system.tension, p->tension, s->system.edges * sizeof(double));
+  return status;
+}
+
+/* Make y the state, for contact too unless it is on trial. Returns the largest
+ * shift [m]. */
+static double take(sw_statics *p, int trial) {
+  sw_scene *s = p->s;
+  double shift = 0;
+  for (size_t i = 0; i < 3 * s->system.nodes; i++)
+    shift = fmax(shift, fabs(p->y[i] - s->system.x[i]));
+  sw_system_follow(&s->system, p->y);
+  memcpy(s->system.x, p->y, s->system.freedoms * sizeof(double));
+  memset(s->system.v, 0, s->system.freedoms * sizeof(double));
+  memset(s->system.a, 0, s->system.freedoms * sizeof(double));
+  sw_system_strain_from_state(&s->system);
+  if (trial) return shift;
+  sw_scene_commit_contact(s);
+  p->touched = s->time;
+  return shift;
+}
+
+/* Have obstacles moved since contact knew them? Then friction drags the wires. */
+static int dragged(const sw_statics *p) {
+  return p->s->contact && p->touched != p->s->time && sw_contact_moves(p->s->contact);
+}
+
+/* A wire that nothing holds may lie where it can be shifted without effort, on a smooth table: a
+ * direction in which rounding alone would carry it far. Meshes have touches enough to keep them. */
+static int loose(const sw_scene *s) {
+  for (size_t b = 0; b < s->system.body_count; b++) {
+    const sw_plan *plan = s->system.bodies[b].plan;
+    size_t i = 0;
+    while (i < plan->nodes && plan->held[i] == SW_FREE) i++;
+    if (!plan->web && i == plan->nodes && !sw_scene_joined(s, b)) return 1;
+  }
+  return 0;
+}
+
+/* Forces that a little mass leaves out of balance, over its weight [-]. */
+static const double LITTLE = 1e-5;
+
+sw_status sw_rest_newton(sw_statics *p, int iterations, sw_error *err) {
+  const sw_newton newton = {.max_iterations = iterations,
+                            .accept_rotation = fmax(STATIC_TURN, p->passing),
+                            .limit_rotation = 1.0,
+                            .statics = 1,
+                            .accept_shift = fmax(p->args->tolerance, p->passing * p->edge),
+                            .most_far = p->most_far};
+  const double slowest = SLOWEST_GROWTH * time_scale(p->s);
+  const int massive = loose(p->s);
+  SW_TRY(sw_rest_solve(p, massive ? slowest : HUGE_VAL, &newton, err));
+  p->report->residual = p->args->tolerance;
+  const double shift = take(p, p->report->negative > 0);
+  const double far = LITTLE * fmax(sw_norm(p->s->gravity), 1.0) * slowest * slowest;
+  if (p->report->negative == 0 && !(massive && shift > far)) return SW_OK;
+  /* once more with a little mass: rounding in neutral directions drops out */
+  SW_TRY(sw_rest_solve(p, slowest, &newton, err));
+  if (take(p, p->report->negative > 0) > far && massive && p->report->negative == 0)
+    return sw_fail(err, SW_ENOCONV, "a wire that nothing holds is carried away");
+  return SW_OK;
+}
+
+/* A smooth push to the sides, the same in every run, that no symmetry of a
+ * scene shares. */
+static void nudge(sw_statics *p, int number) {
+  sw_system *s = &p->s->system;
+  const double size = NUDGE * sw_rest_longest(p->s);
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_body *body = &s->bodies[b];
+    for (size_t i = 0; i < body->plan->nodes; i++) {
+      if (body->plan->held[i] != SW_FREE) continue;
+      const double u = body->plan->s[i] / body->plan->length + 0.3 * number;
+      double *x = s->x + 3 * (body->first_node + i);
+      x[0] += size * sin(2.3 * u + 0.4);
+      x[1] += size * sin(3.1 * u + 0.9);
+      x[2] += size * sin(4.7 * u + 1.3);
+    }
+  }
+}
+
+/* Of the pseudo step, by what the last one took: where wires touch, one that fails costs more
+ * than is gained by a long one [-]. */
+static double growth(const sw_scene *s, size_t iterations) {
+  if (!sw_scene_has_contact(s) || iterations <= 8) return 1.6;
+  return iterations <= 14 ? 1.1 : 0.7;
+}
+
+int sw_rest_stops(sw_status status) {
+  return status == SW_ECALLBACK || status == SW_ENOMEM || status == SW_EINTR || status == SW_ELIMIT;
+}
+
+static sw_status transient(sw_statics *p, sw_error *err) {
+  sw_scene *s = p->s;
+  const double first = first_step(s);
+  const sw_newton newton = {
+      .max_iterations = 30, .accept_rotation = 0.01, .limit_rotation = 0.3, .statics = 0};
+  /* what is dragged along must not be kept from it by inertia */
+  double tau = dragged(p) ? SLOWEST_GROWTH * time_scale(s) : first;
+  p->report->transient = 1;
+  while (p->report->iterations < (size_t)p->args->max_iterations) {
+    if (p->interrupted && p->interrupted()) return SW_EINTR;
+    const size_t before = p->report->iterations;
+    const sw_status status = sw_rest_solve(p, tau, &newton, err);
+    if (sw_rest_stops(status)) return status;
+    if (status != SW_OK) {
+      tau *= 0.25;
+      if (p->too_far && tau < time_scale(s) && dragged(p)) {
+        *p->too_far = 1;
+        return sw_fail(err, SW_ENOCONV, "obstacles drag the wires too far in one step");
+      }
+      if (tau < 1e-9 * first) return status;
+      continue;
+    }
+    p->report->residual = take(p, 0);
+    /* in a shorter step than the first one what is out of balance shifts by tau^2 */
+    const double reserve = fmax(1.0, first * first / (tau * tau));
+    if (p->report->residual * reserve <= p->args->tolerance) return SW_OK;
+    tau = fmin(tau * growth(s, p->report->iterations - before), LARGEST_GROWTH * first);
+  }
+  return sw_fail(err, SW_ENOCONV,
+                 "not at rest after %zu iterations: the last step still moved %.3g m",
+                 p->report->iterations, p->report->residual);
+}
+
+/* Newton's iteration from where continuation came to rest, which stays when that fails: the
+ * equilibrium is then not isolated, or (unstable: 1) not stable. What touches there is kept too. */
+static sw_status polish(sw_statics *p, int *unstable, sw_error *err) {
+  sw_error why = {"out of memory"};
+  sw_tape rest = {0};
+  sw_status status = sw_live_take(p->s, &rest);
+  if (status == SW_OK) status = sw_rest_newton(p, SW_REST_ITERATIONS, &why);
+  if (sw_rest_stops(status)) sw_fail(err, status, "%s", why.text);
+  *unstable = status == SW_OK && p->report->negative > 0;
+  if (status == SW_OK ? *unstable : !sw_rest_stops(status)) status = sw_live_back(p->s, &rest, err);
+  sw_tape_free(&rest);
+  return status;
+}
+
+sw_status sw_rest_find(sw_statics *p, sw_error *err) {
+  sw_rest_put_aside(p->s, p->kept);
+  sw_status status = sw_rest_newton(p, SW_REST_ITERATIONS, err);
+  if (status == SW_ENOCONV && dragged(p)) { /* touches may begin to slide one by one */
+    sw_rest_take_back(p->s, p->kept);
+    const double most = SW_REST_ITERATIONS + SLIDES * (double)p->s->system.nodes;
+    status = sw_rest_newton(p, (int)fmin(most, (double)p->args->max_iterations), err);
+  }
+  if ((status == SW_OK && p->report->negative == 0) || sw_rest_stops(status)) return status;
+  sw_rest_take_back(p->s, p->kept);
+  for (int k = 0;; k++) {
+    int again = 0;
+    SW_TRY(transient(p, err));
+    SW_TRY(polish(p, &again, err));
+    if (!again || k == MOST_NUDGES) return SW_OK;
+    nudge(p, k);
+  }
+}

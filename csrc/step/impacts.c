@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Impacts and rebounds within a step: what it touches is reviewed after each trial. */
+#include <math.h>
+#include <string.h>
+
+#include "force/force.h"
+#include "scene/touching.h"
+#include "scene/world.h"
+#include "step/blow.h"
+#include "step/restart.h"
+
+/* Rebounds closer than this share of a step are one [-]. */
+static const double SAME_TIME = 1.0 / 1024;
+static const double SAME_TIME_CONTROLLED = 1.0 / 4; /* of the longest, in steps by tolerance [-] */
+enum { MOST_CUTS = 8 };   /* at rebounds, of a step: what rattles is followed no further [-] */
+enum { MOST_REDOS = 40 }; /* impacts found one after another in one step [-] */
+
+/* The shortest part of a step that may end at a rebound [s]. */
+static double shortest_cut(const sw_ladder *p) {
+  if (isfinite(p->args->tolerance)) return SAME_TIME_CONTROLLED * p->args->dt;
+  return p->cuts < MOST_CUTS ? SAME_TIME * p->args->dt : HUGE_VAL;
+}
+
+/* One step of size h, redone as long as contact finds impacts. */
+sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error *err) {
+  sw_scene *s = p->s;
+  p->soonest = 0;
+  sw_restart_try(p);
+  if (!sw_scene_has_contact(s)) return sw_rung_go(p, below, h, err);
+  memcpy(p->v_start, s->system.v, s->system.freedoms * sizeof(double));
+  sw_status status = sw_scene_begin_contact(
+      s,
+      s->course.method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
+      s->time, h, sw_blow_part(s, p->args->dt), err);
+  if (s->contact) sw_contact_cut(s->contact, shortest_cut(p));
+  for (int redo = 0; status == SW_OK && redo < MOST_REDOS; redo++) {
+    status = sw_rung_go(p, below, h, err);
+    if (status != SW_OK) break;
+    const sw_contact_verdict verdict =
+        sw_scene_review_contact(s, s->course.stepper.trial_x, s->course.stepper.trial_v, h);
+    if (verdict == SW_CONTACT_ACCEPT) return SW_OK;
+    sw_stepper_reject(&s->course.stepper, &s->system);
+    if (verdict == SW_CONTACT_SOONER) {
+      p->soonest = sw_contact_soonest(s->contact);
+      status = sw_fail(err, SW_ENOCONV, "something rebounds within the step");
+      break;
+    }
+    if (verdict == SW_CONTACT_SMALLER)
+      status = sw_fail(err, SW_ENOCONV, "what the wire touches cuts too deep into it");
+    sw_restart_struck(s, verdict == SW_CONTACT_STRIKE);
+  }
+  memcpy(s->system.v, p->v_start, s->system.freedoms * sizeof(double));
+  return status != SW_OK ? status
+                         : sw_fail(err, SW_ENOCONV, "impacts do not come to an end in one step");
+}

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The energy referee's rung: a step that makes energy is redone. */
+#include "scene/world.h"
+#include "step/energy.h"
+#include "step/ladder.h"
+
+static sw_status judge(sw_ladder *p, double h, double *excess, sw_error *err) {
+  sw_scene *s = p->s;
+  const sw_status status = sw_ledger_judge(s, s->time + h, h, p->changed, err);
+  *excess = p->changed || status != SW_OK ? 0.0 : sw_ledger_excess(s, h, p->args->dt);
+  if (status != SW_OK) sw_ladder_undo(p);
+  return status;
+}
+
+/* What to try after a step that made energy, tried as it is now. Where nothing touches only a
+ * smaller one helps, and what is known at its start stays so. */
+static int next_redo(sw_ladder *p) {
+  const sw_stepper *stepper = &p->s->course.stepper;
+  p->smooth = !p->s->books.step.touching;
+  if (p->smooth) return SW_GIVE_UP;
+  if (p->redo == SW_AS_IS && stepper->start != stepper->method && !stepper->restart)
+    return SW_BY_START;
+  return p->redo < SW_DULLY ? SW_DULLY : SW_GIVE_UP;
+}
+
+/* The referee: a step that makes energy is redone. SW_ENOCONV: it makes
+ * some all the same. p->smallest: it is then taken as it is, and counted. */
+sw_status sw_rung_judge(sw_ladder *p, const sw_rung *below, double h, sw_error *err) {
+  sw_scene *s = p->s;
+  sw_ledger *l = &s->books.sums;
+  double excess;
+  p->smooth = 0;
+  SW_TRY(sw_ledger_open(s, err));
+  if (p->interrupted && p->interrupted()) return SW_EINTR;
+  for (p->redo = SW_AS_IS;;) {
+    SW_TRY(sw_rung_go(p, below, h, err));
+    if (p->interrupted && p->interrupted()) { /* of many nodes each part takes its time */
+      sw_ladder_undo(p);
+      return SW_EINTR;
+    }
+    SW_TRY(judge(p, h, &excess, err));
+    if (!(excess > 0)) return SW_OK;
+    const int next = next_redo(p);
+    if (next == SW_GIVE_UP && p->smallest) {
+      sw_ledger_retry(s, &l->accepted, s->time, excess);
+      return SW_OK;
+    }
+    if (p->redo == SW_AS_IS) sw_ledger_retry(s, &l->redone, s->time, excess);
+    if (next == SW_GIVE_UP) sw_ledger_retry(s, &l->halved, s->time, excess);
+    sw_ladder_undo(p);
+    if (next == SW_GIVE_UP) return sw_fail(err, SW_ENOCONV, "the step makes energy from nowhere");
+    p->redo = next;
+  }
+}

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A step of fixed size, halved where it has to be: where nothing else helps, and where blows and
+ * what wires pass ask for it. */
+#include <math.h>
+
+#include "scene/feed.h"
+#include "scene/world.h"
+#include "step/blow.h"
+#include "step/passing.h"
+#include "step/restart.h"
+#include "step/slip.h"
+
+/* A first step after a jump knows no accelerations, and its reactions are off by their own
+ * size, by which slips would be wrong: it is kept to this share [-]. */
+static const double FIRST_SLIP = 1e-3;
+
+/* Parts end with their step: the difference of two times is known to no more than so much of a
+ * part, and what that leaves is no part [-]. */
+static const double ROUNDING = 1e-6;
+
+typedef struct parts {
+  double h, t0, t1;  /* of the whole step: size, start, exact end [s] */
+  double done, part; /* so much is behind; what is tried now [s] */
+  int starts, cut;   /* 1: the part is short, for reactions are to be known; for a rebound */
+  sw_error failed;   /* why a part was refused last */
+} parts;
+
+/* The part may be shorter than asked for; there are nodes for it. */
+static sw_status begin(sw_ladder *p, parts *k, sw_error *err) {
+  const double left = k->h - k->done;
+  k->part = sw_blow_part(p->s, k->part);
+  if (k->part > left * (1 - ROUNDING)) k->part = left;
+  /* there may be many parts */
+  if (k->done > 0 && p->interrupted && p->interrupted()) return SW_EINTR;
+  SW_TRY(sw_ladder_make_room(p, &k->part, err));
+  sw_restart_at_jerk(p->s);
+  if (k->part >= SW_SMALLEST_SHARE * SW_SMALLEST_SHARE * k->h) return SW_OK;
+  return sw_feed_too_fast(p->s, k->failed.text, err);
+}
+
+/* The trial went well, but it only tells of a blow, or went past a force. over: how far, of what
+ * forces allow [-]. */
+static int is_too_long(const sw_ladder *p, parts *k, double *over) {
+  if (sw_blow_begins(p->s, k->part)) return 1;
+  *over = sw_passing_of(p->s, p->s->course.stepper.trial_x);
+  const double shorter = sw_passing_part(k->part, *over);
+  if (!(shorter < k->part)) return 0;
+  k->part = shorter;
+  return 1;
+}
+
+static sw_status take(sw_ladder *p, parts *k, double over, sw_error *err) {
+  k->done += k->part;
+  sw_ladder_accept(p, k->part, k->done < k->h ? k->t0 + k->done : k->t1);
+  if (p->redo != SW_AS_IS) sw_blow_refused(p->s, k->part);
+  SW_TRY(sw_ladder_record(p, k->part, err));
+  k->part = k->starts || k->cut ? k->h : over > 0.5 ? k->part : 2 * k->part;
+  k->starts = k->cut = 0;
+  return SW_OK;
+}
+
+/* The status, unless a smaller part may go well. */
+static sw_status refuse(sw_ladder *p, parts *k, sw_status status, const sw_error *err) {
+  if (sw_ladder_hopeless(status)) return status;
+  k->failed = p->held = *err;
+  p->report->rejected++;
+  k->cut = p->soonest > 0;
+  p->cuts += k->cut;
+  if (!k->cut) sw_blow_refused(p->s, k->part);
+  sw_restart_refused(p, k->cut);
+  k->part = k->cut ? p->soonest : 0.5 * k->part;
+  return k->part < SW_SMALLEST_SHARE * k->h ? status : SW_OK;
+}
+
+sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
+  parts k = {.h = h, .t0 = p->s->time, .t1 = t1, .part = h};
+  k.starts = p->s->course.next && sw_slip_any(p->s);
+  if (k.starts) k.part = FIRST_SLIP * h;
+  p->cuts = 0;
+  p->changed = sw_restart_changed(p->s);
+  while (k.done < h) {
+    double over = 0;
+    SW_TRY(begin(p, &k, err));
+    const int smallest = 0.5 * k.part < SW_SMALLEST_SHARE * h;
+    const sw_status status = sw_ladder_try(p, k.part, smallest, err);
+    if (status == SW_OK && is_too_long(p, &k, &over))
+      sw_ladder_undo(p);
+    else
+      SW_TRY(status == SW_OK ? take(p, &k, over, err) : refuse(p, &k, status, err));
+  }
+  return SW_OK;
+}

@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The referee: steps that make energy are told from those that do not. */
+#include <math.h>
+#include <stdio.h>
+
+#include "link/hold.h"
+#include "scene/hold.h"
+#include "scene/jaws.h"
+#include "scene/line.h"
+#include "scene/touching.h"
+#include "scene/world.h"
+#include "step/energy.h"
+#include "system/join.h"
+
+/* A step of this size may make so much of the kinetic energy, of the weight times the radius and of
+ * the work, by the errors of the method and of the work's quadrature [s], [-]. */
+static const double FULL_STEP = 0.01, OF_KINETIC = 1e-3, OF_WEIGHT = 1e-3, OF_WORK = 0.01;
+/* And of EI / L, as axial forces and bends are only known to rounding [-]. */
+static const double OF_BENDING = 1e-9;
+/* Energies are sums of large terms, known to this share of these [-]. */
+static const double ROUNDING = 1e-13;
+/* After so many steps that were taken although they made energy the referee rests: it would
+ * cost the smallest steps, and mend nothing. The run's end tells the energy made [-]. */
+enum { MOST_ACCEPTED = 16 };
+/* Once the gains of steps pass the first share of the energy in play, a step may gain only
+ * `LITTLE` of it; beyond the second share, only rounding [-]. */
+static const double ENOUGH = 0.005, PLENTY = 0.01, LITTLE = 1e-5;
+/* Wires that begin inside of obstacles are let out, which gives them at most this speed and lifts
+ * them about as fast as this [m/s]. */
+static const double THROWN = 0.02, LET_OUT = 0.01;
+/* Where nothing touches, the method may make this share of the energy in play [-]. */
+static const double IN_FLIGHT = 0.01;
+/* And then to this share in each whole step: asked for nothing at all, steps would collapse [-]. */
+static const double EACH_IN_FLIGHT = 2e-4;
+
+int sw_ledger_lumped(const sw_scene *s) {
+  return s->course.has_stepper && !(s->course.method->flags & SW_INTEGRATOR_IMPLICIT);
+}
+
+/* Stored between bodies and obstacles. */
+double sw_ledger_contact(sw_scene *s) {
+  double sum = sw_scene_has_contact(s) ? sw_scene_contact_energy(s) : 0.0;
+  if (s->crowd) sum += sw_crowd_energy(s->crowd, &s->system);
+  if (s->system.joins) sum += sw_joins_energy(&s->system);
+  return sum;
+}
+
+/* Energy over a step by the powers at its ends: the trapezoid, but where what is damped dies out
+ * within the step. */
+static double over_step(double before, double after, double h) {
+  const int dies = before > 4.0 * after || after > 4.0 * before;
+  return h * (dies && before > 0 && after > 0 ? sqrt(before * after) : 0.5 * (before + after));
+}
+
+static void judge_outer_forces(sw_books *b, double h, double *most) {
+  sw_step_energy *step = &b->step;
+  const double before = b->powers.given;
+  const double dead = b->now.loads - step->to.loads;
+  step->forces = dead + over_step(before, step->powers.given, h);
+  *most += dead + h * fmax(before, step->powers.given);
+  step->damping = over_step(b->powers.damping, step->powers.damping, h);
+}
+
+static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
+  const sw_books *b = &s->books;
+  size_t impacts = 0;
+  step->touching = sw_scene_touches(s) > 0;
+  if (s->contact) {
+    impacts += sw_contact_impacts(s->contact);
+    step->friction += sw_contact_rubbed(s->contact);
+    step->steady &= sw_contact_steady(s->contact);
+    step->obstacles += sw_contact_struck(s->contact);
+    step->let_out = sw_contact_hardened(s->contact);
+    if (sw_contact_emerges(s->contact))
+      step->let_out += b->mass * (THROWN * THROWN + LET_OUT * h * sw_norm(s->gravity));
+  }
+  if (s->pairs) {
+    impacts += sw_pairs_impacts(s->pairs);
+    step->friction += sw_pairs_rubbed(s->pairs);
+    step->steady &= sw_pairs_steady(s->pairs);
+  }
+  if (s->grains) {
+    impacts += sw_grains_impacts(s->grains);
+    step->friction += sw_grains_rubbed(s->grains);
+    step->steady &= sw_grains_steady(s->grains);
+  }
+  if (impacts) /* these changed the velocities at the step's start */
+    step->impact =
+        s->books.now.kinetic + step->obstacles - sw_system_kinetic(&s->system, sw_ledger_lumped(s));
+}
+
+/* Where the scene was changed, what moves may have begun to do so at once. Its forces within the
+ * step are not known then; the most that they may give to wires. */
+static double jolt(const sw_scene *s, const sw_step_energy *step) {
+  double fastest = 0;
+  for (size_t k = 0; k < s->system.hold_count; k++) {
+    const sw_hold *h = &s->holds[s->hold_slot[k]];
+    const double fed = sw_hold_passes(h) ? fabs(sw_hold_way_of(s, h, s->time, NULL).speed) : 0.0;
+    const sw_hold_state *at = &s->system.hold_states[k];
+    fastest = fmax(fastest, sw_norm(at->v) + fed + sw_norm(at->omega) * s->books.longest);
+  }
+  if (step->obstacles != 0) fastest = fmax(fastest, sw_contact_fastest(s->contact));
+  if (s->books.put) return HUGE_VAL;
+  return fastest > 0 ? s->books.mass * fastest * fastest + step->work : 0.0;
+}
+
+/* Pads are as soft as the wire, and share their force out among the places that touch. The
+ * energy stored there jumps when a place comes or goes, though the wire does nothing. */
+static int has_pads(const sw_scene *s) {
+  for (size_t k = 0; k < s->tool_count; k++)
+    if (s->tools[k].alive && s->tools[k].pads && !s->tools[k].frozen) return 1;
+  return 0;
+}
+
+/* Explicit methods have last looked at what touches before or within the step. */
+static sw_status look_at_end(sw_scene *s, double t1, sw_error *err) {
+  sw_system *y = &s->system;
+  SW_TRY(sw_system_place_holds(y, t1, NULL, NULL, NULL, err));
+  if (!y->coupling.eval) return SW_OK;
+  return y->coupling.eval(y->coupling.user, y, t1, HUGE_VAL, s->course.stepper.trial_x,
+                          SW_WANT_FORCE, err);
+}
+
+sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_error *err) {
+  sw_books *b = &s->books;
+  sw_step_energy *step = &b->step;
+  sw_glance glance;
+  sw_status status = SW_OK;
+  *step = (sw_step_energy){.steady = 1, .changed = changed};
+  if (sw_ledger_lumped(s)) SW_TRY(look_at_end(s, t1, err));
+  if (sw_scene_has_contact(s)) judge_touches(s, h, step);
+  double most = step->obstacles;
+  sw_system_look_at(&s->system, &glance, s->course.stepper.trial_x, s->course.stepper.trial_v,
+                    s->course.stepper.strain_rate);
+  sw_system_energies(&s->system, sw_ledger_lumped(s), &step->to);
+  step->contact = sw_ledger_contact(s);
+  step->touching |= b->contact != 0 || step->contact != 0; /* ties that are taut too */
+  most += sw_ledger_work(s, t1, changed);
+  if (b->has_powers) status = sw_system_powers(&s->system, t1, &step->powers, err);
+  sw_system_look_back(&s->system, &glance);
+  judge_outer_forces(b, h, &most);
+  step->work = fabs(step->holds) + fabs(step->obstacles) + fabs(step->feeds) + fabs(step->forces);
+  const double before = b->now.kinetic + sw_ledger_potential(&b->now, b->contact);
+  if (changed) step->let_out += jolt(s, step);
+  if (has_pads(s)) step->let_out += fmax(0.0, step->contact - b->contact);
+  most += step->let_out;
+  step->gain = step->to.kinetic + sw_ledger_potential(&step->to, step->contact) - before - most;
+  return status;
+}
+
+int sw_ledger_referees(const sw_scene *s) {
+  return !sw_ledger_lumped(s) && !(s->course.method->flags & SW_INTEGRATOR_NO_CONTACT);
+}
+
+/* What a full step may make besides: less once steps have made more [J]. */
+static double usual_gain(const sw_books *b) {
+  const double play = b->sums.play;
+  if (b->sums.gained > PLENTY * play) return 0.0;
+  if (b->sums.gained > ENOUGH * play) return LITTLE * play;
+  return OF_KINETIC * b->now.kinetic + OF_WEIGHT * b->weight;
+}
+
+double sw_ledger_excess(const sw_scene *s, double h, double whole) {
+  const sw_books *b = &s->books;
+  const sw_step_energy *step = &b->step;
+  if (!sw_ledger_referees(s) || b->sums.accepted.count >= MOST_ACCEPTED) return 0.0;
+  const double share = fmin(1.0, h / FULL_STEP);
+  const double size = fabs(b->now.kinetic) + fabs(b->now.gravity) + fabs(b->now.stored) +
+                      fabs(step->to.kinetic) + fabs(step->to.gravity) + fabs(step->to.stored);
+  const double rounding = ROUNDING * size + OF_BENDING * b->bending * share;
+  /* what impacts at its start give, of several places at once, no smaller step mends */
+  const double struck = fmin(fmax(0.0, -step->impact), usual_gain(b));
+  const double allowed = rounding + OF_WORK * step->work + share * usual_gain(b) + struck;
+  if (!isfinite(step->gain)) return step->gain < 0 ? 0.0 : HUGE_VAL;
+  const double rise = b->rise + step->gain - b->lowest;
+  if (step->touching) return step->gain > allowed ? step->gain : 0.0;
+  const double little = EACH_IN_FLIGHT * fmin(1.0, h / whole) * b->sums.play;
+  if (rise <= IN_FLIGHT * b->sums.play || step->gain <= little) return 0.0;
+  return step->gain > allowed ? step->gain : 0.0;
+}
+
+/* The node whose kinetic energy grew most in the trial. */
+static size_t fastest_gain(const sw_scene *s) {
+  const double *v0 = s->system.v, *v1 = s->course.stepper.trial_v;
+  double largest = -HUGE_VAL;
+  size_t node = 0;
+  for (size_t b = 0; b < s->system.body_count; b++) {
+    const sw_body *body = &s->system.bodies[b];
+    for (size_t i = 0; i < body->plan->nodes; i++) {
+      const size_t at = body->first_node + i;
+      const double more =
+          body->plan->lumped[i] * (sw_norm2(sw_load(v1 + 3 * at)) - sw_norm2(sw_load(v0 + 3 * at)));
+      if (!(more > largest)) continue;
+      largest = more;
+      node = at;
+    }
+  }
+  return node;
+}
+
+void sw_ledger_retry(const sw_scene *s, sw_retries *r, double time, double excess) {
+  r->count++;
+  if (!(excess > r->largest)) return;
+  const size_t node = fastest_gain(s), body = sw_system_body_of(&s->system, node);
+  const sw_body *b = &s->system.bodies[body];
+  const sw_plan *p = b->plan;
+  const double *arc = p->web ? p->web->s : p->s;
+  r->largest = excess, r->time = time;
+  r->s = arc[node - b->first_node] - (p->web ? 0.0 : arc[0]);
+  snprintf(r->object, sizeof r->object, "%s", s->wires[body].name);
+}

@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Equilibria at the scene's time: holds go there from where the wires know them, in parts, and the
+ * wires come to rest at each. */
+#include "step/rest.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "scene/live.h"
+#include "scene/obstacle.h"
+#include "step/statics.h"
+
+/* Wires that rub follow their holds to the next pose without going far, or they jump: which
+ * continuation finds sooner than many more updates that would take them far [-]. */
+enum { FAR_IN_POSES = 6 };
+/* Parts of a hold's way from where it was to where it is to be. */
+static const double LONGEST_PART = 0.4; /* of the shortest edge [-] */
+static const double LONG_PART = 0.1;    /* of the longest wire, where nothing rubs [-] */
+static const double WIDEST_PART = 0.5;  /* [rad] */
+static const double MOST_PARTS = 2000;
+/* Where holds are on their way wires need not come to rest as closely as where they arrive: their
+ * nodes to so much, of an edge [-]. */
+static const double PASSING = 1e-4;
+
+/* Where the holds are as the state's wires know them. */
+static void find_from_poses(sw_statics *p) {
+  const sw_system *s = &p->s->system;
+  for (size_t i = s->held_count; i-- > 0;) {
+    const sw_held_node *h = &s->held[i];
+    const double *q = s->turn + 4 * h->hold;
+    const sw_quat turn = {q[0], q[1], q[2], q[3]};
+    p->from_poses[h->hold] =
+        (sw_pose){sw_sub(sw_vec_at(s->x, h->node), sw_rotate(turn, h->local)), turn};
+  }
+}
+
+static double shortest_edge(const sw_system *s) {
+  double shortest = HUGE_VAL;
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_plan *p = s->bodies[b].plan;
+    if (p->web && p->web->rings > 1)
+      shortest = fmin(shortest, p->length / (double)(p->web->rings - 1));
+    for (size_t e = 0; p->web && !p->web->per_ring && e < p->web->links; e++)
+      shortest = fmin(shortest, p->web->link[e].rest);
+    for (size_t e = 0; e < p->edges; e++) shortest = fmin(shortest, p->rest[e]);
+  }
+  return shortest;
+}
+
+/* How far out particles of a mesh are from the axis about which a hold turns them [m]. */
+static double widest_mesh(const sw_system *s) {
+  double widest = 0;
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_plan *p = s->bodies[b].plan;
+    if (p->web && p->web->rings > 1) widest = fmax(widest, p->beam.radius);
+  }
+  return widest;
+}
+
+/* Number of parts into which the way of the holds to their places is cut, so that no part
+ * shifts a hold by more than longest_shift [m] or turns it far. lever: nor may a point so far
+ * from the hold shift by more as the hold turns [m]. */
+static sw_status count_parts(sw_statics *p, double lever, double longest_shift, size_t *parts,
+                             sw_error *err) {
+  sw_system *s = &p->s->system;
+  double most = 0;
+  SW_TRY(sw_system_place_holds(s, p->s->time, NULL, NULL, NULL, err)); /* feeds move nodes */
+  for (size_t k = 0; k < s->hold_count; k++) {
+    const sw_pose *from = &p->from_poses[k], *to = &s->hold_states[k].pose;
+    const double turn = sw_norm(sw_quat_log(sw_quat_mul(to->q, sw_quat_conj(from->q))));
+    const double shift = (sw_dist(from->p, to->p) + lever * turn) / longest_shift;
+    most = fmax(most, fmax(shift, turn / WIDEST_PART));
+  }
+  *parts = most <= 1 ? 1 : (size_t)fmin(ceil(most), MOST_PARTS);
+  return SW_OK;
+}
+
+static sw_status follow_in(sw_statics *p, size_t parts, sw_error *err) {
+  sw_status status = SW_OK;
+  for (size_t i = 1; status == SW_OK && i <= parts; i++) {
+    p->s->part_from = i < parts ? p->from_poses : NULL;
+    p->s->part = (double)i / (double)parts;
+    p->passing = i < parts ? PASSING : 0.0;
+    status = sw_rest_find(p, err);
+    if (status == SW_OK && p->interrupted && p->interrupted()) status = SW_EINTR;
+  }
+  p->s->part_from = NULL;
+  p->passing = 0;
+  return status;
+}
+
+/* Is the rest of the wires independent of their past? */
+static int forgets(const sw_scene *s) {
+  if (s->pairs || s->crowd || s->grains) return 0;
+  for (size_t o = 0; o < s->obstacle_count; o++)
+    if (s->obstacles[o].alive && fmax(s->obstacles[o].friction, s->obstacles[o].kinetic) > 0)
+      return 0;
+  for (size_t b = 0; b < s->system.body_count; b++)
+    if (s->system.bodies[b].plan->web) return 0;
+  return 1;
+}
+
+/* In parts that do not depend on the mesh, as long as each leads from one stable equilibrium
+ * straight to the next. 1: it did; else all is as it was. */
+static sw_status follow_fast(sw_statics *p, size_t parts, int *done, sw_error *err) {
+  sw_tape start = {0};
+  const double touched = p->touched;
+  sw_error why = {"out of memory"};
+  sw_status status = sw_live_take(p->s, &start);
+  *done = 0;
+  for (size_t i = 1; status == SW_OK && i <= parts; i++) {
+    p->s->part_from = i < parts ? p->from_poses : NULL;
+    p->s->part = (double)i / (double)parts;
+    status = sw_rest_newton(p, SW_REST_ITERATIONS, &why);
+    if (status == SW_OK && p->report->negative > 0) status = SW_ENOCONV;
+    if (status == SW_OK && p->interrupted && p->interrupted()) status = SW_EINTR;
+  }
+  p->s->part_from = NULL;
+  *done = status == SW_OK;
+  if (sw_rest_stops(status)) sw_fail(err, status, "%s", why.text);
+  if (!*done && !sw_rest_stops(status)) {
+    p->touched = touched;
+    status = sw_live_back(p->s, &start, err);
+  }
+  sw_tape_free(&start);
+  return status;
+}
+
+/* How far the holds went, a turn counting as what it does to half a wire. */
+static double drive_shift(const sw_statics *p) {
+  const sw_system *s = &p->s->system;
+  double largest = 0;
+  for (size_t k = 0; k < s->hold_count; k++) {
+    const sw_pose *from = &p->from_poses[k], *to = &s->hold_states[k].pose;
+    const double turn = sw_norm(sw_quat_log(sw_quat_mul(to->q, sw_quat_conj(from->q))));
+    largest = fmax(largest, sw_dist(from->p, to->p) + 0.5 * sw_rest_longest(p->s) * turn);
+  }
+  return largest;
+}
+
+/* Settle at every part of the holds' way. The parts are only for convergence: the memory of
+ * forces is brought up to date at the last one alone. Where particles of a mesh are further
+ * from the axis than its slices from each other, the usual parts may be too wide to begin with. */
+static sw_status follow_holds(sw_statics *p, sw_error *err) {
+  size_t parts, more, fewer;
+  int done = 0;
+  p->edge = shortest_edge(&p->s->system);
+  const double edge = LONGEST_PART * p->edge;
+  SW_TRY(count_parts(p, 0.0, edge, &parts, err));
+  const int poses = p->touched != p->s->time;
+  if (poses && !forgets(p->s) && drive_shift(p) > 0) p->most_far = FAR_IN_POSES;
+  SW_TRY(count_parts(p, 0.0, fmax(edge, LONG_PART * sw_rest_longest(p->s)), &fewer, err));
+  if (fewer < parts && forgets(p->s)) SW_TRY(follow_fast(p, fewer, &done, err));
+  if (done) return SW_OK;
+  const sw_status status = follow_in(p, parts, err);
+  if (status != SW_ENOCONV) return status;
+  SW_TRY(count_parts(p, widest_mesh(&p->s->system), edge, &more, err));
+  if (more <= parts) return status;
+  sw_rest_take_back(p->s, p->begun);
+  return follow_in(p, more, err);
+}
+
+/* Did the wires move much further than their holds and obstacles? Then they have left one
+ * equilibrium for another. */
+static const double JUMP = 4.0;           /* largest shift over the drives' own [-] */
+static const double SMALLEST_JUMP = 0.01; /* of the longest wire [-] */
+
+static double largest_shift_since(const sw_statics *p) {
+  const sw_system *s = &p->s->system;
+  double largest = 0;
+  for (size_t i = 0; i < s->nodes; i++)
+    largest = fmax(largest, sw_dist(sw_vec_at(s->x, i), sw_vec_at(p->begun, i)));
+  return largest;
+}
+
+sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle_args *args,
+                        int (*interrupted)(void), sw_settle_report *report, sw_error *why) {
+  const size_t n = s->system.freedoms, size = s->system.state_size;
+  double *block = sw_alloc(4 * n + s->system.edges + 2 * size, sizeof *block);
+  sw_pose *poses = sw_alloc(s->system.hold_count, sizeof *poses);
+  if (!block || !poses) {
+    sw_free(block);
+    sw_free(poses);
+    return sw_fail(why, SW_ENOMEM, "scene '%s': out of memory", s->name);
+  }
+  sw_statics p = {.s = s,
+                  .args = args,
+                  .report = report,
+                  .interrupted = interrupted,
+                  .touched = since,
+                  .too_far = too_far};
+  p.zero = block, p.from = block + n, p.y = block + 2 * n, p.v = block + 3 * n;
+  p.tension = block + 4 * n;
+  p.kept = p.tension + s->system.edges, p.begun = p.kept + size;
+  p.from_poses = poses;
+  find_from_poses(&p);
+  sw_rest_put_aside(s, p.begun);
+  s->system.still = 1;
+  const sw_status status = follow_holds(&p, why);
+  s->system.still = 0;
+  if (status == SW_OK) {
+    const double shift = largest_shift_since(&p);
+    report->jumped = report->transient && shift > SMALLEST_JUMP * sw_rest_longest(s) &&
+                     shift > JUMP * drive_shift(&p);
+  } else if (status != SW_EINTR) {
+    sw_rest_take_back(s, p.begun);
+  }
+  sw_course_jump(&s->course);
+  sw_free(block);
+  sw_free(poses);
+  return status;
+}
+
+sw_status sw_scene_balance(sw_scene *s, double tolerance, long most, sw_error *err) {
+  const sw_settle_args args = {.tolerance = tolerance, .max_iterations = most};
+  sw_settle_report report = {0};
+  return sw_scene_rest(s, s->time, NULL, &args, NULL, &report, err);
+}

@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "step/restart.h"
+
+#include <math.h>
+
+#include "contact/contact.h"
+#include "link/hold.h"
+#include "scene/jaws.h"
+#include "scene/world.h"
+
+/* --- jerks ----------------------------------------------------------------------- */
+
+/* Moments at which something that holds a wire starts, stops or turns a corner at once. The forces
+ * of just before, with the velocity that then ends, are no start for the step after it: a method
+ * that begins with them counts a dashpot's old force for part of the step, an error of first order.
+ */
+static const double BESIDE = 1e-9; /* so long before and after the moment is looked at [s] */
+/* Velocities that jump by less are none: 10 nm in a step of 10 ms [m/s], [rad/s]. */
+static const double NO_JUMP = 1e-6;
+
+static int jumps(sw_vec before, sw_vec after, sw_vec rate1, sw_vec rate2) {
+  const double most = NO_JUMP + 2.0 * BESIDE * (sw_norm(rate1) + sw_norm(rate2));
+  return sw_dist(before, after) > most;
+}
+
+/* Functions of a script are asked for times of steps only. */
+static int drive_jerks(sw_scene *s, const sw_drive *d) {
+  sw_motion_state one, two;
+  sw_error ignored;
+  if (!d->motion || sw_motion_is_function(d->motion)) return 0;
+  const double t = s->time - d->start;
+  if (sw_motion_eval(d->motion, t - BESIDE, &one, &ignored) != SW_OK ||
+      sw_motion_eval(d->motion, t + BESIDE, &two, &ignored) != SW_OK)
+    return 0;
+  return jumps(one.v, two.v, one.a, two.a) || jumps(one.omega, two.omega, one.alpha, two.alpha);
+}
+
+static int jerks(sw_scene *s) {
+  for (size_t k = 0; k < s->hold_count; k++)
+    if (s->holds[k].alive && !s->holds[k].drive.tool && drive_jerks(s, &s->holds[k].drive))
+      return 1;
+  for (size_t k = 0; k < s->tool_count; k++)
+    if (drive_jerks(s, &s->tools[k].drive)) return 1;
+  return 0;
+}
+
+void sw_restart_at_jerk(sw_scene *s) {
+  s->course.jerks = jerks(s);
+  if (s->course.jerks) s->course.stepper.restart = 1;
+}
+
+/* --- tries ------------------------------------------------------------------------ */
+
+int sw_restart_changed(const sw_scene *s) { return s->course.next > 0; }
+
+void sw_restart_try(sw_ladder *p) {
+  sw_stepper *stepper = &p->s->course.stepper;
+  if (sw_restart_changed(p->s) || p->redo == SW_BY_START) stepper->restart = 1;
+  stepper->plastic = p->redo == SW_DULLY;
+}
+
+void sw_restart_struck(sw_scene *s, int dull) {
+  if (dull) s->course.stepper.plastic = 1;
+  s->course.stepper.restart = 1;
+}
+
+/* Accelerations at a step's end may be those of a shock that is over: the next step starts without
+ * them, or it pushes with them for half of it and makes energy. A starting step gives no estimate
+ * of its error. */
+static int is_shaken(const sw_scene *s) {
+  const sw_stepper *stepper = &s->course.stepper;
+  if (!s->contact || stepper->wants_error || stepper->start == stepper->method) return 0;
+  return sw_contact_shaken(s->contact, &s->system);
+}
+
+void sw_restart_taken(sw_scene *s) {
+  if (is_shaken(s)) s->course.stepper.restart = 1;
+  s->course.next = SW_AS_BEFORE;
+}
+
+void sw_restart_refused(sw_ladder *p, int cut) {
+  if (!p->smooth && !cut) sw_course_jump(&p->s->course);
+}
+
+/* --- steppers and systems that are new ones ------------------------------------------ */
+
+void sw_restart_stepper(sw_scene *s) {
+  if (s->course.next == SW_GOES_ON) s->course.stepper.restart = 0;
+}
+
+int sw_restart_pending(const sw_scene *s) {
+  return sw_restart_changed(s) || s->course.stepper.restart;
+}
+
+void sw_restart_resume(sw_scene *s, int pending) {
+  s->course.next = s->course.stepper.restart = pending;
+}

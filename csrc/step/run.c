@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Running: steps to a given time, frames and observers between them. */
+#include "step/run.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+#include "scene/hold.h"
+#include "scene/jaws.h"
+#include "scene/kept_frames.h"
+#include "scene/line.h"
+#include "scene/linear.h"
+#include "scene/observe.h"
+#include "scene/obstacle.h"
+#include "scene/touching.h"
+#include "scene/world.h"
+#include "step/energy.h"
+#include "step/ladder.h"
+#include "step/rest.h"
+#include "step/run_check.h"
+
+/* The next frame is due after t; frames that steps have passed are left out. */
+static void next_frame(sw_scene *s, double every, double t) {
+  every *= (double)s->frame_stride;
+  if (s->next_frame <= t) s->next_frame += every;
+  if (s->next_frame <= t) s->next_frame += every * ceil((t - s->next_frame) / every);
+  if (!(s->next_frame > t)) s->next_frame = nextafter(t, HUGE_VAL);
+}
+
+static sw_status run_loop(sw_ladder *p, double until, int (*interrupted)(void), sw_error *err) {
+  sw_scene *s = p->s;
+  const double t0 = s->time, span = until - t0;
+  const double count = fmax(1.0, ceil(span / p->args->dt - 1e-9));
+  if (span > 0 && span < SW_SHORTEST_STEP) s->time = until;
+  const int adaptive = isfinite(p->args->tolerance);
+  s->course.stepper.wants_error = adaptive;
+  const double slack = 1e-12 * fmax(fabs(until), span);
+  const size_t first = p->report->steps;
+  for (size_t k = 1; s->time < until - slack;) {
+    if (interrupted && interrupted()) return SW_EINTR;
+    if ((double)(p->report->steps - first) >= (double)p->args->max_steps) return SW_OK;
+    if (p->report->steps > first && (sw_tool_slipped(s) || sw_hold_crashed(s))) return SW_OK;
+    double t1 = (double)k >= count ? until : t0 + span * ((double)k / count);
+    int cut = 0;
+    if (p->args->quasistatic) SW_TRY(sw_scene_cut_pose(s, &t1, &cut, err));
+    if (!cut) k++;
+    SW_TRY(p->args->quasistatic ? sw_step_poses(p, t1, err)
+           : adaptive           ? sw_step_adaptive(p, until - s->time, until, err)
+                                : sw_step_fixed(p, t1 - s->time, t1, err));
+    if (isfinite(p->args->frame) && s->time >= s->next_frame - slack)
+      SW_TRY(sw_scene_store_frame(s, err));
+    if (isfinite(p->args->frame)) next_frame(s, p->args->frame, s->time + slack);
+    if (p->observer) {
+      SW_TRY(sw_scene_look(s, p->observer, slack, err));
+      if (p->observer->stop) return SW_OK;
+    }
+  }
+  return SW_OK;
+}
+
+static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const sw_error *why) {
+  char broken[SW_NAME_SIZE + 100], pressed[2 * SW_NAME_SIZE + 100];
+  report->status = status;
+  report->time = s->time;
+  if (status == SW_OK || status == SW_EINTR || status == SW_ECALLBACK) return;
+  if (status == SW_EEMPTY) report->reason = *why; /* all is well up to here */
+  if (status == SW_EEMPTY) return;
+  report->status = status == SW_ENOMEM ? SW_ENOMEM : SW_EDIVERGED;
+  sw_scene_tell_broken(s, broken, sizeof broken);
+  sw_scene_tell_pressed(s, pressed, sizeof pressed);
+  sw_fail(&report->reason, status, "at t = %.6g s: %.400s%s%s", s->time,
+          why->text[0] ? why->text : sw_status_text(status), pressed, broken);
+  if (report->status != SW_EDIVERGED) return;
+  s->diverged = 1;
+  s->why = report->reason;
+}
+
+sw_status sw_scene_begin_run(sw_scene *s, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_readable(s, err)); /* a run without steps would not notice */
+  sw_scene_reset_extremes(s);
+  sw_events_clear(&s->events);
+  sw_ledger_begin_run(s);
+  s->course.parts = 0, s->course.covered = 0;
+  return SW_OK;
+}
+
+/* The scene is built and can be run like this. */
+static sw_status prepare(sw_scene *s, const sw_run_args *args, double until, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_run_check(s, args, err));
+  SW_TRY(sw_run_check_clock(s, args, until, err));
+  SW_TRY(sw_scene_build(s, err));
+  SW_TRY(sw_scene_check_step(s, args, until, err));
+  SW_TRY(sw_ladder_method(s, args, err));
+  s->course.window = args->window;
+  return SW_OK;
+}
+
+sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
+                           int (*interrupted)(void), sw_observer *observer, sw_run_report *report,
+                           sw_error *err) {
+  sw_error why = {""}, ignored;
+  *report = (sw_run_report){.smallest_dt = HUGE_VAL, .time = s->time};
+  SW_TRY(prepare(s, args, until, err));
+  const sw_counters before = s->system.counters;
+  sw_ladder p = {
+      .s = s, .args = args, .report = report, .interrupted = interrupted, .observer = observer};
+  p.v_start = sw_alloc(sw_scene_has_contact(s) ? s->system.freedoms : 1, sizeof(double));
+  if (!p.v_start) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
+  s->running++;
+  sw_ledger_forget(s);
+  sw_status status = /* energies need it */
+      sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, &why);
+  if (status == SW_OK && isfinite(args->frame) && s->frame_count == 0) {
+    status = sw_scene_store_frame(s, &why);
+    s->next_frame = s->time + args->frame * (double)s->frame_stride;
+  }
+  if (status == SW_OK) status = run_loop(&p, until, interrupted, &why);
+  s->running--;
+  s->system.judged = NULL;
+  if (status == SW_OK && !args->quasistatic) status = sw_scene_look_for_buckling(s, &why);
+  sw_free(p.v_start);
+  /* the last good state, for pictures of what went wrong */
+  if (status == SW_ENOCONV && isfinite(args->frame) && s->frame_count &&
+      s->time > s->frames[s->frame_count - 1].time)
+    (void)sw_scene_store_frame(s, &ignored);
+  report->evaluations = s->system.counters.evaluations - before.evaluations;
+  report->solves = s->system.counters.solves - before.solves;
+  report->looks = s->system.counters.looks - before.looks;
+  conclude(s, status, report, &why);
+  if (status == SW_ECALLBACK) sw_course_jump(&s->course);
+  return SW_OK;
+}
+
+sw_status sw_scene_stable_dt(sw_scene *s, double *dt, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_build(s, err));
+  *dt = sw_system_stable_dt(&s->system);
+  return SW_OK;
+}

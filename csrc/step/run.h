@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parts of a run. Shared by the files of this room only. */
+#ifndef SW_STEP_RUN_H
+#define SW_STEP_RUN_H
+
+#include "step/step.h"
+
+/* Let the observer look, if it is due; times within slack are the same [s]. */
+sw_status sw_scene_look(sw_scene *scene, sw_observer *observer, double slack, sw_error *err);
+/* The scene has an accepted state: what follows it, and what is kept of it. */
+sw_status sw_step_observe(sw_scene *scene, sw_error *err);
+
+#endif

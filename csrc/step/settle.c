@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* scene:settle: the equilibrium where the scene is. */
+#include <string.h>
+
+#include "scene/observe.h"
+#include "scene/world.h"
+#include "step/jaw.h"
+#include "step/rest.h"
+#include "step/run.h"
+
+static const sw_param rows[] = {
+    {"tolerance", SW_PARAM_NUMBER, "m", 1e-9, 0, 1, SW_PARAM_ABOVE_MIN, NULL,
+     offsetof(sw_settle_args, tolerance),
+     "largest shift of a node in the last iteration (or quantities, see help 'tolerance')"},
+    {"max_iterations", SW_PARAM_INTEGER, "-", 4000, 1, 1e9, 0, NULL,
+     offsetof(sw_settle_args, max_iterations), "most matrix solves"},
+};
+const sw_params sw_settle_params = SW_PARAMS("scene:settle", rows);
+
+static void conclude(sw_scene *s, sw_status status, sw_settle_report *report, const sw_error *why) {
+  report->ok = status == SW_OK;
+  if (status != SW_OK)
+    sw_fail(&report->reason, status, "%.400s", why->text[0] ? why->text : sw_status_text(status));
+  sw_course_jump(&s->course);
+}
+
+enum { MOST_ROUNDS = 100 };
+
+/* Jaws that hold with a force go on holding with it. */
+static sw_status settle_held(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
+                             sw_settle_report *report, sw_error *err) {
+  if (!sw_jaw_begin_rest(s)) return sw_scene_rest(s, s->time, NULL, args, interrupted, report, err);
+  for (int round = 1;; round++) {
+    const sw_status status =
+        sw_scene_squeezed_rest(s, s->time, NULL, args, interrupted, report, err);
+    const int more = sw_jaw_end_rest(s, status == SW_OK);
+    if (status != SW_OK || !more || round == MOST_ROUNDS) return status;
+    sw_jaw_follow(s);
+    if (!sw_jaw_begin_rest(s)) return SW_OK;
+  }
+}
+
+sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
+                          sw_settle_report *report, sw_error *err) {
+  sw_error why = {""};
+  *report = (sw_settle_report){0};
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_readable(s, err));
+  if (!s->wire_count) return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", s->name);
+  SW_TRY(sw_scene_build(s, err));
+  s->running++;
+  sw_status status = settle_held(s, args, interrupted, report, &why);
+  s->running--;
+  sw_scene_reset_extremes(s);
+  s->course.span = 0;
+  if (status == SW_OK) status = sw_step_observe(s, &why);
+  conclude(s, status, report, &why);
+  return status == SW_ECALLBACK || status == SW_ENOMEM ? sw_fail(err, status, "%s", why.text)
+                                                       : SW_OK;
+}

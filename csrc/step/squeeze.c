@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Equilibria between jaws that obey a force: repeated with other openings until the force is as
+ * wanted. */
+#include <math.h>
+
+#include "base/alloc.h"
+#include "scene/jaws.h"
+#include "scene/live.h"
+#include "scene/world.h"
+#include "step/jaw.h"
+#include "step/rest.h"
+
+enum { MOST_ROUNDS = 4 }; /* of looking for a force from where it jumped to [-] */
+
+typedef struct poser {
+  sw_scene *s;
+  const sw_settle_args *args;
+  int (*interrupted)(void);
+  sw_settle_report *report;
+  sw_tape start;  /* what all trials begin with */
+  sw_jaw *before; /* (tools) as the pose found them */
+  double *speed;  /* (tools) of jaws in the trial that came nearest [m/s] */
+  double nearest; /* how far its force was off; INFINITY = none went well [-] */
+} poser;
+
+static sw_status try(poser *p, double since, int *too_far, sw_error *err) {
+  sw_settle_report trial = {0};
+  const sw_status status =
+      sw_scene_rest(p->s, since, too_far, p->args, p->interrupted, &trial, err);
+  trial.iterations += p->report->iterations;
+  *p->report = trial;
+  if (status != SW_OK) return status;
+  const double off = sw_jaw_off(p->s);
+  if (off > p->nearest) return SW_OK;
+  p->nearest = off;
+  for (size_t k = 0; k < p->s->tool_count; k++) p->speed[k] = p->s->tools[k].jaw.speed;
+  return SW_OK;
+}
+
+/* The nearest trial again, for the last one did not come to rest. */
+static sw_status fall_back(poser *p, double since, sw_error *err) {
+  SW_TRY(sw_live_back(p->s, &p->start, err));
+  for (size_t k = 0; k < p->s->tool_count; k++) p->s->tools[k].jaw.speed = p->speed[k];
+  return try(p, since, NULL, err);
+}
+
+/* One equilibrium after another, all from one start, until the jaws' forces are as wanted or known
+ * not to be. On failure the scene is as at that start. */
+static sw_status search(poser *p, double since, int *too_far, sw_error *err) {
+  sw_error why;
+  p->nearest = HUGE_VAL;
+  for (;;) {
+    sw_status status = try(p, since, too_far, &why);
+    if (status == SW_OK && sw_jaw_correct(p->s, 1)) return SW_OK;
+    if (status == SW_ENOCONV && p->nearest < HUGE_VAL) {
+      status = fall_back(p, since, &why);
+      if (status == SW_OK) return SW_OK;
+    }
+    const sw_status back = sw_live_back(p->s, &p->start, err);
+    if (status != SW_OK) return sw_fail(err, status, "%s", why.text);
+    SW_TRY(back);
+  }
+}
+
+/* Where the force jumped: look for it from there on. What is found without it counts too. */
+static sw_status search_on(poser *p, sw_error *err) {
+  for (int round = 1; round < MOST_ROUNDS && sw_jaw_again(p->s); round++) {
+    sw_tape_free(&p->start);
+    SW_TRY(sw_live_take(p->s, &p->start));
+    const sw_status status = search(p, p->s->time, NULL, err);
+    if (status == SW_ENOCONV || status == SW_EINTR) {
+      sw_jaw_end_rest(p->s, 0);
+      break;
+    }
+    SW_TRY(status);
+  }
+  return SW_OK;
+}
+
+static sw_status prepare(poser *p) {
+  const size_t n = p->s->tool_count;
+  p->before = sw_alloc(n, sizeof *p->before);
+  p->speed = sw_alloc(n, sizeof *p->speed);
+  if (!p->before || !p->speed) return SW_ENOMEM;
+  for (size_t k = 0; k < n; k++) p->before[k] = p->s->tools[k].jaw;
+  return sw_live_take(p->s, &p->start);
+}
+
+sw_status sw_scene_squeezed_rest(sw_scene *s, double since, int *too_far,
+                                 const sw_settle_args *args, int (*interrupted)(void),
+                                 sw_settle_report *report, sw_error *err) {
+  poser p = {.s = s, .args = args, .interrupted = interrupted, .report = report};
+  sw_status status = prepare(&p);
+  if (status != SW_OK) sw_fail(err, status, "scene '%s': out of memory", s->name);
+  if (status == SW_OK) status = search(&p, since, too_far, err);
+  if (status == SW_OK) status = search_on(&p, err);
+  for (size_t k = 0; status != SW_OK && p.before && k < s->tool_count; k++)
+    s->tools[k].jaw = p.before[k];
+  sw_tape_free(&p.start);
+  sw_free(p.before);
+  sw_free(p.speed);
+  return status;
+}
