@@ -63,7 +63,8 @@ end
 
 -- Times that steps have passed are left out.
 local function set_next(own, now)
-  own.at = (own.each or own.soon) and -math.huge or own.wall and math.huge or -math.huge
+  own.soon = nil
+  own.at = own.each and -math.huge or own.wall and math.huge or -math.huge
   if own.every and not own.each then
     local count = math.floor((now - own.from) / own.every * (1 + 1e-12) + 1e-9)
     own.at = own.from + (count + 1) * own.every
@@ -74,7 +75,8 @@ end
 -- soon: the first step is looked at, whenever others are.
 local function begin(own, now)
   own.from = now
-  own.at = own.each and -math.huge or own.every and now + own.every or own.wall and math.huge or -math.huge
+  own.at = (own.each or own.soon) and -math.huge or own.every and now + own.every
+    or own.wall and math.huge or -math.huge
   own.at_wall = own.wall and core.clock() + own.wall or math.huge
 end
 

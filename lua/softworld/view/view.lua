@@ -14,9 +14,14 @@ local report = require "softworld.output.report"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local show = require "softworld.view.show"
+local draft = require "softworld.view.draft"
+local kinds = require "softworld.view.kinds"
+local record = require "softworld.scene.record"
 
 local view = {}
 local View = { __name = "view" }
+
+local attach -- function(own, scene): show this scene, with nothing done to it yet
 
 local GAP = 1 / 30        -- between two looks, on the clock [s]
 local IDLE = 0.1          -- longest wait for a message [s]
@@ -60,7 +65,7 @@ end
 -- Run the line itself: what is shown is what was done.
 local function run_line(own, text)
   local chunk = assert(load(text, "=by hand", "t", own.names))
-  chunk()
+  record.quietly(chunk) -- it is in the lines
 end
 
 local function do_line(own, text, inverse)
@@ -73,7 +78,7 @@ local function do_line(own, text, inverse)
   end
   note(own, { time = time, text = text, ok = fine, error = not fine and message or nil,
     undo = fine and inverse and inverse() or nil })
-  return fine
+  return fine, message
 end
 
 local function refused(own, message)
@@ -97,6 +102,17 @@ local function undo(own)
   end
 end
 
+-- The runs that a script has to do after it: one that was left early ends there.
+local function back_in_runs(own, s)
+  if own.running and #own.runs ~= s.runs then
+    own.unsaved = "an earlier run was gone back to while a later one was under way"
+  elseif not own.running then
+    own.ended = nil
+    for k = #own.runs, s.runs + 1, -1 do own.runs[k] = nil end
+    if s.inside then own.lines[#own.lines + 1] = { time = s.time } end
+  end
+end
+
 local function back(own, m)
   for _, s in ipairs(own.snapshots) do
     if s.id == m.id then
@@ -107,6 +123,7 @@ local function back(own, m)
       end
       own.changes, own.lines_due, own.forms_due, own.pulled = own.changes + 1, true, true, nil
       own.base = nil
+      back_in_runs(own, s)
       own.shown[#own.shown + 1] = { time = s.time, text = ("-- back to %g s"):format(s.time), ok = true,
         count = 1 }
       return
@@ -124,9 +141,13 @@ local function work(own)
     elseif m["do"] ~= "reach" and m["do"] ~= "let" or own.names.hand then
       if m["do"] == "pull" and own.names.hand then do_line(own, "hand:release()") end
       local fine, text, inverse = pcall(orders.line, own.scene, m)
+      local done, message = fine, text
+      if fine then done, message = do_line(own, text, inverse) end
+      show.answer(own, m.ask, done, not done and build.plain(message) or nil)
       if not fine then
         refused(own, text)
-      elseif do_line(own, text, inverse) then
+      elseif done then
+        if m["do"] == "add" then own.made_text[m.serial] = text end
         if m["do"] == "pull" then
           own.pulled = m.wire
           touched(own, m, ("wire '%s' is pulled by hand at s = %.4g m"):format(m.wire, m.s))
@@ -151,9 +172,37 @@ end
 local function keep(own)
   own.count = own.count + 1
   own.snapshots[#own.snapshots + 1] =
-    { id = own.count, time = own.scene.time, snapshot = own.scene:snapshot(), lines = #own.lines }
+    { id = own.count, time = own.scene.time, snapshot = own.scene:snapshot(), lines = #own.lines,
+      runs = #own.runs, inside = own.running }
   if #own.snapshots > MOST_SNAPSHOTS then table.remove(own.snapshots, 2) end -- the first one stays
 end
+
+-- --- a scene that forms put together ------------------------------------------------------------
+
+-- Show another scene in the place of the one before.
+local function replace(own, scene)
+  local old = own.scene
+  attach(own, scene)
+  if old ~= scene and core.exists(old) then pcall(old.close, old) end
+end
+
+local function of_draft(own, m, f)
+  local fine, message = false, "this scene was made by a script: only what is done by hand can change it"
+  if own.draft and own.running then message = "a run is under way: end it, or wait for its end" end
+  if own.draft and not own.running then fine, message = pcall(f, own, m) end
+  if not fine and core.interrupted() then error(message, 0) end
+  show.answer(own, m.ask, fine, message and build.plain(message) or nil)
+end
+
+local function change_draft(own, m)
+  local scene, words = own.draft:change(m)
+  replace(own, scene)
+  return words
+end
+
+local function again(own) replace(own, own.draft:build()) end
+
+local function start(own, m) own.wants_start = { args = own.draft:set_run(m.values), ask = m.ask } end
 
 local now = {} -- orders that are done at once: nothing of the scene changes by them
 
@@ -165,6 +214,9 @@ function now.stop(own) own.stopped = true end
 function now.run(own, m)
   if type(m.duration) == "number" and m.duration > 0 and m.duration <= 1e6 then own.wants_run = m.duration end
 end
+function now.draft(own, m) of_draft(own, m, change_draft) end
+function now.again(own, m) of_draft(own, m, again) end
+function now.start(own, m) of_draft(own, m, start) end
 function now.speed(own, m)
   local speed = m.value
   own.speed = type(speed) == "number" and speed > 1e-6 and speed < 1e6 and speed or nil
@@ -196,8 +248,17 @@ local function is_good(own, m)
   if word == "undo" then return has_undo(own) end
   if word == "back" then return has_way_back(own, m) end
   if (word == "reach" or word == "let") and not own.hand then return false end
+  if word == "add" then
+    own.serial = own.serial + 1
+    m.serial = own.serial
+  end
+  if own.draft and not own.running and #own.runs == 0 then
+    refused(own, "nothing runs yet: change it where it was made")
+    return false
+  end
   local fine, message = pcall(orders.line, own.scene, m)
   if not fine then
+    show.answer(own, m.ask, false, build.plain(message))
     refused(own, message)
   elseif word == "pull" or word == "let" then
     own.hand = word == "pull"
@@ -215,6 +276,7 @@ local function hear(own)
     local word = fine and type(m) == "table" and m["do"]
     if now[word] then
       local done, message = pcall(now[word], own, m)
+      if not done and core.interrupted() then error(message, 0) end
       if not done then refused(own, message) end
     elseif type(word) == "string" and (orders.changes(m) or word == "undo" or word == "back") then
       if is_good(own, m) then own.queue[#own.queue + 1] = m end
@@ -258,13 +320,19 @@ end
 local function look(own, observer)
   local changes = hold(own)
   local o = fields(observer)
-  if own.stopped then observer:stop "stopped from the page" end
-  own.stopped = nil
+  if own.stopped and not changes then
+    observer:stop "stopped from the page"
+    own.lines[#own.lines + 1] = { time = own.scene.time }
+    own.lines_due, own.stopped = true, nil
+  end
   if changes then
     observer:change(function()
       repeat work_inside(own) until not hold(own)
-      if own.stopped then fields(observer).reason = "stopped from the page" end
-      own.stopped = nil
+      if own.stopped then
+        fields(observer).reason = "stopped from the page"
+        own.lines[#own.lines + 1] = { time = own.scene.time }
+        own.lines_due, own.stopped = true, nil
+      end
     end)
   end
   -- each step counts while it is held or goes slowly
@@ -284,19 +352,30 @@ local POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsaf
 
 -- The page has a policy of its own, for files; here the server's is the one, which is as narrow.
 local function page_of(own)
-  local html = report.live(own.scene.name, { session = own.session })
+  local html = report.live(own.scene.name, { session = own.session, draft = own.draft ~= nil,
+    forms = kinds.all() })
   local from, to = html:find('<meta http%-equiv="Content%-Security%-Policy"[^>]*>')
   if from then html = html:sub(1, from - 1) .. html:sub(to + 1) end
   own.server:page(html, POLICY:format(own.port, own.port))
 end
 
-local function attach(own, scene)
-  own.session = own.session + 1
+function attach(own, scene)
+  own.outline = own.outline + 1
+  if own.scene and of_scene(own.scene) then views[build.data(own.scene)] = nil end
+  if own.self then views[build.data(scene)] = own.self end
   own.scene, own.signature, own.state, own.frame, own.events = scene, nil, nil, nil, nil
   own.queue, own.lines, own.shown, own.snapshots, own.hand = {}, {}, {}, {}, nil
   own.changes, own.count, own.steps = 0, 0, 0
-  own.names = setmetatable({ scene = scene }, { __index = { math = math } })
+  own.names = setmetatable({ scene = scene, made = {} }, { __index = { math = math } })
   own.lines_due, own.forms_due, own.failed, own.running, own.done = true, true, nil, false, nil
+  own.runs, own.serial, own.made_text, own.unsaved, own.draft_due = {}, 0, {}, nil, true
+  own.base, own.stopped, own.ok, own.reason, own.args, own.ended = nil, nil, nil, nil, nil, nil
+end
+
+-- Another scene: pages begin anew.
+local function attach_another(own, scene)
+  own.session = own.session + 1
+  attach(own, scene)
   page_of(own)
 end
 
@@ -306,14 +385,15 @@ local function open_browser(address)
   os.execute(("command -v xdg-open >/dev/null 2>&1 && xdg-open '%s' >/dev/null 2>&1 &"):format(address))
 end
 
-local function serve(scene, args)
+local function serve(scene, args, from)
   local given = new:read(args == nil and {} or args)
   local fine, server, port, token = pcall(core.serve, given.port or 0)
   if not fine then error("scene:view: " .. build.plain(server), 0) end
   local own = { server = server, port = port, token = token, session = math.random(1, 1 << 30), outline = 0,
-    paused = given.paused or false, open = given.open ~= false }
-  attach(own, scene)
+    paused = given.paused or false, open = given.open ~= false, answers = {}, draft = from }
+  attach_another(own, scene)
   local self = sealed.new(View, own)
+  own.self = self
   views[build.data(scene)] = self
   if own.open then
     io.stderr:write(("view of '%s': %s\n"):format(scene.name, address_of(own)))
@@ -340,8 +420,7 @@ local shared -- of `softworld --view`: { view, args }
 function follower.begin(scene, args)
   if shared and not of_scene(scene) then
     if shared.view then
-      attach(fields(shared.view), scene)
-      views[build.data(scene)] = shared.view
+      attach_another(fields(shared.view), scene)
     else
       shared.view = core.class.scene.view(scene, shared.args)
     end
@@ -350,8 +429,11 @@ function follower.begin(scene, args)
   local own = self and fields(self)
   if not own or not own.server or own.scene ~= scene then return end
   own.running, own.done, own.ok, own.reason, own.base = true, nil, nil, nil, nil
-  if not own.args then own.args = args end
+  own.args = own.args or args
+  if own.ended and scene.time < own.ended then own.unsaved = "the script repeats its run" end
+  own.running, own.ended = false, nil
   if #own.snapshots == 0 and not own.failed then keep(own) end
+  own.running, own.runs[#own.runs + 1], own.lines_due = true, args, true
   own.observer = scene:observe { wall = GAP, call = function(observer) look(own, observer) end }
   fields(own.observer).each = own.paused or nil
   fields(own.observer).soon = true
@@ -365,10 +447,49 @@ function follower.finish(scene, ok, reason)
   local own = self and fields(self)
   if not own or own.scene ~= scene or not own.observer then return end
   own.observer:remove()
+  own.ended = scene.time
   own.observer, own.running, own.done, own.ok, own.reason = nil, false, true, ok or false, tostring(reason)
   own.failed = not ok or nil
   own.frame = nil
   if own.server then pcall(show.all, own) end
+end
+
+-- A run that a page asks for; its line is shown. Returns whether it began, and why not.
+local function run_now(own, args)
+  own.shown[#own.shown + 1] = { time = own.scene.time, ok = true, count = 1,
+    text = ("scene:run %s"):format(literal.of(args, tostring, "args")) }
+  local before = #own.runs
+  args.progress = false
+  local fine, run = pcall(own.scene.run, own.scene, args)
+  if not fine and core.interrupted() then error(run, 0) end
+  local begun = #own.runs > before
+  if fine then fine = run.ok end -- a run that failed was looked at
+  own.failed, own.lines_due = begun and not fine or own.failed, true
+  return begun or fine, run
+end
+
+local function run_on(own)
+  local args = { duration = own.wants_run }
+  own.wants_run = nil
+  for key, value in pairs(own.args or {}) do
+    if type(value) ~= "table" and type(value) ~= "function" and key ~= "save" and key ~= "resume" then
+      args[key] = args[key] or value
+    end
+  end
+  args.progress = nil
+  local begun, message = run_now(own, args)
+  if not begun then refused(own, tostring(message)) end
+end
+
+local function run_draft(own)
+  local args, ask = {}, own.wants_start.ask
+  for key, value in pairs(own.wants_start.args) do args[key] = value end
+  own.wants_start = nil
+  local fine, message = pcall(again, own)
+  if fine then fine, message = run_now(own, args) end
+  if not fine and core.interrupted() then error(message, 0) end
+  own.draft_due = true
+  show.answer(own, ask, fine, not fine and build.plain(message) or nil)
 end
 
 -- Between runs: what pages ask for is done at once.
@@ -378,20 +499,8 @@ local function idle(own, due)
     if #own.queue > 0 and not own.failed then work(own) end
     own.queue = {}
     show.all(own)
-    if own.wants_run then
-      local duration = own.wants_run
-      own.wants_run = nil
-      local given = own.args or {}
-      local args = { duration = duration, dt = given.dt, tolerance = given.tolerance, progress = false }
-      if type(args.tolerance) == "table" then args.tolerance = nil end
-      own.shown[#own.shown + 1] = { time = own.scene.time, ok = true, count = 1,
-        text = ("scene:run { duration = %s }"):format(literal.number(duration)) }
-      local fine, run = pcall(own.scene.run, own.scene, args)
-      if not fine and core.interrupted() then error(run, 0) end
-      if fine then fine = run.ok end -- a run that failed was looked at
-      if not fine then own.failed = true end
-      own.lines_due = true
-    end
+    if own.wants_run then run_on(own) end
+    if own.wants_start then run_draft(own) end
     own.server:wait(IDLE)
   until core.clock() >= due
 end
@@ -442,6 +551,13 @@ methods.guard_table("view", View)
 --- `softworld --view script.lua`: every scene that runs is shown, one after the other, from now on.
 function view.all(args) shared = { args = args } end
 
+-- Show the scene until Ctrl-C.
+local function stay(self)
+  local fine, message = pcall(idle, fields(self), math.huge)
+  self:close()
+  if not fine and not tostring(message):find "interrupted" then error(message, 0) end
+end
+
 --- Then, when the script has come to its end: show the last scene until Ctrl-C.
 function view.stay()
   local own = shared and shared.view and fields(shared.view)
@@ -450,9 +566,20 @@ function view.stay()
     return
   end
   io.stderr:write "the script has ended; Ctrl-C ends the view\n"
-  local fine, message = pcall(idle, own, math.huge)
-  shared.view:close()
-  if not fine and not tostring(message):find "interrupted" then error(message, 0) end
+  stay(shared.view)
+end
+
+--- A view of a scene that has nothing yet, for forms to put one together.
+function view.nothing(args)
+  local from = draft.new()
+  return serve(from:build(), args, from)
+end
+
+--- `softworld --view` alone: the same until Ctrl-C.
+function view.begin()
+  local self = view.nothing()
+  io.stderr:write "Ctrl-C ends the view\n"
+  stay(self)
 end
 
 return view
