@@ -125,6 +125,13 @@ export class View {
     this.stage.section(cut, cutAt, flip);
   }
 
+  /** The scene is another one: its bounds and the thinnest wire. Returns whether the camera had to go elsewhere. */
+  refit() {
+    const all = withObstacles(this.data, boundsOf(this.data)), moved = this.stage.fit(all.box, all.points);
+    this.radius = Math.min(...this.data.runs.flatMap((r) => r.wires.map((w) => w.radius)).filter((r) => r > 0), this.stage.size / 40);
+    return moved;
+  }
+
   addWay(actor, lists) {
     if (this.data.live) return; // where it will go is not known
     const way = new Way(actor, lists, this.accent);

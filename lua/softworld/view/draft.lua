@@ -352,12 +352,11 @@ function Draft:shown()
     redo = #self.future > 0, remarks = self.remarks, processes = PROCESSES }
 end
 
---- Has it steps?
-function Draft:has_steps()
-  for _, item in ipairs(self.now.items) do
-    if item.kind.class == "step" then return true end
-  end
-  return false
+--- The table of the scene:run that is meant; nil when it would have no end.
+function Draft:run()
+  local ends = self.now.run.duration ~= nil
+  for _, item in ipairs(self.now.items) do ends = ends or item.kind.class == "step" end
+  return ends and self.now.run or nil
 end
 
 local unbuilt = draft.new

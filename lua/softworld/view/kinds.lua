@@ -38,6 +38,16 @@ local first = {
   fixing = "name at s points", contact = "friction",
 }
 
+-- What a new form has in it, so that there is something to see at once.
+local starts = {
+  wire = { cable = "GXL 1.5", from = { 0, 0, 0.1 }, to = { 0.5, 0, 0.1 } },
+  sphere = { radius = 0.05, at = { 0.25, 0, 0 } }, capsule = { radius = 0.02, length = 0.2, at = { 0.25, 0, 0 } },
+  box = { size = { 0.05, 0.2, 0.05 }, at = { 0.25, 0, 0.025 } },
+  cylinder = { radius = 0.03, length = 0.2, at = { 0.25, 0, 0 } },
+  torus = { radius = 0.03, tube = 0.005, at = { 0.25, 0, 0.1 } }, gripper = { at = { 0.5, 0, 0.2 } },
+  wait = { seconds = 0.2 }, move = { by = { 0, 0, 0.1 }, speed = 0.2 }, run = { duration = 1, dt = 0.01 },
+}
+
 -- --- fields --------------------------------------------------------------------------------------
 
 local simple = { number = "number", integer = "integer", boolean = "boolean", text = "text", choice = "choice",
@@ -223,7 +233,7 @@ function kinds.all()
   local all = {}
   for i, kind in ipairs(list) do
     all[i] = { class = kind.class, kind = kind.kind, doc = kind.doc, on = kind.on, self = kind.self,
-      fields = kind.fields }
+      fields = kind.fields, start = starts[kind.kind] or starts[kind.class] }
   end
   return { kinds = all, cables = cables() }
 end

@@ -117,6 +117,13 @@ local function show_state(own)
   own.server:put(STATE, text)
 end
 
+-- Arguments of the runs that a script has to do: of those that were done, or of the one that is meant.
+local function runs_of(own)
+  if not own.draft or #own.runs > 0 then return own.runs end
+  local meant = own.draft:run()
+  return meant and { meant } or {}
+end
+
 local function show_lines(own)
   if not own.lines_due then return end
   own.lines_due = nil
@@ -124,7 +131,7 @@ local function show_lines(own)
   for i = math.max(1, #own.shown - SHOWN + 1), #own.shown do shown[#shown + 1] = own.shown[i] end
   for _, line in ipairs(own.shown) do undo = undo or line.undo and not line.undone or false end
   put(own, LINES, { kind = "lines", lines = shown, undo = undo, total = #own.lines, unsaved = own.unsaved,
-    script = not own.unsaved and orders.script(own.scene, own.lines, own.runs, own.draft and own.draft:script())
+    script = not own.unsaved and orders.script(own.scene, own.lines, runs_of(own), own.draft and own.draft:script())
       or nil })
 end
 

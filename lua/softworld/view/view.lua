@@ -191,7 +191,7 @@ local function of_draft(own, m, f)
   if own.draft and own.running then message = "a run is under way: end it, or wait for its end" end
   if own.draft and not own.running then fine, message = pcall(f, own, m) end
   if not fine and core.interrupted() then error(message, 0) end
-  show.answer(own, m.ask, fine, message and build.plain(message) or nil)
+  show.answer(own, m.ask, fine, message and build.plain(message):gsub("^[^\n:]+%.lua:%d+: ", "") or nil)
 end
 
 local function change_draft(own, m)
@@ -202,7 +202,11 @@ end
 
 local function again(own) replace(own, own.draft:build()) end
 
-local function start(own, m) own.wants_start = { args = own.draft:set_run(m.values), ask = m.ask } end
+-- It is answered when the run has ended, or could not begin.
+local function start(own, m)
+  own.wants_start = { args = own.draft:set_run(m.values), ask = m.ask }
+  m.ask = nil
+end
 
 local now = {} -- orders that are done at once: nothing of the scene changes by them
 
@@ -489,7 +493,7 @@ local function run_draft(own)
   if fine then fine, message = run_now(own, args) end
   if not fine and core.interrupted() then error(message, 0) end
   own.draft_due = true
-  show.answer(own, ask, fine, not fine and build.plain(message) or nil)
+  show.answer(own, ask, fine, not fine and build.plain(message):gsub("^[^\n:]+:%d+: ", "") or nil)
 end
 
 -- Between runs: what pages ask for is done at once.
