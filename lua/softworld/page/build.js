@@ -9,7 +9,7 @@ const CLASSES = [["wire", "Wire"], ["obstacle", "Obstacle"], ["hold", "Hold"], [
 
 export class Build {
   constructor(host, state, link, forms, say) {
-    Object.assign(this, { host, state, link, say, kinds: forms.kinds, cables: forms.cables, items: [], objects: [], made: [], draft: null,
+    Object.assign(this, { host, state, link, say, kinds: forms.kinds, cables: forms.cables, items: [], objects: [], made: [], forms: [], draft: null,
       script: null });
     this.undo = iconButton("back", "Undo", () => this.order("undo"), { disabled: true });
     this.redo = iconButton("redo", "Redo", () => this.order("redo"), { disabled: true });
@@ -87,7 +87,7 @@ export class Build {
     const show = (name, given) => {
       const def = this.kindOf(cls, name);
       const form = new Form(def, given, { things: (k) => this.things(k), cables: this.cables, word, send, more, cancel: () => this.close() });
-      box.replaceChildren(...(own.length > 1 ? [h("div.row.kind", {}, h("label", { for: `${form.id}-kind` }, cls === "wire" ? "model"
+      box.replaceChildren(...(own.length > 1 ? [h("div.row.choose", {}, h("label", { for: `${form.id}-kind` }, cls === "wire" ? "model"
         : cls === "obstacle" ? "shape" : "kind"), h("select", { id: `${form.id}-kind`, onchange: (e) => {
         show(e.target.value, null);
         box.querySelector("select").focus();
@@ -157,6 +157,29 @@ export class Build {
     this.open.item = "scene";
   }
 
+  /* --- places, from the picture ------------------------------------------------------------------ */
+
+  itemOf(actor) { return this.items.find((i) => i.class === actor.kind && i.name === actor.name); }
+
+  /** Can it be put elsewhere now? Obstacles while nothing moves, grippers before they have begun. */
+  canPlace(actor) {
+    const { run, over } = this.state.values;
+    if (over || !this.state.get("follow")) return false;
+    const solid = actor.kind === "obstacle" && !actor.plane && !actor.fixed && !actor.given.part;
+    if (run.draft && run.at_start) return Boolean((solid || actor.kind === "gripper") && this.itemOf(actor));
+    return solid && (!run.running || run.paused);
+  }
+
+  /** Component k of its place is to be x [m]; the others stay as they were given, which pictures know less exactly. */
+  place(actor, k, x) {
+    const item = this.planned && this.state.get("run").at_start ? this.itemOf(actor) : null;
+    const form = this.forms.find((f) => f.name === actor.name), known = item ? item.values.at : form?.rows.find((r) => r.name === "at")?.value;
+    const at = [...(known || [0, 0, 0])];
+    at[k] = x;
+    if (item) return this.link.ask("draft", { what: "put", id: item.id, values: { at } });
+    return this.link.ask("set", { object: actor.name, values: { at } });
+  }
+
   /* --- the run ------------------------------------------------------------------------------ */
 
   makeRun() {
@@ -183,8 +206,9 @@ export class Build {
     this.mode();
     this.fill();
   }
-  showObjects(objects, made) {
+  showObjects({ objects, made, forms }) {
     this.objects = objects;
+    this.forms = forms;
     this.made = made || [];
     this.fill();
   }
@@ -217,7 +241,7 @@ export class Build {
     const shift = (by, words, picture) => iconButton(picture, words, () => this.order("shift", { id: item.id, by }).catch(() => {}));
     li.append(h("div.thing", {}, h("button.thing-name", { type: "button", title: "Change it", onclick: () => this.edit(item, li) },
       h("span", {}, name), h("small", {}, step ? (several ? `process ${item.process}` : "") : item.name ? item.kind : "force"),
-      h("code", {}, item.text)),
+      h("code", { title: item.text }, item.text)),
     step ? shift(-1, "Earlier", "up") : null, step ? shift(1, "Later", "down") : null,
     iconButton("close", `Remove ${name}`, () => this.order("remove", { id: item.id }).catch(() => {}))));
     return li;

@@ -7,7 +7,7 @@ const KNOWN = { x: 0, y: 1, z: 2 };
 
 export function rangeOf(row) {
   const low = row.min !== undefined, high = row.max !== undefined;
-  if (low && high && row.max < 1e5) return `${row.min} … ${row.max}`;
+  if (low && high && row.max < 1000) return `${row.min} … ${row.max}`;
   if (low) return `${row.above ? ">" : "≥"} ${row.min}`;
   return high ? `≤ ${row.max}` : "";
 }

@@ -11,9 +11,9 @@ const text = (x) => format(x).replace(/(\.\d*?)0+($|e)/, "$1$2").replace(/\.($|e
 
 /** Values of a cable, how far they are sure, and where they are from. */
 function sheet(cable) {
-  return h("div.sheet", {}, h("p.hint", {}, cable.doc), h("table", {}, h("tbody", {}, ...cable.rows.map((r) => h("tr", {},
-    h("th", { scope: "row" }, r.name), h("td.number", { title: `${text(r.low)} … ${text(r.high)}` }, text(r.value)),
-    h("td.unit", {}, r.unit === "-" ? "" : r.unit), h("td.source", {}, h("span", { class: `flag ${r.flag}` }, r.flag), " ", r.source))))));
+  return h("div.sheet", {}, h("p.hint", {}, cable.doc), h("dl", {}, ...cable.rows.flatMap((r) => [
+    h("dt", {}, r.name), h("dd", {}, h("b", { title: `${text(r.low)} … ${text(r.high)}` }, `${text(r.value)} ${r.unit === "-" ? "" : r.unit}`),
+      h("span", { class: `flag ${r.flag}` }, r.flag), h("small", {}, r.source))])));
 }
 
 export class Form {
@@ -34,7 +34,7 @@ export class Form {
     this.element = h("form.form", { noValidate: true, "aria-label": `${kind.class} ${kind.kind}`,
       onsubmit: (e) => { e.preventDefault(); this.go(); },
       onkeydown: (e) => { if (e.key === "Escape" && cancel) { e.stopPropagation(); cancel(); } } },
-    h("p.hint", {}, kind.doc || ""), ...this.rows.filter((r) => !r.field.more).map((r) => r.element), this.sheet,
+    h("p.hint", { hidden: kind.class === "run" }, kind.doc || ""), ...this.rows.filter((r) => !r.field.more).map((r) => r.element), this.sheet,
     folded.length ? h("details.more", { open }, h("summary", {}, `${folded.length} more`), ...folded.map((r) => r.element)) : null,
     this.why, h("div.form-end", {}, this.ok, more || null,
       cancel ? h("button.text-button", { type: "button", onclick: cancel }, "Cancel") : null));

@@ -8,6 +8,7 @@ import { LiveFilm } from "./livefilm.js";
 import { Link } from "./link.js";
 import { Hand } from "./hand.js";
 import { Build } from "./build.js";
+import { Handles } from "./handles.js";
 import { rangeOf } from "./fields.js";
 import { scriptPanel } from "./panels.js";
 
@@ -278,7 +279,7 @@ export function startLive(data, page) {
   };
   const showForms = (m) => {
     panel.forms.show(m.forms);
-    panel.build.showObjects(m.objects, m.made);
+    panel.build.showObjects(m);
   };
   const build = () => {
     data.runs = [run];
@@ -294,11 +295,15 @@ export function startLive(data, page) {
       const hand = iconButton("hand", "Pull wires (H)", () => state.set({ hand: !state.get("hand") }), { id: "hand" });
       $("tools").append(hand);
       state.watch(["hand"], ({ hand: on }) => hand.setAttribute("aria-pressed", String(on)));
+      new Handles(view, state, { say: page.say, may: (actor) => panel?.build.canPlace(actor), put: (actor, k, x) => panel.build.place(actor, k, x) });
       window.hand = new Hand(view, state, link);
       handPart(host, state);
     }
     const idle = h("p.hint", {}, "Nothing runs yet: objects are changed under Build. Here is what can be changed while they move.");
     host.prepend(idle);
+    const nothing = h("p.empty", {}, "Nothing is here yet. Add a wire, an obstacle, a clamp; then let it run.");
+    $("stage").append(nothing);
+    state.watch(["tick", "run"], () => { nothing.hidden = !data.live.draft || run.wires.length + run.obstacles.length + run.grips.length > 0; });
     state.watch(["run"], ({ run: now }) => {
       idle.hidden = !now.at_start;
       for (const part of host.querySelectorAll(".part")) part.hidden = Boolean(now.at_start);

@@ -57,10 +57,10 @@ function tabs(state, charts) {
 function viewButtons(view) {
   const host = $("views");
   for (const [name, key] of [["iso", 1], ["front", 2], ["right", 3], ["top", 4], ["left", 5], ["back", 6]]) {
-    host.append(h("button", { type: "button", title: `View: ${name} (${key})`, onclick: () => view.stage.look(name) },
+    host.append(h("button", { type: "button", title: `View: ${name} (${key})`, onclick: () => view.look(name) },
       name[0].toUpperCase() + name.slice(1)));
   }
-  host.append(iconButton("fit", "Show all (F)", () => view.stage.look(null)));
+  host.append(iconButton("fit", "Show all (F)", () => view.look(null)));
 }
 
 function tools(view, state) {
@@ -151,8 +151,8 @@ function keys(state, transport, view, data, more = {}) {
     Escape: () => state.set({ tool: null, probe: null, selected: null }),
   };
   if (view) {
-    ["iso", "front", "right", "top", "left", "back"].forEach((name, i) => { actions[i + 1] = () => view.stage.look(name); });
-    Object.assign(actions, { f: () => view.stage.look(null), v: () => flip("arrows"),
+    ["iso", "front", "right", "top", "left", "back"].forEach((name, i) => { actions[i + 1] = () => view.look(name); });
+    Object.assign(actions, { f: () => view.look(null), v: () => flip("arrows"),
       m: () => state.set({ tool: state.get("tool") === "measure" ? null : "measure" }),
       x: () => state.set({ cut: state.get("cut") === null ? 0 : null }),
       c: () => state.set({ custom: null, quantity: quantities[(quantities.indexOf(state.get("quantity")) + 1) % quantities.length] }),

@@ -98,17 +98,17 @@ export class Stage {
   }
 
   /** Other bounds. Where they are much like the ones before the camera stays; else it goes there: true. */
-  fit(bounds, points) {
+  fit(bounds, points, always) {
     const size = Math.max(bounds.getSize(new THREE.Vector3()).length(), 1e-4);
     const like = this.bounds.clone().expandByScalar(0.2 * this.size).containsBox(bounds) && size > 0.45 * this.size;
     Object.assign(this, { points });
-    if (like) return false;
+    if (like && !always) return false;
     Object.assign(this, { bounds, size });
     Object.assign(this.camera, { near: size / 2000, far: size * 60 });
     this.camera.updateProjectionMatrix();
     Object.assign(this.controls, { minDistance: size / 500, maxDistance: size * 20 });
     this.placeSun();
-    this.look(null);
+    if (!like) this.look(null);
     return true;
   }
 

@@ -125,7 +125,9 @@ local function wires(r)
       choices = cable.stiffnesses },
     { name = "use", type = "choice", unit = "-", doc = "of the cable, which its bend radius is judged by",
       choices = bendrule.uses } }
-  for _, model in ipairs(r.models) do
+  local models = table.move(r.models, 1, #r.models, 1, {})
+  table.sort(models, function(a, b) return a.name == "rod" and b.name ~= "rod" end) -- the usual one first
+  for _, model in ipairs(models) do
     local lists = { in_lua, r.params.wire, r.params.section }
     if model.mesh then
       lists[#lists + 1] = r.params.wire_mesh
