@@ -191,6 +191,7 @@ end
 local function load_all()
   if list then return end
   list, by_name = {}, {}
+  require "softworld" -- all of it has rows
   rows.load()
   local r = core.registry()
   wires(r)
