@@ -28,8 +28,8 @@ local scene = view.scene
 -- Run the program with these words, in a process of its own; where its page is.
 local function begin(words)
   local path = program.path:find "^/" and program.path or require "lfs".currentdir() .. "/" .. program.path
-  os.execute(("cd '%s' && rm -f err && { env --default-signal=INT '%s' %s >out 2>err & echo $! >'%s/pid'; }"):format(folder, path, words,
-    folder))
+  os.execute(("cd '%s' && rm -f err && { env --default-signal=INT '%s' %s >out 2>err & echo $! >pid; }")
+    :format(folder, path, words))
   for _ = 1, 200 do
     local file = io.open(folder .. "/err")
     local said = file and file:read "a" or ""
@@ -69,8 +69,10 @@ end
 
 -- The field of the open form that has this label, or one of its parts.
 local FIELD = [[
-  const label = [...document.querySelectorAll(".form-box label")].find((l) => l.innerText.replace(" *", "") === arguments[0]);
-  const first = document.getElementById(label.htmlFor), all = first.parentElement.className.startsWith("vector")
+  const label = [...document.querySelectorAll(".form-box label")]
+    .find((l) => l.innerText.replace(" *", "") === arguments[0]);
+  const first = document.getElementById(label.htmlFor);
+  const all = first.parentElement.className.startsWith("vector")
     ? [...first.parentElement.children] : [first];
 ]]
 local function fill(name, ...)
@@ -117,7 +119,9 @@ describe("a view that begins with nothing", function()
     add "wire"
     fill("cable", "GXL 2.5")
     local sheet = text ".sheet"
-    assert.truthy(sheet:find("0.0035 m", 1, true) and sheet:find "measured" and sheet:find "makers' tables", sheet)
+    for _, words in ipairs { "0.0035 m", "measured", "makers' tables" } do
+      assert.truthy(sheet:find(words, 1, true), sheet)
+    end
     assert.is_true(page:run(FIELD:gsub("arguments%[0%]", '"E"') .. "return all[0].closest('.row').hidden"))
     fill("name", "cord")
     fill("from", "0", "0", "0.1")
@@ -147,7 +151,8 @@ describe("a view that begins with nothing", function()
     add "hold"
     fill("s", "3")
     submit()
-    page:wait [[return /clamp: s = 3 m is not on wire 'cord', which ends at 0.4 m/.test(document.querySelector(".form .why").innerText)]]
+    page:wait [[return document.querySelector(".form .why").innerText
+      === "clamp: s = 3 m is not on wire 'cord', which ends at 0.4 m"]]
     assert.equal(before, things())
     fill("s", "zero")
     submit()
@@ -162,7 +167,8 @@ describe("a view that begins with nothing", function()
     page:run [[player.state.set({ selected: player.view.actors.find((a) => a.name === "block").id })]]
     page:run "player.view.stage.draw()"
     local at = page:run [=[
-      const { stage } = player.view, p = player.view.find(player.state.get("selected")).group.position.clone();
+      const { stage } = player.view;
+      const p = player.view.find(player.state.get("selected")).group.position.clone();
       p.z += 0.09 * stage.camera.position.distanceTo(p);
       const s = stage.onScreen(p), b = stage.canvas.getBoundingClientRect();
       return [b.left + s[0], b.top + s[1]];]=]
@@ -199,8 +205,8 @@ describe("a view that begins with nothing", function()
     fill("at", "0.4", "0", "0.2")
     submit()
     closed()
-    for _, step in ipairs { { "grasp", "s", "0.38" }, { "move", "by", "-0.05", "0", "0.05" }, { "wait", "seconds", "0.05" },
-      { "release" } } do
+    for _, step in ipairs { { "grasp", "s", "0.38" }, { "move", "by", "-0.05", "0", "0.05" },
+      { "wait", "seconds", "0.05" }, { "release" } } do
       click "#add-step"
       page:run([[
         const s = document.querySelector(".form-box .choose select");

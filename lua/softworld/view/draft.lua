@@ -94,8 +94,8 @@ end
 
 -- The script that builds what a list says; by id the line of each item.
 local function script_of(now)
-  local lines, texts = { "-- Written by SoftWorld " .. core.version .. ".", 'local sw = require "softworld"', "",
-    "local scene = sw.scene " .. fill.source(now.scene) }, {}
+  local texts, lines = {}, { "-- Written by SoftWorld " .. core.version .. ".",
+    'local sw = require "softworld"', "", "local scene = sw.scene " .. fill.source(now.scene) }
   local items = in_order(now.items)
   local words = words_of(items)
   local word = word_in(words, items)
@@ -348,8 +348,8 @@ function Draft:shown()
     items[i] = { id = item.id, class = item.kind.class, kind = item.kind.kind, name = item.name,
       values = json.object(plain_copy(item.values)), process = item.process, text = self.texts[item.id] }
   end
-  return { items = items, scene = self.now.scene, run = json.object(plain_copy(self.now.run)), undo = #self.past > 0,
-    redo = #self.future > 0, remarks = self.remarks, processes = PROCESSES }
+  return { items = items, scene = self.now.scene, run = json.object(plain_copy(self.now.run)),
+    undo = #self.past > 0, redo = #self.future > 0, remarks = self.remarks, processes = PROCESSES }
 end
 
 --- The table of the scene:run that is meant; nil when it would have no end.

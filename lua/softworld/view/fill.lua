@@ -208,7 +208,7 @@ end
 
 --- A name for an object that has none: its kind and a number; taken(name): is it one already?
 function fill.name(kind, taken)
-  local word, count = kind.class == "obstacle" and kind.kind or kind.class == "wire" and "wire" or kind.kind, 1
+  local word, count = kind.class == "wire" and "wire" or kind.kind, 1
   while taken(word .. count) do count = count + 1 end
   return word .. count
 end

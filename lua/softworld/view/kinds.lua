@@ -33,15 +33,17 @@ local told = {
 -- In front of the rows; what is used most comes first, the rest is folded away.
 local first = {
   wire = "name cable from to radius E density",
-  obstacle = "name at friction", force = "", gripper = "name at", hold = "s name", step = "s to by approach force "
-    .. "speed distance axis angle into", run = "duration dt tolerance", scene = "gravity",
+  obstacle = "name at friction", force = "", gripper = "name at", hold = "s name",
+  step = "s to by approach force speed distance axis angle into", run = "duration dt tolerance",
+  scene = "gravity",
   fixing = "name at s points", contact = "friction",
 }
 
 -- What a new form has in it, so that there is something to see at once.
 local starts = {
   wire = { cable = "GXL 1.5", from = { 0, 0, 0.1 }, to = { 0.5, 0, 0.1 } },
-  sphere = { radius = 0.05, at = { 0.25, 0, 0 } }, capsule = { radius = 0.02, length = 0.2, at = { 0.25, 0, 0 } },
+  sphere = { radius = 0.05, at = { 0.25, 0, 0 } },
+  capsule = { radius = 0.02, length = 0.2, at = { 0.25, 0, 0 } },
   box = { size = { 0.05, 0.2, 0.05 }, at = { 0.25, 0, 0.025 } },
   cylinder = { radius = 0.03, length = 0.2, at = { 0.25, 0, 0 } },
   torus = { radius = 0.03, tube = 0.005, at = { 0.25, 0, 0.1 } }, gripper = { at = { 0.5, 0, 0.2 } },
@@ -50,8 +52,8 @@ local starts = {
 
 -- --- fields --------------------------------------------------------------------------------------
 
-local simple = { number = "number", integer = "integer", boolean = "boolean", text = "text", choice = "choice",
-  vector = "vector", rotation = "rotation", reaction = "choice", ["arc length"] = "number",
+local simple = { number = "number", integer = "integer", boolean = "boolean", text = "text",
+  choice = "choice", vector = "vector", rotation = "rotation", reaction = "choice", ["arc length"] = "number",
   numbers = "number", points = "points" }
 local objects = { wire = "wire", clip = "clip", gripper = "gripper" }
 
@@ -140,7 +142,8 @@ end
 
 local function obstacles(r)
   for _, shape in ipairs(r.shapes) do
-    local file = shape.name == "mesh" and { { name = "file", type = "text", unit = "-", required = true } } or {}
+    local file = {}
+    if shape.name == "mesh" then file[1] = { name = "file", type = "text", unit = "-", required = true } end
     add({ class = "obstacle", kind = shape.name, doc = shape.summary, method = "obstacle",
       set = { shape = shape.name } }, { file, shape.params, r.params.obstacle })
   end

@@ -266,7 +266,10 @@ function orders.objects(scene)
       list[#list + 1] = entry_of(hold.name, hold.kind, "clamp")
     end
   end
-  for _, it in ipairs(fixing.all(scene)) do list[#list + 1] = entry_of(it.name, class_of(it), class_of(it)) end
+  for _, it in ipairs(fixing.all(scene)) do
+    local class = class_of(it)
+    list[#list + 1] = entry_of(it.name, class, class)
+  end
   return list
 end
 
@@ -302,8 +305,9 @@ local function changes_of(lines)
   if made then list[2] = "  local made = {}" end
   list[#list + 1] = "  local changes = {"
   for _, line in ipairs(lines) do
-    list[#list + 1] = line.text and ("    { %s, function() %s end },"):format(literal.number(line.time), line.text)
-      or ("    { %s }, -- the run is ended"):format(literal.number(line.time))
+    local time = literal.number(line.time)
+    list[#list + 1] = line.text and ("    { %s, function() %s end },"):format(time, line.text)
+      or ("    { %s }, -- the run is ended"):format(time)
   end
   list[#list + 1] = "  }"
   return table.concat(list, "\n") .. "\n" .. follow
@@ -333,13 +337,14 @@ end
 
 --- A script that does the runs again with what was changed by hand; of a scene whose processes are functions,
 -- which cannot be written, the part that is to be run before scene:run.
--- lines: { { time =, text = or nil: the run was ended } }; runs: arguments of scene:run; head: the script that
--- built the scene, where it is known.
+-- lines: { { time =, text = or nil: the run was ended } }; runs: arguments of scene:run; head: the script
+-- that built the scene, where it is known.
 function orders.script(scene, lines, runs, head)
   head = head or head_of(scene)
   local tail = #runs > 0 and runs_of(runs)
   if head and (tail or #runs == 0) then
-    local by_hand = #lines > 0 and "\n-- What was changed by hand, and when.\ndo\n" .. changes_of(lines) .. "end\n"
+    local by_hand = #lines > 0
+      and "\n-- What was changed by hand, and when.\ndo\n" .. changes_of(lines) .. "end\n"
     return head .. (by_hand or "") .. (tail and "\n" .. tail or "")
   end
   if #lines == 0 then return nil end

@@ -13,7 +13,8 @@ local show = {}
 
 local SHOWN = 200 -- changes in a page
 local ANSWERS_KEPT = 30
-local FRAME, SCENE, STATE, LINES, FORMS, EVENTS, DRAFT, ANSWERS = 0, 1, 2, 3, 4, 5, 6, 7 -- slots of the server
+-- Slots of the server.
+local FRAME, SCENE, STATE, LINES, FORMS, EVENTS, DRAFT, ANSWERS = 0, 1, 2, 3, 4, 5, 6, 7
 
 local function put(own, slot, value) own.server:put(slot, json.encode(value)) end
 
@@ -130,9 +131,9 @@ local function show_lines(own)
   local shown, undo = {}, false
   for i = math.max(1, #own.shown - SHOWN + 1), #own.shown do shown[#shown + 1] = own.shown[i] end
   for _, line in ipairs(own.shown) do undo = undo or line.undo and not line.undone or false end
+  local head = own.draft and own.draft:script() or nil
   put(own, LINES, { kind = "lines", lines = shown, undo = undo, total = #own.lines, unsaved = own.unsaved,
-    script = not own.unsaved and orders.script(own.scene, own.lines, runs_of(own), own.draft and own.draft:script())
-      or nil })
+    script = not own.unsaved and orders.script(own.scene, own.lines, runs_of(own), head) or nil })
 end
 
 local function show_events(own)
