@@ -13,17 +13,20 @@ for _, x in ipairs((scene:find("cord"):positions())) do io.write(("%a "):format(
 print()
 ]]
 
--- The same as `softworld --view`, until there is a file "end"; then the numbers of its scene.
+-- The same as `softworld --view`, but for a file "tell": then it prints the numbers of its scene.
 local SCRIPT = [[
 require "softworld"
 local view = require("softworld.view.view").nothing { open = false }
 io.stderr:write(view.address, "\n")
-repeat
-  view:wait(0.2)
-  local file = io.open "end"
-until file
-local scene = view.scene
-]] .. TELL
+while true do
+  view:wait(0.1)
+  if os.remove "tell" then
+    local scene = view.scene
+]] .. TELL .. [[
+    io.stdout:flush()
+  end
+end
+]]
 
 -- Run the program with these words, in a process of its own; where its page is.
 local function begin(words)
@@ -48,13 +51,20 @@ local function stop()
   os.remove(folder .. "/pid")
 end
 
--- What the program has printed, once it has ended.
-local function printed()
+local told = 0
+
+-- The numbers of the view's scene; it must be between two runs.
+local function numbers()
+  program.write(folder .. "/tell", "")
   for _ = 1, 200 do
     local file = io.open(folder .. "/out")
     local said = file:read "a"
     file:close()
-    if said:find "\n$" then return said end
+    if #said > told and said:find "\n$" then
+      local line = said:sub(told + 1)
+      told = #said
+      return line
+    end
     socket.sleep(0.05)
   end
   error "nothing was printed"
@@ -85,6 +95,31 @@ local function fill(name, ...)
 end
 local function submit() page:run [[document.querySelector(".form-box form").requestSubmit()]] end
 local function closed() page:wait [[return !document.querySelector(".form-box")]] end
+local function set_duration(value)
+  page:run([[
+    const f = [...document.querySelectorAll("#panel-build label")].find((l) => l.innerText === "duration");
+    document.getElementById(f.htmlFor).value = arguments[0];]], value)
+end
+local function steps(count)
+  for _ = 1, count do
+    local before = page:run "return player.state.get('time')"
+    page:run [[player.link.order("step")]]
+    page:wait(("return player.state.get('time') > %.9f + 1e-6"):format(before))
+  end
+end
+
+-- The script as it would be saved prints what the view's scene has.
+local function same_numbers()
+  local script = page:run "return player.panel.build.script"
+  program.write(folder .. "/again.lua", script .. TELL)
+  local out, err, code = program.run { folder .. "/again.lua" }
+  assert.equal(0, code, err)
+  local line = numbers()
+  assert.is_true(#line > 1000)
+  assert.equal(line, out:match "[^\n]*\n$")
+  return script
+end
+
 local function add(class) click(("[data-class=%s]"):format(class)) end
 local function things() return text "ul.things" end
 local function wait_for(words)
@@ -199,6 +234,25 @@ describe("a view that begins with nothing", function()
     wait_for "friction = 0.7"
   end)
 
+  it("saves a run that was ended, gone back in, and gone on with", function()
+    set_duration "5"
+    page:run [[player.link.order("pause")]]
+    click "#run"
+    page:wait "return player.state.get('run').running && player.state.get('run').holds"
+    steps(3)
+    page:run [[player.link.order("keep")]]
+    page:wait "return player.state.get('run').snapshots.length === 2"
+    steps(3)
+    page:run [[player.link.order("stop")]]
+    page:wait "return player.state.get('run').done"
+    assert.equal("ended", text "#status")
+    page:run [[player.link.order("back", { id: 2 }); player.link.order("go"); player.link.order("run", { duration: 0.25 })]]
+    page:wait "return player.state.get('run').done && player.state.get('time') > 0.27"
+    same_numbers()
+    click "#again"
+    page:wait "return player.state.get('run').at_start && player.state.get('time') === 0"
+  end)
+
   it("runs a gripper's steps, and goes back to the start", function()
     add "gripper"
     fill("name", "hand")
@@ -217,9 +271,7 @@ describe("a view that begins with nothing", function()
       closed()
     end
     assert.equal(4, page:run "return document.querySelectorAll('ol.things > li').length")
-    page:run [[
-      const f = [...document.querySelectorAll("#panel-build label")].find((l) => l.innerText === "duration");
-      document.getElementById(f.htmlFor).value = "0.8";]]
+    set_duration "0.8"
     click "#run"
     page:wait "return player.state.get('run').done"
     assert.equal("ended", text "#status")
@@ -236,10 +288,8 @@ describe("a view that begins with nothing", function()
   end)
 
   it("adds an object while a run is held, and takes it away", function()
-    page:run [[
-      const f = [...document.querySelectorAll("#panel-build label")].find((l) => l.innerText === "duration");
-      document.getElementById(f.htmlFor).value = "5";
-      player.link.order("pause");]]
+    set_duration "5"
+    page:run [[player.link.order("pause")]]
     click "#run"
     page:wait "return player.state.get('run').running && player.state.get('run').holds"
     assert.truthy(text "#panel-build":find "A run is under way")
@@ -252,31 +302,27 @@ describe("a view that begins with nothing", function()
     click "[aria-label='Remove late']"
     page:wait [[return !/late/.test(document.querySelector("ul.things").innerText)]]
     assert.truthy(page:run [[return /scene:find\("late"\):remove\(\)/.test(player.panel.build.script)]])
-    page:run [[player.link.order("stop"); player.link.order("go")]]
+    steps(2)
+    add "wire"
+    fill("name", "later")
+    fill("from", "0", "0.1", "0.3")
+    fill("to", "0.2", "0.1", "0.3")
+    submit()
+    closed()
+    wait_for "later"
+    page:run [[player.link.order("set", { object: "", values: { gravity: [0, 0, -5] } })]]
+    page:wait [[return /gravity = { 0, 0, -5 }/.test(player.panel.build.script)]]
+    steps(3)
+    page:run [[player.link.order("stop")]]
     page:wait "return player.state.get('run').done"
   end)
 
   it("saves a script that prints the same numbers, what was done by hand included", function()
-    click "#again"
-    page:wait "return player.state.get('run').at_start"
-    page:run [[
-      const f = [...document.querySelectorAll("#panel-build label")].find((l) => l.innerText === "duration");
-      document.getElementById(f.htmlFor).value = "0.6";]]
-    click "#run"
-    page:wait "return player.state.get('run').done"
-    page:run [[player.link.order("set", { object: "", values: { gravity: [0, 0, -5] } })]]
-    page:wait [[return /gravity = { 0, 0, -5 }/.test(player.panel.build.script)]]
-    page:run [[player.link.order("run", { duration: 0.2 })]]
-    page:wait "return player.state.get('run').done && player.state.get('time') > 0.79"
-    local script = page:run "return player.panel.build.script"
+    page:run [[player.link.order("go"); player.link.order("run", { duration: 0.5 })]]
+    page:wait "return player.state.get('run').done && player.state.get('time') > 0.5"
+    local script = same_numbers()
     assert.truthy(script:find("hand:grasp(cord, { s = 0.38 })", 1, true), script)
-    program.write(folder .. "/end", "")
-    program.write(folder .. "/again.lua", script .. TELL)
-    local numbers = printed()
-    local out, err, code = program.run { folder .. "/again.lua" }
-    assert.equal(0, code, err)
-    assert.is_true(#numbers > 1000)
-    assert.equal(numbers, out:match "[^\n]*\n$")
+    assert.truthy(script:find("-- the run is ended", 1, true), script)
   end)
 end)
 

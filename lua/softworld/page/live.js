@@ -165,7 +165,8 @@ class Lines {
       line.count > 1 ? h("small", {}, `${line.count} times`) : null, line.undone ? h("small", {}, "undone") : null,
       line.ok ? null : h("span.why", {}, line.error))));
     const last = lines[lines.length - 1];
-    if (last && !last.ok && last.error !== this.told) this.say(last.error);
+    const form = document.querySelector(".form-box"); // tells it itself
+    if (last && !last.ok && last.error !== this.told && !form) this.say(last.error);
     this.told = last && !last.ok ? last.error : null;
   }
 }

@@ -266,6 +266,13 @@ function orders.objects(scene)
       list[#list + 1] = entry_of(hold.name, hold.kind, "clamp")
     end
   end
+  for _, call in ipairs(record.of(scene)) do
+    local force = call.method == "force" and call.results[1]
+    if force and core.exists(force) and force.held then
+      list[#list + 1] = { name = force.kind, kind = "force", class = "force",
+        why = "a force of the script has no name to take it away by" }
+    end
+  end
   for _, it in ipairs(fixing.all(scene)) do
     local class = class_of(it)
     list[#list + 1] = entry_of(it.name, class, class)
