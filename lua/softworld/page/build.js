@@ -89,7 +89,7 @@ export class Build {
       const form = new Form(def, given, { things: (k) => this.things(k), cables: this.cables, word, send, more, cancel: () => this.close() });
       box.replaceChildren(...(own.length > 1 ? [h("div.row.choose", {}, h("label", { for: `${form.id}-kind` }, cls === "wire" ? "model"
         : cls === "obstacle" ? "shape" : "kind"), h("select", { id: `${form.id}-kind`, onchange: (e) => {
-        show(e.target.value, null);
+        show(e.target.value, { ...this.kindOf(cls, e.target.value).start, ...form.typed() });
         box.querySelector("select").focus();
       } }, ...own.map((k) => h("option", { value: k.kind, selected: k.kind === name, title: k.doc }, k.kind.replace(/_/g, " ")))))] : []),
       form.element);

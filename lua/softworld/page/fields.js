@@ -6,10 +6,10 @@ import { h } from "./dom.js";
 const KNOWN = { x: 0, y: 1, z: 2 };
 
 export function rangeOf(row) {
-  const low = row.min !== undefined, high = row.max !== undefined;
-  if (low && high && row.max < 1000) return `${row.min} … ${row.max}`;
-  if (low) return `${row.above ? ">" : "≥"} ${row.min}`;
-  return high ? `≤ ${row.max}` : "";
+  const short = (x) => Number(x.toPrecision(4)), low = row.min > -1e5, high = row.max < 1000;
+  if (low && high) return `${short(row.min)} … ${short(row.max)}`;
+  if (low) return `${row.above ? ">" : "≥"} ${short(row.min)}`;
+  return high ? `≤ ${short(row.max)}` : "";
 }
 
 /** What was typed, as a number; raises what is no number. */
@@ -47,7 +47,7 @@ function readAll(inputs, name) {
 
 const KINDS = {
   number(field, id, value) {
-    const hint = field.default ?? (field.usual !== undefined ? field.usual : field.required ? "required" : "");
+    const hint = typeof field.default === "number" ? Number(field.default.toPrecision(5)) : (field.usual !== undefined ? field.usual : field.required ? "required" : "");
     const input = textInput(field, id, value, field.name, shown(hint));
     return { element: input, inputs: [input], read: () => readAll([input], field.name)?.[0] };
   },

@@ -27,6 +27,7 @@ export class Form {
     if (kind.self === "gripper") before.push({ name: "_by", words: "gripper", type: "object", of: "gripper", required: true, unit: "-", doc: "that does it" });
     if (kind.on) before.push({ name: "_on", words: kind.on === "feed" ? "feed" : "wire", type: "object", of: kind.on, required: true, unit: "-", doc: "on which" });
     this.rows = [...before, ...kind.fields].map((f) => row(f, `${this.id}-${f.name}`, given[f.name], things));
+    for (const r of this.rows) for (const i of r.inputs) i.dataset.given = i.value;
     const folded = this.rows.filter((r) => r.field.more), open = folded.some((r) => given[r.field.name] !== undefined);
     this.why = h("p.why", { role: "alert", hidden: true });
     this.sheet = h("div");
@@ -54,6 +55,15 @@ export class Form {
       if (key === "radius") r.inputs[0].placeholder = cable ? text(value("outer_diameter") / 2) : "required";
       if (/^(EA|EI|GJ|mass_per_length|breaking_load)$/.test(key)) r.inputs[0].placeholder = cable ? text(value(key) ?? "") : "";
       if (key === "stiffness" || key === "use") r.element.hidden = !cable;
+    }
+  }
+
+  /** What was typed so far, as far as it can be read: for a form of another kind. */
+  typed() {
+    try {
+      return valuesOf(this.rows.filter((r) => r.inputs.some((i) => i.dataset.given !== i.value)));
+    } catch {
+      return {};
     }
   }
 

@@ -126,6 +126,9 @@ end
 
 local function plain(message) return (build.plain(message):gsub("^scene%d+:%d+: ", "")) end
 
+--- An error of a run: the line is that of the script as it is shown.
+function Draft.plain(message) return (tostring(message):gsub("scene%d+:(%d+): ", "line %1 of the script: ")) end
+
 -- The scene of a script; raises a text without a place.
 local function build_text(self, text)
   self.builds = self.builds + 1

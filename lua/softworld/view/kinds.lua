@@ -62,7 +62,8 @@ local function finite(x) return x and x > -1e300 and x < 1e300 and x or nil end
 -- A default that stands for "none was given" is no number to show.
 local function shown_default(row)
   local value = row.default
-  if row.type == "number" then return finite(value) end
+  if row.type == "number" or row.type == "numbers" then return finite(value) end
+  if row.type == "integer" and value ~= 0 then return finite(value) end
   if row.type == "vector" and type(value) == "table" then return { value[1], value[2], value[3] } end
   return nil
 end
@@ -100,7 +101,7 @@ function fields_of(lists, own, words)
     if known[word] then place[word] = count end
   end
   for _, field in ipairs(list) do
-    if field.required and place[field.name] > 1000 then place[field.name] = place[field.name] - 900 end
+    if field.required and place[field.name] > 1000 then place[field.name] = place[field.name] / 1e4 + 1 end
     field.more = place[field.name] > 1000 or nil
   end
   table.sort(list, function(a, b) return place[a.name] < place[b.name] end)

@@ -206,6 +206,7 @@ function follower.finish(scene, ok, reason)
   if not own or own.scene ~= scene or not own.observer then return end
   own.observer:remove()
   own.ended = scene.time
+  if own.draft then reason = own.draft.plain(reason) end
   own.observer, own.running, own.done, own.ok, own.reason = nil, false, true, ok or false, tostring(reason)
   own.failed = not ok or nil
   own.frame = nil
