@@ -108,6 +108,21 @@ local function steps(count)
   end
 end
 
+-- By the arrow along z of what is chosen.
+local function drag_up(name)
+  page:run([[
+    const actor = player.view.actors.find((a) => a.name === arguments[0]);
+    player.state.set({ selected: actor.id });]], name)
+  page:run "player.view.stage.draw()"
+  local at = page:run [=[
+    const { stage } = player.view;
+    const p = player.view.find(player.state.get("selected")).group.position.clone();
+    p.z += 0.09 * stage.camera.position.distanceTo(p);
+    const s = stage.onScreen(p), b = stage.canvas.getBoundingClientRect();
+    return [b.left + s[0], b.top + s[1]];]=]
+  page:pointer({ at, { at[1], at[2] - 10 }, { at[1], at[2] - 30 } }, true)
+end
+
 -- The script as it would be saved prints what the view's scene has.
 local function same_numbers()
   local script = page:run "return player.panel.build.script"
@@ -199,15 +214,7 @@ describe("a view that begins with nothing", function()
   end)
 
   it("moves what is chosen by its handles, as its form does", function()
-    page:run [[player.state.set({ selected: player.view.actors.find((a) => a.name === "block").id })]]
-    page:run "player.view.stage.draw()"
-    local at = page:run [=[
-      const { stage } = player.view;
-      const p = player.view.find(player.state.get("selected")).group.position.clone();
-      p.z += 0.09 * stage.camera.position.distanceTo(p);
-      const s = stage.onScreen(p), b = stage.canvas.getBoundingClientRect();
-      return [b.left + s[0], b.top + s[1]];]=]
-    page:pointer({ at, { at[1], at[2] - 10 }, { at[1], at[2] - 30 } }, true)
+    drag_up "block"
     page:wait [=[return player.panel.build.items.find((i) => i.name === "block").values.at[2] > 0.03]=]
     local place = page:run [=[return player.panel.build.items.find((i) => i.name === "block").values.at]=]
     assert.equal(0.3, place[1]) -- along the arrow only, in whole millimetres
@@ -246,7 +253,10 @@ describe("a view that begins with nothing", function()
     page:run [[player.link.order("stop")]]
     page:wait "return player.state.get('run').done"
     assert.equal("ended", text "#status")
-    page:run [[player.link.order("back", { id: 2 }); player.link.order("go"); player.link.order("run", { duration: 0.25 })]]
+    page:run [[
+      player.link.order("back", { id: 2 });
+      player.link.order("go");
+      player.link.order("run", { duration: 0.25 });]]
     page:wait "return player.state.get('run').done && player.state.get('time') > 0.27"
     same_numbers()
     click "#again"
@@ -299,6 +309,8 @@ describe("a view that begins with nothing", function()
     closed()
     wait_for "late"
     assert.truthy(things():find "a wire stays in its scene")
+    drag_up "block"
+    page:wait [[return /scene:find\("block"\):set { at = { 0.3, 0, /.test(player.panel.build.script)]]
     click "[aria-label='Remove late']"
     page:wait [[return !/late/.test(document.querySelector("ul.things").innerText)]]
     assert.truthy(page:run [[return /scene:find\("late"\):remove\(\)/.test(player.panel.build.script)]])

@@ -338,6 +338,35 @@ describe("objects added and removed while they move", function()
 end)
 
 describe("a view that begins with nothing", function()
+  it("is as it was after messages that nobody can mean", function()
+    local view = viewing.nothing { open = false }
+    local port, path = view.address:match "^http://127%.0%.0%.1:(%d+)(/%x+/)$"
+    local page = assert(websocket.open(math.tointeger(port), path .. "s"))
+    page:send(json.encode { ["do"] = "draft", what = "add", class = "wire", kind = "rod", values = WIRE })
+    view:wait(0.2)
+    local scene = view.scene
+    for _, text in ipairs { '{"do":"draft"}', '{"do":"draft","what":{}}', '{"do":"draft","what":"add"}',
+      '{"do":"draft","what":"new"}', '{"do":"draft","what":"__index"}',
+      '{"do":"draft","what":"change","id":1}',
+      '{"do":"draft","what":"put","id":1,"values":{"nonsense":1}}', '{"do":"draft","what":"put","id":1}',
+      '{"do":"draft","what":"put","id":1,"values":{"from":[0,0]}}',
+      '{"do":"draft","what":"scene","values":[1]}',
+      '{"do":"draft","what":"shift","id":1,"by":1}', '{"do":"draft","what":"redo","ask":{"a":[]}}',
+      '{"do":"start"}', '{"do":"start","values":{"duration":"1"}}', '{"do":"start","values":{"dt":0}}',
+      '{"do":"start","values":{"save":"/tmp/x"}}', '{"do":"start","values":{"integrator":"\\u0000"}}',
+      '{"do":"add","class":"obstacle","kind":"plane","values":{}}', '{"do":"add"}', '{"do":"remove"}',
+      '{"do":"remove","object":"cord"}', '{"do":"remove","made":1e308}', '{"do":"add","serial":[]}',
+      '{"do":"set","object":"","values":{"gravity":[0,0,0]}}', '{"do":"undo"}', '{"do":"back","id":1}' } do
+      page:send(text)
+    end
+    view:wait(0.3)
+    assert.equal(scene, view.scene) -- nothing was built anew
+    assert.equal(1, #scene:names())
+    assert.equal(0, scene.time)
+    page:close()
+    view:close()
+  end)
+
   it("does what its page asks, answers, and gives a script of the same bits, by hand included", function()
     local view = viewing.nothing { open = false }
     local port, path = view.address:match "^http://127%.0%.0%.1:(%d+)(/%x+/)$"

@@ -245,6 +245,7 @@ export function startLive(data, page) {
       outline = m.outline;
       if (state && state.get("grip") === waiting.grip) state.set({ grip: m.hand }); // nobody has chosen another one
       waiting.grip = m.hand;
+      $("title").textContent = m.run.name;
       renew = true;
     },
     async frame(bytes, of, from) {

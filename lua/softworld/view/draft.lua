@@ -127,7 +127,9 @@ end
 local function plain(message) return (build.plain(message):gsub("^scene%d+:%d+: ", "")) end
 
 --- An error of a run: the line is that of the script as it is shown.
-function Draft.plain(message) return (tostring(message):gsub("scene%d+:(%d+): ", "line %1 of the script: ")) end
+function Draft.plain(message)
+  return (tostring(message):gsub("scene%d+:(%d+): ", "line %1 of the script: "))
+end
 
 -- The scene of a script; raises a text without a place.
 local function build_text(self, text)
@@ -302,10 +304,10 @@ function change.shift(_, now, m)
   now.items[at], now.items[to] = now.items[to], now.items[at]
 end
 
---- { values = { gravity = } }: the scene itself.
+--- { values = { name =, gravity = } }: the scene itself.
 function change.scene(_, now, m)
   local _, values = fill.read("scene", "scene", m.values)
-  values.name = now.scene.name
+  if not values.name or values.name == "" then values.name = now.scene.name end
   now.scene = values
 end
 

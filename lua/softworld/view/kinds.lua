@@ -27,7 +27,6 @@ local told = {
   move = { points = { type = "points" }, path = false, scale = false, func = false, times = false,
     start = false, relative = false, step = false },
   run = { progress = false, save = false, resume = false, frames = false },
-  scene = { name = false },
 }
 
 -- In front of the rows; what is used most comes first, the rest is folded away.
@@ -35,7 +34,7 @@ local first = {
   wire = "name cable from to radius E density",
   obstacle = "name at friction", force = "", gripper = "name at", hold = "s name",
   step = "s to by approach force speed distance axis angle into", run = "duration dt tolerance",
-  scene = "gravity",
+  scene = "name gravity",
   fixing = "name at s points", contact = "friction",
 }
 

@@ -256,6 +256,7 @@ local function idle(own, due)
   repeat
     work.hear(own)
     if #own.queue > 0 and not own.failed then work.all(own) end
+    for _, m in ipairs(own.queue) do show.answer(own, m.ask, false, "the run has failed") end
     own.queue = {}
     show.all(own)
     if own.wants_run then run_on(own) end

@@ -12,6 +12,7 @@ local show = require "softworld.view.show"
 local work = {}
 
 local MOST_LINES = 5000   -- changes that are kept
+local TOO_MANY = ("more than %d changes were made by hand"):format(MOST_LINES)
 local MOST_SNAPSHOTS = 20
 
 -- --- what they ask for ---------------------------------------------------------------------------
@@ -41,7 +42,11 @@ local function do_line(own, text, inverse)
   if not fine then message = build.plain(message):gsub("^by hand:%d+: ", "") end
   if fine then
     own.changes = own.changes + 1
-    if #own.lines < MOST_LINES then own.lines[#own.lines + 1] = { time = time, text = text } end
+    if #own.lines < MOST_LINES then
+      own.lines[#own.lines + 1] = { time = time, text = text }
+    else
+      own.unsaved = TOO_MANY
+    end
   end
   note(own, { time = time, text = text, ok = fine, error = not fine and message or nil,
     undo = fine and inverse and inverse() or nil })
@@ -132,7 +137,11 @@ end
 function work.inside(own)
   work.all(own)
   local last = own.lines[#own.lines]
-  if last and last.time == own.scene.time or #own.lines >= MOST_LINES then return end
+  if last and last.time == own.scene.time then return end
+  if #own.lines >= MOST_LINES then
+    own.unsaved = TOO_MANY
+    return
+  end
   own.lines[#own.lines + 1] = { time = own.scene.time, text = "" }
   own.lines_due = true
 end
@@ -227,7 +236,9 @@ local function is_good(own, m)
     m.serial = own.serial
   end
   if own.draft and not own.running and #own.runs == 0 then
-    work.refused(own, "nothing runs yet: change it where it was made")
+    local words = "nothing runs yet: change it where it was made"
+    work.refused(own, words)
+    show.answer(own, m.ask, false, words)
     return false
   end
   local fine, message = pcall(orders.line, own.scene, m)
