@@ -339,10 +339,19 @@ describe("a view that begins with nothing", function()
 end)
 
 describe("softworld --view without a script", function()
-  it("opens a page to begin with nothing, until Ctrl-C", function()
-    os.remove(folder .. "/pid")
+  it("opens a page to begin with nothing, until Ctrl-C, a run or not", function()
+    stop()
     page:go(begin "--view")
     assert.equal("at the start", text "#status")
+    stop()
+    page:wait [[return document.getElementById("status").innerText === "not connected"]]
+    page:go(begin "--view")
+    add "wire"
+    submit()
+    closed()
+    set_duration "1e5"
+    click "#run"
+    page:wait "return player.state.get('run').running && player.state.get('time') > 0.1"
     stop()
     page:wait [[return document.getElementById("status").innerText === "not connected"]]
   end)

@@ -74,11 +74,13 @@ export class Build {
   /* --- forms -------------------------------------------------------------------------------- */
 
   close() {
-    this.open = null;
+    const inside = this.open?.box.contains(document.activeElement), { back } = this;
+    this.open = this.back = null;
     for (const chip of this.chips.children) chip.setAttribute("aria-pressed", "false");
     this.room.replaceChildren();
     this.stepRoom.replaceChildren();
     for (const li of this.host.querySelectorAll(".things .form-box")) li.remove();
+    if (inside) back?.()?.focus(); // keys go on where they were
   }
 
   // A form with a choice of its kind before it, in a place of the panel.
@@ -98,6 +100,8 @@ export class Build {
     show(kind || own[0].kind, values);
     into.append(box);
     this.open = { box };
+    const from = document.activeElement, id = into.dataset.item;
+    this.back = () => (id ? this.host.querySelector(`[data-item="${id}"] .thing-name`) : from);
     box.scrollIntoView({ block: "nearest" });
     this.form.focus();
   }

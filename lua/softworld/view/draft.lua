@@ -29,6 +29,11 @@ for i, class in ipairs(order) do rank[class] = i end
 
 local function fail(text, ...) error(text:format(...), 0) end
 
+--- Was it Ctrl-C that raised this? What raises it may have taken the mark back already.
+function draft.is_interrupt(message)
+  return core.interrupted() or type(message) == "string" and message:find "interrupted$" ~= nil
+end
+
 --- An empty scene.
 function draft.new()
   return setmetatable({ now = { scene = { name = "scene" }, run = {}, items = {} }, past = {}, future = {},
@@ -138,7 +143,7 @@ local function build_text(self, text)
   local chunk = assert(load(text .. "return scene\n", ("=scene%d"):format(self.builds), "t", names))
   local fine, scene, said = with_remarks(chunk)
   if not fine then
-    if core.interrupted() then error(scene, 0) end
+    if draft.is_interrupt(scene) then error(scene, 0) end
     error(plain(scene), 0)
   end
   return scene, said

@@ -220,7 +220,7 @@ local function run_now(own, args)
   local before = #own.runs
   args.progress = false
   local fine, run = pcall(own.scene.run, own.scene, args)
-  if not fine and core.interrupted() then error(run, 0) end
+  if not fine and draft.is_interrupt(run) then error(run, 0) end
   local begun = #own.runs > before
   if fine then fine = run.ok end -- a run that failed was looked at
   own.failed, own.lines_due = begun and not fine or own.failed, true
@@ -246,7 +246,7 @@ local function run_draft(own)
   own.wants_start = nil
   local fine, message = pcall(work.again, own)
   if fine then fine, message = run_now(own, args) end
-  if not fine and core.interrupted() then error(message, 0) end
+  if not fine and draft.is_interrupt(message) then error(message, 0) end
   own.draft_due = true
   show.answer(own, ask, fine, not fine and build.plain(message):gsub("^[^\n:]+:%d+: ", "") or nil)
 end

@@ -4,6 +4,7 @@
 -- @module softworld.view.work
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
+local draft = require "softworld.view.draft"
 local jsonread = require "softworld.output.jsonread"
 local orders = require "softworld.view.orders"
 local record = require "softworld.scene.record"
@@ -39,6 +40,7 @@ end
 local function do_line(own, text, inverse)
   local time = own.scene.time
   local fine, message = pcall(run_line, own, text)
+  if not fine and draft.is_interrupt(message) then error(message, 0) end
   if not fine then message = build.plain(message):gsub("^by hand:%d+: ", "") end
   if fine then
     own.changes = own.changes + 1
@@ -168,7 +170,7 @@ local function of_draft(own, m, f)
   local fine, message = false, "this scene was made by a script: only what is done by hand can change it"
   if own.draft and own.running then message = "a run is under way: end it, or wait for its end" end
   if own.draft and not own.running then fine, message = pcall(f, own, m) end
-  if not fine and core.interrupted() then error(message, 0) end
+  if not fine and draft.is_interrupt(message) then error(message, 0) end
   show.answer(own, m.ask, fine, message and build.plain(message):gsub("^[^\n:]+%.lua:%d+: ", "") or nil)
 end
 
@@ -262,7 +264,7 @@ function work.hear(own)
     local word = fine and type(m) == "table" and m["do"]
     if now[word] then
       local done, message = pcall(now[word], own, m)
-      if not done and core.interrupted() then error(message, 0) end
+      if not done and draft.is_interrupt(message) then error(message, 0) end
       if not done then work.refused(own, message) end
     elseif type(word) == "string" and (orders.changes(m) or word == "undo" or word == "back") then
       if is_good(own, m) then own.queue[#own.queue + 1] = m end
