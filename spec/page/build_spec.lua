@@ -43,10 +43,10 @@ local function begin(words)
   error "the view does not begin"
 end
 
-local function stop()
+local function stop(signal)
   local file = io.open(folder .. "/pid")
   if not file then return end
-  os.execute("kill -INT " .. file:read "n" .. " 2>/dev/null")
+  os.execute(("kill -%s %d 2>/dev/null"):format(signal or "INT", file:read "n"))
   file:close()
   os.remove(folder .. "/pid")
 end
@@ -150,7 +150,7 @@ setup(function()
 end)
 
 teardown(function()
-  stop()
+  stop "TERM"
   if page then page:close() end
   os.execute("rm -rf " .. program.quote(folder))
 end)

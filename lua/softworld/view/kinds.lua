@@ -91,7 +91,7 @@ function fields_of(lists, own, words)
   for _, given in ipairs(lists) do
     for _, row in ipairs(given) do
       local field = not known[row.name] and field_of(row, own) or nil
-      if field then list[#list + 1], known[row.name], place[row.name] = field, true, #list + 1000 end
+      if field then list[#list + 1], known[row.name], place[row.name] = field, true, #list + 1001 end
     end
   end
   local count = 0
