@@ -64,6 +64,9 @@ export class Build {
     return all.map((o) => o.name);
   }
 
+  /** What there is to be seen. */
+  actors() { return []; }
+
   kindOf(cls, kind) { return this.kinds.find((k) => k.class === cls && k.kind === kind); }
 
   async order(what, more = {}) {
@@ -140,7 +143,8 @@ export class Build {
     const same = this.open?.item === item.id;
     this.close();
     if (same) return;
-    const step = item.class === "step";
+    const step = item.class === "step", actor = this.actors().find((a) => a.kind === item.class && a.name === item.name);
+    if (actor) this.state.set({ selected: actor.id, probe: null }); // with its handles
     this.put(item.class, item.kind, item.values, { word: "Change", into: li, more: step ? this.processChoice(item.process) : null,
       send: async (def, values) => {
         await this.link.ask("draft", { what: "change", id: item.id, class: def.class, kind: def.kind, values,

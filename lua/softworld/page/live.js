@@ -312,6 +312,7 @@ export function startLive(data, page) {
     });
     panel = { forms: new Forms(host, link), states: new States(host, state, link), lines: new Lines(host, link, page.say),
       build: new Build($("panel-build"), state, link, data.live.forms, page.say) };
+    panel.build.actors = () => (view ? view.actors : []);
     transport.start = () => panel.build.run?.go();
     state.set({ run: { ...state.get("run") } });
     if (waiting.forms) showForms(waiting.forms);
