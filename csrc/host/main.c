@@ -28,9 +28,13 @@ static int run_all(lua_State *L, const host_options *o) {
   if (o->command) return host_run_command(L, o);
   while (status == HOST_OK && (code = host_options_code(o, &at))) status = host_run_code(L, code);
   const int nothing = !o->codes && !o->version && !o->interactive;
-  if (status == HOST_OK && o->view) status = host_run_code(L, "require('softworld.view.view').all {}");
+  if (o->view && !o->script)
+    return host_run_code(L, "require('softworld'); require('softworld.view.view').begin()");
+  if (status == HOST_OK && o->view)
+    status = host_run_code(L, "require('softworld.view.view').all {}");
   if (status == HOST_OK && (o->script || nothing)) status = host_run_script(L, o);
-  if (status == HOST_OK && o->view) status = host_run_code(L, "require('softworld.view.view').stay()");
+  if (status == HOST_OK && o->view)
+    status = host_run_code(L, "require('softworld.view.view').stay()");
   if (!o->interactive) return status;
   /* the prompt also follows a failure: its globals are what one wants to see */
   const int left = host_repl(L);

@@ -17,7 +17,8 @@ static const char help_text[] =
     "  --log file   append to this file what is run, when, and how it ended\n"
     "  -e code      run this Lua code first (may be repeated)\n"
     "  -i           go on at the prompt afterwards\n"
-    "  --view       show the script's scenes in a browser while they run, until Ctrl-C\n"
+    "  --view       show the script's scenes in a browser while they run, until Ctrl-C;\n"
+    "               without a script: begin with nothing, and put a scene together there\n"
     "  -v           show the version (also --version)\n"
     "  -h           show this text (also --help)\n"
     "  --           end of the options\n"
@@ -80,8 +81,10 @@ int host_options_read(host_options *o, int argc, char **argv) {
   }
   o->command = i == 1 && i < argc && is_command(argv[i]) ? i : 0;
   o->script = i < argc && !o->command ? i : 0;
-  if (o->view && !o->script) return usage("a script is missing after", "--view");
-  if (!o->script && !o->command && !o->codes && !o->version) o->interactive |= isatty(STDIN_FILENO);
+  if (o->view && !o->script && (o->codes || o->version || o->interactive))
+    return usage("a script is missing after", "--view");
+  if (!o->script && !o->command && !o->view && !o->codes && !o->version)
+    o->interactive |= isatty(STDIN_FILENO);
   return HOST_OK;
 }
 

@@ -48,6 +48,9 @@ local quantities = {
   { key = "friction", unit = "-", least = 0, most = 3 },
 }
 local breaking_load = { key = "breaking_load", unit = "N", least = 0, most = 1e8 } -- may be unknown
+--- Values of an entry in the order of its sheet: { { key =, unit =, ... } }.
+cable.quantities = table.move(quantities, 1, #quantities, 1, {})
+cable.quantities[#quantities + 1] = breaking_load
 local densities = { 300, 12000 } -- mean over the section: foam, lead [kg/m3]
 
 local function set(...)
@@ -381,6 +384,8 @@ end
 -- --- entries --------------------------------------------------------------------
 
 local stiffnesses = { "default", "slip", "stick" }
+--- What `stiffness` may be.
+cable.stiffnesses = stiffnesses
 
 local function section(self, stiffness)
   stiffness = stiffness or "default"

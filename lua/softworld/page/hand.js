@@ -30,7 +30,7 @@ export class Hand {
     addEventListener("blur", () => this.let());
   }
 
-  can() { return this.state.get("hand") && !this.state.get("tool") && !this.state.get("over"); }
+  can() { return this.state.get("hand") && !this.view.busy && !this.state.get("run").at_start && !this.state.get("tool") && !this.state.get("over"); }
 
   hover(e) {
     if (this.held || e.buttons) return;

@@ -6,6 +6,9 @@ export class Link {
     this.handlers = handlers;
     this.chain = Promise.resolve();
     this.wait = 300;
+    this.asked = new Map(); // marks of orders that wait for an answer
+    this.mark = `${Math.floor(Math.random() * 1e9)}`;
+    this.count = 0;
     this.open();
   }
 
@@ -20,6 +23,7 @@ export class Link {
     this.socket.addEventListener("message", (e) => { this.chain = this.chain.then(() => this.take(e.data)).catch(console.error); });
     this.socket.addEventListener("close", () => {
       this.handlers.connected(false);
+      for (const ask of [...this.asked.keys()]) this.answered([{ ask, ok: false, text: "not connected" }]);
       setTimeout(() => this.open(), this.wait);
       this.wait = Math.min(4000, 2 * this.wait);
     });
@@ -40,6 +44,23 @@ export class Link {
     if (this.socket.readyState !== WebSocket.OPEN) return false;
     this.socket.send(typeof what === "string" ? what : JSON.stringify(what));
     return true;
+  }
+
+  /** An order with an answer: a promise of words that are to be said, or none; it fails with what is wrong. */
+  ask(name, more = {}) {
+    const ask = `${this.mark} ${this.count += 1}`;
+    return new Promise((resolve, reject) => {
+      this.asked.set(ask, { resolve, reject });
+      if (!this.order(name, { ...more, ask })) this.answered([{ ask, ok: false, text: "not connected" }]);
+    });
+  }
+
+  answered(list) {
+    for (const { ask, ok, text } of list) {
+      const one = this.asked.get(ask);
+      this.asked.delete(ask);
+      if (one && ok) one.resolve(text); else if (one) one.reject(new Error(text));
+    }
   }
 
   order(name, more = {}) { return this.send({ do: name, ...more }); }

@@ -7,6 +7,10 @@ import { unpacked } from "./film.js";
 import { LiveFilm } from "./livefilm.js";
 import { Link } from "./link.js";
 import { Hand } from "./hand.js";
+import { Build } from "./build.js";
+import { Handles } from "./handles.js";
+import { rangeOf } from "./fields.js";
+import { scriptPanel } from "./panels.js";
 
 const SPEEDS = [["", "as fast as it can"], ["2", "2 ×"], ["1", "1 ×"], ["0.5", "0.5 ×"], ["0.25", "0.25 ×"], ["0.1", "0.1 ×"],
   ["0.05", "0.05 ×"], ["0.01", "0.01 ×"]];
@@ -37,9 +41,10 @@ export class LiveTransport {
     state.watch(["run"], ({ run }) => {
       const held = !run.running || run.paused;
       this.play.replaceChildren(icon(held ? "play" : "pause"));
-      this.play.title = held ? "Go on (space)" : "Hold the run (space)";
+      this.play.title = run.draft && !run.running ? "Run (space)" : held ? "Go on (space)" : "Hold the run (space)";
       this.play.setAttribute("aria-label", this.play.title);
-      this.play.disabled = this.next.disabled = this.end.disabled = !run.running;
+      this.play.disabled = !run.running && !run.draft;
+      this.next.disabled = this.end.disabled = !run.running;
       if (document.activeElement !== this.speed) this.speed.value = run.speed ? String(run.speed) : "";
     });
     state.watch(["events"], () => this.showMarks());
@@ -49,7 +54,11 @@ export class LiveTransport {
     const { times } = this.film;
     return times.length > 1 ? [times[0], times[times.length - 1]] : [times[0] || 0, (times[0] || 0) + 1e-9];
   }
-  toggle() { this.link.order(this.state.get("run").paused ? "go" : "pause"); }
+  toggle() {
+    const run = this.state.get("run");
+    if (run.draft && !run.running) this.start();
+    else this.link.order(run.paused ? "go" : "pause");
+  }
   go(time) { this.state.set({ follow: time >= this.span[1], time }); }
   step(by) {
     if (by > 0 && this.state.get("follow")) {
@@ -88,13 +97,6 @@ export class LiveTransport {
 }
 
 /* --- the panel: what can be changed, states, what was done ------------------------------------ */
-
-function rangeOf(row) {
-  const low = row.min !== undefined, high = row.max !== undefined;
-  if (low && high) return `${row.min} … ${row.max}`;
-  if (low) return `${row.above ? ">" : "≥"} ${row.min}`;
-  return high ? `≤ ${row.max}` : "";
-}
 
 /** One row of a form; tell(value) when it was changed. */
 function rowField(row, id, tell) {
@@ -163,7 +165,8 @@ class Lines {
       line.count > 1 ? h("small", {}, `${line.count} times`) : null, line.undone ? h("small", {}, "undone") : null,
       line.ok ? null : h("span.why", {}, line.error))));
     const last = lines[lines.length - 1];
-    if (last && !last.ok && last.error !== this.told) this.say(last.error);
+    const form = document.querySelector(".form-box"); // tells it itself
+    if (last && !last.ok && last.error !== this.told && !form) this.say(last.error);
     this.told = last && !last.ok ? last.error : null;
   }
 }
@@ -212,7 +215,7 @@ function liveEvents(host, state) {
 function badge(state) {
   state.watch(["run", "over", "linked"], ({ run, over, linked }) => {
     const [words, kind] = !linked ? ["not connected", "warn"] : run.running ? (run.paused ? ["held", "warn"] : ["running", "good"])
-      : over ? ["FAILED", "bad"] : run.done ? ["ended", "good"] : ["not begun", "warn"];
+      : over ? ["FAILED", "bad"] : run.at_start ? ["at the start", "good"] : run.done ? ["ended", "good"] : ["not begun", "warn"];
     $("status").textContent = words;
     $("status").className = `badge ${kind}`;
     $("status").title = run.reason || "";
@@ -224,12 +227,12 @@ function badge(state) {
 
 /** Begin: wait for the scene and its first frame, then build the page. page: parts that the player has too. */
 export function startLive(data, page) {
-  for (const name of ["charts", "results", "script"]) {
+  for (const name of ["charts", "results"]) {
     $(`tab-${name}`).remove();
     $(`panel-${name}`).remove();
   }
-  const film = new LiveFilm(), forms = [], run = { index: 0, film };
-  let state = null, view = null, outline = 0, session = null, panel = null, ready = null;
+  const film = new LiveFilm(), run = { index: 0, film };
+  let state = null, view = null, outline = 0, session = null, panel = null, ready = null, renew = false, link = null;
   const waiting = { run: { running: false, snapshots: [], ok: true }, events: [], lines: null };
   const put = (changes) => { if (state) state.set(changes); else Object.assign(waiting, changes); };
   const handlers = {
@@ -240,24 +243,50 @@ export function startLive(data, page) {
       await readThings(m.run, new Map(), (n) => unpacked(m.blobs[n]));
       Object.assign(run, m.run, { index: 0, film });
       outline = m.outline;
-      waiting.grip = waiting.grip || m.hand;
-      if (view) page.renew(view, data, state);
+      if (state && state.get("grip") === waiting.grip) state.set({ grip: m.hand }); // nobody has chosen another one
+      waiting.grip = m.hand;
+      $("title").textContent = m.run.name;
+      renew = true;
     },
     async frame(bytes, of, from) {
       if (of !== outline || from !== session) return;
       const t = await film.take(bytes);
       if (!state) ready();
-      else state.set(state.get("follow") ? { time: t, tick: film.version } : { tick: film.version });
+      else if (renew && view) page.renew(view, data, state, data.live.draft);
+      renew = false;
+      state.set(state.get("follow") ? { time: t, tick: film.version } : { tick: film.version });
       await new Promise((resolve) => { requestAnimationFrame(resolve); setTimeout(resolve, 200); }); // hidden pages draw nothing
     },
     state(m) { put({ run: m, over: m.done && m.ok === false ? true : null }); },
-    lines(m) { if (panel) panel.lines.show(m); else waiting.lines = m; },
-    forms(m) { if (panel) panel.forms.show(m.forms); else forms.splice(0, forms.length, ...m.forms); },
+    lines(m) {
+      waiting.lines = m;
+      if (panel) showLines(m);
+    },
+    forms(m) {
+      waiting.forms = m;
+      if (panel) showForms(m);
+    },
+    draft(m) {
+      waiting.draft = m;
+      if (panel) panel.build.show(m);
+    },
+    answers(m) { link.answered(m.answers); },
     events(m) { put({ events: m.events }); },
   };
-  const build = (link) => {
+  const showLines = (m) => {
+    panel.lines.show(m);
+    panel.build.showScript(m.script, m.unsaved);
+    $("panel-script").replaceChildren();
+    scriptPanel($("panel-script"), { ...data, script: m.script && { name: data.live.draft ? "scene.lua" : "again.lua", text: m.script } });
+  };
+  const showForms = (m) => {
+    panel.forms.show(m.forms);
+    panel.build.showObjects(m);
+  };
+  const build = () => {
     data.runs = [run];
-    state = page.newState(data, { ...waiting, time: film.times[0], follow: true, hand: true, tab: "live", tick: 0, linked: true });
+    state = page.newState(data, { ...waiting, time: film.times[0], follow: true, hand: true, tab: data.live.draft ? "build" : "live",
+      tick: 0, linked: true, ...(data.live.draft ? { quantity: "curvature" } : {}) });
     badge(state);
     page.frame(state);
     const transport = new LiveTransport($("transport"), data, state, link);
@@ -268,22 +297,37 @@ export function startLive(data, page) {
       const hand = iconButton("hand", "Pull wires (H)", () => state.set({ hand: !state.get("hand") }), { id: "hand" });
       $("tools").append(hand);
       state.watch(["hand"], ({ hand: on }) => hand.setAttribute("aria-pressed", String(on)));
+      new Handles(view, state, { say: page.say, may: (actor) => panel?.build.canPlace(actor), put: (actor, k, x) => panel.build.place(actor, k, x) });
       window.hand = new Hand(view, state, link);
       handPart(host, state);
     }
-    panel = { forms: new Forms(host, link), states: new States(host, state, link), lines: new Lines(host, link, page.say) };
-    panel.forms.show(forms);
-    if (waiting.lines) panel.lines.show(waiting.lines);
+    const idle = h("p.hint", {}, "Nothing runs yet: objects are changed under Build. Here is what can be changed while they move.");
+    host.prepend(idle);
+    const nothing = h("p.empty", {}, "Nothing is here yet. Add a wire, an obstacle, a clamp; then let it run.");
+    $("stage").append(nothing);
+    state.watch(["tick", "run"], () => { nothing.hidden = !data.live.draft || run.wires.length + run.obstacles.length + run.grips.length > 0; });
+    state.watch(["run"], ({ run: now }) => {
+      idle.hidden = !now.at_start;
+      for (const part of host.querySelectorAll(".part")) part.hidden = Boolean(now.at_start);
+    });
+    panel = { forms: new Forms(host, link), states: new States(host, state, link), lines: new Lines(host, link, page.say),
+      build: new Build($("panel-build"), state, link, data.live.forms, page.say) };
+    panel.build.actors = () => (view ? view.actors : []);
+    transport.start = () => panel.build.run?.go();
+    state.set({ run: { ...state.get("run") } });
+    if (waiting.forms) showForms(waiting.forms);
+    if (waiting.lines) showLines(waiting.lines);
+    if (waiting.draft) panel.build.show(waiting.draft);
     liveEvents($("panel-events"), state);
     page.finish(data, state, view, transport, { k: () => link.order("keep"), h: () => state.set({ hand: !state.get("hand") }),
       " ": () => transport.toggle(), End: () => state.set({ follow: true }) });
     window.player = { state, view, transport, data, link, panel, format };
   };
   return new Promise((resolve) => {
-    const link = new Link(handlers);
+    link = new Link(handlers);
     ready = () => {
       ready = () => {};
-      build(link);
+      build();
       resolve();
     };
   });

@@ -85,7 +85,10 @@ export class LiveFilm {
   cut(count) {
     if (count >= this.times.length) return;
     this.times.length = count;
-    for (const track of this.tracks.values()) track.frames.length = Math.min(track.frames.length, count);
+    for (const track of this.tracks.values()) {
+      track.frames.length = Math.min(track.frames.length, count);
+      if (!count) Object.assign(track, { low: Infinity, high: -Infinity });
+    }
     this.count();
   }
 

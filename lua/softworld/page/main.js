@@ -57,10 +57,10 @@ function tabs(state, charts) {
 function viewButtons(view) {
   const host = $("views");
   for (const [name, key] of [["iso", 1], ["front", 2], ["right", 3], ["top", 4], ["left", 5], ["back", 6]]) {
-    host.append(h("button", { type: "button", title: `View: ${name} (${key})`, onclick: () => view.stage.look(name) },
+    host.append(h("button", { type: "button", title: `View: ${name} (${key})`, onclick: () => view.look(name) },
       name[0].toUpperCase() + name.slice(1)));
   }
-  host.append(iconButton("fit", "Show all (F)", () => view.stage.look(null)));
+  host.append(iconButton("fit", "Show all (F)", () => view.look(null)));
 }
 
 function tools(view, state) {
@@ -151,8 +151,8 @@ function keys(state, transport, view, data, more = {}) {
     Escape: () => state.set({ tool: null, probe: null, selected: null }),
   };
   if (view) {
-    ["iso", "front", "right", "top", "left", "back"].forEach((name, i) => { actions[i + 1] = () => view.stage.look(name); });
-    Object.assign(actions, { f: () => view.stage.look(null), v: () => flip("arrows"),
+    ["iso", "front", "right", "top", "left", "back"].forEach((name, i) => { actions[i + 1] = () => view.look(name); });
+    Object.assign(actions, { f: () => view.look(null), v: () => flip("arrows"),
       m: () => state.set({ tool: state.get("tool") === "measure" ? null : "measure" }),
       x: () => state.set({ cut: state.get("cut") === null ? 0 : null }),
       c: () => state.set({ custom: null, quantity: quantities[(quantities.indexOf(state.get("quantity")) + 1) % quantities.length] }),
@@ -228,6 +228,11 @@ function firstTheme() {
   return kept === "dark" || kept === "light" ? kept : matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
 }
 
+/** Thin wires are drawn thicker at first, so that they can be seen. */
+function thicken(view, state) {
+  state.set({ thick: Math.min(10, Math.max(1, Math.round((2 * view.stage.size) / 420 / view.radius) / 2)) });
+}
+
 function openView(data, state, span) {
   if (!data.runs.some((run) => run.film.times.length)) {
     document.body.classList.add("no-frames");
@@ -247,8 +252,7 @@ function openView(data, state, span) {
     compass($("stage"), view.stage);
     tools(view, state);
     objectTree($("objects"), view, data, state);
-    // thin wires are drawn thicker at first, so that they can be seen
-    state.set({ thick: Math.min(10, Math.max(1, Math.round((2 * view.stage.size) / 420 / view.radius) / 2)) });
+    thicken(view, state);
     view.update();
     return view;
   } catch (error) {
@@ -268,7 +272,8 @@ const shared = {
   say, frame,
   openView: (data, state) => openView(data, state),
   newState: (data, more) => new State({ ...usual(data), ...more }),
-  renew(view, data, state) {
+  renew(view, data, state, fit) {
+    if (fit && view.refit()) thicken(view, state);
     view.renew();
     $("objects").replaceChildren();
     objectTree($("objects"), view, data, state);
@@ -292,8 +297,10 @@ async function start() {
     await startLive(data, shared);
     return;
   }
-  $("tab-live").remove();
-  $("panel-live").remove();
+  for (const name of ["live", "build"]) {
+    $(`tab-${name}`).remove();
+    $(`panel-${name}`).remove();
+  }
   const span = spanOf(data), given = readLink(location.hash);
   const known = knownQuantities(data, "all", 0, null).map((q) => q.key);
   const state = new State({ ...usual(data), time: span[0], tab: data.runs.every((run) => run.series) ? "charts" : "results" });

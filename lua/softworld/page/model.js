@@ -120,6 +120,7 @@ export function knownQuantities(data, mode, time, hidden) {
       });
     }
     if (low <= high && (high > low || mode === "frame" || data.live)) known.push({ ...q, low, high });
+    else if (data.live?.draft && !q.kind) known.push({ ...q, low: 0, high: 1 }); // its wires are still to come
   }
   return known;
 }

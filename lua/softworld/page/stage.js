@@ -70,10 +70,17 @@ export class Stage {
   }
 
   addLights() {
-    const centre = this.bounds.getCenter(new THREE.Vector3());
     this.sky = new THREE.HemisphereLight(0xffffff, 0x8a8f98, 0.62);
     this.sky.position.copy(this.up);
     this.sun = new THREE.DirectionalLight(0xffffff, 0.62);
+    this.placeSun();
+    this.lamp = new THREE.DirectionalLight(0xffffff, 0.2); // from beside the camera
+    this.camera.add(this.lamp);
+    this.scene.add(this.sky, this.sun, this.sun.target, this.camera);
+  }
+
+  placeSun() {
+    const centre = this.bounds.getCenter(new THREE.Vector3());
     const side = new THREE.Vector3(1, 0, 0).cross(this.up);
     if (side.lengthSq() < 0.01) side.set(0, 1, 0);
     side.normalize();
@@ -87,9 +94,22 @@ export class Stage {
     s.bias = -0.0004;
     Object.assign(s.camera, { left: -reach, right: reach, top: reach, bottom: -reach,
       near: this.size * 0.05, far: this.size * 2.4 });
-    this.lamp = new THREE.DirectionalLight(0xffffff, 0.2); // from beside the camera
-    this.camera.add(this.lamp);
-    this.scene.add(this.sky, this.sun, this.sun.target, this.camera);
+    s.camera.updateProjectionMatrix();
+  }
+
+  /** Other bounds. Where they are much like the ones before the camera stays; else it goes there: true. */
+  fit(bounds, points, always) {
+    const size = Math.max(bounds.getSize(new THREE.Vector3()).length(), 1e-4);
+    const like = this.bounds.clone().expandByScalar(0.2 * this.size).containsBox(bounds) && size > 0.45 * this.size;
+    Object.assign(this, { points });
+    if (like && !always) return false;
+    Object.assign(this, { bounds, size });
+    Object.assign(this.camera, { near: size / 2000, far: size * 60 });
+    this.camera.updateProjectionMatrix();
+    Object.assign(this.controls, { minDistance: size / 500, maxDistance: size * 20 });
+    this.placeSun();
+    if (!like) this.look(null);
+    return true;
   }
 
   /** Without a graphics card shadows cost more than all the rest. */

@@ -41,6 +41,14 @@ function withObstacles(data, { box, size, points }) {
       points.push(new THREE.Vector3(k & 1 ? b.max.x : b.min.x, k & 2 ? b.max.y : b.min.y, k & 4 ? b.max.z : b.min.z));
     }
   };
+  for (const run of data.runs) {
+    for (const grip of run.grips) {
+      const at = !grip.spans.length && grip.first_at && new THREE.Vector3(...grip.first_at);
+      if (!at) continue;
+      points.push(at);
+      box.expandByPoint(at);
+    }
+  }
   const whole = box.clone(), reach = box.clone().expandByScalar(0.25 * size), room = [];
   for (const run of data.runs) {
     for (const o of run.obstacles) {
@@ -125,6 +133,19 @@ export class View {
     this.stage.section(cut, cutAt, flip);
   }
 
+  /** The scene is another one: its bounds and the thinnest wire. Returns whether the camera had to go elsewhere. */
+  refit(always) {
+    const all = withObstacles(this.data, boundsOf(this.data)), moved = this.stage.fit(all.box, all.points, always);
+    this.radius = Math.min(...this.data.runs.flatMap((r) => r.wires.map((w) => w.radius)).filter((r) => r > 0), this.stage.size / 40);
+    return moved;
+  }
+
+  /** From a standard side; null: from where the camera is. A run under way has gone on meanwhile. */
+  look(name) {
+    if (this.data.live) this.refit(true);
+    this.stage.look(name);
+  }
+
   addWay(actor, lists) {
     if (this.data.live) return; // where it will go is not known
     const way = new Way(actor, lists, this.accent);
@@ -183,7 +204,7 @@ export class View {
   colouring() {
     const { quantity, range, time, hidden, custom } = this.state.values;
     if (!quantity) return { quantity: null, scale: null };
-    const key = `${quantity} ${range} ${range === "frame" ? time : ""} ${custom || ""} ${[...hidden].join()} ${Math.floor((this.data.runs[0].film.version || 0) / 5)}`;
+    const key = `${quantity} ${range} ${range === "frame" ? time : ""} ${custom || ""} ${[...hidden].join()} ${this.data.runs[0].film.version || 0}`;
     if (this.colourKey !== key) {
       this.colourKey = key;
       const q = knownQuantities(this.data, range, time, hidden).find((k) => k.key === quantity);
@@ -277,6 +298,7 @@ export class View {
   }
 
   click(x, y) {
+    if (this.busy) return; // a handle was held
     const hit = this.hitAt(x, y);
     if (this.state.get("tool") === "measure") {
       if (!hit) return;

@@ -63,6 +63,7 @@ end
 
 -- Times that steps have passed are left out.
 local function set_next(own, now)
+  own.soon = nil
   own.at = own.each and -math.huge or own.wall and math.huge or -math.huge
   if own.every and not own.each then
     local count = math.floor((now - own.from) / own.every * (1 + 1e-12) + 1e-9)

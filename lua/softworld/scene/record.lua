@@ -58,6 +58,26 @@ local function arguments(...)
   return args
 end
 
+--- f(...), without a record of what it calls: it is kept elsewhere. Errors are raised as they are.
+function record.quietly(f, ...)
+  local before = inside
+  inside = true
+  local function out(...)
+    inside = before
+    if not (...) then error((select(2, ...)), 0) end
+    return select(2, ...)
+  end
+  return out(pcall(f, ...))
+end
+
+--- Has the scene been changed after its first step, beside what was done quietly?
+function record.has_late(scene)
+  for _, call in ipairs(record.of(scene)) do
+    if call.late then return true end
+  end
+  return false
+end
+
 --- The record of a scene.
 function record.of(scene)
   local data = build.data(scene)

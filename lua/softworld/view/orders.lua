@@ -6,6 +6,9 @@ local core = require "softworld.core"
 local checks = require "softworld.checks"
 local build = require "softworld.scene.build"
 local literal = require "softworld.scene.literal"
+local fixing = require "softworld.link.fixing"
+local fill = require "softworld.view.fill"
+local record = require "softworld.scene.record"
 local rows = require "softworld.rows"
 
 local orders = {}
@@ -85,7 +88,7 @@ local function text_of(what, value)
 end
 
 local function number_of(what, value)
-  if type(value) ~= "number" then fail("%s is no number", what) end
+  if type(value) ~= "number" or value - value ~= 0 then fail("%s is no number", what) end
   return value
 end
 
@@ -103,7 +106,7 @@ local function source(value)
   return literal.of(value, function() fail "this cannot be written" end, "value")
 end
 
-local function reference(name) return name == "" and "scene" or ("scene:find(%q)"):format(name) end
+local function reference(name) return name == "" and "scene" or ("scene:find(%s)"):format(source(name)) end
 
 local function object_of(scene, name)
   if name == "" then return scene end
@@ -183,6 +186,100 @@ function make.reach(_, m) return ("hand:set { to = %s }"):format(source(vector_o
 --- The hand lets go.
 function make.let() return "hand:release()" end
 
+-- --- objects that come and go ------------------------------------------------------------------------
+
+local leaves = { obstacle = "remove", clamp = "release", join = "release", tie = "release",
+  clip = "release", channel = "release" }
+local stays = { wire = "a wire stays in its scene; go back to a state from before it was made",
+  gripper = "a gripper stays in its scene; it can let go of what it holds" }
+
+local function class_of(object)
+  return core.type(object) or (getmetatable(object) or {}).__name or type(object)
+end
+
+local function word_in(scene)
+  return function(name)
+    scene:find(name)
+    return reference(name)
+  end
+end
+
+local function is_taken(scene)
+  local known = {}
+  for _, name in ipairs(scene:names()) do known[name] = true end
+  return function(name) return known[name] end
+end
+
+--- { class =, kind =, values =, serial = }: one more object, by a form; serial: a number that no other has.
+function make.add(scene, m)
+  local kind, values = fill.read(m.class, m.kind, m.values)
+  if kind.class == "step" or kind.class == "run" or kind.class == "scene" then
+    fail("a %s cannot be added while a run is under way", kind.class)
+  end
+  fill.check(kind, values)
+  local taken, inverse = is_taken(scene), nil
+  if fill.has_name(kind) then
+    if values.name == nil or values.name == "" then values.name = fill.name(kind, taken) end
+    if taken(values.name) then fail("there is already something named '%s'", values.name) end
+  end
+  local line = fill.line(kind, values, word_in(scene))
+  if kind.class == "force" then
+    inverse = ("made[%d]:release()"):format(m.serial)
+    line = ("made[%d] = %s"):format(m.serial, line)
+  elseif kind.class == "obstacle" or kind.class == "hold" then
+    inverse = ("%s:%s()"):format(reference(values.name), kind.class == "hold" and "release" or "remove")
+  end
+  return line, inverse and function() return inverse end
+end
+
+--- { object = name } or { made = serial of a force }: it goes, if objects of its class can.
+function make.remove(scene, m)
+  if m.made ~= nil then
+    if math.type(m.made) ~= "integer" then fail "made is no number" end
+    return ("made[%d]:release()"):format(m.made)
+  end
+  local name = text_of("object", m.object)
+  local kind = class_of(object_of(scene, name))
+  local verb = leaves[kind] or fail("'%s': %s", name, stays[kind] or ("a %s cannot go"):format(kind))
+  return ("%s:%s()"):format(reference(name), verb)
+end
+
+local function entry_of(name, kind, class)
+  return { name = name, kind = kind, class = class, leaves = leaves[class] ~= nil or nil, why = stays[class] }
+end
+
+--- What is in a scene by name: { { name, class, kind, leaves = can it go, why = it cannot } }.
+function orders.objects(scene)
+  local data, list, grips = build.data(scene), {}, {}
+  for _, w in ipairs(data.wires) do list[#list + 1] = entry_of(w.name, w.object.model, "wire") end
+  for _, o in ipairs(data.obstacles) do
+    if core.exists(o.object) and o.object.present and o.name then
+      list[#list + 1] = entry_of(o.name, o.shape, "obstacle")
+    end
+  end
+  for _, g in ipairs(data.grippers) do
+    grips[g.name] = true
+    if not g.gone then list[#list + 1] = entry_of(g.name, "gripper", "gripper") end
+  end
+  for _, hold in ipairs(data.holds) do
+    if core.exists(hold.object) and hold.object.held and not grips[hold.name] then
+      list[#list + 1] = entry_of(hold.name, hold.kind, "clamp")
+    end
+  end
+  for _, call in ipairs(record.of(scene)) do
+    local force = call.method == "force" and call.results[1]
+    if force and core.exists(force) and force.held then
+      list[#list + 1] = { name = force.kind, kind = "force", class = "force",
+        why = "a force of the script has no name to take it away by" }
+    end
+  end
+  for _, it in ipairs(fixing.all(scene)) do
+    local class = class_of(it)
+    list[#list + 1] = entry_of(it.name, class, class)
+  end
+  return list
+end
+
 --- The line of an order, and what gives the one that undoes it once it is done, or nil; raises a text without
 -- a place.
 function orders.line(scene, m)
@@ -198,43 +295,66 @@ local follow = [[
   local next = 1
   local function due() return changes[next] and scene.time >= changes[next][1] end
   while due() do
-    changes[next][2]()
+    if changes[next][2] then changes[next][2]() end
     next = next + 1
   end
   scene:observe { call = function(observer)
     while due() do
-      observer:change(changes[next][2])
+      if changes[next][2] then observer:change(changes[next][2]) else observer:stop() end
       next = next + 1
     end
   end }
 ]]
 
 local function changes_of(lines)
-  local list = { "  local hand", "  local changes = {" }
+  local list, made = { "  local hand" }, false
+  for _, line in ipairs(lines) do made = made or line.text and line.text:find("^made%[") ~= nil end
+  if made then list[2] = "  local made = {}" end
+  list[#list + 1] = "  local changes = {"
   for _, line in ipairs(lines) do
-    list[#list + 1] = ("    { %s, function() %s end },"):format(literal.number(line.time), line.text)
+    local time = literal.number(line.time)
+    list[#list + 1] = line.text and ("    { %s, function() %s end },"):format(time, line.text)
+      or ("    { %s }, -- the run is ended"):format(time)
   end
   list[#list + 1] = "  }"
   return table.concat(list, "\n") .. "\n" .. follow
 end
 
---- A script that does the run again with what was changed by hand; of a scene whose processes are functions,
--- which cannot be written, the part that is to be run before scene:run.
--- lines: { { time =, text = } }; args: of scene:run.
-function orders.script(scene, lines, args)
-  local fine, text = pcall(scene.script, scene)
-  local count = build.data(scene).process_count
-  if fine and not count and args then
+-- The lines of the runs; nil when one has arguments that cannot be written.
+local function runs_of(runs)
+  local list = {}
+  for i, args in ipairs(runs) do
     local own = {}
     for key, value in pairs(args) do
       if key ~= "progress" then own[key] = value end
     end
-    local run_fine, run = pcall(source, own)
-    if run_fine then
-      return text:gsub("\n*return scene%s*$", "\n\n") .. "-- What was changed by hand, and when.\ndo\n"
-        .. changes_of(lines) .. "end\n\nlocal run = scene:run " .. run .. "\nrun:summary()\n"
-    end
+    local fine, text = pcall(source, own)
+    if not fine then return nil end
+    list[i] = (i == 1 and "local run = scene:run " or "run = scene:run ") .. text .. "\n"
   end
+  return table.concat(list) .. "run:summary()\n"
+end
+
+-- The script that builds the scene; nil when it cannot be written.
+local function head_of(scene)
+  if build.data(scene).process_count or record.has_late(scene) then return nil end
+  local fine, text = pcall(scene.script, scene)
+  return fine and text:gsub("\n*return scene%s*$", "\n") or nil
+end
+
+--- A script that does the runs again with what was changed by hand; of a scene whose processes are functions,
+-- which cannot be written, the part that is to be run before scene:run.
+-- lines: { { time =, text = or nil: the run was ended } }; runs: arguments of scene:run; head: the script
+-- that built the scene, where it is known.
+function orders.script(scene, lines, runs, head)
+  head = head or head_of(scene)
+  local tail = #runs > 0 and runs_of(runs)
+  if head and (tail or #runs == 0) then
+    local by_hand = #lines > 0
+      and "\n-- What was changed by hand, and when.\ndo\n" .. changes_of(lines) .. "end\n"
+    return head .. (by_hand or "") .. (tail and "\n" .. tail or "")
+  end
+  if #lines == 0 then return nil end
   return ("-- What was changed by hand in the run of '%s', and when: before scene:run,\n"
     .. '--   dofile "by_hand.lua" (scene)\nreturn function(scene)\n'):format(scene.name:gsub("[\r\n]", " "))
     .. changes_of(lines) .. "end\n"

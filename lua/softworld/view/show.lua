@@ -12,7 +12,9 @@ local runfiles = require "softworld.run.files"
 local show = {}
 
 local SHOWN = 200 -- changes in a page
-local FRAME, SCENE, STATE, LINES, FORMS, EVENTS = 0, 1, 2, 3, 4, 5 -- slots of the server
+local ANSWERS_KEPT = 30
+-- Slots of the server.
+local FRAME, SCENE, STATE, LINES, FORMS, EVENTS, DRAFT, ANSWERS = 0, 1, 2, 3, 4, 5, 6, 7
 
 local function put(own, slot, value) own.server:put(slot, json.encode(value)) end
 
@@ -55,7 +57,44 @@ local function show_forms(own)
   if not own.forms_due then return end
   own.forms_due = nil
   local fine, forms = pcall(orders.forms, own.scene)
-  put(own, FORMS, { kind = "forms", forms = fine and forms or {} })
+  local there, objects = pcall(orders.objects, own.scene)
+  put(own, FORMS, { kind = "forms", forms = fine and forms or {}, objects = there and objects or {},
+    made = show.made(own) })
+end
+
+--- Forces that were added by hand and are there still: { { made = number, text = line } }.
+function show.made(own)
+  local list = {}
+  for number, force in pairs(own.names.made) do
+    if core.exists(force) and force.held then
+      list[#list + 1] = { made = number, kind = force.kind, text = own.made_text[number] }
+    end
+  end
+  table.sort(list, function(a, b) return a.made < b.made end)
+  return list
+end
+
+-- What the forms have put together.
+local function show_draft(own)
+  if not own.draft_due or not own.draft then return end
+  own.draft_due = nil
+  local shown = own.draft:shown()
+  shown.kind = "draft"
+  put(own, DRAFT, json.object(shown))
+end
+
+local function show_answers(own)
+  if not own.answers_due then return end
+  own.answers_due = nil
+  put(own, ANSWERS, { kind = "answers", answers = own.answers })
+end
+
+--- Tell the page that asked with this mark what came of it.
+function show.answer(own, mark, ok, text)
+  if type(mark) ~= "number" and type(mark) ~= "string" then return end
+  own.answers[#own.answers + 1] = { ask = mark, ok = ok, text = text }
+  if #own.answers > ANSWERS_KEPT then table.remove(own.answers, 1) end
+  own.answers_due = true
 end
 
 --- How many processes of the scene have not ended.
@@ -72,10 +111,18 @@ local function show_state(own)
   for i, s in ipairs(own.snapshots) do snapshots[i] = { id = s.id, time = s.time } end
   local text = json.encode(json.object{ kind = "state", running = own.running, paused = own.paused,
     speed = own.speed, ok = own.ok, reason = own.reason, snapshots = snapshots,
-    back = show.alive(own.scene) == 0, done = own.done, holds = own.holds })
+    back = show.alive(own.scene) == 0, done = own.done, holds = own.holds, draft = own.draft ~= nil,
+    at_start = own.draft ~= nil and not own.running and #own.runs == 0 })
   if text == own.state then return end
   own.state = text
   own.server:put(STATE, text)
+end
+
+-- Arguments of the runs that a script has to do: of those that were done, or of the one that is meant.
+local function runs_of(own)
+  if not own.draft or #own.runs > 0 then return own.runs end
+  local meant = own.draft:run()
+  return meant and { meant } or {}
 end
 
 local function show_lines(own)
@@ -84,9 +131,9 @@ local function show_lines(own)
   local shown, undo = {}, false
   for i = math.max(1, #own.shown - SHOWN + 1), #own.shown do shown[#shown + 1] = own.shown[i] end
   for _, line in ipairs(own.shown) do undo = undo or line.undo and not line.undone or false end
-  local some = #own.lines > 0
-  put(own, LINES, { kind = "lines", lines = shown, undo = undo, total = #own.lines,
-    script = some and orders.script(own.scene, own.lines, own.args) or nil })
+  local head = own.draft and own.draft:script() or nil
+  put(own, LINES, { kind = "lines", lines = shown, undo = undo, total = #own.lines, unsaved = own.unsaved,
+    script = not own.unsaved and orders.script(own.scene, own.lines, runs_of(own), head) or nil })
 end
 
 local function show_events(own)
@@ -111,6 +158,8 @@ function show.all(own)
   show_state(own)
   show_lines(own)
   show_forms(own)
+  show_draft(own)
+  show_answers(own)
   show_events(own)
   if waiting == 0 or own.failed then return end
   local mark = ("%d %a %d"):format(own.outline, own.scene.time, own.changes)

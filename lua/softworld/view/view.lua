@@ -5,23 +5,22 @@
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
-local jsonread = require "softworld.output.jsonread"
 local literal = require "softworld.scene.literal"
 local methods = require "softworld.methods"
 local observe = require "softworld.run.observe"
-local orders = require "softworld.view.orders"
 local report = require "softworld.output.report"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local show = require "softworld.view.show"
+local draft = require "softworld.view.draft"
+local kinds = require "softworld.view.kinds"
+local work = require "softworld.view.work"
 
 local view = {}
 local View = { __name = "view" }
 
 local GAP = 1 / 30        -- between two looks, on the clock [s]
 local IDLE = 0.1          -- longest wait for a message [s]
-local MOST_LINES = 5000   -- changes that are kept
-local MOST_SNAPSHOTS = 20
 
 local new = rows.call("scene:view", "{...}", "shows the scene in a browser of this machine while it runs", {
   gives = "a view",
@@ -41,186 +40,6 @@ rows.calls{
 }
 
 local function fields(self) return sealed.fields(self) end
-
--- --- what they ask for ---------------------------------------------------------------------------
-
-local function note(own, line)
-  own.lines_due, own.forms_due = true, true
-  local last = own.shown[#own.shown]
-  local again = last and line.ok and last.ok and line.text:find "^hand:set" and last.text:find "^hand:set"
-  if again then
-    last.text, last.time, last.count = line.text, line.time, last.count + 1
-  else
-    line.count = 1
-    own.shown[#own.shown + 1] = line
-    if #own.shown > MOST_LINES then table.remove(own.shown, 1) end
-  end
-end
-
--- Run the line itself: what is shown is what was done.
-local function run_line(own, text)
-  local chunk = assert(load(text, "=by hand", "t", own.names))
-  chunk()
-end
-
-local function do_line(own, text, inverse)
-  local time = own.scene.time
-  local fine, message = pcall(run_line, own, text)
-  if not fine then message = build.plain(message):gsub("^by hand:%d+: ", "") end
-  if fine then
-    own.changes = own.changes + 1
-    if #own.lines < MOST_LINES then own.lines[#own.lines + 1] = { time = time, text = text } end
-  end
-  note(own, { time = time, text = text, ok = fine, error = not fine and message or nil,
-    undo = fine and inverse and inverse() or nil })
-  return fine
-end
-
-local function refused(own, message)
-  own.lines_due = true
-  own.shown[#own.shown + 1] = { time = own.scene.time, text = "", ok = false, error = build.plain(message),
-    count = 1 }
-  if #own.shown > MOST_LINES then table.remove(own.shown, 1) end
-end
-
-local function touched(own, m, words)
-  pcall(own.scene.tell, own.scene, { kind = "hand", object = m.wire or own.pulled, text = words })
-end
-
-local function undo(own)
-  for i = #own.shown, 1, -1 do
-    local line = own.shown[i]
-    if line.undo and not line.undone then
-      line.undone = true
-      return do_line(own, line.undo)
-    end
-  end
-end
-
-local function back(own, m)
-  for _, s in ipairs(own.snapshots) do
-    if s.id == m.id then
-      build.back(own.scene, s.snapshot)
-      own.names.hand, own.hand = nil, nil
-      for k = #own.lines, 1, -1 do
-        if own.lines[k].time > s.time or k > s.lines then own.lines[k] = nil end
-      end
-      own.changes, own.lines_due, own.forms_due, own.pulled = own.changes + 1, true, true, nil
-      own.base = nil
-      own.shown[#own.shown + 1] = { time = s.time, text = ("-- back to %g s"):format(s.time), ok = true,
-        count = 1 }
-      return
-    end
-  end
-end
-
--- Orders that change the scene, one after the other; it may be changed now.
-local function work(own)
-  local queue = own.queue
-  own.queue = {}
-  for _, m in ipairs(queue) do
-    if m["do"] == "undo" then undo(own)
-    elseif m["do"] == "back" then back(own, m)
-    elseif m["do"] ~= "reach" and m["do"] ~= "let" or own.names.hand then
-      if m["do"] == "pull" and own.names.hand then do_line(own, "hand:release()") end
-      local fine, text, inverse = pcall(orders.line, own.scene, m)
-      if not fine then
-        refused(own, text)
-      elseif do_line(own, text, inverse) then
-        if m["do"] == "pull" then
-          own.pulled = m.wire
-          touched(own, m, ("wire '%s' is pulled by hand at s = %.4g m"):format(m.wire, m.s))
-        elseif m["do"] == "let" then
-          touched(own, m, ("wire '%s' is let go by hand"):format(tostring(own.pulled)))
-          own.names.hand, own.pulled = nil, nil
-        end
-      end
-    end
-  end
-end
-
--- The same while a run goes on: where it was left counts for its rounding, even if nothing came of it.
-local function work_inside(own)
-  work(own)
-  local last = own.lines[#own.lines]
-  if last and last.time == own.scene.time or #own.lines >= MOST_LINES then return end
-  own.lines[#own.lines + 1] = { time = own.scene.time, text = "" }
-  own.lines_due = true
-end
-
-local function keep(own)
-  own.count = own.count + 1
-  own.snapshots[#own.snapshots + 1] =
-    { id = own.count, time = own.scene.time, snapshot = own.scene:snapshot(), lines = #own.lines }
-  if #own.snapshots > MOST_SNAPSHOTS then table.remove(own.snapshots, 2) end -- the first one stays
-end
-
-local now = {} -- orders that are done at once: nothing of the scene changes by them
-
-function now.pause(own) own.paused = true end
-function now.go(own) own.paused, own.base = false, nil end
-function now.step(own) own.paused, own.steps = true, 1 end
-function now.keep(own) keep(own) end
-function now.stop(own) own.stopped = true end
-function now.run(own, m)
-  if type(m.duration) == "number" and m.duration > 0 and m.duration <= 1e6 then own.wants_run = m.duration end
-end
-function now.speed(own, m)
-  local speed = m.value
-  own.speed = type(speed) == "number" and speed > 1e-6 and speed < 1e6 and speed or nil
-  own.base = nil
-end
-
--- --- hearing ---------------------------------------------------------------------------------------
-
-local function has_undo(own)
-  for _, line in ipairs(own.shown) do
-    if line.undo and not line.undone then return true end
-  end
-  return false
-end
-
-local function has_way_back(own, m)
-  for _, s in ipairs(own.snapshots) do
-    if s.id == m.id then
-      if show.alive(own.scene) == 0 then return true end
-      refused(own, "a process is under way, and a Lua function has no way back")
-    end
-  end
-  return false
-end
-
--- Will something come of an order? To leave a run for nothing would change the last bits of its steps.
-local function is_good(own, m)
-  local word = m["do"]
-  if word == "undo" then return has_undo(own) end
-  if word == "back" then return has_way_back(own, m) end
-  if (word == "reach" or word == "let") and not own.hand then return false end
-  local fine, message = pcall(orders.line, own.scene, m)
-  if not fine then
-    refused(own, message)
-  elseif word == "pull" or word == "let" then
-    own.hand = word == "pull"
-  end
-  return fine
-end
-
-local MOST_AT_ONCE = 500
-
-local function hear(own)
-  for _ = 1, MOST_AT_ONCE do
-    local text = own.server:take()
-    if not text then return end
-    local fine, m = pcall(jsonread.decode, text)
-    local word = fine and type(m) == "table" and m["do"]
-    if now[word] then
-      local done, message = pcall(now[word], own, m)
-      if not done then refused(own, message) end
-    elseif type(word) == "string" and (orders.changes(m) or word == "undo" or word == "back") then
-      if is_good(own, m) then own.queue[#own.queue + 1] = m end
-    end -- all else is nobody's business
-  end
-end
 
 -- --- while a run goes on -------------------------------------------------------------------------
 
@@ -242,7 +61,7 @@ end
 -- Show and listen as long as the run is held. Returns whether something is to be changed.
 local function hold(own)
   while true do
-    hear(own)
+    work.hear(own)
     if #own.queue > 0 then return true end
     local left = holding(own)
     own.holds = left > 0 and own.paused
@@ -258,13 +77,19 @@ end
 local function look(own, observer)
   local changes = hold(own)
   local o = fields(observer)
-  if own.stopped then observer:stop "stopped from the page" end
-  own.stopped = nil
+  if own.stopped and not changes then
+    observer:stop "stopped from the page"
+    own.lines[#own.lines + 1] = { time = own.scene.time }
+    own.lines_due, own.stopped = true, nil
+  end
   if changes then
     observer:change(function()
-      repeat work_inside(own) until not hold(own)
-      if own.stopped then fields(observer).reason = "stopped from the page" end
-      own.stopped = nil
+      repeat work.inside(own) until not hold(own)
+      if own.stopped then
+        fields(observer).reason = "stopped from the page"
+        own.lines[#own.lines + 1] = { time = own.scene.time }
+        own.lines_due, own.stopped = true, nil
+      end
     end)
   end
   -- each step counts while it is held or goes slowly
@@ -284,19 +109,31 @@ local POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsaf
 
 -- The page has a policy of its own, for files; here the server's is the one, which is as narrow.
 local function page_of(own)
-  local html = report.live(own.scene.name, { session = own.session })
+  local html = report.live(own.scene.name, { session = own.session, draft = own.draft ~= nil,
+    forms = kinds.all() })
   local from, to = html:find('<meta http%-equiv="Content%-Security%-Policy"[^>]*>')
   if from then html = html:sub(1, from - 1) .. html:sub(to + 1) end
   own.server:page(html, POLICY:format(own.port, own.port))
 end
 
+-- Show this scene, to which nothing was done yet.
 local function attach(own, scene)
-  own.session = own.session + 1
+  own.outline = own.outline + 1
+  if own.scene and of_scene(own.scene) then views[build.data(own.scene)] = nil end
+  if own.self then views[build.data(scene)] = own.self end
   own.scene, own.signature, own.state, own.frame, own.events = scene, nil, nil, nil, nil
   own.queue, own.lines, own.shown, own.snapshots, own.hand = {}, {}, {}, {}, nil
   own.changes, own.count, own.steps = 0, 0, 0
-  own.names = setmetatable({ scene = scene }, { __index = { math = math } })
+  own.names = setmetatable({ scene = scene, made = {} }, { __index = { math = math } })
   own.lines_due, own.forms_due, own.failed, own.running, own.done = true, true, nil, false, nil
+  own.runs, own.serial, own.made_text, own.unsaved, own.draft_due = {}, 0, {}, nil, true
+  own.base, own.stopped, own.ok, own.reason, own.args, own.ended = nil, nil, nil, nil, nil, nil
+end
+
+-- Another scene: pages begin anew.
+local function attach_another(own, scene)
+  own.session = own.session + 1
+  attach(own, scene)
   page_of(own)
 end
 
@@ -306,14 +143,15 @@ local function open_browser(address)
   os.execute(("command -v xdg-open >/dev/null 2>&1 && xdg-open '%s' >/dev/null 2>&1 &"):format(address))
 end
 
-local function serve(scene, args)
+local function serve(scene, args, from)
   local given = new:read(args == nil and {} or args)
   local fine, server, port, token = pcall(core.serve, given.port or 0)
   if not fine then error("scene:view: " .. build.plain(server), 0) end
   local own = { server = server, port = port, token = token, session = math.random(1, 1 << 30), outline = 0,
-    paused = given.paused or false, open = given.open ~= false }
-  attach(own, scene)
+    paused = given.paused or false, open = given.open ~= false, answers = {}, draft = from, attach = attach }
+  attach_another(own, scene)
   local self = sealed.new(View, own)
+  own.self = self
   views[build.data(scene)] = self
   if own.open then
     io.stderr:write(("view of '%s': %s\n"):format(scene.name, address_of(own)))
@@ -340,8 +178,7 @@ local shared -- of `softworld --view`: { view, args }
 function follower.begin(scene, args)
   if shared and not of_scene(scene) then
     if shared.view then
-      attach(fields(shared.view), scene)
-      views[build.data(scene)] = shared.view
+      attach_another(fields(shared.view), scene)
     else
       shared.view = core.class.scene.view(scene, shared.args)
     end
@@ -350,13 +187,16 @@ function follower.begin(scene, args)
   local own = self and fields(self)
   if not own or not own.server or own.scene ~= scene then return end
   own.running, own.done, own.ok, own.reason, own.base = true, nil, nil, nil, nil
-  if not own.args then own.args = args end
-  if #own.snapshots == 0 and not own.failed then keep(own) end
+  own.args = own.args or args
+  if own.ended and scene.time < own.ended then own.unsaved = "the script repeats its run" end
+  own.running, own.ended = false, nil
+  if #own.snapshots == 0 and not own.failed then work.keep(own) end
+  own.running, own.runs[#own.runs + 1], own.lines_due = true, args, true
   own.observer = scene:observe { wall = GAP, call = function(observer) look(own, observer) end }
   fields(own.observer).each = own.paused or nil
   fields(own.observer).soon = true
   if own.paused then
-    while hold(own) do work(own) end
+    while hold(own) do work.all(own) end
   end
 end
 
@@ -365,33 +205,62 @@ function follower.finish(scene, ok, reason)
   local own = self and fields(self)
   if not own or own.scene ~= scene or not own.observer then return end
   own.observer:remove()
+  own.ended = scene.time
+  if own.draft then reason = own.draft.plain(reason) end
   own.observer, own.running, own.done, own.ok, own.reason = nil, false, true, ok or false, tostring(reason)
   own.failed = not ok or nil
   own.frame = nil
   if own.server then pcall(show.all, own) end
 end
 
+-- A run that a page asks for; its line is shown. Returns whether it began, and why not.
+local function run_now(own, args)
+  own.shown[#own.shown + 1] = { time = own.scene.time, ok = true, count = 1,
+    text = ("scene:run %s"):format(literal.of(args, tostring, "args")) }
+  local before = #own.runs
+  args.progress = false
+  local fine, run = pcall(own.scene.run, own.scene, args)
+  if not fine and draft.is_interrupt(run) then error(run, 0) end
+  local begun = #own.runs > before
+  if fine then fine = run.ok end -- a run that failed was looked at
+  own.failed, own.lines_due = begun and not fine or own.failed, true
+  return begun or fine, run
+end
+
+local function run_on(own)
+  local args = { duration = own.wants_run }
+  own.wants_run = nil
+  for key, value in pairs(own.args or {}) do
+    if type(value) ~= "table" and type(value) ~= "function" and key ~= "save" and key ~= "resume" then
+      args[key] = args[key] or value
+    end
+  end
+  args.progress = nil
+  local begun, message = run_now(own, args)
+  if not begun then work.refused(own, tostring(message)) end
+end
+
+local function run_draft(own)
+  local args, ask = {}, own.wants_start.ask
+  for key, value in pairs(own.wants_start.args) do args[key] = value end
+  own.wants_start = nil
+  local fine, message = pcall(work.again, own)
+  if fine then fine, message = run_now(own, args) end
+  if not fine and draft.is_interrupt(message) then error(message, 0) end
+  own.draft_due = true
+  show.answer(own, ask, fine, not fine and build.plain(message):gsub("^[^\n:]+:%d+: ", "") or nil)
+end
+
 -- Between runs: what pages ask for is done at once.
 local function idle(own, due)
   repeat
-    hear(own)
-    if #own.queue > 0 and not own.failed then work(own) end
+    work.hear(own)
+    if #own.queue > 0 and not own.failed then work.all(own) end
+    for _, m in ipairs(own.queue) do show.answer(own, m.ask, false, "the run has failed") end
     own.queue = {}
     show.all(own)
-    if own.wants_run then
-      local duration = own.wants_run
-      own.wants_run = nil
-      local given = own.args or {}
-      local args = { duration = duration, dt = given.dt, tolerance = given.tolerance, progress = false }
-      if type(args.tolerance) == "table" then args.tolerance = nil end
-      own.shown[#own.shown + 1] = { time = own.scene.time, ok = true, count = 1,
-        text = ("scene:run { duration = %s }"):format(literal.number(duration)) }
-      local fine, run = pcall(own.scene.run, own.scene, args)
-      if not fine and core.interrupted() then error(run, 0) end
-      if fine then fine = run.ok end -- a run that failed was looked at
-      if not fine then own.failed = true end
-      own.lines_due = true
-    end
+    if own.wants_run then run_on(own) end
+    if own.wants_start then run_draft(own) end
     own.server:wait(IDLE)
   until core.clock() >= due
 end
@@ -442,6 +311,13 @@ methods.guard_table("view", View)
 --- `softworld --view script.lua`: every scene that runs is shown, one after the other, from now on.
 function view.all(args) shared = { args = args } end
 
+-- Show the scene until Ctrl-C.
+local function stay(self)
+  local fine, message = pcall(idle, fields(self), math.huge)
+  self:close()
+  if not fine and not tostring(message):find "interrupted" then error(message, 0) end
+end
+
 --- Then, when the script has come to its end: show the last scene until Ctrl-C.
 function view.stay()
   local own = shared and shared.view and fields(shared.view)
@@ -450,9 +326,20 @@ function view.stay()
     return
   end
   io.stderr:write "the script has ended; Ctrl-C ends the view\n"
-  local fine, message = pcall(idle, own, math.huge)
-  shared.view:close()
-  if not fine and not tostring(message):find "interrupted" then error(message, 0) end
+  stay(shared.view)
+end
+
+--- A view of a scene that has nothing yet, for forms to put one together.
+function view.nothing(args)
+  local from = draft.new()
+  return serve(from:build(), args, from)
+end
+
+--- `softworld --view` alone: the same until Ctrl-C.
+function view.begin()
+  local self = view.nothing()
+  io.stderr:write "Ctrl-C ends the view\n"
+  stay(self)
 end
 
 return view

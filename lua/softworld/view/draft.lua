@@ -1,0 +1,383 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- A scene that is put together by forms: a list of objects and of steps, each of which is one line of Lua.
+-- These lines, in a script, are what is built, run, shown and saved; every change makes a new list, so that
+-- going back is to take an older one.
+--
+-- A list: { scene = values, run = values, items = { { id =, kind =, name =, values =, process = } } }.
+-- @module softworld.view.draft
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
+local fill = require "softworld.view.fill"
+local kinds = require "softworld.view.kinds"
+local json = require "softworld.output.json"
+local literal = require "softworld.scene.literal"
+local remarks = require "softworld.remarks"
+
+local draft = {}
+local Draft = {}
+Draft.__index = Draft
+
+local MOST_ITEMS = 400
+local MOST_LOCALS = 120 -- of the 200 that Lua allows
+local MOST_UNDONE = 200
+local PROCESSES = 6
+
+local order = { "obstacle", "wire", "gripper", "hold", "fixing", "force", "contact", "step" }
+local rank = {}
+for i, class in ipairs(order) do rank[class] = i end
+
+local function fail(text, ...) error(text:format(...), 0) end
+
+--- Was it Ctrl-C that raised this? What raises it may have taken the mark back already.
+function draft.is_interrupt(message)
+  return core.interrupted() or type(message) == "string" and message:find "interrupted$" ~= nil
+end
+
+--- An empty scene.
+function draft.new()
+  return setmetatable({ now = { scene = { name = "scene" }, run = {}, items = {} }, past = {}, future = {},
+    ids = 0, builds = 0 }, Draft)
+end
+
+-- --- the script ------------------------------------------------------------------------------------
+
+local taken_words = checks.set "scene sw p run require math"
+
+-- Words of the objects that others speak of: { [name] = word }, and which of them are locals.
+local function words_of(items)
+  local needed, words, used, count = {}, {}, {}, 0
+  for _, item in ipairs(items) do
+    for _, name in ipairs(fill.names(item.kind, item.values)) do needed[name] = true end
+  end
+  for _, item in ipairs(items) do
+    local name = item.name
+    if name and needed[name] and literal.is_name(name) and not taken_words[name] and not used[name]
+      and count < MOST_LOCALS then
+      words[name], used[name], count = name, true, count + 1
+    end
+  end
+  return words
+end
+
+local function in_order(items)
+  local sorted, place = {}, {}
+  for i, item in ipairs(items) do sorted[i], place[item] = item, i end
+  table.sort(sorted, function(a, b)
+    local ra, rb = rank[a.kind.class], rank[b.kind.class]
+    if ra ~= rb then return ra < rb end
+    return place[a] < place[b]
+  end)
+  return sorted
+end
+
+local function word_in(words, items)
+  local known = {}
+  for _, item in ipairs(items) do
+    if item.name then known[item.name] = true end
+  end
+  return function(name)
+    if not known[name] then fail("there is nothing named '%s'", name) end
+    return words[name] or ("scene:find(%s)"):format(fill.source(name))
+  end
+end
+
+local function steps_of(items, lines, word, texts)
+  for number = 1, PROCESSES do
+    local own = {}
+    for _, item in ipairs(items) do
+      if item.kind.class == "step" and item.process == number then own[#own + 1] = item end
+    end
+    if #own > 0 then lines[#lines + 1] = "\nscene:process(function(p)" end
+    for _, item in ipairs(own) do
+      texts[item.id] = fill.line(item.kind, item.values, word)
+      lines[#lines + 1] = "  " .. texts[item.id]
+    end
+    if #own > 0 then lines[#lines + 1] = "end)" end
+  end
+end
+
+-- The script that builds what a list says; by id the line of each item.
+local function script_of(now)
+  local texts, lines = {}, { "-- Written by SoftWorld " .. core.version .. ".",
+    'local sw = require "softworld"', "", "local scene = sw.scene " .. fill.source(now.scene) }
+  local items = in_order(now.items)
+  local words = words_of(items)
+  local word = word_in(words, items)
+  for _, item in ipairs(items) do
+    if item.kind.class ~= "step" then
+      local text = fill.line(item.kind, item.values, word)
+      texts[item.id] = text
+      lines[#lines + 1] = words[item.name] and ("local %s = %s"):format(item.name, text) or text
+    end
+  end
+  steps_of(items, lines, word, texts)
+  return table.concat(lines, "\n") .. "\n", texts
+end
+
+--- The script that builds the scene.
+function Draft:script() return self.text end
+
+-- --- building --------------------------------------------------------------------------------------
+
+-- Remarks are for the page; each build has another name, so that they are told again.
+local function with_remarks(f)
+  local said, write = {}, remarks.write
+  remarks.write = function(_, text) said[#said + 1] = text end
+  local fine, result = pcall(f)
+  remarks.write = write
+  return fine, result, said
+end
+
+local function plain(message) return (build.plain(message):gsub("^scene%d+:%d+: ", "")) end
+
+--- An error of a run: the line is that of the script as it is shown.
+function Draft.plain(message)
+  return (tostring(message):gsub("scene%d+:(%d+): ", "line %1 of the script: "))
+end
+
+-- The scene of a script; raises a text without a place.
+local function build_text(self, text)
+  self.builds = self.builds + 1
+  local names = { math = math, require = function() return package.loaded["softworld"] end }
+  local chunk = assert(load(text .. "return scene\n", ("=scene%d"):format(self.builds), "t", names))
+  local fine, scene, said = with_remarks(chunk)
+  if not fine then
+    if draft.is_interrupt(scene) then error(scene, 0) end
+    error(plain(scene), 0)
+  end
+  return scene, said
+end
+
+--- The scene as it is at its start, made anew.
+function Draft:build()
+  local scene, said = build_text(self, self.text)
+  self.remarks = said
+  return scene
+end
+
+-- Take a list, if a scene can be built of it; else all stays, and the text of the error is raised.
+local function try(self, now)
+  local text, texts = script_of(now)
+  local scene, said = build_text(self, text)
+  self.now, self.text, self.texts, self.remarks = now, text, texts, said
+  return scene
+end
+
+local function commit(self, now)
+  local before = self.now
+  local scene = try(self, now)
+  self.past[#self.past + 1], self.future = before, {}
+  if #self.past > MOST_UNDONE then table.remove(self.past, 1) end
+  return scene
+end
+
+-- --- changes -----------------------------------------------------------------------------------------
+
+local function copied(now)
+  local items = table.move(now.items, 1, #now.items, 1, {})
+  return { scene = now.scene, run = now.run, items = items }
+end
+
+local function place_of(now, id)
+  for i, item in ipairs(now.items) do
+    if item.id == id then return i, item end
+  end
+  fail "this is not there any more"
+end
+
+local function is_taken(now, but)
+  return function(name)
+    for _, item in ipairs(now.items) do
+      if item ~= but and item.name == name then return true end
+    end
+    return false
+  end
+end
+
+-- The name in the values, or a new one; forces have none.
+local function named(now, kind, values, but)
+  if not fill.has_name(kind) then return nil end
+  if values.name == nil or values.name == "" then
+    values.name = but and but.name or fill.name(kind, is_taken(now, but))
+  elseif is_taken(now, but)(values.name) then
+    fail("there is already something named '%s'", values.name)
+  end
+  return values.name
+end
+
+local function process_of(kind, m)
+  if kind.class ~= "step" then return nil end
+  local number = m.process == nil and 1 or m.process
+  if math.type(number) ~= "integer" or number < 1 or number > PROCESSES then
+    fail("process must be an integer from 1 to %d", PROCESSES)
+  end
+  return number
+end
+
+local function read(m)
+  local kind, values = fill.read(m.class, m.kind, m.values)
+  if not rank[kind.class] then fail("a %s cannot be added", kind.class) end
+  if kind.class == "step" then fill.check(kind, values) end
+  return kind, values
+end
+
+local change = {}
+
+--- { class =, kind =, values =, process = }: one more.
+function change.add(self, now, m)
+  if #now.items >= MOST_ITEMS then fail("there are %d things already", MOST_ITEMS) end
+  local kind, values = read(m)
+  local item = { kind = kind, values = values, process = process_of(kind, m) }
+  item.name = named(now, kind, values)
+  self.ids = self.ids + 1
+  item.id = self.ids
+  now.items[#now.items + 1] = item
+end
+
+-- What spoke of an object speaks of it by its new name.
+local function rename(now, old, new)
+  if not old or old == new then return end
+  for i, item in ipairs(now.items) do
+    for _, name in ipairs(fill.names(item.kind, item.values)) do
+      if name == old then
+        local copy = {}
+        for key, value in pairs(item) do copy[key] = value end
+        copy.values = fill.renamed(item.kind, item.values, old, new)
+        now.items[i] = copy
+        break
+      end
+    end
+  end
+end
+
+--- { id =, class =, kind =, values = }: another one in its place.
+function change.change(_, now, m)
+  local at, old = place_of(now, m.id)
+  local kind, values = read(m)
+  if kind.class ~= old.kind.class then fail("a %s cannot become a %s", old.kind.class, kind.class) end
+  local item = { kind = kind, values = values, id = old.id, process = process_of(kind, m) }
+  item.name = named(now, kind, values, old)
+  now.items[at] = item
+  rename(now, old.name, item.name)
+end
+
+--- { id =, values = }: some values only, such as a place.
+function change.put(_, now, m)
+  local at, old = place_of(now, m.id)
+  local _, given = fill.read(old.kind.class, old.kind.kind, m.values)
+  local values = {}
+  for key, value in pairs(old.values) do values[key] = value end
+  for key, value in pairs(given) do values[key] = value end
+  local item = { kind = old.kind, values = values, id = old.id, process = old.process }
+  item.name = named(now, old.kind, values, old)
+  now.items[at] = item
+  rename(now, old.name, item.name)
+end
+
+--- { id = }: it goes, and what speaks of it.
+function change.remove(_, now, m)
+  local at = place_of(now, m.id)
+  local gone = { table.remove(now.items, at) }
+  local k = 1
+  while gone[k] do
+    for i = #now.items, 1, -1 do
+      for _, name in ipairs(fill.names(now.items[i].kind, now.items[i].values)) do
+        if gone[k].name and name == gone[k].name then
+          gone[#gone + 1] = table.remove(now.items, i)
+          break
+        end
+      end
+    end
+    k = k + 1
+  end
+  local also = {}
+  for i = 2, #gone do also[i - 1] = gone[i].name or gone[i].kind.kind end
+  return #also > 0 and ("%s went too: %s"):format(gone[1].name or gone[1].kind.kind, table.concat(also, ", "))
+    or nil
+end
+
+--- { id =, by = 1 or -1 }: a step later or earlier in its process.
+function change.shift(_, now, m)
+  local at, item = place_of(now, m.id)
+  if m.by ~= 1 and m.by ~= -1 then fail "by must be 1 or -1" end
+  local to = at + m.by
+  while now.items[to] and (now.items[to].kind.class ~= "step" or now.items[to].process ~= item.process) do
+    to = to + m.by
+  end
+  if not now.items[to] then fail "it is the last one there" end
+  now.items[at], now.items[to] = now.items[to], now.items[at]
+end
+
+--- { values = { name =, gravity = } }: the scene itself.
+function change.scene(_, now, m)
+  local _, values = fill.read("scene", "scene", m.values)
+  if not values.name or values.name == "" then values.name = now.scene.name end
+  now.scene = values
+end
+
+--- Is it a change of the list?
+function Draft.knows(word) return change[word] ~= nil or word == "undo" or word == "redo" end
+
+--- Do a change; returns the scene as it is then at its start, and what is to be said of it. Raises a text
+-- without a place when it cannot be; all is then as before.
+function Draft:change(m)
+  local word = m.what
+  if word == "undo" or word == "redo" then
+    local from, to = self.past, self.future
+    if word == "redo" then from, to = to, from end
+    local now = from[#from] or fail("there is nothing to %s", word)
+    local before = self.now
+    local scene = try(self, now)
+    from[#from], to[#to + 1] = nil, before
+    return scene
+  end
+  local now = copied(self.now)
+  local words = (change[word] or fail("there is no order '%s'", checks.shown(word)))(self, now, m)
+  return commit(self, now), words
+end
+
+--- How it is to run: { duration =, dt =, ... }. Returns the table of scene:run.
+function Draft:set_run(values)
+  local kind, given = fill.read("run", "run", values)
+  fill.check(kind, given)
+  self.now.run = given
+  return given
+end
+
+local function plain_copy(values)
+  local copy = {}
+  for key, value in pairs(values) do copy[key] = value end
+  return copy
+end
+
+--- What pages show of it.
+function Draft:shown()
+  local items = {}
+  for i, item in ipairs(self.now.items) do
+    items[i] = { id = item.id, class = item.kind.class, kind = item.kind.kind, name = item.name,
+      values = json.object(plain_copy(item.values)), process = item.process, text = self.texts[item.id] }
+  end
+  return { items = items, scene = self.now.scene, run = json.object(plain_copy(self.now.run)),
+    undo = #self.past > 0, redo = #self.future > 0, remarks = self.remarks, processes = PROCESSES }
+end
+
+--- The table of the scene:run that is meant; nil when it would have no end.
+function Draft:run()
+  local ends = self.now.run.duration ~= nil
+  for _, item in ipairs(self.now.items) do ends = ends or item.kind.class == "step" end
+  return ends and self.now.run or nil
+end
+
+local unbuilt = draft.new
+
+--- The same, ready to be shown.
+function draft.new()
+  local self = unbuilt()
+  self.text, self.texts = script_of(self.now)
+  return self
+end
+
+draft.kinds = kinds
+
+return draft

@@ -1,0 +1,275 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- What pages of a live view ask for, and the doing of it: orders are heard, checked, and done by their
+-- lines, which are kept. `own` is what a view has, see softworld.view.view.
+-- @module softworld.view.work
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local draft = require "softworld.view.draft"
+local jsonread = require "softworld.output.jsonread"
+local orders = require "softworld.view.orders"
+local record = require "softworld.scene.record"
+local show = require "softworld.view.show"
+
+local work = {}
+
+local MOST_LINES = 5000   -- changes that are kept
+local TOO_MANY = ("more than %d changes were made by hand"):format(MOST_LINES)
+local MOST_SNAPSHOTS = 20
+
+-- --- what they ask for ---------------------------------------------------------------------------
+
+local function note(own, line)
+  own.lines_due, own.forms_due = true, true
+  local last = own.shown[#own.shown]
+  local again = last and line.ok and last.ok and line.text:find "^hand:set" and last.text:find "^hand:set"
+  if again then
+    last.text, last.time, last.count = line.text, line.time, last.count + 1
+  else
+    line.count = 1
+    own.shown[#own.shown + 1] = line
+    if #own.shown > MOST_LINES then table.remove(own.shown, 1) end
+  end
+end
+
+-- Run the line itself: what is shown is what was done.
+local function run_line(own, text)
+  local chunk = assert(load(text, "=by hand", "t", own.names))
+  record.quietly(chunk) -- it is in the lines
+end
+
+local function do_line(own, text, inverse)
+  local time = own.scene.time
+  local fine, message = pcall(run_line, own, text)
+  if not fine and draft.is_interrupt(message) then error(message, 0) end
+  if not fine then message = build.plain(message):gsub("^by hand:%d+: ", "") end
+  if fine then
+    own.changes = own.changes + 1
+    if #own.lines < MOST_LINES then
+      own.lines[#own.lines + 1] = { time = time, text = text }
+    else
+      own.unsaved = TOO_MANY
+    end
+  end
+  note(own, { time = time, text = text, ok = fine, error = not fine and message or nil,
+    undo = fine and inverse and inverse() or nil })
+  return fine, message
+end
+
+--- Show that something cannot be, and why.
+function work.refused(own, message)
+  own.lines_due = true
+  own.shown[#own.shown + 1] = { time = own.scene.time, text = "", ok = false, error = build.plain(message),
+    count = 1 }
+  if #own.shown > MOST_LINES then table.remove(own.shown, 1) end
+end
+
+local function touched(own, m, words)
+  pcall(own.scene.tell, own.scene, { kind = "hand", object = m.wire or own.pulled, text = words })
+end
+
+local function undo(own)
+  for i = #own.shown, 1, -1 do
+    local line = own.shown[i]
+    if line.undo and not line.undone then
+      line.undone = true
+      return do_line(own, line.undo)
+    end
+  end
+end
+
+-- The runs that a script has to do after it: one that was left early ends there.
+local function back_in_runs(own, s)
+  if own.running and #own.runs ~= s.runs then
+    own.unsaved = "an earlier run was gone back to while a later one was under way"
+  elseif not own.running then
+    own.ended = nil
+    for k = #own.runs, s.runs + 1, -1 do own.runs[k] = nil end
+    if s.inside then own.lines[#own.lines + 1] = { time = s.time } end
+  end
+end
+
+local function back(own, m)
+  for _, s in ipairs(own.snapshots) do
+    if s.id == m.id then
+      build.back(own.scene, s.snapshot)
+      own.names.hand, own.hand = nil, nil
+      for k = #own.lines, 1, -1 do
+        if own.lines[k].time > s.time or k > s.lines then own.lines[k] = nil end
+      end
+      own.changes, own.lines_due, own.forms_due, own.pulled = own.changes + 1, true, true, nil
+      own.base = nil
+      back_in_runs(own, s)
+      own.shown[#own.shown + 1] = { time = s.time, text = ("-- back to %g s"):format(s.time), ok = true,
+        count = 1 }
+      return
+    end
+  end
+end
+
+--- Orders that change the scene, one after the other; it may be changed now.
+function work.all(own)
+  local queue = own.queue
+  own.queue = {}
+  for _, m in ipairs(queue) do
+    if m["do"] == "undo" then undo(own)
+    elseif m["do"] == "back" then back(own, m)
+    elseif m["do"] ~= "reach" and m["do"] ~= "let" or own.names.hand then
+      if m["do"] == "pull" and own.names.hand then do_line(own, "hand:release()") end
+      local fine, text, inverse = pcall(orders.line, own.scene, m)
+      local done, message = fine, text
+      if fine then done, message = do_line(own, text, inverse) end
+      show.answer(own, m.ask, done, not done and build.plain(message) or nil)
+      if not fine then
+        work.refused(own, text)
+      elseif done then
+        if m["do"] == "add" then own.made_text[m.serial] = text end
+        if m["do"] == "pull" then
+          own.pulled = m.wire
+          touched(own, m, ("wire '%s' is pulled by hand at s = %.4g m"):format(m.wire, m.s))
+        elseif m["do"] == "let" then
+          touched(own, m, ("wire '%s' is let go by hand"):format(tostring(own.pulled)))
+          own.names.hand, own.pulled = nil, nil
+        end
+      end
+    end
+  end
+end
+
+--- The same while a run goes on: where it was left counts for its rounding, even if nothing came of it.
+function work.inside(own)
+  work.all(own)
+  local last = own.lines[#own.lines]
+  if last and last.time == own.scene.time then return end
+  if #own.lines >= MOST_LINES then
+    own.unsaved = TOO_MANY
+    return
+  end
+  own.lines[#own.lines + 1] = { time = own.scene.time, text = "" }
+  own.lines_due = true
+end
+
+--- Keep the scene as it is, to be gone back to.
+function work.keep(own)
+  own.count = own.count + 1
+  own.snapshots[#own.snapshots + 1] =
+    { id = own.count, time = own.scene.time, snapshot = own.scene:snapshot(), lines = #own.lines,
+      runs = #own.runs, inside = own.running }
+  if #own.snapshots > MOST_SNAPSHOTS then table.remove(own.snapshots, 2) end -- the first one stays
+end
+
+-- --- a scene that forms put together ------------------------------------------------------------
+
+-- Show another scene in the place of the one before.
+local function replace(own, scene)
+  local old = own.scene
+  own.attach(own, scene)
+  if old ~= scene and core.exists(old) then pcall(old.close, old) end
+end
+
+local function of_draft(own, m, f)
+  local fine, message = false, "this scene was made by a script: only what is done by hand can change it"
+  if own.draft and own.running then message = "a run is under way: end it, or wait for its end" end
+  if own.draft and not own.running then fine, message = pcall(f, own, m) end
+  if not fine and draft.is_interrupt(message) then error(message, 0) end
+  show.answer(own, m.ask, fine, message and build.plain(message):gsub("^[^\n:]+%.lua:%d+: ", "") or nil)
+end
+
+local function change_draft(own, m)
+  local scene, words = own.draft:change(m)
+  replace(own, scene)
+  return words
+end
+
+--- Back to the start of what forms have put together.
+function work.again(own) replace(own, own.draft:build()) end
+
+-- It is answered when the run has ended, or could not begin.
+local function start(own, m)
+  own.wants_start = { args = own.draft:set_run(m.values), ask = m.ask }
+  m.ask = nil
+end
+
+local now = {} -- orders that are done at once: nothing of the scene changes by them
+
+function now.pause(own) own.paused = true end
+function now.go(own) own.paused, own.base = false, nil end
+function now.step(own) own.paused, own.steps = true, 1 end
+function now.keep(own) work.keep(own) end
+function now.stop(own) own.stopped = true end
+function now.run(own, m)
+  if type(m.duration) == "number" and m.duration > 0 and m.duration <= 1e6 then own.wants_run = m.duration end
+end
+function now.draft(own, m) of_draft(own, m, change_draft) end
+function now.again(own, m) of_draft(own, m, work.again) end
+function now.start(own, m) of_draft(own, m, start) end
+function now.speed(own, m)
+  local speed = m.value
+  own.speed = type(speed) == "number" and speed > 1e-6 and speed < 1e6 and speed or nil
+  own.base = nil
+end
+
+-- --- hearing ---------------------------------------------------------------------------------------
+
+local function has_undo(own)
+  for _, line in ipairs(own.shown) do
+    if line.undo and not line.undone then return true end
+  end
+  return false
+end
+
+local function has_way_back(own, m)
+  for _, s in ipairs(own.snapshots) do
+    if s.id == m.id then
+      if show.alive(own.scene) == 0 then return true end
+      work.refused(own, "a process is under way, and a Lua function has no way back")
+    end
+  end
+  return false
+end
+
+-- Will something come of an order? To leave a run for nothing would change the last bits of its steps.
+local function is_good(own, m)
+  local word = m["do"]
+  if word == "undo" then return has_undo(own) end
+  if word == "back" then return has_way_back(own, m) end
+  if (word == "reach" or word == "let") and not own.hand then return false end
+  if word == "add" then
+    own.serial = own.serial + 1
+    m.serial = own.serial
+  end
+  if own.draft and not own.running and #own.runs == 0 then
+    local words = "nothing runs yet: change it where it was made"
+    work.refused(own, words)
+    show.answer(own, m.ask, false, words)
+    return false
+  end
+  local fine, message = pcall(orders.line, own.scene, m)
+  if not fine then
+    show.answer(own, m.ask, false, build.plain(message))
+    work.refused(own, message)
+  elseif word == "pull" or word == "let" then
+    own.hand = word == "pull"
+  end
+  return fine
+end
+
+local MOST_AT_ONCE = 500
+
+--- Take what pages have said; what changes the scene waits in the queue.
+function work.hear(own)
+  for _ = 1, MOST_AT_ONCE do
+    local text = own.server:take()
+    if not text then return end
+    local fine, m = pcall(jsonread.decode, text)
+    local word = fine and type(m) == "table" and m["do"]
+    if now[word] then
+      local done, message = pcall(now[word], own, m)
+      if not done and draft.is_interrupt(message) then error(message, 0) end
+      if not done then work.refused(own, message) end
+    elseif type(word) == "string" and (orders.changes(m) or word == "undo" or word == "back") then
+      if is_good(own, m) then own.queue[#own.queue + 1] = m end
+    end -- all else is nobody's business
+  end
+end
+
+return work

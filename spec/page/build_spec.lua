@@ -1,0 +1,366 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- `softworld --view` alone, in a real browser: forms put a scene together, it is run, changed, run again and
+-- saved; the saved script gives the same numbers.
+package.path = "./?.lua;" .. package.path
+local browser = require "spec.page.browser"
+local program = dofile "spec/host/program.lua"
+local socket = require "socket"
+
+local folder, page, address
+
+local TELL = [[
+for _, x in ipairs((scene:find("cord"):positions())) do io.write(("%a "):format(x)) end
+print()
+]]
+
+-- The same as `softworld --view`, but for a file "tell": then it prints the numbers of its scene.
+local SCRIPT = [[
+require "softworld"
+local view = require("softworld.view.view").nothing { open = false }
+io.stderr:write(view.address, "\n")
+while true do
+  view:wait(0.1)
+  if os.remove "tell" then
+    local scene = view.scene
+]] .. TELL .. [[
+    io.stdout:flush()
+  end
+end
+]]
+
+-- Run the program with these words, in a process of its own; where its page is.
+local function begin(words)
+  local path = program.path:find "^/" and program.path or require "lfs".currentdir() .. "/" .. program.path
+  os.execute(("cd '%s' && rm -f err && { env --default-signal=INT '%s' %s >out 2>err & echo $! >pid; }")
+    :format(folder, path, words))
+  for _ = 1, 200 do
+    local file = io.open(folder .. "/err")
+    local said = file and file:read "a" or ""
+    if file then file:close() end
+    if said:find "http://%S+/" then return said:match "http://%S+" end
+    socket.sleep(0.05)
+  end
+  error "the view does not begin"
+end
+
+local function stop(signal)
+  local file = io.open(folder .. "/pid")
+  if not file then return end
+  os.execute(("kill -%s %d 2>/dev/null"):format(signal or "INT", file:read "n"))
+  file:close()
+  os.remove(folder .. "/pid")
+end
+
+local told = 0
+
+-- The numbers of the view's scene; it must be between two runs.
+local function numbers()
+  program.write(folder .. "/tell", "")
+  for _ = 1, 200 do
+    local file = io.open(folder .. "/out")
+    local said = file:read "a"
+    file:close()
+    if #said > told and said:find "\n$" then
+      local line = said:sub(told + 1)
+      told = #said
+      return line
+    end
+    socket.sleep(0.05)
+  end
+  error "nothing was printed"
+end
+
+local function text(selector)
+  return page:run("return document.querySelector(arguments[0])?.innerText", selector)
+end
+local function click(selector)
+  page:run("document.querySelector(arguments[0]).click()", selector)
+end
+
+-- The field of the open form that has this label, or one of its parts.
+local FIELD = [[
+  const label = [...document.querySelectorAll(".form-box label")]
+    .find((l) => l.innerText.replace(" *", "") === arguments[0]);
+  const first = document.getElementById(label.htmlFor);
+  const all = first.parentElement.className.startsWith("vector")
+    ? [...first.parentElement.children] : [first];
+]]
+local function fill(name, ...)
+  for k, value in ipairs { ... } do
+    page:run(FIELD .. [[
+      const [, value, k] = arguments;
+      all[k].value = value;
+      all[k].dispatchEvent(new Event("change"));]], name, value, k - 1)
+  end
+end
+local function submit() page:run [[document.querySelector(".form-box form").requestSubmit()]] end
+local function closed() page:wait [[return !document.querySelector(".form-box")]] end
+local function set_duration(value)
+  page:run([[
+    const f = [...document.querySelectorAll("#panel-build label")].find((l) => l.innerText === "duration");
+    document.getElementById(f.htmlFor).value = arguments[0];]], value)
+end
+local function steps(count)
+  for _ = 1, count do
+    local before = page:run "return player.state.get('time')"
+    page:run [[player.link.order("step")]]
+    page:wait(("return player.state.get('time') > %.9f + 1e-6"):format(before))
+  end
+end
+
+-- By the arrow along z of what is chosen.
+local function drag_up(name)
+  page:run([[
+    const actor = player.view.actors.find((a) => a.name === arguments[0]);
+    player.state.set({ selected: actor.id });]], name)
+  page:run "player.view.stage.draw()"
+  local at = page:run [=[
+    const { stage } = player.view;
+    const p = player.view.find(player.state.get("selected")).group.position.clone();
+    p.z += 0.09 * stage.camera.position.distanceTo(p);
+    const s = stage.onScreen(p), b = stage.canvas.getBoundingClientRect();
+    return [b.left + s[0], b.top + s[1]];]=]
+  page:pointer({ at, { at[1], at[2] - 10 }, { at[1], at[2] - 30 } }, true)
+end
+
+-- The script as it would be saved prints what the view's scene has.
+local function same_numbers()
+  local script = page:run "return player.panel.build.script"
+  program.write(folder .. "/again.lua", script .. TELL)
+  local out, err, code = program.run { folder .. "/again.lua" }
+  assert.equal(0, code, err)
+  local line = numbers()
+  assert.is_true(#line > 1000)
+  assert.equal(line, out:match "[^\n]*\n$")
+  return script
+end
+
+local function add(class) click(("[data-class=%s]"):format(class)) end
+local function things() return text "ul.things" end
+local function wait_for(words)
+  page:wait(("return document.querySelector('ul.things').innerText.includes(%q)"):format(words))
+end
+
+setup(function()
+  folder = program.folder()
+  page = browser.open(1280, 720)
+  program.write(folder .. "/run.lua", SCRIPT)
+  address = begin "run.lua"
+  page:go(address)
+end)
+
+teardown(function()
+  stop "TERM"
+  if page then page:close() end
+  os.execute("rm -rf " .. program.quote(folder))
+end)
+
+describe("a view that begins with nothing", function()
+  it("opens an empty scene at its start", function()
+    assert.equal("at the start", text "#status")
+    assert.truthy(text(".stage > .empty"):find "Nothing is here yet")
+    assert.truthy(text "#panel-build":find "Begin with a wire")
+    for _, line in ipairs(page:console()) do
+      assert.is_true(line.level ~= "SEVERE" and line.level ~= "WARNING", line.level .. ": " .. line.message)
+    end
+  end)
+
+  it("makes a wire of the catalogue, whose values and their sources are shown", function()
+    add "wire"
+    fill("cable", "GXL 2.5")
+    local sheet = text ".sheet"
+    for _, words in ipairs { "0.0035 m", "measured", "makers' tables" } do
+      assert.truthy(sheet:find(words, 1, true), sheet)
+    end
+    assert.is_true(page:run(FIELD:gsub("arguments%[0%]", '"E"') .. "return all[0].closest('.row').hidden"))
+    fill("name", "cord")
+    fill("from", "0", "0", "0.1")
+    fill("to", "0.4", "0", "0.1")
+    submit()
+    closed()
+    wait_for 'cable = "GXL 2.5"'
+    page:wait "return player.view.actors.some((a) => a.kind === 'wire' && a.group.visible)"
+  end)
+
+  it("makes an obstacle of a chosen shape", function()
+    add "obstacle"
+    page:run [[
+      const s = document.querySelector(".form-box .choose select");
+      s.value = "box";
+      s.dispatchEvent(new Event("change"));]]
+    fill("name", "block")
+    fill("size", "0.05", "0.2", "0.05")
+    fill("at", "0.3", "0", "0.025")
+    submit()
+    closed()
+    wait_for "block"
+  end)
+
+  it("refuses a wrong value at the form, with the core's words, and changes nothing", function()
+    local before = things()
+    add "hold"
+    fill("s", "3")
+    submit()
+    page:wait [[return document.querySelector(".form .why").innerText
+      === "clamp: s = 3 m is not on wire 'cord', which ends at 0.4 m"]]
+    assert.equal(before, things())
+    fill("s", "zero")
+    submit()
+    page:wait [[return /s: 'zero' is no number/.test(document.querySelector(".form .why").innerText)]]
+    fill("s", "0")
+    submit()
+    closed()
+    wait_for "clamp1"
+  end)
+
+  it("moves what is chosen by its handles, as its form does", function()
+    drag_up "block"
+    page:wait [=[return player.panel.build.items.find((i) => i.name === "block").values.at[2] > 0.03]=]
+    local place = page:run [=[return player.panel.build.items.find((i) => i.name === "block").values.at]=]
+    assert.equal(0.3, place[1]) -- along the arrow only, in whole millimetres
+    assert.equal(0, place[2])
+    assert.near(0, (1000 * place[3] + 0.5) % 1 - 0.5, 1e-9)
+    click "[aria-label='Undo']"
+    page:wait [=[return player.panel.build.items.find((i) => i.name === "block").values.at[2] === 0.025]=]
+  end)
+
+  it("removes an object with what speaks of it, and brings it back", function()
+    click "[aria-label='Remove cord']"
+    page:wait [[return !/clamp1/.test(document.querySelector("ul.things").innerText)]]
+    assert.is_nil(things():find "cord")
+    click "[aria-label='Undo']"
+    wait_for "clamp1"
+    assert.truthy(things():find "cord")
+  end)
+
+  it("changes an object by its form", function()
+    page:run [[[...document.querySelectorAll(".thing-name")].find((b) => /block/.test(b.innerText)).click()]]
+    fill("friction", "0.7")
+    submit()
+    closed()
+    wait_for "friction = 0.7"
+  end)
+
+  it("saves a run that was ended, gone back in, and gone on with", function()
+    set_duration "5"
+    page:run [[player.link.order("pause")]]
+    click "#run"
+    page:wait "return player.state.get('run').running && player.state.get('run').holds"
+    steps(3)
+    page:run [[player.link.order("keep")]]
+    page:wait "return player.state.get('run').snapshots.length === 2"
+    steps(3)
+    page:run [[player.link.order("stop")]]
+    page:wait "return player.state.get('run').done"
+    assert.equal("ended", text "#status")
+    page:run [[
+      player.link.order("back", { id: 2 });
+      player.link.order("go");
+      player.link.order("run", { duration: 0.25 });]]
+    page:wait "return player.state.get('run').done && player.state.get('time') > 0.27"
+    same_numbers()
+    click "#again"
+    page:wait "return player.state.get('run').at_start && player.state.get('time') === 0"
+  end)
+
+  it("runs a gripper's steps, and goes back to the start", function()
+    add "gripper"
+    fill("name", "hand")
+    fill("at", "0.4", "0", "0.2")
+    submit()
+    closed()
+    for _, step in ipairs { { "grasp", "s", "0.38" }, { "move", "by", "-0.05", "0", "0.05" },
+      { "wait", "seconds", "0.05" }, { "release" } } do
+      click "#add-step"
+      page:run([[
+        const s = document.querySelector(".form-box .choose select");
+        s.value = arguments[0];
+        s.dispatchEvent(new Event("change"));]], step[1])
+      if step[2] then fill(table.unpack(step, 2)) end
+      submit()
+      closed()
+    end
+    assert.equal(4, page:run "return document.querySelectorAll('ol.things > li').length")
+    set_duration "0.8"
+    click "#run"
+    page:wait "return player.state.get('run').done"
+    assert.equal("ended", text "#status")
+    assert.near(0.8, page:run "return player.state.get('time')", 1e-6)
+    click "#again"
+    page:wait "return player.state.get('run').at_start && player.state.get('time') === 0"
+    assert.equal("at the start", text "#status")
+  end)
+
+  it("is the same for a page that is loaded again", function()
+    page:go(address)
+    assert.truthy(things():find "block" and things():find "clamp1")
+    assert.equal(4, page:run "return document.querySelectorAll('ol.things > li').length")
+  end)
+
+  it("adds an object while a run is held, and takes it away", function()
+    set_duration "5"
+    page:run [[player.link.order("pause")]]
+    click "#run"
+    page:wait "return player.state.get('run').running && player.state.get('run').holds"
+    assert.truthy(text "#panel-build":find "A run is under way")
+    add "obstacle"
+    fill("name", "late")
+    submit()
+    closed()
+    wait_for "late"
+    assert.truthy(things():find "a wire stays in its scene")
+    drag_up "block"
+    page:wait [[return /scene:find\("block"\):set { at = { 0.3, 0, /.test(player.panel.build.script)]]
+    click "[aria-label='Remove late']"
+    page:wait [[return !/late/.test(document.querySelector("ul.things").innerText)]]
+    assert.truthy(page:run [[return /scene:find\("late"\):remove\(\)/.test(player.panel.build.script)]])
+    steps(2)
+    add "wire"
+    fill("name", "later")
+    fill("from", "0", "0.1", "0.3")
+    fill("to", "0.2", "0.1", "0.3")
+    submit()
+    closed()
+    wait_for "later"
+    page:run [[player.link.order("set", { object: "", values: { gravity: [0, 0, -5] } })]]
+    page:wait [[return /gravity = { 0, 0, -5 }/.test(player.panel.build.script)]]
+    steps(3)
+    page:run [[player.link.order("stop")]]
+    page:wait "return player.state.get('run').done"
+  end)
+
+  it("saves a script that prints the same numbers, what was done by hand included", function()
+    page:run [[player.link.order("go"); player.link.order("run", { duration: 0.5 })]]
+    page:wait "return player.state.get('run').done && player.state.get('time') > 0.5"
+    local script = same_numbers()
+    assert.truthy(script:find("hand:grasp(cord, { s = 0.38 })", 1, true), script)
+    assert.truthy(script:find("-- the run is ended", 1, true), script)
+  end)
+end)
+
+describe("softworld --view without a script", function()
+  it("opens a page to begin with nothing, until Ctrl-C, a run or not", function()
+    stop()
+    page:go(begin "--view")
+    assert.equal("at the start", text "#status")
+    stop()
+    page:wait [[return document.getElementById("status").innerText === "not connected"]]
+    page:go(begin "--view")
+    add "wire"
+    submit()
+    closed()
+    set_duration "1e5"
+    click "#run"
+    page:wait "return player.state.get('run').running && player.state.get('time') > 0.1"
+    stop()
+    page:wait [[return document.getElementById("status").innerText === "not connected"]]
+  end)
+
+  it("is no option beside -e and -i alone", function()
+    for _, words in ipairs { { "--view", "-e", "x = 1" }, { "--view", "-i" }, { "--view", "-v" } } do
+      local _, err, code = program.run(words)
+      assert.equal(2, code)
+      assert.truthy(err:find "a script is missing")
+    end
+  end)
+end)

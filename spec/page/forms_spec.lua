@@ -1,0 +1,413 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- What forms of a live view make of what pages say, without a browser: a scene that is put together line by
+-- line, the same bits by its script, and nothing at all of messages that are wrong or meant to harm.
+package.path = "./?.lua;" .. package.path
+local sw = require "softworld"
+local draft = require "softworld.view.draft"
+local fill = require "softworld.view.fill"
+local json = require "softworld.output.json"
+local jsonread = require "softworld.output.jsonread"
+local kinds = require "softworld.view.kinds"
+local orders = require "softworld.view.orders"
+local saving = require "spec.scene.saving"
+local viewing = require "softworld.view.view"
+local websocket = require "spec.page.websocket"
+local core = sw.core
+
+local PLAIN = { number = true, integer = true, boolean = true, text = true, file = true, choice = true,
+  vector = true, rotation = true, points = true, numbers = true, object = true, table = true }
+
+local function add(d, class, kind, values, process)
+  return d:change { what = "add", class = class, kind = kind, values = values, process = process }
+end
+
+local WIRE = { name = "cord", cable = "GXL 1.5", from = { 0, 0, 0.1 }, to = { 0.5, 0, 0.1 } }
+
+-- Messages of a page.
+local function a_change(class, kind, values, more)
+  local m = { what = "add", class = class, kind = kind, values = values }
+  for key, value in pairs(more or {}) do m[key] = value end
+  return m
+end
+
+local function an_order(class, kind, values, serial)
+  return { ["do"] = "add", class = class, kind = kind, values = values, serial = serial }
+end
+
+local function hanging()
+  local d = draft.new()
+  add(d, "wire", "rod", WIRE)
+  add(d, "hold", "clamp", { _on = "cord", s = 0 })
+  add(d, "obstacle", "box", { name = "block", size = { 0.05, 0.2, 0.05 }, at = { 0.25, 0, 0.025 } })
+  return d
+end
+
+-- A value that fits a field, as a page would send it.
+local function example(field)
+  if field.choices then return field.choices[1] end
+  if field.default ~= nil then return field.default end
+  if field.type == "vector" then return { 0.1, 0.2, 0.3 } end
+  if field.type == "rotation" then return { axis = { 0, 0, 1 }, angle = 1 } end
+  if field.type == "points" then return { { 0, 0, 0 }, { 1, 0, 0 } } end
+  if field.type == "numbers" then return { 1, 2 } end
+  if field.type == "object" then return "cord" end
+  if field.type == "text" or field.type == "file" then return "a name" end
+  if field.type == "boolean" then return true end
+  if field.type == "table" then
+    local inner = {}
+    for _, f in ipairs(field.rows) do inner[f.name] = example(f) end
+    return inner
+  end
+  return math.max(field.min or 1, math.min(field.max or 1, 1))
+end
+
+describe("kinds that forms can make", function()
+  local all = kinds.all().kinds
+
+  it("have fields of known types, with words and a unit, and go through JSON", function()
+    for _, kind in ipairs(all) do
+      assert.truthy(kind.doc, kind.kind)
+      for _, field in ipairs(kind.fields) do
+        local what = kind.kind .. "." .. field.name
+        assert.is_true(PLAIN[field.type], what)
+        assert.equal("string", type(field.doc), what)
+        assert.equal("string", type(field.unit), what)
+      end
+    end
+    assert.equal(#all, #jsonread.decode(json.encode(kinds.all())).kinds)
+  end)
+
+  -- The registries are the measure: what is added to one is in a form without a word here.
+  it("are all shapes, holds, models and forces of scripts", function()
+    local registry = core.registry()
+    for _, shape in ipairs(registry.shapes) do assert.truthy(kinds.of("obstacle", shape.name), shape.name) end
+    for _, hold in ipairs(registry.holds) do assert.truthy(kinds.of("hold", hold.name), hold.name) end
+    for _, model in ipairs(registry.models) do assert.truthy(kinds.of("wire", model.name), model.name) end
+    local made_by_methods = { clip = true, snap = true, tether = true }
+    for _, force in ipairs(registry.forces) do
+      assert.equal(not force.inner and not made_by_methods[force.name], kinds.of("force", force.name) ~= nil,
+        force.name)
+    end
+  end)
+
+  it("give a line of Lua that compiles, whatever is filled in", function()
+    for _, kind in ipairs(all) do
+      local values = {}
+      for _, field in ipairs(kind.fields) do values[field.name] = example(field) end
+      if kind.on then values._on = 'a "cord"\n' end
+      if kind.self == "gripper" then values._by = "hand" end
+      local it, read = fill.read(kind.class, kind.kind, values)
+      local line = fill.line(it, read, function(name) return ("scene:find(%s)"):format(fill.source(name)) end)
+      assert.truthy(load("local scene, p = ...\n" .. line), line)
+    end
+  end)
+
+  it("tell of each cable its values and where they are from", function()
+    for _, cable in ipairs(kinds.all().cables) do
+      for _, q in ipairs(cable.rows) do
+        assert.equal(sw.cable(cable.name)[q.name].value, q.value)
+        assert.is_true(#q.source > 0 and #q.flag > 0)
+      end
+    end
+  end)
+end)
+
+describe("a scene put together by forms", function()
+  it("is the scene of its script, bit for bit, after any number of changes", function()
+    local d = hanging()
+    add(d, "gripper", "gripper", { name = "hand", at = { 0.5, 0, 0.2 } })
+    add(d, "force", "drag", { on = "cord", linear = 0.01 })
+    add(d, "step", "grasp", { _by = "hand", _on = "cord", s = 0.45 })
+    add(d, "step", "move", { _by = "hand", by = { -0.1, 0, 0.05 }, speed = 0.4 })
+    add(d, "step", "wait", { seconds = 0.05 })
+    add(d, "step", "release", { _by = "hand" })
+    local scene = d:change { what = "put", id = 3, values = { at = { 0.2, 0, 0.02 } } }
+    local again = assert(load(d:script() .. "return scene"))()
+    for _, one in ipairs { scene, again } do assert(one:run { dt = 0.004 }.ok) end
+    assert.is_nil(saving.difference(saving.all(scene), saving.all(again)))
+    assert.truthy(d:script():find("hand:grasp(cord, { s = 0.45 })", 1, true), d:script())
+  end)
+
+  it("stays as it was when a change cannot be, with the core's words", function()
+    local d = hanging()
+    local before, shown = d:script(), json.encode(d:shown())
+    for _, case in ipairs {
+      { a_change("hold", "clamp", { _on = "cord", s = 3 }),
+        "clamp: s = 3 m is not on wire 'cord', which ends at 0.5 m" },
+      { a_change("obstacle", "sphere", { radius = -1 }), "radius = %-1 m is not" },
+      { a_change("obstacle", "sphere", {}), "radius is required" },
+      { a_change("wire", "rod", WIRE), "already something named 'cord'" },
+      { a_change("wire", "rod", { from = { 0, 0, 0 }, to = { 1, 0, 0 } }, { what = "change", id = 1 }),
+        "radius is required" },
+      { { what = "change", id = 1, class = "obstacle", kind = "plane", values = {} }, "cannot become" },
+      { { what = "add", class = "wire", kind = "rod", values = { cable = "GXL 1,5", from = { 0, 0, 0 } } },
+        "cable = 'GXL 1,5' is not one of.*did you mean 'GXL 1.5'" },
+      { a_change("step", "wait", { seconds = -1 }), "seconds = %-1 s is not" },
+      { a_change("step", "wait", {}), "seconds is required" },
+      { a_change("step", "wait", { seconds = 1 }, { process = 99 }), "from 1 to 6" },
+      { { what = "remove", id = 99 }, "not there any more" },
+      { { what = "scene", values = { gravity = { 0, 0, 0 / 0 } } }, "gravity%[3%] must be a finite number" },
+    } do
+      local fine, message = pcall(d.change, d, case[1])
+      assert.is_false(fine)
+      assert.truthy(message:find(case[2]), message)
+      assert.is_nil(message:find("%.lua:%d"), message)
+    end
+    assert.equal(before, d:script())
+    assert.equal(shown, json.encode(d:shown()))
+  end)
+
+  it("takes with an object what speaks of it; undo brings all back, redo takes it again", function()
+    local d = hanging()
+    local full = d:script()
+    local _, words = d:change { what = "remove", id = 1 }
+    assert.equal("cord went too: clamp1", words)
+    local less = d:script()
+    assert.is_nil(less:find "clamp")
+    d:change { what = "undo" }
+    assert.equal(full, d:script())
+    d:change { what = "redo" }
+    assert.equal(less, d:script())
+    for _ = 1, 4 do d:change { what = "undo" } end
+    assert.equal(draft.new():script(), d:script())
+    assert.error_matches(function() d:change { what = "undo" } end, "nothing to undo")
+  end)
+
+  it("names an object anew everywhere", function()
+    local d = hanging()
+    d:change { what = "change", id = 1, class = "wire", kind = "rod", values = { name = "my \"cord\"\n",
+      cable = "GXL 1", from = { 0, 0, 0.1 }, to = { 0.5, 0, 0.1 } } }
+    local line = [[scene:clamp(scene:find("my \"cord\"\n"), { name = "clamp1", s = 0 })]]
+    assert.truthy(d:script():find(line, 1, true), d:script())
+    assert.equal('my "cord"\n', d:build():find('my "cord"\n').name)
+  end)
+
+  it("has steps in the order told, several processes at once", function()
+    local d = hanging()
+    add(d, "step", "wait", { seconds = 1 })
+    add(d, "step", "wait", { seconds = 2 })
+    add(d, "step", "wait", { seconds = 3 }, 2)
+    d:change { what = "shift", id = 5, by = -1 }
+    local second = "p:wait(2)\n  p:wait(1)\nend)\n\nscene:process(function(p)\n  p:wait(3)"
+    assert.truthy(d:script():find(second, 1, true), d:script())
+    assert.error_matches(function() d:change { what = "shift", id = 6, by = 1 } end, "the last one")
+  end)
+
+  it("tells remarks to who looks, at each change", function()
+    local d = draft.new()
+    add(d, "wire", "rod", { radius = 2.5, E = 1e6, density = 1000, from = { 0, 0, 0 }, to = { 100, 0, 0 } })
+    local first = #d:shown().remarks
+    d:change { what = "scene", values = { gravity = { 0, 0, -1 } } }
+    assert.equal(first, #d:shown().remarks)
+  end)
+end)
+
+-- Names and texts that would do harm if they were taken for Lua.
+local EVIL = { [["]], [[" .. os.exit(3) .. "]], [[") os.exit(3) --]], "a\nos.exit(3)\n", "]] os.exit(3) --[[",
+  "\\", "\\\"", "\0", "${x}", "%s%d", ("x"):rep(190), "end end", "os", "_ENV" }
+
+describe("hostile messages", function()
+  -- Whatever comes: an error in words, or a change whose script still is a script of calls of the scene.
+  local function told(d, m)
+    local fine, message = pcall(d.change, d, m)
+    if not fine then assert.equal("string", type(message)) end
+    assert.truthy(load(d:script()))
+    return fine, message
+  end
+
+  it("never become Lua: names in quotes", function()
+    local exit, called = os.exit, false
+    os.exit = function() called = true end -- luacheck: ignore
+    for _, name in ipairs(EVIL) do
+      local d = draft.new()
+      told(d, { what = "add", class = "wire", kind = "rod", values = { name = name, cable = "GXL 1.5",
+        from = { 0, 0, 0.1 }, to = { 0.5, 0, 0.1 } } })
+      told(d, a_change("hold", "pin", { _on = name, s = 0.1, name = name .. "2" }))
+      told(d, a_change("gripper", "gripper", { name = name .. "3" }))
+      told(d, a_change("step", "grasp", { _by = name .. "3", _on = name, s = 0 }))
+      told(d, a_change("obstacle", "mesh", { file = name }))
+      told(d, { what = name, class = name, kind = name, values = { [name] = name } })
+      told(d, a_change("wire", "rod", { cable = name, [name] = 1 }))
+      local chunk = load(d:script() .. "return scene", "=x", "t", { require = require, math = math })
+      assert.truthy(chunk)
+      assert.equal("scene", core.type(chunk()))
+    end
+    os.exit = exit -- luacheck: ignore
+    assert.is_false(called)
+  end)
+
+  it("of wrong types, NaN, huge lists and unknown words are refused", function()
+    local d = hanging()
+    local before = d:script()
+    local huge, deep = {}, {}
+    for k = 1, 60000 do huge[k] = k end
+    local points = {}
+    for k = 1, 3000 do points[k] = { k, 0, 0 } end
+    deep[1] = deep
+    local values = { 0 / 0, math.huge, -math.huge, "1", true, {}, { 1, 2 }, { 1, 2, 0 / 0 }, { 1, 2, "3" },
+      { x = 1, y = 2, z = 3 }, huge, points, deep, setmetatable({}, { __index = function() return 1 end }),
+      { 1, 2, 3, n = 4 }, print }
+    for _, value in ipairs(values) do
+      for _, name in ipairs { "from", "radius", "segments", "path", "name", "cable", "rolls", "nonsense",
+        "model" } do
+        local given = { from = { 0, 0, 0 }, to = { 1, 0, 0 }, cable = "GXL 1" }
+        given[name] = value
+        if not (name == "rolls" and value == true or name == "name" and value == "1") then -- these may be
+          local fine, message = pcall(d.change, d, a_change("wire", "rod", given))
+          assert.is_false(fine, name .. " = " .. tostring(value))
+          assert.equal("string", type(message))
+          assert.is_true(#message < 2000, "a message that can be read")
+        end
+      end
+      for _, m in ipairs { { what = value }, { what = "add", class = value, kind = "rod", values = {} },
+        { what = "add", class = "wire", kind = value, values = {} },
+        { what = "add", class = "wire", kind = "rod", values = value },
+        { what = "change", id = value, class = "wire", kind = "rod", values = {} },
+        { what = "remove", id = value }, { what = "put", id = 1, values = { from = value } },
+        { what = "shift", id = 1, by = value } } do
+        assert.is_false((pcall(d.change, d, m)))
+      end
+    end
+    assert.error_matches(function()
+      add(d, "wire", "rod", { cable = "GXL 1", from = { 0, 0, 0 }, to = { 1, 0, 0 }, segments = 10000000 })
+    end, "too much for a form")
+    for _, file in ipairs { "/etc/passwd", "../x.stl", ".hidden", "a/b.stl", "", "a\nb" } do
+      assert.error_matches(function() add(d, "obstacle", "mesh", { file = file }) end, "without a folder")
+    end
+    assert.equal(before, d:script())
+  end)
+
+  it("cannot fill the memory with objects", function()
+    local d = draft.new()
+    for _ = 1, 400 do add(d, "step", "wait", { seconds = 1 }) end
+    local function more() add(d, "step", "wait", { seconds = 1 }) end
+    assert.error_matches(more, "there are 400 things already")
+  end)
+end)
+
+describe("objects added and removed while they move", function()
+  local function scene_of()
+    local scene = sw.scene { name = "live" }
+    scene:wire(WIRE)
+    scene:gripper { name = "hand" }
+    return scene
+  end
+  local function line(scene, m) return orders.line(scene, m) end
+  local function run(scene, text) load(text, "=x", "t", { scene = scene })() end
+
+  it("are one line each, and one that takes them away again", function()
+    local scene = scene_of()
+    local text, inverse = line(scene, an_order("obstacle", "plane", {}))
+    assert.equal('scene:obstacle { name = "plane1", shape = "plane" }', text)
+    run(scene, text)
+    assert.equal('scene:find("plane1"):remove()', inverse())
+    run(scene, inverse())
+    assert.is_false(scene:find("plane1").present)
+    text, inverse = line(scene, an_order("hold", "pin", { _on = "cord", s = 0.2 }))
+    run(scene, text)
+    assert.equal('scene:find("pin1"):release()', inverse())
+    text, inverse = line(scene, { ["do"] = "add", class = "force", kind = "drag", serial = 3,
+      values = { on = "cord", linear = 0.1 } })
+    assert.equal('made[3] = scene:force { kind = "drag", on = scene:find("cord"), linear = 0.1 }', text)
+    assert.equal("made[3]:release()", inverse())
+  end)
+
+  it("say so when they cannot go, or cannot be", function()
+    local scene = scene_of()
+    local function refused(m, words)
+      local fine, message = pcall(orders.line, scene, m)
+      assert.is_false(fine)
+      assert.truthy(tostring(message):find(words), message)
+    end
+    refused({ ["do"] = "remove", object = "cord" }, "a wire stays in its scene")
+    refused({ ["do"] = "remove", object = "hand" }, "a gripper stays in its scene")
+    refused({ ["do"] = "remove", object = "nobody" }, "nothing named 'nobody'")
+    refused({ ["do"] = "remove", object = "" }, "a scene cannot go")
+    refused({ ["do"] = "remove", made = "1] os.exit(3) --" }, "made is no number")
+    refused({ ["do"] = "remove", object = { "cord" } }, "is no name")
+    refused(an_order("step", "wait", { seconds = 1 }), "while a run is under way")
+    refused(an_order("obstacle", "sphere", { radius = -1 }), "radius = %-1 m")
+    refused(an_order("hold", "pin", { _on = "cord\") os.exit(3) --" }),
+      "nothing named")
+    refused(an_order("hold", "pin", { s = 0 }), "on which wire")
+    refused({ ["do"] = "set", object = "cord", values = { at = { 0 / 0, 0, 0 } } }, "has nothing to set")
+    local nan = 0 / 0
+    refused({ ["do"] = "pull", wire = "cord", s = nan, to = { 0, 0, 0 }, force = 1, stiffness = 1 },
+      "no number")
+  end)
+end)
+
+describe("a view that begins with nothing", function()
+  it("is as it was after messages that nobody can mean", function()
+    local view = viewing.nothing { open = false }
+    local port, path = view.address:match "^http://127%.0%.0%.1:(%d+)(/%x+/)$"
+    local page = assert(websocket.open(math.tointeger(port), path .. "s"))
+    page:send(json.encode { ["do"] = "draft", what = "add", class = "wire", kind = "rod", values = WIRE })
+    view:wait(0.2)
+    local scene = view.scene
+    for _, text in ipairs { '{"do":"draft"}', '{"do":"draft","what":{}}', '{"do":"draft","what":"add"}',
+      '{"do":"draft","what":"new"}', '{"do":"draft","what":"__index"}',
+      '{"do":"draft","what":"change","id":1}',
+      '{"do":"draft","what":"put","id":1,"values":{"nonsense":1}}', '{"do":"draft","what":"put","id":1}',
+      '{"do":"draft","what":"put","id":1,"values":{"from":[0,0]}}',
+      '{"do":"draft","what":"scene","values":[1]}',
+      '{"do":"draft","what":"shift","id":1,"by":1}', '{"do":"draft","what":"redo","ask":{"a":[]}}',
+      '{"do":"start"}', '{"do":"start","values":{"duration":"1"}}', '{"do":"start","values":{"dt":0}}',
+      '{"do":"start","values":{"save":"/tmp/x"}}', '{"do":"start","values":{"integrator":"\\u0000"}}',
+      '{"do":"add","class":"obstacle","kind":"plane","values":{}}', '{"do":"add"}', '{"do":"remove"}',
+      '{"do":"remove","object":"cord"}', '{"do":"remove","made":1e308}', '{"do":"add","serial":[]}',
+      '{"do":"set","object":"","values":{"gravity":[0,0,0]}}', '{"do":"undo"}', '{"do":"back","id":1}' } do
+      page:send(text)
+    end
+    view:wait(0.3)
+    assert.equal(scene, view.scene) -- nothing was built anew
+    assert.equal(1, #scene:names())
+    assert.equal(0, scene.time)
+    page:close()
+    view:close()
+  end)
+
+  it("does what its page asks, answers, and gives a script of the same bits, by hand included", function()
+    local view = viewing.nothing { open = false }
+    local port, path = view.address:match "^http://127%.0%.0%.1:(%d+)(/%x+/)$"
+    local page = assert(websocket.open(math.tointeger(port), path .. "s"))
+    local got = {}
+    local function go(text, seconds)
+      if text then page:send(text) end
+      view:wait(seconds or 0.15)
+      while true do
+        local t, opcode = page:receive(0.05)
+        if not t then break end
+        local m = opcode == 1 and jsonread.decode(t)
+        if m then got[m.kind] = m else page:send "a" end
+      end
+      local list = got.answers and got.answers.answers or {}
+      return list[#list]
+    end
+    go()
+    assert.is_true(got.state.draft and got.state.at_start)
+    go(json.encode { ["do"] = "draft", what = "add", class = "wire", kind = "rod", values = WIRE, ask = "a" })
+    local answer = go([[{"do":"draft","what":"add","class":"hold","kind":"clamp",]]
+      .. [["values":{"_on":"cord","s":3},"ask":"b"}]])
+    assert.equal("b", answer.ask)
+    assert.equal("clamp: s = 3 m is not on wire 'cord', which ends at 0.5 m", answer.text)
+    go [[{"do":"draft","what":"add","class":"hold","kind":"clamp","values":{"_on":"cord","s":0},"ask":"c"}]]
+    go [[{"do":"set","object":"","values":{"gravity":[0,0,-1]},"ask":"d"}]]
+    assert.is_nil(got.lines.script:find "gravity")
+    assert.truthy(go([[{"do":"start","values":{},"ask":"e"}]]).text:find "^scene:run: .*give duration")
+    go('{"do":"start","values":{"duration":0.2,"dt":0.004},"ask":"f"}', 0.4)
+    assert.is_true(got.state.done and got.state.ok)
+    go [[{"do":"set","object":"","values":{"gravity":[0,0,-1]},"ask":"g"}]]
+    go [[{"do":"add","class":"force","kind":"drag","values":{"on":"cord","linear":0.1},"ask":"h"}]]
+    go([[{"do":"run","duration":0.1}]], 0.3)
+    assert.near(0.3, view.scene.time, 1e-12)
+    local own = saving.all(view.scene)
+    local again = assert(load(got.lines.script:gsub("run:summary%(%)\n$", "return scene")))()
+    assert.is_nil(saving.difference(own, saving.all(again)))
+    go [[{"do":"again","ask":"i"}]]
+    assert.equal(0, view.scene.time)
+    assert.is_true(got.state.at_start)
+    page:close()
+    view:close()
+  end)
+end)
