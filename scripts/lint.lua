@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- The house rules (see "Rooms" below) and the outside checkers.
 --   lua5.4 scripts/lint.lua [--only CHECK,CHECK] [tree]
--- Checks: layout spdx includes calls headers length luacheck tidy. A finding is "file:line: what is
+-- Checks: layout spdx includes circles calls headers length luacheck tidy. A finding is "file:line: what is
 -- wrong; what to do". Exit status 0 when there is none; long files only get a warning.
 
 -- Rooms ----------------------------------------------------------------------
@@ -90,6 +90,10 @@ local CALLS_ALLOWED = { ["base/alloc.c"] = { aligned_alloc = true, calloc = true
     malloc = true },
   -- temporary files of the Lua library, which itself has no locks and no fsync
   ["bind/bind_files.c"] = { open = true, openat = true } }
+
+-- Most files in a circle of files that need one another (scripts/circles.lua), by rooms.
+local MOST_IN_CIRCLE = { contact = 4, system = 11 }
+local USUAL_IN_CIRCLE = 3
 
 -- What the top level may hold, besides dot-files and what make and the examples leave there.
 local TOP = "Makefile csrc lua scripts spec examples README.md"
@@ -305,6 +309,22 @@ function check.includes()
   end
 end
 
+function check.circles()
+  local codes = {}
+  for _, file in ipairs(files("csrc", "*.c")) do
+    codes[file] = "\n" .. table.concat(lines_of(file), "\n")
+  end
+  local here = (arg[0]:match "^(.*)/" or ".")
+  for _, circle in ipairs(dofile(here .. "/circles.lua").find(codes)) do
+    local most = MOST_IN_CIRCLE[circle[1]:match "^csrc/([%w_]+)/"] or USUAL_IN_CIRCLE
+    if #circle > most then
+      finding(circle[1], 1, "is in a circle of %d files (%d at most) that need one another: %s; "
+        .. "move what all of them need into a file that needs none", #circle, most,
+        table.concat(circle, " "))
+    end
+  end
+end
+
 function check.calls()
   for _, file in ipairs(files("csrc", "*.c", "*.h")) do
     local path = file:match "^csrc/(.*)$"
@@ -369,7 +389,7 @@ end
 
 -- Main -----------------------------------------------------------------------
 
-local ORDER = { "layout", "spdx", "includes", "calls", "headers", "length", "luacheck", "tidy" }
+local ORDER = { "layout", "spdx", "includes", "circles", "calls", "headers", "length", "luacheck", "tidy" }
 local wanted, tree = nil, nil
 local i = 1
 while arg[i] do

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Steps in which wire goes through holds. Shared by the files of this room only. */
+/* Steps in which wire goes through holds. Of this room and of steps. */
 #ifndef SW_SCENE_FEED_H
 #define SW_SCENE_FEED_H
 

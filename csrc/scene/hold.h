@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Holds: clamps, pins, grips, feeds. Shared by the files of this room only. */
+/* Holds: clamps, pins, grips, feeds. Of this room and of steps. */
 #ifndef SW_SCENE_HOLD_H
 #define SW_SCENE_HOLD_H
 

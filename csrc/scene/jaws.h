@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What drives things, and grippers: their jaws, pads and frozen grips. Shared by the files of this
- * room only. */
+/* What drives things, and grippers: their jaws, pads and frozen grips. Of this room and
+ * of steps. */
 #ifndef SW_SCENE_JAWS_H
 #define SW_SCENE_JAWS_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Joins and ties between wires. Shared by the files of this room only. */
+/* Joins and ties between wires. Of this room and of steps. */
 #ifndef SW_SCENE_JOIN_H
 #define SW_SCENE_JOIN_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A wire of the scene, and read-outs of one that is a mesh of particles. Shared by the files of
- * this room only. */
+/* A wire of the scene, and read-outs of one that is a mesh of particles. Of this room and
+ * of steps. */
 #ifndef SW_SCENE_LINE_H
 #define SW_SCENE_LINE_H
 

@@ -88,6 +88,28 @@ describe("lint: rooms", function()
   end)
 end)
 
+describe("lint: circles of files", function()
+  local function file(name, calls)
+    local code = C .. "void sw_" .. name .. "(void);\n/* sw_a() */\nvoid sw_" .. name .. "(void) {\n"
+    for _, other in ipairs(calls) do code = code .. "  sw_" .. other .. "();\n" end
+    return code .. "}\n"
+  end
+  it("may have three files, not four", function()
+    local three = { ["csrc/base/b.c"] = file("b", { "c" }), ["csrc/base/c.c"] = file("c", { "d" }),
+      ["csrc/base/d.c"] = file("d", { "b" }), ["csrc/base/e.c"] = file("e", { "b", "d" }) }
+    clean("circles", three)
+    three["csrc/base/d.c"] = file("d", { "e" })
+    finds("circles", three, "csrc/base/b.c:1:", "circle of 4 files (3 at most)")
+  end)
+  it("do not come from functions of the same name that stay in their files", function()
+    local four = {}
+    for _, name in ipairs { "b", "c", "d", "e" } do
+      four["csrc/base/" .. name .. ".c"] = file(name, {}) .. "static void go(void) {\n}\n"
+    end
+    clean("circles", four)
+  end)
+end)
+
 describe("lint: outside libraries", function()
   local function outside(path, line)
     finds("includes", { [path] = C .. line .. "\n" }, path .. ":2:", "may be included only in")
