@@ -41,7 +41,6 @@ local made = {
 }
 require "softworld.link.clipping" -- gripper:clip
 require "softworld.scene.settle"   -- scene:settle with error bars
-require "softworld.view.view"           -- scene:view
 require "softworld.scene.changes"  -- get and set of scenes and grippers
 local save = require "softworld.scene.save" -- scene:save, scene:resume, scene:find
 
@@ -67,6 +66,7 @@ function sw.cables() return sw.cable.list() end
 rows.later(core.class.scene, "softworld.scene.script", "script")
 rows.later(core.class.scene, "softworld.scene.describe", "describe")
 rows.later(core.class.scene, "softworld.run.pictures", "picture")
+rows.later(core.class.scene, "softworld.view.view", "view")
 rows.later(sw, "softworld.run.plot", "plot")
 record.install(made)
 

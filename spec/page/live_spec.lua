@@ -86,7 +86,7 @@ local view = scene:view { open = false, paused = true }
 local file = io.open("address", "w")
 file:write(view.address)
 file:close()
-local run = scene:run { duration = 2, dt = 0.004 }
+local run = scene:run { duration = 10, dt = 0.004 } -- longer than it is looked at on a slow machine
 assert(run.ok, run.reason)
 ]] .. TELL)
   page:go(run.address)

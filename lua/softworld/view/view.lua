@@ -163,7 +163,7 @@ end
 local function name_of(scene) return scene.name end
 
 --- scene:view{ port =, open = }: see help "scene:view".
-function core.class.scene.view(scene, args)
+function view.view(scene, args)
   if core.type(scene) ~= "scene" then error("scene:view is a method: call it with a colon", 2) end
   build.call(3, name_of, scene) -- raises when it has been closed
   if of_scene(scene) then return of_scene(scene) end
@@ -180,7 +180,7 @@ function follower.begin(scene, args)
     if shared.view then
       attach_another(fields(shared.view), scene)
     else
-      shared.view = core.class.scene.view(scene, shared.args)
+      shared.view = view.view(scene, shared.args)
     end
   end
   local self = of_scene(scene)
