@@ -25,6 +25,24 @@ local function braked(scene, wire)
   return (before - wire:velocity(0.1)[2]) / 0.04
 end
 
+describe("wire:get", function()
+  it("tells what the wire is made of, and what it was made again of", function()
+    local scene = sw.scene{}
+    local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 },
+      segments = 20 }
+    local cable, got = wire:cable(), wire:get()
+    assert.same({ "w", "rod", "GXL 1.5", 20 }, { got.name, got.model, got.cable, got.segments })
+    t.near(0.2, got.length, 1e-15)
+    t.near(cable.outer_diameter.value / 2, got.radius, 1e-15)
+    t.near(cable.EI.value, got.EI, 1e-15)
+    t.near(cable.mass_per_length.value, got.mass_per_length, 1e-15)
+    wire:remodel{ model = "string" }
+    assert.equal("string", wire:get().model)
+    scene:close()
+    assert.error_matches(function() wire:get() end, "closed")
+  end)
+end)
+
 describe("obstacle:set", function()
   -- mu g to 1 %: the rod slides as a whole, its touches sink by less than 1e-5 m meanwhile.
   it("changes friction in mid-run", function()

@@ -35,6 +35,28 @@ function core.class.scene.set(scene, args)
   build.call(3, set_scene, scene, args)
 end
 
+-- --- wires ------------------------------------------------------------------------------------
+
+rows.calls{
+  { "wire:get", "", "what the wire is made of, as it is now; wire:remodel changes it",
+    "name, model, cable (its name), length [m], segments, radius [m], EA [N], EI, GJ [N m2], "
+      .. "mass_per_length [kg/m]" },
+}
+
+local function values_of(wire)
+  local cable = wire:cable()
+  local values = { name = wire.name, model = wire.model, cable = cable and cable.name, length = wire.length,
+    segments = wire.segments }
+  for key, value in pairs(wire.beam) do values[key] = value end
+  return values
+end
+
+--- wire:get() -> { name =, model =, length = [m], EI = [N m2], ... }
+function core.class.wire.get(wire)
+  if core.type(wire) ~= "wire" then error("wire:get is a method: call it with a colon", 2) end
+  return build.call(3, values_of, wire)
+end
+
 -- --- obstacles --------------------------------------------------------------------------------
 
 rows.calls{
