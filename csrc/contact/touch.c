@@ -168,7 +168,7 @@ static double force_beside(const sw_contact *c, const sw_candidate *k, int by) {
        by < 0 ? i-- > 0 : i<c->memory_count; i += by> 0) {
     const sw_memory *m = &c->memory[i];
     if (by < 0 ? m->node < node : m->node > node) break;
-    if (m->node == node && m->obstacle == id && m->segment) sum += m->normal_force;
+    if (m->node == node && m->obstacle == id && m->segment) sum += m->steady;
   }
   return sum;
 }
@@ -182,8 +182,7 @@ static double of_arc(const sw_contact *c, const sw_system *s, const sw_memory *m
   const sw_candidate *k = &c->candidates[t->candidate];
   const sw_body *b = &s->bodies[t->body];
   const size_t i = k->node - b->first_node;
-  if (!m || !(m->normal_force > 0) || !k->segment || k->smooth || k->samples || b->plan->web)
-    return mu;
+  if (!m || !(m->steady > 0) || !k->segment || k->smooth || k->samples || b->plan->web) return mu;
   const sw_vec zero = sw_v(0, 0, 0);
   double turn = 0;
   for (int by = -1; by <= 1; by += 2) {
@@ -191,7 +190,7 @@ static double of_arc(const sw_contact *c, const sw_system *s, const sw_memory *m
     const size_t n = k->node + (size_t)by;
     const sw_vec edge = sw_sub(sw_vec_at(s->x, n + 1), sw_vec_at(s->x, n));
     const double in = -by * sw_dot(t->press.normal, sw_unit_or(edge, zero));
-    const double share = fmin(1.0, BESIDE * force_beside(c, k, by) / m->normal_force);
+    const double share = fmin(1.0, BESIDE * force_beside(c, k, by) / m->steady);
     turn += 0.5 * share * asin(fmin(fmax(in, 0.0), MOST_ARC));
   }
   return turn > 0 && mu > 0 ? sinh(mu * turn) / sin(turn) : mu;
@@ -280,7 +279,7 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   const sw_touch *last = last_for(c, k, at);
   const double usual = end_stiffness(c, s, k, y, sw_rotate(pose->q, near->normal));
   const double stiffness = stiffness_of(c, k, m, last, usual);
-  const double steady = m && place->sharp ? m->steady : 0.0;
+  const double kept = m ? m->steady : 0.0, steady = place->sharp ? kept : 0.0;
   const sw_web *web = s->bodies[k->body].plan->web;
   sw_touch t = {.obstacle = k->obstacle,
                 .segment = k->segment,
@@ -292,7 +291,7 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
                 .spot = sw_contact_spot(s, k, at),
                 .sharp = place->sharp,
                 .edge = place->edge,
-                .steady = steady,
+                .steady = kept,
                 .point = sw_pose_point(*pose, near->point),
                 .local = near->point,
                 .known = m != NULL,

@@ -39,7 +39,7 @@ typedef struct sw_touch {
   sw_mean spot;     /* the same as a mean of nodes */
   sw_sharp sharp;   /* of a smooth one: what it touches */
   sw_vec edge;      /* then: along an edge, in the obstacle's coordinates [-] */
-  double steady;    /* then: normal force that it has had for a while [N] */
+  double steady;    /* normal force that it has had for a while [N] */
   sw_vec point;     /* on the obstacle, world [m] */
   sw_vec local;     /* the same in the obstacle's coordinates [m] */
   double forgiven;  /* part of the true depth left out of the gap in this step [m] */
