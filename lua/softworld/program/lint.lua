@@ -173,17 +173,24 @@ local function check_stiffness(w)
   end
 end
 
+local function check_two_holds(a, b)
+  local room, apart = (a.width + b.width) / 2, math.abs(a.s - b.s)
+  local function say(how, more)
+    tell(a.at, ("%s '%s' at s = %.4g m %s %s '%s' at s = %.4g m%s"):format(a.kind, a.name, a.s, how, b.kind,
+      b.name, b.s, more))
+  end
+  if apart < room or apart == 0 then
+    say("overlaps", room > 0 and (", which together are %.3g mm wide"):format(1e3 * 2 * room) or "")
+  elseif core.exists(a.wire) and apart - room < 2 * a.wire.radius then
+    say("is beside", (", nearer than the wire is thick, %.3g mm"):format(1e3 * 2 * a.wire.radius))
+  end
+end
+
 local function check_holds(holds)
   for i, a in ipairs(holds) do
     for k = 1, i - 1 do
       local b = holds[k]
-      local room = (a.width + b.width) / 2
-      if a.wire == b.wire and type(a.s) == "number" and type(b.s) == "number"
-        and (math.abs(a.s - b.s) < room or a.s == b.s) then
-        tell(a.at, ("%s '%s' at s = %.4g m overlaps %s '%s' at s = %.4g m%s"):format(a.kind, a.name, a.s,
-          b.kind, b.name, b.s,
-            room > 0 and (", which together are %.3g mm wide"):format(1e3 * 2 * room) or ""))
-      end
+      if a.wire == b.wire and type(a.s) == "number" and type(b.s) == "number" then check_two_holds(a, b) end
     end
   end
 end
