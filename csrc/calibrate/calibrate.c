@@ -11,7 +11,6 @@
 #include "calibrate/calibrate_inner.h"
 #include "calibrate/composite_solid.h"
 
-static const double PI = 3.14159265358979323846;
 static const double OF_LIMIT = 0.6; /* of the largest spacing, when it is chosen [-] */
 
 static const double NEAR = 1e-10; /* share of EA at which a radius is good [-] */
@@ -61,7 +60,7 @@ void *sw_lattice_place(sw_lattice_args *args, int mesh) {
 /* Above this spacing the diagonals that GJ needs bend more stiffly than EI all by themselves:
  * GJ = 2 M k h R^4 s^2/l^2 and EI = (M/2) h R^2 (k_L + 2 k h^2/l^2) with k_L > 0. */
 static double largest_spacing(double R, double EI, double GJ, long reach, long particles) {
-  return R * sqrt(2 * EI / GJ) * fabs(sin(2 * PI * (double)reach / (double)particles));
+  return R * sqrt(2 * EI / GJ) * fabs(sin(2 * M_PI * (double)reach / (double)particles));
 }
 
 static double ring_limit(const sw_calibrate_args *args, const sw_lattice_args *mesh,
@@ -83,12 +82,12 @@ sw_status sw_calibrate_lattice(const sw_calibrate_args *args, const sw_beam *bea
   if (args->mesh == SW_LATTICE_TUBE && isnan(tube->ring_radius)) tube->ring_radius = beam->radius;
   const double limit = OF_LIMIT * ring_limit(args, mesh, beam);
   if (args->mesh == SW_LATTICE_TUBE) {
-    const double chord = 2 * tube->ring_radius * sin(PI / (double)tube->particles);
+    const double chord = 2 * tube->ring_radius * sin(M_PI / (double)tube->particles);
     /* A limit of 0 is that of a reach which the mesh refuses. */
     if (isnan(h)) h = limit > 1e-6 * chord ? fmin(chord, limit) : chord;
     return sw_lattice_tube(tube, h, out, err);
   }
-  const double chord = 2 * beam->radius * sin(PI / (double)mesh->radial.particles);
+  const double chord = 2 * beam->radius * sin(M_PI / (double)mesh->radial.particles);
   if (isnan(h)) h = fmin(fmin(chord, beam->radius / (double)mesh->radial.layers), limit);
   return sw_lattice_radial(&mesh->radial, beam->radius, h, out, err);
 }
@@ -98,7 +97,7 @@ sw_status sw_calibrate_composite_lattice(const sw_composite *place, const sw_bea
   const double R = beam->radius, ring = (double)place->ring;
   const double limit = OF_LIMIT * largest_spacing(R, beam->EI, beam->GJ, 1, (long)place->ring);
   const double layer = R / (double)(place->layers + place->core_layers);
-  if (isnan(h)) h = fmin(fmin(2 * R * sin(PI / ring), layer), limit);
+  if (isnan(h)) h = fmin(fmin(2 * R * sin(M_PI / ring), layer), limit);
   return sw_lattice_composite_solid(place, h, out, err);
 }
 
@@ -322,8 +321,8 @@ static const double LEAST_HOOP = 0.3;
 sw_status sw_calibrate_check_bent(const sw_calibration *c, sw_error *err) {
   const size_t M = c->lattice.particles;
   const double R = hypot(c->lattice.at[0], c->lattice.at[1]), h = c->lattice.spacing;
-  const double chord = 2 * R * sin(PI / (double)M);
-  const double wall = c->target[SW_TARGET_EA] / (2 * PI * R) * h / chord;
+  const double chord = 2 * R * sin(M_PI / (double)M);
+  const double wall = c->target[SW_TARGET_EA] / (2 * M_PI * R) * h / chord;
   if (c->k[SW_GROUP_HOOP] >= LEAST_HOOP * wall) return SW_OK;
   return sw_fail(
       err, SW_EINVAL,

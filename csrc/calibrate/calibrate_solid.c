@@ -17,11 +17,11 @@
 #include "calibrate/calibrate_inner.h"
 #include "calibrate/composite_solid.h"
 
-static const double USUAL_POISSON = 0.45; /* of rubbery insulation [-] */
-static const double HIGHEST = 0.4999;     /* Poisson's ratio whose numbers are still exact [-] */
-static const double ONE_MATERIAL = 0.05;  /* EI off that of EA and one material, at most [-] */
-static const double GJ_NEAR = 0.02;       /* of elements alone, before nu makes up for it [-] */
-static const double LEAST = 0.01;         /* of EA and EI that springs are searched from [-] */
+static const double RUBBER_POISSON = 0.45; /* of insulation, which hardly changes its volume [-] */
+static const double HIGHEST = 0.4999;      /* Poisson's ratio whose numbers are still exact [-] */
+static const double ONE_MATERIAL = 0.05;   /* EI off that of EA and one material, at most [-] */
+static const double GJ_NEAR = 0.02;        /* of elements alone, before nu makes up for it [-] */
+static const double LEAST = 0.01;          /* of EA and EI that springs are searched from [-] */
 
 static const double MOST_OFF = 0.03; /* of Poisson's ratio that makes up for it [-] */
 enum { CORRECTIONS = 8 };
@@ -98,7 +98,7 @@ static void choose_composite_poisson(const task *t, const sw_section *section) {
   sw_composite_poisson(&t->mesh->composite, section, t->beam, &c->composite, t->ratio, &c->nu,
                        &c->core_nu);
   const int fits = one_material(t) || !isnan(section->nu);
-  if (!fits || isnan(c->nu)) c->nu = USUAL_POISSON;
+  if (!fits || isnan(c->nu)) c->nu = RUBBER_POISSON;
   if (!isnan(t->mesh->composite.core_nu)) return;
   c->core_nu = c->nu;
 }
@@ -109,7 +109,7 @@ static double poisson(const task *t, const sw_section *section) {
       t->args.mesh == SW_LATTICE_CUBIC && t->mesh->cubic.section == SW_SECTION_RECTANGLE;
   const double fits = t->beam->EI / t->beam->GJ - 1;
   if (!isnan(section->nu)) return section->nu;
-  return !flat && one_material(t) && fits >= 0 && fits <= 0.49 ? fits : USUAL_POISSON;
+  return !flat && one_material(t) && fits >= 0 && fits <= 0.49 ? fits : RUBBER_POISSON;
 }
 
 /* About as long as the outermost elements are wide: nothing but the curvature of the wire asks
@@ -120,7 +120,7 @@ static double usual_spacing(const task *t) {
   const double M = is_composite(t) ? (double)c->ring : (double)t->mesh->radial.particles;
   const double layers =
       is_composite(t) ? (double)(c->layers + c->core_layers) : (double)t->mesh->radial.layers;
-  const double chord = 2 * r * sin(3.14159265358979323846 / M);
+  const double chord = 2 * r * sin(M_PI / M);
   return fmin(0.75 * r, fmax(chord, r / layers));
 }
 

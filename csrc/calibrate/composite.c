@@ -9,7 +9,6 @@
 #include "calibrate/calibrate.h"
 #include "calibrate/shell_fit.h"
 
-static const double PI = 3.14159265358979323846;
 static const double OF_LIMIT = 0.6; /* of the largest spacing, when it is chosen [-] */
 static const double LONGEST = 0.55; /* spacing over the ring's radius, when it is chosen [-] */
 static const double FADED = 0.02;   /* of its first guess, below which a spring is gone [-] */
@@ -31,7 +30,7 @@ typedef struct plan {
 } plan;
 
 /* Area and its second moment [m2, m4]. */
-static double area(double outer, double inner) { return PI * (outer * outer - inner * inner); }
+static double area(double outer, double inner) { return M_PI * (outer * outer - inner * inner); }
 static double moment(double outer, double inner) {
   return 0.25 * area(outer, inner) * (outer * outer + inner * inner);
 }
@@ -129,7 +128,7 @@ static sw_status check_wall(const plan *p, double R, sw_error *err) {
 
 /* As for the tube: above it diagonals bend more stiffly than EI by themselves. */
 static double limit(double R, part of, double reach, double particles) {
-  return R * sqrt(2 * of.EI / of.GJ) * fabs(sin(2 * PI * reach / particles));
+  return R * sqrt(2 * of.EI / of.GJ) * fabs(sin(2 * M_PI * reach / particles));
 }
 
 static double shell_limit(const plan *p) {
@@ -149,13 +148,13 @@ static double core_limit(const plan *p) {
 static double choose_spacing(const plan *p) {
   const sw_composite *c = p->place;
   const sw_composite_args *a = p->given;
-  double h = fmin(2 * sin(PI / (double)c->ring), LONGEST) * c->ring_radius;
+  double h = fmin(2 * sin(M_PI / (double)c->ring), LONGEST) * c->ring_radius;
   const double most = OF_LIMIT * shell_limit(p);
   if (!isnan(p->args->spacing)) return p->args->spacing;
   if (most > 1e-6 * h) h = fmin(h, most); /* 0: a reach that the tube refuses */
   if (a->core == SW_CORE_RADIAL) {
     const double M = (double)sw_core_particles(a, c), L = (double)sw_core_layers(a, c);
-    h = fmin(h, fmin(2 * c->core_radius * sin(PI / M), c->core_radius / L));
+    h = fmin(h, fmin(2 * c->core_radius * sin(M_PI / M), c->core_radius / L));
     h = fmin(h, OF_LIMIT * core_limit(p));
   }
   if (a->core == SW_CORE_CUBIC) h = fmin(h, 2 * c->core_radius / (double)sw_core_across(a, c));

@@ -10,10 +10,9 @@
 
 #include "calibrate/composite_solid.h"
 
-static const double USUAL_POISSON = 0.35; /* of wires: see csrc/wire/section.c [-] */
-static const double FITS = 0.49;          /* Poisson's ratio that is taken from EI and GJ [-] */
-static const double APART = 1e6;          /* moduli of two parts, that numbers bear [-] */
-static const double SOLVED = 1e4;         /* likewise that EA and EI tell apart [-] */
+static const double FITS = 0.49;  /* Poisson's ratio that is taken from EI and GJ [-] */
+static const double APART = 1e6;  /* moduli of two parts, that numbers bear [-] */
+static const double SOLVED = 1e4; /* likewise that EA and EI tell apart [-] */
 
 /* Of the core, as given; NAN: it is not. */
 static double core_modulus(const sw_composite_args *a, const sw_composite *c) {
@@ -39,7 +38,7 @@ sw_status sw_composite_section(const char *object, const sw_composite_args *args
   if (status != SW_OK) return renamed(object, status, &why, err);
   const sw_composite_areas of = sw_composite_measure(&c);
   const double given = core_modulus(args, &c), E = section->E, core_E = isnan(given) ? E : given;
-  const double nu = isnan(section->nu) ? USUAL_POISSON : section->nu;
+  const double nu = isnan(section->nu) ? SW_USUAL_POISSON : section->nu;
   const double core_nu = isnan(args->core_nu) ? nu : args->core_nu;
   fill(&section->EA, E * of.shell + core_E * of.core);
   fill(&section->EI, E * of.shell_I + core_E * of.core_I);

@@ -83,12 +83,11 @@ void sw_composite_weigh(const sw_composite *c, double core_share, sw_lattice *l)
 /* --- parts by themselves ------------------------------------------------------------------ */
 
 sw_composite_areas sw_composite_measure(const sw_composite *c) {
-  const double pi = 3.14159265358979323846;
   const double core = c->core_radius * c->core_radius, whole = c->radius * c->radius;
-  return (sw_composite_areas){.shell = pi * (whole - core),
-                              .core = pi * core,
-                              .shell_I = 0.25 * pi * (whole * whole - core * core),
-                              .core_I = 0.25 * pi * core * core};
+  return (sw_composite_areas){.shell = M_PI * (whole - core),
+                              .core = M_PI * core,
+                              .shell_I = 0.25 * M_PI * (whole * whole - core * core),
+                              .core_I = 0.25 * M_PI * core * core};
 }
 
 sw_status sw_composite_parts(sw_composite *c, const sw_lattice *l, const double *k, sw_error *err) {

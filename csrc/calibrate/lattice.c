@@ -8,8 +8,6 @@
 #include "base/alloc.h"
 #include "base/vec.h"
 
-static const double PI = 3.14159265358979323846;
-
 const char *const sw_group_names[SW_GROUPS] = {"longitudinal",  "inner",
                                                "core",          "diagonal",
                                                "hoop",          "brace",
@@ -219,7 +217,8 @@ sw_status sw_lattice_tube(const sw_tube_args *a, double spacing, sw_lattice *l, 
   SW_TRY(sw_lattice_room(l, M + (a->core != 0), err));
   l->spacing = spacing;
   for (size_t i = 0; i < M; i++)
-    place(l, i, a->ring_radius, 2 * PI * (double)i / (double)M, (a->core ? 0.5 : 1.0) / (double)M);
+    place(l, i, a->ring_radius, 2 * M_PI * (double)i / (double)M,
+          (a->core ? 0.5 : 1.0) / (double)M);
   if (a->core) place(l, M, 0, 0, 0.5);
   for (size_t i = 0; i < M; i++) SW_TRY(ring_links(a, l, i, err));
   if (a->core) SW_TRY(join(l, M, M, 1, SW_GROUP_CORE, 1, err));
@@ -294,7 +293,7 @@ sw_status sw_lattice_layers(size_t particles, size_t layers, const double *radiu
     const double middle = k < layers ? 0.5 * (radius[k] + radius[k + 1]) : radius[k];
     const double share = (middle * middle - inner) / (whole * (k ? M : 1));
     for (size_t s = 0; s < (k ? particles : 1); s++)
-      place(l, node(&r, k, s), radius[k], 2 * PI * (double)s / M, share);
+      place(l, node(&r, k, s), radius[k], 2 * M_PI * (double)s / M, share);
     inner = middle * middle;
   }
   SW_TRY(bar(&r, 0, 0, 1, SW_GROUP_CORE, err));

@@ -6,7 +6,6 @@
 #include "base/alloc.h"
 #include "calibrate/composite.h"
 
-static const double PI = 3.14159265358979323846;
 static const double ONE = 0.6;    /* radius of a single core over the wire's, unless given [-] */
 static const double WALL = 0.2;   /* of the shell over the radius, around several [-] */
 static const double USUAL = 0.95; /* radius of several cores over what fits, unless given [-] */
@@ -26,7 +25,7 @@ static size_t around(const sw_composite *c) {
 /* The largest radius with which cores touch one another or the bore. */
 static double fitting(const sw_composite *c) {
   if (c->cores == 1) return c->bore;
-  const double s = sin(PI / (double)around(c));
+  const double s = sin(M_PI / (double)around(c));
   return c->bore * s / (1 + s);
 }
 
@@ -89,7 +88,7 @@ sw_status sw_composite_place(const sw_composite_args *a, double radius, sw_compo
   SW_TRY(choose_ring(a, c, err));
   c->ring_radius = sqrt(0.5 * (radius * radius + c->bore * c->bore));
   for (size_t i = 0; c->cores > 1 && i < around(c); i++) { /* against the shell */
-    const double angle = 2 * PI * (double)i / (double)around(c), d = c->bore - c->core_radius;
+    const double angle = 2 * M_PI * (double)i / (double)around(c), d = c->bore - c->core_radius;
     c->centre[i] = sw_v(d * cos(angle), d * sin(angle), 0);
   }
   return SW_OK;
@@ -98,7 +97,7 @@ sw_status sw_composite_place(const sw_composite_args *a, double radius, sw_compo
 sw_status sw_composite_core_share(const sw_composite_args *a, const sw_composite *c, double mass,
                                   double *share, sw_error *err) {
   const double n = (double)c->cores, core = c->core_radius * c->core_radius;
-  const double density = a->core_density * PI * core;
+  const double density = a->core_density * M_PI * core;
   const double given = isnan(density) ? a->core_mass : density;
   *share = core / (c->radius * c->radius - c->bore * c->bore + n * core);
   if (isnan(given)) return SW_OK;
@@ -115,7 +114,7 @@ sw_status sw_composite_core_share(const sw_composite_args *a, const sw_composite
     return sw_fail(err, SW_EINVAL,
                    "calibrate: core_density = %.6g kg/m3 must be in (0, %.6g) kg/m3, so that the "
                    "shell has a part of the wire's mass of %.6g kg/m",
-                   a->core_density, mass / (PI * core), mass);
+                   a->core_density, mass / (M_PI * core), mass);
   if (!(n * given < mass))
     return sw_fail(
         err, SW_EINVAL,
@@ -233,8 +232,8 @@ static int is_outer(const sw_composite_args *a, const sw_composite *c, const sw_
 
 static surface ring_surface(const sw_composite *c, uint32_t *numbers) {
   for (size_t i = 0; i < c->ring; i++) numbers[i] = (uint32_t)i;
-  return (surface){c->ring, numbers, 2 * c->ring_radius * sin(PI / (double)c->ring), sw_v(0, 0, 0),
-                   1};
+  return (surface){c->ring, numbers, 2 * c->ring_radius * sin(M_PI / (double)c->ring),
+                   sw_v(0, 0, 0), 1};
 }
 
 static surface core_surface(const sw_composite_args *a, const sw_composite *c,
@@ -242,8 +241,8 @@ static surface core_surface(const sw_composite_args *a, const sw_composite *c,
   size_t n = 0;
   for (size_t i = 0; i < core->particles; i++)
     if (is_outer(a, c, core, i)) numbers[n++] = (uint32_t)(c->ring + number * c->each + i);
-  return (surface){n, numbers, 2 * c->core_radius * sin(PI / fmax(3, (double)n)), c->centre[number],
-                   0};
+  return (surface){n, numbers, 2 * c->core_radius * sin(M_PI / fmax(3, (double)n)),
+                   c->centre[number], 0};
 }
 
 /* Clearance between the bodies where the particle at p stands for the surface of core b. */

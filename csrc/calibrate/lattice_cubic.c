@@ -9,8 +9,6 @@
 #include "base/vec.h"
 #include "calibrate/lattice.h"
 
-static const double PI = 3.14159265358979323846;
-
 enum { MOST_ACROSS = 16, MOST = 4 * MOST_ACROSS }; /* voxels in one direction [-] */
 
 static const char *const sections[] = {"circle", "annulus", "rectangle", NULL};
@@ -77,7 +75,7 @@ static sw_status circle(const sw_cubic_args *a, double radius, grid *g, sw_error
                    "calibrate: no voxel of %g m lies between inner = %g m and radius = %g m; make "
                    "across = %ld more",
                    pitch, inner, radius, a->across);
-  g->ax = g->ay = sqrt(PI * (radius * radius - inner * inner) / count);
+  g->ax = g->ay = sqrt(M_PI * (radius * radius - inner * inner) / count);
   return SW_OK;
 }
 

@@ -7,8 +7,6 @@
 #include "contact/contact.h"
 #include "contact/touch.h"
 
-static const double PI = 3.14159265358979323846;
-
 /* A wire at rest sinks in by this much when a single touch carries its whole
  * weight [m]. */
 static const double ALLOWED_PENETRATION = 20e-6;
@@ -250,7 +248,7 @@ double sw_contact_hardness(const sw_web *web, size_t particle) {
 static double usual_force(const sw_plan *p, double weight) {
   const double L = p->length, r = p->beam.radius;
   if (!p->web || L >= SLICE * r) return fmax(weight, p->beam.EI / (L * L));
-  const double solid = HARDER * p->beam.EA * L / (PI * r * r);
+  const double solid = HARDER * p->beam.EA * L / (M_PI * r * r);
   const double ring = HARDER_WALL * p->web->wall * L / (r * r * r);
   return fmax(weight, ALLOWED_PENETRATION * (ring > 0 ? ring : solid));
 }
@@ -271,14 +269,14 @@ static const double STIFFER = 3.0;
 static double mesh_pad_stiffness(const sw_plan *p, size_t particle) {
   const double r = p->beam.radius;
   if (!p->web->per_ring) return 0;
-  return STIFFER * SECTION * p->beam.EA / (PI * r * r) * p->web->along[particle];
+  return STIFFER * SECTION * p->beam.EA / (M_PI * r * r) * p->web->along[particle];
 }
 
 /* A pad on a wire without a section: as soft as the section would be, and not stiffer than its
  * force needs. Rigid against rigid, no force could be set [N/m]. */
 static double pad_stiffness(const sw_plan *p, const sw_candidate *k, size_t edge, double grips) {
   const double r = p->beam.radius;
-  const double section = SECTION * p->beam.EA / (PI * r * r);
+  const double section = SECTION * p->beam.EA / (M_PI * r * r);
   if (!k->samples) return fmin(section * p->length / (double)p->edges, grips / ALLOWED_PENETRATION);
   return fmin(section * p->rest[edge] / k->samples, grips / (SAMPLES * PRESSED_IN));
 }

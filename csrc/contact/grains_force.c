@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "contact/grain.h"
+#include "contact/same.h"
 
 enum { NODES = 4, NEXT = 6, ROW = 24 }; /* of a touch; layout of the system's block rows */
 static const size_t FULL[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
@@ -168,9 +169,6 @@ int sw_grains_settled(sw_grains *g, sw_system *s, const double *delta) {
 
 /* --- review ---------------------------------------------------------------------------- */
 
-/* Slower approaches are left to the integrator [m/s]. */
-static const double SLOWEST_IMPACT = 5e-4;
-
 /* Places that are met within the step: it is redone as one that does not bounce, in which both
  * reach each other and go on together. */
 static int strike(sw_grains *g, const sw_system *s, double h) {
@@ -181,7 +179,7 @@ static int strike(sw_grains *g, const sw_system *s, double h) {
     const double gap =
         sw_dot(t->press.normal, sw_grain_apart(s->x, &t->pair, t->at)) - t->pair.reach;
     const double approach = -sw_dot(sw_grain_apart(s->v, &t->pair, t->at), t->press.normal);
-    g->hits += approach - fmax(0.0, gap) / h > SLOWEST_IMPACT;
+    g->hits += approach - fmax(0.0, gap) / h > SW_SLOWEST_IMPACT;
   }
   return g->struck = g->hits > 0;
 }

@@ -9,12 +9,7 @@
 
 #include "base/alloc.h"
 #include "contact/curve.h"
-
-/* Slower approaches are left to the integrator; their energy does not matter
- * [m/s]. */
-static const double SLOWEST_IMPACT = 5e-4;
-/* An impact this near to a touch along the wire was its own [-]. */
-static const double SAME_IMPACT = 0.25;
+#include "contact/same.h"
 
 static int was_struck(const sw_contact *c, const sw_touch *t, size_t node, size_t *looks) {
   for (uint32_t i = c->impact_at[node]; i; i = c->impacts[i - 1].before) {
@@ -22,7 +17,7 @@ static int was_struck(const sw_contact *c, const sw_touch *t, size_t node, size_
     const double ahead = node < t->node ? -1.0 : node > t->node ? 1.0 : 0.0;
     ++*looks;
     if (m->obstacle == t->obstacle && m->segment == t->segment &&
-        fabs(ahead + m->at - t->at) < SAME_IMPACT)
+        fabs(ahead + m->at - t->at) < SW_SAME_TOUCH)
       return 1;
   }
   return 0;
@@ -93,7 +88,7 @@ static sw_vec striking_velocity(const sw_contact *c, const sw_touch *t, sw_vec p
                                 double *slow) {
   const sw_vec start = sw_obstacle_velocity(&c->start[t->obstacle], p);
   const sw_vec mean = mean_velocity(c, t->obstacle, p);
-  *slow = SLOWEST_IMPACT;
+  *slow = SW_SLOWEST_IMPACT;
   if (gap > CLOSED) return mean;
   *slow += 2.0 * fabs(sw_dot(sw_sub(mean, start), t->press.normal));
   return start;
@@ -413,10 +408,10 @@ static int bounces(sw_contact *c, const sw_system *s, const double *v1) {
     if (t->known || !(t->press.normal_force > 0) || c->obstacles[t->obstacle].restitution > 0)
       continue;
     const sw_vec wall = sw_obstacle_velocity(&c->now[t->obstacle], t->point);
-    const int moves = fabs(sw_dot(wall, t->press.normal)) > SLOWEST_IMPACT;
+    const int moves = fabs(sw_dot(wall, t->press.normal)) > SW_SLOWEST_IMPACT;
     if (!moves && !s->bodies[t->body].plan->web) continue;
     const sw_vec v = sw_sub(sw_mean_of(v1, 0, &t->spot), wall);
-    if (sw_dot(v, t->press.normal) > SLOWEST_IMPACT) return c->plastic = 1;
+    if (sw_dot(v, t->press.normal) > SW_SLOWEST_IMPACT) return c->plastic = 1;
   }
   return 0;
 }

@@ -4,6 +4,7 @@
 
 #include "base/interrupt.h"
 #include "contact/curve.h"
+#include "contact/same.h"
 
 /* When the wire's axis is inside the obstacle the nearest face may be the wrong
  * one: stay with the side that is remembered from the last accepted step.
@@ -58,7 +59,7 @@ static sw_status keep_pushing(sw_contact *c, const sw_system *s, const sw_candid
     if (!(last->press.normal_force > 0)) continue;
     int found = 0;
     for (size_t j = first; j < c->touch_count; j++)
-      found |= fabs(c->touches[j].at - last->at) < SW_SAME_PLACE;
+      found |= fabs(c->touches[j].at - last->at) < SW_SAME_TOUCH;
     const sw_vec p = sw_pose_local(*pose, sw_contact_where(c, y, k->node, k->other, last->at));
     sw_closest near;
     if (found || !sw_shape_point(c->obstacles[k->obstacle].shape, p, k->radius, &near)) continue;

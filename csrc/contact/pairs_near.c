@@ -104,7 +104,7 @@ static int apart_along(const sw_system *s, const sw_near *n) {
   if (n->body[0] != n->body[1]) return 1;
   const sw_body *b = &s->bodies[n->body[0]];
   const size_t i = n->one - b->first_node, j = n->two - b->first_node;
-  return j > i + 1 && b->plan->s[j] - b->plan->s[i + 1] >= 3.141592653589793 * b->plan->beam.radius;
+  return j > i + 1 && b->plan->s[j] - b->plan->s[i + 1] >= M_PI * b->plan->beam.radius;
 }
 
 static double radii(const sw_system *s, const uint32_t body[2]) {

@@ -8,18 +8,13 @@
 
 #include "base/alloc.h"
 #include "contact/pair.h"
-
-/* Slower approaches are left to the integrator [m/s]. */
-static const double SLOWEST_IMPACT = 5e-4;
-
-/* Places this near to each other along both segments are one [-]. */
-static const double BESIDE = 0.25;
+#include "contact/same.h"
 
 static int is_barred(const sw_pairs *p, const sw_pair *k, const double at[2]) {
   const sw_pair_barrier *b = p->barriers;
   for (size_t i = 0; i < p->barrier_count; i++)
-    if (b[i].one == k->one && b[i].two == k->two && fabs(b[i].at[0] - at[0]) < BESIDE &&
-        fabs(b[i].at[1] - at[1]) < BESIDE)
+    if (b[i].one == k->one && b[i].two == k->two && fabs(b[i].at[0] - at[0]) < SW_SAME_TOUCH &&
+        fabs(b[i].at[1] - at[1]) < SW_SAME_TOUCH)
       return 1;
   return 0;
 }
@@ -45,7 +40,7 @@ static size_t strikes(const sw_pairs *p, const sw_system *s, double h) {
   size_t count = 0;
   for (size_t i = 0; i < p->pressed_count && !p->impact_count; i++) {
     const sw_pair_touch *t = &p->pressed[i];
-    count += excess(s, &p->pairs[t->pair], t->at, t->press.normal, h) > SLOWEST_IMPACT;
+    count += excess(s, &p->pairs[t->pair], t->at, t->press.normal, h) > SW_SLOWEST_IMPACT;
   }
   return count;
 }

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "contact/pair.h"
+#include "contact/same.h"
 
 /* --- of the step before ------------------------------------------------------------ */
 
@@ -57,10 +58,6 @@ const sw_pair_memory *sw_pair_recall(const sw_pairs *p, const sw_pair *k, const 
 
 /* --- of the iterate before ---------------------------------------------------------- */
 
-/* A touch of the iterate before is the same one up to this far along the segments: others of
- * the same two, which may come and go, have nothing to do with it [-]. */
-static const double SAME_PLACE = 0.25;
-
 static double between(const sw_pair *k, const double at[2], const sw_pair *other,
                       const double there[2]) {
   return fabs((double)k->one - other->one + at[0] - there[0]) +
@@ -69,7 +66,7 @@ static double between(const sw_pair *k, const double at[2], const sw_pair *other
 
 int sw_pair_is_same(const sw_pair *k, const double at[2], const sw_pair *other,
                     const double there[2]) {
-  return between(k, at, other, there) < SAME_PLACE;
+  return between(k, at, other, there) < SW_SAME_TOUCH;
 }
 
 static void look_in(const sw_pairs *p, const sw_pair *in, const sw_pair *k, const double at[2],
@@ -84,7 +81,7 @@ static void look_in(const sw_pairs *p, const sw_pair *in, const sw_pair *k, cons
 const sw_pair_touch *sw_pair_last(const sw_pairs *p, const sw_pair *k, const double at[2],
                                   sw_pair_kind kind) {
   const sw_pair_touch *best = NULL;
-  double nearest = SAME_PLACE;
+  double nearest = SW_SAME_TOUCH;
   look_in(p, k, k, at, kind, &nearest, &best);
   if (best || kind == SW_CROSSING) return best;
   if (kind == SW_NODE_OF_TWO) {

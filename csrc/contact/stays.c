@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "contact/curve.h"
+#include "contact/same.h"
 
 /* A touch has stayed when its normal turned by no more than this, and when no larger share of its
  * force goes to another end of its segment than before [-]. */
@@ -14,9 +15,6 @@ static const double OFF = 0.01, LITTLE = 1e-3;
 
 /* A wire that goes further may meet what the iterate has not seen; of the radius [-]. */
 static const double FAR = 0.5;
-
-/* A nearest place further along the segment is another touch [-]. */
-static const double SAME_PLACE = 0.25;
 
 /* Where the smooth curve is nearest now. */
 static int find_on_curve(const sw_contact *c, const sw_system *s, const sw_touch *t,
@@ -41,12 +39,12 @@ static int find(const sw_contact *c, const sw_system *s, const sw_touch *t, cons
   const double reach = 2.0 * k->radius;
   sw_closest near[SW_CLOSEST_MAX];
   const int n = t->segment && !k->samples ? sw_shape_segment(shape, a, b, reach, near) : 0;
-  double nearest = SAME_PLACE;
+  double nearest = SW_SAME_TOUCH;
   for (int i = 0; i < n; i++) {
     const double away = fabs(near[i].at - t->at);
     if (away < nearest) *out = near[i], nearest = away;
   }
-  if (nearest < SAME_PLACE) return 1;
+  if (nearest < SW_SAME_TOUCH) return 1;
   out->at = t->at; /* a sample, a node, or a place that goes on pushing where it was */
   return sw_shape_point(shape, t->segment ? sw_lerp(a, b, t->at) : a, reach, out);
 }

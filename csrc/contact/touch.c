@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "contact/curve.h"
+#include "contact/same.h"
 
 /* A touch goes on into the next iterate up to this gap, of the radius, and while its normal
  * turns by an angle with a cosine above this [-]. */
@@ -89,7 +90,7 @@ static const sw_touch *nearer(const sw_touch *last, const sw_candidate *k, doubl
  * stage that is solved by parts, touches of the stage before are in the same list. */
 static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, double at) {
   const sw_touch *best = NULL;
-  double nearest = within(k, SW_SAME_PLACE);
+  double nearest = within(k, SW_SAME_TOUCH);
   for (size_t i = k->last; i < k->last_end; i++) {
     const double d = fabs(c->last[i].at - at);
     if (d < nearest) best = &c->last[i], nearest = d;

@@ -242,8 +242,6 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
  * SW_ENOMEM. */
 sw_status sw_contact_turn_over(sw_contact *c, size_t *first, size_t *end);
 
-/* A touch of the iterate before is the same one up to this far along the segment [-]. */
-#define SW_SAME_PLACE 0.25
 /* What a candidate's touch that was nearest to this place left at the last accepted step, or NULL.
  */
 const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k, double at);

@@ -47,7 +47,7 @@ static sw_status check(const void *args, const sw_beam *beam, sw_error *err) {
     return sw_fail(err, SW_EINVAL,
                    "force clip: direction and axis must be across each other; here they are %.3g "
                    "degrees apart",
-                   180.0 / 3.14159265358979323846 * asin(sw_norm(sw_cross(d, t))));
+                   180.0 / M_PI * asin(sw_norm(sw_cross(d, t))));
   SW_TRY(sw_clip_check_lips(a, "clip", err));
   if (a->radius < beam->radius * (1 - 1e-9))
     return sw_fail(err, SW_EINVAL,

@@ -3,8 +3,6 @@
 
 #include <math.h>
 
-static const double PI = 3.14159265358979323846;
-
 /* The way over the lips when it is not given: that of a round wire through a mouth two thirds as
  * wide, 2 sqrt(1 - (2/3)^2) of the radius [-]. */
 static const double USUAL_WAY = 1.5;
@@ -21,7 +19,7 @@ typedef struct curve {
 
 /* height sin^2(pi x / (2 length)): from 0 at x = 0 to its top at x = length. */
 static curve hump(double x, double length, double height) {
-  const double a = 0.5 * PI / length, s = sin(a * x), c = cos(a * x);
+  const double a = 0.5 * M_PI / length, s = sin(a * x), c = cos(a * x);
   return (curve){height * s * s, 2.0 * height * a * s * c, 2.0 * height * a * a * (c * c - s * s)};
 }
 
@@ -38,7 +36,7 @@ static const curve NOTHING = {0, 0, 0}, ONE = {1, 0, 0};
 
 /* A spring of stiffness k that holds no more at depth reach and is nothing at twice that. */
 static curve barrier(double depth, double reach, double k) {
-  const double a = 0.5 * PI / reach;
+  const double a = 0.5 * M_PI / reach;
   if (!(depth > 0) || depth >= 2.0 * reach) return NOTHING;
   return hump(depth, reach, 0.5 * k / (a * a));
 }
@@ -88,13 +86,13 @@ sw_clip_law sw_clip_law_of(double wire, double seat, double insertion, double re
   sw_clip_law l;
   l.out = length * insertion / (insertion + retention);
   l.in = length * retention / (insertion + retention);
-  l.top = 2.0 / PI * retention * l.out;
+  l.top = 2.0 / M_PI * retention * l.out;
   l.clearance = isnan(seat) ? 0.0 : fmax(0.0, seat - wire);
   l.k = isnan(stiffness) ? USUAL_STIFFNESS * fmax(insertion, retention) / wire : stiffness;
   l.reach = REACH * wire;
-  if (!isnan(strength) && isnan(stiffness)) l.k = PI * strength / l.reach;
-  if (!isnan(strength)) l.reach = PI * strength / l.k;
-  l.strength = l.k * l.reach / PI;
+  if (!isnan(strength) && isnan(stiffness)) l.k = M_PI * strength / l.reach;
+  if (!isnan(strength)) l.reach = M_PI * strength / l.k;
+  l.strength = l.k * l.reach / M_PI;
   l.caught = 0;
   return l;
 }
@@ -128,6 +126,6 @@ sw_clip_point sw_clip_at(const sw_clip_law *l, double u, double v) {
 double sw_clip_between(const sw_clip_law *l, double v) { return between(l, v).f; }
 
 double sw_clip_stiffest(const sw_clip_law *l) {
-  const double flank = 0.5 * PI * PI * l->top / (fmin(l->in, l->out) * fmin(l->in, l->out));
+  const double flank = 0.5 * M_PI * M_PI * l->top / (fmin(l->in, l->out) * fmin(l->in, l->out));
   return fmax(l->k, flank);
 }

@@ -4,8 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-static const double PI = 3.14159265358979323846;
-
 enum { FINENESS = 16 };                /* places over the clip's width, at least [-] */
 enum { NEXT = 6, ROW = SW_FIELD_ROW }; /* layout of a node's row */
 
@@ -46,7 +44,7 @@ sw_vec sw_clip_world(const sw_clip *c, const double g[3]) {
 }
 
 void sw_clip_window(const sw_clip *c, double a, double chi[3]) {
-  const double k = 2.0 * PI / c->width;
+  const double k = 2.0 * M_PI / c->width;
   chi[0] = 1.0 + cos(k * a);
   chi[1] = -k * sin(k * a);
   chi[2] = -k * k * cos(k * a);
@@ -188,7 +186,7 @@ void sw_clip_on_edge(const sw_clip *c, sw_field *f, size_t e, const sw_clip_sum 
 }
 
 double sw_clip_stiffness(const sw_clip *c, double slip) {
-  const double turn_rate = 2.0 * PI / c->width;
+  const double turn_rate = 2.0 * M_PI / c->width;
   return sw_clip_stiffest(&c->law) + turn_rate * turn_rate * c->law.top +
          c->friction * c->strongest / slip;
 }

@@ -108,7 +108,7 @@ static int look(const sw_clip *c, const sw_clip_middle *m, double *h) {
   const int caught = h[SW_CLIP_STATE] == SW_CLIP_SEATED || h[SW_CLIP_STATE] == SW_CLIP_INSERTING;
   const int touches = sw_norm(m->force) > TOUCHES * c->strongest;
   if (m->share > PART && touches && m->along < STEEP)
-    tell(h, SW_CLIP_CROSSING, 180.0 / 3.14159265358979323846 * acos(m->along), m->s);
+    tell(h, SW_CLIP_CROSSING, 180.0 / M_PI * acos(m->along), m->s);
   if (!there) return SW_CLIP_NO_NEWS;
   if (caught) return way_out(l, before, m->at);
   if (inside(l, before[0], before[1])) return SW_CLIP_NO_NEWS;
@@ -183,7 +183,7 @@ int sw_clip_news(const void *args, const double *history, sw_force_news *out) {
     snprintf(out->text, sizeof out->text,
              "the wire comes out askew (%.2g degrees); its edges of %.3g mm should be a quarter of "
              "the clip's width, else the force may be 25 %% off",
-             180.0 / 3.14159265358979323846 * atan(fabs(history[SW_CLIP_PEAK_SLOPE])), 1e3 * value);
+             180.0 / M_PI * atan(fabs(history[SW_CLIP_PEAK_SLOPE])), 1e3 * value);
   else if (what == SW_CLIP_PASSED)
     snprintf(out->text, sizeof out->text,
              "the wire goes through it within one step, by %.3g mm, and is free of it",

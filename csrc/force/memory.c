@@ -8,7 +8,6 @@
 
 enum { SLOT = 6, FIRST = 1 };
 static const double CAUTIOUS_SHARE = 0.5; /* steps then overshoot a kink no more than twofold [-] */
-static const double PI = 3.14159265358979323846;
 
 size_t sw_memory_size(const sw_plan *p) { return FIRST + SLOT * (p->nodes + p->clamp_count); }
 
@@ -66,7 +65,7 @@ static void add_energy(sw_field *f, const sw_slip_answer *a) {
 /* Nothing slipped so far, and too little bent to slip now: phi <= pi sin(phi/2). */
 static int is_idle(const sw_slip_law *law, const sw_slip_memory *m, const sw_slip_hinge *h) {
   if (law->own > 0 || sw_norm2(m->slipped) > 0) return 0;
-  return 0.5 * PI * law->k * sw_dist(h->t[0], h->t[1]) <= law->limit;
+  return 0.5 * M_PI * law->k * sw_dist(h->t[0], h->t[1]) <= law->limit;
 }
 
 void sw_memory_eval(const sw_memory_law *law, sw_field *f) {

@@ -24,8 +24,6 @@ typedef struct wind_args {
   double diameter; /* NAN: the wire's [m] */
 } wind_args;
 
-static const double PI = 3.14159265358979323846;
-
 #define AT(field) offsetof(wind_args, field)
 static const sw_param rows[] = {
     {"velocity", SW_PARAM_VECTOR, "m/s", 0, -1e3, 1e3, SW_PARAM_REQUIRED | SW_PARAM_CHANGES, NULL,
@@ -89,10 +87,10 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   const wind_args *a = args;
   const sw_plan *p = f->plan;
   const double d = isnan(a->diameter) ? 2.0 * p->beam.radius : a->diameter;
-  const double c = 0.5 * a->density * d, share = sin(2.0 * PI * a->frequency * f->time);
+  const double c = 0.5 * a->density * d, share = sin(2.0 * M_PI * a->frequency * f->time);
   const stream s = {sw_madd(a->velocity, a->gust, share),
                     c * a->normal,
-                    c * PI * a->tangential,
+                    c * M_PI * a->tangential,
                     f->velocity_rate,
                     0,
                     (f->want & SW_WANT_STIFFNESS) && f->velocity_rate > 0};

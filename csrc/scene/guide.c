@@ -18,7 +18,6 @@ static const double SHORTEST = 0.47, LONGEST = 1.5; /* [-] */
 /* Without a node to be removed: of the usual length [-]. */
 static const double LEAST_LEFT = 0.2;
 static const double LARGEST_SHARE = 0.4; /* of an edge, fed in one step [-] */
-static const double PI = 3.14159265358979323846;
 enum { LEAST_FREE = 2, LEAST_HELD = 3 }; /* edges to keep before a free end and another hold */
 
 double sw_feed_step(const sw_scene *s, double h) {
@@ -182,7 +181,7 @@ static void shift_nodes(const guide *g, long first, sw_vec delta) {
   for (long k = first + reach - 1; k >= first; k--) {
     const size_t i = (size_t)inner(g, k), e = g->side > 0 ? i : i - 1;
     const sw_vec x = sw_vec_at(m->x, i);
-    const double share = 0.5 + 0.5 * cos(PI * (double)(k - first) / (double)reach);
+    const double share = 0.5 + 0.5 * cos(M_PI * (double)(k - first) / (double)reach);
     const sw_vec before = sw_unit_or(sw_sub(x, old), g->director);
     const sw_vec way = sw_unit_or(sw_sub(sw_madd(x, delta, share), now), before);
     now = sw_madd(now, way, sw_dist(x, old));

@@ -102,7 +102,7 @@ static const double STRONGEST = 4e9;
 static void watch_force(sw_scene *s, const sw_hold *h, double arc) {
   const sw_beam *b = &s->wires[h->wire].beam;
   const double force = sw_norm(h->force);
-  const double most = fmin(b->EA, STRONGEST * 3.14159265358979 * b->radius * b->radius);
+  const double most = fmin(b->EA, STRONGEST * M_PI * b->radius * b->radius);
   if (!(most > 0) || force <= most) return;
   sw_scene_tell(s, "overload", h->name, arc, force,
                 "%s '%s' drives wire '%s' with %.4g N, more than any wire like it bears (%.3g N)",

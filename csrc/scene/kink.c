@@ -16,7 +16,7 @@ static double radius2(const sw_beam *beam) { return 2.0 * beam->EI_axis[0] / bea
 
 /* The wall's thickness, from its bending and axial stiffness per length round it [m]. */
 static double thickness(const sw_beam *beam, double wall) {
-  const double Et = beam->EA / (2.0 * 3.14159265358979323846 * sqrt(radius2(beam)));
+  const double Et = beam->EA / (2.0 * M_PI * sqrt(radius2(beam)));
   return sqrt(12.0 * wall / Et);
 }
 

@@ -7,8 +7,6 @@
 
 #include "scene/line.h"
 
-static const double PI = 3.14159265358979323846;
-
 typedef struct point {
   double x, y; /* [m] */
 } point;
@@ -95,7 +93,7 @@ enum { FINE = 128 }; /* least points of the smooth curve: 1 - cos(pi / 128) is 3
 static int is_round(const sw_web *w) {
   const size_t n = w->around_count;
   const double *p = w->section + 2 * (size_t)w->around[0], r = hypot(p[0], p[1]);
-  const double c = cos(2 * PI / (double)n), s = sin(2 * PI / (double)n);
+  const double c = cos(2 * M_PI / (double)n), s = sin(2 * M_PI / (double)n);
   for (size_t k = 0; k < n; k++) {
     const double *a = w->section + 2 * (size_t)w->around[k];
     const double *b = w->section + 2 * (size_t)w->around[(k + 1) % n];
@@ -109,7 +107,7 @@ static size_t smooth(const point *p, size_t n, size_t times, point *out) {
   const size_t all = n * times;
   double weight[FINE + 2 * SW_OUTLINE];
   for (size_t m = 0; m < all; m++) {
-    const double t = PI * (double)m / (double)all; /* half the way from a point, as an angle */
+    const double t = M_PI * (double)m / (double)all; /* half the way from a point, as an angle */
     const double wave = n % 2 ? 1.0 / sin(t) : 1.0 / tan(t);
     weight[m] = m == 0 ? 1.0 : m % times == 0 ? 0.0 : sin((double)n * t) * wave / (double)n;
   }
@@ -133,7 +131,7 @@ double sw_outline_ovalisation(const sw_web *w, const double *outline, sw_vec tan
   const size_t all = smooth(p, n, times, fine);
   const sw_widths wide = widths(fine, all, hull, u, v);
   /* the curve goes beyond its points as a circle does */
-  const double least = wide.least / (times > 1 ? cos(PI / (double)all) : 1.0);
+  const double least = wide.least / (times > 1 ? cos(M_PI / (double)all) : 1.0);
   return fmax(0.0, wide.largest - least) / (wide.largest + least + 4.0 * (w->skin - w->proud));
 }
 

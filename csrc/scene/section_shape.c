@@ -7,8 +7,6 @@
 #include "scene/world.h"
 #include "state/hinge.h"
 
-static const double PI = 3.14159265358979323846;
-
 void sw_strand_outline(const sw_web *w, const double *x, size_t ring, double *out) {
   const double *at = x + 3 * w->first[ring];
   if (sw_web_is_ring(w, ring)) {
@@ -119,7 +117,7 @@ static void torsion(const spot *p, sw_section_shape *out) {
     const sw_vec next = sw_strand_facing(w, p->x, r);
     u = sw_carry_unit(u, t, next);
     t = next;
-    const double now = turned(w, p->x, r, t, u), step = remainder(now - before, 2 * PI);
+    const double now = turned(w, p->x, r, t, u), step = remainder(now - before, 2 * M_PI);
     before = now;
     sum += step;
     if (r <= p->ring) ends[0] = sum, carried = u;
@@ -189,7 +187,7 @@ static double area_of(const sw_section_shape *p) {
     area += 0.5 * sw_dot(sw_cross(a, b), p->tangent);
     round += sw_norm(sw_madd(d, p->tangent, -sw_dot(d, p->tangent)));
   }
-  return area + p->skin * round + PI * p->skin * p->skin;
+  return area + p->skin * round + M_PI * p->skin * p->skin;
 }
 
 sw_status sw_scene_wire_section(sw_scene *s, sw_handle h, double place, sw_section_shape *out,

@@ -26,12 +26,11 @@ static double skin_of(const sw_lattice *l, double radius) {
   return fmax(THINNEST * radius, radius - most);
 }
 
-static const double PI = 3.14159265358979323846;
 enum { DIRECTIONS = 720 };
 
 /* Mean over all directions of how far out the section goes: of a polygon less than its corners. */
 static double mean_reach(const sw_lattice *l) {
-  const double step = 2.0 * PI / DIRECTIONS;
+  const double step = 2.0 * M_PI / DIRECTIONS;
   double sum = 0;
   for (int k = 0; k < DIRECTIONS; k++) {
     const double x = cos(step * k), y = sin(step * k);
@@ -47,7 +46,7 @@ static double mean_reach(const sw_lattice *l) {
 static double own_reach(const sw_strand_plan *p, double radius) {
   const sw_cubic_args *a = &p->lattice.cubic;
   const int flat = strcmp(p->mesh, "cubic") == 0 && a->section == SW_SECTION_RECTANGLE;
-  return flat ? (a->width + a->height) / PI : radius;
+  return flat ? (a->width + a->height) / M_PI : radius;
 }
 
 /* How far the surface of solid elements is outside of the section's own, on the average: to be as
@@ -64,7 +63,7 @@ static double proud_of(const sw_strand_plan *p, const sw_lattice *l, double skin
 static const double MOST_ALONG = 0.02;
 
 static double round_of(const sw_beam *beam) {
-  return 2.0 * 3.14159265358979323846 * sqrt(2.0 * beam->EI_axis[0] / beam->EA);
+  return 2.0 * M_PI * sqrt(2.0 * beam->EI_axis[0] / beam->EA);
 }
 
 double sw_strand_wall_along(const sw_strand_plan *p, const sw_beam *beam) {

@@ -19,8 +19,6 @@ void sw_strand_add_fold(sw_strand_maker *m, size_t a, size_t b, size_t c, double
   m->folds++;
 }
 
-static const double PI = 3.14159265358979323846;
-
 /* Share of a link that lies within ring r: a ring at an end has half a slice. */
 static double ring_share(const sw_strand_maker *m, const sw_cell_link *link, size_t r) {
   const int before = r > 0 && sw_strand_is_ring(m, r - 1), after = sw_strand_is_ring(m, r + 1);
@@ -102,7 +100,7 @@ static double ring_length(const sw_strand_maker *m, size_t r) {
  * R A (1 + sin(b/2)/sin(3 b/2)) of its height, with b the angle of a side; the circle is b = 0 [-].
  */
 static double of_polygon(size_t sides) {
-  const double b = 2.0 * PI / (double)sides;
+  const double b = 2.0 * M_PI / (double)sides;
   const double lost = 0.75 * (1.0 + sin(0.5 * b) / sin(1.5 * b));
   return 2.0 * b * sin(0.5 * b) / (sin(b) * sin(b)) * lost * lost;
 }

@@ -17,7 +17,7 @@
 
 static const double PRECISION = 1e-7; /* of the force, the wire's weight or EI/L2 [-] */
 
-static const double SAME_PLACE = 1e-13; /* way of the wire in a step [m] */
+static const double NO_WAY = 1e-13; /* of the wire in a step [m] */
 
 static int yields(const sw_hold *h) {
   return h->alive && sw_hold_passes(h) && (isfinite(h->feed.push) || isfinite(h->feed.limit));
@@ -63,7 +63,7 @@ static int improve(sw_feed *f, double off, int first, double mass, double step) 
   const double seen = b->off[off > 0], at = b->tried[off > 0];
   const int side = sw_bracket_add(b, before, off);
   if (sw_bracket_closed(b)) {
-    if (fabs(sw_bracket_width(b)) * step * step < SAME_PLACE) return 1;
+    if (fabs(sw_bracket_width(b)) * step * step < NO_WAY) return 1;
     sw_bracket_weigh(b, side);
     f->slope = sw_bracket_slope(b);
     f->slip_growth = b->tried[0] - b->off[0] / f->slope; /* their root */
@@ -71,7 +71,7 @@ static int improve(sw_feed *f, double off, int first, double mass, double step) 
   }
   const double slope = isfinite(seen) ? (off - seen) / (before - at) : f->slope;
   f->slope = slope > 0 ? slope : mass; /* all of the wire is pushed along */
-  if (!first && fabs(off / f->slope) * step * step < SAME_PLACE) return 1;
+  if (!first && fabs(off / f->slope) * step * step < NO_WAY) return 1;
   sw_bracket_weigh(b, side);
   f->slip_growth -= off / f->slope;
   return 0;

@@ -28,9 +28,6 @@ static const sw_param rows[] = {
 
 const sw_params sw_section_params = SW_PARAMS("wire", rows);
 
-static const double PI = 3.14159265358979323846;
-static const double USUAL_POISSON = 0.35; /* cable polymers lie between 0.3 and 0.45 [-] */
-
 /* No part of the section is outside of the radius. */
 static sw_status set_spin_inertia(const char *object, const sw_section *c, sw_beam *out,
                                   sw_error *err) {
@@ -46,9 +43,9 @@ static sw_status set_spin_inertia(const char *object, const sw_section *c, sw_be
 sw_status sw_section_beam(const char *object, const sw_section *c, sw_beam *out, sw_error *err) {
   if (isnan(c->radius))
     return sw_fail(err, SW_EINVAL, "%s: radius is required [m]: outer radius of the wire", object);
-  const double area = PI * c->radius * c->radius;
+  const double area = M_PI * c->radius * c->radius;
   const double I = 0.25 * area * c->radius * c->radius;
-  const double nu = isnan(c->nu) ? USUAL_POISSON : c->nu;
+  const double nu = isnan(c->nu) ? SW_USUAL_POISSON : c->nu;
   *out = (sw_beam){.radius = c->radius};
   out->EA = isnan(c->EA) ? c->E * area : c->EA;
   out->EI = isnan(c->EI) ? c->E * I : c->EI;

@@ -10,6 +10,9 @@
 #include "base/status.h"
 #include "state/plan.h"
 
+/* Where none is given: cable polymers lie between 0.3 and 0.45 [-]. */
+#define SW_USUAL_POISSON 0.35
+
 enum { SW_RECIPE_MAX = 8, SW_RECIPE_ARGS = 4 };
 
 typedef struct sw_recipe_term {
