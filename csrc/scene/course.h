@@ -19,7 +19,8 @@ typedef struct sw_course {
   sw_stepper stepper;
   double window; /* of the present or last run, see sw_run_args [s] */
   double span;   /* of the step that led here; 0: the state is an equilibrium [s] */
-  /* a blow that began at blow_since is followed in parts of blow_part until blow_until [s] */
+  /* a blow that began at blow_since, or a bundle that converges badly, is followed in parts of
+   * blow_part until blow_until [s] */
   double blow_part, blow_since, blow_until;
   double next_dt; /* of an adaptive run; 0 = not known [s] */
   size_t parts;   /* of steps of the run, since it was last asked whether they have collapsed [-] */

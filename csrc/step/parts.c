@@ -21,6 +21,8 @@ static const double ROUNDING = 1e-6;
 typedef struct parts {
   double h, t0, t1;  /* of the whole step: size, start, exact end [s] */
   double done, part; /* so much is behind; what is tried now [s] */
+  double longest;    /* part that was taken [s] */
+  int refused;       /* parts */
   int starts, cut;   /* 1: the part is short, for reactions are to be known; for a rebound */
   sw_error failed;   /* why a part was refused last */
 } parts;
@@ -51,6 +53,7 @@ static int is_too_long(const sw_ladder *p, parts *k, double *over) {
 
 static sw_status take(sw_ladder *p, parts *k, double over, sw_error *err) {
   k->done += k->part;
+  k->longest = fmax(k->longest, k->part);
   sw_ladder_accept(p, k->part, k->done < k->h ? k->t0 + k->done : k->t1);
   if (p->redo != SW_AS_IS) sw_blow_refused(p->s, k->part);
   SW_TRY(sw_ladder_record(p, k->part, err));
@@ -63,13 +66,25 @@ static sw_status take(sw_ladder *p, parts *k, double over, sw_error *err) {
 static sw_status refuse(sw_ladder *p, parts *k, sw_status status, const sw_error *err) {
   if (sw_ladder_hopeless(status)) return status;
   k->failed = p->held = *err;
-  p->report->rejected++;
+  p->report->rejected++, k->refused++;
   k->cut = p->soonest > 0;
   p->cuts += k->cut;
   if (!k->cut) sw_blow_refused(p->s, k->part);
   sw_restart_refused(p, k->cut);
   k->part = k->cut ? p->soonest : 0.5 * k->part;
   return k->part < SW_SMALLEST_SHARE * k->h ? status : SW_OK;
+}
+
+/* A bundle that falls or is pressed converges badly for many steps on end, and each part that fails
+ * costs as much as several that go well: the next step begins in parts that went, or once went
+ * twice as long. */
+static void remember(sw_scene *s, const parts *k) {
+  sw_course *c = &s->course;
+  const int shorter = c->blow_until > s->time - 0.5 * k->h; /* so was this step */
+  if (!s->pairs || !(k->refused || shorter)) return;
+  const double part = k->refused > 1 ? k->longest : 2 * (k->refused ? k->longest : c->blow_part);
+  c->blow_part = part;
+  c->blow_until = part < k->h ? s->time + 0.5 * k->h : 0.0;
 }
 
 sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
@@ -88,5 +103,6 @@ sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
     else
       SW_TRY(status == SW_OK ? take(p, &k, over, err) : refuse(p, &k, status, err));
   }
+  remember(p->s, &k);
   return SW_OK;
 }
