@@ -88,6 +88,7 @@ describe("gripper:clip", function()
     end
     says("into is required, a clip of the gripper's scene", { into = 3 })
     says("speed = -1 m/s is not allowed", { speed = -1 })
+    says("speed = 1e+15 m/s is too fast", { speed = 1e15 }) -- steps of the way in no time at all
     says("there is no parameter 'sped'; did you mean 'speed'?", { sped = 1 })
     says("it holds nothing; grasp a wire before", {}, function(guide) guide:release() end)
     local scene, wire, clip = made()

@@ -109,7 +109,12 @@ local function press(self, clip, args, way, radius)
         .. "beside it; hold it nearer to the clip, or give more overtravel"):format(-goal, most)
     end
     self:move{ by = vec.add({ 0, 0, 0 }, clip.direction, -step), speed = args.speed, law = "linear" }
+    local before = u
     u = place(self, clip)
+    if not (before - u > 0.5 * step) then -- a way of a femtosecond is none
+      error(("gripper:clip: speed = %g m/s is too fast: the tool does not get on in the time that this takes")
+        :format(args.speed), 0)
+    end
     most = math.max(most, -vec.dot(self:force(), clip.direction))
     if most > args.max_force and not clip:seated() then
       return most, ("%.4g N was reached, above max_force = %.4g N, with the tool %.4g m over the seat; the "
