@@ -2,6 +2,7 @@
 --- What a function computes, as a number: its code without names of places, and the functions, numbers and
 -- texts of the script that it uses. Comments and lines around it do not count.
 -- @module softworld.study.fingerprint
+local bytecode = require "softworld.study.bytecode"
 local core = require "softworld.core"
 
 local library = debug.getinfo(1, "S").source:match "^(.*)study/fingerprint%.lua$" or "@softworld/"
@@ -58,7 +59,7 @@ function of_function(f, parts, seen)
   local info = debug.getinfo(f, "Su")
   if seen[f] or info.what == "C" or info.source:sub(1, #library) == library then return end
   seen[f] = true
-  local code = string.dump(f, true)
+  local code = bytecode(f)
   add(parts, code)
   for i = 1, info.nups do
     local name, value = debug.getupvalue(f, i)
