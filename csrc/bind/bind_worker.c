@@ -214,20 +214,11 @@ static int mod_processors(lua_State *L) {
   return 1;
 }
 
-/* FNV-1a, 64 bits (G. Fowler, L. C. Noll, K.-P. Vo): it is to find what went wrong, not who lies.
- */
-static int mod_checksum(lua_State *L) {
-  size_t size;
-  const char *text = luaL_checklstring(L, 1, &size);
-  uint64_t sum = 0xcbf29ce484222325u;
-  for (size_t k = 0; k < size; k++) sum = (sum ^ (unsigned char)text[k]) * 0x100000001b3u;
-  lua_pushinteger(L, (lua_Integer)sum);
-  return 1;
-}
-
 void lsw_open_worker(lua_State *L) {
-  static const luaL_Reg functions[] = {{"fork", mod_fork},           {"ready", mod_ready},
-                                       {"limit_cpu", mod_limit_cpu}, {"processors", mod_processors},
-                                       {"checksum", mod_checksum},   {NULL, NULL}};
+  static const luaL_Reg functions[] = {{"fork", mod_fork},
+                                       {"ready", mod_ready},
+                                       {"limit_cpu", mod_limit_cpu},
+                                       {"processors", mod_processors},
+                                       {NULL, NULL}};
   luaL_setfuncs(L, functions, 0);
 }

@@ -37,14 +37,13 @@ end
 
 --- A journal at a path; nil path: it keeps nothing. definition: { name =, key =, text = }.
 function journal.new(path, definition)
-  return setmetatable({ path = path, definition = definition, size = 0, lines = {}, parts = {} },
-    journal)
+  return setmetatable({ path = path, definition = definition, size = 0, parts = {} }, journal)
 end
 
 -- --- reading -----------------------------------------------------------------------------------
 
 local function forget(self)
-  self.lines, self.parts, self.others, self.other = {}, {}, 0, nil
+  self.parts, self.others, self.other, self.text = {}, 0, nil, nil
   self.bad, self.first_bad, self.current, self.torn = 0, nil, nil, false
 end
 
@@ -59,37 +58,53 @@ local function read_definition(self, body, at)
   if key ~= self.definition.key then self.other = unquoted(text) end
 end
 
-local function read_evaluation(self, body)
-  if self.current ~= self.definition.key then
-    self.others = self.others + 1
-    return
+-- Lines of a number: a place in the file's text or a line that was added, or a list of them.
+local function put(self, part, number, line)
+  local list = self.parts[part]
+  if not list then
+    list = {}
+    self.parts[part] = list
   end
-  local part, number, values, status = body:match "^e (%d+) (%d+) (%S+) (%l+)"
-  if not part then return true end
-  local key = part .. " " .. number .. " " .. values
-  part, number = math.tointeger(part), math.tointeger(number)
-  if not part or not number or status ~= "ok" and status ~= "failed" and status ~= "machine" then return true end
-  self.lines[key] = body
-  self.parts[part] = self.parts[part] or {}
-  self.parts[part][number] = values
+  local before = list[number]
+  if not before then
+    list[number] = line
+  elseif type(before) == "table" then
+    before[#before + 1] = line
+  else
+    list[number] = { before, line }
+  end
 end
 
-local function read_line(self, line, at)
-  local body = line:sub(1, -18)
-  if #line < 18 or ("%016x"):format(core.checksum(body)) ~= line:sub(-16) then
-    self.bad, self.first_bad = self.bad + 1, self.first_bad or at
-    self.bad_at = at
-    return
-  end
-  local kind = body:sub(1, 2)
-  if kind == "e " then
-    if read_evaluation(self, body) then self.bad, self.first_bad = self.bad + 1, self.first_bad or at end
-  elseif kind == "s " then read_definition(self, body, at)
-  elseif body == "t" then
-    if self.bad_at == at - 1 then
-      self.bad = self.bad - 1
-      if self.bad == 0 then self.first_bad = nil end
+local function damaged(self, line_number)
+  self.bad, self.first_bad = self.bad + 1, self.first_bad or line_number
+  self.bad_at = line_number
+end
+
+-- The line above was torn, and that is known.
+local function excuse(self, line_number)
+  if self.bad_at ~= line_number - 1 then return end
+  self.bad, self.bad_at = self.bad - 1, nil
+  if self.bad == 0 then self.first_bad = nil end
+end
+
+-- All lines from a place on; gives where the last whole one ends.
+local function read_lines(self, text, at)
+  local line_number, ours, line = 1, false, core.journal_line
+  while true do
+    local after, kind, part, number = line(text, at)
+    if not after then return at end
+    line_number = line_number + 1
+    if kind == "e" and part > 0 and number > 0 then
+      if ours then put(self, part, number, at) else self.others = self.others + 1 end
+    elseif kind == "s" then
+      read_definition(self, text:sub(at, after - 19), line_number)
+      ours = self.current == self.definition.key
+    elseif kind == "t" then
+      excuse(self, line_number)
+    else
+      damaged(self, line_number)
     end
+    at = after
   end
 end
 
@@ -120,13 +135,8 @@ function journal:read()
     fail("study '%s': file = '%s' is no journal of a study; it is left as it is, give another name",
       self.definition.name, self.path)
   end
-  local at = 1
-  for line, stop in text:gmatch("([^\n]*)\n()", #first + 2) do
-    at = at + 1
-    read_line(self, line, at)
-    self.ended = stop
-  end
-  self.torn = text:sub(-1) ~= "\n"
+  self.text = text
+  self.torn = read_lines(self, text, #first + 2) <= #text
 end
 
 local function items(text)
@@ -157,7 +167,7 @@ function journal:remarks()
   if self.others > 0 then
     list[1] = ("%s has %d evaluation%s of another definition, kept apart; this one is new in:"):format(
       self.path, self.others, self.others == 1 and "" or "s")
-    for _, difference in ipairs(differences(self.other, self.definition.text)) do
+    for _, difference in ipairs(differences(self.other or "", self.definition.text)) do
       list[#list + 1] = "  " .. difference
     end
   end
@@ -168,16 +178,28 @@ function journal:remarks()
   return list
 end
 
---- The line of an evaluation: status, rest; nil where there is none.
-function journal:find(part, number, word)
-  local body = self.lines[part .. " " .. number .. " " .. word]
-  if not body then return nil end
-  local status, rest = body:match "^e %d+ %d+ %S+ (%l+) ?(.*)$"
+-- A line's values, status and the rest of it.
+local function parse(self, line)
+  if type(line) == "number" then line = self.text:sub(line, (core.journal_line(self.text, line)) - 19) end
+  local word, status, rest = line:match "^e %d+ %d+ (%S+) (%l+) (.*)$"
+  if status ~= "ok" and status ~= "failed" and status ~= "machine" then return nil end
   if status ~= "ok" then rest = unquoted(rest:match '^"(.*)"$' or "") end
-  return status, rest
+  return word, status, rest
 end
 
---- Values as a word by number, of a part that is in the file; the last line of each number.
+--- An evaluation with these values, as a word; without, the last one of the number: status, rest, values.
+-- nil where there is none.
+function journal:find(part, number, word)
+  local lines = (self.parts[part] or {})[number]
+  if not lines then return nil end
+  lines = type(lines) == "table" and lines or { lines }
+  for i = #lines, 1, -1 do
+    local values, status, rest = parse(self, lines[i])
+    if status and (not word or values == word) then return status, rest, values end
+  end
+end
+
+--- The numbers of a part that are in the journal, as keys of a table.
 function journal:numbers(part) return self.parts[part] or {} end
 
 -- --- writing -----------------------------------------------------------------------------------
@@ -232,12 +254,9 @@ end
 
 --- Put an evaluation down: status "ok" with results as text, or "failed" or "machine" with a reason.
 function journal:add(part, number, word, status, rest)
-  local key = ("%d %d %s"):format(part, number, word)
-  local body = ("e %s %s %s"):format(key, status, status == "ok" and rest or quoted(rest))
+  local body = ("e %d %d %s %s %s"):format(part, number, word, status, status == "ok" and rest or quoted(rest))
   if self.stream then write(self, summed(body)) end
-  self.lines[key] = body
-  self.parts[part] = self.parts[part] or {}
-  self.parts[part][number] = word
+  put(self, part, number, body)
   if self.stream and core.clock() - self.synced > SYNC then self:sync() end
 end
 

@@ -26,10 +26,10 @@ end
 -- Records of a part that only the journal knows.
 local function from_journal(own, part)
   local records = {}
-  for number, word in pairs(own.journal:numbers(part)) do
-    local values = parameters.values(own.parameters, word)
-    local status, rest = own.journal:find(part, number, word)
-    if values and status then
+  for number in pairs(own.journal:numbers(part)) do
+    local status, rest, word = own.journal:find(part, number)
+    local values = status and parameters.values(own.parameters, word)
+    if values then
       records[number] = campaign.record(part, number, values, status, rest)
       judge.complete(own, records[number])
     end
