@@ -36,16 +36,16 @@ end
 local function function_after(code, at, parts)
   at = text_after(code, at) -- its source: nothing
   local count, first
-  for _ = 1, 2 do count, at = number_at(code, at) end -- its first and last line
+  for _ = 1, 2 do at = select(2, number_at(code, at)) end -- its first and last line
   first = at
-  count, at = number_at(code, at + 3)
+  count, at = number_at(code, at + 3) -- after three bytes on its frame
   at = constants_after(code, at + 4 * count)
   count, at = number_at(code, at)
   at = at + 3 * count -- upvalues
   count, at = number_at(code, at)
   parts[#parts + 1] = code:sub(first, at - 1)
   for _ = 1, count do at = function_after(code, at, parts) end
-  for _ = 1, 4 do count, at = number_at(code, at) end -- what is left away
+  for _ = 1, 4 do at = select(2, number_at(code, at)) end -- what is left away
   return at
 end
 

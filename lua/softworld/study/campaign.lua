@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- All evaluations of one sweep, search or spread: those that the journal has are taken from there, the others
--- are computed by workers and put down.
+--- All evaluations of one sweep, search or spread: those that the journal has are taken from there, the
+-- others are computed by workers and put down.
 --
 -- A record: { part =, number =, values =, results = { name = number } or nil, failed = reason, machine = true
 -- where the machine and not the model failed }.
@@ -88,7 +88,8 @@ local function by_workers(own, part, count, next_task, done)
     end,
     answer = function(text)
       local number, word = text:match "^(%d+) (.*)$"
-      local status, rest = evaluation.run(own, part, math.tointeger(number), parameters.values(own.parameters, word))
+      local values = parameters.values(own.parameters, word)
+      local status, rest = evaluation.run(own, part, math.tointeger(number), values)
       return status .. " " .. rest
     end,
     done = function(task, status, rest) keep(own, part, task, status, rest, done) end,
@@ -114,8 +115,8 @@ local function compute(own, part, options, source, done)
   by_workers(own, part, count, from_first, done)
 end
 
---- Evaluate all that source.next() gives: number, values; nil when there is none now. source.done(record) hears
--- what came of each. The part's records by number.
+--- Evaluate all that source.next() gives: number, values; nil when there is none now. source.done(record)
+-- hears what came of each. The part's records by number.
 function campaign.run(own, method, options, source)
   if own.busy then error(("study '%s': its evaluations cannot ask for more of them"):format(own.name), 0) end
   own.part = own.part + 1

@@ -20,7 +20,8 @@ local function counts(list, what, grid, count)
     if p.kind == "integer" then n = math.min(n or math.huge, p.high - p.low + 1) end
     if n == nil then fail("%s: grid has no number of values for '%s'", what, p.name) end
     if math.type(n) ~= "integer" and not math.tointeger(n) or n < 1 or n > MOST then
-      fail("%s: grid: %s = %s is not allowed; it must be an integer from 1 to %d", what, p.name, tostring(n), MOST)
+      fail("%s: grid: %s = %s is not allowed; it must be an integer from 1 to %d", what, p.name,
+        tostring(n), MOST)
     end
     each[i] = math.tointeger(n)
     if p.kind == "choice" then each[i] = math.min(each[i], #p.choices) end
@@ -52,8 +53,10 @@ function design.grid(list, what, grid, count)
     end
   end
   local each, total = counts(list, what, grid, count), 1
-  for _, n in ipairs(each) do total = total * n end
-  if total > MOST then fail("%s: a grid of %.3g evaluations is too much; %d are allowed", what, total, MOST) end
+  for _, n in ipairs(each) do total = math.min(total * n, 2 * MOST) end
+  if total > MOST then
+    fail("%s: a grid of more than %d evaluations is too much", what, MOST)
+  end
   return total, function(number)
     local values, rest = {}, number - 1
     for i = #list, 1, -1 do
@@ -68,7 +71,9 @@ end
 -- generators, scrambled, 2016).
 local function generator(...)
   local state = 0
-  for i = 1, select("#", ...) do state = core.checksum("design" .. string.pack("<i8i8", state, (select(i, ...)))) end
+  for i = 1, select("#", ...) do
+    state = core.checksum("design" .. string.pack("<i8i8", state, (select(i, ...))))
+  end
   if state == 0 then state = 1 end
   return function()
     state = state ~ (state >> 12)

@@ -46,7 +46,8 @@ local function given_for(own, number, values)
     if a == p then reason = b end
     error({ GIVEN_UP, reason == nil and "given up" or checks.shown(reason) }, 0)
   end
-  return setmetatable(p, { __name = "evaluation", __index = checks.fields("evaluation", table.concat(names, " ")) })
+  return setmetatable(p, { __name = "evaluation",
+    __index = checks.fields("evaluation", table.concat(names, " ")) })
 end
 
 local function line_of(f)
@@ -82,9 +83,12 @@ local function read(own, results, ...)
   for i, name in ipairs(names) do
     local value = number_of(results[name])
     if not value then
-      return wrong(own, "returned %s = %s; a number, true or false is wanted", name, checks.got(results[name]))
+      return wrong(own, "returned %s = %s; a number, true or false is wanted", name,
+        checks.got(results[name]))
     end
-    if value - value ~= 0 then return "failed", ("%s is %s"):format(name, value ~= value and "nan" or "infinite") end
+    if value - value ~= 0 then
+      return "failed", ("%s is %s"):format(name, value ~= value and "nan" or "infinite")
+    end
     texts[i] = name .. "=" .. parameters.text(value)
   end
   return "ok", table.concat(texts, " ")

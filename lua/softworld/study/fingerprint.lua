@@ -46,7 +46,9 @@ end
 local function of_globals(environment, code, parts, seen)
   local names = {}
   for name in next, environment do
-    if type(name) == "string" and not standard[name] and code:find(name, 1, true) then names[#names + 1] = name end
+    if type(name) == "string" and not standard[name] and code:find(name, 1, true) then
+      names[#names + 1] = name
+    end
   end
   table.sort(names)
   for _, name in ipairs(names) do

@@ -254,7 +254,8 @@ end
 
 --- Put an evaluation down: status "ok" with results as text, or "failed" or "machine" with a reason.
 function journal:add(part, number, word, status, rest)
-  local body = ("e %d %d %s %s %s"):format(part, number, word, status, status == "ok" and rest or quoted(rest))
+  local body = ("e %d %d %s %s %s"):format(part, number, word, status,
+    status == "ok" and rest or quoted(rest))
   if self.stream then write(self, summed(body)) end
   put(self, part, number, body)
   if self.stream and core.clock() - self.synced > SYNC then self:sync() end

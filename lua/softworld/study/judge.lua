@@ -18,13 +18,17 @@ function judge.read(given, by_name)
     parameters.check_name("sw.study: constraint", name)
     local what, c = ("sw.study: constraint '%s'"):format(name), given[name]
     checks.keys(what, c, { min = true, max = true, unit = true }, 0)
-    if by_name[name] then fail("%s is of a parameter, whose range is its limit; constraints are of results", what) end
+    if by_name[name] then
+      fail("%s is of a parameter, whose range is its limit; constraints are of results", what)
+    end
     parameters.check_unit(what, c.unit)
     for _, key in ipairs { "min", "max" } do
       if c[key] ~= nil then checks.number(what .. ": " .. key, c[key], -math.huge, "", 0) end
     end
     if c.min == nil and c.max == nil then fail("%s has neither min nor max", what) end
-    if c.min and c.max and c.min > c.max then fail("%s: min = %.9g is above max = %.9g", what, c.min, c.max) end
+    if c.min and c.max and c.min > c.max then
+      fail("%s: min = %.9g is above max = %.9g", what, c.min, c.max)
+    end
     list[i] = { name = name, min = c.min, max = c.max, unit = c.unit }
   end
   return list
@@ -69,7 +73,7 @@ end
 
 --- A result that is asked for has to be there: without it the evaluation has failed, and of the first one
 -- it is an error.
-function judge.has(own, record, name, who)
+function judge.has(record, name, who)
   local results = record.results
   if not results or results[name] then return end
   local names = names_of(results)
@@ -78,13 +82,14 @@ function judge.has(own, record, name, who)
     fail("%s: evaluate returns no '%s'; %s", who, name, near and ("did you mean '%s'?"):format(near)
       or "it returns: " .. table.concat(names, " "))
   end
-  record.results, record.failed = nil, ("evaluate returned no '%s', only: %s"):format(name, table.concat(names, " "))
+  record.results = nil
+  record.failed = ("evaluate returned no '%s', only: %s"):format(name, table.concat(names, " "))
 end
 
 --- The same of all constraints.
 function judge.complete(own, record)
   for _, c in ipairs(own.constraints) do
-    judge.has(own, record, c.name, ("study '%s': constraints"):format(own.name))
+    judge.has(record, c.name, ("study '%s': constraints"):format(own.name))
   end
 end
 

@@ -52,8 +52,8 @@ local function ask(search, o)
   if #search.values >= o.each then return nil, "evaluations used up" end
   local at, steps, x = 0, {}, nil
   for i, u in ipairs(search.start) do steps[i] = u > 0.5 and -STEP or STEP end
-  local fine, found = pcall(core.minimise, { start = search.start, step = steps, tolerance = o.tolerance / STEP,
-    max_iterations = 1000000, f = function(place)
+  local fine, found = pcall(core.minimise, { start = search.start, step = steps,
+    tolerance = o.tolerance / STEP, max_iterations = 1000000, f = function(place)
       at = at + 1
       if search.values[at] then return search.values[at] end
       x = place
@@ -95,7 +95,7 @@ local function source_of(own, result, o, searches)
     end
   end
   local function done(record)
-    judge.has(own, record, result, "study:minimise")
+    judge.has(record, result, "study:minimise")
     local search = searches[(record.number - 1) % o.starts + 1]
     search.values[#search.values + 1] = badness(own, result, record)
     search.waits = nil
@@ -139,11 +139,11 @@ local function never_met(own, list, nearest)
 end
 
 local Found = { __name = "minimum" }
-Found.__index = checks.fields("minimum", "name best value ok reason evaluations failed at_bound starts", "best")
+Found.__index = checks.fields("minimum", "name best value ok reason evaluations failed at_bound starts")
 
 function Found.__tostring(f)
-  local lines = { ("%s = %.6g (%s, %d evaluations, %d failed)"):format(f.name, f.value, f.reason, f.evaluations,
-    f.failed) }
+  local lines = { ("%s = %.6g (%s, %d evaluations, %d failed)"):format(f.name, f.value, f.reason,
+    f.evaluations, f.failed) }
   for _, p in ipairs(f.at_bound) do lines[#lines + 1] = ("  %s is at the end of its range"):format(p) end
   return table.concat(lines, "\n")
 end
@@ -160,24 +160,25 @@ end
 local function result_of(own, result, list, searches)
   local best, nearest = best_of(own, result, list)
   if not best then never_met(own, list, nearest) end
-  local failed, starts, all_near = 0, {}, true
+  local failed, starts = 0, {}
   for _, record in ipairs(list) do failed = failed + (record.results and 0 or 1) end
   for i, search in ipairs(searches) do
     local least = math.huge
     for _, value in ipairs(search.values) do least = math.min(least, value) end
-    starts[i] = { value = least < BROKEN and least or nil, reason = search.ended, evaluations = #search.values }
+    starts[i] = { value = least < BROKEN and least or nil, reason = search.ended,
+      evaluations = #search.values }
   end
   local won = searches[(best.number - 1) % #searches + 1]
-  all_near = won.ended == "as near as wanted"
-  return setmetatable({ name = result, best = output.row(own, best), value = best.results[result], ok = all_near,
-    reason = won.ended, evaluations = #list, failed = failed, at_bound = at_bound(own, best.values),
-    starts = starts }, Found)
+  return setmetatable({ name = result, best = output.row(own, best), value = best.results[result],
+    ok = won.ended == "as near as wanted", reason = won.ended, evaluations = #list, failed = failed,
+    at_bound = at_bound(own, best.values), starts = starts }, Found)
 end
 
 local function check(own)
   for _, p in ipairs(own.parameters) do
     if p.kind == "choice" then
-      error(("study:minimise: the simplex cannot choose '%s' among choices; sweep it, or fix it"):format(p.name), 0)
+      error(("study:minimise: the simplex cannot choose '%s' among choices; sweep it, or fix it"):format(
+        p.name), 0)
     end
   end
   if #own.parameters > MOST then

@@ -160,7 +160,7 @@ function output.text(own)
   local list = records_of(own)
   local lines = { ("study '%s': %d evaluation%s%s"):format(own.name, #list, #list == 1 and "" or "s",
     own.file and ", kept in " .. own.file or "") }
-  for _, p in ipairs(own.parameters) do lines[#lines + 1] = "  " .. parameters.describe(p) end
+  for _, p in ipairs(own.parameters) do lines[#lines + 1] = "  " .. parameters.describe(p, true) end
   for _, part in ipairs(parts_of(own)) do add_part(lines, part, own.asked[part], list) end
   add_reasons(lines, list)
   for _, asked in pairs(own.asked) do

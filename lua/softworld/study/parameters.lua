@@ -9,20 +9,18 @@ local sink = require "softworld.output.sink"
 local parameters = {}
 
 local KEYS = checks.set "unit log integer start sigma choices"
--- Of entries of the catalogue, which have more keys than are read here.
-local OF_CATALOGUE = checks.set "value low high"
 local RESERVED = checks.set "random give_up number part seed failed machine pass"
 
 local function fail(text, ...) error(text:format(...), 0) end
 
-local SI = " m s kg g N Pa rad J W Hz K A V mol "
+local SI = " m s kg N Pa rad J W Hz K A V mol "
 
 --- Is it a unit of the SI without prefixes: products and quotients with whole powers, or "-"?
 function parameters.is_unit(text)
   if text == "-" or text == "" then return true end
   for part in text:gmatch "[^ /]+" do
     local name = part:match "^(%a+)%d*$"
-    if part ~= "1" and not (name and SI:find(" " .. name .. " ", 1, true)) or name == "g" then return false end
+    if part ~= "1" and not (name and SI:find(" " .. name .. " ", 1, true)) then return false end
   end
   return text:find "%S" ~= nil
 end
@@ -99,7 +97,8 @@ local function read_range(what, given)
   if sigma and (given.integer or given.log) then
     fail("%s: sigma, of a normal spread, goes without log and integer", what)
   end
-  return { kind = given.integer and "integer" or "number", log = given.log or nil, start = start, sigma = sigma,
+  return { kind = given.integer and "integer" or "number", log = given.log or nil,
+    start = start, sigma = sigma,
     low = given.integer and math.tointeger(low) or low + 0.0,
     high = given.integer and math.tointeger(high) or high + 0.0 }
 end
@@ -143,7 +142,9 @@ function parameters.read(given)
     list[i] = read_one(name, given[name])
     list[i].name = name
   end
-  if #list == 0 then fail "sw.study: parameters is empty; name at least one, such as { force = { 1, 20 } }" end
+  if #list == 0 then
+    fail "sw.study: parameters is empty; name at least one, such as { force = { 1, 20 } }"
+  end
   return list
 end
 
@@ -211,17 +212,20 @@ function parameters.shown(p, value)
   return value
 end
 
---- One line on a parameter: the same for the same definition only.
-function parameters.describe(p)
+--- One line on a parameter: exact, so the same for the same definition only, or for people.
+function parameters.describe(p, for_people)
+  local shown = for_people and function(x) return ("%.9g"):format(x) end or parameters.text
   if p.kind == "choice" then
     local texts = {}
-    for i, c in ipairs(p.choices) do texts[i] = type(c) == "number" and parameters.text(c) or ("%q"):format(c) end
+    for i, c in ipairs(p.choices) do
+      texts[i] = type(c) == "number" and shown(c) or type(c) == "string" and ("%q"):format(c) or tostring(c)
+    end
     return ("%s: %s"):format(p.name, table.concat(texts, " | "))
   end
-  return ("%s: %s to %s%s%s%s%s%s"):format(p.name, parameters.text(p.low), parameters.text(p.high),
+  return ("%s: %s to %s%s%s%s%s%s"):format(p.name, shown(p.low), shown(p.high),
     p.unit and p.unit ~= "-" and " " .. p.unit or "", p.log and ", log" or "",
-    p.kind == "integer" and ", integer" or "", p.start and ", start " .. parameters.text(p.start) or "",
-    p.sigma and ", sigma " .. parameters.text(p.sigma) or "")
+    p.kind == "integer" and ", integer" or "", p.start and ", start " .. shown(p.start) or "",
+    p.sigma and ", sigma " .. shown(p.sigma) or "")
 end
 
 return parameters

@@ -32,7 +32,9 @@ local function fork(self)
     options.begin()
     serve(channel, options)
   end, options.memory)
-  if not worker then error(("no process for a worker (%s); end some others, or give fewer workers"):format(why), 0) end
+  if not worker then
+    error(("no process for a worker (%s); end some others, or give fewer workers"):format(why), 0)
+  end
   return worker
 end
 
@@ -40,7 +42,8 @@ end
 local function ended(options, how, number)
   if how == "exit" then return "failed", ("evaluate ended its process (exit code %d)"):format(number) end
   if number == SIGPROF then return "machine", pool.cpu_reason(options.cpu or 0) end
-  local text = ("its process ended by signal %d%s"):format(number, NAMES[number] and " (" .. NAMES[number] .. ")" or "")
+  local text = ("its process ended by signal %d%s"):format(number,
+    NAMES[number] and " (" .. NAMES[number] .. ")" or "")
   return OTHERS[number] and "machine" or "failed", text, OTHERS[number]
 end
 

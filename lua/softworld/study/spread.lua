@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- How often a model meets its constraints when its parameters vary: drawn at random, evenly over their ranges
--- (of log ones over the logarithm), or normally about start where sigma is given, within the range.
+--- How often a model meets its constraints when its parameters vary: drawn at random, evenly over their
+-- ranges (of log ones over the logarithm), or normally about start where sigma is given, within the range.
 -- @module softworld.study.spread
 local checks = require "softworld.checks"
 local design = require "softworld.study.design"
@@ -51,8 +51,9 @@ local Spread = { __name = "spread" }
 Spread.__index = checks.fields("spread", "probability low high count passed broken failed left_out worst")
 
 function Spread.__tostring(s)
-  local lines = { ("%.2f %% pass (95 %% interval %.2f to %.2f %%): %d of %d; %d break constraints, %d failed"):format(
-    100 * s.probability, 100 * s.low, 100 * s.high, s.passed, s.count, s.broken, s.failed) }
+  local shape = "%.2f %% pass (95 %% interval %.2f to %.2f %%): %d of %d; %d break constraints, %d failed"
+  local lines = { shape:format(100 * s.probability, 100 * s.low, 100 * s.high, s.passed, s.count, s.broken,
+    s.failed) }
   if s.left_out > 0 then
     lines[2] = ("  %d ended by the machine are left out"):format(s.left_out)
   end

@@ -50,7 +50,7 @@ local new = rows.call("sw.study", "{...}", "a study: a model to be evaluated man
   { "memory", "number", "-", "most memory that a worker takes besides [B]", min = 1e6, usual = "any" },
 })
 
-local sweep = rows.call("study:sweep", "{...}", "evaluates on a grid, or at points that fill the ranges evenly", {
+local sweep = rows.call("study:sweep", "{...}", "evaluates on a grid, or at points that fill the ranges", {
   gives = "the rows of the table",
   example = "study:sweep { grid = { force = 9, speed = 5 } }",
   { "kind", "choice", "-", "how", choices = { "grid", "latin", "halton", "sobol" },
@@ -60,13 +60,13 @@ local sweep = rows.call("study:sweep", "{...}", "evaluates on a grid, or at poin
   WORKERS,
 })
 
-local search = rows.call("study:minimise", "result, {...}", "looks for the smallest value of a result that meets "
-  .. "the constraints", {
+local search = rows.call("study:minimise", "result, {...}", "looks for the smallest value of a result that "
+  .. "meets the constraints", {
   gives = "what was found: best, value, ok, reason",
   example = 'study:minimise "time"',
   { "method", "choice", "-", "simplex of Nelder and Mead", choices = { "simplex" }, default = "simplex" },
-  { "starts", "integer", "-", "places from which it begins, the first at the parameters' start", min = 1, max = 1000,
-    default = 4 },
+  { "starts", "integer", "-", "places from which it begins, the first at the parameters' start", min = 1,
+    max = 1000, default = 4 },
   { "evaluations", "integer", "-", "at most, of all starts", min = 1, max = 1000000,
     usual = "100 for each start and parameter" },
   { "tolerance", "number", "-", "wanted accuracy as a share of the ranges", min = 0, above = true, max = 0.5,
@@ -74,7 +74,7 @@ local search = rows.call("study:minimise", "result, {...}", "looks for the small
   WORKERS,
 })
 
-local shake = rows.call("study:spread", "{...}", "how often the constraints are met when the parameters vary", {
+local shake = rows.call("study:spread", "{...}", "how often the constraints are met as the parameters vary", {
   gives = "what was found: probability, low, high, worst",
   example = "study:spread { count = 1000 }",
   { "count", "integer", "-", "evaluations", min = 1, max = 10000000, default = 1000 },
@@ -83,7 +83,8 @@ local shake = rows.call("study:spread", "{...}", "how often the constraints are 
 
 rows.calls{
   { "study:table", "", "all evaluations: number, parameters, results, pass, failed", "a list of tables" },
-  { "study:best", "result", "the evaluation with the smallest value that meets the constraints", "a row, or nil" },
+  { "study:best", "result", "the evaluation with the smallest value that meets the constraints",
+    "a row, or nil" },
   { "study:csv", "path", "writes the table", "the path", example = 'study:csv "grip.csv"' },
   { "study:json", "path", "writes the table with what the study is", "the path" },
   { "study.name", nil, "of the study", "a text" },
@@ -91,13 +92,14 @@ rows.calls{
   { "study.computed", nil, "evaluations that this process has computed, not read", "a number" },
 }
 
-local chart = rows.call("study:chart", "{...}", "draws one result over a parameter or another result; needs gnuplot", {
+local chart = rows.call("study:chart", "{...}", "draws a result over a parameter or another result; needs gnuplot", {
   gives = "the path, or without one the drawing in characters",
   example = 'study:chart { x = "force", y = "time", path = "grip.svg" }',
   { "x", "text", "-", "a parameter or a result", required = true },
   { "y", "text", "-", "a parameter or a result", required = true },
   { "path", "text", "-", "a .svg, .png or .pdf file", usual = "drawn in characters" },
-  { "log", "choice", "-", "axes that are logarithmic", choices = { "x", "y", "xy" }, usual = "by the parameters" },
+  { "log", "choice", "-", "axes that are logarithmic", choices = { "x", "y", "xy" },
+    usual = "by the parameters" },
 })
 
 local function fields(self) return sealed.fields(self) end
@@ -156,15 +158,18 @@ local function do_sweep(self, args)
   local own, o = fields(self), sweep:read(args == nil and {} or args)
   local kind = o.kind or o.grid ~= nil and "grid" or "sobol"
   local what = "study:sweep"
-  if kind ~= "grid" and o.grid ~= nil then error(("study:sweep: grid does not go with kind = '%s'"):format(kind), 0) end
+  if kind ~= "grid" and o.grid ~= nil then
+    error(("study:sweep: grid does not go with kind = '%s'"):format(kind), 0)
+  end
   if o.grid ~= nil and type(o.grid) ~= "number" and type(o.grid) ~= "table" then
     error(("study:sweep: grid must be a number, or a table { name = number, ... }, got %s"):format(
       checks.got(o.grid)), 0)
   end
   if not o.count and (kind ~= "grid" or o.grid == nil) then
-    error("study:sweep: count is required, the number of evaluations" .. (kind == "grid" and ", or grid" or ""), 0)
+    error("study:sweep: count is required, the number of evaluations"
+      .. (kind == "grid" and ", or grid" or ""), 0)
   end
-  local count, values_of = o.count, nil
+  local count, values_of = o.count
   if kind == "grid" then count, values_of = design.grid(own.parameters, what, o.grid, o.count)
   else values_of = design.fill(own.parameters, kind, count, own.seed) end
   local records = points(own, "sweep", o, count, values_of)
