@@ -130,7 +130,6 @@ static void work(lua_State *L, pid_t parent, double memory) {
   lua_pushvalue(L, 1);
   lua_pushvalue(L, 3);
   const int status = lua_pcall(L, 1, 0, 0);
-  fflush(stdout), fflush(stderr);
   _exit(status == LUA_OK ? 0 : 1);
 }
 
@@ -148,8 +147,8 @@ static int mod_fork(lua_State *L) {
   if (lsw_servers() > 0)
     return luaL_error(
         L,
-        "no process can be forked while a live view is open: its threads would not be in "
-        "the fork");
+        "no worker can be forked while a live view is open, whose threads would not be in the "
+        "fork: close the view, or compute in this process with workers = 0");
   lua_settop(L, 1);
   worker *ours = new_worker(L), *theirs = new_worker(L);
   luaL_checkstack(L, 8, "fork");

@@ -63,10 +63,12 @@ local function is_finite(x) return type(x) == "number" and x - x == 0 end
 
 local function check_range(what, low, high, unit)
   unit = unit and unit ~= "-" and unit ~= "" and " " .. unit or ""
-  for i, value in ipairs { low == nil and false or low, high == nil and false or high } do
+  for i = 1, 2 do
+    local value = low
+    if i == 2 then value = high end
     if not is_finite(value) then
       fail("%s: it needs a range { lowest, highest } of finite numbers, or choices = {...}; the %s is %s",
-        what, i == 1 and "lowest" or "highest", value == false and "missing" or checks.got(value, unit))
+        what, i == 1 and "lowest" or "highest", value == nil and "missing" or checks.got(value, unit))
     end
   end
   if low >= high then

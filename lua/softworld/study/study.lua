@@ -92,7 +92,7 @@ rows.calls{
   { "study.computed", nil, "evaluations that this process has computed, not read", "a number" },
 }
 
-local chart = rows.call("study:chart", "{...}", "draws a result over a parameter or another result; needs gnuplot", {
+local chart = rows.call("study:chart", "{...}", "draws a result over another or a parameter; needs gnuplot", {
   gives = "the path, or without one the drawing in characters",
   example = 'study:chart { x = "force", y = "time", path = "grip.svg" }',
   { "x", "text", "-", "a parameter or a result", required = true },
@@ -222,7 +222,9 @@ local unknown = checks.fields("study", SHOWN, "file")
 function Study:__index(key)
   local own = sealed.fields(self)
   if key == "name" or key == "file" or key == "computed" then return own[key] end
-  return rawget(Study, key) or unknown(self, key)
+  local method = rawget(Study, key)
+  if method ~= nil then return method end
+  return unknown(self, key)
 end
 
 function Study:__newindex(key)
