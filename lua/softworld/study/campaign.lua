@@ -14,15 +14,31 @@ local unread = require "softworld.unread"
 
 local campaign = {}
 
---- A record out of a line: status "ok" and results as text, or another one and a reason.
+local function finite(text)
+  local x = tonumber(text)
+  return x and x - x == 0 and x + 0.0 or nil
+end
+
+-- "time=1.5 margin=0.25" as a table; nil where it is anything else.
+local function results_of(text)
+  local results, left = {}, text
+  while left ~= "" do
+    local name, number, rest = left:match "^(%a[%w_]*)=(%S+) ?(.*)$"
+    local value = number and finite(number)
+    if not value then return nil end
+    results[name], left = value, rest
+  end
+  return next(results) and results
+end
+
+--- A record out of a line: status "ok" and results as text, or another one and a reason. nil: it is none.
 function campaign.record(part, number, values, status, rest)
   local r = { part = part, number = number, values = values }
   if status == "ok" then
-    r.results = {}
-    for name, text in rest:gmatch "([%w_]+)=(%S+)" do r.results[name] = tonumber(text) + 0.0 end
-  else
-    r.failed, r.machine = rest, status == "machine" or nil
+    r.results = results_of(rest)
+    return r.results and r
   end
+  r.failed, r.machine = rest, status == "machine" or nil
   return r
 end
 
@@ -48,10 +64,9 @@ local function tasks(own, part, source, done)
       if not number then return nil end
       local word = parameters.word(values)
       local status, rest = own.journal:find(part, number, word)
-      if not status or not stands(own, status, rest) then
-        return { number = number, values = values, word = word, text = number .. " " .. word }
-      end
-      done(campaign.record(part, number, values, status, rest))
+      local record = status and stands(own, status, rest) and campaign.record(part, number, values, status, rest)
+      if not record then return { number = number, values = values, word = word, text = number .. " " .. word } end
+      done(record)
     end
   end
 end

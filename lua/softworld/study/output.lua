@@ -29,9 +29,10 @@ local function from_journal(own, part)
   for number in pairs(own.journal:numbers(part)) do
     local status, rest, word = own.journal:find(part, number)
     local values = status and parameters.values(own.parameters, word)
-    if values then
-      records[number] = campaign.record(part, number, values, status, rest)
-      judge.complete(own, records[number])
+    local record = values and campaign.record(part, number, values, status, rest)
+    if record then
+      judge.complete(own, record)
+      records[number] = record
     end
   end
   judge.alike(records)
