@@ -44,7 +44,7 @@ function spread.wilson(passed, count)
   if count == 0 then return 0, 1 end
   local share, z2 = passed / count, Z * Z / count
   local middle, half = share + z2 / 2, Z * math.sqrt((share * (1 - share) + z2 / 4) / count)
-  return math.max(0, (middle - half) / (1 + z2)), math.min(1, (middle + half) / (1 + z2))
+  return passed == 0 and 0 or (middle - half) / (1 + z2), passed == count and 1 or (middle + half) / (1 + z2)
 end
 
 local Spread = { __name = "spread" }
