@@ -25,7 +25,7 @@ local function lift(force, scene, wire, hand)
   end)
   local run = scene:run { dt = 0.005 }
   assert(run.ok, run.reason)
-  return { grip = force, slips = hand.slip_event ~= nil }
+  return { margin = hand:over().peak_margin, slips = hand.slip_event ~= nil }
 end
 
 local least = sw.study { name = "least force", file = arg[1],
@@ -33,7 +33,7 @@ local least = sw.study { name = "least force", file = arg[1],
   setup = function() return build(0.4) end, -- once; its scene is restored before each evaluation
   evaluate = function(p, ...) return lift(p.force, ...) end,
   constraints = { slips = { max = 0 } } }
-local found = least:minimise("grip", { starts = 2, tolerance = 1e-3 })
+local found = least:minimise("force", { starts = 2, tolerance = 1e-3 })
 print(least)
 
 local doubt = sw.study { name = "friction", constraints = { slips = { max = 0 } },

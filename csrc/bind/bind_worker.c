@@ -46,11 +46,14 @@ static void bury(worker *w, int kill_it) {
   if (w->fd >= 0) close(w->fd);
   w->fd = -1;
   if (w->pid <= 0 || w->owner != getpid()) return;
+  siginfo_t info;
   if (kill_it) kill(w->pid, SIGKILL);
   w->status = -1;
+  while (waitid(P_PID, (id_t)w->pid, &info, WEXITED | WNOWAIT) < 0)
+    if (errno != EINTR) break;
+  kill(-w->pid, SIGKILL); /* what it has started, while its number is still taken */
   while (waitpid(w->pid, &w->status, 0) < 0)
     if (errno != EINTR) break;
-  kill(-w->pid, SIGKILL); /* what it has started */
   w->pid = 0;
 }
 
@@ -130,6 +133,7 @@ static void work(lua_State *L, pid_t parent, double memory) {
   lua_pushvalue(L, 1);
   lua_pushvalue(L, 3);
   const int status = lua_pcall(L, 1, 0, 0);
+  fflush(NULL);
   _exit(status == LUA_OK ? 0 : 1);
 }
 

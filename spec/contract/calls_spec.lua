@@ -23,7 +23,8 @@ local function objects()
     return { y = p.x }
   end }
   study:sweep{ count = 1 }
-  return { study = study, evaluation = evaluation, scene = scene, wire = wire, hand = hand, gripper = hand, process = process, clip = clip,
+  return { study = study, evaluation = evaluation,
+    scene = scene, wire = wire, hand = hand, gripper = hand, process = process, clip = clip,
     channel = channel, tie = tie, run = run, sw = sw, observer = scene:observe{ call = print },
     view = scene:view{ open = false },
     force = scene:force{ kind = "damping", on = wire },

@@ -40,8 +40,9 @@ print(study.computed)
 
 local SEARCH = [[
 local sw = require "softworld"
-local study = sw.study { name = "search", file = arg[1] ~= "none" and arg[1] or nil, workers = tonumber(arg[3]),
-  parameters = { a = { -2, 2 }, b = { -1, 3, start = 2 } }, constraints = { a2 = { max = 0.8 } },
+local study = sw.study { name = "search", file = arg[1] ~= "none" and arg[1] or nil,
+  workers = tonumber(arg[3]), parameters = { a = { -2, 2 }, b = { -1, 3, start = 2 } },
+  constraints = { a2 = { max = 0.8 } },
   evaluate = function(p)
     if p.random() < 0.05 then error("lost by chance", 0) end
     if arg[4] then os.execute("sleep " .. arg[4]) end

@@ -41,7 +41,8 @@ describe("study:sweep", function()
   end)
 
   it("gives evaluate what the parameter is", function()
-    local s = study({ n = { 2, 5, integer = true }, c = { choices = { "x", true, 3 } }, a = { 1, 2 } }, function(p)
+    local ranges = { n = { 2, 5, integer = true }, c = { choices = { "x", true, 3 } }, a = { 1, 2 } }
+    local s = study(ranges, function(p)
       return { whole = math.type(p.n) == "integer", float = math.type(p.a) == "float",
         fine = p.c == "x" or p.c == true or p.c == 3 }
     end)
@@ -89,7 +90,8 @@ describe("study:sweep", function()
     local many = {}
     for i = 1, 41 do many["p" .. i] = { 0, 1 } end
     local s = study(many, nothing)
-    assert.error_matches(function() s:sweep { count = 3 } end, "kind = 'sobol' is for 1 to 40 parameters, not 41")
+    assert.error_matches(function() s:sweep { count = 3 } end,
+      "kind = 'sobol' is for 1 to 40 parameters, not 41")
     assert.equal(3, #s:sweep { kind = "halton", count = 3 })
   end)
 end)
@@ -138,9 +140,18 @@ describe("study:minimise", function()
   end)
 
   it("finds the lower of two valleys by its starts", function()
-    local s = study({ x = { -3, 3, start = 1.2 } }, function(p) return { y = (p.x ^ 2 - 1) ^ 2 + p.x / 5 } end)
+    local s = study({ x = { -3, 3, start = 1.2 } },
+      function(p) return { y = (p.x ^ 2 - 1) ^ 2 + p.x / 5 } end)
     assert.is_true(s:minimise("y", { starts = 1 }).best.x > 0)
     assert.is_true(s:minimise("y", { starts = 4 }).best.x < 0)
+  end)
+
+  it("takes a parameter as what is to be smallest", function()
+    local s = study({ x = { 0, 1 } }, function(p) return { held = p.x > 0.25 } end, { held = { min = 1 } })
+    local found = s:minimise("x", { tolerance = 1e-4 })
+    -- the last simplex is as small as that, and its other end may be a few times as far
+    assert.is_true(found.value > 0.25 and found.value < 0.251, found.value)
+    assert.equal(found.best.x, found.value)
   end)
 
   it("takes integers as they are, and ends when its evaluations are used up", function()
@@ -250,7 +261,8 @@ describe("what a study shows", function()
     local s, folder = made(), program.folder()
     assert.equal(folder .. "/c.svg", s:chart { x = "force", y = "time", path = folder .. "/c.svg" })
     local svg = program.read(folder .. "/c.svg")
-    for _, words in ipairs { "force [N]", "time [s]", "meets the constraints", "breaks constraints", "shown" } do
+    for _, words in ipairs { "force [N]", "time [s]", "meets the constraints", "breaks constraints",
+      "shown" } do
       assert.truthy(svg:find(words, 1, true), words)
     end
     assert.error_matches(function() s:chart { x = "model", y = "time" } end, "x = 'model' has choices")

@@ -84,6 +84,7 @@ describe("a worker", function()
     local row = third(function()
       local list = {}
       for i = 1, 100 do list[i] = ("x"):rep(10000000) .. i end
+      return #list
     end, { memory = 200e6 })
     assert.equal("took more than 200000000 B of memory", row.failed)
     assert.is_true(row.machine)
@@ -159,7 +160,8 @@ study:sweep { count = 100 }
       local file = folder .. "/" .. signal .. ".study"
       local out = program.shell(([[
 %s %s %s %s >/dev/null 2>%s/err & p=$!
-n=0; while [ "$(grep -c '^e ' %s 2>/dev/null || true)" != 5 ] && [ $n -lt 1000 ]; do sleep 0.02; n=$((n+1)); done
+n=0
+while [ "$(grep -c '^e ' %s 2>/dev/null)" != 5 ] && [ $n -lt 1000 ]; do sleep 0.02; n=$((n+1)); done
 sleep 0.1; pgrep -P $p | wc -l; kill -%s $p; wait $p; echo $?
 sleep 0.3
 ]]):format(NORMAL, program.quote(program.path), script, file, folder, file, signal))

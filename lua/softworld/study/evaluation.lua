@@ -44,7 +44,7 @@ local function given_for(own, number, values)
   function p.give_up(a, b)
     local reason = a
     if a == p then reason = b end
-    error({ GIVEN_UP, reason == nil and "given up" or checks.shown(reason) }, 0)
+    error({ GIVEN_UP, reason == nil and "given up" or checks.shown(reason):sub(1, LONGEST) }, 0)
   end
   return setmetatable(p, { __name = "evaluation",
     __index = checks.fields("evaluation", table.concat(names, " ")) })
@@ -128,12 +128,15 @@ function evaluation.keep(own)
   own.kept = list
 end
 
+local function all(own, p)
+  for _, kept in ipairs(own.kept) do kept[1]:restore(kept[2]) end
+  return own.evaluate(p, table.unpack(own.built, 1, own.built.n))
+end
+
 --- Gives "ok" with results as text; "failed", "machine" or "mistake" with a reason.
 function evaluation.run(own, part, number, values)
-  for _, kept in ipairs(own.kept) do kept[1]:restore(kept[2]) end
   seed_with(own, part, number)
-  local p = given_for(own, number, values)
-  return finish(own, pcall(own.evaluate, p, table.unpack(own.built, 1, own.built.n)))
+  return finish(own, pcall(all, own, given_for(own, number, values)))
 end
 
 return evaluation

@@ -172,8 +172,8 @@ function journal:remarks()
     end
   end
   if self.bad > 0 then
-    list[#list + 1] = ("%s: %d damaged line%s (the first is line %d) count for nothing"):format(self.path,
-      self.bad, self.bad == 1 and "" or "s", self.first_bad)
+    list[#list + 1] = ("%s: %d damaged line%s (the first is line %d) count%s for nothing"):format(
+      self.path, self.bad, self.bad == 1 and "" or "s", self.first_bad, self.bad == 1 and "s" or "")
   end
   return list
 end

@@ -64,12 +64,20 @@ local function ask(search, o)
   return x
 end
 
+-- The value of a result, or of a parameter: the least force at which nothing slips.
+local function value_of(own, result, record)
+  for i, p in ipairs(own.parameters) do
+    if p.name == result then return record.values[i] end
+  end
+  return record.results[result]
+end
+
 -- How bad an evaluation is, as a finite number.
 local function badness(own, result, record)
   if not record.results then return FAILED end
   local broken = judge.violation(own, record)
   if broken > 0 then return BROKEN * (1 + math.min(broken, 1e80)) end
-  return math.max(-BROKEN, math.min(BROKEN, record.results[result]))
+  return math.max(-BROKEN, math.min(BROKEN, value_of(own, result, record)))
 end
 
 -- Starts take turns: evaluation k of start j has number (k - 1) * starts + j.
@@ -95,7 +103,7 @@ local function source_of(own, result, o, searches)
     end
   end
   local function done(record)
-    judge.has(record, result, "study:minimise")
+    if not own.by_name[result] then judge.has(record, result, "study:minimise") end
     local search = searches[(record.number - 1) % o.starts + 1]
     search.values[#search.values + 1] = badness(own, result, record)
     search.waits = nil
@@ -105,12 +113,13 @@ end
 
 -- The best of the records, and the one that breaks constraints the least.
 local function best_of(own, result, list)
-  local best, nearest, least
+  local best, least_value, nearest, least
   for _, record in ipairs(list) do
     if record.results then
       local broken = judge.violation(own, record)
       if broken <= 0 then
-        if not best or record.results[result] < best.results[result] then best = record end
+        local value = value_of(own, result, record)
+        if not least_value or value < least_value then best, least_value = record, value end
       elseif not least or broken < least then
         nearest, least = record, broken
       end
@@ -169,7 +178,7 @@ local function result_of(own, result, list, searches)
       evaluations = #search.values }
   end
   local won = searches[(best.number - 1) % #searches + 1]
-  return setmetatable({ name = result, best = output.row(own, best), value = best.results[result],
+  return setmetatable({ name = result, best = output.row(own, best), value = value_of(own, result, best),
     ok = won.ended == "as near as wanted", reason = won.ended, evaluations = #list, failed = failed,
     at_bound = at_bound(own, best.values), starts = starts }, Found)
 end

@@ -11,6 +11,9 @@ local parameters = {}
 local KEYS = checks.set "unit log integer start sigma choices"
 local RESERVED = checks.set "random give_up number part seed failed machine pass"
 
+local LONGEST = 64 -- of a name [characters]
+local MOST = 1000  -- parameters
+
 local function fail(text, ...) error(text:format(...), 0) end
 
 local SI = " m s kg N Pa rad J W Hz K A V mol "
@@ -38,6 +41,9 @@ end
 function parameters.check_name(what, name)
   if type(name) ~= "string" or not name:find "^%a[%w_]*$" then
     fail("%s %s: a name begins with a letter and has letters, digits and _ only", what, checks.got(name))
+  end
+  if #name > LONGEST then
+    fail("%s '%s...': a name has at most %d characters", what, name:sub(1, 20), LONGEST)
   end
   if RESERVED[name] then fail("%s '%s': the name is taken, choose another", what, name) end
 end
@@ -147,6 +153,7 @@ function parameters.read(given)
   if #list == 0 then
     fail "sw.study: parameters is empty; name at least one, such as { force = { 1, 20 } }"
   end
+  if #list > MOST then fail("sw.study: %d parameters are too many; %d are allowed", #list, MOST) end
   return list
 end
 
