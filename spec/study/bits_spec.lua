@@ -145,6 +145,32 @@ describe("the table", function()
   end)
 end)
 
+describe("a part that was broken off", function()
+  it("goes on when it is asked for again, also without a journal", function()
+    local calls = {}
+    local s = sw.study { name = "r", parameters = { x = { 0, 1 } }, workers = 0, evaluate = function(p)
+      calls[p.number] = (calls[p.number] or 0) + 1
+      return { y = p.random(), z = p.x }
+    end }
+    -- an error in the middle of it, as a full disk or Ctrl-C makes
+    local real, before = sw.core.checksum, nil
+    sw.core.checksum = function(...)
+      if calls[6] and not before then
+        before = true
+        error "stopped"
+      end
+      return real(...)
+    end
+    local fine = pcall(s.sweep, s, { count = 10 })
+    sw.core.checksum = real
+    assert.is_false(fine)
+    local rows = s:sweep { count = 10 }
+    assert.equal(10, #rows)
+    assert.equal(1, rows[10].part)
+    for k = 1, 10 do assert.equal(1, calls[k]) end -- nothing twice
+  end)
+end)
+
 describe("random numbers of an evaluation", function()
   local function study(seed)
     return sw.study { name = "r", seed = seed, parameters = { x = { 0, 1 } },

@@ -154,7 +154,7 @@ function campaign.run(own, method, options, source)
   own.busy = false
   own.journal:close()
   if fine then return records end
-  own.asked[part].ended = true
+  own.part = part - 1 -- asked for again it goes on
   if type(why) == "string" and why:find "interrupted$" then own.interrupted() end
   error(why, 0)
 end
