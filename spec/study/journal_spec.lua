@@ -47,6 +47,19 @@ describe("a journal", function()
     assert.same(more:table(), study(path):table()) -- without asking for anything
   end)
 
+  it("is shown with parts that this script does not ask for", function()
+    local path = new_path()
+    local s = study(path)
+    s:minimise "y"
+    s:sweep { count = 20 }
+    s = study(path)
+    s:minimise("y", { evaluations = 8 })
+    assert.truthy(tostring(s):find("1. minimise y: 8 evaluations, 0 failed", 1, true), tostring(s))
+    assert.truthy(tostring(s):find("2. in the journal: 20 evaluations, 0 failed", 1, true))
+    assert.truthy(tostring(s):find("best y, evaluation %d"))
+    assert.equal(28, #s:table())
+  end)
+
   it("goes on after a line that was torn anywhere", function()
     local path = new_path()
     local _, rows = swept(path)

@@ -170,6 +170,17 @@ describe("an evaluation", function()
     assert.truthy(tostring(s):find("8 evaluations, 6 failed", 1, true))
   end)
 
+  it("that closes the scene of all of them says so", function()
+    for workers = 0, 1 do
+      local s = study { setup = function() return sw.scene {} end, evaluate = function(_, scene)
+        scene:close()
+        return { y = 1 }
+      end }
+      assert.error_matches(function() s:sweep { count = 3, workers = workers } end,
+        "mistakes_spec.lua:%d+: evaluate closed the scene that setup had built")
+    end
+  end)
+
   it("of which all fail is an error with the first reason", function()
     local s = study { evaluate = function() error("no luck", 0) end }
     assert.error_matches(function() s:sweep { count = 4 } end,

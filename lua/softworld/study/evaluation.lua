@@ -111,6 +111,9 @@ local function judge(own, message)
 end
 
 local function finish(own, fine, ...)
+  for _, kept in ipairs(own.kept) do
+    if not core.exists(kept[1]) then return wrong(own, "closed the scene that setup had built") end
+  end
   if fine then return read(own, ...) end
   return judge(own, ...)
 end

@@ -93,15 +93,22 @@ local function check_name(own, what, name, list)
     and ("did you mean '%s'?"):format(near) or "known are: " .. table.concat(known, " ")), 0)
 end
 
---- The row with the smallest value that meets the constraints, or nil.
-function output.best(own, name)
-  local list, best = records_of(own), nil
-  check_name(own, "study:best", name, list)
+-- The record with the smallest value that meets the constraints, or nil.
+local function best_of(own, name, list)
+  local best, least
   for _, record in ipairs(list) do
     local value = judge.pass(own, record) and output.row(own, record)[name]
-    if type(value) == "number" and (not best or value < best[name]) then best = output.row(own, record) end
+    if type(value) == "number" and (not least or value < least) then best, least = record, value end
   end
   return best
+end
+
+--- The same as a row.
+function output.best(own, name)
+  local list = records_of(own)
+  check_name(own, "study:best", name, list)
+  local best = best_of(own, name, list)
+  return best and output.row(own, best)
 end
 
 --- Parameters and results of a record, as text.
@@ -164,13 +171,12 @@ function output.text(own)
   for _, p in ipairs(own.parameters) do lines[#lines + 1] = "  " .. parameters.describe(p, true) end
   for _, part in ipairs(parts_of(own)) do add_part(lines, part, own.asked[part], list) end
   add_reasons(lines, list)
-  for _, asked in pairs(own.asked) do
-    local result = asked.method:match "^minimise (.*)$"
-    local fine, best = pcall(output.best, own, result)
-    if result and fine and best then
-      local record = own.asked[best.part].records[best.number]
+  for _, part in ipairs(parts_of(own)) do
+    local result = own.asked[part] and own.asked[part].method:match "^minimise (.*)$"
+    local best = result and best_of(own, result, list)
+    if best then
       lines[#lines + 1] = ("  best %s, evaluation %d.%d: %s"):format(result, best.part, best.number,
-        output.values(own, record))
+        output.values(own, best))
     end
   end
   return table.concat(lines, "\n")
