@@ -177,7 +177,7 @@ describe("an evaluation", function()
         return { y = 1 }
       end }
       assert.error_matches(function() s:sweep { count = 3, workers = workers } end,
-        "mistakes_spec.lua:%d+: evaluate closed the scene that setup had built")
+        "evaluate closed the scene that setup had built")
     end
   end)
 
