@@ -12,6 +12,7 @@
 #include "base/vec.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/minimise.h"
+#include "calibrate/quasi.h"
 #include "draw/draw.h"
 #include "film/film.h"
 #include "film/pack.h"

@@ -4,7 +4,8 @@
 -- One CSV row each in out/bench/bench.csv, a summary on the terminal. Values may be lists: case=droop,walls.
 -- case=meshes: what wires that are meshes of particles cost, on the terminal only; case=grip: what
 -- grippers do; case=crowds: many obstacles, nodes and wires; case=report: the
--- player's page; case=bundle: wires that lie along each other; case=view: what a live view costs a run.
+-- player's page; case=bundle: wires that lie along each other; case=view: what a live view costs a run;
+-- case=study: what a study's workers bring and cost.
 -- Compare numbers of one run only: machines differ, and so do their loads.
 package.path = (arg[0]:match "^(.*/)" or "") .. "?.lua;" .. package.path
 package.cpath = (arg[-1]:match "^(.*/)" or "") .. "lib/?.so;" .. package.cpath -- softworld.probe
@@ -179,7 +180,8 @@ for _, name in ipairs(order) do
   end
 end
 if #jobs == 0 and not (wanted.case and (wanted.case.meshes or wanted.case.grip
-  or wanted.case.crowds or wanted.case.report or wanted.case.bundle or wanted.case.view)) then
+  or wanted.case.crowds or wanted.case.report or wanted.case.bundle or wanted.case.view
+  or wanted.case.study)) then
   io.stderr:write("bench: nothing fits these options\n")
   os.exit(2)
 end
@@ -512,10 +514,25 @@ local function print_view()
     100 * (page / plain - 1), rate, 100 * view.aim, page / plain - 1 <= view.aim and "met" or "missed"))
 end
 
+-- Studies: what workers bring and cost.
+local function print_study()
+  local study = require "bench.study"
+  local one, two, rate = study.laying(5, 200)
+  print(("\nstudy of a laying of 4.5 s: %.0f a minute by two workers, %.2f times one (aim %g: %s)"):format(
+    rate, one / two, study.aims.ratio, one / two >= study.aims.ratio and "met" or "missed"))
+  local overhead = study.overhead(3, 5000)
+  print(("  worker, pipe and journal take %.3f ms an evaluation (aim %g: %s)"):format(1e3 * overhead,
+    1e3 * study.aims.overhead, overhead <= study.aims.overhead and "met" or "missed"))
+  local opened = study.opening(1000000)
+  print(("  a journal of 1e6 evaluations opens in %.2f s (aim %g: %s)"):format(opened, study.aims.opening,
+    opened <= study.aims.opening and "met" or "missed"))
+end
+
 if not next(wanted) or wanted.case and wanted.case.report then print_report() end
 if not next(wanted) or wanted.case and wanted.case.meshes then print_meshes() end
 if not next(wanted) or wanted.case and wanted.case.grip then print_grips() end
 if wanted.case and wanted.case.view then print_view() end
+if wanted.case and wanted.case.study then print_study() end
 if wanted.case and wanted.case.crowds then print_crowds() end
 if wanted.case and wanted.case.bundle then print_bundles() end
 local bad = {}

@@ -82,12 +82,14 @@ for word in ("malloc calloc realloc aligned_alloc strdup"):gmatch "%S+" do
   CALLS[word] = "use sw_alloc (base/alloc.h), so that specs can make it fail"
 end
 for word in ("fork vfork execv execve execvp execl execlp posix_spawn kill waitpid"):gmatch "%S+" do
-  CALLS[word] = "only bind/mesh_child.c starts a process; see there"
+  CALLS[word] = "only bind/process.c starts a process, for mesh_child.c and bind_worker.c; see there"
 end
 local CALLS_ALLOWED = { ["base/alloc.c"] = { aligned_alloc = true, calloc = true },
   -- a child process reads mesh files: it has its own standard files, and leaves by _exit
-  ["bind/mesh_child.c"] = { fork = true, kill = true, waitpid = true, open = true, _exit = true,
-    malloc = true },
+  ["bind/mesh_child.c"] = { kill = true, waitpid = true, _exit = true, malloc = true },
+  ["bind/process.c"] = { fork = true, open = true, _exit = true },
+  -- workers of a study
+  ["bind/bind_worker.c"] = { kill = true, waitpid = true, _exit = true },
   -- temporary files of the Lua library, which itself has no locks and no fsync
   ["bind/bind_files.c"] = { open = true, openat = true } }
 

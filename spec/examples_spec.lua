@@ -357,6 +357,21 @@ describe("example", function()
     near(held, least, 1e-3, "least force")
   end)
 
+  -- The same gripper as in 18, which halves an interval until it is 2 % wide: both are right to that. The
+  -- force grows as 1 / friction, so twice the least force at 0.4 holds from 0.2 on. Of a normal distribution
+  -- about 0.4 with sigma 0.1, cut 2.5 sigma below it, those are 1 - (0.02275 - 0.00621) / (1 - 0.00621).
+  it("20: a study of it, and how often twice the force holds", function()
+    local out = example "20_study"
+    local least = after(example "18_least_force", "least force")
+    near(least, after(out, "least force "), 0.022, "least force")
+    local share = after(out, "twice that holds in")
+    local low, high = out:match "interval (%S+) to (%S+) %%"
+    assert.is_true(tonumber(low) < share and share < tonumber(high))
+    local expected = 100 * (1 - (0.02275 - 0.00621) / (1 - 0.00621))
+    assert.is_true(tonumber(low) < expected and expected < tonumber(high), out)
+    assert.truthy(out:find("study 'least force': %d+ evaluations\n"))
+  end)
+
   it("of every number is tested here", function()
     local names = io.popen "ls examples/*.lua"
     local mine = program.read(here .. "/examples_spec.lua")

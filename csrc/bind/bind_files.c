@@ -144,6 +144,19 @@ static int mod_part(lua_State *L) {
   return failed(L);
 }
 
+/* core.lock(path) -> lock: of a file that this process alone writes to, made if it is not there;
+ * nil and the reason, or nil, and "busy" when another one has it. */
+static int mod_lock(lua_State *L) {
+  const char *path = luaL_checkstring(L, 1);
+  part_lock *lock = new_lock(L);
+  lock->fd = open(path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, 0666);
+  if (lock->fd < 0) return failed(L);
+  if (flock(lock->fd, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return 1;
+  lua_pushnil(L);
+  lua_pushliteral(L, "busy");
+  return 2;
+}
+
 static int sync_path(const char *path, int flags) {
   const int fd = open(path, O_RDONLY | O_CLOEXEC | flags);
   if (fd < 0) return -1;
@@ -174,7 +187,7 @@ static int mod_kind(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg functions[] = {
-    {"part", mod_part}, {"sweep", mod_sweep}, {"sync", mod_sync}, {"kind", mod_kind}, {NULL, NULL}};
+static const luaL_Reg functions[] = {{"part", mod_part}, {"lock", mod_lock}, {"sweep", mod_sweep},
+                                     {"sync", mod_sync}, {"kind", mod_kind}, {NULL, NULL}};
 
 void lsw_open_files(lua_State *L) { luaL_setfuncs(L, functions, 0); }

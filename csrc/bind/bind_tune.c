@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* core.minimise: the smallest value of a Lua function. */
+/* core.minimise: the smallest value of a Lua function; core.quasi: points that fill a cube evenly.
+ */
 #include <math.h>
+#include <string.h>
 
 #include "bind/bind_motion.h"
 #include "bind/child.h"
@@ -134,7 +136,25 @@ static int mod_minimise(lua_State *L) {
   return 1;
 }
 
+/* quasi(kind, n, count): "sobol" or "halton" -> a flat list of n * count numbers in (0, 1) */
+static int mod_quasi(lua_State *L) {
+  sw_error err = {""};
+  const int sobol = strcmp(luaL_checkstring(L, 1), "sobol") == 0;
+  const lua_Integer n = luaL_checkinteger(L, 2), count = luaL_checkinteger(L, 3);
+  luaL_argcheck(L, n >= 1 && n <= SW_QUASI_HALTON_MOST, 2, "1 to 100 parameters");
+  luaL_argcheck(L, count >= 1 && count <= 10000000, 3, "1 to 1e7 points");
+  double *out = lua_newuserdatauv(L, sizeof *out * (size_t)(n * count), 0);
+  lsw_must(L, sw_quasi(sobol, (size_t)n, (size_t)count, out, &err), &err);
+  lua_createtable(L, (int)(n * count), 0);
+  for (lua_Integer k = 0; k < n * count; k++) {
+    lua_pushnumber(L, out[k]);
+    lua_rawseti(L, -2, k + 1);
+  }
+  return 1;
+}
+
 void lsw_open_tune(lua_State *L) {
-  static const luaL_Reg functions[] = {{"minimise", mod_minimise}, {NULL, NULL}};
+  static const luaL_Reg functions[] = {
+      {"minimise", mod_minimise}, {"quasi", mod_quasi}, {NULL, NULL}};
   luaL_setfuncs(L, functions, 0);
 }

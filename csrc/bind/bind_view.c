@@ -10,6 +10,10 @@
 static const char SERVER[] = "softworld.server";
 static const char FILM[] = "softworld.film_now";
 
+static int running; /* servers, each with threads of its own */
+
+int lsw_servers(void) { return running; }
+
 typedef struct holder {
   sw_server *server;
 } holder;
@@ -24,6 +28,7 @@ static int meth_stop(lua_State *L) {
   holder *h = luaL_checkudata(L, 1, SERVER);
   sw_server *server = h->server;
   h->server = NULL;
+  if (server) running--;
   sw_server_stop(server);
   return 0;
 }
@@ -92,6 +97,7 @@ static int mod_serve(lua_State *L) {
   }
   lua_setmetatable(L, -2);
   lsw_must(L, sw_server_start((int)port, &h->server, &err), &err);
+  running++;
   lua_pushinteger(L, sw_server_port(h->server));
   lua_pushstring(L, sw_server_token(h->server));
   return 3;

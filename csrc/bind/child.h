@@ -79,6 +79,9 @@ int lsw_wire_width(lua_State *L);
 int lsw_wire_contact_pressure(lua_State *L);
 int lsw_wire_von_mises(lua_State *L);
 
+/* Servers of live views that run now: their threads would not be in a fork. */
+int lsw_servers(void);
+
 /* While the core may call Lua functions as forces: they run on L, whose stack
  * index 1 is the scene. The value goes back to lsw_end_forces. */
 lua_State *lsw_begin_forces(lua_State *L);

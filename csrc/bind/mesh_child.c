@@ -2,8 +2,9 @@
 /* Reads a mesh file in a child process. Assimp may end the process on a damaged file, spoil its
  * heap when memory runs out, and take any time; none of it polls for Ctrl-C. So a fork of this
  * process reads, with limits on memory and time, and sends the triangles through a pipe. Here and
- * nowhere else a process is started: the core does not, and the program that has loaded the core
- * may be a stock Lua, so that there is no other program to start than itself.
+ * for the workers of a study a process is started, nowhere else: the core does not, and the program
+ * that has loaded the core may be a stock Lua, so that there is no other program to start than
+ * itself.
  *
  * The child has no Lua: it reads, writes to the pipe and leaves by _exit, which runs no handlers
  * of the parent and flushes nothing of its files. Its standard files are /dev/null, for what C++
@@ -19,20 +20,18 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
+#include "bind/process.h"
 #include "softworld.h"
 
 #if defined(__SANITIZE_ADDRESS__)
-/* The sanitizer's shadow takes more address space than any limit allows; limited is memory that is
- * written to. */
-enum { SLOWER = 5, LIMIT_AS = 0 };
+enum { SLOWER = 5 };
 #else
-enum { SLOWER = 1, LIMIT_AS = 1 };
+enum { SLOWER = 1 };
 #endif
 
 #define MEMORY_LEAST (256e6)           /* allowed for any file [B] */
@@ -69,51 +68,10 @@ static limits limits_of(const sw_mesh_file *file) {
 
 /* --- the child ------------------------------------------------------------ */
 
-/* Address space and written-to memory in use [B]; 0 where the system does not tell. */
-static void memory_now(double *space, double *data) {
-  char text[256] = "";
-  unsigned long pages[6] = {0};
-  *space = *data = 0;
-  const int fd = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
-  if (fd < 0) return;
-  const ssize_t n = read(fd, text, sizeof text - 1);
-  close(fd);
-  char *at = text;
-  for (int k = 0; k < 6 && n > 0; k++) pages[k] = strtoul(at, &at, 10);
-  *space = (double)pages[0] * (double)sysconf(_SC_PAGESIZE);
-  *data = (double)pages[5] * (double)sysconf(_SC_PAGESIZE);
-}
-
-/* Lower a limit; the one that is there stays where it is lower. */
-static void limit(int what, double soft, double hard) {
-  struct rlimit now;
-  if (getrlimit(what, &now) != 0) return;
-  if (now.rlim_cur == RLIM_INFINITY || (double)now.rlim_cur > soft) now.rlim_cur = (rlim_t)soft;
-  if (now.rlim_max == RLIM_INFINITY || (double)now.rlim_max > hard) now.rlim_max = (rlim_t)hard;
-  setrlimit(what, &now);
-}
-
 static void set_limits(const limits *most) {
-  double space, data;
-  memory_now(&space, &data);
-  if (LIMIT_AS && space > 0) limit(RLIMIT_AS, space + most->memory, space + most->memory);
-  if (data > 0) limit(RLIMIT_DATA, data + most->memory, data + most->memory);
-  limit(RLIMIT_CPU, ceil(most->cpu), ceil(most->cpu) + 1);
-  limit(RLIMIT_CORE, 0, 0);
-}
-
-/* The parent's handlers are not for this process; what it ignores stays ignored. */
-static void reset_signals(void) {
-  struct sigaction action;
-  sigset_t none;
-  for (int number = 1; number < NSIG; number++) {
-    if (sigaction(number, NULL, &action) != 0) continue;
-    if (action.sa_handler == SIG_DFL) continue;
-    if (action.sa_handler == SIG_IGN && number != SIGXCPU) continue;
-    signal(number, SIG_DFL);
-  }
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, NULL);
+  lsw_process_limit_memory(most->memory);
+  lsw_process_limit(RLIMIT_CPU, ceil(most->cpu), ceil(most->cpu) + 1);
+  lsw_process_limit(RLIMIT_CORE, 0, 0);
 }
 
 static int send_all(int fd, const void *bytes, size_t count) {
@@ -125,22 +83,6 @@ static int send_all(int fd, const void *bytes, size_t count) {
     at += n, count -= (size_t)n;
   }
   return 1;
-}
-
-static void detach(int pipe_fd, pid_t parent) {
-#ifdef PR_SET_PDEATHSIG
-  prctl(PR_SET_PDEATHSIG, SIGKILL); /* a parent that is killed takes it along */
-  prctl(PR_SET_DUMPABLE, 0);        /* no report to anybody about how it ended */
-#endif
-  if (getppid() != parent) _exit(1);
-  const int nothing = open("/dev/null", O_RDWR);
-  for (int fd = 0; fd <= 2; fd++) {
-    if (fd == pipe_fd) continue;
-    if (nothing >= 0)
-      dup2(nothing, fd);
-    else
-      close(fd);
-  }
 }
 
 /* Assimp's buffer for OBJ files has 16 MB, whatever the file's size: in small pages, to get them
@@ -159,9 +101,10 @@ static void widen_pages(void) {
 static void child(const sw_mesh_file *file, const limits *most, int fd, pid_t parent) {
   sw_mesh_data data = {0};
   reply r = {.word = REPLY};
-  detach(fd, parent);
+  lsw_process_follow(parent);
+  lsw_process_silence(0, 2, fd);
   set_limits(most);
-  reset_signals();
+  lsw_process_reset_signals();
   widen_pages();
   const size_t before = sw_alloc_count();
   r.status = (int32_t)sw_mesh_read(file, &data, &r.err);
@@ -317,18 +260,14 @@ static sw_status read_in_child(const sw_mesh_file *file, sw_mesh_data *out, sw_e
   const limits most = limits_of(file);
   reading r = {.most = most.wall, .hook = asking ? lua_gethook(asking) : NULL};
   int ends[2];
-  sigset_t all, before;
   *out = (sw_mesh_data){0};
   if (pipe2(ends, O_CLOEXEC) != 0)
     return sw_fail(err, SW_ELIMIT, "%s: no pipe for reading it (%s); close some files",
                    file->object, strerror(errno));
   const pid_t parent = getpid();
-  sigfillset(&all); /* no handler of this process may run in the child */
-  sigprocmask(SIG_SETMASK, &all, &before);
-  r.pid = fork();
+  r.pid = lsw_process_fork();
   if (r.pid == 0) child(file, &most, ends[1], parent);
   const int why = errno;
-  sigprocmask(SIG_SETMASK, &before, NULL);
   close(ends[1]);
   r.fd = ends[0];
   if (r.pid < 0) {

@@ -68,6 +68,7 @@ rows.later(core.class.scene, "softworld.scene.describe", "describe")
 rows.later(core.class.scene, "softworld.run.pictures", "picture")
 rows.later(core.class.scene, "softworld.view.view", "view")
 rows.later(sw, "softworld.run.plot", "plot")
+rows.later(sw, "softworld.study.study", "study")
 record.install(made)
 
 for kind, class in pairs(made) do methods.guard_table(kind, class) end

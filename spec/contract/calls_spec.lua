@@ -17,7 +17,14 @@ local function objects()
   local channel = scene:channel{ points = { { 0, 2, 0 }, { 1, 2, 0 } }, width = 0.02, depth = 0.02 }
   local tie = scene:tie(wire, { s = 0.1 })
   local run = scene:run{ dt = 0.01 }
-  return { scene = scene, wire = wire, hand = hand, gripper = hand, process = process, clip = clip,
+  local evaluation
+  local study = sw.study{ name = "study", parameters = { x = { 0, 1 } }, workers = 0, evaluate = function(p)
+    evaluation = p
+    return { y = p.x }
+  end }
+  study:sweep{ count = 1 }
+  return { study = study, evaluation = evaluation,
+    scene = scene, wire = wire, hand = hand, gripper = hand, process = process, clip = clip,
     channel = channel, tie = tie, run = run, sw = sw, observer = scene:observe{ call = print },
     view = scene:view{ open = false },
     force = scene:force{ kind = "damping", on = wire },

@@ -25,6 +25,8 @@ local function zoo()
     join = scene:join { ends = { { a, s = 0.5 }, { b, s = 0 } } }, snapshot = scene:snapshot(),
     trajectory = sw.trajectory { points = { { 0, 0, 0 }, { 1, 0, 0 } }, speed = 0.1 },
     process = scene:process(function(p) p:wait(0.001) end),
+    study = sw.study { name = "zoo", workers = 0, parameters = { x = { 0, 1 } },
+      evaluate = function(p) return { y = p.x } end },
     shape = sw.shape { shape = "box", size = { 1, 1, 1 } }, cable = sw.cable "GXL 1.5" }
   objects.run = scene:run { duration = 0.002, dt = 0.001, frame = 0.001 }
   objects.section = tube:section(0.03)

@@ -10,8 +10,8 @@ local manual = {}
 --- Groups of pages: a title and the names of the group's pages.
 manual.groups = {
   { "How to", { "start", "lay", "grip", "handling", "mixed", "clip", "tie", "channel", "slider", "feed",
-    "winding", "join", "touches", "particles", "process", "waiting", "observe", "view", "tuning", "player",
-    "plotting", "save", "snapshot", "mistakes" } },
+    "winding", "join", "touches", "particles", "process", "waiting", "observe", "view", "tuning", "study",
+    "player", "plotting", "save", "snapshot", "mistakes" } },
   { "Choose", { "models", "wire_mesh", "sections", "cable", "springback", "damping", "integrators",
     "vibration", "calibrate", "remodel", "units" } },
   { "Trust", { "accuracy", "tolerance", "limits", "speed", "peaks", "energy", "events", "changes" } },
@@ -26,6 +26,7 @@ manual.also = { manual = "start", contact = "touches", meshes = "wire_mesh", har
   rail = "slider", plot = "plotting", charts = "plotting",
   pictures = "plotting", paraview = "plotting", resume = "save", load = "save", ledger = "energy",
   observer = "observe", live = "view",
+  sweep = "study", optimise = "study", workers = "study", journal = "study",
   report = "player", page = "player", html = "player", film = "player", frames = "player",
   changed = "changes", modes = "vibration", stress = "vibration" }
 

@@ -225,12 +225,20 @@ local function leave_out(class)
   for _, name in ipairs { "picture", "save", "script" } do class[name] = itself end
 end
 
+-- Nothing is evaluated, but what setup builds is looked at.
+local function study_of(args)
+  used = true
+  if type(args) == "table" and type(args.setup) == "function" then args.setup() end
+  return nothing
+end
+
 local function prepare()
   local sw = require "softworld"
   follow_scenes(core.class.scene)
   leave_out(core.class.scene)
   for _, name in ipairs { "report", "plot", "calibrate" } do rawset(sw, name, itself) end
   rawset(sw, "tune", nothing)
+  rawset(sw, "study", study_of)
   function remarks.write(at, text) tell(at, text) end
   rawset(_G, "print", function() end)
   rawset(os, "exit", function() error(nothing, 0) end)

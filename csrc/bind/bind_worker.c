@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Workers of a study: forks of this process, with all that it has built, that take and give texts.
+ *
+ *   core.fork(f, memory) -> worker; in the fork f(channel) runs, then it leaves. memory: that it
+ * may take besides [B], 0 = any. nil and the reason when there can be none. worker:send(text) ->
+ * was it taken; worker:receive() -> text, or nil, "signal" or "exit", number when it has ended;
+ * worker:pid(); worker:stop() kills it and what it has started channel:send(text),
+ * channel:receive() -> text, or nil when there is nothing more to do core.ready(workers, seconds)
+ * -> indexes of those from which something can be received core.limit_cpu(seconds): this process is
+ * killed when it has computed so long; 0 = never core.processors(); core.checksum(text) -> integer
+ *
+ * A text is one packet, whole or not there. A worker has its own process group, so that Ctrl-C at a
+ * terminal is for the parent only and what it starts ends with it; it is killed with its parent. */
+#include <errno.h>
+#include <lauxlib.h>
+#include <poll.h>
+#include <sched.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "bind/child.h"
+#include "bind/module.h"
+#include "bind/process.h"
+
+enum { LONGEST = 1 << 16, MOST = 1024 }; /* bytes of a text, workers [-] */
+
+static const char WORKER[] = "softworld.worker";
+
+typedef struct worker {
+  int fd;      /* -1: closed */
+  pid_t pid;   /* 0: it has ended, or this is the worker's own end */
+  pid_t owner; /* the process that may end it */
+  int status;  /* of waitpid, -1 when there was none */
+} worker;
+
+static worker *check(lua_State *L, int index) { return luaL_checkudata(L, index, WORKER); }
+
+/* Take the exit status, after killing it if wanted. */
+static void bury(worker *w, int kill_it) {
+  if (w->fd >= 0) close(w->fd);
+  w->fd = -1;
+  if (w->pid <= 0 || w->owner != getpid()) return;
+  siginfo_t info;
+  if (kill_it) kill(w->pid, SIGKILL);
+  w->status = -1;
+  while (waitid(P_PID, (id_t)w->pid, &info, WEXITED | WNOWAIT) < 0)
+    if (errno != EINTR) break;
+  kill(-w->pid, SIGKILL); /* what it has started, while its number is still taken */
+  while (waitpid(w->pid, &w->status, 0) < 0)
+    if (errno != EINTR) break;
+  w->pid = 0;
+}
+
+static int meth_stop(lua_State *L) {
+  bury(check(L, 1), 1);
+  return 0;
+}
+
+static int meth_pid(lua_State *L) {
+  lua_pushinteger(L, check(L, 1)->pid);
+  return 1;
+}
+
+static int meth_send(lua_State *L) {
+  size_t size;
+  worker *w = check(L, 1);
+  const char *text = luaL_checklstring(L, 2, &size);
+  ssize_t n = -1;
+  luaL_argcheck(L, size > 0 && size <= LONGEST, 2, "a text of 1 to 65536 bytes is wanted");
+  do n = w->fd >= 0 ? send(w->fd, text, size, MSG_NOSIGNAL) : -1;
+  while (n < 0 && w->fd >= 0 && errno == EINTR);
+  lua_pushboolean(L, n == (ssize_t)size);
+  return 1;
+}
+
+static int push_end(lua_State *L, worker *w) {
+  const int child_end = w->pid <= 0;
+  bury(w, 0);
+  lua_pushnil(L);
+  if (child_end) return 1;
+  const int killed = w->status != -1 && WIFSIGNALED(w->status);
+  lua_pushstring(L, killed ? "signal" : "exit");
+  lua_pushinteger(L, killed ? WTERMSIG(w->status) : w->status == -1 ? -1 : WEXITSTATUS(w->status));
+  return 3;
+}
+
+static int meth_receive(lua_State *L) {
+  luaL_Buffer b;
+  worker *w = check(L, 1);
+  ssize_t n = 0;
+  char *room = luaL_buffinitsize(L, &b, LONGEST);
+  do n = w->fd >= 0 ? recv(w->fd, room, LONGEST, 0) : 0;
+  while (n < 0 && errno == EINTR);
+  luaL_pushresultsize(&b, n > 0 ? (size_t)n : 0);
+  return n > 0 ? 1 : push_end(L, w);
+}
+
+static const luaL_Reg methods[] = {{"send", meth_send},
+                                   {"receive", meth_receive},
+                                   {"pid", meth_pid},
+                                   {"stop", meth_stop},
+                                   {NULL, NULL}};
+
+static worker *new_worker(lua_State *L) {
+  worker *w = lua_newuserdatauv(L, sizeof *w, 0);
+  *w = (worker){.fd = -1, .status = -1, .owner = getpid()};
+  if (luaL_newmetatable(L, WORKER)) {
+    luaL_newlib(L, methods);
+    lua_setfield(L, -2, "__index");
+    lua_pushcfunction(L, meth_stop), lua_setfield(L, -2, "__gc");
+    lua_pushcfunction(L, meth_stop), lua_setfield(L, -2, "__close");
+  }
+  lua_setmetatable(L, -2);
+  return w;
+}
+
+/* In the fork. Index 1 is the function, 3 this end of the connection. */
+static void work(lua_State *L, pid_t parent, double memory) {
+  lsw_process_follow(parent);
+  setpgid(0, 0);
+  lsw_process_silence(0, 0, -1);
+  lsw_process_limit(RLIMIT_CORE, 0, 0);
+  if (memory > 0) lsw_process_limit_memory(memory);
+  lsw_process_reset_signals();
+  signal(SIGINT, SIG_IGN); /* the parent decides */
+  sw_interrupt_clear();
+  lua_pushvalue(L, 1);
+  lua_pushvalue(L, 3);
+  const int status = lua_pcall(L, 1, 0, 0);
+  fflush(NULL);
+  _exit(status == LUA_OK ? 0 : 1);
+}
+
+static int failed(lua_State *L) {
+  const int why = errno;
+  lua_pushnil(L);
+  lua_pushstring(L, strerror(why));
+  return 2;
+}
+
+static int mod_fork(lua_State *L) {
+  luaL_checktype(L, 1, LUA_TFUNCTION);
+  const double memory = luaL_optnumber(L, 2, 0);
+  int ends[2];
+  if (lsw_servers() > 0)
+    return luaL_error(
+        L,
+        "no worker can be forked while a live view is open, whose threads would not be in the "
+        "fork: close the view, or compute in this process with workers = 0");
+  lua_settop(L, 1);
+  worker *ours = new_worker(L), *theirs = new_worker(L);
+  luaL_checkstack(L, 8, "fork");
+  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) return failed(L);
+  ours->fd = ends[0], theirs->fd = ends[1];
+  const pid_t parent = getpid();
+  fflush(NULL); /* or it would be written twice */
+  const pid_t pid = lsw_process_fork();
+  if (pid == 0) {
+    close(ours->fd);
+    ours->fd = -1;
+    work(L, parent, memory);
+  }
+  const int why = errno;
+  bury(theirs, 0);
+  if (pid < 0) {
+    bury(ours, 0);
+    errno = why;
+    return failed(L);
+  }
+  ours->pid = pid;
+  setpgid(pid, pid); /* whoever comes first */
+  lua_settop(L, 2);
+  return 1;
+}
+
+static int mod_ready(lua_State *L) {
+  struct pollfd p[MOST];
+  const double seconds = luaL_checknumber(L, 2);
+  luaL_checktype(L, 1, LUA_TTABLE);
+  const lua_Integer count = luaL_len(L, 1);
+  luaL_argcheck(L, count <= MOST, 1, "too many workers");
+  for (lua_Integer k = 0; k < count; k++) {
+    lua_geti(L, 1, k + 1);
+    p[k] = (struct pollfd){check(L, -1)->fd, POLLIN, 0};
+    lua_pop(L, 1);
+  }
+  lsw_poll(L);
+  const int n = poll(p, (nfds_t)count, (int)(1e3 * seconds));
+  lsw_poll(L);
+  lua_newtable(L);
+  lua_Integer found = 0;
+  for (lua_Integer k = 0; k < count && n > 0; k++)
+    if (p[k].revents != 0) {
+      lua_pushinteger(L, k + 1);
+      lua_rawseti(L, -2, ++found);
+    }
+  return 1;
+}
+
+static int mod_limit_cpu(lua_State *L) {
+  const double seconds = luaL_checknumber(L, 1);
+  struct itimerval t = {{0, 0}, {(time_t)seconds, (suseconds_t)(1e6 * (seconds - floor(seconds)))}};
+  setitimer(ITIMER_PROF, &t, NULL); /* SIGPROF, of which nothing is left to handle in a worker */
+  return 0;
+}
+
+static int mod_processors(lua_State *L) {
+  cpu_set_t set;
+  const int known = sched_getaffinity(0, sizeof set, &set) == 0;
+  lua_pushinteger(L, known ? CPU_COUNT(&set) : 1);
+  return 1;
+}
+
+void lsw_open_worker(lua_State *L) {
+  static const luaL_Reg functions[] = {{"fork", mod_fork},
+                                       {"ready", mod_ready},
+                                       {"limit_cpu", mod_limit_cpu},
+                                       {"processors", mod_processors},
+                                       {NULL, NULL}};
+  luaL_setfuncs(L, functions, 0);
+}

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Points that fill a cube more evenly than random ones do. */
+#ifndef SW_CALIBRATE_QUASI_H
+#define SW_CALIBRATE_QUASI_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+
+enum { SW_QUASI_SOBOL_MOST = 40, SW_QUASI_HALTON_MOST = 100 }; /* dimensions [-] */
+
+/* count points of n coordinates in (0, 1), one after the other in out [-]. sobol: Sobol's sequence
+ * (Antonov, Saleev 1979), else Halton's, in which each coordinate has a prime as its base. */
+sw_status sw_quasi(int sobol, size_t n, size_t count, double *out, sw_error *err);
+
+#endif

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* GSL's quasi-random sequences. */
+#include <gsl/gsl_qrng.h>
+
+#include "calibrate/quasi.h"
+
+sw_status sw_quasi(int sobol, size_t n, size_t count, double *out, sw_error *err) {
+  const size_t most = sobol ? SW_QUASI_SOBOL_MOST : SW_QUASI_HALTON_MOST;
+  if (n < 1 || n > most)
+    return sw_fail(err, SW_EINVAL, "kind = '%s' is for 1 to %zu parameters, not %zu",
+                   sobol ? "sobol" : "halton", most, n);
+  gsl_qrng *q = gsl_qrng_alloc(sobol ? gsl_qrng_sobol : gsl_qrng_halton, (unsigned)n);
+  if (!q) return sw_fail(err, SW_ENOMEM, "out of memory");
+  for (size_t k = 0; k < count; k++) gsl_qrng_get(q, out + k * n);
+  gsl_qrng_free(q);
+  return SW_OK;
+}

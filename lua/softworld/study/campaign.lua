@@ -1,0 +1,162 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- All evaluations of one sweep, search or spread: those that the journal has are taken from there, the
+-- others are computed by workers and put down.
+--
+-- A record: { part =, number =, values =, results = { name = number } or nil, failed = reason, machine = true
+-- where the machine and not the model failed }.
+-- @module softworld.study.campaign
+local core = require "softworld.core"
+local evaluation = require "softworld.study.evaluation"
+local judge = require "softworld.study.judge"
+local parameters = require "softworld.study.parameters"
+local pool = require "softworld.study.pool"
+local unread = require "softworld.unread"
+
+local campaign = {}
+
+local function finite(text)
+  local x = tonumber(text)
+  return x and x - x == 0 and x + 0.0 or nil
+end
+
+-- "time=1.5 margin=0.25" as a table; nil where it is anything else.
+local function results_of(text)
+  local results, left = {}, text
+  while left ~= "" do
+    local name, number, rest = left:match "^(%a[%w_]*)=(%S+) ?(.*)$"
+    local value = number and finite(number)
+    if not value then return nil end
+    results[name], left = value, rest
+  end
+  return next(results) and results
+end
+
+--- A record out of a line: status "ok" and results as text, or another one and a reason. nil: it is none.
+function campaign.record(part, number, values, status, rest)
+  local r = { part = part, number = number, values = values }
+  if status == "ok" then
+    r.results = results_of(rest)
+    return r.results and r
+  end
+  r.failed, r.machine = rest, status == "machine" or nil
+  return r
+end
+
+-- Has this line been computed for good? What the machine did is computed again, unless by these limits.
+local function stands(own, status, rest)
+  if status ~= "machine" then return true end
+  return own.cpu and rest == pool.cpu_reason(own.cpu)
+    or own.memory and rest == evaluation.memory_reason(own.memory)
+end
+
+-- What setup builds, once, when something is to be computed.
+local function build(own)
+  if own.built then return end
+  own.built = own.setup and table.pack(own.setup()) or table.pack()
+  evaluation.keep(own)
+end
+
+-- What is left to do: an iterator over tasks; those in the journal are done at once.
+local function tasks(own, part, source, done)
+  return function()
+    while true do
+      local number, values = source.next()
+      if not number then return nil end
+      local word = parameters.word(values)
+      local status, rest = own.journal:find(part, number, word)
+      local record = status and stands(own, status, rest)
+        and campaign.record(part, number, values, status, rest)
+      if not record then
+        return { number = number, values = values, word = word, text = number .. " " .. word }
+      end
+      done(record)
+    end
+  end
+end
+
+local function keep(own, part, task, status, rest, done)
+  if status == "mistake" then
+    if task.number == 1 then error(rest, 0) end -- all the others would fail alike
+    status = "failed"
+  end
+  own.journal:add(part, task.number, task.word, status, rest)
+  own.computed = own.computed + 1
+  done(campaign.record(part, task.number, task.values, status, rest))
+end
+
+-- Within this process: one after the other.
+local function here(own, part, next_task, done)
+  local again, more = math.random(0), math.random(0)
+  local fine, why = pcall(function()
+    for task in next_task do
+      local status, rest = unread.excused(evaluation.run, own, part, task.number, task.values)
+      keep(own, part, task, status, rest, done)
+    end
+  end)
+  math.randomseed(again, more)
+  if not fine then error(why, 0) end
+end
+
+local function by_workers(own, part, count, next_task, done)
+  pool.run {
+    workers = count, cpu = own.cpu, memory = own.memory, next = next_task,
+    begin = function()
+      own.journal:leave()
+      package.loaded.softworld.remarks = false
+    end,
+    answer = function(text)
+      local number, word = text:match "^(%d+) (.*)$"
+      local values = parameters.values(own.parameters, word)
+      local status, rest = evaluation.run(own, part, math.tointeger(number), values)
+      return status .. " " .. rest
+    end,
+    done = function(task, status, rest) keep(own, part, task, status, rest, done) end,
+  }
+end
+
+-- The first task is needed to know whether there is something to build.
+local function compute(own, part, options, source, done)
+  local next_task = tasks(own, part, source, done)
+  local first = next_task()
+  if not first then return end
+  build(own)
+  local function from_first()
+    local task = first
+    if task then
+      first = nil
+      return task
+    end
+    return next_task()
+  end
+  local count = options.workers or own.workers or core.processors()
+  if count == 0 then return here(own, part, from_first, done) end
+  by_workers(own, part, count, from_first, done)
+end
+
+--- Evaluate all that source.next() gives: number, values; nil when there is none now. source.done(record)
+-- hears what came of each. The part's records by number.
+function campaign.run(own, method, options, source)
+  if own.busy then error(("study '%s': its evaluations cannot ask for more of them"):format(own.name), 0) end
+  own.part = own.part + 1
+  local part, records = own.part, {}
+  own.asked[part] = { method = method, records = records }
+  local function done(record)
+    judge.complete(own, record)
+    records[record.number] = record
+    if source.done then source.done(record) end
+  end
+  own.busy = true
+  local fine, why = pcall(function()
+    own.journal:open()
+    own.tell()
+    compute(own, part, options, source, done)
+  end)
+  own.busy = false
+  own.journal:close()
+  if fine then return records end
+  own.part = part - 1 -- asked for again it goes on
+  if type(why) == "string" and why:find "interrupted$" then own.interrupted() end
+  error(why, 0)
+end
+
+return campaign

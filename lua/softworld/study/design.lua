@@ -1,0 +1,114 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Places of the parameters' values for sweeps: on a grid, or so many that fill the ranges evenly.
+-- @module softworld.study.design
+local core = require "softworld.core"
+local parameters = require "softworld.study.parameters"
+
+local design = {}
+
+local MOST = 10000000 -- evaluations of one sweep
+
+local function fail(text, ...) error(text:format(...), 0) end
+
+-- How many values of a grid each parameter has.
+local function counts(list, what, grid, count)
+  local each = {}
+  for i, p in ipairs(list) do
+    local n = type(grid) == "table" and grid[p.name] or type(grid) == "number" and grid or nil
+    if p.kind == "choice" then n = n or #p.choices end
+    if n == nil and count then n = math.max(2, math.floor(count ^ (1 / #list) + 1e-9)) end
+    if p.kind == "integer" then n = math.min(n or math.huge, p.high - p.low + 1) end
+    if n == nil then fail("%s: grid has no number of values for '%s'", what, p.name) end
+    if math.type(n) ~= "integer" and not math.tointeger(n) or n < 1 or n > MOST then
+      fail("%s: grid: %s = %s is not allowed; it must be an integer from 1 to %d", what, p.name,
+        tostring(n), MOST)
+    end
+    each[i] = math.tointeger(n)
+    if p.kind == "choice" then each[i] = math.min(each[i], #p.choices) end
+  end
+  return each
+end
+
+-- The k-th of n values of a range, ends included; of one value the middle, or the start.
+local function on_grid(p, k, n)
+  if p.kind == "choice" then return k + 1 end
+  if n == 1 then return p.start or parameters.at(p, 0.5) end
+  if p.kind == "integer" and not p.log then
+    return p.low + math.floor((p.high - p.low) * k / (n - 1) + 0.5)
+  end
+  return parameters.at(p, k / (n - 1))
+end
+
+--- A grid: how many, and a function from the number to its values. The last parameter changes first.
+function design.grid(list, what, grid, count)
+  if type(grid) == "table" then
+    local names = {}
+    for i, p in ipairs(list) do names[i], names[p.name] = p.name, true end
+    for name in pairs(grid) do
+      if not names[name] then
+        local near = type(name) == "string" and core.nearest(name, names)
+        fail("%s: grid: there is no parameter '%s'; %s", what, tostring(name), near
+          and ("did you mean '%s'?"):format(near) or "known are: " .. table.concat(names, " "))
+      end
+    end
+  end
+  local each, total = counts(list, what, grid, count), 1
+  for _, n in ipairs(each) do total = math.min(total * n, 2 * MOST) end
+  if total > MOST then
+    fail("%s: a grid of more than %d evaluations is too much", what, MOST)
+  end
+  return total, function(number)
+    local values, rest = {}, number - 1
+    for i = #list, 1, -1 do
+      values[i] = on_grid(list[i], rest % each[i], each[i])
+      rest = rest // each[i]
+    end
+    return values
+  end
+end
+
+-- Random numbers of their own: xorshift64* (S. Vigna, An experimental exploration of Marsaglia's xorshift
+-- generators, scrambled, 2016).
+local function generator(...)
+  local state = 0
+  for i = 1, select("#", ...) do
+    state = core.checksum("design" .. string.pack("<i8i8", state, (select(i, ...))))
+  end
+  if state == 0 then state = 1 end
+  return function()
+    state = state ~ (state >> 12)
+    state = state ~ (state << 25)
+    state = state ~ (state >> 27)
+    return ((state * 0x2545F4914F6CDD1D) >> 11) * 2.0 ^ -53
+  end
+end
+design.generator = generator
+
+-- Latin hypercube (McKay, Beckman, Conover 1979): of count equal stretches of each range each is met once.
+local function latin(list, count, seed)
+  local random, columns = generator(seed), {}
+  for i = 1, #list do
+    local column = {}
+    for k = 1, count do column[k] = k - 1 end
+    for k = count, 2, -1 do
+      local other = 1 + math.floor(random() * k)
+      column[k], column[other] = column[other], column[k]
+    end
+    for k = 1, count do column[k] = (column[k] + random()) / count end
+    columns[i] = column
+  end
+  return function(number)
+    local places = {}
+    for i = 1, #list do places[i] = columns[i][number] end
+    return parameters.all_at(list, places)
+  end
+end
+
+--- So many points of a kind, "latin", "halton" or "sobol": a function from the number to its values.
+function design.fill(list, kind, count, seed)
+  if kind == "latin" then return latin(list, count, seed) end
+  local flat = core.quasi(kind, #list, count)
+  return function(number) return parameters.all_at(list, flat, (number - 1) * #list) end
+end
+
+return design

@@ -1,0 +1,145 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- One evaluation: what evaluate is given, what becomes of what it returns. A function of the parameters'
+-- values, the study's seed, the part and the number within it, and of nothing else.
+-- @module softworld.study.evaluation
+local checks = require "softworld.checks"
+local core = require "softworld.core"
+local parameters = require "softworld.study.parameters"
+local rows = require "softworld.rows"
+
+local evaluation = {}
+
+rows.calls{
+  { "evaluation:random", "low, high", "a random number, as math.random gives it: of this evaluation alone",
+    "a number", example = "local mu = 0.3 + 0.05 * (2 * p.random() - 1)" },
+  { "evaluation:give_up", "reason", "ends the evaluation, which then counts as failed for this reason" },
+  { "evaluation.number", nil, "of the evaluation within its sweep, search or spread", "a number" },
+}
+
+local LONGEST = 300   -- of a reason [characters]
+local MOST = 200      -- results of an evaluation
+local GIVEN_UP = {}   -- raised by give_up
+
+local random, seed = math.random, math.randomseed
+
+-- The generator's state at the beginning of an evaluation.
+local function seed_with(own, part, number)
+  local mark = string.pack("<i8i8i8", own.seed, part, number)
+  seed(core.checksum(mark), core.checksum("softworld" .. mark))
+end
+
+-- p of evaluate(p, scene).
+local function given_for(own, number, values)
+  local p, names = {}, { "random", "give_up", "number" }
+  for i, parameter in ipairs(own.parameters) do
+    p[parameter.name] = parameters.shown(parameter, values[i])
+    names[#names + 1] = parameter.name
+  end
+  p.number = number
+  function p.random(a, ...) -- also as a method
+    if a == p then return random(...) end
+    if a == nil then return random() end
+    return random(a, ...)
+  end
+  function p.give_up(a, b)
+    local reason = a
+    if a == p then reason = b end
+    error({ GIVEN_UP, reason == nil and "given up" or checks.shown(reason):sub(1, LONGEST) }, 0)
+  end
+  return setmetatable(p, { __name = "evaluation",
+    __index = checks.fields("evaluation", table.concat(names, " ")) })
+end
+
+local function line_of(f)
+  local info = debug.getinfo(f, "S")
+  return ("%s:%d"):format(info.short_src, info.linedefined)
+end
+
+local function wrong(own, text, ...)
+  return "mistake", ("%s: evaluate %s"):format(line_of(own.evaluate), text:format(...))
+end
+
+local function number_of(value)
+  if type(value) == "boolean" then return value and 1.0 or 0.0 end
+  return type(value) == "number" and value + 0.0 or nil
+end
+
+-- "ok" and the results as text, or what is wrong with them.
+local function read(own, results, ...)
+  if select("#", ...) > 0 then return wrong(own, "returned more than one value; one table is wanted") end
+  if type(results) ~= "table" then
+    return wrong(own, "returned %s; a table of results is wanted, such as { time = 1.5 }",
+      results == nil and "nothing" or checks.got(results))
+  end
+  local names, texts = {}, {}
+  for name in pairs(results) do
+    local fine, why = pcall(parameters.check_name, "the result", name)
+    if not fine then return wrong(own, "returned %s", why) end
+    if own.by_name[name] then return wrong(own, "returned '%s', which is a parameter", name) end
+    names[#names + 1] = name
+  end
+  table.sort(names)
+  if #names == 0 or #names > MOST then return wrong(own, "returned %d results, not 1 to %d", #names, MOST) end
+  for i, name in ipairs(names) do
+    local value = number_of(results[name])
+    if not value then
+      return wrong(own, "returned %s = %s; a number, true or false is wanted", name,
+        checks.got(results[name]))
+    end
+    if value - value ~= 0 then
+      return "failed", ("%s is %s"):format(name, value ~= value and "nan" or "infinite")
+    end
+    texts[i] = name .. "=" .. parameters.text(value)
+  end
+  return "ok", table.concat(texts, " ")
+end
+
+--- What is said of an evaluation that took too much.
+function evaluation.memory_reason(memory) return ("took more than %.9g B of memory"):format(memory) end
+
+-- What an error means. Lua's own messages are of mistakes in the script, mostly.
+local function judge(own, message)
+  if type(message) == "table" and rawget(message, 1) == GIVEN_UP then return "failed", message[2] end
+  local text = checks.shown(message)
+  local first = text:match "^[^\n]*":sub(1, LONGEST)
+  if text:find "not enough memory" or text:find "out of memory" then
+    return "machine", own.memory and evaluation.memory_reason(own.memory) or "out of memory: " .. first
+  end
+  local plain = first:gsub("^[^\n]-:%d+: ", "")
+  local mistake = plain:find "^attempt to " or plain:find "^bad argument #"
+  return mistake and "mistake" or "failed", first
+end
+
+local function finish(own, fine, ...)
+  for _, kept in ipairs(own.kept) do
+    if not core.exists(kept[1]) then return wrong(own, "closed the scene that setup had built") end
+  end
+  if fine then return read(own, ...) end
+  return judge(own, ...)
+end
+
+--- Before the first: the scenes that setup gave are to be as they are now at each evaluation.
+function evaluation.keep(own)
+  local list = {}
+  for i = 1, own.built.n do
+    local value = own.built[i]
+    local many = type(value) == "table" and getmetatable(value) == nil and value or { value }
+    for _, v in pairs(many) do
+      if core.type(v) == "scene" then list[#list + 1] = { v, v:snapshot() } end
+    end
+  end
+  own.kept = list
+end
+
+local function all(own, p)
+  for _, kept in ipairs(own.kept) do kept[1]:restore(kept[2]) end
+  return own.evaluate(p, table.unpack(own.built, 1, own.built.n))
+end
+
+--- Gives "ok" with results as text; "failed", "machine" or "mistake" with a reason.
+function evaluation.run(own, part, number, values)
+  seed_with(own, part, number)
+  return finish(own, pcall(all, own, given_for(own, number, values)))
+end
+
+return evaluation

@@ -1,0 +1,130 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Does an evaluation meet the constraints, and by how much not?
+-- @module softworld.study.judge
+local checks = require "softworld.checks"
+local core = require "softworld.core"
+local parameters = require "softworld.study.parameters"
+
+local judge = {}
+
+local function fail(text, ...) error(text:format(...), 0) end
+
+--- Constraints { name = { min =, max =, unit = } } as a list in the order of names.
+function judge.read(given, by_name)
+  local list, names = {}, {}
+  for name in pairs(given or {}) do names[#names + 1] = name end
+  table.sort(names, function(a, b) return checks.shown(a) < checks.shown(b) end)
+  for i, name in ipairs(names) do
+    parameters.check_name("sw.study: constraint", name)
+    local what, c = ("sw.study: constraint '%s'"):format(name), given[name]
+    checks.keys(what, c, { min = true, max = true, unit = true }, 0)
+    if by_name[name] then
+      fail("%s is of a parameter, whose range is its limit; constraints are of results", what)
+    end
+    parameters.check_unit(what, c.unit)
+    for _, key in ipairs { "min", "max" } do
+      if c[key] ~= nil then checks.number(what .. ": " .. key, c[key], -math.huge, "", 0) end
+    end
+    if c.min == nil and c.max == nil then fail("%s has neither min nor max", what) end
+    if c.min and c.max and c.min > c.max then
+      fail("%s: min = %.9g is above max = %.9g", what, c.min, c.max)
+    end
+    list[i] = { name = name, min = c.min, max = c.max, unit = c.unit }
+  end
+  return list
+end
+
+--- Raise unless there are constraints.
+function judge.needed(own, what)
+  if #own.constraints == 0 then fail("%s: study '%s' has no constraints to be met", what, own.name) end
+end
+
+local function scale(limit) return limit ~= 0 and math.abs(limit) or 1 end
+
+--- By how much a constraint is broken, as a share of its limit; below 0 it is met.
+function judge.excess(c, value)
+  local above = c.max and (value - c.max) / scale(c.max) or -math.huge
+  local below = c.min and (c.min - value) / scale(c.min) or -math.huge
+  return math.max(above, below)
+end
+
+--- The sum of what breaks constraints, 0 when all are met; second, the largest, below 0 when all are met.
+function judge.violation(own, record)
+  local sum, most = 0, -math.huge
+  for _, c in ipairs(own.constraints) do
+    local excess = judge.excess(c, record.results[c.name])
+    sum, most = sum + math.max(0, excess), math.max(most, excess)
+  end
+  return sum, most
+end
+
+--- nil for an evaluation that failed, else whether it meets all constraints.
+function judge.pass(own, record)
+  if not record.results then return nil end
+  return judge.violation(own, record) <= 0
+end
+
+local function names_of(results)
+  local names = {}
+  for name in pairs(results) do names[#names + 1] = name end
+  table.sort(names)
+  return names
+end
+
+--- A result that is asked for has to be there: without it the evaluation has failed, and of the first one
+-- it is an error.
+function judge.has(record, name, who)
+  local results = record.results
+  if not results or results[name] then return end
+  local names = names_of(results)
+  if record.number == 1 then
+    local near = core.nearest(name, names)
+    fail("%s: evaluate returns no '%s'; %s", who, name, near and ("did you mean '%s'?"):format(near)
+      or "it returns: " .. table.concat(names, " "))
+  end
+  record.results = nil
+  record.failed = ("evaluate returned no '%s', only: %s"):format(name, table.concat(names, " "))
+end
+
+--- The same of all constraints.
+function judge.complete(own, record)
+  for _, c in ipairs(own.constraints) do
+    judge.has(record, c.name, ("study '%s': constraints"):format(own.name))
+  end
+end
+
+local function sorted(records)
+  local list = {}
+  for _, record in pairs(records) do list[#list + 1] = record end
+  table.sort(list, function(a, b) return a.number < b.number end)
+  return list
+end
+judge.sorted = sorted
+
+--- The first that succeeds tells which results there are; others with other ones have failed.
+function judge.alike(records)
+  local names, first
+  for _, record in ipairs(sorted(records)) do
+    if record.results then
+      local own = table.concat(names_of(record.results), " ")
+      names, first = names or own, first or record.number
+      if own ~= names then
+        record.results = nil
+        record.failed = ("evaluate returned %s, and %s before (evaluation %d)"):format(own, names, first)
+      end
+    end
+  end
+end
+
+--- Raise when none of the evaluations of a part succeeded.
+function judge.some(own, records)
+  judge.alike(records)
+  local list = sorted(records)
+  for _, record in ipairs(list) do
+    if record.results then return end
+  end
+  if #list == 0 then return end
+  fail("study '%s': none of %d evaluations succeeded; the first: %s", own.name, #list, list[1].failed)
+end
+
+return judge

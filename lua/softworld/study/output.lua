@@ -1,0 +1,276 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- What a study shows: rows, files, a text, a chart.
+-- @module softworld.study.output
+local campaign = require "softworld.study.campaign"
+local checks = require "softworld.checks"
+local core = require "softworld.core"
+local csv = require "softworld.csv"
+local json = require "softworld.output.json"
+local judge = require "softworld.study.judge"
+local parameters = require "softworld.study.parameters"
+local sink = require "softworld.output.sink"
+
+local output = {}
+
+local REASONS = 5 -- of failures that are told
+
+--- A record as a row: part, number, parameters, results, pass, failed, machine.
+function output.row(own, record)
+  local row = { part = record.part, number = record.number, failed = record.failed, machine = record.machine,
+    pass = judge.pass(own, record) }
+  for i, p in ipairs(own.parameters) do row[p.name] = parameters.shown(p, record.values[i]) end
+  for name, value in pairs(record.results or {}) do row[name] = value end
+  return row
+end
+
+-- Records of a part that only the journal knows.
+local function from_journal(own, part)
+  local records = {}
+  for number in pairs(own.journal:numbers(part)) do
+    local status, rest, word = own.journal:find(part, number)
+    local values = status and parameters.values(own.parameters, word)
+    local record = values and campaign.record(part, number, values, status, rest)
+    if record then
+      judge.complete(own, record)
+      records[number] = record
+    end
+  end
+  judge.alike(records)
+  return records
+end
+
+local function parts_of(own)
+  local list, seen = {}, {}
+  for _, parts in ipairs { own.asked, own.journal.parts } do
+    for part in pairs(parts) do
+      if not seen[part] then list[#list + 1] = part end
+      seen[part] = true
+    end
+  end
+  table.sort(list)
+  return list
+end
+
+local function records_of(own, part)
+  local list = {}
+  for _, number in ipairs(part and { part } or parts_of(own)) do
+    local records = own.asked[number] and own.asked[number].records or from_journal(own, number)
+    for _, record in ipairs(judge.sorted(records)) do list[#list + 1] = record end
+  end
+  return list
+end
+
+--- Rows of one part, or of all.
+function output.rows(own, part)
+  local list = records_of(own, part)
+  for i, record in ipairs(list) do list[i] = output.row(own, record) end
+  return list
+end
+
+-- Names of results, sorted.
+local function result_names(list)
+  local names, seen = {}, {}
+  for _, record in ipairs(list) do
+    for name in pairs(record.results or {}) do
+      if not seen[name] then names[#names + 1] = name end
+      seen[name] = true
+    end
+  end
+  table.sort(names)
+  return names
+end
+
+-- A name of a parameter or a result, or an error.
+local function check_name(own, what, name, list)
+  local results, known = result_names(list), {}
+  for i, p in ipairs(own.parameters) do known[i] = p.name end
+  table.move(results, 1, #results, #known + 1, known)
+  for _, there in ipairs(known) do
+    if there == name then return end
+  end
+  local near = type(name) == "string" and core.nearest(name, known)
+  error(("%s: there is no parameter or result %s; %s"):format(what, checks.got(name), near
+    and ("did you mean '%s'?"):format(near) or "known are: " .. table.concat(known, " ")), 0)
+end
+
+-- The record with the smallest value that meets the constraints, or nil.
+local function best_of(own, name, list)
+  local best, least
+  for _, record in ipairs(list) do
+    local value = judge.pass(own, record) and output.row(own, record)[name]
+    if type(value) == "number" and (not least or value < least) then best, least = record, value end
+  end
+  return best
+end
+
+--- The same as a row.
+function output.best(own, name)
+  local list = records_of(own)
+  check_name(own, "study:best", name, list)
+  local best = best_of(own, name, list)
+  return best and output.row(own, best)
+end
+
+--- Parameters and results of a record, as text.
+function output.values(own, record)
+  local texts = {}
+  for i, p in ipairs(own.parameters) do
+    local value = parameters.shown(p, record.values[i])
+    texts[i] = type(value) == "number" and ("%s = %.6g"):format(p.name, value)
+      or ("%s = %s"):format(p.name, tostring(value))
+  end
+  for _, name in ipairs(result_names { record }) do
+    texts[#texts + 1] = ("%s = %.6g"):format(name, record.results[name])
+  end
+  return table.concat(texts, ", ")
+end
+
+-- --- text --------------------------------------------------------------------------------------
+
+local function add_part(lines, part, asked, list)
+  local count, failed = 0, 0
+  for _, record in ipairs(list) do
+    if record.part == part then
+      count, failed = count + 1, failed + (record.failed and 1 or 0)
+    end
+  end
+  lines[#lines + 1] = ("  %d. %s: %d evaluation%s, %d failed"):format(part, asked and asked.method
+    or "in the journal", count, count == 1 and "" or "s", failed)
+  if asked and asked.says then lines[#lines + 1] = "     " .. asked.says:gsub("\n", "\n   ") end
+end
+
+-- Reasons of failures, the most common first.
+local function add_reasons(lines, list)
+  local reasons, count = {}, {}
+  for _, record in ipairs(list) do
+    local why = record.failed
+    if why then
+      if not count[why] then
+        reasons[#reasons + 1] = why
+        count[why] = { 0, record.part, record.number }
+      end
+      count[why][1] = count[why][1] + 1
+    end
+  end
+  table.sort(reasons, function(a, b)
+    if count[a][1] == count[b][1] then return a < b end
+    return count[a][1] > count[b][1]
+  end)
+  for i = 1, math.min(REASONS, #reasons) do
+    local c = count[reasons[i]]
+    lines[#lines + 1] = ("  %d failed (first %d.%d): %s"):format(c[1], c[2], c[3], reasons[i])
+  end
+  if #reasons > REASONS then lines[#lines + 1] = ("  and %d more reasons"):format(#reasons - REASONS) end
+end
+
+--- What print shows.
+function output.text(own)
+  local list = records_of(own)
+  local lines = { ("study '%s': %d evaluation%s%s"):format(own.name, #list, #list == 1 and "" or "s",
+    own.file and ", kept in " .. own.file or "") }
+  for _, p in ipairs(own.parameters) do lines[#lines + 1] = "  " .. parameters.describe(p, true) end
+  for _, part in ipairs(parts_of(own)) do add_part(lines, part, own.asked[part], list) end
+  add_reasons(lines, list)
+  for _, part in ipairs(parts_of(own)) do
+    local result = own.asked[part] and own.asked[part].method:match "^minimise (.*)$"
+    local best = result and best_of(own, result, list)
+    if best then
+      lines[#lines + 1] = ("  best %s, evaluation %d.%d: %s"):format(result, best.part, best.number,
+        output.values(own, best))
+    end
+  end
+  return table.concat(lines, "\n")
+end
+
+-- --- files -------------------------------------------------------------------------------------
+
+local function check_path(what, path)
+  if type(path) ~= "string" or path == "" then
+    error(("%s: the name of a file is wanted, got %s"):format(what, checks.got(path)), 0)
+  end
+end
+
+--- Write the table.
+function output.csv(own, path)
+  check_path("study:csv", path)
+  local list = records_of(own)
+  local names, columns = { "part", "number" }, {}
+  for _, p in ipairs(own.parameters) do names[#names + 1] = p.name end
+  for _, name in ipairs(result_names(list)) do names[#names + 1] = name end
+  table.move({ "pass", "failed" }, 1, 2, #names + 1, names)
+  for _, name in ipairs(names) do columns[name] = {} end
+  for k, record in ipairs(list) do
+    local row = output.row(own, record)
+    for _, name in ipairs(names) do
+      local value = row[name]
+      columns[name][k] = value == nil and "" or type(value) == "boolean" and (value and 1 or 0) or value
+    end
+  end
+  return csv.write(path, names, columns)
+end
+
+--- Write the table with what the study is.
+function output.json(own, path)
+  check_path("study:json", path)
+  local list = {}
+  for i, p in ipairs(own.parameters) do
+    list[i] = { name = p.name, unit = p.unit, low = p.low, high = p.high, log = p.log, kind = p.kind,
+      choices = p.choices }
+  end
+  return sink.write_file(path, json.encode { name = own.name, seed = own.seed, version = core.version,
+    parameters = list, constraints = own.constraints, rows = output.rows(own) } .. "\n")
+end
+
+-- --- a chart -----------------------------------------------------------------------------------
+
+local function unit_of(own, name)
+  local p = own.by_name[name]
+  if p then return p.unit end
+  for _, c in ipairs(own.constraints) do
+    if c.name == name then return c.unit end
+  end
+end
+
+local function label(own, name)
+  local unit = unit_of(own, name)
+  return unit and unit ~= "-" and unit ~= "" and ("%s [%s]"):format(name, unit) or name
+end
+
+local function log_axes(own, o)
+  if o.log then return o.log end
+  local axes = ""
+  for _, axis in ipairs { "x", "y" } do
+    local p = own.by_name[o[axis]]
+    if p and p.log then axes = axes .. axis end
+  end
+  return axes ~= "" and axes or nil
+end
+
+--- Draw y over x.
+function output.chart(own, o)
+  local rows, list = output.rows(own), records_of(own)
+  local met, broken = { x = {}, y = {} }, { x = {}, y = {} }
+  for _, axis in ipairs { "x", "y" } do
+    check_name(own, "study:chart", o[axis], list)
+    local p = own.by_name[o[axis]]
+    if p and p.kind == "choice" then
+      error(("study:chart: %s = '%s' has choices, no numbers"):format(axis, p.name), 0)
+    end
+  end
+  for _, row in ipairs(rows) do
+    local curve = row.pass and met or broken
+    if not row.failed then curve.x[#curve.x + 1], curve.y[#curve.y + 1] = row[o.x], row[o.y] end
+  end
+  local args = { path = o.path, log = log_axes(own, o), title = own.name, xlabel = label(own, o.x),
+    ylabel = label(own, o.y) }
+  met.name = #own.constraints > 0 and "meets the constraints" or o.y
+  broken.name = "breaks constraints"
+  for _, curve in ipairs { met, broken } do
+    curve.style = "points"
+    if #curve.x > 0 then args[#args + 1] = curve end
+  end
+  if #args == 0 then error("study:chart: there is no evaluation to be drawn", 0) end
+  return require("softworld.run.plot").plot(args)
+end
+
+return output

@@ -1,0 +1,242 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Studies: one script's model evaluated many times, on all processors, with a journal that nothing is lost
+-- from.
+--
+--     local study = sw.study { name = "grip", file = "grip.study",
+--       parameters = { force = { 0.5, 20, unit = "N", log = true } },
+--       setup = function() return build_scene() end,
+--       evaluate = function(p, scene) ... return { time = t, margin = m } end,
+--       constraints = { margin = { max = 0.9 } } }
+--     study:minimise "time"
+--     print(study)
+-- @module softworld.study.study
+local build = require "softworld.scene.build"
+local campaign = require "softworld.study.campaign"
+local checks = require "softworld.checks"
+local core = require "softworld.core"
+local design = require "softworld.study.design"
+local fingerprint = require "softworld.study.fingerprint"
+local journal = require "softworld.study.journal"
+local judge = require "softworld.study.judge"
+local methods = require "softworld.methods"
+local minimise = require "softworld.study.minimise"
+local output = require "softworld.study.output"
+local parameters = require "softworld.study.parameters"
+local rows = require "softworld.rows"
+local sealed = require "softworld.sealed"
+local spread = require "softworld.study.spread"
+
+local study = {}
+local Study = { __name = "study" }
+sealed.class(Study)
+
+local WORKERS = { "workers", "integer", "-", "processes; 0 computes in this one", min = 0, max = 256,
+  usual = "those of the study" }
+
+local new = rows.call("sw.study", "{...}", "a study: a model to be evaluated many times, see help 'study'", {
+  gives = "a study",
+  { "name", "text", "-", "of the study", required = true },
+  { "parameters", "table", "-", "by name { lowest, highest, unit =, log =, integer =, start =, sigma = }, "
+    .. "{ choices = {...} }, or a value of the catalogue with its bounds", required = true },
+  { "evaluate", "function", "-", "of the parameters and what setup gave; returns a table of numbers",
+    required = true },
+  { "setup", "function", "-", "builds what all evaluations use, once; its scenes are restored before each" },
+  { "constraints", "table", "-", "of results by name { min =, max =, unit = }" },
+  { "file", "text", "-", "the journal, from which the same script goes on", usual = "nothing is kept" },
+  { "seed", "integer", "-", "of the random numbers", min = 0, max = 1 << 53, default = 1 },
+  { "workers", "integer", "-", "processes; 0 computes in this one", min = 0, max = 256,
+    usual = "one per processor" },
+  { "cpu", "number", "s", "most computing time of an evaluation", min = 0, above = true, usual = "any" },
+  { "memory", "number", "-", "most memory that a worker takes besides [B]", min = 1e6, usual = "any" },
+})
+
+local sweep = rows.call("study:sweep", "{...}", "evaluates on a grid, or at points that fill the ranges", {
+  gives = "the rows of the table",
+  example = "study:sweep { grid = { force = 9, speed = 5 } }",
+  { "kind", "choice", "-", "how", choices = { "grid", "latin", "halton", "sobol" },
+    usual = "grid with grid, else sobol" },
+  { "grid", "numbers of values", "-", "on each range, or by the parameter's name" },
+  { "count", "integer", "-", "evaluations, of a grid at most", min = 1, max = 10000000 },
+  WORKERS,
+})
+
+local search = rows.call("study:minimise", "result, {...}", "looks for the smallest value of a result that "
+  .. "meets the constraints", {
+  gives = "what was found: best, value, ok, reason",
+  example = 'study:minimise "time"',
+  { "method", "choice", "-", "simplex of Nelder and Mead", choices = { "simplex" }, default = "simplex" },
+  { "starts", "integer", "-", "places from which it begins, the first at the parameters' start", min = 1,
+    max = 1000, default = 4 },
+  { "evaluations", "integer", "-", "at most, of all starts", min = 1, max = 1000000,
+    usual = "100 for each start and parameter" },
+  { "tolerance", "number", "-", "wanted accuracy as a share of the ranges", min = 0, above = true, max = 0.5,
+    default = 1e-4 },
+  WORKERS,
+})
+
+local shake = rows.call("study:spread", "{...}", "how often the constraints are met as the parameters vary", {
+  gives = "what was found: probability, low, high, worst",
+  example = "study:spread { count = 1000 }",
+  { "count", "integer", "-", "evaluations", min = 1, max = 10000000, default = 1000 },
+  WORKERS,
+})
+
+rows.calls{
+  { "study:table", "", "all evaluations: number, parameters, results, pass, failed", "a list of tables" },
+  { "study:best", "result", "the evaluation with the smallest value that meets the constraints",
+    "a row, or nil" },
+  { "study:csv", "path", "writes the table", "the path", example = 'study:csv "grip.csv"' },
+  { "study:json", "path", "writes the table with what the study is", "the path" },
+  { "study.name", nil, "of the study", "a text" },
+  { "study.file", nil, "its journal", "a path, or nil" },
+  { "study.computed", nil, "evaluations that this process has computed, not read", "a number" },
+}
+
+local chart = rows.call("study:chart", "{...}", "draws a result over another or a parameter; needs gnuplot", {
+  gives = "the path, or without one the drawing in characters",
+  example = 'study:chart { x = "force", y = "time", path = "grip.svg" }',
+  { "x", "text", "-", "a parameter or a result", required = true },
+  { "y", "text", "-", "a parameter or a result", required = true },
+  { "path", "text", "-", "a .svg, .png or .pdf file", usual = "drawn in characters" },
+  { "log", "choice", "-", "axes that are logarithmic", choices = { "x", "y", "xy" },
+    usual = "by the parameters" },
+})
+
+local function fields(self) return sealed.fields(self) end
+
+-- --- making ------------------------------------------------------------------------------------
+
+local function definition(own)
+  local lines = { "version " .. core.version, ("seed %d"):format(own.seed) }
+  for _, p in ipairs(own.parameters) do lines[#lines + 1] = "parameter " .. parameters.describe(p) end
+  lines[#lines + 1] = "functions of the script " .. fingerprint(own.setup, own.evaluate)
+  local text = table.concat(lines, "\n")
+  return { name = own.name, text = text, key = ("%016x"):format(core.checksum(text)) }
+end
+
+local function tell(own)
+  for _, line in ipairs(own.journal:remarks()) do
+    if not own.told[line] then io.stderr:write(("study '%s': %s\n"):format(own.name, line)) end
+    own.told[line] = true
+  end
+end
+
+local function make(args)
+  local own = new:read(args)
+  own.parameters = parameters.read(own.parameters)
+  own.by_name = {}
+  for _, p in ipairs(own.parameters) do own.by_name[p.name] = p end
+  own.constraints = judge.read(own.constraints, own.by_name)
+  own.seed = math.tointeger(own.seed)
+  own.part, own.asked, own.told, own.computed = 0, {}, {}, 0
+  own.journal = journal.new(own.file, definition(own))
+  own.journal:read()
+  local object = sealed.new(Study, own)
+  function own.tell() tell(own) end
+  function own.interrupted()
+    io.stderr:write(("study '%s' was interrupted; so far:\n%s\n"):format(own.name, output.text(own)))
+  end
+  return object
+end
+
+--- sw.study { name =, parameters =, evaluate =, ... }: see help "study".
+study.study = build.placed(make)
+
+-- --- methods -----------------------------------------------------------------------------------
+
+-- Evaluate count points of a function from their number.
+local function points(own, method, options, count, values_of)
+  local at = 0
+  return campaign.run(own, method, options, { next = function()
+    if at >= count then return nil end
+    at = at + 1
+    return at, values_of(at)
+  end })
+end
+
+local function do_sweep(self, args)
+  local own, o = fields(self), sweep:read(args == nil and {} or args)
+  local kind = o.kind or o.grid ~= nil and "grid" or "sobol"
+  local what = "study:sweep"
+  if kind ~= "grid" and o.grid ~= nil then
+    error(("study:sweep: grid does not go with kind = '%s'"):format(kind), 0)
+  end
+  if o.grid ~= nil and type(o.grid) ~= "number" and type(o.grid) ~= "table" then
+    error(("study:sweep: grid must be a number, or a table { name = number, ... }, got %s"):format(
+      checks.got(o.grid)), 0)
+  end
+  if not o.count and (kind ~= "grid" or o.grid == nil) then
+    error("study:sweep: count is required, the number of evaluations"
+      .. (kind == "grid" and ", or grid" or ""), 0)
+  end
+  local count, values_of = o.count
+  if kind == "grid" then count, values_of = design.grid(own.parameters, what, o.grid, o.count)
+  else values_of = design.fill(own.parameters, kind, count, own.seed) end
+  local records = points(own, "sweep", o, count, values_of)
+  judge.some(own, records, count)
+  return output.rows(own, own.part)
+end
+
+local function do_minimise(self, result, args)
+  local own = fields(self)
+  if type(result) ~= "string" then
+    error(("study:minimise: the name of a result is wanted, such as study:minimise 'time', got %s"):format(
+      checks.got(result)), 0)
+  end
+  return minimise.run(own, result, search:read(args == nil and {} or args))
+end
+
+local function do_spread(self, args)
+  local own, o = fields(self), shake:read(args == nil and {} or args)
+  judge.needed(own, "study:spread")
+  local records = points(own, "spread", o, o.count, spread.drawing(own, own.part + 1))
+  judge.some(own, records, o.count)
+  return spread.result(own, records, o.count)
+end
+
+local function list_rows(self) return output.rows(fields(self)) end
+
+local function do_best(self, result) return output.best(fields(self), result) end
+
+local function do_csv(self, path) return output.csv(fields(self), path) end
+
+local function do_json(self, path) return output.json(fields(self), path) end
+
+local function do_chart(self, args) return output.chart(fields(self), chart:read(args)) end
+
+-- Calls in tail position: levels of errors count as if they were not here.
+function Study:sweep(args) return build.call(3, do_sweep, self, args) end
+function Study:minimise(result, args) return build.call(3, do_minimise, self, result, args) end
+function Study:spread(args) return build.call(3, do_spread, self, args) end
+function Study:table() return build.call(3, list_rows, self) end
+function Study:best(result) return build.call(3, do_best, self, result) end
+function Study:csv(path) return build.call(3, do_csv, self, path) end
+function Study:json(path) return build.call(3, do_json, self, path) end
+function Study:chart(args) return build.call(3, do_chart, self, args) end
+
+methods.guard_table("study", Study)
+
+local SHOWN = "sweep minimise spread table best csv json chart name file computed"
+local unknown = checks.fields("study", SHOWN, "file")
+
+function Study:__index(key)
+  local own = sealed.fields(self)
+  if key == "name" or key == "file" or key == "computed" then return own[key] end
+  local method = rawget(Study, key)
+  if method ~= nil then return method end
+  return unknown(self, key)
+end
+
+function Study:__newindex(key)
+  error(("study '%s' cannot be written to (%s)"):format(fields(self).name, checks.shown(key)), 2)
+end
+
+function Study.__tostring(self) return output.text(fields(self)) end
+
+function Study.__names()
+  local list = {}
+  for name in SHOWN:gmatch "%S+" do list[#list + 1] = name end
+  return list
+end
+
+return study

@@ -1,0 +1,91 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- What a study's workers bring and cost: a laying over three walls by one worker and by two, evaluations
+-- that compute nothing, a journal of a million lines.
+-- @module bench.study
+local sw = require "softworld"
+
+local study = {}
+
+study.aims = { ratio = 1.9, overhead = 0.3e-3, opening = 3 } -- [-], [s], [s]
+
+local function build()
+  local scene = sw.scene{ name = "laying" }
+  scene:obstacle{ name = "table", shape = "plane", friction = 0.3 }
+  for i, x in ipairs{ 0.15, 0.45, 0.75 } do
+    scene:obstacle{ name = "wall " .. i, shape = "box", size = { 0.01, 1, 0.1 }, at = { x, 0, 0.05 },
+      friction = 0.3 }
+  end
+  local wire = scene:wire{ name = "wire", E = 50e6, density = 1500, radius = 0.0025, segments = 40,
+    from = { 0, 0, 0.0025 }, to = { -1.25, 0, 0.0025 } }
+  scene:force{ kind = "damping", on = wire, stiffness = 5e-3 }
+  return scene, wire, scene:gripper{ name = "hand", pads = { width = 0.02 } }
+end
+
+local function lay(p, scene, wire, hand)
+  scene:process(function()
+    hand:grasp(wire, { s = 0.03 })
+    hand:move{ by = { 0, 0, 0.15 }, speed = p.speed }
+    hand:move{ by = { 0.8, 0, 0 }, speed = p.speed }
+    hand:release()
+  end)
+  local run = scene:run{ dt = 0.02, duration = 4.5 }
+  assert(run.ok, run.reason)
+  return { force = hand.peak_force, bend = wire:min_bend_radius() }
+end
+
+-- How long so many evaluations take [s].
+local function time_of(args, count, workers)
+  args.name = "bench"
+  local s = sw.study(args)
+  local clock = sw.core.clock()
+  s:sweep{ count = count, workers = workers }
+  return sw.core.clock() - clock
+end
+
+--- Least times of count layings by one worker and by two, by turns [s]; evaluations a minute by two.
+function study.laying(times, count)
+  local one, two = math.huge, math.huge
+  local args = { parameters = { speed = { 0.2, 0.3, unit = "m/s" } }, setup = build, evaluate = lay }
+  for _ = 1, times do
+    one, two = math.min(one, time_of(args, count, 1)), math.min(two, time_of(args, count, 2))
+  end
+  return one, two, 60 * count / two
+end
+
+--- Least time of an evaluation that computes nothing, with a journal [s].
+function study.overhead(times, count)
+  local least = math.huge
+  for _ = 1, times do
+    local path = os.tmpname()
+    os.remove(path)
+    local args = { parameters = { a = { 0, 1 }, b = { 0, 1 } }, file = path,
+      evaluate = function(p) return { sum = p.a + p.b } end }
+    least = math.min(least, time_of(args, count, 1) / count)
+    os.remove(path)
+  end
+  return least
+end
+
+--- How long a journal of so many evaluations takes to open [s].
+function study.opening(count)
+  local path = os.tmpname()
+  os.remove(path)
+  local args = { name = "bench", parameters = { a = { 0, 1 }, b = { 0, 1 } }, file = path, workers = 0,
+    evaluate = function(p) return { sum = p.a + p.b } end }
+  sw.study(args):sweep{ count = 1000 }
+  local file, lines = assert(io.open(path, "a+")), {}
+  for line in file:lines() do lines[#lines + 1] = line end
+  for k = 1001, count do
+    local body = lines[3 + k % 1000]:sub(1, -18):gsub("^e 1 %d+", "e 1 " .. k)
+    file:write(("%s %016x\n"):format(body, sw.core.checksum(body)))
+  end
+  file:close()
+  local clock = sw.core.clock()
+  local s = sw.study(args)
+  clock = sw.core.clock() - clock
+  assert(s.computed == 0)
+  os.remove(path)
+  return clock
+end
+
+return study
