@@ -323,14 +323,28 @@ local function load_all()
   end
 end
 
+-- Entries are plain to read and to print, so a script can also write into them: what it spoilt is told.
+local function whole(entry)
+  for _, spec in ipairs(quantities) do
+    local q = entry[spec.key]
+    local value = q
+    if type(q) == "table" then value = q.value end
+    if type(q) ~= "table" or not is_number(value) then
+      fail(tostring(rawget(entry, "name")), "the script has written %s into its %s; an entry of your own "
+        .. "is made by sw.cable.define", checks.shown(value), spec.key)
+    end
+  end
+  return entry
+end
+
 --- The entry by its name; an entry is returned as it is. Errors have no place.
 function cable.get(name)
   load_all()
-  if getmetatable(name) == Entry then return name end
+  if getmetatable(name) == Entry then return whole(name) end
   if type(name) ~= "string" then
     error(("a cable is named by a text or given as an entry, got %s"):format(type(name)), 0)
   end
-  if by_name[name] then return by_name[name] end
+  if by_name[name] then return whole(by_name[name]) end
   local near = core.nearest(name, names)
   error(("there is no cable '%s'; %s"):format(name, near and ("did you mean '%s'?"):format(near)
     or "sw.cables() lists them"), 0)
@@ -388,6 +402,7 @@ local stiffnesses = { "default", "slip", "stick" }
 cable.stiffnesses = stiffnesses
 
 local function section(self, stiffness)
+  whole(self)
   stiffness = stiffness or "default"
   if not set(stiffnesses)[stiffness] then
     fail(self.name, "there is no stiffness '%s'; %s", checks.shown(stiffness),
@@ -445,6 +460,8 @@ local function row(lines, title, value, unit, spread, flag, source)
 end
 
 function Entry:__tostring()
+  local fine, why = pcall(whole, self)
+  if not fine then return why end
   local lines = { ("%s: %s"):format(self.name, self.description) }
   for _, spec in ipairs(quantities) do
     local q = self[spec.key]

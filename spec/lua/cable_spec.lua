@@ -136,6 +136,28 @@ describe("catalogue", function()
   end)
 end)
 
+describe("an entry that a script has written into", function()
+  it("is not used, and says what was written", function()
+    local entry = sw.cable "FLRY-B 0.5"
+    local EA = entry.EA
+    for _, spoil in ipairs{ function() entry.EA = 0.138 end, function() entry.EA = { value = "x" } end } do
+      spoil()
+      local told = "into its EA; an entry of your own is made by sw.cable.define"
+      local function wire(cable)
+        return function() sw.scene{}:wire{ cable = cable, from = { 0, 0, 0 }, to = { 1, 0, 0 } } end
+      end
+      for _, use in ipairs{ wire "FLRY-B 0.5", wire(entry), function() entry:section() end } do
+        local fine, why = pcall(use)
+        assert.is_false(fine)
+        assert.truthy(why:find(told, 1, true), why)
+      end
+      assert.truthy(tostring(entry):find(told, 1, true))
+    end
+    entry.EA = EA
+    assert.is_true(entry:section().EA > 0)
+  end)
+end)
+
 describe("bend rule", function()
   it("is the table of IEC 62440", function()
     local diameters = { 0.005, 0.010, 0.015, 0.025 }

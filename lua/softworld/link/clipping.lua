@@ -111,7 +111,7 @@ local function press(self, clip, args, way, radius)
     self:move{ by = vec.add({ 0, 0, 0 }, clip.direction, -step), speed = args.speed, law = "linear" }
     local before = u
     u = place(self, clip)
-    if not (before - u > 0.5 * step) then -- a way of a femtosecond is none
+    if before - u <= 0.5 * step then -- a way of a femtosecond is none
       error(("gripper:clip: speed = %g m/s is too fast: the tool does not get on in the time that this takes")
         :format(args.speed), 0)
     end
