@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "force/axis.h"
 
+#include <math.h>
+
 enum { ROW = SW_FIELD_ROW };
 
 size_t sw_axis_points(const sw_plan *p) {
@@ -19,6 +21,13 @@ static sw_vec middle_of(const sw_field *f, const double *values, size_t i) {
 
 sw_vec sw_axis_at(const sw_field *f, size_t i) { return middle_of(f, f->x, i); }
 sw_vec sw_axis_velocity(const sw_field *f, size_t i) { return middle_of(f, f->v, i); }
+
+double sw_axis_stable_dt(const sw_plan *p, double stiffness) {
+  double least = HUGE_VAL;
+  for (size_t i = 0; i + 1 < sw_axis_points(p); i++)
+    least = fmin(least, sw_axis_s(p, i + 1) - sw_axis_s(p, i));
+  return 2.0 / sqrt(stiffness / (0.5 * least * p->beam.mass));
+}
 
 void sw_axis_put(sw_field *f, size_t i, sw_vec force, const double *K) {
   const sw_web *web = f->plan->web;

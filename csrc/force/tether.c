@@ -123,13 +123,8 @@ static void read(const void *args, const sw_field *f, const double *h, double *o
   for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) out[k] = values[k];
 }
 
-/* On half an edge of the wire at least; leapfrog's limit is 2 / omega. */
 static double stable_dt(const void *args, const sw_plan *plan) {
-  const tether_args *a = args;
-  double least = HUGE_VAL;
-  for (size_t i = 0; i + 1 < sw_axis_points(plan); i++)
-    least = fmin(least, sw_axis_s(plan, i + 1) - sw_axis_s(plan, i));
-  return 2.0 / sqrt(a->stiffness / (0.5 * least * plan->beam.mass));
+  return sw_axis_stable_dt(plan, ((const tether_args *)args)->stiffness);
 }
 
 const sw_force_class sw_force_tether = {
