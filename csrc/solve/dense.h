@@ -15,4 +15,10 @@ int sw_dense_solve(double *a, size_t n, double *b);
  * it is along its longest one get nothing. Otherwise as sw_dense_solve. */
 int sw_dense_least(double *a, size_t n, double *b, double least);
 
+/* Solve a x = b likewise, of any size, by elimination, which counts pivots below 0. Without swaps
+ * of rows that is how many eigenvalues a symmetric a has there; a pivot of 0 leaves no numbers in
+ * b. With swaps a may be any matrix, and pivots of swapped rows do not count. */
+enum { SW_DENSE_IN_ORDER, SW_DENSE_SWAPS };
+size_t sw_dense_eliminate(double *a, size_t n, double *b, int swaps);
+
 #endif

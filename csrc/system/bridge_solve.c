@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "solve/band3.h"
 #include "solve/band4.h"
+#include "solve/dense.h"
 #include "system/bridge.h"
 #include "system/spin.h"
 #include "system/twist.h"
@@ -135,26 +136,6 @@ static size_t count_spans(const sw_system *s) {
   return count;
 }
 
-/* Solve S z = z in place for symmetric S (m x m) by elimination; counts negative
- * pivots. S has the spans' compliances on its diagonal. */
-static size_t solve_dense(double *S, size_t m, double *z) {
-  size_t negative = 0;
-  for (size_t k = 0; k < m; k++) {
-    const double pivot = S[m * k + k];
-    negative += pivot < 0;
-    for (size_t i = k + 1; i < m; i++) {
-      const double f = S[m * i + k] / pivot;
-      for (size_t j = k; j < m; j++) S[m * i + j] -= f * S[m * k + j];
-      z[i] -= f * z[k];
-    }
-  }
-  for (size_t k = m; k-- > 0;) {
-    for (size_t j = k + 1; j < m; j++) z[k] -= S[m * k + j] * z[j];
-    z[k] /= S[m * k + k];
-  }
-  return negative;
-}
-
 /* A span's slope among the matrix' unknowns, held nodes zero. */
 static void put_slope(const struct sw_bridges *l, const sw_body *b, size_t first,
                       const sw_span *span, double *out) {
@@ -212,7 +193,7 @@ static size_t correct_twist(sw_system *s, size_t m) {
       z[k] = slope_dot(l, body, l->first[b], span, l->x);
     }
   }
-  const size_t fewer = solve_dense(S, m, z);
+  const size_t fewer = sw_dense_eliminate(S, m, z, SW_DENSE_IN_ORDER);
   for (k = 0; k < m; k++)
     for (size_t i = 0; i < n; i++) l->x[i] -= z[k] * l->spans[n * k + i];
   return fewer;

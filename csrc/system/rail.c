@@ -7,6 +7,7 @@
 #include "base/alloc.h"
 #include "solve/band3.h"
 #include "solve/band4.h"
+#include "solve/dense.h"
 #include "system/bridge.h"
 #include "system/spin.h"
 #include "system/twist.h"
@@ -311,34 +312,6 @@ static int is_given(const sw_rail *r, const sw_stage *stage, size_t at, double *
   return r->state != SW_RAIL_GOES;
 }
 
-/* A z = b in place, by elimination with row pivots; counts those below 0 that none was swapped
- * for. */
-static size_t eliminate(double *A, size_t m, double *b) {
-  size_t negative = 0;
-  for (size_t k = 0; k < m; k++) {
-    size_t best = k;
-    for (size_t i = k + 1; i < m; i++)
-      if (fabs(A[m * i + k]) > fabs(A[m * best + k])) best = i;
-    for (size_t j = 0; best != k && j < m; j++) {
-      const double kept = A[m * k + j];
-      A[m * k + j] = A[m * best + j], A[m * best + j] = kept;
-    }
-    const double kept = b[k];
-    b[k] = b[best], b[best] = kept;
-    negative += A[m * k + k] < 0 && best == k;
-    for (size_t i = k + 1; i < m; i++) {
-      const double f = A[m * i + k] / A[m * k + k];
-      for (size_t j = k; j < m; j++) A[m * i + j] -= f * A[m * k + j];
-      b[i] -= f * b[k];
-    }
-  }
-  for (size_t k = m; k-- > 0;) {
-    for (size_t j = k + 1; j < m; j++) b[k] -= A[m * k + j] * b[j];
-    b[k] /= A[m * k + k];
-  }
-  return negative;
-}
-
 static double *shift_of(const sw_system *s, size_t k) { return s->rail_room + 4 * s->nodes * k; }
 
 /* Equations of the rails into A and b; rails of other parts stay. */
@@ -453,7 +426,7 @@ void sw_rails_solve(sw_system *s, const sw_stage *stage, size_t *negative) {
   double *A = s->rail_room + 4 * s->nodes * m, *step = A + m * m;
   if (!m) return;
   set_up(s, stage, A, step);
-  *negative += eliminate(A, m, step);
+  *negative += sw_dense_eliminate(A, m, step, SW_DENSE_SWAPS);
   for (size_t k = 0; k < m; k++) {
     sw_rail *r = &s->rails[k];
     if (!is_part(s, r)) continue;
