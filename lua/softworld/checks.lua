@@ -14,6 +14,12 @@ end
 
 local shown = checks.shown
 
+--- Was it Ctrl-C that raised this? What raises it may have taken the mark back already. Stock Lua has a "!".
+function checks.is_interrupt(message)
+  if core.interrupted() then return true end
+  return type(message) == "string" and (message:find "^interrupted!?$" or message:find ": interrupted!?$") ~= nil
+end
+
 local function names_of(known)
   local names = {}
   for name in pairs(known) do names[#names + 1] = shown(name) end

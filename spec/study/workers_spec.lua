@@ -175,14 +175,18 @@ sleep 0.3
     end
   end)
 
+  -- Also within this process, where Ctrl-C meets an evaluation: it is none that failed.
   it("ends with Ctrl-C, and what was found is told and kept", function()
     local folder = program.folder()
-    local file = folder .. "/interrupt.study"
-    local _, err, code = program.script(ENDLESS, { file }, { before = NORMAL, signals = { 0.2 } })
-    assert.equal(130, code, err)
-    assert.truthy(err:find("study 'endless' was interrupted; so far:", 1, true), err)
-    assert.truthy(err:find("1. sweep: 5 evaluations, 0 failed", 1, true), err)
-    assert.same({}, alive(file))
-    assert.equal(5, select(2, program.read(file):gsub("\ne ", "")))
+    for _, workers in ipairs { 2, 0 } do
+      local file = folder .. "/interrupt" .. workers .. ".study"
+      local script = ENDLESS:gsub("workers = 2", "workers = " .. workers)
+      local _, err, code = program.script(script, { file }, { before = NORMAL, signals = { 0.2 } })
+      assert.equal(130, code, err)
+      assert.truthy(err:find("study 'endless' was interrupted; so far:", 1, true), err)
+      assert.truthy(err:find("1. sweep: 5 evaluations, 0 failed", 1, true), err)
+      assert.same({}, alive(file))
+      assert.equal(5, select(2, program.read(file):gsub("\ne ", "")))
+    end
   end)
 end)

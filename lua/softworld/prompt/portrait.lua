@@ -3,15 +3,18 @@
 -- @module softworld.prompt.portrait
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
 local number = require "softworld.output.number"
 
 local portrait = {}
 
--- The value of a call that may not be possible now; nil then.
-local function try(f, ...)
-  local result = table.pack(pcall(f, ...))
-  if result[1] then return table.unpack(result, 2, result.n) end
+local function value_of(fine, ...)
+  if fine then return ... end
+  if checks.is_interrupt(...) then error((...), 0) end
 end
+
+-- The value of a call that may not be possible now; nil then.
+local function try(f, ...) return value_of(pcall(f, ...)) end
 
 local function vector(v) return ("(%.4g, %.4g, %.4g)"):format(v[1], v[2], v[3]) end
 

@@ -5,6 +5,7 @@
 -- A record: { part =, number =, values =, results = { name = number } or nil, failed = reason, machine = true
 -- where the machine and not the model failed }.
 -- @module softworld.study.campaign
+local checks = require "softworld.checks"
 local core = require "softworld.core"
 local evaluation = require "softworld.study.evaluation"
 local judge = require "softworld.study.judge"
@@ -155,7 +156,7 @@ function campaign.run(own, method, options, source)
   own.journal:close()
   if fine then return records end
   own.part = part - 1 -- asked for again it goes on
-  if type(why) == "string" and why:find "interrupted$" then own.interrupted() end
+  if checks.is_interrupt(why) then own.interrupted() end
   error(why, 0)
 end
 

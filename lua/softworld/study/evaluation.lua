@@ -111,6 +111,7 @@ local function judge(own, message)
 end
 
 local function finish(own, fine, ...)
+  if not fine and checks.is_interrupt(...) then error((...), 0) end -- says nothing about the model
   for _, kept in ipairs(own.kept) do
     if not core.exists(kept[1]) then return wrong(own, "closed the scene that setup had built") end
   end

@@ -30,9 +30,7 @@ for i, class in ipairs(order) do rank[class] = i end
 local function fail(text, ...) error(text:format(...), 0) end
 
 --- Was it Ctrl-C that raised this? What raises it may have taken the mark back already.
-function draft.is_interrupt(message)
-  return core.interrupted() or type(message) == "string" and message:find "interrupted$" ~= nil
-end
+draft.is_interrupt = checks.is_interrupt
 
 --- An empty scene.
 function draft.new()
