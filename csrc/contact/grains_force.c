@@ -125,12 +125,8 @@ static int update(const sw_grains *g, sw_grain_touch *t, const double *delta, do
   return agrees;
 }
 
-/* In steps below this share of the nominal one, depth that was there before is taken as it comes
- * [-]. */
-static const double SMALL_STEP = 0.25;
-
 static int stiffen(sw_grains *g, const sw_system *s) {
-  const int small = g->h > 0 && g->h < SMALL_STEP * g->nominal;
+  const int small = sw_press_is_short(g->regime == SW_CONTACT_STATIC, g->h, g->nominal);
   int any = 0;
   if (g->regime == SW_CONTACT_EXPLICIT || s->rough) return 0;
   for (size_t i = 0; i < g->pair_count; i++) {

@@ -180,13 +180,9 @@ static int update_all(sw_contact *c, const sw_system *s, const double *y, const 
   return fine;
 }
 
-/* In steps below this share of the nominal one, depth that was there before is taken as
- * it comes [-]. */
-static const double SMALL_STEP = 0.25;
-
 /* Make touches that sink in too deep stiffer; 1 = there were some. */
 static int stiffen(sw_contact *c, const sw_system *s) {
-  const int small = c->h > 0 && c->h < SMALL_STEP * c->nominal;
+  const int small = sw_press_is_short(c->regime == SW_CONTACT_STATIC, c->h, c->nominal);
   int any = 0;
   if (c->regime == SW_CONTACT_EXPLICIT || s->rough) return 0;
   for (size_t i = c->parts.touch; i < c->touch_count; i++) {

@@ -39,6 +39,7 @@ static const double LARGEST_STEP = 10.0; /* of it at once [-] */
 static const double DEEPER = 5e-6;       /* than before, in short steps [m] */
 static const double NEEDLESS = 0.1;      /* of the allowed depth [-] */
 static const double EASING = 0.8;        /* per step [-] */
+static const double SHORT = 0.25;        /* step, of the nominal one [-] */
 
 void sw_press_activate(sw_press *p, const sw_press *last) {
   p->active = p->gap < 0 || (last && last->active && last->normal_force > 0);
@@ -282,6 +283,10 @@ double sw_press_forgiven(double depth, double explained, double h, int slowly) {
 double sw_press_let_out(double depth, double explained, double forgiven) {
   const double left = depth - explained - forgiven;
   return left > GAP_TOLERANCE ? left : 0.0;
+}
+
+int sw_press_is_short(int statics, double h, double nominal) {
+  return !statics && h > 0 && h < SHORT * nominal;
 }
 
 double sw_press_stiffer(const sw_press *p, double usual, double forgiven, double before) {

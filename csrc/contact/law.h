@@ -122,9 +122,14 @@ sw_vec sw_press_borne(const sw_press *press, double friction);
 /* Does the last update leave the gap open where nothing pushed, and closed where it did? */
 int sw_press_apart(const sw_press *press);
 
+/* Is a step so short beside the nominal one that inertia alone keeps a depth where it was? Not in
+ * statics: with short pseudo steps a scene would come to rest that deep, and the first step after
+ * it turn the depth into speed. */
+int sw_press_is_short(int statics, double h, double nominal);
+
 /* A touch that sinks in too deep gets stiffer: its stiffness from the next iterate on, or the
  * one it has [N/m]. usual: of a new touch. before: how deep the wire was at the step's start in
- * a step so short that inertia alone keeps it there, else negative [m]. forgiven: see above. */
+ * a short step, else negative [m]. forgiven: see above. */
 double sw_press_stiffer(const sw_press *press, double usual, double forgiven, double before);
 
 /* The stiffness to begin the next step with, when k is what this one ended with: a touch goes

@@ -265,13 +265,9 @@ static int update(const sw_pairs *p, sw_pair_touch *t, const double *delta, doub
   return agrees;
 }
 
-/* In steps below this share of the nominal one, depth that was there before is taken as
- * it comes [-]. */
-static const double SMALL_STEP = 0.25;
-
 /* Make touches that sink in too deep stiffer; 1 = there were some. */
 static int stiffen(sw_pairs *p, const sw_system *s) {
-  const int small = p->h > 0 && p->h < SMALL_STEP * p->nominal;
+  const int small = sw_press_is_short(p->regime == SW_CONTACT_STATIC, p->h, p->nominal);
   int any = 0;
   if (p->regime == SW_CONTACT_EXPLICIT || s->rough) return 0;
   for (size_t i = 0; i < p->touch_count; i++) {
