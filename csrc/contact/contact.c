@@ -463,6 +463,13 @@ double sw_contact_fastest(const sw_contact *c) {
 
 int sw_contact_emerges(const sw_contact *c) { return c->fresh && emerges(c); }
 
+double sw_contact_emerged(const sw_contact *c) {
+  double sum = 0;
+  for (size_t i = 0; i < c->touch_count; i++)
+    sum += c->touches[i].let_out * c->touches[i].press.normal_force;
+  return sum;
+}
+
 int sw_contact_steady(const sw_contact *c) {
   size_t before = 0, now = 0;
   for (size_t i = 0; i < c->memory_count; i++) before += c->memory[i].normal_force > 0;

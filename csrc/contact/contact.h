@@ -204,6 +204,9 @@ double sw_contact_hardened(const sw_contact *contact);
 double sw_contact_fastest(const sw_contact *contact); /* of obstacles at the step's end [m/s] */
 /* 1: in this step wires are let out of obstacles that they began in. */
 int sw_contact_emerges(const sw_contact *contact);
+/* Then: what the touches' forces have done in the step on the way that the wires were let out [J].
+ */
+double sw_contact_emerged(const sw_contact *contact);
 size_t sw_contact_impacts(const sw_contact *contact); /* dealt with in the step [-] */
 double sw_contact_struck(const sw_contact *contact);  /* work of moving obstacles in these [J] */
 

@@ -72,7 +72,8 @@ static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
     step->obstacles += sw_contact_struck(s->contact);
     step->let_out = sw_contact_hardened(s->contact);
     if (sw_contact_emerges(s->contact))
-      step->let_out += b->mass * (THROWN * THROWN + LET_OUT * h * sw_norm(s->gravity));
+      step->let_out += sw_contact_emerged(s->contact) +
+                       b->mass * (THROWN * THROWN + LET_OUT * h * sw_norm(s->gravity));
   }
   if (s->pairs) {
     impacts += sw_pairs_impacts(s->pairs);

@@ -14,10 +14,12 @@ end
 
 local shown = checks.shown
 
---- Was it Ctrl-C that raised this? What raises it may have taken the mark back already. Stock Lua has a "!".
+--- Was it Ctrl-C that raised this? What raises it may have taken the mark back already; stock Lua's text has
+-- a "!".
 function checks.is_interrupt(message)
   if core.interrupted() then return true end
-  return type(message) == "string" and (message:find "^interrupted!?$" or message:find ": interrupted!?$") ~= nil
+  if type(message) ~= "string" then return false end
+  return (message:find "^interrupted!?$" or message:find ": interrupted!?$") ~= nil
 end
 
 local function names_of(known)
