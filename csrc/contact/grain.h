@@ -24,6 +24,7 @@ typedef struct sw_grain_touch {
   double at[2];    /* along both [-] */
   double stiffer;  /* its stiffness from the next iterate on [N/m] */
   double forgiven; /* part of the true depth left out of the gap in this step [m] */
+  double let_out;  /* part of the true depth that nothing explains and this step ends [m] */
   size_t stage;    /* in which it was found; 0: not found in this iterate */
   int slides[2];   /* 1: the place there follows the nearest point */
   int barred;      /* both got through each other since the step's start: it keeps its side */

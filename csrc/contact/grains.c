@@ -291,6 +291,15 @@ double sw_grains_rubbed(const sw_grains *g) {
   return sum;
 }
 
+double sw_grains_emerged(const sw_grains *g) {
+  double sum = 0;
+  size_t count;
+  const sw_grain_touch *t = list_of(g, &count);
+  for (size_t i = 0; i < count; i++)
+    if (presses(&t[i])) sum += t[i].let_out * t[i].press.normal_force;
+  return sum;
+}
+
 int sw_grains_steady(const sw_grains *g) {
   size_t before = 0;
   for (size_t i = 0; i < g->memory_count; i++) before += (size_t)presses(&g->memory[i]);

@@ -50,6 +50,7 @@ sw_pair_place sw_grains_place(const sw_grains *grains, size_t k);
 double sw_grains_penetration(const sw_grains *grains, size_t *node); /* [m] */
 double sw_grains_energy(const sw_grains *grains);                    /* [J] */
 double sw_grains_rubbed(const sw_grains *grains);                    /* [J] */
+double sw_grains_emerged(const sw_grains *grains);                   /* [J] */
 int sw_grains_steady(const sw_grains *grains);
 size_t sw_grains_impacts(const sw_grains *grains); /* [-] */
 

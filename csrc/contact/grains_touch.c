@@ -81,13 +81,14 @@ static void begin_friction(const sw_grains *g, const sw_system *s, const double 
 }
 
 /* What is in each other at the start is let out as slowly as meshes are. */
-static double forgiven(const sw_grains *g, const sw_system *s, const sw_grain_touch *t,
-                       const sw_grain_touch *m) {
-  if (g->regime != SW_CONTACT_IMPLICIT || t->press.gap >= 0) return 0;
+static void forgive(const sw_grains *g, const sw_system *s, const sw_grain_touch *m,
+                    sw_grain_touch *t) {
+  if (g->regime != SW_CONTACT_IMPLICIT || t->press.gap >= 0) return;
   const double depth =
       t->pair.reach - sw_dot(t->press.normal, sw_grain_apart(s->x, &t->pair, t->at));
   const double explained = m && m->press.normal_force > 0 ? fmax(0.0, -m->press.gap_after) : 0.0;
-  return sw_press_forgiven(depth, explained, g->h, 1);
+  t->forgiven = sw_press_forgiven(depth, explained, g->h, 1);
+  t->let_out = sw_press_let_out(depth, explained, t->forgiven);
 }
 
 static void set_touch(sw_grains *g, const sw_system *s, const double *y, size_t i,
@@ -104,7 +105,7 @@ static void set_touch(sw_grains *g, const sw_system *s, const double *y, size_t 
   press->soft = softness(s, k), press->by_place = 1;
   press->k = is_explicit ? k->usual : last ? last->stiffer : pressed ? m->press.k : k->usual;
   t->stiffer = press->k;
-  t->forgiven = forgiven(g, s, t, m);
+  forgive(g, s, m, t);
   press->gap += t->forgiven;
   press->gap_after = press->gap;
   sw_press_activate(press, last && !is_explicit ? &last->press : NULL);

@@ -275,6 +275,8 @@ int sw_press_apart(const sw_press *p) {
   return p->active ? p->gap_after <= GAP_TOLERANCE : p->gap_after >= -GAP_TOLERANCE;
 }
 
+int sw_press_was_put(double depth) { return depth > DEEPEST; }
+
 double sw_press_forgiven(double depth, double explained, double h, int slowly) {
   const double speed = slowly ? SLOW_RECOVERY : RECOVERY_SPEED;
   return fmax(0.0, depth - explained - speed * h - GAP_TOLERANCE);

@@ -103,6 +103,10 @@ void sw_press_close(sw_press *press);
 /* Opened, does it stay open after an update by shift, with nothing left of its friction? */
 int sw_press_opens(const sw_press *press, sw_vec shift, double force_scale);
 
+/* Is a depth where nothing touched before one that no touch gets into by itself? Then it was placed
+ * there. */
+int sw_press_was_put(double depth);
+
 /* Part of a depth at the step's start that the step leaves alone, explained being what goes
  * with the touch's force there: what was placed in each other, or comes out of a barrier, is
  * let out slowly, for within one step the whole depth would turn into speed [m]. */

@@ -45,9 +45,11 @@ typedef struct sw_pair_touch {
   double at[2];    /* along the segments [-] */
   int slides[2];   /* 1: the place along that segment follows the nearest points */
   int barred;      /* kept on its side by a barrier */
+  int emerges;     /* the wires were placed in each other here, and still come out */
   double stiffer;  /* its stiffness from the next iterate on [N/m] */
   double aslant;   /* what a barrier's fixed normal takes off the distance [m] */
   double forgiven; /* part of the true depth left out of the gap in this step [m] */
+  double let_out;  /* part of the true depth that nothing explains and this step ends [m] */
   sw_press press;  /* its normal is towards segment one */
 } sw_pair_touch;
 
@@ -59,7 +61,7 @@ typedef struct sw_pair_memory {
   double normal_force, depth, k; /* [N], [m], [N/m] */
   sw_vec normal;                 /* [-] */
   sw_vec elastic;                /* displacement of the friction spring [m] */
-  int sliding;
+  int sliding, emerges;
 } sw_pair_memory;
 
 /* Segments kept on one side of each other for the rest of the step. */

@@ -129,7 +129,8 @@ void sw_pairs_commit(sw_pairs *p, sw_system *s) {
                           .depth = t->press.normal_force / t->press.k,
                           .k = sw_press_eased(&t->press, k->usual, t->stiffer),
                           .normal = t->press.normal,
-                          .sliding = t->press.next_sliding};
+                          .sliding = t->press.next_sliding,
+                          .emerges = t->let_out > 0 || (t->emerges && t->forgiven > 0)};
     if (m->normal_force > 0) m->elastic = sw_scale(t->press.tangential, -1.0 / t->press.k);
   }
   sw_pair_memory *swap = p->memory;
@@ -261,6 +262,13 @@ double sw_pairs_energy(const sw_pairs *p) {
     if (!(t->normal_force > 0)) continue;
     sum += 0.5 * (t->normal_force * t->normal_force + sw_norm2(t->tangential)) / t->k;
   }
+  return sum;
+}
+
+double sw_pairs_emerged(const sw_pairs *p) {
+  double sum = 0;
+  for (size_t i = 0; i < p->touch_count; i++)
+    sum += p->touches[i].let_out * p->touches[i].press.normal_force;
   return sum;
 }
 

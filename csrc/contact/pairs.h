@@ -75,6 +75,8 @@ double sw_pairs_penetration(const sw_pairs *pairs, size_t *node); /* [m] */
 double sw_pairs_energy(const sw_pairs *pairs);                    /* [J] */
 /* As those of sw_contact. */
 double sw_pairs_rubbed(const sw_pairs *pairs); /* [J] */
+/* What touches have done on the way that wires were let out of each other [J]. */
+double sw_pairs_emerged(const sw_pairs *pairs);
 int sw_pairs_steady(const sw_pairs *pairs);
 size_t sw_pairs_impacts(const sw_pairs *pairs); /* [-] */
 

@@ -15,12 +15,39 @@ static sw_vec carry(sw_vec v, sw_vec from, sw_vec to) {
 
 /* --- touches --------------------------------------------------------------------- */
 
-static double forgiven(const sw_pairs *p, const sw_system *s, const sw_pair *k,
-                       const sw_pair_touch *t, const sw_pair_memory *m) {
-  if (p->regime != SW_CONTACT_IMPLICIT || t->press.gap >= 0) return 0;
+/* How much of a place moves with nodes that nothing holds; *held: the other one's place [-], [m].
+ */
+static double free_share(const sw_system *s, uint32_t body, uint32_t e, double at, sw_vec *held) {
+  const sw_body *b = &s->bodies[body];
+  const int *is = b->plan->held + (e - b->first_node);
+  *held = sw_vec_at(s->x, is[0] == SW_FREE ? e + 1u : e);
+  return (is[0] == SW_FREE ? 1.0 - at : 0.0) + (is[1] == SW_FREE ? at : 0.0);
+}
+
+/* Where wires are held side by side, their axes nearer than their radii, no force takes them
+ * apart: what that leaves of depth beside the holds [m]. */
+static double imposed(const sw_system *s, const sw_pair *k, const double at[2]) {
+  sw_vec a, b;
+  const double one = free_share(s, k->body[0], k->one, at[0], &a);
+  const double share = fmax(one, free_share(s, k->body[1], k->two, at[1], &b));
+  return share < 1.0 ? (1.0 - share) * fmax(0.0, k->reach - sw_dist(a, b)) : 0.0;
+}
+
+/* What was placed in each other is let out slowly: within one step its way would turn into speed.
+ */
+static void forgive(const sw_pairs *p, const sw_system *s, const sw_pair *k,
+                    const sw_pair_memory *m, sw_pair_touch *t) {
+  if (p->regime == SW_CONTACT_EXPLICIT || t->press.gap >= 0) return;
+  const double always = imposed(s, k, t->at);
+  t->forgiven = always;
+  if (p->regime != SW_CONTACT_IMPLICIT) return;
   const sw_vec from = sw_pair_apart(s->x, k->one, k->two, t->at);
-  const double depth = k->reach - sw_dot(t->press.normal, from);
-  return sw_press_forgiven(depth, m ? m->depth : 0.0, p->h, 0);
+  const double depth = k->reach - sw_dot(t->press.normal, from) - always;
+  const double explained = m ? m->depth : 0.0;
+  t->emerges = m ? m->emerges : sw_press_was_put(depth);
+  const double left = sw_press_forgiven(depth, explained, p->h, t->emerges);
+  t->forgiven += left;
+  if (t->emerges) t->let_out = sw_press_let_out(depth, explained, left);
 }
 
 /* Wherever it has slid to. */
@@ -47,7 +74,7 @@ static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, co
   sw_press *press = &t.press;
   press->gap = gap, press->normal = normal;
   press->k = t.stiffer = stiffness_of(p, k, m, last);
-  t.forgiven = forgiven(p, s, k, &t, m);
+  forgive(p, s, k, m, &t);
   press->gap += t.forgiven;
   press->gap_after = press->gap;
   sw_press_activate(press, last && p->regime != SW_CONTACT_EXPLICIT ? &last->press : NULL);

@@ -271,6 +271,36 @@ static int goes_on(const sw_contact *c, const sw_candidate *k, const sw_press *p
          sw_dot(press->normal, last->press.normal) > SAME_SIDE;
 }
 
+/* Where a node is held inside of an obstacle no force takes the wire out of it: what that leaves of
+ * depth on the segment beside it [m]. */
+static double imposed(const sw_system *s, const sw_candidate *k, const sw_touch *t,
+                      const double *y) {
+  const sw_body *b = &s->bodies[k->body];
+  const int first = b->plan->held[k->node - b->first_node] != SW_FREE;
+  const int last = b->plan->held[k->other - b->first_node] != SW_FREE;
+  if (!k->segment || first == last) return 0;
+  const size_t node = first ? k->node : k->other;
+  const double there = sw_dot(t->press.normal, sw_sub(sw_vec_at(y, node), t->point));
+  const double at = fmin(fmax(t->at, 0.0), 1.0);
+  return (first ? 1.0 - at : at) * fmax(0.0, k->skin - there);
+}
+
+/* How much of its depth a touch leaves alone in this step. */
+static void forgive(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                    const sw_memory *m, const double *y, sw_touch *t) {
+  const sw_web *web = s->bodies[k->body].plan->web;
+  const int slowly = (web && web->per_ring) || c->fresh;
+  if (c->regime == SW_CONTACT_EXPLICIT || t->press.gap >= 0) return; /* force follows depth */
+  const double always = imposed(s, k, t, y);
+  t->forgiven = always;
+  if (c->regime != SW_CONTACT_IMPLICIT) return;
+  const double depth = sw_contact_depth_before(c, s, t) - always, explained = m ? m->depth : 0.0;
+  const double h = slowly ? c->stage_time - c->time : c->h;
+  const double left = sw_press_forgiven(depth, explained, h, slowly);
+  t->forgiven += left;
+  t->let_out = sw_press_let_out(depth, explained, left);
+}
+
 sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
                                const double *y, const sw_place *place) {
   const sw_closest *near = &place->near;
@@ -309,14 +339,7 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   t.press.gap += sw_contact_aslant(c, k->node, k->other, at, t.press.normal);
   if (web && !web->per_ring) t.press.soft = fmin(SOFTEST, (double)web->particles);
   sw_press *press = &t.press;
-  const int slowly = (web && web->per_ring) || c->fresh;
-  if (c->regime == SW_CONTACT_IMPLICIT &&
-      press->gap < 0) { /* in explicit steps force follows depth */
-    const double depth = sw_contact_depth_before(c, s, &t), explained = m ? m->depth : 0.0;
-    t.forgiven =
-        sw_press_forgiven(depth, explained, slowly ? c->stage_time - c->time : c->h, slowly);
-    t.let_out = sw_press_let_out(depth, explained, t.forgiven);
-  }
+  forgive(c, s, k, m, y, &t);
   if (m && web) t.hardened = 0.5 * m->depth * fmax(0.0, stiffness * m->depth - m->normal_force);
   press->gap += t.forgiven;
   press->gap_after = press->gap;

@@ -78,11 +78,13 @@ static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
   if (s->pairs) {
     impacts += sw_pairs_impacts(s->pairs);
     step->friction += sw_pairs_rubbed(s->pairs);
+    step->let_out += sw_pairs_emerged(s->pairs);
     step->steady &= sw_pairs_steady(s->pairs);
   }
   if (s->grains) {
     impacts += sw_grains_impacts(s->grains);
     step->friction += sw_grains_rubbed(s->grains);
+    step->let_out += sw_grains_emerged(s->grains);
     step->steady &= sw_grains_steady(s->grains);
   }
   if (impacts) /* these changed the velocities at the step's start */

@@ -124,4 +124,27 @@ describe("settling", function()
       end
     end
   end)
+
+  -- A hold keeps a node inside of a cylinder: beside it no force takes the wire out, and a touch that is made
+  -- stiffer and stiffer there makes energy, or the run is refused. That depth is left alone.
+  it("bears what a hold imposes", function()
+    for _, hold in ipairs{ "pin", "clamp" } do
+      for _, deep in ipairs{ 2e-4, 1e-3 } do
+        for _, dt in ipairs{ 0.01, 0.001 } do
+          local s, z = core.scene{}, cables "GXL 1.5".outer_diameter.value / 2 - deep
+          s:obstacle{ shape = "cylinder", radius = 0.02, length = 0.2, friction = 0.3,
+            at = { 0.15, 0, -0.02 },
+            rotation = { axis = { 1, 0, 0 }, angle = math.pi / 2 } }
+          local w = s:wire{ cable = cables "GXL 1.5", from = { 0, 0, z }, to = { 0.4, 0, z }, segments = 30 }
+          s[hold](s, w, { s = 0.1 })
+          s[hold](s, w, { s = 0.15 })
+          local r, what = s:advance({ dt = dt }, 0.2), ("%s, %g m deep, dt %g: "):format(hold, deep, dt)
+          assert.is_true(r.ok, what .. tostring(r.reason))
+          local l = core.ledger(s)
+          assert.is_true(l.gained < 0.005 * l.play, what .. l.gained / l.play .. " from nowhere")
+          assert.is_true((s:penetration()) < deep + 1e-4, what .. s:penetration() .. " m deep")
+        end
+      end
+    end
+  end)
 end)

@@ -187,7 +187,32 @@ local function section_words(r)
     "composite" }]), 0.05, { { "mesh", words.value(r, "mesh") }, { "cable", words.value(r, "cable") } })
 end
 
---- Arguments by "kind.method".
+-- A study of few evaluations, of one number or of a scene.
+local function study(r)
+  local evaluate = r.of{ "function(p) return { r = p.x, q = p.x * p.x } end",
+    "function(p, s) return { r = p.x, q = s and s.time or 0 } end",
+    "function(p) if p.x > 0.5 then p.give_up 'far' end; return { r = p.x, q = p.random() } end",
+    words.callback(r) }
+  local setup = r.chance(0.3) and { "setup", words.or_hostile(r, r.of{ words.callback(r),
+    ("function() return %s end"):format(r.pick "scene") }) } or nil
+  local fixed = { { "name", words.or_hostile(r, r.of{ "'a'", "'b'", "'c d'" }) },
+    { "parameters", words.or_hostile(r, r.of{ "{ x = { 0, 1 } }", "{ x = { 1e-3, 10, log = true, unit = 'N' } }",
+      "{ x = { 1, 9, integer = true }, y = { choices = { 'rod', 'tube' } } }",
+      ("{ x = { %s, %s } }"):format(words.or_hostile(r, "0"), words.or_hostile(r, "2")) }) },
+    { "evaluate", words.or_hostile(r, evaluate) }, { "workers", words.or_hostile(r, r.of{ "0", "0", "1", "2" }) },
+    { "cpu", "5" } }
+  if setup then fixed[#fixed + 1] = setup end
+  if r.chance(0.3) then fixed[#fixed + 1] = { "constraints", words.or_hostile(r, "{ q = { max = 0.5 } }") } end
+  if r.chance(0.4) then
+    fixed[#fixed + 1] = { "file", words.or_hostile(r, r.of{ "dir .. '/a.study'", words.file(r) }) }
+  end
+  return words.table_of(r, { "seed", "memory" }, 0.1, fixed)
+end
+
+local function few(name, count)
+  return { name, ("%d"):format(count) }
+end
+
 -- A picture or a film of a few pixels, into the case's folder; none that other programs draw for minutes.
 local function drawing(name, ...)
   local keys = { ... }
@@ -205,6 +230,7 @@ local function export(ending)
   return function(r) return words.or_hostile(r, r.of{ ("dir .. '/x.%s'"):format(ending), words.file(r) }) end
 end
 
+--- Arguments by "kind.method".
 local by_call = {
   ["scene.wire"] = wire, ["scene.particles"] = particles, ["scene.obstacle"] = obstacle,
   ["scene.clamp"] = hold "clamp", ["scene.pin"] = hold "pin", ["scene.grip"] = hold "grip",
@@ -290,6 +316,18 @@ local by_call = {
   ["sw.plot"] = function(r) return ("{ %s, path = %s, log = %s }"):format(r.chance(0.5) and r.pick "run"
     or words.or_hostile(r, "{ x = { 1, 2, 3 }, y = { 1, 4, 9 } }"), words.or_hostile(r, "dir .. '/p.svg'"),
     words.or_hostile(r, r.of{ "nil", "'x'", "'xy'" })) end,
+  ["sw.study"] = study,
+  ["study.sweep"] = function(r) return words.table_of(r, { "kind" }, 0.3,
+    { r.chance(0.5) and few("count", r.whole(1, 6)) or { "grid", words.or_hostile(r, "3") } }) end,
+  ["study.minimise"] = function(r) return ("%s, %s"):format(words.or_hostile(r, r.of{ "'r'", "'q'", "'x'" }),
+    words.table_of(r, { "method", "tolerance", "starts" }, 0.2, { few("evaluations", r.whole(1, 12)) })) end,
+  ["study.spread"] = function(r) return words.table_of(r, {}, 0, { few("count", r.whole(1, 8)) }) end,
+  ["study.best"] = function(r) return words.or_hostile(r, r.of{ "'r'", "'q'", "'z'" }) end,
+  ["study.csv"] = function(r) return words.or_hostile(r, r.of{ "dir .. '/s.csv'", words.file(r) }) end,
+  ["study.json"] = function(r) return words.or_hostile(r, r.of{ "dir .. '/s.json'", words.file(r) }) end,
+  ["study.chart"] = function(r) return words.table_of(r, { "log" }, 0.2, { { "x", words.or_hostile(r, "'x'") },
+    { "y", words.or_hostile(r, r.of{ "'r'", "'q'" }) },
+    { "path", words.or_hostile(r, "dir .. '/s.svg'") } }) end,
   ["scene.observe"] = function(r) return words.table_of(r, { "every", "wall" }, 0.4,
     { { "call", words.callback(r) } }) end,
   ["scene.view"] = function(r) return words.table_of(r, { "port" }, 0.1, { { "open", "false" } }) end,
@@ -372,7 +410,7 @@ calls.weights = { ["scene.run"] = 14, ["scene.settle"] = 3, ["scene.wire"] = 3, 
     ["clamp.release"] = 0.7,
   ["obstacle.remove"] = 0.7, ["scene.tool"] = 0.5, ["clamp.follow"] = 4, ["obstacle.follow"] = 2,
     ["wire.set_velocity"] = 2,
-  ["gripper.leave"] = 0, ["view.wait"] = 0, ["scene.view"] = 0.3, ["run.film"] = 0.05, ["sw.plot"] = 0.1,
+  ["study.chart"] = 0.1, ["gripper.leave"] = 0, ["view.wait"] = 0, ["scene.view"] = 0.3, ["run.film"] = 0.05, ["sw.plot"] = 0.1,
   ["run.picture"] = 0.3, ["scene.picture"] = 0.3, ["run.report"] = 0.3, ["scene.slider"] = 2,
   ["process.wait"] = 0.1, ["process.wait_until"] = 0.1, ["process.feed"] = 0.1, ["process.step"] = 0.1,
   ["gripper.wait"] = 0.2, ["gripper.press"] = 0.2, ["gripper.clip"] = 0.2, ["gripper.approach"] = 0.3,

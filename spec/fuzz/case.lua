@@ -183,7 +183,7 @@ local function process(self)
   return table.concat(lines, "\n")
 end
 
-local modules = { "sw.scene", "sw.load", "sw.cable", "sw.cables", "sw.calibrate", "sw.material", "sw.help",
+local modules = { "sw.scene", "sw.load", "sw.cable", "sw.cables", "sw.calibrate", "sw.material", "sw.help", "sw.study",
   "trajectory.new",
   "trajectory.read", "tune.minimise", "cable.define", "calibrate.cell", "units", "core" }
 
