@@ -183,8 +183,8 @@ local function process(self)
   return table.concat(lines, "\n")
 end
 
-local modules = { "sw.scene", "sw.load", "sw.cable", "sw.cables", "sw.calibrate", "sw.material", "sw.help", "sw.study",
-  "trajectory.new",
+local modules = { "sw.scene", "sw.load", "sw.cable", "sw.cables", "sw.calibrate", "sw.material", "sw.help",
+  "sw.study", "trajectory.new",
   "trajectory.read", "tune.minimise", "cable.define", "calibrate.cell", "units", "core" }
 
 local core_names = {}
