@@ -196,13 +196,16 @@ local function study(r)
   local setup = r.chance(0.3) and { "setup", words.or_hostile(r, r.of{ words.callback(r),
     ("function() return %s end"):format(r.pick "scene") }) } or nil
   local fixed = { { "name", words.or_hostile(r, r.of{ "'a'", "'b'", "'c d'" }) },
-    { "parameters", words.or_hostile(r, r.of{ "{ x = { 0, 1 } }", "{ x = { 1e-3, 10, log = true, unit = 'N' } }",
+    { "parameters", words.or_hostile(r, r.of{ "{ x = { 0, 1 } }",
+      "{ x = { 1e-3, 10, log = true, unit = 'N' } }",
       "{ x = { 1, 9, integer = true }, y = { choices = { 'rod', 'tube' } } }",
       ("{ x = { %s, %s } }"):format(words.or_hostile(r, "0"), words.or_hostile(r, "2")) }) },
-    { "evaluate", words.or_hostile(r, evaluate) }, { "workers", words.or_hostile(r, r.of{ "0", "0", "1", "2" }) },
-    { "cpu", "5" } }
+    { "evaluate", words.or_hostile(r, evaluate) },
+    { "workers", words.or_hostile(r, r.of{ "0", "0", "1", "2" }) }, { "cpu", "5" } }
   if setup then fixed[#fixed + 1] = setup end
-  if r.chance(0.3) then fixed[#fixed + 1] = { "constraints", words.or_hostile(r, "{ q = { max = 0.5 } }") } end
+  if r.chance(0.3) then
+    fixed[#fixed + 1] = { "constraints", words.or_hostile(r, "{ q = { max = 0.5 } }") }
+  end
   if r.chance(0.4) then
     fixed[#fixed + 1] = { "file", words.or_hostile(r, r.of{ "dir .. '/a.study'", words.file(r) }) }
   end
@@ -319,14 +322,14 @@ local by_call = {
   ["sw.study"] = study,
   ["study.sweep"] = function(r) return words.table_of(r, { "kind" }, 0.3,
     { r.chance(0.5) and few("count", r.whole(1, 6)) or { "grid", words.or_hostile(r, "3") } }) end,
-  ["study.minimise"] = function(r) return ("%s, %s"):format(words.or_hostile(r, r.of{ "'r'", "'q'", "'x'" }),
-    words.table_of(r, { "method", "tolerance", "starts" }, 0.2, { few("evaluations", r.whole(1, 12)) })) end,
+  ["study.minimise"] = function(r) return ("%s, %s"):format(
+    words.or_hostile(r, r.of{ "'r'", "'q'", "'x'" }), words.table_of(r, { "method", "tolerance", "starts" }, 0.2, { few("evaluations", r.whole(1, 12)) })) end,
   ["study.spread"] = function(r) return words.table_of(r, {}, 0, { few("count", r.whole(1, 8)) }) end,
   ["study.best"] = function(r) return words.or_hostile(r, r.of{ "'r'", "'q'", "'z'" }) end,
   ["study.csv"] = function(r) return words.or_hostile(r, r.of{ "dir .. '/s.csv'", words.file(r) }) end,
   ["study.json"] = function(r) return words.or_hostile(r, r.of{ "dir .. '/s.json'", words.file(r) }) end,
-  ["study.chart"] = function(r) return words.table_of(r, { "log" }, 0.2, { { "x", words.or_hostile(r, "'x'") },
-    { "y", words.or_hostile(r, r.of{ "'r'", "'q'" }) },
+  ["study.chart"] = function(r) return words.table_of(r, { "log" }, 0.2,
+    { { "x", words.or_hostile(r, "'x'") }, { "y", words.or_hostile(r, r.of{ "'r'", "'q'" }) },
     { "path", words.or_hostile(r, "dir .. '/s.svg'") } }) end,
   ["scene.observe"] = function(r) return words.table_of(r, { "every", "wall" }, 0.4,
     { { "call", words.callback(r) } }) end,
@@ -410,7 +413,8 @@ calls.weights = { ["scene.run"] = 14, ["scene.settle"] = 3, ["scene.wire"] = 3, 
     ["clamp.release"] = 0.7,
   ["obstacle.remove"] = 0.7, ["scene.tool"] = 0.5, ["clamp.follow"] = 4, ["obstacle.follow"] = 2,
     ["wire.set_velocity"] = 2,
-  ["study.chart"] = 0.1, ["gripper.leave"] = 0, ["view.wait"] = 0, ["scene.view"] = 0.3, ["run.film"] = 0.05, ["sw.plot"] = 0.1,
+  ["study.chart"] = 0.1,
+  ["gripper.leave"] = 0, ["view.wait"] = 0, ["scene.view"] = 0.3, ["run.film"] = 0.05, ["sw.plot"] = 0.1,
   ["run.picture"] = 0.3, ["scene.picture"] = 0.3, ["run.report"] = 0.3, ["scene.slider"] = 2,
   ["process.wait"] = 0.1, ["process.wait_until"] = 0.1, ["process.feed"] = 0.1, ["process.step"] = 0.1,
   ["gripper.wait"] = 0.2, ["gripper.press"] = 0.2, ["gripper.clip"] = 0.2, ["gripper.approach"] = 0.3,
