@@ -323,7 +323,8 @@ local by_call = {
   ["study.sweep"] = function(r) return words.table_of(r, { "kind" }, 0.3,
     { r.chance(0.5) and few("count", r.whole(1, 6)) or { "grid", words.or_hostile(r, "3") } }) end,
   ["study.minimise"] = function(r) return ("%s, %s"):format(
-    words.or_hostile(r, r.of{ "'r'", "'q'", "'x'" }), words.table_of(r, { "method", "tolerance", "starts" }, 0.2, { few("evaluations", r.whole(1, 12)) })) end,
+    words.or_hostile(r, r.of{ "'r'", "'q'", "'x'" }),
+    words.table_of(r, { "method", "tolerance", "starts" }, 0.2, { few("evaluations", r.whole(1, 12)) })) end,
   ["study.spread"] = function(r) return words.table_of(r, {}, 0, { few("count", r.whole(1, 8)) }) end,
   ["study.best"] = function(r) return words.or_hostile(r, r.of{ "'r'", "'q'", "'z'" }) end,
   ["study.csv"] = function(r) return words.or_hostile(r, r.of{ "dir .. '/s.csv'", words.file(r) }) end,
