@@ -13,6 +13,8 @@
 #include "calibrate/calibrate.h"
 #include "calibrate/minimise.h"
 #include "calibrate/quasi.h"
+#include "calibrate/search.h"
+#include "calibrate/symmetric.h"
 #include "draw/draw.h"
 #include "film/film.h"
 #include "film/pack.h"

@@ -10,7 +10,7 @@ local manual = {}
 --- Groups of pages: a title and the names of the group's pages.
 manual.groups = {
   { "How to", { "start", "lay", "grip", "handling", "mixed", "clip", "tie", "channel", "slider", "feed",
-    "winding", "join", "touches", "particles", "process", "waiting", "observe", "view", "tuning", "study",
+    "winding", "join", "touches", "particles", "process", "waiting", "observe", "view", "tuning", "study", "search",
     "player", "plotting", "save", "snapshot", "mistakes" } },
   { "Choose", { "models", "wire_mesh", "sections", "cable", "springback", "damping", "integrators",
     "vibration", "calibrate", "remodel", "units" } },
@@ -27,6 +27,7 @@ manual.also = { manual = "start", contact = "touches", meshes = "wire_mesh", har
   pictures = "plotting", paraview = "plotting", resume = "save", load = "save", ledger = "energy",
   observer = "observe", live = "view",
   sweep = "study", optimise = "study", workers = "study", journal = "study",
+  minimise = "search", bobyqa = "search", cobyla = "search", simplex = "search", pareto = "search",
   report = "player", page = "player", html = "player", film = "player", frames = "player",
   changed = "changes", modes = "vibration", stress = "vibration" }
 

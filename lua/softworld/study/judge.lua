@@ -58,6 +58,24 @@ function judge.violation(own, record)
   return sum, most
 end
 
+--- By how much each limit is broken, below 0 where it is kept: a max and a min are a limit each.
+function judge.sides(own, record)
+  local list = {}
+  for _, c in ipairs(own.constraints) do
+    local value = record.results[c.name]
+    if c.max then list[#list + 1] = (value - c.max) / scale(c.max) end
+    if c.min then list[#list + 1] = (c.min - value) / scale(c.min) end
+  end
+  return list
+end
+
+--- How many limits there are.
+function judge.count_sides(own)
+  local count = 0
+  for _, c in ipairs(own.constraints) do count = count + (c.max and 1 or 0) + (c.min and 1 or 0) end
+  return count
+end
+
 --- nil for an evaluation that failed, else whether it meets all constraints.
 function judge.pass(own, record)
   if not record.results then return nil end

@@ -24,6 +24,7 @@ local output = require "softworld.study.output"
 local parameters = require "softworld.study.parameters"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
+local search_methods = require "softworld.study.search"
 local spread = require "softworld.study.spread"
 
 local study = {}
@@ -64,13 +65,20 @@ local search = rows.call("study:minimise", "result, {...}", "looks for the small
   .. "meets the constraints", {
   gives = "what was found: best, value, ok, reason",
   example = 'study:minimise "time"',
-  { "method", "choice", "-", "simplex of Nelder and Mead", choices = { "simplex" }, default = "simplex" },
-  { "starts", "integer", "-", "places from which it begins, the first at the parameters' start", min = 1,
-    max = 1000, default = 4 },
+  { "method", "choice", "-", "how to search, see help 'search'", choices = { "auto",
+    table.unpack(search_methods.names) }, default = "auto" },
+  { "starts", "integer", "-", "places from which it begins, the first at the parameters' start; of cma-es "
+    .. "one after the other, each with twice the population", min = 1, max = 1000, usual = "4, of cma-es 1" },
   { "evaluations", "integer", "-", "at most, of all starts", min = 1, max = 1000000,
-    usual = "100 for each start and parameter" },
+    usual = "100 to 500 for each start and parameter" },
   { "tolerance", "number", "-", "wanted accuracy as a share of the ranges", min = 0, above = true, max = 0.5,
     default = 1e-4 },
+  { "step", "number", "-", "the first, as a share of the ranges", min = 0, above = true, max = 0.5,
+    usual = "0.2, of cma-es 0.3" },
+  { "noise", "boolean", "-", "values are noisy: cma-es then evaluates places often enough",
+    default = false },
+  { "around", "boolean", "-", "also evaluates around what was found: noise, flat directions",
+    default = true },
   WORKERS,
 })
 
