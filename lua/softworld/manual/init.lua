@@ -10,8 +10,8 @@ local manual = {}
 --- Groups of pages: a title and the names of the group's pages.
 manual.groups = {
   { "How to", { "start", "lay", "grip", "handling", "mixed", "clip", "tie", "channel", "slider", "feed",
-    "winding", "join", "touches", "particles", "process", "waiting", "observe", "view", "tuning", "study", "search",
-    "player", "plotting", "save", "snapshot", "mistakes" } },
+    "winding", "join", "touches", "particles", "process", "waiting", "observe", "view", "tuning", "study",
+    "search", "player", "plotting", "save", "snapshot", "mistakes" } },
   { "Choose", { "models", "wire_mesh", "sections", "cable", "springback", "damping", "integrators",
     "vibration", "calibrate", "remodel", "units" } },
   { "Trust", { "accuracy", "tolerance", "limits", "speed", "peaks", "energy", "events", "changes" } },

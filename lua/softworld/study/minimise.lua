@@ -1,9 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- The smallest value of a result, by one of the methods of study/search.
 --
--- A method is asked for places and told what came out. Evaluation k of start j has number
--- (k - 1) * starts + j: so which ones there are depends on nothing but the values, and a journal goes on.
--- When all starts have ended, what lies around the best place is evaluated too (study/around).
+-- A method is asked for places and told what came out, its starts by turns (study/turns). When all starts
+-- have ended, what lies around the best place is evaluated too (study/around).
 -- @module softworld.study.minimise
 local around = require "softworld.study.around"
 local campaign = require "softworld.study.campaign"
@@ -12,6 +11,7 @@ local judge = require "softworld.study.judge"
 local minimum = require "softworld.study.minimum"
 local parameters = require "softworld.study.parameters"
 local search = require "softworld.study.search"
+local turns = require "softworld.study.turns"
 
 local minimise = {}
 
@@ -44,7 +44,8 @@ local function begin(own, o, method)
     local problem = { n = #own.parameters, start = places, number = k, starts = o.starts, noise = o.noise,
       seed = core.checksum(("%d %d"):format(own.seed, k)), step = o.step, tolerance = o.tolerance,
       sides = judge.count_sides(own), levels = levels_of(own) }
-    runs[k] = { number = k, search = method.begin(problem), asked = 0, told = 0, least = math.huge }
+    runs[k] = turns.run(k, method.begin(problem))
+    runs[k].least = math.huge
   end
   return runs
 end
@@ -55,55 +56,17 @@ local function outcome_of(own, result, record)
     sides = judge.sides(own, record) }
 end
 
--- Tell a run its values and ask for more, once all that it asked for are known.
-local function refill(run, each)
-  if run.told < run.asked then return end
-  if run.places then
-    if run.next <= #run.places then return end
-    run.search:tell(run.outcomes, run.places)
-  end
-  local places, why, ok = run.search:ask()
-  if places and run.asked + #places > each then places, why = nil, "evaluations used up" end
-  run.places, run.outcomes, run.next, run.before = places, {}, 1, run.asked
-  if not places then run.ended, run.ok = why, ok or false end
-end
-
--- The next place of a run: number, values; nil when it waits or has ended.
-local function next_of(own, o, run)
-  if run.ended then return nil end
-  refill(run, o.each)
-  local place = run.places and run.places[run.next]
-  if not place then return nil end
-  run.next, run.asked = run.next + 1, run.asked + 1
-  return (run.asked - 1) * o.side + run.number, parameters.all_at(own.parameters, place)
-end
-
-local function hear(run, o, number, outcome)
-  local k = (number - run.number) // o.side + 1
-  run.told = run.told + 1
-  run.outcomes[k - run.before] = outcome
-  if not outcome.failed and outcome.broken <= 0 then run.least = math.min(run.least, outcome.value) end
-end
-
 -- Starts take turns; after them, what is around the best.
 local function source_of(own, result, o, runs)
   local found, highest, list = nil, 0, {}
   local function next_one()
     if found then return found:next() end
-    local order, waits = table.move(runs, 1, #runs, 1, {}), false
-    table.sort(order, function(a, b)
-      if a.asked == b.asked then return a.number < b.number end
-      return a.asked < b.asked
-    end)
-    for _, run in ipairs(order) do
-      local number, values = next_of(own, o, run)
-      if number then
-        highest = math.max(highest, number)
-        return number, values
-      end
-      waits = waits or not run.ended
+    local number, values = turns.next(own, o, runs)
+    if number then
+      highest = math.max(highest, number)
+      return number, values
     end
-    if waits then return nil end
+    if turns.wait(runs) then return nil end
     found = around.begin(own, result, o, list, highest)
     o.found = found
     return found:next()
@@ -112,7 +75,9 @@ local function source_of(own, result, o, runs)
     if not own.by_name[result] then judge.has(record, result, "study:minimise") end
     list[#list + 1] = record
     if found then return found:done(record) end
-    hear(runs[(record.number - 1) % o.side + 1], o, record.number, outcome_of(own, result, record))
+    local outcome = outcome_of(own, result, record)
+    local run = turns.hear(runs, o, record.number, outcome)
+    if not outcome.failed and outcome.broken <= 0 then run.least = math.min(run.least, outcome.value) end
   end
   return { next = next_one, done = done }
 end

@@ -40,9 +40,9 @@ function minimum.best(own, result, list)
   return best, nearest
 end
 
--- Which constraints nothing meets, with what came nearest.
-local function never_met(own, list, nearest)
-  local texts = {}
+--- Raise: which constraints nothing meets, with what came nearest.
+function minimum.never_met(own, list)
+  local texts, _, nearest = {}, minimum.best(own, own.parameters[1].name, list)
   for _, c in ipairs(own.constraints) do
     local value, least
     for _, record in ipairs(list) do
@@ -200,8 +200,8 @@ end
 
 --- What a list of records, sorted by number, has of the smallest value.
 function minimum.of(own, result, list, runs, o)
-  local best, nearest = minimum.best(own, result, list)
-  if not best then never_met(own, list, nearest) end
+  local best = minimum.best(own, result, list)
+  if not best then minimum.never_met(own, list) end
   local won, failed, order = winner(runs), 0, {}
   for _, record in ipairs(list) do failed = failed + (record.results and 0 or 1) end
   for i, p in ipairs(own.parameters) do order[i] = p.name end

@@ -51,7 +51,8 @@ local function parts_of(own)
   return list
 end
 
-local function records_of(own, part)
+--- Records of one part, or of all, by their numbers.
+function output.records(own, part)
   local list = {}
   for _, number in ipairs(part and { part } or parts_of(own)) do
     local records = own.asked[number] and own.asked[number].records or from_journal(own, number)
@@ -62,7 +63,7 @@ end
 
 --- Rows of one part, or of all.
 function output.rows(own, part)
-  local list = records_of(own, part)
+  local list = output.records(own, part)
   for i, record in ipairs(list) do list[i] = output.row(own, record) end
   return list
 end
@@ -81,7 +82,7 @@ local function result_names(list)
 end
 
 -- A name of a parameter or a result, or an error.
-local function check_name(own, what, name, list)
+function output.check_name(own, what, name, list)
   local results, known = result_names(list), {}
   for i, p in ipairs(own.parameters) do known[i] = p.name end
   table.move(results, 1, #results, #known + 1, known)
@@ -105,8 +106,8 @@ end
 
 --- The same as a row.
 function output.best(own, name)
-  local list = records_of(own)
-  check_name(own, "study:best", name, list)
+  local list = output.records(own)
+  output.check_name(own, "study:best", name, list)
   local best = best_of(own, name, list)
   return best and output.row(own, best)
 end
@@ -165,7 +166,7 @@ end
 
 --- What print shows.
 function output.text(own)
-  local list = records_of(own)
+  local list = output.records(own)
   local lines = { ("study '%s': %d evaluation%s%s"):format(own.name, #list, #list == 1 and "" or "s",
     own.file and ", kept in " .. own.file or "") }
   for _, p in ipairs(own.parameters) do lines[#lines + 1] = "  " .. parameters.describe(p, true) end
@@ -193,7 +194,7 @@ end
 --- Write the table.
 function output.csv(own, path)
   check_path("study:csv", path)
-  local list = records_of(own)
+  local list = output.records(own)
   local names, columns = { "part", "number" }, {}
   for _, p in ipairs(own.parameters) do names[#names + 1] = p.name end
   for _, name in ipairs(result_names(list)) do names[#names + 1] = name end
@@ -248,10 +249,10 @@ end
 
 --- Draw y over x.
 function output.chart(own, o)
-  local rows, list = output.rows(own), records_of(own)
+  local rows, list = output.rows(own), output.records(own)
   local met, broken = { x = {}, y = {} }, { x = {}, y = {} }
   for _, axis in ipairs { "x", "y" } do
-    check_name(own, "study:chart", o[axis], list)
+    output.check_name(own, "study:chart", o[axis], list)
     local p = own.by_name[o[axis]]
     if p and p.kind == "choice" then
       error(("study:chart: %s = '%s' has choices, no numbers"):format(axis, p.name), 0)

@@ -22,6 +22,7 @@ local methods = require "softworld.methods"
 local minimise = require "softworld.study.minimise"
 local output = require "softworld.study.output"
 local parameters = require "softworld.study.parameters"
+local pareto = require "softworld.study.pareto"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local search_methods = require "softworld.study.search"
@@ -89,7 +90,19 @@ local shake = rows.call("study:spread", "{...}", "how often the constraints are 
   WORKERS,
 })
 
+local trade = rows.call("study:pareto", "{ results, ... }", "looks for the front of two or three results: of "
+  .. "evaluations that meet the constraints, those of which none is better in all of them", {
+  gives = "the front: rows, knee, evaluations, failed",
+  example = 'study:pareto { "time", "peak" }',
+  { "evaluations", "integer", "-", "at most", min = 1, max = 1000000, usual = "40 generations" },
+  { "population", "integer", "-", "evaluations of a generation", min = 4, max = 10000,
+    usual = "20 for each result" },
+  WORKERS,
+})
+
 rows.calls{
+  { "study:front", "{ results }", "the rows of the whole table that no other one beats in these results",
+    "the front: rows, knee, evaluations, failed", example = 'study:front { "time", "peak" }' },
   { "study:table", "", "all evaluations: number, parameters, results, pass, failed", "a list of tables" },
   { "study:best", "result", "the evaluation with the smallest value that meets the constraints",
     "a row, or nil" },
@@ -202,6 +215,17 @@ local function do_spread(self, args)
   return spread.result(own, records, o.count)
 end
 
+local function do_pareto(self, args)
+  local own, names, rest = fields(self), pareto.names("study:pareto", args)
+  return pareto.run(own, names, trade:read(rest))
+end
+
+local function do_front(self, args)
+  local own, names, rest = fields(self), pareto.names("study:front", args)
+  checks.keys("study:front", rest, {}, 0)
+  return pareto.front(own, names)
+end
+
 local function list_rows(self) return output.rows(fields(self)) end
 
 local function do_best(self, result) return output.best(fields(self), result) end
@@ -216,6 +240,8 @@ local function do_chart(self, args) return output.chart(fields(self), chart:read
 function Study:sweep(args) return build.call(3, do_sweep, self, args) end
 function Study:minimise(result, args) return build.call(3, do_minimise, self, result, args) end
 function Study:spread(args) return build.call(3, do_spread, self, args) end
+function Study:pareto(args) return build.call(3, do_pareto, self, args) end
+function Study:front(args) return build.call(3, do_front, self, args) end
 function Study:table() return build.call(3, list_rows, self) end
 function Study:best(result) return build.call(3, do_best, self, result) end
 function Study:csv(path) return build.call(3, do_csv, self, path) end
@@ -224,7 +250,7 @@ function Study:chart(args) return build.call(3, do_chart, self, args) end
 
 methods.guard_table("study", Study)
 
-local SHOWN = "sweep minimise spread table best csv json chart name file computed"
+local SHOWN = "sweep minimise pareto front spread table best csv json chart name file computed"
 local unknown = checks.fields("study", SHOWN, "file")
 
 function Study:__index(key)

@@ -5,9 +5,9 @@
 --
 -- Bounds: a place outside is drawn again, a few times, then set to the bound. Integers are drawn widely
 -- enough to reach their neighbours. Restarts: each with twice the population from a random place (IPOP;
--- Auger, Hansen 2005). Noise: some places of a generation are evaluated twice; as their order changes more than 20 % of
--- random orders would, each place becomes the mean of more evaluations (Hansen, Niederberger, Guzzella,
--- Koumoutsakos 2009).
+-- Auger, Hansen 2005). Noise: some places of a generation are evaluated twice; as their order changes more
+-- than 20 % of random orders would, each place becomes the mean of more evaluations (Hansen, Niederberger,
+-- Guzzella, Koumoutsakos 2009).
 -- @module softworld.study.search.cma_es
 local core = require "softworld.core"
 local design = require "softworld.study.design"
