@@ -112,19 +112,20 @@ function Front.__index(f, key)
   return unknown(f, key)
 end
 
+local function line_of(f, row)
+  local texts = {}
+  for k, name in ipairs(f.names) do texts[k] = ("%s = %.6g"):format(name, row[name]) end
+  return ("evaluation %d.%d: %s"):format(row.part, row.number, table.concat(texts, ", "))
+end
+
 function Front.__tostring(f)
   local lines = { ("front of %s: %d of %d evaluations, %d failed"):format(table.concat(f.names, ", "),
     #f.rows, f.evaluations, f.failed) }
   local every = math.max(1, math.ceil(#f.rows / SHOWN))
   for i = 1, #f.rows do
-    if i == #f.rows or (i - 1) % every == 0 then
-      local texts = {}
-      for k, name in ipairs(f.names) do texts[k] = ("%s = %.6g"):format(name, f.rows[i][name]) end
-      lines[#lines + 1] = ("  evaluation %d.%d: %s%s"):format(f.rows[i].part, f.rows[i].number,
-        table.concat(texts, ", "), f.knee and f.rows[i].number == f.knee.number
-        and f.rows[i].part == f.knee.part and " (knee)" or "")
-    end
+    if i == #f.rows or (i - 1) % every == 0 then lines[#lines + 1] = "  " .. line_of(f, f.rows[i]) end
   end
+  if f.knee then lines[#lines + 1] = "  knee: " .. line_of(f, f.knee) end
   return table.concat(lines, "\n")
 end
 
