@@ -129,7 +129,8 @@ function Front.__tostring(f)
   return table.concat(lines, "\n")
 end
 
-local function result(own, names, records)
+--- The front of records.
+function pareto.of(own, names, records)
   local front, failed, rows, knee = front_of(own, names, records), 0, {}, nil
   for _, record in ipairs(records) do failed = failed + (record.results and 0 or 1) end
   for i, one in ipairs(front) do rows[i] = output.row(own, one[1]) end
@@ -147,7 +148,7 @@ end
 function pareto.front(own, names)
   local list = output.records(own)
   for _, name in ipairs(names) do output.check_name(own, "study:front", name, list) end
-  return result(own, names, list)
+  return pareto.of(own, names, list)
 end
 
 -- --- the search ----------------------------------------------------------------------------------
@@ -185,7 +186,7 @@ function pareto.run(own, names, o)
     end })
   judge.some(own, records)
   local list = judge.sorted(records)
-  local found = result(own, names, list)
+  local found = pareto.of(own, names, list)
   if #found.rows == 0 then minimum.never_met(own, list) end
   own.asked[own.part].says = tostring(found)
   return found

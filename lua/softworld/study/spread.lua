@@ -5,6 +5,7 @@
 local checks = require "softworld.checks"
 local design = require "softworld.study.design"
 local judge = require "softworld.study.judge"
+local matters = require "softworld.study.matters"
 local output = require "softworld.study.output"
 local parameters = require "softworld.study.parameters"
 
@@ -48,7 +49,8 @@ function spread.wilson(passed, count)
 end
 
 local Spread = { __name = "spread" }
-Spread.__index = checks.fields("spread", "probability low high count passed broken failed left_out worst")
+Spread.__index = checks.fields("spread", "probability low high count passed broken failed left_out worst "
+  .. "matters")
 
 function Spread.__tostring(s)
   local shape = "%.2f %% pass (95 %% interval %.2f to %.2f %%): %d of %d; %d break constraints, %d failed"
@@ -57,6 +59,10 @@ function Spread.__tostring(s)
   if s.left_out > 0 then
     lines[2] = ("  %d ended by the machine are left out"):format(s.left_out)
   end
+  local names = {}
+  for name in pairs(s.matters) do names[#names + 1] = name end
+  table.sort(names)
+  for _, name in ipairs(names) do lines[#lines + 1] = "  " .. matters.text(name, s.matters[name]) end
   return table.concat(lines, "\n")
 end
 
@@ -91,6 +97,7 @@ function spread.result(own, records)
   s.probability = s.passed / s.count
   s.low, s.high = spread.wilson(s.passed, s.count)
   s.worst = worst_of(own, list)
+  s.matters = matters.all(own, list)
   setmetatable(s, Spread)
   own.asked[own.part].says = tostring(s)
   return s

@@ -10,8 +10,10 @@
 --     study:minimise "time"
 --     print(study)
 -- @module softworld.study.study
+local advise = require "softworld.study.advise"
 local build = require "softworld.scene.build"
 local campaign = require "softworld.study.campaign"
+local chart = require "softworld.study.chart"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local design = require "softworld.study.design"
@@ -103,6 +105,8 @@ local trade = rows.call("study:pareto", "{ results, ... }", "looks for the front
 rows.calls{
   { "study:front", "{ results }", "the rows of the whole table that no other one beats in these results",
     "the front: rows, knee, evaluations, failed", example = 'study:front { "time", "peak" }' },
+  { "study:advise", "result", "which method a search had better take, how many evaluations, and why",
+    "advice: method, evaluations, why, lines", example = 'print(study:advise "time")' },
   { "study:table", "", "all evaluations: number, parameters, results, pass, failed", "a list of tables" },
   { "study:best", "result", "the evaluation with the smallest value that meets the constraints",
     "a row, or nil" },
@@ -113,11 +117,14 @@ rows.calls{
   { "study.computed", nil, "evaluations that this process has computed, not read", "a number" },
 }
 
-local chart = rows.call("study:chart", "{...}", "draws a result over another or a parameter; needs gnuplot", {
+local draw = rows.call("study:chart", "{...}", "draws what has been evaluated; needs gnuplot", {
   gives = "the path, or without one the drawing in characters",
   example = 'study:chart { x = "force", y = "time", path = "grip.svg" }',
-  { "x", "text", "-", "a parameter or a result", required = true },
-  { "y", "text", "-", "a parameter or a result", required = true },
+  { "kind", "choice", "-", "what, see help 'study'", choices = chart.names, default = "points" },
+  { "x", "text", "-", "a parameter or a result", usual = "required by points, histogram, front" },
+  { "y", "text", "-", "a parameter or a result", usual = "required by all but histogram" },
+  { "part", "integer", "-", "only this sweep, search or spread, by its number", min = 1, max = 1 << 31,
+    usual = "all" },
   { "path", "text", "-", "a .svg, .png or .pdf file", usual = "drawn in characters" },
   { "log", "choice", "-", "axes that are logarithmic", choices = { "x", "y", "xy" },
     usual = "by the parameters" },
@@ -226,6 +233,8 @@ local function do_front(self, args)
   return pareto.front(own, names)
 end
 
+local function do_advise(self, result) return advise.run(fields(self), result) end
+
 local function list_rows(self) return output.rows(fields(self)) end
 
 local function do_best(self, result) return output.best(fields(self), result) end
@@ -234,7 +243,7 @@ local function do_csv(self, path) return output.csv(fields(self), path) end
 
 local function do_json(self, path) return output.json(fields(self), path) end
 
-local function do_chart(self, args) return output.chart(fields(self), chart:read(args)) end
+local function do_chart(self, args) return chart.draw(fields(self), draw:read(args)) end
 
 -- Calls in tail position: levels of errors count as if they were not here.
 function Study:sweep(args) return build.call(3, do_sweep, self, args) end
@@ -242,6 +251,7 @@ function Study:minimise(result, args) return build.call(3, do_minimise, self, re
 function Study:spread(args) return build.call(3, do_spread, self, args) end
 function Study:pareto(args) return build.call(3, do_pareto, self, args) end
 function Study:front(args) return build.call(3, do_front, self, args) end
+function Study:advise(result) return build.call(3, do_advise, self, result) end
 function Study:table() return build.call(3, list_rows, self) end
 function Study:best(result) return build.call(3, do_best, self, result) end
 function Study:csv(path) return build.call(3, do_csv, self, path) end
@@ -250,7 +260,7 @@ function Study:chart(args) return build.call(3, do_chart, self, args) end
 
 methods.guard_table("study", Study)
 
-local SHOWN = "sweep minimise pareto front spread table best csv json chart name file computed"
+local SHOWN = "sweep minimise pareto front spread advise table best csv json chart name file computed"
 local unknown = checks.fields("study", SHOWN, "file")
 
 function Study:__index(key)
