@@ -118,7 +118,7 @@ end
 local function add_noise(lines, f)
   local n = f.noise
   if not n then return end
-  if n.mean then
+  if n.mean and n.deviation ~= 0 then
     lines[#lines + 1] = ("  noisy: the mean of %d more evaluations there is %.6g%s"):format(
       n.repeats - n.failed, n.mean, n.error and (" +- %.2g"):format(n.error) or "")
   end
