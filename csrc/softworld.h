@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "base/interrupt.h"
 #include "base/param.h"
+#include "base/quota.h"
 #include "base/status.h"
 #include "base/vec.h"
 #include "calibrate/calibrate.h"

@@ -110,7 +110,11 @@ local function judge(own, message)
   return mistake and "mistake" or "failed", first
 end
 
+--- What is said of an evaluation that took too many steps.
+function evaluation.steps_reason(steps) return ("took more than %d steps"):format(steps) end
+
 local function finish(own, fine, ...)
+  if core.limit_steps(0) then return "failed", evaluation.steps_reason(own.steps) end
   for _, kept in ipairs(own.kept) do
     if not core.exists(kept[1]) then return wrong(own, "closed the scene that setup had built") end
   end
@@ -139,6 +143,7 @@ end
 --- Gives "ok" with results as text; "failed", "machine" or "mistake" with a reason.
 function evaluation.run(own, part, number, values)
   seed_with(own, part, number)
+  core.limit_steps(own.steps or 0)
   return finish(own, pcall(all, own, given_for(own, number, values)))
 end
 

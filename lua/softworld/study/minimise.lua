@@ -116,6 +116,11 @@ local function settle(own, o)
   return method
 end
 
+-- What tells one search from another: whatever changes its places or their numbers.
+local function options_of(o)
+  return { workers = o.workers, method = o.method, side = o.side, step = o.step, noise = o.noise or nil }
+end
+
 --- Look for it; o: method, starts, evaluations, tolerance, step, noise, around, workers.
 function minimise.run(own, result, o)
   local runs = begin(own, o, settle(own, o))
@@ -124,7 +129,7 @@ function minimise.run(own, result, o)
       if run.search.close then run.search:close() end
     end
   end })
-  local records = campaign.run(own, "minimise " .. result, o, source_of(own, result, o, runs))
+  local records = campaign.run(own, "minimise " .. result, options_of(o), source_of(own, result, o, runs))
   judge.some(own, records)
   local found = minimum.of(own, result, judge.sorted(records), runs, o)
   own.asked[own.part].says = tostring(found)

@@ -176,7 +176,8 @@ function pareto.run(own, names, o)
   o.side, o.each = 1, o.evaluations
   local runs = { turns.run(1, nsga2.begin { n = #own.parameters, seed = own.seed, size = o.population,
     first = first_of(own, o) }) }
-  local records = campaign.run(own, "pareto " .. table.concat(names, " "), o, {
+  local records = campaign.run(own, "pareto " .. table.concat(names, " "), {
+    workers = o.workers, population = o.population }, {
     next = function() return turns.next(own, o, runs) end,
     done = function(record)
       for _, name in ipairs(names) do

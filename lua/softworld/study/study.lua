@@ -51,6 +51,8 @@ local new = rows.call("sw.study", "{...}", "a study: a model to be evaluated man
   { "workers", "integer", "-", "processes; 0 computes in this one", min = 0, max = 256,
     usual = "one per processor" },
   { "cpu", "number", "s", "most computing time of an evaluation", min = 0, above = true, usual = "any" },
+  { "steps", "integer", "-", "most steps of its runs that an evaluation tries, the rejected ones too",
+    min = 1, max = 1 << 53, usual = "any" },
   { "memory", "number", "-", "most memory that a worker takes besides [B]", min = 1e6, usual = "any" },
 })
 
@@ -137,6 +139,7 @@ local function fields(self) return sealed.fields(self) end
 local function definition(own)
   local lines = { "version " .. core.version, ("seed %d"):format(own.seed) }
   for _, p in ipairs(own.parameters) do lines[#lines + 1] = "parameter " .. parameters.describe(p) end
+  if own.steps then lines[#lines + 1] = ("steps %d"):format(own.steps) end
   lines[#lines + 1] = "functions of the script " .. fingerprint(own.setup, own.evaluate)
   local text = table.concat(lines, "\n")
   return { name = own.name, text = text, key = ("%016x"):format(core.checksum(text)) }
