@@ -294,6 +294,25 @@ describe("what is told of a minimum", function()
   end)
 end)
 
+describe("a search", function()
+  it("says that evaluations are fewer than a generation", function()
+    assert.error_matches(function()
+      study(RANGES, bowl):minimise("y", { method = "cma-es", evaluations = 5 })
+    end, "study:minimise: evaluations = 5 are fewer than one generation of 6")
+  end)
+
+  -- The first values are all that a model has to compare with; NLopt moves a start that is near a bound.
+  it("goes on when all but the first evaluations fail", function()
+    for _, name in ipairs(search.names) do
+      local s = study({ a = { -2, 2, start = -1.99 }, b = { -2, 2 } }, function(p)
+        if p.number > 5 then return { z = 1 } end
+        return bowl(p)
+      end)
+      assert.is_true(search_by(name, { study = s, evaluations = 80 }).failed > 5)
+    end
+  end)
+end)
+
 describe("core.search", function()
   it("is freed in any state", function()
     for _, name in ipairs { "simplex", "bobyqa", "cobyla", "direct", "crs2" } do

@@ -113,6 +113,9 @@ local function settle(own, o)
   o.side = method.starts and o.starts or 1
   o.each = (o.evaluations - around.reserve(own, o)) // o.side
   o.step = o.step or method.step
+  if method.fewest and o.each < method.fewest(own.parameters) then
+    fail("evaluations = %d are fewer than one generation of %d", o.evaluations, method.fewest(own.parameters))
+  end
   return method
 end
 

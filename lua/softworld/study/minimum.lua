@@ -150,8 +150,12 @@ function Found.__tostring(f)
   local lines = { ("%s = %.6g (%s: %s, %d evaluations, %d failed)"):format(f.name, f.value, f.method,
     f.reason, f.evaluations, f.failed) }
   add_noise(lines, f)
-  for _, p in ipairs(f.at_bound) do lines[#lines + 1] = ("  %s is at the end of its range"):format(p) end
-  for _, c in ipairs(f.at_limit) do lines[#lines + 1] = ("  %s is at its limit"):format(c) end
+  if #f.at_bound > 0 then
+    lines[#lines + 1] = ("  at the end of the range: %s"):format(table.concat(f.at_bound, ", "))
+  end
+  if #f.at_limit > 0 then
+    lines[#lines + 1] = ("  at the limit: %s"):format(table.concat(f.at_limit, ", "))
+  end
   add_flat(lines, f)
   add_failures(lines, f)
   return table.concat(lines, "\n")

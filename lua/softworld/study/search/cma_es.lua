@@ -336,13 +336,15 @@ function Run:tell(outcomes)
   self.history[#self.history + 1] = { math.min(table.unpack(ranks)), math.max(table.unpack(ranks)) }
 end
 
+local function size_of(n) return 4 + math.floor(3 * log(n)) end
+
 local function begin(problem)
   local self = setmetatable({ problem = problem, restarts = problem.starts - 1, count = 1,
     random = design.generator(problem.seed, 20161) }, Run)
-  begin_at(self, table.move(problem.start, 1, problem.n, 1, {}), 4 + math.floor(3 * log(problem.n)))
+  begin_at(self, table.move(problem.start, 1, problem.n, 1, {}), size_of(problem.n))
   return self
 end
 
 return { doc = "CMA-ES: robust against steps, failures and noise, whole generations at once", each = 500,
   step = 0.3, most = 100, kinds = { integer = true, choice = true }, noise = true, restarts = true,
-  begin = begin }
+  fewest = function(parameters) return size_of(#parameters) end, begin = begin }

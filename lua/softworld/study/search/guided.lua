@@ -96,6 +96,7 @@ function Run:ask()
     local known = self.known
     self.known = nil
     if not (known and same(x, known.place)) then
+      if known then finite(self, known.outcome) end -- it begins elsewhere: compare with that all the same
       self.place = self.folds and folded(x) or x
       return { self.place }
     end
