@@ -82,3 +82,62 @@ describe("steps of a study", function()
     assert.error_matches(function() study(1.5, 0) end, "steps = 1.5 is not allowed")
   end)
 end)
+
+describe("p.broken", function()
+  local function asked(evaluate)
+    local s = sw.study { name = "s", parameters = { x = { 0, 4 } }, workers = 0, evaluate = evaluate,
+      constraints = { peak = { max = 2 }, margin = { min = 1 } } }
+    return s:sweep { grid = 3 }
+  end
+
+  it("names the first constraint that results break", function()
+    local got = {}
+    asked(function(p)
+      got[#got + 1] = { p.broken { peak = p.x }, p.broken { margin = p.x }, p:broken {} }
+      return { peak = p.x, margin = 1 }
+    end)
+    assert.same({ nil, "margin" }, got[1])
+    assert.same({}, got[2])
+    assert.same({ "peak" }, got[3])
+  end)
+
+  -- Lifted by 0.3 m at 1 m/s the hand bears more than 0.1 N within the first steps.
+  it("ends a run early, whose results say by how much", function()
+    local hand, wire
+    local s = sw.study { name = "s", parameters = { speed = { 0.01, 1, unit = "m/s" } }, workers = 0,
+      setup = function()
+        local scene = build()
+        wire = scene:wire { E = 5e7, density = 1500, radius = 0.002, segments = 8, from = { 1, 0, 0.3 },
+          to = { 1, 0, 0 } }
+        hand = scene:gripper { name = "hand" }
+        return scene
+      end,
+      evaluate = function(p, scene)
+        scene:process(function()
+          hand:grasp(wire, { s = 0 })
+          hand:move { by = { 0, 0, 0.3 }, speed = p.speed }
+        end)
+        scene:observe { every = 0.01, call = function(observer)
+          if p.broken { peak = hand.peak_force } then observer:stop "too hard" end
+        end }
+        local run = scene:run { dt = 0.005, duration = 0.3 }
+        assert(run.ok, run.reason)
+        return { peak = hand.peak_force, time = scene.time }
+      end, constraints = { peak = { max = 0.07, unit = "N" } } }
+    local rows = s:sweep { grid = 2 }
+    assert.is_true(rows[1].pass and math.abs(rows[1].time - 0.3) < 1e-9, rows[1].peak)
+    assert.is_true(not rows[2].pass and rows[2].time < 0.2 and rows[2].peak > 0.07, rows[2].peak)
+  end)
+
+  it("says what is wrong", function()
+    for words, results in pairs { ["did you mean 'peak'?"] = { peek = 1 }, ["results are wanted"] = 3,
+      ["p.broken: peak"] = { peak = "x" } } do
+      local fine, why = pcall(asked, function(p)
+        assert(p.broken(results))
+        return { peak = 1, margin = 1 }
+      end)
+      assert.is_false(fine)
+      assert.truthy(tostring(why):find(words, 1, true), why)
+    end
+  end)
+end)

@@ -14,6 +14,12 @@ local search = {}
 
 search.names = { "simplex", "bobyqa", "cobyla", "direct", "crs2", "cma-es" }
 
+--- One line about a method.
+function search.about(name)
+  return name == "auto" and "by the parameters and constraints: found.method and found.why tell"
+    or search.of(name).doc
+end
+
 local BROKEN, FAILED = 1e200, 1e290
 
 --- The method of a name.

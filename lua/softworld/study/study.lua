@@ -71,7 +71,7 @@ local search = rows.call("study:minimise", "result, {...}", "looks for the small
   gives = "what was found: best, value, ok, reason",
   example = 'study:minimise "time"',
   { "method", "choice", "-", "how to search, see help 'search'", choices = { "auto",
-    table.unpack(search_methods.names) }, default = "auto" },
+    table.unpack(search_methods.names) }, default = "auto", about = search_methods.about },
   { "starts", "integer", "-", "places from which it begins, the first at the parameters' start; of cma-es "
     .. "one after the other, each with twice the population", min = 1, max = 1000, usual = "4, of cma-es 1" },
   { "evaluations", "integer", "-", "at most, of all starts", min = 1, max = 1000000,
@@ -81,9 +81,9 @@ local search = rows.call("study:minimise", "result, {...}", "looks for the small
   { "step", "number", "-", "the first, as a share of the ranges", min = 0, above = true, max = 0.5,
     usual = "0.2, of cma-es 0.3" },
   { "noise", "boolean", "-", "values are noisy: cma-es then evaluates places often enough",
-    default = false },
+    default = false, usual = "false" },
   { "around", "boolean", "-", "also evaluates around what was found: noise, flat directions",
-    default = true },
+    default = true, usual = "true" },
   WORKERS,
 })
 
@@ -122,7 +122,8 @@ rows.calls{
 local draw = rows.call("study:chart", "{...}", "draws what has been evaluated; needs gnuplot", {
   gives = "the path, or without one the drawing in characters",
   example = 'study:chart { x = "force", y = "time", path = "grip.svg" }',
-  { "kind", "choice", "-", "what, see help 'study'", choices = chart.names, default = "points" },
+  { "kind", "choice", "-", "what, see help 'study'", choices = chart.names, default = "points",
+    about = function(name) return chart.of(name).doc end },
   { "x", "text", "-", "a parameter or a result", usual = "required by points, histogram, front" },
   { "y", "text", "-", "a parameter or a result", usual = "required by all but histogram" },
   { "part", "integer", "-", "only this sweep, search or spread, by its number", min = 1, max = 1 << 31,
