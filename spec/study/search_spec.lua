@@ -112,6 +112,32 @@ for _, name in ipairs(search.names) do
       assert.is_true(lines < 150)
     end)
 
+    -- Broken off after some evaluations it goes on from the journal: nothing is computed twice, and the table
+    -- is that of a search that was never broken off.
+    it("goes on from the journal", function()
+      local path = os.tmpname()
+      os.remove(path)
+      local function table_of(file, evaluations)
+        local s = sw.study { name = "s", parameters = RANGES, workers = 2, file = file, evaluate = function(p)
+          if p.random() < 0.1 then error("by chance", 0) end
+          return bowl(p)
+        end }
+        local found = s:minimise("y", { method = name, evaluations = evaluations, around = false })
+        local rows = s:table()
+        for k, row in ipairs(rows) do
+          rows[k] = ("%d %a %a %s"):format(row.number, row.a, row.b,
+            row.y and ("%a"):format(row.y) or row.failed)
+        end
+        return table.concat(rows, "\n"), s.computed, found.evaluations
+      end
+      local _, first = table_of(path, 48)
+      local again, more, all = table_of(path, 120)
+      os.remove(path)
+      assert.is_true(first > 30 and first <= 48)
+      assert.equal(all - first, more)
+      assert.equal(table_of(nil, 120), again)
+    end)
+
     it("takes one parameter", function()
       local s = study({ a = { -2, 2 } }, function(p) return { y = (p.a - 0.5) ^ 2 } end)
       local found = s:minimise("y", { method = name, evaluations = 200 })
