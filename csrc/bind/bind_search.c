@@ -84,7 +84,7 @@ static const luaL_Reg methods[] = {
     {"ask", meth_ask}, {"tell", meth_tell}, {"close", meth_close}, {NULL, NULL}};
 
 static sw_search **new_search(lua_State *L) {
-  sw_search **s = lua_newuserdatauv(L, sizeof *s, 2);
+  sw_search **s = lua_newuserdatauv(L, sizeof(sw_search *), 2);
   *s = NULL;
   if (luaL_newmetatable(L, SEARCH)) {
     luaL_newlib(L, methods);

@@ -54,7 +54,8 @@ local function draw(own, o, list)
   local across = math.min(ACROSS, count)
   local down = math.ceil(count / across)
   if o.path then
-    script.add("set multiplot layout %d,%d title %s noenhanced", down, across, gnuplot.quote(own.name))
+    local title = own.name .. (#own.constraints > 0 and " (orange: breaks constraints)" or "")
+    script.add("set multiplot layout %d,%d title %s noenhanced", down, across, gnuplot.quote(title))
   end
   script.add("set ylabel %s noenhanced", gnuplot.quote(chart.label(own, o.y)))
   for i = 1, count do add_panel(script, own, o, own.parameters[i], list) end
