@@ -8,11 +8,11 @@
 -- not, where much fails or a limit is a step; the simplex for one parameter.
 -- @module softworld.study.advise
 local checks = require "softworld.checks"
-local core = require "softworld.core"
 local judge = require "softworld.study.judge"
 local minimum = require "softworld.study.minimum"
 local output = require "softworld.study.output"
 local parameters = require "softworld.study.parameters"
+local quadratic = require "softworld.study.quadratic"
 local search = require "softworld.study.search"
 
 local advise = {}
@@ -20,7 +20,7 @@ local advise = {}
 local MANY_FAIL = 0.05   -- share of evaluations
 local SMOOTH = 0.05      -- of the variance that a quadratic polynomial may leave over
 local FEW_VALUES = 4     -- of a result: it has steps
-local RIDGE = 1e-9       -- against directions of which the evaluations tell nothing
+local MOST_TERMS = 300   -- of a polynomial
 
 local function say(lines, text, ...) lines[#lines + 1] = text:format(...) end
 
@@ -51,53 +51,21 @@ local function has_steps(list, name)
   return all > 5 * FEW_VALUES and count <= FEW_VALUES
 end
 
--- 1, places, their products.
-local function terms(own, record)
-  local u, row = {}, { 1 }
-  for i, p in ipairs(own.parameters) do
-    u[i] = p.kind == "choice" and record.values[i] or 2 * parameters.place(p, record.values[i]) - 1
-    row[#row + 1] = u[i]
-  end
-  for i = 1, #u do
-    for j = 1, i do row[#row + 1] = u[i] * u[j] end
-  end
-  return row
-end
-
--- Solve a symmetric positive matrix (list of rows) by its eigenvectors.
-local function solve(matrix, n, right)
-  local values, vectors = core.eigen(matrix, n)
-  local x = {}
-  for i = 1, n do x[i] = 0 end
-  for k, vector in ipairs(vectors) do
-    local along = 0
-    for i, v in ipairs(vector) do along = along + v * right[i] end
-    along = along / (math.max(values[k], 0) + RIDGE * values[n])
-    for i, v in ipairs(vector) do x[i] = x[i] + along * v end
-  end
-  return x
-end
-
 -- Share of the variance that a quadratic polynomial leaves over; nil where there are too few evaluations.
 local function left_over(own, result, good)
-  local n = (#own.parameters + 1) * (#own.parameters + 2) // 2
-  if #good < 2 * n or n > 300 then return nil end
-  local matrix, right, all, sum = {}, {}, {}, 0
-  for k = 1, n * n do matrix[k] = 0 end
-  for k = 1, n do right[k] = 0 end
+  local n = quadratic.count(#own.parameters)
+  if #good < 2 * n or n > MOST_TERMS then return nil end
+  local places, all, sum = {}, {}, 0
   for r, record in ipairs(good) do
-    local row, value = terms(own, record), minimum.value(own, result, record)
-    all[r], sum = { row, value }, sum + value
-    for i = 1, n do
-      right[i] = right[i] + row[i] * value
-      for j = 1, n do matrix[(i - 1) * n + j] = matrix[(i - 1) * n + j] + row[i] * row[j] end
+    places[r], all[r] = {}, minimum.value(own, result, record)
+    for i, p in ipairs(own.parameters) do
+      places[r][i] = p.kind == "choice" and record.values[i] or 2 * parameters.place(p, record.values[i]) - 1
     end
+    sum = sum + all[r]
   end
-  local x, left, whole = solve(matrix, n, right), 0, 0
-  for _, one in ipairs(all) do
-    local fit = 0
-    for i, t in ipairs(one[1]) do fit = fit + x[i] * t end
-    left, whole = left + (one[2] - fit) ^ 2, whole + (one[2] - sum / #good) ^ 2
+  local fit, left, whole = quadratic.fit(places, all), 0, 0
+  for r, value in ipairs(all) do
+    left, whole = left + (value - quadratic.at(fit, places[r])) ^ 2, whole + (value - sum / #good) ^ 2
   end
   return whole > 0 and left / (#good - n) * #good / whole or 0
 end

@@ -20,11 +20,11 @@ local NEAR = 1e-3     -- of a limit: it is reached
 -- --- what is evaluated ---------------------------------------------------------------------------
 
 -- The parameters that are moved: { index, place, two steps of the place in units of STEP }.
-local function axes_of(own, record)
+local function axes_of(own, values)
   local axes = {}
   for i, p in ipairs(own.parameters) do
     if p.kind == "number" then
-      local u = parameters.place(p, record.values[i])
+      local u = parameters.place(p, values[i])
       axes[#axes + 1] = { index = i, name = p.name, place = u,
         steps = u < STEP and { 1, 2 } or u > 1 - STEP and { -1, -2 } or { 1, -1 } }
     end
@@ -33,7 +33,7 @@ local function axes_of(own, record)
 end
 
 local function moved(self, a, step_a, b, step_b)
-  local values = table.move(self.best.values, 1, #self.best.values, 1, {})
+  local values = table.move(self.values, 1, #self.values, 1, {})
   values[a.index] = parameters.at(self.own.parameters[a.index], a.place + step_a * STEP)
   if b then values[b.index] = parameters.at(self.own.parameters[b.index], b.place + step_b * STEP) end
   return values
@@ -41,8 +41,14 @@ end
 
 local function add(self, key, values) self.list[#self.list + 1] = { key = key, values = values } end
 
+local function repeat_it(self)
+  for k = 2, math.min(1 + REPEATS, self.left - #self.list + 1) do
+    add(self, "again " .. k, self.values)
+  end
+end
+
 local function plan(self)
-  add(self, "again 1", self.best.values)
+  add(self, "again 1", self.values)
   for i, a in ipairs(self.axes) do
     for k, step in ipairs(a.steps) do add(self, i .. " " .. k, moved(self, a, step)) end
   end
@@ -61,16 +67,20 @@ function around.reserve(own, o)
   return o.around and o.noise and 4 * wanted <= o.evaluations and wanted or 0
 end
 
---- After all starts: o.around, o.evaluations; list of records so far; highest number of them.
-function around.begin(own, result, o, list, highest)
+--- After all starts: o.around, o.evaluations; list of records so far; highest number of them; center: a place
+-- to take instead of that of the best, where values are noisy.
+function around.begin(own, result, o, list, highest, center)
   local self = setmetatable({ own = own, result = result, list = {}, at = 0, told = 0, highest = highest,
     got = {} }, around)
   self.left = o.evaluations - #list
   self.best = o.around and minimum.best(own, result, list)
   if not self.best then return self end
-  self.axes = axes_of(own, self.best)
+  self.center, self.values = center or nil, self.best.values
+  if center then self.values = parameters.all_at(own.parameters, center) end
+  self.axes = axes_of(own, self.values)
   plan(self)
-  if #self.list > self.left then self.list, self.skipped = {}, true end
+  if center then repeat_it(self) end
+  if #self.list > self.left then self.list, self.center = {}, nil end
   return self
 end
 
@@ -85,13 +95,24 @@ function around:done(record)
   local item = self.list[record.number - self.highest]
   self.told = self.told + 1
   self.got[item.key] = record
-  if item.key ~= "again 1" then return end
+  if item.key ~= "again 1" or self.center then return end
   local same = record.results and minimum.value(self.own, self.result, record)
     == minimum.value(self.own, self.result, self.best)
   if same then return end
-  for k = 2, math.min(1 + REPEATS, self.left - #self.list + 1) do
-    add(self, "again " .. k, self.best.values)
+  repeat_it(self)
+end
+
+--- Once all is known: the record that stands for the place, the best, or of a center the first that passes;
+-- nil where less than half of them do.
+function around:record()
+  if not self.center then return self.best end
+  local first, passed, count = nil, 0, 0
+  while self.got["again " .. count + 1] do
+    count = count + 1
+    local record = self.got["again " .. count]
+    if judge.pass(self.own, record) then first, passed = first or record, passed + 1 end
   end
+  return 2 * passed > count and first or nil
 end
 
 -- --- what it says --------------------------------------------------------------------------------
@@ -127,7 +148,7 @@ end
 
 -- Does the axis change neither the result nor a limit?
 local function is_idle(self, i, center, borne)
-  local sides, known = judge.sides(self.own, self.best), false
+  local sides, known = judge.sides(self.own, self:record()), false
   for k = 1, 2 do
     local record = self.got[i .. " " .. k]
     local value = value_at(self, i .. " " .. k)
@@ -164,7 +185,7 @@ end
 
 -- Is the best place away from all limits and bounds? Only there curvature is all that matters.
 local function is_inside(self, list)
-  for _, side in ipairs(judge.sides(self.own, self.best)) do
+  for _, side in ipairs(judge.sides(self.own, self:record())) do
     if side > -NEAR then return false end
   end
   for _, i in ipairs(list) do
@@ -176,8 +197,8 @@ end
 --- Flat directions: a list of { name = share of its range, ... }, each of length 1; idle parameters first.
 function around:flat()
   local flat, rest = {}, {}
-  if not self.best or self.told == 0 then return nil end
-  local center, noise = minimum.value(self.own, self.result, self.best), self:noise()
+  if not self.best or self.told == 0 or not self:record() then return nil end
+  local center, noise = minimum.value(self.own, self.result, self:record()), self:noise()
   local borne = noise and noise.deviation and 2 * noise.deviation or SAME * math.abs(center)
   if noise and noise.mean then center = noise.mean end
   for i, a in ipairs(self.axes) do

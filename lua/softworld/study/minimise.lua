@@ -67,7 +67,8 @@ local function source_of(own, result, o, runs)
       return number, values
     end
     if turns.wait(runs) then return nil end
-    found = around.begin(own, result, o, list, highest)
+    local center = o.noise and runs[1].search.center and runs[1].search:center()
+    found = around.begin(own, result, o, list, highest, center)
     o.found = found
     return found:next()
   end

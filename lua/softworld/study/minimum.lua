@@ -206,15 +206,19 @@ end
 function minimum.of(own, result, list, runs, o)
   local best = minimum.best(own, result, list)
   if not best then minimum.never_met(own, list) end
+  local noise = o.found and o.found:noise()
+  local repeated = o.found and o.found.center and o.found:record()
+  best = repeated or best
   local won, failed, order = winner(runs), 0, {}
   for _, record in ipairs(list) do failed = failed + (record.results and 0 or 1) end
   for i, p in ipairs(own.parameters) do order[i] = p.name end
   local at_bound, room = bounds_of(own, best.values)
-  local f = { name = result, best = output.row(own, best), value = minimum.value(own, result, best),
+  local value = repeated and noise.mean or minimum.value(own, result, best)
+  local f = { name = result, best = output.row(own, best), value = value,
     ok = won.ok, reason = won.ended, method = o.method, why = o.why, evaluations = #list, failed = failed,
     failures = failures_of(own, list), at_bound = at_bound, at_limit = at_limit(own, best), room = room,
     starts = starts_of(runs), order = order }
-  if o.found then f.noise, f.flat = o.found:noise(), o.found:flat() end
+  if o.found then f.noise, f.flat = noise, o.found:flat() end
   return setmetatable(f, Found)
 end
 

@@ -6,7 +6,8 @@
 -- begin(problem) -> run; problem: { n =, start = places, number =, starts =, seed =, step =, tolerance =,
 -- sides = (limits of constraints), levels = (of integers, by parameter), noise = }.
 -- run:ask() -> a list of places, lists of numbers from 0 to 1, all of which may be evaluated at once; or nil,
--- why it has ended, was it as near as wanted. run:tell(outcomes) answers that list. run:close() may be there.
+-- why it has ended, was it as near as wanted. run:tell(outcomes) answers that list. There may be run:close(),
+-- and run:center() -> the place that it would take, where values are noisy, or nil.
 -- An outcome: { value =, broken = sum of what breaks limits, sides = by how much each limit is broken,
 -- failed = }.
 -- @module softworld.study.search

@@ -11,11 +11,13 @@
 -- @module softworld.study.search.cma_es
 local core = require "softworld.core"
 local design = require "softworld.study.design"
+local quadratic = require "softworld.study.quadratic"
 local search = require "softworld.study.search"
 
 local AGAIN = 10        -- a place outside is drawn so often
 local MOST_REPEATS = 30 -- evaluations of a place, where values are noisy
 local THETA = 0.2       -- of noise: share of random changes of order that are borne
+local FITTED = 15       -- parameters of a polynomial, at most
 local REACH = 0.25      -- least spread of an integer, in steps of it
 local WIDEST = 1e14     -- of the covariance: longest axis over shortest, squared
 local exp, log, max, min, sqrt = math.exp, math.log, math.max, math.min, math.sqrt
@@ -75,6 +77,7 @@ end
 local function begin_at(self, mean, size)
   local n = self.problem.n
   self.c, self.mean, self.sigma, self.generation = constants(n, size), mean, self.problem.step, 0
+  self.seen = { places = {}, values = {}, counts = {} }
   self.path_s, self.path_c, self.history = filled(n, 0), filled(n, 0), {}
   self.matrix = filled(n * n, 0)
   for i = 1, n do self.matrix[(i - 1) * n + i] = 1 end
@@ -324,6 +327,11 @@ function Run:tell(outcomes)
   for k = 1, size do
     local o = mean_of(outcomes, (k - 1) * self.count + 1, self.count)
     ranks[k], good = search.rank(o), good + (o.failed and 0 or 1)
+    if self.problem.noise and not o.failed then
+      local seen = self.seen
+      local at = #seen.places + 1
+      seen.places[at], seen.values[at], seen.counts[at] = self.places[k], o.value, self.count
+    end
   end
   -- A generation in which all fail teaches nothing: the next is drawn wider.
   if good == 0 then
@@ -334,6 +342,39 @@ function Run:tell(outcomes)
   if self.problem.noise then hear_noise(self, ranks, outcomes) end
   self.count = math.floor(self.repeats + 0.5)
   self.history[#self.history + 1] = { math.min(table.unpack(ranks)), math.max(table.unpack(ranks)) }
+end
+
+-- Places that this start has seen, in units of their spread about their mean.
+local function scaled(self)
+  local seen, n = self.seen, self.problem.n
+  local middle, spread, places = filled(n, 0), filled(n, 0), {}
+  for _, place in ipairs(seen.places) do
+    for i, u in ipairs(place) do middle[i] = middle[i] + u / #seen.places end
+  end
+  for _, place in ipairs(seen.places) do
+    for i, u in ipairs(place) do spread[i] = spread[i] + (u - middle[i]) ^ 2 / #seen.places end
+  end
+  for i, s in ipairs(spread) do spread[i] = sqrt(s) + 1e-15 end
+  for k, place in ipairs(seen.places) do
+    places[k] = {}
+    for i, u in ipairs(place) do places[k][i] = (u - middle[i]) / spread[i] end
+  end
+  return places, middle, spread
+end
+
+--- Where values are noisy the place of the smallest one is there by luck: the lowest place of a polynomial of
+-- degree 2 through all of them, each with the weight of its evaluations, lies nearer. nil where they do not
+-- tell.
+function Run:center()
+  local n = self.problem.n
+  if n > FITTED or #self.seen.places < 6 * quadratic.count(n) then return nil end
+  local places, middle, spread = scaled(self)
+  local lowest = quadratic.lowest(quadratic.fit(places, self.seen.values, self.seen.counts), n)
+  for i, u in ipairs(lowest or {}) do
+    if math.abs(u) > 2 then return nil end
+    lowest[i] = max(0, min(1, middle[i] + spread[i] * u))
+  end
+  return lowest
 end
 
 local function size_of(n) return 4 + math.floor(3 * log(n)) end
