@@ -29,7 +29,7 @@ describe("a quadratic polynomial", function()
     assert.is_nil(quadratic.lowest(quadratic.fit(grid(trough)), 2))
   end)
 
-  -- Weights count as so many values: of 1, 1, 1 and 5 at the same place the mean is 2, of 1 (3) and 5 (1) too.
+  -- Of 1, 1, 1 and 5 at the same place the mean is 2, of 1 with weight 3 and 5 with weight 1 too.
   it("heeds weights as so many values", function()
     local fit = quadratic.fit({ { 0 }, { 0 }, { 1 }, { -1 } }, { 1, 5, 9, 9 }, { 3, 1, 1, 1 })
     assert.is_true(math.abs(quadratic.at(fit, { 0 }) - 2) < 1e-6)
