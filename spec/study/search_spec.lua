@@ -252,6 +252,26 @@ describe("cma-es needs as many evaluations as python3-cmaes, within 20 %, for", 
   end
 end)
 
+-- A plane that falls to a corner of 10 ranges, and bowls whose middle is beyond it: a distribution that is
+-- cut at the bounds stops far from the corner (2.0 and 0.4 above the smallest value when it was).
+it("cma-es finds a corner of many ranges", function()
+  local ranges = {}
+  for i = 1, 10 do ranges[("x%d"):format(i)] = { 0, 1 } end
+  for _, beyond in ipairs { 0, 0.3 } do
+    local s = study(ranges, function(p)
+      local y = 0
+      for i = 1, 10 do
+        local x = p[("x%d"):format(i)]
+        y = y + i * (beyond == 0 and x or (x + beyond) ^ 2 - beyond ^ 2)
+      end
+      return { y = y }
+    end)
+    local found = s:minimise("y", { method = "cma-es" })
+    assert.is_true(found.ok and found.value < 1e-4, tostring(found))
+    assert.equal(10, #found.at_bound)
+  end
+end)
+
 -- Two valleys, the wider one 0.2 higher: a start in the wider falls into it; twice the population, from
 -- elsewhere, does not always.
 it("cma-es finds the lower valley by restarts", function()

@@ -3,20 +3,20 @@
 -- distribution of places whose mean, size and shape follow the better ones. It only compares. Generations are
 -- evaluated whole, side by side.
 --
--- Bounds: a place outside is drawn again, a few times, then set to the bound. Integers are drawn widely
--- enough to reach their neighbours. Restarts: each with twice the population from a random place (IPOP;
--- Auger, Hansen 2005). Noise: some places of a generation are evaluated twice; as their order changes more
--- than 20 % of random orders would, each place becomes the mean of more evaluations (Hansen, Niederberger,
+-- Bounds: places beside one come from a parabola (as by N. Hansen's pycma). Integers are drawn widely enough
+-- to reach their neighbours. Restarts: each with twice the population from a random place (IPOP; Auger,
+-- Hansen 2005). Noise: some places of a generation are evaluated twice; as their order changes more
+-- than it may (study/unrest), each place becomes the mean of more evaluations (Hansen, Niederberger,
 -- Guzzella, Koumoutsakos 2009).
 -- @module softworld.study.search.cma_es
 local core = require "softworld.core"
 local design = require "softworld.study.design"
 local quadratic = require "softworld.study.quadratic"
 local search = require "softworld.study.search"
+local unrest = require "softworld.study.unrest"
 
-local AGAIN = 10        -- a place outside is drawn so often
+local MARGIN = 0.05     -- beside each bound, as a share of the range
 local MOST_REPEATS = 30 -- evaluations of a place, where values are noisy
-local THETA = 0.2       -- of noise: share of random changes of order that are borne
 local FITTED = 15       -- parameters of a polynomial, at most
 local REACH = 0.25      -- least spread of an integer, in steps of it
 local WIDEST = 1e14     -- of the covariance: longest axis over shortest, squared
@@ -106,23 +106,33 @@ local function draw(self)
   return y
 end
 
-local function place_of(self, y)
-  local x, inside = {}, true
-  for i, m in ipairs(self.mean) do
-    x[i] = m + self.sigma * y[i]
-    inside = inside and x[i] >= 0 and x[i] <= 1
-  end
-  return x, inside
+-- The place of a coordinate of the distribution, which knows no bounds: the same in the middle of the range,
+-- a parabola near its ends, so that a result that falls towards a bound has a smooth valley there; mirrored
+-- beyond.
+local function bounded(x)
+  local whole = 1 + 2 * MARGIN
+  local u = (x + MARGIN) % (2 * whole)
+  u = (u > whole and 2 * whole - u or u) - MARGIN
+  if u < MARGIN then return (u + MARGIN) ^ 2 / (4 * MARGIN) end
+  if u > 1 - MARGIN then return 1 - (1 + MARGIN - u) ^ 2 / (4 * MARGIN) end
+  return u
 end
 
+-- The coordinate of a place.
+local function unbounded(u)
+  if u < MARGIN then return sqrt(4 * MARGIN * u) - MARGIN end
+  if u > 1 - MARGIN then return 1 + MARGIN - sqrt(4 * MARGIN * (1 - u)) end
+  return u
+end
+
+-- A draw, and its place.
 local function sample(self)
-  local x, inside
-  for _ = 1, AGAIN do
-    x, inside = place_of(self, draw(self))
-    if inside then return x end
+  local y, x, place = draw(self), {}, {}
+  for i, m in ipairs(self.mean) do
+    x[i] = m + self.sigma * y[i]
+    place[i] = bounded(x[i])
   end
-  for i, u in ipairs(x) do x[i] = max(0, min(1, u)) end
-  return x
+  return x, place
 end
 
 -- --- ending -------------------------------------------------------------------------------------
@@ -177,8 +187,8 @@ function Run:ask()
     begin_at(self, random_place(self), 2 * self.c.size)
     axes(self)
   end
-  self.places = {}
-  for i = 1, self.c.size do self.places[i] = sample(self) end
+  self.drawn, self.places = {}, {}
+  for i = 1, self.c.size do self.drawn[i], self.places[i] = sample(self) end
   local list = {}
   for k = 1, self.c.size + again_of(self) do
     for _ = 1, self.count do list[#list + 1] = self.places[(k - 1) % self.c.size + 1] end
@@ -197,33 +207,6 @@ local function mean_of(outcomes, from, count)
   end
   if 2 * good <= count then return { failed = true } end
   return { value = value / good, broken = broken / good }
-end
-
--- Share (THETA / 2) of |1 - rank|, |2 - rank|, ...: what a random order changes, at least.
-local function borne(rank, size)
-  local list = {}
-  for k = 1, 2 * size - 1 do list[k] = math.abs(k - rank) end
-  table.sort(list)
-  return list[max(1, math.ceil(THETA * 0.5 * #list))]
-end
-
--- Above 0: the order changes more than is borne.
-local function unrest(ranks, again)
-  local size, sum = #ranks, 0
-  local all = table.move(ranks, 1, size, 1, {})
-  table.move(again, 1, #again, size + 1, all)
-  local function rank_of(value, skip)
-    local r = 1
-    for k, v in ipairs(all) do
-      if k ~= skip and v < value then r = r + 1 end
-    end
-    return r
-  end
-  for k, value in ipairs(again) do
-    local old, new = rank_of(ranks[k], size + k), rank_of(value, k)
-    sum = sum + 2 * math.abs(old - new) - borne(new, size) - borne(old, size)
-  end
-  return sum / #again
 end
 
 local function hear_noise(self, ranks, outcomes)
@@ -250,7 +233,7 @@ local function ranked(self, ranks)
   end)
   for k, which in ipairs(order) do
     local y = {}
-    for i, m in ipairs(self.mean) do y[i] = (self.places[which][i] - m) / self.sigma end
+    for i, m in ipairs(self.mean) do y[i] = (self.drawn[which][i] - m) / self.sigma end
     list[k] = y
   end
   return list
@@ -315,7 +298,9 @@ end
 local function learn(self, ranks)
   local c, list = self.c, ranked(self, ranks)
   local step = step_of(self, list)
-  for i, v in ipairs(step) do self.mean[i] = max(0, min(1, self.mean[i] + self.sigma * v)) end
+  for i, v in ipairs(step) do
+    self.mean[i] = max(-MARGIN, min(1 + MARGIN, self.mean[i] + self.sigma * v))
+  end
   self.generation = self.generation + 1
   local heeded, length = lengthen(self, step)
   reshape(self, list, heeded)
@@ -382,7 +367,9 @@ local function size_of(n) return 4 + math.floor(3 * log(n)) end
 local function begin(problem)
   local self = setmetatable({ problem = problem, restarts = problem.starts - 1, count = 1,
     random = design.generator(problem.seed, 20161) }, Run)
-  begin_at(self, table.move(problem.start, 1, problem.n, 1, {}), size_of(problem.n))
+  local mean = {}
+  for i, u in ipairs(problem.start) do mean[i] = unbounded(u) end
+  begin_at(self, mean, size_of(problem.n))
   return self
 end
 
