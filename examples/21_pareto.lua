@@ -2,7 +2,7 @@
 -- Fast or gentle? A gripper lifts a hanging wire over an edge. How high and how fast it goes decides on time
 -- and peak force, which cannot both be small: the study finds the front of both.
 --
---   softworld examples/22_pareto.lua [front.svg]
+--   softworld examples/21_pareto.lua [front.svg]
 local sw = require "softworld"
 local wire, hand
 
