@@ -298,6 +298,7 @@ it("cma-es takes means where values are noisy", function()
   assert.is_true(off(found, 0.3, 0.6) < 0.06, tostring(found))
   -- the place is that of a polynomial through all, so its value is the mean there
   assert.equal(found.noise.mean, found.value)
+  assert.equal(found.noise.error, found.error)
   local again = study({ a = { 0, 1 }, b = { 0, 1 } }, model, nil, 3)
   assert.equal(found.value, again:minimise("y", { noise = true, evaluations = 3000 }).value)
 end)
@@ -312,6 +313,15 @@ it("cma-es keeps to the limits where values are noisy", function()
 end)
 
 describe("what is told of a minimum", function()
+  it("has the error bar of the result, where evaluate returns one", function()
+    local found = study(RANGES, function(p)
+      return { y = bowl(p).y, y_error = 0.01 + p.a ^ 2 }
+    end):minimise "y"
+    assert.equal(0.01 + found.best.a ^ 2, found.error)
+    assert.truthy(tostring(found):find("y = 2 +- 0.26 (", 1, true), tostring(found))
+    assert.is_nil(study(RANGES, bowl):minimise "y".error)
+  end)
+
   it("has no noise where there is none, and no flat direction", function()
     local found = study(RANGES, bowl):minimise "y"
     assert.is_nil(found.noise)

@@ -107,9 +107,9 @@ end
 -- --- the text ----------------------------------------------------------------------------------------
 
 local Found = { __name = "minimum" }
-local unknown = checks.fields("minimum", "name best value ok reason method why evaluations failed failures "
-  .. "at_bound at_limit room noise flat starts")
-local MAY_LACK = checks.set "why noise flat"
+local unknown = checks.fields("minimum", "name best value error ok reason method why evaluations failed "
+  .. "failures at_bound at_limit room noise flat starts")
+local MAY_LACK = checks.set "error why noise flat"
 
 function Found.__index(f, key)
   if not MAY_LACK[key] then return unknown(f, key) end
@@ -147,8 +147,8 @@ local function add_flat(lines, f)
 end
 
 function Found.__tostring(f)
-  local lines = { ("%s = %.6g (%s: %s, %d evaluations, %d failed)"):format(f.name, f.value, f.method,
-    f.reason, f.evaluations, f.failed) }
+  local lines = { ("%s = %.6g%s (%s: %s, %d evaluations, %d failed)"):format(f.name, f.value,
+    f.error and (" +- %.2g"):format(f.error) or "", f.method, f.reason, f.evaluations, f.failed) }
   add_noise(lines, f)
   if #f.at_bound > 0 then
     lines[#lines + 1] = ("  at the end of the range: %s"):format(table.concat(f.at_bound, ", "))
@@ -215,6 +215,7 @@ function minimum.of(own, result, list, runs, o)
   local at_bound, room = bounds_of(own, best.values)
   local value = repeated and noise.mean or minimum.value(own, result, best)
   local f = { name = result, best = output.row(own, best), value = value,
+    error = repeated and noise.error or best.results[result .. "_error"],
     ok = won.ok, reason = won.ended, method = o.method, why = o.why, evaluations = #list, failed = failed,
     failures = failures_of(own, list), at_bound = at_bound, at_limit = at_limit(own, best), room = room,
     starts = starts_of(runs), order = order }
