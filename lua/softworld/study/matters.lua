@@ -12,122 +12,134 @@ local matters = {}
 
 local TENTHS = 10
 local FEWEST = 20     -- evaluations: of less nothing is said
+local MOST = 5000     -- of more every second, third, ... is looked at
 local GROUPS = 20     -- at most
 
--- Values of a parameter of the records as ranks; those of choices as they are.
-local function sorted_by(records, i)
-  local order = table.move(records, 1, #records, 1, {})
+-- --- what is there -------------------------------------------------------------------------------
+
+local function sorted(count, key)
+  local order = {}
+  for k = 1, count do order[k] = k end
   table.sort(order, function(a, b)
-    if a.values[i] == b.values[i] then return a.number < b.number end
-    return a.values[i] < b.values[i]
+    if key[a] == key[b] then return a < b end
+    return key[a] < key[b]
   end)
   return order
 end
 
--- Of an order of records a list of groups: of the same choice, else of the same size.
-local function cut(order, p, i)
-  local groups, count = {}, math.max(2, math.min(GROUPS, math.floor(math.sqrt(#order) / 2)))
-  for k, record in ipairs(order) do
-    local at = p.kind == "choice" and record.values[i] or 1 + (k - 1) * count // #order
-    groups[at] = groups[at] or {}
-    table.insert(groups[at], record)
-  end
-  local list = {}
-  for at = 1, math.max(count, p.kind == "choice" and #p.choices or 0) do list[#list + 1] = groups[at] end
-  return list
-end
-
-local function mean(list, value)
-  local sum = 0
-  for _, record in ipairs(list) do sum = sum + value(record) end
-  return sum / #list
-end
-
-local function squares(list, value, about)
-  local sum = 0
-  for _, record in ipairs(list) do sum = sum + (value(record) - about) ^ 2 end
-  return sum
-end
-
--- Share of the variance that goes with the groups.
-local function share_of(groups, count, value, whole, middle)
-  local within = 0
-  for _, group in ipairs(groups) do within = within + squares(group, value, mean(group, value)) end
-  local total = squares(whole, value, middle)
-  if total <= 0 or #groups < 2 or count <= #groups then return 0 end
-  return 1 - within / (count - #groups) * (count - 1) / total
-end
-
-local function share(records, p, i, value)
-  return share_of(cut(sorted_by(records, i), p, i), #records, value, records, mean(records, value))
-end
-
-local function jackknife(records, p, i, value)
-  local shares, sum = {}, 0
-  for k = 1, TENTHS do
-    local left = {}
-    for at, record in ipairs(records) do
-      if at % TENTHS ~= k - 1 then left[#left + 1] = record end
-    end
-    shares[k] = share(left, p, i, value)
-    sum = sum + shares[k]
-  end
-  local square = 0
-  for _, s in ipairs(shares) do square = square + (s - sum / TENTHS) ^ 2 end
-  return math.sqrt((TENTHS - 1) / TENTHS * square)
-end
-
--- Ranks of values, those of equal ones their mean.
-local function ranks(records, value)
-  local order, rank = table.move(records, 1, #records, 1, {}), {}
-  table.sort(order, function(a, b) return value(a) < value(b) end)
-  local from = 1
+-- Ranks by an order, those of equal ones their mean.
+local function ranks_of(order, key)
+  local rank, from = {}, 1
   while from <= #order do
     local to = from
-    while to < #order and value(order[to + 1]) == value(order[from]) do to = to + 1 end
+    while to < #order and key[order[to + 1]] == key[order[from]] do to = to + 1 end
     for k = from, to do rank[order[k]] = 0.5 * (from + to) end
     from = to + 1
   end
   return rank
 end
 
-local function rank_correlation(records, i, value)
-  local a, b = ranks(records, function(r) return r.values[i] end), ranks(records, value)
-  local middle, ab, aa, bb = 0.5 * (#records + 1), 0, 0, 0
-  for _, r in ipairs(records) do
-    local u, v = a[r] - middle, b[r] - middle
+-- Values of the parameters by evaluation, their orders and ranks.
+local function prepare(own, records)
+  local data, every = { keys = {}, orders = {}, ranks = {}, records = {} }, math.ceil(#records / MOST)
+  for k = 1, #records, every do data.records[#data.records + 1] = records[k] end
+  for i in ipairs(own.parameters) do
+    local key = {}
+    for k, record in ipairs(data.records) do key[k] = record.values[i] end
+    data.keys[i], data.orders[i] = key, sorted(#key, key)
+    data.ranks[i] = ranks_of(data.orders[i], key)
+  end
+  return data
+end
+
+-- Values of a result less their mean, as shares of the largest; nil where it does not vary.
+local function scaled(data, value)
+  local y, mean, most, varies = {}, 0, 0, false
+  for k, record in ipairs(data.records) do
+    y[k] = value(record)
+    mean, varies = mean + y[k] / #data.records, varies or y[k] ~= y[1]
+  end
+  for k, v in ipairs(y) do
+    y[k] = v - mean
+    most = math.max(most, math.abs(y[k]))
+  end
+  if not varies or most <= 0 or most == math.huge then return nil end
+  for k, v in ipairs(y) do y[k] = v / most end
+  return y, mean, most
+end
+
+-- --- shares ---------------------------------------------------------------------------------------
+
+-- Share of the variance of y that goes with a parameter; without: the tenth that is left out.
+local function share(data, p, i, y, without)
+  local order, key, at, left = data.orders[i], data.keys[i], 0, 0
+  for _, k in ipairs(order) do left = left + (k % TENTHS ~= without and 1 or 0) end
+  local count = math.max(2, math.min(GROUPS, math.floor(math.sqrt(left) / 2)))
+  local n, sums, sum, square = {}, {}, 0, 0
+  for _, k in ipairs(order) do
+    if k % TENTHS ~= without then
+      local group = p.kind == "choice" and key[k] or 1 + at * count // left
+      at = at + 1
+      n[group], sums[group] = (n[group] or 0) + 1, (sums[group] or 0) + y[k]
+      sum, square = sum + y[k], square + y[k] ^ 2
+    end
+  end
+  local between, groups = 0, 0
+  for group = 1, math.max(count, p.kind == "choice" and #p.choices or 0) do
+    if n[group] then between, groups = between + sums[group] ^ 2 / n[group], groups + 1 end
+  end
+  local total = square - sum ^ 2 / left
+  if total <= 0 or groups < 2 or left <= groups then return 0 end
+  return 1 - (square - between) / (left - groups) * (left - 1) / total
+end
+
+local function jackknife(data, p, i, y)
+  local shares, sum, square = {}, 0, 0
+  for k = 1, TENTHS do
+    shares[k] = share(data, p, i, y, k - 1)
+    sum = sum + shares[k]
+  end
+  for _, s in ipairs(shares) do square = square + (s - sum / TENTHS) ^ 2 end
+  return math.sqrt((TENTHS - 1) / TENTHS * square)
+end
+
+local function correlation(a, b)
+  local middle, ab, aa, bb = 0.5 * (#a + 1), 0, 0, 0
+  for k, x in ipairs(a) do
+    local u, v = x - middle, b[k] - middle
     ab, aa, bb = ab + u * v, aa + u * u, bb + v * v
   end
   return aa > 0 and bb > 0 and ab / math.sqrt(aa * bb) or 0
 end
 
--- Means of a result in the lowest and the highest fifth of a parameter, of choices the extremes.
-local function swing(records, p, i, value)
-  local order, low, high = sorted_by(records, i), {}, {}
+-- Means of y in the lowest and the highest fifth of a parameter, of choices the extremes.
+local function swing(data, p, i, y)
+  local order, key = data.orders[i], data.keys[i]
   if p.kind == "choice" then
-    local least, most = math.huge, -math.huge
-    for _, group in ipairs(cut(order, p, i)) do
-      local m = mean(group, value)
-      least, most = math.min(least, m), math.max(most, m)
+    local n, sums, least, most = {}, {}, math.huge, -math.huge
+    for k, v in ipairs(y) do n[key[k]], sums[key[k]] = (n[key[k]] or 0) + 1, (sums[key[k]] or 0) + v end
+    for c, size in pairs(n) do
+      least, most = math.min(least, sums[c] / size), math.max(most, sums[c] / size)
     end
     return least, most
   end
-  local fifth = math.max(1, #order // 5)
-  for k = 1, fifth do low[k], high[k] = order[k], order[#order + 1 - k] end
-  return mean(low, value), mean(high, value)
+  local fifth, low, high = math.max(1, #order // 5), 0, 0
+  for k = 1, fifth do
+    low, high = low + y[order[k]] / fifth, high + y[order[#order + 1 - k]] / fifth
+  end
+  return low, high
 end
 
---- Of a result, a function of a record, how much of it goes with each parameter, the most first: a list of
--- { name =, share =, error =, rank = (of choices nil), low =, high = (means in the lowest and highest
--- fifth) }. nil where there are too few evaluations, or it does not vary.
-function matters.of(own, records, value)
-  if #records < FEWEST or squares(records, value, mean(records, value)) <= 0 then return nil end
-  local list = {}
+local function of(own, data, value)
+  if #data.records < FEWEST then return nil end
+  local y, mean, most = scaled(data, value)
+  if not y then return nil end
+  local list, ranks = {}, ranks_of(sorted(#y, y), y)
   for i, p in ipairs(own.parameters) do
-    local low, high = swing(records, p, i, value)
-    list[i] = { name = p.name, share = math.max(0, math.min(1, share(records, p, i, value))),
-      error = jackknife(records, p, i, value), low = low, high = high,
-      rank = p.kind ~= "choice" and rank_correlation(records, i, value) or nil }
+    local low, high = swing(data, p, i, y)
+    list[i] = { name = p.name, share = math.max(0, math.min(1, share(data, p, i, y))),
+      error = jackknife(data, p, i, y), low = mean + most * low, high = mean + most * high,
+      rank = p.kind ~= "choice" and correlation(data.ranks[i], ranks) or nil }
   end
   table.sort(list, function(a, b)
     if a.share == b.share then return a.name < b.name end
@@ -135,6 +147,11 @@ function matters.of(own, records, value)
   end)
   return list
 end
+
+--- Of a result, a function of a record, how much of it goes with each parameter, the most first: a list of
+-- { name =, share =, error =, rank = (of choices nil), low =, high = (means in the lowest and highest
+-- fifth) }. nil where there are too few evaluations, or it does not vary.
+function matters.of(own, records, value) return of(own, prepare(own, records), value) end
 
 --- Of all results of the records, by name, and of whether the constraints are met ("pass").
 function matters.all(own, list)
@@ -144,11 +161,12 @@ function matters.all(own, list)
   end
   for name in pairs(good[1] and good[1].results or {}) do names[#names + 1] = name end
   table.sort(names)
+  local data = prepare(own, good)
   for _, name in ipairs(names) do
-    all[name] = matters.of(own, good, function(r) return r.results[name] end)
+    all[name] = of(own, data, function(r) return r.results[name] end)
   end
   if #own.constraints > 0 then
-    all.pass = matters.of(own, good, function(r) return judge.pass(own, r) and 1 or 0 end)
+    all.pass = of(own, data, function(r) return judge.pass(own, r) and 1 or 0 end)
   end
   return all
 end

@@ -91,6 +91,8 @@ local shake = rows.call("study:spread", "{...}", "how often the constraints are 
   gives = "what was found: probability, low, high, worst",
   example = "study:spread { count = 1000 }",
   { "count", "integer", "-", "evaluations", min = 1, max = 10000000, default = 1000 },
+  { "kind", "choice", "-", "random numbers, or Sobol's sequence, which fills the ranges more evenly",
+    choices = { "random", "sobol" }, default = "random" },
   WORKERS,
 })
 
@@ -221,9 +223,10 @@ end
 local function do_spread(self, args)
   local own, o = fields(self), shake:read(args == nil and {} or args)
   judge.needed(own, "study:spread")
-  local records = points(own, "spread", o, o.count, spread.drawing(own, own.part + 1))
+  local drawing = o.kind == "sobol" and spread.filling(own, o.count) or spread.drawing(own, own.part + 1)
+  local records = points(own, "spread", o, o.count, drawing)
   judge.some(own, records, o.count)
-  return spread.result(own, records, o.count)
+  return spread.result(own, records, o.kind)
 end
 
 local function do_pareto(self, args)
