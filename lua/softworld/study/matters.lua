@@ -2,9 +2,10 @@
 --- Which parameter matters: what share of a result's variance goes with each parameter alone.
 --
 -- Sobol's first-order index Var(E(y | x)) / Var(y), from the evaluations that a spread has anyway: they are
--- sorted by the parameter and cut into groups of equal size, and the variance of the groups' means is taken,
--- less what chance alone gives (epsilon squared; T. L. Kelley 1935). The standard error is by leaving out a
--- tenth at a time (M. H. Quenouille's jackknife). Rank correlation (C. Spearman 1904) tells the sign.
+-- sorted by the parameter and cut into groups of equal size; what a straight line through each group leaves
+-- over, less what chance alone takes away, is not the parameter's (epsilon squared; T. L. Kelley 1935).
+-- The standard error is by leaving out a tenth at a time (M. H. Quenouille's jackknife). Rank correlation
+-- (C. Spearman 1904) tells the sign.
 -- @module softworld.study.matters
 local judge = require "softworld.study.judge"
 
@@ -70,27 +71,52 @@ end
 
 -- --- shares ---------------------------------------------------------------------------------------
 
--- Share of the variance of y that goes with a parameter; without: the tenth that is left out.
-local function share(data, p, i, y, without)
-  local order, key, at, left = data.orders[i], data.keys[i], 0, 0
+-- What a straight line through a group leaves over; of choices, which have no order, what their mean does.
+local function left_in(g, line)
+  local yy = g.yy - g.y ^ 2 / g.n
+  local xx, xy = g.xx - g.x ^ 2 / g.n, g.xy - g.x * g.y / g.n
+  return line and xx > 0 and math.max(0, yy - xy ^ 2 / xx) or yy
+end
+
+local function add(groups, at, x, y)
+  local g = groups[at]
+  if not g then
+    g = { n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0 }
+    groups[at] = g
+  end
+  g.n, g.x, g.y = g.n + 1, g.x + x, g.y + y
+  g.xx, g.xy, g.yy = g.xx + x * x, g.xy + x * y, g.yy + y * y
+end
+
+-- Groups of the evaluations in the order of a parameter, and how many there can be; without: the tenth that
+-- is left out. x of a group is the place in the order, about the group's middle.
+local function groups_of(data, p, i, y, without)
+  local order, key, left, at, groups = data.orders[i], data.keys[i], 0, 0, {}
   for _, k in ipairs(order) do left = left + (k % TENTHS ~= without and 1 or 0) end
   local count = math.max(2, math.min(GROUPS, math.floor(math.sqrt(left) / 2)))
-  local n, sums, sum, square = {}, {}, 0, 0
   for _, k in ipairs(order) do
     if k % TENTHS ~= without then
       local group = p.kind == "choice" and key[k] or 1 + at * count // left
+      add(groups, group, at / left - (group - 0.5) / count, y[k])
       at = at + 1
-      n[group], sums[group] = (n[group] or 0) + 1, (sums[group] or 0) + y[k]
-      sum, square = sum + y[k], square + y[k] ^ 2
     end
   end
-  local between, groups = 0, 0
-  for group = 1, math.max(count, p.kind == "choice" and #p.choices or 0) do
-    if n[group] then between, groups = between + sums[group] ^ 2 / n[group], groups + 1 end
+  return groups, p.kind == "choice" and #p.choices or count
+end
+
+-- Share of the variance of y that goes with a parameter.
+local function share(data, p, i, y, without)
+  local groups, count = groups_of(data, p, i, y, without)
+  local line, n, sum, square, within, free = p.kind == "number", 0, 0, 0, 0, 0
+  for at = 1, count do
+    local g = groups[at]
+    if g then
+      n, sum, square, within = n + g.n, sum + g.y, square + g.yy, within + left_in(g, line)
+      free = free + g.n - (line and 2 or 1)
+    end
   end
-  local total = square - sum ^ 2 / left
-  if total <= 0 or groups < 2 or left <= groups then return 0 end
-  return 1 - (square - between) / (left - groups) * (left - 1) / total
+  local total = square - sum ^ 2 / n
+  return total > 0 and free > 0 and 1 - within / free * (n - 1) / total or 0
 end
 
 local function jackknife(data, p, i, y)
