@@ -75,7 +75,8 @@ describe("which parameter matters", function()
   -- A single parameter has all of it, also of few evaluations, and of values near the ends of numbers.
   it("is told in full of one parameter", function()
     for _, size in ipairs { 1, 1e300, 1e-310 } do
-      local s = study({ a = { 0, 4 } }, function(p) return { y = size * p.a ^ 2 } end, { y = { max = 1e308 } })
+      local limit = { y = { max = 1e308 } }
+      local s = study({ a = { 0, 4 } }, function(p) return { y = size * p.a ^ 2 } end, limit)
       local m = s:spread { count = 100 }.matters.y[1]
       assert.is_true(m.share > 0.995, m.share)
     end
