@@ -20,7 +20,7 @@ WARN = -Wall -Wextra -Wshadow -Wmissing-prototypes -Wstrict-prototypes -Wdouble-
   -Wpointer-arith -Wwrite-strings -Wvla -Wno-psabi
 CPPFLAGS = -Icsrc -D_GNU_SOURCE $(shell pkg-config --cflags $(PKG))
 CFLAGS = -std=c11 -g $(OPT) $(WARN) $(SAN) -fPIC
-LIBS = $(shell pkg-config --libs gsl ccd assimp zlib) -lqhull_r -lcholmod -lamd -lcivetweb -lm
+LIBS = $(shell pkg-config --libs gsl ccd assimp zlib) -lqhull_r -lcholmod -lamd -lcivetweb -lnlopt -lm
 LUALIB = $(shell pkg-config --libs lua5.4)
 
 SRC = $(filter-out $(wildcard csrc/host/*.c csrc/probe/*.c),$(wildcard csrc/*/*.c))

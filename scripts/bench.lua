@@ -520,6 +520,10 @@ local function print_study()
   local one, two, rate = study.laying(5, 200)
   print(("\nstudy of a laying of 4.5 s: %.0f a minute by two workers, %.2f times one (aim %g: %s)"):format(
     rate, one / two, study.aims.ratio, one / two >= study.aims.ratio and "met" or "missed"))
+  local seconds, found = study.search()
+  print(("  CMA-ES on three parameters of it, %d evaluations, %d failed, takes %.1f s (aim %g: %s)"):format(
+    found.evaluations, found.failed, seconds, study.aims.search,
+    seconds <= study.aims.search and found.ok and "met" or "missed"))
   local overhead = study.overhead(3, 5000)
   print(("  worker, pipe and journal take %.3f ms an evaluation (aim %g: %s)"):format(1e3 * overhead,
     1e3 * study.aims.overhead, overhead <= study.aims.overhead and "met" or "missed"))

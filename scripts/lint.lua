@@ -58,6 +58,7 @@ local OUTSIDE = {
   { "^lauxlib%.h$", "^bind/", "^host/", "^probe/" },
   { "^lualib%.h$", "^host/" },
   { "^gsl/", "_gsl%.c$" },
+  { "^nlopt%.h$", "^calibrate/search_nlopt%.c$" },
   { "^ccd/", "^shape/ccd_adapter%.c$" },
   { "^assimp/", "^shape/mesh_assimp%.c$" },
   { "^libqhull", "^shape/hull_qhull%.c$" },

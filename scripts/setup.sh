@@ -20,6 +20,7 @@ build pkg-config       # finds the flags of the libraries
 build lua5.4           # stock interpreter; named, or other Lua packages bring in Lua 5.2
 build liblua5.4-dev    # the host program is linked to it
 build libgsl-dev       # steppers, splines, fits, eigenvalues
+build libnlopt-dev     # minimisers of studies
 build libccd-dev       # distance and overlap of convex hulls
 build libassimp-dev    # reads STL, OBJ, PLY and glTF meshes
 build libqhull-dev     # convex hulls of point sets

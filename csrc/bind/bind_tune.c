@@ -153,8 +153,24 @@ static int mod_quasi(lua_State *L) {
   return 1;
 }
 
+/* normal_below(x) -> share of normally distributed numbers below it; normal_at(share) -> x */
+static int mod_normal_below(lua_State *L) {
+  lua_pushnumber(L, sw_normal_below(luaL_checknumber(L, 1)));
+  return 1;
+}
+
+static int mod_normal_at(lua_State *L) {
+  const double share = luaL_checknumber(L, 1);
+  luaL_argcheck(L, share > 0 && share < 1, 1, "between 0 and 1");
+  lua_pushnumber(L, sw_normal_at(share));
+  return 1;
+}
+
 void lsw_open_tune(lua_State *L) {
-  static const luaL_Reg functions[] = {
-      {"minimise", mod_minimise}, {"quasi", mod_quasi}, {NULL, NULL}};
+  static const luaL_Reg functions[] = {{"minimise", mod_minimise},
+                                       {"quasi", mod_quasi},
+                                       {"normal_below", mod_normal_below},
+                                       {"normal_at", mod_normal_at},
+                                       {NULL, NULL}};
   luaL_setfuncs(L, functions, 0);
 }

@@ -7,7 +7,9 @@
  * worker:pid(); worker:stop() kills it and what it has started channel:send(text),
  * channel:receive() -> text, or nil when there is nothing more to do core.ready(workers, seconds)
  * -> indexes of those from which something can be received core.limit_cpu(seconds): this process is
- * killed when it has computed so long; 0 = never core.processors(); core.checksum(text) -> integer
+ * killed when it has computed so long; 0 = never core.limit_steps(count) -> were there more steps
+ * of runs than the limit before this one allowed; 0 = any number core.processors();
+ * core.checksum(text) -> integer
  *
  * A text is one packet, whole or not there. A worker has its own process group, so that Ctrl-C at a
  * terminal is for the parent only and what it starts ends with it; it is killed with its parent. */
@@ -210,6 +212,13 @@ static int mod_limit_cpu(lua_State *L) {
   return 0;
 }
 
+static int mod_limit_steps(lua_State *L) {
+  const lua_Integer steps = luaL_checkinteger(L, 1);
+  lua_pushboolean(L, sw_quota_over());
+  sw_quota_set((long)steps);
+  return 1;
+}
+
 static int mod_processors(lua_State *L) {
   cpu_set_t set;
   const int known = sched_getaffinity(0, sizeof set, &set) == 0;
@@ -221,6 +230,7 @@ void lsw_open_worker(lua_State *L) {
   static const luaL_Reg functions[] = {{"fork", mod_fork},
                                        {"ready", mod_ready},
                                        {"limit_cpu", mod_limit_cpu},
+                                       {"limit_steps", mod_limit_steps},
                                        {"processors", mod_processors},
                                        {NULL, NULL}};
   luaL_setfuncs(L, functions, 0);

@@ -13,4 +13,9 @@ enum { SW_QUASI_SOBOL_MOST = 40, SW_QUASI_HALTON_MOST = 100 }; /* dimensions [-]
  * (Antonov, Saleev 1979), else Halton's, in which each coordinate has a prime as its base. */
 sw_status sw_quasi(int sobol, size_t n, size_t count, double *out, sw_error *err);
 
+/* Share of normally distributed numbers below x (mean 0, deviation 1); and x of a share, 0 to 1
+ * [-]. */
+double sw_normal_below(double x);
+double sw_normal_at(double share);
+
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* GSL's quasi-random sequences. */
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_qrng.h>
 
 #include "calibrate/quasi.h"
@@ -15,3 +16,7 @@ sw_status sw_quasi(int sobol, size_t n, size_t count, double *out, sw_error *err
   gsl_qrng_free(q);
   return SW_OK;
 }
+
+double sw_normal_below(double x) { return gsl_cdf_ugaussian_P(x); }
+
+double sw_normal_at(double share) { return gsl_cdf_ugaussian_Pinv(share); }

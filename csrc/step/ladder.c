@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/quota.h"
 #include "scene/feed.h"
 #include "scene/touching.h"
 #include "scene/world.h"
@@ -18,6 +19,7 @@ static const sw_rung LADDER[] = {
 };
 
 sw_status sw_ladder_try(sw_ladder *p, double h, int smallest, sw_error *err) {
+  SW_TRY(sw_quota_take(err));
   p->smallest = smallest;
   return sw_rung_go(p, LADDER, h, err);
 }

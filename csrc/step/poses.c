@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A step of slow handling: from one equilibrium to the next. */
+#include "base/quota.h"
 #include "scene/world.h"
 #include "step/energy.h"
 #include "step/ladder.h"
@@ -12,6 +13,7 @@ static sw_status pose_steps(sw_ladder *p, double t, sw_error *err) {
   while (s->time < t) {
     double h = t - s->time;
     if (p->interrupted && p->interrupted()) return SW_EINTR;
+    SW_TRY(sw_quota_take(err));
     SW_TRY(sw_ladder_make_room(p, &h, err));
     const double part = h < (t - s->time) * (1 - 1e-9) ? s->time + h : t;
     if (!(part > s->time)) return sw_fail(err, SW_ENOCONV, "wire is fed too fast to follow it");

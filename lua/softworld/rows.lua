@@ -10,10 +10,10 @@
 --     local t = press:read(args) -- a copy with defaults; errors have no place, see build.call
 --
 -- A row: name, type, unit, one line; then default, min, max, above (min itself is not allowed), required,
--- choices, rows (of a table within), usual (the default in words, where a number cannot tell it), empty (a
--- text may be). Types: number, integer, boolean, text, choice, vector, rotation, function, table; numbers
--- (one, or a list of them), list (of = "number" checks its items), reaction (a choice or a function); others
--- are told here, and checked by who reads them.
+-- choices, about (a function that gives a line about each), rows (of a table within), usual (the default in
+-- words, where a number cannot tell it), empty (a text may be). Types: number, integer, boolean, text,
+-- choice, vector, rotation, function, table; numbers (one, or a list of them), list (of = "number" checks
+-- its items), reaction (a choice or a function); others are told here, and checked by who reads them.
 -- @module softworld.rows
 local checks = require "softworld.checks"
 

@@ -6,7 +6,7 @@ local sw = require "softworld"
 
 local study = {}
 
-study.aims = { ratio = 1.9, overhead = 0.3e-3, opening = 3 } -- [-], [s], [s]
+study.aims = { ratio = 1.9, overhead = 0.3e-3, opening = 3, search = 30 } -- [-], [s], [s], [s]
 
 local function build()
   local scene = sw.scene{ name = "laying" }
@@ -50,6 +50,31 @@ function study.laying(times, count)
     one, two = math.min(one, time_of(args, count, 1)), math.min(two, time_of(args, count, 2))
   end
   return one, two, 60 * count / two
+end
+
+-- How soon the wire is laid when the hand goes up and along at these speeds; 5 % of the runs fail by chance.
+local function hurry(p, scene, wire, hand)
+  if p.random() < 0.05 then p.give_up "by chance" end
+  scene:process(function()
+    hand:grasp(wire, { s = 0.03 })
+    hand:move{ by = { 0, 0, p.height }, speed = p.up }
+    hand:move{ by = { 0.8, 0, 0 }, speed = p.along }
+    hand:release()
+  end)
+  local run = scene:run{ dt = 0.02, duration = p.height / p.up + 0.8 / p.along + 0.3 }
+  assert(run.ok, run.reason)
+  return { time = p.height / p.up + 0.8 / p.along, force = hand.peak_force }
+end
+
+--- CMA-ES on three parameters of a laying with one constraint: seconds, what was found.
+function study.search()
+  local s = sw.study{ name = "bench", setup = build, evaluate = hurry,
+    parameters = { height = { 0.11, 0.3, unit = "m" }, up = { 0.05, 0.5, unit = "m/s", log = true },
+      along = { 0.1, 1, unit = "m/s", log = true } },
+    constraints = { force = { max = 0.25, unit = "N" } } }
+  local clock = sw.core.clock()
+  local found = s:minimise("time", { method = "cma-es" })
+  return sw.core.clock() - clock, found
 end
 
 --- Least time of an evaluation that computes nothing, with a journal [s].

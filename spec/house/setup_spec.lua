@@ -90,6 +90,7 @@ esac
   it("installs exactly what is missing, in one call, asking nothing", function()
     machine { uid = 0, installed = "gcc\nmake\nlibc6-dev\npkg-config\nliblua5.4-dev\nlibgsl-dev\n"
       .. "libccd-dev\nlibassimp-dev\nlibqhull-dev\nlibsuitesparse-dev\nlibreadline-dev\n"
+      .. "libnlopt-dev\n"
       .. "zlib1g-dev\nlibcivetweb-dev\nesbuild\nlibjs-three\nlibjs-dygraphs\nfonts-dejavu-core\n"
       .. "gnuplot-nox\npovray\nffmpeg\nlua5.4" }
     local text, status = run "setup.sh --test"

@@ -43,5 +43,10 @@ sw.scene = function(args)
   last = new(args)
   return last
 end
+local study = sw.study
+sw.study = function(args) -- its scenes are to be those of this process
+  args.workers = 0
+  return study(args)
+end
 assert(loadfile(file))(table.unpack(arg))
 same(last)

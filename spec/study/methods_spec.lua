@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Sweeps, searches and spreads: known points, known minima, known probabilities.
 local sw = require "softworld"
+local core = require "softworld.core"
 local program = require "host.program"
 local csv = require "softworld.csv"
 local jsonread = require "softworld.output.jsonread"
@@ -197,6 +198,47 @@ describe("study:spread", function()
     assert.is_true(low == 0 and math.abs(high - 0.2775328) < 1e-6)
     low, high = spread.wilson(10, 10)
     assert.is_true(high == 1 and math.abs(low - 0.7224672) < 1e-6)
+  end)
+
+  -- Normal about 2 with sigma 0.5, cut at 4 sigma, plus an even one: P(x + y <= 3) = P((x - 2) + y <= 1), the
+  -- mean of Phi((1 - y) / 0.5) over y: the integral of Phi(2 t) from 0 to 1 = Phi(2) - (phi(0) - phi(2)) / 2.
+  it("fills the ranges by Sobol's sequence, with a narrower interval that holds it", function()
+    local phi = function(t) return math.exp(-t * t / 2) / math.sqrt(2 * math.pi) end
+    local expected, held, width = core.normal_below(2) - (phi(0) - phi(2)) / 2, 0, { random = 0, sobol = 0 }
+    for seed = 1, 20 do
+      for kind in pairs(width) do
+        local s = sw.study { name = "s", seed = seed, workers = 0, constraints = { v = { max = 3 } },
+          parameters = { x = { 0, 4, start = 2, sigma = 0.5 }, y = { 0, 1 } },
+          evaluate = function(p) return { v = p.x + p.y } end }
+        local found = s:spread { count = 512, kind = kind }
+        width[kind] = width[kind] + found.high - found.low
+        if kind == "sobol" and found.low <= expected and expected <= found.high then held = held + 1 end
+      end
+    end
+    assert.is_true(held >= 16, held) -- of 20 at 95 %: fewer than 16 come once in 3000 times
+    assert.is_true(width.sobol < 0.75 * width.random, width.sobol / width.random)
+  end)
+
+  it("has Sobol's points again when there are to be more, and Wilson's interval where all pass", function()
+    local function rows(count)
+      local s = study({ x = { 0, 1 }, n = { 1, 3, integer = true } }, nothing, { y = { max = 2 } })
+      return s:spread { count = count, kind = "sobol" }, s:table()
+    end
+    local _, few = rows(20)
+    local found, many = rows(50)
+    for k, row in ipairs(few) do assert.same({ row.x, row.n }, { many[k].x, many[k].n }) end
+    local low, high = spread.wilson(50, 50)
+    assert.same({ low, high }, { found.low, found.high })
+    assert.error_matches(function()
+      study({ x = { 0, 1 } }, nothing, { y = { max = 2 } }):spread { kind = "sobl" }
+    end, "did you mean 'sobol'?")
+  end)
+
+  -- Tables: 97.5 % of all lie below 1.959963984540054.
+  it("has the normal distribution", function()
+    assert.is_true(math.abs(core.normal_below(1.959963984540054) - 0.975) < 1e-14)
+    assert.is_true(math.abs(core.normal_at(0.025) + 1.959963984540054) < 1e-13)
+    assert.error_matches(function() core.normal_at(1) end, "between 0 and 1")
   end)
 
   it("counts what failed as not passed", function()

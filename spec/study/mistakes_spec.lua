@@ -84,9 +84,22 @@ describe("a study", function()
       "there is no parameter 'y'" },
     ["swept on an endless grid"] = { function() study():sweep { grid = 1e8 } end, "grid: x = 100000000" },
     ["spread without constraints"] = { function() study():spread { count = 3 } end, "has no constraints" },
-    ["with choices to a simplex"] = {
-      function() study { parameters = { m = { choices = { "a", "b" } } } }:minimise "y" end,
-      "the simplex cannot choose 'm' among choices" },
+    ["with choices to a simplex"] = { function()
+      study { parameters = { m = { choices = { "a", "b" } } } }:minimise("y", { method = "simplex" })
+    end, "method = 'simplex' cannot choose 'm' among choices; take 'cma-es'" },
+    ["with an integer to a smooth model"] = { function()
+      study { parameters = { m = { 1, 9, integer = true } } }:minimise("y", { method = "bobyqa" })
+    end, "method = 'bobyqa' cannot vary 'm', which is an integer; take 'cma-es'" },
+    ["searched by a misspelt method"] = { function() study():minimise("y", { method = "cmaes" }) end,
+      "did you mean 'cma-es'?" },
+    ["searched from many places by a method that has one"] = { function()
+      study():minimise("y", { method = "direct", starts = 3 })
+    end, "starts does not go with method = 'direct'" },
+    ["told to be noisy to a simplex"] = { function()
+      study():minimise("y", { method = "simplex", noise = true })
+    end, "noise = true does not go with method = 'simplex'; take 'cma-es'" },
+    ["searched with a step of nothing"] = { function() study():minimise("y", { step = 0 }) end,
+      "study:minimise: step = 0 is not allowed" },
     ["called with a dot"] = { function() study().sweep { count = 3 } end, "call it with a colon" },
     ["asked for what it has not"] = { function() return study().tabel end, "did you mean 'table'?" },
     ["written to"] = { function() study().name = "t" end, "cannot be written to" },

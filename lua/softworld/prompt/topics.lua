@@ -241,6 +241,13 @@ end
 
 local function unit_of(row) return row.unit == "-" and "" or "[" .. row.unit .. "]" end
 
+-- Choices of a row that has a line about each.
+local function add_choices(lines, row, indent)
+  for _, choice in ipairs(row.about and row.choices or {}) do
+    lines[#lines + 1] = ("%s%-12s %s"):format((" "):rep(indent), choice, row.about(choice))
+  end
+end
+
 local function part_text(part)
   local lines = { part.title }
   local name_column = column(part.rows or {}, 16, 28, function(row) return row.name end)
@@ -252,6 +259,7 @@ local function part_text(part)
     local long = #default > 12 -- does not fit into its column
     lines[#lines + 1] = shape:format(row.name, unit_of(row), long and "" or default, row.doc,
       range ~= "" and "; " .. range or "", long and default:gsub("^=", "; default:") or "")
+    add_choices(lines, row, 4)
   end
   if part.rows and #part.rows == 0 then lines[#lines + 1] = "  takes no parameters" end
   if part.after then lines[#lines + 1] = "  " .. part.after end

@@ -84,10 +84,10 @@ local function generator(...)
 end
 design.generator = generator
 
--- Latin hypercube (McKay, Beckman, Conover 1979): of count equal stretches of each range each is met once.
-local function latin(list, count, seed)
+--- Latin hypercube (McKay, Beckman, Conover 1979): of count equal stretches of each range each is met once.
+local function latin(n, count, seed)
   local random, columns = generator(seed), {}
-  for i = 1, #list do
+  for i = 1, n do
     local column = {}
     for k = 1, count do column[k] = k - 1 end
     for k = count, 2, -1 do
@@ -99,14 +99,18 @@ local function latin(list, count, seed)
   end
   return function(number)
     local places = {}
-    for i = 1, #list do places[i] = columns[i][number] end
-    return parameters.all_at(list, places)
+    for i = 1, n do places[i] = columns[i][number] end
+    return places
   end
 end
+design.places = latin
 
 --- So many points of a kind, "latin", "halton" or "sobol": a function from the number to its values.
 function design.fill(list, kind, count, seed)
-  if kind == "latin" then return latin(list, count, seed) end
+  if kind == "latin" then
+    local place_of = latin(#list, count, seed)
+    return function(number) return parameters.all_at(list, place_of(number)) end
+  end
   local flat = core.quasi(kind, #list, count)
   return function(number) return parameters.all_at(list, flat, (number - 1) * #list) end
 end

@@ -4,6 +4,7 @@
 -- @module softworld.study.evaluation
 local checks = require "softworld.checks"
 local core = require "softworld.core"
+local judge_results = require "softworld.study.judge"
 local parameters = require "softworld.study.parameters"
 local rows = require "softworld.rows"
 
@@ -13,6 +14,9 @@ rows.calls{
   { "evaluation:random", "low, high", "a random number, as math.random gives it: of this evaluation alone",
     "a number", example = "local mu = 0.3 + 0.05 * (2 * p.random() - 1)" },
   { "evaluation:give_up", "reason", "ends the evaluation, which then counts as failed for this reason" },
+  { "evaluation:broken", "results", "the first constraint that these results break, such as a peak so far "
+    .. "that can only grow", "its name, or nil",
+    example = 'if p.broken { peak = hand.peak_force } then observer:stop "too hard" end' },
   { "evaluation.number", nil, "of the evaluation within its sweep, search or spread", "a number" },
 }
 
@@ -30,7 +34,7 @@ end
 
 -- p of evaluate(p, scene).
 local function given_for(own, number, values)
-  local p, names = {}, { "random", "give_up", "number" }
+  local p, names = {}, { "random", "give_up", "broken", "number" }
   for i, parameter in ipairs(own.parameters) do
     p[parameter.name] = parameters.shown(parameter, values[i])
     names[#names + 1] = parameter.name
@@ -45,6 +49,11 @@ local function given_for(own, number, values)
     local reason = a
     if a == p then reason = b end
     error({ GIVEN_UP, reason == nil and "given up" or checks.shown(reason):sub(1, LONGEST) }, 0)
+  end
+  function p.broken(a, b)
+    local results = a
+    if a == p then results = b end
+    return judge_results.broken(own, results)
   end
   return setmetatable(p, { __name = "evaluation",
     __index = checks.fields("evaluation", table.concat(names, " ")) })
@@ -110,8 +119,12 @@ local function judge(own, message)
   return mistake and "mistake" or "failed", first
 end
 
+--- What is said of an evaluation that took too many steps.
+function evaluation.steps_reason(steps) return ("took more than %d steps"):format(steps) end
+
 local function finish(own, fine, ...)
   if not fine and checks.is_interrupt(...) then error((...), 0) end -- says nothing about the model
+  if core.limit_steps(0) then return "failed", evaluation.steps_reason(own.steps) end
   for _, kept in ipairs(own.kept) do
     if not core.exists(kept[1]) then return wrong(own, "closed the scene that setup had built") end
   end
@@ -140,6 +153,7 @@ end
 --- Gives "ok" with results as text; "failed", "machine" or "mistake" with a reason.
 function evaluation.run(own, part, number, values)
   seed_with(own, part, number)
+  core.limit_steps(own.steps or 0)
   return finish(own, pcall(all, own, given_for(own, number, values)))
 end
 

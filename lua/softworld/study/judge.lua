@@ -58,6 +58,39 @@ function judge.violation(own, record)
   return sum, most
 end
 
+--- By how much each limit is broken, below 0 where it is kept: a max and a min are a limit each.
+function judge.sides(own, record)
+  local list = {}
+  for _, c in ipairs(own.constraints) do
+    local value = record.results[c.name]
+    if c.max then list[#list + 1] = (value - c.max) / scale(c.max) end
+    if c.min then list[#list + 1] = (c.min - value) / scale(c.min) end
+  end
+  return list
+end
+
+--- How many limits there are.
+function judge.count_sides(own)
+  local count = 0
+  for _, c in ipairs(own.constraints) do count = count + (c.max and 1 or 0) + (c.min and 1 or 0) end
+  return count
+end
+
+--- The name of the first constraint that some results break, or nil; results: those that are known so far.
+function judge.broken(own, results)
+  if type(results) ~= "table" then
+    fail("p.broken: results are wanted, such as p.broken { peak = 12 }, got %s", checks.got(results))
+  end
+  local known = {}
+  for _, c in ipairs(own.constraints) do known[c.name] = true end
+  checks.keys("p.broken: constraints", results, known, 0)
+  for _, c in ipairs(own.constraints) do
+    local value = results[c.name]
+    if value ~= nil then checks.number("p.broken: " .. c.name, value, -math.huge, "", 0) end
+    if value and judge.excess(c, value) > 0 then return c.name end
+  end
+end
+
 --- nil for an evaluation that failed, else whether it meets all constraints.
 function judge.pass(own, record)
   if not record.results then return nil end

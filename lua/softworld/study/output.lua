@@ -51,7 +51,8 @@ local function parts_of(own)
   return list
 end
 
-local function records_of(own, part)
+--- Records of one part, or of all, by their numbers.
+function output.records(own, part)
   local list = {}
   for _, number in ipairs(part and { part } or parts_of(own)) do
     local records = own.asked[number] and own.asked[number].records or from_journal(own, number)
@@ -62,7 +63,7 @@ end
 
 --- Rows of one part, or of all.
 function output.rows(own, part)
-  local list = records_of(own, part)
+  local list = output.records(own, part)
   for i, record in ipairs(list) do list[i] = output.row(own, record) end
   return list
 end
@@ -81,7 +82,7 @@ local function result_names(list)
 end
 
 -- A name of a parameter or a result, or an error.
-local function check_name(own, what, name, list)
+function output.check_name(own, what, name, list)
   local results, known = result_names(list), {}
   for i, p in ipairs(own.parameters) do known[i] = p.name end
   table.move(results, 1, #results, #known + 1, known)
@@ -105,8 +106,8 @@ end
 
 --- The same as a row.
 function output.best(own, name)
-  local list = records_of(own)
-  check_name(own, "study:best", name, list)
+  local list = output.records(own)
+  output.check_name(own, "study:best", name, list)
   local best = best_of(own, name, list)
   return best and output.row(own, best)
 end
@@ -165,7 +166,7 @@ end
 
 --- What print shows.
 function output.text(own)
-  local list = records_of(own)
+  local list = output.records(own)
   local lines = { ("study '%s': %d evaluation%s%s"):format(own.name, #list, #list == 1 and "" or "s",
     own.file and ", kept in " .. own.file or "") }
   for _, p in ipairs(own.parameters) do lines[#lines + 1] = "  " .. parameters.describe(p, true) end
@@ -193,7 +194,7 @@ end
 --- Write the table.
 function output.csv(own, path)
   check_path("study:csv", path)
-  local list = records_of(own)
+  local list = output.records(own)
   local names, columns = { "part", "number" }, {}
   for _, p in ipairs(own.parameters) do names[#names + 1] = p.name end
   for _, name in ipairs(result_names(list)) do names[#names + 1] = name end
@@ -219,58 +220,6 @@ function output.json(own, path)
   end
   return sink.write_file(path, json.encode { name = own.name, seed = own.seed, version = core.version,
     parameters = list, constraints = own.constraints, rows = output.rows(own) } .. "\n")
-end
-
--- --- a chart -----------------------------------------------------------------------------------
-
-local function unit_of(own, name)
-  local p = own.by_name[name]
-  if p then return p.unit end
-  for _, c in ipairs(own.constraints) do
-    if c.name == name then return c.unit end
-  end
-end
-
-local function label(own, name)
-  local unit = unit_of(own, name)
-  return unit and unit ~= "-" and unit ~= "" and ("%s [%s]"):format(name, unit) or name
-end
-
-local function log_axes(own, o)
-  if o.log then return o.log end
-  local axes = ""
-  for _, axis in ipairs { "x", "y" } do
-    local p = own.by_name[o[axis]]
-    if p and p.log then axes = axes .. axis end
-  end
-  return axes ~= "" and axes or nil
-end
-
---- Draw y over x.
-function output.chart(own, o)
-  local rows, list = output.rows(own), records_of(own)
-  local met, broken = { x = {}, y = {} }, { x = {}, y = {} }
-  for _, axis in ipairs { "x", "y" } do
-    check_name(own, "study:chart", o[axis], list)
-    local p = own.by_name[o[axis]]
-    if p and p.kind == "choice" then
-      error(("study:chart: %s = '%s' has choices, no numbers"):format(axis, p.name), 0)
-    end
-  end
-  for _, row in ipairs(rows) do
-    local curve = row.pass and met or broken
-    if not row.failed then curve.x[#curve.x + 1], curve.y[#curve.y + 1] = row[o.x], row[o.y] end
-  end
-  local args = { path = o.path, log = log_axes(own, o), title = own.name, xlabel = label(own, o.x),
-    ylabel = label(own, o.y) }
-  met.name = #own.constraints > 0 and "meets the constraints" or o.y
-  broken.name = "breaks constraints"
-  for _, curve in ipairs { met, broken } do
-    curve.style = "points"
-    if #curve.x > 0 then args[#args + 1] = curve end
-  end
-  if #args == 0 then error("study:chart: there is no evaluation to be drawn", 0) end
-  return require("softworld.run.plot").plot(args)
 end
 
 return output

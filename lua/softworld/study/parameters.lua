@@ -9,7 +9,7 @@ local sink = require "softworld.output.sink"
 local parameters = {}
 
 local KEYS = checks.set "unit log integer start sigma choices"
-local RESERVED = checks.set "random give_up number part seed failed machine pass"
+local RESERVED = checks.set "random give_up broken number part seed failed machine pass"
 
 local LONGEST = 64 -- of a name [characters]
 local MOST = 1000  -- parameters

@@ -3,14 +3,18 @@
 -- ranges (of log ones over the logarithm), or normally about start where sigma is given, within the range.
 -- @module softworld.study.spread
 local checks = require "softworld.checks"
+local core = require "softworld.core"
 local design = require "softworld.study.design"
 local judge = require "softworld.study.judge"
+local matters = require "softworld.study.matters"
 local output = require "softworld.study.output"
 local parameters = require "softworld.study.parameters"
 
 local spread = {}
 
 local Z = 1.959963984540054 -- of the normal distribution, 97.5 % lie below it
+local SETS = 8              -- of Sobol's sequence
+local STUDENT = 2.3646242515927844 -- of the t distribution of SETS - 1, 97.5 % lie below it
 local WORST = 5             -- rows that are told
 local TRIES = 1000          -- for a normal number within the range
 
@@ -38,6 +42,54 @@ function spread.drawing(own, part)
   end
 end
 
+-- The value at a share of the distribution.
+local function value_at(p, share)
+  if not p.sigma then return parameters.at(p, share) end
+  local mean = p.start or 0.5 * (p.low + p.high)
+  local low = core.normal_below((p.low - mean) / p.sigma)
+  local high = core.normal_below((p.high - mean) / p.sigma)
+  share = low + share * (high - low)
+  if share <= 0 or share >= 1 then return mean end -- the range lies far out in a tail
+  return math.max(p.low, math.min(p.high, mean + p.sigma * core.normal_at(share)))
+end
+
+--- The same by Sobol's sequence, SETS times, each shifted by random numbers (R. Cranley, T. N. L. Patterson
+-- 1976): evaluation k is of set (k - 1) % SETS.
+function spread.filling(own, count)
+  local n, shifts, each = #own.parameters, {}, math.ceil(count / SETS)
+  local flat, random = core.quasi("sobol", n, each), design.generator(own.seed, 1976)
+  for k = 1, SETS * n do shifts[k] = random() end
+  return function(number)
+    local set, at, values = (number - 1) % SETS, (number - 1) // SETS, {}
+    for i, p in ipairs(own.parameters) do
+      values[i] = value_at(p, (flat[at * n + i] + shifts[set * n + i]) % 1)
+    end
+    return values
+  end
+end
+
+-- The interval of a probability from the shares of the sets, which are independent (Student's t). nil where
+-- they are all alike, or a set is empty.
+local function of_sets(own, list)
+  local passed, count, sum, square = {}, {}, 0, 0
+  for set = 1, SETS do passed[set], count[set] = 0, 0 end
+  for _, record in ipairs(list) do
+    local set = (record.number - 1) % SETS + 1
+    if not record.machine then
+      count[set], passed[set] = count[set] + 1, passed[set] + (judge.pass(own, record) and 1 or 0)
+    end
+  end
+  for set = 1, SETS do
+    if count[set] == 0 then return nil end
+    passed[set] = passed[set] / count[set]
+    sum = sum + passed[set] / SETS
+  end
+  for set = 1, SETS do square = square + (passed[set] - sum) ^ 2 end
+  if square == 0 then return nil end
+  local half = STUDENT * math.sqrt(square / (SETS - 1) / SETS)
+  return math.max(0, sum - half), math.min(1, sum + half)
+end
+
 --- The interval that holds a probability in 95 of 100 cases, when passed of count trials passed (E. B. Wilson
 -- 1927): low, high.
 function spread.wilson(passed, count)
@@ -48,7 +100,8 @@ function spread.wilson(passed, count)
 end
 
 local Spread = { __name = "spread" }
-Spread.__index = checks.fields("spread", "probability low high count passed broken failed left_out worst")
+Spread.__index = checks.fields("spread", "probability low high count passed broken failed left_out worst "
+  .. "matters")
 
 function Spread.__tostring(s)
   local shape = "%.2f %% pass (95 %% interval %.2f to %.2f %%): %d of %d; %d break constraints, %d failed"
@@ -57,6 +110,10 @@ function Spread.__tostring(s)
   if s.left_out > 0 then
     lines[2] = ("  %d ended by the machine are left out"):format(s.left_out)
   end
+  local names = {}
+  for name in pairs(s.matters) do names[#names + 1] = name end
+  table.sort(names)
+  for _, name in ipairs(names) do lines[#lines + 1] = "  " .. matters.text(name, s.matters[name]) end
   return table.concat(lines, "\n")
 end
 
@@ -79,7 +136,7 @@ local function worst_of(own, list)
 end
 
 --- What the records say. Those that failed did not pass; what the machine ended says nothing.
-function spread.result(own, records)
+function spread.result(own, records, how)
   local list = judge.sorted(records)
   local s = { passed = 0, broken = 0, failed = 0, left_out = 0 }
   for _, record in ipairs(list) do
@@ -89,8 +146,12 @@ function spread.result(own, records)
   end
   s.count = #list - s.left_out
   s.probability = s.passed / s.count
-  s.low, s.high = spread.wilson(s.passed, s.count)
+  local low, high
+  if how == "sobol" then low, high = of_sets(own, list) end
+  if not low then low, high = spread.wilson(s.passed, s.count) end
+  s.low, s.high = low, high
   s.worst = worst_of(own, list)
+  s.matters = matters.all(own, list)
   setmetatable(s, Spread)
   own.asked[own.part].says = tostring(s)
   return s

@@ -10,8 +10,10 @@
 --     study:minimise "time"
 --     print(study)
 -- @module softworld.study.study
+local advise = require "softworld.study.advise"
 local build = require "softworld.scene.build"
 local campaign = require "softworld.study.campaign"
+local chart = require "softworld.study.chart"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local design = require "softworld.study.design"
@@ -22,8 +24,10 @@ local methods = require "softworld.methods"
 local minimise = require "softworld.study.minimise"
 local output = require "softworld.study.output"
 local parameters = require "softworld.study.parameters"
+local pareto = require "softworld.study.pareto"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
+local search_methods = require "softworld.study.search"
 local spread = require "softworld.study.spread"
 
 local study = {}
@@ -47,6 +51,8 @@ local new = rows.call("sw.study", "{...}", "a study: a model to be evaluated man
   { "workers", "integer", "-", "processes; 0 computes in this one", min = 0, max = 256,
     usual = "one per processor" },
   { "cpu", "number", "s", "most computing time of an evaluation", min = 0, above = true, usual = "any" },
+  { "steps", "integer", "-", "most steps of its runs that an evaluation tries, the rejected ones too",
+    min = 1, max = 1 << 53, usual = "any" },
   { "memory", "number", "-", "most memory that a worker takes besides [B]", min = 1e6, usual = "any" },
 })
 
@@ -64,13 +70,20 @@ local search = rows.call("study:minimise", "result, {...}", "looks for the small
   .. "meets the constraints", {
   gives = "what was found: best, value, ok, reason",
   example = 'study:minimise "time"',
-  { "method", "choice", "-", "simplex of Nelder and Mead", choices = { "simplex" }, default = "simplex" },
-  { "starts", "integer", "-", "places from which it begins, the first at the parameters' start", min = 1,
-    max = 1000, default = 4 },
+  { "method", "choice", "-", "how to search, see help 'search'", choices = { "auto",
+    table.unpack(search_methods.names) }, default = "auto", about = search_methods.about },
+  { "starts", "integer", "-", "places from which it begins, the first at the parameters' start; of cma-es "
+    .. "one after the other, each with twice the population", min = 1, max = 1000, usual = "4, of cma-es 1" },
   { "evaluations", "integer", "-", "at most, of all starts", min = 1, max = 1000000,
-    usual = "100 for each start and parameter" },
+    usual = "100 to 500 for each start and parameter" },
   { "tolerance", "number", "-", "wanted accuracy as a share of the ranges", min = 0, above = true, max = 0.5,
     default = 1e-4 },
+  { "step", "number", "-", "the first, as a share of the ranges", min = 0, above = true, max = 0.5,
+    usual = "0.2, of cma-es 0.3" },
+  { "noise", "boolean", "-", "values are noisy: cma-es then evaluates places often enough",
+    default = false, usual = "false" },
+  { "around", "boolean", "-", "also evaluates around what was found: noise, flat directions",
+    default = true, usual = "true" },
   WORKERS,
 })
 
@@ -78,10 +91,26 @@ local shake = rows.call("study:spread", "{...}", "how often the constraints are 
   gives = "what was found: probability, low, high, worst",
   example = "study:spread { count = 1000 }",
   { "count", "integer", "-", "evaluations", min = 1, max = 10000000, default = 1000 },
+  { "kind", "choice", "-", "random numbers, or Sobol's sequence, which fills the ranges more evenly",
+    choices = { "random", "sobol" }, default = "random" },
+  WORKERS,
+})
+
+local trade = rows.call("study:pareto", "{ results, ... }", "looks for the front of two or three results: of "
+  .. "evaluations that meet the constraints, those of which none is better in all of them", {
+  gives = "the front: rows, knee, evaluations, failed",
+  example = 'study:pareto { "time", "peak" }',
+  { "evaluations", "integer", "-", "at most", min = 1, max = 1000000, usual = "40 generations" },
+  { "population", "integer", "-", "evaluations of a generation", min = 4, max = 10000,
+    usual = "20 for each result" },
   WORKERS,
 })
 
 rows.calls{
+  { "study:front", "{ results }", "the rows of the whole table that no other one beats in these results",
+    "the front: rows, knee, evaluations, failed", example = 'study:front { "time", "peak" }' },
+  { "study:advise", "result", "which method a search had better take, how many evaluations, and why",
+    "advice: method, evaluations, why, lines", example = 'print(study:advise "time")' },
   { "study:table", "", "all evaluations: number, parameters, results, pass, failed", "a list of tables" },
   { "study:best", "result", "the evaluation with the smallest value that meets the constraints",
     "a row, or nil" },
@@ -92,11 +121,15 @@ rows.calls{
   { "study.computed", nil, "evaluations that this process has computed, not read", "a number" },
 }
 
-local chart = rows.call("study:chart", "{...}", "draws a result over another or a parameter; needs gnuplot", {
+local draw = rows.call("study:chart", "{...}", "draws what has been evaluated; needs gnuplot", {
   gives = "the path, or without one the drawing in characters",
   example = 'study:chart { x = "force", y = "time", path = "grip.svg" }',
-  { "x", "text", "-", "a parameter or a result", required = true },
-  { "y", "text", "-", "a parameter or a result", required = true },
+  { "kind", "choice", "-", "what, see help 'study'", choices = chart.names, default = "points",
+    about = function(name) return chart.of(name).doc end },
+  { "x", "text", "-", "a parameter or a result", usual = "required by points, histogram, front" },
+  { "y", "text", "-", "a parameter or a result", usual = "required by all but histogram" },
+  { "part", "integer", "-", "only this sweep, search or spread, by its number", min = 1, max = 1 << 31,
+    usual = "all" },
   { "path", "text", "-", "a .svg, .png or .pdf file", usual = "drawn in characters" },
   { "log", "choice", "-", "axes that are logarithmic", choices = { "x", "y", "xy" },
     usual = "by the parameters" },
@@ -109,6 +142,7 @@ local function fields(self) return sealed.fields(self) end
 local function definition(own)
   local lines = { "version " .. core.version, ("seed %d"):format(own.seed) }
   for _, p in ipairs(own.parameters) do lines[#lines + 1] = "parameter " .. parameters.describe(p) end
+  if own.steps then lines[#lines + 1] = ("steps %d"):format(own.steps) end
   lines[#lines + 1] = "functions of the script " .. fingerprint(own.setup, own.evaluate)
   local text = table.concat(lines, "\n")
   return { name = own.name, text = text, key = ("%016x"):format(core.checksum(text)) }
@@ -189,10 +223,24 @@ end
 local function do_spread(self, args)
   local own, o = fields(self), shake:read(args == nil and {} or args)
   judge.needed(own, "study:spread")
-  local records = points(own, "spread", o, o.count, spread.drawing(own, own.part + 1))
+  local drawing = o.kind == "sobol" and spread.filling(own, o.count) or spread.drawing(own, own.part + 1)
+  local records = points(own, "spread", o, o.count, drawing)
   judge.some(own, records, o.count)
-  return spread.result(own, records, o.count)
+  return spread.result(own, records, o.kind)
 end
+
+local function do_pareto(self, args)
+  local own, names, rest = fields(self), pareto.names("study:pareto", args)
+  return pareto.run(own, names, trade:read(rest))
+end
+
+local function do_front(self, args)
+  local own, names, rest = fields(self), pareto.names("study:front", args)
+  checks.keys("study:front", rest, {}, 0)
+  return pareto.front(own, names)
+end
+
+local function do_advise(self, result) return advise.run(fields(self), result) end
 
 local function list_rows(self) return output.rows(fields(self)) end
 
@@ -202,12 +250,15 @@ local function do_csv(self, path) return output.csv(fields(self), path) end
 
 local function do_json(self, path) return output.json(fields(self), path) end
 
-local function do_chart(self, args) return output.chart(fields(self), chart:read(args)) end
+local function do_chart(self, args) return chart.draw(fields(self), draw:read(args)) end
 
 -- Calls in tail position: levels of errors count as if they were not here.
 function Study:sweep(args) return build.call(3, do_sweep, self, args) end
 function Study:minimise(result, args) return build.call(3, do_minimise, self, result, args) end
 function Study:spread(args) return build.call(3, do_spread, self, args) end
+function Study:pareto(args) return build.call(3, do_pareto, self, args) end
+function Study:front(args) return build.call(3, do_front, self, args) end
+function Study:advise(result) return build.call(3, do_advise, self, result) end
 function Study:table() return build.call(3, list_rows, self) end
 function Study:best(result) return build.call(3, do_best, self, result) end
 function Study:csv(path) return build.call(3, do_csv, self, path) end
@@ -216,7 +267,7 @@ function Study:chart(args) return build.call(3, do_chart, self, args) end
 
 methods.guard_table("study", Study)
 
-local SHOWN = "sweep minimise spread table best csv json chart name file computed"
+local SHOWN = "sweep minimise pareto front spread advise table best csv json chart name file computed"
 local unknown = checks.fields("study", SHOWN, "file")
 
 function Study:__index(key)

@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* core.search(method, start, constraints, step, tolerance, seed) -> search; search:ask() -> a list
+ * of places, or nil, why it has ended, was it as near as wanted; search:tell(value, list of what
+ * breaks constraints); search:close(). core.eigen(list of n * n numbers, n) -> values, ascending;
+ * vectors.
+ */
+#include <lauxlib.h>
+#include <math.h>
+
+#include "bind/child.h"
+#include "bind/module.h"
+
+static const char SEARCH[] = "softworld.search";
+
+enum { MOST = 1000 }; /* rows of a matrix [-] */
+
+static sw_search *check(lua_State *L) {
+  sw_search **s = luaL_checkudata(L, 1, SEARCH);
+  if (!*s) luaL_error(L, "the search is closed");
+  return *s;
+}
+
+static void push_list(lua_State *L, const double *x, size_t n) {
+  lua_createtable(L, (int)n, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_pushnumber(L, x[i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+}
+
+static void read_list(lua_State *L, int index, double *x, size_t n) {
+  luaL_checktype(L, index, LUA_TTABLE);
+  luaL_argcheck(L, lua_rawlen(L, index) == n, index, "a list of another length is wanted");
+  for (size_t i = 0; i < n; i++) {
+    lua_rawgeti(L, index, (lua_Integer)i + 1);
+    x[i] = lua_tonumber(L, -1);
+    luaL_argcheck(L, lua_type(L, -1) == LUA_TNUMBER && isfinite(x[i]), index,
+                  "finite numbers are wanted");
+    lua_pop(L, 1);
+  }
+}
+
+/* The sizes are kept beside the search: index 1 is its userdata. */
+static size_t kept(lua_State *L, int which) {
+  lua_getiuservalue(L, 1, which);
+  const size_t n = (size_t)lua_tointeger(L, -1);
+  lua_pop(L, 1);
+  return n;
+}
+
+static int meth_ask(lua_State *L) {
+  double x[SW_SEARCH_MOST];
+  sw_search *s = check(L);
+  int ok;
+  if (sw_search_ask(s, x)) {
+    push_list(L, x, kept(L, 1));
+    return 1;
+  }
+  lua_pushnil(L);
+  lua_pushstring(L, sw_search_reason(s, &ok));
+  lua_pushboolean(L, ok);
+  return 3;
+}
+
+static int meth_tell(lua_State *L) {
+  double broken[SW_SEARCH_MOST] = {0};
+  sw_search *s = check(L);
+  const double value = luaL_checknumber(L, 2);
+  const size_t count = kept(L, 2);
+  luaL_argcheck(L, isfinite(value), 2, "a finite number is wanted");
+  if (count > 0) read_list(L, 3, broken, count);
+  sw_search_tell(s, value, broken);
+  return 0;
+}
+
+static int meth_close(lua_State *L) {
+  sw_search **s = luaL_checkudata(L, 1, SEARCH);
+  sw_search_free(*s);
+  *s = NULL;
+  return 0;
+}
+
+static const luaL_Reg methods[] = {
+    {"ask", meth_ask}, {"tell", meth_tell}, {"close", meth_close}, {NULL, NULL}};
+
+static sw_search **new_search(lua_State *L) {
+  sw_search **s = lua_newuserdatauv(L, sizeof(sw_search *), 2);
+  *s = NULL;
+  if (luaL_newmetatable(L, SEARCH)) {
+    luaL_newlib(L, methods);
+    lua_setfield(L, -2, "__index");
+    lua_pushcfunction(L, meth_close), lua_setfield(L, -2, "__gc");
+    lua_pushcfunction(L, meth_close), lua_setfield(L, -2, "__close");
+  }
+  lua_setmetatable(L, -2);
+  return s;
+}
+
+static int mod_search(lua_State *L) {
+  double start[SW_SEARCH_MOST];
+  sw_error err = {""};
+  luaL_checktype(L, 2, LUA_TTABLE);
+  const size_t n = lua_rawlen(L, 2);
+  const lua_Integer count = luaL_checkinteger(L, 3);
+  luaL_argcheck(L, n >= 1 && n <= SW_SEARCH_MOST, 2, "1 to 64 parameters");
+  luaL_argcheck(L, count >= 0 && count <= SW_SEARCH_MOST, 3, "0 to 64 constraints");
+  read_list(L, 2, start, n);
+  const sw_search_args args = {luaL_checkstring(L, 1),
+                               n,
+                               (size_t)count,
+                               start,
+                               luaL_checknumber(L, 4),
+                               luaL_checknumber(L, 5),
+                               (unsigned long)luaL_checkinteger(L, 6)};
+  luaL_argcheck(L, args.step > 0 && args.step <= 0.5, 4, "above 0 to 0.5");
+  luaL_argcheck(L, args.tolerance > 0 && args.tolerance <= 0.5, 5, "above 0 to 0.5");
+  sw_search **s = new_search(L);
+  lsw_must(L, sw_search_new(&args, s, &err), &err);
+  lua_pushinteger(L, (lua_Integer)n), lua_setiuservalue(L, -2, 1);
+  lua_pushinteger(L, count), lua_setiuservalue(L, -2, 2);
+  return 1;
+}
+
+static int mod_eigen(lua_State *L) {
+  const lua_Integer n = luaL_checkinteger(L, 2);
+  sw_error err = {""};
+  luaL_argcheck(L, n >= 1 && n <= MOST, 2, "1 to 1000 rows");
+  const size_t rows = (size_t)n;
+  double *a = lua_newuserdatauv(L, sizeof *a * (2 * rows * rows + rows), 0);
+  read_list(L, 1, a, rows * rows);
+  double *values = a + rows * rows, *vectors = values + rows;
+  lsw_must(L, sw_symmetric_eigen(a, rows, values, vectors), &err);
+  push_list(L, values, rows);
+  lua_createtable(L, (int)n, 0);
+  for (size_t k = 0; k < rows; k++) {
+    push_list(L, vectors + k * rows, rows);
+    lua_rawseti(L, -2, (lua_Integer)k + 1);
+  }
+  return 2;
+}
+
+void lsw_open_search(lua_State *L) {
+  static const luaL_Reg functions[] = {{"search", mod_search}, {"eigen", mod_eigen}, {NULL, NULL}};
+  luaL_setfuncs(L, functions, 0);
+}
