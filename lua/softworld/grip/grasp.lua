@@ -25,6 +25,9 @@ function grasp.check_there(self, level)
     error(("gripper '%s' was made after the snapshot that was restored; make it anew")
       :format(self.name), level)
   end
+  if self.left then
+    error(("gripper '%s' was taken away at t = %.6g s"):format(self.name, self.left), level)
+  end
 end
 
 --- The same, and when the scene may not be changed now.
@@ -172,7 +175,8 @@ end
 function grasp.look(scene)
   local why
   for _, self in ipairs(build.data(scene).grippers) do
-    if self.tool then why = look_at(self) or why
+    if self.left then why = why or nil
+    elseif self.tool then why = look_at(self) or why
     elseif self.hold then why = look_at_hold(self) or why end
   end
   return why
@@ -225,6 +229,7 @@ local function wait_for_jaws(self, p, order)
     if not self.tool then -- a snapshot was restored
       error(("gripper '%s': its pads went while it was waiting for them"):format(self.name), 0)
     end
+    grasp.check_there(self, 0)
     state = self.tool:state()
     crushed = order.force and state.squeeze > 0 and state.opening < least
     return crushed or state.jaws ~= "moves"
@@ -351,6 +356,27 @@ local function drop(self, wire)
   end
   self.grips = left
   self.hold, self.wire = left[1] and left[1].hold, left[1] and left[1].wire
+end
+
+--- The gripper is about to be taken away: its wires are as they would be had it let go.
+function grasp.lose_all(self)
+  if self.frozen then mixed.thaw(self) end
+  if self.tool and self.way == "mixed" and self.wire then mixed.finish(self) end
+  for _, grip in ipairs(self.grips) do grasp.lose_wire(self, grip.wire) end
+end
+
+--- The wire is about to be taken away: the gripper has it no more, and to let go of it later is no mistake.
+function grasp.lose_wire(self, wire)
+  local left, held = {}, false
+  for _, grip in ipairs(self.grips) do
+    if grip.wire == wire then held = true else left[#left + 1] = grip end
+  end
+  if not held then return end
+  self.bereft = true
+  if not self.tool then return drop(self, wire) end
+  if self.wire == wire then self.frozen = nil end
+  self.grips, self.wire = left, left[1] and left[1].wire
+  self.held = self.held and #left > 0
 end
 
 -- All of the wires or none more than before.
@@ -522,6 +548,7 @@ function Methods:grasp(wire, args)
     error(("gripper '%s': a mixed grasp takes its time; call it in a process"):format(self.name), 2)
   end
   if args.on_slip ~= nil then grasp.set_on_slip(self, args.on_slip, 3) end
+  self.bereft = nil
   if approach == "imposed" then
     grasp_imposed(self, wires, args)
     self.way, self.frozen, self.held = approach, nil, false

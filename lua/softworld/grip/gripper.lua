@@ -268,6 +268,10 @@ function Gripper:release(args)
     error("gripper:release is a method: call it with a colon", 2)
   end
   grasp.check_scene(self, 3)
+  if not self.wire and self.bereft then -- it was taken away
+    self.bereft = nil
+    return self.tool and self:open_jaws(args or {}) or self
+  end
   if not self.wire then
     error(("gripper '%s' holds nothing; grasp a wire before you release"):format(self.name), 2)
   end
@@ -288,7 +292,7 @@ local fields = {}
 for _, key in ipairs{ "gone", "wires", "hold", "at", "rotation", "tool", "wire", "way", "frozen", "on_slip",
   "opening", "order", "obstacles", "held", "unchecked", "s", "free_height", "margin", "segments",
   "mesh_model", "rod_model", "slip_event", "crash_time", "on_crash", "carrier", "facing",
-  "busy_until" } do
+  "busy_until", "left", "bereft" } do
   fields[key] = true
 end
 
@@ -370,6 +374,7 @@ function Gripper:__tostring()
   local doing = "open"
   local names = {}
   for i, grip in ipairs(self.grips) do names[i] = ("'%s'"):format(grip.wire.name) end
+  if self.left then doing = "taken away" end
   if #names > 0 then doing = ("holding %s, %s"):format(table.concat(names, " and "), self.way) end
   return ("gripper '%s' (%s)"):format(self.name, doing)
 end

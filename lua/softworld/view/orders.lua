@@ -75,7 +75,7 @@ function orders.forms(scene)
     if core.exists(o.object) and o.object.present then add(o.name, "obstacle", o.object) end
   end
   for _, g in ipairs(build.data(scene).grippers) do
-    if not g.gone then add(g.name, "gripper", g) end
+    if not g.gone and not g.left then add(g.name, "gripper", g) end
   end
   return list
 end
@@ -259,7 +259,7 @@ function orders.objects(scene)
   end
   for _, g in ipairs(data.grippers) do
     grips[g.name] = true
-    if not g.gone then list[#list + 1] = entry_of(g.name, "gripper", "gripper") end
+    if not g.gone and not g.left then list[#list + 1] = entry_of(g.name, "gripper", "gripper") end
   end
   for _, hold in ipairs(data.holds) do
     if core.exists(hold.object) and hold.object.held and not grips[hold.name] then

@@ -24,9 +24,10 @@ local function signature(scene)
   for i, name in ipairs(build.lists) do parts[i] = #data[name] end
   for _, g in ipairs(data.grippers) do
     local last = g.spans[#g.spans]
-    parts[#parts + 1] = ("%d %s %s"):format(#g.spans, last and last.to or "", g.tool and 1 or 0)
+    parts[#parts + 1] = ("%d %s %s %s"):format(#g.spans, last and last.to or "", g.tool and 1 or 0, g.left or "")
   end
   for _, w in ipairs(data.wires) do parts[#parts + 1] = w.object.model end
+  for _, gone in ipairs(data.gone or {}) do parts[#parts + 1] = gone.label end
   return table.concat(parts, " ")
 end
 

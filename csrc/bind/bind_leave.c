@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What leaves a scene: see scene:remove, which is Lua's. */
+#include "bind/child.h"
+#include "bind/module.h"
+
+/* core.remove_body(wire or object of particles): what holds it lets go. */
+static int mod_remove_body(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const int loose = lsw_test(L, 1, &lsw_class_particles) != NULL;
+  const lsw_child *body =
+      lsw_check_child(L, 1, loose ? &lsw_class_particles : &lsw_class_wire, &scene);
+  lsw_must(L, sw_scene_remove_body(scene, body->id, &err), &err);
+  return 0;
+}
+
+/* core.remove_tool(tool): with its pads. */
+static int mod_remove_tool(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const lsw_child *tool = lsw_check_child(L, 1, &lsw_class_tool, &scene);
+  lsw_must(L, sw_scene_remove_tool(scene, tool->id, &err), &err);
+  return 0;
+}
+
+static const luaL_Reg functions[] = {
+    {"remove_body", mod_remove_body}, {"remove_tool", mod_remove_tool}, {NULL, NULL}};
+
+void lsw_open_leave(lua_State *L) { luaL_setfuncs(L, functions, 0); }
