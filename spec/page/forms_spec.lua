@@ -8,6 +8,7 @@ local fill = require "softworld.view.fill"
 local json = require "softworld.output.json"
 local jsonread = require "softworld.output.jsonread"
 local kinds = require "softworld.view.kinds"
+local leaving = require "softworld.view.leaving"
 local orders = require "softworld.view.orders"
 local saving = require "spec.scene.saving"
 local viewing = require "softworld.view.view"
@@ -312,6 +313,51 @@ describe("objects added and removed while they move", function()
     assert.equal("made[3]:release()", inverse())
   end)
 
+  it("take away wires, grippers and the script's own forces too", function()
+    local scene = scene_of()
+    scene:force { kind = "damping", mass = 1 }
+    local function take(m)
+      m["do"] = "remove"
+      local text = line(scene, m)
+      run(scene, text)
+      return text
+    end
+    assert.equal("scene:remove(scene:forces()[1])", take { force = 1 })
+    assert.equal('scene:remove "hand"', take { object = "hand" })
+    assert.equal('scene:remove "cord"', take { object = "cord" })
+    assert.equal("", json.encode(leaving.objects(scene, {})):gsub("[%[%]]", ""))
+  end)
+
+  it("come back by a line that makes them anew, where there is no way back", function()
+    local scene = scene_of()
+    scene:obstacle { name = "box", shape = "box", size = { 0.1, 0.1, 0.1 } }:set { at = { 0, 1, 0 } }
+    scene:force { kind = "drag", on = scene:find "cord", linear = 0.5 }
+    local box = leaving.again(scene, { object = "box" }, 7)
+    assert.equal('scene:obstacle { name = "box (2)", shape = "box", at = { 0, 1, 0 }, '
+      .. "rotation = { 1, 0, 0, 0 }, size = { 0.1, 0.1, 0.1 } }", (box:gsub("%s+", " "):gsub("%.0", "")))
+    assert.equal('made[7] = scene:force { kind = "drag", on = scene:find("cord"), linear = 0.5 }',
+      leaving.again(scene, { force = 1 }, 7))
+    scene:remove "box"
+    load(box, "=x", "t", { scene = scene })()
+    assert.are.same({ 0, 1, 0 }, (scene:find "box (2)":pose()))
+    assert.is_nil(leaving.again(scene, { object = "cord" }, 8)) -- what it did is only in a state
+  end)
+
+  it("lead a gripper on a straight way, no faster than told, and let it stay", function()
+    local scene = scene_of()
+    local grip = scene:gripper { name = "moved", at = { 0, 0, 0.2 } }
+    local text = line(scene, { ["do"] = "lead", gripper = "moved", to = { 0.1, 0, 0.2 }, speed = 0.5 })
+    assert.equal('scene:find("moved"):move { to = { 0.1, 0, 0.2 }, speed = 0.5, law = "linear" }', text)
+    run(scene, text)
+    scene:run { duration = 0.1, dt = 0.01 }
+    assert.near(0.05, grip:position()[1], 1e-9) -- 0.5 m/s for 0.1 s
+    run(scene, line(scene, { ["do"] = "leave", gripper = "moved" }))
+    scene:run { duration = 0.1, dt = 0.01 }
+    assert.near(0.05, grip:position()[1], 1e-9)
+    assert.equal('scene:find("moved"):stop()',
+      line(scene, { ["do"] = "lead", gripper = "moved", to = grip:position(), speed = 0.5 }))
+  end)
+
   it("say so when they cannot go, or cannot be", function()
     local scene = scene_of()
     local function refused(m, words)
@@ -319,10 +365,16 @@ describe("objects added and removed while they move", function()
       assert.is_false(fine)
       assert.truthy(tostring(message):find(words), message)
     end
-    refused({ ["do"] = "remove", object = "cord" }, "a wire stays in its scene")
-    refused({ ["do"] = "remove", object = "hand" }, "a gripper stays in its scene")
+    sw.core.data(scene).running = true
+    refused({ ["do"] = "remove", object = "cord" }, "'cord' is the last wire, and a run is under way")
+    sw.core.data(scene).running = nil
+    refused({ ["do"] = "remove", force = 1 }, "there is no such force")
+    refused({ ["do"] = "remove", force = "1)] os.exit(3) --" }, "there is no such force")
+    refused({ ["do"] = "lead", gripper = "cord", to = { 0, 0, 0 }, speed = 1 }, "'cord' is no gripper")
+    refused({ ["do"] = "lead", gripper = "hand", to = { 0, 0, 0 }, speed = 0 }, "speed")
+    refused({ ["do"] = "lead", gripper = "hand", to = { 0, 0, 0 }, speed = 1 }, "'hand' is nowhere yet")
     refused({ ["do"] = "remove", object = "nobody" }, "nothing named 'nobody'")
-    refused({ ["do"] = "remove", object = "" }, "a scene cannot go")
+    refused({ ["do"] = "remove", object = "" }, "the scene itself cannot be taken away")
     refused({ ["do"] = "remove", made = "1] os.exit(3) --" }, "made is no number")
     refused({ ["do"] = "remove", object = { "cord" } }, "is no name")
     refused(an_order("step", "wait", { seconds = 1 }), "while a run is under way")

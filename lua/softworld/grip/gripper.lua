@@ -228,6 +228,15 @@ function Gripper:rotate(args)
   return self:move(t)
 end
 
+--- It stays where it is now; a move that a process waits for is over when it would have been.
+function Gripper:stop()
+  check_place(self, "stop")
+  local held = moved(self)
+  if held then held:follow(nil) end
+  self.busy_until = math.min(self.busy_until or self.scene.time, self.scene.time)
+  return self
+end
+
 local press = rows.call("gripper:press", "{...}", "goes on until the wire pushes back; in a process only", {
   gives = "force reached [N], way gone [m], whether it was the force wanted",
   { "force", "number", "N", "push of the wire at which it stops", min = 0, above = true, required = true },
@@ -341,6 +350,7 @@ function Gripper:__newindex(key, value)
 end
 
 rows.calls{
+  { "gripper:stop", "", "stays where it is now", "the gripper" },
   { "gripper.name", nil, "by which messages and series call it" },
   { "gripper.width", nil, "of the pads along the wire", "m" },
   { "gripper.wire", nil, "that it holds, the first of several", "a wire, or nil" },

@@ -11,7 +11,7 @@ export class Build {
   constructor(host, state, link, forms, say) {
     Object.assign(this, { host, state, link, say, kinds: forms.kinds, cables: forms.cables, items: [], objects: [], made: [], forms: [], draft: null,
       script: null });
-    this.undo = iconButton("back", "Undo", () => this.order("undo"), { disabled: true });
+    this.undo = iconButton("back", "Undo", () => (this.planned ? this.order("undo") : this.link.order("undo")), { disabled: true });
     this.redo = iconButton("redo", "Redo", () => this.order("redo"), { disabled: true });
     this.chips = h("div.chips", { role: "group", "aria-label": "What to add" }, ...CLASSES.map(([name, words]) =>
       h("button.chip", { type: "button", "data-class": name, "aria-pressed": "false", onclick: () => this.add(name) }, icon("plus"), words)));
@@ -46,7 +46,8 @@ export class Build {
     if (this.was !== planned) this.close();
     this.was = planned;
     this.stepPart.hidden = this.runPart.hidden = !run.draft;
-    this.undo.hidden = this.redo.hidden = !planned;
+    this.redo.hidden = !planned;
+    this.canUndo();
     this.stepPart.inert = !planned;
     this.note.hidden = planned && run.at_start;
     this.note.textContent = planned ? "A change goes back to the start." : run.draft
@@ -208,8 +209,8 @@ export class Build {
   show(m) { // the draft
     this.draft = m;
     this.items = m.items;
-    this.undo.disabled = !m.undo;
     this.redo.disabled = !m.redo;
+    this.canUndo();
     this.remarks.replaceChildren(...(m.remarks || []).map((words) => h("p.warning", {}, words)));
     this.mode();
     this.fill();
@@ -220,8 +221,11 @@ export class Build {
     this.made = made || [];
     this.fill();
   }
-  showScript(script, why) {
+  canUndo() { this.undo.disabled = !(this.planned ? this.draft?.undo : this.byHand); }
+  showScript(script, why, undo) {
     this.script = script;
+    this.byHand = undo;
+    this.canUndo();
     this.save.disabled = !script;
     this.save.title = script ? "The script that does all this again" : why || "";
   }
@@ -266,7 +270,7 @@ export class Build {
     const remove = (more) => this.link.ask("remove", more).catch((error) => this.say(error.message));
     const line = (name, kind, more, leaves, why) => h("li", {}, h("div.thing", {}, h("span.thing-name", {}, h("span", {}, name), h("small", {}, kind),
       why ? h("em", {}, why) : null), leaves ? iconButton("close", `Remove ${name}`, () => remove(more)) : null));
-    return [...this.objects.map((o) => line(o.name, o.kind, { object: o.name }, o.leaves, o.why)),
+    return [...this.objects.map((o) => line(o.name, o.kind, o.force ? { force: o.force } : { object: o.name }, o.leaves, o.why)),
       ...this.made.map((f) => line(f.kind, "force", { made: f.made }, true))];
   }
 }

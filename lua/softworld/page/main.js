@@ -136,7 +136,7 @@ const KEYS = [["Space", "play, pause"], ["← →", "one frame back, on; with sh
   ["X", "section plane"], ["[ ]", "hide objects, charts"], ["T", "dark, light"], ["?", "these keys"]];
 
 const LIVE_KEYS = [["Space", "hold the run, go on"], ["→", "one step"], ["← →", "look back, frame by frame"], ["End", "to the present"],
-  ["+ −", "faster, slower"], ["K", "keep this state"], ["H", "pull wires, or only turn the view"]];
+  ["+ −", "faster, slower"], ["K", "keep this state"], ["H", "pull wires and lead grippers, or only turn the view"]];
 
 function keys(state, transport, view, data, more = {}) {
   const help = $("help");

@@ -25,7 +25,7 @@ for _, hold in ipairs(core.registry().holds) do
   core_methods.scene = core_methods.scene .. " " .. hold.name
 end
 local table_methods = {
-  gripper = "grasp release freeze thaw close_jaws open_jaws move move_to rotate approach retreat "
+  gripper = "grasp release freeze thaw close_jaws open_jaws move stop move_to rotate approach retreat "
     .. "handover set",
   clip = "release", tie = "release", channel = "open close release",
 }
