@@ -449,14 +449,10 @@ static const luaL_Reg methods[] = {{"position", meth_position},
                                    {"frequencies", lsw_wire_frequencies},
                                    {"remodel", lsw_wire_remodel},
                                    SW_READOUTS(READOUT){NULL, NULL}};
-static const luaL_Reg properties[] = {{"length", prop_length},
-                                      {"segments", prop_segments},
-                                      {"beam", push_beam},
-                                      {"radius", prop_radius},
-                                      {"name", prop_name},
-                                      {"present", prop_present},
-                                      {"model", prop_model},
-                                      {NULL, NULL}};
+static const luaL_Reg properties[] = {{"length", prop_length}, {"segments", prop_segments},
+                                      {"beam", push_beam},     {"radius", prop_radius},
+                                      {"name", prop_name},     {"present", prop_present},
+                                      {"model", prop_model},   {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
 const lsw_class lsw_class_wire = {.name = "wire",

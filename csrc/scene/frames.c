@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Frames: what a picture or a player needs, stored at even times of a run. One block of floats a
  * frame: obstacles and holds (SW_FRAME_BODY numbers and a flag: there, held), tools, then for each
- * wire, of those that are gone too (with zeros), its node count and positions, how many values each node has and these, the number of its
- * surface's points in a section (0: it is no mesh of particles), and these points with the force
- * across the surface at each. */
+ * wire, of those that are gone too (with zeros), its node count and positions, how many values each
+ * node has and these, the number of its surface's points in a section (0: it is no mesh of
+ * particles), and these points with the force across the surface at each. */
 #include "scene/frames.h"
 
 #include <math.h>

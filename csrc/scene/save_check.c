@@ -87,7 +87,8 @@ static void check_places(sw_tape *t, const sw_scene *s, const sw_hold *h) {
 
 static void check_hold(sw_tape *t, const sw_scene *s, const sw_hold *h) {
   const int of_none = !h->alive && h->wire == SIZE_MAX;
-  sw_tape_expect(t, (h->wire < s->wire_count || of_none) && h->log.count % SW_LOG_SIZE == 0, "a clamp");
+  sw_tape_expect(t, (h->wire < s->wire_count || of_none) && h->log.count % SW_LOG_SIZE == 0,
+                 "a clamp");
   if (!sw_tape_good(t) || !h->alive) return;
   sw_tape_expect(t, h->count > 0 && h->scale > 0, "a clamp that holds nothing");
   check_crash(t, s, h);

@@ -27,8 +27,7 @@ static sw_watch *find(sw_watches *w, int kind, sw_handle of) {
   for (size_t tried = 0; tried < w->count; tried++, w->next++) {
     if (w->next >= w->count) w->next = 0;
     sw_watch *one = &w->list[w->next];
-    if (one->kind != kind || one->of.generation != of.generation)
-      continue;
+    if (one->kind != kind || one->of.generation != of.generation) continue;
     w->next++;
     return one;
   }

@@ -59,10 +59,12 @@ local function steps(count)
   end
 end
 local function is_there(kind, name)
-  return page:run("return player.view.actors.some((a) => a.kind === arguments[0] && a.name === arguments[1] && a.there)",
-    kind, name)
+  return page:run([[return player.view.actors.some((a) => a.kind === arguments[0] && a.name === arguments[1]
+    && a.there)]], kind, name)
 end
-local function gone(name) page:wait(("return !player.panel.build.things('wire').includes(%q)"):format(name)) end
+local function gone(name)
+  page:wait(("return !player.panel.build.things('wire').includes(%q)"):format(name))
+end
 
 setup(function()
   folder = program.folder()
@@ -158,7 +160,8 @@ describe("a run that is touched", function()
     local moved = ((to[1] - from[3]) ^ 2 + (to[2] - from[4]) ^ 2 + (to[3] - from[5]) ^ 2) ^ 0.5
     assert.is_true(to[3] > from[5] + 0.005, ("from %g to %g m"):format(from[5], to[3]))
     assert.is_true(moved <= 0.1 * (time() - begun) + 1e-4, ("%g m in %g s"):format(moved, time() - begun))
-    local said = page:run [[return player.state.get("events").filter((e) => e.kind === "hand").map((e) => e.text)]]
+    local said = page:run [[
+      return player.state.get("events").filter((e) => e.kind === "hand").map((e) => e.text);]]
     assert.are.same({ "gripper 'hand' is led by hand", "gripper 'hand' is let go by hand" }, said)
     steps(5)
     local still = page:run [=[return player.view.actors.find((a) => a.kind === "gripper").group.position.z]=]

@@ -135,8 +135,8 @@ describe("scene:remove", function()
       assert.are.equal(t <= 0.05 + 1e-9, column.values[i] == column.values[i])
     end
     local path = os.tmpname()
-    for _, kind in ipairs{ ".html", ".glb", ".obj", ".pvd" } do
-      run[({ [".html"] = "report", [".glb"] = "gltf", [".obj"] = "obj", [".pvd"] = "vtk" })[kind]](run, path .. kind)
+    for ending, method in pairs{ html = "report", glb = "gltf", obj = "obj", pvd = "vtk" } do
+      run[method](run, path .. "." .. ending)
     end
     for _, technique in ipairs{ "particles", "wireframe", "shaded" } do
       run:picture{ path = path .. ".png", technique = technique, t = 0.1 }

@@ -47,7 +47,8 @@ local function remove_body(scene, kind, body)
   local left, entry = without(data[lists[kind]], body)
   if not entry then error(("scene:remove: '%s' was taken away already"):format(tostring(body.name)), 0) end
   if data.running and #data.wires + #data.particles == 1 then
-    error(("scene:remove: '%s' is the last wire, and a run is under way, which needs one"):format(entry.name), 0)
+    error(("scene:remove: '%s' is the last wire, and a run is under way, which needs one")
+      :format(entry.name), 0)
   end
   local gone = entry_of(kind, entry)
   gone.time = scene.time

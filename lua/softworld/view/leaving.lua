@@ -125,8 +125,8 @@ local function add_forces(scene, list, hidden)
   end
 end
 
---- What is in a scene by name: { { name, class, kind, leaves = can it go, force = its number } }. made: forces
--- that were added by hand, which are listed by themselves; hand: the one that pulls.
+--- What is in a scene by name: { { name, class, kind, leaves = can it go, force = its number } }. made:
+-- forces that were added by hand, which are listed by themselves; hand: the one that pulls.
 function leaving.objects(scene, made, hand)
   local data, list, grips, hidden = build.data(scene), {}, {}, { [hand or false] = true }
   local function add(name, kind, class)

@@ -25,7 +25,8 @@ local function signature(scene)
   for i, name in ipairs(build.lists) do parts[i] = #data[name] end
   for _, g in ipairs(data.grippers) do
     local last = g.spans[#g.spans]
-    parts[#parts + 1] = ("%d %s %s %s"):format(#g.spans, last and last.to or "", g.tool and 1 or 0, g.left or "")
+    parts[#parts + 1] = ("%d %s %s %s"):format(#g.spans, last and last.to or "", g.tool and 1 or 0,
+      g.left or "")
   end
   for _, w in ipairs(data.wires) do parts[#parts + 1] = w.object.model end
   for _, gone in ipairs(data.gone or {}) do parts[#parts + 1] = gone.label end
@@ -137,7 +138,8 @@ local function show_lines(own)
       count = line.count, undone = line.undone }
   end
   local head = own.draft and own.draft:script() or nil
-  put(own, LINES, { kind = "lines", lines = shown, undo = own.has_undo(own), total = #own.lines, unsaved = own.unsaved,
+  put(own, LINES, { kind = "lines", lines = shown, undo = own.has_undo(own), total = #own.lines,
+    unsaved = own.unsaved,
     script = not own.unsaved and orders.script(own.scene, own.lines, runs_of(own), head) or nil })
 end
 
