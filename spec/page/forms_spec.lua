@@ -95,6 +95,8 @@ describe("kinds that forms can make", function()
     for _, kind in ipairs(all) do
       local values = {}
       for _, field in ipairs(kind.fields) do values[field.name] = example(field) end
+      if kind.kind == "tie" then values.to = nil end -- there is to_wire
+      if kind.kind == "wait_for_distance" then values.point = nil end -- there is to
       if kind.on then values._on = 'a "cord"\n' end
       if kind.self == "gripper" then values._by = "hand" end
       local it, read = fill.read(kind.class, kind.kind, values)
@@ -114,6 +116,58 @@ describe("kinds that forms can make", function()
 end)
 
 describe("a scene put together by forms", function()
+  it("joins and ties wires, makes particles and holds them, and waits for what it reads", function()
+    local d = hanging()
+    add(d, "wire", "rod", { name = "branch", cable = "GXL 1.5", from = { 0.25, 0, 0.1 },
+      to = { 0.25, 0.2, 0.1 } })
+    add(d, "fixing", "join", { one = "cord", s = 0.25, other = "branch", other_s = 0 })
+    add(d, "fixing", "tie", { _on = "branch", s = 0.2, to_wire = "cord", to_s = 0.5, slack = 0.4 })
+    add(d, "particles", "sheet", { name = "net", at = { 0, 1, 0.2 }, along = { 0.1, 0, 0 },
+      across = { 0, 0.1, 0 }, columns = 3, rows = 2, masses = 1e-3, k = 50, shear = 10 })
+    add(d, "hold", "hold", { _on = "net", particles = { 1, 3 } })
+    add(d, "gripper", "gripper", { name = "hand", at = { 0.5, 0, 0.1 } })
+    add(d, "step", "grasp", { _by = "hand", _on = "cord", s = 0.45 })
+    add(d, "step", "wait_for_force", { on = "hand", force = 1e-4, timeout = 0.1 })
+    add(d, "step", "wait_for_contact", { contact = "block", timeout = 0.05 })
+    local scene = add(d, "step", "wait_for_distance",
+      { from = "hand", point = { 0.45, 0, 0.1 }, distance = 0.5 })
+    for _, line in ipairs {
+      'scene:join { name = "join1", ends = { { cord, s = 0.25 }, { branch, s = 0 } } }',
+      'scene:tie(branch, { name = "tie1", s = 0.2, to = { cord, s = 0.5 }, slack = 0.4 })',
+      'scene:hold(net, { name = "hold1", particles = { 1, 3 } })',
+      "p:wait_until({ on = hand, force = 0.0001 }, { timeout = 0.1 })",
+      "p:wait_until({ contact = block }, { timeout = 0.05 })",
+      "p:wait_until({ between = { hand, { 0.45, 0, 0.1 } }, distance = 0.5 })" } do
+      assert.truthy(d:script():find(line, 1, true), line .. "\n" .. d:script())
+    end
+    assert.equal(6, scene:find("net").count)
+    -- 7 links along sides, 4 across cells; the sides' lengths are those of the cells
+    local _, strains = scene:find("net"):links()
+    assert.equal(11, #strains)
+    local run = scene:run { dt = 0.002 }
+    assert.is_true(run.ok, run.reason)
+    assert.near(0, select(3, table.unpack((scene:find("net"):particle(1)))) - 0.2, 1e-9)
+    for _, case in ipairs {
+      { a_change("fixing", "join", { one = "cord", s = 0.25 }), "join: other is required: the wire" },
+      { a_change("fixing", "join", { one = "cord", s = 0.1, other = "branch", other_s = 0 }),
+        "ends must meet" },
+      { a_change("fixing", "tie", { _on = "cord", s = 0, to = { 0, 0, 0 }, to_wire = "branch", to_s = 0 }),
+        "give to or to_wire, not both" },
+      { a_change("particles", "sheet", { at = { 0, 0, 0 }, along = { 1, 0, 0 }, across = { 0, 1, 0 },
+        masses = 1, k = 1, columns = 100, rows = 100 }), "100 x 100 particles are not allowed" },
+      { a_change("particles", "particles", { positions = { { 0, 0, 0 }, { 1, 0, 0 } }, masses = 1,
+        pairs = { 1, 5 }, k = 1 }), "5" },
+      { a_change("step", "wait_for_force", { force = 1 }), "on is required" },
+      { a_change("step", "wait_for_distance", { from = "hand", distance = 1 }),
+        "to or point is required" } } do
+      local before = d:script()
+      local fine, message = pcall(d.change, d, case[1])
+      assert.is_false(fine, case[2])
+      assert.truthy(tostring(message):find(case[2], 1, true), message)
+      assert.equal(before, d:script())
+    end
+  end)
+
   it("is the scene of its script, bit for bit, after any number of changes", function()
     local d = hanging()
     add(d, "gripper", "gripper", { name = "hand", at = { 0.5, 0, 0.2 } })

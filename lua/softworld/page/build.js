@@ -4,7 +4,7 @@
 import { h, icon, iconButton, download } from "./dom.js";
 import { Form } from "./forms.js";
 
-const CLASSES = [["wire", "Wire"], ["obstacle", "Obstacle"], ["hold", "Hold"], ["gripper", "Gripper"], ["force", "Force"],
+const CLASSES = [["wire", "Wire"], ["particles", "Particles"], ["obstacle", "Obstacle"], ["hold", "Hold"], ["gripper", "Gripper"], ["force", "Force"],
   ["fixing", "Fixing"], ["contact", "Contact"]];
 
 export class Build {
@@ -61,8 +61,8 @@ export class Build {
   }
 
   things(kind) {
-    const all = this.objects.filter((o) => o.kind === kind || o.class === kind || (kind === "wire" && o.class === "wire"));
-    return all.map((o) => o.name);
+    const kinds = kind.split(" ");
+    return this.objects.filter((o) => kinds.includes(o.kind) || kinds.includes(o.class)).map((o) => o.name);
   }
 
   /** What there is to be seen. */
@@ -94,7 +94,7 @@ export class Build {
       const def = this.kindOf(cls, name);
       const form = new Form(def, given, { things: (k) => this.things(k), cables: this.cables, word, send, more, cancel: () => this.close() });
       box.replaceChildren(...(own.length > 1 ? [h("div.row.choose", {}, h("label", { for: `${form.id}-kind` }, cls === "wire" ? "model"
-        : cls === "obstacle" ? "shape" : "kind"), h("select", { id: `${form.id}-kind`, onchange: (e) => {
+        : cls === "step" ? "step" : cls === "obstacle" ? "shape" : "kind"), h("select", { id: `${form.id}-kind`, onchange: (e) => {
         show(e.target.value, { ...this.kindOf(cls, e.target.value).start, ...form.typed() });
         box.querySelector("select").focus();
       } }, ...own.map((k) => h("option", { value: k.kind, selected: k.kind === name, title: k.doc }, k.kind.replace(/_/g, " ")))))] : []),

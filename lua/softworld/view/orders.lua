@@ -219,6 +219,8 @@ function make.add(scene, m)
     line = ("made[%d] = %s"):format(m.serial, line)
   elseif kind.class == "obstacle" or kind.class == "hold" then
     inverse = ("%s:%s()"):format(reference(values.name), kind.class == "hold" and "release" or "remove")
+  elseif fill.has_name(kind) then
+    inverse = ("scene:remove %s"):format(source(values.name))
   end
   return line, inverse and function() return inverse end
 end
