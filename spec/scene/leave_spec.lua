@@ -231,6 +231,7 @@ describe("scene:remove", function()
     assert.are.near(0.1, c:position(0.1)[2], 1e-9)
     local frames = run:document().frames
     assert.are.equal(0, #frames[#frames].particles[1])
+    assert.are.same({ false, "net", "particles 'net' (taken away)" }, { net.present, net.name, tostring(net) })
     assert.are.near(0.2, frames[#frames].wires[4][2], 1e-6)
   end)
 end)

@@ -253,7 +253,7 @@ export class Build {
     const shift = (by, words, picture) => iconButton(picture, words, () => this.order("shift", { id: item.id, by }).catch(() => {}));
     li.append(h("div.thing", {}, h("button.thing-name", { type: "button", title: "Change it", onclick: () => this.edit(item, li) },
       h("span", {}, name), h("small", {}, step ? (several ? `process ${item.process}` : "") : item.name ? item.kind : "force"),
-      h("code", { title: item.text }, item.text)),
+      h("code", { title: item.text.slice(0, 600) }, item.text.slice(0, 200))),
     step ? shift(-1, "Earlier", "up") : null, step ? shift(1, "Later", "down") : null,
     iconButton("close", `Remove ${name}`, () => this.order("remove", { id: item.id }).catch(() => {}))));
     return li;

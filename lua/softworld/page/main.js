@@ -251,7 +251,7 @@ function openView(data, state, span) {
     viewButtons(view);
     compass($("stage"), view.stage);
     tools(view, state);
-    objectTree($("objects"), view, data, state);
+    endTree = objectTree($("objects"), view, data, state);
     thicken(view, state);
     view.update();
     return view;
@@ -267,6 +267,8 @@ const usual = (data) => ({ playing: false, speed: 1, loop: false, theme: firstTh
   custom: null, thick: 1, arrows: false, ways: true, glass: false, shadows: true, hidden: new Set(), selected: null, probe: null,
   tool: null, cut: null, cutAt: 0.5, flip: false, quantity: data.runs.length === 1 && knownQuantities(data, "all", 0, null)[0]?.key || null });
 
+let endTree = null; // of the tree of objects that is shown
+
 /** What the live page takes of the player. */
 const shared = {
   say, frame,
@@ -276,7 +278,8 @@ const shared = {
     if (fit && view.refit()) thicken(view, state);
     view.renew();
     $("objects").replaceChildren();
-    objectTree($("objects"), view, data, state);
+    endTree?.();
+    endTree = objectTree($("objects"), view, data, state);
   },
   finish(data, state, view, transport, more) {
     $("title").textContent = data.title;

@@ -73,7 +73,7 @@ export class State {
     }
     if (changed.size) for (const f of this.listeners) f(this.values, changed);
   }
-  /** f(values, set of changed keys), now with all of them and then at each change. */
+  /** f(values, set of changed keys), now with all of them and then at each change. Returns what ends it. */
   watch(keys, f) {
     const wanted = new Set(keys);
     const call = (values, changed) => {
@@ -82,6 +82,7 @@ export class State {
     };
     this.listeners.push(call);
     f(this.values, wanted);
+    return () => { this.listeners = this.listeners.filter((one) => one !== call); };
   }
 }
 

@@ -69,6 +69,8 @@ end
 
 local MOST_IN_SHEET = 900
 
+local function short(x) return tonumber(("%.12g"):format(x)) end
+
 -- Rows of particles, linked to their neighbours and, if that is wanted, across.
 local function write_sheet(values, _, source)
   local args, n, m = some(values, "name masses radius"), values.columns or 6, values.rows or 6
@@ -83,7 +85,7 @@ local function write_sheet(values, _, source)
     for i = 1, n do
       local k = (j - 1) * n + i
       for c = 1, 3 do
-        positions[#positions + 1] = at[c] + along[c] * (i - 1) / (n - 1) + across[c] * (j - 1) / (m - 1)
+        positions[#positions + 1] = short(at[c] + along[c] * (i - 1) / (n - 1) + across[c] * (j - 1) / (m - 1))
       end
       if i < n then link(links, k, k + 1) end
       if j < m then link(links, k, k + n) end
