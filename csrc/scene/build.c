@@ -122,7 +122,8 @@ static sw_status inherit_contact(sw_scene *s) {
   if (s->pairs && status == SW_OK)
     status = sw_pairs_inherit(s->pairs, s->kept.pairs, s->kept.pair_bytes, new_node);
   if (s->grains && status == SW_OK)
-    status = sw_grains_inherit(s->grains, s->kept.grains, s->kept.grain_bytes, new_node);
+    status =
+        sw_grains_inherit(s->grains, s->kept.grains, s->kept.grain_bytes, new_node, s->kept.now);
   sw_free(new_node);
   return status;
 }

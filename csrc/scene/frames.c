@@ -67,9 +67,19 @@ void sw_scene_drop_last_frame(sw_scene *s) {
   sw_free(s->frames[s->frame_count].data);
 }
 
+/* Frames of a run from another state may tell of what the scene does not know, or of later. */
+static int is_of_past(const sw_scene *s, const sw_frame *f) {
+  return f->time <= s->time && f->wires <= sw_scene_bodies_made(s) &&
+         f->obstacles <= s->obstacle_count && f->holds <= s->hold_count &&
+         f->tools <= s->tool_count;
+}
+
 void sw_scene_frames_back_to(sw_scene *s, size_t count, size_t stride) {
   const size_t ratio = s->frame_stride > stride && stride ? s->frame_stride / stride : 1;
-  const size_t kept = (count + ratio - 1) / ratio;
+  size_t kept = (count + ratio - 1) / ratio;
+  if (kept > s->frame_count) kept = s->frame_count;
+  for (size_t k = 0; k < kept; k++)
+    if (!is_of_past(s, &s->frames[k])) kept = k;
   while (s->frame_count > kept) sw_scene_drop_last_frame(s);
 }
 

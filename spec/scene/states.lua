@@ -145,6 +145,20 @@ end, function(s)
   settled(s)
 end)
 
+case("an object that lies on a wire when one made before it leaves", function(s)
+  s:obstacle{ name = "table", shape = "plane", friction = 0.5 }
+  rod(s, { from = { 0, 0.2, R }, to = { 0.4, 0.2, R } })
+  rod(s, { name = "b" })
+  s:particles{ name = "net", radius = 0.002, masses = 0.01, links = { { pairs = { 1, 2, 2, 3 }, k = 100 } },
+    positions = { 0.2, -0.03, 0.0079, 0.2, 0, 0.0079, 0.2, 0.03, 0.0079 } }
+  s:wire_contact{ friction = 0.3 }
+end, function(s)
+  settled(s)
+  s:remove "a"
+  settled(s)
+  assert(#s:touches() > 0)
+end, settled)
+
 -- --- grippers ---------------------------------------------------------------------------
 
 local function table_and_wire(s, without)
