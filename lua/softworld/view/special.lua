@@ -85,7 +85,8 @@ local function write_sheet(values, _, source)
     for i = 1, n do
       local k = (j - 1) * n + i
       for c = 1, 3 do
-        positions[#positions + 1] = short(at[c] + along[c] * (i - 1) / (n - 1) + across[c] * (j - 1) / (m - 1))
+        local x = along[c] * (i - 1) / (n - 1) + across[c] * (j - 1) / (m - 1)
+        positions[#positions + 1] = short(at[c] + x)
       end
       if i < n then link(links, k, k + 1) end
       if j < m then link(links, k, k + n) end
