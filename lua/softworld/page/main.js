@@ -187,7 +187,7 @@ function header(data, state) {
   $("status").textContent = failed.length ? "FAILED" : data.runs.some((run) => run.unmet) ? "not as exact as asked" : "ok";
   $("status").className = `badge ${failed.length ? "bad" : data.runs.some((run) => run.unmet) ? "warn" : "good"}`;
   for (const run of failed) {
-    $("banner").append(h("p", {}, h("strong", {}, `${run.name} failed. `), run.reason || "No reason is given."));
+    $("banner").append(h("p", {}, h("strong", {}, h("bdi", {}, run.name), " failed. "), run.reason || "No reason is given."));
   }
   $("banner").hidden = !failed.length;
   document.body.classList.toggle("failed", failed.length > 0);
