@@ -288,6 +288,38 @@ describe("scene:remove with grippers", function()
     end)
   end
 
+  it("ends a process from under which its gripper is taken, and the run goes on", function()
+    local scene = sw.scene()
+    local a = rod(scene, "a", 0)
+    local hand = scene:gripper{ name = "hand", at = { 0, 0, 0.1 } }
+    scene:process(function(p)
+      hand:grasp(a, { s = 0.02 })
+      p:wait(0.05)
+      hand:move{ by = { 0, 0, 0.1 }, speed = 1 }
+    end)
+    local later
+    scene:process(function(p)
+      p:wait(0.1)
+      later = p.time
+    end)
+    at(scene, 0.02, function() scene:remove(hand) end)
+    local run = scene:run{ dt = 0.005 }
+    assert.is_true(run.ok, run.reason)
+    assert.are.near(0.1, later, 1e-9)
+    assert.are.near(0.05, run.events[2].time, 1e-9)
+    assert(run.events[2].text:find("process 1 ends: .*gripper 'hand' was taken away at t = 0.02 s"))
+    -- what a process takes away itself is its own mistake
+    local other, b = sw.scene(), nil
+    b = rod(other, "b", 0)
+    rod(other, "c", 0.1)
+    other:process(function(p)
+      p:wait(0.01)
+      other:remove(b)
+      b:position(0)
+    end)
+    refused("'b' was taken away from scene", function() other:run{ dt = 0.005 } end)
+  end)
+
   it("refuses a part of a gripper, and its grip, and names it", function()
     table_with("plates", function(scene, hand)
       refused("is a part of gripper 'hand'; remove that", function()

@@ -7,6 +7,7 @@ local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local grasp = require "softworld.grip.grasp"
+local process = require "softworld.run.process"
 local rows = require "softworld.rows"
 
 rows.calls{
@@ -39,7 +40,9 @@ local function entry_of(kind, entry)
 end
 
 local function told(scene, kind, name)
-  if not build.data(scene).running then return end
+  local data = build.data(scene)
+  if not data.running then return end
+  data.bereft = data.bereft or not process.current() or nil
   scene:tell{ kind = "removed", object = name, text = ("%s '%s' is taken away"):format(kind, name) }
 end
 
