@@ -206,6 +206,22 @@ describe("scene:remove", function()
     assert.is_true(b.present)
   end)
 
+  it("goes with error bars before a run, and is told when it comes within", function()
+    local function run(work)
+      local scene, a, b = three()
+      scene:clamp(a, { s = 0 })
+      scene:remove "c"
+      scene:process(function(p)
+        p:wait(0.01)
+        work(scene, b)
+        p:wait(0.01)
+      end)
+      return scene:run{ tolerance = { ["a.tip"] = 1e-3 } }
+    end
+    assert.is_true(run(function() end).ok)
+    refused("'b' was taken away on the way", function() run(function(scene, b) scene:remove(b) end) end)
+  end)
+
   it("takes everything else that can go", function()
     local scene, a, b = three()
     local box = scene:obstacle{ shape = "box", size = { 0.1, 0.1, 0.1 }, at = { 0, 1, 0 }, name = "box" }
