@@ -176,6 +176,15 @@ describe("scene:remove", function()
     assert.are.equal("a b c", table.concat(again:names(), " "))
     assert.are.near(0.07, again:find("b"):position(0.1)[2], 1e-12)
     assert.are.equal(3, #scene:describe().wires)
+    scene:run{ duration = 0.01, dt = 0.005 }
+    scene:remove "b"
+    rod(scene, "b", 0.05)
+    local names = {}
+    for _, column in ipairs(scene:run{ duration = 0.01, dt = 0.005 }:series().columns) do
+      assert.is_nil(names[column.name])
+      names[column.name] = true
+    end
+    assert.is_true(names["b.tension"])
   end)
 
   it("goes on from a file with the same bits", function()

@@ -115,9 +115,15 @@ local function sources(self)
   for _, f in ipairs(data.fixings) do
     if core.exists(f.object) then add_fixing(list, f.fixing, self.start) end
   end
-  for _, w in ipairs(data.wires) do add_wire(list, w.object, w.name, self.start) end
-  for _, g in ipairs(data.gone or {}) do
-    if g.kind == "wire" then add_wire(list, g.body, g.label, self.start) end
+  local taken = {}
+  for _, w in ipairs(data.wires) do
+    add_wire(list, w.object, w.name, self.start)
+    taken[w.name] = true
+  end
+  for _, g in ipairs(data.gone or {}) do -- another one may have its name by now
+    local name = taken[g.label] and ("%s until %.6g s"):format(g.label, g.time) or g.label
+    if g.kind == "wire" then add_wire(list, g.body, name, self.start) end
+    taken[name] = true
   end
   return list
 end

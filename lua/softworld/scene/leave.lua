@@ -14,7 +14,6 @@ rows.calls{
   { "scene:remove", "object or name", "takes it out of the scene, with what belongs to it" },
   { "scene:forces", "", "all that were made, in that order; force.held tells which act", "a list" },
   { "wire.present", nil, "whether it is in its scene still", "true or false" },
-  { "particles.present", nil, "whether it is in its scene still", "true or false" },
 }
 
 local lists = { wire = "wires", particles = "particles" }
