@@ -222,7 +222,8 @@ describe("exchange", function()
         end)
       end
     end }
-    local doc, data = check(scene:run { duration = 0.04, dt = 0.01, frame = 0.01 }:gltf(folder .. "/gone.glb"))
+    local changed = scene:run { duration = 0.04, dt = 0.01, frame = 0.01 }
+    local doc, data = check(changed:gltf(folder .. "/gone.glb"))
     local sizes = {}
     for _, channel in ipairs(doc.animations[1].channels) do
       if channel.target.path == "scale" then

@@ -402,8 +402,8 @@ describe("softworld --view without a script", function()
       submit()
       closed()
     end
-    local line = "p:wait_until({ on = hand, force = 0.01 }, { timeout = 1 })"
-    assert.truthy(text "ol.things":find(line, 1, true))
+    local wait = "p:wait_until({ on = hand, force = 0.01 }, { timeout = 1 })"
+    assert.truthy(text "ol.things":find(wait, 1, true))
     assert.is_true(page:run [[return player.view.actors.some((a) => a.kind === "particles" && a.there)]])
     set_duration ""
     click "#run"

@@ -334,8 +334,8 @@ describe("scene:remove with grippers", function()
     assert.are.near(0.05, run.events[2].time, 1e-9)
     assert(run.events[2].text:find("process 1 ends: .*gripper 'hand' was taken away at t = 0.02 s"))
     -- what a process takes away itself is its own mistake
-    local other, b = sw.scene(), nil
-    b = rod(other, "b", 0)
+    local other = sw.scene()
+    local b = rod(other, "b", 0)
     rod(other, "c", 0.1)
     other:process(function(p)
       p:wait(0.01)

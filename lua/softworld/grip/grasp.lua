@@ -320,13 +320,13 @@ local function impose(self, wire, s)
     s = nearest_place(wire, at)
   end
   local count = #self.past
+  local hold = self.scene:grip(wire, { s = s, width = self.width, -- first, for it may be refused
+    name = self.name .. (count > 0 and "#" .. count + 1 or "") })
   if #self.grips > 0 and not self.carrier then
     grasp.make_carrier(self)
     self.carrier:hold(self.hold)
     self.spans[count].carried = self.scene.time
   end
-  local hold = self.scene:grip(wire, { s = s, width = self.width,
-    name = self.name .. (count > 0 and "#" .. count + 1 or "") })
   local span = { from = self.scene.time }
   if self.carrier then
     if #self.grips == 0 then self.carrier:pose(hold:pose()) end
