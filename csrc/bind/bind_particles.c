@@ -231,12 +231,9 @@ static const luaL_Reg methods[] = {{"positions", meth_positions},
                                    {"energy", meth_energy},
                                    {"set_velocity", meth_set_velocity},
                                    {NULL, NULL}};
-static const luaL_Reg properties[] = {{"name", prop_name},
-                                      {"present", prop_present},
-                                      {"count", prop_count},
-                                      {"mass", prop_mass},
-                                      {"radius", prop_radius},
-                                      {NULL, NULL}};
+static const luaL_Reg properties[] = {{"name", prop_name},     {"present", prop_present},
+                                      {"count", prop_count},   {"mass", prop_mass},
+                                      {"radius", prop_radius}, {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
 const lsw_class lsw_class_particles = {.name = "particles",

@@ -358,26 +358,7 @@ local function drop(self, wire)
   self.hold, self.wire = left[1] and left[1].hold, left[1] and left[1].wire
 end
 
---- The gripper is about to be taken away: its wires are as they would be had it let go.
-function grasp.lose_all(self)
-  if self.frozen then mixed.thaw(self) end
-  if self.tool and self.way == "mixed" and self.wire then mixed.finish(self) end
-  for _, grip in ipairs(self.grips) do grasp.lose_wire(self, grip.wire) end
-end
-
---- The wire is about to be taken away: the gripper has it no more, and to let go of it later is no mistake.
-function grasp.lose_wire(self, wire)
-  local left, held = {}, false
-  for _, grip in ipairs(self.grips) do
-    if grip.wire == wire then held = true else left[#left + 1] = grip end
-  end
-  if not held then return end
-  self.bereft = true
-  if not self.tool then return drop(self, wire) end
-  if self.wire == wire then self.frozen = nil end
-  self.grips, self.wire = left, left[1] and left[1].wire
-  self.held = self.held and #left > 0
-end
+grasp.drop = drop
 
 -- All of the wires or none more than before.
 local function grasp_imposed(self, wires, args)

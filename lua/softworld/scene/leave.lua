@@ -7,6 +7,7 @@ local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local grasp = require "softworld.grip.grasp"
+local losing = require "softworld.grip.losing"
 local process = require "softworld.run.process"
 local rows = require "softworld.rows"
 
@@ -55,7 +56,7 @@ local function remove_body(scene, kind, body)
   end
   local gone = entry_of(kind, entry)
   gone.time = scene.time
-  for _, gripper in ipairs(data.grippers) do grasp.lose_wire(gripper, body) end
+  for _, gripper in ipairs(data.grippers) do losing.wire(gripper, body) end
   core.remove_body(body)
   data[lists[kind]] = left
   data.gone = table.move(data.gone or {}, 1, #(data.gone or {}), 1, {})
@@ -65,7 +66,7 @@ end
 
 local function remove_gripper(scene, gripper)
   grasp.check_there(gripper, 0)
-  grasp.lose_all(gripper)
+  losing.all(gripper)
   for _, tool in ipairs{ gripper.tool or false, gripper.carrier or false } do
     if tool and core.exists(tool) then core.remove_tool(tool) end
   end
