@@ -79,10 +79,10 @@ static void push_frame_values(lua_State *L, const sw_scene *scene, size_t frame)
   lua_newtable(L);
   for (size_t w = 0; sw_scene_frame_wire(scene, frame, w, &count) != NULL; w++) {
     const float *p = sw_scene_frame_values(scene, frame, w, &count);
-    if (!p) continue;
+    if (!p && (count || sw_scene_frame_is_loose(scene, w))) continue;
     lua_createtable(L, 0, SW_FRAME_FORCE);
     for (size_t k = 0; k < SW_FRAME_FORCE; k++) {
-      push_floats(L, p + k, count, SW_FRAME_VALUES);
+      push_floats(L, p ? p + k : p, count, SW_FRAME_VALUES); /* of none when it is gone */
       lua_setfield(L, -2, channels[k]);
     }
     lua_rawseti(L, -2, ++number);

@@ -158,7 +158,11 @@ static int prop_shape(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
   sw_shape *shape;
+  const char *kind;
+  int present = 0;
   const lsw_child *o = check(L, &scene);
+  if (!sw_scene_obstacle_name(scene, o->id, &kind, &present) || !present)
+    return luaL_error(L, "this obstacle is not of scene '%s' any more", sw_scene_name(scene));
   lsw_must(L, sw_scene_obstacle_shape(scene, o->id, &shape, &err), &err);
   lsw_push_shape(L, shape);
   return 1;

@@ -170,9 +170,17 @@ static int meth_set_velocity(lua_State *L) {
 
 static int prop_name(lua_State *L) {
   sw_scene *scene;
-  const lsw_child *p;
-  info_of(L, &scene, &p);
-  lua_pushstring(L, sw_scene_wire_name(scene, p->id));
+  double gone; /* objects that were taken away have their name still */
+  const lsw_child *p = lsw_check_child(L, 1, &lsw_class_particles, &scene);
+  const char *name = sw_scene_wire_name(scene, p->id);
+  lua_pushstring(L, name ? name : sw_scene_gone_name(scene, p->id, &gone));
+  return 1;
+}
+
+static int prop_present(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *p = lsw_check_child(L, 1, &lsw_class_particles, &scene);
+  lua_pushboolean(L, sw_scene_wire_name(scene, p->id) != NULL);
   return 1;
 }
 
@@ -204,6 +212,8 @@ static int meta_describe(lua_State *L) {
   char text[SW_NAME_SIZE + 160];
   const lsw_child *p = lsw_find_child(L, &lsw_class_particles, &scene);
   if (!p) return 1;
+  const char *gone = sw_scene_gone_name(scene, p->id, &info.mass);
+  if (gone) return lua_pushfstring(L, "particles '%s' (taken away)", gone), 1;
   if (sw_scene_particles_info(scene, p->id, &info, &err) != SW_OK)
     return lua_pushliteral(L, "particles (gone)"), 1;
   snprintf(text, sizeof text,
@@ -221,11 +231,9 @@ static const luaL_Reg methods[] = {{"positions", meth_positions},
                                    {"energy", meth_energy},
                                    {"set_velocity", meth_set_velocity},
                                    {NULL, NULL}};
-static const luaL_Reg properties[] = {{"name", prop_name},
-                                      {"count", prop_count},
-                                      {"mass", prop_mass},
-                                      {"radius", prop_radius},
-                                      {NULL, NULL}};
+static const luaL_Reg properties[] = {{"name", prop_name},     {"present", prop_present},
+                                      {"count", prop_count},   {"mass", prop_mass},
+                                      {"radius", prop_radius}, {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
 const lsw_class lsw_class_particles = {.name = "particles",

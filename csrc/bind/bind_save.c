@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes as strings, which the Lua side writes to files and reads from them, and the numbers by
  * which objects are found again. */
+#include <stdint.h>
 #include <string.h>
 
 #include "bind/child.h"
@@ -104,6 +105,15 @@ static const lsw_class *const children[] = {
     &lsw_class_force, &lsw_class_join,      &lsw_class_tool};
 enum { CHILDREN = sizeof children / sizeof children[0] };
 
+/* Its slot; of a wire or an object of particles, whose slots change, its number in frames. */
+static size_t slot_of(const lsw_class *c, const lsw_child *child) {
+  const lsw_scene_handle *owner = child->h.object;
+  const sw_scene *scene = owner ? owner->h.object : NULL;
+  if (!scene || (c != &lsw_class_wire && c != &lsw_class_particles)) return child->id.slot;
+  const size_t number = sw_scene_body_number(scene, child->id);
+  return number == SIZE_MAX ? UINT32_MAX : number;
+}
+
 /* core.number(object) -> class, slot, generation, scene; nothing for what is none of a scene's */
 static int mod_number(lua_State *L) {
   const lsw_class *c = lsw_class_of(L, 1);
@@ -111,7 +121,7 @@ static int mod_number(lua_State *L) {
     if (children[k] != c) continue;
     const lsw_child *child = lua_touserdata(L, 1);
     lua_pushstring(L, c->name);
-    lua_pushinteger(L, child->id.slot);
+    lua_pushinteger(L, (lua_Integer)slot_of(c, child));
     lua_pushinteger(L, child->id.generation);
     lua_getiuservalue(L, 1, 1);
     return 4;

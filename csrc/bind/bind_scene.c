@@ -76,7 +76,8 @@ static int mod_exists(lua_State *L) {
     known =
         scene &&
         (c == &lsw_class_wire || c == &lsw_class_particles
-             ? sw_scene_wire_name(scene, child->id) != NULL
+             ? sw_scene_wire_name(scene, sw_scene_body_now(scene, child->id)) != NULL
+         : c == &lsw_class_tool  ? sw_scene_tool_name(scene, child->id) != NULL
          : c == &lsw_class_clamp ? sw_scene_hold_name(scene, child->id, &kind, &alive) != NULL
          : c == &lsw_class_join  ? sw_scene_join_name(scene, child->id, &alive, &ends) != NULL
          : c == &lsw_class_force ? sw_scene_force_class(scene, child->id) != NULL

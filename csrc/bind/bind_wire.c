@@ -390,8 +390,17 @@ static int prop_model(lua_State *L) {
 
 static int prop_name(lua_State *L) {
   sw_scene *scene;
+  double gone; /* a wire that was taken away has its name still */
   const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  lua_pushstring(L, sw_scene_wire_name(scene, w->id));
+  const char *name = sw_scene_wire_name(scene, w->id);
+  lua_pushstring(L, name ? name : sw_scene_gone_name(scene, w->id, &gone));
+  return 1;
+}
+
+static int prop_present(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  lua_pushboolean(L, sw_scene_wire_name(scene, w->id) != NULL);
   return 1;
 }
 
@@ -404,6 +413,8 @@ static int meta_describe(lua_State *L) {
   const lsw_child *w = lsw_find_child(L, &lsw_class_wire, &scene);
   if (!w) return 1;
   const char *name = sw_scene_wire_name(scene, w->id);
+  const char *gone = name ? NULL : sw_scene_gone_name(scene, w->id, &length);
+  if (gone) return lua_pushfstring(L, "wire '%s' (taken away)", gone), 1;
   if (sw_scene_wire_length(scene, w->id, &length, &err) != SW_OK ||
       sw_scene_wire_nodes(scene, w->id, &nodes, &err) != SW_OK)
     return lua_pushliteral(L, "wire (gone)"), 1;
@@ -438,13 +449,10 @@ static const luaL_Reg methods[] = {{"position", meth_position},
                                    {"frequencies", lsw_wire_frequencies},
                                    {"remodel", lsw_wire_remodel},
                                    SW_READOUTS(READOUT){NULL, NULL}};
-static const luaL_Reg properties[] = {{"length", prop_length},
-                                      {"segments", prop_segments},
-                                      {"beam", push_beam},
-                                      {"radius", prop_radius},
-                                      {"name", prop_name},
-                                      {"model", prop_model},
-                                      {NULL, NULL}};
+static const luaL_Reg properties[] = {{"length", prop_length}, {"segments", prop_segments},
+                                      {"beam", push_beam},     {"radius", prop_radius},
+                                      {"name", prop_name},     {"present", prop_present},
+                                      {"model", prop_model},   {NULL, NULL}};
 static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
 const lsw_class lsw_class_wire = {.name = "wire",

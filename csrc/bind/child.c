@@ -13,11 +13,15 @@ lsw_child *lsw_new_child(lua_State *L, int scene, const lsw_class *c) {
   return child;
 }
 
+/* Slots of bodies close up when one leaves. */
+static int is_body(const lsw_class *c) { return c == &lsw_class_wire || c == &lsw_class_particles; }
+
 lsw_child *lsw_check_child(lua_State *L, int index, const lsw_class *c, sw_scene **scene) {
   lsw_child *child = lsw_check(L, index, c);
   lsw_scene_handle *owner = child->h.object;
   if (!owner->h.object) luaL_error(L, "the scene of this %s has been closed", c->name);
   *scene = owner->h.object;
+  if (is_body(c)) child->id = sw_scene_body_now(*scene, child->id);
   return child;
 }
 
@@ -38,9 +42,10 @@ lsw_child *lsw_check_body_of(lua_State *L, int index, const sw_scene *scene, con
 }
 
 const lsw_child *lsw_find_child(lua_State *L, const lsw_class *c, sw_scene **scene) {
-  const lsw_child *child = lsw_test(L, 1, c);
+  lsw_child *child = lsw_test(L, 1, c);
   const lsw_scene_handle *owner = child ? child->h.object : NULL;
   *scene = owner ? owner->h.object : NULL;
+  if (*scene && is_body(c)) child->id = sw_scene_body_now(*scene, child->id);
   if (*scene) return child;
   lua_pushfstring(L, "%s (its scene has been closed)", c->name);
   return NULL;

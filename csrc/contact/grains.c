@@ -202,8 +202,8 @@ static int by_order(const void *p, const void *q) {
   return sw_grain_order(&((const sw_grain_touch *)p)->pair, &((const sw_grain_touch *)q)->pair);
 }
 
-sw_status sw_grains_inherit(sw_grains *g, const void *memory, size_t bytes,
-                            const size_t *new_node) {
+sw_status sw_grains_inherit(sw_grains *g, const void *memory, size_t bytes, const size_t *new_node,
+                            const size_t *new_body) {
   size_t kept = 0;
   SW_TRY(sw_grains_set_memory(g, memory, bytes));
   for (size_t i = 0; i < g->memory_count; i++) {
@@ -216,6 +216,7 @@ sw_status sw_grains_inherit(sw_grains *g, const void *memory, size_t bytes,
       m.pair.node[n] = (uint32_t)node[n], m.pair.end[n] = (uint32_t)end[n];
     }
     if (!stays) continue;
+    for (int n = 0; n < 2; n++) m.pair.body[n] = (uint32_t)new_body[m.pair.body[n]];
     g->memory[kept++] = m;
   }
   g->memory_count = kept;

@@ -41,8 +41,9 @@ sw_status sw_grains_set_memory(sw_grains *grains, const void *memory, size_t byt
 int sw_grains_memory_fits(const void *memory, size_t bytes, const size_t *first, size_t bodies);
 int sw_grains_memory_names(const void *memory, size_t bytes, size_t node);
 size_t sw_grains_layout(void);
+/* new_node, new_body: what those of the memory are now; SIZE_MAX: they are gone. */
 sw_status sw_grains_inherit(sw_grains *grains, const void *memory, size_t bytes,
-                            const size_t *new_node);
+                            const size_t *new_node, const size_t *new_body);
 
 size_t sw_grains_count(const sw_grains *grains); /* places with a force */
 /* Place number k of those; of a particle the place along its segment is 0. */

@@ -47,6 +47,7 @@ void sw_scene_forget_contact(sw_scene *s) {
   sw_free(s->kept.grains);
   sw_free(s->kept.s);
   sw_free(s->kept.first);
+  sw_free(s->kept.now);
   memset(&s->kept, 0, sizeof s->kept);
 }
 
@@ -64,7 +65,9 @@ static sw_status keep_contact(sw_scene *s) {
   s->kept.pairs = sw_alloc(s->kept.pair_bytes, 1);
   s->kept.s = sw_alloc(s->system.nodes, sizeof *s->kept.s);
   s->kept.first = sw_alloc(s->wire_count + 1, sizeof *s->kept.first);
-  if (!s->kept.memory || !s->kept.pairs || !s->kept.grains || !s->kept.s || !s->kept.first) {
+  s->kept.now = sw_alloc(s->wire_count, sizeof *s->kept.now);
+  if (!s->kept.memory || !s->kept.pairs || !s->kept.grains || !s->kept.s || !s->kept.first ||
+      !s->kept.now) {
     sw_scene_forget_contact(s);
     return SW_ENOMEM;
   }
@@ -76,6 +79,7 @@ static sw_status keep_contact(sw_scene *s) {
     const sw_body *b = &s->system.bodies[w];
     memcpy(s->kept.s + b->first_node, b->plan->s, b->plan->nodes * sizeof(double));
     s->kept.first[w] = b->first_node;
+    s->kept.now[w] = w;
   }
   s->kept.first[s->kept.wires] = s->system.nodes;
   return SW_OK;
@@ -85,12 +89,12 @@ static sw_status keep_contact(sw_scene *s) {
  * is the same when its arc length is, one that was moved for a clamp starts anew; a segment is
  * when both of its ends are. */
 static void find_again(const sw_scene *s, size_t w, size_t *new_node, size_t *new_edge) {
-  const sw_body *b = &s->system.bodies[w];
-  const size_t first = s->kept.first[w], end = s->kept.first[w + 1];
+  const size_t first = s->kept.first[w], end = s->kept.first[w + 1], now = s->kept.now[w];
+  for (size_t k = first; k < end; k++) new_node[k] = new_edge[k] = SIZE_MAX;
+  if (now == SIZE_MAX || s->kept.changed == w + 1) return;
+  const sw_body *b = &s->system.bodies[now];
   size_t i = 0;
   for (size_t k = first; k < end; k++) {
-    new_node[k] = new_edge[k] = SIZE_MAX;
-    if (s->kept.changed == w + 1) continue;
     if (b->plan->web) { /* its particles stay as they are */
       new_node[k] = new_edge[k] = b->first_node + k - first;
       continue;
@@ -118,7 +122,8 @@ static sw_status inherit_contact(sw_scene *s) {
   if (s->pairs && status == SW_OK)
     status = sw_pairs_inherit(s->pairs, s->kept.pairs, s->kept.pair_bytes, new_node);
   if (s->grains && status == SW_OK)
-    status = sw_grains_inherit(s->grains, s->kept.grains, s->kept.grain_bytes, new_node);
+    status =
+        sw_grains_inherit(s->grains, s->kept.grains, s->kept.grain_bytes, new_node, s->kept.now);
   sw_free(new_node);
   return status;
 }

@@ -19,6 +19,7 @@ static void blank_scene(sw_scene *s) {
   memset(&s->system, 0, sizeof s->system);
   memset(&s->course.stepper, 0, sizeof s->course.stepper);
   s->builds = 0;
+  s->gone_capacity = 0, s->gone = NULL;
   s->frame_capacity = s->events.capacity = s->watches.capacity = s->watches.next = 0;
   s->frames = NULL, s->events.list = NULL, s->watches.list = NULL;
   s->frame_memory = 0;
@@ -67,6 +68,7 @@ sw_status sw_scene_fields(const sw_scene *s, unsigned char **out, size_t *size) 
     hold.node = hold.number = hold.slider.rail = 0;
     sw_tape_raw(&t, &hold, sizeof hold);
   }
+  put_list(&t, s->gone, s->gone_count, sizeof *s->gone);
   put_list(&t, s->tools, s->tool_count, sizeof *s->tools);
   put_list(&t, s->forces, s->force_count, sizeof *s->forces);
   for (size_t k = 0; k < s->join_count; k++) {

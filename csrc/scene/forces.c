@@ -199,7 +199,7 @@ sw_status sw_scene_force_args(const sw_scene *s, sw_handle force, void *args, sw
     return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
   const sw_scene_force *f = &s->forces[force.slot];
   memcpy(args, f->args, sizeof f->args);
-  if (!(f->cls->flags & SW_FORCE_AT_PLACE)) return SW_OK;
+  if (!(f->cls->flags & SW_FORCE_AT_PLACE) || f->wire < 0) return SW_OK;
   const double place = place_of(s, f);
   memcpy(args, &place, sizeof place);
   return SW_OK;

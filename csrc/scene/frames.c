@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Frames: what a picture or a player needs, stored at even times of a run. One block of floats a
  * frame: obstacles and holds (SW_FRAME_BODY numbers and a flag: there, held), tools, then for each
- * wire its node count and positions, how many values each node has and these, the number of its
- * surface's points in a section (0: it is no mesh of particles), and these points with the force
- * across the surface at each. */
+ * wire, of those that are gone too (with zeros), its node count and positions, how many values each
+ * node has and these, the number of its surface's points in a section (0: it is no mesh of
+ * particles), and these points with the force across the surface at each. */
 #include "scene/frames.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@
 #include "scene/world.h"
 #include "state/web.h"
 
-enum { TOOL = SW_FRAME_TOOL, HOLD = SW_FRAME_HOLD, LEAST = 3 };
+enum { TOOL = SW_FRAME_TOOL, HOLD = SW_FRAME_HOLD, NONE = 3, LEAST = 3 }; /* NONE: of a gone body */
 
 const double SW_FRAME_MEMORY = 256e6;
 
@@ -67,9 +67,19 @@ void sw_scene_drop_last_frame(sw_scene *s) {
   sw_free(s->frames[s->frame_count].data);
 }
 
+/* Frames of a run from another state may tell of what the scene does not know, or of later. */
+static int is_of_past(const sw_scene *s, const sw_frame *f) {
+  return f->time <= s->time && f->wires <= sw_scene_bodies_made(s) &&
+         f->obstacles <= s->obstacle_count && f->holds <= s->hold_count &&
+         f->tools <= s->tool_count;
+}
+
 void sw_scene_frames_back_to(sw_scene *s, size_t count, size_t stride) {
   const size_t ratio = s->frame_stride > stride && stride ? s->frame_stride / stride : 1;
-  const size_t kept = (count + ratio - 1) / ratio;
+  size_t kept = (count + ratio - 1) / ratio;
+  if (kept > s->frame_count) kept = s->frame_count;
+  for (size_t k = 0; k < kept; k++)
+    if (!is_of_past(s, &s->frames[k])) kept = k;
   while (s->frame_count > kept) sw_scene_drop_last_frame(s);
 }
 
@@ -149,30 +159,40 @@ static sw_status fill_bodies(sw_scene *s, float **to, sw_error *err) {
   return SW_OK;
 }
 
+static sw_status fill_body(sw_scene *s, size_t w, float **to, sw_error *err) {
+  const sw_body *b = &s->system.bodies[w];
+  const sw_web *web = b->plan->web;
+  float *p = *to;
+  if (web && web->per_ring) return fill_strand(s, b, to, err);
+  const double *x = s->system.x + 3 * b->first_node;
+  *p++ = (float)b->plan->nodes;
+  for (size_t i = 0; i < 3 * b->plan->nodes; i++) *p++ = (float)x[i];
+  *p++ = web ? 0 : SW_FRAME_VALUES;
+  if (!web) sw_scene_node_values(s, w, b->plan->nodes, p);
+  if (!web) p += SW_FRAME_VALUES * b->plan->nodes;
+  *p++ = 0;
+  *to = p;
+  return SW_OK;
+}
+
 static sw_status fill(sw_scene *s, float *p, sw_error *err) {
+  size_t w = 0;
   SW_TRY(fill_bodies(s, &p, err));
-  for (size_t w = 0; w < s->wire_count; w++) {
-    const sw_body *b = &s->system.bodies[w];
-    const sw_web *web = b->plan->web;
-    if (web && web->per_ring) {
-      SW_TRY(fill_strand(s, b, &p, err));
+  for (size_t k = 0; k < sw_scene_bodies_made(s); k++) {
+    if (w == s->wire_count || s->wires[w].number != k) { /* it is gone */
+      *p++ = 0, *p++ = 0, *p++ = 0;
       continue;
     }
-    const double *x = s->system.x + 3 * b->first_node;
-    *p++ = (float)b->plan->nodes;
-    for (size_t i = 0; i < 3 * b->plan->nodes; i++) *p++ = (float)x[i];
-    *p++ = web ? 0 : SW_FRAME_VALUES;
-    if (!web) sw_scene_node_values(s, w, b->plan->nodes, p);
-    if (!web) p += SW_FRAME_VALUES * b->plan->nodes;
-    *p++ = 0;
+    SW_TRY(fill_body(s, w++, &p, err));
   }
   return SW_OK;
 }
 
 static sw_status add_frame(sw_scene *s, sw_error *err) {
   sw_frame f = {.time = s->time,
-                .size = TOOL * s->tool_count + HOLD * (s->obstacle_count + s->hold_count),
-                .wires = s->wire_count,
+                .size = TOOL * s->tool_count + HOLD * (s->obstacle_count + s->hold_count) +
+                        NONE * s->gone_count,
+                .wires = sw_scene_bodies_made(s),
                 .obstacles = s->obstacle_count,
                 .holds = s->hold_count,
                 .tools = s->tool_count};

@@ -17,13 +17,13 @@ sw_status sw_scene_keep_frames(sw_scene *scene, double memory, sw_error *err);
 /* One of how many is still there: 1, or a power of 2 once they were thinned [-]. */
 size_t sw_scene_frames_thinned(const sw_scene *scene);
 
-/* A frame of the state as it is, after all others, for who drops it at once: the memory of frames is
- * as it was then. From inside a step SW_EBUSY. */
+/* A frame of the state as it is, after all others, for who drops it at once: the memory of frames
+ * is as it was then. From inside a step SW_EBUSY. */
 sw_status sw_scene_frame_now(sw_scene *scene, sw_error *err);
 void sw_scene_drop_last_frame(sw_scene *scene);
 
-/* Node positions of wire number w in that frame [m]; count = nodes. NULL when the wire did not
- * exist. */
+/* Node positions of wire number w in that frame [m]; count = nodes, 0 when it had been taken away.
+ * NULL when the wire did not exist. */
 const float *sw_scene_frame_wire(const sw_scene *scene, size_t frame, size_t w, size_t *count);
 /* What a frame tells of each node. NULL: of an object of particles, or none. */
 enum {
@@ -42,7 +42,8 @@ const float *sw_scene_frame_values(const sw_scene *scene, size_t frame, size_t w
 enum { SW_FRAME_SURFACE = 4 };
 const float *sw_scene_frame_surface(const sw_scene *scene, size_t frame, size_t w, size_t *count,
                                     size_t *around);
-/* How many wires and objects of particles there are; the radius of one, 0: it has none [m]. */
+/* How many wires and objects of particles were made, gone ones too; the radius of one, 0: it has
+ * none [m]. */
 size_t sw_scene_frame_wires(const sw_scene *scene);
 double sw_scene_frame_radius(const sw_scene *scene, size_t w);
 /* 1: number w of the scene is an object of particles, which the frame then lists. */

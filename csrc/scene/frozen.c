@@ -39,7 +39,8 @@ static void tape_fields(sw_tape *t, sw_frozen *f) {
   SW_TAPE_STRUCT(t, sw_frozen, 552);
   SW_TAPE_STRUCT(t, sw_stations, 32);
   sw_tape_mark(t, "contact", sw_contact_layout());
-  tape_handle(t, &f->wire), tape_handle(t, &f->hold);
+  sw_tape_uint32(t, &f->wire.generation); /* its slot changes when others leave */
+  tape_handle(t, &f->hold);
   const char *model = sw_tape_word(t, sw_tape_reads(t) ? NULL : f->cls->name, word);
   if (sw_tape_reads(t)) f->cls = sw_wire_find(model);
   sw_tape_mesh(t, &f->mesh, 1);
@@ -82,8 +83,7 @@ int sw_frozen_fits(const sw_frozen *f, const sw_scene *s) {
   const sw_web *web = f->strand.web;
   if (!f->cls || !f->cls->mesh || !web || !web->per_ring || !f->strand.kit || f->mesh.rest)
     return 0;
-  if (f->wire.slot >= s->wire_count || s->wires[f->wire.slot].generation != f->wire.generation)
-    return 0;
+  if (sw_scene_body_now(s, f->wire).slot >= s->wire_count) return 0;
   if (f->mesh.n != web->rings || f->stations.n != web->rings) return 0;
   if (f->first > f->last || f->last >= web->rings || f->nodes != web->particles) return 0;
   for (size_t i = 0; i < f->stations.n; i++)

@@ -106,6 +106,7 @@ void sw_tape_kept_contact(sw_tape *t, sw_scene *s) {
   sw_tape_array(t, &s->kept.grains, s->kept.grain_bytes, 1);
   sw_tape_count(t, &s->kept.wires, sizeof *s->kept.first);
   SW_TAPE_ARRAY(t, s->kept.first, s->kept.wires + 1);
+  SW_TAPE_ARRAY(t, s->kept.now, s->kept.wires);
   const size_t expected = s->kept.first ? s->kept.first[s->kept.wires] : 0;
   size_t nodes = expected;
   sw_tape_count(t, &nodes, sizeof *s->kept.s);

@@ -27,7 +27,7 @@ static void measure(const sw_scene *s, sw_joint *j) {
 void sw_scene_measure_joins(sw_scene *s) {
   for (size_t k = 0; k < s->join_count; k++) {
     int drawn = s->joins[k].alive;
-    for (size_t i = 0; i < s->joins[k].count; i++)
+    for (size_t i = 0; i < s->joins[k].count && drawn; i++)
       drawn &= s->wires[s->joins[k].ends[i].wire].mesh.drawn;
     if (drawn) measure(s, &s->joins[k]);
   }

@@ -9,6 +9,7 @@
 #include "scene/section.h"
 #include "scene/strand.h"
 #include "scene/window.h"
+#include "scene/world.h"
 #include "state/mesh.h"
 #include "system/system.h"
 
@@ -33,6 +34,7 @@ typedef struct sw_drawing {
 
 typedef struct sw_scene_wire {
   uint32_t generation;
+  size_t number; /* in frames; how many were made before it [-] */
   char name[SW_NAME_SIZE];
   const sw_wire_class *cls;
   sw_beam beam;
@@ -45,6 +47,16 @@ typedef struct sw_scene_wire {
   size_t twisted_count;
   int untwisted; /* 1: lies as it was drawn, without the twist it has unloaded; nothing has moved */
 } sw_scene_wire;
+
+/* What is still told of a body that was taken away. */
+typedef struct sw_gone {
+  uint32_t generation;
+  int loose;     /* 1: it was an object of particles */
+  size_t number; /* in frames [-] */
+  double radius; /* that frames are drawn with [m] */
+  double time;   /* when it went [s] */
+  char name[SW_NAME_SIZE];
+} sw_gone;
 
 /* 1: an object of particles in no order along a wire. It has no arc length, and its mesh is a
  * straight line of its size. */
@@ -136,6 +148,12 @@ sw_status sw_scene_check_rules(const sw_scene *scene, size_t wire, const sw_scen
                                sw_error *err);
 /* The body of a handle, in a scene that is built, readable and refreshed. */
 sw_status sw_scene_open_body(sw_scene *scene, sw_handle h, sw_scene_wire **body, sw_error *err);
+/* How many were made so far, those that are gone too: frames have a number for each. */
+static inline size_t sw_scene_bodies_made(const sw_scene *s) {
+  return s->wire_count + s->gone_count;
+}
+/* The body of a number in frames, or NULL when it is gone; then what is known of it. */
+const sw_scene_wire *sw_scene_numbered(const sw_scene *scene, size_t number, const sw_gone **gone);
 /* Free what these slots own. */
 void sw_scene_clear_body(sw_scene_wire *body);
 /* The class of a wire or of objects of particles; NULL: there is none of this name. */

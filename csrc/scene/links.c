@@ -29,9 +29,10 @@ sw_link_wire sw_scene_link_wire(const sw_scene *s, size_t wire) {
 void sw_scene_follow_holds(sw_scene *s) {
   for (size_t k = 0; k < s->hold_count; k++) {
     sw_hold *h = &s->holds[k];
+    if (!h->alive || !h->cls->hold->follow) continue; /* a wire of one released may be gone */
     const sw_link_wire w = sw_scene_link_wire(s, h->wire);
     const double before = s->books.step.to.kinetic;
-    if (!h->alive || !h->cls->hold->follow || !h->cls->hold->follow(h, &w)) continue;
+    if (!h->cls->hold->follow(h, &w)) continue;
     sw_course_jump(&s->course);
     s->books.step.to.kinetic = sw_system_kinetic(&s->system, 0);
     s->books.step.impact += before - s->books.step.to.kinetic;
@@ -41,8 +42,9 @@ void sw_scene_follow_holds(sw_scene *s) {
 void sw_scene_undo_holds(sw_scene *s) {
   for (size_t k = 0; k < s->hold_count; k++) {
     sw_hold *h = &s->holds[k];
+    if (!h->alive || !h->cls->hold->undo) continue;
     const sw_link_wire w = sw_scene_link_wire(s, h->wire);
-    if (h->alive && h->cls->hold->undo) h->cls->hold->undo(h, &w);
+    h->cls->hold->undo(h, &w);
   }
 }
 

@@ -49,7 +49,13 @@ sw_status sw_scene_editable(const sw_scene *s, sw_error *err) {
 sw_scene_wire *sw_scene_find_body(const sw_scene *s, sw_handle h, sw_error *err) {
   if (h.slot < s->wire_count && s->wires[h.slot].generation == h.generation)
     return &s->wires[h.slot];
-  sw_fail(err, SW_EDEAD, "this object is not of scene '%s' any more", s->name);
+  double time;
+  const char *name = sw_scene_gone_name(s, h, &time);
+  if (name)
+    sw_fail(err, SW_EDEAD, "'%s' was taken away from scene '%s' at t = %.6g s", name, s->name,
+            time);
+  else
+    sw_fail(err, SW_EDEAD, "this object is not of scene '%s' any more", s->name);
   return NULL;
 }
 

@@ -76,9 +76,11 @@ sw_status sw_scene_obstacle_pose(sw_scene *s, sw_handle obstacle, sw_pose *out, 
 }
 
 sw_status sw_scene_obstacle_shape(sw_scene *s, sw_handle obstacle, sw_shape **out, sw_error *err) {
-  const sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
-  if (!o) return SW_EDEAD;
-  *out = o->shape;
+  const char *kind;
+  int present; /* frames of before show one that was removed */
+  if (!sw_scene_obstacle_name(s, obstacle, &kind, &present))
+    return sw_fail(err, SW_EDEAD, "this obstacle is not of scene '%s' any more", s->name);
+  *out = s->obstacles[obstacle.slot].shape;
   return SW_OK;
 }
 

@@ -369,6 +369,7 @@ sw_status sw_scene_add_particles(sw_scene *s, const sw_particles_args *args,
   if (status == SW_OK) status = make_body(&m, &w);
   if (status == SW_OK) status = sw_scene_check_rules(s, s->wire_count, &w, &text);
   if (status == SW_OK) {
+    w.number = sw_scene_bodies_made(s);
     *out = (sw_handle){(uint32_t)s->wire_count, ++s->serial};
     s->wires[s->wire_count++] = w;
     status = add_yield(s, m.web, *out, &text);

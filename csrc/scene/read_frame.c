@@ -58,12 +58,18 @@ const float *sw_scene_frame_tool(const sw_scene *s, size_t frame, size_t k) {
   return k < f->tools ? f->data + before_wires(f) - TOOL * (f->tools - k) : NULL;
 }
 
-size_t sw_scene_frame_wires(const sw_scene *s) { return s->wire_count; }
+size_t sw_scene_frame_wires(const sw_scene *s) { return sw_scene_bodies_made(s); }
 
-double sw_scene_frame_radius(const sw_scene *s, size_t w) { return s->wires[w].beam.radius; }
+double sw_scene_frame_radius(const sw_scene *s, size_t w) {
+  const sw_gone *gone;
+  const sw_scene_wire *wire = sw_scene_numbered(s, w, &gone);
+  return wire ? wire->beam.radius : gone ? gone->radius : 0;
+}
 
 int sw_scene_frame_is_loose(const sw_scene *s, size_t w) {
-  return w < s->wire_count && sw_scene_is_loose(&s->wires[w]);
+  const sw_gone *gone;
+  const sw_scene_wire *wire = sw_scene_numbered(s, w, &gone);
+  return wire ? sw_scene_is_loose(wire) : gone && gone->loose;
 }
 
 const float *sw_scene_frame_wire(const sw_scene *s, size_t frame, size_t w, size_t *count) {

@@ -27,6 +27,8 @@ void sw_tape_obstacle(sw_tape *tape, sw_scene *scene, sw_scene_obstacle *obstacl
 void sw_tape_force(sw_tape *tape, sw_scene_force *force);
 void sw_tape_join(sw_tape *tape, sw_joint *join);
 void sw_tape_rule(sw_tape *tape, sw_scene_rule *rule);
+void sw_tape_gone(sw_tape *tape, sw_gone *gone);
+void sw_tape_check_numbers(sw_tape *tape, const sw_scene *scene);
 void sw_tape_frame(sw_tape *tape, const sw_scene *scene, sw_frame *frame);
 void sw_tape_extreme(sw_tape *tape, sw_extreme *extreme);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A scene that came from a file: objects name each other by numbers, and nothing may lead to what
  * is not there, whatever the file says. */
+#include <stdint.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -85,7 +86,9 @@ static void check_places(sw_tape *t, const sw_scene *s, const sw_hold *h) {
 }
 
 static void check_hold(sw_tape *t, const sw_scene *s, const sw_hold *h) {
-  sw_tape_expect(t, h->wire < s->wire_count && h->log.count % SW_LOG_SIZE == 0, "a clamp");
+  const int of_none = !h->alive && h->wire == SIZE_MAX;
+  sw_tape_expect(t, (h->wire < s->wire_count || of_none) && h->log.count % SW_LOG_SIZE == 0,
+                 "a clamp");
   if (!sw_tape_good(t) || !h->alive) return;
   sw_tape_expect(t, h->count > 0 && h->scale > 0, "a clamp that holds nothing");
   check_crash(t, s, h);
@@ -101,7 +104,8 @@ static void check_hold(sw_tape *t, const sw_scene *s, const sw_hold *h) {
 static void check_join(sw_tape *t, const sw_scene *s, const sw_joint *j) {
   for (size_t k = 0; k < j->count && sw_tape_good(t); k++) {
     const sw_joint_end *e = &j->ends[k];
-    sw_tape_expect(t, e->wire < s->wire_count && e->scale > 0, "a join");
+    const int of_none = !j->alive && e->wire == SIZE_MAX;
+    sw_tape_expect(t, (e->wire < s->wire_count || of_none) && e->scale > 0, "a join");
     if (!sw_tape_good(t) || !j->alive) continue;
     const sw_scene_wire *w = &s->wires[e->wire];
     sw_tape_expect(t, !w->cls->mesh && is_node(&w->mesh, e->s), "the place of a join");
@@ -148,12 +152,14 @@ static void check_rule(sw_tape *t, const sw_scene *s, const sw_scene_rule *r) {
 }
 
 static void check_kept(sw_tape *t, const sw_scene *s) {
-  const size_t *first = s->kept.first;
+  const size_t *first = s->kept.first, *now = s->kept.now;
   if (!s->kept.memory) return;
-  sw_tape_expect(t, s->kept.wires <= s->wire_count && first[0] == 0, "contact");
+  sw_tape_expect(t, s->kept.wires <= sw_scene_bodies_made(s) && first[0] == 0, "contact");
   for (size_t w = 0; w < s->kept.wires && sw_tape_good(t); w++) {
-    const sw_web *web = s->wires[w].strand.web;
     sw_tape_expect(t, first[w] <= first[w + 1], "contact");
+    sw_tape_expect(t, now[w] < s->wire_count || now[w] == SIZE_MAX, "contact");
+    if (!sw_tape_good(t) || now[w] == SIZE_MAX) continue;
+    const sw_web *web = s->wires[now[w]].strand.web;
     if (web && s->kept.changed != w + 1)
       sw_tape_expect(t, first[w + 1] - first[w] <= web->particles, "contact");
   }
@@ -169,6 +175,7 @@ static void check_kept(sw_tape *t, const sw_scene *s) {
 }
 
 void sw_tape_check_scene(sw_tape *t, sw_scene *s) {
+  sw_tape_check_numbers(t, s);
   for (size_t k = 0; k < s->rule_count; k++) check_rule(t, s, &s->rules[k]);
   for (size_t k = 0; k < s->force_count; k++) check_force(t, s, &s->forces[k]);
   for (size_t w = 0; w < s->wire_count && sw_tape_good(t); w++) check_wire(t, s, w);

@@ -124,9 +124,9 @@ void sw_tape_beam_of(sw_tape *t, sw_scene_wire *x) {
 
 void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_scene_wire, 824);
+  SW_TAPE_STRUCT(t, sw_scene_wire, 832);
   SW_TAPE_STRUCT(t, sw_twisted, 24);
-  UINT32(generation), NAME(name);
+  UINT32(generation), SIZE(number), NAME(name);
   if (!sw_tape_address(t, &x->cls)) {
     const char *model = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
     if (sw_tape_reads(t)) x->cls = sw_scene_body_class(model);
@@ -345,7 +345,7 @@ void sw_tape_frame(sw_tape *t, const sw_scene *s, sw_frame *x) {
   SW_TAPE_ARRAY(t, x->data, x->size);
   if (!sw_tape_reads(t) || !sw_tape_good(t)) return;
   sw_tape_expect(t,
-                 x->wires <= s->wire_count && x->obstacles <= s->obstacle_count &&
+                 x->wires <= sw_scene_bodies_made(s) && x->obstacles <= s->obstacle_count &&
                      x->holds <= s->hold_count && x->tools <= s->tool_count &&
                      sw_scene_frame_walk(x, x->size, &size) && size == x->size,
                  "a frame");

@@ -63,6 +63,7 @@ void sw_scene_free(sw_scene *s) {
   sw_free(s->hold_slot);
   sw_free(s->hold_loads);
   sw_free(s->wires);
+  sw_free(s->gone);
   sw_free(s->holds);
   sw_free(s->obstacles);
   sw_free(s->tools);

@@ -35,7 +35,7 @@ static size_t tape_list(sw_tape *t, void *list_pointer, size_t *count, size_t *c
   } while (0)
 
 static void tape_numbers(sw_tape *t, sw_scene *s) {
-  SW_TAPE_STRUCT(t, sw_scene, 3104);
+  SW_TAPE_STRUCT(t, sw_scene, 3136);
   sw_tape_name(t, s->name);
   sw_tape_uint32(t, &s->serial);
   sw_tape_vec(t, &s->gravity);
@@ -78,6 +78,7 @@ static void tape_objects(sw_tape *t, sw_scene *s, int built) {
   tape_numbers(t, s);
   LIST(rules, rule_count, rule_capacity, sw_tape_rule(t, &s->rules[k]));
   LIST(wires, wire_count, wire_capacity, sw_tape_wire(t, &s->wires[k], !built));
+  LIST(gone, gone_count, gone_capacity, sw_tape_gone(t, &s->gone[k]));
   LIST(holds, hold_count, hold_capacity, sw_tape_hold(t, s, &s->holds[k]));
   LIST(obstacles, obstacle_count, obstacle_capacity, sw_tape_obstacle(t, s, &s->obstacles[k]));
   LIST(tools, tool_count, tool_capacity, sw_tape_tool(t, s, &s->tools[k]));

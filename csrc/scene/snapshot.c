@@ -18,7 +18,7 @@ struct sw_snapshot {
   sw_snapshot *next;
   sw_tape tape;
   double time; /* [s] */
-  size_t build, wires, holds, obstacles, tools, forces, joins, rules, frames, frame_stride;
+  size_t build, holds, obstacles, tools, forces, joins, rules, frames, frame_stride;
   uint32_t *force; /* (forces) generations of those that are there; 0 of others */
 };
 
@@ -83,7 +83,7 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
     sw_free(force);
     return sw_fail(err, SW_ENOMEM, "snapshot: out of memory");
   }
-  *p = (sw_snapshot){.force = force, .time = s->time, .build = s->build, .wires = s->wire_count};
+  *p = (sw_snapshot){.force = force, .time = s->time, .build = s->build};
   p->holds = s->hold_count, p->obstacles = s->obstacle_count, p->tools = s->tool_count;
   p->forces = s->force_count, p->joins = s->join_count, p->rules = s->rule_count;
   p->frames = s->frame_count, p->frame_stride = s->frame_stride;
@@ -158,10 +158,6 @@ sw_status sw_scene_restore(sw_scene *s, const sw_snapshot *p, sw_error *err) {
     return sw_fail(err, SW_EINVAL,
                    "restore: the snapshot is of the scene as it was before a file took its place");
   if (p->scene != s) return sw_fail(err, SW_EINVAL, "restore: the snapshot is of another scene");
-  if (s->wire_count > p->wires)
-    return sw_fail(err, SW_EINVAL,
-                   "restore: wire '%s' was added after the snapshot; wires cannot be taken away",
-                   s->wires[p->wires].name);
   const sw_status status = same_system(s, p) ? put_back(s, p, err) : make_anew(s, p, err);
   if (status == SW_ENOMEM) return sw_fail(err, status, "restore: out of memory");
   SW_TRY(status);

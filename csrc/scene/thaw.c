@@ -139,6 +139,7 @@ sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_balance *balance,
   if (!t) return SW_EDEAD;
   sw_frozen *f = t->frozen;
   if (!f) return sw_fail(err, SW_EINVAL, "gripper '%s' does not hold its wire rigidly", t->name);
+  f->wire = sw_scene_body_now(s, f->wire); /* others may have left */
   if (s->wires[f->wire.slot].strand.web)
     return sw_fail(err, SW_EINVAL, "gripper '%s': wire '%s' was remodelled while it was held",
                    t->name, s->wires[f->wire.slot].name);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What breaks when it is pulled harder than it bears: joints, and forces that say so. */
 #include <math.h>
+#include <stdint.h>
 
 #include "link/hold.h"
 #include "link/joint.h"
@@ -111,6 +112,8 @@ sw_status sw_scene_tie_state(sw_scene *s, sw_handle h, sw_tie_state *out, sw_err
                         .broken = j->fate[SW_TIE_BROKEN] > 0,
                         .broken_time = j->fate[SW_TIE_BROKEN_TIME],
                         .broken_force = j->fate[SW_TIE_BROKEN_FORCE]};
+  out->distance = NAN;
+  if (j->ends[0].wire == SIZE_MAX || j->ends[1].wire == SIZE_MAX) return SW_OK;
   SW_TRY(sw_scene_build(s, err));
   const double *x = s->system.x;
   const sw_link_wire one = sw_scene_link_wire(s, j->ends[0].wire);

@@ -334,7 +334,7 @@ int sw_scene_tool_touch(const sw_scene *s, sw_handle tool, size_t number, sw_too
                            .normal = push.normal_force,
                            .s = push.place,
                            .slid = push.slid,
-                           .wire = wire,
+                           .wire = s->wires[wire].number,
                            .name = s->wires[wire].name};
     return 1;
   }
@@ -378,7 +378,8 @@ sw_status sw_scene_tool_state(sw_scene *s, sw_handle tool, sw_tool_state *out, s
 sw_status sw_scene_tool_log(sw_scene *s, sw_handle tool, const double **rows, size_t *count,
                             sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
-  const sw_tool *t = sw_scene_find_tool(s, tool, err);
+  const int known = tool.slot < s->tool_count && s->tools[tool.slot].generation == tool.generation;
+  const sw_tool *t = known ? &s->tools[tool.slot] : sw_scene_find_tool(s, tool, err);
   if (!t) return SW_EDEAD;
   *rows = t->log.rows;
   *count = t->log.count / SW_LOG_TOOL_SIZE;

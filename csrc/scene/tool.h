@@ -20,6 +20,8 @@ sw_status sw_scene_add_tool(sw_scene *scene, const sw_tool_args *args, sw_handle
 /* From now on the obstacle, where it is, goes with the tool. opens: how it moves in the tool's
  * axes while the opening grows [m/m]. finger: forces of the same number are one finger's; -1: it is
  * no pad but some other part of the tool. */
+/* It goes with its pads and lets go of what it holds; its series can still be read. */
+sw_status sw_scene_remove_tool(sw_scene *scene, sw_handle tool, sw_error *err);
 sw_status sw_scene_tool_pad(sw_scene *scene, sw_handle tool, sw_handle obstacle, int finger,
                             sw_vec opens, sw_error *err);
 /* From now on the hold goes with the tool; its force counts as the tool's. */
@@ -120,7 +122,7 @@ typedef struct sw_tool_touch {
   double normal;    /* part of it across the surface [N] */
   double s;         /* arc length [m] */
   double slid;      /* way that the wire slid there since it began to press [m] */
-  size_t wire;      /* slot [-] */
+  size_t wire;      /* number in frames [-] */
   const char *name; /* of that wire, the scene's */
 } sw_tool_touch;
 /* Number of touches that there are. Touch k: 0 when it is not a pad's, or has no force. */

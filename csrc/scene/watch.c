@@ -27,8 +27,7 @@ static sw_watch *find(sw_watches *w, int kind, sw_handle of) {
   for (size_t tried = 0; tried < w->count; tried++, w->next++) {
     if (w->next >= w->count) w->next = 0;
     sw_watch *one = &w->list[w->next];
-    if (one->kind != kind || one->of.slot != of.slot || one->of.generation != of.generation)
-      continue;
+    if (one->kind != kind || one->of.generation != of.generation) continue;
     w->next++;
     return one;
   }
@@ -120,7 +119,8 @@ static void read_log(sw_scene *s, int kind, sw_handle of, const double **rows, s
 sw_status sw_scene_wire_log(sw_scene *s, sw_handle wire, const double **rows, size_t *count,
                             sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
-  if (!sw_scene_find_body(s, wire, err)) return SW_EDEAD;
+  double gone; /* the series of a wire that was taken away can still be read */
+  if (!sw_scene_gone_name(s, wire, &gone) && !sw_scene_find_body(s, wire, err)) return SW_EDEAD;
   read_log(s, OF_WIRE, wire, rows, count);
   return SW_OK;
 }

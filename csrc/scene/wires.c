@@ -235,6 +235,7 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
     return status;
   }
   w.drawing.length = w.mesh.s[w.mesh.n - 1];
+  w.number = sw_scene_bodies_made(s);
   *out = (sw_handle){(uint32_t)s->wire_count, ++s->serial};
   s->wires[s->wire_count++] = w;
   return SW_OK;

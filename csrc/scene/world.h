@@ -14,6 +14,7 @@
 
 /* What it has, each in a header of its own. */
 typedef struct sw_scene_wire sw_scene_wire;         /* line.h */
+typedef struct sw_gone sw_gone;                     /* line.h */
 typedef struct sw_hold sw_hold;                     /* hold.h */
 typedef struct sw_scene_obstacle sw_scene_obstacle; /* obstacle.h */
 typedef struct sw_tool sw_tool;                     /* jaws.h */
@@ -36,6 +37,8 @@ struct sw_scene {
   double time;
   sw_scene_wire *wires;
   size_t wire_count, wire_capacity;
+  sw_gone *gone; /* bodies that were taken away, in that order */
+  size_t gone_count, gone_capacity;
   sw_hold *holds;
   size_t hold_count, hold_capacity;
   sw_scene_obstacle *obstacles;
@@ -74,6 +77,7 @@ struct sw_scene {
     size_t grain_bytes;
     double *s;     /* (nodes) arc lengths then [m] */
     size_t *first; /* (wires + 1) first node of each wire then */
+    size_t *now;   /* (wires) its slot now; SIZE_MAX: it is gone */
     size_t wires;
     int fresh;
     size_t changed; /* a wire that has other nodes since, from 1; 0: none */

@@ -205,6 +205,35 @@ describe("exchange", function()
     assert.equal(1, paths["hand scale"][#paths["hand scale"]])
   end)
 
+  it("hides a wire in frames in which it was taken away, or had not been made", function()
+    local scene, done = sw.scene(), false
+    local function rod(name, y)
+      return scene:wire { name = name, E = 5e6, density = 1500, radius = 0.003, from = { 0, y, 0 },
+        to = { 0.3, y, 0 }, segments = 4 }
+    end
+    local first = rod("first", 0)
+    rod("stays", 0.1)
+    scene:observe { call = function(o)
+      if scene.time > 0.015 and not done then
+        done = true
+        o:change(function()
+          scene:remove(first)
+          rod("later", 0.2)
+        end)
+      end
+    end }
+    local changed = scene:run { duration = 0.04, dt = 0.01, frame = 0.01 }
+    local doc, data = check(changed:gltf(folder .. "/gone.glb"))
+    local sizes = {}
+    for _, channel in ipairs(doc.animations[1].channels) do
+      if channel.target.path == "scale" then
+        local list = values(doc, data, doc.animations[1].samplers[channel.sampler + 1].output)
+        sizes[doc.nodes[channel.target.node + 1].name] = { list[1], list[#list] }
+      end
+    end
+    assert.same({ first = { 1, 0 }, later = { 0, 1 } }, sizes)
+  end)
+
   it("takes fewer frames, and one", function()
     local doc = check(run:gltf(folder .. "/a.glb", { frames = 3 }))
     assert.equal(2, #doc.meshes[node_of(doc, "w\n1").mesh + 1].weights)

@@ -308,7 +308,7 @@ describe("a view that begins with nothing", function()
     submit()
     closed()
     wait_for "late"
-    assert.truthy(things():find "a wire stays in its scene")
+    assert.is_true(page:run [[return Boolean(document.querySelector("[aria-label='Remove hand']"))]])
     drag_up "block"
     page:wait [[return /scene:find\("block"\):set { at = { 0.3, 0, /.test(player.panel.build.script)]]
     click "[aria-label='Remove late']"
@@ -354,6 +354,65 @@ describe("softworld --view without a script", function()
     page:wait "return player.state.get('run').running && player.state.get('time') > 0.1"
     stop()
     page:wait [[return document.getElementById("status").innerText === "not connected"]]
+  end)
+
+  it("joins wires, makes a net, and waits for what a gripper bears", function()
+    local function choose(kind)
+      page:run([[
+        const s = document.querySelector(".form-box .choose select");
+        s.value = arguments[0];
+        s.dispatchEvent(new Event("change"));]], kind)
+    end
+    page:go(begin "--view")
+    for _, name in ipairs { "cord", "branch" } do
+      add "wire"
+      fill("name", name)
+      if name == "branch" then
+        fill("from", "0.25", "0", "0.1")
+        fill("to", "0.25", "0.2", "0.1")
+      end
+      submit()
+      closed()
+      wait_for(name)
+    end
+    add "fixing"
+    choose "join"
+    fill("one", "cord")
+    fill("s", "0.25")
+    fill("other", "branch")
+    fill("other_s", "0")
+    submit()
+    closed()
+    wait_for "join1"
+    add "particles"
+    fill("name", "net")
+    submit()
+    closed()
+    wait_for "net"
+    add "gripper"
+    fill("name", "hand")
+    submit()
+    closed()
+    wait_for "hand"
+    for _, step in ipairs { { "grasp", "s", "0.5" }, { "wait_for_force", "force", "0.01" } } do
+      click "#add-step"
+      choose(step[1])
+      if step[1] ~= "grasp" then assert.truthy(text ".form-box":find "Lua functions, in a script") end
+      fill(step[2], step[3])
+      submit()
+      closed()
+    end
+    local wait = "p:wait_until({ on = hand, force = 0.01 }, { timeout = 1 })"
+    assert.truthy(text "ol.things":find(wait, 1, true))
+    assert.is_true(page:run [[return player.view.actors.some((a) => a.kind === "particles" && a.there)]])
+    set_duration ""
+    click "#run"
+    page:wait "return player.state.get('run').done"
+    assert.equal("ended", text "#status")
+    for _, line in ipairs(page:console()) do
+      assert.is_true(line.level ~= "SEVERE" or line.message:find("CONNECTION_REFUSED") ~= nil, line.message)
+    end
+    stop()
   end)
 
   it("is no option beside -e and -i alone", function()

@@ -8,6 +8,7 @@ local fill = require "softworld.view.fill"
 local json = require "softworld.output.json"
 local jsonread = require "softworld.output.jsonread"
 local kinds = require "softworld.view.kinds"
+local leaving = require "softworld.view.leaving"
 local orders = require "softworld.view.orders"
 local saving = require "spec.scene.saving"
 local viewing = require "softworld.view.view"
@@ -94,6 +95,8 @@ describe("kinds that forms can make", function()
     for _, kind in ipairs(all) do
       local values = {}
       for _, field in ipairs(kind.fields) do values[field.name] = example(field) end
+      if kind.kind == "tie" then values.to = nil end -- there is to_wire
+      if kind.kind == "wait_for_distance" then values.point = nil end -- there is to
       if kind.on then values._on = 'a "cord"\n' end
       if kind.self == "gripper" then values._by = "hand" end
       local it, read = fill.read(kind.class, kind.kind, values)
@@ -113,6 +116,58 @@ describe("kinds that forms can make", function()
 end)
 
 describe("a scene put together by forms", function()
+  it("joins and ties wires, makes particles and holds them, and waits for what it reads", function()
+    local d = hanging()
+    add(d, "wire", "rod", { name = "branch", cable = "GXL 1.5", from = { 0.25, 0, 0.1 },
+      to = { 0.25, 0.2, 0.1 } })
+    add(d, "fixing", "join", { one = "cord", s = 0.25, other = "branch", other_s = 0 })
+    add(d, "fixing", "tie", { _on = "branch", s = 0.2, to_wire = "cord", to_s = 0.5, slack = 0.4 })
+    add(d, "particles", "sheet", { name = "net", at = { 0, 1, 0.2 }, along = { 0.1, 0, 0 },
+      across = { 0, 0.1, 0 }, columns = 3, rows = 2, masses = 1e-3, k = 50, shear = 10 })
+    add(d, "hold", "hold", { _on = "net", particles = { 1, 3 } })
+    add(d, "gripper", "gripper", { name = "hand", at = { 0.5, 0, 0.1 } })
+    add(d, "step", "grasp", { _by = "hand", _on = "cord", s = 0.45 })
+    add(d, "step", "wait_for_force", { on = "hand", force = 1e-4, timeout = 0.1 })
+    add(d, "step", "wait_for_contact", { contact = "block", timeout = 0.05 })
+    local scene = add(d, "step", "wait_for_distance",
+      { from = "hand", point = { 0.45, 0, 0.1 }, distance = 0.5 })
+    for _, line in ipairs {
+      'scene:join { name = "join1", ends = { { cord, s = 0.25 }, { branch, s = 0 } } }',
+      'scene:tie(branch, { name = "tie1", s = 0.2, to = { cord, s = 0.5 }, slack = 0.4 })',
+      'scene:hold(net, { name = "hold1", particles = { 1, 3 } })',
+      "p:wait_until({ on = hand, force = 0.0001 }, { timeout = 0.1 })",
+      "p:wait_until({ contact = block }, { timeout = 0.05 })",
+      "p:wait_until({ between = { hand, { 0.45, 0, 0.1 } }, distance = 0.5 })" } do
+      assert.truthy(d:script():find(line, 1, true), line .. "\n" .. d:script())
+    end
+    assert.equal(6, scene:find("net").count)
+    -- 7 links along sides, 4 across cells; the sides' lengths are those of the cells
+    local _, strains = scene:find("net"):links()
+    assert.equal(11, #strains)
+    local run = scene:run { dt = 0.002 }
+    assert.is_true(run.ok, run.reason)
+    assert.near(0, select(3, table.unpack((scene:find("net"):particle(1)))) - 0.2, 1e-9)
+    for _, case in ipairs {
+      { a_change("fixing", "join", { one = "cord", s = 0.25 }), "join: other is required: the wire" },
+      { a_change("fixing", "join", { one = "cord", s = 0.1, other = "branch", other_s = 0 }),
+        "ends must meet" },
+      { a_change("fixing", "tie", { _on = "cord", s = 0, to = { 0, 0, 0 }, to_wire = "branch", to_s = 0 }),
+        "give to or to_wire, not both" },
+      { a_change("particles", "sheet", { at = { 0, 0, 0 }, along = { 1, 0, 0 }, across = { 0, 1, 0 },
+        masses = 1, k = 1, columns = 100, rows = 100 }), "100 x 100 particles are not allowed" },
+      { a_change("particles", "particles", { positions = { { 0, 0, 0 }, { 1, 0, 0 } }, masses = 1,
+        pairs = { 1, 5 }, k = 1 }), "5" },
+      { a_change("step", "wait_for_force", { force = 1 }), "on is required" },
+      { a_change("step", "wait_for_distance", { from = "hand", distance = 1 }),
+        "to or point is required" } } do
+      local before = d:script()
+      local fine, message = pcall(d.change, d, case[1])
+      assert.is_false(fine, case[2])
+      assert.truthy(tostring(message):find(case[2], 1, true), message)
+      assert.equal(before, d:script())
+    end
+  end)
+
   it("is the scene of its script, bit for bit, after any number of changes", function()
     local d = hanging()
     add(d, "gripper", "gripper", { name = "hand", at = { 0.5, 0, 0.2 } })
@@ -312,6 +367,51 @@ describe("objects added and removed while they move", function()
     assert.equal("made[3]:release()", inverse())
   end)
 
+  it("take away wires, grippers and the script's own forces too", function()
+    local scene = scene_of()
+    scene:force { kind = "damping", mass = 1 }
+    local function take(m)
+      m["do"] = "remove"
+      local text = line(scene, m)
+      run(scene, text)
+      return text
+    end
+    assert.equal("scene:remove(scene:forces()[1])", take { force = 1 })
+    assert.equal('scene:remove "hand"', take { object = "hand" })
+    assert.equal('scene:remove "cord"', take { object = "cord" })
+    assert.equal("", json.encode(leaving.objects(scene, {})):gsub("[%[%]]", ""))
+  end)
+
+  it("come back by a line that makes them anew, where there is no way back", function()
+    local scene = scene_of()
+    scene:obstacle { name = "box", shape = "box", size = { 0.1, 0.1, 0.1 } }:set { at = { 0, 1, 0 } }
+    scene:force { kind = "drag", on = scene:find "cord", linear = 0.5 }
+    local box = leaving.again(scene, { object = "box" }, 7)
+    assert.equal('scene:obstacle { name = "box (2)", shape = "box", at = { 0, 1, 0 }, '
+      .. "rotation = { 1, 0, 0, 0 }, size = { 0.1, 0.1, 0.1 } }", (box:gsub("%s+", " "):gsub("%.0", "")))
+    assert.equal('made[7] = scene:force { kind = "drag", on = scene:find("cord"), linear = 0.5 }',
+      leaving.again(scene, { force = 1 }, 7))
+    scene:remove "box"
+    load(box, "=x", "t", { scene = scene })()
+    assert.are.same({ 0, 1, 0 }, (scene:find "box (2)":pose()))
+    assert.is_nil(leaving.again(scene, { object = "cord" }, 8)) -- what it did is only in a state
+  end)
+
+  it("lead a gripper on a straight way, no faster than told, and let it stay", function()
+    local scene = scene_of()
+    local grip = scene:gripper { name = "moved", at = { 0, 0, 0.2 } }
+    local text = line(scene, { ["do"] = "lead", gripper = "moved", to = { 0.1, 0, 0.2 }, speed = 0.5 })
+    assert.equal('scene:find("moved"):move { to = { 0.1, 0, 0.2 }, speed = 0.5, law = "linear" }', text)
+    run(scene, text)
+    scene:run { duration = 0.1, dt = 0.01 }
+    assert.near(0.05, grip:position()[1], 1e-9) -- 0.5 m/s for 0.1 s
+    run(scene, line(scene, { ["do"] = "leave", gripper = "moved" }))
+    scene:run { duration = 0.1, dt = 0.01 }
+    assert.near(0.05, grip:position()[1], 1e-9)
+    assert.equal('scene:find("moved"):stop()',
+      line(scene, { ["do"] = "lead", gripper = "moved", to = grip:position(), speed = 0.5 }))
+  end)
+
   it("say so when they cannot go, or cannot be", function()
     local scene = scene_of()
     local function refused(m, words)
@@ -319,10 +419,16 @@ describe("objects added and removed while they move", function()
       assert.is_false(fine)
       assert.truthy(tostring(message):find(words), message)
     end
-    refused({ ["do"] = "remove", object = "cord" }, "a wire stays in its scene")
-    refused({ ["do"] = "remove", object = "hand" }, "a gripper stays in its scene")
+    sw.core.data(scene).running = true
+    refused({ ["do"] = "remove", object = "cord" }, "'cord' is the last wire, and a run is under way")
+    sw.core.data(scene).running = nil
+    refused({ ["do"] = "remove", force = 1 }, "there is no such force")
+    refused({ ["do"] = "remove", force = "1)] os.exit(3) --" }, "there is no such force")
+    refused({ ["do"] = "lead", gripper = "cord", to = { 0, 0, 0 }, speed = 1 }, "'cord' is no gripper")
+    refused({ ["do"] = "lead", gripper = "hand", to = { 0, 0, 0 }, speed = 0 }, "speed")
+    refused({ ["do"] = "lead", gripper = "hand", to = { 0, 0, 0 }, speed = 1 }, "'hand' is nowhere yet")
     refused({ ["do"] = "remove", object = "nobody" }, "nothing named 'nobody'")
-    refused({ ["do"] = "remove", object = "" }, "a scene cannot go")
+    refused({ ["do"] = "remove", object = "" }, "the scene itself cannot be taken away")
     refused({ ["do"] = "remove", made = "1] os.exit(3) --" }, "made is no number")
     refused({ ["do"] = "remove", object = { "cord" } }, "is no name")
     refused(an_order("step", "wait", { seconds = 1 }), "while a run is under way")

@@ -54,10 +54,11 @@ local readers = {
     if clamp.held and clamp.kind == "feed" then add(all, { clamp:fed(), clamp:drive_force() }) end
   end,
   obstacle = function(all, obstacle)
-    add(all, { obstacle:pose() })
-    add(all, { obstacle:force(), (obstacle:log()) })
+    if obstacle.present then add(all, { obstacle:pose() }) end
+    add(all, { obstacle.present and obstacle:force(), (obstacle:log()) })
   end,
   join = function(all, join) if join.held then add(all, { join:force(1), join:moment(2) }) end end,
+  tie = function(all, tie) add(all, { tie:exists() }) end,
   clip = function(all, clip) add(all, { clip:exists(), clip:force() }) end,
   gripper = function(all, gripper)
     add(all, gripper:over())

@@ -109,6 +109,56 @@ case("wires that stick and slip on each other and an obstacle", function(s)
     relative = true }
 end, run(0.06, { dt = 0.002 }), run(0.06, { dt = 0.002 }))
 
+-- --- what is taken away ------------------------------------------------------------------
+
+-- Three wires that lie across each other on a table, one of them joined, tied, held, pulled and damped.
+local function pile(s)
+  s:obstacle{ name = "table", shape = "plane", friction = 0.5 }
+  local a = rod(s)
+  local b = rod(s, { name = "b", from = { 0.2, -0.15, 0.0091 }, to = { 0.2, 0.15, 0.0091 } })
+  local c = rod(s, { name = "c", from = { 0.1, -0.15, 0.0091 }, to = { 0.1, 0.15, 0.0091 } })
+  samples.sheet(s)
+  s:wire_contact{ between = { a, b, c }, friction = 0.4 }
+  s:wire_contact{ between = b, friction = 0.2 }
+  s:clamp(a, { name = "hold", s = 0 }):follow{ points = { { 0, 0, 0 }, { 0.03, 0, 0 } }, duration = 0.1,
+    relative = true }
+  s:pin(b, { name = "pin", s = 0.15 })
+  s:tie(b, { name = "tie", s = 0, to = { c, s = 0 } })
+  s:force{ kind = "plastic", on = c, yield_moment = 1e-3 }
+  s:force{ kind = "point", on = b, s = 0.1, force = { 0, 0, 0.1 } }
+end
+
+local settled = run(0.02, { dt = 0.002 })
+case("a wire taken away from others that it touches", pile, function(s)
+  settled(s)
+  s:remove "b"
+end, settled)
+case("wires taken away, with steps in between", pile, function(s)
+  settled(s)
+  s:remove "a"
+  settled(s)
+  s:remove "c"
+  rod(s, { name = "d", from = { 0, 0.05, 0.0151 }, to = { 0.4, 0.05, 0.0151 } })
+  settled(s)
+end, function(s)
+  s:remove "d"
+  settled(s)
+end)
+
+case("an object that lies on a wire when one made before it leaves", function(s)
+  s:obstacle{ name = "table", shape = "plane", friction = 0.5 }
+  rod(s, { from = { 0, 0.2, R }, to = { 0.4, 0.2, R } })
+  rod(s, { name = "b" })
+  s:particles{ name = "net", radius = 0.002, masses = 0.01, links = { { pairs = { 1, 2, 2, 3 }, k = 100 } },
+    positions = { 0.2, -0.03, 0.0079, 0.2, 0, 0.0079, 0.2, 0.03, 0.0079 } }
+  s:wire_contact{ friction = 0.3 }
+end, function(s)
+  settled(s)
+  s:remove "a"
+  s:snapshot() -- builds it: what touches is remembered, by other numbers of bodies
+  assert(#s:touches() > 0)
+end, settled)
+
 -- --- grippers ---------------------------------------------------------------------------
 
 local function table_and_wire(s, without)
@@ -160,6 +210,28 @@ for approach, make in pairs{ imposed = no_pads, plates = table_and_wire, mixed =
     lift_and_let_go(s)
   end, grasp(approach))
 end
+
+case("a gripper taken away that holds", table_and_wire, function(s)
+  grasp "plates"(s)
+  s:remove "hand"
+end, run(0.03, { dt = 0.01 }))
+case("a wire taken away from a gripper that froze it", function(s)
+  table_and_wire(s)
+  rod(s, { name = "b", from = { 0, 0.1, R }, to = { 0.4, 0.1, R } })
+end, function(s)
+  grasp "mixed"(s)
+  s:remove "a"
+end, run(0.03, { dt = 0.01 }))
+case("a gripper that thaws after another wire has left", function(s)
+  rod(s, { name = "b", from = { 0, 0.1, R }, to = { 0.4, 0.1, R } })
+  table_and_wire(s)
+end, function(s)
+  grasp "mixed"(s)
+  s:remove "b"
+end, process(function(g, _, p)
+  g:thaw()
+  p:wait(0.05)
+end))
 
 case("a gripper that thaws what it froze", table_and_wire, function(s)
   grasp "mixed"(s)

@@ -71,7 +71,8 @@ local function meet(scene)
   for _, name in ipairs(scene:names()) do
     local object = scene:find(name)
     if core.type(object) == "wire" then met[object.model] = true end
-    if core.type(object) == "obstacle" then met[tostring(object.shape):match "%S+$"] = true end
+    local there = core.type(object) == "obstacle" and object.present
+    if there then met[tostring(object.shape):match "%S+$"] = true end
   end
 end
 

@@ -25,6 +25,9 @@ function grasp.check_there(self, level)
     error(("gripper '%s' was made after the snapshot that was restored; make it anew")
       :format(self.name), level)
   end
+  if self.left then
+    error(("gripper '%s' was taken away at t = %.6g s"):format(self.name, self.left), level)
+  end
 end
 
 --- The same, and when the scene may not be changed now.
@@ -172,7 +175,8 @@ end
 function grasp.look(scene)
   local why
   for _, self in ipairs(build.data(scene).grippers) do
-    if self.tool then why = look_at(self) or why
+    if self.left then why = why or nil
+    elseif self.tool then why = look_at(self) or why
     elseif self.hold then why = look_at_hold(self) or why end
   end
   return why
@@ -225,6 +229,7 @@ local function wait_for_jaws(self, p, order)
     if not self.tool then -- a snapshot was restored
       error(("gripper '%s': its pads went while it was waiting for them"):format(self.name), 0)
     end
+    grasp.check_there(self, 0)
     state = self.tool:state()
     crushed = order.force and state.squeeze > 0 and state.opening < least
     return crushed or state.jaws ~= "moves"
@@ -315,13 +320,13 @@ local function impose(self, wire, s)
     s = nearest_place(wire, at)
   end
   local count = #self.past
+  local hold = self.scene:grip(wire, { s = s, width = self.width, -- first, for it may be refused
+    name = self.name .. (count > 0 and "#" .. count + 1 or "") })
   if #self.grips > 0 and not self.carrier then
     grasp.make_carrier(self)
     self.carrier:hold(self.hold)
     self.spans[count].carried = self.scene.time
   end
-  local hold = self.scene:grip(wire, { s = s, width = self.width,
-    name = self.name .. (count > 0 and "#" .. count + 1 or "") })
   local span = { from = self.scene.time }
   if self.carrier then
     if #self.grips == 0 then self.carrier:pose(hold:pose()) end
@@ -352,6 +357,8 @@ local function drop(self, wire)
   self.grips = left
   self.hold, self.wire = left[1] and left[1].hold, left[1] and left[1].wire
 end
+
+grasp.drop = drop
 
 -- All of the wires or none more than before.
 local function grasp_imposed(self, wires, args)
@@ -522,6 +529,7 @@ function Methods:grasp(wire, args)
     error(("gripper '%s': a mixed grasp takes its time; call it in a process"):format(self.name), 2)
   end
   if args.on_slip ~= nil then grasp.set_on_slip(self, args.on_slip, 3) end
+  self.bereft = nil
   if approach == "imposed" then
     grasp_imposed(self, wires, args)
     self.way, self.frozen, self.held = approach, nil, false

@@ -228,6 +228,15 @@ function Gripper:rotate(args)
   return self:move(t)
 end
 
+--- It stays where it is now; a move that a process waits for is over when it would have been.
+function Gripper:stop()
+  check_place(self, "stop")
+  local held = moved(self)
+  if held then held:follow(nil) end
+  self.busy_until = math.min(self.busy_until or self.scene.time, self.scene.time)
+  return self
+end
+
 local press = rows.call("gripper:press", "{...}", "goes on until the wire pushes back; in a process only", {
   gives = "force reached [N], way gone [m], whether it was the force wanted",
   { "force", "number", "N", "push of the wire at which it stops", min = 0, above = true, required = true },
@@ -268,6 +277,10 @@ function Gripper:release(args)
     error("gripper:release is a method: call it with a colon", 2)
   end
   grasp.check_scene(self, 3)
+  if not self.wire and self.bereft then -- it was taken away
+    self.bereft = nil
+    return self.tool and self:open_jaws(args or {}) or self
+  end
   if not self.wire then
     error(("gripper '%s' holds nothing; grasp a wire before you release"):format(self.name), 2)
   end
@@ -288,7 +301,7 @@ local fields = {}
 for _, key in ipairs{ "gone", "wires", "hold", "at", "rotation", "tool", "wire", "way", "frozen", "on_slip",
   "opening", "order", "obstacles", "held", "unchecked", "s", "free_height", "margin", "segments",
   "mesh_model", "rod_model", "slip_event", "crash_time", "on_crash", "carrier", "facing",
-  "busy_until" } do
+  "busy_until", "left", "bereft" } do
   fields[key] = true
 end
 
@@ -337,6 +350,7 @@ function Gripper:__newindex(key, value)
 end
 
 rows.calls{
+  { "gripper:stop", "", "stays where it is now", "the gripper" },
   { "gripper.name", nil, "by which messages and series call it" },
   { "gripper.width", nil, "of the pads along the wire", "m" },
   { "gripper.wire", nil, "that it holds, the first of several", "a wire, or nil" },
@@ -370,6 +384,7 @@ function Gripper:__tostring()
   local doing = "open"
   local names = {}
   for i, grip in ipairs(self.grips) do names[i] = ("'%s'"):format(grip.wire.name) end
+  if self.left then doing = "taken away" end
   if #names > 0 then doing = ("holding %s, %s"):format(table.concat(names, " and "), self.way) end
   return ("gripper '%s' (%s)"):format(self.name, doing)
 end

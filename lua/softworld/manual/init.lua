@@ -11,7 +11,7 @@ local manual = {}
 manual.groups = {
   { "How to", { "start", "lay", "grip", "handling", "mixed", "clip", "tie", "channel", "slider", "feed",
     "winding", "join", "touches", "particles", "process", "waiting", "observe", "view", "tuning", "study",
-    "search", "player", "plotting", "save", "snapshot", "mistakes" } },
+    "search", "player", "plotting", "save", "snapshot", "remove", "mistakes" } },
   { "Choose", { "models", "wire_mesh", "sections", "cable", "springback", "damping", "integrators",
     "vibration", "calibrate", "remodel", "units" } },
   { "Trust", { "accuracy", "tolerance", "limits", "speed", "peaks", "energy", "events", "changes" } },

@@ -133,8 +133,28 @@ local function add_weights(file, node, count)
     interpolation = "LINEAR" }
 end
 
+local function add_channel(file, node, path, values, width, kind)
+  file.channels[#file.channels + 1] = { sampler = #file.samplers, target = { node = node, path = path } }
+  file.samplers[#file.samplers + 1] = { input = file.times, output = add_values(file, values, width, kind),
+    interpolation = path == "scale" and "STEP" or "LINEAR" }
+end
+
+-- Of what comes later, or is taken away: it has no size in frames without it. lists: of each frame its
+-- points.
+local function hide(file, node, lists)
+  local sizes, hides = {}, false
+  for k, points in ipairs(lists) do
+    local there = #points > 0 and 1 or 0
+    for _ = 1, 3 do sizes[#sizes + 1] = there end
+    if k == 1 and there == 0 then file.nodes[node + 1].scale = { 0, 0, 0 } end
+    hides = hides or there == 0
+  end
+  if hides then add_channel(file, node, "scale", sizes, 3, "VEC3") end
+end
+
 -- corners: triangles of an object of particles; nil: those of the skin.
-local function add_wire(file, run, shown, slot, colour, corners)
+local function add_wire(file, run, shown, lists, colour, corners)
+  local slot = shown.slot
   local skin = core.skin(run.scene, slot, file.numbers, sides, file.thickness, true)
   if not skin then return end
   local primitive = { attributes = attributes(file, skin, 1), material = material(file, colour, 0.45) }
@@ -150,19 +170,23 @@ local function add_wire(file, run, shown, slot, colour, corners)
   end
   local node = add_node(file, { name = shown.name, mesh = add_mesh(file, mesh) })
   table.insert(file.children, node)
-  if count > 1 then add_weights(file, node, count) end
+  if count > 1 then
+    add_weights(file, node, count)
+    hide(file, node, lists)
+  end
+end
+
+-- Points of number i of a kind in each frame.
+local function points_of(run, kind, i)
+  local lists = {}
+  for k, frame in ipairs(run.frames) do lists[k] = (frame[kind] or {})[i] or {} end
+  return lists
 end
 
 -- --- bodies ---------------------------------------------------------------------------------------
 
 -- glTF has quaternions as x, y, z, w.
 local function turned(q) return { q[2], q[3], q[4], q[1] } end
-
-local function add_channel(file, node, path, values, width, kind)
-  file.channels[#file.channels + 1] = { sampler = #file.samplers, target = { node = node, path = path } }
-  file.samplers[#file.samplers + 1] = { input = file.times, output = add_values(file, values, width, kind),
-    interpolation = path == "scale" and "STEP" or "LINEAR" }
-end
 
 -- poses: of each frame, false where it is not there; it then has no size.
 local function add_motion(file, node, poses)
@@ -301,10 +325,11 @@ function gltf.write(run, path, options)
   end
   if #times > 1 then file.times = add_values(file, times, 1, "SCALAR") end
   for i, w in ipairs(run.wires) do
-    add_wire(file, run, w, w.slot, w.color or povscene.colours.wires[(i - 1) % #povscene.colours.wires + 1])
+    local colours = povscene.colours.wires
+    add_wire(file, run, w, points_of(run, "wires", i), w.color or colours[(i - 1) % #colours + 1])
   end
-  for _, p in ipairs(run.particles) do
-    add_wire(file, run, p, p.slot, p.color or povscene.colours.wires[1], p.corners)
+  for i, p in ipairs(run.particles) do
+    add_wire(file, run, p, points_of(run, "particles", i), p.color or povscene.colours.wires[1], p.corners)
   end
   for i, o in ipairs(run.obstacles) do add_obstacle(file, run, i, o) end
   add_props(file, run)

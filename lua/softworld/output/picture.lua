@@ -148,27 +148,31 @@ local function add_wires(drawing, run, frame, look)
   end
 end
 
+local function add_object(drawing, look, p, points, colour)
+  p.corners = p.corners or solid.enclosed(p.edges)
+  local radius = math.max(p.radius or 0, 0.75 / look.per_metre)
+  if look.technique == "shaded" and #p.corners > 0 then
+    drawing:mesh(points, p.corners, nowhere, upright, colour, 0.05)
+  elseif look.technique ~= "wireframe" then
+    drawing:balls(points, math.max(radius, 1.5 / look.per_metre), colour, 0.3)
+  end
+  if look.technique ~= "shaded" or #p.corners == 0 then
+    local list = {}
+    for k = 1, #p.edges, 8 do
+      local a, b = ("<I4I4"):unpack(p.edges, k)
+      table.move(points, 3 * a + 1, 3 * a + 3, #list + 1, list)
+      table.move(points, 3 * b + 1, 3 * b + 3, #list + 1, list)
+    end
+    drawing:lines(list, colour)
+  end
+end
+
 local function add_particles(drawing, run, frame, look)
   for i, points in ipairs(frame.particles or {}) do
     local p = run.particles and run.particles[i] or { edges = "" }
     local colours = povscene.colours.wires
     local colour = p.color or colours[(#run.wires + i - 1) % #colours + 1]
-    p.corners = p.corners or solid.enclosed(p.edges)
-    local radius = math.max(p.radius or 0, 0.75 / look.per_metre)
-    if look.technique == "shaded" and #p.corners > 0 then
-      drawing:mesh(points, p.corners, nowhere, upright, colour, 0.05)
-    elseif look.technique ~= "wireframe" then
-      drawing:balls(points, math.max(radius, 1.5 / look.per_metre), colour, 0.3)
-    end
-    if look.technique ~= "shaded" or #p.corners == 0 then
-      local list = {}
-      for k = 1, #p.edges, 8 do
-        local a, b = ("<I4I4"):unpack(p.edges, k)
-        table.move(points, 3 * a + 1, 3 * a + 3, #list + 1, list)
-        table.move(points, 3 * b + 1, 3 * b + 3, #list + 1, list)
-      end
-      drawing:lines(list, colour)
-    end
+    if #points > 0 then add_object(drawing, look, p, points, colour) end -- else it is gone
   end
 end
 

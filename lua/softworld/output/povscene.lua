@@ -357,7 +357,7 @@ function povscene.text(run, frame, look)
     local c, surface = w.color or wire_colours[(i - 1) % #wire_colours + 1], (frame.surfaces or {})[i]
     if surface then
       tube(add, surface, points, look.thickness, c)
-    else
+    elseif #points > 0 then
       wire(add, points, w.radius * look.thickness, c)
     end
   end

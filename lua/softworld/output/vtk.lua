@@ -133,25 +133,27 @@ local function fields_at(run, t)
   return fields
 end
 
+local function add_points(data, wire, i, points, frame, lengths)
+  if #points % 3 ~= 0 then sink.fail("vtk: wire %d has %d coordinates, not threes", i, #points) end
+  lengths[i] = lengths[i] or arc_lengths(wire, points)
+  local first, values = #data.points // 3, (frame.values or {})[i]
+  add_wire(data, i, points, lengths[i], wire.radius or 0.0)
+  if not values then return end
+  if not data.point_data[3] then
+    for _, name in ipairs{ "tension", "bend_radius", "contact_force" } do
+      data.point_data[#data.point_data + 1] = { name = name, values = {} }
+    end
+  end
+  add_values(data, first, values, #points // 3)
+end
+
 local function wires_data(run, frame, lengths)
   local data = {
     points = {}, lines = { connectivity = {}, offsets = {} }, object = {},
     point_data = { { name = "radius", values = {} }, { name = "s", values = {} } },
   }
   for i, points in ipairs(frame.wires) do
-    local wire = run.wires[i]
-    if #points % 3 ~= 0 then sink.fail("vtk: wire %d has %d coordinates, not threes", i, #points) end
-    lengths[i] = lengths[i] or arc_lengths(wire, points)
-    local first, values = #data.points // 3, (frame.values or {})[i]
-    add_wire(data, i, points, lengths[i], wire.radius or 0.0)
-    if values then
-      if not data.point_data[3] then
-        for _, name in ipairs{ "tension", "bend_radius", "contact_force" } do
-          data.point_data[#data.point_data + 1] = { name = name, values = {} }
-        end
-      end
-      add_values(data, first, values, #points // 3)
-    end
+    if #points > 0 then add_points(data, run.wires[i], i, points, frame, lengths) end -- else it is gone
   end
   data.fields = fields_at(run, frame.t)
   return data

@@ -214,6 +214,10 @@ export class Gripper extends OnWire {
 
   update(at, look, hidden) {
     const t = at.time, i = this.spanAt(t), span = this.spans[i];
+    if (t > this.given.left + 1e-9) { // it was taken away
+      this.show(false, hidden);
+      return;
+    }
     let { places, turns } = this;
     this.holding = span;
     if (this.given.tool === undefined && span && !(span.carried !== undefined && t >= span.carried)) ({ places, turns } = span);

@@ -4,14 +4,14 @@
 import { h, icon, iconButton, download } from "./dom.js";
 import { Form } from "./forms.js";
 
-const CLASSES = [["wire", "Wire"], ["obstacle", "Obstacle"], ["hold", "Hold"], ["gripper", "Gripper"], ["force", "Force"],
+const CLASSES = [["wire", "Wire"], ["particles", "Particles"], ["obstacle", "Obstacle"], ["hold", "Hold"], ["gripper", "Gripper"], ["force", "Force"],
   ["fixing", "Fixing"], ["contact", "Contact"]];
 
 export class Build {
   constructor(host, state, link, forms, say) {
     Object.assign(this, { host, state, link, say, kinds: forms.kinds, cables: forms.cables, items: [], objects: [], made: [], forms: [], draft: null,
       script: null });
-    this.undo = iconButton("back", "Undo", () => this.order("undo"), { disabled: true });
+    this.undo = iconButton("back", "Undo", () => (this.planned ? this.order("undo") : this.link.order("undo")), { disabled: true });
     this.redo = iconButton("redo", "Redo", () => this.order("redo"), { disabled: true });
     this.chips = h("div.chips", { role: "group", "aria-label": "What to add" }, ...CLASSES.map(([name, words]) =>
       h("button.chip", { type: "button", "data-class": name, "aria-pressed": "false", onclick: () => this.add(name) }, icon("plus"), words)));
@@ -46,7 +46,8 @@ export class Build {
     if (this.was !== planned) this.close();
     this.was = planned;
     this.stepPart.hidden = this.runPart.hidden = !run.draft;
-    this.undo.hidden = this.redo.hidden = !planned;
+    this.redo.hidden = !planned;
+    this.canUndo();
     this.stepPart.inert = !planned;
     this.note.hidden = planned && run.at_start;
     this.note.textContent = planned ? "A change goes back to the start." : run.draft
@@ -60,8 +61,8 @@ export class Build {
   }
 
   things(kind) {
-    const all = this.objects.filter((o) => o.kind === kind || o.class === kind || (kind === "wire" && o.class === "wire"));
-    return all.map((o) => o.name);
+    const kinds = kind.split(" ");
+    return this.objects.filter((o) => kinds.includes(o.kind) || kinds.includes(o.class)).map((o) => o.name);
   }
 
   /** What there is to be seen. */
@@ -93,7 +94,7 @@ export class Build {
       const def = this.kindOf(cls, name);
       const form = new Form(def, given, { things: (k) => this.things(k), cables: this.cables, word, send, more, cancel: () => this.close() });
       box.replaceChildren(...(own.length > 1 ? [h("div.row.choose", {}, h("label", { for: `${form.id}-kind` }, cls === "wire" ? "model"
-        : cls === "obstacle" ? "shape" : "kind"), h("select", { id: `${form.id}-kind`, onchange: (e) => {
+        : cls === "step" ? "step" : cls === "obstacle" ? "shape" : "kind"), h("select", { id: `${form.id}-kind`, onchange: (e) => {
         show(e.target.value, { ...this.kindOf(cls, e.target.value).start, ...form.typed() });
         box.querySelector("select").focus();
       } }, ...own.map((k) => h("option", { value: k.kind, selected: k.kind === name, title: k.doc }, k.kind.replace(/_/g, " ")))))] : []),
@@ -208,8 +209,8 @@ export class Build {
   show(m) { // the draft
     this.draft = m;
     this.items = m.items;
-    this.undo.disabled = !m.undo;
     this.redo.disabled = !m.redo;
+    this.canUndo();
     this.remarks.replaceChildren(...(m.remarks || []).map((words) => h("p.warning", {}, words)));
     this.mode();
     this.fill();
@@ -220,8 +221,11 @@ export class Build {
     this.made = made || [];
     this.fill();
   }
-  showScript(script, why) {
+  canUndo() { this.undo.disabled = !(this.planned ? this.draft?.undo : this.byHand); }
+  showScript(script, why, undo) {
     this.script = script;
+    this.byHand = undo;
+    this.canUndo();
     this.save.disabled = !script;
     this.save.title = script ? "The script that does all this again" : why || "";
   }
@@ -249,7 +253,7 @@ export class Build {
     const shift = (by, words, picture) => iconButton(picture, words, () => this.order("shift", { id: item.id, by }).catch(() => {}));
     li.append(h("div.thing", {}, h("button.thing-name", { type: "button", title: "Change it", onclick: () => this.edit(item, li) },
       h("span", {}, name), h("small", {}, step ? (several ? `process ${item.process}` : "") : item.name ? item.kind : "force"),
-      h("code", { title: item.text }, item.text)),
+      h("code", { title: item.text.slice(0, 600) }, item.text.slice(0, 200))),
     step ? shift(-1, "Earlier", "up") : null, step ? shift(1, "Later", "down") : null,
     iconButton("close", `Remove ${name}`, () => this.order("remove", { id: item.id }).catch(() => {}))));
     return li;
@@ -266,7 +270,7 @@ export class Build {
     const remove = (more) => this.link.ask("remove", more).catch((error) => this.say(error.message));
     const line = (name, kind, more, leaves, why) => h("li", {}, h("div.thing", {}, h("span.thing-name", {}, h("span", {}, name), h("small", {}, kind),
       why ? h("em", {}, why) : null), leaves ? iconButton("close", `Remove ${name}`, () => remove(more)) : null));
-    return [...this.objects.map((o) => line(o.name, o.kind, { object: o.name }, o.leaves, o.why)),
+    return [...this.objects.map((o) => line(o.name, o.kind, o.force ? { force: o.force } : { object: o.name }, o.leaves, o.why)),
       ...this.made.map((f) => line(f.kind, "force", { made: f.made }, true))];
   }
 }

@@ -99,7 +99,7 @@ const KINDS = {
     const known = things(field.of), select = h("select", { id, title: field.doc, "aria-label": field.name },
       ...(field.required ? [] : [h("option", { value: "" }, field.usual ? `(${field.usual})` : "—")]),
       ...known.map((name) => h("option", { value: name, selected: name === value }, name)));
-    if (field.required && !known.length) select.append(h("option", { value: "" }, `there is no ${field.of} yet`));
+    if (field.required && !known.length) select.append(h("option", { value: "" }, `there is no ${field.of.replace(/ /g, ", ")} yet`));
     return { element: select, inputs: [select], read: () => select.value || undefined };
   },
   table(field, id, value, things) {

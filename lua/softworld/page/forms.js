@@ -25,7 +25,7 @@ export class Form {
     const given = values || kind.start || {};
     const before = [];
     if (kind.self === "gripper") before.push({ name: "_by", words: "gripper", type: "object", of: "gripper", required: true, unit: "-", doc: "that does it" });
-    if (kind.on) before.push({ name: "_on", words: kind.on === "feed" ? "feed" : "wire", type: "object", of: kind.on, required: true, unit: "-", doc: "on which" });
+    if (kind.on) before.push({ name: "_on", words: kind.on === "feed" ? "feed" : kind.on === "particles" ? "object" : "wire", type: "object", of: kind.on, required: true, unit: "-", doc: "on which" });
     this.rows = [...before, ...kind.fields].map((f) => row(f, `${this.id}-${f.name}`, given[f.name], things));
     for (const r of this.rows) for (const i of r.inputs) i.dataset.given = i.value;
     const folded = this.rows.filter((r) => r.field.more), open = folded.some((r) => given[r.field.name] !== undefined);

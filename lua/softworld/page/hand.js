@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A hand in the scene: what the pointer takes hold of on a wire is pulled, by a spring of limited force, to
-// where the pointer is, in the plane of the picture.
+// where the pointer is, in the plane of the picture. A gripper is led there, no faster than it may go.
 import * as THREE from "three";
 import { linear } from "./colours.js";
 
@@ -34,19 +34,30 @@ export class Hand {
 
   hover(e) {
     if (this.held || e.buttons) return;
-    const on = this.can() && this.view.hitAt(e.clientX, e.clientY)?.actor.kind === "wire";
-    this.view.host.classList.toggle("grabbing", on);
+    const hit = this.can() && this.view.hitAt(e.clientX, e.clientY);
+    this.view.host.classList.toggle("grabbing", Boolean(hit && (hit.actor.kind === "wire" || this.gripperOf(hit.actor))));
+  }
+
+  /** The gripper that this is, or is a part of; not while its place in a form is chosen by handles. */
+  gripperOf(actor) {
+    if (actor.kind === "gripper") return actor;
+    const part = actor.kind === "obstacle" && actor.given.part;
+    return part ? this.view.actors.find((a) => a.kind === "gripper" && a.name === part) : null;
   }
 
   grab(e) {
     if (e.button !== 0 || e.shiftKey || e.ctrlKey || !this.can()) return;
     const hit = this.view.hitAt(e.clientX, e.clientY);
-    if (!hit || hit.actor.kind !== "wire") return;
-    const { stage } = this.view, s = hit.actor.arcAt(hit.vertex);
+    const { stage } = this.view, gripper = hit && this.gripperOf(hit.actor);
+    if (!hit || (hit.actor.kind !== "wire" && !gripper)) return;
+    const s = gripper ? null : hit.actor.arcAt(hit.vertex), actor = gripper || hit.actor;
     const normal = stage.camera.getWorldDirection(new THREE.Vector3());
-    const at = hit.actor.place(s)?.point || hit.point;
-    this.held = { actor: hit.actor.id, name: hit.actor.name, s, to: at.clone(), started: false, from: [e.clientX, e.clientY],
-      plane: new THREE.Plane().setFromNormalAndCoplanarPoint(normal, at) };
+    const at = gripper ? gripper.group.position.clone() : hit.actor.place(s)?.point || hit.point;
+    const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(normal, at);
+    this.held = { actor: actor.id, name: actor.name, gripper: Boolean(gripper), s, to: at.clone(), started: false,
+      from: [e.clientX, e.clientY], plane };
+    const first = gripper && this.aim(e.clientX, e.clientY); // it may be taken beside its centre
+    this.held.beside = first ? at.sub(first) : null;
     stage.controls.enabled = false;
     this.state.set({ follow: true });
   }
@@ -64,8 +75,13 @@ export class Hand {
     if (!held.started && Math.hypot(e.clientX - held.from[0], e.clientY - held.from[1]) < 4) return; // still a click
     const to = this.aim(e.clientX, e.clientY);
     if (!to) return;
-    held.to.copy(to);
+    held.to.copy(held.beside ? to.add(held.beside) : to);
     this.view.stage.touch();
+    if (!held.started && held.gripper) {
+      held.started = true;
+      this.tell();
+      return;
+    }
     if (!held.started) {
       const { force, stiffness } = this.state.get("grip");
       held.started = this.link.order("pull", { wire: held.name, s: Number(held.s.toPrecision(4)), to: rounded(to), force, stiffness });
@@ -79,15 +95,18 @@ export class Hand {
 
   tell() {
     if (!this.held) return;
-    this.held.told = performance.now();
-    this.link.order("reach", { to: rounded(this.held.to) });
+    const { held } = this, to = rounded(held.to);
+    held.told = performance.now();
+    if (held.gripper) this.link.order("lead", { gripper: held.name, to, speed: this.state.get("lead") });
+    else this.link.order("reach", { to });
   }
 
   let() {
     const { held } = this;
     if (!held) return;
     clearTimeout(held.timer);
-    if (held.started) {
+    if (held.started && held.gripper) this.link.order("leave", { gripper: held.name });
+    else if (held.started) {
       this.tell();
       this.link.order("let");
     }
@@ -97,7 +116,8 @@ export class Hand {
   }
 
   place() {
-    const { held } = this, actor = held?.started && this.view.find(held.actor), at = actor && actor.place(held.s)?.point;
+    const { held } = this, actor = held?.started && this.view.find(held.actor);
+    const at = actor && (held.gripper ? actor.group.position : actor.place(held.s)?.point);
     this.ball.visible = this.line.visible = Boolean(at);
     if (!at) return;
     this.ball.position.copy(held.to);

@@ -152,7 +152,7 @@ class Lines {
     this.undo = iconButton("back", "Undo the last change", () => link.order("undo"), { disabled: true });
     this.save = h("button.text-button.small", { type: "button", disabled: true, onclick: () => download(this.script, "by_hand.lua", "text/x-lua") }, "Save script");
     this.list = h("ol.lines", { "aria-live": "polite", "aria-label": "What was done" });
-    this.empty = h("p.hint", {}, "Pull a wire in the picture, or change a value above: what you do is shown here as the Lua that does it.");
+    this.empty = h("p.hint", {}, "Pull a wire or lead a gripper in the picture, or change a value above: what you do is shown here as the Lua that does it.");
     host.append(h("section.part", {}, h("h3", {}, "Done by hand", h("span.gap"), this.undo, this.save), this.empty, this.list));
   }
   show({ lines, undo, script }) {
@@ -196,8 +196,15 @@ function handPart(host, state) {
       if (force > 0 && Number.isFinite(force)) state.set({ grip: { force, stiffness: (grip.stiffness * force) / grip.force } });
       else limit.value = state.get("grip").force;
     } });
+  const lead = h("input.number", { type: "text", inputMode: "decimal", id: "lead", "aria-label": "Largest speed of a gripper that is led by hand",
+    value: String(state.get("lead")), onchange: () => {
+      const speed = Number(lead.value.replace(",", "."));
+      if (speed > 0 && Number.isFinite(speed)) state.set({ lead: speed }); else lead.value = String(state.get("lead"));
+    } });
   host.append(h("section.part", {}, h("div.row", {}, h("label", { for: "limit", title: "A pull grows with the way, up to this" },
-    "Hand, up to"), limit, h("small", {}, "N"))));
+    "Hand, up to"), limit, h("small", {}, "N")),
+  h("div.row", {}, h("label", { for: "lead", title: "A gripper that is dragged goes to the pointer no faster than this" }, "Gripper, up to"),
+    lead, h("small", {}, "m/s"))));
   state.watch(["grip"], ({ grip }) => { limit.value = Number(grip.force.toPrecision(4)); });
 }
 
@@ -275,7 +282,7 @@ export function startLive(data, page) {
   };
   const showLines = (m) => {
     panel.lines.show(m);
-    panel.build.showScript(m.script, m.unsaved);
+    panel.build.showScript(m.script, m.unsaved, m.undo);
     $("panel-script").replaceChildren();
     scriptPanel($("panel-script"), { ...data, script: m.script && { name: data.live.draft ? "scene.lua" : "again.lua", text: m.script } });
   };
@@ -285,7 +292,7 @@ export function startLive(data, page) {
   };
   const build = () => {
     data.runs = [run];
-    state = page.newState(data, { ...waiting, time: film.times[0], follow: true, hand: true, tab: data.live.draft ? "build" : "live",
+    state = page.newState(data, { ...waiting, time: film.times[0], follow: true, hand: true, lead: 0.2, tab: data.live.draft ? "build" : "live",
       tick: 0, linked: true, ...(data.live.draft ? { quantity: "curvature" } : {}) });
     badge(state);
     page.frame(state);
@@ -294,7 +301,7 @@ export function startLive(data, page) {
     const host = $("panel-live");
     if (view) {
       state.watch(["tick"], () => view.update());
-      const hand = iconButton("hand", "Pull wires (H)", () => state.set({ hand: !state.get("hand") }), { id: "hand" });
+      const hand = iconButton("hand", "Pull wires, lead grippers (H)", () => state.set({ hand: !state.get("hand") }), { id: "hand" });
       $("tools").append(hand);
       state.watch(["hand"], ({ hand: on }) => hand.setAttribute("aria-pressed", String(on)));
       new Handles(view, state, { say: page.say, may: (actor) => panel?.build.canPlace(actor), put: (actor, k, x) => panel.build.place(actor, k, x) });

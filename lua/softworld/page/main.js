@@ -136,7 +136,7 @@ const KEYS = [["Space", "play, pause"], ["← →", "one frame back, on; with sh
   ["X", "section plane"], ["[ ]", "hide objects, charts"], ["T", "dark, light"], ["?", "these keys"]];
 
 const LIVE_KEYS = [["Space", "hold the run, go on"], ["→", "one step"], ["← →", "look back, frame by frame"], ["End", "to the present"],
-  ["+ −", "faster, slower"], ["K", "keep this state"], ["H", "pull wires, or only turn the view"]];
+  ["+ −", "faster, slower"], ["K", "keep this state"], ["H", "pull wires and lead grippers, or only turn the view"]];
 
 function keys(state, transport, view, data, more = {}) {
   const help = $("help");
@@ -187,7 +187,7 @@ function header(data, state) {
   $("status").textContent = failed.length ? "FAILED" : data.runs.some((run) => run.unmet) ? "not as exact as asked" : "ok";
   $("status").className = `badge ${failed.length ? "bad" : data.runs.some((run) => run.unmet) ? "warn" : "good"}`;
   for (const run of failed) {
-    $("banner").append(h("p", {}, h("strong", {}, `${run.name} failed. `), run.reason || "No reason is given."));
+    $("banner").append(h("p", {}, h("strong", {}, h("bdi", {}, run.name), " failed. "), run.reason || "No reason is given."));
   }
   $("banner").hidden = !failed.length;
   document.body.classList.toggle("failed", failed.length > 0);
@@ -251,7 +251,7 @@ function openView(data, state, span) {
     viewButtons(view);
     compass($("stage"), view.stage);
     tools(view, state);
-    objectTree($("objects"), view, data, state);
+    endTree = objectTree($("objects"), view, data, state);
     thicken(view, state);
     view.update();
     return view;
@@ -267,6 +267,8 @@ const usual = (data) => ({ playing: false, speed: 1, loop: false, theme: firstTh
   custom: null, thick: 1, arrows: false, ways: true, glass: false, shadows: true, hidden: new Set(), selected: null, probe: null,
   tool: null, cut: null, cutAt: 0.5, flip: false, quantity: data.runs.length === 1 && knownQuantities(data, "all", 0, null)[0]?.key || null });
 
+let endTree = null; // of the tree of objects that is shown
+
 /** What the live page takes of the player. */
 const shared = {
   say, frame,
@@ -276,7 +278,8 @@ const shared = {
     if (fit && view.refit()) thicken(view, state);
     view.renew();
     $("objects").replaceChildren();
-    objectTree($("objects"), view, data, state);
+    endTree?.();
+    endTree = objectTree($("objects"), view, data, state);
   },
   finish(data, state, view, transport, more) {
     $("title").textContent = data.title;

@@ -2,14 +2,15 @@
 // What the page shows: its runs with their films, series and shapes; and the state that its parts share.
 import { blob, readFilm, locate } from "./film.js";
 
-/** Quantities of wires: channel of the film, words, unit; signed ones are coloured around 0. */
+/** Quantities of wires: channel of the film, words, unit; signed ones are coloured around 0. noise: what is less everywhere
+ * in a run is none. */
 export const QUANTITIES = [
-  { key: "curvature", channel: 1, label: "Curvature", unit: "1/m" },
-  { key: "tension", channel: 0, label: "Tension", unit: "N" },
-  { key: "contact", channel: 2, label: "Contact force", unit: "N" },
-  { key: "twist", channel: 3, label: "Twist moment", unit: "N m" },
-  { key: "stress", channel: 4, label: "Stress", unit: "Pa" },
-  { key: "pressed", channel: 0, kind: "pressed", label: "Surface contact", unit: "N" }, // at the points of a mesh
+  { key: "curvature", channel: 1, label: "Curvature", unit: "1/m", noise: 1e-6 },
+  { key: "tension", channel: 0, label: "Tension", unit: "N", noise: 1e-9 },
+  { key: "contact", channel: 2, label: "Contact force", unit: "N", noise: 1e-9 },
+  { key: "twist", channel: 3, label: "Twist moment", unit: "N m", noise: 1e-12 },
+  { key: "stress", channel: 4, label: "Stress", unit: "Pa", noise: 1e-3 },
+  { key: "pressed", channel: 0, kind: "pressed", label: "Surface contact", unit: "N", noise: 1e-9 }, // at the points of a mesh
 ];
 export const FORCE = 5, ARC = 8;
 
@@ -73,7 +74,7 @@ export class State {
     }
     if (changed.size) for (const f of this.listeners) f(this.values, changed);
   }
-  /** f(values, set of changed keys), now with all of them and then at each change. */
+  /** f(values, set of changed keys), now with all of them and then at each change. Returns what ends it. */
   watch(keys, f) {
     const wanted = new Set(keys);
     const call = (values, changed) => {
@@ -82,6 +83,7 @@ export class State {
     };
     this.listeners.push(call);
     f(this.values, wanted);
+    return () => { this.listeners = this.listeners.filter((one) => one !== call); };
   }
 }
 
@@ -119,7 +121,9 @@ export function knownQuantities(data, mode, time, hidden) {
         high = Math.max(high, b);
       });
     }
-    if (low <= high && (high > low || mode === "frame" || data.live)) known.push({ ...q, low, high });
+    if (data.live && high - low < q.noise) high = low + q.noise;
+    const some = high > low && Math.max(Math.abs(low), Math.abs(high)) > q.noise;
+    if (low <= high && (some || mode === "frame" || data.live)) known.push({ ...q, low, high });
     else if (data.live?.draft && !q.kind) known.push({ ...q, low: 0, high: 1 }); // its wires are still to come
   }
   return known;

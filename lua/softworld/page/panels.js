@@ -10,7 +10,7 @@ const GROUPS = [["wire", "Wires"], ["particles", "Particles"], ["gripper", "Grip
 const groupOf = (actor) => (actor.kind !== "obstacle" ? actor.kind : actor.fixed ? "clip" : actor.given.part ? "pad"
   : actor.kind);
 
-/** The tree of objects: to hide and to pick. */
+/** The tree of objects: to hide and to pick; what is not there now is paler. Returns what ends it. */
 export function objectTree(host, view, data, state) {
   const rows = new Map();
   const toggle = (ids, on) => {
@@ -38,13 +38,20 @@ export function objectTree(host, view, data, state) {
             probe: actor.kind === "wire" ? { id: actor.id, s: (actor.wire.length || 0) / 2 } : null }) },
         h("span", {}, actor.name), h("small", {}, actor.detail || ""));
         const row = h("div.tree-row", {}, name, box);
-        rows.set(actor.id, { row, box, all, own });
+        rows.set(actor.id, { row, box, all, own, actor, name });
         list.append(row);
       }
     }
     host.append(list);
   }
-  state.watch(["hidden", "selected"], ({ hidden, selected }) => {
+  const away = () => {
+    for (const { row, actor, name } of rows.values()) {
+      if (row.classList.toggle("away", !actor.there) === (name.ariaDescription === "not there now")) continue;
+      name.ariaDescription = actor.there ? "" : "not there now";
+    }
+  };
+  const later = state.watch(["time", "tick", "hidden"], () => queueMicrotask(away)); // after the view
+  const chosen = state.watch(["hidden", "selected"], ({ hidden, selected }) => {
     for (const [id, { row, box, all, own }] of rows) {
       box.checked = !hidden.has(id);
       row.classList.toggle("selected", id === selected);
@@ -52,6 +59,7 @@ export function objectTree(host, view, data, state) {
       all.indeterminate = all.checked && own.some((a) => hidden.has(a.id));
     }
   });
+  return () => { later(); chosen(); };
 }
 
 /** How it is drawn: quantity, range, thickness, arrows, ways, glass. */

@@ -241,16 +241,14 @@ end)
 
 -- What exchange wants besides: the scene, and the numbers of its wires in it, from 0.
 local function exchanged(self, numbers)
-  local doc, data = runfiles.moments(self, numbers), build.data(self.scene)
+  local doc = runfiles.moments(self, numbers)
   if #doc.frames == 0 then
     error(("the run of '%s' has no frames; it was made with frames = false, or its scene has forgotten them")
       :format(self.name), 0)
   end
   doc = solid.finite_run(doc)
   for _, kind in ipairs { "wires", "particles" } do
-    for i, shown in ipairs(doc[kind]) do
-      local _, slot = core.number(data[kind][i].object)
-      shown.slot = slot
+    for _, shown in ipairs(doc[kind]) do
       if shown.edges then shown.corners = solid.enclosed(shown.edges) end
     end
   end

@@ -303,9 +303,19 @@ local function check_end(self)
   data.ended[self.number] = true
 end
 
+-- What it uses was taken away from outside of processes, as by hand: it ends, and an event tells.
+local function is_bereft(self, message)
+  local why = build.data(self.scene).bereft and type(message) == "string"
+    and message:match "[^\n]* was taken away[^\n]*"
+  if not why then return false end
+  self.scene:tell{ kind = "removed", text = ("process %d ends: %s"):format(self.number, why) }
+  return true
+end
+
 local function resume(self)
   self.wake, self.watching, self.begun, self.between = nil, nil, true, nil
   local ok, message = coroutine.resume(self.thread, self)
+  if not ok and is_bereft(self, message) then return end
   if not ok then
     self.failed, self.traceback = true, debug.traceback(self.thread)
     if type(message) == "string" and not message:find "^[^\n:]+:%d+: " then

@@ -6,6 +6,7 @@ local advice = require "softworld.run.advice"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local grasp = require "softworld.grip.grasp"
+local leave = require "softworld.scene.leave"
 local ledger = require "softworld.run.ledger"
 local process = require "softworld.run.process"
 local number = require "softworld.output.number"
@@ -101,14 +102,7 @@ local function drive(scene, args, total, bar)
 end
 
 -- Wires as they are when the run begins, for pictures of one that fails.
-local function wires_of(data)
-  local list = {}
-  for i, w in ipairs(data.wires) do
-    list[i] = { name = w.name, radius = w.object.radius, length = w.object.length,
-      segments = w.object.segments }
-  end
-  return list
-end
+local function wires_of(scene) return leave.all(scene, "wire") end
 
 -- A run that failed keeps ok and reason where reading them is seen.
 local function hide_failure(run)
@@ -132,7 +126,7 @@ local function run_once(scene, args, level)
   if not data.going then build.call(3, core.begin_run, scene) end -- else the run of the file goes on
   data.going = nil
   observe.begin(scene, args)
-  total.drawn = wires_of(data)
+  total.drawn = wires_of(scene)
   local wall, cpu = core.clock() - total.wall, os.clock() - total.cpu
   local fine, reason
   do -- protected: a coroutine that dies by an error leaves its variables unclosed
@@ -369,14 +363,14 @@ end
 function Run:document()
   if self.ok then readable(self, "results") end
   local doc = outline(self)
-  if self.ok then draw(self, doc, wires_of(build.data(self.scene))) end
+  if self.ok then draw(self, doc, wires_of(self.scene)) end
   return doc
 end
 
 -- What a player draws of a scene.
 local function describe(scene, doc, wires)
   local data = build.data(scene)
-  doc.scene, doc.wires, doc.obstacles = scene, wires or wires_of(data), obstacles_of(data)
+  doc.scene, doc.wires, doc.obstacles = scene, wires or wires_of(scene), obstacles_of(data)
   drawn.describe(scene, doc)
   for _, f in ipairs(fixing.all(scene)) do
     for _, one in ipairs(f:solids()) do
@@ -406,7 +400,7 @@ function runfiles.moments(self, numbers)
   readable(self, "frames", true)
   local doc = { name = self.name, ok = self.ok, reason = self.reason, time = self.time,
     gravity = self.scene:gravity(), frames = {}, seen = {} }
-  draw(self, doc, self.ok and wires_of(build.data(self.scene)) or self.drawn, numbers)
+  draw(self, doc, self.ok and wires_of(self.scene) or self.drawn, numbers)
   drawn.add_particles(self.scene, doc)
   return doc
 end
@@ -414,7 +408,7 @@ end
 -- The same of a scene as it is now.
 function runfiles.present(scene)
   local doc = { name = scene.name, ok = true, time = scene.time, gravity = scene:gravity(),
-    wires = wires_of(build.data(scene)), obstacles = obstacles_of(build.data(scene)),
+    wires = wires_of(scene), obstacles = obstacles_of(build.data(scene)),
     frames = { core.frame_now(scene) }, seen = {} }
   drawn.add(scene, doc)
   drawn.add_particles(scene, doc)

@@ -90,11 +90,11 @@ local function add_fixing(list, it, start)
     { { what = "force", unit = "N", at = function(i, k) return rows[at[i] + 1 + k] end } })
 end
 
-local function add_wire(list, entry, start)
-  local rows, count = entry.object:log()
+local function add_wire(list, wire, name, start)
+  local rows, count = wire:log()
   if count == 0 then return end
   local at, times = places(rows, count, 3, start)
-  local one = source(list, entry.name, times)
+  local one = source(list, name, times)
   add(one, "tension", "N", function(i) return rows[at[i] + 2] end)
   add(one, "bend_radius", "m", function(i)
     local bent = rows[at[i] + 3]
@@ -115,7 +115,16 @@ local function sources(self)
   for _, f in ipairs(data.fixings) do
     if core.exists(f.object) then add_fixing(list, f.fixing, self.start) end
   end
-  for _, w in ipairs(data.wires) do add_wire(list, w, self.start) end
+  local taken = {}
+  for _, w in ipairs(data.wires) do
+    add_wire(list, w.object, w.name, self.start)
+    taken[w.name] = true
+  end
+  for _, g in ipairs(data.gone or {}) do -- another one may have its name by now
+    local name = taken[g.label] and ("%s until %.6g s"):format(g.label, g.time) or g.label
+    if g.kind == "wire" then add_wire(list, g.body, name, self.start) end
+    taken[name] = true
+  end
   return list
 end
 

@@ -189,7 +189,7 @@ function trust.job(scene, what, args)
   if #data.wires + #data.particles == 0 then
     error(("%s: scene '%s': there is no wire"):format(what, scene.name), 0)
   end
-  local job = { scene = scene, what = what, values = {}, levels = {} }
+  local job = { scene = scene, what = what, values = {}, levels = {}, gone = #(data.gone or {}) }
   local count = (data.process_count or 0) - #bodies
   function job.begin_processes()
     data.process_count = count -- the same numbers again
@@ -252,9 +252,15 @@ local function describe(job, k)
   return ("level %d, %d segments"):format(k, most)
 end
 
--- Wires cannot be taken away, so that a run that makes some cannot be repeated.
+-- Levels have a number of segments for each wire that there is when they begin.
 local function check_wires(job)
-  local wires = build.data(job.scene).wires
+  local data = build.data(job.scene)
+  local gone = #(data.gone or {}) > job.gone and data.gone[#data.gone]
+  if gone then
+    error(("%s: '%s' was taken away on the way, so that the computation cannot be repeated for error bars")
+      :format(job.what, gone.label), 0)
+  end
+  local wires = data.wires
   local new = wires[#job.first + 1]
   if not new then return end
   error(("%s: wire '%s' was made on the way, so that the computation cannot be repeated for error bars; "

@@ -398,7 +398,19 @@ local new_force = class.scene.force
 --- scene:force{ kind =, on =, ... }: see help "force".
 function class.scene.force(scene, args)
   build.check(scene, "scene:force", 3)
-  return (build.call(3, new_force, scene, args))
+  local force, data = build.call(3, new_force, scene, args), build.data(scene)
+  data.forces = data.forces or {}
+  data.forces[#data.forces + 1] = { object = force }
+  return force
+end
+
+--- All forces that were made, in that order, those of clips and ties too, also what was released.
+function class.scene.forces(scene)
+  if core.type(scene) ~= "scene" then error("scene:forces is a method: call it with a colon", 2) end
+  build.call(3, name_of, scene) -- raises when it has been closed
+  local list = {}
+  for i, entry in ipairs(build.data(scene).forces or {}) do list[i] = entry.object end
+  return list
 end
 
 -- --- snapshots ------------------------------------------------------------------

@@ -85,7 +85,9 @@ local function list_of(entries, given, now)
 end
 
 local function obstacles_of(data, given)
-  local list = list_of(data.obstacles, given, function(o) return plain(o:get()) end)
+  local list = list_of(data.obstacles, given, function(o)
+    return o.present and plain(o:get()) or {}
+  end)
   local at = 0
   for _, entry in ipairs(data.obstacles) do
     if core.exists(entry.object) then
@@ -120,8 +122,10 @@ end
 
 local function grippers_of(data, given)
   local list = {}
-  for i, gripper in ipairs(data.grippers) do
-    list[i] = item(gripper, gripper.name, given, function(g) return plain(g:get()) end)
+  for _, gripper in ipairs(data.grippers) do
+    if not gripper.left then
+      list[#list + 1] = item(gripper, gripper.name, given, function(g) return plain(g:get()) end)
+    end
   end
   return list
 end

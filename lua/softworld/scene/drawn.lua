@@ -3,6 +3,7 @@
 -- @module softworld.scene.drawn
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
+local leave = require "softworld.scene.leave"
 local vec = require "softworld.vec"
 
 local drawn = {}
@@ -74,7 +75,7 @@ local function gripper_poses(scene, gripper, frames)
     elseif last and last.held then
       last = { position = last.position, rotation = last.rotation, held = false }
     end
-    list[f] = last
+    list[f] = not (gripper.left and frame.t > gripper.left) and last
   end
   return list
 end
@@ -105,15 +106,12 @@ local function gripper_of(gripper)
   end
   return { name = gripper.name, width = gripper.width or 0.02, spans = spans, first_at = gripper.first_at,
     carrier = gripper.carrier and slot_of(gripper.carrier) - 1,
-    tool = gripper.tool and slot_of(gripper.tool) - 1 }
+    tool = gripper.tool and slot_of(gripper.tool) - 1, left = gripper.left }
 end
 
 --- doc.particles: { name, radius, edges of the surface } of each object of particles.
 function drawn.add_particles(scene, doc)
-  doc.particles = {}
-  for i, p in ipairs(build.data(scene).particles) do
-    doc.particles[i] = { name = p.name, radius = p.object.radius, edges = core.edges(p.object) }
-  end
+  doc.particles = leave.all(scene, "particles")
 end
 
 --- Add to a document what a player draws besides wires: doc.grips, doc.holds, doc.particles; in

@@ -228,7 +228,7 @@ local function add_triangles(entry, old)
   if old then
     entry.vertices, entry.indices = old.vertices, old.indices
   elseif core.exists(entry.object) then
-    solid.keep(entry, entry.object.shape)
+    solid.keep(entry, core.shape_of(entry.object))
   end
 end
 

@@ -123,8 +123,9 @@ end
 function evaluation.steps_reason(steps) return ("took more than %d steps"):format(steps) end
 
 local function finish(own, fine, ...)
+  local limited = core.limit_steps(0)
   if not fine and checks.is_interrupt(...) then error((...), 0) end -- says nothing about the model
-  if core.limit_steps(0) then return "failed", evaluation.steps_reason(own.steps) end
+  if limited then return "failed", evaluation.steps_reason(own.steps) end
   for _, kept in ipairs(own.kept) do
     if not core.exists(kept[1]) then return wrong(own, "closed the scene that setup had built") end
   end

@@ -23,7 +23,7 @@ local MOST_LOCALS = 120 -- of the 200 that Lua allows
 local MOST_UNDONE = 200
 local PROCESSES = 6
 
-local order = { "obstacle", "wire", "gripper", "hold", "fixing", "force", "contact", "step" }
+local order = { "obstacle", "wire", "particles", "gripper", "hold", "fixing", "force", "contact", "step" }
 local rank = {}
 for i, class in ipairs(order) do rank[class] = i end
 

@@ -183,6 +183,9 @@ fill.source = source
 --- The line of Lua that makes or does it. word(name): source of the object of that name; gives a text without
 -- `local name =`. p: the process.
 function fill.line(kind, values, word)
+  if kind.write then
+    return kind.write(values, function(name) return setmetatable({ text = word(name) }, Word) end, source)
+  end
   local args, self = {}, "scene"
   for key, value in pairs(kind.set or {}) do
     if value ~= "rod" then args[key] = value end

@@ -11,6 +11,7 @@ local core = require "softworld.core"
 local cable = require "softworld.cable"
 local rows = require "softworld.rows"
 local bendrule = require "softworld.wire.bendrule"
+local special = require "softworld.view.special"
 
 local kinds = {}
 
@@ -23,7 +24,6 @@ local told = {
   mesh = { data = false, format = false },
   slider = { path = { type = "points" } },
   channel = { points = { type = "points" } }, tie = { to = { type = "vector" } },
-  push = { particles = { type = "numbers" } },
   move = { points = { type = "points" }, path = false, scale = false, func = false, times = false,
     start = false, relative = false, step = false },
   run = { progress = false, save = false, resume = false, frames = false },
@@ -35,7 +35,7 @@ local first = {
   obstacle = "name at friction", force = "", gripper = "name at", hold = "s name",
   step = "s to by approach force speed distance axis angle into", run = "duration dt tolerance",
   scene = "name gravity",
-  fixing = "name at s points", contact = "friction",
+  fixing = "name at s to to_wire to_s points", contact = "friction",
 }
 
 -- What a new form has in it, so that there is something to see at once.
@@ -53,8 +53,10 @@ local starts = {
 
 local simple = { number = "number", integer = "integer", boolean = "boolean", text = "text",
   choice = "choice", vector = "vector", rotation = "rotation", reaction = "choice", ["arc length"] = "number",
-  numbers = "number", points = "points" }
+  numbers = "number", points = "points",
+  ["list of numbers"] = "numbers" }
 local objects = { wire = "wire", clip = "clip", gripper = "gripper" }
+local bodies = "wire particles"
 
 local function finite(x) return x and x > -1e300 and x < 1e300 and x or nil end
 
@@ -111,8 +113,8 @@ end
 
 local list, by_name
 
-local function add(kind, lists, own)
-  kind.fields = fields_of(lists, own or told[kind.kind] or {}, first[kind.class] or "")
+local function add(kind, lists, own, words)
+  kind.fields = fields_of(lists, own or told[kind.kind] or {}, words or first[kind.class] or "")
   kind.known = {}
   for _, field in ipairs(kind.fields) do kind.known[field.name] = field end
   list[#list + 1] = kind
@@ -160,11 +162,13 @@ end
 local made_by_others = { clip = true, snap = true, tether = true }
 
 local function forces(r)
-  local on = { { name = "on", type = "wire", unit = "-", required = true, doc = "the wire it acts on" } }
+  local on = { { name = "on", type = "wire", unit = "-", required = true,
+    doc = "the wire or object of particles that it acts on" } }
   for _, force in ipairs(r.forces) do
     if not force.inner and not made_by_others[force.name] then
       add({ class = "force", kind = force.name, doc = force.summary, method = "force",
-        set = { kind = force.name } }, { on, force.params })
+        set = { kind = force.name } }, { on, force.params },
+        { on = { of = bodies }, particles = { type = "numbers" } })
     end
   end
 end
@@ -177,6 +181,7 @@ local function from_call(class, name, kind, more)
   for key, value in pairs(more or {}) do it[key] = value end
   local lists = { call.rows }
   if call.also then lists[2] = core.trajectory_parameters() end
+  lists[#lists + 1] = it.rows
   add(it, lists, told[kind])
 end
 
@@ -202,7 +207,9 @@ local function load_all()
   holds(r)
   from_call("gripper", "scene:gripper", "gripper")
   forces(r)
-  for _, name in ipairs{ "clip", "channel", "tie" } do from_call("fixing", "scene:" .. name, name) end
+  for _, name in ipairs{ "clip", "channel" } do from_call("fixing", "scene:" .. name, name) end
+  from_call("fixing", "scene:tie", "tie", { write = special.tie.write, rows = special.tie.rows })
+  for _, kind in ipairs(special.kinds) do add(kind, { kind.rows }, kind.own or {}, kind.first) end
   add({ class = "contact", kind = "wire_contact", method = "wire_contact",
     doc = "wires touch each other and themselves" }, { r.params.wire_contact })
   all_steps()
@@ -239,7 +246,7 @@ function kinds.all()
   local all = {}
   for i, kind in ipairs(list) do
     all[i] = { class = kind.class, kind = kind.kind, doc = kind.doc, on = kind.on, self = kind.self,
-      fields = kind.fields, start = starts[kind.kind] or starts[kind.class] }
+      fields = kind.fields, start = starts[kind.kind] or special.starts[kind.kind] or starts[kind.class] }
   end
   return { kinds = all, cables = cables() }
 end

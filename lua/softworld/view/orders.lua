@@ -6,8 +6,8 @@ local core = require "softworld.core"
 local checks = require "softworld.checks"
 local build = require "softworld.scene.build"
 local literal = require "softworld.scene.literal"
-local fixing = require "softworld.link.fixing"
 local fill = require "softworld.view.fill"
+local leaving = require "softworld.view.leaving"
 local record = require "softworld.scene.record"
 local rows = require "softworld.rows"
 
@@ -75,7 +75,7 @@ function orders.forms(scene)
     if core.exists(o.object) and o.object.present then add(o.name, "obstacle", o.object) end
   end
   for _, g in ipairs(build.data(scene).grippers) do
-    if not g.gone then add(g.name, "gripper", g) end
+    if not g.gone and not g.left then add(g.name, "gripper", g) end
   end
   return list
 end
@@ -188,15 +188,6 @@ function make.let() return "hand:release()" end
 
 -- --- objects that come and go ------------------------------------------------------------------------
 
-local leaves = { obstacle = "remove", clamp = "release", join = "release", tie = "release",
-  clip = "release", channel = "release" }
-local stays = { wire = "a wire stays in its scene; go back to a state from before it was made",
-  gripper = "a gripper stays in its scene; it can let go of what it holds" }
-
-local function class_of(object)
-  return core.type(object) or (getmetatable(object) or {}).__name or type(object)
-end
-
 local function word_in(scene)
   return function(name)
     scene:find(name)
@@ -228,56 +219,40 @@ function make.add(scene, m)
     line = ("made[%d] = %s"):format(m.serial, line)
   elseif kind.class == "obstacle" or kind.class == "hold" then
     inverse = ("%s:%s()"):format(reference(values.name), kind.class == "hold" and "release" or "remove")
+  elseif fill.has_name(kind) then
+    inverse = ("scene:remove %s"):format(source(values.name))
   end
   return line, inverse and function() return inverse end
 end
 
---- { object = name } or { made = serial of a force }: it goes, if objects of its class can.
-function make.remove(scene, m)
-  if m.made ~= nil then
-    if math.type(m.made) ~= "integer" then fail "made is no number" end
-    return ("made[%d]:release()"):format(m.made)
+--- { object = name }, { made = serial of a force } or { force = number of the script's }: it goes.
+function make.remove(scene, m) return leaving.line(scene, m) end
+
+-- --- grippers that are led by hand --------------------------------------------------------------------
+
+local function gripper_of(scene, m)
+  local gripper = scene:find(text_of("gripper", m.gripper))
+  if type(gripper) ~= "table" or (getmetatable(gripper) or {}).__name ~= "gripper" then
+    fail("'%s' is no gripper", m.gripper)
   end
-  local name = text_of("object", m.object)
-  local kind = class_of(object_of(scene, name))
-  local verb = leaves[kind] or fail("'%s': %s", name, stays[kind] or ("a %s cannot go"):format(kind))
-  return ("%s:%s()"):format(reference(name), verb)
+  if gripper.left then fail("gripper '%s' was taken away", m.gripper) end
+  return gripper
 end
 
-local function entry_of(name, kind, class)
-  return { name = name, kind = kind, class = class, leaves = leaves[class] ~= nil or nil, why = stays[class] }
+--- { gripper =, to =, speed = }: it goes there on a straight way, no faster than that.
+function make.lead(scene, m)
+  local to, speed = vector_of("to", m.to), positive("speed", m.speed)
+  local here, way = gripper_of(scene, m):position() or fail("gripper '%s' is nowhere yet", m.gripper), 0
+  for k = 1, 3 do way = way + (to[k] - here[k]) ^ 2 end
+  if way < 1e-12 then return ("%s:stop()"):format(reference(m.gripper)) end
+  return ('%s:move { to = %s, speed = %s, law = "linear" }'):format(reference(m.gripper), source(to),
+    source(speed))
 end
 
---- What is in a scene by name: { { name, class, kind, leaves = can it go, why = it cannot } }.
-function orders.objects(scene)
-  local data, list, grips = build.data(scene), {}, {}
-  for _, w in ipairs(data.wires) do list[#list + 1] = entry_of(w.name, w.object.model, "wire") end
-  for _, o in ipairs(data.obstacles) do
-    if core.exists(o.object) and o.object.present and o.name then
-      list[#list + 1] = entry_of(o.name, o.shape, "obstacle")
-    end
-  end
-  for _, g in ipairs(data.grippers) do
-    grips[g.name] = true
-    if not g.gone then list[#list + 1] = entry_of(g.name, "gripper", "gripper") end
-  end
-  for _, hold in ipairs(data.holds) do
-    if core.exists(hold.object) and hold.object.held and not grips[hold.name] then
-      list[#list + 1] = entry_of(hold.name, hold.kind, "clamp")
-    end
-  end
-  for _, call in ipairs(record.of(scene)) do
-    local force = call.method == "force" and call.results[1]
-    if force and core.exists(force) and force.held then
-      list[#list + 1] = { name = force.kind, kind = "force", class = "force",
-        why = "a force of the script has no name to take it away by" }
-    end
-  end
-  for _, it in ipairs(fixing.all(scene)) do
-    local class = class_of(it)
-    list[#list + 1] = entry_of(it.name, class, class)
-  end
-  return list
+--- { gripper = }: it stays where it is.
+function make.leave(scene, m)
+  gripper_of(scene, m)
+  return ("%s:stop()"):format(reference(m.gripper))
 end
 
 --- The line of an order, and what gives the one that undoes it once it is done, or nil; raises a text without

@@ -5,6 +5,7 @@
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local json = require "softworld.output.json"
+local leaving = require "softworld.view.leaving"
 local orders = require "softworld.view.orders"
 local report = require "softworld.output.report"
 local runfiles = require "softworld.run.files"
@@ -24,9 +25,11 @@ local function signature(scene)
   for i, name in ipairs(build.lists) do parts[i] = #data[name] end
   for _, g in ipairs(data.grippers) do
     local last = g.spans[#g.spans]
-    parts[#parts + 1] = ("%d %s %s"):format(#g.spans, last and last.to or "", g.tool and 1 or 0)
+    parts[#parts + 1] = ("%d %s %s %s"):format(#g.spans, last and last.to or "", g.tool and 1 or 0,
+      g.left or "")
   end
   for _, w in ipairs(data.wires) do parts[#parts + 1] = w.object.model end
+  for _, gone in ipairs(data.gone or {}) do parts[#parts + 1] = gone.label end
   return table.concat(parts, " ")
 end
 
@@ -57,7 +60,7 @@ local function show_forms(own)
   if not own.forms_due then return end
   own.forms_due = nil
   local fine, forms = pcall(orders.forms, own.scene)
-  local there, objects = pcall(orders.objects, own.scene)
+  local there, objects = pcall(leaving.objects, own.scene, own.names.made, own.names.hand)
   put(own, FORMS, { kind = "forms", forms = fine and forms or {}, objects = there and objects or {},
     made = show.made(own) })
 end
@@ -128,11 +131,15 @@ end
 local function show_lines(own)
   if not own.lines_due then return end
   own.lines_due = nil
-  local shown, undo = {}, false
-  for i = math.max(1, #own.shown - SHOWN + 1), #own.shown do shown[#shown + 1] = own.shown[i] end
-  for _, line in ipairs(own.shown) do undo = undo or line.undo and not line.undone or false end
+  local shown = {}
+  for i = math.max(1, #own.shown - SHOWN + 1), #own.shown do
+    local line = own.shown[i]
+    shown[#shown + 1] = { time = line.time, text = line.text, ok = line.ok, error = line.error,
+      count = line.count, undone = line.undone }
+  end
   local head = own.draft and own.draft:script() or nil
-  put(own, LINES, { kind = "lines", lines = shown, undo = undo, total = #own.lines, unsaved = own.unsaved,
+  put(own, LINES, { kind = "lines", lines = shown, undo = own.has_undo(own), total = #own.lines,
+    unsaved = own.unsaved,
     script = not own.unsaved and orders.script(own.scene, own.lines, runs_of(own), head) or nil })
 end
 

@@ -123,7 +123,7 @@ local function attach(own, scene)
   if own.self then views[build.data(scene)] = own.self end
   own.scene, own.signature, own.state, own.frame, own.events = scene, nil, nil, nil, nil
   own.queue, own.lines, own.shown, own.snapshots, own.hand = {}, {}, {}, {}, nil
-  own.changes, own.count, own.steps = 0, 0, 0
+  own.changes, own.count, own.steps, own.ways, own.led = 0, 0, 0, {}, nil
   own.names = setmetatable({ scene = scene, made = {} }, { __index = { math = math } })
   own.lines_due, own.forms_due, own.failed, own.running, own.done = true, true, nil, false, nil
   own.runs, own.serial, own.made_text, own.unsaved, own.draft_due = {}, 0, {}, nil, true
@@ -148,7 +148,8 @@ local function serve(scene, args, from)
   local fine, server, port, token = pcall(core.serve, given.port or 0)
   if not fine then error("scene:view: " .. build.plain(server), 0) end
   local own = { server = server, port = port, token = token, session = math.random(1, 1 << 30), outline = 0,
-    paused = given.paused or false, open = given.open ~= false, answers = {}, draft = from, attach = attach }
+    paused = given.paused or false, open = given.open ~= false, answers = {}, draft = from, attach = attach,
+    has_undo = work.has_undo }
   attach_another(own, scene)
   local self = sealed.new(View, own)
   own.self = self

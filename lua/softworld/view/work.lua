@@ -5,6 +5,7 @@
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local draft = require "softworld.view.draft"
+local leaving = require "softworld.view.leaving"
 local jsonread = require "softworld.output.jsonread"
 local orders = require "softworld.view.orders"
 local record = require "softworld.scene.record"
@@ -15,13 +16,19 @@ local work = {}
 local MOST_LINES = 5000   -- changes that are kept
 local TOO_MANY = ("more than %d changes were made by hand"):format(MOST_LINES)
 local MOST_SNAPSHOTS = 20
+local MOST_WAYS_BACK = 20 -- states from before something was taken away
 
 -- --- what they ask for ---------------------------------------------------------------------------
+
+-- What a hand moves by one order after the other, of which one line is shown.
+local function led(text)
+  return text:find "^hand:set" and "hand" or text:match '^(scene:find%b()):move { .* law = "linear" }$'
+end
 
 local function note(own, line)
   own.lines_due, own.forms_due = true, true
   local last = own.shown[#own.shown]
-  local again = last and line.ok and last.ok and line.text:find "^hand:set" and last.text:find "^hand:set"
+  local again = last and line.ok and last.ok and led(line.text) ~= nil and led(line.text) == led(last.text)
   if again then
     last.text, last.time, last.count = line.text, line.time, last.count + 1
   else
@@ -37,12 +44,14 @@ local function run_line(own, text)
   record.quietly(chunk) -- it is in the lines
 end
 
-local function do_line(own, text, inverse)
+local function do_line(own, text, inverse, before)
   local time = own.scene.time
   local fine, message = pcall(run_line, own, text)
   if not fine and draft.is_interrupt(message) then error(message, 0) end
   if not fine then message = build.plain(message):gsub("^by hand:%d+: ", "") end
   if fine then
+    local made = text:match "^made%[(%d+)%] = "
+    if made then own.made_text[math.tointeger(made)] = text end
     own.changes = own.changes + 1
     if #own.lines < MOST_LINES then
       own.lines[#own.lines + 1] = { time = time, text = text }
@@ -51,8 +60,24 @@ local function do_line(own, text, inverse)
     end
   end
   note(own, { time = time, text = text, ok = fine, error = not fine and message or nil,
-    undo = fine and inverse and inverse() or nil })
+    undo = fine and inverse and inverse() or nil, before = fine and before or nil })
   return fine, message
+end
+
+local function state_of(own)
+  return { time = own.scene.time, snapshot = own.scene:snapshot(), lines = #own.lines, runs = #own.runs,
+    inside = own.running }
+end
+
+-- The state before something is taken away, to which undoing goes back; the oldest ones are forgotten.
+local function way_back(own)
+  if show.alive(own.scene) > 0 then return nil end -- a Lua function has no way back
+  local fine, state = pcall(state_of, own)
+  if not fine then return nil end
+  local ways = own.ways
+  ways[#ways + 1] = state
+  if #ways > MOST_WAYS_BACK then table.remove(ways, 1).snapshot = nil end
+  return state
 end
 
 --- Show that something cannot be, and why.
@@ -63,18 +88,8 @@ function work.refused(own, message)
   if #own.shown > MOST_LINES then table.remove(own.shown, 1) end
 end
 
-local function touched(own, m, words)
-  pcall(own.scene.tell, own.scene, { kind = "hand", object = m.wire or own.pulled, text = words })
-end
-
-local function undo(own)
-  for i = #own.shown, 1, -1 do
-    local line = own.shown[i]
-    if line.undo and not line.undone then
-      line.undone = true
-      return do_line(own, line.undo)
-    end
-  end
+local function touched(own, object, words)
+  pcall(own.scene.tell, own.scene, { kind = "hand", object = object, text = words })
 end
 
 -- The runs that a script has to do after it: one that was left early ends there.
@@ -88,21 +103,87 @@ local function back_in_runs(own, s)
   end
 end
 
+local function back_to(own, s)
+  build.back(own.scene, s.snapshot)
+  own.names.hand, own.hand = nil, nil
+  for k = #own.lines, 1, -1 do
+    if own.lines[k].time > s.time or k > s.lines then own.lines[k] = nil end
+  end
+  own.changes, own.lines_due, own.forms_due, own.pulled = own.changes + 1, true, true, nil
+  own.base = nil
+  back_in_runs(own, s)
+  own.shown[#own.shown + 1] = { time = s.time, text = ("-- back to %g s"):format(s.time), ok = true,
+    count = 1 }
+end
+
 local function back(own, m)
   for _, s in ipairs(own.snapshots) do
-    if s.id == m.id then
-      build.back(own.scene, s.snapshot)
-      own.names.hand, own.hand = nil, nil
-      for k = #own.lines, 1, -1 do
-        if own.lines[k].time > s.time or k > s.lines then own.lines[k] = nil end
-      end
-      own.changes, own.lines_due, own.forms_due, own.pulled = own.changes + 1, true, true, nil
-      own.base = nil
-      back_in_runs(own, s)
-      own.shown[#own.shown + 1] = { time = s.time, text = ("-- back to %g s"):format(s.time), ok = true,
-        count = 1 }
-      return
+    if s.id == m.id then return back_to(own, s) end
+  end
+end
+
+-- May it go back to the state before the line was done?
+local function leads_back(own, line)
+  return line.before and line.before.snapshot and show.alive(own.scene) == 0
+end
+
+local function can_undo(own, line)
+  return not line.undone and (line.undo or leads_back(own, line)) and true or false
+end
+
+local function undo(own)
+  for i = #own.shown, 1, -1 do
+    local line = own.shown[i]
+    if can_undo(own, line) then
+      line.undone = true
+      if leads_back(own, line) then return back_to(own, line.before) end
+      return do_line(own, line.undo)
     end
+  end
+end
+
+-- What pulls a wire goes with it.
+local function let_gone(own)
+  if own.names.hand and not own.names.hand.held then
+    own.names.hand, own.hand, own.pulled = nil, nil, nil
+  end
+end
+
+local function told(own, m)
+  if m["do"] == "pull" then
+    own.pulled = m.wire
+    touched(own, m.wire, ("wire '%s' is pulled by hand at s = %.4g m"):format(m.wire, m.s))
+  elseif m["do"] == "let" then
+    touched(own, own.pulled, ("wire '%s' is let go by hand"):format(tostring(own.pulled)))
+    own.names.hand, own.pulled = nil, nil
+  elseif m["do"] == "lead" and own.led ~= m.gripper then
+    own.led = m.gripper
+    touched(own, m.gripper, ("gripper '%s' is led by hand"):format(m.gripper))
+  elseif m["do"] == "leave" then
+    own.led = nil
+    touched(own, m.gripper, ("gripper '%s' is let go by hand"):format(m.gripper))
+  elseif m["do"] == "remove" then
+    let_gone(own)
+  end
+end
+
+-- An order that is no way back: its line is made, done, and told.
+local function obey(own, m)
+  if m["do"] == "pull" and own.names.hand then do_line(own, "hand:release()") end
+  local fine, text, inverse = pcall(orders.line, own.scene, m)
+  local done, message, before = fine, text, nil
+  if fine and m["do"] == "remove" then
+    own.serial = own.serial + 1
+    local again = m.made and own.made_text[m.made] or leaving.again(own.scene, m, own.serial)
+    again = again and again:gsub("^made%[%d+%]", ("made[%d]"):format(own.serial))
+    inverse, before = again and function() return again end, way_back(own)
+  end
+  if fine then done, message = do_line(own, text, inverse, before) end
+  show.answer(own, m.ask, done, not done and build.plain(message) or nil)
+  if not fine then
+    work.refused(own, text)
+  elseif done then
+    told(own, m)
   end
 end
 
@@ -113,25 +194,7 @@ function work.all(own)
   for _, m in ipairs(queue) do
     if m["do"] == "undo" then undo(own)
     elseif m["do"] == "back" then back(own, m)
-    elseif m["do"] ~= "reach" and m["do"] ~= "let" or own.names.hand then
-      if m["do"] == "pull" and own.names.hand then do_line(own, "hand:release()") end
-      local fine, text, inverse = pcall(orders.line, own.scene, m)
-      local done, message = fine, text
-      if fine then done, message = do_line(own, text, inverse) end
-      show.answer(own, m.ask, done, not done and build.plain(message) or nil)
-      if not fine then
-        work.refused(own, text)
-      elseif done then
-        if m["do"] == "add" then own.made_text[m.serial] = text end
-        if m["do"] == "pull" then
-          own.pulled = m.wire
-          touched(own, m, ("wire '%s' is pulled by hand at s = %.4g m"):format(m.wire, m.s))
-        elseif m["do"] == "let" then
-          touched(own, m, ("wire '%s' is let go by hand"):format(tostring(own.pulled)))
-          own.names.hand, own.pulled = nil, nil
-        end
-      end
-    end
+    elseif m["do"] ~= "reach" and m["do"] ~= "let" or own.names.hand then obey(own, m) end
   end
 end
 
@@ -151,9 +214,9 @@ end
 --- Keep the scene as it is, to be gone back to.
 function work.keep(own)
   own.count = own.count + 1
-  own.snapshots[#own.snapshots + 1] =
-    { id = own.count, time = own.scene.time, snapshot = own.scene:snapshot(), lines = #own.lines,
-      runs = #own.runs, inside = own.running }
+  local state = state_of(own)
+  state.id = own.count
+  own.snapshots[#own.snapshots + 1] = state
   if #own.snapshots > MOST_SNAPSHOTS then table.remove(own.snapshots, 2) end -- the first one stays
 end
 
@@ -210,9 +273,10 @@ end
 
 -- --- hearing ---------------------------------------------------------------------------------------
 
-local function has_undo(own)
+--- Is there something to be undone now?
+function work.has_undo(own)
   for _, line in ipairs(own.shown) do
-    if line.undo and not line.undone then return true end
+    if can_undo(own, line) then return true end
   end
   return false
 end
@@ -230,7 +294,7 @@ end
 -- Will something come of an order? To leave a run for nothing would change the last bits of its steps.
 local function is_good(own, m)
   local word = m["do"]
-  if word == "undo" then return has_undo(own) end
+  if word == "undo" then return work.has_undo(own) end
   if word == "back" then return has_way_back(own, m) end
   if (word == "reach" or word == "let") and not own.hand then return false end
   if word == "add" then

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What leaves a scene: see scene:remove, which is Lua's. */
+#include "bind/bind_shape.h"
+#include "bind/child.h"
+#include "bind/module.h"
+
+/* core.remove_body(wire or object of particles): what holds it lets go. */
+static int mod_remove_body(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const int loose = lsw_test(L, 1, &lsw_class_particles) != NULL;
+  const lsw_child *body =
+      lsw_check_child(L, 1, loose ? &lsw_class_particles : &lsw_class_wire, &scene);
+  lsw_must(L, sw_scene_remove_body(scene, body->id, &err), &err);
+  return 0;
+}
+
+/* core.remove_tool(tool): with its pads. */
+static int mod_remove_tool(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const lsw_child *tool = lsw_check_child(L, 1, &lsw_class_tool, &scene);
+  lsw_must(L, sw_scene_remove_tool(scene, tool->id, &err), &err);
+  return 0;
+}
+
+/* core.shape_of(obstacle) -> its shape, also of one that was removed, which frames still show */
+static int mod_shape_of(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_shape *shape;
+  const lsw_child *o = lsw_check_child(L, 1, &lsw_class_obstacle, &scene);
+  lsw_must(L, sw_scene_obstacle_shape(scene, o->id, &shape, &err), &err);
+  lsw_push_shape(L, shape);
+  return 1;
+}
+
+static const luaL_Reg functions[] = {{"remove_body", mod_remove_body},
+                                     {"remove_tool", mod_remove_tool},
+                                     {"shape_of", mod_shape_of},
+                                     {NULL, NULL}};
+
+void lsw_open_leave(lua_State *L) { luaL_setfuncs(L, functions, 0); }

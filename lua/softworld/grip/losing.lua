@@ -1,0 +1,30 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Grippers whose wires are taken away, and grippers that are: see scene:remove.
+-- @module softworld.grip.losing
+local grasp = require "softworld.grip.grasp"
+local mixed = require "softworld.grip.mixed"
+
+local losing = {}
+
+--- The gripper is about to be taken away: its wires are as they would be had it let go.
+function losing.all(self)
+  if self.frozen then mixed.thaw(self) end
+  if self.tool and self.way == "mixed" and self.wire then mixed.finish(self) end
+  for _, grip in ipairs(self.grips) do losing.wire(self, grip.wire) end
+end
+
+--- The wire is about to be taken away: the gripper has it no more, and to let go of it later is no mistake.
+function losing.wire(self, wire)
+  local left, held = {}, false
+  for _, grip in ipairs(self.grips) do
+    if grip.wire == wire then held = true else left[#left + 1] = grip end
+  end
+  if not held then return end
+  self.bereft = true
+  if not self.tool then return grasp.drop(self, wire) end
+  if self.wire == wire then self.frozen = nil end
+  self.grips, self.wire = left, left[1] and left[1].wire
+  self.held = self.held and #left > 0
+end
+
+return losing

@@ -1,0 +1,375 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- scene:remove: what leaves a scene takes with it what belongs to it, and nothing else; what it did
+-- before stays to be read.
+local sw = require "softworld"
+local core = sw.core
+
+local R = 0.0025
+
+local function rod(scene, name, y, more)
+  local p = { name = name, E = 50e6, density = 1500, radius = R, from = { 0, y, 0.1 }, to = { -0.5, y, 0.1 },
+    segments = 20 }
+  for key, value in pairs(more or {}) do p[key] = value end
+  return scene:wire(p)
+end
+
+local function three()
+  local scene = sw.scene{ name = "three" }
+  return scene, rod(scene, "a", 0), rod(scene, "b", 0.05), rod(scene, "c", 0.1)
+end
+
+-- Do f between two steps, at the first state from time t on.
+local function at(scene, t, f)
+  local done
+  scene:observe{ call = function(o)
+    if scene.time >= t and not done then
+      done = true
+      o:change(f)
+    end
+  end }
+end
+
+local function refused(text, f)
+  local fine, why = pcall(f)
+  assert.is_false(fine, text)
+  assert(tostring(why):find(text, 1, true), why)
+end
+
+describe("scene:remove", function()
+  it("takes a wire with all that holds it, and leaves the others alone", function()
+    local scene, a, b, c = three()
+    local clamp, pin = scene:clamp(b, { s = 0 }), scene:pin(c, { s = 0 })
+    local force = scene:force{ kind = "point", on = b, s = 0.3, force = { 0, 0, 0.01 } }
+    local tie, own = scene:tie(b, { s = 0.25, to = { c, s = 0.25 } }), scene:tie(c, { s = 0.5 })
+    scene:remove(b)
+    assert.is_false(clamp.held)
+    assert.is_false(force.held)
+    assert.is_false(tie:exists())
+    assert.is_true(pin.held)
+    assert.is_true(own:exists())
+    assert.are.same({ true, false, true }, { a.present, b.present, c.present })
+    -- handles of the others name what they named: c, whose place in the scene's list is another one now
+    assert.are.near(0.1, c:position(0.2)[2], 1e-12)
+    assert.are.near(0, a:position(0.2)[2], 1e-12)
+    assert.is_false(core.exists(b))
+    assert.are.equal("b", b.name)
+    assert.are.equal("wire 'b' (taken away)", tostring(b))
+  end)
+
+  it("says of what is gone that it is, when, and refuses what is none of the scene's", function()
+    local scene, a, b = three()
+    scene:run{ duration = 0.01, dt = 0.005 }
+    scene:remove(b)
+    local gone = "'b' was taken away from scene 'three' at t = 0.01 s"
+    refused(gone, function() b:position(0.1) end)
+    refused(gone, function() scene:clamp(b, { s = 0 }) end)
+    refused(gone, function() scene:force{ kind = "point", on = b, s = 0, force = { 0, 0, 1 } } end)
+    refused("scene:remove: 'b' was taken away already", function() scene:remove(b) end)
+    refused("nothing named 'b'", function() scene:remove "b" end)
+    refused("scene:remove expects what is to go, or its name, got 3", function() scene:remove(3) end)
+    refused("got nil", function() scene:remove() end)
+    refused("is of another scene", function() three():remove(a) end)
+    refused("scene:remove is a method", function() scene.remove(a) end)
+  end)
+
+  it("books the energy that leaves as a change of the scene, without a gap", function()
+    -- energy is what each wire has by itself: without b the total is that of a and c
+    local scene, _, b = three()
+    local before, after
+    at(scene, 0.05, function()
+      before = scene:energy().total
+      scene:remove(b)
+      after = scene:energy().total
+    end)
+    local run = scene:run{ duration = 0.1, dt = 0.005 }
+    local ledger = run:ledger()
+    assert.are.near(2 / 3, after / before, 1e-9)
+    assert.are.near(after - before, ledger.work.changes, 1e-9 * before)
+    assert.is_true(math.abs(ledger.gap) < 1e-9 * before)
+  end)
+
+  it("moves what stays as if what left had never been there", function()
+    -- three wires fall freely, not touching: a and c of the scene with b, and of a scene without
+    local scene, a, b, c = three()
+    at(scene, 0.05, function() scene:remove(b) end)
+    scene:run{ duration = 0.1, dt = 0.005, integrator = "tr-bdf2" }
+    local fall = 0.1 - 0.5 * 9.81 * 0.1 ^ 2 -- z0 - g t^2 / 2 [m]
+    for _, wire in ipairs{ a, c } do assert.are.near(fall, wire:position(0.25)[3], 1e-6) end
+  end)
+
+  it("keeps what was touched touching, with its friction", function()
+    -- On a slope of 15 degrees with friction 0.4 > tan(15 degrees) a wire stays; friction that was
+    -- forgotten, or was of another wire, would let it creep.
+    local g, slope = 9.81, math.rad(15)
+    local scene = sw.scene{ gravity = { 0, g * math.sin(slope), -g * math.cos(slope) } }
+    scene:obstacle{ shape = "plane", friction = 0.4 }
+    local a = rod(scene, "a", 0, { from = { 0, 0, R }, to = { -0.5, 0, R } })
+    local b = rod(scene, "b", 0.1, { from = { 0, 0.1, R }, to = { -0.5, 0.1, R } })
+    scene:settle()
+    scene:run{ duration = 0.05, dt = 0.002 }
+    local before = b:position(0.25)[2]
+    scene:remove(a)
+    scene:run{ duration = 0.05, dt = 0.002 }
+    assert.are.near(before, b:position(0.25)[2], 1e-6)
+  end)
+
+  it("lets frames, series, events and pictures tell of it until it went", function()
+    local scene, _, b = three()
+    at(scene, 0.05, function() scene:remove(b) end)
+    local run = scene:run{ duration = 0.1, dt = 0.005, frame = 0.01 }
+    local doc = run:document()
+    assert.are.same({ "a", "b", "c" }, { doc.wires[1].name, doc.wires[2].name, doc.wires[3].name })
+    for _, frame in ipairs(doc.frames) do
+      local there = frame.t <= 0.05 + 1e-9
+      assert.are.equal(there and 63 or 0, #frame.wires[2])
+      assert.are.equal(63, #frame.wires[3])
+      assert.are.near(0.1, frame.wires[3][2], 1e-6) -- y of c, float
+      assert.are.equal(there and 21 or 0, #frame.values[2].tension)
+    end
+    local event = run.events[1]
+    assert.are.same({ "removed", "b", "wire 'b' is taken away" }, { event.kind, event.object, event.text })
+    assert.are.near(0.05, event.time, 1e-9)
+    local column
+    for _, one in ipairs(run:series().columns) do column = one.name == "b.tension" and one or column end
+    for i, t in ipairs(run:series().time) do
+      assert.are.equal(t <= 0.05 + 1e-9, column.values[i] == column.values[i])
+    end
+    local path = os.tmpname()
+    for ending, method in pairs{ html = "report", glb = "gltf", obj = "obj", pvd = "vtk" } do
+      run[method](run, path .. "." .. ending)
+    end
+    for _, technique in ipairs{ "particles", "wireframe", "shaded" } do
+      run:picture{ path = path .. ".png", technique = technique, t = 0.1 }
+    end
+    os.execute(("rm -rf %s %s.* %s_*"):format(path, path, path))
+  end)
+
+  it("is undone by a snapshot from before, also one with fewer wires than there are", function()
+    local scene, _, b, c = three()
+    local clamp = scene:clamp(b, { s = 0 })
+    local empty = scene:snapshot()
+    scene:run{ duration = 0.01, dt = 0.005 }
+    local snapshot = scene:snapshot()
+    scene:run{ duration = 0.02, dt = 0.005 }
+    local wanted = b:position(0.4)
+    scene:restore(snapshot)
+    scene:remove(b)
+    local d = rod(scene, "d", 0.2)
+    rod(scene, "e", 0.3)
+    scene:run{ duration = 0.02, dt = 0.005 }
+    scene:restore(snapshot)
+    assert.is_true(b.present and clamp.held)
+    assert.is_false(core.exists(d))
+    scene:run{ duration = 0.02, dt = 0.005 }
+    assert.are.same(wanted, b:position(0.4))
+    scene:restore(empty)
+    assert.are.near(0.1, c:position(0.4)[2], 0)
+    assert.are.equal(0, scene.time)
+  end)
+
+  it("makes its name free, and is written as a script has it", function()
+    local scene, _, b = three()
+    scene:remove(b)
+    rod(scene, "b", 0.07)
+    assert.are.equal("a b c", table.concat(scene:names(), " "))
+    local again = assert(load(scene:script()))()
+    assert.are.equal("a b c", table.concat(again:names(), " "))
+    assert.are.near(0.07, again:find("b"):position(0.1)[2], 1e-12)
+    assert.are.equal(3, #scene:describe().wires)
+    scene:run{ duration = 0.01, dt = 0.005 }
+    scene:remove "b"
+    rod(scene, "b", 0.05)
+    local names = {}
+    for _, column in ipairs(scene:run{ duration = 0.01, dt = 0.005 }:series().columns) do
+      assert.is_nil(names[column.name])
+      names[column.name] = true
+    end
+    assert.is_true(names["b.tension"])
+  end)
+
+  it("goes on from a file with the same bits", function()
+    local scene, a, _, c = three()
+    scene:remove "b"
+    scene:run{ duration = 0.01, dt = 0.005 }
+    scene:remove(a)
+    local path = os.tmpname()
+    scene:save(path)
+    local copy = sw.load(path)
+    os.remove(path)
+    assert.are.equal("c", table.concat(copy:names(), " "))
+    for _, one in ipairs{ scene, copy } do one:run{ duration = 0.01, dt = 0.005 } end
+    assert.are.same((c:positions()), (copy:find("c"):positions()))
+  end)
+
+  it("of the last wire is refused while a run goes on, and leaves an empty scene otherwise", function()
+    local scene = sw.scene()
+    local a = rod(scene, "a", 0)
+    at(scene, 0.005, function() scene:remove(a) end)
+    refused("'a' is the last wire, and a run is under way", function()
+      scene:run{ duration = 0.01, dt = 0.005 }
+    end)
+    scene:remove(a)
+    refused("there is no wire", function() scene:run{ duration = 0.01 } end)
+    local b = rod(scene, "b", 0)
+    assert.is_true(scene:run{ duration = 0.01, dt = 0.005 }.ok)
+    assert.is_true(b.present)
+  end)
+
+  it("goes with error bars before a run, and is told when it comes within", function()
+    local function run(work)
+      local scene, a, b = three()
+      scene:clamp(a, { s = 0 })
+      scene:remove "c"
+      scene:process(function(p)
+        p:wait(0.01)
+        work(scene, b)
+        p:wait(0.01)
+      end)
+      return scene:run{ tolerance = { ["a.tip"] = 1e-3 } }
+    end
+    assert.is_true(run(function() end).ok)
+    refused("'b' was taken away on the way", function() run(function(scene, b) scene:remove(b) end) end)
+  end)
+
+  it("takes everything else that can go", function()
+    local scene, a, b = three()
+    local box = scene:obstacle{ shape = "box", size = { 0.1, 0.1, 0.1 }, at = { 0, 1, 0 }, name = "box" }
+    local clamp = scene:clamp(a, { s = 0 })
+    local force = scene:force{ kind = "damping", mass = 1 }
+    local tie = scene:tie(b, { s = 0.25, name = "tie" })
+    for _, one in ipairs{ "box", clamp, force, "tie" } do scene:remove(one) end
+    assert.are.same({ false, false, false, false }, { box.present, clamp.held, force.held, tie:exists() })
+    refused("'box' was taken away already", function() scene:remove(box) end)
+    assert.are.equal("box", scene:describe().obstacles[1].name)
+  end)
+
+  it("takes objects of particles", function()
+    local scene, _, _, c = three()
+    local net = scene:particles{ name = "net", positions = { 0, 1, 0, 0.1, 1, 0 }, masses = 0.01,
+      links = { { pairs = { 1, 2 }, k = 10 } } }
+    local d = rod(scene, "d", 0.2)
+    scene:run{ duration = 0.01, dt = 0.005, frame = 0.005 }
+    scene:remove(net)
+    scene:remove "b"
+    local run = scene:run{ duration = 0.01, dt = 0.005, frame = 0.005 }
+    assert.are.near(0.2, d:position(0.1)[2], 1e-9)
+    assert.are.near(0.1, c:position(0.1)[2], 1e-9)
+    local frames = run:document().frames
+    assert.are.equal(0, #frames[#frames].particles[1])
+    assert.is_false(net.present)
+    assert.are.same({ "net", "particles 'net' (taken away)" }, { net.name, tostring(net) })
+    assert.are.near(0.2, frames[#frames].wires[4][2], 1e-6)
+  end)
+end)
+
+describe("scene:remove with grippers", function()
+  local function table_with(approach, work)
+    local scene = sw.scene{ name = approach }
+    scene:obstacle{ shape = "plane", friction = 0.3 }
+    local a = rod(scene, "a", 0, { E = 5e6, from = { 0, 0, R }, to = { -0.3, 0, R } })
+    rod(scene, "b", 0.1, { E = 5e6, from = { 0, 0.1, R }, to = { -0.3, 0.1, R } })
+    local pads = approach ~= "imposed"
+    local hand = scene:gripper{ name = "hand", pads = pads and { friction = 0.6 } or nil }
+    scene:process(function(p)
+      hand:grasp(a, { s = 0.02, approach = approach, force = pads and 2 or nil })
+      hand:move{ by = { 0, 0, 0.05 }, speed = 0.2 }
+      work(scene, hand, a, p)
+    end)
+    return scene:run{ dt = 0.005 }, scene, hand, a
+  end
+
+  for _, approach in ipairs{ "imposed", "plates", "mixed" } do
+    it("a gripper lets its wire fall and is a dead handle, " .. approach, function()
+      local run, scene, hand, a = table_with(approach, function(scene, hand, _, p)
+        scene:remove(hand)
+        p:wait(0.05)
+      end)
+      assert.is_true(run.ok, run.reason)
+      -- in 0.05 s it falls freely by g t^2 / 2 = 12 mm from 52.5 mm, held back by what of it still lies
+      local z = a:position(0.02)[3]
+      assert.is_true(z < 0.05 and z > 0.040, tostring(z))
+      assert.are.equal("rod", a.model)
+      assert.is_true(hand.peak_force > 0)
+      refused("gripper 'hand' was taken away at t =", function() hand:move{ by = { 0, 0, 1 } } end)
+      refused("gripper 'hand' was taken away at t =", function() scene:remove(hand) end)
+      assert.are.equal("gripper 'hand' (taken away)", tostring(hand))
+      assert.are.equal(0, #scene:describe().grippers)
+      local frames = run:document().frames
+      assert.is_false(frames[#frames].grips[1] or false)
+    end)
+
+    it("a gripper whose wire is taken away goes on with nothing, " .. approach, function()
+      local run, _, hand = table_with(approach, function(scene, hand, a, p)
+        scene:remove(a)
+        p:wait(0.02)
+        assert.is_nil(hand.wire)
+        hand:release()
+        hand:move{ by = { 0, 0, 0.02 }, speed = 0.2 }
+      end)
+      assert.is_true(run.ok, run.reason)
+      assert.are.same({}, hand.wires)
+      assert.are.same({ 0, 0, 0 }, hand:force())
+      refused("holds nothing", function() hand:release() end)
+    end)
+  end
+
+  it("ends a process from under which its gripper is taken, and the run goes on", function()
+    local scene = sw.scene()
+    local a = rod(scene, "a", 0)
+    local hand = scene:gripper{ name = "hand", at = { 0, 0, 0.1 } }
+    scene:process(function(p)
+      hand:grasp(a, { s = 0.02 })
+      p:wait(0.05)
+      hand:move{ by = { 0, 0, 0.1 }, speed = 1 }
+    end)
+    local later
+    scene:process(function(p)
+      p:wait(0.1)
+      later = p.time
+    end)
+    at(scene, 0.02, function() scene:remove(hand) end)
+    local run = scene:run{ dt = 0.005 }
+    assert.is_true(run.ok, run.reason)
+    assert.are.near(0.1, later, 1e-9)
+    assert.are.near(0.05, run.events[2].time, 1e-9)
+    assert(run.events[2].text:find("process 1 ends: .*gripper 'hand' was taken away at t = 0.02 s"))
+    -- what a process takes away itself is its own mistake
+    local other = sw.scene()
+    local b = rod(other, "b", 0)
+    rod(other, "c", 0.1)
+    other:process(function(p)
+      p:wait(0.01)
+      other:remove(b)
+      b:position(0)
+    end)
+    refused("'b' was taken away from scene", function() other:run{ dt = 0.005 } end)
+  end)
+
+  it("refuses a part of a gripper, and its grip, and names it", function()
+    table_with("plates", function(scene, hand)
+      refused("is a part of gripper 'hand'; remove that", function()
+        scene:remove(hand.obstacles[1])
+      end)
+    end)
+    table_with("imposed", function(scene, hand)
+      refused("the grip of gripper 'hand'", function() scene:remove(hand.hold) end)
+    end)
+  end)
+
+  it("gives the gripper back with a snapshot", function()
+    local scene = sw.scene()
+    local a = rod(scene, "a", 0)
+    local hand = scene:gripper{ name = "hand", at = { 0, 0, 0.1 } }
+    hand:grasp(a, { s = 0.02 })
+    scene:run{ duration = 0.01, dt = 0.005 }
+    local snapshot = scene:snapshot()
+    scene:remove(hand)
+    assert.is_false(hand.past[1].held)
+    scene:restore(snapshot)
+    assert.is_nil(hand.left)
+    assert.are.equal(a, hand.wire)
+    hand:move{ by = { 0, 0, 0.01 }, speed = 1 }
+    scene:run{ duration = 0.02, dt = 0.005 }
+    assert.are.near(0.11, hand:position()[3], 1e-9)
+  end)
+end)
