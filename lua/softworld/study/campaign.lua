@@ -9,6 +9,7 @@ local core = require "softworld.core"
 local evaluation = require "softworld.study.evaluation"
 local judge = require "softworld.study.judge"
 local parameters = require "softworld.study.parameters"
+local parts = require "softworld.study.parts"
 local pool = require "softworld.study.pool"
 local unread = require "softworld.unread"
 
@@ -89,7 +90,7 @@ local function here(own, part, next_task, done)
   local again, more = math.random(0), math.random(0)
   local fine, why = pcall(function()
     for task in next_task do
-      local status, rest = unread.excused(evaluation.run, own, part, task.number, task.values)
+      local status, rest = unread.excused(evaluation.run, own, task.number, task.values)
       keep(own, part, task, status, rest, done)
     end
   end)
@@ -107,7 +108,7 @@ local function by_workers(own, part, count, next_task, done)
     answer = function(text)
       local number, word = text:match "^(%d+) (.*)$"
       local values = parameters.values(own.parameters, word)
-      local status, rest = evaluation.run(own, part, math.tointeger(number), values)
+      local status, rest = evaluation.run(own, math.tointeger(number), values)
       return status .. " " .. rest
     end,
     done = function(task, status, rest) keep(own, part, task, status, rest, done) end,
@@ -137,9 +138,7 @@ end
 -- hears what came of each. The part's records by number.
 function campaign.run(own, method, options, source)
   if own.busy then error(("study '%s': its evaluations cannot ask for more of them"):format(own.name), 0) end
-  own.part = own.part + 1
-  local part, records = own.part, {}
-  own.asked[part] = { method = method, records = records }
+  local name, part, records = parts.name(own, method, options), nil, {}
   local function done(record)
     judge.complete(own, record)
     records[record.number] = record
@@ -149,12 +148,13 @@ function campaign.run(own, method, options, source)
   local fine, why = pcall(function()
     own.journal:open()
     own.tell()
+    part = parts.begin(own, name, method, records)
     compute(own, part, options, source, done)
   end)
   own.busy = false
   own.journal:close()
   if fine then return records end
-  own.part = part - 1 -- asked for again it goes on
+  if part then parts.leave(own, name) end -- asked for again it goes on
   if type(why) == "string" and why:find "interrupted$" then own.interrupted() end
   error(why, 0)
 end

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- One evaluation: what evaluate is given, what becomes of what it returns. A function of the parameters'
--- values, the study's seed, the part and the number within it, and of nothing else.
+-- values, the study's seed, the method with its options and the number within it, and of nothing else.
 -- @module softworld.study.evaluation
 local checks = require "softworld.checks"
 local core = require "softworld.core"
@@ -23,8 +23,8 @@ local GIVEN_UP = {}   -- raised by give_up
 local random, seed = math.random, math.randomseed
 
 -- The generator's state at the beginning of an evaluation.
-local function seed_with(own, part, number)
-  local mark = string.pack("<i8i8i8", own.seed, part, number)
+local function seed_with(own, number)
+  local mark = string.pack("<i8i8i8", own.seed, own.stream, number)
   seed(core.checksum(mark), core.checksum("softworld" .. mark))
 end
 
@@ -137,8 +137,8 @@ local function all(own, p)
 end
 
 --- Gives "ok" with results as text; "failed", "machine" or "mistake" with a reason.
-function evaluation.run(own, part, number, values)
-  seed_with(own, part, number)
+function evaluation.run(own, number, values)
+  seed_with(own, number)
   return finish(own, pcall(all, own, given_for(own, number, values)))
 end
 

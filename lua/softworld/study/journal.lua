@@ -3,6 +3,7 @@
 --
 --     softworld study 1 <sum>
 --     s "name" <key of the definition> "what it is" <sum>
+--     p <part> "the method with its options" <sum>
 --     e <part> <number> <values> ok time=1.5 margin=0.25 <sum>
 --     e <part> <number> <values> failed "why" <sum>
 --     t <sum>
@@ -21,6 +22,7 @@ journal.__index = journal
 
 local FIRST = "softworld study 1"
 local SYNC = 1 -- between two [s]
+local MOST = 1 << 53 -- number of a part
 
 local function fail(text, ...) error(text:format(...), 0) end
 
@@ -45,6 +47,7 @@ end
 local function forget(self)
   self.parts, self.others, self.other, self.text = {}, 0, nil, nil
   self.bad, self.first_bad, self.current, self.torn = 0, nil, nil, false
+  self.names, self.last = {}, 0
 end
 
 local function read_definition(self, body, at)
@@ -63,7 +66,7 @@ local function put(self, part, number, line)
   local list = self.parts[part]
   if not list then
     list = {}
-    self.parts[part] = list
+    self.parts[part], self.last = list, math.max(self.last, part)
   end
   local before = list[number]
   if not before then
@@ -73,6 +76,18 @@ local function put(self, part, number, line)
   else
     list[number] = { before, line }
   end
+end
+
+local function name_part(self, part, text)
+  self.names[text], self.last = part, math.max(self.last, part)
+end
+
+local function read_part(self, body)
+  local part, text = body:match '^p (%d+) "([^"]*)"$'
+  part = math.tointeger(part)
+  if not part or part < 1 or part > MOST then return false end
+  name_part(self, part, unquoted(text))
+  return true
 end
 
 local function damaged(self, line_number)
@@ -101,7 +116,7 @@ local function read_lines(self, text, at)
       ours = self.current == self.definition.key
     elseif kind == "t" then
       excuse(self, line_number)
-    else
+    elseif kind ~= "p" or ours and not read_part(self, text:sub(at, after - 19)) then
       damaged(self, line_number)
     end
     at = after
@@ -250,6 +265,15 @@ function journal:mend()
     write(self, "\n" .. summed "t")
   end
   self.torn = false
+end
+
+--- The number of a part by what its method is; a new one is put down.
+function journal:part(text)
+  if not self.names[text] then
+    name_part(self, self.last + 1, text)
+    if self.stream then write(self, summed(("p %d %s"):format(self.last, quoted(text)))) end
+  end
+  return self.names[text]
 end
 
 --- Put an evaluation down: status "ok" with results as text, or "failed" or "machine" with a reason.

@@ -107,7 +107,7 @@ local function fields(self) return sealed.fields(self) end
 -- --- making ------------------------------------------------------------------------------------
 
 local function definition(own)
-  local lines = { "version " .. core.version, ("seed %d"):format(own.seed) }
+  local lines = { "version " .. core.version, ("seed %d"):format(own.seed), "parts by method and options" }
   for _, p in ipairs(own.parameters) do lines[#lines + 1] = "parameter " .. parameters.describe(p) end
   lines[#lines + 1] = "functions of the script " .. fingerprint(own.setup, own.evaluate)
   local text = table.concat(lines, "\n")
@@ -128,7 +128,7 @@ local function make(args)
   for _, p in ipairs(own.parameters) do own.by_name[p.name] = p end
   own.constraints = judge.read(own.constraints, own.by_name)
   own.seed = math.tointeger(own.seed)
-  own.part, own.asked, own.told, own.computed = 0, {}, {}, 0
+  own.part, own.asked, own.told, own.computed, own.counts = 0, {}, {}, 0, {}
   own.journal = journal.new(own.file, definition(own))
   own.journal:read()
   local object = sealed.new(Study, own)
@@ -170,6 +170,7 @@ local function do_sweep(self, args)
       .. (kind == "grid" and ", or grid" or ""), 0)
   end
   local count, values_of = o.count
+  o.kind = kind
   if kind == "grid" then count, values_of = design.grid(own.parameters, what, o.grid, o.count)
   else values_of = design.fill(own.parameters, kind, count, own.seed) end
   local records = points(own, "sweep", o, count, values_of)
@@ -189,7 +190,7 @@ end
 local function do_spread(self, args)
   local own, o = fields(self), shake:read(args == nil and {} or args)
   judge.needed(own, "study:spread")
-  local records = points(own, "spread", o, o.count, spread.drawing(own, own.part + 1))
+  local records = points(own, "spread", o, o.count, spread.drawing(own))
   judge.some(own, records, o.count)
   return spread.result(own, records, o.count)
 end
