@@ -5,9 +5,11 @@
 -- A record: { part =, number =, values =, results = { name = number } or nil, failed = reason, machine = true
 -- where the machine and not the model failed }.
 -- @module softworld.study.campaign
+local cluster = require "softworld.study.cluster"
 local core = require "softworld.core"
 local evaluation = require "softworld.study.evaluation"
 local judge = require "softworld.study.judge"
+local node = require "softworld.study.node"
 local parameters = require "softworld.study.parameters"
 local parts = require "softworld.study.parts"
 local pool = require "softworld.study.pool"
@@ -120,6 +122,7 @@ local function compute(own, part, options, source, done)
   local next_task = tasks(own, part, source, done)
   local first = next_task()
   if not first then return end
+  if own.task then node.missing(own, first.number) end
   build(own)
   local function from_first()
     local task = first
@@ -129,9 +132,15 @@ local function compute(own, part, options, source, done)
     end
     return next_task()
   end
-  local count = options.workers or own.workers or core.processors()
-  if count == 0 then return here(own, part, from_first, done) end
-  by_workers(own, part, count, from_first, done)
+  local count = own.task and node.workers() or options.workers or own.workers or core.processors()
+  local function compute_here(next_one)
+    if count == 0 then return here(own, part, next_one, done) end
+    by_workers(own, part, count, next_one, done)
+  end
+  if own.on ~= "slurm" or own.task then return compute_here(from_first) end
+  cluster.run(own, { name = own.asked[part].name, next = from_first, whole = source.whole,
+    here = compute_here, workers = count,
+    keep = function(task, status, rest) keep(own, part, task, status, rest, done) end })
 end
 
 --- Evaluate all that source.next() gives: number, values; nil when there is none now. source.done(record)
@@ -146,13 +155,16 @@ function campaign.run(own, method, options, source)
   end
   own.busy = true
   local fine, why = pcall(function()
+    own.hold = not own.task and cluster.claim(own)
     own.journal:open()
     own.tell()
     part = parts.begin(own, name, method, records)
+    if own.task then node.part(own, name.full, build) end
     compute(own, part, options, source, done)
   end)
   own.busy = false
   own.journal:close()
+  cluster.release(own, own.hold)
   if fine then return records end
   if part then parts.leave(own, name) end -- asked for again it goes on
   if type(why) == "string" and why:find "interrupted$" then own.interrupted() end

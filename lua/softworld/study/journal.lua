@@ -162,8 +162,8 @@ local function items(text)
   return list, set
 end
 
--- What differs between two definitions, as lines.
-local function differences(before, now)
+--- What differs between two definitions, as lines.
+function journal.differences(before, now)
   local old, in_old = items(before)
   local new, in_new = items(now)
   local list = {}
@@ -182,7 +182,7 @@ function journal:remarks()
   if self.others > 0 then
     list[1] = ("%s has %d evaluation%s of another definition, kept apart; this one is new in:"):format(
       self.path, self.others, self.others == 1 and "" or "s")
-    for _, difference in ipairs(differences(self.other or "", self.definition.text)) do
+    for _, difference in ipairs(journal.differences(self.other or "", self.definition.text)) do
       list[#list + 1] = "  " .. difference
     end
   end
@@ -193,13 +193,17 @@ function journal:remarks()
   return list
 end
 
--- A line's values, status and the rest of it.
-local function parse(self, line)
-  if type(line) == "number" then line = self.text:sub(line, (core.journal_line(self.text, line)) - 19) end
+--- The values, status and the rest of a line about an evaluation, without its sum; nil: it is none.
+function journal.parse(line)
   local word, status, rest = line:match "^e %d+ %d+ (%S+) (%l+) (.*)$"
   if status ~= "ok" and status ~= "failed" and status ~= "machine" then return nil end
   if status ~= "ok" then rest = unquoted(rest:match '^"(.*)"$' or "") end
   return word, status, rest
+end
+
+local function parse(self, line)
+  if type(line) == "number" then line = self.text:sub(line, (core.journal_line(self.text, line)) - 19) end
+  return journal.parse(line)
 end
 
 --- An evaluation with these values, as a word; without, the last one of the number: status, rest, values.
@@ -230,9 +234,9 @@ local function write(self, text)
     self.definition.name, self.path, (tostring(why):gsub("^.*: ", "")))
 end
 
---- Begin to write. Raises where another process does, or nobody can.
+--- Begin to write, unless it is to be read only. Raises where another process does, or nobody can.
 function journal:open()
-  if not self.path then return self:read() end
+  if not self.path or self.reader then return self:read() end
   local name = self.definition.name
   check_kind(self)
   local lock, why = core.lock(self.path)
@@ -276,10 +280,14 @@ function journal:part(text)
   return self.names[text]
 end
 
+--- The line about an evaluation, without its sum.
+function journal.body(part, number, word, status, rest)
+  return ("e %d %d %s %s %s"):format(part, number, word, status, status == "ok" and rest or quoted(rest))
+end
+
 --- Put an evaluation down: status "ok" with results as text, or "failed" or "machine" with a reason.
 function journal:add(part, number, word, status, rest)
-  local body = ("e %d %d %s %s %s"):format(part, number, word, status,
-    status == "ok" and rest or quoted(rest))
+  local body = journal.body(part, number, word, status, rest)
   if self.stream then write(self, summed(body)) end
   put(self, part, number, body)
   if self.stream and core.clock() - self.synced > SYNC then self:sync() end
@@ -305,5 +313,7 @@ end
 function journal:leave()
   if self.lock then self.lock() end
 end
+
+journal.summed, journal.quoted, journal.unquoted = summed, quoted, unquoted
 
 return journal

@@ -20,11 +20,13 @@ local journal = require "softworld.study.journal"
 local judge = require "softworld.study.judge"
 local methods = require "softworld.methods"
 local minimise = require "softworld.study.minimise"
+local node = require "softworld.study.node"
 local output = require "softworld.study.output"
 local parameters = require "softworld.study.parameters"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local spread = require "softworld.study.spread"
+local where = require "softworld.study.where"
 
 local study = {}
 local Study = { __name = "study" }
@@ -47,6 +49,8 @@ local new = rows.call("sw.study", "{...}", "a study: a model to be evaluated man
   { "workers", "integer", "-", "processes; 0 computes in this one", min = 0, max = 256,
     usual = "one per processor" },
   { "cpu", "number", "s", "most computing time of an evaluation", min = 0, above = true, usual = "any" },
+  { "on", "choice", "-", "where it is computed, see study:run", choices = { "here", "slurm" },
+    usual = "SOFTWORLD_ON of the environment, else here" },
   { "memory", "number", "-", "most memory that a worker takes besides [B]", min = 1e6, usual = "any" },
 })
 
@@ -130,6 +134,8 @@ local function make(args)
   own.seed = math.tointeger(own.seed)
   own.part, own.asked, own.told, own.computed, own.counts = 0, {}, {}, 0, {}
   own.journal = journal.new(own.file, definition(own))
+  node.study(own)
+  where.of_study(own)
   own.journal:read()
   local object = sealed.new(Study, own)
   function own.tell() tell(own) end
@@ -147,7 +153,7 @@ study.study = build.placed(make)
 -- Evaluate count points of a function from their number.
 local function points(own, method, options, count, values_of)
   local at = 0
-  return campaign.run(own, method, options, { next = function()
+  return campaign.run(own, method, options, { whole = true, next = function()
     if at >= count then return nil end
     at = at + 1
     return at, values_of(at)
@@ -215,9 +221,10 @@ function Study:csv(path) return build.call(3, do_csv, self, path) end
 function Study:json(path) return build.call(3, do_json, self, path) end
 function Study:chart(args) return build.call(3, do_chart, self, args) end
 
+rows.later(Study, "softworld.study.where", "run cancel")
 methods.guard_table("study", Study)
 
-local SHOWN = "sweep minimise spread table best csv json chart name file computed"
+local SHOWN = "run cancel sweep minimise spread table best csv json chart name file computed"
 local unknown = checks.fields("study", SHOWN, "file")
 
 function Study:__index(key)
