@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A Slurm of one machine in a temporary folder, for specs: munged with a key of its own, slurmctld and slurmd on
--- ports that are free, as whoever runs the specs. It needs no root, no cgroups and nothing of /etc.
+-- A Slurm of one machine in a temporary folder, for specs: munged with a key of its own, slurmctld and slurmd
+-- on ports that are free, as whoever runs the specs. It needs no root, no cgroups and nothing of /etc.
 local program = require "host.program"
 local socket = require "socket"
 
@@ -15,7 +15,7 @@ SlurmctldPort=PORT1
 SlurmdPort=PORT2
 AuthType=auth/munge
 CredType=cred/munge
-AuthInfo=socket=DIR/munge.sock
+AuthInfo=socket=DIR/munge.sock,cred_expire=5
 SlurmUser=USER
 SlurmdUser=USER
 StateSaveLocation=DIR/state
@@ -33,7 +33,7 @@ SlurmdParameters=config_overrides
 SchedulerParameters=sched_interval=1,batch_sched_delay=0,sched_min_interval=0
 MaxArraySize=11
 KillWait=1
-NodeName=HOST NodeAddr=127.0.0.1 CPUs=4 State=UNKNOWN
+NodeName=HOST NodeAddr=127.0.0.1 CPUs=16 State=UNKNOWN
 PartitionName=main Nodes=HOST Default=YES State=UP
 ]]
 
@@ -95,7 +95,8 @@ end
 
 --- Start one, or raise with what its daemons say. Gives { env = to be put before a command, folder = }.
 function cluster.start()
-  local self = setmetatable({ folder = line_of "mktemp -d /tmp/softworld-slurm.XXXXXX" }, { __index = cluster })
+  local folder = line_of "mktemp -d /tmp/softworld-slurm.XXXXXX"
+  local self = setmetatable({ folder = folder }, { __index = cluster })
   self.env = ("env SLURM_CONF=%s/slurm.conf"):format(self.folder)
   local fine, why = pcall(start, self)
   if fine then return self end

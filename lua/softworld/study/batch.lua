@@ -89,7 +89,7 @@ end
 --- Send what waits, in arrays of the largest length at most.
 function batch.send(run)
   if #run.waiting == 0 or run.full and core.clock() - run.full < AGAIN then return end
-  run.largest = run.largest or slurm.largest()
+  run.largest = run.largest or slurm.largest(run.own.name)
   local lists, at, ids, tasks = chunks(run, run.waiting), 1, {}, 0
   while at <= #lists do
     local array = table.move(lists, at, math.min(#lists, at + run.largest - 1), 1, {})

@@ -67,7 +67,7 @@ local function tasks(own, part, source, done)
       if not number then return nil end
       local word = parameters.word(values)
       local status, rest = own.journal:find(part, number, word)
-      local record = status and stands(own, status, rest)
+      local record = status and (own.task or stands(own, status, rest))
         and campaign.record(part, number, values, status, rest)
       if not record then
         return { number = number, values = values, word = word, text = number .. " " .. word }

@@ -36,7 +36,7 @@ end
 local function reason_of(send, k, state)
   local words = sends.words(send.folder, k)
   local what = state and state.state ~= "COMPLETED" and state.state
-    or state and "ended without a result" or "gone"
+    or state and "ended without a result" or "gone, as when it is cancelled before it begins"
   return ("task %d of job %s: %s%s"):format(k - 1, send.id, what,
     words and ", its log ends with: " .. words or "")
 end

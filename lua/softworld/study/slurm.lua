@@ -46,15 +46,17 @@ function slurm.options(what, given)
   return words
 end
 
---- The most tasks of an array.
-function slurm.largest()
-  local _, text = sink.run "scontrol show config"
-  return math.max(1, math.tointeger(text:match "MaxArraySize%s*=%s*(%d+)") or 1001)
+-- Words of Slurm's commands without their own name, on one line.
+local function plain(text)
+  text = text:gsub("sbatch: ", ""):gsub("slurm_load[%w_]* ", ""):gsub("error: ", "")
+  return (text:gsub("%s+$", ""):gsub("\n", "; "))
 end
 
--- sbatch's words without its own name, on one line.
-local function plain(text)
-  return (text:gsub("sbatch: ", ""):gsub("error: ", ""):gsub("%s+$", ""):gsub("\n", "; "))
+--- The most tasks of an array. Raises where Slurm does not answer.
+function slurm.largest(name)
+  local fine, text = sink.run "scontrol show config"
+  if not fine then fail("study '%s': Slurm does not answer: %s", name, plain(text)) end
+  return math.max(1, math.tointeger(text:match "MaxArraySize%s*=%s*(%d+)") or 1001)
 end
 
 local function hint(text)
@@ -84,7 +86,7 @@ function slurm.states(names)
   for _, name in ipairs(names) do found[name] = {} end
   local fine, text = sink.run(("squeue -h -r -t all -n %s -o '%%j|%%K|%%T|%%i|%%r'"):format(
     sink.quote(table.concat(names, ","))))
-  if not fine then return nil, plain(text:gsub("slurm_load_jobs ", "")) end
+  if not fine then return nil, plain(text) end
   for line in text:gmatch "[^\n]+" do
     local name, k, state, id, reason = line:match "^([^|]*)|(%d+)|([^|]*)|([^|]*)|(.*)$"
     if name and found[name] then
