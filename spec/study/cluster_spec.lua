@@ -277,6 +277,18 @@ study:csv(arg[1] .. ".csv")
     assert.is_true(count >= 2 and count <= 4)
   end)
 
+  it("computes the example, with the same words", function()
+    local folder = program.folder()
+    local path = program.quote(program.path) .. " examples/23_cluster.lua"
+    local here = program.shell(path)
+    local there = ("%s SOFTWORLD_ON=slurm %s %s/plug.study"):format(slurm.env, path, folder)
+    local out, err, code = program.shell(there)
+    assert.equal(0, code, err)
+    assert.equal(here, out)
+    assert.truthy(here:find "^within reach in ")
+    assert.truthy(err:find("4 tasks sent to Slurm", 1, true), err)
+  end)
+
   it("tells what is wrong with the script before anything is sent", function()
     local _, err, code = program.script([[
 local sw = require "softworld"
