@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- How often does the end of a cable that sticks out of a fixture hang too low for the gripper that fetches
--- it, when neither its stiffness nor the free length is known well? Computed on this machine, or as tasks of a
--- Slurm cluster, in a folder that its nodes see too. The script is the same, and so are all numbers:
+-- it, when neither its stiffness nor the free length is known well? Computed on this machine, or as tasks of
+-- a Slurm cluster, in a folder that its nodes see too. The script is the same, and so are all numbers:
 --
 --   softworld examples/23_cluster.lua
 --   SOFTWORLD_ON=slurm softworld examples/23_cluster.lua plug.study
