@@ -19,6 +19,7 @@ local function fail(text, ...) error(text:format(...), 0) end
 
 --- Tell the user.
 function batch.say(own, text, ...)
+  if own.bar then own.bar:clear() end
   io.stderr:write(("study '%s': %s\n"):format(own.name, text:format(...)))
 end
 

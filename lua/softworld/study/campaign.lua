@@ -13,6 +13,7 @@ local node = require "softworld.study.node"
 local parameters = require "softworld.study.parameters"
 local parts = require "softworld.study.parts"
 local pool = require "softworld.study.pool"
+local progress = require "softworld.study.progress"
 local unread = require "softworld.unread"
 
 local campaign = {}
@@ -72,7 +73,7 @@ local function tasks(own, part, source, done)
       if not record then
         return { number = number, values = values, word = word, text = number .. " " .. word }
       end
-      done(record)
+      done(record, true)
     end
   end
 end
@@ -143,14 +144,21 @@ local function compute(own, part, options, source, done)
     keep = function(task, status, rest) keep(own, part, task, status, rest, done) end })
 end
 
+local function bar_of(own, method, options, source)
+  return progress.new(own, method, { total = source.count or options.evaluations,
+    most = source.count == nil, result = method:match "^minimise (.*)$" })
+end
+
 --- Evaluate all that source.next() gives: number, values; nil when there is none now. source.done(record)
 -- hears what came of each. The part's records by number.
 function campaign.run(own, method, options, source)
   if own.busy then error(("study '%s': its evaluations cannot ask for more of them"):format(own.name), 0) end
   local name, part, records = parts.name(own, method, options), nil, {}
-  local function done(record)
+  own.bar = bar_of(own, method, options, source)
+  local function done(record, known)
     judge.complete(own, record)
     records[record.number] = record
+    own.bar:update(record, known)
     if source.done then source.done(record) end
   end
   own.busy = true
@@ -163,6 +171,7 @@ function campaign.run(own, method, options, source)
     compute(own, part, options, source, done)
   end)
   own.busy = false
+  own.bar:clear()
   own.journal:close()
   cluster.release(own, own.hold)
   if fine then return records end

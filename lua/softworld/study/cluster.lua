@@ -82,6 +82,7 @@ local function wait(run)
   local nap = NAP
   while run.left > 0 do
     run.hold:beat()
+    run.own.bar:update()
     if core.kind(cancel_file(run.own)) then
       fail("study '%s' was cancelled; run the script again to go on", run.own.name)
     end
@@ -183,6 +184,7 @@ local function leave(run)
   local count, ids = open_tasks(run)
   if count == 0 then return end
   local stay = run.own.detach
+  run.own.bar:clear()
   if not stay and os.execute "test -t 0 && test -t 2" then
     io.stderr:write(("\nstudy '%s': %s on the cluster (job %s). Leave them running? [Y/n] "):format(
       run.own.name, plural(count, "task"), ids))

@@ -153,7 +153,7 @@ study.study = build.placed(make)
 -- Evaluate count points of a function from their number.
 local function points(own, method, options, count, values_of)
   local at = 0
-  return campaign.run(own, method, options, { whole = true, next = function()
+  return campaign.run(own, method, options, { whole = true, count = count, next = function()
     if at >= count then return nil end
     at = at + 1
     return at, values_of(at)
