@@ -113,8 +113,8 @@ describe("the table", function()
     for k = 1, times do
       local wait = 0.05 + 0.1 * ((k * 0.6180339887) % 1)
       local victim = who == "parent" and "kill -KILL $p" or "pkill -KILL -n -P $p"
-      program.shell(("%s %s %s %s %d 0.003 >/dev/null 2>&1 & p=$!; n=0; while [ ! -e %s ] && [ $n -lt 1000 ]; "
-        .. "do sleep 0.01; n=$((n+1)); done; sleep %.3f; %s; %s wait $p"):format(
+      program.shell(("%s %s %s %s %d 0.003 >/dev/null 2>&1 & p=$!; n=0; while [ ! -e %s ] && "
+        .. "[ $n -lt 1000 ]; do sleep 0.01; n=$((n+1)); done; sleep %.3f; %s; %s wait $p"):format(
         program.quote(program.path), script, journal, csv, workers, journal, wait, victim,
         who == "parent" and "" or "sleep 0.05; kill -KILL $p;"))
       local file = io.open(journal)

@@ -53,8 +53,8 @@ local function stands(own, status, rest)
     or own.memory and rest == evaluation.memory_reason(own.memory)
 end
 
--- What setup builds, once, when something is to be computed.
-local function build(own)
+--- What setup builds, once, when something is to be computed.
+function campaign.build(own)
   if own.built then return end
   own.built = own.setup and table.pack(own.setup()) or table.pack()
   evaluation.keep(own)
@@ -124,7 +124,7 @@ local function compute(own, part, options, source, done)
   local first = next_task()
   if not first then return end
   if own.task then node.missing(own, first.number) end
-  build(own)
+  campaign.build(own)
   local function from_first()
     local task = first
     if task then
@@ -167,7 +167,7 @@ function campaign.run(own, method, options, source)
     own.journal:open()
     own.tell()
     part = parts.begin(own, name, method, records)
-    if own.task then node.part(own, name.full, build) end
+    if own.task then node.part(own, name.full, campaign.build) end
     compute(own, part, options, source, done)
   end)
   own.busy = false

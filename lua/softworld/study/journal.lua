@@ -285,6 +285,13 @@ function journal.body(part, number, word, status, rest)
   return ("e %d %d %s %s %s"):format(part, number, word, status, status == "ok" and rest or quoted(rest))
 end
 
+--- What the method of a part is; nil where the journal does not tell.
+function journal:name(part)
+  for text, number in pairs(self.names) do
+    if number == part then return text end
+  end
+end
+
 --- Put an evaluation down: status "ok" with results as text, or "failed" or "machine" with a reason.
 function journal:add(part, number, word, status, rest)
   local body = journal.body(part, number, word, status, rest)

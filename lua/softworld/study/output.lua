@@ -60,6 +60,9 @@ local function records_of(own, part)
   return list
 end
 
+--- Records of one part, or of all.
+function output.records(own, part) return records_of(own, part) end
+
 --- Rows of one part, or of all.
 function output.rows(own, part)
   local list = records_of(own, part)

@@ -56,11 +56,14 @@ function parts.name(own, method, options)
   return { text = text, count = count, full = count == 1 and text or ("%s #%d"):format(text, count) }
 end
 
+--- The stream of random numbers that a part has by its name.
+function parts.stream(full) return core.checksum(full) end
+
 --- Begin it: its number, in own.part; random numbers are those of own.stream.
 function parts.begin(own, name, method, records)
   own.counts[name.text] = name.count
   own.before = own.part
-  own.part, own.stream = own.journal:part(name.full), core.checksum(name.full)
+  own.part, own.stream = own.journal:part(name.full), parts.stream(name.full)
   own.asked[own.part] = { method = method, records = records, name = name.full, stream = own.stream }
   return own.part
 end

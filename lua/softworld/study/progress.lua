@@ -42,7 +42,8 @@ local function facts(self, now)
   elseif self.result and #self.own.constraints > 0 then parts[1] = "none meets the constraints yet"
   elseif #self.own.constraints > 0 and not self.result then parts[1] = ("%d pass"):format(self.passed) end
   if self.failed > 0 then parts[#parts + 1] = ("%d failed"):format(self.failed) end
-  if self.computed > 0 and elapsed > 0 then
+  -- of a cluster the first says nothing: it was computed here
+  if self.computed > (self.own.on == "slurm" and 1 or 0) and elapsed > 0 then
     local rate = self.computed / elapsed
     parts[#parts + 1] = rate >= 1 and ("%.3g/s"):format(rate) or ("%.3g/min"):format(60 * rate)
     if self.total and self.count < self.total then

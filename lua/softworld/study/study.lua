@@ -222,9 +222,10 @@ function Study:json(path) return build.call(3, do_json, self, path) end
 function Study:chart(args) return build.call(3, do_chart, self, args) end
 
 rows.later(Study, "softworld.study.where", "run cancel")
+rows.later(Study, "softworld.study.again", "again")
 methods.guard_table("study", Study)
 
-local SHOWN = "run cancel sweep minimise spread table best csv json chart name file computed"
+local SHOWN = "run cancel sweep minimise spread table best again csv json chart name file computed"
 local unknown = checks.fields("study", SHOWN, "file")
 
 function Study:__index(key)
