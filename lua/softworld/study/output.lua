@@ -83,6 +83,8 @@ local function result_names(list)
   return names
 end
 
+output.result_names = result_names
+
 -- A name of a parameter or a result, or an error.
 local function check_name(own, what, name, list)
   local results, known = result_names(list), {}

@@ -223,9 +223,10 @@ function Study:chart(args) return build.call(3, do_chart, self, args) end
 
 rows.later(Study, "softworld.study.where", "run cancel")
 rows.later(Study, "softworld.study.again", "again")
+rows.later(Study, "softworld.study.report", "report")
 methods.guard_table("study", Study)
 
-local SHOWN = "run cancel sweep minimise spread table best again csv json chart name file computed"
+local SHOWN = "run cancel sweep minimise spread table best again report csv json chart name file computed"
 local unknown = checks.fields("study", SHOWN, "file")
 
 function Study:__index(key)
