@@ -150,7 +150,7 @@ describe("a study on a cluster", function()
     out, err = program.shell(c.command("0.01", 4, nil, "always"))
     assert.equal("52\n", out, err)
     assert.truthy(err:find("given up: 1 evaluation\n", 1, true), err)
-    assert.truthy(err:find("logs of tasks are in ", 1, true), err)
+    program.read(assert(err:match "logs of tasks are in (%S+)") .. "/log.0") -- it is there
     local before, now = {}, {}
     for line in expected:gmatch "[^\n]+" do before[#before + 1] = line end
     for line in program.read(c.journal .. ".csv"):gmatch "[^\n]+" do now[#now + 1] = line end
@@ -299,6 +299,28 @@ study:sweep { count = 5 }
     assert.equal(1, code)
     assert.truthy(err:find("script.lua:3: evaluate returned 0.5; a table of results is wanted", 1, true), err)
     assert.is_nil(err:find "sent")
+  end)
+
+  it("is for scripts in a file, which come to the same part on the nodes", function()
+    local journal = program.folder() .. "/s.study"
+    local text = ([[
+local sw = require "softworld"
+if os.getenv "SOFTWORLD_TASK" then print "I stop" os.exit(0) end
+local study = sw.study { name = "s", file = "%s", parameters = { x = { 0, 1 } }, on = "slurm",
+  evaluate = function(p) return { y = p.x } end }
+print(study:sweep { count = 2 }[2].failed)
+]]):format(journal)
+    local _, err = program.run({ "-e", text }, { before = slurm.env })
+    local told = "study 's': on = 'slurm' is for scripts in a file, which the nodes run too"
+    assert.truthy(err:find(told, 1, true), err)
+    _, err = program.run({ "-" }, { before = slurm.env, stdin = text })
+    assert.truthy(err:find(told, 1, true), err)
+    local out
+    out, err = program.script(text, {}, { before = slurm.env })
+    assert.truthy(out:find("^lost 3 times on the cluster; the last: task 0 of job %d+: ended without a "
+      .. "result, its log ends with: I stop\n"), out .. err)
+    local folder = err:match "logs of tasks are in (%S+)"
+    assert.equal("I stop\n", program.read(folder .. "/log.0"))
   end)
 
   it("tells what is wrong with the partition, and which there are", function()

@@ -2,6 +2,7 @@
 -- Where a study is computed: what is wrong is told before anything is computed. With a cluster: cluster_spec.
 local sw = require "softworld"
 local program = require "host.program"
+local sealed = require "softworld.sealed"
 local sends = require "softworld.study.sends"
 
 local function study(changes)
@@ -104,5 +105,95 @@ describe("what is sent to a cluster", function()
       local read = sends.result(folder, 1, tasks[1])
       assert.is_false(read, at)
     end
+  end)
+end)
+
+describe("a task of a cluster", function()
+  teardown(program.clean)
+
+  -- It has two parts; the second needs what the first one has.
+  local SCRIPT = [[
+local sw = require "softworld"
+local study = sw.study { name = "node", file = FILE, seed = 4, workers = 0, parameters = { x = { 0, 1 } },
+  evaluate = function(p) return { y = p.x, luck = p.random() } end, constraints = { y = { max = 0.5 } } }
+if not RUN then return study end
+study:sweep { count = 3 }
+study:spread { count = 5 }
+study:csv(FILE .. ".csv")
+print "the end"
+]]
+
+  -- The study of the script, its file, and its task: of the second part unless told.
+  local function made(changes)
+    local file = program.folder() .. "/node.study"
+    local text = SCRIPT:gsub("FILE", ("%q"):format(file))
+    local study_of = assert(load((text:gsub("RUN", "false"))))()
+    local own = sealed.fields(study_of)
+    local d = own.journal.definition
+    local about_it = { name = d.name, key = d.key, text = d.text, part = "spread", job = "x" }
+    for key, value in pairs(changes or {}) do about_it[key] = value end
+    sends.write(file .. ".tasks/1", about_it, { { { number = 2, word = "0.25", tries = 1 },
+      { number = 4, word = "0.75", tries = 1 } } })
+    return study_of, file, (text:gsub("RUN", "true"))
+  end
+
+  local function run(text, file, before)
+    return program.script(text, {}, { before = (before or "") .. "SOFTWORLD_TASK=" .. file .. ".tasks/1" })
+  end
+
+  it("computes what its list says, with the bits of the study, and ends there", function()
+    local s, file, text = made()
+    s:sweep { count = 3 }
+    local before = program.read(file)
+    local out, err, code = run(text, file)
+    assert.equal(0, code, err)
+    assert.equal("", out .. err)
+    assert.equal(before, program.read(file)) -- the journal is read only
+    local list = sends.read(file .. ".tasks/1").tasks[1]
+    local found = sends.result(file .. ".tasks/1", 1, list)
+    assert.equal(2, #found)
+    s:spread { count = 5 }
+    for i, r in ipairs(found) do
+      -- the values are the list's, the random numbers those of part and number
+      local luck = s:table()[3 + r.number].luck
+      assert.equal(("luck=%.17g y=%.17g"):format(luck, i == 1 and 0.25 or 0.75), r.rest)
+    end
+    assert.is_nil(io.open(file .. ".csv"))
+    -- run again, as when it is requeued: what it has found stands
+    before = program.read(file .. ".tasks/1/out.0")
+    assert.equal(0, select(3, run(text, file)))
+    assert.equal(before, program.read(file .. ".tasks/1/out.0"))
+  end)
+
+  it("says that the script is another one, and what differs", function()
+    local _, file, text = made()
+    local _, err, code = run(text:gsub("seed = 4", "seed = 5"), file)
+    assert.equal(1, code)
+    assert.truthy(err:find("script.lua:2: study 'node' is another one on this node than where it was sent "
+      .. "from:\n  before: seed 4\n  now:    seed 5", 1, true), err)
+  end)
+
+  it("does not compute what is of another part", function()
+    local _, file, text = made()
+    local _, err, code = run(text, file) -- the first part is not in the journal
+    assert.equal(1, code)
+    assert.truthy(err:find("study 'node': evaluation 1.1 is not in ", 1, true), err)
+    local s
+    s, file, text = made { part = "spread #7" } -- that is never reached
+    s:sweep { count = 3 }
+    s:spread { count = 5 }
+    local out
+    out, err, code = run(text, file)
+    assert.equal("the end\n0", out .. code, err)
+    assert.is_nil(io.open(file .. ".csv"))
+  end)
+
+  it("says that there is no list, or not this task in it", function()
+    local s, file, text = made()
+    s:sweep { count = 3 }
+    local _, err = run(text, file, "SLURM_ARRAY_TASK_ID=3 ")
+    assert.truthy(err:find("study 'node': there is no task 3 in ", 1, true), err)
+    _, err = run(text, "/nowhere")
+    assert.truthy(err:find("SOFTWORLD_TASK=/nowhere.tasks/1: there is no whole list", 1, true), err)
   end)
 end)

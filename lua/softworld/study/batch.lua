@@ -117,7 +117,7 @@ function batch.adopt(run, fresh)
     local folder = ("%s/%d"):format(sends.folder(own.file), number)
     local about = sends.read(folder)
     if not about then
-      sends.remove(folder) -- it was never sent
+      if not core.kind(folder .. "/kept") then sends.remove(folder) end -- else it was never sent
     elseif about.key ~= own.journal.definition.key then
       others = others + 1
     elseif about.part == run.name then

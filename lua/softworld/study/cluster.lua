@@ -202,7 +202,7 @@ end
 -- when they are worth it); here(next): compute in this process's workers, so many workers.
 function cluster.run(own, about)
   slurm.need(own.name)
-  if not arg or not arg[0] or core.kind(arg[0]) ~= "file" then
+  if not arg or not arg[-1] or not arg[0] or core.kind(arg[0]) ~= "file" then
     fail("study '%s': on = 'slurm' is for scripts in a file, which the nodes run too", own.name)
   end
   local run = { own = own, name = about.name, next = about.next, whole = about.whole, keep = about.keep,

@@ -82,8 +82,8 @@ local function data_of(own)
     if pass then passed = passed + 1 elseif pass == nil then failed = failed + 1 end
   end
   return json.object { title = own.name, version = core.version, count = #list, passed = passed,
-    failed = failed, note = note, constraints = #own.constraints > 0, parameters = parameters, results = results,
-    parts = parts_of(own, list), rows = shown }
+    failed = failed, note = note, constraints = #own.constraints > 0, parameters = parameters,
+    results = results, parts = parts_of(own, list), rows = shown }
 end
 
 local function escaped(text)

@@ -173,13 +173,14 @@ end
 
 --- Only its logs are to stay.
 function sends.forget(folder)
+  sends.put(folder .. "/kept", "logs of tasks that were lost; nothing needs them\n")
   sink.run(("cd %s && rm -f list job.sh id cancelled out.*"):format(sink.quote(folder)))
 end
 
 --- Remove a folder with its files.
 function sends.remove(folder)
-  sink.run(("cd %s && rm -f list list.* job.sh job.sh.* id id.* cancelled cancelled.* out.* log.*"):format(
-    sink.quote(folder)))
+  local files = "list list.* job.sh job.sh.* id id.* kept cancelled cancelled.* out.* log.*"
+  sink.run(("cd %s && rm -f %s"):format(sink.quote(folder), files))
   os.remove(folder)
 end
 
