@@ -38,14 +38,14 @@ print(study.computed)
 local slurm, expected
 
 local function script_in(folder, on, options)
-  local text = SCRIPT:gsub("ON%f[^%u]", on):gsub("OPTIONS", options or "nil")
+  local text = SCRIPT:gsub('"ON"', on):gsub("OPTIONS", options or "nil")
   return program.write(folder .. "/script.lua", text)
 end
 
 -- A script with its journal in a folder of its own: how to run it, and the journal.
 local function case(options, on)
   local folder = program.folder()
-  local script = script_in(folder, on or "slurm", options)
+  local script = script_in(folder, on or '"slurm"', options)
   local journal = folder .. "/lot.study"
   return { folder = folder, journal = journal, command = function(wait, tasks, detach, what)
     return ("%s timeout 100 %s %s %s %s %d %s %s"):format(slurm and slurm.env or "",
@@ -94,7 +94,7 @@ end
 
 describe("a study on a cluster", function()
   setup(function()
-    local here = case(nil, "here")
+    local here = case(nil, '"here"')
     local _, err, code = program.shell(here.command())
     assert.equal(0, code, err)
     expected = program.read(here.journal .. ".csv")
@@ -196,6 +196,17 @@ describe("a study on a cluster", function()
     for number, count in pairs(noted(c)) do
       assert.equal(tonumber(number) <= 12 and 2 or 1, count, number) -- once in the sweep, once in the spread
     end
+  end)
+
+  it("tells of tasks on the cluster where it is computed here, and takes them away in the end", function()
+    local c = case(nil, "os.getenv 'WHERE'")
+    local command = c.command("0", 4, "detach"):gsub("^env", "env WHERE=slurm")
+    program.shell(command)
+    until_empty()
+    local out, err, code = program.shell((command:gsub("WHERE=slurm", "WHERE=here")))
+    assert.equal("51\n0", out .. code, err)
+    assert.truthy(err:find("study 'lot': 1 job of it on a cluster: on = 'slurm' collects", 1, true), err)
+    same(c)
   end)
 
   it("waits for a node that is drained, and says so", function()

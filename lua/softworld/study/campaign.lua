@@ -122,7 +122,7 @@ end
 local function compute(own, part, options, source, done)
   local next_task = tasks(own, part, source, done)
   local first = next_task()
-  if not first then return end
+  if not first then return cluster.done(own, own.asked[part].name) end
   if own.task then node.missing(own, first.number) end
   campaign.build(own)
   local function from_first()
@@ -138,7 +138,10 @@ local function compute(own, part, options, source, done)
     if count == 0 then return here(own, part, next_one, done) end
     by_workers(own, part, count, next_one, done)
   end
-  if own.on ~= "slurm" or own.task then return compute_here(from_first) end
+  if own.on ~= "slurm" or own.task then
+    compute_here(from_first)
+    return cluster.done(own, own.asked[part].name)
+  end
   cluster.run(own, { name = own.asked[part].name, next = from_first, whole = source.whole,
     here = compute_here, workers = count,
     keep = function(task, status, rest) keep(own, part, task, status, rest, done) end })

@@ -32,6 +32,19 @@ end
 
 local function cancel_file(own) return sends.folder(own.file) .. "/cancel" end
 
+-- Tasks that nobody collects while it is computed here.
+local function tell_of_tasks(own)
+  local count = 0
+  for _, number in ipairs(sends.numbers(own.file)) do
+    local about = sends.read(("%s/%d"):format(sends.folder(own.file), number))
+    if about and about.key == own.journal.definition.key then count = count + 1 end
+  end
+  if count == 0 or own.told.tasks then return end
+  own.told.tasks = true
+  say(own, "%s of it on a cluster: on = 'slurm' collects what they find, study:cancel() ends them",
+    plural(count, "job"))
+end
+
 --- Before a study is worked on: nobody else does. What release() gets; nil where no cluster is in it.
 function cluster.claim(own)
   if not own.file then
@@ -49,6 +62,7 @@ function cluster.claim(own)
   end
   local hold = owner.claim(own.name, folder)
   os.remove(cancel_file(own))
+  if own.on ~= "slurm" then tell_of_tasks(own) end
   return hold
 end
 
@@ -212,6 +226,22 @@ function cluster.run(own, about)
   if fine then return end
   if type(why) == "string" and why:find "interrupted$" then leave(run) end
   error(why, 0)
+end
+
+--- Nothing is left to be computed of a part: what was sent of it, and not taken away by a process that was
+-- killed, goes.
+function cluster.done(own, name)
+  if not own.hold then return end
+  local jobs, folders = {}, {}
+  for _, number in ipairs(sends.numbers(own.file)) do
+    local folder = ("%s/%d"):format(sends.folder(own.file), number)
+    local about = sends.read(folder)
+    if about and about.part == name and about.key == own.journal.definition.key then
+      jobs[#jobs + 1], folders[#folders + 1] = about.job, folder
+    end
+  end
+  slurm.cancel(jobs)
+  for _, folder in ipairs(folders) do sends.remove(folder) end
 end
 
 --- Cancel all that a study has sent, from whatever process: how many tasks were left.

@@ -136,18 +136,19 @@ local function all(own, p)
   return own.evaluate(p, table.unpack(own.built, 1, own.built.n))
 end
 
---- Gives "ok" with results as text; "failed", "machine" or "mistake" with a reason.
-function evaluation.run(own, number, values)
+local function once(own, number, values)
   seed_with(own, number)
-  return finish(own, pcall(all, own, given_for(own, number, values)))
+  return pcall(all, own, given_for(own, number, values))
 end
+
+--- Gives "ok" with results as text; "failed", "machine" or "mistake" with a reason.
+function evaluation.run(own, number, values) return finish(own, once(own, number, values)) end
 
 --- The same in this process, for whoever wants to look at it: status and text as run gives them, what
 -- evaluate returned, or the error that it raised.
 function evaluation.again(own, number, values)
   local again, more = math.random(0), math.random(0)
-  seed_with(own, number)
-  local fine, given = pcall(all, own, given_for(own, number, values))
+  local fine, given = once(own, number, values)
   math.randomseed(again, more)
   local status, text = finish(own, fine, given)
   return status, text, given
