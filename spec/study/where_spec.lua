@@ -123,18 +123,20 @@ study:csv(FILE .. ".csv")
 print "the end"
 ]]
 
-  -- The study of the script, its file, and its task: of the second part unless told.
-  local function made(changes)
+  -- The study of the script, its file with so many of its parts, and its task: of the second part usually.
+  local function made(changes, count)
     local file = program.folder() .. "/node.study"
     local text = SCRIPT:gsub("FILE", ("%q"):format(file))
     local study_of = assert(load((text:gsub("RUN", "false"))))()
+    if count > 0 then study_of:sweep { count = 3 } end
+    if count > 1 then study_of:spread { count = 5 } end
     local own = sealed.fields(study_of)
     local d = own.journal.definition
     local about_it = { name = d.name, key = d.key, text = d.text, part = "spread", job = "x" }
     for key, value in pairs(changes or {}) do about_it[key] = value end
     sends.write(file .. ".tasks/1", about_it, { { { number = 2, word = "0.25", tries = 1 },
       { number = 4, word = "0.75", tries = 1 } } })
-    return study_of, file, (text:gsub("RUN", "true"))
+    return file, (text:gsub("RUN", "true")), study_of
   end
 
   local function run(text, file, before)
@@ -142,8 +144,7 @@ print "the end"
   end
 
   it("computes what its list says, with the bits of the study, and ends there", function()
-    local s, file, text = made()
-    s:sweep { count = 3 }
+    local file, text = made(nil, 1)
     local before = program.read(file)
     local out, err, code = run(text, file)
     assert.equal(0, code, err)
@@ -152,10 +153,10 @@ print "the end"
     local list = sends.read(file .. ".tasks/1").tasks[1]
     local found = sends.result(file .. ".tasks/1", 1, list)
     assert.equal(2, #found)
-    s:spread { count = 5 }
+    local rows = select(3, made(nil, 2)):table()
     for i, r in ipairs(found) do
       -- the values are the list's, the random numbers those of part and number
-      local luck = s:table()[3 + r.number].luck
+      local luck = rows[3 + r.number].luck
       assert.equal(("luck=%.17g y=%.17g"):format(luck, i == 1 and 0.25 or 0.75), r.rest)
     end
     assert.is_nil(io.open(file .. ".csv"))
@@ -166,7 +167,7 @@ print "the end"
   end)
 
   it("says that the script is another one, and what differs", function()
-    local _, file, text = made()
+    local file, text = made(nil, 0)
     local _, err, code = run(text:gsub("seed = 4", "seed = 5"), file)
     assert.equal(1, code)
     assert.truthy(err:find("script.lua:2: study 'node' is another one on this node than where it was sent "
@@ -174,14 +175,11 @@ print "the end"
   end)
 
   it("does not compute what is of another part", function()
-    local _, file, text = made()
+    local file, text = made(nil, 0)
     local _, err, code = run(text, file) -- the first part is not in the journal
     assert.equal(1, code)
     assert.truthy(err:find("study 'node': evaluation 1.1 is not in ", 1, true), err)
-    local s
-    s, file, text = made { part = "spread #7" } -- that is never reached
-    s:sweep { count = 3 }
-    s:spread { count = 5 }
+    file, text = made({ part = "spread #7" }, 2) -- that is never reached
     local out
     out, err, code = run(text, file)
     assert.equal("the end\n0", out .. code, err)
@@ -189,8 +187,7 @@ print "the end"
   end)
 
   it("says that there is no list, or not this task in it", function()
-    local s, file, text = made()
-    s:sweep { count = 3 }
+    local file, text = made(nil, 1)
     local _, err = run(text, file, "SLURM_ARRAY_TASK_ID=3 ")
     assert.truthy(err:find("study 'node': there is no task 3 in ", 1, true), err)
     _, err = run(text, "/nowhere")
