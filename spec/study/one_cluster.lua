@@ -62,8 +62,9 @@ end
 
 -- Ends what is begun here when this process is gone without having done it.
 local GUARD = [[
-(while kill -0 %s 2>/dev/null && [ -d %s ]; do sleep 1; done
- for f in slurmd slurmctld munged; do kill -KILL $(cat %s/$f.pid) 2>/dev/null; done; rm -rf %s
+(while kill -0 PID 2>/dev/null && [ -d DIR ]; do sleep 1; done
+ [ -d DIR ] && SLURM_CONF=DIR/slurm.conf timeout 10 scancel --me && sleep 2
+ for f in slurmd slurmctld munged; do kill -KILL $(cat DIR/$f.pid) 2>/dev/null; done; rm -rf DIR
 ) >/dev/null 2>&1 </dev/null &]]
 
 local function pid_of(folder, name)
@@ -78,7 +79,7 @@ local function start(self)
     PORT1 = free_port(), PORT2 = free_port() })))
   line_of(("mkdir %s/state %s/spool && head -c 1024 /dev/urandom >%s/munge.key && chmod 400 %s/munge.key "
     .. "&& echo x"):format(folder, folder, folder, folder))
-  os.execute(GUARD:format(line_of "echo $PPID", folder, folder, folder))
+  os.execute((GUARD:gsub("PID", line_of "echo $PPID"):gsub("DIR", folder)))
   for _, command in ipairs {
     ("munged --force --key-file=%s/munge.key --socket=%s/munge.sock --pid-file=%s/munged.pid "
       .. "--seed-file=%s/munge.seed --log-file=%s/munged.log --num-threads=1"):gsub("%%s", folder),
@@ -114,6 +115,10 @@ end
 --- End all of it.
 function cluster:stop()
   program.shell(self.env .. " timeout 10 scancel --me")
+  for _ = 1, 50 do
+    if program.shell(self.env .. " timeout 10 squeue -h") == "" then break end
+    socket.sleep(0.1)
+  end
   local pids = {}
   for _, name in ipairs(DAEMONS) do pids[name] = pid_of(self.folder, name) end
   local function signal(which)
