@@ -86,7 +86,7 @@ DEST = $(DESTDIR)$(PREFIX)
 install: all
 	install -D $(BUILD)/softworld $(DEST)/bin/softworld
 	install -D -m 644 $(BUILD)/lib/softworld/core.so $(DEST)/lib/lua/5.4/softworld/core.so
-	find lua/softworld -name '*.lua' -o -name '*.md' | while read -r f; do \
+	find lua/softworld -name '*.lua' -o -name '*.md' -o -path '*/study/page/*' | while read -r f; do \
 	  install -D -m 644 "$$f" "$(DEST)/share/lua/5.4/$${f#lua/}" || exit 1; done
 
 clean:

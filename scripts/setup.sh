@@ -44,6 +44,10 @@ test  chromium         # opens the player in specs
 test  chromium-driver  # and lets them use it
 test  lua-socket       # specs talk to it
 test  lua-dkjson       # in JSON
+test  slurmctld        # a cluster of one machine, for specs of studies
+test  slurmd           # its node
+test  slurm-client     # and sbatch, squeue, scancel
+test  munge            # by which they know one another
 lint  clang-tidy       # checks the C code
 lint  clang-format     # make format
 LIST

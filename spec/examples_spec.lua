@@ -391,6 +391,24 @@ describe("example", function()
     assert.truthy(out:find "knee: evaluation")
   end)
 
+  -- So small a droop is w L^4 / (8 EI), to half a per cent. Over log EI evenly from a to b and L evenly: the
+  -- mean over L of the share of EI above w L^4 / (8 limit).
+  it("23: how often a cable's end is within reach", function()
+    local out = example "23_cluster"
+    local low, high = out:match "interval (%S+) to (%S+) %%"
+    local w, limit, a, b, sum = 0.02 * g, 0.003, 0.002, 0.02, 0
+    for k = 1, 1000 do
+      local length = 0.1 + 0.1 * (k - 0.5) / 1000
+      local least = w * length ^ 4 / (8 * limit)
+      sum = sum + math.max(0, math.min(1, math.log(b / least) / math.log(b / a)))
+    end
+    local share = after(out, "within reach in")
+    assert.is_true(tonumber(low) < share and share < tonumber(high))
+    assert.is_true(tonumber(low) < sum / 10 and sum / 10 < tonumber(high), out .. sum / 10)
+    local droop, EI, free = out:match "worst: (%S+) mm at EI = (%S+) N m2 with (%S+) mm"
+    near(1e3 * w * (1e-3 * free) ^ 4 / (8 * EI), tonumber(droop), 0.02, "droop")
+  end)
+
   it("of every number is tested here", function()
     local names = io.popen "ls examples/*.lua"
     local mine = program.read(here .. "/examples_spec.lua")

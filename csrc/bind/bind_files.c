@@ -157,6 +157,28 @@ static int mod_lock(lua_State *L) {
   return 2;
 }
 
+/* core.create(path, text): a new file with this text, if there is none of this name, which holds
+ * on shared file systems too. true; nil and the reason, or nil and "busy" when there is one. */
+static int mod_create(lua_State *L) {
+  size_t size;
+  const char *path = luaL_checkstring(L, 1), *text = luaL_checklstring(L, 2, &size);
+  const int fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (fd < 0 && errno == EEXIST) {
+    lua_pushnil(L);
+    lua_pushliteral(L, "busy");
+    return 2;
+  }
+  if (fd < 0) return failed(L);
+  const int whole = write(fd, text, size) == (ssize_t)size, why = errno;
+  if (close(fd) == 0 && whole) {
+    lua_pushboolean(L, 1);
+    return 1;
+  }
+  unlinkat(AT_FDCWD, path, 0);
+  if (!whole) errno = why ? why : ENOSPC;
+  return failed(L);
+}
+
 static int sync_path(const char *path, int flags) {
   const int fd = open(path, O_RDONLY | O_CLOEXEC | flags);
   if (fd < 0) return -1;
@@ -187,7 +209,9 @@ static int mod_kind(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg functions[] = {{"part", mod_part}, {"lock", mod_lock}, {"sweep", mod_sweep},
-                                     {"sync", mod_sync}, {"kind", mod_kind}, {NULL, NULL}};
+static const luaL_Reg functions[] = {
+    {"part", mod_part},   {"lock", mod_lock}, {"create", mod_create},
+    {"sweep", mod_sweep}, {"sync", mod_sync}, {"kind", mod_kind},
+    {NULL, NULL}};
 
 void lsw_open_files(lua_State *L) { luaL_setfuncs(L, functions, 0); }

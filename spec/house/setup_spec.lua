@@ -100,7 +100,8 @@ esac
     assert.truthy(update:find "^noninteractive .* update$", update)
     -- lua5.4 again: lua-busted alone would be content with another Lua
     assert.truthy(install:find(" install --no-install-recommends cmark-gfm lua-busted lua-check "
-      .. "lua-filesystem chromium chromium-driver lua-socket lua-dkjson lua5.4", 1, true), install)
+      .. "lua-filesystem chromium chromium-driver lua-socket lua-dkjson slurmctld slurmd "
+      .. "slurm-client munge lua5.4", 1, true), install)
     assert.truthy(install:find(" -y ", 1, true), install)
   end)
   it("says that the package lists could not be refreshed, and still tries", function()

@@ -101,7 +101,7 @@ describe("a journal", function()
         .. text:sub(place + offset + 1))
       local s, again
       local said = told(function() s, again = swept(path) end)
-      assert.truthy(said:find("s.study: 1 damaged line (the first is line 7) counts for nothing", 1, true),
+      assert.truthy(said:find("s.study: 1 damaged line (the first is line 8) counts for nothing", 1, true),
         said)
       assert.equal(1, s.computed)
       assert.same(rows, again)

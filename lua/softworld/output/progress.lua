@@ -27,11 +27,13 @@ local function fallback_clock()
   return function() return math.max(os.clock() - cpu, os.difftime(os.time(), wall) - 1) end
 end
 
-local function is_terminal()
+--- Is stderr a terminal that lines can be drawn on?
+function progress.is_terminal()
   return os.getenv("TERM") ~= "dumb" and os.execute("test -t 2") == true
 end
 
-local function terminal_width()
+--- The terminal's columns.
+function progress.terminal_width()
   local pipe = io.popen("stty size <&2 2>/dev/null", "r")
   local text = pipe and pipe:read("a") or ""
   if pipe then pipe:close() end
@@ -63,9 +65,9 @@ function progress.new(options)
   self.early = self.after > 0
   self.terminal = options.terminal
   if self.terminal == nil and not self.quiet then
-    self.terminal = self.stream == io.stderr and is_terminal()
+    self.terminal = self.stream == io.stderr and progress.is_terminal()
   end
-  self.width = options.width or terminal_width
+  self.width = options.width or progress.terminal_width
   return self
 end
 

@@ -6,11 +6,15 @@
 -- where the machine and not the model failed }.
 -- @module softworld.study.campaign
 local checks = require "softworld.checks"
+local cluster = require "softworld.study.cluster"
 local core = require "softworld.core"
 local evaluation = require "softworld.study.evaluation"
 local judge = require "softworld.study.judge"
+local node = require "softworld.study.node"
 local parameters = require "softworld.study.parameters"
+local parts = require "softworld.study.parts"
 local pool = require "softworld.study.pool"
+local progress = require "softworld.study.progress"
 local unread = require "softworld.unread"
 
 local campaign = {}
@@ -50,8 +54,8 @@ local function stands(own, status, rest)
     or own.memory and rest == evaluation.memory_reason(own.memory)
 end
 
--- What setup builds, once, when something is to be computed.
-local function build(own)
+--- What setup builds, once, when something is to be computed.
+function campaign.build(own)
   if own.built then return end
   own.built = own.setup and table.pack(own.setup()) or table.pack()
   evaluation.keep(own)
@@ -65,12 +69,12 @@ local function tasks(own, part, source, done)
       if not number then return nil end
       local word = parameters.word(values)
       local status, rest = own.journal:find(part, number, word)
-      local record = status and stands(own, status, rest)
+      local record = status and (own.task or stands(own, status, rest))
         and campaign.record(part, number, values, status, rest)
       if not record then
         return { number = number, values = values, word = word, text = number .. " " .. word }
       end
-      done(record)
+      done(record, true)
     end
   end
 end
@@ -90,7 +94,7 @@ local function here(own, part, next_task, done)
   local again, more = math.random(0), math.random(0)
   local fine, why = pcall(function()
     for task in next_task do
-      local status, rest = unread.excused(evaluation.run, own, part, task.number, task.values)
+      local status, rest = unread.excused(evaluation.run, own, task.number, task.values)
       keep(own, part, task, status, rest, done)
     end
   end)
@@ -108,7 +112,7 @@ local function by_workers(own, part, count, next_task, done)
     answer = function(text)
       local number, word = text:match "^(%d+) (.*)$"
       local values = parameters.values(own.parameters, word)
-      local status, rest = evaluation.run(own, part, math.tointeger(number), values)
+      local status, rest = evaluation.run(own, math.tointeger(number), values)
       return status .. " " .. rest
     end,
     done = function(task, status, rest) keep(own, part, task, status, rest, done) end,
@@ -119,8 +123,9 @@ end
 local function compute(own, part, options, source, done)
   local next_task = tasks(own, part, source, done)
   local first = next_task()
-  if not first then return end
-  build(own)
+  if not first then return cluster.done(own, own.asked[part].name) end
+  if own.task then node.missing(own, first.number) end
+  campaign.build(own)
   local function from_first()
     local task = first
     if task then
@@ -129,33 +134,52 @@ local function compute(own, part, options, source, done)
     end
     return next_task()
   end
-  local count = options.workers or own.workers or core.processors()
-  if count == 0 then return here(own, part, from_first, done) end
-  by_workers(own, part, count, from_first, done)
+  local count = own.task and node.workers() or options.workers or own.workers or core.processors()
+  local function compute_here(next_one)
+    if count == 0 then return here(own, part, next_one, done) end
+    by_workers(own, part, count, next_one, done)
+  end
+  if own.on ~= "slurm" or own.task then
+    compute_here(from_first)
+    return cluster.done(own, own.asked[part].name)
+  end
+  cluster.run(own, { name = own.asked[part].name, next = from_first, whole = source.whole,
+    here = compute_here, workers = count,
+    keep = function(task, status, rest) keep(own, part, task, status, rest, done) end })
+end
+
+local function bar_of(own, method, options, source)
+  return progress.new(own, method, { total = source.count or options.evaluations,
+    most = source.count == nil, result = method:match "^minimise (.*)$" })
 end
 
 --- Evaluate all that source.next() gives: number, values; nil when there is none now. source.done(record)
 -- hears what came of each. The part's records by number.
 function campaign.run(own, method, options, source)
   if own.busy then error(("study '%s': its evaluations cannot ask for more of them"):format(own.name), 0) end
-  own.part = own.part + 1
-  local part, records = own.part, {}
-  own.asked[part] = { method = method, records = records }
-  local function done(record)
+  local name, part, records = parts.name(own, method, options), nil, {}
+  own.bar = bar_of(own, method, options, source)
+  local function done(record, known)
     judge.complete(own, record)
     records[record.number] = record
+    own.bar:update(record, known)
     if source.done then source.done(record) end
   end
   own.busy = true
   local fine, why = pcall(function()
+    own.hold = not own.task and cluster.claim(own)
     own.journal:open()
     own.tell()
+    part = parts.begin(own, name, method, records)
+    if own.task then node.part(own, name.full, campaign.build) end
     compute(own, part, options, source, done)
   end)
   own.busy = false
+  own.bar:clear()
   own.journal:close()
+  cluster.release(own, own.hold)
   if fine then return records end
-  own.part = part - 1 -- asked for again it goes on
+  if part then parts.leave(own, name) end -- asked for again it goes on
   if checks.is_interrupt(why) then own.interrupted() end
   error(why, 0)
 end

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- One evaluation: what evaluate is given, what becomes of what it returns. A function of the parameters'
--- values, the study's seed, the part and the number within it, and of nothing else.
+-- values, the study's seed, the method with its options and the number within it, and of nothing else.
 -- @module softworld.study.evaluation
 local checks = require "softworld.checks"
 local core = require "softworld.core"
@@ -27,8 +27,8 @@ local GIVEN_UP = {}   -- raised by give_up
 local random, seed = math.random, math.randomseed
 
 -- The generator's state at the beginning of an evaluation.
-local function seed_with(own, part, number)
-  local mark = string.pack("<i8i8i8", own.seed, part, number)
+local function seed_with(own, number)
+  local mark = string.pack("<i8i8i8", own.seed, own.stream, number)
   seed(core.checksum(mark), core.checksum("softworld" .. mark))
 end
 
@@ -151,11 +151,23 @@ local function all(own, p)
   return own.evaluate(p, table.unpack(own.built, 1, own.built.n))
 end
 
---- Gives "ok" with results as text; "failed", "machine" or "mistake" with a reason.
-function evaluation.run(own, part, number, values)
-  seed_with(own, part, number)
+local function once(own, number, values)
+  seed_with(own, number)
   core.limit_steps(own.steps or 0)
-  return finish(own, pcall(all, own, given_for(own, number, values)))
+  return pcall(all, own, given_for(own, number, values))
+end
+
+--- Gives "ok" with results as text; "failed", "machine" or "mistake" with a reason.
+function evaluation.run(own, number, values) return finish(own, once(own, number, values)) end
+
+--- The same in this process, for whoever wants to look at it: status and text as run gives them, what
+-- evaluate returned, or the error that it raised.
+function evaluation.again(own, number, values)
+  local again, more = math.random(0), math.random(0)
+  local fine, given = once(own, number, values)
+  math.randomseed(again, more)
+  local status, text = finish(own, fine, given)
+  return status, text, given
 end
 
 return evaluation

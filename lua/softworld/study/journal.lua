@@ -3,6 +3,7 @@
 --
 --     softworld study 1 <sum>
 --     s "name" <key of the definition> "what it is" <sum>
+--     p <part> "the method with its options" <sum>
 --     e <part> <number> <values> ok time=1.5 margin=0.25 <sum>
 --     e <part> <number> <values> failed "why" <sum>
 --     t <sum>
@@ -21,6 +22,7 @@ journal.__index = journal
 
 local FIRST = "softworld study 1"
 local SYNC = 1 -- between two [s]
+local MOST = 1 << 53 -- number of a part
 
 local function fail(text, ...) error(text:format(...), 0) end
 
@@ -45,6 +47,7 @@ end
 local function forget(self)
   self.parts, self.others, self.other, self.text = {}, 0, nil, nil
   self.bad, self.first_bad, self.current, self.torn = 0, nil, nil, false
+  self.names, self.last = {}, 0
 end
 
 local function read_definition(self, body, at)
@@ -63,7 +66,7 @@ local function put(self, part, number, line)
   local list = self.parts[part]
   if not list then
     list = {}
-    self.parts[part] = list
+    self.parts[part], self.last = list, math.max(self.last, part)
   end
   local before = list[number]
   if not before then
@@ -73,6 +76,18 @@ local function put(self, part, number, line)
   else
     list[number] = { before, line }
   end
+end
+
+local function name_part(self, part, text)
+  self.names[text], self.last = part, math.max(self.last, part)
+end
+
+local function read_part(self, body)
+  local part, text = body:match '^p (%d+) "([^"]*)"$'
+  part = math.tointeger(part)
+  if not part or part < 1 or part > MOST then return false end
+  name_part(self, part, unquoted(text))
+  return true
 end
 
 local function damaged(self, line_number)
@@ -101,7 +116,7 @@ local function read_lines(self, text, at)
       ours = self.current == self.definition.key
     elseif kind == "t" then
       excuse(self, line_number)
-    else
+    elseif kind ~= "p" or ours and not read_part(self, text:sub(at, after - 19)) then
       damaged(self, line_number)
     end
     at = after
@@ -147,8 +162,8 @@ local function items(text)
   return list, set
 end
 
--- What differs between two definitions, as lines.
-local function differences(before, now)
+--- What differs between two definitions, as lines.
+function journal.differences(before, now)
   local old, in_old = items(before)
   local new, in_new = items(now)
   local list = {}
@@ -167,7 +182,7 @@ function journal:remarks()
   if self.others > 0 then
     list[1] = ("%s has %d evaluation%s of another definition, kept apart; this one is new in:"):format(
       self.path, self.others, self.others == 1 and "" or "s")
-    for _, difference in ipairs(differences(self.other or "", self.definition.text)) do
+    for _, difference in ipairs(journal.differences(self.other or "", self.definition.text)) do
       list[#list + 1] = "  " .. difference
     end
   end
@@ -178,13 +193,17 @@ function journal:remarks()
   return list
 end
 
--- A line's values, status and the rest of it.
-local function parse(self, line)
-  if type(line) == "number" then line = self.text:sub(line, (core.journal_line(self.text, line)) - 19) end
+--- The values, status and the rest of a line about an evaluation, without its sum; nil: it is none.
+function journal.parse(line)
   local word, status, rest = line:match "^e %d+ %d+ (%S+) (%l+) (.*)$"
   if status ~= "ok" and status ~= "failed" and status ~= "machine" then return nil end
   if status ~= "ok" then rest = unquoted(rest:match '^"(.*)"$' or "") end
   return word, status, rest
+end
+
+local function parse(self, line)
+  if type(line) == "number" then line = self.text:sub(line, (core.journal_line(self.text, line)) - 19) end
+  return journal.parse(line)
 end
 
 --- An evaluation with these values, as a word; without, the last one of the number: status, rest, values.
@@ -215,9 +234,9 @@ local function write(self, text)
     self.definition.name, self.path, (tostring(why):gsub("^.*: ", "")))
 end
 
---- Begin to write. Raises where another process does, or nobody can.
+--- Begin to write, unless it is to be read only. Raises where another process does, or nobody can.
 function journal:open()
-  if not self.path then return self:read() end
+  if not self.path or self.reader then return self:read() end
   local name = self.definition.name
   check_kind(self)
   local lock, why = core.lock(self.path)
@@ -252,10 +271,30 @@ function journal:mend()
   self.torn = false
 end
 
+--- The number of a part by what its method is; a new one is put down.
+function journal:part(text)
+  if not self.names[text] then
+    name_part(self, self.last + 1, text)
+    if self.stream then write(self, summed(("p %d %s"):format(self.last, quoted(text)))) end
+  end
+  return self.names[text]
+end
+
+--- The line about an evaluation, without its sum.
+function journal.body(part, number, word, status, rest)
+  return ("e %d %d %s %s %s"):format(part, number, word, status, status == "ok" and rest or quoted(rest))
+end
+
+--- What the method of a part is; nil where the journal does not tell.
+function journal:name(part)
+  for text, number in pairs(self.names) do
+    if number == part then return text end
+  end
+end
+
 --- Put an evaluation down: status "ok" with results as text, or "failed" or "machine" with a reason.
 function journal:add(part, number, word, status, rest)
-  local body = ("e %d %d %s %s %s"):format(part, number, word, status,
-    status == "ok" and rest or quoted(rest))
+  local body = journal.body(part, number, word, status, rest)
   if self.stream then write(self, summed(body)) end
   put(self, part, number, body)
   if self.stream and core.clock() - self.synced > SYNC then self:sync() end
@@ -281,5 +320,7 @@ end
 function journal:leave()
   if self.lock then self.lock() end
 end
+
+journal.summed, journal.quoted, journal.unquoted = summed, quoted, unquoted
 
 return journal

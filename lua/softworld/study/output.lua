@@ -81,6 +81,8 @@ local function result_names(list)
   return names
 end
 
+output.result_names = result_names
+
 -- A name of a parameter or a result, or an error.
 function output.check_name(own, what, name, list)
   local results, known = result_names(list), {}
@@ -194,6 +196,7 @@ end
 --- Write the table.
 function output.csv(own, path)
   check_path("study:csv", path)
+  if own.task then return path end -- a task of a cluster writes nothing of the study's
   local list = output.records(own)
   local names, columns = { "part", "number" }, {}
   for _, p in ipairs(own.parameters) do names[#names + 1] = p.name end
@@ -213,6 +216,7 @@ end
 --- Write the table with what the study is.
 function output.json(own, path)
   check_path("study:json", path)
+  if own.task then return path end
   local list = {}
   for i, p in ipairs(own.parameters) do
     list[i] = { name = p.name, unit = p.unit, low = p.low, high = p.high, log = p.log, kind = p.kind,

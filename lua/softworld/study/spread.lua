@@ -34,9 +34,9 @@ local function draw(p, random)
 end
 
 --- A function from the number of an evaluation to its values, which depend on nothing else.
-function spread.drawing(own, part)
+function spread.drawing(own)
   return function(number)
-    local random, values = design.generator(own.seed, part, number), {}
+    local random, values = design.generator(own.seed, own.stream, number), {}
     for i, p in ipairs(own.parameters) do values[i] = draw(p, random) end
     return values
   end

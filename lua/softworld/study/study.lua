@@ -22,6 +22,7 @@ local journal = require "softworld.study.journal"
 local judge = require "softworld.study.judge"
 local methods = require "softworld.methods"
 local minimise = require "softworld.study.minimise"
+local node = require "softworld.study.node"
 local output = require "softworld.study.output"
 local parameters = require "softworld.study.parameters"
 local pareto = require "softworld.study.pareto"
@@ -29,6 +30,7 @@ local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local search_methods = require "softworld.study.search"
 local spread = require "softworld.study.spread"
+local where = require "softworld.study.where"
 
 local study = {}
 local Study = { __name = "study" }
@@ -53,6 +55,8 @@ local new = rows.call("sw.study", "{...}", "a study: a model to be evaluated man
   { "cpu", "number", "s", "most computing time of an evaluation", min = 0, above = true, usual = "any" },
   { "steps", "integer", "-", "most steps of its runs that an evaluation tries, the rejected ones too",
     min = 1, max = 1 << 53, usual = "any" },
+  { "on", "choice", "-", "where it is computed, see study:run", choices = { "here", "slurm" },
+    usual = "SOFTWORLD_ON of the environment, else here" },
   { "memory", "number", "-", "most memory that a worker takes besides [B]", min = 1e6, usual = "any" },
 })
 
@@ -140,7 +144,7 @@ local function fields(self) return sealed.fields(self) end
 -- --- making ------------------------------------------------------------------------------------
 
 local function definition(own)
-  local lines = { "version " .. core.version, ("seed %d"):format(own.seed) }
+  local lines = { "version " .. core.version, ("seed %d"):format(own.seed), "parts by method and options" }
   for _, p in ipairs(own.parameters) do lines[#lines + 1] = "parameter " .. parameters.describe(p) end
   if own.steps then lines[#lines + 1] = ("steps %d"):format(own.steps) end
   lines[#lines + 1] = "functions of the script " .. fingerprint(own.setup, own.evaluate)
@@ -162,8 +166,10 @@ local function make(args)
   for _, p in ipairs(own.parameters) do own.by_name[p.name] = p end
   own.constraints = judge.read(own.constraints, own.by_name)
   own.seed = math.tointeger(own.seed)
-  own.part, own.asked, own.told, own.computed = 0, {}, {}, 0
+  own.part, own.asked, own.told, own.computed, own.counts = 0, {}, {}, 0, {}
   own.journal = journal.new(own.file, definition(own))
+  node.study(own)
+  where.of_study(own)
   own.journal:read()
   local object = sealed.new(Study, own)
   function own.tell() tell(own) end
@@ -181,7 +187,7 @@ study.study = build.placed(make)
 -- Evaluate count points of a function from their number.
 local function points(own, method, options, count, values_of)
   local at = 0
-  return campaign.run(own, method, options, { next = function()
+  return campaign.run(own, method, options, { whole = true, count = count, next = function()
     if at >= count then return nil end
     at = at + 1
     return at, values_of(at)
@@ -204,6 +210,7 @@ local function do_sweep(self, args)
       .. (kind == "grid" and ", or grid" or ""), 0)
   end
   local count, values_of = o.count
+  o.kind = kind
   if kind == "grid" then count, values_of = design.grid(own.parameters, what, o.grid, o.count)
   else values_of = design.fill(own.parameters, kind, count, own.seed) end
   local records = points(own, "sweep", o, count, values_of)
@@ -223,7 +230,7 @@ end
 local function do_spread(self, args)
   local own, o = fields(self), shake:read(args == nil and {} or args)
   judge.needed(own, "study:spread")
-  local drawing = o.kind == "sobol" and spread.filling(own, o.count) or spread.drawing(own, own.part + 1)
+  local drawing = o.kind == "sobol" and spread.filling(own, o.count) or spread.drawing(own)
   local records = points(own, "spread", o, o.count, drawing)
   judge.some(own, records, o.count)
   return spread.result(own, records, o.kind)
@@ -265,9 +272,13 @@ function Study:csv(path) return build.call(3, do_csv, self, path) end
 function Study:json(path) return build.call(3, do_json, self, path) end
 function Study:chart(args) return build.call(3, do_chart, self, args) end
 
+rows.later(Study, "softworld.study.where", "run cancel")
+rows.later(Study, "softworld.study.again", "again")
+rows.later(Study, "softworld.study.report", "report")
 methods.guard_table("study", Study)
 
-local SHOWN = "sweep minimise pareto front spread advise table best csv json chart name file computed"
+local SHOWN = "run cancel sweep minimise pareto front spread advise table best again report csv json chart "
+  .. "name file computed"
 local unknown = checks.fields("study", SHOWN, "file")
 
 function Study:__index(key)

@@ -1,0 +1,112 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- The page of a study: one HTML file with a table and cross plots, in which an evaluation is chosen by a
+-- click; it tells the lines that compute that one again. Sources are in lua/softworld/study/page.
+-- @module softworld.study.report
+local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
+local core = require "softworld.core"
+local json = require "softworld.output.json"
+local judge = require "softworld.study.judge"
+local output = require "softworld.study.output"
+local rows = require "softworld.rows"
+local sealed = require "softworld.sealed"
+local sink = require "softworld.output.sink"
+
+local _, here = ...
+local folder = here:match "^(.*)report%.lua$" .. "page/"
+
+local report = {}
+
+local MOST = 20000 -- evaluations in a page
+local NULL = 0 / 0  -- JSON writes null for it
+
+rows.calls{
+  { "study:report", "path", "writes a page with table and plots, for any browser", "the path",
+    example = 'study:report "grip.html"' },
+}
+
+local function columns_of(own, list)
+  local parameters, results, limits = {}, {}, {}
+  for i, p in ipairs(own.parameters) do
+    parameters[i] = json.object { name = p.name, unit = p.unit, log = p.log, kind = p.kind,
+      choices = p.choices }
+  end
+  for _, c in ipairs(own.constraints) do limits[c.name] = c end
+  for i, name in ipairs(output.result_names(list)) do
+    local c = limits[name] or {}
+    results[i] = json.object { name = name, unit = c.unit, min = c.min, max = c.max }
+  end
+  return parameters, results
+end
+
+-- Which records are shown: all, or so many of them, evenly.
+local function few(list)
+  if #list <= MOST then return list end
+  local some = {}
+  for k = 1, MOST do some[k] = list[1 + (k - 1) * #list // MOST] end
+  return some, ("Shown are %d of %d evaluations."):format(MOST, #list)
+end
+
+local function row_of(own, record, results)
+  local values, pass = {}, judge.pass(own, record)
+  for i, value in ipairs(record.values) do values[i] = value end
+  for _, r in ipairs(results) do
+    values[#values + 1] = record.results and record.results[r.name] or NULL
+  end
+  return { record.part, record.number, values, pass == nil and NULL or pass and 1 or 0,
+    record.failed or "" }
+end
+
+local function parts_of(own, list)
+  local parts, seen = {}, {}
+  for _, record in ipairs(list) do
+    local part = record.part
+    if not seen[part] then
+      parts[#parts + 1] = { part, ("%d. %s"):format(part, own.asked[part] and own.asked[part].method
+        or own.journal:name(part) or "in the journal") }
+    end
+    seen[part] = true
+  end
+  return parts
+end
+
+local function data_of(own)
+  local list = output.records(own)
+  if #list == 0 then error("study:report: there is no evaluation to be shown", 0) end
+  local parameters, results = columns_of(own, list)
+  local some, note = few(list)
+  local shown, passed, failed = {}, 0, 0
+  for i, record in ipairs(some) do shown[i] = row_of(own, record, results) end
+  for _, record in ipairs(list) do
+    local pass = judge.pass(own, record)
+    if pass then passed = passed + 1 elseif pass == nil then failed = failed + 1 end
+  end
+  return json.object { title = own.name, version = core.version, count = #list, passed = passed,
+    failed = failed, note = note, constraints = #own.constraints > 0, parameters = parameters,
+    results = results, parts = parts_of(own, list), rows = shown }
+end
+
+local function escaped(text)
+  return (text:gsub('[&<>"]', { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;" }))
+end
+
+local function do_report(self, path)
+  local own = sealed.fields(self)
+  if type(path) ~= "string" or not path:find "%.html?$" then
+    error(("study:report: the name of a file that ends in .html is wanted, got %s"):format(
+      checks.got(path)), 0)
+  end
+  local data = json.encode(data_of(own)):gsub("[<>&]", { ["<"] = "\\u003c", [">"] = "\\u003e",
+    ["&"] = "\\u0026" }) -- nothing within can end the script, or open a comment in it
+  local parts = { title = escaped(own.name), STYLES = sink.read_file(folder .. "style.css"),
+    SCRIPTS = sink.read_file(folder .. "study.js"),
+    data = '<script type="application/json" id="data">' .. data .. "</script>" }
+  local page = sink.read_file(folder .. "index.html")
+  page = page:gsub("@(%a+)@", function(name) return parts[name] end)
+  return own.task and path or sink.write_file(path, page)
+end
+
+--- study:report(path).
+function report.report(self, path) return build.call(3, do_report, self, path) end
+
+return report

@@ -1,0 +1,148 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- The page of a study in a real browser: what it shows is what the table has, and a click chooses.
+local browser = require "spec.page.browser"
+local program = require "host.program"
+local sw = require "softworld"
+
+local NAME = "grip </script><b>&\"" -- nothing of it may become a part of the page
+
+local function study(changes)
+  local args = { name = NAME, workers = 2, seed = 2,
+    parameters = { force = { 0.5, 20, unit = "N", log = true }, speed = { 0.05, 0.5, unit = "m/s" },
+      kind = { choices = { "rod", "tube" } } },
+    evaluate = function(p)
+      if p.force * p.random() > 14 then error("crushed </script>", 0) end
+      return { time = 1 / p.speed, margin = 2 / p.force + p.speed }
+    end,
+    constraints = { margin = { max = 0.9 } } }
+  for key, value in pairs(changes or {}) do args[key] = value end
+  return sw.study(args)
+end
+
+describe("the page of a study", function()
+  local page, folder, s, rows
+
+  setup(function()
+    folder = program.folder()
+    page = browser.open(1280, 800)
+    s = study()
+    s:sweep { count = 200 }
+    s:spread { count = 40 }
+    rows = s:table()
+    assert.equal(folder .. "/s.html", s:report(folder .. "/s.html"))
+    page:go("file://" .. folder .. "/s.html")
+  end)
+
+  teardown(function()
+    if page then page:close() end
+    program.clean()
+  end)
+
+  local function text(selector)
+    return page:run("return document.querySelector(arguments[0]).textContent", selector)
+  end
+
+  local function count(what)
+    local n = 0
+    for _, row in ipairs(rows) do
+      if row[what] then n = n + 1 end
+    end
+    return n
+  end
+
+  it("tells how many there are, and complains of nothing", function()
+    assert.equal(NAME, text "h1")
+    assert.equal("240 evaluations", text "#count")
+    assert.equal(count "pass" .. " meet the constraints", text "#passed")
+    assert.equal(count "failed" .. " failed", text "#failed")
+    assert.is_true(count "failed" > 0)
+    assert.equal(240, page:run "return document.querySelectorAll('tbody tr').length")
+    assert.equal(0, #page:console())
+  end)
+
+  it("shows parameters and results of the row that is clicked, and how to compute it again", function()
+    local row
+    for _, one in ipairs(rows) do
+      if one.pass == false then row = one end
+    end
+    page:run("document.querySelector(`tr[data-at='${arguments[0]}']`).click()", row.part .. "." .. row.number)
+    assert.equal(("Evaluation %d.%d"):format(row.part, row.number), text "#detail h2")
+    local words = text "#detail"
+    for _, name in ipairs { "force", "speed", "time" } do
+      local number = words:match(name .. " ?%[?[^%]%d]*%]?([%d.]+)")
+      assert.is_true(math.abs(tonumber(number) / row[name] - 1) < 1e-4, name .. ": " .. words)
+    end
+    assert.truthy(words:find(row.kind, 1, true))
+    assert.truthy(text("#detail dd.over"):find("(at most 0.9)", 1, true))
+    -- the lines are right: the same numbers come out
+    local number, part = text("#line"):match "study:again%((%d+), (%d+)%)"
+    assert.is_true(s:again(tonumber(number) | 0, tonumber(part) | 0).margin == row.margin)
+  end)
+
+  it("chooses the point that is clicked", function()
+    -- of the first part, with no other near it
+    local found = page:run [[
+      const p = document.getElementById("plot").getBoundingClientRect();
+      const far = (a, b) => a === b || Math.hypot(a[1] - b[1], a[2] - b[2]) > 6;
+      const one = placed.find((a) => a[0].part === 1 && a[0].number < 200 && placed.every((b) => far(a, b)));
+      return [p.x + 1 + one[1], p.y + 1 + one[2], one[0].number];]]
+    page:pointer({ found }, true)
+    assert.equal(("Evaluation 1.%d"):format(found[3]), text "#detail h2")
+    page:run "document.getElementById('plot').focus()"
+    page:keys "ArrowRight"
+    assert.equal(("Evaluation 1.%d"):format(found[3] + 1), text "#detail h2")
+  end)
+
+  it("shows why one has failed", function()
+    local row
+    for _, one in ipairs(rows) do row = row or one.failed and one end
+    page:run("document.querySelector(`tr[data-at='${arguments[0]}']`).click()", row.part .. "." .. row.number)
+    assert.equal("failed: crushed </script>", text "#detail .wrong")
+  end)
+
+  it("sorts, and leaves away what breaks constraints and other parts", function()
+    page:run "document.querySelector('#only').click()"
+    assert.equal(count "pass", page:run "return document.querySelectorAll('tbody tr').length")
+    page:run "[...document.querySelectorAll('th button')].find((b) => /time/.test(b.textContent)).click()"
+    local best = s:best "time"
+    assert.equal(best.part .. "." .. best.number, text "tbody td")
+    page:run "choose('part', 2); choose('only', false)"
+    assert.equal(40, page:run "return document.querySelectorAll('tbody tr').length")
+    assert.equal(0, #page:console())
+  end)
+
+  it("draws choices, colours and both themes, and has points in its picture", function()
+    local function colours()
+      return page:run [[const c = document.getElementById("plot"), d = c.getContext("2d");
+        return new Set(new Uint32Array(d.getImageData(0, 0, c.width, c.height).data.buffer)).size;]]
+    end
+    page:run "choose('part', 0); choose('x', 1)"
+    assert.is_true(colours() > 20)
+    page:run "choose('colour', 0); document.getElementById('theme').click()"
+    assert.is_true(colours() > 100)
+    page:run "document.querySelectorAll('#small button')[2].click()"
+    assert.equal("2", page:run "return document.getElementById('x').value")
+    for _, line in ipairs(page:console()) do -- of reading its pixels it warns
+      assert.is_true(line.level ~= "SEVERE", line.message)
+    end
+  end)
+
+  it("shows 20000 of more", function()
+    local many = study { constraints = {}, evaluate = function(p) return { y = p.force } end }
+    many:sweep { count = 30000, workers = 0 }
+    many:report(folder .. "/many.html")
+    page:go("file://" .. folder .. "/many.html")
+    assert.equal("30000 evaluations", text "#count")
+    assert.equal("Shown are 20000 of 30000 evaluations.", text "#note")
+    assert.truthy(text("#more"):find("500 of 20000 are shown", 1, true))
+    assert.is_true(page:run "return document.getElementById('passed').hidden")
+  end)
+
+  it("tells what is wrong", function()
+    assert.error_matches(function() study():report(folder .. "/x.html") end, "there is no evaluation to be")
+    for _, path in ipairs { "x.pdf", 3, "" } do
+      assert.error_matches(function() s:report(path) end, "the name of a file that ends in .html is wanted")
+    end
+    assert.error_matches(function() s:report "/nowhere/x.html" end, "cannot write /nowhere/x.html")
+  end)
+end)
