@@ -231,7 +231,8 @@ local function do_spread(self, args)
   local own, o = fields(self), shake:read(args == nil and {} or args)
   judge.needed(own, "study:spread")
   local drawing = o.kind == "sobol" and spread.filling(own, o.count) or spread.drawing(own)
-  local records = points(own, "spread", o, o.count, drawing)
+  local kind = o.kind == "sobol" and o.kind or nil
+  local records = points(own, "spread", { workers = o.workers, kind = kind }, o.count, drawing)
   judge.some(own, records, o.count)
   return spread.result(own, records, o.kind)
 end
