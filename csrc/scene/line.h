@@ -148,6 +148,9 @@ sw_status sw_scene_check_rules(const sw_scene *scene, size_t wire, const sw_scen
                                sw_error *err);
 /* The body of a handle, in a scene that is built, readable and refreshed. */
 sw_status sw_scene_open_body(sw_scene *scene, sw_handle h, sw_scene_wire **body, sw_error *err);
+/* SW_EINVAL for a speed that nothing has [m/s]. */
+sw_status sw_scene_check_speed(const sw_scene *scene, const sw_scene_wire *body, double speed,
+                               sw_error *err);
 /* How many were made so far, those that are gone too: frames have a number for each. */
 static inline size_t sw_scene_bodies_made(const sw_scene *s) {
   return s->wire_count + s->gone_count;

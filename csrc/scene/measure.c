@@ -216,12 +216,27 @@ sw_status sw_scene_wire_copy(sw_scene *s, sw_handle h, double *positions, double
   return SW_OK;
 }
 
+static const double LIGHT = 299792458.0; /* speed of light in vacuum [m/s] */
+
+sw_status sw_scene_check_speed(const sw_scene *s, const sw_scene_wire *w, double speed,
+                               sw_error *err) {
+  if (speed <= LIGHT) return SW_OK;
+  return sw_fail(err, SW_EINVAL,
+                 "'%s' of scene '%s': set_velocity: a speed of %.6g m/s; at most %.9g m/s, that of "
+                 "light",
+                 w->name, s->name, speed, LIGHT);
+}
+
 sw_status sw_scene_wire_set_velocity(sw_scene *s, sw_handle h, sw_vec v, sw_vec omega, sw_vec about,
                                      sw_error *err) {
   sw_scene_wire *w;
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_open_body(s, h, &w, err));
   const sw_body *b = &s->system.bodies[h.slot];
+  for (size_t i = 0; i < b->plan->nodes; i++) {
+    const sw_vec arm = sw_sub(sw_vec_at(s->system.x, b->first_node + i), about);
+    SW_TRY(sw_scene_check_speed(s, w, sw_norm(sw_add(v, sw_cross(omega, arm))), err));
+  }
   for (size_t i = 0; i < b->plan->nodes; i++) {
     const size_t k = 3 * (b->first_node + i);
     if (b->plan->held[i] != SW_FREE) continue;

@@ -69,6 +69,8 @@ sw_status sw_scene_particles_set_velocities(sw_scene *s, sw_handle h, const doub
   SW_TRY(open_particles(s, h, &w, err));
   const sw_body *b = &s->system.bodies[h.slot];
   for (size_t i = 0; i < b->plan->nodes; i++)
+    SW_TRY(sw_scene_check_speed(s, w, sw_norm(sw_vec_at(velocities, i)), err));
+  for (size_t i = 0; i < b->plan->nodes; i++)
     if (b->plan->held[i] == SW_FREE)
       sw_store(s->system.v + 3 * (b->first_node + i), sw_vec_at(velocities, i));
   sw_course_jump(&s->course);

@@ -274,3 +274,27 @@ describe("counts beyond all reason", function()
     assert.is_true(scene:run{ duration = 0.02 }.ok)
   end)
 end)
+
+-- 1e300 m/s squared are no number: a run that says ok told an infinite kinetic energy.
+describe("set_velocity of a speed above that of light", function()
+  it("is an error, and changes nothing", function()
+    local s = core.scene{}
+    local wire = s:wire{ E = 1e7, density = 1000, radius = 0.002, from = { 0, 0, 0 }, to = { 1, 0, 0 },
+      segments = 4 }
+    local cloud = s:particles{ positions = { 0, 0, 1, 0.1, 0, 1 }, masses = 0.01, radius = 0.01 }
+    for _, call in ipairs{ function(v) wire:set_velocity({ 0, v, 0 }) end,
+      function(v) wire:set_velocity({ 0, 0, 0 }, { 0, 0, v }) end, -- of the far end, 1 m away
+      function(v) cloud:set_velocity{ v, 0, 0 } end,
+      function(v) cloud:set_velocity{ 0, 1, 0, 0, -v, 0 } end } do
+      for _, v in ipairs{ 3e8, 1e300, -1e160 } do
+        local fine, why = pcall(call, v)
+        assert.is_false(fine)
+        assert.truthy(why:find("at most 299792458 m/s", 1, true), why)
+      end
+      call(2.9e8)
+      wire:set_velocity{ 0, 0, 0 }
+      cloud:set_velocity{ 0, 0, 0 }
+    end
+    assert.equal(0, s:energy().kinetic)
+  end)
+end)
