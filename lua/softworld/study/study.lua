@@ -16,6 +16,7 @@ local checks = require "softworld.checks"
 local core = require "softworld.core"
 local design = require "softworld.study.design"
 local fingerprint = require "softworld.study.fingerprint"
+local fit = require "softworld.study.fit"
 local journal = require "softworld.study.journal"
 local judge = require "softworld.study.judge"
 local methods = require "softworld.methods"
@@ -194,6 +195,8 @@ local function do_spread(self, args)
   return spread.result(own, records, o.count)
 end
 
+local function do_fit(self, args) return fit.run(fields(self), args) end
+
 local function list_rows(self) return output.rows(fields(self)) end
 
 local function do_best(self, result) return output.best(fields(self), result) end
@@ -207,6 +210,7 @@ local function do_chart(self, args) return output.chart(fields(self), chart:read
 -- Calls in tail position: levels of errors count as if they were not here.
 function Study:sweep(args) return build.call(3, do_sweep, self, args) end
 function Study:minimise(result, args) return build.call(3, do_minimise, self, result, args) end
+function Study:fit(args) return build.call(3, do_fit, self, args) end
 function Study:spread(args) return build.call(3, do_spread, self, args) end
 function Study:table() return build.call(3, list_rows, self) end
 function Study:best(result) return build.call(3, do_best, self, result) end
@@ -216,7 +220,7 @@ function Study:chart(args) return build.call(3, do_chart, self, args) end
 
 methods.guard_table("study", Study)
 
-local SHOWN = "sweep minimise spread table best csv json chart name file computed"
+local SHOWN = "sweep minimise fit spread table best csv json chart name file computed"
 local unknown = checks.fields("study", SHOWN, "file")
 
 function Study:__index(key)
