@@ -8,6 +8,7 @@ local entry = require "softworld.calibration.entry"
 local literal = require "softworld.scene.literal"
 local methods = require "softworld.methods"
 local rows = require "softworld.rows"
+local sagged = require "softworld.calibration.sagged"
 local sealed = require "softworld.sealed"
 local sink = require "softworld.output.sink"
 
@@ -113,8 +114,8 @@ local function sag_curves(own)
   local group, p = own.model.sag, {}
   for name, value in pairs(own.model.constants) do p[name] = value end
   for name, q in pairs(own.parameters) do p[name] = q.value end
-  local curve, line, points = group.curve(p), { x = {}, y = {} }, { x = {}, y = {} }
-  for k, at in ipairs(curve) do line.x[k], line.y[k] = at[1], at[2] end
+  local line, points = {}, { x = {}, y = {} }
+  line.x, line.y = sagged.line(group.curve(p))
   for k, at in ipairs(group.points) do points.x[k], points.y[k] = at[1], at[2] end
   return line, points, "x [m]", "z [m]"
 end

@@ -30,8 +30,10 @@ local function units_of(unit)
   return usual[unit] or unit
 end
 
+-- "x [mm]" or "x_mm"
 local function split(title)
   local name, unit = title:match "^%s*(.-)%s*%[%s*(.-)%s*%]%s*$"
+  if not name then name, unit = title:match "^(%a+)_([%w_]+)$" end
   return name or title, unit
 end
 

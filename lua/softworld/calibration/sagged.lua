@@ -91,6 +91,17 @@ local function between(a, b, h, t)
     d0 * (a[1] - b[1]) + d1 * a[3] + d2 * b[3], d0 * (a[2] - b[2]) + d1 * a[4] + d2 * b[4]
 end
 
+--- Places along the curve for a picture: xs, zs.
+function sagged.line(list)
+  local xs, zs, parts = { list[1][1] }, { list[1][2] }, 5
+  for k = 2, #list do
+    local a, b = list[k - 1], list[k]
+    local h = math.sqrt((b[1] - a[1]) ^ 2 + (b[2] - a[2]) ^ 2)
+    for i = 1, parts do xs[#xs + 1], zs[#zs + 1] = between(a, b, h, i / parts) end
+  end
+  return xs, zs
+end
+
 --- How far a point {x, z} is to the left of the curve, beside its nearest place (beyond an end, beside its
 -- prolongation) [m].
 function sagged.beside(list, point)

@@ -11,7 +11,7 @@ local manual = {}
 manual.groups = {
   { "How to", { "start", "lay", "grip", "handling", "mixed", "clip", "tie", "channel", "slider", "feed",
     "winding", "join", "touches", "particles", "process", "waiting", "observe", "view", "tuning", "study",
-    "fit", "player", "plotting", "save", "snapshot", "mistakes" } },
+    "fit", "calibration", "player", "plotting", "save", "snapshot", "mistakes" } },
   { "Choose", { "models", "wire_mesh", "sections", "cable", "springback", "damping", "integrators",
     "vibration", "calibrate", "remodel", "units" } },
   { "Trust", { "accuracy", "tolerance", "limits", "speed", "peaks", "energy", "events", "changes" } },
@@ -27,7 +27,7 @@ manual.also = { manual = "start", contact = "touches", meshes = "wire_mesh", har
   pictures = "plotting", paraview = "plotting", resume = "save", load = "save", ledger = "energy",
   observer = "observe", live = "view",
   sweep = "study", optimise = "study", workers = "study", journal = "study",
-  identify = "fit", intervals = "fit",
+  identify = "fit", intervals = "fit", sag = "calibration", measure = "calibration",
   report = "player", page = "player", html = "player", film = "player", frames = "player",
   changed = "changes", modes = "vibration", stress = "vibration" }
 
