@@ -460,6 +460,19 @@ describe("a fit's evaluations", function()
     end
   end)
 
+  -- Without workers Ctrl-C comes within an evaluation: that is no failure of the model, but the end.
+  it("end with Ctrl-C, in this process too", function()
+    local _, err, code = program.script([[
+local sw = require "softworld"
+sw.study { name = "slow", workers = 0, parameters = { a = { 0, 1 } }, evaluate = function(p)
+  local clock = os.clock()
+  while os.clock() - clock < 0.1 do end
+  return { y = { p.a, p.a ^ 2 } }
+end }:fit { data = { y = { 0.3, 0.2 } }, starts = 1000 }]], {}, { signals = { 0.7 } })
+    assert.equal(130, code, err)
+    assert.truthy(err:find("study 'slow' was interrupted; so far:", 1, true), err)
+  end)
+
   it("are no more than allowed, and that is told", function()
     local s = make()
     local fit = s:fit { data = DATA, evaluations = 9 }

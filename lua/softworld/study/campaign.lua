@@ -90,6 +90,7 @@ local function here(own, part, next_task, done)
   local fine, why = pcall(function()
     for task in next_task do
       local status, rest = unread.excused(evaluation.run, own, part, task.number, task.values)
+      if status ~= "ok" and rest:find "interrupted$" then error(rest, 0) end -- Ctrl-C, no failure of a model
       keep(own, part, task, status, rest, done)
     end
   end)
