@@ -468,7 +468,8 @@ sw.study { name = "slow", workers = 0, parameters = { a = { 0, 1 } }, evaluate =
   local clock = os.clock()
   while os.clock() - clock < 0.1 do end
   return { y = { p.a, p.a ^ 2 } }
-end }:fit { data = { y = { 0.3, 0.2 } }, starts = 1000 }]], {}, { signals = { 0.7 } })
+end }:fit { data = { y = { 0.3, 0.2 } }, starts = 1000 }]], {},
+      { before = "env --default-signal=INT", signals = { 0.7 } })
     assert.equal(130, code, err)
     assert.truthy(err:find("study 'slow' was interrupted; so far:", 1, true), err)
   end)
