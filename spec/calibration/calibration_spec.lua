@@ -46,7 +46,7 @@ local function mirrored(shape)
 end
 
 describe("sw.calibration of independent solutions", function()
-  -- weight L^3 / EI is gamma. Points lie beside the elastica by 1e-9, beside the rod of 40 and 80 segments by
+  -- weight L^3 / EI is gamma. Points lie beside the elastica by 1e-9, beside the rod of 60 and 120 segments by
   -- some 1e-5 of the length: that is the sigma.
   for _, shape in ipairs(SHAPES) do
     it(("finds EI of a stiff catenary, gamma = %g"):format(shape.gamma), function()

@@ -199,7 +199,7 @@ describe("study:fit with evaluations that fail", function()
     end):fit { data = { y = { 4, sigma = 1 } } }
     only = fit.parameters.x
     assert.is_false(fit.ok)
-    assert.equal("all evaluations beside the best place failed", fit.reason)
+    assert.equal("all evaluations beside the best place failed: no", fit.reason)
     assert.equal(1.0, only.value)
     assert.is_nil(only.low)
   end)
@@ -362,6 +362,27 @@ it("study:fit with a soft loss leaves outliers alone", function()
   assert.is_true(math.abs(soft.parameters.b.value - 1.5) < 0.05, soft.parameters.b.value)
   assert.is_true(soft.parameters.b.low < 1.5 and soft.parameters.b.high > 1.5)
   assert.truthy(table.concat(soft.remarks, "\n"):find "2 of 10 data are further off than 3 sigma")
+end)
+
+-- One datum in ten is off by eight times the sigma. Intervals with the soft loss hold the slope in 190 +- 3.1
+-- of 200; fewer than 178 have a chance of 3e-4.
+it("intervals with a soft loss hold the truth among outliers", function()
+  math.randomseed(9)
+  local held = 0
+  for _ = 1, 200 do
+    local y = { sigma = 0.1 }
+    for k = 1, 20 do
+      local normal = math.sqrt(-2 * math.log(1 - math.random())) * math.cos(2 * math.pi * math.random())
+      y[k] = 1 + 0.3 * k + 0.1 * normal * (math.random() < 0.1 and 8 or 1)
+    end
+    local b = study({ a = { -5, 5 }, b = { -2, 2 } }, function(p)
+      local out = {}
+      for k = 1, 20 do out[k] = p.a + p.b * k end
+      return { y = out }
+    end):fit { data = { y = y }, loss = "soft" }.parameters.b
+    if b.low <= 0.3 and 0.3 <= b.high then held = held + 1 end
+  end
+  assert.is_true(held >= 178, held)
 end)
 
 -- sin(w t) has many valleys along w: only a start beside the right one finds it.

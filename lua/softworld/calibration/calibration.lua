@@ -29,13 +29,15 @@ local call = rows.call(WHAT, "{...}", "EA, EI, GJ and section stiffness of a rea
     .. "mass_per_length = 0.01, outer_diameter = 0.0024 }",
   { "name", "text", "-", "of the cable", usual = "calibrated" },
   { "source", "text", "-", "where and when it was measured; for the entry", usual = "measured" },
-  { "outer_diameter", "number or {value, sigma =}", "m", "of the cable", required = true },
-  { "mass_per_length", "number or {value, sigma =}", "kg/m", "weighed", required = true },
+  { "outer_diameter", "number or {value, sigma =}", "m", "of the cable; or { value, sigma = }",
+    required = true },
+  { "mass_per_length", "number or {value, sigma =}", "kg/m", "weighed; or { value, sigma = }",
+    required = true },
   { "sag", "table", "-", "points of the hanging wire", rows = sag.rows },
   { "twist", "table", "-", "the twist that buckles it, or a torsional pendulum", rows = twist.rows },
   { "pull", "table", "-", "elongation over force", rows = slope.kinds.pull.rows },
   { "squeeze", "table", "-", "approach of two plates over force", rows = slope.kinds.squeeze.rows },
-  { "EI", "number or {value, sigma =}", "N m2", "known already; instead of a sag" },
+  { "EI", "number or {value, sigma =}", "N m2", "known already, instead of a sag; or { value, sigma = }" },
   { "like", "text or cable", "-", "entry of the catalogue for what is not measured, as a guess" },
 })
 

@@ -6,7 +6,7 @@ local core = require "softworld.core"
 
 local sagged = {}
 
-local COARSE = 40 -- segments; and twice as many, from which its error, of second order, is taken out
+local COARSE = 60 -- segments; and twice as many, from which its error, of second order, is taken out
 local GRAVITY = 9.81 -- [m/s2]
 
 -- A polygon of n equal edges of a length in an arc below the chord from one end to the other, so that nodes

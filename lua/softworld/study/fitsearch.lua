@@ -115,6 +115,7 @@ local function columns_at(self, u, r, list, share)
     steps[#steps + 1], steps[#steps + 2] = a, b
   end
   local records = take(self, places)
+  self.failure = records[1].failed
   for k, i in ipairs(list) do
     columns[i] = slope(r, steps[2 * k - 1], scaled(self, records[2 * k - 1]), steps[2 * k],
       scaled(self, records[2 * k]))
@@ -136,7 +137,7 @@ local function derivatives(self)
   end
   for i = 1, #best.u do
     if not columns[i] then
-      self.reason = "all evaluations beside the best place failed"
+      self.reason = "all evaluations beside the best place failed: " .. tostring(self.failure)
       error(ENDED, 0)
     end
   end
