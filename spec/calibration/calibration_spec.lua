@@ -46,8 +46,8 @@ local function mirrored(shape)
 end
 
 describe("sw.calibration of independent solutions", function()
-  -- weight L^3 / EI is gamma. Points lie beside the elastica by 1e-9, beside the rod of 60 and 120 segments by
-  -- some 1e-5 of the length: that is the sigma.
+  -- weight L^3 / EI is gamma. Points lie beside the elastica by 1e-9, beside the rod of 60 and 120 segments
+  -- by some 1e-5 of the length: that is the sigma.
   for _, shape in ipairs(SHAPES) do
     it(("finds EI of a stiff catenary, gamma = %g"):format(shape.gamma), function()
       local EI = 0.02 * G / shape.gamma
@@ -58,6 +58,20 @@ describe("sw.calibration of independent solutions", function()
       near(EI, found.EI.value, 5e-3)
     end)
   end
+
+  it("finds the same from the other side", function()
+    local points, shape = mirrored(SHAPES[1]), SHAPES[1]
+    local function of(list, sag)
+      sag.points, sag.length, sag.sigma = list, 1, 5e-5
+      return sw.calibration { mass_per_length = 0.02, outer_diameter = 0.004, sag = sag }.EI
+    end
+    local turned = {}
+    for k, p in ipairs(points) do turned[k] = { 3 - p[1], p[2] + 1 } end
+    local one = of(points, { to = { 1 / shape.ratio, 0 } })
+    local two = of(turned, { from = { 3, 1 }, to = { 3 - 1 / shape.ratio, 1 } })
+    near(one.value, two.value, 1e-6)
+    near(one.error, two.error, 1e-4)
+  end)
 
   -- Heavy cantilever, shooting, error 1e-9: gamma, x / L, z / L of the tip.
   it("finds EI from one tip of a cantilever", function()

@@ -19,7 +19,7 @@ local function arc(from, to, length, n)
     local a = 0.5 * (low + high)
     if math.sin(a) / (n * math.sin(a / n)) > chord / length then low = a else high = a end
   end
-  local half = 0.5 * (low + high)
+  local half = 0.5 * (low + high) * (dx < 0 and -1 or 1)
   local heading, points = math.atan(dz, dx) - half * (1 - 1 / n), { { from[1], 0, from[2] } }
   for k = 1, n do
     local before = points[k]

@@ -234,8 +234,9 @@ local function all(self)
     derivatives(self)
     local set, free = held(self)
     self.held = set
-    if #free == 0 then
-      self.reason, self.how = "all parameters are at the ends of their ranges", "near"
+    if #free == 0 or self.best.sum == 0 then
+      self.how, self.reason = "near", self.best.sum == 0 and "it fits exactly"
+        or "all parameters are at the ends of their ranges"
       return
     end
     if round(self, set, free) then
