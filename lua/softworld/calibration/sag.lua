@@ -11,7 +11,8 @@ local sag = { name = "sag" }
 
 local WHAT = "sw.calibration: sag"
 local FARTHEST = 1.05 -- of the wire's length, from its start
-local SOFTEST, STIFFEST = 1e5, 0.03 -- weight length^3 / EI of what can be told
+-- weight length^3 / EI of what can be told; stiffer slack wires between two ends snap to other shapes
+local SOFTEST, STIFFEST, STIFFEST_BETWEEN = 1e5, 0.03, 0.5
 
 sag.rows = rows.list{
   { "file", "text", "-", "CSV with columns x [mm], z [mm], or u [px], v [px] with pixels" },
@@ -118,7 +119,7 @@ function sag.read(o, radius, mass)
   local size = 9.81 * mass * o.length.value ^ 3
   local group = { name = "sag", sigma = o.sigma, unit = "m", values = {}, points = points, options = o,
     length = o.length, source = ("sag of %d points"):format(#points),
-    EI = { size / SOFTEST, size / STIFFEST } }
+    EI = { size / SOFTEST, size / (o.ends == "cantilever" and STIFFEST or STIFFEST_BETWEEN) } }
   for k = 1, #points do group.values[k] = 0 end
   local key, kept
   --- Stations of the wire; those of the last parameters are kept, since GJ and the like change nothing.

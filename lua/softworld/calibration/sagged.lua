@@ -8,6 +8,7 @@ local sagged = {}
 
 local COARSE = 60 -- segments; and twice as many, from which its error, of second order, is taken out
 local GRAVITY = 9.81 -- [m/s2]
+local ITERATIONS = 500 -- of an equilibrium that is beside the arc it begins with; others are none of a sag's
 
 -- A polygon of n equal edges of a length in an arc below the chord from one end to the other, so that nodes
 -- lie on its corners: the half angle of the arc, sin(a) / (n sin(a / n)) = chord / length, by halving.
@@ -57,7 +58,7 @@ local function stations(o, wire, segments)
   local scene = core.scene { gravity = { 0, 0, -GRAVITY } }
   wire.segments = segments
   local w = place(scene, o, wire)
-  local rest, list = scene:settle(), {}
+  local rest, list = scene:settle{ max_iterations = ITERATIONS }, {}
   if not rest.ok then error("no equilibrium: " .. rest.reason, 0) end
   for k = 0, COARSE do
     local s = w.length * k / COARSE
