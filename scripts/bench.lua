@@ -5,7 +5,8 @@
 -- case=meshes: what wires that are meshes of particles cost, on the terminal only; case=grip: what
 -- grippers do; case=crowds: many obstacles, nodes and wires; case=report: the
 -- player's page; case=bundle: wires that lie along each other; case=view: what a live view costs a run;
--- case=study: what a study's workers bring and cost.
+-- case=study: what a study's workers bring and cost; case=calibration: 1,000 known cables, and how often
+-- intervals hold the truth.
 -- Compare numbers of one run only: machines differ, and so do their loads.
 package.path = (arg[0]:match "^(.*/)" or "") .. "?.lua;" .. package.path
 package.cpath = (arg[-1]:match "^(.*/)" or "") .. "lib/?.so;" .. package.cpath -- softworld.probe
@@ -181,7 +182,7 @@ for _, name in ipairs(order) do
 end
 if #jobs == 0 and not (wanted.case and (wanted.case.meshes or wanted.case.grip
   or wanted.case.crowds or wanted.case.report or wanted.case.bundle or wanted.case.view
-  or wanted.case.study)) then
+  or wanted.case.study or wanted.case.calibration)) then
   io.stderr:write("bench: nothing fits these options\n")
   os.exit(2)
 end
@@ -532,11 +533,27 @@ local function print_study()
     opened <= study.aims.opening and "met" or "missed"))
 end
 
+-- Calibrations of known cables: time, and the share of intervals that hold the truth.
+local function print_calibration()
+  local calibration = require "bench.calibration"
+  local aims = calibration.aims
+  for _, estimated in ipairs{ false, true } do
+    local EI, GJ, longest, mean, bad = calibration.coverage(1000, 11, estimated)
+    local met = math.min(EI, GJ) >= aims.low and math.max(EI, GJ) <= aims.high
+    print(("\ncalibration by 20 points of a sag (sigma %s) and a critical twist: %.0f ms, at most %.0f ms "
+      .. "(aim %g s: %s)"):format(estimated and "estimated" or "given", 1e3 * mean, 1e3 * longest, aims.time,
+      longest <= aims.time and "met" or "missed"))
+    print(("  of 1,000 cables %.1f %% of intervals hold EI, %.1f %% GJ (aim %g to %g %%: %s); %d not found")
+      :format(100 * EI, 100 * GJ, 100 * aims.low, 100 * aims.high, met and "met" or "missed", bad))
+  end
+end
+
 if not next(wanted) or wanted.case and wanted.case.report then print_report() end
 if not next(wanted) or wanted.case and wanted.case.meshes then print_meshes() end
 if not next(wanted) or wanted.case and wanted.case.grip then print_grips() end
 if wanted.case and wanted.case.view then print_view() end
 if wanted.case and wanted.case.study then print_study() end
+if wanted.case and wanted.case.calibration then print_calibration() end
 if wanted.case and wanted.case.crowds then print_crowds() end
 if wanted.case and wanted.case.bundle then print_bundles() end
 local bad = {}

@@ -391,6 +391,21 @@ describe("example", function()
     assert.truthy(out:find "knee: evaluation")
   end)
 
+  -- Points of a stiff catenary between level clamps, weight L^3 / EI = 100 and L / span = 1.05
+  -- (boundary-value solver, error 1e-9), by a camera that looks askew, off by normal noise of 0.6 mm and by
+  -- rounding to pixels; twists at which a clamped rod buckles at T L^2 / EI = 20 and 100 (determinant, error
+  -- 1e-10), off by noise of 0.2 rad, GJ = 0.0032 N m2; a pull of EA = 140 kN, off by noise of 3 um.
+  it("22: what a cable is made of", function()
+    local out = example "22_calibration"
+    for name, truth in pairs { EI = 0.0268 * g / 100, GJ = 0.0032, EA = 1.4e5 } do
+      local shape = "\n  " .. name .. " +(%S+) N%S* ?%S*, 95 %% interval (%S+) to (%S+)"
+      local value, low, high = out:match(shape)
+      assert.is_true(tonumber(low) < truth and truth < tonumber(high), out)
+      near(truth, tonumber(value), 0.05, name)
+    end
+    assert.truthy(out:find("EI +0.0026%d* *N m2 +0.002%d+ .. 0.002%d+ +measured  bench, photo"), out)
+  end)
+
   -- So small a droop is w L^4 / (8 EI), to half a per cent. Over log EI evenly from a to b and L evenly: the
   -- mean over L of the share of EI above w L^4 / (8 limit).
   it("23: how often a cable's end is within reach", function()

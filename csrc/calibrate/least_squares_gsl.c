@@ -14,6 +14,7 @@ typedef struct bridge {
   size_t n, rows;
   double *x, *r, *jacobian; /* of the latest evaluation */
   int known;                /* there was one */
+  int apart;                /* residuals and derivatives are asked for one by one */
   sw_status status;         /* of the first failure: nothing is evaluated after it */
   sw_error *err;
 } bridge;
@@ -30,48 +31,104 @@ static int evaluate(bridge *b, const gsl_vector *x) {
   return GSL_SUCCESS;
 }
 
+/* One of the two alone. */
+static int evaluate_part(bridge *b, const gsl_vector *x, double *r, double *jacobian) {
+  for (size_t i = 0; i < b->n; i++) b->x[i] = gsl_vector_get(x, i);
+  if (b->status == SW_OK) b->status = b->f(b->user, b->x, r, jacobian, b->err);
+  return b->status == SW_OK ? GSL_SUCCESS : GSL_EBADFUNC;
+}
+
 static int residuals(const gsl_vector *x, void *user, gsl_vector *r) {
   bridge *b = user;
-  if (evaluate(b, x) != GSL_SUCCESS) return GSL_EBADFUNC;
+  const int status = b->apart ? evaluate_part(b, x, b->r, NULL) : evaluate(b, x);
+  if (status != GSL_SUCCESS) return status;
   for (size_t i = 0; i < b->rows; i++) gsl_vector_set(r, i, b->r[i]);
   return GSL_SUCCESS;
 }
 
 static int derivatives(const gsl_vector *x, void *user, gsl_matrix *jacobian) {
   bridge *b = user;
-  if (evaluate(b, x) != GSL_SUCCESS) return GSL_EBADFUNC;
+  const int status = b->apart ? evaluate_part(b, x, NULL, b->jacobian) : evaluate(b, x);
+  if (status != GSL_SUCCESS) return status;
   for (size_t i = 0; i < b->rows; i++)
     for (size_t j = 0; j < b->n; j++) gsl_matrix_set(jacobian, i, j, b->jacobian[i * b->n + j]);
   return GSL_SUCCESS;
 }
 
-static void search(bridge *b, gsl_multifit_nlinear_workspace *w, double *x, size_t max_iterations) {
+typedef struct limits {
+  double tolerance; /* [-] */
+  size_t max_iterations;
+  sw_fit_end end;
+  size_t iterations;
+} limits;
+
+/* Steps until one is small, none helps or they are used up. */
+static void iterate(bridge *b, gsl_multifit_nlinear_workspace *w, limits *l) {
+  int info;
+  l->end = SW_FIT_USED;
+  while (l->iterations < l->max_iterations) {
+    const int status = gsl_multifit_nlinear_iterate(w);
+    if (b->status != SW_OK) return;
+    l->iterations++;
+    if (status != GSL_SUCCESS) {
+      l->end = SW_FIT_STUCK;
+      return;
+    }
+    if (gsl_multifit_nlinear_test(l->tolerance, 1e-16, 0, &info, w) == GSL_SUCCESS) {
+      l->end = SW_FIT_NEAR;
+      return;
+    }
+  }
+}
+
+static void search(bridge *b, gsl_multifit_nlinear_workspace *w, double *x, limits *l) {
   gsl_multifit_nlinear_fdf f = {
       .f = residuals, .df = derivatives, .n = b->rows, .p = b->n, .params = b};
   const gsl_vector_const_view start = gsl_vector_const_view_array(x, b->n);
   int info;
   if (gsl_multifit_nlinear_init(&start.vector, &f, w) != GSL_SUCCESS) return;
-  /* ENOPROG, EMAXITER: as near as it gets; the caller looks at the residuals. */
-  gsl_multifit_nlinear_driver(max_iterations, 1e-12, 1e-14, 0, NULL, NULL, &info, w);
+  if (b->apart)
+    iterate(b, w, l);
+  else /* ENOPROG, EMAXITER: as near as it gets; the caller looks at the residuals. */
+    gsl_multifit_nlinear_driver(l->max_iterations, 1e-12, 1e-14, 0, NULL, NULL, &info, w);
   for (size_t i = 0; b->status == SW_OK && i < b->n; i++)
     x[i] = gsl_vector_get(gsl_multifit_nlinear_position(w), i);
 }
 
-sw_status sw_least_squares(sw_residuals f, void *user, size_t n, size_t rows, double *x,
-                           size_t max_iterations, sw_error *err) {
+static sw_status solve(bridge *b, double *x, limits *l) {
+  const size_t n = b->n, rows = b->rows;
   gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
   gsl_error_handler_t *before = gsl_set_error_handler_off();
   double *kept = sw_alloc(n + rows + rows * n, sizeof *kept);
   gsl_multifit_nlinear_workspace *w =
       gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, rows, n);
-  bridge b = {f, user,  n,  rows, kept, kept ? kept + n : NULL, kept ? kept + n + rows : NULL,
-              0, SW_OK, err};
-  if (!kept || !w)
-    b.status = sw_fail(err, SW_ENOMEM, "least squares: out of memory");
-  else
-    search(&b, w, x, max_iterations);
+  if (!kept || !w) {
+    b->status = sw_fail(b->err, SW_ENOMEM, "least squares: out of memory");
+  } else {
+    b->x = kept;
+    b->r = kept + n;
+    b->jacobian = kept + n + rows;
+    search(b, w, x, l);
+  }
   if (w) gsl_multifit_nlinear_free(w);
   sw_free(kept);
   gsl_set_error_handler(before);
-  return b.status;
+  return b->status;
+}
+
+sw_status sw_least_squares(sw_residuals f, void *user, size_t n, size_t rows, double *x,
+                           size_t max_iterations, sw_error *err) {
+  bridge b = {.f = f, .user = user, .n = n, .rows = rows, .status = SW_OK, .err = err};
+  limits l = {.max_iterations = max_iterations};
+  return solve(&b, x, &l);
+}
+
+sw_status sw_fit(sw_residuals f, void *user, size_t n, size_t rows, double *x, double tolerance,
+                 size_t max_iterations, sw_fit_end *end, size_t *iterations, sw_error *err) {
+  bridge b = {.f = f, .user = user, .n = n, .rows = rows, .apart = 1, .status = SW_OK, .err = err};
+  limits l = {.tolerance = tolerance, .max_iterations = max_iterations};
+  const sw_status status = solve(&b, x, &l);
+  *end = l.end;
+  *iterations = l.iterations;
+  return status;
 }

@@ -440,6 +440,7 @@ local function of_entry(name, f)
 end
 
 -- For other modules: errors without a place.
+cable.read = read -- a checked entry that is not in the catalogue
 cable.section, cable.bend_limit = of_entry("section", section), of_entry("bend_limit", bend_limit)
 
 --- Parameters of scene:wire: EA [N], EI, GJ [N m2], mass_per_length [kg/m], radius

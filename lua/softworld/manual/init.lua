@@ -11,7 +11,8 @@ local manual = {}
 manual.groups = {
   { "How to", { "start", "lay", "grip", "handling", "mixed", "clip", "tie", "channel", "slider", "feed",
     "winding", "join", "touches", "particles", "process", "waiting", "observe", "view", "tuning", "study",
-    "search", "cluster", "player", "plotting", "save", "snapshot", "remove", "mistakes" } },
+    "search", "fit", "calibration", "cluster", "player", "plotting", "save", "snapshot", "remove",
+    "mistakes" } },
   { "Choose", { "models", "wire_mesh", "sections", "cable", "springback", "damping", "integrators",
     "vibration", "calibrate", "remodel", "units" } },
   { "Trust", { "accuracy", "tolerance", "limits", "speed", "peaks", "energy", "events", "changes" } },
@@ -29,6 +30,7 @@ manual.also = { manual = "start", contact = "touches", meshes = "wire_mesh", har
   sweep = "study", optimise = "study", workers = "study", journal = "study",
   minimise = "search", bobyqa = "search", cobyla = "search", simplex = "search", pareto = "search",
   slurm = "cluster", nodes = "cluster",
+  identify = "fit", intervals = "fit", sag = "calibration", measure = "calibration",
   report = "player", page = "player", html = "player", film = "player", frames = "player",
   changed = "changes", modes = "vibration", stress = "vibration" }
 

@@ -88,7 +88,8 @@ end
 local function of_cable(entry, path)
   local fine, known = pcall(require "softworld.cable".get, entry.name)
   if fine and rawequal(known, entry) then return ("sw.cable %q"):format(entry.name) end
-  error(("%s is the cable '%s', which is not of the catalogue any more"):format(path, entry.name), 0)
+  error(("%s is the cable '%s', which is not in the catalogue; sw.cable.define, or define of a calibration, "
+    .. "puts it there"):format(path, entry.name), 0)
 end
 
 local function is_cable(value)

@@ -21,7 +21,7 @@ rows.calls{
 }
 
 local LONGEST = 300   -- of a reason [characters]
-local MOST = 200      -- results of an evaluation
+local MOST = 2000     -- results of an evaluation
 local GIVEN_UP = {}   -- raised by give_up
 
 local random, seed = math.random, math.randomseed
@@ -73,6 +73,35 @@ local function number_of(value)
   return type(value) == "number" and value + 0.0 or nil
 end
 
+-- A list of numbers: results name_1, name_2, ...
+local function add_list(own, flat, name, list)
+  local count = 0
+  for _ in pairs(list) do count = count + 1 end
+  if count == 0 or count ~= #list then
+    return wrong(own, "returned %s = %s; a number, a list of numbers, true or false is wanted", name,
+      count == 0 and "an empty table" or "a table that is no list")
+  end
+  for i = 1, count do flat[#flat + 1] = { name .. "_" .. i, list[i] } end
+end
+
+-- All results as a list { { name, value }, ... } in the order of names.
+local function flatten(own, results)
+  local flat = {}
+  for name, value in pairs(results) do
+    local fine, why = pcall(parameters.check_name, "the result", name)
+    if not fine then return nil, wrong(own, "returned %s", why) end
+    if own.by_name[name] then return nil, wrong(own, "returned '%s', which is a parameter", name) end
+    if type(value) == "table" and getmetatable(value) == nil then
+      local bad, text = add_list(own, flat, name, value)
+      if bad then return nil, bad, text end
+    else
+      flat[#flat + 1] = { name, value }
+    end
+  end
+  table.sort(flat, function(a, b) return a[1] < b[1] end)
+  return flat
+end
+
 -- "ok" and the results as text, or what is wrong with them.
 local function read(own, results, ...)
   if select("#", ...) > 0 then return wrong(own, "returned more than one value; one table is wanted") end
@@ -80,21 +109,16 @@ local function read(own, results, ...)
     return wrong(own, "returned %s; a table of results is wanted, such as { time = 1.5 }",
       results == nil and "nothing" or checks.got(results))
   end
-  local names, texts = {}, {}
-  for name in pairs(results) do
-    local fine, why = pcall(parameters.check_name, "the result", name)
-    if not fine then return wrong(own, "returned %s", why) end
-    if own.by_name[name] then return wrong(own, "returned '%s', which is a parameter", name) end
-    names[#names + 1] = name
-  end
-  table.sort(names)
-  if #names == 0 or #names > MOST then return wrong(own, "returned %d results, not 1 to %d", #names, MOST) end
-  for i, name in ipairs(names) do
-    local value = number_of(results[name])
+  local flat, status, why = flatten(own, results)
+  if not flat then return status, why end
+  if #flat == 0 or #flat > MOST then return wrong(own, "returned %d results, not 1 to %d", #flat, MOST) end
+  local texts = {}
+  for i, result in ipairs(flat) do
+    local name, value = result[1], number_of(result[2])
     if not value then
-      return wrong(own, "returned %s = %s; a number, true or false is wanted", name,
-        checks.got(results[name]))
+      return wrong(own, "returned %s = %s; a number, true or false is wanted", name, checks.got(result[2]))
     end
+    if i > 1 and name == flat[i - 1][1] then return wrong(own, "returned '%s' twice", name) end
     if value - value ~= 0 then
       return "failed", ("%s is %s"):format(name, value ~= value and "nan" or "infinite")
     end

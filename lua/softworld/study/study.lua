@@ -18,6 +18,7 @@ local checks = require "softworld.checks"
 local core = require "softworld.core"
 local design = require "softworld.study.design"
 local fingerprint = require "softworld.study.fingerprint"
+local fit = require "softworld.study.fit"
 local journal = require "softworld.study.journal"
 local judge = require "softworld.study.judge"
 local methods = require "softworld.methods"
@@ -250,6 +251,8 @@ end
 
 local function do_advise(self, result) return advise.run(fields(self), result) end
 
+local function do_fit(self, args) return fit.run(fields(self), args) end
+
 local function list_rows(self) return output.rows(fields(self)) end
 
 local function do_best(self, result) return output.best(fields(self), result) end
@@ -263,6 +266,7 @@ local function do_chart(self, args) return chart.draw(fields(self), draw:read(ar
 -- Calls in tail position: levels of errors count as if they were not here.
 function Study:sweep(args) return build.call(3, do_sweep, self, args) end
 function Study:minimise(result, args) return build.call(3, do_minimise, self, result, args) end
+function Study:fit(args) return build.call(3, do_fit, self, args) end
 function Study:spread(args) return build.call(3, do_spread, self, args) end
 function Study:pareto(args) return build.call(3, do_pareto, self, args) end
 function Study:front(args) return build.call(3, do_front, self, args) end
@@ -278,8 +282,8 @@ rows.later(Study, "softworld.study.again", "again")
 rows.later(Study, "softworld.study.report", "report")
 methods.guard_table("study", Study)
 
-local SHOWN = "run cancel sweep minimise pareto front spread advise table best again report csv json chart "
-  .. "name file computed"
+local SHOWN = "run cancel sweep minimise fit pareto front spread advise table best again report csv json "
+  .. "chart name file computed"
 local unknown = checks.fields("study", SHOWN, "file")
 
 function Study:__index(key)

@@ -1,0 +1,213 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- What a calibration has found: values with intervals, an entry for the catalogue, pictures.
+-- @module softworld.calibration.calibrated
+local build = require "softworld.scene.build"
+local cable = require "softworld.cable"
+local checks = require "softworld.checks"
+local entry = require "softworld.calibration.entry"
+local literal = require "softworld.scene.literal"
+local methods = require "softworld.methods"
+local rows = require "softworld.rows"
+local sagged = require "softworld.calibration.sagged"
+local sealed = require "softworld.sealed"
+local sink = require "softworld.output.sink"
+
+local calibrated = {}
+local Calibration = { __name = "calibration" }
+sealed.class(Calibration)
+
+local function fields(self) return sealed.fields(self) end
+
+rows.calls{
+  { "calibration.EI", nil, "{ value =, error =, low =, high =, unit = }: 95 % interval; so GJ, EA, squeeze",
+    "a table, or nil", example = "print(found.EI.value, found.EI.low, found.EI.high)" },
+  { "calibration.GJ", nil, "the same of GJ", "a table, or nil" },
+  { "calibration.EA", nil, "the same of EA", "a table, or nil" },
+  { "calibration.squeeze", nil, "the same of the section: force per length over the plates' approach",
+    "a table, or nil" },
+  { "calibration.fit", nil, "with correlations, residuals, remarks: see help 'fit'", "a fit" },
+  { "calibration.remarks", nil, "what is to be known before the numbers are used", "a list of texts" },
+  { "calibration.cable", nil, "an entry for the catalogue, flagged measured", "a cable",
+    example = "scene:wire { cable = found.cable, from = { 0, 0, 0 }, to = { 1, 0, 0 } }" },
+  { "calibration.name", nil, "of the cable", "a text" },
+  { "calibration:define", "", "puts the entry into the catalogue, under its name", "the cable" },
+  { "calibration:save", "path", "writes a Lua file that defines the entry: dofile(path)", "the path",
+    example = 'found:save "my_cable.lua"' },
+}
+
+local chart = rows.call("calibration:chart", "{...}", "draws what was measured over what is computed; needs "
+  .. "gnuplot", {
+  gives = "the path, or without one the drawing in characters",
+  example = 'found:chart { of = "sag", path = "sag.svg" }',
+  { "of", "choice", "-", "what is drawn", choices = { "sag", "twist", "pull", "squeeze" },
+    usual = "the first that was measured" },
+  { "path", "text", "-", "a .svg, .png or .pdf file", usual = "drawn in characters" },
+})
+
+local STIFFNESSES = { "EA", "EI", "GJ", "squeeze" }
+
+--- Raise unless it names an entry of the catalogue, or is none.
+function calibrated.check_like(like)
+  if like == nil then return end
+  local fine, why = pcall(cable.get, like)
+  if not fine then error("sw.calibration: like: " .. tostring(why), 0) end
+end
+
+-- --- remarks -----------------------------------------------------------------------------------
+
+-- Ends of ranges in words of the bench.
+local function add_hints(own)
+  local said, at_bound = own.said, {}
+  for _, name in ipairs(own.fit.at_bound) do at_bound[name] = true end
+  local EI, group = own.fit.parameters.EI, own.model.sag
+  if group and at_bound.EI then
+    local soft = EI.value < math.sqrt(group.EI[1] * group.EI[2])
+    said[#said + 1] = soft
+      and "the sag is that of a chain: EI is too small to be seen; take a shorter wire, or a cantilever"
+      or "the wire hardly sags: EI is too large to be seen; take a longer one"
+  end
+  local t = own.model.twist
+  if t and t.needs_EI then
+    local weight = 9.81 * own.mass_per_length.value * t.options.length
+    local value = EI and EI.value or own.model.constants.EI
+    local gamma = weight * t.options.length ^ 2 / value
+    for _, point in ipairs(t.points) do
+      if gamma > 1 and point[1] < 5 * weight then
+        said[#said + 1] = ("the weight of the twisted wire, %.3g N, counts beside its tension, %.3g N, and "
+          .. "is left out of the formula"):format(weight, point[1])
+        break
+      end
+    end
+  end
+end
+
+--- own: name, source, fit, model, outer_diameter, mass_per_length, like, said (a list of remarks).
+function calibrated.new(own)
+  own.parameters = own.fit.parameters
+  add_hints(own)
+  table.move(own.fit.remarks, 1, #own.fit.remarks, #own.said + 1, own.said)
+  return sealed.new(Calibration, own)
+end
+
+-- --- the entry ---------------------------------------------------------------------------------
+
+local function entry_of(own)
+  own.entry = own.entry or cable.read(entry.fields(own))
+  return own.entry
+end
+
+local function define(self) return cable.define(entry.fields(fields(self))) end
+
+local function save(self, path)
+  if type(path) ~= "string" or path == "" then
+    error(("calibration:save: the name of a file is wanted, got %s"):format(checks.got(path)), 0)
+  end
+  local own = fields(self)
+  local text = literal.of(entry.fields(own), nil, "cable", "")
+  local shape = "-- %s, calibrated by SoftWorld.\nreturn require(\"softworld\").cable.define %s\n"
+  return sink.write_file(path, shape:format(own.name:gsub("%c", " "), text))
+end
+
+-- --- shown -------------------------------------------------------------------------------------
+
+local function sag_curves(own)
+  local group, p = own.model.sag, {}
+  for name, value in pairs(own.model.constants) do p[name] = value end
+  for name, q in pairs(own.parameters) do p[name] = q.value end
+  local line, points = {}, { x = {}, y = {} }
+  line.x, line.y = sagged.line(group.curve(p))
+  for k, at in ipairs(group.points) do points.x[k], points.y[k] = at[1], at[2] end
+  return line, points, "x [m]", "z [m]"
+end
+
+local function other_curves(own, group)
+  local computed, order = own.fit.computed[group.name], {}
+  local line, points = { x = {}, y = {} }, { x = {}, y = {} }
+  for k, p in ipairs(group.points or { { 0, group.values[1] } }) do order[k] = { p[1], p[2], computed[k] } end
+  table.sort(order, function(a, b) return a[1] < b[1] end)
+  for k, p in ipairs(order) do
+    line.x[k], line.y[k], points.x[k], points.y[k] = p[1], p[3], p[1], p[2]
+  end
+  local force = group.kind and "force [N]" or "tension [N]"
+  local way = group.kind and group.kind.way or group.options.period and "period" or "angle"
+  return line, points, force, ("%s [%s]"):format(way, group.unit)
+end
+
+local function draw(self, args)
+  local own, o = fields(self), chart:read(args == nil and {} or args)
+  local m = own.model
+  local known = { sag = m.sag, twist = m.twist, pull = m.pull, squeeze = m.plates }
+  local group = o.of and known[o.of] or not o.of and (m.sag or m.pull or m.plates or m.twist)
+  if not group then error(("calibration:chart: %s was not measured"):format(o.of), 0) end
+  local curves = group == m.sag and sag_curves or other_curves
+  local line, points, x, y = curves(own, group)
+  line.name, points.name, points.style = "computed", "measured", "points"
+  if #line.x == 1 then line.style = "points" end
+  return require("softworld.run.plot").plot { line, points, path = o.path, xlabel = x, ylabel = y,
+    title = own.name }
+end
+
+local function line_of(own, name)
+  local q = own.parameters[name]
+  if not q then return nil end
+  if not q.low or q.told == false then return ("  %-7s not told by what was measured"):format(name) end
+  return ("  %-7s %.5g %s, 95 %% interval %.5g to %.5g (-%.2g %%, +%.2g %%)"):format(name, q.value, q.unit,
+    q.low, q.high, 100 * (1 - q.low / q.value), 100 * (q.high / q.value - 1))
+end
+
+function Calibration.__tostring(self)
+  local own, sources = fields(self), {}
+  for _, group in ipairs(own.model.groups) do sources[#sources + 1] = group.source end
+  local lines = { ("calibration of '%s' from %s"):format(own.name, table.concat(sources, ", ")) }
+  if not own.fit.ok then lines[2] = "  not found: " .. own.fit.reason end
+  for _, name in ipairs(STIFFNESSES) do lines[#lines + 1] = line_of(own, name) end
+  for _, found in ipairs(own.fit.unresolved) do
+    if found.low then
+      lines[#lines + 1] = ("  %s = %.5g, 95 %% interval %.5g to %.5g"):format(found.name, found.value,
+        found.low, found.high)
+    end
+  end
+  local c = own.fit.correlation
+  if c.EI and c.EI.GJ then lines[#lines + 1] = ("  correlation of EI and GJ: %.3f"):format(c.EI.GJ) end
+  for _, text in ipairs(own.said) do lines[#lines + 1] = "  ! " .. text end
+  return table.concat(lines, "\n")
+end
+
+--- Put the entry into the catalogue.
+function Calibration:define() return build.call(3, define, self) end
+
+--- Write a Lua file that defines the entry.
+function Calibration:save(path) return build.call(3, save, self, path) end
+
+--- Draw what was measured over what is computed.
+function Calibration:chart(args) return build.call(3, draw, self, args) end
+
+methods.guard_table("calibration", Calibration)
+
+local SHOWN = "EI GJ EA squeeze fit remarks cable name define save chart"
+local unknown = checks.fields("calibration", SHOWN, "EI GJ EA squeeze")
+
+function Calibration:__index(key)
+  local own = fields(self)
+  if key == "fit" or key == "name" then return own[key] end
+  if key == "remarks" then return table.move(own.said, 1, #own.said, 1, {}) end
+  for _, name in ipairs(STIFFNESSES) do
+    if key == name then return own.parameters[name] end
+  end
+  if key == "cable" then return build.call(3, entry_of, own) end
+  local method = rawget(Calibration, key)
+  if method ~= nil then return method end
+  return unknown(self, key)
+end
+
+function Calibration:__newindex(key)
+  error(("the calibration of '%s' cannot be written to (%s)"):format(fields(self).name, checks.shown(key)), 2)
+end
+
+function Calibration.__names()
+  local list = {}
+  for name in SHOWN:gmatch "%S+" do list[#list + 1] = name end
+  return list
+end
+
+return calibrated

@@ -1,0 +1,142 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Points of a hanging wire, measured or from a photograph: they tell EI over the weight.
+-- @module softworld.calibration.sag
+local checks = require "softworld.checks"
+local plane = require "softworld.calibration.plane"
+local readings = require "softworld.calibration.readings"
+local rows = require "softworld.rows"
+local sagged = require "softworld.calibration.sagged"
+
+local sag = { name = "sag" }
+
+local WHAT = "sw.calibration: sag"
+local FARTHEST = 1.05 -- of the wire's length, from its start
+-- weight length^3 / EI of what can be told; stiffer slack wires between two ends snap to other shapes
+local SOFTEST, STIFFEST, STIFFEST_BETWEEN = 1e5, 0.03, 0.5
+
+sag.rows = rows.list{
+  { "file", "text", "-", "CSV with columns x [mm], z [mm], or u [px], v [px] with pixels" },
+  { "points", "list of {x, z}", "m", "instead of a file; of pixels {u, v} [px]" },
+  { "pixels", "list of {u, v, x, z}", "-", "four or more known points: in the picture [px] and in the "
+    .. "plane [m]" },
+  { "ends", "choice", "-", "how it is held", choices = { "clamped", "hung", "cantilever" },
+    default = "clamped" },
+  { "length", "number or {value, sigma =}", "m", "of the wire between its ends; or { value, sigma = }",
+    required = true },
+  { "from", "{x, z}", "m", "where the wire begins", usual = "{0, 0}" },
+  { "to", "{x, z}", "m", "where it ends; not of a cantilever" },
+  { "directions", "list of {x, z}", "-", "along the wire at clamps", usual = "level, along x" },
+  { "sigma", "number", "m", "standard deviation of a point across the wire", min = 0, above = true,
+    usual = "estimated" },
+  { "pixel_sigma", "number", "px", "the same of pixels", min = 0, above = true },
+}
+
+local function fail(text, ...) error((WHAT .. ": " .. text):format(...), 0) end
+
+local function pair(name, value, unit)
+  local x, z = checks.field(value, 1), checks.field(value, 2)
+  for _, v in ipairs { x or "nothing", z or "nothing" } do
+    if type(v) ~= "number" or v - v ~= 0 then
+      fail("%s must be { x, z }%s, two finite numbers in the plane, z upwards; got %s", name, unit,
+        checks.got(type(value) == "table" and v or value))
+    end
+  end
+  if type(value) == "table" and checks.field(value, 3) ~= nil then
+    fail("%s must be { x, z }: in the plane, without y", name)
+  end
+  return { x, z }
+end
+
+local function directions(o)
+  local list, given = {}, o.directions
+  if given ~= nil and type(given) ~= "table" then
+    fail("directions must be a list of one { x, z } for each clamp, got %s", checks.got(given))
+  end
+  for k = 1, 2 do
+    local d = given and given[k]
+    local level = { (o.to and o.to[1] < o.from[1]) and -1 or 1, 0 }
+    list[k] = d == nil and level or pair(("directions[%d]"):format(k), d, "")
+    if list[k][1] == 0 and list[k][2] == 0 then fail("directions[%d] is {0, 0}, no direction", k) end
+  end
+  return list
+end
+
+local function ends(o)
+  o.from = pair("from", o.from == nil and { 0, 0 } or o.from, " [m]")
+  if o.ends == "cantilever" then
+    if o.to ~= nil then fail "a cantilever has a free end: to does not go with it" end
+  else
+    if o.to == nil then fail("to is required: { x, z } [m], where the wire's far end is held") end
+    o.to = pair("to", o.to, " [m]")
+    local chord = math.sqrt((o.to[1] - o.from[1]) ^ 2 + (o.to[2] - o.from[2]) ^ 2)
+    if chord == 0 then fail "from and to are the same place" end
+    if o.length.value <= chord then
+      fail("length = %.6g m is not allowed; it must be above %.6g m, the distance of its ends, for it to sag",
+        o.length.value, chord)
+    end
+  end
+  o.directions = directions(o)
+end
+
+-- Pixels as points of the plane, and the sigma of each.
+local function from_pixels(o, list)
+  local map, sigma = plane.map(WHAT, o.pixels), {}
+  for k, p in ipairs(list) do
+    local x, z, below = map(p[1], p[2])
+    if below <= 0 then fail("%s lies beyond the horizon of the plane's picture", list.where(k)) end
+    sigma[k] = o.pixel_sigma and o.pixel_sigma * plane.scale(map, p[1], p[2])
+    list[k] = { x, z, p[1], p[2] }
+  end
+  return o.pixel_sigma and sigma or nil
+end
+
+local function read_points(o)
+  local pixels = o.pixels ~= nil
+  local columns = pixels and { { name = "u", unit = "px" }, { name = "v", unit = "px" } }
+    or { { name = "x", unit = "m" }, { name = "z", unit = "m" } }
+  local list = readings.read(WHAT, o, columns, 1)
+  if o.pixel_sigma and (not pixels or o.sigma) then
+    fail(pixels and "give sigma [m] or pixel_sigma [px], not both"
+      or "pixel_sigma goes with pixels only; sigma is in m")
+  end
+  o.sigma = pixels and from_pixels(o, list) or o.sigma
+  for k, p in ipairs(list) do
+    local far = math.sqrt((p[1] - o.from[1]) ^ 2 + (p[2] - o.from[2]) ^ 2)
+    if far > FARTHEST * o.length.value then
+      fail("%s: {%.4g, %.4g} is %.4g m from where the wire begins, which is %.4g m long; are units and "
+        .. "pixels right?", list.where(k), p[1], p[2], far, o.length.value)
+    end
+  end
+  return list
+end
+
+--- Read it: a group { name =, sigma =, unit =, values = (zeros: points lie beside the wire by nothing),
+-- predict(p) -> list, source =, EI = its range, points =, length =, curve(p) }. radius [m], mass [kg/m].
+function sag.read(o, radius, mass)
+  ends(o)
+  o.radius = radius
+  local points = read_points(o)
+  local size = 9.81 * mass * o.length.value ^ 3
+  local group = { name = "sag", sigma = o.sigma, unit = "m", values = {}, points = points, options = o,
+    length = o.length, source = ("sag of %d points"):format(#points),
+    EI = { size / SOFTEST, size / (o.ends == "cantilever" and STIFFEST or STIFFEST_BETWEEN) } }
+  for k = 1, #points do group.values[k] = 0 end
+  local key, kept
+  --- Stations of the wire; those of the last parameters are kept, since GJ and the like change nothing.
+  function group.curve(p)
+    local now = ("%a %a %a %a"):format(p.EI, p.EA, p.mass_per_length, p.length)
+    if now ~= key then
+      local at = setmetatable({ length = p.length }, { __index = o })
+      key, kept = now, sagged.curve(at, p.EI, p.EA, p.mass_per_length)
+    end
+    return kept
+  end
+  function group.predict(p)
+    local curve, beside = group.curve(p), {}
+    for k, point in ipairs(points) do beside[k] = sagged.beside(curve, point) end
+    return beside
+  end
+  return group
+end
+
+return sag

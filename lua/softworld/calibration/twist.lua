@@ -1,0 +1,67 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- What tells GJ: the twist at which a straight wire buckles (with its EI), or a torsional pendulum.
+-- @module softworld.calibration.twist
+local readings = require "softworld.calibration.readings"
+local rows = require "softworld.rows"
+local twisted = require "softworld.calibration.twisted"
+
+local twist = { name = "twist" }
+
+local WHAT = "sw.calibration: twist"
+
+twist.rows = rows.list{
+  { "length", "number", "m", "of the straight wire between its ends", min = 0, above = true,
+    required = true },
+  { "ends", "choice", "-", "clamped in line, or hinged", choices = { "clamped", "hinged" },
+    default = "clamped" },
+  { "angle", "number", "rad", "by which one end is turned when it buckles", min = 0, above = true },
+  { "tension", "number", "N", "that pulls it meanwhile", default = 0 },
+  { "file", "text", "-", "CSV with columns tension [N], angle [deg], instead of angle" },
+  { "points", "list of {tension, angle}", "-", "the same as a table [N], [rad]" },
+  { "period", "number", "s", "of a torsional pendulum, to and fro; with inertia", min = 0, above = true },
+  { "inertia", "number", "kg m2", "of the pendulum's weight about the wire", min = 0, above = true },
+  { "sigma", "number", "-", "standard deviation of the angles [rad], or of the period [s]", min = 0,
+    above = true, required = true },
+}
+
+local function fail(text, ...) error((WHAT .. ": " .. text):format(...), 0) end
+
+-- Which of the three ways was measured.
+local function check(o)
+  local ways = (o.angle and 1 or 0) + (o.period and 1 or 0) + ((o.file ~= nil or o.points ~= nil) and 1 or 0)
+  if ways ~= 1 then
+    fail("give one of angle [rad] (it buckles), file or points (at several tensions) and period [s] (a "
+      .. "torsional pendulum)")
+  end
+  if (o.period ~= nil) ~= (o.inertia ~= nil) then
+    fail("period and inertia go together: GJ = 4 pi^2 inertia length / period^2")
+  end
+end
+
+local function pendulum(o)
+  return { name = "twist", sigma = o.sigma, unit = "s", values = { o.period }, options = o,
+    source = "torsional pendulum",
+    predict = function(p) return { twisted.period(o, p.GJ) } end }
+end
+
+--- Read it: a group, with needs_EI where GJ is told together with EI.
+function twist.read(o)
+  check(o)
+  if o.period then return pendulum(o) end
+  local list = o.angle and { { o.tension, o.angle } }
+    or readings.read(WHAT, o, { { name = "tension", unit = "N" }, { name = "angle", unit = "rad" } }, 1)
+  local values = {}
+  for k, point in ipairs(list) do
+    values[k] = point[2]
+    if point[2] <= 0 then fail("%s: the angle is %.4g rad; it must be above 0", list.where(k), point[2]) end
+  end
+  return { name = "twist", sigma = o.sigma, unit = "rad", values = values, points = list, options = o,
+    needs_EI = true, source = ("twist that buckles it, %d reading%s"):format(#list, #list == 1 and "" or "s"),
+    predict = function(p)
+      local angles = {}
+      for k, point in ipairs(list) do angles[k] = twisted.angle(o, point[1], p.EI, p.GJ) end
+      return angles
+    end }
+end
+
+return twist

@@ -1,0 +1,61 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- The twisting moment at which a straight isotropic rod buckles between two ends whose tangents are clamped
+-- along its axis, or which are hinged (A. G. Greenhill 1883); the twist of a rod before is moment L / GJ.
+--
+-- With m = M L / EI and t = T L^2 / EI (T the tension) the deflection y1 + i y2 obeys
+-- y'''' - i m y''' - t y'' = 0: 1, s, exp(i a s), exp(i b s) with a, b = m / 2 -+ q, q^2 = m^2 / 4 - t.
+-- Hinged: q = pi. Clamped: 2 q (cos q - cos(m / 2)) - t sin q = 0; tan(m / 2) = m / 2 without tension.
+-- @module softworld.calibration.twisted
+local twisted = {}
+
+local STEPS = 400  -- of q over pi, to see a change of sign
+local NEAR = 0.02  -- |t| below which the determinant, of order t^2, is between those of -NEAR and NEAR
+local FREE = 8.986818915715815 -- m without tension: tan(m / 2) = m / 2
+
+local function determinant(q, t)
+  return 2 * q * (math.cos(q) - math.cos(math.sqrt(q * q + t))) - t * math.sin(q)
+end
+
+-- The first q at which the determinant is 0. It is above pi, and above the root of -t, where m is 0; up to
+-- there the determinant does not change its sign.
+local function clamped(t)
+  local low = t > 0 and math.pi or math.max(math.pi, math.sqrt(-t))
+  local before = determinant(low + 1e-9, t) > 0
+  for _ = 1, STEPS do
+    local high = low + math.pi / STEPS
+    if (determinant(high, t) > 0) ~= before then
+      for _ = 1, 80 do
+        local middle = 0.5 * (low + high)
+        if (determinant(middle, t) > 0) == before then low = middle else high = middle end
+      end
+      return 2 * math.sqrt(low * low + t)
+    end
+    low = high
+  end
+end
+
+--- m at which it buckles; nil where it buckles without any (t <= -4 pi^2 clamped, -pi^2 hinged).
+function twisted.moment(t, hinged)
+  if hinged then
+    return t > -math.pi ^ 2 and 2 * math.sqrt(math.pi ^ 2 + t) or nil
+  end
+  if t <= -4 * math.pi ^ 2 then return nil end
+  if math.abs(t) < NEAR then
+    local low, high = clamped(-NEAR), clamped(NEAR)
+    return FREE + 0.5 * (high - low) * t / NEAR + 0.5 * (high + low - 2 * FREE) * (t / NEAR) ^ 2
+  end
+  return clamped(t)
+end
+
+--- The angle by which one end is turned when it buckles [rad]: o { length =, tension =, ends = }, tension by
+-- point. Raises where it buckles untwisted.
+function twisted.angle(o, tension, EI, GJ)
+  local m = twisted.moment(tension * o.length ^ 2 / EI, o.ends == "hinged")
+  if not m then error("the push buckles it without a twist", 0) end
+  return m * EI / GJ
+end
+
+--- Period of a weight that the wire turns to and fro [s], 2 pi sqrt(inertia L / GJ).
+function twisted.period(o, GJ) return 2 * math.pi * math.sqrt(o.inertia * o.length / GJ) end
+
+return twisted

@@ -1,0 +1,71 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Are residuals noise? Their sum of squares beside their sigma, and how often they change sign.
+-- @module softworld.study.fitnoise
+local core = require "softworld.core"
+
+local fitnoise = {}
+
+local RARE = 0.01  -- chance below which something is told
+local SHORTEST = 12 -- list whose signs are counted
+
+--- Chance that so few runs of equal signs are met by chance, of a and b signs of each kind in any order
+-- (A. Wald and J. Wolfowitz 1940): the sum of their probabilities up to runs.
+function fitnoise.runs_chance(a, b, runs)
+  if a == 0 or b == 0 then return 1 end
+  local function log_choose(n, k)
+    if k < 0 or k > n then return -math.huge end
+    local sum = 0
+    for i = 1, k do sum = sum + math.log((n - k + i) / i) end
+    return sum
+  end
+  local all, chance = log_choose(a + b, a), 0
+  for r = 2, runs do
+    local k = r // 2
+    if r % 2 == 0 then
+      chance = chance + 2 * math.exp(log_choose(a - 1, k - 1) + log_choose(b - 1, k - 1) - all)
+    else
+      chance = chance + math.exp(log_choose(a - 1, k) + log_choose(b - 1, k - 1) - all)
+        + math.exp(log_choose(a - 1, k - 1) + log_choose(b - 1, k) - all)
+    end
+  end
+  return math.min(1, chance)
+end
+
+-- Runs of equal signs of residuals in their order.
+local function runs_of(list)
+  local a, b, runs, last = 0, 0, 0, nil
+  for _, x in ipairs(list) do
+    local up = x > 0
+    if up then a = a + 1 else b = b + 1 end
+    if up ~= last then runs = runs + 1 end
+    last = up
+  end
+  return a, b, runs
+end
+
+--- Remarks on the signs of an item's residuals, in their order; nil where there is nothing to tell.
+function fitnoise.signs(name, residuals)
+  if #residuals < SHORTEST then return nil end
+  local a, b, runs = runs_of(residuals)
+  local chance = fitnoise.runs_chance(a, b, runs)
+  if chance >= RARE then return nil end
+  return ("the residuals of %s are no noise: they change sign %d times in %d (chance %.1g); the model "
+    .. "lacks something, and intervals are too narrow"):format(name, runs - 1, #residuals, chance)
+end
+
+--- Chance of a sum of squares as large, and a remark or nil.
+function fitnoise.sum(chi2, freedom)
+  if freedom < 1 then return nil end
+  local chance = core.chi2_above(chi2, freedom)
+  local times = math.sqrt(chi2 / freedom)
+  if chance < RARE then
+    return chance, ("residuals are %.3g times what sigma says (chance %.1g): the model or sigma is wrong, "
+      .. "and intervals are too narrow"):format(times, chance)
+  elseif 1 - chance < RARE then
+    return chance, ("residuals are only %.2g times what sigma says (chance %.1g): sigma is too large, and "
+      .. "so are intervals"):format(times, 1 - chance)
+  end
+  return chance
+end
+
+return fitnoise
