@@ -40,7 +40,7 @@ describe("study:advise", function()
     assert.same({ "cma-es", "20 % of the evaluations failed, which it bears" }, { told.method, told.why })
     told = advice(TWO, function(p) return { y = math.sin(9 * p.a) * math.cos(7 * p.b) } end)
     assert.equal("cma-es", told.method)
-    assert.truthy(told.why:find "a quadratic polynomial leaves %d+ %% of the variance over")
+    assert.truthy(told.why:find "a quadratic polynomial leaves %d+ %% of the variance unexplained")
   end)
 
   it("sees noise where the same place gave different values", function()
