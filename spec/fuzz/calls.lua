@@ -192,7 +192,8 @@ local function study(r)
   local evaluate = r.of{ "function(p) return { r = p.x, q = p.x * p.x } end",
     "function(p, s) return { r = p.x, q = s and s.time or 0 } end",
     "function(p) if p.x > 0.5 then p.give_up 'far' end; return { r = p.x, q = p.random() } end",
-    words.callback(r) }
+    "function(p) return { r = { p.x, 2 * p.x }, q = 1 / (p.x - 0.5) } end",
+    r.of{ "F.raise", "F.nothing", "F.nonsense", "F.nans", "F.number", "F.collect" } }
   local setup = r.chance(0.3) and { "setup", words.or_hostile(r, r.of{ words.callback(r),
     ("function() return %s end"):format(r.pick "scene") }) } or nil
   local fixed = { { "name", words.or_hostile(r, r.of{ "'a'", "'b'", "'c d'" }) },
@@ -326,6 +327,32 @@ local by_call = {
     words.or_hostile(r, r.of{ "'r'", "'q'", "'x'" }),
     words.table_of(r, { "method", "tolerance", "starts" }, 0.2, { few("evaluations", r.whole(1, 12)) })) end,
   ["study.spread"] = function(r) return words.table_of(r, {}, 0, { few("count", r.whole(1, 8)) }) end,
+  ["study.fit"] = function(r)
+    local data = r.of{ "{ r = 0.3 }", "{ r = { 0.3, sigma = 0.01 }, q = { 0.1, weight = 2 } }",
+      "{ q = { { 0.1, 0.2 }, sigma = 1e-3 } }" }
+    return words.table_of(r, { "tolerance", "step", "starts" }, 0.2,
+      { { "data", words.or_hostile(r, data) }, few("evaluations", r.whole(1, 15)) })
+  end,
+  ["study.pareto"] = function(r) return words.or_hostile(r, ("{ %s, %s, evaluations = %d }"):format(
+    words.or_hostile(r, "'r'"), words.or_hostile(r, "'q'"), r.whole(1, 20))) end,
+  ["study.front"] = function(r) return words.or_hostile(r, "{ 'r', 'q' }") end,
+  ["study.advise"] = function(r) return words.or_hostile(r, r.of{ "'r'", "'q'" }) end,
+  ["study.again"] = function(r) return words.or_hostile(r, r.of{ "1", "2", "1, 2", "7" }) end,
+  ["study.report"] = function(r) return words.or_hostile(r, r.of{ "dir .. '/s.html'", words.file(r) }) end,
+  ["study.run"] = function(r) return words.table_of(r, { "tasks", "seconds" }, 0.5,
+    { { "on", words.or_hostile(r, "'here'") } }) end,
+  ["scene.remove"] = function(r) return words.or_hostile(r, r.pick(r.of{ "wire", "gripper", "obstacle",
+    "force", "clamp", "particles" })) end,
+  ["sw.calibration"] = function(r)
+    return words.table_of(r, { "name", "source" }, 0.2, { { "outer_diameter", words.or_hostile(r, "0.003") },
+      { "mass_per_length", words.or_hostile(r, "{ 0.02, sigma = 1e-4 }") },
+      { "EI", words.or_hostile(r, "{ 2e-3, sigma = 1e-4 }") },
+      { "twist", words.or_hostile(r, ("{ length = %s, angle = %s, sigma = %s, tension = %s }"):format(
+        words.or_hostile(r, "0.3"), words.or_hostile(r, "12"), words.or_hostile(r, "0.2"),
+        words.or_hostile(r, "2"))) },
+      r.chance(0.5) and { "pull", words.or_hostile(r, ("{ length = 0.5, points = { { 1, 1e-5 }, { 2, 2e-5 }, "
+        .. "{ %s, %s } } }"):format(words.or_hostile(r, "3"), words.or_hostile(r, "3e-5"))) } or nil })
+  end,
   ["study.best"] = function(r) return words.or_hostile(r, r.of{ "'r'", "'q'", "'z'" }) end,
   ["study.csv"] = function(r) return words.or_hostile(r, r.of{ "dir .. '/s.csv'", words.file(r) }) end,
   ["study.json"] = function(r) return words.or_hostile(r, r.of{ "dir .. '/s.json'", words.file(r) }) end,
@@ -414,7 +441,8 @@ calls.weights = { ["scene.run"] = 14, ["scene.settle"] = 3, ["scene.wire"] = 3, 
     ["clamp.release"] = 0.7,
   ["obstacle.remove"] = 0.7, ["scene.tool"] = 0.5, ["clamp.follow"] = 4, ["obstacle.follow"] = 2,
     ["wire.set_velocity"] = 2,
-  ["study.chart"] = 0.1,
+  ["study.chart"] = 0.1, ["study.cancel"] = 0, ["study.report"] = 0.2,
+  ["scene.remove"] = 0.7,
   ["gripper.leave"] = 0, ["view.wait"] = 0, ["scene.view"] = 0.3, ["run.film"] = 0.05, ["sw.plot"] = 0.1,
   ["run.picture"] = 0.3, ["scene.picture"] = 0.3, ["run.report"] = 0.3, ["scene.slider"] = 2,
   ["process.wait"] = 0.1, ["process.wait_until"] = 0.1, ["process.feed"] = 0.1, ["process.step"] = 0.1,

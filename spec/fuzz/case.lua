@@ -184,7 +184,7 @@ local function process(self)
 end
 
 local modules = { "sw.scene", "sw.load", "sw.cable", "sw.cables", "sw.calibrate", "sw.material", "sw.help",
-  "sw.study", "trajectory.new",
+  "sw.study", "sw.study", "sw.study", "sw.calibration", "trajectory.new",
   "trajectory.read", "tune.minimise", "cable.define", "calibrate.cell", "units", "core" }
 
 local core_names = {}

@@ -105,10 +105,12 @@ local function choose(own, seen)
   end
   if seen.step then return "cma-es", ("'%s' has steps, which it bears"):format(seen.step) end
   if seen.left and seen.left > SMOOTH then
-    return "cma-es", ("a quadratic polynomial leaves %.0f %% of the variance unexplained"):format(100 * seen.left)
+    return "cma-es", ("a quadratic polynomial leaves %.0f %% of the variance unexplained"):format(
+      100 * seen.left)
   end
   if not seen.left then return method, why end
-  why = ("it is smooth: a quadratic polynomial leaves %.2g %% of the variance unexplained"):format(100 * seen.left)
+  why = ("it is smooth: a quadratic polynomial leaves %.2g %% of the variance unexplained"):format(
+    100 * seen.left)
   return judge.count_sides(own) > 0 and "cobyla" or "bobyqa", why
 end
 
