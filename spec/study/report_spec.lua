@@ -127,6 +127,51 @@ describe("the page of a study", function()
     end
   end)
 
+  it("plays the runs that were asked for, computed again with the same bits", function()
+    local lifted = study { name = "a lift", parameters = { EI = { 1e-3, 1e-2, unit = "N m2" } },
+      evaluate = function(p)
+        local scene = sw.scene {}
+        local wire = scene:wire { EI = p.EI, EA = 1e3, mass_per_length = 0.02, radius = 0.002, segments = 8,
+          from = { 0, 0, 0 }, to = { 0.3, 0, 0 } }
+        scene:clamp(wire, { s = 0 })
+        assert(scene:run { duration = 0.1, dt = 0.01 }.ok)
+        return { margin = 0.1, droop = -wire:position(0.3)[3] }
+      end }
+    lifted:sweep { count = 6 }
+    local best, path = lifted:best "droop", folder .. "/a lift.html"
+    lifted:report(path, { play = { best, 2, best } })
+    page:go("file://" .. path:gsub(" ", "%%20"))
+    for _, number in ipairs { best.number, 2 } do
+      page:run("document.querySelector(`tr[data-at='1.${arguments[0]}']`).click()", number)
+      assert.equal(("a%%20lift-1.%d.html"):format(number),
+        page:run "return document.getElementById('play').getAttribute('href')")
+    end
+    local other = best.number == 1 and 3 or 1
+    page:run("document.querySelector(`tr[data-at='1.${arguments[0]}']`).click()", other)
+    assert.is_true(page:run "return !document.getElementById('play') && !!document.getElementById('line')")
+    page:run "document.querySelector(`tr[data-at='1.2']`).click()"
+    page:run "document.getElementById('play').click()"
+    for _ = 1, 100 do -- the player's page comes
+      if page:run "return !!document.querySelector('canvas') && !document.getElementById('small')" then break end
+      program.shell "sleep 0.1"
+    end
+    assert.truthy(page:run("return location.href"):find("a%%20lift%-1%.2%.html$"))
+    assert.equal(0, #page:console())
+    local many = {}
+    for k = 1, 201 do many[k] = 1 end
+    for text, play in pairs { ["'all', got 3"] = 3, ["there is no evaluation 77"] = { 77 },
+      ["play has 201 evaluations"] = many } do
+      local fine, why = pcall(lifted.report, lifted, folder .. "/no.html", { play = play })
+      assert.is_false(fine)
+      assert.truthy(why:find(text, 1, true), why)
+    end
+    local fine, why = pcall(s.report, s, folder .. "/no.html", { play = { s:best "time" } })
+    assert.is_false(fine)
+    assert.truthy(why:find("has no run of a scene to be played", 1, true), why)
+    assert.is_nil(io.open(folder .. "/no.html"))
+    page:go("file://" .. folder .. "/s.html")
+  end)
+
   it("shows 20000 of more", function()
     local many = study { constraints = {}, evaluate = function(p) return { y = p.force } end }
     many:sweep { count = 30000, workers = 0 }

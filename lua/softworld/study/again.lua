@@ -28,8 +28,8 @@ local function check(value, what)
     what, checks.got(value))
 end
 
--- The record that is meant.
-local function find(own, number, part)
+--- The record that is meant by a row, or by number and part.
+function again.find(own, number, part)
   if type(number) == "table" then
     number, part = checks.field(number, "number"), checks.field(number, "part")
   end
@@ -87,11 +87,12 @@ local function compare(own, record, status, text)
   end
 end
 
-local function do_again(self, number, part)
+--- The same as study:again, without the place of the call in errors.
+function again.compute(self, number, part)
   local own = sealed.fields(self)
   if own.busy then fail("study '%s': its evaluations cannot ask for more of them", own.name) end
   if own.task then return nil end
-  local record = find(own, number, part)
+  local record = again.find(own, number, part)
   campaign.build(own)
   local before = own.stream
   own.stream, own.busy = stream_of(own, record.part), true
@@ -106,6 +107,6 @@ local function do_again(self, number, part)
 end
 
 --- study:again(number, part): what evaluate returns, the last run; nil for the former when it fails.
-function again.again(self, number, part) return build.call(3, do_again, self, number, part) end
+function again.again(self, number, part) return build.call(3, again.compute, self, number, part) end
 
 return again

@@ -1,7 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- The page of a study: one HTML file with a table and cross plots, in which an evaluation is chosen by a
--- click; it tells the lines that compute that one again. Sources are in lua/softworld/study/page.
+-- click; it opens the player's page of that one, where it was made, or tells the lines that make it. Sources
+-- are in lua/softworld/study/page.
 -- @module softworld.study.report
+local again = require "softworld.study.again"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
@@ -20,10 +22,14 @@ local report = {}
 local MOST = 20000 -- evaluations in a page
 local NULL = 0 / 0  -- JSON writes null for it
 
-rows.calls{
-  { "study:report", "path", "writes a page with table and plots, for any browser", "the path",
-    example = 'study:report "grip.html"' },
-}
+local MOST_PLAYED = 200
+
+local call = rows.call("study:report", "path, {...}", "writes a page with table and plots, for any browser", {
+  gives = "the path",
+  example = 'study:report("grip.html", { play = { study:best "time" } })',
+  { "play", "table or 'all'", "-", "evaluations whose run a click plays, in files beside the page: rows of "
+    .. "the table or numbers; each is computed again", usual = "none" },
+})
 
 local function columns_of(own, list)
   local parameters, results, limits = {}, {}, {}
@@ -45,6 +51,40 @@ local function few(list)
   local some = {}
   for k = 1, MOST do some[k] = list[1 + (k - 1) * #list // MOST] end
   return some, ("Shown are %d of %d evaluations."):format(MOST, #list)
+end
+
+-- The evaluations to be played, each once.
+local function wanted(own, play)
+  if play == nil then return {} end
+  local list = play
+  if play == "all" then list = output.records(own) end
+  if type(list) ~= "table" or getmetatable(list) then
+    error(("study:report: play must be a list of rows or numbers, or 'all', got %s"):format(
+      checks.got(play)), 0)
+  end
+  if #list > MOST_PLAYED then
+    error(("study:report: play has %d evaluations; %d at most"):format(#list, MOST_PLAYED), 0)
+  end
+  return list
+end
+
+-- Pages of the players, beside the study's: name of the file by "part.number".
+local function players(self, own, path, play)
+  local files = {}
+  for _, one in ipairs(wanted(own, play)) do
+    local record = again.find(own, one)
+    local label = ("%d.%d"):format(record.part, record.number)
+    if not files[label] then
+      local _, run = again.compute(self, record)
+      if not run then
+        error(("study:report: evaluation %s has no run of a scene to be played"):format(label), 0)
+      end
+      local file = path:gsub("%.html?$", "") .. "-" .. label .. ".html"
+      run:report(file)
+      files[label] = file:match "[^/]*$"
+    end
+  end
+  return files
 end
 
 local function row_of(own, record, results)
@@ -70,7 +110,7 @@ local function parts_of(own, list)
   return parts
 end
 
-local function data_of(own)
+local function data_of(own, files)
   local list = output.records(own)
   if #list == 0 then error("study:report: there is no evaluation to be shown", 0) end
   local parameters, results = columns_of(own, list)
@@ -83,30 +123,32 @@ local function data_of(own)
   end
   return json.object { title = own.name, version = core.version, count = #list, passed = passed,
     failed = failed, note = note, constraints = #own.constraints > 0, parameters = parameters,
-    results = results, parts = parts_of(own, list), rows = shown }
+    results = results, parts = parts_of(own, list), rows = shown, players = json.object(files) }
 end
 
 local function escaped(text)
   return (text:gsub('[&<>"]', { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;" }))
 end
 
-local function do_report(self, path)
-  local own = sealed.fields(self)
+local function do_report(self, path, args)
+  local own, o = sealed.fields(self), call:read(args == nil and {} or args)
   if type(path) ~= "string" or not path:find "%.html?$" then
     error(("study:report: the name of a file that ends in .html is wanted, got %s"):format(
       checks.got(path)), 0)
   end
-  local data = json.encode(data_of(own)):gsub("[<>&]", { ["<"] = "\\u003c", [">"] = "\\u003e",
+  if own.task then return path end
+  local files = players(self, own, path, o.play)
+  local data = json.encode(data_of(own, files)):gsub("[<>&]", { ["<"] = "\\u003c", [">"] = "\\u003e",
     ["&"] = "\\u0026" }) -- nothing within can end the script, or open a comment in it
   local parts = { title = escaped(own.name), STYLES = sink.read_file(folder .. "style.css"),
     SCRIPTS = sink.read_file(folder .. "study.js"),
     data = '<script type="application/json" id="data">' .. data .. "</script>" }
   local page = sink.read_file(folder .. "index.html")
   page = page:gsub("@(%a+)@", function(name) return parts[name] end)
-  return own.task and path or sink.write_file(path, page)
+  return sink.write_file(path, page)
 end
 
---- study:report(path).
-function report.report(self, path) return build.call(3, do_report, self, path) end
+--- study:report(path, { play = }).
+function report.report(self, path, args) return build.call(3, do_report, self, path, args) end
 
 return report

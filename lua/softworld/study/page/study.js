@@ -218,7 +218,10 @@ function drawDetail() {
   else if (data.constraints) parts.push(h("p", { class: r.pass ? "" : "wrong" }, r.pass ? "meets the constraints" : "breaks constraints"));
   parts.push(h("h3", {}, "Parameters"), valuesOf(columns.filter((c) => c.parameter), r));
   if (r.pass !== null) parts.push(h("h3", {}, "Results"), valuesOf(columns.filter((c) => !c.parameter), r));
-  parts.push(h("h3", {}, "See it run"), h("p", { class: "hint" }, "Put this at the end of the script and run it: with its journal nothing else "
+  const player = data.players[`${r.part}.${r.number}`];
+  parts.push(h("h3", {}, "See it run"));
+  if (player) parts.push(h("p", {}, h("a", { id: "play", class: "play", href: encodeURIComponent(player) }, "Play it")));
+  else parts.push(h("p", { class: "hint" }, "Put this at the end of the script and run it: with its journal nothing else "
     + "is computed, and this one comes with the same bits."), h("pre", { id: "line" }, line));
   $("detail").replaceChildren(...parts);
 }
