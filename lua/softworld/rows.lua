@@ -164,9 +164,20 @@ function rows.later(class, module, names)
   end
 end
 
---- Read these modules, which have rows too: for help, completion and checks.
+--- Read these modules, which have rows too: for help, completion and checks. They may name others.
 function rows.load()
-  for module in pairs(late) do require(module) end
+  local read = {}
+  repeat
+    local list = {}
+    for module in pairs(late) do
+      if not read[module] then list[#list + 1] = module end
+    end
+    table.sort(list)
+    for _, module in ipairs(list) do
+      read[module] = true
+      require(module)
+    end
+  until #list == 0
 end
 
 --- The rows of a call by its name, or nil.

@@ -152,7 +152,8 @@ describe("the page of a study", function()
     page:run "document.querySelector(`tr[data-at='1.2']`).click()"
     page:run "document.getElementById('play').click()"
     for _ = 1, 100 do -- the player's page comes
-      if page:run "return !!document.querySelector('canvas') && !document.getElementById('small')" then break end
+      local there = "return !!document.querySelector('canvas') && !document.getElementById('small')"
+      if page:run(there) then break end
       program.shell "sleep 0.1"
     end
     assert.truthy(page:run("return location.href"):find("a%%20lift%-1%.2%.html$"))
