@@ -160,11 +160,11 @@ describe("the page of a study", function()
     assert.equal(0, #page:console())
     local many = {}
     for k = 1, 201 do many[k] = 1 end
-    for text, play in pairs { ["'all', got 3"] = 3, ["there is no evaluation 77"] = { 77 },
+    for words, play in pairs { ["'all', got 3"] = 3, ["there is no evaluation 77"] = { 77 },
       ["play has 201 evaluations"] = many } do
       local fine, why = pcall(lifted.report, lifted, folder .. "/no.html", { play = play })
       assert.is_false(fine)
-      assert.truthy(why:find(text, 1, true), why)
+      assert.truthy(why:find(words, 1, true), why)
     end
     local fine, why = pcall(s.report, s, folder .. "/no.html", { play = { s:best "time" } })
     assert.is_false(fine)
