@@ -17,11 +17,21 @@ local function bound(entry, start)
   return most
 end
 
+-- T/R at a node that touches. Chords on a round thing turn by turns too much and too little: where the next
+-- node touches too, the mean of both counts.
+local function pressure(values, k)
+  local T, bent, touches = values.tension, values.curvature, values.contact
+  if touches[k] <= 0 then return 0 end
+  local here, next_touches = T[k] * bent[k], (touches[k + 1] or 0) > 0
+  if next_touches then return (here + T[k + 1] * bent[k + 1]) / 2 end
+  return (touches[k - 1] or 0) > 0 and 0 or here
+end
+
 local function value(entry, context)
   local best = { value = 0 }
   local count = stored.each(context, entry, function(values, k, time, s)
-    local now = values.tension[k] * values.curvature[k]
-    if values.contact[k] > 0 and now > best.value then best = { value = now, s = s, time = time } end
+    local now = pressure(values, k)
+    if now > best.value then best = { value = now, s = s, time = time } end
   end)
   if not stored.whole(context, count) then
     best.low, best.high = best.value, math.max(best.value, bound(entry, context.run.start))
