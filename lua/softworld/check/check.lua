@@ -28,7 +28,7 @@ local call = rows.call("run:check", "{...}", "does the process pass? see help 'c
   gives = "a check: verdict, rows, csv, json, junit",
   example = 'print(run:check { use = "movement", limits = { max_tension = 80 } })',
   { "use", "choice", "-", "what bends are judged by", choices = bendrule.uses, usual = "that of the wire" },
-  { "limits", "table", "-", "by name: a number, false or { max =, min =, source =, sure = }",
+  { "limits", "limits", "-", "by name: a number, false or { max =, min =, source =, sure = }",
     usual = "of the catalogue, standards and definitions" },
   { "checks", "list", "-", "of your own: { name =, unit =, of = function(run), max =, min = }" },
   { "landing", "table", "-", "the path on which the wire is to lie at the end", rows = landing },
