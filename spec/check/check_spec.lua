@@ -71,7 +71,8 @@ describe("run:check", function()
   end)
 
   it("takes a limit by the object's name before one without", function()
-    local check = run:check{ limits = { peak_force = 1e-9, ["left.peak_force"] = { max = 9, source = "sheet" } } }
+    local check = run:check{ limits = { peak_force = 1e-9,
+      ["left.peak_force"] = { max = 9, source = "sheet" } } }
     local row = check:row "peak_force"
     assert.same({ 9, "user", "sheet" }, { row.limit, row.from, row.source })
   end)
@@ -121,7 +122,8 @@ describe("run:check", function()
   it("does not pass a limit that is 1000 times off, and tells it", function()
     local row = run:check{ limits = { max_tension = 80e3 } }:row "max_tension"
     assert.equal("OPEN", row.verdict)
-    assert.truthy(row.note:find("298 times the catalogue's, 268.5 N; is its unit right (N)?", 1, true), row.note)
+    assert.truthy(row.note:find("298 times the catalogue's, 268.5 N; is its unit right (N)?", 1, true),
+      row.note)
     row = run:check{ limits = { min_bend_radius = 30 } }:row "min_bend_radius"
     assert.equal("FAIL", row.verdict)
     assert.truthy(row.note:find("is its unit right (m)?", 1, true), row.note)
@@ -159,8 +161,10 @@ describe("run:check", function()
     fails(function() run:check{ use = "moving" } end, "run:check: use = 'moving'", "movement")
     fails(function() run:check{ limits = 3 } end, "limits must be")
     fails(function() run:check{ limits = { max_tensoin = 3 } } end, "did you mean 'max_tension'?")
-    fails(function() run:check{ limits = { ["rigth.peak_force"] = 3 } } end, "there is no check 'rigth.peak_force'")
-    fails(function() run:check{ limits = { max_tension = 0 / 0 } } end, "limits['max_tension'] = ", "nan is not allowed")
+    fails(function() run:check{ limits = { ["rigth.peak_force"] = 3 } } end,
+      "there is no check 'rigth.peak_force'")
+    fails(function() run:check{ limits = { max_tension = 0 / 0 } } end,
+      "limits['max_tension'] = ", "nan is not allowed")
     fails(function() run:check{ limits = { max_tension = "80 N" } } end, "must be a number, false", "'80 N'")
     fails(function() run:check{ limits = { max_tension = {} } } end, "neither max nor min is given")
     fails(function() run:check{ limits = { max_tension = { max = 1, min = 2 } } } end,
@@ -229,7 +233,8 @@ describe("run:check of a wire without an entry of the catalogue", function()
     local run = laying{ EA = 1e4, EI = 1e-3, mass_per_length = 0.02, radius = 0.0015, breaking_load = 1e-6,
       breaking_flag = "measured" }
     local row = run:check{}:row "max_tension"
-    assert.same({ "FAIL", "user", "breaking load of the wire, measured" }, { row.verdict, row.from, row.source })
+    assert.same({ "FAIL", "user", "breaking load of the wire, measured" },
+      { row.verdict, row.from, row.source })
   end)
 end)
 
@@ -247,7 +252,8 @@ describe("run:check of a run that is not whole", function()
   end)
 
   it("fails: its time was over before the process", function()
-    refused(laying(nil, { duration = 0.3 }), "the run was cut short: 0.3 s have passed, and a process has not ended")
+    refused(laying(nil, { duration = 0.3 }),
+      "the run was cut short: 0.3 s have passed, and a process has not ended")
   end)
 
   it("fails: stopped by an observer", function()
@@ -318,7 +324,8 @@ describe("error bars of a run", function()
     assert.is_true(bar > 0)
     local inside = wire:min_bend_radius() - wire.radius
     local function verdict(limit)
-      local row = run:check{ limits = { min_bend_radius = { min = limit, sure = true } } }:row "min_bend_radius"
+      local check = run:check{ limits = { min_bend_radius = { min = limit, sure = true } } }
+      local row = check:row "min_bend_radius"
       assert.equal(bar, row.error)
       return row.verdict
     end

@@ -27,8 +27,8 @@ end
 local function pulled()
   local scene, wire = still{}
   scene:clamp(wire, { s = 0 })
-  scene:clamp(wire, { s = 0.3 }):follow{ points = { { 0, 0, 0 }, { 3e-3, 0, 0 } }, relative = true, duration = 1,
-    law = "linear" }
+  scene:clamp(wire, { s = 0.3 }):follow{ points = { { 0, 0, 0 }, { 3e-3, 0, 0 } }, relative = true,
+    duration = 1, law = "linear" }
   return scene:run{ duration = 1.2, dt = 0.01 }
 end
 
@@ -65,8 +65,8 @@ end
 -- A gripper holds a stiff wire still, by its middle or at s: its weight.
 local function held(s)
   local scene = sw.scene{}
-  local wire = scene:wire{ name = "w", EA = 1e5, EI = 10, mass_per_length = 0.02, radius = RADIUS, segments = 20,
-    from = { -0.05, 0, 0.2 }, to = { 0.05, 0, 0.2 } }
+  local wire = scene:wire{ name = "w", EA = 1e5, EI = 10, mass_per_length = 0.02, radius = RADIUS,
+    segments = 20, from = { -0.05, 0, 0.2 }, to = { 0.05, 0, 0.2 } }
   scene:force{ kind = "damping", mass = 20, on = wire }
   local hand = scene:gripper{ name = "hand", at = { 0, 0, 0.2 }, pads = { width = 0.02, friction = 0.5 } }
   scene:process(function(p)
@@ -81,8 +81,8 @@ local function lifted(force)
   local scene = sw.scene{}
   scene:obstacle{ name = "table", shape = "plane", friction = 0.3 }
   scene:force{ kind = "damping", mass = 20 }
-  local wire = scene:wire{ name = "w", EA = 1e5, EI = 1, mass_per_length = 0.02, radius = RADIUS, segments = 20,
-    from = { -0.05, 0, RADIUS }, to = { 0.05, 0, RADIUS } }
+  local wire = scene:wire{ name = "w", EA = 1e5, EI = 1, mass_per_length = 0.02, radius = RADIUS,
+    segments = 20, from = { -0.05, 0, RADIUS }, to = { 0.05, 0, RADIUS } }
   local hand = scene:gripper{ name = "hand", pads = { width = 0.02, friction = 0.5, opening = 0.004 } }
   scene:process(function()
     hand:grasp(wire, { s = 0.05, approach = "plates", force = force })

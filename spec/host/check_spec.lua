@@ -50,7 +50,8 @@ describe("softworld --check", function()
 
   local wild = [[
 local bad = sw.scene{ name = "wild" }
-local b = bad:wire{ E = 5e6, density = 1500, radius = 0.0025, segments = 20, from = {0, 0, 0.1}, to = {0.5, 0, 0.1} }
+local b = bad:wire{ E = 5e6, density = 1500, radius = 0.0025, segments = 20, from = {0, 0, 0.1},
+  to = {0.5, 0, 0.1} }
 bad:clamp(b, { s = 0 })
 local r = bad:run{ duration = 1, dt = 1.2 * bad:stable_dt(), integrator = "velocity-verlet", unstable = true }
 ]]

@@ -36,11 +36,12 @@ local call = rows.call("run:check", "{...}", "does the process pass? see help 'c
 })
 
 rows.calls{
-  { "check.verdict", nil, "of the whole: FAIL where a row fails, else OPEN where one is open, else PASS", "a text" },
+  { "check.verdict", nil, "of the whole: FAIL where a row fails, else OPEN where one is open, else PASS",
+    "a text" },
   { "check.ok", nil, "is it PASS?", "true or false" },
   { "check.reason", nil, "in one sentence", "a text" },
-  { "check.rows", nil, "name, object, what, value, unit, error, low, high, side, limit, limit_low, limit_high, "
-    .. "from, source, margin, s, time, step, verdict, note", "a list" },
+  { "check.rows", nil, "name, object, what, value, unit, error, low, high, side, limit, limit_low, "
+    .. "limit_high, from, source, margin, s, time, step, verdict, note", "a list" },
   { "check.skipped", nil, "names of checks that the script left out", "a list" },
   { "check.name", nil, "of the scene", "a text" },
   { "check.start", nil, "of the run", "s" },
@@ -49,14 +50,16 @@ rows.calls{
     example = 'print(run:check {}:row "max_tension".margin)' },
   { "check:csv", "path", "writes the rows as CSV", "the path" },
   { "check:json", "path", "writes the rows as JSON", "the path" },
-  { "check:junit", "path", "writes the rows as JUnit XML, for CI: FAIL is a failure, OPEN an error", "the path" },
+  { "check:junit", "path", "writes the rows as JUnit XML, for CI: FAIL is a failure, OPEN an error",
+    "the path" },
 }
 
 -- --- what is judged ------------------------------------------------------------------------------
 
 local function context_of(run, args)
   local data = build.data(run.scene)
-  local c = { run = run, scene = run.scene, use = args.use, landing = args.landing, wires = {}, grippers = {} }
+  local c = { run = run, scene = run.scene, use = args.use, landing = args.landing, wires = {},
+    grippers = {} }
   for i, w in ipairs(data.wires) do
     c.wires[i] = { name = w.name, object = w.object, number = i, use = core.data(w.object).use }
   end
@@ -112,9 +115,9 @@ local function judge_given(given, known, reference, fresh, value, unit, own_side
   for _, side in ipairs{ "min", "max" } do
     local limit = given[side]
     if limit then
-      local own = side == own_side
-      local text, suspicious = judge.suspicion(value.value, limit, side, unit, own and known or nil,
-        own and reference or nil)
+      local natural = side == own_side
+      local text, suspicious = judge.suspicion(value.value, limit, side, unit, natural and known or nil,
+        natural and reference or nil)
       if limit.sure then text, suspicious = nil, false end
       close_row(fresh(), value, limit, side, suspicious, text)
     end
@@ -220,8 +223,8 @@ local function check_there(run)
   local fields = sealed.fields(run)
   local data = build.data(run.scene)
   if data.restores ~= fields.restores then
-    error(("run:check: the results of the run of '%s' went when a snapshot was restored; check it before that")
-      :format(run.name), 0)
+    error(("run:check: the results of the run of '%s' went when a snapshot was restored; check it before "
+      .. "that"):format(run.name), 0)
   end
   if fields.number ~= data.runs or run.scene.time ~= run.time then
     error(("run:check: scene '%s' has gone on since this run, and its peaks are of that; check a run before "

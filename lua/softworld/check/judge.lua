@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Verdicts: a value, known between low and high, against a limit, known between low and high.
--- PASS where the whole range of the value keeps the whole range of the limit, FAIL where none of it does, OPEN
--- between. A value that is exactly the limit is met.
+-- PASS where the whole range of the value keeps the whole range of the limit, FAIL where none of it does,
+-- OPEN between. A value that is exactly the limit is met.
 -- @module softworld.check.judge
 local number = require "softworld.output.number"
 
@@ -44,7 +44,7 @@ end
 local function times(x) return ("%.3g"):format(x >= 1 and x or 1 / x) end
 
 --- What is odd about a limit of the user's: nil, or a text, and whether the row must not pass for that.
--- known: the limit that holds without the user's, or nil; reference: what limits of the kind are like, or nil.
+-- known: the limit that holds without the user's; reference: what limits of the kind are like; or nil.
 function judge.suspicion(value, limit, side, unit, known, reference)
   local usual = known and known.value or reference
   local far = laxer(limit.value, usual or value, side)
@@ -52,7 +52,7 @@ function judge.suspicion(value, limit, side, unit, known, reference)
   local least = usual and FAR or THOUSAND
   local strict = far <= 1 / least and not kept(value, limit.value, side)
   if far >= least or strict then
-    local what = usual and (known and "the %s's" or "what is usual"):format(known and known.from) or "the value"
+    local what = known and ("the %s's"):format(known.from) or usual and "what is usual" or "the value"
     return ("limit of %s: %s times %s, %s; is its unit right (%s)? sure = true keeps it"):format(
       number.text(limit.value, unit), times(far), what, number.text(usual or value, unit), unit), far > 1
   end

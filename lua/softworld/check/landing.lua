@@ -25,7 +25,9 @@ return { name = "landing_error", unit = "m", side = "max", on = "wire", asked = 
   wanted = function(context) return context.landing ~= nil end,
   value = function(entry, context)
     local wanted = context.landing
-    if not wanted then return { value = 0 / 0, note = "the wanted path is missing: landing = { path = points }" } end
+    if not wanted then
+      return { value = 0 / 0, note = "the wanted path is missing: landing = { path = points }" }
+    end
     if wanted.wire and wanted.wire ~= entry.name then return nil end
     local x, best, s = entry.object:positions(), { value = 0, time = context.run.time }, 0
     local from, to = wanted.from or 0, wanted.to or math.huge
@@ -35,7 +37,7 @@ return { name = "landing_error", unit = "m", side = "max", on = "wire", asked = 
       if before then s = s + vec.norm(vec.sub(p, before)) end
       before = p
       local far = s >= from - 1e-9 and s <= to + 1e-9 and from_path(p, wanted.path) or 0
-      if not (far <= best.value) then best.value, best.s = far, s end
+      if far > best.value then best.value, best.s = far, s end
     end
     return best
   end,

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Limits that a script gives: limits = { max_tension = 80, ["left.peak_force"] = { max = 20, source = "sheet" },
--- max_strain = false }. A number is a limit on the check's own side.
+--- Limits that a script gives: limits = { max_tension = 80, ["left.peak_force"] = { max = 20,
+-- source = "sheet" }, max_strain = false }. A number is a limit on the check's own side.
 -- @module softworld.check.limits
 local core = require "softworld.core"
 local checks = require "softworld.checks"
@@ -44,8 +44,8 @@ local function read(name, given)
     return { value = given }
   end
   if type(given) ~= "table" then
-    error(("%s must be a number, false (it is left out) or { max =, min =, source =, sure = }, got %s"):format(
-      what, checks.got(given)), 0)
+    error(("%s must be a number, false (it is left out) or { max =, min =, source =, sure = }, got %s")
+      :format(what, checks.got(given)), 0)
   end
   local own = limits.rows:read(given, what)
   if not (own.max or own.min) then error(what .. ": neither max nor min is given", 0) end
@@ -72,8 +72,8 @@ function limits.read(given, context)
   return list
 end
 
---- The limits of one check of one object, by side: { max = { value, from, source, sure }, min = }, false where it
--- is left out, nil where the script has none.
+--- The limits of one check of one object, by side: { max = { value, from, source, sure }, min = }, false
+-- where it is left out, nil where the script has none.
 function limits.of(list, member, entry)
   local given = entry.name and list[entry.name .. "." .. member.name]
   if given == nil then given = list[member.name] end

@@ -54,8 +54,11 @@ function own.value(one, run)
     if checks.is_interrupt(value) then error(value, 0) end
     return nil, "its function raised: " .. checks.shown(value)
   end
-  if type(value) ~= "number" then return nil, "its function must return a number, got " .. checks.got(value) end
-  return { value = value, s = type(s) == "number" and s or nil, time = type(time) == "number" and time or nil }
+  if type(value) ~= "number" then
+    return nil, "its function must return a number, got " .. checks.got(value)
+  end
+  return { value = value, s = type(s) == "number" and s or nil,
+    time = type(time) == "number" and time or nil }
 end
 
 return own

@@ -3,8 +3,8 @@
 --
 -- A member: { name =, unit =, side = "min" or "max", label =, on = "wire", "gripper" or "run", asked =,
 -- missing =, value =, limit =, reference =, wanted = }. asked: only where the script gives a limit, or
--- wanted(context) says so. missing: which value is wanted where nobody knows a limit. Functions take the object's entry { name =, object = } and the context
--- { run =, scene =, use =, ... }:
+-- wanted(context) says so. missing: which value is wanted where nobody knows a limit. Functions take the
+-- object's entry { name =, object = } and the context { run =, scene =, use =, ... }:
 --   value: { value =, s = [m], time = [s], note =, low =, high = }, low and high where the value is known to
 --     lie between these; nil where there is nothing to judge
 --   limit: { value =, low =, high =, from = "catalogue", "standard" or "definition", source = }, or nil

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Torsion per metre, M_t / GJ, of the stored frames. Nothing is kept of the steps between them, so a run that
--- is to pass needs a frame of each.
+--- Torsion per metre, M_t / GJ, of the stored frames. Nothing is kept of the steps between them, so a run
+-- that is to pass needs a frame of each.
 -- @module softworld.check.torsion
 local stored = require "softworld.check.stored"
 
@@ -13,7 +13,7 @@ local function value(entry, context)
   end)
   if not stored.whole(context, count) then
     best.low, best.high = best.value, math.huge
-    best.note = ("of %d frames, the steps between them are not known: scene:run{ frame = } as short as a step")
+    best.note = ("of %d frames, the steps between are not known: scene:run{ frame = } as short as a step")
       :format(count or 0)
   end
   return best

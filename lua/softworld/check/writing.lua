@@ -13,8 +13,8 @@ local writing = {}
 local Check = { __name = "check" }
 
 -- Columns of files, in their order; numbers are in the row's unit, s in m, time in s.
-local columns = { "verdict", "name", "object", "what", "value", "error", "low", "high", "unit", "side", "limit",
-  "limit_low", "limit_high", "from", "source", "margin", "s", "time", "step", "note" }
+local columns = { "verdict", "name", "object", "what", "value", "error", "low", "high", "unit", "side",
+  "limit", "limit_low", "limit_high", "from", "source", "margin", "s", "time", "step", "note" }
 
 -- --- the terminal ------------------------------------------------------------------------------------
 
@@ -107,8 +107,8 @@ function Check:json(path)
     list[i] = json.object{}
     for _, name in ipairs(columns) do list[i][name] = known(row[name]) end
   end
-  local document = json.object{ name = own.name, verdict = own.verdict, reason = own.reason, start = own.start,
-    time = own.time, use = own.use, skipped = own.skipped, rows = list }
+  local document = json.object{ name = own.name, verdict = own.verdict, reason = own.reason,
+    start = own.start, time = own.time, use = own.use, skipped = own.skipped, rows = list }
   return sink.write_file(path, function(write)
     json.write(document, write)
     write "\n"
@@ -129,8 +129,8 @@ end
 local tags = { FAIL = "failure", OPEN = "error" }
 
 local function write_case(write, suite, row)
-  write(('  <testcase classname="%s" name="%s%s" time="0">\n    <properties>\n'):format(xml(suite), xml(row.name),
-    row.side and "." .. row.side or ""))
+  write(('  <testcase classname="%s" name="%s%s" time="0">\n    <properties>\n'):format(xml(suite),
+    xml(row.name), row.side and "." .. row.side or ""))
   for _, name in ipairs(columns) do
     if row[name] ~= nil then
       write(('      <property name="%s" value="%s"/>\n'):format(name,
@@ -166,7 +166,8 @@ end
 function Check:row(name)
   local names = {}
   for _, row in ipairs(sealed.fields(self).rows) do
-    if row.name == name or row.object and row.name == row.object .. "." .. checks.shown(name) then return row end
+    local full = row.object and row.object .. "." .. checks.shown(name)
+    if row.name == name or row.name == full then return row end
     names[#names + 1] = row.name
   end
   local near = core.nearest(checks.shown(name), names)
