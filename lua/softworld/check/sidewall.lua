@@ -4,6 +4,7 @@
 -- step, which may be at two places, are a bound for what passes between frames.
 -- @module softworld.check.sidewall
 local bendrule = require "softworld.wire.bendrule"
+local build = require "softworld.scene.build"
 local stored = require "softworld.check.stored"
 local tension = require "softworld.check.tension"
 
@@ -28,11 +29,12 @@ local function pressure(values, k)
 end
 
 local function value(entry, context)
-  local best = { value = 0 }
+  local best, data = { value = 0 }, build.data(context.scene)
   local count = stored.each(context, entry, function(values, k, time, s)
     local now = pressure(values, k)
     if now > best.value then best = { value = now, s = s, time = time } end
   end)
+  if best.value == 0 and #data.obstacles + #data.fixings == 0 then return nil end
   if not stored.whole(context, count) then
     best.low, best.high = best.value, math.max(best.value, bound(entry, context.run.start))
     best.note = ("of %d frames; at no step above %.4g N/m"):format(count or 0, best.high)
