@@ -51,6 +51,18 @@ function unread.exit()
   return 0, text
 end
 
+--- For `softworld --check`: a script that leaves by os.exit leaves with what its checks found, unless it
+-- fails by itself.
+function unread.guard_exit()
+  local leave = os.exit
+  function os.exit(code, close) -- luacheck: ignore 122
+    local status, text = unread.exit()
+    io.stderr:write(text, "\n")
+    local fails = code == false or math.type(code) == "integer" and code ~= 0
+    leave(fails and code or status, close)
+  end
+end
+
 --- Call f and return its results. Failures within it need no look: f judges its runs by other means. Nor do
 -- checks within it count.
 function unread.excused(f, ...)

@@ -108,6 +108,9 @@ describe("run:check", function()
       :row "max_sidewall".verdict)
     local torsion = run:check{ limits = { max_torsion = 10 } }:row "max_torsion"
     assert.equal("OPEN", torsion.verdict, "the steps between frames are not known")
+    local life = { curve = { { 1, 1e9 }, { 10, 1e3 } } }
+    assert.equal("OPEN", run:check{ fatigue = life }:row "fatigue".verdict)
+    assert.equal("FAIL", run:check{ limits = { fatigue = 1 } }:row "fatigue".verdict, "without a curve")
   end)
 
   it("takes a value that is exactly the limit as met", function()
@@ -181,12 +184,45 @@ describe("run:check", function()
     fails(function() run:check{ landing = { path = {} } } end, "landing.path has no points")
     fails(function() run:check{ landing = { path = { { 0, 0 } } } } end, "landing.path[1]")
     fails(function() run:check{ landing = { path = { { 0, 0, 0 } }, wire = "v" } } end, "landing.wire = 'v'")
+    for words, curve in pairs{ ["fewer than 2 points"] = { { 1, 2 } }, ["curve[2]: a larger range"] =
+      { { 1, 2 }, { 2, 2 } }, ["curve[1][1] = 0 N"] = { { 0, 1 }, { 1, 2 } },
+      ["curve[1] must be"] = { 1, 2 } } do
+      fails(function() run:check{ fatigue = { curve = curve } } end, words)
+    end
     fails(function() run.check {} end, "run:check")
     local check = run:check{}
     fails(function() check.verdict = "PASS" end, "can only be read")
     fails(function() return check.verdcit end, "did you mean 'verdict'?")
     fails(function() check:csv() end, "check:csv expects the name of a .csv file, got nil")
     fails(function() check.json "x" end, "check:json is a method: call it with a colon")
+  end)
+
+  it("is refused when a check of one's own lets the scene go on", function()
+    local other, its_scene = laying()
+    fails(function()
+      other:check{ checks = { { name = "x", unit = "m", max = 1, of = function()
+        return its_scene:run{ duration = 0.01, dt = 0.005 }.time
+      end } } }
+    end, "has gone on since this run")
+  end)
+
+  it("is open where the cable has no limit for the use", function()
+    local own = sw.cable.define{ name = "only fixed", outer_diameter = 0.003, mass_per_length = 0.02,
+      EA = 1e4, EI = 1e-3, GJ = 1e-3, friction = 0.3, temperature = { low = -20, high = 80 },
+      bend = { fixed = 4 }, flag = "guessed", source = "this spec", spread = 0.1 }
+    local other = laying{ cable = own }
+    local row = other:check{}:row "min_bend_radius"
+    assert.same({ "catalogue", 4 * 0.003 }, { row.from, row.limit })
+    row = other:check{ use = "movement" }:row "min_bend_radius"
+    assert.equal("OPEN", row.verdict)
+    assert.truthy(row.note:find("no bend limit for the use 'movement'", 1, true), row.note)
+  end)
+
+  it("is open where there is no wire to judge", function()
+    local loose = sw.scene{}
+    loose:particles{ positions = { { 0, 0, 0 }, { 0.1, 0, 0 } }, masses = 0.1, radius = 0.01 }
+    local check = loose:run{ duration = 0.01, dt = 0.005 }:check{}
+    assert.same({ "OPEN", "OPEN" }, { check.verdict, check:row "wires".verdict })
   end)
 
   it("needs the wanted path for a landing error", function()

@@ -29,7 +29,7 @@ local function pulled()
   scene:clamp(wire, { s = 0 })
   scene:clamp(wire, { s = 0.3 }):follow{ points = { { 0, 0, 0 }, { 3e-3, 0, 0 } }, relative = true,
     duration = 1, law = "linear" }
-  return scene:run{ duration = 1.2, dt = 0.01 }
+  return scene:run{ duration = 1.2, dt = 0.01, frame = 0.01 }
 end
 
 -- Twisted by 1 rad over its length, frames of every step.
@@ -124,6 +124,11 @@ local cases = {
     return run, {}, value, 0.01
   end,
   max_torsion = function() return twisted(), {}, 1 / 0.3, 0.01 end,
+  -- from 0 to 100 N: half a cycle, of a curve through 100 N, 500 cycles
+  fatigue = function()
+    local curve = { { 10, 5e5 }, { 100, 500 } }
+    return pulled(), { fatigue = { curve = curve, repeats = 20 } }, 20 * 0.5 / 500, 0.01
+  end,
   landing_error = function()
     return lying(), { landing = { path = { { -1, 0, RADIUS }, { 1, 0, RADIUS } } } }, 0.003, 1e-3
   end,

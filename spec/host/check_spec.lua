@@ -37,6 +37,11 @@ describe("softworld --check", function()
     { "a run cut short", 3, "run{ duration = 1, max_steps = 3 }:check{}", "1 fail" },
     { "a run cut short beside a check that passes", 3, "run{ duration = 1, max_steps = 3 }\n"
       .. "run():check{ limits = none }", "1 runs failed or were cut short" },
+    { "a row fails, and the script leaves early", 3, "run():check{ limits = none, checks = own(0.5) }\n"
+      .. "os.exit(0)", "1 fail" },
+    { "a row fails, and the script leaves as one that is well", 3,
+      "run():check{ limits = none, checks = own(0.5) }\nos.exit(true, true)", "1 fail" },
+    { "the script leaves with a code of its own", 7, "run():check{ limits = none }\nos.exit(7)", "1 pass" },
     { "a check that is a trial", 2, "run():check{ trial = true, checks = own(0.5) }", "no check was made" },
     { "a trial, then one that counts", 0, "run():check{ trial = true, checks = own(0.5) }\n"
       .. "run():check{ limits = none, checks = own(2) }", "1 checks: 1 pass" },

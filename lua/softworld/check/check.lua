@@ -24,6 +24,11 @@ local landing = rows.list{
   { "to", "number", "m", "arc length up to which", min = 0, usual = "its end" },
 }
 
+local fatigue = rows.list{
+  { "curve", "list", "N", "points { range of tension, cycles endured }, ranges rising", required = true },
+  { "repeats", "number", "-", "how often the run is gone through", min = 0, above = true, default = 1 },
+}
+
 local call = rows.call("run:check", "{...}", "does the process pass? see help 'check'", {
   gives = "a check: verdict, rows, csv, json, junit",
   example = 'print(run:check { use = "movement", limits = { max_tension = 80 } })',
@@ -32,6 +37,7 @@ local call = rows.call("run:check", "{...}", "does the process pass? see help 'c
     usual = "of the catalogue, standards and definitions" },
   { "checks", "list", "-", "of your own: { name =, unit =, of = function(run), max =, min = }" },
   { "landing", "table", "-", "the path on which the wire is to lie at the end", rows = landing },
+  { "fatigue", "table", "-", "the curve by which changes of tension wear the wire", rows = fatigue },
   { "trial", "boolean", "-", "true: softworld --check does not count it", usual = "false" },
 })
 
@@ -58,8 +64,8 @@ rows.calls{
 
 local function context_of(run, args)
   local data = build.data(run.scene)
-  local c = { run = run, scene = run.scene, use = args.use, landing = args.landing, wires = {},
-    grippers = {} }
+  local c = { run = run, scene = run.scene, use = args.use, landing = args.landing, fatigue = args.fatigue,
+    wires = {}, grippers = {} }
   for i, w in ipairs(data.wires) do
     c.wires[i] = { name = w.name, object = w.object, number = i, use = core.data(w.object).use }
   end
@@ -133,6 +139,15 @@ local function missing_row(row, member, entry)
     member.missing, key, member.unit))
 end
 
+-- The limit that holds without the script's; nil and why, where the catalogue cannot say.
+local function known_limit(member, entry, context)
+  if not member.limit then return nil end
+  local fine, known = pcall(member.limit, entry, context)
+  if fine then return known end
+  if checks.is_interrupt(known) then error(known, 0) end
+  return nil, checks.shown(known)
+end
+
 -- All rows of one check on one object.
 local function judge_one(self, member, entry, context, list)
   local given = limits.of(list, member, entry)
@@ -155,12 +170,16 @@ local function judge_one(self, member, entry, context, list)
   end
   with_error(value, error_bar(self.run, entry.name, member.name))
   local function fresh() return start_row(self, member.name, entry.name, member.label, member.unit, value) end
-  local known = member.limit and member.limit(entry, context)
+  local known, why = known_limit(member, entry, context)
   if given then
     local reference = member.reference and member.reference(entry, context)
     return judge_given(given, known, reference, fresh, value, member.unit, member.side)
   end
-  if not known then return missing_row(fresh(), member, entry) end
+  if not known then
+    local row = fresh()
+    missing_row(row, member, entry)
+    return add_note(row, why)
+  end
   close_row(fresh(), value, known, member.side, false)
 end
 
@@ -241,10 +260,30 @@ local function read_landing(args)
   end
 end
 
+-- Ranges rise and cycles fall along the curve.
+local function read_curve(given)
+  local copy = {}
+  for i, point in ipairs(given.curve) do
+    local what = ("run:check: fatigue.curve[%d]"):format(i)
+    if type(point) ~= "table" then
+      error(("%s must be { range [N], cycles }, got %s"):format(what, checks.got(point)), 0)
+    end
+    copy[i] = { checks.number(what .. "[1]", point[1], 0, " N", 0, nil, true),
+      checks.number(what .. "[2]", point[2], 0, "", 0, nil, true) }
+    local before = copy[i - 1]
+    if before and not (copy[i][1] > before[1] and copy[i][2] < before[2]) then
+      error(("%s: a larger range is wanted than before, endured for fewer cycles"):format(what), 0)
+    end
+  end
+  if #copy < 2 then error("run:check: fatigue.curve has fewer than 2 points { range [N], cycles }", 0) end
+  given.curve = copy
+end
+
 local function read(run, args)
   args = call:read(args == nil and {} or args)
   if args.landing then args.landing.path = table.move(args.landing.path, 1, #args.landing.path, 1, {}) end
   read_landing(args)
+  if args.fatigue then read_curve(args.fatigue) end
   local context = context_of(run, args)
   local wire = args.landing and args.landing.wire
   if wire then
@@ -273,7 +312,14 @@ local function make(run, args)
     for _, entry in ipairs(context.objects[member.on]) do judge_one(self, member, entry, context, list) end
   end
   judge_gone(self)
-  for _, one in ipairs(own_list) do judge_own(self, one) end
+  if #context.wires == 0 and #own_list == 0 then
+    local row = start_row(self, "wires", nil, "there is no wire", "-", {})
+    row.verdict, row.note = "OPEN", "nothing of the scene is judged: it has no wire; give checks of your own"
+  end
+  for _, one in ipairs(own_list) do
+    judge_own(self, one)
+    check_there(run)
+  end
   self.use = args.use
   conclude(self)
   return self

@@ -12,7 +12,8 @@
 -- @module softworld.check.registry
 local registry = {}
 
-local files = { "bend_radius", "tension", "strain", "stress", "sidewall", "torsion", "ovalisation", "landing",
+local files = { "bend_radius", "tension", "strain", "stress", "sidewall", "torsion", "ovalisation", "fatigue",
+  "landing",
   "peak_force", "peak_moment", "mean_force", "slip", "penetration", "kinks", "spoilt", "cycle_time" }
 
 registry.list, registry.by_name = {}, {}
