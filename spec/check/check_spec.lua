@@ -168,6 +168,12 @@ describe("run:check", function()
       "there is no check 'rigth.peak_force'")
     fails(function() run:check{ limits = { max_tension = 0 / 0 } } end,
       "limits['max_tension'] = ", "nan is not allowed")
+    for _, value in ipairs{ math.huge, -math.huge } do
+      fails(function() run:check{ limits = { max_tension = value } } end, "it must be a finite number")
+      fails(function() run:check{ limits = { max_tension = { min = value } } } end, "limits['max_tension']")
+      fails(function() run:check{ checks = { { name = "x", unit = "m", of = print, min = value } } } end,
+        "checks[1]")
+    end
     fails(function() run:check{ limits = { max_tension = "80 N" } } end, "must be a number, false", "'80 N'")
     fails(function() run:check{ limits = { max_tension = {} } } end, "neither max nor min is given")
     fails(function() run:check{ limits = { max_tension = { max = 1, min = 2 } } } end,

@@ -57,6 +57,8 @@ describe("a limit that is hardly meant", function()
     { 0.01, 2, "max", nil, nil, false },
     { 0, 2, "max", nil, nil, false },
     { 50, 400, "max", { value = 268, from = "catalogue" }, nil, true, false }, -- laxer, told
+    { 0.04, 0, "min", { value = 0.0135, from = "standard" }, nil, true, true }, -- lets everything pass
+    { 0.04, -0.03, "min", nil, 0.01, true, true },
     { 0.3, 0.8, "max", { value = 1, from = "definition" }, 1, false },
   } do
     it("is told, number " .. i, function()

@@ -29,8 +29,17 @@ local function names_of(context)
   return names, known
 end
 
---- Raise where a table of min and max contradicts itself.
+local function finite(what, value)
+  if value - value ~= 0 then
+    error(("%s = %s is not allowed; it must be a finite number"):format(what, checks.got(value)), 0)
+  end
+end
+
+--- Raise where a table of min and max contradicts itself, or has what is no limit.
 function limits.consistent(what, given)
+  for _, side in ipairs{ "min", "max" } do
+    if given[side] then finite(("%s: %s"):format(what, side), given[side]) end
+  end
   if given.min and given.max and given.min > given.max then
     error(("%s: min = %g is above max = %g: no value is between"):format(what, given.min, given.max), 0)
   end
@@ -40,7 +49,7 @@ local function read(name, given)
   local what = ("run:check: limits['%s']"):format(name)
   if given == false then return false end
   if type(given) == "number" then
-    checks.number(what, given, -math.huge, "", 0)
+    finite(what, given)
     return { value = given }
   end
   if type(given) ~= "table" then
