@@ -237,6 +237,11 @@ describe("run:check", function()
     assert.truthy(row.note:find("the wanted path is missing", 1, true), row.note)
     row = run:check{ landing = { path = { { 0, 0, 0.0015 }, { 1, 0, 0.0015 } } } }:row "landing_error"
     assert.equal("OPEN", row.verdict)
+    local beyond = { path = { { 0, 0, 0.0015 }, { 1, 0, 0.0015 } }, from = 5 }
+    row = run:check{ limits = { landing_error = 1 }, landing = beyond }:row "landing_error"
+    assert.equal("FAIL", row.verdict, "nothing of the wire is there")
+    beyond.to = 1
+    fails(function() run:check{ landing = beyond } end, "landing: from = 5 m is beyond to = 1 m")
   end)
 
   it("fails at slips, losses and crashes, whose first it tells", function()

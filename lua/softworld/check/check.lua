@@ -255,8 +255,11 @@ local function read_landing(args)
   for i, point in ipairs(args.landing and args.landing.path or {}) do
     args.landing.path[i] = checks.vector(("run:check: landing.path[%d]"):format(i), point, "m", 0)
   end
-  if args.landing and #args.landing.path == 0 then
-    error("run:check: landing.path has no points", 0)
+  local given = args.landing
+  if not given then return end
+  if #given.path == 0 then error("run:check: landing.path has no points", 0) end
+  if given.from and given.to and given.from > given.to then
+    error(("run:check: landing: from = %g m is beyond to = %g m"):format(given.from, given.to), 0)
   end
 end
 

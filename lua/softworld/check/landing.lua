@@ -4,6 +4,8 @@
 -- @module softworld.check.landing
 local vec = require "softworld.vec"
 
+local SLACK = 1e-9 -- rounding of arc lengths [m]
+
 -- Distance of a point from the piece between a and b.
 local function from_piece(p, a, b)
   local way, to = vec.sub(b, a), vec.sub(p, a)
@@ -31,14 +33,16 @@ return { name = "landing_error", unit = "m", side = "max", on = "wire", asked = 
     if wanted.wire and wanted.wire ~= entry.name then return nil end
     local x, best, s = entry.object:positions(), { value = 0, time = context.run.time }, 0
     local from, to = wanted.from or 0, wanted.to or math.huge
-    local before
+    local before, seen
     for i = 1, #x, 3 do
       local p = { x[i], x[i + 1], x[i + 2] }
       if before then s = s + vec.norm(vec.sub(p, before)) end
       before = p
-      local far = s >= from - 1e-9 and s <= to + 1e-9 and from_path(p, wanted.path) or 0
+      local within = s >= from - SLACK and s <= to + SLACK
+      local far = within and from_path(p, wanted.path) or 0
+      seen = seen or within
       if far > best.value then best.value, best.s = far, s end
     end
-    return best
+    return seen and best or { value = 0 / 0, note = "no node of the wire is between from and to" }
   end,
   reference = function(entry) return entry.object.length / 100 end }
