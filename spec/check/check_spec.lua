@@ -113,6 +113,16 @@ describe("run:check", function()
     assert.equal("FAIL", run:check{ limits = { fatigue = 1 } }:row "fatigue".verdict, "without a curve")
   end)
 
+  it("is open where a limit is of nothing in the run", function()
+    for name, limit in pairs{ peak_margin = 0.5, max_ovalisation = 0.1 } do -- no pads squeeze, no mesh
+      local row = run:check{ limits = { [name] = limit } }:row(name)
+      assert.equal("OPEN", row.verdict)
+      assert.truthy(row.note:find("nothing in this run has it", 1, true), row.note)
+    end
+    local row = run:check{ limits = { ["left.peak_margin"] = 0.5 } }:row "left.peak_margin"
+    assert.equal("FAIL", row.verdict, "asked for by name")
+  end)
+
   it("takes a value that is exactly the limit as met", function()
     local limits = wide()
     for _, side in ipairs{ "max", "min" } do

@@ -99,7 +99,7 @@ local function start_row(self, name, object, label, unit, value)
     value = value.value, error = value.error, low = value.low, high = value.high, s = value.s,
     time = value.time, note = value.note }
   row.step = value.time and stages.at(self.scene, value.time) or nil
-  self.rows[#self.rows + 1] = row
+  self.rows[#self.rows + 1], self.made[name] = row, true
   return row
 end
 
@@ -203,6 +203,17 @@ local function judge_own(self, one)
   add_note(row, "limit is missing: give max or min")
 end
 
+-- A limit that nothing of the scene is judged by does not pass in silence.
+local function judge_unused(self, list)
+  for _, member in ipairs(registry.list) do
+    if list[member.name] and not self.made[member.name] then
+      local row = start_row(self, member.name, nil, member.label, member.unit, {})
+      row.verdict, row.note = "OPEN", "nothing in this run has it; limits = { " .. member.name
+        .. " = false } leaves it out"
+    end
+  end
+end
+
 -- What was taken away on the way is not judged, and that is told.
 local function judge_gone(self)
   for _, g in ipairs(build.data(self.scene).gone or {}) do
@@ -300,7 +311,7 @@ end
 local function make(run, args)
   if not run.ok then args = call:read(args == nil and {} or args) end
   local self = { run = run, scene = run.scene, name = run.name, start = run.start, time = run.time, rows = {},
-    skipped = {}, trial = type(args) == "table" and args.trial }
+    skipped = {}, made = {}, trial = type(args) == "table" and args.trial }
   local why = unfit(run)
   if why then
     refuse(self, why)
@@ -314,6 +325,7 @@ local function make(run, args)
   for _, member in ipairs(registry.list) do
     for _, entry in ipairs(context.objects[member.on]) do judge_one(self, member, entry, context, list) end
   end
+  judge_unused(self, list)
   judge_gone(self)
   if #context.wires == 0 and #own_list == 0 then
     local row = start_row(self, "wires", nil, "there is no wire", "-", {})
@@ -332,7 +344,7 @@ end
 function check.check(run, args)
   local self = build.call(3, make, run, args)
   if not self.trial then unread.judged(self.verdict) end
-  self.run, self.scene, self.ok = nil, nil, self.verdict == "PASS"
+  self.run, self.scene, self.made, self.ok = nil, nil, nil, self.verdict == "PASS"
   return writing.new(self)
 end
 
