@@ -565,4 +565,30 @@ describe("example", function()
     assert.are.equal(0, after(out, "peak force "))
     assert.is_truthy(out:find("in the file: left plane1 wire1", 1, true))
   end)
+
+  -- Half a circle of length L: the inside's radius is L / pi less the wire's, 1.5 mm, and the moment
+  -- pi EI / L. IEC 62440 allows 5 diameters, 15 mm, so that the first length lacks 16.5 mm - 40 mm / pi.
+  -- Curvatures of 50 edges that bend by inertia a little, printed to four digits: 0.3 %.
+  it("24: a report that fails, and one that passes", function()
+    local out = example "24_check"
+    local radii, moments = {}, {}
+    for verdict, radius in out:gmatch "(%u+)  cable.min_bend_radius +(%S+) mm +>= 15.00 mm +standard" do
+      radii[#radii + 1] = { verdict, tonumber(radius) }
+    end
+    for verdict, value in out:gmatch "(%u+)  moment on the plug +(%S+) mN m +<= 90.00 mN m  user" do
+      moments[#moments + 1] = { verdict, tonumber(value) }
+    end
+    assert.same({ 2, 2 }, { #radii, #moments })
+    local EI = require "softworld".cable "GXL 1.5".EI.value
+    for i, length in ipairs{ 40, after(out, ": take ") } do
+      local wanted = i == 1 and "FAIL" or "PASS"
+      assert.same({ wanted, wanted }, { radii[i][1], moments[i][1] })
+      near(length / math.pi - 1.5, radii[i][2], 3e-3, "inside radius")
+      near(1e6 * math.pi * EI / length, moments[i][2], 3e-3, "moment")
+    end
+    near(16.5 - 40 / math.pi, after(out, "the radius lacks "), 0.01, "what is lacking")
+    near(1.02 * math.pi * 16.5, after(out, ": take "), 3e-3, "length")
+    local _, err, code = program.run{ "--check", "examples/24_check.lua" }
+    assert.equal(0, code, err)
+  end)
 end)

@@ -5,7 +5,14 @@
 
 #include <lua.h>
 
-enum { HOST_OK = 0, HOST_FAILED = 1, HOST_USAGE = 2, HOST_INTERRUPTED = 130 };
+enum {
+  HOST_OK = 0,
+  HOST_FAILED = 1,
+  HOST_USAGE = 2, /* of --check also: no check was made */
+  HOST_CHECK_FAILS = 3,
+  HOST_CHECK_OPEN = 4,
+  HOST_INTERRUPTED = 130
+};
 
 /* --- options.c: the command line ------------------------------------------ */
 
@@ -17,6 +24,7 @@ typedef struct host_options {
   int codes;       /* number of -e options */
   int interactive; /* -i, or nothing to do and a terminal to do it on */
   int view;        /* --view: scenes are shown in a browser while they run */
+  int check;       /* --check: the exit code tells what the script's checks found */
   int version, help;
   const char *log; /* file of --log, or NULL */
 } host_options;

@@ -14,6 +14,7 @@ static const char help_text[] =
     "  doc          show a topic of the manual, or all topics (./doc is a script of that name)\n"
     "  new          write a starting script name.lua\n"
     "  lint         build the scenes of a script, run nothing, and warn of what is hardly meant\n"
+    "  --check      exit with what the script's checks of runs found (run:check), see below\n"
     "  --log file   append to this file what is run, when, and how it ended\n"
     "  -e code      run this Lua code first (may be repeated)\n"
     "  -i           go on at the prompt afterwards\n"
@@ -23,7 +24,9 @@ static const char help_text[] =
     "  -h           show this text (also --help)\n"
     "  --           end of the options\n"
     "Without script and options: the prompt on a terminal, else standard input is run.\n"
-    "Exit codes: 0 done, 1 an error in the script, 2 wrong usage, 130 stopped by Ctrl-C.\n"
+    "Exit codes: 0 done, 1 an error in the script, 2 wrong usage, 130 stopped by Ctrl-C;\n"
+    "of --check: 0 all pass, 2 no check was made, 3 one fails, or a run failed or was cut short,\n"
+    "4 none fails but one is open.\n"
     "SOFTWORLD_TRACEBACK=full shows every call of a traceback.\n";
 
 void host_options_help(void) { fputs(help_text, stdout); }
@@ -31,7 +34,8 @@ void host_options_help(void) { fputs(help_text, stdout); }
 static int usage(const char *what, const char *word) {
   fprintf(stderr, "softworld: %s '%s'\n", what, word);
   fputs(
-      "usage: softworld [-e code] [-i] [-v] [--view] [--log file] [script [arguments]]; softworld "
+      "usage: softworld [-e code] [-i] [-v] [--view] [--check] [--log file] [script [arguments]]; "
+      "softworld "
       "doc [topic]; "
       "softworld --help tells more\n",
       stderr);
@@ -51,6 +55,8 @@ static int read_option(host_options *o, int *at) {
     o->interactive = 1;
   } else if (strcmp(word, "--view") == 0) {
     o->view = 1;
+  } else if (strcmp(word, "--check") == 0) {
+    o->check = 1;
   } else if (strcmp(word, "-v") == 0 || strcmp(word, "--version") == 0) {
     o->version = 1;
   } else if (strcmp(word, "-h") == 0 || strcmp(word, "--help") == 0) {
@@ -83,6 +89,9 @@ int host_options_read(host_options *o, int argc, char **argv) {
   o->script = i < argc && !o->command ? i : 0;
   if (o->view && !o->script && (o->codes || o->version || o->interactive))
     return usage("a script is missing after", "--view");
+  if (o->check && !o->script) return usage("a script is missing after", "--check");
+  if (o->check && (o->interactive || o->view))
+    return usage("neither -i nor --view goes with", "--check");
   if (!o->script && !o->command && !o->view && !o->codes && !o->version)
     o->interactive |= isatty(STDIN_FILENO);
   return HOST_OK;

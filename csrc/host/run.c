@@ -95,6 +95,33 @@ static int tell_unread(lua_State *L) {
   return status;
 }
 
+/* Call a function of softworld.unread, which keeps what checks found. Gives a Lua status. */
+static int call_unread(lua_State *L, const char *name, int results) {
+  lua_getglobal(L, "require");
+  lua_pushliteral(L, "softworld.unread");
+  const int status = host_call(L, 1, 1);
+  if (status != LUA_OK) return status;
+  lua_getfield(L, -1, name);
+  lua_remove(L, -2);
+  return host_call(L, 0, results);
+}
+
+/* What the checks of a script that has ended found: the exit code of --check. */
+static int check_exit(lua_State *L) {
+  const int top = lua_gettop(L);
+  int status;
+  if (call_unread(L, "exit", 2) != LUA_OK) {
+    status = host_report(L);
+  } else {
+    status = (int)lua_tointeger(L, -2);
+    fflush(stdout);
+    fprintf(stderr, "%s\n", lua_tostring(L, -1));
+    log_text(L, lua_tostring(L, -1));
+  }
+  lua_settop(L, top);
+  return status;
+}
+
 int host_run_code(lua_State *L, const char *code) {
   host_ctrl_c_reset();
   int status = luaL_loadbufferx(L, code, strlen(code), "=-e", "t");
@@ -114,8 +141,11 @@ int host_run_script(lua_State *L, const host_options *o) {
     lua_pop(L, 1);
     return refuse(name, host_ctrl_c_seen() ? "interrupted" : strerror(errno));
   }
+  if (status == LUA_OK && o->check) status = call_unread(L, "guard_exit", 0);
   if (status == LUA_OK) status = host_call(L, push_arguments(L, o, o->script), 0);
-  return status == LUA_OK ? tell_unread(L) : host_report(L);
+  if (status != LUA_OK) return host_report(L);
+  const int unread = tell_unread(L);
+  return o->check && unread != HOST_INTERRUPTED ? check_exit(L) : unread;
 }
 
 /* Push the module of the command's name; 0 and an error's text when there is none. */

@@ -154,30 +154,23 @@ end
 
 -- --- methods whose module is read late ------------------------------------------------------
 
-local late = {} -- module -> true
+local late = {} -- modules, in the order of being told
 
 --- Let a class have methods of a module, a table of functions, that is read when the first is called.
 function rows.later(class, module, names)
-  late[module] = true
+  late[#late + 1] = module
   for name in names:gmatch "%S+" do
     class[name] = function(...) return require(module)[name](...) end
   end
 end
 
---- Read these modules, which have rows too: for help, completion and checks. They may name others.
+--- Read these modules, which have rows too: for help, completion and checks. They may tell of more.
 function rows.load()
-  local read = {}
-  repeat
-    local list = {}
-    for module in pairs(late) do
-      if not read[module] then list[#list + 1] = module end
-    end
-    table.sort(list)
-    for _, module in ipairs(list) do
-      read[module] = true
-      require(module)
-    end
-  until #list == 0
+  local i = 1
+  while late[i] do
+    require(late[i])
+    i = i + 1
+  end
 end
 
 --- The rows of a call by its name, or nil.

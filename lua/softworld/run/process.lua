@@ -19,6 +19,7 @@ local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local conditions = require "softworld.run.conditions"
 local sealed = require "softworld.sealed"
+local stages = require "softworld.run.stages"
 local waiting = require "softworld.run.waiting"
 
 local process = {}
@@ -180,8 +181,9 @@ function Process:step(name, work)
   self.steps = self.steps + 1
   if done[self.steps] then return recall(self, name, done[self.steps]) end
   self.inside = name
+  local stage = stages.begin(self.scene, self.number, name)
   local results = table.pack(work())
-  self.inside = nil
+  self.inside, stage.to = nil, self.scene.time
   local count = results.n
   results.n = nil
   done[self.steps] = { name = name, results = results, count = count }

@@ -60,7 +60,8 @@ end
 
 local advance = core.class.scene.advance
 
--- Advance until the end of time or of the processes.
+-- Advance until the end of time or of the processes. Gives the reason of the end, and of one that leaves
+-- things undone "stopped" or "unfinished".
 local function drive(scene, args, total, bar)
   local start = total.start
   local stop = args.duration and start + args.duration or math.huge
@@ -77,7 +78,7 @@ local function drive(scene, args, total, bar)
     if stop == math.huge and alive == 0 then return "all processes have ended" end
     if process.reached(scene, stop) then
       waiting.at_end(scene)
-      return ("%g s have passed"):format(args.duration)
+      return ("%g s have passed"):format(args.duration), alive > 0 and "unfinished" or nil
     end
     local target = math.min(stop, wake)
     if target == math.huge then
@@ -93,10 +94,10 @@ local function drive(scene, args, total, bar)
     if not part.ok then return part.reason end
     local asked = observe.settle(scene)
     local stopped = grasp.look(scene) or asked
-    if stopped then return stopped end
+    if stopped then return stopped, "stopped" end
     if left <= 0 then
       waiting.at_end(scene)
-      return "the allowed number of steps was used"
+      return "the allowed number of steps was used", "stopped"
     end
   end
 end
@@ -106,6 +107,7 @@ local function wires_of(scene) return leave.all(scene, "wire") end
 
 -- A run that failed keeps ok and reason where reading them is seen.
 local function hide_failure(run)
+  if sealed.fields(run).cut == "stopped" then unread.cut() end
   if sealed.fields(run).ok ~= false then return run end
   local at = place.of_caller()
   local mark = unread.add(("softworld: run of '%s'%s FAILED %s; the script did not look at run.ok")
@@ -128,7 +130,7 @@ local function run_once(scene, args, level)
   observe.begin(scene, args)
   total.drawn = wires_of(scene)
   local wall, cpu = core.clock() - total.wall, os.clock() - total.cpu
-  local fine, reason
+  local fine, reason, cut
   do -- protected: a coroutine that dies by an error leaves its variables unclosed
     local bar <close> = new_bar(args, scene, level)
     data.running = true
@@ -136,7 +138,7 @@ local function run_once(scene, args, level)
       total.wall, total.cpu = core.clock() - wall, os.clock() - cpu
       save.write(scene, args.save, total)
     end
-    fine, reason = pcall(drive, scene, args, total, bar)
+    fine, reason, cut = pcall(drive, scene, args, total, bar)
     data.running, data.saving = nil, nil
     if fine and total.ok then bar:finish() elseif fine then bar:fail(reason) end
     observe.finish(scene, fine and total.ok, reason)
@@ -148,7 +150,9 @@ local function run_once(scene, args, level)
   if not total.ok and not level and not total.reason:find("take smaller steps", 1, true) then
     total.reason = ("%s; try %s"):format(total.reason, advice.of(total.reason, args))
   end
-  total.restores = data.restores
+  total.restores, total.cut = data.restores, cut
+  data.runs = (data.runs or 0) + 1
+  total.number = data.runs
   return sealed.new(Run, total)
 end
 
@@ -428,6 +432,7 @@ end
 
 for name, method in pairs(runfiles.methods) do Run[name] = method end
 tables.later(Run, "softworld.run.pictures", "picture film gltf obj stl")
+tables.later(Run, "softworld.check.check", "check")
 Run.error_bars = trust.error_bars
 Run.ledger = ledger.of
 

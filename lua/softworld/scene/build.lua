@@ -239,9 +239,10 @@ function class.scene.wire(scene, args)
   args.name = build.name(scene, args.name, "wire", #data.wires, 3)
   local wire = build.call(3, new_wire, scene, args)
   data.wires[#data.wires + 1] = { object = wire, name = args.name }
-  if entry then
-    local kept = core.data(wire)
-    kept.cable, kept.use = entry, use
+  local kept = core.data(wire)
+  if entry then kept.cable, kept.use = entry, use end
+  if args.breaking_load then
+    kept.breaking = { value = args.breaking_load, flag = args.breaking_flag or "given" }
   end
   remarks.wire(data, wire, args)
   remarks.mesh(wire)

@@ -1,0 +1,351 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- run:check: does the process pass? Rows with value, limit, margin and verdict. See help "check".
+-- @module softworld.check.check
+local build = require "softworld.scene.build"
+local bendrule = require "softworld.wire.bendrule"
+local checks = require "softworld.checks"
+local core = require "softworld.core"
+local judge = require "softworld.check.judge"
+local limits = require "softworld.check.limits"
+local own = require "softworld.check.own"
+local registry = require "softworld.check.registry"
+local rows = require "softworld.rows"
+local sealed = require "softworld.sealed"
+local stages = require "softworld.run.stages"
+local unread = require "softworld.unread"
+local writing = require "softworld.check.writing"
+
+local check = {}
+
+local landing = rows.list{
+  { "path", "list", "m", "points {x, y, z} of the wanted path", required = true },
+  { "wire", "text", "-", "name of the wire that is to lie there", usual = "every wire" },
+  { "from", "number", "m", "arc length from which it is to lie there", min = 0, usual = 0 },
+  { "to", "number", "m", "arc length up to which", min = 0, usual = "its end" },
+}
+
+local fatigue = rows.list{
+  { "curve", "list", "N", "points { range of tension, cycles endured }, ranges rising", required = true },
+  { "repeats", "number", "-", "how often the run is gone through", min = 0, above = true, default = 1 },
+}
+
+local call = rows.call("run:check", "{...}", "does the process pass? see help 'check'", {
+  gives = "a check: verdict, rows, csv, json, junit",
+  example = 'print(run:check { use = "movement", limits = { max_tension = 80 } })',
+  { "use", "choice", "-", "what bends are judged by", choices = bendrule.uses, usual = "that of the wire" },
+  { "limits", "limits", "-", "by name: a number, false or { max =, min =, source =, sure = }",
+    usual = "of the catalogue, standards and definitions" },
+  { "checks", "list", "-", "of your own: { name =, unit =, of = function(run), max =, min = }" },
+  { "landing", "table", "-", "the path on which the wire is to lie at the end", rows = landing },
+  { "fatigue", "table", "-", "the curve by which changes of tension wear the wire", rows = fatigue },
+  { "trial", "boolean", "-", "true: softworld --check does not count it", usual = "false" },
+})
+
+rows.calls{
+  { "check.verdict", nil, "of the whole: FAIL where a row fails, else OPEN where one is open, else PASS",
+    "a text" },
+  { "check.ok", nil, "is it PASS?", "true or false" },
+  { "check.reason", nil, "in one sentence", "a text" },
+  { "check.rows", nil, "name, object, what, value, unit, error, low, high, side, limit, limit_low, "
+    .. "limit_high, from, source, margin, s, time, step, verdict, note", "a list" },
+  { "check.skipped", nil, "names of checks that the script left out", "a list" },
+  { "check.name", nil, "of the scene", "a text" },
+  { "check.start", nil, "of the run", "s" },
+  { "check.time", nil, "at the end of the run", "s" },
+  { "check:row", "name", "the first row of that name, such as 'max_tension' or 'left.peak_force'", "a row",
+    example = 'print(run:check {}:row "max_tension".margin)' },
+  { "check:csv", "path", "writes the rows as CSV", "the path" },
+  { "check:json", "path", "writes the rows as JSON", "the path" },
+  { "check:junit", "path", "writes the rows as JUnit XML, for CI: FAIL is a failure, OPEN an error",
+    "the path" },
+}
+
+-- --- what is judged ------------------------------------------------------------------------------
+
+local function context_of(run, args)
+  local data = build.data(run.scene)
+  local c = { run = run, scene = run.scene, use = args.use, landing = args.landing, fatigue = args.fatigue,
+    wires = {}, grippers = {} }
+  for i, w in ipairs(data.wires) do
+    c.wires[i] = { name = w.name, object = w.object, number = i, use = core.data(w.object).use }
+  end
+  for i, g in ipairs(data.grippers) do c.grippers[i] = { name = g.name, object = g } end
+  c.objects = { wire = c.wires, gripper = c.grippers, run = { { object = run } } }
+  return c
+end
+
+-- The error bar that the run has of a quantity of this name [unit], or nil.
+local function error_bar(run, object, name)
+  local known = run.quantities or {}
+  local q = object and known[object .. "." .. name] or known[name]
+  return q and type(q.value) == "number" and q.error or nil
+end
+
+-- Widen what is known of a value by its error bar.
+local function with_error(value, bar)
+  if not bar then return value end
+  value.error = bar
+  value.low, value.high = (value.low or value.value) - bar, (value.high or value.value) + bar
+  return value
+end
+
+local function add_note(row, text)
+  if text then row.note = row.note and row.note .. "; " .. text or text end
+end
+
+-- A row without its verdict.
+local function start_row(self, name, object, label, unit, value)
+  local row = { name = object and object .. "." .. name or name, object = object, what = label, unit = unit,
+    value = value.value, error = value.error, low = value.low, high = value.high, s = value.s,
+    time = value.time, note = value.note }
+  row.step = value.time and stages.at(self.scene, value.time) or nil
+  self.rows[#self.rows + 1], self.made[name] = row, true
+  return row
+end
+
+local function close_row(row, value, limit, side, suspicious, text)
+  row.side, row.limit, row.limit_low, row.limit_high = side, limit.value, limit.low, limit.high
+  row.from, row.source = limit.from, limit.source
+  row.margin = judge.margin(value, limit, side)
+  row.verdict = judge.verdict(value, limit, side)
+  if value.value ~= value.value then
+    row.margin = nil
+    add_note(row, "the value is not a number")
+  end
+  if suspicious and row.verdict == "PASS" then row.verdict = "OPEN" end
+  if text then add_note(row, text) end
+end
+
+-- A row for each side on which the script limits it.
+local function judge_given(given, known, reference, fresh, value, unit, own_side)
+  for _, side in ipairs{ "min", "max" } do
+    local limit = given[side]
+    if limit then
+      local natural = side == own_side
+      local text, suspicious = judge.suspicion(value.value, limit, side, unit, natural and known or nil,
+        natural and reference or nil)
+      if limit.sure then text, suspicious = nil, false end
+      close_row(fresh(), value, limit, side, suspicious, text)
+    end
+  end
+end
+
+local function missing_row(row, member, entry)
+  local nan = row.value ~= row.value
+  row.verdict = nan and "FAIL" or "OPEN"
+  if nan then add_note(row, "the value is not a number") end
+  local key = entry.name and entry.name .. "." .. member.name or member.name
+  add_note(row, ("limit is missing: the catalogue has no %s here; give limits = { ['%s'] = } [%s]"):format(
+    member.missing, key, member.unit))
+end
+
+-- The limit that holds without the script's; nil and why, where the catalogue cannot say.
+local function known_limit(member, entry, context)
+  if not member.limit then return nil end
+  local fine, known = pcall(member.limit, entry, context)
+  if fine then return known end
+  if checks.is_interrupt(known) then error(known, 0) end
+  return nil, checks.shown(known)
+end
+
+-- All rows of one check on one object.
+local function judge_one(self, member, entry, context, list)
+  local given = limits.of(list, member, entry)
+  local full = entry.name and entry.name .. "." .. member.name or member.name
+  if given == false then
+    self.skipped[#self.skipped + 1] = full
+    return
+  end
+  if member.asked and not given and not (member.wanted and member.wanted(context)) then return end
+  local fine, value = pcall(member.value, entry, context)
+  if not fine then
+    if checks.is_interrupt(value) then error(value, 0) end
+    local row = start_row(self, member.name, entry.name, member.label, member.unit, {})
+    row.verdict, row.note = "FAIL", "it cannot be told: " .. checks.shown(value)
+    return
+  end
+  if not value then
+    if not (given and list[full]) then return end
+    value = { value = 0 / 0, note = "there is nothing to measure" } -- asked for by its full name
+  end
+  with_error(value, error_bar(self.run, entry.name, member.name))
+  local function fresh() return start_row(self, member.name, entry.name, member.label, member.unit, value) end
+  local known, why = known_limit(member, entry, context)
+  if given then
+    local reference = member.reference and member.reference(entry, context)
+    return judge_given(given, known, reference, fresh, value, member.unit, member.side)
+  end
+  if not known then
+    local row = fresh()
+    missing_row(row, member, entry)
+    return add_note(row, why)
+  end
+  close_row(fresh(), value, known, member.side, false)
+end
+
+local function judge_own(self, one)
+  local value, why = own.value(one, self.run)
+  if not value then
+    local row = start_row(self, one.name, nil, one.name, one.unit, {})
+    row.verdict, row.note = "FAIL", why
+    return
+  end
+  with_error(value, error_bar(self.run, nil, one.name))
+  local function fresh() return start_row(self, one.name, nil, one.name, one.unit, value) end
+  local given = {}
+  for _, side in ipairs{ "min", "max" } do
+    given[side] = one[side] and { value = one[side], from = "user", source = one.source or "the script",
+      sure = one.sure } or nil
+  end
+  if next(given) then return judge_given(given, nil, nil, fresh, value, one.unit) end
+  local row = fresh()
+  row.verdict = value.value ~= value.value and "FAIL" or "OPEN"
+  add_note(row, "limit is missing: give max or min")
+end
+
+-- A limit that nothing of the scene is judged by does not pass in silence.
+local function judge_unused(self, list)
+  for _, member in ipairs(registry.list) do
+    if list[member.name] and not self.made[member.name] then
+      local row = start_row(self, member.name, nil, member.label, member.unit, {})
+      row.verdict, row.note = "OPEN", "nothing in this run has it; limits = { " .. member.name
+        .. " = false } leaves it out"
+    end
+  end
+end
+
+-- What was taken away on the way is not judged, and that is told.
+local function judge_gone(self)
+  for _, g in ipairs(build.data(self.scene).gone or {}) do
+    if g.kind == "wire" and g.time >= self.start then
+      local row = start_row(self, "removed", g.label, "taken away on the way", "-", { time = g.time })
+      row.verdict, row.note = "OPEN", "its values went with it; check it before"
+    end
+  end
+end
+
+-- --- the whole -------------------------------------------------------------------------------------
+
+local function refuse(self, why)
+  self.rows = { { name = "run", what = "the run", unit = "-", verdict = "FAIL", note = why } }
+  self.verdict, self.reason = "FAIL", why
+end
+
+-- Why there can be no numbers, or nil.
+local function unfit(run)
+  if not run.ok then
+    return ("the run FAILED %s%s"):format(run.reason, run.advice and (" (%s)"):format(run.advice) or "")
+  end
+  local cut = sealed.fields(run).cut
+  return cut and ("the run was cut short: %s%s"):format(run.reason,
+    cut == "unfinished" and ", and a process has not ended" or "") or nil
+end
+
+local function conclude(self)
+  local count = { PASS = 0, FAIL = 0, OPEN = 0 }
+  for _, row in ipairs(self.rows) do count[row.verdict] = count[row.verdict] + 1 end
+  self.verdict = count.FAIL > 0 and "FAIL" or (count.OPEN > 0 or #self.rows == 0) and "OPEN" or "PASS"
+  self.reason = ("%d of %d rows pass, %d fail, %d are open"):format(count.PASS, #self.rows, count.FAIL,
+    count.OPEN)
+end
+
+local function check_there(run)
+  local fields = sealed.fields(run)
+  local data = build.data(run.scene)
+  if data.restores ~= fields.restores then
+    error(("run:check: the results of the run of '%s' went when a snapshot was restored; check it before "
+      .. "that"):format(run.name), 0)
+  end
+  if fields.number ~= data.runs or run.scene.time ~= run.time then
+    error(("run:check: scene '%s' has gone on since this run, and its peaks are of that; check a run before "
+      .. "the next"):format(run.name), 0)
+  end
+end
+
+local function read_landing(args)
+  for i, point in ipairs(args.landing and args.landing.path or {}) do
+    args.landing.path[i] = checks.vector(("run:check: landing.path[%d]"):format(i), point, "m", 0)
+  end
+  local given = args.landing
+  if not given then return end
+  if #given.path == 0 then error("run:check: landing.path has no points", 0) end
+  if given.from and given.to and given.from > given.to then
+    error(("run:check: landing: from = %g m is beyond to = %g m"):format(given.from, given.to), 0)
+  end
+end
+
+-- Ranges rise and cycles fall along the curve.
+local function read_curve(given)
+  local copy = {}
+  for i, point in ipairs(given.curve) do
+    local what = ("run:check: fatigue.curve[%d]"):format(i)
+    if type(point) ~= "table" then
+      error(("%s must be { range [N], cycles }, got %s"):format(what, checks.got(point)), 0)
+    end
+    copy[i] = { checks.number(what .. "[1]", point[1], 0, " N", 0, nil, true),
+      checks.number(what .. "[2]", point[2], 0, "", 0, nil, true) }
+    local before = copy[i - 1]
+    if before and not (copy[i][1] > before[1] and copy[i][2] < before[2]) then
+      error(("%s: a larger range is wanted than before, endured for fewer cycles"):format(what), 0)
+    end
+  end
+  if #copy < 2 then error("run:check: fatigue.curve has fewer than 2 points { range [N], cycles }", 0) end
+  given.curve = copy
+end
+
+local function read(run, args)
+  args = call:read(args == nil and {} or args)
+  if args.landing then args.landing.path = table.move(args.landing.path, 1, #args.landing.path, 1, {}) end
+  read_landing(args)
+  if args.fatigue then read_curve(args.fatigue) end
+  local context = context_of(run, args)
+  local wire = args.landing and args.landing.wire
+  if wire then
+    local names = {}
+    for _, w in ipairs(context.wires) do names[w.name] = true end
+    checks.word("run:check: landing.wire", wire, names, 0)
+  end
+  return args, context
+end
+
+local function make(run, args)
+  if not run.ok then args = call:read(args == nil and {} or args) end
+  local self = { run = run, scene = run.scene, name = run.name, start = run.start, time = run.time, rows = {},
+    skipped = {}, made = {}, trial = type(args) == "table" and args.trial }
+  local why = unfit(run)
+  if why then
+    refuse(self, why)
+    return self
+  end
+  check_there(run)
+  local context
+  args, context = read(run, args)
+  local list = limits.read(args.limits, context)
+  local own_list = own.read(args.checks, registry.by_name)
+  for _, member in ipairs(registry.list) do
+    for _, entry in ipairs(context.objects[member.on]) do judge_one(self, member, entry, context, list) end
+  end
+  judge_unused(self, list)
+  judge_gone(self)
+  if #context.wires == 0 and #own_list == 0 then
+    local row = start_row(self, "wires", nil, "there is no wire", "-", {})
+    row.verdict, row.note = "OPEN", "nothing of the scene is judged: it has no wire; give checks of your own"
+  end
+  for _, one in ipairs(own_list) do
+    judge_own(self, one)
+    check_there(run)
+  end
+  self.use = args.use
+  conclude(self)
+  return self
+end
+
+--- run:check{ use =, limits =, checks =, landing =, trial = }: see help "run:check".
+function check.check(run, args)
+  local self = build.call(3, make, run, args)
+  if not self.trial then unread.judged(self.verdict) end
+  self.run, self.scene, self.made, self.ok = nil, nil, nil, self.verdict == "PASS"
+  return writing.new(self)
+end
+
+return check

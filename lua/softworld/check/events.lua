@@ -1,0 +1,19 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Events of a run of some kinds, counted.
+-- @module softworld.check.events
+local checks = require "softworld.checks"
+
+--- A function that counts events of these kinds (a text of words), with place and time of the first.
+return function(kinds)
+  local wanted = checks.set(kinds)
+  return function(_, context)
+    local v = { value = 0 }
+    for _, e in ipairs(context.run.events) do
+      if wanted[e.kind] then
+        v.value = v.value + 1
+        if v.value == 1 then v.s, v.time, v.note = e.s, e.first or e.time, e.text end
+      end
+    end
+    return v
+  end
+end

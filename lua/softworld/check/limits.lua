@@ -1,0 +1,102 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Limits that a script gives: limits = { max_tension = 80, ["left.peak_force"] = { max = 20,
+-- source = "sheet" }, max_strain = false }. A number is a limit on the check's own side.
+-- @module softworld.check.limits
+local core = require "softworld.core"
+local checks = require "softworld.checks"
+local registry = require "softworld.check.registry"
+local rows = require "softworld.rows"
+
+local limits = {}
+
+limits.rows = rows.list{
+  { "max", "number", "its own", "the value must not be above it" },
+  { "min", "number", "its own", "the value must not be below it" },
+  { "source", "text", "-", "where it is from", usual = "the script" },
+  { "sure", "boolean", "-", "true: it is meant, however far from what is usual", usual = "false" },
+}
+
+-- Every name that a limit may have, those without an object first.
+local function names_of(context)
+  local names, known = {}, {}
+  for _, member in ipairs(registry.list) do names[#names + 1] = member.name end
+  for _, member in ipairs(registry.list) do
+    for _, entry in ipairs(member.on ~= "run" and context.objects[member.on] or {}) do
+      names[#names + 1] = entry.name .. "." .. member.name
+    end
+  end
+  for _, name in ipairs(names) do known[name] = true end
+  return names, known
+end
+
+local function finite(what, value)
+  if value - value ~= 0 then
+    error(("%s = %s is not allowed; it must be a finite number"):format(what, checks.got(value)), 0)
+  end
+end
+
+--- Raise where a table of min and max contradicts itself, or has what is no limit.
+function limits.consistent(what, given)
+  for _, side in ipairs{ "min", "max" } do
+    if given[side] then finite(("%s: %s"):format(what, side), given[side]) end
+  end
+  if given.min and given.max and given.min > given.max then
+    error(("%s: min = %g is above max = %g: no value is between"):format(what, given.min, given.max), 0)
+  end
+end
+
+local function read(name, given)
+  local what = ("run:check: limits['%s']"):format(name)
+  if given == false then return false end
+  if type(given) == "number" then
+    finite(what, given)
+    return { value = given }
+  end
+  if type(given) ~= "table" then
+    error(("%s must be a number, false (it is left out) or { max =, min =, source =, sure = }, got %s")
+      :format(what, checks.got(given)), 0)
+  end
+  local own = limits.rows:read(given, what)
+  if not (own.max or own.min) then error(what .. ": neither max nor min is given", 0) end
+  limits.consistent(what, own)
+  return own
+end
+
+--- The checked table: name -> false or { value = } or { max =, min =, source =, sure = }.
+function limits.read(given, context)
+  if given == nil then return {} end
+  if checks.kind(given) ~= "table" then
+    error("run:check: limits must be a table such as { max_tension = 80 }, got " .. checks.got(given), 0)
+  end
+  local names, known = names_of(context)
+  local list = {}
+  for name, value in pairs(given) do
+    if not known[name] then
+      local near = type(name) == "string" and core.nearest(name, names)
+      error(("run:check: limits: there is no check '%s'; %s"):format(checks.shown(name), near
+        and ("did you mean '%s'?"):format(near) or "known are: " .. table.concat(names, " ")), 0)
+    end
+    list[name] = read(name, value)
+  end
+  return list
+end
+
+--- The limits of one check of one object, by side: { max = { value, from, source, sure }, min = }, false
+-- where it is left out, nil where the script has none.
+function limits.of(list, member, entry)
+  local given = entry.name and list[entry.name .. "." .. member.name]
+  if given == nil then given = list[member.name] end
+  if not given then return given end
+  local found = {}
+  local function add(side, value)
+    if value then
+      found[side] = { value = value, from = "user", source = given.source or "the script", sure = given.sure }
+    end
+  end
+  add("max", given.max)
+  add("min", given.min)
+  add(member.side, given.value)
+  return found
+end
+
+return limits

@@ -1,0 +1,64 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Checks of the script's own: checks = { { name =, unit =, of = function(run), max =, min = } }.
+-- @module softworld.check.own
+local checks = require "softworld.checks"
+local limits = require "softworld.check.limits"
+local rows = require "softworld.rows"
+
+local own = {}
+
+own.rows = rows.list{
+  { "name", "text", "-", "of its row", required = true },
+  { "unit", "text", "-", "of its value, '-' for none", required = true },
+  { "of", "function", "-", "of the run: gives the value, and if it likes place [m] and time [s]",
+    required = true },
+  { "max", "number", "its own", "the value must not be above it" },
+  { "min", "number", "its own", "the value must not be below it" },
+  { "source", "text", "-", "where the limit is from", usual = "the script" },
+  { "sure", "boolean", "-", "true: the limit is meant, however far from the value", usual = "false" },
+}
+
+local function check_list(given)
+  if checks.kind(given) ~= "table" then
+    error("run:check: checks must be a list of tables { name =, unit =, of =, max = }, got "
+      .. checks.got(given), 0)
+  end
+  for key in pairs(given) do
+    if math.type(key) ~= "integer" or key < 1 or key > #given then
+      error(("run:check: checks is a list of tables, and has the key '%s'"):format(checks.shown(key)), 0)
+    end
+  end
+end
+
+--- The checked list of them. taken: names that others have.
+function own.read(given, taken)
+  local list, seen = {}, {}
+  if given == nil then return list end
+  check_list(given)
+  for i, one in ipairs(given) do
+    local what = ("run:check: checks[%d]"):format(i)
+    list[i] = own.rows:read(one, what)
+    if seen[list[i].name] or taken[list[i].name] then
+      error(("%s: there is another check '%s'"):format(what, list[i].name), 0)
+    end
+    seen[list[i].name] = true
+    limits.consistent(("%s, '%s'"):format(what, list[i].name), list[i])
+  end
+  return list
+end
+
+--- The value, or nil and why there is none.
+function own.value(one, run)
+  local fine, value, s, time = pcall(one.of, run)
+  if not fine then
+    if checks.is_interrupt(value) then error(value, 0) end
+    return nil, "its function raised: " .. checks.shown(value)
+  end
+  if type(value) ~= "number" then
+    return nil, "its function must return a number, got " .. checks.got(value)
+  end
+  return { value = value, s = type(s) == "number" and s or nil,
+    time = type(time) == "number" and time or nil }
+end
+
+return own

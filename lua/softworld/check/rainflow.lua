@@ -1,0 +1,63 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Rainflow count of a history of load, ASTM E1049-85, 5.4.4, and the damage of its cycles by Miner's sum.
+-- @module softworld.check.rainflow
+local rainflow = {}
+
+--- The reversals of a history: its first value, each where it turns, its last.
+function rainflow.reversals(history)
+  local list = {}
+  for _, x in ipairs(history) do
+    local n = #list
+    if n >= 2 and (list[n] - list[n - 1]) * (x - list[n]) >= 0 then
+      list[n] = x -- it goes on the same way
+    elseif n == 0 or x ~= list[n] then
+      list[n + 1] = x
+    end
+  end
+  return list
+end
+
+--- Cycles { range =, count = 1 or 0.5 } in the order of being counted.
+function rainflow.count(history)
+  local cycles, open = {}, {}
+  for _, x in ipairs(rainflow.reversals(history)) do
+    open[#open + 1] = x
+    while #open >= 3 do
+      local n = #open
+      local now, before = math.abs(open[n] - open[n - 1]), math.abs(open[n - 1] - open[n - 2])
+      if now < before then break end
+      if n == 3 then -- the range before holds the history's start
+        cycles[#cycles + 1] = { range = before, count = 0.5 }
+        table.remove(open, 1)
+      else
+        cycles[#cycles + 1] = { range = before, count = 1 }
+        table.remove(open, n - 1)
+        table.remove(open, n - 2)
+      end
+    end
+  end
+  for i = 2, #open do cycles[#cycles + 1] = { range = math.abs(open[i] - open[i - 1]), count = 0.5 } end
+  return cycles
+end
+
+--- Cycles that a range may be repeated for: straight lines through the curve's points { range, cycles } in
+-- logarithms, the outer ones going on; no range is endured for ever.
+function rainflow.life(curve, range)
+  local i = 1
+  while i + 2 <= #curve and range > curve[i + 1][1] do i = i + 1 end
+  local a, b = curve[i], curve[i + 1]
+  local slope = math.log(b[2] / a[2]) / math.log(b[1] / a[1])
+  return a[2] * (range / a[1]) ^ slope
+end
+
+--- Miner's sum of a history: the share of its life that it takes. Returns that and the largest range.
+function rainflow.damage(history, curve)
+  local sum, most = 0, 0
+  for _, cycle in ipairs(rainflow.count(history)) do
+    if cycle.range > 0 then sum = sum + cycle.count / rainflow.life(curve, cycle.range) end
+    most = math.max(most, cycle.range)
+  end
+  return sum, most
+end
+
+return rainflow

@@ -1,0 +1,25 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- What run:check looks at, in the order of its rows: one file per check, one line here.
+--
+-- A member: { name =, unit =, side = "min" or "max", label =, on = "wire", "gripper" or "run", asked =,
+-- missing =, value =, limit =, reference =, wanted = }. asked: only where the script gives a limit, or
+-- wanted(context) says so. missing: which value is wanted where nobody knows a limit. Functions take the
+-- object's entry { name =, object = } and the context { run =, scene =, use =, ... }:
+--   value: { value =, s = [m], time = [s], note =, low =, high = }, low and high where the value is known to
+--     lie between these; nil where there is nothing to judge
+--   limit: { value =, low =, high =, from = "catalogue", "standard" or "definition", source = }, or nil
+--   reference: what a limit of this kind is like, to tell one of other units
+-- @module softworld.check.registry
+local registry = {}
+
+local files = { "bend_radius", "tension", "strain", "stress", "sidewall", "torsion", "ovalisation", "fatigue",
+  "landing",
+  "peak_force", "peak_moment", "mean_force", "slip", "penetration", "kinks", "spoilt", "cycle_time" }
+
+registry.list, registry.by_name = {}, {}
+for i, file in ipairs(files) do
+  local member = require("softworld.check." .. file)
+  registry.list[i], registry.by_name[member.name] = member, member
+end
+
+return registry

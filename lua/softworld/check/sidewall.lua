@@ -1,0 +1,50 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Sidewall pressure of a wire that is drawn round something: tension over the radius of the bend, T/R [N/m],
+-- where it touches. Frames give the largest that is stored; the largest tension and the sharpest bend of each
+-- step, which may be at two places, are a bound for what passes between frames.
+-- @module softworld.check.sidewall
+local bendrule = require "softworld.wire.bendrule"
+local build = require "softworld.scene.build"
+local stored = require "softworld.check.stored"
+local tension = require "softworld.check.tension"
+
+-- Largest product of both over the steps of the run [N/m].
+local function bound(entry, start)
+  local rows, count = entry.object:log()
+  local most = 0
+  for i = 0, count - 1 do
+    if rows[3 * i + 1] >= start then most = math.max(most, rows[3 * i + 2] * rows[3 * i + 3]) end
+  end
+  return most
+end
+
+-- T/R at a node that touches. Chords on a round thing turn by turns too much and too little: where the next
+-- node touches too, the mean of both counts.
+local function pressure(values, k)
+  local T, bent, touches = values.tension, values.curvature, values.contact
+  if touches[k] <= 0 then return 0 end
+  local here, next_touches = T[k] * bent[k], (touches[k + 1] or 0) > 0
+  if next_touches then return (here + T[k + 1] * bent[k + 1]) / 2 end
+  return (touches[k - 1] or 0) > 0 and 0 or here
+end
+
+local function value(entry, context)
+  local best, data = { value = 0 }, build.data(context.scene)
+  local count = stored.each(context, entry, function(values, k, time, s)
+    local now = pressure(values, k)
+    if now > best.value then best = { value = now, s = s, time = time } end
+  end)
+  if best.value == 0 and #data.obstacles + #data.fixings == 0 then return nil end
+  if not stored.whole(context, count) then
+    best.low, best.high = best.value, math.max(best.value, bound(entry, context.run.start))
+    best.note = ("of %d frames; at no step above %.4g N/m"):format(count or 0, best.high)
+  end
+  return best
+end
+
+return { name = "max_sidewall", unit = "N/m", side = "max", on = "wire",
+  label = "largest sidewall pressure T/R where it touches", missing = "allowed sidewall pressure",
+  value = value,
+  reference = function(entry)
+    return tension.reference(entry) / (bendrule.table.fixed[1] * 2 * entry.object.radius)
+  end }

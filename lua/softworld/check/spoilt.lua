@@ -1,0 +1,37 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Events after which the forces of a run are wrong, or a wire is lost: crashes, holds driven against
+-- everything, sections folded through themselves, wires pulled beyond their load or out of their pads.
+-- @module softworld.check.spoilt
+local count = require "softworld.check.events"
+
+local of_run = count "crash overload breaking fold folded"
+
+local function value(_, context)
+  local v = of_run(nil, context)
+  local run = context.run
+  for _, g in ipairs(context.grippers) do
+    for _, e in ipairs(g.object.events) do
+      local inside = e.time >= run.start and e.time <= run.time
+      if inside and (e.kind == "slip" or e.kind == "lost") then
+        v.value = v.value + 1
+        if not v.time or e.time < v.time then
+          v.s, v.time, v.note = e.s, e.time, ("gripper '%s': the wire %s"):format(g.name,
+            e.kind == "lost" and "is lost" or "slips")
+        end
+      end
+    end
+  end
+  for _, w in ipairs(context.wires) do
+    local s, time = w.object:folded()
+    if s then
+      v.value = v.value + 1
+      v.note = v.note or ("wire '%s': a section has folded through itself"):format(w.name)
+      v.s, v.time = v.s or s, v.time or time
+    end
+  end
+  return v
+end
+
+return { name = "events", unit = "-", side = "max", on = "run", label = "crashes, overloads, slips, losses",
+  missing = "allowed events", value = value,
+  limit = function() return { value = 0, from = "definition", source = "forces are wrong after one" } end }

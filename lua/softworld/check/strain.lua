@@ -1,0 +1,10 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Largest strain of the outermost fibres of all steps, from tension and bending, of a solid wire.
+-- @module softworld.check.strain
+return { name = "max_strain", unit = "-", side = "max", on = "wire", asked = true,
+  label = "largest strain of the outermost fibres, of a solid wire", missing = "allowed strain",
+  value = function(entry)
+    local value, s, time = entry.object:max_strain()
+    return { value = value, s = s, time = time }
+  end,
+  reference = function() return 0.01 end }

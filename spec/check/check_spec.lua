@@ -1,0 +1,398 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- run:check: what must not pass does not, what is missing is told, wrong arguments are refused by name.
+local sw = require "softworld"
+
+-- A gripper lifts and lays the end of a wire. options: of the wire, and run's.
+local function laying(options, run_options)
+  local scene = sw.scene{ name = "lay" }
+  scene:obstacle{ name = "table", shape = "plane", friction = 0.3 }
+  local given = { name = "w", from = { 0, 0, 0.0015 }, to = { 0.3, 0, 0.0015 }, segments = 30 }
+  for key, value in pairs(options or { cable = "GXL 1.5" }) do given[key] = value end
+  local wire = scene:wire(given)
+  local left = scene:gripper{ name = "left", pads = { width = 0.02 } }
+  scene:process(function(p)
+    p:step("grasp", function() left:grasp(wire, { s = 0.02 }) end)
+    p:step("lift", function() left:move{ by = { 0.05, 0, 0.08 }, duration = 0.4 } end)
+    p:step("lay", function() left:move{ by = { 0, 0, -0.08 }, duration = 0.4 } end)
+    left:release()
+    p:wait(0.4)
+  end)
+  run_options = run_options or {}
+  run_options.dt = run_options.dt or 0.005
+  local run = scene:run(run_options)
+  return run, scene, wire, left
+end
+
+-- Limits that make all rows of a wire and a gripper pass.
+local function wide()
+  return { max_sidewall = { max = 1e9, sure = true }, peak_force = { max = 1e3, sure = true },
+    peak_moment = { max = 1e3, sure = true } }
+end
+
+local function fails(f, ...)
+  local fine, why = pcall(f)
+  assert.is_false(fine)
+  for _, words in ipairs{ ... } do assert.truthy(why:find(words, 1, true), why) end
+end
+
+describe("run:check", function()
+  local run, scene, wire
+
+  setup(function() run, scene, wire = laying() end)
+
+  it("judges by catalogue, standard and script, with place, time, step and margin", function()
+    local limits = wide()
+    limits.cycle_time = 2
+    local check = run:check{ use = "movement", limits = limits }
+    assert.equal("PASS", check.verdict, tostring(check))
+    assert.is_true(check.ok)
+    local bend = check:row "w.min_bend_radius"
+    local radius, s, time = wire:min_bend_radius()
+    assert.same({ radius - wire.radius, s, time, "standard", "m", "min" },
+      { bend.value, bend.s, bend.time, bend.from, bend.unit, bend.side })
+    assert.is_near(5 * 2 * wire.radius, bend.limit, 1e-12) -- IEC 62440: 5 D moving, below 8 mm
+    assert.is_near(4 * 2 * wire.radius, run:check{ use = "fixed" }:row "min_bend_radius".limit, 1e-12)
+    assert.equal(bend.value - bend.limit, bend.margin)
+    assert.truthy(bend.step == "lift" or bend.step == "lay", bend.step)
+    local pull, load = check:row "max_tension", wire:cable().breaking_load
+    assert.same({ "catalogue", load.value, load.low, load.high, "N" },
+      { pull.from, pull.limit, pull.limit_low, pull.limit_high, pull.unit })
+    assert.equal("user", check:row "cycle_time".from)
+    assert.equal("script", check:row "cycle_time".source:match "script")
+  end)
+
+  it("says which limit is missing, and is open then", function()
+    local check = run:check{}
+    assert.equal("OPEN", check.verdict)
+    local row = check:row "left.peak_force"
+    assert.equal("OPEN", row.verdict)
+    assert.truthy(row.note:find("limits = { ['left.peak_force'] = } [N]", 1, true), row.note)
+    assert.is_nil(row.limit)
+  end)
+
+  it("takes a limit by the object's name before one without", function()
+    local check = run:check{ limits = { peak_force = 1e-9,
+      ["left.peak_force"] = { max = 9, source = "sheet" } } }
+    local row = check:row "peak_force"
+    assert.same({ 9, "user", "sheet" }, { row.limit, row.from, row.source })
+  end)
+
+  it("leaves out what is told to be, and says so", function()
+    local limits = wide()
+    limits.peak_force, limits["left.peak_moment"] = false, false
+    local check = run:check{ limits = limits }
+    assert.same({ "left.peak_force", "left.peak_moment" }, check.skipped)
+    assert.truthy(tostring(check):find("left out by the script: left.peak_force, left.peak_moment", 1, true))
+    fails(function() check:row "peak_force" end, "there is no row 'peak_force'")
+  end)
+
+  -- The wire lies straight at the end; a check of that state, or of frames that miss the lift, would pass.
+  it("finds a bend that was there between frames and is gone after release", function()
+    local least = wire:min_bend_radius()
+    local now = wire:min_bend_radius{ now = true }
+    assert.is_true(now > 1.2 * least, now .. " " .. least)
+    local limits = { min_bend_radius = { min = (least + now) / 2 - wire.radius, sure = true } }
+    local other = laying(nil, { frame = 5 })
+    assert.is_true(other.scene:frame_count() <= 2)
+    for _, r in ipairs{ run, other } do
+      assert.equal("FAIL", r:check{ limits = limits }:row "min_bend_radius".verdict)
+    end
+  end)
+
+  it("is open where frames leave the sidewall pressure between limits", function()
+    local row = run:check{ limits = { max_sidewall = 1 } }:row "max_sidewall"
+    assert.is_true(row.high > row.low)
+    local between = { max = (row.low + row.high) / 2, sure = true }
+    assert.equal("OPEN", run:check{ limits = { max_sidewall = between } }:row "max_sidewall".verdict)
+    assert.equal("PASS", run:check{ limits = { max_sidewall = { max = row.high, sure = true } } }
+      :row "max_sidewall".verdict)
+    local torsion = run:check{ limits = { max_torsion = 10 } }:row "max_torsion"
+    assert.equal("OPEN", torsion.verdict, "the steps between frames are not known")
+    local life = { curve = { { 1, 1e9 }, { 10, 1e3 } } }
+    assert.equal("OPEN", run:check{ fatigue = life }:row "fatigue".verdict)
+    assert.equal("FAIL", run:check{ limits = { fatigue = 1 } }:row "fatigue".verdict, "without a curve")
+  end)
+
+  it("is open where a limit is of nothing in the run", function()
+    for name, limit in pairs{ peak_margin = 0.5, max_ovalisation = 0.1 } do -- no pads squeeze, no mesh
+      local row = run:check{ limits = { [name] = limit } }:row(name)
+      assert.equal("OPEN", row.verdict)
+      assert.truthy(row.note:find("nothing in this run has it", 1, true), row.note)
+    end
+    local row = run:check{ limits = { ["left.peak_margin"] = 0.5 } }:row "left.peak_margin"
+    assert.equal("FAIL", row.verdict, "asked for by name")
+  end)
+
+  it("takes a value that is exactly the limit as met", function()
+    local limits = wide()
+    for _, side in ipairs{ "max", "min" } do
+      limits.max_tension = { [side] = (wire:max_tension()), sure = true }
+      local row = run:check{ limits = limits }:row "max_tension"
+      assert.same({ "PASS", 0 }, { row.verdict, row.margin })
+    end
+  end)
+
+  it("does not pass a limit that is 1000 times off, and tells it", function()
+    local row = run:check{ limits = { max_tension = 80e3 } }:row "max_tension"
+    assert.equal("OPEN", row.verdict)
+    assert.truthy(row.note:find("298 times the catalogue's, 268.5 N; is its unit right (N)?", 1, true),
+      row.note)
+    row = run:check{ limits = { min_bend_radius = 30 } }:row "min_bend_radius"
+    assert.equal("FAIL", row.verdict)
+    assert.truthy(row.note:find("is its unit right (m)?", 1, true), row.note)
+    row = run:check{ limits = { max_tension = { max = 80e3, sure = true } } }:row "max_tension"
+    assert.equal("PASS", row.verdict)
+  end)
+
+  it("has checks of one's own, whose errors and NaN fail", function()
+    local list = {
+      { name = "good", unit = "m", of = function(r) return r.time, 0.1, 0.6 end, max = 10 },
+      { name = "raises", unit = "N", of = function() error "no such thing" end, max = 1 },
+      { name = "nan", unit = "N", of = function() return 0 / 0 end, max = 1 },
+      { name = "nan alone", unit = "N", of = function() return 0 / 0 end },
+      { name = "text", unit = "N", of = function() return "3" end, max = 4 },
+      { name = "table", unit = "N", of = function() return {} end, max = 4 },
+      { name = "without", unit = "N", of = function() return 3 end },
+      { name = "both", unit = "N", of = function() return 3 end, min = 1, max = 2 },
+    }
+    local check = run:check{ checks = list }
+    local verdicts = {}
+    for _, one in ipairs(list) do verdicts[#verdicts + 1] = check:row(one.name).verdict end
+    assert.same({ "PASS", "FAIL", "FAIL", "FAIL", "FAIL", "FAIL", "OPEN", "PASS" }, verdicts) -- both: its min
+    assert.equal("FAIL", check.verdict)
+    assert.truthy(check:row "raises".note:find("no such thing", 1, true))
+    assert.truthy(check:row "text".note:find("must return a number, got '3'", 1, true))
+    assert.same({ 0.1, 0.6, "lay" }, { check:row "good".s, check:row "good".time, check:row "good".step })
+    local both = {}
+    for _, row in ipairs(check.rows) do if row.name == "both" then both[row.side] = row.verdict end end
+    assert.same({ min = "PASS", max = "FAIL" }, both)
+    assert.is_nil(check:row "nan".margin)
+  end)
+
+  it("refuses what is wrong by name", function()
+    fails(function() run:check{ limit = {} } end, "there is no parameter 'limit'; did you mean 'limits'?")
+    fails(function() run:check{ use = "moving" } end, "run:check: use = 'moving'", "movement")
+    fails(function() run:check{ limits = 3 } end, "limits must be")
+    fails(function() run:check{ limits = { max_tensoin = 3 } } end, "did you mean 'max_tension'?")
+    fails(function() run:check{ limits = { ["rigth.peak_force"] = 3 } } end,
+      "there is no check 'rigth.peak_force'")
+    fails(function() run:check{ limits = { max_tension = 0 / 0 } } end,
+      "limits['max_tension'] = ", "nan is not allowed")
+    for _, value in ipairs{ math.huge, -math.huge } do
+      fails(function() run:check{ limits = { max_tension = value } } end, "it must be a finite number")
+      fails(function() run:check{ limits = { max_tension = { min = value } } } end, "limits['max_tension']")
+      fails(function() run:check{ checks = { { name = "x", unit = "m", of = print, min = value } } } end,
+        "checks[1]")
+    end
+    fails(function() run:check{ limits = { max_tension = "80 N" } } end, "must be a number, false", "'80 N'")
+    fails(function() run:check{ limits = { max_tension = {} } } end, "neither max nor min is given")
+    fails(function() run:check{ limits = { max_tension = { max = 1, min = 2 } } } end,
+      "min = 2 is above max = 1: no value is between")
+    fails(function() run:check{ limits = { max_tension = { mx = 1 } } } end, "did you mean 'max'?")
+    local one = { name = "x", unit = "m", of = function() return 1 end, max = 1, min = 2 }
+    fails(function() run:check{ checks = { one } } end, "checks[1], 'x': min = 2 is above max = 1")
+    fails(function() run:check{ checks = one } end, "checks is a list of tables")
+    fails(function() run:check{ checks = { { name = "x", unit = "m" } } } end, "checks[1]: of is required")
+    one.min = nil
+    fails(function() run:check{ checks = { one, one } } end, "there is another check 'x'")
+    one.name = "max_tension"
+    fails(function() run:check{ checks = { one } } end, "there is another check 'max_tension'")
+    fails(function() run:check{ landing = { path = {} } } end, "landing.path has no points")
+    fails(function() run:check{ landing = { path = { { 0, 0 } } } } end, "landing.path[1]")
+    fails(function() run:check{ landing = { path = { { 0, 0, 0 } }, wire = "v" } } end, "landing.wire = 'v'")
+    for words, curve in pairs{ ["fewer than 2 points"] = { { 1, 2 } }, ["curve[2]: a larger range"] =
+      { { 1, 2 }, { 2, 2 } }, ["curve[1][1] = 0 N"] = { { 0, 1 }, { 1, 2 } },
+      ["curve[1] must be"] = { 1, 2 } } do
+      fails(function() run:check{ fatigue = { curve = curve } } end, words)
+    end
+    fails(function() run.check {} end, "run:check")
+    local check = run:check{}
+    fails(function() check.verdict = "PASS" end, "can only be read")
+    fails(function() return check.verdcit end, "did you mean 'verdict'?")
+    fails(function() check:csv() end, "check:csv expects the name of a .csv file, got nil")
+    fails(function() check.json "x" end, "check:json is a method: call it with a colon")
+  end)
+
+  it("is refused when a check of one's own lets the scene go on", function()
+    local other, its_scene = laying()
+    fails(function()
+      other:check{ checks = { { name = "x", unit = "m", max = 1, of = function()
+        return its_scene:run{ duration = 0.01, dt = 0.005 }.time
+      end } } }
+    end, "has gone on since this run")
+  end)
+
+  it("is open where the cable has no limit for the use", function()
+    local own = sw.cable.define{ name = "only fixed", outer_diameter = 0.003, mass_per_length = 0.02,
+      EA = 1e4, EI = 1e-3, GJ = 1e-3, friction = 0.3, temperature = { low = -20, high = 80 },
+      bend = { fixed = 4 }, flag = "guessed", source = "this spec", spread = 0.1 }
+    local other = laying{ cable = own }
+    local row = other:check{}:row "min_bend_radius"
+    assert.same({ "catalogue", 4 * 0.003 }, { row.from, row.limit })
+    row = other:check{ use = "movement" }:row "min_bend_radius"
+    assert.equal("OPEN", row.verdict)
+    assert.truthy(row.note:find("no bend limit for the use 'movement'", 1, true), row.note)
+  end)
+
+  it("is open where there is no wire to judge", function()
+    local loose = sw.scene{}
+    loose:particles{ positions = { { 0, 0, 0 }, { 0.1, 0, 0 } }, masses = 0.1, radius = 0.01 }
+    local check = loose:run{ duration = 0.01, dt = 0.005 }:check{}
+    assert.same({ "OPEN", "OPEN" }, { check.verdict, check:row "wires".verdict })
+  end)
+
+  it("needs the wanted path for a landing error", function()
+    local row = run:check{ limits = { landing_error = 0.01 } }:row "landing_error"
+    assert.equal("FAIL", row.verdict)
+    assert.truthy(row.note:find("the wanted path is missing", 1, true), row.note)
+    row = run:check{ landing = { path = { { 0, 0, 0.0015 }, { 1, 0, 0.0015 } } } }:row "landing_error"
+    assert.equal("OPEN", row.verdict)
+    local beyond = { path = { { 0, 0, 0.0015 }, { 1, 0, 0.0015 } }, from = 5 }
+    row = run:check{ limits = { landing_error = 1 }, landing = beyond }:row "landing_error"
+    assert.equal("FAIL", row.verdict, "nothing of the wire is there")
+    beyond.to = 1
+    fails(function() run:check{ landing = beyond } end, "landing: from = 5 m is beyond to = 1 m")
+  end)
+
+  it("fails at slips, losses and crashes, whose first it tells", function()
+    scene:tell{ kind = "crash", object = "left", value = 0.003, text = "left runs into the table" }
+    -- told after the run's end: of the next run
+    local again = scene:run{ duration = 0.01, dt = 0.005 }
+    assert.equal("PASS", again:check{}:row "events".verdict)
+    local crash = sw.scene{ name = "crash" }
+    crash:obstacle{ name = "table", shape = "plane" }
+    local w = crash:wire{ cable = "GXL 1.5", from = { 0, 0, 0.05 }, to = { 0.2, 0, 0.05 } }
+    local hand = crash:gripper{ name = "hand" }
+    crash:process(function()
+      hand:grasp(w, { s = 0.1 })
+      hand:move{ by = { 0, 0, -0.055 }, duration = 0.3 }
+    end)
+    local row = crash:run{ dt = 0.005 }:check{}:row "events"
+    assert.equal("FAIL", row.verdict)
+    assert.is_true(row.value >= 1 and row.time > 0)
+    assert.truthy(row.note:find("table", 1, true), row.note)
+  end)
+end)
+
+describe("run:check of a wire without an entry of the catalogue", function()
+  it("is open, and names what is missing", function()
+    local run = laying{ EA = 1e4, EI = 1e-3, mass_per_length = 0.02, radius = 0.0015 }
+    local check = run:check{ limits = wide() }
+    assert.equal("OPEN", check.verdict)
+    for name, words in pairs{ min_bend_radius = "its wire has no entry of the catalogue",
+      max_tension = "the catalogue has no breaking_load here" } do
+      assert.equal("OPEN", check:row(name).verdict)
+      assert.truthy(check:row(name).note:find(words, 1, true), check:row(name).note)
+    end
+  end)
+
+  it("goes by the load that the wire was given", function()
+    local run = laying{ EA = 1e4, EI = 1e-3, mass_per_length = 0.02, radius = 0.0015, breaking_load = 1e-6,
+      breaking_flag = "measured" }
+    local row = run:check{}:row "max_tension"
+    assert.same({ "FAIL", "user", "breaking load of the wire, measured" },
+      { row.verdict, row.from, row.source })
+  end)
+end)
+
+describe("run:check of a run that is not whole", function()
+  local function refused(run, words)
+    local check = run:check{ limits = { cycle_time = 100 } }
+    assert.same({ "FAIL", 1, false }, { check.verdict, #check.rows, check.ok })
+    assert.truthy(check.reason:find(words, 1, true), check.reason)
+    for _, key in ipairs{ "value", "limit", "margin", "error" } do assert.is_nil(check.rows[1][key]) end
+    assert.truthy(tostring(check):find(words, 1, true))
+  end
+
+  it("fails with its reason and no numbers: too few steps", function()
+    refused(laying(nil, { max_steps = 20 }), "the run was cut short: the allowed number of steps was used")
+  end)
+
+  it("fails: its time was over before the process", function()
+    refused(laying(nil, { duration = 0.3 }),
+      "the run was cut short: 0.3 s have passed, and a process has not ended")
+  end)
+
+  it("fails: stopped by an observer", function()
+    local scene = sw.scene{}
+    scene:wire{ cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
+    scene:observe{ every = 0.05, call = function(o) if o.calls > 1 then o:stop "enough" end end }
+    refused(scene:run{ duration = 1, dt = 0.01 }, "the run was cut short: enough")
+  end)
+
+  it("fails: it diverged", function()
+    local scene = sw.scene{ name = "wild" }
+    local wire = scene:wire{ E = 5e6, density = 1500, radius = 0.0025, segments = 20, from = { 0, 0, 0.1 },
+      to = { 0.5, 0, 0.1 } }
+    scene:clamp(wire, { s = 0 })
+    refused(scene:run{ duration = 1, dt = 1.2 * scene:stable_dt(), integrator = "velocity-verlet",
+      unstable = true }, "the run FAILED")
+  end)
+
+  it("fails: its error bars were refused", function()
+    local scene = sw.scene{ name = "bars" }
+    local wire = scene:wire{ E = 5e6, density = 1500, radius = 0.0025, segments = 20, from = { 0, 0, 0.1 },
+      to = { 0.5, 0, 0.1 } }
+    scene:clamp(wire, { s = 0 })
+    refused(scene:run{ duration = 0.3, dt = 0.01, integrator = "velocity-verlet", unstable = true,
+      tolerance = { tip = 1e-3 } }, "the run FAILED")
+  end)
+
+  it("is refused once the scene has gone on, or was restored", function()
+    local run, scene = laying()
+    local snapshot = scene:snapshot()
+    scene:run{ duration = 0.01, dt = 0.005 }
+    fails(function() run:check{} end, "has gone on since this run")
+    scene:restore(snapshot)
+    fails(function() run:check{} end, "when a snapshot was restored")
+  end)
+
+  it("is open where a wire was taken away", function()
+    local scene = sw.scene{}
+    local wires = {}
+    for k = 1, 2 do
+      wires[k] = scene:wire{ name = "w" .. k, cable = "GXL 1.5", from = { 0, k, 0 }, to = { 0.2, k, 0 } }
+    end
+    scene:process(function(p)
+      p:wait(0.02)
+      scene:remove(wires[1])
+      p:wait(0.02)
+    end)
+    local check = scene:run{ dt = 0.01 }:check{}
+    assert.equal("OPEN", check:row "w1.removed".verdict)
+    assert.equal("w2", check:row "max_tension".object)
+  end)
+end)
+
+describe("error bars of a run", function()
+  it("make rows that they cover open", function()
+    local function run_of()
+      local scene = sw.scene{ gravity = { 0, 0, -9.81 } }
+      local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 },
+        segments = 16 }
+      scene:clamp(wire, { s = 0 })
+      return scene:run{ duration = 0.05, dt = 0.005,
+        tolerance = { ["w.min_bend_radius"] = 0.5, own = nil, { name = "own", value = 1, unit = "m",
+          of = function() return wire:position(0.2)[3] end } } }, wire
+    end
+    local run, wire = run_of()
+    assert(run.ok, run.reason)
+    local bar = run.quantities["w.min_bend_radius"].error
+    assert.is_true(bar > 0)
+    local inside = wire:min_bend_radius() - wire.radius
+    local function verdict(limit)
+      local check = run:check{ limits = { min_bend_radius = { min = limit, sure = true } } }
+      local row = check:row "min_bend_radius"
+      assert.equal(bar, row.error)
+      return row.verdict
+    end
+    assert.equal("OPEN", verdict(inside))
+    assert.equal("OPEN", verdict(inside - 0.5 * bar))
+    assert.equal("PASS", verdict(inside - 1.01 * bar))
+    assert.equal("FAIL", verdict(inside + 1.01 * bar))
+    local own = run:check{ checks = { { name = "own", unit = "m", max = 1, of = function()
+      return wire:position(0.2)[3]
+    end } } }:row "own"
+    assert.equal(run.quantities.own.error, own.error)
+  end)
+end)

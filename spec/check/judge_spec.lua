@@ -1,0 +1,70 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Verdicts of run:check by hand: value and limit are known between low and high; a limit that is met exactly
+-- is met.
+local judge = require "softworld.check.judge"
+
+local nan = 0 / 0
+
+-- side, value {low, value, high}, limit {low, value, high}, verdict.
+local cases = {
+  { "max", { 1, 1, 1 }, { 2, 2, 2 }, "PASS" },
+  { "max", { 2, 2, 2 }, { 2, 2, 2 }, "PASS" }, -- exactly
+  { "max", { 2.1, 2.1, 2.1 }, { 2, 2, 2 }, "FAIL" },
+  { "max", { 1.8, 1.9, 2 }, { 2, 2, 2 }, "PASS" }, -- the bar ends at it
+  { "max", { 1.8, 1.9, 2.1 }, { 2, 2, 2 }, "OPEN" }, -- the bar covers it
+  { "max", { 1.9, 2.1, 2.3 }, { 2, 2, 2 }, "OPEN" },
+  { "max", { 2.1, 2.2, 2.3 }, { 2, 2, 2 }, "FAIL" },
+  { "max", { 1, 1, 1 }, { 1.5, 2, 3 }, "PASS" }, -- below all that the data may be
+  { "max", { 1.7, 1.7, 1.7 }, { 1.5, 2, 3 }, "OPEN" },
+  { "max", { 4, 4, 4 }, { 1.5, 2, 3 }, "FAIL" },
+  { "min", { 2, 2, 2 }, { 2, 2, 2 }, "PASS" },
+  { "min", { 1.9, 1.9, 1.9 }, { 2, 2, 2 }, "FAIL" },
+  { "min", { 1.9, 2.1, 2.3 }, { 2, 2, 2 }, "OPEN" },
+  { "min", { 2.5, 2.5, 2.5 }, { 1.5, 2, 3 }, "OPEN" },
+  { "min", { 3, 3, 3 }, { 1.5, 2, 3 }, "PASS" },
+  { "min", { math.huge, math.huge, math.huge }, { 2, 2, 2 }, "PASS" }, -- straight
+  { "max", { 1, 1, math.huge }, { 2, 2, 2 }, "OPEN" }, -- who knows
+  { "max", { nan, nan, nan }, { 2, 2, 2 }, "FAIL" },
+  { "min", { nan, nan, nan }, { 2, 2, 2 }, "FAIL" },
+  { "max", { 1, 1, nan }, { 2, 2, 2 }, "FAIL" },
+}
+
+local function range(x) return { low = x[1], value = x[2], high = x[3] } end
+
+describe("a verdict", function()
+  for i, case in ipairs(cases) do
+    it(("number %d is %s"):format(i, case[4]), function()
+      assert.equal(case[4], judge.verdict(range(case[2]), range(case[3]), case[1]))
+    end)
+  end
+
+  it("has a margin that is above 0 where the limit is kept", function()
+    assert.equal(0.5, judge.margin({ value = 1.5 }, { value = 2 }, "max"))
+    assert.equal(-0.5, judge.margin({ value = 1.5 }, { value = 2 }, "min"))
+    assert.equal(0, judge.margin({ value = 2 }, { value = 2 }, "min"))
+  end)
+end)
+
+describe("a limit that is hardly meant", function()
+  -- value, limit, side, known, reference -> told?, kept from passing?
+  for i, case in ipairs{
+    { 50, 80, "max", nil, 100, false },
+    { 50, 80e3, "max", { value = 268, from = "catalogue" }, nil, true, true }, -- mN for N
+    { 50, 0.08, "max", { value = 268, from = "catalogue" }, nil, true, false }, -- fails as it is
+    { 0.04, 30, "min", { value = 0.0135, from = "standard" }, nil, true, false }, -- mm for m: fails
+    { 0.04, 0.000030, "min", { value = 0.0135, from = "standard" }, nil, true, true },
+    { 0.01, 20, "max", nil, nil, true, true }, -- nothing is known but the value
+    { 0.01, 2, "max", nil, nil, false },
+    { 0, 2, "max", nil, nil, false },
+    { 50, 400, "max", { value = 268, from = "catalogue" }, nil, true, false }, -- laxer, told
+    { 0.04, 0, "min", { value = 0.0135, from = "standard" }, nil, true, true }, -- lets everything pass
+    { 0.04, -0.03, "min", nil, 0.01, true, true },
+    { 0.3, 0.8, "max", { value = 1, from = "definition" }, 1, false },
+  } do
+    it("is told, number " .. i, function()
+      local text, suspicious = judge.suspicion(case[1], { value = case[2] }, case[3], "N", case[4], case[5])
+      assert.equal(case[6], text ~= nil, text)
+      if case[6] then assert.equal(case[7], suspicious, text) end
+    end)
+  end
+end)

@@ -1,0 +1,166 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Every check of run:check: its value is that of a formula, within the share said beside it.
+local sw = require "softworld"
+local registry = require "softworld.check.registry"
+
+local g, R, RADIUS = 9.81, 0.05, 0.0015
+
+local function still(options)
+  local scene = sw.scene{ gravity = { 0, 0, 0 } }
+  for key, value in pairs{ name = "w", EA = 1e4, EI = 1e-3, GJ = 1e-3, mass_per_length = 0.02,
+    radius = RADIUS, segments = 20 } do
+    if options[key] == nil then options[key] = value end
+  end
+  if not options.path then options.from, options.to = { 0, 0, 0 }, { 0.3, 0, 0 } end
+  return scene, scene:wire(options)
+end
+
+-- A piece of a circle that is free of load in that shape.
+local function arc()
+  local path = {}
+  for i = 0, 40 do path[i + 1] = { R * math.sin(i / 20), 0, R * (1 - math.cos(i / 20)) } end
+  local scene = still{ path = path, rest = "path", segments = 40 }
+  return scene:run{ duration = 0.02, dt = 0.01 }
+end
+
+-- Pulled by 1 % in a second, held then.
+local function pulled()
+  local scene, wire = still{}
+  scene:clamp(wire, { s = 0 })
+  scene:clamp(wire, { s = 0.3 }):follow{ points = { { 0, 0, 0 }, { 3e-3, 0, 0 } }, relative = true,
+    duration = 1, law = "linear" }
+  return scene:run{ duration = 1.2, dt = 0.01, frame = 0.01 }
+end
+
+-- Twisted by 1 rad over its length, frames of every step.
+local function twisted()
+  local scene, wire = still{}
+  scene:clamp(wire, { s = 0 })
+  scene:clamp(wire, { s = 0.3 }):follow{ points = { { 0, 0, 0 }, { 0, 0, 0 } },
+    turn = { axis = { 1, 0, 0 }, angle = 1 }, relative = true, duration = 1, law = "linear" }
+  return scene:run{ duration = 1, dt = 0.02, frame = 0.02 }
+end
+
+-- Drawn over a cylinder by its end, frames of every step: T_in exp(mu angle) where it leaves.
+local function capstan()
+  local Rw, mu, path = R + RADIUS, 0.3, {}
+  for i = 10, 1, -1 do path[#path + 1] = { -Rw, 0, -0.01 * i } end
+  for i = 0, 100 do
+    local a = math.pi * i / 100
+    path[#path + 1] = { -Rw * math.cos(a), 0, Rw * math.sin(a) }
+  end
+  for i = 1, 10 do path[#path + 1] = { Rw, 0, -0.01 * i } end
+  local scene, wire = still{ path = path, EI = 1e-9, mass_per_length = 0.1, model = "string", segments = 240 }
+  scene:obstacle{ shape = "cylinder", radius = R, length = 1, friction = mu,
+    rotation = { axis = { 1, 0, 0 }, angle = math.pi / 2 } }
+  scene:force{ kind = "point", on = wire, s = 0, force = { 0, 0, -1 } }
+  scene:force{ kind = "damping", mass = 20, on = wire }
+  local pin = scene:pin(wire, { s = wire.length })
+  scene:run{ duration = 0.2, dt = 0.002 }
+  pin:follow{ points = { { 0, 0, 0 }, { 0, 0, -0.02 } }, relative = true, speed = 0.02, law = "linear" }
+  scene:run{ duration = 0.6, dt = 0.002 }
+  return scene:run{ duration = 0.2, dt = 0.002, frame = 0.002 }, math.exp(mu * math.pi) / Rw
+end
+
+-- A gripper holds a stiff wire still, by its middle or at s: its weight.
+local function held(s)
+  local scene = sw.scene{}
+  local wire = scene:wire{ name = "w", EA = 1e5, EI = 10, mass_per_length = 0.02, radius = RADIUS,
+    segments = 20, from = { -0.05, 0, 0.2 }, to = { 0.05, 0, 0.2 } }
+  scene:force{ kind = "damping", mass = 20, on = wire }
+  local hand = scene:gripper{ name = "hand", at = { 0, 0, 0.2 }, pads = { width = 0.02, friction = 0.5 } }
+  scene:process(function(p)
+    hand:grasp(wire, { s = s or 0.05 })
+    p:wait(0.4)
+  end)
+  return scene:run{ dt = 0.005 }
+end
+
+-- Pads have lifted a stiff wire from a table and hold it still.
+local function lifted(force)
+  local scene = sw.scene{}
+  scene:obstacle{ name = "table", shape = "plane", friction = 0.3 }
+  scene:force{ kind = "damping", mass = 20 }
+  local wire = scene:wire{ name = "w", EA = 1e5, EI = 1, mass_per_length = 0.02, radius = RADIUS,
+    segments = 20, from = { -0.05, 0, RADIUS }, to = { 0.05, 0, RADIUS } }
+  local hand = scene:gripper{ name = "hand", pads = { width = 0.02, friction = 0.5, opening = 0.004 } }
+  scene:process(function()
+    hand:grasp(wire, { s = 0.05, approach = "plates", force = force })
+    hand:move{ by = { 0, 0, 0.02 }, duration = 0.5 }
+  end)
+  scene:run{ dt = 0.005 }
+  scene:run{ duration = 0.3, dt = 0.005 }
+  return scene:run{ duration = 0.1, dt = 0.005 }
+end
+
+-- Lies on a table by its weight; 3 mm beside a straight line.
+local function lying()
+  local scene = sw.scene{}
+  scene:obstacle{ name = "table", shape = "plane", friction = 0.3 }
+  scene:wire{ name = "w", EA = 1e4, EI = 1e-3, mass_per_length = 0.02, radius = RADIUS, segments = 20,
+    from = { 0, 0.003, RADIUS }, to = { 0.3, 0.003, RADIUS } }
+  return scene:run{ duration = 0.25, dt = 0.01 }
+end
+
+-- A tube that sags between clamps.
+local function squeezed()
+  local scene = sw.scene{}
+  local wire = scene:wire{ name = "w", E = 5e6, density = 1200, radius = 0.004, model = "tube",
+    segments = 12, from = { 0, 0, 0 }, to = { 0.06, 0, 0 } }
+  scene:clamp(wire, { s = 0 })
+  return scene:run{ duration = 0.02, dt = 0.01 }, wire
+end
+
+local weight = 0.02 * 0.1 * g
+
+-- Name of the check -> a run, arguments of run:check, the value by formula, the share that it may be off.
+local cases = {
+  min_bend_radius = function() return arc(), {}, R - RADIUS, 0.01 end,
+  max_tension = function() return pulled(), {}, 1e4 * 0.01, 1e-3 end,
+  max_strain = function() return pulled(), {}, 0.01, 1e-3 end,
+  max_stress = function() return pulled(), {}, 1e4 * 0.01 / (math.pi * RADIUS ^ 2), 1e-3 end,
+  max_sidewall = function()
+    local run, value = capstan()
+    return run, {}, value, 0.01
+  end,
+  max_torsion = function() return twisted(), {}, 1 / 0.3, 0.01 end,
+  -- from 0 to 100 N: half a cycle, of a curve through 100 N, 500 cycles
+  fatigue = function()
+    local curve = { { 10, 5e5 }, { 100, 500 } }
+    return pulled(), { fatigue = { curve = curve, repeats = 20 } }, 20 * 0.5 / 500, 0.01
+  end,
+  landing_error = function()
+    return lying(), { landing = { path = { { -1, 0, RADIUS }, { 1, 0, RADIUS } } } }, 0.003, 1e-3
+  end,
+  peak_force = function() return held(), {}, weight, 0.01 end,
+  peak_moment = function() return held(0.03), {}, weight * 0.02, 0.01 end,
+  mean_force = function() return held(), {}, weight, 0.01 end,
+  peak_margin = function() return lifted(0.1), {}, weight / (0.5 * 2 * 0.1), 0.02 end,
+  penetration = function()
+    local run = lying()
+    return run, {}, run.scene:penetration(), 0
+  end,
+  max_ovalisation = function()
+    local run, wire = squeezed()
+    return run, {}, wire:max_ovalisation(), 0
+  end,
+  kinks = function() return lying(), {}, 0, 0 end,
+  events = function() return lying(), {}, 0, 0 end,
+  cycle_time = function() return lying(), {}, 0.25, 1e-9 end,
+}
+
+describe("run:check:", function()
+  for _, member in ipairs(registry.list) do
+    it(member.name .. " is that of its formula", function()
+      local case = assert(cases[member.name], "there is no case of " .. member.name)
+      local run, args, value, share = case()
+      assert(run.ok, run.reason)
+      args.limits = { [member.name] = { max = 1e9, min = -1e9, sure = true } }
+      local row = run:check(args):row(member.name)
+      print(("measured: %s = %.6g, formula %.6g"):format(member.name, row.value, value))
+      assert.equal(member.unit, row.unit)
+      assert.is_true(math.abs(row.value - value) <= share * math.abs(value),
+        ("%s: %.6g instead of %.6g"):format(member.name, row.value, value))
+    end)
+  end
+end)
