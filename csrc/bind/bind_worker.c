@@ -146,6 +146,8 @@ static int failed(lua_State *L) {
   return 2;
 }
 
+static int is_worker; /* 1: this process is one */
+
 static int mod_fork(lua_State *L) {
   luaL_checktype(L, 1, LUA_TFUNCTION);
   const double memory = luaL_optnumber(L, 2, 0);
@@ -166,6 +168,7 @@ static int mod_fork(lua_State *L) {
   if (pid == 0) {
     close(ours->fd);
     ours->fd = -1;
+    is_worker = 1;
     work(L, parent, memory);
   }
   const int why = errno;
@@ -207,6 +210,8 @@ static int mod_ready(lua_State *L) {
 
 static int mod_limit_cpu(lua_State *L) {
   const double seconds = luaL_checknumber(L, 1);
+  if (!is_worker) return luaL_error(L, "core.limit_cpu ends its process, and is for workers alone");
+  luaL_argcheck(L, seconds >= 0 && seconds < 1e9, 1, "from 0 to 1e9 s");
   struct itimerval t = {{0, 0}, {(time_t)seconds, (suseconds_t)(1e6 * (seconds - floor(seconds)))}};
   setitimer(ITIMER_PROF, &t, NULL); /* SIGPROF, of which nothing is left to handle in a worker */
   return 0;

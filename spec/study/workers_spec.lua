@@ -189,4 +189,13 @@ sleep 0.3
       assert.equal(5, select(2, program.read(file):gsub("\ne ", "")))
     end
   end)
+
+  -- A random call ended its program by it.
+  it("have a limit of computing time that no other process can have", function()
+    for _, seconds in ipairs { 0.01, -1, 0 / 0 } do
+      local fine, why = pcall(core.limit_cpu, seconds)
+      assert.is_false(fine)
+      assert.truthy(why:find("core.limit_cpu ends its process, and is for workers alone", 1, true), why)
+    end
+  end)
 end)
