@@ -275,7 +275,7 @@ int sw_press_apart(const sw_press *p) {
   return p->active ? p->gap_after <= GAP_TOLERANCE : p->gap_after >= -GAP_TOLERANCE;
 }
 
-int sw_press_was_put(double depth) { return depth > DEEPEST; }
+int sw_press_was_put(double depth, int first) { return depth > (first ? GAP_TOLERANCE : DEEPEST); }
 
 double sw_press_forgiven(double depth, double explained, double h, int slowly) {
   const double speed = slowly ? SLOW_RECOVERY : RECOVERY_SPEED;

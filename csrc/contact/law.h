@@ -104,8 +104,8 @@ void sw_press_close(sw_press *press);
 int sw_press_opens(const sw_press *press, sw_vec shift, double force_scale);
 
 /* Is a depth where nothing touched before one that no touch gets into by itself? Then it was placed
- * there. */
-int sw_press_was_put(double depth);
+ * there. first: nothing at all touched before. */
+int sw_press_was_put(double depth, int first);
 
 /* Part of a depth at the step's start that the step leaves alone, explained being what goes
  * with the touch's force there: what was placed in each other, or comes out of a barrier, is

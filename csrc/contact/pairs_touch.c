@@ -15,13 +15,14 @@ static sw_vec carry(sw_vec v, sw_vec from, sw_vec to) {
 
 /* --- touches --------------------------------------------------------------------- */
 
-/* How much of a place moves with nodes that nothing holds; *held: the other one's place [-], [m].
- */
+/* How much of a place moves with nodes that nothing holds; *held: where it is held [-], [m]. */
 static double free_share(const sw_system *s, uint32_t body, uint32_t e, double at, sw_vec *held) {
   const sw_body *b = &s->bodies[body];
   const int *is = b->plan->held + (e - b->first_node);
-  *held = sw_vec_at(s->x, is[0] == SW_FREE ? e + 1u : e);
-  return (is[0] == SW_FREE ? 1.0 - at : 0.0) + (is[1] == SW_FREE ? at : 0.0);
+  const int one = is[0] != SW_FREE, two = is[1] != SW_FREE;
+  const sw_vec start = sw_vec_at(s->x, e), end = sw_vec_at(s->x, e + 1u);
+  *held = one && two ? sw_lerp(start, end, at) : one ? start : end;
+  return (one ? 0.0 : 1.0 - at) + (two ? 0.0 : at);
 }
 
 /* Where wires are held side by side, their axes nearer than their radii, no force takes them
@@ -44,7 +45,7 @@ static void forgive(const sw_pairs *p, const sw_system *s, const sw_pair *k,
   const sw_vec from = sw_pair_apart(s->x, k->one, k->two, t->at);
   const double depth = k->reach - sw_dot(t->press.normal, from) - always;
   const double explained = m ? m->depth : 0.0;
-  t->emerges = m ? m->emerges : sw_press_was_put(depth);
+  t->emerges = m ? m->emerges : sw_press_was_put(depth, p->memory_count == 0);
   const double left = sw_press_forgiven(depth, explained, p->h, t->emerges);
   t->forgiven += left;
   if (t->emerges) t->let_out = sw_press_let_out(depth, explained, left);

@@ -369,7 +369,8 @@ end)
 describe("a twisted pair of real cables", function()
   local cables = require("softworld").cable
 
-  local function twisted(name, segments, nearer)
+  -- segments: of the one; of the other seven in a hundred fewer, where meshes are to be unlike.
+  local function twisted(name, segments, nearer, unlike)
     local s, cable = core.scene{ gravity = { 0, 0, 0 } }, cables(name)
     local wires = {}
     for k = 0, 1 do
@@ -378,7 +379,8 @@ describe("a twisted pair of real cables", function()
         local a = k * math.pi + 4 * math.pi * i / 120
         path[#path + 1] = { 0.3 * i / 120, r * math.cos(a), r * math.sin(a) }
       end
-      local w = s:wire{ cable = cable, path = path, segments = segments }
+      local count = unlike and k == 1 and math.floor(0.93 * segments) or segments
+      local w = s:wire{ cable = cable, path = path, segments = count }
       s:clamp(w, { s = 0 })
       s:force{ kind = "point", on = w, s = w.length, force = { 8, 0, 0 } }
       s:force{ kind = "damping", on = w, mass = 20, stiffness = 2e-3 }
@@ -391,9 +393,9 @@ describe("a twisted pair of real cables", function()
   for _, name in ipairs{ "GXL 1.5", "H07V-K 2.5", "FLRY-B 0.5" } do
     it("makes no energy however near they were placed: " .. name, function()
       for _, segments in ipairs{ 20, 40 } do
-        for _, nearer in ipairs{ 0, 1e-5, 2e-4 } do
+        for k, nearer in ipairs{ 0, 1e-5, 2e-4, 0, 1e-4 } do
           for _, dt in ipairs{ 0.01, 0.002, 0.0005 } do
-            local s, wires = twisted(name, segments, nearer)
+            local s, wires = twisted(name, segments, nearer, k > 3)
             local r = s:advance({ dt = dt }, 0.1)
             local l = core.ledger(s)
             local what = ("%d segments, %g m nearer, dt %g: "):format(segments, nearer, dt)
