@@ -27,6 +27,17 @@ local function with(range) return function() study { parameters = { force = rang
 
 describe("a parameter of a study", function()
   check {
+    ["beyond what its row allows"] = { with { -1, 2, of = "obstacle.friction" },
+      "-1 is not allowed; obstacle.friction is in [0, 100] -" },
+    ["of a row that ends nowhere"] = { with { of = "wire.EI" }, "which is no range to search in; give {" },
+    ["at an end that its row leaves out"] = { with { 0, 1, of = "wire.breaking_load" },
+      "0 is not allowed; wire.breaking_load is in (0, inf] N" },
+    ["of a row that does not exist"] = { with { 0, 1, of = "obstacle.fricton" }, "did you mean 'friction'?" },
+    ["of nothing that takes rows"] = { with { 0, 1, of = "obstcle.friction" }, "did you mean 'obstacle'?" },
+    ["of a row that is no number"] = { with { 0, 1, of = "obstacle.name" }, "'obstacle.name' is a text" },
+    ["of a row with another unit"] = { with { 0, 1, unit = "N", of = "wire.EI" },
+      "unit = 'N', and wire.EI is in N m2" },
+    ["of a row that is no name"] = { with { 0, 1, of = 5 }, "of = 5; the row's name is wanted" },
     ["without a range"] = { with {}, "parameter 'force': it needs a range { lowest, highest }" },
     ["with half a range"] = { with { 1 }, "the highest is missing" },
     ["with a reversed range"] = { with { 2, 1, unit = "N" }, "the range 2 to 1 N is reversed" },
@@ -53,6 +64,14 @@ describe("a parameter of a study", function()
       "the catalogue has no spread for this value" },
     ["not there at all"] = { function() study { parameters = {} } end, "parameters is empty" },
   }
+
+  it("has range and unit of the row that it names", function()
+    local text = tostring(study { parameters = { mu = { of = "obstacle.restitution" },
+      EI = { 1e-3, 1e-2, log = true, of = "wire.EI" }, n = { 5, 9, of = "wire.segments" } } })
+    assert.truthy(text:find("mu: 0 to 1\n", 1, true), text)
+    assert.truthy(text:find("EI: 0.001 to 0.01 N m2, log", 1, true), text)
+    assert.truthy(text:find("n: 5 to 9, integer", 1, true), text)
+  end)
 end)
 
 describe("a study", function()

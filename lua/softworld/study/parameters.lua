@@ -2,13 +2,14 @@
 --- Parameters of a study: what scripts write of them, their values from places between 0 and 1, and their
 -- text in the journal, which reads back to the same bits.
 -- @module softworld.study.parameters
+local behind = require "softworld.study.behind"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local sink = require "softworld.output.sink"
 
 local parameters = {}
 
-local KEYS = checks.set "unit log integer start sigma choices"
+local KEYS = checks.set "unit log integer start sigma choices of"
 local RESERVED = checks.set "random give_up broken number part seed failed machine pass"
 
 local LONGEST = 64 -- of a name [characters]
@@ -130,11 +131,12 @@ local function read_one(name, given)
   for key in pairs(given) do
     if key ~= 1 and key ~= 2 and not KEYS[key] then
       local near = type(key) == "string" and core.nearest(key, { "unit", "log", "integer", "start", "sigma",
-        "choices" })
+        "choices", "of" })
       fail("%s: there is no '%s'; %s", what, checks.shown(key), near and ("did you mean '%s'?"):format(near)
-        or "known are: two numbers, unit log integer start sigma choices")
+        or "known are: two numbers, unit log integer start sigma choices of")
     end
   end
+  given = behind.read(what, given)
   parameters.check_unit(what, given.unit)
   local p = given.choices ~= nil and read_choices(what, given) or read_range(what, given)
   p.unit = given.unit

@@ -43,8 +43,8 @@ local WORKERS = { "workers", "integer", "-", "processes; 0 computes in this one"
 local new = rows.call("sw.study", "{...}", "a study: a model to be evaluated many times, see help 'study'", {
   gives = "a study",
   { "name", "text", "-", "of the study", required = true },
-  { "parameters", "table", "-", "by name { lowest, highest, unit =, log =, integer =, start =, sigma = }, "
-    .. "{ choices = {...} }, or a value of the catalogue with its bounds", required = true },
+  { "parameters", "table", "-", "by name { lowest, highest, unit =, log =, integer =, start =, sigma =, "
+    .. "of = }, { choices = {...} }, or a value of the catalogue with its bounds", required = true },
   { "evaluate", "function", "-", "of the parameters and what setup gave; returns a table of numbers",
     required = true },
   { "setup", "function", "-", "builds what all evaluations use, once; its scenes are restored before each" },
