@@ -81,7 +81,7 @@ local function begin_at(self, mean, size)
   self.path_s, self.path_c, self.history = filled(n, 0), filled(n, 0), {}
   self.matrix = filled(n * n, 0)
   for i = 1, n do self.matrix[(i - 1) * n + i] = 1 end
-  self.repeats = 1
+  self.repeats, self.count = 1, 1 -- evaluations of a place: wanted, and of a generation
 end
 
 local function axes(self)
@@ -373,7 +373,7 @@ end
 local function size_of(n) return 4 + math.floor(3 * log(n)) end
 
 local function begin(problem)
-  local self = setmetatable({ problem = problem, restarts = problem.starts - 1, count = 1,
+  local self = setmetatable({ problem = problem, restarts = problem.starts - 1,
     random = design.generator(problem.seed, 20161) }, Run)
   local mean = {}
   for i, u in ipairs(problem.start) do mean[i] = unbounded(u) end
