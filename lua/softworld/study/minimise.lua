@@ -52,7 +52,7 @@ end
 
 local function outcome_of(own, result, record)
   if not record.results then return { failed = true } end
-  return { value = minimum.value(own, result, record), broken = judge.violation(own, record),
+  return { value = judge.value(own, result, record), broken = judge.violation(own, record),
     sides = judge.sides(own, record) }
 end
 

@@ -44,7 +44,7 @@ end
 local function outcome_of(own, names, record)
   if not record.results then return { failed = true } end
   local values = {}
-  for k, name in ipairs(names) do values[k] = minimum.value(own, name, record) end
+  for k, name in ipairs(names) do values[k] = judge.value(own, name, record) end
   return { values = values, broken = judge.violation(own, record) }
 end
 
