@@ -22,11 +22,10 @@ local REACH = 0.25      -- least spread of an integer, in steps of it
 local WIDEST = 1e14     -- of the covariance: longest axis over shortest, squared
 local exp, log, max, min, sqrt = math.exp, math.log, math.max, math.min, math.sqrt
 
+local normal = design.normal
+
 local Run = {}
 Run.__index = Run
-
--- Box and Muller 1958.
-local function normal(random) return sqrt(-2 * log(1 - random())) * math.cos(2 * math.pi * random()) end
 
 local function filled(n, value)
   local list = {}
